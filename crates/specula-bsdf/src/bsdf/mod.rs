@@ -1,0 +1,80 @@
+//! Lobes: one file each, all behind one interface.
+//!
+//! Directions point away from the surface in the local frame (z up): `wo` towards the viewer,
+//! given; `wi` towards the light, sampled. The papers' i is our `wo`, their o is our `wi`.
+
+use crate::math::{Real, Rgb, Vec3};
+
+/// What a path carries, for lobes whose two adjoints differ (refraction compresses radiance).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Transport {
+    /// `wo` leads to the camera: radiance is scaled by `1/eta^2` on refraction.
+    #[default]
+    Radiance,
+    /// `wo` leads to a light: importance is not scaled.
+    Importance,
+}
+
+/// Which side a sample left on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// `wi` on the side of `wo`.
+    Reflection,
+    /// `wi` on the other side.
+    Transmission,
+}
+
+/// A sampled direction. A sample that failed does not exist (`None`).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BsdfSample<T> {
+    /// Towards the light, unit, local frame.
+    pub wi: Vec3<T>,
+    /// `f |cos theta_i| / pdf`, computed in the cancelled form, of the whole lobe.
+    pub weight: Rgb<T>,
+    /// Density in 1/sr; the probability of this direction where `specular`.
+    pub pdf: T,
+    /// Reflection or transmission.
+    pub event: Event,
+    /// Whether the direction is one of a countable set (Dirac delta): `eval` and `pdf` are zero
+    /// there.
+    pub specular: bool,
+    /// Index of refraction of the medium that `wi` runs in over that of `wo`; 1 for reflection.
+    pub eta: T,
+}
+
+/// A bidirectional scattering distribution in the local frame.
+///
+/// Invariants, held by the crate `specula-stat` on every lobe here:
+/// * `sample` draws `wi` with density `pdf(wo, wi)`; its missing mass is the share of `None`;
+/// * `weight = eval / pdf` at the sampled direction;
+/// * every value is finite and none is negative for every unit `wo`, `wi`.
+pub trait Bsdf<T: Real> {
+    /// `f(wo, wi) |cos theta_i|`, in 1/sr, without its Dirac deltas.
+    ///
+    /// * `wo`, `wi`: unit, local frame.
+    fn eval(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> Rgb<T>;
+
+    /// Density with which `sample` draws `wi`, in 1/sr, without Dirac deltas.
+    fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T;
+
+    /// Draws `wi`.
+    ///
+    /// * `u`: independent and uniform in `[0, 1)`; `u[0]` chooses among lobes, `u[1]` and `u[2]`
+    ///   the direction.
+    /// * Returns `None` where the draw leads to no direction (rejected).
+    fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>>;
+
+    /// `eval` and `pdf` together, for multiple importance sampling.
+    #[inline(always)]
+    fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> (Rgb<T>, T) {
+        (self.eval(wo, wi, transport), self.pdf(wo, wi))
+    }
+
+    /// Whether nothing but Dirac deltas is left: `eval` and `pdf` are zero everywhere.
+    fn is_specular(&self) -> bool {
+        false
+    }
+
+    /// Hemispherical colour for denoisers and previews, in `[0, 1]`; an approximation.
+    fn albedo(&self) -> Rgb<T>;
+}

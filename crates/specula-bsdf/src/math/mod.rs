@@ -1,0 +1,11 @@
+//! Scalars, vectors, colours, frames and warps: what every formula stands on.
+
+mod frame;
+mod real;
+mod rgb;
+mod vec3;
+
+pub use frame::Frame;
+pub use real::Real;
+pub use rgb::{Rgb, rgb};
+pub use vec3::{Vec3, vec3};

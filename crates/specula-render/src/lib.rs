@@ -1,0 +1,1 @@
+//! A deterministic path tracer on the CPU.

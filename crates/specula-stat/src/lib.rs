@@ -1,0 +1,1 @@
+//! Statistical proof for samplers and BSDFs.
