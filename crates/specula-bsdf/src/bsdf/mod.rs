@@ -3,6 +3,24 @@
 //! Directions point away from the surface in the local frame (z up): `wo` towards the viewer,
 //! given; `wi` towards the light, sampled. The papers' i is our `wo`, their o is our `wi`.
 
+mod coated_conductor;
+mod coated_diffuse;
+mod conductor;
+mod dielectric;
+mod eon;
+mod lambert;
+mod lobe;
+mod smooth_dielectric;
+
+pub use coated_conductor::CoatedConductor;
+pub use coated_diffuse::CoatedDiffuse;
+pub use conductor::{RoughConductor, SmoothConductor};
+pub use dielectric::RoughDielectric;
+pub use eon::Eon;
+pub use lambert::{DiffuseTransmission, Lambert};
+pub use lobe::Lobe;
+pub use smooth_dielectric::{SmoothDielectric, ThinDielectric};
+
 use crate::math::{Real, Rgb, Vec3};
 
 /// What a path carries, for lobes whose two adjoints differ (refraction compresses radiance).

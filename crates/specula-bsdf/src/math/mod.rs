@@ -3,7 +3,9 @@
 mod frame;
 mod real;
 mod rgb;
+mod turns;
 mod vec3;
+pub mod warp;
 
 pub use frame::Frame;
 pub use real::Real;

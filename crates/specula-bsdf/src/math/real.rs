@@ -3,6 +3,8 @@
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
+use super::turns;
+
 mod sealed {
     pub trait Sealed {}
     impl Sealed for f32 {}
@@ -73,6 +75,15 @@ pub trait Real:
     fn cos(self) -> Self;
     /// The angle in radians, in `(-pi, pi]`, of the point `(x, self)`.
     fn atan2(self, x: Self) -> Self;
+    /// `2/sqrt(pi)` times the integral of `exp(-t^2)` over `[0, self]`.
+    fn erf(self) -> Self;
+    /// `1 - erf(self)`, precise where that is small.
+    fn erfc(self) -> Self;
+    /// `(sin, cos)` of `2 pi self` for `self` in `[0, 1]`, as branch-free polynomials.
+    ///
+    /// Absolute error at most 1e-6 (`f32`) and 2e-15 (`f64`), so that samplers spend no time in a
+    /// library's range reduction.
+    fn sin_cos_turns(self) -> (Self, Self);
     /// Whether neither infinite nor NaN.
     fn is_finite(self) -> bool;
     /// `self` with the sign of `sign`.
@@ -116,7 +127,7 @@ pub trait Real:
 }
 
 macro_rules! impl_real {
-    ($t:ident) => {
+    ($t:ident, $erf:path, $erfc:path, $turns:path) => {
         impl Real for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -173,6 +184,18 @@ macro_rules! impl_real {
                 $t::atan2(self, x)
             }
             #[inline(always)]
+            fn erf(self) -> Self {
+                $erf(self)
+            }
+            #[inline(always)]
+            fn erfc(self) -> Self {
+                $erfc(self)
+            }
+            #[inline(always)]
+            fn sin_cos_turns(self) -> (Self, Self) {
+                $turns(self)
+            }
+            #[inline(always)]
             fn is_finite(self) -> bool {
                 $t::is_finite(self)
             }
@@ -184,5 +207,5 @@ macro_rules! impl_real {
     };
 }
 
-impl_real!(f32);
-impl_real!(f64);
+impl_real!(f32, libm::erff, libm::erfcf, turns::sin_cos_f32);
+impl_real!(f64, libm::erf, libm::erfc, turns::sin_cos_f64);

@@ -1,0 +1,90 @@
+//! Widths of a distribution of microfacet normals.
+
+use crate::math::{Real, Vec3, vec3};
+
+/// Widths `(alpha_x, alpha_y)` along the tangents, each in `[1e-4, 10]`.
+///
+/// This is the alpha of the formulas, not an artist's roughness. Renderers treat a surface whose
+/// both widths lie below [`Alpha::SPECULAR_BELOW`] as a smooth one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Alpha<T> {
+    /// Along the local x.
+    pub x: T,
+    /// Along the local y.
+    pub y: T,
+}
+
+/// A width that is no number in `[1e-4, 10]`.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("alpha must lie in [1e-4, 10], found ({x}, {y})")]
+pub struct AlphaError {
+    /// What was given for the local x.
+    pub x: f64,
+    /// What was given for the local y.
+    pub y: f64,
+}
+
+impl<T: Real> Alpha<T> {
+    /// Below this in both directions a renderer uses the smooth lobe instead: the highlight is
+    /// narrower than f32 directions resolve.
+    pub const SPECULAR_BELOW: f64 = 1e-3;
+    /// Smallest width.
+    pub const MIN: f64 = 1e-4;
+    /// Largest width.
+    pub const MAX: f64 = 10.0;
+
+    /// Both widths, checked.
+    ///
+    /// # Errors
+    /// Where a width is outside `[1e-4, 10]` or NaN.
+    pub fn new(x: T, y: T) -> Result<Self, AlphaError> {
+        // f32 rounds 1e-4 down: compare in the type itself.
+        let fits = |a: T| a >= T::of(Self::MIN) && a <= T::of(Self::MAX);
+        if fits(x) && fits(y) {
+            Ok(Self { x, y })
+        } else {
+            Err(AlphaError {
+                x: x.to_f64(),
+                y: y.to_f64(),
+            })
+        }
+    }
+
+    /// The nearest widths in `[1e-4, 10]`; NaN becomes 1e-4.
+    #[inline(always)]
+    pub fn clamped(x: T, y: T) -> Self {
+        let fit = |a: T| Real::min(Real::max(a, T::of(Self::MIN)), T::of(Self::MAX));
+        Self {
+            x: fit(x),
+            y: fit(y),
+        }
+    }
+
+    /// The same width in both directions, clamped.
+    #[inline(always)]
+    pub fn isotropic(a: T) -> Self {
+        Self::clamped(a, a)
+    }
+
+    /// `(alpha_x x, alpha_y y, z)`, not normalised: a direction in the space of unit roughness; a
+    /// normal of that space back in the surface's.
+    #[inline(always)]
+    pub fn stretch(self, w: Vec3<T>) -> Vec3<T> {
+        vec3(self.x * w.x, self.y * w.y, w.z)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_range_is_held_and_nan_is_refused() {
+        assert!(Alpha::new(1e-4_f32, 10.0).is_ok());
+        assert!(Alpha::new(9e-5_f64, 1.0).is_err());
+        assert!(Alpha::new(f32::NAN, 1.0).is_err());
+        assert!(Alpha::new(-0.1_f64, 0.5).is_err());
+        let c = Alpha::clamped(f32::NAN, 20.0);
+        assert_eq!((c.x, c.y), (1e-4, 10.0));
+    }
+}

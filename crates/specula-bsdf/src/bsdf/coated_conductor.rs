@@ -1,0 +1,206 @@
+//! A dielectric coat over metal: lacquered brass, clear-coated rims.
+//!
+//! Directions are bent at the coat's mean surface, the metal reflects them there, and the bounces
+//! between metal and coat are summed as a geometric series:
+//!
+//! ```text
+//! f cos = f_coat cos + T(wo) T(wi) (f_metal cos)(wo', wi') / (1 - F (R(wo) + R(wi)) / 2)  dwi'/dwi
+//! dwi'/dwi = |wi.z| / (eta^2 |wi'.z|)
+//! ```
+//!
+//! with `R = 1 - T` the coat's Fresnel reflectance and `F` the metal's under the coat. For a smooth
+//! coat over smooth metal this is exact, `R + T^2 F / (1 - F R)`. It is reciprocal. A rough coat
+//! blurs the metal below it: twice refracted slopes add variance, `a'^2 = a^2 + (1 - 1/eta)^2
+//! a_coat^2 / 2` (the first-order statistics of Belcour 2018).
+//!
+//! Known limits: metal reflections beyond the critical angle end there (a walk would bounce them
+//! on), so very rough metal under a coat is a few per cent too dark; a walk between the layers as
+//! pbrt-v4's has no such loss, and noise instead.
+
+use super::{Bsdf, BsdfSample, Event, Transport};
+use crate::alpha::Alpha;
+use crate::fresnel::{Conductor, Reflectance, dielectric};
+use crate::math::{Real, Rgb, Vec3, vec3};
+use crate::ndf::{Ggx, Masking, Ndf};
+use crate::vndf::Sampler;
+
+/// Metal under a dielectric coat.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoatedConductor<T> {
+    coat: Option<Ggx<T>>,
+    eta: T,
+    metal: Option<Ggx<T>>,
+    reflectance: Reflectance<T>,
+    sampler: Sampler,
+}
+
+impl<T: Real> CoatedConductor<T> {
+    /// * `coat`, `metal`: distributions of normals; `None` for smooth surfaces.
+    /// * `eta`: index of the coat over that outside, clamped to `[1, 3]`.
+    /// * `reflectance`: of the metal against vacuum; an index is made relative to the coat's.
+    #[inline]
+    pub fn new(
+        coat: Option<Ggx<T>>,
+        eta: T,
+        metal: Option<Ggx<T>>,
+        reflectance: Reflectance<T>,
+    ) -> Self {
+        let eta = Real::clamp(eta, T::ONE, T::of(3.0));
+        let under_coat = match reflectance {
+            Reflectance::Conductor(Conductor { eta: n, k }) => {
+                Reflectance::Conductor(Conductor { eta: n, k }.under(eta))
+            }
+            other => other,
+        };
+        Self {
+            coat,
+            eta,
+            metal: blurred(metal, coat, eta),
+            reflectance: under_coat,
+            sampler: Sampler::default(),
+        }
+    }
+
+    /// The same material, drawn by another sampler.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_sampler(self, sampler: Sampler) -> Self {
+        Self { sampler, ..self }
+    }
+
+    /// The direction below the coat; `w.z` keeps its sign.
+    #[inline(always)]
+    fn below(&self, w: Vec3<T>) -> Vec3<T> {
+        let inverse = T::ONE / self.eta;
+        let (x, y) = (w.x * inverse, w.y * inverse);
+        let z = (T::ONE - x * x - y * y).safe_sqrt();
+        vec3(x, y, z.copysign(w.z))
+    }
+
+    /// The direction above the coat; `None` beyond the critical angle.
+    #[inline(always)]
+    fn above(&self, w: Vec3<T>) -> Option<Vec3<T>> {
+        let (x, y) = (w.x * self.eta, w.y * self.eta);
+        let z2 = T::ONE - x * x - y * y;
+        (z2 > T::ZERO).then(|| vec3(x, y, z2.sqrt()))
+    }
+
+    /// The coat's reflectance from `w`.
+    #[inline(always)]
+    fn coat_reflectance(&self, w: Vec3<T>) -> T {
+        dielectric(w.z.abs(), self.eta).reflectance
+    }
+
+    /// Probability of drawing the coat's reflection.
+    #[inline(always)]
+    fn coat_probability(&self, reflected: T, wo: Vec3<T>) -> T {
+        let metal = self.reflectance.eval(self.below(wo).z.abs()).max_channel();
+        reflected / Real::max(reflected + (T::ONE - reflected) * metal, T::TINY)
+    }
+
+    /// Transmission both ways with the series of bounces, times the metal's reflectance.
+    #[inline(always)]
+    fn through(&self, reflected_o: T, reflected_i: T, metal: Rgb<T>) -> Rgb<T> {
+        let passed = (T::ONE - reflected_o) * (T::ONE - reflected_i);
+        let back = T::HALF * (reflected_o + reflected_i);
+        metal.map(|f| passed * f / Real::max(T::ONE - f * back, T::EPSILON))
+    }
+}
+
+/// The metal's normals as blurred by a rough coat.
+fn blurred<T: Real>(metal: Option<Ggx<T>>, coat: Option<Ggx<T>>, eta: T) -> Option<Ggx<T>> {
+    let Some(coat) = coat else { return metal };
+    let bend = T::ONE - T::ONE / eta;
+    let width = |metal: T, coat: T| (metal * metal + T::HALF * bend * bend * coat * coat).sqrt();
+    let own = metal.map_or((T::ZERO, T::ZERO), |m| (m.alpha().x, m.alpha().y));
+    let least = T::of(Alpha::<T>::SPECULAR_BELOW);
+    let x = Real::max(width(own.0, coat.alpha().x), least);
+    let y = Real::max(width(own.1, coat.alpha().y), least);
+    Some(Ggx::new(Alpha::clamped(x, y)))
+}
+
+impl<T: Real> Bsdf<T> for CoatedConductor<T> {
+    #[inline(always)]
+    fn eval(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> Rgb<T> {
+        self.eval_pdf(wo, wi, transport).0
+    }
+
+    #[inline(always)]
+    fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
+        self.eval_pdf(wo, wi, Transport::Radiance).1
+    }
+
+    #[inline]
+    fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
+        let reflected = self.coat_reflectance(wo);
+        let mirrored = vec3(-wo.x, -wo.y, wo.z);
+        let delta = |weight, p| {
+            let reflection = Event::Reflection;
+            (wo.z > T::ZERO).then(|| BsdfSample::delta(mirrored, weight, p, reflection, T::ONE))
+        };
+        let Some(metal) = self.metal else {
+            let fresnel = self.reflectance.eval(self.below(wo).z.abs());
+            let metal = self.through(reflected, reflected, fresnel);
+            return delta(Rgb::splat(reflected) + metal, T::ONE);
+        };
+        let p = self.coat_probability(reflected, wo);
+        let direction = [u[1], u[2]];
+        let wi = if u[0] < p {
+            match self.coat {
+                Some(coat) => coat.sample_reflection(self.sampler, wo, direction),
+                None => return delta(Rgb::splat(reflected / p), p),
+            }
+        } else {
+            self.above(metal.sample_reflection(self.sampler, self.below(wo), direction))
+                .filter(|wi| wi.z > T::ZERO)?
+        };
+        let (f_cos, pdf) = self.eval_pdf(wo, wi, transport);
+        BsdfSample::reflected(wi, f_cos / pdf, pdf)
+    }
+
+    #[inline]
+    fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, _transport: Transport) -> (Rgb<T>, T) {
+        let Some(metal) = self.metal else {
+            return (Rgb::BLACK, T::ZERO);
+        };
+        if wi.z <= T::ZERO {
+            return (Rgb::BLACK, T::ZERO);
+        }
+        let masking = Masking::HeightCorrelated;
+        let reflected_o = self.coat_reflectance(wo);
+        let p = self.coat_probability(reflected_o, wo);
+        let mut f_cos = Rgb::BLACK;
+        let mut pdf = T::ZERO;
+
+        let (below_o, below_i) = (self.below(wo), self.below(wi));
+        let wm = (below_o + below_i).normalize();
+        if wm.z > T::ZERO {
+            let bend = wi.z / (self.eta * self.eta * below_i.z);
+            let quarter = T::of(0.25) * metal.d(wm) * bend;
+            let fresnel = self.reflectance.eval(below_o.dot(wm));
+            let passed = self.through(reflected_o, self.coat_reflectance(wi), fresnel);
+            f_cos += passed * (quarter * metal.g2_over_cos(masking, below_o, below_i));
+            pdf += (T::ONE - p) * quarter / metal.reflection_norm(self.sampler, below_o);
+        }
+        if let Some(coat) = self.coat {
+            let wm = (wo + wi).normalize();
+            if wm.z > T::ZERO {
+                let quarter = T::of(0.25) * coat.d(wm);
+                let fresnel = dielectric(wo.dot(wm), self.eta).reflectance;
+                f_cos += Rgb::splat(fresnel * quarter * coat.g2_over_cos(masking, wo, wi));
+                pdf += p * quarter / coat.reflection_norm(self.sampler, wo);
+            }
+        }
+        (f_cos, pdf)
+    }
+
+    #[inline(always)]
+    fn is_specular(&self) -> bool {
+        self.metal.is_none()
+    }
+
+    #[inline(always)]
+    fn albedo(&self) -> Rgb<T> {
+        self.reflectance.eval(T::of(2.0 / 3.0))
+    }
+}

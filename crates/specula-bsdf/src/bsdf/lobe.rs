@@ -1,0 +1,105 @@
+//! Any lobe, without allocation or dynamic dispatch: what a renderer holds at a hit.
+
+use super::{
+    Bsdf, BsdfSample, CoatedConductor, CoatedDiffuse, DiffuseTransmission, Eon, Lambert,
+    RoughConductor, RoughDielectric, SmoothConductor, SmoothDielectric, ThinDielectric, Transport,
+};
+use crate::math::{Real, Rgb, Vec3};
+
+/// One of the lobes of this crate, with GGX where it is rough.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lobe<T> {
+    /// See [`Lambert`].
+    Lambert(Lambert<T>),
+    /// See [`Eon`].
+    Eon(Eon<T>),
+    /// See [`DiffuseTransmission`].
+    DiffuseTransmission(DiffuseTransmission<T>),
+    /// See [`SmoothConductor`].
+    SmoothConductor(SmoothConductor<T>),
+    /// See [`RoughConductor`].
+    RoughConductor(RoughConductor<T>),
+    /// See [`SmoothDielectric`].
+    SmoothDielectric(SmoothDielectric<T>),
+    /// See [`RoughDielectric`].
+    RoughDielectric(RoughDielectric<T>),
+    /// See [`ThinDielectric`].
+    ThinDielectric(ThinDielectric<T>),
+    /// See [`CoatedDiffuse`].
+    CoatedDiffuse(CoatedDiffuse<T>),
+    /// See [`CoatedConductor`].
+    CoatedConductor(CoatedConductor<T>),
+}
+
+macro_rules! each_lobe {
+    ($lobe:expr, $l:ident => $call:expr) => {
+        match $lobe {
+            Lobe::Lambert($l) => $call,
+            Lobe::Eon($l) => $call,
+            Lobe::DiffuseTransmission($l) => $call,
+            Lobe::SmoothConductor($l) => $call,
+            Lobe::RoughConductor($l) => $call,
+            Lobe::SmoothDielectric($l) => $call,
+            Lobe::RoughDielectric($l) => $call,
+            Lobe::ThinDielectric($l) => $call,
+            Lobe::CoatedDiffuse($l) => $call,
+            Lobe::CoatedConductor($l) => $call,
+        }
+    };
+}
+
+impl<T: Real> Bsdf<T> for Lobe<T> {
+    #[inline]
+    fn eval(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> Rgb<T> {
+        each_lobe!(self, l => l.eval(wo, wi, transport))
+    }
+
+    #[inline]
+    fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
+        each_lobe!(self, l => l.pdf(wo, wi))
+    }
+
+    #[inline]
+    fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
+        each_lobe!(self, l => l.sample(wo, u, transport))
+    }
+
+    #[inline]
+    fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> (Rgb<T>, T) {
+        each_lobe!(self, l => l.eval_pdf(wo, wi, transport))
+    }
+
+    #[inline]
+    fn is_specular(&self) -> bool {
+        each_lobe!(self, l => l.is_specular())
+    }
+
+    #[inline]
+    fn albedo(&self) -> Rgb<T> {
+        each_lobe!(self, l => l.albedo())
+    }
+}
+
+macro_rules! from_lobe {
+    ($($name:ident),* $(,)?) => {
+        $(impl<T: Real> From<$name<T>> for Lobe<T> {
+            #[inline(always)]
+            fn from(lobe: $name<T>) -> Self {
+                Self::$name(lobe)
+            }
+        })*
+    };
+}
+
+from_lobe!(
+    Lambert,
+    Eon,
+    DiffuseTransmission,
+    SmoothConductor,
+    RoughConductor,
+    SmoothDielectric,
+    RoughDielectric,
+    ThinDielectric,
+    CoatedDiffuse,
+    CoatedConductor,
+);

@@ -1,0 +1,144 @@
+//! Smooth dielectrics: one interface, and a thin pane of two.
+
+use super::{Bsdf, BsdfSample, Event, Transport};
+use crate::fresnel::{dielectric, refract};
+use crate::math::{Real, Rgb, Vec3, vec3};
+
+/// A smooth interface between two dielectrics.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SmoothDielectric<T> {
+    eta: T,
+    two_sided: bool,
+}
+
+impl<T: Real> SmoothDielectric<T> {
+    /// An interface with both sides: `wo.z < 0` views it from inside.
+    ///
+    /// * `eta`: index inside over index outside, above 0.
+    #[inline(always)]
+    pub fn new(eta: T) -> Self {
+        Self {
+            eta,
+            two_sided: true,
+        }
+    }
+
+    /// An interface as seen from the geometric side of `wo`; a backfacing shading normal
+    /// (`wo.z < 0`) gives no sample.
+    ///
+    /// * `eta`: index beyond the interface over the index on the side of `wo`.
+    #[inline(always)]
+    pub fn facing(eta: T) -> Self {
+        Self {
+            eta,
+            two_sided: false,
+        }
+    }
+}
+
+impl<T: Real> Bsdf<T> for SmoothDielectric<T> {
+    #[inline(always)]
+    fn eval(&self, _wo: Vec3<T>, _wi: Vec3<T>, _transport: Transport) -> Rgb<T> {
+        Rgb::BLACK
+    }
+
+    #[inline(always)]
+    fn pdf(&self, _wo: Vec3<T>, _wi: Vec3<T>) -> T {
+        T::ZERO
+    }
+
+    #[inline]
+    fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
+        let inside = wo.z < T::ZERO;
+        if wo.z == T::ZERO || (inside && !self.two_sided) {
+            return None;
+        }
+        let eta = T::select(inside, T::ONE / self.eta, self.eta);
+        let bent = dielectric(wo.z.abs(), eta);
+        if u[0] < bent.reflectance {
+            let wi = vec3(-wo.x, -wo.y, wo.z);
+            return Some(BsdfSample::delta(
+                wi,
+                Rgb::WHITE,
+                bent.reflectance,
+                Event::Reflection,
+                T::ONE,
+            ));
+        }
+        let normal = vec3(T::ZERO, T::ZERO, T::ONE.copysign(wo.z));
+        let wi = refract(wo, normal, wo.z.abs(), bent.cos_t, eta);
+        let weight = match transport {
+            Transport::Radiance => T::ONE / (eta * eta),
+            Transport::Importance => T::ONE,
+        };
+        Some(BsdfSample::delta(
+            wi,
+            Rgb::splat(weight),
+            T::ONE - bent.reflectance,
+            Event::Transmission,
+            eta,
+        ))
+    }
+
+    #[inline(always)]
+    fn is_specular(&self) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn albedo(&self) -> Rgb<T> {
+        Rgb::WHITE
+    }
+}
+
+/// A pane so thin that light leaves it where it entered: both interfaces with all reflections
+/// between them, `R = 2 F / (1 + F)`, and transmission straight on.
+///
+/// Source: Stokes 1862 (the pile of plates), as in pbrt-v4's `thindielectric`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ThinDielectric<T> {
+    eta: T,
+}
+
+impl<T: Real> ThinDielectric<T> {
+    /// * `eta`: index of the pane over that around it, above 0.
+    #[inline(always)]
+    pub fn new(eta: T) -> Self {
+        Self { eta }
+    }
+}
+
+impl<T: Real> Bsdf<T> for ThinDielectric<T> {
+    #[inline(always)]
+    fn eval(&self, _wo: Vec3<T>, _wi: Vec3<T>, _transport: Transport) -> Rgb<T> {
+        Rgb::BLACK
+    }
+
+    #[inline(always)]
+    fn pdf(&self, _wo: Vec3<T>, _wi: Vec3<T>) -> T {
+        T::ZERO
+    }
+
+    #[inline]
+    fn sample(&self, wo: Vec3<T>, u: [T; 3], _transport: Transport) -> Option<BsdfSample<T>> {
+        let single = dielectric(wo.z.abs(), self.eta).reflectance;
+        let reflectance = T::TWO * single / (T::ONE + single);
+        Some(if u[0] < reflectance {
+            let wi = vec3(-wo.x, -wo.y, wo.z);
+            BsdfSample::delta(wi, Rgb::WHITE, reflectance, Event::Reflection, T::ONE)
+        } else {
+            let probability = T::ONE - reflectance;
+            BsdfSample::delta(-wo, Rgb::WHITE, probability, Event::Transmission, T::ONE)
+        })
+    }
+
+    #[inline(always)]
+    fn is_specular(&self) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn albedo(&self) -> Rgb<T> {
+        Rgb::WHITE
+    }
+}
