@@ -1,2 +1,98 @@
-//! Chores.
-fn main() {}
+//! Chores of the Specula workspace: `cargo xtask help`.
+#![forbid(unsafe_code)]
+#![allow(clippy::print_stdout, reason = "a command line reports on stdout")]
+
+mod bench;
+mod generated;
+mod interface;
+mod metals;
+mod suite;
+mod tables;
+mod tidy;
+mod workspace;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// What a chore returns: any error is printed and makes the exit code 1.
+type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
+
+/// Chores of the Specula workspace.
+#[derive(Parser)]
+#[command(name = "cargo xtask")]
+struct Arguments {
+    #[command(subcommand)]
+    chore: Chore,
+}
+
+#[derive(Subcommand)]
+enum Chore {
+    /// Write the tables of measured metals from data/metals
+    Metals {
+        /// Write nothing; fail where a committed table differs
+        #[arg(long, conflicts_with = "extract")]
+        check: bool,
+        /// Write data/metals first, from a folder of the refractiveindex.info database (the one
+        /// that holds `database/data`)
+        #[arg(long, value_name = "DIR")]
+        extract: Option<PathBuf>,
+    },
+    /// Write every generated table
+    Tables {
+        /// Write nothing; fail where a committed table differs
+        #[arg(long)]
+        check: bool,
+    },
+    /// Everything that must pass: format, lints, documentation, tests, tables, tidiness
+    Test,
+    /// Run the benches
+    Bench {
+        /// Passed on to `cargo bench --workspace`
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<String>,
+    },
+    /// Check what no compiler checks: file heads, lengths, leftovers, trailing spaces
+    Tidy,
+}
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse().chore) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(chore: &Chore) -> Result<()> {
+    let root = workspace::root();
+    match chore {
+        Chore::Metals { check, extract } => {
+            if let Some(folder) = extract {
+                metals::extract(&root, folder)?;
+            }
+            generated::apply(&root, &metals::generate(&root)?, *check)
+        }
+        Chore::Tables { check } => tables::run(&root, *check),
+        Chore::Test => suite::run(&root),
+        Chore::Bench { arguments } => bench::run(&root, arguments),
+        Chore::Tidy => tidy::run(&root),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn arguments_are_consistent() {
+        Arguments::command().debug_assert();
+        assert!(Arguments::try_parse_from(["x", "metals", "--check", "--extract", "d"]).is_err());
+        assert!(Arguments::try_parse_from(["x", "bench", "--bench", "samplers"]).is_ok());
+    }
+}

@@ -3,6 +3,7 @@
 use super::Metal;
 
 /// Measured metals, sorted by symbol.
+#[allow(clippy::approx_constant, reason = "measured values")]
 pub static METALS: &[Metal] = &[
     Metal {
         symbol: "Ag",

@@ -1,0 +1,147 @@
+//! `cargo xtask metals --extract`: `data/metals/*.csv` from the refractiveindex.info database.
+
+use std::fs;
+use std::path::Path;
+
+use super::catalogue::CATALOGUE;
+use super::csv::{self, Measurement};
+use crate::Result;
+
+/// Wavelengths kept, in nm, and one row more on either side: what is seen, with some margin.
+const KEPT_NM: (f64, f64) = (350.0, 850.0);
+
+/// Writes the file of every metal whose page is in `folder`.
+///
+/// * `folder`: holds `database/data/...`. A page that it lacks is named, and the committed file
+///   stays; a folder without any page is an error.
+pub(crate) fn extract(root: &Path, folder: &Path) -> Result<()> {
+    let mut found = 0;
+    for entry in CATALOGUE {
+        let page = folder.join(format!("database/data/{}.yml", entry.page));
+        let Ok(yaml) = fs::read_to_string(&page) else {
+            println!(
+                "{}: {} is not there, kept as it is",
+                entry.symbol,
+                page.display()
+            );
+            continue;
+        };
+        let measurement = kept(parse(&yaml).map_err(|e| format!("{}: {e}", page.display()))?);
+        let head = [
+            format!("{}, {}: {}", entry.symbol, entry.name, entry.source),
+            format!("refractiveindex.info, CC0, page {}", entry.page),
+        ];
+        csv::write(&csv::path(root, entry.symbol), &head, &measurement)?;
+        found += 1;
+    }
+    println!("{found} of {} metals extracted", CATALOGUE.len());
+    match found {
+        0 => Err(format!("{}: no page of the catalogue", folder.display()).into()),
+        _ => Ok(()),
+    }
+}
+
+/// The first table of type `tabulated nk` of a page: rows of micrometres, n, k.
+///
+/// Only this layout of the database is read, line by line; a general YAML reader is not needed.
+fn parse(yaml: &str) -> Result<Measurement> {
+    let mut lines = yaml
+        .lines()
+        .map(str::trim)
+        .skip_while(|l| *l != "- type: tabulated nk")
+        .skip(1);
+    if lines.next() != Some("data: |") {
+        return Err("expected `- type: tabulated nk` and then `data: |`".into());
+    }
+    let mut rows: Vec<[f64; 3]> = Vec::new();
+    for line in lines {
+        let numbers: Option<Vec<f64>> = line.split_whitespace().map(|w| w.parse().ok()).collect();
+        let Some(&[um, n, k]) = numbers.as_deref() else {
+            break;
+        };
+        // Picometres are finer than any page; rounding takes the noise of the product away.
+        let nm = (um * 1e6).round() / 1e3;
+        // Some pages join two measurements and repeat a wavelength: the first one counts.
+        if rows.last().is_none_or(|last| last[0] < nm) {
+            rows.push([nm, n, k]);
+        }
+    }
+    match rows.is_empty() {
+        true => Err("expected rows of three numbers".into()),
+        false => Ok(Measurement { rows }),
+    }
+}
+
+/// The rows within [`KEPT_NM`] and one on either side.
+fn kept(measurement: Measurement) -> Measurement {
+    let rows = measurement.rows;
+    let first = rows.partition_point(|r| r[0] < KEPT_NM.0).saturating_sub(1);
+    let end = (rows.partition_point(|r| r[0] <= KEPT_NM.1) + 1).min(rows.len());
+    Measurement {
+        rows: rows[first..end].to_vec(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PAGE: &str = "\
+REFERENCES: |
+    A. Author. 0.1 1 2
+DATA:
+  - type: tabulated nk
+    data: |
+        0.2 1.0 1.5
+        0.3 1.1 1.5
+        0.3 9.9 9.9
+        0.5876 1.2 2.25
+        0.9 1.3 3.5
+        1.1 1.4 4.5
+SPECS:
+    0.5 1 2
+";
+
+    #[test]
+    fn reads_the_table_and_keeps_the_visible() {
+        let all = parse(PAGE).unwrap();
+        assert_eq!(all.rows.len(), 5);
+        assert_eq!(
+            kept(all).rows,
+            [[300.0, 1.1, 1.5], [587.6, 1.2, 2.25], [900.0, 1.3, 3.5]]
+        );
+    }
+
+    #[test]
+    fn other_layouts_are_refused() {
+        for text in [
+            "",
+            "DATA:\n  - type: formula 2\n",
+            "DATA:\n  - type: tabulated nk\n",
+            "DATA:\n  - type: tabulated nk\n    data: |\n",
+        ] {
+            assert!(parse(text).is_err(), "{text}");
+        }
+    }
+
+    /// Needs the database beside the workspace; says so where it is absent.
+    #[test]
+    fn committed_data_are_what_the_database_gives() {
+        let root = crate::workspace::root();
+        let folder = root.join("../shared/scenes/refractiveindex-metals");
+        let mut skipped = 0;
+        for entry in CATALOGUE {
+            let page = folder.join(format!("database/data/{}.yml", entry.page));
+            match fs::read_to_string(&page) {
+                Ok(yaml) => {
+                    let committed = csv::read(&root, entry.symbol).unwrap();
+                    assert_eq!(kept(parse(&yaml).unwrap()), committed, "{}", entry.symbol);
+                }
+                Err(_) => skipped += 1,
+            }
+        }
+        if skipped > 0 {
+            println!("skipped {skipped} of {}: page not there", CATALOGUE.len());
+        }
+    }
+}
