@@ -1,6 +1,14 @@
-//! Decoded pictures.
+//! Decoded pictures, and the formats they are read from.
+
+mod exr_file;
+mod pfm;
+mod read;
+
+pub(crate) use read::{Content, Encoding, Format, read};
 
 /// A picture in linear RGB (sRGB primaries), row by row from the top.
+///
+/// Invariant (from readers): `pixels` holds `width * height` values, finite and not negative.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
     /// Name of the file, for messages.
@@ -12,3 +20,6 @@ pub struct Image {
     /// `width * height` linear RGB values.
     pub pixels: Vec<[f32; 3]>,
 }
+
+/// Most pixels that a picture may have: a header that promises more is taken for damage.
+const MAX_PIXELS: u64 = 1 << 28;

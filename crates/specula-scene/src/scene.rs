@@ -158,7 +158,11 @@ pub enum ColourParam {
 pub enum Texture {
     /// The same everywhere.
     Constant(Rgb<f32>),
-    /// A picture, bilinearly filtered.
+    /// A picture, bilinearly filtered: `scale * value`, then `max(0, 1 - it)` where `invert`.
+    ///
+    /// Pictures are stored from the top, and `(s, t) = mapping(u, v)` has its origin at the lower
+    /// left: the value is that of column `s * width` and row `(1 - t) * height`, pixel centres at
+    /// halves. (pbrt-v4 flips `t` at every lookup, too.)
     Image {
         /// The picture, already linear.
         image: ImageId,
@@ -412,7 +416,11 @@ pub struct Instance {
 /// How a picture covers the sphere of directions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EnvironmentMapping {
-    /// Equal-area octahedral square (Clarberg 2008), as pbrt-v4 does; z is the pole.
+    /// Equal-area octahedral square (Clarberg 2008), as pbrt-v4 does; +z is the centre of the
+    /// square, -z its corners. With `(x, y)` in `[0, 1]^2` over the stored picture, x to the right
+    /// and y *down* from the first row (no flip here), `u = 2x - 1`, `v = 2y - 1`,
+    /// `d = 1 - |u| - |v|`, `r = 1 - |d|`, `phi = (pi/4) ((|v| - |u|)/r + 1)`:
+    /// `direction = (sgn(u) cos(phi) r sqrt(2 - r^2), sgn(v) sin(phi) r sqrt(2 - r^2), sgn(d) (1 - r^2))`.
     EqualAreaOctahedral,
     /// Latitude and longitude; z is the pole, the first row is at +z, u runs with the azimuth.
     LatitudeLongitude,

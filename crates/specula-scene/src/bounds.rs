@@ -1,0 +1,138 @@
+//! Axis-aligned boxes around what a scene holds.
+
+use glam::{DMat4, DVec3};
+
+use crate::scene::{Geometry, Mesh, Scene};
+
+/// Farthest coordinate of a scene: squares of distances must fit single precision.
+pub(crate) const FARTHEST: f64 = 1e18;
+
+/// An axis-aligned box; empty where `min > max`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Least coordinates.
+    pub min: DVec3,
+    /// Greatest coordinates.
+    pub max: DVec3,
+}
+
+impl Bounds {
+    /// A box around nothing.
+    pub const EMPTY: Self = Self {
+        min: DVec3::INFINITY,
+        max: DVec3::NEG_INFINITY,
+    };
+
+    /// The box with a point added.
+    #[must_use]
+    pub fn including(self, p: DVec3) -> Self {
+        Self {
+            min: self.min.min(p),
+            max: self.max.max(p),
+        }
+    }
+
+    /// The box around both.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
+    }
+
+    /// Whether there is nothing in it.
+    #[must_use]
+    pub fn is_empty(self) -> bool {
+        self.min.x > self.max.x
+    }
+
+    /// A box around the transformed box.
+    #[must_use]
+    pub fn transformed(self, m: &DMat4) -> Self {
+        if self.is_empty() {
+            return self;
+        }
+        let corner = |i: u8| {
+            let pick = |bit: u8, axis: usize| {
+                if i & bit == 0 {
+                    self.min[axis]
+                } else {
+                    self.max[axis]
+                }
+            };
+            m.transform_point3(DVec3::new(pick(1, 0), pick(2, 1), pick(4, 2)))
+        };
+        (0..8).map(corner).fold(Self::EMPTY, Self::including)
+    }
+
+    /// Greatest absolute coordinate; infinite if one is not a number.
+    pub(crate) fn farthest(self) -> f64 {
+        let far = self.min.abs().max(self.max.abs()).max_element();
+        if self.is_empty() {
+            0.0
+        } else if far.is_nan() {
+            f64::INFINITY
+        } else {
+            far
+        }
+    }
+}
+
+/// Bounds of a geometry in its own space.
+pub(crate) fn of_geometry(meshes: &[Mesh], geometry: &Geometry) -> Bounds {
+    match *geometry {
+        Geometry::Mesh(id) => {
+            let mesh = &meshes[id.0];
+            let corners = mesh.triangles.iter().flatten();
+            corners
+                .map(|&i| DVec3::from(mesh.positions[i as usize].map(f64::from)))
+                .fold(Bounds::EMPTY, Bounds::including)
+        }
+        Geometry::Sphere { radius } => {
+            let r = DVec3::splat(f64::from(radius));
+            Bounds { min: -r, max: r }
+        }
+        Geometry::Disk { radius, height } => {
+            let (r, z) = (f64::from(radius), f64::from(height));
+            Bounds {
+                min: DVec3::new(-r, -r, z),
+                max: DVec3::new(r, r, z),
+            }
+        }
+    }
+}
+
+/// Bounds of a scene in world space.
+pub(crate) fn of_scene(scene: &Scene) -> Bounds {
+    let of_shapes = |shapes: &[crate::scene::Shape]| {
+        let boxes = shapes
+            .iter()
+            .map(|s| of_geometry(&scene.meshes, &s.geometry).transformed(&s.to_world));
+        boxes.fold(Bounds::EMPTY, Bounds::union)
+    };
+    let objects: Vec<Bounds> = scene.objects.iter().map(|o| of_shapes(&o.shapes)).collect();
+    let copies = scene
+        .instances
+        .iter()
+        .map(|i| objects[i.object.0].transformed(&i.to_world));
+    copies.fold(of_shapes(&scene.shapes), Bounds::union)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turned_box_is_wrapped() {
+        let unit = Bounds {
+            min: DVec3::splat(-1.0),
+            max: DVec3::ONE,
+        };
+        let turned = unit.transformed(&DMat4::from_rotation_z(std::f64::consts::FRAC_PI_4));
+        assert!((turned.max.x - 2f64.sqrt()).abs() < 1e-12);
+        assert_eq!(turned.max.z, 1.0);
+        assert!(Bounds::EMPTY.transformed(&DMat4::IDENTITY).is_empty());
+        assert_eq!(Bounds::EMPTY.farthest(), 0.0);
+    }
+}

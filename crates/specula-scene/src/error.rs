@@ -1,0 +1,273 @@
+//! Located errors and warnings.
+
+use std::fmt;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A text that was read, kept for excerpts.
+pub struct Source {
+    name: String,
+    text: String,
+}
+
+impl fmt::Debug for Source {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // The text may be megabytes long; a debug print is no place for it.
+        write!(f, "Source({:?}, {} bytes)", self.name, self.text.len())
+    }
+}
+
+impl Source {
+    pub(crate) fn new(name: impl Into<String>, text: impl Into<String>) -> Arc<Self> {
+        Arc::new(Self {
+            name: name.into(),
+            text: text.into(),
+        })
+    }
+
+    /// A source for a file whose text is unknown.
+    pub(crate) fn unread(path: &Path) -> Arc<Self> {
+        Self::new(path.display().to_string(), "")
+    }
+
+    /// Name of the file, as it was opened.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Its text.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+}
+
+/// A stretch of a file. It displays as `file:line:column`.
+#[derive(Clone, Debug)]
+pub struct Place {
+    source: Arc<Source>,
+    offset: usize,
+    length: usize,
+}
+
+impl Place {
+    pub(crate) fn new(source: &Arc<Source>, offset: usize, length: usize) -> Self {
+        Self {
+            source: Arc::clone(source),
+            offset,
+            length,
+        }
+    }
+
+    /// The beginning of a file.
+    pub(crate) fn start(source: &Arc<Source>) -> Self {
+        Self::new(source, 0, 0)
+    }
+
+    /// The file.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// First byte within the file's text.
+    pub fn offset(&self) -> usize {
+        self.offset
+    }
+
+    /// Length in bytes.
+    pub fn length(&self) -> usize {
+        self.length
+    }
+
+    /// Line, from 1.
+    pub fn line(&self) -> usize {
+        self.before().bytes().filter(|&b| b == b'\n').count() + 1
+    }
+
+    /// Column in characters, from 1.
+    pub fn column(&self) -> usize {
+        let before = self.before();
+        before[before.rfind('\n').map_or(0, |i| i + 1)..]
+            .chars()
+            .count()
+            + 1
+    }
+
+    fn before(&self) -> &str {
+        let text = &self.source.text;
+        let mut end = self.offset.min(text.len());
+        while !text.is_char_boundary(end) {
+            end -= 1;
+        }
+        &text[..end]
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}:{}", self.source.name, self.line(), self.column())
+    }
+}
+
+/// What kind of thing is wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ErrorKind {
+    /// A file cannot be opened or read.
+    Io,
+    /// A file is not UTF-8 text.
+    Encoding,
+    /// Tokens that form no directive.
+    Syntax,
+    /// A directive that pbrt-v4 does not have.
+    UnknownDirective,
+    /// A parameter's type, count or value.
+    Parameter,
+    /// A texture, material or object that is not defined.
+    UnknownName,
+    /// Something is defined twice.
+    Duplicate,
+    /// Blocks that do not match, or directives outside of their block.
+    Structure,
+    /// A file that includes itself.
+    RecursiveInclude,
+    /// A transform that cannot be inverted or is not finite.
+    Transform,
+    /// A mesh, inline or in a file.
+    Mesh,
+    /// A picture.
+    Image,
+    /// A spectrum.
+    Spectrum,
+    /// Nothing is left to render.
+    EmptyScene,
+    /// A picture without this feature would be meaningless.
+    Unsupported,
+    /// Beyond what this crate is willing to read.
+    Limit,
+}
+
+/// Why a scene cannot be used, and where.
+///
+/// It displays as its message alone; [`SceneError::place`] displays as `file:line:column`.
+#[derive(Debug, thiserror::Error)]
+#[error("{}", .0.message)]
+pub struct SceneError(Box<Inner>);
+
+#[derive(Debug)]
+struct Inner {
+    kind: ErrorKind,
+    message: String,
+    help: Option<String>,
+    place: Place,
+}
+
+impl SceneError {
+    pub(crate) fn new(kind: ErrorKind, place: &Place, message: impl Into<String>) -> Self {
+        Self(Box::new(Inner {
+            kind,
+            message: message.into(),
+            help: None,
+            place: place.clone(),
+        }))
+    }
+
+    pub(crate) fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.0.help = Some(help.into());
+        self
+    }
+
+    /// What kind of thing is wrong.
+    pub fn kind(&self) -> ErrorKind {
+        self.0.kind
+    }
+
+    /// What is wrong and what was expected.
+    pub fn message(&self) -> &str {
+        &self.0.message
+    }
+
+    /// Where.
+    pub fn place(&self) -> &Place {
+        &self.0.place
+    }
+
+    /// The file.
+    pub fn file(&self) -> &str {
+        self.0.place.source.name()
+    }
+
+    /// Line, from 1.
+    pub fn line(&self) -> usize {
+        self.0.place.line()
+    }
+
+    /// Column in characters, from 1.
+    pub fn column(&self) -> usize {
+        self.0.place.column()
+    }
+
+    /// What may help.
+    pub fn help(&self) -> Option<&str> {
+        self.0.help.as_deref()
+    }
+}
+
+/// Something that is rendered otherwise than the file says, and where.
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("{message}")]
+pub struct Warning {
+    message: String,
+    place: Place,
+}
+
+impl Warning {
+    pub(crate) fn new(place: &Place, message: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+            place: place.clone(),
+        }
+    }
+
+    /// What is done instead.
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+
+    /// Where.
+    pub fn place(&self) -> &Place {
+        &self.place
+    }
+
+    /// The file.
+    pub fn file(&self) -> &str {
+        self.place.source.name()
+    }
+
+    /// Line, from 1.
+    pub fn line(&self) -> usize {
+        self.place.line()
+    }
+
+    /// Column in characters, from 1.
+    pub fn column(&self) -> usize {
+        self.place.column()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_count_lines_and_characters_from_one() {
+        let source = Source::new("a.pbrt", "über\nScale x");
+        let place = Place::new(&source, "über\nScale ".len(), 1);
+        assert_eq!((place.line(), place.column()), (2, 7));
+        assert_eq!(place.to_string(), "a.pbrt:2:7");
+        assert_eq!(
+            Place::new(&source, 1, 1).column(),
+            1,
+            "inside a character: its start"
+        );
+    }
+}

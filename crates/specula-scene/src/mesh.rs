@@ -1,0 +1,149 @@
+//! What a mesh must be before it enters a scene.
+
+use glam::DVec3;
+
+use crate::num::f32_of;
+use crate::scene::Mesh;
+
+/// What [`clean`] changed.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub(crate) struct Cleaning {
+    /// Triangles without area that were dropped.
+    pub(crate) dropped_triangles: usize,
+    /// Shading normals that were zero or not finite and became geometric ones.
+    pub(crate) replaced_normals: usize,
+    /// Whether the surface coordinates were dropped because some were not finite.
+    pub(crate) dropped_uvs: bool,
+}
+
+/// Makes `mesh` fit for a scene: indices in range, vertices finite, every triangle with area,
+/// normals finite and not zero.
+///
+/// # Errors
+///
+/// A message where a vertex is not finite or an index is out of range.
+pub(crate) fn clean(mesh: &mut Mesh) -> Result<Cleaning, String> {
+    let count = mesh.positions.len();
+    if let Some(i) = mesh
+        .positions
+        .iter()
+        .position(|p| p.iter().any(|x| !x.is_finite()))
+    {
+        return Err(format!("vertex {i} is not finite: {:?}", mesh.positions[i]));
+    }
+    let outside = |t: &[u32; 3]| t.iter().any(|&i| i as usize >= count);
+    if let Some(t) = mesh.triangles.iter().position(outside) {
+        let [a, b, c] = mesh.triangles[t];
+        return Err(format!(
+            "triangle {t} refers to vertices {a}, {b}, {c}, but there are {count} vertices"
+        ));
+    }
+    let mut cleaning = Cleaning::default();
+    let before = mesh.triangles.len();
+    let positions = &mesh.positions;
+    mesh.triangles
+        .retain(|t| face_normal(positions, t).is_some());
+    cleaning.dropped_triangles = before - mesh.triangles.len();
+    if mesh.uvs.iter().any(|uv| uv.iter().any(|x| !x.is_finite())) {
+        mesh.uvs.clear();
+        cleaning.dropped_uvs = true;
+    }
+    cleaning.replaced_normals = mend_normals(mesh);
+    Ok(cleaning)
+}
+
+fn mend_normals(mesh: &mut Mesh) -> usize {
+    let is_bad = |n: &[f32; 3]| n.iter().any(|x| !x.is_finite()) || *n == [0.0; 3];
+    let bad = mesh.normals.iter().filter(|n| is_bad(n)).count();
+    if bad == 0 {
+        return 0;
+    }
+    for triangle in &mesh.triangles {
+        for &i in triangle {
+            if is_bad(&mesh.normals[i as usize])
+                && let Some(n) = face_normal(&mesh.positions, triangle)
+            {
+                mesh.normals[i as usize] = n.to_array().map(f32_of);
+            }
+        }
+    }
+    // Vertices that no triangle uses.
+    mesh.normals
+        .iter_mut()
+        .filter(|n| is_bad(n))
+        .for_each(|n| *n = [0.0, 0.0, 1.0]);
+    bad
+}
+
+/// Unit normal of a triangle, or `None` where it has no area.
+fn face_normal(positions: &[[f32; 3]], triangle: &[u32; 3]) -> Option<DVec3> {
+    let [a, b, c] = triangle.map(|i| DVec3::from(positions[i as usize].map(f64::from)));
+    (b - a).cross(c - a).try_normalize()
+}
+
+/// Area of a mesh under a transform, in square scene units.
+pub(crate) fn area(mesh: &Mesh, to_world: &glam::DMat4) -> f64 {
+    let corner =
+        |i: u32| to_world.transform_point3(DVec3::from(mesh.positions[i as usize].map(f64::from)));
+    let twice = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(corner);
+        (b - a).cross(c - a).length()
+    };
+    0.5 * mesh.triangles.iter().map(twice).sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn quad() -> Mesh {
+        Mesh {
+            positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
+            triangles: vec![[0, 1, 2], [2, 3, 0]],
+            ..Mesh::default()
+        }
+    }
+
+    #[test]
+    fn triangles_without_area_go() {
+        let mut mesh = quad();
+        mesh.triangles.push([1, 1, 2]);
+        assert_eq!(clean(&mut mesh).unwrap().dropped_triangles, 1);
+        assert_eq!(mesh, quad());
+        assert_eq!(
+            area(&mesh, &glam::DMat4::from_scale(DVec3::splat(3.0))),
+            9.0
+        );
+    }
+
+    #[test]
+    fn normals_that_are_none_become_geometric() {
+        let mut mesh = quad();
+        mesh.normals = vec![
+            [0.0; 3],
+            [f32::NAN, 0.0, 1.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 0.0, -1.0],
+        ];
+        assert_eq!(clean(&mut mesh).unwrap().replaced_normals, 2);
+        assert_eq!(
+            mesh.normals,
+            [
+                [0.0, 0.0, 1.0],
+                [0.0, 0.0, 1.0],
+                [0.0, 1.0, 0.0],
+                [0.0, 0.0, -1.0]
+            ]
+        );
+    }
+
+    #[test]
+    fn bad_indices_and_vertices_are_errors() {
+        let mut mesh = quad();
+        mesh.triangles.push([0, 1, 4]);
+        assert!(clean(&mut mesh).unwrap_err().contains("triangle 2"));
+        let mut mesh = quad();
+        mesh.positions[3][1] = f32::INFINITY;
+        assert!(clean(&mut mesh).unwrap_err().contains("vertex 3"));
+    }
+}

@@ -1,0 +1,245 @@
+//! Parameters that give a colour: rgb, spectra (named, in files, inline), blackbodies, textures.
+
+use specula_bsdf::Rgb;
+
+use super::context::Context;
+use super::param::{Param, ParamList, Values};
+use super::token::shorten;
+use crate::error::{ErrorKind, Place, SceneError, Source};
+use crate::num::f32_of;
+use crate::scene::{ColourParam, TextureId};
+use crate::spectrum::{self, Spectrum};
+
+/// Types that a colour may have.
+const KINDS: [&str; 4] = ["rgb", "spectrum", "blackbody", "texture"];
+
+/// A colour as the file gives it.
+#[derive(Clone, Debug)]
+pub(super) enum Colour {
+    Rgb(Rgb<f32>),
+    Spectrum(Spectrum),
+    /// Temperature in kelvin.
+    Blackbody(f32),
+    Texture(TextureId),
+}
+
+impl Colour {
+    /// As a reflectance (or anything else that white light shows).
+    pub(super) fn under_white(&self) -> ColourParam {
+        ColourParam::Value(match self {
+            Self::Rgb(c) => *c,
+            Self::Spectrum(s) => spectrum::reflectance_to_rgb(s),
+            Self::Blackbody(kelvin) => spectrum::blackbody_to_rgb(*kelvin),
+            Self::Texture(id) => return ColourParam::Texture(*id),
+        })
+    }
+}
+
+/// Reads a colour.
+pub(super) fn colour(
+    context: &Context,
+    params: &ParamList,
+    name: &str,
+) -> Result<Option<Colour>, SceneError> {
+    let Some(param) = params.find(name) else {
+        return Ok(None);
+    };
+    match (param.kind, &param.values) {
+        ("rgb", Values::Numbers(numbers)) => {
+            let [r, g, b] = numbers.as_slice() else {
+                return Err(param.wrong_type(&KINDS));
+            };
+            Ok(Some(Colour::Rgb(Rgb {
+                r: f32_of(*r),
+                g: f32_of(*g),
+                b: f32_of(*b),
+            })))
+        }
+        ("blackbody", Values::Numbers(numbers)) => match numbers.as_slice() {
+            [kelvin] if (100.0..=1e6).contains(kelvin) => {
+                Ok(Some(Colour::Blackbody(f32_of(*kelvin))))
+            }
+            _ => {
+                let message =
+                    format!("\"{name}\": expected one temperature from 100 to 1e6 kelvin");
+                Err(SceneError::new(ErrorKind::Parameter, &param.place, message))
+            }
+        },
+        ("spectrum", _) => Ok(Some(Colour::Spectrum(read_spectrum(context, param)?))),
+        ("texture", _) => {
+            let id = context.texture_named(param, &context.colour_textures, "spectrum")?;
+            Ok(Some(Colour::Texture(id)))
+        }
+        _ => Err(param.wrong_type(&KINDS)),
+    }
+}
+
+/// A reflectance in `[0, 1]`.
+pub(super) fn albedo(
+    context: &mut Context,
+    params: &ParamList,
+    name: &str,
+    default: f32,
+) -> Result<ColourParam, SceneError> {
+    Ok(albedo_or_none(context, params, name)?.unwrap_or(ColourParam::Value(Rgb::splat(default))))
+}
+
+/// A reflectance in `[0, 1]`, if the file gives one.
+pub(super) fn albedo_or_none(
+    context: &mut Context,
+    params: &ParamList,
+    name: &str,
+) -> Result<Option<ColourParam>, SceneError> {
+    let Some(colour) = colour(context, params, name)? else {
+        return Ok(None);
+    };
+    let ColourParam::Value(c) = colour.under_white() else {
+        return Ok(Some(colour.under_white()));
+    };
+    let place = params.place_of(name);
+    if matches!(colour, Colour::Rgb(_)) {
+        not_negative(c, name, &place)?;
+        if c.r > 1.0 || c.g > 1.0 || c.b > 1.0 {
+            context.warn(&place, format!("\"{name}\" is above 1; it is cut to 1"));
+        }
+    }
+    // A spectrum may lie outside of sRGB's triangle: its nearest reflectance is meant.
+    Ok(Some(ColourParam::Value(c.map(|x| x.clamp(0.0, 1.0)))))
+}
+
+/// Emitted light. Spectra and blackbodies have luminance 1, as pbrt-v4 normalises them.
+pub(super) fn emission(
+    context: &Context,
+    params: &ParamList,
+    name: &str,
+) -> Result<Option<Rgb<f32>>, SceneError> {
+    let Some(colour) = colour(context, params, name)? else {
+        return Ok(None);
+    };
+    let place = params.place_of(name);
+    let c = match colour {
+        Colour::Rgb(c) => not_negative(c, name, &place)?,
+        // A monochromatic lamp lies outside of sRGB; no light is negative.
+        Colour::Spectrum(s) => spectrum::illuminant_to_rgb(&s).map(|x| x.max(0.0)),
+        Colour::Blackbody(kelvin) => spectrum::blackbody_to_rgb(kelvin).map(|x| x.max(0.0)),
+        Colour::Texture(_) => {
+            let message = format!(
+                "\"{name}\": a light cannot have a texture; expected rgb, spectrum or blackbody"
+            );
+            return Err(SceneError::new(ErrorKind::Parameter, &place, message));
+        }
+    };
+    if c.r.is_finite() && c.g.is_finite() && c.b.is_finite() {
+        return Ok(Some(c));
+    }
+    let message = format!("\"{name}\": expected a spectrum that the eye can see");
+    Err(SceneError::new(ErrorKind::Spectrum, &place, message))
+}
+
+/// An index of refraction: a number, or a spectrum at the sodium D line (587.6 nm). 0 means 1, as
+/// in pbrt-v4.
+pub(super) fn index(context: &Context, params: &ParamList, name: &str) -> Result<f32, SceneError> {
+    let Some(param) = params.find(name) else {
+        return Ok(1.5);
+    };
+    let eta = match param.kind {
+        "float" => f32_of(params.float(name, 1.5)?),
+        _ => match colour(context, params, name)? {
+            Some(Colour::Spectrum(s)) => f32_of(s.value(spectrum::D_LINE_NM)),
+            Some(Colour::Rgb(c)) => c.mean(),
+            _ => return Err(param.wrong_type(&["float", "spectrum", "rgb"])),
+        },
+    };
+    if eta == 0.0 {
+        return Ok(1.0);
+    }
+    if eta > 0.0 && eta.is_finite() {
+        return Ok(eta);
+    }
+    let message = format!("\"{name}\": expected an index of refraction above 0, found {eta}");
+    Err(SceneError::new(ErrorKind::Parameter, &param.place, message))
+}
+
+/// Complex index of a metal as two colours.
+pub(super) fn complex_index(eta: &Colour, k: &Colour) -> (ColourParam, ColourParam) {
+    let curve = |c: &Colour| match c {
+        Colour::Spectrum(s) => Some(s.clone()),
+        Colour::Rgb(c) if c.r == c.g && c.g == c.b => Some(Spectrum::constant(f64::from(c.r))),
+        _ => None,
+    };
+    if let (Some(eta), Some(k)) = (curve(eta), curve(k)) {
+        let (eta, k) = spectrum::conductor_index_to_rgb(&eta, &k);
+        return (ColourParam::Value(eta), ColourParam::Value(k));
+    }
+    (eta.under_white(), k.under_white())
+}
+
+fn not_negative(c: Rgb<f32>, name: &str, place: &Place) -> Result<Rgb<f32>, SceneError> {
+    if c.r >= 0.0 && c.g >= 0.0 && c.b >= 0.0 {
+        return Ok(c);
+    }
+    let message = format!(
+        "\"{name}\": expected a colour that is not negative, found {} {} {}",
+        c.r, c.g, c.b
+    );
+    Err(SceneError::new(ErrorKind::Parameter, place, message))
+}
+
+fn read_spectrum(context: &Context, param: &Param) -> Result<Spectrum, SceneError> {
+    match &param.values {
+        Values::Numbers(numbers) => {
+            let wrong =
+                |message: String| SceneError::new(ErrorKind::Spectrum, &param.place, message);
+            let (pairs, rest) = numbers.as_chunks::<2>();
+            if !rest.is_empty() {
+                return Err(wrong(format!(
+                    "\"{}\": expected pairs of wavelength and value",
+                    param.name
+                )));
+            }
+            let samples = pairs.iter().map(|[nm, v]| (*nm, *v)).collect();
+            Spectrum::new(samples).map_err(|e| wrong(format!("\"{}\": {e}", param.name)))
+        }
+        Values::Texts(texts) => {
+            let [(name, place)] = texts.as_slice() else {
+                return Err(param.wrong_type(&["spectrum"]));
+            };
+            named_or_file(context, name, place)
+        }
+        Values::Bools(_) => Err(param.wrong_type(&["spectrum"])),
+    }
+}
+
+fn named_or_file(context: &Context, name: &str, place: &Place) -> Result<Spectrum, SceneError> {
+    if let Some(spectrum) = spectrum::named(name) {
+        return Ok(spectrum);
+    }
+    let path = context.resolve(name);
+    let bytes = std::fs::read(&path).map_err(|e| {
+        let message = format!(
+            "\"{}\" is no known spectrum, nor a file that can be read: {e}",
+            shorten(name)
+        );
+        SceneError::new(ErrorKind::Spectrum, place, message)
+            .with_help("expected a name such as metal-Au-eta or glass-BK7, or a .spd file")
+    })?;
+    let text = String::from_utf8_lossy(&bytes).into_owned();
+    spectrum::parse_spd(&text).map_err(|e| {
+        let start: usize = text
+            .split_inclusive('\n')
+            .take(e.line.saturating_sub(1))
+            .map(str::len)
+            .sum();
+        let length = text[start..].lines().next().map_or(0, str::len);
+        let file = Place::new(
+            &Source::new(path.display().to_string(), text.as_str()),
+            start,
+            length,
+        );
+        SceneError::new(
+            ErrorKind::Spectrum,
+            &file,
+            format!("spectrum {}: {e}", path.display()),
+        )
+    })
+}

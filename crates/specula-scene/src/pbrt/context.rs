@@ -1,0 +1,158 @@
+//! What all kinds of directives share: warnings, file names, pictures and textures by name.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use specula_bsdf::Rgb;
+
+use super::param::{Param, ParamList, Values};
+use super::token::shorten;
+use crate::error::{ErrorKind, Place, SceneError, Warning};
+use crate::image::{self, Content, Encoding, Image};
+use crate::num::f32_of;
+use crate::scene::{FloatParam, ImageId, Texture, TextureId};
+
+/// A directive with a name and parameters.
+#[derive(Clone, Debug)]
+pub(super) struct Entity {
+    pub(super) name: String,
+    /// Where the name stands.
+    pub(super) place: Place,
+    pub(super) params: ParamList,
+}
+
+/// Shared state of the reader.
+pub(super) struct Context {
+    pub(super) warnings: Vec<Warning>,
+    pub(super) textures: Vec<Texture>,
+    pub(super) images: Vec<Image>,
+    pub(super) float_textures: HashMap<String, TextureId>,
+    pub(super) colour_textures: HashMap<String, TextureId>,
+    /// pbrt-v4 resolves every file name against the folder of the scene's main file.
+    folder: PathBuf,
+    image_ids: HashMap<(PathBuf, String), ImageId>,
+}
+
+impl Context {
+    pub(super) fn new(main: &Path) -> Self {
+        Self {
+            warnings: Vec::new(),
+            textures: Vec::new(),
+            images: Vec::new(),
+            float_textures: HashMap::new(),
+            colour_textures: HashMap::new(),
+            folder: main.parent().map(Path::to_owned).unwrap_or_default(),
+            image_ids: HashMap::new(),
+        }
+    }
+
+    pub(super) fn warn(&mut self, place: &Place, message: impl Into<String>) {
+        self.warnings.push(Warning::new(place, message));
+    }
+
+    pub(super) fn warn_unused(&mut self, params: &ParamList) {
+        self.warnings.extend(params.unused());
+    }
+
+    pub(super) fn resolve(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    /// The picture in a file, decoded once for each way of reading it.
+    pub(super) fn image(
+        &mut self,
+        name: &str,
+        place: &Place,
+        encoding: Encoding,
+        content: Content,
+    ) -> Result<ImageId, SceneError> {
+        let path = self.resolve(name);
+        let key = (path.clone(), format!("{encoding:?} {content:?}"));
+        if let Some(&id) = self.image_ids.get(&key) {
+            return Ok(id);
+        }
+        let image = image::read(&path, encoding, content)
+            .map_err(|message| SceneError::new(ErrorKind::Image, place, message))?;
+        let id = ImageId(self.images.len());
+        self.images.push(image);
+        self.image_ids.insert(key, id);
+        Ok(id)
+    }
+
+    pub(super) fn add_texture(&mut self, texture: Texture) -> TextureId {
+        self.textures.push(texture);
+        TextureId(self.textures.len() - 1)
+    }
+
+    /// A number or a float texture.
+    pub(super) fn float(
+        &self,
+        params: &ParamList,
+        name: &str,
+        default: f32,
+    ) -> Result<FloatParam, SceneError> {
+        Ok(self
+            .float_or_none(params, name)?
+            .unwrap_or(FloatParam::Value(default)))
+    }
+
+    pub(super) fn float_or_none(
+        &self,
+        params: &ParamList,
+        name: &str,
+    ) -> Result<Option<FloatParam>, SceneError> {
+        let Some(param) = params.find(name) else {
+            return Ok(None);
+        };
+        if param.kind == "texture" {
+            let id = self.texture_named(param, &self.float_textures, "float")?;
+            return Ok(Some(FloatParam::Texture(id)));
+        }
+        if param.kind != "float" {
+            return Err(param.wrong_type(&["float", "texture"]));
+        }
+        Ok(Some(FloatParam::Value(f32_of(params.float(name, 0.0)?))))
+    }
+
+    /// A number from zero up, or a float texture.
+    pub(super) fn float_from_zero_or_none(
+        &self,
+        params: &ParamList,
+        name: &str,
+    ) -> Result<Option<FloatParam>, SceneError> {
+        let value = self.float_or_none(params, name)?;
+        if let Some(FloatParam::Value(x)) = value
+            && x < 0.0
+        {
+            params.float_from_zero(name, 0.0)?;
+        }
+        Ok(value)
+    }
+
+    /// The texture that a parameter of type `texture` names.
+    pub(super) fn texture_named(
+        &self,
+        param: &Param,
+        textures: &HashMap<String, TextureId>,
+        kind: &str,
+    ) -> Result<TextureId, SceneError> {
+        let Values::Texts(texts) = &param.values else {
+            return Err(param.wrong_type(&["texture"]));
+        };
+        let [(name, place)] = texts.as_slice() else {
+            return Err(param.wrong_type(&["texture"]));
+        };
+        textures.get(name).copied().ok_or_else(|| {
+            let message = format!(
+                "no {kind} texture \"{}\" is defined before this",
+                shorten(name)
+            );
+            SceneError::new(ErrorKind::UnknownName, place, message)
+        })
+    }
+
+    /// A texture of one value.
+    pub(super) fn constant(&mut self, value: f32) -> TextureId {
+        self.add_texture(Texture::Constant(Rgb::splat(value)))
+    }
+}

@@ -1,0 +1,367 @@
+//! The directives of a pbrt-v4 file and the stack of attributes.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use glam::DMat4;
+
+use super::context::{Context, Entity};
+use super::param::ParamList;
+use super::shape::ShapeEntity;
+use super::state::{ATTRIBUTE_TARGETS, State};
+use super::token::{TokenKind, Tokens, describe, shorten};
+use crate::error::{ErrorKind, Place, SceneError, Source};
+use crate::read_file::read_bytes;
+use crate::scene::Light;
+
+/// Most files that `Include` and `Import` may open, counted with repetition.
+const MAX_FILES: usize = 100_000;
+
+/// Deepest nesting of files.
+const MAX_NESTING: usize = 64;
+
+/// A material of the file, read once all textures are known.
+pub(super) struct MaterialEntity {
+    pub(super) name: Option<String>,
+    pub(super) entity: Entity,
+}
+
+/// A group of shapes.
+pub(super) struct ObjectEntity {
+    pub(super) name: String,
+    pub(super) shapes: Vec<ShapeEntity>,
+}
+
+/// A copy of an object.
+pub(super) struct InstanceEntity {
+    pub(super) name: String,
+    pub(super) place: Place,
+    pub(super) to_world: DMat4,
+}
+
+/// What comes before `WorldBegin`, by directive.
+pub(super) const OPTIONS: [&str; 6] = [
+    "Camera",
+    "Film",
+    "PixelFilter",
+    "Sampler",
+    "Integrator",
+    "Accelerator",
+];
+
+/// Reads directives and keeps what they describe.
+pub(super) struct Reader {
+    pub(super) context: Context,
+    pub(super) options: HashMap<&'static str, Entity>,
+    pub(super) camera_to_world: DMat4,
+    pub(super) materials: Vec<MaterialEntity>,
+    pub(super) named_materials: HashMap<String, usize>,
+    pub(super) shapes: Vec<ShapeEntity>,
+    pub(super) objects: Vec<ObjectEntity>,
+    pub(super) instances: Vec<InstanceEntity>,
+    pub(super) lights: Vec<Light>,
+    /// End of the main file.
+    pub(super) end: Place,
+    pub(super) state: State,
+    /// Saved states with the directive and the place that saved them.
+    pub(super) stack: Vec<(&'static str, Place, State)>,
+    pub(super) in_world: bool,
+    pub(super) in_object: bool,
+    pub(super) coordinate_systems: HashMap<String, [DMat4; 2]>,
+    pub(super) media: Vec<String>,
+    /// Files being read, the outermost first.
+    reading: Vec<PathBuf>,
+    files: usize,
+    pub(super) warned_media: bool,
+}
+
+impl Reader {
+    pub(super) fn new(main: &Path) -> Self {
+        Self {
+            context: Context::new(main),
+            options: HashMap::new(),
+            camera_to_world: DMat4::IDENTITY,
+            materials: Vec::new(),
+            named_materials: HashMap::new(),
+            shapes: Vec::new(),
+            objects: Vec::new(),
+            instances: Vec::new(),
+            lights: Vec::new(),
+            end: Place::start(&Source::unread(main)),
+            state: State::new(),
+            stack: Vec::new(),
+            in_world: false,
+            in_object: false,
+            coordinate_systems: HashMap::new(),
+            media: Vec::new(),
+            reading: Vec::new(),
+            files: 0,
+            warned_media: false,
+        }
+    }
+
+    /// Reads the main file.
+    pub(super) fn read_main(&mut self, path: &Path) -> Result<(), SceneError> {
+        self.end = self.read_file(path, None)?;
+        if let Some((directive, place, _)) = self.stack.last() {
+            let message = format!("`{directive}` is never closed");
+            return Err(SceneError::new(ErrorKind::Structure, place, message));
+        }
+        if !self.in_world {
+            let message = "the file ends without `WorldBegin`";
+            return Err(SceneError::new(ErrorKind::Structure, &self.end, message)
+                .with_help("lights, materials and shapes stand after `WorldBegin`"));
+        }
+        Ok(())
+    }
+
+    /// Reads a file; `from` is where another includes it. Returns the place of its end.
+    fn read_file(&mut self, path: &Path, from: Option<&Place>) -> Result<Place, SceneError> {
+        let unread = Place::start(&Source::unread(path));
+        let place = from.unwrap_or(&unread);
+        let unreadable = |message: String| {
+            SceneError::new(
+                ErrorKind::Io,
+                place,
+                format!("{} {message}", path.display()),
+            )
+        };
+        let identity = path
+            .canonicalize()
+            .map_err(|e| unreadable(format!("cannot be read: {e}")))?;
+        if self.reading.contains(&identity) {
+            let message = format!("{} includes itself", path.display());
+            let chain: Vec<_> = self
+                .reading
+                .iter()
+                .map(|p| p.display().to_string())
+                .collect();
+            return Err(SceneError::new(ErrorKind::RecursiveInclude, place, message)
+                .with_help(format!("files being read: {}", chain.join(" → "))));
+        }
+        self.files += 1;
+        if self.reading.len() > MAX_NESTING {
+            let message = format!("files are included more than {MAX_NESTING} deep");
+            return Err(SceneError::new(ErrorKind::Limit, place, message));
+        }
+        if self.files > MAX_FILES {
+            let message = format!("more than {MAX_FILES} files are included");
+            return Err(SceneError::new(ErrorKind::Limit, place, message));
+        }
+        let bytes = read_bytes(path).map_err(unreadable)?;
+        let source = decode(path, bytes)?;
+        self.reading.push(identity);
+        let mut tokens = Tokens::new(&source);
+        while let Some(token) = tokens.next()? {
+            let place = tokens.place(&token);
+            let TokenKind::Word(word) = token.kind else {
+                let message = format!("expected a directive, found {}", describe(&token.kind));
+                return Err(SceneError::new(ErrorKind::Syntax, &place, message));
+            };
+            self.directive(word, &place, &mut tokens)?;
+        }
+        self.reading.pop();
+        Ok(tokens.end())
+    }
+
+    fn directive(
+        &mut self,
+        word: &str,
+        place: &Place,
+        tokens: &mut Tokens<'_>,
+    ) -> Result<(), SceneError> {
+        if self.transform_directive(word, place, tokens)?
+            || self.block_directive(word, place, tokens)?
+        {
+            return Ok(());
+        }
+        if let Some(&option) = OPTIONS.iter().find(|o| **o == word) {
+            let entity = self.entity(tokens, word)?;
+            return self.option(option, place, entity);
+        }
+        match word {
+            "Option" => {
+                tokens.expect_text("the name of an option")?;
+                let value = tokens.expect("the value of an option")?;
+                // Options steer pbrt itself; a bracket would begin a list of them.
+                if value.kind == TokenKind::Open {
+                    while tokens.expect("`]`")?.kind != TokenKind::Close {}
+                }
+            }
+            "ColorSpace" => {
+                let (name, place) = tokens.expect_text("the name of a colour space")?;
+                if !name.eq_ignore_ascii_case("srgb") {
+                    let message = format!("colour space \"{}\" is read as srgb", shorten(&name));
+                    self.context.warn(&place, message);
+                }
+            }
+            "Include" | "Import" => {
+                let (name, place) = tokens.expect_text("a file name")?;
+                let path = self.context.resolve(&name);
+                let saved = self.state.clone();
+                self.read_file(&path, Some(&place))?;
+                if word == "Import" {
+                    self.state = saved;
+                }
+            }
+            "Attribute" => {
+                let (target, place) = tokens.expect_text("what the attribute is for")?;
+                let params = ParamList::read(tokens)?.into_own();
+                let Some(i) = ATTRIBUTE_TARGETS.iter().position(|t| *t == target) else {
+                    let expected = ATTRIBUTE_TARGETS.join(", ");
+                    let message =
+                        format!("expected one of {expected}, found \"{}\"", shorten(&target));
+                    return Err(SceneError::new(ErrorKind::Syntax, &place, message));
+                };
+                self.state.attributes[i].extend(params);
+            }
+            _ => return self.world_directive(word, place, tokens),
+        }
+        Ok(())
+    }
+
+    fn block_directive(
+        &mut self,
+        word: &str,
+        place: &Place,
+        tokens: &mut Tokens<'_>,
+    ) -> Result<bool, SceneError> {
+        match word {
+            "WorldBegin" => {
+                if self.in_world {
+                    return Err(SceneError::new(
+                        ErrorKind::Structure,
+                        place,
+                        "a second `WorldBegin`",
+                    ));
+                }
+                self.in_world = true;
+                self.state.transforms = [DMat4::IDENTITY; 2];
+                self.state.active = [true; 2];
+                self.coordinate_systems
+                    .insert("world".to_owned(), [DMat4::IDENTITY; 2]);
+            }
+            "WorldEnd" => {
+                self.context.warn(
+                    place,
+                    "`WorldEnd` belongs to older versions of pbrt and does nothing",
+                );
+            }
+            "AttributeBegin" => self.push("AttributeBegin", place),
+            "AttributeEnd" => self.pop("AttributeBegin", word, place)?,
+            "TransformBegin" => self.push("TransformBegin", place),
+            "TransformEnd" => self.pop("TransformBegin", word, place)?,
+            "ObjectBegin" => {
+                let (name, place) = tokens.expect_text("the name of an object")?;
+                self.expect_world(word, &place)?;
+                if self.in_object {
+                    let message = "`ObjectBegin` within an object";
+                    return Err(SceneError::new(ErrorKind::Structure, &place, message));
+                }
+                if self.objects.iter().any(|o| o.name == name) {
+                    let message = format!("object \"{}\" is defined twice", shorten(&name));
+                    return Err(SceneError::new(ErrorKind::Duplicate, &place, message));
+                }
+                self.push("ObjectBegin", &place);
+                self.in_object = true;
+                self.objects.push(ObjectEntity {
+                    name,
+                    shapes: Vec::new(),
+                });
+            }
+            "ObjectEnd" => {
+                self.pop("ObjectBegin", word, place)?;
+                self.in_object = false;
+            }
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    fn push(&mut self, directive: &'static str, place: &Place) {
+        self.stack
+            .push((directive, place.clone(), self.state.clone()));
+    }
+
+    fn pop(&mut self, begin: &str, end: &str, place: &Place) -> Result<(), SceneError> {
+        match self.stack.pop() {
+            Some((directive, _, state)) if directive == begin => {
+                self.state = state;
+                Ok(())
+            }
+            Some((directive, opened, _)) => {
+                let message = format!("`{end}` does not close `{directive}` of {opened}");
+                Err(SceneError::new(ErrorKind::Structure, place, message))
+            }
+            None => {
+                let message = format!("`{end}` without `{begin}`");
+                Err(SceneError::new(ErrorKind::Structure, place, message))
+            }
+        }
+    }
+
+    fn option(
+        &mut self,
+        word: &'static str,
+        place: &Place,
+        entity: Entity,
+    ) -> Result<(), SceneError> {
+        if self.in_world {
+            let message = format!("`{word}` after `WorldBegin`; expected it before");
+            return Err(SceneError::new(ErrorKind::Structure, place, message));
+        }
+        if word == "Camera" {
+            if self.state.moves() {
+                self.context
+                    .warn(place, "the camera moves; it is rendered where it starts");
+            }
+            let inverse = self.state.transforms.map(|m| m.inverse());
+            self.camera_to_world = inverse[0];
+            self.coordinate_systems.insert("camera".to_owned(), inverse);
+        }
+        self.options.insert(word, entity);
+        Ok(())
+    }
+
+    pub(super) fn entity(&self, tokens: &mut Tokens<'_>, word: &str) -> Result<Entity, SceneError> {
+        let (name, place) = tokens.expect_text(&format!("the name after `{word}`"))?;
+        Ok(Entity {
+            name,
+            place,
+            params: ParamList::read(tokens)?,
+        })
+    }
+
+    pub(super) fn expect_world(&self, word: &str, place: &Place) -> Result<(), SceneError> {
+        if self.in_world {
+            return Ok(());
+        }
+        let message = format!("`{word}` before `WorldBegin`; expected it after");
+        Err(SceneError::new(ErrorKind::Structure, place, message))
+    }
+}
+
+/// Text of a file, which must be UTF-8.
+fn decode(path: &Path, bytes: Vec<u8>) -> Result<Arc<Source>, SceneError> {
+    let name = path.display().to_string();
+    match String::from_utf8(bytes) {
+        Ok(text) if text.contains('\0') => {
+            let at = text.find('\0').unwrap_or(0);
+            let place = Place::new(&Source::new(name, text), at, 1);
+            Err(SceneError::new(
+                ErrorKind::Encoding,
+                &place,
+                "the file holds binary data; expected UTF-8 text",
+            ))
+        }
+        Ok(text) => Ok(Source::new(name, text)),
+        Err(error) => {
+            let at = error.utf8_error().valid_up_to();
+            let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
+            let place = Place::new(&Source::new(name, text), at, 1);
+            let message = "the file is not UTF-8 text; expected a pbrt-v4 scene";
+            Err(SceneError::new(ErrorKind::Encoding, &place, message))
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! Materials: pbrt-v4's parameters and their defaults.
+
+use std::collections::HashMap;
+
+use specula_bsdf::Rgb;
+
+use super::colour::{self, Colour};
+use super::context::{Context, Entity};
+use super::param::ParamList;
+use super::token::shorten;
+use crate::error::{ErrorKind, Place, SceneError};
+use crate::scene::{
+    ColourParam, ConductorFresnel, FloatParam, MaterialId, MaterialKind, Roughness,
+    RoughnessMapping,
+};
+use crate::spectrum;
+
+/// pbrt-v4's material for shapes that have none.
+pub(super) const DEFAULT: MaterialKind = MaterialKind::Diffuse {
+    reflectance: ColourParam::Value(Rgb {
+        r: 0.5,
+        g: 0.5,
+        b: 0.5,
+    }),
+    roughness: FloatParam::Value(0.0),
+};
+
+/// Reads a material; `named` holds the named materials before it.
+pub(super) fn read(
+    context: &mut Context,
+    entity: &Entity,
+    named: &HashMap<&str, MaterialId>,
+) -> Result<MaterialKind, SceneError> {
+    let params = &entity.params;
+    params.ignore(&["type"]);
+    for feature in ["displacement", "normalmap"] {
+        if params.find(feature).is_some() {
+            context.warn(
+                &params.place_of(feature),
+                format!("\"{feature}\" is not rendered"),
+            );
+        }
+    }
+    let kind =
+        match entity.name.as_str() {
+            "diffuse" => MaterialKind::Diffuse {
+                reflectance: colour::albedo(context, params, "reflectance", 0.5)?,
+                roughness: FloatParam::Value(0.0),
+            },
+            "diffusetransmission" => diffuse_transmission(context, params)?,
+            "conductor" => MaterialKind::Conductor {
+                fresnel: conductor(context, params, "eta", "k", &entity.place)?,
+                roughness: roughness(context, params, "")?,
+            },
+            "dielectric" => MaterialKind::Dielectric {
+                eta: colour::index(context, params, "eta")?,
+                roughness: roughness(context, params, "")?,
+            },
+            "thindielectric" => MaterialKind::ThinDielectric {
+                eta: colour::index(context, params, "eta")?,
+            },
+            "coateddiffuse" => {
+                coat_medium(context, params)?;
+                MaterialKind::CoatedDiffuse {
+                    reflectance: colour::albedo(context, params, "reflectance", 0.5)?,
+                    eta: colour::index(context, params, "eta")?,
+                    roughness: roughness(context, params, "")?,
+                }
+            }
+            "coatedconductor" => {
+                coat_medium(context, params)?;
+                MaterialKind::CoatedConductor {
+                    coat_eta: colour::index(context, params, "interface.eta")?,
+                    coat_roughness: roughness(context, params, "interface.")?,
+                    fresnel: conductor(
+                        context,
+                        params,
+                        "conductor.eta",
+                        "conductor.k",
+                        &entity.place,
+                    )?,
+                    roughness: roughness(context, params, "conductor.")?,
+                }
+            }
+            "mix" => mix(context, entity, named)?,
+            "interface" => MaterialKind::Interface,
+            "" | "none" => {
+                context.warn(
+                    &entity.place,
+                    "this name is deprecated: it means \"interface\"",
+                );
+                MaterialKind::Interface
+            }
+            other @ ("hair" | "measured" | "subsurface") => {
+                let message =
+                    format!("material \"{other}\" is not supported: diffuse grey of 0.5 is used");
+                context.warn(&entity.place, message);
+                return Ok(DEFAULT);
+            }
+            other => {
+                let message = format!("unknown material \"{}\"", shorten(other));
+                return Err(SceneError::new(ErrorKind::Parameter, &entity.place, message).with_help(
+                "expected diffuse, diffusetransmission, conductor, dielectric, thindielectric, \
+                 coateddiffuse, coatedconductor, mix or interface",
+            ));
+            }
+        };
+    context.warn_unused(params);
+    Ok(kind)
+}
+
+fn diffuse_transmission(
+    context: &mut Context,
+    params: &ParamList,
+) -> Result<MaterialKind, SceneError> {
+    let reflectance = colour::albedo(context, params, "reflectance", 0.25)?;
+    let transmittance = colour::albedo(context, params, "transmittance", 0.25)?;
+    let scale = crate::num::f32_of(params.float_from_zero("scale", 1.0)?);
+    let mut scaled = |colour: ColourParam| match colour {
+        _ if scale == 1.0 => colour,
+        ColourParam::Value(c) => ColourParam::Value(c.map(|x| (x * scale).min(1.0))),
+        ColourParam::Texture(a) => {
+            let b = context.constant(scale);
+            ColourParam::Texture(context.add_texture(crate::scene::Texture::Scale { a, b }))
+        }
+    };
+    Ok(MaterialKind::DiffuseTransmission {
+        reflectance: scaled(reflectance),
+        transmittance: scaled(transmittance),
+    })
+}
+
+/// `roughness`, `uroughness` and `vroughness` after a prefix; 0 where absent.
+fn roughness(context: &Context, params: &ParamList, prefix: &str) -> Result<Roughness, SceneError> {
+    let read = |name: &str| context.float_from_zero_or_none(params, &format!("{prefix}{name}"));
+    let both = read("roughness")?.unwrap_or(FloatParam::Value(0.0));
+    Ok(Roughness {
+        u: read("uroughness")?.unwrap_or(both),
+        v: read("vroughness")?.unwrap_or(both),
+        mapping: match params.bool("remaproughness", true)? {
+            true => RoughnessMapping::Sqrt,
+            false => RoughnessMapping::Alpha,
+        },
+    })
+}
+
+fn conductor(
+    context: &mut Context,
+    params: &ParamList,
+    eta_name: &str,
+    k_name: &str,
+    place: &Place,
+) -> Result<ConductorFresnel, SceneError> {
+    let eta = colour::colour(context, params, eta_name)?;
+    let k = colour::colour(context, params, k_name)?;
+    if let Some(reflectance) = colour::albedo_or_none(context, params, "reflectance")? {
+        if eta.is_some() || k.is_some() {
+            let message =
+                format!("\"reflectance\" and \"{eta_name}\" or \"{k_name}\" exclude each other");
+            return Err(SceneError::new(ErrorKind::Parameter, place, message));
+        }
+        return Ok(ConductorFresnel::Reflectance(reflectance));
+    }
+    let or_copper = |colour: Option<Colour>, name: &str| {
+        colour
+            .or_else(|| spectrum::named(name).map(Colour::Spectrum))
+            .ok_or_else(|| {
+                let message = format!("the spectrum {name} is missing from the library");
+                SceneError::new(ErrorKind::Spectrum, place, message)
+            })
+    };
+    let eta = or_copper(eta, "metal-Cu-eta")?;
+    let k = or_copper(k, "metal-Cu-k")?;
+    let (eta, k) = colour::complex_index(&eta, &k);
+    for (name, colour) in [(eta_name, eta), (k_name, k)] {
+        if let ColourParam::Value(c) = colour
+            && !(c.r.min(c.g).min(c.b) >= 0.0 && (c.r + c.g + c.b).is_finite())
+        {
+            let message = format!("\"{name}\": expected an index that is not negative");
+            return Err(SceneError::new(ErrorKind::Parameter, place, message));
+        }
+    }
+    Ok(ConductorFresnel::Index { eta, k })
+}
+
+/// The scattering medium between coat and base, which the coated lobes do not have.
+fn coat_medium(context: &mut Context, params: &ParamList) -> Result<(), SceneError> {
+    // Without a medium the thickness changes nothing; the others steer pbrt's random walk.
+    params.ignore(&["thickness", "maxdepth", "nsamples", "g"]);
+    let medium = colour::albedo_or_none(context, params, "albedo")?;
+    if medium.is_some_and(|m| m != ColourParam::Value(Rgb::BLACK)) {
+        let place = params.place_of("albedo");
+        context.warn(&place, "the medium between coat and base is not rendered");
+    }
+    Ok(())
+}
+
+fn mix(
+    context: &Context,
+    entity: &Entity,
+    named: &HashMap<&str, MaterialId>,
+) -> Result<MaterialKind, SceneError> {
+    let params = &entity.params;
+    let [a, b] = params.texts("materials", "string")? else {
+        let message = "material \"mix\" needs two names in \"string materials\"";
+        return Err(SceneError::new(
+            ErrorKind::Parameter,
+            &entity.place,
+            message,
+        ));
+    };
+    let find = |(name, place): &(String, Place)| {
+        named.get(name.as_str()).copied().ok_or_else(|| {
+            let message = format!("no material \"{}\" is defined before this", shorten(name));
+            SceneError::new(ErrorKind::UnknownName, place, message)
+        })
+    };
+    Ok(MaterialKind::Mix {
+        materials: [find(a)?, find(b)?],
+        amount: context
+            .float_from_zero_or_none(params, "amount")?
+            .unwrap_or(FloatParam::Value(0.5)),
+    })
+}

@@ -1,0 +1,40 @@
+//! Reader of pbrt-v4 scenes: tokens, parameters, directives and the attribute stack, then one file
+//! for each kind of thing that a directive describes.
+//!
+//! The crate `pbrt4` (0.2.0) was tried first: its errors carry no file, line or column, it ends in
+//! a panic (`todo!`, `unimplemented!`) on `Import`, gzipped includes and names that it does not
+//! know, and it reads a file that includes itself without end. Hence a parser of our own.
+
+mod assemble;
+mod camera;
+mod colour;
+mod context;
+mod directive;
+mod light;
+mod material;
+mod param;
+mod shape;
+mod state;
+mod texture;
+mod token;
+mod transform;
+mod unknown;
+mod world;
+
+use std::path::Path;
+
+pub(crate) use state::check as check_transform;
+
+use crate::Loaded;
+use crate::error::SceneError;
+
+/// Reads the scene in `path` and all that it refers to.
+///
+/// # Errors
+///
+/// Where the scene cannot be read, or a picture of it would be meaningless.
+pub(crate) fn load(path: &Path) -> Result<Loaded, SceneError> {
+    let mut reader = directive::Reader::new(path);
+    reader.read_main(path)?;
+    assemble::assemble(reader)
+}

@@ -1,0 +1,177 @@
+//! Directives of the world: materials, textures, shapes, lights, media, instances.
+
+use std::rc::Rc;
+
+use super::context::Entity;
+use super::directive::{InstanceEntity, MaterialEntity, Reader};
+use super::shape::ShapeEntity;
+use super::state::MaterialUse;
+use super::token::{TokenKind, Tokens, shorten};
+use super::{light, texture, unknown};
+use crate::error::{ErrorKind, Place, SceneError};
+
+impl Reader {
+    /// Follows a directive that stands after `WorldBegin`.
+    pub(super) fn world_directive(
+        &mut self,
+        word: &str,
+        place: &Place,
+        tokens: &mut Tokens<'_>,
+    ) -> Result<(), SceneError> {
+        match word {
+            "MakeNamedMedium" => {
+                let entity = self.entity(tokens, word)?;
+                self.media.push(entity.name);
+            }
+            "MediumInterface" => self.medium_interface(tokens)?,
+            "Material" | "MakeNamedMaterial" | "NamedMaterial" => {
+                self.expect_world(word, place)?;
+                self.material(word, tokens)?;
+            }
+            "Texture" => {
+                self.expect_world(word, place)?;
+                texture::read(&mut self.context, &self.state.attributes[4], tokens)?;
+            }
+            "Shape" => {
+                self.expect_world(word, place)?;
+                let entity = self.entity(tokens, word)?;
+                self.shape(entity);
+            }
+            "LightSource" => {
+                self.expect_world(word, place)?;
+                let mut entity = self.entity(tokens, word)?;
+                entity.params = entity.params.with_inherited(&self.state.attributes[1]);
+                if self.state.moves() {
+                    self.context
+                        .warn(place, "the light moves; it is rendered where it starts");
+                }
+                let light = light::read(&mut self.context, &entity, self.state.transforms[0])?;
+                self.context.warn_unused(&entity.params);
+                self.lights.push(light);
+            }
+            "AreaLightSource" => {
+                self.expect_world(word, place)?;
+                let mut entity = self.entity(tokens, word)?;
+                entity.params = entity.params.with_inherited(&self.state.attributes[1]);
+                self.state.area_light = Some(Rc::new(entity));
+            }
+            "ReverseOrientation" => {
+                self.state.reverse_orientation = !self.state.reverse_orientation;
+            }
+            "ObjectInstance" => {
+                let (name, place) = tokens.expect_text("the name of an object")?;
+                self.expect_world(word, &place)?;
+                if self.in_object {
+                    let message = "`ObjectInstance` within an object";
+                    return Err(SceneError::new(ErrorKind::Structure, &place, message));
+                }
+                if self.state.moves() {
+                    self.context
+                        .warn(&place, "the instance moves; it is rendered where it starts");
+                }
+                let to_world = self.state.transforms[0];
+                self.instances.push(InstanceEntity {
+                    name,
+                    place,
+                    to_world,
+                });
+            }
+            _ => return Err(unknown::directive(word, place)),
+        }
+        Ok(())
+    }
+
+    fn medium_interface(&mut self, tokens: &mut Tokens<'_>) -> Result<(), SceneError> {
+        let (inside, place) = tokens.expect_text("the name of a medium")?;
+        let mut names = vec![(inside, place)];
+        if matches!(tokens.peek()?.map(|t| &t.kind), Some(TokenKind::Text(_))) {
+            names.push(tokens.expect_text("the name of a medium")?);
+        }
+        for (name, place) in names {
+            if name.is_empty() {
+                continue;
+            }
+            if !self.media.contains(&name) {
+                let message = format!("no medium \"{}\" is defined before this", shorten(&name));
+                return Err(SceneError::new(ErrorKind::UnknownName, &place, message));
+            }
+            if !self.warned_media {
+                self.warned_media = true;
+                let message = format!(
+                    "media are not rendered: \"{}\" is empty space",
+                    shorten(&name)
+                );
+                self.context.warn(&place, message);
+            }
+        }
+        Ok(())
+    }
+
+    fn material(&mut self, word: &str, tokens: &mut Tokens<'_>) -> Result<(), SceneError> {
+        if word == "NamedMaterial" {
+            let (name, place) = tokens.expect_text("the name of a material")?;
+            self.state.material = MaterialUse::Named(name, place);
+            return Ok(());
+        }
+        let mut entity = self.entity(tokens, word)?;
+        entity.params = entity.params.with_inherited(&self.state.attributes[2]);
+        let index = self.materials.len();
+        if word == "Material" {
+            self.materials.push(MaterialEntity { name: None, entity });
+            self.state.material = MaterialUse::Defined(index);
+            return Ok(());
+        }
+        let Some((kind, place)) = entity
+            .params
+            .string("type")?
+            .map(|(k, p)| (k.to_owned(), p.clone()))
+        else {
+            let message = "a named material needs its \"string type\"";
+            return Err(SceneError::new(
+                ErrorKind::Parameter,
+                &entity.place,
+                message,
+            ));
+        };
+        let name = std::mem::replace(&mut entity.name, kind);
+        let named_at = std::mem::replace(&mut entity.place, place);
+        if self.named_materials.insert(name.clone(), index).is_some() {
+            let message = format!("material \"{}\" is defined twice", shorten(&name));
+            return Err(SceneError::new(ErrorKind::Duplicate, &named_at, message));
+        }
+        self.materials.push(MaterialEntity {
+            name: Some(name),
+            entity,
+        });
+        Ok(())
+    }
+
+    fn shape(&mut self, mut entity: Entity) {
+        entity.params = entity.params.with_inherited(&self.state.attributes[0]);
+        if self.state.moves() {
+            self.context.warn(
+                &entity.place,
+                "the shape moves; it is rendered where it starts",
+            );
+        }
+        let mut area_light = self.state.area_light.clone();
+        if self.in_object && area_light.take().is_some() {
+            // pbrt-v4 does the same.
+            self.context.warn(
+                &entity.place,
+                "area lights in objects are not supported: this shape emits nothing",
+            );
+        }
+        let shape = ShapeEntity {
+            entity,
+            to_world: self.state.transforms[0],
+            reverse_orientation: self.state.reverse_orientation,
+            material: self.state.material.clone(),
+            area_light,
+        };
+        match self.objects.last_mut() {
+            Some(object) if self.in_object => object.shapes.push(shape),
+            _ => self.shapes.push(shape),
+        }
+    }
+}

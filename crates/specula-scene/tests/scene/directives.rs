@@ -1,0 +1,328 @@
+//! Every directive and kind of shape, light, camera and film.
+
+use glam::DVec3;
+use specula_scene::scene::{EnvironmentMapping, Filter, Geometry, Light, Texture, Wrap};
+use specula_scene::{Loaded, Summary};
+
+use super::common::{Folder, load, load_world, warnings};
+
+fn center(loaded: &Loaded, shape: usize) -> [f64; 3] {
+    let center = loaded.scene.shapes[shape]
+        .to_world
+        .transform_point3(DVec3::ZERO);
+    center.to_array().map(|x| (x * 1e6).round() / 1e6)
+}
+
+#[test]
+fn transforms() {
+    let loaded = load_world(
+        "AttributeBegin Translate 1 2 3 Scale 2 2 2 Rotate 90 0 0 1 Translate 1 0 0 Shape \"sphere\" AttributeEnd
+         AttributeBegin Transform [1 0 0 0 0 1 0 0 0 0 1 0 4 5 6 1] ConcatTransform [1 0 0 0 0 1 0 0 0 0 1 0 1 0 0 1] Shape \"sphere\" AttributeEnd
+         TransformBegin Translate 7 0 0 CoordinateSystem \"here\" Identity CoordSysTransform \"here\" Shape \"sphere\" TransformEnd
+         TransformTimes 0 1 ActiveTransform EndTime Translate 9 9 9 ActiveTransform All",
+    )
+    .unwrap();
+    assert_eq!(center(&loaded, 0), [1.0, 4.0, 3.0]);
+    assert_eq!(center(&loaded, 1), [5.0, 5.0, 6.0]);
+    assert_eq!(center(&loaded, 2), [7.0, 0.0, 0.0]);
+    assert_eq!(center(&loaded, 3), [0.0, 0.0, 0.0]);
+    assert_eq!(
+        warnings(&loaded),
+        ["the shape moves; it is rendered where it starts"]
+    );
+}
+
+#[test]
+fn camera_film_and_settings() {
+    let loaded = load(
+        "Option \"seed\" 3 ColorSpace \"srgb\"
+         LookAt 0 0 -5  0 0 0  0 1 0
+         Camera \"perspective\" \"float fov\" 40 \"float lensradius\" 0.1 \"float focaldistance\" 5 \"float shutterclose\" 0.5
+         Film \"rgb\" \"integer xresolution\" 200 \"integer yresolution\" 100 \"float cropwindow\" [0.25 0.5 0 1]
+              \"string filename\" \"a.exr\" \"float iso\" 400
+         Sampler \"zsobol\" \"integer pixelsamples\" 7 Integrator \"volpath\" \"integer maxdepth\" 9
+         PixelFilter \"mitchell\" Accelerator \"bvh\"
+         WorldBegin Shape \"sphere\"",
+    )
+    .unwrap();
+    let scene = &loaded.scene;
+    assert_eq!(scene.film.resolution, [200, 100]);
+    assert_eq!(scene.film.crop, [50, 100, 0, 100]);
+    assert_eq!(scene.film.exposure, 2.0);
+    assert_eq!(scene.film.file_name.as_deref(), Some("a.exr"));
+    assert!(matches!(
+        scene.film.filter,
+        Filter::Mitchell {
+            radius: [2.0, 2.0],
+            ..
+        }
+    ));
+    assert_eq!(
+        (scene.settings.max_depth, scene.settings.samples_per_pixel),
+        (9, 7)
+    );
+    assert_eq!(scene.camera.screen_window, [-2.0, 2.0, -1.0, 1.0]);
+    assert_eq!(
+        scene.camera.to_world.transform_point3(DVec3::ZERO),
+        DVec3::new(0.0, 0.0, -5.0)
+    );
+    assert_eq!(scene.camera.to_world.transform_vector3(DVec3::Z), DVec3::Z);
+    assert!(warnings(&loaded).is_empty(), "{:?}", loaded.warnings);
+    let defaults = load("WorldBegin Shape \"sphere\"").unwrap().scene;
+    assert_eq!(
+        defaults.film.filter,
+        Filter::Gaussian {
+            radius: [1.5; 2],
+            sigma: 0.5
+        }
+    );
+    assert_eq!(
+        (
+            defaults.settings.max_depth,
+            defaults.settings.samples_per_pixel
+        ),
+        (5, 16)
+    );
+    assert_eq!(defaults.film.resolution, [1280, 720]);
+}
+
+#[test]
+fn objects_are_placed_by_their_instances() {
+    let loaded = load(
+        "WorldBegin ObjectBegin \"o\" Translate 1 0 0 Shape \"sphere\" Shape \"disk\" ObjectEnd
+         Translate 0 5 0 ObjectInstance \"o\" Scale 2 2 2 ObjectInstance \"o\"",
+    )
+    .unwrap();
+    let summary = Summary::of(&loaded.scene);
+    assert_eq!((summary.objects, summary.instances), (1, 2));
+    assert_eq!(summary.shapes["sphere"], 1);
+    assert_eq!(summary.bounds.max, DVec3::new(4.0, 7.0, 2.0));
+    assert_eq!(loaded.scene.shapes.len(), 0);
+}
+
+#[test]
+fn shapes() {
+    let loaded = load(
+        "WorldBegin ReverseOrientation
+         Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"normal N\" [0 0 1 0 0 1 0 0 1] \"point2 uv\" [0 0 1 0 0 1]
+         ReverseOrientation
+         Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0]
+         Shape \"loopsubdiv\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2] \"integer levels\" 2
+         Shape \"disk\" \"float radius\" 2 \"float height\" 1 \"float phimax\" 90
+         Shape \"sphere\" \"float zmin\" 0 \"float wobble\" 1
+         Shape \"cylinder\"",
+    )
+    .unwrap();
+    let scene = &loaded.scene;
+    assert_eq!(scene.meshes[1].triangles, [[0, 1, 3], [0, 3, 2]]);
+    assert!(scene.shapes[0].reverse_orientation && !scene.shapes[1].reverse_orientation);
+    assert_eq!(
+        scene.shapes[3].geometry,
+        Geometry::Disk {
+            radius: 2.0,
+            height: 1.0
+        }
+    );
+    assert_eq!(scene.shapes.len(), 5);
+    let all = warnings(&loaded);
+    for part in [
+        "loopsubdiv",
+        "part of a disk",
+        "part of a sphere",
+        "\"float wobble\"",
+        "cylinder",
+    ] {
+        assert!(all.iter().any(|w| w.contains(part)), "{part}: {all:?}");
+    }
+    assert_eq!(all.len(), 5, "{all:?}");
+}
+
+#[test]
+fn meshes_from_files_are_stored_once() {
+    let folder = Folder::new();
+    let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+               element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    folder.write("a.ply", ply);
+    let mut packed = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+    std::io::Write::write_all(&mut packed, ply.as_bytes()).unwrap();
+    folder.write("b.ply.gz", packed.finish().unwrap());
+    folder.write(
+        "more.pbrt",
+        "Shape \"plymesh\" \"string filename\" \"a.ply\" Translate 1 0 0",
+    );
+    let loaded = folder
+        .load(
+            "WorldBegin Include \"more.pbrt\" Import \"more.pbrt\" Shape \"sphere\"
+             Shape \"plymesh\" \"string filename\" \"b.ply.gz\"",
+        )
+        .unwrap();
+    let summary = Summary::of(&loaded.scene);
+    assert_eq!(
+        (summary.meshes, summary.triangles, summary.triangles_shown),
+        (2, 2, 3)
+    );
+    // `Include` changes the transform, `Import` does not.
+    assert_eq!(center(&loaded, 2), [1.0, 0.0, 0.0]);
+    assert!(folder.path().join("a.ply").exists());
+}
+
+#[test]
+fn lights() {
+    let loaded = load_world(
+        "LightSource \"infinite\" \"rgb L\" [1 2 3] \"float scale\" 2
+         LightSource \"distant\" \"point3 from\" [0 0 4] \"point3 to\" [0 0 0] \"float illuminance\" 3
+         Translate 1 0 0
+         LightSource \"point\" \"rgb I\" [1 1 1] \"float power\" 12.566370614359172
+         LightSource \"spot\" \"float coneangle\" 40 \"float conedeltaangle\" 10
+         LightSource \"goniometric\" \"string filename\" \"x.png\"
+         Identity",
+    )
+    .unwrap();
+    let [infinite, distant, point, spot, _] = loaded.scene.lights.as_slice() else {
+        panic!()
+    };
+    assert!(matches!(infinite, Light::Infinite { radiance, image: None, .. } if radiance.b == 6.0));
+    assert!(
+        matches!(distant, Light::Distant { irradiance, to_light } if irradiance.r == 3.0 && *to_light == [0.0, 0.0, 1.0])
+    );
+    assert!(
+        matches!(point, Light::Point { position: [1.0, 0.0, 0.0], intensity } if (intensity.r - 1.0).abs() < 1e-6)
+    );
+    assert!(
+        matches!(spot, Light::Spot { axis: [0.0, 0.0, 1.0], falloff_start_deg, .. } if *falloff_start_deg == 30.0)
+    );
+    assert_eq!(warnings(&loaded).len(), 1);
+}
+
+#[test]
+fn emission_of_shapes() {
+    let loaded = load_world(
+        "Attribute \"light\" \"float scale\" 3
+         AreaLightSource \"diffuse\" \"rgb L\" [1 1 2] \"bool twosided\" true Shape \"sphere\"
+         AreaLightSource \"diffuse\" \"blackbody L\" 6500 Shape \"sphere\"
+         AreaLightSource \"diffuse\" \"spectrum L\" [400 1 700 1] Shape \"sphere\"
+         AreaLightSource \"diffuse\" \"float power\" 2 Shape \"sphere\"
+         Material \"interface\" Shape \"sphere\"
+         ObjectBegin \"o\" Shape \"sphere\" ObjectEnd",
+    )
+    .unwrap();
+    let emission = |i: usize| loaded.scene.shapes[i].emission.unwrap();
+    assert!(emission(0).two_sided && emission(0).radiance.b == 6.0);
+    for i in [1, 2] {
+        let luminance = emission(i).radiance.luminance();
+        assert!((luminance - 3.0).abs() < 0.06, "{luminance}");
+    }
+    let radiance = 3.0 * 2.0 / (4.0 * std::f32::consts::PI.powi(2));
+    assert!((emission(3).radiance.g - radiance).abs() < 1e-5);
+    assert!(loaded.scene.shapes[4].emission.is_none());
+    let all = warnings(&loaded);
+    assert!(
+        all.iter().any(|w| w.contains("area lights in objects")),
+        "{all:?}"
+    );
+}
+
+#[test]
+fn textures() {
+    let folder = Folder::new();
+    let picture = ::image::RgbImage::from_fn(2, 2, |x, y| {
+        ::image::Rgb([(x * 255) as u8, (y * 255) as u8, 0])
+    });
+    picture.save(folder.path().join("a.png")).unwrap();
+    let loaded = folder
+        .load(
+            "WorldBegin
+             Texture \"n\" \"float\" \"imagemap\" \"string filename\" \"a.png\" \"string encoding\" \"linear\"
+             Texture \"i\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\" \"string wrap\" \"clamp\" \"float uscale\" 2 \"bool invert\" true
+             Texture \"c\" \"spectrum\" \"constant\" \"rgb value\" [0.1 0.2 0.3]
+             Texture \"s\" \"spectrum\" \"scale\" \"texture tex\" \"i\" \"texture scale\" \"n\"
+             Texture \"m\" \"spectrum\" \"mix\" \"texture tex1\" \"s\" \"texture tex2\" \"c\" \"float amount\" 0.25
+             Texture \"k\" \"spectrum\" \"checkerboard\" \"texture tex1\" \"m\" \"float vscale\" 8 \"float udelta\" 0.5
+             Texture \"x\" \"float\" \"fbm\" \"integer octaves\" 3
+             Material \"diffuse\" \"texture reflectance\" \"k\" Shape \"sphere\" \"texture alpha\" \"n\"",
+        )
+        .unwrap();
+    let scene = &loaded.scene;
+    assert_eq!(
+        scene.images.len(),
+        2,
+        "the same file, read as number and as colour"
+    );
+    assert_eq!(scene.images[0].pixels[3], [2.0 / 3.0; 3]);
+    assert_eq!(
+        scene.images[1].pixels[2],
+        [0.0, 1.0, 0.0],
+        "rows from the top"
+    );
+    assert!(
+        matches!(scene.textures[1], Texture::Image { wrap: Wrap::Clamp, invert: true, as_float: false, mapping, .. } if mapping.scale == [2.0, 1.0])
+    );
+    let summary = Summary::of(scene);
+    assert_eq!(
+        (
+            summary.textures["imagemap"],
+            summary.textures["mix"],
+            summary.textures["checkerboard"]
+        ),
+        (2, 1, 1)
+    );
+    assert_eq!(
+        warnings(&loaded).len(),
+        2,
+        "fbm and its octaves: {:?}",
+        warnings(&loaded)
+    );
+}
+
+#[test]
+fn environments_are_square_or_latitude_longitude() {
+    let folder = Folder::new();
+    for (name, width) in [("square.png", 4), ("long.png", 8)] {
+        ::image::RgbImage::new(width, 4)
+            .save(folder.path().join(name))
+            .unwrap();
+    }
+    let loaded = folder
+        .load(
+            "WorldBegin Shape \"sphere\" LightSource \"infinite\" \"string filename\" \"square.png\"
+             LightSource \"infinite\" \"string filename\" \"long.png\"",
+        )
+        .unwrap();
+    let mappings: Vec<_> = loaded
+        .scene
+        .lights
+        .iter()
+        .map(|l| {
+            if let Light::Infinite {
+                image: Some((_, m)),
+                ..
+            } = l
+            {
+                *m
+            } else {
+                panic!()
+            }
+        })
+        .collect();
+    assert_eq!(
+        mappings,
+        [
+            EnvironmentMapping::EqualAreaOctahedral,
+            EnvironmentMapping::LatitudeLongitude
+        ]
+    );
+    assert_eq!(warnings(&loaded).len(), 1);
+}
+
+#[test]
+fn media_are_named_once() {
+    let loaded = load_world(
+        "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [1 1 1]
+         MediumInterface \"fog\" \"\" MediumInterface \"fog\"",
+    )
+    .unwrap();
+    assert_eq!(
+        warnings(&loaded),
+        ["media are not rendered: \"fog\" is empty space"]
+    );
+}

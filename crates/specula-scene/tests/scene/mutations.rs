@@ -1,0 +1,149 @@
+//! Damaged scenes: whatever happens to the text, the answer is a valid scene or an error.
+
+use super::common::Folder;
+
+const SCENE: &str = "LookAt 0 1 -5  0 0 0  0 1 0
+Camera \"perspective\" \"float fov\" [ 45 ] \"float lensradius\" 0.01
+Film \"rgb\" \"integer xresolution\" [ 64 ] \"integer yresolution\" [ 48 ] \"float cropwindow\" [0 1 0.2 0.8]
+Sampler \"zsobol\" \"integer pixelsamples\" 4 Integrator \"path\" \"integer maxdepth\" 3
+PixelFilter \"gaussian\" \"float xradius\" 1.5
+WorldBegin
+# a comment
+LightSource \"spot\" \"point3 from\" [0 4 0] \"point3 to\" [0 0 0] \"float coneangle\" 40 \"float power\" 3
+LightSource \"infinite\" \"blackbody L\" 5000 \"float scale\" 0.5
+Texture \"c\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [.1 .2 .3] \"float uscale\" 20
+MakeNamedMaterial \"m\" \"string type\" \"coatedconductor\" \"float conductor.roughness\" 0.1
+MakeNamedMaterial \"d\" \"string type\" \"diffuse\" \"texture reflectance\" \"c\"
+MakeNamedMaterial \"x\" \"string type\" \"mix\" \"string materials\" [\"m\" \"d\"] \"float amount\" .3
+AttributeBegin
+  Translate 1 0 0 Rotate 30 0 1 0 Scale 1 -2 1
+  AreaLightSource \"diffuse\" \"spectrum L\" [400 1 500 2 700 1] \"bool twosided\" true
+  NamedMaterial \"x\" Shape \"sphere\" \"float radius\" 0.5
+AttributeEnd
+ObjectBegin \"o\" Transform [1 0 0 0 0 1 0 0 0 0 1 0 0 0 2 1]
+  Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 1] \"integer indices\" [0 1 2 2 1 3] \"point2 uv\" [0 0 1 0 0 1 1 1]
+ObjectEnd
+ObjectInstance \"o\" ReverseOrientation Shape \"plymesh\" \"string filename\" \"a.ply\"
+";
+
+const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+    element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+/// SplitMix64.
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, n: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) % n as u64) as usize
+    }
+
+    fn mutate(&mut self, text: &str) -> Vec<u8> {
+        const TOKENS: [&str; 14] = [
+            "nan",
+            "-1",
+            "0",
+            "1e38",
+            "1e-38",
+            "[",
+            "]",
+            "\"",
+            "99999999999",
+            "Include",
+            "AttributeEnd",
+            "\"x\"",
+            "#",
+            "-1e30",
+        ];
+        let mut bytes = text.as_bytes().to_vec();
+        for _ in 0..=self.below(2) {
+            let at = self.below(bytes.len());
+            match self.below(10) {
+                0 => bytes[at] = self.below(256) as u8,
+                1..=3 => bytes[at] = 32 + self.below(95) as u8,
+                4 => bytes.truncate(at.max(1)),
+                5 => {
+                    let to = (at + self.below(40)).min(bytes.len());
+                    bytes.drain(at..to);
+                    if bytes.is_empty() {
+                        bytes.push(b' ');
+                    }
+                }
+                6 => {
+                    let to = (at + self.below(40)).min(bytes.len());
+                    let copy = bytes[at..to].to_vec();
+                    let into = self.below(bytes.len());
+                    bytes.splice(into..into, copy);
+                }
+                _ => {
+                    // A whole word becomes another.
+                    let blank = |b: &u8| b.is_ascii_whitespace();
+                    let start = bytes[..at].iter().rposition(blank).map_or(0, |i| i + 1);
+                    let end = bytes[at..]
+                        .iter()
+                        .position(blank)
+                        .map_or(bytes.len(), |i| at + i);
+                    let token = TOKENS[self.below(TOKENS.len())];
+                    bytes.splice(start..end.max(start), token.bytes());
+                }
+            }
+        }
+        bytes
+    }
+}
+
+fn run(mutated: &str, seed: u64, cases: usize) -> (usize, usize) {
+    let folder = Folder::new();
+    folder.write("a.ply", PLY);
+    let mut random = Random(seed);
+    let (mut whole, mut broken) = (0, 0);
+    for case in 0..cases {
+        let result = if mutated == "scene" {
+            folder.load(random.mutate(SCENE))
+        } else {
+            folder.write("a.ply", random.mutate(PLY));
+            folder.load(SCENE)
+        };
+        match result {
+            Ok(loaded) => {
+                loaded
+                    .scene
+                    .validate()
+                    .unwrap_or_else(|e| panic!("case {case}: {e}"));
+                whole += 1;
+            }
+            Err(error) => {
+                assert!(error.line() >= 1 && error.column() >= 1 && !error.message().is_empty());
+                broken += 1;
+            }
+        }
+    }
+    (whole, broken)
+}
+
+#[test]
+fn the_scene_itself_is_whole() {
+    let folder = Folder::new();
+    folder.write("a.ply", PLY);
+    let loaded = folder.load(SCENE).unwrap();
+    assert_eq!(loaded.scene.shapes.len(), 2);
+    assert_eq!(super::common::warnings(&loaded), [""; 0]);
+}
+
+#[test]
+fn damaged_scenes() {
+    let (whole, broken) = run("scene", 1, 2000);
+    assert!(
+        whole > 100 && broken > 500,
+        "{whole} whole, {broken} broken"
+    );
+}
+
+#[test]
+fn damaged_meshes() {
+    let (whole, broken) = run("mesh", 2, 1000);
+    assert!(whole > 5 && broken > 200, "{whole} whole, {broken} broken");
+}
