@@ -1,0 +1,136 @@
+//! What the traversal asks of the machine, and the portable answer.
+
+use super::frame::RayFrame;
+use super::node::{Lanes, Node8, Packet8, WIDTH};
+use super::triangle::{self, max, min};
+
+/// Most levels of 8-wide nodes that a tree may have; deeper ones are rebuilt balanced.
+pub(super) const MAX_DEPTH: usize = 36;
+
+/// Room on the stack: each level leaves at most seven siblings behind.
+pub(super) const STACK: usize = (WIDTH - 1) * MAX_DEPTH;
+
+/// Distances and weights of the triangles of a packet.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct PacketHits {
+    pub(super) t: Lanes,
+    pub(super) u: Lanes,
+    pub(super) v: Lanes,
+}
+
+/// A stack of [`STACK`] entries.
+pub(super) trait EntryStack {
+    /// Writes an entry; `at < STACK`.
+    fn set(&mut self, at: usize, entry: u64);
+    /// Reads an entry that has been written; `at < STACK`.
+    fn get(&self, at: usize) -> u64;
+}
+
+/// The operations that differ between instruction sets. All implementations agree bit for bit.
+pub(super) trait Kernel: Copy {
+    /// Its stack.
+    type Stack: EntryStack;
+    /// An empty stack.
+    fn stack(self) -> Self::Stack;
+    /// Which children's boxes the ray meets in `[0, t_cull]`, as bits, and where it enters.
+    fn boxes(self, node: &Node8, frame: &RayFrame, t_cull: f32, entry: &mut Lanes) -> u32;
+    /// Which triangles the ray meets in `(0, t_most]`, as bits, and where.
+    fn triangles(
+        self,
+        packet: &Packet8,
+        frame: &RayFrame,
+        t_most: f32,
+        hits: &mut PacketHits,
+    ) -> u32;
+}
+
+/// Plain Rust over arrays.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Portable;
+
+impl EntryStack for [u64; STACK] {
+    #[inline(always)]
+    fn set(&mut self, at: usize, entry: u64) {
+        self[at] = entry;
+    }
+
+    #[inline(always)]
+    fn get(&self, at: usize) -> u64 {
+        self[at]
+    }
+}
+
+impl Kernel for Portable {
+    type Stack = [u64; STACK];
+
+    #[inline(always)]
+    fn stack(self) -> Self::Stack {
+        [0; STACK]
+    }
+
+    #[inline(always)]
+    fn boxes(self, node: &Node8, frame: &RayFrame, t_cull: f32, entry: &mut Lanes) -> u32 {
+        // Where the ray lies in a box's face, 0 * inf is NaN: `min` and `max` then keep the other.
+        let mut far = [t_cull; WIDTH];
+        entry.0 = [0.0; WIDTH];
+        for axis in 0..3 {
+            let near_side = usize::from(frame.near[axis]);
+            let (nears, fars) = (&node.bounds[near_side].0, &node.bounds[near_side ^ 1].0);
+            let origin = frame.origin[axis];
+            for lane in 0..WIDTH {
+                let t = (nears[lane] - origin) * frame.near_scale[axis];
+                entry.0[lane] = max(t, entry.0[lane]);
+                let t = (fars[lane] - origin) * frame.far_scale[axis];
+                far[lane] = min(t, far[lane]);
+            }
+        }
+        bits(|lane| entry.0[lane] <= far[lane])
+    }
+
+    #[inline(always)]
+    fn triangles(
+        self,
+        packet: &Packet8,
+        frame: &RayFrame,
+        t_most: f32,
+        hits: &mut PacketHits,
+    ) -> u32 {
+        // One array at a time, which compiles to vector instructions.
+        let axes = frame.axes.map(usize::from);
+        let sheared = |corner: &[Lanes; 3]| {
+            let [mut xs, mut ys, mut zs] = [[0.0; WIDTH]; 3];
+            for lane in 0..WIDTH {
+                let p = axes.map(|axis| corner[axis].0[lane]);
+                [xs[lane], ys[lane], zs[lane]] =
+                    triangle::shear(p, frame.sheared_origin, frame.shear);
+            }
+            [xs, ys, zs]
+        };
+        let [a, b, c] = packet.vertices.each_ref().map(sheared);
+        let at = |p: &[[f32; WIDTH]; 3], lane: usize| [p[0][lane], p[1][lane], p[2][lane]];
+        let [mut us, mut vs, mut ws] = [[0.0; WIDTH]; 3];
+        let mut inside = [false; WIDTH];
+        for lane in 0..WIDTH {
+            let uvw = triangle::edge_functions(at(&a, lane), at(&b, lane), at(&c, lane));
+            [us[lane], vs[lane], ws[lane]] = uvw;
+            inside[lane] = triangle::inside(uvw);
+        }
+        let mask = bits(|lane| inside[lane]);
+        if mask == 0 {
+            return 0;
+        }
+        for lane in 0..WIDTH {
+            let uvw = [us[lane], vs[lane], ws[lane]];
+            let z = [a[2][lane], b[2][lane], c[2][lane]];
+            let (t, u, v) = triangle::distance(uvw, z, frame.shear[2]);
+            (hits.t.0[lane], hits.u.0[lane], hits.v.0[lane]) = (t, u, v);
+        }
+        mask & bits(|lane| (hits.t.0[lane] > 0.0) & (hits.t.0[lane] <= t_most))
+    }
+}
+
+/// Eight answers as bits.
+#[inline(always)]
+fn bits(mut f: impl FnMut(usize) -> bool) -> u32 {
+    (0..WIDTH).fold(0, |mask, lane| mask | (u32::from(f(lane)) << lane))
+}

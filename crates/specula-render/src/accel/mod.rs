@@ -1,0 +1,254 @@
+//! Ray casting: bounding volume hierarchies of 8-wide nodes over triangles, spheres and disks.
+//!
+//! ```text
+//! Group (object space) --> binary tree (obvhs) --> 8-wide nodes, packets of 8 triangles
+//! Instance (Group, to_world) --------------------> 8-wide nodes over instances, if needed
+//! ```
+//!
+//! What can be relied on:
+//!
+//! - **The same answer everywhere.** The AVX2 kernel and the portable one do the same operations in
+//!   the same order, without fused multiply-add: their hits are equal bit for bit. The build is
+//!   single threaded within a group, so that it never depends on the number of threads.
+//! - **Ties.** Of hits with equal `t` the smallest `(instance, primitive)` wins, whatever the order
+//!   of traversal.
+//! - **No leaks.** A ray from inside a closed mesh hits it: `triangle.rs` has the argument.
+//! - **It cannot fail.** Rays that are not finite hit nothing; indices are checked at build.
+
+mod binary;
+mod bounds;
+mod collapse;
+mod frame;
+mod group;
+mod input;
+mod instances;
+mod kernel;
+mod node;
+mod quadric;
+mod traverse;
+mod triangle;
+
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(test)]
+mod tests;
+
+pub use bounds::Bounds;
+pub use input::{AccelError, Group, Instance};
+pub use quadric::{Quadric, QuadricShape};
+
+#[cfg(target_arch = "x86_64")]
+use avx2::Avx2;
+use collapse::Tree;
+use group::GroupTree;
+use instances::Placement;
+use kernel::Portable;
+use rayon::prelude::*;
+use specula_bsdf::Vec3;
+use traverse::Scene;
+
+/// A ray, `origin + t direction` for `t` in `(0, t_max)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where it begins. The caller has already moved it off the surface that it leaves.
+    pub origin: Vec3<f32>,
+    /// Its direction, of any length but 0: `t` counts in this length.
+    pub direction: Vec3<f32>,
+    /// The exclusive end; may be infinite.
+    pub t_max: f32,
+}
+
+/// Where a ray first meets a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Ray parameter, in `(0, t_max)`.
+    pub t: f32,
+    /// Barycentric weight of the triangle's second vertex; 0 for quadrics.
+    ///
+    /// The point is `(1 - u - v) p0 + u p1 + v p2`, in the group's space.
+    pub u: f32,
+    /// Barycentric weight of the triangle's third vertex; 0 for quadrics.
+    pub v: f32,
+    /// Index within the group: its triangles first, then its quadrics, both in input order.
+    pub primitive: u32,
+    /// Index of the instance in the list given to [`Accel::build`].
+    pub instance: u32,
+}
+
+/// The instructions that a structure is traversed with. The answers are the same bit for bit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Instructions {
+    /// Plain Rust, left to the compiler to vectorise.
+    Portable,
+    /// AVX2 (x86-64 of 2013 or later).
+    Avx2,
+}
+
+/// What a structure consists of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct AccelStats {
+    /// Triangles that can be hit, over all groups (those without area are left out).
+    pub triangles: usize,
+    /// Spheres and disks, over all groups.
+    pub quadrics: usize,
+    /// 8-wide nodes, of 256 bytes.
+    pub nodes: usize,
+    /// Packets of at most 8 triangles, of 320 bytes.
+    pub packets: usize,
+    /// Levels of 8-wide nodes of the deepest tree.
+    pub depth: usize,
+    /// Memory of nodes, packets, quadrics and placements.
+    pub bytes: usize,
+}
+
+/// Rays against instances of groups of triangles and quadrics.
+///
+/// # Examples
+///
+/// ```
+/// use specula_bsdf::math::vec3;
+/// use specula_render::accel::{Accel, Group, Instance, Ray};
+///
+/// let group = Group {
+///     positions: &[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]],
+///     triangles: &[[0, 1, 2]],
+///     quadrics: &[],
+/// };
+/// let accel = Accel::build(&[group], &[Instance::of(0)])?;
+/// let ray = Ray {
+///     origin: vec3(0.25, 0.25, 0.0),
+///     direction: vec3(0.0, 0.0, 1.0),
+///     t_max: f32::INFINITY,
+/// };
+/// assert_eq!(accel.intersect(&ray).map(|hit| hit.t), Some(1.0));
+/// assert!(accel.occluded(&ray));
+/// # Ok::<(), specula_render::accel::AccelError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Accel {
+    scene: Scene,
+    bounds: Option<Bounds>,
+    kernel: Choice,
+    stats: AccelStats,
+}
+
+/// The kernel in use. [`Avx2`] exists only where the machine has it.
+#[derive(Clone, Copy, Debug)]
+enum Choice {
+    Portable,
+    #[cfg(target_arch = "x86_64")]
+    Avx2(Avx2),
+}
+
+impl Accel {
+    /// Builds the trees of the groups (in parallel, in rayon's current pool) and of the instances.
+    ///
+    /// Triangles without area or with a vertex that is not finite are left out; they keep their
+    /// place in the numbering.
+    ///
+    /// # Errors
+    ///
+    /// [`AccelError`] where an index is out of range, a transform is singular or not finite, or
+    /// there are more primitives than the numbering has room for.
+    pub fn build(groups: &[Group<'_>], instances: &[Instance]) -> Result<Self, AccelError> {
+        input::check(groups, instances)?;
+        let built: Vec<_> = groups.par_iter().map(GroupTree::build).collect();
+        let mut scene = Scene::default();
+        let triangles = built.iter().flatten().map(|g| g.triangles).sum();
+        let trees: Vec<Option<Tree>> = built
+            .into_iter()
+            .map(|group| group.map(|g| g.append(&mut scene)))
+            .collect();
+        let placed: Vec<Placement> = (0..)
+            .zip(instances)
+            .filter_map(|(index, instance)| {
+                let tree = trees[instance.group as usize].as_ref()?;
+                Some(Placement::new(index, instance, tree))
+            })
+            .collect();
+        let bounds = placed.iter().map(|p| p.bounds).reduce(|a, b| a.union(&b));
+        let mut depth = trees.iter().flatten().map(|t| t.depth).max().unwrap_or(0);
+        if let [only] = placed.as_slice()
+            && only.identity
+        {
+            scene.root = Some(only.root);
+            scene.single = Some(only.instance);
+        } else if let Some(tree) = instances::build(&placed, &mut scene) {
+            depth = depth.max(tree.depth);
+            scene.root = Some(tree.root);
+            scene.placements = placed;
+        }
+        Ok(Self {
+            bounds,
+            kernel: Choice::best(),
+            stats: AccelStats {
+                triangles,
+                quadrics: scene.quadrics.len(),
+                nodes: scene.nodes.len(),
+                packets: scene.packets.len(),
+                depth,
+                bytes: size_of_val(scene.nodes.as_slice())
+                    + size_of_val(scene.packets.as_slice())
+                    + size_of_val(scene.quadrics.as_slice())
+                    + size_of_val(scene.placements.as_slice()),
+            },
+            scene,
+        })
+    }
+
+    /// The first surface that the ray meets.
+    #[inline]
+    pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        match self.kernel {
+            Choice::Portable => traverse::intersect(Portable, &self.scene, ray),
+            #[cfg(target_arch = "x86_64")]
+            Choice::Avx2(kernel) => kernel.intersect(&self.scene, ray),
+        }
+    }
+
+    /// Whether the ray meets any surface: whether [`Accel::intersect`] returns a hit, but faster.
+    #[inline]
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        match self.kernel {
+            Choice::Portable => traverse::occluded(Portable, &self.scene, ray),
+            #[cfg(target_arch = "x86_64")]
+            Choice::Avx2(kernel) => kernel.occluded(&self.scene, ray),
+        }
+    }
+
+    /// A box around everything in the world, a little larger than it; `None` where there is nothing.
+    pub fn bounds(&self) -> Option<Bounds> {
+        self.bounds
+    }
+
+    /// What the structure consists of.
+    pub fn stats(&self) -> AccelStats {
+        self.stats
+    }
+
+    /// What it is traversed with: the best that the machine has, unless chosen otherwise.
+    pub fn instructions(&self) -> Instructions {
+        match self.kernel {
+            Choice::Portable => Instructions::Portable,
+            #[cfg(target_arch = "x86_64")]
+            Choice::Avx2(_) => Instructions::Avx2,
+        }
+    }
+
+    /// The same structure with the portable kernel, for comparison.
+    #[must_use]
+    pub fn portable(mut self) -> Self {
+        self.kernel = Choice::Portable;
+        self
+    }
+}
+
+impl Choice {
+    fn best() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(kernel) = Avx2::detect() {
+            return Self::Avx2(kernel);
+        }
+        Self::Portable
+    }
+}

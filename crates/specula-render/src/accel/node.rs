@@ -1,0 +1,111 @@
+//! The arrays that rays walk over: 8-wide nodes and packets of 8 triangles, 64-byte aligned.
+
+use super::Bounds;
+
+/// How many children a node has at most, and triangles a packet.
+pub(super) const WIDTH: usize = 8;
+
+/// Eight numbers, one for each child or triangle.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C, align(32))]
+pub(super) struct Lanes(pub(super) [f32; WIDTH]);
+
+/// What a node's lane, or the root, refers to: two bits of kind and an index of 30 bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(transparent)]
+pub(super) struct Child(pub(super) u32);
+
+/// The kinds of [`Child`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Node,
+    Packet,
+    Quadric,
+    Placement,
+}
+
+impl Child {
+    pub(super) fn new(kind: Kind, index: usize) -> Self {
+        let index = u32::try_from(index).expect("counts are checked before the build");
+        assert!(index < 1 << 30, "counts are checked before the build");
+        Self(((kind as u32) << 30) | index)
+    }
+
+    #[inline(always)]
+    pub(super) fn is_node(self) -> bool {
+        self.0 < 1 << 30
+    }
+
+    #[inline(always)]
+    pub(super) fn kind(self) -> Kind {
+        match self.0 >> 30 {
+            0 => Kind::Node,
+            1 => Kind::Packet,
+            2 => Kind::Quadric,
+            _ => Kind::Placement,
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn index(self) -> usize {
+        (self.0 & ((1 << 30) - 1)) as usize
+    }
+}
+
+/// A node: the boxes of up to eight children, and the children.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(super) struct Node8 {
+    /// `min x, max x, min y, max y, min z, max z`, each over the children.
+    pub(super) bounds: [Lanes; 6],
+    pub(super) children: [Child; WIDTH],
+}
+
+impl Node8 {
+    /// No children: boxes that no ray meets.
+    pub(super) const EMPTY: Self = Self {
+        bounds: {
+            let (min, max) = (
+                Lanes([f32::INFINITY; WIDTH]),
+                Lanes([f32::NEG_INFINITY; WIDTH]),
+            );
+            [min, max, min, max, min, max]
+        },
+        children: [Child(0); WIDTH],
+    };
+
+    pub(super) fn set(&mut self, lane: usize, bounds: &Bounds, child: Child) {
+        for axis in 0..3 {
+            self.bounds[2 * axis].0[lane] = bounds.min[axis];
+            self.bounds[2 * axis + 1].0[lane] = bounds.max[axis];
+        }
+        self.children[lane] = child;
+    }
+}
+
+/// Up to eight triangles. Lanes without one hold a point, which no ray hits.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(super) struct Packet8 {
+    /// `vertices[corner][axis]`.
+    pub(super) vertices: [[Lanes; 3]; 3],
+    /// Indices within the group.
+    pub(super) primitives: [u32; WIDTH],
+}
+
+impl Packet8 {
+    /// No triangles.
+    pub(super) const EMPTY: Self = Self {
+        vertices: [[Lanes([0.0; WIDTH]); 3]; 3],
+        primitives: [0; WIDTH],
+    };
+
+    pub(super) fn set(&mut self, lane: usize, corners: [[f32; 3]; 3], primitive: u32) {
+        for (target, corner) in self.vertices.iter_mut().zip(corners) {
+            for (lanes, x) in target.iter_mut().zip(corner) {
+                lanes.0[lane] = x;
+            }
+        }
+        self.primitives[lane] = primitive;
+    }
+}

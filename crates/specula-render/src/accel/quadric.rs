@@ -1,0 +1,130 @@
+//! Spheres and disks under any affine transform, intersected in double precision.
+
+use glam::{DAffine3, DMat4, DVec3};
+use specula_bsdf::Real;
+
+use super::input::invertible;
+use super::{Bounds, Ray};
+
+/// A quadric in its own space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum QuadricShape {
+    /// A full sphere about the origin.
+    Sphere {
+        /// Radius.
+        radius: f64,
+    },
+    /// A full disk about the z axis.
+    Disk {
+        /// Radius.
+        radius: f64,
+        /// Its z.
+        height: f64,
+    },
+}
+
+/// A quadric in the space of its group.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quadric {
+    /// Its shape.
+    pub shape: QuadricShape,
+    /// Its own space to the group's; affine and invertible, so that spheres may be ellipsoids.
+    pub to_group: DMat4,
+}
+
+impl Quadric {
+    /// Whether it can be intersected: finite, of positive radius, under an invertible transform.
+    pub(super) fn is_regular(&self) -> bool {
+        let (radius, height) = match self.shape {
+            QuadricShape::Sphere { radius } => (radius, 0.0),
+            QuadricShape::Disk { radius, height } => (radius, height),
+        };
+        radius.is_finite() && radius > 0.0 && height.is_finite() && invertible(&self.to_group)
+    }
+
+    /// A box around it in the group's space, padded for the rounding of the traversal.
+    ///
+    /// The extent of the image of a ball under `A` along axis `i` is the radius times the length of
+    /// row `i` of `A`; of a disk, without the row's z.
+    pub(super) fn bounds(&self) -> Bounds {
+        let to_group = DAffine3::from_mat4(self.to_group);
+        let (radius, height, flat) = match self.shape {
+            QuadricShape::Sphere { radius } => (radius, 0.0, 1.0),
+            QuadricShape::Disk { radius, height } => (radius, height, 0.0),
+        };
+        let centre = to_group.transform_point3(DVec3::new(0.0, 0.0, height));
+        let rows = to_group.matrix3.transpose();
+        let weights = DVec3::new(1.0, 1.0, flat);
+        let extent = DVec3::new(
+            (rows.x_axis * weights).length(),
+            (rows.y_axis * weights).length(),
+            (rows.z_axis * weights).length(),
+        ) * radius;
+        let pad = extent.max_element() * 1e-6;
+        Bounds {
+            min: (centre - extent - pad).to_array().map(f32::of),
+            max: (centre + extent + pad).to_array().map(f32::of),
+        }
+        .padded(0.0)
+    }
+}
+
+/// A quadric, ready to be intersected.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placed {
+    shape: QuadricShape,
+    to_object: DAffine3,
+    /// Index within the group.
+    pub(super) primitive: u32,
+}
+
+impl Placed {
+    /// `quadric` must be regular.
+    pub(super) fn new(quadric: &Quadric, primitive: u32) -> Self {
+        Self {
+            shape: quadric.shape,
+            to_object: DAffine3::from_mat4(quadric.to_group).inverse(),
+            primitive,
+        }
+    }
+
+    /// The least `t > 0` at which the ray meets the surface; NaN or infinite where it does not.
+    ///
+    /// Sphere: the discriminant comes from the vector between the centre and the ray's closest
+    /// point, the roots from `q` and `c / q`, neither of which cancels (Haines, Guenther and
+    /// Akenine-Moeller 2019, Ray Tracing Gems 7, eqs. 5 and 10).
+    #[inline(never)]
+    pub(super) fn t(&self, ray: &Ray) -> f32 {
+        let o = self
+            .to_object
+            .transform_point3(DVec3::from_array(ray.origin.to_array().map(f64::from)));
+        let d = self
+            .to_object
+            .transform_vector3(DVec3::from_array(ray.direction.to_array().map(f64::from)));
+        match self.shape {
+            QuadricShape::Disk { radius, height } => {
+                let t = (height - o.z) / d.z;
+                let (x, y) = (o.x + t * d.x, o.y + t * d.y);
+                if t > 0.0 && x * x + y * y <= radius * radius {
+                    f32::of(t)
+                } else {
+                    f32::NAN
+                }
+            }
+            QuadricShape::Sphere { radius } => {
+                let a = d.length_squared();
+                let b = -o.dot(d);
+                let closest = o + d * (b / a);
+                let discriminant = radius * radius - closest.length_squared();
+                if discriminant.is_nan() || discriminant < 0.0 {
+                    return f32::NAN;
+                }
+                let q = b + (a * discriminant).sqrt().copysign(b);
+                let c = (o.length() - radius) * (o.length() + radius);
+                let (t0, t1) = (c / q, q / a);
+                let (near, far) = if t0 < t1 { (t0, t1) } else { (t1, t0) };
+                f32::of(if near > 0.0 { near } else { far })
+            }
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! Against trying every triangle, and the kernels against each other, bit for bit.
+
+#[cfg(target_arch = "x86_64")]
+use super::super::avx2::Avx2;
+use super::super::kernel::{Kernel, Portable};
+use super::super::node::{Child, Kind, Lanes, Node8};
+use super::*;
+
+/// Rays of all kinds: random, along axes, with zeros and negative zeros, limited, from a vertex.
+fn rays(count: usize, mesh: &Mesh, random: &mut Random) -> Vec<Ray> {
+    (0..count)
+        .map(|i| {
+            let mut origin = random.vector() * 1.5;
+            let mut direction = random.direction();
+            match i % 8 {
+                1 => direction.x = 0.0,
+                2 => direction = vec3(0.0, -0.0, direction.z),
+                3 => direction = vec3(-0.0, direction.y, 0.0),
+                4 => origin = Vec3::from(mesh.positions[random.below(mesh.positions.len())]),
+                5 => {
+                    let target = mesh.positions[random.below(mesh.positions.len())];
+                    direction = Vec3::from(target) - origin;
+                }
+                _ => {}
+            }
+            let t_max = if i % 3 == 0 {
+                random.signed().abs()
+            } else {
+                f32::INFINITY
+            };
+            Ray {
+                origin,
+                direction,
+                t_max,
+            }
+        })
+        .collect()
+}
+
+#[test]
+fn hits_are_those_of_brute_force() {
+    let mut random = Random(1);
+    for count in [1, 2, 7, 8, 9, 60, 500] {
+        let mesh = Mesh::soup(count, &mut random);
+        let accel = mesh.accel();
+        let mut hits = 0;
+        for ray in rays(4000, &mesh, &mut random) {
+            let expected = mesh.brute_force(&ray);
+            assert_eq!(exact(accel.intersect(&ray)), exact(expected), "{ray:?}");
+            assert_eq!(accel.occluded(&ray), expected.is_some(), "{ray:?}");
+            hits += usize::from(expected.is_some());
+        }
+        assert!(hits > 100, "{hits} hits of {count} triangles show nothing");
+    }
+}
+
+#[test]
+fn kernels_agree_bit_for_bit() {
+    let mut random = Random(2);
+    let mesh = Mesh::soup(20_000, &mut random);
+    let accel = mesh.accel();
+    if accel.instructions() == Instructions::Portable {
+        println!("skipped: this machine has no AVX2");
+        return;
+    }
+    let portable = accel.clone().portable();
+    assert_eq!(portable.instructions(), Instructions::Portable);
+    let mut hits = 0;
+    for ray in rays(100_000, &mesh, &mut random) {
+        let hit = accel.intersect(&ray);
+        assert_eq!(exact(hit), exact(portable.intersect(&ray)), "{ray:?}");
+        assert_eq!(accel.occluded(&ray), hit.is_some(), "{ray:?}");
+        assert_eq!(portable.occluded(&ray), hit.is_some(), "{ray:?}");
+        hits += usize::from(hit.is_some());
+    }
+    assert!((30_000..100_000).contains(&hits), "{hits}");
+}
+
+#[test]
+fn equal_distances_go_to_the_smallest_index() {
+    // Eight copies of each of 40 triangles, in another order: the copies share every `t`.
+    let mut random = Random(3);
+    let base = Mesh::soup(40, &mut random);
+    let mut mesh = base.clone();
+    for _ in 0..7 {
+        mesh.triangles.extend(base.triangles.iter().rev());
+    }
+    let accel = mesh.accel();
+    let mut hits = 0;
+    for ray in rays(4000, &mesh, &mut random) {
+        let expected = base.brute_force(&ray);
+        assert_eq!(exact(accel.intersect(&ray)), exact(expected), "{ray:?}");
+        hits += usize::from(expected.is_some());
+    }
+    assert!(hits > 200, "{hits}");
+}
+
+#[test]
+fn equal_distances_in_a_plane_go_to_the_smallest_index() {
+    // Triangles of all shapes in one plane: many hits share `t`, met in any order of boxes.
+    let mut random = Random(16);
+    let mut mesh = Mesh::default();
+    for _ in 0..400 {
+        let mut corner = || vec3(random.signed(), random.signed(), 1.0);
+        mesh.push([corner(), corner(), corner()]);
+    }
+    let accel = mesh.accel();
+    let portable = accel.clone().portable();
+    for _ in 0..4000 {
+        let ray = ray(vec3(random.signed(), random.signed(), 0.0), Vec3::Z);
+        let expected = exact(mesh.brute_force(&ray));
+        assert_eq!(exact(accel.intersect(&ray)), expected, "{ray:?}");
+        assert_eq!(exact(portable.intersect(&ray)), expected, "{ray:?}");
+    }
+}
+
+/// Children that a ray meets, by each kernel that there is.
+fn boxes_met(bounds: &Bounds, ray: &Ray) -> Vec<u32> {
+    let mut node = Node8::EMPTY;
+    node.set(3, bounds, Child::new(Kind::Node, 0));
+    let frame = RayFrame::new(ray).unwrap();
+    let (t, mut entry) = (f32::INFINITY, Lanes::default());
+    let mut masks = vec![Portable.boxes(&node, &frame, t, &mut entry)];
+    #[cfg(target_arch = "x86_64")]
+    if let Some(kernel) = Avx2::detect() {
+        masks.push(kernel.boxes(&node, &frame, t, &mut entry));
+    }
+    masks
+}
+
+#[test]
+fn rays_within_a_face_meet_the_box() {
+    // Where the direction is 0, the slab distance is 0 * inf, not a number.
+    let bounds = Bounds {
+        min: [-1.0, 2.0, 3.0],
+        max: [5.0, 7.0, 3.0],
+    };
+    for zero in [0.0, -0.0] {
+        for x in [-1.0, 0.0, 5.0] {
+            for y in [2.0, 4.0, 7.0] {
+                let ray = ray(vec3(x, y, -10.0), vec3(zero, zero, 1.0));
+                assert!(boxes_met(&bounds, &ray).iter().all(|&m| m == 8), "{ray:?}");
+            }
+        }
+        for (x, y) in [
+            (-1.0_f32.next_up(), 1.9),
+            (5.1, 3.0),
+            (-1.1, 3.0),
+            (0.0, 7.1),
+        ] {
+            let ray = ray(vec3(x, y, -10.0), vec3(zero, zero, 1.0));
+            assert!(boxes_met(&bounds, &ray).iter().all(|&m| m == 0), "{ray:?}");
+        }
+        let within = ray(vec3(-9.0, 2.0, 3.0), vec3(1.0, zero, zero));
+        assert!(boxes_met(&bounds, &within).iter().all(|&m| m == 8));
+    }
+}
+
+#[test]
+fn builds_do_not_depend_on_the_number_of_threads() {
+    let mut random = Random(4);
+    let meshes: Vec<Mesh> = (0..5).map(|_| Mesh::soup(3000, &mut random)).collect();
+    let groups: Vec<Group<'_>> = meshes.iter().map(Mesh::group).collect();
+    let instances: Vec<Instance> = (0..5).map(Instance::of).collect();
+    let build = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let accel = pool
+            .unwrap()
+            .install(|| Accel::build(&groups, &instances).unwrap());
+        format!("{:?}", accel.scene)
+    };
+    assert_eq!(build(1), build(4));
+}
+
+#[test]
+fn t_max_is_exclusive() {
+    let mut mesh = Mesh::default();
+    mesh.push([
+        vec3(-1.0, -1.0, 2.0),
+        vec3(3.0, -1.0, 2.0),
+        vec3(-1.0, 3.0, 2.0),
+    ]);
+    let accel = mesh.accel();
+    for (t_max, hit) in [(2.0, false), (2.0_f32.next_up(), true), (1.0, false)] {
+        let ray = Ray {
+            t_max,
+            ..ray(Vec3::ZERO, Vec3::Z)
+        };
+        assert_eq!(accel.intersect(&ray).is_some(), hit, "{t_max}");
+        assert_eq!(accel.occluded(&ray), hit, "{t_max}");
+    }
+    // Nor does a ray that begins on the triangle hit it.
+    assert!(!accel.occluded(&ray(vec3(0.0, 0.0, 2.0), Vec3::Z)));
+}
