@@ -1,1 +1,22 @@
 //! A deterministic path tracer on the CPU.
+
+pub mod accel;
+mod camera;
+mod convert;
+mod film;
+mod geometry;
+mod integrator;
+mod light;
+mod material;
+mod offset;
+mod options;
+pub mod picture;
+mod prepared;
+mod renderer;
+mod sampler;
+mod texture;
+
+pub use film::{FilmBuffer, MergeError};
+pub use options::{RenderOptions, Strategy};
+pub use prepared::{PrepareError, PreparedScene};
+pub use renderer::{PassReport, Renderer};

@@ -1,0 +1,165 @@
+//! From a hit to the surface there: position with its error, normals, tangent, coordinates.
+
+use specula_bsdf::Vec3;
+use specula_bsdf::math::vec3;
+
+use super::{Geometry, GroupData, NONE, PlacedQuadric, unit_or};
+use crate::accel::{Hit, QuadricShape, Ray};
+use crate::convert::{abs, narrow};
+use crate::offset::{RELATIVE_ERROR, coupled};
+
+/// A point of a surface, in the world.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Surface {
+    pub(crate) position: Vec3<f32>,
+    /// Bound on the error of each component of `position`.
+    pub(crate) error: Vec3<f32>,
+    /// Geometric normal, unit, towards the outside.
+    pub(crate) ng: Vec3<f32>,
+    /// Shading normal, unit.
+    pub(crate) ns: Vec3<f32>,
+    /// dp/du, or zero where there are no coordinates: any tangent will do then.
+    pub(crate) tangent: Vec3<f32>,
+    pub(crate) uv: [f32; 2],
+    pub(crate) shape: u32,
+    /// Number of the light that it is part of, or [`NONE`].
+    pub(crate) light: u32,
+}
+
+impl Geometry {
+    /// The surface at a hit.
+    #[inline]
+    pub(crate) fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
+        let placement = &self.placements[hit.instance as usize];
+        let group = &self.groups[placement.group as usize];
+        let triangles = group.triangles.len();
+        let primitive = hit.primitive as usize;
+        let shape = group.shape_of[primitive];
+        let mut surface = if primitive < triangles {
+            let has_uvs = self.shapes[shape as usize].has_uvs;
+            group.triangle_surface(hit, has_uvs)
+        } else {
+            // The point along the ray is only as exact as the ray is long: the quadric projects it.
+            let at = ray.origin + ray.direction * hit.t;
+            let at = if placement.identity {
+                at
+            } else {
+                placement.to_group_point(at)
+            };
+            group.quadrics[primitive - triangles].surface(at)
+        };
+        surface.shape = shape;
+        let light = group.light_of[primitive];
+        if light != NONE {
+            surface.light = placement.first_light + light;
+        }
+        if !placement.identity {
+            let m = &placement.to_world;
+            let p = surface.position;
+            surface.position = m.point(p);
+            let reach = abs(p) + surface.error * (1.0 / RELATIVE_ERROR);
+            surface.error = coupled(m.magnitude(reach));
+            surface.ng = unit_or(placement.normals.vector(surface.ng), surface.ng);
+            surface.ns = unit_or(placement.normals.vector(surface.ns), surface.ng);
+            surface.tangent = m.vector(surface.tangent);
+        }
+        surface
+    }
+}
+
+impl super::Placement {
+    /// A world point in the group's space.
+    fn to_group_point(&self, p: Vec3<f32>) -> Vec3<f32> {
+        crate::convert::narrow3(self.inverse.transform_point3(crate::convert::widen3(p)))
+    }
+}
+
+impl GroupData {
+    #[inline]
+    fn triangle_surface(&self, hit: &Hit, has_uvs: bool) -> Surface {
+        let [i, j, k] = self.triangles[hit.primitive as usize].map(|v| v as usize);
+        let [a, b, c] = [i, j, k].map(|v| Vec3::from(self.positions[v]));
+        let (u, v) = (hit.u, hit.v);
+        let w = 1.0 - u - v;
+        let (e1, e2) = (b - a, c - a);
+        let ng = unit_or(e1.cross(e2), Vec3::Z);
+        let ns = if self.normals.len() > i.max(j).max(k) {
+            let [na, nb, nc] = [i, j, k].map(|v| Vec3::from(self.normals[v]));
+            unit_or(na * w + nb * u + nc * v, ng)
+        } else {
+            ng
+        };
+        let (uv, tangent) = if has_uvs {
+            let [ta, tb, tc] = [i, j, k].map(|v| self.uvs[v]);
+            let uv = [0, 1].map(|x| ta[x] * w + tb[x] * u + tc[x] * v);
+            let (du1, dv1) = (tb[0] - ta[0], tb[1] - ta[1]);
+            let (du2, dv2) = (tc[0] - ta[0], tc[1] - ta[1]);
+            let determinant = du1 * dv2 - dv1 * du2;
+            let dpdu = (e1 * dv2 - e2 * dv1) * 1.0_f32.copysign(determinant);
+            let tangent = if determinant == 0.0 {
+                Vec3::ZERO
+            } else {
+                unit_or(dpdu, Vec3::ZERO)
+            };
+            (uv, tangent)
+        } else {
+            // pbrt's coordinates of triangles without any: (0, 0), (1, 0), (1, 1). Its tangent,
+            // the first edge, would turn brushed metal at every triangle; so there is none.
+            ([u + v, v], Vec3::ZERO)
+        };
+        Surface {
+            position: a * w + b * u + c * v,
+            error: coupled(largest(abs(a), largest(abs(b), abs(c)))),
+            ng,
+            ns,
+            tangent,
+            uv,
+            shape: 0,
+            light: NONE,
+        }
+    }
+}
+
+impl PlacedQuadric {
+    /// The surface next to a point of the group's space.
+    fn surface(&self, near: Vec3<f32>) -> Surface {
+        use core::f32::consts::{PI, TAU};
+        let q = self.backward.point(near);
+        let phi = q.y.atan2(q.x);
+        let u = if phi < 0.0 {
+            phi / TAU + 1.0
+        } else {
+            phi / TAU
+        };
+        let (q, normal, v) = match self.shape {
+            QuadricShape::Sphere { radius } => {
+                let r = narrow(radius);
+                let n = unit_or(q, Vec3::Z);
+                // pbrt's v runs from -z to +z.
+                (n * r, n, 1.0 - n.z.clamp(-1.0, 1.0).acos() / PI)
+            }
+            QuadricShape::Disk { radius, height } => {
+                let distance = (q.x * q.x + q.y * q.y).sqrt();
+                let v = 1.0 - distance / narrow(radius);
+                (vec3(q.x, q.y, narrow(height)), Vec3::Z, v)
+            }
+        };
+        let normal = if self.flipped { -normal } else { normal };
+        let ng = unit_or(self.normals.vector(normal), normal);
+        Surface {
+            position: self.forward.point(q),
+            error: coupled(self.forward.magnitude(q)),
+            ng,
+            ns: ng,
+            tangent: self.forward.vector(vec3(-q.y, q.x, 0.0)),
+            uv: [u, v.clamp(0.0, 1.0)],
+            shape: 0,
+            light: NONE,
+        }
+    }
+}
+
+#[inline(always)]
+fn largest(a: Vec3<f32>, b: Vec3<f32>) -> Vec3<f32> {
+    vec3(a.x.max(b.x), a.y.max(b.y), a.z.max(b.z))
+}

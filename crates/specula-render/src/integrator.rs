@@ -1,0 +1,371 @@
+//! Unidirectional path tracing with next-event estimation.
+//!
+//! At every vertex one light is sampled and one direction; what both can find is weighted by the
+//! power heuristic (Veach 1997, 9.2.4). From the fourth vertex on, paths survive with the
+//! probability of their throughput's largest channel, corrected for the squeezing of radiance by
+//! refraction (pbrt's eta scale), at least 5 %; above 95 % roulette is not played.
+//!
+//! The shading frame is turned such that both normals face the viewer; a direction whose side of
+//! the shading normal differs from its side of the surface carries nothing, so that light does not
+//! leak. A view below the shading horizon is left to the lobes, which know it; only perfect mirrors
+//! and panes, which have no answer there, take the geometric normal instead.
+
+use specula_bsdf::bsdf::Lobe;
+use specula_bsdf::{Bsdf, BsdfSample, Frame, Rgb, Transport, Vec3};
+
+use crate::accel::Ray;
+use crate::film::PixelSample;
+use crate::geometry::{NONE, Surface};
+use crate::light::LightSample;
+use crate::material::Place;
+use crate::offset::leave;
+use crate::options::{RenderOptions, Strategy};
+use crate::prepared::PreparedScene;
+use crate::sampler::Sampler;
+
+/// Vertices before roulette begins.
+const ROULETTE_FROM: u32 = 3;
+/// Share of a shadow ray that is not looked at, at the light's end.
+const SHADOW_MARGIN: f32 = 1e-4;
+/// Most surfaces that a ray passes because of their opacity.
+const MOST_PASSES: u32 = 4096;
+
+/// Traces paths through a scene.
+#[derive(Clone, Copy)]
+pub(crate) struct PathTracer<'a> {
+    scene: &'a PreparedScene,
+    max_depth: u32,
+    strategy: Strategy,
+}
+
+/// Where the last direction was drawn, if lights could have found it too.
+#[derive(Clone, Copy)]
+struct Previous {
+    point: Vec3<f32>,
+    pdf: f32,
+}
+
+/// A surface with its lobe and frames, turned to the viewer.
+struct Vertex {
+    surface: Surface,
+    lobe: Lobe<f32>,
+    frame: Frame<f32>,
+    /// Geometric normal on the viewer's side.
+    facing: Vec3<f32>,
+    wo: Vec3<f32>,
+}
+
+/// A path being traced.
+struct State {
+    radiance: Rgb<f32>,
+    throughput: Rgb<f32>,
+    /// Product of the squared relative indices so far.
+    eta_scale: f32,
+    previous: Option<Previous>,
+    rays: u64,
+}
+
+impl<'a> PathTracer<'a> {
+    /// A tracer with the options' depth and strategy.
+    pub(crate) fn new(scene: &'a PreparedScene, options: &RenderOptions) -> Self {
+        Self {
+            scene,
+            max_depth: options.max_depth,
+            strategy: options.strategy,
+        }
+    }
+
+    /// Radiance along a camera ray, and the number of rays that it took.
+    pub(crate) fn trace(
+        &self,
+        sampler: &Sampler,
+        origin: Vec3<f32>,
+        direction: Vec3<f32>,
+    ) -> (PixelSample, u64) {
+        let mut ray = Ray {
+            origin,
+            direction,
+            t_max: f32::INFINITY,
+        };
+        let mut state = State {
+            radiance: Rgb::BLACK,
+            throughput: Rgb::WHITE,
+            eta_scale: 1.0,
+            previous: None,
+            rays: 0,
+        };
+        let mut sample = PixelSample {
+            colour: Rgb::BLACK,
+            albedo: Rgb::BLACK,
+            normal: Vec3::ZERO,
+            depth: None,
+        };
+        let mut depth = 0;
+        loop {
+            let Some(surface) = self.nearest(&ray, sampler, depth, &mut state.rays) else {
+                self.add_background(&mut state, ray.direction);
+                break;
+            };
+            self.add_emission(&mut state, &surface, ray.direction);
+            if depth >= self.max_depth && depth > 0 {
+                break;
+            }
+            let vertex = self.vertex(surface, -ray.direction, sampler, depth);
+            if depth == 0 {
+                sample.albedo = vertex.lobe.albedo();
+                sample.normal = vertex.frame.n;
+                sample.depth = Some((vertex.surface.position - origin).length());
+                if self.max_depth == 0 {
+                    break;
+                }
+            }
+            self.add_direct(&mut state, &vertex, sampler, depth);
+            match self.scatter(&mut state, &vertex, sampler, depth) {
+                Some(next) => ray = next,
+                None => break,
+            }
+            depth += 1;
+        }
+        sample.colour = state.radiance * self.scene.exposure;
+        (sample, state.rays)
+    }
+
+    /// Light from infinity on a ray that meets nothing.
+    #[inline]
+    fn add_background(&self, state: &mut State, direction: Vec3<f32>) {
+        for (radiance, pdf) in self.scene.lights.arriving_from_infinity(direction) {
+            let weight = self.lobe_weight(state.previous, |_| pdf);
+            state.radiance += state.throughput * radiance * weight;
+        }
+    }
+
+    /// Light that the surface sends out itself.
+    #[inline]
+    fn add_emission(&self, state: &mut State, surface: &Surface, direction: Vec3<f32>) {
+        if surface.light == NONE {
+            return;
+        }
+        let shape = &self.scene.geometry.shapes[surface.shape as usize];
+        if shape.two_sided || surface.ng.dot(direction) < 0.0 {
+            let weight = self.lobe_weight(state.previous, |p| {
+                self.scene.lights.pdf_of_surface(p, surface)
+            });
+            state.radiance += state.throughput * shape.radiance * weight;
+        }
+    }
+
+    /// Weight of light found by a lobe's direction.
+    #[inline]
+    fn lobe_weight(
+        &self,
+        previous: Option<Previous>,
+        light_pdf: impl FnOnce(Vec3<f32>) -> f32,
+    ) -> f32 {
+        match (previous, self.strategy) {
+            (None, _) | (_, Strategy::BsdfOnly) => 1.0,
+            (_, Strategy::LightsOnly) => 0.0,
+            (Some(p), _) => self.heuristic(p.pdf, light_pdf(p.point)),
+        }
+    }
+
+    /// Weight of the strategy with density `a` against the one with density `b`.
+    #[inline]
+    fn heuristic(&self, a: f32, b: f32) -> f32 {
+        // As a ratio: squares of densities overflow.
+        let ratio = b / a;
+        match self.strategy {
+            Strategy::Balance => 1.0 / (1.0 + ratio),
+            _ => 1.0 / (1.0 + ratio * ratio),
+        }
+    }
+
+    fn vertex(&self, surface: Surface, wo: Vec3<f32>, sampler: &Sampler, depth: u32) -> Vertex {
+        let outside = surface.ng.dot(wo) > 0.0;
+        let facing = if outside { surface.ng } else { -surface.ng };
+        let ns = if surface.ns.dot(facing) < 0.0 {
+            -surface.ns
+        } else {
+            surface.ns
+        };
+        let shape = &self.scene.geometry.shapes[surface.shape as usize];
+        let place = Place {
+            uv: surface.uv,
+            outside,
+        };
+        let textures = &self.scene.textures;
+        let lobe = self
+            .scene
+            .materials
+            .lobe(shape.material, textures, place, |level| {
+                sampler.hashed([depth, level, 0])
+            });
+        let n = if ns.dot(wo) <= 0.0 && lobe.is_specular() {
+            facing
+        } else {
+            ns
+        };
+        Vertex {
+            surface,
+            lobe,
+            frame: Frame::from_normal_tangent(n, surface.tangent),
+            facing,
+            wo: wo.normalize(),
+        }
+    }
+
+    /// Light from one sampled light.
+    #[inline]
+    fn add_direct(&self, state: &mut State, vertex: &Vertex, sampler: &Sampler, depth: u32) {
+        if vertex.lobe.is_specular() {
+            return;
+        }
+        let at = vertex.surface.position;
+        let Some(light) = self.scene.lights.sample(at, sampler.light(depth)) else {
+            return;
+        };
+        if self.strategy == Strategy::BsdfOnly && !light.delta {
+            return;
+        }
+        let wi = vertex.frame.to_local(light.wi);
+        if wi.z * vertex.facing.dot(light.wi) <= 0.0 {
+            return;
+        }
+        let wo = vertex.frame.to_local(vertex.wo);
+        let (f_cos, pdf) = vertex.lobe.eval_pdf(wo, wi, Transport::Radiance);
+        if f_cos.is_black() {
+            return;
+        }
+        let weight = if light.delta || self.strategy == Strategy::LightsOnly {
+            1.0
+        } else {
+            self.heuristic(light.pdf, pdf)
+        };
+        if weight > 0.0 && self.visible(vertex, &light, sampler, depth, &mut state.rays) {
+            let arrived = light.radiance * (weight / light.pdf);
+            state.radiance += state.throughput * f_cos * arrived;
+        }
+    }
+
+    /// Draws the next direction; `None` where the path ends.
+    #[inline]
+    fn scatter(
+        &self,
+        state: &mut State,
+        vertex: &Vertex,
+        sampler: &Sampler,
+        depth: u32,
+    ) -> Option<Ray> {
+        let [u0, u1, u2, survival] = sampler.scatter(depth);
+        let wo = vertex.frame.to_local(vertex.wo);
+        let BsdfSample {
+            wi,
+            weight,
+            pdf,
+            specular,
+            eta,
+            ..
+        } = vertex.lobe.sample(wo, [u0, u1, u2], Transport::Radiance)?;
+        let direction = vertex.frame.to_world(wi).normalize();
+        if wi.z * vertex.facing.dot(direction) <= 0.0 {
+            return None;
+        }
+        state.throughput *= weight;
+        state.eta_scale *= eta * eta;
+        let largest = state.throughput.max_channel() * state.eta_scale;
+        if largest.is_nan() || largest <= 0.0 {
+            return None;
+        }
+        if depth >= ROULETTE_FROM && largest < 0.95 {
+            let probability = largest.max(0.05);
+            if survival >= probability {
+                return None;
+            }
+            state.throughput *= 1.0 / probability;
+        }
+        let s = &vertex.surface;
+        state.previous = (!specular).then_some(Previous {
+            point: s.position,
+            pdf,
+        });
+        Some(Ray {
+            origin: leave(s.position, s.error, s.ng, direction),
+            direction,
+            t_max: f32::INFINITY,
+        })
+    }
+
+    /// The first surface that does not let the ray pass.
+    #[inline]
+    fn nearest(&self, ray: &Ray, sampler: &Sampler, depth: u32, rays: &mut u64) -> Option<Surface> {
+        let geometry = &self.scene.geometry;
+        let mut ray = *ray;
+        for pass in 0..MOST_PASSES {
+            *rays += 1;
+            let hit = geometry.accel.intersect(&ray)?;
+            let surface = geometry.surface(&ray, &hit);
+            if !geometry.has_alpha || self.is_opaque(&surface, sampler, [depth, pass, 1]) {
+                return Some(surface);
+            }
+            ray.origin = leave(surface.position, surface.error, surface.ng, ray.direction);
+        }
+        None
+    }
+
+    /// Whether nothing is between the vertex and the light.
+    #[inline]
+    fn visible(
+        &self,
+        vertex: &Vertex,
+        light: &LightSample,
+        sampler: &Sampler,
+        depth: u32,
+        rays: &mut u64,
+    ) -> bool {
+        let s = &vertex.surface;
+        let origin = leave(s.position, s.error, s.ng, light.wi);
+        let mut ray = match light.from {
+            None => Ray {
+                origin,
+                direction: light.wi,
+                t_max: f32::INFINITY,
+            },
+            Some(target) => Ray {
+                origin,
+                direction: leave(target.point, target.error, target.normal, -light.wi) - origin,
+                t_max: 1.0 - SHADOW_MARGIN,
+            },
+        };
+        let geometry = &self.scene.geometry;
+        if !geometry.has_alpha {
+            *rays += 1;
+            return !geometry.accel.occluded(&ray);
+        }
+        for pass in 0..MOST_PASSES {
+            *rays += 1;
+            let Some(hit) = geometry.accel.intersect(&ray) else {
+                return true;
+            };
+            let surface = geometry.surface(&ray, &hit);
+            if self.is_opaque(&surface, sampler, [depth, pass, 2]) {
+                return false;
+            }
+            ray.origin = leave(surface.position, surface.error, surface.ng, ray.direction);
+            ray.t_max -= hit.t;
+            if ray.t_max <= 0.0 {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Whether a ray stops at a surface, by chance where it is partly transparent.
+    fn is_opaque(&self, surface: &Surface, sampler: &Sampler, key: [u32; 3]) -> bool {
+        match self.scene.geometry.shapes[surface.shape as usize].alpha {
+            None => true,
+            Some(alpha) => {
+                let alpha = self.scene.textures.float(alpha, surface.uv);
+                alpha >= 1.0 || sampler.hashed(key) < alpha
+            }
+        }
+    }
+}

@@ -1,0 +1,426 @@
+//! Shapes that send out light: triangles, spheres, disks and ellipsoids, sampled from a point.
+
+use glam::{DMat3, DMat4};
+use specula_bsdf::math::vec3;
+use specula_bsdf::{Frame, Real, Vec3};
+
+use crate::accel::QuadricShape;
+use crate::camera::concentric_disk;
+use crate::convert::{Affine, abs, narrow, normal_matrix};
+use crate::geometry::unit_or;
+use crate::offset::coupled;
+
+/// A point on a light.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AreaSample {
+    pub(crate) point: Vec3<f32>,
+    pub(crate) error: Vec3<f32>,
+    /// Towards the outside.
+    pub(crate) normal: Vec3<f32>,
+    /// From the reference point, unit.
+    pub(crate) wi: Vec3<f32>,
+    /// In 1/sr.
+    pub(crate) pdf: f32,
+}
+
+/// Shape of an area light, in the world.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Area {
+    /// Sampled uniformly by area.
+    Triangle {
+        corner: Vec3<f32>,
+        edges: [Vec3<f32>; 2],
+        normal: Vec3<f32>,
+        area: f32,
+    },
+    /// Sampled uniformly within the cone that it is seen in; by area from inside.
+    Sphere {
+        centre: Vec3<f32>,
+        radius: f32,
+        flipped: bool,
+    },
+    /// Sampled uniformly by area.
+    Disk {
+        centre: Vec3<f32>,
+        /// Images of the axes, times the radius.
+        axes: [Vec3<f32>; 2],
+        normal: Vec3<f32>,
+        area: f32,
+    },
+    /// The image of a sphere, sampled as the sphere's area.
+    Ellipsoid {
+        /// The unit sphere's space to the world.
+        forward: Affine,
+        backward: Affine,
+        /// Inverse transpose times the determinant: its length on a unit normal is the growth of
+        /// area.
+        cofactor: Affine,
+        flipped: bool,
+        area: f32,
+    },
+}
+
+impl Area {
+    /// A triangle by its corners, in winding order about the outside.
+    pub(crate) fn triangle([a, b, c]: [Vec3<f32>; 3]) -> Self {
+        let edges = [b - a, c - a];
+        let cross = edges[0].cast::<f64>().cross(edges[1].cast());
+        Self::Triangle {
+            corner: a,
+            edges,
+            normal: unit_or(edges[0].cross(edges[1]), Vec3::Z),
+            area: narrow(0.5 * cross.length()),
+        }
+    }
+
+    /// A sphere or disk under a transform.
+    pub(crate) fn quadric(shape: QuadricShape, to_world: &DMat4, flipped: bool) -> Self {
+        let m = DMat3::from_mat4(*to_world);
+        match shape {
+            QuadricShape::Sphere { radius } => {
+                let centre = Affine::new(to_world).translation;
+                let scale = m.determinant().abs().cbrt();
+                let gram = m.transpose() * m;
+                let round =
+                    gram.abs_diff_eq(DMat3::IDENTITY * (scale * scale), 1e-6 * scale * scale);
+                if round {
+                    return Self::Sphere {
+                        centre,
+                        radius: narrow(radius * scale),
+                        flipped,
+                    };
+                }
+                let forward = *to_world * DMat4::from_scale(glam::DVec3::splat(radius));
+                let cofactor =
+                    normal_matrix(&forward) * DMat3::from_mat4(forward).determinant().abs();
+                Self::Ellipsoid {
+                    forward: Affine::new(&forward),
+                    backward: Affine::new(&forward.inverse()),
+                    cofactor: Affine::linear(&cofactor),
+                    flipped,
+                    area: ellipsoid_area(&cofactor),
+                }
+            }
+            QuadricShape::Disk { radius, height } => {
+                let axes = [m.x_axis * radius, m.y_axis * radius];
+                let cross = axes[0].cross(axes[1]);
+                let normal = (normal_matrix(to_world) * glam::DVec3::Z).normalize_or_zero();
+                let normal = if flipped { -normal } else { normal };
+                let centre = to_world.transform_point3(glam::DVec3::new(0.0, 0.0, height));
+                Self::Disk {
+                    centre: crate::convert::narrow3(centre),
+                    axes: axes.map(crate::convert::narrow3),
+                    normal: crate::convert::narrow3(normal),
+                    area: narrow(core::f64::consts::PI * cross.length()),
+                }
+            }
+        }
+    }
+
+    /// Surface area.
+    pub(crate) fn area(&self) -> f32 {
+        match *self {
+            Self::Triangle { area, .. }
+            | Self::Disk { area, .. }
+            | Self::Ellipsoid { area, .. } => area,
+            Self::Sphere { radius, .. } => 4.0 * core::f32::consts::PI * radius * radius,
+        }
+    }
+
+    /// A point of the light as seen from `p`.
+    ///
+    /// * `u`: uniform in `[0, 1)^2`.
+    #[inline]
+    pub(crate) fn sample(&self, p: Vec3<f32>, u: [f32; 2]) -> Option<AreaSample> {
+        match *self {
+            Self::Triangle {
+                corner,
+                edges,
+                normal,
+                area,
+            } => {
+                let b = uniform_triangle(u);
+                let point = corner + edges[0] * b[0] + edges[1] * b[1];
+                let reach = abs(corner) + abs(edges[0]) + abs(edges[1]);
+                by_area(p, point, reach, normal, 1.0 / area)
+            }
+            Self::Sphere {
+                centre,
+                radius,
+                flipped,
+            } => sample_sphere(p, centre, radius, flipped, u),
+            Self::Disk {
+                centre,
+                axes,
+                normal,
+                area,
+            } => {
+                let d = concentric_disk(u);
+                let point = centre + axes[0] * d[0] + axes[1] * d[1];
+                let reach = abs(centre) + abs(axes[0]) + abs(axes[1]);
+                by_area(p, point, reach, normal, 1.0 / area)
+            }
+            Self::Ellipsoid {
+                forward,
+                cofactor,
+                flipped,
+                ..
+            } => {
+                let d = specula_bsdf::math::warp::uniform_sphere(u);
+                let stretched = cofactor.vector(d);
+                let normal = stretched.normalize();
+                let per_area = 0.25 * f32::INV_PI / stretched.length();
+                let normal = if flipped { -normal } else { normal };
+                by_area(p, forward.point(d), forward.magnitude(d), normal, per_area)
+            }
+        }
+    }
+
+    /// Density in 1/sr with which [`Area::sample`] draws the direction from `p` to the point `q` of
+    /// the light.
+    ///
+    /// * `normal`: of the light at `q`.
+    #[inline]
+    pub(crate) fn pdf(&self, p: Vec3<f32>, q: Vec3<f32>, normal: Vec3<f32>) -> f32 {
+        let per_area = match *self {
+            Self::Triangle { area, .. } | Self::Disk { area, .. } => 1.0 / area,
+            Self::Sphere { centre, radius, .. } => match Cone::new(p, centre, radius) {
+                Some(cone) => return cone.pdf(),
+                None => 1.0 / self.area(),
+            },
+            Self::Ellipsoid {
+                backward, cofactor, ..
+            } => {
+                let d = unit_or(backward.point(q), Vec3::Z);
+                0.25 * f32::INV_PI / cofactor.vector(d).length()
+            }
+        };
+        let d = q - p;
+        let distance_squared = d.length_squared();
+        let cos = normal.dot(d).abs() / distance_squared.sqrt();
+        finite_or_zero(per_area * distance_squared / cos)
+    }
+}
+
+/// Surface area of the image of the unit sphere: the mean of `|cofactor n|` over directions.
+fn ellipsoid_area(cofactor: &DMat3) -> f32 {
+    let (n_z, n_phi) = (16, 32);
+    let mut sum = 0.0;
+    for i in 0..n_z * n_phi {
+        let z = (f64::from(i / n_phi) + 0.5) / f64::from(n_z) * 2.0 - 1.0;
+        let phi = (f64::from(i % n_phi) + 0.5) / f64::from(n_phi) * core::f64::consts::TAU;
+        let r = (1.0 - z * z).sqrt();
+        sum += (*cofactor * glam::DVec3::new(r * phi.cos(), r * phi.sin(), z)).length();
+    }
+    narrow(sum / f64::from(n_z * n_phi) * 4.0 * core::f64::consts::PI)
+}
+
+/// The cone in which a sphere is seen from outside.
+struct Cone {
+    /// To the centre, unit.
+    axis: Vec3<f32>,
+    distance: f32,
+    sin2_max: f32,
+    /// `1 - cos` of the half angle, without cancellation.
+    one_minus_cos: f32,
+}
+
+impl Cone {
+    /// `None` from inside or on the sphere.
+    #[inline]
+    fn new(p: Vec3<f32>, centre: Vec3<f32>, radius: f32) -> Option<Self> {
+        let d = centre - p;
+        let distance_squared = d.length_squared();
+        // A margin: next to the surface the cone is a hemisphere and rounding decides.
+        if distance_squared <= radius * radius * 1.0001 {
+            return None;
+        }
+        let sin2_max = radius * radius / distance_squared;
+        let distance = distance_squared.sqrt();
+        Some(Self {
+            axis: d * (1.0 / distance),
+            distance,
+            sin2_max,
+            one_minus_cos: sin2_max / (1.0 + (1.0 - sin2_max).sqrt()),
+        })
+    }
+
+    #[inline]
+    fn pdf(&self) -> f32 {
+        0.5 * f32::INV_PI / self.one_minus_cos
+    }
+}
+
+/// Source: Pharr, Jakob and Humphreys, 4th edition, 6.2.4. Departure: `1 - cos theta` is sampled
+/// instead of `cos theta`, which keeps its digits for spheres far away and needs no second branch.
+#[inline]
+fn sample_sphere(
+    p: Vec3<f32>,
+    centre: Vec3<f32>,
+    radius: f32,
+    flipped: bool,
+    u: [f32; 2],
+) -> Option<AreaSample> {
+    let sign = if flipped { -1.0 } else { 1.0 };
+    let reach = abs(centre) + Vec3::splat(radius);
+    let Some(cone) = Cone::new(p, centre, radius) else {
+        let n = specula_bsdf::math::warp::uniform_sphere(u);
+        let per_area = 0.25 * f32::INV_PI / (radius * radius);
+        return by_area(p, centre + n * radius, reach, n * sign, per_area);
+    };
+    let t = u[0] * cone.one_minus_cos;
+    let sin2 = t * (2.0 - t);
+    let phi = u[1] * core::f32::consts::TAU;
+    let sin = sin2.sqrt();
+    let frame = Frame::from_normal(cone.axis);
+    let wi = frame.to_world(vec3(sin * phi.cos(), sin * phi.sin(), 1.0 - t));
+    // Depth of the near intersection below the plane through the centre.
+    let height = radius * (1.0 - sin2 / cone.sin2_max).max(0.0).sqrt();
+    let along = cone.distance * (1.0 - t) - height;
+    let normal = unit_or(p + wi * along - centre, -wi);
+    Some(AreaSample {
+        point: centre + normal * radius,
+        error: coupled(reach),
+        normal: normal * sign,
+        wi,
+        pdf: cone.pdf(),
+    })
+}
+
+#[inline]
+fn by_area(
+    p: Vec3<f32>,
+    point: Vec3<f32>,
+    reach: Vec3<f32>,
+    normal: Vec3<f32>,
+    per_area: f32,
+) -> Option<AreaSample> {
+    let d = point - p;
+    let distance_squared = d.length_squared();
+    let wi = d * (1.0 / distance_squared.sqrt());
+    let pdf = per_area * distance_squared / normal.dot(wi).abs();
+    (pdf > 0.0 && pdf.is_finite() && wi.is_finite()).then_some(AreaSample {
+        point,
+        error: coupled(reach),
+        normal,
+        wi,
+        pdf,
+    })
+}
+
+#[inline]
+fn finite_or_zero(x: f32) -> f32 {
+    if x.is_finite() { x } else { 0.0 }
+}
+
+/// Barycentric weights of the second and third corner, uniform by area and continuous.
+///
+/// Source: Heitz 2019, A Low-Distortion Map Between Triangle and Square.
+#[inline]
+fn uniform_triangle([u, v]: [f32; 2]) -> [f32; 2] {
+    if v > u {
+        let x = 0.5 * u;
+        [x, v - x]
+    } else {
+        let y = 0.5 * v;
+        [u - y, y]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The solid angle `int 1 = E[1 / pdf]` by samples against its closed form, and the pdf of every
+    /// sample against the one of a hit at the same point.
+    fn check(area: &Area, p: Vec3<f32>, solid_angle: f64, tolerance: f64) {
+        let n = 256;
+        let mut sum = 0.0;
+        for i in 0..n * n {
+            let u = [i / n, i % n].map(|k| (k as f32 + 0.5) / n as f32);
+            let Some(s) = area.sample(p, u) else { continue };
+            let hit = area.pdf(p, s.point, s.normal);
+            assert!(
+                (hit / s.pdf - 1.0).abs() < 5e-3,
+                "{area:?}: {hit} {}",
+                s.pdf
+            );
+            let towards = (s.point - p).normalize();
+            assert!(
+                (towards - s.wi).length() < 2e-3,
+                "{area:?} {towards:?} {:?}",
+                s.wi
+            );
+            // Both faces of a closed surface count: only the near one is wanted.
+            let weight = match area {
+                Area::Ellipsoid { .. } if s.normal.dot(s.wi) > 0.0 => 0.0,
+                _ => 1.0,
+            };
+            sum += weight / f64::from(s.pdf);
+        }
+        let found = sum / f64::from(n * n);
+        assert!(
+            (found / solid_angle - 1.0).abs() < tolerance,
+            "{area:?}: {found} instead of {solid_angle}"
+        );
+    }
+
+    #[test]
+    fn solid_angles_are_the_closed_forms() {
+        use core::f64::consts::{PI, TAU};
+        let p = vec3(0.0, 0.0, 2.0);
+        // The octant seen from the origin.
+        let octant = Area::triangle([Vec3::X, Vec3::Y, Vec3::Z]);
+        check(&octant, Vec3::ZERO, PI / 2.0, 1e-3);
+        let place = |m: DMat4, shape| Area::quadric(shape, &m, false);
+        let disk = place(
+            DMat4::IDENTITY,
+            QuadricShape::Disk {
+                radius: 1.0,
+                height: 0.5,
+            },
+        );
+        check(
+            &disk,
+            p,
+            TAU * (1.0 - 1.5 / (1.5_f64.powi(2) + 1.0).sqrt()),
+            1e-3,
+        );
+        let unit = QuadricShape::Sphere { radius: 1.0 };
+        check(
+            &place(DMat4::IDENTITY, unit),
+            p,
+            TAU * (1.0 - 0.75_f64.sqrt()),
+            1e-4,
+        );
+        check(
+            &place(DMat4::IDENTITY, unit),
+            vec3(0.1, 0.2, 0.3),
+            4.0 * PI,
+            5e-3,
+        );
+        let far = place(DMat4::from_scale(glam::DVec3::splat(1e-3)), unit);
+        check(&far, p * 500.0, PI * 1e-12, 1e-4);
+        // An oblate spheroid along its axis: the tangent cone touches where z = c^2 / d.
+        let oblate = place(DMat4::from_scale(glam::DVec3::new(1.0, 1.0, 0.5)), unit);
+        let tan2 = 1.0 / (4.0 - 0.25);
+        check(
+            &oblate,
+            p,
+            TAU * (1.0 - 1.0 / (1.0_f64 + tan2).sqrt()),
+            5e-3,
+        );
+    }
+
+    #[test]
+    fn an_ellipsoid_has_the_area_of_its_closed_form() {
+        let m = DMat4::from_scale(glam::DVec3::new(2.0, 2.0, 1.0));
+        let area = Area::quadric(QuadricShape::Sphere { radius: 1.0 }, &m, false).area();
+        let e = 0.75_f64.sqrt();
+        let exact = core::f64::consts::TAU * 4.0 * (1.0 + (1.0 - e * e) / e * e.atanh());
+        assert!(
+            (f64::from(area) / exact - 1.0).abs() < 1e-2,
+            "{area} {exact}"
+        );
+    }
+}

@@ -1,0 +1,63 @@
+//! What a render may be asked for.
+
+use specula_bsdf::vndf;
+use specula_scene::Scene;
+
+/// How direct light is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Strategy {
+    /// By lights and by lobes, combined by the power heuristic (Veach 1997, 9.2.4).
+    #[default]
+    Mis,
+    /// As [`Strategy::Mis`] with the balance heuristic.
+    Balance,
+    /// By lights only, except off perfect mirrors. For checks: noisy on shiny surfaces.
+    LightsOnly,
+    /// By lobes only, except from lights without extent. For checks: noisy with small lights.
+    BsdfOnly,
+}
+
+/// Settings of a render.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RenderOptions {
+    /// Samples per pixel that the render aims at; passes decide what is taken.
+    pub samples_per_pixel: u32,
+    /// Longest path in scattering events, as pbrt counts `maxdepth`: 0 shows emission only.
+    pub max_depth: u32,
+    /// Renders with different seeds are independent.
+    pub seed: u32,
+    /// Which sampler draws reflections off rough surfaces.
+    pub vndf_sampler: vndf::Sampler,
+    /// Size of the whole picture; `None`: as the scene says.
+    pub resolution: Option<[u32; 2]>,
+    /// Pixels to render, `[x0, x1, y0, y1]`, half open; `None`: as the scene says, scaled with the
+    /// resolution.
+    pub crop: Option<[u32; 4]>,
+    /// How direct light is found.
+    pub strategy: Strategy,
+}
+
+impl RenderOptions {
+    /// What the scene's file asks for.
+    pub fn from_scene(scene: &Scene) -> Self {
+        Self {
+            samples_per_pixel: scene.settings.samples_per_pixel,
+            max_depth: scene.settings.max_depth,
+            ..Self::default()
+        }
+    }
+}
+
+impl Default for RenderOptions {
+    fn default() -> Self {
+        Self {
+            samples_per_pixel: 16,
+            max_depth: 5,
+            seed: 0,
+            vndf_sampler: vndf::Sampler::default(),
+            resolution: None,
+            crop: None,
+            strategy: Strategy::default(),
+        }
+    }
+}

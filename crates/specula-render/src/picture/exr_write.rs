@@ -1,0 +1,164 @@
+//! Pictures to OpenEXR: 32-bit floats, ZIP without loss, one part with all layers.
+
+use std::io;
+use std::path::Path;
+
+use exr::meta::attribute::AttributeValue;
+use exr::prelude::{
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer,
+    LayerAttributes, SmallVec, Text, Vec2, WritableImage,
+};
+use specula_bsdf::Rgb;
+
+use super::{Picture, PictureError, atomic, finite};
+
+/// What is written beside the pixels, as attributes of the file; `None` is left out.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Metadata {
+    /// Name and version of the program: attribute `software`.
+    pub software: Option<String>,
+    /// Name of the scene: attribute `specula.scene`.
+    pub scene: Option<String>,
+    /// Samples per pixel: attribute `specula.samplesPerPixel`.
+    pub samples_per_pixel: Option<u32>,
+    /// Seed of the random sequences: attribute `specula.seed`.
+    pub seed: Option<u32>,
+    /// Seconds that the rendering took: attribute `specula.renderSeconds`.
+    pub render_seconds: Option<f32>,
+}
+
+/// Writes `picture` as OpenEXR, whole or not at all.
+///
+/// Channels: `R G B`; `albedo.R/G/B`; `normal.X/Y/Z`; `Z` (depth); `sampleCount`;
+/// `variance.R/G/B` — those whose layers are not empty. A crop is the data window within the
+/// display window of the whole picture.
+///
+/// * Returns: how many values were infinite or not a number; 0 was written in their place.
+///
+/// # Errors
+///
+/// Where the file cannot be written; an older file of that name is then still there.
+pub fn write_exr(
+    path: &Path,
+    picture: &Picture,
+    metadata: &Metadata,
+) -> Result<usize, PictureError> {
+    let mut attributes = LayerAttributes {
+        layer_position: Vec2(signed(picture.offset[0]), signed(picture.offset[1])),
+        software_name: metadata.software.as_deref().map(latin),
+        ..LayerAttributes::default()
+    };
+    attributes.other = custom_attributes(metadata);
+    let display_window = IntegerBounds::from_dimensions(Vec2(
+        picture.full_resolution[0] as usize,
+        picture.full_resolution[1] as usize,
+    ));
+    let layer = Layer::new(
+        Vec2(picture.width as usize, picture.height as usize),
+        attributes,
+        Encoding::SMALL_LOSSLESS,
+        AnyChannels::sort(channels(picture)),
+    );
+    let image = Image::empty(ImageAttributes::new(display_window)).with_layer(layer);
+    atomic::replace(path, |file| {
+        image.write().to_buffered(file).map_err(|e| match e {
+            exr::error::Error::Io(source) => source,
+            other => io::Error::other(other.to_string()),
+        })
+    })
+    .map_err(|source| PictureError::Io {
+        path: path.to_owned(),
+        source,
+    })?;
+    Ok(picture.non_finite_count())
+}
+
+/// OpenEXR's text is one byte per character: others become question marks.
+fn latin(text: &str) -> Text {
+    let kept: String = text
+        .chars()
+        .map(|c| {
+            if c.is_ascii() && !c.is_ascii_control() {
+                c
+            } else {
+                '?'
+            }
+        })
+        .collect();
+    Text::from(kept.as_str())
+}
+
+fn signed(pixel: u32) -> i32 {
+    i32::try_from(pixel).unwrap_or(i32::MAX)
+}
+
+fn custom_attributes(metadata: &Metadata) -> std::collections::HashMap<Text, AttributeValue> {
+    let mut other = std::collections::HashMap::new();
+    if let Some(scene) = &metadata.scene {
+        other.insert(
+            Text::from("specula.scene"),
+            AttributeValue::Text(latin(scene)),
+        );
+    }
+    if let Some(samples) = metadata.samples_per_pixel {
+        other.insert(
+            Text::from("specula.samplesPerPixel"),
+            AttributeValue::I32(signed(samples)),
+        );
+    }
+    if let Some(seed) = metadata.seed {
+        // Text: an attribute of type int is signed and would not hold every seed.
+        other.insert(
+            Text::from("specula.seed"),
+            AttributeValue::Text(latin(&seed.to_string())),
+        );
+    }
+    if let Some(seconds) = metadata.render_seconds {
+        other.insert(
+            Text::from("specula.renderSeconds"),
+            AttributeValue::F32(seconds),
+        );
+    }
+    other
+}
+
+fn channels(picture: &Picture) -> SmallVec<[AnyChannel<FlatSamples>; 4]> {
+    let mut list = SmallVec::new();
+    push_colour(&mut list, "", &picture.colour);
+    push_colour(&mut list, "albedo.", &picture.albedo);
+    push_colour(&mut list, "variance.", &picture.variance);
+    let normals = &picture.normal;
+    push(&mut list, "normal.X", normals.iter().map(|n| n.x));
+    push(&mut list, "normal.Y", normals.iter().map(|n| n.y));
+    push(&mut list, "normal.Z", normals.iter().map(|n| n.z));
+    push(&mut list, "Z", picture.depth.iter().copied());
+    push(
+        &mut list,
+        "sampleCount",
+        picture.sample_count.iter().copied(),
+    );
+    list
+}
+
+fn push_colour(
+    list: &mut SmallVec<[AnyChannel<FlatSamples>; 4]>,
+    prefix: &str,
+    layer: &[Rgb<f32>],
+) {
+    push(list, &format!("{prefix}R"), layer.iter().map(|c| c.r));
+    push(list, &format!("{prefix}G"), layer.iter().map(|c| c.g));
+    push(list, &format!("{prefix}B"), layer.iter().map(|c| c.b));
+}
+
+fn push(
+    list: &mut SmallVec<[AnyChannel<FlatSamples>; 4]>,
+    name: &str,
+    values: impl ExactSizeIterator<Item = f32>,
+) {
+    if values.len() > 0 {
+        list.push(AnyChannel::new(
+            name,
+            FlatSamples::F32(values.map(finite).collect()),
+        ));
+    }
+}

@@ -1,0 +1,125 @@
+//! A scene made ready for rendering: flat arrays, trees and tables.
+
+use specula_scene::Scene;
+use thiserror::Error;
+
+use crate::accel::AccelError;
+use crate::camera::{Camera, screen_window};
+use crate::convert::round_u32;
+use crate::film::filter::FilterSampler;
+use crate::geometry::Geometry;
+use crate::light::Lights;
+use crate::material::Materials;
+use crate::options::RenderOptions;
+use crate::texture::Textures;
+
+/// Most pixels of a picture.
+const MOST_PIXELS: u64 = 1 << 30;
+
+/// Everything that a render reads.
+#[derive(Clone, Debug)]
+pub struct PreparedScene {
+    pub(crate) camera: Camera,
+    pub(crate) filter: FilterSampler,
+    pub(crate) exposure: f32,
+    pub(crate) resolution: [u32; 2],
+    pub(crate) crop: [u32; 4],
+    pub(crate) geometry: Geometry,
+    pub(crate) textures: Textures,
+    pub(crate) materials: Materials,
+    pub(crate) lights: Lights,
+}
+
+/// Why a scene cannot be rendered.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum PrepareError {
+    /// The tree over the shapes cannot be built.
+    #[error("the scene's shapes cannot be prepared: {0}")]
+    Shapes(#[from] AccelError),
+    /// The picture has no pixels, or too many.
+    #[error("a picture of {width} x {height} pixels cannot be rendered")]
+    Resolution {
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+    },
+    /// The crop leaves nothing of the picture.
+    #[error("the crop {crop:?} (x0, x1, y0, y1) leaves nothing of {width} x {height} pixels")]
+    Crop {
+        /// The crop.
+        crop: [u32; 4],
+        /// Columns of the whole picture.
+        width: u32,
+        /// Rows of the whole picture.
+        height: u32,
+    },
+}
+
+impl PreparedScene {
+    /// Prepares a scene, in parallel in rayon's current pool.
+    ///
+    /// # Errors
+    /// Where the picture is empty or the shapes cannot be prepared.
+    pub fn new(scene: &Scene, options: &RenderOptions) -> Result<Self, PrepareError> {
+        let film = &scene.film;
+        let resolution = options.resolution.unwrap_or(film.resolution);
+        let [width, height] = resolution;
+        let pixels = u64::from(width) * u64::from(height);
+        if pixels == 0 || pixels > MOST_PIXELS || film.resolution.contains(&0) {
+            return Err(PrepareError::Resolution { width, height });
+        }
+        let scaled = |v: u32, axis: usize| {
+            round_u32(f64::from(v) * f64::from(resolution[axis]) / f64::from(film.resolution[axis]))
+        };
+        let asked = options.crop.unwrap_or_else(|| {
+            let [x0, x1, y0, y1] = film.crop;
+            [scaled(x0, 0), scaled(x1, 0), scaled(y0, 1), scaled(y1, 1)]
+        });
+        let crop = [
+            asked[0],
+            asked[1].min(width),
+            asked[2],
+            asked[3].min(height),
+        ];
+        if crop[0] >= crop[1] || crop[2] >= crop[3] {
+            return Err(PrepareError::Crop {
+                crop: asked,
+                width,
+                height,
+            });
+        }
+        let window = screen_window(&scene.camera, film.resolution, resolution);
+        let textures = Textures::new(scene);
+        let materials = Materials::new(scene, &textures, options.vndf_sampler);
+        let geometry = Geometry::new(scene)?;
+        let lights = Lights::new(scene, &geometry);
+        Ok(Self {
+            camera: Camera::new(&scene.camera, resolution, window),
+            filter: FilterSampler::new(&film.filter),
+            exposure: film.exposure,
+            resolution,
+            crop,
+            geometry,
+            textures,
+            materials,
+            lights,
+        })
+    }
+
+    /// Width and height of the whole picture.
+    pub fn resolution(&self) -> [u32; 2] {
+        self.resolution
+    }
+
+    /// Pixels that are rendered, `[x0, x1, y0, y1]`, half open.
+    pub fn crop(&self) -> [u32; 4] {
+        self.crop
+    }
+
+    /// Lights, each emitting triangle, sphere and disk counted.
+    pub fn light_count(&self) -> usize {
+        self.lights.len()
+    }
+}

@@ -1,0 +1,194 @@
+//! Small scenes, and their renders as means with errors.
+#![allow(dead_code, reason = "every test file uses its own part")]
+
+use std::sync::atomic::AtomicBool;
+
+use glam::{DMat4, DVec3};
+use specula_bsdf::Rgb;
+use specula_render::picture::Picture;
+use specula_render::{PreparedScene, RenderOptions, Renderer, Strategy};
+use specula_scene::scene::*;
+
+/// A camera at `from` that looks at `to`.
+pub(crate) fn look(from: [f64; 3], to: [f64; 3], fov_deg: f64) -> Camera {
+    let from = DVec3::from(from);
+    let forward = (DVec3::from(to) - from).normalize();
+    let up = if forward.y.abs() > 0.9 {
+        DVec3::Z
+    } else {
+        DVec3::Y
+    };
+    let right = up.cross(forward).normalize();
+    let up = forward.cross(right);
+    Camera {
+        to_world: DMat4::from_cols(
+            right.extend(0.0),
+            up.extend(0.0),
+            forward.extend(0.0),
+            from.extend(1.0),
+        ),
+        fov_deg,
+        lens_radius: 0.0,
+        focal_distance: 1.0,
+        screen_window: [-1.0, 1.0, -1.0, 1.0],
+    }
+}
+
+/// A scene with nothing in it.
+pub(crate) fn empty(camera: Camera, size: u32) -> Scene {
+    Scene {
+        camera,
+        film: Film {
+            resolution: [size; 2],
+            crop: [0, size, 0, size],
+            filter: Filter::Box { radius: [0.5; 2] },
+            exposure: 1.0,
+            file_name: None,
+        },
+        settings: Settings {
+            max_depth: 5,
+            samples_per_pixel: 1,
+        },
+        images: Vec::new(),
+        textures: Vec::new(),
+        materials: Vec::new(),
+        meshes: Vec::new(),
+        shapes: Vec::new(),
+        objects: Vec::new(),
+        instances: Vec::new(),
+        lights: Vec::new(),
+    }
+}
+
+pub(crate) fn grey(v: f32) -> ColourParam {
+    ColourParam::Value(Rgb::splat(v))
+}
+
+pub(crate) fn diffuse(albedo: f32) -> MaterialKind {
+    MaterialKind::Diffuse {
+        reflectance: grey(albedo),
+        roughness: FloatParam::Value(0.0),
+    }
+}
+
+pub(crate) fn alpha(a: f32) -> Roughness {
+    Roughness {
+        u: FloatParam::Value(a),
+        v: FloatParam::Value(a),
+        mapping: RoughnessMapping::Alpha,
+    }
+}
+
+/// A metal that reflects practically everything at every angle.
+pub(crate) fn mirror_metal(a: f32) -> MaterialKind {
+    MaterialKind::Conductor {
+        fresnel: ConductorFresnel::Index {
+            eta: grey(1.0),
+            k: grey(300.0),
+        },
+        roughness: alpha(a),
+    }
+}
+
+pub(crate) fn glass(a: f32) -> MaterialKind {
+    MaterialKind::Dielectric {
+        eta: 1.5,
+        roughness: alpha(a),
+    }
+}
+
+pub(crate) fn material(scene: &mut Scene, kind: MaterialKind) -> MaterialId {
+    scene.materials.push(Material { name: None, kind });
+    MaterialId(scene.materials.len() - 1)
+}
+
+pub(crate) fn shape(geometry: Geometry, to_world: DMat4, material: MaterialId) -> Shape {
+    Shape {
+        geometry,
+        to_world,
+        material,
+        emission: None,
+        reverse_orientation: false,
+        alpha: FloatParam::Value(1.0),
+    }
+}
+
+pub(crate) fn sphere(radius: f32, centre: [f64; 3], material: MaterialId) -> Shape {
+    let at = DMat4::from_translation(centre.into());
+    shape(Geometry::Sphere { radius }, at, material)
+}
+
+pub(crate) fn emitting(shape: Shape, radiance: f32) -> Shape {
+    Shape {
+        emission: Some(Emission {
+            radiance: Rgb::splat(radiance),
+            two_sided: false,
+        }),
+        ..shape
+    }
+}
+
+/// A square in the plane z = 0 over `[-half, half]^2`, its outside at +z.
+pub(crate) fn square(scene: &mut Scene, half: f32, to_world: DMat4, material: MaterialId) -> Shape {
+    scene.meshes.push(Mesh {
+        positions: vec![
+            [-half, -half, 0.0],
+            [half, -half, 0.0],
+            [half, half, 0.0],
+            [-half, half, 0.0],
+        ],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..Mesh::default()
+    });
+    shape(
+        Geometry::Mesh(MeshId(scene.meshes.len() - 1)),
+        to_world,
+        material,
+    )
+}
+
+pub(crate) fn constant_sky(radiance: f32) -> Light {
+    Light::Infinite {
+        radiance: Rgb::splat(radiance),
+        image: None,
+        to_world: DMat4::IDENTITY,
+    }
+}
+
+/// Renders in one pass; asserts that every sample was a finite number.
+pub(crate) fn render(scene: &Scene, spp: u32, max_depth: u32, strategy: Strategy) -> Picture {
+    let options = RenderOptions {
+        samples_per_pixel: spp,
+        max_depth,
+        strategy,
+        ..RenderOptions::default()
+    };
+    let prepared = PreparedScene::new(scene, &options).expect("the scene is sound");
+    let mut renderer = Renderer::new(&prepared, options);
+    let report = renderer.render_pass(spp, &AtomicBool::new(false));
+    assert!(report.complete && report.samples_done_total == spp && report.rays > 0);
+    assert_eq!(report.invalid_samples, 0);
+    renderer.film().picture()
+}
+
+/// Mean of the picture's green, and the standard error of that mean.
+pub(crate) fn mean(picture: &Picture) -> (f64, f64) {
+    let n = picture.colour.len() as f64;
+    let sum: f64 = picture.colour.iter().map(|c| f64::from(c.g)).sum();
+    let variance: f64 = picture.variance.iter().map(|c| f64::from(c.g)).sum();
+    (sum / n, variance.sqrt() / n)
+}
+
+/// Asserts that the picture's mean is `expected`, within 4.5 standard errors and `slack`.
+pub(crate) fn assert_mean(what: &str, picture: &Picture, expected: f64, slack: f64) {
+    let (found, error) = mean(picture);
+    assert!(
+        (found - expected).abs() < 4.5 * error + slack * expected.abs(),
+        "{what}: {found} +- {error} instead of {expected}"
+    );
+    // The test must be able to see an error of 3 %.
+    assert!(
+        error < 0.007 * expected.abs() + 1e-9,
+        "{what}: too noisy, {found} +- {error}"
+    );
+}

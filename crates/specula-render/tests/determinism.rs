@@ -1,0 +1,189 @@
+//! The same picture for any number of threads, any split into passes, any crop.
+
+mod common;
+
+use std::sync::atomic::AtomicBool;
+
+use common::*;
+use glam::{DMat4, DVec3};
+use specula_render::picture::Picture;
+use specula_render::{PreparedScene, RenderOptions, Renderer};
+use specula_scene::scene::*;
+
+fn scene() -> Scene {
+    let mut scene = empty(look([0.0, -4.0, 2.0], [0.0; 3], 50.0), 40);
+    let floor = material(&mut scene, diffuse(0.6));
+    let metal = material(&mut scene, mirror_metal(0.3));
+    let pane = material(&mut scene, glass(0.0));
+    let mixed = MaterialKind::Mix {
+        materials: [metal, floor],
+        amount: FloatParam::Value(0.4),
+    };
+    let mixed = material(&mut scene, mixed);
+    let ground = square(&mut scene, 10.0, DMat4::IDENTITY, floor);
+    scene.shapes.push(ground);
+    scene.shapes.push(sphere(0.7, [-1.0, 0.0, 0.7], mixed));
+    let mut veil = sphere(0.7, [1.0, 0.0, 0.7], pane);
+    veil.alpha = FloatParam::Value(0.5);
+    scene.shapes.push(veil);
+    scene
+        .shapes
+        .push(emitting(sphere(0.3, [0.0, 0.0, 3.0], floor), 5.0));
+    scene.lights.push(constant_sky(0.2));
+    scene.film.filter = Filter::Gaussian {
+        radius: [1.5; 2],
+        sigma: 0.5,
+    };
+    scene
+}
+
+fn run(scene: &Scene, threads: usize, passes: &[u32], crop: Option<[u32; 4]>) -> Picture {
+    let options = RenderOptions {
+        crop,
+        max_depth: 6,
+        ..RenderOptions::default()
+    };
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .expect("threads are to be had");
+    pool.install(|| {
+        let prepared = PreparedScene::new(scene, &options).expect("the scene is sound");
+        let mut renderer = Renderer::new(&prepared, options);
+        let go = AtomicBool::new(false);
+        for &samples in passes {
+            assert_eq!(renderer.render_pass(samples, &go).invalid_samples, 0);
+        }
+        renderer.film().picture()
+    })
+}
+
+#[test]
+fn threads_and_passes_do_not_change_a_bit() {
+    let scene = scene();
+    let reference = run(&scene, 1, &[8], None);
+    for (threads, passes) in [(2, &[8][..]), (3, &[1, 2, 5]), (2, &[7, 1])] {
+        assert_eq!(run(&scene, threads, passes, None), reference);
+    }
+    assert_ne!(run(&scene, 1, &[7], None).colour, reference.colour);
+}
+
+#[test]
+fn a_crop_is_a_window_of_the_whole() {
+    let scene = scene();
+    let whole = run(&scene, 2, &[2], None);
+    let window = run(&scene, 2, &[2], Some([3, 21, 10, 30]));
+    assert_eq!(
+        (window.width, window.height, window.offset),
+        (18, 20, [3, 10])
+    );
+    for y in 0..20 {
+        for x in 0..18 {
+            assert_eq!(
+                window.colour[y * 18 + x],
+                whole.colour[(y + 10) * 40 + x + 3]
+            );
+        }
+    }
+}
+
+#[test]
+fn a_stopped_pass_leaves_a_film_that_the_next_pass_completes() {
+    let scene = scene();
+    let options = RenderOptions {
+        max_depth: 6,
+        ..RenderOptions::default()
+    };
+    let prepared = PreparedScene::new(&scene, &options).unwrap();
+    let mut renderer = Renderer::new(&prepared, options);
+    let report = renderer.render_pass(4, &AtomicBool::new(true));
+    assert!(!report.complete && report.samples_done_total == 0);
+
+    let stop = AtomicBool::new(false);
+    std::thread::scope(|s| {
+        s.spawn(|| {
+            std::thread::sleep(std::time::Duration::from_millis(5));
+            stop.store(true, std::sync::atomic::Ordering::Relaxed);
+        });
+        renderer.render_pass(8, &stop);
+    });
+    let go = AtomicBool::new(false);
+    let done = renderer.film().complete_samples();
+    let report = renderer.render_pass(8 - done, &go);
+    assert!(report.complete && report.samples_done_total == 8);
+    assert_eq!(renderer.film().picture(), run(&scene, 1, &[8], None));
+}
+
+#[test]
+fn impossible_pictures_are_refused() {
+    let scene = scene();
+    for options in [
+        RenderOptions {
+            resolution: Some([0, 10]),
+            ..RenderOptions::default()
+        },
+        RenderOptions {
+            crop: Some([10, 10, 0, 5]),
+            ..RenderOptions::default()
+        },
+        RenderOptions {
+            crop: Some([50, 60, 0, 5]),
+            ..RenderOptions::default()
+        },
+    ] {
+        assert!(PreparedScene::new(&scene, &options).is_err());
+    }
+}
+
+#[test]
+fn an_empty_scene_is_its_sky_and_half_a_veil_is_half_seen() {
+    let mut sky = empty(look([0.0; 3], [0.0, 0.0, 1.0], 60.0), 8);
+    sky.lights.push(constant_sky(0.75));
+    assert!(run(&sky, 1, &[1], None).colour.iter().all(|c| c.g == 0.75));
+
+    let m = material(&mut sky, diffuse(0.0));
+    let place = DMat4::from_translation(DVec3::new(0.0, 0.0, 2.0));
+    let mut veil = square(&mut sky, 10.0, place, m);
+    veil.alpha = FloatParam::Value(0.5);
+    sky.shapes.push(veil);
+    assert_mean("veil", &run(&sky, 1, &[4096], None), 0.375, 0.0);
+}
+
+/// Every one of very many emitting triangles is a light, and its hits find it at once.
+#[test]
+fn two_hundred_thousand_lights_are_no_obstacle() {
+    let mut scene = empty(look([0.0, 0.0, 1.0], [0.0, 0.1, 0.0], 60.0), 8);
+    let m = material(&mut scene, diffuse(0.5));
+    let ground = square(&mut scene, 100.0, DMat4::IDENTITY, m);
+    scene.shapes.push(ground);
+    // A ceiling of 316 x 316 squares, 10 wide in all, its outside down.
+    let n = 316_u32;
+    let at = |i: u32| (i as f32 / n as f32 - 0.5) * 40.0;
+    let mut mesh = Mesh::default();
+    for j in 0..=n {
+        for i in 0..=n {
+            mesh.positions.push([at(i), at(j), 2.0]);
+        }
+    }
+    for j in 0..n {
+        for i in 0..n {
+            let a = j * (n + 1) + i;
+            let (b, c, d) = (a + 1, a + n + 1, a + n + 2);
+            mesh.triangles.extend([[a, c, b], [b, c, d]]);
+        }
+    }
+    scene.meshes.push(mesh);
+    let ceiling = shape(Geometry::Mesh(MeshId(1)), DMat4::IDENTITY, m);
+    scene.shapes.push(emitting(ceiling, 1.0));
+    let options = RenderOptions::default();
+    let prepared = PreparedScene::new(&scene, &options).unwrap();
+    assert_eq!(prepared.light_count(), 199_712);
+    let a = render(&scene, 1024, 1, specula_render::Strategy::Mis);
+    let b = render(&scene, 1024, 1, specula_render::Strategy::BsdfOnly);
+    let ((ma, ea), (mb, eb)) = (mean(&a), mean(&b));
+    assert!(
+        (ma - mb).abs() < 4.5 * (ea * ea + eb * eb).sqrt(),
+        "{ma} {mb}"
+    );
+    assert!(ea < 0.01 * ma && eb < 0.01 * mb);
+}
