@@ -77,12 +77,12 @@ impl<T: Real> CoatedConductor<T> {
         vec3(x, y, z.copysign(w.z))
     }
 
-    /// The direction above the coat; `None` beyond the critical angle.
+    /// The direction above the coat; `None` for a direction downwards or beyond the critical angle.
     #[inline(always)]
     fn above(&self, w: Vec3<T>) -> Option<Vec3<T>> {
         let (x, y) = (w.x * self.eta, w.y * self.eta);
         let z2 = T::ONE - x * x - y * y;
-        (z2 > T::ZERO).then(|| vec3(x, y, z2.sqrt()))
+        (w.z > T::ZERO && z2 > T::ZERO).then(|| vec3(x, y, z2.sqrt()))
     }
 
     /// The coat's reflectance from `w`.
@@ -151,8 +151,7 @@ impl<T: Real> Bsdf<T> for CoatedConductor<T> {
                 None => return delta(Rgb::splat(reflected / p), p),
             }
         } else {
-            self.above(metal.sample_reflection(self.sampler, self.below(wo), direction))
-                .filter(|wi| wi.z > T::ZERO)?
+            self.above(metal.sample_reflection(self.sampler, self.below(wo), direction))?
         };
         let (f_cos, pdf) = self.eval_pdf(wo, wi, transport);
         BsdfSample::reflected(wi, f_cos / pdf, pdf)

@@ -23,7 +23,13 @@ const METALS: [&str; 5] = ["Ag", "Au", "Cu", "Ti", "Fe"];
 /// Widths of the back row.
 const ISOTROPIC: [f64; 5] = [0.02, 0.1, 0.25, 0.5, 1.0];
 /// Widths of the front row, `(alpha_x, alpha_y)`.
-const ANISOTROPIC: [(f64, f64); 5] = [(0.05, 0.4), (0.4, 0.05), (0.1, 0.8), (0.8, 0.1), (0.2, 0.8)];
+const ANISOTROPIC: [(f64, f64); 5] = [
+    (0.05, 0.4),
+    (0.4, 0.05),
+    (0.08, 0.5),
+    (0.8, 0.1),
+    (0.2, 0.8),
+];
 /// From orb to orb, in radii.
 const SPACING: f64 = 2.72;
 
@@ -167,7 +173,7 @@ impl Build {
 
 fn camera(resolution: [u32; 2]) -> Camera {
     let eye = DVec3::new(0.0, -19.0, 8.2);
-    let target = DVec3::new(0.0, 0.35, 1.62);
+    let target = DVec3::new(0.0, 0.35, 1.86);
     let forward = (target - eye).normalize();
     let right = forward.cross(DVec3::Z).normalize();
     let up = right.cross(forward);
@@ -179,7 +185,7 @@ fn camera(resolution: [u32; 2]) -> Camera {
             forward.extend(0.0),
             eye.extend(1.0),
         ),
-        fov_deg: 18.2,
+        fov_deg: 18.9,
         lens_radius: 0.0,
         focal_distance: (target - eye).length(),
         screen_window: [-aspect, aspect, -1.0, 1.0],

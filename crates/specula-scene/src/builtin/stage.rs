@@ -3,7 +3,7 @@
 use glam::DVec3;
 use specula_bsdf::math::rgb;
 
-use super::{Build, alphas, studio};
+use super::{Build, studio};
 use crate::num::f32_of;
 use crate::scene::{
     ColourParam, EnvironmentMapping, FloatParam, ImageId, Light, MaterialKind, Mesh, Texture,
@@ -11,11 +11,11 @@ use crate::scene::{
 };
 
 /// Where the front row stands.
-pub(super) const FRONT_ROW_Y: f64 = -1.7;
+pub(super) const FRONT_ROW_Y: f64 = -2.0;
 /// Where the back row stands, on the step.
 pub(super) const BACK_ROW_Y: f64 = 1.55;
 /// Height of the step.
-pub(super) const STEP_HEIGHT: f64 = 1.15;
+pub(super) const STEP_HEIGHT: f64 = 1.6;
 
 /// Half the width of everything that stands on the floor.
 const HALF_WIDTH: f64 = 40.0;
@@ -26,10 +26,9 @@ impl Build {
         let checks = self.checks();
         let floor = self.material(
             "floor",
-            MaterialKind::CoatedDiffuse {
+            MaterialKind::Diffuse {
                 reflectance: ColourParam::Texture(checks),
-                eta: 1.5,
-                roughness: alphas(0.25, 0.25),
+                roughness: FloatParam::Value(0.0),
             },
         );
         let black = self.material(
@@ -44,14 +43,12 @@ impl Build {
         let step = self.mesh(swept(&step_profile()));
         self.shape(step, glam::DMat4::IDENTITY, floor);
 
-        // Key: large, above and to the left; rim: a bar behind, out of sight; fill: low right.
+        // Key: large, above and to the left; rim: a bar behind, out of sight.
         let target = DVec3::new(0.0, 0.0, 1.5);
         let key = softbox(DVec3::new(-9.0, -9.0, 13.0), target, 5.5, 3.2);
-        self.emitter(key, black, rgb(9.0, 8.6, 8.0));
+        self.emitter(key, black, rgb(9.0, 8.6, 8.1));
         let rim = softbox(DVec3::new(0.0, 4.0, 10.5), target, 11.0, 0.55);
-        self.emitter(rim, black, rgb(13.0, 13.5, 14.5));
-        let fill = softbox(DVec3::new(15.0, -8.0, 5.0), target, 1.0, 4.5);
-        self.emitter(fill, black, rgb(6.5, 7.4, 9.0));
+        self.emitter(rim, black, rgb(8.0, 8.4, 9.0));
 
         self.scene.images.push(studio::environment());
         self.scene.lights.push(Light::Infinite {
@@ -63,8 +60,8 @@ impl Build {
 
     fn checks(&mut self) -> TextureId {
         let textures = &mut self.scene.textures;
-        textures.push(Texture::Constant(rgb(0.20, 0.205, 0.215)));
-        textures.push(Texture::Constant(rgb(0.235, 0.24, 0.25)));
+        textures.push(Texture::Constant(rgb(0.15, 0.154, 0.162)));
+        textures.push(Texture::Constant(rgb(0.18, 0.184, 0.192)));
         textures.push(Texture::Checkerboard {
             even: TextureId(0),
             odd: TextureId(1),

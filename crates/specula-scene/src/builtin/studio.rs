@@ -67,7 +67,7 @@ pub(super) fn environment() -> Image {
 
 fn radiance(azimuth_deg: f64, elevation_deg: f64) -> [f64; 3] {
     let up = 0.5 + 0.5 * elevation_deg.to_radians().sin();
-    let ambient = 0.035 + 0.33 * up * up;
+    let ambient = 0.05 + 0.42 * up * up;
     let mut sum = [0.92 * ambient, 0.97 * ambient, 1.1 * ambient];
     for strip in &STRIPS {
         let around = (azimuth_deg - strip.azimuth_deg + 540.0).rem_euclid(360.0) - 180.0;

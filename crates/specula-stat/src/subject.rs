@@ -1,0 +1,101 @@
+//! What is put to the test: a BSDF as three closures, or an adaptor of the lobes' trait.
+
+use specula_bsdf::{Bsdf, Real, Rgb, Transport, Vec3};
+
+/// One sampled direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drawn {
+    /// Towards the light, unit, local frame.
+    pub wi: Vec3<f64>,
+    /// `f |cos theta_i| / pdf`.
+    pub weight: Rgb<f64>,
+    /// The density that the sampler itself reports, where it does.
+    pub pdf: Option<f64>,
+    /// Whether drawn from a Dirac delta, which `eval` and `pdf` leave out.
+    pub is_specular: bool,
+}
+
+impl Drawn {
+    /// A direction that is not specular, from a sampler that reports no pdf.
+    #[must_use]
+    pub fn new(wi: Vec3<f64>, weight: Rgb<f64>) -> Self {
+        Self {
+            wi,
+            weight,
+            pdf: None,
+            is_specular: false,
+        }
+    }
+}
+
+type Eval<'a> = Box<dyn Fn(Vec3<f64>, Vec3<f64>) -> Rgb<f64> + Sync + 'a>;
+type Pdf<'a> = Box<dyn Fn(Vec3<f64>, Vec3<f64>) -> f64 + Sync + 'a>;
+type Sample<'a> = Box<dyn Fn(Vec3<f64>, [f64; 3]) -> Option<Drawn> + Sync + 'a>;
+
+/// A BSDF under test, in double precision on the outside.
+pub struct Subject<'a> {
+    eval: Eval<'a>,
+    pdf: Pdf<'a>,
+    sample: Sample<'a>,
+}
+
+impl<'a> Subject<'a> {
+    /// A BSDF from three closures.
+    ///
+    /// * `eval(wo, wi)`: `f |cos theta_i|`, 1/sr.
+    /// * `pdf(wo, wi)`: density of `sample`, 1/sr; it integrates to the share of draws that lead
+    ///   to a direction.
+    /// * `sample(wo, u)`: a direction from three uniform numbers in `[0, 1)`, or `None`.
+    pub fn new(
+        eval: impl Fn(Vec3<f64>, Vec3<f64>) -> Rgb<f64> + Sync + 'a,
+        pdf: impl Fn(Vec3<f64>, Vec3<f64>) -> f64 + Sync + 'a,
+        sample: impl Fn(Vec3<f64>, [f64; 3]) -> Option<Drawn> + Sync + 'a,
+    ) -> Self {
+        Self {
+            eval: Box::new(eval),
+            pdf: Box::new(pdf),
+            sample: Box::new(sample),
+        }
+    }
+
+    /// A lobe of `specula-bsdf`, or any other implementor of its trait, in either precision.
+    pub fn from_bsdf<T: Real, B: Bsdf<T> + Sync>(bsdf: &'a B, transport: Transport) -> Self {
+        Self::new(
+            move |wo, wi| bsdf.eval(wo.cast(), wi.cast(), transport).cast(),
+            move |wo, wi| bsdf.pdf(wo.cast(), wi.cast()).to_f64(),
+            move |wo, u| {
+                let sample = bsdf.sample(wo.cast(), u.map(T::of), transport)?;
+                Some(Drawn {
+                    wi: sample.wi.cast(),
+                    weight: sample.weight.cast(),
+                    pdf: Some(sample.pdf.to_f64()),
+                    is_specular: sample.specular,
+                })
+            },
+        )
+    }
+
+    /// `f |cos theta_i|`, 1/sr.
+    #[must_use]
+    pub fn eval(&self, wo: Vec3<f64>, wi: Vec3<f64>) -> Rgb<f64> {
+        (self.eval)(wo, wi)
+    }
+
+    /// Density of `sample`, 1/sr.
+    #[must_use]
+    pub fn pdf(&self, wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {
+        (self.pdf)(wo, wi)
+    }
+
+    /// Draws a direction.
+    #[must_use]
+    pub fn sample(&self, wo: Vec3<f64>, u: [f64; 3]) -> Option<Drawn> {
+        (self.sample)(wo, u)
+    }
+
+    /// Draws a direction that is not specular: what `pdf` describes.
+    #[must_use]
+    pub fn sample_density(&self, wo: Vec3<f64>, u: [f64; 3]) -> Option<Drawn> {
+        self.sample(wo, u).filter(|drawn| !drawn.is_specular)
+    }
+}

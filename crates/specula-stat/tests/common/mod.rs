@@ -1,0 +1,179 @@
+//! What the suites share: views, widths, and a runner that gathers every failure.
+#![allow(dead_code, reason = "each suite uses a part")]
+#![allow(clippy::print_stdout, reason = "a suite says how much it checked")]
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use rayon::prelude::*;
+use specula_bsdf::math::{Rgb, Vec3};
+use specula_bsdf::{Alpha, Bsdf, Transport};
+use specula_stat::quadrature::direction;
+use specula_stat::{Drawn, Plan, Report, Rng, Subject, consistency, twin};
+
+/// Tests with chance in all suites together, rounded up: they share one significance.
+pub(crate) const SUITE_TESTS: usize = 16_000;
+
+/// Cosines of the views above the horizon.
+pub(crate) const ABOVE: [f64; 5] = [1.0, 0.7, 0.3, 0.05, 0.005];
+/// Cosines of the views below it: backfacing shading normals.
+pub(crate) const BELOW: [f64; 3] = [-0.05, -0.3, -0.9];
+/// Azimuths, radians.
+pub(crate) const AZIMUTHS: [f64; 2] = [0.3, 2.1];
+
+/// Widths along x and y.
+pub(crate) const ALPHAS: [(f64, f64); 9] = [
+    (0.05, 0.05),
+    (0.3, 0.3),
+    (0.6, 0.6),
+    (1.0, 1.0),
+    (0.05, 0.5),
+    (0.2, 0.8),
+    (0.6, 1.0),
+    (1.5, 1.5),
+    (1.2, 3.0),
+];
+
+/// Relative indices of refraction, inside over outside.
+pub(crate) const ETAS: [f64; 4] = [1.5, 1.0 / 1.5, 1.1, 2.4];
+
+pub(crate) fn alpha((x, y): (f64, f64)) -> Alpha<f64> {
+    Alpha::clamped(x, y)
+}
+
+pub(crate) fn alpha_f32((x, y): (f64, f64)) -> Alpha<f32> {
+    #[expect(clippy::cast_possible_truncation, reason = "rounding is meant")]
+    Alpha::clamped(x as f32, y as f32)
+}
+
+/// Every cosine at every azimuth.
+pub(crate) fn views(cosines: &[f64]) -> Vec<Vec3<f64>> {
+    let at = |&cos_theta: &f64| AZIMUTHS.map(|phi| direction(cos_theta, phi));
+    cosines.iter().flat_map(at).collect()
+}
+
+/// Every cosine once, the azimuths in turn.
+pub(crate) fn few_views(cosines: &[f64]) -> Vec<Vec3<f64>> {
+    let azimuths = AZIMUTHS.iter().cycle();
+    cosines
+        .iter()
+        .zip(azimuths)
+        .map(|(&cos_theta, &phi)| direction(cos_theta, phi))
+        .collect()
+}
+
+/// Above and below the horizon.
+pub(crate) fn both_sides() -> Vec<f64> {
+    ABOVE.into_iter().chain(BELOW).collect()
+}
+
+/// Whether a Beckmann surface shows any facet to `wo`, to the precision of numbers.
+///
+/// From below, the visible area falls as `exp(-a^2)`, `a = |cot theta| / alpha` along the view:
+/// beyond `a^2 = 60` it is less than 1e-26 of the surface.
+pub(crate) fn beckmann_is_visible((x, y): (f64, f64), wo: &Vec3<f64>) -> bool {
+    let a = wo.z / (x * wo.x).hypot(y * wo.y);
+    wo.z > 0.0 || a * a < 60.0
+}
+
+/// The plan of every suite: one Sidak correction over all of them.
+pub(crate) fn plan((x, y): (f64, f64)) -> Plan {
+    Plan {
+        significance: 0.01,
+        tests: Some(SUITE_TESTS),
+        sharpness: x.min(y).min(0.3),
+        plot_folder: Some(PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("chi-square")),
+        ..Plan::default()
+    }
+}
+
+/// A sampler alone, without a BSDF: its weight is 1 and its `eval` the pdf.
+pub(crate) fn sampler<'a>(
+    pdf: impl Fn(Vec3<f64>, Vec3<f64>) -> f64 + Sync + Copy + 'a,
+    sample: impl Fn(Vec3<f64>, [f64; 2]) -> Option<Vec3<f64>> + Sync + 'a,
+) -> Subject<'a> {
+    Subject::new(
+        move |wo, wi| Rgb::splat(pdf(wo, wi)),
+        pdf,
+        move |wo, u| sample(wo, [u[1], u[2]]).map(|wi| Drawn::new(wi, Rgb::splat(1.0))),
+    )
+}
+
+/// Proves every case, all cores at work, and panics with the failures.
+pub(crate) fn prove_all<C: Sync>(
+    suite: &str,
+    cases: &[C],
+    proof: impl Fn(&C) -> Report + Send + Sync,
+) {
+    let start = Instant::now();
+    let reports: Vec<Report> = cases.par_iter().map(proof).collect();
+    let checks: usize = reports.iter().map(|r| r.checks.len()).sum();
+    let by_chance: usize = reports.iter().map(Report::chance_checks).sum();
+    println!(
+        "{suite}: {checks} checks ({by_chance} by chance) in {} cases, {:.1} s",
+        cases.len(),
+        start.elapsed().as_secs_f64()
+    );
+    assert!(
+        reports.iter().all(|r| !r.checks.is_empty()),
+        "a case without checks"
+    );
+    let failures: Vec<String> = reports
+        .iter()
+        .flat_map(|r| r.failures().map(move |c| format!("{}: {c}", r.subject)))
+        .collect();
+    for failure in failures.iter().take(40) {
+        println!("{failure}");
+    }
+    assert!(
+        failures.is_empty(),
+        "{suite}: {} of {checks} checks fail",
+        failures.len()
+    );
+}
+
+/// Every width with every item.
+pub(crate) fn with_alphas<C: Copy>(items: &[C]) -> Vec<(C, (f64, f64))> {
+    items
+        .iter()
+        .flat_map(|&item| ALPHAS.map(|widths| (item, widths)))
+        .collect()
+}
+
+/// Holds an `f32` lobe against its `f64` twin: values over directions, samples, and the weights of
+/// the `f32` lobe against its own values.
+pub(crate) fn twins(
+    name: &str,
+    single: &(impl Bsdf<f32> + Sync),
+    double: &(impl Bsdf<f64> + Sync),
+    transport: Transport,
+) -> Report {
+    let single = Subject::from_bsdf(single, transport);
+    let double = Subject::from_bsdf(double, transport);
+    let mut report = Report::new(name);
+    let mut rng = Rng::from_name(name);
+    let views = views(&both_sides());
+    let options = twin::Options::default();
+    report
+        .checks
+        .push(twin::test("", &single, &double, &views, &options, &mut rng));
+    for &wo in &views {
+        let view = format!("wo ({:.3}, {:.3}, {:.3})", wo.x, wo.y, wo.z);
+        let near = [2e-3, 1e-3];
+        report.checks.push(twin::samples(
+            &view, &single, &double, wo, near, 2000, &mut rng,
+        ));
+        let at = consistency::Options {
+            samples: 2000,
+            relative_tolerance: 1e-2,
+        };
+        let f32_view = format!("f32, {view}");
+        report
+            .checks
+            .push(consistency::samples(&f32_view, &single, wo, &at, &mut rng));
+        report.checks.push(consistency::directions(
+            &f32_view, &single, wo, &at, &mut rng,
+        ));
+    }
+    report
+}

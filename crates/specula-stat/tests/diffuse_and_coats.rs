@@ -1,0 +1,173 @@
+//! Diffuse lobes, sheets, and coats over a base.
+
+mod common;
+
+use common::{ABOVE, ALPHAS, alpha, alpha_f32, few_views, plan, prove_all, views};
+use specula_bsdf::bsdf::{CoatedConductor, CoatedDiffuse, DiffuseTransmission, Eon, Lambert, Lobe};
+use specula_bsdf::fresnel::Reflectance;
+use specula_bsdf::math::{Real, rgb};
+use specula_bsdf::ndf::Ggx;
+use specula_bsdf::vndf::Sampler;
+use specula_bsdf::{Bsdf, Rgb, Transport};
+use specula_stat::quadrature::Quadrature;
+use specula_stat::reciprocity::Domain;
+use specula_stat::{Plan, Report, Subject, furnace, prove};
+
+fn colour<T: Real>() -> Rgb<T> {
+    rgb(T::of(0.8), T::of(0.4), T::of(0.1))
+}
+
+fn proof(name: &str, lobe: &(impl Bsdf<f64> + Sync), widths: (f64, f64)) -> Report {
+    let subject = Subject::from_bsdf(lobe, Transport::Radiance);
+    prove(name, &subject, &few_views(&ABOVE), &plan(widths))
+}
+
+/// Widths of a coat; `None` is a smooth one.
+fn coats() -> Vec<Option<(f64, f64)>> {
+    ALPHAS.into_iter().map(Some).chain([None]).collect()
+}
+
+#[test]
+fn lambert_and_eon() {
+    prove_all("diffuse", &[0.0, 0.3, 1.0], |&roughness| {
+        let mut report = proof("Eon", &Eon::new(colour(), roughness), (1.0, 1.0));
+        report.absorb(proof("Lambert", &Lambert::new(colour()), (1.0, 1.0)));
+        report
+    });
+}
+
+#[test]
+fn a_white_eon_returns_all_light() {
+    for roughness in [0.0, 0.2, 0.7, 1.0] {
+        let lobe = Eon::new(Rgb::splat(1.0_f64), roughness);
+        let subject = Subject::from_bsdf(&lobe, Transport::Radiance);
+        for wo in views(&ABOVE) {
+            let albedo = furnace::albedo(&subject, wo, &[], &Quadrature::default());
+            assert!(
+                (albedo.value[1] - 1.0).abs() < 1e-5,
+                "{roughness} {wo:?}: {albedo:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn sheets_transmit() {
+    let sheets = [(0.5, 0.3), (0.0, 0.7), (0.7, 0.0)];
+    prove_all("sheets", &sheets, |&(reflected, transmitted)| {
+        let lobe = DiffuseTransmission::new(Rgb::splat(reflected), Rgb::splat(transmitted));
+        let subject = Subject::from_bsdf(&lobe, Transport::Radiance);
+        let plan = Plan {
+            reciprocity: if reflected > 0.0 {
+                Domain::Above
+            } else {
+                Domain::Nowhere
+            },
+            ..plan((1.0, 1.0))
+        };
+        let name = format!("sheet {reflected} {transmitted}");
+        prove(&name, &subject, &few_views(&ABOVE), &plan)
+    });
+}
+
+#[test]
+fn coats_over_diffuse() {
+    let cases: Vec<_> = [1.1, 1.5, 2.4]
+        .iter()
+        .flat_map(|&eta| coats().into_iter().map(move |coat| (eta, coat)))
+        .collect();
+    prove_all("coated diffuse", &cases, |&(eta, coat)| {
+        let ggx = coat.map(|widths| Ggx::new(alpha(widths)));
+        let name = format!("coated diffuse {eta} {coat:?}");
+        proof(
+            &name,
+            &CoatedDiffuse::new(ggx, eta, colour()),
+            coat.unwrap_or((1.0, 1.0)),
+        )
+    });
+}
+
+#[test]
+fn coats_over_metal() {
+    let metals = [None, Some((0.3, 0.3)), Some((0.05, 0.5)), Some((1.0, 1.0))];
+    let cases: Vec<_> = metals
+        .into_iter()
+        .flat_map(|metal| coats().into_iter().map(move |coat| (metal, coat)))
+        // Smooth on smooth is a mirror: nothing to integrate.
+        .filter(|(metal, coat)| metal.is_some() || coat.is_some())
+        .collect();
+    prove_all("coated metal", &cases, |&(metal, coat)| {
+        let ggx = |widths: Option<(f64, f64)>| widths.map(|w| Ggx::new(alpha(w)));
+        let reflectance = Reflectance::Constant(colour());
+        let lobe = CoatedConductor::new(ggx(coat), 1.5, ggx(metal), reflectance)
+            .with_sampler(Sampler::Cap);
+        let name = format!("coat {coat:?} over metal {metal:?}");
+        let narrow = |a: (f64, f64)| a.0.min(a.1);
+        let sharp = [metal, coat]
+            .into_iter()
+            .flatten()
+            .map(narrow)
+            .fold(1.0, f64::min);
+        // A smooth metal under a coat is blurred by it: a third of the width, over the square
+        // root of two.
+        let sharp = if metal.is_none() { 0.2 * sharp } else { sharp };
+        proof(&name, &lobe, (sharp, sharp))
+    });
+}
+
+#[test]
+fn f32_is_f64() {
+    prove_all("coat twins", &coats(), |&coat| {
+        let single_ggx = coat.map(|w| Ggx::new(alpha_f32(w)));
+        let double_ggx = coat.map(|w| Ggx::new(alpha(w)));
+        let radiance = Transport::Radiance;
+        let name = format!("{coat:?}");
+        let mut report = common::twins(
+            &name,
+            &CoatedDiffuse::new(single_ggx, 1.5, colour::<f32>()),
+            &CoatedDiffuse::new(double_ggx, 1.5, colour::<f64>()),
+            radiance,
+        );
+        let metal = (0.3, 0.6);
+        report.absorb(common::twins(
+            &name,
+            &CoatedConductor::new(
+                single_ggx,
+                1.5,
+                Some(Ggx::new(alpha_f32(metal))),
+                Reflectance::Constant(colour::<f32>()),
+            ),
+            &CoatedConductor::new(
+                double_ggx,
+                1.5,
+                Some(Ggx::new(alpha(metal))),
+                Reflectance::Constant(colour::<f64>()),
+            ),
+            radiance,
+        ));
+        report.absorb(common::twins(
+            &name,
+            &Eon::new(colour::<f32>(), 0.7),
+            &Eon::new(colour::<f64>(), 0.7),
+            radiance,
+        ));
+        report
+    });
+}
+
+#[test]
+fn a_lobe_is_what_it_holds() {
+    let held = CoatedDiffuse::new(Some(Ggx::new(alpha((0.3, 0.3)))), 1.5, colour());
+    let lobe = Lobe::from(held);
+    let mut rng = specula_stat::Rng::new(4);
+    for wo in views(&ABOVE) {
+        for _ in 0..100 {
+            let u = rng.triple();
+            let (a, b) = (
+                held.sample(wo, u, Transport::Radiance),
+                lobe.sample(wo, u, Transport::Radiance),
+            );
+            assert_eq!(a, b);
+        }
+    }
+}

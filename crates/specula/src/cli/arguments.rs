@@ -1,0 +1,234 @@
+//! What can be typed, and the help that teaches it.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use specula::bsdf::vndf;
+
+use super::values;
+
+/// Render rough metal right: a path tracer whose microfacet mathematics can be trusted.
+#[derive(Debug, Parser)]
+#[command(name = "specula", version, propagate_version = true, after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  specula render                              the built-in scene, to orbs.exr and orbs.png
+  specula render scene.pbrt -o picture.exr    a pbrt-v4 scene
+  specula info scene.pbrt                     what is in it, and what is not supported
+  specula compare reference.exr picture.exr   how far two pictures are apart
+
+Exit codes: 0 done; 1 failed (or `compare` found too large a difference); 2 the arguments or
+the scene are wrong; 130 stopped by Ctrl-C, what was rendered is written.";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Render a scene to EXR and PNG.
+    Render(RenderArguments),
+    /// Say what is in a scene, and what of it is not supported.
+    Info(InfoArguments),
+    /// Compare two EXR pictures: RMSE, relMSE, FLIP, and a picture of the difference.
+    Compare(CompareArguments),
+}
+
+const RENDER_EXAMPLES: &str = "\
+Examples:
+  specula render
+      the built-in scene: five metals, isotropic behind, anisotropic in front
+  specula render scene.pbrt --time 5m -o scene.exr -o scene.png
+      as many samples as fit into five minutes
+  specula render scene.pbrt --noise 0.02 --threads 4
+      until the estimated relative error is 2 %
+  specula render scene.pbrt --resolution 480x270 --spp 4 -o preview.png
+      a quick look
+  specula render scene.pbrt --crop 100,200,50,150 --spp 1024 -o detail.exr
+      columns 100 to 199 and rows 50 to 149 only
+
+Ctrl-C stops the render and writes what there is; a second Ctrl-C ends the program at once.
+Long renders write what there is every half minute. Files are replaced whole or not at all.";
+
+#[derive(Args, Debug)]
+#[command(after_help = RENDER_EXAMPLES)]
+pub(crate) struct RenderArguments {
+    /// A pbrt-v4 file; without one, the built-in scene of rough-metal orbs
+    pub(crate) scene: Option<PathBuf>,
+
+    /// File to write: .exr (all layers, linear) or .png (what a screen shows). May be repeated.
+    /// [default: the scene's name with .exr and with .png, in the current folder]
+    #[arg(short, long = "output", value_name = "OUT", value_parser = values::output)]
+    pub(crate) output: Vec<PathBuf>,
+
+    /// Samples per pixel [default: as the scene says]
+    #[arg(long, value_name = "N", group = "effort",
+          value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
+    pub(crate) spp: Option<u32>,
+
+    /// Render for this long: 90s, 5m, 1.5h
+    #[arg(long, value_name = "T", group = "effort", value_parser = values::duration)]
+    pub(crate) time: Option<Duration>,
+
+    /// Render until the estimated relative error of the picture is at most E, such as 0.02
+    #[arg(long, value_name = "E", group = "effort", value_parser = values::positive)]
+    pub(crate) noise: Option<f32>,
+
+    /// Which sampler draws reflections off rough surfaces; the picture converges to the same
+    #[arg(long, value_name = "NAME", default_value_t = SamplerName::Bounded)]
+    pub(crate) sampler: SamplerName,
+
+    /// Longest path in scattering events [default: as the scene says]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=65_535))]
+    pub(crate) max_depth: Option<u32>,
+
+    /// Render these pixels only: columns x0 to x1 - 1, rows y0 to y1 - 1
+    #[arg(long, value_name = "x0,x1,y0,y1", value_parser = values::crop)]
+    pub(crate) crop: Option<[u32; 4]>,
+
+    /// Size of the whole picture, such as 1280x720 [default: as the scene says]
+    #[arg(long, value_name = "WxH", value_parser = values::resolution)]
+    pub(crate) resolution: Option<[u32; 2]>,
+
+    /// Seed of the random sequences: renders of different seeds are independent
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u32,
+
+    /// Threads; the picture is the same, bit for bit, for any number [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    pub(crate) threads: Option<u16>,
+
+    /// Exposure of PNG files, in stops: +1 shows twice the light
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_negative_numbers = true,
+          value_parser = values::finite)]
+    pub(crate) exposure: f32,
+
+    /// How PNG files show what is brighter than white
+    #[arg(long, value_name = "NAME", default_value_t = ToneName::Clamp)]
+    pub(crate) tone: ToneName,
+
+    /// Print errors only
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SamplerName {
+    /// Spherical caps (Dupuy and Benyoub 2023)
+    Cap,
+    /// Bounded spherical caps (Tokuyoshi and Eto 2024): the least noise
+    Bounded,
+    /// Heitz 2018
+    Heitz,
+}
+
+impl From<SamplerName> for vndf::Sampler {
+    fn from(name: SamplerName) -> Self {
+        match name {
+            SamplerName::Cap => Self::Cap,
+            SamplerName::Bounded => Self::Bounded,
+            SamplerName::Heitz => Self::Heitz,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ToneName {
+    /// Cut off: all below white is shown exactly
+    Clamp,
+    /// Rolled off as film does (Narkowicz 2015)
+    Filmic,
+}
+
+macro_rules! display_as_value {
+    ($($t:ty),*) => {$(
+        impl std::fmt::Display for $t {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                self.to_possible_value().map_or(Ok(()), |v| f.write_str(v.get_name()))
+            }
+        }
+    )*};
+}
+display_as_value!(SamplerName, ToneName, MetricName);
+
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Examples:\n  specula info scene.pbrt\n  specula info       the built-in scene"
+)]
+pub(crate) struct InfoArguments {
+    /// A pbrt-v4 file; without one, the built-in scene
+    pub(crate) scene: Option<PathBuf>,
+}
+
+const COMPARE_EXAMPLES: &str = "\
+Examples:
+  specula compare reference.exr picture.exr
+  specula compare reference.exr picture.exr --diff difference.png
+      HDR-FLIP in false colours: black is equal, yellow the largest difference there is
+  specula compare reference.exr picture.exr --metric rmse --fail-above 0.01
+      exit code 1 where the root mean square error is above 0.01";
+
+#[derive(Args, Debug)]
+#[command(after_help = COMPARE_EXAMPLES)]
+pub(crate) struct CompareArguments {
+    /// The picture that is right (EXR, by any renderer)
+    pub(crate) reference: PathBuf,
+    /// The picture that is tested (EXR, of the same size)
+    pub(crate) test: PathBuf,
+
+    /// Write a false-colour picture of the difference
+    #[arg(long, value_name = "OUT.png", value_parser = values::png)]
+    pub(crate) diff: Option<PathBuf>,
+
+    /// End with exit code 1 where the metric is above this
+    #[arg(long, value_name = "VALUE", value_parser = values::not_negative)]
+    pub(crate) fail_above: Option<f64>,
+
+    /// The metric that --fail-above is about
+    #[arg(long, value_name = "NAME", default_value_t = MetricName::HdrFlip, requires = "fail_above")]
+    pub(crate) metric: MetricName,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MetricName {
+    /// Perceived difference over all exposures (Andersson et al. 2021), 0 to 1
+    HdrFlip,
+    /// Perceived difference as displayed (Andersson et al. 2020), 0 to 1
+    Flip,
+    /// Root mean square error
+    Rmse,
+    /// Mean of squared errors relative to the reference
+    RelMse,
+    /// Mean absolute error
+    Mae,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn definitions_are_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn efforts_exclude_each_other() {
+        for pair in [["--spp=4", "--time=3s"], ["--noise=0.1", "--spp=4"]] {
+            let line = ["specula", "render", pair[0], pair[1]];
+            assert!(Arguments::try_parse_from(line).is_err(), "{pair:?}");
+        }
+        assert!(Arguments::try_parse_from(["specula", "render", "--exposure", "-1.5"]).is_ok());
+    }
+
+    #[test]
+    fn sampler_names_are_those_of_the_library() {
+        for name in SamplerName::value_variants() {
+            let sampler = vndf::Sampler::from(*name);
+            assert_eq!(sampler.to_string(), name.to_string());
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Errors as they reach the user, with the exit code that goes with them.
+
+use std::process::ExitCode;
+
+use miette::{Diagnostic, Report};
+
+/// Exit code for arguments and scenes that are wrong.
+const BAD_INPUT: u8 = 2;
+/// Exit code for everything else that fails.
+const FAILED: u8 = 1;
+
+/// An error that ends the program.
+pub(crate) struct Failure {
+    report: Report,
+    code: u8,
+}
+
+impl Failure {
+    /// The arguments or the scene are wrong.
+    pub(crate) fn input(error: impl Diagnostic + Send + Sync + 'static) -> Self {
+        Self {
+            report: Report::new(error),
+            code: BAD_INPUT,
+        }
+    }
+
+    /// The arguments or the scene are wrong, in words.
+    pub(crate) fn bad_input(message: impl std::fmt::Display) -> Self {
+        Self {
+            report: miette::miette!("{message}"),
+            code: BAD_INPUT,
+        }
+    }
+
+    /// Something else failed, in words.
+    pub(crate) fn other(message: impl std::fmt::Display) -> Self {
+        Self {
+            report: miette::miette!("{message}"),
+            code: FAILED,
+        }
+    }
+
+    /// Prints the report to standard error; returns the exit code.
+    pub(crate) fn print(&self) -> ExitCode {
+        eprintln!("{:?}", self.report);
+        ExitCode::from(self.code)
+    }
+}

@@ -1,0 +1,129 @@
+//! `specula info`.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::process::ExitCode;
+
+use specula::scene::Summary;
+
+use super::arguments::InfoArguments;
+use super::load::{self, Named};
+use super::{Failure, print};
+
+/// Prints what is in a scene and what of it is rendered otherwise than its file says.
+pub(crate) fn run(arguments: &InfoArguments) -> Result<ExitCode, Failure> {
+    let named = load::scene(arguments.scene.as_deref())?;
+    print(&describe(&named));
+    Ok(ExitCode::SUCCESS)
+}
+
+fn describe(named: &Named) -> String {
+    let s = Summary::of(&named.scene);
+    let mut lines: Vec<(&str, String)> = Vec::new();
+    let [width, height] = s.film.resolution;
+    let [x0, x1, y0, y1] = s.film.crop;
+    let mut film = format!("{width}x{height}, {}", debug_name(&s.film.filter));
+    if s.film.crop != [0, width, 0, height] {
+        let _ = write!(film, " filter, crop {x0},{x1},{y0},{y1}");
+    } else {
+        film.push_str(" filter");
+    }
+    lines.push(("film", film));
+    lines.push((
+        "settings",
+        format!(
+            "{} samples per pixel, paths of at most {} scattering events",
+            s.settings.samples_per_pixel, s.settings.max_depth
+        ),
+    ));
+    let lens = if s.camera.lens_radius > 0.0 {
+        format!(
+            "lens of radius {}, in focus at {}",
+            number(s.camera.lens_radius),
+            number(s.camera.focal_distance)
+        )
+    } else {
+        "pinhole".to_owned()
+    };
+    lines.push((
+        "camera",
+        format!("perspective, {} degrees, {lens}", number(s.camera.fov_deg)),
+    ));
+    lines.push(("shapes", counts(&s.shapes)));
+    lines.push((
+        "triangles",
+        format!(
+            "{} in {} meshes, {} in view of {} instances of {} objects",
+            s.triangles, s.meshes, s.triangles_shown, s.instances, s.objects
+        ),
+    ));
+    lines.push(("materials", counts(&s.materials)));
+    lines.push(("textures", counts(&s.textures)));
+    lines.push(("lights", counts(&s.lights)));
+    let (low, high) = (s.bounds.min.to_array(), s.bounds.max.to_array());
+    lines.push((
+        "bounds",
+        format!(
+            "({}) to ({})",
+            low.map(number).join(", "),
+            high.map(number).join(", ")
+        ),
+    ));
+    let mut text = format!("{}\n", named.name);
+    for (label, value) in lines {
+        let _ = writeln!(text, "  {label:10}{value}");
+    }
+    for image in &s.images {
+        let _ = writeln!(
+            text,
+            "  {:10}{} ({}x{})",
+            "picture", image.name, image.width, image.height
+        );
+    }
+    let warnings = load::warning_lines(&named.warnings);
+    if warnings.is_empty() {
+        text.push_str("  everything in it is supported\n");
+    } else {
+        text.push_str("rendered otherwise than the file says:\n");
+        for line in warnings {
+            let _ = writeln!(text, "  {line}");
+        }
+    }
+    text
+}
+
+/// The name of an enum's variant: what stands before its fields.
+fn debug_name(value: &impl std::fmt::Debug) -> String {
+    let text = format!("{value:?}");
+    let end = text
+        .find(|c: char| !c.is_alphanumeric())
+        .unwrap_or(text.len());
+    text[..end].to_lowercase()
+}
+
+fn counts(map: &BTreeMap<&'static str, usize>) -> String {
+    if map.is_empty() {
+        return "none".to_owned();
+    }
+    let parts: Vec<String> = map.iter().map(|(name, n)| format!("{n} {name}")).collect();
+    parts.join(", ")
+}
+
+/// Four digits at most after the point, none that say nothing.
+fn number(value: f64) -> String {
+    let text = format!("{value:.4}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0" } else { text }.to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_plain() {
+        assert_eq!(number(1.5), "1.5");
+        assert_eq!(number(-0.000_01), "0");
+        assert_eq!(number(100.0), "100");
+    }
+}

@@ -1,0 +1,35 @@
+//! The commands, one file each.
+
+mod arguments;
+mod compare;
+mod failure;
+mod info;
+mod load;
+mod outputs;
+mod progress;
+mod render;
+mod schedule;
+mod stop;
+mod values;
+
+use std::process::ExitCode;
+
+pub(crate) use arguments::Arguments;
+use arguments::Command;
+use failure::Failure;
+
+/// Runs the command that was asked for; returns the process's exit code.
+pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
+    match arguments.command {
+        Command::Render(a) => render::run(&a),
+        Command::Info(a) => info::run(&a),
+        Command::Compare(a) => compare::run(&a),
+    }
+}
+
+/// Prints to standard output; a reader that has gone away (`specula info x | head`) is no error.
+fn print(text: &str) {
+    use std::io::Write;
+    let mut out = std::io::stdout().lock();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}

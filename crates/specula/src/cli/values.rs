@@ -1,0 +1,130 @@
+//! Values of options, with messages that say what was expected.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// `30s`, `5m`, `1.5h`, `250ms`; a bare number is seconds.
+pub(crate) fn duration(text: &str) -> Result<Duration, String> {
+    let split = text
+        .find(|c: char| c.is_ascii_alphabetic())
+        .unwrap_or(text.len());
+    let (number, unit) = text.split_at(split);
+    let factor = match unit {
+        "ms" => 1e-3,
+        "" | "s" => 1.0,
+        "m" | "min" => 60.0,
+        "h" => 3600.0,
+        _ => return Err("expected a unit of ms, s, m or h, as in 30s, 5m, 1.5h".to_owned()),
+    };
+    let seconds = number
+        .trim()
+        .parse::<f64>()
+        .ok()
+        .filter(|n| *n > 0.0)
+        .map(|n| n * factor)
+        .filter(|s| *s <= 3.2e7);
+    seconds
+        .map(Duration::from_secs_f64)
+        .ok_or_else(|| "expected a time above 0 and below a year, as in 30s, 5m, 1.5h".to_owned())
+}
+
+/// `1280x720`.
+pub(crate) fn resolution(text: &str) -> Result<[u32; 2], String> {
+    text.split_once(['x', 'X', '×'])
+        .and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]))
+        .filter(|size: &[u32; 2]| size.iter().all(|s| (1..=65_536).contains(s)))
+        .ok_or_else(|| "expected a width and a height from 1 to 65536, as in 1280x720".to_owned())
+}
+
+/// `x0,x1,y0,y1`.
+pub(crate) fn crop(text: &str) -> Result<[u32; 4], String> {
+    let numbers: Option<Vec<u32>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
+    let crop: Option<[u32; 4]> = numbers.and_then(|n| n.try_into().ok());
+    crop.filter(|[x0, x1, y0, y1]| x0 < x1 && y0 < y1)
+        .ok_or_else(|| {
+            "expected four whole numbers x0,x1,y0,y1 with x0 < x1 and y0 < y1, as in 0,100,50,150"
+                .to_owned()
+        })
+}
+
+/// A number above 0.
+pub(crate) fn positive(text: &str) -> Result<f32, String> {
+    text.parse::<f32>()
+        .ok()
+        .filter(|v| v.is_finite() && *v > 0.0)
+        .ok_or_else(|| "expected a number above 0".to_owned())
+}
+
+/// A number from -64 to 64.
+pub(crate) fn finite(text: &str) -> Result<f32, String> {
+    text.parse::<f32>()
+        .ok()
+        .filter(|v| (-64.0..=64.0).contains(v))
+        .ok_or_else(|| "expected a number from -64 to 64".to_owned())
+}
+
+/// A number not below 0.
+pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
+    text.parse::<f64>()
+        .ok()
+        .filter(|v| v.is_finite() && *v >= 0.0)
+        .ok_or_else(|| "expected a number not below 0".to_owned())
+}
+
+/// A path that ends in `.exr` or `.png`.
+pub(crate) fn output(text: &str) -> Result<PathBuf, String> {
+    with_extension(text, &["exr", "png"])
+        .ok_or_else(|| "expected a file name that ends in .exr or .png".to_owned())
+}
+
+/// A path that ends in `.png`.
+pub(crate) fn png(text: &str) -> Result<PathBuf, String> {
+    with_extension(text, &["png"])
+        .ok_or_else(|| "expected a file name that ends in .png".to_owned())
+}
+
+fn with_extension(text: &str, allowed: &[&str]) -> Option<PathBuf> {
+    let path = PathBuf::from(text);
+    let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+    allowed.contains(&extension.as_str()).then_some(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times() {
+        assert_eq!(duration("30s"), Ok(Duration::from_secs(30)));
+        assert_eq!(duration("5m"), Ok(Duration::from_secs(300)));
+        assert_eq!(duration("1.5h"), Ok(Duration::from_secs(5400)));
+        assert_eq!(duration("250ms"), Ok(Duration::from_millis(250)));
+        assert_eq!(duration("7"), Ok(Duration::from_secs(7)));
+        for bad in [
+            "", "s", "-3s", "0s", "5 weeks", "nans", "inf", "1e99h", "3s4",
+        ] {
+            assert!(duration(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn sizes_and_crops() {
+        assert_eq!(resolution("640x360"), Ok([640, 360]));
+        for bad in ["640", "640x", "0x5", "640x-1", "99999999x2", "axb"] {
+            assert!(resolution(bad).is_err(), "{bad}");
+        }
+        assert_eq!(crop("0,10, 5,6"), Ok([0, 10, 5, 6]));
+        for bad in ["", "1,2,3", "5,5,0,1", "0,1,9,2", "0,1,2,3,4", "a,b,c,d"] {
+            assert!(crop(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn outputs_need_a_known_extension() {
+        assert_eq!(output("a/b.EXR"), Ok(PathBuf::from("a/b.EXR")));
+        for bad in ["a", "a.jpg", ".png", ""] {
+            assert!(output(bad).is_err(), "{bad}");
+        }
+        assert!(png("a.exr").is_err());
+    }
+}

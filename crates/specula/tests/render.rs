@@ -1,0 +1,190 @@
+//! `specula render`, end to end.
+
+mod common;
+
+use common::{small_scene, specula, stderr};
+use specula::render::picture::read_exr;
+
+/// Width and height in a PNG's header.
+fn png_size(bytes: &[u8]) -> (u32, u32) {
+    assert_eq!(&bytes[..8], b"\x89PNG\r\n\x1a\n");
+    let number = |at: usize| u32::from_be_bytes(bytes[at..at + 4].try_into().expect("four bytes"));
+    (number(16), number(20))
+}
+
+#[test]
+fn a_scene_becomes_exr_and_png_named_after_it() {
+    let (folder, scene) = small_scene();
+    let run = specula(folder.path())
+        .arg("render")
+        .arg(&scene)
+        .output()
+        .unwrap();
+    assert!(run.status.success(), "{}", stderr(&run));
+    assert!(stderr(&run).contains("4 spp"), "{}", stderr(&run));
+
+    let picture = read_exr(&folder.path().join("small.exr")).unwrap();
+    assert_eq!((picture.width, picture.height), (24, 16));
+    assert!(picture.sample_count.iter().all(|&n| n == 4.0));
+    assert_eq!(picture.albedo.len(), 24 * 16);
+    assert!(picture.colour.iter().any(|c| c.g > 0.5));
+    let png = std::fs::read(folder.path().join("small.png")).unwrap();
+    assert_eq!(png_size(&png), (24, 16));
+}
+
+#[test]
+fn options_change_what_is_rendered() {
+    let (folder, scene) = small_scene();
+    let run = specula(folder.path())
+        .args([
+            "render",
+            "--spp",
+            "3",
+            "--resolution",
+            "40x30",
+            "--crop",
+            "5,15,10,30",
+        ])
+        .args([
+            "--sampler",
+            "cap",
+            "--seed",
+            "7",
+            "--threads",
+            "2",
+            "--max-depth",
+            "2",
+        ])
+        .args([
+            "--quiet",
+            "-o",
+            "a.exr",
+            "-o",
+            "b.png",
+            "--exposure",
+            "-1",
+            "--tone",
+            "filmic",
+        ])
+        .arg(&scene)
+        .output()
+        .unwrap();
+    assert!(run.status.success(), "{}", stderr(&run));
+    assert_eq!(stderr(&run), "");
+    let picture = read_exr(&folder.path().join("a.exr")).unwrap();
+    assert_eq!((picture.width, picture.height), (10, 20));
+    assert_eq!(
+        (picture.full_resolution, picture.offset),
+        ([40, 30], [5, 10])
+    );
+    assert!(picture.sample_count.iter().all(|&n| n == 3.0));
+    let png = std::fs::read(folder.path().join("b.png")).unwrap();
+    assert_eq!(png_size(&png), (10, 20));
+    assert!(!folder.path().join("small.exr").exists());
+}
+
+#[test]
+fn threads_do_not_change_a_bit_and_seeds_do() {
+    let (folder, scene) = small_scene();
+    for (name, seed, threads) in [
+        ("a.exr", "1", "1"),
+        ("b.exr", "1", "3"),
+        ("c.exr", "2", "1"),
+    ] {
+        specula(folder.path())
+            .args([
+                "render",
+                "-q",
+                "-o",
+                name,
+                "--seed",
+                seed,
+                "--threads",
+                threads,
+            ])
+            .arg(&scene)
+            .assert()
+            .success();
+    }
+    let read = |name: &str| read_exr(&folder.path().join(name)).unwrap();
+    assert_eq!(read("a.exr"), read("b.exr"));
+    assert_ne!(read("a.exr").colour, read("c.exr").colour);
+}
+
+#[test]
+fn time_and_noise_end_a_render() {
+    let (folder, scene) = small_scene();
+    let start = std::time::Instant::now();
+    specula(folder.path())
+        .args(["render", "-q", "--time", "300ms", "-o", "t.exr"])
+        .arg(&scene)
+        .assert()
+        .success();
+    assert!(start.elapsed().as_secs() < 20);
+    specula(folder.path())
+        .args(["render", "-q", "--noise", "0.2", "-o", "n.exr"])
+        .arg(&scene)
+        .assert()
+        .success();
+    let samples = |name: &str| read_exr(&folder.path().join(name)).unwrap().sample_count[0];
+    assert!(samples("t.exr") >= 1.0);
+    assert!(samples("n.exr") >= 16.0);
+}
+
+#[test]
+fn the_built_in_scene_renders_without_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = specula(folder.path())
+        .args(["render", "--spp", "1", "--resolution", "96x40"])
+        .output()
+        .unwrap();
+    assert!(run.status.success(), "{}", stderr(&run));
+    let picture = read_exr(&folder.path().join("orbs.exr")).unwrap();
+    assert_eq!((picture.width, picture.height), (96, 40));
+    assert!(folder.path().join("orbs.png").exists());
+}
+
+#[test]
+fn an_output_that_cannot_be_written_is_told_before_the_render() {
+    let (folder, scene) = small_scene();
+    let start = std::time::Instant::now();
+    let run = specula(folder.path())
+        .args(["render", "--spp", "10000000", "-o", "no/such/folder/a.exr"])
+        .arg(&scene)
+        .output()
+        .unwrap();
+    assert_eq!(run.status.code(), Some(1));
+    assert!(start.elapsed().as_secs() < 20);
+    assert!(stderr(&run).contains("cannot write"), "{}", stderr(&run));
+}
+
+#[test]
+fn wrong_arguments_end_with_code_2_and_say_what_was_expected() {
+    let (folder, scene) = small_scene();
+    let cases: [(&[&str], &str); 10] = [
+        (&["--spp", "0"], "0 is not in"),
+        (&["--spp", "4", "--time", "3s"], "cannot be used with"),
+        (&["--time", "soon"], "30s, 5m, 1.5h"),
+        (&["--noise=-1"], "above 0"),
+        (&["--sampler", "best"], "possible values"),
+        (&["--crop", "5,1,0,1"], "x0 < x1"),
+        (&["--crop", "0,9999,0,1"], "beyond the picture"),
+        (&["--resolution", "0x0"], "1280x720"),
+        (&["-o", "a.jpg"], ".exr or .png"),
+        (&["-o", "a.exr", "-o", "a.exr"], "given twice"),
+    ];
+    for (arguments, expected) in cases {
+        let run = specula(folder.path())
+            .arg("render")
+            .arg(&scene)
+            .args(arguments)
+            .output()
+            .unwrap();
+        assert_eq!(run.status.code(), Some(2), "{arguments:?}");
+        assert!(
+            stderr(&run).contains(expected),
+            "{arguments:?}: {}",
+            stderr(&run)
+        );
+    }
+}
