@@ -91,11 +91,13 @@ impl<T: Real> CoatedConductor<T> {
         dielectric(w.z.abs(), self.eta).reflectance
     }
 
-    /// Probability of drawing the coat's reflection.
+    /// Probability of drawing the coat's reflection; 0 for a mirror that faces away.
     #[inline(always)]
     fn coat_probability(&self, reflected: T, wo: Vec3<T>) -> T {
         let metal = self.reflectance.eval(self.below(wo).z.abs()).max_channel();
-        reflected / Real::max(reflected + (T::ONE - reflected) * metal, T::TINY)
+        let visible = self.coat.is_some() || wo.z > T::ZERO;
+        let share = reflected / Real::max(reflected + (T::ONE - reflected) * metal, T::TINY);
+        T::select(visible, share, T::ZERO)
     }
 
     /// Transmission both ways with the series of bounces, times the metal's reflectance.

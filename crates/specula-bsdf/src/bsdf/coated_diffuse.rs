@@ -65,12 +65,14 @@ impl<T: Real> CoatedDiffuse<T> {
         interface::transmittance(self.coat, self.eta, w.z.abs())
     }
 
-    /// Probability of drawing the coat's reflection.
+    /// Probability of drawing the coat's reflection; 0 for a mirror that faces away.
     #[inline(always)]
-    fn coat_probability(&self, entering: T) -> T {
+    fn coat_probability(&self, entering: T, wo: Vec3<T>) -> T {
         let reflected = T::ONE - entering;
         let diffuse = entering * self.albedo.max_channel();
-        reflected / Real::max(reflected + diffuse, T::TINY)
+        let visible = self.coat.is_some() || wo.z > T::ZERO;
+        let share = reflected / Real::max(reflected + diffuse, T::TINY);
+        T::select(visible, share, T::ZERO)
     }
 
     /// The base's part of `f |cos|`.
@@ -94,18 +96,16 @@ impl<T: Real> Bsdf<T> for CoatedDiffuse<T> {
     #[inline]
     fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
         let entering = self.transmittance(wo);
-        let p = self.coat_probability(entering);
+        let p = self.coat_probability(entering, wo);
         let direction = [u[1], u[2]];
         let wi = if u[0] < p {
             match self.coat {
                 Some(ggx) => ggx.sample_reflection(self.sampler, wo, direction),
-                None if wo.z > T::ZERO => {
-                    let weight = (T::ONE - entering) / p;
+                None => {
+                    let weight = Rgb::splat((T::ONE - entering) / p);
                     let wi = vec3(-wo.x, -wo.y, wo.z);
-                    let weight = Rgb::splat(weight);
                     return Some(BsdfSample::delta(wi, weight, p, Event::Reflection, T::ONE));
                 }
-                None => return None,
             }
         } else {
             warp::cosine_hemisphere(direction)
@@ -120,7 +120,7 @@ impl<T: Real> Bsdf<T> for CoatedDiffuse<T> {
             return (Rgb::BLACK, T::ZERO);
         }
         let entering = self.transmittance(wo);
-        let p = self.coat_probability(entering);
+        let p = self.coat_probability(entering, wo);
         let mut f_cos = self.base_f_cos(entering, wi);
         let mut pdf = (T::ONE - p) * warp::cosine_hemisphere_pdf(wi);
         if let Some(ggx) = self.coat {

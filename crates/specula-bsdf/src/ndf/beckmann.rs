@@ -46,8 +46,9 @@ impl<T: Real> Ndf<T> for Beckmann<T> {
         let exponent = sx * sx + sy * sy;
         let z2 = wm.z * wm.z;
         let d = (-exponent).exp() / (T::PI * ax * ay * z2 * z2);
-        // Where the exponential is 0 the quotient may be 0/0.
-        T::select(wm.z > T::ZERO && exponent < T::of(80.0), d, T::ZERO)
+        // Where the exponential vanishes the quotient may be 0/0.
+        let vanishes = T::of(if T::MAX.to_f64() > 1e40 { 600.0 } else { 80.0 });
+        T::select(wm.z > T::ZERO && exponent < vanishes, d, T::ZERO)
     }
 
     /// ```text
