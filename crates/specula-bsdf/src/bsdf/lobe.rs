@@ -4,7 +4,7 @@ use super::{
     Bsdf, BsdfSample, CoatedConductor, CoatedDiffuse, DiffuseTransmission, Eon, Lambert,
     RoughConductor, RoughDielectric, SmoothConductor, SmoothDielectric, ThinDielectric, Transport,
 };
-use crate::math::{Real, Rgb, Vec3};
+use crate::math::{Real, Rgb, Stream, Vec3};
 
 /// One of the lobes of this crate, with GGX where it is rough.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,6 +67,33 @@ impl<T: Real> Bsdf<T> for Lobe<T> {
     #[inline]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> (Rgb<T>, T) {
         each_lobe!(self, l => l.eval_pdf(wo, wi, transport))
+    }
+
+    #[inline]
+    fn is_stochastic(&self) -> bool {
+        each_lobe!(self, l => l.is_stochastic())
+    }
+
+    #[inline]
+    fn eval_pdf_random(
+        &self,
+        wo: Vec3<T>,
+        wi: Vec3<T>,
+        transport: Transport,
+        stream: &mut Stream,
+    ) -> (Rgb<T>, T) {
+        each_lobe!(self, l => l.eval_pdf_random(wo, wi, transport, stream))
+    }
+
+    #[inline]
+    fn sample_random(
+        &self,
+        wo: Vec3<T>,
+        u: [T; 3],
+        transport: Transport,
+        stream: &mut Stream,
+    ) -> Option<BsdfSample<T>> {
+        each_lobe!(self, l => l.sample_random(wo, u, transport, stream))
     }
 
     #[inline]

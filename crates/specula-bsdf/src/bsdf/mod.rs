@@ -21,7 +21,7 @@ pub use lambert::{DiffuseTransmission, Lambert};
 pub use lobe::Lobe;
 pub use smooth_dielectric::{SmoothDielectric, ThinDielectric};
 
-use crate::math::{Real, Rgb, Vec3};
+use crate::math::{Real, Rgb, Stream, Vec3};
 
 /// What a path carries, for lobes whose two adjoints differ (refraction compresses radiance).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -86,6 +86,41 @@ pub trait Bsdf<T: Real> {
     #[inline(always)]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> (Rgb<T>, T) {
         (self.eval(wo, wi, transport), self.pdf(wo, wi))
+    }
+
+    /// Whether values are estimates: then `eval` and `sample` are one draw of a random walk, taken
+    /// from a stream seeded by the arguments, and callers who integrate should pass a stream of
+    /// their own to [`eval_pdf_random`](Bsdf::eval_pdf_random) and
+    /// [`sample_random`](Bsdf::sample_random).
+    fn is_stochastic(&self) -> bool {
+        false
+    }
+
+    /// [`eval_pdf`](Bsdf::eval_pdf) with randomness: an unbiased estimate of `f |cos|` where the
+    /// lobe is stochastic; the density is never random.
+    #[inline(always)]
+    fn eval_pdf_random(
+        &self,
+        wo: Vec3<T>,
+        wi: Vec3<T>,
+        transport: Transport,
+        _stream: &mut Stream,
+    ) -> (Rgb<T>, T) {
+        self.eval_pdf(wo, wi, transport)
+    }
+
+    /// [`sample`](Bsdf::sample) with randomness. Where the lobe is stochastic, `weight` estimates
+    /// the quotient of `f |cos|` and the true density of directions, and `pdf` is the one that
+    /// multiple importance sampling weighs with.
+    #[inline(always)]
+    fn sample_random(
+        &self,
+        wo: Vec3<T>,
+        u: [T; 3],
+        transport: Transport,
+        _stream: &mut Stream,
+    ) -> Option<BsdfSample<T>> {
+        self.sample(wo, u, transport)
     }
 
     /// Whether nothing but Dirac deltas is left: `eval` and `pdf` are zero everywhere.

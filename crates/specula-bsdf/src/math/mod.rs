@@ -3,6 +3,7 @@
 mod frame;
 mod real;
 mod rgb;
+mod stream;
 mod turns;
 mod vec3;
 pub mod warp;
@@ -10,4 +11,5 @@ pub mod warp;
 pub use frame::Frame;
 pub use real::Real;
 pub use rgb::{Rgb, rgb};
+pub use stream::Stream;
 pub use vec3::{Vec3, vec3};

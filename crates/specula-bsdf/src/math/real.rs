@@ -89,6 +89,9 @@ pub trait Real:
     /// `self` with the sign of `sign`.
     fn copysign(self, sign: Self) -> Self;
 
+    /// The leading bits of a random word as a number in `[0, 1)`.
+    fn unit_from_bits(bits: u64) -> Self;
+
     /// The smaller; `other` where `self` is NaN.
     #[inline(always)]
     fn min(self, other: Self) -> Self {
@@ -127,7 +130,7 @@ pub trait Real:
 }
 
 macro_rules! impl_real {
-    ($t:ident, $erf:path, $erfc:path, $turns:path) => {
+    ($t:ident, $erf:path, $erfc:path, $turns:path, $digits:literal) => {
         impl Real for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -196,6 +199,15 @@ macro_rules! impl_real {
                 $turns(self)
             }
             #[inline(always)]
+            #[allow(
+                clippy::cast_precision_loss,
+                reason = "the word is shifted to the type's digits"
+            )]
+            fn unit_from_bits(bits: u64) -> Self {
+                const STEP: $t = 1.0 / (1_u64 << $digits) as $t;
+                (bits >> (64 - $digits)) as $t * STEP
+            }
+            #[inline(always)]
             fn is_finite(self) -> bool {
                 $t::is_finite(self)
             }
@@ -207,5 +219,5 @@ macro_rules! impl_real {
     };
 }
 
-impl_real!(f32, libm::erff, libm::erfcf, turns::sin_cos_f32);
-impl_real!(f64, libm::erf, libm::erfc, turns::sin_cos_f64);
+impl_real!(f32, libm::erff, libm::erfcf, turns::sin_cos_f32, 24);
+impl_real!(f64, libm::erf, libm::erfc, turns::sin_cos_f64, 53);
