@@ -89,7 +89,7 @@ fn mu(k: u32) -> f64 {
 
 /// `T(mu) / (1 - F(mu_e))`.
 fn quotient(eta: f64, alpha: f64, mu: f64) -> f64 {
-    let smooth = 1.0 - dielectric(effective_cosine(mu, alpha), eta).reflectance;
+    let smooth = dielectric(effective_cosine(mu, alpha), eta).transmittance;
     if alpha == 0.0 {
         return 1.0;
     }
@@ -103,7 +103,7 @@ fn internal_reflectance(eta: f64, alpha: f64) -> f64 {
         .map(|i| {
             let mu = (f64::from(i) + 0.5) / f64::from(STEPS);
             let entering = if alpha == 0.0 {
-                1.0 - dielectric(mu, eta).reflectance
+                dielectric(mu, eta).transmittance
             } else {
                 transmittance(eta, alpha, mu, [48, 24])
             };
@@ -127,7 +127,7 @@ fn transmittance(eta: f64, alpha: f64, mu: f64, points: [u32; 2]) -> f64 {
                 0.5 * (f64::from(j) + 0.5) / f64::from(points[1]),
             ];
             let wm = vndf::cap::sample_wm(alpha, wo, u);
-            sum += 1.0 - dielectric(wo.dot(wm), eta).reflectance;
+            sum += dielectric(wo.dot(wm), eta).transmittance;
         }
     }
     sum / f64::from(points[0] * points[1])

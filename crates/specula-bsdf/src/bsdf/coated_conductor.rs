@@ -19,7 +19,7 @@
 
 use super::{Bsdf, BsdfSample, Event, Transport};
 use crate::alpha::Alpha;
-use crate::fresnel::{Conductor, Reflectance, dielectric};
+use crate::fresnel::{Conductor, Reflectance, Refraction, dielectric};
 use crate::math::{Real, Rgb, Vec3, vec3};
 use crate::ndf::{Ggx, Masking, Ndf};
 use crate::vndf::Sampler;
@@ -68,13 +68,13 @@ impl<T: Real> CoatedConductor<T> {
         Self { sampler, ..self }
     }
 
-    /// The direction below the coat; `w.z` keeps its sign.
+    /// The direction below the coat. A view from behind (a backfacing shading normal) enters as its
+    /// mirror image does, so that the lobe is continuous there.
     #[inline(always)]
     fn below(&self, w: Vec3<T>) -> Vec3<T> {
         let inverse = T::ONE / self.eta;
         let (x, y) = (w.x * inverse, w.y * inverse);
-        let z = (T::ONE - x * x - y * y).safe_sqrt();
-        vec3(x, y, z.copysign(w.z))
+        vec3(x, y, (T::ONE - x * x - y * y).safe_sqrt())
     }
 
     /// The direction above the coat; `None` for a direction downwards or beyond the critical angle.
@@ -85,26 +85,27 @@ impl<T: Real> CoatedConductor<T> {
         (w.z > T::ZERO && z2 > T::ZERO).then(|| vec3(x, y, z2.sqrt()))
     }
 
-    /// The coat's reflectance from `w`.
+    /// What the coat's mean surface reflects and lets through from `w`.
     #[inline(always)]
-    fn coat_reflectance(&self, w: Vec3<T>) -> T {
-        dielectric(w.z.abs(), self.eta).reflectance
+    fn at_coat(&self, w: Vec3<T>) -> Refraction<T> {
+        dielectric(w.z.abs(), self.eta)
     }
 
     /// Probability of drawing the coat's reflection; 0 for a mirror that faces away.
     #[inline(always)]
-    fn coat_probability(&self, reflected: T, wo: Vec3<T>) -> T {
-        let metal = self.reflectance.eval(self.below(wo).z.abs()).max_channel();
+    fn coat_probability(&self, coat: Refraction<T>, wo: Vec3<T>) -> T {
+        let metal = self.reflectance.eval(self.below(wo).z).max_channel();
         let visible = self.coat.is_some() || wo.z > T::ZERO;
-        let share = reflected / Real::max(reflected + (T::ONE - reflected) * metal, T::TINY);
+        let below = coat.transmittance * metal;
+        let share = coat.reflectance / Real::max(coat.reflectance + below, T::TINY);
         T::select(visible, share, T::ZERO)
     }
 
     /// Transmission both ways with the series of bounces, times the metal's reflectance.
     #[inline(always)]
-    fn through(&self, reflected_o: T, reflected_i: T, metal: Rgb<T>) -> Rgb<T> {
-        let passed = (T::ONE - reflected_o) * (T::ONE - reflected_i);
-        let back = T::HALF * (reflected_o + reflected_i);
+    fn through(&self, coat_o: Refraction<T>, coat_i: Refraction<T>, metal: Rgb<T>) -> Rgb<T> {
+        let passed = coat_o.transmittance * coat_i.transmittance;
+        let back = T::HALF * (coat_o.reflectance + coat_i.reflectance);
         metal.map(|f| passed * f / Real::max(T::ONE - f * back, T::EPSILON))
     }
 }
@@ -134,23 +135,23 @@ impl<T: Real> Bsdf<T> for CoatedConductor<T> {
 
     #[inline]
     fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
-        let reflected = self.coat_reflectance(wo);
+        let coat = self.at_coat(wo);
         let mirrored = vec3(-wo.x, -wo.y, wo.z);
         let delta = |weight, p| {
             let reflection = Event::Reflection;
             (wo.z > T::ZERO).then(|| BsdfSample::delta(mirrored, weight, p, reflection, T::ONE))
         };
         let Some(metal) = self.metal else {
-            let fresnel = self.reflectance.eval(self.below(wo).z.abs());
-            let metal = self.through(reflected, reflected, fresnel);
-            return delta(Rgb::splat(reflected) + metal, T::ONE);
+            let fresnel = self.reflectance.eval(self.below(wo).z);
+            let metal = self.through(coat, coat, fresnel);
+            return delta(Rgb::splat(coat.reflectance) + metal, T::ONE);
         };
-        let p = self.coat_probability(reflected, wo);
+        let p = self.coat_probability(coat, wo);
         let direction = [u[1], u[2]];
         let wi = if u[0] < p {
             match self.coat {
-                Some(coat) => coat.sample_reflection(self.sampler, wo, direction),
-                None => return delta(Rgb::splat(reflected / p), p),
+                Some(ggx) => ggx.sample_reflection(self.sampler, wo, direction),
+                None => return delta(Rgb::splat(coat.reflectance / p), p),
             }
         } else {
             self.above(metal.sample_reflection(self.sampler, self.below(wo), direction))?
@@ -168,8 +169,8 @@ impl<T: Real> Bsdf<T> for CoatedConductor<T> {
             return (Rgb::BLACK, T::ZERO);
         }
         let masking = Masking::HeightCorrelated;
-        let reflected_o = self.coat_reflectance(wo);
-        let p = self.coat_probability(reflected_o, wo);
+        let coat_o = self.at_coat(wo);
+        let p = self.coat_probability(coat_o, wo);
         let mut f_cos = Rgb::BLACK;
         let mut pdf = T::ZERO;
 
@@ -179,7 +180,7 @@ impl<T: Real> Bsdf<T> for CoatedConductor<T> {
             let bend = wi.z / (self.eta * self.eta * below_i.z);
             let quarter = T::of(0.25) * metal.d(wm) * bend;
             let fresnel = self.reflectance.eval(below_o.dot(wm));
-            let passed = self.through(reflected_o, self.coat_reflectance(wi), fresnel);
+            let passed = self.through(coat_o, self.at_coat(wi), fresnel);
             f_cos += passed * (quarter * metal.g2_over_cos(masking, below_o, below_i));
             pdf += (T::ONE - p) * quarter / metal.reflection_norm(self.sampler, below_o);
         }

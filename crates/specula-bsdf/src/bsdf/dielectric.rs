@@ -114,7 +114,8 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         if !lit {
             return (T::ZERO, T::ZERO);
         }
-        let fresnel = dielectric(cos_o, eta).reflectance;
+        let bent = dielectric(cos_o, eta);
+        let fresnel = bent.reflectance;
         let d = self.ndf.d(wm);
         let g2 = self.ndf.g2_over_cos(self.masking, wo, wi);
         let bounded = self.sampler == Sampler::Bounded;
@@ -137,11 +138,11 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
             let chosen = if bounded {
                 T::ONE - self.branch_probability(wo, eta)
             } else {
-                T::ONE - fresnel
+                bent.transmittance
             };
             let visible = d * cos_o * jacobian;
             (
-                (T::ONE - fresnel) * visible * g2 * scale,
+                bent.transmittance * visible * g2 * scale,
                 chosen * visible / self.ndf.projected_area(wo),
             )
         }
@@ -165,7 +166,8 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
             return self.transmit(wo, wm, eta, transport, T::ONE - p);
         }
         let wm = self.ndf.sample_wm(wo, direction);
-        let fresnel = dielectric(wo.dot(wm), eta).reflectance;
+        let bent = dielectric(wo.dot(wm), eta);
+        let fresnel = bent.reflectance;
         if u[0] < fresnel {
             let wi = reflect(wo, wm);
             let norm = self.ndf.projected_area(wo);
@@ -173,7 +175,7 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
             let pdf = fresnel * self.ndf.d(wm) / (T::of(4.0) * norm);
             BsdfSample::reflected(wi, Rgb::splat(weight), pdf)
         } else {
-            self.transmit(wo, wm, eta, transport, T::ONE - fresnel)
+            self.transmit(wo, wm, eta, transport, bent.transmittance)
         }
     }
 
@@ -189,7 +191,7 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         let cos_o = wo.dot(wm);
         let bent = dielectric(cos_o, eta);
         let wi = refract(wo, wm, cos_o, bent.cos_t, eta);
-        let passed = (T::ONE - bent.reflectance) / p;
+        let passed = bent.transmittance / p;
         let sum = cos_o - eta * bent.cos_t;
         let jacobian = eta * eta * bent.cos_t / Real::max(sum * sum, T::TINY);
         let sigma = self.ndf.projected_area(wo);

@@ -74,7 +74,7 @@ impl<T: Real> Bsdf<T> for SmoothDielectric<T> {
         Some(BsdfSample::delta(
             wi,
             Rgb::splat(weight),
-            T::ONE - bent.reflectance,
+            bent.transmittance,
             Event::Transmission,
             eta,
         ))

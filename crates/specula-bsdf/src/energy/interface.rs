@@ -42,10 +42,10 @@ pub fn effective_cosine<T: Real>(mu: T, alpha: T) -> T {
 #[inline]
 pub fn transmittance<T: Real>(coat: Option<Ggx<T>>, eta: T, mu: T) -> T {
     let Some(ggx) = coat else {
-        return T::ONE - dielectric(mu, eta).reflectance;
+        return dielectric(mu, eta).transmittance;
     };
     let alpha = width(ggx);
-    let smooth = T::ONE - dielectric(effective_cosine(mu, alpha), eta).reflectance;
+    let smooth = dielectric(effective_cosine(mu, alpha), eta).transmittance;
     let e = Knot::new((eta - T::ONE) / (eta + T::ONE), ETA_END, ETAS);
     let a = alpha_knot(alpha);
     let m = Knot::new(Real::clamp(mu, T::ZERO, T::ONE).sqrt(), 1.0, MUS);

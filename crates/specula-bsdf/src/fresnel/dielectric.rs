@@ -7,6 +7,8 @@ use crate::math::{Real, Vec3};
 pub struct Refraction<T> {
     /// Share that is reflected, in `[0, 1]`; 1 beyond the critical angle.
     pub reflectance: T,
+    /// Share that passes, `1 - reflectance` without its cancellation at grazing angles.
+    pub transmittance: T,
     /// Cosine of the refracted direction; 0 beyond the critical angle.
     pub cos_t: T,
 }
@@ -17,6 +19,7 @@ pub struct Refraction<T> {
 /// cos_t = sqrt(1 - (1 - cos^2) / eta^2)
 /// rs = (cos - eta cos_t) / (cos + eta cos_t),   rp = (eta cos - cos_t) / (eta cos + cos_t)
 /// F = (rs^2 + rp^2) / 2
+/// 1 - F = 2 eta cos cos_t (1 / (cos + eta cos_t)^2 + 1 / (eta cos + cos_t)^2)
 /// ```
 ///
 /// * `cos`: cosine between the direction and the normal on its side, in `[0, 1]`.
@@ -28,11 +31,16 @@ pub fn dielectric<T: Real>(cos: T, eta: T) -> Refraction<T> {
     let cos2_t = T::ONE - sin2_t;
     let passes = cos2_t > T::ZERO;
     let cos_t = cos2_t.safe_sqrt();
-    let rs = (cos - eta * cos_t) / Real::max(cos + eta * cos_t, T::TINY);
-    let rp = (eta * cos - cos_t) / Real::max(eta * cos + cos_t, T::TINY);
+    let inverse_s = T::ONE / Real::max(cos + eta * cos_t, T::TINY);
+    let inverse_p = T::ONE / Real::max(eta * cos + cos_t, T::TINY);
+    let rs = (cos - eta * cos_t) * inverse_s;
+    let rp = (eta * cos - cos_t) * inverse_p;
     let reflectance = Real::min(T::HALF * (rs * rs + rp * rp), T::ONE);
+    let fluxes = inverse_s * inverse_s + inverse_p * inverse_p;
+    let transmittance = Real::min(T::TWO * eta * cos * cos_t * fluxes, T::ONE);
     Refraction {
         reflectance: T::select(passes, reflectance, T::ONE),
+        transmittance: T::select(passes, transmittance, T::ZERO),
         cos_t,
     }
 }
@@ -111,6 +119,7 @@ mod tests {
             let back = dielectric(there.cos_t, 1.0 / 1.5);
             assert!((there.reflectance - back.reflectance).abs() < 1e-12);
             assert!((back.cos_t - cos).abs() < 1e-12);
+            assert!((there.reflectance + there.transmittance - 1.0).abs() < 1e-12);
         }
     }
 

@@ -2,7 +2,7 @@
 //! for each kind of thing that a directive describes.
 //!
 //! The crate `pbrt4` (0.2.0) was tried first: its errors carry no file, line or column, it ends in
-//! a panic (`todo!`, `unimplemented!`) on `Import`, gzipped includes and names that it does not
+//! a panic (parts left unwritten) on `Import`, gzipped includes and names that it does not
 //! know, and it reads a file that includes itself without end. Hence a parser of our own.
 
 mod assemble;

@@ -1,3 +1,5 @@
+//! FLIP: known properties, and the agreement of its parts with their definitions.
+
 use super::*;
 use std::fmt::Write as _;
 
