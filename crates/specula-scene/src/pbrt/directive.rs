@@ -348,7 +348,7 @@ fn decode(path: &Path, bytes: Vec<u8>) -> Result<Arc<Source>, SceneError> {
     match String::from_utf8(bytes) {
         Ok(text) if text.contains('\0') => {
             let at = text.find('\0').unwrap_or(0);
-            let place = Place::new(&Source::new(name, text), at, 1);
+            let place = Place::new(&Source::new(name, printable(&text)), at, 1);
             Err(SceneError::new(
                 ErrorKind::Encoding,
                 &place,
@@ -358,10 +358,23 @@ fn decode(path: &Path, bytes: Vec<u8>) -> Result<Arc<Source>, SceneError> {
         Ok(text) => Ok(Source::new(name, text)),
         Err(error) => {
             let at = error.utf8_error().valid_up_to();
-            let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
+            let text = printable(&String::from_utf8_lossy(error.as_bytes()));
             let place = Place::new(&Source::new(name, text), at, 1);
             let message = "the file is not UTF-8 text; expected a pbrt-v4 scene";
             Err(SceneError::new(ErrorKind::Encoding, &place, message))
         }
     }
+}
+
+/// Text without control characters, byte for byte as long: an excerpt of binary data must not steer
+/// the terminal that shows it.
+fn printable(text: &str) -> String {
+    let visible = |c: char| {
+        if c.is_ascii_control() && c != '\n' {
+            '.'
+        } else {
+            c
+        }
+    };
+    text.chars().map(visible).collect()
 }
