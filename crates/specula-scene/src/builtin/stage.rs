@@ -46,7 +46,7 @@ impl Build {
         // Key: large, above and to the left; rim: a bar behind, out of sight.
         let target = DVec3::new(0.0, 0.0, 1.5);
         let key = softbox(DVec3::new(-9.0, -9.0, 13.0), target, 5.5, 3.2);
-        self.emitter(key, black, rgb(9.0, 8.6, 8.1));
+        self.emitter(key, black, rgb(5.4, 5.2, 4.9));
         let rim = softbox(DVec3::new(0.0, 4.0, 10.5), target, 11.0, 0.55);
         self.emitter(rim, black, rgb(8.0, 8.4, 9.0));
 
@@ -60,8 +60,8 @@ impl Build {
 
     fn checks(&mut self) -> TextureId {
         let textures = &mut self.scene.textures;
-        textures.push(Texture::Constant(rgb(0.15, 0.154, 0.162)));
-        textures.push(Texture::Constant(rgb(0.18, 0.184, 0.192)));
+        textures.push(Texture::Constant(rgb(0.07, 0.073, 0.08)));
+        textures.push(Texture::Constant(rgb(0.13, 0.133, 0.14)));
         textures.push(Texture::Checkerboard {
             even: TextureId(0),
             odd: TextureId(1),
