@@ -16,7 +16,7 @@ use specula_bsdf::{Bsdf, BsdfSample, Frame, Rgb, Transport, Vec3};
 use crate::accel::Ray;
 use crate::film::PixelSample;
 use crate::geometry::{NONE, Surface};
-use crate::light::LightSample;
+use crate::light::{LightSample, Receiver};
 use crate::material::Place;
 use crate::offset::leave;
 use crate::options::{RenderOptions, Strategy};
@@ -41,7 +41,7 @@ pub(crate) struct PathTracer<'a> {
 /// Where the last direction was drawn, if lights could have found it too.
 #[derive(Clone, Copy)]
 struct Previous {
-    point: Vec3<f32>,
+    receiver: Receiver,
     pdf: f32,
 }
 
@@ -53,6 +53,27 @@ struct Vertex {
     /// Geometric normal on the viewer's side.
     facing: Vec3<f32>,
     wo: Vec3<f32>,
+}
+
+impl Vertex {
+    /// The vertex as lights are chosen for it.
+    #[inline]
+    fn receiver(&self) -> Receiver {
+        // These lobes are black where `wi.z <= 0`.
+        let opaque = matches!(
+            self.lobe,
+            Lobe::Lambert(_)
+                | Lobe::Eon(_)
+                | Lobe::SmoothConductor(_)
+                | Lobe::RoughConductor(_)
+                | Lobe::CoatedDiffuse(_)
+                | Lobe::CoatedConductor(_)
+        );
+        Receiver {
+            point: self.surface.position,
+            normal: opaque.then_some(self.frame.n),
+        }
+    }
 }
 
 /// A path being traced.
@@ -134,7 +155,9 @@ impl<'a> PathTracer<'a> {
     #[inline]
     fn add_background(&self, state: &mut State, direction: Vec3<f32>) {
         for (radiance, pdf) in self.scene.lights.arriving_from_infinity(direction) {
-            let weight = self.lobe_weight(state.previous, |_| pdf);
+            let weight = self.lobe_weight(state.previous, |receiver| {
+                self.scene.lights.share_from_infinity(receiver) * pdf
+            });
             state.radiance += state.throughput * radiance * weight;
         }
     }
@@ -147,8 +170,8 @@ impl<'a> PathTracer<'a> {
         }
         let shape = &self.scene.geometry.shapes[surface.shape as usize];
         if shape.two_sided || surface.ng.dot(direction) < 0.0 {
-            let weight = self.lobe_weight(state.previous, |p| {
-                self.scene.lights.pdf_of_surface(p, surface)
+            let weight = self.lobe_weight(state.previous, |receiver| {
+                self.scene.lights.pdf_of_surface(receiver, surface)
             });
             state.radiance += state.throughput * shape.radiance * weight;
         }
@@ -159,12 +182,12 @@ impl<'a> PathTracer<'a> {
     fn lobe_weight(
         &self,
         previous: Option<Previous>,
-        light_pdf: impl FnOnce(Vec3<f32>) -> f32,
+        light_pdf: impl FnOnce(&Receiver) -> f32,
     ) -> f32 {
         match (previous, self.strategy) {
             (None, _) | (_, Strategy::BsdfOnly) => 1.0,
             (_, Strategy::LightsOnly) => 0.0,
-            (Some(p), _) => self.heuristic(p.pdf, light_pdf(p.point)),
+            (Some(p), _) => self.heuristic(p.pdf, light_pdf(&p.receiver)),
         }
     }
 
@@ -219,8 +242,8 @@ impl<'a> PathTracer<'a> {
         if vertex.lobe.is_specular() {
             return;
         }
-        let at = vertex.surface.position;
-        let Some(light) = self.scene.lights.sample(at, sampler.light(depth)) else {
+        let receiver = vertex.receiver();
+        let Some(light) = self.scene.lights.sample(&receiver, sampler.light(depth)) else {
             return;
         };
         if self.strategy == Strategy::BsdfOnly && !light.delta {
@@ -231,7 +254,10 @@ impl<'a> PathTracer<'a> {
             return;
         }
         let wo = vertex.frame.to_local(vertex.wo);
-        let (f_cos, pdf) = vertex.lobe.eval_pdf(wo, wi, Transport::Radiance);
+        let (f_cos, pdf) =
+            vertex
+                .lobe
+                .eval_pdf_random(wo, wi, Transport::Radiance, &mut sampler.stream(depth, 0));
         if f_cos.is_black() {
             return;
         }
@@ -264,7 +290,12 @@ impl<'a> PathTracer<'a> {
             specular,
             eta,
             ..
-        } = vertex.lobe.sample(wo, [u0, u1, u2], Transport::Radiance)?;
+        } = vertex.lobe.sample_random(
+            wo,
+            [u0, u1, u2],
+            Transport::Radiance,
+            &mut sampler.stream(depth, 1),
+        )?;
         let direction = vertex.frame.to_world(wi).normalize();
         if wi.z * vertex.facing.dot(direction) <= 0.0 {
             return None;
@@ -284,7 +315,7 @@ impl<'a> PathTracer<'a> {
         }
         let s = &vertex.surface;
         state.previous = (!specular).then_some(Previous {
-            point: s.position,
+            receiver: vertex.receiver(),
             pdf,
         });
         Some(Ray {

@@ -9,13 +9,15 @@
 //! |---|---|
 //! | 0 | x and y within the filter, x and y on the lens |
 //! | 1 + 2 v | vertex v: choice of lobe, two for the direction, Russian roulette |
-//! | 2 + 2 v | vertex v: choice of light, two for the point on it, coin of the choice |
+//! | 2 + 2 v | vertex v: choice of light, two for the point on it, finer digits of the choice |
 //!
 //! From vertex 31 on the sets repeat under another seed (Burley's padding): stratified within
-//! themselves, random against the others. Opacity and the choice within mixed materials take
+//! themselves, random against the others. Lobes that walk between microfacets draw from a hashed
+//! stream per vertex. Opacity and the choice within mixed materials take
 //! hashed numbers, since their count along a path is not bounded.
 
 use sobol_burley::{NUM_DIMENSION_SETS_4D, sample_4d};
+use specula_bsdf::math::Stream;
 
 /// The numbers of one sample of one pixel.
 #[derive(Clone, Copy, Debug)]
@@ -47,7 +49,8 @@ impl Sampler {
         self.set(1 + 2 * vertex)
     }
 
-    /// One number for the choice of a light, two for the point on it, one for the choice's coin.
+    /// One number for the choice of a light, two for the point on it, one for finer digits of the
+    /// choice.
     #[inline]
     pub(crate) fn light(&self, vertex: u32) -> [f32; 4] {
         self.set(2 + 2 * vertex)
@@ -59,6 +62,15 @@ impl Sampler {
         let bits = hash(self.seed ^ hash(self.index ^ hash(key[0] ^ hash(key[1] ^ hash(key[2])))));
         // 24 bits: every value is exact and below 1.
         (bits >> 8) as f32 * (1.0 / 16_777_216.0)
+    }
+
+    /// Numbers without end for a lobe whose values are estimates, at one vertex; `purpose` tells
+    /// its evaluation from its sampling.
+    #[inline]
+    pub(crate) fn stream(&self, vertex: u32, purpose: u32) -> Stream {
+        let low = hash(self.seed ^ hash(vertex ^ hash(purpose)));
+        let high = hash(low ^ hash(self.index));
+        Stream::new(u64::from(high) << 32 | u64::from(low))
     }
 
     #[inline]

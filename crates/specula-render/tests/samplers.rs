@@ -49,7 +49,7 @@ fn picture(scene: &Scene, sampler: Sampler, spp: u32) -> Picture {
         seed: 1 + sampler as u32,
         ..RenderOptions::default()
     };
-    let prepared = PreparedScene::new(scene, &options).unwrap();
+    let prepared = PreparedScene::new(scene, &options).expect("the scene is sound");
     let mut renderer = Renderer::new(&prepared, options);
     let report = renderer.render_pass(spp, &AtomicBool::new(false));
     assert_eq!(report.invalid_samples, 0);
@@ -108,7 +108,7 @@ fn a_biased_tile_is_seen() {
     for row in 0..8 {
         for column in 0..8 {
             let c = &mut biased.colour[row * 32 + column];
-            *c = *c * 1.1;
+            *c *= 1.1;
         }
     }
     assert!(largest_score(&cap, &biased) > 4.5);

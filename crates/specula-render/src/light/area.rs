@@ -4,7 +4,8 @@ use glam::{DMat3, DMat4};
 use specula_bsdf::math::vec3;
 use specula_bsdf::{Frame, Real, Vec3};
 
-use crate::accel::QuadricShape;
+use super::cone::EmissionCone;
+use crate::accel::{Bounds, QuadricShape};
 use crate::camera::concentric_disk;
 use crate::convert::{Affine, abs, narrow, normal_matrix};
 use crate::geometry::unit_or;
@@ -127,6 +128,50 @@ impl Area {
         }
     }
 
+    /// Area of the shadow along the normal; of a closed surface, the mean over directions.
+    pub(crate) fn projected_area(&self) -> f32 {
+        match self {
+            Self::Triangle { .. } | Self::Disk { .. } => self.area(),
+            // Cauchy's formula for convex bodies.
+            Self::Sphere { .. } | Self::Ellipsoid { .. } => 0.25 * self.area(),
+        }
+    }
+
+    /// The least box around it, up to rounding.
+    pub(super) fn bounds(&self) -> Bounds {
+        let (centre, reach) = match *self {
+            Self::Triangle { corner, edges, .. } => {
+                let corners = [corner, corner + edges[0], corner + edges[1]];
+                let point = |p: Vec3<f32>| Bounds {
+                    min: p.to_array(),
+                    max: p.to_array(),
+                };
+                return corners
+                    .into_iter()
+                    .fold(Bounds::EMPTY, |b, p| b.union(&point(p)));
+            }
+            Self::Sphere { centre, radius, .. } => (centre, Vec3::splat(radius)),
+            Self::Disk { centre, axes, .. } => (centre, root_of_squares(&axes)),
+            Self::Ellipsoid { forward, .. } => {
+                (forward.translation, root_of_squares(&forward.columns))
+            }
+        };
+        Bounds {
+            min: (centre - reach).to_array(),
+            max: (centre + reach).to_array(),
+        }
+    }
+
+    /// Bound on the directions that it sends light to.
+    pub(super) fn cone(&self, two_sided: bool) -> EmissionCone {
+        match *self {
+            Self::Triangle { normal, .. } | Self::Disk { normal, .. } => {
+                EmissionCone::flat(normal, two_sided)
+            }
+            Self::Sphere { .. } | Self::Ellipsoid { .. } => EmissionCone::SPHERE,
+        }
+    }
+
     /// A point of the light as seen from `p`.
     ///
     /// * `u`: uniform in `[0, 1)^2`.
@@ -200,6 +245,12 @@ impl Area {
         let cos = normal.dot(d).abs() / distance_squared.sqrt();
         finite_or_zero(per_area * distance_squared / cos)
     }
+}
+
+/// Half sides of the box around the image of the unit sphere, or disk, of these axes.
+fn root_of_squares(axes: &[Vec3<f32>]) -> Vec3<f32> {
+    let squares = axes.iter().fold(Vec3::ZERO, |sum, a| sum + a.hadamard(*a));
+    vec3(squares.x.sqrt(), squares.y.sqrt(), squares.z.sqrt())
 }
 
 /// Surface area of the image of the unit sphere: the mean of `|cofactor n|` over directions.

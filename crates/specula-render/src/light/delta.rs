@@ -3,6 +3,7 @@
 use specula_bsdf::{Rgb, Vec3};
 use specula_scene::scene::Light;
 
+use super::cone::EmissionCone;
 use crate::convert::{narrow, narrow3};
 
 /// A light that only its own sampling can find.
@@ -87,28 +88,44 @@ impl Delta {
         }
     }
 
-    /// Emitted power in luminance; of a distant light, what meets a disk of radius `scene_radius`.
-    pub(crate) fn power(&self, scene_radius: f64) -> f64 {
-        use core::f64::consts::PI;
-        let (colour, factor) = match *self {
-            Self::Distant { irradiance, .. } => (irradiance, PI * scene_radius * scene_radius),
+    /// Largest intensity in luminance; of a distant light, the irradiance.
+    pub(crate) fn strength(&self) -> f64 {
+        let (Self::Distant {
+            irradiance: colour, ..
+        }
+        | Self::Point {
+            intensity: colour, ..
+        }) = self;
+        f64::from(colour.luminance().max(colour.mean()))
+    }
+
+    /// Place, and bound on the directions; `None` at infinity.
+    pub(super) fn bounds(&self) -> Option<(Vec3<f32>, EmissionCone)> {
+        match *self {
+            Self::Distant { .. } => None,
             Self::Point {
-                intensity,
+                position,
                 cos_cone: NO_CONE,
                 ..
-            } => (intensity, 4.0 * PI),
-            // The mean of the smoothstep over its range is 1/2.
+            } => Some((position, EmissionCone::SPHERE)),
             Self::Point {
-                intensity,
+                position,
+                axis,
                 cos_cone,
                 cos_start,
                 ..
-            } => (
-                intensity,
-                2.0 * PI * (1.0 - 0.5 * f64::from(cos_cone + cos_start)),
-            ),
-        };
-        f64::from(colour.luminance().max(colour.mean())) * factor
+            } => {
+                let theta_o = f64::from(cos_start).clamp(-1.0, 1.0).acos();
+                let end = f64::from(cos_cone).clamp(-1.0, 1.0).acos();
+                let cone = EmissionCone {
+                    axis: axis.cast(),
+                    theta_o,
+                    theta_e: (end - theta_o).max(0.0),
+                    two_sided: false,
+                };
+                Some((position, cone))
+            }
+        }
     }
 }
 

@@ -1,28 +1,32 @@
-//! Lights, and the choice among them.
-//!
-//! Every light is chosen in proportion to its power (luminance times area or solid angle; of light
-//! from infinity, what meets the scene's bounding sphere). Where there are both lights from infinity
-//! and lights in the scene, either class keeps at least a fifth of the samples: the power of a sky
-//! over a large floor says little about a room.
+//! Lights, and the choice among them: see [`select`] for how one is chosen at a point.
 
+mod alias;
 mod area;
+mod build;
+mod cone;
 mod delta;
 mod environment;
+mod node;
 mod octahedral;
 mod select;
+mod tree;
+
+#[cfg(test)]
+mod tests;
 
 use glam::DMat4;
 use specula_bsdf::{Rgb, Vec3};
 use specula_scene::scene::{Light, Scene};
 
+use crate::accel::Bounds;
 use crate::geometry::{Geometry, Surface};
 use area::Area;
+use build::Emitter;
 use delta::Delta;
 use environment::Environment;
-use select::AliasTable;
+use select::Selection;
 
-/// Smallest share of either class of lights where there are both.
-const LEAST_SHARE: f64 = 0.2;
+pub(crate) use node::Receiver;
 
 #[derive(Clone, Debug)]
 enum Source {
@@ -41,8 +45,9 @@ enum Source {
 #[derive(Clone, Debug)]
 pub(crate) struct Lights {
     sources: Vec<Source>,
+    /// With their places in `sources`.
     environments: Vec<(Environment, u32)>,
-    table: AliasTable,
+    selection: Selection,
 }
 
 /// Light that could arrive, if nothing is in the way.
@@ -71,21 +76,29 @@ pub(crate) struct Target {
 impl Lights {
     /// Gathers the lights of a scene.
     pub(crate) fn new(scene: &Scene, geometry: &Geometry) -> Self {
-        let radius = geometry.accel.bounds().map_or(1.0, |b| {
-            let d = [0, 1, 2].map(|i| f64::from(b.max[i]) - f64::from(b.min[i]));
-            0.5 * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
-        });
-        let radius = if radius > 0.0 { radius } else { 1.0 };
         let mut lights = Self {
             sources: Vec::new(),
             environments: Vec::new(),
-            table: AliasTable::default(),
+            selection: Selection::default(),
         };
-        let mut powers = Vec::new();
-        lights.add_emitters(geometry, &mut powers);
+        let mut near = Vec::new();
+        let mut far = Vec::new();
+        lights.add_emitters(geometry, &mut near);
         for light in &scene.lights {
+            let index = crate::convert::id(lights.sources.len());
             if let Some(delta) = Delta::new(light) {
-                powers.push(delta.power(radius));
+                match delta.bounds() {
+                    None => far.push((index, delta.strength())),
+                    Some((p, cone)) => near.push(Emitter {
+                        light: index,
+                        bounds: Bounds {
+                            min: p.to_array(),
+                            max: p.to_array(),
+                        },
+                        cone,
+                        intensity: delta.strength(),
+                    }),
+                }
                 lights.sources.push(Source::Delta(delta));
             } else if let Light::Infinite {
                 radiance,
@@ -95,19 +108,17 @@ impl Lights {
             {
                 let image = image.map(|(id, mapping)| (&scene.images[id.0], mapping));
                 let environment = Environment::new(*radiance, image, to_world);
-                let section = core::f64::consts::PI * radius * radius;
-                powers.push(environment.luminous_integral() * section);
-                let index = crate::convert::id(lights.sources.len());
+                far.push((index, environment.luminous_integral()));
                 let number = lights.environments.len();
                 lights.sources.push(Source::Environment(number));
                 lights.environments.push((environment, index));
             }
         }
-        lights.table = AliasTable::new(&lights.balanced(powers));
+        lights.selection = Selection::new(near, &far, lights.sources.len());
         lights
     }
 
-    fn add_emitters(&mut self, geometry: &Geometry, powers: &mut Vec<f64>) {
+    fn add_emitters(&mut self, geometry: &Geometry, near: &mut Vec<Emitter>) {
         for placement in &geometry.placements {
             let group = &geometry.groups[placement.group as usize];
             let triangles = group.triangles.len();
@@ -123,10 +134,13 @@ impl Lights {
                     let q = &group.quadrics[primitive as usize - triangles];
                     Area::quadric(q.shape, &(*m * q.to_group), q.flipped)
                 };
-                let sides = if shape.two_sided { 2.0 } else { 1.0 };
                 let colour = shape.radiance.luminance().max(shape.radiance.mean());
-                let power = f64::from(colour) * f64::from(area.area()) * sides;
-                powers.push(core::f64::consts::PI * power);
+                near.push(Emitter {
+                    light: crate::convert::id(self.sources.len()),
+                    bounds: area.bounds(),
+                    cone: area.cone(shape.two_sided),
+                    intensity: f64::from(colour) * f64::from(area.projected_area()),
+                });
                 self.sources.push(Source::Area {
                     area,
                     radiance: shape.radiance,
@@ -136,40 +150,18 @@ impl Lights {
         }
     }
 
-    /// Powers as weights, with the least share of either class.
-    fn balanced(&self, mut powers: Vec<f64>) -> Vec<f64> {
-        let from_infinity: Vec<bool> = self.sources.iter().map(Source::is_infinite).collect();
-        let (mut far, mut near) = (0.0, 0.0);
-        for (p, &infinite) in powers.iter_mut().zip(&from_infinity) {
-            if !(*p > 0.0 && p.is_finite()) {
-                *p = 0.0;
-            }
-            *(if infinite { &mut far } else { &mut near }) += *p;
-        }
-        if far > 0.0 && near > 0.0 {
-            let share = (far / (far + near)).clamp(LEAST_SHARE, 1.0 - LEAST_SHARE);
-            for (p, infinite) in powers.iter_mut().zip(from_infinity) {
-                *p *= if infinite {
-                    share / far
-                } else {
-                    (1.0 - share) / near
-                };
-            }
-        }
-        powers
-    }
-
     /// How many lights there are, each emitting primitive counted.
     pub(crate) fn len(&self) -> usize {
         self.sources.len()
     }
 
-    /// Light at `p` from one light.
+    /// Light at a point from one light.
     ///
-    /// * `u`: choice of light, two for the point on it, coin of the choice.
+    /// * `u`: choice of light, two for the point on it, finer digits of the choice.
     #[inline]
-    pub(crate) fn sample(&self, p: Vec3<f32>, u: [f32; 4]) -> Option<LightSample> {
-        let (index, probability) = self.table.sample(u[0], u[3])?;
+    pub(crate) fn sample(&self, receiver: &Receiver, u: [f32; 4]) -> Option<LightSample> {
+        let p = receiver.point;
+        let (index, probability) = self.selection.sample(receiver, [u[0], u[3]])?;
         match &self.sources[index as usize] {
             Source::Area {
                 area,
@@ -218,40 +210,37 @@ impl Lights {
         }
     }
 
-    /// Density in 1/sr, times the probability of the light, with which [`Lights::sample`] at `p`
-    /// draws the direction to the emitting surface `s`.
+    /// Density in 1/sr, times the probability of the light, with which [`Lights::sample`] at the
+    /// receiver draws the direction to the emitting surface `s`.
     #[inline]
-    pub(crate) fn pdf_of_surface(&self, p: Vec3<f32>, s: &Surface) -> f32 {
+    pub(crate) fn pdf_of_surface(&self, receiver: &Receiver, s: &Surface) -> f32 {
         match self.sources.get(s.light as usize) {
             Some(Source::Area { area, .. }) => {
-                self.table.probability(s.light) * area.pdf(p, s.position, s.ng)
+                let probability = self.selection.probability_near(receiver, s.light);
+                probability * area.pdf(receiver.point, s.position, s.ng)
             }
             _ => 0.0,
         }
     }
 
-    /// Lights from infinity in the direction `wi`: radiance, and density of [`Lights::sample`].
+    /// Lights from infinity in the direction `wi`: radiance, and density in 1/sr, times the
+    /// probability among the lights from infinity. [`Lights::sample`] draws it with that density
+    /// times [`Lights::share_from_infinity`].
     #[inline]
     pub(crate) fn arriving_from_infinity(
         &self,
         wi: Vec3<f32>,
     ) -> impl Iterator<Item = (Rgb<f32>, f32)> {
         self.environments.iter().map(move |(environment, index)| {
-            (
-                environment.radiance(wi),
-                self.table.probability(*index) * environment.pdf(wi),
-            )
+            let probability = self.selection.probability_far(*index);
+            (environment.radiance(wi), probability * environment.pdf(wi))
         })
     }
-}
 
-impl Source {
-    fn is_infinite(&self) -> bool {
-        match self {
-            Self::Area { .. } => false,
-            Self::Environment(_) => true,
-            Self::Delta(delta) => matches!(delta, Delta::Distant { .. }),
-        }
+    /// Probability with which [`Lights::sample`] takes any light from infinity.
+    #[inline]
+    pub(crate) fn share_from_infinity(&self, receiver: &Receiver) -> f32 {
+        self.selection.share_far(receiver)
     }
 }
 

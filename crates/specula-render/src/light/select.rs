@@ -1,116 +1,114 @@
-//! Which light to sample: alias tables, in constant time for any number of lights.
+//! Which light to sample at a point.
+//!
+//! Lights in the scene are chosen by the tree over them, lights from infinity in proportion to
+//! their irradiance. Between the two classes the estimates of irradiance decide, where both are:
+//!
+//! ```text
+//! P(far) = clamp(E_far / (E_far + E_near(receiver)), 0.15, 0.85)
+//! ```
+//!
+//! Neither knows what is in the way, hence the bounds. Everything is a function of the receiver
+//! alone, so that the probability of a light met by chance is that of its choice.
 
-use crate::convert::{floor_index, id, narrow};
+use super::alias::AliasTable;
+use super::build::Emitter;
+use super::node::Receiver;
+use super::tree::LightTree;
+use crate::convert::narrow;
 
-/// A discrete distribution.
-///
-/// Source: Vose 1991, A linear algorithm for generating random numbers with a given distribution.
+/// Smallest share of either class of lights where there are both.
+const LEAST_SHARE: f32 = 0.15;
+/// What the second number of a choice counts: the first is a multiple of it.
+const FINER: f64 = 1.0 / 8_388_608.0;
+
+/// The choice among the lights of a scene.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct AliasTable {
-    bins: Vec<Bin>,
+pub(super) struct Selection {
+    near: LightTree,
+    /// Over all lights, with weight 0 for those in the scene; empty where none is far.
+    far: AliasTable,
+    /// Relative to the intensities in the tree.
+    far_irradiance: f32,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Bin {
-    /// Share of the bin that is its own.
-    own: f32,
-    /// Whom the rest belongs to.
-    alias: u32,
-    /// Probability of this entry.
-    probability: f32,
-}
-
-impl AliasTable {
-    /// A distribution in proportion to `weights`: finite, not negative. All zero: empty.
-    pub(crate) fn new(weights: &[f64]) -> Self {
-        let sum: f64 = weights.iter().sum();
-        if !(sum > 0.0 && sum.is_finite()) {
-            return Self::default();
+impl Selection {
+    /// * `near`: what is not brighter than black is left out.
+    /// * `far`: lights with their irradiances at normal incidence, or integrals of luminance.
+    /// * `lights`: how many there are in all.
+    pub(super) fn new(mut near: Vec<Emitter>, far: &[(u32, f64)], lights: usize) -> Self {
+        let shines = |x: f64| x > 0.0 && x.is_finite();
+        near.retain(|e| shines(e.intensity));
+        // Within the range of f32, whatever the units.
+        let scale = near.iter().map(|e| e.intensity).fold(0.0, f64::max);
+        let scale = if scale > 0.0 { scale } else { 1.0 };
+        for e in &mut near {
+            e.intensity /= scale;
         }
-        let n = weights.len() as f64;
-        let mut share: Vec<f64> = weights.iter().map(|w| w / sum * n).collect();
-        let mut bins: Vec<Bin> = (0..weights.len())
-            .map(|i| Bin {
-                own: 1.0,
-                alias: id(i),
-                probability: narrow(weights[i] / sum),
-            })
-            .collect();
-        let (mut small, mut large): (Vec<usize>, Vec<usize>) =
-            (0..weights.len()).partition(|&i| share[i] < 1.0);
-        while let (Some(s), Some(&l)) = (small.pop(), large.last()) {
-            bins[s].own = narrow(share[s]);
-            bins[s].alias = id(l);
-            share[l] -= 1.0 - share[s];
-            if share[l] < 1.0 {
-                large.pop();
-                small.push(l);
-            }
+        let mut weights = Vec::new();
+        for &(light, strength) in far.iter().filter(|f| shines(f.1)) {
+            weights.resize(lights, 0.0);
+            weights[light as usize] = strength;
         }
-        // What is left is 1 up to rounding, except entries of weight zero, which must stay never
-        // chosen; they were paired off above unless rounding emptied `large` first.
-        let heaviest = (0..weights.len())
-            .max_by(|&a, &b| weights[a].total_cmp(&weights[b]))
-            .map_or(0, id);
-        for (bin, w) in bins.iter_mut().zip(weights) {
-            if *w == 0.0 && bin.own > 0.0 {
-                bin.own = 0.0;
-                bin.alias = heaviest;
-            }
+        // The mean of the cosine over the normals of all surfaces.
+        let irradiance = 0.25 * weights.iter().sum::<f64>() / scale;
+        Self {
+            near: LightTree::new(near, lights),
+            far: AliasTable::new(&weights),
+            far_irradiance: if irradiance > 0.0 {
+                narrow(irradiance).clamp(f32::MIN_POSITIVE, 1e37)
+            } else {
+                0.0
+            },
         }
-        Self { bins }
     }
 
-    /// An entry and its probability; `None` where the table is empty.
+    /// A light and its probability; `None` where there is no light.
     ///
-    /// * `u`: chooses a bin; `coin`: between its two entries. Both uniform in `[0, 1)`; one number
-    ///   would not do, since its 24 bits run out over hundreds of thousands of lights.
+    /// * `u`: uniform in `[0, 1)`, multiples of `2^-23`: the second adds digits to the first, which
+    ///   run out over hundreds of thousands of lights.
     #[inline]
-    pub(crate) fn sample(&self, u: f32, coin: f32) -> Option<(u32, f32)> {
-        let n = self.bins.len();
-        if n == 0 {
-            return None;
-        }
-        let at = floor_index(u * n as f32).min(n - 1);
-        let bin = &self.bins[at];
-        let chosen = if coin < bin.own { id(at) } else { bin.alias };
-        Some((chosen, self.bins[chosen as usize].probability))
+    pub(super) fn sample(&self, receiver: &Receiver, u: [f32; 2]) -> Option<(u32, f32)> {
+        let u = f64::from(u[0]) + FINER * f64::from(u[1]);
+        let share = self.share_far(receiver);
+        let threshold = f64::from(share);
+        let below_one = 1.0 - f64::EPSILON;
+        let (choice, share) = if u < threshold {
+            (self.far.sample((u / threshold).min(below_one)), share)
+        } else {
+            let rest = (u - threshold) / (1.0 - threshold);
+            let choice = self.near.sample(receiver, rest.min(below_one));
+            (choice, 1.0 - share)
+        };
+        choice.map(|(light, probability)| (light, share * probability))
     }
 
-    /// Probability of an entry.
+    /// Probability with which [`Selection::sample`] draws a light in the scene.
     #[inline]
-    pub(crate) fn probability(&self, index: u32) -> f32 {
-        self.bins
-            .get(index as usize)
-            .map_or(0.0, |bin| bin.probability)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn shares_match_the_weights() {
-        let weights = [3.0, 0.0, 1.0, 0.5, 10.0, 0.0, 0.25];
-        let table = AliasTable::new(&weights);
-        let n = 1 << 10;
-        let mut counts = [0.0_f64; 7];
-        for i in 0..n * n {
-            let [u, coin] = [i / n, i % n].map(|k| (k as f32 + 0.5) / n as f32);
-            let (chosen, p) = table.sample(u, coin).unwrap();
-            assert_eq!(p, table.probability(chosen));
-            counts[chosen as usize] += 1.0 / f64::from(n * n);
-        }
-        let sum: f64 = weights.iter().sum();
-        for (c, w) in counts.iter().zip(weights) {
-            assert!((c - w / sum).abs() < 2e-3, "{counts:?}");
-        }
+    pub(super) fn probability_near(&self, receiver: &Receiver, light: u32) -> f32 {
+        let share = 1.0 - self.share_far(receiver);
+        share * self.near.probability(receiver, light)
     }
 
-    #[test]
-    fn nothing_to_choose_from_is_nothing() {
-        assert!(AliasTable::new(&[]).sample(0.5, 0.5).is_none());
-        assert!(AliasTable::new(&[0.0, 0.0]).sample(0.5, 0.5).is_none());
+    /// Probability with which [`Selection::sample`] draws any light from infinity.
+    #[inline]
+    pub(super) fn share_far(&self, receiver: &Receiver) -> f32 {
+        if self.far_irradiance <= 0.0 {
+            return 0.0;
+        }
+        if self.near.is_empty() {
+            return 1.0;
+        }
+        let near = self.near.importance(receiver);
+        if near <= 0.0 {
+            return 1.0;
+        }
+        let share = self.far_irradiance / (self.far_irradiance + near);
+        share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE)
+    }
+
+    /// Probability of a light from infinity among those.
+    #[inline]
+    pub(super) fn probability_far(&self, light: u32) -> f32 {
+        self.far.probability(light)
     }
 }

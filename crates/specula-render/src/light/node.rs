@@ -1,0 +1,149 @@
+//! A set of lights as a point sees it: the bound on what could arrive.
+
+use specula_bsdf::Vec3;
+
+use super::cone::EmissionCone;
+use crate::convert::narrow;
+
+/// How far a cosine must be beyond its bound before a light is left out; also the least value of
+/// either cosine that is not left out. It covers the rounding of `f32`.
+const SLACK: f32 = 1e-3;
+/// Above every importance: two of them add up to a finite number.
+const MOST: f32 = 1e37;
+
+/// A point to be lit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Receiver {
+    pub(crate) point: Vec3<f32>,
+    /// Unit; light from below it is lost. `None` where light from every side counts.
+    pub(crate) normal: Option<Vec3<f32>>,
+}
+
+/// A node of the tree of lights: bounds of the lights below it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    /// Of a sphere around the lights.
+    centre: Vec3<f32>,
+    radius: f32,
+    axis: Vec3<f32>,
+    cos_o: f32,
+    cos_e: f32,
+    /// Sum of the peak intensities.
+    intensity: f32,
+    two_sided: bool,
+    pub(super) leaf: bool,
+    /// Of a leaf, its light; otherwise the distance to the right child. The left child follows.
+    pub(super) link: u32,
+}
+
+impl Node {
+    /// * `centre`, `radius`: sphere around the lights.
+    pub(super) fn new(
+        centre: Vec3<f32>,
+        radius: f32,
+        cone: &EmissionCone,
+        intensity: f64,
+        (leaf, link): (bool, u32),
+    ) -> Self {
+        Self {
+            centre,
+            radius,
+            axis: cone.axis.cast(),
+            // Rounded outwards.
+            cos_o: (narrow(cone.theta_o.cos()) - 1e-6).max(-1.0),
+            cos_e: narrow(cone.theta_e.cos()),
+            intensity: narrow(intensity).clamp(f32::MIN_POSITIVE, MOST),
+            two_sided: cone.two_sided,
+            leaf,
+            link,
+        }
+    }
+
+    /// An estimate of the irradiance by the node's lights, 0 only where none can contribute.
+    ///
+    /// ```text
+    /// I cos(theta') cos(theta_i') / max(d^2, r^2),
+    /// theta' = max(theta - theta_o - theta_u, 0),   theta_i' = max(theta_i - theta_u, 0)
+    /// ```
+    ///
+    /// with the angles `theta` of the axis and `theta_i` of the receiver's normal to the line
+    /// between the centres, and the half angle `theta_u` of the sphere around the lights; 0 where
+    /// `theta' > theta_e` or `theta_i' > pi/2`.
+    ///
+    /// * Returns: in the unit of the intensities over that of lengths squared; finite.
+    ///
+    /// Source: Conty Estevez and Kulla 2018, eq. 3. Departures: peak intensity stands for power,
+    /// so that lights of different kinds compare by what they send to a point; the distance is
+    /// bounded by the sphere's radius; receivers within the sphere know no angles.
+    #[inline]
+    pub(super) fn importance(&self, receiver: &Receiver) -> f32 {
+        let d = self.centre - receiver.point;
+        let distance_squared = d.length_squared();
+        let radius_squared = self.radius * self.radius;
+        if distance_squared <= radius_squared {
+            return (self.intensity / radius_squared).min(MOST);
+        }
+        let to_centre = d * (1.0 / distance_squared.sqrt());
+        let sin2_u = radius_squared / distance_squared;
+        let (sin_u, cos_u) = (sin2_u.sqrt(), (1.0 - sin2_u).sqrt());
+        let mut factor = 1.0;
+        if let Some(n) = receiver.normal {
+            let cos_i = minus_clamped(n.dot(to_centre), sin_u, cos_u);
+            if cos_i <= -SLACK {
+                return 0.0;
+            }
+            factor = cos_i.max(SLACK);
+        }
+        // Lights all around their normals, spheres and points, send everywhere alike.
+        if self.cos_o > -1.0 {
+            let cos = -self.axis.dot(to_centre);
+            let cos = if self.two_sided { cos.abs() } else { cos };
+            let sin_o = (1.0 - self.cos_o * self.cos_o).max(0.0).sqrt();
+            let cos = minus_clamped(minus_clamped(cos, sin_o, self.cos_o), sin_u, cos_u);
+            if cos <= self.cos_e - SLACK {
+                return 0.0;
+            }
+            factor *= cos.max(SLACK);
+        }
+        (self.intensity * factor / distance_squared).min(MOST)
+    }
+}
+
+/// `cos(max(a - b, 0))` of angles in `[0, pi]`.
+#[inline(always)]
+fn minus_clamped(cos_a: f32, sin_b: f32, cos_b: f32) -> f32 {
+    if cos_a >= cos_b {
+        1.0
+    } else {
+        cos_a * cos_b + (1.0 - cos_a * cos_a).max(0.0).sqrt() * sin_b
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use specula_bsdf::math::vec3;
+
+    #[test]
+    fn small_far_lights_have_the_importance_of_their_irradiance() {
+        let cone = EmissionCone::flat(-Vec3::Z, false);
+        let node = Node::new(vec3(3.0, 0.0, 4.0), 1e-4, &cone, 2.0, (true, 0));
+        let at = |normal| Receiver {
+            point: Vec3::ZERO,
+            normal,
+        };
+        let expected = 2.0 / 25.0 * 0.8;
+        assert!((node.importance(&at(None)) / expected - 1.0).abs() < 2e-3);
+        let up = node.importance(&at(Some(Vec3::Z)));
+        assert!((up / (expected * 0.8) - 1.0).abs() < 3e-3);
+        assert_eq!(node.importance(&at(Some(-Vec3::Z))), 0.0);
+        let behind = Receiver {
+            point: vec3(3.0, 0.0, 5.0),
+            normal: None,
+        };
+        assert_eq!(node.importance(&behind), 0.0);
+        let two_sided = EmissionCone::flat(-Vec3::Z, true);
+        let node = Node::new(vec3(3.0, 0.0, 4.0), 1e-4, &two_sided, 2.0, (true, 0));
+        assert!((node.importance(&behind) - 2.0).abs() < 1e-2);
+    }
+}

@@ -1,0 +1,136 @@
+//! A binary tree over the lights in the scene: choice by importance at a point.
+//!
+//! From the root down, either child is taken with the probability of its share of the importance of
+//! both; the path to every light is kept as a trail of bits, such that the probability of a light
+//! that a ray met by chance is the same product.
+//!
+//! Source: Conty Estevez and Kulla 2018, section 5.4; Pharr, Jakob and Humphreys, 4th edition,
+//! 12.6.3.
+
+use super::build::{Emitter, build};
+use super::node::{Node, Receiver};
+
+/// Trail of a light that is not in the tree; no trail is 64 long.
+const ABSENT: u64 = u64::MAX;
+
+/// A distribution over lights that depends on the receiver.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct LightTree {
+    nodes: Vec<Node>,
+    /// Path to every light of the scene: from the lowest bit on, 1 for right.
+    trails: Vec<u64>,
+}
+
+impl LightTree {
+    /// * `lights`: how many there are in the scene, in the tree or not.
+    pub(super) fn new(mut emitters: Vec<Emitter>, lights: usize) -> Self {
+        let nodes = build(&mut emitters);
+        let mut trails = vec![ABSENT; lights];
+        let mut open = vec![(0, 0, 0_u32)];
+        while let Some((at, trail, depth)) = open.pop() {
+            let Some(node): Option<&Node> = nodes.get(at) else {
+                break;
+            };
+            if node.leaf {
+                trails[node.link as usize] = trail;
+            } else {
+                open.push((at + 1, trail, depth + 1));
+                open.push((at + node.link as usize, trail | 1 << depth, depth + 1));
+            }
+        }
+        Self { nodes, trails }
+    }
+
+    /// Whether no light is in it.
+    #[inline]
+    pub(super) fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// An estimate of the irradiance by all lights: the sum over the root's children. 0 only where
+    /// no light can contribute.
+    #[inline]
+    pub(super) fn importance(&self, receiver: &Receiver) -> f32 {
+        match self.nodes.first() {
+            None => 0.0,
+            Some(root) if root.leaf => root.importance(receiver),
+            Some(_) => {
+                let [a, b] = self.children(0, receiver);
+                a + b
+            }
+        }
+    }
+
+    /// A light and its probability; `None` where the tree is empty.
+    ///
+    /// * `u`: uniform in `[0, 1)`, with more digits than `f32` has: every step takes one.
+    #[inline]
+    pub(super) fn sample(&self, receiver: &Receiver, mut u: f64) -> Option<(u32, f32)> {
+        let mut at = 0;
+        let mut probability = 1.0;
+        loop {
+            let node = self.nodes.get(at)?;
+            if node.leaf {
+                return Some((node.link, probability));
+            }
+            let left = share(self.children(at, receiver));
+            let threshold = f64::from(left);
+            if u < threshold {
+                u /= threshold;
+                probability *= left;
+                at += 1;
+            } else {
+                u = (u - threshold) / (1.0 - threshold);
+                probability *= 1.0 - left;
+                at += node.link as usize;
+            }
+            u = u.min(1.0 - f64::EPSILON);
+        }
+    }
+
+    /// Probability with which [`LightTree::sample`] draws a light at the same receiver.
+    #[inline]
+    pub(super) fn probability(&self, receiver: &Receiver, light: u32) -> f32 {
+        let Some(mut trail) = self.trails.get(light as usize).copied() else {
+            return 0.0;
+        };
+        if trail == ABSENT {
+            return 0.0;
+        }
+        let mut at = 0;
+        let mut probability = 1.0;
+        while !self.nodes[at].leaf {
+            let left = share(self.children(at, receiver));
+            if trail & 1 == 0 {
+                probability *= left;
+                at += 1;
+            } else {
+                probability *= 1.0 - left;
+                at += self.nodes[at].link as usize;
+            }
+            trail >>= 1;
+        }
+        probability
+    }
+
+    #[inline(always)]
+    fn children(&self, at: usize, receiver: &Receiver) -> [f32; 2] {
+        let right = at + self.nodes[at].link as usize;
+        [at + 1, right].map(|child| self.nodes[child].importance(receiver))
+    }
+}
+
+/// Share of the first, off 0 and 1 unless one is 0 alone; a half where both are: nothing arrives
+/// then, but the probabilities still add up to 1.
+#[inline(always)]
+fn share([a, b]: [f32; 2]) -> f32 {
+    // Rounding must not take the chance of the lesser one.
+    const LEAST: f32 = 1e-6;
+    if a <= 0.0 {
+        if b > 0.0 { 0.0 } else { 0.5 }
+    } else if b <= 0.0 {
+        1.0
+    } else {
+        (a / (a + b)).clamp(LEAST, 1.0 - LEAST)
+    }
+}
