@@ -32,6 +32,7 @@ pub mod energy;
 pub mod fresnel;
 pub mod math;
 pub mod metals;
+pub mod multibounce;
 pub mod ndf;
 pub mod vndf;
 

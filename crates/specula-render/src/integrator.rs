@@ -68,6 +68,8 @@ impl Vertex {
                 | Lobe::RoughConductor(_)
                 | Lobe::CoatedDiffuse(_)
                 | Lobe::CoatedConductor(_)
+                | Lobe::Compensated(_)
+                | Lobe::MultibounceConductor(_)
         );
         Receiver {
             point: self.surface.position,

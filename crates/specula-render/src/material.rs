@@ -1,18 +1,22 @@
 //! From a material and a point of its surface to the lobe there.
 
 use specula_bsdf::bsdf::{
-    CoatedConductor, CoatedDiffuse, DiffuseTransmission, Eon, Lambert, Lobe, RoughConductor,
-    RoughDielectric, SmoothConductor, SmoothDielectric, ThinDielectric,
+    CoatedConductor, CoatedDiffuse, Compensated, CompensatedDielectric, DiffuseTransmission, Eon,
+    Lambert, Lobe, RoughConductor, RoughDielectric, SmoothConductor, SmoothDielectric,
+    ThinDielectric,
 };
 use specula_bsdf::fresnel::{Conductor, Reflectance};
+use specula_bsdf::multibounce::{self, MisPdf};
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::vndf;
 use specula_bsdf::{Alpha, Rgb};
+use specula_scene::Energy;
 use specula_scene::scene::{
     ColourParam, ConductorFresnel, FloatParam, MaterialKind, Roughness, RoughnessMapping, Scene,
 };
 
 use crate::convert::narrow;
+use crate::options::RenderOptions;
 use crate::texture::Textures;
 
 /// Where a lobe is wanted.
@@ -27,14 +31,22 @@ pub(crate) struct Place {
 #[derive(Clone, Debug)]
 pub(crate) struct Materials {
     materials: Vec<Prepared>,
-    sampler: vndf::Sampler,
 }
 
 #[derive(Clone, Debug)]
 struct Prepared {
     kind: MaterialKind,
+    models: Models,
     /// Lobes seen from the inside and from the outside, where no texture is involved.
     constant: Option<[Lobe<f32>; 2]>,
+}
+
+/// How rough surfaces scatter and are drawn.
+#[derive(Clone, Copy, Debug)]
+struct Models {
+    sampler: vndf::Sampler,
+    energy: Energy,
+    mis_pdf: MisPdf,
 }
 
 /// How deep mixes may be nested.
@@ -42,19 +54,28 @@ const MOST_MIXES: u32 = 16;
 
 impl Materials {
     /// Prepares the scene's materials.
-    pub(crate) fn new(scene: &Scene, textures: &Textures, sampler: vndf::Sampler) -> Self {
-        let prepare = |material: &specula_scene::scene::Material| Prepared {
-            kind: material.kind,
-            constant: is_constant(&material.kind).then(|| {
-                [false, true].map(|outside| {
-                    let uv = [0.0; 2];
-                    lobe(&material.kind, textures, Place { uv, outside }, sampler)
-                })
-            }),
+    ///
+    /// * `options`: its treatment of energy is for materials that do not choose their own.
+    pub(crate) fn new(scene: &Scene, textures: &Textures, options: &RenderOptions) -> Self {
+        let prepare = |material: &specula_scene::scene::Material| {
+            let models = Models {
+                sampler: options.vndf_sampler,
+                energy: material.energy.unwrap_or(options.energy),
+                mis_pdf: options.mis_pdf,
+            };
+            Prepared {
+                kind: material.kind,
+                models,
+                constant: is_constant(&material.kind).then(|| {
+                    [false, true].map(|outside| {
+                        let uv = [0.0; 2];
+                        lobe(&material.kind, textures, Place { uv, outside }, models)
+                    })
+                }),
+            }
         };
         Self {
             materials: scene.materials.iter().map(prepare).collect(),
-            sampler,
         }
     }
 
@@ -80,7 +101,7 @@ impl Materials {
         let material = &self.materials[index];
         match &material.constant {
             Some(lobes) => lobes[usize::from(place.outside)],
-            None => lobe(&material.kind, textures, place, self.sampler),
+            None => lobe(&material.kind, textures, place, material.models),
         }
     }
 }
@@ -124,12 +145,8 @@ fn is_constant(kind: &MaterialKind) -> bool {
     }
 }
 
-fn lobe(
-    kind: &MaterialKind,
-    textures: &Textures,
-    place: Place,
-    sampler: vndf::Sampler,
-) -> Lobe<f32> {
+fn lobe(kind: &MaterialKind, textures: &Textures, place: Place, models: Models) -> Lobe<f32> {
+    let sampler = models.sampler;
     let albedo = |p: ColourParam| textures.colour(p, place.uv).map(|v| v.clamp(0.0, 1.0));
     let ggx = |r: &Roughness| ggx(r, textures, place.uv);
     let metal = |f: &ConductorFresnel| reflectance(f, textures, place.uv);
@@ -158,9 +175,7 @@ fn lobe(
             ref fresnel,
             ref roughness,
         } => match ggx(roughness) {
-            Some(ggx) => RoughConductor::new(ggx, metal(fresnel))
-                .with_sampler(sampler)
-                .into(),
+            Some(ggx) => rough_conductor(ggx, metal(fresnel), models),
             None => SmoothConductor::new(metal(fresnel)).into(),
         },
         MaterialKind::Dielectric { eta, ref roughness } => {
@@ -168,9 +183,7 @@ fn lobe(
             match ggx(roughness) {
                 // With equal indices nothing is bent, however rough.
                 Some(ggx) if (relative - 1.0).abs() > 1e-4 => {
-                    RoughDielectric::facing(ggx, relative)
-                        .with_sampler(sampler)
-                        .into()
+                    rough_dielectric(ggx, relative, models)
                 }
                 _ => SmoothDielectric::facing(relative).into(),
             }
@@ -198,6 +211,32 @@ fn lobe(
         .into(),
         // Shapes without a surface are dropped before; mixes nested too deeply are black.
         MaterialKind::Mix { .. } | MaterialKind::Interface => Lambert::new(Rgb::BLACK).into(),
+    }
+}
+
+fn rough_conductor(ggx: Ggx<f32>, metal: Reflectance<f32>, models: Models) -> Lobe<f32> {
+    match models.energy {
+        Energy::None => RoughConductor::new(ggx, metal)
+            .with_sampler(models.sampler)
+            .into(),
+        Energy::Compensated(model) => Compensated::new(ggx, metal, model)
+            .with_sampler(models.sampler)
+            .into(),
+        Energy::Multibounce(model) => multibounce::Conductor::new(ggx, metal, model)
+            .with_mis_pdf(models.mis_pdf)
+            .into(),
+    }
+}
+
+/// Turquin's factor is for metals: glass takes Kulla and Conty's compensation in its place.
+fn rough_dielectric(ggx: Ggx<f32>, relative: f32, models: Models) -> Lobe<f32> {
+    match models.energy {
+        // Caps whatever is chosen for metals: refraction needs all visible normals.
+        Energy::None => RoughDielectric::facing(ggx, relative).into(),
+        Energy::Compensated(_) => CompensatedDielectric::facing(ggx, relative).into(),
+        Energy::Multibounce(model) => multibounce::Dielectric::facing(ggx, relative, model)
+            .with_mis_pdf(models.mis_pdf)
+            .into(),
     }
 }
 

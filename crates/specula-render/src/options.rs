@@ -1,7 +1,8 @@
 //! What a render may be asked for.
 
+use specula_bsdf::multibounce::MisPdf;
 use specula_bsdf::vndf;
-use specula_scene::Scene;
+use specula_scene::{Energy, Scene};
 
 /// How direct light is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,6 +29,10 @@ pub struct RenderOptions {
     pub seed: u32,
     /// Which sampler draws reflections off rough surfaces.
     pub vndf_sampler: vndf::Sampler,
+    /// What is done about multiple scattering where a material does not say it itself.
+    pub energy: Energy,
+    /// Density that simulated bounces are weighed with against lights.
+    pub mis_pdf: MisPdf,
     /// Size of the whole picture; `None`: as the scene says.
     pub resolution: Option<[u32; 2]>,
     /// Pixels to render, `[x0, x1, y0, y1]`, half open; `None`: as the scene says, scaled with the
@@ -55,6 +60,8 @@ impl Default for RenderOptions {
             max_depth: 5,
             seed: 0,
             vndf_sampler: vndf::Sampler::default(),
+            energy: Energy::default(),
+            mis_pdf: MisPdf::default(),
             resolution: None,
             crop: None,
             strategy: Strategy::default(),

@@ -92,7 +92,7 @@ impl PreparedScene {
         }
         let window = screen_window(&scene.camera, film.resolution, resolution);
         let textures = Textures::new(scene);
-        let materials = Materials::new(scene, &textures, options.vndf_sampler);
+        let materials = Materials::new(scene, &textures, options);
         let geometry = Geometry::new(scene)?;
         let lights = Lights::new(scene, &geometry);
         Ok(Self {

@@ -13,6 +13,7 @@ pub mod bounds;
 pub mod builtin;
 #[cfg(feature = "miette")]
 mod diagnostic;
+pub mod energy;
 pub mod error;
 pub mod image;
 mod mesh;
@@ -27,6 +28,7 @@ pub mod validate;
 
 use std::path::Path;
 
+pub use energy::{Energy, UnknownEnergy};
 pub use error::{ErrorKind, Place, SceneError, Source, Warning};
 pub use image::Image;
 pub use scene::Scene;

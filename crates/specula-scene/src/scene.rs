@@ -6,6 +6,7 @@
 use glam::DMat4;
 use specula_bsdf::Rgb;
 
+use crate::energy::Energy;
 use crate::image::Image;
 
 /// Index into [`Scene::images`].
@@ -231,6 +232,8 @@ pub struct Material {
     pub name: Option<String>,
     /// What it is.
     pub kind: MaterialKind,
+    /// Treatment of multiple scattering, where the file chooses one; else the render's.
+    pub energy: Option<Energy>,
 }
 
 /// How a file's roughness becomes alpha.

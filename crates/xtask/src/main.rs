@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 #![allow(clippy::print_stdout, reason = "a command line reports on stdout")]
 
+mod albedo;
 mod bench;
 mod generated;
 mod interface;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::generated::{self, Generated};
-use crate::{Result, interface, metals};
+use crate::{Result, albedo, interface, metals};
 
 /// What makes generated files from the workspace's own data.
 type Generator = fn(&Path) -> Result<Vec<Generated>>;
@@ -12,6 +12,7 @@ type Generator = fn(&Path) -> Result<Vec<Generated>>;
 const GENERATORS: &[(&str, Generator)] = &[
     ("metals", metals::generate),
     ("interface", interface::generate),
+    ("albedo", albedo::generate),
 ];
 
 /// Writes every generated file, or with `check` fails where a committed one differs.

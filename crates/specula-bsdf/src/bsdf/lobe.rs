@@ -1,10 +1,12 @@
 //! Any lobe, without allocation or dynamic dispatch: what a renderer holds at a hit.
 
 use super::{
-    Bsdf, BsdfSample, CoatedConductor, CoatedDiffuse, DiffuseTransmission, Eon, Lambert,
-    RoughConductor, RoughDielectric, SmoothConductor, SmoothDielectric, ThinDielectric, Transport,
+    Bsdf, BsdfSample, CoatedConductor, CoatedDiffuse, Compensated, CompensatedDielectric,
+    DiffuseTransmission, Eon, Lambert, RoughConductor, RoughDielectric, SmoothConductor,
+    SmoothDielectric, ThinDielectric, Transport,
 };
 use crate::math::{Real, Rgb, Stream, Vec3};
+use crate::multibounce;
 
 /// One of the lobes of this crate, with GGX where it is rough.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +31,14 @@ pub enum Lobe<T> {
     CoatedDiffuse(CoatedDiffuse<T>),
     /// See [`CoatedConductor`].
     CoatedConductor(CoatedConductor<T>),
+    /// See [`Compensated`].
+    Compensated(Compensated<T>),
+    /// See [`CompensatedDielectric`].
+    CompensatedDielectric(CompensatedDielectric<T>),
+    /// See [`multibounce::Conductor`].
+    MultibounceConductor(multibounce::Conductor<T>),
+    /// See [`multibounce::Dielectric`].
+    MultibounceDielectric(multibounce::Dielectric<T>),
 }
 
 macro_rules! each_lobe {
@@ -44,6 +54,10 @@ macro_rules! each_lobe {
             Lobe::ThinDielectric($l) => $call,
             Lobe::CoatedDiffuse($l) => $call,
             Lobe::CoatedConductor($l) => $call,
+            Lobe::Compensated($l) => $call,
+            Lobe::CompensatedDielectric($l) => $call,
+            Lobe::MultibounceConductor($l) => $call,
+            Lobe::MultibounceDielectric($l) => $call,
         }
     };
 }
@@ -108,10 +122,10 @@ impl<T: Real> Bsdf<T> for Lobe<T> {
 }
 
 macro_rules! from_lobe {
-    ($($name:ident),* $(,)?) => {
-        $(impl<T: Real> From<$name<T>> for Lobe<T> {
+    ($($name:ident: $lobe:ty),* $(,)?) => {
+        $(impl<T: Real> From<$lobe> for Lobe<T> {
             #[inline(always)]
-            fn from(lobe: $name<T>) -> Self {
+            fn from(lobe: $lobe) -> Self {
                 Self::$name(lobe)
             }
         })*
@@ -119,14 +133,18 @@ macro_rules! from_lobe {
 }
 
 from_lobe!(
-    Lambert,
-    Eon,
-    DiffuseTransmission,
-    SmoothConductor,
-    RoughConductor,
-    SmoothDielectric,
-    RoughDielectric,
-    ThinDielectric,
-    CoatedDiffuse,
-    CoatedConductor,
+    Lambert: Lambert<T>,
+    Eon: Eon<T>,
+    DiffuseTransmission: DiffuseTransmission<T>,
+    SmoothConductor: SmoothConductor<T>,
+    RoughConductor: RoughConductor<T>,
+    SmoothDielectric: SmoothDielectric<T>,
+    RoughDielectric: RoughDielectric<T>,
+    ThinDielectric: ThinDielectric<T>,
+    CoatedDiffuse: CoatedDiffuse<T>,
+    CoatedConductor: CoatedConductor<T>,
+    Compensated: Compensated<T>,
+    CompensatedDielectric: CompensatedDielectric<T>,
+    MultibounceConductor: multibounce::Conductor<T>,
+    MultibounceDielectric: multibounce::Dielectric<T>,
 );

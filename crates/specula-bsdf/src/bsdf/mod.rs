@@ -5,6 +5,8 @@
 
 mod coated_conductor;
 mod coated_diffuse;
+mod compensated;
+mod compensated_dielectric;
 mod conductor;
 mod dielectric;
 mod eon;
@@ -14,6 +16,8 @@ mod smooth_dielectric;
 
 pub use coated_conductor::CoatedConductor;
 pub use coated_diffuse::CoatedDiffuse;
+pub use compensated::Compensated;
+pub use compensated_dielectric::CompensatedDielectric;
 pub use conductor::{RoughConductor, SmoothConductor};
 pub use dielectric::RoughDielectric;
 pub use eon::Eon;

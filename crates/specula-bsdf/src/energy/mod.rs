@@ -1,4 +1,25 @@
-//! How much light an interface passes on, integrated over directions.
+//! Energy: what single scattering loses, what brings it back, and what an interface passes on.
+//!
+//! | file | what |
+//! |---|---|
+//! | `albedo` | directional and average albedo of rough reflection, tables |
+//! | `dielectric_albedo` | the same of rough interfaces, both branches |
+//! | `fit` | the directional albedo as a short formula, for shaders |
+//! | `fit` | the directional loss as a short formula, for shaders |
+//! | `model` | Turquin's and Kulla and Conty's factors |
+//! | `fresnel_average` | cosine-averaged reflectance |
+//! | `interface` | transmittance and internal reflectance, for coats |
 
+pub mod albedo;
+mod albedo_tables;
+pub mod dielectric_albedo;
+pub mod fit;
+pub mod fresnel_average;
 pub mod interface;
 mod interface_table;
+pub mod model;
+pub mod stencil;
+
+pub use albedo::{Loss, Tabulated};
+pub use dielectric_albedo::DielectricLoss;
+pub use model::{FmsVariant, Model};

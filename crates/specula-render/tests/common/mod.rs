@@ -98,7 +98,11 @@ pub(crate) fn glass(a: f32) -> MaterialKind {
 }
 
 pub(crate) fn material(scene: &mut Scene, kind: MaterialKind) -> MaterialId {
-    scene.materials.push(Material { name: None, kind });
+    scene.materials.push(Material {
+        name: None,
+        kind,
+        energy: None,
+    });
     MaterialId(scene.materials.len() - 1)
 }
 

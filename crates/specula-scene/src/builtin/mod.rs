@@ -142,6 +142,7 @@ impl Build {
 
     fn material(&mut self, name: &str, kind: MaterialKind) -> MaterialId {
         self.scene.materials.push(Material {
+            energy: None,
             name: Some(name.to_owned()),
             kind,
         });

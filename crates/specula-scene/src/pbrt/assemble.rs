@@ -168,6 +168,7 @@ fn read_materials(
             ids.push(None);
             continue;
         }
+        let energy = material::energy(&entity.params)?;
         let kind = material::read(context, entity, &before)?;
         if let MaterialKind::Mix { materials, .. } = kind
             && materials
@@ -188,6 +189,7 @@ fn read_materials(
         list.push(Material {
             name: name.clone(),
             kind,
+            energy,
         });
         ids.push(Some(id));
     }
@@ -210,6 +212,7 @@ impl Materials {
                     list.push(Material {
                         name: None,
                         kind: material::DEFAULT,
+                        energy: None,
                     });
                     MaterialId(list.len() - 1)
                 }));

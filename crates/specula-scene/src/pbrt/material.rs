@@ -8,6 +8,7 @@ use super::colour::{self, Colour};
 use super::context::{Context, Entity};
 use super::param::ParamList;
 use super::token::shorten;
+use crate::energy::{Energy, UnknownEnergy};
 use crate::error::{ErrorKind, Place, SceneError};
 use crate::scene::{
     ColourParam, ConductorFresnel, FloatParam, MaterialId, MaterialKind, Roughness,
@@ -107,6 +108,17 @@ pub(super) fn read(
         };
     context.warn_unused(params);
     Ok(kind)
+}
+
+/// Our own parameter `"string specula:energy"`: treatment of multiple scattering. Renderers that do
+/// not know it leave it unused.
+pub(super) fn energy(params: &ParamList) -> Result<Option<Energy>, SceneError> {
+    let Some((name, place)) = params.string("specula:energy")? else {
+        return Ok(None);
+    };
+    name.parse().map(Some).map_err(|error: UnknownEnergy| {
+        SceneError::new(ErrorKind::Parameter, place, error.to_string())
+    })
 }
 
 fn diffuse_transmission(

@@ -57,6 +57,7 @@ fn scene() -> Scene {
             },
         ],
         materials: vec![Material {
+            energy: None,
             name: None,
             kind: diffuse,
         }],

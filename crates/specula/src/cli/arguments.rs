@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use specula::bsdf::vndf;
+use specula::scene::Energy;
 
 use super::values;
 
@@ -79,6 +80,13 @@ pub(crate) struct RenderArguments {
     /// Which sampler draws reflections off rough surfaces; the picture converges to the same
     #[arg(long, value_name = "NAME", default_value_t = SamplerName::Bounded)]
     pub(crate) sampler: SamplerName,
+
+    /// What rough metal and glass do about light that they scatter more than once, where a material
+    /// does not say it itself: none (they darken), turquin, turquin-series, kulla-conty (formulas),
+    /// multibounce (simulated) or multibounce=MODEL with heitz, bitterli, wang, wang-uncorrelated,
+    /// cui, cui-bidirectional or specula
+    #[arg(long, value_name = "NAME", default_value_t = Energy::None)]
+    pub(crate) energy: Energy,
 
     /// Longest path in scattering events [default: as the scene says]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=65_535))]

@@ -70,6 +70,7 @@ fn options(arguments: &RenderArguments, scene: &Scene) -> Result<RenderOptions, 
         max_depth: arguments.max_depth.unwrap_or(from_scene.max_depth),
         seed: arguments.seed,
         vndf_sampler: arguments.sampler.into(),
+        energy: arguments.energy,
         resolution: arguments.resolution,
         crop: arguments.crop,
         ..from_scene

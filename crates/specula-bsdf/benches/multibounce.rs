@@ -1,0 +1,201 @@
+//! Variance, cost and inverse efficiency of every model of multiple bounces.
+//!
+//! GGX, F = 1, f32, scalar, one thread. Geometric means over `theta_i` and `theta_o` of 30 and 60
+//! degrees (the papers' i is our `wo`), azimuths opposite (forward). All models take turns in short
+//! slices and the fastest slice of each counts: ratios are what matters, absolute times are the
+//! machine's. Relative inverse efficiency is variance times time over that of Heitz 2016 as
+//! published, in our own code.
+//!
+//! Instructions instead of time, whatever else the machine does: `-- count MODEL ALPHA N` evaluates
+//! a model N times per pair of directions and prints nothing, to be run under
+//! `valgrind --tool=callgrind` (MODEL `published` is the yardstick).
+#![allow(clippy::print_stdout, reason = "a bench reports on stdout")]
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use specula_bsdf::fresnel::Reflectance;
+use specula_bsdf::math::{Stream, vec3};
+use specula_bsdf::multibounce::{Conductor, Dielectric, Model};
+use specula_bsdf::ndf::Ggx;
+use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, Vec3};
+
+const SLICES: u32 = 60;
+const PER_SLICE: u32 = 3000;
+
+fn at(degrees: f32, forward: f32) -> Vec3<f32> {
+    let (s, c) = degrees.to_radians().sin_cos();
+    vec3(s * forward, 0.0, c)
+}
+
+/// Sum, sum of squares and fastest time of what a model returns.
+#[derive(Clone, Copy)]
+struct Measured {
+    sum: f64,
+    squares: f64,
+    ns: f64,
+}
+
+impl Measured {
+    const NONE: Self = Self {
+        sum: 0.0,
+        squares: 0.0,
+        ns: f64::INFINITY,
+    };
+
+    #[inline(never)]
+    fn slice(&mut self, mut draw: impl FnMut() -> f32) {
+        let start = Instant::now();
+        for _ in 0..PER_SLICE {
+            let x = f64::from(black_box(draw()));
+            self.sum += x;
+            self.squares += x * x;
+        }
+        let ns = start.elapsed().as_secs_f64() * 1e9 / f64::from(PER_SLICE);
+        self.ns = self.ns.min(ns);
+    }
+
+    fn mean(&self) -> f64 {
+        self.sum / f64::from(SLICES * PER_SLICE)
+    }
+
+    fn product(&self) -> f64 {
+        self.variance() * self.ns
+    }
+
+    fn variance(&self) -> f64 {
+        self.squares / f64::from(SLICES * PER_SLICE) - self.mean() * self.mean()
+    }
+}
+
+/// `(theta_i, theta_o)`, degrees.
+const PAIRS: [(f32, f32); 4] = [(30.0, 30.0), (30.0, 60.0), (60.0, 30.0), (60.0, 60.0)];
+
+/// Geometric mean.
+fn over(values: impl Iterator<Item = f64>) -> f64 {
+    let (mut sum, mut n) = (0.0, 0.0);
+    for v in values {
+        sum += v.max(1e-300).ln();
+        n += 1.0;
+    }
+    f64::exp(sum / n)
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().collect();
+    if let [_, command, model, alpha, n, ..] = &arguments[..]
+        && command == "count"
+    {
+        return count(model, alpha, n);
+    }
+    for alpha in [0.5_f32, 1.0] {
+        let lobes = Model::ALL.map(|model| {
+            let white = Reflectance::Constant(Rgb::splat(1.0));
+            Conductor::new(Ggx::new(Alpha::isotropic(alpha)), white, model)
+        });
+        let mut published = [Measured::NONE; 4];
+        let mut evals = [[Measured::NONE; 4]; Model::ALL.len()];
+        let mut draws = evals;
+        let mut stream = Stream::new(1);
+        for _ in 0..SLICES {
+            for (k, (i, o)) in PAIRS.into_iter().enumerate() {
+                let (wo, wi) = (at(i, 1.0), at(o, -1.0));
+                published[k].slice(|| {
+                    let (wo, wi) = black_box((wo, wi));
+                    lobes[0].estimate_as_heitz(wo, wi, &mut stream).r
+                });
+                for (lobe, (eval, draw)) in lobes.iter().zip(evals.iter_mut().zip(&mut draws)) {
+                    eval[k].slice(|| {
+                        let (wo, wi) = black_box((wo, wi));
+                        lobe.estimate(wo, wi, &mut stream).r
+                    });
+                    draw[k].slice(|| {
+                        let u = [stream.next(), stream.next()];
+                        lobe.draw(black_box(wo), u, &mut stream)
+                            .map_or(0.0, |(_, weight)| weight.r)
+                    });
+                }
+            }
+        }
+        println!("alpha {alpha}");
+        println!(
+            "  model                  mean  variance      ns  relative   sample ns  weight variance"
+        );
+        let yardstick = over(published.iter().map(Measured::product));
+        let print = |name: &str, eval: &[Measured], draw: &[Measured]| {
+            println!(
+                "  {name:<19} {:>7.4} {:>9.5} {:>7.1} {:>9.3}   {:>9.1} {:>16.5}",
+                over(eval.iter().map(Measured::mean)),
+                over(eval.iter().map(Measured::variance)),
+                over(eval.iter().map(|m| m.ns)),
+                over(eval.iter().map(Measured::product)) / yardstick,
+                over(draw.iter().map(|m| m.ns)),
+                draw.iter().map(Measured::variance).fold(0.0, f64::max),
+            );
+        };
+        print("heitz, as published", &published, &draws[0]);
+        for (model, (eval, draw)) in Model::ALL.iter().zip(evals.iter().zip(&draws)) {
+            print(model.name(), eval, draw);
+        }
+    }
+    dielectrics();
+}
+
+/// Evaluates one model and nothing else.
+fn count(model: &str, alpha: &str, n: &str) {
+    let alpha = alpha.parse().expect("ALPHA is a number");
+    let n: u32 = n.parse().expect("N is a count");
+    let published = model == "published";
+    let model = if published {
+        Model::Heitz2016
+    } else {
+        model.parse().expect("MODEL is a model's name")
+    };
+    let white = Reflectance::Constant(Rgb::splat(1.0));
+    let lobe = Conductor::new(Ggx::new(Alpha::isotropic(alpha)), white, model);
+    let mut stream = Stream::new(1);
+    for (i, o) in PAIRS {
+        let (wo, wi) = (at(i, 1.0), at(o, -1.0));
+        for _ in 0..n {
+            let (wo, wi) = black_box((wo, wi));
+            black_box(if published {
+                lobe.estimate_as_heitz(wo, wi, &mut stream)
+            } else {
+                lobe.estimate(wo, wi, &mut stream)
+            });
+        }
+    }
+}
+
+/// Glass from 40 degrees outside: reflection at 40, refraction at 155 degrees.
+fn dielectrics() {
+    for alpha in [0.5_f32, 1.0] {
+        println!("glass, alpha {alpha}");
+        println!("  model     reflection: variance      ns   refraction: variance      ns");
+        for model in [Model::Heitz2016, Model::Ours] {
+            let lobe = Dielectric::new(Ggx::new(Alpha::isotropic(alpha)), 1.5_f32, model);
+            let mut both = [Measured::NONE; 2];
+            let mut stream = Stream::new(2);
+            for _ in 0..SLICES {
+                for (measured, degrees) in both.iter_mut().zip([40.0, 155.0]) {
+                    let (wo, wi) = (at(40.0, 1.0), at(degrees, -1.0));
+                    measured.slice(|| {
+                        let (wo, wi) = black_box((wo, wi));
+                        lobe.eval_pdf_random(wo, wi, Transport::Importance, &mut stream)
+                            .0
+                            .r
+                    });
+                }
+            }
+            let [reflection, refraction] = both;
+            println!(
+                "  {:<9} {:>20.5} {:>7.1} {:>22.5} {:>7.1}",
+                model.name(),
+                reflection.variance(),
+                reflection.ns,
+                refraction.variance(),
+                refraction.ns,
+            );
+        }
+    }
+}

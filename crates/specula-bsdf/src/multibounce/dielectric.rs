@@ -1,0 +1,199 @@
+//! A rough dielectric interface with all its bounces.
+
+use super::interface::{Interface, turned};
+use super::{MisPdf, Model, heitz2016, mis_pdf, ours, seed};
+use crate::bsdf::{Bsdf, BsdfSample, Event, Transport};
+use crate::math::{Real, Rgb, Stream, Vec3};
+use crate::ndf::{Ggx, Ndf};
+
+/// Reflection and refraction at a rough interface with every bounce between its facets, on both
+/// sides of them. Values are estimates; no energy is lost.
+///
+/// [`Model::Heitz2016`] walks with heights; every other model here is [`Model::Ours`], as the
+/// papers of the others treat metals only.
+///
+/// Indices within 1e-3 of each other are taken as equal: light passes straight on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dielectric<T, N = Ggx<T>> {
+    ndf: N,
+    eta: T,
+    two_sided: bool,
+    model: Model,
+    mis: MisPdf,
+}
+
+impl<T: Real, N: Ndf<T>> Dielectric<T, N> {
+    /// An interface with both sides: `wo.z < 0` views it from inside.
+    ///
+    /// * `eta`: index inside over index outside, above 0.
+    #[inline(always)]
+    pub fn new(ndf: N, eta: T, model: Model) -> Self {
+        Self {
+            two_sided: true,
+            ..Self::facing(ndf, eta, model)
+        }
+    }
+
+    /// An interface as seen from the geometric side of `wo`: `wo.z < 0` is a backfacing shading
+    /// normal.
+    ///
+    /// * `eta`: index beyond the interface over the index on the side of `wo`.
+    #[inline(always)]
+    pub fn facing(ndf: N, eta: T, model: Model) -> Self {
+        Self {
+            ndf,
+            eta,
+            two_sided: false,
+            model,
+            mis: MisPdf::default(),
+        }
+    }
+
+    /// The same interface with another density for multiple importance sampling.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_mis_pdf(self, mis: MisPdf) -> Self {
+        Self { mis, ..self }
+    }
+
+    #[inline(always)]
+    fn is_index_matched(&self) -> bool {
+        (self.eta - T::ONE).abs() < T::of(1e-3)
+    }
+
+    /// The facets from the side that `wo` views, and whether z is turned.
+    #[inline(always)]
+    fn side(&self, wo: Vec3<T>) -> (Interface<T, N>, bool) {
+        let outside = Interface {
+            ndf: self.ndf,
+            eta: self.eta,
+        };
+        if self.two_sided && wo.z < T::ZERO {
+            (outside.beyond(), true)
+        } else {
+            (outside, false)
+        }
+    }
+
+    /// Radiance is compressed by refraction.
+    #[inline(always)]
+    fn scale(eta: T, transport: Transport) -> T {
+        match transport {
+            Transport::Radiance => T::ONE / (eta * eta),
+            Transport::Importance => T::ONE,
+        }
+    }
+}
+
+impl<T: Real, N: Ndf<T>> Bsdf<T> for Dielectric<T, N> {
+    #[inline]
+    fn eval(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> Rgb<T> {
+        self.eval_pdf(wo, wi, transport).0
+    }
+
+    #[inline]
+    fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
+        if self.is_index_matched() || wi.z == T::ZERO {
+            return T::ZERO;
+        }
+        let (interface, is_turned) = self.side(wo);
+        let upright = |w| if is_turned { turned(w) } else { w };
+        mis_pdf::interface(self.mis, &interface, upright(wo), upright(wi))
+    }
+
+    #[inline]
+    fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
+        let [x, y, z] = u;
+        self.sample_random(wo, u, transport, &mut seed(wo, Vec3 { x, y, z }))
+    }
+
+    #[inline]
+    fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> (Rgb<T>, T) {
+        self.eval_pdf_random(wo, wi, transport, &mut seed(wo, wi))
+    }
+
+    #[inline]
+    fn is_stochastic(&self) -> bool {
+        !self.is_index_matched()
+    }
+
+    #[inline]
+    fn eval_pdf_random(
+        &self,
+        wo: Vec3<T>,
+        wi: Vec3<T>,
+        transport: Transport,
+        stream: &mut Stream,
+    ) -> (Rgb<T>, T) {
+        if self.is_index_matched() || wi.z == T::ZERO {
+            return (Rgb::BLACK, T::ZERO);
+        }
+        let (interface, is_turned) = self.side(wo);
+        let upright = |w| if is_turned { turned(w) } else { w };
+        let (wo, wi) = (upright(wo), upright(wi));
+        let f_cos = match self.model {
+            Model::Heitz2016 => heitz2016::eval_interface(&interface, wo, wi, stream),
+            _ => ours::eval_interface(&interface, wo, wi, stream),
+        };
+        let scale = if wi.z < T::ZERO {
+            Self::scale(interface.eta, transport)
+        } else {
+            T::ONE
+        };
+        let pdf = mis_pdf::interface(self.mis, &interface, wo, wi);
+        (Rgb::splat(f_cos * scale), pdf)
+    }
+
+    #[inline]
+    fn sample_random(
+        &self,
+        wo: Vec3<T>,
+        u: [T; 3],
+        transport: Transport,
+        stream: &mut Stream,
+    ) -> Option<BsdfSample<T>> {
+        if self.is_index_matched() {
+            return Some(BsdfSample {
+                wi: -wo,
+                weight: Rgb::WHITE,
+                pdf: T::ONE,
+                event: Event::Transmission,
+                specular: true,
+                eta: T::ONE,
+            });
+        }
+        let (interface, is_turned) = self.side(wo);
+        let upright = |w| if is_turned { turned(w) } else { w };
+        let view = upright(wo);
+        let wi = match self.model {
+            Model::Heitz2016 => heitz2016::sample_interface(&interface, view, u, stream),
+            _ => ours::sample_interface(&interface, view, u, stream),
+        }?;
+        let pdf = mis_pdf::interface(self.mis, &interface, view, wi);
+        let reflects = wi.z > T::ZERO;
+        let (event, eta, weight) = if reflects {
+            (Event::Reflection, T::ONE, T::ONE)
+        } else {
+            let scale = Self::scale(interface.eta, transport);
+            (Event::Transmission, interface.eta, scale)
+        };
+        (wi.z != T::ZERO && pdf > T::ZERO && pdf.is_finite()).then_some(BsdfSample {
+            wi: upright(wi),
+            weight: Rgb::splat(weight),
+            pdf,
+            event,
+            specular: false,
+            eta,
+        })
+    }
+
+    #[inline]
+    fn is_specular(&self) -> bool {
+        self.is_index_matched()
+    }
+
+    #[inline(always)]
+    fn albedo(&self) -> Rgb<T> {
+        Rgb::WHITE
+    }
+}

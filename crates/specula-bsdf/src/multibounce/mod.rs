@@ -1,0 +1,48 @@
+//! Multiple bounces between microfacets under Smith's assumption, one file per model.
+//!
+//! | file | model | estimates | facets |
+//! |---|---|---|---|
+//! | `heitz2016` | random walk with heights | the truth | metal, dielectric, diffuse |
+//! | `bitterli2022` | heights integrated, hyperexponential | the truth | metal |
+//! | `wang2022` | independent bounces | a model of its own | metal |
+//! | `cui2023` | invariance principle, from one or both ends | the truth | metal |
+//! | `ours` | state without cancellation, both ends, stratified | the truth | metal, dielectric |
+//!
+//! All evaluate by Monte Carlo: [`Bsdf::eval_pdf_random`](crate::Bsdf::eval_pdf_random) is an
+//! unbiased estimate of the model's `f cos`, and
+//! [`Bsdf::sample_random`](crate::Bsdf::sample_random) draws by the walk, whose true density is not
+//! known: `pdf` is that of [`MisPdf`], for the weights of multiple importance sampling. (Any
+//! positive function serves there: the weights of two strategies sum to 1 whatever it is.)
+
+mod bitterli2022;
+mod conductor;
+mod cui2023;
+mod dielectric;
+mod diffuse;
+mod heitz2016;
+mod interface;
+mod mis_pdf;
+mod model;
+mod ours;
+mod state;
+mod walk;
+mod wang2022;
+
+pub use conductor::Conductor;
+pub use dielectric::Dielectric;
+pub use diffuse::Diffuse;
+pub use mis_pdf::{MisPdf, UnknownMisPdf, normalised as normalised_pdf};
+pub use model::{Model, UnknownModel};
+pub use state::DepthState;
+
+use crate::math::{Real, Stream, Vec3};
+
+/// A stream for callers who bring none, seeded by the arguments.
+fn seed<T: Real>(a: Vec3<T>, b: Vec3<T>) -> Stream {
+    let numbers = [a.x, a.y, a.z, b.x, b.y, b.z];
+    Stream::new(numbers.iter().fold(0xcbf2_9ce4_8422_2325, |hash, x| {
+        (hash ^ x.to_f64().to_bits())
+            .wrapping_mul(0x9e37_79b9_7f4a_7c15)
+            .rotate_left(29)
+    }))
+}

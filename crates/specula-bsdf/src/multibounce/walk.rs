@@ -1,0 +1,113 @@
+//! What every walk over the facets needs: a flight with its rates, a bounce, a connection.
+//!
+//! The microsurface is a medium whose depth `tau = -ln C1(h) >= 0` is measured by the distribution
+//! `C1` of its heights. A ray of direction `d` meets facets at the rate
+//!
+//! ```text
+//! |Lambda(d)| = sigma(-d) / |d_z|      per unit of tau:   1 + Lambda going down, Lambda going up
+//! ```
+//!
+//! whatever `C1` is: that is why results do not depend on the distribution of heights (Heitz et al.
+//! 2016, observed; Dupuy et al. 2016 and Bitterli and d'Eon 2022, derived).
+//!
+//! Here the papers' directions `d` run along the light's path: `d_0 = -wo`, `d_k = wi`.
+
+use crate::fresnel::Reflectance;
+use crate::math::{Real, Rgb, Vec3};
+use crate::ndf::Ndf;
+
+/// Bounces after which a walk ends whatever it carries. Survivors of so many are below 1e-6 of the
+/// energy but for views within 1e-3 of the horizon.
+pub(super) const MAX_BOUNCES: usize = 64;
+
+/// A direction of travel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Flight<T> {
+    /// Unit.
+    pub(super) d: Vec3<T>,
+    /// `sigma(-d)`: area of the facets that it can meet.
+    pub(super) facing: T,
+    /// `sigma(d)`: area of the facets that it would meet on its way back.
+    pub(super) backing: T,
+    /// `sigma(-d) / |d_z|`.
+    pub(super) rate: T,
+}
+
+impl<T: Real> Flight<T> {
+    #[inline(always)]
+    pub(super) fn new<N: Ndf<T>>(ndf: &N, d: Vec3<T>) -> Self {
+        let below = Real::max(ndf.lambda_cos(d), T::of(1e-24));
+        let facing = below + Real::max(-d.z, T::ZERO);
+        Self {
+            d,
+            facing,
+            backing: below + Real::max(d.z, T::ZERO),
+            rate: facing / Real::max(d.z.abs(), T::of(1e-12)),
+        }
+    }
+
+    /// The same flight, the other way; for flights that enter or leave the surface.
+    #[inline(always)]
+    pub(super) fn reversed(&self) -> Self {
+        Self {
+            d: -self.d,
+            facing: self.backing,
+            backing: self.facing,
+            rate: self.backing / Real::max(self.d.z.abs(), T::of(1e-12)),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn is_upward(&self) -> bool {
+        self.d.z > T::ZERO
+    }
+}
+
+/// Facets of one material.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Facets<T, N> {
+    pub(super) ndf: N,
+    pub(super) reflectance: Reflectance<T>,
+}
+
+impl<T: Real, N: Ndf<T>> Facets<T, N> {
+    /// The flight that leaves for `wo`, reversed.
+    #[inline(always)]
+    pub(super) fn arriving(&self, wo: Vec3<T>) -> Flight<T> {
+        Flight::new(&self.ndf, -wo)
+    }
+
+    /// The facet that is met (drawn among those that `-d` sees), its reflectance, and the flight
+    /// after it.
+    #[inline(always)]
+    pub(super) fn bounce(&self, d: Vec3<T>, u: [T; 2]) -> (Vec3<T>, Rgb<T>, Flight<T>) {
+        let wm = self.ndf.sample_wm(-d, u);
+        let along = d.dot(wm);
+        let after = d - wm * (T::TWO * along);
+        let reflectance = self.reflectance.eval(-along);
+        (wm, reflectance, Flight::new(&self.ndf, after))
+    }
+
+    /// `(F, D / 4)` of the facet that turns `d` to `wi`; zeros where none does.
+    #[inline(always)]
+    pub(super) fn connection(&self, d: Vec3<T>, wi: Vec3<T>) -> (Rgb<T>, T) {
+        let wm = wi - d;
+        let length = wm.length();
+        if wm.z > T::ZERO && length > T::of(1e-6) {
+            let wm = wm * (T::ONE / length);
+            let fresnel = self.reflectance.eval(wi.dot(wm));
+            (fresnel, T::of(0.25) * self.ndf.d(wm))
+        } else {
+            (Rgb::BLACK, T::ZERO)
+        }
+    }
+
+    /// `f cos` of light that met one facet: `F D / (4 sigma(wo))` times the share that leaves,
+    /// `|Lambda_o| / (|Lambda_o| + Lambda_i)`: the height-correlated `G2` of Smith.
+    #[inline(always)]
+    pub(super) fn single(&self, arriving: &Flight<T>, leaving: &Flight<T>) -> Rgb<T> {
+        let (fresnel, quarter_d) = self.connection(arriving.d, leaving.d);
+        let exit = arriving.rate / (arriving.rate + leaving.rate);
+        fresnel * (quarter_d / arriving.facing * exit)
+    }
+}

@@ -1,0 +1,81 @@
+//! What a material does about light that rough metal or glass scatters more than once.
+
+use core::fmt;
+use core::str::FromStr;
+
+use specula_bsdf::{energy, multibounce};
+
+/// Treatment of multiple scattering between microfacets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Energy {
+    /// Single scattering only: rough surfaces darken, as in most renderers.
+    #[default]
+    None,
+    /// The lost energy is given back by a formula.
+    Compensated(energy::Model),
+    /// The bounces are simulated.
+    Multibounce(multibounce::Model),
+}
+
+/// A name that is no treatment's.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "no such energy treatment: '{0}' (expected none, turquin, turquin-series, kulla-conty, \
+     multibounce, or multibounce=MODEL with heitz, bitterli, wang, wang-uncorrelated, cui, \
+     cui-bidirectional or specula)"
+)]
+pub struct UnknownEnergy(pub String);
+
+impl fmt::Display for Energy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::None => f.write_str("none"),
+            Self::Compensated(model) => model.fmt(f),
+            Self::Multibounce(model) => write!(f, "multibounce={model}"),
+        }
+    }
+}
+
+impl FromStr for Energy {
+    type Err = UnknownEnergy;
+
+    fn from_str(name: &str) -> Result<Self, Self::Err> {
+        let unknown = || UnknownEnergy(name.to_owned());
+        match name.split_once('=') {
+            Some(("multibounce", model)) => {
+                let model = model.parse().map_err(|_| unknown())?;
+                Ok(Self::Multibounce(model))
+            }
+            Some(_) => Err(unknown()),
+            None if name == "none" => Ok(Self::None),
+            None if name == "multibounce" => Ok(Self::Multibounce(multibounce::Model::default())),
+            None => name.parse().map(Self::Compensated).map_err(|_| unknown()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_back() {
+        for name in [
+            "none",
+            "turquin",
+            "turquin-series",
+            "kulla-conty",
+            "multibounce=heitz",
+            "multibounce=cui-bidirectional",
+            "multibounce=specula",
+        ] {
+            let energy: Energy = name.parse().unwrap();
+            assert_eq!(energy.to_string(), name);
+        }
+        let default: Energy = "multibounce".parse().unwrap();
+        assert_eq!(default, Energy::Multibounce(multibounce::Model::Ours));
+        for name in ["", "all", "multibounce=", "turquin=heitz"] {
+            assert!(name.parse::<Energy>().is_err(), "{name}");
+        }
+    }
+}
