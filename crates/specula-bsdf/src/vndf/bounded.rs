@@ -76,10 +76,9 @@ fn stretched_with_height<T: Real>(alpha: Alpha<T>, wo: Vec3<T>) -> (Stretched<T>
     let up = h.z > T::ZERO;
     let factor = T::select(up, bottom, long);
     let inverse = T::ONE / (length * factor);
-    let inverse_length = factor * inverse;
     let stretched = Stretched {
-        direction: h * inverse_length,
-        one_plus_z: T::select(up, long * inverse_length, h2 * inverse),
+        direction: h * (factor * inverse),
+        one_plus_z: T::select(up, long * bottom, h2) * inverse,
     };
     let height = T::select(up, length * bottom + top * h.z, h2) * inverse;
     (stretched, height)
@@ -95,7 +94,7 @@ fn stretched_with_height<T: Real>(alpha: Alpha<T>, wo: Vec3<T>) -> (Stretched<T>
 fn bound<T: Real>(alpha: Alpha<T>, wo: Vec3<T>) -> (T, T) {
     let a = Real::min(alpha.x, alpha.y);
     let sine = (wo.x * wo.x + wo.y * wo.y).sqrt();
-    let s = T::ONE + T::select(a <= T::ONE, sine, -sine);
+    let s = T::ONE + sine.copysign(T::ONE - a);
     let (a2, s2) = (a * a, s * s);
     // At grazing views with a > 1 both terms of the denominator vanish; k is then 0 or less.
     let bottom = Real::max(s2 + a2 * wo.z * wo.z, T::of(1e-24));
