@@ -281,12 +281,7 @@ fn strategies_agree_on_rough_metal() {
             (Strategy::BsdfOnly, 16384),
         ]
         .map(|(strategy, spp)| mean(&render(&scene, spp, 3, strategy)));
-        for (m, e) in results {
-            let (m0, e0) = results[0];
-            assert!(e < 0.01 * m, "alpha {a}: too noisy, {results:?}");
-            let z = (m - m0) / (e * e + e0 * e0).sqrt();
-            assert!(z.abs() < 4.5, "alpha {a}: {results:?}");
-        }
+        assert_agree(&format!("alpha {a}"), &results, 0, 0.01);
         // The tests can tell: without weights, the two strategies together would count twice.
         let (both, e) = (results[2].0 + results[3].0, results[0].1);
         assert!((both - results[0].0) / e > 100.0);

@@ -196,3 +196,14 @@ pub(crate) fn assert_mean(what: &str, picture: &Picture, expected: f64, slack: f
         "{what}: too noisy, {found} +- {error}"
     );
 }
+
+/// Asserts that means with their errors agree with the one at `reference`, within 4.5 standard
+/// errors, and that each error is below `noise` of its mean.
+pub(crate) fn assert_agree(what: &str, results: &[(f64, f64)], reference: usize, noise: f64) {
+    let (m0, e0) = results[reference];
+    for (m, e) in results {
+        assert!(*e < noise * m, "{what}: too noisy, {results:?}");
+        let z = (m - m0) / (e * e + e0 * e0).sqrt();
+        assert!(z.abs() < 4.5, "{what}: {results:?}");
+    }
+}
