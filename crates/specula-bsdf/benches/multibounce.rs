@@ -8,7 +8,8 @@
 //!
 //! Instructions instead of time, whatever else the machine does: `-- count MODEL ALPHA N` evaluates
 //! a model N times per pair of directions and prints nothing, to be run under
-//! `valgrind --tool=callgrind` (MODEL `published` is the yardstick).
+//! `valgrind --tool=callgrind` (MODEL `published` is the yardstick); `-- count-glass MODEL ALPHA N`
+//! likewise for glass.
 #![allow(clippy::print_stdout, reason = "a bench reports on stdout")]
 
 use std::hint::black_box;
@@ -16,7 +17,7 @@ use std::time::Instant;
 
 use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::math::{Stream, vec3};
-use specula_bsdf::multibounce::{Conductor, Dielectric, Model};
+use specula_bsdf::multibounce::{Conductor, Dielectric, MisPdf, Model};
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, Vec3};
 
@@ -83,10 +84,12 @@ fn over(values: impl Iterator<Item = f64>) -> f64 {
 
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
-    if let [_, command, model, alpha, n, ..] = &arguments[..]
-        && command == "count"
-    {
-        return count(model, alpha, n);
+    if let [_, command, model, alpha, n, ..] = &arguments[..] {
+        match command.as_str() {
+            "count" => return count(model, alpha, n),
+            "count-glass" => return count_glass(model, alpha, n),
+            _ => {}
+        }
     }
     for alpha in [0.5_f32, 1.0] {
         let lobes = Model::ALL.map(|model| {
@@ -167,35 +170,101 @@ fn count(model: &str, alpha: &str, n: &str) {
     }
 }
 
-/// Glass from 40 degrees outside: reflection at 40, refraction at 155 degrees.
+/// As [`count`], glass.
+fn count_glass(model: &str, alpha: &str, n: &str) {
+    let lobe = glass(
+        alpha.parse().expect("ALPHA is a number"),
+        model.parse().expect("MODEL is a model's name"),
+    );
+    let n: u32 = n.parse().expect("N is a count");
+    let mut stream = Stream::new(1);
+    for (_, from, to) in SIDES {
+        for (o, i) in pairs(from, to) {
+            let (wo, wi) = (at(o, 1.0), at(i, -1.0));
+            for _ in 0..n {
+                let (wo, wi) = black_box((wo, wi));
+                black_box(lobe.eval_pdf_random(wo, wi, Transport::Importance, &mut stream));
+            }
+        }
+    }
+}
+
+/// Directions of glass, degrees from the normal outside.
+const SIDES: [(&str, [f32; 2], [f32; 2]); 4] = [
+    ("outside to outside", [30.0, 60.0], [30.0, 60.0]),
+    ("outside to inside", [30.0, 60.0], [150.0, 120.0]),
+    ("inside to outside", [150.0, 120.0], [30.0, 60.0]),
+    ("inside to inside", [150.0, 120.0], [150.0, 120.0]),
+];
+
+fn glass(alpha: f32, model: Model) -> Dielectric<f32> {
+    Dielectric::new(Ggx::new(Alpha::isotropic(alpha)), 1.5_f32, model)
+}
+
+fn pairs(from: [f32; 2], to: [f32; 2]) -> [(f32, f32); 4] {
+    let [a, b] = from;
+    let [c, d] = to;
+    [(a, c), (a, d), (b, c), (b, d)]
+}
+
+/// Glass, index 1.5: geometric means over 30 and 60 degrees from the normal at both ends.
+/// Models of metals only are ours here and not shown; neither is the density of Hapke, which is the
+/// Lambertian one.
 fn dielectrics() {
-    for alpha in [0.5_f32, 1.0] {
-        println!("glass, alpha {alpha}");
-        println!("  model     reflection: variance      ns   refraction: variance      ns");
-        for model in [Model::Heitz2016, Model::Ours] {
-            let lobe = Dielectric::new(Ggx::new(Alpha::isotropic(alpha)), 1.5_f32, model);
-            let mut both = [Measured::NONE; 2];
+    for alpha in [0.1_f32, 0.5, 1.0] {
+        println!("glass, alpha {alpha}: variance, ns, variance x time relative to heitz");
+        for (name, from, to) in SIDES {
+            let pairs = pairs(from, to);
+            let models = [Model::Heitz2016, Model::Ours];
+            let mut both = [[Measured::NONE; 4]; 2];
             let mut stream = Stream::new(2);
             for _ in 0..SLICES {
-                for (measured, degrees) in both.iter_mut().zip([40.0, 155.0]) {
-                    let (wo, wi) = (at(40.0, 1.0), at(degrees, -1.0));
-                    measured.slice(|| {
-                        let (wo, wi) = black_box((wo, wi));
-                        lobe.eval_pdf_random(wo, wi, Transport::Importance, &mut stream)
-                            .0
-                            .r
-                    });
+                for (model, measured) in models.into_iter().zip(&mut both) {
+                    let lobe = glass(alpha, model);
+                    for (measured, (o, i)) in measured.iter_mut().zip(pairs) {
+                        let (wo, wi) = (at(o, 1.0), at(i, -1.0));
+                        measured.slice(|| {
+                            let (wo, wi) = black_box((wo, wi));
+                            lobe.eval_pdf_random(wo, wi, Transport::Importance, &mut stream)
+                                .0
+                                .r
+                        });
+                    }
                 }
             }
-            let [reflection, refraction] = both;
-            println!(
-                "  {:<9} {:>20.5} {:>7.1} {:>22.5} {:>7.1}",
-                model.name(),
-                reflection.variance(),
-                reflection.ns,
-                refraction.variance(),
-                refraction.ns,
-            );
+            let yardstick = over(both[0].iter().map(Measured::product));
+            for (model, measured) in models.into_iter().zip(&both) {
+                println!(
+                    "  {name:<19} {:<8} {:>10.6} {:>7.1} {:>7.3}",
+                    model.name(),
+                    over(measured.iter().map(Measured::variance)),
+                    over(measured.iter().map(|m| m.ns)),
+                    over(measured.iter().map(Measured::product)) / yardstick,
+                );
+            }
         }
+    }
+    densities();
+}
+
+/// Time of the densities for multiple importance sampling, of a metal.
+fn densities() {
+    println!("densities: ns, isotropic and anisotropic");
+    for mis in MisPdf::ALL {
+        let times = [(0.5, 0.5), (0.2, 0.8)].map(|(x, y)| {
+            let white = Reflectance::Constant(Rgb::splat(1.0));
+            let ndf = Ggx::new(Alpha::clamped(x, y));
+            let lobe = Conductor::new(ndf, white, Model::Ours).with_mis_pdf(mis);
+            let mut measured = Measured::NONE;
+            let (wo, wi) = (at(30.0, 1.0), at(60.0, -0.9));
+            for _ in 0..SLICES {
+                measured.slice(|| {
+                    let (wo, wi) = black_box((wo, wi));
+                    lobe.pdf(wo, wi)
+                });
+            }
+            measured.ns
+        });
+        println!("  {:<11} {:>6.1} {:>6.1}", mis.name(), times[0], times[1]);
     }
 }

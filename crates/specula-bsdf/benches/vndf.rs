@@ -15,6 +15,7 @@ use specula_bsdf::{Alpha, Vec3, vndf};
 const POINTS: usize = 4096;
 const ROUNDS: usize = 301;
 
+#[derive(Clone, Copy)]
 struct Point {
     alpha: Alpha<f32>,
     wo: Vec3<f32>,
@@ -77,7 +78,14 @@ fn median_ns(times: &mut [f64]) -> f64 {
 
 fn main() {
     let points = points();
-    let mut times = vec![Vec::new(); 6];
+    let isotropic: Vec<Point> = points
+        .iter()
+        .map(|p| Point {
+            alpha: Alpha::isotropic(p.alpha.x),
+            ..*p
+        })
+        .collect();
+    let mut times = vec![Vec::new(); 10];
     for _ in 0..ROUNDS {
         times[0].push(time_samples(&points, |p| {
             vndf::heitz::sample_reflection(p.alpha, p.wo, p.u)
@@ -88,23 +96,55 @@ fn main() {
         times[2].push(time_samples(&points, |p| {
             vndf::bounded::sample_reflection(p.alpha, p.wo, p.u)
         }));
-        times[3].push(time_pdfs(&points, |p| {
-            vndf::heitz::reflection_pdf(p.alpha, p.wo, p.wi)
+        times[3].push(time_samples(&isotropic, |p| {
+            vndf::exact::sample_reflection(p.alpha, p.wo, p.u)
         }));
-        times[4].push(time_pdfs(&points, |p| {
-            vndf::cap::reflection_pdf(p.alpha, p.wo, p.wi)
+        times[4].push(time_samples(&points, |p| {
+            vndf::exact::sample_reflection(p.alpha, p.wo, p.u)
         }));
         times[5].push(time_pdfs(&points, |p| {
+            vndf::heitz::reflection_pdf(p.alpha, p.wo, p.wi)
+        }));
+        times[6].push(time_pdfs(&points, |p| {
+            vndf::cap::reflection_pdf(p.alpha, p.wo, p.wi)
+        }));
+        times[7].push(time_pdfs(&points, |p| {
             vndf::bounded::reflection_pdf(p.alpha, p.wo, p.wi)
+        }));
+        times[8].push(time_pdfs(&isotropic, |p| {
+            vndf::exact::reflection_pdf(p.alpha, p.wo, p.wi)
+        }));
+        times[9].push(time_pdfs(&points, |p| {
+            vndf::exact::reflection_pdf(p.alpha, p.wo, p.wi)
         }));
     }
     let ns: Vec<f64> = times.iter_mut().map(|t| median_ns(t)).collect();
+    let names = ["heitz", "cap", "bounded", "exact, ax = ay", "exact"];
     println!("GGX reflection off a visible normal, f32, scalar, one thread (median of {ROUNDS})");
-    println!("  sampler      sample ns   pdf ns");
-    for (i, name) in ["heitz", "cap", "bounded"].iter().enumerate() {
-        println!("  {name:<10} {:>9.2} {:>9.2}", ns[i], ns[i + 3]);
+    println!("  sampler         sample ns   pdf ns");
+    for (i, name) in names.iter().enumerate() {
+        println!("  {name:<14} {:>10.2} {:>8.2}", ns[i], ns[i + 5]);
     }
-    println!("  heitz / cap     {:.2}   (paper: 1.38)", ns[0] / ns[1]);
-    println!("  bounded / cap   {:.2}   (paper: 1.25)", ns[2] / ns[1]);
-    println!("  pdf bounded/cap {:.2}   (paper: 1.31)", ns[5] / ns[4]);
+    println!(
+        "  heitz / cap              {:.2}   (paper: 1.38)",
+        ns[0] / ns[1]
+    );
+    println!(
+        "  bounded / cap            {:.2}   (paper: 1.25)",
+        ns[2] / ns[1]
+    );
+    println!(
+        "  pdf bounded / cap        {:.2}   (paper: 1.31)",
+        ns[7] / ns[6]
+    );
+    println!(
+        "  exact, ax = ay / bounded {:.2}   pdf {:.2}",
+        ns[3] / ns[2],
+        ns[8] / ns[7]
+    );
+    println!(
+        "  exact / bounded          {:.2}   pdf {:.2}",
+        ns[4] / ns[2],
+        ns[9] / ns[7]
+    );
 }

@@ -27,6 +27,7 @@
 #![forbid(unsafe_code)]
 
 mod alpha;
+pub mod batch;
 pub mod bsdf;
 pub mod energy;
 pub mod fresnel;

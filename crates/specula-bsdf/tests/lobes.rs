@@ -39,7 +39,12 @@ fn albedo(lobe: &impl Bsdf<f64>, wo: Vec3<f64>, transport: Transport) -> f64 {
 fn the_single_scatter_albedo_at_alpha_one_is_one_minus_ln_two() {
     let lobe = RoughConductor::new(Ggx::new(Alpha::isotropic(1.0)), WHITE);
     let expected = 1.0 - 2.0_f64.ln();
-    for sampler in [Sampler::Heitz, Sampler::Cap, Sampler::Bounded] {
+    for sampler in [
+        Sampler::Heitz,
+        Sampler::Cap,
+        Sampler::Bounded,
+        Sampler::Exact,
+    ] {
         let got = albedo(&lobe.with_sampler(sampler), Vec3::Z, Transport::Radiance);
         assert!((got - expected).abs() < 2e-4, "{sampler}: {got}");
     }
@@ -106,7 +111,12 @@ fn eon_preserves_energy_and_is_lambert_at_zero() {
 #[test]
 fn weights_of_single_scattering_never_exceed_one() {
     for &(ax, ay) in &[(0.05, 0.5), (1.0, 1.0), (0.2, 3.0)] {
-        for sampler in [Sampler::Heitz, Sampler::Cap, Sampler::Bounded] {
+        for sampler in [
+            Sampler::Heitz,
+            Sampler::Cap,
+            Sampler::Bounded,
+            Sampler::Exact,
+        ] {
             let ggx = Ggx::new(Alpha::clamped(ax, ay));
             let lobe = RoughConductor::new(ggx, WHITE).with_sampler(sampler);
             for i in 0..4000 {
@@ -185,7 +195,12 @@ fn every_lobe<T: Real>() -> Vec<Lobe<T>> {
     ];
     for &(x, y) in &[(1e-4, 1e-4), (0.05, 0.5), (1.0, 1.0), (10.0, 0.3)] {
         let d = ggx(x, y);
-        for sampler in [Sampler::Heitz, Sampler::Cap, Sampler::Bounded] {
+        for sampler in [
+            Sampler::Heitz,
+            Sampler::Cap,
+            Sampler::Bounded,
+            Sampler::Exact,
+        ] {
             lobes.push(RoughConductor::new(d, metal).with_sampler(sampler).into());
             lobes.push(
                 RoughDielectric::new(d, T::of(1.5))

@@ -45,7 +45,9 @@ fn row(alphas: &[f32], metal: ConductorFresnel, pixels: u32) -> Scene {
     scene.film.resolution = [pixels * count, pixels];
     scene.film.crop = [0, pixels * count, 0, pixels];
     scene.camera.to_world = DMat4::from_translation([0.0, 0.0, -40.0].into());
-    scene.camera.fov_deg = 2.0 * (1.15_f64 / 40.0).atan().to_degrees();
+    scene.camera.projection = Projection::Perspective {
+        fov_deg: 2.0 * (1.15_f64 / 40.0).atan().to_degrees(),
+    };
     let aspect = f64::from(count);
     scene.camera.screen_window = [-aspect, aspect, -1.0, 1.0];
     scene.camera.lens_radius = 0.0;
@@ -54,18 +56,13 @@ fn row(alphas: &[f32], metal: ConductorFresnel, pixels: u32) -> Scene {
     scene.meshes.clear();
     scene.lights.clear();
     for (i, alpha) in alphas.iter().enumerate() {
-        scene.materials.push(Material {
-            name: None,
-            kind: MaterialKind::Conductor {
-                fresnel: metal,
-                roughness: Roughness {
-                    u: FloatParam::Value(*alpha),
-                    v: FloatParam::Value(*alpha),
-                    mapping: RoughnessMapping::Alpha,
-                },
-            },
-            energy: None,
-        });
+        let width = FloatParam::Value(*alpha);
+        let metal = MaterialKind::Conductor {
+            fresnel: metal,
+            roughness: Roughness::isotropic(width, RoughnessMapping::Alpha),
+            tint: ColourParam::WHITE,
+        };
+        scene.materials.push(Material::new(metal));
         let x = 2.3 * (i as f64 - 0.5 * (f64::from(count) - 1.0));
         scene.shapes.push(Shape {
             geometry: Geometry::Sphere { radius: 1.0 },

@@ -1,10 +1,11 @@
-//! The perspective camera with a thin lens.
+//! Cameras: from a point of the picture to a ray.
 
 use specula_bsdf::Vec3;
 use specula_bsdf::math::vec3;
-use specula_scene::scene;
+use specula_scene::scene::{self, EnvironmentMapping, Projection};
 
 use crate::convert::{Affine, narrow};
+use crate::light::direction_of_sphere;
 
 /// A camera for a picture of a certain size.
 ///
@@ -13,53 +14,109 @@ use crate::convert::{Affine, narrow};
 #[derive(Clone, Debug)]
 pub(crate) struct Camera {
     to_world: Affine,
-    /// Raster to the plane z = 1: `(x, y) = origin + raster * step`.
+    view: View,
+    /// Raster to the plane z = 1, to scene units, or to the unit square:
+    /// `(x, y) = origin + raster * step`.
     origin: [f32; 2],
     step: [f32; 2],
     lens_radius: f32,
     focal_distance: f32,
 }
 
+/// [`Projection`] without what is in the steps of the raster.
+#[derive(Clone, Copy, Debug)]
+enum View {
+    Perspective,
+    Orthographic,
+    Spherical(EnvironmentMapping),
+}
+
 impl Camera {
     /// A camera over `resolution` pixels.
     pub(crate) fn new(camera: &scene::Camera, resolution: [u32; 2], window: [f64; 4]) -> Self {
-        let spread = (0.5 * camera.fov_deg.to_radians()).tan();
-        let [x0, x1, y0, y1] = window.map(|v| v * spread);
-        let to_world = Affine::new(&camera.to_world);
+        let (view, [x0, x1, y0, y1]) = match camera.projection {
+            Projection::Perspective { fov_deg } => {
+                let spread = (0.5 * fov_deg.to_radians()).tan();
+                (View::Perspective, window.map(|v| v * spread))
+            }
+            Projection::Orthographic => (View::Orthographic, window),
+            Projection::Spherical(mapping) => (View::Spherical(mapping), [0.0, 1.0, 1.0, 0.0]),
+        };
+        let has_lens = camera.lens_radius > 0.0
+            && camera.focal_distance > 0.0
+            && !matches!(view, View::Spherical(_));
         Self {
-            to_world,
+            to_world: Affine::new(&camera.to_world),
+            view,
             origin: [narrow(x0), narrow(y1)],
             step: [
                 narrow((x1 - x0) / f64::from(resolution[0])),
                 narrow((y0 - y1) / f64::from(resolution[1])),
             ],
-            lens_radius: narrow(camera.lens_radius),
+            lens_radius: if has_lens {
+                narrow(camera.lens_radius)
+            } else {
+                0.0
+            },
             focal_distance: narrow(camera.focal_distance),
         }
     }
 
     /// The ray through a point of the raster and of the lens: its origin and unit direction.
+    ///
+    /// The lens of an orthographic camera is a copy around the origin of every ray; pbrt-v4 puts it
+    /// at the origin of camera space, where it would make the view a perspective one.
     #[inline]
     pub(crate) fn ray(&self, raster: [f32; 2], lens: [f32; 2]) -> (Vec3<f32>, Vec3<f32>) {
-        let through = vec3(
-            self.origin[0] + raster[0] * self.step[0],
-            self.origin[1] + raster[1] * self.step[1],
-            1.0,
-        );
-        if self.lens_radius > 0.0 && self.focal_distance > 0.0 {
+        let x = self.origin[0] + raster[0] * self.step[0];
+        let y = self.origin[1] + raster[1] * self.step[1];
+        let (from, towards) = match self.view {
+            View::Perspective => (Vec3::ZERO, vec3(x, y, 1.0)),
+            View::Orthographic => (vec3(x, y, 0.0), Vec3::Z),
+            View::Spherical(mapping) => {
+                let uv = within_sphere(mapping, [x, y]);
+                (Vec3::ZERO, direction_of_sphere(mapping, uv))
+            }
+        };
+        if self.lens_radius > 0.0 {
             let d = concentric_disk(lens);
-            let from = vec3(d[0] * self.lens_radius, d[1] * self.lens_radius, 0.0);
-            let focus = through * self.focal_distance;
+            let on_lens = from + vec3(d[0] * self.lens_radius, d[1] * self.lens_radius, 0.0);
+            let focus = from + towards * self.focal_distance;
             return (
-                self.to_world.point(from),
-                self.to_world.vector(focus - from).normalize(),
+                self.to_world.point(on_lens),
+                self.to_world.vector(focus - on_lens).normalize(),
             );
         }
         (
-            self.to_world.translation,
-            self.to_world.vector(through).normalize(),
+            self.to_world.point(from),
+            self.to_world.vector(towards).normalize(),
         )
     }
+}
+
+/// A point next to the unit square, where filters reach over its edges, as the point of the square
+/// for the same direction.
+fn within_sphere(mapping: EnvironmentMapping, [mut u, mut v]: [f32; 2]) -> [f32; 2] {
+    let over = |x: f32| !(0.0..=1.0).contains(&x);
+    let folded = |x: f32| if x < 0.0 { -x } else { 2.0 - x };
+    match mapping {
+        EnvironmentMapping::EqualAreaOctahedral => {
+            // Each edge of the square is folded about its middle.
+            if over(u) {
+                (u, v) = (folded(u), 1.0 - v);
+            }
+            if over(v) {
+                (u, v) = (1.0 - u, folded(v));
+            }
+        }
+        EnvironmentMapping::LatitudeLongitude | EnvironmentMapping::LatitudeLongitudePoles => {
+            if over(v) {
+                (u, v) = (u + 0.5, folded(v));
+            }
+            u -= u.floor();
+        }
+    }
+    [u, v].map(|x| x.clamp(0.0, 1.0))
 }
 
 /// A point of the unit disk, area-preserving and continuous.
@@ -112,7 +169,7 @@ mod tests {
     fn camera() -> scene::Camera {
         scene::Camera {
             to_world: DMat4::IDENTITY,
-            fov_deg: 90.0,
+            projection: scene::Projection::Perspective { fov_deg: 90.0 },
             lens_radius: 0.0,
             focal_distance: 4.0,
             screen_window: [-2.0, 2.0, -1.0, 1.0],
@@ -144,6 +201,68 @@ mod tests {
                 (p.x + 4.0).abs() < 1e-4 && (p.y - 2.0).abs() < 1e-4,
                 "{p:?}"
             );
+        }
+    }
+
+    #[test]
+    fn parallel_rays_leave_from_where_they_are_seen_and_focus_all_the_same() {
+        let mut parallel = scene::Camera {
+            projection: Projection::Orthographic,
+            to_world: DMat4::from_translation([10.0, 0.0, 0.0].into()),
+            screen_window: [-4.0, 4.0, -2.0, 2.0],
+            ..camera()
+        };
+        let c = Camera::new(&parallel, [200, 100], parallel.screen_window);
+        assert_eq!(
+            c.ray([50.0, 100.0], [0.3; 2]),
+            (vec3(8.0, -2.0, 0.0), Vec3::Z)
+        );
+        parallel.lens_radius = 0.5;
+        let c = Camera::new(&parallel, [200, 100], parallel.screen_window);
+        let mut origins = Vec::new();
+        for u in [[0.1, 0.9], [0.5, 0.01], [0.99, 0.4]] {
+            let (o, d) = c.ray([50.0, 100.0], u);
+            let p = o + d * ((4.0 - o.z) / d.z);
+            assert!((p - vec3(8.0, -2.0, 4.0)).length() < 1e-5, "{p:?}");
+            let from_centre = (o - vec3(8.0, -2.0, 0.0)).length();
+            assert!(from_centre > 0.05 && from_centre <= 0.5);
+            origins.push(o);
+        }
+        assert_ne!(origins[0], origins[1]);
+    }
+
+    #[test]
+    fn spherical_pictures_are_the_maps_that_environments_are_read_from() {
+        for mapping in [
+            EnvironmentMapping::EqualAreaOctahedral,
+            EnvironmentMapping::LatitudeLongitude,
+        ] {
+            let round = scene::Camera {
+                projection: Projection::Spherical(mapping),
+                lens_radius: 1.0,
+                ..camera()
+            };
+            let c = Camera::new(&round, [64, 32], round.screen_window);
+            for raster in [[3.5, 4.5], [40.25, 30.0], [63.9, 0.1], [20.0, 17.0]] {
+                let (o, d) = c.ray(raster, [0.7; 2]);
+                let uv = [raster[0] / 64.0, raster[1] / 32.0];
+                let expected = direction_of_sphere(mapping, uv);
+                assert!(o == Vec3::ZERO && (d - expected).length() < 1e-5);
+            }
+            // Beyond the edge the map goes on where the sphere does.
+            for (x, y) in [(0.0, 9.0), (64.0, 9.0), (12.0, 0.0), (12.0, 32.0)] {
+                let step = |x: f32, size: f32| match x {
+                    0.0 => 1e-3,
+                    _ if x == size => -1e-3,
+                    _ => 0.0,
+                };
+                let (dx, dy) = (step(x, 64.0), step(y, 32.0));
+                let (_, inside) = c.ray([x + dx, y + dy], [0.0; 2]);
+                let (_, outside) = c.ray([x - dx, y - dy], [0.0; 2]);
+                let (_, far) = c.ray([x + 300.0 * dx, y + 300.0 * dy], [0.0; 2]);
+                assert!((inside - outside).length() < 2e-2, "{mapping:?} ({x}, {y})");
+                assert!((inside - far).length() > 0.02);
+            }
         }
     }
 

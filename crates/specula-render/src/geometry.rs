@@ -8,15 +8,22 @@
 //! (outwards, and +z). pbrt itself turns the hits, though not the light samples, of mirrored
 //! spheres and disks inside out; here they stay as they are.
 
-use glam::{DMat3, DMat4};
+mod bake;
+mod hit;
+mod partials;
+
+use glam::DMat4;
+use specula_bsdf::Vec3;
 use specula_bsdf::math::vec3;
-use specula_bsdf::{Rgb, Vec3};
-use specula_scene::scene::{
-    FloatParam, Geometry as SceneGeometry, MaterialKind, Mesh, Scene, Shape,
-};
+use specula_scene::scene::{ColourParam, FloatParam, Scene};
 
 use crate::accel::{Accel, AccelError, Group, Instance, Quadric, QuadricShape};
-use crate::convert::{Affine, id, narrow3, normal_matrix, transform_point};
+use crate::convert::{Affine, id, normal_matrix};
+use crate::texture::Textures;
+use bake::Baker;
+
+pub(crate) use hit::{At, Surface};
+pub(crate) use partials::Partials;
 
 /// No light.
 pub(crate) const NONE: u32 = u32::MAX;
@@ -26,7 +33,7 @@ pub(crate) const NONE: u32 = u32::MAX;
 pub(crate) struct ShapeRecord {
     pub(crate) material: u32,
     /// Black where it sends out nothing.
-    pub(crate) radiance: Rgb<f32>,
+    pub(crate) radiance: ColourParam,
     pub(crate) two_sided: bool,
     /// Opacity, where it is not 1 everywhere.
     pub(crate) alpha: Option<FloatParam>,
@@ -53,11 +60,13 @@ pub(crate) struct GroupData {
     normals: Vec<[f32; 3]>,
     /// As `normals`.
     uvs: Vec<[f32; 2]>,
+    /// White where a mesh has none; empty where no mesh has any or no texture shows them.
+    colours: Vec<[f32; 3]>,
     pub(crate) triangles: Vec<[u32; 3]>,
     pub(crate) quadrics: Vec<PlacedQuadric>,
     /// Shape of every primitive.
     pub(crate) shape_of: Vec<u32>,
-    /// Number of every primitive among the group's lights, or [`NONE`].
+    /// Number of every primitive among the group's lights, or [`NONE`]; ends with the last light.
     light_of: Vec<u32>,
     /// Primitives that send out light, by that number.
     pub(crate) emitters: Vec<u32>,
@@ -89,19 +98,23 @@ pub(crate) struct Geometry {
 
 impl Geometry {
     /// Bakes the scene's shapes and builds the tree over them.
-    pub(crate) fn new(scene: &Scene) -> Result<Self, AccelError> {
-        let mut shapes = Vec::new();
-        let mut groups = vec![bake(scene, &scene.shapes, &mut shapes)];
-        let mut group_of = vec![None; scene.objects.len()];
+    ///
+    /// * `scene`: left without its shapes, objects, and the meshes that were baked.
+    pub(crate) fn new(scene: &mut Scene, textures: &Textures) -> Result<Self, AccelError> {
+        let mut baker = Baker::new(scene, textures);
+        let world = std::mem::take(&mut baker.world);
+        let mut groups = vec![baker.bake(world)];
+        let mut group_of = vec![None; baker.objects.len()];
         let mut placements = vec![Placement::new(0, DMat4::IDENTITY)];
-        for instance in &scene.instances {
-            let object = instance.object.0;
+        for (object, to_world) in std::mem::take(&mut baker.instances) {
             let group = *group_of[object].get_or_insert_with(|| {
-                groups.push(bake(scene, &scene.objects[object].shapes, &mut shapes));
+                let shapes = std::mem::take(&mut baker.objects[object]);
+                groups.push(baker.bake(shapes));
                 id(groups.len() - 1)
             });
-            placements.push(Placement::new(group, instance.to_world));
+            placements.push(Placement::new(group, to_world));
         }
+        let shapes = baker.records;
         // Rays go straight into a lone group: an empty world group must not stand in the way.
         placements.retain(|p| !groups[p.group as usize].shape_of.is_empty());
         let mut lights = 0;
@@ -151,119 +164,7 @@ fn build_accel(groups: &[GroupData], placements: &[Placement]) -> Result<Accel, 
     Accel::build(&inputs, &instances)
 }
 
-fn bake(scene: &Scene, shapes: &[Shape], records: &mut Vec<ShapeRecord>) -> GroupData {
-    let mut group = GroupData::default();
-    // Triangles come first in the numbering, whatever the order of the shapes.
-    let visible = |s: &&Shape| {
-        !matches!(scene.materials[s.material.0].kind, MaterialKind::Interface)
-            && s.alpha != FloatParam::Value(0.0)
-    };
-    let is_mesh = |s: &&Shape| matches!(s.geometry, SceneGeometry::Mesh(_));
-    let meshes = shapes.iter().filter(visible).filter(is_mesh);
-    let others = shapes.iter().filter(visible).filter(|s| !is_mesh(s));
-    for shape in meshes.chain(others) {
-        let record = id(records.len());
-        let has_uvs = match shape.geometry {
-            SceneGeometry::Mesh(mesh) => {
-                let mesh = &scene.meshes[mesh.0];
-                let has_uvs = mesh.uvs.len() == mesh.positions.len();
-                group.add_mesh(mesh, shape);
-                has_uvs
-            }
-            SceneGeometry::Sphere { radius } => {
-                let radius = f64::from(radius);
-                group.add_quadric(QuadricShape::Sphere { radius }, shape);
-                true
-            }
-            SceneGeometry::Disk { radius, height } => {
-                let (radius, height) = (f64::from(radius), f64::from(height));
-                group.add_quadric(QuadricShape::Disk { radius, height }, shape);
-                true
-            }
-        };
-        let emits = shape.emission.is_some_and(|e| !e.radiance.is_black());
-        let first = group.shape_of.len();
-        let count = group.triangles.len() + group.quadrics.len();
-        group.shape_of.resize(count, record);
-        for primitive in first..count {
-            if emits {
-                group.light_of.push(id(group.emitters.len()));
-                group.emitters.push(id(primitive));
-            } else {
-                group.light_of.push(NONE);
-            }
-        }
-        records.push(ShapeRecord {
-            material: id(shape.material.0),
-            radiance: shape.emission.map_or(Rgb::BLACK, |e| e.radiance),
-            two_sided: shape.emission.is_some_and(|e| e.two_sided),
-            // Emitters are opaque: the sampling of lights knows no opacity.
-            alpha: match shape.alpha {
-                FloatParam::Value(a) if a >= 1.0 => None,
-                _ if emits => None,
-                alpha => Some(alpha),
-            },
-            has_uvs,
-        });
-    }
-    group
-}
-
 impl GroupData {
-    fn add_mesh(&mut self, mesh: &Mesh, shape: &Shape) {
-        let first = id(self.positions.len());
-        let m = &shape.to_world;
-        let positions = mesh.positions.iter().map(|&p| transform_point(m, p));
-        self.positions.extend(positions);
-        let has_normals = mesh.normals.len() == mesh.positions.len();
-        if has_normals {
-            self.normals.resize(first as usize, [0.0; 3]);
-            let sign = if shape.reverse_orientation { -1.0 } else { 1.0 };
-            let matrix = normal_matrix(m) * sign;
-            let normals = mesh.normals.iter().map(|n| {
-                let n = matrix * glam::DVec3::from(n.map(f64::from));
-                narrow3(n.normalize_or_zero()).to_array()
-            });
-            self.normals.extend(normals);
-        }
-        if mesh.uvs.len() == mesh.positions.len() {
-            self.uvs.resize(first as usize, [0.0; 2]);
-            self.uvs.extend(&mesh.uvs);
-        }
-        let mirrored = DMat3::from_mat4(*m).determinant() < 0.0;
-        let flip = mirrored != shape.reverse_orientation;
-        for &t in &mesh.triangles {
-            let t = t.map(|v| v + first);
-            let flip = if has_normals {
-                self.disagrees(t).unwrap_or(flip)
-            } else {
-                flip
-            };
-            self.triangles
-                .push(if flip { [t[0], t[2], t[1]] } else { t });
-        }
-    }
-
-    /// Whether the winding's side is not the one that the vertex normals point to; `None` where
-    /// they do not say.
-    fn disagrees(&self, t: [u32; 3]) -> Option<bool> {
-        let [a, b, c] = t.map(|v| glam::DVec3::from(self.positions[v as usize].map(f64::from)));
-        let [na, nb, nc] = t.map(|v| glam::DVec3::from(self.normals[v as usize].map(f64::from)));
-        let agreement = (b - a).cross(c - a).dot(na + nb + nc);
-        (agreement != 0.0).then_some(agreement < 0.0)
-    }
-
-    fn add_quadric(&mut self, quadric: QuadricShape, shape: &Shape) {
-        self.quadrics.push(PlacedQuadric {
-            shape: quadric,
-            to_group: shape.to_world,
-            forward: Affine::new(&shape.to_world),
-            backward: Affine::new(&shape.to_world.inverse()),
-            normals: Affine::linear(&normal_matrix(&shape.to_world)),
-            flipped: shape.reverse_orientation,
-        });
-    }
-
     /// The corners of a triangle.
     #[inline(always)]
     pub(crate) fn corners(&self, primitive: u32) -> [Vec3<f32>; 3] {
@@ -284,9 +185,6 @@ impl Placement {
         }
     }
 }
-
-mod hit;
-pub(crate) use hit::Surface;
 
 /// The unit vector along `v`, without overflow or underflow; `fallback` for the zero vector and for
 /// what is not finite.

@@ -12,15 +12,17 @@
 
 use specula_bsdf::bsdf::Lobe;
 use specula_bsdf::{Bsdf, BsdfSample, Frame, Rgb, Transport, Vec3};
+use specula_scene::scene::{ColourParam, ReliefRules};
 
 use crate::accel::Ray;
 use crate::film::PixelSample;
 use crate::geometry::{NONE, Surface};
 use crate::light::{LightSample, Receiver};
-use crate::material::Place;
+use crate::material::Material;
 use crate::offset::leave;
 use crate::options::{RenderOptions, Strategy};
 use crate::prepared::PreparedScene;
+use crate::relief::{self, Softness};
 use crate::sampler::Sampler;
 
 /// Vertices before roulette begins.
@@ -49,7 +51,11 @@ struct Previous {
 struct Vertex {
     surface: Surface,
     lobe: Lobe<f32>,
+    /// Whether the lobe is black where `wi.z <= 0`.
+    opaque: bool,
     frame: Frame<f32>,
+    /// How light fades where a relief by Mitsuba's rules bends the normal.
+    softness: Option<Softness>,
     /// Geometric normal on the viewer's side.
     facing: Vec3<f32>,
     wo: Vec3<f32>,
@@ -59,21 +65,9 @@ impl Vertex {
     /// The vertex as lights are chosen for it.
     #[inline]
     fn receiver(&self) -> Receiver {
-        // These lobes are black where `wi.z <= 0`.
-        let opaque = matches!(
-            self.lobe,
-            Lobe::Lambert(_)
-                | Lobe::Eon(_)
-                | Lobe::SmoothConductor(_)
-                | Lobe::RoughConductor(_)
-                | Lobe::CoatedDiffuse(_)
-                | Lobe::CoatedConductor(_)
-                | Lobe::Compensated(_)
-                | Lobe::MultibounceConductor(_)
-        );
         Receiver {
             point: self.surface.position,
-            normal: opaque.then_some(self.frame.n),
+            normal: self.opaque.then_some(self.frame.n),
         }
     }
 }
@@ -149,7 +143,7 @@ impl<'a> PathTracer<'a> {
             }
             depth += 1;
         }
-        sample.colour = state.radiance * self.scene.exposure;
+        sample.colour = self.scene.develop.of(state.radiance);
         (sample, state.rays)
     }
 
@@ -175,7 +169,15 @@ impl<'a> PathTracer<'a> {
             let weight = self.lobe_weight(state.previous, |receiver| {
                 self.scene.lights.pdf_of_surface(receiver, surface)
             });
-            state.radiance += state.throughput * shape.radiance * weight;
+            let radiance = match shape.radiance {
+                ColourParam::Value(radiance) => radiance,
+                textured => {
+                    let place = surface.place();
+                    let colour = self.scene.textures.colour(textured, &place);
+                    colour.map(|v| v.max(0.0))
+                }
+            };
+            state.radiance += state.throughput * radiance * weight;
         }
     }
 
@@ -207,23 +209,26 @@ impl<'a> PathTracer<'a> {
     fn vertex(&self, surface: Surface, wo: Vec3<f32>, sampler: &Sampler, depth: u32) -> Vertex {
         let outside = surface.ng.dot(wo) > 0.0;
         let facing = if outside { surface.ng } else { -surface.ng };
-        let ns = if surface.ns.dot(facing) < 0.0 {
-            -surface.ns
-        } else {
-            surface.ns
-        };
         let shape = &self.scene.geometry.shapes[surface.shape as usize];
-        let place = Place {
-            uv: surface.uv,
-            outside,
-        };
         let textures = &self.scene.textures;
-        let lobe = self
+        let place = surface.place();
+        let chosen = self
             .scene
             .materials
-            .lobe(shape.material, textures, place, |level| {
+            .at(shape.material, textures, &place, |level| {
                 sampler.hashed([depth, level, 0])
             });
+        let lobe = chosen.lobe(textures, &place, outside);
+        let (ns, tangent) = self.shading(&surface, chosen.material);
+        let ns = if ns.dot(facing) < 0.0 { -ns } else { ns };
+        let (ns, softness) = match chosen.material.relief_rules {
+            ReliefRules::Mitsuba { fades } if chosen.material.relief.is_some() => {
+                let unbent = surface.ns;
+                let sign = if unbent.dot(facing) < 0.0 { -1.0 } else { 1.0 };
+                Softness::new(unbent * sign, ns, wo, fades)
+            }
+            _ => (ns, None),
+        };
         let n = if ns.dot(wo) <= 0.0 && lobe.is_specular() {
             facing
         } else {
@@ -231,11 +236,37 @@ impl<'a> PathTracer<'a> {
         };
         Vertex {
             surface,
+            opaque: chosen.is_opaque(&lobe),
             lobe,
-            frame: Frame::from_normal_tangent(n, surface.tangent),
+            frame: Frame::from_normal_tangent(n, tangent),
+            softness,
             facing,
             wo: wo.normalize(),
         }
+    }
+
+    /// Shading normal and tangent, bent and turned as the material asks.
+    #[inline]
+    fn shading(&self, surface: &Surface, material: &Material) -> (Vec3<f32>, Vec3<f32>) {
+        let (ns, tangent) = match &material.relief {
+            None => (surface.ns, surface.tangent),
+            Some(r) => {
+                let PreparedScene { textures, geometry, .. } = self.scene;
+                relief::bend(r, material.relief_rules, textures, geometry, surface)
+            }
+        };
+        if material.rotation_rad == 0.0 {
+            return (ns, tangent);
+        }
+        let [_, along_v] = self.scene.geometry.partials(surface).dp;
+        let frame = Frame::from_normal_tangent(ns, tangent);
+        let side = if frame.t.dot(along_v) < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
+        let (sin, cos) = material.rotation_rad.sin_cos();
+        (ns, frame.s * cos + frame.t * (sin * side))
     }
 
     /// Light from one sampled light.
@@ -245,7 +276,9 @@ impl<'a> PathTracer<'a> {
             return;
         }
         let receiver = vertex.receiver();
-        let Some(light) = self.scene.lights.sample(&receiver, sampler.light(depth)) else {
+        let scene = self.scene;
+        let world = (&scene.geometry, &scene.textures);
+        let Some(light) = scene.lights.sample(&receiver, world, sampler.light(depth)) else {
             return;
         };
         if self.strategy == Strategy::BsdfOnly && !light.delta {
@@ -263,6 +296,10 @@ impl<'a> PathTracer<'a> {
         if f_cos.is_black() {
             return;
         }
+        let f_cos = match &vertex.softness {
+            Some(softness) => f_cos * softness.factor(light.wi),
+            None => f_cos,
+        };
         let weight = if light.delta || self.strategy == Strategy::LightsOnly {
             1.0
         } else {
@@ -303,6 +340,9 @@ impl<'a> PathTracer<'a> {
             return None;
         }
         state.throughput *= weight;
+        if let Some(softness) = &vertex.softness {
+            state.throughput *= softness.factor(direction);
+        }
         state.eta_scale *= eta * eta;
         let largest = state.throughput.max_channel() * state.eta_scale;
         if largest.is_nan() || largest <= 0.0 {
@@ -396,7 +436,7 @@ impl<'a> PathTracer<'a> {
         match self.scene.geometry.shapes[surface.shape as usize].alpha {
             None => true,
             Some(alpha) => {
-                let alpha = self.scene.textures.float(alpha, surface.uv);
+                let alpha = self.scene.textures.float(alpha, &surface.place());
                 alpha >= 1.0 || sampler.hashed(key) < alpha
             }
         }

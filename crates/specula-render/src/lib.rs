@@ -12,6 +12,7 @@ mod offset;
 mod options;
 pub mod picture;
 mod prepared;
+mod relief;
 mod renderer;
 mod sampler;
 mod texture;

@@ -6,6 +6,7 @@ use thiserror::Error;
 use crate::accel::AccelError;
 use crate::camera::{Camera, screen_window};
 use crate::convert::round_u32;
+use crate::film::develop::Develop;
 use crate::film::filter::FilterSampler;
 use crate::geometry::Geometry;
 use crate::light::Lights;
@@ -21,7 +22,7 @@ const MOST_PIXELS: u64 = 1 << 30;
 pub struct PreparedScene {
     pub(crate) camera: Camera,
     pub(crate) filter: FilterSampler,
-    pub(crate) exposure: f32,
+    pub(crate) develop: Develop,
     pub(crate) resolution: [u32; 2],
     pub(crate) crop: [u32; 4],
     pub(crate) geometry: Geometry,
@@ -58,11 +59,22 @@ pub enum PrepareError {
 }
 
 impl PreparedScene {
-    /// Prepares a scene, in parallel in rayon's current pool.
+    /// Prepares a copy of a scene, in parallel in rayon's current pool.
+    ///
+    /// [`PreparedScene::consume`] needs less memory.
     ///
     /// # Errors
     /// Where the picture is empty or the shapes cannot be prepared.
     pub fn new(scene: &Scene, options: &RenderOptions) -> Result<Self, PrepareError> {
+        Self::consume(scene.clone(), options)
+    }
+
+    /// Prepares a scene, in parallel in rayon's current pool. Its meshes and pictures are freed as
+    /// soon as they are no longer needed.
+    ///
+    /// # Errors
+    /// Where the picture is empty or the shapes cannot be prepared.
+    pub fn consume(mut scene: Scene, options: &RenderOptions) -> Result<Self, PrepareError> {
         let film = &scene.film;
         let resolution = options.resolution.unwrap_or(film.resolution);
         let [width, height] = resolution;
@@ -91,14 +103,16 @@ impl PreparedScene {
             });
         }
         let window = screen_window(&scene.camera, film.resolution, resolution);
-        let textures = Textures::new(scene);
-        let materials = Materials::new(scene, &textures, options);
-        let geometry = Geometry::new(scene)?;
-        let lights = Lights::new(scene, &geometry);
+        let camera = Camera::new(&scene.camera, resolution, window);
+        let (filter, develop) = (FilterSampler::new(&film.filter), Develop::new(film));
+        let textures = Textures::new(&mut scene);
+        let materials = Materials::new(&scene, &textures, options);
+        let geometry = Geometry::new(&mut scene, &textures)?;
+        let lights = Lights::new(&scene, &geometry, &textures);
         Ok(Self {
-            camera: Camera::new(&scene.camera, resolution, window),
-            filter: FilterSampler::new(&film.filter),
-            exposure: film.exposure,
+            camera,
+            filter,
+            develop,
             resolution,
             crop,
             geometry,

@@ -12,15 +12,6 @@ use specula_scene::scene::*;
 
 const ALBEDO: f64 = 0.5;
 
-/// A large plane z = 0 with its outside at +z, seen in one spot next to the origin.
-fn floor() -> Scene {
-    let mut scene = empty(look([3.0, 0.0, 3.0], [0.0; 3], 0.05), 8);
-    let m = material(&mut scene, diffuse(0.5));
-    let floor = square(&mut scene, 50.0, DMat4::IDENTITY, m);
-    scene.shapes.push(floor);
-    scene
-}
-
 /// Renders by lights, by lobes and by both; all must find `irradiance * albedo / pi`.
 fn check(what: &str, scene: &Scene, irradiance: f64, strategies: &[(Strategy, u32)]) {
     for &(strategy, spp) in strategies {
@@ -44,7 +35,7 @@ fn facing_down(height: f64) -> DMat4 {
 
 #[test]
 fn a_sphere_light_gives_its_configuration_factor() {
-    let mut scene = floor();
+    let mut scene = lit_floor();
     scene
         .shapes
         .push(emitting(sphere(1.0, [0.0, 0.0, 3.0], MaterialId(0)), 2.0));
@@ -53,7 +44,7 @@ fn a_sphere_light_gives_its_configuration_factor() {
 
 #[test]
 fn a_far_small_sphere_light_keeps_its_digits() {
-    let mut scene = floor();
+    let mut scene = lit_floor();
     let sun = sphere(10.0, [0.0, 0.0, 4000.0], MaterialId(0));
     scene.shapes.push(emitting(sun, 1e5));
     let irradiance = 1e5 * PI * (10.0_f64 / 4000.0).powi(2);
@@ -62,7 +53,7 @@ fn a_far_small_sphere_light_keeps_its_digits() {
 
 #[test]
 fn an_ellipsoid_light_gives_the_view_from_its_axis() {
-    let mut scene = floor();
+    let mut scene = lit_floor();
     let m = DMat4::from_translation(DVec3::new(0.0, 0.0, 3.0))
         * DMat4::from_scale(DVec3::new(1.0, 1.0, 0.5));
     let light = shape(Geometry::Sphere { radius: 1.0 }, m, MaterialId(0));
@@ -74,7 +65,7 @@ fn an_ellipsoid_light_gives_the_view_from_its_axis() {
 
 #[test]
 fn a_disk_light_gives_its_configuration_factor_and_no_light_behind_it() {
-    let mut scene = floor();
+    let mut scene = lit_floor();
     let disk = Geometry::Disk {
         radius: 1.0,
         height: 0.0,
@@ -103,7 +94,7 @@ fn square_irradiance(a: f64, h: f64) -> f64 {
 fn triangles_light_by_the_side_that_a_mirror_leaves_to_them() {
     let mirror = DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0));
     for extra in [DMat4::IDENTITY, mirror] {
-        let mut scene = floor();
+        let mut scene = lit_floor();
         let light = square(&mut scene, 1.0, facing_down(2.0) * extra, MaterialId(0));
         scene.shapes.push(emitting(light, 1.0));
         check("square", &scene, square_irradiance(1.0, 2.0), &ALL);
@@ -114,7 +105,7 @@ fn triangles_light_by_the_side_that_a_mirror_leaves_to_them() {
 fn instanced_and_mirrored_lights_shine_like_others() {
     let mirror = DMat4::from_scale(DVec3::new(1.0, -1.0, 1.0));
     for turn in [DMat4::IDENTITY, mirror] {
-        let mut scene = floor();
+        let mut scene = lit_floor();
         let light = square(&mut scene, 1.0, DMat4::IDENTITY, MaterialId(0));
         scene.objects.push(Object {
             name: "lamp".into(),
@@ -130,7 +121,7 @@ fn instanced_and_mirrored_lights_shine_like_others() {
 
 #[test]
 fn vertex_normals_decide_which_side_shines() {
-    let mut scene = floor();
+    let mut scene = lit_floor();
     let light = square(&mut scene, 1.0, facing_down(2.0), MaterialId(0));
     // The winding says up, the normals say down.
     let mesh = &mut scene.meshes[1];
@@ -154,6 +145,7 @@ fn lights_without_extent_follow_their_laws() {
             Light::Distant {
                 irradiance: Rgb::splat(2.0),
                 to_light: [0.6, 0.0, 0.8],
+                half_angle_deg: 0.0,
             },
             1.6,
         ),
@@ -164,6 +156,7 @@ fn lights_without_extent_follow_their_laws() {
                 intensity: Rgb::splat(3.0),
                 cone_angle_deg: 30.0,
                 falloff_start_deg: 20.0,
+                falloff: SpotFalloff::SmoothCosine,
             },
             3.0 / 4.0,
         ),
@@ -175,12 +168,37 @@ fn lights_without_extent_follow_their_laws() {
                 intensity: Rgb::splat(3.0),
                 cone_angle_deg: 0.7_f64.acos().to_degrees(),
                 falloff_start_deg: 0.9_f64.acos().to_degrees(),
+                falloff: SpotFalloff::SmoothCosine,
             },
             3.0 / 8.0,
         ),
+        // Three quarters of the way out in angle.
+        (
+            Light::Spot {
+                position: [0.0, 0.0, 2.0],
+                axis: [0.35_f64.sin(), 0.0, -0.35_f64.cos()],
+                intensity: Rgb::splat(3.0),
+                cone_angle_deg: 0.4_f64.to_degrees(),
+                falloff_start_deg: 0.2_f64.to_degrees(),
+                falloff: SpotFalloff::LinearAngle,
+            },
+            3.0 / 16.0,
+        ),
+        // A quarter of the way in, in cosine: 1/16.
+        (
+            Light::Spot {
+                position: [0.0, 0.0, 2.0],
+                axis: [0.6, 0.0, -0.8],
+                intensity: Rgb::splat(3.0),
+                cone_angle_deg: 0.75_f64.acos().to_degrees(),
+                falloff_start_deg: 0.95_f64.acos().to_degrees(),
+                falloff: SpotFalloff::SquaredCosine,
+            },
+            3.0 / 64.0,
+        ),
     ];
     for (light, irradiance) in cases {
-        let mut scene = floor();
+        let mut scene = lit_floor();
         scene.lights.push(light);
         check(
             "delta",
@@ -191,9 +209,65 @@ fn lights_without_extent_follow_their_laws() {
     }
 }
 
+/// Irradiance on a floor that the sun's disk is wholly above is its own times the cosine; lobes find
+/// it too, and a mirror and the camera see `E / (pi sin^2)`.
+#[test]
+fn suns_light_by_their_irradiance_and_are_seen() {
+    for (half_angle, strategies) in [
+        (
+            0.5,
+            &[(Strategy::Mis, 256), (Strategy::LightsOnly, 256)][..],
+        ),
+        (20.0, &ALL),
+    ] {
+        let sun = Light::Distant {
+            irradiance: Rgb::splat(2.0),
+            to_light: [0.6, 0.0, 0.8],
+            half_angle_deg: half_angle,
+        };
+        let mut scene = lit_floor();
+        scene.lights.push(sun.clone());
+        check("sun", &scene, 1.6, strategies);
+
+        let sin2 = half_angle.to_radians().sin().powi(2);
+        let radiance = 2.0 / (PI * sin2);
+        let mut seen = empty(look([0.0; 3], [0.6, 0.0, 0.8], 0.1), 4);
+        seen.lights.push(sun.clone());
+        assert_mean("seen", &render(&seen, 4, 1, Strategy::Mis), radiance, 1e-4);
+        // In a mirror: the view comes down along the sun's reflection.
+        let mut mirror = empty(look([-3.0, 0.0, 4.0], [0.0; 3], 0.1), 4);
+        let m = material(&mut mirror, mirror_metal(0.0));
+        let floor = square(&mut mirror, 5.0, DMat4::IDENTITY, m);
+        mirror.shapes.push(floor);
+        mirror.lights.push(sun);
+        assert_mean(
+            "mirrored",
+            &render(&mirror, 4, 1, Strategy::Mis),
+            radiance,
+            1e-3,
+        );
+    }
+}
+
+/// The rim of the disk, by the share of a picture that it fills.
+#[test]
+fn the_suns_disk_is_as_large_as_it_says() {
+    let mut scene = empty(look([0.0; 3], [0.0, 0.0, 1.0], 1.0), 64);
+    scene.lights.push(Light::Distant {
+        irradiance: Rgb::splat(1.0),
+        to_light: [0.0, 0.0, 1.0],
+        half_angle_deg: 0.2666,
+    });
+    let tan = |deg: f64| deg.to_radians().tan();
+    let covered = PI * tan(0.2666).powi(2) / (2.0 * tan(0.5)).powi(2);
+    let radiance = 1.0 / (PI * 0.2666_f64.to_radians().sin().powi(2));
+    let picture = render(&scene, 64, 0, Strategy::Mis);
+    assert_mean("disk", &picture, covered * radiance, 2e-3);
+}
+
 #[test]
 fn several_lights_add_up() {
-    let mut scene = floor();
+    let mut scene = lit_floor();
     scene
         .shapes
         .push(emitting(sphere(1.0, [0.0, 0.0, 3.0], MaterialId(0)), 2.0));
@@ -241,7 +315,7 @@ fn skies_of_both_mappings_agree_by_all_strategies() {
         (EnvironmentMapping::LatitudeLongitude, 24, 12),
     ];
     for (mapping, width, height) in mappings {
-        let mut scene = floor();
+        let mut scene = lit_floor();
         scene.images.push(sky_picture(width, height));
         scene.lights.push(Light::Infinite {
             radiance: Rgb::splat(1.0),
@@ -267,7 +341,7 @@ fn skies_of_both_mappings_agree_by_all_strategies() {
 #[test]
 fn strategies_agree_on_rough_metal() {
     for a in [0.2_f32, 0.6] {
-        let mut scene = floor();
+        let mut scene = lit_floor();
         scene.camera = look([0.0, -2.5, 3.0], [0.0; 3], 6.0);
         scene.materials[0].kind = mirror_metal(a);
         let lamp = material(&mut scene, diffuse(0.0));

@@ -56,6 +56,14 @@ fn a_closed_box_shows_the_truncated_series() {
     );
 }
 
+fn thin_glass() -> MaterialKind {
+    MaterialKind::ThinDielectric {
+        eta: 1.5,
+        reflection_tint: ColourParam::WHITE,
+        transmission_tint: ColourParam::WHITE,
+    }
+}
+
 /// Objects that absorb nothing vanish in a uniform sky, at every scale and place.
 #[test]
 fn what_absorbs_nothing_vanishes_in_a_uniform_sky() {
@@ -64,7 +72,7 @@ fn what_absorbs_nothing_vanishes_in_a_uniform_sky() {
         ("mirror", mirror_metal(0.0)),
         ("rough metal", mirror_metal(0.03)),
         ("glass", glass(0.0)),
-        ("thin glass", MaterialKind::ThinDielectric { eta: 1.5 }),
+        ("thin glass", thin_glass()),
     ];
     for (name, kind) in kinds {
         for (scale, shift) in [(1.0, 0.0), (1e-3, 0.0), (1e4, 0.0), (1.0, 300.0)] {

@@ -1,6 +1,7 @@
 //! Axis-aligned boxes around what a scene holds.
 
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec3, Vec3};
+use rayon::prelude::*;
 
 use crate::scene::{Geometry, Mesh, Scene};
 
@@ -84,10 +85,21 @@ pub(crate) fn of_geometry(meshes: &[Mesh], geometry: &Geometry) -> Bounds {
     match *geometry {
         Geometry::Mesh(id) => {
             let mesh = &meshes[id.0];
-            let corners = mesh.triangles.iter().flatten();
-            corners
-                .map(|&i| DVec3::from(mesh.positions[i as usize].map(f64::from)))
-                .fold(Bounds::EMPTY, Bounds::including)
+            // Vertices that no triangle uses do not count.
+            let of_chunk = |triangles: &[[u32; 3]]| {
+                let corners = triangles.iter().flatten();
+                let points = corners.map(|&i| Vec3::from(mesh.positions[i as usize]));
+                let (low, high) = points
+                    .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), p| {
+                        (low.min(p), high.max(p))
+                    });
+                Bounds {
+                    min: low.as_dvec3(),
+                    max: high.as_dvec3(),
+                }
+            };
+            let chunks = mesh.triangles.par_chunks(1 << 16).map(of_chunk);
+            chunks.reduce(|| Bounds::EMPTY, Bounds::union)
         }
         Geometry::Sphere { radius } => {
             let r = DVec3::splat(f64::from(radius));

@@ -4,7 +4,7 @@ mod exr_file;
 mod pfm;
 mod read;
 
-pub(crate) use read::{Content, Encoding, Format, read};
+pub(crate) use read::{Content, Encoding, Format, decode, read};
 
 /// A picture in linear RGB (sRGB primaries), row by row from the top.
 ///
@@ -20,6 +20,3 @@ pub struct Image {
     /// `width * height` linear RGB values.
     pub pixels: Vec<[f32; 3]>,
 }
-
-/// Most pixels that a picture may have: a header that promises more is taken for damage.
-const MAX_PIXELS: u64 = 1 << 28;

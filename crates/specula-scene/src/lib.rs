@@ -15,22 +15,34 @@ pub mod builtin;
 mod diagnostic;
 pub mod energy;
 pub mod error;
+pub mod features;
+pub mod gltf;
 pub mod image;
+mod limits;
+pub mod material_text;
 mod mesh;
+pub mod mitsuba;
 mod num;
+mod obj;
 mod pbrt;
 mod ply;
 mod read_file;
 pub mod scene;
+mod serialized;
+mod single;
 pub mod spectrum;
+mod stage;
 pub mod summary;
 pub mod validate;
+pub mod write_pbrt;
 
 use std::path::Path;
 
 pub use energy::{Energy, UnknownEnergy};
 pub use error::{ErrorKind, Place, SceneError, Source, Warning};
+pub use features::{Feature, Support};
 pub use image::Image;
+pub use limits::Limits;
 pub use scene::Scene;
 pub use summary::Summary;
 pub use validate::Invalid;
@@ -44,12 +56,32 @@ pub struct Loaded {
     pub warnings: Vec<Warning>,
 }
 
-/// Reads a scene in the format of pbrt-v4 (also gzipped).
+/// Reads a scene in the format that its name's end tells, within the default [`Limits`]: `.xml` is
+/// Mitsuba's, `.gltf` and `.glb` are glTF 2.0, `.obj` and `.ply` meshes alone, which are staged, and
+/// anything else is pbrt-v4's (also gzipped).
 ///
 /// # Errors
 ///
 /// Where a file cannot be read or is damaged, and where a picture would be meaningless. The error
 /// says what was expected and where.
 pub fn load(path: &Path) -> Result<Loaded, SceneError> {
-    pbrt::load(path)
+    load_with(path, &Limits::default())
+}
+
+/// Reads a scene, as [`load`] does, within limits of the caller's choice.
+///
+/// # Errors
+///
+/// Those of [`load`].
+pub fn load_with(path: &Path, limits: &Limits) -> Result<Loaded, SceneError> {
+    let extension = path
+        .extension()
+        .map(|e| e.to_string_lossy().to_ascii_lowercase());
+    match extension.as_deref() {
+        Some("xml") => mitsuba::read(path, limits, &mitsuba::Options::default()),
+        Some("gltf" | "glb") => gltf::read(path, limits),
+        Some("obj") => single::read(path, limits, obj::read),
+        Some("ply") => single::read(path, limits, ply::read),
+        _ => pbrt::read(path, limits),
+    }
 }

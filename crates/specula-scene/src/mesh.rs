@@ -1,6 +1,7 @@
 //! What a mesh must be before it enters a scene.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::num::f32_of;
 use crate::scene::Mesh;
@@ -24,15 +25,12 @@ pub(crate) struct Cleaning {
 /// A message where a vertex is not finite or an index is out of range.
 pub(crate) fn clean(mesh: &mut Mesh) -> Result<Cleaning, String> {
     let count = mesh.positions.len();
-    if let Some(i) = mesh
-        .positions
-        .iter()
-        .position(|p| p.iter().any(|x| !x.is_finite()))
-    {
+    let not_finite = |p: &[f32; 3]| p.iter().any(|x| !x.is_finite());
+    if let Some(i) = first(&mesh.positions, not_finite) {
         return Err(format!("vertex {i} is not finite: {:?}", mesh.positions[i]));
     }
     let outside = |t: &[u32; 3]| t.iter().any(|&i| i as usize >= count);
-    if let Some(t) = mesh.triangles.iter().position(outside) {
+    if let Some(t) = first(&mesh.triangles, outside) {
         let [a, b, c] = mesh.triangles[t];
         return Err(format!(
             "triangle {t} refers to vertices {a}, {b}, {c}, but there are {count} vertices"
@@ -41,10 +39,13 @@ pub(crate) fn clean(mesh: &mut Mesh) -> Result<Cleaning, String> {
     let mut cleaning = Cleaning::default();
     let before = mesh.triangles.len();
     let positions = &mesh.positions;
-    mesh.triangles
-        .retain(|t| face_normal(positions, t).is_some());
+    let flat = |t: &[u32; 3]| face_normal(positions, t).is_none();
+    if first(&mesh.triangles, flat).is_some() {
+        mesh.triangles.retain(|t| !flat(t));
+    }
     cleaning.dropped_triangles = before - mesh.triangles.len();
-    if mesh.uvs.iter().any(|uv| uv.iter().any(|x| !x.is_finite())) {
+    let bad_uv = |uv: &[f32; 2]| uv.iter().any(|x| !x.is_finite());
+    if first(&mesh.uvs, bad_uv).is_some() {
         mesh.uvs.clear();
         cleaning.dropped_uvs = true;
     }
@@ -52,12 +53,17 @@ pub(crate) fn clean(mesh: &mut Mesh) -> Result<Cleaning, String> {
     Ok(cleaning)
 }
 
+/// The first element of which `is` holds.
+pub(crate) fn first<T: Sync>(slice: &[T], is: impl Fn(&T) -> bool + Send + Sync) -> Option<usize> {
+    slice.par_iter().with_min_len(1 << 14).position_first(is)
+}
+
 fn mend_normals(mesh: &mut Mesh) -> usize {
     let is_bad = |n: &[f32; 3]| n.iter().any(|x| !x.is_finite()) || *n == [0.0; 3];
-    let bad = mesh.normals.iter().filter(|n| is_bad(n)).count();
-    if bad == 0 {
+    if first(&mesh.normals, is_bad).is_none() {
         return 0;
     }
+    let bad = mesh.normals.iter().filter(|n| is_bad(n)).count();
     for triangle in &mesh.triangles {
         for &i in triangle {
             if is_bad(&mesh.normals[i as usize])

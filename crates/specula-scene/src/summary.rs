@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::bounds::{self, Bounds};
 use crate::scene::{
-    Camera, EnvironmentMapping, Film, Geometry, Light, MaterialKind, Scene, Settings, Shape,
-    Texture,
+    Camera, EnvironmentMapping, Film, Geometry, Light, MaterialKind, NoiseKind, Scene, Settings,
+    Shape, Texture,
 };
 
 /// A picture's name and size.
@@ -136,6 +136,9 @@ fn material_kind(kind: &MaterialKind) -> &'static str {
         MaterialKind::ThinDielectric { .. } => "thindielectric",
         MaterialKind::CoatedDiffuse { .. } => "coateddiffuse",
         MaterialKind::CoatedConductor { .. } => "coatedconductor",
+        MaterialKind::Plastic { .. } => "plastic",
+        MaterialKind::Principled(_) => "principled",
+        MaterialKind::Gltf(_) => "metallic-roughness",
         MaterialKind::Mix { .. } => "mix",
         MaterialKind::Interface => "interface",
     }
@@ -147,7 +150,19 @@ fn texture_kind(texture: &Texture) -> &'static str {
         Texture::Image { .. } => "imagemap",
         Texture::Scale { .. } => "scale",
         Texture::Mix { .. } => "mix",
-        Texture::Checkerboard { .. } => "checkerboard",
+        Texture::Checkerboard { .. } | Texture::Checkerboard3d { .. } => "checkerboard",
+        Texture::Bilinear { .. } => "bilinear",
+        Texture::Dots { .. } => "dots",
+        Texture::Noise { kind, .. } => match kind {
+            NoiseKind::Fbm => "fbm",
+            NoiseKind::Turbulence => "turbulence",
+            NoiseKind::Windy => "windy",
+            NoiseKind::Marble { .. } => "marble",
+        },
+        Texture::Sum { .. } => "sum",
+        Texture::DirectionMix { .. } => "directionmix",
+        Texture::Threshold { .. } => "threshold",
+        Texture::VertexColour => "vertex colour",
     }
 }
 
@@ -159,7 +174,8 @@ fn light_kind(light: &Light) -> &'static str {
             ..
         } => match mapping {
             EnvironmentMapping::EqualAreaOctahedral => "infinite, equal-area picture",
-            EnvironmentMapping::LatitudeLongitude => "infinite, latitude-longitude picture",
+            EnvironmentMapping::LatitudeLongitude
+            | EnvironmentMapping::LatitudeLongitudePoles => "infinite, latitude-longitude picture",
         },
         Light::Distant { .. } => "distant",
         Light::Point { .. } => "point",

@@ -4,10 +4,8 @@ use glam::DMat4;
 use specula_bsdf::Rgb;
 
 use crate::bounds::{self, FARTHEST};
-use crate::scene::{
-    ColourParam, ConductorFresnel, Filter, FloatParam, Geometry, Light, MaterialKind, Mesh,
-    Roughness, Scene, Shape, Texture,
-};
+use crate::mesh::first;
+use crate::scene::{Filter, Geometry, Light, Mesh, Projection, Scene, Shape};
 
 /// Which invariant a scene breaks.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -65,18 +63,18 @@ impl Scene {
                 &what,
                 "pixels do not match its size",
             )?;
-            let good = image
-                .pixels
-                .iter()
-                .flatten()
-                .all(|v| v.is_finite() && *v >= 0.0);
-            ensure(good, &what, "a pixel is negative or not finite")?;
+            let bad = |p: &[f32; 3]| !p.iter().all(|v| v.is_finite() && *v >= 0.0);
+            ensure(
+                first(&image.pixels, bad).is_none(),
+                &what,
+                "a pixel is negative or not finite",
+            )?;
         }
         for (i, texture) in self.textures.iter().enumerate() {
             self.check_texture(i, texture)?;
         }
         for (i, material) in self.materials.iter().enumerate() {
-            self.check_material(i, &material.kind)?;
+            self.check_material(i, material)?;
         }
         for (i, mesh) in self.meshes.iter().enumerate() {
             check_mesh(&format!("mesh {i}"), mesh)?;
@@ -129,6 +127,17 @@ impl Scene {
             "film",
             "its exposure is not above 0",
         )?;
+        ensure(
+            film.max_component
+                .is_none_or(|m| m.is_finite() && m > 0.0),
+            "film",
+            "its largest component is not above 0",
+        )?;
+        ensure(
+            film.balance.iter().flatten().all(|x| x.is_finite()),
+            "film",
+            "its white balance is not finite",
+        )?;
         let (Filter::Box { radius }
         | Filter::Triangle { radius }
         | Filter::Gaussian { radius, .. }
@@ -153,11 +162,13 @@ impl Scene {
         )?;
         let camera = &self.camera;
         check_transform("camera", &camera.to_world)?;
-        ensure(
-            camera.fov_deg > 0.0 && camera.fov_deg < 180.0,
-            "camera",
-            "its field of view is not in (0, 180)",
-        )?;
+        if let Projection::Perspective { fov_deg } = camera.projection {
+            ensure(
+                fov_deg > 0.0 && fov_deg < 180.0,
+                "camera",
+                "its field of view is not in (0, 180)",
+            )?;
+        }
         ensure(
             camera.lens_radius >= 0.0 && camera.lens_radius.is_finite(),
             "camera",
@@ -173,169 +184,6 @@ impl Scene {
         ensure(window, "camera", "its screen window is empty")
     }
 
-    fn float(&self, what: &str, param: FloatParam) -> Result<(), Invalid> {
-        match param {
-            FloatParam::Value(x) => ensure(
-                x.is_finite() && x >= 0.0,
-                what,
-                "a number is negative or not finite",
-            ),
-            FloatParam::Texture(id) => ensure(
-                id.0 < self.textures.len(),
-                what,
-                "a texture is out of range",
-            ),
-        }
-    }
-
-    fn colour(&self, what: &str, param: ColourParam) -> Result<(), Invalid> {
-        match param {
-            ColourParam::Value(c) => {
-                ensure(is_light(c), what, "a colour is negative or not finite")
-            }
-            ColourParam::Texture(id) => ensure(
-                id.0 < self.textures.len(),
-                what,
-                "a texture is out of range",
-            ),
-        }
-    }
-
-    fn roughness(&self, what: &str, roughness: &Roughness) -> Result<(), Invalid> {
-        self.float(what, roughness.u)?;
-        self.float(what, roughness.v)
-    }
-
-    fn fresnel(&self, what: &str, fresnel: &ConductorFresnel) -> Result<(), Invalid> {
-        match *fresnel {
-            ConductorFresnel::Index { eta, k } => {
-                self.colour(what, eta)?;
-                self.colour(what, k)
-            }
-            ConductorFresnel::Reflectance(c) => self.colour(what, c),
-        }
-    }
-
-    fn check_texture(&self, i: usize, texture: &Texture) -> Result<(), Invalid> {
-        let what = format!("texture {i}");
-        let before = |ids: &[usize]| {
-            ensure(
-                ids.iter().all(|j| *j < i),
-                &what,
-                "it refers to a texture after it",
-            )
-        };
-        match texture {
-            Texture::Constant(c) => ensure(
-                [c.r, c.g, c.b].iter().all(|x| x.is_finite()),
-                &what,
-                "it is not finite",
-            ),
-            Texture::Image {
-                image,
-                mapping,
-                scale,
-                ..
-            } => {
-                ensure(
-                    image.0 < self.images.len(),
-                    &what,
-                    "its image is out of range",
-                )?;
-                let numbers = [mapping.scale, mapping.offset, [*scale, 0.0]];
-                ensure(
-                    numbers.iter().flatten().all(|x| x.is_finite()),
-                    &what,
-                    "a number is not finite",
-                )
-            }
-            Texture::Scale { a, b } => before(&[a.0, b.0]),
-            Texture::Mix { a, b, amount } => {
-                before(&[a.0, b.0])?;
-                match amount {
-                    FloatParam::Texture(id) => before(&[id.0]),
-                    FloatParam::Value(x) => {
-                        ensure(x.is_finite(), &what, "its amount is not finite")
-                    }
-                }
-            }
-            Texture::Checkerboard { even, odd, mapping } => {
-                before(&[even.0, odd.0])?;
-                let numbers = [mapping.scale, mapping.offset];
-                ensure(
-                    numbers.iter().flatten().all(|x| x.is_finite()),
-                    &what,
-                    "a number is not finite",
-                )
-            }
-        }
-    }
-
-    fn check_material(&self, i: usize, kind: &MaterialKind) -> Result<(), Invalid> {
-        let what = &format!("material {i}");
-        let eta = |eta: f32| {
-            ensure(
-                eta > 0.0 && eta.is_finite(),
-                what,
-                "its index is not above 0",
-            )
-        };
-        match kind {
-            MaterialKind::Diffuse {
-                reflectance,
-                roughness,
-            } => {
-                self.colour(what, *reflectance)?;
-                self.float(what, *roughness)
-            }
-            MaterialKind::DiffuseTransmission {
-                reflectance,
-                transmittance,
-            } => {
-                self.colour(what, *reflectance)?;
-                self.colour(what, *transmittance)
-            }
-            MaterialKind::Conductor { fresnel, roughness } => {
-                self.fresnel(what, fresnel)?;
-                self.roughness(what, roughness)
-            }
-            MaterialKind::Dielectric { eta: e, roughness } => {
-                eta(*e)?;
-                self.roughness(what, roughness)
-            }
-            MaterialKind::ThinDielectric { eta: e } => eta(*e),
-            MaterialKind::CoatedDiffuse {
-                reflectance,
-                eta: e,
-                roughness,
-            } => {
-                self.colour(what, *reflectance)?;
-                eta(*e)?;
-                self.roughness(what, roughness)
-            }
-            MaterialKind::CoatedConductor {
-                coat_eta,
-                coat_roughness,
-                fresnel,
-                roughness,
-            } => {
-                eta(*coat_eta)?;
-                self.roughness(what, coat_roughness)?;
-                self.fresnel(what, fresnel)?;
-                self.roughness(what, roughness)
-            }
-            MaterialKind::Mix { materials, amount } => {
-                ensure(
-                    materials.iter().all(|m| m.0 < i),
-                    what,
-                    "it mixes a material after it",
-                )?;
-                self.float(what, *amount)
-            }
-            MaterialKind::Interface => Ok(()),
-        }
-    }
-
     fn check_shape(&self, what: &str, shape: &Shape) -> Result<(), Invalid> {
         check_transform(what, &shape.to_world)?;
         ensure(
@@ -345,11 +193,7 @@ impl Scene {
         )?;
         self.float(what, shape.alpha)?;
         if let Some(emission) = shape.emission {
-            ensure(
-                is_light(emission.radiance),
-                what,
-                "its emission is negative or not finite",
-            )?;
+            self.colour(&format!("emission of {what}"), emission.radiance)?;
         }
         match shape.geometry {
             Geometry::Mesh(id) => {
@@ -403,9 +247,15 @@ impl Scene {
             Light::Distant {
                 irradiance,
                 to_light,
+                half_angle_deg,
             } => {
                 colour(*irradiance)?;
-                unit(to_light)
+                unit(to_light)?;
+                ensure(
+                    (0.0..90.0).contains(half_angle_deg),
+                    what,
+                    "its angle is not in [0, 90)",
+                )
             }
             Light::Point {
                 position,
@@ -420,6 +270,7 @@ impl Scene {
                 intensity,
                 cone_angle_deg,
                 falloff_start_deg,
+                falloff: _,
             } => {
                 colour(*intensity)?;
                 point(position)?;
@@ -451,18 +302,18 @@ fn check_transform(what: &str, m: &DMat4) -> Result<(), Invalid> {
 fn check_mesh(what: &str, mesh: &Mesh) -> Result<(), Invalid> {
     let count = mesh.positions.len();
     ensure(!mesh.triangles.is_empty(), what, "it has no triangles")?;
-    let inside = mesh
-        .triangles
-        .iter()
-        .flatten()
-        .all(|i| (*i as usize) < count);
+    let outside = |t: &[u32; 3]| t.iter().any(|i| *i as usize >= count);
     ensure(
-        inside,
+        first(&mesh.triangles, outside).is_none(),
         what,
         "a triangle refers to a vertex that does not exist",
     )?;
-    let finite = mesh.positions.iter().flatten().all(|x| x.is_finite());
-    ensure(finite, what, "a vertex is not finite")?;
+    let not_finite = |p: &[f32; 3]| p.iter().any(|x| !x.is_finite());
+    ensure(
+        first(&mesh.positions, not_finite).is_none(),
+        what,
+        "a vertex is not finite",
+    )?;
     ensure(
         [0, count].contains(&mesh.normals.len()),
         what,
@@ -473,17 +324,30 @@ fn check_mesh(what: &str, mesh: &Mesh) -> Result<(), Invalid> {
         what,
         "it has not one surface coordinate per vertex",
     )?;
-    let normals = mesh
-        .normals
-        .iter()
-        .all(|n| n.iter().all(|x| x.is_finite()) && *n != [0.0; 3]);
-    ensure(normals, what, "a normal is 0 or not finite")?;
+    let no_normal = |n: &[f32; 3]| not_finite(n) || *n == [0.0; 3];
+    ensure(
+        first(&mesh.normals, no_normal).is_none(),
+        what,
+        "a normal is 0 or not finite",
+    )?;
+    ensure(
+        [0, count].contains(&mesh.colours.len())
+            && mesh
+                .colours
+                .iter()
+                .flatten()
+                .all(|x| x.is_finite() && *x >= 0.0),
+        what,
+        "it has not one colour per vertex, none negative",
+    )?;
     ensure(
         mesh.uvs.iter().flatten().all(|x| x.is_finite()),
         what,
         "a surface coordinate is not finite",
     )
 }
+
+mod surface;
 
 #[cfg(test)]
 mod tests;

@@ -339,7 +339,7 @@ impl Grid {
         let quadrature = Quadrature {
             relative_tolerance: 1e-4,
             absolute_tolerance: 2e-3 / samples,
-            max_patches: 400,
+            max_patches: 1000,
             peaks: options.peaks.clone(),
             ..Quadrature::default()
         };

@@ -33,7 +33,12 @@ fn proof(name: &str, lobe: &(impl Bsdf<f64> + Sync), widths: (f64, f64), few: bo
 
 #[test]
 fn ggx_with_every_sampler() {
-    let samplers = [Sampler::Heitz, Sampler::Cap, Sampler::Bounded];
+    let samplers = [
+        Sampler::Heitz,
+        Sampler::Cap,
+        Sampler::Bounded,
+        Sampler::Exact,
+    ];
     prove_all(
         "rough conductor",
         &with_alphas(&samplers),
@@ -74,7 +79,12 @@ fn beckmann() {
 
 #[test]
 fn f32_is_f64() {
-    let samplers = [Sampler::Heitz, Sampler::Cap, Sampler::Bounded];
+    let samplers = [
+        Sampler::Heitz,
+        Sampler::Cap,
+        Sampler::Bounded,
+        Sampler::Exact,
+    ];
     prove_all(
         "conductor twins",
         &with_alphas(&samplers),

@@ -60,16 +60,17 @@ fn two_sided_ggx_carrying_importance() {
 }
 
 #[test]
-fn two_sided_with_bounded_caps() {
+fn two_sided_with_the_branch_first() {
     let some: Vec<_> = cases().into_iter().step_by(4).collect();
-    prove_all("bounded dielectric", &some, |&(eta, widths)| {
-        let lobe =
-            RoughDielectric::new(Ggx::new(alpha(widths)), eta).with_sampler(Sampler::Bounded);
-        let subject = Subject::from_bsdf(&lobe, Transport::Radiance);
-        let plan = two_sided(eta, widths, Transport::Radiance);
-        let name = format!("bounded dielectric {eta:.3} {widths:?}");
-        prove(&name, &subject, &outside_and_inside(), &plan)
-    });
+    for (sampler, cases) in [(Sampler::Bounded, &some[..]), (Sampler::Exact, &some[..4])] {
+        prove_all("branch first", cases, |&(eta, widths)| {
+            let lobe = RoughDielectric::new(Ggx::new(alpha(widths)), eta).with_sampler(sampler);
+            let subject = Subject::from_bsdf(&lobe, Transport::Radiance);
+            let plan = two_sided(eta, widths, Transport::Radiance);
+            let name = format!("{sampler} dielectric {eta:.3} {widths:?}");
+            prove(&name, &subject, &outside_and_inside(), &plan)
+        });
+    }
 }
 
 #[test]

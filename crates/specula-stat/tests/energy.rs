@@ -2,10 +2,14 @@
 
 mod common;
 
+use std::f64::consts::FRAC_PI_2;
+
 use common::{alpha, alpha_f32, both_sides, few_views, plan, prove_all};
 use specula_bsdf::bsdf::{Compensated, CompensatedDielectric, RoughConductor};
 use specula_bsdf::energy::{DielectricLoss, FmsVariant, Loss, Model, Tabulated};
-use specula_bsdf::fresnel::{Conductor, Reflectance, Schlick};
+use specula_bsdf::fresnel::{
+    Conductor, Reflectance, Schlick, dielectric, dielectric_average, refract,
+};
 use specula_bsdf::math::{Real, Rgb, Vec3, rgb};
 use specula_bsdf::ndf::{Beckmann, Ggx, Masking};
 use specula_bsdf::vndf::{Sampler, reflect};
@@ -22,25 +26,38 @@ const MODELS: [Model; 3] = [
     Model::KullaConty,
 ];
 
-/// Widths of the furnace: isotropic and anisotropic, either axis the wider.
-const FURNACE: [(f64, f64); 15] = [
-    (0.02, 0.02),
-    (0.1, 0.1),
-    (0.25, 0.25),
-    (0.5, 0.5),
-    (0.8, 0.8),
-    (1.0, 1.0),
-    (1.5, 1.5),
-    (2.0, 2.0),
-    (0.1, 0.2),
-    (0.5, 0.05),
-    (0.1, 0.5),
-    (0.2, 0.8),
-    (0.8, 0.2),
-    (0.6, 1.0),
-    (1.5, 0.4),
-];
-const COSINES: [f64; 8] = [1.0, 0.9, 0.7, 0.5, 0.3, 0.1, 0.03, 0.005];
+/// Widths of the furnace: all pairs of them, and either axis the wider.
+const WIDTHS: [f64; 9] = [0.02, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0];
+const COSINES: [f64; 4] = [0.8, 0.4, 0.08, 0.005];
+
+/// Every pair of widths, the wider axis x in every other.
+fn pairs(widths: &[f64]) -> Vec<(f64, f64)> {
+    let mut pairs = Vec::new();
+    for (i, &a) in widths.iter().enumerate() {
+        for (j, &b) in widths[..=i].iter().enumerate() {
+            pairs.push(if (i + j) % 2 == 0 { (a, b) } else { (b, a) });
+        }
+    }
+    pairs
+}
+
+/// Views of the furnace: straight, and along and between both axes, twice near the narrow one.
+fn furnace_views((x, y): (f64, f64), cosines: &[f64]) -> Vec<Vec3<f64>> {
+    let mut views = vec![direction(1.0, 0.4)];
+    let near = (x.min(y) / x.max(y)).atan();
+    let from_narrow: &[f64] = if x == y {
+        &[0.4]
+    } else {
+        &[0.0, 0.5 * near, 2.0 * near, 0.7, FRAC_PI_2]
+    };
+    for &cosine in cosines {
+        for &turn in from_narrow {
+            let phi = if x < y { turn } else { FRAC_PI_2 - turn };
+            views.push(direction(cosine, phi.clamp(0.0, FRAC_PI_2)));
+        }
+    }
+    views
+}
 
 fn white<T: Real>() -> Reflectance<T> {
     Reflectance::Constant(Rgb::splat(T::ONE))
@@ -55,25 +72,54 @@ fn gold<T: Real>() -> Reflectance<T> {
     })
 }
 
-/// Single scattering's albedo with `F = 1`, by quadrature over the visible normals' own warp: the
-/// integrand is `G2/G1`, bounded.
+/// Single scattering's albedo with `F = 1` for both maskings, by quadrature over the visible
+/// normals' own warp: the integrand is `G2/G1`, bounded.
 ///
-/// Midpoints of a fine grid.
-fn exact_albedo<N: Tabulated<f64>>(ndf: N, masking: Masking, wo: Vec3<f64>) -> f64 {
-    let mut sum = 0.0;
-    for i in 0..GRID {
-        for j in 0..GRID {
-            let u = [i, j].map(|k| (f64::from(k) + 0.5) / f64::from(GRID));
-            let wi = reflect(wo, ndf.sample_wm(wo, u));
-            if wi.z > 0.0 {
-                sum += ndf.projected_area(wo) * ndf.g2_over_cos(masking, wo, wi);
+/// A lattice: the horizon is no row of it, as it may be of a grid.
+fn exact_albedo<N: Tabulated<f64>>(ndf: N, wo: Vec3<f64>) -> [f64; 2] {
+    let mut sum = [0.0; 2];
+    each_visible_normal(ndf, wo, |wm| {
+        let wi = reflect(wo, wm);
+        if wi.z > 0.0 {
+            for (sum, masking) in sum.iter_mut().zip(MASKINGS) {
+                *sum += ndf.g2_over_cos(masking, wo, wi);
             }
         }
-    }
-    sum / f64::from(GRID * GRID)
+    });
+    sum.map(|sum| sum * ndf.projected_area(wo) / f64::from(POINTS))
 }
 
-const GRID: u32 = 220;
+/// The same of an interface, both branches.
+fn exact_interface_albedo<N: Tabulated<f64>>(ndf: N, eta: f64, wo: Vec3<f64>) -> [f64; 2] {
+    let mut sum = [0.0; 2];
+    each_visible_normal(ndf, wo, |wm| {
+        let cosine = wo.dot(wm);
+        let bent = dielectric(cosine, eta);
+        let reflected = reflect(wo, wm);
+        let passed = refract(wo, wm, cosine, bent.cos_t, eta);
+        for (sum, masking) in sum.iter_mut().zip(MASKINGS) {
+            if reflected.z > 0.0 {
+                *sum += bent.reflectance * ndf.g2_over_cos(masking, wo, reflected);
+            }
+            if bent.reflectance < 1.0 && passed.z < 0.0 {
+                *sum += (1.0 - bent.reflectance) * ndf.g2_over_cos(masking, wo, passed);
+            }
+        }
+    });
+    sum.map(|sum| sum * ndf.projected_area(wo) / f64::from(POINTS))
+}
+
+fn each_visible_normal<N: Tabulated<f64>>(ndf: N, wo: Vec3<f64>, mut each: impl FnMut(Vec3<f64>)) {
+    for i in 0..POINTS {
+        let x = f64::from(i);
+        each(ndf.sample_wm(wo, [(x + 0.5) / f64::from(POINTS), (x * GOLDEN).fract()]));
+    }
+}
+
+const MASKINGS: [Masking; 2] = [Masking::HeightCorrelated, Masking::Separable];
+const POINTS: u32 = 50_000;
+/// The golden section, whose multiples fill `[0, 1)` evenly.
+const GOLDEN: f64 = 0.618_033_988_749_894_8;
 
 /// `1/pi int loss(wi) cos dwi`, by quadrature.
 fn average_loss(loss: impl Fn(Vec3<f64>) -> f64) -> f64 {
@@ -83,7 +129,7 @@ fn average_loss(loss: impl Fn(Vec3<f64>) -> f64) -> f64 {
         let z = 0.5 * (x + 1.0);
         for &[y, azimuth_weight] in &rule {
             let u = 0.5 * (y + 1.0);
-            let turn = std::f64::consts::FRAC_PI_2;
+            let turn = FRAC_PI_2;
             for phi in [turn * u * u, turn * (1.0 - u * u)] {
                 let at = loss(direction(z.powi(3), phi));
                 sum += 6.0 * z.powi(5) * 0.5 * weight * 0.5 * u * azimuth_weight * at;
@@ -99,17 +145,15 @@ fn average_loss(loss: impl Fn(Vec3<f64>) -> f64) -> f64 {
 /// quadrature's. `fault` spoils `(L(wo), L_avg)`; nothing does outside of the planted fault.
 fn furnace<N: Tabulated<f64>>(
     ndf: N,
-    masking: Masking,
-    azimuths: &[f64],
+    views: &[Vec3<f64>],
     fault: impl Fn(f64, f64) -> (f64, f64),
 ) -> [f64; 2] {
-    let loss = Loss::new(ndf, masking);
-    let mean = average_loss(|w| loss.directional(w));
+    let losses = MASKINGS.map(|masking| Loss::new(ndf, masking));
+    let means = losses.map(|loss| average_loss(|w| loss.directional(w)));
     let mut worst = [0.0_f64; 2];
-    for cosine in COSINES {
-        for &phi in azimuths {
-            let wo = direction(cosine, phi);
-            let single = exact_albedo(ndf, masking, wo);
+    for &wo in views {
+        let single = exact_albedo(ndf, wo);
+        for ((loss, mean), single) in losses.iter().zip(means).zip(single) {
             let (missing, average) = fault(loss.directional(wo), loss.average());
             let kulla_conty = single + missing * mean / average;
             let turquin = single * (1.0 + missing / (1.0 - missing));
@@ -126,20 +170,14 @@ fn furnace<N: Tabulated<f64>>(
 #[test]
 fn nothing_is_lost_off_white_metals() {
     let mut worst = [0.0_f64; 2];
-    for widths in FURNACE {
-        let azimuths: &[f64] = if widths.0 == widths.1 {
-            &[0.4]
-        } else {
-            &[0.0, 0.3, 0.8, 1.2, 1.5]
-        };
-        for masking in [Masking::HeightCorrelated, Masking::Separable] {
-            let found = furnace(Ggx::new(alpha(widths)), masking, azimuths, |l, a| (l, a));
-            println!(
-                "GGX {masking:?} {widths:?}: Kulla-Conty {:.1e}, Turquin {:.1e}",
-                found[0], found[1]
-            );
-            worst = [worst[0].max(found[0]), worst[1].max(found[1])];
-        }
+    for widths in pairs(&WIDTHS) {
+        let views = furnace_views(widths, &COSINES);
+        let found = furnace(Ggx::new(alpha(widths)), &views, |l, a| (l, a));
+        println!(
+            "GGX {widths:?}: Kulla-Conty {:.1e}, Turquin {:.1e}",
+            found[0], found[1]
+        );
+        worst = [worst[0].max(found[0]), worst[1].max(found[1])];
     }
     println!("largest |albedo - 1|, Kulla-Conty and Turquin: {worst:?}");
     assert!(worst[0] < 1e-3, "Kulla and Conty: {worst:?}");
@@ -149,15 +187,57 @@ fn nothing_is_lost_off_white_metals() {
 #[test]
 fn beckmann_loses_nothing_either() {
     let mut worst = [0.0_f64; 2];
-    for widths in [(0.1, 0.1), (0.4, 0.4), (0.7, 0.7), (1.0, 1.0), (0.2, 0.8)] {
-        let ndf = Beckmann::new(alpha(widths));
-        for masking in [Masking::HeightCorrelated, Masking::Separable] {
-            let found = furnace_coarse(ndf, masking);
-            println!("Beckmann {masking:?} {widths:?}: {found:?}");
-            worst = [worst[0].max(found[0]), worst[1].max(found[1])];
+    for widths in pairs(&[0.05, 0.2, 0.7, 2.0]) {
+        let views = furnace_views(widths, &[0.5, 0.08]);
+        let found = furnace(Beckmann::new(alpha(widths)), &views, |l, a| (l, a));
+        println!("Beckmann {widths:?}: {found:?}");
+        worst = [worst[0].max(found[0]), worst[1].max(found[1])];
+    }
+    assert!(worst[0] < 1e-3 && worst[1] < 3e-3, "{worst:?}");
+}
+
+/// Largest `|albedo - 1|` of the compensated interface, seen from the side where the index is 1.
+fn interface_furnace<N: Tabulated<f64>>(ndf: N, eta: f64, views: &[Vec3<f64>]) -> f64 {
+    let sides =
+        MASKINGS.map(|masking| [eta, 1.0 / eta].map(|eta| DielectricLoss::new(ndf, masking, eta)));
+    let mut worst = 0.0_f64;
+    let quotients =
+        sides.map(|sides| sides.map(|loss| average_loss(|w| loss.directional(w)) / loss.average()));
+    for &wo in views {
+        let single = exact_interface_albedo(ndf, eta, wo);
+        for (([near, far], quotients), single) in sides.iter().zip(quotients).zip(single) {
+            let common = near.average().min(far.average());
+            let passed = (1.0 - dielectric_average(eta)) * common / near.average();
+            let kept = (1.0 - passed) * quotients[0] + passed * quotients[1];
+            let albedo = single + near.directional(wo) * kept;
+            assert!(albedo.is_finite());
+            worst = worst.max((albedo - 1.0).abs());
         }
     }
-    assert!(worst[0] < 1e-3 && worst[1] < 2e-3, "{worst:?}");
+    worst
+}
+
+#[test]
+fn stretched_interfaces_keep_their_light() {
+    let mut worst = 0.0_f64;
+    for widths in pairs(&[0.05, 0.15, 0.5, 1.5]) {
+        let views = furnace_views(widths, &[0.6, 0.15]);
+        for eta in [1.5, 1.0 / 1.5, 1.0 / 1.15, 2.4, 1.0 / 2.4] {
+            let found = interface_furnace(Ggx::new(alpha(widths)), eta, &views);
+            println!("interface {eta:.3} {widths:?}: {found:.1e}");
+            worst = worst.max(found);
+        }
+    }
+    let views = furnace_views((0.1, 0.8), &[0.6, 0.15]);
+    for eta in [1.4, 1.0 / 1.4] {
+        worst = worst.max(interface_furnace(
+            Beckmann::new(alpha((0.1, 0.8))),
+            eta,
+            &views,
+        ));
+    }
+    println!("largest |albedo - 1|: {worst:.1e}");
+    assert!(worst < 2e-2, "{worst}");
 }
 
 /// The furnace by the lobes' own samples: largest `|albedo - 1|` beyond five standard errors.
@@ -194,21 +274,23 @@ fn samples_of_white_metals_carry_all_light() {
 #[test]
 fn half_of_the_lost_energy_is_caught() {
     let ndf = Ggx::new(alpha((0.5, 0.5)));
-    let masking = Masking::default();
-    let right = furnace(ndf, masking, &[0.4], |l, a| (l, a));
+    let views = furnace_views((0.5, 0.5), &COSINES);
+    let right = furnace(ndf, &views, |l, a| (l, a));
     assert!(right[0] < 1e-3, "{right:?}");
-    let half = furnace(ndf, masking, &[0.4], |l, a| (0.5 * l, a));
+    let half = furnace(ndf, &views, |l, a| (0.5 * l, a));
     assert!(half[0] > 1e-2 && half[1] > 1e-2, "{half:?}");
-    let no_average = furnace(ndf, masking, &[0.4], |l, _| (l, 1.0));
+    let no_average = furnace(ndf, &views, |l, _| (l, 1.0));
     assert!(no_average[0] > 1e-2, "{no_average:?}");
-    let squared = furnace(ndf, masking, &[0.4], |l, a| (l * l, a));
+    let squared = furnace(ndf, &views, |l, a| (l * l, a));
     assert!(squared[0] > 1e-2 && squared[1] > 1e-2, "{squared:?}");
     // The isotropic table for an anisotropic surface is a fault of the same kind.
     let stretched = Ggx::new(alpha((0.1, 0.8)));
-    let mean = Loss::new(Ggx::new(alpha((0.08_f64.sqrt(), 0.08_f64.sqrt()))), masking);
+    let mean = Ggx::new(alpha((0.08_f64.sqrt(), 0.08_f64.sqrt())));
     let wo = direction(0.5, 0.2);
-    let single = exact_albedo(stretched, masking, wo);
-    assert!((single + mean.directional(wo) - 1.0).abs() > 1e-2);
+    let [single, _] = exact_albedo(stretched, wo);
+    let loss = |ndf| Loss::new(ndf, Masking::default()).directional(wo);
+    assert!((single + loss(mean) - 1.0).abs() > 1e-2);
+    assert!((single + loss(stretched) - 1.0).abs() < 1e-3);
 }
 
 fn proof_plan(widths: (f64, f64), model: Model) -> Plan {

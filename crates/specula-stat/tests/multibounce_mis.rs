@@ -4,23 +4,29 @@
 mod common;
 
 use common::alpha;
+use rayon::prelude::*;
 use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::math::warp::uniform_sphere;
 use specula_bsdf::math::{Stream, vec3};
-use specula_bsdf::multibounce::{Conductor, Dielectric, MisPdf, Model};
+use specula_bsdf::multibounce::{
+    Conductor, Dielectric, MisPdf, Model, normalised_pdf, sample_normalised,
+};
 use specula_bsdf::ndf::{Beckmann, Ggx, Ndf};
-use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, Vec3};
+use specula_bsdf::{Alpha, Bsdf, Rgb, Vec3};
 use specula_stat::quadrature::{Patch, Peak, Quadrature};
 
-const WIDTHS: [(f64, f64); 6] = [
+const WIDTHS: [(f64, f64); 9] = [
     (0.1, 0.1),
+    (0.15, 0.15),
+    (0.2, 0.2),
     (0.3, 0.3),
     (0.5, 0.5),
     (1.0, 1.0),
     (0.2, 0.8),
-    (0.1, 0.4),
+    (0.1, 0.5),
+    (0.8, 0.2),
 ];
-const VIEWS: [f64; 4] = [0.0, 30.0, 60.0, 80.0];
+const VIEWS: [f64; 6] = [0.0, 30.0, 60.0, 70.0, 80.0, 85.0];
 
 fn at(degrees: f64, azimuth: f64) -> Vec3<f64> {
     let (s, c) = degrees.to_radians().sin_cos();
@@ -42,16 +48,15 @@ fn cell_direction(mu: f64, turn: f64) -> Vec3<f64> {
     vec3(r * cos, r * sin, mu)
 }
 
-/// Share of a walk's draws in each cell.
-fn drawn(lobe: &Conductor<f64>, wo: Vec3<f64>, n: u32) -> Vec<f64> {
+/// Share of draws in each cell.
+fn drawn(n: u32, mut draw: impl FnMut(&mut Stream) -> Option<Vec3<f64>>) -> Vec<f64> {
     let mut stream = Stream::new(9);
     let mut cells = vec![0.0; CELLS.0 * CELLS.1];
     for _ in 0..n {
-        let u = [stream.next(), stream.next(), stream.next()];
-        if let Some(sample) = lobe.sample_random(wo, u, Transport::Radiance, &mut stream) {
-            let turn = sample.wi.y.atan2(sample.wi.x) / std::f64::consts::TAU;
+        if let Some(wi) = draw(&mut stream) {
+            let turn = wi.y.atan2(wi.x) / std::f64::consts::TAU;
             let pick = |x: f64, n: usize| (0..n).rfind(|i| x * n as f64 >= *i as f64).unwrap_or(0);
-            let cell = pick(sample.wi.z, CELLS.0) * CELLS.1 + pick(turn.rem_euclid(1.0), CELLS.1);
+            let cell = pick(wi.z, CELLS.0) * CELLS.1 + pick(turn.rem_euclid(1.0), CELLS.1);
             cells[cell] += 1.0 / f64::from(n);
         }
     }
@@ -59,7 +64,7 @@ fn drawn(lobe: &Conductor<f64>, wo: Vec3<f64>, n: u32) -> Vec<f64> {
 }
 
 /// Integral of a density over each cell.
-fn integrated(lobe: &Conductor<f64>, wo: Vec3<f64>) -> Vec<f64> {
+fn integrated(pdf: impl Fn(Vec3<f64>) -> f64) -> Vec<f64> {
     const FINE: usize = 8;
     let mut cells = vec![0.0; CELLS.0 * CELLS.1];
     let area = std::f64::consts::TAU / (CELLS.0 * CELLS.1 * FINE * FINE) as f64;
@@ -68,44 +73,146 @@ fn integrated(lobe: &Conductor<f64>, wo: Vec3<f64>) -> Vec<f64> {
             let row = (i / CELLS.1) as f64 + ((k / FINE) as f64 + 0.5) / FINE as f64;
             let column = (i % CELLS.1) as f64 + ((k % FINE) as f64 + 0.5) / FINE as f64;
             let wi = cell_direction(row / CELLS.0 as f64, column / CELLS.1 as f64);
-            *cell += lobe.pdf(wo, wi) * area;
+            *cell += pdf(wi) * area;
         }
     }
     cells
 }
 
-/// As fig. 8 of Cui et al. 2023: distance (L1, over cells of equal solid angle) of each density from
-/// that of the walk's draws.
-#[test]
-fn normalised_density_is_closest_to_the_walks() {
-    let mut sums = [0.0; 3];
+/// Every view of every width: along and across the grain.
+fn cases() -> Vec<((f64, f64), f64, f64)> {
+    let mut cases = Vec::new();
     for widths in WIDTHS {
         for view in VIEWS {
-            let wo = at(view, 25.0);
-            let of = |mis| metal(Ggx::new(alpha(widths)), mis);
-            let walk = drawn(&of(MisPdf::Normalised), wo, 100_000);
-            let distance = MisPdf::ALL.map(|mis| {
-                let density = integrated(&of(mis), wo);
-                let apart = walk.iter().zip(&density).map(|(a, b)| (a - b).abs());
-                apart.sum::<f64>()
-            });
-            for (sum, d) in sums.iter_mut().zip(distance) {
-                *sum += d / 24.0;
-            }
-            let [lambert, hapke, ours] = distance;
-            println!("{widths:?} {view}: lambert {lambert:.3} hapke {hapke:.3} ours {ours:.3}");
-            assert!(ours < lambert, "{widths:?} {view}: {distance:?}");
-            // Grazing views of smooth or stretched surfaces are Hapke's, by little.
-            let slack = if view > 70.0 || widths.0 != widths.1 {
-                0.12
+            let azimuths: &[f64] = if widths.0 == widths.1 || view == 0.0 {
+                &[25.0]
             } else {
-                0.01
+                &[0.0, 90.0]
             };
-            assert!(ours < hapke + slack, "{widths:?} {view}: {distance:?}");
+            cases.extend(azimuths.iter().map(|azimuth| (widths, view, *azimuth)));
+        }
+    }
+    cases
+}
+
+fn distances<N: Ndf<f64>>(ndf: N, wo: Vec3<f64>) -> [f64; 3] {
+    let walker = metal(ndf, MisPdf::Normalised);
+    // Smooth surfaces leave little to tell apart: less noise is needed there, and walks are short.
+    let Alpha { x, y } = ndf.alpha();
+    let draws = if x * y < 0.03 { 400_000 } else { 50_000 };
+    let walk = drawn(draws, |stream| {
+        let u = [stream.next(), stream.next()];
+        walker.draw(wo, u, stream).map(|(wi, _)| wi)
+    });
+    MisPdf::ALL.map(|mis| {
+        let lobe = metal(ndf, mis);
+        let density = integrated(|wi| lobe.pdf(wo, wi));
+        walk.iter().zip(&density).map(|(a, b)| (a - b).abs()).sum()
+    })
+}
+
+/// As fig. 8 of Cui et al. 2023: distance (L1, over cells of equal solid angle) of each density from
+/// that of the walk's draws, whose noise is in all three. Ours is the closest everywhere.
+#[test]
+fn normalised_density_is_closest_to_the_walks() {
+    let of = |(widths, view, azimuth): ((f64, f64), f64, f64)| {
+        let wo = at(view, azimuth);
+        let ggx = distances(Ggx::new(alpha(widths)), wo);
+        [ggx, distances(Beckmann::new(alpha(widths)), wo)]
+    };
+    let cases = cases();
+    let all: Vec<_> = cases.par_iter().map(|case| of(*case)).collect();
+    let mut sums = [0.0; 3];
+    for (case, two) in cases.iter().zip(&all) {
+        for (name, distance) in ["GGX", "Beckmann"].iter().zip(two) {
+            let [lambert, hapke, ours] = *distance;
+            println!("{name} {case:?}: lambert {lambert:.4} hapke {hapke:.4} ours {ours:.4}");
+            assert!(
+                ours < lambert && ours < hapke,
+                "{name} {case:?}: {distance:?}"
+            );
+            for (sum, d) in sums.iter_mut().zip(distance) {
+                *sum += d / (2 * cases.len()) as f64;
+            }
         }
     }
     println!("mean {sums:.3?}");
-    assert!(sums[2] < 0.7 * sums[1], "{sums:?}");
+    assert!(sums[2] < 0.45 * sums[1], "{sums:?}");
+}
+
+/// The sampler knows nothing of the density's Jacobians: that the two agree is their proof.
+#[test]
+fn the_normalised_density_is_its_samplers() {
+    const N: u32 = 100_000;
+    let check = |((widths, view, azimuth), is_ggx): ((_, f64, f64), bool)| {
+        let wo = at(view, azimuth);
+        let (ggx, beckmann) = (Ggx::new(alpha(widths)), Beckmann::new(alpha(widths)));
+        let cells = drawn(N, |stream| {
+            let u = [stream.next(), stream.next(), stream.next()];
+            if is_ggx {
+                sample_normalised(&ggx, wo, u)
+            } else {
+                sample_normalised(&beckmann, wo, u)
+            }
+        });
+        let density = integrated(|wi| {
+            if is_ggx {
+                normalised_pdf(&ggx, wo, wi)
+            } else {
+                normalised_pdf(&beckmann, wo, wi)
+            }
+        });
+        // Cells are integrated to 2 %; a seventh standard error of the largest of 500 cells passes.
+        let far = cells.iter().zip(&density).map(|(drawn, p)| {
+            let sigma = (p / f64::from(N)).sqrt() + 1e-5;
+            ((drawn - p).abs() - 0.02 * p) / sigma
+        });
+        let worst = far.fold(0.0, f64::max);
+        assert!(
+            worst < 7.0,
+            "GGX {is_ggx} {widths:?} {view} {azimuth}: {worst}"
+        );
+    };
+    for widths in [
+        (0.3, 0.3),
+        (1.0, 1.0),
+        (0.2, 0.8),
+        (0.8, 0.3),
+        (2.0, 0.5_f64),
+    ] {
+        for (view, azimuth) in [(0.0, 0.0), (40.0, 25.0), (75.0, 100.0), (100.0, 25.0)] {
+            if view > 90.0 && (widths.0 < 0.5 || widths.1 < 0.5) {
+                // From behind, light goes on nearly straight: too narrow for cells.
+                continue;
+            }
+            check(((widths, view, azimuth), true));
+            check(((widths, view, azimuth), false));
+        }
+    }
+}
+
+/// Textures vary the widths: no step where a constant would change.
+#[test]
+fn normalised_density_is_continuous_in_the_widths() {
+    let mut stream = Stream::new(3);
+    for _ in 0..2000 {
+        let (x, ratio) = (0.05 * 40.0_f64.powf(stream.next()), stream.next::<f64>());
+        // Half of the widths are close to equal, where the smooth axis changes.
+        let y = if ratio < 0.5 {
+            x
+        } else {
+            x * 4.0_f64.powf(4.0 * ratio - 3.0)
+        };
+        let cap =
+            |stream: &mut Stream| cell_direction(0.05 + 0.95 * stream.next::<f64>(), stream.next());
+        let (wo, wi) = (cap(&mut stream), cap(&mut stream));
+        let of = |factor: f64| normalised_pdf(&Ggx::new(alpha((x * factor, y))), wo, wi);
+        let (less, more) = (of(1.0 - 1e-7), of(1.0 + 1e-7));
+        assert!(
+            (less / more - 1.0).abs() < 1e-4,
+            "{x} {y} {wo:?} {wi:?}: {less} {more}"
+        );
+    }
 }
 
 /// The integral over the hemisphere of a metal's density, by the midpoint rule in `(theta, phi)`:
@@ -116,6 +223,7 @@ fn total<N: Ndf<f64>>(ndf: N, mis: MisPdf, wo: Vec3<f64>) -> f64 {
         // From behind, facets are seen at grazing angles only: light goes on nearly straight.
         let quadrature = Quadrature {
             relative_tolerance: 1e-5,
+            start_extent: 0.06,
             peaks: vec![Peak {
                 direction: -wo,
                 width: 0.01,
@@ -127,7 +235,7 @@ fn total<N: Ndf<f64>>(ndf: N, mis: MisPdf, wo: Vec3<f64>) -> f64 {
             .value[0];
     }
     // Near grazing views the lobe is as narrow as its facets' slopes times the elevation.
-    let (rows, columns) = if wo.z < 0.2 { (1000, 4000) } else { (400, 800) };
+    let (rows, columns) = if wo.z < 0.2 { (500, 1600) } else { (300, 600) };
     let step = std::f64::consts::FRAC_PI_2 / rows as f64;
     let mut sum = 0.0;
     for i in 0..rows * columns {
@@ -140,22 +248,23 @@ fn total<N: Ndf<f64>>(ndf: N, mis: MisPdf, wo: Vec3<f64>) -> f64 {
 
 #[test]
 fn normalised_density_integrates_to_one() {
-    for widths in WIDTHS {
-        for view in [0.0, 30.0, 60.0, 80.0, 89.0, 100.0, 150.0] {
+    WIDTHS.par_iter().for_each(|widths| {
+        for view in [0.0, 60.0, 80.0, 89.0, 100.0, 150.0] {
             let wo = at(view, 25.0);
             if wo.z < 0.0 && widths.0 < 0.2 {
-                // What smooth facets show to a view from behind is narrower than any grid.
+                // What smooth facets show to a view from behind is narrower than any grid, for
+                // Beckmann's, whose tails are thin, sooner.
                 continue;
             }
-            let ggx = total(Ggx::new(alpha(widths)), MisPdf::Normalised, wo);
-            let beckmann = total(Beckmann::new(alpha(widths)), MisPdf::Normalised, wo);
+            let ggx = total(Ggx::new(alpha(*widths)), MisPdf::Normalised, wo);
             assert!((ggx - 1.0).abs() < 1e-3, "GGX {widths:?} {view}: {ggx}");
-            assert!(
-                (beckmann - 1.0).abs() < 1e-3,
-                "Beckmann {widths:?} {view}: {beckmann}"
-            );
+            if wo.z > 0.0 || widths.0 >= 0.3 {
+                let beckmann = total(Beckmann::new(alpha(*widths)), MisPdf::Normalised, wo);
+                let off = (beckmann - 1.0).abs();
+                assert!(off < 1e-3, "Beckmann {widths:?} {view}: {beckmann}");
+            }
         }
-    }
+    });
 }
 
 #[test]

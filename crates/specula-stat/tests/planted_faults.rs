@@ -233,6 +233,40 @@ fn bounded_samples_with_the_pdf_of_caps() {
 }
 
 #[test]
+fn exact_samples_with_the_norm_of_bounded_caps() {
+    let ggx = Ggx::new(alpha(WIDTHS));
+    let right = metal().with_sampler(Sampler::Exact);
+    let ratio =
+        |wo| ggx.reflection_norm(Sampler::Exact, wo) / ggx.reflection_norm(Sampler::Bounded, wo);
+    let draw = |wo, u| {
+        let sample = right.sample(wo, u, Transport::Radiance)?;
+        Some(Drawn::new(sample.wi, sample.weight))
+    };
+    let density = |wo, wi| right.pdf(wo, wi);
+    let report = check(&Subject::new(eval, density, draw));
+    assert!(report.is_pass(), "{report}");
+    let wrong = |wo, wi| density(wo, wi) * ratio(wo);
+    let report = check(&Subject::new(eval, wrong, draw));
+    assert_fails(&report, &["chi-square", "integral of pdf", "weight"]);
+}
+
+/// The exact sampler moves a point whose chord has ended to the opposite chord. Here such points are
+/// lost, and some more whose two chords lie on one side of the plane of incidence.
+#[test]
+fn exact_samples_that_stop_at_the_end_of_their_chord() {
+    let right = metal().with_sampler(Sampler::Exact);
+    let wrong = |wo: Vec3<f64>, u: [f64; 3]| {
+        let sample = right.sample(wo, u, Transport::Radiance)?;
+        let opposite = right.sample(wo, [u[0], u[1], 1.0 - u[2]], Transport::Radiance)?;
+        // The same point of two opposite azimuths: one of them has changed sides.
+        let side = |w: Vec3<f64>| (wo.x * w.y - wo.y * w.x) > 0.0;
+        (side(sample.wi) != side(opposite.wi)).then(|| Drawn::new(sample.wi, sample.weight))
+    };
+    let report = check(&Subject::new(eval, |wo, wi| right.pdf(wo, wi), wrong));
+    assert_fails(&report, &["chi-square"]);
+}
+
+#[test]
 fn masking_of_one_direction_only() {
     let ggx = Ggx::new(alpha(WIDTHS));
     let lobe = metal().with_masking(Masking::Separable);

@@ -53,7 +53,7 @@ fn visible_normals_follow_their_density() {
 
 #[test]
 fn reflections_follow_their_density_and_are_rejected_as_it_says() {
-    let samplers: [(&str, Density, SampleReflection); 4] = [
+    let samplers: [(&str, Density, SampleReflection); 5] = [
         (
             "heitz",
             vndf::heitz::reflection_pdf,
@@ -68,6 +68,11 @@ fn reflections_follow_their_density_and_are_rejected_as_it_says() {
             "bounded",
             vndf::bounded::reflection_pdf,
             vndf::bounded::sample_reflection,
+        ),
+        (
+            "exact",
+            vndf::exact::reflection_pdf,
+            vndf::exact::sample_reflection,
         ),
         (
             "beckmann",

@@ -4,9 +4,14 @@
 
 mod albedo;
 mod bench;
+mod exact;
+mod features;
 mod generated;
+mod gltf;
+mod instructions;
 mod interface;
 mod metals;
+mod plastic;
 mod suite;
 mod tables;
 mod tidy;
@@ -54,6 +59,22 @@ enum Chore {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<String>,
     },
+    /// Print what the sampler of exact reflections rejects and saves
+    Exact {
+        /// Draw this many reflections in f32 instead [default: 10^9], and fail if more than one in
+        /// 10^6 lies below the surface
+        #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "1000000000")]
+        fuzz: Option<u64>,
+        /// Write the figure of the document instead
+        #[arg(long, conflicts_with = "fuzz")]
+        figure: bool,
+    },
+    /// Count the kernels' instructions under valgrind, and keep the counts
+    Instructions {
+        /// Write nothing; fail where a count is off by more than 5 %
+        #[arg(long)]
+        check: bool,
+    },
     /// Check what no compiler checks: file heads, lengths, leftovers, trailing spaces
     Tidy,
 }
@@ -80,6 +101,11 @@ fn run(chore: &Chore) -> Result<()> {
         Chore::Tables { check } => tables::run(&root, *check),
         Chore::Test => suite::run(&root),
         Chore::Bench { arguments } => bench::run(&root, arguments),
+        Chore::Exact { figure: true, .. } => {
+            generated::apply(&root, &exact::generate(&root)?, false)
+        }
+        Chore::Exact { fuzz, .. } => exact::run(*fuzz),
+        Chore::Instructions { check } => instructions::run(&root, *check),
         Chore::Tidy => tidy::run(&root),
     }
 }

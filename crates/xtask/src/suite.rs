@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use crate::{Result, tables, tidy};
+use crate::{Result, instructions, tables, tidy};
 
 /// A cargo command.
 struct Step {
@@ -60,6 +60,7 @@ pub(crate) fn run(root: &Path) -> Result<()> {
         });
     }
     report.step("tables", || tables::run(root, true));
+    report.step("instructions", || instructions::run(root, true));
     report.step("tidy", || tidy::run(root));
     report.finish()
 }

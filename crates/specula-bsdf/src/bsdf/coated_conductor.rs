@@ -19,7 +19,7 @@
 
 use super::{Bsdf, BsdfSample, Event, Transport};
 use crate::alpha::Alpha;
-use crate::fresnel::{Conductor, Reflectance, Refraction, dielectric};
+use crate::fresnel::{Reflectance, Refraction, dielectric};
 use crate::math::{Real, Rgb, Vec3, vec3};
 use crate::ndf::{Ggx, Masking, Ndf};
 use crate::vndf::Sampler;
@@ -27,11 +27,11 @@ use crate::vndf::Sampler;
 /// Metal under a dielectric coat.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoatedConductor<T> {
-    coat: Option<Ggx<T>>,
-    eta: T,
-    metal: Option<Ggx<T>>,
-    reflectance: Reflectance<T>,
-    sampler: Sampler,
+    pub(crate) coat: Option<Ggx<T>>,
+    pub(crate) eta: T,
+    pub(crate) metal: Option<Ggx<T>>,
+    pub(crate) reflectance: Reflectance<T>,
+    pub(crate) sampler: Sampler,
 }
 
 impl<T: Real> CoatedConductor<T> {
@@ -46,17 +46,11 @@ impl<T: Real> CoatedConductor<T> {
         reflectance: Reflectance<T>,
     ) -> Self {
         let eta = Real::clamp(eta, T::ONE, T::of(3.0));
-        let under_coat = match reflectance {
-            Reflectance::Conductor(Conductor { eta: n, k }) => {
-                Reflectance::Conductor(Conductor { eta: n, k }.under(eta))
-            }
-            other => other,
-        };
         Self {
             coat,
             eta,
             metal: blurred(metal, coat, eta),
-            reflectance: under_coat,
+            reflectance: reflectance.under(eta),
             sampler: Sampler::default(),
         }
     }

@@ -26,12 +26,12 @@ use crate::vndf::Sampler;
 /// Lambert under a dielectric coat.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoatedDiffuse<T> {
-    coat: Option<Ggx<T>>,
-    eta: T,
-    albedo: Rgb<T>,
+    pub(crate) coat: Option<Ggx<T>>,
+    pub(crate) eta: T,
+    pub(crate) albedo: Rgb<T>,
     /// `rho / (eta^2 (1 - rho R_int))`: the base with all bounces, before `T(wo) T(wi) / pi`.
-    base: Rgb<T>,
-    sampler: Sampler,
+    pub(crate) base: Rgb<T>,
+    pub(crate) sampler: Sampler,
 }
 
 impl<T: Real> CoatedDiffuse<T> {

@@ -1,6 +1,6 @@
 //! Rough dielectric interfaces that keep their energy (Kulla and Conty 2017).
 
-use super::{Bsdf, BsdfSample, Event, RoughDielectric, Transport};
+use super::{Bsdf, BsdfSample, Event, RoughDielectric, Tints, Transport};
 use crate::energy::{DielectricLoss, Tabulated};
 use crate::fresnel::dielectric_average;
 use crate::math::warp::cosine_hemisphere;
@@ -27,7 +27,8 @@ use crate::vndf::Sampler;
 /// either side, with its exact pdf.
 ///
 /// Departure: Kulla and Conty ask for the two conditions; this closed form of the split is ours.
-/// Anisotropic losses are approximate (`energy::dielectric_albedo`), and so is then the furnace.
+/// Losses are tabulated (`energy::dielectric_albedo` states the errors): nothing is lost or gained
+/// beyond 2e-2 for widths in [0.05, 1.5], isotropic or not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CompensatedDielectric<T, N = Ggx<T>> {
     single: RoughDielectric<T, N>,
@@ -106,6 +107,16 @@ impl<T: Real, N: Tabulated<T>> CompensatedDielectric<T, N> {
         }
     }
 
+    /// The same interface with factors on its two branches.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_tints(self, tints: Tints<T>) -> Self {
+        Self {
+            single: self.single.with_tints(tints),
+            ..self
+        }
+    }
+
     /// The same interface with another masking.
     #[inline]
     #[must_use]
@@ -161,7 +172,7 @@ impl<T: Real, N: Tabulated<T>> CompensatedDielectric<T, N> {
             (share * shape * cosine * scale, share * cosine)
         };
         (
-            first + Rgb::splat(side.loss * second),
+            first + self.single.tints.on_side(height > T::ZERO) * (side.loss * second),
             first_pdf + side.loss * (cosine_pdf - first_pdf),
         )
     }

@@ -16,10 +16,10 @@ use crate::vndf::Sampler;
 /// [`Ndf::g2_over_cos`] says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoughConductor<T, N = Ggx<T>> {
-    ndf: N,
-    reflectance: Reflectance<T>,
-    sampler: Sampler,
-    masking: Masking,
+    pub(crate) ndf: N,
+    pub(crate) reflectance: Reflectance<T>,
+    pub(crate) sampler: Sampler,
+    pub(crate) masking: Masking,
 }
 
 impl<T: Real, N: Ndf<T>> RoughConductor<T, N> {
@@ -48,11 +48,48 @@ impl<T: Real, N: Ndf<T>> RoughConductor<T, N> {
         Self { masking, ..self }
     }
 
-    /// `(wm, F)`; unit half vector and the reflectance there.
+    /// The first half of a sample: the direction, perhaps below the horizon, and its `N`. Batches
+    /// draw many before they weigh them: two short loops keep more of the machine busy than a long one.
     #[inline(always)]
-    fn facet(&self, wo: Vec3<T>, wi: Vec3<T>) -> (Vec3<T>, Rgb<T>) {
-        let wm = (wo + wi).normalize();
-        (wm, self.reflectance.eval(wo.dot(wm)))
+    pub(crate) fn draw(&self, wo: Vec3<T>, u: [T; 3]) -> (Vec3<T>, T) {
+        let wi = self.ndf.sample_reflection(self.sampler, wo, [u[1], u[2]]);
+        (wi, self.ndf.reflection_norm(self.sampler, wo))
+    }
+
+    /// The second half: what a direction drawn with `pdf = D / (4 N)` weighs.
+    #[inline(always)]
+    pub(crate) fn weigh(&self, wo: Vec3<T>, wi: Vec3<T>, norm: T) -> Option<BsdfSample<T>> {
+        let (d, fresnel) = self.facet(wo, wi);
+        // weight = F N G2 / |cos_o| and pdf = D / (4 N) with one division.
+        let (top, bottom) = self.ndf.g2_over_cos_quotient(self.masking, wo, wi);
+        let inverse = T::ONE / Real::max(norm * bottom, T::TINY);
+        let weight = fresnel * (norm * norm * top * inverse);
+        let pdf = T::of(0.25) * d * bottom * inverse;
+        BsdfSample::reflected(wi, weight, pdf)
+    }
+
+    /// `eval` and `pdf`, given the `N` of `pdf = D / (4 N)`.
+    #[inline(always)]
+    pub(crate) fn evaluate(&self, wo: Vec3<T>, wi: Vec3<T>, norm: T) -> (Rgb<T>, T) {
+        let (d, fresnel) = self.facet(wo, wi);
+        let quarter = d * T::of(0.25);
+        let f_cos = fresnel * (quarter * self.ndf.g2_over_cos(self.masking, wo, wi));
+        // Selected at the end, so that batches have no branches.
+        if wi.z > T::ZERO && wo.z + wi.z > T::ZERO {
+            (f_cos, quarter / norm)
+        } else {
+            (Rgb::BLACK, T::ZERO)
+        }
+    }
+
+    /// `(D, F)` of the facet that reflects `wo` into `wi`. Its normal is `h / |h|` with
+    /// `h = wo + wi`, and `wo . wm = |h| / 2`.
+    #[inline(always)]
+    fn facet(&self, wo: Vec3<T>, wi: Vec3<T>) -> (T, Rgb<T>) {
+        let half = wo + wi;
+        let squared = half.length_squared();
+        let fresnel = self.reflectance.eval(T::HALF * squared.sqrt());
+        (self.ndf.d_along(half, squared), fresnel)
     }
 }
 
@@ -64,34 +101,22 @@ impl<T: Real, N: Ndf<T>> Bsdf<T> for RoughConductor<T, N> {
 
     #[inline(always)]
     fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
-        let wm = (wo + wi).normalize();
-        if wi.z > T::ZERO && wm.z > T::ZERO {
-            self.ndf.d(wm) / (T::of(4.0) * self.ndf.reflection_norm(self.sampler, wo))
-        } else {
-            T::ZERO
-        }
+        let half = wo + wi;
+        let d = self.ndf.d_along(half, half.length_squared());
+        let pdf = d / (T::of(4.0) * self.ndf.reflection_norm(self.sampler, wo));
+        T::select(wi.z > T::ZERO && half.z > T::ZERO, pdf, T::ZERO)
     }
 
     #[inline(always)]
     fn sample(&self, wo: Vec3<T>, u: [T; 3], _transport: Transport) -> Option<BsdfSample<T>> {
-        let wi = self.ndf.sample_reflection(self.sampler, wo, [u[1], u[2]]);
-        let (wm, fresnel) = self.facet(wo, wi);
-        let norm = self.ndf.reflection_norm(self.sampler, wo);
-        let weight = fresnel * (norm * self.ndf.g2_over_cos(self.masking, wo, wi));
-        let pdf = self.ndf.d(wm) / (T::of(4.0) * norm);
-        BsdfSample::reflected(wi, weight, pdf)
+        let (wi, norm) = self.draw(wo, u);
+        self.weigh(wo, wi, norm)
     }
 
     #[inline(always)]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, _transport: Transport) -> (Rgb<T>, T) {
-        let (wm, fresnel) = self.facet(wo, wi);
-        if wi.z > T::ZERO && wm.z > T::ZERO {
-            let quarter = self.ndf.d(wm) * T::of(0.25);
-            let f_cos = fresnel * (quarter * self.ndf.g2_over_cos(self.masking, wo, wi));
-            (f_cos, quarter / self.ndf.reflection_norm(self.sampler, wo))
-        } else {
-            (Rgb::BLACK, T::ZERO)
-        }
+        let norm = self.ndf.reflection_norm(self.sampler, wo);
+        self.evaluate(wo, wi, norm)
     }
 
     #[inline(always)]
@@ -103,7 +128,7 @@ impl<T: Real, N: Ndf<T>> Bsdf<T> for RoughConductor<T, N> {
 /// A mirror.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SmoothConductor<T> {
-    reflectance: Reflectance<T>,
+    pub(crate) reflectance: Reflectance<T>,
 }
 
 impl<T: Real> SmoothConductor<T> {

@@ -1,7 +1,7 @@
 //! A rough dielectric interface: reflection and refraction (Walter et al. 2007).
 
-use super::{Bsdf, BsdfSample, Event, Transport};
-use crate::fresnel::{dielectric, refract};
+use super::{Bsdf, BsdfSample, Event, Tints, Transport};
+use crate::fresnel::{Refraction, dielectric, refract};
 use crate::math::{Real, Rgb, Vec3, vec3};
 use crate::ndf::{Ggx, Masking, Ndf};
 use crate::vndf::{Sampler, reflect};
@@ -16,11 +16,16 @@ use crate::vndf::{Sampler, reflect};
 ///
 /// with `e` the index beyond the interface over that on the side of `wo`.
 ///
-/// A visible normal is drawn first (by caps; refraction needs all of them), then reflection with
-/// probability F: weights are `G2/G1`. With [`Sampler::Bounded`] the branch is drawn before the
-/// normal, with the macroscopic reflectance as its probability, so that the bounded cap can serve
-/// the reflections; their weights then carry `F(wm)` over that probability, which costs 12 % more
-/// variance on average than the rejected reflections do (test
+/// A visible normal is drawn first (by caps; refraction needs all of them), then the branch by what
+/// it carries: with `r = F G2(wo, wr)` and `t = (1 - F) G2(wo, wt)` at the two directions of the
+/// facet, 0 where one lies on the wrong side of the surface, reflection has the probability
+/// `r / (r + t)` and both weigh `(r + t) / G1(wo)`. Where only one direction is valid it is taken:
+/// nothing is rejected for light that enters the denser medium, and from inside only what is totally
+/// reflected downwards (`docs/exact-reflection-sampling.md`).
+///
+/// With [`Sampler::Bounded`] and [`Sampler::Exact`] the branch is drawn before the normal, with the
+/// macroscopic reflectance as its probability, so that they can serve the reflections; the weights
+/// then carry `F(wm)` over that probability, which costs more variance than it saves (test
 /// `drawing_the_branch_before_the_normal_costs_variance`): caps are the default.
 ///
 /// Departure: transmission uses the `G2` of reflection, as pbrt-v4 does, not the Beta function of
@@ -29,11 +34,12 @@ use crate::vndf::{Sampler, reflect};
 /// Indices within 1e-3 of each other are taken as equal: light passes straight on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoughDielectric<T, N = Ggx<T>> {
-    ndf: N,
-    eta: T,
-    two_sided: bool,
-    sampler: Sampler,
-    masking: Masking,
+    pub(crate) ndf: N,
+    pub(crate) eta: T,
+    pub(crate) two_sided: bool,
+    pub(crate) sampler: Sampler,
+    pub(crate) masking: Masking,
+    pub(crate) tints: Tints<T>,
 }
 
 impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
@@ -60,6 +66,7 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
             two_sided: false,
             sampler: Sampler::Cap,
             masking: Masking::default(),
+            tints: Tints::WHITE,
         }
     }
 
@@ -75,6 +82,13 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
     #[must_use]
     pub fn with_masking(self, masking: Masking) -> Self {
         Self { masking, ..self }
+    }
+
+    /// The same surface with factors on its two branches.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_tints(self, tints: Tints<T>) -> Self {
+        Self { tints, ..self }
     }
 
     #[inline(always)]
@@ -99,7 +113,14 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         Real::clamp(macroscopic, T::of(0.1), T::of(0.9))
     }
 
+    /// Whether the branch is drawn before the normal.
+    #[inline(always)]
+    fn is_branch_first(&self) -> bool {
+        matches!(self.sampler, Sampler::Bounded | Sampler::Exact)
+    }
+
     /// Eval and pdf for `wo` on its own side.
+    #[inline(always)]
     fn evaluate(&self, wo: Vec3<T>, wi: Vec3<T>, eta: T, transport: Transport) -> (T, T) {
         if wi.z == T::ZERO {
             return (T::ZERO, T::ZERO);
@@ -115,19 +136,19 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
             return (T::ZERO, T::ZERO);
         }
         let bent = dielectric(cos_o, eta);
-        let fresnel = bent.reflectance;
         let d = self.ndf.d(wm);
         let g2 = self.ndf.g2_over_cos(self.masking, wo, wi);
-        let bounded = self.sampler == Sampler::Bounded;
+        let branch_first = self.is_branch_first();
         if reflects {
             let norm = self.ndf.reflection_norm(self.sampler, wo);
-            let chosen = if bounded {
+            let carried = bent.reflectance * g2;
+            let chosen = if branch_first {
                 self.branch_probability(wo, eta)
             } else {
-                fresnel
+                share(carried, self.carried(wo, wm, bent, eta)[1])
             };
             let quarter = T::of(0.25) * d;
-            (fresnel * quarter * g2, chosen * quarter / norm)
+            (quarter * carried, chosen * quarter / norm)
         } else {
             let sum = cos_o + eta * cos_i;
             let jacobian = eta * eta * cos_i.abs() / Real::max(sum * sum, T::TINY);
@@ -135,23 +156,25 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
                 Transport::Radiance => T::ONE / (eta * eta),
                 Transport::Importance => T::ONE,
             };
-            let chosen = if bounded {
+            let carried = bent.transmittance * g2;
+            let chosen = if branch_first {
                 T::ONE - self.branch_probability(wo, eta)
             } else {
-                bent.transmittance
+                share(carried, self.carried(wo, wm, bent, eta)[0])
             };
             let visible = d * cos_o * jacobian;
             (
-                bent.transmittance * visible * g2 * scale,
+                carried * visible * scale,
                 chosen * visible / self.ndf.projected_area(wo),
             )
         }
     }
 
     /// A draw for `wo` on its own side.
+    #[inline(always)]
     fn draw(&self, wo: Vec3<T>, u: [T; 3], eta: T, transport: Transport) -> Option<BsdfSample<T>> {
         let direction = [u[1], u[2]];
-        if self.sampler == Sampler::Bounded {
+        if self.is_branch_first() {
             let p = self.branch_probability(wo, eta);
             if u[0] < p {
                 let wi = self.ndf.sample_reflection(self.sampler, wo, direction);
@@ -167,19 +190,34 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         }
         let wm = self.ndf.sample_wm(wo, direction);
         let bent = dielectric(wo.dot(wm), eta);
-        let fresnel = bent.reflectance;
-        if u[0] < fresnel {
+        let [reflected, transmitted] = self.carried(wo, wm, bent, eta);
+        let reflection = share(reflected, transmitted);
+        if u[0] < reflection {
             let wi = reflect(wo, wm);
             let norm = self.ndf.projected_area(wo);
-            let weight = norm * self.ndf.g2_over_cos(self.masking, wo, wi);
-            let pdf = fresnel * self.ndf.d(wm) / (T::of(4.0) * norm);
+            let weight = norm * (reflected + transmitted);
+            let pdf = reflection * self.ndf.d(wm) / (T::of(4.0) * norm);
             BsdfSample::reflected(wi, Rgb::splat(weight), pdf)
         } else {
-            self.transmit(wo, wm, eta, transport, bent.transmittance)
+            self.transmit(wo, wm, eta, transport, share(transmitted, reflected))
         }
     }
 
+    /// `F G2(wo, wr) / |wo.z|` and `(1 - F) G2(wo, wt) / |wo.z|` of the two directions that the facet
+    /// `wm` sends light to; 0 for one on the wrong side of the surface.
+    #[inline(always)]
+    fn carried(&self, wo: Vec3<T>, wm: Vec3<T>, bent: Refraction<T>, eta: T) -> [T; 2] {
+        let wr = reflect(wo, wm);
+        let wt = refract(wo, wm, wo.dot(wm), bent.cos_t, eta);
+        let g2 = |wi| self.ndf.g2_over_cos(self.masking, wo, wi);
+        [
+            T::select(wr.z > T::ZERO, bent.reflectance * g2(wr), T::ZERO),
+            T::select(wt.z < T::ZERO, bent.transmittance * g2(wt), T::ZERO),
+        ]
+    }
+
     /// Refraction through the facet `wm`, chosen with probability `p`.
+    #[inline(always)]
     fn transmit(
         &self,
         wo: Vec3<T>,
@@ -191,7 +229,7 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         let cos_o = wo.dot(wm);
         let bent = dielectric(cos_o, eta);
         let wi = refract(wo, wm, cos_o, bent.cos_t, eta);
-        let passed = bent.transmittance / p;
+        let passed = T::select(p > T::ZERO, bent.transmittance / p, T::ZERO);
         let sum = cos_o - eta * bent.cos_t;
         let jacobian = eta * eta * bent.cos_t / Real::max(sum * sum, T::TINY);
         let sigma = self.ndf.projected_area(wo);
@@ -209,23 +247,30 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
     }
 }
 
+/// `one / (one + other)`; 0 where both vanish.
+#[inline(always)]
+fn share<T: Real>(one: T, other: T) -> T {
+    let sum = one + other;
+    T::select(sum > T::ZERO, one / sum, T::ZERO)
+}
+
 impl<T: Real, N: Ndf<T>> Bsdf<T> for RoughDielectric<T, N> {
-    #[inline]
+    #[inline(always)]
     fn eval(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> Rgb<T> {
         self.eval_pdf(wo, wi, transport).0
     }
 
-    #[inline]
+    #[inline(always)]
     fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
         self.eval_pdf(wo, wi, Transport::Radiance).1
     }
 
-    #[inline]
+    #[inline(always)]
     fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
         if self.is_index_matched() {
             return Some(BsdfSample::delta(
                 -wo,
-                Rgb::WHITE,
+                self.tints.transmission,
                 T::ONE,
                 Event::Transmission,
                 T::ONE,
@@ -236,19 +281,21 @@ impl<T: Real, N: Ndf<T>> Bsdf<T> for RoughDielectric<T, N> {
         let sample = self.draw(upright(wo), u, eta, transport)?;
         Some(BsdfSample {
             wi: upright(sample.wi),
+            weight: sample.weight * self.tints.on(sample.event),
             ..sample
         })
     }
 
-    #[inline]
+    #[inline(always)]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> (Rgb<T>, T) {
         if self.is_index_matched() {
             return (Rgb::BLACK, T::ZERO);
         }
         let (turn, eta) = self.side(wo);
         let upright = |w: Vec3<T>| vec3(w.x, w.y, w.z * turn);
-        let (f_cos, pdf) = self.evaluate(upright(wo), upright(wi), eta, transport);
-        (Rgb::splat(f_cos), pdf)
+        let wi = upright(wi);
+        let (f_cos, pdf) = self.evaluate(upright(wo), wi, eta, transport);
+        (self.tints.on_side(wi.z > T::ZERO) * f_cos, pdf)
     }
 
     #[inline(always)]

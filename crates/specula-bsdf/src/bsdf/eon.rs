@@ -22,8 +22,8 @@ use crate::math::{Real, Rgb, Vec3, warp};
 /// Rough diffuse reflection; roughness 0 is Lambert.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eon<T> {
-    albedo: Rgb<T>,
-    roughness: T,
+    pub(crate) albedo: Rgb<T>,
+    pub(crate) roughness: T,
 }
 
 impl<T: Real> Eon<T> {

@@ -43,8 +43,8 @@ impl<T: Real> Bsdf<T> for Lambert<T> {
 /// A thin sheet: Lambert on the side of the viewer and on the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DiffuseTransmission<T> {
-    reflectance: Rgb<T>,
-    transmittance: Rgb<T>,
+    pub(crate) reflectance: Rgb<T>,
+    pub(crate) transmittance: Rgb<T>,
 }
 
 impl<T: Real> DiffuseTransmission<T> {

@@ -1,14 +1,15 @@
 //! Any lobe, without allocation or dynamic dispatch: what a renderer holds at a hit.
 
 use super::{
-    Bsdf, BsdfSample, CoatedConductor, CoatedDiffuse, Compensated, CompensatedDielectric,
-    DiffuseTransmission, Eon, Lambert, RoughConductor, RoughDielectric, SmoothConductor,
-    SmoothDielectric, ThinDielectric, Transport,
+    Black, Bsdf, BsdfSample, CoatedConductor, CoatedDiffuse, Compensated, CompensatedDielectric,
+    DiffuseTransmission, Eon, Gltf, Lambert, Plastic, Principled, RoughConductor, RoughDielectric,
+    SmoothConductor, SmoothDielectric, ThinDielectric, Transport,
 };
 use crate::math::{Real, Rgb, Stream, Vec3};
 use crate::multibounce;
+use crate::ndf::Beckmann;
 
-/// One of the lobes of this crate, with GGX where it is rough.
+/// One of the lobes of this crate, with GGX where it is rough unless its name says otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lobe<T> {
     /// See [`Lambert`].
@@ -39,6 +40,28 @@ pub enum Lobe<T> {
     MultibounceConductor(multibounce::Conductor<T>),
     /// See [`multibounce::Dielectric`].
     MultibounceDielectric(multibounce::Dielectric<T>),
+    /// See [`Black`].
+    Black(Black),
+    /// See [`RoughConductor`], with Beckmann's normals.
+    RoughConductorBeckmann(RoughConductor<T, Beckmann<T>>),
+    /// See [`RoughDielectric`], with Beckmann's normals.
+    RoughDielectricBeckmann(RoughDielectric<T, Beckmann<T>>),
+    /// See [`Compensated`], with Beckmann's normals.
+    CompensatedBeckmann(Compensated<T, Beckmann<T>>),
+    /// See [`CompensatedDielectric`], with Beckmann's normals.
+    CompensatedDielectricBeckmann(CompensatedDielectric<T, Beckmann<T>>),
+    /// See [`multibounce::Conductor`], with Beckmann's normals.
+    MultibounceConductorBeckmann(multibounce::Conductor<T, Beckmann<T>>),
+    /// See [`multibounce::Dielectric`], with Beckmann's normals.
+    MultibounceDielectricBeckmann(multibounce::Dielectric<T, Beckmann<T>>),
+    /// See [`Plastic`].
+    Plastic(Plastic<T>),
+    /// See [`Plastic`], with Beckmann's normals.
+    PlasticBeckmann(Plastic<T, Beckmann<T>>),
+    /// See [`Principled`].
+    Principled(Principled<T>),
+    /// See [`Gltf`].
+    Gltf(Gltf<T>),
 }
 
 macro_rules! each_lobe {
@@ -58,6 +81,17 @@ macro_rules! each_lobe {
             Lobe::CompensatedDielectric($l) => $call,
             Lobe::MultibounceConductor($l) => $call,
             Lobe::MultibounceDielectric($l) => $call,
+            Lobe::Black($l) => $call,
+            Lobe::RoughConductorBeckmann($l) => $call,
+            Lobe::RoughDielectricBeckmann($l) => $call,
+            Lobe::CompensatedBeckmann($l) => $call,
+            Lobe::CompensatedDielectricBeckmann($l) => $call,
+            Lobe::MultibounceConductorBeckmann($l) => $call,
+            Lobe::MultibounceDielectricBeckmann($l) => $call,
+            Lobe::Plastic($l) => $call,
+            Lobe::PlasticBeckmann($l) => $call,
+            Lobe::Principled($l) => $call,
+            Lobe::Gltf($l) => $call,
         }
     };
 }
@@ -85,7 +119,7 @@ impl<T: Real> Bsdf<T> for Lobe<T> {
 
     #[inline]
     fn is_stochastic(&self) -> bool {
-        each_lobe!(self, l => l.is_stochastic())
+        each_lobe!(self, l => Bsdf::<T>::is_stochastic(l))
     }
 
     #[inline]
@@ -112,7 +146,7 @@ impl<T: Real> Bsdf<T> for Lobe<T> {
 
     #[inline]
     fn is_specular(&self) -> bool {
-        each_lobe!(self, l => l.is_specular())
+        each_lobe!(self, l => Bsdf::<T>::is_specular(l))
     }
 
     #[inline]
@@ -147,4 +181,15 @@ from_lobe!(
     CompensatedDielectric: CompensatedDielectric<T>,
     MultibounceConductor: multibounce::Conductor<T>,
     MultibounceDielectric: multibounce::Dielectric<T>,
+    Black: Black,
+    RoughConductorBeckmann: RoughConductor<T, Beckmann<T>>,
+    RoughDielectricBeckmann: RoughDielectric<T, Beckmann<T>>,
+    CompensatedBeckmann: Compensated<T, Beckmann<T>>,
+    CompensatedDielectricBeckmann: CompensatedDielectric<T, Beckmann<T>>,
+    MultibounceConductorBeckmann: multibounce::Conductor<T, Beckmann<T>>,
+    MultibounceDielectricBeckmann: multibounce::Dielectric<T, Beckmann<T>>,
+    Plastic: Plastic<T>,
+    PlasticBeckmann: Plastic<T, Beckmann<T>>,
+    Principled: Principled<T>,
+    Gltf: Gltf<T>,
 );

@@ -3,6 +3,7 @@
 //! Directions point away from the surface in the local frame (z up): `wo` towards the viewer,
 //! given; `wi` towards the light, sampled. The papers' i is our `wo`, their o is our `wi`.
 
+mod black;
 mod coated_conductor;
 mod coated_diffuse;
 mod compensated;
@@ -10,10 +11,15 @@ mod compensated_dielectric;
 mod conductor;
 mod dielectric;
 mod eon;
+mod gltf;
 mod lambert;
 mod lobe;
+mod plastic;
+mod principled;
 mod smooth_dielectric;
+mod tints;
 
+pub use black::Black;
 pub use coated_conductor::CoatedConductor;
 pub use coated_diffuse::CoatedDiffuse;
 pub use compensated::Compensated;
@@ -21,9 +27,13 @@ pub use compensated_dielectric::CompensatedDielectric;
 pub use conductor::{RoughConductor, SmoothConductor};
 pub use dielectric::RoughDielectric;
 pub use eon::Eon;
+pub use gltf::{Gltf, GltfParameters, albedo as gltf_albedo};
 pub use lambert::{DiffuseTransmission, Lambert};
 pub use lobe::Lobe;
+pub use plastic::{Plastic, interface as plastic_interface};
+pub use principled::{Principled, PrincipledParameters};
 pub use smooth_dielectric::{SmoothDielectric, ThinDielectric};
+pub use tints::Tints;
 
 use crate::math::{Real, Rgb, Stream, Vec3};
 

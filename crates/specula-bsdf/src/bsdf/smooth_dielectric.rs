@@ -1,14 +1,15 @@
 //! Smooth dielectrics: one interface, and a thin pane of two.
 
-use super::{Bsdf, BsdfSample, Event, Transport};
+use super::{Bsdf, BsdfSample, Event, Tints, Transport};
 use crate::fresnel::{dielectric, refract};
 use crate::math::{Real, Rgb, Vec3, vec3};
 
 /// A smooth interface between two dielectrics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SmoothDielectric<T> {
-    eta: T,
-    two_sided: bool,
+    pub(crate) eta: T,
+    pub(crate) two_sided: bool,
+    pub(crate) tints: Tints<T>,
 }
 
 impl<T: Real> SmoothDielectric<T> {
@@ -20,6 +21,7 @@ impl<T: Real> SmoothDielectric<T> {
         Self {
             eta,
             two_sided: true,
+            tints: Tints::WHITE,
         }
     }
 
@@ -32,7 +34,15 @@ impl<T: Real> SmoothDielectric<T> {
         Self {
             eta,
             two_sided: false,
+            tints: Tints::WHITE,
         }
+    }
+
+    /// The same surface with factors on its two branches.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_tints(self, tints: Tints<T>) -> Self {
+        Self { tints, ..self }
     }
 }
 
@@ -47,7 +57,7 @@ impl<T: Real> Bsdf<T> for SmoothDielectric<T> {
         T::ZERO
     }
 
-    #[inline]
+    #[inline(always)]
     fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
         let inside = wo.z < T::ZERO;
         if wo.z == T::ZERO || (inside && !self.two_sided) {
@@ -59,7 +69,7 @@ impl<T: Real> Bsdf<T> for SmoothDielectric<T> {
             let wi = vec3(-wo.x, -wo.y, wo.z);
             return Some(BsdfSample::delta(
                 wi,
-                Rgb::WHITE,
+                self.tints.reflection,
                 bent.reflectance,
                 Event::Reflection,
                 T::ONE,
@@ -73,7 +83,7 @@ impl<T: Real> Bsdf<T> for SmoothDielectric<T> {
         };
         Some(BsdfSample::delta(
             wi,
-            Rgb::splat(weight),
+            self.tints.transmission * weight,
             bent.transmittance,
             Event::Transmission,
             eta,
@@ -97,14 +107,25 @@ impl<T: Real> Bsdf<T> for SmoothDielectric<T> {
 /// Source: Stokes 1862 (the pile of plates), as in pbrt-v4's `thindielectric`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThinDielectric<T> {
-    eta: T,
+    pub(crate) eta: T,
+    pub(crate) tints: Tints<T>,
 }
 
 impl<T: Real> ThinDielectric<T> {
     /// * `eta`: index of the pane over that around it, above 0.
     #[inline(always)]
     pub fn new(eta: T) -> Self {
-        Self { eta }
+        Self {
+            eta,
+            tints: Tints::WHITE,
+        }
+    }
+
+    /// The same surface with factors on its two branches.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_tints(self, tints: Tints<T>) -> Self {
+        Self { tints, ..self }
     }
 }
 
@@ -119,16 +140,18 @@ impl<T: Real> Bsdf<T> for ThinDielectric<T> {
         T::ZERO
     }
 
-    #[inline]
+    #[inline(always)]
     fn sample(&self, wo: Vec3<T>, u: [T; 3], _transport: Transport) -> Option<BsdfSample<T>> {
         let single = dielectric(wo.z.abs(), self.eta).reflectance;
         let reflectance = T::TWO * single / (T::ONE + single);
         Some(if u[0] < reflectance {
             let wi = vec3(-wo.x, -wo.y, wo.z);
-            BsdfSample::delta(wi, Rgb::WHITE, reflectance, Event::Reflection, T::ONE)
+            let tint = self.tints.reflection;
+            BsdfSample::delta(wi, tint, reflectance, Event::Reflection, T::ONE)
         } else {
             let probability = T::ONE - reflectance;
-            BsdfSample::delta(-wo, Rgb::WHITE, probability, Event::Transmission, T::ONE)
+            let tint = self.tints.transmission;
+            BsdfSample::delta(-wo, tint, probability, Event::Transmission, T::ONE)
         })
     }
 

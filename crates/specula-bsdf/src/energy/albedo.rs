@@ -6,55 +6,49 @@
 //! ```
 //!
 //! What is missing to 1 is light that meets another facet. Tables hold `sqrt(1 - E)`, which is
-//! smooth where `1 - E` vanishes (narrow lobes, the horizon), and cannot turn negative:
+//! smooth where `1 - E` vanishes (narrow lobes, the horizon), and cannot turn negative, as
+//! coefficients of cubic splines (`spline`) along the coordinates of `coordinates`:
 //!
-//! * isotropic: 64 widths x 48 cosines, bicubic;
-//! * anisotropic: 24 x 25 / 2 pairs of widths x 8 azimuths x 18 cosines, cubic in all four.
+//! * isotropic: 48 widths x 40 cosines;
+//! * anisotropic: 24 x 25 / 2 pairs of widths x 12 azimuths x 22 cosines.
 //!
-//! Coordinates, all in `[0, 1]`, with square roots only:
-//!
-//! ```text
-//! widths    t(alpha) = (alpha^(1/4) - 0.1) / (10^(1/4) - 0.1)
-//! azimuth   v = (sqrt(a) - sqrt(ax)) / (sqrt(ay) - sqrt(ax)),  a^2 = (ax^2 x^2 + ay^2 y^2) / (x^2 + y^2)
-//! cosine    m = 1 - sqrt(1 - sqrt(mu (1 + a) / (mu + a)))
-//! ```
-//!
-//! `a` is the width along the view: for narrow lobes everything happens at `mu ~ a`, for which `m`
-//! has room at every width. Exchanging the axes (`ax <-> ay`, `x <-> y`, `v -> 1 - v`) changes
-//! nothing, so that half the pairs of widths are stored.
-//!
-//! Made by `cargo xtask tables`; its tests compare with quadrature at random points:
+//! Made by `cargo xtask tables`; its tests compare with quadrature at random points, a third of them
+//! with the widths at both ends of the range and a third near the narrow axis:
 //!
 //! | largest (rms) error of E | GGX | Beckmann |
 //! |---|---|---|
-//! | isotropic, alpha in [1e-4, 2] | 3e-4 (7e-6) | 6e-5 (9e-6) |
-//! | isotropic, alpha in [1e-4, 10] | 1.3e-3 (4e-5) | 1e-4 (7e-6) |
-//! | anisotropic, alphas in [0.05, 1.5] | 4e-3 (1.9e-4) | 4e-3 (5.2e-4) |
-//! | anisotropic, alphas in [1e-4, 10] | 5e-2 (1.5e-3) | 5e-2 (1.5e-3) |
+//! | isotropic, alpha in [1e-4, 2] | 9e-5 (3e-6) | 7e-6 (2e-6) |
+//! | isotropic, alpha in [1e-4, 10] | 3e-4 (8e-6) | 6e-5 (3e-6) |
+//! | anisotropic, alphas in [0.02, 2] | 4e-4 (6e-5) | 5e-4 (6e-5) |
+//! | anisotropic, alphas in [1e-3, 2] | 7e-4 (6e-5) | 2e-3 (9e-5) |
+//! | anisotropic, alphas in [1e-4, 10] | 1.2e-2 (3e-4) | 1.1e-2 (4e-4) |
+//! | isotropic table at `sqrt(ax ay)`, alphas in [0.02, 2] | 0.68 (0.23) | 0.64 (0.19) |
 //!
-//! The large errors belong to ratios of the widths above 10 within 5 degrees of the narrow axis.
-//! The isotropic table at `sqrt(ax ay)`, which others use, is wrong by 0.53 (rms 0.14) for GGX and
-//! 0.50 (rms 0.11) for Beckmann over the same widths in [0.05, 1.5], drawn independently: the table
-//! by azimuth is 700 and 200 times closer.
+//! The last row is what others use: the table by azimuth is 4000 and 3000 times closer.
 
 use super::albedo_tables::TABLES;
-use super::stencil::Stencil;
+use super::coordinates::{Widths, alpha_coordinate, average_scale, cosine_coordinate};
+use super::pairs::{pair, row};
+use super::rows::Rows;
+use super::spline::Cubic;
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3};
 use crate::ndf::{Beckmann, Ggx, Masking, Ndf};
 
 /// Widths of the isotropic tables.
-pub const ISOTROPIC_ALPHAS: usize = 64;
+pub const ISOTROPIC_ALPHAS: usize = 48;
 /// Cosines of the isotropic tables.
-pub const ISOTROPIC_COSINES: usize = 48;
+pub const ISOTROPIC_COSINES: usize = 40;
 /// Widths of the anisotropic tables.
 pub const ANISOTROPIC_ALPHAS: usize = 24;
 /// Azimuths of the anisotropic tables.
-pub const ANISOTROPIC_AZIMUTHS: usize = 8;
+pub const ANISOTROPIC_AZIMUTHS: usize = 12;
 /// Cosines of the anisotropic tables.
-pub const ANISOTROPIC_COSINES: usize = 18;
-/// Largest entry of the anisotropic tables: two digits to the base 94.
-pub const ANISOTROPIC_SCALE: f32 = 8835.0;
+pub const ANISOTROPIC_COSINES: usize = 22;
+/// Pairs of widths of the anisotropic tables.
+pub const ANISOTROPIC_PAIRS: usize = ANISOTROPIC_ALPHAS * (ANISOTROPIC_ALPHAS + 1) / 2;
+/// Lines of the anisotropic tables.
+pub const ANISOTROPIC_ROWS: usize = ANISOTROPIC_PAIRS * ANISOTROPIC_AZIMUTHS;
 
 /// A distribution that has tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -93,15 +87,22 @@ pub(super) fn table_index(distribution: Distribution, masking: Masking) -> usize
 /// The energy that single scattering off one surface loses: the tables at its widths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loss<T> {
-    /// Widths in ascending order.
-    low: T,
-    high: T,
-    /// Whether x is the wider axis.
-    swapped: bool,
     table: u8,
-    low_stencil: Stencil<T>,
-    high_stencil: Stencil<T>,
+    kind: Kind<T>,
     average: T,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind<T> {
+    Isotropic {
+        width: T,
+        stencil: Cubic<T>,
+    },
+    Anisotropic {
+        widths: Widths<T>,
+        low: Cubic<T>,
+        high: Cubic<T>,
+    },
 }
 
 impl<T: Real> Loss<T> {
@@ -110,24 +111,28 @@ impl<T: Real> Loss<T> {
     pub fn new<N: Tabulated<T>>(ndf: N, masking: Masking) -> Self {
         #[allow(clippy::cast_possible_truncation, reason = "an index below 4")]
         let table = table_index(N::DISTRIBUTION, masking) as u8;
+        let tables = &TABLES[usize::from(table)];
         let Alpha { x, y } = ndf.alpha();
-        let (low, high) = (Real::min(x, y), Real::max(x, y));
-        let count = if low == high {
-            ISOTROPIC_ALPHAS
+        let stencil = |width, count| Cubic::cubic(alpha_coordinate(width), count);
+        let (kind, root) = if x == y {
+            let stencil = stencil(x, ISOTROPIC_ALPHAS);
+            let root = stencil.sum(|i| T::of(f64::from(tables.isotropic_average[i])));
+            (Kind::Isotropic { width: x, stencil }, root)
         } else {
-            ANISOTROPIC_ALPHAS
+            let widths = Widths::new(x, y);
+            let (low, high) = widths.ordered();
+            let low = stencil(low, ANISOTROPIC_ALPHAS);
+            let high = stencil(high, ANISOTROPIC_ALPHAS);
+            let averages = &tables.anisotropic_average;
+            let root = low.sum(|i| high.sum(|j| T::of(f64::from(averages[pair(i, j).0]))));
+            (Kind::Anisotropic { widths, low, high }, root)
         };
-        let mut loss = Self {
-            low,
-            high,
-            swapped: x > y,
+        let scaled = root * average_scale(x, y);
+        Self {
             table,
-            low_stencil: Stencil::new(alpha_coordinate(low), count),
-            high_stencil: Stencil::new(alpha_coordinate(high), count),
-            average: T::ZERO,
-        };
-        loss.average = loss.interpolated_average();
-        loss
+            kind,
+            average: Real::clamp(scaled * scaled, T::of(1e-18), T::ONE),
+        }
     }
 
     /// `1 - E(wo)`, in `[0, 1]`, of `wo` or its mirror image above the horizon.
@@ -136,25 +141,17 @@ impl<T: Real> Loss<T> {
     #[inline]
     pub fn directional(&self, wo: Vec3<T>) -> T {
         let cosine = Real::min(wo.z.abs(), T::ONE);
-        let root = if self.low == self.high {
-            let table = &TABLES[usize::from(self.table)].isotropic;
-            let at = Stencil::new(cosine_coordinate(cosine, self.low), ISOTROPIC_COSINES);
-            isotropic(table, &self.low_stencil, &at)
-        } else {
-            let (along_low, along_high) = if self.swapped {
-                (wo.y, wo.x)
-            } else {
-                (wo.x, wo.y)
-            };
-            let (width, v) = azimuth_coordinate(self.low, self.high, along_low, along_high);
-            let m = cosine_coordinate(cosine, width);
-            let table = &TABLES[usize::from(self.table)].anisotropic;
-            anisotropic(
-                table,
-                [&self.low_stencil, &self.high_stencil],
-                &Stencil::new(v, ANISOTROPIC_AZIMUTHS),
-                &Stencil::new(m, ANISOTROPIC_COSINES),
-            )
+        let tables = &TABLES[usize::from(self.table)];
+        let root = match &self.kind {
+            Kind::Isotropic { width, stencil } => {
+                let m = cosine_coordinate(cosine, *width);
+                isotropic(&tables.isotropic, stencil, m)
+            }
+            Kind::Anisotropic { widths, low, high } => {
+                let azimuth = widths.azimuth(wo.x, wo.y);
+                let m = cosine_coordinate(cosine, azimuth.width);
+                anisotropic(tables.anisotropic, [low, high], azimuth.v, m)
+            }
         };
         Real::min(root * root, T::ONE)
     }
@@ -164,136 +161,30 @@ impl<T: Real> Loss<T> {
     pub fn average(&self) -> T {
         self.average
     }
-
-    fn interpolated_average(&self) -> T {
-        let root = if self.low == self.high {
-            let table = &TABLES[usize::from(self.table)].isotropic_average;
-            self.low_stencil.sum(|i| T::of(f64::from(table[i])))
-        } else {
-            let table = &TABLES[usize::from(self.table)].anisotropic_average;
-            self.low_stencil.sum(|i| {
-                self.high_stencil
-                    .sum(|j| T::of(f64::from(table[pair(i, j).0])))
-            })
-        };
-        let scaled = root * average_scale(self.low, self.high);
-        Real::clamp(scaled * scaled, T::of(1e-18), T::ONE)
-    }
 }
 
-/// The coordinate of a width.
-#[inline(always)]
-pub fn alpha_coordinate<T: Real>(alpha: T) -> T {
-    (alpha.sqrt().sqrt() - T::of(ALPHA_START)) * T::of(1.0 / (ALPHA_END - ALPHA_START))
-}
-
-/// The width of a coordinate.
-pub fn alpha_at<T: Real>(t: T) -> T {
-    (T::of(ALPHA_START) + t * T::of(ALPHA_END - ALPHA_START))
-        .squared()
-        .squared()
-}
-
-const ALPHA_START: f64 = 0.1;
-/// `10^(1/4)`.
-const ALPHA_END: f64 = 1.778_279_410_038_922_8;
-
-/// The coordinate of a cosine at a width along the view.
-#[inline(always)]
-pub fn cosine_coordinate<T: Real>(cosine: T, width: T) -> T {
-    let share = cosine * (T::ONE + width) / (cosine + width);
-    T::ONE - (T::ONE - share.sqrt()).safe_sqrt()
-}
-
-/// The cosine of a coordinate at a width along the view.
-pub fn cosine_at<T: Real>(m: T, width: T) -> T {
-    let root = T::ONE - (T::ONE - m).squared();
-    let share = root * root;
-    Real::min(share * width / (T::ONE + width - share), T::ONE)
-}
-
-/// `(a, v)`: the width along the view and the coordinate of the azimuth.
-#[inline(always)]
-pub fn azimuth_coordinate<T: Real>(low: T, high: T, along_low: T, along_high: T) -> (T, T) {
-    let (x2, y2) = (along_low * along_low, along_high * along_high);
-    let length2 = x2 + y2;
-    // Straight from above, every azimuth has the same value.
-    let share = T::select(length2 > T::TINY, y2 / length2, T::HALF);
-    let width = (low * low + (high * high - low * low) * share).sqrt();
-    // (sqrt(a) - sqrt(l)) / (sqrt(h) - sqrt(l)), expanded so that equal widths are no 0/0.
-    let (l, h, a) = (low.sqrt(), high.sqrt(), width.sqrt());
-    let v = share * (high + low) * (h + l) / ((width + low) * (a + l));
-    (width, v)
-}
-
-/// The share `y^2 / (x^2 + y^2)` and the width along the view of a coordinate of the azimuth.
-pub fn azimuth_at(low: f64, high: f64, v: f64) -> (f64, f64) {
-    let root = low.sqrt() + v * (high.sqrt() - low.sqrt());
-    let width = root * root;
-    if low == high {
-        return (v, width);
-    }
-    let share = (width - low) * (width + low) / ((high - low) * (high + low));
-    (share.clamp(0.0, 1.0), width)
-}
-
-/// What the tables of averages are scaled with: smooth, and the quotient varies slowly.
-#[inline(always)]
-pub fn average_scale<T: Real>(alpha_x: T, alpha_y: T) -> T {
-    let width = ((alpha_x * alpha_x + alpha_y * alpha_y) * T::HALF).sqrt();
-    width / (T::ONE + width)
-}
-
-/// Largest quotient of `sqrt(1 - E_avg)` and [`average_scale`] that the tables hold.
-pub const AVERAGE_RANGE: f32 = 8.0;
-
-/// Row of a pair of widths, the lower first; and whether the pair was exchanged.
-#[inline(always)]
-pub fn pair(i: usize, j: usize) -> (usize, bool) {
-    if i <= j {
-        (j * (j + 1) / 2 + i, false)
-    } else {
-        (i * (i + 1) / 2 + j, true)
-    }
-}
-
-/// `sqrt(1 - E)` of an isotropic table.
+/// `sqrt(1 - E)` of an isotropic table at the coordinate of a cosine.
 #[inline(always)]
 pub fn isotropic<T: Real>(
     table: &[[f32; ISOTROPIC_COSINES]; ISOTROPIC_ALPHAS],
-    alpha: &Stencil<T>,
-    cosine: &Stencil<T>,
+    alpha: &Cubic<T>,
+    m: T,
 ) -> T {
+    let cosine = Cubic::cubic(m, ISOTROPIC_COSINES);
     alpha.sum(|i| cosine.sum(|k| T::of(f64::from(table[i][k]))))
 }
 
-/// One distribution's anisotropic table, by pair of widths, azimuth and cosine.
-pub type AnisotropicTable = [[[u16; ANISOTROPIC_COSINES]; ANISOTROPIC_AZIMUTHS]; ANISOTROPIC_PAIRS];
-
-/// Pairs of widths of the anisotropic tables.
-pub const ANISOTROPIC_PAIRS: usize = ANISOTROPIC_ALPHAS * (ANISOTROPIC_ALPHAS + 1) / 2;
-
-/// `sqrt(1 - E)` of an anisotropic table.
+/// `sqrt(1 - E)` of an anisotropic table at the coordinates of an azimuth and a cosine.
 #[inline(always)]
 pub fn anisotropic<T: Real>(
-    table: &AnisotropicTable,
-    alphas: [&Stencil<T>; 2],
-    azimuth: &Stencil<T>,
-    cosine: &Stencil<T>,
+    table: Rows<ANISOTROPIC_COSINES>,
+    [low, high]: [&Cubic<T>; 2],
+    v: T,
+    m: T,
 ) -> T {
-    let sum = alphas[0].sum(|i| {
-        alphas[1].sum(|j| {
-            let (row, exchanged) = pair(i, j);
-            let rows = &table[row];
-            azimuth.sum(|v| {
-                let v = if exchanged {
-                    ANISOTROPIC_AZIMUTHS - 1 - v
-                } else {
-                    v
-                };
-                cosine.sum(|k| T::of(f64::from(rows[v][k])))
-            })
-        })
-    });
-    sum * T::of(f64::from(1.0 / ANISOTROPIC_SCALE))
+    let azimuth = Cubic::cubic(v, ANISOTROPIC_AZIMUTHS);
+    let cosine = Cubic::cubic(m, ANISOTROPIC_COSINES);
+    Rows::<ANISOTROPIC_COSINES>::coefficient(low.sum(|i| {
+        high.sum(|j| azimuth.sum(|v| table.sum(row(i, j, v, ANISOTROPIC_AZIMUTHS), &cosine)))
+    }))
 }

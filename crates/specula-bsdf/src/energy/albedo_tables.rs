@@ -1,15 +1,20 @@
-//! The tables of lost energy, decoded from text when the crate is compiled.
+//! The tables of lost energy.
 //!
 //! `tables/*.txt` are made by `cargo xtask tables`: numbers in base 94, most significant digit
-//! first, digits the characters from `!` to `~`; line ends mean nothing. In order: isotropic roots
-//! (3 digits each, as shares of 94^3 - 1), their averages (4), anisotropic roots (2), their
-//! averages (4), dielectric roots (2), their averages (4). Averages are shares of `AVERAGE_RANGE`.
+//! first, digits the characters from `!` to `~`. A number says how far a spline's coefficient
+//! (`spline`) lies between two limits.
+//!
+//! Large tables have two digits and are read as text (`rows`). Small ones are decoded when the crate
+//! is compiled; line ends mean nothing there. In order: isotropic roots (3 digits each), their
+//! averages, those of the anisotropic table, of the interface and of the anisotropic interface (4).
 
 use super::albedo::{
-    ANISOTROPIC_AZIMUTHS, ANISOTROPIC_COSINES, ANISOTROPIC_PAIRS, AVERAGE_RANGE, AnisotropicTable,
-    ISOTROPIC_ALPHAS, ISOTROPIC_COSINES,
+    ANISOTROPIC_COSINES, ANISOTROPIC_PAIRS, ANISOTROPIC_ROWS, ISOTROPIC_ALPHAS, ISOTROPIC_COSINES,
 };
-use super::dielectric_albedo::{ALPHAS, COSINES, DielectricTable, ETAS};
+use super::dielectric_albedo::{
+    ALPHAS, COSINES, ETAS, STRETCHED_COSINES, STRETCHED_ETAS, STRETCHED_PAIRS, STRETCHED_ROWS,
+};
+use super::rows::{AVERAGE_HIGH, AVERAGE_LOW, HIGH, LOW, Rows};
 
 /// Everything about one distribution and masking.
 pub(super) struct Tables {
@@ -18,125 +23,121 @@ pub(super) struct Tables {
     /// `sqrt(1 - E_avg)` over its scale, by width.
     pub(super) isotropic_average: [f32; ISOTROPIC_ALPHAS],
     /// `sqrt(1 - E)` by pair of widths, azimuth and cosine.
-    pub(super) anisotropic: AnisotropicTable,
+    pub(super) anisotropic: Rows<'static, ANISOTROPIC_COSINES>,
     /// `sqrt(1 - E_avg)` over its scale, by pair of widths.
     pub(super) anisotropic_average: [f32; ANISOTROPIC_PAIRS],
-    /// `sqrt(1 - E)` of dielectrics by index, width and cosine.
-    pub(super) dielectric: DielectricTable,
-    /// `sqrt(1 - E_avg)` of dielectrics over its scale, by index and width.
-    pub(super) dielectric_average: [[f32; ALPHAS]; ETAS],
+    /// `sqrt(1 - E)` of interfaces by index, width and cosine.
+    pub(super) interface: Rows<'static, COSINES>,
+    /// `sqrt(1 - E_avg)` of interfaces over its scale, by index and width.
+    pub(super) interface_average: [[f32; ALPHAS]; ETAS],
+    /// `sqrt(1 - E)` of anisotropic interfaces by index, pair of widths, azimuth and cosine.
+    pub(super) stretched: Rows<'static, STRETCHED_COSINES>,
+    /// `sqrt(1 - E_avg)` of anisotropic interfaces over its scale, by index and pair of widths.
+    pub(super) stretched_average: [[f32; STRETCHED_PAIRS]; STRETCHED_ETAS],
 }
 
 /// By distribution and masking.
-#[allow(long_running_const_eval, reason = "a quarter of a million digits")]
+#[allow(long_running_const_eval, reason = "some ten thousand digits")]
 pub(super) static TABLES: [Tables; 4] = [
-    decode(include_str!("tables/ggx_correlated.txt").as_bytes()),
-    decode(include_str!("tables/ggx_separable.txt").as_bytes()),
-    decode(include_str!("tables/beckmann_correlated.txt").as_bytes()),
-    decode(include_str!("tables/beckmann_separable.txt").as_bytes()),
+    decode(
+        include_bytes!("tables/ggx_correlated.txt"),
+        include_bytes!("tables/ggx_correlated_anisotropic.txt"),
+        include_bytes!("tables/ggx_correlated_interface.txt"),
+        include_bytes!("tables/ggx_correlated_stretched.txt"),
+    ),
+    decode(
+        include_bytes!("tables/ggx_separable.txt"),
+        include_bytes!("tables/ggx_separable_anisotropic.txt"),
+        include_bytes!("tables/ggx_separable_interface.txt"),
+        include_bytes!("tables/ggx_separable_stretched.txt"),
+    ),
+    decode(
+        include_bytes!("tables/beckmann_correlated.txt"),
+        include_bytes!("tables/beckmann_correlated_anisotropic.txt"),
+        include_bytes!("tables/beckmann_correlated_interface.txt"),
+        include_bytes!("tables/beckmann_correlated_stretched.txt"),
+    ),
+    decode(
+        include_bytes!("tables/beckmann_separable.txt"),
+        include_bytes!("tables/beckmann_separable_anisotropic.txt"),
+        include_bytes!("tables/beckmann_separable_interface.txt"),
+        include_bytes!("tables/beckmann_separable_stretched.txt"),
+    ),
 ];
 
-/// Largest number of `digits` digits.
-const fn largest(digits: u32) -> f32 {
-    #[allow(clippy::cast_precision_loss, reason = "below 2^24 up to three digits")]
-    let value = (94_u32.pow(digits) - 1) as f32;
-    value
-}
-
-/// The number of `digits` digits at `at`, and where the next one begins.
-const fn number(text: &[u8], mut at: usize, digits: u32) -> (u32, usize) {
-    let mut value = 0;
-    let mut read = 0;
-    while read < digits {
-        let byte = text[at];
-        at += 1;
-        if byte > b' ' {
-            value = value * 94 + (byte - b'!') as u32;
-            read += 1;
-        }
-    }
-    (value, at)
-}
-
-/// A row of fractions of `digits` digits, scaled.
-const fn row<const N: usize>(
-    text: &[u8],
-    mut at: usize,
-    digits: u32,
-    scale: f32,
-) -> ([f32; N], usize) {
-    let mut values = [0.0; N];
-    let mut i = 0;
-    while i < N {
-        let (value, next) = number(text, at, digits);
-        #[allow(clippy::cast_precision_loss, reason = "rounding is meant")]
-        let share = value as f32 / largest(digits);
-        values[i] = share * scale;
-        at = next;
-        i += 1;
-    }
-    (values, at)
-}
-
-/// A row of numbers of two digits.
-const fn short_row<const N: usize>(text: &[u8], mut at: usize) -> ([u16; N], usize) {
-    let mut values = [0; N];
-    let mut i = 0;
-    while i < N {
-        let (value, next) = number(text, at, 2);
-        #[allow(clippy::cast_possible_truncation, reason = "below 94^2")]
-        let value = value as u16;
-        values[i] = value;
-        at = next;
-        i += 1;
-    }
-    (values, at)
-}
-
-const fn decode(text: &[u8]) -> Tables {
-    let mut at = 0;
+const fn decode(
+    small: &'static [u8],
+    anisotropic: &'static [u8],
+    interface: &'static [u8],
+    stretched: &'static [u8],
+) -> Tables {
+    let mut digits = Digits { text: small, at: 0 };
     let mut isotropic = [[0.0; ISOTROPIC_COSINES]; ISOTROPIC_ALPHAS];
     let mut i = 0;
     while i < ISOTROPIC_ALPHAS {
-        (isotropic[i], at) = row(text, at, 3, 1.0);
+        isotropic[i] = digits.row(3, LOW, HIGH);
         i += 1;
     }
-    let (isotropic_average, next) = row(text, at, 4, AVERAGE_RANGE);
-    at = next;
-    let mut anisotropic = [[[0; ANISOTROPIC_COSINES]; ANISOTROPIC_AZIMUTHS]; ANISOTROPIC_PAIRS];
-    i = 0;
-    while i < ANISOTROPIC_PAIRS {
-        let mut v = 0;
-        while v < ANISOTROPIC_AZIMUTHS {
-            (anisotropic[i][v], at) = short_row(text, at);
-            v += 1;
-        }
-        i += 1;
-    }
-    let (anisotropic_average, next) = row(text, at, 4, AVERAGE_RANGE);
-    at = next;
-    let mut dielectric = [[[0; COSINES]; ALPHAS]; ETAS];
+    let isotropic_average = digits.row(4, AVERAGE_LOW, AVERAGE_HIGH);
+    let anisotropic_average = digits.row(4, AVERAGE_LOW, AVERAGE_HIGH);
+    let mut interface_average = [[0.0; ALPHAS]; ETAS];
     i = 0;
     while i < ETAS {
-        let mut j = 0;
-        while j < ALPHAS {
-            (dielectric[i][j], at) = short_row(text, at);
-            j += 1;
-        }
+        interface_average[i] = digits.row(4, AVERAGE_LOW, AVERAGE_HIGH);
         i += 1;
     }
-    let mut dielectric_average = [[0.0; ALPHAS]; ETAS];
+    let mut stretched_average = [[0.0; STRETCHED_PAIRS]; STRETCHED_ETAS];
     i = 0;
-    while i < ETAS {
-        (dielectric_average[i], at) = row(text, at, 4, AVERAGE_RANGE);
+    while i < STRETCHED_ETAS {
+        stretched_average[i] = digits.row(4, AVERAGE_LOW, AVERAGE_HIGH);
         i += 1;
     }
     Tables {
         isotropic,
         isotropic_average,
-        anisotropic,
+        anisotropic: Rows::new(anisotropic, ANISOTROPIC_ROWS),
         anisotropic_average,
-        dielectric,
-        dielectric_average,
+        interface: Rows::new(interface, ETAS * ALPHAS),
+        interface_average,
+        stretched: Rows::new(stretched, STRETCHED_ROWS),
+        stretched_average,
+    }
+}
+
+/// A text of digits, and how much of it has been read.
+struct Digits {
+    text: &'static [u8],
+    at: usize,
+}
+
+impl Digits {
+    /// The next number of so many digits.
+    const fn number(&mut self, digits: u32) -> u32 {
+        let mut value = 0;
+        let mut read = 0;
+        while read < digits {
+            let byte = self.text[self.at];
+            self.at += 1;
+            if byte > b' ' {
+                value = value * 94 + (byte - b'!') as u32;
+                read += 1;
+            }
+        }
+        value
+    }
+
+    /// The next coefficients between two limits.
+    const fn row<const N: usize>(&mut self, digits: u32, low: f64, high: f64) -> [f32; N] {
+        let step = (high - low) / (94_u32.pow(digits) - 1) as f64;
+        let mut values = [0.0; N];
+        let mut i = 0;
+        while i < N {
+            let value = low + step * self.number(digits) as f64;
+            #[allow(clippy::cast_possible_truncation, reason = "rounding is meant")]
+            let value = value as f32;
+            values[i] = value;
+            i += 1;
+        }
+        values
     }
 }

@@ -4,52 +4,83 @@
 //! E(wo) = int f(wo, wi) |cos theta_i| dwi           reflection and refraction, importance
 //! ```
 //!
-//! As in `albedo`, tables hold `sqrt(1 - E)`: 2 x 12 indices x 24 widths x 18 cosines, tricubic,
-//! with the coordinate `sqrt(|eta - 1| / (eta + 1))` of indices in `[1.041, 3]` and of their
-//! inverses; beyond, the nearest is taken. The losses are those of `bsdf::RoughDielectric`, whose refraction has the
-//! masking of reflection.
+//! As in `albedo`, tables hold `sqrt(1 - E)` as coefficients of splines:
 //!
-//! Anisotropic widths are taken as the width along the view,
+//! * isotropic: 2 x 10 indices x 20 widths x 22 cosines, cubic;
+//! * anisotropic: 2 x 6 indices x 12 x 13 / 2 pairs of widths x 10 azimuths x 14 cosines, quadratic,
+//!   so that five dimensions ask for 243 coefficients, as many as the four of `albedo`.
 //!
-//! ```text
-//! a^2 = (ax^2 x^2 + ay^2 y^2) / (x^2 + y^2)
-//! ```
+//! The coordinate of an index is `sqrt(|eta - 1| / (eta + 1))`, of indices in `[1.041, 3]` and of
+//! their inverses; beyond, the nearest is taken. The others are those of `coordinates`, where total
+//! reflection has its edges. The losses are those of `bsdf::RoughDielectric`, whose refraction has
+//! the masking of reflection.
 //!
-//! a table by azimuth would have five dimensions. It is the width that decides how much refracted
-//! light is masked, and half as wrong as `sqrt(ax ay)`. The average is taken over azimuths, so that
-//! the second lobe of `bsdf::CompensatedDielectric` adds what `L` says.
-//!
-//! Errors of E, against quadrature at random points, alphas in [0.02, 1.5], indices in [1.05, 2.45]
-//! and their inverses (tests of the generator):
+//! Errors of E, against quadrature at random points, indices in [1.1, 2.4] and their inverses (tests
+//! of the generator):
 //!
 //! | largest (rms) | GGX | Beckmann |
 //! |---|---|---|
-//! | isotropic | 1.2e-2 (1.0e-3) | 1.5e-2 (1.5e-3) |
-//! | anisotropic, widths drawn independently | 0.6 (0.075) | |
+//! | isotropic, alpha in [0.02, 2] | 7e-3 (5e-4) | 7e-3 (6e-4) |
+//! | anisotropic, alphas in [0.05, 1.5] | 2e-2 (1.2e-3) | 2e-2 (2.6e-3) |
+//! | anisotropic, alphas in [0.02, 2] | 3.1e-2 (1.8e-3) | 2e-2 (2.8e-3) |
+//!
+//! The isotropic table at the width along the view instead was wrong by 0.6 (rms 0.075).
 
-use super::albedo::{Tabulated, alpha_coordinate, average_scale, cosine_coordinate, table_index};
+use super::albedo::{Tabulated, table_index};
 use super::albedo_tables::TABLES;
-use super::stencil::Stencil;
+use super::coordinates::{
+    Widths, alpha_coordinate, average_scale, edge, interface_cosine_coordinate,
+};
+use super::pairs::{pair, row};
+use super::rows::Rows;
+use super::spline::{Cubic, Quadratic};
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3};
 use crate::ndf::Masking;
 
-/// Indices of the tables.
-pub const ETAS: usize = 24;
-/// Widths of the tables.
-pub const ALPHAS: usize = 24;
-/// Cosines of the tables.
-pub const COSINES: usize = 18;
-/// One distribution's table, by index, width and cosine.
-pub type DielectricTable = [[[u16; COSINES]; ALPHAS]; ETAS];
+/// Indices of the isotropic tables.
+pub const ETAS: usize = 20;
+/// Widths of the isotropic tables.
+pub const ALPHAS: usize = 20;
+/// Cosines of the isotropic tables.
+pub const COSINES: usize = 22;
+/// Indices of the anisotropic tables.
+pub const STRETCHED_ETAS: usize = 12;
+/// Widths of the anisotropic tables.
+pub const STRETCHED_ALPHAS: usize = 12;
+/// Azimuths of the anisotropic tables.
+pub const STRETCHED_AZIMUTHS: usize = 10;
+/// Cosines of the anisotropic tables.
+pub const STRETCHED_COSINES: usize = 14;
+/// Pairs of widths of the anisotropic tables.
+pub const STRETCHED_PAIRS: usize = STRETCHED_ALPHAS * (STRETCHED_ALPHAS + 1) / 2;
+/// Lines of the anisotropic tables.
+pub const STRETCHED_ROWS: usize = STRETCHED_ETAS * STRETCHED_PAIRS * STRETCHED_AZIMUTHS;
 
 /// The energy that single scattering loses on one side of an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DielectricLoss<T> {
     table: u8,
-    alpha: Alpha<T>,
-    eta: EtaKnots<T>,
+    /// First index of the half of the tables: losses differ too much across 1 to be interpolated.
+    start: u8,
+    edge: T,
+    kind: Kind<T>,
     average: T,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind<T> {
+    Isotropic {
+        width: T,
+        eta: Cubic<T>,
+        alpha: Cubic<T>,
+    },
+    Anisotropic {
+        widths: Widths<T>,
+        eta: Quadratic<T>,
+        low: Quadratic<T>,
+        high: Quadratic<T>,
+    },
 }
 
 impl<T: Real> DielectricLoss<T> {
@@ -58,22 +89,45 @@ impl<T: Real> DielectricLoss<T> {
     pub fn new<N: Tabulated<T>>(ndf: N, masking: Masking, eta: T) -> Self {
         #[allow(clippy::cast_possible_truncation, reason = "an index below 4")]
         let table = table_index(N::DISTRIBUTION, masking) as u8;
-        let alpha = ndf.alpha();
-        let loss = Self {
-            table,
-            alpha,
-            eta: EtaKnots::new(eta),
-            average: T::ZERO,
-        };
-        let average = if alpha.x == alpha.y {
-            loss.isotropic_average(alpha.x)
+        let tables = &TABLES[usize::from(table)];
+        let Alpha { x, y } = ndf.alpha();
+        let number = |value: f32| T::of(f64::from(value));
+        let (kind, start, root) = if x == y {
+            let start = half(eta, ETAS);
+            let eta = Cubic::cubic(eta_coordinate(eta), ETAS / 2);
+            let alpha = Cubic::cubic(alpha_coordinate(x), ALPHAS);
+            let averages = &tables.interface_average;
+            let root = eta.sum(|e| alpha.sum(|i| number(averages[start + e][i])));
+            let width = x;
+            (Kind::Isotropic { width, eta, alpha }, start, root)
         } else {
-            AZIMUTHS.iter().fold(T::ZERO, |sum, &[share, weight]| {
-                let width = loss.width(T::of(1.0 - share), T::of(share));
-                sum + T::of(weight) * loss.isotropic_average(width)
-            })
+            let start = half(eta, STRETCHED_ETAS);
+            let eta = Quadratic::quadratic(eta_coordinate(eta), STRETCHED_ETAS / 2);
+            let widths = Widths::new(x, y);
+            let (low, high) = widths.ordered();
+            let low = Quadratic::quadratic(alpha_coordinate(low), STRETCHED_ALPHAS);
+            let high = Quadratic::quadratic(alpha_coordinate(high), STRETCHED_ALPHAS);
+            let averages = &tables.stretched_average;
+            let root =
+                eta.sum(|e| low.sum(|i| high.sum(|j| number(averages[start + e][pair(i, j).0]))));
+            let kind = Kind::Anisotropic {
+                widths,
+                eta,
+                low,
+                high,
+            };
+            (kind, start, root)
         };
-        Self { average, ..loss }
+        let scaled = root * average_scale(x, y);
+        #[allow(clippy::cast_possible_truncation, reason = "some dozen indices")]
+        let start = start as u8;
+        Self {
+            table,
+            start,
+            edge: edge(Real::clamp(eta, T::of(1.0 / 3.0), T::of(3.0))),
+            kind,
+            average: Real::clamp(scaled * scaled, T::of(1e-18), T::ONE),
+        }
     }
 
     /// `1 - E(wo)` of `wo` or its mirror image above the horizon.
@@ -81,15 +135,26 @@ impl<T: Real> DielectricLoss<T> {
     /// * `wo`: unit, local frame.
     #[inline]
     pub fn directional(&self, wo: Vec3<T>) -> T {
-        let (x2, y2) = (wo.x * wo.x, wo.y * wo.y);
-        let length2 = x2 + y2;
-        let share = T::select(length2 > T::TINY, y2 / length2, T::HALF);
-        let width = self.width(T::ONE - share, share);
         let cosine = Real::min(wo.z.abs(), T::ONE);
-        let at = Stencil::new(cosine_coordinate(cosine, width), COSINES);
-        let alpha = Stencil::new(alpha_coordinate(width), ALPHAS);
-        let table = &TABLES[usize::from(self.table)].dielectric;
-        let root = interpolate(table, &self.eta, &alpha, &at);
+        let tables = &TABLES[usize::from(self.table)];
+        let start = usize::from(self.start);
+        let root = match &self.kind {
+            Kind::Isotropic { width, eta, alpha } => {
+                let m = interface_cosine_coordinate(cosine, *width, self.edge);
+                isotropic(tables.interface, start, [eta, alpha], m)
+            }
+            Kind::Anisotropic {
+                widths,
+                eta,
+                low,
+                high,
+            } => {
+                let azimuth = widths.azimuth(wo.x, wo.y);
+                let m = interface_cosine_coordinate(cosine, azimuth.width, self.edge);
+                let v = azimuth.interface(self.edge);
+                stretched(tables.stretched, start, [eta, low, high], [v, m])
+            }
+        };
         Real::min(root * root, T::ONE)
     }
 
@@ -98,96 +163,67 @@ impl<T: Real> DielectricLoss<T> {
     pub fn average(&self) -> T {
         self.average
     }
-
-    /// The width along directions with these shares of their squared sine.
-    #[inline(always)]
-    fn width(&self, share_x: T, share_y: T) -> T {
-        let Alpha { x, y } = self.alpha;
-        (x * x * share_x + y * y * share_y).sqrt()
-    }
-
-    #[inline]
-    fn isotropic_average(&self, width: T) -> T {
-        let averages = &TABLES[usize::from(self.table)].dielectric_average;
-        let alpha = Stencil::new(alpha_coordinate(width), ALPHAS);
-        let root = self
-            .eta
-            .sum(|i| alpha.sum(|j| T::of(f64::from(averages[i][j]))));
-        let scaled = root * average_scale(width, width);
-        Real::clamp(scaled * scaled, T::of(1e-18), T::ONE)
-    }
 }
 
-/// `sin^2 phi` and weights of a mean over the azimuth: Gauss and Legendre's rule in `w`, with
-/// `phi = pi/4 (1 - cos(pi w))`: closer together along both axes.
-const AZIMUTHS: [[f64; 2]; 12] = [
-    [0.000_000_108_523_166, 0.001_073_025_434_802],
-    [0.000_079_051_007_411, 0.012_602_145_332_097],
-    [0.002_572_803_967_016, 0.044_458_683_765_501],
-    [0.025_168_688_244_109, 0.096_344_183_713_627],
-    [0.121_756_113_139_335, 0.153_616_268_169_167],
-    [0.348_894_153_098_073, 0.191_905_693_584_806],
-    [0.651_105_846_901_927, 0.191_905_693_584_806],
-    [0.878_243_886_860_665, 0.153_616_268_169_167],
-    [0.974_831_311_755_891, 0.096_344_183_713_627],
-    [0.997_427_196_032_984, 0.044_458_683_765_501],
-    [0.999_920_948_992_589, 0.012_602_145_332_097],
-    [0.999_999_891_476_834, 0.001_073_025_434_802],
-];
-
-/// Where an index lies in its half of the tables.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EtaKnots<T> {
-    /// First index of the half: losses differ too much across 1 to be interpolated there.
-    start: u8,
-    stencil: Stencil<T>,
+/// First row of an index's half of `count` rows.
+#[inline(always)]
+pub fn half<T: Real>(eta: T, count: usize) -> usize {
+    if eta < T::ONE { 0 } else { count / 2 }
 }
 
-impl<T: Real> EtaKnots<T> {
-    /// The knots about `eta`, the nearest where outside of the tables.
-    #[inline(always)]
-    pub fn new(eta: T) -> Self {
-        let s = (eta - T::ONE) / (eta + T::ONE);
-        let root = s.abs().sqrt();
-        let x = (root - T::of(ROOT_START)) * T::of(1.0 / (ROOT_END - ROOT_START));
-        Self {
-            start: if s < T::ZERO { 0 } else { HALF_ETAS_U8 },
-            stencil: Stencil::new(x, HALF_ETAS),
-        }
-    }
-
-    #[inline(always)]
-    fn sum(&self, value: impl Fn(usize) -> T) -> T {
-        let start = usize::from(self.start);
-        self.stencil.sum(|i| value(start + i))
-    }
+/// The coordinate of an index in its half of the tables.
+#[inline(always)]
+pub fn eta_coordinate<T: Real>(eta: T) -> T {
+    let root = ((eta - T::ONE) / (eta + T::ONE)).abs().sqrt();
+    (root - T::of(ROOT_START)) * T::of(1.0 / (ROOT_END - ROOT_START))
 }
 
-const HALF_ETAS: usize = ETAS / 2;
-const HALF_ETAS_U8: u8 = 12;
+/// The index above 1 of a coordinate.
+pub fn eta_at(x: f64) -> f64 {
+    let root = ROOT_START + x * (ROOT_END - ROOT_START);
+    (1.0 + root * root) / (1.0 - root * root)
+}
+
 /// `sqrt(0.02)`: an index of 1.0408.
 const ROOT_START: f64 = 0.141_421_356_237_309_5;
 /// `sqrt(0.5)`: an index of 3.
 const ROOT_END: f64 = core::f64::consts::FRAC_1_SQRT_2;
 
-/// The relative index of a row of the tables.
-pub fn eta_at(row: usize) -> f64 {
-    #[allow(clippy::cast_precision_loss, reason = "two dozen rows")]
-    let share = (row % HALF_ETAS) as f64 / (HALF_ETAS - 1) as f64;
-    let root = ROOT_START + share * (ROOT_END - ROOT_START);
-    let s = root * root;
-    let eta = (1.0 + s) / (1.0 - s);
-    if row < HALF_ETAS { 1.0 / eta } else { eta }
+/// `sqrt(1 - E)` of an isotropic table at the coordinate of a cosine, from the first row of the half
+/// on.
+#[inline(always)]
+pub fn isotropic<T: Real>(
+    table: Rows<COSINES>,
+    start: usize,
+    [eta, alpha]: [&Cubic<T>; 2],
+    m: T,
+) -> T {
+    let cosine = Cubic::cubic(m, COSINES);
+    Rows::<COSINES>::coefficient(
+        eta.sum(|e| alpha.sum(|i| table.sum((start + e) * ALPHAS + i, &cosine))),
+    )
 }
 
-/// `sqrt(1 - E)` of a table.
+/// `sqrt(1 - E)` of an anisotropic table at the coordinates of an azimuth and a cosine, from the
+/// first row of the half on.
 #[inline(always)]
-pub fn interpolate<T: Real>(
-    table: &DielectricTable,
-    eta: &EtaKnots<T>,
-    alpha: &Stencil<T>,
-    cosine: &Stencil<T>,
+pub fn stretched<T: Real>(
+    table: Rows<STRETCHED_COSINES>,
+    start: usize,
+    [eta, low, high]: [&Quadratic<T>; 3],
+    [v, m]: [T; 2],
 ) -> T {
-    let sum = eta.sum(|i| alpha.sum(|j| cosine.sum(|k| T::of(f64::from(table[i][j][k])))));
-    sum * T::of(f64::from(1.0 / super::albedo::ANISOTROPIC_SCALE))
+    const EACH: usize = STRETCHED_PAIRS * STRETCHED_AZIMUTHS;
+    let azimuth = Quadratic::quadratic(v, STRETCHED_AZIMUTHS);
+    let cosine = Quadratic::quadratic(m, STRETCHED_COSINES);
+    Rows::<STRETCHED_COSINES>::coefficient(eta.sum(|e| {
+        low.sum(|i| {
+            high.sum(|j| {
+                azimuth.sum(|v| {
+                    let row = row(i, j, v, STRETCHED_AZIMUTHS);
+                    table.sum((start + e) * EACH + row, &cosine)
+                })
+            })
+        })
+    }))
 }

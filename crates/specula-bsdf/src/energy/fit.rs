@@ -9,8 +9,8 @@
 //! rms 1.4e-3; test `the_fit_holds_its_bound`), for shaders that hold no table. The root is what is
 //! smooth where little is lost.
 //!
-//! Coefficients: weighted least squares of the root over 64 x 32 knots on the axes of the isotropic
-//! table with alpha up to 1.05; the weights are raised in 300 rounds where the error of E is largest
+//! Coefficients: weighted least squares of the root over 64 x 32 knots, uniform in `alpha^(1/4)` up
+//! to alpha 1.05 and in the cosine's coordinate (`coordinates`); the weights are raised in 300 rounds where the error of E is largest
 //! (Lawson's iteration, exponent 1/2), and the best round is kept.
 
 use crate::math::Real;

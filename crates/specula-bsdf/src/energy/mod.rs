@@ -4,7 +4,9 @@
 //! |---|---|
 //! | `albedo` | directional and average albedo of rough reflection, tables |
 //! | `dielectric_albedo` | the same of rough interfaces, both branches |
-//! | `fit` | the directional albedo as a short formula, for shaders |
+//! | `coordinates` | where the tables have their knots |
+//! | `spline`, `rows`, `pairs` | splines, and how their coefficients are stored |
+//! | `stencil` | neighbouring knots of a table of values |
 //! | `fit` | the directional loss as a short formula, for shaders |
 //! | `model` | Turquin's and Kulla and Conty's factors |
 //! | `fresnel_average` | cosine-averaged reflectance |
@@ -12,12 +14,16 @@
 
 pub mod albedo;
 mod albedo_tables;
+pub mod coordinates;
 pub mod dielectric_albedo;
 pub mod fit;
 pub mod fresnel_average;
 pub mod interface;
 mod interface_table;
 pub mod model;
+pub mod pairs;
+pub mod rows;
+pub mod spline;
 pub mod stencil;
 
 pub use albedo::{Loss, Tabulated};

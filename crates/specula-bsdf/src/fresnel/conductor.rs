@@ -1,6 +1,6 @@
 //! Exact reflectance of a conductor.
 
-use crate::math::{Real, Rgb};
+use crate::math::{Real, Rgb, rgb};
 
 /// Unpolarised reflectance of an interface with a complex index of refraction, per channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +27,23 @@ impl<T: Real> Conductor<T> {
     /// Source: Born and Wolf, Principles of Optics, 14.2; Fresnel's equations for a complex index.
     #[inline(always)]
     pub fn eval(&self, cos: T) -> Rgb<T> {
-        self.eta.zip(self.k, |eta, k| reflectance(cos, eta, k))
+        let cos = Real::clamp(cos, T::ZERO, T::ONE);
+        let quotient = |eta, k| quotient(cos, eta, k);
+        let (r, g, b) = (
+            quotient(self.eta.r, self.k.r),
+            quotient(self.eta.g, self.k.g),
+            quotient(self.eta.b, self.k.b),
+        );
+        // One division for the three: each denominator lies in [1e-12, 5e12].
+        let green_blue = g.1 * b.1;
+        let inverse = T::ONE / (r.1 * green_blue);
+        let red = r.1 * inverse;
+        let f = |x| Real::clamp(x, T::ZERO, T::ONE);
+        rgb(
+            f(r.0 * (green_blue * inverse)),
+            f(g.0 * (b.1 * red)),
+            f(b.0 * (g.1 * red)),
+        )
     }
 
     /// The same metal under a medium of index `eta` instead of vacuum.
@@ -41,29 +57,28 @@ impl<T: Real> Conductor<T> {
     }
 }
 
+/// Numerator and denominator of `(Rs + Rp) / 2`.
 #[inline(always)]
-fn reflectance<T: Real>(cos: T, eta: T, k: T) -> T {
-    let cos = Real::clamp(cos, T::ZERO, T::ONE);
+fn quotient<T: Real>(cos: T, eta: T, k: T) -> (T, T) {
+    // Beyond 1000 everything reflects alike; the limit keeps products of denominators in range.
+    let limit = T::of(1e3);
+    let (eta, k) = (Real::min(eta, limit), Real::min(k, limit));
+    let (eta2, k2) = (eta * eta, k * k);
     let cos2 = cos * cos;
     let sin2 = T::ONE - cos2;
-    let (eta2, k2) = (eta * eta, k * k);
     let t = eta2 - k2 - sin2;
-    let a2_plus_b2 = (t * t + T::of(4.0) * eta2 * k2).sqrt();
-    let a = (T::HALF * (a2_plus_b2 + t)).safe_sqrt();
+    let a2_plus_b2 = t.mul_add(t, T::of(4.0) * eta2 * k2).sqrt();
     let s = a2_plus_b2 + cos2;
-    let s2 = T::TWO * a * cos;
-    let p = cos2 * a2_plus_b2 + sin2 * sin2;
-    let p2 = s2 * sin2;
+    let s2 = cos * (T::TWO * (a2_plus_b2 + t)).safe_sqrt();
+    let p = cos2.mul_add(a2_plus_b2, sin2 * sin2);
+    let p2 = s2.mul_add(sin2, p);
     // An index of exactly 1 reflects nothing, and at grazing angles leaves 0/0.
-    let rs = (s - s2) / Real::max(s + s2, T::TINY);
-    let rp = rs * (p - p2) / Real::max(p + p2, T::TINY);
-    Real::clamp(T::HALF * (rs + rp), T::ZERO, T::ONE)
+    ((s - s2) * p, Real::max((s + s2) * p2, T::of(1e-12)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::rgb;
 
     #[test]
     fn normal_incidence_and_grazing_angles_have_their_closed_forms() {

@@ -16,8 +16,8 @@ use crate::math::{Real, Rgb};
 /// 2019, Fresnel Equations Considered Harmful.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct F82Tint<T> {
-    schlick: Schlick<T>,
-    hump: Rgb<T>,
+    pub(crate) schlick: Schlick<T>,
+    pub(crate) hump: Rgb<T>,
 }
 
 impl<T: Real> F82Tint<T> {

@@ -4,11 +4,14 @@ mod conductor;
 mod dielectric;
 mod f82;
 mod schlick;
+mod tinted;
 
 pub use conductor::Conductor;
 pub use dielectric::{Refraction, dielectric, dielectric_average, refract};
 pub use f82::F82Tint;
 pub use schlick::Schlick;
+pub use tinted::Tinted;
+pub(crate) use tinted::Untinted;
 
 use crate::math::{Real, Rgb};
 
@@ -23,6 +26,8 @@ pub enum Reflectance<T> {
     Schlick(Schlick<T>),
     /// Schlick's approximation with a chosen colour at 82 degrees.
     F82Tint(F82Tint<T>),
+    /// Another one times a colour.
+    Tinted(Tinted<T>),
 }
 
 impl<T: Real> Reflectance<T> {
@@ -36,6 +41,7 @@ impl<T: Real> Reflectance<T> {
             Self::Conductor(f) => f.eval(cos),
             Self::Schlick(f) => f.eval(cos),
             Self::F82Tint(f) => f.eval(cos),
+            Self::Tinted(f) => f.eval(cos),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Scalars, vectors, colours, frames and warps: what every formula stands on.
 
 mod frame;
+mod fused;
 mod real;
 mod rgb;
 mod stream;
@@ -9,6 +10,8 @@ mod vec3;
 pub mod warp;
 
 pub use frame::Frame;
+#[doc(hidden)]
+pub use fused::Fused;
 pub use real::Real;
 pub use rgb::{Rgb, rgb};
 pub use stream::Stream;

@@ -3,12 +3,14 @@
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use super::turns;
+use super::{Fused, turns};
 
 mod sealed {
     pub trait Sealed {}
     impl Sealed for f32 {}
     impl Sealed for f64 {}
+    impl Sealed for crate::math::Fused<f32> {}
+    impl Sealed for crate::math::Fused<f64> {}
 }
 
 /// A floating-point scalar. Sealed: `f32` and `f64` are all there are.
@@ -54,11 +56,17 @@ pub trait Real:
     const TINY: Self;
     /// Largest finite number.
     const MAX: Self;
+    /// The same numbers with fused [`mul_add`](Real::mul_add).
+    #[doc(hidden)]
+    type Fused: Real;
 
     /// A literal, rounded to this type.
     fn of(x: f64) -> Self;
     /// This number as `f64`, exactly.
     fn to_f64(self) -> f64;
+    /// `self * factor + term`: rounded twice by `f32` and `f64`, so that scalar results are the same
+    /// on every machine; once inside the batch kernels, where the machine has the instruction.
+    fn mul_add(self, factor: Self, term: Self) -> Self;
     /// Square root; NaN below zero.
     fn sqrt(self) -> Self;
     /// Absolute value.
@@ -141,6 +149,7 @@ macro_rules! impl_real {
             const EPSILON: Self = $t::EPSILON;
             const TINY: Self = $t::MIN_POSITIVE;
             const MAX: Self = $t::MAX;
+            type Fused = Fused<$t>;
 
             #[inline(always)]
             #[allow(
@@ -153,6 +162,10 @@ macro_rules! impl_real {
             #[inline(always)]
             fn to_f64(self) -> f64 {
                 f64::from(self)
+            }
+            #[inline(always)]
+            fn mul_add(self, factor: Self, term: Self) -> Self {
+                self * factor + term
             }
             #[inline(always)]
             fn sqrt(self) -> Self {

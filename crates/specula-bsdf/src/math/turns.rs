@@ -1,26 +1,37 @@
 //! Sine and cosine of a fraction of a turn, without branches, tables or range reduction.
 //!
-//! With `t = u - 1/2`, both follow from `s = sin(pi t)` and `c = cos(pi t)` on half a turn, where
-//! polynomials are short: `sin(2 pi u) = -2 s c` and `cos(2 pi u) = 2 s^2 - 1`. The coefficients
+//! With `t = 1/2 - u`, both follow from `s = sin(pi t)` and `c = cos(pi t)` on half a turn, where
+//! polynomials are short: `sin(2 pi u) = 2 s c` and `cos(2 pi u) = 2 s^2 - 1`. The coefficients
 //! are Chebyshev fits in `t^2` over `[0, 1/4]`, computed in 40 digits.
 
-/// `(sin(2 pi u), cos(2 pi u))` for `u` in `[0, 1]`; absolute error at most 1e-6.
+use super::Real;
+
+/// `(sin(2 pi u), cos(2 pi u))` for `u` in `[0, 1]`; absolute error at most 1e-6, for `f32`.
 #[inline(always)]
-pub(crate) fn sin_cos_f32(u: f32) -> (f32, f32) {
-    let t = u - 0.5;
+pub(crate) fn sin_cos_f32<T: Real>(u: T) -> (T, T) {
+    const SIN: [f32; 5] = [
+        core::f32::consts::PI,
+        -5.167_71,
+        2.550_077_4,
+        -0.598_290_4,
+        0.077_655_91,
+    ];
+    const COS: [f32; 6] = [
+        1.0,
+        -4.934_802,
+        4.058_709,
+        -1.335_212,
+        0.234_937_07,
+        -0.024_395_932,
+    ];
+    let t = T::HALF - u;
     let x = t * t;
-    let s = t
-        * (core::f32::consts::PI
-            + x * (-5.167_71 + x * (2.550_077_4 + x * (-0.598_290_4 + x * 0.077_655_91))));
-    let c = 1.0
-        + x * (-4.934_802
-            + x * (4.058_709 + x * (-1.335_212 + x * (0.234_937_07 + x * -0.024_395_932))));
-    (-2.0 * s * c, 2.0 * s * s - 1.0)
+    double_angle(t * horner(x, 2.0, &SIN), horner(x, 1.0, &COS))
 }
 
-/// `(sin(2 pi u), cos(2 pi u))` for `u` in `[0, 1]`; absolute error at most 2e-15.
+/// `(sin(2 pi u), cos(2 pi u))` for `u` in `[0, 1]`; absolute error at most 2e-15, for `f64`.
 #[inline(always)]
-pub(crate) fn sin_cos_f64(u: f64) -> (f64, f64) {
+pub(crate) fn sin_cos_f64<T: Real>(u: T) -> (T, T) {
     const SIN: [f64; 8] = [
         core::f64::consts::PI,
         -5.167_712_780_049_786,
@@ -42,20 +53,33 @@ pub(crate) fn sin_cos_f64(u: f64) -> (f64, f64) {
         -0.000_104_566_553_387_487_38,
         0.000_004_149_564_353_942_586,
     ];
-    let t = u - 0.5;
+    let t = T::HALF - u;
     let x = t * t;
-    let s = t * horner(x, &SIN);
-    let c = horner(x, &COS);
-    (-2.0 * s * c, 2.0 * s * s - 1.0)
+    double_angle(t * horner(x, 2.0, &SIN), horner(x, 1.0, &COS))
 }
 
+/// `(sin 2a, cos 2a)` from `2 sin a` and `cos a`.
 #[inline(always)]
-fn horner<const N: usize>(x: f64, coefficients: &[f64; N]) -> f64 {
-    let mut sum = coefficients[N - 1];
+fn double_angle<T: Real>(twice_sine: T, cosine: T) -> (T, T) {
+    (
+        twice_sine * cosine,
+        twice_sine.mul_add(T::HALF * twice_sine, -T::ONE),
+    )
+}
+
+/// `scale` times the polynomial of these ascending coefficients. A plain loop: iterators are not
+/// inlined everywhere, and a call within a batch's loop would keep it from vectorising.
+#[inline(always)]
+fn horner<T: Real, C: Copy + Into<f64>, const N: usize>(
+    x: T,
+    scale: f64,
+    coefficients: &[C; N],
+) -> T {
     let mut i = N - 1;
+    let mut sum = T::of(scale * coefficients[i].into());
     while i > 0 {
         i -= 1;
-        sum = sum * x + coefficients[i];
+        sum = x.mul_add(sum, T::of(scale * coefficients[i].into()));
     }
     sum
 }

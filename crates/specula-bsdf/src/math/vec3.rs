@@ -41,7 +41,8 @@ impl<T: Real> Vec3<T> {
     /// Dot product.
     #[inline(always)]
     pub fn dot(self, o: Self) -> T {
-        self.x * o.x + self.y * o.y + self.z * o.z
+        let plane = self.x.mul_add(o.x, self.y * o.y);
+        self.z.mul_add(o.z, plane)
     }
 
     /// Cross product, right-handed.

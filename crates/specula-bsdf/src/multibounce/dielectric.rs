@@ -2,7 +2,7 @@
 
 use super::interface::{Interface, turned};
 use super::{MisPdf, Model, heitz2016, mis_pdf, ours, seed};
-use crate::bsdf::{Bsdf, BsdfSample, Event, Transport};
+use crate::bsdf::{Bsdf, BsdfSample, Event, Tints, Transport};
 use crate::math::{Real, Rgb, Stream, Vec3};
 use crate::ndf::{Ggx, Ndf};
 
@@ -12,6 +12,20 @@ use crate::ndf::{Ggx, Ndf};
 /// [`Model::Heitz2016`] walks with heights; every other model here is [`Model::Ours`], as the
 /// papers of the others treat metals only.
 ///
+/// Ours estimates `f` from the end whose walks vary less, whichever of the two is asked for:
+/// `f / eta^2` is symmetric. Variance times time over that of walks from `wo`, geometric means over
+/// 5, 20, 40, 60 and 80 degrees at both ends, index 1.5:
+///
+/// | alpha | outside to outside | outside to inside | inside to outside | inside to inside |
+/// |---|---|---|---|---|
+/// | 0.1 | 0.10 | 0.17 | 0.41 | 0.32 |
+/// | 0.5 | 0.45 | 0.34 | 0.62 | 0.59 |
+/// | 1 | 0.46 | 0.49 | 0.45 | 0.56 |
+///
+/// Single pairs gain up to a factor of 1e4 (at alpha 0.1); the few that lose are near the normal on
+/// the rougher surfaces (up to 2.2) or at 40 degrees and beyond inside at alpha 0.1 (up to 9). There
+/// variances are of rare events: the row of alpha 0.1 is uncertain by a half or more.
+///
 /// Indices within 1e-3 of each other are taken as equal: light passes straight on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dielectric<T, N = Ggx<T>> {
@@ -20,6 +34,7 @@ pub struct Dielectric<T, N = Ggx<T>> {
     two_sided: bool,
     model: Model,
     mis: MisPdf,
+    tints: Tints<T>,
 }
 
 impl<T: Real, N: Ndf<T>> Dielectric<T, N> {
@@ -46,14 +61,23 @@ impl<T: Real, N: Ndf<T>> Dielectric<T, N> {
             two_sided: false,
             model,
             mis: MisPdf::default(),
+            tints: Tints::WHITE,
         }
     }
 
-    /// The same interface with another density for multiple importance sampling.
+    /// The same interface with another density for multiple importance sampling;
+    /// [`MisPdf::Hapke`], of reflection alone, is [`MisPdf::Lambert`] here.
     #[inline(always)]
     #[must_use]
     pub fn with_mis_pdf(self, mis: MisPdf) -> Self {
         Self { mis, ..self }
+    }
+
+    /// The same interface with factors on what leaves it on either side, however many bounces.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_tints(self, tints: Tints<T>) -> Self {
+        Self { tints, ..self }
     }
 
     #[inline(always)]
@@ -141,7 +165,7 @@ impl<T: Real, N: Ndf<T>> Bsdf<T> for Dielectric<T, N> {
             T::ONE
         };
         let pdf = mis_pdf::interface(self.mis, &interface, wo, wi);
-        (Rgb::splat(f_cos * scale), pdf)
+        (self.tints.on_side(wi.z > T::ZERO) * (f_cos * scale), pdf)
     }
 
     #[inline]
@@ -155,7 +179,7 @@ impl<T: Real, N: Ndf<T>> Bsdf<T> for Dielectric<T, N> {
         if self.is_index_matched() {
             return Some(BsdfSample {
                 wi: -wo,
-                weight: Rgb::WHITE,
+                weight: self.tints.transmission,
                 pdf: T::ONE,
                 event: Event::Transmission,
                 specular: true,
@@ -179,7 +203,7 @@ impl<T: Real, N: Ndf<T>> Bsdf<T> for Dielectric<T, N> {
         };
         (wi.z != T::ZERO && pdf > T::ZERO && pdf.is_finite()).then_some(BsdfSample {
             wi: upright(wi),
-            weight: Rgb::splat(weight),
+            weight: self.tints.on(event) * weight,
             pdf,
             event,
             specular: false,

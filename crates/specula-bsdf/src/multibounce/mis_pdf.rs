@@ -4,12 +4,14 @@
 use core::fmt;
 use core::str::FromStr;
 
-use super::interface::{Interface, turned};
+use super::interface::Interface;
+use super::normalised;
 use super::walk::Flight;
 use crate::math::{Real, Vec3};
 use crate::ndf::Ndf;
 
-/// Which density.
+/// Which density. Metals know all; at a [`Dielectric`](super::Dielectric) `Lambert` and `Normalised`
+/// have forms of their own, over the sphere, and `Hapke` is `Lambert`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MisPdf {
     /// Visible normals plus a Lambertian term (Heitz et al. 2016). Integrates to more than 1: a
@@ -17,9 +19,9 @@ pub enum MisPdf {
     Lambert,
     /// Visible normals plus the multiple scattering of an isotropic medium (Cui et al. 2023, eqs. 15
     /// and 16, with `H(mu) = (1 + 2 mu) / (1 + 2 mu sqrt(1 - a))`). Integrates to 0.97 to 1.71: a
-    /// weight, not a density.
+    /// weight, not a density. Of reflection alone: at a dielectric it is `Lambert`.
     Hapke,
-    /// Ours: see [`normalised`].
+    /// Ours: see [`normalised_pdf`](super::normalised_pdf). Integrates to 1.
     #[default]
     Normalised,
 }
@@ -73,13 +75,13 @@ pub(super) fn reflection<T: Real, N: Ndf<T>>(mis: MisPdf, ndf: &N, wo: Vec3<T>, 
             let alpha = ndf.alpha();
             first_facet(ndf, wo, wi) + hapke(T::HALF * (alpha.x + alpha.y), wo.z.abs(), wi.z)
         }
-        MisPdf::Normalised => normalised(ndf, wo, wi),
+        MisPdf::Normalised => normalised::pdf(ndf, wo, wi),
     }
 }
 
 /// Density of directions after the first facet, over the whole sphere: `D(wm) / (4 sigma(wo))`.
 #[inline(always)]
-pub(super) fn first_facet<T: Real, N: Ndf<T>>(ndf: &N, wo: Vec3<T>, wi: Vec3<T>) -> T {
+fn first_facet<T: Real, N: Ndf<T>>(ndf: &N, wo: Vec3<T>, wi: Vec3<T>) -> T {
     let wm = wo + wi;
     let length = wm.length();
     if wm.z > T::ZERO && length > T::of(1e-6) {
@@ -106,67 +108,9 @@ fn hapke<T: Real>(a: T, mu_o: T, mu_i: T) -> T {
     a * T::of(0.25) * T::INV_PI * excess / sum
 }
 
-/// Our density: the walk's first flight, folded into the hemisphere, and a cosine lobe.
-///
-/// ```text
-/// p(wi)  = (1 - s) (p1(wi) + p1(wi')) + s wi.z / pi
-/// p1(w)  = D(wm) / (4 sigma(wo)),   wm ~ wo + w
-/// wi'    = wi lowered by 1: the same azimuth, z - 1      where ax ay >= 0.03
-///          wi mirrored: the same azimuth, -z             on smoother surfaces
-/// ```
-///
-/// `p1` integrates to 1 over the sphere for every distribution of normals, isotropic or not, and
-/// every view. What leaves the first facet downward is met again and thrown up: just below the
-/// horizon steeply, straight down flatly; on smooth surfaces it stays near the mirror direction.
-/// Both maps keep solid angles (the first is Archimedes'), so the sum is a density for any share `s`
-/// of the lobe, which stands for all later bounces.
-///
-/// Of the folds tried (mirrored or lowered, the same or the opposite azimuth) this one is closest to
-/// the walks; `s` is a fit by alpha alone (test `normalised_density_is_closest_to_the_walks`).
-///
-/// * Returns: 1/sr; 0 where `wi.z <= 0`, above 0 elsewhere.
-#[inline]
-pub fn normalised<T: Real, N: Ndf<T>>(ndf: &N, wo: Vec3<T>, wi: Vec3<T>) -> T {
-    if wi.z <= T::ZERO {
-        return T::ZERO;
-    }
-    let s = lambert_share(ndf);
-    let alpha = ndf.alpha();
-    let below = if alpha.x * alpha.y < T::of(0.03) {
-        turned(wi)
-    } else {
-        lowered(wi)
-    };
-    let folded = first_facet(ndf, wo, wi) + first_facet(ndf, wo, below);
-    (T::ONE - s) * folded + s * wi.z * T::INV_PI
-}
-
-/// `wi` lowered by 1 on the unit sphere, at the same azimuth.
+/// The share `s` of all but the first flight at a dielectric, in [`interface`].
 #[inline(always)]
-fn lowered<T: Real>(wi: Vec3<T>) -> Vec3<T> {
-    let z = wi.z - T::ONE;
-    // sin^2 of the new over that of the old; straight up goes to the horizon at any azimuth.
-    let sin2 = wi.z * (T::TWO - wi.z);
-    let old = wi.x * wi.x + wi.y * wi.y;
-    if old > T::of(1e-12) {
-        let factor = (sin2 / old).safe_sqrt();
-        Vec3 {
-            x: wi.x * factor,
-            y: wi.y * factor,
-            z,
-        }
-    } else {
-        Vec3 {
-            x: sin2.safe_sqrt(),
-            y: T::ZERO,
-            z,
-        }
-    }
-}
-
-/// The share `s` of [`normalised`].
-#[inline(always)]
-pub(super) fn lambert_share<T: Real, N: Ndf<T>>(ndf: &N) -> T {
+fn lambert_share<T: Real, N: Ndf<T>>(ndf: &N) -> T {
     let alpha = ndf.alpha();
     let a2 = alpha.x * alpha.y;
     let a4 = a2 * a2;

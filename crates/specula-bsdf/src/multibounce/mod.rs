@@ -23,6 +23,7 @@ mod heitz2016;
 mod interface;
 mod mis_pdf;
 mod model;
+mod normalised;
 mod ours;
 mod state;
 mod walk;
@@ -31,8 +32,9 @@ mod wang2022;
 pub use conductor::Conductor;
 pub use dielectric::Dielectric;
 pub use diffuse::Diffuse;
-pub use mis_pdf::{MisPdf, UnknownMisPdf, normalised as normalised_pdf};
+pub use mis_pdf::{MisPdf, UnknownMisPdf};
 pub use model::{Model, UnknownModel};
+pub use normalised::{pdf as normalised_pdf, sample as sample_normalised};
 pub use state::DepthState;
 
 use crate::math::{Real, Stream, Vec3};

@@ -3,7 +3,8 @@
 use core::fmt;
 use core::str::FromStr;
 
-/// Which estimator computes multiple bounces.
+/// Which estimator computes multiple bounces. `Metals only` means that a
+/// [`Dielectric`](super::Dielectric) takes `Ours` instead.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Model {
     /// Heitz et al. 2016.

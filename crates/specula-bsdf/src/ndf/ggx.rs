@@ -1,6 +1,6 @@
 //! GGX (Trowbridge and Reitz 1975; Walter et al. 2007), isotropic and anisotropic.
 
-use super::Ndf;
+use super::{Masking, Ndf};
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3};
 use crate::vndf::{self, Sampler};
@@ -27,9 +27,9 @@ impl<T: Real> Ggx<T> {
         let y = m.y * ax;
         let area = ax * ay;
         let z = m.z * area;
-        let e = x * x + y * y + z * z;
+        let e = z.mul_add(z, x.mul_add(x, y * y));
         let root = area * area * length_squared / e;
-        T::select(m.z > T::ZERO, root * root / (T::PI * area), T::ZERO)
+        T::select(m.z > T::ZERO, root * root * (T::INV_PI / area), T::ZERO)
     }
 
     /// `sigma` as numerator and denominator, so that callers can save a division.
@@ -38,17 +38,19 @@ impl<T: Real> Ggx<T> {
         let (h2, t) = self.stretched_length(w);
         let long = t + w.z.abs();
         let up = w.z >= T::ZERO;
-        // A view straight from below sees nothing; the floor keeps quotients by sigma finite.
-        let top = T::select(up, long, Real::max(h2, T::of(1e-24)));
+        let top = T::select(up, long, h2);
         (top, T::TWO * T::select(up, T::ONE, long))
     }
 
     /// `(h2, t)`: `h2 = (alpha_x x)^2 + (alpha_y y)^2` and `t = sqrt(h2 + z^2)`.
+    ///
+    /// A view straight from below sees nothing; a floor of `h2` keeps quotients by sigma finite.
     #[inline(always)]
     fn stretched_length(&self, w: Vec3<T>) -> (T, T) {
         let s = self.alpha.stretch(w);
-        let h2 = s.x * s.x + s.y * s.y;
-        (h2, (h2 + w.z * w.z).sqrt())
+        // Written as the samplers write it, so that a kernel computes it once.
+        let h2 = Real::max(s.x * s.x + s.y * s.y, T::of(1e-24));
+        (h2, (h2 + s.z * s.z).sqrt())
     }
 }
 
@@ -91,6 +93,27 @@ impl<T: Real> Ndf<T> for Ggx<T> {
     }
 
     #[inline(always)]
+    fn d_along(&self, m: Vec3<T>, length_squared: T) -> T {
+        Self::d_along(self, m, length_squared)
+    }
+
+    /// With one division in all: `sigma(wo) = s / b` and `|wi.z| Lambda(wi) = h2 / l` are quotients
+    /// themselves.
+    #[inline(always)]
+    fn g2_over_cos_quotient(&self, masking: Masking, wo: Vec3<T>, wi: Vec3<T>) -> (T, T) {
+        let cos_i = wi.z.abs();
+        let (s, b) = self.projected_area_quotient(wo);
+        let (h2, t) = self.stretched_length(wi);
+        let l = T::TWO * (t + cos_i);
+        let seen = l * cos_i;
+        let denominator = match masking {
+            Masking::HeightCorrelated => s.mul_add(seen, wo.z.abs() * (h2 * b)),
+            Masking::Separable => s * (seen + h2),
+        };
+        (seen * b, denominator)
+    }
+
+    #[inline(always)]
     fn sample_wm(&self, wo: Vec3<T>, u: [T; 2]) -> Vec3<T> {
         vndf::cap::sample_wm(self.alpha, wo, u)
     }
@@ -101,6 +124,7 @@ impl<T: Real> Ndf<T> for Ggx<T> {
             Sampler::Heitz => vndf::reflect(wo, vndf::heitz::sample_wm(self.alpha, wo, u)),
             Sampler::Cap => vndf::cap::sample_direction(self.alpha, wo, u),
             Sampler::Bounded => vndf::bounded::sample_direction(self.alpha, wo, u),
+            Sampler::Exact => vndf::exact::sample_direction(self.alpha, wo, u),
         }
     }
 
@@ -109,6 +133,7 @@ impl<T: Real> Ndf<T> for Ggx<T> {
         match sampler {
             Sampler::Heitz | Sampler::Cap => self.projected_area(wo),
             Sampler::Bounded => vndf::bounded::norm(self.alpha, wo),
+            Sampler::Exact => vndf::exact::norm(self.alpha, wo),
         }
     }
 }

@@ -1,7 +1,5 @@
 //! Binary trees over boxes: obvhs's, or a balanced one where that is too deep.
 
-use std::collections::HashMap;
-
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
@@ -42,8 +40,11 @@ impl Binary {
     ///
     /// Items with equal boxes enter it once and are split in halves below: reinsertion would try
     /// them against each other in quadratic time.
-    pub(super) fn optimised(items: &[Bounds]) -> Self {
-        let runs = equal_runs(items);
+    ///
+    /// * `effort`: the share of nodes that reinsertion tries. (From 0.05 to 1 the traversal's speed
+    ///   differed by less than the measurements' noise.)
+    pub(super) fn optimised(items: &[Bounds], effort: f32) -> Self {
+        let runs = Runs::new(items);
         let all = items.iter().fold(Bounds::EMPTY, |a, b| a.union(b));
         // Within [-1, 1], so that no area overflows or vanishes, whatever the unit.
         let size = (0..3)
@@ -55,8 +56,9 @@ impl Binary {
             glam::DVec3::from_array(at).as_vec3a()
         };
         let boxes: Vec<Aabb> = runs
+            .first
             .iter()
-            .map(|run| &items[run[0] as usize])
+            .map(|&first| &items[first as usize])
             .map(|b| Aabb::new(scaled(b.min), scaled(b.max)))
             .collect();
         let indices = (0..u32::try_from(boxes.len()).expect("counts are checked")).collect();
@@ -67,14 +69,15 @@ impl Binary {
             SortPrecision::U64,
             2,
         );
-        ReinsertionOptimizer::default().run(&mut tree, reinsertion_ratio(boxes.len()), None);
+        ReinsertionOptimizer::default().run(&mut tree, effort, None);
         Self::from_obvhs(&tree, items, &runs)
     }
 
-    fn from_obvhs(tree: &Bvh2, items: &[Bounds], runs: &[Vec<u32>]) -> Self {
+    fn from_obvhs(tree: &Bvh2, items: &[Bounds], runs: &Runs) -> Self {
         let mut nodes = Vec::with_capacity(2 * items.len());
         // The node in obvhs's tree, and ours whose right child it becomes.
         let mut pending = vec![(0, None)];
+        let mut run = Vec::new();
         while let Some((at, right_of)) = pending.pop() {
             let index = u32::try_from(nodes.len()).expect("counts are checked");
             if let Some(parent) = right_of {
@@ -84,8 +87,8 @@ impl Binary {
             let node = &tree.nodes[at];
             let first = node.first_index as usize;
             if node.is_leaf() {
-                let run = &runs[tree.primitive_indices[first] as usize];
-                halve(items, run, &mut nodes);
+                runs.items(tree.primitive_indices[first], &mut run);
+                halve(items, &run, &mut nodes);
             } else {
                 pending.push((first + 1, Some(nodes.len())));
                 pending.push((first, None));
@@ -146,20 +149,66 @@ impl Binary {
     }
 }
 
-/// The items by equal boxes, in order of the first of each.
-fn equal_runs(items: &[Bounds]) -> Vec<Vec<u32>> {
-    let mut runs: Vec<Vec<u32>> = Vec::with_capacity(items.len());
-    let mut known = HashMap::with_capacity(items.len());
-    for (item, bounds) in (0..).zip(items) {
-        let key = [bounds.min, bounds.max].map(|p| p.map(f32::to_bits));
-        let run = *known.entry(key).or_insert(runs.len());
-        if run == runs.len() {
-            runs.push(vec![item]);
-        } else {
-            runs[run].push(item);
+/// Items by equal boxes, in order of the first of each.
+struct Runs {
+    /// The first item of every run.
+    first: Vec<u32>,
+    /// The next item of the same run; [`LAST`] for its last.
+    next: Vec<u32>,
+}
+
+/// No item.
+const LAST: u32 = u32::MAX;
+
+impl Runs {
+    fn new(items: &[Bounds]) -> Self {
+        let count = u32::try_from(items.len()).expect("counts are checked");
+        // A table of the last items of runs, with open addressing.
+        let places = (2 * items.len()).next_power_of_two();
+        let mut table = vec![LAST; places];
+        let mut first = Vec::with_capacity(items.len());
+        let mut next = vec![LAST; items.len()];
+        for item in 0..count {
+            let bounds = &items[item as usize];
+            let mut place = hash(bounds) & (places - 1);
+            loop {
+                match table[place] {
+                    LAST => {
+                        first.push(item);
+                        break;
+                    }
+                    other if items[other as usize] == *bounds => {
+                        next[other as usize] = item;
+                        break;
+                    }
+                    _ => place = (place + 1) & (places - 1),
+                }
+            }
+            table[place] = item;
+        }
+        Self { first, next }
+    }
+
+    /// The items of a run.
+    fn items(&self, run: u32, out: &mut Vec<u32>) {
+        out.clear();
+        let mut item = self.first[run as usize];
+        while item != LAST {
+            out.push(item);
+            item = self.next[item as usize];
         }
     }
-    runs
+}
+
+/// Mixes the bits of a box's coordinates; equal boxes have equal hashes.
+fn hash(bounds: &Bounds) -> usize {
+    let mut run = 0_u64;
+    for x in bounds.min.iter().chain(&bounds.max) {
+        // -0 equals 0.
+        let bits = u64::from((x + 0.0).to_bits());
+        run = (run.rotate_left(5) ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+    usize::try_from(run >> 32).unwrap_or(0)
 }
 
 /// Appends the subtree that halves `run` down to single items.
@@ -172,10 +221,4 @@ fn halve(items: &[Bounds], run: &[u32], nodes: &mut Vec<BinaryNode>) {
         nodes[at].right = u32::try_from(nodes.len()).expect("counts are checked");
         halve(items, right, nodes);
     }
-}
-
-/// Which part of the nodes reinsertion tries: less for large scenes, where it takes long. (From 0.05
-/// to 1 the traversal's speed differed by less than the measurements' noise.)
-fn reinsertion_ratio(items: usize) -> f32 {
-    if items > 1_000_000 { 0.05 } else { 0.2 }
 }

@@ -1,5 +1,7 @@
 //! Binary trees to 8-wide ones at the least surface area cost.
 
+use std::collections::BinaryHeap;
+
 use super::Bounds;
 use super::binary::Binary;
 use super::kernel::MAX_DEPTH;
@@ -8,10 +10,13 @@ use super::node::{Child, Kind, Node8, WIDTH};
 /// Cost of testing a packet of triangles, relative to a node. Measured, see `benches/rays.rs`.
 const PACKET_COST: f64 = 1.0;
 
+/// Share of nodes that reinsertion tries.
+pub(super) const EFFORT: f32 = 0.2;
+
 /// A finished tree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tree {
-    /// Its root, always a node.
+    /// Its root, a node unless the tree is part of a larger one.
     pub(super) root: Child,
     pub(super) bounds: Bounds,
     /// Levels of nodes.
@@ -26,22 +31,62 @@ pub(super) fn build(
     nodes: &mut Vec<Node8>,
     mut leaf: impl FnMut(&[u32]) -> Child,
 ) -> Tree {
-    let optimised = Plan::new(Binary::optimised(items), &packable);
-    if optimised.depth() <= MAX_DEPTH {
-        optimised.emit(nodes, &mut leaf)
-    } else {
-        plant(Binary::balanced(items), packable, nodes, leaf)
+    Plan::within(items, (MAX_DEPTH, EFFORT), packable).emit(0, nodes, &mut leaf)
+}
+
+/// The same as at most `count` trees, to be joined under others.
+///
+/// * `most`: levels of each, unless a balanced tree has more.
+/// * `effort`: see [`Binary::optimised`].
+pub(super) fn build_parts(
+    items: &[Bounds],
+    count: usize,
+    (most, effort): (usize, f32),
+    packable: impl Fn(u32) -> bool,
+    nodes: &mut Vec<Node8>,
+    mut leaf: impl FnMut(&[u32]) -> Child,
+) -> Vec<Tree> {
+    let plan = Plan::within(items, (most, effort), packable);
+    let parts = plan.parts(count);
+    parts
+        .into_iter()
+        .map(|at| {
+            if !plan.is_leaf(at) {
+                return plan.emit(at, nodes, &mut leaf);
+            }
+            let mut items = Vec::new();
+            plan.items(at, &mut items);
+            Tree {
+                root: leaf(&items),
+                bounds: plan.tree.0[at as usize].bounds,
+                depth: 0,
+            }
+        })
+        .collect()
+}
+
+/// The tree over trees that were built before, of at most `most` levels unless a balanced one has
+/// more.
+pub(super) fn join(trees: &[Tree], most: usize, nodes: &mut Vec<Node8>) -> Tree {
+    let bounds: Vec<Bounds> = trees.iter().map(|tree| tree.bounds).collect();
+    let deepest = trees.iter().map(|tree| tree.depth).max().unwrap_or(0);
+    let plan = Plan::within(&bounds, (most, EFFORT), |_| false);
+    let above = plan.emit(0, nodes, &mut |leaf| trees[leaf[0] as usize].root);
+    Tree {
+        depth: above.depth + deepest,
+        ..above
     }
 }
 
 /// The same from a binary tree whose wide tree is shallow enough.
+#[cfg(test)]
 pub(super) fn plant(
     tree: Binary,
     packable: impl Fn(u32) -> bool,
     nodes: &mut Vec<Node8>,
     mut leaf: impl FnMut(&[u32]) -> Child,
 ) -> Tree {
-    Plan::new(tree, &packable).emit(nodes, &mut leaf)
+    Plan::new(tree, &packable).emit(0, nodes, &mut leaf)
 }
 
 /// What becomes of each binary node.
@@ -55,6 +100,19 @@ struct Plan {
 }
 
 impl Plan {
+    /// Of the best tree, or of a balanced one where that has more than `most` levels.
+    fn within(
+        items: &[Bounds],
+        (most, effort): (usize, f32),
+        packable: impl Fn(u32) -> bool,
+    ) -> Self {
+        let optimised = Self::new(Binary::optimised(items, effort), &packable);
+        if optimised.depth() <= most {
+            return optimised;
+        }
+        Self::new(Binary::balanced(items), &packable)
+    }
+
     /// Dynamic programming from the leaves up (Ylitie, Karras and Laine 2017, eqs. 1 to 5).
     fn new(tree: Binary, packable: &impl Fn(u32) -> bool) -> Self {
         let mut choices = vec![[0; WIDTH]; tree.0.len()];
@@ -137,11 +195,40 @@ impl Plan {
         deepest
     }
 
-    /// Writes the wide nodes, siblings side by side, and the leaves.
-    fn emit(&self, nodes: &mut Vec<Node8>, leaf: &mut impl FnMut(&[u32]) -> Child) -> Tree {
+    /// At most `count` subtrees that hold everything: the largest are opened first.
+    fn parts(&self, count: usize) -> Vec<u32> {
+        // By the bits of areas: numbers that are not negative are ordered as their bits are.
+        let area = |at: u32| self.tree.0[at as usize].bounds.half_area().to_bits();
+        let mut open = BinaryHeap::from([(area(0), 0)]);
+        let mut parts = Vec::new();
+        while open.len() + parts.len() < count
+            && let Some((_, at)) = open.pop()
+        {
+            if self.is_leaf(at) {
+                parts.push(at);
+            } else {
+                for child in [at + 1, self.tree.0[at as usize].right] {
+                    open.push((area(child), child));
+                }
+            }
+        }
+        parts.extend(open.into_iter().map(|(_, at)| at));
+        // In the tree's order: what is near is written near.
+        parts.sort_unstable();
+        parts
+    }
+
+    /// Writes the wide nodes of the subtree `at`, siblings side by side, and the leaves.
+    fn emit(
+        &self,
+        at: u32,
+        nodes: &mut Vec<Node8>,
+        leaf: &mut impl FnMut(&[u32]) -> Child,
+    ) -> Tree {
         let root = Child::new(Kind::Node, nodes.len());
         let (mut deepest, mut children, mut items) = (0, Vec::new(), Vec::new());
-        let mut pending = vec![(0, nodes.len(), 1)];
+        let bounds = self.tree.0[at as usize].bounds;
+        let mut pending = vec![(at, nodes.len(), 1)];
         nodes.push(Node8::EMPTY);
         while let Some((at, target, depth)) = pending.pop() {
             deepest = deepest.max(depth);
@@ -163,7 +250,7 @@ impl Plan {
         assert!(deepest <= MAX_DEPTH, "the traversal's stack is too small");
         Tree {
             root,
-            bounds: self.tree.0[0].bounds,
+            bounds,
             depth: deepest,
         }
     }

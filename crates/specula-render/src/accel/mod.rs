@@ -8,8 +8,9 @@
 //! What can be relied on:
 //!
 //! - **The same answer everywhere.** The AVX2 kernel and the portable one do the same operations in
-//!   the same order, without fused multiply-add: their hits are equal bit for bit. The build is
-//!   single threaded within a group, so that it never depends on the number of threads.
+//!   the same order, without fused multiply-add: their hits are equal bit for bit. Large groups are
+//!   built in chunks, which are a function of the input alone: the tree never depends on the number
+//!   of threads.
 //! - **Ties.** Of hits with equal `t` the smallest `(instance, primitive)` wins, whatever the order
 //!   of traversal.
 //! - **No leaks.** A ray from inside a closed mesh hits it: `triangle.rs` has the argument.
@@ -17,6 +18,7 @@
 
 mod binary;
 mod bounds;
+mod chunks;
 mod collapse;
 mod frame;
 mod group;

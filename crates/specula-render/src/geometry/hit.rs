@@ -1,12 +1,13 @@
 //! From a hit to the surface there: position with its error, normals, tangent, coordinates.
 
-use specula_bsdf::Vec3;
-use specula_bsdf::math::vec3;
+use specula_bsdf::math::{rgb, vec3};
+use specula_bsdf::{Rgb, Vec3};
 
 use super::{Geometry, GroupData, NONE, PlacedQuadric, unit_or};
 use crate::accel::{Hit, QuadricShape, Ray};
 use crate::convert::{abs, narrow};
 use crate::offset::{RELATIVE_ERROR, coupled};
+use crate::texture::Place;
 
 /// A point of a surface, in the world.
 #[derive(Clone, Copy, Debug)]
@@ -21,36 +22,73 @@ pub(crate) struct Surface {
     /// dp/du, or zero where there are no coordinates: any tangent will do then.
     pub(crate) tangent: Vec3<f32>,
     pub(crate) uv: [f32; 2],
+    /// The mesh's, interpolated; white where it has none.
+    pub(crate) colour: Rgb<f32>,
     pub(crate) shape: u32,
     /// Number of the light that it is part of, or [`NONE`].
     pub(crate) light: u32,
+    /// Where it is in its primitive.
+    pub(crate) at: At,
+}
+
+/// A point of a primitive.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct At {
+    /// Index of the placement.
+    pub(crate) instance: u32,
+    /// Index within the group.
+    pub(crate) primitive: u32,
+    /// Barycentric weights of a triangle's second and third vertex.
+    pub(crate) weights: [f32; 2],
+}
+
+impl Surface {
+    /// Where textures are evaluated for it.
+    #[inline(always)]
+    pub(crate) fn place(&self) -> Place {
+        Place {
+            uv: self.uv,
+            position: self.position,
+            normal: self.ng,
+            colour: self.colour,
+        }
+    }
 }
 
 impl Geometry {
     /// The surface at a hit.
     #[inline]
     pub(crate) fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
-        let placement = &self.placements[hit.instance as usize];
+        let at = At {
+            instance: hit.instance,
+            primitive: hit.primitive,
+            weights: [hit.u, hit.v],
+        };
+        // The point along the ray is only as exact as the ray is long: quadrics project it.
+        self.surface_at(&at, || ray.origin + ray.direction * hit.t)
+    }
+
+    /// The surface at a point of a primitive.
+    ///
+    /// * `near`: the point in the world, roughly; for quadrics only.
+    #[inline]
+    pub(crate) fn surface_at(&self, at: &At, near: impl FnOnce() -> Vec3<f32>) -> Surface {
+        let placement = &self.placements[at.instance as usize];
         let group = &self.groups[placement.group as usize];
         let triangles = group.triangles.len();
-        let primitive = hit.primitive as usize;
+        let primitive = at.primitive as usize;
         let shape = group.shape_of[primitive];
         let mut surface = if primitive < triangles {
             let has_uvs = self.shapes[shape as usize].has_uvs;
-            group.triangle_surface(hit, has_uvs)
+            group.triangle_surface(at, has_uvs)
         } else {
-            // The point along the ray is only as exact as the ray is long: the quadric projects it.
-            let at = ray.origin + ray.direction * hit.t;
-            let at = if placement.identity {
-                at
-            } else {
-                placement.to_group_point(at)
-            };
-            group.quadrics[primitive - triangles].surface(at)
+            group.quadrics[primitive - triangles].surface(placement.to_group_point(near()))
         };
         surface.shape = shape;
-        let light = group.light_of[primitive];
-        if light != NONE {
+        surface.at = *at;
+        if let Some(&light) = group.light_of.get(primitive)
+            && light != NONE
+        {
             surface.light = placement.first_light + light;
         }
         if !placement.identity {
@@ -69,17 +107,21 @@ impl Geometry {
 
 impl super::Placement {
     /// A world point in the group's space.
-    fn to_group_point(&self, p: Vec3<f32>) -> Vec3<f32> {
+    #[inline]
+    pub(super) fn to_group_point(&self, p: Vec3<f32>) -> Vec3<f32> {
+        if self.identity {
+            return p;
+        }
         crate::convert::narrow3(self.inverse.transform_point3(crate::convert::widen3(p)))
     }
 }
 
 impl GroupData {
     #[inline]
-    fn triangle_surface(&self, hit: &Hit, has_uvs: bool) -> Surface {
-        let [i, j, k] = self.triangles[hit.primitive as usize].map(|v| v as usize);
+    fn triangle_surface(&self, at: &At, has_uvs: bool) -> Surface {
+        let [i, j, k] = self.triangles[at.primitive as usize].map(|v| v as usize);
         let [a, b, c] = [i, j, k].map(|v| Vec3::from(self.positions[v]));
-        let (u, v) = (hit.u, hit.v);
+        let [u, v] = at.weights;
         let w = 1.0 - u - v;
         let (e1, e2) = (b - a, c - a);
         let ng = unit_or(e1.cross(e2), Vec3::Z);
@@ -107,6 +149,13 @@ impl GroupData {
             // the first edge, would turn brushed metal at every triangle; so there is none.
             ([u + v, v], Vec3::ZERO)
         };
+        let colour = if self.colours.len() > i.max(j).max(k) {
+            let [ca, cb, cc] = [i, j, k].map(|v| self.colours[v]);
+            let [r, g, b] = [0, 1, 2].map(|x| ca[x] * w + cb[x] * u + cc[x] * v);
+            rgb(r, g, b)
+        } else {
+            Rgb::WHITE
+        };
         Surface {
             position: a * w + b * u + c * v,
             error: coupled(largest(abs(a), largest(abs(b), abs(c)))),
@@ -114,8 +163,10 @@ impl GroupData {
             ns,
             tangent,
             uv,
+            colour,
             shape: 0,
             light: NONE,
+            at: At::default(),
         }
     }
 }
@@ -153,8 +204,10 @@ impl PlacedQuadric {
             ns: ng,
             tangent: self.forward.vector(vec3(-q.y, q.x, 0.0)),
             uv: [u, v.clamp(0.0, 1.0)],
+            colour: Rgb::WHITE,
             shape: 0,
             light: NONE,
+            at: At::default(),
         }
     }
 }

@@ -172,6 +172,42 @@ impl Area {
         }
     }
 
+    /// A point of the surface, uniform by area but on ellipsoids; the same as [`Area::sample`] draws,
+    /// except on spheres.
+    pub(super) fn point(&self, u: [f32; 2]) -> Vec3<f32> {
+        match *self {
+            Self::Triangle { corner, edges, .. } => {
+                let b = uniform_triangle(u);
+                corner + edges[0] * b[0] + edges[1] * b[1]
+            }
+            Self::Sphere { centre, radius, .. } => {
+                centre + specula_bsdf::math::warp::uniform_sphere(u) * radius
+            }
+            Self::Disk { centre, axes, .. } => {
+                let d = concentric_disk(u);
+                centre + axes[0] * d[0] + axes[1] * d[1]
+            }
+            Self::Ellipsoid { forward, .. } => {
+                forward.point(specula_bsdf::math::warp::uniform_sphere(u))
+            }
+        }
+    }
+
+    /// Barycentric weights of the second and third corner of the point of a triangle that `u` leads
+    /// to.
+    pub(super) fn weights(u: [f32; 2]) -> [f32; 2] {
+        uniform_triangle(u)
+    }
+
+    /// The inverse of [`Area::weights`].
+    pub(super) fn square_of([b, c]: [f32; 2]) -> [f32; 2] {
+        if c > b {
+            [2.0 * b, b + c]
+        } else {
+            [b + c, 2.0 * c]
+        }
+    }
+
     /// A point of the light as seen from `p`.
     ///
     /// * `u`: uniform in `[0, 1)^2`.

@@ -1,7 +1,7 @@
-//! Lights without extent: distant, point and spot.
+//! Lights without extent: parallel, point and spot.
 
 use specula_bsdf::{Rgb, Vec3};
-use specula_scene::scene::Light;
+use specula_scene::scene::{Light, SpotFalloff};
 
 use super::cone::EmissionCone;
 use crate::convert::{narrow, narrow3};
@@ -20,6 +20,7 @@ pub(crate) enum Delta {
         intensity: Rgb<f32>,
         cos_cone: f32,
         cos_start: f32,
+        falloff: SpotFalloff,
     },
 }
 
@@ -27,13 +28,15 @@ pub(crate) enum Delta {
 const NO_CONE: f32 = -2.0;
 
 impl Delta {
-    /// `None` for infinite lights.
+    /// `None` for infinite lights and suns.
     pub(crate) fn new(light: &Light) -> Option<Self> {
         match *light {
             Light::Infinite { .. } => None,
+            Light::Distant { half_angle_deg, .. } if half_angle_deg > 0.0 => None,
             Light::Distant {
                 irradiance,
                 to_light,
+                half_angle_deg: _,
             } => Some(Self::Distant {
                 irradiance,
                 to_light: narrow3(to_light.into()).normalize(),
@@ -47,6 +50,7 @@ impl Delta {
                 intensity,
                 cos_cone: NO_CONE,
                 cos_start: NO_CONE,
+                falloff: SpotFalloff::SmoothCosine,
             }),
             Light::Spot {
                 position,
@@ -54,12 +58,14 @@ impl Delta {
                 intensity,
                 cone_angle_deg,
                 falloff_start_deg,
+                falloff,
             } => Some(Self::Point {
                 position: narrow3(position.into()),
                 axis: narrow3(axis.into()).normalize(),
                 intensity,
                 cos_cone: narrow(cone_angle_deg.to_radians().cos()),
                 cos_start: narrow(falloff_start_deg.min(cone_angle_deg).to_radians().cos()),
+                falloff,
             }),
         }
     }
@@ -78,11 +84,12 @@ impl Delta {
                 intensity,
                 cos_cone,
                 cos_start,
+                falloff,
             } => {
                 let d = position - p;
                 let distance_squared = d.length_squared();
                 let wi = d * (1.0 / distance_squared.sqrt());
-                let falloff = smoothstep(cos_cone, cos_start, -axis.dot(wi));
+                let falloff = share(falloff, [cos_cone, cos_start], -axis.dot(wi));
                 (intensity * (falloff / distance_squared), wi, Some(position))
             }
         }
@@ -129,9 +136,9 @@ impl Delta {
     }
 }
 
-/// 0 below `low`, 1 from `high` on, smooth between.
+/// Share of a spot light's intensity at the cosine `x` from its axis: 0 up to `low`, 1 from `high` on.
 #[inline]
-fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
+fn share(falloff: SpotFalloff, [low, high]: [f32; 2], x: f32) -> f32 {
     if x >= high {
         return 1.0;
     }
@@ -139,5 +146,12 @@ fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
         return 0.0;
     }
     let t = (x - low) / (high - low);
-    t * t * (3.0 - 2.0 * t)
+    match falloff {
+        SpotFalloff::SmoothCosine => t * t * (3.0 - 2.0 * t),
+        SpotFalloff::LinearAngle => {
+            let [end, start, at] = [low, high, x].map(|c| c.clamp(-1.0, 1.0).acos());
+            (end - at) / (end - start)
+        }
+        SpotFalloff::SquaredCosine => t * t,
+    }
 }

@@ -12,7 +12,20 @@ use specula_scene::Image;
 use specula_scene::scene::EnvironmentMapping;
 
 use super::octahedral::{direction_of, square_of};
-use crate::convert::{Affine, floor_i32, floor_index, narrow};
+use super::piecewise::Piecewise;
+use crate::convert::{Affine, floor_i32};
+
+/// The direction of light space at a point of the picture, from its upper left corner.
+pub(crate) fn direction(mapping: EnvironmentMapping, [u, v]: [f32; 2]) -> Vec3<f32> {
+    match mapping {
+        EnvironmentMapping::EqualAreaOctahedral => direction_of([u, v]),
+        EnvironmentMapping::LatitudeLongitude | EnvironmentMapping::LatitudeLongitudePoles => {
+            let (sin_phi, cos_phi) = (u * core::f32::consts::TAU).sin_cos();
+            let (sin, cos) = (v * core::f32::consts::PI).sin_cos();
+            vec3(sin * cos_phi, sin * sin_phi, cos)
+        }
+    }
+}
 
 /// One infinite light.
 #[derive(Clone, Debug)]
@@ -30,12 +43,8 @@ struct Picture {
     height: usize,
     pixels: Vec<[f32; 3]>,
     mapping: EnvironmentMapping,
-    /// Rows of `width + 1` cumulated shares.
-    rows: Vec<f32>,
-    /// Cumulated shares of the rows, `height + 1`.
-    columns: Vec<f32>,
-    /// Mean of luminance, times sin theta for latitude and longitude, over the square.
-    mean: f64,
+    /// Over the square; its mean is that of luminance, times sin theta for latitude and longitude.
+    table: Piecewise,
 }
 
 impl Environment {
@@ -90,9 +99,9 @@ impl Environment {
                 0.25 * f32::INV_PI,
             )),
             Some(p) => {
-                let uv = p.sample(u);
+                let uv = p.table.sample(u);
                 let pdf = p.pdf(uv);
-                let wi = self.to_world.vector(p.direction(uv)).normalize();
+                let wi = self.to_world.vector(direction(p.mapping, uv)).normalize();
                 (pdf > 0.0).then(|| (wi, p.bilinear(uv) * self.radiance, pdf))
             }
         }
@@ -106,8 +115,9 @@ impl Environment {
             * match &self.picture {
                 None => 4.0 * PI,
                 Some(p) => match p.mapping {
-                    EnvironmentMapping::EqualAreaOctahedral => 4.0 * PI * p.mean,
-                    EnvironmentMapping::LatitudeLongitude => 2.0 * PI * PI * p.mean,
+                    EnvironmentMapping::EqualAreaOctahedral => 4.0 * PI * p.table.mean,
+                    EnvironmentMapping::LatitudeLongitude
+                    | EnvironmentMapping::LatitudeLongitudePoles => 2.0 * PI * PI * p.table.mean,
                 },
             }
     }
@@ -130,38 +140,35 @@ impl Picture {
             height,
             pixels,
             mapping,
-            rows: Vec::with_capacity((width + 1) * height),
-            columns: Vec::with_capacity(height + 1),
-            mean: 0.0,
+            table: Piecewise::new([1, 1], |_, _| 0.0),
         };
-        picture.tabulate();
+        // Rows on the poles have cells between them.
+        let cells = if mapping == EnvironmentMapping::LatitudeLongitudePoles {
+            (height - 1).max(1)
+        } else {
+            height
+        };
+        picture.table = Piecewise::new([width, cells], |x, y| {
+            let area = match mapping {
+                EnvironmentMapping::EqualAreaOctahedral => 1.0,
+                EnvironmentMapping::LatitudeLongitude
+                | EnvironmentMapping::LatitudeLongitudePoles => {
+                    ((y as f64 + 0.5) / cells as f64 * core::f64::consts::PI).sin()
+                }
+            };
+            picture.tent(x, y) * area
+        });
         Some(picture)
     }
 
-    fn tabulate(&mut self) {
-        let mut sums = Vec::with_capacity(self.height);
-        let mut weights = vec![0.0_f64; self.width];
-        for y in 0..self.height {
-            let area = match self.mapping {
-                EnvironmentMapping::EqualAreaOctahedral => 1.0,
-                EnvironmentMapping::LatitudeLongitude => {
-                    ((y as f64 + 0.5) / self.height as f64 * core::f64::consts::PI).sin()
-                }
-            };
-            for (x, w) in weights.iter_mut().enumerate() {
-                *w = self.tent(x, y) * area;
-            }
-            sums.push(weights.iter().sum::<f64>());
-            cumulate(&weights, &mut self.rows);
-        }
-        cumulate(&sums, &mut self.columns);
-        self.mean = sums.iter().sum::<f64>() / (self.width * self.height) as f64;
-    }
-
-    /// Mean over a pixel of the interpolated luminance.
+    /// Mean over a pixel, or over a cell between rows, of the interpolated luminance.
     fn tent(&self, x: usize, y: usize) -> f64 {
+        let rows: &[(i32, f64)] = match self.mapping {
+            EnvironmentMapping::LatitudeLongitudePoles => &[(0, 0.5), (1, 0.5)],
+            _ => &[(-1, 0.125), (0, 0.75), (1, 0.125)],
+        };
         let mut sum = 0.0;
-        for (dy, wy) in [(-1, 0.125), (0, 0.75), (1, 0.125)] {
+        for &(dy, wy) in rows {
             for (dx, wx) in [(-1, 0.125), (0, 0.75), (1, 0.125)] {
                 let c = self.pixel(signed(x) + dx, signed(y) + dy);
                 // A floor of the mean of channels: deep blue has little luminance.
@@ -188,7 +195,7 @@ impl Picture {
                     x = w - 1 - x;
                 }
             }
-            EnvironmentMapping::LatitudeLongitude => {
+            EnvironmentMapping::LatitudeLongitude | EnvironmentMapping::LatitudeLongitudePoles => {
                 y = y.clamp(0, h - 1);
                 x = x.rem_euclid(w);
             }
@@ -200,7 +207,10 @@ impl Picture {
 
     fn bilinear(&self, [u, v]: [f32; 2]) -> Rgb<f32> {
         let x = u * self.width as f32 - 0.5;
-        let y = v * self.height as f32 - 0.5;
+        let y = match self.mapping {
+            EnvironmentMapping::LatitudeLongitudePoles => v * (self.height - 1) as f32,
+            _ => v * self.height as f32 - 0.5,
+        };
         let (x0, y0) = (floor_i32(x), floor_i32(y));
         let (fx, fy) = (x - x.floor(), y - y.floor());
         (self.pixel(x0, y0) * (1.0 - fx) + self.pixel(x0 + 1, y0) * fx) * (1.0 - fy)
@@ -211,7 +221,7 @@ impl Picture {
     fn uv(&self, w: Vec3<f32>) -> [f32; 2] {
         match self.mapping {
             EnvironmentMapping::EqualAreaOctahedral => square_of(w),
-            EnvironmentMapping::LatitudeLongitude => {
+            EnvironmentMapping::LatitudeLongitude | EnvironmentMapping::LatitudeLongitudePoles => {
                 let phi = w.y.atan2(w.x) * (0.5 * f32::INV_PI);
                 // The polar angle by atan2: acos loses half the digits at the poles.
                 let theta = (w.x * w.x + w.y * w.y).sqrt().atan2(w.z);
@@ -220,27 +230,11 @@ impl Picture {
         }
     }
 
-    fn direction(&self, [u, v]: [f32; 2]) -> Vec3<f32> {
-        match self.mapping {
-            EnvironmentMapping::EqualAreaOctahedral => direction_of([u, v]),
-            EnvironmentMapping::LatitudeLongitude => {
-                let (sin_phi, cos_phi) = (u * core::f32::consts::TAU).sin_cos();
-                let (sin, cos) = (v * core::f32::consts::PI).sin_cos();
-                vec3(sin * cos_phi, sin * sin_phi, cos)
-            }
-        }
-    }
-
     /// Density per solid angle at a point of the square.
     fn pdf(&self, [u, v]: [f32; 2]) -> f32 {
-        let x = floor_index(u * self.width as f32).min(self.width - 1);
-        let y = floor_index(v * self.height as f32).min(self.height - 1);
-        let row = y * (self.width + 1) + x;
-        let share = (self.rows[row + 1] - self.rows[row]) * (self.columns[y + 1] - self.columns[y]);
-        let per_square = share * self.width as f32 * self.height as f32;
         let jacobian = match self.mapping {
             EnvironmentMapping::EqualAreaOctahedral => 0.25 * f32::INV_PI,
-            EnvironmentMapping::LatitudeLongitude => {
+            EnvironmentMapping::LatitudeLongitude | EnvironmentMapping::LatitudeLongitudePoles => {
                 let sin = (v * core::f32::consts::PI).sin();
                 if sin <= 0.0 {
                     return 0.0;
@@ -248,45 +242,8 @@ impl Picture {
                 0.5 * f32::INV_PI * f32::INV_PI / sin
             }
         };
-        per_square * jacobian
+        self.table.density([u, v]) * jacobian
     }
-
-    fn sample(&self, u: [f32; 2]) -> [f32; 2] {
-        let (y, v) = invert(&self.columns, u[1]);
-        let row = &self.rows[y * (self.width + 1)..(y + 1) * (self.width + 1)];
-        let (x, s) = invert(row, u[0]);
-        [
-            (x as f32 + s) / self.width as f32,
-            (y as f32 + v) / self.height as f32,
-        ]
-    }
-}
-
-/// Appends the cumulated shares of `weights`, from 0 to 1; equal shares where all are zero.
-fn cumulate(weights: &[f64], to: &mut Vec<f32>) {
-    let sum: f64 = weights.iter().sum();
-    let mut run = 0.0;
-    for (i, w) in weights.iter().enumerate() {
-        to.push(narrow(if sum > 0.0 {
-            run / sum
-        } else {
-            i as f64 / weights.len() as f64
-        }));
-        run += w;
-    }
-    to.push(1.0);
-}
-
-/// The cell in which `u` falls, and where within it, in `[0, 1)`.
-fn invert(cdf: &[f32], u: f32) -> (usize, f32) {
-    let cell = cdf.partition_point(|&c| c <= u).clamp(1, cdf.len() - 1) - 1;
-    let width = cdf[cell + 1] - cdf[cell];
-    let within = if width > 0.0 {
-        (u - cdf[cell]) / width
-    } else {
-        0.5
-    };
-    (cell, within.clamp(0.0, 1.0 - f32::EPSILON))
 }
 
 fn signed(x: usize) -> i32 {
@@ -296,6 +253,7 @@ fn signed(x: usize) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::convert::floor_index;
     use crate::sampler::Sampler;
 
     fn sky(mapping: EnvironmentMapping) -> Environment {
@@ -317,9 +275,10 @@ mod tests {
         Environment::new(Rgb::WHITE, Some((&image, mapping)), &turn)
     }
 
-    const MAPPINGS: [EnvironmentMapping; 2] = [
+    const MAPPINGS: [EnvironmentMapping; 3] = [
         EnvironmentMapping::EqualAreaOctahedral,
         EnvironmentMapping::LatitudeLongitude,
+        EnvironmentMapping::LatitudeLongitudePoles,
     ];
 
     /// Cells of equal solid angle, `z` by `phi`.
@@ -401,7 +360,7 @@ mod tests {
         for i in 0..1000 {
             // Neighbouring directions on either side of the seams.
             let t = i as f32 / 1000.0;
-            let w = p.direction([t, 1e-4]);
+            let w = direction(p.mapping, [t, 1e-4]);
             let (a, b) = (w, (w + vec3(2e-4, -3e-4, 0.0)).normalize());
             let step = p.bilinear(p.uv(a)) - p.bilinear(p.uv(b));
             let jump = step.map(f32::abs).max_channel();

@@ -8,7 +8,10 @@ mod delta;
 mod environment;
 mod node;
 mod octahedral;
+mod piecewise;
 mod select;
+mod sun;
+mod textured;
 mod tree;
 
 #[cfg(test)]
@@ -16,16 +19,20 @@ mod tests;
 
 use glam::DMat4;
 use specula_bsdf::{Rgb, Vec3};
-use specula_scene::scene::{Light, Scene};
+use specula_scene::scene::{ColourParam, Light, Scene};
 
 use crate::accel::Bounds;
-use crate::geometry::{Geometry, Surface};
-use area::Area;
+use crate::geometry::{Geometry, GroupData, Placement, ShapeRecord, Surface};
+use crate::texture::Textures;
+use area::{Area, AreaSample};
 use build::Emitter;
 use delta::Delta;
 use environment::Environment;
 use select::Selection;
+use sun::Sun;
+use textured::{Textured, Varying};
 
+pub(crate) use environment::direction as direction_of_sphere;
 pub(crate) use node::Receiver;
 
 #[derive(Clone, Debug)]
@@ -35,9 +42,17 @@ enum Source {
         radiance: Rgb<f32>,
         two_sided: bool,
     },
-    /// Index among the environments.
-    Environment(usize),
+    Textured(Box<Textured>),
+    /// Index among the lights with extent at infinity.
+    Far(usize),
     Delta(Delta),
+}
+
+/// A light with extent at infinity.
+#[derive(Clone, Debug)]
+enum Far {
+    Environment(Environment),
+    Sun(Sun),
 }
 
 /// All lights of a scene. The first are the emitting primitives, in the order of
@@ -46,7 +61,7 @@ enum Source {
 pub(crate) struct Lights {
     sources: Vec<Source>,
     /// With their places in `sources`.
-    environments: Vec<(Environment, u32)>,
+    far: Vec<(Far, u32)>,
     selection: Selection,
 }
 
@@ -75,15 +90,15 @@ pub(crate) struct Target {
 
 impl Lights {
     /// Gathers the lights of a scene.
-    pub(crate) fn new(scene: &Scene, geometry: &Geometry) -> Self {
+    pub(crate) fn new(scene: &Scene, geometry: &Geometry, textures: &Textures) -> Self {
         let mut lights = Self {
             sources: Vec::new(),
-            environments: Vec::new(),
+            far: Vec::new(),
             selection: Selection::default(),
         };
         let mut near = Vec::new();
         let mut far = Vec::new();
-        lights.add_emitters(geometry, &mut near);
+        lights.add_emitters(geometry, textures, &mut near);
         for light in &scene.lights {
             let index = crate::convert::id(lights.sources.len());
             if let Some(delta) = Delta::new(light) {
@@ -100,33 +115,38 @@ impl Lights {
                     }),
                 }
                 lights.sources.push(Source::Delta(delta));
-            } else if let Light::Infinite {
-                radiance,
-                image,
-                to_world,
-            } = light
-            {
-                let image = image.map(|(id, mapping)| (&scene.images[id.0], mapping));
-                let environment = Environment::new(*radiance, image, to_world);
-                far.push((index, environment.luminous_integral()));
-                let number = lights.environments.len();
-                lights.sources.push(Source::Environment(number));
-                lights.environments.push((environment, index));
+            } else if let Some(light) = Far::new(light, scene) {
+                far.push((index, light.luminous_integral()));
+                lights.sources.push(Source::Far(lights.far.len()));
+                lights.far.push((light, index));
             }
         }
         lights.selection = Selection::new(near, &far, lights.sources.len());
         lights
     }
 
-    fn add_emitters(&mut self, geometry: &Geometry, near: &mut Vec<Emitter>) {
-        for placement in &geometry.placements {
-            let group = &geometry.groups[placement.group as usize];
+    fn add_emitters(&mut self, geometry: &Geometry, textures: &Textures, near: &mut Vec<Emitter>) {
+        let varies = |shape: &ShapeRecord| {
+            matches!(shape.radiance, ColourParam::Texture(_)) || shape.alpha.is_some()
+        };
+        let each = |p: &Placement| &geometry.groups[p.group as usize];
+        let shape_of = |group: &GroupData, primitive: u32| {
+            &geometry.shapes[group.shape_of[primitive as usize] as usize]
+        };
+        let varying = geometry.placements.iter().map(|p| {
+            let group = each(p);
+            let emitters = group.emitters.iter();
+            emitters.filter(|&&e| varies(shape_of(group, e))).count()
+        });
+        let cells = textured::cells_for(varying.sum());
+        for (instance, placement) in (0..).zip(&geometry.placements) {
+            let group = each(placement);
             let triangles = group.triangles.len();
             let m = &placement.transform;
             // The winding's side turns over under a mirror; the outside does not.
             let mirrored = glam::DMat3::from_mat4(*m).determinant() < 0.0;
             for &primitive in &group.emitters {
-                let shape = &geometry.shapes[group.shape_of[primitive as usize] as usize];
+                let shape = shape_of(group, primitive);
                 let area = if (primitive as usize) < triangles {
                     let [a, b, c] = world_corners(group.corners(primitive), m);
                     Area::triangle(if mirrored { [a, c, b] } else { [a, b, c] })
@@ -134,18 +154,38 @@ impl Lights {
                     let q = &group.quadrics[primitive as usize - triangles];
                     Area::quadric(q.shape, &(*m * q.to_group), q.flipped)
                 };
-                let colour = shape.radiance.luminance().max(shape.radiance.mean());
+                let (source, colour) = match shape.radiance {
+                    ColourParam::Value(radiance) if shape.alpha.is_none() => (
+                        Source::Area {
+                            area,
+                            radiance,
+                            two_sided: shape.two_sided,
+                        },
+                        f64::from(radiance.luminance().max(radiance.mean())),
+                    ),
+                    radiance => {
+                        let light = Textured::new(
+                            area,
+                            Varying {
+                                radiance,
+                                alpha: shape.alpha,
+                            },
+                            shape.two_sided,
+                            (instance, primitive, mirrored),
+                            (geometry, textures),
+                            cells,
+                        );
+                        let mean = light.mean;
+                        (Source::Textured(Box::new(light)), mean)
+                    }
+                };
                 near.push(Emitter {
                     light: crate::convert::id(self.sources.len()),
                     bounds: area.bounds(),
                     cone: area.cone(shape.two_sided),
-                    intensity: f64::from(colour) * f64::from(area.projected_area()),
+                    intensity: colour * f64::from(area.projected_area()),
                 });
-                self.sources.push(Source::Area {
-                    area,
-                    radiance: shape.radiance,
-                    two_sided: shape.two_sided,
-                });
+                self.sources.push(source);
             }
         }
     }
@@ -157,9 +197,15 @@ impl Lights {
 
     /// Light at a point from one light.
     ///
+    /// * `world`: what textured lights lie on.
     /// * `u`: choice of light, two for the point on it, finer digits of the choice.
     #[inline]
-    pub(crate) fn sample(&self, receiver: &Receiver, u: [f32; 4]) -> Option<LightSample> {
+    pub(crate) fn sample(
+        &self,
+        receiver: &Receiver,
+        world: (&Geometry, &Textures),
+        u: [f32; 4],
+    ) -> Option<LightSample> {
         let p = receiver.point;
         let (index, probability) = self.selection.sample(receiver, [u[0], u[3]])?;
         match &self.sources[index as usize] {
@@ -169,20 +215,16 @@ impl Lights {
                 two_sided,
             } => {
                 let s = area.sample(p, [u[1], u[2]])?;
-                (*two_sided || s.normal.dot(s.wi) < 0.0).then_some(LightSample {
-                    wi: s.wi,
-                    radiance: *radiance,
-                    pdf: probability * s.pdf,
-                    delta: false,
-                    from: Some(Target {
-                        point: s.point,
-                        error: s.error,
-                        normal: s.normal,
-                    }),
-                })
+                (*two_sided || s.normal.dot(s.wi) < 0.0)
+                    .then(|| from_area(&s, *radiance, probability))
             }
-            Source::Environment(number) => {
-                let (wi, radiance, pdf) = self.environments[*number].0.sample([u[1], u[2]])?;
+            Source::Textured(light) => {
+                let (s, radiance) = light.sample(p, [u[1], u[2]], world)?;
+                (light.two_sided || s.normal.dot(s.wi) < 0.0)
+                    .then(|| from_area(&s, radiance, probability))
+            }
+            Source::Far(number) => {
+                let (wi, radiance, pdf) = self.far[*number].0.sample([u[1], u[2]])?;
                 Some(LightSample {
                     wi,
                     radiance,
@@ -219,6 +261,10 @@ impl Lights {
                 let probability = self.selection.probability_near(receiver, s.light);
                 probability * area.pdf(receiver.point, s.position, s.ng)
             }
+            Some(Source::Textured(light)) => {
+                let probability = self.selection.probability_near(receiver, s.light);
+                probability * light.pdf(receiver.point, s)
+            }
             _ => 0.0,
         }
     }
@@ -231,9 +277,9 @@ impl Lights {
         &self,
         wi: Vec3<f32>,
     ) -> impl Iterator<Item = (Rgb<f32>, f32)> {
-        self.environments.iter().map(move |(environment, index)| {
+        self.far.iter().map(move |(light, index)| {
             let probability = self.selection.probability_far(*index);
-            (environment.radiance(wi), probability * environment.pdf(wi))
+            (light.radiance(wi), probability * light.pdf(wi))
         })
     }
 
@@ -241,6 +287,77 @@ impl Lights {
     #[inline]
     pub(crate) fn share_from_infinity(&self, receiver: &Receiver) -> f32 {
         self.selection.share_far(receiver)
+    }
+}
+
+impl Far {
+    /// `None` for lights without extent.
+    fn new(light: &Light, scene: &Scene) -> Option<Self> {
+        match light {
+            Light::Infinite {
+                radiance,
+                image,
+                to_world,
+            } => {
+                let image = image.map(|(id, mapping)| (&scene.images[id.0], mapping));
+                Some(Self::Environment(Environment::new(
+                    *radiance, image, to_world,
+                )))
+            }
+            Light::Distant {
+                irradiance,
+                to_light,
+                half_angle_deg,
+            } => Some(Self::Sun(Sun::new(*irradiance, *to_light, *half_angle_deg))),
+            Light::Point { .. } | Light::Spot { .. } => None,
+        }
+    }
+
+    #[inline]
+    fn radiance(&self, wi: Vec3<f32>) -> Rgb<f32> {
+        match self {
+            Self::Environment(light) => light.radiance(wi),
+            Self::Sun(light) => light.radiance(wi),
+        }
+    }
+
+    #[inline]
+    fn pdf(&self, wi: Vec3<f32>) -> f32 {
+        match self {
+            Self::Environment(light) => light.pdf(wi),
+            Self::Sun(light) => light.pdf(wi),
+        }
+    }
+
+    #[inline]
+    fn sample(&self, u: [f32; 2]) -> Option<(Vec3<f32>, Rgb<f32>, f32)> {
+        match self {
+            Self::Environment(light) => light.sample(u),
+            Self::Sun(light) => Some(light.sample(u)),
+        }
+    }
+
+    fn luminous_integral(&self) -> f64 {
+        match self {
+            Self::Environment(light) => light.luminous_integral(),
+            Self::Sun(light) => light.luminous_integral(),
+        }
+    }
+}
+
+/// A sampled point of a shape, drawn from a light of this probability.
+#[inline]
+fn from_area(s: &AreaSample, radiance: Rgb<f32>, probability: f32) -> LightSample {
+    LightSample {
+        wi: s.wi,
+        radiance,
+        pdf: probability * s.pdf,
+        delta: false,
+        from: Some(Target {
+            point: s.point,
+            error: s.error,
+            normal: s.normal,
+        }),
     }
 }
 

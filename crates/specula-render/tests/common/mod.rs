@@ -27,7 +27,7 @@ pub(crate) fn look(from: [f64; 3], to: [f64; 3], fov_deg: f64) -> Camera {
             forward.extend(0.0),
             from.extend(1.0),
         ),
-        fov_deg,
+        projection: Projection::Perspective { fov_deg },
         lens_radius: 0.0,
         focal_distance: 1.0,
         screen_window: [-1.0, 1.0, -1.0, 1.0],
@@ -43,6 +43,8 @@ pub(crate) fn empty(camera: Camera, size: u32) -> Scene {
             crop: [0, size, 0, size],
             filter: Filter::Box { radius: [0.5; 2] },
             exposure: 1.0,
+            max_component: None,
+            balance: Film::NO_BALANCE,
             file_name: None,
         },
         settings: Settings {
@@ -72,11 +74,7 @@ pub(crate) fn diffuse(albedo: f32) -> MaterialKind {
 }
 
 pub(crate) fn alpha(a: f32) -> Roughness {
-    Roughness {
-        u: FloatParam::Value(a),
-        v: FloatParam::Value(a),
-        mapping: RoughnessMapping::Alpha,
-    }
+    Roughness::isotropic(FloatParam::Value(a), RoughnessMapping::Alpha)
 }
 
 /// A metal that reflects practically everything at every angle.
@@ -87,6 +85,7 @@ pub(crate) fn mirror_metal(a: f32) -> MaterialKind {
             k: grey(300.0),
         },
         roughness: alpha(a),
+        tint: ColourParam::WHITE,
     }
 }
 
@@ -94,15 +93,13 @@ pub(crate) fn glass(a: f32) -> MaterialKind {
     MaterialKind::Dielectric {
         eta: 1.5,
         roughness: alpha(a),
+        reflection_tint: ColourParam::WHITE,
+        transmission_tint: ColourParam::WHITE,
     }
 }
 
 pub(crate) fn material(scene: &mut Scene, kind: MaterialKind) -> MaterialId {
-    scene.materials.push(Material {
-        name: None,
-        kind,
-        energy: None,
-    });
+    scene.materials.push(Material::new(kind));
     MaterialId(scene.materials.len() - 1)
 }
 
@@ -125,7 +122,7 @@ pub(crate) fn sphere(radius: f32, centre: [f64; 3], material: MaterialId) -> Sha
 pub(crate) fn emitting(shape: Shape, radiance: f32) -> Shape {
     Shape {
         emission: Some(Emission {
-            radiance: Rgb::splat(radiance),
+            radiance: grey(radiance),
             two_sided: false,
         }),
         ..shape
@@ -206,4 +203,14 @@ pub(crate) fn assert_agree(what: &str, results: &[(f64, f64)], reference: usize,
         let z = (m - m0) / (e * e + e0 * e0).sqrt();
         assert!(z.abs() < 4.5, "{what}: {results:?}");
     }
+}
+
+/// A large Lambert plane z = 0 of albedo 1/2 with its outside at +z, seen in one spot next to the
+/// origin.
+pub(crate) fn lit_floor() -> Scene {
+    let mut scene = empty(look([3.0, 0.0, 3.0], [0.0; 3], 0.05), 8);
+    let m = material(&mut scene, diffuse(0.5));
+    let floor = square(&mut scene, 50.0, DMat4::IDENTITY, m);
+    scene.shapes.push(floor);
+    scene
 }

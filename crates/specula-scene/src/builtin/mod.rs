@@ -8,6 +8,8 @@ mod revolve;
 mod stage;
 mod studio;
 
+pub(crate) use studio::environment as studio_environment;
+
 use glam::{DMat4, DVec3};
 use specula_bsdf::math::rgb;
 use specula_bsdf::{Rgb, metals};
@@ -15,7 +17,7 @@ use specula_bsdf::{Rgb, metals};
 use crate::num::f32_of;
 use crate::scene::{
     Camera, ColourParam, ConductorFresnel, Emission, Film, Filter, FloatParam, Geometry, Material,
-    MaterialId, MaterialKind, Mesh, MeshId, Roughness, RoughnessMapping, Scene, Settings, Shape,
+    MaterialId, MaterialKind, Mesh, MeshId, Projection, Roughness, Scene, Settings, Shape,
 };
 
 /// Symbols of the metals, from left to right.
@@ -78,7 +80,7 @@ fn alphas(alpha_x: f64, alpha_y: f64) -> Roughness {
     Roughness {
         u: FloatParam::Value(f32_of(alpha_x)),
         v: FloatParam::Value(f32_of(alpha_y)),
-        mapping: RoughnessMapping::Alpha,
+        ..Roughness::smooth()
     }
 }
 
@@ -95,6 +97,7 @@ fn conductor(symbol: &str, alpha_x: f64, alpha_y: f64) -> MaterialKind {
     MaterialKind::Conductor {
         fresnel,
         roughness: alphas(alpha_x, alpha_y),
+        tint: ColourParam::WHITE,
     }
 }
 
@@ -117,6 +120,8 @@ impl Build {
                         sigma: 0.5,
                     },
                     exposure: 1.0,
+                    max_component: None,
+                    balance: Film::NO_BALANCE,
                     file_name: None,
                 },
                 settings: Settings {
@@ -142,9 +147,8 @@ impl Build {
 
     fn material(&mut self, name: &str, kind: MaterialKind) -> MaterialId {
         self.scene.materials.push(Material {
-            energy: None,
             name: Some(name.to_owned()),
-            kind,
+            ..Material::new(kind)
         });
         MaterialId(self.scene.materials.len() - 1)
     }
@@ -165,7 +169,7 @@ impl Build {
         self.shape(mesh, DMat4::IDENTITY, material);
         if let Some(shape) = self.scene.shapes.last_mut() {
             shape.emission = Some(Emission {
-                radiance,
+                radiance: ColourParam::Value(radiance),
                 two_sided: false,
             });
         }
@@ -186,7 +190,7 @@ fn camera(resolution: [u32; 2]) -> Camera {
             forward.extend(0.0),
             eye.extend(1.0),
         ),
-        fov_deg: 18.9,
+        projection: Projection::Perspective { fov_deg: 18.9 },
         lens_radius: 0.0,
         focal_distance: (target - eye).length(),
         screen_window: [-aspect, aspect, -1.0, 1.0],

@@ -7,7 +7,7 @@ use super::{Build, studio};
 use crate::num::f32_of;
 use crate::scene::{
     ColourParam, EnvironmentMapping, FloatParam, ImageId, Light, MaterialKind, Mesh, Texture,
-    TextureId, UvMapping,
+    TextureId, TextureMapping, UvMapping,
 };
 
 /// Where the front row stands.
@@ -65,10 +65,7 @@ impl Build {
         textures.push(Texture::Checkerboard {
             even: TextureId(0),
             odd: TextureId(1),
-            mapping: UvMapping {
-                scale: [1.0 / 1.36; 2],
-                offset: [0.5, 0.0],
-            },
+            mapping: TextureMapping::Uv(UvMapping::scaled([1.0 / 1.36; 2], [0.5, 0.0])),
         });
         TextureId(textures.len() - 1)
     }
@@ -158,6 +155,7 @@ fn softbox(centre: DVec3, target: DVec3, half_width: f64, half_height: f64) -> M
             corner(1.0, 1.0),
         ],
         normals: vec![normal; 4],
+        colours: Vec::new(),
         uvs: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
         triangles: vec![[0, 1, 2], [0, 2, 3]],
     }

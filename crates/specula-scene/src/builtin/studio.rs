@@ -48,7 +48,7 @@ const STRIPS: [Strip; 4] = [
 ];
 
 /// Latitude and longitude, +z in the first row, azimuth along the columns.
-pub(super) fn environment() -> Image {
+pub(crate) fn environment() -> Image {
     let mut pixels = Vec::with_capacity((WIDTH * HEIGHT) as usize);
     for row in 0..HEIGHT {
         let elevation = 90.0 - 180.0 * (f64::from(row) + 0.5) / f64::from(HEIGHT);

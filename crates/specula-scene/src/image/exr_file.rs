@@ -4,26 +4,21 @@ use std::io::Cursor;
 
 use exr::prelude::{ReadChannels, ReadLayers};
 
-use super::MAX_PIXELS;
-use super::read::Decoded;
+use super::read::{Decoded, check_size};
+use crate::Limits;
+use crate::spectrum::{ColourSpace, Primaries};
 
 /// Decodes an OpenEXR picture.
 ///
 /// # Errors
 ///
 /// A message where the file is damaged or has no colour channels.
-pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, String> {
+pub(super) fn decode(bytes: &[u8], limits: &Limits) -> Result<Decoded, String> {
     let meta = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false)
         .map_err(|e| e.to_string())?;
     for header in &meta.headers {
         let size = header.layer_size;
-        if size.width() as u64 * size.height() as u64 > MAX_PIXELS {
-            return Err(format!(
-                "it has too many pixels: {} x {}",
-                size.width(),
-                size.height()
-            ));
-        }
+        check_size(size.width() as u64, size.height() as u64, limits)?;
     }
     let picture = exr::prelude::read()
         .no_deep_data()
@@ -70,5 +65,21 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, String> {
         height,
         pixels,
         alpha: channel("A"),
+        space: picture
+            .attributes
+            .chromaticities
+            .and_then(space)
+            .unwrap_or_default(),
+    })
+}
+
+/// The space of a file's chromaticities; Rec. 709 where they make no sense.
+fn space(c: exr::meta::attribute::Chromaticities) -> Option<ColourSpace> {
+    let pair = |v: exr::math::Vec2<f32>| [f64::from(v.x()), f64::from(v.y())];
+    ColourSpace::of(Primaries {
+        red: pair(c.red),
+        green: pair(c.green),
+        blue: pair(c.blue),
+        white: pair(c.white),
     })
 }

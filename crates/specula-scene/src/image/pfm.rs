@@ -1,14 +1,16 @@
 //! Portable float maps: `PF` or `Pf`, width, height, scale (negative: little endian), then floats,
 //! the lowest row first.
 
-use super::read::Decoded;
+use super::read::{Decoded, check_size};
+use crate::Limits;
+use crate::spectrum::ColourSpace;
 
 /// Decodes a portable float map.
 ///
 /// # Errors
 ///
 /// A message where the header or the length is wrong.
-pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, String> {
+pub(super) fn decode(bytes: &[u8], limits: &Limits) -> Result<Decoded, String> {
     let mut rest = bytes;
     let channels = match word(&mut rest) {
         Some("PF") => 3,
@@ -35,6 +37,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, String> {
             "expected a size from 1 to 65536 pixels, found {width} x {height}"
         ));
     };
+    check_size(u64::from(width), u64::from(height), limits)?;
     let row = width as usize * channels;
     let expected = row * height as usize * 4;
     if rest.len() < expected {
@@ -68,6 +71,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, String> {
         height,
         pixels,
         alpha: None,
+        space: ColourSpace::Srgb,
     })
 }
 
@@ -89,7 +93,7 @@ mod tests {
         let mut bytes = b"Pf\n1 2\n-1.0\n".to_vec();
         bytes.extend(1f32.to_le_bytes());
         bytes.extend(2f32.to_le_bytes());
-        let image = decode(&bytes).unwrap();
+        let image = decode(&bytes, &Limits::default()).unwrap();
         assert_eq!(image.pixels, [[2.0; 3], [1.0; 3]]);
     }
 
@@ -99,7 +103,10 @@ mod tests {
         for v in [1f32, 2.0, 3.0] {
             bytes.extend(v.to_be_bytes());
         }
-        assert_eq!(decode(&bytes).unwrap().pixels, [[2.0, 4.0, 6.0]]);
+        assert_eq!(
+            decode(&bytes, &Limits::default()).unwrap().pixels,
+            [[2.0, 4.0, 6.0]]
+        );
     }
 
     #[test]
@@ -113,7 +120,7 @@ mod tests {
             "PF 0 1 -1\n",
             "PF 2 2 -1\nabcd",
         ] {
-            assert!(decode(bad.as_bytes()).is_err(), "{bad}");
+            assert!(decode(bad.as_bytes(), &Limits::default()).is_err(), "{bad}");
         }
     }
 }

@@ -1,24 +1,21 @@
 //! From what the directives said to a scene: materials, meshes, shapes, objects.
 
 use std::collections::{HashMap, HashSet};
-use std::path::PathBuf;
-
-use rayon::prelude::*;
 
 use super::context::Context;
 use super::directive::{InstanceEntity, MaterialEntity, Reader};
-use super::shape::{Prepared, ShapeEntity, prepare};
+use super::geometry::{self, Kept};
+use super::shape::{self, ShapeEntity};
 use super::state::MaterialUse;
 use super::token::shorten;
 use super::{camera, light, material};
 use crate::Loaded;
 use crate::bounds::{self, FARTHEST};
 use crate::error::{ErrorKind, Place, SceneError, Warning};
-use crate::mesh::{self, Cleaning};
-use crate::ply;
+use crate::mesh;
 use crate::scene::{
-    FloatParam, Geometry, Instance, Material, MaterialId, MaterialKind, Mesh, MeshId, Object,
-    ObjectId, Scene, Shape,
+    FloatParam, Geometry, Instance, Material, MaterialId, MaterialKind, Mesh, Object, ObjectId,
+    Relief, Scene, Shape, TextureId,
 };
 
 /// Builds the scene.
@@ -39,7 +36,12 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         .chain(&reader.shapes)
         .collect();
     let mut materials = read_materials(&mut context, &reader.materials, &named_materials, &all)?;
-    let (geometries, meshes) = read_geometry(&mut context, &all)?;
+    let (geometries, meshes) = geometry::read(&mut context, &all)?;
+    let mut lights = Vec::with_capacity(reader.lights.len());
+    for (entity, to_world) in &reader.lights {
+        lights.push(light::read(&mut context, entity, *to_world)?);
+        context.warn_unused(&entity.params);
+    }
 
     let mut builder = Builder {
         context,
@@ -73,7 +75,7 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         shapes,
         objects,
         instances,
-        lights: reader.lights,
+        lights,
     };
     scene
         .validate()
@@ -138,6 +140,8 @@ fn nothing_left(context: &Context, end: &Place) -> SceneError {
 
 struct Materials {
     list: Vec<Material>,
+    /// Copies with a height, by the texture of the height.
+    displaced: HashMap<(MaterialId, TextureId), MaterialId>,
     /// Ids of the file's materials; those without name or use have none.
     ids: Vec<Option<MaterialId>>,
     default: Option<MaterialId>,
@@ -168,9 +172,8 @@ fn read_materials(
             ids.push(None);
             continue;
         }
-        let energy = material::energy(&entity.params)?;
-        let kind = material::read(context, entity, &before)?;
-        if let MaterialKind::Mix { materials, .. } = kind
+        let material = material::read(context, entity, &before)?;
+        if let MaterialKind::Mix { materials, .. } = material.kind
             && materials
                 .iter()
                 .any(|m| list[m.0].kind == MaterialKind::Interface)
@@ -188,13 +191,13 @@ fn read_materials(
         }
         list.push(Material {
             name: name.clone(),
-            kind,
-            energy,
+            ..material
         });
         ids.push(Some(id));
     }
     Ok(Materials {
         list,
+        displaced: HashMap::new(),
         ids,
         default: None,
         named: named.clone(),
@@ -202,6 +205,28 @@ fn read_materials(
 }
 
 impl Materials {
+    /// A copy of a material that is bumpy; one that has its own relief keeps it.
+    fn displaced(&mut self, material: MaterialId, height: FloatParam) -> MaterialId {
+        let FloatParam::Texture(texture) = height else {
+            return material;
+        };
+        let plain = &self.list[material.0];
+        if plain.relief.is_some() || plain.kind == MaterialKind::Interface {
+            return material;
+        }
+        *self
+            .displaced
+            .entry((material, texture))
+            .or_insert_with(|| {
+                let bumpy = Material {
+                    relief: Some(Relief::Height(height)),
+                    ..self.list[material.0].clone()
+                };
+                self.list.push(bumpy);
+                MaterialId(self.list.len() - 1)
+            })
+    }
+
     fn id(&mut self, wanted: &MaterialUse) -> Result<MaterialId, SceneError> {
         let index = match wanted {
             MaterialUse::Defined(i) => Some(*i),
@@ -209,11 +234,7 @@ impl Materials {
             MaterialUse::Default => {
                 let list = &mut self.list;
                 return Ok(*self.default.get_or_insert_with(|| {
-                    list.push(Material {
-                        name: None,
-                        kind: material::DEFAULT,
-                        energy: None,
-                    });
+                    list.push(Material::new(material::DEFAULT));
                     MaterialId(list.len() - 1)
                 }));
             }
@@ -226,121 +247,6 @@ impl Materials {
             }
             (None, _) => self.id(&MaterialUse::Default),
         }
-    }
-}
-
-/// Geometry of a shape, or `None` where it is left out.
-type Kept = Option<Geometry>;
-
-/// A mesh to be read or checked, and the first place that asks for it.
-struct Job {
-    source: Result<Mesh, PathBuf>,
-    place: Place,
-}
-
-/// Reads and checks all meshes, in parallel; each file once.
-fn read_geometry(
-    context: &mut Context,
-    shapes: &[&ShapeEntity],
-) -> Result<(Vec<Kept>, Vec<Mesh>), SceneError> {
-    enum Slot {
-        Job(usize),
-        Ready(Kept),
-    }
-    let mut jobs: Vec<Job> = Vec::new();
-    let mut files: HashMap<PathBuf, usize> = HashMap::new();
-    let mut slots = Vec::with_capacity(shapes.len());
-    for shape in shapes {
-        let entity = &shape.entity;
-        slots.push(match prepare(context, entity)? {
-            Prepared::Sphere { radius } => Slot::Ready(Some(Geometry::Sphere { radius })),
-            Prepared::Disk { radius, height } => {
-                Slot::Ready(Some(Geometry::Disk { radius, height }))
-            }
-            Prepared::LeftOut => Slot::Ready(None),
-            Prepared::Mesh(mesh) => {
-                jobs.push(Job {
-                    source: Ok(mesh),
-                    place: entity.place.clone(),
-                });
-                Slot::Job(jobs.len() - 1)
-            }
-            Prepared::File(path) => Slot::Job(*files.entry(path.clone()).or_insert_with(|| {
-                let place = match entity.params.string("filename") {
-                    Ok(Some((_, place))) => place.clone(),
-                    _ => entity.place.clone(),
-                };
-                jobs.push(Job {
-                    source: Err(path),
-                    place,
-                });
-                jobs.len() - 1
-            })),
-        });
-    }
-    let places: Vec<Place> = jobs.iter().map(|j| j.place.clone()).collect();
-    let read = |source: Result<Mesh, PathBuf>| -> Result<(Mesh, Cleaning), String> {
-        match source {
-            Ok(mut mesh) => mesh::clean(&mut mesh).map(|c| (mesh, c)),
-            Err(path) => {
-                let mut mesh = ply::read(&path)?;
-                let cleaning =
-                    mesh::clean(&mut mesh).map_err(|e| format!("mesh {}: {e}", path.display()))?;
-                Ok((mesh, cleaning))
-            }
-        }
-    };
-    // The order of results is that of the jobs, whatever the threads do.
-    let sources: Vec<_> = jobs.into_iter().map(|j| j.source).collect();
-    let results: Vec<_> = sources.into_par_iter().map(read).collect();
-    let mut meshes = Vec::new();
-    let mut ids = Vec::new();
-    for (result, place) in results.into_iter().zip(&places) {
-        let (mesh, cleaning) = result.map_err(|m| SceneError::new(ErrorKind::Mesh, place, m))?;
-        report(context, place, &cleaning, mesh.triangles.is_empty());
-        ids.push((!mesh.triangles.is_empty()).then_some(Geometry::Mesh(MeshId(meshes.len()))));
-        if !mesh.triangles.is_empty() {
-            meshes.push(mesh);
-        }
-    }
-    let kept = slots.into_iter().map(|slot| match slot {
-        Slot::Job(i) => ids[i],
-        Slot::Ready(kept) => kept,
-    });
-    Ok((kept.collect(), meshes))
-}
-
-fn report(context: &mut Context, place: &Place, cleaning: &Cleaning, empty: bool) {
-    let Cleaning {
-        dropped_triangles,
-        replaced_normals,
-        dropped_uvs,
-    } = *cleaning;
-    if empty {
-        let message = if dropped_triangles > 0 {
-            format!("all {dropped_triangles} triangles of the mesh have no area: it is left out")
-        } else {
-            "the mesh has no triangles: it is left out".to_owned()
-        };
-        context.warn(place, message);
-        return;
-    }
-    if dropped_triangles > 0 {
-        context.warn(
-            place,
-            format!("{dropped_triangles} triangles without area are dropped"),
-        );
-    }
-    if replaced_normals > 0 {
-        let message =
-            format!("{replaced_normals} normals are zero or not finite: geometric ones are used");
-        context.warn(place, message);
-    }
-    if dropped_uvs {
-        context.warn(
-            place,
-            "surface coordinates are dropped: some are not finite",
-        );
     }
 }
 
@@ -357,14 +263,19 @@ impl Builder<'_> {
         geometries: &mut impl Iterator<Item = Kept>,
     ) -> Result<Vec<Shape>, SceneError> {
         let mut shapes = Vec::with_capacity(entities.len());
-        for (shape, geometry) in entities.iter().zip(geometries) {
+        for (shape, kept) in entities.iter().zip(geometries) {
             // Its other faults count even where it is left out.
-            let material = self.materials.id(&shape.material)?;
+            let mut material = self.materials.id(&shape.material)?;
+            if let Some(height) = shape::displacement(&mut self.context, &shape.entity)? {
+                material = self.materials.displaced(material, height);
+            }
             let alpha = self
                 .context
                 .float_from_zero_or_none(&shape.entity.params, "alpha")?
                 .unwrap_or(FloatParam::Value(1.0));
-            let Some(geometry) = geometry else { continue };
+            let Some(geometry) = kept.geometry else {
+                continue;
+            };
             self.context.warn_unused(&shape.entity.params);
             let place = &shape.entity.place;
             let reach = bounds::of_geometry(self.meshes, &geometry).transformed(&shape.to_world);
@@ -378,8 +289,14 @@ impl Builder<'_> {
                     let message = "an \"interface\" emits nothing, as in pbrt-v4";
                     self.context.warn(place, message);
                 } else {
-                    let area = self.area(&geometry, shape);
-                    emission = Some(light::area(&mut self.context, entity, area)?);
+                    let area = self.area(&kept, &geometry, shape);
+                    let pieces = match geometry {
+                        Geometry::Mesh(id) => {
+                            kept.pieces.unwrap_or(self.meshes[id.0].triangles.len())
+                        }
+                        Geometry::Sphere { .. } | Geometry::Disk { .. } => 1,
+                    };
+                    emission = Some(light::area(&mut self.context, entity, area, pieces)?);
                 }
             }
             shapes.push(Shape {
@@ -394,9 +311,12 @@ impl Builder<'_> {
         Ok(shapes)
     }
 
-    /// Area of a shape; spheres and disks before their transform, as pbrt-v4 takes it.
-    fn area(&self, geometry: &Geometry, shape: &ShapeEntity) -> f64 {
+    /// Area of a shape; quadrics before their transform, as pbrt-v4 takes it.
+    fn area(&self, kept: &Kept, geometry: &Geometry, shape: &ShapeEntity) -> f64 {
         use std::f64::consts::PI;
+        if let Some(area) = kept.own_area {
+            return area;
+        }
         match *geometry {
             Geometry::Mesh(id) => mesh::area(&self.meshes[id.0], &shape.to_world),
             Geometry::Sphere { radius } => 4.0 * PI * f64::from(radius).powi(2),

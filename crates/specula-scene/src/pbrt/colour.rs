@@ -1,5 +1,7 @@
 //! Parameters that give a colour: rgb, spectra (named, in files, inline), blackbodies, textures.
 
+use std::borrow::Cow;
+
 use specula_bsdf::Rgb;
 
 use super::context::Context;
@@ -7,8 +9,9 @@ use super::param::{Param, ParamList, Values};
 use super::token::shorten;
 use crate::error::{ErrorKind, Place, SceneError, Source};
 use crate::num::f32_of;
+use crate::read_file::plain_bytes;
 use crate::scene::{ColourParam, TextureId};
-use crate::spectrum::{self, Spectrum};
+use crate::spectrum::{self, ColourSpace, Spectrum};
 
 /// Types that a colour may have.
 const KINDS: [&str; 4] = ["rgb", "spectrum", "blackbody", "texture"];
@@ -16,19 +19,39 @@ const KINDS: [&str; 4] = ["rgb", "spectrum", "blackbody", "texture"];
 /// A colour as the file gives it.
 #[derive(Clone, Debug)]
 pub(super) enum Colour {
-    Rgb(Rgb<f32>),
-    Spectrum(Spectrum),
+    /// As given, in its space.
+    Rgb(Rgb<f32>, ColourSpace),
+    Spectrum(Spectrum, Ends),
     /// Temperature in kelvin.
     Blackbody(f32),
     Texture(TextureId),
+}
+
+/// What a spectrum is outside of its samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Ends {
+    /// Its end values: pbrt-v4's built-in spectra, and every index of refraction.
+    Held,
+    /// 0: spectra of the scene as colours.
+    Zero,
+}
+
+impl Ends {
+    fn applied(self, spectrum: &Spectrum) -> Cow<'_, Spectrum> {
+        match self {
+            Self::Held => Cow::Borrowed(spectrum),
+            Self::Zero => Cow::Owned(spectrum.zero_outside()),
+        }
+    }
 }
 
 impl Colour {
     /// As a reflectance (or anything else that white light shows).
     pub(super) fn under_white(&self) -> ColourParam {
         ColourParam::Value(match self {
-            Self::Rgb(c) => *c,
-            Self::Spectrum(s) => spectrum::reflectance_to_rgb(s),
+            // Colours outside of sRGB's gamut go to its border.
+            Self::Rgb(c, space) => space.surface(*c).map(|x| x.max(0.0)),
+            Self::Spectrum(s, ends) => spectrum::reflectance_to_rgb(&ends.applied(s)),
             Self::Blackbody(kelvin) => spectrum::blackbody_to_rgb(*kelvin),
             Self::Texture(id) => return ColourParam::Texture(*id),
         })
@@ -49,11 +72,15 @@ pub(super) fn colour(
             let [r, g, b] = numbers.as_slice() else {
                 return Err(param.wrong_type(&KINDS));
             };
-            Ok(Some(Colour::Rgb(Rgb {
+            let c = Rgb {
                 r: f32_of(*r),
                 g: f32_of(*g),
                 b: f32_of(*b),
-            })))
+            };
+            Ok(Some(Colour::Rgb(
+                not_negative(c, name, &param.place)?,
+                param.space,
+            )))
         }
         ("blackbody", Values::Numbers(numbers)) => match numbers.as_slice() {
             [kelvin] if (100.0..=1e6).contains(kelvin) => {
@@ -65,7 +92,10 @@ pub(super) fn colour(
                 Err(SceneError::new(ErrorKind::Parameter, &param.place, message))
             }
         },
-        ("spectrum", _) => Ok(Some(Colour::Spectrum(read_spectrum(context, param)?))),
+        ("spectrum", _) => {
+            let (spectrum, ends) = read_spectrum(context, param)?;
+            Ok(Some(Colour::Spectrum(spectrum, ends)))
+        }
         ("texture", _) => {
             let id = context.texture_named(param, &context.colour_textures, "spectrum")?;
             Ok(Some(Colour::Texture(id)))
@@ -96,12 +126,11 @@ pub(super) fn albedo_or_none(
     let ColourParam::Value(c) = colour.under_white() else {
         return Ok(Some(colour.under_white()));
     };
-    let place = params.place_of(name);
-    if matches!(colour, Colour::Rgb(_)) {
-        not_negative(c, name, &place)?;
-        if c.r > 1.0 || c.g > 1.0 || c.b > 1.0 {
-            context.warn(&place, format!("\"{name}\" is above 1; it is cut to 1"));
-        }
+    if let Colour::Rgb(given, _) = colour
+        && (given.r > 1.0 || given.g > 1.0 || given.b > 1.0)
+    {
+        let message = format!("\"{name}\" is above 1; it is cut to 1");
+        context.warn(&params.place_of(name), message);
     }
     // A spectrum may lie outside of sRGB's triangle: its nearest reflectance is meant.
     Ok(Some(ColourParam::Value(c.map(|x| x.clamp(0.0, 1.0)))))
@@ -118,9 +147,11 @@ pub(super) fn emission(
     };
     let place = params.place_of(name);
     let c = match colour {
-        Colour::Rgb(c) => not_negative(c, name, &place)?,
+        Colour::Rgb(c, space) => space.light(c).map(|x| x.max(0.0)),
         // A monochromatic lamp lies outside of sRGB; no light is negative.
-        Colour::Spectrum(s) => spectrum::illuminant_to_rgb(&s).map(|x| x.max(0.0)),
+        Colour::Spectrum(s, ends) => {
+            spectrum::illuminant_to_rgb(&ends.applied(&s)).map(|x| x.max(0.0))
+        }
         Colour::Blackbody(kelvin) => spectrum::blackbody_to_rgb(kelvin).map(|x| x.max(0.0)),
         Colour::Texture(_) => {
             let message = format!(
@@ -145,8 +176,8 @@ pub(super) fn index(context: &Context, params: &ParamList, name: &str) -> Result
     let eta = match param.kind {
         "float" => f32_of(params.float(name, 1.5)?),
         _ => match colour(context, params, name)? {
-            Some(Colour::Spectrum(s)) => f32_of(s.value(spectrum::D_LINE_NM)),
-            Some(Colour::Rgb(c)) => c.mean(),
+            Some(Colour::Spectrum(s, _)) => f32_of(s.value(spectrum::D_LINE_NM)),
+            Some(Colour::Rgb(c, _)) => c.mean(),
             _ => return Err(param.wrong_type(&["float", "spectrum", "rgb"])),
         },
     };
@@ -163,8 +194,8 @@ pub(super) fn index(context: &Context, params: &ParamList, name: &str) -> Result
 /// Complex index of a metal as two colours.
 pub(super) fn complex_index(eta: &Colour, k: &Colour) -> (ColourParam, ColourParam) {
     let curve = |c: &Colour| match c {
-        Colour::Spectrum(s) => Some(s.clone()),
-        Colour::Rgb(c) if c.r == c.g && c.g == c.b => Some(Spectrum::constant(f64::from(c.r))),
+        Colour::Spectrum(s, _) => Some(s.clone()),
+        Colour::Rgb(c, _) if c.r == c.g && c.g == c.b => Some(Spectrum::constant(f64::from(c.r))),
         _ => None,
     };
     if let (Some(eta), Some(k)) = (curve(eta), curve(k)) {
@@ -185,7 +216,7 @@ fn not_negative(c: Rgb<f32>, name: &str, place: &Place) -> Result<Rgb<f32>, Scen
     Err(SceneError::new(ErrorKind::Parameter, place, message))
 }
 
-fn read_spectrum(context: &Context, param: &Param) -> Result<Spectrum, SceneError> {
+fn read_spectrum(context: &Context, param: &Param) -> Result<(Spectrum, Ends), SceneError> {
     match &param.values {
         Values::Numbers(numbers) => {
             let wrong =
@@ -198,26 +229,28 @@ fn read_spectrum(context: &Context, param: &Param) -> Result<Spectrum, SceneErro
                 )));
             }
             let samples = pairs.iter().map(|[nm, v]| (*nm, *v)).collect();
-            Spectrum::new(samples).map_err(|e| wrong(format!("\"{}\": {e}", param.name)))
+            let spectrum =
+                Spectrum::new(samples).map_err(|e| wrong(format!("\"{}\": {e}", param.name)))?;
+            Ok((spectrum, Ends::Zero))
         }
         Values::Texts(texts) => {
             let [(name, place)] = texts.as_slice() else {
                 return Err(param.wrong_type(&["spectrum"]));
             };
-            named_or_file(context, name, place)
+            match spectrum::named(name) {
+                Some(spectrum) => Ok((spectrum, Ends::Held)),
+                None => Ok((spectrum_file(context, name, place)?, Ends::Zero)),
+            }
         }
         Values::Bools(_) => Err(param.wrong_type(&["spectrum"])),
     }
 }
 
-fn named_or_file(context: &Context, name: &str, place: &Place) -> Result<Spectrum, SceneError> {
-    if let Some(spectrum) = spectrum::named(name) {
-        return Ok(spectrum);
-    }
+fn spectrum_file(context: &Context, name: &str, place: &Place) -> Result<Spectrum, SceneError> {
     let path = context.resolve(name);
-    let bytes = std::fs::read(&path).map_err(|e| {
+    let bytes = plain_bytes(&path, &context.limits).map_err(|e| {
         let message = format!(
-            "\"{}\" is no known spectrum, nor a file that can be read: {e}",
+            "\"{}\" is no known spectrum, nor a file that can be read: it {e}",
             shorten(name)
         );
         SceneError::new(ErrorKind::Spectrum, place, message)

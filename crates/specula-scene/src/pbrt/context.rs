@@ -7,6 +7,7 @@ use specula_bsdf::Rgb;
 
 use super::param::{Param, ParamList, Values};
 use super::token::shorten;
+use crate::Limits;
 use crate::error::{ErrorKind, Place, SceneError, Warning};
 use crate::image::{self, Content, Encoding, Image};
 use crate::num::f32_of;
@@ -21,8 +22,25 @@ pub(super) struct Entity {
     pub(super) params: ParamList,
 }
 
+/// A picture to be read, and the first place that asks for it.
+pub(super) struct ImageJob {
+    path: PathBuf,
+    place: Place,
+    encoding: Encoding,
+    content: Content,
+}
+
+impl ImageJob {
+    /// Reads the picture.
+    pub(super) fn read(&self, limits: &Limits) -> Result<Image, SceneError> {
+        image::read(&self.path, self.encoding, self.content, limits)
+            .map_err(|message| SceneError::new(ErrorKind::Image, &self.place, message))
+    }
+}
+
 /// Shared state of the reader.
 pub(super) struct Context {
+    pub(super) limits: Limits,
     pub(super) warnings: Vec<Warning>,
     pub(super) textures: Vec<Texture>,
     pub(super) images: Vec<Image>,
@@ -30,12 +48,15 @@ pub(super) struct Context {
     pub(super) colour_textures: HashMap<String, TextureId>,
     /// pbrt-v4 resolves every file name against the folder of the scene's main file.
     folder: PathBuf,
-    image_ids: HashMap<(PathBuf, String), ImageId>,
+    image_ids: HashMap<(PathBuf, String, Content), ImageId>,
+    /// Pictures that are asked for and not read yet.
+    image_jobs: Vec<ImageJob>,
 }
 
 impl Context {
-    pub(super) fn new(main: &Path) -> Self {
+    pub(super) fn new(main: &Path, limits: Limits) -> Self {
         Self {
+            limits,
             warnings: Vec::new(),
             textures: Vec::new(),
             images: Vec::new(),
@@ -43,6 +64,7 @@ impl Context {
             colour_textures: HashMap::new(),
             folder: main.parent().map(Path::to_owned).unwrap_or_default(),
             image_ids: HashMap::new(),
+            image_jobs: Vec::new(),
         }
     }
 
@@ -58,25 +80,33 @@ impl Context {
         self.folder.join(name)
     }
 
-    /// The picture in a file, decoded once for each way of reading it.
+    /// The picture in a file, to be read once for each way of reading it.
     pub(super) fn image(
         &mut self,
         name: &str,
         place: &Place,
         encoding: Encoding,
         content: Content,
-    ) -> Result<ImageId, SceneError> {
+    ) -> ImageId {
         let path = self.resolve(name);
-        let key = (path.clone(), format!("{encoding:?} {content:?}"));
+        let key = (path.clone(), format!("{encoding:?}"), content);
         if let Some(&id) = self.image_ids.get(&key) {
-            return Ok(id);
+            return id;
         }
-        let image = image::read(&path, encoding, content)
-            .map_err(|message| SceneError::new(ErrorKind::Image, place, message))?;
-        let id = ImageId(self.images.len());
-        self.images.push(image);
+        let id = ImageId(self.images.len() + self.image_jobs.len());
+        self.image_jobs.push(ImageJob {
+            path,
+            place: place.clone(),
+            encoding,
+            content,
+        });
         self.image_ids.insert(key, id);
-        Ok(id)
+        id
+    }
+
+    /// The pictures to be read; [`Context::images`] must get them in this order.
+    pub(super) fn take_image_jobs(&mut self) -> Vec<ImageJob> {
+        std::mem::take(&mut self.image_jobs)
     }
 
     pub(super) fn add_texture(&mut self, texture: Texture) -> TextureId {

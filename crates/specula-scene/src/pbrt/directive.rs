@@ -11,15 +11,13 @@ use super::param::ParamList;
 use super::shape::ShapeEntity;
 use super::state::{ATTRIBUTE_TARGETS, State};
 use super::token::{TokenKind, Tokens, describe, shorten};
+use crate::Limits;
 use crate::error::{ErrorKind, Place, SceneError, Source};
 use crate::read_file::read_bytes;
-use crate::scene::Light;
+use crate::spectrum::{COLOUR_SPACES, ColourSpace};
 
 /// Most files that `Include` and `Import` may open, counted with repetition.
 const MAX_FILES: usize = 100_000;
-
-/// Deepest nesting of files.
-const MAX_NESTING: usize = 64;
 
 /// A material of the file, read once all textures are known.
 pub(super) struct MaterialEntity {
@@ -50,6 +48,22 @@ pub(super) const OPTIONS: [&str; 6] = [
     "Accelerator",
 ];
 
+/// What `Option` may set. They steer pbrt's sampling, statistics and coordinates, and change no
+/// picture here; `forcediffuse` alone would.
+pub(super) const PBRT_OPTIONS: [&str; 11] = [
+    "disablepixeljitter",
+    "disabletexturefiltering",
+    "disablewavelengthjitter",
+    "displacementedgescale",
+    "forcediffuse",
+    "msereferenceimage",
+    "msereferenceout",
+    "pixelstats",
+    "rendercoordsys",
+    "seed",
+    "wavefront",
+];
+
 /// Reads directives and keeps what they describe.
 pub(super) struct Reader {
     pub(super) context: Context,
@@ -60,7 +74,8 @@ pub(super) struct Reader {
     pub(super) shapes: Vec<ShapeEntity>,
     pub(super) objects: Vec<ObjectEntity>,
     pub(super) instances: Vec<InstanceEntity>,
-    pub(super) lights: Vec<Light>,
+    /// Lights that are not shapes, with their space.
+    pub(super) lights: Vec<(Entity, DMat4)>,
     /// End of the main file.
     pub(super) end: Place,
     pub(super) state: State,
@@ -77,9 +92,9 @@ pub(super) struct Reader {
 }
 
 impl Reader {
-    pub(super) fn new(main: &Path) -> Self {
+    pub(super) fn new(main: &Path, limits: Limits) -> Self {
         Self {
-            context: Context::new(main),
+            context: Context::new(main, limits),
             options: HashMap::new(),
             camera_to_world: DMat4::IDENTITY,
             materials: Vec::new(),
@@ -141,15 +156,16 @@ impl Reader {
                 .with_help(format!("files being read: {}", chain.join(" → "))));
         }
         self.files += 1;
-        if self.reading.len() > MAX_NESTING {
-            let message = format!("files are included more than {MAX_NESTING} deep");
+        let deepest = self.context.limits.max_depth;
+        if self.reading.len() > deepest {
+            let message = format!("files are included more than {deepest} deep");
             return Err(SceneError::new(ErrorKind::Limit, place, message));
         }
         if self.files > MAX_FILES {
             let message = format!("more than {MAX_FILES} files are included");
             return Err(SceneError::new(ErrorKind::Limit, place, message));
         }
-        let bytes = read_bytes(path).map_err(unreadable)?;
+        let bytes = read_bytes(path, &self.context.limits).map_err(unreadable)?;
         let source = decode(path, bytes)?;
         self.reading.push(identity);
         let mut tokens = Tokens::new(&source);
@@ -182,19 +198,17 @@ impl Reader {
         }
         match word {
             "Option" => {
-                tokens.expect_text("the name of an option")?;
-                let value = tokens.expect("the value of an option")?;
-                // Options steer pbrt itself; a bracket would begin a list of them.
-                if value.kind == TokenKind::Open {
-                    while tokens.expect("`]`")?.kind != TokenKind::Close {}
-                }
+                self.pbrt_option(tokens)?;
             }
             "ColorSpace" => {
                 let (name, place) = tokens.expect_text("the name of a colour space")?;
-                if !name.eq_ignore_ascii_case("srgb") {
-                    let message = format!("colour space \"{}\" is read as srgb", shorten(&name));
-                    self.context.warn(&place, message);
-                }
+                let Some(space) = ColourSpace::named(&name) else {
+                    let message = format!("unknown colour space \"{}\"", shorten(&name));
+                    let expected = format!("expected one of {}", COLOUR_SPACES.join(", "));
+                    let error = SceneError::new(ErrorKind::Parameter, &place, message);
+                    return Err(error.with_help(expected));
+                };
+                self.state.space = space;
             }
             "Include" | "Import" => {
                 let (name, place) = tokens.expect_text("a file name")?;
@@ -207,7 +221,7 @@ impl Reader {
             }
             "Attribute" => {
                 let (target, place) = tokens.expect_text("what the attribute is for")?;
-                let params = ParamList::read(tokens)?.into_own();
+                let params = ParamList::read(tokens, self.state.space)?.into_own();
                 let Some(i) = ATTRIBUTE_TARGETS.iter().position(|t| *t == target) else {
                     let expected = ATTRIBUTE_TARGETS.join(", ");
                     let message =
@@ -217,6 +231,30 @@ impl Reader {
                 self.state.attributes[i].extend(params);
             }
             _ => return self.world_directive(word, place, tokens),
+        }
+        Ok(())
+    }
+
+    /// `Option`, which steers pbrt itself.
+    fn pbrt_option(&mut self, tokens: &mut Tokens<'_>) -> Result<(), SceneError> {
+        let (name, place) = tokens.expect_text("the name of an option")?;
+        let value = tokens.expect("the value of an option")?;
+        let on = value.kind == TokenKind::Word("true");
+        // A bracket would begin a list of values.
+        if value.kind == TokenKind::Open {
+            while tokens.expect("`]`")?.kind != TokenKind::Close {}
+        }
+        // pbrt-v4 compares names without their case and separators.
+        let plain: String = name.chars().filter(|c| !"_-".contains(*c)).collect();
+        match plain.to_ascii_lowercase().as_str() {
+            "forcediffuse" if on => self
+                .context
+                .warn(&place, "\"forcediffuse\" is ignored: materials are kept"),
+            other if PBRT_OPTIONS.contains(&other) => {}
+            _ => {
+                let message = format!("unknown option \"{}\" is ignored", shorten(&name));
+                self.context.warn(&place, message);
+            }
         }
         Ok(())
     }
@@ -329,7 +367,7 @@ impl Reader {
         Ok(Entity {
             name,
             place,
-            params: ParamList::read(tokens)?,
+            params: ParamList::read(tokens, self.state.space)?,
         })
     }
 

@@ -1,5 +1,9 @@
 //! `LightSource` and `AreaLightSource`.
 
+mod area;
+mod environment;
+mod picture;
+
 use std::f64::consts::PI;
 
 use glam::{DMat4, DVec3};
@@ -7,41 +11,60 @@ use specula_bsdf::Rgb;
 
 use super::colour;
 use super::context::{Context, Entity};
-use super::texture::mean;
 use super::token::shorten;
 use crate::error::{ErrorKind, SceneError};
-use crate::image::{Content, Encoding, Image};
+use crate::image::{Content, Encoding};
 use crate::num::f32_of;
-use crate::scene::{Emission, EnvironmentMapping, Light};
+use crate::scene::{ImageId, Light, SpotFalloff};
 
-/// Reads a light that is not a shape.
+pub(super) use area::area;
+
+/// Asks for the picture of a light, so that all pictures are decoded before any light is read.
+pub(super) fn fetch_picture(context: &mut Context, entity: &Entity) -> Result<(), SceneError> {
+    const WITH_PICTURES: [&str; 4] = ["infinite", "goniometric", "projection", "diffuse"];
+    if WITH_PICTURES.contains(&entity.name.as_str()) {
+        picture_id(context, entity)?;
+    }
+    Ok(())
+}
+
+fn picture_id(context: &mut Context, entity: &Entity) -> Result<Option<ImageId>, SceneError> {
+    let Some((name, place)) = entity.params.string("filename")? else {
+        return Ok(None);
+    };
+    Ok(Some(context.image(
+        name,
+        place,
+        Encoding::Srgb,
+        Content::Light,
+    )))
+}
+
+/// Reads a light that is not a shape; its picture is decoded by now.
 pub(super) fn read(
     context: &mut Context,
     entity: &Entity,
     to_world: DMat4,
 ) -> Result<Light, SceneError> {
     match entity.name.as_str() {
-        "infinite" => infinite(context, entity, to_world),
+        "infinite" => environment::infinite(context, entity, to_world),
         "distant" => distant(context, entity, to_world),
         "point" => point(context, entity, to_world),
         "spot" => spot(context, entity, to_world),
-        kind @ ("goniometric" | "projection") => {
-            entity.params.ignore(&["filename", "fov"]);
-            let message =
-                format!("light \"{kind}\" is not supported: it shines evenly as \"point\"");
-            context.warn(&entity.place, message);
-            point(context, entity, to_world)
-        }
+        "goniometric" => picture::goniometric(context, entity, to_world),
+        "projection" => picture::projection(context, entity, to_world),
         other => {
             let message = format!("unknown light \"{}\"", shorten(other));
             Err(
-                SceneError::new(ErrorKind::Parameter, &entity.place, message)
-                    .with_help("expected infinite, distant, point or spot"),
+                SceneError::new(ErrorKind::Parameter, &entity.place, message).with_help(
+                    "expected infinite, distant, point, spot, goniometric or projection",
+                ),
             )
         }
     }
 }
 
+/// The colour `name` (white where absent) times `scale` and a factor.
 fn scaled(
     context: &Context,
     entity: &Entity,
@@ -57,81 +80,6 @@ fn scaled(
 /// A photometric wish of the file: pbrt-v4 heeds it where it is positive.
 fn wish(entity: &Entity, name: &str) -> Result<Option<f64>, SceneError> {
     Ok(Some(entity.params.float(name, -1.0)?).filter(|x| *x > 0.0))
-}
-
-fn infinite(context: &mut Context, entity: &Entity, to_world: DMat4) -> Result<Light, SceneError> {
-    let params = &entity.params;
-    if params.numbers("portal", &["point3"])?.is_some() {
-        context.warn(
-            &params.place_of("portal"),
-            "portals are not used: the light is sampled whole",
-        );
-    }
-    let illuminance = wish(entity, "illuminance")?;
-    let Some((name, place)) = params.string("filename")? else {
-        // A uniform sky of radiance L gives the ground the irradiance pi L.
-        let radiance = scaled(context, entity, "L", illuminance.map_or(1.0, |e| e / PI))?;
-        return Ok(Light::Infinite {
-            radiance,
-            image: None,
-            to_world,
-        });
-    };
-    if params.find("L").is_some() {
-        let message = "\"L\" and \"filename\" exclude each other";
-        return Err(SceneError::new(
-            ErrorKind::Parameter,
-            &params.place_of("L"),
-            message,
-        ));
-    }
-    let id = context.image(name, place, Encoding::Srgb, Content::Colour)?;
-    let image = &context.images[id.0];
-    let mapping = if image.width == image.height {
-        EnvironmentMapping::EqualAreaOctahedral
-    } else {
-        EnvironmentMapping::LatitudeLongitude
-    };
-    let factor = illuminance.map_or(1.0, |e| e / upper_illuminance(image, mapping).max(1e-30));
-    let message = format!(
-        "the picture is {} x {}; pbrt-v4 expects a square: it is read as latitude and longitude, z up",
-        image.width, image.height
-    );
-    if mapping == EnvironmentMapping::LatitudeLongitude {
-        context.warn(place, message);
-    }
-    let radiance = scaled(context, entity, "L", factor)?;
-    Ok(Light::Infinite {
-        radiance,
-        image: Some((id, mapping)),
-        to_world,
-    })
-}
-
-/// Illuminance on a surface that faces +z.
-fn upper_illuminance(image: &Image, mapping: EnvironmentMapping) -> f64 {
-    let (width, height) = (f64::from(image.width), f64::from(image.height));
-    let mut sum = 0.0;
-    for (y, row) in image.pixels.chunks(image.width as usize).enumerate() {
-        let v = (y as f64 + 0.5) / height;
-        for (x, &[r, g, b]) in row.iter().enumerate() {
-            let u = (x as f64 + 0.5) / width;
-            let (z, solid_angle) = match mapping {
-                EnvironmentMapping::EqualAreaOctahedral => {
-                    // Clarberg 2008: z = 1 - r^2 in the inner diamond, r = |u| + |v| in [-1, 1]^2.
-                    let r = (2.0 * u - 1.0).abs() + (2.0 * v - 1.0).abs();
-                    let z = if r < 1.0 { 1.0 - r * r } else { 0.0 };
-                    (z, 4.0 * PI / (width * height))
-                }
-                EnvironmentMapping::LatitudeLongitude => {
-                    let (sin, cos) = (PI * v).sin_cos();
-                    (cos.max(0.0), 2.0 * PI * PI * sin / (width * height))
-                }
-            };
-            sum += f64::from(Rgb { r, g, b }.luminance()) * z * solid_angle;
-        }
-    }
-    sum
 }
 
 /// `from` and the unit vector from `from` to `to`, in the world.
@@ -159,6 +107,7 @@ fn distant(context: &Context, entity: &Entity, to_world: DMat4) -> Result<Light,
     Ok(Light::Distant {
         irradiance,
         to_light: (-along).to_array(),
+        half_angle_deg: 0.0,
     })
 }
 
@@ -204,68 +153,6 @@ fn spot(context: &Context, entity: &Entity, to_world: DMat4) -> Result<Light, Sc
         intensity: scaled(context, entity, "I", factor)?,
         cone_angle_deg,
         falloff_start_deg,
+        falloff: SpotFalloff::SmoothCosine,
     })
-}
-
-/// Reads the emission of a shape whose area in the world is `area`.
-pub(super) fn area(
-    context: &mut Context,
-    entity: &Entity,
-    area: f64,
-) -> Result<Emission, SceneError> {
-    let params = &entity.params;
-    if entity.name != "diffuse" {
-        let message = format!(
-            "unknown area light \"{}\"; expected \"diffuse\"",
-            shorten(&entity.name)
-        );
-        return Err(SceneError::new(
-            ErrorKind::Parameter,
-            &entity.place,
-            message,
-        ));
-    }
-    let two_sided = params.bool("twosided", false)?;
-    let mut picture = Rgb::WHITE;
-    if let Some((name, place)) = params.string("filename")? {
-        if params.find("L").is_some() {
-            let message = "\"L\" and \"filename\" exclude each other";
-            return Err(SceneError::new(ErrorKind::Parameter, place, message));
-        }
-        let id = context.image(name, place, Encoding::Srgb, Content::Colour)?;
-        picture = mean(&context.images[id.0]);
-        context.warn(
-            place,
-            "a picture on an area light is not supported: its mean colour is used",
-        );
-    }
-    let sides = if two_sided { 2.0 } else { 1.0 };
-    // pbrt-v4 gives every triangle of a mesh the whole power; here the shape has it.
-    let exitance = f64::from(picture.luminance()) * sides * area * PI;
-    let factor = wish(entity, "power")?.map_or(1.0, |p| p / exitance.max(1e-30));
-    let radiance = scaled(context, entity, "L", factor)?;
-    context.warn_unused(params);
-    Ok(Emission {
-        radiance: radiance.zip(picture, |a, b| a * b),
-        two_sided,
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_white_sky_gives_pi() {
-        let sky = |width, height| Image {
-            name: String::new(),
-            width,
-            height,
-            pixels: vec![[1.0; 3]; (width * height) as usize],
-        };
-        let square = upper_illuminance(&sky(256, 256), EnvironmentMapping::EqualAreaOctahedral);
-        let oblong = upper_illuminance(&sky(512, 256), EnvironmentMapping::LatitudeLongitude);
-        assert!((square - PI).abs() < 1e-3, "{square}");
-        assert!((oblong - PI).abs() < 1e-3, "{oblong}");
-    }
 }

@@ -1,18 +1,21 @@
 //! Materials: pbrt-v4's parameters and their defaults.
 
+mod stand_in;
+
 use std::collections::HashMap;
 
 use specula_bsdf::Rgb;
 
-use super::colour::{self, Colour};
+use super::colour::{self, Colour, Ends};
 use super::context::{Context, Entity};
 use super::param::ParamList;
 use super::token::shorten;
 use crate::energy::{Energy, UnknownEnergy};
 use crate::error::{ErrorKind, Place, SceneError};
+use crate::image::{Content, Encoding};
 use crate::scene::{
-    ColourParam, ConductorFresnel, FloatParam, MaterialId, MaterialKind, Roughness,
-    RoughnessMapping,
+    Channel, ColourParam, ConductorFresnel, FloatParam, Interpolation, Material, MaterialId,
+    MaterialKind, Relief, Roughness, RoughnessMapping, Texture, TextureMapping, Wrap,
 };
 use crate::spectrum;
 
@@ -31,88 +34,103 @@ pub(super) fn read(
     context: &mut Context,
     entity: &Entity,
     named: &HashMap<&str, MaterialId>,
-) -> Result<MaterialKind, SceneError> {
+) -> Result<Material, SceneError> {
     let params = &entity.params;
     params.ignore(&["type"]);
-    for feature in ["displacement", "normalmap"] {
-        if params.find(feature).is_some() {
-            context.warn(
-                &params.place_of(feature),
-                format!("\"{feature}\" is not rendered"),
-            );
-        }
-    }
-    let kind =
-        match entity.name.as_str() {
-            "diffuse" => MaterialKind::Diffuse {
+    let energy = energy(params)?;
+    let relief = relief(context, params)?;
+    let kind = match entity.name.as_str() {
+        "diffuse" => MaterialKind::Diffuse {
+            reflectance: colour::albedo(context, params, "reflectance", 0.5)?,
+            roughness: FloatParam::Value(0.0),
+        },
+        "diffusetransmission" => diffuse_transmission(context, params)?,
+        "conductor" => MaterialKind::Conductor {
+            fresnel: conductor(context, params, "eta", "k", &entity.place)?,
+            roughness: roughness(context, params, "")?,
+            tint: ColourParam::WHITE,
+        },
+        "dielectric" => MaterialKind::Dielectric {
+            eta: colour::index(context, params, "eta")?,
+            roughness: roughness(context, params, "")?,
+            reflection_tint: ColourParam::WHITE,
+            transmission_tint: ColourParam::WHITE,
+        },
+        "thindielectric" => MaterialKind::ThinDielectric {
+            eta: colour::index(context, params, "eta")?,
+            reflection_tint: ColourParam::WHITE,
+            transmission_tint: ColourParam::WHITE,
+        },
+        "coateddiffuse" => {
+            coat_medium(context, params)?;
+            MaterialKind::CoatedDiffuse {
                 reflectance: colour::albedo(context, params, "reflectance", 0.5)?,
-                roughness: FloatParam::Value(0.0),
-            },
-            "diffusetransmission" => diffuse_transmission(context, params)?,
-            "conductor" => MaterialKind::Conductor {
-                fresnel: conductor(context, params, "eta", "k", &entity.place)?,
-                roughness: roughness(context, params, "")?,
-            },
-            "dielectric" => MaterialKind::Dielectric {
                 eta: colour::index(context, params, "eta")?,
                 roughness: roughness(context, params, "")?,
-            },
-            "thindielectric" => MaterialKind::ThinDielectric {
-                eta: colour::index(context, params, "eta")?,
-            },
-            "coateddiffuse" => {
-                coat_medium(context, params)?;
-                MaterialKind::CoatedDiffuse {
-                    reflectance: colour::albedo(context, params, "reflectance", 0.5)?,
-                    eta: colour::index(context, params, "eta")?,
-                    roughness: roughness(context, params, "")?,
-                }
             }
-            "coatedconductor" => {
-                coat_medium(context, params)?;
-                MaterialKind::CoatedConductor {
-                    coat_eta: colour::index(context, params, "interface.eta")?,
-                    coat_roughness: roughness(context, params, "interface.")?,
-                    fresnel: conductor(
-                        context,
-                        params,
-                        "conductor.eta",
-                        "conductor.k",
-                        &entity.place,
-                    )?,
-                    roughness: roughness(context, params, "conductor.")?,
-                }
+        }
+        "coatedconductor" => {
+            coat_medium(context, params)?;
+            let names = ["conductor.eta", "conductor.k"];
+            MaterialKind::CoatedConductor {
+                coat_eta: colour::index(context, params, "interface.eta")?,
+                coat_roughness: roughness(context, params, "interface.")?,
+                fresnel: conductor(context, params, names[0], names[1], &entity.place)?,
+                roughness: roughness(context, params, "conductor.")?,
             }
-            "mix" => mix(context, entity, named)?,
-            "interface" => MaterialKind::Interface,
-            "" | "none" => {
-                context.warn(
-                    &entity.place,
-                    "this name is deprecated: it means \"interface\"",
-                );
-                MaterialKind::Interface
-            }
-            other @ ("hair" | "measured" | "subsurface") => {
-                let message =
-                    format!("material \"{other}\" is not supported: diffuse grey of 0.5 is used");
-                context.warn(&entity.place, message);
-                return Ok(DEFAULT);
-            }
-            other => {
-                let message = format!("unknown material \"{}\"", shorten(other));
-                return Err(SceneError::new(ErrorKind::Parameter, &entity.place, message).with_help(
+        }
+        "mix" => mix(context, entity, named)?,
+        "interface" => MaterialKind::Interface,
+        "" | "none" => {
+            let message = "this name is deprecated: it means \"interface\"";
+            context.warn(&entity.place, message);
+            MaterialKind::Interface
+        }
+        "hair" => stand_in::hair(context, entity)?,
+        "measured" => stand_in::measured(context, entity),
+        "subsurface" => stand_in::subsurface(context, entity)?,
+        other => {
+            let message = format!("unknown material \"{}\"", shorten(other));
+            let error = SceneError::new(ErrorKind::Parameter, &entity.place, message);
+            return Err(error.with_help(
                 "expected diffuse, diffusetransmission, conductor, dielectric, thindielectric, \
-                 coateddiffuse, coatedconductor, mix or interface",
+                 coateddiffuse, coatedconductor, hair, measured, mix, subsurface or interface",
             ));
-            }
-        };
+        }
+    };
     context.warn_unused(params);
-    Ok(kind)
+    Ok(Material {
+        energy,
+        relief,
+        ..Material::new(kind)
+    })
+}
+
+/// What bends the shading normal: a normal map wins over a displacement, as in pbrt-v4.
+fn relief(context: &mut Context, params: &ParamList) -> Result<Option<Relief>, SceneError> {
+    let height = context.float_or_none(params, "displacement")?;
+    if let Some((name, place)) = params.string("normalmap")? {
+        let image = context.image(name, place, Encoding::Linear, Content::Colour);
+        let map = context.add_texture(Texture::Image {
+            image,
+            mapping: TextureMapping::default(),
+            wrap: [Wrap::Repeat; 2],
+            filter: Interpolation::Bilinear,
+            invert: false,
+            scale: 1.0,
+            channel: Channel::Rgb,
+        });
+        return Ok(Some(Relief::Normal { map, scale: 1.0 }));
+    }
+    // The same height everywhere bends nothing.
+    Ok(height
+        .filter(|h| matches!(h, FloatParam::Texture(_)))
+        .map(Relief::Height))
 }
 
 /// Our own parameter `"string specula:energy"`: treatment of multiple scattering. Renderers that do
 /// not know it leave it unused.
-pub(super) fn energy(params: &ParamList) -> Result<Option<Energy>, SceneError> {
+fn energy(params: &ParamList) -> Result<Option<Energy>, SceneError> {
     let Some((name, place)) = params.string("specula:energy")? else {
         return Ok(None);
     };
@@ -133,7 +151,7 @@ fn diffuse_transmission(
         ColourParam::Value(c) => ColourParam::Value(c.map(|x| (x * scale).min(1.0))),
         ColourParam::Texture(a) => {
             let b = context.constant(scale);
-            ColourParam::Texture(context.add_texture(crate::scene::Texture::Scale { a, b }))
+            ColourParam::Texture(context.add_texture(Texture::Scale { a, b }))
         }
     };
     Ok(MaterialKind::DiffuseTransmission {
@@ -153,6 +171,7 @@ fn roughness(context: &Context, params: &ParamList, prefix: &str) -> Result<Roug
             true => RoughnessMapping::Sqrt,
             false => RoughnessMapping::Alpha,
         },
+        ..Roughness::smooth()
     })
 }
 
@@ -175,7 +194,7 @@ fn conductor(
     }
     let or_copper = |colour: Option<Colour>, name: &str| {
         colour
-            .or_else(|| spectrum::named(name).map(Colour::Spectrum))
+            .or_else(|| spectrum::named(name).map(|s| Colour::Spectrum(s, Ends::Held)))
             .ok_or_else(|| {
                 let message = format!("the spectrum {name} is missing from the library");
                 SceneError::new(ErrorKind::Spectrum, place, message)

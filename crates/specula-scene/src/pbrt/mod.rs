@@ -10,6 +10,8 @@ mod camera;
 mod colour;
 mod context;
 mod directive;
+mod features;
+mod geometry;
 mod light;
 mod material;
 mod param;
@@ -23,8 +25,10 @@ mod world;
 
 use std::path::Path;
 
+pub(crate) use features::FEATURES;
 pub(crate) use state::check as check_transform;
 
+use crate::Limits;
 use crate::Loaded;
 use crate::error::SceneError;
 
@@ -33,8 +37,8 @@ use crate::error::SceneError;
 /// # Errors
 ///
 /// Where the scene cannot be read, or a picture of it would be meaningless.
-pub(crate) fn load(path: &Path) -> Result<Loaded, SceneError> {
-    let mut reader = directive::Reader::new(path);
+pub(crate) fn read(path: &Path, limits: &Limits) -> Result<Loaded, SceneError> {
+    let mut reader = directive::Reader::new(path, *limits);
     reader.read_main(path)?;
     assemble::assemble(reader)
 }

@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use super::token::{Token, TokenKind, Tokens, describe, shorten};
 use crate::error::{ErrorKind, Place, SceneError, Warning};
+use crate::spectrum::ColourSpace;
 
 /// Values of one parameter.
 #[derive(Clone, Debug)]
@@ -22,6 +23,8 @@ pub(super) struct Param {
     pub(super) name: String,
     pub(super) values: Values,
     pub(super) place: Place,
+    /// What its RGB values mean: `ColorSpace` where it was read.
+    pub(super) space: ColourSpace,
     used: Cell<bool>,
 }
 
@@ -56,8 +59,8 @@ pub(super) struct ParamList {
 }
 
 impl ParamList {
-    /// Reads parameters up to the next directive.
-    pub(super) fn read(tokens: &mut Tokens<'_>) -> Result<Self, SceneError> {
+    /// Reads parameters up to the next directive; RGB values are meant in `space`.
+    pub(super) fn read(tokens: &mut Tokens<'_>, space: ColourSpace) -> Result<Self, SceneError> {
         let mut own: Vec<Rc<Param>> = Vec::new();
         while matches!(
             tokens.peek()?,
@@ -66,7 +69,7 @@ impl ParamList {
                 ..
             })
         ) {
-            let param = read_param(tokens)?;
+            let param = read_param(tokens, space)?;
             if own.iter().any(|p| p.name == param.name) {
                 let message = format!("parameter \"{}\" is given twice", param.name);
                 return Err(SceneError::new(ErrorKind::Duplicate, &param.place, message));
@@ -271,7 +274,7 @@ impl Param {
     }
 }
 
-fn read_param(tokens: &mut Tokens<'_>) -> Result<Param, SceneError> {
+fn read_param(tokens: &mut Tokens<'_>, space: ColourSpace) -> Result<Param, SceneError> {
     let (declaration, place) = tokens.expect_text("a parameter")?;
     let bad = |message: String| SceneError::new(ErrorKind::Syntax, &place, message);
     let mut words = declaration.split([' ', '\t']).filter(|w| !w.is_empty());
@@ -300,6 +303,7 @@ fn read_param(tokens: &mut Tokens<'_>) -> Result<Param, SceneError> {
         name: name.to_owned(),
         values,
         place,
+        space,
         used: Cell::new(false),
     })
 }
@@ -308,17 +312,25 @@ fn read_values(tokens: &mut Tokens<'_>, kind: &str, name: &str) -> Result<Values
     let what = format!("a value of \"{kind} {name}\"");
     let first = tokens.expect(&what)?;
     let mut values = Values::Numbers(Vec::new());
-    let mut empty = true;
+    if first.kind != TokenKind::Open {
+        add_value(tokens, first, kind, &what, &mut values, true)?;
+        return Ok(values);
+    }
+    let open = tokens.place(&first);
+    if !matches!(kind, "string" | "texture" | "bool" | "spectrum" | "integer") {
+        // The bulk of a file: no detour for what is not a number.
+        let mut numbers = Vec::new();
+        while let Some(number) = tokens.bare_number()? {
+            numbers.push(number);
+        }
+        values = Values::Numbers(numbers);
+    }
+    let mut empty = matches!(&values, Values::Numbers(n) if n.is_empty());
     let mut add = |tokens: &Tokens<'_>, token: Token<'_>| -> Result<(), SceneError> {
         add_value(tokens, token, kind, &what, &mut values, empty)?;
         empty = false;
         Ok(())
     };
-    if first.kind != TokenKind::Open {
-        add(tokens, first)?;
-        return Ok(values);
-    }
-    let open = tokens.place(&first);
     loop {
         match tokens.next()? {
             Some(Token {
@@ -342,13 +354,12 @@ fn add_value(
     values: &mut Values,
     first: bool,
 ) -> Result<(), SceneError> {
-    let place = tokens.place(&token);
     let wrong = |expected: &str| {
         let message = format!(
             "expected {expected} as {what}, found {}",
             describe(&token.kind)
         );
-        SceneError::new(ErrorKind::Syntax, &place, message)
+        SceneError::new(ErrorKind::Syntax, &tokens.place(&token), message)
     };
     match (kind, &token.kind) {
         ("string" | "texture", TokenKind::Text(text)) | ("spectrum", TokenKind::Text(text)) => {
@@ -358,7 +369,7 @@ fn add_value(
             let Values::Texts(texts) = values else {
                 return Err(wrong("a number"));
             };
-            texts.push((text.clone().into_owned(), place));
+            texts.push((text.clone().into_owned(), tokens.place(&token)));
         }
         ("string" | "texture", _) => return Err(wrong("a string in quotes")),
         ("bool", kind) => {
@@ -398,7 +409,7 @@ mod tests {
 
     fn read(text: &str) -> Result<ParamList, SceneError> {
         let source = Source::new("t", text);
-        ParamList::read(&mut Tokens::new(&source))
+        ParamList::read(&mut Tokens::new(&source), ColourSpace::Srgb)
     }
 
     #[test]

@@ -7,6 +7,7 @@ use glam::{DMat4, DVec3, DVec4};
 use super::context::Entity;
 use super::param::Param;
 use crate::error::{ErrorKind, Place, SceneError};
+use crate::spectrum::ColourSpace;
 
 /// The material of shapes to come.
 #[derive(Clone, Debug)]
@@ -32,6 +33,8 @@ pub(super) struct State {
     pub(super) reverse_orientation: bool,
     pub(super) material: MaterialUse,
     pub(super) area_light: Option<Rc<Entity>>,
+    /// What RGB parameters to come are meant in.
+    pub(super) space: ColourSpace,
     /// Parameters for each of [`ATTRIBUTE_TARGETS`].
     pub(super) attributes: [Vec<Rc<Param>>; 5],
 }
@@ -44,6 +47,7 @@ impl State {
             reverse_orientation: false,
             material: MaterialUse::Default,
             area_light: None,
+            space: ColourSpace::Srgb,
             attributes: Default::default(),
         }
     }

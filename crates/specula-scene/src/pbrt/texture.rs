@@ -1,17 +1,20 @@
 //! `Texture`: nodes of the texture graph.
 
-use std::rc::Rc;
+mod imagemap;
+mod mapping;
 
+use glam::{DMat4, DVec3};
 use specula_bsdf::Rgb;
 
 use super::colour::{self, Colour};
 use super::context::{Context, Entity};
-use super::param::{Param, ParamList};
+use super::param::ParamList;
+use super::state::State;
 use super::token::{Tokens, shorten};
-use crate::error::{ErrorKind, Place, SceneError};
-use crate::image::{Content, Encoding, Format};
+use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
-use crate::scene::{ColourParam, FloatParam, Texture, TextureId, UvMapping, Wrap};
+use crate::scene::{ColourParam, FloatParam, NoiseKind, Texture, TextureId};
+use mapping::mapping;
 
 /// Whether a texture gives numbers or colours; pbrt-v4 keeps their names apart.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -20,10 +23,24 @@ enum Kind {
     Colour,
 }
 
+/// What a texture's parameters are read with.
+struct Node<'a> {
+    entity: &'a Entity,
+    kind: Kind,
+    /// Texture space to world space.
+    to_world: DMat4,
+}
+
+impl Node<'_> {
+    fn params(&self) -> &ParamList {
+        &self.entity.params
+    }
+}
+
 /// Reads what follows the word `Texture`.
 pub(super) fn read(
     context: &mut Context,
-    inherited: &[Rc<Param>],
+    state: &State,
     tokens: &mut Tokens<'_>,
 ) -> Result<(), SceneError> {
     let (name, name_place) = tokens.expect_text("the name of the texture")?;
@@ -40,13 +57,18 @@ pub(super) fn read(
         }
     };
     let (class, place) = tokens.expect_text("the texture's class")?;
-    let params = ParamList::read(tokens)?.with_inherited(inherited);
+    let params = ParamList::read(tokens, state.space)?.with_inherited(&state.attributes[4]);
     let entity = Entity {
         name: class,
         place,
         params,
     };
-    let id = texture(context, &entity, kind)?;
+    let node = Node {
+        entity: &entity,
+        kind,
+        to_world: state.transforms[0],
+    };
+    let id = texture(context, &node)?;
     context.warn_unused(&entity.params);
     let names = match kind {
         Kind::Float => &mut context.float_textures,
@@ -59,56 +81,69 @@ pub(super) fn read(
     Ok(())
 }
 
-fn texture(context: &mut Context, entity: &Entity, kind: Kind) -> Result<TextureId, SceneError> {
-    let params = &entity.params;
-    match entity.name.as_str() {
-        "constant" => input(context, params, "value", 1.0, kind),
-        "imagemap" => image_map(context, entity, kind),
-        "scale" => {
-            let a = input(context, params, "tex", 1.0, kind)?;
-            let b = input(context, params, "scale", 1.0, Kind::Float)?;
-            Ok(context.add_texture(Texture::Scale { a, b }))
+fn texture(context: &mut Context, node: &Node<'_>) -> Result<TextureId, SceneError> {
+    let (params, kind) = (node.params(), node.kind);
+    let texture = match (node.entity.name.as_str(), kind) {
+        ("constant", _) => return input(context, params, "value", 1.0, kind),
+        ("imagemap", _) => return imagemap::read(context, node),
+        ("scale", _) => Texture::Scale {
+            a: input(context, params, "tex", 1.0, kind)?,
+            b: input(context, params, "scale", 1.0, Kind::Float)?,
+        },
+        ("mix", _) => Texture::Mix {
+            a: input(context, params, "tex1", 0.0, kind)?,
+            b: input(context, params, "tex2", 1.0, kind)?,
+            amount: context.float(params, "amount", 0.5)?,
+        },
+        ("directionmix", _) => direction_mix(context, node)?,
+        ("checkerboard", _) => checkerboard(context, node)?,
+        ("bilerp", _) => Texture::Bilinear {
+            corners: [
+                corner(context, node, "v00", 0.0)?,
+                corner(context, node, "v01", 1.0)?,
+                corner(context, node, "v10", 0.0)?,
+                corner(context, node, "v11", 1.0)?,
+            ],
+            mapping: mapping(node)?,
+        },
+        ("dots", _) => Texture::Dots {
+            inside: input(context, params, "inside", 1.0, kind)?,
+            outside: input(context, params, "outside", 0.0, kind)?,
+            mapping: mapping(node)?,
+        },
+        ("fbm", Kind::Float) => noise(node, NoiseKind::Fbm)?,
+        ("wrinkled", Kind::Float) => noise(node, NoiseKind::Turbulence)?,
+        ("windy", Kind::Float) => Texture::Noise {
+            kind: NoiseKind::Windy,
+            octaves: 0,
+            roughness: 0.0,
+            to_texture: node.to_world.inverse(),
+        },
+        ("marble", Kind::Colour) => {
+            let scale = f32_of(params.float("scale", 1.0)?);
+            let variation = f32_of(params.float("variation", 0.2)?);
+            noise(node, NoiseKind::Marble { scale, variation })?
         }
-        "mix" | "directionmix" => {
-            let a = input(context, params, "tex1", 0.0, kind)?;
-            let b = input(context, params, "tex2", 1.0, kind)?;
-            let amount = if entity.name == "mix" {
-                context.float(params, "amount", 0.5)?
-            } else {
-                params.ignore(&["dir"]);
-                context.warn(
-                    &entity.place,
-                    "texture \"directionmix\" is not supported: the mean of both is used",
-                );
-                FloatParam::Value(0.5)
-            };
-            Ok(context.add_texture(Texture::Mix { a, b, amount }))
+        ("ptex", _) => {
+            params.ignore(&["filename", "encoding", "scale"]);
+            let message = "texture \"ptex\" is not supported: 0.5 everywhere is used";
+            context.warn(&node.entity.place, message);
+            return Ok(context.constant(0.5));
         }
-        "checkerboard" => {
-            if params.integer("dimension", 2)? != 2 {
-                context.warn(
-                    &entity.place,
-                    "a checkerboard in 3 dimensions is rendered in 2",
-                );
-            }
-            let even = input(context, params, "tex1", 1.0, kind)?;
-            let odd = input(context, params, "tex2", 0.0, kind)?;
-            let mapping = mapping(context, params, &entity.place)?;
-            Ok(context.add_texture(Texture::Checkerboard { even, odd, mapping }))
-        }
-        class @ ("bilerp" | "dots" | "fbm" | "marble" | "ptex" | "windy" | "wrinkled") => {
-            let message = format!("texture \"{class}\" is not supported: 0.5 everywhere is used");
-            context.warn(&entity.place, message);
-            Ok(context.constant(0.5))
-        }
-        other => {
-            let message = format!("unknown texture class \"{}\"", shorten(other));
-            Err(
-                SceneError::new(ErrorKind::Parameter, &entity.place, message)
-                    .with_help("expected constant, imagemap, scale, mix or checkerboard"),
-            )
-        }
-    }
+        (other, _) => return Err(unknown(node, other)),
+    };
+    Ok(context.add_texture(texture))
+}
+
+fn unknown(node: &Node<'_>, class: &str) -> SceneError {
+    let both = "constant, imagemap, scale, mix, directionmix, checkerboard, bilerp, dots, ptex";
+    let (kind, own) = match node.kind {
+        Kind::Float => ("float", "fbm, wrinkled or windy"),
+        Kind::Colour => ("spectrum", "marble"),
+    };
+    let message = format!("unknown class \"{}\" of {kind} textures", shorten(class));
+    SceneError::new(ErrorKind::Parameter, &node.entity.place, message)
+        .with_help(format!("expected {both}, {own}"))
 }
 
 /// A texture that is given by value or by name.
@@ -135,117 +170,72 @@ fn input(
     })
 }
 
-fn mapping(
-    context: &mut Context,
-    params: &ParamList,
-    place: &Place,
-) -> Result<UvMapping, SceneError> {
-    if let Some((name, _)) = params.string("mapping")?
-        && name != "uv"
-    {
-        let message = format!(
-            "mapping \"{}\" is not supported: surface coordinates are used",
-            shorten(name)
-        );
-        params.ignore(&["v1", "v2"]);
-        context.warn(place, message);
+/// A value at a corner: pbrt-v4 takes no textures there.
+fn corner(
+    context: &Context,
+    node: &Node<'_>,
+    name: &str,
+    default: f32,
+) -> Result<Rgb<f32>, SceneError> {
+    let params = node.params();
+    if node.kind == Kind::Float {
+        let value = params.float(name, f64::from(default))?;
+        return Ok(Rgb::splat(f32_of(value)));
     }
-    let number = |name: &str, default: f64| params.float(name, default).map(f32_of);
-    Ok(UvMapping {
-        scale: [number("uscale", 1.0)?, number("vscale", 1.0)?],
-        offset: [number("udelta", 0.0)?, number("vdelta", 0.0)?],
+    let Some(colour) = colour::colour(context, params, name)? else {
+        return Ok(Rgb::splat(default));
+    };
+    match colour.under_white() {
+        ColourParam::Value(c) => Ok(c.map(|x| x.max(0.0))),
+        ColourParam::Texture(_) => {
+            let message = format!("\"{name}\": expected a value; textures are not taken here");
+            let place = params.place_of(name);
+            Err(SceneError::new(ErrorKind::Parameter, &place, message))
+        }
+    }
+}
+
+fn checkerboard(context: &mut Context, node: &Node<'_>) -> Result<Texture, SceneError> {
+    let params = node.params();
+    let even = input(context, params, "tex1", 1.0, node.kind)?;
+    let odd = input(context, params, "tex2", 0.0, node.kind)?;
+    match params.integer_within("dimension", 2, 2..=3)? {
+        2 => Ok(Texture::Checkerboard {
+            even,
+            odd,
+            mapping: mapping(node)?,
+        }),
+        _ => Ok(Texture::Checkerboard3d {
+            even,
+            odd,
+            to_texture: node.to_world.inverse(),
+        }),
+    }
+}
+
+fn direction_mix(context: &mut Context, node: &Node<'_>) -> Result<Texture, SceneError> {
+    let params = node.params();
+    let given = params
+        .array("dir", &["vector3"])?
+        .map_or(DVec3::Y, DVec3::from);
+    let axis = node.to_world.transform_vector3(given).try_normalize();
+    let axis = axis.ok_or_else(|| {
+        let message = "\"dir\": expected a direction that is not zero";
+        SceneError::new(ErrorKind::Parameter, &params.place_of("dir"), message)
+    })?;
+    Ok(Texture::DirectionMix {
+        a: input(context, params, "tex1", 0.0, node.kind)?,
+        b: input(context, params, "tex2", 1.0, node.kind)?,
+        axis: axis.to_array().map(f32_of),
     })
 }
 
-fn image_map(context: &mut Context, entity: &Entity, kind: Kind) -> Result<TextureId, SceneError> {
-    let params = &entity.params;
-    let mapping = mapping(context, params, &entity.place)?;
-    // Pictures are filtered bilinearly, whatever the file asks for.
-    params.ignore(&["filter", "maxanisotropy"]);
-    let wrap = match params.string("wrap")? {
-        None | Some(("repeat", _)) => Wrap::Repeat,
-        Some(("black", _)) => Wrap::Black,
-        Some(("clamp", _)) => Wrap::Clamp,
-        Some(("octahedralsphere", place)) => {
-            context.warn(
-                place,
-                "wrap \"octahedralsphere\" is not supported: \"clamp\" is used",
-            );
-            Wrap::Clamp
-        }
-        Some((other, place)) => {
-            let message = format!(
-                "expected wrap \"repeat\", \"black\" or \"clamp\", found \"{}\"",
-                shorten(other)
-            );
-            return Err(SceneError::new(ErrorKind::Parameter, place, message));
-        }
-    };
-    let Some((name, place)) = params.string("filename")? else {
-        let message = "texture \"imagemap\" needs its \"string filename\"";
-        return Err(SceneError::new(
-            ErrorKind::Parameter,
-            &entity.place,
-            message,
-        ));
-    };
-    let encoding = encoding(context, params, name)?;
-    let content = if kind == Kind::Float {
-        Content::Number
-    } else {
-        Content::Colour
-    };
-    let image = context.image(name, place, encoding, content)?;
-    Ok(context.add_texture(Texture::Image {
-        image,
-        mapping,
-        wrap,
-        invert: params.bool("invert", false)?,
-        scale: f32_of(params.float("scale", 1.0)?),
-        as_float: kind == Kind::Float,
-    }))
-}
-
-/// pbrt-v4 heeds `encoding` for PNG alone; other 8-bit formats are sRGB and float formats linear.
-fn encoding(context: &mut Context, params: &ParamList, file: &str) -> Result<Encoding, SceneError> {
-    let Some((name, place)) = params.string("encoding")? else {
-        return Ok(Encoding::Srgb);
-    };
-    let gamma = || {
-        let exponent = name.strip_prefix("gamma")?.trim().parse::<f32>().ok()?;
-        (exponent.is_finite() && exponent > 0.0).then_some(Encoding::Gamma(exponent))
-    };
-    let encoding = match name {
-        "sRGB" => Some(Encoding::Srgb),
-        "linear" => Some(Encoding::Linear),
-        _ => gamma(),
-    };
-    let Some(encoding) = encoding else {
-        let message = format!(
-            "expected encoding \"sRGB\", \"linear\" or \"gamma 2.2\", found \"{}\"",
-            shorten(name)
-        );
-        return Err(SceneError::new(ErrorKind::Parameter, place, message));
-    };
-    let format = Format::of(&context.resolve(file));
-    if matches!(format, Some(Format::Tga | Format::Jpeg)) && encoding != Encoding::Srgb {
-        context.warn(
-            place,
-            "\"encoding\" holds for PNG alone, as in pbrt-v4: the picture is read as sRGB",
-        );
-        return Ok(Encoding::Srgb);
-    }
-    Ok(encoding)
-}
-
-/// Mean colour of a picture.
-pub(super) fn mean(image: &crate::image::Image) -> Rgb<f32> {
-    let mut sum = [0.0f64; 3];
-    for pixel in &image.pixels {
-        for (s, p) in sum.iter_mut().zip(pixel) {
-            *s += f64::from(*p);
-        }
-    }
-    let [r, g, b] = sum.map(|s| f32_of(s / image.pixels.len().max(1) as f64));
-    Rgb { r, g, b }
+fn noise(node: &Node<'_>, kind: NoiseKind) -> Result<Texture, SceneError> {
+    let params = node.params();
+    Ok(Texture::Noise {
+        kind,
+        octaves: params.integer_within("octaves", 8, 0..=64)?,
+        roughness: f32_of(params.float("roughness", 0.5)?),
+        to_texture: node.to_world.inverse(),
+    })
 }

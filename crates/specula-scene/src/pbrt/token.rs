@@ -123,6 +123,21 @@ impl<'a> Tokens<'a> {
         }
     }
 
+    /// The next token if it is a number; else nothing is taken.
+    pub(super) fn bare_number(&mut self) -> Result<Option<f64>, SceneError> {
+        if self.peeked.is_some() {
+            return Ok(None);
+        }
+        let before = self.position;
+        if let Some(token) = self.read()? {
+            if matches!(token.kind, TokenKind::Word(_)) {
+                return self.number(&token, "a number").map(Some);
+            }
+            self.position = before;
+        }
+        Ok(None)
+    }
+
     fn read(&mut self) -> Result<Option<Token<'a>>, SceneError> {
         let text = self.source.text();
         let bytes = text.as_bytes();

@@ -22,6 +22,7 @@ impl Reader {
             "MakeNamedMedium" => {
                 let entity = self.entity(tokens, word)?;
                 self.media.push(entity.name);
+                // What a medium is made of changes nothing: media are not rendered.
             }
             "MediumInterface" => self.medium_interface(tokens)?,
             "Material" | "MakeNamedMaterial" | "NamedMaterial" => {
@@ -30,7 +31,7 @@ impl Reader {
             }
             "Texture" => {
                 self.expect_world(word, place)?;
-                texture::read(&mut self.context, &self.state.attributes[4], tokens)?;
+                texture::read(&mut self.context, &self.state, tokens)?;
             }
             "Shape" => {
                 self.expect_world(word, place)?;
@@ -45,14 +46,14 @@ impl Reader {
                     self.context
                         .warn(place, "the light moves; it is rendered where it starts");
                 }
-                let light = light::read(&mut self.context, &entity, self.state.transforms[0])?;
-                self.context.warn_unused(&entity.params);
-                self.lights.push(light);
+                light::fetch_picture(&mut self.context, &entity)?;
+                self.lights.push((entity, self.state.transforms[0]));
             }
             "AreaLightSource" => {
                 self.expect_world(word, place)?;
                 let mut entity = self.entity(tokens, word)?;
                 entity.params = entity.params.with_inherited(&self.state.attributes[1]);
+                light::fetch_picture(&mut self.context, &entity)?;
                 self.state.area_light = Some(Rc::new(entity));
             }
             "ReverseOrientation" => {

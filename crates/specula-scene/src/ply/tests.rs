@@ -1,6 +1,10 @@
 //! Tests of the PLY reader.
 
-use super::parse;
+use crate::{Limits, scene::Mesh};
+
+fn parse(bytes: &[u8]) -> Result<Mesh, String> {
+    super::parse(bytes, &Limits::default())
+}
 
 const TEXT: &str = "ply\nformat ascii 1.0\ncomment a quad and a triangle\nelement vertex 5\n\
     property float x\nproperty float y\nproperty float z\nproperty float u\nproperty float v\n\
@@ -89,7 +93,7 @@ fn every_truncation_is_an_error() {
 #[test]
 fn indices_must_exist() {
     let error = parse(TEXT.replace("3 0 1 4", "3 0 1 5").as_bytes()).unwrap_err();
-    assert!(error.contains("face 1 refers to vertex 5"), "{error}");
+    assert!(error.contains("refers to vertices 0, 1 and 5"), "{error}");
     assert!(parse(TEXT.replace("3 0 1 4", "3 0 1 -4").as_bytes()).is_err());
     assert!(parse(TEXT.replace("3 0 1 4", "2 0 1").as_bytes()).is_err());
 }

@@ -26,7 +26,14 @@ pub fn blackbody_to_rgb(kelvin: f32) -> Rgb<f32> {
     if !(t.is_finite() && t > 0.0) {
         return Rgb::BLACK;
     }
-    emission_to_rgb(integrate(|nm| planck(nm, t)))
+    emission_to_rgb(xyz_of_blackbody(t))
+}
+
+/// Tristimulus values of a black body, in units of its radiance at 830 nm.
+///
+/// * `kelvin`: finite, above 0.
+pub(super) fn xyz_of_blackbody(kelvin: f64) -> [f64; 3] {
+    integrate(|nm| planck(nm, kelvin))
 }
 
 /// Planck's law over its value at 830 nm, the end of the visible where cold bodies are brightest:

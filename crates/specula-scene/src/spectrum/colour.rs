@@ -101,6 +101,16 @@ pub(super) fn wavelengths() -> impl Iterator<Item = f64> {
         .map(|i| FIRST_NM + f64::from(i))
 }
 
+/// CIE XYZ to linear sRGB.
+pub(super) fn rgb_from_xyz() -> DMat3 {
+    Space::get().rgb_from_xyz
+}
+
+/// Linear sRGB to CIE XYZ; white has Y = 1.
+pub(super) fn xyz_from_rgb() -> DMat3 {
+    Space::get().xyz_from_rgb
+}
+
 /// `f64` to the renderer's precision.
 #[expect(clippy::cast_possible_truncation, reason = "the renderer is f32")]
 pub(super) fn to_f32([r, g, b]: [f64; 3]) -> Rgb<f32> {

@@ -13,19 +13,23 @@
 mod blackbody;
 mod cie_1931;
 mod colour;
+mod colour_space;
 mod conductor;
 mod dispersion;
 mod fluorescent;
 mod illuminants;
 mod measured;
 mod named;
+mod observe;
 mod piecewise;
 mod spd;
 
 pub use blackbody::blackbody_to_rgb;
 pub use colour::{illuminant_to_rgb, reflectance_to_rgb};
+pub(crate) use colour_space::{COLOUR_SPACES, ColourSpace, Primaries, white_balance};
 pub use conductor::{ConductorFit, conductor_index_to_rgb, fit_conductor};
 pub use dispersion::D_LINE_NM;
 pub use named::{NAMES, named};
+pub(crate) use observe::{Weight, observe};
 pub use piecewise::{Spectrum, SpectrumError};
 pub use spd::{SpdError, SpdErrorKind, parse_spd};

@@ -102,6 +102,26 @@ impl Spectrum {
         }
     }
 
+    /// The same spectrum, 0 beyond its first and last sample; one of a single sample stays as it is.
+    pub(crate) fn zero_outside(&self) -> Self {
+        let (Some(first), Some(last)) = (self.samples.first(), self.samples.last()) else {
+            return self.clone();
+        };
+        if self.samples.len() == 1 {
+            return self.clone();
+        }
+        // A step cannot be vertical; this one is narrower than any sum's.
+        let before = (first.0 * (1.0 - 1e-9), 0.0);
+        let after = (last.0 * (1.0 + 1e-9), 0.0);
+        let inner = self.samples.iter().copied();
+        Self {
+            samples: std::iter::once(before)
+                .chain(inner)
+                .chain([after])
+                .collect(),
+        }
+    }
+
     /// `(nm, value)`, wavelengths strictly increasing; never empty.
     #[must_use]
     pub fn samples(&self) -> &[(f64, f64)] {
@@ -168,6 +188,22 @@ mod tests {
             e.to_string(),
             "sample 1: expected a wavelength above 400 nm, found 400 nm"
         );
+    }
+
+    #[test]
+    fn nothing_is_left_outside() {
+        let s = Spectrum::new(vec![(400.0, 1.0), (500.0, 3.0)]).unwrap();
+        let z = s.zero_outside();
+        assert!(Spectrum::new(z.samples().to_vec()).is_ok());
+        for (nm, v) in [
+            (399.0, 0.0),
+            (400.0, 1.0),
+            (450.0, 2.0),
+            (500.0, 3.0),
+            (501.0, 0.0),
+        ] {
+            assert_eq!(z.value(nm), v, "{nm} nm");
+        }
     }
 
     #[test]

@@ -18,7 +18,7 @@ fn scene() -> Scene {
         to_world: DMat4::from_translation(DVec3::X),
         material: MaterialId(0),
         emission: Some(Emission {
-            radiance: Rgb::WHITE,
+            radiance: ColourParam::WHITE,
             two_sided: false,
         }),
         reverse_orientation: false,
@@ -27,7 +27,7 @@ fn scene() -> Scene {
     Scene {
         camera: Camera {
             to_world: DMat4::IDENTITY,
-            fov_deg: 90.0,
+            projection: Projection::Perspective { fov_deg: 90.0 },
             lens_radius: 0.0,
             focal_distance: 1.0,
             screen_window: [-1.0, 1.0, -1.0, 1.0],
@@ -37,6 +37,8 @@ fn scene() -> Scene {
             crop: [0, 4, 0, 4],
             filter: Filter::Box { radius: [0.5; 2] },
             exposure: 1.0,
+            max_component: None,
+            balance: Film::NO_BALANCE,
             file_name: None,
         },
         settings: Settings {
@@ -56,11 +58,7 @@ fn scene() -> Scene {
                 b: TextureId(0),
             },
         ],
-        materials: vec![Material {
-            energy: None,
-            name: None,
-            kind: diffuse,
-        }],
+        materials: vec![Material::new(diffuse)],
         meshes: vec![Mesh {
             positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
             triangles: vec![[0, 1, 2]],
@@ -78,6 +76,7 @@ fn scene() -> Scene {
         lights: vec![Light::Distant {
             irradiance: Rgb::WHITE,
             to_light: [0.0, 0.0, 1.0],
+            half_angle_deg: 0.0,
         }],
     }
 }
@@ -115,7 +114,9 @@ fn every_broken_invariant_is_found() {
                 sigma: 0.0,
             }
         }),
-        ("camera", |s| s.camera.fov_deg = 180.0),
+        ("camera", |s| {
+            s.camera.projection = Projection::Perspective { fov_deg: 180.0 }
+        }),
         ("camera", |s| s.camera.to_world = DMat4::ZERO),
         ("settings", |s| s.settings.samples_per_pixel = 0),
         ("image 0 (i)", |s| s.images[0].pixels[0][1] = f32::NAN),
@@ -127,7 +128,11 @@ fn every_broken_invariant_is_found() {
             }
         }),
         ("material 0", |s| {
-            s.materials[0].kind = MaterialKind::ThinDielectric { eta: 0.0 }
+            s.materials[0].kind = MaterialKind::ThinDielectric {
+                eta: 0.0,
+                reflection_tint: ColourParam::WHITE,
+                transmission_tint: ColourParam::WHITE,
+            }
         }),
         ("material 0", |s| {
             let amount = FloatParam::Value(0.5);
@@ -151,6 +156,7 @@ fn every_broken_invariant_is_found() {
             s.lights[0] = Light::Distant {
                 irradiance: Rgb::WHITE,
                 to_light,
+                half_angle_deg: 0.0,
             };
         }),
         ("scene", |s| {

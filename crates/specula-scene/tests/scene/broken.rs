@@ -334,11 +334,18 @@ fn meshes_that_are_wrong() {
 fn values_that_mean_nothing() {
     let camera = |text: &str| load(format!("Camera {text}\nWorldBegin Shape \"sphere\""));
     expect(
-        camera("\"realistic\""),
+        camera("\"fisheye\""),
         ErrorKind::Unsupported,
         1,
         8,
-        "realistic",
+        "fisheye",
+    );
+    expect(
+        camera("\"realistic\""),
+        ErrorKind::Parameter,
+        1,
+        8,
+        "lensfile",
     );
     expect(
         camera("\"perspective\" \"float fov\" 180"),

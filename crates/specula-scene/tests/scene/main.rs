@@ -8,6 +8,9 @@
 mod broken;
 mod common;
 mod directives;
+mod features;
+mod film;
+mod graph;
 mod materials;
 mod mutations;
 mod shared_scenes;

@@ -42,7 +42,7 @@ fn diffuse() {
 
 #[test]
 fn dielectrics() {
-    let MaterialKind::Dielectric { eta, roughness } = material("\"dielectric\"") else {
+    let MaterialKind::Dielectric { eta, roughness, .. } = material("\"dielectric\"") else {
         panic!()
     };
     assert_eq!((eta, roughness.u, roughness.v), (1.5, SMOOTH, SMOOTH));
@@ -55,7 +55,11 @@ fn dielectrics() {
     assert!((eta - 1.5168).abs() < 1e-3, "{eta}");
     assert_eq!(
         material("\"thindielectric\" \"float eta\" 1.3"),
-        MaterialKind::ThinDielectric { eta: 1.3 }
+        MaterialKind::ThinDielectric {
+            eta: 1.3,
+            reflection_tint: ColourParam::WHITE,
+            transmission_tint: ColourParam::WHITE,
+        }
     );
     let MaterialKind::Dielectric { roughness, .. } = material(
         "\"dielectric\" \"float uroughness\" 0.1 \"float roughness\" 0.2 \"bool remaproughness\" false",
@@ -175,7 +179,9 @@ fn interfaces_and_stand_ins() {
     for (text, part) in [
         ("\"\"", "deprecated"),
         ("\"hair\"", "hair"),
-        ("\"diffuse\" \"string normalmap\" \"n.png\"", "normalmap"),
+        ("\"measured\" \"string filename\" \"x.bsdf\"", "grey"),
+        ("\"subsurface\" \"string name\" \"Skin1\"", "subsurface"),
+        ("\"subsurface\" \"rgb mfp\" [1 1 1]", "subsurface"),
         ("\"diffuse\" \"rgb reflectance\" [2 1 1]", "above 1"),
         ("\"coateddiffuse\" \"rgb albedo\" [1 1 1]", "medium"),
     ] {

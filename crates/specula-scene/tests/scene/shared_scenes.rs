@@ -26,7 +26,7 @@ const EXPECTED: &[(&str, u64, usize, usize)] = &[
     ("cornell-box/smallpt.pbrt", 10, 5, 0),
     ("cornell-box/volumetric-caustic.pbrt", 12, 4, 1),
     ("veach-mis/veach-mis-colorized.pbrt", 12, 10, 0),
-    ("volumetric-caustic/volumetric-caustic.pbrt", 14, 8, 2),
+    ("volumetric-caustic/volumetric-caustic.pbrt", 14, 8, 1),
 ];
 
 #[test]

@@ -6,6 +6,8 @@ use std::time::Duration;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use specula::bsdf::vndf;
 use specula::scene::Energy;
+use specula::scene::material_text::parse_material;
+use specula::scene::scene::MaterialKind;
 
 use super::values;
 
@@ -33,6 +35,8 @@ pub(crate) enum Command {
     Render(RenderArguments),
     /// Say what is in a scene, and what of it is not supported.
     Info(InfoArguments),
+    /// Write a scene as pbrt-v4, with its meshes and pictures beside it.
+    Convert(ConvertArguments),
     /// Compare two EXR pictures: RMSE, relMSE, FLIP, and a picture of the difference.
     Compare(CompareArguments),
 }
@@ -47,6 +51,8 @@ Examples:
       until the estimated relative error is 2 %
   specula render scene.pbrt --resolution 480x270 --spp 4 -o preview.png
       a quick look
+  specula render bunny.ply --material \"conductor Au alpha 0.3\"
+      a mesh alone, staged in the built-in studio
   specula render scene.pbrt --crop 100,200,50,150 --spp 1024 -o detail.exr
       columns 100 to 199 and rows 50 to 149 only
 
@@ -56,7 +62,8 @@ Long renders write what there is every half minute. Files are replaced whole or 
 #[derive(Args, Debug)]
 #[command(after_help = RENDER_EXAMPLES)]
 pub(crate) struct RenderArguments {
-    /// A pbrt-v4 file; without one, the built-in scene of rough-metal orbs
+    /// A scene (pbrt-v4, Mitsuba 3 .xml, .gltf, .glb) or a mesh (.obj, .ply); without one, the
+    /// built-in scene of rough-metal orbs
     pub(crate) scene: Option<PathBuf>,
 
     /// File to write: .exr (all layers, linear) or .png (what a screen shows). May be repeated.
@@ -78,7 +85,7 @@ pub(crate) struct RenderArguments {
     pub(crate) noise: Option<f32>,
 
     /// Which sampler draws reflections off rough surfaces; the picture converges to the same
-    #[arg(long, value_name = "NAME", default_value_t = SamplerName::Bounded)]
+    #[arg(long, value_name = "NAME", default_value_t = SamplerName::Exact)]
     pub(crate) sampler: SamplerName,
 
     /// What rough metal and glass do about light that they scatter more than once, where a material
@@ -87,6 +94,11 @@ pub(crate) struct RenderArguments {
     /// cui, cui-bidirectional or specula
     #[arg(long, value_name = "NAME", default_value_t = Energy::None)]
     pub(crate) energy: Energy,
+
+    /// Give every surface this material, such as "conductor Au alpha 0.3", "dielectric 1.5",
+    /// "coateddiffuse 0.1 0.3 0.8 alpha 0.05", "diffuse 0.5"; lamps keep theirs
+    #[arg(long, value_name = "TEXT", value_parser = parse_material)]
+    pub(crate) material: Option<MaterialKind>,
 
     /// Longest path in scattering events [default: as the scene says]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=65_535))]
@@ -126,8 +138,10 @@ pub(crate) struct RenderArguments {
 pub(crate) enum SamplerName {
     /// Spherical caps (Dupuy and Benyoub 2023)
     Cap,
-    /// Bounded spherical caps (Tokuyoshi and Eto 2024): the least noise
+    /// Bounded spherical caps (Tokuyoshi and Eto 2024)
     Bounded,
+    /// Only reflections above the surface, none rejected: the least noise
+    Exact,
     /// Heitz 2018
     Heitz,
 }
@@ -137,6 +151,7 @@ impl From<SamplerName> for vndf::Sampler {
         match name {
             SamplerName::Cap => Self::Cap,
             SamplerName::Bounded => Self::Bounded,
+            SamplerName::Exact => Self::Exact,
             SamplerName::Heitz => Self::Heitz,
         }
     }
@@ -166,8 +181,27 @@ display_as_value!(SamplerName, ToneName, MetricName);
     after_help = "Examples:\n  specula info scene.pbrt\n  specula info       the built-in scene"
 )]
 pub(crate) struct InfoArguments {
-    /// A pbrt-v4 file; without one, the built-in scene
+    /// A scene (pbrt-v4, Mitsuba 3 .xml, .gltf, .glb) or a mesh (.obj, .ply); without one, the
+    /// built-in scene
     pub(crate) scene: Option<PathBuf>,
+}
+
+const CONVERT_EXAMPLES: &str = "\
+Examples:
+  specula convert scene.xml scene.pbrt
+  specula convert model.glb model.pbrt
+      writes model.pbrt, and meshes and pictures into model-files/
+
+What pbrt-v4 cannot say is written as the nearest that it can, and named in a note.";
+
+#[derive(Args, Debug)]
+#[command(after_help = CONVERT_EXAMPLES)]
+pub(crate) struct ConvertArguments {
+    /// The scene, of any format that `render` takes
+    pub(crate) scene: PathBuf,
+    /// The file to write
+    #[arg(value_name = "OUT.pbrt", value_parser = values::pbrt)]
+    pub(crate) output: PathBuf,
 }
 
 const COMPARE_EXAMPLES: &str = "\

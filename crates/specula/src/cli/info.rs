@@ -5,6 +5,7 @@ use std::fmt::Write;
 use std::process::ExitCode;
 
 use specula::scene::Summary;
+use specula::scene::scene::Projection;
 
 use super::arguments::InfoArguments;
 use super::load::{self, Named};
@@ -47,7 +48,13 @@ fn describe(named: &Named) -> String {
     };
     lines.push((
         "camera",
-        format!("perspective, {} degrees, {lens}", number(s.camera.fov_deg)),
+        match s.camera.projection {
+            Projection::Perspective { fov_deg } => {
+                format!("perspective, {} degrees, {lens}", number(fov_deg))
+            }
+            Projection::Orthographic => format!("orthographic, {lens}"),
+            Projection::Spherical(mapping) => format!("spherical, {}", debug_name(&mapping)),
+        },
     ));
     lines.push(("shapes", counts(&s.shapes)));
     lines.push((

@@ -41,7 +41,10 @@ fn stem(path: &Path) -> String {
         .file_name()
         .map_or_else(String::new, |n| n.to_string_lossy().into_owned());
     let name = name.strip_suffix(".gz").unwrap_or(&name);
-    let name = name.strip_suffix(".pbrt").unwrap_or(name);
+    let name = [".pbrt", ".xml", ".gltf", ".glb", ".obj", ".ply"]
+        .iter()
+        .find_map(|end| name.strip_suffix(end))
+        .unwrap_or(name);
     if name.is_empty() {
         "picture".to_owned()
     } else {
@@ -93,6 +96,7 @@ mod tests {
     fn stems() {
         assert_eq!(stem(Path::new("a/b.pbrt")), "b");
         assert_eq!(stem(Path::new("b.pbrt.gz")), "b");
+        assert_eq!(stem(Path::new("b.glb")), "b");
         assert_eq!(stem(Path::new("scene-v4.pbrt")), "scene-v4");
         assert_eq!(stem(Path::new("..")), "picture");
     }

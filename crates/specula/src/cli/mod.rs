@@ -2,6 +2,7 @@
 
 mod arguments;
 mod compare;
+mod convert;
 mod failure;
 mod info;
 mod load;
@@ -23,6 +24,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
     match arguments.command {
         Command::Render(a) => render::run(&a),
         Command::Info(a) => info::run(&a),
+        Command::Convert(a) => convert::run(&a),
         Command::Compare(a) => compare::run(&a),
     }
 }

@@ -21,7 +21,10 @@ const SAVE_EVERY: Duration = Duration::from_secs(30);
 /// Renders and writes; code 130 where Ctrl-C ended it early.
 pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
     let stop = Stop::listen()?;
-    let named = load::scene(arguments.scene.as_deref())?;
+    let mut named = load::scene(arguments.scene.as_deref())?;
+    if let Some(material) = arguments.material {
+        named.scene.replace_materials(material);
+    }
     if !arguments.quiet {
         load::print_warnings(&named.warnings);
     }

@@ -83,6 +83,12 @@ pub(crate) fn png(text: &str) -> Result<PathBuf, String> {
         .ok_or_else(|| "expected a file name that ends in .png".to_owned())
 }
 
+/// A path that ends in `.pbrt`.
+pub(crate) fn pbrt(text: &str) -> Result<PathBuf, String> {
+    with_extension(text, &["pbrt"])
+        .ok_or_else(|| "expected a file name that ends in .pbrt".to_owned())
+}
+
 fn with_extension(text: &str, allowed: &[&str]) -> Option<PathBuf> {
     let path = PathBuf::from(text);
     let extension = path.extension()?.to_str()?.to_ascii_lowercase();

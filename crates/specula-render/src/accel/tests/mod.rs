@@ -2,6 +2,7 @@
 
 mod degenerate;
 mod instances;
+mod large;
 mod quadrics;
 mod reference;
 mod watertight;

@@ -1,0 +1,303 @@
+//! The loops over elements.
+//!
+//! A loop vectorises only if it neither calls nor branches on what all elements share. So a lobe's
+//! choices are matched outside the loops, with a constant in each arm; and two stages, each with a
+//! loop of its own over a short chunk, need as many loops as there are samplers plus reflectances
+//! instead of their product. Short loops are faster, too: the machine overlaps more iterations.
+
+use super::lobes::{Family, InStages, Kernel};
+use super::recast::number;
+use super::slices::{Colours, Directions, Kind, Samples};
+use crate::bsdf::{Bsdf, Transport};
+use crate::fresnel::Reflectance;
+use crate::math::{Real, Vec3, vec3};
+use crate::vndf::Sampler;
+
+/// Elements between two stages, few enough to stay in the nearest cache.
+const CHUNK: usize = 128;
+
+/// Runs `$body` with `$f` standing for the family with a constant sampler.
+macro_rules! per_sampler {
+    ($family:expr, $f:ident => $body:expr) => {{
+        let family = $family;
+        let choose = |sampler| family.with(|lobe| lobe.choose_sampler(sampler));
+        match family.common().sampler() {
+            None => {
+                let $f = family;
+                $body
+            }
+            Some(Sampler::Cap) => {
+                let $f = choose(Sampler::Cap);
+                $body
+            }
+            Some(Sampler::Bounded) => {
+                let $f = choose(Sampler::Bounded);
+                $body
+            }
+            Some(Sampler::Exact) => {
+                let $f = choose(Sampler::Exact);
+                $body
+            }
+            Some(Sampler::Heitz) => {
+                let $f = choose(Sampler::Heitz);
+                $body
+            }
+        }
+    }};
+}
+
+/// Runs `$body` with `$f` standing for the family with a known kind of reflectance.
+macro_rules! per_reflectance {
+    ($family:expr, $f:ident => $body:expr) => {{
+        let family = $family;
+        let choose = |reflectance| family.with(|lobe| lobe.choose_reflectance(reflectance));
+        match family.common().reflectance() {
+            None => {
+                let $f = family;
+                $body
+            }
+            Some(Reflectance::Constant(r)) => {
+                let $f = choose(Reflectance::Constant(r));
+                $body
+            }
+            Some(Reflectance::Conductor(r)) => {
+                let $f = choose(Reflectance::Conductor(r));
+                $body
+            }
+            Some(Reflectance::Schlick(r)) => {
+                let $f = choose(Reflectance::Schlick(r));
+                $body
+            }
+            Some(Reflectance::F82Tint(r)) => {
+                let $f = choose(Reflectance::F82Tint(r));
+                $body
+            }
+            Some(Reflectance::Tinted(r)) => {
+                let $f = choose(Reflectance::Tinted(r));
+                $body
+            }
+        }
+    }};
+}
+
+pub(super) struct Eval<'a, T> {
+    pub(super) wo: Directions<&'a [T]>,
+    pub(super) wi: Directions<&'a [T]>,
+    pub(super) transport: Transport,
+    pub(super) f_cos: Colours<&'a mut [T]>,
+}
+
+impl<T: Real> Kernel for Eval<'_, T> {
+    #[inline(always)]
+    fn run<U: Real, F: Family<U>>(self, family: F) {
+        // The sampler is any constant: eval does not depend on it.
+        let family = family.with(|lobe| lobe.choose_sampler(Sampler::Cap));
+        per_reflectance!(family, f => self.each(f));
+    }
+}
+
+impl<T: Real> Eval<'_, T> {
+    #[inline(always)]
+    fn each<U: Real, F: Family<U>>(self, family: F) {
+        let n = self.f_cos.r.len();
+        let (wo, wi) = (self.wo.first(n), self.wi.first(n));
+        let mut f_cos = self.f_cos.first(n);
+        for i in 0..n {
+            let lobe = family.at(i);
+            let value = lobe.eval(wo.get_as(i), wi.get_as(i), self.transport);
+            f_cos.set_from(i, value);
+        }
+    }
+}
+
+pub(super) struct Pdf<'a, T> {
+    pub(super) wo: Directions<&'a [T]>,
+    pub(super) wi: Directions<&'a [T]>,
+    pub(super) pdf: &'a mut [T],
+}
+
+impl<T: Real> Kernel for Pdf<'_, T> {
+    #[inline(always)]
+    fn run<U: Real, F: Family<U>>(self, family: F) {
+        per_sampler!(family, f => self.each(f));
+    }
+}
+
+impl<T: Real> Pdf<'_, T> {
+    #[inline(always)]
+    fn each<U: Real, F: Family<U>>(self, family: F) {
+        let n = self.pdf.len();
+        let (wo, wi) = (self.wo.first(n), self.wi.first(n));
+        for i in 0..n {
+            let value = family.at(i).pdf(wo.get_as(i), wi.get_as(i));
+            self.pdf[i] = number(value);
+        }
+    }
+}
+
+pub(super) struct EvalPdf<'a, T> {
+    pub(super) wo: Directions<&'a [T]>,
+    pub(super) wi: Directions<&'a [T]>,
+    pub(super) transport: Transport,
+    pub(super) f_cos: Colours<&'a mut [T]>,
+    pub(super) pdf: &'a mut [T],
+}
+
+impl<T: Real> Kernel for EvalPdf<'_, T> {
+    #[inline(always)]
+    fn run<U: Real, F: Family<U>>(self, family: F) {
+        if F::Lobe::STAGED {
+            self.in_stages(family);
+        } else {
+            per_sampler!(family, f => per_reflectance!(f, f => self.each(f)));
+        }
+    }
+}
+
+impl<T: Real> EvalPdf<'_, T> {
+    #[inline(always)]
+    fn each<U: Real, F: Family<U>>(self, family: F) {
+        let n = self.pdf.len();
+        let (wo, wi) = (self.wo.first(n), self.wi.first(n));
+        let mut f_cos = self.f_cos.first(n);
+        for i in 0..n {
+            let lobe = family.at(i);
+            let (value, pdf) = lobe.eval_pdf(wo.get_as(i), wi.get_as(i), self.transport);
+            f_cos.set_from(i, value);
+            self.pdf[i] = number(pdf);
+        }
+    }
+
+    #[inline(always)]
+    fn in_stages<U: Real, F: Family<U>>(mut self, family: F) {
+        let n = self.pdf.len();
+        let mut norms = [U::ZERO; CHUNK];
+        let mut start = 0;
+        while start < n {
+            let end = n.min(start + CHUNK);
+            // Slices whose common length is plain to see leave no checks in the loops.
+            let count = end - start;
+            let wo = self.wo.range(start, end).first(count);
+            let wi = self.wi.range(start, end).first(count);
+            let mut f_cos = self.f_cos.range(start, end).first(count);
+            let pdf = &mut self.pdf[start..end][..count];
+            let norms = &mut norms[..count];
+            let family = family.range(start, end);
+            per_sampler!(family, f => for (i, norm) in norms.iter_mut().enumerate() {
+                *norm = f.at(i).eval_first(wo.get_as(i));
+            });
+            per_reflectance!(family, f => for i in 0..count {
+                let (value, density) = f.at(i).eval_second(wo.get_as(i), wi.get_as(i), norms[i]);
+                f_cos.set_from(i, value);
+                pdf[i] = number(density);
+            });
+            start = end;
+        }
+    }
+}
+
+pub(super) struct Sample<'a, T> {
+    pub(super) wo: Directions<&'a [T]>,
+    pub(super) u: [&'a [T]; 3],
+    pub(super) transport: Transport,
+    pub(super) samples: Samples<&'a mut [T], &'a mut [Kind]>,
+}
+
+impl<T: Real> Kernel for Sample<'_, T> {
+    #[inline(always)]
+    fn run<U: Real, F: Family<U>>(self, family: F) {
+        if F::Lobe::STAGED {
+            self.in_stages(family);
+        } else {
+            per_sampler!(family, f => per_reflectance!(f, f => self.each(f)));
+        }
+    }
+}
+
+impl<T: Real> Sample<'_, T> {
+    #[inline(always)]
+    fn each<U: Real, F: Family<U>>(self, family: F) {
+        let n = self.samples.pdf.len();
+        let (wo, u) = (self.wo.first(n), range(self.u, 0, n));
+        let mut samples = self.samples.first(n);
+        for i in 0..n {
+            let lobe = family.at(i);
+            let sample = lobe.sample(wo.get_as(i), numbers(u, i), self.transport);
+            samples.set_from(i, sample);
+        }
+    }
+
+    #[inline(always)]
+    fn in_stages<U: Real, F: Family<U>>(mut self, family: F) {
+        let n = self.samples.pdf.len();
+        let mut drawn = [[U::ZERO; CHUNK]; 4];
+        let [x, y, z, norms] = &mut drawn;
+        let mut start = 0;
+        while start < n {
+            let end = n.min(start + CHUNK);
+            let count = end - start;
+            let wo = self.wo.range(start, end).first(count);
+            let u = range(self.u, start, end);
+            let mut samples = self.samples.range(start, end).first(count);
+            let (x, y, z) = (&mut x[..count], &mut y[..count], &mut z[..count]);
+            let norms = &mut norms[..count];
+            let family = family.range(start, end);
+            per_sampler!(family, f => for i in 0..count {
+                let (wi, norm) = f.at(i).draw_first(wo.get_as(i), numbers(u, i));
+                (x[i], y[i], z[i], norms[i]) = (wi.x, wi.y, wi.z, norm);
+            });
+            per_reflectance!(family, f => for i in 0..count {
+                let first = (vec3(x[i], y[i], z[i]), norms[i]);
+                samples.set_from(i, f.at(i).draw_second(wo.get_as(i), first));
+            });
+            start = end;
+        }
+    }
+}
+
+pub(super) struct SampleWi<'a, T> {
+    pub(super) wo: Directions<&'a [T]>,
+    pub(super) u: [&'a [T]; 3],
+    pub(super) transport: Transport,
+    pub(super) wi: Directions<&'a mut [T]>,
+}
+
+impl<T: Real> Kernel for SampleWi<'_, T> {
+    #[inline(always)]
+    fn run<U: Real, F: Family<U>>(self, family: F) {
+        // The weight is not asked for: any reflectance will do.
+        let black = Reflectance::Constant(crate::Rgb::BLACK);
+        let family = family.with(|lobe| lobe.choose_reflectance(black));
+        per_sampler!(family, f => self.each(f));
+    }
+}
+
+impl<T: Real> SampleWi<'_, T> {
+    #[inline(always)]
+    fn each<U: Real, F: Family<U>>(self, family: F) {
+        let n = self.wi.x.len();
+        let (wo, u) = (self.wo.first(n), range(self.u, 0, n));
+        let mut wi = self.wi.first(n);
+        for i in 0..n {
+            let lobe = family.at(i);
+            let sample = lobe.sample(wo.get_as(i), numbers(u, i), self.transport);
+            wi.set_from(i, sample.map_or(Vec3::ZERO, |s| s.wi));
+        }
+    }
+}
+
+/// The three numbers at `i`.
+#[inline(always)]
+fn numbers<T: Real, U: Real>([a, b, c]: [&[T]; 3], i: usize) -> [U; 3] {
+    [number(a[i]), number(b[i]), number(c[i])]
+}
+
+#[inline(always)]
+fn range<T>([a, b, c]: [&[T]; 3], start: usize, end: usize) -> [&[T]; 3] {
+    let n = end - start;
+    [
+        &a[start..end][..n],
+        &b[start..end][..n],
+        &c[start..end][..n],
+    ]
+}

@@ -1,0 +1,119 @@
+//! The instruction sets that the kernels are compiled for, and the choice among them.
+
+use core::fmt;
+
+use multiversion::multiversion;
+use multiversion::target::match_target;
+
+use crate::math::Real;
+
+/// A set of vector instructions that the batch kernels are compiled for.
+///
+/// The two upper levels multiply and add in one rounding, and agree with each other bit for bit;
+/// [`Level::Baseline`] agrees bit for bit with the scalar functions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Level {
+    /// What the crate is compiled for: by default SSE2 on x86-64, NEON on aarch64.
+    Baseline,
+    /// AVX2 with fused multiply-add (x86-64-v3): 8 lanes of `f32`, 4 of `f64`.
+    Avx2,
+    /// AVX-512 (x86-64-v4, Ice Lake and later): 16 lanes of `f32`, 8 of `f64`.
+    Avx512,
+}
+
+impl Level {
+    /// Every level, the slowest first.
+    pub const ALL: [Self; 3] = [Self::Baseline, Self::Avx2, Self::Avx512];
+
+    /// The best level that this machine runs.
+    #[inline]
+    pub fn best() -> Self {
+        highest()
+    }
+
+    /// Whether this machine runs it. One that it does not run works as the best below it.
+    pub fn is_available(self) -> bool {
+        self <= highest()
+    }
+
+    /// Runs a task compiled for this level.
+    #[inline]
+    pub(super) fn run(self, task: impl Task) {
+        match self {
+            Self::Baseline => task.run::<Plain>(),
+            Self::Avx2 => avx2(task),
+            Self::Avx512 => avx512(task),
+        }
+    }
+}
+
+impl fmt::Display for Level {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Baseline => "baseline",
+            Self::Avx2 => "AVX2",
+            Self::Avx512 => "AVX-512",
+        })
+    }
+}
+
+/// Which scalar stands in for `f32` and `f64` within a kernel.
+pub trait Arithmetic {
+    /// The scalar to compute in.
+    type Of<T: Real>: Real;
+}
+
+/// The scalars as they are.
+pub(super) struct Plain;
+
+/// Fused multiply-add.
+pub(super) struct Fusing;
+
+impl Arithmetic for Plain {
+    type Of<T: Real> = T;
+}
+
+impl Arithmetic for Fusing {
+    type Of<T: Real> = T::Fused;
+}
+
+/// A loop over slices, to be compiled once per level. Its `run` must be inlined, so that it takes
+/// on the instructions of the function that calls it.
+pub(super) trait Task {
+    fn run<A: Arithmetic>(self);
+}
+
+// The same targets in the same order in all three, so that they agree on what the machine is.
+// Left to itself, LLVM uses 512-bit registers with these features: the preference for 256 bits
+// belongs to named processors only.
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
+    "x86_64+avx2+fma+bmi1+bmi2",
+))]
+fn avx512<K: Task>(task: K) {
+    match_target! {
+        "x86_64+fma" => task.run::<Fusing>(),
+        _ => task.run::<Plain>(),
+    }
+}
+
+#[multiversion(targets("x86_64+avx2+fma+bmi1+bmi2"))]
+fn avx2<K: Task>(task: K) {
+    match_target! {
+        "x86_64+fma" => task.run::<Fusing>(),
+        _ => task.run::<Plain>(),
+    }
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
+    "x86_64+avx2+fma+bmi1+bmi2",
+))]
+fn highest() -> Level {
+    match_target! {
+        "x86_64+avx512f" => Level::Avx512,
+        "x86_64+avx2" => Level::Avx2,
+        _ => Level::Baseline,
+    }
+}

@@ -1,0 +1,245 @@
+//! What the batch functions take in place of one lobe.
+
+use super::level::Arithmetic;
+use super::recast::Recast;
+use super::slices::LengthMismatch;
+use crate::bsdf::{
+    Bsdf, BsdfSample, CoatedConductor, CoatedDiffuse, Compensated, CompensatedDielectric,
+    DiffuseTransmission, Eon, Lambert, SmoothConductor, SmoothDielectric, ThinDielectric,
+    Transport,
+};
+use crate::fresnel::Reflectance;
+use crate::math::{Real, Rgb, Vec3};
+use crate::vndf::Sampler;
+
+/// The lobes of a batch: one lobe for all elements (every single-scattering lobe of this crate), or
+/// [`PerElement`](super::PerElement) widths, or [`Any`] lobe that implements [`Bsdf`].
+pub trait Lobes<T: Real> {
+    /// Fails where an array of per-element parameters is not `n` long.
+    #[doc(hidden)]
+    fn check(&self, _n: usize) -> Result<(), LengthMismatch> {
+        Ok(())
+    }
+
+    /// Runs the kernel over `n` of these lobes in the arithmetic's scalar.
+    #[doc(hidden)]
+    fn run<A: Arithmetic, K: Kernel>(&self, n: usize, kernel: K);
+}
+
+/// Loops over elements, each with a lobe.
+#[doc(hidden)]
+pub trait Kernel {
+    /// Runs them; always inlined.
+    fn run<U: Real, F: Family<U>>(self, family: F);
+}
+
+/// A lobe for every element.
+///
+/// Kernels turn its choices into constants outside their loops, so that these do not branch.
+#[doc(hidden)]
+pub trait Family<U: Real>: Copy {
+    /// The lobe's type.
+    type Lobe: InStages<U>;
+
+    /// The lobe at `i`.
+    fn at(&self, i: usize) -> Self::Lobe;
+
+    /// The lobes from `start` to before `end`.
+    fn range(&self, start: usize, end: usize) -> Self;
+
+    /// With another common lobe.
+    fn with(self, change: impl FnOnce(Self::Lobe) -> Self::Lobe) -> Self;
+
+    /// The common lobe.
+    fn common(&self) -> &Self::Lobe;
+}
+
+/// A lobe with choices to be made into constants, whose samples may be made in two stages, each a
+/// loop of its own.
+#[doc(hidden)]
+pub trait InStages<U: Real>: Bsdf<U> + Copy {
+    /// Whether there are two stages: then the sampler matters in the first one only, and the
+    /// reflectance in the second one only.
+    const STAGED: bool = false;
+
+    /// The sampler, if there is a choice.
+    #[inline(always)]
+    fn sampler(&self) -> Option<Sampler> {
+        None
+    }
+
+    /// With this sampler.
+    #[inline(always)]
+    #[must_use]
+    fn choose_sampler(self, _sampler: Sampler) -> Self {
+        self
+    }
+
+    /// The reflectance, if there is a choice.
+    #[inline(always)]
+    fn reflectance(&self) -> Option<Reflectance<U>> {
+        None
+    }
+
+    /// With this reflectance.
+    #[inline(always)]
+    #[must_use]
+    fn choose_reflectance(self, _reflectance: Reflectance<U>) -> Self {
+        self
+    }
+
+    /// First stage of a sample: a direction and a number.
+    #[inline(always)]
+    fn draw_first(&self, _wo: Vec3<U>, _u: [U; 3]) -> (Vec3<U>, U) {
+        (Vec3::ZERO, U::ZERO)
+    }
+
+    /// Second stage of a sample.
+    #[inline(always)]
+    fn draw_second(&self, _wo: Vec3<U>, _first: (Vec3<U>, U)) -> Option<BsdfSample<U>> {
+        None
+    }
+
+    /// First stage of eval and pdf together: a number.
+    #[inline(always)]
+    fn eval_first(&self, _wo: Vec3<U>) -> U {
+        U::ZERO
+    }
+
+    /// Second stage of eval and pdf together.
+    #[inline(always)]
+    fn eval_second(&self, _wo: Vec3<U>, _wi: Vec3<U>, _first: U) -> (Rgb<U>, U) {
+        (Rgb::BLACK, U::ZERO)
+    }
+}
+
+/// The same lobe everywhere.
+#[derive(Clone, Copy)]
+pub(super) struct Same<L>(pub(super) L);
+
+impl<U: Real, L: InStages<U>> Family<U> for Same<L> {
+    type Lobe = L;
+
+    #[inline(always)]
+    fn at(&self, _i: usize) -> L {
+        self.0
+    }
+
+    #[inline(always)]
+    fn range(&self, _start: usize, _end: usize) -> Self {
+        *self
+    }
+
+    #[inline(always)]
+    fn with(self, change: impl FnOnce(L) -> L) -> Self {
+        Self(change(self.0))
+    }
+
+    #[inline(always)]
+    fn common(&self) -> &L {
+        &self.0
+    }
+}
+
+/// A lobe of the caller's own, or a mixture: compiled for each level from its scalar source, as
+/// [`Bsdf`] gives it. It vectorises if the source is inlined, calls nothing and branches little.
+#[derive(Clone, Copy, Debug)]
+pub struct Any<L>(pub L);
+
+impl<U: Real, L: Bsdf<U>> Bsdf<U> for Any<L> {
+    #[inline(always)]
+    fn eval(&self, wo: Vec3<U>, wi: Vec3<U>, transport: Transport) -> Rgb<U> {
+        self.0.eval(wo, wi, transport)
+    }
+
+    #[inline(always)]
+    fn pdf(&self, wo: Vec3<U>, wi: Vec3<U>) -> U {
+        self.0.pdf(wo, wi)
+    }
+
+    #[inline(always)]
+    fn sample(&self, wo: Vec3<U>, u: [U; 3], transport: Transport) -> Option<BsdfSample<U>> {
+        self.0.sample(wo, u, transport)
+    }
+
+    #[inline(always)]
+    fn eval_pdf(&self, wo: Vec3<U>, wi: Vec3<U>, transport: Transport) -> (Rgb<U>, U) {
+        self.0.eval_pdf(wo, wi, transport)
+    }
+
+    #[inline(always)]
+    fn albedo(&self) -> Rgb<U> {
+        self.0.albedo()
+    }
+}
+
+impl<U: Real, L: Bsdf<U> + Copy> InStages<U> for Any<L> {}
+
+impl<T: Real, L: Bsdf<T> + Copy> Lobes<T> for Any<L> {
+    #[inline(always)]
+    fn run<A: Arithmetic, K: Kernel>(&self, _n: usize, kernel: K) {
+        kernel.run::<T, _>(Same(*self));
+    }
+}
+
+impl<U: Real> InStages<U> for SmoothConductor<U> {
+    #[inline(always)]
+    fn reflectance(&self) -> Option<Reflectance<U>> {
+        Some(self.reflectance)
+    }
+
+    #[inline(always)]
+    fn choose_reflectance(self, reflectance: Reflectance<U>) -> Self {
+        Self { reflectance }
+    }
+}
+
+impl<T: Real> Lobes<T> for SmoothConductor<T> {
+    #[inline(always)]
+    fn run<A: Arithmetic, K: Kernel>(&self, _n: usize, kernel: K) {
+        kernel.run::<A::Of<T>, _>(Same(self.recast()));
+    }
+}
+
+/// Lobes without choices to be made into constants.
+macro_rules! as_they_are {
+    ($($lobe:ident),*) => {
+        $(impl<U: Real> InStages<U> for $lobe<U> {}
+
+        impl<T: Real> Lobes<T> for $lobe<T> {
+            #[inline(always)]
+            fn run<A: Arithmetic, K: Kernel>(&self, _n: usize, kernel: K) {
+                kernel.run::<A::Of<T>, _>(Same(self.recast()));
+            }
+        })*
+    };
+}
+
+as_they_are!(
+    Lambert,
+    Eon,
+    DiffuseTransmission,
+    SmoothDielectric,
+    ThinDielectric
+);
+
+/// Lobes that look up tables and branch: loops of their scalar code.
+macro_rules! one_by_one {
+    ($($lobe:ident),*) => {
+        $(impl<U: Real> InStages<U> for $lobe<U> {}
+
+        impl<T: Real> Lobes<T> for $lobe<T> {
+            #[inline(always)]
+            fn run<A: Arithmetic, K: Kernel>(&self, n: usize, kernel: K) {
+                Any(*self).run::<A, K>(n, kernel);
+            }
+        })*
+    };
+}
+
+one_by_one!(
+    CoatedDiffuse,
+    CoatedConductor,
+    Compensated,
+    CompensatedDielectric
+);

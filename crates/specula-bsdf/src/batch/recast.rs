@@ -1,0 +1,101 @@
+//! Parameters and lobes in another scalar: the same numbers in `f32` and in its fused twin, rounded
+//! from `f64` to `f32`.
+
+use crate::alpha::Alpha;
+use crate::bsdf::{
+    Bsdf, DiffuseTransmission, Eon, Lambert, RoughConductor, RoughDielectric, SmoothConductor,
+    SmoothDielectric, ThinDielectric,
+};
+use crate::fresnel::{Conductor, F82Tint, Reflectance, Schlick, Tinted, Untinted};
+use crate::math::Real;
+use crate::ndf::{Ggx, Ndf};
+
+/// What can be written in another scalar.
+pub(super) trait Recast {
+    /// The same in the scalar `U`.
+    type In<U: Real>;
+
+    /// The same numbers, rounded.
+    fn recast<U: Real>(&self) -> Self::In<U>;
+}
+
+/// The number `x` in another scalar.
+#[inline(always)]
+pub(super) fn number<T: Real, U: Real>(x: T) -> U {
+    U::of(x.to_f64())
+}
+
+/// Implements [`Recast`] for a type with one scalar parameter.
+macro_rules! recast {
+    ($name:ident, $self:ident, $u:ident => $body:expr) => {
+        impl<T: Real> Recast for $name<T> {
+            type In<U: Real> = $name<U>;
+
+            #[inline(always)]
+            fn recast<$u: Real>(&$self) -> $name<$u> {
+                $body
+            }
+        }
+    };
+}
+
+recast!(Alpha, self, U => Alpha { x: number(self.x), y: number(self.y) });
+recast!(Ggx, self, U => Ggx::new(self.alpha().recast()));
+recast!(Conductor, self, U => Conductor {
+    eta: self.eta.cast(),
+    k: self.k.cast(),
+});
+recast!(Schlick, self, U => Schlick { f0: self.f0.cast() });
+recast!(F82Tint, self, U => F82Tint {
+    schlick: self.schlick.recast(),
+    hump: self.hump.cast(),
+});
+recast!(Untinted, self, U => match self {
+    Self::Conductor(f) => Untinted::Conductor(f.recast()),
+    Self::Schlick(f) => Untinted::Schlick(f.recast()),
+    Self::F82Tint(f) => Untinted::F82Tint(f.recast()),
+});
+recast!(Reflectance, self, U => match self {
+    Self::Constant(colour) => Reflectance::Constant(colour.cast()),
+    Self::Conductor(f) => Reflectance::Conductor(f.recast()),
+    Self::Schlick(f) => Reflectance::Schlick(f.recast()),
+    Self::F82Tint(f) => Reflectance::F82Tint(f.recast()),
+    Self::Tinted(f) => Reflectance::Tinted(Tinted {
+        tint: f.tint.cast(),
+        of: f.of.recast(),
+    }),
+});
+
+recast!(Lambert, self, U => Lambert::new(self.albedo().cast()));
+recast!(Eon, self, U => Eon {
+    albedo: self.albedo.cast(),
+    roughness: number(self.roughness),
+});
+recast!(DiffuseTransmission, self, U => DiffuseTransmission {
+    reflectance: self.reflectance.cast(),
+    transmittance: self.transmittance.cast(),
+});
+recast!(SmoothConductor, self, U => SmoothConductor {
+    reflectance: self.reflectance.recast(),
+});
+recast!(RoughConductor, self, U => RoughConductor::new(self.ndf.recast(), self.reflectance.recast())
+    .with_sampler(self.sampler)
+    .with_masking(self.masking));
+recast!(SmoothDielectric, self, U => SmoothDielectric {
+    eta: number(self.eta),
+    two_sided: self.two_sided,
+    tints: self.tints.cast(),
+});
+recast!(ThinDielectric, self, U => ThinDielectric::new(number(self.eta))
+    .with_tints(self.tints.cast()));
+recast!(RoughDielectric, self, U => {
+    let (ndf, eta) = (self.ndf.recast(), number(self.eta));
+    let lobe = if self.two_sided {
+        RoughDielectric::new(ndf, eta)
+    } else {
+        RoughDielectric::facing(ndf, eta)
+    };
+    lobe.with_sampler(self.sampler)
+        .with_masking(self.masking)
+        .with_tints(self.tints.cast())
+});

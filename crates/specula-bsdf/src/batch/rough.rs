@@ -1,0 +1,178 @@
+//! Rough metals and rough glass: one lobe for all, or widths per element.
+
+use super::level::Arithmetic;
+use super::lobes::{Family, InStages, Kernel, Lobes, Same};
+use super::recast::Recast;
+use super::slices::LengthMismatch;
+use super::widths::{Alphas, Widths, WidthsAt};
+use crate::bsdf::{BsdfSample, RoughConductor, RoughDielectric};
+use crate::fresnel::Reflectance;
+use crate::math::{Real, Rgb, Vec3};
+use crate::ndf::{Ggx, Ndf};
+use crate::vndf::Sampler;
+
+/// A rough lobe whose widths differ from element to element, as from a texture.
+///
+/// * `lobe`: everything else of it; its own widths are not used.
+/// * `alpha_x`, `alpha_y`: `(n,)`, along the local x and y; the same slice twice where isotropic.
+///   Clamped to the range of [`Alpha`](crate::Alpha), NaN to its lower end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PerElement<'a, T, L> {
+    /// What the elements have in common.
+    pub lobe: L,
+    /// Widths along the local x.
+    pub alpha_x: &'a [T],
+    /// Widths along the local y.
+    pub alpha_y: &'a [T],
+}
+
+impl<'a, T: Real, L> PerElement<'a, T, L> {
+    fn check(&self, n: usize) -> Result<(), LengthMismatch> {
+        let (alpha_x, alpha_y) = (self.alpha_x, self.alpha_y);
+        Widths::PerElement { alpha_x, alpha_y }.check(n)
+    }
+
+    #[inline(always)]
+    fn widths(&self, n: usize) -> Alphas<'a, T> {
+        Alphas::first(self.alpha_x, self.alpha_y, n)
+    }
+}
+
+/// A lobe that can be given other widths.
+trait Rough<U: Real>: InStages<U> {
+    fn with_widths(self, ggx: Ggx<U>) -> Self;
+}
+
+impl<U: Real> Rough<U> for RoughConductor<U> {
+    #[inline(always)]
+    fn with_widths(self, ggx: Ggx<U>) -> Self {
+        Self { ndf: ggx, ..self }
+    }
+}
+
+impl<U: Real> Rough<U> for RoughDielectric<U> {
+    #[inline(always)]
+    fn with_widths(self, ggx: Ggx<U>) -> Self {
+        Self { ndf: ggx, ..self }
+    }
+}
+
+impl<U: Real> InStages<U> for RoughConductor<U> {
+    const STAGED: bool = true;
+
+    #[inline(always)]
+    fn sampler(&self) -> Option<Sampler> {
+        Some(self.sampler)
+    }
+
+    #[inline(always)]
+    fn choose_sampler(self, sampler: Sampler) -> Self {
+        self.with_sampler(sampler)
+    }
+
+    #[inline(always)]
+    fn reflectance(&self) -> Option<Reflectance<U>> {
+        Some(self.reflectance)
+    }
+
+    #[inline(always)]
+    fn choose_reflectance(self, reflectance: Reflectance<U>) -> Self {
+        Self {
+            reflectance,
+            ..self
+        }
+    }
+
+    #[inline(always)]
+    fn draw_first(&self, wo: Vec3<U>, u: [U; 3]) -> (Vec3<U>, U) {
+        self.draw(wo, u)
+    }
+
+    #[inline(always)]
+    fn draw_second(&self, wo: Vec3<U>, (wi, norm): (Vec3<U>, U)) -> Option<BsdfSample<U>> {
+        self.weigh(wo, wi, norm)
+    }
+
+    #[inline(always)]
+    fn eval_first(&self, wo: Vec3<U>) -> U {
+        self.ndf.reflection_norm(self.sampler, wo)
+    }
+
+    #[inline(always)]
+    fn eval_second(&self, wo: Vec3<U>, wi: Vec3<U>, norm: U) -> (Rgb<U>, U) {
+        self.evaluate(wo, wi, norm)
+    }
+}
+
+impl<U: Real> InStages<U> for RoughDielectric<U> {
+    #[inline(always)]
+    fn sampler(&self) -> Option<Sampler> {
+        Some(self.sampler)
+    }
+
+    #[inline(always)]
+    fn choose_sampler(self, sampler: Sampler) -> Self {
+        self.with_sampler(sampler)
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Textured<'a, T, L> {
+    lobe: L,
+    widths: Alphas<'a, T>,
+}
+
+impl<T: Real, U: Real, L: Rough<U>> Family<U> for Textured<'_, T, L> {
+    type Lobe = L;
+
+    #[inline(always)]
+    fn at(&self, i: usize) -> L {
+        self.lobe.with_widths(Ggx::new(self.widths.at(i)))
+    }
+
+    #[inline(always)]
+    fn range(&self, start: usize, end: usize) -> Self {
+        Self {
+            lobe: self.lobe,
+            widths: self.widths.range(start, end),
+        }
+    }
+
+    #[inline(always)]
+    fn with(self, change: impl FnOnce(L) -> L) -> Self {
+        Self {
+            lobe: change(self.lobe),
+            ..self
+        }
+    }
+
+    #[inline(always)]
+    fn common(&self) -> &L {
+        &self.lobe
+    }
+}
+
+macro_rules! rough_lobes {
+    ($($lobe:ident),*) => {
+        $(impl<T: Real> Lobes<T> for $lobe<T> {
+            #[inline(always)]
+            fn run<A: Arithmetic, K: Kernel>(&self, _n: usize, kernel: K) {
+                kernel.run::<A::Of<T>, _>(Same(self.recast()));
+            }
+        }
+
+        impl<T: Real> Lobes<T> for PerElement<'_, T, $lobe<T>> {
+            fn check(&self, n: usize) -> Result<(), LengthMismatch> {
+                self.check(n)
+            }
+
+            #[inline(always)]
+            fn run<A: Arithmetic, K: Kernel>(&self, n: usize, kernel: K) {
+                let (lobe, widths) = (self.lobe.recast(), self.widths(n));
+                kernel.run::<A::Of<T>, _>(Textured { lobe, widths });
+            }
+        })*
+    };
+}
+
+rough_lobes!(RoughConductor, RoughDielectric);

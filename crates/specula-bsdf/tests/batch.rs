@@ -1,0 +1,374 @@
+//! The batch functions are the scalar ones, element by element, at every level.
+#![allow(
+    clippy::print_stdout,
+    reason = "tests say what they skipped and measured"
+)]
+
+mod batch_common;
+
+use batch_common::Elements;
+use specula_bsdf::batch::{
+    Any, Colours, Directions, Kind, LengthMismatch, Level, Lobes, PerElement, Samples, Widths,
+};
+use specula_bsdf::vndf::{self, Sampler};
+use specula_bsdf::{Alpha, Bsdf, BsdfSample, Event, Real, Rgb, Transport, Vec3};
+
+/// Not a multiple of any vector's length, and more than a chunk of two.
+const N: usize = 421;
+
+/// Everything that the batch functions compute of a lobe.
+#[derive(Clone, Debug, PartialEq)]
+struct Outcome<T> {
+    f_cos: Colours<Vec<T>>,
+    pdf: Vec<T>,
+    both: (Colours<Vec<T>>, Vec<T>),
+    samples: Samples<Vec<T>, Vec<Kind>>,
+    wi: Directions<Vec<T>>,
+}
+
+fn batch<T: Real, L: Lobes<T>>(level: Level, lobes: &L, e: &Elements<T>) -> Outcome<T> {
+    let n = e.wo.x.len();
+    let (wo, wi) = (e.wo.as_slices(), e.wi.as_slices());
+    let transport = Transport::Radiance;
+    let mut out = Outcome {
+        f_cos: Colours::zeroed(n),
+        pdf: vec![T::ZERO; n],
+        both: (Colours::zeroed(n), vec![T::ZERO; n]),
+        samples: Samples::rejected(n),
+        wi: Directions::zeroed(n),
+    };
+    level
+        .eval(lobes, wo, wi, transport, out.f_cos.as_mut_slices())
+        .expect("equal lengths");
+    level
+        .pdf(lobes, wo, wi, &mut out.pdf)
+        .expect("equal lengths");
+    let (f_cos, pdf) = &mut out.both;
+    level
+        .eval_pdf(lobes, wo, wi, transport, f_cos.as_mut_slices(), pdf)
+        .expect("equal lengths");
+    level
+        .sample(lobes, wo, e.u(), transport, out.samples.as_mut_slices())
+        .expect("equal lengths");
+    level
+        .sample_wi(lobes, wo, e.u(), transport, out.wi.as_mut_slices())
+        .expect("equal lengths");
+    out
+}
+
+fn kind<T: Real>(sample: &BsdfSample<T>) -> Kind {
+    match (sample.event, sample.specular) {
+        (Event::Reflection, false) => Kind::Reflection,
+        (Event::Transmission, false) => Kind::Transmission,
+        (Event::Reflection, true) => Kind::SpecularReflection,
+        (Event::Transmission, true) => Kind::SpecularTransmission,
+    }
+}
+
+fn scalar<T: Real, L: Bsdf<T>>(lobe: &L, e: &Elements<T>) -> Outcome<T> {
+    let n = e.wo.x.len();
+    let mut out = Outcome {
+        f_cos: Colours::default(),
+        pdf: Vec::new(),
+        both: (Colours::default(), Vec::new()),
+        samples: Samples::default(),
+        wi: Directions::default(),
+    };
+    let push = |to: &mut Colours<Vec<T>>, c: Rgb<T>| {
+        to.r.push(c.r);
+        to.g.push(c.g);
+        to.b.push(c.b);
+    };
+    let (wo, wi) = (e.wo.as_slices(), e.wi.as_slices());
+    for i in 0..n {
+        let (wo, wi) = (wo.get(i), wi.get(i));
+        push(&mut out.f_cos, lobe.eval(wo, wi, Transport::Radiance));
+        out.pdf.push(lobe.pdf(wo, wi));
+        let (f_cos, pdf) = lobe.eval_pdf(wo, wi, Transport::Radiance);
+        push(&mut out.both.0, f_cos);
+        out.both.1.push(pdf);
+        let sample = lobe.sample(wo, e.u.each_ref().map(|u| u[i]), Transport::Radiance);
+        let wi = sample.map_or(Vec3::ZERO, |s| s.wi);
+        for all in [&mut out.samples.wi, &mut out.wi] {
+            all.x.push(wi.x);
+            all.y.push(wi.y);
+            all.z.push(wi.z);
+        }
+        push(
+            &mut out.samples.weight,
+            sample.map_or(Rgb::BLACK, |s| s.weight),
+        );
+        out.samples.pdf.push(sample.map_or(T::ZERO, |s| s.pdf));
+        let kind = sample.as_ref().map_or(Kind::Rejected, kind);
+        out.samples.kind.push(kind);
+    }
+    out
+}
+
+const WIDTHS: [[f32; 2]; 4] = [[0.3, 0.3], [0.1, 0.8], [1e-3, 1e-3], [4.0, 0.5]];
+
+/// The levels that this machine has; says which it lacks.
+fn levels() -> Vec<Level> {
+    let (here, lacking): (Vec<_>, Vec<_>) = Level::ALL.into_iter().partition(|l| l.is_available());
+    for level in lacking {
+        println!("skipped: this machine has no {level}");
+    }
+    here
+}
+
+#[test]
+fn the_baseline_is_the_scalar_code_bit_for_bit() {
+    let elements = Elements::<f32>::new(N, 1);
+    for alpha in WIDTHS {
+        macro_rules! each {
+            ($name:literal, $lobe:expr) => {{
+                let lobe = $lobe;
+                let expected = scalar(&lobe, &elements);
+                let got = batch(Level::Baseline, &lobe, &elements);
+                assert!(expected == got, "{}, {alpha:?}: {lobe:?}", $name);
+            }};
+        }
+        for_every_lobe!(f32, alpha, each);
+    }
+    let lobe = batch_common::lambert();
+    let got = batch(Level::best(), &Any(lobe), &elements);
+    assert_eq!(got, scalar(&lobe, &elements));
+}
+
+/// Two lobes stand for all, for the sake of the time that compiling takes.
+#[test]
+fn so_it_is_in_f64() {
+    let elements = Elements::<f64>::new(N, 2);
+    for alpha in WIDTHS {
+        for sampler in batch_common::SAMPLERS {
+            let lobe = batch_common::metal(alpha, batch_common::gold()).with_sampler(sampler);
+            let got = batch(Level::Baseline, &lobe, &elements);
+            assert!(got == scalar(&lobe, &elements), "{lobe:?}");
+        }
+        let lobe = batch_common::glass(alpha, 1.5);
+        let got = batch(Level::Baseline, &lobe, &elements);
+        assert!(got == scalar(&lobe, &elements), "{lobe:?}");
+    }
+}
+
+#[test]
+fn vector_levels_agree_with_each_other_bit_for_bit() {
+    let levels = levels();
+    let [.., a, b] = &levels[..] else { return };
+    if *a == Level::Baseline {
+        return;
+    }
+    let elements = Elements::<f32>::new(N, 3);
+    for alpha in WIDTHS {
+        macro_rules! each {
+            ($name:literal, $lobe:expr) => {{
+                let lobe = $lobe;
+                let (a, b) = (batch(*a, &lobe, &elements), batch(*b, &lobe, &elements));
+                assert!(a == b, "{}, {alpha:?}: {lobe:?}", $name);
+            }};
+        }
+        for_every_lobe!(f32, alpha, each);
+    }
+}
+
+#[test]
+fn an_element_does_not_depend_on_its_place_or_its_neighbours() {
+    let whole = Elements::<f32>::new(300, 4);
+    let lobe = batch_common::metal::<f32>([0.1, 0.8], batch_common::gold());
+    let glass = batch_common::glass::<f32>([0.1, 0.8], 1.5);
+    for level in levels() {
+        let expected = (batch(level, &lobe, &whole), batch(level, &glass, &whole));
+        for (start, n) in [
+            (0, 0),
+            (3, 1),
+            (5, 7),
+            (17, 16),
+            (31, 33),
+            (1, 129),
+            (40, 257),
+        ] {
+            let cut = |v: &[f32]| v[start..start + n].to_vec();
+            let vectors = |d: &Directions<Vec<f32>>| Directions {
+                x: cut(&d.x),
+                y: cut(&d.y),
+                z: cut(&d.z),
+            };
+            let part = Elements {
+                wo: vectors(&whole.wo),
+                wi: vectors(&whole.wi),
+                u: whole.u.each_ref().map(|u| cut(u)),
+            };
+            let metal = batch(level, &lobe, &part);
+            assert_eq!(metal.f_cos.g, cut(&expected.0.f_cos.g), "{level} {n}");
+            assert_eq!(metal.samples.pdf, cut(&expected.0.samples.pdf));
+            assert_eq!(metal.samples.wi, vectors(&expected.0.samples.wi));
+            let glass = batch(level, &glass, &part);
+            assert_eq!(glass.pdf, cut(&expected.1.pdf), "{level} {n}");
+            assert_eq!(glass.samples.weight.b, cut(&expected.1.samples.weight.b));
+        }
+    }
+}
+
+#[test]
+fn per_element_widths_are_one_lobe_each() {
+    let elements = Elements::<f32>::new(N, 5);
+    #[allow(clippy::cast_precision_loss, reason = "a small index")]
+    let widths = |scale: f32| (0..N).map(move |i| scale * (1.0 + i as f32));
+    let alpha_x: Vec<f32> = widths(1e-3).collect();
+    let alpha_y: Vec<f32> = widths(2e-3).collect();
+    for sampler in batch_common::SAMPLERS {
+        let metal =
+            batch_common::metal::<f32>([0.5, 0.5], batch_common::gold()).with_sampler(sampler);
+        let glass = batch_common::glass::<f32>([0.5, 0.5], 1.5).with_sampler(sampler);
+        let textured = PerElement {
+            lobe: metal,
+            alpha_x: &alpha_x[..],
+            alpha_y: &alpha_y[..],
+        };
+        let textured_glass = PerElement {
+            lobe: glass,
+            alpha_x: &alpha_x[..],
+            alpha_y: &alpha_y[..],
+        };
+        for level in levels() {
+            let many = batch(level, &textured, &elements);
+            let panes = batch(level, &textured_glass, &elements);
+            for i in (0..N).step_by(17) {
+                let alpha = [alpha_x[i], alpha_y[i]];
+                let one = batch_common::metal::<f32>(alpha, batch_common::gold());
+                let one = batch(level, &one.with_sampler(sampler), &elements);
+                assert_eq!(many.both.0.r[i], one.both.0.r[i], "{level} {sampler} {i}");
+                assert_eq!(many.pdf[i], one.pdf[i], "{level} {sampler} {i}");
+                assert_eq!(many.samples.wi.x[i], one.samples.wi.x[i]);
+                assert_eq!(many.samples.weight.g[i], one.samples.weight.g[i]);
+                let one = batch_common::glass::<f32>(alpha, 1.5).with_sampler(sampler);
+                let one = batch(level, &one, &elements);
+                assert_eq!(panes.samples.wi.z[i], one.samples.wi.z[i]);
+                assert_eq!(panes.f_cos.r[i], one.f_cos.r[i]);
+            }
+        }
+    }
+}
+
+#[test]
+fn bare_samplers_are_the_scalar_ones() {
+    let elements = Elements::<f32>::new(N, 6);
+    let alpha = Alpha::clamped(0.2_f32, 0.7);
+    let (alpha_x, alpha_y) = (vec![0.2_f32; N], vec![0.7_f32; N]);
+    let textured = Widths::PerElement {
+        alpha_x: &alpha_x,
+        alpha_y: &alpha_y,
+    };
+    let (wo, wi) = (elements.wo.as_slices(), elements.wi.as_slices());
+    let u = [&elements.u[1][..], &elements.u[2]];
+    for sampler in batch_common::SAMPLERS {
+        for widths in [Widths::from(alpha), textured] {
+            let mut drawn = Directions::zeroed(N);
+            let mut pdf = vec![0.0; N];
+            Level::Baseline
+                .sample_reflection(sampler, widths, wo, u, drawn.as_mut_slices())
+                .unwrap();
+            Level::Baseline
+                .reflection_pdf(sampler, widths, wo, wi, &mut pdf)
+                .unwrap();
+            for i in 0..N {
+                let u = [u[0][i], u[1][i]];
+                let (wo, wi) = (wo.get(i), wi.get(i));
+                let (expected, density) = match sampler {
+                    Sampler::Heitz => (
+                        vndf::heitz::sample_reflection(alpha, wo, u),
+                        vndf::heitz::reflection_pdf(alpha, wo, wi),
+                    ),
+                    Sampler::Cap => (
+                        vndf::cap::sample_reflection(alpha, wo, u),
+                        vndf::cap::reflection_pdf(alpha, wo, wi),
+                    ),
+                    Sampler::Exact => (
+                        vndf::exact::sample_reflection(alpha, wo, u),
+                        vndf::exact::reflection_pdf(alpha, wo, wi),
+                    ),
+                    Sampler::Bounded => (
+                        vndf::bounded::sample_reflection(alpha, wo, u),
+                        vndf::bounded::reflection_pdf(alpha, wo, wi),
+                    ),
+                };
+                let expected = expected.unwrap_or(Vec3::ZERO);
+                assert_eq!(drawn.as_slices().get(i), expected, "{sampler} {i}");
+                assert_eq!(pdf[i], density, "{sampler} {i}");
+            }
+        }
+    }
+}
+
+#[test]
+fn rejected_draws_are_zero_throughout() {
+    let mut elements = Elements::<f32>::above(2000, 7);
+    // Grazing views of a rough metal reflect downwards often.
+    elements.wo.x.fill(0.995);
+    elements.wo.y.fill(0.0);
+    elements.wo.z.fill(0.0998);
+    let lobe = batch_common::metal::<f32>([0.9, 0.9], batch_common::gold());
+    for level in levels() {
+        let s = batch(level, &lobe.with_sampler(Sampler::Cap), &elements).samples;
+        let mut rejected = 0;
+        for i in 0..2000 {
+            let numbers = [
+                s.wi.x[i],
+                s.wi.y[i],
+                s.wi.z[i],
+                s.weight.r[i],
+                s.weight.g[i],
+                s.weight.b[i],
+                s.pdf[i],
+            ];
+            if s.kind[i] == Kind::Rejected {
+                rejected += 1;
+                assert_eq!(numbers, [0.0; 7]);
+            } else {
+                assert!(s.wi.z[i] > 0.0 && s.pdf[i] > 0.0 && s.weight.r[i] > 0.0);
+            }
+        }
+        assert!((100..1500).contains(&rejected), "{level}: {rejected}");
+    }
+}
+
+#[test]
+fn slices_that_differ_in_length_are_named() {
+    let e = Elements::<f32>::new(8, 8);
+    let lobe = batch_common::lambert::<f32>();
+    let (wo, wi) = (e.wo.as_slices(), e.wi.as_slices());
+    let short = Directions {
+        y: &wi.y[..7],
+        ..wi
+    };
+    let mut pdf = vec![0.5; 8];
+    let error = Level::best().pdf(&lobe, wo, short, &mut pdf).unwrap_err();
+    let expected = LengthMismatch {
+        name: "wi.y",
+        found: 7,
+        expected: 8,
+    };
+    assert_eq!(error, expected);
+    assert_eq!(
+        error.to_string(),
+        "`wi.y` holds 7 elements, but the first slice written holds 8"
+    );
+    assert_eq!(pdf, [0.5; 8], "nothing is written");
+
+    let textured = PerElement {
+        lobe: batch_common::metal::<f32>([0.5; 2], batch_common::gold()),
+        alpha_x: &pdf[..],
+        alpha_y: &pdf[..3],
+    };
+    let mut out = vec![0.0; 8];
+    let error = Level::best().pdf(&textured, wo, wi, &mut out).unwrap_err();
+    assert_eq!((error.name, error.found), ("alpha_y", 3));
+
+    let mut samples = Samples::<Vec<f32>, Vec<Kind>>::rejected(8);
+    samples.kind.pop();
+    let u = e.u();
+    let error = Level::best()
+        .sample(&lobe, wo, u, Transport::Radiance, samples.as_mut_slices())
+        .unwrap_err();
+    assert_eq!((error.name, error.found, error.expected), ("kind", 7, 8));
+}

@@ -1,0 +1,167 @@
+//! How far the kernels are from the same formulas in f64, at every level: the table in the
+//! documentation of `batch`.
+//!
+//! Inputs are f32 numbers; the f64 twin gets the same. Densities and weights of samples are held
+//! against the twin's at the direction that was returned, so that its rounding (within 1e-6) does
+//! not count twice.
+#![allow(
+    clippy::print_stdout,
+    reason = "tests say what they skipped and measured"
+)]
+
+mod batch_common;
+
+use batch_common::Elements;
+use specula_bsdf::batch::{Colours, Directions, Kind, Level, Lobes, Samples, Widths};
+use specula_bsdf::{Alpha, Bsdf, Transport, Vec3};
+
+const N: usize = 20_000;
+
+/// Extreme and ordinary widths.
+const WIDTHS: [[f32; 2]; 8] = [
+    [1e-3, 1e-3],
+    [1e-3, 1.0],
+    [0.03, 0.03],
+    [0.3, 0.3],
+    [0.1, 0.8],
+    [1.0, 1.0],
+    [4.0, 0.5],
+    [8.0, 8.0],
+];
+
+/// Largest relative errors of one lobe: of `f |cos|`, `pdf`, a sample's weight and its density.
+#[derive(Clone, Copy, Debug, Default)]
+struct Worst([f64; 4]);
+
+impl Worst {
+    /// Values below 1e-6 count by their absolute error over that.
+    fn see(&mut self, which: usize, got: f32, expected: f64) {
+        let error = (f64::from(got) - expected).abs() / expected.abs().max(1e-6);
+        assert!(error.is_finite(), "{got} for {expected}");
+        self.0[which] = self.0[which].max(error);
+    }
+}
+
+fn measure<L, M>(worst: &mut Worst, level: Level, lobe: &L, twin: &M, e: &Elements<f32>)
+where
+    L: Lobes<f32>,
+    M: Bsdf<f64>,
+{
+    let (wo, wi) = (e.wo.as_slices(), e.wi.as_slices());
+    let transport = Transport::Radiance;
+    let mut f_cos = Colours::<Vec<f32>>::zeroed(N);
+    let mut pdf = vec![0.0_f32; N];
+    let mut samples = Samples::<Vec<f32>, Vec<Kind>>::rejected(N);
+    level
+        .eval_pdf(lobe, wo, wi, transport, f_cos.as_mut_slices(), &mut pdf)
+        .expect("equal lengths");
+    level
+        .sample(lobe, wo, e.u(), transport, samples.as_mut_slices())
+        .expect("equal lengths");
+    let samples = samples.as_slices();
+    for (i, &density) in pdf.iter().enumerate() {
+        let (wo, wi): (Vec3<f64>, Vec3<f64>) = (wo.get(i).cast(), wi.get(i).cast());
+        let (f, p) = twin.eval_pdf(wo, wi, transport);
+        worst.see(0, f_cos.g[i], f.g);
+        worst.see(1, density, p);
+        if matches!(samples.kind[i], Kind::Reflection | Kind::Transmission) {
+            let wi = samples.wi.get(i).cast();
+            let (f, p) = twin.eval_pdf(wo, wi, transport);
+            worst.see(2, samples.weight.g[i], f.g / p);
+            worst.see(3, samples.pdf[i], p);
+        }
+    }
+}
+
+fn levels() -> Vec<Level> {
+    Level::ALL
+        .into_iter()
+        .filter(|l| l.is_available())
+        .collect()
+}
+
+#[test]
+fn errors_stay_within_the_table() {
+    let elements = Elements::<f32>::new(N, 11);
+    let mut metal = [Worst::default(); 4];
+    let mut glass = Worst::default();
+    let mut diffuse = [Worst::default(); 3];
+    for level in levels() {
+        for alpha in WIDTHS {
+            for (sampler, worst) in batch_common::SAMPLERS.into_iter().zip(&mut metal) {
+                let lobe = batch_common::metal(alpha, batch_common::gold()).with_sampler(sampler);
+                let twin = batch_common::metal(alpha, batch_common::gold()).with_sampler(sampler);
+                measure(worst, level, &lobe, &twin, &elements);
+            }
+            let (lobe, twin) = (
+                batch_common::glass(alpha, 1.5),
+                batch_common::glass(alpha, 1.5),
+            );
+            measure(&mut glass, level, &lobe, &twin, &elements);
+        }
+        let (lambert, eon) = (batch_common::lambert(), batch_common::eon());
+        let [a, b, c] = &mut diffuse;
+        measure(a, level, &lambert, &batch_common::lambert(), &elements);
+        measure(b, level, &eon, &batch_common::eon(), &elements);
+        let sheet = batch_common::sheet();
+        measure(c, level, &sheet, &batch_common::sheet(), &elements);
+    }
+    println!("metals {metal:?}\nglass {glass:?}\ndiffuse {diffuse:?}");
+    let within = |worst: Worst, bounds: [f64; 4]| {
+        let all = worst.0.into_iter().zip(bounds);
+        assert!(
+            all.clone().all(|(worst, bound)| worst <= bound),
+            "{worst:?}"
+        );
+    };
+    metal.into_iter().for_each(|worst| within(worst, [2e-6; 4]));
+    within(glass, [0.05, 0.01, 4e-3, 0.06]);
+    diffuse
+        .into_iter()
+        .for_each(|worst| within(worst, [1e-6; 4]));
+}
+
+#[test]
+fn directions_stay_within_their_bound() {
+    let e = Elements::<f32>::new(N, 12);
+    let wo = e.wo.as_slices();
+    let double = |v: &[f32]| v.iter().map(|&x| f64::from(x)).collect::<Vec<_>>();
+    let twins = Directions {
+        x: double(&e.wo.x),
+        y: double(&e.wo.y),
+        z: double(&e.wo.z),
+    };
+    let u = [double(&e.u[1]), double(&e.u[2])];
+    for sampler in batch_common::SAMPLERS {
+        let mut worst = 0.0_f64;
+        for [x, y] in WIDTHS {
+            let alpha = Alpha::clamped(f64::from(x), f64::from(y));
+            let mut expected = Directions::<Vec<f64>>::zeroed(N);
+            let draw = Level::Baseline.sample_reflection(
+                sampler,
+                Widths::Same(alpha),
+                twins.as_slices(),
+                [&u[0], &u[1]],
+                expected.as_mut_slices(),
+            );
+            draw.unwrap();
+            for level in levels() {
+                let mut got = Directions::<Vec<f32>>::zeroed(N);
+                let (widths, u) = (Widths::Same(Alpha { x, y }), [&e.u[1][..], &e.u[2]]);
+                level
+                    .sample_reflection(sampler, widths, wo, u, got.as_mut_slices())
+                    .unwrap();
+                for i in 0..N {
+                    let got: Vec3<f64> = got.as_slices().get(i).cast();
+                    let expected = expected.as_slices().get(i);
+                    // At the horizon one may be rejected and the other not.
+                    if got.z.min(expected.z) > 1e-5 {
+                        worst = worst.max((got - expected).length());
+                    }
+                }
+            }
+        }
+        println!("{sampler}: {worst:e}");
+        assert!(worst < 2e-3, "{sampler}: {worst:e}");
+    }
+}

@@ -1,0 +1,201 @@
+//! Elements and lobes that the tests of the batch functions share.
+#![allow(dead_code, reason = "no test file uses all of it")]
+
+use specula_bsdf::batch::Directions;
+use specula_bsdf::bsdf::{
+    CoatedConductor, CoatedDiffuse, DiffuseTransmission, Eon, Lambert, RoughConductor,
+    RoughDielectric, SmoothConductor, SmoothDielectric, ThinDielectric,
+};
+use specula_bsdf::fresnel::{Conductor, F82Tint, Reflectance, Schlick};
+use specula_bsdf::math::{Stream, rgb, warp};
+use specula_bsdf::ndf::{Ggx, Masking};
+use specula_bsdf::vndf::Sampler;
+use specula_bsdf::{Alpha, Real, Rgb, Vec3};
+
+/// Cosines of views: straight, oblique, grazing.
+pub(crate) const COSINES: [f64; 7] = [1.0, 0.9, 0.7, 0.3, 0.05, 5e-3, 1e-3];
+
+/// Views, lights and random numbers, the first two of them steered to every pair of cosines, above
+/// the horizon and below it.
+pub(crate) struct Elements<T> {
+    pub(crate) wo: Directions<Vec<T>>,
+    pub(crate) wi: Directions<Vec<T>>,
+    pub(crate) u: [Vec<T>; 3],
+}
+
+impl<T: Real> Elements<T> {
+    pub(crate) fn new(n: usize, seed: u64) -> Self {
+        let mut stream = Stream::new(seed);
+        let mut direction = |i: usize| {
+            let turn: T = stream.next();
+            let (s, c) = turn.sin_cos_turns();
+            let free: T = stream.next();
+            // Every other one at a cosine of the list, the rest anywhere.
+            let z = match i % 2 {
+                0 => T::of(COSINES[i / 2 % COSINES.len()]),
+                _ => free,
+            };
+            let r = ((T::ONE - z) * (T::ONE + z)).sqrt();
+            Vec3 {
+                x: r * c,
+                y: r * s,
+                z,
+            }
+        };
+        let below = |i: usize, w: Vec3<T>| match i % 5 {
+            4 => Vec3 { z: -w.z, ..w },
+            _ => w,
+        };
+        let wo = (0..n).map(|i| below(i, direction(i))).collect();
+        let wi = (0..n)
+            .map(|i| below(i / 5, direction(i / COSINES.len())))
+            .collect();
+        let u = core::array::from_fn(|_| (0..n).map(|_| stream.next()).collect());
+        Self { wo, wi, u }
+    }
+
+    pub(crate) fn u(&self) -> [&[T]; 3] {
+        [&self.u[0], &self.u[1], &self.u[2]]
+    }
+
+    /// Diffuse light instead: cosine-distributed directions above the horizon.
+    pub(crate) fn above(n: usize, seed: u64) -> Self {
+        let mut stream = Stream::new(seed);
+        let mut directions = || {
+            (0..n)
+                .map(|_| warp::cosine_hemisphere([stream.next(), stream.next()]))
+                .collect()
+        };
+        let (wo, wi) = (directions(), directions());
+        let u = core::array::from_fn(|_| (0..n).map(|_| stream.next()).collect());
+        Self { wo, wi, u }
+    }
+}
+
+/// A number that is the same in both precisions.
+fn single<T: Real>(x: f32) -> T {
+    T::of(f64::from(x))
+}
+
+pub(crate) fn colour<T: Real>(r: f32, g: f32, b: f32) -> Rgb<T> {
+    rgb(single(r), single(g), single(b))
+}
+
+pub(crate) fn ggx<T: Real>([x, y]: [f32; 2]) -> Ggx<T> {
+    Ggx::new(Alpha {
+        x: single(x),
+        y: single(y),
+    })
+}
+
+pub(crate) fn gold<T: Real>() -> Reflectance<T> {
+    Reflectance::Conductor(Conductor {
+        eta: colour(0.14, 0.37, 1.44),
+        k: colour(3.98, 2.38, 1.6),
+    })
+}
+
+pub(crate) fn reflectances<T: Real>() -> [Reflectance<T>; 5] {
+    let f0 = colour(0.9, 0.6, 0.3);
+    [
+        gold(),
+        Reflectance::Constant(colour(1.0, 0.5, 0.25)),
+        Reflectance::Schlick(Schlick { f0 }),
+        Reflectance::F82Tint(F82Tint::new(f0, colour(0.7, 0.8, 0.9))),
+        gold().tinted(colour(0.5, 0.6, 0.7)),
+    ]
+}
+
+/// Calls the macro `$each` with every lobe: a name, and the lobe for widths `$alpha` in the scalar
+/// `$t`.
+#[macro_export]
+macro_rules! for_every_lobe {
+    ($t:ty, $alpha:expr, $each:ident) => {{
+        use $crate::batch_common as make;
+        for sampler in make::SAMPLERS {
+            for reflectance in make::reflectances::<$t>() {
+                let metal = make::metal::<$t>($alpha, reflectance).with_sampler(sampler);
+                $each!("rough conductor", metal);
+            }
+            let separable = specula_bsdf::ndf::Masking::Separable;
+            let metal = make::metal::<$t>($alpha, make::gold()).with_sampler(sampler);
+            $each!("rough conductor", metal.with_masking(separable));
+            for eta in [1.5, 1.0 / 1.5, 1.0, 2.4] {
+                let glass = make::glass::<$t>($alpha, eta).with_sampler(sampler);
+                $each!("rough dielectric", glass);
+                $each!("rough dielectric", glass.with_masking(separable));
+            }
+            let coat = make::coated_diffuse::<$t>(Some($alpha)).with_sampler(sampler);
+            $each!("coated diffuse", coat);
+            let coat = make::coated_conductor::<$t>(Some($alpha), Some($alpha));
+            $each!("coated conductor", coat.with_sampler(sampler));
+        }
+        $each!("coated diffuse", make::coated_diffuse::<$t>(None));
+        $each!(
+            "coated conductor",
+            make::coated_conductor::<$t>(None, Some($alpha))
+        );
+        $each!("coated conductor", make::coated_conductor::<$t>(None, None));
+        $each!("lambert", make::lambert::<$t>());
+        $each!("eon", make::eon::<$t>());
+        $each!("diffuse transmission", make::sheet::<$t>());
+        for reflectance in make::reflectances::<$t>() {
+            $each!(
+                "smooth conductor",
+                specula_bsdf::bsdf::SmoothConductor::new(reflectance)
+            );
+        }
+        $each!("smooth dielectric", make::smooth_dielectric::<$t>());
+        $each!("thin dielectric", make::pane::<$t>());
+    }};
+}
+
+pub(crate) const SAMPLERS: [Sampler; 4] = [
+    Sampler::Heitz,
+    Sampler::Cap,
+    Sampler::Bounded,
+    Sampler::Exact,
+];
+
+pub(crate) fn metal<T: Real>(alpha: [f32; 2], reflectance: Reflectance<T>) -> RoughConductor<T> {
+    RoughConductor::new(ggx(alpha), reflectance).with_masking(Masking::HeightCorrelated)
+}
+
+pub(crate) fn glass<T: Real>(alpha: [f32; 2], eta: f32) -> RoughDielectric<T> {
+    RoughDielectric::new(ggx(alpha), single(eta))
+}
+
+pub(crate) fn coated_diffuse<T: Real>(alpha: Option<[f32; 2]>) -> CoatedDiffuse<T> {
+    CoatedDiffuse::new(alpha.map(ggx), single(1.5), colour(0.8, 0.5, 0.2))
+}
+
+pub(crate) fn coated_conductor<T: Real>(
+    coat: Option<[f32; 2]>,
+    metal: Option<[f32; 2]>,
+) -> CoatedConductor<T> {
+    CoatedConductor::new(coat.map(ggx), single(1.5), metal.map(ggx), gold())
+}
+
+pub(crate) fn lambert<T: Real>() -> Lambert<T> {
+    Lambert::new(colour(0.8, 0.5, 0.2))
+}
+
+pub(crate) fn eon<T: Real>() -> Eon<T> {
+    Eon::new(colour(0.8, 0.5, 0.2), single(0.6))
+}
+
+pub(crate) fn sheet<T: Real>() -> DiffuseTransmission<T> {
+    DiffuseTransmission::new(colour(0.6, 0.3, 0.2), colour(0.1, 0.2, 0.3))
+}
+
+pub(crate) fn smooth_dielectric<T: Real>() -> SmoothDielectric<T> {
+    SmoothDielectric::new(single(1.5))
+}
+
+pub(crate) fn pane<T: Real>() -> ThinDielectric<T> {
+    ThinDielectric::new(single(1.5))
+}
+
+pub(crate) fn mirror<T: Real>() -> SmoothConductor<T> {
+    SmoothConductor::new(gold())
+}

@@ -1,0 +1,72 @@
+//! From a sample's radiance to picture values: exposure, bound, white balance.
+
+use specula_bsdf::Rgb;
+use specula_scene::scene::Film;
+
+/// What a film does with radiance.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Develop {
+    exposure: f32,
+    max_component: f32,
+    /// `None` for the identity.
+    balance: Option<[[f32; 3]; 3]>,
+}
+
+impl Develop {
+    pub(crate) fn new(film: &Film) -> Self {
+        Self {
+            exposure: film.exposure,
+            max_component: film.max_component.unwrap_or(f32::INFINITY),
+            balance: (film.balance != Film::NO_BALANCE).then_some(film.balance),
+        }
+    }
+
+    /// Picture values of a radiance.
+    #[inline]
+    pub(crate) fn of(&self, radiance: Rgb<f32>) -> Rgb<f32> {
+        let mut c = radiance * self.exposure;
+        let largest = c.r.max(c.g).max(c.b);
+        if largest > self.max_component {
+            c *= self.max_component / largest;
+        }
+        let Some(rows) = self.balance else {
+            return c;
+        };
+        let row = |[x, y, z]: [f32; 3]| x * c.r + y * c.g + z * c.b;
+        Rgb {
+            r: row(rows[0]),
+            g: row(rows[1]),
+            b: row(rows[2]),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_are_exposed_bounded_and_balanced_in_this_order() {
+        let plain = Develop {
+            exposure: 2.0,
+            max_component: f32::INFINITY,
+            balance: None,
+        };
+        let colour = Rgb {
+            r: 1.0,
+            g: 2.0,
+            b: 4.0,
+        };
+        assert_eq!(plain.of(colour).to_array(), [2.0, 4.0, 8.0]);
+        let bounded = Develop {
+            max_component: 4.0,
+            ..plain
+        };
+        assert_eq!(bounded.of(colour).to_array(), [1.0, 2.0, 4.0]);
+        let balanced = Develop {
+            balance: Some([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]]),
+            ..bounded
+        };
+        assert_eq!(balanced.of(colour).to_array(), [4.0, 1.0, 4.0]);
+    }
+}

@@ -1,0 +1,219 @@
+//! Shapes into groups: transforms applied, windings turned to the outside.
+
+use glam::{DMat3, DMat4};
+use rayon::prelude::*;
+use specula_bsdf::Rgb;
+use specula_scene::scene::{
+    ColourParam, FloatParam, Geometry as SceneGeometry, MaterialKind, Mesh, Scene, Shape,
+};
+
+use super::{GroupData, NONE, PlacedQuadric, ShapeRecord};
+use crate::accel::QuadricShape;
+use crate::convert::{Affine, id, narrow3, normal_matrix, transform_point};
+use crate::texture::Textures;
+
+/// No light.
+const BLACK: ColourParam = ColourParam::Value(Rgb::BLACK);
+
+/// A scene's geometry on its way into groups. Every mesh is freed once nothing else needs it.
+pub(super) struct Baker<'a> {
+    textures: &'a Textures,
+    meshes: &'a mut [Mesh],
+    /// How many shapes are still to be baked from every mesh.
+    uses: Vec<usize>,
+    pub(super) world: Vec<Shape>,
+    pub(super) objects: Vec<Vec<Shape>>,
+    /// Objects and their places.
+    pub(super) instances: Vec<(usize, DMat4)>,
+    pub(super) records: Vec<ShapeRecord>,
+    with_colours: bool,
+}
+
+impl<'a> Baker<'a> {
+    pub(super) fn new(scene: &'a mut Scene, textures: &'a Textures) -> Self {
+        let Scene {
+            materials,
+            meshes,
+            shapes,
+            objects,
+            instances,
+            ..
+        } = scene;
+        let visible = |shapes: &mut Vec<Shape>| {
+            let mut shapes = std::mem::take(shapes);
+            for s in &mut shapes {
+                s.alpha = textures.fold_float(s.alpha);
+            }
+            shapes.retain(|s| {
+                !matches!(materials[s.material.0].kind, MaterialKind::Interface)
+                    && !matches!(s.alpha, FloatParam::Value(a) if a <= 0.0)
+            });
+            // Triangles come first in the numbering, whatever the order of the shapes.
+            shapes.sort_by_key(|s| !matches!(s.geometry, SceneGeometry::Mesh(_)));
+            shapes
+        };
+        let world = visible(shapes);
+        let instances: Vec<_> = std::mem::take(instances)
+            .into_iter()
+            .map(|i| (i.object.0, i.to_world))
+            .collect();
+        let mut shown = vec![false; objects.len()];
+        for (object, _) in &instances {
+            shown[*object] = true;
+        }
+        let objects: Vec<_> = std::mem::take(objects)
+            .iter_mut()
+            .zip(shown)
+            .map(|(o, shown)| {
+                if shown {
+                    visible(&mut o.shapes)
+                } else {
+                    Vec::new()
+                }
+            })
+            .collect();
+        let mut uses = vec![0; meshes.len()];
+        for shape in world.iter().chain(objects.iter().flatten()) {
+            if let SceneGeometry::Mesh(mesh) = shape.geometry {
+                uses[mesh.0] += 1;
+            }
+        }
+        Self {
+            textures,
+            meshes,
+            uses,
+            world,
+            objects,
+            instances,
+            records: Vec::new(),
+            with_colours: textures.shows_vertex_colours(),
+        }
+    }
+
+    pub(super) fn bake(&mut self, shapes: Vec<Shape>) -> GroupData {
+        let mut group = GroupData::default();
+        for shape in &shapes {
+            let record = id(self.records.len());
+            let has_uvs = match shape.geometry {
+                SceneGeometry::Mesh(mesh) => self.add_mesh(&mut group, mesh.0, shape),
+                SceneGeometry::Sphere { radius } => {
+                    let radius = f64::from(radius);
+                    group.add_quadric(QuadricShape::Sphere { radius }, shape);
+                    true
+                }
+                SceneGeometry::Disk { radius, height } => {
+                    let (radius, height) = (f64::from(radius), f64::from(height));
+                    group.add_quadric(QuadricShape::Disk { radius, height }, shape);
+                    true
+                }
+            };
+            let radiance = shape
+                .emission
+                .map_or(BLACK, |e| self.textures.fold_colour(e.radiance));
+            let emits = !matches!(radiance, ColourParam::Value(c) if c.is_black());
+            let first = group.shape_of.len();
+            let count = group.triangles.len() + group.quadrics.len();
+            group.shape_of.resize(count, record);
+            if emits {
+                group.light_of.resize(first, NONE);
+            }
+            for primitive in (first..count).filter(|_| emits) {
+                group.light_of.push(id(group.emitters.len()));
+                group.emitters.push(id(primitive));
+            }
+            self.records.push(ShapeRecord {
+                material: id(shape.material.0),
+                radiance,
+                two_sided: shape.emission.is_some_and(|e| e.two_sided),
+                alpha: match shape.alpha {
+                    FloatParam::Value(a) if a >= 1.0 => None,
+                    alpha => Some(alpha),
+                },
+                has_uvs,
+            });
+        }
+        group
+    }
+
+    /// Adds a mesh; returns whether it has surface coordinates.
+    fn add_mesh(&mut self, group: &mut GroupData, index: usize, shape: &Shape) -> bool {
+        self.uses[index] -= 1;
+        let last;
+        let mesh = if self.uses[index] == 0 {
+            last = std::mem::take(&mut self.meshes[index]);
+            &last
+        } else {
+            &self.meshes[index]
+        };
+        group.add_mesh(mesh, shape);
+        let per_vertex = |count: usize| count == mesh.positions.len();
+        if self.with_colours && per_vertex(mesh.colours.len()) {
+            let first = group.positions.len() - mesh.positions.len();
+            group.colours.resize(first, [1.0; 3]);
+            group.colours.extend(&mesh.colours);
+        }
+        per_vertex(mesh.uvs.len())
+    }
+}
+
+impl GroupData {
+    fn add_mesh(&mut self, mesh: &Mesh, shape: &Shape) {
+        let first = id(self.positions.len());
+        let m = &shape.to_world;
+        let positions = in_parallel(&mesh.positions).map(|&p| transform_point(m, p));
+        self.positions.par_extend(positions);
+        let has_normals = mesh.normals.len() == mesh.positions.len();
+        if has_normals {
+            self.normals.resize(first as usize, [0.0; 3]);
+            let sign = if shape.reverse_orientation { -1.0 } else { 1.0 };
+            let matrix = normal_matrix(m) * sign;
+            let normals = in_parallel(&mesh.normals).map(|n| {
+                let n = matrix * glam::DVec3::from(n.map(f64::from));
+                narrow3(n.normalize_or_zero()).to_array()
+            });
+            self.normals.par_extend(normals);
+        }
+        if mesh.uvs.len() == mesh.positions.len() {
+            self.uvs.resize(first as usize, [0.0; 2]);
+            self.uvs.extend(&mesh.uvs);
+        }
+        let mirrored = DMat3::from_mat4(*m).determinant() < 0.0;
+        let flip = mirrored != shape.reverse_orientation;
+        let mut triangles = std::mem::take(&mut self.triangles);
+        triangles.par_extend(in_parallel(&mesh.triangles).map(|t| {
+            let t = t.map(|v| v + first);
+            let disagrees = if has_normals { self.disagrees(t) } else { None };
+            if disagrees.unwrap_or(flip) {
+                [t[0], t[2], t[1]]
+            } else {
+                t
+            }
+        }));
+        self.triangles = triangles;
+    }
+
+    /// Whether the winding's side is not the one that the vertex normals point to; `None` where
+    /// they do not say.
+    fn disagrees(&self, t: [u32; 3]) -> Option<bool> {
+        let [a, b, c] = t.map(|v| glam::DVec3::from(self.positions[v as usize].map(f64::from)));
+        let [na, nb, nc] = t.map(|v| glam::DVec3::from(self.normals[v as usize].map(f64::from)));
+        let agreement = (b - a).cross(c - a).dot(na + nb + nc);
+        (agreement != 0.0).then_some(agreement < 0.0)
+    }
+
+    fn add_quadric(&mut self, quadric: QuadricShape, shape: &Shape) {
+        self.quadrics.push(PlacedQuadric {
+            shape: quadric,
+            to_group: shape.to_world,
+            forward: Affine::new(&shape.to_world),
+            backward: Affine::new(&shape.to_world.inverse()),
+            normals: Affine::linear(&normal_matrix(&shape.to_world)),
+            flipped: shape.reverse_orientation,
+        });
+    }
+}
+
+/// Elements of large arrays, on all cores.
+fn in_parallel<T: Sync>(elements: &[T]) -> impl IndexedParallelIterator<Item = &T> {
+    elements.par_iter().with_min_len(1 << 14)
+}

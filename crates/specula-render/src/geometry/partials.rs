@@ -1,0 +1,145 @@
+//! Derivatives of a surface by its coordinates: for reliefs, and where a rotation needs a side.
+
+use specula_bsdf::Vec3;
+use specula_bsdf::math::vec3;
+
+use super::{Geometry, GroupData, PlacedQuadric, Surface, unit_or};
+use crate::accel::QuadricShape;
+use crate::convert::{Affine, narrow};
+use crate::geometry::hit::At;
+
+/// First derivatives by u and v, in the world.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Partials {
+    /// Of the position.
+    pub(crate) dp: [Vec3<f32>; 2],
+    /// Of the shading normal, which points to the outside.
+    pub(crate) dn: [Vec3<f32>; 2],
+}
+
+impl Geometry {
+    /// The derivatives at a surface; zero vectors where its coordinates do not move.
+    pub(crate) fn partials(&self, surface: &Surface) -> Partials {
+        let at = &surface.at;
+        let placement = &self.placements[at.instance as usize];
+        let group = &self.groups[placement.group as usize];
+        let triangles = group.triangles.len();
+        let (normal, partials) = if (at.primitive as usize) < triangles {
+            let has_uvs = self.shapes[surface.shape as usize].has_uvs;
+            group.triangle_partials(at, has_uvs)
+        } else {
+            let near = placement.to_group_point(surface.position);
+            group.quadrics[at.primitive as usize - triangles].partials(near)
+        };
+        if placement.identity {
+            return partials;
+        }
+        partials
+            .moved(normal, &placement.to_world, &placement.normals)
+            .1
+    }
+}
+
+impl Partials {
+    /// The unit normal and the derivatives after a transform.
+    ///
+    /// With `m = N n`, `d(m/|m|) = (dm - n' (n' . dm)) / |m|`.
+    fn moved(self, normal: Vec3<f32>, points: &Affine, normals: &Affine) -> (Vec3<f32>, Self) {
+        let moved = normals.vector(normal);
+        let unit = unit_or(moved, normal);
+        let length = moved.dot(unit);
+        let partials = Self {
+            dp: self.dp.map(|d| points.vector(d)),
+            dn: self.dn.map(|d| {
+                let d = normals.vector(d);
+                (d - unit * unit.dot(d)) * (1.0 / length)
+            }),
+        };
+        (unit, partials)
+    }
+}
+
+impl GroupData {
+    /// The unit shading normal and the derivatives of a triangle.
+    fn triangle_partials(&self, at: &At, has_uvs: bool) -> (Vec3<f32>, Partials) {
+        let [i, j, k] = self.triangles[at.primitive as usize].map(|v| v as usize);
+        let [a, b, c] = [i, j, k].map(|v| Vec3::from(self.positions[v]));
+        let edges = [b - a, c - a];
+        // As in `triangle_surface`: pbrt's coordinates of triangles without any.
+        let [ta, tb, tc] = if has_uvs {
+            [i, j, k].map(|v| self.uvs[v])
+        } else {
+            [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]
+        };
+        let rows = [tb, tc].map(|t| [t[0] - ta[0], t[1] - ta[1]]);
+        let determinant = rows[0][0] * rows[1][1] - rows[0][1] * rows[1][0];
+        let solve = |[d1, d2]: [Vec3<f32>; 2]| {
+            if determinant == 0.0 {
+                return [Vec3::ZERO; 2];
+            }
+            let scale = 1.0 / determinant;
+            [
+                (d1 * rows[1][1] - d2 * rows[0][1]) * scale,
+                (d2 * rows[0][0] - d1 * rows[1][0]) * scale,
+            ]
+        };
+        let ng = unit_or(edges[0].cross(edges[1]), Vec3::Z);
+        let mut partials = Partials {
+            dp: solve(edges),
+            dn: [Vec3::ZERO; 2],
+        };
+        if self.normals.len() <= i.max(j).max(k) {
+            return (ng, partials);
+        }
+        let [na, nb, nc] = [i, j, k].map(|v| Vec3::from(self.normals[v]));
+        let [u, v] = at.weights;
+        let interpolated = na * (1.0 - u - v) + nb * u + nc * v;
+        let ns = unit_or(interpolated, ng);
+        let length = interpolated.dot(ns);
+        if length > 0.0 {
+            partials.dn = solve([nb - na, nc - na]).map(|d| (d - ns * ns.dot(d)) * (1.0 / length));
+        }
+        (ns, partials)
+    }
+}
+
+impl PlacedQuadric {
+    /// The unit normal and the derivatives next to a point of the group's space.
+    fn partials(&self, near: Vec3<f32>) -> (Vec3<f32>, Partials) {
+        use core::f32::consts::{PI, TAU};
+        let q = self.backward.point(near);
+        let radial = (q.x * q.x + q.y * q.y).sqrt();
+        let outwards = unit_or(vec3(q.x, q.y, 0.0), Vec3::X);
+        let around = vec3(-outwards.y, outwards.x, 0.0);
+        let (normal, partials) = match self.shape {
+            QuadricShape::Sphere { radius } => {
+                let r = narrow(radius);
+                let n = unit_or(q, Vec3::Z);
+                let sin = (n.x * n.x + n.y * n.y).sqrt();
+                // v runs from -z to +z.
+                let up = vec3(-outwards.x * n.z, -outwards.y * n.z, sin);
+                let dn = [around * (TAU * sin), up * PI];
+                (
+                    n,
+                    Partials {
+                        dp: dn.map(|d| d * r),
+                        dn,
+                    },
+                )
+            }
+            QuadricShape::Disk { radius, .. } => (
+                Vec3::Z,
+                Partials {
+                    dp: [around * (TAU * radial), outwards * -narrow(radius)],
+                    dn: [Vec3::ZERO; 2],
+                },
+            ),
+        };
+        let sign = if self.flipped { -1.0 } else { 1.0 };
+        let turned = Partials {
+            dn: partials.dn.map(|d| d * sign),
+            ..partials
+        };
+        turned.moved(normal * sign, &self.forward, &self.normals)
+    }
+}

@@ -1,0 +1,95 @@
+//! A distribution over the unit square, constant in every cell of a grid.
+
+use crate::convert::{floor_index, narrow};
+
+/// A piecewise constant density over `[0, 1)^2`.
+#[derive(Clone, Debug)]
+pub(super) struct Piecewise {
+    width: usize,
+    height: usize,
+    /// Rows of `width + 1` cumulated shares.
+    rows: Vec<f32>,
+    /// Cumulated shares of the rows, `height + 1`.
+    columns: Vec<f32>,
+    /// Mean of the weights.
+    pub(super) mean: f64,
+}
+
+impl Piecewise {
+    /// * `weight`: of the cell in column x and row y; finite, not negative. All zero: uniform.
+    pub(super) fn new(
+        [width, height]: [usize; 2],
+        mut weight: impl FnMut(usize, usize) -> f64,
+    ) -> Self {
+        let mut rows = Vec::with_capacity((width + 1) * height);
+        let mut columns = Vec::with_capacity(height + 1);
+        let mut sums = Vec::with_capacity(height);
+        let mut weights = vec![0.0_f64; width];
+        for y in 0..height {
+            for (x, w) in weights.iter_mut().enumerate() {
+                *w = weight(x, y);
+            }
+            sums.push(weights.iter().sum::<f64>());
+            cumulate(&weights, &mut rows);
+        }
+        cumulate(&sums, &mut columns);
+        Self {
+            width,
+            height,
+            rows,
+            columns,
+            mean: sums.iter().sum::<f64>() / (width * height) as f64,
+        }
+    }
+
+    /// Density at a point, per area of the square.
+    #[inline]
+    pub(super) fn density(&self, [u, v]: [f32; 2]) -> f32 {
+        let x = floor_index(u * self.width as f32).min(self.width - 1);
+        let y = floor_index(v * self.height as f32).min(self.height - 1);
+        let row = y * (self.width + 1) + x;
+        let share = (self.rows[row + 1] - self.rows[row]) * (self.columns[y + 1] - self.columns[y]);
+        share * self.width as f32 * self.height as f32
+    }
+
+    /// A point drawn with that density.
+    ///
+    /// * `u`: uniform in `[0, 1)^2`.
+    #[inline]
+    pub(super) fn sample(&self, u: [f32; 2]) -> [f32; 2] {
+        let (y, v) = invert(&self.columns, u[1]);
+        let row = &self.rows[y * (self.width + 1)..(y + 1) * (self.width + 1)];
+        let (x, s) = invert(row, u[0]);
+        [
+            (x as f32 + s) / self.width as f32,
+            (y as f32 + v) / self.height as f32,
+        ]
+    }
+}
+
+/// Appends the cumulated shares of `weights`, from 0 to 1; equal shares where all are zero.
+fn cumulate(weights: &[f64], to: &mut Vec<f32>) {
+    let sum: f64 = weights.iter().sum();
+    let mut run = 0.0;
+    for (i, w) in weights.iter().enumerate() {
+        to.push(narrow(if sum > 0.0 {
+            run / sum
+        } else {
+            i as f64 / weights.len() as f64
+        }));
+        run += w;
+    }
+    to.push(1.0);
+}
+
+/// The cell in which `u` falls, and where within it, in `[0, 1)`.
+fn invert(cdf: &[f32], u: f32) -> (usize, f32) {
+    let cell = cdf.partition_point(|&c| c <= u).clamp(1, cdf.len() - 1) - 1;
+    let width = cdf[cell + 1] - cdf[cell];
+    let within = if width > 0.0 {
+        (u - cdf[cell]) / width
+    } else {
+        0.5
+    };
+    (cell, within.clamp(0.0, 1.0 - f32::EPSILON))
+}

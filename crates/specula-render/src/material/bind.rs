@@ -1,0 +1,266 @@
+//! Every kind of material as a lobe.
+
+use specula_bsdf::Rgb;
+use specula_bsdf::bsdf::{
+    Black, CoatedConductor, CoatedDiffuse, DiffuseTransmission, Eon, Gltf, GltfParameters, Lambert,
+    Lobe, Plastic, Principled, PrincipledParameters, SmoothConductor, SmoothDielectric,
+    ThinDielectric, Tints,
+};
+use specula_bsdf::ndf::{Beckmann, Ggx};
+use specula_scene::scene;
+use specula_scene::scene::{ColourParam, Distribution, FloatParam, MaterialKind, Roughness};
+
+use super::Models;
+use super::metal::{alpha, reflectance};
+use super::rough::{conductor, dielectric};
+use crate::texture::{Place, Textures};
+
+/// What takes all light and gives none.
+pub(super) fn black() -> Lobe<f32> {
+    Black.into()
+}
+
+/// Angle of a material's first width from dp/du.
+pub(super) fn rotation_rad(kind: &MaterialKind) -> f32 {
+    match kind {
+        MaterialKind::Conductor { roughness, .. }
+        | MaterialKind::Dielectric { roughness, .. }
+        | MaterialKind::CoatedDiffuse { roughness, .. }
+        | MaterialKind::Plastic { roughness, .. } => roughness.rotation_rad,
+        // One frame for both: the coat's, unless only the metal has a direction.
+        MaterialKind::CoatedConductor {
+            coat_roughness,
+            roughness,
+            ..
+        } if coat_roughness.u == coat_roughness.v => roughness.rotation_rad,
+        MaterialKind::CoatedConductor { coat_roughness, .. } => coat_roughness.rotation_rad,
+        MaterialKind::Gltf(g) => g.anisotropy_rotation_rad,
+        _ => 0.0,
+    }
+}
+
+/// Whether a material of several layers lets nothing through, whatever its textures say.
+pub(super) fn is_opaque(kind: &MaterialKind) -> bool {
+    const NONE: FloatParam = FloatParam::Value(0.0);
+    match kind {
+        MaterialKind::Principled(p) => !p.thin && p.spec_trans == NONE,
+        MaterialKind::Gltf(g) => g.transmission == NONE,
+        _ => false,
+    }
+}
+
+/// The lobe of a material that is no mix.
+///
+/// * `outside`: whether it is seen from the outside of its shape.
+pub(super) fn lobe(
+    kind: &MaterialKind,
+    textures: &Textures,
+    place: &Place,
+    outside: bool,
+    models: Models,
+) -> Lobe<f32> {
+    let at = At { textures, place };
+    match *kind {
+        MaterialKind::Diffuse {
+            reflectance,
+            roughness,
+        } => match at.unit(roughness) {
+            r if r > 0.0 => Eon::new(at.albedo(reflectance), r).into(),
+            _ => Lambert::new(at.albedo(reflectance)).into(),
+        },
+        MaterialKind::DiffuseTransmission {
+            reflectance,
+            transmittance,
+        } => {
+            let sides = [reflectance, transmittance].map(|c| at.albedo(c));
+            sheet(sides).into()
+        }
+        MaterialKind::Conductor {
+            ref fresnel,
+            ref roughness,
+            tint,
+        } => {
+            let metal = reflectance(fresnel, textures, place).tinted(at.albedo(tint));
+            match alpha(roughness, textures, place) {
+                Some(alpha) => conductor(roughness, alpha, metal, models),
+                None => SmoothConductor::new(metal).into(),
+            }
+        }
+        MaterialKind::Dielectric {
+            eta,
+            ref roughness,
+            reflection_tint,
+            transmission_tint,
+        } => {
+            let relative = if outside { eta } else { 1.0 / eta };
+            let tints = at.tints(reflection_tint, transmission_tint);
+            at.glass(relative, roughness, tints, models)
+        }
+        MaterialKind::ThinDielectric {
+            eta,
+            reflection_tint,
+            transmission_tint,
+        } => ThinDielectric::new(eta)
+            .with_tints(at.tints(reflection_tint, transmission_tint))
+            .into(),
+        MaterialKind::CoatedDiffuse {
+            reflectance,
+            eta,
+            ref roughness,
+        } => CoatedDiffuse::new(at.ggx(roughness), eta, at.albedo(reflectance))
+            .with_sampler(models.sampler)
+            .into(),
+        MaterialKind::CoatedConductor {
+            coat_eta,
+            ref coat_roughness,
+            ref fresnel,
+            ref roughness,
+        } => CoatedConductor::new(
+            at.ggx(coat_roughness),
+            coat_eta,
+            at.ggx(roughness),
+            reflectance(fresnel, textures, place),
+        )
+        .with_sampler(models.sampler)
+        .into(),
+        // It has one side: its back is black, as Mitsuba's.
+        MaterialKind::Plastic { .. } if !outside => black(),
+        MaterialKind::Plastic {
+            diffuse,
+            specular,
+            eta,
+            ref roughness,
+            nonlinear,
+        } => {
+            let colours = [diffuse, specular].map(|c| at.albedo(c));
+            at.plastic(colours, eta, roughness, nonlinear, models)
+        }
+        MaterialKind::Principled(ref p) => Principled::new(at.principled(p, outside)).into(),
+        MaterialKind::Gltf(ref g) => Gltf::new(at.gltf(g, outside)).into(),
+        // Shapes without a surface are dropped before; mixes nested too deeply are black.
+        MaterialKind::Mix { .. } | MaterialKind::Interface => black(),
+    }
+}
+
+/// Parameters at a place.
+#[derive(Clone, Copy)]
+struct At<'a> {
+    textures: &'a Textures,
+    place: &'a Place,
+}
+
+impl At<'_> {
+    fn unit(&self, parameter: FloatParam) -> f32 {
+        self.textures.float(parameter, self.place).clamp(0.0, 1.0)
+    }
+
+    fn albedo(&self, parameter: ColourParam) -> Rgb<f32> {
+        let colour = self.textures.colour(parameter, self.place);
+        colour.map(|v| v.clamp(0.0, 1.0))
+    }
+
+    fn tints(&self, reflection: ColourParam, transmission: ColourParam) -> Tints<f32> {
+        Tints {
+            reflection: self.albedo(reflection),
+            transmission: self.albedo(transmission),
+        }
+    }
+
+    /// Coats know GGX only, with height-correlated masking: Beckmann's widths are taken for its.
+    fn ggx(&self, roughness: &Roughness) -> Option<Ggx<f32>> {
+        alpha(roughness, self.textures, self.place).map(Ggx::new)
+    }
+
+    /// * `relative`: index beyond the surface over the index on the viewer's side.
+    fn glass(
+        &self,
+        relative: f32,
+        roughness: &Roughness,
+        tints: Tints<f32>,
+        models: Models,
+    ) -> Lobe<f32> {
+        match alpha(roughness, self.textures, self.place) {
+            // With equal indices nothing is bent, however rough.
+            Some(alpha) if (relative - 1.0).abs() > 1e-4 => {
+                dielectric(roughness, alpha, relative, tints, models)
+            }
+            _ => SmoothDielectric::facing(relative).with_tints(tints).into(),
+        }
+    }
+
+    fn plastic(
+        &self,
+        [diffuse, specular]: [Rgb<f32>; 2],
+        eta: f32,
+        roughness: &Roughness,
+        nonlinear: bool,
+        models: Models,
+    ) -> Lobe<f32> {
+        let masking = roughness.masking;
+        let alpha = alpha(roughness, self.textures, self.place);
+        match (alpha, roughness.distribution) {
+            (None, _) => Plastic::smooth(eta, diffuse, specular, nonlinear).into(),
+            (Some(alpha), Distribution::Ggx) => {
+                let ndf = Ggx::new(alpha);
+                Plastic::rough(ndf, masking, eta, diffuse, specular, nonlinear)
+                    .with_sampler(models.sampler)
+                    .into()
+            }
+            (Some(alpha), Distribution::Beckmann) => {
+                let ndf = Beckmann::new(alpha);
+                Plastic::rough(ndf, masking, eta, diffuse, specular, nonlinear).into()
+            }
+        }
+    }
+
+    fn principled(&self, p: &scene::Principled, outside: bool) -> PrincipledParameters<f32> {
+        PrincipledParameters {
+            base_colour: self.albedo(p.base_colour),
+            roughness: self.unit(p.roughness),
+            anisotropic: self.unit(p.anisotropic),
+            metallic: self.unit(p.metallic),
+            spec_trans: self.unit(p.spec_trans),
+            eta: p.eta,
+            spec_tint: self.unit(p.spec_tint),
+            sheen: self.unit(p.sheen),
+            sheen_tint: self.unit(p.sheen_tint),
+            clearcoat: self.unit(p.clearcoat),
+            clearcoat_gloss: self.unit(p.clearcoat_gloss),
+            flatness: self.unit(p.flatness),
+            diff_trans: self
+                .textures
+                .float(p.diff_trans, self.place)
+                .clamp(0.0, 2.0),
+            thin: p.thin,
+            outside,
+        }
+    }
+
+    fn gltf(&self, g: &scene::Gltf, outside: bool) -> GltfParameters<f32> {
+        GltfParameters {
+            base_colour: self.albedo(g.base_colour),
+            metallic: self.unit(g.metallic),
+            roughness: self.unit(g.roughness),
+            anisotropy: self.unit(g.anisotropy),
+            ior: g.ior,
+            specular: self.unit(g.specular),
+            specular_colour: self
+                .textures
+                .colour(g.specular_colour, self.place)
+                .map(|v| v.max(0.0)),
+            transmission: self.unit(g.transmission),
+            volume: g.volume,
+            outside,
+            clearcoat: self.unit(g.clearcoat),
+            clearcoat_roughness: self.unit(g.clearcoat_roughness),
+            sheen_colour: self.albedo(g.sheen_colour),
+            sheen_roughness: self.unit(g.sheen_roughness),
+        }
+    }
+}
+
+/// A thin sheet. No more leaves than arrives: both sides are scaled where their sum is above 1.
+fn sheet([reflected, passing]: [Rgb<f32>; 2]) -> DiffuseTransmission<f32> {
+    let excess = (reflected + passing).max_channel().max(1.0);
+    DiffuseTransmission::new(reflected / excess, passing / excess)
+}

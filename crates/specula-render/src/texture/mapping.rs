@@ -1,0 +1,113 @@
+//! From a place on a surface to texture coordinates.
+
+use specula_bsdf::Vec3;
+use specula_bsdf::math::vec3;
+use specula_scene::scene::{TextureMapping, UvMapping};
+
+use super::Place;
+use crate::convert::Affine;
+
+/// [`TextureMapping`] in single precision.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Mapping {
+    Uv([[f32; 3]; 2]),
+    /// `s` and `t` are linear in the world's position: a vector and an offset each.
+    Planar([(Vec3<f32>, f32); 2]),
+    Spherical(Affine),
+    Cylindrical(Affine),
+}
+
+impl Mapping {
+    pub(super) fn new(mapping: &TextureMapping) -> Self {
+        match mapping {
+            TextureMapping::Uv(UvMapping(m)) => Self::Uv(*m),
+            TextureMapping::Planar { to_texture, s, t } => {
+                let m = Affine::new(to_texture);
+                Self::Planar([s, t].map(|axis| {
+                    let along = vec3(axis[0], axis[1], axis[2]);
+                    (
+                        Vec3::from(m.columns.map(|c| c.dot(along))),
+                        along.dot(m.translation) + axis[3],
+                    )
+                }))
+            }
+            TextureMapping::Spherical { to_texture } => Self::Spherical(Affine::new(to_texture)),
+            TextureMapping::Cylindrical { to_texture } => {
+                Self::Cylindrical(Affine::new(to_texture))
+            }
+        }
+    }
+
+    /// `(s, t)`, with its origin at the lower left of pictures.
+    #[inline]
+    pub(super) fn at(&self, place: &Place) -> [f32; 2] {
+        use core::f32::consts::{PI, TAU};
+        match self {
+            Self::Uv(m) => {
+                let [u, v] = place.uv;
+                m.map(|row| row[0] * u + row[1] * v + row[2])
+            }
+            Self::Planar(axes) => axes.map(|(along, offset)| along.dot(place.position) + offset),
+            Self::Spherical(to_texture) => {
+                let p = to_texture.point(place.position);
+                // The polar angle by atan2: acos loses half the digits at the poles.
+                let theta = (p.x * p.x + p.y * p.y).sqrt().atan2(p.z);
+                let phi = p.y.atan2(p.x);
+                let turn = if phi < 0.0 { phi + TAU } else { phi };
+                [theta / PI, turn / TAU]
+            }
+            Self::Cylindrical(to_texture) => {
+                let p = to_texture.point(place.position);
+                [(PI + p.y.atan2(p.x)) / TAU, p.z]
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DMat4, DVec3};
+
+    fn at(mapping: &TextureMapping, p: [f32; 3]) -> [f32; 2] {
+        let place = Place {
+            position: Vec3::from(p),
+            uv: [0.25, 0.5],
+            ..Place::default()
+        };
+        Mapping::new(mapping).at(&place)
+    }
+
+    fn assert_near(found: [f32; 2], expected: [f32; 2]) {
+        for (f, e) in found.into_iter().zip(expected) {
+            assert!((f - e).abs() < 1e-5, "{found:?} instead of {expected:?}");
+        }
+    }
+
+    #[test]
+    fn surface_coordinates_go_through_an_affine_map() {
+        let turned = UvMapping([[0.0, -1.0, 1.0], [2.0, 0.0, 0.5]]);
+        assert_near(at(&TextureMapping::Uv(turned), [9.0; 3]), [0.5, 1.0]);
+    }
+
+    #[test]
+    fn planes_spheres_and_cylinders_follow_their_definitions() {
+        let to_texture = DMat4::from_translation(DVec3::new(-1.0, 0.0, 0.0));
+        let planar = TextureMapping::Planar {
+            to_texture: to_texture * DMat4::from_scale(DVec3::splat(2.0)),
+            s: [1.0, 0.0, 1.0, 0.25],
+            t: [0.0, 3.0, 0.0, -1.0],
+        };
+        // In texture space (1, 4, 6).
+        assert_near(at(&planar, [1.0, 2.0, 3.0]), [7.25, 11.0]);
+        let spherical = TextureMapping::Spherical { to_texture };
+        assert_near(at(&spherical, [1.0, 0.0, 5.0]), [0.0, 0.0]);
+        assert_near(at(&spherical, [1.0, 2.0, 0.0]), [0.5, 0.25]);
+        assert_near(at(&spherical, [1.0, -2.0, 0.0]), [0.5, 0.75]);
+        assert_near(at(&spherical, [4.0, 0.0, -3.0]), [0.75, 0.0]);
+        let cylindrical = TextureMapping::Cylindrical { to_texture };
+        assert_near(at(&cylindrical, [3.0, 0.0, 0.7]), [0.5, 0.7]);
+        assert_near(at(&cylindrical, [1.0, 1.0, -2.0]), [0.75, -2.0]);
+        assert_near(at(&cylindrical, [1.0, -1.0, 0.0]), [0.25, 0.0]);
+    }
+}

@@ -1,0 +1,300 @@
+//! Materials: metallic-roughness with its extensions.
+
+use std::collections::HashMap;
+
+use gltf::json::Value;
+use gltf::material::AlphaMode;
+use specula_bsdf::Rgb;
+
+use super::Reader;
+use super::texture::Meaning;
+use super::texture_ref::{TextureRef, number, numbers};
+use crate::error::SceneError;
+use crate::scene::{
+    Channel, ColourParam, Emission, FloatParam, Gltf, Material, MaterialId, MaterialKind, Relief,
+    Texture,
+};
+
+/// How a primitive looks.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Look {
+    pub(super) material: MaterialId,
+    pub(super) emission: Option<Emission>,
+    pub(super) alpha: FloatParam,
+    /// The set of coordinates that its textures want.
+    pub(super) set: u32,
+}
+
+/// Looks by material (none: the default one) and by whether the mesh has colours.
+pub(super) type Looks = HashMap<(Option<usize>, bool), Look>;
+
+/// Most indices of refraction that are taken for glass: `KHR_materials_ior` has 0 for infinity.
+const MAX_IOR: f32 = 100.0;
+
+impl Reader<'_> {
+    /// How a material looks on a mesh, with or without colours.
+    pub(super) fn look(
+        &mut self,
+        material: &gltf::Material<'_>,
+        coloured: bool,
+    ) -> Result<Look, SceneError> {
+        let key = (material.index(), coloured);
+        if let Some(look) = self.looks.get(&key) {
+            return Ok(*look);
+        }
+        let look = self.read_look(material, coloured)?;
+        self.looks.insert(key, look);
+        Ok(look)
+    }
+
+    fn read_look(
+        &mut self,
+        material: &gltf::Material<'_>,
+        coloured: bool,
+    ) -> Result<Look, SceneError> {
+        let what = material.index().map_or_else(
+            || "the default material".to_owned(),
+            |i| format!("materials[{i}]"),
+        );
+        let set = self.coordinate_set(&what, material);
+        let (mut base, factor, picture) = self.base_colour(&what, material)?;
+        if coloured {
+            let colours = self.add_texture(Texture::VertexColour);
+            base = ColourParam::Texture(match base {
+                ColourParam::Value(c) => self.scaled(colours, c),
+                ColourParam::Texture(a) => self.add_texture(Texture::Scale { a, b: colours }),
+            });
+        }
+        let emission = self.emission(material, base)?;
+        let alpha = self.alpha(material, factor, picture)?;
+        let kind = if material.unlit() {
+            self.warn("unlit materials shine with their base colour");
+            MaterialKind::Diffuse {
+                reflectance: ColourParam::Value(Rgb::BLACK),
+                roughness: FloatParam::Value(0.0),
+            }
+        } else {
+            MaterialKind::Gltf(self.metallic_roughness(material, base)?)
+        };
+        let relief = match material.normal_texture() {
+            None => None,
+            Some(normal) => {
+                let reference = TextureRef::plain(normal.texture().index(), normal.tex_coord())
+                    .transformed(normal.extension_value("KHR_texture_transform"));
+                Some(Relief::Normal {
+                    map: self.texture(reference, Meaning::Data(Channel::Rgb))?,
+                    scale: normal.scale(),
+                })
+            }
+        };
+        self.materials.push(Material {
+            name: material.name().map(str::to_owned),
+            relief,
+            ..Material::new(kind)
+        });
+        Ok(Look {
+            material: MaterialId(self.materials.len() - 1),
+            emission,
+            alpha,
+            set,
+        })
+    }
+
+    /// The base colour, the factor on its alpha, and its texture.
+    fn base_colour(
+        &mut self,
+        what: &str,
+        material: &gltf::Material<'_>,
+    ) -> Result<(ColourParam, f32, Option<TextureRef>), SceneError> {
+        let pbr = material.pbr_metallic_roughness();
+        let (mut factor, mut texture) = (pbr.base_color_factor(), pbr.base_color_texture());
+        if let Some(old) = material.pbr_specular_glossiness() {
+            self.warn(format!(
+                "{what}: specular-glossiness is taken for a rough dielectric of its diffuse colour"
+            ));
+            (factor, texture) = (old.diffuse_factor(), old.diffuse_texture());
+        }
+        let [r, g, b, a] = factor.map(|x| x.max(0.0));
+        let reference = texture.as_ref().map(TextureRef::of);
+        let base = self.colour(Rgb { r, g, b }, reference)?;
+        Ok((base, a, reference))
+    }
+
+    fn emission(
+        &mut self,
+        material: &gltf::Material<'_>,
+        base: ColourParam,
+    ) -> Result<Option<Emission>, SceneError> {
+        let radiance = if material.unlit() {
+            base
+        } else {
+            let strength = material.emissive_strength().unwrap_or(1.0).max(0.0);
+            let factor = Rgb::from(material.emissive_factor().map(|x| x.max(0.0))) * strength;
+            if factor == Rgb::BLACK {
+                return Ok(None);
+            }
+            let reference = material.emissive_texture().as_ref().map(TextureRef::of);
+            self.colour(factor, reference)?
+        };
+        Ok(Some(Emission {
+            radiance,
+            two_sided: material.double_sided(),
+        }))
+    }
+
+    fn alpha(
+        &mut self,
+        material: &gltf::Material<'_>,
+        factor: f32,
+        picture: Option<TextureRef>,
+    ) -> Result<FloatParam, SceneError> {
+        let mode = material.alpha_mode();
+        if mode == AlphaMode::Opaque {
+            return Ok(FloatParam::Value(1.0));
+        }
+        let alpha = self.float(factor.min(1.0), picture, Meaning::Alpha)?;
+        if mode == AlphaMode::Blend {
+            return Ok(alpha);
+        }
+        let cutoff = material.alpha_cutoff().unwrap_or(0.5);
+        Ok(match alpha {
+            FloatParam::Value(a) => FloatParam::Value(if a >= cutoff { 1.0 } else { 0.0 }),
+            FloatParam::Texture(texture) => {
+                FloatParam::Texture(self.add_texture(Texture::Threshold { texture, cutoff }))
+            }
+        })
+    }
+
+    fn metallic_roughness(
+        &mut self,
+        material: &gltf::Material<'_>,
+        base_colour: ColourParam,
+    ) -> Result<Gltf, SceneError> {
+        let pbr = material.pbr_metallic_roughness();
+        let map = pbr
+            .metallic_roughness_texture()
+            .as_ref()
+            .map(TextureRef::of);
+        let old = material.pbr_specular_glossiness();
+        let (metallic, roughness) = match &old {
+            Some(old) => (0.0, 1.0 - old.glossiness_factor().clamp(0.0, 1.0)),
+            None => (pbr.metallic_factor(), pbr.roughness_factor()),
+        };
+        let map = map.filter(|_| old.is_none());
+        let empty = Value::Null;
+        let extension = |name: &str| material.extension_value(name).unwrap_or(&empty).clone();
+        let anisotropy = extension("KHR_materials_anisotropy");
+        let clearcoat = extension("KHR_materials_clearcoat");
+        let sheen = extension("KHR_materials_sheen");
+        let unit = |x: f32| x.clamp(0.0, 1.0);
+        let factor = |object: &Value, name: &str| unit(number(object, name).unwrap_or(0.0));
+        if anisotropy.get("anisotropyTexture").is_some() {
+            self.warn("of anisotropy textures the strength is used, not the direction");
+        }
+        if clearcoat.get("clearcoatNormalTexture").is_some() {
+            self.warn("normal maps of clear coats are left out");
+        }
+        if material.volume().is_some_and(|v| {
+            v.attenuation_distance().is_finite() && v.attenuation_color() != [1.0; 3]
+        }) {
+            self.warn("absorption within volumes is left out");
+        }
+        let specular = material.specular();
+        let specular_colour = specular
+            .as_ref()
+            .map_or([1.0; 3], |s| s.specular_color_factor());
+        let specular_colour_map = specular
+            .as_ref()
+            .and_then(|s| s.specular_color_texture().as_ref().map(TextureRef::of));
+        let specular_map = specular
+            .as_ref()
+            .and_then(|s| s.specular_texture().as_ref().map(TextureRef::of));
+        let transmission = material.transmission();
+        let transmission_map = transmission
+            .as_ref()
+            .and_then(|t| t.transmission_texture().as_ref().map(TextureRef::of));
+        let blue = Meaning::Data(Channel::Blue);
+        let [red, green] = [Channel::Red, Channel::Green].map(Meaning::Data);
+        let sheen_colour = numbers::<3>(&sheen, "sheenColorFactor").unwrap_or([0.0; 3]);
+        let has_sheen = sheen_colour.iter().any(|x| *x > 0.0);
+        let ior = material.ior().unwrap_or(1.5);
+        Ok(Gltf {
+            base_colour,
+            metallic: self.float(unit(metallic), map, blue)?,
+            roughness: self.float(unit(roughness), map, green)?,
+            anisotropy: self.float(
+                factor(&anisotropy, "anisotropyStrength"),
+                TextureRef::in_json(&anisotropy, "anisotropyTexture"),
+                blue,
+            )?,
+            anisotropy_rotation_rad: number(&anisotropy, "anisotropyRotation").unwrap_or(0.0),
+            ior: if ior >= 1.0 {
+                ior.min(MAX_IOR)
+            } else {
+                MAX_IOR
+            },
+            specular: self.float(
+                unit(specular.as_ref().map_or(1.0, |s| s.specular_factor())),
+                specular_map,
+                Meaning::Alpha,
+            )?,
+            specular_colour: self.colour(
+                Rgb::from(specular_colour.map(|x| x.max(0.0))),
+                specular_colour_map,
+            )?,
+            transmission: self.float(
+                unit(
+                    transmission
+                        .as_ref()
+                        .map_or(0.0, |t| t.transmission_factor()),
+                ),
+                transmission_map,
+                red,
+            )?,
+            volume: material
+                .volume()
+                .is_some_and(|v| v.thickness_factor() > 0.0),
+            clearcoat: self.float(
+                factor(&clearcoat, "clearcoatFactor"),
+                TextureRef::in_json(&clearcoat, "clearcoatTexture"),
+                red,
+            )?,
+            clearcoat_roughness: self.float(
+                factor(&clearcoat, "clearcoatRoughnessFactor"),
+                TextureRef::in_json(&clearcoat, "clearcoatRoughnessTexture"),
+                green,
+            )?,
+            sheen_colour: self.colour(
+                Rgb::from(sheen_colour.map(unit)),
+                TextureRef::in_json(&sheen, "sheenColorTexture").filter(|_| has_sheen),
+            )?,
+            sheen_roughness: self.float(
+                factor(&sheen, "sheenRoughnessFactor"),
+                TextureRef::in_json(&sheen, "sheenRoughnessTexture").filter(|_| has_sheen),
+                Meaning::Alpha,
+            )?,
+        })
+    }
+
+    /// The one set of coordinates of a material's textures: a mesh has one.
+    fn coordinate_set(&mut self, what: &str, material: &gltf::Material<'_>) -> u32 {
+        let pbr = material.pbr_metallic_roughness();
+        let mut sets: Vec<u32> = [
+            pbr.base_color_texture(),
+            pbr.metallic_roughness_texture(),
+            material.emissive_texture(),
+        ]
+        .iter()
+        .flatten()
+        .map(|info| TextureRef::of(info).set)
+        .collect();
+        sets.extend(material.normal_texture().map(|n| n.tex_coord()));
+        let first = sets.first().copied().unwrap_or(0);
+        if sets.iter().any(|s| *s != first) {
+            self.warn(format!(
+                "{what}: its textures use several sets of coordinates: TEXCOORD_{first} serves all"
+            ));
+        }
+        first
+    }
+}

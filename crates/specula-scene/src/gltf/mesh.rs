@@ -1,0 +1,130 @@
+//! Meshes: the triangles of each primitive.
+
+use gltf::Semantic;
+use gltf::mesh::Mode;
+
+use super::Reader;
+use super::material::Look;
+use crate::error::{ErrorKind, SceneError};
+use crate::mesh;
+use crate::scene::{Mesh, MeshId};
+
+impl Reader<'_> {
+    /// The meshes and looks of a mesh's primitives.
+    pub(super) fn primitives(
+        &mut self,
+        mesh: &gltf::Mesh<'_>,
+    ) -> Result<Vec<(MeshId, Look)>, SceneError> {
+        if mesh.weights().is_some_and(|w| w.iter().any(|w| *w != 0.0)) {
+            self.warn("morph targets are left out: meshes have their undeformed shape");
+        }
+        let mut found = Vec::new();
+        for primitive in mesh.primitives() {
+            let what = format!("meshes[{}].primitives[{}]", mesh.index(), primitive.index());
+            if let Some(entry) = self.primitive(&what, &primitive)? {
+                found.push(entry);
+            }
+        }
+        Ok(found)
+    }
+
+    fn primitive(
+        &mut self,
+        what: &str,
+        primitive: &gltf::Primitive<'_>,
+    ) -> Result<Option<(MeshId, Look)>, SceneError> {
+        if matches!(
+            primitive.mode(),
+            Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip
+        ) {
+            self.warn(format!("{what}: points and lines are left out"));
+            return Ok(None);
+        }
+        let Some(positions) = primitive.get(&Semantic::Positions) else {
+            self.warn(format!("{what}: it has no positions and is left out"));
+            return Ok(None);
+        };
+        let coloured = primitive.get(&Semantic::Colors(0)).is_some();
+        let look = self.look(&primitive.material(), coloured)?;
+        let positions = self.floats::<3>(&format!("{what}.POSITION"), &positions)?;
+        let count = positions.len();
+        let triangles = self.triangles(what, primitive, count)?;
+        let normals = self.attribute::<3>(what, "NORMAL", primitive, Semantic::Normals, count)?;
+        let set = Semantic::TexCoords(look.set);
+        let uvs = self.attribute::<2>(what, "TEXCOORD", primitive, set, count)?;
+        let colours =
+            self.attribute::<3>(what, "COLOR_0", primitive, Semantic::Colors(0), count)?;
+        let mut mesh = Mesh {
+            positions,
+            normals,
+            uvs: uvs.into_iter().map(|[u, v]| [u, 1.0 - v]).collect(),
+            colours: colours
+                .into_iter()
+                .map(|c| c.map(|x| if x > 0.0 { x } else { 0.0 }))
+                .collect(),
+            triangles,
+        };
+        match mesh::clean(&mut mesh) {
+            Ok(_) => {}
+            Err(message) => {
+                self.warn(format!("{what}: {message}; it is left out"));
+                return Ok(None);
+            }
+        }
+        self.meshes.push(mesh);
+        Ok(Some((MeshId(self.meshes.len() - 1), look)))
+    }
+
+    /// An attribute for each of `count` vertices; empty where there is none.
+    fn attribute<const N: usize>(
+        &mut self,
+        what: &str,
+        name: &str,
+        primitive: &gltf::Primitive<'_>,
+        semantic: Semantic,
+        count: usize,
+    ) -> Result<Vec<[f32; N]>, SceneError> {
+        let Some(accessor) = primitive.get(&semantic) else {
+            return Ok(Vec::new());
+        };
+        let values = self.floats::<N>(&format!("{what}.{name}"), &accessor)?;
+        if values.len() != count {
+            self.warn(format!(
+                "{what}.{name}: expected {count} elements, found {}; they are left out",
+                values.len()
+            ));
+            return Ok(Vec::new());
+        }
+        Ok(values)
+    }
+
+    fn triangles(
+        &self,
+        what: &str,
+        primitive: &gltf::Primitive<'_>,
+        count: usize,
+    ) -> Result<Vec<[u32; 3]>, SceneError> {
+        let indices = match primitive.indices() {
+            Some(accessor) => self.indices(&format!("{what}.indices"), &accessor)?,
+            None => (0..u32::try_from(count).unwrap_or(u32::MAX)).collect(),
+        };
+        if let Some(index) = indices.iter().find(|i| **i as usize >= count) {
+            let message = format!("{what}.indices: vertex {index} does not exist, of {count}");
+            return Err(self.error(ErrorKind::Mesh, message));
+        }
+        let windows = || indices.windows(3).enumerate();
+        Ok(match primitive.mode() {
+            Mode::TriangleStrip => windows()
+                .map(|(i, w)| match i % 2 {
+                    0 => [w[0], w[1], w[2]],
+                    _ => [w[1], w[0], w[2]],
+                })
+                .collect(),
+            Mode::TriangleFan => windows().map(|(_, w)| [indices[0], w[1], w[2]]).collect(),
+            _ => indices
+                .chunks_exact(3)
+                .map(|c| [c[0], c[1], c[2]])
+                .collect(),
+        })
+    }
+}

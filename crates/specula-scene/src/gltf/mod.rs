@@ -1,0 +1,205 @@
+//! Reader of glTF 2.0: `.gltf` with its files, and `.glb`.
+//!
+//! The crate `gltf` parses and validates the document; numbers are read from its buffers here, with
+//! every range checked, since a file's promises about its own bytes cannot be trusted. Errors and
+//! warnings name the element by its path within the document.
+//!
+//! | glTF | here |
+//! |---|---|
+//! | cameras look along -z | a mirroring of z ahead of the node's transform |
+//! | texture coordinates run down the picture | meshes hold `(u, 1 - v)` |
+//! | light intensities are photometric | taken as they are: candela for W/sr, lux for W/m^2 |
+//! | faces are culled from behind unless `doubleSided` | both sides are seen: light passes no wall |
+//!
+//! A file without lights gets the built-in studio's environment, a file without a camera one that
+//! frames everything; both are said in warnings.
+
+mod accessor;
+mod buffers;
+mod features;
+mod light;
+mod material;
+mod mesh;
+mod node;
+mod precheck;
+mod texture;
+mod texture_ref;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+pub use features::FEATURES;
+
+use crate::error::{ErrorKind, Place, SceneError, Source, Warning};
+use crate::image::Image;
+use crate::scene::{Light, Material, Mesh, Object, Shape, Texture, TextureId};
+use crate::{Limits, Loaded, read_file};
+
+/// Extensions that a file may require.
+const KNOWN_EXTENSIONS: [&str; 14] = [
+    "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+];
+
+/// What is being read.
+struct Reader<'a> {
+    document: &'a gltf::Document,
+    limits: &'a Limits,
+    folder: PathBuf,
+    place: Place,
+    buffers: Vec<Vec<u8>>,
+    warnings: Vec<Warning>,
+    images: Vec<Image>,
+    textures: Vec<Texture>,
+    materials: Vec<Material>,
+    meshes: Vec<Mesh>,
+    objects: Vec<Object>,
+    shapes: Vec<Shape>,
+    lights: Vec<Light>,
+    decoded: texture::Decoded,
+    looks: material::Looks,
+}
+
+/// Reads the scene in `path` and all that it refers to.
+///
+/// # Errors
+///
+/// Where a file cannot be read or is damaged, or requires an extension that is not known here.
+pub(crate) fn read(path: &Path, limits: &Limits) -> Result<Loaded, SceneError> {
+    let source = Source::unread(path);
+    let start = Place::start(&source);
+    let bytes = read_file::read_bytes(path, limits)
+        .map_err(|message| SceneError::new(ErrorKind::Io, &start, message))?;
+    parse(path, &bytes, limits)
+}
+
+/// Reads a scene that is already in memory; `path` is for messages, and names the folder of files
+/// that it refers to.
+pub(crate) fn parse(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Loaded, SceneError> {
+    let source = source(path, bytes);
+    let start = Place::start(&source);
+    let gltf::Gltf { document, blob } =
+        gltf::Gltf::from_slice_without_validation(bytes).map_err(|e| damaged(e, &source))?;
+    let mut root = document.into_json();
+    precheck::precheck(&mut root).map_err(|message| {
+        let message = format!("not valid glTF 2.0: {message}");
+        SceneError::new(ErrorKind::Structure, &start, message)
+    })?;
+    let document = gltf::Document::from_json(root).map_err(|e| damaged(e, &source))?;
+    let mut reader = Reader {
+        document: &document,
+        limits,
+        folder: path.parent().map_or_else(PathBuf::new, Path::to_owned),
+        place: start,
+        buffers: Vec::new(),
+        warnings: Vec::new(),
+        images: Vec::new(),
+        textures: Vec::new(),
+        materials: Vec::new(),
+        meshes: Vec::new(),
+        objects: Vec::new(),
+        shapes: Vec::new(),
+        lights: Vec::new(),
+        decoded: texture::Decoded::default(),
+        looks: material::Looks::default(),
+    };
+    reader.check_extensions()?;
+    reader.buffers = reader.read_buffers(blob)?;
+    reader.assemble()
+}
+
+/// The text of a JSON file, for excerpts; nothing of a binary one.
+fn source(path: &Path, bytes: &[u8]) -> Arc<Source> {
+    match core::str::from_utf8(bytes) {
+        Ok(text) if !bytes.starts_with(b"glTF") => Source::new(path.display().to_string(), text),
+        _ => Source::unread(path),
+    }
+}
+
+/// The crate's error, at its line where it has one.
+fn damaged(error: gltf::Error, source: &Arc<Source>) -> SceneError {
+    let start = Place::start(source);
+    match error {
+        gltf::Error::Deserialize(e) => {
+            let line_start = source
+                .text()
+                .split_inclusive('\n')
+                .take(e.line().saturating_sub(1))
+                .map(str::len)
+                .sum::<usize>();
+            let place = Place::new(source, line_start + e.column().saturating_sub(1), 1);
+            SceneError::new(ErrorKind::Syntax, &place, format!("not glTF 2.0: {e}"))
+        }
+        gltf::Error::Validation(errors) => {
+            let list: Vec<String> = errors
+                .iter()
+                .take(5)
+                .map(|(path, e)| format!("{}: {e}", path.as_str()))
+                .collect();
+            let more = match errors.len().checked_sub(list.len()) {
+                Some(n) if n > 0 => format!(" (and {n} more)"),
+                _ => String::new(),
+            };
+            let message = format!("not valid glTF 2.0: {}{more}", list.join("; "));
+            SceneError::new(ErrorKind::Structure, &start, message)
+        }
+        other => SceneError::new(
+            ErrorKind::Structure,
+            &start,
+            format!("not glTF 2.0: {other}"),
+        ),
+    }
+}
+
+impl Reader<'_> {
+    fn error(&self, kind: ErrorKind, message: impl Into<String>) -> SceneError {
+        SceneError::new(kind, &self.place, message)
+    }
+
+    /// A warning, once for each message.
+    fn warn(&mut self, message: impl Into<String>) {
+        let message = message.into();
+        if self.warnings.iter().all(|w| w.message() != message) {
+            self.warnings.push(Warning::new(&self.place, message));
+        }
+    }
+
+    fn add_texture(&mut self, texture: Texture) -> TextureId {
+        self.textures.push(texture);
+        TextureId(self.textures.len() - 1)
+    }
+
+    fn check_extensions(&mut self) -> Result<(), SceneError> {
+        let document = self.document;
+        for name in document.extensions_required() {
+            if !KNOWN_EXTENSIONS.contains(&name) {
+                let message =
+                    format!("the file requires the extension {name}, which is not supported");
+                return Err(self.error(ErrorKind::Unsupported, message).with_help(
+                    "export without compression of meshes (Draco, meshopt) and pictures (Basis)",
+                ));
+            }
+        }
+        for name in document.extensions_used() {
+            if !KNOWN_EXTENSIONS.contains(&name) {
+                self.warn(format!("extension {name} is not supported and is left out"));
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,236 @@
+//! The tree of nodes, and the whole scene.
+
+use std::collections::HashMap;
+
+use glam::{DMat4, DVec3};
+use gltf::camera::Projection as GltfProjection;
+
+use super::Reader;
+use super::material::Look;
+use crate::error::{ErrorKind, SceneError};
+use crate::num::f32_of;
+use crate::scene::{
+    Camera, Geometry, Instance, MeshId, Object, ObjectId, Projection, Scene, Shape,
+};
+use crate::stage;
+use crate::{Loaded, bounds};
+
+/// Width of pictures whose file gives no size.
+const WIDTH: u32 = 1280;
+
+/// What the tree has shown.
+#[derive(Default)]
+struct Found {
+    /// Places of every mesh, by its number.
+    places: HashMap<usize, Vec<DMat4>>,
+    camera: Option<(Camera, Option<f64>)>,
+    nodes: usize,
+}
+
+impl Reader<'_> {
+    /// The scene of the file's default scene, else of its first, else of all its nodes.
+    pub(super) fn assemble(mut self) -> Result<Loaded, SceneError> {
+        let document = self.document;
+        let mut found = Found::default();
+        let scene = document
+            .default_scene()
+            .or_else(|| document.scenes().next());
+        let nodes: Vec<gltf::Node<'_>> = match &scene {
+            Some(scene) => scene.nodes().collect(),
+            None => document.nodes().collect(),
+        };
+        for node in &nodes {
+            self.node(node, DMat4::IDENTITY, 0, &mut found)?;
+        }
+        if document.animations().next().is_some() {
+            self.warn("animations are left out: nodes stand where the file puts them");
+        }
+        let mut instances = Vec::new();
+        for mesh in document.meshes() {
+            let Some(places) = found.places.remove(&mesh.index()) else {
+                continue;
+            };
+            let parts = self.primitives(&mesh)?;
+            match places.as_slice() {
+                [place] => {
+                    let shapes = parts.iter().map(|part| shape(*part, *place));
+                    self.shapes.extend(shapes);
+                }
+                places if !parts.is_empty() => {
+                    let shapes = parts.iter().map(|part| shape(*part, DMat4::IDENTITY));
+                    let object = Object {
+                        name: mesh.name().unwrap_or_default().to_owned(),
+                        shapes: shapes.collect(),
+                    };
+                    self.objects.push(object);
+                    let object = ObjectId(self.objects.len() - 1);
+                    instances.extend(places.iter().map(|to_world| Instance {
+                        object,
+                        to_world: *to_world,
+                    }));
+                }
+                _ => {}
+            }
+        }
+        if self.shapes.is_empty() && instances.is_empty() {
+            return Err(self.error(ErrorKind::EmptyScene, "there is nothing to render"));
+        }
+        self.finish(found.camera, instances)
+    }
+
+    fn finish(
+        mut self,
+        camera: Option<(Camera, Option<f64>)>,
+        instances: Vec<Instance>,
+    ) -> Result<Loaded, SceneError> {
+        let aspect = camera.as_ref().and_then(|(_, aspect)| *aspect);
+        let aspect = aspect.unwrap_or(16.0 / 9.0).clamp(0.05, 20.0);
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "between 64 and 25600"
+        )]
+        let height = (f64::from(WIDTH) / aspect).round() as u32;
+        let mut scene = Scene {
+            camera: stage::camera(bounds::Bounds::EMPTY, [WIDTH, height]),
+            film: stage::film([WIDTH, height]),
+            settings: stage::SETTINGS,
+            images: core::mem::take(&mut self.images),
+            textures: core::mem::take(&mut self.textures),
+            materials: core::mem::take(&mut self.materials),
+            meshes: core::mem::take(&mut self.meshes),
+            shapes: core::mem::take(&mut self.shapes),
+            objects: core::mem::take(&mut self.objects),
+            instances,
+            lights: core::mem::take(&mut self.lights),
+        };
+        match camera {
+            Some((mut camera, _)) => {
+                stage::fit_screen(&mut camera, [WIDTH, height]);
+                scene.camera = camera;
+            }
+            None => {
+                scene.camera = stage::camera(bounds::of_scene(&scene), [WIDTH, height]);
+                self.warn("the file has no camera: one that frames everything is used");
+            }
+        }
+        let emits = |shape: &Shape| shape.emission.is_some();
+        let lit = !scene.lights.is_empty()
+            || scene.shapes.iter().any(emits)
+            || scene.objects.iter().flat_map(|o| &o.shapes).any(emits);
+        if !lit {
+            stage::add_studio(&mut scene);
+            self.warn("the file has no lights: the built-in studio's are used");
+        }
+        scene
+            .validate()
+            .map_err(|e| self.error(ErrorKind::Structure, e.to_string()))?;
+        Ok(Loaded {
+            scene,
+            warnings: self.warnings,
+        })
+    }
+
+    fn node(
+        &mut self,
+        node: &gltf::Node<'_>,
+        parent: DMat4,
+        depth: usize,
+        found: &mut Found,
+    ) -> Result<(), SceneError> {
+        let what = format!("nodes[{}]", node.index());
+        found.nodes += 1;
+        let most = self.document.nodes().len();
+        if depth > self.limits.max_depth || found.nodes > most {
+            let message = format!("{what}: nodes are nested too deeply, or contain themselves");
+            return Err(self.error(ErrorKind::Limit, message));
+        }
+        let columns = node.transform().matrix().map(|c| c.map(f64::from));
+        let place = parent * DMat4::from_cols_array_2d(&columns);
+        if let Some(mesh) = node.mesh() {
+            if node.skin().is_some() {
+                self.warn("skins are left out: meshes stand in their undeformed pose");
+            }
+            match crate::pbrt::check_transform(&place) {
+                Ok(()) => found.places.entry(mesh.index()).or_default().push(place),
+                Err(problem) => self.warn(format!("{what}: {problem}; its mesh is left out")),
+            }
+        }
+        if let Some(camera) = node.camera() {
+            match found.camera {
+                Some(_) => self.warn("the file has several cameras: the first is used"),
+                None => found.camera = self.camera(&camera, &place),
+            }
+        }
+        if let Some(light) = node.light() {
+            self.light(&light, &place);
+        }
+        for child in node.children() {
+            self.node(&child, place, depth + 1, found)?;
+        }
+        Ok(())
+    }
+
+    /// A camera and its aspect; cameras look along -z with y up.
+    fn camera(
+        &mut self,
+        camera: &gltf::Camera<'_>,
+        place: &DMat4,
+    ) -> Option<(Camera, Option<f64>)> {
+        // Scale along the axes of a camera means nothing.
+        let axis = |v: DVec3| place.transform_vector3(v).try_normalize();
+        let (Some(right), Some(up), Some(forward)) =
+            (axis(DVec3::X), axis(DVec3::Y), axis(DVec3::NEG_Z))
+        else {
+            self.warn("a camera without extent is left out");
+            return None;
+        };
+        let eye = place.transform_point3(DVec3::ZERO);
+        let to_world = DMat4::from_cols(
+            right.extend(0.0),
+            up.extend(0.0),
+            forward.extend(0.0),
+            eye.extend(1.0),
+        );
+        let (projection, window, aspect) = match camera.projection() {
+            GltfProjection::Perspective(p) => {
+                let aspect = p.aspect_ratio().map(f64::from);
+                let yfov = f64::from(p.yfov()).clamp(1e-3, 3.1);
+                // The angle belongs to the picture's shorter side.
+                let shorter = aspect.unwrap_or(1.0).min(1.0);
+                let fov_deg = (2.0 * ((0.5 * yfov).tan() * shorter).atan()).to_degrees();
+                (Projection::Perspective { fov_deg }, None, aspect)
+            }
+            GltfProjection::Orthographic(o) => {
+                let [x, y] = [o.xmag(), o.ymag()].map(|m| f64::from(m).abs().max(1e-6));
+                let window = Some([-x, x, -y, y]);
+                (Projection::Orthographic, window, Some(x / y))
+            }
+        };
+        let camera = Camera {
+            to_world,
+            projection,
+            lens_radius: 0.0,
+            focal_distance: 1.0,
+            // Perspective windows are set when the picture's size is known.
+            screen_window: window.unwrap_or([0.0; 4]),
+        };
+        Some((camera, aspect))
+    }
+}
+
+fn shape((mesh, look): (MeshId, Look), to_world: DMat4) -> Shape {
+    Shape {
+        geometry: Geometry::Mesh(mesh),
+        to_world,
+        material: look.material,
+        emission: look.emission,
+        reverse_orientation: false,
+        alpha: match look.alpha {
+            crate::scene::FloatParam::Value(a) => {
+                crate::scene::FloatParam::Value(f32_of(f64::from(a).clamp(0.0, 1.0)))
+            }
+            texture => texture,
+        },
+    }
+}

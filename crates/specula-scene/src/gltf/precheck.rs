@@ -1,0 +1,55 @@
+//! What the crate `gltf` takes for granted, checked before it is asked.
+
+use gltf::json::camera::Type as CameraType;
+use gltf::json::extensions::scene::khr_lights_punctual::Type as LightType;
+use gltf::json::image::MimeType;
+use gltf::json::validation::Checked;
+use gltf::json::{Root, mesh::Semantic};
+
+/// Completes what has a default, and names the first thing that is missing or out of range.
+pub(super) fn precheck(root: &mut Root) -> Result<(), String> {
+    for (i, mesh) in root.meshes.iter().enumerate() {
+        for (j, primitive) in mesh.primitives.iter().enumerate() {
+            let positions = primitive
+                .attributes
+                .get(&Checked::Valid(Semantic::Positions));
+            if positions.is_some_and(|a| a.value() >= root.accessors.len()) {
+                return Err(format!(
+                    "meshes[{i}].primitives[{j}].attributes.POSITION: index out of range"
+                ));
+            }
+        }
+    }
+    for (i, image) in root.images.iter_mut().enumerate() {
+        match (&image.buffer_view, &image.uri) {
+            (None, None) => return Err(format!("images[{i}]: expected a bufferView or a uri")),
+            // The format is told by the first bytes.
+            (Some(_), _) if image.mime_type.is_none() => {
+                image.mime_type = Some(MimeType(String::new()));
+            }
+            _ => {}
+        }
+    }
+    for (i, camera) in root.cameras.iter().enumerate() {
+        let complete = match camera.type_ {
+            Checked::Valid(CameraType::Perspective) => camera.perspective.is_some(),
+            Checked::Valid(CameraType::Orthographic) => camera.orthographic.is_some(),
+            Checked::Invalid => true,
+        };
+        if !complete {
+            return Err(format!("cameras[{i}]: its type's object is missing"));
+        }
+    }
+    let lights = root
+        .extensions
+        .as_ref()
+        .and_then(|e| e.khr_lights_punctual.as_ref());
+    for (i, light) in lights.iter().flat_map(|l| &l.lights).enumerate() {
+        if light.type_ == Checked::Valid(LightType::Spot) && light.spot.is_none() {
+            return Err(format!(
+                "KHR_lights_punctual.lights[{i}]: expected a spot object"
+            ));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,252 @@
+use specula_bsdf::Rgb;
+
+use super::*;
+use crate::scene::{Channel, ColourParam, FloatParam, Geometry, MaterialKind, Projection, Relief};
+
+/// A triangle with positions, coordinates and indices, in one embedded buffer.
+fn triangle(more: &str) -> String {
+    let mut bytes = Vec::new();
+    for p in [[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]] {
+        bytes.extend(p.iter().flat_map(|x| x.to_le_bytes()));
+    }
+    for uv in [[0.0_f32, 0.25], [1.0, 0.5], [0.0, 1.0]] {
+        bytes.extend(uv.iter().flat_map(|x| x.to_le_bytes()));
+    }
+    bytes.extend([0_u8, 1, 2]);
+    use base64::Engine;
+    let data = base64::engine::general_purpose::STANDARD.encode(&bytes);
+    let length = bytes.len();
+    format!(
+        r#"{{ "asset": {{ "version": "2.0" }},
+ "buffers": [ {{ "byteLength": {length}, "uri": "data:application/octet-stream;base64,{data}" }} ],
+ "bufferViews": [ {{ "buffer": 0, "byteLength": 36 }}, {{ "buffer": 0, "byteOffset": 36, "byteLength": 24 }},
+   {{ "buffer": 0, "byteOffset": 60, "byteLength": 3 }} ],
+ "accessors": [
+   {{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0,0,0], "max": [1,1,0] }},
+   {{ "bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2" }},
+   {{ "bufferView": 2, "componentType": 5121, "count": 3, "type": "SCALAR" }} ],
+ {more} }}"#
+    )
+}
+
+const MESH: &str = r#""meshes": [ { "primitives": [ { "attributes": { "POSITION": 0, "TEXCOORD_0": 1 },
+   "indices": 2, "material": 0 } ] } ]"#;
+
+fn load(more: &str) -> Result<Loaded, SceneError> {
+    parse(
+        Path::new("t.gltf"),
+        triangle(more).as_bytes(),
+        &Limits::default(),
+    )
+}
+
+fn messages(loaded: &Loaded) -> Vec<&str> {
+    loaded.warnings.iter().map(Warning::message).collect()
+}
+
+#[test]
+fn a_bare_triangle_gets_a_camera_and_light() {
+    let loaded = load(&format!(
+        r#"{MESH}, "materials": [ {{ "name": "m" }} ], "nodes": [ {{ "mesh": 0, "translation": [0,0,5] }} ]"#
+    ))
+    .unwrap();
+    let scene = &loaded.scene;
+    assert_eq!(scene.shapes.len(), 1);
+    assert_eq!(scene.shapes[0].to_world.w_axis.z, 5.0);
+    let mesh = &scene.meshes[0];
+    assert_eq!(mesh.triangles, [[0, 1, 2]]);
+    assert_eq!(mesh.uvs, [[0.0, 0.75], [1.0, 0.5], [0.0, 0.0]]);
+    assert_eq!(scene.lights.len(), 1);
+    let MaterialKind::Gltf(g) = scene.materials[0].kind else {
+        panic!("{:?}", scene.materials[0])
+    };
+    assert_eq!(g.metallic, FloatParam::Value(1.0));
+    assert_eq!(g.ior, 1.5);
+    let messages = messages(&loaded);
+    assert!(messages.iter().any(|m| m.contains("no camera")));
+    assert!(messages.iter().any(|m| m.contains("no lights")));
+}
+
+#[test]
+fn materials_cameras_and_lights_are_read() {
+    let loaded = load(&format!(
+        r#"{MESH},
+ "materials": [ {{
+   "pbrMetallicRoughness": {{ "baseColorFactor": [0.5, 0.25, 1, 0.5], "metallicFactor": 0.25,
+      "baseColorTexture": {{ "index": 0, "extensions": {{ "KHR_texture_transform": {{ "scale": [2, 1] }} }} }},
+      "metallicRoughnessTexture": {{ "index": 0 }} }},
+   "normalTexture": {{ "index": 0, "scale": 0.5 }},
+   "emissiveFactor": [1, 0.5, 0], "alphaMode": "MASK", "alphaCutoff": 0.25, "doubleSided": true,
+   "extensions": {{ "KHR_materials_emissive_strength": {{ "emissiveStrength": 10 }},
+     "KHR_materials_clearcoat": {{ "clearcoatFactor": 0.75 }},
+     "KHR_materials_anisotropy": {{ "anisotropyStrength": 0.5, "anisotropyRotation": 1.5 }} }} }} ],
+ "textures": [ {{ "source": 0, "sampler": 0 }} ],
+ "samplers": [ {{ "wrapS": 33071, "wrapT": 33648 }} ],
+ "images": [ {{ "uri": "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR4nGP43+BwAgAGyQKIgvZT8AAAAABJRU5ErkJggg==" }} ],
+ "cameras": [ {{ "type": "perspective", "perspective": {{ "yfov": 1.0, "aspectRatio": 0.5, "znear": 0.1 }} }} ],
+ "extensionsUsed": ["KHR_lights_punctual"],
+ "extensions": {{ "KHR_lights_punctual": {{ "lights": [ {{ "type": "spot", "intensity": 3,
+    "spot": {{ "outerConeAngle": 0.5 }} }} ] }} }},
+ "nodes": [ {{ "children": [1, 2] }}, {{ "mesh": 0 }},
+   {{ "camera": 0, "translation": [0,0,4], "extensions": {{ "KHR_lights_punctual": {{ "light": 0 }} }} }} ],
+ "scenes": [ {{ "nodes": [0] }} ]"#
+    ))
+    .unwrap();
+    assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+    let scene = &loaded.scene;
+    let shape = &scene.shapes[0];
+    let emission = shape.emission.unwrap();
+    assert_eq!(
+        emission.radiance,
+        ColourParam::Value(Rgb::from([10.0, 5.0, 0.0]))
+    );
+    assert!(emission.two_sided);
+    let material = &scene.materials[0];
+    let MaterialKind::Gltf(g) = material.kind else {
+        panic!("{material:?}")
+    };
+    assert_eq!(g.clearcoat, FloatParam::Value(0.75));
+    assert_eq!(
+        (g.anisotropy, g.anisotropy_rotation_rad),
+        (FloatParam::Value(0.5), 1.5)
+    );
+    assert!(matches!(
+        material.relief,
+        Some(Relief::Normal { scale: 0.5, .. })
+    ));
+    let FloatParam::Texture(roughness) = g.roughness else {
+        panic!("{g:?}")
+    };
+    assert!(matches!(
+        scene.textures[roughness.0],
+        Texture::Image {
+            channel: Channel::Green,
+            wrap: [crate::scene::Wrap::Clamp, crate::scene::Wrap::Mirror],
+            ..
+        }
+    ));
+    let FloatParam::Texture(alpha) = shape.alpha else {
+        panic!("{shape:?}")
+    };
+    assert!(matches!(
+        scene.textures[alpha.0],
+        Texture::Threshold { cutoff: 0.25, .. }
+    ));
+    let camera = &scene.camera;
+    let Projection::Perspective { fov_deg } = camera.projection else {
+        panic!("{camera:?}")
+    };
+    // A tall picture: the angle is that of its width.
+    let expected = (2.0 * (0.5_f64.tan() * 0.5).atan()).to_degrees();
+    assert!((fov_deg - expected).abs() < 1e-9);
+    assert_eq!(camera.screen_window, [-1.0, 1.0, -2.0, 2.0]);
+    assert_eq!(scene.film.resolution, [1280, 2560]);
+    assert_eq!(
+        camera.to_world.transform_vector3(glam::DVec3::Z),
+        glam::DVec3::NEG_Z
+    );
+    assert!(matches!(
+        scene.lights[..],
+        [Light::Spot {
+            axis: [0.0, 0.0, -1.0],
+            position: [0.0, 0.0, 4.0],
+            ..
+        }]
+    ));
+}
+
+#[test]
+fn meshes_in_several_places_are_instances() {
+    let loaded = load(&format!(
+        r#"{MESH}, "materials": [ {{}} ],
+ "nodes": [ {{ "mesh": 0 }}, {{ "mesh": 0, "scale": [2,2,2] }}, {{ "mesh": 0, "scale": [0,1,1] }} ]"#
+    ))
+    .unwrap();
+    assert_eq!(loaded.scene.instances.len(), 2);
+    assert!(loaded.scene.shapes.is_empty());
+    assert!(matches!(
+        loaded.scene.objects[0].shapes[0].geometry,
+        Geometry::Mesh(_)
+    ));
+    assert!(messages(&loaded).iter().any(|m| m.contains("nodes[2]")));
+}
+
+#[test]
+fn damage_is_named() {
+    let cases = [
+        (r#""nodes": []"#.to_owned(), "nothing to render"),
+        (
+            format!(r#"{MESH}, "materials": [ {{}} ], "nodes": [ {{ "mesh": 4 }} ]"#),
+            "nodes[0].mesh",
+        ),
+        (
+            format!(
+                r#"{MESH}, "materials": [ {{}} ], "nodes": [ {{ "mesh": 0, "children": [0] }} ]"#
+            ),
+            "contain themselves",
+        ),
+        (
+            format!(
+                r#"{MESH}, "materials": [ {{}} ], "nodes": [ {{ "mesh": 0 }} ],
+                "extensionsUsed": ["KHR_draco_mesh_compression"],
+                "extensionsRequired": ["KHR_draco_mesh_compression"]"#
+            ),
+            "KHR_draco_mesh_compression",
+        ),
+        (
+            MESH.replace("\"indices\": 2", "\"indices\": 1")
+                + r#", "materials": [ {} ], "nodes": [ { "mesh": 0 } ]"#,
+            "unsigned",
+        ),
+    ];
+    for (more, expected) in cases {
+        let error = load(&more).expect_err(expected);
+        assert!(error.message().contains(expected), "{}", error.message());
+    }
+    let limits = Limits::default();
+    let error = parse(Path::new("t.gltf"), b"{\n \"asset\": 3", &limits).unwrap_err();
+    assert_eq!(error.line(), 2, "{}", error.message());
+    let short = triangle(&format!(
+        r#"{MESH}, "materials": [ {{}} ], "nodes": [ {{ "mesh": 0 }} ]"#
+    ))
+    .replace(
+        "\"byteOffset\": 36, \"byteLength\": 24",
+        "\"byteOffset\": 50, \"byteLength\": 24",
+    );
+    let error = parse(Path::new("t.gltf"), short.as_bytes(), &limits).unwrap_err();
+    assert!(
+        error.message().contains("bufferViews[1]"),
+        "{}",
+        error.message()
+    );
+}
+
+#[test]
+fn damaged_bytes_never_panic() {
+    let good = triangle(&format!(
+        r#"{MESH}, "materials": [ {{}} ], "nodes": [ {{ "mesh": 0 }} ]"#
+    ))
+    .into_bytes();
+    let mut state = 1_u64;
+    let mut random = move || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        usize::try_from(state >> 33).unwrap_or(0)
+    };
+    let limits = Limits::strict();
+    for _ in 0..3000 {
+        let mut bytes = good.clone();
+        for _ in 0..1 + random() % 4 {
+            let at = random() % bytes.len();
+            match random() % 3 {
+                0 => bytes[at] = b"0123456789-.\"[]{},"[random() % 18],
+                1 => drop(bytes.remove(at)),
+                _ => bytes.insert(at, b"0123456789-\"[]"[random() % 14]),
+            }
+        }
+        if let Ok(loaded) = parse(Path::new("t.gltf"), &bytes, &limits) {
+            loaded.scene.validate().unwrap();
+        }
+    }
+}

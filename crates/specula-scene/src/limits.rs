@@ -1,0 +1,39 @@
+//! How much a file may ask for before it is taken for damage.
+
+/// Bounds on what is read. What exceeds one is an error of kind
+/// [`ErrorKind::Limit`](crate::ErrorKind::Limit), or of the thing's own kind, that names the bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Deepest nesting: of files, of blocks, of references.
+    pub max_depth: usize,
+    /// Most bytes of one file, after unpacking.
+    pub max_bytes: u64,
+    /// Most pixels of one picture.
+    pub max_pixels: u64,
+    /// Most vertices, and most triangles, of one mesh; also of what a shape is tessellated into.
+    pub max_vertices: u64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            max_depth: 64,
+            max_bytes: 4 << 30,
+            max_pixels: 1 << 28,
+            max_vertices: 1 << 28,
+        }
+    }
+}
+
+impl Limits {
+    /// Bounds for hostile files: small enough that no file can take a second or a gibibyte.
+    #[must_use]
+    pub const fn strict() -> Self {
+        Self {
+            max_depth: 16,
+            max_bytes: 16 << 20,
+            max_pixels: 1 << 20,
+            max_vertices: 1 << 18,
+        }
+    }
+}

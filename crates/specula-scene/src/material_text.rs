@@ -1,0 +1,253 @@
+//! Materials in a line of words: `conductor Au alpha 0.3`.
+
+use specula_bsdf::Rgb;
+use specula_bsdf::metals;
+
+use crate::num::f32_of;
+use crate::scene::{
+    ColourParam, ConductorFresnel, FloatParam, MaterialKind, Roughness, RoughnessMapping, Scene,
+};
+
+/// A line that is no material.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("material '{text}': {problem}; expected {EXPECTED}")]
+pub struct UnknownMaterial {
+    text: String,
+    problem: String,
+}
+
+const EXPECTED: &str = "diffuse R G B, conductor METAL|R G B, dielectric ETA, coateddiffuse R G B, \
+    or coatedconductor METAL|R G B, then any of: alpha A, alpha AX AY, roughness R, eta ETA";
+
+/// Reads a material.
+///
+/// ```text
+/// diffuse         R G B
+/// conductor       METAL | R G B        METAL: Au, Ag, Cu, ... or a reflectance
+/// dielectric      [ETA]                1.5
+/// coateddiffuse   R G B
+/// coatedconductor METAL | R G B
+///
+/// alpha A | alpha AX AY                the microfacets' width; 0 is smooth
+/// roughness R                          alpha = R^2
+/// eta ETA                              index of the coat or the glass
+/// ```
+///
+/// # Errors
+///
+/// Which word is not understood, and what was expected.
+pub fn parse_material(text: &str) -> Result<MaterialKind, UnknownMaterial> {
+    let wrong = |problem: String| UnknownMaterial {
+        text: text.to_owned(),
+        problem,
+    };
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let mut words = Words { words: &words };
+    let class = words
+        .next()
+        .ok_or_else(|| wrong("nothing is said".to_owned()))?;
+    let metal = matches!(class, "conductor" | "coatedconductor");
+    let (mut fresnel, mut colour, mut eta) = (None, ColourParam::Value(Rgb::splat(0.5)), 1.5_f32);
+    match class {
+        "conductor" | "coatedconductor" => fresnel = Some(words.metal().map_err(wrong)?),
+        "diffuse" | "coateddiffuse" => {
+            if let Some(c) = words.colour().map_err(wrong)? {
+                colour = ColourParam::Value(c);
+            }
+        }
+        "dielectric" => {
+            if let Some(x) = words.number() {
+                eta = x;
+            }
+        }
+        other => return Err(wrong(format!("there is no '{other}'"))),
+    }
+    let (mut alpha, mut mapping) = ([if metal { 0.1 } else { 0.0 }; 2], RoughnessMapping::Alpha);
+    while let Some(word) = words.next() {
+        let mut value = || {
+            words
+                .number()
+                .ok_or_else(|| wrong(format!("'{word}' needs a number")))
+        };
+        match word {
+            "alpha" => {
+                let x = value()?;
+                alpha = [x, words.number().unwrap_or(x)];
+                mapping = RoughnessMapping::Alpha;
+            }
+            "roughness" => {
+                alpha = [value()?; 2];
+                mapping = RoughnessMapping::Square;
+            }
+            "eta" => eta = value()?,
+            other => return Err(wrong(format!("'{other}' is not understood"))),
+        }
+    }
+    if !(eta > 0.0) {
+        return Err(wrong(format!("an index of {eta}")));
+    }
+    if alpha.iter().any(|a| *a < 0.0) {
+        return Err(wrong("a negative width".to_owned()));
+    }
+    let [u, v] = alpha.map(FloatParam::Value);
+    let roughness = Roughness {
+        v,
+        ..Roughness::isotropic(u, mapping)
+    };
+    let fresnel = fresnel.unwrap_or(ConductorFresnel::Mirror);
+    Ok(match class {
+        "diffuse" => MaterialKind::Diffuse {
+            reflectance: colour,
+            roughness: FloatParam::Value(0.0),
+        },
+        "conductor" => MaterialKind::Conductor {
+            fresnel,
+            roughness,
+            tint: ColourParam::WHITE,
+        },
+        "dielectric" => MaterialKind::Dielectric {
+            eta,
+            roughness,
+            reflection_tint: ColourParam::WHITE,
+            transmission_tint: ColourParam::WHITE,
+        },
+        "coateddiffuse" => MaterialKind::CoatedDiffuse {
+            reflectance: colour,
+            eta,
+            roughness,
+        },
+        _ => MaterialKind::CoatedConductor {
+            coat_eta: eta,
+            coat_roughness: Roughness::smooth(),
+            fresnel,
+            roughness,
+        },
+    })
+}
+
+impl Scene {
+    /// Gives every surface this material, but those that are no surface at all or shine.
+    pub fn replace_materials(&mut self, kind: MaterialKind) {
+        let shining: Vec<usize> = (self.shapes.iter())
+            .chain(self.objects.iter().flat_map(|o| &o.shapes))
+            .filter(|s| s.emission.is_some())
+            .map(|s| s.material.0)
+            .collect();
+        for (i, material) in self.materials.iter_mut().enumerate() {
+            if material.kind != MaterialKind::Interface && !shining.contains(&i) {
+                material.kind = kind;
+                material.relief = None;
+                material.one_sided = false;
+            }
+        }
+    }
+}
+
+struct Words<'a> {
+    words: &'a [&'a str],
+}
+
+impl<'a> Words<'a> {
+    fn next(&mut self) -> Option<&'a str> {
+        let (first, rest) = self.words.split_first()?;
+        self.words = rest;
+        Some(first)
+    }
+
+    /// The next word, where it is a finite number.
+    fn number(&mut self) -> Option<f32> {
+        let value = self.words.first()?.parse::<f64>().ok().map(f32_of)?;
+        if !value.is_finite() {
+            return None;
+        }
+        self.next();
+        Some(value)
+    }
+
+    /// Three numbers in `[0, 1]`, or one for all three; `None` where there is none.
+    fn colour(&mut self) -> Result<Option<Rgb<f32>>, String> {
+        let Some(r) = self.number() else {
+            return Ok(None);
+        };
+        let colour = match (self.number(), self.number()) {
+            (None, None) => Rgb::splat(r),
+            (Some(g), Some(b)) => Rgb { r, g, b },
+            _ => return Err("a colour has one number or three".to_owned()),
+        };
+        if colour.to_array().iter().any(|x| !(0.0..=1.0).contains(x)) {
+            return Err("a colour outside of [0, 1]".to_owned());
+        }
+        Ok(Some(colour))
+    }
+
+    fn metal(&mut self) -> Result<ConductorFresnel, String> {
+        if let Some(colour) = self.colour()? {
+            return Ok(ConductorFresnel::Reflectance(ColourParam::Value(colour)));
+        }
+        let symbol = self.next().ok_or("which metal is not said")?;
+        let metal = metals::by_symbol(symbol).ok_or_else(|| {
+            let all: Vec<&str> = metals::METALS.iter().map(|m| m.symbol).collect();
+            format!("no metal '{symbol}' (there are {})", all.join(", "))
+        })?;
+        let index = |channel: [f64; 3]| ColourParam::Value(Rgb::from(channel).cast());
+        Ok(ConductorFresnel::Index {
+            eta: index(metal.eta),
+            k: index(metal.k),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_become_materials() {
+        let MaterialKind::Conductor {
+            fresnel, roughness, ..
+        } = parse_material("conductor Au alpha 0.3").unwrap()
+        else {
+            panic!("no conductor")
+        };
+        assert!(matches!(fresnel, ConductorFresnel::Index { .. }));
+        assert_eq!(
+            [roughness.u, roughness.v],
+            [FloatParam::Value(0.3), FloatParam::Value(0.3)]
+        );
+        let MaterialKind::CoatedDiffuse {
+            reflectance,
+            eta,
+            roughness,
+        } = parse_material("coateddiffuse 0.5 0.25 0 eta 1.6 alpha 0.1 0.2").unwrap()
+        else {
+            panic!("no coat")
+        };
+        assert_eq!(reflectance, ColourParam::Value(Rgb::from([0.5, 0.25, 0.0])));
+        assert_eq!((eta, roughness.v), (1.6, FloatParam::Value(0.2)));
+        assert!(matches!(
+            parse_material("dielectric 1.33 roughness 0.5").unwrap(),
+            MaterialKind::Dielectric { eta: 1.33, roughness, .. }
+                if roughness.mapping == RoughnessMapping::Square
+        ));
+        assert!(parse_material("conductor 0.9").is_ok());
+    }
+
+    #[test]
+    fn what_is_not_understood_is_named() {
+        for (text, expected) in [
+            ("", "nothing is said"),
+            ("gold", "no 'gold'"),
+            ("conductor", "which metal"),
+            ("conductor Xx", "no metal 'Xx' (there are"),
+            ("diffuse 0.5 0.5", "one number or three"),
+            ("diffuse 2", "outside of"),
+            ("conductor Au alpha", "'alpha' needs a number"),
+            ("conductor Au shiny", "'shiny' is not understood"),
+            ("dielectric -1", "index of -1"),
+            ("conductor Au alpha -0.1", "negative"),
+        ] {
+            let error = parse_material(text).unwrap_err().to_string();
+            assert!(error.contains(expected), "{text}: {error}");
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! What all kinds of plugins share: warnings, files, references, pictures, textures, materials.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use super::document::{Document, resolve};
+use super::element::{Element, Property};
+use super::number::shorten;
+use super::texture::{Frame, Role};
+use super::value::Value;
+use crate::Limits;
+use crate::error::{ErrorKind, Place, SceneError, Warning};
+use crate::image::{self, Content, Encoding, Image};
+use crate::scene::{ImageId, Material, MaterialId, Texture, TextureId};
+
+/// Shared state of the reader.
+pub(super) struct Context<'a> {
+    pub(super) limits: &'a Limits,
+    pub(super) warnings: Vec<Warning>,
+    pub(super) images: Vec<Image>,
+    pub(super) textures: Vec<Texture>,
+    pub(super) materials: Vec<Material>,
+    /// Whose surface coordinates textures are read for.
+    pub(super) frame: Frame,
+    /// Textures by element, role and frame.
+    pub(super) texture_ids: HashMap<(usize, Role, Frame), TextureId>,
+    image_ids: HashMap<(PathBuf, String), ImageId>,
+    ids: HashMap<String, Rc<Element>>,
+    folders: Vec<PathBuf>,
+    depth: usize,
+}
+
+impl<'a> Context<'a> {
+    /// The state after a document was read, and its root.
+    pub(super) fn new(document: Document, limits: &'a Limits) -> (Self, Element) {
+        let Document {
+            root,
+            ids,
+            folders,
+            warnings,
+        } = document;
+        let context = Self {
+            limits,
+            warnings,
+            images: Vec::new(),
+            textures: Vec::new(),
+            materials: Vec::new(),
+            frame: Frame::Mesh,
+            texture_ids: HashMap::new(),
+            image_ids: HashMap::new(),
+            ids,
+            folders,
+            depth: 0,
+        };
+        (context, root)
+    }
+
+    pub(super) fn warn(&mut self, place: &Place, message: impl Into<String>) {
+        self.warnings.push(Warning::new(place, message));
+    }
+
+    /// The plugin that a property holds or refers to; `None` where it is something else.
+    pub(super) fn plugin(&self, property: &Property) -> Result<Option<Rc<Element>>, SceneError> {
+        match &property.value {
+            Value::Element(element) => Ok(Some(Rc::clone(element))),
+            Value::Reference(id) => match self.ids.get(id) {
+                Some(element) => Ok(Some(Rc::clone(element))),
+                None => {
+                    let message = format!("no plugin has the id \"{}\"", shorten(id));
+                    Err(SceneError::new(
+                        ErrorKind::UnknownName,
+                        &property.place,
+                        message,
+                    ))
+                }
+            },
+            _ => Ok(None),
+        }
+    }
+
+    /// Plugins of a class within `element`, in the file's order; they count as used.
+    pub(super) fn children(
+        &self,
+        element: &Element,
+        class: &str,
+    ) -> Result<Vec<Rc<Element>>, SceneError> {
+        let mut found = Vec::new();
+        for property in &element.properties {
+            if let Some(child) = self.plugin(property)?
+                && child.class == class
+            {
+                property.used.set(true);
+                element.visited.set(true);
+                found.push(child);
+            }
+        }
+        Ok(found)
+    }
+
+    /// The only plugin of a class within `element`, if there is one.
+    pub(super) fn child(
+        &self,
+        element: &Element,
+        class: &str,
+    ) -> Result<Option<Rc<Element>>, SceneError> {
+        let found = self.children(element, class)?;
+        if let [_, second, ..] = found.as_slice() {
+            let message = format!("{} has more than one {class}", element.title());
+            return Err(SceneError::new(
+                ErrorKind::Structure,
+                &second.place,
+                message,
+            ));
+        }
+        Ok(found.into_iter().next())
+    }
+
+    /// Runs `f` one level deeper; plugins that refer to each other in a ring end in an error.
+    pub(super) fn deeper<T>(
+        &mut self,
+        element: &Element,
+        f: impl FnOnce(&mut Self) -> Result<T, SceneError>,
+    ) -> Result<T, SceneError> {
+        if self.depth >= self.limits.max_depth {
+            let message = format!(
+                "{} is nested more than {} deep, or refers to itself",
+                element.title(),
+                self.limits.max_depth
+            );
+            return Err(SceneError::new(ErrorKind::Limit, &element.place, message));
+        }
+        self.depth += 1;
+        let result = f(self);
+        self.depth -= 1;
+        result
+    }
+
+    /// The file that the string `name` of an element names.
+    pub(super) fn file(
+        &self,
+        element: &Element,
+        name: &str,
+    ) -> Result<Option<(PathBuf, Place)>, SceneError> {
+        let Some(text) = element.text(name)? else {
+            return Ok(None);
+        };
+        let place = element.place_of(name);
+        let own = Path::new(place.source().name()).parent();
+        let path = resolve(&self.folders, own.unwrap_or(Path::new("")), text);
+        Ok(Some((path, place)))
+    }
+
+    /// [`Context::file`], which must be given.
+    pub(super) fn needed_file(
+        &self,
+        element: &Element,
+        name: &str,
+    ) -> Result<(PathBuf, Place), SceneError> {
+        self.file(element, name)?
+            .ok_or_else(|| element.error(format!("{} needs its \"{name}\"", element.title())))
+    }
+
+    /// The picture in a file, decoded once for each way of reading it.
+    pub(super) fn image(
+        &mut self,
+        path: &Path,
+        place: &Place,
+        encoding: Encoding,
+    ) -> Result<ImageId, SceneError> {
+        let key = (path.to_owned(), format!("{encoding:?}"));
+        if let Some(&id) = self.image_ids.get(&key) {
+            return Ok(id);
+        }
+        let image = image::read(path, encoding, Content::Colour, self.limits)
+            .map_err(|message| SceneError::new(ErrorKind::Image, place, message))?;
+        let id = ImageId(self.images.len());
+        self.images.push(image);
+        self.image_ids.insert(key, id);
+        Ok(id)
+    }
+
+    pub(super) fn add_texture(&mut self, texture: Texture) -> TextureId {
+        self.textures.push(texture);
+        TextureId(self.textures.len() - 1)
+    }
+
+    pub(super) fn add_material(&mut self, material: Material) -> MaterialId {
+        self.materials.push(material);
+        MaterialId(self.materials.len() - 1)
+    }
+
+    /// Warns of properties that nobody asked for, in `element` and all that it reached.
+    pub(super) fn warn_unused(&mut self, element: &Element) {
+        if element.visited.get() {
+            for property in element.properties.iter().filter(|p| !p.used.get()) {
+                let message = if property.name.is_empty() {
+                    format!("a nested plugin of {} is unused", element.title())
+                } else {
+                    format!(
+                        "\"{}\" of {} is unused",
+                        shorten(&property.name),
+                        element.title()
+                    )
+                };
+                self.warn(&property.place, message);
+            }
+        }
+        for property in &element.properties {
+            if let Some(child) = property.nested() {
+                self.warn_unused(child);
+            }
+        }
+    }
+}

@@ -1,0 +1,213 @@
+//! Meshes: read in parallel, each once, with the normals that Mitsuba would give them.
+
+use std::collections::HashMap;
+use std::path::PathBuf;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::context::Context;
+use crate::error::{ErrorKind, Place, SceneError};
+use crate::mesh::{self, Cleaning};
+use crate::num::f32_of;
+use crate::scene::{Geometry, Mesh, MeshId};
+use crate::{Limits, obj, ply, serialized};
+
+/// A mesh that is to be read.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Source {
+    Rectangle,
+    Cube,
+    Cylinder,
+    File {
+        path: PathBuf,
+        format: Format,
+        face_normals: bool,
+        flip_v: bool,
+    },
+}
+
+/// A format of meshes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Format {
+    Obj,
+    Ply,
+    /// With the number of the mesh in its file.
+    Serialized(u32),
+}
+
+/// What a mesh became.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ready {
+    /// `None` where nothing is left of it.
+    pub(super) geometry: Option<Geometry>,
+    /// Whether its normals come from its triangles: then a mirroring transform turns them over.
+    pub(super) own_normals: bool,
+}
+
+/// Meshes in the order in which they were asked for.
+#[derive(Default)]
+pub(super) struct Meshes {
+    sources: Vec<(Source, Place)>,
+    ids: HashMap<Source, usize>,
+}
+
+impl Meshes {
+    /// The number of a mesh.
+    pub(super) fn ask(&mut self, source: Source, place: &Place) -> usize {
+        *self.ids.entry(source.clone()).or_insert_with(|| {
+            self.sources.push((source, place.clone()));
+            self.sources.len() - 1
+        })
+    }
+
+    /// Reads them all.
+    pub(super) fn read(self, context: &mut Context) -> Result<(Vec<Ready>, Vec<Mesh>), SceneError> {
+        let limits = context.limits;
+        // The order of results is that of the sources, whatever the threads do.
+        let results: Vec<_> = self
+            .sources
+            .par_iter()
+            .map(|(source, _)| build(source, limits))
+            .collect();
+        let mut ready = Vec::new();
+        let mut meshes = Vec::new();
+        for (result, (_, place)) in results.into_iter().zip(&self.sources) {
+            let Built {
+                mesh,
+                own_normals,
+                cleaning,
+            } = result.map_err(|m| SceneError::new(ErrorKind::Mesh, place, m))?;
+            report(context, place, &cleaning, mesh.triangles.is_empty());
+            let geometry = (!mesh.triangles.is_empty()).then(|| {
+                meshes.push(mesh);
+                Geometry::Mesh(MeshId(meshes.len() - 1))
+            });
+            ready.push(Ready {
+                geometry,
+                own_normals,
+            });
+        }
+        Ok((ready, meshes))
+    }
+}
+
+struct Built {
+    mesh: Mesh,
+    own_normals: bool,
+    cleaning: Cleaning,
+}
+
+fn build(source: &Source, limits: &Limits) -> Result<Built, String> {
+    let plain = |mesh| Built {
+        mesh,
+        own_normals: false,
+        cleaning: Cleaning::default(),
+    };
+    let (path, format, face_normals, flip_v) = match source {
+        Source::Rectangle => return Ok(plain(super::primitive::rectangle())),
+        Source::Cube => return Ok(plain(super::primitive::cube())),
+        Source::Cylinder => return Ok(plain(super::primitive::cylinder())),
+        Source::File {
+            path,
+            format,
+            face_normals,
+            flip_v,
+        } => (path, *format, *face_normals, *flip_v),
+    };
+    let mut face_normals = face_normals;
+    let mut mesh = match format {
+        Format::Obj => obj::read(path, limits)?,
+        Format::Ply => ply::read(path, limits)?,
+        Format::Serialized(index) => {
+            let read = serialized::read(path, index, limits)?;
+            face_normals |= read.face_normals;
+            read.mesh
+        }
+    };
+    if face_normals {
+        mesh.normals.clear();
+    }
+    if flip_v {
+        mesh.uvs.iter_mut().for_each(|uv| uv[1] = 1.0 - uv[1]);
+    }
+    let cleaning = mesh::clean(&mut mesh).map_err(|e| format!("mesh {}: {e}", path.display()))?;
+    let own_normals = mesh.normals.is_empty();
+    if own_normals && !face_normals {
+        mesh.normals = smooth_normals(&mesh);
+    }
+    Ok(Built {
+        mesh,
+        own_normals,
+        cleaning,
+    })
+}
+
+/// Normals at vertices: those of the triangles around, weighted by their angles there.
+///
+/// Source: Thürmer and Wüthrich 1998.
+fn smooth_normals(mesh: &Mesh) -> Vec<[f32; 3]> {
+    let mut sums = vec![DVec3::ZERO; mesh.positions.len()];
+    let position = |i: u32| DVec3::from(mesh.positions[i as usize].map(f64::from));
+    for t in &mesh.triangles {
+        let corners = t.map(position);
+        for i in 0..3 {
+            let [a, b, c] = [0, 1, 2].map(|k| corners[(i + k) % 3]);
+            let (to_b, to_c) = (b - a, c - a);
+            if let Some(normal) = to_b.cross(to_c).try_normalize() {
+                sums[t[i] as usize] += normal * to_b.angle_between(to_c);
+            }
+        }
+    }
+    let unit = |v: DVec3| v.try_normalize().unwrap_or(DVec3::Z);
+    sums.into_iter()
+        .map(|v| unit(v).to_array().map(f32_of))
+        .collect()
+}
+
+fn report(context: &mut Context, place: &Place, cleaning: &Cleaning, empty: bool) {
+    let Cleaning {
+        dropped_triangles,
+        replaced_normals,
+        dropped_uvs,
+    } = *cleaning;
+    let mut say = |message: String| context.warn(place, message);
+    if empty {
+        say("the mesh has no triangles with an area: it is left out".to_owned());
+    } else if dropped_triangles > 0 {
+        say(format!(
+            "{dropped_triangles} triangles without area are dropped"
+        ));
+    }
+    if replaced_normals > 0 {
+        say(format!(
+            "{replaced_normals} normals are zero or not finite: geometric ones are used"
+        ));
+    }
+    if dropped_uvs {
+        say("surface coordinates are dropped: some are not finite".to_owned());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn normals_are_weighted_by_angles() {
+        // A corner of a cube: the side cut into two triangles must not count twice.
+        let mesh = Mesh {
+            positions: vec![
+                [0.0; 3],
+                [1.0, 0.0, 0.0],
+                [1.0, 1.0, 0.0],
+                [0.0, 1.0, 0.0],
+                [0.0, 0.0, 1.0],
+            ],
+            triangles: vec![[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]],
+            ..Mesh::default()
+        };
+        let [x, y, z] = smooth_normals(&mesh)[0];
+        assert!((x - y).abs() < 1e-6 && (y - z).abs() < 1e-6, "{x} {y} {z}");
+    }
+}

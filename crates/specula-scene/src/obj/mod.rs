@@ -1,0 +1,351 @@
+//! Meshes in Wavefront's OBJ files, plain or gzipped.
+//!
+//! All of a file's faces become one mesh: groups, smoothing and materials are read past. Polygons
+//! fan out from their first vertex. Indices count from 1, or back from the last where negative.
+//! Vertices may carry a colour (`v x y z r g b`). Coordinates are kept as they are: v runs upwards.
+
+use std::path::Path;
+
+use crate::Limits;
+use crate::read_file::read_bytes;
+use crate::scene::Mesh;
+
+/// Reads a mesh.
+///
+/// # Errors
+///
+/// A message that begins with the file's name, and with the line where there is one.
+pub(crate) fn read(path: &Path, limits: &Limits) -> Result<Mesh, String> {
+    let wrong = |message: String| format!("mesh {}: {message}", path.display());
+    let bytes = read_bytes(path, limits).map_err(wrong)?;
+    parse(&bytes, limits).map_err(wrong)
+}
+
+/// Reads a mesh from the bytes of an OBJ file.
+///
+/// # Errors
+///
+/// A message with the line and what was expected there.
+pub(crate) fn parse(bytes: &[u8], limits: &Limits) -> Result<Mesh, String> {
+    let mut reader = Reader {
+        limits,
+        ..Reader::new(limits)
+    };
+    let mut joined = Vec::new();
+    for (number, line) in bytes.split(|b| *b == b'\n').enumerate() {
+        let line = line.strip_suffix(b"\r").unwrap_or(line);
+        // A backslash at the end of a line carries on with the next.
+        if let Some(part) = line.strip_suffix(b"\\") {
+            joined.extend_from_slice(part);
+            joined.push(b' ');
+            continue;
+        }
+        let whole = if joined.is_empty() {
+            line
+        } else {
+            joined.extend_from_slice(line);
+            &joined
+        };
+        reader
+            .line(whole)
+            .map_err(|m| format!("line {}: {m}", number + 1))?;
+        joined.clear();
+    }
+    reader.finish()
+}
+
+/// No index.
+const NONE: u32 = u32::MAX;
+
+struct Reader<'a> {
+    limits: &'a Limits,
+    positions: Vec<[f32; 3]>,
+    colours: Vec<[f32; 3]>,
+    normals: Vec<[f32; 3]>,
+    uvs: Vec<[f32; 2]>,
+    mesh: Mesh,
+    /// The first vertex made of a position, and for each vertex the next one of that position.
+    first: Vec<u32>,
+    next: Vec<u32>,
+    /// Indices of position, coordinates and normal of each vertex.
+    keys: Vec<[u32; 3]>,
+    has_uvs: bool,
+    has_normals: bool,
+}
+
+impl<'a> Reader<'a> {
+    fn new(limits: &'a Limits) -> Self {
+        Self {
+            limits,
+            positions: Vec::new(),
+            colours: Vec::new(),
+            normals: Vec::new(),
+            uvs: Vec::new(),
+            mesh: Mesh::default(),
+            first: Vec::new(),
+            next: Vec::new(),
+            keys: Vec::new(),
+            has_uvs: false,
+            has_normals: false,
+        }
+    }
+
+    fn line(&mut self, line: &[u8]) -> Result<(), String> {
+        let line = line.trim_ascii_start();
+        let Some(end) = line.iter().position(u8::is_ascii_whitespace) else {
+            return Ok(());
+        };
+        let rest = &line[end..];
+        match &line[..end] {
+            b"v" => self.vertex(rest),
+            b"vt" => {
+                let mut uv = [0.0; 2];
+                let found = numbers(rest, &mut uv)?;
+                if found == 0 {
+                    return Err("expected at least one coordinate after `vt`".to_owned());
+                }
+                self.uvs.push(uv);
+                Ok(())
+            }
+            b"vn" => {
+                let mut normal = [0.0; 3];
+                if numbers(rest, &mut normal)? < 3 {
+                    return Err("expected three numbers after `vn`".to_owned());
+                }
+                self.normals.push(normal);
+                Ok(())
+            }
+            b"f" => self.face(rest),
+            _ => Ok(()),
+        }
+    }
+
+    fn vertex(&mut self, rest: &[u8]) -> Result<(), String> {
+        let mut values = [0.0; 7];
+        let found = numbers(rest, &mut values)?;
+        let [x, y, z, ..] = values;
+        if found < 3 {
+            return Err("expected three numbers after `v`".to_owned());
+        }
+        self.positions.push([x, y, z]);
+        self.first.push(NONE);
+        // After a weight there is no colour in any dialect but with seven numbers.
+        let colour = match found {
+            6 => Some([values[3], values[4], values[5]]),
+            7 => Some([values[4], values[5], values[6]]),
+            _ => None,
+        };
+        if let Some(colour) = colour {
+            self.colours.resize(self.positions.len() - 1, [1.0; 3]);
+            self.colours.push(colour.map(|c| c.max(0.0)));
+        }
+        if self.positions.len() as u64 > self.limits.max_vertices {
+            return Err(format!("more than {} vertices", self.limits.max_vertices));
+        }
+        Ok(())
+    }
+
+    fn face(&mut self, rest: &[u8]) -> Result<(), String> {
+        let words = rest
+            .split(u8::is_ascii_whitespace)
+            .filter(|w| !w.is_empty());
+        let (mut first, mut previous, mut count) = (0, 0, 0);
+        for word in words.take_while(|w| w[0] != b'#') {
+            let vertex = self.corner(word)?;
+            if count == 0 {
+                first = vertex;
+            } else if count > 1 {
+                self.mesh.triangles.push([first, previous, vertex]);
+            }
+            previous = vertex;
+            count += 1;
+        }
+        if count < 3 {
+            return Err(format!("a face has {count} vertices; expected at least 3"));
+        }
+        let most = self.limits.max_vertices;
+        if self.mesh.triangles.len() as u64 > most || self.keys.len() as u64 > most {
+            return Err(format!("more than {most} triangles or vertices"));
+        }
+        Ok(())
+    }
+
+    /// The vertex of `position`, `position/uv`, `position//normal` or `position/uv/normal`.
+    fn corner(&mut self, word: &[u8]) -> Result<u32, String> {
+        let mut parts = word.split(|b| *b == b'/');
+        let mut part = |count: usize, what: &str| match parts.next() {
+            None | Some([]) => Ok(NONE),
+            Some(digits) => index(digits, count, what),
+        };
+        let position = part(self.positions.len(), "vertex")?;
+        let uv = part(self.uvs.len(), "texture coordinate")?;
+        let normal = part(self.normals.len(), "normal")?;
+        if position == NONE || parts.next().is_some() {
+            return Err(format!(
+                "expected a corner such as 1/2/3, found `{}`",
+                shorten(word)
+            ));
+        }
+        let key = [position, uv, normal];
+        let mut vertex = self.first[position as usize];
+        while vertex != NONE {
+            if self.keys[vertex as usize] == key {
+                return Ok(vertex);
+            }
+            vertex = self.next[vertex as usize];
+        }
+        let new = u32::try_from(self.keys.len())
+            .ok()
+            .filter(|n| *n < NONE)
+            .ok_or("too many vertices")?;
+        self.next.push(self.first[position as usize]);
+        self.first[position as usize] = new;
+        self.keys.push(key);
+        self.has_uvs |= uv != NONE;
+        self.has_normals |= normal != NONE;
+        Ok(new)
+    }
+
+    fn finish(mut self) -> Result<Mesh, String> {
+        if self.mesh.triangles.is_empty() && self.positions.is_empty() {
+            return Err("it has no vertices: expected lines such as `v 0 0 0`".to_owned());
+        }
+        let mut mesh = std::mem::take(&mut self.mesh);
+        let keys = &self.keys;
+        mesh.positions = keys.iter().map(|k| self.positions[k[0] as usize]).collect();
+        if self.has_uvs {
+            let uv = |k: &[u32; 3]| self.uvs.get(k[1] as usize).copied().unwrap_or_default();
+            mesh.uvs = keys.iter().map(uv).collect();
+        }
+        if self.has_normals {
+            let normal =
+                |k: &[u32; 3]| self.normals.get(k[2] as usize).copied().unwrap_or_default();
+            mesh.normals = keys.iter().map(normal).collect();
+        }
+        if !self.colours.is_empty() {
+            let colour =
+                |k: &[u32; 3]| self.colours.get(k[0] as usize).copied().unwrap_or([1.0; 3]);
+            mesh.colours = keys.iter().map(colour).collect();
+        }
+        Ok(mesh)
+    }
+}
+
+/// Reads up to `out.len()` numbers; returns how many there were.
+fn numbers(text: &[u8], out: &mut [f32]) -> Result<usize, String> {
+    let words = text
+        .split(u8::is_ascii_whitespace)
+        .filter(|w| !w.is_empty())
+        .take_while(|w| w[0] != b'#');
+    let mut found = 0;
+    for (word, slot) in words.zip(out) {
+        *slot = std::str::from_utf8(word)
+            .ok()
+            .and_then(|w| w.parse().ok())
+            .filter(|x: &f32| x.is_finite())
+            .ok_or_else(|| format!("expected a finite number, found `{}`", shorten(word)))?;
+        found += 1;
+    }
+    Ok(found)
+}
+
+/// An index from 0 of one of `count` things.
+fn index(digits: &[u8], count: usize, what: &str) -> Result<u32, String> {
+    let number = std::str::from_utf8(digits)
+        .ok()
+        .and_then(|w| w.parse::<i64>().ok())
+        .ok_or_else(|| format!("expected an index, found `{}`", shorten(digits)))?;
+    let known = i64::try_from(count).unwrap_or(i64::MAX);
+    let from_zero = if number < 0 {
+        known + number
+    } else {
+        number - 1
+    };
+    u32::try_from(from_zero)
+        .ok()
+        .filter(|_| from_zero < known)
+        .ok_or_else(|| format!("{what} {number} is out of range; there are {count} before this"))
+}
+
+fn shorten(word: &[u8]) -> String {
+    String::from_utf8_lossy(&word[..word.len().min(40)])
+        .escape_debug()
+        .to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mesh(text: &str) -> Result<Mesh, String> {
+        parse(text.as_bytes(), &Limits::default())
+    }
+
+    #[test]
+    fn polygons_fan_out_and_corners_are_shared() {
+        let mesh = mesh(
+            "# square\no s\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\n\
+             f 1/1/1 2/2/1 3/2/1 \\\n 4/1/1\nf -4/1/1 -2/2/1 -1/2/1 # again\n",
+        )
+        .unwrap();
+        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [0, 2, 4]]);
+        assert_eq!(mesh.positions[4], [0.0, 1.0, 0.0]);
+        assert_eq!((mesh.uvs[3], mesh.uvs[4]), ([0.0, 0.0], [1.0, 1.0]));
+        assert_eq!(mesh.normals, [[0.0, 0.0, 1.0]; 5]);
+        assert!(mesh.colours.is_empty());
+    }
+
+    #[test]
+    fn attributes_that_no_face_has_stay_empty() {
+        let mesh = mesh("v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1 2 3").unwrap();
+        assert!(mesh.uvs.is_empty() && mesh.normals.is_empty());
+        assert_eq!(mesh.colours, [[1.0, 0.0, 0.0], [1.0; 3], [1.0; 3]]);
+    }
+
+    #[test]
+    fn faults_have_their_line() {
+        for (text, message) in [
+            ("v 0 0\n", "line 1: expected three numbers after `v`"),
+            (
+                "v 0 0 0\nv 0 x 0\n",
+                "line 2: expected a finite number, found `x`",
+            ),
+            (
+                "v 0 0 0\nf 1 1\n",
+                "line 2: a face has 2 vertices; expected at least 3",
+            ),
+            (
+                "v 0 0 0\n\nf 1 1 2\n",
+                "line 3: vertex 2 is out of range; there are 1 before this",
+            ),
+            (
+                "v 0 0 0\nf 1 1 0",
+                "line 2: vertex 0 is out of range; there are 1 before this",
+            ),
+            (
+                "v 0 0 0\nf 1/1 1 1",
+                "line 2: texture coordinate 1 is out of range; there are 0 before this",
+            ),
+            (
+                "v 0 0 0\nf 1/1/1/1 1 1",
+                "line 2: texture coordinate 1 is out of range; there are 0 before this",
+            ),
+            ("v 0 0 0\nf /1 1 1", "line 2: texture coordinate 1"),
+            ("v nan 0 0", "line 1: expected a finite number, found `nan`"),
+            ("", "it has no vertices"),
+        ] {
+            let found = mesh(text).unwrap_err();
+            assert!(found.starts_with(message), "{text:?}: {found}");
+        }
+    }
+
+    #[test]
+    fn limits_are_kept() {
+        let limits = Limits {
+            max_vertices: 2,
+            ..Limits::default()
+        };
+        let error = parse(b"v 0 0 0\nv 1 0 0\nv 0 1 0\n", &limits).unwrap_err();
+        assert!(error.contains("more than 2 vertices"), "{error}");
+    }
+}

@@ -1,0 +1,198 @@
+//! Meshes and pictures: read, made and checked in parallel, each once.
+
+use std::collections::HashMap;
+use std::path::PathBuf;
+
+use rayon::prelude::*;
+
+use super::context::Context;
+use super::shape::{Prepared, Recipe, ShapeEntity, prepare};
+use crate::Limits;
+use crate::error::{ErrorKind, Place, SceneError};
+use crate::mesh::{self, Cleaning};
+use crate::ply;
+use crate::scene::{Geometry, Mesh, MeshId};
+
+/// Geometry of a shape, with what its light needs to know.
+#[derive(Clone, Copy)]
+pub(super) struct Kept {
+    /// `None` where the shape is left out.
+    pub(super) geometry: Option<Geometry>,
+    /// Area in its own space, for quadrics that became meshes.
+    pub(super) own_area: Option<f64>,
+    /// How many shapes pbrt-v4 makes of it; `None` for one per triangle.
+    pub(super) pieces: Option<usize>,
+}
+
+/// Where a mesh comes from.
+enum Source {
+    Mesh(Mesh),
+    File(PathBuf),
+    Recipe(Recipe),
+}
+
+/// A mesh to be read, made or checked, and the first place that asks for it.
+struct Job {
+    source: Source,
+    place: Place,
+}
+
+/// What a shape's geometry will be.
+enum Slot {
+    Job(usize),
+    Ready(Geometry),
+}
+
+/// What is to be done, without repetition.
+#[derive(Default)]
+struct Jobs {
+    list: Vec<Job>,
+    files: HashMap<PathBuf, usize>,
+    recipes: HashMap<[u64; 5], usize>,
+}
+
+impl Jobs {
+    fn add(&mut self, source: Source, place: &Place) -> usize {
+        self.list.push(Job {
+            source,
+            place: place.clone(),
+        });
+        self.list.len() - 1
+    }
+
+    fn file(&mut self, path: PathBuf, place: &Place) -> usize {
+        if let Some(&job) = self.files.get(&path) {
+            return job;
+        }
+        let job = self.add(Source::File(path.clone()), place);
+        self.files.insert(path, job);
+        job
+    }
+
+    fn recipe(&mut self, recipe: Recipe, place: &Place) -> usize {
+        let key = recipe.key();
+        if let Some(&job) = key.and_then(|k| self.recipes.get(&k)) {
+            return job;
+        }
+        let job = self.add(Source::Recipe(recipe), place);
+        if let Some(key) = key {
+            self.recipes.insert(key, job);
+        }
+        job
+    }
+}
+
+/// Reads and checks all meshes and all pictures that the context was asked for.
+pub(super) fn read(
+    context: &mut Context,
+    shapes: &[&ShapeEntity],
+) -> Result<(Vec<Kept>, Vec<Mesh>), SceneError> {
+    let mut jobs = Jobs::default();
+    let mut slots = Vec::with_capacity(shapes.len());
+    for shape in shapes {
+        let entity = &shape.entity;
+        let (mut own_area, mut pieces) = (None, None);
+        let slot = match prepare(context, entity)? {
+            Prepared::Sphere { radius } => Slot::Ready(Geometry::Sphere { radius }),
+            Prepared::Disk { radius, height } => Slot::Ready(Geometry::Disk { radius, height }),
+            Prepared::Mesh(mesh) => Slot::Job(jobs.add(Source::Mesh(mesh), &entity.place)),
+            Prepared::File(path) => {
+                let place = match entity.params.string("filename") {
+                    Ok(Some((_, place))) => place,
+                    _ => &entity.place,
+                };
+                Slot::Job(jobs.file(path, place))
+            }
+            Prepared::Recipe(recipe) => {
+                (own_area, pieces) = (recipe.own_area(), recipe.pieces());
+                Slot::Job(jobs.recipe(recipe, &entity.place))
+            }
+        };
+        slots.push((slot, own_area, pieces));
+    }
+    let limits = context.limits;
+    let pictures = context.take_image_jobs();
+    let places: Vec<Place> = jobs.list.iter().map(|j| j.place.clone()).collect();
+    // The order of results is that of the jobs, whatever the threads do.
+    let (results, images) = rayon::join(
+        || -> Vec<_> {
+            let list = jobs.list.into_par_iter();
+            list.map(|j| make(j.source, &limits)).collect()
+        },
+        || -> Vec<_> { pictures.par_iter().map(|p| p.read(&limits)).collect() },
+    );
+    for image in images {
+        context.images.push(image?);
+    }
+    let mut meshes = Vec::new();
+    let mut ids = Vec::new();
+    for (result, place) in results.into_iter().zip(&places) {
+        let (mesh, cleaning) = result.map_err(|m| SceneError::new(ErrorKind::Mesh, place, m))?;
+        report(context, place, &cleaning, mesh.triangles.is_empty());
+        ids.push((!mesh.triangles.is_empty()).then_some(Geometry::Mesh(MeshId(meshes.len()))));
+        if !mesh.triangles.is_empty() {
+            meshes.push(mesh);
+        }
+    }
+    let kept = slots.into_iter().map(|(slot, own_area, pieces)| Kept {
+        geometry: match slot {
+            Slot::Job(i) => ids[i],
+            Slot::Ready(geometry) => Some(geometry),
+        },
+        own_area,
+        pieces,
+    });
+    Ok((kept.collect(), meshes))
+}
+
+fn make(source: Source, limits: &Limits) -> Result<(Mesh, Cleaning), String> {
+    let (mut mesh, name) = match source {
+        Source::Mesh(mesh) => (mesh, None),
+        Source::Recipe(recipe) => (recipe.build(limits)?, None),
+        Source::File(path) => {
+            let mut mesh = ply::read(&path, limits)?;
+            // pbrt-v4 has no use for colours of vertices.
+            mesh.colours = Vec::new();
+            (mesh, Some(path))
+        }
+    };
+    let cleaning = mesh::clean(&mut mesh).map_err(|e| match name {
+        Some(path) => format!("mesh {}: {e}", path.display()),
+        None => e,
+    })?;
+    Ok((mesh, cleaning))
+}
+
+fn report(context: &mut Context, place: &Place, cleaning: &Cleaning, empty: bool) {
+    let Cleaning {
+        dropped_triangles,
+        replaced_normals,
+        dropped_uvs,
+    } = *cleaning;
+    if empty {
+        let message = if dropped_triangles > 0 {
+            format!("all {dropped_triangles} triangles of the mesh have no area: it is left out")
+        } else {
+            "the mesh has no triangles: it is left out".to_owned()
+        };
+        context.warn(place, message);
+        return;
+    }
+    if dropped_triangles > 0 {
+        context.warn(
+            place,
+            format!("{dropped_triangles} triangles without area are dropped"),
+        );
+    }
+    if replaced_normals > 0 {
+        let message =
+            format!("{replaced_normals} normals are zero or not finite: geometric ones are used");
+        context.warn(place, message);
+    }
+    if dropped_uvs {
+        context.warn(
+            place,
+            "surface coordinates are dropped: some are not finite",
+        );
+    }
+}

@@ -1,0 +1,185 @@
+//! Materials that are not simulated, and what is shown in their place.
+
+use specula_bsdf::Rgb;
+
+use super::roughness;
+use crate::error::{ErrorKind, SceneError};
+use crate::num::f32_of;
+use crate::pbrt::colour::{self, Colour};
+use crate::pbrt::context::{Context, Entity};
+use crate::pbrt::param::ParamList;
+use crate::pbrt::token::shorten;
+use crate::scene::{ColourParam, FloatParam, MaterialKind};
+
+fn diffuse(reflectance: ColourParam) -> MaterialKind {
+    MaterialKind::Diffuse {
+        reflectance,
+        roughness: FloatParam::Value(0.0),
+    }
+}
+
+/// A measured BRDF: grey.
+pub(super) fn measured(context: &mut Context, entity: &Entity) -> MaterialKind {
+    entity.params.ignore(&["filename"]);
+    let message = "material \"measured\" is not supported: diffuse grey of 0.5 is used";
+    context.warn(&entity.place, message);
+    super::DEFAULT
+}
+
+/// Hair: diffuse of the colour that many fibres of its pigment have together.
+///
+/// ```text
+/// C = exp(-sqrt(sigma_a) P(beta_n)),   P(b) = 5.969 - 0.215 b + 2.532 b^2 - 10.73 b^3 + 5.574 b^4 + 0.245 b^5
+/// ```
+///
+/// Source: Chiang et al. 2016, equation 9; absorption of pigments from d'Eon et al. 2011, section 6.1.
+pub(super) fn hair(context: &mut Context, entity: &Entity) -> Result<MaterialKind, SceneError> {
+    let params = &entity.params;
+    let message = "material \"hair\" is not supported: diffuse of the hair's colour is used";
+    context.warn(&entity.place, message);
+    params.ignore(&["eta", "beta_m", "alpha"]);
+    for name in ["reflectance", "color"] {
+        if let Some(reflectance) = colour::albedo_or_none(context, params, name)? {
+            params.ignore(&["sigma_a", "eumelanin", "pheomelanin", "beta_n"]);
+            return Ok(diffuse(reflectance));
+        }
+    }
+    let number = |name: &str| match context.float_or_none(params, name)? {
+        Some(FloatParam::Value(x)) => Ok(Some(f64::from(x).max(0.0))),
+        // A texture of concentrations: its middle.
+        Some(FloatParam::Texture(_)) => Ok(Some(0.5)),
+        None => Ok(None),
+    };
+    let b = number("beta_n")?.unwrap_or(0.3).min(1.0);
+    let polynomial = 5.969 + b * (-0.215 + b * (2.532 + b * (-10.73 + b * (5.574 + b * 0.245))));
+    let (eumelanin, pheomelanin) = (number("eumelanin")?, number("pheomelanin")?);
+    let absorption = match colour::colour(context, params, "sigma_a")?.map(|c| c.under_white()) {
+        Some(ColourParam::Value(c)) => c.to_array().map(f64::from),
+        Some(ColourParam::Texture(_)) => return Ok(super::DEFAULT),
+        None => {
+            let none = eumelanin.is_none() && pheomelanin.is_none();
+            let e = eumelanin.unwrap_or(if none { 1.3 } else { 0.0 });
+            let p = pheomelanin.unwrap_or(0.0);
+            [
+                0.419 * e + 0.187 * p,
+                0.697 * e + 0.4 * p,
+                1.37 * e + 1.05 * p,
+            ]
+        }
+    };
+    let [r, g, b] = absorption.map(|s| f32_of((-s.max(0.0).sqrt() * polynomial).exp()));
+    Ok(diffuse(ColourParam::Value(Rgb { r, g, b })))
+}
+
+/// Reduced scattering and absorption per millimetre. Source: Jensen et al. 2001, figure 5.
+const MEDIA: [(&str, [f64; 3], [f64; 3]); 12] = [
+    ("Apple", [2.29, 2.39, 1.97], [0.0030, 0.0034, 0.046]),
+    ("Chicken1", [0.15, 0.21, 0.38], [0.015, 0.077, 0.19]),
+    ("Chicken2", [0.19, 0.25, 0.32], [0.018, 0.088, 0.20]),
+    ("Cream", [7.38, 5.47, 3.15], [0.0002, 0.0028, 0.0163]),
+    ("Ketchup", [0.18, 0.07, 0.03], [0.061, 0.97, 1.45]),
+    ("Marble", [2.19, 2.62, 3.00], [0.0021, 0.0041, 0.0071]),
+    ("Potato", [0.68, 0.70, 0.55], [0.0024, 0.0090, 0.12]),
+    ("Skimmilk", [0.70, 1.22, 1.90], [0.0014, 0.0025, 0.0142]),
+    ("Skin1", [0.74, 0.88, 1.01], [0.032, 0.17, 0.48]),
+    ("Skin2", [1.09, 1.59, 1.79], [0.013, 0.070, 0.145]),
+    ("Spectralon", [11.6, 20.4, 14.9], [0.0, 0.0, 0.0]),
+    ("Wholemilk", [2.55, 3.21, 3.77], [0.0011, 0.0024, 0.014]),
+];
+
+/// Subsurface scattering: a coat over Lambert of the albedo that the medium has from outside.
+pub(super) fn subsurface(
+    context: &mut Context,
+    entity: &Entity,
+) -> Result<MaterialKind, SceneError> {
+    let params = &entity.params;
+    let message = "material \"subsurface\" is not supported: light leaves where it enters, from a \
+                   coated diffuse surface of the medium's albedo";
+    context.warn(&entity.place, message);
+    params.ignore(&["mfp", "scale"]);
+    let eta = match params.find("eta") {
+        Some(_) => colour::index(context, params, "eta")?,
+        None => 1.33,
+    };
+    Ok(MaterialKind::CoatedDiffuse {
+        reflectance: medium_albedo(context, params)?,
+        eta,
+        roughness: roughness(context, params, "")?,
+    })
+}
+
+fn medium_albedo(context: &mut Context, params: &ParamList) -> Result<ColourParam, SceneError> {
+    let g = params.float("g", 0.0)?.clamp(-0.99, 0.99);
+    if let Some((name, place)) = params.string("name")? {
+        let Some((_, scattering, absorption)) = MEDIA.iter().find(|m| m.0 == name) else {
+            let message = format!(
+                "medium \"{}\" is not known: albedo 0.5 is used",
+                shorten(name)
+            );
+            context.warn(place, message);
+            return Ok(ColourParam::Value(Rgb::splat(0.5)));
+        };
+        return Ok(albedo_of(*absorption, *scattering));
+    }
+    if let Some(reflectance) = colour::albedo_or_none(context, params, "reflectance")? {
+        return Ok(reflectance);
+    }
+    let values = |name: &str| -> Result<Option<[f64; 3]>, SceneError> {
+        let given = colour::colour(context, params, name)?;
+        Ok(match given.as_ref().map(Colour::under_white) {
+            Some(ColourParam::Value(c)) => Some(c.to_array().map(f64::from)),
+            Some(ColourParam::Texture(_)) | None => None,
+        })
+    };
+    match (values("sigma_a")?, values("sigma_s")?) {
+        (Some(a), Some(s)) => Ok(albedo_of(a, s.map(|s| s * (1.0 - g)))),
+        (None, None) => {
+            let (_, scattering, absorption) = MEDIA[MEDIA.len() - 1];
+            Ok(albedo_of(absorption, scattering))
+        }
+        (a, _) => {
+            let (given, missing) = match a {
+                Some(_) => ("sigma_a", "sigma_s"),
+                None => ("sigma_s", "sigma_a"),
+            };
+            let message = format!("\"{given}\" is given without a value of \"{missing}\"");
+            let place = params.place_of(given);
+            Err(SceneError::new(ErrorKind::Parameter, &place, message))
+        }
+    }
+}
+
+/// Diffuse albedo of a half space from absorption and reduced scattering.
+///
+/// ```text
+/// R = (1 - s) (1 - 0.139 s) / (1 + 1.17 s),   s = sqrt(a / (a + s'))
+/// ```
+///
+/// Source: van de Hulst 1980, section 14.4.2 (isotropic scattering, no boundary).
+fn albedo_of(absorption: [f64; 3], scattering: [f64; 3]) -> ColourParam {
+    let [r, g, b] = std::array::from_fn(|i| {
+        let (a, s) = (absorption[i].max(0.0), scattering[i].max(0.0));
+        let s = (a / (a + s).max(1e-300)).sqrt().min(1.0);
+        f32_of((1.0 - s) * (1.0 - 0.139 * s) / (1.0 + 1.17 * s))
+    });
+    ColourParam::Value(Rgb { r, g, b })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn media_without_absorption_are_white_and_without_scattering_black() {
+        assert_eq!(albedo_of([0.0; 3], [1.0; 3]), ColourParam::WHITE);
+        let black = ColourParam::Value(Rgb::BLACK);
+        assert_eq!(albedo_of([1.0; 3], [0.0; 3]), black);
+        // Jensen et al. 2001, figure 5, gives skim milk the diffuse albedo (.81, .81, .69) by their
+        // approximation with a boundary; without one it is brighter.
+        let (_, s, a) = MEDIA[7];
+        let ColourParam::Value(c) = albedo_of(a, s) else {
+            panic!()
+        };
+        assert!(c.r > 0.81 && c.b > 0.69 && c.b < c.r, "{c:?}");
+    }
+}

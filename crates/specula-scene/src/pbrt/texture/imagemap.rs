@@ -1,0 +1,113 @@
+//! Textures from pictures.
+
+use super::mapping::mapping;
+use super::{Kind, Node};
+use crate::error::{ErrorKind, SceneError};
+use crate::image::{Content, Encoding, Format};
+use crate::num::f32_of;
+use crate::pbrt::context::Context;
+use crate::pbrt::param::ParamList;
+use crate::pbrt::token::shorten;
+use crate::scene::{Channel, Interpolation, Texture, TextureId, Wrap};
+
+/// Reads the class `imagemap`.
+pub(super) fn read(context: &mut Context, node: &Node<'_>) -> Result<TextureId, SceneError> {
+    let params = node.params();
+    let mapping = mapping(node)?;
+    params.ignore(&["maxanisotropy"]);
+    let Some((name, place)) = params.string("filename")? else {
+        let message = "texture \"imagemap\" needs its \"string filename\"";
+        let place = &node.entity.place;
+        return Err(SceneError::new(ErrorKind::Parameter, place, message));
+    };
+    let encoding = encoding(context, params, name)?;
+    let (content, channel) = match node.kind {
+        Kind::Float => (Content::Number, Channel::Mean),
+        Kind::Colour => (Content::Colour, Channel::Rgb),
+    };
+    let wrap = wrap(context, params)?;
+    let scale = f32_of(params.float("scale", 1.0)?);
+    let invert = params.bool("invert", false)?;
+    // pbrt-v4 inverts what is scaled, 1 - scale * value; the model scales what is inverted.
+    let apart = invert && scale != 1.0;
+    let texture = Texture::Image {
+        image: context.image(name, place, encoding, content),
+        mapping,
+        wrap: [wrap; 2],
+        filter: filter(params)?,
+        invert: invert && !apart,
+        scale: if apart { -scale } else { scale },
+        channel,
+    };
+    let picture = context.add_texture(texture);
+    if !apart {
+        return Ok(picture);
+    }
+    let one = context.constant(1.0);
+    Ok(context.add_texture(Texture::Sum { a: one, b: picture }))
+}
+
+/// Only the nearest pixel and interpolation exist: there are no smaller copies of pictures.
+fn filter(params: &ParamList) -> Result<Interpolation, SceneError> {
+    match params.string("filter")? {
+        Some(("point", _)) => Ok(Interpolation::Nearest),
+        None | Some(("bilinear" | "trilinear" | "ewa" | "EWA", _)) => Ok(Interpolation::Bilinear),
+        Some((other, place)) => {
+            let message = format!("unknown filter \"{}\"", shorten(other));
+            let error = SceneError::new(ErrorKind::Parameter, place, message);
+            Err(error.with_help("expected point, bilinear, trilinear or ewa"))
+        }
+    }
+}
+
+fn wrap(context: &mut Context, params: &ParamList) -> Result<Wrap, SceneError> {
+    match params.string("wrap")? {
+        None | Some(("repeat", _)) => Ok(Wrap::Repeat),
+        Some(("black", _)) => Ok(Wrap::Black),
+        Some(("clamp", _)) => Ok(Wrap::Clamp),
+        Some(("octahedralsphere", place)) => {
+            let message = "wrap \"octahedralsphere\" is not supported: \"clamp\" is used";
+            context.warn(place, message);
+            Ok(Wrap::Clamp)
+        }
+        Some((other, place)) => {
+            let message = format!(
+                "expected wrap \"repeat\", \"black\" or \"clamp\", found \"{}\"",
+                shorten(other)
+            );
+            Err(SceneError::new(ErrorKind::Parameter, place, message))
+        }
+    }
+}
+
+/// pbrt-v4 heeds `encoding` for PNG alone; other 8-bit formats are sRGB and float formats linear.
+fn encoding(context: &mut Context, params: &ParamList, file: &str) -> Result<Encoding, SceneError> {
+    let Some((name, place)) = params.string("encoding")? else {
+        return Ok(Encoding::Srgb);
+    };
+    let gamma = || {
+        let exponent = name.strip_prefix("gamma")?.trim().parse::<f32>().ok()?;
+        (exponent.is_finite() && exponent > 0.0).then_some(Encoding::Gamma(exponent))
+    };
+    let encoding = match name {
+        "sRGB" => Some(Encoding::Srgb),
+        "linear" => Some(Encoding::Linear),
+        _ => gamma(),
+    };
+    let Some(encoding) = encoding else {
+        let message = format!(
+            "expected encoding \"sRGB\", \"linear\" or \"gamma 2.2\", found \"{}\"",
+            shorten(name)
+        );
+        return Err(SceneError::new(ErrorKind::Parameter, place, message));
+    };
+    let format = Format::of(&context.resolve(file));
+    if matches!(format, Some(Format::Tga | Format::Jpeg)) && encoding != Encoding::Srgb {
+        context.warn(
+            place,
+            "\"encoding\" holds for PNG alone, as in pbrt-v4: the picture is read as sRGB",
+        );
+        return Ok(Encoding::Srgb);
+    }
+    Ok(encoding)
+}

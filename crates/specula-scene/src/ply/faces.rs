@@ -1,0 +1,105 @@
+//! The element `face`.
+
+use super::header::{Element, Encoding, Scalar};
+use super::values::Values;
+use crate::Limits;
+
+/// Reads polygons as triangles that fan out from their first vertex. Indices are not yet held
+/// against the number of vertices.
+///
+/// # Errors
+///
+/// A message where a face has fewer than three vertices, an index is none, or the data end.
+pub(super) fn read(
+    element: &Element,
+    values: &mut Values<'_>,
+    encoding: Encoding,
+    limits: &Limits,
+) -> Result<Vec<[u32; 3]>, String> {
+    let is_indices = |name: &str| matches!(name, "vertex_indices" | "vertex_index");
+    let mut lists = element.properties.iter();
+    if !lists.any(|p| is_indices(&p.name) && p.count.is_some() && p.value.is_integer()) {
+        return Err("expected a list of integers `vertex_indices` of `face`".to_owned());
+    }
+    let mut triangles: Vec<[u32; 3]> = Vec::with_capacity(element.count);
+    let mut face = plain(element, values, encoding, &mut triangles);
+    let mut corners: Vec<u32> = Vec::new();
+    while face < element.count {
+        for property in &element.properties {
+            let count = match property.count {
+                Some(scalar) => values.count(scalar)?,
+                None => 1,
+            };
+            if !is_indices(&property.name) || property.count.is_none() {
+                for _ in 0..count {
+                    values.next(property.value)?;
+                }
+                continue;
+            }
+            if count < 3 {
+                let message = format!("face {face} has {count} vertices; expected at least 3");
+                return Err(message);
+            }
+            corners.clear();
+            for _ in 0..count {
+                corners.push(index(values.next(property.value)?, face)?);
+            }
+            triangles.extend(corners[1..].windows(2).map(|w| [corners[0], w[0], w[1]]));
+            if triangles.len() as u64 > limits.max_vertices {
+                let most = limits.max_vertices;
+                return Err(format!("it has more than {most} triangles"));
+            }
+        }
+        face += 1;
+    }
+    Ok(triangles)
+}
+
+/// Reads leading triangles of the common layout, a list of 32-bit indices with byte counts and
+/// nothing else in little-endian order; returns how many faces it took.
+fn plain(
+    element: &Element,
+    values: &mut Values<'_>,
+    encoding: Encoding,
+    triangles: &mut Vec<[u32; 3]>,
+) -> usize {
+    const STRIDE: usize = 13;
+    let common = encoding == Encoding::Little
+        && matches!(element.properties.as_slice(), [p]
+            if p.count == Some(Scalar::U8) && matches!(p.value, Scalar::I32 | Scalar::U32));
+    if !common {
+        return 0;
+    }
+    let records = values.rest().as_chunks::<STRIDE>().0;
+    let signed = element.properties[0].value == Scalar::I32;
+    let last = if signed {
+        i32::MAX.unsigned_abs()
+    } else {
+        u32::MAX
+    };
+    for record in records.iter().take(element.count) {
+        let [count, indices @ ..] = record;
+        let (corners, _) = indices.as_chunks::<4>();
+        let triangle = [corners[0], corners[1], corners[2]].map(u32::from_le_bytes);
+        if *count != 3 || triangle.iter().any(|i| *i > last) {
+            break;
+        }
+        triangles.push(triangle);
+    }
+    values.advance(triangles.len() * STRIDE);
+    triangles.len()
+}
+
+fn index(x: f64, face: usize) -> Result<u32, String> {
+    if (0.0..=f64::from(u32::MAX)).contains(&x) {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "an integer within u32"
+        )]
+        return Ok(x as u32);
+    }
+    Err(format!(
+        "face {face} refers to vertex {x}; expected an index from 0"
+    ))
+}

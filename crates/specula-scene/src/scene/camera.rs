@@ -1,0 +1,101 @@
+//! Where pictures are taken from, and how they are collected.
+
+use glam::DMat4;
+
+use super::light::EnvironmentMapping;
+
+/// A camera with a thin lens.
+///
+/// Camera space is pbrt's: the view direction is +z, +y is up and +x is right in the picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Camera {
+    /// Camera space to world space.
+    pub to_world: DMat4,
+    /// How points become places in the picture.
+    pub projection: Projection,
+    /// Radius of the lens, in scene units; 0 for a pinhole. Spherical pictures have none.
+    pub lens_radius: f64,
+    /// Distance along +z to the plane in focus, in scene units.
+    pub focal_distance: f64,
+    /// Bounds of the picture plane in screen space, `[x0, x1, y0, y1]`; the shorter side spans
+    /// `[-1, 1]` unless the file says otherwise.
+    pub screen_window: [f64; 4],
+}
+
+/// How points of camera space become places in the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Projection {
+    /// Rays leave from one point.
+    Perspective {
+        /// Angle over which screen coordinates span `[-1, 1]`, in degrees, in (0, 180).
+        fov_deg: f64,
+    },
+    /// Parallel rays along +z; screen coordinates are scene units.
+    Orthographic,
+    /// Every direction: the picture is a map of the sphere about the camera. Camera space has +z
+    /// where maps have their pole.
+    Spherical(EnvironmentMapping),
+}
+
+/// The picture's size, crop and filter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    /// Width and height of the whole picture in pixels.
+    pub resolution: [u32; 2],
+    /// Pixels that are rendered, `[x0, x1, y0, y1]`, half open.
+    pub crop: [u32; 4],
+    /// Reconstruction filter.
+    pub filter: Filter,
+    /// Factor from radiance to picture values (pbrt: exposure time * iso / 100).
+    pub exposure: f32,
+    /// Largest component of an exposed sample: brighter samples are scaled down to it (pbrt's
+    /// `maxcomponentvalue`).
+    pub max_component: Option<f32>,
+    /// White balance of exposed linear RGB: rows of a matrix, [`Film::NO_BALANCE`] for none.
+    pub balance: [[f32; 3]; 3],
+    /// File name that the scene asks for.
+    pub file_name: Option<String>,
+}
+
+impl Film {
+    /// The identity: no white balance.
+    pub const NO_BALANCE: [[f32; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+}
+
+/// A separable reconstruction filter; radii in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Filter {
+    /// Constant.
+    Box {
+        /// Half widths.
+        radius: [f32; 2],
+    },
+    /// Linear.
+    Triangle {
+        /// Half widths.
+        radius: [f32; 2],
+    },
+    /// Gaussian, zero at its radius.
+    Gaussian {
+        /// Half widths.
+        radius: [f32; 2],
+        /// Standard deviation in pixels.
+        sigma: f32,
+    },
+    /// Mitchell and Netravali 1988.
+    Mitchell {
+        /// Half widths.
+        radius: [f32; 2],
+        /// Their B.
+        b: f32,
+        /// Their C.
+        c: f32,
+    },
+    /// Sinc windowed by a sinc.
+    LanczosSinc {
+        /// Half widths.
+        radius: [f32; 2],
+        /// Cycles of the sinc before it is zero.
+        tau: f32,
+    },
+}

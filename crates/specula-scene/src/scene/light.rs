@@ -1,0 +1,78 @@
+//! Lights that are not shapes.
+
+use glam::DMat4;
+use specula_bsdf::Rgb;
+
+use super::ImageId;
+
+/// How a picture covers the sphere of directions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EnvironmentMapping {
+    /// Equal-area octahedral square (Clarberg 2008), as pbrt-v4 does; +z is the centre of the
+    /// square, -z its corners. With `(x, y)` in `[0, 1]^2` over the stored picture, x to the right
+    /// and y *down* from the first row (no flip here), `u = 2x - 1`, `v = 2y - 1`,
+    /// `d = 1 - |u| - |v|`, `r = 1 - |d|`, `phi = (pi/4) ((|v| - |u|)/r + 1)`:
+    /// `direction = (sgn(u) cos(phi) r sqrt(2 - r^2), sgn(v) sin(phi) r sqrt(2 - r^2), sgn(d) (1 - r^2))`.
+    EqualAreaOctahedral,
+    /// Latitude and longitude; z is the pole, the first row is at +z, u runs with the azimuth.
+    LatitudeLongitude,
+    /// The same, but the first and the last row lie on the poles: row `i` of `n` is at the polar
+    /// angle `pi i / (n - 1)` (Mitsuba).
+    LatitudeLongitudePoles,
+}
+
+/// A light that is not a shape. Powers, scales and filters of the file are folded in.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Light {
+    /// Radiance from every direction.
+    Infinite {
+        /// Radiance, or factor on the picture.
+        radiance: Rgb<f32>,
+        /// Picture of the sphere of directions.
+        image: Option<(ImageId, EnvironmentMapping)>,
+        /// Light space to world space (only directions matter).
+        to_world: DMat4,
+    },
+    /// Parallel light, or a small round light infinitely far away (the sun).
+    Distant {
+        /// Irradiance on a surface that faces it.
+        irradiance: Rgb<f32>,
+        /// Unit vector in the world, from the scene to the light.
+        to_light: [f64; 3],
+        /// Half the angle that it fills, in degrees, in `[0, 90)`; 0 for parallel light.
+        half_angle_deg: f64,
+    },
+    /// Light from a point.
+    Point {
+        /// Where.
+        position: [f64; 3],
+        /// Radiant intensity, per steradian.
+        intensity: Rgb<f32>,
+    },
+    /// Light from a point within a cone.
+    Spot {
+        /// Where.
+        position: [f64; 3],
+        /// Unit vector along the axis of the cone.
+        axis: [f64; 3],
+        /// Intensity along the axis.
+        intensity: Rgb<f32>,
+        /// Half angle of the cone, in degrees.
+        cone_angle_deg: f64,
+        /// Half angle within which the intensity is whole.
+        falloff_start_deg: f64,
+        /// How it falls to 0 between the two.
+        falloff: SpotFalloff,
+    },
+}
+
+/// How a spot light's intensity falls between its two angles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpotFalloff {
+    /// Smoothstep in the cosine (pbrt).
+    SmoothCosine,
+    /// Linear in the angle (Mitsuba).
+    LinearAngle,
+    /// The square of a linear ramp in the cosine (glTF).
+    SquaredCosine,
+}

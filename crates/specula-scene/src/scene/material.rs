@@ -1,0 +1,307 @@
+//! Surfaces.
+
+use specula_bsdf::ndf::Masking;
+
+use super::texture::{ColourParam, FloatParam};
+use super::{MaterialId, TextureId};
+use crate::energy::Energy;
+
+/// A material with its name, if it has one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// The file's name for it.
+    pub name: Option<String>,
+    /// What it is.
+    pub kind: MaterialKind,
+    /// Treatment of multiple scattering, where the file chooses one; else the render's.
+    pub energy: Option<Energy>,
+    /// What bends its shading normal.
+    pub relief: Option<Relief>,
+    /// By whose rules it bends.
+    pub relief_rules: ReliefRules,
+    /// Whether its back is black (Mitsuba's opaque materials without `twosided`).
+    pub one_sided: bool,
+}
+
+impl Material {
+    /// A material without name, relief or wishes, that looks the same from both sides.
+    #[must_use]
+    pub fn new(kind: MaterialKind) -> Self {
+        Self {
+            name: None,
+            kind,
+            energy: None,
+            relief: None,
+            relief_rules: ReliefRules::Plain,
+            one_sided: false,
+        }
+    }
+}
+
+/// What bends a shading normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Relief {
+    /// Heights along the normal, in scene units.
+    Height(FloatParam),
+    /// Normals `2 c - 1` in the frame of dp/du, dp/dv and the shading normal; x and y are scaled
+    /// first. The texture's picture must be read without a transfer curve.
+    Normal {
+        /// The texture of `c`.
+        map: TextureId,
+        /// Factor on x and y (glTF's `scale`).
+        scale: f32,
+    },
+}
+
+/// By whose rules a relief bends normals.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ReliefRules {
+    /// As [`Relief`] says, and nothing more.
+    #[default]
+    Plain,
+    /// Mitsuba's: the y axis of a normal map is that of the shading normal times dp/du, whichever
+    /// way v runs, and bent normals that face away from the viewer are turned back.
+    Mitsuba {
+        /// Whether light fades towards the horizon (Conty Estevez et al. 2019): with `n` the bent
+        /// normal and `wi` in the frame of the unbent one, values are multiplied by
+        /// `2 / (1 + sqrt(1 + min(tan^2(n) / 8, 1) tan^2(wi)))`.
+        fades: bool,
+    },
+}
+
+/// How a file's roughness becomes alpha.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RoughnessMapping {
+    /// alpha = roughness.
+    Alpha,
+    /// alpha = sqrt(roughness): pbrt's `remaproughness`.
+    Sqrt,
+    /// alpha = roughness^2: glTF, OpenPBR.
+    Square,
+}
+
+/// A distribution of microfacet normals.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Distribution {
+    /// Trowbridge and Reitz.
+    #[default]
+    Ggx,
+    /// Beckmann and Spizzichino.
+    Beckmann,
+}
+
+/// Roughness along the two tangents.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Roughness {
+    /// Along dp/du.
+    pub u: FloatParam,
+    /// Along the other tangent.
+    pub v: FloatParam,
+    /// How it becomes alpha.
+    pub mapping: RoughnessMapping,
+    /// Which normals.
+    pub distribution: Distribution,
+    /// Which masking and shadowing.
+    pub masking: Masking,
+    /// Angle of the first width's axis from dp/du towards the other tangent, in radians.
+    pub rotation_rad: f32,
+}
+
+impl Roughness {
+    /// The same width along both tangents, of GGX with height-correlated masking.
+    #[must_use]
+    pub fn isotropic(width: FloatParam, mapping: RoughnessMapping) -> Self {
+        Self {
+            u: width,
+            v: width,
+            mapping,
+            distribution: Distribution::Ggx,
+            masking: Masking::HeightCorrelated,
+            rotation_rad: 0.0,
+        }
+    }
+
+    /// No roughness at all.
+    #[must_use]
+    pub fn smooth() -> Self {
+        Self::isotropic(FloatParam::Value(0.0), RoughnessMapping::Alpha)
+    }
+}
+
+/// A conductor's reflectance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ConductorFresnel {
+    /// Complex index of refraction `eta + i k` relative to vacuum.
+    Index {
+        /// Real part.
+        eta: ColourParam,
+        /// Imaginary part.
+        k: ColourParam,
+    },
+    /// Reflectance at normal incidence, by pbrt's rule: eta = 1 and k from it.
+    Reflectance(ColourParam),
+    /// Schlick's approximation from the reflectance at normal incidence to 1 (glTF).
+    Schlick(ColourParam),
+    /// Everything is reflected (Mitsuba's `material` `none`).
+    Mirror,
+}
+
+/// What a material is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MaterialKind {
+    /// Lambert, or energy-preserving Oren-Nayar where roughness is not 0.
+    Diffuse {
+        /// Albedo.
+        reflectance: ColourParam,
+        /// Oren-Nayar roughness in `[0, 1]`.
+        roughness: FloatParam,
+    },
+    /// Lambert on both sides.
+    DiffuseTransmission {
+        /// Albedo of the reflected part.
+        reflectance: ColourParam,
+        /// Albedo of the transmitted part.
+        transmittance: ColourParam,
+    },
+    /// Metal.
+    Conductor {
+        /// Its Fresnel term.
+        fresnel: ConductorFresnel,
+        /// Its roughness.
+        roughness: Roughness,
+        /// Factor on what it reflects; 1 in nature.
+        tint: ColourParam,
+    },
+    /// Glass.
+    Dielectric {
+        /// Index of refraction, inside over outside.
+        eta: f32,
+        /// Its roughness.
+        roughness: Roughness,
+        /// Factor on what is reflected; 1 in nature.
+        reflection_tint: ColourParam,
+        /// Factor on what passes; 1 in nature.
+        transmission_tint: ColourParam,
+    },
+    /// A thin pane: both interfaces in one surface, no refraction.
+    ThinDielectric {
+        /// Index of refraction of the pane.
+        eta: f32,
+        /// Factor on what is reflected; 1 in nature.
+        reflection_tint: ColourParam,
+        /// Factor on what passes; 1 in nature.
+        transmission_tint: ColourParam,
+    },
+    /// A dielectric coat over Lambert.
+    CoatedDiffuse {
+        /// Albedo of the base.
+        reflectance: ColourParam,
+        /// Index of refraction of the coat.
+        eta: f32,
+        /// Roughness of the coat.
+        roughness: Roughness,
+    },
+    /// A dielectric coat over metal.
+    CoatedConductor {
+        /// Index of refraction of the coat.
+        coat_eta: f32,
+        /// Roughness of the coat.
+        coat_roughness: Roughness,
+        /// The metal.
+        fresnel: ConductorFresnel,
+        /// Roughness of the metal.
+        roughness: Roughness,
+    },
+    /// Mitsuba's `plastic` and `roughplastic`: a dielectric coat over Lambert, by their formulas.
+    Plastic {
+        /// Albedo of the base.
+        diffuse: ColourParam,
+        /// Factor on the coat's reflection.
+        specular: ColourParam,
+        /// Index of refraction of the coat.
+        eta: f32,
+        /// Roughness of the coat.
+        roughness: Roughness,
+        /// Whether light between coat and base takes the base's colour at every bounce.
+        nonlinear: bool,
+    },
+    /// Mitsuba's `principled` and `principledthin` (Burley 2012 and 2015), by their formulas.
+    Principled(Principled),
+    /// glTF's metallic-roughness material with its extensions.
+    Gltf(Gltf),
+    /// One of two materials, chosen at random at every hit.
+    Mix {
+        /// Chosen with probability 1 - amount, and with probability amount.
+        materials: [MaterialId; 2],
+        /// Share of the second.
+        amount: FloatParam,
+    },
+    /// No surface at all: rays pass straight through.
+    Interface,
+}
+
+/// Parameters of Mitsuba's `principled` and `principledthin`, as they name them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Principled {
+    /// `base_color`.
+    pub base_colour: ColourParam,
+    /// `roughness`; alpha is its square.
+    pub roughness: FloatParam,
+    /// `anisotropic`.
+    pub anisotropic: FloatParam,
+    /// `metallic`; 0 where thin.
+    pub metallic: FloatParam,
+    /// `spec_trans`.
+    pub spec_trans: FloatParam,
+    /// `eta`, or what `specular` says.
+    pub eta: f32,
+    /// `spec_tint`.
+    pub spec_tint: FloatParam,
+    /// `sheen`.
+    pub sheen: FloatParam,
+    /// `sheen_tint`.
+    pub sheen_tint: FloatParam,
+    /// `clearcoat`; 0 where thin.
+    pub clearcoat: FloatParam,
+    /// `clearcoat_gloss`.
+    pub clearcoat_gloss: FloatParam,
+    /// `flatness`.
+    pub flatness: FloatParam,
+    /// `diff_trans`, where thin: a share in `[0, 2]`.
+    pub diff_trans: FloatParam,
+    /// Whether it is `principledthin`.
+    pub thin: bool,
+}
+
+/// glTF 2.0's metallic-roughness material and its `KHR_materials_*` extensions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gltf {
+    /// `baseColorFactor` times `baseColorTexture`.
+    pub base_colour: ColourParam,
+    /// `metallicFactor` times the blue channel.
+    pub metallic: FloatParam,
+    /// `roughnessFactor` times the green channel; alpha is its square.
+    pub roughness: FloatParam,
+    /// `anisotropyStrength`.
+    pub anisotropy: FloatParam,
+    /// `anisotropyRotation`, in radians.
+    pub anisotropy_rotation_rad: f32,
+    /// `ior`.
+    pub ior: f32,
+    /// `specularFactor`.
+    pub specular: FloatParam,
+    /// `specularColorFactor`.
+    pub specular_colour: ColourParam,
+    /// `transmissionFactor`.
+    pub transmission: FloatParam,
+    /// Whether it has a `thicknessFactor` above 0 (`KHR_materials_volume`): light bends.
+    pub volume: bool,
+    /// `clearcoatFactor`.
+    pub clearcoat: FloatParam,
+    /// `clearcoatRoughnessFactor`.
+    pub clearcoat_roughness: FloatParam,
+    /// `sheenColorFactor`.
+    pub sheen_colour: ColourParam,
+    /// `sheenRoughnessFactor`.
+    pub sheen_roughness: FloatParam,
+}

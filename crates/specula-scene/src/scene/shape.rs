@@ -1,0 +1,85 @@
+//! Geometry and its places.
+
+use glam::DMat4;
+
+use super::texture::{ColourParam, FloatParam};
+use super::{MaterialId, MeshId, ObjectId};
+
+/// A triangle mesh. Optional attributes are empty or one per vertex.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Vertices.
+    pub positions: Vec<[f32; 3]>,
+    /// Shading normals, not necessarily unit.
+    pub normals: Vec<[f32; 3]>,
+    /// Surface coordinates.
+    pub uvs: Vec<[f32; 2]>,
+    /// Linear RGB, for [`Texture::VertexColour`](super::Texture::VertexColour).
+    pub colours: Vec<[f32; 3]>,
+    /// Triangles, as indices of vertices.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// A shape's geometry in its own space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Geometry {
+    /// Triangles.
+    Mesh(MeshId),
+    /// A full sphere about the origin.
+    Sphere {
+        /// Radius.
+        radius: f32,
+    },
+    /// A full disk perpendicular to z.
+    Disk {
+        /// Radius.
+        radius: f32,
+        /// Its z.
+        height: f32,
+    },
+}
+
+/// Light that a shape sends out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Emission {
+    /// Radiance.
+    pub radiance: ColourParam,
+    /// Whether both sides send it; else the side of the surface normal.
+    pub two_sided: bool,
+}
+
+/// A shape in the world, or in an object.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    /// Geometry in its own space.
+    pub geometry: Geometry,
+    /// Its space to the world's (or the object's).
+    pub to_world: DMat4,
+    /// Its surface.
+    pub material: MaterialId,
+    /// Light that it sends out.
+    pub emission: Option<Emission>,
+    /// Whether the file reverses the surface normal (the flip of a mirroring transform is *not*
+    /// in it: the renderer adds it, as pbrt does).
+    pub reverse_orientation: bool,
+    /// Opacity: 0 lets rays pass.
+    pub alpha: FloatParam,
+}
+
+/// A named group of shapes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Object {
+    /// The file's name for it.
+    pub name: String,
+    /// Its shapes; `Shape::to_world` leads to the object's space.
+    pub shapes: Vec<Shape>,
+}
+
+/// A copy of an object.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instance {
+    /// What is copied.
+    pub object: ObjectId,
+    /// The object's space to the world's.
+    pub to_world: DMat4,
+}

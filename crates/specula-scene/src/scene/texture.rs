@@ -1,0 +1,255 @@
+//! Parameters that vary over surfaces.
+
+use glam::DMat4;
+use specula_bsdf::Rgb;
+
+use super::{ImageId, TextureId};
+
+/// A number, or a texture that gives it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FloatParam {
+    /// The same everywhere.
+    Value(f32),
+    /// The red channel of a texture.
+    Texture(TextureId),
+}
+
+/// A colour, or a texture that gives it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ColourParam {
+    /// The same everywhere.
+    Value(Rgb<f32>),
+    /// A texture.
+    Texture(TextureId),
+}
+
+impl ColourParam {
+    /// 1 everywhere.
+    pub const WHITE: Self = Self::Value(Rgb::WHITE);
+}
+
+/// A texture node. Nodes that give a number hold it in all three channels.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Texture {
+    /// The same everywhere.
+    Constant(Rgb<f32>),
+    /// A picture: `scale` times the chosen channel, then `max(0, 1 - it)` where `invert`.
+    ///
+    /// Pictures are stored from the top, and `(s, t) = mapping(u, v)` has its origin at the lower
+    /// left: the value is that of column `s * width` and row `(1 - t) * height`, pixel centres at
+    /// halves. (pbrt-v4 flips `t` at every lookup, too.)
+    Image {
+        /// The picture, already linear.
+        image: ImageId,
+        /// How surface coordinates become picture coordinates.
+        mapping: TextureMapping,
+        /// What lies outside `[0, 1]^2`, along s and t.
+        wrap: [Wrap; 2],
+        /// Between pixel centres.
+        filter: Interpolation,
+        /// Whether 1 - value is meant.
+        invert: bool,
+        /// Factor on the value.
+        scale: f32,
+        /// Which channels are meant.
+        channel: Channel,
+    },
+    /// The product of two textures.
+    Scale {
+        /// First factor.
+        a: TextureId,
+        /// Second factor.
+        b: TextureId,
+    },
+    /// Interpolation: `(1 - amount) a + amount b`.
+    Mix {
+        /// At amount 0.
+        a: TextureId,
+        /// At amount 1.
+        b: TextureId,
+        /// Between them.
+        amount: FloatParam,
+    },
+    /// Two-dimensional checks of unit size in mapped coordinates.
+    Checkerboard {
+        /// Where floor(u) + floor(v) is even.
+        even: TextureId,
+        /// Where it is odd.
+        odd: TextureId,
+        /// How surface coordinates become check coordinates.
+        mapping: TextureMapping,
+    },
+    /// Three-dimensional checks of unit size.
+    Checkerboard3d {
+        /// Where the floors of the coordinates have an even sum.
+        even: TextureId,
+        /// Where it is odd.
+        odd: TextureId,
+        /// World space to check coordinates.
+        to_texture: DMat4,
+    },
+    /// Bilinear interpolation between four values at the corners of `[0, 1]^2`.
+    Bilinear {
+        /// At (0, 0), (0, 1), (1, 0) and (1, 1).
+        corners: [Rgb<f32>; 4],
+        /// How surface coordinates become coordinates of the square.
+        mapping: TextureMapping,
+    },
+    /// Random dots, as pbrt's `dots`.
+    Dots {
+        /// Within the dots.
+        inside: TextureId,
+        /// Elsewhere.
+        outside: TextureId,
+        /// How surface coordinates become coordinates of the cells.
+        mapping: TextureMapping,
+    },
+    /// Gradient noise.
+    Noise {
+        /// Which sum of octaves.
+        kind: NoiseKind,
+        /// How many octaves.
+        octaves: u32,
+        /// Amplitude of an octave over that of the one before.
+        roughness: f32,
+        /// World space to noise coordinates.
+        to_texture: DMat4,
+    },
+    /// The sum of two textures.
+    Sum {
+        /// First term.
+        a: TextureId,
+        /// Second term.
+        b: TextureId,
+    },
+    /// 1 where a texture is at least `cutoff`, else 0 (glTF's alpha mask).
+    Threshold {
+        /// The texture.
+        texture: TextureId,
+        /// The bound.
+        cutoff: f32,
+    },
+    /// Interpolation by direction: `b + (a - b) |ns . axis|`-weighted as pbrt's `directionmix`.
+    DirectionMix {
+        /// Where the normal is along the axis.
+        a: TextureId,
+        /// Where it is across.
+        b: TextureId,
+        /// Unit vector in the world.
+        axis: [f32; 3],
+    },
+    /// The mesh's colours, interpolated; 1 where it has none.
+    VertexColour,
+}
+
+/// Which sum of octaves a noise is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoiseKind {
+    /// Fractional Brownian motion.
+    Fbm,
+    /// The sum of absolute values.
+    Turbulence,
+    /// pbrt's `windy`: waves whose strength is another noise.
+    Windy,
+    /// pbrt's `marble`: a colour ramp along y, disturbed by fractional Brownian motion.
+    Marble {
+        /// Factor on coordinates.
+        scale: f32,
+        /// Strength of the disturbance.
+        variation: f32,
+    },
+}
+
+/// Which channels of a picture a texture means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Channel {
+    /// All three.
+    Rgb,
+    /// The mean of the three, as a number.
+    Mean,
+    /// The luminance, as a number.
+    Luminance,
+    /// The first, as a number.
+    Red,
+    /// The second, as a number.
+    Green,
+    /// The third, as a number.
+    Blue,
+}
+
+/// What lies between the pixel centres of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Bilinear interpolation.
+    Bilinear,
+    /// The pixel around the point.
+    Nearest,
+}
+
+/// How a place on a surface becomes texture coordinates `(s, t)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TextureMapping {
+    /// From the surface coordinates.
+    Uv(UvMapping),
+    /// From the position: `s = vs . p + ds`, `t = vt . p + dt` in texture space.
+    Planar {
+        /// World space to texture space.
+        to_texture: DMat4,
+        /// Vector of s and its offset.
+        s: [f32; 4],
+        /// Vector of t and its offset.
+        t: [f32; 4],
+    },
+    /// From the direction to the position: `(theta / pi, phi / (2 pi))`.
+    Spherical {
+        /// World space to texture space.
+        to_texture: DMat4,
+    },
+    /// From the azimuth and the height: `((pi + phi) / (2 pi), z)`.
+    Cylindrical {
+        /// World space to texture space.
+        to_texture: DMat4,
+    },
+}
+
+impl Default for TextureMapping {
+    fn default() -> Self {
+        Self::Uv(UvMapping::default())
+    }
+}
+
+/// An affine map of surface coordinates.
+///
+/// ```text
+/// s = m[0][0] u + m[0][1] v + m[0][2]
+/// t = m[1][0] u + m[1][1] v + m[1][2]
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UvMapping(pub [[f32; 3]; 2]);
+
+impl UvMapping {
+    /// `(su u + du, sv v + dv)`.
+    #[must_use]
+    pub fn scaled([su, sv]: [f32; 2], [du, dv]: [f32; 2]) -> Self {
+        Self([[su, 0.0, du], [0.0, sv, dv]])
+    }
+}
+
+impl Default for UvMapping {
+    fn default() -> Self {
+        Self::scaled([1.0; 2], [0.0; 2])
+    }
+}
+
+/// What a picture is outside `[0, 1]^2`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wrap {
+    /// It repeats.
+    Repeat,
+    /// It is black.
+    Black,
+    /// Its border extends.
+    Clamp,
+    /// It repeats, every other copy mirrored.
+    Mirror,
+}

@@ -1,0 +1,124 @@
+//! A camera and light for files that have none; y is up.
+
+use glam::{DMat4, DVec3};
+use specula_bsdf::Rgb;
+
+use crate::bounds::Bounds;
+use crate::builtin;
+use crate::scene::{
+    Camera, EnvironmentMapping, Film, Filter, ImageId, Light, Projection, Scene, Settings,
+};
+
+/// What a file without wishes gets.
+pub(crate) const SETTINGS: Settings = Settings {
+    max_depth: 16,
+    samples_per_pixel: 128,
+};
+
+/// Field of view of the framing camera, over the shorter side.
+const FOV_DEG: f64 = 30.0;
+
+/// A film of a size, with a filter that keeps edges.
+pub(crate) fn film(resolution: [u32; 2]) -> Film {
+    let [width, height] = resolution;
+    Film {
+        resolution,
+        crop: [0, width, 0, height],
+        filter: Filter::Gaussian {
+            radius: [1.5; 2],
+            sigma: 0.5,
+        },
+        exposure: 1.0,
+        max_component: None,
+        balance: Film::NO_BALANCE,
+        file_name: None,
+    }
+}
+
+/// A camera that sees all of `bounds` from the front, a little from the right and from above.
+pub(crate) fn camera(bounds: Bounds, resolution: [u32; 2]) -> Camera {
+    let (centre, radius) = if bounds.is_empty() {
+        (DVec3::ZERO, 1.0)
+    } else {
+        let radius = 0.5 * (bounds.max - bounds.min).length();
+        (0.5 * (bounds.min + bounds.max), radius.max(1e-6))
+    };
+    let from = DVec3::new(0.5, 0.35, 1.0).normalize();
+    let distance = radius / (0.5 * FOV_DEG.to_radians()).sin();
+    let forward = -from;
+    let right = forward.cross(DVec3::Y).normalize();
+    let mut camera = Camera {
+        to_world: DMat4::from_cols(
+            right.extend(0.0),
+            right.cross(forward).extend(0.0),
+            forward.extend(0.0),
+            (centre + from * distance).extend(1.0),
+        ),
+        projection: Projection::Perspective { fov_deg: FOV_DEG },
+        lens_radius: 0.0,
+        focal_distance: distance,
+        screen_window: [0.0; 4],
+    };
+    fit_screen(&mut camera, resolution);
+    camera
+}
+
+/// The screen window in which the picture's shorter side spans `[-1, 1]`, for perspective.
+pub(crate) fn fit_screen(camera: &mut Camera, [width, height]: [u32; 2]) {
+    if let Projection::Perspective { .. } = camera.projection {
+        let aspect = f64::from(width) / f64::from(height);
+        let (x, y) = (aspect.max(1.0), aspect.recip().max(1.0));
+        camera.screen_window = [-x, x, -y, y];
+    }
+}
+
+/// Adds the environment of the built-in studio, turned so that its front is the framing camera's.
+pub(crate) fn add_studio(scene: &mut Scene) {
+    scene.images.push(builtin::studio_environment());
+    // The studio has z up and is seen from -y; here y is up and the view is from +z.
+    let to_world = DMat4::from_cols(
+        DVec3::X.extend(0.0),
+        DVec3::NEG_Z.extend(0.0),
+        DVec3::Y.extend(0.0),
+        DVec3::ZERO.extend(1.0),
+    );
+    scene.lights.push(Light::Infinite {
+        radiance: Rgb::WHITE,
+        image: Some((
+            ImageId(scene.images.len() - 1),
+            EnvironmentMapping::LatitudeLongitude,
+        )),
+        to_world,
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_framing_camera_sees_every_corner() {
+        let bounds = Bounds {
+            min: DVec3::new(-3.0, 0.0, 2.0),
+            max: DVec3::new(5.0, 1.0, 9.0),
+        };
+        for resolution in [[1280, 720], [300, 900]] {
+            let camera = camera(bounds, resolution);
+            let inverse = camera.to_world.inverse();
+            let spread = (0.5 * FOV_DEG.to_radians()).tan();
+            let [x0, x1, y0, y1] = camera.screen_window;
+            for i in 0..8 {
+                let pick =
+                    |bit: usize, low: f64, high: f64| if i >> bit & 1 == 0 { low } else { high };
+                let corner = DVec3::new(
+                    pick(0, bounds.min.x, bounds.max.x),
+                    pick(1, bounds.min.y, bounds.max.y),
+                    pick(2, bounds.min.z, bounds.max.z),
+                );
+                let p = inverse.transform_point3(corner);
+                let (x, y) = (p.x / p.z / spread, p.y / p.z / spread);
+                assert!(p.z > 0.0 && x0 <= x && x <= x1 && y0 <= y && y <= y1, "{p}");
+            }
+        }
+    }
+}

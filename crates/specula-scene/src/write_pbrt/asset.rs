@@ -1,0 +1,194 @@
+//! Files beside the scene file: pictures and meshes.
+
+use std::io::{self, BufWriter, Cursor, Write};
+use std::path::Path;
+
+use exr::prelude::{WritableImage, f16};
+use specula_bsdf::Rgb;
+
+use super::{WriteError, Writer};
+use crate::image::Image;
+use crate::scene::{Channel, ImageId, Mesh, MeshId};
+
+/// Largest number of EXR's half floats.
+const LARGEST_HALF: f32 = 65_504.0;
+
+/// Puts bytes at a path: the old file stays untouched unless all of them are on disk.
+pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+    let write = || -> io::Result<()> {
+        let folder = match path.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => folder,
+            _ => Path::new("."),
+        };
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".specula-").suffix(".part");
+        #[cfg(unix)]
+        {
+            // The umask applies to this; the default would hide the file from everybody else.
+            use std::os::unix::fs::PermissionsExt;
+            builder.permissions(std::fs::Permissions::from_mode(0o666));
+        }
+        let temporary = builder.tempfile_in(folder)?;
+        temporary.as_file().write_all(bytes)?;
+        temporary.as_file().sync_all()?;
+        temporary.persist(path).map_err(|e| e.error)?;
+        Ok(())
+    };
+    write().map_err(|source| WriteError {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+impl Writer<'_> {
+    /// Writes a file into the folder; returns its name as the scene file says it.
+    fn asset(&mut self, name: &str, bytes: &[u8]) -> Result<String, WriteError> {
+        match std::fs::create_dir(&self.folder) {
+            Err(source) if source.kind() != io::ErrorKind::AlreadyExists => {
+                let path = self.folder.clone();
+                return Err(WriteError { path, source });
+            }
+            _ => {}
+        }
+        replace(&self.folder.join(name), bytes)?;
+        let folder = self.folder.file_name().unwrap_or_default();
+        Ok(format!("{}/{name}", folder.to_string_lossy()))
+    }
+
+    /// Writes a channel of a picture, once; returns its name.
+    pub(super) fn image(&mut self, id: ImageId, channel: Channel) -> Result<String, WriteError> {
+        if let Some(name) = self.images.get(&(id, channel)) {
+            return Ok(name.clone());
+        }
+        let image = &self.scene.images[id.0];
+        let (suffix, pick): (_, fn(Rgb<f32>) -> Rgb<f32>) = match channel {
+            // pbrt takes the mean of the channels where it wants a number.
+            Channel::Rgb | Channel::Mean => ("", |c| c),
+            Channel::Luminance => ("-luminance", |c| Rgb::splat(c.luminance())),
+            Channel::Red => ("-red", |c| Rgb::splat(c.r)),
+            Channel::Green => ("-green", |c| Rgb::splat(c.g)),
+            Channel::Blue => ("-blue", |c| Rgb::splat(c.b)),
+        };
+        let name = format!("picture-{}{suffix}.exr", id.0);
+        let name = self.picture(&name, image, pick)?;
+        self.images.insert((id, channel), name.clone());
+        Ok(name)
+    }
+
+    /// Writes a picture; returns its name.
+    pub(super) fn picture(
+        &mut self,
+        name: &str,
+        image: &Image,
+        pick: impl Fn(Rgb<f32>) -> Rgb<f32> + Sync,
+    ) -> Result<String, WriteError> {
+        let path = self.folder.join(name);
+        let bytes = exr_bytes(image, pick).map_err(|e| WriteError {
+            path,
+            source: io::Error::other(e),
+        })?;
+        self.asset(name, &bytes)
+    }
+
+    /// Writes a mesh; returns its name.
+    pub(super) fn mesh(&mut self, id: MeshId) -> Result<String, WriteError> {
+        let bytes = ply(&self.scene.meshes[id.0]);
+        self.asset(&format!("mesh-{}.ply", id.0), &bytes)
+    }
+}
+
+/// Half floats where all values fit, else single precision.
+fn exr_bytes(
+    image: &Image,
+    pick: impl Fn(Rgb<f32>) -> Rgb<f32> + Sync,
+) -> Result<Vec<u8>, exr::error::Error> {
+    use exr::prelude::{Encoding, Image as Exr, ImageAttributes, Layer, LayerAttributes};
+    use exr::prelude::{SpecificChannels, Text};
+    let (width, height) = (image.width as usize, image.height as usize);
+    let at = |p: exr::math::Vec2<usize>| {
+        pick(Rgb::from(
+            image
+                .pixels
+                .get(p.1 * width + p.0)
+                .copied()
+                .unwrap_or_default(),
+        ))
+    };
+    let mut bytes = Cursor::new(Vec::new());
+    let attributes = LayerAttributes::named(Text::from("rgb"));
+    let size = (width, height);
+    let fits = image.pixels.iter().flatten().all(|x| *x <= LARGEST_HALF);
+    if fits {
+        let half = SpecificChannels::rgb(|p| {
+            let c = at(p);
+            (f16::from_f32(c.r), f16::from_f32(c.g), f16::from_f32(c.b))
+        });
+        let layer = Layer::new(size, attributes, Encoding::FAST_LOSSLESS, half);
+        Exr::new(ImageAttributes::with_size(size), layer)
+            .write()
+            .to_buffered(&mut bytes)?;
+    } else {
+        let single = SpecificChannels::rgb(|p| {
+            let c = at(p);
+            (c.r, c.g, c.b)
+        });
+        let layer = Layer::new(size, attributes, Encoding::FAST_LOSSLESS, single);
+        Exr::new(ImageAttributes::with_size(size), layer)
+            .write()
+            .to_buffered(&mut bytes)?;
+    }
+    Ok(bytes.into_inner())
+}
+
+/// A mesh as binary PLY.
+fn ply(mesh: &Mesh) -> Vec<u8> {
+    let mut out = BufWriter::new(Vec::new());
+    // Writing to memory cannot fail.
+    let _ = write_ply(mesh, &mut out);
+    out.into_inner().unwrap_or_default()
+}
+
+fn write_ply(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
+    let (normals, uvs) = (!mesh.normals.is_empty(), !mesh.uvs.is_empty());
+    write!(
+        out,
+        "ply\nformat binary_little_endian 1.0\nelement vertex {}\n",
+        mesh.positions.len()
+    )?;
+    let mut names = vec!["x", "y", "z"];
+    if normals {
+        names.extend(["nx", "ny", "nz"]);
+    }
+    if uvs {
+        names.extend(["u", "v"]);
+    }
+    for name in names {
+        writeln!(out, "property float {name}")?;
+    }
+    write!(
+        out,
+        "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        mesh.triangles.len()
+    )?;
+    let mut floats = |values: &[f32]| {
+        values
+            .iter()
+            .try_for_each(|x| out.write_all(&x.to_le_bytes()))
+    };
+    for (i, p) in mesh.positions.iter().enumerate() {
+        floats(p)?;
+        if normals {
+            floats(&mesh.normals[i])?;
+        }
+        if uvs {
+            floats(&mesh.uvs[i])?;
+        }
+    }
+    for triangle in &mesh.triangles {
+        out.write_all(&[3])?;
+        for index in triangle {
+            out.write_all(&index.to_le_bytes())?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,359 @@
+//! Materials, each under its number and name.
+
+use specula_bsdf::Rgb;
+use specula_bsdf::ndf::Masking;
+
+use super::{Wanted, WriteError, Writer, quoted};
+use crate::scene::{
+    ColourParam, ConductorFresnel, Distribution, FloatParam, Gltf, Material, MaterialId,
+    MaterialKind, Principled, Relief, Roughness, RoughnessMapping, TextureId,
+};
+
+impl Writer<'_> {
+    /// The name under which a material is written.
+    pub(super) fn material_name(&self, id: MaterialId) -> String {
+        match &self.scene.materials[id.0].name {
+            Some(name) => format!("{}-{name}", id.0),
+            None => format!("{}", id.0),
+        }
+    }
+
+    pub(super) fn materials(&mut self) -> Result<(), WriteError> {
+        let scene = self.scene;
+        for (i, material) in scene.materials.iter().enumerate() {
+            let params = self.material(i, material)?;
+            let name = quoted(&self.material_name(MaterialId(i)));
+            self.line(&format!("MakeNamedMaterial {name}{params}"));
+        }
+        Ok(())
+    }
+
+    fn material(&mut self, index: usize, material: &Material) -> Result<String, WriteError> {
+        if material.one_sided {
+            self.note("materials with a black back are written with two equal sides");
+        }
+        let mut params = self.kind(index, &material.kind)?;
+        match material.relief {
+            None => {}
+            Some(Relief::Height(height)) => params += &self.float_param("displacement", height)?,
+            Some(Relief::Normal { map, scale }) => {
+                let picture = self.plain_picture(ColourParam::Texture(map));
+                match picture {
+                    Some((image, factor)) if scale == 1.0 && factor == Rgb::WHITE => {
+                        let file = self.image(image, crate::scene::Channel::Rgb)?;
+                        params += &format!(" \"string normalmap\" [ {} ]", quoted(&file));
+                    }
+                    _ => self.note("normal maps that are scaled or moved are left out"),
+                }
+            }
+        }
+        if let Some(energy) = material.energy {
+            params += &format!(" \"string specula:energy\" [ \"{energy}\" ]");
+        }
+        Ok(params)
+    }
+
+    fn kind(&mut self, index: usize, kind: &MaterialKind) -> Result<String, WriteError> {
+        let mut params = String::new();
+        let name = match kind {
+            MaterialKind::Diffuse {
+                reflectance,
+                roughness,
+            } => {
+                if *roughness != FloatParam::Value(0.0) {
+                    self.note("rough diffuse materials are written as Lambert's");
+                }
+                params += &self.colour_param("reflectance", *reflectance)?;
+                "diffuse"
+            }
+            MaterialKind::DiffuseTransmission {
+                reflectance,
+                transmittance,
+            } => {
+                params += &self.colour_param("reflectance", *reflectance)?;
+                params += &self.colour_param("transmittance", *transmittance)?;
+                "diffusetransmission"
+            }
+            MaterialKind::Conductor {
+                fresnel,
+                roughness,
+                tint,
+            } => {
+                self.untinted(&[*tint]);
+                params += &self.fresnel("", "reflectance", fresnel)?;
+                params += &self.roughness("", roughness)?;
+                "conductor"
+            }
+            MaterialKind::Dielectric {
+                eta,
+                roughness,
+                reflection_tint,
+                transmission_tint,
+            } => {
+                self.untinted(&[*reflection_tint, *transmission_tint]);
+                params += &format!(" \"float eta\" [ {eta} ]");
+                params += &self.roughness("", roughness)?;
+                "dielectric"
+            }
+            MaterialKind::ThinDielectric {
+                eta,
+                reflection_tint,
+                transmission_tint,
+            } => {
+                self.untinted(&[*reflection_tint, *transmission_tint]);
+                params += &format!(" \"float eta\" [ {eta} ]");
+                "thindielectric"
+            }
+            MaterialKind::CoatedDiffuse {
+                reflectance,
+                eta,
+                roughness,
+            } => return self.coated_diffuse(*reflectance, *eta, roughness),
+            MaterialKind::Plastic {
+                diffuse,
+                specular,
+                eta,
+                roughness,
+                nonlinear: _,
+            } => {
+                self.note("plastic is written as coateddiffuse");
+                self.untinted(&[*specular]);
+                return self.coated_diffuse(*diffuse, *eta, roughness);
+            }
+            MaterialKind::CoatedConductor {
+                coat_eta,
+                coat_roughness,
+                fresnel,
+                roughness,
+            } => {
+                params += &format!(" \"float interface.eta\" [ {coat_eta} ]");
+                params += &self.roughness("interface.", coat_roughness)?;
+                params += &self.fresnel("conductor.", "reflectance", fresnel)?;
+                params += &self.roughness("conductor.", roughness)?;
+                "coatedconductor"
+            }
+            MaterialKind::Principled(p) => return self.principled(index, p),
+            MaterialKind::Gltf(g) => return self.gltf(index, g),
+            MaterialKind::Mix { materials, amount } => {
+                let [a, b] = materials.map(|m| quoted(&self.material_name(m)));
+                params += &format!(" \"string materials\" [ {a} {b} ]");
+                params += &self.float_param("amount", *amount)?;
+                "mix"
+            }
+            MaterialKind::Interface => "interface",
+        };
+        Ok(typed(name, &params))
+    }
+
+    fn untinted(&mut self, tints: &[ColourParam]) {
+        if tints.iter().any(|t| *t != ColourParam::WHITE) {
+            self.note("tints of metal and glass are left out");
+        }
+    }
+
+    fn coated_diffuse(
+        &mut self,
+        reflectance: ColourParam,
+        eta: f32,
+        roughness: &Roughness,
+    ) -> Result<String, WriteError> {
+        let mut params = self.colour_param("reflectance", reflectance)?;
+        params += &format!(" \"float eta\" [ {eta} ]");
+        params += &self.roughness("", roughness)?;
+        Ok(typed("coateddiffuse", &params))
+    }
+
+    fn fresnel(
+        &mut self,
+        prefix: &str,
+        reflectance: &str,
+        fresnel: &ConductorFresnel,
+    ) -> Result<String, WriteError> {
+        Ok(match *fresnel {
+            ConductorFresnel::Index { eta, k } => {
+                let mut params = self.colour_param(&format!("{prefix}eta"), eta)?;
+                params += &self.colour_param(&format!("{prefix}k"), k)?;
+                params
+            }
+            ConductorFresnel::Reflectance(c) => self.colour_param(reflectance, c)?,
+            ConductorFresnel::Schlick(c) => {
+                self.note("Schlick's Fresnel term is written as the reflectance of a metal");
+                self.colour_param(reflectance, c)?
+            }
+            ConductorFresnel::Mirror => self.colour_param(reflectance, ColourParam::WHITE)?,
+        })
+    }
+
+    fn roughness(&mut self, prefix: &str, r: &Roughness) -> Result<String, WriteError> {
+        if r.distribution == Distribution::Beckmann {
+            self.note("Beckmann's distribution is written as GGX");
+        }
+        if r.masking == Masking::Separable {
+            self.note("separable masking is written as height-correlated masking");
+        }
+        if r.rotation_rad != 0.0 {
+            self.note("rotated anisotropy is written unrotated");
+        }
+        let remap = r.mapping == RoughnessMapping::Sqrt;
+        let [u, v] = match r.mapping {
+            RoughnessMapping::Alpha | RoughnessMapping::Sqrt => [r.u, r.v].map(Width::Plain),
+            RoughnessMapping::Square => [self.squared(r.u)?, self.squared(r.v)?],
+        };
+        // One flag serves both layers of a coated conductor.
+        let mut params = match prefix {
+            "conductor." => String::new(),
+            _ => format!(" \"bool remaproughness\" [ {remap} ]"),
+        };
+        params += &self.width(&format!("{prefix}uroughness"), u)?;
+        params += &self.width(&format!("{prefix}vroughness"), v)?;
+        Ok(params)
+    }
+
+    fn width(&mut self, name: &str, width: Width) -> Result<String, WriteError> {
+        match width {
+            Width::Plain(p) => self.float_param(name, p),
+            Width::Named(texture) => Ok(format!(" \"texture {name}\" [ {} ]", quoted(&texture))),
+        }
+    }
+
+    fn squared(&mut self, p: FloatParam) -> Result<Width, WriteError> {
+        Ok(match p {
+            FloatParam::Value(x) => Width::Plain(FloatParam::Value(x * x)),
+            FloatParam::Texture(id) => Width::Named(self.squared_texture(id)?),
+        })
+    }
+
+    /// The product of a texture and itself.
+    fn squared_texture(&mut self, id: TextureId) -> Result<String, WriteError> {
+        if let Some(name) = self.squared.get(&id) {
+            return Ok(name.clone());
+        }
+        let plain = quoted(&self.texture(id, Wanted::Float)?);
+        let name = format!("texture-{}-squared", id.0);
+        self.line(&format!(
+            "Texture {} \"float\" \"scale\" \"texture tex\" [ {plain} ] \"texture scale\" [ {plain} ]",
+            quoted(&name)
+        ));
+        self.squared.insert(id, name.clone());
+        Ok(name)
+    }
+
+    /// A part of a layered material, under a name of its own.
+    fn part(
+        &mut self,
+        index: usize,
+        part: &str,
+        kind: &MaterialKind,
+    ) -> Result<String, WriteError> {
+        let name = format!("{}/{part}", self.material_name(MaterialId(index)));
+        let params = self.kind(index, kind)?;
+        self.line(&format!("MakeNamedMaterial {}{params}", quoted(&name)));
+        Ok(name)
+    }
+
+    /// `(1 - amount) a + amount b`, or one of them where the amount leaves no choice.
+    fn between(
+        &mut self,
+        index: usize,
+        amount: FloatParam,
+        a: (&str, MaterialKind),
+        b: (&str, MaterialKind),
+    ) -> Result<String, WriteError> {
+        match amount {
+            FloatParam::Value(x) if x <= 0.0 => self.kind(index, &a.1),
+            FloatParam::Value(x) if x >= 1.0 => self.kind(index, &b.1),
+            _ => {
+                let a = self.part(index, a.0, &a.1)?;
+                let b = self.part(index, b.0, &b.1)?;
+                let mut params = format!(" \"string materials\" [ {} {} ]", quoted(&a), quoted(&b));
+                params += &self.float_param("amount", amount)?;
+                Ok(typed("mix", &params))
+            }
+        }
+    }
+
+    fn gltf(&mut self, index: usize, g: &Gltf) -> Result<String, WriteError> {
+        let absent = |p: FloatParam| p == FloatParam::Value(0.0);
+        self.note(
+            "metallic-roughness materials are written as a mix of conductor and coateddiffuse",
+        );
+        if !absent(g.clearcoat) || !absent(g.anisotropy) {
+            self.note("clear coats and anisotropy of metallic-roughness materials are left out");
+        }
+        if g.sheen_colour != ColourParam::Value(Rgb::BLACK) {
+            self.note("sheen is left out");
+        }
+        let base = if absent(g.transmission) {
+            coated(g.base_colour, g.ior, g.roughness)
+        } else {
+            self.note("transmission is written as uncoloured glass, wherever there is any");
+            glass(g.ior, g.roughness, g.volume)
+        };
+        let metal = metal(g.base_colour, g.roughness);
+        self.between(index, g.metallic, ("base", base), ("metal", metal))
+    }
+
+    fn principled(&mut self, index: usize, p: &Principled) -> Result<String, WriteError> {
+        let absent = |p: FloatParam| p == FloatParam::Value(0.0);
+        self.note("principled materials are written as a mix of conductor and coateddiffuse");
+        if !(absent(p.sheen)
+            && absent(p.clearcoat)
+            && absent(p.anisotropic)
+            && absent(p.diff_trans))
+        {
+            self.note("sheen, clear coat, anisotropy and diffuse transmission are left out");
+        }
+        let base = if absent(p.spec_trans) {
+            coated(p.base_colour, p.eta, p.roughness)
+        } else {
+            self.note("transmission is written as uncoloured glass, wherever there is any");
+            glass(p.eta, p.roughness, !p.thin)
+        };
+        let metal = metal(p.base_colour, p.roughness);
+        self.between(index, p.metallic, ("base", base), ("metal", metal))
+    }
+}
+
+fn coated(reflectance: ColourParam, eta: f32, roughness: FloatParam) -> MaterialKind {
+    MaterialKind::CoatedDiffuse {
+        reflectance,
+        eta,
+        roughness: Roughness::isotropic(roughness, RoughnessMapping::Square),
+    }
+}
+
+fn metal(reflectance: ColourParam, roughness: FloatParam) -> MaterialKind {
+    MaterialKind::Conductor {
+        fresnel: ConductorFresnel::Reflectance(reflectance),
+        roughness: Roughness::isotropic(roughness, RoughnessMapping::Square),
+        tint: ColourParam::WHITE,
+    }
+}
+
+fn glass(eta: f32, roughness: FloatParam, volume: bool) -> MaterialKind {
+    let (reflection_tint, transmission_tint) = (ColourParam::WHITE, ColourParam::WHITE);
+    if volume {
+        MaterialKind::Dielectric {
+            eta,
+            roughness: Roughness::isotropic(roughness, RoughnessMapping::Square),
+            reflection_tint,
+            transmission_tint,
+        }
+    } else {
+        MaterialKind::ThinDielectric {
+            eta,
+            reflection_tint,
+            transmission_tint,
+        }
+    }
+}
+
+/// A width as the file has it, or a texture that was made for it.
+enum Width {
+    Plain(FloatParam),
+    Named(String),
+}
+
+fn typed(name: &str, params: &str) -> String {
+    format!(" \"string type\" [ \"{name}\" ]{params}")
+}

@@ -1,0 +1,216 @@
+//! Scenes written as pbrt-v4 files.
+//!
+//! One text file, and a folder beside it with meshes (binary PLY) and pictures (EXR). What pbrt-v4
+//! cannot say is written as the nearest that it can, and named in the notes that come back.
+
+mod asset;
+mod light;
+mod material;
+mod shape;
+mod texture;
+
+use std::collections::HashMap;
+use std::fmt::Write;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use glam::DMat4;
+use specula_bsdf::Rgb;
+
+use crate::scene::{
+    Camera, Channel, EnvironmentMapping, Film, Filter, ImageId, Projection, Scene, TextureId,
+};
+
+/// A file that could not be written.
+#[derive(Debug, thiserror::Error)]
+#[error("{path}: {source}", path = path.display())]
+#[non_exhaustive]
+pub struct WriteError {
+    /// The file.
+    pub path: PathBuf,
+    /// What the system says.
+    pub source: io::Error,
+}
+
+/// Whether a texture is wanted as a number or as a colour: pbrt keeps the two apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Wanted {
+    Float,
+    Spectrum,
+}
+
+/// What is being written.
+struct Writer<'a> {
+    scene: &'a Scene,
+    /// The file itself.
+    path: &'a Path,
+    /// Folder of meshes and pictures, made when the first is written.
+    folder: PathBuf,
+    text: String,
+    /// What could not be said, each once.
+    notes: Vec<String>,
+    textures: HashMap<(TextureId, Wanted), String>,
+    /// Products of textures and themselves.
+    squared: HashMap<TextureId, String>,
+    images: HashMap<(ImageId, Channel), String>,
+}
+
+/// Writes a scene to a pbrt-v4 file, with its meshes and pictures in the folder `NAME-files` beside
+/// it, and returns notes on what pbrt-v4 cannot say.
+///
+/// Every file is replaced whole or not at all; the scene file comes last.
+///
+/// # Errors
+///
+/// What the system says about the file that could not be written.
+pub fn write_pbrt(scene: &Scene, path: &Path) -> Result<Vec<String>, WriteError> {
+    let stem = path.file_stem().unwrap_or(path.as_os_str());
+    let mut folder = stem.to_owned();
+    folder.push("-files");
+    let mut writer = Writer {
+        scene,
+        path,
+        folder: path.with_file_name(folder),
+        text: String::new(),
+        notes: Vec::new(),
+        textures: HashMap::new(),
+        squared: HashMap::new(),
+        images: HashMap::new(),
+    };
+    writer.view();
+    writer.line("\nWorldBegin");
+    for light in &scene.lights {
+        writer.light(light)?;
+    }
+    writer.materials()?;
+    writer.shapes()?;
+    asset::replace(path, writer.text.as_bytes())?;
+    Ok(writer.notes)
+}
+
+impl Writer<'_> {
+    fn line(&mut self, line: &str) {
+        self.text.push_str(line);
+        self.text.push('\n');
+    }
+
+    /// Notes what pbrt-v4 cannot say.
+    fn note(&mut self, note: impl Into<String>) {
+        let note = note.into();
+        if !self.notes.contains(&note) {
+            self.notes.push(note);
+        }
+    }
+
+    /// Everything before the world.
+    fn view(&mut self) {
+        let (camera, film) = (&self.scene.camera, &self.scene.film);
+        let settings = &self.scene.settings;
+        let text = format!(
+            "{}\n{}\n{}\nSampler \"zsobol\" \"integer pixelsamples\" [ {} ]\n\
+             Integrator \"volpath\" \"integer maxdepth\" [ {} ]\n",
+            camera_text(camera),
+            film_text(film, self.path),
+            filter_text(&film.filter),
+            settings.samples_per_pixel,
+            settings.max_depth,
+        );
+        self.text.push_str(&text);
+    }
+}
+
+fn camera_text(camera: &Camera) -> String {
+    let to_camera = transform(&camera.to_world.inverse());
+    let lens = format!(
+        "\"float lensradius\" [ {} ] \"float focaldistance\" [ {} ] \"float screenwindow\" [ {} ]",
+        camera.lens_radius,
+        camera.focal_distance,
+        list(&camera.screen_window),
+    );
+    let kind = match camera.projection {
+        Projection::Perspective { fov_deg } => {
+            format!("\"perspective\" \"float fov\" [ {fov_deg} ] {lens}")
+        }
+        Projection::Orthographic => format!("\"orthographic\" {lens}"),
+        Projection::Spherical(mapping) => format!(
+            "\"spherical\" \"string mapping\" [ \"{}\" ]",
+            match mapping {
+                EnvironmentMapping::EqualAreaOctahedral => "equalarea",
+                EnvironmentMapping::LatitudeLongitude
+                | EnvironmentMapping::LatitudeLongitudePoles => "equirectangular",
+            }
+        ),
+    };
+    format!("{to_camera}\nCamera {kind}")
+}
+
+fn film_text(film: &Film, path: &Path) -> String {
+    let [width, height] = film.resolution;
+    let name = film.file_name.clone().unwrap_or_else(|| {
+        let stem = path.file_stem().unwrap_or(path.as_os_str());
+        format!("{}.exr", stem.to_string_lossy())
+    });
+    format!(
+        "Film \"rgb\" \"integer xresolution\" [ {width} ] \"integer yresolution\" [ {height} ] \
+         \"integer pixelbounds\" [ {} ] \"float iso\" [ {} ] \"string filename\" [ {} ]",
+        list(&film.crop),
+        f64::from(film.exposure) * 100.0,
+        quoted(&name),
+    )
+}
+
+fn filter_text(filter: &Filter) -> String {
+    let (name, radius, more) = match *filter {
+        Filter::Box { radius } => ("box", radius, String::new()),
+        Filter::Triangle { radius } => ("triangle", radius, String::new()),
+        Filter::Gaussian { radius, sigma } => {
+            ("gaussian", radius, format!("\"float sigma\" [ {sigma} ]"))
+        }
+        Filter::Mitchell { radius, b, c } => {
+            let more = format!("\"float B\" [ {b} ] \"float C\" [ {c} ]");
+            ("mitchell", radius, more)
+        }
+        Filter::LanczosSinc { radius, tau } => ("sinc", radius, format!("\"float tau\" [ {tau} ]")),
+    };
+    let [x, y] = radius;
+    format!("PixelFilter \"{name}\" \"float xradius\" [ {x} ] \"float yradius\" [ {y} ] {more}")
+}
+
+/// The directive that sets the current transform: columns one after the other.
+fn transform(m: &DMat4) -> String {
+    format!("Transform [ {} ]", list(&m.to_cols_array()))
+}
+
+fn list<T: std::fmt::Display>(values: &[T]) -> String {
+    let mut text = String::new();
+    for (i, value) in values.iter().enumerate() {
+        let space = if i == 0 { "" } else { " " };
+        let _ = write!(text, "{space}{value}");
+    }
+    text
+}
+
+fn rgb_list(c: Rgb<f32>) -> String {
+    list(&c.to_array())
+}
+
+/// A string as pbrt reads it.
+fn quoted(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => {
+                out.push('\\');
+                out.push(c);
+            }
+            // Names with line ends in them cannot be said.
+            c if c.is_control() => out.push('_'),
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}
+
+#[cfg(test)]
+mod tests;

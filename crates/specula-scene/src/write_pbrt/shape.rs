@@ -1,0 +1,104 @@
+//! Shapes, what they send out, and instances.
+
+use std::collections::HashMap;
+
+use specula_bsdf::Rgb;
+
+use super::{WriteError, Writer, quoted, rgb_list, transform};
+use crate::scene::{Channel, Emission, FloatParam, Geometry, MeshId, Shape};
+
+impl Writer<'_> {
+    pub(super) fn shapes(&mut self) -> Result<(), WriteError> {
+        let scene = self.scene;
+        let mut meshes = HashMap::new();
+        for (i, object) in scene.objects.iter().enumerate() {
+            self.line(&format!("ObjectBegin \"object-{i}\""));
+            for shape in &object.shapes {
+                self.shape(shape, &mut meshes)?;
+            }
+            self.line("ObjectEnd");
+        }
+        for shape in &scene.shapes {
+            self.shape(shape, &mut meshes)?;
+        }
+        for instance in &scene.instances {
+            let place = transform(&instance.to_world);
+            self.line(&format!(
+                "AttributeBegin\n{place}\nObjectInstance \"object-{}\"\nAttributeEnd",
+                instance.object.0
+            ));
+        }
+        Ok(())
+    }
+
+    fn shape(
+        &mut self,
+        shape: &Shape,
+        meshes: &mut HashMap<MeshId, String>,
+    ) -> Result<(), WriteError> {
+        let mut kind = match shape.geometry {
+            Geometry::Mesh(id) => {
+                let file = match meshes.get(&id) {
+                    Some(file) => file.clone(),
+                    None => {
+                        let file = self.mesh(id)?;
+                        meshes.insert(id, file.clone());
+                        file
+                    }
+                };
+                format!("\"plymesh\" \"string filename\" [ {} ]", quoted(&file))
+            }
+            Geometry::Sphere { radius } => format!("\"sphere\" \"float radius\" [ {radius} ]"),
+            Geometry::Disk { radius, height } => {
+                format!("\"disk\" \"float radius\" [ {radius} ] \"float height\" [ {height} ]")
+            }
+        };
+        if shape.alpha != FloatParam::Value(1.0) {
+            kind += &self.float_param("alpha", shape.alpha)?;
+        }
+        let emission = match shape.emission {
+            Some(emission) => self.emission(emission)?,
+            None => String::new(),
+        };
+        let reverse = if shape.reverse_orientation {
+            "ReverseOrientation\n"
+        } else {
+            ""
+        };
+        let place = transform(&shape.to_world);
+        let material = self.material_name(shape.material);
+        self.line(&format!(
+            "AttributeBegin\n{place}\n{reverse}{emission}NamedMaterial {}\nShape {kind}\nAttributeEnd",
+            quoted(&material)
+        ));
+        Ok(())
+    }
+
+    fn emission(&mut self, emission: Emission) -> Result<String, WriteError> {
+        let sides = emission.two_sided;
+        let light = match self.plain_picture(emission.radiance) {
+            Some((image, factor)) => {
+                let file = self.image(image, Channel::Rgb)?;
+                let scale = factor.mean();
+                if factor != Rgb::splat(scale) {
+                    self.note("coloured factors on pictures of lights are written as their mean");
+                }
+                format!(
+                    "\"string filename\" [ {} ] \"float scale\" [ {scale} ]",
+                    quoted(&file)
+                )
+            }
+            None => {
+                if !matches!(emission.radiance, crate::scene::ColourParam::Value(_)) {
+                    self.note(
+                        "textures of lights other than a plain picture are written as their mean",
+                    );
+                }
+                format!("\"rgb L\" [ {} ]", rgb_list(self.mean(emission.radiance)))
+            }
+        };
+        Ok(format!(
+            "AreaLightSource \"diffuse\" {light} \"bool twosided\" [ {sides} ]\n"
+        ))
+    }
+}

@@ -1,0 +1,351 @@
+//! Texture nodes, each written where it is first used.
+
+use glam::DMat4;
+use specula_bsdf::Rgb;
+
+use super::{Wanted, WriteError, Writer, list, quoted, rgb_list, transform};
+use crate::scene::{
+    Channel, ColourParam, FloatParam, Interpolation, NoiseKind, Texture, TextureId, TextureMapping,
+    UvMapping, Wrap,
+};
+
+/// A texture's class and parameters, and the space that it lives in.
+struct Node {
+    class: &'static str,
+    params: String,
+    space: DMat4,
+}
+
+impl Node {
+    fn new(class: &'static str, params: String) -> Self {
+        Self {
+            class,
+            params,
+            space: DMat4::IDENTITY,
+        }
+    }
+}
+
+impl Writer<'_> {
+    /// ` "float NAME" [ x ]`, or a texture's name.
+    pub(super) fn float_param(&mut self, name: &str, p: FloatParam) -> Result<String, WriteError> {
+        Ok(match p {
+            FloatParam::Value(x) => format!(" \"float {name}\" [ {x} ]"),
+            FloatParam::Texture(id) => {
+                let texture = self.texture(id, Wanted::Float)?;
+                format!(" \"texture {name}\" [ {} ]", quoted(&texture))
+            }
+        })
+    }
+
+    /// ` "rgb NAME" [ r g b ]`, or a texture's name.
+    pub(super) fn colour_param(
+        &mut self,
+        name: &str,
+        p: ColourParam,
+    ) -> Result<String, WriteError> {
+        Ok(match p {
+            ColourParam::Value(c) => format!(" \"rgb {name}\" [ {} ]", rgb_list(c)),
+            ColourParam::Texture(id) => {
+                let texture = self.texture(id, Wanted::Spectrum)?;
+                format!(" \"texture {name}\" [ {} ]", quoted(&texture))
+            }
+        })
+    }
+
+    /// Writes a texture and those that it refers to, once; returns its name.
+    pub(super) fn texture(&mut self, id: TextureId, wanted: Wanted) -> Result<String, WriteError> {
+        if let Some(name) = self.textures.get(&(id, wanted)) {
+            return Ok(name.clone());
+        }
+        let node = self.node(id, wanted)?;
+        let kind = match wanted {
+            Wanted::Float => "float",
+            Wanted::Spectrum => "spectrum",
+        };
+        let name = format!("texture-{}-{kind}", id.0);
+        let directive = format!(
+            "Texture {} \"{kind}\" \"{}\"{}",
+            quoted(&name),
+            node.class,
+            node.params
+        );
+        if node.space == DMat4::IDENTITY {
+            self.line(&directive);
+        } else {
+            // Names of textures outlive the attributes that they are made in.
+            let place = transform(&node.space.inverse());
+            self.line(&format!(
+                "AttributeBegin\n{place}\n{directive}\nAttributeEnd"
+            ));
+        }
+        self.textures.insert((id, wanted), name.clone());
+        Ok(name)
+    }
+
+    fn input(&mut self, name: &str, id: TextureId, wanted: Wanted) -> Result<String, WriteError> {
+        let texture = self.texture(id, wanted)?;
+        Ok(format!(" \"texture {name}\" [ {} ]", quoted(&texture)))
+    }
+
+    fn value(name: &str, c: Rgb<f32>, wanted: Wanted) -> String {
+        match wanted {
+            Wanted::Float => format!(" \"float {name}\" [ {} ]", c.r),
+            Wanted::Spectrum => format!(" \"rgb {name}\" [ {} ]", rgb_list(c)),
+        }
+    }
+
+    fn pair(
+        &mut self,
+        class: &'static str,
+        names: [&str; 2],
+        ids: [TextureId; 2],
+        wanted: Wanted,
+    ) -> Result<Node, WriteError> {
+        let mut params = self.input(names[0], ids[0], wanted)?;
+        params += &self.input(names[1], ids[1], wanted)?;
+        Ok(Node::new(class, params))
+    }
+
+    fn node(&mut self, id: TextureId, wanted: Wanted) -> Result<Node, WriteError> {
+        let scene = self.scene;
+        Ok(match &scene.textures[id.0] {
+            Texture::Constant(c) => Node::new("constant", Self::value("value", *c, wanted)),
+            image @ Texture::Image { .. } => self.image_map(image)?,
+            Texture::Scale { a, b } => self.pair("scale", ["tex", "scale"], [*a, *b], wanted)?,
+            Texture::Mix { a, b, amount } => {
+                let mut node = self.pair("mix", ["tex1", "tex2"], [*a, *b], wanted)?;
+                node.params += &self.float_param("amount", *amount)?;
+                node
+            }
+            Texture::DirectionMix { a, b, axis } => {
+                let mut node = self.pair("directionmix", ["tex1", "tex2"], [*a, *b], wanted)?;
+                node.params += &format!(" \"vector3 dir\" [ {} ]", list(axis));
+                node
+            }
+            Texture::Checkerboard { even, odd, mapping } => {
+                let mut node =
+                    self.pair("checkerboard", ["tex1", "tex2"], [*even, *odd], wanted)?;
+                self.mapping(&mut node, mapping);
+                node
+            }
+            Texture::Checkerboard3d {
+                even,
+                odd,
+                to_texture,
+            } => {
+                let mut node =
+                    self.pair("checkerboard", ["tex1", "tex2"], [*even, *odd], wanted)?;
+                node.params += " \"integer dimension\" [ 3 ]";
+                node.space = *to_texture;
+                node
+            }
+            Texture::Dots {
+                inside,
+                outside,
+                mapping,
+            } => {
+                let ids = [*inside, *outside];
+                let mut node = self.pair("dots", ["inside", "outside"], ids, wanted)?;
+                self.mapping(&mut node, mapping);
+                node
+            }
+            Texture::Bilinear { corners, mapping } => {
+                let mut params = String::new();
+                for (name, c) in ["v00", "v01", "v10", "v11"].into_iter().zip(corners) {
+                    params += &Self::value(name, *c, wanted);
+                }
+                let mut node = Node::new("bilerp", params);
+                self.mapping(&mut node, mapping);
+                node
+            }
+            Texture::Noise {
+                kind,
+                octaves,
+                roughness,
+                to_texture,
+            } => noise(*kind, *octaves, *roughness, to_texture),
+            Texture::Sum { a, b: _ } => {
+                self.note("sums of textures cannot be said: the first term is written");
+                return self.node(*a, wanted);
+            }
+            Texture::Threshold { texture, .. } => {
+                self.note("thresholds of textures cannot be said: the texture itself is written");
+                return self.node(*texture, wanted);
+            }
+            Texture::VertexColour => {
+                self.note("colours of vertices cannot be said: white is written");
+                Node::new("constant", Self::value("value", Rgb::WHITE, wanted))
+            }
+        })
+    }
+
+    fn image_map(&mut self, texture: &Texture) -> Result<Node, WriteError> {
+        let Texture::Image {
+            image,
+            mapping,
+            wrap,
+            filter,
+            invert,
+            scale,
+            channel,
+        } = texture
+        else {
+            return Ok(Node::new("constant", String::new()));
+        };
+        let file = self.image(*image, *channel)?;
+        if wrap[0] != wrap[1] {
+            self.note("pictures that wrap differently along u and v wrap along both as along u");
+        }
+        let wrap = match wrap[0] {
+            Wrap::Repeat => "repeat",
+            Wrap::Black => "black",
+            Wrap::Clamp => "clamp",
+            Wrap::Mirror => {
+                self.note("pictures cannot be mirrored where they repeat: they repeat plainly");
+                "repeat"
+            }
+        };
+        let filter = match filter {
+            Interpolation::Bilinear => "bilinear",
+            Interpolation::Nearest => "point",
+        };
+        let mut node = Node::new(
+            "imagemap",
+            format!(
+                " \"string filename\" [ {} ] \"string wrap\" [ \"{wrap}\" ] \
+                 \"string filter\" [ \"{filter}\" ] \"bool invert\" [ {invert} ] \
+                 \"float scale\" [ {scale} ]",
+                quoted(&file)
+            ),
+        );
+        self.mapping(&mut node, mapping);
+        Ok(node)
+    }
+
+    fn mapping(&mut self, node: &mut Node, mapping: &TextureMapping) {
+        match mapping {
+            TextureMapping::Uv(m) => {
+                let UvMapping([[su, across, du], [along, sv, dv]]) = *m;
+                if across != 0.0 || along != 0.0 {
+                    self.note("rotated and sheared surface coordinates are written unrotated");
+                }
+                if *m != UvMapping::default() {
+                    node.params += &format!(
+                        " \"float uscale\" [ {su} ] \"float vscale\" [ {sv} ] \
+                         \"float udelta\" [ {du} ] \"float vdelta\" [ {dv} ]"
+                    );
+                }
+            }
+            TextureMapping::Planar { to_texture, s, t } => {
+                node.space = *to_texture;
+                node.params += &format!(
+                    " \"string mapping\" [ \"planar\" ] \"vector3 v1\" [ {} ] \
+                     \"vector3 v2\" [ {} ] \"float udelta\" [ {} ] \"float vdelta\" [ {} ]",
+                    list(&s[..3]),
+                    list(&t[..3]),
+                    s[3],
+                    t[3]
+                );
+            }
+            TextureMapping::Spherical { to_texture } => {
+                node.space = *to_texture;
+                node.params += " \"string mapping\" [ \"spherical\" ]";
+            }
+            TextureMapping::Cylindrical { to_texture } => {
+                node.space = *to_texture;
+                node.params += " \"string mapping\" [ \"cylindrical\" ]";
+            }
+        }
+    }
+
+    /// The picture behind a colour, and a factor on it, where it is laid plainly over the surface.
+    pub(super) fn plain_picture(
+        &self,
+        p: ColourParam,
+    ) -> Option<(crate::scene::ImageId, Rgb<f32>)> {
+        let ColourParam::Texture(id) = p else {
+            return None;
+        };
+        match &self.scene.textures[id.0] {
+            Texture::Image {
+                image,
+                mapping,
+                invert: false,
+                scale,
+                channel: Channel::Rgb,
+                ..
+            } if *mapping == TextureMapping::default() => Some((*image, Rgb::splat(*scale))),
+            Texture::Scale { a, b } => {
+                let texture = |id: &TextureId| self.plain_picture(ColourParam::Texture(*id));
+                let (picture, other) = texture(a).map(|p| (p, b)).or(texture(b).map(|p| (p, a)))?;
+                match self.scene.textures[other.0] {
+                    Texture::Constant(c) => Some((picture.0, picture.1 * c)),
+                    _ => None,
+                }
+            }
+            _ => None,
+        }
+    }
+
+    /// A texture's mean as far as its nodes tell it.
+    pub(super) fn mean(&self, p: ColourParam) -> Rgb<f32> {
+        let id = match p {
+            ColourParam::Value(c) => return c,
+            ColourParam::Texture(id) => id,
+        };
+        let of = |id: TextureId| self.mean(ColourParam::Texture(id));
+        match &self.scene.textures[id.0] {
+            Texture::Constant(c) => *c,
+            Texture::Image { image, scale, .. } => {
+                let pixels = &self.scene.images[image.0].pixels;
+                let mut sum = [0.0_f64; 3];
+                for pixel in pixels {
+                    for (s, x) in sum.iter_mut().zip(pixel) {
+                        *s += f64::from(*x);
+                    }
+                }
+                let count = f64::from(u32::try_from(pixels.len()).unwrap_or(u32::MAX)).max(1.0);
+                Rgb::from(sum.map(|s| s / count)).cast() * *scale
+            }
+            Texture::Scale { a, b } => of(*a) * of(*b),
+            Texture::Sum { a, b } => of(*a) + of(*b),
+            Texture::Mix { a, b, .. }
+            | Texture::Checkerboard {
+                even: a, odd: b, ..
+            }
+            | Texture::Checkerboard3d {
+                even: a, odd: b, ..
+            }
+            | Texture::DirectionMix { a, b, .. }
+            | Texture::Dots {
+                inside: a,
+                outside: b,
+                ..
+            } => (of(*a) + of(*b)) * 0.5,
+            Texture::Bilinear { corners, .. } => {
+                let [a, b, c, d] = *corners;
+                (a + b + c + d) * 0.25
+            }
+            Texture::Threshold { .. } | Texture::VertexColour => Rgb::WHITE,
+            Texture::Noise { .. } => Rgb::splat(0.5),
+        }
+    }
+}
+
+fn noise(kind: NoiseKind, octaves: u32, roughness: f32, to_texture: &DMat4) -> Node {
+    let waves = format!(" \"integer octaves\" [ {octaves} ] \"float roughness\" [ {roughness} ]");
+    let (class, params) = match kind {
+        NoiseKind::Fbm => ("fbm", waves),
+        NoiseKind::Turbulence => ("wrinkled", waves),
+        NoiseKind::Windy => ("windy", String::new()),
+        NoiseKind::Marble { scale, variation } => (
+            "marble",
+            format!("{waves} \"float scale\" [ {scale} ] \"float variation\" [ {variation} ]"),
+        ),
+    };
+    Node {
+        space: *to_texture,
+        ..Node::new(class, params)
+    }
+}

@@ -1,0 +1,15 @@
+//! Mitsuba scenes, whole and broken, from their files to the model.
+#![allow(
+    clippy::unwrap_used,
+    clippy::cast_possible_truncation,
+    reason = "helpers of tests fail loudly and cut numbers on purpose"
+)]
+
+mod broken;
+mod common;
+mod conventions;
+mod dialect;
+mod document;
+mod features;
+mod mutations;
+mod shared_scenes;
