@@ -57,8 +57,8 @@ pub struct Loaded {
 }
 
 /// Reads a scene in the format that its name's end tells, within the default [`Limits`]: `.xml` is
-/// Mitsuba's, `.gltf` and `.glb` are glTF 2.0, `.obj` and `.ply` meshes alone, which are staged, and
-/// anything else is pbrt-v4's (also gzipped).
+/// Mitsuba's, `.gltf` and `.glb` are glTF 2.0, `.obj` and `.ply` (also gzipped) meshes alone, which are
+/// staged, and anything else is pbrt-v4's (also gzipped).
 ///
 /// # Errors
 ///
@@ -74,9 +74,14 @@ pub fn load(path: &Path) -> Result<Loaded, SceneError> {
 ///
 /// Those of [`load`].
 pub fn load_with(path: &Path, limits: &Limits) -> Result<Loaded, SceneError> {
-    let extension = path
-        .extension()
-        .map(|e| e.to_string_lossy().to_ascii_lowercase());
+    let extension = |path: &Path| {
+        let extension = path.extension()?.to_string_lossy().to_ascii_lowercase();
+        Some(extension)
+    };
+    let extension = match extension(path) {
+        Some(gz) if gz == "gz" => extension(&path.with_extension("")),
+        other => other,
+    };
     match extension.as_deref() {
         Some("xml") => mitsuba::read(path, limits, &mitsuba::Options::default()),
         Some("gltf" | "glb") => gltf::read(path, limits),

@@ -4,7 +4,7 @@
 /// [`ErrorKind::Limit`](crate::ErrorKind::Limit), or of the thing's own kind, that names the bound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Deepest nesting: of files, of blocks, of references.
+    /// Deepest nesting of files and of references; blocks within a file nest 16 times as deep.
     pub max_depth: usize,
     /// Most bytes of one file, after unpacking.
     pub max_bytes: u64,

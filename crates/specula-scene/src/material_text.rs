@@ -47,9 +47,10 @@ pub fn parse_material(text: &str) -> Result<MaterialKind, UnknownMaterial> {
         .next()
         .ok_or_else(|| wrong("nothing is said".to_owned()))?;
     let metal = matches!(class, "conductor" | "coatedconductor");
-    let (mut fresnel, mut colour, mut eta) = (None, ColourParam::Value(Rgb::splat(0.5)), 1.5_f32);
+    let (mut fresnel, mut eta) = (ConductorFresnel::Mirror, 1.5_f32);
+    let mut colour = ColourParam::Value(Rgb::splat(0.5));
     match class {
-        "conductor" | "coatedconductor" => fresnel = Some(words.metal().map_err(wrong)?),
+        "conductor" | "coatedconductor" => fresnel = words.metal().map_err(wrong)?,
         "diffuse" | "coateddiffuse" => {
             if let Some(c) = words.colour().map_err(wrong)? {
                 colour = ColourParam::Value(c);
@@ -83,7 +84,7 @@ pub fn parse_material(text: &str) -> Result<MaterialKind, UnknownMaterial> {
             other => return Err(wrong(format!("'{other}' is not understood"))),
         }
     }
-    if !(eta > 0.0) {
+    if eta <= 0.0 {
         return Err(wrong(format!("an index of {eta}")));
     }
     if alpha.iter().any(|a| *a < 0.0) {
@@ -94,10 +95,19 @@ pub fn parse_material(text: &str) -> Result<MaterialKind, UnknownMaterial> {
         v,
         ..Roughness::isotropic(u, mapping)
     };
-    let fresnel = fresnel.unwrap_or(ConductorFresnel::Mirror);
-    Ok(match class {
+    Ok(kind(class, colour, fresnel, eta, roughness))
+}
+
+fn kind(
+    class: &str,
+    reflectance: ColourParam,
+    fresnel: ConductorFresnel,
+    eta: f32,
+    roughness: Roughness,
+) -> MaterialKind {
+    match class {
         "diffuse" => MaterialKind::Diffuse {
-            reflectance: colour,
+            reflectance,
             roughness: FloatParam::Value(0.0),
         },
         "conductor" => MaterialKind::Conductor {
@@ -112,7 +122,7 @@ pub fn parse_material(text: &str) -> Result<MaterialKind, UnknownMaterial> {
             transmission_tint: ColourParam::WHITE,
         },
         "coateddiffuse" => MaterialKind::CoatedDiffuse {
-            reflectance: colour,
+            reflectance,
             eta,
             roughness,
         },
@@ -122,7 +132,7 @@ pub fn parse_material(text: &str) -> Result<MaterialKind, UnknownMaterial> {
             fresnel,
             roughness,
         },
-    })
+    }
 }
 
 impl Scene {

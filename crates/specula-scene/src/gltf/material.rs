@@ -181,41 +181,18 @@ impl Reader<'_> {
             None => (pbr.metallic_factor(), pbr.roughness_factor()),
         };
         let map = map.filter(|_| old.is_none());
-        let empty = Value::Null;
-        let extension = |name: &str| material.extension_value(name).unwrap_or(&empty).clone();
-        let anisotropy = extension("KHR_materials_anisotropy");
-        let clearcoat = extension("KHR_materials_clearcoat");
-        let sheen = extension("KHR_materials_sheen");
-        let unit = |x: f32| x.clamp(0.0, 1.0);
-        let factor = |object: &Value, name: &str| unit(number(object, name).unwrap_or(0.0));
-        if anisotropy.get("anisotropyTexture").is_some() {
-            self.warn("of anisotropy textures the strength is used, not the direction");
-        }
-        if clearcoat.get("clearcoatNormalTexture").is_some() {
-            self.warn("normal maps of clear coats are left out");
-        }
-        if material.volume().is_some_and(|v| {
-            v.attenuation_distance().is_finite() && v.attenuation_color() != [1.0; 3]
-        }) {
-            self.warn("absorption within volumes is left out");
-        }
-        let specular = material.specular();
-        let specular_colour = specular
-            .as_ref()
-            .map_or([1.0; 3], |s| s.specular_color_factor());
-        let specular_colour_map = specular
-            .as_ref()
-            .and_then(|s| s.specular_color_texture().as_ref().map(TextureRef::of));
-        let specular_map = specular
-            .as_ref()
-            .and_then(|s| s.specular_texture().as_ref().map(TextureRef::of));
+        let anisotropy = extension(material, "KHR_materials_anisotropy");
+        let clearcoat = extension(material, "KHR_materials_clearcoat");
+        let sheen = extension(material, "KHR_materials_sheen");
+        self.warn_about_extensions(material);
+        let (specular, specular_colour) = self.specular(material)?;
         let transmission = material.transmission();
         let transmission_map = transmission
             .as_ref()
             .and_then(|t| t.transmission_texture().as_ref().map(TextureRef::of));
         let blue = Meaning::Data(Channel::Blue);
         let [red, green] = [Channel::Red, Channel::Green].map(Meaning::Data);
-        let sheen_colour = numbers::<3>(&sheen, "sheenColorFactor").unwrap_or([0.0; 3]);
+        let sheen_colour = numbers::<3>(sheen, "sheenColorFactor").unwrap_or([0.0; 3]);
         let has_sheen = sheen_colour.iter().any(|x| *x > 0.0);
         let ior = material.ior().unwrap_or(1.5);
         Ok(Gltf {
@@ -223,25 +200,18 @@ impl Reader<'_> {
             metallic: self.float(unit(metallic), map, blue)?,
             roughness: self.float(unit(roughness), map, green)?,
             anisotropy: self.float(
-                factor(&anisotropy, "anisotropyStrength"),
-                TextureRef::in_json(&anisotropy, "anisotropyTexture"),
+                factor(anisotropy, "anisotropyStrength"),
+                TextureRef::in_json(anisotropy, "anisotropyTexture"),
                 blue,
             )?,
-            anisotropy_rotation_rad: number(&anisotropy, "anisotropyRotation").unwrap_or(0.0),
+            anisotropy_rotation_rad: number(anisotropy, "anisotropyRotation").unwrap_or(0.0),
             ior: if ior >= 1.0 {
                 ior.min(MAX_IOR)
             } else {
                 MAX_IOR
             },
-            specular: self.float(
-                unit(specular.as_ref().map_or(1.0, |s| s.specular_factor())),
-                specular_map,
-                Meaning::Alpha,
-            )?,
-            specular_colour: self.colour(
-                Rgb::from(specular_colour.map(|x| x.max(0.0))),
-                specular_colour_map,
-            )?,
+            specular,
+            specular_colour,
             transmission: self.float(
                 unit(
                     transmission
@@ -255,25 +225,59 @@ impl Reader<'_> {
                 .volume()
                 .is_some_and(|v| v.thickness_factor() > 0.0),
             clearcoat: self.float(
-                factor(&clearcoat, "clearcoatFactor"),
-                TextureRef::in_json(&clearcoat, "clearcoatTexture"),
+                factor(clearcoat, "clearcoatFactor"),
+                TextureRef::in_json(clearcoat, "clearcoatTexture"),
                 red,
             )?,
             clearcoat_roughness: self.float(
-                factor(&clearcoat, "clearcoatRoughnessFactor"),
-                TextureRef::in_json(&clearcoat, "clearcoatRoughnessTexture"),
+                factor(clearcoat, "clearcoatRoughnessFactor"),
+                TextureRef::in_json(clearcoat, "clearcoatRoughnessTexture"),
                 green,
             )?,
             sheen_colour: self.colour(
                 Rgb::from(sheen_colour.map(unit)),
-                TextureRef::in_json(&sheen, "sheenColorTexture").filter(|_| has_sheen),
+                TextureRef::in_json(sheen, "sheenColorTexture").filter(|_| has_sheen),
             )?,
             sheen_roughness: self.float(
-                factor(&sheen, "sheenRoughnessFactor"),
-                TextureRef::in_json(&sheen, "sheenRoughnessTexture").filter(|_| has_sheen),
+                factor(sheen, "sheenRoughnessFactor"),
+                TextureRef::in_json(sheen, "sheenRoughnessTexture").filter(|_| has_sheen),
                 Meaning::Alpha,
             )?,
         })
+    }
+
+    /// Strength and colour of `KHR_materials_specular`.
+    fn specular(
+        &mut self,
+        material: &gltf::Material<'_>,
+    ) -> Result<(FloatParam, ColourParam), SceneError> {
+        let Some(specular) = material.specular() else {
+            return Ok((FloatParam::Value(1.0), ColourParam::WHITE));
+        };
+        let map = specular.specular_texture().as_ref().map(TextureRef::of);
+        let strength = self.float(unit(specular.specular_factor()), map, Meaning::Alpha)?;
+        let map = specular
+            .specular_color_texture()
+            .as_ref()
+            .map(TextureRef::of);
+        let factor = Rgb::from(specular.specular_color_factor().map(|x| x.max(0.0)));
+        Ok((strength, self.colour(factor, map)?))
+    }
+
+    /// Says what of a material's extensions is left out.
+    fn warn_about_extensions(&mut self, material: &gltf::Material<'_>) {
+        let has = |name: &str, member: &str| extension(material, name).get(member).is_some();
+        if has("KHR_materials_anisotropy", "anisotropyTexture") {
+            self.warn("of anisotropy textures the strength is used, not the direction");
+        }
+        if has("KHR_materials_clearcoat", "clearcoatNormalTexture") {
+            self.warn("normal maps of clear coats are left out");
+        }
+        if material.volume().is_some_and(|v| {
+            v.attenuation_distance().is_finite() && v.attenuation_color() != [1.0; 3]
+        }) {
+            self.warn("absorption within volumes is left out");
+        }
     }
 
     /// The one set of coordinates of a material's textures: a mesh has one.
@@ -297,4 +301,18 @@ impl Reader<'_> {
         }
         first
     }
+}
+
+/// An extension's object; `null` where there is none.
+fn extension<'a>(material: &'a gltf::Material<'_>, name: &str) -> &'a Value {
+    material.extension_value(name).unwrap_or(&Value::Null)
+}
+
+fn unit(x: f32) -> f32 {
+    x.clamp(0.0, 1.0)
+}
+
+/// A number of an extension in `[0, 1]`; 0 where there is none.
+fn factor(object: &Value, name: &str) -> f32 {
+    unit(number(object, name).unwrap_or(0.0))
 }

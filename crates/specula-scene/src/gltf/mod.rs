@@ -36,7 +36,9 @@ use crate::scene::{Light, Material, Mesh, Object, Shape, Texture, TextureId};
 use crate::{Limits, Loaded, read_file};
 
 /// Extensions that a file may require.
-const KNOWN_EXTENSIONS: [&str; 14] = [
+const KNOWN_EXTENSIONS: [&str; 15] = [
+    // Marks which triangles belong to one polygon: nothing that a picture shows.
+    "FB_ngon_encoding",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",

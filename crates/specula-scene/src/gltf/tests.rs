@@ -1,6 +1,7 @@
 use specula_bsdf::Rgb;
 
 use super::*;
+use crate::Scene;
 use crate::scene::{Channel, ColourParam, FloatParam, Geometry, MaterialKind, Projection, Relief};
 
 /// A triangle with positions, coordinates and indices, in one embedded buffer.
@@ -93,7 +94,11 @@ fn materials_cameras_and_lights_are_read() {
     ))
     .unwrap();
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
-    let scene = &loaded.scene;
+    check_surface(&loaded.scene);
+    check_view(&loaded.scene);
+}
+
+fn check_surface(scene: &Scene) {
     let shape = &scene.shapes[0];
     let emission = shape.emission.unwrap();
     assert_eq!(
@@ -132,6 +137,9 @@ fn materials_cameras_and_lights_are_read() {
         scene.textures[alpha.0],
         Texture::Threshold { cutoff: 0.25, .. }
     ));
+}
+
+fn check_view(scene: &Scene) {
     let camera = &scene.camera;
     let Projection::Perspective { fov_deg } = camera.projection else {
         panic!("{camera:?}")

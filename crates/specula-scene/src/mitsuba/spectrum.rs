@@ -7,9 +7,7 @@
 //! uniform radiance:  rgb = s M (1, 1, 1)
 //! ```
 //!
-//! A list is 0 outside its wavelengths, and sums have Mitsuba's 1000 steps from 360 to 830 nm, both
-//! ends included, each weighing a thousandth of the range: a list over all of it comes out 0.1 %
-//! too dark, as it does there.
+//! A list is 0 outside its wavelengths, and sums have Mitsuba's 1000 samples from 360 to 830 nm.
 
 use std::path::Path;
 
@@ -86,7 +84,7 @@ fn sum(list: &[(f64, f64)], weight: Weight) -> [f64; 3] {
             *total += bar * value;
         }
     }
-    xyz.map(|x| x * RANGE / f64::from(STEPS))
+    xyz.map(|x| x * RANGE / f64::from(STEPS - 1))
 }
 
 /// Radiance of a black body in W/(m^2 sr nm), over the observer. Source: Planck 1901, CODATA 2018.

@@ -19,6 +19,9 @@ use crate::spectrum::{COLOUR_SPACES, ColourSpace};
 /// Most files that `Include` and `Import` may open, counted with repetition.
 const MAX_FILES: usize = 100_000;
 
+/// Most parameters that `Attribute` may set at a time: every later directive looks through them.
+const MAX_ATTRIBUTES: usize = 1000;
+
 /// A material of the file, read once all textures are known.
 pub(super) struct MaterialEntity {
     pub(super) name: Option<String>,
@@ -228,7 +231,12 @@ impl Reader {
                         format!("expected one of {expected}, found \"{}\"", shorten(&target));
                     return Err(SceneError::new(ErrorKind::Syntax, &place, message));
                 };
-                self.state.attributes[i].extend(params);
+                let attributes = &mut self.state.attributes[i];
+                attributes.extend(params);
+                if attributes.len() > MAX_ATTRIBUTES {
+                    let message = format!("more than {MAX_ATTRIBUTES} attributes for \"{target}\"");
+                    return Err(SceneError::new(ErrorKind::Limit, &place, message));
+                }
             }
             _ => return self.world_directive(word, place, tokens),
         }
@@ -286,9 +294,9 @@ impl Reader {
                     "`WorldEnd` belongs to older versions of pbrt and does nothing",
                 );
             }
-            "AttributeBegin" => self.push("AttributeBegin", place),
+            "AttributeBegin" => self.push("AttributeBegin", place)?,
             "AttributeEnd" => self.pop("AttributeBegin", word, place)?,
-            "TransformBegin" => self.push("TransformBegin", place),
+            "TransformBegin" => self.push("TransformBegin", place)?,
             "TransformEnd" => self.pop("TransformBegin", word, place)?,
             "ObjectBegin" => {
                 let (name, place) = tokens.expect_text("the name of an object")?;
@@ -301,7 +309,7 @@ impl Reader {
                     let message = format!("object \"{}\" is defined twice", shorten(&name));
                     return Err(SceneError::new(ErrorKind::Duplicate, &place, message));
                 }
-                self.push("ObjectBegin", &place);
+                self.push("ObjectBegin", &place)?;
                 self.in_object = true;
                 self.objects.push(ObjectEntity {
                     name,
@@ -317,9 +325,16 @@ impl Reader {
         Ok(true)
     }
 
-    fn push(&mut self, directive: &'static str, place: &Place) {
+    fn push(&mut self, directive: &'static str, place: &Place) -> Result<(), SceneError> {
+        // Blocks nest deeper than files do.
+        let deepest = self.context.limits.max_depth.saturating_mul(16);
+        if self.stack.len() >= deepest {
+            let message = format!("blocks are nested more than {deepest} deep");
+            return Err(SceneError::new(ErrorKind::Limit, place, message));
+        }
         self.stack
             .push((directive, place.clone(), self.state.clone()));
+        Ok(())
     }
 
     fn pop(&mut self, begin: &str, end: &str, place: &Place) -> Result<(), SceneError> {

@@ -5,8 +5,8 @@ use specula_bsdf::Rgb;
 
 use super::{Invalid, ensure, is_light};
 use crate::scene::{
-    ColourParam, ConductorFresnel, FloatParam, Material, MaterialKind, NoiseKind, Relief,
-    Roughness, Scene, Texture, TextureMapping,
+    ColourParam, ConductorFresnel, FloatParam, Gltf, Material, MaterialKind, NoiseKind, Principled,
+    Relief, Roughness, Scene, Texture, TextureId, TextureMapping,
 };
 
 impl Scene {
@@ -36,6 +36,43 @@ impl Scene {
                 "a texture is out of range",
             ),
         }
+    }
+
+    fn principled(&self, what: &str, p: &Principled) -> Result<(), Invalid> {
+        self.colour(what, p.base_colour)?;
+        self.floats(
+            what,
+            &[
+                p.roughness,
+                p.anisotropic,
+                p.metallic,
+                p.spec_trans,
+                p.spec_tint,
+                p.sheen,
+                p.sheen_tint,
+                p.clearcoat,
+                p.clearcoat_gloss,
+                p.flatness,
+                p.diff_trans,
+            ],
+        )
+    }
+
+    fn gltf(&self, what: &str, g: &Gltf) -> Result<(), Invalid> {
+        self.colours(what, &[g.base_colour, g.specular_colour, g.sheen_colour])?;
+        self.floats(
+            what,
+            &[
+                g.metallic,
+                g.roughness,
+                g.anisotropy,
+                g.specular,
+                g.transmission,
+                g.clearcoat,
+                g.clearcoat_roughness,
+                g.sheen_roughness,
+            ],
+        )
     }
 
     fn colours(&self, what: &str, params: &[ColourParam]) -> Result<(), Invalid> {
@@ -68,102 +105,30 @@ impl Scene {
 
     pub(super) fn check_texture(&self, i: usize, texture: &Texture) -> Result<(), Invalid> {
         let what = format!("texture {i}");
-        let before = |ids: &[usize]| {
-            ensure(
-                ids.iter().all(|j| *j < i),
-                &what,
-                "it refers to a texture after it",
-            )
-        };
-        match texture {
-            Texture::Constant(c) => ensure(
-                [c.r, c.g, c.b].iter().all(|x| x.is_finite()),
-                &what,
-                "it is not finite",
-            ),
-            Texture::Image {
-                image,
-                mapping,
-                scale,
-                ..
-            } => {
-                ensure(
-                    image.0 < self.images.len(),
-                    &what,
-                    "its image is out of range",
-                )?;
-                ensure(scale.is_finite(), &what, "its scale is not finite")?;
-                check_mapping(&what, mapping)
-            }
-            Texture::Scale { a, b } => before(&[a.0, b.0]),
-            Texture::Mix { a, b, amount } => {
-                before(&[a.0, b.0])?;
-                match amount {
-                    FloatParam::Texture(id) => before(&[id.0]),
-                    FloatParam::Value(x) => {
-                        ensure(x.is_finite(), &what, "its amount is not finite")
-                    }
-                }
-            }
-            Texture::Checkerboard { even, odd, mapping } => {
-                before(&[even.0, odd.0])?;
-                check_mapping(&what, mapping)
-            }
-            Texture::Dots {
-                inside,
-                outside,
-                mapping,
-            } => {
-                before(&[inside.0, outside.0])?;
-                check_mapping(&what, mapping)
-            }
-            Texture::Checkerboard3d {
-                even,
-                odd,
-                to_texture,
-            } => {
-                before(&[even.0, odd.0])?;
-                check_space(&what, to_texture)
-            }
-            Texture::Bilinear { corners, mapping } => {
-                let finite = |c: &Rgb<f32>| [c.r, c.g, c.b].iter().all(|x| x.is_finite());
-                ensure(corners.iter().all(finite), &what, "it is not finite")?;
-                check_mapping(&what, mapping)
-            }
-            Texture::Noise {
-                kind,
-                octaves,
-                roughness,
-                to_texture,
-            } => {
-                let marble = match kind {
-                    NoiseKind::Marble { scale, variation } => {
-                        scale.is_finite() && variation.is_finite()
-                    }
-                    NoiseKind::Fbm | NoiseKind::Turbulence | NoiseKind::Windy => true,
-                };
-                ensure(
-                    marble && roughness.is_finite() && *octaves <= 64,
-                    &what,
-                    "a number is out of range",
-                )?;
-                check_space(&what, to_texture)
-            }
-            Texture::Sum { a, b } => before(&[a.0, b.0]),
-            Texture::DirectionMix { a, b, axis } => {
-                before(&[a.0, b.0])?;
-                ensure(
-                    axis.iter().all(|x| x.is_finite()),
-                    &what,
-                    "its axis is not finite",
-                )
-            }
-            Texture::Threshold { texture, cutoff } => {
-                before(&[texture.0])?;
-                ensure(cutoff.is_finite(), &what, "its cutoff is not finite")
-            }
-            Texture::VertexColour => Ok(()),
+        ensure(
+            inputs(texture).iter().flatten().all(|id| id.0 < i),
+            &what,
+            "it refers to a texture after it",
+        )?;
+        if let Texture::Image { image, .. } = texture {
+            let known = image.0 < self.images.len();
+            ensure(known, &what, "its image is out of range")?;
         }
+        match texture {
+            Texture::Image { mapping, .. }
+            | Texture::Checkerboard { mapping, .. }
+            | Texture::Dots { mapping, .. }
+            | Texture::Bilinear { mapping, .. } => check_mapping(&what, mapping)?,
+            Texture::Checkerboard3d { to_texture, .. } | Texture::Noise { to_texture, .. } => {
+                check_space(&what, to_texture)?;
+            }
+            _ => {}
+        }
+        ensure(
+            has_good_numbers(texture),
+            &what,
+            "a number is not finite or out of range",
+        )
     }
 
     pub(super) fn check_material(&self, i: usize, material: &Material) -> Result<(), Invalid> {
@@ -183,13 +148,6 @@ impl Scene {
     }
 
     fn check_kind(&self, what: &str, i: usize, kind: &MaterialKind) -> Result<(), Invalid> {
-        let eta = |eta: f32| {
-            ensure(
-                eta > 0.0 && eta.is_finite(),
-                what,
-                "its index is not above 0",
-            )
-        };
         match kind {
             MaterialKind::Diffuse {
                 reflectance,
@@ -205,6 +163,38 @@ impl Scene {
                 self.colour(what, *reflectance)?;
                 self.colour(what, *transmittance)
             }
+            MaterialKind::ThinDielectric {
+                eta: e,
+                reflection_tint,
+                transmission_tint,
+            } => {
+                index(what, *e)?;
+                self.colours(what, &[*reflection_tint, *transmission_tint])
+            }
+            MaterialKind::Principled(p) => {
+                index(what, p.eta)?;
+                self.principled(what, p)
+            }
+            MaterialKind::Gltf(g) => {
+                index(what, g.ior)?;
+                self.gltf(what, g)
+            }
+            MaterialKind::Mix { materials, amount } => {
+                ensure(
+                    materials.iter().all(|m| m.0 < i),
+                    what,
+                    "it mixes a material after it",
+                )?;
+                self.float(what, *amount)
+            }
+            MaterialKind::Interface => Ok(()),
+            _ => self.check_rough(what, kind),
+        }
+    }
+
+    /// Materials with microfacets.
+    fn check_rough(&self, what: &str, kind: &MaterialKind) -> Result<(), Invalid> {
+        match kind {
             MaterialKind::Conductor {
                 fresnel,
                 roughness,
@@ -220,17 +210,9 @@ impl Scene {
                 reflection_tint,
                 transmission_tint,
             } => {
-                eta(*e)?;
+                index(what, *e)?;
                 self.colours(what, &[*reflection_tint, *transmission_tint])?;
                 self.roughness(what, roughness)
-            }
-            MaterialKind::ThinDielectric {
-                eta: e,
-                reflection_tint,
-                transmission_tint,
-            } => {
-                eta(*e)?;
-                self.colours(what, &[*reflection_tint, *transmission_tint])
             }
             MaterialKind::CoatedDiffuse {
                 reflectance,
@@ -238,7 +220,7 @@ impl Scene {
                 roughness,
             } => {
                 self.colour(what, *reflectance)?;
-                eta(*e)?;
+                index(what, *e)?;
                 self.roughness(what, roughness)
             }
             MaterialKind::CoatedConductor {
@@ -247,7 +229,7 @@ impl Scene {
                 fresnel,
                 roughness,
             } => {
-                eta(*coat_eta)?;
+                index(what, *coat_eta)?;
                 self.roughness(what, coat_roughness)?;
                 self.fresnel(what, fresnel)?;
                 self.roughness(what, roughness)
@@ -259,57 +241,82 @@ impl Scene {
                 roughness,
                 nonlinear: _,
             } => {
-                eta(*e)?;
+                index(what, *e)?;
                 self.colours(what, &[*diffuse, *specular])?;
                 self.roughness(what, roughness)
             }
-            MaterialKind::Principled(p) => {
-                eta(p.eta)?;
-                self.colour(what, p.base_colour)?;
-                self.floats(
-                    what,
-                    &[
-                        p.roughness,
-                        p.anisotropic,
-                        p.metallic,
-                        p.spec_trans,
-                        p.spec_tint,
-                        p.sheen,
-                        p.sheen_tint,
-                        p.clearcoat,
-                        p.clearcoat_gloss,
-                        p.flatness,
-                        p.diff_trans,
-                    ],
-                )
-            }
-            MaterialKind::Gltf(g) => {
-                eta(g.ior)?;
-                self.colours(what, &[g.base_colour, g.specular_colour, g.sheen_colour])?;
-                self.floats(
-                    what,
-                    &[
-                        g.metallic,
-                        g.roughness,
-                        g.anisotropy,
-                        g.specular,
-                        g.transmission,
-                        g.clearcoat,
-                        g.clearcoat_roughness,
-                        g.sheen_roughness,
-                    ],
-                )
-            }
-            MaterialKind::Mix { materials, amount } => {
-                ensure(
-                    materials.iter().all(|m| m.0 < i),
-                    what,
-                    "it mixes a material after it",
-                )?;
-                self.float(what, *amount)
-            }
-            MaterialKind::Interface => Ok(()),
+            _ => Ok(()),
         }
+    }
+}
+
+/// Holds an index of refraction against its range.
+fn index(what: &str, eta: f32) -> Result<(), Invalid> {
+    ensure(
+        eta > 0.0 && eta.is_finite(),
+        what,
+        "its index is not above 0",
+    )
+}
+
+/// The textures that a texture refers to.
+fn inputs(texture: &Texture) -> [Option<TextureId>; 3] {
+    match *texture {
+        Texture::Constant(_)
+        | Texture::Image { .. }
+        | Texture::Bilinear { .. }
+        | Texture::Noise { .. }
+        | Texture::VertexColour => [None; 3],
+        Texture::Mix { a, b, amount } => match amount {
+            FloatParam::Texture(amount) => [Some(a), Some(b), Some(amount)],
+            FloatParam::Value(_) => [Some(a), Some(b), None],
+        },
+        Texture::Scale { a, b }
+        | Texture::Sum { a, b }
+        | Texture::DirectionMix { a, b, .. }
+        | Texture::Checkerboard {
+            even: a, odd: b, ..
+        }
+        | Texture::Checkerboard3d {
+            even: a, odd: b, ..
+        }
+        | Texture::Dots {
+            inside: a,
+            outside: b,
+            ..
+        } => [Some(a), Some(b), None],
+        Texture::Threshold { texture, .. } => [Some(texture), None, None],
+    }
+}
+
+/// Whether a texture's own numbers are finite, and its octaves few enough.
+fn has_good_numbers(texture: &Texture) -> bool {
+    let finite = |c: &Rgb<f32>| [c.r, c.g, c.b].iter().all(|x| x.is_finite());
+    match texture {
+        Texture::Constant(c) => finite(c),
+        Texture::Bilinear { corners, .. } => corners.iter().all(finite),
+        Texture::Image { scale, .. } => scale.is_finite(),
+        Texture::Mix {
+            amount: FloatParam::Value(x),
+            ..
+        } => x.is_finite(),
+        Texture::DirectionMix { axis, .. } => axis.iter().all(|x| x.is_finite()),
+        Texture::Threshold { cutoff, .. } => cutoff.is_finite(),
+        Texture::Noise {
+            kind,
+            octaves,
+            roughness,
+            ..
+        } => {
+            let own = match kind {
+                NoiseKind::Marble { scale, variation } => {
+                    scale.is_finite() && variation.is_finite()
+                }
+                NoiseKind::Fbm | NoiseKind::Turbulence | NoiseKind::Windy => true,
+            };
+            own && roughness.is_finite() && *octaves <= 64
+        }
+        _ => true,
     }
 }
 

@@ -13,6 +13,9 @@ use crate::scene::{Channel, ImageId, Mesh, MeshId};
 /// Largest number of EXR's half floats.
 const LARGEST_HALF: f32 = 65_504.0;
 
+/// What of a pixel is written.
+type Pick = fn(Rgb<f32>) -> Rgb<f32>;
+
 /// Puts bytes at a path: the old file stays untouched unless all of them are on disk.
 pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     let write = || -> io::Result<()> {
@@ -61,7 +64,7 @@ impl Writer<'_> {
             return Ok(name.clone());
         }
         let image = &self.scene.images[id.0];
-        let (suffix, pick): (_, fn(Rgb<f32>) -> Rgb<f32>) = match channel {
+        let (suffix, pick): (&str, Pick) = match channel {
             // pbrt takes the mean of the channels where it wants a number.
             Channel::Rgb | Channel::Mean => ("", |c| c),
             Channel::Luminance => ("-luminance", |c| Rgb::splat(c.luminance())),

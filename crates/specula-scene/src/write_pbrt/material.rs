@@ -60,10 +60,7 @@ impl Writer<'_> {
                 reflectance,
                 roughness,
             } => {
-                if *roughness != FloatParam::Value(0.0) {
-                    self.note("rough diffuse materials are written as Lambert's");
-                }
-                params += &self.colour_param("reflectance", *reflectance)?;
+                params += &self.diffuse(*reflectance, *roughness)?;
                 "diffuse"
             }
             MaterialKind::DiffuseTransmission {
@@ -80,8 +77,7 @@ impl Writer<'_> {
                 tint,
             } => {
                 self.untinted(&[*tint]);
-                params += &self.fresnel("", "reflectance", fresnel)?;
-                params += &self.roughness("", roughness)?;
+                params += &self.metal("", Some(fresnel), roughness)?;
                 "conductor"
             }
             MaterialKind::Dielectric {
@@ -90,8 +86,7 @@ impl Writer<'_> {
                 reflection_tint,
                 transmission_tint,
             } => {
-                self.untinted(&[*reflection_tint, *transmission_tint]);
-                params += &format!(" \"float eta\" [ {eta} ]");
+                params += &self.glass(*eta, [*reflection_tint, *transmission_tint]);
                 params += &self.roughness("", roughness)?;
                 "dielectric"
             }
@@ -100,8 +95,7 @@ impl Writer<'_> {
                 reflection_tint,
                 transmission_tint,
             } => {
-                self.untinted(&[*reflection_tint, *transmission_tint]);
-                params += &format!(" \"float eta\" [ {eta} ]");
+                params += &self.glass(*eta, [*reflection_tint, *transmission_tint]);
                 "thindielectric"
             }
             MaterialKind::CoatedDiffuse {
@@ -114,24 +108,13 @@ impl Writer<'_> {
                 specular,
                 eta,
                 roughness,
-                nonlinear: _,
+                ..
             } => {
                 self.note("plastic is written as coateddiffuse");
                 self.untinted(&[*specular]);
                 return self.coated_diffuse(*diffuse, *eta, roughness);
             }
-            MaterialKind::CoatedConductor {
-                coat_eta,
-                coat_roughness,
-                fresnel,
-                roughness,
-            } => {
-                params += &format!(" \"float interface.eta\" [ {coat_eta} ]");
-                params += &self.roughness("interface.", coat_roughness)?;
-                params += &self.fresnel("conductor.", "reflectance", fresnel)?;
-                params += &self.roughness("conductor.", roughness)?;
-                "coatedconductor"
-            }
+            MaterialKind::CoatedConductor { .. } => return self.coated_conductor(kind),
             MaterialKind::Principled(p) => return self.principled(index, p),
             MaterialKind::Gltf(g) => return self.gltf(index, g),
             MaterialKind::Mix { materials, amount } => {
@@ -143,6 +126,53 @@ impl Writer<'_> {
             MaterialKind::Interface => "interface",
         };
         Ok(typed(name, &params))
+    }
+
+    fn diffuse(
+        &mut self,
+        reflectance: ColourParam,
+        roughness: FloatParam,
+    ) -> Result<String, WriteError> {
+        if roughness != FloatParam::Value(0.0) {
+            self.note("rough diffuse materials are written as Lambert's");
+        }
+        self.colour_param("reflectance", reflectance)
+    }
+
+    fn coated_conductor(&mut self, kind: &MaterialKind) -> Result<String, WriteError> {
+        let MaterialKind::CoatedConductor {
+            coat_eta,
+            coat_roughness,
+            fresnel,
+            roughness,
+        } = kind
+        else {
+            return Ok(String::new());
+        };
+        let mut params = format!(" \"float interface.eta\" [ {coat_eta} ]");
+        params += &self.metal("interface.", None, coat_roughness)?;
+        params += &self.metal("conductor.", Some(fresnel), roughness)?;
+        Ok(typed("coatedconductor", &params))
+    }
+
+    /// A layer's Fresnel term, where it is a metal's, and its roughness.
+    fn metal(
+        &mut self,
+        prefix: &str,
+        fresnel: Option<&ConductorFresnel>,
+        roughness: &Roughness,
+    ) -> Result<String, WriteError> {
+        let mut params = String::new();
+        if let Some(fresnel) = fresnel {
+            params += &self.fresnel(prefix, "reflectance", fresnel)?;
+        }
+        params += &self.roughness(prefix, roughness)?;
+        Ok(params)
+    }
+
+    fn glass(&mut self, eta: f32, tints: [ColourParam; 2]) -> String {
+        self.untinted(&tints);
+        format!(" \"float eta\" [ {eta} ]")
     }
 
     fn untinted(&mut self, tints: &[ColourParam]) {

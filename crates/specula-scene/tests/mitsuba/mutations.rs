@@ -42,7 +42,7 @@ fn changed_bytes_never_panic() {
     let mut lcg = Lcg(7);
     let palette = b"<>/\"=$ -0159.eab#:,\\\0\xc3";
     let mut sound = 0;
-    for _ in 0..1500 {
+    for _ in 0..500 {
         let mut bytes = good.to_vec();
         for _ in 0..=lcg.below(3) {
             let at = lcg.below(bytes.len());
@@ -66,7 +66,7 @@ fn changed_bytes_never_panic() {
             Err(e) => assert!(!e.message().is_empty() && e.line() > 0),
         }
     }
-    assert!(sound > 20 && sound < 1400, "{sound} of 1500 are sound");
+    assert!(sound > 5 && sound < 480, "{sound} of 500 are sound");
 }
 
 #[test]

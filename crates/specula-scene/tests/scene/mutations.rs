@@ -259,4 +259,12 @@ fn limits_can_be_chosen() {
     assert!(specula_scene::load_with(&path, &tight).is_ok());
     let blocks = "AttributeBegin ".repeat(3) + "Shape \"sphere\"" + &" AttributeEnd".repeat(3);
     assert!(strict(&folder, &format!("WorldBegin {blocks}")).is_ok());
+    let blocks = "AttributeBegin ".repeat(300);
+    let error = strict(&folder, &format!("WorldBegin {blocks}")).unwrap_err();
+    assert!(error.message().contains("256 deep"), "{error}");
+    let many: String = (0..1001)
+        .map(|i| format!("Attribute \"shape\" \"float a{i}\" 1 "))
+        .collect();
+    let error = strict(&folder, &format!("WorldBegin {many}")).unwrap_err();
+    assert!(error.message().contains("more than 1000"), "{error}");
 }

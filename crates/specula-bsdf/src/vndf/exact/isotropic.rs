@@ -2,16 +2,17 @@
 //!
 //! Planes across the plane of incidence cut the cone's projection along the view in chords whose
 //! lengths are a disk's, so that a uniform point `(X, Y)` of the disk needs a scale across and
-//! a scale and a shift along them. With `w = |wo| = 1`, `p = a^2`, `q = i.z (1 - a^2)`:
+//! a scale and a shift along them. With `p = a^2`, `q = i.z (1 - a^2)`:
 //!
 //! ```text
 //! Delta = sqrt(q^2 + 4 p),  lambda = (q + Delta)/2,  kappa = p/lambda,  B = lambda + i.z a^2
 //! y = sqrt(lambda/B) Y
-//! K = (1/L) (lambda sqrt(lambda B)/Delta X + r kappa/(Delta B) sqrt((1 - Y^2) kappa B + Y^2 i.z a^2 Delta))
+//! K = (1/L) (lambda sqrt(lambda B)/Delta X + r kappa/(Delta B) R)
+//! R = sqrt((1 - Y^2) kappa B + Y^2 i.z a^2 Delta)
 //! m = y T1 + K T2 + sqrt(1 - y^2 - K^2) h/L
 //! ```
 //!
-//! with `r = |(hx, hy)|`, `L = |h|`, `T1` across the plane of incidence and `T2 = T1 x h/L` (towards
+//! with `r = |(hx, hy)|`, `L = |h|`, `T1` across the plane of incidence and `T2 = h/L x T1` (towards
 //! the surface's normal). Nothing in it cancels.
 
 use crate::alpha::Alpha;
