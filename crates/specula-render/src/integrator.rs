@@ -251,7 +251,9 @@ impl<'a> PathTracer<'a> {
         let (ns, tangent) = match &material.relief {
             None => (surface.ns, surface.tangent),
             Some(r) => {
-                let PreparedScene { textures, geometry, .. } = self.scene;
+                let PreparedScene {
+                    textures, geometry, ..
+                } = self.scene;
                 relief::bend(r, material.relief_rules, textures, geometry, surface)
             }
         };

@@ -96,7 +96,11 @@ pub(crate) fn bend(
             let s = unit_or(dp[0], n);
             let t = n.cross(s);
             let follows_v = rules == ReliefRules::Plain;
-            let t = if follows_v && t.dot(dp[1]) < 0.0 { -t } else { t };
+            let t = if follows_v && t.dot(dp[1]) < 0.0 {
+                -t
+            } else {
+                t
+            };
             let [x, y, z] = [c.r, c.g, c.b].map(|v| 2.0 * v - 1.0);
             let bent = s * (x * scale) + t * (y * scale) + n * z;
             (unit_or(bent, n), dp[0])

@@ -73,7 +73,7 @@ fn compared(root: &Path, path: &Path, samples: u32) -> (String, bool) {
     let picture = render(&load(root, path), samples);
     if let Ok(folder) = std::env::var("SPECULA_SPHERES_OUT") {
         let file = Path::new(&folder).join(format!("{name}.exr"));
-        specula_render::picture::write_exr(&file, &picture, &Default::default()).unwrap();
+        specula_render::picture::write_exr(&file, &picture, &Default::default()).expect("writable");
     }
     let reports = against_reference(root, &name, &picture, f64::from(samples));
     let mut least = [1.0_f64; 3];
@@ -97,7 +97,7 @@ fn compared(root: &Path, path: &Path, samples: u32) -> (String, bool) {
 fn against_reference(root: &Path, name: &str, picture: &Picture, samples: f64) -> Vec<Report> {
     let reference = |suffix: &str| {
         let file = format!("bsdf_spheres/refs/{name}_ref_rgb{suffix}.exr");
-        read_exr(&root.join(file)).unwrap()
+        read_exr(&root.join(file)).expect("a reference")
     };
     let (mean, variance) = (reference(""), reference("_var"));
     assert_eq!([mean.width, mean.height], [picture.width, picture.height]);
@@ -168,7 +168,7 @@ fn wrong_pictures_are_told_apart() {
     }
     assert!(!passes(&mirrored), "mirrored");
     let mut bright = good.clone();
-    bright.colour.iter_mut().for_each(|c| *c = *c * 1.03);
+    bright.colour.iter_mut().for_each(|c| *c *= 1.03);
     assert!(!passes(&bright), "3 % too bright");
     let mut dotted = good;
     dotted.colour[30 * 48 + 20] = Rgb::splat(9.0);
@@ -185,7 +185,7 @@ fn one_sample(variance: Rgb<f32>) -> f64 {
 
 fn render(scene: &Scene, samples: u32) -> Picture {
     let options = RenderOptions::from_scene(scene);
-    let prepared = PreparedScene::new(scene, &options).unwrap();
+    let prepared = PreparedScene::new(scene, &options).expect("a scene that can be prepared");
     let mut renderer = Renderer::new(&prepared, options);
     let report = renderer.render_pass(samples, &AtomicBool::new(false));
     assert_eq!(report.invalid_samples, 0, "samples that are not finite");

@@ -174,8 +174,9 @@ fn light_kind(light: &Light) -> &'static str {
             ..
         } => match mapping {
             EnvironmentMapping::EqualAreaOctahedral => "infinite, equal-area picture",
-            EnvironmentMapping::LatitudeLongitude
-            | EnvironmentMapping::LatitudeLongitudePoles => "infinite, latitude-longitude picture",
+            EnvironmentMapping::LatitudeLongitude | EnvironmentMapping::LatitudeLongitudePoles => {
+                "infinite, latitude-longitude picture"
+            }
         },
         Light::Distant { .. } => "distant",
         Light::Point { .. } => "point",

@@ -128,8 +128,7 @@ impl Scene {
             "its exposure is not above 0",
         )?;
         ensure(
-            film.max_component
-                .is_none_or(|m| m.is_finite() && m > 0.0),
+            film.max_component.is_none_or(|m| m.is_finite() && m > 0.0),
             "film",
             "its largest component is not above 0",
         )?;

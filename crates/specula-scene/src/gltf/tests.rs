@@ -1,3 +1,5 @@
+//! Small files in memory: what is read, what is refused, and that damage never panics.
+
 use specula_bsdf::Rgb;
 
 use super::*;

@@ -4,8 +4,7 @@
 //! for which no maintained crate exists. Here the sky is that of Preetham et al. 1999, painted into
 //! a picture and scaled channel by channel such that the ground receives what Mitsuba's sky (ground
 //! albedo 0.3) gives it; the sun's irradiance is Mitsuba's, too (`sky_table`). What differs is how
-//! light is spread over the sky: a tenth or two over most of it, more around the sun and at the
-//! horizon. `albedo` is not used.
+//! light is spread over the sky, most around the sun and at the horizon. `albedo` is not used.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

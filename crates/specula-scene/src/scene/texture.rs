@@ -129,7 +129,7 @@ pub enum Texture {
         /// The bound.
         cutoff: f32,
     },
-    /// Interpolation by direction: `b + (a - b) |ns . axis|`-weighted as pbrt's `directionmix`.
+    /// Interpolation by direction, pbrt's `directionmix`: `t a + (1 - t) b` with `t = |ng . axis|`.
     DirectionMix {
         /// Where the normal is along the axis.
         a: TextureId,

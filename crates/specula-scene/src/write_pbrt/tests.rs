@@ -1,3 +1,5 @@
+//! Scenes written and read back.
+
 use super::*;
 use crate::scene::{
     ColourParam, FloatParam, Material, MaterialKind, Relief, Roughness, RoughnessMapping, Texture,

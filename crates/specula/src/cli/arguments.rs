@@ -32,7 +32,7 @@ the scene are wrong; 130 stopped by Ctrl-C, what was rendered is written.";
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Render a scene to EXR and PNG.
-    Render(RenderArguments),
+    Render(Box<RenderArguments>),
     /// Say what is in a scene, and what of it is not supported.
     Info(InfoArguments),
     /// Write a scene as pbrt-v4, with its meshes and pictures beside it.
@@ -94,6 +94,10 @@ pub(crate) struct RenderArguments {
     /// cui, cui-bidirectional or specula
     #[arg(long, value_name = "NAME", default_value_t = Energy::None)]
     pub(crate) energy: Energy,
+
+    /// Value of a `$name` in a Mitsuba scene, over its `<default>`. May be repeated.
+    #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = values::parameter)]
+    pub(crate) parameters: Vec<(String, String)>,
 
     /// Give every surface this material, such as "conductor Au alpha 0.3", "dielectric 1.5",
     /// "coateddiffuse 0.1 0.3 0.8 alpha 0.05", "diffuse 0.5"; lamps keep theirs

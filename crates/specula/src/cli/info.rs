@@ -13,7 +13,7 @@ use super::{Failure, print};
 
 /// Prints what is in a scene and what of it is rendered otherwise than its file says.
 pub(crate) fn run(arguments: &InfoArguments) -> Result<ExitCode, Failure> {
-    let named = load::scene(arguments.scene.as_deref())?;
+    let named = load::scene(arguments.scene.as_deref(), &[])?;
     print(&describe(&named));
     Ok(ExitCode::SUCCESS)
 }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use specula::scene::{Scene, Warning, builtin};
+use specula::scene::{Limits, Scene, Warning, builtin, mitsuba};
 
 use super::Failure;
 
@@ -19,7 +19,12 @@ pub(crate) struct Named {
 }
 
 /// The scene of a file, or the built-in one.
-pub(crate) fn scene(path: Option<&Path>) -> Result<Named, Failure> {
+///
+/// * `parameters`: values of names in Mitsuba scenes.
+pub(crate) fn scene(
+    path: Option<&Path>,
+    parameters: &[(String, String)],
+) -> Result<Named, Failure> {
     let Some(path) = path else {
         return Ok(Named {
             name: "orbs".to_owned(),
@@ -27,7 +32,24 @@ pub(crate) fn scene(path: Option<&Path>) -> Result<Named, Failure> {
             warnings: Vec::new(),
         });
     };
-    let loaded = specula::scene::load(path).map_err(Failure::input)?;
+    let is_mitsuba = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("xml"));
+    let loaded = if is_mitsuba {
+        let options = mitsuba::Options {
+            parameters: parameters.to_vec(),
+            ..mitsuba::Options::default()
+        };
+        mitsuba::read(path, &Limits::default(), &options)
+    } else if parameters.is_empty() {
+        specula::scene::load(path)
+    } else {
+        return Err(Failure::bad_input(format_args!(
+            "-D is for Mitsuba scenes (.xml); {} is none",
+            path.display()
+        )));
+    };
+    let loaded = loaded.map_err(Failure::input)?;
     Ok(Named {
         name: stem(path),
         scene: loaded.scene,

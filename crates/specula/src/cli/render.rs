@@ -21,15 +21,19 @@ const SAVE_EVERY: Duration = Duration::from_secs(30);
 /// Renders and writes; code 130 where Ctrl-C ended it early.
 pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
     let stop = Stop::listen()?;
-    let mut named = load::scene(arguments.scene.as_deref())?;
+    let Named {
+        name,
+        mut scene,
+        warnings,
+    } = load::scene(arguments.scene.as_deref(), &arguments.parameters)?;
     if let Some(material) = arguments.material {
-        named.scene.replace_materials(material);
+        scene.replace_materials(material);
     }
     if !arguments.quiet {
-        load::print_warnings(&named.warnings);
+        load::print_warnings(&warnings);
     }
-    let options = options(arguments, &named.scene)?;
-    let outputs = Outputs::new(&arguments.output, &named.name, display(arguments))?;
+    let options = options(arguments, &scene)?;
+    let outputs = Outputs::new(&arguments.output, &name, display(arguments))?;
     let mut pool = rayon::ThreadPoolBuilder::new();
     if let Some(threads) = arguments.threads {
         pool = pool.num_threads(usize::from(threads));
@@ -39,18 +43,18 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
         .map_err(|e| Failure::other(format_args!("cannot start threads: {e}")))?;
     pool.install(|| {
         let start = Instant::now();
-        let prepared = PreparedScene::new(&named.scene, &options)
-            .map_err(|e: PrepareError| Failure::bad_input(format_args!("{}: {e}", named.name)))?;
+        let prepared = PreparedScene::consume(scene, &options)
+            .map_err(|e: PrepareError| Failure::bad_input(format_args!("{name}: {e}")))?;
         if !arguments.quiet {
             let [width, height] = prepared.resolution();
             let ready = short(start.elapsed().as_secs_f64());
-            eprintln!("{}: {width}x{height}, ready after {ready}", named.name);
+            eprintln!("{name}: {width}x{height}, ready after {ready}");
         }
         Job {
             goal: goal(arguments, &options),
             renderer: Renderer::new(&prepared, options.clone()),
             outputs: &outputs,
-            named: &named,
+            name: &name,
             stop: &stop,
             quiet: arguments.quiet,
         }
@@ -103,7 +107,7 @@ struct Job<'a> {
     goal: Goal,
     renderer: Renderer<'a>,
     outputs: &'a Outputs,
-    named: &'a Named,
+    name: &'a str,
     stop: &'a Stop,
     quiet: bool,
 }
@@ -155,7 +159,7 @@ impl Job<'_> {
     fn save(&self, samples: u32, start: Instant) -> Result<(), Failure> {
         let metadata = Metadata {
             software: Some(concat!("specula ", env!("CARGO_PKG_VERSION")).to_owned()),
-            scene: Some(self.named.name.clone()),
+            scene: Some(self.name.to_owned()),
             samples_per_pixel: Some(samples),
             seed: Some(self.renderer.options().seed),
             render_seconds: Some(start.elapsed().as_secs_f32()),

@@ -83,6 +83,14 @@ pub(crate) fn png(text: &str) -> Result<PathBuf, String> {
         .ok_or_else(|| "expected a file name that ends in .png".to_owned())
 }
 
+/// `name=value`.
+pub(crate) fn parameter(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.is_empty() => Ok((name.to_owned(), value.to_owned())),
+        _ => Err("expected a name and its value, such as spp=64".to_owned()),
+    }
+}
+
 /// A path that ends in `.pbrt`.
 pub(crate) fn pbrt(text: &str) -> Result<PathBuf, String> {
     with_extension(text, &["pbrt"])
@@ -98,6 +106,14 @@ fn with_extension(text: &str, allowed: &[&str]) -> Option<PathBuf> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn parameters() {
+        let pair = |a: &str, b: &str| Ok((a.to_owned(), b.to_owned()));
+        assert_eq!(parameter("spp=64"), pair("spp", "64"));
+        assert_eq!(parameter("file=a=b"), pair("file", "a=b"));
+        assert!(parameter("spp").is_err() && parameter("=1").is_err());
+    }
 
     #[test]
     fn times() {
