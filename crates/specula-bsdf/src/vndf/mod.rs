@@ -78,7 +78,12 @@ pub fn reflect<T: Real>(wo: Vec3<T>, wm: Vec3<T>) -> Vec3<T> {
 /// `wo` mirrored about a vector `m` of any length.
 #[inline(always)]
 pub(crate) fn reflect_unnormalised<T: Real>(wo: Vec3<T>, m: Vec3<T>) -> Vec3<T> {
-    m * (T::TWO * wo.dot(m) / m.length_squared()) - wo
+    let scale = T::TWO * wo.dot(m) / m.length_squared();
+    Vec3 {
+        x: m.x.mul_add(scale, -wo.x),
+        y: m.y.mul_add(scale, -wo.y),
+        z: m.z.mul_add(scale, -wo.z),
+    }
 }
 
 /// `Some(wi)` above the horizon.
