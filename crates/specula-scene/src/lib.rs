@@ -9,6 +9,7 @@
 //! ```
 #![forbid(unsafe_code)]
 
+pub mod atomic;
 pub mod bounds;
 pub mod builtin;
 #[cfg(feature = "miette")]

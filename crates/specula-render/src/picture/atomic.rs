@@ -1,8 +1,9 @@
-//! Files that are replaced whole or not at all.
+//! Whether a picture could be written, before it is rendered.
 
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io;
 use std::path::Path;
+
+use specula_scene::atomic::temporary_beside;
 
 use super::PictureError;
 
@@ -25,48 +26,12 @@ pub fn check_writable(path: &Path) -> Result<(), PictureError> {
     })
 }
 
-/// Puts what `write` produces at `path`; the old file stays untouched unless all of it is on disk.
-///
-/// The temporary file lies in the same folder, so that the final rename cannot cross file systems,
-/// and is removed when anything fails.
-///
-/// # Errors
-///
-/// What `write` returns, or the system's error.
-pub(super) fn replace<E: From<io::Error>>(
-    path: &Path,
-    write: impl FnOnce(&mut BufWriter<&File>) -> Result<(), E>,
-) -> Result<(), E> {
-    let temporary = temporary_beside(path)?;
-    let mut writer = BufWriter::with_capacity(1 << 16, temporary.as_file());
-    write(&mut writer)?;
-    writer.flush()?;
-    drop(writer);
-    temporary.as_file().sync_all()?;
-    temporary.persist(path).map_err(|e| e.error)?;
-    Ok(())
-}
-
-fn temporary_beside(path: &Path) -> io::Result<tempfile::NamedTempFile> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".specula-").suffix(".part");
-    #[cfg(unix)]
-    {
-        // The umask applies to this; the crate's own default is 0o600, which would hide pictures
-        // from everybody else.
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(folder)
-}
-
 #[cfg(test)]
 mod tests {
+    use std::io::Write;
+
     use super::*;
+    use specula_scene::atomic::replace;
 
     #[test]
     fn a_failed_write_leaves_the_old_file_and_no_temporary() {

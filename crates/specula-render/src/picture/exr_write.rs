@@ -10,7 +10,9 @@ use exr::prelude::{
 };
 use specula_bsdf::Rgb;
 
-use super::{Picture, PictureError, atomic, finite};
+use specula_scene::atomic;
+
+use super::{Picture, PictureError, finite};
 
 /// What is written beside the pixels, as attributes of the file; `None` is left out.
 #[derive(Clone, Debug, Default, PartialEq)]

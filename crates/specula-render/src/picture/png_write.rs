@@ -4,7 +4,9 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
 
-use super::{Display, Picture, PictureError, atomic};
+use specula_scene::atomic;
+
+use super::{Display, Picture, PictureError};
 
 /// Writes the colours of `picture` as 8-bit sRGB, whole or not at all.
 ///

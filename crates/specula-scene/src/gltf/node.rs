@@ -8,7 +8,6 @@ use gltf::camera::Projection as GltfProjection;
 use super::Reader;
 use super::material::Look;
 use crate::error::{ErrorKind, SceneError};
-use crate::num::f32_of;
 use crate::scene::{
     Camera, Geometry, Instance, MeshId, Object, ObjectId, Projection, Scene, Shape,
 };
@@ -226,11 +225,6 @@ fn shape((mesh, look): (MeshId, Look), to_world: DMat4) -> Shape {
         material: look.material,
         emission: look.emission,
         reverse_orientation: false,
-        alpha: match look.alpha {
-            crate::scene::FloatParam::Value(a) => {
-                crate::scene::FloatParam::Value(f32_of(f64::from(a).clamp(0.0, 1.0)))
-            }
-            texture => texture,
-        },
+        alpha: look.alpha,
     }
 }

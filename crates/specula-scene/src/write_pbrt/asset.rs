@@ -7,6 +7,7 @@ use exr::prelude::{WritableImage, f16};
 use specula_bsdf::Rgb;
 
 use super::{WriteError, Writer};
+use crate::atomic;
 use crate::image::Image;
 use crate::scene::{Channel, ImageId, Mesh, MeshId};
 
@@ -18,26 +19,7 @@ type Pick = fn(Rgb<f32>) -> Rgb<f32>;
 
 /// Puts bytes at a path: the old file stays untouched unless all of them are on disk.
 pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
-    let write = || -> io::Result<()> {
-        let folder = match path.parent() {
-            Some(folder) if !folder.as_os_str().is_empty() => folder,
-            _ => Path::new("."),
-        };
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".specula-").suffix(".part");
-        #[cfg(unix)]
-        {
-            // The umask applies to this; the default would hide the file from everybody else.
-            use std::os::unix::fs::PermissionsExt;
-            builder.permissions(std::fs::Permissions::from_mode(0o666));
-        }
-        let temporary = builder.tempfile_in(folder)?;
-        temporary.as_file().write_all(bytes)?;
-        temporary.as_file().sync_all()?;
-        temporary.persist(path).map_err(|e| e.error)?;
-        Ok(())
-    };
-    write().map_err(|source| WriteError {
+    atomic::replace(path, |out| out.write_all(bytes)).map_err(|source| WriteError {
         path: path.to_owned(),
         source,
     })

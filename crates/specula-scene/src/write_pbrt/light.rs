@@ -15,13 +15,13 @@ use crate::scene::{EnvironmentMapping, ImageId, Light, SpotFalloff};
 const SAMPLES: u32 = 4;
 
 impl Writer<'_> {
-    pub(super) fn light(&mut self, light: &Light) -> Result<(), WriteError> {
+    pub(super) fn light(&mut self, index: usize, light: &Light) -> Result<(), WriteError> {
         let (place, directive) = match light {
             Light::Infinite {
                 radiance,
                 image,
                 to_world,
-            } => (*to_world, self.infinite(*radiance, *image)?),
+            } => (*to_world, self.infinite(index, *radiance, *image)?),
             Light::Distant {
                 irradiance,
                 to_light,
@@ -80,6 +80,7 @@ impl Writer<'_> {
 
     fn infinite(
         &mut self,
+        index: usize,
         radiance: Rgb<f32>,
         image: Option<(ImageId, EnvironmentMapping)>,
     ) -> Result<String, WriteError> {
@@ -96,17 +97,14 @@ impl Writer<'_> {
             }
         };
         // pbrt has no colour beside a picture: it is multiplied in.
-        let name = format!("environment-{}.exr", id.0);
+        let name = format!("environment-{index}.exr");
         let scaled = Image {
+            name: String::new(),
+            width: picture.width,
+            height: picture.height,
             pixels: (picture.pixels.iter())
                 .map(|p| (Rgb::from(*p) * radiance).to_array())
                 .collect(),
-            ..Image {
-                name: String::new(),
-                width: picture.width,
-                height: picture.height,
-                pixels: Vec::new(),
-            }
         };
         let file = self.picture(&name, &scaled, |c| c)?;
         Ok(format!(

@@ -79,8 +79,8 @@ pub fn write_pbrt(scene: &Scene, path: &Path) -> Result<Vec<String>, WriteError>
     };
     writer.view();
     writer.line("\nWorldBegin");
-    for light in &scene.lights {
-        writer.light(light)?;
+    for (i, light) in scene.lights.iter().enumerate() {
+        writer.light(i, light)?;
     }
     writer.materials()?;
     writer.shapes()?;
