@@ -12,8 +12,10 @@ use std::time::Instant;
 
 use specula_bsdf::batch::{Colours, Directions, Kind, Level, Lobes, Samples, Widths};
 use specula_bsdf::bsdf::{
-    CoatedConductor, CoatedDiffuse, Eon, Lambert, RoughConductor, RoughDielectric,
+    CoatedConductor, CoatedDiffuse, Compensated, Eon, Lambert, RoughConductor, RoughDielectric,
+    SmoothConductor,
 };
+use specula_bsdf::energy::{FmsVariant, Model};
 use specula_bsdf::fresnel::{Conductor, Reflectance};
 use specula_bsdf::math::{Stream, rgb, warp};
 use specula_bsdf::ndf::Ggx;
@@ -194,6 +196,7 @@ fn lobes(input: &Input, level: Option<Level>, ggx: Ggx<f32>) -> Vec<Kernel<'_>> 
             level,
         ),
         lobe("glass", RoughDielectric::new(ggx, 1.5), input, level),
+        lobe("mirror", SmoothConductor::new(gold()), input, level),
         lobe("Lambert", Lambert::new(colour), input, level),
         lobe("EON", Eon::new(colour, 0.5), input, level),
         lobe(
@@ -205,6 +208,12 @@ fn lobes(input: &Input, level: Option<Level>, ggx: Ggx<f32>) -> Vec<Kernel<'_>> 
         lobe(
             "coated gold",
             CoatedConductor::new(Some(ggx), 1.5, Some(ggx), gold()),
+            input,
+            level,
+        ),
+        lobe(
+            "gold after Turquin",
+            Compensated::new(ggx, gold(), Model::Turquin(FmsVariant::AverageSeries)),
             input,
             level,
         ),

@@ -8,13 +8,17 @@
 use std::hint::black_box;
 use std::process::ExitCode;
 
-use specula_bsdf::batch::{Colours, Directions, Kind, Level, Samples, Widths};
-use specula_bsdf::bsdf::{RoughConductor, RoughDielectric};
+use specula_bsdf::batch::{Colours, Directions, Kind, Level, Lobes, Samples, Widths};
+use specula_bsdf::bsdf::{
+    CoatedConductor, CoatedDiffuse, Compensated, Eon, RoughConductor, RoughDielectric,
+    SmoothConductor,
+};
+use specula_bsdf::energy::{FmsVariant, Model};
 use specula_bsdf::fresnel::{Conductor, Reflectance};
 use specula_bsdf::math::{Stream, rgb, warp};
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::vndf::{self, Sampler};
-use specula_bsdf::{Alpha, Bsdf, Transport};
+use specula_bsdf::{Alpha, Bsdf, Rgb, Transport};
 
 const N: usize = 1024;
 
@@ -29,7 +33,13 @@ struct Data {
     samples: Samples<Vec<f32>, Vec<Kind>>,
     alpha: Alpha<f32>,
     gold: RoughConductor<f32>,
+    exact: RoughConductor<f32>,
     glass: RoughDielectric<f32>,
+    mirror: SmoothConductor<f32>,
+    eon: Eon<f32>,
+    coated_diffuse: CoatedDiffuse<f32>,
+    coated_gold: CoatedConductor<f32>,
+    turquin: Compensated<f32>,
 }
 
 impl Data {
@@ -46,6 +56,7 @@ impl Data {
             eta: rgb(0.14, 0.37, 1.44),
             k: rgb(3.98, 2.38, 1.6),
         });
+        let ggx = Ggx::new(alpha);
         Self {
             wo,
             wi,
@@ -55,8 +66,15 @@ impl Data {
             pdf: vec![0.0; N],
             samples: Samples::rejected(N),
             alpha,
-            gold: RoughConductor::new(Ggx::new(alpha), gold).with_sampler(Sampler::Bounded),
-            glass: RoughDielectric::new(Ggx::new(alpha), 1.5),
+            gold: RoughConductor::new(ggx, gold).with_sampler(Sampler::Bounded),
+            exact: RoughConductor::new(Ggx::new(Alpha::isotropic(0.3)), gold)
+                .with_sampler(Sampler::Exact),
+            glass: RoughDielectric::new(ggx, 1.5),
+            mirror: SmoothConductor::new(gold),
+            eon: Eon::new(Rgb::splat(0.5), 0.5),
+            coated_diffuse: CoatedDiffuse::new(Some(ggx), 1.5, Rgb::splat(0.5)),
+            coated_gold: CoatedConductor::new(Some(ggx), 1.5, Some(ggx), gold),
+            turquin: Compensated::new(ggx, gold, Model::Turquin(FmsVariant::AverageSeries)),
         }
     }
 }
@@ -87,41 +105,105 @@ fn scalar(data: &mut Data, kernel: &str) -> Option<()> {
         "pdf" => all(&|i| {
             black_box(vndf::bounded::reflection_pdf(alpha, wo.get(i), wi.get(i)));
         }),
-        "gold" => all(&|i| {
-            let u = [data.u[0][i], data.u[1][i], data.u[2][i]];
-            black_box(data.gold.sample(wo.get(i), u, Transport::Radiance));
-        }),
-        "glass" => all(&|i| {
-            let u = [data.u[0][i], data.u[1][i], data.u[2][i]];
-            black_box(data.glass.sample(wo.get(i), u, Transport::Radiance));
-        }),
+        _ => return scalar_lobe(data, kernel),
+    }
+    Some(())
+}
+
+fn scalar_lobe(data: &Data, kernel: &str) -> Option<()> {
+    match kernel {
+        "gold" => draw_each(data, &data.gold),
+        "gold-eval" => eval_each(data, &data.gold),
+        "exact" => draw_each(data, &data.exact),
+        "exact-eval" => eval_each(data, &data.exact),
+        "glass" => draw_each(data, &data.glass),
+        "glass-eval" => eval_each(data, &data.glass),
+        "mirror" => draw_each(data, &data.mirror),
+        "eon" => draw_each(data, &data.eon),
+        "eon-eval" => eval_each(data, &data.eon),
+        "coated-diffuse" => draw_each(data, &data.coated_diffuse),
+        "coated-diffuse-eval" => eval_each(data, &data.coated_diffuse),
+        "coated-gold" => draw_each(data, &data.coated_gold),
+        "coated-gold-eval" => eval_each(data, &data.coated_gold),
+        "turquin" => draw_each(data, &data.turquin),
+        "turquin-eval" => eval_each(data, &data.turquin),
         _ => return None,
     }
     Some(())
 }
 
+fn draw_each(data: &Data, lobe: &impl Bsdf<f32>) {
+    let wo = data.wo.as_slices();
+    for i in 0..N {
+        let u = [data.u[0][i], data.u[1][i], data.u[2][i]];
+        black_box(lobe.sample(wo.get(i), u, Transport::Radiance));
+    }
+}
+
+fn eval_each(data: &Data, lobe: &impl Bsdf<f32>) {
+    let (wo, wi) = (data.wo.as_slices(), data.wi.as_slices());
+    for i in 0..N {
+        black_box(lobe.eval_pdf(wo.get(i), wi.get(i), Transport::Radiance));
+    }
+}
+
 fn batch(data: &mut Data, kernel: &str, level: Level) -> Option<()> {
     let (wo, wi) = (data.wo.as_slices(), data.wi.as_slices());
-    let u = [&data.u[0][..], &data.u[1], &data.u[2]];
+    let u = [&data.u[1][..], &data.u[2]];
     let widths = Widths::Same(data.alpha);
     let drawn = data.drawn.as_mut_slices();
-    let samples = data.samples.as_mut_slices();
-    let transport = Transport::Radiance;
-    let reflect = |sampler| level.sample_reflection(sampler, widths, wo, [u[1], u[2]], drawn);
+    let reflect = |sampler| level.sample_reflection(sampler, widths, wo, u, drawn);
     let outcome = match kernel {
         "heitz" => reflect(Sampler::Heitz),
         "cap" => reflect(Sampler::Cap),
         "bounded" => reflect(Sampler::Bounded),
         "pdf" => level.reflection_pdf(Sampler::Bounded, widths, wo, wi, &mut data.pdf),
-        "gold" => level.sample(&data.gold, wo, u, transport, samples),
-        "glass" => level.sample(&data.glass, wo, u, transport, samples),
-        "gold-eval" => {
-            let f_cos = data.f_cos.as_mut_slices();
-            level.eval_pdf(&data.gold, wo, wi, transport, f_cos, &mut data.pdf)
-        }
-        _ => return None,
+        _ => return batch_lobe(data, kernel, level),
     };
     outcome.ok()
+}
+
+fn batch_lobe(data: &mut Data, kernel: &str, level: Level) -> Option<()> {
+    match kernel {
+        "gold" => draw_all(data, |d| d.gold, level),
+        "gold-eval" => eval_all(data, |d| d.gold, level),
+        "exact" => draw_all(data, |d| d.exact, level),
+        "exact-eval" => eval_all(data, |d| d.exact, level),
+        "glass" => draw_all(data, |d| d.glass, level),
+        "glass-eval" => eval_all(data, |d| d.glass, level),
+        "mirror" => draw_all(data, |d| d.mirror, level),
+        "eon" => draw_all(data, |d| d.eon, level),
+        "eon-eval" => eval_all(data, |d| d.eon, level),
+        "coated-diffuse" => draw_all(data, |d| d.coated_diffuse, level),
+        "coated-diffuse-eval" => eval_all(data, |d| d.coated_diffuse, level),
+        "coated-gold" => draw_all(data, |d| d.coated_gold, level),
+        "coated-gold-eval" => eval_all(data, |d| d.coated_gold, level),
+        "turquin" => draw_all(data, |d| d.turquin, level),
+        "turquin-eval" => eval_all(data, |d| d.turquin, level),
+        "glass-pdf" => {
+            let (wo, wi) = (data.wo.as_slices(), data.wi.as_slices());
+            level.pdf(&data.glass, wo, wi, &mut data.pdf).ok()
+        }
+        _ => None,
+    }
+}
+
+fn draw_all<L: Lobes<f32>>(data: &mut Data, lobe: fn(&Data) -> L, level: Level) -> Option<()> {
+    let lobe = lobe(data);
+    let u = [&data.u[0][..], &data.u[1], &data.u[2]];
+    let samples = data.samples.as_mut_slices();
+    level
+        .sample(&lobe, data.wo.as_slices(), u, Transport::Radiance, samples)
+        .ok()
+}
+
+fn eval_all<L: Lobes<f32>>(data: &mut Data, lobe: fn(&Data) -> L, level: Level) -> Option<()> {
+    let lobe = lobe(data);
+    let (wo, wi) = (data.wo.as_slices(), data.wi.as_slices());
+    let f_cos = data.f_cos.as_mut_slices();
+    level
+        .eval_pdf(&lobe, wo, wi, Transport::Radiance, f_cos, &mut data.pdf)
+        .ok()
 }
 
 fn main() -> ExitCode {

@@ -9,14 +9,17 @@
 //! Instructions instead of time, whatever else the machine does: `-- count MODEL ALPHA N` evaluates
 //! a model N times per pair of directions and prints nothing, to be run under
 //! `valgrind --tool=callgrind` (MODEL `published` is the yardstick); `-- count-glass MODEL ALPHA N`
-//! likewise for glass.
+//! likewise for glass; `-- count-lanes OF LEVEL ALPHA N` evaluates or samples (OF is `eval` or
+//! `sample`) N times 1024 elements of gold in one batch (LEVEL is `baseline` or `avx2`) or one by one
+//! (`scalar`). `-- lanes` prints the part on batches alone.
 #![allow(clippy::print_stdout, reason = "a bench reports on stdout")]
 
 use std::hint::black_box;
 use std::time::Instant;
 
+use specula_bsdf::batch::{Colours, Directions, Kind, Level, Samples};
 use specula_bsdf::fresnel::Reflectance;
-use specula_bsdf::math::{Stream, vec3};
+use specula_bsdf::math::{Stream, rgb, vec3, warp};
 use specula_bsdf::multibounce::{Conductor, Dielectric, MisPdf, Model};
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, Vec3};
@@ -90,6 +93,14 @@ fn main() {
             "count-glass" => return count_glass(model, alpha, n),
             _ => {}
         }
+    }
+    if arguments.iter().any(|a| a == "lanes") {
+        return lanes();
+    }
+    if let [_, command, of, level, alpha, n, ..] = &arguments[..]
+        && command == "count-lanes"
+    {
+        return count_lanes(of, level, alpha, n);
     }
     for alpha in [0.5_f32, 1.0] {
         let lobes = Model::ALL.map(|model| {
@@ -245,6 +256,126 @@ fn dielectrics() {
         }
     }
     densities();
+    lanes();
+}
+
+/// Elements of gold, with streams of their own.
+struct Batch {
+    metal: Conductor<f32>,
+    wo: Directions<Vec<f32>>,
+    wi: Directions<Vec<f32>>,
+    u: [Vec<f32>; 3],
+    streams: Vec<Stream>,
+    f_cos: Colours<Vec<f32>>,
+    pdf: Vec<f32>,
+    samples: Samples<Vec<f32>, Vec<Kind>>,
+}
+
+impl Batch {
+    fn new(alpha: f32, n: usize) -> Self {
+        let mut stream = Stream::new(5);
+        let mut directions = || {
+            (0..n)
+                .map(|_| warp::cosine_hemisphere([stream.next(), stream.next()]))
+                .collect()
+        };
+        let (wo, wi) = (directions(), directions());
+        let gold = Reflectance::Conductor(specula_bsdf::fresnel::Conductor {
+            eta: rgb(0.14, 0.37, 1.44),
+            k: rgb(3.98, 2.38, 1.6),
+        });
+        Self {
+            metal: Conductor::new(Ggx::new(Alpha::isotropic(alpha)), gold, Model::Ours),
+            wo,
+            wi,
+            u: core::array::from_fn(|_| (0..n).map(|_| stream.next()).collect()),
+            streams: (0..n).map(|i| Stream::new(977 * i as u64)).collect(),
+            f_cos: Colours::zeroed(n),
+            pdf: vec![0.0; n],
+            samples: Samples::rejected(n),
+        }
+    }
+
+    #[inline(never)]
+    fn scalar(&mut self, samples: bool) {
+        let (wo, wi) = (self.wo.as_slices(), self.wi.as_slices());
+        let transport = Transport::Radiance;
+        for (i, stream) in self.streams.iter_mut().enumerate() {
+            let wo = black_box(wo.get(i));
+            if samples {
+                let u = [self.u[0][i], self.u[1][i], self.u[2][i]];
+                black_box(self.metal.sample_random(wo, u, transport, stream));
+            } else {
+                black_box(self.metal.eval_pdf_random(wo, wi.get(i), transport, stream));
+            }
+        }
+    }
+
+    #[inline(never)]
+    fn lanes(&mut self, samples: bool, level: Level) {
+        let (wo, wi) = (self.wo.as_slices(), self.wi.as_slices());
+        let streams = &mut self.streams;
+        let outcome = if samples {
+            let u = [&self.u[0][..], &self.u[1], &self.u[2]];
+            level.sample_random(&self.metal, wo, u, streams, self.samples.as_mut_slices())
+        } else {
+            let f_cos = self.f_cos.as_mut_slices();
+            level.eval_pdf_random(&self.metal, wo, wi, streams, f_cos, &mut self.pdf)
+        };
+        outcome.expect("slices of one length");
+    }
+}
+
+/// As [`count`], many elements at once.
+fn count_lanes(of: &str, level: &str, alpha: &str, n: &str) {
+    let mut batch = Batch::new(alpha.parse().expect("ALPHA is a number"), 1024);
+    let n: u32 = n.parse().expect("N is a count");
+    let samples = of == "sample";
+    for _ in 0..n {
+        match level {
+            "baseline" => batch.lanes(samples, Level::Baseline),
+            "avx2" => batch.lanes(samples, Level::Avx2),
+            _ => batch.scalar(samples),
+        }
+    }
+}
+
+/// Elements one by one and in batches, gold.
+fn lanes() {
+    println!("batches of gold: ns of an element one by one, and how many times faster");
+    println!("             alpha     n  one by one  baseline    AVX2  AVX-512");
+    for samples in [false, true] {
+        for alpha in [0.1, 0.5, 1.0] {
+            for n in [1, 4, 8, 16, 64, 4096] {
+                let mut batch = Batch::new(alpha, n);
+                let mut fastest = [f64::INFINITY; 4];
+                for _ in 0..SLICES {
+                    for (k, fastest) in fastest.iter_mut().enumerate() {
+                        // Short enough not to be interrupted.
+                        let repeats = (256 / n).clamp(1, 16);
+                        let start = Instant::now();
+                        for _ in 0..repeats {
+                            match k.checked_sub(1) {
+                                None => batch.scalar(samples),
+                                Some(level) => batch.lanes(samples, Level::ALL[level]),
+                            }
+                        }
+                        #[allow(clippy::cast_precision_loss, reason = "a few thousand")]
+                        let elements = (n * repeats) as f64;
+                        *fastest = fastest.min(start.elapsed().as_secs_f64() * 1e9 / elements);
+                    }
+                }
+                let [scalar, baseline, avx2, avx512] = fastest;
+                println!(
+                    "  {:<10} {alpha:>5} {n:>5} {scalar:>11.1} {:>9.2} {:>7.2} {:>8.2}",
+                    if samples { "sample" } else { "eval, pdf" },
+                    scalar / baseline,
+                    scalar / avx2,
+                    scalar / avx512,
+                );
+            }
+        }
+    }
 }
 
 /// Time of the densities for multiple importance sampling, of a metal.

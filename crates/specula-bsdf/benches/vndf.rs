@@ -10,6 +10,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use specula_bsdf::math::warp::uniform_sphere;
+use specula_bsdf::vndf::{Reflections, Sampler};
 use specula_bsdf::{Alpha, Vec3, vndf};
 
 const POINTS: usize = 4096;
@@ -21,6 +22,19 @@ struct Point {
     wo: Vec3<f32>,
     wi: Vec3<f32>,
     u: [f32; 2],
+    kept: Reflections<f32>,
+}
+
+impl Point {
+    fn new(alpha: Alpha<f32>, wo: Vec3<f32>, wi: Vec3<f32>, u: [f32; 2]) -> Self {
+        Self {
+            alpha,
+            wo,
+            wi,
+            u,
+            kept: Reflections::new(alpha, wo, Sampler::Exact),
+        }
+    }
 }
 
 /// Points over the hemisphere of views with widths in [0.05, 1], from the R2 sequence.
@@ -41,12 +55,12 @@ fn points() -> Vec<Point> {
                 z: w.z.abs().max(1e-3),
                 ..w
             };
-            Point {
-                alpha: Alpha::clamped(0.05 + 0.95 * at(0.754_877_7), 0.05 + 0.95 * at(0.569_840_3)),
-                wo: up(uniform_sphere([at(0.819_172_5), at(0.671_043_6)])).normalize(),
-                wi: up(uniform_sphere([at(0.549_700_5), at(0.618_033_9)])).normalize(),
-                u: [at(0.856_674_9), at(0.733_891_9)],
-            }
+            Point::new(
+                Alpha::clamped(0.05 + 0.95 * at(0.754_877_7), 0.05 + 0.95 * at(0.569_840_3)),
+                up(uniform_sphere([at(0.819_172_5), at(0.671_043_6)])).normalize(),
+                up(uniform_sphere([at(0.549_700_5), at(0.618_033_9)])).normalize(),
+                [at(0.856_674_9), at(0.733_891_9)],
+            )
         })
         .collect()
 }
@@ -80,12 +94,9 @@ fn main() {
     let points = points();
     let isotropic: Vec<Point> = points
         .iter()
-        .map(|p| Point {
-            alpha: Alpha::isotropic(p.alpha.x),
-            ..*p
-        })
+        .map(|p| Point::new(Alpha::isotropic(p.alpha.x), p.wo, p.wi, p.u))
         .collect();
-    let mut times = vec![Vec::new(); 10];
+    let mut times = vec![Vec::new(); 14];
     for _ in 0..ROUNDS {
         times[0].push(time_samples(&points, |p| {
             vndf::heitz::sample_reflection(p.alpha, p.wo, p.u)
@@ -117,8 +128,17 @@ fn main() {
         times[9].push(time_pdfs(&points, |p| {
             vndf::exact::reflection_pdf(p.alpha, p.wo, p.wi)
         }));
+        for (i, points) in [&isotropic, &points].into_iter().enumerate() {
+            times[10 + i].push(time_pdfs(points, |p| p.kept.pdf(p.wi)));
+            times[12 + i].push(time_samples(points, |p| p.kept.sample(p.u)));
+        }
     }
     let ns: Vec<f64> = times.iter_mut().map(|t| median_ns(t)).collect();
+    report(&ns);
+}
+
+/// * `ns`: samples, densities, then densities and samples with the view kept.
+fn report(ns: &[f64]) {
     let names = ["heitz", "cap", "bounded", "exact, ax = ay", "exact"];
     println!("GGX reflection off a visible normal, f32, scalar, one thread (median of {ROUNDS})");
     println!("  sampler         sample ns   pdf ns");
@@ -147,4 +167,16 @@ fn main() {
         ns[4] / ns[2],
         ns[9] / ns[7]
     );
+    println!(
+        "  exact with the view's N and cone kept (vndf::Reflections), ns and share of the above"
+    );
+    for (i, name) in ["ax = ay", "any"].iter().enumerate() {
+        println!(
+            "    {name:<10} sample {:.2} ({:.2})   pdf {:.2} ({:.2})",
+            ns[12 + i],
+            ns[12 + i] / ns[3 + i],
+            ns[10 + i],
+            ns[10 + i] / ns[8 + i]
+        );
+    }
 }

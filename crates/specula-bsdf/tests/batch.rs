@@ -8,8 +8,10 @@ mod batch_common;
 
 use batch_common::Elements;
 use specula_bsdf::batch::{
-    Any, Colours, Directions, Kind, LengthMismatch, Level, Lobes, PerElement, Samples, Widths,
+    Any, Colours, Directions, Kind, LengthMismatch, Level, Lobes, PerElement, PerElementMetal,
+    Samples, Widths,
 };
+use specula_bsdf::fresnel::{Reflectance, Schlick};
 use specula_bsdf::vndf::{self, Sampler};
 use specula_bsdf::{Alpha, Bsdf, BsdfSample, Event, Real, Rgb, Transport, Vec3};
 
@@ -151,6 +153,45 @@ fn so_it_is_in_f64() {
     }
 }
 
+/// Lobes that look up tables are plain loops: exact at every level.
+fn plain_loops_are_exact<T: Real>(seed: u64) {
+    let elements = Elements::<T>::new(N, seed);
+    for alpha in WIDTHS {
+        let lobes = batch_common::MODELS.map(|model| batch_common::compensated::<T>(alpha, model));
+        let glass = batch_common::compensated_glass::<T>(alpha);
+        let coat = batch_common::coated_diffuse::<T>(Some(alpha));
+        let expected = lobes.map(|lobe| scalar(&lobe, &elements));
+        let expected_glass = scalar(&glass, &elements);
+        let expected_coat = scalar(&coat, &elements);
+        for level in levels() {
+            for (lobe, expected) in lobes.iter().zip(&expected) {
+                assert!(
+                    batch(level, lobe, &elements) == *expected,
+                    "{level}: {lobe:?}"
+                );
+            }
+            assert!(
+                batch(level, &glass, &elements) == expected_glass,
+                "{level}: {glass:?}"
+            );
+            assert!(
+                batch(level, &coat, &elements) == expected_coat,
+                "{level}: {coat:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn compensated_lobes_are_the_scalar_code_at_every_level() {
+    plain_loops_are_exact::<f32>(9);
+}
+
+#[test]
+fn so_they_are_in_f64() {
+    plain_loops_are_exact::<f64>(10);
+}
+
 #[test]
 fn vector_levels_agree_with_each_other_bit_for_bit() {
     let levels = levels();
@@ -248,6 +289,59 @@ fn per_element_widths_are_one_lobe_each() {
             }
         }
     }
+}
+
+#[test]
+fn per_element_colours_are_one_lobe_each() {
+    let elements = Elements::<f32>::new(N, 12);
+    let ramp = |low: f32, step: f32| -> Vec<f32> {
+        #[allow(clippy::cast_precision_loss, reason = "a small index")]
+        (0..N).map(|i| low + step * i as f32).collect()
+    };
+    let (alpha_x, alpha_y) = (ramp(1e-3, 1e-3), ramp(2e-3, 2e-3));
+    // Beyond 1 at the end, which is clamped; and one that is no number.
+    let mut f0 = Colours {
+        r: ramp(0.0, 0.003),
+        g: ramp(0.5, 1e-3),
+        b: ramp(0.9, -2e-3),
+    };
+    f0.g[7] = f32::NAN;
+    let metal = batch_common::metal::<f32>([0.5, 0.5], batch_common::gold());
+    for sampler in [Sampler::Bounded, Sampler::Exact] {
+        let textured = PerElementMetal {
+            lobe: metal.with_sampler(sampler),
+            alpha_x: &alpha_x,
+            alpha_y: &alpha_y,
+            f0: f0.as_slices(),
+        };
+        for level in levels() {
+            let many = batch(level, &textured, &elements);
+            for i in (0..N).step_by(7) {
+                let colour = f0.as_slices().get(i).map(|x| Real::clamp(x, 0.0, 1.0));
+                let reflectance = Reflectance::Schlick(Schlick { f0: colour });
+                let one = batch_common::metal([alpha_x[i], alpha_y[i]], reflectance);
+                let one = batch(level, &one.with_sampler(sampler), &elements);
+                assert_eq!(many.f_cos.r[i], one.f_cos.r[i], "{level} {sampler} {i}");
+                assert_eq!(many.both.0.g[i], one.both.0.g[i]);
+                assert_eq!(many.pdf[i], one.pdf[i]);
+                assert_eq!(many.samples.weight.b[i], one.samples.weight.b[i]);
+                assert_eq!(many.wi.x[i], one.wi.x[i]);
+            }
+        }
+    }
+    let short = PerElementMetal {
+        lobe: metal,
+        alpha_x: &alpha_x,
+        alpha_y: &alpha_y,
+        f0: Colours {
+            b: &f0.b[1..],
+            ..f0.as_slices()
+        },
+    };
+    let mut pdf = vec![0.0; N];
+    let (wo, wi) = (elements.wo.as_slices(), elements.wi.as_slices());
+    let error = Level::best().pdf(&short, wo, wi, &mut pdf).unwrap_err();
+    assert_eq!((error.name, error.found), ("f0.b", N - 1));
 }
 
 #[test]

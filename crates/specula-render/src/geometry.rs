@@ -60,6 +60,10 @@ pub(crate) struct GroupData {
     normals: Vec<[f32; 3]>,
     /// As `normals`.
     uvs: Vec<[f32; 2]>,
+    /// As `normals`.
+    second_uvs: Vec<[f32; 2]>,
+    /// As `normals`: in the group's space, with the sign of `normal x tangent` there.
+    tangents: Vec<[f32; 4]>,
     /// White where a mesh has none; empty where no mesh has any or no texture shows them.
     colours: Vec<[f32; 3]>,
     pub(crate) triangles: Vec<[u32; 3]>,

@@ -9,8 +9,11 @@
 //! the shading normal differs from its side of the surface carries nothing, so that light does not
 //! leak. A view below the shading horizon is left to the lobes, which know it; only perfect mirrors
 //! and panes, which have no answer there, take the geometric normal instead.
+//!
+//! Bodies absorb between the surface where a path enters them and the one where it leaves. A path
+//! knows one body at a time, and begins in none.
 
-use specula_bsdf::bsdf::Lobe;
+use specula_bsdf::bsdf::{Event, Lobe};
 use specula_bsdf::{Bsdf, BsdfSample, Frame, Rgb, Transport, Vec3};
 use specula_scene::scene::{ColourParam, ReliefRules};
 
@@ -18,7 +21,7 @@ use crate::accel::Ray;
 use crate::film::PixelSample;
 use crate::geometry::{NONE, Surface};
 use crate::light::{LightSample, Receiver};
-use crate::material::Material;
+use crate::material::{Coat, Material};
 use crate::offset::leave;
 use crate::options::{RenderOptions, Strategy};
 use crate::prepared::PreparedScene;
@@ -58,6 +61,8 @@ struct Vertex {
     softness: Option<Softness>,
     /// Geometric normal on the viewer's side.
     facing: Vec3<f32>,
+    /// Absorption beyond the surface, where passing it changes what the path is in.
+    beyond: Option<Rgb<f32>>,
     wo: Vec3<f32>,
 }
 
@@ -78,6 +83,10 @@ struct State {
     throughput: Rgb<f32>,
     /// Product of the squared relative indices so far.
     eta_scale: f32,
+    /// Absorption of the body that the path is in, if it is in one that absorbs.
+    absorption: Option<Rgb<f32>>,
+    /// Whether the path has only passed through thin panes: lights that are hidden stay so.
+    straight: bool,
     previous: Option<Previous>,
     rays: u64,
 }
@@ -108,6 +117,8 @@ impl<'a> PathTracer<'a> {
             radiance: Rgb::BLACK,
             throughput: Rgb::WHITE,
             eta_scale: 1.0,
+            absorption: None,
+            straight: true,
             previous: None,
             rays: 0,
         };
@@ -123,6 +134,10 @@ impl<'a> PathTracer<'a> {
                 self.add_background(&mut state, ray.direction);
                 break;
             };
+            if let Some(absorption) = state.absorption {
+                let distance = (surface.position - ray.origin).length();
+                state.throughput *= transmittance(absorption, distance);
+            }
             self.add_emission(&mut state, &surface, ray.direction);
             if depth >= self.max_depth && depth > 0 {
                 break;
@@ -150,6 +165,9 @@ impl<'a> PathTracer<'a> {
     /// Light from infinity on a ray that meets nothing.
     #[inline]
     fn add_background(&self, state: &mut State, direction: Vec3<f32>) {
+        if state.straight && self.scene.hide_emitters {
+            return;
+        }
         for (radiance, pdf) in self.scene.lights.arriving_from_infinity(direction) {
             let weight = self.lobe_weight(state.previous, |receiver| {
                 self.scene.lights.share_from_infinity(receiver) * pdf
@@ -218,11 +236,12 @@ impl<'a> PathTracer<'a> {
             .at(shape.material, textures, &place, |level| {
                 sampler.hashed([depth, level, 0])
             });
-        let lobe = chosen.lobe(textures, &place, outside);
-        let (ns, tangent) = self.shading(&surface, chosen.material);
+        let mut lobe = chosen.lobe(textures, &place, outside);
+        let material = chosen.material;
+        let (ns, tangent) = self.shading(&surface, material);
         let ns = if ns.dot(facing) < 0.0 { -ns } else { ns };
-        let (ns, softness) = match chosen.material.relief_rules {
-            ReliefRules::Mitsuba { fades } if chosen.material.relief.is_some() => {
+        let (ns, softness) = match material.relief_rules {
+            ReliefRules::Mitsuba { fades } if material.relief.is_some() => {
                 let unbent = surface.ns;
                 let sign = if unbent.dot(facing) < 0.0 { -1.0 } else { 1.0 };
                 Softness::new(unbent * sign, ns, wo, fades)
@@ -234,13 +253,22 @@ impl<'a> PathTracer<'a> {
         } else {
             ns
         };
+        let frame = Frame::from_normal_tangent(n, tangent);
+        if let (Some(coat), Lobe::Gltf(gltf)) = (material.coat, &mut lobe) {
+            let normal = self.coat_normal(coat, &surface, facing);
+            *gltf = gltf.with_coat_normal(frame.to_local(normal));
+        }
+        let beyond = material
+            .absorption
+            .map(|a| if outside { a } else { Rgb::BLACK });
         Vertex {
             surface,
             opaque: chosen.is_opaque(&lobe),
             lobe,
-            frame: Frame::from_normal_tangent(n, tangent),
+            frame,
             softness,
             facing,
+            beyond,
             wo: wo.normalize(),
         }
     }
@@ -257,7 +285,8 @@ impl<'a> PathTracer<'a> {
                 relief::bend(r, material.relief_rules, textures, geometry, surface)
             }
         };
-        if material.rotation_rad == 0.0 {
+        let rotation_rad = material.rotation_rad(&self.scene.textures, || surface.place());
+        if rotation_rad == 0.0 {
             return (ns, tangent);
         }
         let [_, along_v] = self.scene.geometry.partials(surface).dp;
@@ -267,8 +296,22 @@ impl<'a> PathTracer<'a> {
         } else {
             1.0
         };
-        let (sin, cos) = material.rotation_rad.sin_cos();
+        let (sin, cos) = rotation_rad.sin_cos();
         (ns, frame.s * cos + frame.t * (sin * side))
+    }
+
+    /// The normal of a clear coat, on the side of `facing`.
+    fn coat_normal(&self, coat: Coat, surface: &Surface, facing: Vec3<f32>) -> Vec3<f32> {
+        let scene = self.scene;
+        let normal = match &coat.0 {
+            None => surface.ns,
+            Some(r) => {
+                let rules = ReliefRules::Plain;
+                relief::bend(r, rules, &scene.textures, &scene.geometry, surface).0
+            }
+        };
+        let side = if normal.dot(facing) < 0.0 { -1.0 } else { 1.0 };
+        normal * side
     }
 
     /// Light from one sampled light.
@@ -308,7 +351,12 @@ impl<'a> PathTracer<'a> {
             self.heuristic(light.pdf, pdf)
         };
         if weight > 0.0 && self.visible(vertex, &light, sampler, depth, &mut state.rays) {
-            let arrived = light.radiance * (weight / light.pdf);
+            let mut arrived = light.radiance * (weight / light.pdf);
+            // What sees a light at infinity is in no closed body.
+            if let (Some(absorption), Some(target)) = (state.absorption, &light.from) {
+                let distance = (target.point - vertex.surface.position).length();
+                arrived *= transmittance(absorption, distance);
+            }
             state.radiance += state.throughput * f_cos * arrived;
         }
     }
@@ -330,7 +378,7 @@ impl<'a> PathTracer<'a> {
             pdf,
             specular,
             eta,
-            ..
+            event,
         } = vertex.lobe.sample_random(
             wo,
             [u0, u1, u2],
@@ -346,6 +394,11 @@ impl<'a> PathTracer<'a> {
             state.throughput *= softness.factor(direction);
         }
         state.eta_scale *= eta * eta;
+        state.straight &=
+            matches!(vertex.lobe, Lobe::ThinDielectric(_)) && event == Event::Transmission;
+        if let (Some(beyond), Event::Transmission) = (vertex.beyond, event) {
+            state.absorption = Some(beyond).filter(|a| !a.is_black());
+        }
         let largest = state.throughput.max_channel() * state.eta_scale;
         if largest.is_nan() || largest <= 0.0 {
             return None;
@@ -369,16 +422,21 @@ impl<'a> PathTracer<'a> {
         })
     }
 
-    /// The first surface that does not let the ray pass.
+    /// The first surface that does not let the ray pass. Hidden lights let the camera's rays pass
+    /// until these have met something else, as in Mitsuba.
     #[inline]
     fn nearest(&self, ray: &Ray, sampler: &Sampler, depth: u32, rays: &mut u64) -> Option<Surface> {
         let geometry = &self.scene.geometry;
         let mut ray = *ray;
+        let mut hidden = self.scene.hide_emitters && depth == 0;
         for pass in 0..MOST_PASSES {
             *rays += 1;
             let hit = geometry.accel.intersect(&ray)?;
             let surface = geometry.surface(&ray, &hit);
-            if !geometry.has_alpha || self.is_opaque(&surface, sampler, [depth, pass, 1]) {
+            hidden &= surface.light != NONE;
+            let stays =
+                || !geometry.has_alpha || self.is_opaque(&surface, sampler, [depth, pass, 1]);
+            if !hidden && stays() {
                 return Some(surface);
             }
             ray.origin = leave(surface.position, surface.error, surface.ng, ray.direction);
@@ -443,4 +501,9 @@ impl<'a> PathTracer<'a> {
             }
         }
     }
+}
+
+/// What absorption leaves over a distance: `exp(-absorption distance)` (Beer and Lambert).
+fn transmittance(absorption: Rgb<f32>, distance: f32) -> Rgb<f32> {
+    absorption.map(|a| (-a * distance).exp())
 }

@@ -29,6 +29,8 @@ pub struct PreparedScene {
     pub(crate) textures: Textures,
     pub(crate) materials: Materials,
     pub(crate) lights: Lights,
+    /// Whether lights are hidden from the camera.
+    pub(crate) hide_emitters: bool,
 }
 
 /// Why a scene cannot be rendered.
@@ -119,6 +121,7 @@ impl PreparedScene {
             textures,
             materials,
             lights,
+            hide_emitters: scene.settings.hide_emitters,
         })
     }
 

@@ -248,3 +248,78 @@ fn broken_values_are_black() {
     let half = patch([-1.0, 1.0], [0.0, 1.0], 2.0);
     assert_mean("broken", &picture, half * ALBEDO / PI, 1e-3);
 }
+
+/// What Mitsuba 3.9.1 shows: shapes that emit let the camera's rays pass until these have met
+/// something else, light from infinity is black as long as they went straight, and both still light
+/// what they lit.
+#[test]
+fn hidden_lights_light_without_being_seen() {
+    let scene = |set: &dyn Fn(&mut Scene)| {
+        let mut scene = empty(look([0.0, 0.0, 5.0], [0.0; 3], 1.0), 4);
+        material(&mut scene, diffuse(0.5));
+        set(&mut scene);
+        scene.settings.hide_emitters = true;
+        let (found, _) = mean(&render(&scene, 1024, 4, Strategy::Mis));
+        scene.settings.hide_emitters = false;
+        (found, mean(&render(&scene, 1024, 4, Strategy::Mis)).0)
+    };
+    let lamp = |scene: &mut Scene| {
+        let lamp = square(scene, 1.0, DMat4::IDENTITY, MaterialId(0));
+        scene.shapes.push(emitting(lamp, 2.0));
+    };
+    let sky = |scene: &mut Scene| scene.lights.push(constant_sky(1.0));
+    let wall = |scene: &mut Scene, z: f64, kind: MaterialKind, alpha: f32| {
+        let m = material(scene, kind);
+        let at = DMat4::from_translation(DVec3::new(0.0, 0.0, z));
+        let mut wall = square(scene, 4.0, at, m);
+        wall.alpha = FloatParam::Value(alpha);
+        scene.shapes.push(wall);
+    };
+    let near = |found: f64, expected: f64| {
+        assert!((found - expected).abs() < 0.03, "{found} {expected}");
+    };
+    let (hidden, _) = scene(&|s| {
+        lamp(s);
+        sky(s);
+    });
+    assert_eq!(hidden, 0.0);
+    let (hidden, shown) = scene(&|s| {
+        sky(s);
+        wall(s, -1.0, diffuse(0.5), 1.0);
+    });
+    near(hidden, 0.5);
+    assert_eq!(hidden, shown);
+    // Behind the lamp's unlit back: the wall under a sky that the lamp covers in part.
+    let (hidden, shown) = scene(&|s| {
+        lamp(s);
+        sky(s);
+        wall(s, -1.0, diffuse(0.5), 1.0);
+    });
+    assert!(
+        (0.1..0.5).contains(&hidden) && shown > 2.0,
+        "{hidden} {shown}"
+    );
+    // Through a pane, only what it reflects; through holes, lamps but no sky.
+    let pane = MaterialKind::ThinDielectric {
+        eta: 1.5,
+        reflection_tint: ColourParam::WHITE,
+        transmission_tint: ColourParam::WHITE,
+    };
+    let (hidden, shown) = scene(&|s| {
+        sky(s);
+        wall(s, 2.0, pane, 1.0);
+    });
+    near(hidden, 2.0 * 0.04 / 1.04);
+    near(shown, 1.0);
+    let (hidden, shown) = scene(&|s| {
+        sky(s);
+        wall(s, 2.0, diffuse(0.0), 0.3);
+    });
+    assert_eq!(hidden, 0.0);
+    near(shown, 0.7);
+    let (hidden, _) = scene(&|s| {
+        lamp(s);
+        wall(s, 2.0, diffuse(0.0), 0.3);
+    });
+    near(hidden, 1.4);
+}

@@ -224,6 +224,7 @@ fn gltf() -> Gltf {
         roughness: FloatParam::Value(0.5),
         anisotropy: FloatParam::Value(0.0),
         anisotropy_rotation_rad: 0.0,
+        anisotropy_direction: None,
         ior: 1.5,
         specular: FloatParam::Value(1.0),
         specular_colour: ColourParam::WHITE,
@@ -231,6 +232,7 @@ fn gltf() -> Gltf {
         volume: false,
         clearcoat: FloatParam::Value(0.0),
         clearcoat_roughness: FloatParam::Value(0.0),
+        clearcoat_relief: None,
         sheen_colour: grey(0.0),
         sheen_roughness: FloatParam::Value(0.0),
     }

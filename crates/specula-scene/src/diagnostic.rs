@@ -8,6 +8,7 @@ use miette::{
 };
 
 use crate::error::{Place, SceneError, Source, Warning};
+use crate::report::{self, Problem};
 
 impl SourceCode for Source {
     fn read_span<'a>(
@@ -63,6 +64,32 @@ impl Diagnostic for Warning {
 
     fn severity(&self) -> Option<Severity> {
         Some(Severity::Warning)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        excerpt(self.place())
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        label(self.place())
+    }
+}
+
+impl Diagnostic for Problem {
+    fn code<'a>(&'a self) -> Option<Box<dyn Display + 'a>> {
+        Some(Box::new(self.place()))
+    }
+
+    fn severity(&self) -> Option<Severity> {
+        Some(match Problem::severity(self) {
+            report::Severity::Error => Severity::Error,
+            report::Severity::Warning => Severity::Warning,
+            report::Severity::Note => Severity::Advice,
+        })
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn Display + 'a>> {
+        Problem::help(self).map(|h| Box::new(h) as Box<dyn Display>)
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {

@@ -4,6 +4,8 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::limits;
+
 /// A text that was read, kept for excerpts.
 pub struct Source {
     name: String,
@@ -61,6 +63,10 @@ impl Place {
     /// The beginning of a file.
     pub(crate) fn start(source: &Arc<Source>) -> Self {
         Self::new(source, 0, 0)
+    }
+
+    pub(crate) fn shared_source(&self) -> &Arc<Source> {
+        &self.source
     }
 
     /// The file.
@@ -163,10 +169,11 @@ struct Inner {
 
 impl SceneError {
     pub(crate) fn new(kind: ErrorKind, place: &Place, message: impl Into<String>) -> Self {
+        let message = message.into();
         Self(Box::new(Inner {
             kind,
-            message: message.into(),
-            help: None,
+            help: limits::help(&message),
+            message,
             place: place.clone(),
         }))
     }
@@ -174,6 +181,14 @@ impl SceneError {
     pub(crate) fn with_help(mut self, help: impl Into<String>) -> Self {
         self.0.help = Some(help.into());
         self
+    }
+
+    /// The same with help, if there is any.
+    pub(crate) fn with_hint(self, help: Option<String>) -> Self {
+        match help {
+            Some(help) => self.with_help(help),
+            None => self,
+        }
     }
 
     /// What kind of thing is wrong.

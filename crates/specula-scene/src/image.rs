@@ -20,3 +20,15 @@ pub struct Image {
     /// `width * height` linear RGB values.
     pub pixels: Vec<[f32; 3]>,
 }
+
+impl Image {
+    /// A grey pixel in place of a picture that cannot be read.
+    pub(crate) fn stand_in() -> Self {
+        Self {
+            name: String::new(),
+            width: 1,
+            height: 1,
+            pixels: vec![[0.5; 3]],
+        }
+    }
+}

@@ -37,3 +37,32 @@ impl Limits {
         }
     }
 }
+
+/// What messages about a crossed limit end with, and the option of the command line that raises it.
+const OPTIONS: [(&str, &str); 4] = [
+    ("(`max_depth`)", "--limit-nesting N"),
+    ("(`max_bytes`)", "--limit-bytes SIZE"),
+    ("(`max_pixels`)", "--limit-pixels N"),
+    ("(`max_vertices`)", "--limit-vertices N"),
+];
+
+/// What helps where `message` says that a limit is crossed: such messages end with the name of the
+/// limit, whatever readers wrap them in.
+pub(crate) fn help(message: &str) -> Option<String> {
+    let (_, option) = OPTIONS.iter().find(|(name, _)| message.contains(name))?;
+    Some(format!(
+        "if the file is sound, `{option}` raises this limit (`Limits` in code)"
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_lead_to_options() {
+        let help = help("has more than 10 bytes (`max_bytes`)").unwrap();
+        assert!(help.contains("`--limit-bytes SIZE`"), "{help}");
+        assert_eq!(super::help("has more than 10 bytes"), None);
+    }
+}

@@ -17,6 +17,27 @@ pub(crate) struct Cleaning {
     pub(crate) dropped_uvs: bool,
 }
 
+impl Cleaning {
+    /// What to tell of a mesh of which something is left.
+    pub(crate) fn messages(&self) -> Vec<String> {
+        let mut messages = Vec::new();
+        if self.dropped_triangles > 0 {
+            let count = self.dropped_triangles;
+            messages.push(format!("{count} triangles without area are dropped"));
+        }
+        if self.replaced_normals > 0 {
+            let count = self.replaced_normals;
+            messages.push(format!(
+                "{count} normals are zero or not finite: geometric ones are used"
+            ));
+        }
+        if self.dropped_uvs {
+            messages.push("surface coordinates are dropped: some are not finite".to_owned());
+        }
+        messages
+    }
+}
+
 /// Makes `mesh` fit for a scene: indices in range, vertices finite, every triangle with area,
 /// normals finite and not zero.
 ///
@@ -48,6 +69,14 @@ pub(crate) fn clean(mesh: &mut Mesh) -> Result<Cleaning, String> {
     if first(&mesh.uvs, bad_uv).is_some() {
         mesh.uvs.clear();
         cleaning.dropped_uvs = true;
+    }
+    if first(&mesh.second_uvs, bad_uv).is_some() {
+        mesh.second_uvs.clear();
+        cleaning.dropped_uvs = true;
+    }
+    let bad_tangent = |t: &[f32; 4]| t.iter().any(|x| !x.is_finite());
+    if first(&mesh.tangents, bad_tangent).is_some() {
+        mesh.tangents.clear();
     }
     cleaning.replaced_normals = mend_normals(mesh);
     Ok(cleaning)

@@ -33,7 +33,7 @@ pub(crate) fn plain_bytes(path: &Path, limits: &Limits) -> Result<Vec<u8>, Strin
     let unreadable = |e: Error| format!("cannot be read: {e}");
     let file = File::open(path).map_err(unreadable)?;
     let promised = file.metadata().map_err(unreadable)?.len();
-    let too_long = || format!("has more than {most} bytes");
+    let too_long = || format!("has more than {most} bytes (`max_bytes`)");
     if promised > most {
         return Err(too_long());
     }
@@ -56,7 +56,7 @@ fn unpack(bytes: &[u8], limits: &Limits) -> Result<Vec<u8>, String> {
         .read_to_end(&mut unpacked)
         .map_err(|e| format!("cannot be unpacked: {e}"))?;
     if unpacked.len() as u64 > most {
-        return Err(format!("unpacks to more than {most} bytes"));
+        return Err(format!("unpacks to more than {most} bytes (`max_bytes`)"));
     }
     Ok(unpacked)
 }

@@ -10,7 +10,7 @@ mod shape;
 mod texture;
 
 pub use camera::{Camera, Film, Filter, Projection};
-pub use light::{EnvironmentMapping, Light, SpotFalloff};
+pub use light::{EnvironmentMapping, Light, Profile, SpotFalloff, Throw};
 pub use material::{
     ConductorFresnel, Distribution, Gltf, Material, MaterialKind, Principled, Relief, ReliefRules,
     Roughness, RoughnessMapping,
@@ -77,4 +77,7 @@ pub struct Settings {
     pub max_depth: u32,
     /// Samples per pixel.
     pub samples_per_pixel: u32,
+    /// Whether lights are hidden from the camera: its rays pass shapes that emit until they meet
+    /// one that does not, and see no light from infinity (Mitsuba's `hide_emitters`).
+    pub hide_emitters: bool,
 }

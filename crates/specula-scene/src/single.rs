@@ -7,11 +7,12 @@ use specula_bsdf::Rgb;
 
 use crate::bounds::{self, Bounds};
 use crate::error::{ErrorKind, Place, SceneError, Source, Warning};
+use crate::problems::Problems;
 use crate::scene::{
     ColourParam, FloatParam, Geometry, Material, MaterialId, MaterialKind, Mesh, MeshId, Scene,
     Shape,
 };
-use crate::{Limits, Loaded, mesh, stage};
+use crate::{Limits, LoadOptions, Loaded, mesh, stage};
 
 /// Size of the picture.
 const RESOLUTION: [u32; 2] = [960, 960];
@@ -24,13 +25,14 @@ const RESOLUTION: [u32; 2] = [960, 960];
 /// Where the file cannot be read, is damaged, or holds no triangle.
 pub(crate) fn read(
     path: &Path,
-    limits: &Limits,
+    options: &LoadOptions,
+    problems: &Problems,
     parse: impl FnOnce(&Path, &Limits) -> Result<Mesh, String>,
 ) -> Result<Loaded, SceneError> {
     let place = Place::start(&Source::unread(path));
     let wrong = |message: String| SceneError::new(ErrorKind::Mesh, &place, message);
-    let mut mesh = parse(path, limits).map_err(wrong)?;
-    mesh::clean(&mut mesh).map_err(wrong)?;
+    let mut mesh = parse(path, &options.limits).map_err(wrong)?;
+    let cleaning = mesh::clean(&mut mesh).map_err(wrong)?;
     let material = Material::new(MaterialKind::Diffuse {
         reflectance: ColourParam::Value(Rgb::splat(0.5)),
         roughness: FloatParam::Value(0.0),
@@ -57,13 +59,17 @@ pub(crate) fn read(
     };
     scene.camera = stage::camera(bounds::of_scene(&scene), RESOLUTION);
     stage::add_studio(&mut scene);
-    scene
-        .validate()
-        .map_err(|e| SceneError::new(ErrorKind::Structure, &place, e.to_string()))?;
+    scene.each_fault(|fault| {
+        problems.keep(SceneError::new(
+            ErrorKind::Structure,
+            &place,
+            fault.to_string(),
+        ))
+    })?;
     let message = "the file is a mesh alone: grey paint, the built-in studio's light and a camera \
                    that frames it are used (y is up)";
-    Ok(Loaded {
-        scene,
-        warnings: vec![Warning::new(&place, message)],
-    })
+    let mut warnings = vec![Warning::new(&place, message)];
+    let told = cleaning.messages().into_iter();
+    warnings.extend(told.map(|message| Warning::new(&place, message)));
+    Ok(Loaded { scene, warnings })
 }

@@ -13,6 +13,7 @@ use crate::scene::{
 pub(crate) const SETTINGS: Settings = Settings {
     max_depth: 16,
     samples_per_pixel: 128,
+    hide_emitters: false,
 };
 
 /// Field of view of the framing camera, over the shorter side.

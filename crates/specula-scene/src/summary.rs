@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::bounds::{self, Bounds};
 use crate::scene::{
     Camera, EnvironmentMapping, Film, Geometry, Light, MaterialKind, NoiseKind, Scene, Settings,
-    Shape, Texture,
+    Shape, Texture, Throw,
 };
 
 /// A picture's name and size.
@@ -181,5 +181,13 @@ fn light_kind(light: &Light) -> &'static str {
         Light::Distant { .. } => "distant",
         Light::Point { .. } => "point",
         Light::Spot { .. } => "spot",
+        Light::Picture {
+            throw: Throw::Sphere,
+            ..
+        } => "goniometric",
+        Light::Picture {
+            throw: Throw::Window { .. },
+            ..
+        } => "projection",
     }
 }

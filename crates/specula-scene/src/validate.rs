@@ -1,11 +1,16 @@
 //! The invariants of a scene, checked.
 
+use std::cell::Cell;
+
 use glam::DMat4;
 use specula_bsdf::Rgb;
 
 use crate::bounds::{self, FARTHEST};
+use crate::image::Image;
 use crate::mesh::first;
-use crate::scene::{Filter, Geometry, Light, Mesh, Projection, Scene, Shape};
+use crate::scene::{
+    Filter, Geometry, Instance, Light, Mesh, Profile, Projection, Scene, Shape, Throw,
+};
 
 /// Which invariant a scene breaks.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -54,63 +59,77 @@ impl Scene {
     ///
     /// The first invariant that is broken.
     pub fn validate(&self) -> Result<(), Invalid> {
-        self.check_picture()?;
+        self.each_fault(Err)
+    }
+
+    /// Gives `take` every part that breaks an invariant, with the first that it breaks, until `take`
+    /// itself fails.
+    ///
+    /// # Errors
+    ///
+    /// That of `take`.
+    pub(crate) fn each_fault<E>(
+        &self,
+        mut take: impl FnMut(Invalid) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let sound = Cell::new(true);
+        let mut hear = |part: Result<(), Invalid>| {
+            sound.set(sound.get() && part.is_ok());
+            part.or_else(&mut take)
+        };
+        hear(self.check_picture())?;
         for (i, image) in self.images.iter().enumerate() {
-            let what = format!("image {i} ({})", image.name);
-            let count = u64::from(image.width) * u64::from(image.height);
-            ensure(
-                count > 0 && count == image.pixels.len() as u64,
-                &what,
-                "pixels do not match its size",
-            )?;
-            let bad = |p: &[f32; 3]| !p.iter().all(|v| v.is_finite() && *v >= 0.0);
-            ensure(
-                first(&image.pixels, bad).is_none(),
-                &what,
-                "a pixel is negative or not finite",
-            )?;
+            hear(check_image(&format!("image {i} ({})", image.name), image))?;
         }
         for (i, texture) in self.textures.iter().enumerate() {
-            self.check_texture(i, texture)?;
+            hear(self.check_texture(i, texture))?;
         }
         for (i, material) in self.materials.iter().enumerate() {
-            self.check_material(i, material)?;
+            hear(self.check_material(i, material))?;
         }
         for (i, mesh) in self.meshes.iter().enumerate() {
-            check_mesh(&format!("mesh {i}"), mesh)?;
+            hear(check_mesh(&format!("mesh {i}"), mesh))?;
         }
         for (i, shape) in self.shapes.iter().enumerate() {
-            self.check_shape(&format!("shape {i}"), shape)?;
+            hear(self.check_shape(&format!("shape {i}"), shape))?;
         }
         for object in &self.objects {
             for (i, shape) in object.shapes.iter().enumerate() {
-                self.check_shape(&format!("shape {i} of object {}", object.name), shape)?;
+                let what = format!("shape {i} of object {}", object.name);
+                hear(self.check_shape(&what, shape))?;
             }
         }
         for (i, instance) in self.instances.iter().enumerate() {
-            let what = format!("instance {i}");
-            let object = self.objects.get(instance.object.0);
-            ensure(
-                object.is_some_and(|o| !o.shapes.is_empty()),
-                &what,
-                "its object has no shapes",
-            )?;
-            check_transform(&what, &instance.to_world)?;
+            hear(self.check_instance(&format!("instance {i}"), instance))?;
         }
         for (i, light) in self.lights.iter().enumerate() {
-            self.check_light(&format!("light {i}"), light)?;
+            hear(self.check_light(&format!("light {i}"), light))?;
         }
-        ensure(
+        hear(ensure(
             !(self.shapes.is_empty() && self.instances.is_empty()),
             "scene",
             "there is no shape",
-        )?;
+        ))?;
+        if !sound.get() {
+            // Without sound indices there are no bounds.
+            return Ok(());
+        }
         let reach = bounds::of_scene(self).farthest();
-        ensure(
+        hear(ensure(
             reach <= FARTHEST,
             "scene",
             "it reaches beyond 1e18 from the origin",
-        )
+        ))
+    }
+
+    fn check_instance(&self, what: &str, instance: &Instance) -> Result<(), Invalid> {
+        let object = self.objects.get(instance.object.0);
+        ensure(
+            object.is_some_and(|o| !o.shapes.is_empty()),
+            what,
+            "its object has no shapes",
+        )?;
+        check_transform(what, &instance.to_world)
     }
 
     fn check_picture(&self) -> Result<(), Invalid> {
@@ -278,8 +297,32 @@ impl Scene {
                 let falloff = *falloff_start_deg >= 0.0 && falloff_start_deg <= cone_angle_deg;
                 ensure(cone && falloff, what, "its cone is out of range")
             }
+            Light::Picture {
+                to_world,
+                intensity,
+                throw,
+            } => {
+                self.colour(what, *intensity)?;
+                check_transform(what, to_world)?;
+                point(&to_world.w_axis.truncate().to_array())?;
+                ensure(is_throw(throw), what, "its window is out of range")
+            }
         }
     }
+}
+
+fn is_throw(throw: &Throw) -> bool {
+    let Throw::Window { half, profile } = throw else {
+        return true;
+    };
+    let cone = match profile {
+        Profile::Spot {
+            cone_angle_deg: cone,
+            falloff_start_deg: start,
+        } => *cone > 0.0 && *cone < 90.0 && *start >= 0.0 && start <= cone,
+        Profile::Intensity | Profile::Irradiance => true,
+    };
+    cone && half.iter().all(|h| *h > 0.0 && h.is_finite())
 }
 
 fn is_light(c: Rgb<f32>) -> bool {
@@ -296,6 +339,21 @@ fn check_transform(what: &str, m: &DMat4) -> Result<(), Invalid> {
         what: what.to_owned(),
         problem: problem.to_owned(),
     })
+}
+
+fn check_image(what: &str, image: &Image) -> Result<(), Invalid> {
+    let count = u64::from(image.width) * u64::from(image.height);
+    ensure(
+        count > 0 && count == image.pixels.len() as u64,
+        what,
+        "pixels do not match its size",
+    )?;
+    let bad = |p: &[f32; 3]| !p.iter().all(|v| v.is_finite() && *v >= 0.0);
+    ensure(
+        first(&image.pixels, bad).is_none(),
+        what,
+        "a pixel is negative or not finite",
+    )
 }
 
 fn check_mesh(what: &str, mesh: &Mesh) -> Result<(), Invalid> {
@@ -340,9 +398,16 @@ fn check_mesh(what: &str, mesh: &Mesh) -> Result<(), Invalid> {
         "it has not one colour per vertex, none negative",
     )?;
     ensure(
-        mesh.uvs.iter().flatten().all(|x| x.is_finite()),
+        [0, count].contains(&mesh.second_uvs.len()) && [0, count].contains(&mesh.tangents.len()),
         what,
-        "a surface coordinate is not finite",
+        "it has not one second coordinate and one tangent per vertex",
+    )?;
+    let uvs = mesh.uvs.iter().chain(&mesh.second_uvs).flatten();
+    ensure(
+        uvs.chain(mesh.tangents.iter().flatten())
+            .all(|x| x.is_finite()),
+        what,
+        "a surface coordinate or a tangent is not finite",
     )
 }
 

@@ -157,6 +157,20 @@ fn backfacing_views_follow_the_density() {
     });
 }
 
+/// A coat with a normal map: its own frame, whose horizon is not the base's.
+#[test]
+fn bent_coats_follow_their_own_frame() {
+    let (_, p) = coated::<f64>();
+    let cases = [("bent coat", [-0.6, 0.3, 0.74])];
+    prove_all("gltf bent coat", &cases, |&(name, [x, y, z])| {
+        let lobe = Gltf::new(p).with_coat_normal(vec3(x, y, z).normalize());
+        let subject = Subject::from_bsdf(&lobe, Transport::Radiance);
+        let name = format!("{name} {x}");
+        let views = few_views(&[0.4, -0.05]);
+        prove(&name, &subject, &views, &plan_of(&p))
+    });
+}
+
 /// The two lobes of a body as one subject with both sides.
 fn both_sides(p: GltfParameters<f64>) -> Subject<'static> {
     let lobes = [false, true].map(|outside| Gltf::new(GltfParameters { outside, ..p }));

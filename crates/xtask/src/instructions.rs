@@ -21,8 +21,21 @@ const KERNELS: &[(&str, &[&str])] = &[
     ("bounded", &["scalar", "baseline", "avx2"]),
     ("pdf", &["scalar", "baseline", "avx2"]),
     ("gold", &["scalar", "baseline", "avx2"]),
-    ("gold-eval", &["baseline", "avx2"]),
+    ("gold-eval", &["scalar", "baseline", "avx2"]),
+    ("exact", &["scalar", "baseline", "avx2"]),
+    ("exact-eval", &["avx2"]),
     ("glass", &["scalar", "avx2"]),
+    ("glass-eval", &["scalar", "baseline", "avx2"]),
+    ("glass-pdf", &["avx2"]),
+    ("mirror", &["scalar", "avx2"]),
+    ("eon", &["scalar", "avx2"]),
+    ("eon-eval", &["scalar", "baseline", "avx2"]),
+    ("coated-diffuse", &["scalar", "avx2"]),
+    ("coated-diffuse-eval", &["avx2"]),
+    ("coated-gold", &["scalar", "avx2"]),
+    ("coated-gold-eval", &["scalar", "avx2"]),
+    ("turquin", &["avx2"]),
+    ("turquin-eval", &["scalar", "avx2"]),
 ];
 
 /// Instructions per element of one kernel at one level.
@@ -166,7 +179,7 @@ fn compare(kept: &[Count], counts: &[Count]) -> Result<()> {
             .map_or(f64::NAN, |k| k.instructions);
         let change = c.instructions / old - 1.0;
         println!(
-            "{:<10} {:<9} {:>8.1} {:>+7.1} %",
+            "{:<20} {:<9} {:>8.1} {:>+7.1} %",
             c.kernel,
             c.level,
             c.instructions,

@@ -5,7 +5,7 @@
 //! loop of its own over a short chunk, need as many loops as there are samplers plus reflectances
 //! instead of their product. Short loops are faster, too: the machine overlaps more iterations.
 
-use super::lobes::{Family, InStages, Kernel};
+use super::lobes::{Family, InStages, Isotropic, Kernel};
 use super::recast::number;
 use super::slices::{Colours, Directions, Kind, Samples};
 use crate::bsdf::{Bsdf, Transport};
@@ -32,6 +32,10 @@ macro_rules! per_sampler {
             }
             Some(Sampler::Bounded) => {
                 let $f = choose(Sampler::Bounded);
+                $body
+            }
+            Some(Sampler::Exact) if family.is_isotropic() => {
+                let $f = Isotropic(choose(Sampler::Exact));
                 $body
             }
             Some(Sampler::Exact) => {
@@ -171,7 +175,8 @@ impl<T: Real> EvalPdf<'_, T> {
     #[inline(always)]
     fn in_stages<U: Real, F: Family<U>>(mut self, family: F) {
         let n = self.pdf.len();
-        let mut norms = [U::ZERO; CHUNK];
+        let mut norms = [[U::ZERO; CHUNK]; 2];
+        let [first, second] = &mut norms;
         let mut start = 0;
         while start < n {
             let end = n.min(start + CHUNK);
@@ -181,13 +186,14 @@ impl<T: Real> EvalPdf<'_, T> {
             let wi = self.wi.range(start, end).first(count);
             let mut f_cos = self.f_cos.range(start, end).first(count);
             let pdf = &mut self.pdf[start..end][..count];
-            let norms = &mut norms[..count];
+            let (first, second) = (&mut first[..count], &mut second[..count]);
             let family = family.range(start, end);
-            per_sampler!(family, f => for (i, norm) in norms.iter_mut().enumerate() {
-                *norm = f.at(i).eval_first(wo.get_as(i));
+            per_sampler!(family, f => for i in 0..count {
+                [first[i], second[i]] = f.at(i).eval_first(wo.get_as(i));
             });
             per_reflectance!(family, f => for i in 0..count {
-                let (value, density) = f.at(i).eval_second(wo.get_as(i), wi.get_as(i), norms[i]);
+                let first = [first[i], second[i]];
+                let (value, density) = f.at(i).eval_second(wo.get_as(i), wi.get_as(i), first);
                 f_cos.set_from(i, value);
                 pdf[i] = number(density);
             });
@@ -230,8 +236,8 @@ impl<T: Real> Sample<'_, T> {
     #[inline(always)]
     fn in_stages<U: Real, F: Family<U>>(mut self, family: F) {
         let n = self.samples.pdf.len();
-        let mut drawn = [[U::ZERO; CHUNK]; 4];
-        let [x, y, z, norms] = &mut drawn;
+        let mut drawn = [[U::ZERO; CHUNK]; 5];
+        let [x, y, z, first, second] = &mut drawn;
         let mut start = 0;
         while start < n {
             let end = n.min(start + CHUNK);
@@ -240,14 +246,19 @@ impl<T: Real> Sample<'_, T> {
             let u = range(self.u, start, end);
             let mut samples = self.samples.range(start, end).first(count);
             let (x, y, z) = (&mut x[..count], &mut y[..count], &mut z[..count]);
-            let norms = &mut norms[..count];
+            let (first, second) = (&mut first[..count], &mut second[..count]);
             let family = family.range(start, end);
             per_sampler!(family, f => for i in 0..count {
-                let (wi, norm) = f.at(i).draw_first(wo.get_as(i), numbers(u, i));
-                (x[i], y[i], z[i], norms[i]) = (wi.x, wi.y, wi.z, norm);
+                let (wi, norms) = f.at(i).draw_first(wo.get_as(i), numbers(u, i));
+                (x[i], y[i], z[i]) = (wi.x, wi.y, wi.z);
+                first[i] = norms[0];
+                if F::Lobe::TWO_NUMBERS {
+                    second[i] = norms[1];
+                }
             });
             per_reflectance!(family, f => for i in 0..count {
-                let first = (vec3(x[i], y[i], z[i]), norms[i]);
+                let other = if F::Lobe::TWO_NUMBERS { second[i] } else { U::ONE };
+                let first = (vec3(x[i], y[i], z[i]), [first[i], other]);
                 samples.set_from(i, f.at(i).draw_second(wo.get_as(i), first));
             });
             start = end;
@@ -265,9 +276,13 @@ pub(super) struct SampleWi<'a, T> {
 impl<T: Real> Kernel for SampleWi<'_, T> {
     #[inline(always)]
     fn run<U: Real, F: Family<U>>(self, family: F) {
-        // The weight is not asked for: any reflectance will do.
+        // The weight is not asked for: any reflectance will do, but where it steers the draw.
         let black = Reflectance::Constant(crate::Rgb::BLACK);
-        let family = family.with(|lobe| lobe.choose_reflectance(black));
+        let family = if F::Lobe::DRAWN_BY_REFLECTANCE {
+            family
+        } else {
+            family.with(|lobe| lobe.choose_reflectance(black))
+        };
         per_sampler!(family, f => self.each(f));
     }
 }

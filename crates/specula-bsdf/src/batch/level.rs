@@ -40,7 +40,7 @@ impl Level {
     #[inline]
     pub(super) fn run(self, task: impl Task) {
         match self {
-            Self::Baseline => task.run::<Plain>(),
+            Self::Baseline => baseline(task),
             Self::Avx2 => avx2(task),
             Self::Avx512 => avx512(task),
         }
@@ -83,18 +83,15 @@ pub(super) trait Task {
     fn run<A: Arithmetic>(self);
 }
 
-// The same targets in the same order in all three, so that they agree on what the machine is.
+// Each level falls back to the one below by a call, so that every task is compiled three times in all.
 // Left to itself, LLVM uses 512-bit registers with these features: the preference for 256 bits
 // belongs to named processors only.
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2",
-))]
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2"))]
 fn avx512<K: Task>(task: K) {
     match_target! {
-        "x86_64+fma" => task.run::<Fusing>(),
-        _ => task.run::<Plain>(),
+        "x86_64+avx512f" => task.run::<Fusing>(),
+        _ => avx2(task),
     }
 }
 
@@ -102,8 +99,13 @@ fn avx512<K: Task>(task: K) {
 fn avx2<K: Task>(task: K) {
     match_target! {
         "x86_64+fma" => task.run::<Fusing>(),
-        _ => task.run::<Plain>(),
+        _ => baseline(task),
     }
+}
+
+#[inline(never)]
+fn baseline<K: Task>(task: K) {
+    task.run::<Plain>();
 }
 
 #[multiversion(targets(

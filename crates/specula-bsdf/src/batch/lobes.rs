@@ -4,9 +4,8 @@ use super::level::Arithmetic;
 use super::recast::Recast;
 use super::slices::LengthMismatch;
 use crate::bsdf::{
-    Bsdf, BsdfSample, CoatedConductor, CoatedDiffuse, Compensated, CompensatedDielectric,
-    DiffuseTransmission, Eon, Lambert, SmoothConductor, SmoothDielectric, ThinDielectric,
-    Transport,
+    Bsdf, BsdfSample, CoatedDiffuse, Compensated, CompensatedDielectric, DiffuseTransmission, Eon,
+    Lambert, SmoothConductor, SmoothDielectric, ThinDielectric, Transport,
 };
 use crate::fresnel::Reflectance;
 use crate::math::{Real, Rgb, Vec3};
@@ -52,6 +51,9 @@ pub trait Family<U: Real>: Copy {
 
     /// The common lobe.
     fn common(&self) -> &Self::Lobe;
+
+    /// Whether all its lobes are isotropic.
+    fn is_isotropic(&self) -> bool;
 }
 
 /// A lobe with choices to be made into constants, whose samples may be made in two stages, each a
@@ -61,6 +63,25 @@ pub trait InStages<U: Real>: Bsdf<U> + Copy {
     /// Whether there are two stages: then the sampler matters in the first one only, and the
     /// reflectance in the second one only.
     const STAGED: bool = false;
+
+    /// Whether the first stage of a sample yields two numbers; else the second one counts for nothing.
+    const TWO_NUMBERS: bool = false;
+
+    /// Whether the direction of a sample depends on the reflectance.
+    const DRAWN_BY_REFLECTANCE: bool = false;
+
+    /// Whether the widths are equal, and the sampler has a shorter way for such.
+    #[inline(always)]
+    fn is_isotropic(&self) -> bool {
+        false
+    }
+
+    /// With widths that the compiler sees to be equal.
+    #[inline(always)]
+    #[must_use]
+    fn isotropic(self) -> Self {
+        self
+    }
 
     /// The sampler, if there is a choice.
     #[inline(always)]
@@ -88,27 +109,27 @@ pub trait InStages<U: Real>: Bsdf<U> + Copy {
         self
     }
 
-    /// First stage of a sample: a direction and a number.
+    /// First stage of a sample: a direction and two numbers.
     #[inline(always)]
-    fn draw_first(&self, _wo: Vec3<U>, _u: [U; 3]) -> (Vec3<U>, U) {
-        (Vec3::ZERO, U::ZERO)
+    fn draw_first(&self, _wo: Vec3<U>, _u: [U; 3]) -> (Vec3<U>, [U; 2]) {
+        (Vec3::ZERO, [U::ZERO; 2])
     }
 
     /// Second stage of a sample.
     #[inline(always)]
-    fn draw_second(&self, _wo: Vec3<U>, _first: (Vec3<U>, U)) -> Option<BsdfSample<U>> {
+    fn draw_second(&self, _wo: Vec3<U>, _first: (Vec3<U>, [U; 2])) -> Option<BsdfSample<U>> {
         None
     }
 
-    /// First stage of eval and pdf together: a number.
+    /// First stage of eval and pdf together: two numbers.
     #[inline(always)]
-    fn eval_first(&self, _wo: Vec3<U>) -> U {
-        U::ZERO
+    fn eval_first(&self, _wo: Vec3<U>) -> [U; 2] {
+        [U::ZERO; 2]
     }
 
     /// Second stage of eval and pdf together.
     #[inline(always)]
-    fn eval_second(&self, _wo: Vec3<U>, _wi: Vec3<U>, _first: U) -> (Rgb<U>, U) {
+    fn eval_second(&self, _wo: Vec3<U>, _wi: Vec3<U>, _first: [U; 2]) -> (Rgb<U>, U) {
         (Rgb::BLACK, U::ZERO)
     }
 }
@@ -138,6 +159,45 @@ impl<U: Real, L: InStages<U>> Family<U> for Same<L> {
     #[inline(always)]
     fn common(&self) -> &L {
         &self.0
+    }
+
+    #[inline(always)]
+    fn is_isotropic(&self) -> bool {
+        self.0.is_isotropic()
+    }
+}
+
+/// A family whose lobes all have equal widths: made equal at every use, so that the compiler drops
+/// what serves unequal ones.
+#[derive(Clone, Copy)]
+pub(super) struct Isotropic<F>(pub(super) F);
+
+impl<U: Real, F: Family<U>> Family<U> for Isotropic<F> {
+    type Lobe = F::Lobe;
+
+    #[inline(always)]
+    fn at(&self, i: usize) -> F::Lobe {
+        self.0.at(i).isotropic()
+    }
+
+    #[inline(always)]
+    fn range(&self, start: usize, end: usize) -> Self {
+        Self(self.0.range(start, end))
+    }
+
+    #[inline(always)]
+    fn with(self, change: impl FnOnce(F::Lobe) -> F::Lobe) -> Self {
+        Self(self.0.with(change))
+    }
+
+    #[inline(always)]
+    fn common(&self) -> &F::Lobe {
+        self.0.common()
+    }
+
+    #[inline(always)]
+    fn is_isotropic(&self) -> bool {
+        true
     }
 }
 
@@ -237,9 +297,4 @@ macro_rules! one_by_one {
     };
 }
 
-one_by_one!(
-    CoatedDiffuse,
-    CoatedConductor,
-    Compensated,
-    CompensatedDielectric
-);
+one_by_one!(CoatedDiffuse, Compensated, CompensatedDielectric);

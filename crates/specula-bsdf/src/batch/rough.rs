@@ -5,6 +5,7 @@ use super::lobes::{Family, InStages, Kernel, Lobes, Same};
 use super::recast::Recast;
 use super::slices::LengthMismatch;
 use super::widths::{Alphas, Widths, WidthsAt};
+use crate::alpha::Alpha;
 use crate::bsdf::{BsdfSample, RoughConductor, RoughDielectric};
 use crate::fresnel::Reflectance;
 use crate::math::{Real, Rgb, Vec3};
@@ -57,8 +58,30 @@ impl<U: Real> Rough<U> for RoughDielectric<U> {
     }
 }
 
+#[inline(always)]
+pub(super) fn equal_widths<U: Real>(ggx: &Ggx<U>) -> bool {
+    ggx.alpha().x == ggx.alpha().y
+}
+
+/// Clamped anew, so that the compiler sees two equal widths that are no NaN.
+#[inline(always)]
+pub(super) fn made_isotropic<U: Real>(ggx: &Ggx<U>) -> Ggx<U> {
+    Ggx::new(Alpha::isotropic(ggx.alpha().x))
+}
+
 impl<U: Real> InStages<U> for RoughConductor<U> {
     const STAGED: bool = true;
+
+    #[inline(always)]
+    fn is_isotropic(&self) -> bool {
+        equal_widths(&self.ndf)
+    }
+
+    #[inline(always)]
+    fn isotropic(self) -> Self {
+        let ggx = made_isotropic(&self.ndf);
+        self.with_widths(ggx)
+    }
 
     #[inline(always)]
     fn sampler(&self) -> Option<Sampler> {
@@ -84,27 +107,43 @@ impl<U: Real> InStages<U> for RoughConductor<U> {
     }
 
     #[inline(always)]
-    fn draw_first(&self, wo: Vec3<U>, u: [U; 3]) -> (Vec3<U>, U) {
-        self.draw(wo, u)
+    fn draw_first(&self, wo: Vec3<U>, u: [U; 3]) -> (Vec3<U>, [U; 2]) {
+        let (wi, norm) = self.draw(wo, u);
+        (wi, [norm, U::ONE])
     }
 
     #[inline(always)]
-    fn draw_second(&self, wo: Vec3<U>, (wi, norm): (Vec3<U>, U)) -> Option<BsdfSample<U>> {
+    fn draw_second(
+        &self,
+        wo: Vec3<U>,
+        (wi, [norm, _]): (Vec3<U>, [U; 2]),
+    ) -> Option<BsdfSample<U>> {
         self.weigh(wo, wi, norm)
     }
 
     #[inline(always)]
-    fn eval_first(&self, wo: Vec3<U>) -> U {
-        self.ndf.reflection_norm(self.sampler, wo)
+    fn eval_first(&self, wo: Vec3<U>) -> [U; 2] {
+        self.norm(wo)
     }
 
     #[inline(always)]
-    fn eval_second(&self, wo: Vec3<U>, wi: Vec3<U>, norm: U) -> (Rgb<U>, U) {
+    fn eval_second(&self, wo: Vec3<U>, wi: Vec3<U>, norm: [U; 2]) -> (Rgb<U>, U) {
         self.evaluate(wo, wi, norm)
     }
 }
 
 impl<U: Real> InStages<U> for RoughDielectric<U> {
+    #[inline(always)]
+    fn is_isotropic(&self) -> bool {
+        equal_widths(&self.ndf)
+    }
+
+    #[inline(always)]
+    fn isotropic(self) -> Self {
+        let ggx = made_isotropic(&self.ndf);
+        self.with_widths(ggx)
+    }
+
     #[inline(always)]
     fn sampler(&self) -> Option<Sampler> {
         Some(self.sampler)
@@ -149,6 +188,11 @@ impl<T: Real, U: Real, L: Rough<U>> Family<U> for Textured<'_, T, L> {
     #[inline(always)]
     fn common(&self) -> &L {
         &self.lobe
+    }
+
+    #[inline(always)]
+    fn is_isotropic(&self) -> bool {
+        false
     }
 }
 

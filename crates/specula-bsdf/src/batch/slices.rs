@@ -240,6 +240,29 @@ impl<T: Real> Colours<&[T]> {
     pub fn get(&self, i: usize) -> Rgb<T> {
         rgb(self.r[i], self.g[i], self.b[i])
     }
+
+    pub(super) fn lengths(&self, names: [&'static str; 3]) -> [(&'static str, usize); 3] {
+        let [r, g, b] = names;
+        [(r, self.r.len()), (g, self.g.len()), (b, self.b.len())]
+    }
+
+    #[inline(always)]
+    pub(super) fn first(self, n: usize) -> Self {
+        Self {
+            r: &self.r[..n],
+            g: &self.g[..n],
+            b: &self.b[..n],
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn range(&self, start: usize, end: usize) -> Self {
+        Self {
+            r: &self.r[start..end],
+            g: &self.g[start..end],
+            b: &self.b[start..end],
+        }
+    }
 }
 
 impl<T: Real> Colours<&mut [T]> {

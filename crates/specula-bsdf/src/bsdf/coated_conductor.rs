@@ -102,6 +102,86 @@ impl<T: Real> CoatedConductor<T> {
         let back = T::HALF * (coat_o.reflectance + coat_i.reflectance);
         metal.map(|f| passed * f / Real::max(T::ONE - f * back, T::EPSILON))
     }
+
+    /// A drawn direction, `(0, 0, 0)` where there is none, where both surfaces are rough.
+    #[inline(always)]
+    pub(crate) fn draw(&self, coat: Ggx<T>, metal: Ggx<T>, wo: Vec3<T>, u: [T; 3]) -> Vec3<T> {
+        let direction = [u[1], u[2]];
+        if u[0] < self.coat_probability(self.at_coat(wo), wo) {
+            coat.sample_reflection(self.sampler, wo, direction)
+        } else {
+            let below = metal.sample_reflection(self.sampler, self.below(wo), direction);
+            self.above(below).unwrap_or(Vec3::ZERO)
+        }
+    }
+
+    /// `N` of the coat's and of the metal's reflections, whose densities are `D / (4 N)`; 1 where
+    /// smooth.
+    #[inline(always)]
+    pub(crate) fn norms(&self, wo: Vec3<T>) -> [T; 2] {
+        let norm = |ggx: Option<Ggx<T>>, w: Vec3<T>| match ggx {
+            Some(ggx) => ggx.reflection_norm(self.sampler, w),
+            None => T::ONE,
+        };
+        [norm(self.coat, wo), norm(self.metal, self.below(wo))]
+    }
+
+    /// What a drawn direction weighs, given [`norms`](Self::norms).
+    #[inline(always)]
+    pub(crate) fn weigh(
+        &self,
+        metal: Ggx<T>,
+        wo: Vec3<T>,
+        wi: Vec3<T>,
+        norms: [T; 2],
+    ) -> Option<BsdfSample<T>> {
+        let (f_cos, pdf) = self.evaluate(metal, wo, wi, norms);
+        BsdfSample::reflected(wi, f_cos / pdf, pdf)
+    }
+
+    /// `f |cos|` and its density, given [`norms`](Self::norms). Free of branches, so that batches are.
+    #[inline(always)]
+    pub(crate) fn evaluate(
+        &self,
+        metal: Ggx<T>,
+        wo: Vec3<T>,
+        wi: Vec3<T>,
+        norms: [T; 2],
+    ) -> (Rgb<T>, T) {
+        let masking = Masking::HeightCorrelated;
+        let coat_o = self.at_coat(wo);
+        let p = self.coat_probability(coat_o, wo);
+
+        let (below_o, below_i) = (self.below(wo), self.below(wi));
+        let bend = wi.z / (self.eta * self.eta * below_i.z);
+        let (d, cos) = facet(metal, below_o, below_i);
+        let quarter = T::of(0.25) * d * bend;
+        let passed = self.through(coat_o, self.at_coat(wi), self.reflectance.eval(cos));
+        let mut f_cos = passed * (quarter * metal.g2_over_cos(masking, below_o, below_i));
+        let mut pdf = (T::ONE - p) * quarter / norms[1];
+
+        if let Some(coat) = self.coat {
+            let (d, cos) = facet(coat, wo, wi);
+            let quarter = T::of(0.25) * d;
+            let fresnel = dielectric(cos, self.eta).reflectance;
+            f_cos += Rgb::splat(fresnel * quarter * coat.g2_over_cos(masking, wo, wi));
+            pdf += p * quarter / norms[0];
+        }
+        if wi.z > T::ZERO {
+            (f_cos, pdf)
+        } else {
+            (Rgb::BLACK, T::ZERO)
+        }
+    }
+}
+
+/// `D` of the facet that reflects `wo` into `wi`, 0 below the horizon, and its cosine with both:
+/// half the length of `wo + wi`.
+#[inline(always)]
+fn facet<T: Real>(ggx: Ggx<T>, wo: Vec3<T>, wi: Vec3<T>) -> (T, T) {
+    let half = wo + wi;
+    let squared = half.length_squared();
+    (ggx.d_along(half, squared), T::HALF * squared.sqrt())
 }
 
 /// The metal's normals as blurred by a rough coat.
@@ -128,7 +208,7 @@ impl<T: Real> Bsdf<T> for CoatedConductor<T> {
     }
 
     #[inline]
-    fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
+    fn sample(&self, wo: Vec3<T>, u: [T; 3], _transport: Transport) -> Option<BsdfSample<T>> {
         let coat = self.at_coat(wo);
         let mirrored = vec3(-wo.x, -wo.y, wo.z);
         let delta = |weight, p| {
@@ -150,8 +230,7 @@ impl<T: Real> Bsdf<T> for CoatedConductor<T> {
         } else {
             self.above(metal.sample_reflection(self.sampler, self.below(wo), direction))?
         };
-        let (f_cos, pdf) = self.eval_pdf(wo, wi, transport);
-        BsdfSample::reflected(wi, f_cos / pdf, pdf)
+        self.weigh(metal, wo, wi, self.norms(wo))
     }
 
     #[inline]
@@ -162,32 +241,7 @@ impl<T: Real> Bsdf<T> for CoatedConductor<T> {
         if wi.z <= T::ZERO {
             return (Rgb::BLACK, T::ZERO);
         }
-        let masking = Masking::HeightCorrelated;
-        let coat_o = self.at_coat(wo);
-        let p = self.coat_probability(coat_o, wo);
-        let mut f_cos = Rgb::BLACK;
-        let mut pdf = T::ZERO;
-
-        let (below_o, below_i) = (self.below(wo), self.below(wi));
-        let wm = (below_o + below_i).normalize();
-        if wm.z > T::ZERO {
-            let bend = wi.z / (self.eta * self.eta * below_i.z);
-            let quarter = T::of(0.25) * metal.d(wm) * bend;
-            let fresnel = self.reflectance.eval(below_o.dot(wm));
-            let passed = self.through(coat_o, self.at_coat(wi), fresnel);
-            f_cos += passed * (quarter * metal.g2_over_cos(masking, below_o, below_i));
-            pdf += (T::ONE - p) * quarter / metal.reflection_norm(self.sampler, below_o);
-        }
-        if let Some(coat) = self.coat {
-            let wm = (wo + wi).normalize();
-            if wm.z > T::ZERO {
-                let quarter = T::of(0.25) * coat.d(wm);
-                let fresnel = dielectric(wo.dot(wm), self.eta).reflectance;
-                f_cos += Rgb::splat(fresnel * quarter * coat.g2_over_cos(masking, wo, wi));
-                pdf += p * quarter / coat.reflection_norm(self.sampler, wo);
-            }
-        }
-        (f_cos, pdf)
+        self.evaluate(metal, wo, wi, self.norms(wo))
     }
 
     #[inline(always)]

@@ -4,7 +4,7 @@ use super::{Bsdf, BsdfSample, Event, Transport};
 use crate::fresnel::Reflectance;
 use crate::math::{Real, Rgb, Vec3, vec3};
 use crate::ndf::{Ggx, Masking, Ndf};
-use crate::vndf::Sampler;
+use crate::vndf::{Reflections, Sampler};
 
 /// Single scattering off a rough metal (Cook and Torrance 1982, with Smith masking):
 ///
@@ -56,6 +56,12 @@ impl<T: Real, N: Ndf<T>> RoughConductor<T, N> {
         (wi, self.ndf.reflection_norm(self.sampler, wo))
     }
 
+    /// `N` of `pdf = D / (4 N)` as numerator and denominator.
+    #[inline(always)]
+    pub(crate) fn norm(&self, wo: Vec3<T>) -> [T; 2] {
+        self.ndf.reflection_norm_quotient(self.sampler, wo).into()
+    }
+
     /// The second half: what a direction drawn with `pdf = D / (4 N)` weighs.
     #[inline(always)]
     pub(crate) fn weigh(&self, wo: Vec3<T>, wi: Vec3<T>, norm: T) -> Option<BsdfSample<T>> {
@@ -68,15 +74,16 @@ impl<T: Real, N: Ndf<T>> RoughConductor<T, N> {
         BsdfSample::reflected(wi, weight, pdf)
     }
 
-    /// `eval` and `pdf`, given the `N` of `pdf = D / (4 N)`.
+    /// `eval` and `pdf`, given the `N` of `pdf = D / (4 N)` as numerator and denominator.
     #[inline(always)]
-    pub(crate) fn evaluate(&self, wo: Vec3<T>, wi: Vec3<T>, norm: T) -> (Rgb<T>, T) {
+    pub(crate) fn evaluate(&self, wo: Vec3<T>, wi: Vec3<T>, norm: [T; 2]) -> (Rgb<T>, T) {
         let (d, fresnel) = self.facet(wo, wi);
         let quarter = d * T::of(0.25);
         let f_cos = fresnel * (quarter * self.ndf.g2_over_cos(self.masking, wo, wi));
+        let [n, m] = norm;
         // Selected at the end, so that batches have no branches.
         if wi.z > T::ZERO && wo.z + wi.z > T::ZERO {
-            (f_cos, quarter / norm)
+            (f_cos, quarter * m / n)
         } else {
             (Rgb::BLACK, T::ZERO)
         }
@@ -93,6 +100,49 @@ impl<T: Real, N: Ndf<T>> RoughConductor<T, N> {
     }
 }
 
+impl<T: Real> RoughConductor<T> {
+    /// The metal seen along `wo`, with what does not depend on the light kept: for several
+    /// evaluations or samples of one view.
+    #[inline(always)]
+    pub fn seen_along(&self, wo: Vec3<T>) -> SeenConductor<T> {
+        SeenConductor {
+            metal: *self,
+            reflections: Reflections::new(self.ndf.alpha(), wo, self.sampler),
+        }
+    }
+}
+
+/// A rough metal and a view, from [`RoughConductor::seen_along`]. Functions and numbers are those of
+/// [`Bsdf`], `wo` apart.
+#[derive(Clone, Copy, Debug)]
+pub struct SeenConductor<T> {
+    metal: RoughConductor<T>,
+    reflections: Reflections<T>,
+}
+
+impl<T: Real> SeenConductor<T> {
+    /// `f |cos|` and its density: as [`Bsdf::eval_pdf`].
+    #[inline(always)]
+    pub fn eval_pdf(&self, wi: Vec3<T>) -> (Rgb<T>, T) {
+        let Reflections { wo, norm, .. } = self.reflections;
+        self.metal.evaluate(wo, wi, [norm, T::ONE])
+    }
+
+    /// As [`Bsdf::pdf`].
+    #[inline(always)]
+    pub fn pdf(&self, wi: Vec3<T>) -> T {
+        self.reflections.pdf(wi)
+    }
+
+    /// As [`Bsdf::sample`].
+    #[inline(always)]
+    pub fn sample(&self, u: [T; 3]) -> Option<BsdfSample<T>> {
+        let wi = self.reflections.sample_direction([u[1], u[2]]);
+        let Reflections { wo, norm, .. } = self.reflections;
+        self.metal.weigh(wo, wi, norm)
+    }
+}
+
 impl<T: Real, N: Ndf<T>> Bsdf<T> for RoughConductor<T, N> {
     #[inline(always)]
     fn eval(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> Rgb<T> {
@@ -103,7 +153,8 @@ impl<T: Real, N: Ndf<T>> Bsdf<T> for RoughConductor<T, N> {
     fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
         let half = wo + wi;
         let d = self.ndf.d_along(half, half.length_squared());
-        let pdf = d / (T::of(4.0) * self.ndf.reflection_norm(self.sampler, wo));
+        let [n, m] = self.norm(wo);
+        let pdf = d * m / (T::of(4.0) * n);
         T::select(wi.z > T::ZERO && half.z > T::ZERO, pdf, T::ZERO)
     }
 
@@ -115,8 +166,7 @@ impl<T: Real, N: Ndf<T>> Bsdf<T> for RoughConductor<T, N> {
 
     #[inline(always)]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, _transport: Transport) -> (Rgb<T>, T) {
-        let norm = self.ndf.reflection_norm(self.sampler, wo);
-        self.evaluate(wo, wi, norm)
+        self.evaluate(wo, wi, self.norm(wo))
     }
 
     #[inline(always)]
@@ -152,11 +202,11 @@ impl<T: Real> Bsdf<T> for SmoothConductor<T> {
 
     #[inline(always)]
     fn sample(&self, wo: Vec3<T>, _u: [T; 3], _transport: Transport) -> Option<BsdfSample<T>> {
-        (wo.z > T::ZERO).then(|| {
-            let wi = vec3(-wo.x, -wo.y, wo.z);
-            let weight = self.reflectance.eval(wo.z);
-            BsdfSample::delta(wi, weight, T::ONE, Event::Reflection, T::ONE)
-        })
+        let wi = vec3(-wo.x, -wo.y, wo.z);
+        let weight = self.reflectance.eval(wo.z);
+        let sample = BsdfSample::delta(wi, weight, T::ONE, Event::Reflection, T::ONE);
+        // Selected at the end, so that batches have no branches.
+        (wo.z > T::ZERO).then_some(sample)
     }
 
     #[inline(always)]
@@ -167,5 +217,49 @@ impl<T: Real> Bsdf<T> for SmoothConductor<T> {
     #[inline(always)]
     fn albedo(&self) -> Rgb<T> {
         self.reflectance.eval(T::of(2.0 / 3.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::alpha::Alpha;
+    use crate::fresnel::Conductor;
+    use crate::math::{Stream, rgb, warp};
+
+    /// Within rounding: the compiler may contract the two differently.
+    fn close(a: f64, b: f64) -> bool {
+        (a - b).abs() <= 1e-12 * a.abs().max(b.abs())
+    }
+
+    #[test]
+    fn seen_along_a_view_is_the_same_metal() {
+        let gold = Reflectance::Conductor(Conductor {
+            eta: rgb(0.14, 0.37, 1.44),
+            k: rgb(3.98, 2.38, 1.6),
+        });
+        let mut stream = Stream::new(3);
+        for sampler in [Sampler::Cap, Sampler::Bounded, Sampler::Exact] {
+            for alpha in [Alpha::isotropic(0.4), Alpha::clamped(0.1, 0.8)] {
+                let metal = RoughConductor::new(Ggx::new(alpha), gold).with_sampler(sampler);
+                for _ in 0..500 {
+                    let wo: Vec3<f64> = warp::uniform_sphere([stream.next(), stream.next()]);
+                    let wi = warp::uniform_sphere([stream.next(), stream.next()]);
+                    let seen = metal.seen_along(wo);
+                    let (f, pdf) = metal.eval_pdf(wo, wi, Transport::Radiance);
+                    let (g, qdf) = seen.eval_pdf(wi);
+                    assert!(close(f.r, g.r) && close(f.b, g.b) && close(pdf, qdf));
+                    assert!(close(metal.pdf(wo, wi), seen.pdf(wi)));
+
+                    let u = [stream.next(), stream.next(), stream.next()];
+                    let (a, b) = (metal.sample(wo, u, Transport::Radiance), seen.sample(u));
+                    assert_eq!(a.is_some(), b.is_some());
+                    if let (Some(a), Some(b)) = (a, b) {
+                        assert_eq!(a.wi, b.wi);
+                        assert!(close(a.weight.g, b.weight.g) && close(a.pdf, b.pdf));
+                    }
+                }
+            }
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! A rough dielectric interface: reflection and refraction (Walter et al. 2007).
 
 use super::{Bsdf, BsdfSample, Event, Tints, Transport};
-use crate::fresnel::{Refraction, dielectric, refract};
+use crate::fresnel::{dielectric, refract, refraction};
 use crate::math::{Real, Rgb, Vec3, vec3};
 use crate::ndf::{Ggx, Masking, Ndf};
 use crate::vndf::{Sampler, reflect};
@@ -96,14 +96,59 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         (self.eta - T::ONE).abs() < T::of(1e-3)
     }
 
-    /// The side that `wo` views: the factor that turns z, and the relative index.
+    /// The interface as `wo` meets it.
     #[inline(always)]
-    fn side(&self, wo: Vec3<T>) -> (T, T) {
-        if self.two_sided && wo.z < T::ZERO {
-            (-T::ONE, T::ONE / self.eta)
-        } else {
-            (T::ONE, self.eta)
+    fn side(&self, wo: Vec3<T>) -> Side<T> {
+        let inside = self.two_sided && wo.z < T::ZERO;
+        let inverse = T::ONE / self.eta;
+        Side {
+            inside,
+            turn: T::select(inside, -T::ONE, T::ONE),
+            eta: T::select(inside, inverse, self.eta),
+            inverse: T::select(inside, self.eta, inverse),
         }
+    }
+
+    /// `far^2` of the Jacobian of refraction, and the same for what the path carries (`near^2` for
+    /// radiance, which is divided by `e^2`). With `h = near wo + far wi` of [`half`](Self::half) and
+    /// `e = far / near`:
+    ///
+    /// ```text
+    /// dwm/dwi = e^2 |wi.wm| / (wo.wm + e wi.wm)^2 = far^2 |wi.wm| / |h|^2
+    /// ```
+    ///
+    /// for the sum is `(wo + e wi) . wm`, the length of `wo + e wi`: its terms, of opposite signs,
+    /// cancel, but a length does not.
+    ///
+    /// Source: Walter et al. 2007, eq. 17.
+    #[inline(always)]
+    fn stretches(&self, side: Side<T>, transport: Transport) -> (T, T) {
+        let eta2 = self.eta * self.eta;
+        let near2 = T::select(side.inside, eta2, T::ONE);
+        let far2 = T::select(side.inside, T::ONE, eta2);
+        // For radiance divided by e^2 = far^2 / near^2.
+        let carried = match transport {
+            Transport::Radiance => near2,
+            Transport::Importance => far2,
+        };
+        (far2, carried)
+    }
+
+    /// A vector along the normal of the facet that sends `wo` to `wi`: `wo + wi`, or `wo + e wi`
+    /// times a factor.
+    ///
+    /// Near the mirrored and the straight direction its x and y cancel, and narrow distributions ask
+    /// for them to be right to a share of themselves. So products are not rounded; and from inside,
+    /// where `e = 1/eta` is rounded, `eta wo + wi` takes the place of `wo + e wi`.
+    #[inline(always)]
+    fn half(&self, side: Side<T>, wo: Vec3<T>, wi: Vec3<T>, reflects: bool) -> Vec3<T> {
+        let factor = T::select(reflects, T::ONE, self.eta);
+        let sum = |o, i| {
+            let (one, other) = (T::select(side.inside, i, o), T::select(side.inside, o, i));
+            other.mul_add_once(factor, one)
+        };
+        let half = vec3(sum(wo.x, wi.x), sum(wo.y, wi.y), sum(wo.z, wi.z));
+        half * T::ONE.copysign(half.z)
     }
 
     /// Probability of reflection where the branch is drawn before the normal.
@@ -119,139 +164,239 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         matches!(self.sampler, Sampler::Bounded | Sampler::Exact)
     }
 
-    /// Eval and pdf for `wo` on its own side.
+    /// What happens between `wo`, on its own side, and `wi`. Free of branches, so that batches are.
     #[inline(always)]
-    fn evaluate(&self, wo: Vec3<T>, wi: Vec3<T>, eta: T, transport: Transport) -> (T, T) {
-        if wi.z == T::ZERO {
-            return (T::ZERO, T::ZERO);
-        }
+    fn scatter(&self, wo: Vec3<T>, wi: Vec3<T>, side: Side<T>, transport: Transport) -> Scatter<T> {
         let reflects = wi.z > T::ZERO;
-        let generalised = if reflects { wo + wi } else { wo + wi * eta };
-        let upright = T::ONE.copysign(generalised.z);
-        let wm = (generalised * upright).normalize();
+        let half = self.half(side, wo, wi, reflects);
+        let squared = half.length_squared();
+        let inverse_squared = T::ONE / squared;
+        let inverse = inverse_squared.sqrt();
+        let wm = half * inverse;
         let (cos_o, cos_i) = (wo.dot(wm), wi.dot(wm));
         // Facets seen from behind do not scatter; a half vector of zero length is NaN here.
         let lit = cos_o > T::ZERO && T::select(reflects, cos_i, -cos_i) > T::ZERO;
-        if !lit {
-            return (T::ZERO, T::ZERO);
-        }
-        let bent = dielectric(cos_o, eta);
-        let d = self.ndf.d(wm);
-        let g2 = self.ndf.g2_over_cos(self.masking, wo, wi);
-        let branch_first = self.is_branch_first();
-        if reflects {
-            let norm = self.ndf.reflection_norm(self.sampler, wo);
-            let carried = bent.reflectance * g2;
-            let chosen = if branch_first {
-                self.branch_probability(wo, eta)
-            } else {
-                share(carried, self.carried(wo, wm, bent, eta)[1])
-            };
-            let quarter = T::of(0.25) * d;
-            (quarter * carried, chosen * quarter / norm)
-        } else {
-            let sum = cos_o + eta * cos_i;
-            let jacobian = eta * eta * cos_i.abs() / Real::max(sum * sum, T::TINY);
-            let scale = match transport {
-                Transport::Radiance => T::ONE / (eta * eta),
-                Transport::Importance => T::ONE,
-            };
-            let carried = bent.transmittance * g2;
-            let chosen = if branch_first {
-                T::ONE - self.branch_probability(wo, eta)
-            } else {
-                share(carried, self.carried(wo, wm, bent, eta)[0])
-            };
-            let visible = d * cos_o * jacobian;
+        // The refracted cosine of Snell's law cancels at the critical angle; here it is known.
+        let sin2_o = (T::ONE - cos_o) * (T::ONE + cos_o);
+        let snell = T::ONE - sin2_o * (side.inverse * side.inverse);
+        let bent = refraction(cos_o, T::select(reflects, snell, cos_i * cos_i), side.eta);
+
+        // The facet's other direction, which shares its draws.
+        let along = T::select(reflects, side.inverse * cos_o - bent.cos_t, T::TWO * cos_o);
+        let back = T::select(reflects, side.inverse, T::ONE);
+        let other = wm * along - wo * back;
+        let is_other_valid = T::select(reflects, -other.z, other.z) > T::ZERO;
+        let (r, t) = (bent.reflectance, bent.transmittance);
+        let rest = T::select(is_other_valid, T::select(reflects, t, r), T::ZERO);
+        let here = Carried::new(self, T::select(reflects, r, t), wo, wi);
+        let there = Carried::new(self, rest, wo, other);
+
+        let sigma = self.ndf.projected_area(wo);
+        let (chosen, norm) = if self.is_branch_first() {
+            let p = self.branch_probability(wo, side.eta);
+            let reflected = self.ndf.reflection_norm(self.sampler, wo);
             (
-                carried * visible * scale,
-                chosen * visible / self.ndf.projected_area(wo),
+                T::select(reflects, p, T::ONE - p),
+                T::select(reflects, reflected, sigma),
             )
-        }
-    }
-
-    /// A draw for `wo` on its own side.
-    #[inline(always)]
-    fn draw(&self, wo: Vec3<T>, u: [T; 3], eta: T, transport: Transport) -> Option<BsdfSample<T>> {
-        let direction = [u[1], u[2]];
-        if self.is_branch_first() {
-            let p = self.branch_probability(wo, eta);
-            if u[0] < p {
-                let wi = self.ndf.sample_reflection(self.sampler, wo, direction);
-                let wm = (wo + wi).normalize();
-                let fresnel = dielectric(wo.dot(wm), eta).reflectance;
-                let norm = self.ndf.reflection_norm(self.sampler, wo);
-                let weight = norm * self.ndf.g2_over_cos(self.masking, wo, wi) * fresnel / p;
-                let pdf = p * self.ndf.d(wm) / (T::of(4.0) * norm);
-                return BsdfSample::reflected(wi, Rgb::splat(weight), pdf);
-            }
-            let wm = self.ndf.sample_wm(wo, direction);
-            return self.transmit(wo, wm, eta, transport, T::ONE - p);
-        }
-        let wm = self.ndf.sample_wm(wo, direction);
-        let bent = dielectric(wo.dot(wm), eta);
-        let [reflected, transmitted] = self.carried(wo, wm, bent, eta);
-        let reflection = share(reflected, transmitted);
-        if u[0] < reflection {
-            let wi = reflect(wo, wm);
-            let norm = self.ndf.projected_area(wo);
-            let weight = norm * (reflected + transmitted);
-            let pdf = reflection * self.ndf.d(wm) / (T::of(4.0) * norm);
-            BsdfSample::reflected(wi, Rgb::splat(weight), pdf)
         } else {
-            self.transmit(wo, wm, eta, transport, share(transmitted, reflected))
+            (here.share(there), sigma)
+        };
+        let (far2, carried2) = self.stretches(side, transport);
+        let d = self.ndf.d_along(half, squared);
+        let bend = cos_o * cos_i.abs() * inverse_squared;
+        let quarter = T::of(0.25);
+        let scattered = lit && wi.z != T::ZERO;
+        Scatter {
+            value: T::select(scattered, here.value(), T::ZERO),
+            chosen: T::select(scattered, chosen, T::ZERO),
+            norm,
+            density: d * T::select(reflects, quarter, far2 * bend),
+            carried: d * T::select(reflects, quarter, carried2 * bend),
         }
     }
 
-    /// `F G2(wo, wr) / |wo.z|` and `(1 - F) G2(wo, wt) / |wo.z|` of the two directions that the facet
-    /// `wm` sends light to; 0 for one on the wrong side of the surface.
+    /// A draw for `wo` on its own side: the normal, then the branch.
     #[inline(always)]
-    fn carried(&self, wo: Vec3<T>, wm: Vec3<T>, bent: Refraction<T>, eta: T) -> [T; 2] {
-        let wr = reflect(wo, wm);
-        let wt = refract(wo, wm, wo.dot(wm), bent.cos_t, eta);
-        let g2 = |wi| self.ndf.g2_over_cos(self.masking, wo, wi);
-        [
-            T::select(wr.z > T::ZERO, bent.reflectance * g2(wr), T::ZERO),
-            T::select(wt.z < T::ZERO, bent.transmittance * g2(wt), T::ZERO),
-        ]
-    }
-
-    /// Refraction through the facet `wm`, chosen with probability `p`.
-    #[inline(always)]
-    fn transmit(
+    fn draw(
         &self,
         wo: Vec3<T>,
-        wm: Vec3<T>,
-        eta: T,
+        u: [T; 3],
+        side: Side<T>,
         transport: Transport,
-        p: T,
     ) -> Option<BsdfSample<T>> {
-        let cos_o = wo.dot(wm);
-        let bent = dielectric(cos_o, eta);
-        let wi = refract(wo, wm, cos_o, bent.cos_t, eta);
-        let passed = T::select(p > T::ZERO, bent.transmittance / p, T::ZERO);
-        let sum = cos_o - eta * bent.cos_t;
-        let jacobian = eta * eta * bent.cos_t / Real::max(sum * sum, T::TINY);
-        let sigma = self.ndf.projected_area(wo);
-        let pdf = p * self.ndf.d(wm) * cos_o * jacobian / sigma;
-        let scale = match transport {
-            Transport::Radiance => T::ONE / (eta * eta),
-            Transport::Importance => T::ONE,
-        };
-        let weight = passed * scale * sigma * self.ndf.g2_over_cos(self.masking, wo, wi);
-        if passed > T::ZERO {
-            BsdfSample::transmitted(wi, Rgb::splat(weight), pdf, eta)
+        let wm = self.ndf.sample_wm(wo, [u[1], u[2]]);
+        let cos_o = Real::max(wo.dot(wm), T::ZERO);
+        let sin2_o = (T::ONE - cos_o) * (T::ONE + cos_o);
+        let cos2_t = T::ONE - sin2_o * (side.inverse * side.inverse);
+        let bent = refraction(cos_o, cos2_t, side.eta);
+        let wr = reflect(wo, wm);
+        let wt = wm * (side.inverse * cos_o - bent.cos_t) - wo * side.inverse;
+        let up = T::select(wr.z > T::ZERO, bent.reflectance, T::ZERO);
+        let down = T::select(wt.z < T::ZERO, bent.transmittance, T::ZERO);
+        let reflected = Carried::new(self, up, wo, wr);
+        let transmitted = Carried::new(self, down, wo, wt);
+
+        let (all_top, all_bottom) = reflected.plus(transmitted);
+        let shares = T::ONE / Real::max(all_top, T::TINY);
+        let reflection = reflected.top * transmitted.bottom * shares;
+        let reflects = u[0] < reflection;
+        let transmission = transmitted.top * reflected.bottom * shares;
+        // The half vector of the direction as it was rounded, as `eval` will see it.
+        let (wi, half, squared, jacobian, scale) = if reflects {
+            let half = self.half(side, wo, wr, true);
+            let jacobian = (reflection, T::of(4.0));
+            (wr, half, half.length_squared(), jacobian, T::ONE)
         } else {
-            None
-        }
+            let half = self.half(side, wo, wt, false);
+            let squared = half.length_squared();
+            let (far2, _) = self.stretches(side, transport);
+            let bend = transmission * far2 * wo.dot(half) * wt.dot(half).abs();
+            let scale = match transport {
+                Transport::Radiance => side.inverse * side.inverse,
+                Transport::Importance => T::ONE,
+            };
+            (wt, half, squared, (bend, squared * squared), scale)
+        };
+        let sigma = self.ndf.projected_area(wo);
+        let (top, bottom) = jacobian;
+        let d = self.ndf.d_along(half, squared);
+        let pdf = d * top / Real::max(sigma * bottom, T::TINY);
+        let weight = sigma * all_top / Real::max(all_bottom, T::TINY);
+        self.scattered(wi, weight * scale, pdf, reflects, side)
+    }
+
+    /// A draw for `wo` on its own side: the branch, then the normal.
+    #[inline(always)]
+    fn draw_branch_first(
+        &self,
+        wo: Vec3<T>,
+        u: [T; 3],
+        side: Side<T>,
+        transport: Transport,
+    ) -> Option<BsdfSample<T>> {
+        let direction = [u[1], u[2]];
+        let reflects = u[0] < self.branch_probability(wo, side.eta);
+        let wi = if reflects {
+            self.ndf.sample_reflection(self.sampler, wo, direction)
+        } else {
+            let wm = self.ndf.sample_wm(wo, direction);
+            let bent = dielectric(wo.dot(wm), side.eta);
+            if bent.transmittance <= T::ZERO {
+                return None;
+            }
+            refract(wo, wm, wo.dot(wm), bent.cos_t, side.eta)
+        };
+        let s = self.scatter(wo, wi, side, transport);
+        let weight = s.value * s.norm * (s.carried / (s.density * s.chosen));
+        self.scattered(wi, weight, s.pdf(), reflects, side)
+    }
+
+    /// The sample of one of the branches, on the side where `wo` is; `None` on the wrong side, or
+    /// where the density is no positive number.
+    #[inline(always)]
+    fn scattered(
+        &self,
+        wi: Vec3<T>,
+        weight: T,
+        pdf: T,
+        reflects: bool,
+        side: Side<T>,
+    ) -> Option<BsdfSample<T>> {
+        let height = T::select(reflects, wi.z, -wi.z);
+        (height > T::ZERO && pdf > T::ZERO && pdf <= T::MAX).then_some(BsdfSample {
+            wi: vec3(wi.x, wi.y, wi.z * side.turn),
+            weight: self.tints.on_side(reflects) * weight,
+            pdf,
+            event: if reflects {
+                Event::Reflection
+            } else {
+                Event::Transmission
+            },
+            specular: false,
+            eta: T::select(reflects, T::ONE, side.eta),
+        })
     }
 }
 
-/// `one / (one + other)`; 0 where both vanish.
-#[inline(always)]
-fn share<T: Real>(one: T, other: T) -> T {
-    let sum = one + other;
-    T::select(sum > T::ZERO, one / sum, T::ZERO)
+/// The interface as a view meets it.
+#[derive(Clone, Copy)]
+struct Side<T> {
+    /// Whether the view is from inside an interface with both sides.
+    inside: bool,
+    /// Factor of z that brings the view above.
+    turn: T,
+    /// Index beyond over the index on the side of the view.
+    eta: T,
+    /// `1 / eta`.
+    inverse: T,
+}
+
+/// `F G2 / |wo.z|` or `(1 - F) G2 / |wo.z|` of one of a facet's directions, as numerator and
+/// denominator.
+#[derive(Clone, Copy)]
+struct Carried<T> {
+    top: T,
+    bottom: T,
+}
+
+impl<T: Real> Carried<T> {
+    #[inline(always)]
+    fn new<N: Ndf<T>>(lobe: &RoughDielectric<T, N>, fresnel: T, wo: Vec3<T>, wi: Vec3<T>) -> Self {
+        let (top, bottom) = lobe.ndf.g2_over_cos_quotient(lobe.masking, wo, wi);
+        Self {
+            top: fresnel * top,
+            bottom,
+        }
+    }
+
+    #[inline(always)]
+    fn value(self) -> T {
+        T::select(self.bottom > T::ZERO, self.top / self.bottom, T::ZERO)
+    }
+
+    /// The sum, as numerator and denominator.
+    #[inline(always)]
+    fn plus(self, other: Self) -> (T, T) {
+        let top = self.top * other.bottom + other.top * self.bottom;
+        (top, self.bottom * other.bottom)
+    }
+
+    /// `self / (self + other)`; 0 where both vanish.
+    #[inline(always)]
+    fn share(self, other: Self) -> T {
+        let sum = self.plus(other).0;
+        T::select(sum > T::ZERO, self.top * other.bottom / sum, T::ZERO)
+    }
+}
+
+/// What happens between two directions.
+#[derive(Clone, Copy)]
+struct Scatter<T> {
+    /// `F G2 / |wo.z|`, or `(1 - F) G2 / |wo.z|`.
+    value: T,
+    /// Probability of the branch.
+    chosen: T,
+    /// `N` of the density of directions `D jacobian |wo.wm| / N`.
+    norm: T,
+    /// `D jacobian |wo.wm|`.
+    density: T,
+    /// The same, for what the path carries.
+    carried: T,
+}
+
+impl<T: Real> Scatter<T> {
+    #[inline(always)]
+    fn pdf(&self) -> T {
+        let pdf = self.chosen * self.density / self.norm;
+        T::select(self.chosen > T::ZERO, pdf, T::ZERO)
+    }
+
+    #[inline(always)]
+    fn f_cos(&self) -> T {
+        let f_cos = self.value * self.carried;
+        T::select(self.value > T::ZERO, f_cos, T::ZERO)
+    }
 }
 
 impl<T: Real, N: Ndf<T>> Bsdf<T> for RoughDielectric<T, N> {
@@ -276,14 +421,13 @@ impl<T: Real, N: Ndf<T>> Bsdf<T> for RoughDielectric<T, N> {
                 T::ONE,
             ));
         }
-        let (turn, eta) = self.side(wo);
-        let upright = |w: Vec3<T>| vec3(w.x, w.y, w.z * turn);
-        let sample = self.draw(upright(wo), u, eta, transport)?;
-        Some(BsdfSample {
-            wi: upright(sample.wi),
-            weight: sample.weight * self.tints.on(sample.event),
-            ..sample
-        })
+        let side = self.side(wo);
+        let upright = vec3(wo.x, wo.y, wo.z * side.turn);
+        if self.is_branch_first() {
+            self.draw_branch_first(upright, u, side, transport)
+        } else {
+            self.draw(upright, u, side, transport)
+        }
     }
 
     #[inline(always)]
@@ -291,11 +435,11 @@ impl<T: Real, N: Ndf<T>> Bsdf<T> for RoughDielectric<T, N> {
         if self.is_index_matched() {
             return (Rgb::BLACK, T::ZERO);
         }
-        let (turn, eta) = self.side(wo);
-        let upright = |w: Vec3<T>| vec3(w.x, w.y, w.z * turn);
+        let side = self.side(wo);
+        let upright = |w: Vec3<T>| vec3(w.x, w.y, w.z * side.turn);
         let wi = upright(wi);
-        let (f_cos, pdf) = self.evaluate(upright(wo), wi, eta, transport);
-        (self.tints.on_side(wi.z > T::ZERO) * f_cos, pdf)
+        let s = self.scatter(upright(wo), wi, side, transport);
+        (self.tints.on_side(wi.z > T::ZERO) * s.f_cos(), s.pdf())
     }
 
     #[inline(always)]

@@ -17,7 +17,7 @@
 //! transform; weights stay below 2.
 
 use super::{Bsdf, BsdfSample, Transport};
-use crate::math::{Real, Rgb, Vec3, warp};
+use crate::math::{Real, Rgb, Vec3, acos, warp};
 
 /// Rough diffuse reflection; roughness 0 is Lambert.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,7 +48,7 @@ impl<T: Real> Eon<T> {
     fn single_scatter_albedo(&self, mu: T) -> T {
         let mu = Real::clamp(mu, T::ZERO, T::ONE);
         let sine = ((T::ONE - mu) * (T::ONE + mu)).safe_sqrt();
-        let theta = sine.atan2(mu);
+        let theta = acos(mu);
         // tan (1 - sin^3) without its division by a vanishing cosine.
         let tail = sine * mu * (T::ONE + sine + sine * sine) / (T::ONE + sine);
         let g = sine * (theta - sine * mu) + T::of(2.0 / 3.0) * (tail - sine);
@@ -68,9 +68,10 @@ impl<T: Real> Eon<T> {
         let average = self.scale()
             * (T::ONE + T::of(2.0 / 3.0 - 28.0 / (15.0 * core::f64::consts::PI)) * self.roughness);
         let loss = T::ONE - average;
+        // The inverse is the same for all directions: batches divide once.
         let multiple = Real::max(T::ONE - self.single_scatter_albedo(mu_o), T::ZERO)
             * Real::max(T::ONE - self.single_scatter_albedo(mu_i), T::ZERO)
-            / Real::max(loss, T::EPSILON);
+            * (T::ONE / Real::max(loss, T::EPSILON));
         self.albedo.map(|rho| {
             let rho_multiple = rho * rho * average / (T::ONE - rho * loss);
             Real::max(rho * single + rho_multiple * multiple, T::ZERO) * T::INV_PI
@@ -81,11 +82,9 @@ impl<T: Real> Eon<T> {
 impl<T: Real> Bsdf<T> for Eon<T> {
     #[inline(always)]
     fn eval(&self, wo: Vec3<T>, wi: Vec3<T>, _transport: Transport) -> Rgb<T> {
-        if wi.z > T::ZERO {
-            self.f(wo, wi) * wi.z
-        } else {
-            Rgb::BLACK
-        }
+        let f_cos = self.f(wo, wi) * wi.z;
+        // Selected at the end, so that batches have no branches.
+        if wi.z > T::ZERO { f_cos } else { Rgb::BLACK }
     }
 
     #[inline(always)]

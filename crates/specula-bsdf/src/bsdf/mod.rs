@@ -24,7 +24,7 @@ pub use coated_conductor::CoatedConductor;
 pub use coated_diffuse::CoatedDiffuse;
 pub use compensated::Compensated;
 pub use compensated_dielectric::CompensatedDielectric;
-pub use conductor::{RoughConductor, SmoothConductor};
+pub use conductor::{RoughConductor, SeenConductor, SmoothConductor};
 pub use dielectric::RoughDielectric;
 pub use eon::Eon;
 pub use gltf::{Gltf, GltfParameters, albedo as gltf_albedo};

@@ -28,7 +28,13 @@ pub struct Refraction<T> {
 pub fn dielectric<T: Real>(cos: T, eta: T) -> Refraction<T> {
     let cos = Real::clamp(cos, T::ZERO, T::ONE);
     let sin2_t = (T::ONE - cos) * (T::ONE + cos) / (eta * eta);
-    let cos2_t = T::ONE - sin2_t;
+    refraction(cos, T::ONE - sin2_t, eta)
+}
+
+/// [`dielectric`] where the square of the refracted cosine is known, 0 or less beyond the critical
+/// angle.
+#[inline(always)]
+pub(crate) fn refraction<T: Real>(cos: T, cos2_t: T, eta: T) -> Refraction<T> {
     let passes = cos2_t > T::ZERO;
     let cos_t = cos2_t.safe_sqrt();
     let inverse_s = T::ONE / Real::max(cos + eta * cos_t, T::TINY);

@@ -7,6 +7,7 @@ mod schlick;
 mod tinted;
 
 pub use conductor::Conductor;
+pub(crate) use dielectric::refraction;
 pub use dielectric::{Refraction, dielectric, dielectric_average, refract};
 pub use f82::F82Tint;
 pub use schlick::Schlick;

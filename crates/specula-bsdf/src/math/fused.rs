@@ -79,6 +79,10 @@ macro_rules! impl_fused {
                 Self($t::mul_add(self.0, factor.0, term.0))
             }
             #[inline(always)]
+            fn mul_add_once(self, factor: Self, term: Self) -> Self {
+                self.mul_add(factor, term)
+            }
+            #[inline(always)]
             fn atan2(self, x: Self) -> Self {
                 Self(self.0.atan2(x.0))
             }

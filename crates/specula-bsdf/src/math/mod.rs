@@ -1,5 +1,6 @@
 //! Scalars, vectors, colours, frames and warps: what every formula stands on.
 
+mod arccosine;
 mod frame;
 mod fused;
 mod real;
@@ -9,6 +10,7 @@ mod turns;
 mod vec3;
 pub mod warp;
 
+pub(crate) use arccosine::acos;
 pub use frame::Frame;
 #[doc(hidden)]
 pub use fused::Fused;

@@ -12,7 +12,7 @@ pub struct Stream(u64);
 impl Stream {
     /// The stream of a seed.
     #[inline(always)]
-    pub fn new(seed: u64) -> Self {
+    pub const fn new(seed: u64) -> Self {
         Self(seed)
     }
 
@@ -20,12 +20,17 @@ impl Stream {
     #[inline(always)]
     #[allow(clippy::should_implement_trait, reason = "a stream without an end")]
     pub fn next<T: Real>(&mut self) -> T {
+        T::unit_from_bits(self.next_bits())
+    }
+
+    /// The next 64 bits.
+    #[inline(always)]
+    pub(crate) fn next_bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-        T::unit_from_bits(z)
+        z ^ (z >> 31)
     }
 }
 

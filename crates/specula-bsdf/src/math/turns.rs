@@ -70,7 +70,7 @@ fn double_angle<T: Real>(twice_sine: T, cosine: T) -> (T, T) {
 /// `scale` times the polynomial of these ascending coefficients. A plain loop: iterators are not
 /// inlined everywhere, and a call within a batch's loop would keep it from vectorising.
 #[inline(always)]
-fn horner<T: Real, C: Copy + Into<f64>, const N: usize>(
+pub(super) fn horner<T: Real, C: Copy + Into<f64>, const N: usize>(
     x: T,
     scale: f64,
     coefficients: &[C; N],

@@ -39,11 +39,23 @@ impl<T: Real, N: Ndf<T>> Conductor<T, N> {
     }
 
     #[inline(always)]
-    fn facets(&self) -> Facets<T, N> {
+    pub(crate) fn facets(&self) -> Facets<T, N> {
         Facets {
             ndf: self.ndf,
             reflectance: self.reflectance,
         }
+    }
+
+    /// The model.
+    #[inline(always)]
+    pub(crate) fn model(&self) -> Model {
+        self.model
+    }
+
+    /// The density for multiple importance sampling.
+    #[inline(always)]
+    pub(crate) fn mis_pdf(&self) -> MisPdf {
+        self.mis
     }
 
     /// An estimate of the model's `f cos` alone, without the density of multiple importance

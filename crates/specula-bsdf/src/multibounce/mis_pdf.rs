@@ -64,8 +64,8 @@ impl FromStr for MisPdf {
 }
 
 /// The density `mis` of a reflected `wi`, in 1/sr; 0 where `wi.z <= 0`, above 0 elsewhere.
-#[inline]
-pub(super) fn reflection<T: Real, N: Ndf<T>>(mis: MisPdf, ndf: &N, wo: Vec3<T>, wi: Vec3<T>) -> T {
+#[inline(always)]
+pub(crate) fn reflection<T: Real, N: Ndf<T>>(mis: MisPdf, ndf: &N, wo: Vec3<T>, wi: Vec3<T>) -> T {
     if wi.z <= T::ZERO {
         return T::ZERO;
     }

@@ -13,6 +13,9 @@
 //! [`Bsdf::sample_random`](crate::Bsdf::sample_random) draws by the walk, whose true density is not
 //! known: `pdf` is that of [`MisPdf`], for the weights of multiple importance sampling. (Any
 //! positive function serves there: the weights of two strategies sum to 1 whatever it is.)
+//!
+//! Many elements at once: [`Level::eval_pdf_random`](crate::batch::Level::eval_pdf_random) and
+//! [`Level::sample_random`](crate::batch::Level::sample_random).
 
 mod bitterli2022;
 mod conductor;
@@ -21,12 +24,12 @@ mod dielectric;
 mod diffuse;
 mod heitz2016;
 mod interface;
-mod mis_pdf;
+pub(crate) mod mis_pdf;
 mod model;
 mod normalised;
-mod ours;
-mod state;
-mod walk;
+pub(crate) mod ours;
+pub(crate) mod state;
+pub(crate) mod walk;
 mod wang2022;
 
 pub use conductor::Conductor;

@@ -51,7 +51,7 @@ const RISE_BELOW: f64 = 0.65;
 ///
 /// Invariant: integrates to 1 (test `normalised_density_integrates_to_one`); is that of
 /// [`sample`] (test `the_normalised_density_is_its_samplers`).
-#[inline]
+#[inline(always)]
 pub fn pdf<T: Real, N: Ndf<T>>(ndf: &N, wo: Vec3<T>, wi: Vec3<T>) -> T {
     if wi.z <= T::ZERO {
         return T::ZERO;

@@ -52,7 +52,7 @@ use crate::math::{Real, Rgb, Stream, Vec3};
 use crate::ndf::Ndf;
 
 /// First bounces from each end.
-const SPLIT: usize = 2;
+pub(crate) const SPLIT: usize = 2;
 /// Carried energy below which roulette begins; each walk starts with `1 / SPLIT`.
 const CARRIED: f64 = 0.5;
 
@@ -88,13 +88,26 @@ pub(super) fn eval<T: Real, N: Ndf<T>>(
 
 /// The k-th point of a shifted lattice.
 #[inline(always)]
-fn stratum<T: Real>(shift: [T; 2], k: usize) -> [T; 2] {
+pub(crate) fn stratum<T: Real>(shift: [T; 2], k: usize) -> [T; 2] {
     #[allow(clippy::cast_precision_loss, reason = "a few strata")]
     let offset = T::of(k as f64 / SPLIT as f64);
     shift.map(|x| {
         let x = x + offset;
         T::select(x >= T::ONE, x - T::ONE, x)
     })
+}
+
+/// Energy that each walk starts with.
+#[inline(always)]
+pub(crate) fn share<T: Real>() -> Rgb<T> {
+    #[allow(clippy::cast_precision_loss, reason = "a few strata")]
+    Rgb::splat(T::of(1.0 / SPLIT as f64))
+}
+
+/// The probability of going on, where below 1.
+#[inline(always)]
+pub(crate) fn goes_on<T: Real>(weight: Rgb<T>, mass: T) -> T {
+    weight.max_channel() * mass * T::of(1.0 / CARRIED)
 }
 
 /// One walk's estimate of two bounces and more.
@@ -106,51 +119,89 @@ fn walk<T: Real, N: Ndf<T>, const BOTH: bool>(
     facets: &Facets<T, N>,
     arriving: &Flight<T>,
     leaving: &Flight<T>,
-    mut u: [T; 2],
+    u: [T; 2],
     stream: &mut Stream,
 ) -> Rgb<T> {
-    let mut state = DepthState::new(arriving.rate);
-    let mut flight = *arriving;
-    #[allow(clippy::cast_precision_loss, reason = "a few strata")]
-    let mut weight = Rgb::splat(T::of(1.0 / SPLIT as f64));
-    let mut sum = Rgb::BLACK;
-    // 4 R_k without the last D.
-    let mut quotient = T::ZERO;
-    for bounce in 1..MAX_BOUNCES {
-        let (wm, fresnel, next) = facets.bounce(flight.d, u);
-        if BOTH {
-            let step = if bounce == 1 {
-                T::of(4.0) / (facets.ndf.d(wm) * leaving.backing)
-            } else {
-                quotient / next.backing
-            };
-            quotient = flight.facing * step;
-        }
-        flight = next;
-        if flight.is_upward() {
-            state.up(flight.rate);
-        } else if !state.down(flight.rate) {
-            break;
-        }
-        weight *= fresnel;
-        let (fresnel, quarter_d) = facets.connection(flight.d, leaving.d);
-        let exit = state.exit(leaving.rate);
-        let rivals = if BOTH {
-            T::ONE + quarter_d * quotient
-        } else {
-            T::ONE
-        };
-        sum += weight * fresnel * (quarter_d * exit / (flight.facing * rivals));
-        let goes_on = weight.max_channel() * state.mass() * T::of(1.0 / CARRIED);
-        if goes_on < T::ONE {
-            if stream.next::<T>() >= goes_on {
+    let start = Walk {
+        bounces: 0,
+        state: DepthState::new(arriving.rate),
+        flight: *arriving,
+        weight: share(),
+        quotient: T::ZERO,
+        sum: Rgb::BLACK,
+    };
+    start.finish::<N, BOTH>(facets, leaving, u, stream)
+}
+
+/// A walk under way.
+pub(crate) struct Walk<T> {
+    pub(crate) bounces: usize,
+    pub(crate) state: DepthState<T>,
+    pub(crate) flight: Flight<T>,
+    pub(crate) weight: Rgb<T>,
+    /// `4 R_k` without the last D.
+    pub(crate) quotient: T,
+    /// What it has contributed.
+    pub(crate) sum: Rgb<T>,
+}
+
+impl<T: Real> Walk<T> {
+    /// Walks to the end; returns the sum.
+    ///
+    /// * `BOTH`: weighs with the walks from the other end.
+    /// * `u`: draws the next facet.
+    #[inline(always)]
+    pub(crate) fn finish<N: Ndf<T>, const BOTH: bool>(
+        self,
+        facets: &Facets<T, N>,
+        leaving: &Flight<T>,
+        mut u: [T; 2],
+        stream: &mut Stream,
+    ) -> Rgb<T> {
+        let Self {
+            bounces,
+            mut state,
+            mut flight,
+            mut weight,
+            mut quotient,
+            mut sum,
+        } = self;
+        for bounce in bounces + 1..MAX_BOUNCES {
+            let (wm, fresnel, next) = facets.bounce(flight.d, u);
+            if BOTH {
+                let step = if bounce == 1 {
+                    T::of(4.0) / (facets.ndf.d(wm) * leaving.backing)
+                } else {
+                    quotient / next.backing
+                };
+                quotient = flight.facing * step;
+            }
+            flight = next;
+            if flight.is_upward() {
+                state.up(flight.rate);
+            } else if !state.down(flight.rate) {
                 break;
             }
-            weight *= T::ONE / goes_on;
+            weight *= fresnel;
+            let (fresnel, quarter_d) = facets.connection(flight.d, leaving.d);
+            let exit = state.exit(leaving.rate);
+            let rivals = if BOTH {
+                T::ONE + quarter_d * quotient
+            } else {
+                T::ONE
+            };
+            sum += weight * fresnel * (quarter_d * exit / (flight.facing * rivals));
+            let goes_on = goes_on(weight, state.mass());
+            if goes_on < T::ONE {
+                if stream.next::<T>() >= goes_on {
+                    break;
+                }
+                weight *= T::ONE / goes_on;
+            }
+            u = [stream.next(), stream.next()];
         }
-        u = [stream.next(), stream.next()];
+        sum
     }
-    sum
 }
 
 /// A direction and its weight; `None` for the walk that did not leave within
@@ -161,29 +212,62 @@ fn walk<T: Real, N: Ndf<T>, const BOTH: bool>(
 pub(super) fn sample<T: Real, N: Ndf<T>>(
     facets: &Facets<T, N>,
     wo: Vec3<T>,
-    mut u: [T; 2],
+    u: [T; 2],
     stream: &mut Stream,
 ) -> Option<(Vec3<T>, Rgb<T>)> {
-    let mut flight = facets.arriving(wo);
-    let mut state = DepthState::new(flight.rate);
-    let mut weight = Rgb::WHITE;
-    for _ in 0..MAX_BOUNCES {
-        let (_, fresnel, next) = facets.bounce(flight.d, u);
-        weight *= fresnel;
-        flight = next;
-        if flight.is_upward() {
-            let leaving = state.up(flight.rate);
-            let staying = state.mass();
-            if stream.next::<T>() * (leaving + staying) < leaving {
-                return Some((flight.d, weight));
+    let flight = facets.arriving(wo);
+    let start = Draw {
+        bounces: 0,
+        state: DepthState::new(flight.rate),
+        flight,
+        weight: Rgb::WHITE,
+    };
+    start.finish(facets, u, stream)
+}
+
+/// A walk under way that will leave.
+pub(crate) struct Draw<T> {
+    pub(crate) bounces: usize,
+    pub(crate) state: DepthState<T>,
+    pub(crate) flight: Flight<T>,
+    pub(crate) weight: Rgb<T>,
+}
+
+impl<T: Real> Draw<T> {
+    /// Walks to the end.
+    ///
+    /// * `u`: draws the next facet.
+    #[inline(always)]
+    pub(crate) fn finish<N: Ndf<T>>(
+        self,
+        facets: &Facets<T, N>,
+        mut u: [T; 2],
+        stream: &mut Stream,
+    ) -> Option<(Vec3<T>, Rgb<T>)> {
+        let Self {
+            bounces,
+            mut state,
+            mut flight,
+            mut weight,
+        } = self;
+        for _ in bounces..MAX_BOUNCES {
+            let (_, fresnel, next) = facets.bounce(flight.d, u);
+            weight *= fresnel;
+            flight = next;
+            if flight.is_upward() {
+                let leaving = state.up(flight.rate);
+                let staying = state.mass();
+                if stream.next::<T>() * (leaving + staying) < leaving {
+                    return Some((flight.d, weight));
+                }
+                state.scale(T::ONE / staying);
+            } else if !state.down(flight.rate) {
+                break;
             }
-            state.scale(T::ONE / staying);
-        } else if !state.down(flight.rate) {
-            break;
+            u = [stream.next(), stream.next()];
         }
-        u = [stream.next(), stream.next()];
+        None
     }
-    None
 }
 
 /// An estimate of `f |cos|` of a dielectric, for light (no `1/eta^2`), from the better end.

@@ -51,6 +51,19 @@ impl<T: Real> DepthState<T> {
         state
     }
 
+    /// The mixture of these layers, rates and masses; at least one, and no more than it can hold.
+    #[inline(always)]
+    pub(crate) fn of_layers(layers: impl Iterator<Item = (T, T)>) -> Self {
+        let mut state = Self::new(T::ONE);
+        state.layers = 0;
+        for (rate, mass) in layers {
+            state.rates[state.layers] = rate;
+            state.masses[state.layers] = mass;
+            state.layers += 1;
+        }
+        state
+    }
+
     /// A downward flight to the next collision. Returns `false` where there is no room for it.
     #[inline(always)]
     #[must_use]

@@ -18,24 +18,24 @@ use crate::ndf::Ndf;
 
 /// Bounces after which a walk ends whatever it carries. Survivors of so many are below 1e-6 of the
 /// energy but for views within 1e-3 of the horizon.
-pub(super) const MAX_BOUNCES: usize = 64;
+pub(crate) const MAX_BOUNCES: usize = 64;
 
 /// A direction of travel.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Flight<T> {
+pub(crate) struct Flight<T> {
     /// Unit.
-    pub(super) d: Vec3<T>,
+    pub(crate) d: Vec3<T>,
     /// `sigma(-d)`: area of the facets that it can meet.
-    pub(super) facing: T,
+    pub(crate) facing: T,
     /// `sigma(d)`: area of the facets that it would meet on its way back.
-    pub(super) backing: T,
+    pub(crate) backing: T,
     /// `sigma(-d) / |d_z|`.
-    pub(super) rate: T,
+    pub(crate) rate: T,
 }
 
 impl<T: Real> Flight<T> {
     #[inline(always)]
-    pub(super) fn new<N: Ndf<T>>(ndf: &N, d: Vec3<T>) -> Self {
+    pub(crate) fn new<N: Ndf<T>>(ndf: &N, d: Vec3<T>) -> Self {
         let below = Real::max(ndf.lambda_cos(d), T::of(1e-24));
         let facing = below + Real::max(-d.z, T::ZERO);
         Self {
@@ -48,7 +48,7 @@ impl<T: Real> Flight<T> {
 
     /// The same flight, the other way; for flights that enter or leave the surface.
     #[inline(always)]
-    pub(super) fn reversed(&self) -> Self {
+    pub(crate) fn reversed(&self) -> Self {
         Self {
             d: -self.d,
             facing: self.backing,
@@ -58,56 +58,72 @@ impl<T: Real> Flight<T> {
     }
 
     #[inline(always)]
-    pub(super) fn is_upward(&self) -> bool {
+    pub(crate) fn is_upward(&self) -> bool {
         self.d.z > T::ZERO
     }
 }
 
 /// Facets of one material.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Facets<T, N> {
-    pub(super) ndf: N,
-    pub(super) reflectance: Reflectance<T>,
+pub(crate) struct Facets<T, N> {
+    pub(crate) ndf: N,
+    pub(crate) reflectance: Reflectance<T>,
 }
 
 impl<T: Real, N: Ndf<T>> Facets<T, N> {
     /// The flight that leaves for `wo`, reversed.
     #[inline(always)]
-    pub(super) fn arriving(&self, wo: Vec3<T>) -> Flight<T> {
+    pub(crate) fn arriving(&self, wo: Vec3<T>) -> Flight<T> {
         Flight::new(&self.ndf, -wo)
     }
 
     /// The facet that is met (drawn among those that `-d` sees), its reflectance, and the flight
     /// after it.
     #[inline(always)]
-    pub(super) fn bounce(&self, d: Vec3<T>, u: [T; 2]) -> (Vec3<T>, Rgb<T>, Flight<T>) {
-        let wm = self.ndf.sample_wm(-d, u);
-        let along = d.dot(wm);
-        let after = d - wm * (T::TWO * along);
-        let reflectance = self.reflectance.eval(-along);
-        (wm, reflectance, Flight::new(&self.ndf, after))
+    pub(crate) fn bounce(&self, d: Vec3<T>, u: [T; 2]) -> (Vec3<T>, Rgb<T>, Flight<T>) {
+        let (wm, cos, next) = meet(&self.ndf, d, u);
+        (wm, self.reflectance.eval(cos), next)
     }
 
     /// `(F, D / 4)` of the facet that turns `d` to `wi`; zeros where none does.
     #[inline(always)]
-    pub(super) fn connection(&self, d: Vec3<T>, wi: Vec3<T>) -> (Rgb<T>, T) {
-        let wm = wi - d;
-        let length = wm.length();
-        if wm.z > T::ZERO && length > T::of(1e-6) {
-            let wm = wm * (T::ONE / length);
-            let fresnel = self.reflectance.eval(wi.dot(wm));
-            (fresnel, T::of(0.25) * self.ndf.d(wm))
-        } else {
-            (Rgb::BLACK, T::ZERO)
+    pub(crate) fn connection(&self, d: Vec3<T>, wi: Vec3<T>) -> (Rgb<T>, T) {
+        match turn(&self.ndf, d, wi) {
+            Some((cos, quarter_d)) => (self.reflectance.eval(cos), quarter_d),
+            None => (Rgb::BLACK, T::ZERO),
         }
     }
 
     /// `f cos` of light that met one facet: `F D / (4 sigma(wo))` times the share that leaves,
     /// `|Lambda_o| / (|Lambda_o| + Lambda_i)`: the height-correlated `G2` of Smith.
     #[inline(always)]
-    pub(super) fn single(&self, arriving: &Flight<T>, leaving: &Flight<T>) -> Rgb<T> {
+    pub(crate) fn single(&self, arriving: &Flight<T>, leaving: &Flight<T>) -> Rgb<T> {
         let (fresnel, quarter_d) = self.connection(arriving.d, leaving.d);
         let exit = arriving.rate / (arriving.rate + leaving.rate);
         fresnel * (quarter_d / arriving.facing * exit)
+    }
+}
+
+/// The facet that is met, drawn among those that `-d` sees, the cosine of incidence, and the flight
+/// after it.
+#[inline(always)]
+pub(crate) fn meet<T: Real, N: Ndf<T>>(ndf: &N, d: Vec3<T>, u: [T; 2]) -> (Vec3<T>, T, Flight<T>) {
+    let wm = ndf.sample_wm(-d, u);
+    let along = d.dot(wm);
+    let after = d - wm * (T::TWO * along);
+    (wm, -along, Flight::new(ndf, after))
+}
+
+/// The cosine of incidence on the facet that turns `d` to `wi`, and its `D / 4`; `None` where none
+/// does.
+#[inline(always)]
+pub(crate) fn turn<T: Real, N: Ndf<T>>(ndf: &N, d: Vec3<T>, wi: Vec3<T>) -> Option<(T, T)> {
+    let wm = wi - d;
+    let length = wm.length();
+    if wm.z > T::ZERO && length > T::of(1e-6) {
+        let wm = wm * (T::ONE / length);
+        Some((wi.dot(wm), T::of(0.25) * ndf.d(wm)))
+    } else {
+        None
     }
 }

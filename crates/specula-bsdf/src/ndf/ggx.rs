@@ -130,10 +130,16 @@ impl<T: Real> Ndf<T> for Ggx<T> {
 
     #[inline(always)]
     fn reflection_norm(&self, sampler: Sampler, wo: Vec3<T>) -> T {
+        let (top, bottom) = self.reflection_norm_quotient(sampler, wo);
+        top / bottom
+    }
+
+    #[inline(always)]
+    fn reflection_norm_quotient(&self, sampler: Sampler, wo: Vec3<T>) -> (T, T) {
         match sampler {
-            Sampler::Heitz | Sampler::Cap => self.projected_area(wo),
-            Sampler::Bounded => vndf::bounded::norm(self.alpha, wo),
-            Sampler::Exact => vndf::exact::norm(self.alpha, wo),
+            Sampler::Heitz | Sampler::Cap => self.projected_area_quotient(wo),
+            Sampler::Bounded => vndf::bounded::norm_quotient(self.alpha, wo),
+            Sampler::Exact => vndf::exact::norm_quotient(self.alpha, wo),
         }
     }
 }

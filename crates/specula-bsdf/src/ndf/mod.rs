@@ -68,6 +68,12 @@ pub trait Ndf<T: Real>: Copy {
     /// visible normals are sampled.
     fn reflection_norm(&self, sampler: Sampler, wo: Vec3<T>) -> T;
 
+    /// [`reflection_norm`](Ndf::reflection_norm) as numerator and denominator.
+    #[inline(always)]
+    fn reflection_norm_quotient(&self, sampler: Sampler, wo: Vec3<T>) -> (T, T) {
+        (self.reflection_norm(sampler, wo), T::ONE)
+    }
+
     /// Smith's `Lambda`, of the upper of the directions `w` and its mirror image.
     #[inline(always)]
     fn lambda(&self, w: Vec3<T>) -> T {

@@ -52,7 +52,7 @@ pub fn norm<T: Real>(alpha: Alpha<T>, wo: Vec3<T>) -> T {
 
 /// [`norm`] as numerator and denominator.
 #[inline(always)]
-fn norm_quotient<T: Real>(alpha: Alpha<T>, wo: Vec3<T>) -> (T, T) {
+pub(crate) fn norm_quotient<T: Real>(alpha: Alpha<T>, wo: Vec3<T>) -> (T, T) {
     let h = alpha.stretch(wo);
     let h2 = squared_radius(h);
     let length = (h2 + h.z * h.z).sqrt();

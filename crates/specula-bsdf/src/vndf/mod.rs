@@ -15,6 +15,9 @@ pub mod bounded;
 pub mod cap;
 pub mod exact;
 pub mod heitz;
+mod reflections;
+
+pub use reflections::Reflections;
 
 use core::fmt;
 use core::str::FromStr;

@@ -3,9 +3,10 @@
 
 use specula_bsdf::batch::Directions;
 use specula_bsdf::bsdf::{
-    CoatedConductor, CoatedDiffuse, DiffuseTransmission, Eon, Lambert, RoughConductor,
-    RoughDielectric, SmoothConductor, SmoothDielectric, ThinDielectric,
+    CoatedConductor, CoatedDiffuse, Compensated, CompensatedDielectric, DiffuseTransmission, Eon,
+    Lambert, RoughConductor, RoughDielectric, SmoothConductor, SmoothDielectric, ThinDielectric,
 };
+use specula_bsdf::energy::{FmsVariant, Model};
 use specula_bsdf::fresnel::{Conductor, F82Tint, Reflectance, Schlick};
 use specula_bsdf::math::{Stream, rgb, warp};
 use specula_bsdf::ndf::{Ggx, Masking};
@@ -174,6 +175,21 @@ pub(crate) fn coated_conductor<T: Real>(
     metal: Option<[f32; 2]>,
 ) -> CoatedConductor<T> {
     CoatedConductor::new(coat.map(ggx), single(1.5), metal.map(ggx), gold())
+}
+
+/// Every model of energy compensation.
+pub(crate) const MODELS: [Model; 3] = [
+    Model::Turquin(FmsVariant::NormalIncidence),
+    Model::Turquin(FmsVariant::AverageSeries),
+    Model::KullaConty,
+];
+
+pub(crate) fn compensated<T: Real>(alpha: [f32; 2], model: Model) -> Compensated<T> {
+    Compensated::new(ggx(alpha), gold(), model)
+}
+
+pub(crate) fn compensated_glass<T: Real>(alpha: [f32; 2]) -> CompensatedDielectric<T> {
+    CompensatedDielectric::new(ggx(alpha), single(1.5))
 }
 
 pub(crate) fn lambert<T: Real>() -> Lambert<T> {

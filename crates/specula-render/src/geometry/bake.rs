@@ -177,7 +177,23 @@ impl GroupData {
             self.uvs.resize(first as usize, [0.0; 2]);
             self.uvs.extend(&mesh.uvs);
         }
+        if mesh.second_uvs.len() == mesh.positions.len() {
+            self.second_uvs.resize(first as usize, [0.0; 2]);
+            self.second_uvs.extend(&mesh.second_uvs);
+        }
         let mirrored = DMat3::from_mat4(*m).determinant() < 0.0;
+        if mesh.tangents.len() == mesh.positions.len() {
+            self.tangents.resize(first as usize, [0.0; 4]);
+            // Normals that are turned round, and mirrors, turn their cross product.
+            let turned = mirrored != shape.reverse_orientation;
+            let linear = DMat3::from_mat4(*m);
+            self.tangents
+                .extend(mesh.tangents.iter().map(|&[x, y, z, side]| {
+                    let t = linear * glam::DVec3::from([x, y, z].map(f64::from));
+                    let t = narrow3(t.normalize_or_zero());
+                    [t.x, t.y, t.z, if turned { -side } else { side }]
+                }));
+        }
         let flip = mirrored != shape.reverse_orientation;
         let mut triangles = std::mem::take(&mut self.triangles);
         triangles.par_extend(in_parallel(&mesh.triangles).map(|t| {

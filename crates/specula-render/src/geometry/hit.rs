@@ -22,6 +22,8 @@ pub(crate) struct Surface {
     /// dp/du, or zero where there are no coordinates: any tangent will do then.
     pub(crate) tangent: Vec3<f32>,
     pub(crate) uv: [f32; 2],
+    /// Of the second set; 0 where the mesh has none.
+    pub(crate) second_uv: [f32; 2],
     /// The mesh's, interpolated; white where it has none.
     pub(crate) colour: Rgb<f32>,
     pub(crate) shape: u32,
@@ -48,6 +50,7 @@ impl Surface {
     pub(crate) fn place(&self) -> Place {
         Place {
             uv: self.uv,
+            second_uv: self.second_uv,
             position: self.position,
             normal: self.ng,
             colour: self.colour,
@@ -117,6 +120,16 @@ impl super::Placement {
 }
 
 impl GroupData {
+    /// The mesh's own tangent, not unit, and its side; zero where it has none. Within a group that
+    /// has tangents.
+    pub(super) fn tangent(&self, at: &At) -> (Vec3<f32>, f32) {
+        let [i, j, k] = self.triangles[at.primitive as usize].map(|v| v as usize);
+        let [ta, tb, tc] = [i, j, k].map(|v| self.tangents.get(v).copied().unwrap_or([0.0; 4]));
+        let [u, v] = at.weights;
+        let [x, y, z, side] = [0, 1, 2, 3].map(|c| ta[c] * (1.0 - u - v) + tb[c] * u + tc[c] * v);
+        (vec3(x, y, z), side)
+    }
+
     #[inline]
     fn triangle_surface(&self, at: &At, has_uvs: bool) -> Surface {
         let [i, j, k] = self.triangles[at.primitive as usize].map(|v| v as usize);
@@ -149,6 +162,17 @@ impl GroupData {
             // the first edge, would turn brushed metal at every triangle; so there is none.
             ([u + v, v], Vec3::ZERO)
         };
+        let second_uv = if self.second_uvs.len() > i.max(j).max(k) {
+            let [ta, tb, tc] = [i, j, k].map(|v| self.second_uvs[v]);
+            [0, 1].map(|x| ta[x] * w + tb[x] * u + tc[x] * v)
+        } else {
+            [0.0; 2]
+        };
+        let tangent = if self.tangents.len() > i.max(j).max(k) {
+            unit_or(self.tangent(at).0, tangent)
+        } else {
+            tangent
+        };
         let colour = if self.colours.len() > i.max(j).max(k) {
             let [ca, cb, cc] = [i, j, k].map(|v| self.colours[v]);
             let [r, g, b] = [0, 1, 2].map(|x| ca[x] * w + cb[x] * u + cc[x] * v);
@@ -163,6 +187,7 @@ impl GroupData {
             ns,
             tangent,
             uv,
+            second_uv,
             colour,
             shape: 0,
             light: NONE,
@@ -204,6 +229,7 @@ impl PlacedQuadric {
             ns: ng,
             tangent: self.forward.vector(vec3(-q.y, q.x, 0.0)),
             uv: [u, v.clamp(0.0, 1.0)],
+            second_uv: [0.0; 2],
             colour: Rgb::WHITE,
             shape: 0,
             light: NONE,

@@ -95,6 +95,14 @@ impl GroupData {
         let [u, v] = at.weights;
         let interpolated = na * (1.0 - u - v) + nb * u + nc * v;
         let ns = unit_or(interpolated, ng);
+        if self.tangents.len() > i.max(j).max(k) {
+            let (tangent, side) = self.tangent(at);
+            let along_v = ns.cross(tangent) * side;
+            // What a mesh says itself; lengths do not matter to normal maps and rotations.
+            if along_v.length_squared() > 0.0 {
+                partials.dp = [tangent, along_v];
+            }
+        }
         let length = interpolated.dot(ns);
         if length > 0.0 {
             partials.dn = solve([nb - na, nc - na]).map(|d| (d - ns * ns.dot(d)) * (1.0 / length));

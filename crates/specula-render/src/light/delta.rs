@@ -1,13 +1,15 @@
-//! Lights without extent: parallel, point and spot.
+//! Lights without extent: parallel, point, spot, and those that throw pictures.
 
 use specula_bsdf::{Rgb, Vec3};
 use specula_scene::scene::{Light, SpotFalloff};
 
 use super::cone::EmissionCone;
+use super::thrown::Thrown;
 use crate::convert::{narrow, narrow3};
+use crate::texture::Textures;
 
 /// A light that only its own sampling can find.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Delta {
     Distant {
         irradiance: Rgb<f32>,
@@ -22,6 +24,7 @@ pub(crate) enum Delta {
         cos_start: f32,
         falloff: SpotFalloff,
     },
+    Thrown(Box<Thrown>),
 }
 
 /// Below every cosine: no cone.
@@ -29,7 +32,7 @@ const NO_CONE: f32 = -2.0;
 
 impl Delta {
     /// `None` for infinite lights and suns.
-    pub(crate) fn new(light: &Light) -> Option<Self> {
+    pub(crate) fn new(light: &Light, textures: &Textures) -> Option<Self> {
         match *light {
             Light::Infinite { .. } => None,
             Light::Distant { half_angle_deg, .. } if half_angle_deg > 0.0 => None,
@@ -67,12 +70,24 @@ impl Delta {
                 cos_start: narrow(falloff_start_deg.min(cone_angle_deg).to_radians().cos()),
                 falloff,
             }),
+            Light::Picture {
+                ref to_world,
+                intensity,
+                ref throw,
+            } => {
+                let thrown = Thrown::new(to_world, intensity, throw, textures);
+                Some(Self::Thrown(Box::new(thrown)))
+            }
         }
     }
 
     /// Irradiance on a surface at `p` that faces the light, the direction to it, and its place.
     #[inline]
-    pub(crate) fn illuminate(&self, p: Vec3<f32>) -> (Rgb<f32>, Vec3<f32>, Option<Vec3<f32>>) {
+    pub(crate) fn illuminate(
+        &self,
+        p: Vec3<f32>,
+        textures: &Textures,
+    ) -> (Rgb<f32>, Vec3<f32>, Option<Vec3<f32>>) {
         match *self {
             Self::Distant {
                 irradiance,
@@ -92,17 +107,24 @@ impl Delta {
                 let falloff = share(falloff, [cos_cone, cos_start], -axis.dot(wi));
                 (intensity * (falloff / distance_squared), wi, Some(position))
             }
+            Self::Thrown(ref thrown) => {
+                let d = thrown.position - p;
+                let distance_squared = d.length_squared();
+                let wi = d * (1.0 / distance_squared.sqrt());
+                let intensity = thrown.intensity(-wi, textures);
+                let irradiance = intensity * (1.0 / distance_squared);
+                (irradiance, wi, Some(thrown.position))
+            }
         }
     }
 
-    /// Largest intensity in luminance; of a distant light, the irradiance.
+    /// Largest intensity in luminance, of a picture the mean; of a distant light, the irradiance.
     pub(crate) fn strength(&self) -> f64 {
-        let (Self::Distant {
-            irradiance: colour, ..
-        }
-        | Self::Point {
-            intensity: colour, ..
-        }) = self;
+        let colour = match self {
+            Self::Distant { irradiance, .. } => irradiance,
+            Self::Point { intensity, .. } => intensity,
+            Self::Thrown(thrown) => return thrown.mean,
+        };
         f64::from(colour.luminance().max(colour.mean()))
     }
 
@@ -110,6 +132,7 @@ impl Delta {
     pub(super) fn bounds(&self) -> Option<(Vec3<f32>, EmissionCone)> {
         match *self {
             Self::Distant { .. } => None,
+            Self::Thrown(ref thrown) => Some((thrown.position, thrown.cone())),
             Self::Point {
                 position,
                 cos_cone: NO_CONE,
@@ -138,7 +161,7 @@ impl Delta {
 
 /// Share of a spot light's intensity at the cosine `x` from its axis: 0 up to `low`, 1 from `high` on.
 #[inline]
-fn share(falloff: SpotFalloff, [low, high]: [f32; 2], x: f32) -> f32 {
+pub(super) fn share(falloff: SpotFalloff, [low, high]: [f32; 2], x: f32) -> f32 {
     if x >= high {
         return 1.0;
     }

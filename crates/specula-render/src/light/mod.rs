@@ -12,6 +12,7 @@ mod piecewise;
 mod select;
 mod sun;
 mod textured;
+mod thrown;
 mod tree;
 
 #[cfg(test)]
@@ -101,7 +102,7 @@ impl Lights {
         lights.add_emitters(geometry, textures, &mut near);
         for light in &scene.lights {
             let index = crate::convert::id(lights.sources.len());
-            if let Some(delta) = Delta::new(light) {
+            if let Some(delta) = Delta::new(light, textures) {
                 match delta.bounds() {
                     None => far.push((index, delta.strength())),
                     Some((p, cone)) => near.push(Emitter {
@@ -234,7 +235,7 @@ impl Lights {
                 })
             }
             Source::Delta(delta) => {
-                let (radiance, wi, place) = delta.illuminate(p);
+                let (radiance, wi, place) = delta.illuminate(p, world.1);
                 (radiance.is_finite() && wi.is_finite() && !radiance.is_black()).then_some(
                     LightSample {
                         wi,
@@ -309,7 +310,7 @@ impl Far {
                 to_light,
                 half_angle_deg,
             } => Some(Self::Sun(Sun::new(*irradiance, *to_light, *half_angle_deg))),
-            Light::Point { .. } | Light::Spot { .. } => None,
+            Light::Point { .. } | Light::Spot { .. } | Light::Picture { .. } => None,
         }
     }
 

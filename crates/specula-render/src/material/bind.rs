@@ -72,8 +72,8 @@ pub(super) fn lobe(
             reflectance,
             transmittance,
         } => {
-            let sides = [reflectance, transmittance].map(|c| at.albedo(c));
-            sheet(sides).into()
+            // Not scaled to a sum of 1: as pbrt-v4, which lets a sheet send out twice what arrives.
+            DiffuseTransmission::new(at.albedo(reflectance), at.albedo(transmittance)).into()
         }
         MaterialKind::Conductor {
             ref fresnel,
@@ -257,10 +257,4 @@ impl At<'_> {
             sheen_roughness: self.unit(g.sheen_roughness),
         }
     }
-}
-
-/// A thin sheet. No more leaves than arrives: both sides are scaled where their sum is above 1.
-fn sheet([reflected, passing]: [Rgb<f32>; 2]) -> DiffuseTransmission<f32> {
-    let excess = (reflected + passing).max_channel().max(1.0);
-    DiffuseTransmission::new(reflected / excess, passing / excess)
 }

@@ -5,11 +5,14 @@ mod fold;
 mod metal;
 mod rough;
 
+use specula_bsdf::Rgb;
 use specula_bsdf::bsdf::Lobe;
 use specula_bsdf::multibounce::MisPdf;
 use specula_bsdf::vndf;
 use specula_scene::Energy;
-use specula_scene::scene::{FloatParam, MaterialKind, Relief, ReliefRules, Scene};
+use specula_scene::scene::{
+    ColourParam, FloatParam, MaterialKind, Relief, ReliefRules, Scene, TextureId,
+};
 
 use crate::options::RenderOptions;
 use crate::texture::{Place, Textures};
@@ -34,9 +37,25 @@ pub(crate) struct Material {
     pub(crate) relief: Option<Relief>,
     /// By whose rules it bends.
     pub(crate) relief_rules: ReliefRules,
-    /// Angle of the lobes' x axis from dp/du towards dp/dv.
-    pub(crate) rotation_rad: f32,
+    /// What turns the lobes' x axis from dp/du towards dp/dv, unless nothing does.
+    turn: Option<Turn>,
+    /// What bends its clear coat, where that is bent otherwise than the rest.
+    pub(crate) coat: Option<Coat>,
+    /// Absorption of the body that it bounds, where there is any.
+    pub(crate) absorption: Option<Rgb<f32>>,
 }
+
+/// A turn of the tangent.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    rotation_rad: f32,
+    /// Direction before the rotation: `2 c - 1` of the red and green of a texture.
+    direction: Option<TextureId>,
+}
+
+/// What bends a clear coat; `None`: it keeps the normals of the mesh.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Coat(pub(crate) Option<Relief>);
 
 /// A material at a hit, mixes resolved.
 #[derive(Clone, Copy)]
@@ -75,7 +94,9 @@ impl Materials {
                     [false, true]
                         .map(|outside| bind::lobe(&kind, textures, &nowhere, outside, models))
                 }),
-                rotation_rad: bind::rotation_rad(&kind),
+                turn: turn(&kind, textures),
+                coat: coat(&kind, material.relief.is_some()),
+                absorption: Some(material.absorption).filter(|a| !a.is_black()),
                 opaque_layers: bind::is_opaque(&kind),
                 kind,
                 models,
@@ -119,6 +140,63 @@ impl Materials {
         Chosen {
             material,
             one_sided,
+        }
+    }
+}
+
+/// What turns the tangent of a material.
+fn turn(kind: &MaterialKind, textures: &Textures) -> Option<Turn> {
+    let mut turn = Turn {
+        rotation_rad: bind::rotation_rad(kind),
+        direction: None,
+    };
+    if let MaterialKind::Gltf(g) = kind
+        && g.anisotropy != FloatParam::Value(0.0)
+        && let Some(id) = g.anisotropy_direction
+    {
+        match textures.fold_colour(ColourParam::Texture(id)) {
+            ColourParam::Texture(id) => turn.direction = Some(id),
+            ColourParam::Value(c) => turn.rotation_rad += azimuth(c),
+        }
+    }
+    (turn.rotation_rad != 0.0 || turn.direction.is_some()).then_some(turn)
+}
+
+/// Angle of the direction `2 c - 1`; 0 where it is none.
+fn azimuth(c: Rgb<f32>) -> f32 {
+    let [x, y] = [c.r, c.g].map(|v| 2.0 * v - 1.0);
+    // The middle of 8 bits is not exactly 1/2.
+    if x.abs().max(y.abs()) < 0.01 {
+        return 0.0;
+    }
+    y.atan2(x)
+}
+
+/// What bends a clear coat otherwise than the rest of its material.
+///
+/// * `bent`: whether the rest is bent.
+fn coat(kind: &MaterialKind, bent: bool) -> Option<Coat> {
+    let MaterialKind::Gltf(g) = kind else {
+        return None;
+    };
+    let there = g.clearcoat != FloatParam::Value(0.0);
+    (there && (bent || g.clearcoat_relief.is_some())).then_some(Coat(g.clearcoat_relief))
+}
+
+impl Material {
+    /// Angle of the lobes' x axis from dp/du towards dp/dv.
+    #[inline]
+    pub(crate) fn rotation_rad(&self, textures: &Textures, place: impl Fn() -> Place) -> f32 {
+        match self.turn {
+            None => 0.0,
+            Some(Turn {
+                rotation_rad,
+                direction: None,
+            }) => rotation_rad,
+            Some(Turn {
+                rotation_rad,
+                direction: Some(id),
+            }) => rotation_rad + azimuth(textures.colour(ColourParam::Texture(id), &place())),
         }
     }
 }

@@ -471,6 +471,7 @@ mod tests {
             position: vec3(0.4, 0.3, 0.2),
             normal: vec3(0.8, 0.0, -0.6),
             colour: rgb(0.1, 0.2, 0.3),
+            ..Place::default()
         };
         assert!((at(&t, 2, place).g - (0.6 * 0.2 + 0.4 * 0.8)).abs() < 1e-6);
         assert_eq!(at(&t, 3, place), place.colour);

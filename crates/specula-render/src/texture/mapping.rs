@@ -11,6 +11,7 @@ use crate::convert::Affine;
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Mapping {
     Uv([[f32; 3]; 2]),
+    SecondUv([[f32; 3]; 2]),
     /// `s` and `t` are linear in the world's position: a vector and an offset each.
     Planar([(Vec3<f32>, f32); 2]),
     Spherical(Affine),
@@ -21,6 +22,7 @@ impl Mapping {
     pub(super) fn new(mapping: &TextureMapping) -> Self {
         match mapping {
             TextureMapping::Uv(UvMapping(m)) => Self::Uv(*m),
+            TextureMapping::SecondUv(UvMapping(m)) => Self::SecondUv(*m),
             TextureMapping::Planar { to_texture, s, t } => {
                 let m = Affine::new(to_texture);
                 Self::Planar([s, t].map(|axis| {
@@ -43,10 +45,8 @@ impl Mapping {
     pub(super) fn at(&self, place: &Place) -> [f32; 2] {
         use core::f32::consts::{PI, TAU};
         match self {
-            Self::Uv(m) => {
-                let [u, v] = place.uv;
-                m.map(|row| row[0] * u + row[1] * v + row[2])
-            }
+            Self::Uv(m) => affine(m, place.uv),
+            Self::SecondUv(m) => affine(m, place.second_uv),
             Self::Planar(axes) => axes.map(|(along, offset)| along.dot(place.position) + offset),
             Self::Spherical(to_texture) => {
                 let p = to_texture.point(place.position);
@@ -64,6 +64,11 @@ impl Mapping {
     }
 }
 
+#[inline(always)]
+fn affine(m: &[[f32; 3]; 2], [u, v]: [f32; 2]) -> [f32; 2] {
+    m.map(|row| row[0] * u + row[1] * v + row[2])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -73,6 +78,7 @@ mod tests {
         let place = Place {
             position: Vec3::from(p),
             uv: [0.25, 0.5],
+            second_uv: [4.0, 1.0],
             ..Place::default()
         };
         Mapping::new(mapping).at(&place)
@@ -88,6 +94,7 @@ mod tests {
     fn surface_coordinates_go_through_an_affine_map() {
         let turned = UvMapping([[0.0, -1.0, 1.0], [2.0, 0.0, 0.5]]);
         assert_near(at(&TextureMapping::Uv(turned), [9.0; 3]), [0.5, 1.0]);
+        assert_near(at(&TextureMapping::SecondUv(turned), [9.0; 3]), [0.0, 8.5]);
     }
 
     #[test]

@@ -17,6 +17,8 @@ use raster::Raster;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     pub(crate) uv: [f32; 2],
+    /// Of the second set; 0 where the mesh has none.
+    pub(crate) second_uv: [f32; 2],
     /// In the world.
     pub(crate) position: Vec3<f32>,
     /// Geometric normal in the world, unit: pbrt's `directionmix` takes this one, too.
@@ -29,6 +31,7 @@ impl Default for Place {
     fn default() -> Self {
         Self {
             uv: [0.0; 2],
+            second_uv: [0.0; 2],
             position: Vec3::ZERO,
             normal: vec3(0.0, 0.0, 1.0),
             colour: Rgb::WHITE,

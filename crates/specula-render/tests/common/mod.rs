@@ -50,6 +50,7 @@ pub(crate) fn empty(camera: Camera, size: u32) -> Scene {
         settings: Settings {
             max_depth: 5,
             samples_per_pixel: 1,
+            hide_emitters: false,
         },
         images: Vec::new(),
         textures: Vec::new(),

@@ -127,6 +127,7 @@ impl Build {
                 settings: Settings {
                     max_depth: 8,
                     samples_per_pixel: 64,
+                    hide_emitters: false,
                 },
                 images: Vec::new(),
                 textures: Vec::new(),

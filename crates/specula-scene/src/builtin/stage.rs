@@ -155,9 +155,9 @@ fn softbox(centre: DVec3, target: DVec3, half_width: f64, half_height: f64) -> M
             corner(1.0, 1.0),
         ],
         normals: vec![normal; 4],
-        colours: Vec::new(),
         uvs: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
         triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..Mesh::default()
     }
 }
 

@@ -177,7 +177,9 @@ impl Reader<'_> {
     fn check_count(&self, what: &str, count: usize) -> Result<(), SceneError> {
         let most = self.limits.max_vertices;
         if count as u64 > most.saturating_mul(3) {
-            let message = format!("{what}: {count} elements; at most {most} vertices are read");
+            let message = format!(
+                "{what}: {count} elements; at most {most} vertices are read (`max_vertices`)"
+            );
             return Err(self.error(ErrorKind::Limit, message));
         }
         Ok(())

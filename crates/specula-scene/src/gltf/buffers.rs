@@ -19,7 +19,8 @@ impl Reader<'_> {
     /// All buffers, each at least as long as it promises.
     pub(super) fn read_buffers(&self, blob: Option<Vec<u8>>) -> Result<Vec<Vec<u8>>, SceneError> {
         let mut blob = blob;
-        self.document
+        let read: Vec<_> = self
+            .document
             .buffers()
             .map(|buffer| {
                 let what = format!("buffers[{}]", buffer.index());
@@ -40,7 +41,24 @@ impl Reader<'_> {
                 }
                 Ok(bytes)
             })
-            .collect()
+            .collect();
+        // Without one of them nothing more can be told: a check ends with the last that is missing.
+        let wrong = read.iter().filter(|b| b.is_err()).count();
+        let mut found = Vec::new();
+        let mut kept = 0;
+        for buffer in read {
+            match buffer {
+                Ok(bytes) => found.push(bytes),
+                Err(error) => {
+                    kept += 1;
+                    if kept == wrong {
+                        return Err(error);
+                    }
+                    self.problems.keep(error)?;
+                }
+            }
+        }
+        Ok(found)
     }
 
     /// What a URI leads to: embedded data, or a file in the scene's folder or below.
@@ -74,7 +92,9 @@ impl Reader<'_> {
                 "expected a file beside the scene, found {uri:?}"
             )));
         }
-        read_file::read_bytes(&self.folder.join(path), self.limits).map_err(wrong)
+        let path = self.search.find(&name);
+        read_file::read_bytes(&path, self.limits)
+            .map_err(|message| wrong(message).with_hint(self.search.hint(&path)))
     }
 
     /// The bytes of a view.

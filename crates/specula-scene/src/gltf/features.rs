@@ -13,10 +13,11 @@ pub const FEATURES: &[Feature] = &[
     Feature::approximated("mesh", "skins", "undeformed"),
     Feature::full("mesh", "sparse accessors"),
     Feature::full("mesh", "COLOR_0"),
+    Feature::full("mesh", "TANGENT"),
     Feature::approximated(
         "mesh",
         "several sets of texture coordinates",
-        "one set for each material",
+        "any two for each material",
     ),
     Feature::full("mesh", "KHR_mesh_quantization"),
     Feature::refused("mesh", "KHR_draco_mesh_compression", "no kept decoder"),
@@ -31,16 +32,8 @@ pub const FEATURES: &[Feature] = &[
     Feature::full("material", "emission"),
     Feature::full("material", "alpha mask and blend"),
     Feature::approximated("material", "single-sided", "seen from both sides"),
-    Feature::approximated(
-        "material",
-        "KHR_materials_anisotropy",
-        "of its texture the strength",
-    ),
-    Feature::approximated(
-        "material",
-        "KHR_materials_clearcoat",
-        "without its own normal map",
-    ),
+    Feature::full("material", "KHR_materials_anisotropy"),
+    Feature::full("material", "KHR_materials_clearcoat"),
     Feature::full("material", "KHR_materials_emissive_strength"),
     Feature::full("material", "KHR_materials_ior"),
     Feature::full("material", "KHR_materials_specular"),
@@ -49,7 +42,7 @@ pub const FEATURES: &[Feature] = &[
     Feature::approximated(
         "material",
         "KHR_materials_volume",
-        "light bends; no absorption",
+        "one body at a time: what lies within another takes its place",
     ),
     Feature::approximated(
         "material",

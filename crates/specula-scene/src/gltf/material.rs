@@ -7,7 +7,7 @@ use gltf::material::AlphaMode;
 use specula_bsdf::Rgb;
 
 use super::Reader;
-use super::texture::Meaning;
+use super::texture::{MOST_SETS, Meaning};
 use super::texture_ref::{TextureRef, number, numbers};
 use crate::error::SceneError;
 use crate::scene::{
@@ -21,8 +21,10 @@ pub(super) struct Look {
     pub(super) material: MaterialId,
     pub(super) emission: Option<Emission>,
     pub(super) alpha: FloatParam,
-    /// The set of coordinates that its textures want.
-    pub(super) set: u32,
+    /// The sets of coordinates that its textures use.
+    pub(super) sets: [Option<u32>; MOST_SETS],
+    /// Whether the tangents of meshes matter to it.
+    pub(super) tangents: bool,
 }
 
 /// Looks by material (none: the default one) and by whether the mesh has colours.
@@ -56,7 +58,9 @@ impl Reader<'_> {
             || "the default material".to_owned(),
             |i| format!("materials[{i}]"),
         );
-        let set = self.coordinate_set(&what, material);
+        // What has directions decides which coordinates tangents follow.
+        let tangents = tangent_set(material);
+        self.sets = tangents.into_iter().collect();
         let (mut base, factor, picture) = self.base_colour(&what, material)?;
         if coloured {
             let colours = self.add_texture(Texture::VertexColour);
@@ -76,27 +80,29 @@ impl Reader<'_> {
         } else {
             MaterialKind::Gltf(self.metallic_roughness(material, base)?)
         };
-        let relief = match material.normal_texture() {
-            None => None,
-            Some(normal) => {
-                let reference = TextureRef::plain(normal.texture().index(), normal.tex_coord())
-                    .transformed(normal.extension_value("KHR_texture_transform"));
-                Some(Relief::Normal {
-                    map: self.texture(reference, Meaning::Data(Channel::Rgb))?,
-                    scale: normal.scale(),
-                })
-            }
+        let relief = match (normal_map(material), material.normal_texture()) {
+            (Some(reference), Some(normal)) => Some(Relief::Normal {
+                map: self.texture(reference, Meaning::Data(Channel::Rgb))?,
+                scale: normal.scale(),
+            }),
+            _ => None,
         };
         self.materials.push(Material {
             name: material.name().map(str::to_owned),
             relief,
+            absorption: absorption(material),
             ..Material::new(kind)
         });
+        if self.sets.is_empty() {
+            // Tangents without textures follow the first.
+            self.sets.push(0);
+        }
         Ok(Look {
             material: MaterialId(self.materials.len() - 1),
             emission,
             alpha,
-            set,
+            sets: [0, 1].map(|i| self.sets.get(i).copied()),
+            tangents: tangents.is_some() || anisotropic(material),
         })
     }
 
@@ -184,7 +190,6 @@ impl Reader<'_> {
         let anisotropy = extension(material, "KHR_materials_anisotropy");
         let clearcoat = extension(material, "KHR_materials_clearcoat");
         let sheen = extension(material, "KHR_materials_sheen");
-        self.warn_about_extensions(material);
         let (specular, specular_colour) = self.specular(material)?;
         let transmission = material.transmission();
         let transmission_map = transmission
@@ -205,6 +210,12 @@ impl Reader<'_> {
                 blue,
             )?,
             anisotropy_rotation_rad: number(anisotropy, "anisotropyRotation").unwrap_or(0.0),
+            anisotropy_direction: match TextureRef::in_json(anisotropy, "anisotropyTexture") {
+                Some(reference) if anisotropic(material) => {
+                    Some(self.texture(reference, Meaning::Data(Channel::Rgb))?)
+                }
+                _ => None,
+            },
             ior: if ior >= 1.0 {
                 ior.min(MAX_IOR)
             } else {
@@ -234,6 +245,7 @@ impl Reader<'_> {
                 TextureRef::in_json(clearcoat, "clearcoatRoughnessTexture"),
                 green,
             )?,
+            clearcoat_relief: self.coat_relief(clearcoat)?,
             sheen_colour: self.colour(
                 Rgb::from(sheen_colour.map(unit)),
                 TextureRef::in_json(sheen, "sheenColorTexture").filter(|_| has_sheen),
@@ -264,43 +276,60 @@ impl Reader<'_> {
         Ok((strength, self.colour(factor, map)?))
     }
 
-    /// Says what of a material's extensions is left out.
-    fn warn_about_extensions(&mut self, material: &gltf::Material<'_>) {
-        let has = |name: &str, member: &str| extension(material, name).get(member).is_some();
-        if has("KHR_materials_anisotropy", "anisotropyTexture") {
-            self.warn("of anisotropy textures the strength is used, not the direction");
-        }
-        if has("KHR_materials_clearcoat", "clearcoatNormalTexture") {
-            self.warn("normal maps of clear coats are left out");
-        }
-        if material.volume().is_some_and(|v| {
-            v.attenuation_distance().is_finite() && v.attenuation_color() != [1.0; 3]
-        }) {
-            self.warn("absorption within volumes is left out");
-        }
+    /// What bends the clear coat.
+    fn coat_relief(&mut self, clearcoat: &Value) -> Result<Option<Relief>, SceneError> {
+        let Some(reference) = TextureRef::in_json(clearcoat, COAT_NORMALS)
+            .filter(|_| factor(clearcoat, "clearcoatFactor") > 0.0)
+        else {
+            return Ok(None);
+        };
+        let scale = clearcoat.get(COAT_NORMALS).and_then(|t| number(t, "scale"));
+        Ok(Some(Relief::Normal {
+            map: self.texture(reference, Meaning::Data(Channel::Rgb))?,
+            scale: scale.unwrap_or(1.0),
+        }))
     }
+}
 
-    /// The one set of coordinates of a material's textures: a mesh has one.
-    fn coordinate_set(&mut self, what: &str, material: &gltf::Material<'_>) -> u32 {
-        let pbr = material.pbr_metallic_roughness();
-        let mut sets: Vec<u32> = [
-            pbr.base_color_texture(),
-            pbr.metallic_roughness_texture(),
-            material.emissive_texture(),
-        ]
-        .iter()
-        .flatten()
-        .map(|info| TextureRef::of(info).set)
-        .collect();
-        sets.extend(material.normal_texture().map(|n| n.tex_coord()));
-        let first = sets.first().copied().unwrap_or(0);
-        if sets.iter().any(|s| *s != first) {
-            self.warn(format!(
-                "{what}: its textures use several sets of coordinates: TEXCOORD_{first} serves all"
-            ));
-        }
-        first
+/// The name of the clear coat's normal map.
+const COAT_NORMALS: &str = "clearcoatNormalTexture";
+
+/// The normal map of the base.
+fn normal_map(material: &gltf::Material<'_>) -> Option<TextureRef> {
+    let normal = material.normal_texture()?;
+    let plain = TextureRef::plain(normal.texture().index(), normal.tex_coord());
+    Some(plain.transformed(normal.extension_value("KHR_texture_transform")))
+}
+
+/// The set of coordinates of the first texture whose values are directions.
+fn tangent_set(material: &gltf::Material<'_>) -> Option<u32> {
+    let in_extension =
+        |name: &str, member: &str| TextureRef::in_json(extension(material, name), member);
+    normal_map(material)
+        .or_else(|| in_extension("KHR_materials_anisotropy", "anisotropyTexture"))
+        .or_else(|| in_extension("KHR_materials_clearcoat", COAT_NORMALS))
+        .map(|reference| reference.set)
+}
+
+/// Whether the surface has a direction.
+fn anisotropic(material: &gltf::Material<'_>) -> bool {
+    let anisotropy = extension(material, "KHR_materials_anisotropy");
+    factor(anisotropy, "anisotropyStrength") > 0.0
+}
+
+/// Absorption within a body, per scene unit: light falls to `attenuationColor` over
+/// `attenuationDistance`.
+fn absorption(material: &gltf::Material<'_>) -> Rgb<f32> {
+    let Some(volume) = material.volume().filter(|v| v.thickness_factor() > 0.0) else {
+        return Rgb::BLACK;
+    };
+    let distance = volume.attenuation_distance();
+    if !(distance.is_finite() && distance > 0.0) {
+        return Rgb::BLACK;
     }
+    // Black would absorb without bound.
+    let colour = volume.attenuation_color().map(|c| c.clamp(1e-6, 1.0));
+    Rgb::from(colour.map(|c| (-c.ln() / distance).clamp(0.0, 1e30)))
 }
 
 /// An extension's object; `null` where there is none.

@@ -21,9 +21,8 @@ impl Reader<'_> {
         let mut found = Vec::new();
         for primitive in mesh.primitives() {
             let what = format!("meshes[{}].primitives[{}]", mesh.index(), primitive.index());
-            if let Some(entry) = self.primitive(&what, &primitive)? {
-                found.push(entry);
-            }
+            let read = self.primitive(&what, &primitive);
+            found.extend(self.problems.or(read, || None)?);
         }
         Ok(found)
     }
@@ -50,14 +49,27 @@ impl Reader<'_> {
         let count = positions.len();
         let triangles = self.triangles(what, primitive, count)?;
         let normals = self.attribute::<3>(what, "NORMAL", primitive, Semantic::Normals, count)?;
-        let set = Semantic::TexCoords(look.set);
-        let uvs = self.attribute::<2>(what, "TEXCOORD", primitive, set, count)?;
+        let [uvs, second_uvs] = look.sets.map(|set| {
+            let Some(set) = set else {
+                return Ok(Vec::new());
+            };
+            let semantic = Semantic::TexCoords(set);
+            let values = self.attribute::<2>(what, "TEXCOORD", primitive, semantic, count)?;
+            Ok(values.into_iter().map(|[u, v]| [u, 1.0 - v]).collect())
+        });
+        let tangents = if look.tangents && !normals.is_empty() {
+            self.attribute::<4>(what, "TANGENT", primitive, Semantic::Tangents, count)?
+        } else {
+            Vec::new()
+        };
         let colours =
             self.attribute::<3>(what, "COLOR_0", primitive, Semantic::Colors(0), count)?;
         let mut mesh = Mesh {
             positions,
             normals,
-            uvs: uvs.into_iter().map(|[u, v]| [u, 1.0 - v]).collect(),
+            uvs: uvs?,
+            second_uvs: second_uvs?,
+            tangents,
             colours: colours
                 .into_iter()
                 .map(|c| c.map(|x| if x > 0.0 { x } else { 0.0 }))
@@ -65,7 +77,11 @@ impl Reader<'_> {
             triangles,
         };
         match mesh::clean(&mut mesh) {
-            Ok(_) => {}
+            Ok(cleaning) => {
+                for message in cleaning.messages() {
+                    self.warn(format!("{what}: {message}"));
+                }
+            }
             Err(message) => {
                 self.warn(format!("{what}: {message}; it is left out"));
                 return Ok(None);

@@ -9,6 +9,7 @@
 //! | cameras look along -z | a mirroring of z ahead of the node's transform |
 //! | texture coordinates run down the picture | meshes hold `(u, 1 - v)` |
 //! | light intensities are photometric | taken as they are: candela for W/sr, lux for W/m^2 |
+//! | attenuation by distance | absorption `-ln(colour) / distance` of the closed body |
 //! | faces are culled from behind unless `doubleSided` | both sides are seen: light passes no wall |
 //!
 //! A file without lights gets the built-in studio's environment, a file without a camera one that
@@ -16,8 +17,10 @@
 
 mod accessor;
 mod buffers;
+mod container;
 mod features;
 mod light;
+mod locate;
 mod material;
 mod mesh;
 mod node;
@@ -25,15 +28,17 @@ mod precheck;
 mod texture;
 mod texture_ref;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 pub use features::FEATURES;
 
 use crate::error::{ErrorKind, Place, SceneError, Source, Warning};
 use crate::image::Image;
+use crate::problems::Problems;
 use crate::scene::{Light, Material, Mesh, Object, Shape, Texture, TextureId};
-use crate::{Limits, Loaded, read_file};
+use crate::search::Search;
+use crate::{Limits, LoadOptions, Loaded, read_file};
 
 /// Extensions that a file may require.
 const KNOWN_EXTENSIONS: [&str; 15] = [
@@ -59,7 +64,8 @@ const KNOWN_EXTENSIONS: [&str; 15] = [
 struct Reader<'a> {
     document: &'a gltf::Document,
     limits: &'a Limits,
-    folder: PathBuf,
+    problems: &'a Problems,
+    search: Search,
     place: Place,
     buffers: Vec<Vec<u8>>,
     warnings: Vec<Warning>,
@@ -72,6 +78,8 @@ struct Reader<'a> {
     lights: Vec<Light>,
     decoded: texture::Decoded,
     looks: material::Looks,
+    /// Sets of coordinates that the material being read uses.
+    sets: Vec<u32>,
 }
 
 /// Reads the scene in `path` and all that it refers to.
@@ -79,31 +87,51 @@ struct Reader<'a> {
 /// # Errors
 ///
 /// Where a file cannot be read or is damaged, or requires an extension that is not known here.
-pub(crate) fn read(path: &Path, limits: &Limits) -> Result<Loaded, SceneError> {
+pub(crate) fn read(
+    path: &Path,
+    options: &LoadOptions,
+    problems: &Problems,
+) -> Result<Loaded, SceneError> {
     let source = Source::unread(path);
     let start = Place::start(&source);
-    let bytes = read_file::read_bytes(path, limits)
+    let bytes = read_file::read_bytes(path, &options.limits)
         .map_err(|message| SceneError::new(ErrorKind::Io, &start, message))?;
-    parse(path, &bytes, limits)
+    parse_into(path, &bytes, options, problems)
+}
+
+#[cfg(test)]
+fn parse(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Loaded, SceneError> {
+    let options = LoadOptions {
+        limits: *limits,
+        ..LoadOptions::default()
+    };
+    parse_into(path, bytes, &options, &Problems::default())
 }
 
 /// Reads a scene that is already in memory; `path` is for messages, and names the folder of files
 /// that it refers to.
-pub(crate) fn parse(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Loaded, SceneError> {
+fn parse_into(
+    path: &Path,
+    bytes: &[u8],
+    options: &LoadOptions,
+    problems: &Problems,
+) -> Result<Loaded, SceneError> {
     let source = source(path, bytes);
     let start = Place::start(&source);
-    let gltf::Gltf { document, blob } =
-        gltf::Gltf::from_slice_without_validation(bytes).map_err(|e| damaged(e, &source))?;
-    let mut root = document.into_json();
-    precheck::precheck(&mut root).map_err(|message| {
+    let invalid = |message: String| {
         let message = format!("not valid glTF 2.0: {message}");
         SceneError::new(ErrorKind::Structure, &start, message)
-    })?;
+    };
+    let parts = container::split(bytes).map_err(invalid)?;
+    let mut root = gltf::json::Root::from_slice(parts.json)
+        .map_err(|e| damaged(gltf::Error::Deserialize(e), &source))?;
+    precheck::precheck(&mut root).map_err(invalid)?;
     let document = gltf::Document::from_json(root).map_err(|e| damaged(e, &source))?;
     let mut reader = Reader {
         document: &document,
-        limits,
-        folder: path.parent().map_or_else(PathBuf::new, Path::to_owned),
+        limits: &options.limits,
+        problems,
+        search: Search::new(path, &options.folders),
         place: start,
         buffers: Vec::new(),
         warnings: Vec::new(),
@@ -116,9 +144,10 @@ pub(crate) fn parse(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Loaded
         lights: Vec::new(),
         decoded: texture::Decoded::default(),
         looks: material::Looks::default(),
+        sets: Vec::new(),
     };
     reader.check_extensions()?;
-    reader.buffers = reader.read_buffers(blob)?;
+    reader.buffers = reader.read_buffers(parts.binary.map(<[u8]>::to_vec))?;
     reader.assemble()
 }
 
@@ -167,14 +196,29 @@ fn damaged(error: gltf::Error, source: &Arc<Source>) -> SceneError {
 
 impl Reader<'_> {
     fn error(&self, kind: ErrorKind, message: impl Into<String>) -> SceneError {
-        SceneError::new(kind, &self.place, message)
+        let message = message.into();
+        SceneError::new(kind, &self.place_of(&message), message)
+    }
+
+    /// Where the element stands that a message begins with.
+    fn place_of(&self, message: &str) -> Place {
+        let source = self.place.shared_source();
+        match locate::locate(source.text(), message) {
+            Some(range) => Place::new(source, range.start, range.len()),
+            None => self.place.clone(),
+        }
     }
 
     /// A warning, once for each message.
     fn warn(&mut self, message: impl Into<String>) {
         let message = message.into();
         if self.warnings.iter().all(|w| w.message() != message) {
-            self.warnings.push(Warning::new(&self.place, message));
+            // Where there are many, their places would take long.
+            let place = match self.warnings.len() < 100 {
+                true => self.place_of(&message),
+                false => self.place.clone(),
+            };
+            self.warnings.push(Warning::new(&place, message));
         }
     }
 

@@ -71,7 +71,10 @@ impl Reader<'_> {
                 _ => {}
             }
         }
-        if self.shapes.is_empty() && instances.is_empty() {
+        let is_empty = self.shapes.is_empty() && instances.is_empty();
+        if is_empty && !self.problems.has_errors() {
+            let mut warnings = std::mem::take(&mut self.warnings);
+            self.problems.keep_warnings(&mut warnings);
             return Err(self.error(ErrorKind::EmptyScene, "there is nothing to render"));
         }
         self.finish(found.camera, instances)
@@ -121,9 +124,13 @@ impl Reader<'_> {
             stage::add_studio(&mut scene);
             self.warn("the file has no lights: the built-in studio's are used");
         }
-        scene
-            .validate()
-            .map_err(|e| self.error(ErrorKind::Structure, e.to_string()))?;
+        // What stands in for mistakes need not make a scene.
+        if !self.problems.has_errors() {
+            scene.each_fault(|fault| {
+                let error = self.error(ErrorKind::Structure, fault.to_string());
+                self.problems.keep(error)
+            })?;
+        }
         Ok(Loaded {
             scene,
             warnings: self.warnings,
@@ -141,7 +148,8 @@ impl Reader<'_> {
         found.nodes += 1;
         let most = self.document.nodes().len();
         if depth > self.limits.max_depth || found.nodes > most {
-            let message = format!("{what}: nodes are nested too deeply, or contain themselves");
+            let message =
+                format!("{what}: nodes are nested too deeply, or contain themselves (`max_depth`)");
             return Err(self.error(ErrorKind::Limit, message));
         }
         let columns = node.transform().matrix().map(|c| c.map(f64::from));

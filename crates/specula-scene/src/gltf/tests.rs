@@ -6,7 +6,7 @@ use super::*;
 use crate::Scene;
 use crate::scene::{Channel, ColourParam, FloatParam, Geometry, MaterialKind, Projection, Relief};
 
-/// A triangle with positions, coordinates and indices, in one embedded buffer.
+/// A triangle with positions, coordinates, indices and tangents, in one embedded buffer.
 fn triangle(more: &str) -> String {
     let mut bytes = Vec::new();
     for p in [[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]] {
@@ -15,7 +15,14 @@ fn triangle(more: &str) -> String {
     for uv in [[0.0_f32, 0.25], [1.0, 0.5], [0.0, 1.0]] {
         bytes.extend(uv.iter().flat_map(|x| x.to_le_bytes()));
     }
-    bytes.extend([0_u8, 1, 2]);
+    bytes.extend([0_u8, 1, 2, 0]);
+    for tangent in [
+        [1.0_f32, 0.0, 0.0, 1.0],
+        [1.0, 0.0, 0.0, -1.0],
+        [0.0, 1.0, 0.0, 1.0],
+    ] {
+        bytes.extend(tangent.iter().flat_map(|x| x.to_le_bytes()));
+    }
     use base64::Engine;
     let data = base64::engine::general_purpose::STANDARD.encode(&bytes);
     let length = bytes.len();
@@ -23,11 +30,12 @@ fn triangle(more: &str) -> String {
         r#"{{ "asset": {{ "version": "2.0" }},
  "buffers": [ {{ "byteLength": {length}, "uri": "data:application/octet-stream;base64,{data}" }} ],
  "bufferViews": [ {{ "buffer": 0, "byteLength": 36 }}, {{ "buffer": 0, "byteOffset": 36, "byteLength": 24 }},
-   {{ "buffer": 0, "byteOffset": 60, "byteLength": 3 }} ],
+   {{ "buffer": 0, "byteOffset": 60, "byteLength": 3 }}, {{ "buffer": 0, "byteOffset": 64, "byteLength": 48 }} ],
  "accessors": [
    {{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0,0,0], "max": [1,1,0] }},
    {{ "bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2" }},
-   {{ "bufferView": 2, "componentType": 5121, "count": 3, "type": "SCALAR" }} ],
+   {{ "bufferView": 2, "componentType": 5121, "count": 3, "type": "SCALAR" }},
+   {{ "bufferView": 3, "componentType": 5126, "count": 3, "type": "VEC4" }} ],
  {more} }}"#
     )
 }
@@ -165,6 +173,103 @@ fn check_view(scene: &Scene) {
     ));
 }
 
+/// A picture of one pixel, and textures that show it.
+const PICTURE: &str = r#""textures": [ { "source": 0 } ],
+ "images": [ { "uri": "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR4nGP43+BwAgAGyQKIgvZT8AAAAABJRU5ErkJggg==" } ]"#;
+
+/// A triangle with two further sets of coordinates (the same numbers) and tangents.
+const SETS: &str = r#""meshes": [ { "primitives": [ { "attributes": { "POSITION": 0, "NORMAL": 0,
+   "TEXCOORD_0": 1, "TEXCOORD_1": 1, "TEXCOORD_2": 1, "TANGENT": 3 }, "indices": 2, "material": 0 } ] } ],
+ "nodes": [ { "mesh": 0 } ]"#;
+
+fn mapping_of(scene: &Scene, texture: crate::scene::TextureId) -> &crate::scene::TextureMapping {
+    match &scene.textures[texture.0] {
+        Texture::Image { mapping, .. } => mapping,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn directions_coats_and_volumes_are_read() {
+    let loaded = load(&format!(
+        r#"{SETS}, {PICTURE}, "materials": [ {{ "extensions": {{
+   "KHR_materials_anisotropy": {{ "anisotropyStrength": 0.5, "anisotropyRotation": 0.25,
+     "anisotropyTexture": {{ "index": 0, "texCoord": 1 }} }},
+   "KHR_materials_clearcoat": {{ "clearcoatFactor": 1, "clearcoatNormalTexture": {{ "index": 0, "scale": 0.5 }} }},
+   "KHR_materials_transmission": {{ "transmissionFactor": 1 }},
+   "KHR_materials_volume": {{ "thicknessFactor": 2, "attenuationDistance": 4, "attenuationColor": [0.5, 1, 0.25] }}
+   }} }} ]"#
+    ))
+    .unwrap();
+    assert!(
+        messages(&loaded)
+            .iter()
+            .all(|m| m.contains("file has no") || m.contains("normals are zero")),
+        "{:?}",
+        loaded.warnings
+    );
+    let scene = &loaded.scene;
+    let material = &scene.materials[0];
+    // Light halves over 4 units in red, and is a quarter in blue.
+    let per_unit = 2.0_f32.ln() / 4.0;
+    let found = material.absorption.to_array();
+    for (found, expected) in found.into_iter().zip([per_unit, 0.0, 2.0 * per_unit]) {
+        assert!((found - expected).abs() < 1e-6, "{found} {expected}");
+    }
+    let MaterialKind::Gltf(g) = material.kind else {
+        panic!("{material:?}")
+    };
+    let Some(Relief::Normal { map, scale: 0.5 }) = g.clearcoat_relief else {
+        panic!("{g:?}")
+    };
+    // Directions decide which coordinates come first.
+    let direction = mapping_of(scene, g.anisotropy_direction.unwrap());
+    assert!(matches!(direction, crate::scene::TextureMapping::Uv(_)));
+    let coat = mapping_of(scene, map);
+    assert!(matches!(coat, crate::scene::TextureMapping::SecondUv(_)));
+    let mesh = &scene.meshes[0];
+    assert_eq!(mesh.tangents[1], [1.0, 0.0, 0.0, -1.0]);
+    assert_eq!(mesh.second_uvs, mesh.uvs);
+    assert_eq!(mesh.uvs[0], [0.0, 0.75]);
+}
+
+#[test]
+fn textures_of_a_material_may_use_two_sets() {
+    let material = |third: u32| {
+        format!(
+            r#"{SETS}, {PICTURE}, "materials": [ {{ "emissiveFactor": [1, 1, 1],
+   "emissiveTexture": {{ "index": 0, "texCoord": {third} }},
+   "pbrMetallicRoughness": {{ "baseColorTexture": {{ "index": 0, "texCoord": 1,
+      "extensions": {{ "KHR_texture_transform": {{ "texCoord": 2 }} }} }},
+     "metallicRoughnessTexture": {{ "index": 0, "texCoord": 1 }} }} }} ]"#
+        )
+    };
+    let loaded = load(&material(2)).unwrap();
+    let scene = &loaded.scene;
+    let MaterialKind::Gltf(g) = scene.materials[0].kind else {
+        panic!("{:?}", scene.materials[0])
+    };
+    let (ColourParam::Texture(base), FloatParam::Texture(rough)) = (g.base_colour, g.roughness)
+    else {
+        panic!("{g:?}")
+    };
+    let second = |id| {
+        matches!(
+            mapping_of(scene, id),
+            crate::scene::TextureMapping::SecondUv(_)
+        )
+    };
+    assert!(!second(base) && second(rough));
+    assert!(
+        scene.meshes[0].tangents.is_empty(),
+        "nothing has a direction"
+    );
+    let sets = |m: &&str| m.contains("sets of coordinates");
+    assert!(!messages(&loaded).iter().any(sets));
+    let three = load(&material(0)).unwrap();
+    assert!(messages(&three).iter().any(sets));
+}
+
 #[test]
 fn meshes_in_several_places_are_instances() {
     let loaded = load(&format!(
@@ -221,7 +326,7 @@ fn damage_is_named() {
     ))
     .replace(
         "\"byteOffset\": 36, \"byteLength\": 24",
-        "\"byteOffset\": 50, \"byteLength\": 24",
+        "\"byteOffset\": 100, \"byteLength\": 24",
     );
     let error = parse(Path::new("t.gltf"), short.as_bytes(), &limits).unwrap_err();
     assert!(

@@ -8,11 +8,14 @@ use specula_bsdf::Rgb;
 use super::Reader;
 use super::texture_ref::TextureRef;
 use crate::error::{ErrorKind, SceneError};
-use crate::image::{self, Content, Encoding, Format};
+use crate::image::{self, Content, Encoding, Format, Image};
 use crate::scene::{
     Channel, ColourParam, FloatParam, ImageId, Interpolation, Texture, TextureId, TextureMapping,
     UvMapping, Wrap,
 };
+
+/// Sets of coordinates of a mesh.
+pub(super) const MOST_SETS: usize = 2;
 
 /// Pictures that have been decoded: by number, whether as colours, and what of them.
 pub(super) type Decoded = HashMap<(usize, bool, Content), ImageId>;
@@ -46,6 +49,11 @@ impl Reader<'_> {
             Meaning::Alpha => (Encoding::Linear, Content::Alpha, Channel::Red),
         };
         let image = self.picture(&texture.source(), encoding, content)?;
+        let coordinates = mapping(&reference);
+        let mapping = match self.place_of_set(reference.set) {
+            0 => TextureMapping::Uv(coordinates),
+            _ => TextureMapping::SecondUv(coordinates),
+        };
         let sampler = texture.sampler();
         let filter = match sampler.mag_filter() {
             Some(MagFilter::Nearest) => Interpolation::Nearest,
@@ -53,13 +61,31 @@ impl Reader<'_> {
         };
         Ok(self.add_texture(Texture::Image {
             image,
-            mapping: mapping(&reference),
+            mapping,
             wrap: [wrap(sampler.wrap_s()), wrap(sampler.wrap_t())],
             filter,
             invert: false,
             scale: 1.0,
             channel,
         }))
+    }
+
+    /// Which of a mesh's two sets of coordinates is the file's set: those that the material used
+    /// first.
+    fn place_of_set(&mut self, set: u32) -> usize {
+        if let Some(place) = self.sets.iter().position(|s| *s == set) {
+            return place;
+        }
+        if self.sets.len() == MOST_SETS {
+            let [first, second] = [self.sets[0], self.sets[1]];
+            self.warn(format!(
+                "a material uses more than two sets of coordinates: TEXCOORD_{first} stands in for \
+                 all but TEXCOORD_{second}"
+            ));
+            return 0;
+        }
+        self.sets.push(set);
+        self.sets.len() - 1
     }
 
     fn picture(
@@ -72,6 +98,20 @@ impl Reader<'_> {
         if let Some(id) = self.decoded.get(&key) {
             return Ok(*id);
         }
+        let read = self.read_picture(picture, encoding, content);
+        let image = self.problems.or(read, Image::stand_in)?;
+        self.images.push(image);
+        let id = ImageId(self.images.len() - 1);
+        self.decoded.insert(key, id);
+        Ok(id)
+    }
+
+    fn read_picture(
+        &self,
+        picture: &gltf::Image<'_>,
+        encoding: Encoding,
+        content: Content,
+    ) -> Result<Image, SceneError> {
         let what = format!("images[{}]", picture.index());
         let bytes;
         let (data, mime, name) = match picture.source() {
@@ -93,12 +133,8 @@ impl Reader<'_> {
             let message = format!("{what}: expected a PNG or JPEG picture{found}");
             self.error(ErrorKind::Image, message)
         })?;
-        let image = image::decode(data, format, &name, encoding, content, self.limits)
-            .map_err(|message| self.error(ErrorKind::Image, message))?;
-        self.images.push(image);
-        let id = ImageId(self.images.len() - 1);
-        self.decoded.insert(key, id);
-        Ok(id)
+        image::decode(data, format, &name, encoding, content, self.limits)
+            .map_err(|message| SceneError::new(ErrorKind::Image, &self.place_of(&what), message))
     }
 
     /// A factor and a texture as a colour.
@@ -147,7 +183,7 @@ impl Reader<'_> {
 /// ```
 ///
 /// Source: KHR_texture_transform; its rotation is counterclockwise in coordinates that run down.
-fn mapping(reference: &TextureRef) -> TextureMapping {
+fn mapping(reference: &TextureRef) -> UvMapping {
     let (sin, cos) = reference.rotation.sin_cos();
     let [sx, sy] = reference.scale;
     let [ox, oy] = reference.offset;
@@ -157,7 +193,7 @@ fn mapping(reference: &TextureRef) -> TextureMapping {
     // v = 1 - w, where w is the mesh's second coordinate.
     let upwards = |[u, v, one]: [f32; 3]| [u, -v, one + v];
     let [u, w, one] = upwards(t);
-    TextureMapping::Uv(UvMapping([upwards(s), [-u, -w, 1.0 - one]]))
+    UvMapping([upwards(s), [-u, -w, 1.0 - one]])
 }
 
 fn wrap(mode: WrappingMode) -> Wrap {
@@ -184,9 +220,7 @@ mod tests {
     use super::*;
 
     fn apply(reference: &TextureRef, [u, v]: [f32; 2]) -> [f32; 2] {
-        let TextureMapping::Uv(UvMapping(rows)) = mapping(reference) else {
-            panic!("not affine")
-        };
+        let UvMapping(rows) = mapping(reference);
         let w = 1.0 - v;
         let [s, t] = rows.map(|[a, b, c]| a * u + b * w + c);
         [s, 1.0 - t]
@@ -195,7 +229,7 @@ mod tests {
     #[test]
     fn transforms_follow_the_extension() {
         let plain = TextureRef::plain(0, 0);
-        assert_eq!(mapping(&plain), TextureMapping::default());
+        assert_eq!(mapping(&plain), UvMapping::default());
         // The matrix of KHR_texture_transform: translation * rotation * scale, with
         // rotation = [[cos, sin], [-sin, cos]].
         let reference = TextureRef {

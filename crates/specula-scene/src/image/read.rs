@@ -87,7 +87,7 @@ pub(super) fn check_size(width: u64, height: u64, limits: &Limits) -> Result<(),
     }
     let most = limits.max_pixels;
     Err(format!(
-        "it has too many pixels: {width} x {height}; at most {most} are read"
+        "it has too many pixels: {width} x {height}; at most {most} are read (`max_pixels`)"
     ))
 }
 

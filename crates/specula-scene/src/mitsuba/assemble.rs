@@ -7,20 +7,23 @@ use super::document::Document;
 use super::element::Element;
 use super::shape::{self, Shapes};
 use super::texture::unknown;
-use crate::bounds::{self, FARTHEST};
+use crate::bounds::{self, Bounds, FARTHEST};
 use crate::error::{ErrorKind, Place, SceneError};
-use crate::scene::{Instance, Light, Object, Scene, Settings};
-use crate::{Limits, Loaded};
+use crate::problems::{NoteKind, is_dark};
+use crate::scene::{Camera, Film, Instance, Light, Object, Scene, Settings};
+use crate::{Limits, Loaded, stage};
 
 /// Builds the scene.
 pub(super) fn assemble(document: Document, limits: &Limits) -> Result<Loaded, SceneError> {
     let (mut context, root) = Context::new(document, limits);
     root.visited.set(true);
     let mut parts = Parts::default();
+    let problems = context.problems.clone();
     for property in &root.properties {
         if let Some(element) = context.plugin(property)? {
             property.used.set(true);
-            parts.add(&mut context, &element)?;
+            let added = parts.add(&mut context, &element);
+            problems.or(element.or(added, || ()), || ())?;
         }
     }
     let Parts {
@@ -29,21 +32,29 @@ pub(super) fn assemble(document: Document, limits: &Limits) -> Result<Loaded, Sc
         sensor,
         integrator,
     } = parts;
-    let max_depth = context.integrator(integrator.as_ref())?;
-    let Some(sensor) = sensor else {
+    let max_depth = context.integrator(integrator.as_ref());
+    let max_depth = problems.or(max_depth, || stage::SETTINGS.max_depth)?;
+    if sensor.is_none() {
         let message = "the scene has no <sensor>";
-        return Err(SceneError::new(ErrorKind::Structure, &root.place, message)
-            .with_help("expected one such as <sensor type=\"perspective\">"));
-    };
-    let film = context.child(&sensor, "film")?;
-    let film = context.film(film.as_ref())?;
-    let sampler = context.child(&sensor, "sampler")?;
-    let samples_per_pixel = context.sampler(sampler.as_ref())?;
-    let camera = context.camera(&sensor, film.resolution)?;
+        let error = SceneError::new(ErrorKind::Structure, &root.place, message)
+            .with_help("expected one such as <sensor type=\"perspective\">");
+        // One with a mistake may have been meant.
+        problems.or(root.or(Err(error), || ()), || ())?;
+    }
+    let View {
+        camera,
+        film,
+        samples_per_pixel,
+    } = view(&mut context, sensor.as_ref())?;
     let built = build(&mut context, shapes)?;
     context.warn_unused(&root);
-    if built.shapes.is_empty() && built.instances.is_empty() {
-        return Err(nothing_left(&context, &root.place));
+    if built.shapes.is_empty() && built.instances.is_empty() && !problems.has_errors() {
+        let error = nothing_left(&context, &root.place);
+        problems.keep_warnings(&mut context.warnings);
+        return Err(error);
+    }
+    if !problems.has_errors() {
+        context.note_unused(&root);
     }
     let scene = Scene {
         camera,
@@ -51,6 +62,7 @@ pub(super) fn assemble(document: Document, limits: &Limits) -> Result<Loaded, Sc
         settings: Settings {
             max_depth,
             samples_per_pixel,
+            hide_emitters: context.hide_emitters,
         },
         images: std::mem::take(&mut context.images),
         textures: std::mem::take(&mut context.textures),
@@ -61,9 +73,13 @@ pub(super) fn assemble(document: Document, limits: &Limits) -> Result<Loaded, Sc
         instances: built.instances,
         lights,
     };
-    scene
-        .validate()
-        .map_err(|e| SceneError::new(ErrorKind::Limit, &root.place, e.to_string()))?;
+    // What stands in for mistakes need not make a scene.
+    if !problems.has_errors() {
+        scene.each_fault(|fault| {
+            let message = fault.to_string();
+            problems.keep(SceneError::new(ErrorKind::Limit, &root.place, message))
+        })?;
+    }
     let shines = |objects: &[Object]| {
         let mut shapes = scene
             .shapes
@@ -83,6 +99,37 @@ pub(super) fn assemble(document: Document, limits: &Limits) -> Result<Loaded, Sc
     })
 }
 
+/// Camera and film.
+struct View {
+    camera: Camera,
+    film: Film,
+    samples_per_pixel: u32,
+}
+
+fn view(context: &mut Context, sensor: Option<&Rc<Element>>) -> Result<View, SceneError> {
+    let problems = context.problems.clone();
+    let size = [768, 576];
+    let Some(sensor) = sensor else {
+        // The mistake is kept already.
+        return Ok(View {
+            camera: stage::camera(Bounds::EMPTY, size),
+            film: stage::film(size),
+            samples_per_pixel: 1,
+        });
+    };
+    let film = context.child(sensor, "film");
+    let film = film.and_then(|film| context.film(film.as_ref()));
+    let film = problems.or(film, || stage::film(size))?;
+    let sampler = context.child(sensor, "sampler");
+    let samples_per_pixel = sampler.and_then(|s| context.sampler(s.as_ref()));
+    let camera = context.camera(sensor, film.resolution);
+    Ok(View {
+        samples_per_pixel: problems.or(samples_per_pixel, || 1)?,
+        camera: sensor.or(camera, || stage::camera(Bounds::EMPTY, film.resolution))?,
+        film,
+    })
+}
+
 /// What the scene's own plugins describe.
 #[derive(Default)]
 struct Parts {
@@ -96,7 +143,16 @@ impl Parts {
     fn add(&mut self, context: &mut Context, element: &Rc<Element>) -> Result<(), SceneError> {
         match element.class {
             "shape" => self.shapes.add(context, element)?,
-            "emitter" => self.lights.extend(context.lights(element)?),
+            "emitter" => {
+                let lights = context.lights(element)?;
+                let is_dark = |l: &Light| is_dark(l, &context.images);
+                if !lights.is_empty() && lights.iter().all(is_dark) {
+                    context.problems.note(NoteKind::Dark, &element.place, || {
+                        format!("this {} has no power", element.title())
+                    });
+                }
+                self.lights.extend(lights);
+            }
             "sensor" if self.sensor.is_none() => self.sensor = Some(Rc::clone(element)),
             "sensor" => context.warn(&element.place, "the first sensor is rendered, not this one"),
             "integrator" if self.integrator.is_none() => {
@@ -132,7 +188,7 @@ fn build(context: &mut Context, shapes: Shapes) -> Result<BuiltShapes, SceneErro
     for (shape, place) in &finished {
         let reach = bounds::of_geometry(&meshes, &shape.geometry).transformed(&shape.to_world);
         if reach.farthest() > FARTHEST {
-            return Err(too_far(place));
+            context.problems.keep(too_far(place))?;
         }
     }
     let objects: Vec<Object> = shapes
@@ -142,7 +198,10 @@ fn build(context: &mut Context, shapes: Shapes) -> Result<BuiltShapes, SceneErro
         .collect();
     let mut instances = Vec::new();
     for (instance, place) in shapes.instances {
-        if objects[instance.object.0].shapes.is_empty() {
+        let is_empty = objects[instance.object.0].shapes.is_empty();
+        if is_empty && context.problems.has_errors() {
+            // Its shapes may have mistakes.
+        } else if is_empty {
             context.warn(&place, "the group has no shapes: the instance is left out");
         } else {
             instances.push(instance);

@@ -9,12 +9,16 @@ use super::element::Element;
 use super::layered::Wraps;
 use super::spectrum::Use;
 use super::texture::unknown;
+use crate::error::ErrorKind;
 use crate::error::SceneError;
 use crate::num::f32_of;
 use crate::scene::{
     ColourParam, ConductorFresnel, Distribution, FloatParam, Material, MaterialId, MaterialKind,
     Roughness, RoughnessMapping,
 };
+
+/// A blend of two references to one blend doubles what is within: a chain of them would never end.
+const MOST_MATERIALS: usize = 1 << 17;
 
 /// A material with the opacity of the masks around it.
 #[derive(Clone, Copy, Debug)]
@@ -43,13 +47,18 @@ impl Context<'_> {
         element: &Rc<Element>,
         wraps: Wraps,
     ) -> Result<Surface, SceneError> {
-        self.deeper(element, |context| {
+        if self.materials.len() >= MOST_MATERIALS {
+            let message = "the scene's bsdfs unfold into more than 131072 materials";
+            return Err(SceneError::new(ErrorKind::Limit, &element.place, message));
+        }
+        let read = self.deeper(element, |context| {
             if let Some(surface) = context.layered(element, wraps)? {
                 return Ok(surface);
             }
             let kind = context.kind(element)?;
             Ok(context.finish(element, kind, wraps))
-        })
+        });
+        element.or(read, || self.finish(element, grey(0.5), wraps))
     }
 
     /// Adds a material as what is around it makes it.

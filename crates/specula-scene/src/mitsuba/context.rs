@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use super::document::{Document, resolve};
+use super::document::{Document, hint, resolve};
 use super::element::{Element, Property};
 use super::number::shorten;
 use super::texture::{Frame, Role};
@@ -12,15 +12,19 @@ use super::value::Value;
 use crate::Limits;
 use crate::error::{ErrorKind, Place, SceneError, Warning};
 use crate::image::{self, Content, Encoding, Image};
+use crate::problems::{NoteKind, Problems};
 use crate::scene::{ImageId, Material, MaterialId, Texture, TextureId};
 
 /// Shared state of the reader.
 pub(super) struct Context<'a> {
     pub(super) limits: &'a Limits,
+    pub(super) problems: Problems,
     pub(super) warnings: Vec<Warning>,
     pub(super) images: Vec<Image>,
     pub(super) textures: Vec<Texture>,
     pub(super) materials: Vec<Material>,
+    /// Whether the integrator hides lights from the camera.
+    pub(super) hide_emitters: bool,
     /// Whose surface coordinates textures are read for.
     pub(super) frame: Frame,
     /// Textures by element, role and frame.
@@ -39,13 +43,16 @@ impl<'a> Context<'a> {
             ids,
             folders,
             warnings,
+            problems,
         } = document;
         let context = Self {
             limits,
+            problems,
             warnings,
             images: Vec::new(),
             textures: Vec::new(),
             materials: Vec::new(),
+            hide_emitters: false,
             frame: Frame::Mesh,
             texture_ids: HashMap::new(),
             image_ids: HashMap::new(),
@@ -65,14 +72,16 @@ impl<'a> Context<'a> {
         match &property.value {
             Value::Element(element) => Ok(Some(Rc::clone(element))),
             Value::Reference(id) => match self.ids.get(id) {
-                Some(element) => Ok(Some(Rc::clone(element))),
+                Some(element) => {
+                    element.referenced.set(true);
+                    Ok(Some(Rc::clone(element)))
+                }
                 None => {
                     let message = format!("no plugin has the id \"{}\"", shorten(id));
-                    Err(SceneError::new(
-                        ErrorKind::UnknownName,
-                        &property.place,
-                        message,
-                    ))
+                    let error = SceneError::new(ErrorKind::UnknownName, &property.place, message);
+                    property.damaged.set(true);
+                    property.used.set(true);
+                    self.problems.keep(error).map(|()| None)
                 }
             },
             _ => Ok(None),
@@ -124,7 +133,7 @@ impl<'a> Context<'a> {
     ) -> Result<T, SceneError> {
         if self.depth >= self.limits.max_depth {
             let message = format!(
-                "{} is nested more than {} deep, or refers to itself",
+                "{} is nested more than {} deep, or refers to itself (`max_depth`)",
                 element.title(),
                 self.limits.max_depth
             );
@@ -173,7 +182,8 @@ impl<'a> Context<'a> {
             return Ok(id);
         }
         let image = image::read(path, encoding, Content::Colour, self.limits)
-            .map_err(|message| SceneError::new(ErrorKind::Image, place, message))?;
+            .map_err(|message| self.file_error(ErrorKind::Image, place, path, message));
+        let image = self.problems.or(image, Image::stand_in)?;
         let id = ImageId(self.images.len());
         self.images.push(image);
         self.image_ids.insert(key, id);
@@ -188,6 +198,31 @@ impl<'a> Context<'a> {
     pub(super) fn add_material(&mut self, material: Material) -> MaterialId {
         self.materials.push(material);
         MaterialId(self.materials.len() - 1)
+    }
+
+    /// The error for a file that `place` asks for, with the folders where it was looked for.
+    pub(super) fn file_error(
+        &self,
+        kind: ErrorKind,
+        place: &Place,
+        path: &Path,
+        message: String,
+    ) -> SceneError {
+        SceneError::new(kind, place, message).with_hint(hint(&self.folders, place, path))
+    }
+
+    /// Notes surfaces and textures of the scene that nothing refers to.
+    pub(super) fn note_unused(&self, root: &Element) {
+        let nested = root.properties.iter().filter_map(Property::nested);
+        for element in nested.filter(|e| matches!(e.class, "bsdf" | "texture")) {
+            if !element.referenced.get() {
+                let id = element.id.as_ref();
+                let id = id.map_or_else(String::new, |id| format!(", \"{}\"", shorten(id)));
+                self.problems.note(NoteKind::Unused, &element.place, || {
+                    format!("nothing uses the {}{id}", element.title())
+                });
+            }
+        }
     }
 
     /// Warns of properties that nobody asked for, in `element` and all that it reached.

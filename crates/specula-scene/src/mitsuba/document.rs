@@ -10,12 +10,15 @@ use glam::DMat4;
 use roxmltree::{Node, ParsingOptions};
 
 use super::element::{Element, Property};
-use super::number::{number, shorten, triple};
-use super::value::{Samples, Value};
-use super::{Options, spectrum, transform, upgrade};
-use crate::Limits;
+use super::number::shorten;
+use super::plain_value::plain_value;
+use super::value::Value;
+use super::{spectrum, transform, upgrade};
 use crate::error::{ErrorKind, Place, SceneError, Source, Warning};
+use crate::problems::Problems;
 use crate::read_file::plain_bytes;
+use crate::search;
+use crate::{Limits, LoadOptions};
 
 /// What a scene's files say.
 pub(super) struct Document {
@@ -24,16 +27,18 @@ pub(super) struct Document {
     /// Where files are looked for, in this order.
     pub(super) folders: Vec<PathBuf>,
     pub(super) warnings: Vec<Warning>,
+    pub(super) problems: Problems,
 }
 
 /// Reads `path` and what it includes.
 pub(super) fn read(
     path: &Path,
-    limits: &Limits,
-    options: &Options,
+    options: &LoadOptions,
+    problems: &Problems,
 ) -> Result<Document, SceneError> {
     let mut reader = Reader {
-        limits,
+        limits: &options.limits,
+        problems,
         parameters: options.parameters.clone(),
         ids: HashMap::new(),
         folders: vec![folder_of(path)],
@@ -53,6 +58,7 @@ pub(super) fn read(
         ids: reader.ids,
         folders: reader.folders,
         warnings: reader.warnings,
+        problems: problems.clone(),
     })
 }
 
@@ -80,6 +86,7 @@ const CLASSES: [&str; 14] = [
 
 struct Reader<'a> {
     limits: &'a Limits,
+    problems: &'a Problems,
     /// Names without `$`, and values.
     parameters: Vec<(String, String)>,
     ids: HashMap<String, Rc<Element>>,
@@ -115,9 +122,9 @@ impl File {
 }
 
 /// Attributes of a node with their parameters filled in.
-type Attributes<'i> = Vec<(&'i str, String)>;
+pub(super) type Attributes<'i> = Vec<(&'i str, String)>;
 
-fn attribute<'a>(attributes: &'a Attributes, name: &str) -> Option<&'a str> {
+pub(super) fn attribute<'a>(attributes: &'a Attributes, name: &str) -> Option<&'a str> {
     attributes
         .iter()
         .find(|(n, _)| *n == name)
@@ -132,18 +139,26 @@ impl Reader<'_> {
             return Err(SceneError::new(ErrorKind::RecursiveInclude, asked, message));
         }
         if self.files.len() >= self.limits.max_depth {
-            let message = format!("more than {} files within files", self.limits.max_depth);
+            let message = format!(
+                "more than {} files within files (`max_depth`)",
+                self.limits.max_depth
+            );
             return Err(SceneError::new(ErrorKind::Limit, asked, message));
         }
         let unreadable = |message: String| {
             let message = format!("{} {message}", path.display());
-            SceneError::new(ErrorKind::Io, asked, message)
+            let error = SceneError::new(ErrorKind::Io, asked, message);
+            match self.files.is_empty() {
+                // The main file is looked for nowhere else.
+                true => error,
+                false => error.with_hint(hint(&self.folders, asked, path)),
+            }
         };
         let bytes = plain_bytes(path, self.limits).map_err(unreadable)?;
         self.bytes += bytes.len() as u64;
         if self.bytes > self.limits.max_bytes {
             let message = format!(
-                "the scene's files have more than {} bytes together",
+                "the scene's files have more than {} bytes together (`max_bytes`)",
                 self.limits.max_bytes
             );
             return Err(SceneError::new(ErrorKind::Limit, asked, message));
@@ -191,7 +206,7 @@ impl Reader<'_> {
     fn element(&mut self, file: &File, node: Node, depth: usize) -> Result<Element, SceneError> {
         if depth > self.limits.max_depth {
             let message = format!(
-                "more than {} elements within elements",
+                "more than {} elements within elements (`max_depth`)",
                 self.limits.max_depth
             );
             return Err(file.error(node, ErrorKind::Limit, message));
@@ -213,9 +228,15 @@ impl Reader<'_> {
             legacy: file.legacy,
             properties: Vec::new(),
             visited: Cell::new(false),
+            referenced: Cell::new(false),
+            problems: self.problems.clone(),
+            damaged: Rc::default(),
         };
         for child in node.children().filter(Node::is_element) {
-            self.child(file, child, &mut element, depth)?;
+            if let Err(error) = self.child(file, child, &mut element, depth) {
+                element.keep(error)?;
+                self.register_lost(file, child);
+            }
         }
         if element.legacy {
             upgrade::upgrade(&mut element);
@@ -255,10 +276,14 @@ impl Reader<'_> {
                 &folder_of(Path::new(file.source.name())),
                 name,
             );
-            Value::Spectrum(
-                spectrum::from_file(&path, self.limits)
-                    .map_err(|m| file.error(node, ErrorKind::Spectrum, m))?,
-            )
+            Value::Spectrum(spectrum::from_file(&path, self.limits).map_err(|m| {
+                let place = file.place(node);
+                SceneError::new(ErrorKind::Spectrum, &place, m).with_hint(hint(
+                    &self.folders,
+                    &place,
+                    &path,
+                ))
+            })?)
         } else {
             plain_value(tag, &attributes, file.legacy).map_err(|m| file.wrong(node, m))?
         };
@@ -281,8 +306,29 @@ impl Reader<'_> {
             value,
             place: file.place(node),
             used: Cell::new(false),
+            damaged: Rc::clone(&parent.damaged),
         });
         Ok(())
+    }
+
+    /// Makes the id of a plugin with a mistake known: what refers to it is not to blame.
+    fn register_lost(&mut self, file: &File, node: Node) {
+        let Some(id) = node.attribute("id").filter(|_| !node.has_tag_name("ref")) else {
+            return;
+        };
+        let element = Element {
+            class: class_of(node.tag_name().name()),
+            plugin: node.attribute("type").unwrap_or_default().to_owned(),
+            id: Some(id.to_owned()),
+            place: file.place(node),
+            legacy: file.legacy,
+            properties: Vec::new(),
+            visited: Cell::new(false),
+            referenced: Cell::new(false),
+            problems: self.problems.clone(),
+            damaged: Rc::new(Cell::new(true)),
+        };
+        self.ids.entry(id.to_owned()).or_insert(Rc::new(element));
     }
 
     /// Makes a plugin known by its id.
@@ -296,11 +342,8 @@ impl Reader<'_> {
                 shorten(id),
                 before.place
             );
-            return Err(SceneError::new(
-                ErrorKind::Duplicate,
-                &element.place,
-                message,
-            ));
+            let error = SceneError::new(ErrorKind::Duplicate, &element.place, message);
+            self.problems.keep(error)?;
         }
         Ok(element)
     }
@@ -318,8 +361,9 @@ impl Reader<'_> {
                     shorten(tag)
                 );
                 file.error(child, ErrorKind::Syntax, message)
-            })?;
-            all = one.map_err(|m| file.wrong(child, m))? * all;
+            });
+            let one = one.and_then(|one| one.map_err(|m| file.wrong(child, m)));
+            all = self.problems.or(one, || DMat4::IDENTITY)? * all;
         }
         Ok(all)
     }
@@ -370,6 +414,7 @@ impl Reader<'_> {
             value,
             place: file.place(node),
             used: Cell::new(false),
+            damaged: Rc::clone(&parent.damaged),
         });
         Ok(())
     }
@@ -506,76 +551,11 @@ fn class_of(tag: &str) -> &'static str {
     }
 }
 
-/// The value of a property that holds no plugin.
-fn plain_value(tag: &str, attributes: &Attributes, legacy: bool) -> Result<Value, String> {
-    let value = || {
-        attribute(attributes, "value")
-            .ok_or_else(|| format!("<{tag}> needs an attribute \"value\""))
-    };
-    match tag {
-        "float" => number(value()?).map(Value::Number),
-        "integer" => integer(value()?).map(Value::Integer),
-        "boolean" => match value()?.trim().to_ascii_lowercase().as_str() {
-            "true" => Ok(Value::Boolean(true)),
-            "false" => Ok(Value::Boolean(false)),
-            other => Err(format!(
-                "expected \"true\" or \"false\", found \"{}\"",
-                shorten(other)
-            )),
-        },
-        "string" => Ok(Value::Text(value()?.to_owned())),
-        "point" | "vector" => vector(attributes),
-        "rgb" => colour(value()?, false),
-        "srgb" => colour(value()?, true),
-        "spectrum" => spectrum::parse(value()?).map(Value::Spectrum),
-        "blackbody" if legacy => black_body(attributes),
-        "ref" => attribute(attributes, "id")
-            .map(|id| Value::Reference(id.to_owned()))
-            .ok_or_else(|| "<ref> needs an attribute \"id\"".to_owned()),
-        other => Err(format!("<{}> is no element of a scene", shorten(other))),
-    }
-}
-
-fn integer(text: &str) -> Result<i64, String> {
-    text.trim()
-        .parse()
-        .map_err(|_| format!("expected an integer, found \"{}\"", shorten(text)))
-}
-
-fn vector(attributes: &Attributes) -> Result<Value, String> {
-    if let Some(value) = attribute(attributes, "value") {
-        return triple(value).map(|v| Value::Vector(v.into()));
-    }
-    let part = |name: &str| {
-        attribute(attributes, name)
-            .ok_or_else(|| format!("expected attributes \"x\", \"y\" and \"z\"; no \"{name}\""))
-            .and_then(number)
-    };
-    Ok(Value::Vector([part("x")?, part("y")?, part("z")?].into()))
-}
-
-/// Linear RGB, or sRGB where `encoded`; `#rrggbb` is always sRGB.
-fn colour(text: &str, encoded: bool) -> Result<Value, String> {
-    let decode = |c: [f64; 3]| c.map(spectrum::linear_from_srgb);
-    if let Some(hex) = text.trim().strip_prefix('#') {
-        let value = u32::from_str_radix(hex, 16)
-            .ok()
-            .filter(|_| hex.len() == 6)
-            .ok_or_else(|| format!("expected \"#rrggbb\", found \"{}\"", shorten(text)))?;
-        let channel = |shift: u32| f64::from((value >> shift) & 255) / 255.0;
-        return Ok(Value::Colour(decode([channel(16), channel(8), channel(0)])));
-    }
-    let c = triple(text)?;
-    Ok(Value::Colour(if encoded { decode(c) } else { c }))
-}
-
-fn black_body(attributes: &Attributes) -> Result<Value, String> {
-    let kelvin = attribute(attributes, "temperature")
-        .or_else(|| attribute(attributes, "value"))
-        .ok_or("<blackbody> needs an attribute \"temperature\"")?;
-    let kelvin = number(kelvin.trim().trim_end_matches(['K', 'k']))?;
-    let scale = attribute(attributes, "scale").map_or(Ok(1.0), number)?;
-    Ok(Value::Spectrum(Samples::BlackBody(kelvin, scale)))
+/// What helps where a file that is named at `place` does not exist.
+pub(super) fn hint(folders: &[PathBuf], place: &Place, path: &Path) -> Option<String> {
+    let own = folder_of(Path::new(place.source().name()));
+    let folders = folders.iter().map(PathBuf::as_path);
+    search::hint(path, folders.chain([own.as_path()]))
 }
 
 /// The first folder that has a file, or the main file's folder where none has it.

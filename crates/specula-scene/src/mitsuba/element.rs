@@ -8,6 +8,7 @@ use glam::{DMat4, DVec3};
 use super::number::shorten;
 use super::value::Value;
 use crate::error::{ErrorKind, Place, SceneError};
+use crate::problems::Problems;
 
 /// A plugin with its properties.
 #[derive(Debug)]
@@ -23,6 +24,11 @@ pub(super) struct Element {
     pub(super) properties: Vec<Property>,
     /// Whether anything asked for its properties: what nobody used is reported only then.
     pub(super) visited: Cell<bool>,
+    /// Whether something refers to its id.
+    pub(super) referenced: Cell<bool>,
+    pub(super) problems: Problems,
+    /// Whether a mistake was kept: others may follow from it.
+    pub(super) damaged: Rc<Cell<bool>>,
 }
 
 /// A property with its name; nameless children have an empty one.
@@ -32,6 +38,8 @@ pub(super) struct Property {
     pub(super) value: Value,
     pub(super) place: Place,
     pub(super) used: Cell<bool>,
+    /// That of the plugin that has it.
+    pub(super) damaged: Rc<Cell<bool>>,
 }
 
 impl Element {
@@ -42,6 +50,39 @@ impl Element {
 
     pub(super) fn error(&self, message: impl Into<String>) -> SceneError {
         SceneError::new(ErrorKind::Parameter, &self.place, message)
+    }
+
+    /// Keeps a mistake in one of the properties.
+    ///
+    /// # Errors
+    ///
+    /// The mistake, in an ordinary load.
+    pub(super) fn keep(&self, error: SceneError) -> Result<(), SceneError> {
+        self.damaged.set(true);
+        self.problems.keep(error)
+    }
+
+    /// What was read of the plugin, or a stand-in where its mistakes are kept; one that may follow
+    /// from another is not. What is nested too deeply may be so in more ways than can be told: that
+    /// mistake goes on to the outermost plugin.
+    ///
+    /// # Errors
+    ///
+    /// That of `read`, in an ordinary load.
+    pub(super) fn or<T>(
+        &self,
+        read: Result<T, SceneError>,
+        stand_in: impl FnOnce() -> T,
+    ) -> Result<T, SceneError> {
+        match read {
+            Err(error) if error.kind() != ErrorKind::Limit => {
+                if !(self.damaged.get() && self.problems.is_check()) {
+                    self.keep(error)?;
+                }
+                Ok(stand_in())
+            }
+            other => other,
+        }
     }
 
     /// The property `name`, which then counts as used.
@@ -71,7 +112,7 @@ impl Element {
             Value::Number(x) => Ok(x),
             #[expect(clippy::cast_precision_loss, reason = "far beyond any sensible value")]
             Value::Integer(x) => Ok(x as f64),
-            _ => Err(property.wrong("a float")),
+            _ => self.keep(property.wrong("a float")).map(|()| default),
         }
     }
 
@@ -81,7 +122,8 @@ impl Element {
         if x >= 0.0 {
             return Ok(x);
         }
-        Err(self.out_of_range(name, "not negative", x))
+        self.keep(self.out_of_range(name, "not negative", x))?;
+        Ok(default)
     }
 
     /// A number above zero.
@@ -90,7 +132,8 @@ impl Element {
         if x > 0.0 {
             return Ok(x);
         }
-        Err(self.out_of_range(name, "above 0", x))
+        self.keep(self.out_of_range(name, "above 0", x))?;
+        Ok(default)
     }
 
     fn out_of_range(&self, name: &str, expected: &str, found: f64) -> SceneError {
@@ -106,7 +149,7 @@ impl Element {
             Value::Integer(x) => Ok(x),
             #[expect(clippy::cast_possible_truncation, reason = "whole, and bounded before")]
             Value::Number(x) if x.fract() == 0.0 && x.abs() < 9e15 => Ok(x as i64),
-            _ => Err(property.wrong("an integer")),
+            _ => self.keep(property.wrong("an integer")).map(|()| default),
         }
     }
 
@@ -125,11 +168,9 @@ impl Element {
                 let message = format!(
                     "\"{name}\": expected an integer from {least} to {most}, found {found}"
                 );
-                Err(SceneError::new(
-                    ErrorKind::Parameter,
-                    &self.place_of(name),
-                    message,
-                ))
+                let place = self.place_of(name);
+                self.keep(SceneError::new(ErrorKind::Parameter, &place, message))?;
+                Ok(default)
             }
         }
     }
@@ -139,7 +180,7 @@ impl Element {
             None => Ok(default),
             Some(property) => match property.value {
                 Value::Boolean(x) => Ok(x),
-                _ => Err(property.wrong("a boolean")),
+                _ => self.keep(property.wrong("a boolean")).map(|()| default),
             },
         }
     }
@@ -149,7 +190,7 @@ impl Element {
             None => Ok(None),
             Some(property) => match &property.value {
                 Value::Text(text) => Ok(Some(text)),
-                _ => Err(property.wrong("a string")),
+                _ => self.keep(property.wrong("a string")).map(|()| None),
             },
         }
     }
@@ -159,7 +200,10 @@ impl Element {
             None => Ok(None),
             Some(property) => match property.value {
                 Value::Vector(v) => Ok(Some(v)),
-                _ => Err(property.wrong("a point or vector")),
+                _ => {
+                    let error = property.wrong("a point or vector");
+                    self.keep(error).map(|()| None)
+                }
             },
         }
     }
@@ -169,7 +213,10 @@ impl Element {
             None => Ok(DMat4::IDENTITY),
             Some(property) => match property.value {
                 Value::Transform(m) => Ok(m),
-                _ => Err(property.wrong("a transform")),
+                _ => {
+                    let error = property.wrong("a transform");
+                    self.keep(error).map(|()| DMat4::IDENTITY)
+                }
             },
         }
     }

@@ -5,12 +5,15 @@ use specula_bsdf::Rgb;
 
 use super::context::Context;
 use super::element::Element;
+use super::sensor::half_width;
 use super::spectrum::Use;
 use super::texture::unknown;
 use crate::error::SceneError;
 use crate::image::Encoding;
 use crate::num::f32_of;
-use crate::scene::{Emission, EnvironmentMapping, Light, SpotFalloff};
+use crate::scene::{
+    ColourParam, Emission, EnvironmentMapping, Light, Profile, SpotFalloff, Texture, Throw,
+};
 
 impl Context<'_> {
     /// The lights of an emitter that belongs to the scene.
@@ -102,14 +105,33 @@ impl Context<'_> {
             );
             return Err(element.error(message));
         }
-        if element.find("texture").is_some() {
+        let intensity = self.even_colour(element, "intensity", 1.0, Use::Emission)?;
+        if let ColourParam::Texture(texture) =
+            self.colour(element, "texture", 1.0, Use::Emission)?
+        {
+            if cone_angle_deg < 90.0 {
+                return Ok(Light::Picture {
+                    to_world,
+                    intensity: ColourParam::Texture(self.times(texture, intensity)),
+                    throw: Throw::Window {
+                        half: [cone_angle_deg.to_radians().tan(); 2],
+                        profile: Profile::Spot {
+                            cone_angle_deg,
+                            falloff_start_deg,
+                        },
+                    },
+                });
+            }
             let place = element.place_of("texture");
-            self.warn(&place, "the texture of a spot light is left out");
+            self.warn(
+                &place,
+                "the texture of a spot light of 90 degrees or more is left out",
+            );
         }
         Ok(Light::Spot {
             position: to_world.transform_point3(DVec3::ZERO).to_array(),
             axis: axis(element, &to_world, DVec3::Z)?,
-            intensity: self.even_colour(element, "intensity", 1.0, Use::Emission)?,
+            intensity,
             cone_angle_deg,
             falloff_start_deg,
             falloff: SpotFalloff::LinearAngle,
@@ -128,24 +150,43 @@ impl Context<'_> {
         })
     }
 
-    /// A spot light over the projector's field of view, without its picture.
+    /// A camera turned round: what it throws on the plane z = 1 is pi times its texture.
     fn projector(&mut self, element: &Element) -> Result<Light, SceneError> {
-        element.ignore(&["fov_axis", "focal_length", "near_clip", "far_clip"]);
-        let message = "emitter \"projector\" shines evenly over a cone, without its picture";
-        self.warn(&element.place, message);
+        element.ignore(&["near_clip", "far_clip"]);
         let to_world = element.transform("to_world")?;
         let irradiance = self.colour(element, "irradiance", 1.0, Use::Emission)?;
-        let brightness = self.brightness(irradiance);
-        let scale = f32_of(element.not_negative("scale", 1.0)?);
-        let cone_angle_deg = 0.5 * element.above_zero("fov", 45.0)?.min(179.0);
-        Ok(Light::Spot {
-            position: to_world.transform_point3(DVec3::ZERO).to_array(),
-            axis: axis(element, &to_world, DVec3::Z)?,
-            intensity: Rgb::splat(brightness * scale),
-            cone_angle_deg,
-            falloff_start_deg: cone_angle_deg,
-            falloff: SpotFalloff::LinearAngle,
+        let scale = core::f64::consts::PI * element.not_negative("scale", 1.0)?;
+        let factor = Rgb::splat(f32_of(scale));
+        let aspect = self.aspect(irradiance);
+        let half_width = half_width(element, aspect)?;
+        // Cameras have x to the left, and the rows of pictures run down.
+        let turned = DMat4::from_scale(DVec3::new(-1.0, -1.0, 1.0));
+        Ok(Light::Picture {
+            to_world: to_world * turned,
+            intensity: match irradiance {
+                ColourParam::Value(c) => ColourParam::Value(c * factor),
+                ColourParam::Texture(id) => ColourParam::Texture(self.times(id, factor)),
+            },
+            throw: Throw::Window {
+                half: [half_width, half_width / aspect],
+                profile: Profile::Irradiance,
+            },
         })
+    }
+
+    /// Width over height of a texture's picture; 1 for what is none.
+    fn aspect(&self, texture: ColourParam) -> f64 {
+        let ColourParam::Texture(id) = texture else {
+            return 1.0;
+        };
+        match self.textures[id.0] {
+            Texture::Image { image, .. } => {
+                let image = &self.images[image.0];
+                f64::from(image.width) / f64::from(image.height)
+            }
+            Texture::Scale { a, .. } => self.aspect(ColourParam::Texture(a)),
+            _ => 1.0,
+        }
     }
 }
 

@@ -75,13 +75,9 @@ pub const FEATURES: &[Feature] = &[
     full("emitter", "constant"),
     full("emitter", "envmap"),
     full("emitter", "point"),
-    close("emitter", "spot", "without its texture"),
+    full("emitter", "spot"),
     full("emitter", "directional"),
-    close(
-        "emitter",
-        "projector",
-        "an even spot light, without its picture",
-    ),
+    full("emitter", "projector"),
     close(
         "emitter",
         "sunsky",

@@ -72,7 +72,7 @@ impl Context<'_> {
         let pixels = u64::from(crop_width) * u64::from(crop_height);
         if pixels > self.limits.max_pixels {
             let message = format!(
-                "the picture has {pixels} pixels; at most {} are rendered",
+                "the picture has {pixels} pixels; at most {} are rendered (`max_pixels`)",
                 self.limits.max_pixels
             );
             return Err(SceneError::new(ErrorKind::Limit, &element.place, message));
@@ -170,13 +170,7 @@ impl Context<'_> {
             "emitter_samples",
             "bsdf_samples",
         ]);
-        if element.boolean("hide_emitters", false)? {
-            let place = element.place_of("hide_emitters");
-            self.warn(
-                &place,
-                "\"hide_emitters\": lights are seen by the camera here",
-            );
-        }
+        self.hide_emitters |= element.boolean("hide_emitters", false)?;
         match element.plugin.as_str() {
             "moment" | "aov" | "adaptive" | "irrcache" | "multichannel" | "stokes" => {
                 element.properties.iter().for_each(|p| p.used.set(true));

@@ -72,12 +72,26 @@ impl Meshes {
             .collect();
         let mut ready = Vec::new();
         let mut meshes = Vec::new();
-        for (result, (_, place)) in results.into_iter().zip(&self.sources) {
-            let Built {
+        for (result, (source, place)) in results.into_iter().zip(&self.sources) {
+            let built = result.map_err(|message| match source {
+                Source::File { path, .. } => {
+                    context.file_error(ErrorKind::Mesh, place, path, message)
+                }
+                _ => SceneError::new(ErrorKind::Mesh, place, message),
+            });
+            let built = context.problems.or(built.map(Some), || None)?;
+            let Some(Built {
                 mesh,
                 own_normals,
                 cleaning,
-            } = result.map_err(|m| SceneError::new(ErrorKind::Mesh, place, m))?;
+            }) = built
+            else {
+                ready.push(Ready {
+                    geometry: None,
+                    own_normals: false,
+                });
+                continue;
+            };
             report(context, place, &cleaning, mesh.triangles.is_empty());
             let geometry = (!mesh.triangles.is_empty()).then(|| {
                 meshes.push(mesh);
@@ -166,26 +180,15 @@ fn smooth_normals(mesh: &Mesh) -> Vec<[f32; 3]> {
 }
 
 fn report(context: &mut Context, place: &Place, cleaning: &Cleaning, empty: bool) {
-    let Cleaning {
-        dropped_triangles,
-        replaced_normals,
-        dropped_uvs,
-    } = *cleaning;
-    let mut say = |message: String| context.warn(place, message);
     if empty {
-        say("the mesh has no triangles with an area: it is left out".to_owned());
-    } else if dropped_triangles > 0 {
-        say(format!(
-            "{dropped_triangles} triangles without area are dropped"
-        ));
+        context.warn(
+            place,
+            "the mesh has no triangles with an area: it is left out",
+        );
+        return;
     }
-    if replaced_normals > 0 {
-        say(format!(
-            "{replaced_normals} normals are zero or not finite: geometric ones are used"
-        ));
-    }
-    if dropped_uvs {
-        say("surface coordinates are dropped: some are not finite".to_owned());
+    for message in cleaning.messages() {
+        context.warn(place, message);
     }
 }
 

@@ -28,6 +28,7 @@ mod layered;
 mod metal;
 mod microfacet;
 mod number;
+mod plain_value;
 mod primitive;
 mod principled;
 mod sensor;
@@ -46,7 +47,8 @@ use std::path::{Path, PathBuf};
 pub use features::FEATURES;
 
 use crate::error::SceneError;
-use crate::{Limits, Loaded};
+use crate::problems::Problems;
+use crate::{Limits, LoadOptions, Loaded};
 
 /// What a caller may add to a scene's file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -63,6 +65,20 @@ pub struct Options {
 ///
 /// Where the scene cannot be read, or a picture of it would be meaningless.
 pub fn read(path: &Path, limits: &Limits, options: &Options) -> Result<Loaded, SceneError> {
-    let document = document::read(path, limits, options)?;
-    assemble::assemble(document, limits)
+    let options = LoadOptions {
+        limits: *limits,
+        parameters: options.parameters.clone(),
+        folders: options.folders.clone(),
+    };
+    read_into(path, &options, &Problems::default())
+}
+
+/// [`read`] with a sink for errors.
+pub(crate) fn read_into(
+    path: &Path,
+    options: &LoadOptions,
+    problems: &Problems,
+) -> Result<Loaded, SceneError> {
+    let document = document::read(path, options, problems)?;
+    assemble::assemble(document, &options.limits)
 }

@@ -22,8 +22,8 @@ pub(super) fn rectangle() -> Mesh {
         ],
         normals: vec![[0.0, 0.0, 1.0]; 4],
         uvs: vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]],
-        colours: Vec::new(),
         triangles: vec![[1, 2, 0], [1, 3, 2]],
+        ..Mesh::default()
     }
 }
 

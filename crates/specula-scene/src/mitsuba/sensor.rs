@@ -80,7 +80,7 @@ impl Context<'_> {
 }
 
 /// Tangent of half the horizontal field of view.
-fn half_width(element: &Element, aspect: f64) -> Result<f64, SceneError> {
+pub(super) fn half_width(element: &Element, aspect: f64) -> Result<f64, SceneError> {
     let (fov_deg, axis) = if element.has("fov") {
         let axis = element.text("fov_axis")?.unwrap_or("x");
         (

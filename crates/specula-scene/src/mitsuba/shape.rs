@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use glam::{DMat4, DVec3};
+use specula_bsdf::Rgb;
 
 use super::bsdf::{Surface, grey};
 use super::context::Context;
@@ -13,8 +14,10 @@ use super::primitive;
 use super::texture::{Frame, unknown};
 use crate::error::{ErrorKind, Place, SceneError};
 use crate::num::f32_of;
+use crate::problems::NoteKind;
 use crate::scene::{
-    Emission, FloatParam, Geometry, Instance, Material, MaterialKind, Object, ObjectId, Shape,
+    ColourParam, Emission, FloatParam, Geometry, Instance, Material, MaterialKind, Object,
+    ObjectId, Shape,
 };
 
 /// A shape before meshes are read.
@@ -141,9 +144,16 @@ impl Shapes {
         let emission = match context.child(element, "emitter")? {
             Some(emitter) => {
                 context.frame = frame;
-                let emission = context.emission(&emitter);
+                let read = context.emission(&emitter).map(Some);
                 context.frame = Frame::Mesh;
-                Some(emission?)
+                let emission = emitter.or(read, || None)?;
+                let black = ColourParam::Value(Rgb::BLACK);
+                if emission.is_some_and(|e| e.radiance == black) {
+                    context.problems.note(NoteKind::Dark, &emitter.place, || {
+                        format!("this {} has no power", emitter.title())
+                    });
+                }
+                emission
             }
             None => None,
         };

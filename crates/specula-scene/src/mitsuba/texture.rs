@@ -81,10 +81,13 @@ impl Context<'_> {
         let Some(property) = element.find(name) else {
             return Ok(ColourParam::Value(Rgb::splat(default)));
         };
-        Ok(match self.value(element, property, Role::Colour(wanted))? {
-            Built::Value(c) => ColourParam::Value(c),
-            Built::Texture(id) => ColourParam::Texture(id),
-        })
+        let read = self.value(element, property, Role::Colour(wanted));
+        Ok(
+            match element.or(read, || Built::Value(Rgb::splat(default)))? {
+                Built::Value(c) => ColourParam::Value(c),
+                Built::Texture(id) => ColourParam::Texture(id),
+            },
+        )
     }
 
     /// A number or a texture of numbers.
@@ -97,7 +100,8 @@ impl Context<'_> {
         let Some(property) = element.find(name) else {
             return Ok(FloatParam::Value(default));
         };
-        let built = self.value(element, property, Role::Number)?;
+        let read = self.value(element, property, Role::Number);
+        let built = element.or(read, || Built::Value(Rgb::splat(default)))?;
         Ok(match built {
             Built::Value(c) => FloatParam::Value(c.r),
             Built::Texture(id) => FloatParam::Texture(id),
@@ -198,7 +202,8 @@ impl Context<'_> {
         if let Some(&id) = self.texture_ids.get(&key) {
             return Ok(Built::Texture(id));
         }
-        let built = self.new_texture(element, role)?;
+        let read = self.new_texture(element, role);
+        let built = element.or(read, || Built::Value(Rgb::splat(0.5)))?;
         if let Built::Texture(id) = built {
             self.texture_ids.insert(key, id);
         }

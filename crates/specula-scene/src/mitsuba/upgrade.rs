@@ -1,5 +1,7 @@
 //! The 0.6 dialect: names in camel case, and a few parameters that were called otherwise.
 
+use std::rc::Rc;
+
 use glam::{DMat4, DVec3};
 
 use super::element::{Element, Property};
@@ -56,7 +58,9 @@ fn gather_uv(element: &mut Element) {
     element
         .properties
         .retain(|p| !names.contains(&p.name.as_str()));
+    let damaged = Rc::clone(&element.damaged);
     element.properties.push(Property {
+        damaged,
         name: "to_uv".to_owned(),
         value: Value::Transform(DMat4::from_scale(scale) * DMat4::from_translation(offset)),
         place,

@@ -140,7 +140,8 @@ impl<'a> Reader<'a> {
             self.colours.push(colour.map(|c| c.max(0.0)));
         }
         if self.positions.len() as u64 > self.limits.max_vertices {
-            return Err(format!("more than {} vertices", self.limits.max_vertices));
+            let most = self.limits.max_vertices;
+            return Err(format!("more than {most} vertices (`max_vertices`)"));
         }
         Ok(())
     }
@@ -165,7 +166,9 @@ impl<'a> Reader<'a> {
         }
         let most = self.limits.max_vertices;
         if self.mesh.triangles.len() as u64 > most || self.keys.len() as u64 > most {
-            return Err(format!("more than {most} triangles or vertices"));
+            return Err(format!(
+                "more than {most} triangles or vertices (`max_vertices`)"
+            ));
         }
         Ok(())
     }

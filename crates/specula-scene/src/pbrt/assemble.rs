@@ -2,7 +2,9 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::context::Context;
+use specula_bsdf::Rgb;
+
+use super::context::{Context, Entity};
 use super::directive::{InstanceEntity, MaterialEntity, Reader};
 use super::geometry::{self, Kept};
 use super::shape::{self, ShapeEntity};
@@ -13,9 +15,10 @@ use crate::Loaded;
 use crate::bounds::{self, FARTHEST};
 use crate::error::{ErrorKind, Place, SceneError, Warning};
 use crate::mesh;
+use crate::problems::{NoteKind, is_dark};
 use crate::scene::{
-    FloatParam, Geometry, Instance, Material, MaterialId, MaterialKind, Mesh, Object, ObjectId,
-    Relief, Scene, Shape, TextureId,
+    ColourParam, Emission, FloatParam, Geometry, Instance, Material, MaterialId, MaterialKind,
+    Mesh, Object, ObjectId, Relief, Scene, Shape, TextureId,
 };
 
 /// Builds the scene.
@@ -39,7 +42,12 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
     let (geometries, meshes) = geometry::read(&mut context, &all)?;
     let mut lights = Vec::with_capacity(reader.lights.len());
     for (entity, to_world) in &reader.lights {
-        lights.push(light::read(&mut context, entity, *to_world)?);
+        let read = light::read(&mut context, entity, *to_world).map(Some);
+        let Some(light) = entity.or(read, || None)? else {
+            continue;
+        };
+        note_dark(&context, entity, is_dark(&light, &context.images));
+        lights.push(light);
         context.warn_unused(&entity.params);
     }
 
@@ -61,8 +69,14 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
     let mut context = builder.context;
 
     let instances = place_instances(&mut context, &reader.instances, &objects)?;
-    if shapes.is_empty() && instances.is_empty() {
-        return Err(nothing_left(&context, &end));
+    let problems = context.problems.clone();
+    if shapes.is_empty() && instances.is_empty() && !problems.has_errors() {
+        let error = nothing_left(&context, &end);
+        problems.keep_warnings(&mut context.warnings);
+        return Err(error);
+    }
+    if !problems.has_errors() {
+        context.note_unused_textures();
     }
     let scene = Scene {
         camera,
@@ -77,9 +91,12 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         instances,
         lights,
     };
-    scene
-        .validate()
-        .map_err(|e| SceneError::new(ErrorKind::Limit, &end, e.to_string()))?;
+    // What stands in for mistakes need not make a scene.
+    if !problems.has_errors() {
+        scene.each_fault(|fault| {
+            problems.keep(SceneError::new(ErrorKind::Limit, &end, fault.to_string()))
+        })?;
+    }
     if scene.lights.is_empty() && scene.shapes.iter().all(|s| s.emission.is_none()) {
         let message = "the scene has no light: the picture will be black";
         context.warnings.push(Warning::new(&end, message));
@@ -88,6 +105,15 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         scene,
         warnings: context.warnings,
     })
+}
+
+/// Notes a light without power.
+fn note_dark(context: &Context, entity: &Entity, is_dark: bool) {
+    if is_dark {
+        context.problems.note(NoteKind::Dark, &entity.place, || {
+            format!("this light \"{}\" has no power", shorten(&entity.name))
+        });
+    }
 }
 
 fn place_instances(
@@ -104,13 +130,13 @@ fn place_instances(
     for instance in entities {
         let Some(&i) = ids.get(instance.name.as_str()) else {
             let message = format!("no object \"{}\" is defined", shorten(&instance.name));
-            return Err(SceneError::new(
-                ErrorKind::UnknownName,
-                &instance.place,
-                message,
-            ));
+            let error = SceneError::new(ErrorKind::UnknownName, &instance.place, message);
+            context.problems.keep(error)?;
+            continue;
         };
-        if objects[i].shapes.is_empty() {
+        if objects[i].shapes.is_empty() && context.problems.has_errors() {
+            // Its shapes may have mistakes.
+        } else if objects[i].shapes.is_empty() {
             let message = "the object has no shapes: the instance is left out";
             context.warn(&instance.place, message);
         } else {
@@ -164,26 +190,28 @@ fn read_materials(
             }
         })
         .collect();
+    note_unused_names(context, entities, shapes);
     let mut list: Vec<Material> = Vec::new();
     let mut ids = Vec::new();
     let mut before: HashMap<&str, MaterialId> = HashMap::new();
     for (i, MaterialEntity { name, entity }) in entities.iter().enumerate() {
         if name.is_none() && !used.contains(&i) {
+            context.problems.note(NoteKind::Unused, &entity.place, || {
+                format!("no shape uses this material \"{}\"", shorten(&entity.name))
+            });
             ids.push(None);
             continue;
         }
-        let material = material::read(context, entity, &before)?;
+        let read = material::read(context, entity, &before);
+        let material = entity.or(read, || Material::new(material::DEFAULT))?;
         if let MaterialKind::Mix { materials, .. } = material.kind
             && materials
                 .iter()
                 .any(|m| list[m.0].kind == MaterialKind::Interface)
         {
             let message = "an \"interface\" cannot be part of a \"mix\"";
-            return Err(SceneError::new(
-                ErrorKind::Unsupported,
-                &entity.place,
-                message,
-            ));
+            let error = SceneError::new(ErrorKind::Unsupported, &entity.place, message);
+            context.problems.keep(error)?;
         }
         let id = MaterialId(list.len());
         if let Some(name) = name {
@@ -202,6 +230,30 @@ fn read_materials(
         default: None,
         named: named.clone(),
     })
+}
+
+/// Notes named materials that neither shapes nor mixes refer to.
+fn note_unused_names(context: &Context, entities: &[MaterialEntity], shapes: &[&ShapeEntity]) {
+    if !context.problems.is_check() {
+        return;
+    }
+    let mut used: HashSet<&str> = HashSet::new();
+    for shape in shapes {
+        if let MaterialUse::Named(name, _) = &shape.material {
+            used.insert(name);
+        }
+    }
+    for MaterialEntity { entity, .. } in entities {
+        let parts = entity.params.texts("materials", "string").unwrap_or(&[]);
+        used.extend(parts.iter().map(|(name, _)| name.as_str()));
+    }
+    for MaterialEntity { name, entity } in entities {
+        if let Some(name) = name.as_ref().filter(|n| !used.contains(n.as_str())) {
+            context.problems.note(NoteKind::Unused, &entity.place, || {
+                format!("nothing uses the material \"{}\"", shorten(name))
+            });
+        }
+    }
 }
 
 impl Materials {
@@ -257,6 +309,7 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
+    /// Shapes, without those that are left out.
     fn shapes(
         &mut self,
         entities: &[ShapeEntity],
@@ -264,51 +317,73 @@ impl Builder<'_> {
     ) -> Result<Vec<Shape>, SceneError> {
         let mut shapes = Vec::with_capacity(entities.len());
         for (shape, kept) in entities.iter().zip(geometries) {
-            // Its other faults count even where it is left out.
-            let mut material = self.materials.id(&shape.material)?;
-            if let Some(height) = shape::displacement(&mut self.context, &shape.entity)? {
-                material = self.materials.displaced(material, height);
-            }
-            let alpha = self
-                .context
-                .float_from_zero_or_none(&shape.entity.params, "alpha")?
-                .unwrap_or(FloatParam::Value(1.0));
-            let Some(geometry) = kept.geometry else {
-                continue;
-            };
-            self.context.warn_unused(&shape.entity.params);
-            let place = &shape.entity.place;
-            let reach = bounds::of_geometry(self.meshes, &geometry).transformed(&shape.to_world);
-            if reach.farthest() > FARTHEST {
-                let message = format!("the shape reaches beyond {FARTHEST:e} from the origin");
-                return Err(SceneError::new(ErrorKind::Limit, place, message));
-            }
-            let mut emission = None;
-            if let Some(entity) = &shape.area_light {
-                if self.materials.list[material.0].kind == MaterialKind::Interface {
-                    let message = "an \"interface\" emits nothing, as in pbrt-v4";
-                    self.context.warn(place, message);
-                } else {
-                    let area = self.area(&kept, &geometry, shape);
-                    let pieces = match geometry {
-                        Geometry::Mesh(id) => {
-                            kept.pieces.unwrap_or(self.meshes[id.0].triangles.len())
-                        }
-                        Geometry::Sphere { .. } | Geometry::Disk { .. } => 1,
-                    };
-                    emission = Some(light::area(&mut self.context, entity, area, pieces)?);
-                }
-            }
-            shapes.push(Shape {
-                geometry,
-                to_world: shape.to_world,
-                material,
-                emission,
-                reverse_orientation: shape.reverse_orientation,
-                alpha,
-            });
+            let built = self.shape(shape, &kept);
+            shapes.extend(shape.entity.or(built, || None)?);
         }
         Ok(shapes)
+    }
+
+    fn shape(&mut self, shape: &ShapeEntity, kept: &Kept) -> Result<Option<Shape>, SceneError> {
+        // Its other faults count even where it is left out.
+        let found = self.materials.id(&shape.material).map(Some);
+        let mut material = match self.context.problems.or(found, || None)? {
+            Some(id) => id,
+            None => self.materials.id(&MaterialUse::Default)?,
+        };
+        if let Some(height) = shape::displacement(&mut self.context, &shape.entity)? {
+            material = self.materials.displaced(material, height);
+        }
+        let alpha = self
+            .context
+            .float_from_zero_or_none(&shape.entity.params, "alpha")?
+            .unwrap_or(FloatParam::Value(1.0));
+        let Some(geometry) = kept.geometry else {
+            return Ok(None);
+        };
+        self.context.warn_unused(&shape.entity.params);
+        let place = &shape.entity.place;
+        let reach = bounds::of_geometry(self.meshes, &geometry).transformed(&shape.to_world);
+        if reach.farthest() > FARTHEST {
+            let message = format!("the shape reaches beyond {FARTHEST:e} from the origin");
+            return Err(SceneError::new(ErrorKind::Limit, place, message));
+        }
+        let mut emission = None;
+        if let Some(entity) = &shape.area_light {
+            if self.materials.list[material.0].kind == MaterialKind::Interface {
+                let message = "an \"interface\" emits nothing, as in pbrt-v4";
+                self.context.warn(place, message);
+            } else {
+                emission = self.emission(entity, shape, kept, &geometry)?;
+            }
+        }
+        Ok(Some(Shape {
+            geometry,
+            to_world: shape.to_world,
+            material,
+            emission,
+            reverse_orientation: shape.reverse_orientation,
+            alpha,
+        }))
+    }
+
+    /// The light of a shape.
+    fn emission(
+        &mut self,
+        entity: &Entity,
+        shape: &ShapeEntity,
+        kept: &Kept,
+        geometry: &Geometry,
+    ) -> Result<Option<Emission>, SceneError> {
+        let area = self.area(kept, geometry, shape);
+        let pieces = match *geometry {
+            Geometry::Mesh(id) => kept.pieces.unwrap_or(self.meshes[id.0].triangles.len()),
+            Geometry::Sphere { .. } | Geometry::Disk { .. } => 1,
+        };
+        let read = light::area(&mut self.context, entity, area, pieces).map(Some);
+        let emission = entity.or(read, || None)?;
+        let is_dark = emission.is_some_and(|e| e.radiance == ColourParam::Value(Rgb::BLACK));
+        note_dark(&self.context, entity, is_dark);
+        Ok(emission)
     }
 
     /// Area of a shape; quadrics before their transform, as pbrt-v4 takes it.

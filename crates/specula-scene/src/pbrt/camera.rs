@@ -11,9 +11,11 @@ use glam::{DMat4, DVec4};
 use super::context::{Context, Entity};
 use super::param::ParamList;
 use super::token::shorten;
+use crate::bounds::Bounds;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
 use crate::scene::{Camera, EnvironmentMapping, Film, Projection, Settings};
+use crate::stage;
 
 /// Entities by directive.
 pub(super) type Options = HashMap<&'static str, Entity>;
@@ -24,8 +26,35 @@ pub(super) fn read(
     options: &Options,
     camera_to_world: DMat4,
 ) -> Result<(Camera, Film, Settings), SceneError> {
+    let film = film::read(context, options);
+    let mut film = or(options.get("Film"), film, || stage::film([1280, 720]))?;
+    let camera = lens(context, options, camera_to_world, &mut film);
+    let camera = or(options.get("Camera"), camera, || {
+        stage::camera(Bounds::EMPTY, film.resolution)
+    })?;
+    Ok((camera, film, settings::read(context, options)?))
+}
+
+/// What was read of a directive, if there is one, or a stand-in where its mistakes are kept.
+fn or<T>(
+    entity: Option<&Entity>,
+    read: Result<T, SceneError>,
+    stand_in: impl FnOnce() -> T,
+) -> Result<T, SceneError> {
+    match entity {
+        Some(entity) => entity.or(read, stand_in),
+        None => read,
+    }
+}
+
+/// Reads the camera; its shutter becomes part of the film's exposure.
+fn lens(
+    context: &mut Context,
+    options: &Options,
+    camera_to_world: DMat4,
+    film: &mut Film,
+) -> Result<Camera, SceneError> {
     let none = ParamList::default();
-    let mut film = film::read(context, options)?;
     let entity = options.get("Camera");
     let params = entity.map_or(&none, |e| &e.params);
     let time = exposure_time(entity, params)?;
@@ -48,7 +77,7 @@ pub(super) fn read(
         }
         ("realistic", Some(entity)) => {
             let diagonal_mm = film::diagonal_mm(options)?;
-            realistic::read(context, entity, diagonal_mm, &mut camera, &mut film)?;
+            realistic::read(context, entity, diagonal_mm, &mut camera, film)?;
         }
         (other, entity) => {
             let message = format!("unknown camera \"{}\"", shorten(other));
@@ -61,7 +90,7 @@ pub(super) fn read(
     }
     film.exposure *= f32_of(time);
     context.warn_unused(params);
-    Ok((camera, film, settings::read(context, options)?))
+    Ok(camera)
 }
 
 fn exposure_time(entity: Option<&Entity>, params: &ParamList) -> Result<f64, SceneError> {

@@ -67,6 +67,11 @@ pub(super) fn colour(
     let Some(param) = params.find(name) else {
         return Ok(None);
     };
+    let read = read(context, param, name);
+    read.or_else(|error| params.keep(error).map(|()| None))
+}
+
+fn read(context: &Context, param: &Param, name: &str) -> Result<Option<Colour>, SceneError> {
     match (param.kind, &param.values) {
         ("rgb", Values::Numbers(numbers)) => {
             let [r, g, b] = numbers.as_slice() else {
@@ -249,12 +254,16 @@ fn read_spectrum(context: &Context, param: &Param) -> Result<(Spectrum, Ends), S
 fn spectrum_file(context: &Context, name: &str, place: &Place) -> Result<Spectrum, SceneError> {
     let path = context.resolve(name);
     let bytes = plain_bytes(&path, &context.limits).map_err(|e| {
+        let expected = "expected a name such as metal-Au-eta or glass-BK7, or a .spd file";
+        let help = match context.search.hint(&path) {
+            Some(hint) => format!("{expected}; {hint}"),
+            None => expected.to_owned(),
+        };
         let message = format!(
             "\"{}\" is no known spectrum, nor a file that can be read: it {e}",
             shorten(name)
         );
-        SceneError::new(ErrorKind::Spectrum, place, message)
-            .with_help("expected a name such as metal-Au-eta or glass-BK7, or a .spd file")
+        SceneError::new(ErrorKind::Spectrum, place, message).with_help(help)
     })?;
     let text = String::from_utf8_lossy(&bytes).into_owned();
     spectrum::parse_spd(&text).map_err(|e| {

@@ -1,5 +1,6 @@
 //! What all kinds of directives share: warnings, file names, pictures and textures by name.
 
+use std::cell::Cell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -7,11 +8,13 @@ use specula_bsdf::Rgb;
 
 use super::param::{Param, ParamList, Values};
 use super::token::shorten;
-use crate::Limits;
 use crate::error::{ErrorKind, Place, SceneError, Warning};
 use crate::image::{self, Content, Encoding, Image};
 use crate::num::f32_of;
+use crate::problems::{NoteKind, Problems};
 use crate::scene::{FloatParam, ImageId, Texture, TextureId};
+use crate::search::Search;
+use crate::{Limits, LoadOptions};
 
 /// A directive with a name and parameters.
 #[derive(Clone, Debug)]
@@ -20,6 +23,24 @@ pub(super) struct Entity {
     /// Where the name stands.
     pub(super) place: Place,
     pub(super) params: ParamList,
+}
+
+impl Entity {
+    /// What was read of it, or a stand-in where its mistakes are kept.
+    ///
+    /// # Errors
+    ///
+    /// That of `read`, in an ordinary load.
+    pub(super) fn or<T>(
+        &self,
+        read: Result<T, SceneError>,
+        stand_in: impl FnOnce() -> T,
+    ) -> Result<T, SceneError> {
+        read.or_else(|error| {
+            self.params.keep_unless_damaged(error)?;
+            Ok(stand_in())
+        })
+    }
 }
 
 /// A picture to be read, and the first place that asks for it.
@@ -32,37 +53,76 @@ pub(super) struct ImageJob {
 
 impl ImageJob {
     /// Reads the picture.
-    pub(super) fn read(&self, limits: &Limits) -> Result<Image, SceneError> {
-        image::read(&self.path, self.encoding, self.content, limits)
-            .map_err(|message| SceneError::new(ErrorKind::Image, &self.place, message))
+    pub(super) fn read(&self, limits: &Limits, search: &Search) -> Result<Image, SceneError> {
+        image::read(&self.path, self.encoding, self.content, limits).map_err(|message| {
+            SceneError::new(ErrorKind::Image, &self.place, message)
+                .with_hint(search.hint(&self.path))
+        })
+    }
+}
+
+/// A name of a file that is defined once and may be referred to.
+pub(super) struct Named {
+    id: TextureId,
+    place: Place,
+    used: Cell<bool>,
+}
+
+/// Textures of a kind by name.
+#[derive(Default)]
+pub(super) struct Textures(HashMap<String, Named>);
+
+impl Textures {
+    /// Makes a texture known; `false` where its name was taken.
+    pub(super) fn define(&mut self, name: String, id: TextureId, place: Place) -> bool {
+        let used = Cell::new(false);
+        self.0.insert(name, Named { id, place, used }).is_none()
+    }
+
+    /// The texture of a name, which then counts as used.
+    fn get(&self, name: &str) -> Option<TextureId> {
+        let named = self.0.get(name)?;
+        named.used.set(true);
+        Some(named.id)
+    }
+
+    /// Notes what nothing refers to.
+    fn note_unused(&self, kind: &str, problems: &Problems) {
+        for (name, named) in self.0.iter().filter(|(_, n)| !n.used.get()) {
+            problems.note(NoteKind::Unused, &named.place, || {
+                format!("nothing uses the {kind} texture \"{}\"", shorten(name))
+            });
+        }
     }
 }
 
 /// Shared state of the reader.
 pub(super) struct Context {
     pub(super) limits: Limits,
+    pub(super) problems: Problems,
+    /// pbrt-v4 resolves every file name against the folder of the scene's main file.
+    pub(super) search: Search,
     pub(super) warnings: Vec<Warning>,
     pub(super) textures: Vec<Texture>,
     pub(super) images: Vec<Image>,
-    pub(super) float_textures: HashMap<String, TextureId>,
-    pub(super) colour_textures: HashMap<String, TextureId>,
-    /// pbrt-v4 resolves every file name against the folder of the scene's main file.
-    folder: PathBuf,
+    pub(super) float_textures: Textures,
+    pub(super) colour_textures: Textures,
     image_ids: HashMap<(PathBuf, String, Content), ImageId>,
     /// Pictures that are asked for and not read yet.
     image_jobs: Vec<ImageJob>,
 }
 
 impl Context {
-    pub(super) fn new(main: &Path, limits: Limits) -> Self {
+    pub(super) fn new(main: &Path, options: &LoadOptions, problems: &Problems) -> Self {
         Self {
-            limits,
+            limits: options.limits,
+            problems: problems.clone(),
+            search: Search::new(main, &options.folders),
             warnings: Vec::new(),
             textures: Vec::new(),
             images: Vec::new(),
-            float_textures: HashMap::new(),
-            colour_textures: HashMap::new(),
-            folder: main.parent().map(Path::to_owned).unwrap_or_default(),
+            float_textures: Textures::default(),
+            colour_textures: Textures::default(),
             image_ids: HashMap::new(),
             image_jobs: Vec::new(),
         }
@@ -77,7 +137,7 @@ impl Context {
     }
 
     pub(super) fn resolve(&self, name: &str) -> PathBuf {
-        self.folder.join(name)
+        self.search.find(name)
     }
 
     /// The picture in a file, to be read once for each way of reading it.
@@ -135,11 +195,15 @@ impl Context {
             return Ok(None);
         };
         if param.kind == "texture" {
-            let id = self.texture_named(param, &self.float_textures, "float")?;
+            let id = match self.texture_named(param, &self.float_textures, "float") {
+                Ok(id) => id,
+                Err(error) => return params.keep(error).map(|()| None),
+            };
             return Ok(Some(FloatParam::Texture(id)));
         }
         if param.kind != "float" {
-            return Err(param.wrong_type(&["float", "texture"]));
+            let error = param.wrong_type(&["float", "texture"]);
+            return params.keep(error).map(|()| None);
         }
         Ok(Some(FloatParam::Value(f32_of(params.float(name, 0.0)?))))
     }
@@ -163,7 +227,7 @@ impl Context {
     pub(super) fn texture_named(
         &self,
         param: &Param,
-        textures: &HashMap<String, TextureId>,
+        textures: &Textures,
         kind: &str,
     ) -> Result<TextureId, SceneError> {
         let Values::Texts(texts) = &param.values else {
@@ -172,13 +236,19 @@ impl Context {
         let [(name, place)] = texts.as_slice() else {
             return Err(param.wrong_type(&["texture"]));
         };
-        textures.get(name).copied().ok_or_else(|| {
+        textures.get(name).ok_or_else(|| {
             let message = format!(
                 "no {kind} texture \"{}\" is defined before this",
                 shorten(name)
             );
             SceneError::new(ErrorKind::UnknownName, place, message)
         })
+    }
+
+    /// Notes textures that nothing refers to.
+    pub(super) fn note_unused_textures(&self) {
+        self.float_textures.note_unused("float", &self.problems);
+        self.colour_textures.note_unused("spectrum", &self.problems);
     }
 
     /// A texture of one value.

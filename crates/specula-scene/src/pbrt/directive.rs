@@ -11,8 +11,10 @@ use super::param::ParamList;
 use super::shape::ShapeEntity;
 use super::state::{ATTRIBUTE_TARGETS, State};
 use super::token::{TokenKind, Tokens, describe, shorten};
-use crate::Limits;
+use super::unknown;
+use crate::LoadOptions;
 use crate::error::{ErrorKind, Place, SceneError, Source};
+use crate::problems::Problems;
 use crate::read_file::read_bytes;
 use crate::spectrum::{COLOUR_SPACES, ColourSpace};
 
@@ -85,6 +87,10 @@ pub(super) struct Reader {
     /// Saved states with the directive and the place that saved them.
     pub(super) stack: Vec<(&'static str, Place, State)>,
     pub(super) in_world: bool,
+    /// Whether a check met the world's directives before `WorldBegin`.
+    is_early: bool,
+    /// Whether a check gave up reading.
+    stopped: bool,
     pub(super) in_object: bool,
     pub(super) coordinate_systems: HashMap<String, [DMat4; 2]>,
     pub(super) media: Vec<String>,
@@ -95,9 +101,9 @@ pub(super) struct Reader {
 }
 
 impl Reader {
-    pub(super) fn new(main: &Path, limits: Limits) -> Self {
+    pub(super) fn new(main: &Path, options: &LoadOptions, problems: &Problems) -> Self {
         Self {
-            context: Context::new(main, limits),
+            context: Context::new(main, options, problems),
             options: HashMap::new(),
             camera_to_world: DMat4::IDENTITY,
             materials: Vec::new(),
@@ -110,6 +116,8 @@ impl Reader {
             state: State::new(),
             stack: Vec::new(),
             in_world: false,
+            is_early: false,
+            stopped: false,
             in_object: false,
             coordinate_systems: HashMap::new(),
             media: Vec::new(),
@@ -122,14 +130,19 @@ impl Reader {
     /// Reads the main file.
     pub(super) fn read_main(&mut self, path: &Path) -> Result<(), SceneError> {
         self.end = self.read_file(path, None)?;
-        if let Some((directive, place, _)) = self.stack.last() {
-            let message = format!("`{directive}` is never closed");
-            return Err(SceneError::new(ErrorKind::Structure, place, message));
+        if self.stopped {
+            return Ok(());
         }
-        if !self.in_world {
+        let problems = &self.context.problems;
+        for (directive, place, _) in self.stack.iter().rev() {
+            let message = format!("`{directive}` is never closed");
+            problems.keep(SceneError::new(ErrorKind::Structure, place, message))?;
+        }
+        if !self.in_world && !self.is_early {
             let message = "the file ends without `WorldBegin`";
-            return Err(SceneError::new(ErrorKind::Structure, &self.end, message)
-                .with_help("lights, materials and shapes stand after `WorldBegin`"));
+            let error = SceneError::new(ErrorKind::Structure, &self.end, message)
+                .with_help("lights, materials and shapes stand after `WorldBegin`");
+            problems.keep(error)?;
         }
         Ok(())
     }
@@ -144,6 +157,7 @@ impl Reader {
                 place,
                 format!("{} {message}", path.display()),
             )
+            .with_hint(from.and_then(|_| self.context.search.hint(path)))
         };
         let identity = path
             .canonicalize()
@@ -161,7 +175,7 @@ impl Reader {
         self.files += 1;
         let deepest = self.context.limits.max_depth;
         if self.reading.len() > deepest {
-            let message = format!("files are included more than {deepest} deep");
+            let message = format!("files are included more than {deepest} deep (`max_depth`)");
             return Err(SceneError::new(ErrorKind::Limit, place, message));
         }
         if self.files > MAX_FILES {
@@ -171,17 +185,51 @@ impl Reader {
         let bytes = read_bytes(path, &self.context.limits).map_err(unreadable)?;
         let source = decode(path, bytes)?;
         self.reading.push(identity);
-        let mut tokens = Tokens::new(&source);
-        while let Some(token) = tokens.next()? {
-            let place = tokens.place(&token);
-            let TokenKind::Word(word) = token.kind else {
-                let message = format!("expected a directive, found {}", describe(&token.kind));
-                return Err(SceneError::new(ErrorKind::Syntax, &place, message));
-            };
-            self.directive(word, &place, &mut tokens)?;
+        let mut tokens = Tokens::new(&source, self.context.problems.clone());
+        while !self.stopped {
+            let start = tokens.look().1;
+            match self.next_directive(&mut tokens) {
+                Ok(true) => {}
+                Ok(false) => break,
+                Err(error) => {
+                    let mistake = error.place().clone();
+                    // What is too large for a render is too large for a check.
+                    let is_limit = error.kind() == ErrorKind::Limit;
+                    self.context.problems.keep(error)?;
+                    self.stopped |= is_limit;
+                    tokens.recover(
+                        &mistake,
+                        &start,
+                        |kind| matches!(kind, TokenKind::Word(w) if unknown::is_directive(w)),
+                    );
+                }
+            }
         }
         self.reading.pop();
         Ok(tokens.end())
+    }
+
+    /// Follows the next directive; `false` at the end of the file.
+    fn next_directive(&mut self, tokens: &mut Tokens<'_>) -> Result<bool, SceneError> {
+        let Some(token) = tokens.next()? else {
+            return Ok(false);
+        };
+        let place = tokens.place(&token);
+        let TokenKind::Word(word) = token.kind else {
+            let message = format!("expected a directive, found {}", describe(&token.kind));
+            return Err(SceneError::new(ErrorKind::Syntax, &place, message));
+        };
+        match self.directive(word, &place, tokens) {
+            Err(error) if error.kind() == ErrorKind::UnknownDirective => {
+                let Some(meant) = unknown::meant(word) else {
+                    return Err(error);
+                };
+                self.context.problems.keep(error)?;
+                self.directive(meant, &place, tokens)?;
+            }
+            other => other?,
+        }
+        Ok(true)
     }
 
     fn directive(
@@ -301,13 +349,14 @@ impl Reader {
             "ObjectBegin" => {
                 let (name, place) = tokens.expect_text("the name of an object")?;
                 self.expect_world(word, &place)?;
+                let problems = &self.context.problems;
                 if self.in_object {
                     let message = "`ObjectBegin` within an object";
-                    return Err(SceneError::new(ErrorKind::Structure, &place, message));
+                    problems.keep(SceneError::new(ErrorKind::Structure, &place, message))?;
                 }
                 if self.objects.iter().any(|o| o.name == name) {
                     let message = format!("object \"{}\" is defined twice", shorten(&name));
-                    return Err(SceneError::new(ErrorKind::Duplicate, &place, message));
+                    problems.keep(SceneError::new(ErrorKind::Duplicate, &place, message))?;
                 }
                 self.push("ObjectBegin", &place)?;
                 self.in_object = true;
@@ -316,10 +365,7 @@ impl Reader {
                     shapes: Vec::new(),
                 });
             }
-            "ObjectEnd" => {
-                self.pop("ObjectBegin", word, place)?;
-                self.in_object = false;
-            }
+            "ObjectEnd" => self.pop("ObjectBegin", word, place)?,
             _ => return Ok(false),
         }
         Ok(true)
@@ -329,7 +375,7 @@ impl Reader {
         // Blocks nest deeper than files do.
         let deepest = self.context.limits.max_depth.saturating_mul(16);
         if self.stack.len() >= deepest {
-            let message = format!("blocks are nested more than {deepest} deep");
+            let message = format!("blocks are nested more than {deepest} deep (`max_depth`)");
             return Err(SceneError::new(ErrorKind::Limit, place, message));
         }
         self.stack
@@ -338,20 +384,26 @@ impl Reader {
     }
 
     fn pop(&mut self, begin: &str, end: &str, place: &Place) -> Result<(), SceneError> {
-        match self.stack.pop() {
-            Some((directive, _, state)) if directive == begin => {
-                self.state = state;
-                Ok(())
-            }
+        let message = match self.stack.last() {
+            Some((directive, ..)) if *directive == begin => None,
             Some((directive, opened, _)) => {
-                let message = format!("`{end}` does not close `{directive}` of {opened}");
-                Err(SceneError::new(ErrorKind::Structure, place, message))
+                Some(format!("`{end}` does not close `{directive}` of {opened}"))
             }
-            None => {
-                let message = format!("`{end}` without `{begin}`");
-                Err(SceneError::new(ErrorKind::Structure, place, message))
+            None => Some(format!("`{end}` without `{begin}`")),
+        };
+        if let Some(message) = message {
+            let error = SceneError::new(ErrorKind::Structure, place, message);
+            self.context.problems.keep(error)?;
+        }
+        // Blocks within that are still open end here; where nothing was opened, nothing ends.
+        if let Some(i) = self.stack.iter().rposition(|(d, ..)| *d == begin) {
+            self.stack.truncate(i + 1);
+            if let Some((.., state)) = self.stack.pop() {
+                self.state = state;
             }
         }
+        self.in_object = self.stack.iter().any(|(d, ..)| *d == "ObjectBegin");
+        Ok(())
     }
 
     fn option(
@@ -386,12 +438,16 @@ impl Reader {
         })
     }
 
-    pub(super) fn expect_world(&self, word: &str, place: &Place) -> Result<(), SceneError> {
-        if self.in_world {
+    pub(super) fn expect_world(&mut self, word: &str, place: &Place) -> Result<(), SceneError> {
+        if self.in_world || self.is_early {
             return Ok(());
         }
         let message = format!("`{word}` before `WorldBegin`; expected it after");
-        Err(SceneError::new(ErrorKind::Structure, place, message))
+        let error = SceneError::new(ErrorKind::Structure, place, message);
+        self.context.problems.keep(error)?;
+        // Once is enough for all that follows.
+        self.is_early = true;
+        Ok(())
     }
 }
 

@@ -168,16 +168,8 @@ pub(crate) const FEATURES: &[Feature] = &[
     full("light", "distant"),
     full("light", "point"),
     full("light", "spot"),
-    near(
-        "light",
-        "goniometric",
-        "a point light of its mean intensity",
-    ),
-    near(
-        "light",
-        "projection",
-        "a spot light of its mean colour and angle",
-    ),
+    full("light", "goniometric"),
+    full("light", "projection"),
     full("area light", "diffuse"),
     near(
         "area light",

@@ -9,6 +9,7 @@ use super::context::Context;
 use super::shape::{Prepared, Recipe, ShapeEntity, prepare};
 use crate::Limits;
 use crate::error::{ErrorKind, Place, SceneError};
+use crate::image::Image;
 use crate::mesh::{self, Cleaning};
 use crate::ply;
 use crate::scene::{Geometry, Mesh, MeshId};
@@ -31,6 +32,15 @@ enum Source {
     Recipe(Recipe),
 }
 
+impl Source {
+    fn path(&self) -> Option<PathBuf> {
+        match self {
+            Self::File(path) => Some(path.clone()),
+            Self::Mesh(_) | Self::Recipe(_) => None,
+        }
+    }
+}
+
 /// A mesh to be read, made or checked, and the first place that asks for it.
 struct Job {
     source: Source,
@@ -41,6 +51,8 @@ struct Job {
 enum Slot {
     Job(usize),
     Ready(Geometry),
+    /// A shape with a mistake.
+    Nothing,
 }
 
 /// What is to be done, without repetition.
@@ -92,7 +104,12 @@ pub(super) fn read(
     for shape in shapes {
         let entity = &shape.entity;
         let (mut own_area, mut pieces) = (None, None);
-        let slot = match prepare(context, entity)? {
+        let prepared = prepare(context, entity).map(Some);
+        let Some(prepared) = entity.or(prepared, || None)? else {
+            slots.push((Slot::Nothing, own_area, pieces));
+            continue;
+        };
+        let slot = match prepared {
             Prepared::Sphere { radius } => Slot::Ready(Geometry::Sphere { radius }),
             Prepared::Disk { radius, height } => Slot::Ready(Geometry::Disk { radius, height }),
             Prepared::Mesh(mesh) => Slot::Job(jobs.add(Source::Mesh(mesh), &entity.place)),
@@ -112,22 +129,40 @@ pub(super) fn read(
     }
     let limits = context.limits;
     let pictures = context.take_image_jobs();
-    let places: Vec<Place> = jobs.list.iter().map(|j| j.place.clone()).collect();
+    let search = context.search.clone();
+    let places: Vec<(Place, Option<PathBuf>)> = jobs
+        .list
+        .iter()
+        .map(|job| (job.place.clone(), job.source.path()))
+        .collect();
     // The order of results is that of the jobs, whatever the threads do.
     let (results, images) = rayon::join(
         || -> Vec<_> {
             let list = jobs.list.into_par_iter();
             list.map(|j| make(j.source, &limits)).collect()
         },
-        || -> Vec<_> { pictures.par_iter().map(|p| p.read(&limits)).collect() },
+        || -> Vec<_> {
+            let pictures = pictures.par_iter();
+            pictures.map(|p| p.read(&limits, &search)).collect()
+        },
     );
     for image in images {
-        context.images.push(image?);
+        let image = context.problems.or(image, Image::stand_in)?;
+        context.images.push(image);
     }
     let mut meshes = Vec::new();
     let mut ids = Vec::new();
-    for (result, place) in results.into_iter().zip(&places) {
-        let (mesh, cleaning) = result.map_err(|m| SceneError::new(ErrorKind::Mesh, place, m))?;
+    for (result, (place, path)) in results.into_iter().zip(&places) {
+        let (mesh, cleaning) = match result {
+            Ok(made) => made,
+            Err(message) => {
+                let hint = path.as_ref().and_then(|p| context.search.hint(p));
+                let error = SceneError::new(ErrorKind::Mesh, place, message).with_hint(hint);
+                context.problems.keep(error)?;
+                ids.push(None);
+                continue;
+            }
+        };
         report(context, place, &cleaning, mesh.triangles.is_empty());
         ids.push((!mesh.triangles.is_empty()).then_some(Geometry::Mesh(MeshId(meshes.len()))));
         if !mesh.triangles.is_empty() {
@@ -138,6 +173,7 @@ pub(super) fn read(
         geometry: match slot {
             Slot::Job(i) => ids[i],
             Slot::Ready(geometry) => Some(geometry),
+            Slot::Nothing => None,
         },
         own_area,
         pieces,
@@ -164,35 +200,15 @@ fn make(source: Source, limits: &Limits) -> Result<(Mesh, Cleaning), String> {
 }
 
 fn report(context: &mut Context, place: &Place, cleaning: &Cleaning, empty: bool) {
-    let Cleaning {
-        dropped_triangles,
-        replaced_normals,
-        dropped_uvs,
-    } = *cleaning;
     if empty {
-        let message = if dropped_triangles > 0 {
-            format!("all {dropped_triangles} triangles of the mesh have no area: it is left out")
-        } else {
-            "the mesh has no triangles: it is left out".to_owned()
+        let message = match cleaning.dropped_triangles {
+            0 => "the mesh has no triangles: it is left out".to_owned(),
+            n => format!("all {n} triangles of the mesh have no area: it is left out"),
         };
         context.warn(place, message);
         return;
     }
-    if dropped_triangles > 0 {
-        context.warn(
-            place,
-            format!("{dropped_triangles} triangles without area are dropped"),
-        );
-    }
-    if replaced_normals > 0 {
-        let message =
-            format!("{replaced_normals} normals are zero or not finite: geometric ones are used");
+    for message in cleaning.messages() {
         context.warn(place, message);
-    }
-    if dropped_uvs {
-        context.warn(
-            place,
-            "surface coordinates are dropped: some are not finite",
-        );
     }
 }

@@ -28,17 +28,21 @@ use std::path::Path;
 pub(crate) use features::FEATURES;
 pub(crate) use state::check as check_transform;
 
-use crate::Limits;
-use crate::Loaded;
 use crate::error::SceneError;
+use crate::problems::Problems;
+use crate::{LoadOptions, Loaded};
 
 /// Reads the scene in `path` and all that it refers to.
 ///
 /// # Errors
 ///
 /// Where the scene cannot be read, or a picture of it would be meaningless.
-pub(crate) fn read(path: &Path, limits: &Limits) -> Result<Loaded, SceneError> {
-    let mut reader = directive::Reader::new(path, *limits);
+pub(crate) fn read(
+    path: &Path,
+    options: &LoadOptions,
+    problems: &Problems,
+) -> Result<Loaded, SceneError> {
+    let mut reader = directive::Reader::new(path, options, problems);
     reader.read_main(path)?;
     assemble::assemble(reader)
 }

@@ -4,7 +4,9 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use super::token::{Token, TokenKind, Tokens, describe, shorten};
+use super::unknown;
 use crate::error::{ErrorKind, Place, SceneError, Warning};
+use crate::problems::Problems;
 use crate::spectrum::ColourSpace;
 
 /// Values of one parameter.
@@ -56,30 +58,64 @@ pub(super) struct ParamList {
     own: Vec<Rc<Param>>,
     /// From `Attribute`: looked up after `own`, and never reported as unused.
     inherited: Vec<Rc<Param>>,
+    problems: Problems,
+    /// Whether a mistake was kept: others may follow from it.
+    damaged: Cell<bool>,
 }
 
 impl ParamList {
     /// Reads parameters up to the next directive; RGB values are meant in `space`.
     pub(super) fn read(tokens: &mut Tokens<'_>, space: ColourSpace) -> Result<Self, SceneError> {
-        let mut own: Vec<Rc<Param>> = Vec::new();
-        while matches!(
-            tokens.peek()?,
-            Some(Token {
-                kind: TokenKind::Text(_),
-                ..
-            })
-        ) {
-            let param = read_param(tokens, space)?;
-            if own.iter().any(|p| p.name == param.name) {
-                let message = format!("parameter \"{}\" is given twice", param.name);
-                return Err(SceneError::new(ErrorKind::Duplicate, &param.place, message));
+        let mut list = Self {
+            problems: tokens.problems.clone(),
+            ..Self::default()
+        };
+        loop {
+            let (next, start) = tokens.look();
+            let param = match next.map(|token| token.map(|t| &t.kind)) {
+                Ok(Some(TokenKind::Text(_))) => read_param(tokens, space),
+                Ok(_) => return Ok(list),
+                Err(error) => Err(error),
+            };
+            match param {
+                Ok(param) if list.own.iter().any(|p| p.name == param.name) => {
+                    let message = format!("parameter \"{}\" is given twice", param.name);
+                    list.keep(SceneError::new(ErrorKind::Duplicate, &param.place, message))?;
+                }
+                Ok(param) => list.own.push(Rc::new(param)),
+                Err(error) => {
+                    let mistake = error.place().clone();
+                    list.keep(error)?;
+                    tokens.recover(&mistake, &start, |kind| match kind {
+                        TokenKind::Text(text) => is_declaration(text),
+                        TokenKind::Word(word) => unknown::is_directive(word),
+                        TokenKind::Open | TokenKind::Close => false,
+                    });
+                }
             }
-            own.push(Rc::new(param));
         }
-        Ok(Self {
-            own,
-            inherited: Vec::new(),
-        })
+    }
+
+    /// Keeps a mistake in one of the parameters.
+    ///
+    /// # Errors
+    ///
+    /// The mistake, in an ordinary load.
+    pub(super) fn keep(&self, error: SceneError) -> Result<(), SceneError> {
+        self.damaged.set(true);
+        self.problems.keep(error)
+    }
+
+    /// Keeps a mistake in what the parameters describe, unless it may follow from one that is kept.
+    ///
+    /// # Errors
+    ///
+    /// The mistake, in an ordinary load.
+    pub(super) fn keep_unless_damaged(&self, error: SceneError) -> Result<(), SceneError> {
+        if self.damaged.get() && self.problems.is_check() {
+            return Ok(());
+        }
+        self.keep(error)
     }
 
     pub(super) fn with_inherited(mut self, inherited: &[Rc<Param>]) -> Self {
@@ -127,7 +163,7 @@ impl ParamList {
         };
         match &param.values {
             Values::Numbers(numbers) if kinds.contains(&param.kind) => Ok(Some(numbers)),
-            _ => Err(param.wrong_type(kinds)),
+            _ => self.keep(param.wrong_type(kinds)).map(|()| None),
         }
     }
 
@@ -145,7 +181,8 @@ impl ParamList {
             Err(_) => {
                 let place = self.place_of(name);
                 let message = format!("\"{name}\": expected {N} numbers, found {}", numbers.len());
-                Err(SceneError::new(ErrorKind::Parameter, &place, message))
+                let error = SceneError::new(ErrorKind::Parameter, &place, message);
+                self.keep(error).map(|()| None)
             }
         }
     }
@@ -177,11 +214,8 @@ impl ParamList {
             return Ok(x);
         }
         let message = format!("\"{name}\": expected a number above {limit}, found {x}");
-        Err(SceneError::new(
-            ErrorKind::Parameter,
-            &self.place_of(name),
-            message,
-        ))
+        self.keep(self.wrong(name, message))?;
+        Ok(default)
     }
 
     /// A number that must not be negative.
@@ -191,11 +225,8 @@ impl ParamList {
             return Ok(x);
         }
         let message = format!("\"{name}\": expected a number that is not negative, found {x}");
-        Err(SceneError::new(
-            ErrorKind::Parameter,
-            &self.place_of(name),
-            message,
-        ))
+        self.keep(self.wrong(name, message))?;
+        Ok(default)
     }
 
     /// An integer within `range`.
@@ -212,11 +243,8 @@ impl ParamList {
                 let (low, high) = (range.start(), range.end());
                 let message =
                     format!("\"{name}\": expected an integer from {low} to {high}, found {x}");
-                Err(SceneError::new(
-                    ErrorKind::Parameter,
-                    &self.place_of(name),
-                    message,
-                ))
+                self.keep(self.wrong(name, message))?;
+                Ok(default)
             }
         }
     }
@@ -227,7 +255,7 @@ impl ParamList {
         };
         match &param.values {
             Values::Bools(values) if values.len() == 1 => Ok(values[0]),
-            _ => Err(param.wrong_type(&["bool"])),
+            _ => self.keep(param.wrong_type(&["bool"])).map(|()| default),
         }
     }
 
@@ -238,7 +266,10 @@ impl ParamList {
         };
         match &param.values {
             Values::Texts(texts) if param.kind == kind => Ok(texts),
-            _ => Err(param.wrong_type(&[kind])),
+            _ => {
+                self.keep(param.wrong_type(&[kind]))?;
+                Ok(&[])
+            }
         }
     }
 
@@ -248,9 +279,15 @@ impl ParamList {
             [(text, place)] => Ok(Some((text, place))),
             [_, (_, place), ..] => {
                 let message = format!("\"{name}\": expected one string");
-                Err(SceneError::new(ErrorKind::Parameter, place, message))
+                let error = SceneError::new(ErrorKind::Parameter, place, message);
+                self.keep(error).map(|()| None)
             }
         }
+    }
+
+    /// The error for a value of the parameter `name`.
+    fn wrong(&self, name: &str, message: String) -> SceneError {
+        SceneError::new(ErrorKind::Parameter, &self.place_of(name), message)
     }
 
     /// Where the parameter stands; call it only for one that exists.
@@ -272,6 +309,13 @@ impl Param {
         );
         SceneError::new(ErrorKind::Parameter, &self.place, message)
     }
+}
+
+/// Whether a string reads as `type name`: behind a mistake, the next parameter begins there.
+fn is_declaration(text: &str) -> bool {
+    let mut words = text.split([' ', '\t']).filter(|w| !w.is_empty());
+    let is_type = |word: &str| TYPES.iter().any(|(name, ..)| *name == word);
+    words.next().is_some_and(is_type) && words.next().is_some() && words.next().is_none()
 }
 
 fn read_param(tokens: &mut Tokens<'_>, space: ColourSpace) -> Result<Param, SceneError> {
@@ -409,7 +453,8 @@ mod tests {
 
     fn read(text: &str) -> Result<ParamList, SceneError> {
         let source = Source::new("t", text);
-        ParamList::read(&mut Tokens::new(&source), ColourSpace::Srgb)
+        let mut tokens = Tokens::new(&source, Problems::default());
+        ParamList::read(&mut tokens, ColourSpace::Srgb)
     }
 
     #[test]

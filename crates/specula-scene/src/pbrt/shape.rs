@@ -90,7 +90,7 @@ fn bounded<T>(value: T, size: usize, limits: &Limits) -> Result<T, String> {
         return Ok(value);
     }
     Err(format!(
-        "its mesh would have {size} triangles; at most {most} are made"
+        "its mesh would have {size} triangles; at most {most} are made (`max_vertices`)"
     ))
 }
 

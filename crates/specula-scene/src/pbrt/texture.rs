@@ -53,6 +53,11 @@ pub(super) fn read(
                 "expected \"float\" or \"spectrum\", found \"{}\"",
                 shorten(other)
             );
+            // What refers to it is not to blame.
+            let id = context.constant(0.5);
+            for names in [&mut context.float_textures, &mut context.colour_textures] {
+                names.define(name.clone(), id, name_place.clone());
+            }
             return Err(SceneError::new(ErrorKind::Syntax, &kind_place, message));
         }
     };
@@ -68,17 +73,19 @@ pub(super) fn read(
         kind,
         to_world: state.transforms[0],
     };
-    let id = texture(context, &node)?;
+    let read = texture(context, &node);
+    let id = entity.or(read, || context.constant(0.5))?;
     context.warn_unused(&entity.params);
     let names = match kind {
         Kind::Float => &mut context.float_textures,
         Kind::Colour => &mut context.colour_textures,
     };
-    if names.insert(name.clone(), id).is_some() {
-        let message = format!("texture \"{}\" is defined twice", shorten(&name));
-        return Err(SceneError::new(ErrorKind::Duplicate, &name_place, message));
+    let message = format!("texture \"{}\" is defined twice", shorten(&name));
+    if names.define(name, id, name_place.clone()) {
+        return Ok(());
     }
-    Ok(())
+    let error = SceneError::new(ErrorKind::Duplicate, &name_place, message);
+    context.problems.keep(error)
 }
 
 fn texture(context: &mut Context, node: &Node<'_>) -> Result<TextureId, SceneError> {

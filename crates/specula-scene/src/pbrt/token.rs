@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use crate::error::{ErrorKind, Place, SceneError, Source};
+use crate::problems::Problems;
 
 /// What a token is.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,10 +32,12 @@ pub(super) struct Tokens<'a> {
     source: &'a Arc<Source>,
     position: usize,
     peeked: Option<Token<'a>>,
+    /// Where mistakes go.
+    pub(super) problems: Problems,
 }
 
 impl<'a> Tokens<'a> {
-    pub(super) fn new(source: &'a Arc<Source>) -> Self {
+    pub(super) fn new(source: &'a Arc<Source>, problems: Problems) -> Self {
         // A byte-order mark is no token.
         let position = if source.text().starts_with('\u{feff}') {
             3
@@ -45,11 +48,62 @@ impl<'a> Tokens<'a> {
             source,
             position,
             peeked: None,
+            problems,
         }
+    }
+
+    /// Goes on after a mistake: at the first token for which `resumes` holds, from the mistake on,
+    /// but behind `after`, where its directive or parameter begins.
+    pub(super) fn recover(
+        &mut self,
+        mistake: &Place,
+        after: &Place,
+        resumes: impl Fn(&TokenKind<'_>) -> bool,
+    ) {
+        // A mistake in a file that is included says nothing about this one.
+        if std::ptr::eq(mistake.source(), &raw const **self.source) {
+            let behind = after.offset() + after.length();
+            self.position = mistake.offset().max(behind);
+            self.peeked = None;
+        }
+        loop {
+            match self.peek() {
+                Ok(None) => return,
+                Ok(Some(token)) if resumes(&token.kind) => return,
+                Ok(Some(_)) => self.peeked = None,
+                Err(_) => self.skip_line(),
+            }
+        }
+    }
+
+    /// Goes on behind the end of the line.
+    fn skip_line(&mut self) {
+        let rest = self.source.text().as_bytes().get(self.position..);
+        let length = rest.and_then(|r| r.iter().position(|b| *b == b'\n'));
+        self.position = match length {
+            Some(length) => self.position + length + 1,
+            None => self.source.text().len(),
+        };
+        self.peeked = None;
     }
 
     pub(super) fn place(&self, token: &Token<'_>) -> Place {
         Place::new(self.source, token.offset, token.length)
+    }
+
+    /// The token that was looked at last, or else the place where the next begins or its mistake is.
+    fn here(&self) -> Place {
+        match &self.peeked {
+            Some(token) => self.place(token),
+            None => Place::new(self.source, self.position, 0),
+        }
+    }
+
+    /// The next token, with the place to go on behind after a mistake.
+    pub(super) fn look(&mut self) -> (Result<Option<&Token<'a>>, SceneError>, Place) {
+        let looked = self.peek().map(|_| ());
+        let here = self.here();
+        (looked.map(|()| self.peeked.as_ref()), here)
     }
 
     /// The place after the last token.
@@ -265,7 +319,7 @@ mod tests {
 
     fn kinds(text: &str) -> Vec<String> {
         let source = Source::new("t", text);
-        let mut tokens = Tokens::new(&source);
+        let mut tokens = Tokens::new(&source, Problems::default());
         std::iter::from_fn(|| tokens.next().unwrap())
             .map(|t| describe(&t.kind))
             .collect()
@@ -292,13 +346,17 @@ mod tests {
         for bad in ["nan", "inf", "-infinity", "1e39", "1x", "\"1\"", "["] {
             let source = Source::new("t", bad);
             assert!(
-                Tokens::new(&source).expect_number("a number").is_err(),
+                Tokens::new(&source, Problems::default())
+                    .expect_number("a number")
+                    .is_err(),
                 "{bad}"
             );
         }
         let source = Source::new("t", "-1.5e-3");
         assert_eq!(
-            Tokens::new(&source).expect_number("a number").unwrap(),
+            Tokens::new(&source, Problems::default())
+                .expect_number("a number")
+                .unwrap(),
             -1.5e-3
         );
     }
@@ -306,7 +364,7 @@ mod tests {
     #[test]
     fn open_strings_are_located() {
         let source = Source::new("t", "Film \"rgb\n\"");
-        let mut tokens = Tokens::new(&source);
+        let mut tokens = Tokens::new(&source, Problems::default());
         tokens.next().unwrap();
         let error = tokens.next().unwrap_err();
         assert_eq!((error.line(), error.column()), (1, 6));

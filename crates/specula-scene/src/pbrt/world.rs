@@ -94,7 +94,9 @@ impl Reader {
             }
             if !self.media.contains(&name) {
                 let message = format!("no medium \"{}\" is defined before this", shorten(&name));
-                return Err(SceneError::new(ErrorKind::UnknownName, &place, message));
+                let error = SceneError::new(ErrorKind::UnknownName, &place, message);
+                self.context.problems.keep(error)?;
+                continue;
             }
             if !self.warned_media {
                 self.warned_media = true;
@@ -122,23 +124,22 @@ impl Reader {
             self.state.material = MaterialUse::Defined(index);
             return Ok(());
         }
-        let Some((kind, place)) = entity
-            .params
-            .string("type")?
-            .map(|(k, p)| (k.to_owned(), p.clone()))
-        else {
-            let message = "a named material needs its \"string type\"";
-            return Err(SceneError::new(
-                ErrorKind::Parameter,
-                &entity.place,
-                message,
-            ));
+        let kind = entity.params.string("type")?;
+        let (kind, place) = match kind.map(|(k, p)| (k.to_owned(), p.clone())) {
+            Some(kind) => kind,
+            None => {
+                let message = "a named material needs its \"string type\"";
+                let error = SceneError::new(ErrorKind::Parameter, &entity.place, message);
+                entity.params.keep_unless_damaged(error)?;
+                ("diffuse".to_owned(), entity.place.clone())
+            }
         };
         let name = std::mem::replace(&mut entity.name, kind);
         let named_at = std::mem::replace(&mut entity.place, place);
         if self.named_materials.insert(name.clone(), index).is_some() {
             let message = format!("material \"{}\" is defined twice", shorten(&name));
-            return Err(SceneError::new(ErrorKind::Duplicate, &named_at, message));
+            let error = SceneError::new(ErrorKind::Duplicate, &named_at, message);
+            self.context.problems.keep(error)?;
         }
         self.materials.push(MaterialEntity {
             name: Some(name),

@@ -47,7 +47,9 @@ pub(super) fn read(
             triangles.extend(corners[1..].windows(2).map(|w| [corners[0], w[0], w[1]]));
             if triangles.len() as u64 > limits.max_vertices {
                 let most = limits.max_vertices;
-                return Err(format!("it has more than {most} triangles"));
+                return Err(format!(
+                    "it has more than {most} triangles (`max_vertices`)"
+                ));
             }
         }
         face += 1;

@@ -41,7 +41,7 @@ pub(crate) fn parse(bytes: &[u8], limits: &Limits) -> Result<Mesh, String> {
         if element.count as u64 > most {
             let (count, name) = (element.count, &element.name);
             return Err(format!(
-                "it has {count} of `{name}`; at most {most} are read"
+                "it has {count} of `{name}`; at most {most} are read (`max_vertices`)"
             ));
         }
         match element.name.as_str() {

@@ -3,7 +3,7 @@
 use glam::DMat4;
 use specula_bsdf::Rgb;
 
-use super::ImageId;
+use super::{ColourParam, ImageId};
 
 /// How a picture covers the sphere of directions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,6 +63,48 @@ pub enum Light {
         falloff_start_deg: f64,
         /// How it falls to 0 between the two.
         falloff: SpotFalloff,
+    },
+    /// Light from a point that throws a picture.
+    Picture {
+        /// Light space to world space: the light is at its origin. Lengths do not matter.
+        to_world: DMat4,
+        /// Intensity: a texture at the coordinates that `throw` gives.
+        intensity: ColourParam,
+        /// Where the picture goes.
+        throw: Throw,
+    },
+}
+
+/// Where a light throws its picture, as `(s, t)` with the origin at the lower left, by the
+/// direction `(x, y, z)` in light space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Throw {
+    /// In all directions: [`EnvironmentMapping::EqualAreaOctahedral`], so that s is its x and t
+    /// its 1 - y (pbrt's `goniometric`).
+    Sphere,
+    /// Through a window about +z, `s = (x / (z half[0]) + 1) / 2`, `t` in the same way from y;
+    /// dark elsewhere.
+    Window {
+        /// Half width and half height at the distance 1.
+        half: [f64; 2],
+        /// What the picture is multiplied by.
+        profile: Profile,
+    },
+}
+
+/// How a picture through a window varies beside itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Profile {
+    /// It is the radiant intensity (pbrt's `projection`).
+    Intensity,
+    /// It is the irradiance at the distance 1 along z: `1 / cos^3` (Mitsuba's `projector`).
+    Irradiance,
+    /// A spot light's, linear in the angle (Mitsuba's `spot` with a texture).
+    Spot {
+        /// Half angle of the cone, in degrees, below 90.
+        cone_angle_deg: f64,
+        /// Half angle within which the intensity is whole.
+        falloff_start_deg: f64,
     },
 }
 

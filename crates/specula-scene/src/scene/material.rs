@@ -1,5 +1,6 @@
 //! Surfaces.
 
+use specula_bsdf::Rgb;
 use specula_bsdf::ndf::Masking;
 
 use super::texture::{ColourParam, FloatParam};
@@ -21,6 +22,9 @@ pub struct Material {
     pub relief_rules: ReliefRules,
     /// Whether its back is black (Mitsuba's opaque materials without `twosided`).
     pub one_sided: bool,
+    /// Absorption within the closed shapes that it bounds, per scene unit: light that entered
+    /// through it loses `1 - exp(-absorption distance)` on its way. Black for none.
+    pub absorption: Rgb<f32>,
 }
 
 impl Material {
@@ -34,6 +38,7 @@ impl Material {
             relief: None,
             relief_rules: ReliefRules::Plain,
             one_sided: false,
+            absorption: Rgb::BLACK,
         }
     }
 }
@@ -286,6 +291,8 @@ pub struct Gltf {
     pub anisotropy: FloatParam,
     /// `anisotropyRotation`, in radians.
     pub anisotropy_rotation_rad: f32,
+    /// `anisotropyTexture`: the direction before it is rotated is `2 c - 1` of its red and green.
+    pub anisotropy_direction: Option<TextureId>,
     /// `ior`.
     pub ior: f32,
     /// `specularFactor`.
@@ -300,6 +307,8 @@ pub struct Gltf {
     pub clearcoat: FloatParam,
     /// `clearcoatRoughnessFactor`.
     pub clearcoat_roughness: FloatParam,
+    /// `clearcoatNormalTexture`: what bends the coat; the material's own relief does not.
+    pub clearcoat_relief: Option<Relief>,
     /// `sheenColorFactor`.
     pub sheen_colour: ColourParam,
     /// `sheenRoughnessFactor`.

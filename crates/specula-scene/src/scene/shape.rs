@@ -14,6 +14,11 @@ pub struct Mesh {
     pub normals: Vec<[f32; 3]>,
     /// Surface coordinates.
     pub uvs: Vec<[f32; 2]>,
+    /// A second set of them, for [`TextureMapping::SecondUv`](super::TextureMapping::SecondUv).
+    pub second_uvs: Vec<[f32; 2]>,
+    /// Tangents that stand in for dp/du, and the sign of `normal x tangent`, with which it is the
+    /// direction of dp/dv: of normal maps and anisotropic surfaces (glTF's `TANGENT`).
+    pub tangents: Vec<[f32; 4]>,
     /// Linear RGB, for [`Texture::VertexColour`](super::Texture::VertexColour).
     pub colours: Vec<[f32; 3]>,
     /// Triangles, as indices of vertices.

@@ -191,6 +191,8 @@ pub enum Interpolation {
 pub enum TextureMapping {
     /// From the surface coordinates.
     Uv(UvMapping),
+    /// From the second set of surface coordinates; 0 where a mesh has none.
+    SecondUv(UvMapping),
     /// From the position: `s = vs . p + ds`, `t = vt . p + dt` in texture space.
     Planar {
         /// World space to texture space.

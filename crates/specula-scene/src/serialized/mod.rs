@@ -111,7 +111,9 @@ fn mesh(
     for (count, what) in [(vertices, "vertices"), (triangles, "triangles")] {
         if count > limits.max_vertices.min(u64::from(u32::MAX)) {
             let most = limits.max_vertices;
-            return Err(format!("it has {count} {what}; at most {most} are read"));
+            return Err(format!(
+                "it has {count} {what}; at most {most} are read (`max_vertices`)"
+            ));
         }
     }
     let double = flags & DOUBLE_PRECISION != 0;

@@ -72,7 +72,34 @@ impl Scene {
                 g.clearcoat_roughness,
                 g.sheen_roughness,
             ],
-        )
+        )?;
+        let rotation = g.anisotropy_rotation_rad;
+        ensure(rotation.is_finite(), what, "its rotation is not finite")?;
+        let direction = g.anisotropy_direction.map(ColourParam::Texture);
+        self.colours(what, direction.as_slice())?;
+        self.relief(what, g.clearcoat_relief)
+    }
+
+    fn relief(&self, what: &str, relief: Option<Relief>) -> Result<(), Invalid> {
+        match relief {
+            None => Ok(()),
+            Some(Relief::Normal { map, scale }) => {
+                ensure(
+                    map.0 < self.textures.len(),
+                    what,
+                    "a texture is out of range",
+                )?;
+                ensure(scale.is_finite(), what, "its relief is not finite")
+            }
+            Some(Relief::Height(FloatParam::Texture(map))) => ensure(
+                map.0 < self.textures.len(),
+                what,
+                "a texture is out of range",
+            ),
+            Some(Relief::Height(FloatParam::Value(x))) => {
+                ensure(x.is_finite(), what, "its height is not finite")
+            }
+        }
     }
 
     fn colours(&self, what: &str, params: &[ColourParam]) -> Result<(), Invalid> {
@@ -133,17 +160,12 @@ impl Scene {
 
     pub(super) fn check_material(&self, i: usize, material: &Material) -> Result<(), Invalid> {
         let what = &format!("material {i}");
-        match material.relief {
-            None => {}
-            Some(Relief::Height(FloatParam::Texture(map)) | Relief::Normal { map, .. }) => ensure(
-                map.0 < self.textures.len(),
-                what,
-                "a texture is out of range",
-            )?,
-            Some(Relief::Height(FloatParam::Value(x))) => {
-                ensure(x.is_finite(), what, "its height is not finite")?;
-            }
-        }
+        self.relief(what, material.relief)?;
+        ensure(
+            is_light(material.absorption),
+            what,
+            "its absorption is negative or not finite",
+        )?;
         self.check_kind(what, i, &material.kind)
     }
 
@@ -322,7 +344,7 @@ fn has_good_numbers(texture: &Texture) -> bool {
 
 fn check_mapping(what: &str, mapping: &TextureMapping) -> Result<(), Invalid> {
     match mapping {
-        TextureMapping::Uv(m) => ensure(
+        TextureMapping::Uv(m) | TextureMapping::SecondUv(m) => ensure(
             m.0.iter().flatten().all(|x| x.is_finite()),
             what,
             "a number is not finite",

@@ -44,6 +44,7 @@ fn scene() -> Scene {
         settings: Settings {
             max_depth: 5,
             samples_per_pixel: 1,
+            hide_emitters: false,
         },
         images: vec![Image {
             name: "i".into(),
@@ -169,4 +170,19 @@ fn every_broken_invariant_is_found() {
         let error = scene.validate().expect_err(what);
         assert_eq!(error.what(), what, "{error}");
     }
+}
+
+#[test]
+fn all_broken_parts_are_found_at_once() {
+    let mut scene = scene();
+    scene.film.exposure = 0.0;
+    scene.meshes[0].triangles[0][2] = 3;
+    scene.instances[0].object = ObjectId(1);
+    let mut found = Vec::new();
+    let all: Result<(), ()> = scene.each_fault(|fault| {
+        found.push(fault.what().to_owned());
+        Ok(())
+    });
+    assert_eq!(all, Ok(()));
+    assert_eq!(found, ["film", "mesh 0", "instance 0"]);
 }

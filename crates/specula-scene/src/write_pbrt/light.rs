@@ -70,6 +70,11 @@ impl Writer<'_> {
                 );
                 (DMat4::IDENTITY, directive)
             }
+            Light::Picture {
+                to_world,
+                intensity,
+                throw,
+            } => self.thrown(index, to_world, *intensity, throw)?,
         };
         let place = transform(&place);
         self.line(&format!(

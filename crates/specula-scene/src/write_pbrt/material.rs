@@ -32,6 +32,9 @@ impl Writer<'_> {
         if material.one_sided {
             self.note("materials with a black back are written with two equal sides");
         }
+        if !material.absorption.is_black() {
+            self.note("absorption within bodies is left out");
+        }
         let mut params = self.kind(index, &material.kind)?;
         match material.relief {
             None => {}

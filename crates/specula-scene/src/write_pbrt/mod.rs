@@ -8,6 +8,7 @@ mod light;
 mod material;
 mod shape;
 mod texture;
+mod thrown;
 
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -106,6 +107,9 @@ impl Writer<'_> {
     fn view(&mut self) {
         let (camera, film) = (&self.scene.camera, &self.scene.film);
         let settings = &self.scene.settings;
+        if settings.hide_emitters {
+            self.note("lights that are hidden from the camera are seen");
+        }
         let text = format!(
             "{}\n{}\n{}\nSampler \"zsobol\" \"integer pixelsamples\" [ {} ]\n\
              Integrator \"volpath\" \"integer maxdepth\" [ {} ]\n",

@@ -1,8 +1,10 @@
 //! Scenes written and read back.
 
 use super::*;
+use crate::image::Image;
 use crate::scene::{
-    ColourParam, FloatParam, Material, MaterialKind, Relief, Roughness, RoughnessMapping, Texture,
+    ColourParam, FloatParam, Interpolation, Light, Material, MaterialKind, Profile, Relief,
+    Roughness, RoughnessMapping, Texture, TextureMapping, Throw, Wrap,
 };
 
 /// Writes a scene and reads it back.
@@ -86,6 +88,54 @@ fn squared_roughness_displacement_and_energy_survive() {
     assert_eq!(found.energy, scene.materials[last.0].energy);
 }
 
+/// Radiance of the environments, pixel by pixel.
+fn skies(scene: &Scene) -> Vec<Vec<Rgb<f32>>> {
+    let sky = |light: &Light| match light {
+        Light::Infinite {
+            radiance,
+            image: Some((id, EnvironmentMapping::EqualAreaOctahedral)),
+            ..
+        } => {
+            let pixels = scene.images[id.0].pixels.iter();
+            pixels.map(|p| Rgb::from(*p) * *radiance).collect()
+        }
+        other => panic!("{other:?}"),
+    };
+    scene.lights.iter().map(sky).collect()
+}
+
+#[test]
+fn every_environment_keeps_its_own_light() {
+    let mut scene = crate::builtin::orbs();
+    scene.lights.clear();
+    for (low, width) in [(0.5, 4_u8), (8.0, 2)] {
+        let pixels = (0..width * width).map(|i| [low, 2.0 * low, f32::from(i) * 0.25]);
+        scene.images.push(Image {
+            name: "sky".to_owned(),
+            width: u32::from(width),
+            height: u32::from(width),
+            pixels: pixels.collect(),
+        });
+    }
+    let last = scene.images.len() - 1;
+    // One picture twice, in two colours, and another.
+    for (image, radiance) in [
+        (last, [1.0, 1.0, 1.0]),
+        (last - 1, [0.5, 4.0, 1.0]),
+        (last, [0.25, 2.0, 3.0]),
+    ] {
+        scene.lights.push(Light::Infinite {
+            radiance: Rgb::from(radiance),
+            image: Some((ImageId(image), EnvironmentMapping::EqualAreaOctahedral)),
+            to_world: DMat4::IDENTITY,
+        });
+    }
+    let (back, notes) = round_trip(&scene);
+    assert!(notes.is_empty(), "{notes:?}");
+    // All values are exact in half floats.
+    assert_eq!(skies(&back), skies(&scene));
+}
+
 #[test]
 fn what_cannot_be_said_is_noted_once() {
     let mut scene = crate::builtin::orbs();
@@ -108,4 +158,99 @@ fn a_file_that_cannot_be_written_is_named() {
 #[test]
 fn strings_are_escaped() {
     assert_eq!(quoted("a\"b\\c\n"), "\"a\\\"b\\\\c_\"");
+}
+
+/// The same throw, place and colours by pixel.
+#[test]
+fn thrown_pictures_keep_their_places() {
+    let mut scene = crate::builtin::orbs();
+    scene.lights.clear();
+    let pixels = [[1.0, 0.5, 0.25], [0.0, 0.5, 2.0]].repeat(2);
+    scene.images.push(crate::Image {
+        name: "p".into(),
+        width: 2,
+        height: 2,
+        pixels,
+    });
+    let image = crate::scene::ImageId(scene.images.len() - 1);
+    let window = Throw::Window {
+        half: [0.5, 0.5],
+        profile: Profile::Intensity,
+    };
+    let to_world = DMat4::from_rotation_translation(
+        glam::DQuat::from_rotation_x(0.5),
+        glam::DVec3::new(1.0, 2.0, 3.0),
+    );
+    for (throw, channel) in [(Throw::Sphere, Channel::Mean), (window, Channel::Rgb)] {
+        scene.textures.push(Texture::Image {
+            image,
+            mapping: TextureMapping::default(),
+            wrap: [Wrap::Clamp; 2],
+            filter: Interpolation::Nearest,
+            invert: false,
+            scale: 3.0,
+            channel,
+        });
+        let texture = crate::scene::TextureId(scene.textures.len() - 1);
+        scene.lights.push(Light::Picture {
+            to_world,
+            intensity: ColourParam::Texture(texture),
+            throw,
+        });
+    }
+    let (back, notes) = round_trip(&scene);
+    assert!(notes.is_empty(), "{notes:?}");
+    for (before, after) in scene.lights.iter().zip(&back.lights) {
+        let (
+            Light::Picture {
+                to_world: a,
+                throw: t,
+                intensity: i,
+            },
+            Light::Picture {
+                to_world: b,
+                throw: u,
+                intensity: j,
+            },
+        ) = (before, after)
+        else {
+            panic!("{after:?}")
+        };
+        assert!(a.abs_diff_eq(*b, 1e-6), "{a} {b}");
+        match (t, u) {
+            (Throw::Window { half: a, .. }, Throw::Window { half: b, .. }) => {
+                assert!((a[0] - b[0]).abs() < 1e-9 && (a[1] - b[1]).abs() < 1e-9);
+            }
+            _ => assert_eq!(t, u),
+        }
+        assert_eq!(first_pixel(&scene, *i), first_pixel(&back, *j));
+    }
+}
+
+/// The first pixel of a picture behind factors, by its channel.
+fn first_pixel(scene: &Scene, p: ColourParam) -> [f32; 3] {
+    let ColourParam::Texture(id) = p else {
+        panic!("{p:?}")
+    };
+    match &scene.textures[id.0] {
+        Texture::Constant(c) => c.to_array(),
+        Texture::Scale { a, b } => {
+            let [a, b] = [a, b].map(|t| first_pixel(scene, ColourParam::Texture(*t)));
+            [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
+        }
+        Texture::Image {
+            image,
+            scale,
+            channel,
+            ..
+        } => {
+            let pixel = Rgb::from(scene.images[image.0].pixels[0]);
+            let pixel = match channel {
+                Channel::Mean => Rgb::splat(pixel.mean()),
+                _ => pixel,
+            };
+            (pixel * *scale).to_array()
+        }
+        other => panic!("{other:?}"),
+    }
 }

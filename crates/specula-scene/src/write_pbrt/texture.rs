@@ -225,7 +225,10 @@ impl Writer<'_> {
 
     fn mapping(&mut self, node: &mut Node, mapping: &TextureMapping) {
         match mapping {
-            TextureMapping::Uv(m) => {
+            TextureMapping::Uv(m) | TextureMapping::SecondUv(m) => {
+                if matches!(mapping, TextureMapping::SecondUv(_)) {
+                    self.note("second sets of surface coordinates become the first");
+                }
                 let UvMapping([[su, across, du], [along, sv, dv]]) = *m;
                 if across != 0.0 || along != 0.0 {
                     self.note("rotated and sheared surface coordinates are written unrotated");

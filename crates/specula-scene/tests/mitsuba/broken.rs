@@ -303,3 +303,19 @@ fn limits_are_kept() {
     check(&error, ErrorKind::Limit, 1, "at most 16");
     assert!(folder.path().exists());
 }
+
+/// Twenty blends, each of the one before with itself: 2^20 materials.
+#[test]
+fn blends_that_double_end_in_an_error() {
+    let mut text = "<scene version=\"3.0.0\"><bsdf type=\"diffuse\" id=\"b0\"/>\n".to_owned();
+    for i in 0..20 {
+        let next = i + 1;
+        text += &format!(
+            "<bsdf type=\"blendbsdf\" id=\"b{next}\"><ref id=\"b{i}\"/><ref id=\"b{i}\"/></bsdf>\n"
+        );
+    }
+    text += &format!("<shape type=\"cube\"><ref id=\"b20\"/></shape>{REST}</scene>");
+    let error = Folder::new().load(&text).unwrap_err();
+    assert_eq!(error.kind(), Limit, "{error}");
+    assert!(error.message().contains("131072"), "{error}");
+}

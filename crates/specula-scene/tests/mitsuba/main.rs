@@ -6,6 +6,7 @@
 )]
 
 mod broken;
+mod check;
 mod common;
 mod conventions;
 mod dialect;

@@ -1,7 +1,7 @@
 //! Scenes with bytes changed or cut off: an error or a sound scene, never a panic.
 
-use specula_scene::Limits;
 use specula_scene::mitsuba::Options;
+use specula_scene::{Limits, LoadOptions, Severity};
 
 use super::common::Folder;
 
@@ -39,6 +39,10 @@ fn changed_bytes_never_panic() {
         .load(good)
         .unwrap_or_else(|e| panic!("{}: {e}", e.place()));
     let limits = Limits::strict();
+    let checked = LoadOptions {
+        limits,
+        ..LoadOptions::default()
+    };
     let mut lcg = Lcg(7);
     let palette = b"<>/\"=$ -0159.eab#:,\\\0\xc3";
     let mut sound = 0;
@@ -58,12 +62,21 @@ fn changed_bytes_never_panic() {
                 }
             }
         }
-        match folder.load_with(&bytes, &limits, &Options::default()) {
+        let loaded = folder.load_with(&bytes, &limits, &Options::default());
+        let report = specula_scene::check(&folder.path().join("scene.xml"), &checked);
+        let errors = report.count(Severity::Error);
+        match loaded {
             Ok(loaded) => {
                 loaded.scene.validate().unwrap();
+                assert_eq!(errors, 0, "{:?}", report.problems());
                 sound += 1;
             }
-            Err(e) => assert!(!e.message().is_empty() && e.line() > 0),
+            Err(e) => {
+                assert!(!e.message().is_empty() && e.line() > 0);
+                let mut problems = report.problems().iter();
+                let is_known = problems.any(|p| p.message() == e.message());
+                assert!(is_known, "{e}: {report:?}");
+            }
         }
     }
     assert!(sound > 5 && sound < 480, "{sound} of 500 are sound");

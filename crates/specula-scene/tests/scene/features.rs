@@ -68,7 +68,8 @@ fn scene(class: &str, name: &str) -> (String, String) {
             "Texture \"x\" \"float\" \"dots\" \"string mapping\" \"{name}\""
         )),
         "light" => {
-            let file = if name == "projection" { png } else { "" };
+            let throws = ["goniometric", "projection"].contains(&name);
+            let file = if throws { png } else { "" };
             world(format!("LightSource \"{name}\" {file}"))
         }
         "area light" => {
@@ -220,8 +221,6 @@ fn stand_ins_are_told() {
         ("material", "measured"),
         ("material", "subsurface"),
         ("texture", "ptex"),
-        ("light", "goniometric"),
-        ("light", "projection"),
         ("camera", "realistic"),
         ("film", "spectral"),
         ("film parameter", "sensor"),

@@ -1,8 +1,10 @@
 //! Textures, relief and lights with pictures.
 
 use glam::DVec3;
+use specula_bsdf::Rgb;
 use specula_scene::scene::{
-    ColourParam, FloatParam, Light, MaterialKind, NoiseKind, Relief, Texture, TextureMapping,
+    ColourParam, FloatParam, Interpolation, Light, MaterialKind, NoiseKind, Profile, Relief,
+    Texture, TextureMapping, Throw,
 };
 
 use super::common::{Folder, load_world, warnings};
@@ -141,24 +143,47 @@ fn projections_keep_their_power() {
     let loaded = folder
         .load("WorldBegin Shape \"sphere\" LightSource \"projection\" \"string filename\" \"a.png\" \"float fov\" 60 \"float power\" 5")
         .unwrap();
-    let Light::Spot {
-        intensity,
-        cone_angle_deg,
-        axis,
+    let scene = &loaded.scene;
+    let Light::Picture {
+        intensity: ColourParam::Texture(intensity),
+        throw: Throw::Window {
+            half,
+            profile: Profile::Intensity,
+        },
         ..
-    } = &loaded.scene.lights[0]
+    } = scene.lights[0]
+    else {
+        panic!("{:?}", scene.lights)
+    };
+    let Texture::Scale { a, b } = scene.textures[intensity.0] else {
+        panic!()
+    };
+    let (Texture::Image { image, filter, .. }, Texture::Constant(factor)) =
+        (&scene.textures[a.0], &scene.textures[b.0])
     else {
         panic!()
     };
-    assert_eq!(*axis, [0.0, 0.0, 1.0]);
-    let solid_angle = 2.0 * std::f64::consts::PI * (1.0 - cone_angle_deg.to_radians().cos());
-    let power = f64::from(intensity.luminance()) * solid_angle;
-    assert!((power - 5.0).abs() < 1e-3, "{power}");
-    // A pyramid of 60 degrees both ways: 4 asin(sin^2 30) steradians.
+    assert_eq!(*filter, Interpolation::Nearest);
+    // The shorter side spans the angle; dw = cos^3 dA, over the middles of pixels.
+    let image = &scene.images[image.0];
+    let (width, height) = (image.width as usize, image.height as usize);
+    let short = 30.0_f64.to_radians().tan();
+    let aspect = width as f64 / height as f64;
     assert!(
-        (solid_angle - 4.0 * 0.25f64.asin()).abs() < 1e-9,
-        "{solid_angle}"
+        (half[0].min(half[1]) - short).abs() < 1e-9 && (half[0] / half[1] - aspect).abs() < 1e-9
     );
+    let mut power = 0.0;
+    for (i, p) in image.pixels.iter().enumerate() {
+        let at = |k: usize, n: usize, half: f64| half * (2.0 * (k as f64 + 0.5) / n as f64 - 1.0);
+        let (x, y) = (
+            at(i % width, width, half[0]),
+            at(i / width, height, half[1]),
+        );
+        let area = 4.0 * half[0] * half[1] / (width * height) as f64;
+        let colour = Rgb::from(*p) * *factor;
+        power += f64::from(colour.luminance()) * area * (1.0 + x * x + y * y).powf(-1.5);
+    }
+    assert!((power - 5.0).abs() < 1e-3, "{power}");
 }
 
 #[test]

@@ -1,6 +1,31 @@
 //! Damaged scenes: whatever happens to the text, the answer is a valid scene or an error.
 
+use std::path::Path;
+
+use specula_scene::{Limits, LoadOptions, Loaded, SceneError, Severity};
+
 use super::common::Folder;
+
+/// Loads a scene and checks it: the two must agree.
+fn load_and_check(path: &Path, limits: Limits) -> Result<Loaded, SceneError> {
+    let options = LoadOptions {
+        limits,
+        ..LoadOptions::default()
+    };
+    let loaded = specula_scene::load_with_options(path, &options);
+    let report = specula_scene::check(path, &options);
+    let errors = report.count(Severity::Error);
+    match &loaded {
+        Ok(_) => assert_eq!(errors, 0, "{:?}", report.problems()),
+        Err(error) => {
+            let is_known = report.problems().iter().any(|p| {
+                p.message() == error.message() && p.place().offset() == error.place().offset()
+            });
+            assert!(is_known || errors > 100, "{error}: {report:?}");
+        }
+    }
+    loaded
+}
 
 const SCENE: &str = "LookAt 0 1 -5  0 0 0  0 1 0
 Camera \"perspective\" \"float fov\" [ 45 ] \"float lensradius\" 0.01
@@ -101,11 +126,16 @@ fn run(mutated: &str, seed: u64, cases: usize) -> (usize, usize) {
     let mut random = Random(seed);
     let (mut whole, mut broken) = (0, 0);
     for case in 0..cases {
-        let result = if mutated == "scene" {
-            folder.load(random.mutate(SCENE.as_bytes()))
+        let path = if mutated == "scene" {
+            folder.write("scene.pbrt", random.mutate(SCENE.as_bytes()))
         } else {
             folder.write("a.ply", random.mutate(PLY.as_bytes()));
-            folder.load(SCENE)
+            folder.write("scene.pbrt", SCENE)
+        };
+        // Checks take as long again.
+        let result = match case % 4 {
+            0 => load_and_check(&path, Limits::default()),
+            _ => specula_scene::load(&path),
         };
         match result {
             Ok(loaded) => {
@@ -159,7 +189,7 @@ fn seeds(reader: &str) -> Vec<(String, Vec<u8>)> {
         })
         .collect();
     seeds.sort();
-    assert!(seeds.len() > 2, "the seeds of {reader} are there");
+    assert!(!seeds.is_empty(), "the seeds of {reader} are there");
     seeds
 }
 
@@ -168,7 +198,7 @@ fn seeds(reader: &str) -> Vec<(String, Vec<u8>)> {
 fn damage(
     reader: &str,
     cases: usize,
-    mut load: impl FnMut(&str, &[u8]) -> Result<specula_scene::Loaded, specula_scene::SceneError>,
+    mut load: impl FnMut(&str, &[u8]) -> Result<Loaded, SceneError>,
 ) -> usize {
     let mut random = Random(3);
     let mut errors = 0;
@@ -190,22 +220,33 @@ fn damage(
     errors
 }
 
-fn strict(
-    folder: &Folder,
-    scene: &str,
-) -> Result<specula_scene::Loaded, specula_scene::SceneError> {
-    let path = folder.write("scene.pbrt", scene);
-    specula_scene::load_with(&path, &specula_scene::Limits::strict())
+fn strict(folder: &Folder, scene: &str) -> Result<Loaded, SceneError> {
+    specula_scene::load_with(&folder.write("scene.pbrt", scene), &Limits::strict())
 }
 
 #[test]
 fn damaged_seeds_of_scenes() {
     let folder = Folder::new();
     let errors = damage("pbrt", 200, |_, bytes| {
-        let path = folder.write("scene.pbrt", bytes);
-        specula_scene::load_with(&path, &specula_scene::Limits::strict())
+        load_and_check(&folder.write("scene.pbrt", bytes), Limits::strict())
     });
     assert!(errors > 200, "{errors}");
+}
+
+#[test]
+fn damaged_seeds_of_other_formats() {
+    let mut random = Random(4);
+    for (reader, fewest) in [("mitsuba", 50), ("gltf", 50), ("obj", 20)] {
+        let folder = Folder::new();
+        let mut errors = 0;
+        for (name, bytes) in seeds(reader) {
+            for _ in 0..100 {
+                let path = folder.write(&name, random.mutate(&bytes));
+                errors += usize::from(load_and_check(&path, Limits::strict()).is_err());
+            }
+        }
+        assert!(errors > fewest, "{reader}: {errors}");
+    }
 }
 
 #[test]
@@ -237,13 +278,13 @@ fn damaged_seeds_of_pictures() {
 #[test]
 fn limits_can_be_chosen() {
     let folder = Folder::new();
-    let mut tight = specula_scene::Limits::strict();
+    let mut tight = Limits::strict();
     let path = folder.write("scene.pbrt", "WorldBegin Shape \"sphere\" \"float zmin\" 0");
     assert!(specula_scene::load_with(&path, &tight).is_ok());
     tight.max_bytes = 10;
     let error = specula_scene::load_with(&path, &tight).unwrap_err();
     assert!(error.message().contains("more than 10 bytes"), "{error}");
-    let mut tight = specula_scene::Limits::strict();
+    let mut tight = Limits::strict();
     tight.max_pixels = 3;
     let (_, pfm) = seeds("image")
         .into_iter()

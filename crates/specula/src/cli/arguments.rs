@@ -9,6 +9,7 @@ use specula::scene::Energy;
 use specula::scene::material_text::parse_material;
 use specula::scene::scene::MaterialKind;
 
+use super::loading::LoadingArguments;
 use super::values;
 
 /// Render rough metal right: a path tracer whose microfacet mathematics can be trusted.
@@ -23,6 +24,7 @@ const EXAMPLES: &str = "\
 Examples:
   specula render                              the built-in scene, to orbs.exr and orbs.png
   specula render scene.pbrt -o picture.exr    a pbrt-v4 scene
+  specula check scene.pbrt                    all that is wrong with it, in one report
   specula info scene.pbrt                     what is in it, and what is not supported
   specula compare reference.exr picture.exr   how far two pictures are apart
 
@@ -35,6 +37,8 @@ pub(crate) enum Command {
     Render(Box<RenderArguments>),
     /// Say what is in a scene, and what of it is not supported.
     Info(InfoArguments),
+    /// Report all problems of scenes at once, without rendering.
+    Check(CheckArguments),
     /// Write a scene as pbrt-v4, with its meshes and pictures beside it.
     Convert(ConvertArguments),
     /// Compare two EXR pictures: RMSE, relMSE, FLIP, and a picture of the difference.
@@ -136,6 +140,9 @@ pub(crate) struct RenderArguments {
     /// Print errors only
     #[arg(short, long)]
     pub(crate) quiet: bool,
+
+    #[command(flatten)]
+    pub(crate) loading: LoadingArguments,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -188,6 +195,53 @@ pub(crate) struct InfoArguments {
     /// A scene (pbrt-v4, Mitsuba 3 .xml, .gltf, .glb) or a mesh (.obj, .ply); without one, the
     /// built-in scene
     pub(crate) scene: Option<PathBuf>,
+
+    /// Value of a `$name` in a Mitsuba scene, over its `<default>`. May be repeated.
+    #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = values::parameter)]
+    pub(crate) parameters: Vec<(String, String)>,
+
+    #[command(flatten)]
+    pub(crate) loading: LoadingArguments,
+}
+
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  specula check scene.pbrt
+      errors, what would be rendered otherwise than the file says, and what is unused
+  specula check --strict scenes/*.xml
+      several scenes; exit code 2 where one has errors or warnings
+  specula check scene.xml --search ../textures
+      looks for pictures and meshes in another folder too
+  specula check --json scene.gltf | jq '.problems[] | select(.severity == \"error\")'
+      one line of JSON for each scene: file, errors, warnings, notes, unlisted, and problems with
+      severity, kind, file, line, column, message, help, count
+
+Reading goes on behind an error, with a neutral stand-in for what has one, so that one run finds all.
+Equal warnings are printed once with their count; at most 100 problems of each severity are listed.
+
+Exit codes: 0 the scene can be rendered; 2 it has errors, or warnings under --strict.";
+
+#[derive(Args, Debug)]
+#[command(after_help = CHECK_EXAMPLES)]
+pub(crate) struct CheckArguments {
+    /// Scenes, of any format that `render` takes
+    #[arg(required = true, value_name = "SCENE")]
+    pub(crate) scenes: Vec<PathBuf>,
+
+    /// Count warnings as errors in the exit code
+    #[arg(long)]
+    pub(crate) strict: bool,
+
+    /// Print one line of JSON for each scene
+    #[arg(long)]
+    pub(crate) json: bool,
+
+    /// Value of a `$name` in a Mitsuba scene, over its `<default>`. May be repeated.
+    #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = values::parameter)]
+    pub(crate) parameters: Vec<(String, String)>,
+
+    #[command(flatten)]
+    pub(crate) loading: LoadingArguments,
 }
 
 const CONVERT_EXAMPLES: &str = "\
@@ -206,6 +260,13 @@ pub(crate) struct ConvertArguments {
     /// The file to write
     #[arg(value_name = "OUT.pbrt", value_parser = values::pbrt)]
     pub(crate) output: PathBuf,
+
+    /// Value of a `$name` in a Mitsuba scene, over its `<default>`. May be repeated.
+    #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = values::parameter)]
+    pub(crate) parameters: Vec<(String, String)>,
+
+    #[command(flatten)]
+    pub(crate) loading: LoadingArguments,
 }
 
 const COMPARE_EXAMPLES: &str = "\

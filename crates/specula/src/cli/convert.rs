@@ -17,7 +17,8 @@ pub(crate) fn run(arguments: &ConvertArguments) -> Result<ExitCode, Failure> {
             from.display()
         )));
     }
-    let named = load::scene(Some(from), &[])?;
+    let options = arguments.loading.options(&arguments.parameters);
+    let named = load::scene(Some(from), &options)?;
     load::print_warnings(&named.warnings);
     let notes = write_pbrt(&named.scene, to).map_err(Failure::other)?;
     for note in notes {

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use miette::{Diagnostic, Report};
 
 /// Exit code for arguments and scenes that are wrong.
-const BAD_INPUT: u8 = 2;
+pub(crate) const BAD_INPUT: u8 = 2;
 /// Exit code for everything else that fails.
 const FAILED: u8 = 1;
 

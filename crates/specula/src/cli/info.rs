@@ -13,7 +13,8 @@ use super::{Failure, print};
 
 /// Prints what is in a scene and what of it is rendered otherwise than its file says.
 pub(crate) fn run(arguments: &InfoArguments) -> Result<ExitCode, Failure> {
-    let named = load::scene(arguments.scene.as_deref(), &[])?;
+    let options = arguments.loading.options(&arguments.parameters);
+    let named = load::scene(arguments.scene.as_deref(), &options)?;
     print(&describe(&named));
     Ok(ExitCode::SUCCESS)
 }

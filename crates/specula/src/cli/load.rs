@@ -3,11 +3,11 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use specula::scene::{Limits, Scene, Warning, builtin, mitsuba};
+use specula::scene::{LoadOptions, Scene, Warning, builtin, load_with_options};
 
 use super::Failure;
 
-/// Most warnings that are printed by a render; `specula info` prints all.
+/// Most warnings that are printed by a render; `specula check` prints all.
 const MOST_WARNINGS: usize = 12;
 
 /// A scene with its name and warnings.
@@ -19,12 +19,7 @@ pub(crate) struct Named {
 }
 
 /// The scene of a file, or the built-in one.
-///
-/// * `parameters`: values of names in Mitsuba scenes.
-pub(crate) fn scene(
-    path: Option<&Path>,
-    parameters: &[(String, String)],
-) -> Result<Named, Failure> {
+pub(crate) fn scene(path: Option<&Path>, options: &LoadOptions) -> Result<Named, Failure> {
     let Some(path) = path else {
         return Ok(Named {
             name: "orbs".to_owned(),
@@ -35,21 +30,13 @@ pub(crate) fn scene(
     let is_mitsuba = path
         .extension()
         .is_some_and(|e| e.eq_ignore_ascii_case("xml"));
-    let loaded = if is_mitsuba {
-        let options = mitsuba::Options {
-            parameters: parameters.to_vec(),
-            ..mitsuba::Options::default()
-        };
-        mitsuba::read(path, &Limits::default(), &options)
-    } else if parameters.is_empty() {
-        specula::scene::load(path)
-    } else {
+    if !is_mitsuba && !options.parameters.is_empty() {
         return Err(Failure::bad_input(format_args!(
             "-D is for Mitsuba scenes (.xml); {} is none",
             path.display()
         )));
-    };
-    let loaded = loaded.map_err(Failure::input)?;
+    }
+    let loaded = load_with_options(path, options).map_err(Failure::input)?;
     Ok(Named {
         name: stem(path),
         scene: loaded.scene,
@@ -106,7 +93,7 @@ pub(crate) fn print_warnings(warnings: &[Warning]) {
         eprintln!("warning: {line}");
     }
     if let Some(rest) = lines.len().checked_sub(MOST_WARNINGS).filter(|n| *n > 0) {
-        eprintln!("warning: {rest} more; `specula info` lists all");
+        eprintln!("warning: {rest} more; `specula check` lists all");
     }
 }
 

@@ -1,11 +1,13 @@
 //! The commands, one file each.
 
 mod arguments;
+mod check;
 mod compare;
 mod convert;
 mod failure;
 mod info;
 mod load;
+mod loading;
 mod outputs;
 mod progress;
 mod render;
@@ -24,6 +26,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
     match arguments.command {
         Command::Render(a) => render::run(&a),
         Command::Info(a) => info::run(&a),
+        Command::Check(a) => check::run(&a),
         Command::Convert(a) => convert::run(&a),
         Command::Compare(a) => compare::run(&a),
     }

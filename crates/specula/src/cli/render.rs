@@ -25,7 +25,10 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
         name,
         mut scene,
         warnings,
-    } = load::scene(arguments.scene.as_deref(), &arguments.parameters)?;
+    } = load::scene(
+        arguments.scene.as_deref(),
+        &arguments.loading.options(&arguments.parameters),
+    )?;
     if let Some(material) = arguments.material {
         scene.replace_materials(material);
     }

@@ -47,6 +47,30 @@ pub(crate) fn crop(text: &str) -> Result<[u32; 4], String> {
         })
 }
 
+/// `4GiB`, `512MB`, `100k`; a bare number is bytes.
+pub(crate) fn size(text: &str) -> Result<u64, String> {
+    let split = text
+        .find(|c: char| c.is_ascii_alphabetic())
+        .unwrap_or(text.len());
+    let (number, unit) = text.split_at(split);
+    let factor: u64 = match unit.to_ascii_lowercase().as_str() {
+        "" | "b" => 1,
+        "k" | "kb" => 1000,
+        "m" | "mb" => 1_000_000,
+        "g" | "gb" => 1_000_000_000,
+        "t" | "tb" => 1_000_000_000_000,
+        "ki" | "kib" => 1 << 10,
+        "mi" | "mib" => 1 << 20,
+        "gi" | "gib" => 1 << 30,
+        "ti" | "tib" => 1 << 40,
+        _ => return Err("expected a unit such as MB, MiB, GB or GiB, as in 4GiB".to_owned()),
+    };
+    let number = number.trim().parse::<u64>().ok().filter(|n| *n > 0);
+    number
+        .and_then(|n| n.checked_mul(factor))
+        .ok_or_else(|| "expected a whole number above 0 and a unit, as in 4GiB".to_owned())
+}
+
 /// A number above 0.
 pub(crate) fn positive(text: &str) -> Result<f32, String> {
     text.parse::<f32>()
@@ -113,6 +137,17 @@ mod tests {
         assert_eq!(parameter("spp=64"), pair("spp", "64"));
         assert_eq!(parameter("file=a=b"), pair("file", "a=b"));
         assert!(parameter("spp").is_err() && parameter("=1").is_err());
+    }
+
+    #[test]
+    fn sizes() {
+        assert_eq!(size("10"), Ok(10));
+        assert_eq!(size("4GiB"), Ok(4 << 30));
+        assert_eq!(size("2 mb"), Ok(2_000_000));
+        assert_eq!(size("3k"), Ok(3000));
+        for bad in ["", "0", "-1", "4XB", "1.5GiB", "99999999TiB"] {
+            assert!(size(bad).is_err(), "{bad}");
+        }
     }
 
     #[test]

@@ -8,7 +8,7 @@ use super::principled::terms::schlick_weight;
 use super::{Bsdf, BsdfSample, Transport};
 use crate::alpha::Alpha;
 use crate::fresnel::{dielectric, refract};
-use crate::math::{Real, Rgb, Vec3, vec3, warp};
+use crate::math::{Frame, Real, Rgb, Vec3, vec3, warp};
 use crate::ndf::{Ggx, Masking, Ndf};
 use crate::vndf::Sampler;
 use albedo::LayerAlbedo;
@@ -79,12 +79,13 @@ impl<T: Real> Default for GltfParameters<T> {
 /// dielectric = w F G2 D / (4 |wo.z| |wi.z|) + (1 - w max F) (b (1 - t) g / pi + b t btdf)
 /// F  = f0 + (1 - f0) s,    f0 = min(1, specular_colour ((ior - 1) / (ior + 1))^2),  w = specular
 /// f  = (1 - c) (sheen + scale (dielectric (1 - metallic) + metal metallic)) + c G2 D_c / (4 ..)
-/// c  = clearcoat (0.04 + 0.96 (1 - |wo.z|)^5)
+/// c  = clearcoat (0.04 + 0.96 (1 - |wo.nc|)^5),    nc = the coat's normal
 /// scale = min over wo, wi of 1 - max(sheen_colour) E
 /// ```
 ///
 /// `G2` is height-correlated; that of `btdf`, a reflection mirrored through the sheet, is
-/// separable, as the extension says. With `volume`, `btdf` is Walter's refraction, and the Fresnel
+/// separable, as the extension says. The coat is evaluated in the frame of its own normal, which is
+/// the local z unless [`Gltf::with_coat_normal`] says otherwise. With `volume`, `btdf` is Walter's refraction, and the Fresnel
 /// terms from inside take the refracted cosine.
 ///
 /// `g(wo) g(wi)` is ours: the appendix weighs the diffuse base by the Fresnel term at the half
@@ -126,6 +127,7 @@ pub struct Gltf<T> {
     eta: T,
     clearcoat: T,
     coat: Ggx<T>,
+    coat_normal: Vec3<T>,
     sheen: Option<Sheen<T>>,
 }
 
@@ -174,7 +176,20 @@ impl<T: Real> Gltf<T> {
             eta: T::select(inside, T::ONE / ior, ior),
             clearcoat: front(share(p.clearcoat)),
             coat: Ggx::new(Alpha::isotropic(width(share(p.clearcoat_roughness)))),
+            coat_normal: Vec3::Z,
             sheen: (!sheen.is_black()).then(|| Sheen::new(sheen, share(p.sheen_roughness))),
+        }
+    }
+
+    /// The same with a clear coat that has a normal of its own (`clearcoatNormalTexture`).
+    ///
+    /// * `normal`: unit, local frame.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_coat_normal(self, normal: Vec3<T>) -> Self {
+        Self {
+            coat_normal: normal,
+            ..self
         }
     }
 
@@ -197,7 +212,8 @@ impl<T: Real> Gltf<T> {
     /// The share of the coat, seen from `wo`.
     #[inline(always)]
     fn coat_share(&self, wo: Vec3<T>) -> T {
-        self.clearcoat * (T::of(0.04) + T::of(0.96) * schlick_weight(wo.z.abs()))
+        let cos = Real::min(self.coat_normal.dot(wo).abs(), T::ONE);
+        self.clearcoat * (T::of(0.04) + T::of(0.96) * schlick_weight(cos))
     }
 
     /// Reflectance of the facets, metal and dielectric, and what the layer leaves to its base.
@@ -246,9 +262,34 @@ impl<T: Real> Gltf<T> {
         let wm = (wo + wi).normalize();
         // A half vector of zero length is NaN here.
         let facing = wm.z > T::ZERO;
-        if !facing {
-            return (Rgb::BLACK, T::ZERO);
+        let (mut f_cos, mut pdf) = if facing {
+            self.base_reflection(shares, wo, wi, wm)
+        } else {
+            (Rgb::BLACK, T::ZERO)
+        };
+        if self.clearcoat > T::ZERO {
+            let coat_share = self.coat_share(wo);
+            let frame = Frame::from_normal(self.coat_normal);
+            let [wo, wi, wm] = [wo, wi, wm].map(|w| frame.to_local(w));
+            if wi.z > T::ZERO && wm.z > T::ZERO {
+                let quarter = T::of(0.25) * self.coat.d(wm);
+                let shadowed = self.coat.g2_over_cos(Masking::HeightCorrelated, wo, wi);
+                f_cos += Rgb::splat(coat_share * quarter * shadowed);
+                pdf += shares.coat * quarter / self.coat.reflection_norm(Sampler::Bounded, wo);
+            }
         }
+        (f_cos, pdf)
+    }
+
+    /// Reflection of all but the coat, at facets that are seen.
+    #[inline]
+    fn base_reflection(
+        &self,
+        shares: &Shares<T>,
+        wo: Vec3<T>,
+        wi: Vec3<T>,
+        wm: Vec3<T>,
+    ) -> (Rgb<T>, T) {
         let cos = wo.dot(wm);
         let cosine = wi.z * T::INV_PI;
         let (reflectance, left) = self.fresnel(cos);
@@ -262,16 +303,9 @@ impl<T: Real> Gltf<T> {
             f_cos += self.base * (self.diffuse * left * limit * cosine);
         }
         f_cos *= self.covers(wo, wi);
-        let coat_share = self.coat_share(wo);
         if let Some(sheen) = self.sheen {
-            f_cos += sheen.f_cos(wo, wi, wm) * (T::ONE - coat_share);
+            f_cos += sheen.f_cos(wo, wi, wm) * (T::ONE - self.coat_share(wo));
             pdf += shares.sheen * T::HALF * T::INV_PI;
-        }
-        if self.clearcoat > T::ZERO {
-            let quarter = T::of(0.25) * self.coat.d(wm);
-            let shadowed = self.coat.g2_over_cos(Masking::HeightCorrelated, wo, wi);
-            f_cos += Rgb::splat(coat_share * quarter * shadowed);
-            pdf += shares.coat * quarter / self.coat.reflection_norm(Sampler::Bounded, wo);
         }
         (f_cos, pdf)
     }
@@ -337,6 +371,15 @@ impl<T: Real> Gltf<T> {
         )
     }
 
+    /// A direction from the coat's facets, in the frame of the base.
+    #[inline]
+    fn draw_from_coat(&self, wo: Vec3<T>, direction: [T; 2]) -> Option<Vec3<T>> {
+        let frame = Frame::from_normal(self.coat_normal);
+        let wo = frame.to_local(wo);
+        let wi = self.coat.sample_reflection(Sampler::Bounded, wo, direction);
+        (wi.z > T::ZERO).then(|| frame.to_world(wi))
+    }
+
     /// A direction through the surface.
     #[inline]
     fn draw_through(&self, wo: Vec3<T>, direction: [T; 2]) -> Option<Vec3<T>> {
@@ -389,13 +432,15 @@ impl<T: Real> Bsdf<T> for Gltf<T> {
         let wi = if u[0] < specular {
             self.ggx.sample_reflection(Sampler::Bounded, wo, direction)
         } else if u[0] < coat {
-            self.coat.sample_reflection(Sampler::Bounded, wo, direction)
+            self.draw_from_coat(wo, direction)?
         } else if u[0] < sheen {
             uniform_hemisphere(direction)
         } else {
             warp::cosine_hemisphere(direction)
         };
-        if wi.z <= T::ZERO {
+        // Only the coat scatters where the base's facets are seen from behind.
+        let from_coat = u[0] >= specular && u[0] < coat;
+        if wi.z <= T::ZERO || (!from_coat && wo.z + wi.z <= T::ZERO) {
             return None;
         }
         let (f_cos, pdf) = self.reflection(&shares, wo, wi);

@@ -22,7 +22,7 @@ use crate::math::{Real, Vec3, vec3};
 
 /// A half vector back in the surface's space, of any length.
 #[inline(always)]
-pub(super) fn half_vector<T: Real>(alpha: Alpha<T>, cone: &Cone<T>, u: [T; 2]) -> Vec3<T> {
+pub(in crate::vndf) fn half_vector<T: Real>(alpha: Alpha<T>, cone: &Cone<T>, u: [T; 2]) -> Vec3<T> {
     let Cone {
         h,
         h2,

@@ -28,7 +28,7 @@ use crate::math::{Real, Vec3};
 
 /// The cone of one view above the horizon.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cone<T> {
+pub(in crate::vndf) struct Cone<T> {
     /// The stretched view, of any length; kept off the normal by a hair, so that the plane of
     /// incidence is defined.
     pub(super) h: Vec3<T>,
@@ -49,7 +49,7 @@ pub(super) struct Cone<T> {
 impl<T: Real> Cone<T> {
     /// The cone of `wo`, `wo.z > 0`.
     #[inline(always)]
-    pub(super) fn new(alpha: Alpha<T>, wo: Vec3<T>) -> Self {
+    pub(in crate::vndf) fn new(alpha: Alpha<T>, wo: Vec3<T>) -> Self {
         let mut h = alpha.stretch(wo);
         let tilted = h.x * h.x + h.y * h.y > T::of(1e-18);
         h.x = T::select(tilted, h.x, T::of(1e-9));
@@ -81,7 +81,7 @@ impl<T: Real> Cone<T> {
     /// `N = lambda^2 / (|v|^2 sqrt(Dx Dy))`, as numerator and denominator: the integral of
     /// `D(wm) (wo . wm)` over the normals that reflect `wo` above the surface.
     #[inline(always)]
-    pub(super) fn norm(&self) -> (T, T) {
+    pub(in crate::vndf) fn norm(&self) -> (T, T) {
         let area = (self.inverse_d[0] * self.inverse_d[1]).sqrt();
         (self.lambda * self.lambda * area, self.v2)
     }

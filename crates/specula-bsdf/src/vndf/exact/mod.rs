@@ -21,7 +21,8 @@ use super::{above, cap, reflect_unnormalised, reflection_density};
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3};
 use crate::ndf::Ggx;
-use cone::Cone;
+pub(super) use chords::half_vector;
+pub(super) use cone::Cone;
 
 /// The reflection of `wo`, above the horizon but for rounding (less than one in 10^6 in `f32`).
 ///
@@ -34,7 +35,7 @@ pub fn sample_direction<T: Real>(alpha: Alpha<T>, wo: Vec3<T>, u: [T; 2]) -> Vec
         let m = if alpha.x == alpha.y {
             isotropic::half_vector(alpha, wo, u)
         } else {
-            chords::half_vector(alpha, &Cone::new(alpha, wo), u)
+            half_vector(alpha, &Cone::new(alpha, wo), u)
         };
         reflect_unnormalised(wo, m)
     } else {
@@ -69,7 +70,7 @@ pub fn norm<T: Real>(alpha: Alpha<T>, wo: Vec3<T>) -> T {
 
 /// [`norm`] as numerator and denominator.
 #[inline(always)]
-fn norm_quotient<T: Real>(alpha: Alpha<T>, wo: Vec3<T>) -> (T, T) {
+pub(crate) fn norm_quotient<T: Real>(alpha: Alpha<T>, wo: Vec3<T>) -> (T, T) {
     if wo.z > T::ZERO {
         if alpha.x == alpha.y {
             isotropic::norm(alpha.x, wo.z)

@@ -12,6 +12,11 @@ use crate::spectrum::white_balance;
 /// Largest side of a picture.
 const MAX_SIDE: u32 = 65_536;
 
+const DEFAULT_FILTER: Filter = Filter::Gaussian {
+    radius: [1.5; 2],
+    sigma: 0.5,
+};
+
 /// Cameras whose sensitivities pbrt-v4 knows. Its sensors are fitted so that the light of the white
 /// balance has the luminance that the eye sees: brightness does not depend on them.
 pub(in crate::pbrt) const SENSORS: [&str; 17] = [
@@ -77,7 +82,13 @@ pub(super) fn read(context: &mut Context, options: &Options) -> Result<Film, Sce
     let film = Film {
         resolution,
         crop: crop(params, resolution)?,
-        filter: filter(context, options.get("PixelFilter"))?,
+        filter: match options.get("PixelFilter") {
+            Some(entity) => {
+                let read = filter(context, entity);
+                entity.or(read, || DEFAULT_FILTER)?
+            }
+            None => DEFAULT_FILTER,
+        },
         exposure: f32_of(params.float_above("iso", 100.0, 0.0)? / 100.0),
         max_component: max_component.filter(|m| *m > 0.0),
         balance,
@@ -155,13 +166,7 @@ fn crop(params: &ParamList, [width, height]: [u32; 2]) -> Result<[u32; 4], Scene
     }
 }
 
-fn filter(context: &mut Context, entity: Option<&Entity>) -> Result<Filter, SceneError> {
-    let Some(entity) = entity else {
-        return Ok(Filter::Gaussian {
-            radius: [1.5; 2],
-            sigma: 0.5,
-        });
-    };
+fn filter(context: &mut Context, entity: &Entity) -> Result<Filter, SceneError> {
     let params = &entity.params;
     let radius = |default: f64| -> Result<[f32; 2], SceneError> {
         let side = |name: &str| -> Result<f32, SceneError> {

@@ -27,8 +27,10 @@ pub(super) fn read(
         ));
     };
     let wrong = |message: String| SceneError::new(ErrorKind::Parameter, place, message);
-    let bytes = plain_bytes(&context.resolve(name), &context.limits)
-        .map_err(|e| wrong(format!("lens file {name} {e}")))?;
+    let path = context.resolve(name);
+    let bytes = plain_bytes(&path, &context.limits).map_err(|e| {
+        wrong(format!("lens file {name} {e}")).with_hint(context.search.hint(&path))
+    })?;
     let elements = elements(&String::from_utf8_lossy(&bytes), place)?;
     let focal_mm = focal_length_mm(&elements)
         .ok_or_else(|| wrong(format!("lens file {name}: its lenses do not focus")))?;

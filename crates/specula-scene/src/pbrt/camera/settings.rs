@@ -39,12 +39,15 @@ pub(super) fn read(context: &mut Context, options: &Options) -> Result<Settings,
     let mut settings = Settings {
         max_depth: 5,
         samples_per_pixel: 16,
+        hide_emitters: false,
     };
     if let Some(entity) = options.get("Integrator") {
-        settings.max_depth = integrator(context, entity)?;
+        let depth = integrator(context, entity);
+        settings.max_depth = entity.or(depth, || 5)?;
     }
     if let Some(entity) = options.get("Sampler") {
-        settings.samples_per_pixel = sampler(context, entity)?;
+        let samples = sampler(context, entity);
+        settings.samples_per_pixel = entity.or(samples, || 16)?;
     }
     if let Some(entity) = options.get("Accelerator") {
         // How rays are traced changes no picture.

@@ -1,0 +1,195 @@
+//! Where the errors of a scene go while it is read: back to the caller, or into a report.
+
+use std::cell::RefCell;
+use std::collections::HashSet;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::rc::Rc;
+
+use specula_bsdf::Rgb;
+
+use crate::error::{Place, SceneError, Warning};
+use crate::image::Image;
+use crate::scene::{ColourParam, Light};
+
+/// Most errors, and most warnings and notes, that a report lists.
+pub(crate) const MOST: usize = 100;
+
+/// The sink of a scene's errors, shared by all that reads the scene.
+///
+/// In an ordinary load, which is the default, the first error goes back to the caller. In a check
+/// errors are kept, and reading goes on with a neutral stand-in.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Problems(Option<Rc<RefCell<Kept>>>);
+
+/// What a check has found.
+#[derive(Debug, Default)]
+pub(crate) struct Kept {
+    pub(crate) errors: Vec<SceneError>,
+    /// Errors beyond the first [`MOST`].
+    pub(crate) more_errors: usize,
+    pub(crate) notes: Vec<Note>,
+    /// Warnings of a scene that could not be put together.
+    pub(crate) warnings: Vec<Warning>,
+    /// Errors that are known by their place and message: names that many things refer to are
+    /// missing once.
+    seen: HashSet<u64>,
+}
+
+/// Something that is no mistake but may surprise.
+#[derive(Clone, Debug)]
+pub(crate) struct Note {
+    pub(crate) kind: NoteKind,
+    pub(crate) message: String,
+    pub(crate) place: Place,
+}
+
+/// What a note is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NoteKind {
+    /// A definition that nothing refers to.
+    Unused,
+    /// A light that sends out nothing.
+    Dark,
+}
+
+impl Problems {
+    /// A sink that keeps errors.
+    pub(crate) fn collecting() -> Self {
+        Self(Some(Rc::default()))
+    }
+
+    /// Whether errors are kept.
+    pub(crate) fn is_check(&self) -> bool {
+        self.0.is_some()
+    }
+
+    /// Whether an error was kept.
+    pub(crate) fn has_errors(&self) -> bool {
+        self.0
+            .as_ref()
+            .is_some_and(|k| !k.borrow().errors.is_empty())
+    }
+
+    /// Keeps an error.
+    ///
+    /// # Errors
+    ///
+    /// The error itself, in an ordinary load.
+    pub(crate) fn keep(&self, error: SceneError) -> Result<(), SceneError> {
+        let Some(kept) = &self.0 else {
+            return Err(error);
+        };
+        let mut kept = kept.borrow_mut();
+        let mut hasher = DefaultHasher::new();
+        (error.file(), error.place().offset(), error.message()).hash(&mut hasher);
+        if !kept.seen.insert(hasher.finish()) {
+            return Ok(());
+        }
+        if kept.errors.len() < MOST {
+            kept.errors.push(error);
+        } else {
+            kept.more_errors += 1;
+        }
+        Ok(())
+    }
+
+    /// What was read, or a stand-in where its error is kept.
+    ///
+    /// # Errors
+    ///
+    /// That of `read`, in an ordinary load.
+    pub(crate) fn or<T>(
+        &self,
+        read: Result<T, SceneError>,
+        stand_in: impl FnOnce() -> T,
+    ) -> Result<T, SceneError> {
+        match read {
+            Ok(value) => Ok(value),
+            Err(error) => {
+                self.keep(error)?;
+                Ok(stand_in())
+            }
+        }
+    }
+
+    /// Keeps a note, of which an ordinary load has no use.
+    pub(crate) fn note(&self, kind: NoteKind, place: &Place, message: impl FnOnce() -> String) {
+        if let Some(kept) = &self.0 {
+            let note = Note {
+                kind,
+                message: message(),
+                place: place.clone(),
+            };
+            kept.borrow_mut().notes.push(note);
+        }
+    }
+
+    /// Keeps the warnings of a reader that ends in an error, of which an ordinary load has no use.
+    pub(crate) fn keep_warnings(&self, warnings: &mut Vec<Warning>) {
+        if let Some(kept) = &self.0 {
+            kept.borrow_mut().warnings.append(warnings);
+        }
+    }
+
+    /// All that was kept; the sink is empty after it.
+    pub(crate) fn take(&self) -> Kept {
+        self.0
+            .as_ref()
+            .map_or_else(Kept::default, |k| k.borrow_mut().take())
+    }
+}
+
+impl Kept {
+    fn take(&mut self) -> Self {
+        std::mem::take(self)
+    }
+}
+
+/// Whether a light sends out nothing.
+pub(crate) fn is_dark(light: &Light, images: &[Image]) -> bool {
+    let (colour, picture) = match light {
+        Light::Infinite {
+            radiance, image, ..
+        } => (*radiance, *image),
+        Light::Distant { irradiance, .. } => (*irradiance, None),
+        Light::Point { intensity, .. } | Light::Spot { intensity, .. } => (*intensity, None),
+        Light::Picture { intensity, .. } => match intensity {
+            ColourParam::Value(colour) => (*colour, None),
+            ColourParam::Texture(_) => (Rgb::WHITE, None),
+        },
+    };
+    let is_black = |id: usize| {
+        let pixels = images.get(id).map(|i| i.pixels.as_slice());
+        pixels.is_some_and(|p| p.iter().flatten().all(|v| *v == 0.0))
+    };
+    colour == Rgb::BLACK || picture.is_some_and(|(id, _)| is_black(id.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::{ErrorKind, Source};
+
+    fn error(offset: usize) -> SceneError {
+        let place = Place::new(&Source::new("a", "text"), offset, 1);
+        SceneError::new(ErrorKind::Syntax, &place, "wrong")
+    }
+
+    #[test]
+    fn a_load_ends_with_the_first_error_and_a_check_keeps_all_once() {
+        let load = Problems::default();
+        assert!(load.or(Err(error(0)), || 7).is_err());
+        assert!(!load.has_errors());
+        let check = Problems::collecting();
+        for offset in [0, 1, 0] {
+            assert_eq!(check.or(Err(error(offset)), || 7).unwrap(), 7);
+        }
+        assert!(check.has_errors());
+        for offset in 2..MOST + 5 {
+            check.keep(error(offset)).unwrap();
+        }
+        let kept = check.take();
+        assert_eq!((kept.errors.len(), kept.more_errors), (MOST, 5));
+        assert!(!check.has_errors());
+    }
+}

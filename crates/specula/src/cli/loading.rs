@@ -1,0 +1,99 @@
+//! Options of every command that reads a scene: limits, and folders to search.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use specula::scene::{Limits, LoadOptions};
+
+use super::values;
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Reading of the scene")]
+pub(crate) struct LoadingArguments {
+    /// Folder in which files that the scene names are looked for where they are not beside it. May
+    /// be repeated.
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) search: Vec<PathBuf>,
+
+    /// Deepest nesting of files and references that is not taken for damage [default: 64]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    pub(crate) limit_nesting: Option<u16>,
+
+    /// Largest file that is read, after unpacking, such as 512MiB or 16GiB [default: 4GiB]
+    #[arg(long, value_name = "SIZE", value_parser = values::size)]
+    pub(crate) limit_bytes: Option<u64>,
+
+    /// Most pixels of one picture [default: 268435456]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) limit_pixels: Option<u64>,
+
+    /// Most vertices, and most triangles, of one mesh [default: 268435456]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) limit_vertices: Option<u64>,
+}
+
+impl LoadingArguments {
+    /// What the library is told.
+    ///
+    /// * `parameters`: values of names in Mitsuba scenes.
+    pub(crate) fn options(&self, parameters: &[(String, String)]) -> LoadOptions {
+        let plain = Limits::default();
+        LoadOptions {
+            limits: Limits {
+                max_depth: self.limit_nesting.map_or(plain.max_depth, usize::from),
+                max_bytes: self.limit_bytes.unwrap_or(plain.max_bytes),
+                max_pixels: self.limit_pixels.unwrap_or(plain.max_pixels),
+                max_vertices: self.limit_vertices.unwrap_or(plain.max_vertices),
+            },
+            parameters: parameters.to_vec(),
+            folders: self.search.clone(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Debug, Parser)]
+    struct Line {
+        #[command(flatten)]
+        loading: LoadingArguments,
+    }
+
+    #[test]
+    fn every_option_reaches_the_library() {
+        let plain = Line::parse_from(["x"]).loading.options(&[]);
+        assert_eq!(plain, LoadOptions::default());
+        let line = [
+            "x",
+            "--limit-nesting=3",
+            "--limit-bytes=2KiB",
+            "--limit-pixels=5",
+            "--limit-vertices=7",
+            "--search=a",
+            "--search=b",
+        ];
+        let options = Line::parse_from(line).loading.options(&[]);
+        let limits = Limits {
+            max_depth: 3,
+            max_bytes: 2048,
+            max_pixels: 5,
+            max_vertices: 7,
+        };
+        assert_eq!(options.limits, limits);
+        assert_eq!(options.folders, [PathBuf::from("a"), PathBuf::from("b")]);
+        assert!(Line::try_parse_from(["x", "--limit-pixels=0"]).is_err());
+        assert!(Line::try_parse_from(["x", "--limit-bytes=lots"]).is_err());
+    }
+
+    #[test]
+    fn the_help_says_the_defaults() {
+        let limits = Limits::default();
+        assert_eq!(limits.max_depth, 64);
+        assert_eq!(limits.max_bytes, 4 << 30);
+        assert_eq!(limits.max_pixels, 268_435_456);
+        assert_eq!(limits.max_vertices, 268_435_456);
+    }
+}
