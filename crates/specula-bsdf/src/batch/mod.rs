@@ -31,7 +31,8 @@
 //!
 //! * One lobe for all elements, or [`PerElement`] widths for rough metal and rough glass, or
 //!   [`PerElementMetal`] widths and colours, or [`Any`] lobe of the caller's own. Or no lobe:
-//!   [`Level::sample_reflection`], [`Level::reflection_pdf`].
+//!   [`Level::sample_reflection`], [`Level::reflection_pdf`]. Rough metal with all bounces:
+//!   [`Level::eval_pdf_random`], [`Level::sample_random`], walks in lanes.
 //! * Slices of any one length, tails of no special length needed. Slices that differ in length are an
 //!   error ([`LengthMismatch`]) that names the slice, and nothing is written.
 //! * Directions are unit, and local as everywhere in this crate; `u` lies in `[0, 1)`.
