@@ -17,7 +17,8 @@ mod renderer;
 mod sampler;
 mod texture;
 
-pub use film::{FilmBuffer, MergeError};
+pub use film::{FilmBuffer, FilmFile, FilmFileError, Label, MergeError};
 pub use options::{RenderOptions, Strategy};
 pub use prepared::{PrepareError, PreparedScene};
+pub use renderer::ResumeError;
 pub use renderer::{PassReport, Renderer};

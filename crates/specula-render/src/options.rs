@@ -40,9 +40,33 @@ pub struct RenderOptions {
     pub crop: Option<[u32; 4]>,
     /// How direct light is found.
     pub strategy: Strategy,
+    /// Number of each pixel's first sample: renders of different numbers are parts of one picture.
+    pub first_sample: u32,
 }
 
 impl RenderOptions {
+    /// Those that change a sample, as text: films agree in it where their samples are of one picture.
+    #[must_use]
+    pub fn settings(&self) -> String {
+        // In full, so that an option added is not forgotten here.
+        let Self {
+            samples_per_pixel: _,
+            max_depth,
+            seed,
+            vndf_sampler,
+            energy,
+            mis_pdf,
+            resolution: _,
+            crop: _,
+            strategy,
+            first_sample: _,
+        } = self;
+        format!(
+            "depth {max_depth}, seed {seed}, sampler {vndf_sampler}, energy {energy}, {mis_pdf:?}, \
+             {strategy:?}"
+        )
+    }
+
     /// What the scene's file asks for.
     pub fn from_scene(scene: &Scene) -> Self {
         Self {
@@ -65,6 +89,7 @@ impl Default for RenderOptions {
             resolution: None,
             crop: None,
             strategy: Strategy::default(),
+            first_sample: 0,
         }
     }
 }

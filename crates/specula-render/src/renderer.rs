@@ -34,14 +34,69 @@ pub struct PassReport {
     pub invalid_samples: u64,
 }
 
+/// Why a render cannot go on with a film.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ResumeError {
+    /// It is of another size.
+    #[error("it is of {width} x {height} pixels with the crop {crop:?} (x0, x1, y0, y1)")]
+    Size {
+        /// Columns of the whole picture.
+        width: u32,
+        /// Rows of the whole picture.
+        height: u32,
+        /// Pixels that it covers.
+        crop: [u32; 4],
+    },
+    /// It was merged from parts between which samples are missing.
+    #[error(
+        "it was merged from parts between which samples are missing, or which were not finished"
+    )]
+    Gaps,
+    /// Its samples begin elsewhere.
+    #[error("its samples begin with number {0}")]
+    FirstSample(u32),
+}
+
 impl<'a> Renderer<'a> {
     /// A render that has not begun.
     pub fn new(scene: &'a PreparedScene, options: RenderOptions) -> Self {
         Self {
             scene,
+            film: FilmBuffer::new(scene.resolution, scene.crop, options.first_sample),
             options,
-            film: FilmBuffer::new(scene.resolution, scene.crop),
         }
+    }
+
+    /// A render that goes on with a film. It ends, bit for bit, as it would have without the break.
+    ///
+    /// # Errors
+    /// Where the film is of another size, or has gaps.
+    pub fn resume(
+        scene: &'a PreparedScene,
+        options: RenderOptions,
+        film: FilmBuffer,
+    ) -> Result<Self, ResumeError> {
+        if film.full_resolution() != scene.resolution || film.crop() != scene.crop {
+            let [width, height] = film.full_resolution();
+            let crop = film.crop();
+            return Err(ResumeError::Size {
+                width,
+                height,
+                crop,
+            });
+        }
+        if !film.is_open() {
+            return Err(ResumeError::Gaps);
+        }
+        if film.first_sample() != options.first_sample {
+            return Err(ResumeError::FirstSample(film.first_sample()));
+        }
+        Ok(Self {
+            scene,
+            options,
+            film,
+        })
     }
 
     /// Adds `samples` samples to every pixel, in rayon's current pool.
@@ -64,10 +119,7 @@ impl<'a> Renderer<'a> {
                 if stop.load(Ordering::Relaxed) {
                     return (0, false);
                 }
-                (
-                    render_tile(scene, &tracer, options.seed, tile, target),
-                    true,
-                )
+                (render_tile(scene, &tracer, options, tile, target), true)
             })
             .reduce(|| (0, true), |a, b| (a.0 + b.0, a.1 && b.1));
         PassReport {
@@ -93,16 +145,18 @@ impl<'a> Renderer<'a> {
 fn render_tile(
     scene: &PreparedScene,
     tracer: &PathTracer<'_>,
-    seed: u32,
+    options: &RenderOptions,
     tile: &mut Tile,
     target: u32,
 ) -> u64 {
     let [x0, x1, y0, _] = tile.bounds;
     let width = x1 - x0;
+    let (seed, first) = (options.seed, options.first_sample);
     let mut rays = 0;
     for (i, pixel) in (0_u32..).zip(&mut tile.pixels) {
         let (x, y) = (x0 + i % width, y0 + i / width);
-        for number in pixel.count..target {
+        for nth in pixel.count..target {
+            let number = first.wrapping_add(nth);
             let sampler = Sampler::new([x, y], number, seed);
             let [u0, u1, u2, u3] = sampler.camera();
             let ([dx, dy], weight) = scene.filter.sample([u0, u1]);

@@ -1,5 +1,6 @@
 //! Files that are replaced whole or not at all.
 
+use std::ffi::OsString;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -32,12 +33,10 @@ pub fn replace<E: From<io::Error>>(
 ///
 /// What the system says.
 pub fn temporary_beside(path: &Path) -> io::Result<tempfile::NamedTempFile> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
+    let folder = folder_of(path);
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".specula-").suffix(".part");
+    let prefix = temporary_prefix(path);
+    builder.prefix(&prefix).suffix(TEMPORARY_SUFFIX);
     #[cfg(unix)]
     {
         // The umask applies to this; the crate's own default is 0o600, which would hide pictures
@@ -46,4 +45,73 @@ pub fn temporary_beside(path: &Path) -> io::Result<tempfile::NamedTempFile> {
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     builder.tempfile_in(folder)
+}
+
+/// Removes what a program that was killed while it wrote `path` has left beside it. Nobody else may be
+/// writing that file.
+///
+/// # Errors
+///
+/// What the system says; a folder that is not there holds nothing.
+pub fn sweep(path: &Path) -> io::Result<()> {
+    let prefix = temporary_prefix(path);
+    let entries = match std::fs::read_dir(folder_of(path)) {
+        Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(()),
+        entries => entries?,
+    };
+    for entry in entries {
+        let entry = entry?;
+        let name = entry.file_name();
+        let bytes = name.as_encoded_bytes();
+        if bytes.starts_with(prefix.as_encoded_bytes())
+            && bytes.ends_with(TEMPORARY_SUFFIX.as_bytes())
+        {
+            std::fs::remove_file(entry.path())?;
+        }
+    }
+    Ok(())
+}
+
+const TEMPORARY_SUFFIX: &str = ".part";
+
+/// `.NAME.`: hidden, and told from other files' leftovers.
+fn temporary_prefix(path: &Path) -> OsString {
+    let mut prefix = OsString::from(".");
+    prefix.push(path.file_name().unwrap_or_default());
+    prefix.push(".");
+    prefix
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn leftovers_of_one_file_are_swept_and_no_others() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.exr");
+        for name in [
+            ".a.exr.x1y2.part",
+            ".b.exr.x1y2.part",
+            "a.exr",
+            ".a.exr.keep",
+        ] {
+            std::fs::write(folder.path().join(name), "").unwrap();
+        }
+        sweep(&path).unwrap();
+        let mut left: Vec<_> = std::fs::read_dir(folder.path())
+            .unwrap()
+            .map(|e| e.unwrap().file_name().into_string().unwrap())
+            .collect();
+        left.sort();
+        assert_eq!(left, [".a.exr.keep", ".b.exr.x1y2.part", "a.exr"]);
+        sweep(&folder.path().join("none").join("b")).unwrap();
+    }
 }

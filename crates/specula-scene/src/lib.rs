@@ -17,6 +17,7 @@ mod diagnostic;
 pub mod energy;
 pub mod error;
 pub mod features;
+mod fingerprint;
 pub mod gltf;
 pub mod image;
 mod limits;

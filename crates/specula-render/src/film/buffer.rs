@@ -3,6 +3,7 @@
 use specula_bsdf::math::vec3;
 use specula_bsdf::{Rgb, Vec3};
 
+use super::sum::{FixedSum, Sum};
 use crate::convert::narrow;
 use crate::picture::Picture;
 
@@ -22,16 +23,19 @@ pub(crate) struct PixelSample {
 /// Sums over the samples of one pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct PixelSums {
-    colour: [f64; 3],
-    squares: [f64; 3],
-    albedo: [f32; 3],
-    normal: [f32; 3],
-    depth: f32,
+    colour: [Sum; 3],
+    squares: [Sum; 3],
+    albedo: [FixedSum; 3],
+    normal: [FixedSum; 3],
+    depth: Sum,
     hits: u32,
     pub(crate) count: u32,
 }
 
 impl PixelSums {
+    /// Words of [`words`](Self::words).
+    pub(crate) const WORDS: usize = 21;
+
     /// Adds a sample with its filter weight; returns whether it was finite. A sample that is not
     /// counts as black.
     #[inline]
@@ -44,13 +48,13 @@ impl PixelSums {
         let albedo = (sample.albedo * weight).to_array();
         let normal = (sample.normal * weight).to_array();
         for (i, v) in value.to_array().into_iter().enumerate() {
-            self.colour[i] += f64::from(v);
-            self.squares[i] += f64::from(v) * f64::from(v);
-            self.albedo[i] += albedo[i];
-            self.normal[i] += normal[i];
+            self.colour[i].add(f64::from(v));
+            self.squares[i].add(f64::from(v) * f64::from(v));
+            self.albedo[i].add(albedo[i]);
+            self.normal[i].add(normal[i]);
         }
         if let Some(depth) = sample.depth {
-            self.depth += depth;
+            self.depth.add(f64::from(depth));
             self.hits += 1;
         }
         true
@@ -58,19 +62,19 @@ impl PixelSums {
 
     fn merge(&mut self, o: &Self) {
         for i in 0..3 {
-            self.colour[i] += o.colour[i];
-            self.squares[i] += o.squares[i];
-            self.albedo[i] += o.albedo[i];
-            self.normal[i] += o.normal[i];
+            self.colour[i].merge(o.colour[i]);
+            self.squares[i].merge(o.squares[i]);
+            self.albedo[i].merge(o.albedo[i]);
+            self.normal[i].merge(o.normal[i]);
         }
-        self.depth += o.depth;
-        self.hits += o.hits;
-        self.count += o.count;
+        self.depth.merge(o.depth);
+        self.hits = self.hits.saturating_add(o.hits);
+        self.count = self.count.saturating_add(o.count);
     }
 
     fn mean(&self) -> [f64; 3] {
         let n = f64::from(self.count.max(1));
-        self.colour.map(|c| c / n)
+        self.colour.map(|c| c.value() / n)
     }
 
     /// Variance of the mean: the unbiased variance of one sample over their number; infinite below
@@ -81,7 +85,45 @@ impl PixelSums {
         }
         let n = f64::from(self.count);
         let mean = self.mean();
-        [0, 1, 2].map(|i| ((self.squares[i] / n - mean[i] * mean[i]) / (n - 1.0)).max(0.0))
+        [0, 1, 2].map(|i| ((self.squares[i].value() / n - mean[i] * mean[i]) / (n - 1.0)).max(0.0))
+    }
+
+    /// All of it as numbers of 64 bits, for files.
+    pub(crate) fn words(&self) -> [u64; Self::WORDS] {
+        let Self {
+            colour,
+            squares,
+            albedo,
+            normal,
+            depth,
+            hits,
+            count,
+        } = self;
+        let mut words = [0; Self::WORDS];
+        let sums = colour.iter().chain(squares).chain([depth]);
+        let sums = sums.flat_map(|s| s.words());
+        let fixed = albedo.iter().chain(normal).map(|s| s.word());
+        let counts = u64::from(*hits) << 32 | u64::from(*count);
+        for (to, from) in words.iter_mut().zip(sums.chain(fixed).chain([counts])) {
+            *to = from;
+        }
+        words
+    }
+
+    /// The sums that have these [`words`](Self::words).
+    #[allow(clippy::cast_possible_truncation, reason = "halves of a word")]
+    pub(crate) fn from_words(w: &[u64; Self::WORDS]) -> Self {
+        let sum = |i: usize| Sum::from_words([w[2 * i], w[2 * i + 1]]);
+        let fixed = |i: usize| FixedSum::from_word(w[14 + i]);
+        Self {
+            colour: [sum(0), sum(1), sum(2)],
+            squares: [sum(3), sum(4), sum(5)],
+            depth: sum(6),
+            albedo: [fixed(0), fixed(1), fixed(2)],
+            normal: [fixed(3), fixed(4), fixed(5)],
+            hits: (w[20] >> 32) as u32,
+            count: w[20] as u32,
+        }
     }
 }
 
@@ -104,19 +146,31 @@ pub struct FilmBuffer {
     full_resolution: [u32; 2],
     /// `[x0, x1, y0, y1]`.
     crop: [u32; 4],
+    /// Number of each pixel's first sample.
+    first_sample: u32,
+    /// Numbers of the samples of a film that was merged from parts which leave gaps, half open, in
+    /// order; empty: `first_sample` and what follows.
+    parts: Vec<[u32; 2]>,
     pub(crate) tiles: Vec<Tile>,
 }
 
-/// Films that cannot be merged: their sizes differ.
+/// Why films cannot be merged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("films of different size or crop cannot be merged")]
-pub struct MergeError;
+pub enum MergeError {
+    /// Their sizes differ.
+    #[error("films of different size or crop cannot be merged")]
+    Size,
+    /// Samples would count twice.
+    #[error("samples {0} to {1} are in both films")]
+    Overlap(u32, u32),
+}
 
 impl FilmBuffer {
     /// An empty film.
     ///
     /// * `crop`: pixels `[x0, x1, y0, y1]` of the whole picture, half open.
-    pub fn new(full_resolution: [u32; 2], crop: [u32; 4]) -> Self {
+    /// * `first_sample`: the number that each pixel's first sample will have.
+    pub fn new(full_resolution: [u32; 2], crop: [u32; 4], first_sample: u32) -> Self {
         let [x0, x1, y0, y1] = crop;
         let mut tiles = Vec::new();
         for y in (y0..y1).step_by(TILE as usize) {
@@ -133,8 +187,59 @@ impl FilmBuffer {
         Self {
             full_resolution,
             crop,
+            first_sample,
+            parts: Vec::new(),
             tiles,
         }
+    }
+
+    /// Width and height of the whole picture.
+    pub fn full_resolution(&self) -> [u32; 2] {
+        self.full_resolution
+    }
+
+    /// Bytes that a film of so many pixels takes.
+    pub fn bytes(pixels: u64) -> u64 {
+        pixels.saturating_mul(size_of::<PixelSums>() as u64)
+    }
+
+    /// Numbers of the samples within, as ranges `[from, to)` in order. Where a pass was not
+    /// finished, some pixels lack the last ones.
+    pub fn samples(&self) -> Vec<[u32; 2]> {
+        if !self.parts.is_empty() {
+            return self.parts.clone();
+        }
+        match self.sums().map(|p| p.count).max() {
+            Some(most @ 1..) => vec![[self.first_sample, self.first_sample.saturating_add(most)]],
+            _ => Vec::new(),
+        }
+    }
+
+    /// Whether samples can be added: those within follow each other from the first on.
+    pub fn is_open(&self) -> bool {
+        self.parts.is_empty()
+    }
+
+    /// Number of each pixel's first sample.
+    pub fn first_sample(&self) -> u32 {
+        self.first_sample
+    }
+
+    /// A film of sums that were kept; `None` where the parts do not fit each other.
+    pub(crate) fn restore(mut self, parts: Vec<[u32; 2]>, tiles: Vec<Tile>) -> Option<Self> {
+        let ordered = parts.windows(2).all(|p| p[0][1] < p[1][0]);
+        let same = self.tiles.len() == tiles.len()
+            && self
+                .tiles
+                .iter()
+                .zip(&tiles)
+                .all(|(a, b)| a.bounds == b.bounds && a.pixels.len() == b.pixels.len());
+        if !ordered || !same || parts.iter().any(|[from, to]| from >= to) {
+            return None;
+        }
+        self.parts = parts;
+        self.tiles = tiles;
+        Some(self)
     }
 
     /// Pixels `[x0, x1, y0, y1]` of the whole picture that the film covers.
@@ -152,19 +257,40 @@ impl FilmBuffer {
         self.tiles.iter().map(|t| t.invalid).sum()
     }
 
-    /// Adds the samples of another film of the same scene, rendered with another seed.
+    /// Adds the samples of another film of the same scene and seed. All layers of its picture are, bit
+    /// for bit, those of one render of all the samples.
     ///
     /// # Errors
-    /// Where the films differ in size or crop.
+    /// Where the films differ in size or crop, or have samples in common.
     pub fn merge(&mut self, other: &Self) -> Result<(), MergeError> {
         if self.full_resolution != other.full_resolution || self.crop != other.crop {
-            return Err(MergeError);
+            return Err(MergeError::Size);
+        }
+        let mut all = [self.samples(), other.samples()].concat();
+        all.sort_unstable();
+        if let Some(p) = all.windows(2).find(|p| p[0][1] > p[1][0]) {
+            return Err(MergeError::Overlap(p[1][0], p[0][1].min(p[1][1])));
         }
         for (a, b) in self.tiles.iter_mut().zip(&other.tiles) {
             for (p, q) in a.pixels.iter_mut().zip(&b.pixels) {
                 p.merge(q);
             }
             a.invalid += b.invalid;
+        }
+        all.dedup_by(|next, range| {
+            let adjoin = range[1] == next[0];
+            if adjoin {
+                range[1] = next[1];
+            }
+            adjoin
+        });
+        // One range of which no pixel lacks a sample can be gone on with.
+        match all[..] {
+            [[from, to]] if self.sums().all(|p| p.count == to - from) => {
+                self.first_sample = from;
+                self.parts.clear();
+            }
+            _ => self.parts = all,
         }
         Ok(())
     }
@@ -216,14 +342,15 @@ impl FilmBuffer {
                 let x = tile.bounds[0] - x0 + i % tile_width;
                 let y = tile.bounds[2] - y0 + i / tile_width;
                 let at = (y * width + x) as usize;
-                let inverse = 1.0 / p.count.max(1) as f32;
+                let inverse = 1.0 / f64::from(p.count.max(1));
                 picture.colour[at] = Rgb::from(p.mean()).cast();
                 // Unknown below two samples: 0, since pictures hold finite numbers only.
                 picture.variance[at] =
                     Rgb::from(p.variance().map(|v| if v.is_finite() { v } else { 0.0 })).cast();
-                picture.albedo[at] = Rgb::from(p.albedo) * inverse;
-                picture.normal[at] = vec3(p.normal[0], p.normal[1], p.normal[2]) * inverse;
-                picture.depth[at] = p.depth / p.hits.max(1) as f32;
+                picture.albedo[at] = Rgb::from(p.albedo.map(|a| a.value() * inverse)).cast();
+                let [x, y, z] = p.normal.map(|n| narrow(n.value() * inverse));
+                picture.normal[at] = vec3(x, y, z);
+                picture.depth[at] = narrow(p.depth.value() / f64::from(p.hits.max(1)));
                 picture.sample_count[at] = p.count as f32;
             }
         }
@@ -250,7 +377,7 @@ mod tests {
 
     #[test]
     fn mean_and_variance_of_the_mean_are_the_textbook_ones() {
-        let mut film = FilmBuffer::new([20, 18], [1, 19, 0, 18]);
+        let mut film = FilmBuffer::new([20, 18], [1, 19, 0, 18], 0);
         for tile in &mut film.tiles {
             for p in &mut tile.pixels {
                 for v in [1.0, 2.0, 6.0] {
@@ -283,14 +410,60 @@ mod tests {
         assert_eq!(p.mean(), [2.0; 3]);
     }
 
+    /// A film of 5 x 4 pixels with `n` samples from `first` on, each its own number.
+    fn film(first: u32, n: u32) -> FilmBuffer {
+        let mut film = FilmBuffer::new([5, 4], [0, 5, 0, 4], first);
+        for number in first..first + n {
+            for p in &mut film.tiles[0].pixels {
+                p.add(&sample(number as f32 * 0.1), 0.7);
+            }
+        }
+        film
+    }
+
     #[test]
-    fn merged_films_hold_the_samples_of_both() {
-        let mut a = FilmBuffer::new([4, 4], [0, 4, 0, 4]);
-        let mut b = a.clone();
-        a.tiles[0].pixels[5].add(&sample(1.0), 1.0);
-        b.tiles[0].pixels[5].add(&sample(3.0), 1.0);
-        a.merge(&b).unwrap();
-        assert_eq!(a.picture().colour[5], Rgb::splat(2.0));
-        assert!(a.merge(&FilmBuffer::new([4, 4], [0, 3, 0, 4])).is_err());
+    fn merged_films_are_one_render_of_all_samples() {
+        let mut parts = film(40, 7);
+        parts.merge(&film(0, 13)).unwrap();
+        assert_eq!(parts.samples(), [[0, 13], [40, 47]]);
+        assert!(!parts.is_open());
+        parts.merge(&film(13, 27)).unwrap();
+        let whole = film(0, 47);
+        assert_eq!(parts.samples(), whole.samples());
+        assert!(parts.is_open() && parts.first_sample() == 0);
+        assert_eq!(parts.picture(), whole.picture());
+    }
+
+    #[test]
+    fn samples_never_count_twice() {
+        let mut a = film(0, 10);
+        assert_eq!(a.merge(&film(9, 5)), Err(MergeError::Overlap(9, 10)));
+        assert_eq!(a.merge(&film(3, 2)), Err(MergeError::Overlap(3, 5)));
+        let other = FilmBuffer::new([5, 4], [0, 3, 0, 4], 10);
+        assert_eq!(a.merge(&other), Err(MergeError::Size));
+        assert_eq!(a, film(0, 10));
+    }
+
+    #[test]
+    fn a_part_with_an_unfinished_pass_cannot_be_gone_on_with() {
+        let mut a = film(0, 10);
+        a.tiles[0].pixels[3].add(&sample(1.0), 1.0);
+        assert_eq!(a.samples(), [[0, 11]]);
+        a.merge(&film(11, 4)).unwrap();
+        assert_eq!((a.samples(), a.is_open()), (vec![[0, 15]], false));
+    }
+
+    #[test]
+    fn words_hold_all_of_a_pixel() {
+        let mut p = PixelSums::default();
+        for v in [0.1, 7.0, 1e-9] {
+            let mut s = sample(v);
+            s.albedo = specula_bsdf::math::rgb(0.1, 0.2, 0.3);
+            s.normal = vec3(-0.5, 0.25, 1.0);
+            p.add(&s, 1.1);
+        }
+        p.hits = 2;
+        assert_eq!(PixelSums::from_words(&p.words()), p);
+        assert_eq!(size_of::<PixelSums>(), 8 * PixelSums::WORDS);
     }
 }

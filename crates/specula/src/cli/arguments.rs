@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use specula::bsdf::vndf;
+use specula::render::picture::{Display, ToneMap};
 use specula::scene::Energy;
 use specula::scene::material_text::parse_material;
 use specula::scene::scene::MaterialKind;
@@ -27,6 +28,7 @@ Examples:
   specula check scene.pbrt                    all that is wrong with it, in one report
   specula info scene.pbrt                     what is in it, and what is not supported
   specula compare reference.exr picture.exr   how far two pictures are apart
+  specula merge a.film b.film -o picture.exr  parts of a render into one
 
 Exit codes: 0 done; 1 failed (or `compare` found too large a difference); 2 the arguments or
 the scene are wrong; 130 stopped by Ctrl-C, what was rendered is written.";
@@ -43,6 +45,8 @@ pub(crate) enum Command {
     Convert(ConvertArguments),
     /// Compare two EXR pictures: RMSE, relMSE, FLIP, and a picture of the difference.
     Compare(CompareArguments),
+    /// Add films of distinct samples into one picture.
+    Merge(MergeArguments),
 }
 
 const RENDER_EXAMPLES: &str = "\
@@ -59,9 +63,13 @@ Examples:
       a mesh alone, staged in the built-in studio
   specula render scene.pbrt --crop 100,200,50,150 --spp 1024 -o detail.exr
       columns 100 to 199 and rows 50 to 149 only
+  specula render scene.pbrt --samples 512..1024 -o b.film
+      a part of a picture: `specula merge a.film b.film -o scene.exr` adds the parts
 
 Ctrl-C stops the render and writes what there is; a second Ctrl-C ends the program at once.
-Long renders write what there is every half minute. Files are replaced whole or not at all.";
+Every half minute the picture so far is written, and a checkpoint beside it (scene.film for
+scene.exr) from which --resume goes on after Ctrl-C, a crash or a power cut, to the same picture
+bit for bit; it is removed when the render is done. Files are replaced whole or not at all.";
 
 #[derive(Args, Debug)]
 #[command(after_help = RENDER_EXAMPLES)]
@@ -70,7 +78,8 @@ pub(crate) struct RenderArguments {
     /// built-in scene of rough-metal orbs
     pub(crate) scene: Option<PathBuf>,
 
-    /// File to write: .exr (all layers, linear) or .png (what a screen shows). May be repeated.
+    /// File to write: .exr (all layers, linear), .png (what a screen shows) or .film (sums, for
+    /// `merge` and --resume). May be repeated.
     /// [default: the scene's name with .exr and with .png, in the current folder]
     #[arg(short, long = "output", value_name = "OUT", value_parser = values::output)]
     pub(crate) output: Vec<PathBuf>,
@@ -87,6 +96,24 @@ pub(crate) struct RenderArguments {
     /// Render until the estimated relative error of the picture is at most E, such as 0.02
     #[arg(long, value_name = "E", group = "effort", value_parser = values::positive)]
     pub(crate) noise: Option<f32>,
+
+    /// Render these samples of every pixel only, such as 512..1024, for `specula merge`
+    /// [default output: the scene's name, the range and .film]
+    #[arg(long, value_name = "A..B", group = "effort", value_parser = values::samples)]
+    pub(crate) samples: Option<[u32; 2]>,
+
+    /// Go on with the checkpoint beside the output, or begin where there is none
+    #[arg(long, conflicts_with = "restart")]
+    pub(crate) resume: bool,
+
+    /// Begin anew and replace the checkpoint beside the output
+    #[arg(long)]
+    pub(crate) restart: bool,
+
+    /// Time between two writes of the picture and the checkpoint (a larger one where they would take
+    /// more than a twentieth of the time), or off
+    #[arg(long, value_name = "T", default_value = "30s", value_parser = values::interval)]
+    pub(crate) checkpoint: values::Interval,
 
     /// Which sampler draws reflections off rough surfaces; the picture converges to the same
     #[arg(long, value_name = "NAME", default_value_t = SamplerName::Exact)]
@@ -128,6 +155,20 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     pub(crate) threads: Option<u16>,
 
+    #[command(flatten)]
+    pub(crate) display: DisplayArguments,
+
+    /// Print errors only
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+
+    #[command(flatten)]
+    pub(crate) loading: LoadingArguments,
+}
+
+/// How PNG files look.
+#[derive(Args, Debug)]
+pub(crate) struct DisplayArguments {
     /// Exposure of PNG files, in stops: +1 shows twice the light
     #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_negative_numbers = true,
           value_parser = values::finite)]
@@ -136,13 +177,50 @@ pub(crate) struct RenderArguments {
     /// How PNG files show what is brighter than white
     #[arg(long, value_name = "NAME", default_value_t = ToneName::Clamp)]
     pub(crate) tone: ToneName,
+}
+
+impl DisplayArguments {
+    /// What the library is told.
+    pub(crate) fn display(&self) -> Display {
+        Display {
+            tone_map: match self.tone {
+                ToneName::Clamp => ToneMap::Clamp,
+                ToneName::Filmic => ToneMap::Filmic,
+            },
+            exposure_stops: self.exposure,
+        }
+    }
+}
+
+const MERGE_EXAMPLES: &str = "\
+Examples:
+  specula render scene.pbrt --samples 0..512 -o a.film        on one machine
+  specula render scene.pbrt --samples 512..1024 -o b.film     on another
+  specula merge a.film b.film -o scene.exr -o scene.png
+      the picture of all 1024 samples, bit for bit that of one render
+  specula merge a.film b.film -o whole.film
+      to be merged with more, or gone on with by `render --resume -o whole.film`
+
+Films whose samples overlap, or which are of different scenes, settings or versions, are refused
+with exit code 2.";
+
+#[derive(Args, Debug)]
+#[command(after_help = MERGE_EXAMPLES)]
+pub(crate) struct MergeArguments {
+    /// Films that `render -o NAME.film` wrote, in any order
+    #[arg(required = true, value_name = "FILM")]
+    pub(crate) films: Vec<PathBuf>,
+
+    /// File to write: .exr, .png or .film. May be repeated.
+    #[arg(short, long = "output", required = true, value_name = "OUT", value_parser = values::output)]
+    pub(crate) output: Vec<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) display: DisplayArguments,
 
     /// Print errors only
     #[arg(short, long)]
     pub(crate) quiet: bool,
-
-    #[command(flatten)]
-    pub(crate) loading: LoadingArguments,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

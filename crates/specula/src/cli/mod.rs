@@ -2,12 +2,14 @@
 
 mod arguments;
 mod check;
+mod checkpoint;
 mod compare;
 mod convert;
 mod failure;
 mod info;
 mod load;
 mod loading;
+mod merge;
 mod outputs;
 mod progress;
 mod render;
@@ -29,6 +31,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
         Command::Check(a) => check::run(&a),
         Command::Convert(a) => convert::run(&a),
         Command::Compare(a) => compare::run(&a),
+        Command::Merge(a) => merge::run(&a),
     }
 }
 

@@ -3,7 +3,9 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use specula::render::picture::{self, Display, Metadata, Picture, PictureError, check_writable};
+use specula::render::picture::{self, Display, Metadata, check_writable};
+use specula::render::{FilmBuffer, FilmFile, Label};
+use specula::scene::atomic;
 
 use super::Failure;
 
@@ -14,23 +16,8 @@ pub(crate) struct Outputs {
 }
 
 impl Outputs {
-    /// The files asked for; else the scene's name with both extensions, in the current folder.
-    ///
-    /// Fails where one of them cannot be written: now, not after an hour.
-    pub(crate) fn new(
-        asked: &[PathBuf],
-        scene_name: &str,
-        display: Display,
-    ) -> Result<Self, Failure> {
-        let paths = if asked.is_empty() {
-            // Appended: with_extension would cut `a.b` down to `a`.
-            vec![
-                PathBuf::from(format!("{scene_name}.exr")),
-                PathBuf::from(format!("{scene_name}.png")),
-            ]
-        } else {
-            asked.to_vec()
-        };
+    /// Fails where one of the files cannot be written: now, not after an hour.
+    pub(crate) fn new(paths: Vec<PathBuf>, display: Display) -> Result<Self, Failure> {
         let mut seen = HashSet::new();
         for path in &paths {
             if !seen.insert(path) {
@@ -42,25 +29,67 @@ impl Outputs {
             check_writable(path)
                 .map_err(|e| Failure::other(format_args!("cannot write the picture: {e}")))?;
         }
+        if paths.iter().filter(|p| is_film(p)).count() > 1 {
+            return Err(Failure::bad_input("more than one .film is asked for"));
+        }
         Ok(Self { paths, display })
     }
 
-    /// Writes every file; returns how many values were not finite.
-    pub(crate) fn write(
+    /// The film that was asked for.
+    pub(crate) fn film(&self) -> Option<&Path> {
+        self.paths.iter().find(|p| is_film(p)).map(PathBuf::as_path)
+    }
+
+    /// Where the film of a render is kept: the one asked for, or one beside the first file.
+    pub(crate) fn checkpoint(&self) -> PathBuf {
+        match (self.film(), self.paths.first()) {
+            (Some(film), _) => film.to_owned(),
+            (None, Some(first)) => first.with_extension("film"),
+            (None, None) => PathBuf::from("render.film"),
+        }
+    }
+
+    /// Removes what a render that was killed left half-written.
+    pub(crate) fn sweep(&self) {
+        for path in self.paths.iter().chain([&self.checkpoint()]) {
+            if let Err(e) = atomic::sweep(path) {
+                let name = path.display();
+                eprintln!("warning: cannot remove what was left half-written of '{name}': {e}");
+            }
+        }
+    }
+
+    /// Writes every picture, and says where values were not finite.
+    pub(crate) fn write_pictures(
         &self,
-        picture: &Picture,
+        film: &FilmBuffer,
         metadata: &Metadata,
-    ) -> Result<usize, PictureError> {
+    ) -> Result<(), Failure> {
+        let picture = film.picture();
         let mut replaced = 0;
-        for path in &self.paths {
-            let count = if is_png(path) {
-                picture::write_png(path, picture, self.display)?
+        for path in self.paths.iter().filter(|p| !is_film(p)) {
+            let written = if has_extension(path, "png") {
+                picture::write_png(path, &picture, self.display)
             } else {
-                picture::write_exr(path, picture, metadata)?
+                picture::write_exr(path, &picture, metadata)
             };
+            let count = written
+                .map_err(|e| Failure::other(format_args!("cannot write the picture: {e}")))?;
             replaced = replaced.max(count);
         }
-        Ok(replaced)
+        if replaced > 0 {
+            eprintln!("warning: {replaced} values were not finite and are written as 0");
+        }
+        Ok(())
+    }
+
+    /// Writes the film that was asked for.
+    pub(crate) fn write_film(&self, film: &FilmBuffer, label: &Label) -> Result<(), Failure> {
+        let Some(path) = self.film() else {
+            return Ok(());
+        };
+        FilmFile::write(path, label, film)
+            .map_err(|e| Failure::other(format_args!("cannot write '{}': {e}", path.display())))
     }
 
     /// The files, for messages.
@@ -70,7 +99,11 @@ impl Outputs {
     }
 }
 
-fn is_png(path: &Path) -> bool {
+fn is_film(path: &Path) -> bool {
+    has_extension(path, "film")
+}
+
+fn has_extension(path: &Path, extension: &str) -> bool {
     path.extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("png"))
+        .is_some_and(|e| e.eq_ignore_ascii_case(extension))
 }

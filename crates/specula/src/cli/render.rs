@@ -1,22 +1,21 @@
 //! `specula render`.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use specula::render::picture::{Display, Metadata, ToneMap};
-use specula::render::{PrepareError, PreparedScene, RenderOptions, Renderer};
+use specula::render::picture::Metadata;
+use specula::render::{Label, PrepareError, PreparedScene, RenderOptions, Renderer};
 use specula::scene::Scene;
 
 use super::Failure;
-use super::arguments::{RenderArguments, ToneName};
+use super::arguments::RenderArguments;
+use super::checkpoint::{Checkpoint, Start};
 use super::load::{self, Named};
 use super::outputs::Outputs;
 use super::progress::{Progress, State, short};
 use super::schedule::Goal;
 use super::stop::{INTERRUPTED, Stop};
-
-/// Between two writes of what there is.
-const SAVE_EVERY: Duration = Duration::from_secs(30);
 
 /// Renders and writes; code 130 where Ctrl-C ended it early.
 pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
@@ -36,7 +35,13 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
         load::print_warnings(&warnings);
     }
     let options = options(arguments, &scene)?;
-    let outputs = Outputs::new(&arguments.output, &name, display(arguments))?;
+    let outputs = Outputs::new(paths(arguments, &name), arguments.display.display())?;
+    let mut checkpoint = checkpoint(arguments, &outputs, &name, &scene, &options);
+    let begun = match start(arguments) {
+        Start::New if checkpoint.path().is_none() => None,
+        start => checkpoint.open(start)?,
+    };
+    outputs.sweep();
     let mut pool = rayon::ThreadPoolBuilder::new();
     if let Some(threads) = arguments.threads {
         pool = pool.num_threads(usize::from(threads));
@@ -53,10 +58,17 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
             let ready = short(start.elapsed().as_secs_f64());
             eprintln!("{name}: {width}x{height}, ready after {ready}");
         }
+        let renderer = match begun {
+            None => Renderer::new(&prepared, options.clone()),
+            Some(film) => Renderer::resume(&prepared, options.clone(), film).map_err(|e| {
+                Failure::bad_input(format_args!("cannot go on with the checkpoint: {e}"))
+            })?,
+        };
         Job {
             goal: goal(arguments, &options),
-            renderer: Renderer::new(&prepared, options.clone()),
+            renderer,
             outputs: &outputs,
+            checkpoint,
             name: &name,
             stop: &stop,
             quiet: arguments.quiet,
@@ -83,26 +95,62 @@ fn options(arguments: &RenderArguments, scene: &Scene) -> Result<RenderOptions, 
         energy: arguments.energy,
         resolution: arguments.resolution,
         crop: arguments.crop,
+        first_sample: arguments.samples.map_or(0, |[from, _]| from),
         ..from_scene
     })
 }
 
 fn goal(arguments: &RenderArguments, options: &RenderOptions) -> Goal {
-    match (arguments.time, arguments.noise) {
-        (Some(time), _) => Goal::Time(time),
-        (None, Some(noise)) => Goal::Noise(noise),
-        (None, None) => Goal::Samples(options.samples_per_pixel),
+    match (arguments.time, arguments.noise, arguments.samples) {
+        (Some(time), _, _) => Goal::Time(time),
+        (None, Some(noise), _) => Goal::Noise(noise),
+        (None, None, Some([from, to])) => Goal::Samples(to - from),
+        (None, None, None) => Goal::Samples(options.samples_per_pixel),
     }
 }
 
-fn display(arguments: &RenderArguments) -> Display {
-    Display {
-        tone_map: match arguments.tone {
-            ToneName::Clamp => ToneMap::Clamp,
-            ToneName::Filmic => ToneMap::Filmic,
-        },
-        exposure_stops: arguments.exposure,
+/// The files asked for; else names after the scene, in the current folder.
+fn paths(arguments: &RenderArguments, scene_name: &str) -> Vec<PathBuf> {
+    if !arguments.output.is_empty() {
+        return arguments.output.clone();
     }
+    // Appended: with_extension would cut `a.b` down to `a`.
+    match arguments.samples {
+        Some([from, to]) => vec![PathBuf::from(format!("{scene_name}.{from}-{to}.film"))],
+        None => ["exr", "png"]
+            .map(|e| PathBuf::from(format!("{scene_name}.{e}")))
+            .to_vec(),
+    }
+}
+
+fn start(arguments: &RenderArguments) -> Start {
+    match (arguments.resume, arguments.restart) {
+        (true, _) => Start::Resume,
+        (_, true) => Start::Restart,
+        _ => Start::New,
+    }
+}
+
+fn checkpoint(
+    arguments: &RenderArguments,
+    outputs: &Outputs,
+    name: &str,
+    scene: &Scene,
+    options: &RenderOptions,
+) -> Checkpoint {
+    let label = Label {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        scene: name.to_owned(),
+        fingerprint: scene.fingerprint(),
+        settings: options.settings(),
+        seconds: 0.0,
+    };
+    Checkpoint::new(
+        outputs.checkpoint(),
+        label,
+        arguments.checkpoint.0,
+        outputs.film().is_some(),
+    )
 }
 
 /// A render on its way.
@@ -110,6 +158,7 @@ struct Job<'a> {
     goal: Goal,
     renderer: Renderer<'a>,
     outputs: &'a Outputs,
+    checkpoint: Checkpoint,
     name: &'a str,
     stop: &'a Stop,
     quiet: bool,
@@ -119,9 +168,9 @@ impl Job<'_> {
     fn run(mut self) -> Result<ExitCode, Failure> {
         let start = Instant::now();
         let mut progress = Progress::new(self.quiet);
-        let (mut samples, mut rays, mut invalid) = (0, 0u64, 0);
-        let mut last = None;
-        let mut saved = Instant::now();
+        let film = self.renderer.film();
+        let (mut samples, mut invalid) = (film.complete_samples(), film.invalid_samples());
+        let (mut rays, mut last) = (0_u64, None);
         while !self.stop.asked() {
             let film = self.renderer.film();
             let next = self
@@ -141,41 +190,47 @@ impl Job<'_> {
                 rays_per_second: rays as f64 / start.elapsed().as_secs_f64(),
                 noise,
             });
-            if saved.elapsed() >= SAVE_EVERY && report.complete {
-                self.save(samples, start)?;
-                saved = Instant::now();
+            if report.complete && self.checkpoint.is_due() {
+                let seconds = start.elapsed().as_secs_f64();
+                self.checkpoint.save(self.renderer.film(), seconds);
+                self.write_pictures(samples, seconds)?;
             }
         }
         progress.finish();
         let seconds = start.elapsed().as_secs_f64();
-        self.save(samples, start)?;
+        let interrupted = self.stop.asked();
+        if interrupted {
+            // First: nothing is lost if a picture cannot be written.
+            self.checkpoint.save(self.renderer.film(), seconds);
+        }
+        self.write_pictures(samples, seconds)?;
+        if !interrupted {
+            self.checkpoint.finish(self.renderer.film(), seconds)?;
+        }
         if invalid > 0 {
             eprintln!("warning: {invalid} samples were not finite and count as black");
         }
-        let interrupted = self.stop.asked();
         if !self.quiet || interrupted {
             self.print_summary(samples, rays, seconds, interrupted);
         }
         Ok(ExitCode::from(if interrupted { INTERRUPTED } else { 0 }))
     }
 
-    fn save(&self, samples: u32, start: Instant) -> Result<(), Failure> {
+    /// * `seconds`: of this run.
+    fn write_pictures(&self, samples: u32, seconds: f64) -> Result<(), Failure> {
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "for people: the nearest f32 is near enough"
+        )]
+        let seconds = (self.checkpoint.seconds_before() + seconds) as f32;
         let metadata = Metadata {
             software: Some(concat!("specula ", env!("CARGO_PKG_VERSION")).to_owned()),
             scene: Some(self.name.to_owned()),
             samples_per_pixel: Some(samples),
             seed: Some(self.renderer.options().seed),
-            render_seconds: Some(start.elapsed().as_secs_f32()),
+            render_seconds: Some(seconds),
         };
-        let picture = self.renderer.film().picture();
-        let replaced = self
-            .outputs
-            .write(&picture, &metadata)
-            .map_err(|e| Failure::other(format_args!("cannot write the picture: {e}")))?;
-        if replaced > 0 {
-            eprintln!("warning: {replaced} values were not finite and are written as 0");
-        }
-        Ok(())
+        self.outputs.write_pictures(self.renderer.film(), &metadata)
     }
 
     fn print_summary(&self, samples: u32, rays: u64, seconds: f64, interrupted: bool) {
@@ -186,13 +241,16 @@ impl Job<'_> {
         } else {
             String::new()
         };
-        let lead = if interrupted {
-            "stopped by Ctrl-C; wrote what there is to"
-        } else {
-            "wrote"
+        let (lead, end) = match (interrupted, self.checkpoint.path()) {
+            (true, Some(path)) => (
+                "stopped by Ctrl-C; wrote what there is to",
+                format!("; --resume goes on with {}", path.display()),
+            ),
+            (true, None) => ("stopped by Ctrl-C; wrote what there is to", String::new()),
+            _ => ("wrote", String::new()),
         };
         eprintln!(
-            "{lead} {names}: {samples} spp{noise}, {} ({:.2} Mrays/s)",
+            "{lead} {names}: {samples} spp{noise}, {} ({:.2} Mrays/s){end}",
             short(seconds),
             rays as f64 * 1e-6 / seconds.max(1e-9),
         );

@@ -97,9 +97,35 @@ pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
 
 /// A path that ends in `.exr` or `.png`.
 pub(crate) fn output(text: &str) -> Result<PathBuf, String> {
-    with_extension(text, &["exr", "png"])
-        .ok_or_else(|| "expected a file name that ends in .exr or .png".to_owned())
+    with_extension(text, &["exr", "png", "film"])
+        .ok_or_else(|| "expected a file name that ends in .exr, .png or .film".to_owned())
 }
+
+/// `0..512`: numbers of samples, half open.
+pub(crate) fn samples(text: &str) -> Result<[u32; 2], String> {
+    const MOST: u32 = 1 << 24;
+    text.split_once("..")
+        .and_then(|(from, to)| Some([from.parse().ok()?, to.parse().ok()?]))
+        .filter(|[from, to]| from < to && *to <= MOST)
+        .ok_or_else(|| {
+            "expected the first sample and the one after the last, at most 16777216, as in 512..1024"
+                .to_owned()
+        })
+}
+
+/// A time, or `off`.
+pub(crate) fn interval(text: &str) -> Result<Interval, String> {
+    if text == "off" {
+        return Ok(Interval(None));
+    }
+    duration(text)
+        .map(|every| Interval(Some(every)))
+        .map_err(|e| format!("{e}, or off"))
+}
+
+/// A time between two writes; `None`: never.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Interval(pub(crate) Option<Duration>);
 
 /// A path that ends in `.png`.
 pub(crate) fn png(text: &str) -> Result<PathBuf, String> {

@@ -1,0 +1,412 @@
+//! Films as files (`.film`): what a render is resumed from, and what parts of a picture are merged
+//! from.
+//!
+//! Little endian:
+//!
+//! | | |
+//! |---|---|
+//! | 8 bytes | `SPECFILM` |
+//! | `u32` | version of the format |
+//! | label | program's version, scene's name, settings (texts: `u32` length, UTF-8), scene's fingerprint (`u64`), seconds (`f64`) |
+//! | film | resolution, crop, first sample (`u32` each), number of parts and parts (`u32`), number of tiles (`u32`) |
+//! | per tile | samples that were not finite (`u64`), length (`u32`), words of its pixels, one column for each word, deflated |
+//! | `u64` | XXH3 of all before |
+
+use std::hash::Hasher;
+use std::io::{self, Read, Write};
+use std::path::Path;
+
+use flate2::Compression;
+use flate2::read::ZlibDecoder;
+use flate2::write::ZlibEncoder;
+use rayon::prelude::*;
+use specula_scene::atomic;
+use thiserror::Error;
+use twox_hash::XxHash3_64;
+
+use super::buffer::{FilmBuffer, PixelSums, Tile};
+
+const MAGIC: &[u8; 8] = b"SPECFILM";
+const FORMAT: u32 = 1;
+/// Longest text of a label.
+const LONGEST_TEXT: usize = 1 << 16;
+/// Most pixels of a film that is read: those of a picture.
+const MOST_PIXELS: u64 = 1 << 30;
+/// Tiles that are deflated at once.
+const GROUP: usize = 256;
+
+/// What a film belongs to. Films merge, and renders resume, only where all but the seconds agree.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Label {
+    /// Version of the program: another's samples may differ.
+    pub version: String,
+    /// The scene's name, for messages.
+    pub scene: String,
+    /// [`Scene::fingerprint`](specula_scene::Scene::fingerprint).
+    pub fingerprint: u64,
+    /// Options that change samples, as text.
+    pub settings: String,
+    /// Time spent so far.
+    pub seconds: f64,
+}
+
+impl Label {
+    /// Why films of this label and of `other` are not of the same render; `None` where they are.
+    #[must_use]
+    pub fn difference(&self, other: &Self) -> Option<String> {
+        let differ = |what: &str, a: &str, b: &str| Some(format!("{what}: {a} and {b}"));
+        if self.version != other.version {
+            return differ("made by different versions", &self.version, &other.version);
+        }
+        if self.fingerprint != other.fingerprint {
+            return differ("different scenes", &self.scene, &other.scene);
+        }
+        if self.settings != other.settings {
+            return differ("different settings", &self.settings, &other.settings);
+        }
+        None
+    }
+}
+
+/// A film and what it belongs to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilmFile {
+    /// What it belongs to.
+    pub label: Label,
+    /// The sums.
+    pub film: FilmBuffer,
+}
+
+/// Why a film cannot be read.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum FilmFileError {
+    /// The system's error.
+    #[error(transparent)]
+    Io(#[from] io::Error),
+    /// It is something else.
+    #[error("no film of Specula's")]
+    NotAFilm,
+    /// It is of another version of the format.
+    #[error("a film in version {0} of the format; expected version {FORMAT}")]
+    Format(u32),
+    /// Its checksum is wrong, or it is cut off.
+    #[error("damaged or cut off: its checksum does not agree")]
+    Damaged,
+}
+
+impl FilmFile {
+    /// Writes the film in place of `path`, whole or not at all.
+    ///
+    /// # Errors
+    /// The system's.
+    pub fn write(path: &Path, label: &Label, film: &FilmBuffer) -> io::Result<()> {
+        atomic::replace(path, |file| {
+            let mut out = Hashing {
+                inner: file,
+                hash: XxHash3_64::new(),
+            };
+            out.write_all(MAGIC)?;
+            out.write_all(&FORMAT.to_le_bytes())?;
+            write_label(&mut out, label)?;
+            write_head(&mut out, film)?;
+            for tiles in film.tiles.chunks(GROUP) {
+                let packed: Vec<_> = tiles.par_iter().map(pack).collect();
+                for (tile, packed) in tiles.iter().zip(packed) {
+                    let packed = packed?;
+                    out.write_all(&tile.invalid.to_le_bytes())?;
+                    out.write_all(&length(packed.len())?.to_le_bytes())?;
+                    out.write_all(&packed)?;
+                }
+            }
+            let sum = out.hash.finish();
+            out.inner.write_all(&sum.to_le_bytes())
+        })
+    }
+
+    /// Reads a film.
+    ///
+    /// # Errors
+    /// Where the file cannot be read, is no film, is of another format or damaged.
+    pub fn read(path: &Path) -> Result<Self, FilmFileError> {
+        let bytes = std::fs::read(path)?;
+        let Some(rest) = bytes.strip_prefix(MAGIC) else {
+            return Err(FilmFileError::NotAFilm);
+        };
+        let mut input = Input(rest);
+        let format = input.u32().ok_or(FilmFileError::Damaged)?;
+        if format != FORMAT {
+            return Err(FilmFileError::Format(format));
+        }
+        let content = bytes.len().checked_sub(8).ok_or(FilmFileError::Damaged)?;
+        let (content, sum) = bytes.split_at(content);
+        if XxHash3_64::oneshot(content).to_le_bytes() != sum {
+            return Err(FilmFileError::Damaged);
+        }
+        parse(input).ok_or(FilmFileError::Damaged)
+    }
+}
+
+fn write_label(out: &mut impl Write, label: &Label) -> io::Result<()> {
+    for text in [&label.version, &label.scene, &label.settings] {
+        let text = &text.as_bytes()[..text.floor_char_boundary(LONGEST_TEXT)];
+        out.write_all(&length(text.len())?.to_le_bytes())?;
+        out.write_all(text)?;
+    }
+    out.write_all(&label.fingerprint.to_le_bytes())?;
+    out.write_all(&label.seconds.to_le_bytes())
+}
+
+fn write_head(out: &mut impl Write, film: &FilmBuffer) -> io::Result<()> {
+    let parts = if film.is_open() {
+        Vec::new()
+    } else {
+        film.samples()
+    };
+    let size = film.full_resolution().into_iter().chain(film.crop());
+    let head = size
+        .chain([film.first_sample(), length(parts.len())?])
+        .chain(parts.into_iter().flatten())
+        .chain([length(film.tiles.len())?]);
+    for number in head {
+        out.write_all(&number.to_le_bytes())?;
+    }
+    Ok(())
+}
+
+/// A count as the file holds it.
+fn length(n: usize) -> io::Result<u32> {
+    u32::try_from(n).map_err(|_| io::Error::other("too large for a film's file"))
+}
+
+/// A tile's words, column by column, deflated: most low halves of sums are 0.
+fn pack(tile: &Tile) -> io::Result<Vec<u8>> {
+    let pixels: Vec<_> = tile.pixels.iter().map(PixelSums::words).collect();
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
+    for column in 0..PixelSums::WORDS {
+        for words in &pixels {
+            encoder.write_all(&words[column].to_le_bytes())?;
+        }
+    }
+    encoder.finish()
+}
+
+/// The pixels of a tile; `None` where there are not exactly `count`.
+fn unpack(packed: &[u8], count: usize) -> Option<Vec<PixelSums>> {
+    let mut bytes = vec![0; count * PixelSums::WORDS * 8];
+    let mut decoder = ZlibDecoder::new(packed);
+    decoder.read_exact(&mut bytes).ok()?;
+    if decoder.read(&mut [0]).ok()? != 0 {
+        return None;
+    }
+    let (words, _) = bytes.as_chunks::<8>();
+    let pixel = |i: usize| {
+        let word = |column: usize| u64::from_le_bytes(words[column * count + i]);
+        PixelSums::from_words(&core::array::from_fn(word))
+    };
+    Some((0..count).map(pixel).collect())
+}
+
+/// All after the format's version; `None` where something does not fit.
+fn parse(mut input: Input<'_>) -> Option<FilmFile> {
+    let [version, scene, settings] = [input.text()?, input.text()?, input.text()?];
+    let label = Label {
+        version,
+        scene,
+        settings,
+        fingerprint: u64::from_le_bytes(input.array()?),
+        seconds: f64::from_le_bytes(input.array()?),
+    };
+    let mut number = || input.u32();
+    let [width, height] = [number()?, number()?];
+    let [x0, x1, y0, y1] = [number()?, number()?, number()?, number()?];
+    let [first, part_count] = [number()?, number()?];
+    let fits = x0 < x1 && x1 <= width && y0 < y1 && y1 <= height;
+    if !fits || u64::from(width) * u64::from(height) > MOST_PIXELS {
+        return None;
+    }
+    let parts = (0..part_count)
+        .map(|_| Some([number()?, number()?]))
+        .collect::<Option<Vec<_>>>()?;
+    let tile_count = number()?;
+    let empty = FilmBuffer::new([width, height], [x0, x1, y0, y1], first);
+    if empty.tiles.len() != tile_count as usize {
+        return None;
+    }
+    let packed = empty
+        .tiles
+        .iter()
+        .map(|tile| {
+            let invalid = u64::from_le_bytes(input.array()?);
+            let length = input.u32()? as usize;
+            Some((tile, invalid, input.take(length)?))
+        })
+        .collect::<Option<Vec<_>>>()?;
+    let tiles = packed
+        .into_par_iter()
+        .map(|(tile, invalid, packed)| {
+            Some(Tile {
+                bounds: tile.bounds,
+                pixels: unpack(packed, tile.pixels.len())?,
+                invalid,
+            })
+        })
+        .collect::<Option<Vec<_>>>()?;
+    let film = empty.restore(parts, tiles)?;
+    Some(FilmFile { label, film })
+}
+
+/// Bytes yet to be read.
+struct Input<'a>(&'a [u8]);
+
+impl<'a> Input<'a> {
+    fn take(&mut self, n: usize) -> Option<&'a [u8]> {
+        let (head, rest) = self.0.split_at_checked(n)?;
+        self.0 = rest;
+        Some(head)
+    }
+
+    fn array<const N: usize>(&mut self) -> Option<[u8; N]> {
+        self.take(N)?.try_into().ok()
+    }
+
+    fn u32(&mut self) -> Option<u32> {
+        self.array().map(u32::from_le_bytes)
+    }
+
+    fn text(&mut self) -> Option<String> {
+        let length = self.u32()? as usize;
+        let bytes = self.take(length)?;
+        (length <= LONGEST_TEXT).then(|| String::from_utf8_lossy(bytes).into_owned())
+    }
+}
+
+/// Hashes what is written.
+struct Hashing<W> {
+    inner: W,
+    hash: XxHash3_64,
+}
+
+impl<W: Write> Write for Hashing<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let n = self.inner.write(bytes)?;
+        Hasher::write(&mut self.hash, &bytes[..n]);
+        Ok(n)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.inner.flush()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use specula_bsdf::{Rgb, Vec3};
+
+    use super::super::buffer::PixelSample;
+    use super::*;
+
+    fn label() -> Label {
+        Label {
+            version: "1.2.3".to_owned(),
+            scene: "röst.pbrt".to_owned(),
+            fingerprint: 0x1234_5678_9abc_def0,
+            settings: "seed 7".to_owned(),
+            seconds: 12.5,
+        }
+    }
+
+    /// 20 x 18 pixels, cropped, of three samples each.
+    fn film(first: u32) -> FilmBuffer {
+        let mut film = FilmBuffer::new([20, 18], [1, 19, 0, 18], first);
+        for (i, tile) in film.tiles.iter_mut().enumerate() {
+            for (j, p) in tile.pixels.iter_mut().enumerate() {
+                for k in 0..3 {
+                    let v = (i * 1000 + j * 3 + k) as f32 * 0.1;
+                    let sample = PixelSample {
+                        colour: Rgb::splat(v),
+                        albedo: Rgb::WHITE,
+                        normal: Vec3::Z,
+                        depth: (j % 2 == 0).then_some(v),
+                    };
+                    p.add(&sample, 1.1);
+                }
+            }
+            tile.invalid = i as u64;
+        }
+        film
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.film");
+        let mut gaps = film(0);
+        gaps.merge(&film(9)).unwrap();
+        for film in [film(5), gaps, FilmBuffer::new([3, 2], [0, 3, 0, 2], 0)] {
+            FilmFile::write(&path, &label(), &film).unwrap();
+            let read = FilmFile::read(&path).unwrap();
+            assert_eq!((read.label, read.film), (label(), film));
+        }
+    }
+
+    #[test]
+    fn damage_is_found_and_never_panics() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.film");
+        FilmFile::write(&path, &label(), &film(5)).unwrap();
+        let whole = std::fs::read(&path).unwrap();
+        let kind = |bytes: &[u8]| {
+            std::fs::write(&path, bytes).unwrap();
+            FilmFile::read(&path).map(|_| ()).unwrap_err()
+        };
+        for cut in (8..whole.len()).step_by(37) {
+            assert!(
+                matches!(kind(&whole[..cut]), FilmFileError::Damaged),
+                "{cut}"
+            );
+        }
+        for at in (12..whole.len()).step_by(41) {
+            let mut bytes = whole.clone();
+            bytes[at] ^= 4;
+            assert!(matches!(kind(&bytes), FilmFileError::Damaged), "{at}");
+        }
+        // With a checksum that agrees, too.
+        for at in 12..whole.len() - 8 {
+            for value in [0, 255] {
+                let mut bytes = whole[..whole.len() - 8].to_vec();
+                bytes[at] = value;
+                let sum = XxHash3_64::oneshot(&bytes);
+                bytes.extend(sum.to_le_bytes());
+                std::fs::write(&path, bytes).unwrap();
+                let _ = FilmFile::read(&path);
+            }
+            if at > 200 {
+                break;
+            }
+        }
+        assert!(matches!(kind(b"P6 1 1"), FilmFileError::NotAFilm));
+        assert!(matches!(
+            kind(b"SPECFILM\x02\0\0\0"),
+            FilmFileError::Format(2)
+        ));
+        let missing = FilmFile::read(&folder.path().join("none.film"));
+        assert!(matches!(missing, Err(FilmFileError::Io(_))));
+    }
+
+    #[test]
+    fn labels_say_where_they_differ() {
+        let other = Label {
+            fingerprint: 1,
+            scene: "b.pbrt".to_owned(),
+            ..label()
+        };
+        let text = label().difference(&other).unwrap();
+        assert!(text.contains("röst.pbrt and b.pbrt"), "{text}");
+        let longer = Label {
+            seconds: 99.0,
+            ..label()
+        };
+        assert_eq!(label().difference(&longer), None);
+    }
+}

@@ -1,0 +1,146 @@
+//! Sums that do not depend on the order of their terms, so that a picture does not depend on how its
+//! samples were split among runs and machines.
+
+/// A sum of two `f64`: what rounding takes from the first is kept in the second (Knuth's two-sum).
+///
+/// Exact, and so the same in any order, as long as the terms' bits span less than about a hundred
+/// binary places: 24 of an `f32`, 48 of its square, the rest for their range and number.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Sum {
+    high: f64,
+    low: f64,
+}
+
+impl Sum {
+    #[inline(always)]
+    pub(crate) fn add(&mut self, term: f64) {
+        let sum = self.high + term;
+        let virtual_term = sum - self.high;
+        let lost = (self.high - (sum - virtual_term)) + (term - virtual_term);
+        self.high = sum;
+        self.low += lost;
+    }
+
+    pub(crate) fn merge(&mut self, other: Self) {
+        self.add(other.high);
+        self.low += other.low;
+    }
+
+    pub(crate) fn value(self) -> f64 {
+        self.high + self.low
+    }
+
+    pub(crate) fn words(self) -> [u64; 2] {
+        [self.high.to_bits(), self.low.to_bits()]
+    }
+
+    pub(crate) fn from_words([high, low]: [u64; 2]) -> Self {
+        Self {
+            high: f64::from_bits(high),
+            low: f64::from_bits(low),
+        }
+    }
+}
+
+/// A sum of numbers of the order of 1 (colours of surfaces, directions) in units of 2^-30: exact for
+/// 2^31 of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct FixedSum(i64);
+
+impl FixedSum {
+    const UNIT: f64 = 1.0 / (1 << 30) as f64;
+
+    /// Rounds to the nearest unit; NaN counts as 0.
+    #[inline(always)]
+    #[allow(
+        clippy::cast_possible_truncation,
+        reason = "rounded and saturating: numbers beyond 2^33 do not occur"
+    )]
+    pub(crate) fn add(&mut self, term: f32) {
+        let units = (f64::from(term) / Self::UNIT).round() as i64;
+        self.0 = self.0.saturating_add(units);
+    }
+
+    pub(crate) fn merge(&mut self, other: Self) {
+        self.0 = self.0.saturating_add(other.0);
+    }
+
+    pub(crate) fn value(self) -> f64 {
+        self.0 as f64 * Self::UNIT
+    }
+
+    pub(crate) fn word(self) -> u64 {
+        self.0.cast_unsigned()
+    }
+
+    pub(crate) fn from_word(word: u64) -> Self {
+        Self(word.cast_signed())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers of 24 bits over sixty binary places, by a fixed recurrence.
+    fn numbers() -> Vec<f64> {
+        let mut state = 1_u64;
+        (0..10_000)
+            .map(|_| {
+                state = state
+                    .wrapping_mul(6_364_136_223_846_793_005)
+                    .wrapping_add(1);
+                let mantissa = (state >> 40) as f64;
+                let exponent = i32::try_from(state >> 32 & 31).unwrap() - 16;
+                mantissa * 2.0_f64.powi(exponent)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn sums_are_the_same_in_any_order_and_split() {
+        let numbers = numbers();
+        let sum = |terms: &mut dyn Iterator<Item = &f64>| {
+            let mut sum = Sum::default();
+            terms.for_each(|&t| {
+                sum.add(t);
+                sum.add(t * t * 1e-3_f32 as f64);
+            });
+            sum
+        };
+        let forwards = sum(&mut numbers.iter());
+        assert_eq!(
+            forwards.value().to_bits(),
+            sum(&mut numbers.iter().rev()).value().to_bits()
+        );
+        let mut halves = sum(&mut numbers[..3333].iter());
+        halves.merge(sum(&mut numbers[3333..].iter()));
+        assert_eq!(forwards.value().to_bits(), halves.value().to_bits());
+        assert_eq!(Sum::from_words(halves.words()), halves);
+        // The test can fail: plain addition depends on the order.
+        let plain =
+            |terms: &mut dyn Iterator<Item = &f64>| terms.map(|t| t * t * 1e-3).sum::<f64>();
+        assert_ne!(
+            plain(&mut numbers.iter()).to_bits(),
+            plain(&mut numbers.iter().rev()).to_bits()
+        );
+    }
+
+    #[test]
+    fn fixed_sums_round_to_a_billionth() {
+        let (mut sum, mut expected) = (FixedSum::default(), 0.0);
+        for i in 0..1000_u16 {
+            let term = f32::from(i) * 1e-3;
+            sum.add(term);
+            expected += f64::from(term);
+        }
+        sum.add(f32::NAN);
+        assert!((sum.value() - expected).abs() < 1000.0 * FixedSum::UNIT);
+        let mut twice = sum;
+        twice.merge(sum);
+        assert_eq!(twice.value(), 2.0 * sum.value());
+        assert_eq!(FixedSum::from_word(sum.word()), sum);
+        sum.add(-1000.0);
+        assert_eq!(FixedSum::from_word(sum.word()), sum);
+    }
+}

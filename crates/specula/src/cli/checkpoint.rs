@@ -1,0 +1,162 @@
+//! The film of a render on disk, so that no work is lost: written now and then, resumed from.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use specula::render::{FilmBuffer, FilmFile, FilmFileError, Label};
+
+use super::Failure;
+
+/// Writing takes at most this share of the time.
+const LARGEST_SHARE: f64 = 0.05;
+
+/// What to do about a film that is there already.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Start {
+    /// Refuse: it holds somebody's work.
+    New,
+    /// Go on with it.
+    Resume,
+    /// Replace it.
+    Restart,
+}
+
+/// Where a render keeps its film.
+pub(crate) struct Checkpoint {
+    path: PathBuf,
+    label: Label,
+    /// `None`: never written.
+    every: Option<Duration>,
+    /// Whether the film is one of the files that were asked for.
+    asked_for: bool,
+    saved: Instant,
+    cost: Duration,
+    failed: bool,
+}
+
+impl Checkpoint {
+    /// A film at `path`.
+    ///
+    /// * `every`: between two writes; `None`: none at all.
+    /// * `asked_for`: it stays when the render is done.
+    pub(crate) fn new(
+        path: PathBuf,
+        label: Label,
+        every: Option<Duration>,
+        asked_for: bool,
+    ) -> Self {
+        Self {
+            path,
+            label,
+            every,
+            asked_for,
+            saved: Instant::now(),
+            cost: Duration::ZERO,
+            failed: false,
+        }
+    }
+
+    /// The film to begin with; `None`: an empty one.
+    ///
+    /// Fails where the file holds another render, or an unfinished one and `start` does not say what
+    /// to do with it.
+    pub(crate) fn open(&mut self, start: Start) -> Result<Option<FilmBuffer>, Failure> {
+        let name = self.path.display();
+        let FilmFile { label, film } = match FilmFile::read(&self.path) {
+            Ok(file) => file,
+            Err(FilmFileError::Io(e)) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(FilmFileError::Damaged | FilmFileError::Format(_)) if start == Start::Restart => {
+                return Ok(None);
+            }
+            Err(e) => {
+                return Err(Failure::bad_input(format_args!(
+                    "the checkpoint '{name}' cannot be read: {e}"
+                )));
+            }
+        };
+        match start {
+            Start::Restart => Ok(None),
+            Start::New => Err(Failure::bad_input(format_args!(
+                "'{name}' holds a render of {}: {} samples per pixel.\n\
+                 --resume goes on with it, --restart begins anew and replaces it",
+                label.scene,
+                film.complete_samples()
+            ))),
+            Start::Resume => {
+                if let Some(difference) = self.label.difference(&label) {
+                    return Err(Failure::bad_input(format_args!(
+                        "cannot go on with the checkpoint '{name}': {difference}.\n\
+                         --restart begins anew and replaces it"
+                    )));
+                }
+                self.label.seconds = label.seconds;
+                Ok(Some(film))
+            }
+        }
+    }
+
+    /// Whether it is time to write.
+    pub(crate) fn is_due(&self) -> bool {
+        let rest = self.cost.mul_f64(1.0 / LARGEST_SHARE);
+        self.every
+            .is_some_and(|every| self.saved.elapsed() >= every.max(rest))
+    }
+
+    /// Writes the film. A render goes on where that fails: there may be space again next time.
+    ///
+    /// * `seconds`: of this run.
+    pub(crate) fn save(&mut self, film: &FilmBuffer, seconds: f64) {
+        if self.every.is_none() && !self.asked_for {
+            return;
+        }
+        let start = Instant::now();
+        let label = Label {
+            seconds: self.label.seconds + seconds,
+            ..self.label.clone()
+        };
+        let written = FilmFile::write(&self.path, &label, film);
+        self.cost = start.elapsed();
+        self.saved = Instant::now();
+        match written {
+            Ok(()) => self.failed = false,
+            Err(e) => {
+                if !self.failed {
+                    let name = self.path.display();
+                    eprintln!("warning: cannot write the checkpoint '{name}': {e}");
+                }
+                self.failed = true;
+            }
+        }
+    }
+
+    /// The render is done: the film goes, unless it was asked for.
+    pub(crate) fn finish(&mut self, film: &FilmBuffer, seconds: f64) -> Result<(), Failure> {
+        if self.asked_for {
+            self.save(film, seconds);
+            if self.failed {
+                let name = self.path.display();
+                return Err(Failure::other(format_args!("cannot write '{name}'")));
+            }
+            return Ok(());
+        }
+        match std::fs::remove_file(&self.path) {
+            Err(e) if e.kind() != io::ErrorKind::NotFound => {
+                let name = self.path.display();
+                eprintln!("warning: cannot remove the checkpoint '{name}': {e}");
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Seconds that earlier runs took.
+    pub(crate) fn seconds_before(&self) -> f64 {
+        self.label.seconds
+    }
+
+    /// The file, where it is written at all.
+    pub(crate) fn path(&self) -> Option<&Path> {
+        (self.every.is_some() || self.asked_for).then_some(&self.path)
+    }
+}

@@ -1,0 +1,83 @@
+//! `specula merge`.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use specula::render::FilmFile;
+use specula::render::picture::Metadata;
+
+use super::Failure;
+use super::arguments::MergeArguments;
+use super::outputs::Outputs;
+
+/// Adds films of distinct samples; code 2 where they overlap or are of different renders.
+pub(crate) fn run(arguments: &MergeArguments) -> Result<ExitCode, Failure> {
+    let outputs = Outputs::new(arguments.output.clone(), arguments.display.display())?;
+    let mut files = arguments
+        .films
+        .iter()
+        .map(|path| Ok((path.as_path(), read(path)?)))
+        .collect::<Result<Vec<_>, Failure>>()?;
+    // In the order of their samples, so that adjoining films stay one range.
+    files.sort_by_key(|(_, file)| file.film.first_sample());
+    let mut files = files.into_iter();
+    let Some((
+        first_path,
+        FilmFile {
+            mut label,
+            mut film,
+        },
+    )) = files.next()
+    else {
+        return Err(Failure::bad_input("no films"));
+    };
+    for (path, other) in files {
+        let (a, b) = (first_path.display(), path.display());
+        if let Some(difference) = label.difference(&other.label) {
+            return Err(Failure::bad_input(format_args!(
+                "'{a}' and '{b}' are not parts of one render: {difference}"
+            )));
+        }
+        film.merge(&other.film).map_err(|e| {
+            Failure::bad_input(format_args!("cannot add '{b}' to those before it: {e}"))
+        })?;
+        label.seconds += other.label.seconds;
+    }
+    let samples = film.complete_samples();
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "for people: the nearest f32 is near enough"
+    )]
+    let seconds = label.seconds as f32;
+    let metadata = Metadata {
+        software: Some(format!("specula {}", label.version)),
+        scene: Some(label.scene.clone()),
+        samples_per_pixel: Some(samples),
+        seed: None,
+        render_seconds: Some(seconds),
+    };
+    outputs.write_film(&film, &label)?;
+    outputs.write_pictures(&film, &metadata)?;
+    if !arguments.quiet {
+        eprintln!(
+            "wrote {}: {samples} spp of {} (samples {})",
+            outputs.names(),
+            label.scene,
+            ranges(&film.samples())
+        );
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn read(path: &Path) -> Result<FilmFile, Failure> {
+    FilmFile::read(path)
+        .map_err(|e| Failure::bad_input(format_args!("cannot read '{}': {e}", path.display())))
+}
+
+fn ranges(samples: &[[u32; 2]]) -> String {
+    let ranges: Vec<String> = samples
+        .iter()
+        .map(|[from, to]| format!("{from}..{to}"))
+        .collect();
+    ranges.join(", ")
+}
