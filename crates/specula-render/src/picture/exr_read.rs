@@ -17,22 +17,28 @@ use super::{Picture, PictureError};
 ///
 /// Where the file is missing, broken, of an unknown compression, or without colours.
 pub fn read_exr(path: &Path) -> Result<Picture, PictureError> {
-    let image = read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .all_channels()
-        .all_layers()
-        .all_attributes()
-        .from_file(path)
+    let broken = |message| PictureError::Exr {
+        path: path.to_owned(),
+        message,
+    };
+    let read = || {
+        read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+            .all_layers()
+            .all_attributes()
+            .from_file(path)
+    };
+    // The crate asserts what a damaged file may break.
+    let image = std::panic::catch_unwind(read)
+        .map_err(|_| broken("damaged: its blocks are not those of its table".to_owned()))?
         .map_err(|e| match e {
             exr::error::Error::Io(source) => PictureError::Io {
                 path: path.to_owned(),
                 source,
             },
-            other => PictureError::Exr {
-                path: path.to_owned(),
-                message: other.to_string(),
-            },
+            other => broken(other.to_string()),
         })?;
     let window = image.attributes.display_window;
     for layer in &image.layer_data {
@@ -156,6 +162,17 @@ mod tests {
             sample_count: vec![16.0; 6],
             variance: colours(5),
         }
+    }
+
+    /// Found by fuzzing; its first byte is the fuzzer's choice of a format.
+    #[test]
+    fn blocks_of_another_level_are_damage() {
+        let seed = include_bytes!("../../../specula-scene/fuzz/seeds/image/levels.exr");
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("levels.exr");
+        std::fs::write(&path, &seed[1..]).unwrap();
+        let error = read_exr(&path).unwrap_err();
+        assert!(matches!(error, PictureError::Exr { .. }), "{error}");
     }
 
     #[test]

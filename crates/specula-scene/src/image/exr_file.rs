@@ -20,13 +20,19 @@ pub(super) fn decode(bytes: &[u8], limits: &Limits) -> Result<Decoded, String> {
         let size = header.layer_size;
         check_size(size.width() as u64, size.height() as u64, limits)?;
     }
-    let picture = exr::prelude::read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .all_channels()
-        .first_valid_layer()
-        .all_attributes()
-        .from_buffered(Cursor::new(bytes))
+    let read = || {
+        exr::prelude::read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+            .first_valid_layer()
+            .all_attributes()
+            .from_buffered(Cursor::new(bytes))
+    };
+    // The crate asserts what a damaged file may break: that a block is of the level that the table
+    // of blocks says.
+    let picture = std::panic::catch_unwind(read)
+        .map_err(|_| "damaged: its blocks are not those of its table".to_owned())?
         .map_err(|e| e.to_string())?;
     let layer = picture.layer_data;
     let channels = &layer.channel_data.list;
@@ -82,4 +88,17 @@ fn space(c: exr::meta::attribute::Chromaticities) -> Option<ColourSpace> {
         blue: pair(c.blue),
         white: pair(c.white),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Its first byte is the fuzzer's choice of a format.
+    #[test]
+    fn blocks_of_another_level_are_damage() {
+        let seed = include_bytes!("../../fuzz/seeds/image/levels.exr");
+        let message = decode(&seed[1..], &Limits::default()).err().unwrap();
+        assert!(message.contains("damaged"), "{message}");
+    }
 }
