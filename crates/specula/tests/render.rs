@@ -170,7 +170,7 @@ fn wrong_arguments_end_with_code_2_and_say_what_was_expected() {
         (&["--crop", "5,1,0,1"], "x0 < x1"),
         (&["--crop", "0,9999,0,1"], "beyond the picture"),
         (&["--resolution", "0x0"], "1280x720"),
-        (&["-o", "a.jpg"], ".exr or .png"),
+        (&["-o", "a.jpg"], ".exr, .png or .film"),
         (&["-o", "a.exr", "-o", "a.exr"], "given twice"),
     ];
     for (arguments, expected) in cases {

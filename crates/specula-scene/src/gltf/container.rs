@@ -96,6 +96,8 @@ mod tests {
 
     #[test]
     fn lengths_that_lie_are_errors() {
+        let found = include_bytes!("../../fuzz/findings/gltf-short-length.glb");
+        assert!(split(found).is_err());
         let json: &[(&[u8; 4], u32, &[u8])] = &[(b"JSON", 4, b"{}  ")];
         for length in [0, 5, 11, 25, u32::MAX] {
             assert!(split(&file(length, json)).is_err(), "{length}");

@@ -97,7 +97,7 @@ mod tests {
     /// Its first byte is the fuzzer's choice of a format.
     #[test]
     fn blocks_of_another_level_are_damage() {
-        let seed = include_bytes!("../../fuzz/seeds/image/levels.exr");
+        let seed = include_bytes!("../../fuzz/findings/image-levels.exr");
         let message = decode(&seed[1..], &Limits::default()).err().unwrap();
         assert!(message.contains("damaged"), "{message}");
     }
