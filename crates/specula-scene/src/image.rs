@@ -4,6 +4,7 @@ mod exr_file;
 mod pfm;
 mod read;
 
+pub use exr_file::guarded;
 pub(crate) use read::{Content, Encoding, Format, decode, read};
 
 /// A picture in linear RGB (sRGB primaries), row by row from the top.

@@ -198,11 +198,6 @@ impl FilmBuffer {
         self.full_resolution
     }
 
-    /// Bytes that a film of so many pixels takes.
-    pub fn bytes(pixels: u64) -> u64 {
-        pixels.saturating_mul(size_of::<PixelSums>() as u64)
-    }
-
     /// Numbers of the samples within, as ranges `[from, to)` in order. Where a pass was not
     /// finished, some pixels lack the last ones.
     pub fn samples(&self) -> Vec<[u32; 2]> {

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use exr::prelude::{AnyChannels, FlatSamples, Layer, ReadChannels, ReadLayers, Vec2, read};
 use specula_bsdf::{Rgb, Vec3, math::rgb, math::vec3};
+use specula_scene::image::guarded;
 
 use super::{Picture, PictureError};
 
@@ -17,10 +18,6 @@ use super::{Picture, PictureError};
 ///
 /// Where the file is missing, broken, of an unknown compression, or without colours.
 pub fn read_exr(path: &Path) -> Result<Picture, PictureError> {
-    let broken = |message| PictureError::Exr {
-        path: path.to_owned(),
-        message,
-    };
     let read = || {
         read()
             .no_deep_data()
@@ -30,16 +27,16 @@ pub fn read_exr(path: &Path) -> Result<Picture, PictureError> {
             .all_attributes()
             .from_file(path)
     };
-    // The crate asserts what a damaged file may break.
-    let image = std::panic::catch_unwind(read)
-        .map_err(|_| broken("damaged: its blocks are not those of its table".to_owned()))?
-        .map_err(|e| match e {
-            exr::error::Error::Io(source) => PictureError::Io {
-                path: path.to_owned(),
-                source,
-            },
-            other => broken(other.to_string()),
-        })?;
+    let image = guarded(read).map_err(|e| match e {
+        exr::error::Error::Io(source) => PictureError::Io {
+            path: path.to_owned(),
+            source,
+        },
+        other => PictureError::Exr {
+            path: path.to_owned(),
+            message: other.to_string(),
+        },
+    })?;
     let window = image.attributes.display_window;
     for layer in &image.layer_data {
         if let Some(prefix) = colour_prefix(layer) {

@@ -1,6 +1,7 @@
 //! OpenEXR, through the crate `exr`: the first layer's R, G, B and A, or its single channel.
 
 use std::io::Cursor;
+use std::panic::UnwindSafe;
 
 use exr::prelude::{ReadChannels, ReadLayers};
 
@@ -29,11 +30,7 @@ pub(super) fn decode(bytes: &[u8], limits: &Limits) -> Result<Decoded, String> {
             .all_attributes()
             .from_buffered(Cursor::new(bytes))
     };
-    // The crate asserts what a damaged file may break: that a block is of the level that the table
-    // of blocks says.
-    let picture = std::panic::catch_unwind(read)
-        .map_err(|_| "damaged: its blocks are not those of its table".to_owned())?
-        .map_err(|e| e.to_string())?;
+    let picture = guarded(read).map_err(|e| e.to_string())?;
     let layer = picture.layer_data;
     let channels = &layer.channel_data.list;
     let channel = |name: &str| {
@@ -76,6 +73,21 @@ pub(super) fn decode(bytes: &[u8], limits: &Limits) -> Result<Decoded, String> {
             .chromaticities
             .and_then(space)
             .unwrap_or_default(),
+    })
+}
+
+/// What the crate `exr` reads. It asserts what a damaged file may break: that a block is of the level
+/// that the table of blocks says.
+///
+/// # Errors
+///
+/// Those of `read`, and one where it panics.
+pub fn guarded<T>(
+    read: impl FnOnce() -> exr::error::Result<T> + UnwindSafe,
+) -> exr::error::Result<T> {
+    std::panic::catch_unwind(read).unwrap_or_else(|_| {
+        let message = "damaged: its blocks are not those of its table";
+        Err(exr::error::Error::Invalid(message.into()))
     })
 }
 

@@ -9,8 +9,7 @@ use super::element::Element;
 use super::layered::Wraps;
 use super::spectrum::Use;
 use super::texture::unknown;
-use crate::error::ErrorKind;
-use crate::error::SceneError;
+use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
 use crate::scene::{
     ColourParam, ConductorFresnel, Distribution, FloatParam, Material, MaterialId, MaterialKind,

@@ -111,10 +111,7 @@ impl Checkpoint {
             return;
         }
         let start = Instant::now();
-        let label = Label {
-            seconds: self.label.seconds + seconds,
-            ..self.label.clone()
-        };
+        let label = self.label(seconds);
         let written = FilmFile::write(&self.path, &label, film);
         self.cost = start.elapsed();
         self.saved = Instant::now();
@@ -150,9 +147,12 @@ impl Checkpoint {
         Ok(())
     }
 
-    /// Seconds that earlier runs took.
-    pub(crate) fn seconds_before(&self) -> f64 {
-        self.label.seconds
+    /// What the film belongs to, with the time of earlier runs and `seconds` of this one.
+    pub(crate) fn label(&self, seconds: f64) -> Label {
+        Label {
+            seconds: self.label.seconds + seconds,
+            ..self.label.clone()
+        }
     }
 
     /// The file, where it is written at all.

@@ -4,7 +4,6 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use specula::render::FilmFile;
-use specula::render::picture::Metadata;
 
 use super::Failure;
 use super::arguments::MergeArguments;
@@ -43,25 +42,13 @@ pub(crate) fn run(arguments: &MergeArguments) -> Result<ExitCode, Failure> {
         })?;
         label.seconds += other.label.seconds;
     }
-    let samples = film.complete_samples();
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "for people: the nearest f32 is near enough"
-    )]
-    let seconds = label.seconds as f32;
-    let metadata = Metadata {
-        software: Some(format!("specula {}", label.version)),
-        scene: Some(label.scene.clone()),
-        samples_per_pixel: Some(samples),
-        seed: None,
-        render_seconds: Some(seconds),
-    };
     outputs.write_film(&film, &label)?;
-    outputs.write_pictures(&film, &metadata)?;
+    outputs.write_pictures(&film, &label, None)?;
     if !arguments.quiet {
         eprintln!(
-            "wrote {}: {samples} spp of {} (samples {})",
+            "wrote {}: {} spp of {} (samples {})",
             outputs.names(),
+            film.complete_samples(),
             label.scene,
             ranges(&film.samples())
         );

@@ -63,15 +63,28 @@ impl Outputs {
     pub(crate) fn write_pictures(
         &self,
         film: &FilmBuffer,
-        metadata: &Metadata,
+        label: &Label,
+        seed: Option<u32>,
     ) -> Result<(), Failure> {
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "for people: the nearest f32 is near enough"
+        )]
+        let seconds = label.seconds as f32;
+        let metadata = Metadata {
+            software: Some(format!("specula {}", label.version)),
+            scene: Some(label.scene.clone()),
+            samples_per_pixel: Some(film.complete_samples()),
+            seed,
+            render_seconds: Some(seconds),
+        };
         let picture = film.picture();
         let mut replaced = 0;
         for path in self.paths.iter().filter(|p| !is_film(p)) {
             let written = if has_extension(path, "png") {
                 picture::write_png(path, &picture, self.display)
             } else {
-                picture::write_exr(path, &picture, metadata)
+                picture::write_exr(path, &picture, &metadata)
             };
             let count = written
                 .map_err(|e| Failure::other(format_args!("cannot write the picture: {e}")))?;

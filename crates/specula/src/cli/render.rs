@@ -4,7 +4,6 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use specula::render::picture::Metadata;
 use specula::render::{Label, PrepareError, PreparedScene, RenderOptions, Renderer};
 use specula::scene::Scene;
 
@@ -69,7 +68,6 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
             renderer,
             outputs: &outputs,
             checkpoint,
-            name: &name,
             stop: &stop,
             quiet: arguments.quiet,
         }
@@ -159,7 +157,6 @@ struct Job<'a> {
     renderer: Renderer<'a>,
     outputs: &'a Outputs,
     checkpoint: Checkpoint,
-    name: &'a str,
     stop: &'a Stop,
     quiet: bool,
 }
@@ -193,7 +190,7 @@ impl Job<'_> {
             if report.complete && self.checkpoint.is_due() {
                 let seconds = start.elapsed().as_secs_f64();
                 self.checkpoint.save(self.renderer.film(), seconds);
-                self.write_pictures(samples, seconds)?;
+                self.write_pictures(seconds)?;
             }
         }
         progress.finish();
@@ -203,7 +200,7 @@ impl Job<'_> {
             // First: nothing is lost if a picture cannot be written.
             self.checkpoint.save(self.renderer.film(), seconds);
         }
-        self.write_pictures(samples, seconds)?;
+        self.write_pictures(seconds)?;
         if !interrupted {
             self.checkpoint.finish(self.renderer.film(), seconds)?;
         }
@@ -217,20 +214,11 @@ impl Job<'_> {
     }
 
     /// * `seconds`: of this run.
-    fn write_pictures(&self, samples: u32, seconds: f64) -> Result<(), Failure> {
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "for people: the nearest f32 is near enough"
-        )]
-        let seconds = (self.checkpoint.seconds_before() + seconds) as f32;
-        let metadata = Metadata {
-            software: Some(concat!("specula ", env!("CARGO_PKG_VERSION")).to_owned()),
-            scene: Some(self.name.to_owned()),
-            samples_per_pixel: Some(samples),
-            seed: Some(self.renderer.options().seed),
-            render_seconds: Some(seconds),
-        };
-        self.outputs.write_pictures(self.renderer.film(), &metadata)
+    fn write_pictures(&self, seconds: f64) -> Result<(), Failure> {
+        let seed = self.renderer.options().seed;
+        let label = self.checkpoint.label(seconds);
+        self.outputs
+            .write_pictures(self.renderer.film(), &label, Some(seed))
     }
 
     fn print_summary(&self, samples: u32, rays: u64, seconds: f64, interrupted: bool) {
