@@ -159,7 +159,7 @@ fn plain_loops_are_exact<T: Real>(seed: u64) {
     for alpha in WIDTHS {
         let lobes = batch_common::MODELS.map(|model| batch_common::compensated::<T>(alpha, model));
         let glass = batch_common::compensated_glass::<T>(alpha);
-        let coat = batch_common::coated_diffuse::<T>(Some(alpha));
+        let coat = batch_common::lossy_coat::<T>(Some(alpha));
         let expected = lobes.map(|lobe| scalar(&lobe, &elements));
         let expected_glass = scalar(&glass, &elements);
         let expected_coat = scalar(&coat, &elements);

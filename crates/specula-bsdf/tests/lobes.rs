@@ -1,8 +1,8 @@
 //! Facts about lobes that need no statistics: limits, energy in closed form, robustness.
 
 use specula_bsdf::bsdf::{
-    CoatedConductor, CoatedDiffuse, DiffuseTransmission, Eon, Lambert, Lobe, RoughConductor,
-    RoughDielectric, SmoothConductor, SmoothDielectric, ThinDielectric,
+    CoatLayer, CoatScattering, CoatedConductor, CoatedDiffuse, DiffuseTransmission, Eon, Lambert,
+    Lobe, RoughConductor, RoughDielectric, SmoothConductor, SmoothDielectric, ThinDielectric,
 };
 use specula_bsdf::fresnel::{Conductor, Reflectance, dielectric};
 use specula_bsdf::math::{Rgb, Vec3, rgb, vec3};
@@ -211,6 +211,15 @@ fn every_lobe<T: Real>() -> Vec<Lobe<T>> {
         lobes.push(RoughDielectric::new(d, T::ONE).into());
         lobes.push(RoughDielectric::facing(d, T::of(0.6)).into());
         lobes.push(CoatedDiffuse::new(Some(d), T::of(1.5), colour).into());
+        for thickness in [0.01, 1e30] {
+            let layer = CoatLayer {
+                thickness: T::of(thickness),
+                max_depth: Some(10),
+                scattering: CoatScattering::Single,
+            };
+            lobes.push(CoatedDiffuse::over_layer(Some(d), T::ONE, colour, layer).into());
+            lobes.push(CoatedDiffuse::over_layer(None, T::of(1.5), colour, layer).into());
+        }
         lobes.push(CoatedConductor::new(None, T::of(1.5), Some(d), metal).into());
         lobes.push(CoatedConductor::new(Some(d), T::of(1.5), Some(d), metal).into());
     }

@@ -37,6 +37,8 @@ pub(crate) struct ShapeRecord {
     pub(crate) two_sided: bool,
     /// Opacity, where it is not 1 everywhere.
     pub(crate) alpha: Option<FloatParam>,
+    /// Whether it bounds what absorbs, and nothing else.
+    pub(crate) is_interface: bool,
     has_uvs: bool,
 }
 
@@ -96,8 +98,8 @@ pub(crate) struct Geometry {
     pub(crate) groups: Vec<GroupData>,
     pub(crate) placements: Vec<Placement>,
     pub(crate) shapes: Vec<ShapeRecord>,
-    /// Whether any shape has an opacity.
-    pub(crate) has_alpha: bool,
+    /// Whether rays pass any shape: it has an opacity, or is an interface.
+    pub(crate) has_passable: bool,
 }
 
 impl Geometry {
@@ -127,13 +129,14 @@ impl Geometry {
             lights += id(groups[p.group as usize].emitters.len());
         }
         let accel = build_accel(&groups, &placements)?;
-        let has_alpha = shapes.iter().any(|s: &ShapeRecord| s.alpha.is_some());
+        let passable = |s: &ShapeRecord| s.alpha.is_some() || s.is_interface;
+        let has_passable = shapes.iter().any(passable);
         Ok(Self {
             accel,
             groups,
             placements,
             shapes,
-            has_alpha,
+            has_passable,
         })
     }
 }

@@ -10,17 +10,20 @@
 //! leak. A view below the shading horizon is left to the lobes, which know it; only perfect mirrors
 //! and panes, which have no answer there, take the geometric normal instead.
 //!
-//! Bodies absorb between the surface where a path enters them and the one where it leaves. A path
-//! knows one body at a time, and begins in none.
+//! Bodies absorb between the surface where a path enters them and the one where it leaves
+//! (`bodies`); a path begins in none.
+
+mod passing;
 
 use specula_bsdf::bsdf::{Event, Lobe};
 use specula_bsdf::{Bsdf, BsdfSample, Frame, Rgb, Transport, Vec3};
 use specula_scene::scene::{ColourParam, ReliefRules};
 
 use crate::accel::Ray;
+use crate::bodies::Bodies;
 use crate::film::PixelSample;
 use crate::geometry::{NONE, Surface};
-use crate::light::{LightSample, Receiver};
+use crate::light::Receiver;
 use crate::material::{Coat, Material};
 use crate::offset::leave;
 use crate::options::{RenderOptions, Strategy};
@@ -30,10 +33,6 @@ use crate::sampler::Sampler;
 
 /// Vertices before roulette begins.
 const ROULETTE_FROM: u32 = 3;
-/// Share of a shadow ray that is not looked at, at the light's end.
-const SHADOW_MARGIN: f32 = 1e-4;
-/// Most surfaces that a ray passes because of their opacity.
-const MOST_PASSES: u32 = 4096;
 
 /// Traces paths through a scene.
 #[derive(Clone, Copy)]
@@ -61,8 +60,6 @@ struct Vertex {
     softness: Option<Softness>,
     /// Geometric normal on the viewer's side.
     facing: Vec3<f32>,
-    /// Absorption beyond the surface, where passing it changes what the path is in.
-    beyond: Option<Rgb<f32>>,
     wo: Vec3<f32>,
 }
 
@@ -83,8 +80,8 @@ struct State {
     throughput: Rgb<f32>,
     /// Product of the squared relative indices so far.
     eta_scale: f32,
-    /// Absorption of the body that the path is in, if it is in one that absorbs.
-    absorption: Option<Rgb<f32>>,
+    /// What the path is in.
+    bodies: Bodies,
     /// Whether the path has only passed through thin panes: lights that are hidden stay so.
     straight: bool,
     previous: Option<Previous>,
@@ -117,7 +114,7 @@ impl<'a> PathTracer<'a> {
             radiance: Rgb::BLACK,
             throughput: Rgb::WHITE,
             eta_scale: 1.0,
-            absorption: None,
+            bodies: Bodies::NONE,
             straight: true,
             previous: None,
             rays: 0,
@@ -130,14 +127,10 @@ impl<'a> PathTracer<'a> {
         };
         let mut depth = 0;
         loop {
-            let Some(surface) = self.nearest(&ray, sampler, depth, &mut state.rays) else {
+            let Some(surface) = self.nearest(&ray, sampler, depth, &mut state) else {
                 self.add_background(&mut state, ray.direction);
                 break;
             };
-            if let Some(absorption) = state.absorption {
-                let distance = (surface.position - ray.origin).length();
-                state.throughput *= transmittance(absorption, distance);
-            }
             self.add_emission(&mut state, &surface, ray.direction);
             if depth >= self.max_depth && depth > 0 {
                 break;
@@ -258,9 +251,6 @@ impl<'a> PathTracer<'a> {
             let normal = self.coat_normal(coat, &surface, facing);
             *gltf = gltf.with_coat_normal(frame.to_local(normal));
         }
-        let beyond = material
-            .absorption
-            .map(|a| if outside { a } else { Rgb::BLACK });
         Vertex {
             surface,
             opaque: chosen.is_opaque(&lobe),
@@ -268,7 +258,6 @@ impl<'a> PathTracer<'a> {
             frame,
             softness,
             facing,
-            beyond,
             wo: wo.normalize(),
         }
     }
@@ -350,13 +339,20 @@ impl<'a> PathTracer<'a> {
         } else {
             self.heuristic(light.pdf, pdf)
         };
-        if weight > 0.0 && self.visible(vertex, &light, sampler, depth, &mut state.rays) {
-            let mut arrived = light.radiance * (weight / light.pdf);
-            // What sees a light at infinity is in no closed body.
-            if let (Some(absorption), Some(target)) = (state.absorption, &light.from) {
-                let distance = (target.point - vertex.surface.position).length();
-                arrived *= transmittance(absorption, distance);
-            }
+        if weight <= 0.0 {
+            return;
+        }
+        let mut beyond;
+        let bodies = if wi.z < 0.0 {
+            beyond = state.bodies;
+            self.cross(&mut beyond, &vertex.surface, light.wi);
+            &beyond
+        } else {
+            &state.bodies
+        };
+        let left = self.shine(vertex, &light, bodies, sampler, depth, &mut state.rays);
+        if let Some(left) = left {
+            let arrived = light.radiance * (weight / light.pdf) * left;
             state.radiance += state.throughput * f_cos * arrived;
         }
     }
@@ -396,8 +392,8 @@ impl<'a> PathTracer<'a> {
         state.eta_scale *= eta * eta;
         state.straight &=
             matches!(vertex.lobe, Lobe::ThinDielectric(_)) && event == Event::Transmission;
-        if let (Some(beyond), Event::Transmission) = (vertex.beyond, event) {
-            state.absorption = Some(beyond).filter(|a| !a.is_black());
+        if event == Event::Transmission {
+            self.cross(&mut state.bodies, &vertex.surface, direction);
         }
         let largest = state.throughput.max_channel() * state.eta_scale;
         if largest.is_nan() || largest <= 0.0 {
@@ -421,89 +417,4 @@ impl<'a> PathTracer<'a> {
             t_max: f32::INFINITY,
         })
     }
-
-    /// The first surface that does not let the ray pass. Hidden lights let the camera's rays pass
-    /// until these have met something else, as in Mitsuba.
-    #[inline]
-    fn nearest(&self, ray: &Ray, sampler: &Sampler, depth: u32, rays: &mut u64) -> Option<Surface> {
-        let geometry = &self.scene.geometry;
-        let mut ray = *ray;
-        let mut hidden = self.scene.hide_emitters && depth == 0;
-        for pass in 0..MOST_PASSES {
-            *rays += 1;
-            let hit = geometry.accel.intersect(&ray)?;
-            let surface = geometry.surface(&ray, &hit);
-            hidden &= surface.light != NONE;
-            let stays =
-                || !geometry.has_alpha || self.is_opaque(&surface, sampler, [depth, pass, 1]);
-            if !hidden && stays() {
-                return Some(surface);
-            }
-            ray.origin = leave(surface.position, surface.error, surface.ng, ray.direction);
-        }
-        None
-    }
-
-    /// Whether nothing is between the vertex and the light.
-    #[inline]
-    fn visible(
-        &self,
-        vertex: &Vertex,
-        light: &LightSample,
-        sampler: &Sampler,
-        depth: u32,
-        rays: &mut u64,
-    ) -> bool {
-        let s = &vertex.surface;
-        let origin = leave(s.position, s.error, s.ng, light.wi);
-        let mut ray = match light.from {
-            None => Ray {
-                origin,
-                direction: light.wi,
-                t_max: f32::INFINITY,
-            },
-            Some(target) => Ray {
-                origin,
-                direction: leave(target.point, target.error, target.normal, -light.wi) - origin,
-                t_max: 1.0 - SHADOW_MARGIN,
-            },
-        };
-        let geometry = &self.scene.geometry;
-        if !geometry.has_alpha {
-            *rays += 1;
-            return !geometry.accel.occluded(&ray);
-        }
-        for pass in 0..MOST_PASSES {
-            *rays += 1;
-            let Some(hit) = geometry.accel.intersect(&ray) else {
-                return true;
-            };
-            let surface = geometry.surface(&ray, &hit);
-            if self.is_opaque(&surface, sampler, [depth, pass, 2]) {
-                return false;
-            }
-            ray.origin = leave(surface.position, surface.error, surface.ng, ray.direction);
-            ray.t_max -= hit.t;
-            if ray.t_max <= 0.0 {
-                return true;
-            }
-        }
-        false
-    }
-
-    /// Whether a ray stops at a surface, by chance where it is partly transparent.
-    fn is_opaque(&self, surface: &Surface, sampler: &Sampler, key: [u32; 3]) -> bool {
-        match self.scene.geometry.shapes[surface.shape as usize].alpha {
-            None => true,
-            Some(alpha) => {
-                let alpha = self.scene.textures.float(alpha, &surface.place());
-                alpha >= 1.0 || sampler.hashed(key) < alpha
-            }
-        }
-    }
-}
-
-/// What absorption leaves over a distance: `exp(-absorption distance)` (Beer and Lambert).
-fn transmittance(absorption: Rgb<f32>, distance: f32) -> Rgb<f32> {
-    absorption.map(|a| (-a * distance).exp())
 }

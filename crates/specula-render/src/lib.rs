@@ -1,6 +1,7 @@
 //! A deterministic path tracer on the CPU.
 
 pub mod accel;
+mod bodies;
 mod camera;
 mod convert;
 mod film;

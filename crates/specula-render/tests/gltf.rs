@@ -294,30 +294,6 @@ fn textures_take_the_set_of_coordinates_that_they_ask_for() {
     assert_near("none", albedo(both[1], false), 0.2);
 }
 
-/// A closed box of `half` sides along x and y, from z = 0 to `height`, its outside outside.
-fn body(scene: &mut Scene, half: f64, height: f64, material: MaterialId) {
-    let side = |scene: &mut Scene, m: DMat4| {
-        let s = square(scene, 1.0, m, material);
-        scene.shapes.push(s);
-    };
-    let scale = DMat4::from_scale(DVec3::new(half, half, 0.5 * height));
-    let centre = DMat4::from_translation(DVec3::new(0.0, 0.0, 0.5 * height)) * scale;
-    let up = DMat4::from_translation(DVec3::Z);
-    let turns = [0.0, 0.5, 1.0, 1.5].map(|t| DMat4::from_rotation_x(t * PI));
-    for turn in turns
-        .into_iter()
-        .chain([0.5, 1.5].map(|t| DMat4::from_rotation_y(t * PI)))
-    {
-        side(scene, centre * turn * up);
-    }
-}
-
-fn absorbing(scene: &mut Scene, kind: MaterialKind, absorption: f32) -> MaterialId {
-    let id = material(scene, kind);
-    scene.materials[id.0].absorption = Rgb::splat(absorption);
-    id
-}
-
 /// What passes a body without an index of its own: nothing bends, nothing is reflected.
 fn clear_body() -> Gltf {
     Gltf {
@@ -344,11 +320,29 @@ fn slabs_absorb_by_their_thickness() {
     for (what, kind, expected) in [("clear", clear, passed), ("glass", glass(0.0), glass_slab)] {
         let mut scene = empty(look([0.0, 0.0, 9.0], [0.0; 3], 0.05), 8);
         let m = absorbing(&mut scene, kind, sigma as f32);
-        body(&mut scene, 20.0, thickness, m);
+        body(&mut scene, 20.0, [0.0, thickness], m);
         scene.lights.push(constant_sky(1.0));
         for strategy in [Strategy::Mis, Strategy::BsdfOnly] {
             let picture = render(&scene, 4096, 64, strategy);
             assert_mean(what, &picture, expected, 1e-3);
+        }
+    }
+}
+
+/// A body within a body, and a clear one within an absorbing one: each absorbs where it is.
+#[test]
+fn bodies_within_bodies_absorb_where_they_are() {
+    for (inner, expected) in [(0.5_f64, -0.2 * 3.0 - 0.5), (0.0, -0.2 * 3.0)] {
+        let mut scene = empty(look([0.0, 0.0, 9.0], [0.0; 3], 0.05), 8);
+        let clear = MaterialKind::Gltf(clear_body());
+        let outer = absorbing(&mut scene, clear, 0.2);
+        body(&mut scene, 20.0, [0.0, 4.0], outer);
+        let inner = absorbing(&mut scene, clear, inner as f32);
+        body(&mut scene, 20.0, [1.0, 2.0], inner);
+        scene.lights.push(constant_sky(1.0));
+        for strategy in [Strategy::Mis, Strategy::BsdfOnly] {
+            let picture = render(&scene, 4096, 64, strategy);
+            assert_mean("nested", &picture, f64::exp(expected), 1e-3);
         }
     }
 }
@@ -377,7 +371,7 @@ fn lights_within_a_body_are_dimmed_by_their_distance() {
     let (sigma, radius, height) = (0.3_f32, 0.5_f32, 2.0_f64);
     let mut scene = empty(look([1.5, 0.0, 9.0], [1.5, 0.0, 0.5], 0.05), 8);
     let m = absorbing(&mut scene, MaterialKind::Gltf(clear_body()), sigma);
-    body(&mut scene, 5.0, 4.0, m);
+    body(&mut scene, 5.0, [0.0, 4.0], m);
     let white = material(&mut scene, diffuse(0.5));
     let at = DMat4::from_translation(DVec3::new(0.0, 0.0, 0.5));
     let floor = square(&mut scene, 4.0, at, white);

@@ -420,12 +420,25 @@ fn layered_kinds(f: Float, c: Grey) -> Vec<MaterialKind> {
             reflectance: c(0.6),
             eta: 1.5,
             roughness: rough(f, 0.4),
+            medium: CoatMedium {
+                thickness: f(0.2),
+                max_depth: Some(6),
+                ..CoatMedium::default()
+            },
+            lossless: false,
         },
         MaterialKind::CoatedConductor {
             coat_eta: 1.5,
             coat_roughness: rough(f, 0.3),
             fresnel: ConductorFresnel::Reflectance(c(0.8)),
             roughness: rough(f, 0.5),
+            medium: CoatMedium {
+                thickness: f(0.2),
+                max_depth: Some(10),
+                samples: 2,
+                albedo: c(0.4),
+                g: f(0.3),
+            },
         },
         MaterialKind::Plastic {
             diffuse: c(0.6),

@@ -10,6 +10,12 @@ use miette::{
 use crate::error::{Place, SceneError, Source, Warning};
 use crate::report::{self, Problem};
 
+/// Longest stretch of a file that is shown, in bytes.
+const LONGEST_EXCERPT: usize = 2000;
+
+/// Bytes that are shown before and after a place in a longer one.
+const AROUND: usize = 60;
+
 impl SourceCode for Source {
     fn read_span<'a>(
         &'a self,
@@ -17,13 +23,30 @@ impl SourceCode for Source {
         lines_before: usize,
         lines_after: usize,
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
-        let contents = self.text().read_span(span, lines_before, lines_after)?;
+        let text = self.text();
+        let contents = text.read_span(span, lines_before, lines_after)?;
+        let (mut start, mut line, mut column) =
+            (contents.span().offset(), contents.line(), contents.column());
+        let mut end = start + contents.data().len();
+        if end - start > LONGEST_EXCERPT {
+            // A line that a machine wrote: what is around.
+            let at = span.offset().clamp(start, end);
+            let row = text[..at].rfind('\n').map_or(0, |i| i + 1).max(start);
+            let from = text.floor_char_boundary(at.saturating_sub(AROUND)).max(row);
+            let before = text.get(start..row).unwrap_or_default();
+            column = if before.is_empty() { column } else { 0 } + (from - row);
+            line += before.matches('\n').count();
+            let to = text.ceil_char_boundary(at.saturating_add(span.len()).saturating_add(AROUND));
+            let row_end = text[at..].find('\n').map_or(text.len(), |i| at + i);
+            end = end.min(to.min(row_end.max(at + span.len())));
+            start = from;
+        }
         Ok(Box::new(MietteSpanContents::new_named(
             self.name().to_owned(),
-            contents.data(),
-            *contents.span(),
-            contents.line(),
-            contents.column(),
+            &text.as_bytes()[start..end],
+            (start, end - start).into(),
+            line,
+            column,
             contents.line_count(),
         )))
     }
@@ -125,5 +148,22 @@ mod tests {
         // The line and the column count from 0 here.
         assert_eq!(contents.line(), 0, "one line of context before");
         assert_eq!(contents.name(), Some("a.pbrt"));
+    }
+
+    #[test]
+    fn of_a_long_line_a_part_is_shown() {
+        let text = format!(
+            "{{\n{}\u{fc}, \"here\": 7, {}\n}}",
+            "a".repeat(9000),
+            "b".repeat(9000)
+        );
+        let at = text.find("7").expect("it is there");
+        let source = Source::new("a.gltf", text);
+        let contents = source.read_span(&(at, 1).into(), 1, 1).expect("inside");
+        let data = std::str::from_utf8(contents.data()).expect("whole characters");
+        assert!(data.contains("\"here\": 7,") && data.len() < 200, "{data}");
+        assert_eq!(contents.line(), 1);
+        let start = contents.span().offset();
+        assert_eq!(&source.text()[start..start + data.len()], data);
     }
 }

@@ -60,6 +60,15 @@ impl Place {
         }
     }
 
+    /// A line, from 1, of a file; the text's end where it has fewer.
+    pub(crate) fn of_line(source: &Arc<Source>, line: usize) -> Self {
+        let mut lines = source.text().split_inclusive('\n');
+        let before = lines.by_ref().take(line.saturating_sub(1));
+        let offset = before.map(str::len).sum();
+        let length = lines.next().map_or(0, |l| l.trim_end().len());
+        Self::new(source, offset, length)
+    }
+
     /// The beginning of a file.
     pub(crate) fn start(source: &Arc<Source>) -> Self {
         Self::new(source, 0, 0)

@@ -5,7 +5,8 @@ use specula_bsdf::metals;
 
 use crate::num::f32_of;
 use crate::scene::{
-    ColourParam, ConductorFresnel, FloatParam, MaterialKind, Roughness, RoughnessMapping, Scene,
+    CoatMedium, ColourParam, ConductorFresnel, FloatParam, MaterialKind, Roughness,
+    RoughnessMapping, Scene,
 };
 
 /// A line that is no material.
@@ -125,12 +126,15 @@ fn kind(
             reflectance,
             eta,
             roughness,
+            medium: CoatMedium::default(),
+            lossless: false,
         },
         _ => MaterialKind::CoatedConductor {
             coat_eta: eta,
             coat_roughness: Roughness::smooth(),
             fresnel,
             roughness,
+            medium: CoatMedium::default(),
         },
     }
 }
@@ -228,6 +232,7 @@ mod tests {
             reflectance,
             eta,
             roughness,
+            ..
         } = parse_material("coateddiffuse 0.5 0.25 0 eta 1.6 alpha 0.1 0.2").unwrap()
         else {
             panic!("no coat")

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::faults::{self, Fault, Faults};
 use crate::num::f32_of;
 use crate::scene::Mesh;
 
@@ -80,6 +81,23 @@ pub(crate) fn clean(mesh: &mut Mesh) -> Result<Cleaning, String> {
     }
     cleaning.replaced_normals = mend_normals(mesh);
     Ok(cleaning)
+}
+
+/// [`clean`], which names all that is wrong where mistakes are kept.
+///
+/// * `keeps`: whether they are, as in a check.
+///
+/// # Errors
+///
+/// Those of [`clean`]: one at least.
+pub(crate) fn clean_or_name(mesh: &mut Mesh, keeps: bool) -> Result<Cleaning, Vec<Fault>> {
+    clean(mesh).or_else(|first| {
+        let mut faults = Faults::new(keeps);
+        let named = faults::of_mesh(mesh, &mut faults);
+        faults
+            .end(named.and(Ok(Cleaning::default())))
+            .and(Err(vec![first.into()]))
+    })
 }
 
 /// The first element of which `is` holds.

@@ -70,6 +70,13 @@ impl Problems {
             .is_some_and(|k| !k.borrow().errors.is_empty())
     }
 
+    /// Whether a report would list no further error.
+    pub(crate) fn is_full(&self) -> bool {
+        self.0
+            .as_ref()
+            .is_some_and(|k| k.borrow().errors.len() >= MOST)
+    }
+
     /// Keeps an error.
     ///
     /// # Errors

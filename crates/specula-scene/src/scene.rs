@@ -4,12 +4,14 @@
 //! name says so. Transforms are row-times-column matrices `p_world = M * p_local`.
 
 mod camera;
+mod coat;
 mod light;
 mod material;
 mod shape;
 mod texture;
 
 pub use camera::{Camera, Film, Filter, Projection};
+pub use coat::CoatMedium;
 pub use light::{EnvironmentMapping, Light, Profile, SpotFalloff, Throw};
 pub use material::{
     ConductorFresnel, Distribution, Gltf, Material, MaterialKind, Principled, Relief, ReliefRules,

@@ -7,15 +7,19 @@ use specula_bsdf::Rgb;
 
 use crate::bounds::{self, Bounds};
 use crate::error::{ErrorKind, Place, SceneError, Source, Warning};
+use crate::faults::Fault;
 use crate::problems::Problems;
 use crate::scene::{
     ColourParam, FloatParam, Geometry, Material, MaterialId, MaterialKind, Mesh, MeshId, Scene,
     Shape,
 };
-use crate::{Limits, LoadOptions, Loaded, mesh, stage};
+use crate::{Limits, LoadOptions, Loaded, mesh, read_file, stage};
 
 /// Size of the picture.
 const RESOLUTION: [u32; 2] = [960, 960];
+
+/// Longest file that is kept for excerpts of its mistakes.
+const LONGEST_TEXT: u64 = 16 << 20;
 
 /// Reads a mesh with `parse`, and gives it grey paint, a camera that frames it and the built-in
 /// studio's light, which a warning says.
@@ -27,12 +31,18 @@ pub(crate) fn read(
     path: &Path,
     options: &LoadOptions,
     problems: &Problems,
-    parse: impl FnOnce(&Path, &Limits) -> Result<Mesh, String>,
+    parse: impl FnOnce(&Path, &Limits, bool) -> Result<Mesh, Vec<Fault>>,
 ) -> Result<Loaded, SceneError> {
     let place = Place::start(&Source::unread(path));
-    let wrong = |message: String| SceneError::new(ErrorKind::Mesh, &place, message);
-    let mut mesh = parse(path, &options.limits).map_err(wrong)?;
-    let cleaning = mesh::clean(&mut mesh).map_err(wrong)?;
+    let keeps = problems.is_check();
+    let read = parse(path, &options.limits, keeps).and_then(|mut mesh| {
+        let cleaning = mesh::clean_or_name(&mut mesh, keeps)?;
+        Ok((mesh, cleaning))
+    });
+    let (mesh, cleaning) = match read {
+        Ok(read) => read,
+        Err(faults) => return Err(refuse(path, &options.limits, problems, &faults)?),
+    };
     let material = Material::new(MaterialKind::Diffuse {
         reflectance: ColourParam::Value(Rgb::splat(0.5)),
         roughness: FloatParam::Value(0.0),
@@ -72,4 +82,39 @@ pub(crate) fn read(
     let told = cleaning.messages().into_iter();
     warnings.extend(told.map(|message| Warning::new(&place, message)));
     Ok(Loaded { scene, warnings })
+}
+
+/// Keeps all mistakes of a file but the last, which it returns: nothing stands in for the mesh.
+///
+/// # Errors
+///
+/// The first, in an ordinary load.
+fn refuse(
+    path: &Path,
+    limits: &Limits,
+    problems: &Problems,
+    faults: &[Fault],
+) -> Result<SceneError, SceneError> {
+    let limits = Limits {
+        max_bytes: limits.max_bytes.min(LONGEST_TEXT),
+        ..*limits
+    };
+    let text = read_file::read_bytes(path, &limits).ok();
+    let text = text.and_then(|bytes| String::from_utf8(bytes).ok());
+    let source = Source::new(path.display().to_string(), text.unwrap_or_default());
+    let error = |fault: &Fault| match fault.line {
+        Some(line) if !source.text().is_empty() => {
+            let place = Place::of_line(&source, line);
+            SceneError::new(ErrorKind::Mesh, &place, fault.message.as_str())
+        }
+        _ => SceneError::new(ErrorKind::Mesh, &Place::start(&source), fault.to_string()),
+    };
+    let Some((last, others)) = faults.split_last() else {
+        let place = Place::start(&source);
+        return Ok(SceneError::new(ErrorKind::Mesh, &place, "it holds no mesh"));
+    };
+    for fault in others {
+        problems.keep(error(fault))?;
+    }
+    Ok(error(last))
 }

@@ -3,7 +3,10 @@
 mod common;
 
 use common::{ABOVE, ALPHAS, alpha, alpha_f32, few_views, plan, prove_all, views};
-use specula_bsdf::bsdf::{CoatedConductor, CoatedDiffuse, DiffuseTransmission, Eon, Lambert, Lobe};
+use specula_bsdf::bsdf::{
+    CoatLayer, CoatScattering, CoatedConductor, CoatedDiffuse, DiffuseTransmission, Eon, Lambert,
+    Lobe,
+};
 use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::math::{Real, rgb};
 use specula_bsdf::ndf::Ggx;
@@ -87,6 +90,87 @@ fn coats_over_diffuse() {
     });
 }
 
+/// What may lie under a coat: pbrt-v4's default, much that absorbs, few bounces that lose nothing.
+fn layers<T: Real>() -> [CoatLayer<T>; 3] {
+    [
+        (0.01, Some(10), CoatScattering::Single),
+        (1.0, None, CoatScattering::Single),
+        (0.3, Some(4), CoatScattering::Lossless),
+    ]
+    .map(|(thickness, max_depth, scattering)| CoatLayer {
+        thickness: T::of(thickness),
+        max_depth,
+        scattering,
+    })
+}
+
+#[test]
+fn coats_over_layers() {
+    let coats = [
+        None,
+        Some((0.05, 0.05)),
+        Some((0.3, 0.3)),
+        Some((0.2, 0.8)),
+        Some((1.5, 1.5)),
+    ];
+    let cases: Vec<_> = layers()
+        .into_iter()
+        .flat_map(|layer| coats.map(|coat| (layer, coat)))
+        .collect();
+    prove_all("coats over layers", &cases, |&(layer, coat)| {
+        let ggx = coat.map(|widths| Ggx::new(alpha(widths)));
+        let name = format!("coated diffuse {layer:?} {coat:?}");
+        let lobe = CoatedDiffuse::over_layer(ggx, 1.5, colour(), layer);
+        proof(&name, &lobe, coat.unwrap_or((1.0, 1.0)))
+    });
+}
+
+/// The light that each event adds, and each loss takes.
+#[test]
+fn more_events_return_more_light_and_thicker_layers_less() {
+    let subject_albedo = |layer: CoatLayer<f64>, coat: Option<Ggx<f64>>, albedo: f64| {
+        let lobe = CoatedDiffuse::over_layer(coat, 1.5, Rgb::splat(albedo), layer);
+        let subject = Subject::from_bsdf(&lobe, Transport::Radiance);
+        let wo = views(&[0.7])[0];
+        furnace::albedo(&subject, wo, &[], &Quadrature::default()).value[1]
+    };
+    for coat in [None, Some(Ggx::new(alpha((0.3, 0.3))))] {
+        for scattering in [CoatScattering::Single, CoatScattering::Lossless] {
+            let by_depth = [
+                Some(1),
+                Some(2),
+                Some(3),
+                Some(10),
+                Some(11),
+                Some(100),
+                None,
+            ];
+            let by_depth = by_depth.map(|max_depth| CoatLayer {
+                max_depth,
+                scattering,
+                ..CoatLayer::default()
+            });
+            let [one, two, three, ten, eleven, hundred, all] =
+                by_depth.map(|layer| subject_albedo(layer, coat, 1.0));
+            // No bounce off the base: the coat alone.
+            let black = subject_albedo(CoatLayer::default(), coat, 0.0);
+            assert!((one - black).abs() < 1e-7, "{one} {black}");
+            // An event that is no bounce off the base adds nothing.
+            assert!((two - three).abs() < 1e-7 && (ten - eleven).abs() < 1e-7);
+            assert!(one + 0.1 < two && two + 0.1 < ten && ten + 1e-3 < all);
+            assert!((hundred - all).abs() < 1e-6, "{hundred} {all}");
+            let by_thickness = [0.0, 0.01, 0.1, 1.0, 1e9].map(|thickness| CoatLayer {
+                thickness,
+                scattering,
+                ..CoatLayer::default()
+            });
+            let shares = by_thickness.map(|layer| subject_albedo(layer, coat, 1.0));
+            assert!(shares.is_sorted_by(|a, b| a > b), "{shares:?}");
+            assert!((shares[4] - black).abs() < 1e-7, "{shares:?}");
+        }
+    }
+}
+
 #[test]
 fn coats_over_metal() {
     let metals = [None, Some((0.3, 0.3)), Some((0.05, 0.5)), Some((1.0, 1.0))];
@@ -128,6 +212,14 @@ fn f32_is_f64() {
             &CoatedDiffuse::new(double_ggx, 1.5, colour::<f64>()),
             radiance,
         );
+        for (single, double) in layers().into_iter().zip(layers()) {
+            report.absorb(common::twins(
+                &format!("{name} {double:?}"),
+                &CoatedDiffuse::over_layer(single_ggx, 1.5, colour::<f32>(), single),
+                &CoatedDiffuse::over_layer(double_ggx, 1.5, colour::<f64>(), double),
+                radiance,
+            ));
+        }
         let metal = (0.3, 0.6);
         report.absorb(common::twins(
             &name,

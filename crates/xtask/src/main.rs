@@ -10,6 +10,7 @@ mod generated;
 mod gltf;
 mod instructions;
 mod interface;
+mod interface_single;
 mod metals;
 mod plastic;
 mod suite;

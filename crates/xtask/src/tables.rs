@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::generated::{self, Generated};
-use crate::{Result, albedo, exact, features, gltf, interface, metals, plastic};
+use crate::{Result, albedo, exact, features, gltf, interface, interface_single, metals, plastic};
 
 /// What makes generated files from the workspace's own data.
 type Generator = fn(&Path) -> Result<Vec<Generated>>;
@@ -16,6 +16,7 @@ type Check = fn(&Path) -> Result<()>;
 const GENERATORS: &[(&str, Generator, Option<Check>)] = &[
     ("metals", metals::generate, None),
     ("interface", interface::generate, None),
+    ("interface, single", interface_single::generate, None),
     ("plastic", plastic::generate, None),
     ("gltf", gltf::generate, None),
     ("albedo", albedo::generate, Some(albedo::check)),

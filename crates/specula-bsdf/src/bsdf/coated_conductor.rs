@@ -13,9 +13,11 @@
 //! blurs the metal below it: twice refracted slopes add variance, `a'^2 = a^2 + (1 - 1/eta)^2
 //! a_coat^2 / 2` (the first-order statistics of Belcour 2018).
 //!
-//! Known limits: metal reflections beyond the critical angle end there (a walk would bounce them
-//! on), so very rough metal under a coat is a few per cent too dark; a walk between the layers as
-//! pbrt-v4's has no such loss, and noise instead.
+//! Free of noise, and a vector in batches. Known limits, against [`Layered`](super::Layered), which
+//! walks between the layers and is what the renderer takes: metal reflections beyond the critical
+//! angle end there, so that metal of alpha 0.2 to 0.5 under a smooth coat is 7 to 20 % too dark; the
+//! coat's facets lose nothing on the way through, so that a near mirror under a coat of alpha 0.14 is 5 to
+//! 16 % too bright; the coat does not absorb.
 
 use super::{Bsdf, BsdfSample, Event, Transport};
 use crate::alpha::Alpha;
@@ -185,7 +187,11 @@ fn facet<T: Real>(ggx: Ggx<T>, wo: Vec3<T>, wi: Vec3<T>) -> (T, T) {
 }
 
 /// The metal's normals as blurred by a rough coat.
-fn blurred<T: Real>(metal: Option<Ggx<T>>, coat: Option<Ggx<T>>, eta: T) -> Option<Ggx<T>> {
+pub(super) fn blurred<T: Real>(
+    metal: Option<Ggx<T>>,
+    coat: Option<Ggx<T>>,
+    eta: T,
+) -> Option<Ggx<T>> {
     let Some(coat) = coat else { return metal };
     let bend = T::ONE - T::ONE / eta;
     let width = |metal: T, coat: T| (metal * metal + T::HALF * bend * bend * coat * coat).sqrt();

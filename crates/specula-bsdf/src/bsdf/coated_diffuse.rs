@@ -2,26 +2,65 @@
 //!
 //! The model is closed form. A Lambertian base forgets where its light came from, so the coat acts
 //! on it only through two numbers of the interface: the share `T(w)` of light from direction `w`
-//! that enters, and the share `R_int` of diffuse light from below that is thrown back:
+//! that enters and reaches the base, and the share `R` of diffuse light from the base that the coat
+//! throws back to it. With `n` bounces off the base at most:
 //!
 //! ```text
-//! f = f_interface(wo, wi) + T(wo) T(wi) / eta^2  rho/pi / (1 - rho R_int)
+//! f = f_interface(wo, wi) + T(wo) T(wi) / eta^2  rho/pi  (1 - q^n) / (1 - q),   q = rho R
 //! ```
 //!
-//! The series of bounces between base and coat is the geometric one, summed. For a coat without
-//! absorption or thickness this is exactly the limit that a stochastic walk between the layers
-//! (Guo et al. 2018; pbrt-v4's `coateddiffuse`) converges to, without its noise and without its
-//! cut at a number of bounces. With a white base and a smooth coat it returns all light.
+//! The series of bounces between base and coat is the geometric one, summed. It is the expectation
+//! of a stochastic walk between the layers (Guo, Hasan and Zhao 2018; pbrt-v4's `coateddiffuse`,
+//! whose walk ends after `maxdepth = 2 n` events), without its noise: exact but for the tables of `T`
+//! and `R`. pbrt's other estimate, of the value for a given pair of directions, exceeds its walk by
+//! up to a fifth under rough coats.
 //!
-//! `T` and `R_int` are exact for a smooth coat, and tables made by quadrature for a rough one
-//! (`energy/interface.rs`).
+//! What is between coat and base, and what the coat's facets do with light that they send to each
+//! other, is a [`CoatLayer`]. Without one the coat loses nothing: with a white base and a smooth coat
+//! it returns all light. `T` and `R` are exact for a smooth coat without absorption, and tables made
+//! by quadrature otherwise (`energy/interface.rs`, `interface_single.rs`, `interface_layer.rs`).
 
 use super::{Bsdf, BsdfSample, Event, Transport};
-use crate::energy::interface;
+use crate::energy::interface_layer::Layer;
+use crate::energy::{interface, interface_single};
 use crate::fresnel::dielectric;
 use crate::math::{Real, Rgb, Vec3, vec3, warp};
 use crate::ndf::{Ggx, Masking, Ndf};
 use crate::vndf::Sampler;
+
+/// Light within a coat that one facet sends to another.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CoatScattering {
+    /// Is lost: each facet scatters once. Rough coats darken the base.
+    Single,
+    /// Goes on: what does not pass is thrown back.
+    #[default]
+    Lossless,
+}
+
+/// What light meets between a coat and its base.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoatLayer<T> {
+    /// Optical thickness of an absorbing medium, from 0 up: light that crosses it once at the cosine
+    /// `mu` keeps `exp(-thickness / mu)`.
+    pub thickness: T,
+    /// Events after which light is lost: bounces off the base and off the coat from within. `None`:
+    /// no limit.
+    pub max_depth: Option<u32>,
+    /// What the coat's facets do.
+    pub scattering: CoatScattering,
+}
+
+impl<T: Real> Default for CoatLayer<T> {
+    /// Nothing is lost.
+    fn default() -> Self {
+        Self {
+            thickness: T::ZERO,
+            max_depth: None,
+            scattering: CoatScattering::Lossless,
+        }
+    }
+}
 
 /// Lambert under a dielectric coat.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,25 +68,62 @@ pub struct CoatedDiffuse<T> {
     pub(crate) coat: Option<Ggx<T>>,
     pub(crate) eta: T,
     pub(crate) albedo: Rgb<T>,
-    /// `rho / (eta^2 (1 - rho R_int))`: the base with all bounces, before `T(wo) T(wi) / pi`.
+    layer: Layer<T>,
+    scattering: CoatScattering,
+    /// `rho / eta^2 (1 - q^n) / (1 - q)`: the base with all bounces, before `T(wo) T(wi) / pi`.
     pub(crate) base: Rgb<T>,
     pub(crate) sampler: Sampler,
 }
 
+/// Light from one direction.
+#[derive(Clone, Copy)]
+struct Incident<T> {
+    /// Share that the coat reflects; an estimate where its facets scatter singly.
+    reflected: T,
+    /// Share that reaches the base.
+    arriving: T,
+}
+
 impl<T: Real> CoatedDiffuse<T> {
+    /// A coat that loses nothing.
+    ///
     /// * `coat`: distribution of the coat's normals; `None` for a smooth coat.
     /// * `eta`: index of the coat over that outside, clamped to `[1, 3]`.
     /// * `albedo`: of the base, in `[0, 1]`.
     #[inline]
     pub fn new(coat: Option<Ggx<T>>, eta: T, albedo: Rgb<T>) -> Self {
+        Self::over_layer(coat, eta, albedo, CoatLayer::default())
+    }
+
+    /// A coat with a medium between it and the base, other parameters as of [`new`](Self::new).
+    #[inline]
+    pub fn over_layer(
+        coat: Option<Ggx<T>>,
+        eta: T,
+        albedo: Rgb<T>,
+        CoatLayer {
+            thickness,
+            max_depth,
+            scattering,
+        }: CoatLayer<T>,
+    ) -> Self {
         let eta = Real::clamp(eta, T::ONE, T::of(3.0));
-        let internal = interface::internal_reflectance(coat, eta);
+        let layer = Layer::new(thickness);
+        let internal = match scattering {
+            CoatScattering::Lossless => interface::internal_reflectance(coat, eta),
+            CoatScattering::Single => interface_single::internal_reflectance(coat, eta),
+        } * layer.there_and_back(coat, eta);
         let scale = T::ONE / (eta * eta);
         Self {
             coat,
             eta,
             albedo,
-            base: albedo.map(|rho| scale * rho / (T::ONE - rho * internal)),
+            layer,
+            scattering,
+            base: albedo.map(|rho| {
+                let q = rho * internal;
+                scale * rho * followed(q, max_depth) / (T::ONE - q)
+            }),
             sampler: Sampler::default(),
         }
     }
@@ -59,27 +135,59 @@ impl<T: Real> CoatedDiffuse<T> {
         Self { sampler, ..self }
     }
 
-    /// Share of light from `w` that enters the coat.
+    /// What becomes of light from `w`.
     #[inline(always)]
-    fn transmittance(&self, w: Vec3<T>) -> T {
-        interface::transmittance(self.coat, self.eta, w.z.abs())
+    fn incident(&self, w: Vec3<T>) -> Incident<T> {
+        let (coat, eta, mu) = (self.coat, self.eta, w.z.abs());
+        let crossing = self.layer.crossing(coat, eta, mu);
+        match self.scattering {
+            CoatScattering::Lossless => {
+                let entering = interface::transmittance(coat, eta, mu);
+                Incident {
+                    reflected: T::ONE - entering,
+                    arriving: entering * crossing,
+                }
+            }
+            CoatScattering::Single => Incident {
+                reflected: interface_single::reflectance_estimate(coat, eta, mu),
+                arriving: interface_single::transmittance(coat, eta, mu) * crossing,
+            },
+        }
     }
 
     /// Probability of drawing the coat's reflection; 0 for a mirror that faces away.
     #[inline(always)]
-    fn coat_probability(&self, entering: T, wo: Vec3<T>) -> T {
-        let reflected = T::ONE - entering;
-        let diffuse = entering * self.albedo.max_channel();
+    fn coat_probability(&self, from: Incident<T>, wo: Vec3<T>) -> T {
+        let diffuse = from.arriving * self.albedo.max_channel();
         let visible = self.coat.is_some() || wo.z > T::ZERO;
-        let share = reflected / Real::max(reflected + diffuse, T::TINY);
+        let share = from.reflected / Real::max(from.reflected + diffuse, T::TINY);
         T::select(visible, share, T::ZERO)
     }
 
     /// The base's part of `f |cos|`.
     #[inline(always)]
-    fn base_f_cos(&self, entering: T, wi: Vec3<T>) -> Rgb<T> {
-        self.base * (entering * self.transmittance(wi) * warp::cosine_hemisphere_pdf(wi))
+    fn base_f_cos(&self, from: Incident<T>, wi: Vec3<T>) -> Rgb<T> {
+        let arriving = self.incident(wi).arriving;
+        self.base * (from.arriving * arriving * warp::cosine_hemisphere_pdf(wi))
     }
+}
+
+/// `1 - q^n`: the share of the series that a walk of so many events follows, half of them bounces off
+/// the base.
+#[inline]
+fn followed<T: Real>(q: T, max_depth: Option<u32>) -> T {
+    let Some(events) = max_depth else {
+        return T::ONE;
+    };
+    let (mut rest, mut square, mut power) = (events / 2, q, T::ONE);
+    while rest > 0 {
+        if rest % 2 == 1 {
+            power *= square;
+        }
+        square *= square;
+        rest /= 2;
+    }
+    T::ONE - power
 }
 
 impl<T: Real> Bsdf<T> for CoatedDiffuse<T> {
@@ -95,14 +203,14 @@ impl<T: Real> Bsdf<T> for CoatedDiffuse<T> {
 
     #[inline]
     fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
-        let entering = self.transmittance(wo);
-        let p = self.coat_probability(entering, wo);
+        let from = self.incident(wo);
+        let p = self.coat_probability(from, wo);
         let direction = [u[1], u[2]];
         let wi = if u[0] < p {
             match self.coat {
                 Some(ggx) => ggx.sample_reflection(self.sampler, wo, direction),
                 None => {
-                    let weight = Rgb::splat((T::ONE - entering) / p);
+                    let weight = Rgb::splat(from.reflected / p);
                     let wi = vec3(-wo.x, -wo.y, wo.z);
                     return Some(BsdfSample::delta(wi, weight, p, Event::Reflection, T::ONE));
                 }
@@ -119,9 +227,9 @@ impl<T: Real> Bsdf<T> for CoatedDiffuse<T> {
         if wi.z <= T::ZERO {
             return (Rgb::BLACK, T::ZERO);
         }
-        let entering = self.transmittance(wo);
-        let p = self.coat_probability(entering, wo);
-        let mut f_cos = self.base_f_cos(entering, wi);
+        let from = self.incident(wo);
+        let p = self.coat_probability(from, wo);
+        let mut f_cos = self.base_f_cos(from, wi);
         let mut pdf = (T::ONE - p) * warp::cosine_hemisphere_pdf(wi);
         if let Some(ggx) = self.coat {
             let wm = (wo + wi).normalize();

@@ -292,6 +292,49 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         self.scattered(wi, weight, s.pdf(), reflects, side)
     }
 
+    /// A draw of one branch alone, by all visible normals. The weight is of that branch: for walks
+    /// that follow reflection and refraction one by one.
+    #[inline(always)]
+    pub(crate) fn sample_branch(
+        &self,
+        wo: Vec3<T>,
+        u: [T; 2],
+        reflects: bool,
+        transport: Transport,
+    ) -> Option<BsdfSample<T>> {
+        let side = self.side(wo);
+        let wo = vec3(wo.x, wo.y, wo.z * side.turn);
+        let wm = self.ndf.sample_wm(wo, u);
+        let cos_o = Real::max(wo.dot(wm), T::ZERO);
+        let bent = dielectric(cos_o, side.eta);
+        let (wi, fresnel) = if reflects {
+            (reflect(wo, wm), bent.reflectance)
+        } else {
+            let wt = wm * (side.inverse * cos_o - bent.cos_t) - wo * side.inverse;
+            (wt, bent.transmittance)
+        };
+        let half = self.half(side, wo, wi, reflects);
+        let squared = half.length_squared();
+        let (far2, carried2) = self.stretches(side, transport);
+        let bend = wo.dot(half) * wi.dot(half).abs() / (squared * squared);
+        let sigma = self.ndf.projected_area(wo);
+        let d = self.ndf.d_along(half, squared);
+        let pdf = d * T::select(reflects, T::of(0.25), far2 * bend) / sigma;
+        let scale = T::select(reflects, T::ONE, carried2 / far2);
+        let weight = Carried::new(self, fresnel, wo, wi).value() * sigma;
+        self.scattered(wi, weight * scale, pdf, reflects, side)
+    }
+
+    /// `f |cos|` and the density of [`sample_branch`](Self::sample_branch) for the branch of `wi`.
+    #[inline(always)]
+    pub(crate) fn eval_branch(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> (T, T) {
+        let side = self.side(wo);
+        let upright = |w: Vec3<T>| vec3(w.x, w.y, w.z * side.turn);
+        let s = self.scatter(upright(wo), upright(wi), side, transport);
+        let pdf = T::select(s.value > T::ZERO, s.density / s.norm, T::ZERO);
+        (s.f_cos(), pdf)
+    }
+
     /// The sample of one of the branches, on the side where `wo` is; `None` on the wrong side, or
     /// where the density is no positive number.
     #[inline(always)]

@@ -2,8 +2,8 @@
 
 use super::{
     Black, Bsdf, BsdfSample, CoatedConductor, CoatedDiffuse, Compensated, CompensatedDielectric,
-    DiffuseTransmission, Eon, Gltf, Lambert, Plastic, Principled, RoughConductor, RoughDielectric,
-    SmoothConductor, SmoothDielectric, ThinDielectric, Transport,
+    DiffuseTransmission, Eon, Gltf, Lambert, Layered, Plastic, Principled, RoughConductor,
+    RoughDielectric, SmoothConductor, SmoothDielectric, ThinDielectric, Transport,
 };
 use crate::math::{Real, Rgb, Stream, Vec3};
 use crate::multibounce;
@@ -32,6 +32,8 @@ pub enum Lobe<T> {
     CoatedDiffuse(CoatedDiffuse<T>),
     /// See [`CoatedConductor`].
     CoatedConductor(CoatedConductor<T>),
+    /// See [`Layered`].
+    Layered(Layered<T>),
     /// See [`Compensated`].
     Compensated(Compensated<T>),
     /// See [`CompensatedDielectric`].
@@ -77,6 +79,7 @@ macro_rules! each_lobe {
             Lobe::ThinDielectric($l) => $call,
             Lobe::CoatedDiffuse($l) => $call,
             Lobe::CoatedConductor($l) => $call,
+            Lobe::Layered($l) => $call,
             Lobe::Compensated($l) => $call,
             Lobe::CompensatedDielectric($l) => $call,
             Lobe::MultibounceConductor($l) => $call,
@@ -177,6 +180,7 @@ from_lobe!(
     ThinDielectric: ThinDielectric<T>,
     CoatedDiffuse: CoatedDiffuse<T>,
     CoatedConductor: CoatedConductor<T>,
+    Layered: Layered<T>,
     Compensated: Compensated<T>,
     CompensatedDielectric: CompensatedDielectric<T>,
     MultibounceConductor: multibounce::Conductor<T>,

@@ -8,7 +8,8 @@
 //! `T` is what the facets seen from `wo` let through. Light refracted downwards stays below: what
 //! masking takes from the single-scattering transmission lobe is not lost but refracted again, so
 //! that here, where only the amount counts, no masking term belongs. `R_int` follows by
-//! reciprocity.
+//! reciprocity. What single scattering alone lets through is in `interface_single.rs`, what a layer
+//! under the interface absorbs in `interface_layer.rs`.
 //!
 //! Smooth: closed forms. Rough: tables of `T / (1 - F(mu_e))` and of `R_int`, linear in
 //! `(eta - 1)/(eta + 1)`, `sqrt(1.1 alpha / (1 + alpha))` and `sqrt(mu)`, where `mu_e` is a cosine raised by
@@ -46,9 +47,8 @@ pub fn transmittance<T: Real>(coat: Option<Ggx<T>>, eta: T, mu: T) -> T {
     };
     let alpha = width(ggx);
     let smooth = dielectric(effective_cosine(mu, alpha), eta).transmittance;
-    let e = Knot::new((eta - T::ONE) / (eta + T::ONE), ETA_END, ETAS);
-    let a = alpha_knot(alpha);
-    let m = Knot::new(Real::clamp(mu, T::ZERO, T::ONE).sqrt(), 1.0, MUS);
+    let (e, a) = (eta_knot(eta, ETAS), alpha_knot(alpha, ALPHAS));
+    let m = cosine_knot(mu, MUS);
     let quotient = e.lerp(|i| a.lerp(|j| m.lerp(|k| table(TRANSMITTANCE[i][j][k]))));
     Real::clamp(smooth * quotient, T::ZERO, T::ONE)
 }
@@ -62,27 +62,34 @@ pub fn internal_reflectance<T: Real>(coat: Option<Ggx<T>>, eta: T) -> T {
     let Some(ggx) = coat else {
         return dielectric_average(T::ONE / eta);
     };
-    let alpha = width(ggx);
-    let e = Knot::new((eta - T::ONE) / (eta + T::ONE), ETA_END, ETAS);
-    let a = alpha_knot(alpha);
+    let (e, a) = (eta_knot(eta, ETAS), alpha_knot(width(ggx), ALPHAS));
     e.lerp(|i| a.lerp(|j| table(INTERNAL_REFLECTANCE[i][j])))
 }
 
-fn alpha_knot<T: Real>(alpha: T) -> Knot<T> {
-    let share = alpha / ((T::ONE + alpha) * T::of(ALPHA_END));
-    Knot::new(share.sqrt(), 1.0, ALPHAS)
+pub(super) fn eta_knot<T: Real>(eta: T, count: usize) -> Knot<T> {
+    Knot::new((eta - T::ONE) / (eta + T::ONE), ETA_END, count)
 }
 
-fn width<T: Real>(ggx: Ggx<T>) -> T {
+pub(super) fn alpha_knot<T: Real>(alpha: T, count: usize) -> Knot<T> {
+    let share = alpha / ((T::ONE + alpha) * T::of(ALPHA_END));
+    Knot::new(share.sqrt(), 1.0, count)
+}
+
+pub(super) fn cosine_knot<T: Real>(mu: T, count: usize) -> Knot<T> {
+    Knot::new(Real::clamp(mu, T::ZERO, T::ONE).sqrt(), 1.0, count)
+}
+
+pub(super) fn width<T: Real>(ggx: Ggx<T>) -> T {
     (ggx.alpha().x * ggx.alpha().y).sqrt()
 }
 
-fn table<T: Real>(value: f32) -> T {
+pub(super) fn table<T: Real>(value: f32) -> T {
     T::of(f64::from(value))
 }
 
 /// A place between two knots of a uniform axis.
-struct Knot<T> {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Knot<T> {
     low: usize,
     fraction: T,
 }
@@ -90,7 +97,7 @@ struct Knot<T> {
 impl<T: Real> Knot<T> {
     /// `x` on the axis `[0, end]` of `count` knots, clamped.
     #[inline]
-    fn new(x: T, end: f64, count: usize) -> Self {
+    pub(super) fn new(x: T, end: f64, count: usize) -> Self {
         #[allow(clippy::cast_precision_loss, reason = "a dozen knots")]
         let last = (count - 1) as f64;
         let place = Real::clamp(x * T::of(last / end), T::ZERO, T::of(last));
@@ -106,7 +113,7 @@ impl<T: Real> Knot<T> {
     }
 
     #[inline]
-    fn lerp(&self, at: impl Fn(usize) -> T) -> T {
+    pub(super) fn lerp(&self, at: impl Fn(usize) -> T) -> T {
         let (a, b) = (at(self.low), at(self.low + 1));
         a + (b - a) * self.fraction
     }

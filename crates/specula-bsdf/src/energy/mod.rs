@@ -11,6 +11,8 @@
 //! | `model` | Turquin's and Kulla and Conty's factors |
 //! | `fresnel_average` | cosine-averaged reflectance |
 //! | `interface` | transmittance and internal reflectance, for coats |
+//! | `interface_single` | the same where facets scatter once |
+//! | `interface_layer` | what an absorbing layer under the interface takes |
 
 pub mod albedo;
 mod albedo_tables;
@@ -19,6 +21,9 @@ pub mod dielectric_albedo;
 pub mod fit;
 pub mod fresnel_average;
 pub mod interface;
+pub mod interface_layer;
+pub mod interface_single;
+mod interface_single_table;
 mod interface_table;
 pub mod model;
 pub mod pairs;

@@ -43,7 +43,7 @@ pub use state::DepthState;
 use crate::math::{Real, Stream, Vec3};
 
 /// A stream for callers who bring none, seeded by the arguments.
-fn seed<T: Real>(a: Vec3<T>, b: Vec3<T>) -> Stream {
+pub(crate) fn seed<T: Real>(a: Vec3<T>, b: Vec3<T>) -> Stream {
     let numbers = [a.x, a.y, a.z, b.x, b.y, b.z];
     Stream::new(numbers.iter().fold(0xcbf2_9ce4_8422_2325, |hash, x| {
         (hash ^ x.to_f64().to_bits())

@@ -3,8 +3,9 @@
 
 use specula_bsdf::batch::Directions;
 use specula_bsdf::bsdf::{
-    CoatedConductor, CoatedDiffuse, Compensated, CompensatedDielectric, DiffuseTransmission, Eon,
-    Lambert, RoughConductor, RoughDielectric, SmoothConductor, SmoothDielectric, ThinDielectric,
+    CoatLayer, CoatScattering, CoatedConductor, CoatedDiffuse, Compensated, CompensatedDielectric,
+    DiffuseTransmission, Eon, Lambert, RoughConductor, RoughDielectric, SmoothConductor,
+    SmoothDielectric, ThinDielectric,
 };
 use specula_bsdf::energy::{FmsVariant, Model};
 use specula_bsdf::fresnel::{Conductor, F82Tint, Reflectance, Schlick};
@@ -128,10 +129,13 @@ macro_rules! for_every_lobe {
             }
             let coat = make::coated_diffuse::<$t>(Some($alpha)).with_sampler(sampler);
             $each!("coated diffuse", coat);
+            let coat = make::lossy_coat::<$t>(Some($alpha)).with_sampler(sampler);
+            $each!("coated diffuse", coat);
             let coat = make::coated_conductor::<$t>(Some($alpha), Some($alpha));
             $each!("coated conductor", coat.with_sampler(sampler));
         }
         $each!("coated diffuse", make::coated_diffuse::<$t>(None));
+        $each!("coated diffuse", make::lossy_coat::<$t>(None));
         $each!(
             "coated conductor",
             make::coated_conductor::<$t>(None, Some($alpha))
@@ -168,6 +172,16 @@ pub(crate) fn glass<T: Real>(alpha: [f32; 2], eta: f32) -> RoughDielectric<T> {
 
 pub(crate) fn coated_diffuse<T: Real>(alpha: Option<[f32; 2]>) -> CoatedDiffuse<T> {
     CoatedDiffuse::new(alpha.map(ggx), single(1.5), colour(0.8, 0.5, 0.2))
+}
+
+/// A coat as pbrt-v4's: its facets scatter once, what is under it absorbs.
+pub(crate) fn lossy_coat<T: Real>(alpha: Option<[f32; 2]>) -> CoatedDiffuse<T> {
+    let layer = CoatLayer {
+        thickness: single(0.01),
+        max_depth: Some(10),
+        scattering: CoatScattering::Single,
+    };
+    CoatedDiffuse::over_layer(alpha.map(ggx), single(1.5), colour(0.8, 0.5, 0.2), layer)
 }
 
 pub(crate) fn coated_conductor<T: Real>(

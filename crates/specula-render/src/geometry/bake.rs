@@ -4,7 +4,7 @@ use glam::{DMat3, DMat4};
 use rayon::prelude::*;
 use specula_bsdf::Rgb;
 use specula_scene::scene::{
-    ColourParam, FloatParam, Geometry as SceneGeometry, MaterialKind, Mesh, Scene, Shape,
+    ColourParam, FloatParam, Geometry as SceneGeometry, Material, MaterialKind, Mesh, Scene, Shape,
 };
 
 use super::{GroupData, NONE, PlacedQuadric, ShapeRecord};
@@ -25,6 +25,8 @@ pub(super) struct Baker<'a> {
     pub(super) objects: Vec<Vec<Shape>>,
     /// Objects and their places.
     pub(super) instances: Vec<(usize, DMat4)>,
+    /// Which materials are no surfaces.
+    interfaces: Vec<bool>,
     pub(super) records: Vec<ShapeRecord>,
     with_colours: bool,
 }
@@ -45,7 +47,8 @@ impl<'a> Baker<'a> {
                 s.alpha = textures.fold_float(s.alpha);
             }
             shapes.retain(|s| {
-                !matches!(materials[s.material.0].kind, MaterialKind::Interface)
+                let material = &materials[s.material.0];
+                (!is_interface(material) || material.bounds_absorption())
                     && !matches!(s.alpha, FloatParam::Value(a) if a <= 0.0)
             });
             // Triangles come first in the numbering, whatever the order of the shapes.
@@ -79,6 +82,7 @@ impl<'a> Baker<'a> {
             }
         }
         Self {
+            interfaces: materials.iter().map(is_interface).collect(),
             textures,
             meshes,
             uses,
@@ -129,6 +133,7 @@ impl<'a> Baker<'a> {
                     FloatParam::Value(a) if a >= 1.0 => None,
                     alpha => Some(alpha),
                 },
+                is_interface: self.interfaces[shape.material.0],
                 has_uvs,
             });
         }
@@ -227,6 +232,10 @@ impl GroupData {
             flipped: shape.reverse_orientation,
         });
     }
+}
+
+fn is_interface(material: &Material) -> bool {
+    matches!(material.kind, MaterialKind::Interface)
 }
 
 /// Elements of large arrays, on all cores.

@@ -2,13 +2,15 @@
 
 use specula_bsdf::Rgb;
 use specula_bsdf::bsdf::{
-    Black, CoatedConductor, CoatedDiffuse, DiffuseTransmission, Eon, Gltf, GltfParameters, Lambert,
-    Lobe, Plastic, Principled, PrincipledParameters, SmoothConductor, SmoothDielectric,
-    ThinDielectric, Tints,
+    Base, Black, CoatLayer, CoatScattering, CoatedDiffuse, DiffuseTransmission, Eon, Gltf,
+    GltfParameters, Lambert, Layered, Lobe, Medium, Plastic, Principled, PrincipledParameters,
+    SmoothConductor, SmoothDielectric, ThinDielectric, Tints,
 };
 use specula_bsdf::ndf::{Beckmann, Ggx};
-use specula_scene::scene;
-use specula_scene::scene::{ColourParam, Distribution, FloatParam, MaterialKind, Roughness};
+use specula_scene::scene::{
+    CoatMedium, ColourParam, Distribution, FloatParam, MaterialKind, Roughness,
+};
+use specula_scene::{Energy, scene};
 
 use super::Models;
 use super::metal::{alpha, reflectance};
@@ -107,22 +109,23 @@ pub(super) fn lobe(
             reflectance,
             eta,
             ref roughness,
-        } => CoatedDiffuse::new(at.ggx(roughness), eta, at.albedo(reflectance))
-            .with_sampler(models.sampler)
-            .into(),
+            ref medium,
+            lossless,
+        } => {
+            let albedo = at.albedo(reflectance);
+            at.coated_diffuse(albedo, eta, roughness, (medium, lossless), models)
+        }
         MaterialKind::CoatedConductor {
             coat_eta,
             ref coat_roughness,
             ref fresnel,
             ref roughness,
-        } => CoatedConductor::new(
-            at.ggx(coat_roughness),
-            coat_eta,
-            at.ggx(roughness),
-            reflectance(fresnel, textures, place),
-        )
-        .with_sampler(models.sampler)
-        .into(),
+            ref medium,
+        } => {
+            let metal = reflectance(fresnel, textures, place);
+            let base = Base::metal(at.ggx(roughness), metal);
+            at.layered(coat_roughness, coat_eta, base, medium, models)
+        }
         // It has one side: its back is black, as Mitsuba's.
         MaterialKind::Plastic { .. } if !outside => black(),
         MaterialKind::Plastic {
@@ -169,6 +172,60 @@ impl At<'_> {
     /// Coats know GGX only, with height-correlated masking: Beckmann's widths are taken for its.
     fn ggx(&self, roughness: &Roughness) -> Option<Ggx<f32>> {
         alpha(roughness, self.textures, self.place).map(Ggx::new)
+    }
+
+    /// Lambert under a coat, in closed form where nothing scatters between them.
+    fn coated_diffuse(
+        &self,
+        albedo: Rgb<f32>,
+        eta: f32,
+        roughness: &Roughness,
+        (medium, lossless): (&CoatMedium, bool),
+        models: Models,
+    ) -> Lobe<f32> {
+        if medium.scatters() {
+            return self.layered(roughness, eta, Base::diffuse(albedo), medium, models);
+        }
+        let layer = self.coat_layer(medium, lossless, models);
+        CoatedDiffuse::over_layer(self.ggx(roughness), eta, albedo, layer)
+            .with_sampler(models.sampler)
+            .into()
+    }
+
+    /// What light meets under a coat over Lambert.
+    fn coat_layer(&self, medium: &CoatMedium, lossless: bool, models: Models) -> CoatLayer<f32> {
+        CoatLayer {
+            thickness: self.textures.float(medium.thickness, self.place),
+            max_depth: medium.max_depth,
+            scattering: match models.energy {
+                Energy::None if !lossless => CoatScattering::Single,
+                _ => CoatScattering::Lossless,
+            },
+        }
+    }
+
+    /// A coat with what is under it. Its surfaces scatter singly, whatever the treatment of energy,
+    /// as pbrt-v4's.
+    fn layered(
+        &self,
+        coat: &Roughness,
+        eta: f32,
+        base: Base<f32>,
+        medium: &CoatMedium,
+        models: Models,
+    ) -> Lobe<f32> {
+        let layered = Layered::new(self.ggx(coat), eta, base)
+            .with_medium(Medium {
+                thickness: self.textures.float(medium.thickness, self.place),
+                albedo: self.albedo(medium.albedo),
+                g: self.textures.float(medium.g, self.place),
+            })
+            .with_walks(medium.samples)
+            .with_sampler(models.sampler);
+        match medium.max_depth {
+            Some(depth) => layered.with_max_depth(depth).into(),
+            None => layered.into(),
+        }
     }
 
     /// * `relative`: index beyond the surface over the index on the viewer's side.

@@ -1,7 +1,8 @@
 //! Materials whose textures are the same everywhere, as materials without textures.
 
 use specula_scene::scene::{
-    ColourParam, ConductorFresnel, FloatParam, Gltf, MaterialKind, Principled, Roughness,
+    CoatMedium, ColourParam, ConductorFresnel, FloatParam, Gltf, MaterialKind, Principled,
+    Roughness,
 };
 
 use crate::texture::Textures;
@@ -38,6 +39,12 @@ impl Folder<'_> {
         self.float(&mut roughness.v);
     }
 
+    fn coat_medium(&mut self, medium: &mut CoatMedium) {
+        self.float(&mut medium.thickness);
+        self.colour(&mut medium.albedo);
+        self.float(&mut medium.g);
+    }
+
     fn fresnel(&mut self, fresnel: &mut ConductorFresnel) {
         match fresnel {
             ConductorFresnel::Index { eta, k } => {
@@ -57,13 +64,6 @@ impl Folder<'_> {
             } => {
                 self.colour(reflectance);
                 self.float(roughness);
-            }
-            MaterialKind::DiffuseTransmission {
-                reflectance,
-                transmittance,
-            } => {
-                self.colour(reflectance);
-                self.colour(transmittance);
             }
             MaterialKind::Conductor {
                 fresnel,
@@ -86,17 +86,24 @@ impl Folder<'_> {
             }
             MaterialKind::ThinDielectric {
                 eta: _,
-                reflection_tint,
-                transmission_tint,
+                reflection_tint: a,
+                transmission_tint: b,
+            }
+            | MaterialKind::DiffuseTransmission {
+                reflectance: a,
+                transmittance: b,
             } => {
-                self.colour(reflection_tint);
-                self.colour(transmission_tint);
+                self.colour(a);
+                self.colour(b);
             }
             MaterialKind::CoatedDiffuse {
                 reflectance,
                 eta: _,
                 roughness,
+                medium,
+                lossless: _,
             } => {
+                self.coat_medium(medium);
                 self.colour(reflectance);
                 self.roughness(roughness);
             }
@@ -105,7 +112,9 @@ impl Folder<'_> {
                 coat_roughness,
                 fresnel,
                 roughness,
+                medium,
             } => {
+                self.coat_medium(medium);
                 self.roughness(coat_roughness);
                 self.fresnel(fresnel);
                 self.roughness(roughness);

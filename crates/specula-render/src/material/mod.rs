@@ -14,6 +14,7 @@ use specula_scene::scene::{
     ColourParam, FloatParam, MaterialKind, Relief, ReliefRules, Scene, TextureId,
 };
 
+use crate::bodies::Boundary;
 use crate::options::RenderOptions;
 use crate::texture::{Place, Textures};
 
@@ -41,8 +42,8 @@ pub(crate) struct Material {
     turn: Option<Turn>,
     /// What bends its clear coat, where that is bent otherwise than the rest.
     pub(crate) coat: Option<Coat>,
-    /// Absorption of the body that it bounds, where there is any.
-    pub(crate) absorption: Option<Rgb<f32>>,
+    /// What absorbs on its two sides, where that may change.
+    boundary: Option<Boundary>,
 }
 
 /// A turn of the tangent.
@@ -80,6 +81,10 @@ impl Materials {
     ///
     /// * `options`: its treatment of energy is for materials that do not choose their own.
     pub(crate) fn new(scene: &Scene, textures: &Textures, options: &RenderOptions) -> Self {
+        let absorbs = scene.materials.iter().any(|m| {
+            let around = m.around.unwrap_or(Rgb::BLACK);
+            !(m.absorption.is_black() && around.is_black())
+        });
         let prepare = |material: &specula_scene::scene::Material| {
             let models = Models {
                 sampler: options.vndf_sampler,
@@ -96,7 +101,7 @@ impl Materials {
                 }),
                 turn: turn(&kind, textures),
                 coat: coat(&kind, material.relief.is_some()),
-                absorption: Some(material.absorption).filter(|a| !a.is_black()),
+                boundary: absorbs.then(|| boundary(material)).flatten(),
                 opaque_layers: bind::is_opaque(&kind),
                 kind,
                 models,
@@ -114,6 +119,12 @@ impl Materials {
         Self {
             materials: scene.materials.iter().map(prepare).collect(),
         }
+    }
+
+    /// What absorbs on the two sides of a material's shapes, where it bounds a body.
+    #[inline]
+    pub(crate) fn boundary(&self, material: u32) -> Option<&Boundary> {
+        self.materials[material as usize].boundary.as_ref()
     }
 
     /// The material at a place, one of the parts where it is a mix.
@@ -142,6 +153,16 @@ impl Materials {
             one_sided,
         }
     }
+}
+
+/// What a material bounds in a scene where something absorbs: also a body that itself does not.
+fn boundary(material: &specula_scene::scene::Material) -> Option<Boundary> {
+    let is_clear = matches!(&material.kind, MaterialKind::Gltf(g)
+        if g.volume && g.transmission != FloatParam::Value(0.0));
+    (is_clear || material.bounds_absorption()).then_some(Boundary {
+        inside: material.absorption,
+        around: material.around,
+    })
 }
 
 /// What turns the tangent of a material.
@@ -225,6 +246,7 @@ impl Chosen<'_> {
             | Lobe::RoughConductor(_)
             | Lobe::CoatedDiffuse(_)
             | Lobe::CoatedConductor(_)
+            | Lobe::Layered(_)
             | Lobe::Compensated(_)
             | Lobe::MultibounceConductor(_)
             | Lobe::Black(_)

@@ -1,6 +1,7 @@
 //! Small scenes, and their renders as means with errors.
 #![allow(dead_code, reason = "every test file uses its own part")]
 
+use core::f64::consts::PI;
 use std::sync::atomic::AtomicBool;
 
 use glam::{DMat4, DVec3};
@@ -214,4 +215,29 @@ pub(crate) fn lit_floor() -> Scene {
     let floor = square(&mut scene, 50.0, DMat4::IDENTITY, m);
     scene.shapes.push(floor);
     scene
+}
+
+/// A closed box of `half` sides along x and y, between two heights, its outside outside.
+pub(crate) fn body(scene: &mut Scene, half: f64, [low, high]: [f64; 2], material: MaterialId) {
+    let side = |scene: &mut Scene, m: DMat4| {
+        let s = square(scene, 1.0, m, material);
+        scene.shapes.push(s);
+    };
+    let scale = DMat4::from_scale(DVec3::new(half, half, 0.5 * (high - low)));
+    let centre = DMat4::from_translation(DVec3::new(0.0, 0.0, 0.5 * (low + high))) * scale;
+    let up = DMat4::from_translation(DVec3::Z);
+    let turns = [0.0, 0.5, 1.0, 1.5].map(|t| DMat4::from_rotation_x(t * PI));
+    for turn in turns
+        .into_iter()
+        .chain([0.5, 1.5].map(|t| DMat4::from_rotation_y(t * PI)))
+    {
+        side(scene, centre * turn * up);
+    }
+}
+
+/// A material whose bodies absorb.
+pub(crate) fn absorbing(scene: &mut Scene, kind: MaterialKind, absorption: f32) -> MaterialId {
+    let id = material(scene, kind);
+    scene.materials[id.0].absorption = Rgb::splat(absorption);
+    id
 }

@@ -16,8 +16,9 @@ use specula_bsdf::{Rgb, metals};
 
 use crate::num::f32_of;
 use crate::scene::{
-    Camera, ColourParam, ConductorFresnel, Emission, Film, Filter, FloatParam, Geometry, Material,
-    MaterialId, MaterialKind, Mesh, MeshId, Projection, Roughness, Scene, Settings, Shape,
+    Camera, CoatMedium, ColourParam, ConductorFresnel, Emission, Film, Filter, FloatParam,
+    Geometry, Material, MaterialId, MaterialKind, Mesh, MeshId, Projection, Roughness, Scene,
+    Settings, Shape,
 };
 
 /// Symbols of the metals, from left to right.
@@ -51,6 +52,8 @@ pub fn orbs() -> Scene {
             reflectance: ColourParam::Value(rgb(0.025, 0.026, 0.03)),
             eta: 1.5,
             roughness: alphas(0.15, 0.15),
+            medium: CoatMedium::default(),
+            lossless: false,
         },
     );
     for (column, symbol) in METALS.iter().enumerate() {

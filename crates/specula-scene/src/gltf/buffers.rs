@@ -17,48 +17,48 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
 
 impl Reader<'_> {
     /// All buffers, each at least as long as it promises.
-    pub(super) fn read_buffers(&self, blob: Option<Vec<u8>>) -> Result<Vec<Vec<u8>>, SceneError> {
+    pub(super) fn read_buffers(
+        &self,
+        blob: Option<Vec<u8>>,
+    ) -> Result<Vec<Result<Vec<u8>, String>>, SceneError> {
         let mut blob = blob;
-        let read: Vec<_> = self
-            .document
-            .buffers()
-            .map(|buffer| {
-                let what = format!("buffers[{}]", buffer.index());
-                let bytes = match buffer.source() {
-                    gltf::buffer::Source::Bin => blob.take().ok_or_else(|| {
-                        let message = format!("{what} is the binary part, but there is none");
-                        self.error(ErrorKind::Structure, message)
-                    })?,
-                    gltf::buffer::Source::Uri(uri) => self.resource(&what, uri)?,
-                };
-                if bytes.len() < buffer.length() {
-                    let message = format!(
-                        "{what} has {} bytes; expected {}",
-                        bytes.len(),
-                        buffer.length()
-                    );
-                    return Err(self.error(ErrorKind::Mesh, message));
-                }
-                Ok(bytes)
-            })
-            .collect();
-        // Without one of them nothing more can be told: a check ends with the last that is missing.
-        let wrong = read.iter().filter(|b| b.is_err()).count();
         let mut found = Vec::new();
-        let mut kept = 0;
-        for buffer in read {
-            match buffer {
-                Ok(bytes) => found.push(bytes),
+        for buffer in self.document.buffers() {
+            let what = format!("buffers[{}]", buffer.index());
+            found.push(match self.read_buffer(&what, &buffer, &mut blob) {
+                Ok(bytes) => Ok(bytes),
                 Err(error) => {
-                    kept += 1;
-                    if kept == wrong {
-                        return Err(error);
-                    }
+                    let message = error.message().to_owned();
                     self.problems.keep(error)?;
+                    Err(message)
                 }
-            }
+            });
         }
         Ok(found)
+    }
+
+    fn read_buffer(
+        &self,
+        what: &str,
+        buffer: &gltf::Buffer<'_>,
+        blob: &mut Option<Vec<u8>>,
+    ) -> Result<Vec<u8>, SceneError> {
+        let bytes = match buffer.source() {
+            gltf::buffer::Source::Bin => blob.take().ok_or_else(|| {
+                let message = format!("{what} is the binary part, but there is none");
+                self.error(ErrorKind::Structure, message)
+            })?,
+            gltf::buffer::Source::Uri(uri) => self.resource(what, uri)?,
+        };
+        if bytes.len() < buffer.length() {
+            let message = format!(
+                "{what} has {} bytes; expected {}",
+                bytes.len(),
+                buffer.length()
+            );
+            return Err(self.error(ErrorKind::Mesh, message));
+        }
+        Ok(bytes)
     }
 
     /// What a URI leads to: embedded data, or a file in the scene's folder or below.
@@ -103,7 +103,12 @@ impl Reader<'_> {
         what: &str,
         view: &gltf::buffer::View<'_>,
     ) -> Result<&[u8], SceneError> {
-        let bytes = self.buffers.get(view.buffer().index());
+        let bytes = match self.buffers.get(view.buffer().index()) {
+            // Its error is kept already, and kept once.
+            Some(Err(message)) => return Err(self.error(ErrorKind::Io, message)),
+            Some(Ok(bytes)) => Some(bytes),
+            None => None,
+        };
         let end = view.offset().checked_add(view.length());
         bytes
             .zip(end)

@@ -13,11 +13,12 @@ pub const FEATURES: &[Feature] = &[
     Feature::approximated("mesh", "skins", "undeformed"),
     Feature::full("mesh", "sparse accessors"),
     Feature::full("mesh", "COLOR_0"),
+    Feature::approximated("mesh", "attributes of an application's own", "left out"),
     Feature::full("mesh", "TANGENT"),
     Feature::approximated(
         "mesh",
         "several sets of texture coordinates",
-        "any two for each material",
+        "any two for each material; the first stands in for a third",
     ),
     Feature::full("mesh", "KHR_mesh_quantization"),
     Feature::refused("mesh", "KHR_draco_mesh_compression", "no kept decoder"),
@@ -39,11 +40,7 @@ pub const FEATURES: &[Feature] = &[
     Feature::full("material", "KHR_materials_specular"),
     Feature::full("material", "KHR_materials_sheen"),
     Feature::full("material", "KHR_materials_transmission"),
-    Feature::approximated(
-        "material",
-        "KHR_materials_volume",
-        "one body at a time: what lies within another takes its place",
-    ),
+    Feature::full("material", "KHR_materials_volume"),
     Feature::approximated(
         "material",
         "KHR_materials_unlit",

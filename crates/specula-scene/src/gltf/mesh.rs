@@ -45,30 +45,39 @@ impl Reader<'_> {
         };
         let coloured = primitive.get(&Semantic::Colors(0)).is_some();
         let look = self.look(&primitive.material(), coloured)?;
-        let positions = self.floats::<3>(&format!("{what}.POSITION"), &positions)?;
-        let count = positions.len();
-        let triangles = self.triangles(what, primitive, count)?;
-        let normals = self.attribute::<3>(what, "NORMAL", primitive, Semantic::Normals, count)?;
-        let [uvs, second_uvs] = look.sets.map(|set| {
-            let Some(set) = set else {
-                return Ok(Vec::new());
-            };
-            let semantic = Semantic::TexCoords(set);
-            let values = self.attribute::<2>(what, "TEXCOORD", primitive, semantic, count)?;
-            Ok(values.into_iter().map(|[u, v]| [u, 1.0 - v]).collect())
-        });
-        let tangents = if look.tangents && !normals.is_empty() {
-            self.attribute::<4>(what, "TANGENT", primitive, Semantic::Tangents, count)?
-        } else {
-            Vec::new()
-        };
-        let colours =
-            self.attribute::<3>(what, "COLOR_0", primitive, Semantic::Colors(0), count)?;
+        let count = positions.count();
+        // A check names what is wrong with each attribute.
+        let mut is_damaged = false;
+        let positions = self.floats::<3>(&format!("{what}.POSITION"), &positions);
+        let positions = self.or_none(positions, &mut is_damaged)?;
+        let triangles = self.triangles(what, primitive, count);
+        let triangles = self.or_none(triangles, &mut is_damaged)?;
+        let normals = self.attribute::<3>(what, primitive, Semantic::Normals, count);
+        let normals = self.or_none(normals, &mut is_damaged)?;
+        let mut sets = [Vec::new(), Vec::new()];
+        for (uvs, set) in sets.iter_mut().zip(look.sets) {
+            if let Some(set) = set {
+                let values = self.attribute::<2>(what, primitive, Semantic::TexCoords(set), count);
+                let values = self.or_none(values, &mut is_damaged)?;
+                *uvs = values.into_iter().map(|[u, v]| [u, 1.0 - v]).collect();
+            }
+        }
+        let [uvs, second_uvs] = sets;
+        let mut tangents = Vec::new();
+        if look.tangents && !normals.is_empty() {
+            let values = self.attribute::<4>(what, primitive, Semantic::Tangents, count);
+            tangents = self.or_none(values, &mut is_damaged)?;
+        }
+        let colours = self.attribute::<3>(what, primitive, Semantic::Colors(0), count);
+        let colours = self.or_none(colours, &mut is_damaged)?;
+        if is_damaged {
+            return Ok(None);
+        }
         let mut mesh = Mesh {
             positions,
             normals,
-            uvs: uvs?,
-            second_uvs: second_uvs?,
+            uvs,
+            second_uvs,
             tangents,
             colours: colours
                 .into_iter()
@@ -91,11 +100,22 @@ impl Reader<'_> {
         Ok(Some((MeshId(self.meshes.len() - 1), look)))
     }
 
+    /// What was read, or nothing where its error is kept, which `is_damaged` then tells.
+    fn or_none<T: Default>(
+        &self,
+        read: Result<T, SceneError>,
+        is_damaged: &mut bool,
+    ) -> Result<T, SceneError> {
+        self.problems.or(read, || {
+            *is_damaged = true;
+            T::default()
+        })
+    }
+
     /// An attribute for each of `count` vertices; empty where there is none.
     fn attribute<const N: usize>(
         &mut self,
         what: &str,
-        name: &str,
         primitive: &gltf::Primitive<'_>,
         semantic: Semantic,
         count: usize,
@@ -103,6 +123,7 @@ impl Reader<'_> {
         let Some(accessor) = primitive.get(&semantic) else {
             return Ok(Vec::new());
         };
+        let name = semantic.to_string();
         let values = self.floats::<N>(&format!("{what}.{name}"), &accessor)?;
         if values.len() != count {
             self.warn(format!(

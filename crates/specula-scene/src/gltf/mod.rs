@@ -23,8 +23,10 @@ mod light;
 mod locate;
 mod material;
 mod mesh;
+mod mistakes;
 mod node;
 mod precheck;
+mod schema;
 mod texture;
 mod texture_ref;
 
@@ -67,7 +69,8 @@ struct Reader<'a> {
     problems: &'a Problems,
     search: Search,
     place: Place,
-    buffers: Vec<Vec<u8>>,
+    /// Bytes, or what is wrong with them.
+    buffers: Vec<Result<Vec<u8>, String>>,
     warnings: Vec<Warning>,
     images: Vec<Image>,
     textures: Vec<Texture>,
@@ -116,23 +119,22 @@ fn parse_into(
     options: &LoadOptions,
     problems: &Problems,
 ) -> Result<Loaded, SceneError> {
-    let source = source(path, bytes);
-    let start = Place::start(&source);
-    let invalid = |message: String| {
+    let parts = container::split(bytes).map_err(|message| {
+        let start = Place::start(&Source::unread(path));
         let message = format!("not valid glTF 2.0: {message}");
         SceneError::new(ErrorKind::Structure, &start, message)
+    })?;
+    let source = source(path, bytes, &parts);
+    let document = match document(parts.json, &source) {
+        Ok(document) => document,
+        Err(error) => mend(parts.json, &source, problems, error)?,
     };
-    let parts = container::split(bytes).map_err(invalid)?;
-    let mut root = gltf::json::Root::from_slice(parts.json)
-        .map_err(|e| damaged(gltf::Error::Deserialize(e), &source))?;
-    precheck::precheck(&mut root).map_err(invalid)?;
-    let document = gltf::Document::from_json(root).map_err(|e| damaged(e, &source))?;
     let mut reader = Reader {
         document: &document,
         limits: &options.limits,
         problems,
         search: Search::new(path, &options.folders),
-        place: start,
+        place: Place::start(&source),
         buffers: Vec::new(),
         warnings: Vec::new(),
         images: Vec::new(),
@@ -146,16 +148,73 @@ fn parse_into(
         looks: material::Looks::default(),
         sets: Vec::new(),
     };
-    reader.check_extensions()?;
+    reader.warn_of_extensions();
     reader.buffers = reader.read_buffers(parts.binary.map(<[u8]>::to_vec))?;
     reader.assemble()
 }
 
-/// The text of a JSON file, for excerpts; nothing of a binary one.
-fn source(path: &Path, bytes: &[u8]) -> Arc<Source> {
-    match core::str::from_utf8(bytes) {
-        Ok(text) if !bytes.starts_with(b"glTF") => Source::new(path.display().to_string(), text),
-        _ => Source::unread(path),
+/// The document's text, for excerpts; places in a binary file are those of its JSON chunk.
+fn source(path: &Path, bytes: &[u8], parts: &container::Parts<'_>) -> Arc<Source> {
+    let is_binary = parts.json.len() < bytes.len();
+    let chunk = if is_binary { " (JSON chunk)" } else { "" };
+    let text = core::str::from_utf8(parts.json).unwrap_or_default();
+    Source::new(format!("{}{chunk}", path.display()), text)
+}
+
+/// The document, if the crate takes it.
+fn document(json: &[u8], source: &Arc<Source>) -> Result<gltf::Document, SceneError> {
+    let root = gltf::json::Root::from_slice(json)
+        .map_err(|e| damaged(gltf::Error::Deserialize(e), source))?;
+    checked(root, source)
+}
+
+fn checked(mut root: gltf::json::Root, source: &Arc<Source>) -> Result<gltf::Document, SceneError> {
+    precheck::precheck(&mut root).map_err(|message| {
+        let message = format!("not valid glTF 2.0: {message}");
+        SceneError::new(ErrorKind::Structure, &Place::start(source), message)
+    })?;
+    gltf::Document::from_json(root).map_err(|e| damaged(e, source))
+}
+
+/// Most mistakes of a document whose places are looked for.
+const MOST_PLACES: usize = 2 * crate::problems::MOST;
+
+/// Keeps all mistakes of a document that the crate refuses; returns what is left of it.
+///
+/// * `error`: the crate's, for what the schema does not know.
+fn mend(
+    json: &[u8],
+    source: &Arc<Source>,
+    problems: &Problems,
+    error: SceneError,
+) -> Result<gltf::Document, SceneError> {
+    let Some((mistakes, rest)) = mistakes::find(json) else {
+        return Err(error);
+    };
+    let start = Place::start(source);
+    let mut errors: Vec<SceneError> = Vec::new();
+    for (i, mistake) in mistakes.into_iter().enumerate() {
+        let found = match i < MOST_PLACES {
+            true => locate::find(source.text(), &mistake.path),
+            false => None,
+        };
+        let place = found.map_or_else(|| start.clone(), |r| Place::new(source, r.start, r.len()));
+        let message = format!("{}: {}", locate::written(&mistake.path), mistake.message);
+        let error = SceneError::new(mistake.kind, &place, message);
+        errors.push(error.with_hint(mistake.help.map(str::to_owned)));
+    }
+    let located = errors.len().min(MOST_PLACES);
+    errors[..located].sort_by_key(|e| e.place().offset());
+    let Some(last) = errors.pop() else {
+        return Err(error);
+    };
+    for error in errors {
+        problems.keep(error)?;
+    }
+    let left = rest.and_then(|rest| gltf::json::deserialize::from_value(rest).ok());
+    match left.and_then(|root| checked(root, source).ok()) {
+        Some(document) => problems.keep(last).map(|()| document),
+        None => Err(last),
     }
 }
 
@@ -203,6 +262,10 @@ impl Reader<'_> {
     /// Where the element stands that a message begins with.
     fn place_of(&self, message: &str) -> Place {
         let source = self.place.shared_source();
+        if self.problems.is_full() {
+            // Where there are many, their places would take long.
+            return self.place.clone();
+        }
         match locate::locate(source.text(), message) {
             Some(range) => Place::new(source, range.start, range.len()),
             None => self.place.clone(),
@@ -227,23 +290,13 @@ impl Reader<'_> {
         TextureId(self.textures.len() - 1)
     }
 
-    fn check_extensions(&mut self) -> Result<(), SceneError> {
+    fn warn_of_extensions(&mut self) {
         let document = self.document;
-        for name in document.extensions_required() {
-            if !KNOWN_EXTENSIONS.contains(&name) {
-                let message =
-                    format!("the file requires the extension {name}, which is not supported");
-                return Err(self.error(ErrorKind::Unsupported, message).with_help(
-                    "export without compression of meshes (Draco, meshopt) and pictures (Basis)",
-                ));
-            }
-        }
         for name in document.extensions_used() {
             if !KNOWN_EXTENSIONS.contains(&name) {
                 self.warn(format!("extension {name} is not supported and is left out"));
             }
         }
-        Ok(())
     }
 }
 

@@ -6,10 +6,18 @@ use gltf::json::image::MimeType;
 use gltf::json::validation::Checked;
 use gltf::json::{Root, mesh::Semantic};
 
-/// Completes what has a default, and names the first thing that is missing or out of range.
+use super::KNOWN_EXTENSIONS;
+
+/// Completes what has a default, takes away what the crate would refuse without need, and names the
+/// first thing that is missing or out of range.
 pub(super) fn precheck(root: &mut Root) -> Result<(), String> {
-    for (i, mesh) in root.meshes.iter().enumerate() {
-        for (j, primitive) in mesh.primitives.iter().enumerate() {
+    // It knows fewer extensions than are read here.
+    root.extensions_required
+        .retain(|name| !KNOWN_EXTENSIONS.contains(&name.as_str()));
+    for (i, mesh) in root.meshes.iter_mut().enumerate() {
+        for (j, primitive) in mesh.primitives.iter_mut().enumerate() {
+            // Attributes of an application's own (`_NAME`), which say nothing to a renderer.
+            primitive.attributes.remove(&Checked::Invalid);
             let positions = primitive
                 .attributes
                 .get(&Checked::Valid(Semantic::Positions));

@@ -50,7 +50,7 @@ impl Reader<'_> {
         };
         let image = self.picture(&texture.source(), encoding, content)?;
         let coordinates = mapping(&reference);
-        let mapping = match self.place_of_set(reference.set) {
+        let mapping = match self.place_of_set(&what, reference.set) {
             0 => TextureMapping::Uv(coordinates),
             _ => TextureMapping::SecondUv(coordinates),
         };
@@ -72,15 +72,17 @@ impl Reader<'_> {
 
     /// Which of a mesh's two sets of coordinates is the file's set: those that the material used
     /// first.
-    fn place_of_set(&mut self, set: u32) -> usize {
+    ///
+    /// * `what`: the texture, for the warning of a third.
+    fn place_of_set(&mut self, what: &str, set: u32) -> usize {
         if let Some(place) = self.sets.iter().position(|s| *s == set) {
             return place;
         }
         if self.sets.len() == MOST_SETS {
-            let [first, second] = [self.sets[0], self.sets[1]];
+            let first = self.sets[0];
             self.warn(format!(
-                "a material uses more than two sets of coordinates: TEXCOORD_{first} stands in for \
-                 all but TEXCOORD_{second}"
+                "{what} lies by TEXCOORD_{set}, the third set of coordinates of a material: \
+                 TEXCOORD_{first} stands in for it"
             ));
             return 0;
         }

@@ -17,6 +17,7 @@ use crate::{Limits, Loaded, stage};
 pub(super) fn assemble(document: Document, limits: &Limits) -> Result<Loaded, SceneError> {
     let (mut context, root) = Context::new(document, limits);
     root.visited.set(true);
+    context.look_for_media(&root)?;
     let mut parts = Parts::default();
     let problems = context.problems.clone();
     for property in &root.properties {
@@ -35,11 +36,8 @@ pub(super) fn assemble(document: Document, limits: &Limits) -> Result<Loaded, Sc
     let max_depth = context.integrator(integrator.as_ref());
     let max_depth = problems.or(max_depth, || stage::SETTINGS.max_depth)?;
     if sensor.is_none() {
-        let message = "the scene has no <sensor>";
-        let error = SceneError::new(ErrorKind::Structure, &root.place, message)
-            .with_help("expected one such as <sensor type=\"perspective\">");
         // One with a mistake may have been meant.
-        problems.or(root.or(Err(error), || ()), || ())?;
+        problems.or(root.or(Err(no_sensor(&root)), || ()), || ())?;
     }
     let View {
         camera,
@@ -97,6 +95,12 @@ pub(super) fn assemble(document: Document, limits: &Limits) -> Result<Loaded, Sc
         scene,
         warnings: context.warnings,
     })
+}
+
+fn no_sensor(root: &Element) -> SceneError {
+    let message = "the scene has no <sensor>";
+    SceneError::new(ErrorKind::Structure, &root.place, message)
+        .with_help("expected one such as <sensor type=\"perspective\">")
 }
 
 /// Camera and film.

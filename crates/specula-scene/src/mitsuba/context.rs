@@ -4,8 +4,11 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
+use specula_bsdf::Rgb;
+
 use super::document::{Document, hint, resolve};
 use super::element::{Element, Property};
+use super::medium::Sides;
 use super::number::shorten;
 use super::texture::{Frame, Role};
 use super::value::Value;
@@ -23,6 +26,14 @@ pub(super) struct Context<'a> {
     pub(super) images: Vec<Image>,
     pub(super) textures: Vec<Texture>,
     pub(super) materials: Vec<Material>,
+    /// Whether media do anything in the integrator.
+    pub(super) sees_media: bool,
+    /// The medium that the camera is in, by element.
+    pub(super) camera_medium: Option<usize>,
+    /// Absorption of media, by element.
+    pub(super) media: HashMap<usize, Rgb<f32>>,
+    /// Materials that bound media, by the plain material.
+    pub(super) bounding: HashMap<(MaterialId, Sides), MaterialId>,
     /// Whether the integrator hides lights from the camera.
     pub(super) hide_emitters: bool,
     /// Whose surface coordinates textures are read for.
@@ -52,6 +63,10 @@ impl<'a> Context<'a> {
             images: Vec::new(),
             textures: Vec::new(),
             materials: Vec::new(),
+            sees_media: false,
+            camera_medium: None,
+            media: HashMap::new(),
+            bounding: HashMap::new(),
             hide_emitters: false,
             frame: Frame::Mesh,
             texture_ids: HashMap::new(),

@@ -60,8 +60,16 @@ impl Context<'_> {
         match element.plugin.as_str() {
             "area" => {}
             "directionalarea" => {
-                let message = "\"directionalarea\" shines in all directions here, as \"area\"";
+                // Paths from the camera meet its one direction with probability 0: in Mitsuba, too,
+                // only tracing particles from it shows its light.
+                let message = "\"directionalarea\" lights nothing, as under Mitsuba's \"path\": only \
+                               \"ptracer\" shows its beam";
                 self.warn(&element.place, message);
+                self.colour(element, "radiance", 1.0, Use::Emission)?;
+                return Ok(Emission {
+                    radiance: ColourParam::Value(Rgb::BLACK),
+                    two_sided: false,
+                });
             }
             other => return Err(unknown("emitter", other, &element.place)),
         }

@@ -15,7 +15,7 @@ const fn refused(class: &'static str, name: &'static str, why: &'static str) -> 
 }
 
 const TRACED: &str = "paths are traced";
-const NO_VOLUMES: &str = "paths are traced, volumes are not rendered";
+const NO_VOLUMES: &str = "paths are traced, homogeneous media absorb and do not scatter";
 const GREY: &str = "diffuse grey of 0.5";
 const LEFT_OUT: &str = "left out";
 const NO_LIGHT_FIELD: &str = "a picture by another camera would not be the one asked for";
@@ -71,7 +71,11 @@ pub const FEATURES: &[Feature] = &[
     close("bsdf", "hk", "0.6: diffuse grey of 0.5"),
     close("bsdf", "irawan", "0.6: diffuse grey of 0.5"),
     full("emitter", "area"),
-    close("emitter", "directionalarea", "shines in all directions"),
+    close(
+        "emitter",
+        "directionalarea",
+        "lights nothing, as under Mitsuba's `path`: only `ptracer` shows its beam",
+    ),
     full("emitter", "constant"),
     full("emitter", "envmap"),
     full("emitter", "point"),

@@ -184,7 +184,7 @@ impl Context<'_> {
                 self.warn(&element.place, message);
             }
             other @ ("volpath" | "volpathmis" | "volpath_simple") => {
-                let message = format!("integrator \"{other}\": volumes are not rendered");
+                let message = format!("integrator \"{other}\": media absorb, and do not scatter");
                 self.warn(&element.place, message);
             }
             other @ ("ptracer" | "prb" | "prb_basic" | "prbvolpath" | "direct_projective"

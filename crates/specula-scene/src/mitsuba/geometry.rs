@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::context::Context;
 use crate::error::{ErrorKind, Place, SceneError};
+use crate::faults::Fault;
 use crate::mesh::{self, Cleaning};
 use crate::num::f32_of;
 use crate::scene::{Geometry, Mesh, MeshId};
@@ -64,33 +65,33 @@ impl Meshes {
     /// Reads them all.
     pub(super) fn read(self, context: &mut Context) -> Result<(Vec<Ready>, Vec<Mesh>), SceneError> {
         let limits = context.limits;
+        let keeps = context.problems.is_check();
         // The order of results is that of the sources, whatever the threads do.
         let results: Vec<_> = self
             .sources
             .par_iter()
-            .map(|(source, _)| build(source, limits))
+            .map(|(source, _)| build(source, limits, keeps))
             .collect();
         let mut ready = Vec::new();
         let mut meshes = Vec::new();
         for (result, (source, place)) in results.into_iter().zip(&self.sources) {
-            let built = result.map_err(|message| match source {
-                Source::File { path, .. } => {
-                    context.file_error(ErrorKind::Mesh, place, path, message)
-                }
-                _ => SceneError::new(ErrorKind::Mesh, place, message),
-            });
-            let built = context.problems.or(built.map(Some), || None)?;
-            let Some(Built {
+            let Built {
                 mesh,
                 own_normals,
                 cleaning,
-            }) = built
-            else {
-                ready.push(Ready {
-                    geometry: None,
-                    own_normals: false,
-                });
-                continue;
+            } = match result {
+                Ok(built) => built,
+                Err(faults) => {
+                    for fault in faults {
+                        let error = fault_error(context, source, place, &fault);
+                        context.problems.keep(error)?;
+                    }
+                    ready.push(Ready {
+                        geometry: None,
+                        own_normals: false,
+                    });
+                    continue;
+                }
             };
             report(context, place, &cleaning, mesh.triangles.is_empty());
             let geometry = (!mesh.triangles.is_empty()).then(|| {
@@ -112,7 +113,20 @@ struct Built {
     cleaning: Cleaning,
 }
 
-fn build(source: &Source, limits: &Limits) -> Result<Built, String> {
+fn fault_error(context: &Context, source: &Source, place: &Place, fault: &Fault) -> SceneError {
+    let Source::File { path, format, .. } = source else {
+        return SceneError::new(ErrorKind::Mesh, place, fault.to_string());
+    };
+    let number = match format {
+        Format::Serialized(index) => format!(" ({index})"),
+        Format::Obj | Format::Ply => String::new(),
+    };
+    let message = format!("mesh {}{number}: {fault}", path.display());
+    context.file_error(ErrorKind::Mesh, place, path, message)
+}
+
+/// * `keeps`: whether mistakes are kept, as in a check.
+fn build(source: &Source, limits: &Limits, keeps: bool) -> Result<Built, Vec<Fault>> {
     let plain = |mesh| Built {
         mesh,
         own_normals: false,
@@ -131,10 +145,10 @@ fn build(source: &Source, limits: &Limits) -> Result<Built, String> {
     };
     let mut face_normals = face_normals;
     let mut mesh = match format {
-        Format::Obj => obj::read(path, limits)?,
-        Format::Ply => ply::read(path, limits)?,
+        Format::Obj => obj::read(path, limits, keeps)?,
+        Format::Ply => ply::read(path, limits, keeps)?,
         Format::Serialized(index) => {
-            let read = serialized::read(path, index, limits)?;
+            let read = serialized::read(path, index, limits).map_err(|m| vec![m.into()])?;
             face_normals |= read.face_normals;
             read.mesh
         }
@@ -145,7 +159,7 @@ fn build(source: &Source, limits: &Limits) -> Result<Built, String> {
     if flip_v {
         mesh.uvs.iter_mut().for_each(|uv| uv[1] = 1.0 - uv[1]);
     }
-    let cleaning = mesh::clean(&mut mesh).map_err(|e| format!("mesh {}: {e}", path.display()))?;
+    let cleaning = mesh::clean_or_name(&mut mesh, keeps)?;
     let own_normals = mesh.normals.is_empty();
     if own_normals && !face_normals {
         mesh.normals = smooth_normals(&mesh);

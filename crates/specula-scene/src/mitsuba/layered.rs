@@ -13,7 +13,7 @@ use super::spectrum::Use;
 use super::texture::Role;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
-use crate::scene::{FloatParam, Material, MaterialKind, Relief, ReliefRules, Texture};
+use crate::scene::{CoatMedium, FloatParam, Material, MaterialKind, Relief, ReliefRules, Texture};
 
 /// What the plugins around a material make of it.
 #[derive(Clone, Copy, Debug)]
@@ -296,6 +296,8 @@ impl Context<'_> {
                 reflectance,
                 eta,
                 roughness: coat,
+                medium: CoatMedium::default(),
+                lossless: true,
             },
             MaterialKind::Conductor {
                 fresnel, roughness, ..
@@ -304,6 +306,7 @@ impl Context<'_> {
                 coat_roughness: coat,
                 fresnel,
                 roughness,
+                medium: CoatMedium::default(),
             },
             _ => {
                 let message = format!("{} over {} is left out", element.title(), inner.title());

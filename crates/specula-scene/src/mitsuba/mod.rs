@@ -25,6 +25,7 @@ mod film;
 mod geometry;
 mod glass;
 mod layered;
+mod medium;
 mod metal;
 mod microfacet;
 mod number;

@@ -140,7 +140,7 @@ impl Shapes {
         crate::pbrt::check_transform(&to_world)
             .map_err(|m| SceneError::new(ErrorKind::Transform, &element.place_of("to_world"), m))?;
         element.ignore(&["silhouette_sampling_weight", "collapse", "srgb"]);
-        volumes(context, element)?;
+        subsurface(context, element)?;
         let emission = match context.child(element, "emitter")? {
             Some(emitter) => {
                 context.frame = frame;
@@ -148,7 +148,9 @@ impl Shapes {
                 context.frame = Frame::Mesh;
                 let emission = emitter.or(read, || None)?;
                 let black = ColourParam::Value(Rgb::BLACK);
-                if emission.is_some_and(|e| e.radiance == black) {
+                // A beam has its own warning.
+                let is_beam = emitter.plugin == "directionalarea";
+                if emission.is_some_and(|e| e.radiance == black) && !is_beam {
                     context.problems.note(NoteKind::Dark, &emitter.place, || {
                         format!("this {} has no power", emitter.title())
                     });
@@ -158,6 +160,7 @@ impl Shapes {
             None => None,
         };
         let surface = self.surface(context, element, frame, emission.is_some())?;
+        let surface = context.bounded(element, surface)?;
         let is_interface = context.materials[surface.material.0].kind == MaterialKind::Interface;
         if emission.is_some() && is_interface {
             let message = "a shape without surface emits nothing here";
@@ -352,13 +355,11 @@ fn file(context: &mut Context, element: &Element) -> Result<(Source, Place), Sce
     Ok((source, place))
 }
 
-/// Warns of volumes, which are not rendered.
-fn volumes(context: &mut Context, element: &Element) -> Result<(), SceneError> {
-    for class in ["medium", "subsurface"] {
-        if let Some(first) = context.children(element, class)?.first() {
-            let message = format!("{} is not rendered", first.title());
-            context.warn(&first.place, message);
-        }
+/// Warns of volumes below a surface, which are not rendered.
+fn subsurface(context: &mut Context, element: &Element) -> Result<(), SceneError> {
+    if let Some(first) = context.children(element, "subsurface")?.first() {
+        let message = format!("{} is not rendered", first.title());
+        context.warn(&first.place, message);
     }
     Ok(())
 }

@@ -3,34 +3,42 @@
 //! All of a file's faces become one mesh: groups, smoothing and materials are read past. Polygons
 //! fan out from their first vertex. Indices count from 1, or back from the last where negative.
 //! Vertices may carry a colour (`v x y z r g b`). Coordinates are kept as they are: v runs upwards.
+//!
+//! In a check a line with a mistake does not end the reading. One that defines a vertex, a coordinate
+//! or a normal defines zeros then, so that the indices of later faces stay what they are.
 
 use std::path::Path;
 
 use crate::Limits;
+use crate::faults::{Fault, Faults};
 use crate::read_file::read_bytes;
 use crate::scene::Mesh;
 
 /// Reads a mesh.
 ///
+/// * `keeps`: whether mistakes are kept, as in a check.
+///
 /// # Errors
 ///
-/// A message that begins with the file's name, and with the line where there is one.
-pub(crate) fn read(path: &Path, limits: &Limits) -> Result<Mesh, String> {
-    let wrong = |message: String| format!("mesh {}: {message}", path.display());
-    let bytes = read_bytes(path, limits).map_err(wrong)?;
-    parse(&bytes, limits).map_err(wrong)
+/// What is wrong with the file.
+pub(crate) fn read(path: &Path, limits: &Limits, keeps: bool) -> Result<Mesh, Vec<Fault>> {
+    let bytes = read_bytes(path, limits).map_err(|message| vec![message.into()])?;
+    parse(&bytes, limits, keeps)
 }
 
 /// Reads a mesh from the bytes of an OBJ file.
 ///
 /// # Errors
 ///
-/// A message with the line and what was expected there.
-pub(crate) fn parse(bytes: &[u8], limits: &Limits) -> Result<Mesh, String> {
-    let mut reader = Reader {
-        limits,
-        ..Reader::new(limits)
-    };
+/// What was expected, with its line.
+fn parse(bytes: &[u8], limits: &Limits, keeps: bool) -> Result<Mesh, Vec<Fault>> {
+    let mut faults = Faults::new(keeps);
+    let read = parse_into(bytes, limits, &mut faults);
+    faults.end(read)
+}
+
+fn parse_into(bytes: &[u8], limits: &Limits, faults: &mut Faults) -> Result<Mesh, Fault> {
+    let mut reader = Reader::new(limits);
     let mut joined = Vec::new();
     for (number, line) in bytes.split(|b| *b == b'\n').enumerate() {
         let line = line.strip_suffix(b"\r").unwrap_or(line);
@@ -46,12 +54,34 @@ pub(crate) fn parse(bytes: &[u8], limits: &Limits) -> Result<Mesh, String> {
             joined.extend_from_slice(line);
             &joined
         };
-        reader
-            .line(whole)
-            .map_err(|m| format!("line {}: {m}", number + 1))?;
+        match reader.line(whole) {
+            Ok(()) => {}
+            Err(Wrong::Line(message)) => {
+                faults.keep(Fault::at_line(number + 1, message))?;
+                reader.stand_in(whole);
+            }
+            Err(Wrong::Limit(message)) => return Err(Fault::at_line(number + 1, message)),
+        }
         joined.clear();
     }
-    reader.finish()
+    match reader.finish() {
+        // A file of mistakes alone need not make a mesh.
+        Err(_) if !faults.is_empty() => Ok(Mesh::default()),
+        mesh => mesh.map_err(Fault::from),
+    }
+}
+
+/// What is wrong with a line.
+enum Wrong {
+    Line(String),
+    /// Reading cannot go on.
+    Limit(String),
+}
+
+impl<T: Into<String>> From<T> for Wrong {
+    fn from(message: T) -> Self {
+        Self::Line(message.into())
+    }
 }
 
 /// No index.
@@ -90,7 +120,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn line(&mut self, line: &[u8]) -> Result<(), String> {
+    fn line(&mut self, line: &[u8]) -> Result<(), Wrong> {
         let line = line.trim_ascii_start();
         let Some(end) = line.iter().position(u8::is_ascii_whitespace) else {
             return Ok(());
@@ -102,7 +132,7 @@ impl<'a> Reader<'a> {
                 let mut uv = [0.0; 2];
                 let found = numbers(rest, &mut uv)?;
                 if found == 0 {
-                    return Err("expected at least one coordinate after `vt`".to_owned());
+                    return Err("expected at least one coordinate after `vt`".into());
                 }
                 self.uvs.push(uv);
                 Ok(())
@@ -110,7 +140,7 @@ impl<'a> Reader<'a> {
             b"vn" => {
                 let mut normal = [0.0; 3];
                 if numbers(rest, &mut normal)? < 3 {
-                    return Err("expected three numbers after `vn`".to_owned());
+                    return Err("expected three numbers after `vn`".into());
                 }
                 self.normals.push(normal);
                 Ok(())
@@ -120,12 +150,25 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn vertex(&mut self, rest: &[u8]) -> Result<(), String> {
+    /// What a line with a mistake defines.
+    fn stand_in(&mut self, line: &[u8]) {
+        match line.split(u8::is_ascii_whitespace).find(|w| !w.is_empty()) {
+            Some(b"v") => {
+                self.positions.push([0.0; 3]);
+                self.first.push(NONE);
+            }
+            Some(b"vt") => self.uvs.push([0.0; 2]),
+            Some(b"vn") => self.normals.push([0.0; 3]),
+            _ => {}
+        }
+    }
+
+    fn vertex(&mut self, rest: &[u8]) -> Result<(), Wrong> {
         let mut values = [0.0; 7];
         let found = numbers(rest, &mut values)?;
         let [x, y, z, ..] = values;
         if found < 3 {
-            return Err("expected three numbers after `v`".to_owned());
+            return Err("expected three numbers after `v`".into());
         }
         self.positions.push([x, y, z]);
         self.first.push(NONE);
@@ -141,12 +184,13 @@ impl<'a> Reader<'a> {
         }
         if self.positions.len() as u64 > self.limits.max_vertices {
             let most = self.limits.max_vertices;
-            return Err(format!("more than {most} vertices (`max_vertices`)"));
+            let message = format!("more than {most} vertices (`max_vertices`)");
+            return Err(Wrong::Limit(message));
         }
         Ok(())
     }
 
-    fn face(&mut self, rest: &[u8]) -> Result<(), String> {
+    fn face(&mut self, rest: &[u8]) -> Result<(), Wrong> {
         let words = rest
             .split(u8::is_ascii_whitespace)
             .filter(|w| !w.is_empty());
@@ -162,13 +206,13 @@ impl<'a> Reader<'a> {
             count += 1;
         }
         if count < 3 {
-            return Err(format!("a face has {count} vertices; expected at least 3"));
+            return Err(format!("a face has {count} vertices; expected at least 3").into());
         }
         let most = self.limits.max_vertices;
         if self.mesh.triangles.len() as u64 > most || self.keys.len() as u64 > most {
-            return Err(format!(
+            return Err(Wrong::Limit(format!(
                 "more than {most} triangles or vertices (`max_vertices`)"
-            ));
+            )));
         }
         Ok(())
     }
@@ -281,7 +325,8 @@ mod tests {
     use super::*;
 
     fn mesh(text: &str) -> Result<Mesh, String> {
-        parse(text.as_bytes(), &Limits::default())
+        let read = parse(text.as_bytes(), &Limits::default(), false);
+        read.map_err(|faults| faults[0].to_string())
     }
 
     #[test]
@@ -348,7 +393,22 @@ mod tests {
             max_vertices: 2,
             ..Limits::default()
         };
-        let error = parse(b"v 0 0 0\nv 1 0 0\nv 0 1 0\n", &limits).unwrap_err();
-        assert!(error.contains("more than 2 vertices"), "{error}");
+        for keeps in [false, true] {
+            let text = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv x\n";
+            let errors = parse(text, &limits, keeps).unwrap_err();
+            assert_eq!(errors.len(), 1, "{errors:?}");
+            assert!(errors[0].message.contains("more than 2 vertices"));
+        }
+    }
+
+    #[test]
+    fn a_check_names_every_line_and_keeps_indices_right() {
+        // The third vertex is damaged: faces that use it, and the fourth, are no mistakes.
+        let text = "v 0 0 0\nv 1 0 0\nv 1 x 0\nv 0 1 0\nvt a\nvn 0 0\nf 1 2 3\nf 1//1 2/1 -1\n\
+                    f 1 2\nf 1 2 5\nf 2 4 zwei\nfoo bar\n";
+        let read = |keeps| parse(text.as_bytes(), &Limits::default(), keeps).unwrap_err();
+        let lines: Vec<_> = read(true).iter().map(|f| f.line).collect();
+        assert_eq!(lines, [3, 5, 6, 9, 10, 11].map(Some), "{:?}", read(true));
+        assert_eq!(read(false), read(true)[..1]);
     }
 }

@@ -2,11 +2,13 @@
 
 use std::collections::{HashMap, HashSet};
 
+use glam::DMat4;
 use specula_bsdf::Rgb;
 
 use super::context::{Context, Entity};
 use super::directive::{InstanceEntity, MaterialEntity, Reader};
 use super::geometry::{self, Kept};
+use super::medium::{self, Sides};
 use super::shape::{self, ShapeEntity};
 use super::state::MaterialUse;
 use super::token::shorten;
@@ -17,8 +19,8 @@ use crate::error::{ErrorKind, Place, SceneError, Warning};
 use crate::mesh;
 use crate::problems::{NoteKind, is_dark};
 use crate::scene::{
-    ColourParam, Emission, FloatParam, Geometry, Instance, Material, MaterialId, MaterialKind,
-    Mesh, Object, ObjectId, Relief, Scene, Shape, TextureId,
+    ColourParam, Emission, FloatParam, Geometry, Instance, Light, Material, MaterialId,
+    MaterialKind, Mesh, Object, ObjectId, Relief, Scene, Shape, TextureId,
 };
 
 /// Builds the scene.
@@ -39,18 +41,15 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         .chain(&reader.shapes)
         .collect();
     let mut materials = read_materials(&mut context, &reader.materials, &named_materials, &all)?;
+    let integrator = options.get("Integrator");
+    materials.media = medium::read_all(
+        &mut context,
+        &reader.media,
+        reader.camera_medium,
+        integrator,
+    )?;
     let (geometries, meshes) = geometry::read(&mut context, &all)?;
-    let mut lights = Vec::with_capacity(reader.lights.len());
-    for (entity, to_world) in &reader.lights {
-        let read = light::read(&mut context, entity, *to_world).map(Some);
-        let Some(light) = entity.or(read, || None)? else {
-            continue;
-        };
-        note_dark(&context, entity, is_dark(&light, &context.images));
-        lights.push(light);
-        context.warn_unused(&entity.params);
-    }
-
+    let lights = read_lights(&mut context, &reader.lights)?;
     let mut builder = Builder {
         context,
         materials: &mut materials,
@@ -105,6 +104,23 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         scene,
         warnings: context.warnings,
     })
+}
+
+fn read_lights(
+    context: &mut Context,
+    entities: &[(Entity, DMat4)],
+) -> Result<Vec<Light>, SceneError> {
+    let mut lights = Vec::with_capacity(entities.len());
+    for (entity, to_world) in entities {
+        let read = light::read(context, entity, *to_world).map(Some);
+        let Some(light) = entity.or(read, || None)? else {
+            continue;
+        };
+        note_dark(context, entity, is_dark(&light, &context.images));
+        lights.push(light);
+        context.warn_unused(&entity.params);
+    }
+    Ok(lights)
 }
 
 /// Notes a light without power.
@@ -168,6 +184,10 @@ struct Materials {
     list: Vec<Material>,
     /// Copies with a height, by the texture of the height.
     displaced: HashMap<(MaterialId, TextureId), MaterialId>,
+    /// Copies with other media on their sides.
+    bounding: HashMap<(MaterialId, Sides), MaterialId>,
+    /// Absorption of the file's media.
+    media: Vec<Rgb<f32>>,
     /// Ids of the file's materials; those without name or use have none.
     ids: Vec<Option<MaterialId>>,
     default: Option<MaterialId>,
@@ -226,6 +246,8 @@ fn read_materials(
     Ok(Materials {
         list,
         displaced: HashMap::new(),
+        bounding: HashMap::new(),
+        media: Vec::new(),
         ids,
         default: None,
         named: named.clone(),
@@ -277,6 +299,26 @@ impl Materials {
                 self.list.push(bumpy);
                 MaterialId(self.list.len() - 1)
             })
+    }
+
+    /// A copy of a material that bounds media.
+    fn bounding(&mut self, material: MaterialId, sides: Sides) -> MaterialId {
+        let absorbs = self.media.iter().any(|a| !a.is_black());
+        let passes = medium::lets_pass(&self.list[material.0].kind);
+        // As in pbrt-v4, the same on both sides says nothing.
+        if sides[0] == sides[1] || !absorbs || !passes {
+            return material;
+        }
+        *self.bounding.entry((material, sides)).or_insert_with(|| {
+            let [inside, around] = sides.map(|s| s.map_or(Rgb::BLACK, |i| self.media[i]));
+            let copy = Material {
+                absorption: inside,
+                around: Some(around),
+                ..self.list[material.0].clone()
+            };
+            self.list.push(copy);
+            MaterialId(self.list.len() - 1)
+        })
     }
 
     fn id(&mut self, wanted: &MaterialUse) -> Result<MaterialId, SceneError> {
@@ -333,6 +375,7 @@ impl Builder<'_> {
         if let Some(height) = shape::displacement(&mut self.context, &shape.entity)? {
             material = self.materials.displaced(material, height);
         }
+        material = self.materials.bounding(material, shape.media);
         let alpha = self
             .context
             .float_from_zero_or_none(&shape.entity.params, "alpha")?

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use glam::DMat4;
 
 use super::context::{Context, Entity};
+use super::medium::MediumEntity;
 use super::param::ParamList;
 use super::shape::ShapeEntity;
 use super::state::{ATTRIBUTE_TARGETS, State};
@@ -93,11 +94,11 @@ pub(super) struct Reader {
     stopped: bool,
     pub(super) in_object: bool,
     pub(super) coordinate_systems: HashMap<String, [DMat4; 2]>,
-    pub(super) media: Vec<String>,
+    pub(super) media: Vec<MediumEntity>,
+    pub(super) camera_medium: Option<usize>,
     /// Files being read, the outermost first.
     reading: Vec<PathBuf>,
     files: usize,
-    pub(super) warned_media: bool,
 }
 
 impl Reader {
@@ -121,9 +122,9 @@ impl Reader {
             in_object: false,
             coordinate_systems: HashMap::new(),
             media: Vec::new(),
+            camera_medium: None,
             reading: Vec::new(),
             files: 0,
-            warned_media: false,
         }
     }
 
@@ -423,6 +424,7 @@ impl Reader {
             }
             let inverse = self.state.transforms.map(|m| m.inverse());
             self.camera_to_world = inverse[0];
+            self.camera_medium = self.state.media[1];
             self.coordinate_systems.insert("camera".to_owned(), inverse);
         }
         self.options.insert(word, entity);

@@ -13,7 +13,7 @@ const fn near(class: &'static str, name: &'static str, how: &'static str) -> Fea
 const PATHS: &str = "paths are traced";
 const SENSOR: &str = "the eye's own curves with the sensor's white balance and brightness";
 const MOTION: &str = "what moves is rendered where it starts";
-const MEDIUM: &str = "media are empty space";
+const MEDIUM: &str = "homogeneous media absorb and do not scatter; others are empty space";
 
 /// Every feature, by class. The names are the file's own.
 pub(crate) const FEATURES: &[Feature] = &[
@@ -112,16 +112,8 @@ pub(crate) const FEATURES: &[Feature] = &[
     full("material", "conductor"),
     full("material", "dielectric"),
     full("material", "thindielectric"),
-    near(
-        "material",
-        "coateddiffuse",
-        "in closed form, without a medium under the coat",
-    ),
-    near(
-        "material",
-        "coatedconductor",
-        "in closed form, without a medium under the coat",
-    ),
+    full("material", "coateddiffuse"),
+    full("material", "coatedconductor"),
     full("material", "mix"),
     full("material", "interface"),
     near("material", "hair", "diffuse of the hair's colour"),
@@ -197,7 +189,7 @@ pub(crate) const FEATURES: &[Feature] = &[
     full("colour space", "rec2020"),
     full("colour space", "aces2065-1"),
     full("integrator", "path"),
-    near("integrator", "volpath", "media are empty space"),
+    near("integrator", "volpath", MEDIUM),
     near("integrator", "bdpt", PATHS),
     near("integrator", "mlt", PATHS),
     near("integrator", "sppm", PATHS),

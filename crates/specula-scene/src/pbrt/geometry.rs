@@ -1,7 +1,7 @@
 //! Meshes and pictures: read, made and checked in parallel, each once.
 
 use std::collections::HashMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
@@ -9,6 +9,7 @@ use super::context::Context;
 use super::shape::{Prepared, Recipe, ShapeEntity, prepare};
 use crate::Limits;
 use crate::error::{ErrorKind, Place, SceneError};
+use crate::faults::Fault;
 use crate::image::Image;
 use crate::mesh::{self, Cleaning};
 use crate::ply;
@@ -114,10 +115,8 @@ pub(super) fn read(
             Prepared::Disk { radius, height } => Slot::Ready(Geometry::Disk { radius, height }),
             Prepared::Mesh(mesh) => Slot::Job(jobs.add(Source::Mesh(mesh), &entity.place)),
             Prepared::File(path) => {
-                let place = match entity.params.string("filename") {
-                    Ok(Some((_, place))) => place,
-                    _ => &entity.place,
-                };
+                let name = entity.params.string("filename").ok().flatten();
+                let place = name.map_or(&entity.place, |(_, place)| place);
                 Slot::Job(jobs.file(path, place))
             }
             Prepared::Recipe(recipe) => {
@@ -128,6 +127,7 @@ pub(super) fn read(
         slots.push((slot, own_area, pieces));
     }
     let limits = context.limits;
+    let keeps = context.problems.is_check();
     let pictures = context.take_image_jobs();
     let search = context.search.clone();
     let places: Vec<(Place, Option<PathBuf>)> = jobs
@@ -139,7 +139,7 @@ pub(super) fn read(
     let (results, images) = rayon::join(
         || -> Vec<_> {
             let list = jobs.list.into_par_iter();
-            list.map(|j| make(j.source, &limits)).collect()
+            list.map(|j| make(j.source, &limits, keeps)).collect()
         },
         || -> Vec<_> {
             let pictures = pictures.par_iter();
@@ -155,10 +155,11 @@ pub(super) fn read(
     for (result, (place, path)) in results.into_iter().zip(&places) {
         let (mesh, cleaning) = match result {
             Ok(made) => made,
-            Err(message) => {
-                let hint = path.as_ref().and_then(|p| context.search.hint(p));
-                let error = SceneError::new(ErrorKind::Mesh, place, message).with_hint(hint);
-                context.problems.keep(error)?;
+            Err(faults) => {
+                for fault in faults {
+                    let error = broken(context, place, path.as_deref(), &fault);
+                    context.problems.keep(error)?;
+                }
                 ids.push(None);
                 continue;
             }
@@ -181,21 +182,28 @@ pub(super) fn read(
     Ok((kept.collect(), meshes))
 }
 
-fn make(source: Source, limits: &Limits) -> Result<(Mesh, Cleaning), String> {
-    let (mut mesh, name) = match source {
-        Source::Mesh(mesh) => (mesh, None),
-        Source::Recipe(recipe) => (recipe.build(limits)?, None),
+/// A mistake of a mesh as one of the scene.
+fn broken(context: &Context, place: &Place, path: Option<&Path>, fault: &Fault) -> SceneError {
+    let Some(path) = path else {
+        return SceneError::new(ErrorKind::Mesh, place, fault.to_string());
+    };
+    let message = format!("mesh {}: {fault}", path.display());
+    SceneError::new(ErrorKind::Mesh, place, message).with_hint(context.search.hint(path))
+}
+
+/// * `keeps`: whether mistakes are kept, as in a check.
+fn make(source: Source, limits: &Limits, keeps: bool) -> Result<(Mesh, Cleaning), Vec<Fault>> {
+    let mut mesh = match source {
+        Source::Mesh(mesh) => mesh,
+        Source::Recipe(recipe) => recipe.build(limits).map_err(|m| vec![m.into()])?,
         Source::File(path) => {
-            let mut mesh = ply::read(&path, limits)?;
+            let mut mesh = ply::read(&path, limits, keeps)?;
             // pbrt-v4 has no use for colours of vertices.
             mesh.colours = Vec::new();
-            (mesh, Some(path))
+            mesh
         }
     };
-    let cleaning = mesh::clean(&mut mesh).map_err(|e| match name {
-        Some(path) => format!("mesh {}: {e}", path.display()),
-        None => e,
-    })?;
+    let cleaning = mesh::clean_or_name(&mut mesh, keeps)?;
     Ok((mesh, cleaning))
 }
 

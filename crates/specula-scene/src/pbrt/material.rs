@@ -14,8 +14,8 @@ use crate::energy::{Energy, UnknownEnergy};
 use crate::error::{ErrorKind, Place, SceneError};
 use crate::image::{Content, Encoding};
 use crate::scene::{
-    Channel, ColourParam, ConductorFresnel, FloatParam, Interpolation, Material, MaterialId,
-    MaterialKind, Relief, Roughness, RoughnessMapping, Texture, TextureMapping, Wrap,
+    Channel, CoatMedium, ColourParam, ConductorFresnel, FloatParam, Interpolation, Material,
+    MaterialId, MaterialKind, Relief, Roughness, RoughnessMapping, Texture, TextureMapping, Wrap,
 };
 use crate::spectrum;
 
@@ -62,21 +62,24 @@ pub(super) fn read(
             transmission_tint: ColourParam::WHITE,
         },
         "coateddiffuse" => {
-            coat_medium(context, params)?;
+            let medium = coat_medium(context, params)?;
             MaterialKind::CoatedDiffuse {
                 reflectance: colour::albedo(context, params, "reflectance", 0.5)?,
                 eta: colour::index(context, params, "eta")?,
                 roughness: roughness(context, params, "")?,
+                medium,
+                lossless: false,
             }
         }
         "coatedconductor" => {
-            coat_medium(context, params)?;
+            let medium = coat_medium(context, params)?;
             let names = ["conductor.eta", "conductor.k"];
             MaterialKind::CoatedConductor {
                 coat_eta: colour::index(context, params, "interface.eta")?,
                 coat_roughness: roughness(context, params, "interface.")?,
                 fresnel: conductor(context, params, names[0], names[1], &entity.place)?,
                 roughness: roughness(context, params, "conductor.")?,
+                medium,
             }
         }
         "mix" => mix(context, entity, named)?,
@@ -214,16 +217,16 @@ fn conductor(
     Ok(ConductorFresnel::Index { eta, k })
 }
 
-/// The scattering medium between coat and base, which the coated lobes do not have.
-fn coat_medium(context: &mut Context, params: &ParamList) -> Result<(), SceneError> {
-    // Without a medium the thickness changes nothing; the others steer pbrt's random walk.
-    params.ignore(&["thickness", "maxdepth", "nsamples", "g"]);
-    let medium = colour::albedo_or_none(context, params, "albedo")?;
-    if medium.is_some_and(|m| m != ColourParam::Value(Rgb::BLACK)) {
-        let place = params.place_of("albedo");
-        context.warn(&place, "the medium between coat and base is not rendered");
-    }
-    Ok(())
+/// What lies between coat and base.
+fn coat_medium(context: &mut Context, params: &ParamList) -> Result<CoatMedium, SceneError> {
+    let thickness = context.float_from_zero_or_none(params, "thickness")?;
+    Ok(CoatMedium {
+        thickness: thickness.unwrap_or(FloatParam::Value(0.01)),
+        max_depth: Some(params.integer_within("maxdepth", 10, 0..=i32::MAX.unsigned_abs())?),
+        samples: params.integer_within("nsamples", 1, 1..=i32::MAX.unsigned_abs())?,
+        albedo: colour::albedo(context, params, "albedo", 0.0)?,
+        g: context.float(params, "g", 0.0)?,
+    })
 }
 
 fn mix(

@@ -14,6 +14,7 @@ mod features;
 mod geometry;
 mod light;
 mod material;
+mod medium;
 mod param;
 mod shape;
 mod state;

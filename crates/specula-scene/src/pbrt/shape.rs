@@ -12,6 +12,7 @@ use std::rc::Rc;
 use glam::DMat4;
 
 use super::context::{Context, Entity};
+use super::medium::Sides;
 use super::state::MaterialUse;
 use super::token::shorten;
 use crate::Limits;
@@ -25,6 +26,7 @@ pub(super) struct ShapeEntity {
     pub(super) to_world: DMat4,
     pub(super) reverse_orientation: bool,
     pub(super) material: MaterialUse,
+    pub(super) media: Sides,
     pub(super) area_light: Option<Rc<Entity>>,
 }
 

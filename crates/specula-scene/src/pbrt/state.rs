@@ -5,6 +5,7 @@ use std::rc::Rc;
 use glam::{DMat4, DVec3, DVec4};
 
 use super::context::Entity;
+use super::medium::Sides;
 use super::param::Param;
 use crate::error::{ErrorKind, Place, SceneError};
 use crate::spectrum::ColourSpace;
@@ -32,6 +33,8 @@ pub(super) struct State {
     pub(super) active: [bool; 2],
     pub(super) reverse_orientation: bool,
     pub(super) material: MaterialUse,
+    /// Media inside and outside of shapes to come; the camera is in the latter.
+    pub(super) media: Sides,
     pub(super) area_light: Option<Rc<Entity>>,
     /// What RGB parameters to come are meant in.
     pub(super) space: ColourSpace,
@@ -46,6 +49,7 @@ impl State {
             active: [true; 2],
             reverse_orientation: false,
             material: MaterialUse::Default,
+            media: [None; 2],
             area_light: None,
             space: ColourSpace::Srgb,
             attributes: Default::default(),

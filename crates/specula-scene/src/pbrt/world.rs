@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use super::context::Entity;
 use super::directive::{InstanceEntity, MaterialEntity, Reader};
+use super::medium::MediumEntity;
 use super::shape::ShapeEntity;
 use super::state::MaterialUse;
 use super::token::{TokenKind, Tokens, shorten};
@@ -20,9 +21,9 @@ impl Reader {
     ) -> Result<(), SceneError> {
         match word {
             "MakeNamedMedium" => {
-                let entity = self.entity(tokens, word)?;
-                self.media.push(entity.name);
-                // What a medium is made of changes nothing: media are not rendered.
+                let mut entity = self.entity(tokens, word)?;
+                entity.params = entity.params.with_inherited(&self.state.attributes[3]);
+                self.media.push(MediumEntity { entity, used: None });
             }
             "MediumInterface" => self.medium_interface(tokens)?,
             "Material" | "MakeNamedMaterial" | "NamedMaterial" => {
@@ -83,31 +84,28 @@ impl Reader {
     }
 
     fn medium_interface(&mut self, tokens: &mut Tokens<'_>) -> Result<(), SceneError> {
-        let (inside, place) = tokens.expect_text("the name of a medium")?;
-        let mut names = vec![(inside, place)];
+        let inside = tokens.expect_text("the name of a medium")?;
+        let mut sides = [self.medium(inside)?; 2];
         if matches!(tokens.peek()?.map(|t| &t.kind), Some(TokenKind::Text(_))) {
-            names.push(tokens.expect_text("the name of a medium")?);
+            let outside = tokens.expect_text("the name of a medium")?;
+            sides[1] = self.medium(outside)?;
         }
-        for (name, place) in names {
-            if name.is_empty() {
-                continue;
-            }
-            if !self.media.contains(&name) {
-                let message = format!("no medium \"{}\" is defined before this", shorten(&name));
-                let error = SceneError::new(ErrorKind::UnknownName, &place, message);
-                self.context.problems.keep(error)?;
-                continue;
-            }
-            if !self.warned_media {
-                self.warned_media = true;
-                let message = format!(
-                    "media are not rendered: \"{}\" is empty space",
-                    shorten(&name)
-                );
-                self.context.warn(&place, message);
-            }
-        }
+        self.state.media = sides;
         Ok(())
+    }
+
+    /// The medium of a name; none has an empty one.
+    fn medium(&mut self, (name, place): (String, Place)) -> Result<Option<usize>, SceneError> {
+        if name.is_empty() {
+            return Ok(None);
+        }
+        let Some(i) = self.media.iter().rposition(|m| m.entity.name == name) else {
+            let message = format!("no medium \"{}\" is defined before this", shorten(&name));
+            let error = SceneError::new(ErrorKind::UnknownName, &place, message);
+            return self.context.problems.keep(error).map(|()| None);
+        };
+        self.media[i].used.get_or_insert(place);
+        Ok(Some(i))
     }
 
     fn material(&mut self, word: &str, tokens: &mut Tokens<'_>) -> Result<(), SceneError> {
@@ -169,6 +167,7 @@ impl Reader {
             to_world: self.state.transforms[0],
             reverse_orientation: self.state.reverse_orientation,
             material: self.state.material.clone(),
+            media: self.state.media,
             area_light,
         };
         match self.objects.last_mut() {

@@ -1,26 +1,34 @@
 //! The element `face`.
 
-use super::header::{Element, Encoding, Scalar};
+use super::header::{Element, Encoding, Property, Scalar};
 use super::values::Values;
 use crate::Limits;
+use crate::faults::{Fault, Faults};
+
+/// Whether a property lists the vertices of a face.
+pub(super) fn is_indices(property: &Property) -> bool {
+    matches!(property.name.as_str(), "vertex_indices" | "vertex_index") && property.count.is_some()
+}
+
+/// Whether faces have lists of whole numbers to read.
+pub(super) fn has_indices(element: &Element) -> bool {
+    let mut properties = element.properties.iter();
+    properties.any(|p| is_indices(p) && p.value.is_integer())
+}
 
 /// Reads polygons as triangles that fan out from their first vertex. Indices are not yet held
 /// against the number of vertices.
 ///
 /// # Errors
 ///
-/// A message where a face has fewer than three vertices, an index is none, or the data end.
+/// Where a face has fewer than three vertices, an index is none, or the data end.
 pub(super) fn read(
     element: &Element,
     values: &mut Values<'_>,
     encoding: Encoding,
     limits: &Limits,
-) -> Result<Vec<[u32; 3]>, String> {
-    let is_indices = |name: &str| matches!(name, "vertex_indices" | "vertex_index");
-    let mut lists = element.properties.iter();
-    if !lists.any(|p| is_indices(&p.name) && p.count.is_some() && p.value.is_integer()) {
-        return Err("expected a list of integers `vertex_indices` of `face`".to_owned());
-    }
+    faults: &mut Faults,
+) -> Result<Vec<[u32; 3]>, Fault> {
     let mut triangles: Vec<[u32; 3]> = Vec::with_capacity(element.count);
     let mut face = plain(element, values, encoding, &mut triangles);
     let mut corners: Vec<u32> = Vec::new();
@@ -30,26 +38,32 @@ pub(super) fn read(
                 Some(scalar) => values.count(scalar)?,
                 None => 1,
             };
-            if !is_indices(&property.name) || property.count.is_none() {
+            if !is_indices(property) {
                 for _ in 0..count {
                     values.next(property.value)?;
                 }
                 continue;
             }
-            if count < 3 {
-                let message = format!("face {face} has {count} vertices; expected at least 3");
-                return Err(message);
-            }
             corners.clear();
             for _ in 0..count {
-                corners.push(index(values.next(property.value)?, face)?);
+                match index(values.next(property.value)?, face) {
+                    Ok(corner) => corners.push(corner),
+                    Err(message) => faults.keep(message)?,
+                }
+            }
+            if count < 3 {
+                faults.keep(format!(
+                    "face {face} has {count} vertices; expected at least 3"
+                ))?;
+            }
+            if corners.len() < 3 {
+                continue;
             }
             triangles.extend(corners[1..].windows(2).map(|w| [corners[0], w[0], w[1]]));
             if triangles.len() as u64 > limits.max_vertices {
                 let most = limits.max_vertices;
-                return Err(format!(
-                    "it has more than {most} triangles (`max_vertices`)"
-                ));
+                let message = format!("it has more than {most} triangles (`max_vertices`)");
+                return Err(message.into());
             }
         }
         face += 1;

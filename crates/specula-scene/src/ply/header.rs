@@ -1,5 +1,9 @@
 //! The header of a PLY file.
 
+use super::{faces, vertices};
+use crate::Limits;
+use crate::faults::{Fault, Faults};
+
 /// How values are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Encoding {
@@ -92,65 +96,76 @@ const MOST_LINES: usize = 10_000;
 ///
 /// # Errors
 ///
-/// A message with the line where the header is wrong, or where it promises more than the file
-/// holds.
-pub(super) fn read(bytes: &[u8]) -> Result<(Header, &[u8]), String> {
+/// Where the header is wrong, or does not end.
+pub(super) fn read<'a>(bytes: &'a [u8], faults: &mut Faults) -> Result<(Header, &'a [u8]), Fault> {
     let mut rest = bytes;
     if line(&mut rest)?.trim_end() != "ply" {
-        return Err("it is no PLY file: expected `ply` at its beginning".to_owned());
+        return Err("it is no PLY file: expected `ply` at its beginning".into());
     }
     let mut encoding = None;
     let mut elements: Vec<Element> = Vec::new();
     for number in 2..MOST_LINES {
         let text = line(&mut rest)?;
-        let wrong = |expected: &str| {
-            let found: String = text.chars().take(60).flat_map(char::escape_debug).collect();
-            Err(format!(
-                "header, line {number}: expected {expected}, found `{found}`"
-            ))
-        };
         let words: Vec<&str> = text.split_ascii_whitespace().collect();
-        match words.as_slice() {
-            [] | ["comment" | "obj_info", ..] => {}
-            ["format", name, _version] => {
-                encoding = Some(match *name {
-                    "ascii" => Encoding::Text,
-                    "binary_little_endian" => Encoding::Little,
-                    "binary_big_endian" => Encoding::Big,
-                    _ => return wrong("ascii, binary_little_endian or binary_big_endian"),
-                });
+        if words.as_slice() == ["end_header"] {
+            if encoding.is_none() {
+                faults.keep(wrong(number, text, "a line `format` before the end"))?;
             }
-            ["element", name, count] => {
-                let Ok(count) = count.parse() else {
-                    return wrong("a count of elements");
-                };
-                elements.push(Element {
-                    name: (*name).to_owned(),
-                    count,
-                    properties: Vec::new(),
-                });
-            }
-            ["property", rest @ ..] => {
-                let (Some(property), Some(element)) = (property(rest), elements.last_mut()) else {
-                    return wrong("`property TYPE NAME` or `property list TYPE TYPE NAME`");
-                };
-                if element.properties.iter().any(|p| p.name == property.name) {
-                    return wrong("another name: this property is given twice");
-                }
-                element.properties.push(property);
-            }
-            ["end_header"] => {
-                let Some(encoding) = encoding else {
-                    return wrong("a line `format` before the end");
-                };
-                let header = Header { encoding, elements };
-                header.check_promises(rest.len())?;
-                return Ok((header, rest));
-            }
-            _ => return wrong("format, element, property, comment or end_header"),
+            let encoding = encoding.unwrap_or(Encoding::Text);
+            return Ok((Header { encoding, elements }, rest));
+        }
+        if let Err(expected) = read_line(&words, &mut encoding, &mut elements) {
+            faults.keep(wrong(number, text, expected))?;
         }
     }
-    Err("its header does not end".to_owned())
+    Err("its header does not end".into())
+}
+
+fn wrong(number: usize, text: &str, expected: &str) -> Fault {
+    let found: String = text.chars().take(60).flat_map(char::escape_debug).collect();
+    let message = format!("expected {expected} in the header, found `{found}`");
+    Fault::at_line(number, message)
+}
+
+/// Takes in a line of the header; else what was expected.
+fn read_line(
+    words: &[&str],
+    encoding: &mut Option<Encoding>,
+    elements: &mut Vec<Element>,
+) -> Result<(), &'static str> {
+    match words {
+        [] | ["comment" | "obj_info", ..] => {}
+        ["format", name, _version] => {
+            // A stand-in, if it is none of the three: one mistake is not two.
+            let known = encoding.insert(Encoding::Text);
+            *known = match *name {
+                "ascii" => Encoding::Text,
+                "binary_little_endian" => Encoding::Little,
+                "binary_big_endian" => Encoding::Big,
+                _ => return Err("ascii, binary_little_endian or binary_big_endian"),
+            };
+        }
+        ["element", name, count] => {
+            let parsed = count.parse();
+            elements.push(Element {
+                name: (*name).to_owned(),
+                count: *parsed.as_ref().unwrap_or(&0),
+                properties: Vec::new(),
+            });
+            parsed.map_err(|_| "a count of elements")?;
+        }
+        ["property", rest @ ..] => {
+            let (Some(property), Some(element)) = (property(rest), elements.last_mut()) else {
+                return Err("`property TYPE NAME` or `property list TYPE TYPE NAME`");
+            };
+            if element.properties.iter().any(|p| p.name == property.name) {
+                return Err("another name, as this property is given twice,");
+            }
+            element.properties.push(property);
+        }
+        _ => return Err("format, element, property, comment or end_header"),
+    }
+    Ok(())
 }
 
 fn property(words: &[&str]) -> Option<Property> {
@@ -181,22 +196,60 @@ fn line<'a>(rest: &mut &'a [u8]) -> Result<&'a str, String> {
 }
 
 impl Header {
-    /// Holds the counts against the file's length, so that no count is believed that the data
-    /// cannot bear.
-    fn check_promises(&self, length: usize) -> Result<(), String> {
+    /// Holds what is promised against what is wanted, against the limits, and against the file's
+    /// length: no count is believed that the data cannot bear.
+    ///
+    /// * `length`: of the data, in bytes.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Faults::keep`].
+    pub(super) fn check(
+        &self,
+        length: usize,
+        limits: &Limits,
+        faults: &mut Faults,
+    ) -> Result<(), Fault> {
+        // What lacks may stand on a line with a mistake.
+        let is_whole = faults.is_empty();
+        let most = limits.max_vertices;
         let mut least: u128 = 0;
+        let mut has_vertices = false;
         for element in &self.elements {
             let (name, count) = (&element.name, element.count);
-            if count > 0 && element.properties.is_empty() {
-                return Err(format!("element `{name}` has no properties"));
+            if count > 0 && element.properties.is_empty() && is_whole {
+                faults.keep(format!("element `{name}` has no properties"))?;
             }
-            least += element.least_bytes(self.encoding) * count as u128;
+            match name.as_str() {
+                "vertex" => {
+                    has_vertices = true;
+                    if is_whole && !vertices::has_positions(element) {
+                        faults.keep("expected the properties x, y and z of `vertex`")?;
+                    }
+                }
+                "face" if is_whole && !faces::has_indices(element) => {
+                    faults.keep("expected a list of integers `vertex_indices` of `face`")?;
+                }
+                _ => {}
+            }
+            let needed = element.least_bytes(self.encoding) * count as u128;
+            least += needed;
             // The last line of a text may lack its end.
-            if least > length as u128 + 1 {
-                return Err(format!(
-                    "its header promises {count} of `{name}`, but only {length} bytes follow"
-                ));
+            let most_bytes = length as u128 + 1;
+            if least > most_bytes {
+                if least - needed <= most_bytes {
+                    faults.keep(format!(
+                        "its header promises {count} of `{name}`, but only {length} bytes follow"
+                    ))?;
+                }
+            } else if count as u64 > most {
+                faults.keep(format!(
+                    "it has {count} of `{name}`; at most {most} are read (`max_vertices`)"
+                ))?;
             }
+        }
+        if !has_vertices && is_whole {
+            faults.keep("it has no element `vertex`")?;
         }
         Ok(())
     }

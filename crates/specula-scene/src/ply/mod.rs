@@ -1,65 +1,88 @@
 //! Meshes in PLY files (Turk 1994), plain or gzipped: text and both binary orders.
 //!
-//! Strict: a header that promises more than the file holds is an error before anything is read.
+//! Strict: a header that promises more than the file holds is an error before anything is read. A
+//! check names all mistakes of the header, or all bad rows of a text, or what is wrong in binary data up
+//! to where they cannot be followed any more.
+//!
 //! The crate `ply-rs-bw` was used before; ten million triangles took it longer than the rest of
 //! the loading together, and it refused `.5` in texts.
 
 mod faces;
 mod header;
+mod rows;
 mod values;
 mod vertices;
 
 use std::path::Path;
 
 use crate::Limits;
+use crate::faults::{self, Fault, Faults};
 use crate::read_file::read_bytes;
 use crate::scene::Mesh;
+use header::{Encoding, Header};
 
 /// Reads a mesh. Triangles of polygons fan out from their first vertex.
 ///
+/// * `keeps`: whether mistakes are kept, as in a check.
+///
 /// # Errors
 ///
-/// A message that begins with the file's name.
-pub(crate) fn read(path: &Path, limits: &Limits) -> Result<Mesh, String> {
-    let wrong = |message: String| format!("mesh {}: {message}", path.display());
-    let bytes = read_bytes(path, limits).map_err(wrong)?;
-    parse(&bytes, limits).map_err(wrong)
+/// What is wrong with the file.
+pub(crate) fn read(path: &Path, limits: &Limits, keeps: bool) -> Result<Mesh, Vec<Fault>> {
+    let bytes = read_bytes(path, limits).map_err(|message| vec![message.into()])?;
+    parse(&bytes, limits, keeps)
 }
 
 /// Reads a mesh from the bytes of a PLY file.
 ///
 /// # Errors
 ///
-/// A message saying what was expected.
-pub(crate) fn parse(bytes: &[u8], limits: &Limits) -> Result<Mesh, String> {
-    let (header, rest) = header::read(bytes)?;
-    let mut values = values::Values::new(rest, header.encoding);
-    let mut mesh = None;
+/// What was expected, with its line in headers and texts.
+fn parse(bytes: &[u8], limits: &Limits, keeps: bool) -> Result<Mesh, Vec<Fault>> {
+    let mut faults = Faults::new(keeps);
+    let read = parse_into(bytes, limits, &mut faults);
+    faults.end(read)
+}
+
+fn parse_into(bytes: &[u8], limits: &Limits, faults: &mut Faults) -> Result<Mesh, Fault> {
+    let (header, rest) = header::read(bytes, faults)?;
+    header.check(rest.len(), limits, faults)?;
+    if !faults.is_empty() {
+        // Data of a damaged header cannot be told apart.
+        return Ok(Mesh::default());
+    }
+    if header.encoding == Encoding::Text {
+        return data(&header, rest, limits, &mut Faults::new(false)).or_else(|first| {
+            let (before, _) = bytes.split_at(bytes.len() - rest.len());
+            let line = 1 + before.iter().filter(|b| **b == b'\n').count();
+            rows::name(&header, rest, line, faults)?;
+            match faults.is_empty() {
+                true => Err(first),
+                false => Ok(Mesh::default()),
+            }
+        });
+    }
+    data(&header, rest, limits, faults)
+}
+
+fn data(header: &Header, rest: &[u8], limits: &Limits, faults: &mut Faults) -> Result<Mesh, Fault> {
+    let encoding = header.encoding;
+    let mut values = values::Values::new(rest, encoding);
+    let mut mesh = Mesh::default();
     let mut triangles = Vec::new();
     for element in &header.elements {
-        let most = limits.max_vertices;
-        if element.count as u64 > most {
-            let (count, name) = (element.count, &element.name);
-            return Err(format!(
-                "it has {count} of `{name}`; at most {most} are read (`max_vertices`)"
-            ));
-        }
         match element.name.as_str() {
-            "vertex" => mesh = Some(vertices::read(element, &mut values, header.encoding)?),
-            "face" => triangles = faces::read(element, &mut values, header.encoding, limits)?,
+            "vertex" => mesh = vertices::read(element, &mut values, encoding)?,
+            "face" => triangles = faces::read(element, &mut values, encoding, limits, faults)?,
             _ => values.skip(element)?,
         }
     }
-    let mut mesh = mesh.ok_or("it has no element `vertex`")?;
+    mesh.triangles = triangles;
     let count = mesh.positions.len();
     let outside = |t: &[u32; 3]| t.iter().any(|i| *i as usize >= count);
-    if let Some(i) = triangles.iter().position(outside) {
-        let [a, b, c] = triangles[i];
-        return Err(format!(
-            "triangle {i} refers to vertices {a}, {b} and {c}, but there are {count} vertices"
-        ));
+    if !faults.is_empty() || mesh.triangles.iter().any(outside) {
+        faults::of_mesh(&mesh, faults)?;
     }
-    mesh.triangles = triangles;
     Ok(mesh)
 }
 

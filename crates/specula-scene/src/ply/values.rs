@@ -96,20 +96,28 @@ impl<'a> Values<'a> {
             .position(u8::is_ascii_whitespace)
             .unwrap_or(rest.len());
         self.rest = &rest[end..];
-        let word = std::str::from_utf8(&rest[..end]).ok();
-        let number = word.and_then(|w| w.parse::<f64>().ok());
-        match number {
-            Some(x) if !scalar.is_integer() || x.fract() == 0.0 => Ok(x),
-            _ => {
-                let found = String::from_utf8_lossy(&rest[..end.min(40)]);
-                let found: String = found.chars().flat_map(char::escape_debug).collect();
-                let what = if scalar.is_integer() {
-                    "an integer"
-                } else {
-                    "a number"
-                };
-                Err(format!("expected {what}, found `{found}`"))
-            }
+        number(&rest[..end], scalar)
+    }
+}
+
+/// A word of a text as a number.
+///
+/// # Errors
+///
+/// A message where it is none of the type.
+pub(super) fn number(word: &[u8], scalar: Scalar) -> Result<f64, String> {
+    let number = std::str::from_utf8(word).ok().and_then(|w| w.parse().ok());
+    match number {
+        Some(x) if !scalar.is_integer() || f64::fract(x) == 0.0 => Ok(x),
+        _ => {
+            let found = String::from_utf8_lossy(&word[..word.len().min(40)]);
+            let found: String = found.chars().flat_map(char::escape_debug).collect();
+            let what = if scalar.is_integer() {
+                "an integer"
+            } else {
+                "a number"
+            };
+            Err(format!("expected {what}, found `{found}`"))
         }
     }
 }

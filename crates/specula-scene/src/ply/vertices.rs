@@ -27,6 +27,11 @@ struct Column {
     scalar: Scalar,
 }
 
+/// Whether vertices have positions to read.
+pub(super) fn has_positions(element: &Element) -> bool {
+    columns(element, ["x", "y", "z"]).is_some()
+}
+
 /// Reads the vertices and their attributes; the mesh has no triangles yet.
 ///
 /// # Errors

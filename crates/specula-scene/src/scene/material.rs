@@ -3,6 +3,7 @@
 use specula_bsdf::Rgb;
 use specula_bsdf::ndf::Masking;
 
+use super::coat::CoatMedium;
 use super::texture::{ColourParam, FloatParam};
 use super::{MaterialId, TextureId};
 use crate::energy::Energy;
@@ -25,6 +26,9 @@ pub struct Material {
     /// Absorption within the closed shapes that it bounds, per scene unit: light that entered
     /// through it loses `1 - exp(-absorption distance)` on its way. Black for none.
     pub absorption: Rgb<f32>,
+    /// Absorption around them, where the file says it; else that of what light was in before it
+    /// entered them.
+    pub around: Option<Rgb<f32>>,
 }
 
 impl Material {
@@ -39,7 +43,14 @@ impl Material {
             relief_rules: ReliefRules::Plain,
             one_sided: false,
             absorption: Rgb::BLACK,
+            around: None,
         }
+    }
+
+    /// Whether passing it may change what absorbs.
+    #[must_use]
+    pub fn bounds_absorption(&self) -> bool {
+        self.around.is_some() || !self.absorption.is_black()
     }
 }
 
@@ -205,6 +216,11 @@ pub enum MaterialKind {
         eta: f32,
         /// Roughness of the coat.
         roughness: Roughness,
+        /// What lies between the two.
+        medium: CoatMedium,
+        /// Whether the coat keeps the light that its facets scatter more than once, whatever the
+        /// treatment of energy; else it does under any treatment but none.
+        lossless: bool,
     },
     /// A dielectric coat over metal.
     CoatedConductor {
@@ -216,6 +232,8 @@ pub enum MaterialKind {
         fresnel: ConductorFresnel,
         /// Roughness of the metal.
         roughness: Roughness,
+        /// What lies between the two.
+        medium: CoatMedium,
     },
     /// Mitsuba's `plastic` and `roughplastic`: a dielectric coat over Lambert, by their formulas.
     Plastic {

@@ -34,11 +34,10 @@ const DOUBLE_PRECISION: u32 = 0x2000;
 ///
 /// # Errors
 ///
-/// A message that begins with the file's name.
+/// A message without the file's name.
 pub(crate) fn read(path: &Path, index: u32, limits: &Limits) -> Result<Serialized, String> {
-    let wrong = |message: String| format!("mesh {} ({index}): {message}", path.display());
-    let bytes = plain_bytes(path, limits).map_err(wrong)?;
-    parse(&bytes, index, limits).map_err(wrong)
+    let bytes = plain_bytes(path, limits)?;
+    parse(&bytes, index, limits)
 }
 
 /// Reads mesh `index` from the bytes of a file.

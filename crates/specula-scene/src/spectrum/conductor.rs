@@ -263,7 +263,7 @@ mod tests {
         let (eta, k) = (named("metal-Cu-eta").unwrap(), named("metal-Cu-k").unwrap());
         let fit = fit_conductor(&eta, &k);
         let f0: Vec<f64> = (0..3).map(|c| fresnel(1.0, fit.eta[c], fit.k[c])).collect();
-        for (found, expected) in f0.iter().zip([0.932, 0.623, 0.522]) {
+        for (found, expected) in f0.iter().zip([0.952, 0.639, 0.536]) {
             assert!((found - expected).abs() < 0.005, "{f0:?}");
         }
         for c in 0..3 {
@@ -276,9 +276,9 @@ mod tests {
     fn gold_leaves_the_gamut_and_is_clamped() {
         let (eta, k) = (named("metal-Au-eta").unwrap(), named("metal-Au-k").unwrap());
         let fit = fit_conductor(&eta, &k);
-        assert!((fit.gamut_excess[0] - 0.0376).abs() < 1e-3, "{fit:?}");
+        assert!((fit.gamut_excess[0] - 0.0527).abs() < 1e-3, "{fit:?}");
         assert_eq!(fit.gamut_excess[1..], [0.0, 0.0]);
-        for (error, bound) in fit.error.iter().zip([0.004, 0.001, 0.002]) {
+        for (error, bound) in fit.error.iter().zip([0.005, 0.001, 0.0025]) {
             assert!(*error < bound, "{fit:?}");
         }
         assert!(

@@ -5,8 +5,8 @@ use specula_bsdf::Rgb;
 
 use super::{Invalid, ensure, is_light};
 use crate::scene::{
-    ColourParam, ConductorFresnel, FloatParam, Gltf, Material, MaterialKind, NoiseKind, Principled,
-    Relief, Roughness, Scene, Texture, TextureId, TextureMapping,
+    CoatMedium, ColourParam, ConductorFresnel, FloatParam, Gltf, Material, MaterialKind, NoiseKind,
+    Principled, Relief, Roughness, Scene, Texture, TextureId, TextureMapping,
 };
 
 impl Scene {
@@ -78,6 +78,18 @@ impl Scene {
         let direction = g.anisotropy_direction.map(ColourParam::Texture);
         self.colours(what, direction.as_slice())?;
         self.relief(what, g.clearcoat_relief)
+    }
+
+    fn coat_medium(&self, what: &str, medium: &CoatMedium) -> Result<(), Invalid> {
+        self.float(what, medium.thickness)?;
+        self.colour(what, medium.albedo)?;
+        match medium.g {
+            FloatParam::Value(g) => {
+                let asymmetry = "the asymmetry of its coat's scattering is not in [-1, 1]";
+                ensure(g.abs() <= 1.0, what, asymmetry)
+            }
+            texture @ FloatParam::Texture(_) => self.float(what, texture),
+        }
     }
 
     fn relief(&self, what: &str, relief: Option<Relief>) -> Result<(), Invalid> {
@@ -162,7 +174,7 @@ impl Scene {
         let what = &format!("material {i}");
         self.relief(what, material.relief)?;
         ensure(
-            is_light(material.absorption),
+            is_light(material.absorption) && material.around.is_none_or(is_light),
             what,
             "its absorption is negative or not finite",
         )?;
@@ -240,7 +252,10 @@ impl Scene {
                 reflectance,
                 eta: e,
                 roughness,
+                medium,
+                lossless: _,
             } => {
+                self.coat_medium(what, medium)?;
                 self.colour(what, *reflectance)?;
                 index(what, *e)?;
                 self.roughness(what, roughness)
@@ -250,7 +265,9 @@ impl Scene {
                 coat_roughness,
                 fresnel,
                 roughness,
+                medium,
             } => {
+                self.coat_medium(what, medium)?;
                 index(what, *coat_eta)?;
                 self.roughness(what, coat_roughness)?;
                 self.fresnel(what, fresnel)?;

@@ -5,8 +5,8 @@ use specula_bsdf::ndf::Masking;
 
 use super::{Wanted, WriteError, Writer, quoted};
 use crate::scene::{
-    ColourParam, ConductorFresnel, Distribution, FloatParam, Gltf, Material, MaterialId,
-    MaterialKind, Principled, Relief, Roughness, RoughnessMapping, TextureId,
+    CoatMedium, ColourParam, ConductorFresnel, Distribution, FloatParam, Gltf, Material,
+    MaterialId, MaterialKind, Principled, Relief, Roughness, RoughnessMapping, TextureId,
 };
 
 impl Writer<'_> {
@@ -105,7 +105,12 @@ impl Writer<'_> {
                 reflectance,
                 eta,
                 roughness,
-            } => return self.coated_diffuse(*reflectance, *eta, roughness),
+                medium,
+                lossless,
+            } => {
+                self.lossless(*lossless && *roughness != Roughness::smooth());
+                return self.coated_diffuse(*reflectance, *eta, roughness, medium);
+            }
             MaterialKind::Plastic {
                 diffuse,
                 specular,
@@ -115,7 +120,7 @@ impl Writer<'_> {
             } => {
                 self.note("plastic is written as coateddiffuse");
                 self.untinted(&[*specular]);
-                return self.coated_diffuse(*diffuse, *eta, roughness);
+                return self.coated_diffuse(*diffuse, *eta, roughness, &CoatMedium::default());
             }
             MaterialKind::CoatedConductor { .. } => return self.coated_conductor(kind),
             MaterialKind::Principled(p) => return self.principled(index, p),
@@ -129,6 +134,12 @@ impl Writer<'_> {
             MaterialKind::Interface => "interface",
         };
         Ok(typed(name, &params))
+    }
+
+    fn lossless(&mut self, is_rough: bool) {
+        if is_rough {
+            self.note("coats that lose nothing are written as pbrt-v4's, which scatter once");
+        }
     }
 
     fn diffuse(
@@ -148,6 +159,7 @@ impl Writer<'_> {
             coat_roughness,
             fresnel,
             roughness,
+            medium,
         } = kind
         else {
             return Ok(String::new());
@@ -155,7 +167,24 @@ impl Writer<'_> {
         let mut params = format!(" \"float interface.eta\" [ {coat_eta} ]");
         params += &self.metal("interface.", None, coat_roughness)?;
         params += &self.metal("conductor.", Some(fresnel), roughness)?;
+        params += &self.coat_medium(medium)?;
         Ok(typed("coatedconductor", &params))
+    }
+
+    /// What lies under a coat. pbrt-v4's walks cannot be without a limit: they get one so far off
+    /// that it is not met.
+    fn coat_medium(&mut self, medium: &CoatMedium) -> Result<String, WriteError> {
+        let mut params = self.float_param("thickness", medium.thickness)?;
+        let depth = medium.max_depth.unwrap_or(1000);
+        params += &format!(" \"integer maxdepth\" [ {depth} ]");
+        if medium.samples != 1 {
+            params += &format!(" \"integer nsamples\" [ {} ]", medium.samples);
+        }
+        if medium.scatters() {
+            params += &self.colour_param("albedo", medium.albedo)?;
+            params += &self.float_param("g", medium.g)?;
+        }
+        Ok(params)
     }
 
     /// A layer's Fresnel term, where it is a metal's, and its roughness.
@@ -189,10 +218,12 @@ impl Writer<'_> {
         reflectance: ColourParam,
         eta: f32,
         roughness: &Roughness,
+        medium: &CoatMedium,
     ) -> Result<String, WriteError> {
         let mut params = self.colour_param("reflectance", reflectance)?;
         params += &format!(" \"float eta\" [ {eta} ]");
         params += &self.roughness("", roughness)?;
+        params += &self.coat_medium(medium)?;
         Ok(typed("coateddiffuse", &params))
     }
 
@@ -352,6 +383,8 @@ fn coated(reflectance: ColourParam, eta: f32, roughness: FloatParam) -> Material
         reflectance,
         eta,
         roughness: Roughness::isotropic(roughness, RoughnessMapping::Square),
+        medium: CoatMedium::default(),
+        lossless: false,
     }
 }
 

@@ -3,8 +3,9 @@
 use super::*;
 use crate::image::Image;
 use crate::scene::{
-    ColourParam, FloatParam, Interpolation, Light, Material, MaterialKind, Profile, Relief,
-    Roughness, RoughnessMapping, Texture, TextureMapping, Throw, Wrap,
+    CoatMedium, ColourParam, ConductorFresnel, FloatParam, Interpolation, Light, Material,
+    MaterialKind, Profile, Relief, Roughness, RoughnessMapping, Texture, TextureMapping, Throw,
+    Wrap,
 };
 
 /// Writes a scene and reads it back.
@@ -51,6 +52,17 @@ fn the_built_in_scene_survives() {
 fn summary_of(scene: &Scene, id: crate::scene::MaterialId) -> String {
     match scene.materials[id.0].kind {
         MaterialKind::Diffuse { .. } => "diffuse".to_owned(),
+        // pbrt-v4's walks have a limit.
+        MaterialKind::CoatedDiffuse {
+            reflectance,
+            eta,
+            roughness,
+            medium,
+            lossless,
+        } => format!(
+            "{reflectance:?} {eta} {roughness:?} {:?} {lossless}",
+            medium.thickness
+        ),
         ref kind => format!("{kind:?}"),
     }
 }
@@ -67,6 +79,12 @@ fn squared_roughness_displacement_and_energy_survive() {
             v: FloatParam::Texture(texture),
             ..Roughness::isotropic(FloatParam::Value(0.5), RoughnessMapping::Square)
         },
+        medium: CoatMedium {
+            thickness: FloatParam::Value(0.25),
+            max_depth: Some(7),
+            ..CoatMedium::default()
+        },
+        lossless: false,
     });
     material.relief = Some(Relief::Height(FloatParam::Texture(texture)));
     material.energy = Some(crate::Energy::Multibounce(Default::default()));
@@ -76,10 +94,18 @@ fn squared_roughness_displacement_and_energy_survive() {
     let (back, notes) = round_trip(&scene);
     assert!(notes.is_empty(), "{notes:?}");
     let found = &back.materials[back.shapes[0].material.0];
-    let MaterialKind::CoatedDiffuse { eta, roughness, .. } = found.kind else {
+    let MaterialKind::CoatedDiffuse {
+        eta,
+        roughness,
+        medium,
+        ..
+    } = found.kind
+    else {
         panic!("{found:?}")
     };
     assert_eq!((eta, roughness.u), (1.5, FloatParam::Value(0.25)));
+    assert_eq!(medium.thickness, FloatParam::Value(0.25));
+    assert_eq!(medium.max_depth, Some(7));
     let FloatParam::Texture(v) = roughness.v else {
         panic!("{roughness:?}")
     };
@@ -252,5 +278,37 @@ fn first_pixel(scene: &Scene, p: ColourParam) -> [f32; 3] {
             (pixel * *scale).to_array()
         }
         other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn what_lies_under_a_coat_survives() {
+    let cloud = CoatMedium {
+        thickness: FloatParam::Value(0.25),
+        max_depth: Some(7),
+        samples: 3,
+        albedo: ColourParam::Value(Rgb::from([0.25, 0.5, 0.75])),
+        g: FloatParam::Value(-0.5),
+    };
+    let unlimited = CoatMedium {
+        max_depth: Some(1000),
+        ..CoatMedium::default()
+    };
+    for (medium, expected) in [(cloud, cloud), (CoatMedium::default(), unlimited)] {
+        let mut scene = crate::builtin::orbs();
+        let used = scene.shapes[0].material.0;
+        scene.materials[used] = Material::new(MaterialKind::CoatedConductor {
+            coat_eta: 1.5,
+            coat_roughness: Roughness::smooth(),
+            fresnel: ConductorFresnel::Reflectance(ColourParam::Value(Rgb::splat(0.5))),
+            roughness: Roughness::isotropic(FloatParam::Value(0.25), RoughnessMapping::Alpha),
+            medium,
+        });
+        let (back, notes) = round_trip(&scene);
+        let found = &back.materials[back.shapes[0].material.0].kind;
+        let MaterialKind::CoatedConductor { medium, .. } = found else {
+            panic!("{found:?} {notes:?}")
+        };
+        assert_eq!(*medium, expected);
     }
 }

@@ -1,35 +1,21 @@
 //! All problems of a Mitsuba scene in one run.
 
+use specula_bsdf::Rgb;
+use specula_scene::scene::ColourParam;
 use specula_scene::{LoadOptions, Report, Severity};
 
 use super::common::Folder;
+use super::report::{self, found};
 
 fn check(folder: &Folder, scene: &str) -> Report {
     let path = folder.write("scene.xml", scene);
     specula_scene::check(&path, &LoadOptions::default())
 }
 
-/// Lines and messages of one severity.
-fn found(report: &Report, severity: Severity) -> Vec<(usize, String)> {
-    let problems = report.problems().iter();
-    problems
-        .filter(|p| p.severity() == severity)
-        .map(|p| (p.place().line(), p.message().to_owned()))
-        .collect()
-}
-
 #[track_caller]
 fn expect_errors(folder: &Folder, scene: &str, expected: &[(usize, &str)]) {
-    let errors = found(&check(folder, scene), Severity::Error);
-    let lines: Vec<usize> = errors.iter().map(|e| e.0).collect();
-    let wanted: Vec<usize> = expected.iter().map(|e| e.0).collect();
-    assert_eq!(lines, wanted, "{errors:#?}");
-    for ((_, message), (line, word)) in errors.iter().zip(expected) {
-        assert!(message.contains(word), "line {line}: {message}");
-    }
-    let first = folder.load(scene).unwrap_err();
-    let known = |e: &(usize, String)| e.0 == first.line() && e.1 == first.message();
-    assert!(errors.iter().any(known), "{first}");
+    let load = folder.load(scene).unwrap_err();
+    report::expect_errors(&check(folder, scene), &load, expected);
 }
 
 #[test]
@@ -125,6 +111,24 @@ fn what_is_unused_or_dark_is_noted() {
     assert_eq!(lines, [3, 4, 7], "{notes:?}");
     let warnings = found(&report, Severity::Warning);
     assert!(warnings[0].1.contains("wrong"), "{warnings:?}");
+}
+
+#[test]
+fn a_beam_of_an_area_lights_nothing_and_says_so() {
+    let folder = Folder::new();
+    let scene = r#"<scene version="3.0.0"><sensor type="perspective"/>
+<shape type="rectangle"><emitter type="directionalarea"><rgb name="radiance" value="2"/></emitter></shape>
+</scene>"#;
+    let report = check(&folder, scene);
+    let warnings = found(&report, Severity::Warning);
+    assert!(
+        matches!(&warnings[..], [(2, m)] if m.contains("\"ptracer\"")),
+        "{warnings:?}"
+    );
+    assert_eq!(found(&report, Severity::Note), []);
+    let emission = folder.load(scene).unwrap().scene.shapes[0].emission;
+    let black = ColourParam::Value(Rgb::BLACK);
+    assert_eq!(emission.map(|e| e.radiance), Some(black));
 }
 
 #[test]

@@ -12,5 +12,8 @@ mod conventions;
 mod dialect;
 mod document;
 mod features;
+mod media;
 mod mutations;
+#[path = "../common/report.rs"]
+mod report;
 mod shared_scenes;

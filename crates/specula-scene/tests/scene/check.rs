@@ -5,36 +5,17 @@ use std::path::Path;
 use specula_scene::{LoadOptions, Report, Severity};
 
 use super::common::Folder;
+use super::report::{self, found};
 
 fn check(folder: &Folder, scene: &str) -> Report {
     let path = folder.write("scene.pbrt", scene);
     specula_scene::check(&path, &LoadOptions::default())
 }
 
-/// Lines and messages of one severity.
-fn found(report: &Report, severity: Severity) -> Vec<(usize, String)> {
-    let problems = report.problems().iter();
-    problems
-        .filter(|p| p.severity() == severity)
-        .map(|p| (p.place().line(), p.message().to_owned()))
-        .collect()
-}
-
-/// Holds the errors against lines and words of their messages, and the first of them against what
-/// an ordinary load says.
 #[track_caller]
 fn expect_errors(folder: &Folder, scene: &str, expected: &[(usize, &str)]) {
-    let report = check(folder, scene);
-    let errors = found(&report, Severity::Error);
-    let lines: Vec<usize> = errors.iter().map(|e| e.0).collect();
-    let wanted: Vec<usize> = expected.iter().map(|e| e.0).collect();
-    assert_eq!(lines, wanted, "{errors:#?}");
-    for ((_, message), (line, word)) in errors.iter().zip(expected) {
-        assert!(message.contains(word), "line {line}: {message}");
-    }
-    let first = folder.load(scene).unwrap_err();
-    let known = |e: &(usize, String)| e.0 == first.line() && e.1 == first.message();
-    assert!(errors.iter().any(known), "{first}");
+    let load = folder.load(scene).unwrap_err();
+    report::expect_errors(&check(folder, scene), &load, expected);
 }
 
 #[test]

@@ -318,16 +318,3 @@ fn environments_are_square_or_latitude_longitude() {
     );
     assert_eq!(warnings(&loaded).len(), 1);
 }
-
-#[test]
-fn media_are_named_once() {
-    let loaded = load_world(
-        "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [1 1 1]
-         MediumInterface \"fog\" \"\" MediumInterface \"fog\"",
-    )
-    .unwrap();
-    assert_eq!(
-        warnings(&loaded),
-        ["media are not rendered: \"fog\" is empty space"]
-    );
-}

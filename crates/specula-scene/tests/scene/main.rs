@@ -7,11 +7,16 @@
 
 mod broken;
 mod check;
+mod check_files;
+mod check_gltf;
 mod common;
 mod directives;
 mod features;
 mod film;
 mod graph;
 mod materials;
+mod media;
 mod mutations;
+#[path = "../common/report.rs"]
+mod report;
 mod shared_scenes;

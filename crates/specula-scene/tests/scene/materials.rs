@@ -2,7 +2,7 @@
 
 use specula_bsdf::Rgb;
 use specula_scene::scene::{
-    ColourParam, ConductorFresnel, FloatParam, MaterialKind, RoughnessMapping,
+    CoatMedium, ColourParam, ConductorFresnel, FloatParam, MaterialKind, RoughnessMapping,
 };
 
 use super::common::{load_world, warnings};
@@ -125,18 +125,28 @@ fn coated() {
         reflectance,
         eta,
         roughness,
+        medium,
+        lossless,
     } = material("\"coateddiffuse\" \"float thickness\" 0.02")
     else {
         panic!()
     };
     assert_eq!((reflectance, eta, roughness.u), (HALF, 1.5, SMOOTH));
+    let expected = CoatMedium {
+        thickness: FloatParam::Value(0.02),
+        max_depth: Some(10),
+        ..CoatMedium::default()
+    };
+    assert_eq!((medium, lossless), (expected, false));
     let MaterialKind::CoatedConductor {
         coat_eta,
         coat_roughness,
         roughness,
+        medium,
         ..
     } = material(
-        "\"coatedconductor\" \"float interface.roughness\" 0.01 \"float conductor.vroughness\" 0.3",
+        "\"coatedconductor\" \"float interface.roughness\" 0.01 \"float conductor.vroughness\" 0.3
+         \"integer maxdepth\" 7 \"integer nsamples\" 3 \"rgb albedo\" [.5 .5 .5] \"float g\" -0.4",
     )
     else {
         panic!()
@@ -147,6 +157,14 @@ fn coated() {
         (FloatParam::Value(0.01), FloatParam::Value(0.01))
     );
     assert_eq!((roughness.u, roughness.v), (SMOOTH, FloatParam::Value(0.3)));
+    let expected = CoatMedium {
+        thickness: FloatParam::Value(0.01),
+        max_depth: Some(7),
+        samples: 3,
+        albedo: HALF,
+        g: FloatParam::Value(-0.4),
+    };
+    assert_eq!(medium, expected);
 }
 
 #[test]
@@ -183,7 +201,6 @@ fn interfaces_and_stand_ins() {
         ("\"subsurface\" \"string name\" \"Skin1\"", "subsurface"),
         ("\"subsurface\" \"rgb mfp\" [1 1 1]", "subsurface"),
         ("\"diffuse\" \"rgb reflectance\" [2 1 1]", "above 1"),
-        ("\"coateddiffuse\" \"rgb albedo\" [1 1 1]", "medium"),
     ] {
         let loaded = load_world(&format!("Material {text}")).unwrap();
         let all = warnings(&loaded);

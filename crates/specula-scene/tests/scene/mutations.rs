@@ -255,7 +255,7 @@ fn damaged_seeds_of_meshes() {
     let scene = "WorldBegin Shape \"plymesh\" \"string filename\" \"mesh.ply\"";
     let errors = damage("ply", 200, |_, bytes| {
         folder.write("mesh.ply", bytes);
-        strict(&folder, scene)
+        load_and_check(&folder.write("scene.pbrt", scene), Limits::strict())
     });
     assert!(errors > 200, "{errors}");
 }

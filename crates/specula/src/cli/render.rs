@@ -136,19 +136,17 @@ fn checkpoint(
     scene: &Scene,
     options: &RenderOptions,
 ) -> Checkpoint {
+    // Pictures do not hold the fingerprint, and it takes a second for each gigabyte of the scene.
+    let every = arguments.checkpoint.0;
+    let has_film = every.is_some() || outputs.film().is_some() || start(arguments) != Start::New;
     let label = Label {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         scene: name.to_owned(),
-        fingerprint: scene.fingerprint(),
+        fingerprint: if has_film { scene.fingerprint() } else { 0 },
         settings: options.settings(),
         seconds: 0.0,
     };
-    Checkpoint::new(
-        outputs.checkpoint(),
-        label,
-        arguments.checkpoint.0,
-        outputs.film().is_some(),
-    )
+    Checkpoint::new(outputs.checkpoint(), label, every, outputs.film().is_some())
 }
 
 /// A render on its way.

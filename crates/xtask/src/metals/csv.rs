@@ -30,14 +30,14 @@ impl Measurement {
     }
 }
 
-/// The file of a symbol.
-pub(crate) fn path(root: &Path, symbol: &str) -> PathBuf {
-    root.join("data/metals").join(format!("{symbol}.csv"))
+/// The path of a file, named without `.csv`.
+pub(crate) fn path(root: &Path, file: &str) -> PathBuf {
+    root.join("data/metals").join(format!("{file}.csv"))
 }
 
-/// Reads the file of a symbol.
-pub(crate) fn read(root: &Path, symbol: &str) -> Result<Measurement> {
-    let path = path(root, symbol);
+/// Reads a file, named without `.csv`.
+pub(crate) fn read(root: &Path, file: &str) -> Result<Measurement> {
+    let path = path(root, file);
     let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     parse(&text).map_err(|e| format!("{}: {e}", path.display()).into())
 }

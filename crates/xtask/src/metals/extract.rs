@@ -3,38 +3,40 @@
 use std::fs;
 use std::path::Path;
 
-use super::catalogue::CATALOGUE;
+use super::catalogue;
 use super::csv::{self, Measurement};
 use crate::Result;
 
 /// Wavelengths kept, in nm, and one row more on either side: what is seen, with some margin.
 const KEPT_NM: (f64, f64) = (350.0, 850.0);
 
-/// Writes the file of every metal whose page is in `folder`.
+/// Writes every file whose page is in `folder`.
 ///
 /// * `folder`: holds `database/data/...`. A page that it lacks is named, and the committed file
 ///   stays; a folder without any page is an error.
 pub(crate) fn extract(root: &Path, folder: &Path) -> Result<()> {
-    let mut found = 0;
-    for entry in CATALOGUE {
+    let (mut found, mut all) = (0, 0);
+    for entry in catalogue::files() {
+        all += 1;
         let page = folder.join(format!("database/data/{}.yml", entry.page));
         let Ok(yaml) = fs::read_to_string(&page) else {
             println!(
                 "{}: {} is not there, kept as it is",
-                entry.symbol,
+                entry.file,
                 page.display()
             );
             continue;
         };
         let measurement = kept(parse(&yaml).map_err(|e| format!("{}: {e}", page.display()))?);
+        let (symbol, name) = entry.metal;
         let head = [
-            format!("{}, {}: {}", entry.symbol, entry.name, entry.source),
+            format!("{symbol}, {name}: {}", entry.source),
             format!("refractiveindex.info, CC0, page {}", entry.page),
         ];
-        csv::write(&csv::path(root, entry.symbol), &head, &measurement)?;
+        csv::write(&csv::path(root, entry.file), &head, &measurement)?;
         found += 1;
     }
-    println!("{found} of {} metals extracted", CATALOGUE.len());
+    println!("{found} of {all} files extracted");
     match found {
         0 => Err(format!("{}: no page of the catalogue", folder.display()).into()),
         _ => Ok(()),
@@ -129,19 +131,20 @@ SPECS:
     fn committed_data_are_what_the_database_gives() {
         let root = crate::workspace::root();
         let folder = root.join("../shared/scenes/refractiveindex-metals");
-        let mut skipped = 0;
-        for entry in CATALOGUE {
+        let (mut skipped, mut all) = (0, 0);
+        for entry in catalogue::files() {
+            all += 1;
             let page = folder.join(format!("database/data/{}.yml", entry.page));
             match fs::read_to_string(&page) {
                 Ok(yaml) => {
-                    let committed = csv::read(&root, entry.symbol).unwrap();
-                    assert_eq!(kept(parse(&yaml).unwrap()), committed, "{}", entry.symbol);
+                    let committed = csv::read(&root, entry.file).unwrap();
+                    assert_eq!(kept(parse(&yaml).unwrap()), committed, "{}", entry.file);
                 }
                 Err(_) => skipped += 1,
             }
         }
         if skipped > 0 {
-            println!("skipped {skipped} of {}: page not there", CATALOGUE.len());
+            println!("skipped {skipped} of {all}: page not there");
         }
     }
 }
