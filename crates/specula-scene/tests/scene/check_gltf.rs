@@ -191,7 +191,7 @@ fn what_follows_from_a_mistake_is_not_reported() {
             "{\"buffer\": 1, \"byteLength\": 36}",
             (14, 28),
         ),
-        ("\"type\": \"VEC3\"", "\"type\": \"VEC5\"", (15, 77)),
+        ("\"type\": \"VEC3\"", "\"type\": \"VEC5\"", (15, 76)),
         ("\"version\": \"2.0\"", "\"version\": 2", (1, 23)),
         (
             "{\"primitives\": [",
