@@ -13,12 +13,13 @@ mod hit;
 mod partials;
 
 use glam::DMat4;
+use rayon::prelude::*;
 use specula_bsdf::Vec3;
 use specula_bsdf::math::vec3;
 use specula_scene::scene::{ColourParam, FloatParam, Scene};
 
 use crate::accel::{Accel, AccelError, Group, Instance, Quadric, QuadricShape};
-use crate::convert::{Affine, id, normal_matrix};
+use crate::convert::{Affine, id, narrow3, normal_matrix, widen3};
 use crate::texture::Textures;
 use bake::Baker;
 
@@ -27,6 +28,10 @@ pub(crate) use partials::Partials;
 
 /// No light.
 pub(crate) const NONE: u32 = u32::MAX;
+
+/// Largest coordinate of a shape: squares of lengths, and their products with areas, are within
+/// `f32`.
+pub(crate) const FARTHEST: f32 = 1e15;
 
 /// What the primitives of a shape share.
 #[derive(Clone, Debug)]
@@ -77,6 +82,14 @@ pub(crate) struct GroupData {
     /// Primitives that send out light, by that number.
     pub(crate) emitters: Vec<u32>,
 }
+
+/// A quadric in its group, with its shape's number.
+pub(crate) const BYTES_PER_QUADRIC: u64 =
+    (size_of::<PlacedQuadric>() + size_of::<Quadric>() + 8 + size_of::<ShapeRecord>()) as u64;
+
+/// An instance, and what the tree over instances is built from.
+pub(crate) const BYTES_PER_INSTANCE: u64 =
+    (size_of::<Placement>() + size_of::<Instance>() + 24) as u64;
 
 /// A group's place in the world.
 #[derive(Clone, Debug)]
@@ -141,6 +154,19 @@ impl Geometry {
     }
 }
 
+impl Geometry {
+    /// Whether all shapes, in the world and in the space of their group, are near enough for rays.
+    pub(crate) fn is_within_reach(&self) -> bool {
+        let near = |p: &[f32; 3]| p.iter().all(|x| x.abs() <= FARTHEST);
+        let world = self.accel.bounds();
+        world.is_none_or(|b| near(&b.min) && near(&b.max))
+            && self.groups.iter().all(|g| {
+                g.positions.par_iter().with_min_len(1 << 14).all(near)
+                    && g.quadrics.iter().all(|q| q.reach() <= f64::from(FARTHEST))
+            })
+    }
+}
+
 fn build_accel(groups: &[GroupData], placements: &[Placement]) -> Result<Accel, AccelError> {
     let quadrics: Vec<Vec<Quadric>> = groups
         .iter()
@@ -172,10 +198,32 @@ fn build_accel(groups: &[GroupData], placements: &[Placement]) -> Result<Accel, 
 }
 
 impl GroupData {
+    /// Number of a primitive among the group's lights, or [`NONE`].
+    #[inline(always)]
+    pub(crate) fn light_of(&self, primitive: u32) -> u32 {
+        self.light_of
+            .get(primitive as usize)
+            .copied()
+            .unwrap_or(NONE)
+    }
+
     /// The corners of a triangle.
     #[inline(always)]
     pub(crate) fn corners(&self, primitive: u32) -> [Vec3<f32>; 3] {
         self.triangles[primitive as usize].map(|v| Vec3::from(self.positions[v as usize]))
+    }
+}
+
+impl PlacedQuadric {
+    /// A bound on its coordinates.
+    fn reach(&self) -> f64 {
+        let (radius, height) = match self.shape {
+            QuadricShape::Sphere { radius } => (radius, 0.0),
+            QuadricShape::Disk { radius, height } => (radius, height.abs()),
+        };
+        let m = &self.to_group;
+        let axes = [m.x_axis, m.y_axis, m.z_axis].map(|a| a.truncate().length());
+        m.w_axis.truncate().length() + axes.iter().sum::<f64>() * radius.max(height)
     }
 }
 
@@ -193,6 +241,21 @@ impl Placement {
     }
 }
 
+/// The corner of a parallelogram and its two neighbours, where two triangles of the same winding make
+/// one: in winding order about the outside.
+pub(crate) fn parallelogram([one, other]: [[Vec3<f32>; 3]; 2]) -> Option<[Vec3<f32>; 3]> {
+    let lone = (0..3).find(|&i| !other.contains(&one[i]))?;
+    let [corner, next, last] = [0, 1, 2].map(|i| one[(lone + i) % 3]);
+    let opposite = (0..3).find(|&i| other[i] != next && other[i] != last)?;
+    // The other runs along the shared edge the other way round.
+    if other[(opposite + 1) % 3] != last || other[(opposite + 2) % 3] != next {
+        return None;
+    }
+    let gap = (other[opposite] - last) - (next - corner);
+    let size = (next - corner).length().max((last - corner).length());
+    (gap.length() <= 1e-6 * size).then_some([corner, next, last])
+}
+
 /// The unit vector along `v`, without overflow or underflow; `fallback` for the zero vector and for
 /// what is not finite.
 #[inline(always)]
@@ -204,4 +267,34 @@ pub(crate) fn unit_or(v: Vec3<f32>, fallback: Vec3<f32>) -> Vec3<f32> {
     // Two steps: the reciprocal of a subnormal number overflows.
     let v = vec3(v.x / largest, v.y / largest, v.z / largest);
     v.normalize()
+}
+
+/// The unit normal of a triangle by two of its edges; `+z` where it has no area.
+#[inline(always)]
+pub(crate) fn normal_of(e1: Vec3<f32>, e2: Vec3<f32>) -> Vec3<f32> {
+    /// Below, components lose digits.
+    const LEAST: f32 = 1e-30;
+    let n = e1.cross(e2);
+    let largest = n.x.abs().max(n.y.abs()).max(n.z.abs());
+    if largest > LEAST && largest.is_finite() {
+        return unit_or(n, Vec3::Z);
+    }
+    let n = widen3(e1).cross(widen3(e2)).normalize_or_zero();
+    unit_or(narrow3(n), Vec3::Z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn triangles_of_every_size_have_a_normal() {
+        let (a, b) = (vec3(1.0, 0.0, 0.0), vec3(0.0, 0.6, 0.8));
+        for scale in [1e-37, 1e-25, 1e-12, 1.0, 1e12, 1e25, 1e37] {
+            let n = normal_of(a * scale, b * scale);
+            assert!((n - vec3(0.0, -0.8, 0.6)).length() < 1e-6, "{scale}: {n:?}");
+        }
+        assert_eq!(normal_of(a, a), Vec3::Z);
+        assert_eq!(normal_of(Vec3::ZERO, b), Vec3::Z);
+    }
 }

@@ -1,9 +1,11 @@
 //! Unidirectional path tracing with next-event estimation.
 //!
 //! At every vertex one light is sampled and one direction; what both can find is weighted by the
-//! power heuristic (Veach 1997, 9.2.4). From the fourth vertex on, paths survive with the
-//! probability of their throughput's largest channel, corrected for the squeezing of radiance by
-//! refraction (pbrt's eta scale), at least 5 %; above 95 % roulette is not played.
+//! power heuristic (Veach 1997, 9.2.4). From the fourth vertex on, paths survive with twice
+//! their throughput's largest channel as probability, corrected for the squeezing of radiance by
+//! refraction (pbrt's eta scale), at least 5 %; above 95 % roulette is not played. Once the channel
+//! itself costs a quarter more time to the same noise in a room of rough metal, and 6 % less in the
+//! Cornell box.
 //!
 //! The shading frame is turned such that both normals face the viewer; a direction whose side of
 //! the shading normal differs from its side of the surface carries nothing, so that light does not
@@ -13,7 +15,12 @@
 //! Bodies absorb between the surface where a path enters them and the one where it leaves
 //! (`bodies`); a path begins in none.
 
+mod block;
+mod lanes;
+pub(crate) mod lobes;
 mod passing;
+
+pub(crate) use block::Block;
 
 use specula_bsdf::bsdf::{Event, Lobe};
 use specula_bsdf::{Bsdf, BsdfSample, Frame, Rgb, Transport, Vec3};
@@ -33,6 +40,12 @@ use crate::sampler::Sampler;
 
 /// Vertices before roulette begins.
 const ROULETTE_FROM: u32 = 3;
+
+/// Probability of going on with a throughput, its largest channel, refraction's squeezing taken out.
+#[inline(always)]
+fn survival_probability(largest: f32) -> f32 {
+    (2.0 * largest).clamp(0.05, 1.0)
+}
 
 /// Traces paths through a scene.
 #[derive(Clone, Copy)]
@@ -88,6 +101,46 @@ struct State {
     rays: u64,
 }
 
+/// A path on its way.
+pub(crate) struct Path {
+    sampler: Sampler,
+    /// The one that it goes on with.
+    ray: Ray,
+    state: State,
+    /// What its first vertex showed.
+    first: PixelSample,
+}
+
+impl Path {
+    /// A path that begins at the camera.
+    #[inline]
+    pub(crate) fn new(sampler: Sampler, origin: Vec3<f32>, direction: Vec3<f32>) -> Self {
+        Self {
+            sampler,
+            ray: Ray {
+                origin,
+                direction,
+                t_max: f32::INFINITY,
+            },
+            state: State {
+                radiance: Rgb::BLACK,
+                throughput: Rgb::WHITE,
+                eta_scale: 1.0,
+                bodies: Bodies::NONE,
+                straight: true,
+                previous: None,
+                rays: 0,
+            },
+            first: PixelSample {
+                colour: Rgb::BLACK,
+                albedo: Rgb::BLACK,
+                normal: Vec3::ZERO,
+                depth: None,
+            },
+        }
+    }
+}
+
 impl<'a> PathTracer<'a> {
     /// A tracer with the options' depth and strategy.
     pub(crate) fn new(scene: &'a PreparedScene, options: &RenderOptions) -> Self {
@@ -98,61 +151,86 @@ impl<'a> PathTracer<'a> {
         }
     }
 
-    /// Radiance along a camera ray, and the number of rays that it took.
-    pub(crate) fn trace(
-        &self,
-        sampler: &Sampler,
-        origin: Vec3<f32>,
-        direction: Vec3<f32>,
-    ) -> (PixelSample, u64) {
-        let mut ray = Ray {
-            origin,
-            direction,
-            t_max: f32::INFINITY,
+    /// What a path that has ended brings to its pixel, and the rays that it took.
+    #[inline]
+    pub(crate) fn brought(&self, path: &Path) -> (PixelSample, u64) {
+        let sample = PixelSample {
+            colour: self.scene.develop.of(path.state.radiance),
+            ..path.first
         };
-        let mut state = State {
-            radiance: Rgb::BLACK,
-            throughput: Rgb::WHITE,
-            eta_scale: 1.0,
-            bodies: Bodies::NONE,
-            straight: true,
-            previous: None,
-            rays: 0,
-        };
-        let mut sample = PixelSample {
-            colour: Rgb::BLACK,
-            albedo: Rgb::BLACK,
-            normal: Vec3::ZERO,
-            depth: None,
-        };
+        (sample, path.state.rays)
+    }
+
+    /// Follows a path to its end, one vertex after the other.
+    #[cfg(test)]
+    pub(crate) fn follow(&self, path: &mut Path) {
+        let mut depth = 0;
+        while self.step(path, depth) {
+            depth += 1;
+        }
+    }
+
+    /// The material of the surface at which a path goes wrong, if it is a surface's: follows it again
+    /// until its radiance is not finite.
+    #[cold]
+    pub(crate) fn blame(&self, mut path: Path) -> Option<u32> {
         let mut depth = 0;
         loop {
-            let Some(surface) = self.nearest(&ray, sampler, depth, &mut state) else {
-                self.add_background(&mut state, ray.direction);
-                break;
-            };
-            self.add_emission(&mut state, &surface, ray.direction);
-            if depth >= self.max_depth && depth > 0 {
-                break;
-            }
-            let vertex = self.vertex(surface, -ray.direction, sampler, depth);
-            if depth == 0 {
-                sample.albedo = vertex.lobe.albedo();
-                sample.normal = vertex.frame.n;
-                sample.depth = Some((vertex.surface.position - origin).length());
-                if self.max_depth == 0 {
-                    break;
-                }
-            }
-            self.add_direct(&mut state, &vertex, sampler, depth);
-            match self.scatter(&mut state, &vertex, sampler, depth) {
-                Some(next) => ray = next,
-                None => break,
+            let found = self.nearest(&path.ray, &path.sampler, depth, &mut path.state);
+            let shape = found.as_ref().map(|s| s.shape);
+            let goes_on = self.meet(&mut path, found, depth);
+            let State {
+                radiance,
+                throughput,
+                ..
+            } = &path.state;
+            if !goes_on || !radiance.is_finite() || !throughput.is_finite() {
+                let shapes = &self.scene.geometry.shapes;
+                return shape.map(|s| shapes[s as usize].material);
             }
             depth += 1;
         }
-        sample.colour = self.scene.develop.of(state.radiance);
-        (sample, state.rays)
+    }
+
+    /// Takes a path from one vertex to the next; returns whether it goes on.
+    fn step(&self, path: &mut Path, depth: u32) -> bool {
+        let found = self.nearest(&path.ray, &path.sampler, depth, &mut path.state);
+        self.meet(path, found, depth)
+    }
+
+    /// What a path does where its ray ends; returns whether it goes on.
+    ///
+    /// * `found`: the surface there; `None` where there is none.
+    fn meet(&self, path: &mut Path, found: Option<Surface>, depth: u32) -> bool {
+        let Path {
+            sampler,
+            ray,
+            state,
+            first,
+        } = path;
+        let Some(surface) = found else {
+            self.add_background(state, ray.direction);
+            return false;
+        };
+        self.add_emission(state, &surface, ray.direction);
+        if depth >= self.max_depth && depth > 0 {
+            return false;
+        }
+        let vertex = self.vertex(surface, -ray.direction, sampler, depth);
+        if depth == 0 {
+            first.albedo = vertex.lobe.albedo();
+            first.normal = vertex.frame.n;
+            first.depth = Some((vertex.surface.position - ray.origin).length());
+            if self.max_depth == 0 {
+                return false;
+            }
+        }
+        self.add_direct(state, &vertex, sampler, depth);
+        match self.scatter(state, &vertex, sampler, depth) {
+            Some(next) => *ray = next,
+            None => return false,
+        }
+        true
     }
 
     /// Light from infinity on a ray that meets nothing.
@@ -232,6 +310,11 @@ impl<'a> PathTracer<'a> {
         let mut lobe = chosen.lobe(textures, &place, outside);
         let material = chosen.material;
         let (ns, tangent) = self.shading(&surface, material);
+        let tangent = if material.is_plain_and_isotropic() {
+            Vec3::ZERO
+        } else {
+            tangent
+        };
         let ns = if ns.dot(facing) < 0.0 { -ns } else { ns };
         let (ns, softness) = match material.relief_rules {
             ReliefRules::Mitsuba { fades } if material.relief.is_some() => {
@@ -350,7 +433,9 @@ impl<'a> PathTracer<'a> {
         } else {
             &state.bodies
         };
-        let left = self.shine(vertex, &light, bodies, sampler, depth, &mut state.rays);
+        let s = &vertex.surface;
+        let place = (s.position, s.error, s.ng);
+        let left = self.shine(place, &light, bodies, sampler, depth, &mut state.rays);
         if let Some(left) = left {
             let arrived = light.radiance * (weight / light.pdf) * left;
             state.radiance += state.throughput * f_cos * arrived;
@@ -399,8 +484,8 @@ impl<'a> PathTracer<'a> {
         if largest.is_nan() || largest <= 0.0 {
             return None;
         }
-        if depth >= ROULETTE_FROM && largest < 0.95 {
-            let probability = largest.max(0.05);
+        let probability = survival_probability(largest);
+        if depth >= ROULETTE_FROM && probability < 0.95 {
             if survival >= probability {
                 return None;
             }

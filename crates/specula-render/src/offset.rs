@@ -28,7 +28,7 @@ pub(crate) fn coupled(magnitude: Vec3<f32>) -> Vec3<f32> {
 ///
 /// * `normal`: unit geometric normal, either side.
 /// * `error`: bound on the error of each component of `p`.
-#[inline]
+#[inline(always)]
 pub(crate) fn leave(
     p: Vec3<f32>,
     error: Vec3<f32>,
@@ -48,17 +48,11 @@ pub(crate) fn leave(
     )
 }
 
-/// `p + d`, rounded away from `p`.
-#[inline]
+/// `p + d`, moved on by an ulp or two where rounding may have kept it.
+#[inline(always)]
 fn away(p: f32, d: f32) -> f32 {
     let moved = p + d;
-    if d > 0.0 {
-        moved.next_up()
-    } else if d < 0.0 {
-        moved.next_down()
-    } else {
-        moved
-    }
+    moved + (moved.abs() * f32::EPSILON).copysign(d)
 }
 
 #[cfg(test)]

@@ -42,6 +42,9 @@ pub struct RenderOptions {
     pub strategy: Strategy,
     /// Number of each pixel's first sample: renders of different numbers are parts of one picture.
     pub first_sample: u32,
+    /// Estimated error at which the picture is done, with samples spread by their error (see
+    /// [`FilmBuffer::noise`](crate::FilmBuffer::noise)); `None`: as many for every pixel.
+    pub noise: Option<f32>,
 }
 
 impl RenderOptions {
@@ -60,10 +63,13 @@ impl RenderOptions {
             crop: _,
             strategy,
             first_sample: _,
+            noise,
         } = self;
+        // Not which noise: a film goes on to a smaller one as if that had been asked for at first.
+        let spread = if noise.is_some() { ", adaptive" } else { "" };
         format!(
             "depth {max_depth}, seed {seed}, sampler {vndf_sampler}, energy {energy}, {mis_pdf:?}, \
-             {strategy:?}"
+             {strategy:?}{spread}"
         )
     }
 
@@ -90,6 +96,7 @@ impl Default for RenderOptions {
             crop: None,
             strategy: Strategy::default(),
             first_sample: 0,
+            noise: None,
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::camera::{Camera, screen_window};
 use crate::convert::round_u32;
 use crate::film::develop::Develop;
 use crate::film::filter::FilterSampler;
-use crate::geometry::Geometry;
+use crate::geometry::{FARTHEST, Geometry};
 use crate::light::Lights;
 use crate::material::Materials;
 use crate::options::RenderOptions;
@@ -40,6 +40,11 @@ pub enum PrepareError {
     /// The tree over the shapes cannot be built.
     #[error("the scene's shapes cannot be prepared: {0}")]
     Shapes(#[from] AccelError),
+    /// A shape is too far away, or too large.
+    #[error(
+        "a shape reaches farther than {FARTHEST:e} units from the origin: rays are not followed there"
+    )]
+    TooFar,
     /// The picture has no pixels, or too many.
     #[error("a picture of {width} x {height} pixels cannot be rendered")]
     Resolution {
@@ -110,6 +115,9 @@ impl PreparedScene {
         let textures = Textures::new(&mut scene);
         let materials = Materials::new(&scene, &textures, options);
         let geometry = Geometry::new(&mut scene, &textures)?;
+        if !geometry.is_within_reach() {
+            return Err(PrepareError::TooFar);
+        }
         let lights = Lights::new(&scene, &geometry, &textures);
         Ok(Self {
             camera,
@@ -135,7 +143,12 @@ impl PreparedScene {
         self.crop
     }
 
-    /// Lights, each emitting triangle, sphere and disk counted.
+    /// The file's name for a material, by its index in the scene.
+    pub fn material_name(&self, material: usize) -> Option<&str> {
+        self.materials.name(material)
+    }
+
+    /// Lights, each emitting triangle, parallelogram, sphere and disk counted.
     pub fn light_count(&self) -> usize {
         self.lights.len()
     }

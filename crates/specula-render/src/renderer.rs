@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
-use crate::film::{FilmBuffer, Tile};
-use crate::integrator::PathTracer;
+use crate::film::{Criterion, FIRST_JUDGED, FilmBuffer, Tile};
+use crate::integrator::{Block, Path, PathTracer};
 use crate::options::RenderOptions;
 use crate::prepared::PreparedScene;
 use crate::sampler::Sampler;
@@ -14,7 +14,8 @@ use crate::sampler::Sampler;
 ///
 /// A sample is determined by its pixel, its number in the pixel and the seed, and a pixel adds its
 /// samples in the order of their numbers: the picture does not depend, by a single bit, on the
-/// number of threads or on how the samples are split into passes.
+/// number of threads or on how the samples are split into passes. Where a noise is asked for, tiles
+/// are judged at fixed numbers of samples by their own sums, so that this holds there too.
 pub struct Renderer<'a> {
     scene: &'a PreparedScene,
     options: RenderOptions,
@@ -32,6 +33,19 @@ pub struct PassReport {
     pub complete: bool,
     /// Samples of the film so far that were not finite: 0 in a correct render.
     pub invalid_samples: u64,
+    /// One of those of this pass.
+    pub invalid: Option<InvalidSample>,
+}
+
+/// A sample that was not finite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InvalidSample {
+    /// Column and row.
+    pub pixel: [u32; 2],
+    /// Its number in the pixel.
+    pub number: u32,
+    /// Index of the material in the scene at whose surface it went wrong; `None` beyond all surfaces.
+    pub material: Option<usize>,
 }
 
 /// Why a render cannot go on with a film.
@@ -56,6 +70,9 @@ pub enum ResumeError {
     /// Its samples begin elsewhere.
     #[error("its samples begin with number {0}")]
     FirstSample(u32),
+    /// Its samples are spread by their error and those of the render evenly, or the other way round.
+    #[error("one was made for a noise, the other for a number of samples")]
+    Adaptive,
 }
 
 impl<'a> Renderer<'a> {
@@ -92,42 +109,91 @@ impl<'a> Renderer<'a> {
         if film.first_sample() != options.first_sample {
             return Err(ResumeError::FirstSample(film.first_sample()));
         }
-        Ok(Self {
+        // Up to the first judgement the two are the same.
+        let is_other = match options.noise {
+            Some(_) => !film.is_adaptive() && film.most_and_mean_samples().0 > FIRST_JUDGED,
+            None => film.is_adaptive(),
+        };
+        if is_other {
+            return Err(ResumeError::Adaptive);
+        }
+        let mut renderer = Self {
             scene,
             options,
             film,
-        })
+        };
+        if renderer.options.noise.is_some() {
+            renderer.film.take_reference();
+        }
+        Ok(renderer)
     }
 
-    /// Adds `samples` samples to every pixel, in rayon's current pool.
+    /// Adds `samples` samples to every pixel, in rayon's current pool. Where a noise is asked for:
+    /// to those that have the fewest among the pixels that need more; others are taken to the same
+    /// count.
     ///
     /// A pass that is stopped leaves whole tiles unrendered; the next pass begins with what they
     /// lack, and takes every pixel to the same count.
     ///
     /// * `stop`: looked at before every tile.
     pub fn render_pass(&mut self, samples: u32, stop: &AtomicBool) -> PassReport {
-        let target = self.film.complete_samples().saturating_add(samples);
+        let target = self.samples_done().map(|done| done.saturating_add(samples));
         let scene = self.scene;
         let options = &self.options;
         let tracer = PathTracer::new(scene, options);
-        let (rays, complete) = self
+        let criterion = options.noise.map(|noise| self.film.criterion(noise));
+        let (done, complete) = self
             .film
             .tiles
             .par_iter_mut()
             .with_max_len(1)
-            .map(|tile| {
-                if stop.load(Ordering::Relaxed) {
-                    return (0, false);
+            .map_init(Block::new, |block, tile| {
+                let mut done = Done::default();
+                while let Some(next) = next_target(tile, criterion.as_ref(), target) {
+                    if stop.load(Ordering::Relaxed) {
+                        return (done, false);
+                    }
+                    done = done.and(render_tile(scene, (&tracer, block), options, tile, next));
                 }
-                (render_tile(scene, &tracer, options, tile, target), true)
+                (done, true)
             })
-            .reduce(|| (0, true), |a, b| (a.0 + b.0, a.1 && b.1));
+            .reduce(
+                || (Done::default(), true),
+                |a, b| (a.0.and(b.0), a.1 && b.1),
+            );
+        if criterion.is_some() {
+            self.film.take_reference();
+        }
         PassReport {
             samples_done_total: self.film.complete_samples(),
-            rays,
+            rays: done.rays,
             complete,
             invalid_samples: self.film.invalid_samples(),
+            invalid: done.invalid,
         }
+    }
+
+    /// Samples of the pixels that have the fewest; where a noise is asked for, of those that need more
+    /// for it. `None`: none does.
+    pub fn samples_done(&self) -> Option<u32> {
+        match self.options.noise {
+            Some(noise) => self.film.fewest_of_open(noise),
+            None => Some(self.film.complete_samples()),
+        }
+    }
+
+    /// Share of the samples that have been taken, in `[0, 1]`: of `most` per pixel, or of what a noise
+    /// that is asked for is likely to need; 0 where that is not known yet.
+    pub fn share_done(&self, most: u32) -> f64 {
+        match self.options.noise {
+            Some(noise) => self.film.share_of_samples(noise, most),
+            None => f64::from(self.film.complete_samples()) / f64::from(most.max(1)),
+        }
+    }
+
+    /// The scene that is rendered.
+    pub fn scene(&self) -> &PreparedScene {
+        self.scene
     }
 
     /// What has been gathered so far.
@@ -141,33 +207,81 @@ impl<'a> Renderer<'a> {
     }
 }
 
-/// Brings every pixel of a tile to `target` samples; returns the rays traced.
+/// Samples that a tile is to be taken to next, at most `last`; `None`: it has what this pass brings.
+fn next_target(tile: &Tile, criterion: Option<&Criterion>, last: Option<u32>) -> Option<u32> {
+    let wanted = criterion.map_or(last, |c| c.target(tile));
+    let next = wanted?.min(last?);
+    (tile.count() < next).then_some(next)
+}
+
+/// What was done for a tile, or for several.
+#[derive(Clone, Copy, Default)]
+struct Done {
+    rays: u64,
+    invalid: Option<InvalidSample>,
+}
+
+impl Done {
+    /// Of two sets of tiles in order.
+    fn and(self, later: Self) -> Self {
+        Self {
+            rays: self.rays + later.rays,
+            invalid: self.invalid.or(later.invalid),
+        }
+    }
+}
+
+/// Brings every pixel of a tile to `target` samples.
 fn render_tile(
     scene: &PreparedScene,
-    tracer: &PathTracer<'_>,
+    (tracer, block): (&PathTracer<'_>, &mut Block),
     options: &RenderOptions,
     tile: &mut Tile,
     target: u32,
-) -> u64 {
+) -> Done {
     let [x0, x1, y0, _] = tile.bounds;
     let width = x1 - x0;
     let (seed, first) = (options.seed, options.first_sample);
-    let mut rays = 0;
-    for (i, pixel) in (0_u32..).zip(&mut tile.pixels) {
-        let (x, y) = (x0 + i % width, y0 + i / width);
-        for nth in pixel.count..target {
-            let number = first.wrapping_add(nth);
-            let sampler = Sampler::new([x, y], number, seed);
-            let [u0, u1, u2, u3] = sampler.camera();
-            let ([dx, dy], weight) = scene.filter.sample([u0, u1]);
-            let raster = [x as f32 + 0.5 + dx, y as f32 + 0.5 + dy];
-            let (origin, direction) = scene.camera.ray(raster, [u2, u3]);
-            let (sample, traced) = tracer.trace(&sampler, origin, direction);
-            rays += traced;
-            if !pixel.add(&sample, weight) {
+    let counts = tile.pixels.iter().map(|p| p.count).collect::<Vec<u32>>();
+    let mut samples = (0_u32..)
+        .zip(counts)
+        .flat_map(|(i, count)| (count..target).map(move |nth| (i, nth)));
+    let begin = |[x, y]: [u32; 2], nth: u32| {
+        let sampler = Sampler::new([x, y], first.wrapping_add(nth), seed);
+        let [u0, u1, u2, u3] = sampler.camera();
+        let ([dx, dy], weight) = scene.filter.sample([u0, u1]);
+        let raster = [x as f32 + 0.5 + dx, y as f32 + 0.5 + dy];
+        let (origin, direction) = scene.camera.ray(raster, [u2, u3]);
+        (weight, Path::new(sampler, origin, direction))
+    };
+    let mut done = Done::default();
+    let mut places = Vec::with_capacity(Block::SIZE);
+    loop {
+        block.paths.clear();
+        places.clear();
+        for (i, nth) in samples.by_ref().take(Block::SIZE) {
+            let (weight, path) = begin([x0 + i % width, y0 + i / width], nth);
+            block.paths.push(path);
+            places.push((i, nth, weight));
+        }
+        if places.is_empty() {
+            return done;
+        }
+        tracer.follow_all(block);
+        for (&(i, nth, weight), path) in places.iter().zip(&block.paths) {
+            let (sample, traced) = tracer.brought(path);
+            done.rays += traced;
+            if !tile.pixels[i as usize].add(&sample, weight) {
                 tile.invalid += 1;
+                let pixel = [x0 + i % width, y0 + i / width];
+                let (_, path) = begin(pixel, nth);
+                let material = tracer.blame(path).map(|m| m as usize);
+                done.invalid = Some(InvalidSample {
+                    pixel,
+                    number: first.wrapping_add(nth),
+                    material,
+                });
             }
         }
     }
-    rays
 }

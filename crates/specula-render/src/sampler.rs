@@ -16,6 +16,10 @@
 //! stream per vertex. Opacity and the choice within mixed materials take
 //! hashed numbers, since their count along a path is not bounded.
 
+use std::sync::LazyLock;
+
+use multiversion::multiversion;
+use sobol_burley::parts::sobol_rev;
 use sobol_burley::{NUM_DIMENSION_SETS_4D, sample_4d};
 use specula_bsdf::math::Stream;
 
@@ -46,14 +50,14 @@ impl Sampler {
     /// Three numbers for the lobe, one for Russian roulette.
     #[inline]
     pub(crate) fn scatter(&self, vertex: u32) -> [f32; 4] {
-        self.set(1 + 2 * vertex)
+        self.set(Purpose::Scatter.set(vertex))
     }
 
     /// One number for the choice of a light, two for the point on it, one for finer digits of the
     /// choice.
     #[inline]
     pub(crate) fn light(&self, vertex: u32) -> [f32; 4] {
-        self.set(2 + 2 * vertex)
+        self.set(Purpose::Light.set(vertex))
     }
 
     /// A number in `[0, 1)` that depends on the sample and on `key`.
@@ -76,12 +80,126 @@ impl Sampler {
     #[inline]
     fn set(&self, set: u32) -> [f32; 4] {
         let round = set / NUM_DIMENSION_SETS_4D;
-        let seed = if round == 0 {
-            self.seed
-        } else {
-            hash(self.seed.wrapping_add(round.wrapping_mul(0x9e37_79b9)))
-        };
+        let seed = seed_of_round(self.seed, round);
         sample_4d(self.index, set % NUM_DIMENSION_SETS_4D, seed)
+    }
+}
+
+/// What the numbers at a vertex are for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Purpose {
+    /// [`Sampler::scatter`].
+    Scatter,
+    /// [`Sampler::light`].
+    Light,
+}
+
+impl Purpose {
+    fn set(self, vertex: u32) -> u32 {
+        match self {
+            Self::Scatter => 1 + 2 * vertex,
+            Self::Light => 2 + 2 * vertex,
+        }
+    }
+}
+
+#[inline(always)]
+fn seed_of_round(seed: u32, round: u32) -> u32 {
+    if round == 0 {
+        seed
+    } else {
+        hash(seed.wrapping_add(round.wrapping_mul(0x9e37_79b9)))
+    }
+}
+
+/// Numbers of many samples at once: those of [`Sampler::scatter`] or [`Sampler::light`], bit for bit.
+#[derive(Clone, Debug)]
+pub(crate) struct Numbers<const N: usize> {
+    indices: [u32; N],
+    seeds: [u32; N],
+    /// Shuffled indices, bits reversed.
+    rest: [u32; N],
+    /// Of the sequence before it is scrambled, by dimension.
+    bits: [[u32; N]; 4],
+    /// By dimension.
+    pub(crate) values: [[f32; N]; 4],
+}
+
+impl<const N: usize> Numbers<N> {
+    pub(crate) const ZERO: Self = Self {
+        indices: [0; N],
+        seeds: [0; N],
+        rest: [0; N],
+        bits: [[0; N]; 4],
+        values: [[0.0; N]; 4],
+    };
+
+    /// Places a sample.
+    #[inline(always)]
+    pub(crate) fn place(&mut self, i: usize, sampler: &Sampler) {
+        self.indices[i] = sampler.index;
+        self.seeds[i] = sampler.seed;
+    }
+
+    /// Draws for the first `n` samples.
+    pub(crate) fn draw(&mut self, n: usize, purpose: Purpose, vertex: u32) {
+        let set = purpose.set(vertex);
+        let (round, set) = (set / NUM_DIMENSION_SETS_4D, set % NUM_DIMENSION_SETS_4D);
+        draw(n, (round, set), self);
+    }
+}
+
+/// Columns of the generator matrices by set, bit of the index from its highest, and dimension.
+static COLUMNS: LazyLock<Vec<[[u32; 4]; 16]>> = LazyLock::new(|| {
+    let column = |set: u32, bit: u32| [0, 1, 2, 3].map(|d| sobol_rev(1 << (31 - bit), 4 * set + d));
+    let each = |set: u32| {
+        let mut bit = 0;
+        [(); 16].map(|()| {
+            bit += 1;
+            column(set, bit - 1)
+        })
+    };
+    (0..NUM_DIMENSION_SETS_4D).map(each).collect()
+});
+
+/// Burley's shuffled and scrambled sequence, as in the crate's `sample_4d`.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
+    "x86_64+avx2+fma+bmi1+bmi2"
+))]
+fn draw<const N: usize>(n: usize, (round, set): (u32, u32), numbers: &mut Numbers<N>) {
+    use sobol_burley::parts::{hash, owen_scramble_rev, u32_to_f32_norm};
+    let n = n.min(N);
+    let Numbers {
+        indices,
+        seeds,
+        rest,
+        bits,
+        values,
+    } = numbers;
+    for i in 0..n {
+        let seed = seed_of_round(seeds[i], round);
+        rest[i] = owen_scramble_rev(indices[i].reverse_bits(), hash(seed ^ 0x79c6_8e4a));
+    }
+    // One column after the other: these are the loops that become vectors.
+    let [b0, b1, b2, b3] = bits;
+    for (bit, [c0, c1, c2, c3]) in (0_u32..).zip(&COLUMNS[set as usize]) {
+        for i in 0..n {
+            let mask = ((rest[i] << bit) >> 31).wrapping_neg();
+            let so_far = |b: u32| if bit == 0 { 0 } else { b };
+            b0[i] = so_far(b0[i]) ^ (mask & c0);
+            b1[i] = so_far(b1[i]) ^ (mask & c1);
+            b2[i] = so_far(b2[i]) ^ (mask & c2);
+            b3[i] = so_far(b3[i]) ^ (mask & c3);
+        }
+    }
+    let keys = [0x912f_69ba, 0x174f_18ab, 0x691e_72ca, 0xb40c_c1b8_u32];
+    for ((bits, values), key) in [b0, b1, b2, b3].into_iter().zip(values).zip(keys) {
+        for i in 0..n {
+            let seed = seed_of_round(seeds[i], round);
+            let key = hash(seed.wrapping_mul(0x9c8f_2d3b) ^ set ^ key);
+            values[i] = u32_to_f32_norm(owen_scramble_rev(bits[i], key).reverse_bits());
+        }
     }
 }
 
@@ -116,6 +234,30 @@ mod tests {
                     cells.iter().all(|&c| c == 1),
                     "set {set} dimension {dimension}"
                 );
+            }
+        }
+    }
+
+    #[test]
+    fn many_at_once_are_those_of_each() {
+        let mut numbers = Numbers::<48>::ZERO;
+        let sampler = |i: usize| {
+            let k = u32::try_from(i).unwrap();
+            Sampler::new([7 * k, k], k.wrapping_mul(2_654_435_761), 5)
+        };
+        for i in 0..33 {
+            numbers.place(i, &sampler(i));
+        }
+        for vertex in [0, 1, 30, 31, 32, 99] {
+            numbers.draw(33, Purpose::Scatter, vertex);
+            for i in 0..33 {
+                let found = [0, 1, 2, 3].map(|d| numbers.values[d][i]);
+                assert_eq!(found, sampler(i).scatter(vertex));
+            }
+            numbers.draw(33, Purpose::Light, vertex);
+            for i in 0..33 {
+                let found = [0, 1, 2, 3].map(|d| numbers.values[d][i]);
+                assert_eq!(found, sampler(i).light(vertex));
             }
         }
     }

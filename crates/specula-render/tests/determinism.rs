@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use common::*;
 use glam::{DMat4, DVec3};
 use specula_render::picture::Picture;
-use specula_render::{PreparedScene, RenderOptions, Renderer};
+use specula_render::{FilmBuffer, PreparedScene, RenderOptions, Renderer, ResumeError};
 use specula_scene::scene::*;
 
 fn scene() -> Scene {
@@ -66,6 +66,106 @@ fn threads_and_passes_do_not_change_a_bit() {
         assert_eq!(run(&scene, threads, passes, None), reference);
     }
     assert_ne!(run(&scene, 1, &[7], None).colour, reference.colour);
+}
+
+/// Goes on with a film until `noise`, at most 512 samples per pixel, resumed after every pass of
+/// `samples`.
+fn adaptive(
+    scene: &Scene,
+    noise: f32,
+    samples: u32,
+    threads: usize,
+    film: &mut Option<FilmBuffer>,
+) {
+    let options = RenderOptions {
+        max_depth: 6,
+        noise: Some(noise),
+        ..RenderOptions::default()
+    };
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .expect("threads are to be had");
+    pool.install(|| {
+        let prepared = PreparedScene::new(scene, &options).expect("the scene is sound");
+        loop {
+            let mut renderer = match film.take() {
+                Some(film) => Renderer::resume(&prepared, options.clone(), film)
+                    .expect("the film is of this render"),
+                None => Renderer::new(&prepared, options.clone()),
+            };
+            let left = renderer.samples_done().map_or(0, |done| 512 - done);
+            if left > 0 {
+                renderer.render_pass(samples.min(left), &AtomicBool::new(false));
+            }
+            *film = Some(renderer.film().clone());
+            if left == 0 {
+                break;
+            }
+        }
+    });
+}
+
+/// By threads, passes and interruptions after every pass, and by way of a larger noise.
+#[test]
+fn adaptive_renders_are_the_same_bit_for_bit_however_they_are_made() {
+    let scene = scene();
+    let mut whole = None;
+    adaptive(&scene, 0.035, 512, 1, &mut whole);
+    let counts = whole.as_ref().unwrap().picture().sample_count;
+    let (fewest, most) = counts
+        .iter()
+        .fold((f32::MAX, 0.0), |(a, b): (f32, f32), c| {
+            (a.min(*c), b.max(*c))
+        });
+    assert!(fewest >= 32.0 && most >= 2.0 * fewest, "{fewest} to {most}");
+    for (threads, samples) in [(2, 1), (3, 7), (2, 100)] {
+        let mut film = None;
+        adaptive(&scene, 0.035, samples, threads, &mut film);
+        assert!(
+            film == whole,
+            "{threads} threads, {samples} samples in a pass"
+        );
+    }
+    let mut film = None;
+    adaptive(&scene, 0.1, 64, 2, &mut film);
+    assert!(film != whole);
+    adaptive(&scene, 0.035, 64, 2, &mut film);
+    assert!(film == whole, "by way of a larger noise");
+}
+
+/// Stopping by what has been seen must not make the picture darker.
+#[test]
+fn adaptive_renders_keep_the_mean() {
+    let scene = scene();
+    let mut film = None;
+    adaptive(&scene, 0.08, 512, 2, &mut film);
+    let (found, error) = mean(&film.unwrap().picture());
+    let (expected, other) = mean(&run(&scene, 2, &[512], None));
+    let apart = (found - expected).abs();
+    assert!(apart < 4.5 * error.hypot(other), "{found} {expected}");
+    assert!(apart < 0.005 * expected, "{found} {expected}");
+}
+
+#[test]
+fn adaptive_and_even_films_are_not_mixed() {
+    let scene = scene();
+    let even = RenderOptions::default();
+    let asked = RenderOptions {
+        noise: Some(0.1),
+        ..even.clone()
+    };
+    let prepared = PreparedScene::new(&scene, &even).unwrap();
+    for (made, resumed) in [(&even, &asked), (&asked, &even)] {
+        let mut renderer = Renderer::new(&prepared, made.clone());
+        for samples in [32, 1] {
+            renderer.render_pass(samples, &AtomicBool::new(false));
+        }
+        let film = renderer.film().clone();
+        assert!(Renderer::resume(&prepared, made.clone(), film.clone()).is_ok());
+        let error = Renderer::resume(&prepared, resumed.clone(), film).err();
+        assert_eq!(error, Some(ResumeError::Adaptive));
+    }
 }
 
 #[test]
@@ -177,7 +277,7 @@ fn two_hundred_thousand_lights_are_no_obstacle() {
     scene.shapes.push(emitting(ceiling, 1.0));
     let options = RenderOptions::default();
     let prepared = PreparedScene::new(&scene, &options).unwrap();
-    assert_eq!(prepared.light_count(), 199_712);
+    assert_eq!(prepared.light_count(), 99_856);
     let a = render(&scene, 1024, 1, specula_render::Strategy::Mis);
     let b = render(&scene, 1024, 1, specula_render::Strategy::BsdfOnly);
     let ((ma, ea), (mb, eb)) = (mean(&a), mean(&b));

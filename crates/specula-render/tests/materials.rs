@@ -346,7 +346,8 @@ type Float<'a> = &'a dyn Fn(f32) -> FloatParam;
 /// A grey as a parameter.
 type Grey<'a> = &'a dyn Fn(f32) -> ColourParam;
 
-/// Every parameter as a texture that is the same everywhere, yet is not folded: not a bit changes.
+/// Every parameter as a texture that is the same everywhere, yet is not folded: what is rendered in
+/// lanes there and one by one here differs by rounding.
 #[test]
 fn textures_and_values_bind_alike() {
     let textures = RefCell::new(vec![Texture::VertexColour]);
@@ -368,7 +369,9 @@ fn textures_and_values_bind_alike() {
             scene.textures.clone_from(&textures.borrow());
             render(&scene, 16, 1, Strategy::Mis).colour
         });
-        assert_eq!(a, b, "kind {i}");
+        let apart = |(a, b): &(&Rgb<f32>, &Rgb<f32>)| (a.g - b.g).abs() > 1e-4 * a.g;
+        let count = a.iter().zip(&b).filter(apart).count();
+        assert!(count * 50 <= a.len(), "kind {i}: {count} of {}", a.len());
         assert!(a.iter().any(|c| c.g > 0.0), "kind {i} is black");
     }
 }

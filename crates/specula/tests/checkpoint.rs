@@ -87,7 +87,8 @@ fn what_does_not_belong_together_is_not_merged() {
         folder,
         &["render", "small.pbrt", "--samples", "0..4", "-o", "a.film"],
     );
-    let parts: [(&[&str], &str); 4] = [
+    let parts: [(&[&str], &str); 5] = [
+        (&["small.pbrt", "--noise", "0.1"], "different settings"),
         (
             &["small.pbrt", "--samples", "3..6"],
             "samples 3 to 4 are in both",
@@ -164,25 +165,55 @@ fn a_film_is_never_lost_by_mistake() {
 #[test]
 fn a_killed_render_ends_as_if_nothing_had_happened() {
     let (folder, _) = small_scene();
-    let folder = folder.path();
-    let line = |spp: &str, output: &str| {
+    let mut spp = 500;
+    let effort = |harder: bool| {
+        if harder {
+            spp *= 2;
+        }
+        vec!["--spp".to_owned(), spp.to_string()]
+    };
+    kill(folder.path(), 20, effort);
+}
+
+/// A film that is done for one noise is gone on with for a smaller one, too.
+#[test]
+fn a_killed_adaptive_render_ends_as_if_nothing_had_happened() {
+    let (folder, _) = small_scene();
+    let mut noise = 0.012;
+    let effort = |harder: bool| {
+        if harder {
+            noise *= 0.7;
+        }
+        vec!["--noise".to_owned(), noise.to_string()]
+    };
+    kill(folder.path(), 10, effort);
+    let counts = picture(folder.path(), "a.exr").sample_count;
+    assert!(counts.iter().any(|n| *n != counts[0]), "{}", counts[0]);
+}
+
+/// Kills a render `times` times, and compares what it ends as with one that was left alone.
+///
+/// * `effort`: how long it is, as arguments; longer ones where it is told that it ended too early.
+fn kill(folder: &Path, times: u32, mut effort: impl FnMut(bool) -> Vec<String>) {
+    let line = |effort: &[String], output: &str| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_specula"));
         command
             .current_dir(folder)
-            .args(["render", "small.pbrt", "--threads", "1", "--spp", spp])
-            .args(["--resume", "--checkpoint", "1ms", "-o", output])
+            .args(["render", "small.pbrt", "--threads", "1", "--resume"])
+            .args(["--resolution", "48x32", "--checkpoint", "1ms", "-o", output])
+            .args(effort)
             .stderr(Stdio::null());
         command
     };
     let (mut killed, mut resumable) = (0, 0);
     // SplitMix64, so that the moments are the same in every run.
     let mut state = 5_u64;
-    let mut spp = 2000;
-    while killed < 20 {
+    let mut asked = effort(false);
+    while killed < times {
         state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mixed = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let wait = 20 + (mixed >> 32) % 130;
-        let mut child = line(&spp.to_string(), "a.exr").spawn().unwrap();
+        let mut child = line(&asked, "a.exr").spawn().unwrap();
         std::thread::sleep(Duration::from_millis(wait));
         if child.try_wait().unwrap().is_none() {
             child.kill().unwrap();
@@ -190,13 +221,13 @@ fn a_killed_render_ends_as_if_nothing_had_happened() {
             resumable += u32::from(folder.join("a.film").exists());
         } else {
             // Done before it could be killed: a longer one.
-            spp *= 2;
+            asked = effort(true);
         }
         child.wait().unwrap();
     }
-    assert!(resumable > 10, "{resumable} kills left a checkpoint");
-    assert!(line(&spp.to_string(), "a.exr").status().unwrap().success());
-    assert!(line(&spp.to_string(), "b.exr").status().unwrap().success());
+    assert!(resumable > times / 2, "{resumable} kills left a checkpoint");
+    assert!(line(&asked, "a.exr").status().unwrap().success());
+    assert!(line(&asked, "b.exr").status().unwrap().success());
     assert_eq!(picture(folder, "a.exr"), picture(folder, "b.exr"));
     assert_eq!(names(folder), ["a.exr", "b.exr", "small.pbrt"]);
 }

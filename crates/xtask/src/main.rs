@@ -13,9 +13,11 @@ mod interface;
 mod interface_single;
 mod metals;
 mod plastic;
+mod soak;
 mod suite;
 mod tables;
 mod tidy;
+mod versus;
 mod workspace;
 
 use std::path::PathBuf;
@@ -76,6 +78,10 @@ enum Chore {
         #[arg(long)]
         check: bool,
     },
+    /// Compare with other renderers: time to equal error
+    Versus(versus::Versus),
+    /// Render for an hour, and fail where its memory grows
+    Soak(soak::Soak),
     /// Check what no compiler checks: file heads, lengths, leftovers, trailing spaces
     Tidy,
 }
@@ -107,6 +113,8 @@ fn run(chore: &Chore) -> Result<()> {
         }
         Chore::Exact { fuzz, .. } => exact::run(*fuzz),
         Chore::Instructions { check } => instructions::run(&root, *check),
+        Chore::Versus(versus) => versus::run(&root, versus),
+        Chore::Soak(soak) => soak::run(&root, soak),
         Chore::Tidy => tidy::run(&root),
     }
 }

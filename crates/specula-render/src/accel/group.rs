@@ -38,7 +38,7 @@ const MOST_PARTS: usize = 1 << 17;
 /// Most parts of a chunk. They are the items of the tree over all, which is the better for more.
 const PARTS: usize = 256;
 /// How many chunks are built before the next are begun: bounds the memory.
-const WAVE: usize = 16;
+pub(super) const WAVE: usize = 16;
 /// From here on reinsertion, which takes the longest, is done with less effort.
 const LARGE: usize = 1_000_000;
 /// Its effort then.

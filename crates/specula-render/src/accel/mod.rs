@@ -26,6 +26,7 @@ mod input;
 mod instances;
 mod kernel;
 mod node;
+mod predicted;
 mod quadric;
 mod traverse;
 mod triangle;
@@ -37,6 +38,7 @@ mod tests;
 
 pub use bounds::Bounds;
 pub use input::{AccelError, Group, Instance};
+pub(crate) use predicted::predicted;
 pub use quadric::{Quadric, QuadricShape};
 
 #[cfg(target_arch = "x86_64")]

@@ -3,6 +3,7 @@
 use specula_bsdf::math::vec3;
 use specula_bsdf::{Rgb, Vec3};
 
+use super::adaptive::Reference;
 use super::sum::{FixedSum, Sum};
 use crate::convert::narrow;
 use crate::picture::Picture;
@@ -31,6 +32,9 @@ pub(crate) struct PixelSums {
     hits: u32,
     pub(crate) count: u32,
 }
+
+/// What a pixel's sums take.
+pub(crate) const BYTES_PER_PIXEL: u64 = size_of::<PixelSums>() as u64;
 
 impl PixelSums {
     /// Words of [`words`](Self::words).
@@ -75,6 +79,16 @@ impl PixelSums {
     fn mean(&self) -> [f64; 3] {
         let n = f64::from(self.count.max(1));
         self.colour.map(|c| c.value() / n)
+    }
+
+    /// Luminance of the mean; below 0 only where filters or balances have negative parts.
+    pub(super) fn luminance(&self) -> f64 {
+        Rgb::from(self.mean()).luminance()
+    }
+
+    /// Standard deviation of the mean's luminance; the channels are taken for fully correlated.
+    pub(super) fn luminance_deviation(&self) -> f64 {
+        Rgb::from(self.variance().map(f64::sqrt)).luminance()
     }
 
     /// Variance of the mean: the unbiased variance of one sample over their number; infinite below
@@ -151,6 +165,8 @@ pub struct FilmBuffer {
     /// Numbers of the samples of a film that was merged from parts which leave gaps, half open, in
     /// order; empty: `first_sample` and what follows.
     parts: Vec<[u32; 2]>,
+    /// What tiles are judged by in adaptive sampling, once it is known.
+    pub(super) reference: Option<Reference>,
     pub(crate) tiles: Vec<Tile>,
 }
 
@@ -163,6 +179,11 @@ pub enum MergeError {
     /// Samples would count twice.
     #[error("samples {0} to {1} are in both films")]
     Overlap(u32, u32),
+    /// Their pixels have different numbers of samples.
+    #[error(
+        "films that were made for a noise are not parts of a picture: their pixels differ in samples"
+    )]
+    Adaptive,
 }
 
 impl FilmBuffer {
@@ -189,6 +210,7 @@ impl FilmBuffer {
             crop,
             first_sample,
             parts: Vec::new(),
+            reference: None,
             tiles,
         }
     }
@@ -199,7 +221,7 @@ impl FilmBuffer {
     }
 
     /// Numbers of the samples within, as ranges `[from, to)` in order. Where a pass was not
-    /// finished, some pixels lack the last ones.
+    /// finished, some pixels lack the last ones; in an adaptive film, most do.
     pub fn samples(&self) -> Vec<[u32; 2]> {
         if !self.parts.is_empty() {
             return self.parts.clone();
@@ -221,7 +243,12 @@ impl FilmBuffer {
     }
 
     /// A film of sums that were kept; `None` where the parts do not fit each other.
-    pub(crate) fn restore(mut self, parts: Vec<[u32; 2]>, tiles: Vec<Tile>) -> Option<Self> {
+    pub(crate) fn restore(
+        mut self,
+        parts: Vec<[u32; 2]>,
+        reference: Option<Reference>,
+        tiles: Vec<Tile>,
+    ) -> Option<Self> {
         let ordered = parts.windows(2).all(|p| p[0][1] < p[1][0]);
         let same = self.tiles.len() == tiles.len()
             && self
@@ -233,6 +260,7 @@ impl FilmBuffer {
             return None;
         }
         self.parts = parts;
+        self.reference = reference;
         self.tiles = tiles;
         Some(self)
     }
@@ -247,6 +275,13 @@ impl FilmBuffer {
         self.sums().map(|p| p.count).min().unwrap_or(0)
     }
 
+    /// The most samples of any pixel, and their mean over the pixels.
+    pub fn most_and_mean_samples(&self) -> (u32, f64) {
+        let most = self.sums().map(|p| p.count).max().unwrap_or(0);
+        let sum: u64 = self.sums().map(|p| u64::from(p.count)).sum();
+        (most, sum as f64 / self.sums().count().max(1) as f64)
+    }
+
     /// Samples that were not finite numbers. They count as black; a correct renderer has none.
     pub fn invalid_samples(&self) -> u64 {
         self.tiles.iter().map(|t| t.invalid).sum()
@@ -256,10 +291,13 @@ impl FilmBuffer {
     /// for bit, those of one render of all the samples.
     ///
     /// # Errors
-    /// Where the films differ in size or crop, or have samples in common.
+    /// Where the films differ in size or crop, have samples in common, or are adaptive.
     pub fn merge(&mut self, other: &Self) -> Result<(), MergeError> {
         if self.full_resolution != other.full_resolution || self.crop != other.crop {
             return Err(MergeError::Size);
+        }
+        if self.is_adaptive() || other.is_adaptive() {
+            return Err(MergeError::Adaptive);
         }
         let mut all = [self.samples(), other.samples()].concat();
         all.sort_unstable();
@@ -290,28 +328,22 @@ impl FilmBuffer {
         Ok(())
     }
 
-    /// Estimate of the picture's relative error: the square root of the mean over pixels of
-    ///
-    /// ```text
-    /// var(mean luminance) / (mean luminance^2 + (picture's mean luminance / 100)^2)
-    /// ```
-    ///
-    /// The second term keeps black pixels from dominating. The channels are taken for fully
-    /// correlated, which overestimates the error of luminance where they are not. Infinite below
-    /// two samples per pixel.
-    pub fn noise(&self) -> f32 {
-        let luminance = |c: [f64; 3]| Rgb::from(c).luminance();
-        let pixels = self.sums().count().max(1) as f64;
-        let mean = self.sums().map(|p| luminance(p.mean())).sum::<f64>() / pixels;
-        let floor = (0.01 * mean).powi(2).max(f64::MIN_POSITIVE);
-        let sum: f64 = self
-            .sums()
-            .map(|p| {
-                let deviation = luminance(p.variance().map(f64::sqrt));
-                deviation * deviation / (luminance(p.mean()).powi(2) + floor)
-            })
-            .sum();
-        narrow((sum / pixels).sqrt())
+    /// The colours of the picture as it is now, row by row.
+    pub fn colour(&self) -> Vec<Rgb<f32>> {
+        let [x0, x1, y0, y1] = self.crop;
+        let width = (x1 - x0) as usize;
+        let mut colour = vec![Rgb::BLACK; width * (y1 - y0) as usize];
+        for tile in &self.tiles {
+            let [left, right, top, _] = tile.bounds;
+            let rows = tile.pixels.chunks((right - left) as usize);
+            for (row, pixels) in ((top - y0) as usize..).zip(rows) {
+                let first = row * width + (left - x0) as usize;
+                for (c, p) in colour[first..].iter_mut().zip(pixels) {
+                    *c = Rgb::from(p.mean()).cast();
+                }
+            }
+        }
+        colour
     }
 
     /// The picture as it is now.
@@ -352,7 +384,7 @@ impl FilmBuffer {
         picture
     }
 
-    fn sums(&self) -> impl Iterator<Item = &PixelSums> {
+    pub(super) fn sums(&self) -> impl Iterator<Item = &PixelSums> {
         self.tiles.iter().flat_map(|t| &t.pixels)
     }
 }
@@ -394,7 +426,7 @@ mod tests {
                 .all(|c| (c.g - 7.0 / 3.0).abs() < 1e-5)
         );
         assert!(picture.depth.iter().all(|&d| d == 2.0));
-        assert!((film.noise() - (7.0_f32 / 3.0 / 9.0).sqrt()).abs() < 1e-3);
+        assert!((film.noise() - (7.0_f32 / 3.0 / 9.0 / 1.01).sqrt()).abs() < 1e-4);
     }
 
     #[test]

@@ -8,7 +8,7 @@
 //! | 8 bytes | `SPECFILM` |
 //! | `u32` | version of the format |
 //! | label | program's version, scene's name, settings (texts: `u32` length, UTF-8), scene's fingerprint (`u64`), seconds (`f64`) |
-//! | film | resolution, crop, first sample (`u32` each), number of parts and parts (`u32`), number of tiles (`u32`) |
+//! | film | resolution, crop, first sample (`u32` each), number of parts and parts (`u32`), brightness and deviation that adaptive sampling refers to (`f64`, -1 where it is not), number of tiles (`u32`) |
 //! | per tile | samples that were not finite (`u64`), length (`u32`), words of its pixels, one column for each word, deflated |
 //! | `u64` | XXH3 of all before |
 
@@ -24,10 +24,11 @@ use specula_scene::atomic;
 use thiserror::Error;
 use twox_hash::XxHash3_64;
 
+use super::adaptive::Reference;
 use super::buffer::{FilmBuffer, PixelSums, Tile};
 
 const MAGIC: &[u8; 8] = b"SPECFILM";
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 /// Longest text of a label.
 const LONGEST_TEXT: usize = 1 << 16;
 /// Most pixels of a film that is read: those of a picture.
@@ -166,12 +167,16 @@ fn write_head(out: &mut impl Write, film: &FilmBuffer) -> io::Result<()> {
     let size = film.full_resolution().into_iter().chain(film.crop());
     let head = size
         .chain([film.first_sample(), length(parts.len())?])
-        .chain(parts.into_iter().flatten())
-        .chain([length(film.tiles.len())?]);
+        .chain(parts.into_iter().flatten());
     for number in head {
         out.write_all(&number.to_le_bytes())?;
     }
-    Ok(())
+    let [brightness, deviation] = film
+        .reference
+        .map_or([-1.0; 2], |r| [r.brightness, r.deviation]);
+    out.write_all(&brightness.to_le_bytes())?;
+    out.write_all(&deviation.to_le_bytes())?;
+    out.write_all(&length(film.tiles.len())?.to_le_bytes())
 }
 
 /// A count as the file holds it.
@@ -215,7 +220,7 @@ fn parse(mut input: Input<'_>) -> Option<FilmFile> {
         scene,
         settings,
         fingerprint: u64::from_le_bytes(input.array()?),
-        seconds: f64::from_le_bytes(input.array()?),
+        seconds: input.f64()?,
     };
     let mut number = || input.u32();
     let [width, height] = [number()?, number()?];
@@ -228,11 +233,16 @@ fn parse(mut input: Input<'_>) -> Option<FilmFile> {
     let parts = (0..part_count)
         .map(|_| Some([number()?, number()?]))
         .collect::<Option<Vec<_>>>()?;
-    let tile_count = number()?;
+    let [brightness, deviation] = [input.f64()?, input.f64()?];
+    let tile_count = input.u32()?;
     let empty = FilmBuffer::new([width, height], [x0, x1, y0, y1], first);
     if empty.tiles.len() != tile_count as usize {
         return None;
     }
+    let reference = (brightness >= 0.0).then_some(Reference {
+        brightness,
+        deviation,
+    });
     let packed = empty
         .tiles
         .iter()
@@ -252,7 +262,7 @@ fn parse(mut input: Input<'_>) -> Option<FilmFile> {
             })
         })
         .collect::<Option<Vec<_>>>()?;
-    let film = empty.restore(parts, tiles)?;
+    let film = empty.restore(parts, reference, tiles)?;
     Some(FilmFile { label, film })
 }
 
@@ -272,6 +282,10 @@ impl<'a> Input<'a> {
 
     fn u32(&mut self) -> Option<u32> {
         self.array().map(u32::from_le_bytes)
+    }
+
+    fn f64(&mut self) -> Option<f64> {
+        self.array().map(f64::from_le_bytes)
     }
 
     fn text(&mut self) -> Option<String> {
@@ -343,7 +357,13 @@ mod tests {
         let path = folder.path().join("a.film");
         let mut gaps = film(0);
         gaps.merge(&film(9)).unwrap();
-        for film in [film(5), gaps, FilmBuffer::new([3, 2], [0, 3, 0, 2], 0)] {
+        let mut adaptive = film(0);
+        adaptive.reference = Some(Reference {
+            brightness: 0.1,
+            deviation: 2.0,
+        });
+        let empty = FilmBuffer::new([3, 2], [0, 3, 0, 2], 0);
+        for film in [film(5), gaps, adaptive, empty] {
             FilmFile::write(&path, &label(), &film).unwrap();
             let read = FilmFile::read(&path).unwrap();
             assert_eq!((read.label, read.film), (label(), film));
@@ -387,8 +407,8 @@ mod tests {
         }
         assert!(matches!(kind(b"P6 1 1"), FilmFileError::NotAFilm));
         assert!(matches!(
-            kind(b"SPECFILM\x02\0\0\0"),
-            FilmFileError::Format(2)
+            kind(b"SPECFILM\x01\0\0\0"),
+            FilmFileError::Format(1)
         ));
         let missing = FilmFile::read(&folder.path().join("none.film"));
         assert!(matches!(missing, Err(FilmFileError::Io(_))));

@@ -1,11 +1,15 @@
 //! What samples are gathered in: the reconstruction filter and the sums per pixel.
 
+mod adaptive;
 mod buffer;
 pub(crate) mod develop;
 mod file;
 pub(crate) mod filter;
 mod sum;
 
+pub use adaptive::MOST_SAMPLES;
+pub(crate) use adaptive::{Criterion, FIRST_JUDGED};
+pub(crate) use buffer::BYTES_PER_PIXEL;
 pub use buffer::{FilmBuffer, MergeError};
 pub(crate) use buffer::{PixelSample, Tile};
 pub use file::{FilmFile, FilmFileError, Label};

@@ -1,5 +1,7 @@
 //! Shapes into groups: transforms applied, windings turned to the outside.
 
+use core::ops::Range;
+
 use glam::{DMat3, DMat4};
 use rayon::prelude::*;
 use specula_bsdf::Rgb;
@@ -7,7 +9,7 @@ use specula_scene::scene::{
     ColourParam, FloatParam, Geometry as SceneGeometry, Material, MaterialKind, Mesh, Scene, Shape,
 };
 
-use super::{GroupData, NONE, PlacedQuadric, ShapeRecord};
+use super::{GroupData, NONE, PlacedQuadric, ShapeRecord, parallelogram};
 use crate::accel::QuadricShape;
 use crate::convert::{Affine, id, narrow3, normal_matrix, transform_point};
 use crate::texture::Textures;
@@ -121,9 +123,10 @@ impl<'a> Baker<'a> {
             if emits {
                 group.light_of.resize(first, NONE);
             }
-            for primitive in (first..count).filter(|_| emits) {
-                group.light_of.push(id(group.emitters.len()));
-                group.emitters.push(id(primitive));
+            if emits {
+                let is_whole = matches!(shape.alpha, FloatParam::Value(a) if a >= 1.0);
+                let whole = is_whole && matches!(radiance, ColourParam::Value(_));
+                add_lights(&mut group, first..count, whole);
             }
             self.records.push(ShapeRecord {
                 material: id(shape.material.0),
@@ -231,6 +234,26 @@ impl GroupData {
             normals: Affine::linear(&normal_matrix(&shape.to_world)),
             flipped: shape.reverse_orientation,
         });
+    }
+}
+
+/// Numbers the lights of a shape: every primitive, or every parallelogram of two triangles.
+///
+/// * `whole`: whether parallelograms may be lights.
+fn add_lights(group: &mut GroupData, primitives: Range<usize>, whole: bool) {
+    let mut at = primitives.start;
+    while at < primitives.end {
+        let light = id(group.emitters.len());
+        group.emitters.push(id(at));
+        group.light_of.push(light);
+        at += 1;
+        if whole && at < primitives.end.min(group.triangles.len()) {
+            let pair = [id(at - 1), id(at)].map(|t| group.corners(t));
+            if parallelogram(pair).is_some() {
+                group.light_of.push(light);
+                at += 1;
+            }
+        }
     }
 }
 

@@ -3,11 +3,14 @@
 use specula_bsdf::math::{rgb, vec3};
 use specula_bsdf::{Rgb, Vec3};
 
-use super::{Geometry, GroupData, NONE, PlacedQuadric, unit_or};
+use super::{Geometry, GroupData, NONE, PlacedQuadric, normal_of, unit_or};
 use crate::accel::{Hit, QuadricShape, Ray};
 use crate::convert::{abs, narrow};
 use crate::offset::{RELATIVE_ERROR, coupled};
 use crate::texture::Place;
+
+/// Something of each corner of a triangle.
+type Corners = [Vec3<f32>; 3];
 
 /// A point of a surface, in the world.
 #[derive(Clone, Copy, Debug)]
@@ -71,6 +74,21 @@ impl Geometry {
         self.surface_at(&at, || ray.origin + ray.direction * hit.t)
     }
 
+    /// Corners of the triangle at a hit, and the normals there, zero where the mesh has none; `None` for
+    /// quadrics, and in groups that are placed.
+    #[inline]
+    pub(crate) fn corners(&self, hit: &Hit) -> Option<(Corners, Corners)> {
+        let placement = &self.placements[hit.instance as usize];
+        let group = &self.groups[placement.group as usize];
+        let corners = *group.triangles.get(hit.primitive as usize)?;
+        if !placement.identity {
+            return None;
+        }
+        let positions = corners.map(|v| Vec3::from(group.positions[v as usize]));
+        let normal = |v: u32| group.normals.get(v as usize).copied().unwrap_or([0.0; 3]);
+        Some((positions, corners.map(|v| Vec3::from(normal(v)))))
+    }
+
     /// The surface at a point of a primitive.
     ///
     /// * `near`: the point in the world, roughly; for quadrics only.
@@ -89,9 +107,8 @@ impl Geometry {
         };
         surface.shape = shape;
         surface.at = *at;
-        if let Some(&light) = group.light_of.get(primitive)
-            && light != NONE
-        {
+        let light = group.light_of(at.primitive);
+        if light != NONE {
             surface.light = placement.first_light + light;
         }
         if !placement.identity {
@@ -137,7 +154,7 @@ impl GroupData {
         let [u, v] = at.weights;
         let w = 1.0 - u - v;
         let (e1, e2) = (b - a, c - a);
-        let ng = unit_or(e1.cross(e2), Vec3::Z);
+        let ng = normal_of(e1, e2);
         let ns = if self.normals.len() > i.max(j).max(k) {
             let [na, nb, nc] = [i, j, k].map(|v| Vec3::from(self.normals[v]));
             unit_or(na * w + nb * u + nc * v, ng)

@@ -3,7 +3,7 @@
 use specula_bsdf::Vec3;
 use specula_bsdf::math::vec3;
 
-use super::{Geometry, GroupData, PlacedQuadric, Surface, unit_or};
+use super::{Geometry, GroupData, PlacedQuadric, Surface, normal_of, unit_or};
 use crate::accel::QuadricShape;
 use crate::convert::{Affine, narrow};
 use crate::geometry::hit::At;
@@ -83,7 +83,7 @@ impl GroupData {
                 (d2 * rows[0][0] - d1 * rows[1][0]) * scale,
             ]
         };
-        let ng = unit_or(edges[0].cross(edges[1]), Vec3::Z);
+        let ng = normal_of(edges[0], edges[1]);
         let mut partials = Partials {
             dp: solve(edges),
             dn: [Vec3::ZERO; 2],

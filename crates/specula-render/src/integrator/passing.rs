@@ -3,7 +3,7 @@
 
 use specula_bsdf::{Rgb, Vec3};
 
-use super::{PathTracer, State, Vertex};
+use super::{PathTracer, State};
 use crate::accel::Ray;
 use crate::bodies::{Bodies, transmittance};
 use crate::geometry::{NONE, Surface};
@@ -11,8 +11,8 @@ use crate::light::LightSample;
 use crate::offset::leave;
 use crate::sampler::Sampler;
 
-/// Share of a shadow ray that is not looked at, at the light's end.
-const SHADOW_MARGIN: f32 = 1e-4;
+/// How much of the ray to a light is looked at: not its very end.
+pub(super) const TO_LIGHT: f32 = 1.0 - 1e-4;
 /// Most surfaces that a ray passes.
 const MOST_PASSES: u32 = 4096;
 
@@ -72,19 +72,19 @@ impl PathTracer<'_> {
     /// What is left of a light's radiance on its way to the vertex; `None` where something stands
     /// between them.
     ///
+    /// * `position`, `error`, `ng`: of the vertex' surface.
     /// * `bodies`: what the vertex is in, on the light's side.
     #[inline]
     pub(super) fn shine(
         &self,
-        vertex: &Vertex,
+        (position, error, ng): (Vec3<f32>, Vec3<f32>, Vec3<f32>),
         light: &LightSample,
         bodies: &Bodies,
         sampler: &Sampler,
         depth: u32,
         rays: &mut u64,
     ) -> Option<Rgb<f32>> {
-        let s = &vertex.surface;
-        let origin = leave(s.position, s.error, s.ng, light.wi);
+        let origin = leave(position, error, ng, light.wi);
         let ray = match light.from {
             None => Ray {
                 origin,
@@ -94,15 +94,15 @@ impl PathTracer<'_> {
             Some(target) => Ray {
                 origin,
                 direction: leave(target.point, target.error, target.normal, -light.wi) - origin,
-                t_max: 1.0 - SHADOW_MARGIN,
+                t_max: TO_LIGHT,
             },
         };
         if self.scene.geometry.has_passable {
-            return self.shine_through(ray, s.position, light, *bodies, (sampler, depth), rays);
+            return self.shine_through(ray, position, light, *bodies, (sampler, depth), rays);
         }
         *rays += 1;
         let visible = !self.scene.geometry.accel.occluded(&ray);
-        visible.then(|| last_stretch(s.position, light, bodies))
+        visible.then(|| last_stretch(position, light, bodies))
     }
 
     /// [`PathTracer::shine`] where some surfaces let rays pass.

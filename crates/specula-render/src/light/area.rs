@@ -8,7 +8,7 @@ use super::cone::EmissionCone;
 use crate::accel::{Bounds, QuadricShape};
 use crate::camera::concentric_disk;
 use crate::convert::{Affine, abs, narrow, normal_matrix};
-use crate::geometry::unit_or;
+use crate::geometry::{normal_of, unit_or};
 use crate::offset::coupled;
 
 /// A point on a light.
@@ -29,6 +29,13 @@ pub(crate) struct AreaSample {
 pub(crate) enum Area {
     /// Sampled uniformly by area.
     Triangle {
+        corner: Vec3<f32>,
+        edges: [Vec3<f32>; 2],
+        normal: Vec3<f32>,
+        area: f32,
+    },
+    /// Sampled uniformly by area.
+    Parallelogram {
         corner: Vec3<f32>,
         edges: [Vec3<f32>; 2],
         normal: Vec3<f32>,
@@ -69,8 +76,20 @@ impl Area {
         Self::Triangle {
             corner: a,
             edges,
-            normal: unit_or(edges[0].cross(edges[1]), Vec3::Z),
+            normal: normal_of(edges[0], edges[1]),
             area: narrow(0.5 * cross.length()),
+        }
+    }
+
+    /// A parallelogram by a corner and its neighbours, in winding order about the outside.
+    pub(crate) fn parallelogram([a, b, c]: [Vec3<f32>; 3]) -> Self {
+        let edges = [b - a, c - a];
+        let cross = edges[0].cast::<f64>().cross(edges[1].cast());
+        Self::Parallelogram {
+            corner: a,
+            edges,
+            normal: unit_or(edges[0].cross(edges[1]), Vec3::Z),
+            area: narrow(cross.length()),
         }
     }
 
@@ -122,6 +141,7 @@ impl Area {
     pub(crate) fn area(&self) -> f32 {
         match *self {
             Self::Triangle { area, .. }
+            | Self::Parallelogram { area, .. }
             | Self::Disk { area, .. }
             | Self::Ellipsoid { area, .. } => area,
             Self::Sphere { radius, .. } => 4.0 * core::f32::consts::PI * radius * radius,
@@ -131,7 +151,7 @@ impl Area {
     /// Area of the shadow along the normal; of a closed surface, the mean over directions.
     pub(crate) fn projected_area(&self) -> f32 {
         match self {
-            Self::Triangle { .. } | Self::Disk { .. } => self.area(),
+            Self::Triangle { .. } | Self::Parallelogram { .. } | Self::Disk { .. } => self.area(),
             // Cauchy's formula for convex bodies.
             Self::Sphere { .. } | Self::Ellipsoid { .. } => 0.25 * self.area(),
         }
@@ -139,16 +159,21 @@ impl Area {
 
     /// The least box around it, up to rounding.
     pub(super) fn bounds(&self) -> Bounds {
+        let around = |corners: &[Vec3<f32>]| {
+            let point = |p: &Vec3<f32>| Bounds {
+                min: p.to_array(),
+                max: p.to_array(),
+            };
+            let points = corners.iter();
+            points.fold(Bounds::EMPTY, |b, p| b.union(&point(p)))
+        };
         let (centre, reach) = match *self {
             Self::Triangle { corner, edges, .. } => {
-                let corners = [corner, corner + edges[0], corner + edges[1]];
-                let point = |p: Vec3<f32>| Bounds {
-                    min: p.to_array(),
-                    max: p.to_array(),
-                };
-                return corners
-                    .into_iter()
-                    .fold(Bounds::EMPTY, |b, p| b.union(&point(p)));
+                return around(&[corner, corner + edges[0], corner + edges[1]]);
+            }
+            Self::Parallelogram { corner, edges, .. } => {
+                let [a, b] = edges;
+                return around(&[corner, corner + a, corner + b, corner + a + b]);
             }
             Self::Sphere { centre, radius, .. } => (centre, Vec3::splat(radius)),
             Self::Disk { centre, axes, .. } => (centre, root_of_squares(&axes)),
@@ -165,9 +190,9 @@ impl Area {
     /// Bound on the directions that it sends light to.
     pub(super) fn cone(&self, two_sided: bool) -> EmissionCone {
         match *self {
-            Self::Triangle { normal, .. } | Self::Disk { normal, .. } => {
-                EmissionCone::flat(normal, two_sided)
-            }
+            Self::Triangle { normal, .. }
+            | Self::Parallelogram { normal, .. }
+            | Self::Disk { normal, .. } => EmissionCone::flat(normal, two_sided),
             Self::Sphere { .. } | Self::Ellipsoid { .. } => EmissionCone::SPHERE,
         }
     }
@@ -180,6 +205,7 @@ impl Area {
                 let b = uniform_triangle(u);
                 corner + edges[0] * b[0] + edges[1] * b[1]
             }
+            Self::Parallelogram { corner, edges, .. } => corner + edges[0] * u[0] + edges[1] * u[1],
             Self::Sphere { centre, radius, .. } => {
                 centre + specula_bsdf::math::warp::uniform_sphere(u) * radius
             }
@@ -225,6 +251,16 @@ impl Area {
                 let reach = abs(corner) + abs(edges[0]) + abs(edges[1]);
                 by_area(p, point, reach, normal, 1.0 / area)
             }
+            Self::Parallelogram {
+                corner,
+                edges,
+                normal,
+                area,
+            } => {
+                let point = corner + edges[0] * u[0] + edges[1] * u[1];
+                let reach = abs(corner) + abs(edges[0]) + abs(edges[1]);
+                by_area(p, point, reach, normal, 1.0 / area)
+            }
             Self::Sphere {
                 centre,
                 radius,
@@ -264,7 +300,9 @@ impl Area {
     #[inline]
     pub(crate) fn pdf(&self, p: Vec3<f32>, q: Vec3<f32>, normal: Vec3<f32>) -> f32 {
         let per_area = match *self {
-            Self::Triangle { area, .. } | Self::Disk { area, .. } => 1.0 / area,
+            Self::Triangle { area, .. }
+            | Self::Parallelogram { area, .. }
+            | Self::Disk { area, .. } => 1.0 / area,
             Self::Sphere { centre, radius, .. } => match Cone::new(p, centre, radius) {
                 Some(cone) => return cone.pdf(),
                 None => 1.0 / self.area(),

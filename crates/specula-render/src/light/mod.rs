@@ -23,7 +23,7 @@ use specula_bsdf::{Rgb, Vec3};
 use specula_scene::scene::{ColourParam, Light, Scene};
 
 use crate::accel::Bounds;
-use crate::geometry::{Geometry, GroupData, Placement, ShapeRecord, Surface};
+use crate::geometry::{Geometry, GroupData, Placement, ShapeRecord, Surface, parallelogram};
 use crate::texture::Textures;
 use area::{Area, AreaSample};
 use build::Emitter;
@@ -81,6 +81,17 @@ pub(crate) struct LightSample {
     pub(crate) from: Option<Target>,
 }
 
+/// A parallelogram that sends out light.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Parallelogram {
+    pub(crate) corner: Vec3<f32>,
+    pub(crate) edges: [Vec3<f32>; 2],
+    pub(crate) normal: Vec3<f32>,
+    pub(crate) area: f32,
+    pub(crate) radiance: Rgb<f32>,
+    pub(crate) two_sided: bool,
+}
+
 /// The end of a shadow ray.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Target {
@@ -88,6 +99,13 @@ pub(crate) struct Target {
     pub(crate) error: Vec3<f32>,
     pub(crate) normal: Vec3<f32>,
 }
+
+/// A light that is part of a shape: itself, its place in the tree, and what that is built from.
+pub(crate) const BYTES_PER_EMITTER: u64 =
+    (size_of::<Source>() + 2 * size_of::<node::Node>() + 8 + size_of::<Emitter>()) as u64;
+
+/// A pixel of an infinite light's picture: itself, and its place in the table.
+pub(crate) const BYTES_PER_FAR_PIXEL: u64 = 16;
 
 impl Lights {
     /// Gathers the lights of a scene.
@@ -149,8 +167,18 @@ impl Lights {
             for &primitive in &group.emitters {
                 let shape = shape_of(group, primitive);
                 let area = if (primitive as usize) < triangles {
-                    let [a, b, c] = world_corners(group.corners(primitive), m);
-                    Area::triangle(if mirrored { [a, c, b] } else { [a, b, c] })
+                    let light = group.light_of(primitive);
+                    let own = group.corners(primitive);
+                    let whole = (group.light_of(primitive + 1) == light)
+                        .then(|| parallelogram([own, group.corners(primitive + 1)]));
+                    let turned = |corners| {
+                        let [a, b, c] = world_corners(corners, m);
+                        if mirrored { [a, c, b] } else { [a, b, c] }
+                    };
+                    match whole.flatten() {
+                        Some(corners) => Area::parallelogram(turned(corners)),
+                        None => Area::triangle(turned(own)),
+                    }
                 } else {
                     let q = &group.quadrics[primitive as usize - triangles];
                     Area::quadric(q.shape, &(*m * q.to_group), q.flipped)
@@ -251,6 +279,36 @@ impl Lights {
                 )
             }
         }
+    }
+
+    /// The one light of the scene, where that is a parallelogram: corner, edges, normal and area of it; its
+    /// radiance; whether it shines to both sides.
+    #[inline]
+    pub(crate) fn lone_parallelogram(&self) -> Option<Parallelogram> {
+        let [
+            Source::Area {
+                area:
+                    Area::Parallelogram {
+                        corner,
+                        edges,
+                        normal,
+                        area,
+                    },
+                radiance,
+                two_sided,
+            },
+        ] = self.sources.as_slice()
+        else {
+            return None;
+        };
+        (!self.selection.is_empty()).then_some(Parallelogram {
+            corner: *corner,
+            edges: *edges,
+            normal: *normal,
+            area: *area,
+            radiance: *radiance,
+            two_sided: *two_sided,
+        })
     }
 
     /// Density in 1/sr, times the probability of the light, with which [`Lights::sample`] at the

@@ -62,6 +62,11 @@ impl Selection {
         }
     }
 
+    /// Whether there is no light to choose.
+    pub(super) fn is_empty(&self) -> bool {
+        self.near.is_empty() && self.far_irradiance <= 0.0
+    }
+
     /// A light and its probability; `None` where there is no light.
     ///
     /// * `u`: uniform in `[0, 1)`, multiples of `2^-23`: the second adds digits to the first, which

@@ -51,6 +51,17 @@ pub(super) fn is_opaque(kind: &MaterialKind) -> bool {
     }
 }
 
+/// Whether the lobe's x axis is known not to matter.
+pub(super) fn is_isotropic(kind: &MaterialKind) -> bool {
+    match kind {
+        MaterialKind::Diffuse { .. } => true,
+        MaterialKind::Conductor { roughness, .. }
+        | MaterialKind::CoatedDiffuse { roughness, .. }
+        | MaterialKind::Dielectric { roughness, .. } => roughness.u == roughness.v,
+        _ => false,
+    }
+}
+
 /// The lobe of a material that is no mix.
 ///
 /// * `outside`: whether it is seen from the outside of its shape.

@@ -5,16 +5,17 @@ mod fold;
 mod metal;
 mod rough;
 
-use specula_bsdf::Rgb;
 use specula_bsdf::bsdf::Lobe;
 use specula_bsdf::multibounce::MisPdf;
 use specula_bsdf::vndf;
+use specula_bsdf::{Bsdf, Rgb};
 use specula_scene::Energy;
 use specula_scene::scene::{
     ColourParam, FloatParam, MaterialKind, Relief, ReliefRules, Scene, TextureId,
 };
 
 use crate::bodies::Boundary;
+use crate::integrator::lobes;
 use crate::options::RenderOptions;
 use crate::texture::{Place, Textures};
 
@@ -22,6 +23,8 @@ use crate::texture::{Place, Textures};
 #[derive(Clone, Debug)]
 pub(crate) struct Materials {
     materials: Vec<Material>,
+    has_boundaries: bool,
+    names: Vec<Option<String>>,
 }
 
 /// A material, ready for hits.
@@ -44,6 +47,24 @@ pub(crate) struct Material {
     pub(crate) coat: Option<Coat>,
     /// What absorbs on its two sides, where that may change.
     boundary: Option<Boundary>,
+    /// Where it is the same everywhere: seen from the inside, and from the outside or either side.
+    plain: Option<[Plain; 2]>,
+}
+
+/// A material of one lobe, on surfaces that are as their meshes say.
+#[derive(Clone, Debug)]
+pub(crate) struct Plain {
+    pub(crate) lobe: Lobe<f32>,
+    /// Whether it is another from the other side.
+    pub(crate) is_sided: bool,
+    /// Whether its back is black.
+    pub(crate) black_inside: bool,
+    pub(crate) specular: bool,
+    pub(crate) isotropic: bool,
+    /// Whether nothing passes it.
+    pub(crate) opaque: bool,
+    /// Index beyond it over the index before it.
+    pub(crate) eta: f32,
 }
 
 /// A turn of the tangent.
@@ -94,7 +115,8 @@ impl Materials {
             let (kind, varies) = fold::folded(&material.kind, textures);
             let nowhere = Place::default();
             let is_mix = matches!(kind, MaterialKind::Mix { .. });
-            Material {
+            let mut material = Material {
+                plain: None,
                 constant: (!varies && !is_mix).then(|| {
                     [false, true]
                         .map(|outside| bind::lobe(&kind, textures, &nowhere, outside, models))
@@ -114,11 +136,37 @@ impl Materials {
                     }
                     Relief::Normal { .. } => true,
                 }),
-            }
+            };
+            material.plain = material.as_plain();
+            material
         };
+        let materials: Vec<Material> = scene.materials.iter().map(prepare).collect();
         Self {
-            materials: scene.materials.iter().map(prepare).collect(),
+            has_boundaries: materials.iter().any(|m| m.boundary.is_some()),
+            names: scene.materials.iter().map(|m| m.name.clone()).collect(),
+            materials,
         }
+    }
+
+    /// How many there are.
+    pub(crate) fn count(&self) -> usize {
+        self.materials.len()
+    }
+
+    /// The file's name for one.
+    pub(crate) fn name(&self, material: usize) -> Option<&str> {
+        self.names.get(material)?.as_deref()
+    }
+
+    /// Whether any bounds what absorbs.
+    pub(crate) fn has_boundaries(&self) -> bool {
+        self.has_boundaries
+    }
+
+    /// A material without textures, reliefs and transmission.
+    #[inline]
+    pub(crate) fn plain(&self, material: u32) -> Option<&[Plain; 2]> {
+        self.materials[material as usize].plain.as_ref()
     }
 
     /// What absorbs on the two sides of a material's shapes, where it bounds a body.
@@ -205,6 +253,35 @@ fn coat(kind: &MaterialKind, bent: bool) -> Option<Coat> {
 }
 
 impl Material {
+    /// Whether it is dealt with in lanes, and takes any tangent.
+    #[inline]
+    pub(crate) fn is_plain_and_isotropic(&self) -> bool {
+        self.plain.as_ref().is_some_and(|[p, _]| p.isotropic)
+    }
+
+    fn as_plain(&self) -> Option<[Plain; 2]> {
+        let [inside, outside] = self.constant?;
+        let black_inside = self.one_sided || matches!(inside, Lobe::Black(_));
+        let is_bent = self.relief.is_some() || self.turn.is_some() || self.coat.is_some();
+        if is_bent || !lobes::is_known(&outside) {
+            return None;
+        }
+        let eta = match self.kind {
+            MaterialKind::Dielectric { eta, .. } => eta,
+            _ => 1.0,
+        };
+        let seen = |lobe: Lobe<f32>, eta| Plain {
+            lobe,
+            is_sided: !black_inside && inside != outside,
+            black_inside,
+            specular: lobe.is_specular(),
+            isotropic: bind::is_isotropic(&self.kind),
+            opaque: !lobes::lets_pass(&lobe),
+            eta,
+        };
+        Some([seen(inside, 1.0 / eta), seen(outside, eta)])
+    }
+
     /// Angle of the lobes' x axis from dp/du towards dp/dv.
     #[inline]
     pub(crate) fn rotation_rad(&self, textures: &Textures, place: impl Fn() -> Place) -> f32 {

@@ -21,7 +21,7 @@ pub struct Metadata {
     pub software: Option<String>,
     /// Name of the scene: attribute `specula.scene`.
     pub scene: Option<String>,
-    /// Samples per pixel: attribute `specula.samplesPerPixel`.
+    /// Samples per pixel, on average where they differ: attribute `specula.samplesPerPixel`.
     pub samples_per_pixel: Option<u32>,
     /// Seed of the random sequences: attribute `specula.seed`.
     pub seed: Option<u32>,

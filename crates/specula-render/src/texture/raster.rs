@@ -127,6 +127,11 @@ fn wrapped(x: i32, size: i32, wrap: Wrap) -> Option<usize> {
     usize::try_from(inside).ok()
 }
 
+/// Whether a picture is kept in bytes.
+pub(super) fn is_of_bytes(pixels: &[[f32; 3]]) -> bool {
+    bytes(pixels).is_some()
+}
+
 /// Pixels as numbers of a palette; `None` where that would need more than 256.
 fn bytes(pixels: &[[f32; 3]]) -> Option<Pixels> {
     /// A free place of the table.

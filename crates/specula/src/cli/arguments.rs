@@ -11,7 +11,8 @@ use specula::scene::material_text::parse_material;
 use specula::scene::scene::MaterialKind;
 
 use super::loading::LoadingArguments;
-use super::values;
+use super::machine::MachineArguments;
+use super::{live_view, values};
 
 /// Render rough metal right: a path tracer whose microfacet mathematics can be trusted.
 #[derive(Debug, Parser)]
@@ -47,6 +48,8 @@ pub(crate) enum Command {
     Compare(CompareArguments),
     /// Add films of distinct samples into one picture.
     Merge(MergeArguments),
+    /// Denoise an EXR picture with Open Image Denoise, in programs built with it.
+    Denoise(DenoiseArguments),
 }
 
 const RENDER_EXAMPLES: &str = "\
@@ -55,8 +58,8 @@ Examples:
       the built-in scene: five metals, isotropic behind, anisotropic in front
   specula render scene.pbrt --time 5m -o scene.exr -o scene.png
       as many samples as fit into five minutes
-  specula render scene.pbrt --noise 0.02 --threads 4
-      until the estimated relative error is 2 %
+  specula render scene.pbrt --noise 0.02 --time 1h
+      until the estimated relative error is 2 %, an hour at most
   specula render scene.pbrt --resolution 480x270 --spp 4 -o preview.png
       a quick look
   specula render bunny.ply --material \"conductor Au alpha 0.3\"
@@ -65,6 +68,8 @@ Examples:
       columns 100 to 199 and rows 50 to 149 only
   specula render scene.pbrt --samples 512..1024 -o b.film
       a part of a picture: `specula merge a.film b.film -o scene.exr` adds the parts
+  specula render scene.pbrt --threads -1 --nice --max-memory 8GiB --display-server localhost
+      next to other work, shown in tev meanwhile
 
 Ctrl-C stops the render and writes what there is; a second Ctrl-C ends the program at once.
 Every half minute the picture so far is written, and a checkpoint beside it (scene.film for
@@ -84,7 +89,8 @@ pub(crate) struct RenderArguments {
     #[arg(short, long = "output", value_name = "OUT", value_parser = values::output)]
     pub(crate) output: Vec<PathBuf>,
 
-    /// Samples per pixel [default: as the scene says]
+    /// Samples per pixel, with --noise the most of any pixel [default: as the scene says, with --noise
+    /// 65536]
     #[arg(long, value_name = "N", group = "effort",
           value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
     pub(crate) spp: Option<u32>,
@@ -93,8 +99,10 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "T", group = "effort", value_parser = values::duration)]
     pub(crate) time: Option<Duration>,
 
-    /// Render until the estimated relative error of the picture is at most E, such as 0.02
-    #[arg(long, value_name = "E", group = "effort", value_parser = values::positive)]
+    /// Render until the estimated relative error of the picture is E, such as 0.02, with more samples
+    /// where there is more noise: less error in the same time where noise is uneven. --spp and
+    /// --time end it earlier
+    #[arg(long, value_name = "E", conflicts_with = "samples", value_parser = values::positive)]
     pub(crate) noise: Option<f32>,
 
     /// Render these samples of every pixel only, such as 512..1024, for `specula merge`
@@ -135,6 +143,11 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "TEXT", value_parser = parse_material)]
     pub(crate) material: Option<MaterialKind>,
 
+    /// Denoise the finished picture with Open Image Denoise, guided by albedo and normals; .film keeps
+    /// the samples. In programs built with it only
+    #[arg(long)]
+    pub(crate) denoise: bool,
+
     /// Longest path in scattering events [default: as the scene says]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=65_535))]
     pub(crate) max_depth: Option<u32>,
@@ -151,9 +164,13 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u32,
 
-    /// Threads; the picture is the same, bit for bit, for any number [default: all cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
-    pub(crate) threads: Option<u16>,
+    /// Show the picture while it is rendered, in the viewer tev that runs at HOST: it is sent after
+    /// passes, once in a second at most. The port may be left out: 14158
+    #[arg(long, value_name = "HOST:PORT", value_parser = live_view::address)]
+    pub(crate) display_server: Option<String>,
+
+    #[command(flatten)]
+    pub(crate) machine: MachineArguments,
 
     #[command(flatten)]
     pub(crate) display: DisplayArguments,
@@ -213,6 +230,31 @@ pub(crate) struct MergeArguments {
 
     /// File to write: .exr, .png or .film. May be repeated.
     #[arg(short, long = "output", required = true, value_name = "OUT", value_parser = values::output)]
+    pub(crate) output: Vec<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) display: DisplayArguments,
+
+    /// Print errors only
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+const DENOISE_EXAMPLES: &str = "\
+Examples:
+  specula denoise scene.exr -o smooth.exr -o smooth.png
+      by the layers albedo and normal of scene.exr, where it has them
+
+A denoised picture is smooth, not right: compare and measure with the one that was rendered.";
+
+#[derive(Args, Debug)]
+#[command(after_help = DENOISE_EXAMPLES)]
+pub(crate) struct DenoiseArguments {
+    /// The picture (EXR)
+    pub(crate) picture: PathBuf,
+
+    /// File to write: .exr or .png. May be repeated.
+    #[arg(short, long = "output", required = true, value_name = "OUT", value_parser = values::picture)]
     pub(crate) output: Vec<PathBuf>,
 
     #[command(flatten)]
@@ -402,11 +444,18 @@ mod tests {
 
     #[test]
     fn efforts_exclude_each_other() {
-        for pair in [["--spp=4", "--time=3s"], ["--noise=0.1", "--spp=4"]] {
+        for pair in [["--spp=4", "--time=3s"], ["--noise=0.1", "--samples=0..4"]] {
             let line = ["specula", "render", pair[0], pair[1]];
             assert!(Arguments::try_parse_from(line).is_err(), "{pair:?}");
         }
-        assert!(Arguments::try_parse_from(["specula", "render", "--exposure", "-1.5"]).is_ok());
+        for pair in [
+            ["--exposure", "-1.5"],
+            ["--noise=0.1", "--spp=4"],
+            ["--noise=1", "--time=3s"],
+        ] {
+            let line = ["specula", "render", pair[0], pair[1]];
+            assert!(Arguments::try_parse_from(line).is_ok(), "{pair:?}");
+        }
     }
 
     #[test]

@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::process::ExitCode;
 
-use specula::scene::Summary;
+use specula::render::{MemoryEstimate, RenderOptions};
 use specula::scene::scene::Projection;
+use specula::scene::{Scene, Summary};
 
 use super::arguments::InfoArguments;
 use super::load::{self, Named};
-use super::{Failure, print};
+use super::{Failure, machine, memory, print};
 
 /// Prints what is in a scene and what of it is rendered otherwise than its file says.
 pub(crate) fn run(arguments: &InfoArguments) -> Result<ExitCode, Failure> {
@@ -81,6 +82,7 @@ fn describe(named: &Named) -> String {
     for (label, value) in lines {
         let _ = writeln!(text, "  {label:10}{value}");
     }
+    let _ = writeln!(text, "  {:10}{}", "memory", memory_line(&named.scene));
     for image in &s.images {
         let _ = writeln!(
             text,
@@ -98,6 +100,12 @@ fn describe(named: &Named) -> String {
         }
     }
     text
+}
+
+/// What a render with the scene's own settings would take.
+fn memory_line(scene: &Scene) -> String {
+    let options = RenderOptions::from_scene(scene);
+    memory::line(&MemoryEstimate::new(scene, &options, machine::count(None)))
 }
 
 /// The name of an enum's variant: what stands before its fields.

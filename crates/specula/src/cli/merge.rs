@@ -43,7 +43,7 @@ pub(crate) fn run(arguments: &MergeArguments) -> Result<ExitCode, Failure> {
         label.seconds += other.label.seconds;
     }
     outputs.write_film(&film, &label)?;
-    outputs.write_pictures(&film, &label, None)?;
+    outputs.write_pictures(&film, &label, None, false)?;
     if !arguments.quiet {
         eprintln!(
             "wrote {}: {} spp of {} (samples {})",

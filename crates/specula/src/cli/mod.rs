@@ -5,10 +5,14 @@ mod check;
 mod checkpoint;
 mod compare;
 mod convert;
+mod denoise;
 mod failure;
 mod info;
+mod live_view;
 mod load;
 mod loading;
+mod machine;
+mod memory;
 mod merge;
 mod outputs;
 mod progress;
@@ -32,6 +36,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
         Command::Convert(a) => convert::run(&a),
         Command::Compare(a) => compare::run(&a),
         Command::Merge(a) => merge::run(&a),
+        Command::Denoise(a) => denoise::run(&a),
     }
 }
 

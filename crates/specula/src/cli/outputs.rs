@@ -3,11 +3,11 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use specula::render::picture::{self, Display, Metadata, check_writable};
+use specula::render::picture::{self, Display, Metadata, Picture, check_writable};
 use specula::render::{FilmBuffer, FilmFile, Label};
 use specula::scene::atomic;
 
-use super::Failure;
+use super::{Failure, denoise};
 
 /// Where a render goes.
 pub(crate) struct Outputs {
@@ -59,32 +59,45 @@ impl Outputs {
         }
     }
 
-    /// Writes every picture, and says where values were not finite.
+    /// Writes every picture, denoised where that is asked for, and says where values were not finite.
     pub(crate) fn write_pictures(
         &self,
         film: &FilmBuffer,
         label: &Label,
         seed: Option<u32>,
+        denoised: bool,
     ) -> Result<(), Failure> {
         #[expect(
             clippy::cast_possible_truncation,
-            reason = "for people: the nearest f32 is near enough"
+            clippy::cast_sign_loss,
+            reason = "for people: the nearest number is near enough, and none is below 0"
         )]
-        let seconds = label.seconds as f32;
+        let (seconds, samples) = (
+            label.seconds as f32,
+            film.most_and_mean_samples().1.round() as u32,
+        );
         let metadata = Metadata {
             software: Some(format!("specula {}", label.version)),
             scene: Some(label.scene.clone()),
-            samples_per_pixel: Some(film.complete_samples()),
+            samples_per_pixel: Some(samples),
             seed,
             render_seconds: Some(seconds),
         };
-        let picture = film.picture();
+        let mut picture = film.picture();
+        if denoised {
+            denoise::denoise(&mut picture)?;
+        }
+        self.write(&picture, &metadata)
+    }
+
+    /// Writes a picture to every file that is no film.
+    pub(crate) fn write(&self, picture: &Picture, metadata: &Metadata) -> Result<(), Failure> {
         let mut replaced = 0;
         for path in self.paths.iter().filter(|p| !is_film(p)) {
             let written = if has_extension(path, "png") {
-                picture::write_png(path, &picture, self.display)
+                picture::write_png(path, picture, self.display)
             } else {
-                picture::write_exr(path, &picture, &metadata)
+                picture::write_exr(path, picture, metadata)
             };
             let count = written
                 .map_err(|e| Failure::other(format_args!("cannot write the picture: {e}")))?;

@@ -22,8 +22,8 @@ pub(crate) struct Progress {
 pub(crate) struct State {
     /// In `[0, 1]`.
     pub(crate) share_done: f64,
-    /// Samples per pixel.
-    pub(crate) samples: u32,
+    /// Samples per pixel, in words.
+    pub(crate) samples: String,
     /// Over the whole render.
     pub(crate) rays_per_second: f64,
     /// Relative error; infinite where unknown.
@@ -80,7 +80,7 @@ impl Progress {
             String::new()
         };
         format!(
-            "{} spp  {:.2} Mrays/s{noise}{}",
+            "{}  {:.2} Mrays/s{noise}{}",
             state.samples,
             state.rays_per_second * 1e-6,
             remaining(self.start.elapsed(), state.share_done)

@@ -4,20 +4,27 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use specula::render::{Label, PrepareError, PreparedScene, RenderOptions, Renderer};
+use specula::render::{
+    FilmBuffer, InvalidSample, Label, MOST_SAMPLES, PrepareError, PreparedScene, RenderOptions,
+    Renderer,
+};
 use specula::scene::Scene;
 
-use super::Failure;
 use super::arguments::RenderArguments;
 use super::checkpoint::{Checkpoint, Start};
+use super::live_view::LiveView;
 use super::load::{self, Named};
 use super::outputs::Outputs;
 use super::progress::{Progress, State, short};
 use super::schedule::Goal;
 use super::stop::{INTERRUPTED, Stop};
+use super::{Failure, denoise, machine, memory};
 
 /// Renders and writes; code 130 where Ctrl-C ended it early.
 pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
+    if arguments.denoise {
+        denoise::ensure_available()?;
+    }
     let stop = Stop::listen()?;
     let Named {
         name,
@@ -34,6 +41,9 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
         load::print_warnings(&warnings);
     }
     let options = options(arguments, &scene)?;
+    let threads = arguments.machine.thread_count();
+    let most = arguments.machine.max_memory;
+    memory::check(&scene, &options, threads, most, arguments.quiet)?;
     let outputs = Outputs::new(paths(arguments, &name), arguments.display.display())?;
     let mut checkpoint = checkpoint(arguments, &outputs, &name, &scene, &options);
     let begun = match start(arguments) {
@@ -41,14 +51,11 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
         start => checkpoint.open(start)?,
     };
     outputs.sweep();
-    let mut pool = rayon::ThreadPoolBuilder::new();
-    if let Some(threads) = arguments.threads {
-        pool = pool.num_threads(usize::from(threads));
-    }
-    let pool = pool
-        .build()
-        .map_err(|e| Failure::other(format_args!("cannot start threads: {e}")))?;
-    pool.install(|| {
+    let live_view = match &arguments.display_server {
+        Some(address) => Some(LiveView::connect(address, &name)?),
+        None => None,
+    };
+    machine::pool(threads, arguments.machine.nice)?.install(|| {
         let start = Instant::now();
         let prepared = PreparedScene::consume(scene, &options)
             .map_err(|e: PrepareError| Failure::bad_input(format_args!("{name}: {e}")))?;
@@ -69,6 +76,8 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
             outputs: &outputs,
             checkpoint,
             stop: &stop,
+            live_view,
+            denoised: arguments.denoise,
             quiet: arguments.quiet,
         }
         .run()
@@ -86,7 +95,10 @@ fn options(arguments: &RenderArguments, scene: &Scene) -> Result<RenderOptions, 
         }
     }
     Ok(RenderOptions {
-        samples_per_pixel: arguments.spp.unwrap_or(from_scene.samples_per_pixel),
+        samples_per_pixel: arguments.spp.unwrap_or(match arguments.noise {
+            Some(_) => MOST_SAMPLES,
+            None => from_scene.samples_per_pixel,
+        }),
         max_depth: arguments.max_depth.unwrap_or(from_scene.max_depth),
         seed: arguments.seed,
         vndf_sampler: arguments.sampler.into(),
@@ -94,16 +106,20 @@ fn options(arguments: &RenderArguments, scene: &Scene) -> Result<RenderOptions, 
         resolution: arguments.resolution,
         crop: arguments.crop,
         first_sample: arguments.samples.map_or(0, |[from, _]| from),
+        noise: arguments.noise,
         ..from_scene
     })
 }
 
 fn goal(arguments: &RenderArguments, options: &RenderOptions) -> Goal {
-    match (arguments.time, arguments.noise, arguments.samples) {
-        (Some(time), _, _) => Goal::Time(time),
-        (None, Some(noise), _) => Goal::Noise(noise),
-        (None, None, Some([from, to])) => Goal::Samples(to - from),
-        (None, None, None) => Goal::Samples(options.samples_per_pixel),
+    match (arguments.time, arguments.samples) {
+        (Some(time), _) if arguments.noise.is_some() => Goal {
+            most_samples: options.samples_per_pixel,
+            time: Some(time),
+        },
+        (Some(time), _) => Goal::time(time),
+        (None, Some([from, to])) => Goal::samples(to - from),
+        (None, None) => Goal::samples(options.samples_per_pixel),
     }
 }
 
@@ -156,6 +172,8 @@ struct Job<'a> {
     outputs: &'a Outputs,
     checkpoint: Checkpoint,
     stop: &'a Stop,
+    live_view: Option<LiveView>,
+    denoised: bool,
     quiet: bool,
 }
 
@@ -163,63 +181,86 @@ impl Job<'_> {
     fn run(mut self) -> Result<ExitCode, Failure> {
         let start = Instant::now();
         let mut progress = Progress::new(self.quiet);
-        let film = self.renderer.film();
-        let (mut samples, mut invalid) = (film.complete_samples(), film.invalid_samples());
-        let (mut rays, mut last) = (0_u64, None);
+        let mut invalid = self.renderer.film().invalid_samples();
+        let (mut rays, mut last, mut one_invalid) = (0_u64, None, None);
         while !self.stop.asked() {
-            let film = self.renderer.film();
             let next = self
-                .goal
-                .next_pass(samples, last, start.elapsed(), || film.noise());
+                .renderer
+                .samples_done()
+                .and_then(|done| self.goal.next_pass(done, last, start.elapsed()));
             let Some(next) = next else { break };
             let pass_start = Instant::now();
             let report = self.renderer.render_pass(next, self.stop.flag());
             last = Some((next, pass_start.elapsed()));
-            samples = report.samples_done_total;
             rays += report.rays;
             invalid = report.invalid_samples;
-            let noise = self.renderer.film().noise();
+            one_invalid = one_invalid.or(report.invalid);
+            let film = self.renderer.film();
+            let of_samples = self.renderer.share_done(self.goal.most_samples);
             progress.show(&State {
-                share_done: self.goal.share_done(samples, start.elapsed(), noise),
-                samples,
+                share_done: self.goal.share_done(of_samples, start.elapsed()),
+                samples: samples(film),
                 rays_per_second: rays as f64 / start.elapsed().as_secs_f64(),
-                noise,
+                noise: film.noise(),
             });
+            if let Some(view) = &mut self.live_view {
+                view.update(self.renderer.film());
+            }
             if report.complete && self.checkpoint.is_due() {
                 let seconds = start.elapsed().as_secs_f64();
                 self.checkpoint.save(self.renderer.film(), seconds);
-                self.write_pictures(seconds)?;
+                self.write_pictures(seconds, false)?;
             }
         }
         progress.finish();
+        if let Some(view) = &mut self.live_view {
+            view.show(self.renderer.film());
+        }
         let seconds = start.elapsed().as_secs_f64();
         let interrupted = self.stop.asked();
         if interrupted {
             // First: nothing is lost if a picture cannot be written.
             self.checkpoint.save(self.renderer.film(), seconds);
         }
-        self.write_pictures(seconds)?;
+        self.write_pictures(seconds, self.denoised)?;
         if !interrupted {
             self.checkpoint.finish(self.renderer.film(), seconds)?;
         }
         if invalid > 0 {
-            eprintln!("warning: {invalid} samples were not finite and count as black");
+            let one = one_invalid.map_or_else(String::new, |s| self.describe(&s));
+            eprintln!("warning: {invalid} samples were not finite and count as black{one}");
         }
         if !self.quiet || interrupted {
-            self.print_summary(samples, rays, seconds, interrupted);
+            self.print_summary(rays, seconds, interrupted);
         }
         Ok(ExitCode::from(if interrupted { INTERRUPTED } else { 0 }))
     }
 
+    /// Where a sample went wrong, after a colon.
+    fn describe(&self, sample: &InvalidSample) -> String {
+        let [x, y] = sample.pixel;
+        let at = match sample.material {
+            None => "beyond all surfaces".to_owned(),
+            Some(m) => match self.renderer.scene().material_name(m) {
+                Some(name) => format!("at a surface of material {m} (\"{name}\")"),
+                None => format!("at a surface of material {m}"),
+            },
+        };
+        format!(
+            ": one is sample {} of pixel ({x}, {y}), {at}",
+            sample.number
+        )
+    }
+
     /// * `seconds`: of this run.
-    fn write_pictures(&self, seconds: f64) -> Result<(), Failure> {
+    fn write_pictures(&self, seconds: f64, denoised: bool) -> Result<(), Failure> {
         let seed = self.renderer.options().seed;
         let label = self.checkpoint.label(seconds);
         self.outputs
-            .write_pictures(self.renderer.film(), &label, Some(seed))
+            .write_pictures(self.renderer.film(), &label, Some(seed), denoised)
     }
 
-    fn print_summary(&self, samples: u32, rays: u64, seconds: f64, interrupted: bool) {
+    fn print_summary(&self, rays: u64, seconds: f64, interrupted: bool) {
         let names = self.outputs.names();
         let noise = self.renderer.film().noise();
         let noise = if noise.is_finite() {
@@ -236,9 +277,21 @@ impl Job<'_> {
             _ => ("wrote", String::new()),
         };
         eprintln!(
-            "{lead} {names}: {samples} spp{noise}, {} ({:.2} Mrays/s){end}",
+            "{lead} {names}: {}{noise}, {} ({:.2} Mrays/s){end}",
+            samples(self.renderer.film()),
             short(seconds),
             rays as f64 * 1e-6 / seconds.max(1e-9),
         );
+    }
+}
+
+/// `64 spp`; where pixels differ, `32 to 512 spp, 77 on average`.
+fn samples(film: &FilmBuffer) -> String {
+    let least = film.complete_samples();
+    let (most, mean) = film.most_and_mean_samples();
+    if least == most {
+        format!("{least} spp")
+    } else {
+        format!("{least} to {most} spp, {mean:.0} on average")
     }
 }

@@ -71,6 +71,17 @@ pub(crate) fn size(text: &str) -> Result<u64, String> {
         .ok_or_else(|| "expected a whole number above 0 and a unit, as in 4GiB".to_owned())
 }
 
+/// A number of threads, or below 0, of cores to leave free.
+pub(crate) fn threads(text: &str) -> Result<i16, String> {
+    text.parse::<i16>()
+        .ok()
+        .filter(|n| *n != 0 && (-4096..=4096).contains(n))
+        .ok_or_else(|| {
+            "expected a number of threads from 1 to 4096, or of cores to leave free, such as -1"
+                .to_owned()
+        })
+}
+
 /// A number above 0.
 pub(crate) fn positive(text: &str) -> Result<f32, String> {
     text.parse::<f32>()
@@ -96,6 +107,12 @@ pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
 }
 
 /// A path that ends in `.exr` or `.png`.
+pub(crate) fn picture(text: &str) -> Result<PathBuf, String> {
+    with_extension(text, &["exr", "png"])
+        .ok_or_else(|| "expected a file name that ends in .exr or .png".to_owned())
+}
+
+/// A path that ends in `.exr`, `.png` or `.film`.
 pub(crate) fn output(text: &str) -> Result<PathBuf, String> {
     with_extension(text, &["exr", "png", "film"])
         .ok_or_else(|| "expected a file name that ends in .exr, .png or .film".to_owned())

@@ -1,0 +1,57 @@
+//! How much memory trees take, from counts alone.
+
+use super::chunks::CHUNK;
+use super::group::WAVE;
+use super::instances::Placement;
+use super::quadric::Placed;
+
+/// Nodes and packets, per triangle: measured on meshes (74 where packets are full, to 103).
+const TRIANGLE: usize = 104;
+/// A quadric's share of the nodes.
+const NODES_OF_QUADRIC: usize = 48;
+/// Boxes with their numbers, of all primitives of a group.
+const ITEM: usize = 28;
+/// What building a tree takes for each item of a chunk: hash table, binary trees and plans.
+const BUILDING: usize = 170;
+/// What finished chunks of a wave leave behind, per item, before and while they are joined.
+const WAVE_ITEM: usize = 25;
+
+/// Bytes of trees.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Predicted {
+    /// When they are built.
+    pub(crate) kept: u64,
+    /// Besides, while they are built.
+    pub(crate) building: u64,
+}
+
+/// The trees over groups of so many triangles and quadrics, and over their instances.
+pub(crate) fn predicted(groups: &[(usize, usize)], instances: usize, threads: usize) -> Predicted {
+    let quadric = size_of::<Placed>() + NODES_OF_QUADRIC;
+    let (mut kept, mut largest) = (0, 0);
+    let mut building = Vec::new();
+    for &(triangles, quadrics) in groups {
+        let tree = TRIANGLE * triangles + quadric * quadrics;
+        let items = triangles + quadrics;
+        kept += tree;
+        largest = largest.max(tree);
+        // In large groups as many chunks at once as there are threads, of a wave at most.
+        let (at_once, wave) = if items <= 2 * CHUNK {
+            (items, 0)
+        } else {
+            let chunks = threads.clamp(1, WAVE);
+            (items.min(CHUNK * chunks), items.min(CHUNK * WAVE))
+        };
+        building.push(ITEM * items + BUILDING * at_once + WAVE_ITEM * wave);
+    }
+    // Groups are built side by side, and then copied into one that grows.
+    building.sort_unstable();
+    let side_by_side: usize = building.iter().rev().take(threads.max(1)).sum();
+    let several = groups.iter().filter(|g| **g != (0, 0)).count() > 1;
+    let copied = if several { 2 * largest } else { 0 };
+    let placed = instances * (size_of::<Placement>() + NODES_OF_QUADRIC);
+    Predicted {
+        kept: (kept + placed) as u64,
+        building: (side_by_side + copied) as u64,
+    }
+}

@@ -1,0 +1,465 @@
+//! Vertices of many paths side by side: structures of arrays, and the loops over them.
+//!
+//! The loops are free of branches and compiled for the machine's vectors; each does what its scalar
+//! twin of `integrator.rs` does, in the same order of operations.
+
+#![allow(
+    clippy::needless_range_loop,
+    reason = "an index below the arrays' length is what the compiler makes vectors of"
+)]
+
+use multiversion::multiversion;
+use specula_bsdf::batch::{Colours, Directions, Kind};
+use specula_bsdf::math::{rgb, vec3};
+use specula_bsdf::{Frame, Rgb, Vec3};
+
+use super::{ROULETTE_FROM, survival_probability};
+use crate::geometry::unit_or;
+use crate::light::{LightSample, Parallelogram, Receiver};
+use crate::material::Plain;
+use crate::offset::{coupled, leave};
+use crate::sampler::Numbers;
+
+/// Most vertices at once.
+pub(super) const LANES: usize = 256;
+
+/// A number of each vertex.
+pub(super) type Column = [f32; LANES];
+
+/// A vector of each vertex.
+pub(super) struct Vectors {
+    pub(super) x: Column,
+    pub(super) y: Column,
+    pub(super) z: Column,
+}
+
+impl Vectors {
+    const ZERO: Self = Self {
+        x: [0.0; LANES],
+        y: [0.0; LANES],
+        z: [0.0; LANES],
+    };
+
+    #[inline(always)]
+    pub(super) fn get(&self, i: usize) -> Vec3<f32> {
+        vec3(self.x[i], self.y[i], self.z[i])
+    }
+
+    #[inline(always)]
+    pub(super) fn set(&mut self, i: usize, v: Vec3<f32>) {
+        self.x[i] = v.x;
+        self.y[i] = v.y;
+        self.z[i] = v.z;
+    }
+
+    #[inline(always)]
+    pub(super) fn colour(&self, i: usize) -> Rgb<f32> {
+        rgb(self.x[i], self.y[i], self.z[i])
+    }
+
+    #[inline(always)]
+    pub(super) fn set_colour(&mut self, i: usize, c: Rgb<f32>) {
+        self.set(i, vec3(c.r, c.g, c.b));
+    }
+
+    pub(super) fn directions(&self, from: usize, to: usize) -> Directions<&[f32]> {
+        Directions {
+            x: &self.x[from..to],
+            y: &self.y[from..to],
+            z: &self.z[from..to],
+        }
+    }
+
+    pub(super) fn directions_mut(&mut self, from: usize, to: usize) -> Directions<&mut [f32]> {
+        Directions {
+            x: &mut self.x[from..to],
+            y: &mut self.y[from..to],
+            z: &mut self.z[from..to],
+        }
+    }
+
+    pub(super) fn colours_mut(&mut self, from: usize, to: usize) -> Colours<&mut [f32]> {
+        Colours {
+            r: &mut self.x[from..to],
+            g: &mut self.y[from..to],
+            b: &mut self.z[from..to],
+        }
+    }
+}
+
+/// Corners, normals and weights of the triangles that rays met.
+pub(super) struct Triangles {
+    pub(super) corners: [Vectors; 3],
+    /// Those of the corners; zero where the mesh has none.
+    pub(super) normals: [Vectors; 3],
+    /// Weights of the second and third corner.
+    pub(super) weights: [Column; 2],
+    /// Whether the surface is still to be made from it.
+    pub(super) wanted: [bool; LANES],
+}
+
+/// Surfaces, turned to their viewers.
+pub(super) struct Surfaces {
+    pub(super) position: Vectors,
+    /// Bound on the error of each component of the position.
+    pub(super) error: Column,
+    /// Geometric normals, towards the outside.
+    pub(super) ng: Vectors,
+    /// Shading normals; on the viewer's side of the surface after [`turn`].
+    pub(super) ns: Vectors,
+    pub(super) tangent: Vectors,
+    /// 1 where the outside is seen, else -1.
+    pub(super) side: Column,
+    /// Towards the viewer, unit.
+    pub(super) towards: Vectors,
+    /// Axes of the shading frame; the third is `ns`.
+    pub(super) axes: [Vectors; 2],
+    /// `towards`, in the frame.
+    pub(super) wo: Vectors,
+}
+
+/// Light that could arrive.
+pub(super) struct Arriving {
+    /// Towards the light.
+    pub(super) towards: Vectors,
+    pub(super) radiance: Vectors,
+    /// As of `LightSample`; 0 where there is none.
+    pub(super) pdf: Column,
+    pub(super) delta: [bool; LANES],
+    /// Whether it comes from infinity; else from the target.
+    pub(super) far: [bool; LANES],
+    pub(super) target: Vectors,
+    /// Bound on the error of each component of the target.
+    pub(super) target_error: Column,
+    pub(super) target_normal: Vectors,
+    /// `towards`, in the frame.
+    pub(super) wi: Vectors,
+    /// `f |cos|` of the lobe, and its density.
+    pub(super) f_cos: Vectors,
+    pub(super) lobe_pdf: Column,
+    /// Weighed, with the path's throughput, if nothing is in the way; black where nothing arrives.
+    pub(super) brought: Vectors,
+    /// The ray to look along.
+    pub(super) origin: Vectors,
+    pub(super) direction: Vectors,
+}
+
+/// Directions drawn, and what they carry.
+pub(super) struct Onward {
+    pub(super) wi: Vectors,
+    pub(super) weight: Vectors,
+    pub(super) pdf: Column,
+    pub(super) kind: [Kind; LANES],
+    /// Throughput, before and after.
+    pub(super) throughput: Vectors,
+    /// Product of the squared relative indices.
+    pub(super) eta_scale: Column,
+    pub(super) direction: Vectors,
+    pub(super) origin: Vectors,
+    pub(super) alive: [bool; LANES],
+}
+
+/// Everything about the vertices of a block.
+pub(super) struct Lanes {
+    pub(super) triangles: Triangles,
+    pub(super) surfaces: Surfaces,
+    pub(super) arriving: Arriving,
+    pub(super) onward: Onward,
+    /// Of the sequences.
+    pub(super) numbers: Numbers<LANES>,
+}
+
+const ZERO: Column = [0.0; LANES];
+
+impl Lanes {
+    pub(super) fn new() -> Box<Self> {
+        Box::new(Self {
+            triangles: Triangles {
+                corners: [Vectors::ZERO; 3],
+                normals: [Vectors::ZERO; 3],
+                weights: [ZERO; 2],
+                wanted: [false; LANES],
+            },
+            surfaces: Surfaces {
+                position: Vectors::ZERO,
+                error: ZERO,
+                ng: Vectors::ZERO,
+                ns: Vectors::ZERO,
+                tangent: Vectors::ZERO,
+                side: ZERO,
+                towards: Vectors::ZERO,
+                axes: [Vectors::ZERO; 2],
+                wo: Vectors::ZERO,
+            },
+            arriving: Arriving {
+                towards: Vectors::ZERO,
+                radiance: Vectors::ZERO,
+                pdf: ZERO,
+                delta: [false; LANES],
+                far: [false; LANES],
+                target: Vectors::ZERO,
+                target_error: ZERO,
+                target_normal: Vectors::ZERO,
+                wi: Vectors::ZERO,
+                f_cos: Vectors::ZERO,
+                lobe_pdf: ZERO,
+                brought: Vectors::ZERO,
+                origin: Vectors::ZERO,
+                direction: Vectors::ZERO,
+            },
+            onward: Onward {
+                wi: Vectors::ZERO,
+                weight: Vectors::ZERO,
+                pdf: ZERO,
+                kind: [Kind::Rejected; LANES],
+                throughput: Vectors::ZERO,
+                eta_scale: ZERO,
+                direction: Vectors::ZERO,
+                origin: Vectors::ZERO,
+                alive: [false; LANES],
+            },
+            numbers: Numbers::ZERO,
+        })
+    }
+}
+
+impl Arriving {
+    /// Places light that was drawn.
+    #[inline]
+    pub(super) fn set(&mut self, i: usize, light: Option<LightSample>) {
+        let Some(light) = light else {
+            self.pdf[i] = 0.0;
+            return;
+        };
+        self.towards.set(i, light.wi);
+        self.radiance.set_colour(i, light.radiance);
+        self.pdf[i] = light.pdf;
+        self.delta[i] = light.delta;
+        self.far[i] = light.from.is_none();
+        if let Some(target) = light.from {
+            self.target.set(i, target.point);
+            self.target_error[i] = target.error.x;
+            self.target_normal.set(i, target.normal);
+        }
+    }
+}
+
+impl Surfaces {
+    #[inline(always)]
+    pub(super) fn frame(&self, i: usize) -> Frame<f32> {
+        Frame {
+            s: self.axes[0].get(i),
+            t: self.axes[1].get(i),
+            n: self.ns.get(i),
+        }
+    }
+
+    /// A vertex as lights are chosen for it.
+    #[inline(always)]
+    pub(super) fn receiver(&self, i: usize, plain: &Plain) -> Receiver {
+        Receiver {
+            point: self.position.get(i),
+            normal: plain.opaque.then(|| self.ns.get(i)),
+        }
+    }
+
+    /// The cosine of a direction to the geometric normal on the viewer's side.
+    #[inline(always)]
+    fn facing(&self, i: usize, w: Vec3<f32>) -> f32 {
+        self.side[i] * self.ng.get(i).dot(w)
+    }
+}
+
+/// Makes surfaces from the triangles of the first `n` vertices that want one.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
+    "x86_64+avx2+fma+bmi1+bmi2"
+))]
+pub(super) fn make_surfaces(n: usize, t: &Triangles, s: &mut Surfaces) {
+    for i in 0..n.min(LANES) {
+        let [a, b, c] = [&t.corners[0], &t.corners[1], &t.corners[2]].map(|v| v.get(i));
+        let [na, nb, nc] = [&t.normals[0], &t.normals[1], &t.normals[2]].map(|v| v.get(i));
+        let (u, v) = (t.weights[0][i], t.weights[1][i]);
+        let w = 1.0 - u - v;
+        let ng = normal([a, b, c]);
+        let ns = unit_or(na * w + nb * u + nc * v, ng);
+        let position = a * w + b * u + c * v;
+        let reach = largest(abs(a), largest(abs(b), abs(c)));
+        let error = coupled(reach).x;
+        let wanted = t.wanted[i];
+        let pick = |new: Vec3<f32>, old: Vec3<f32>| {
+            vec3(
+                if wanted { new.x } else { old.x },
+                if wanted { new.y } else { old.y },
+                if wanted { new.z } else { old.z },
+            )
+        };
+        s.position.set(i, pick(position, s.position.get(i)));
+        s.ng.set(i, pick(ng, s.ng.get(i)));
+        s.ns.set(i, pick(ns, s.ns.get(i)));
+        s.error[i] = if wanted { error } else { s.error[i] };
+    }
+}
+
+/// The geometric normal of a triangle, towards its outside.
+#[inline(always)]
+pub(super) fn normal([a, b, c]: [Vec3<f32>; 3]) -> Vec3<f32> {
+    unit_or((b - a).cross(c - a), Vec3::Z)
+}
+
+#[inline(always)]
+fn abs(v: Vec3<f32>) -> Vec3<f32> {
+    vec3(v.x.abs(), v.y.abs(), v.z.abs())
+}
+
+#[inline(always)]
+fn largest(a: Vec3<f32>, b: Vec3<f32>) -> Vec3<f32> {
+    vec3(a.x.max(b.x), a.y.max(b.y), a.z.max(b.z))
+}
+
+/// Turns the first `n` surfaces to their viewers, and makes their frames.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
+    "x86_64+avx2+fma+bmi1+bmi2"
+))]
+pub(super) fn turn(n: usize, s: &mut Surfaces) {
+    for i in 0..n.min(LANES) {
+        let wo = s.towards.get(i).normalize();
+        s.towards.set(i, wo);
+        let ng = s.ng.get(i);
+        let side = if ng.dot(wo) > 0.0 { 1.0 } else { -1.0 };
+        s.side[i] = side;
+        let ns = s.ns.get(i);
+        let ns = ns * if ns.dot(ng * side) < 0.0 { -1.0 } else { 1.0 };
+        s.ns.set(i, ns);
+        let frame = Frame::from_normal_tangent(ns, s.tangent.get(i));
+        s.axes[0].set(i, frame.s);
+        s.axes[1].set(i, frame.t);
+        s.wo.set(i, frame.to_local(wo));
+    }
+}
+
+/// Frames about the geometric normals for vertices of mirrors that are seen from behind their shading
+/// normals.
+///
+/// * `from`, `to`: the vertices of mirrors.
+pub(super) fn straighten(from: usize, to: usize, s: &mut Surfaces) {
+    for i in from..to {
+        if s.wo.z[i] <= 0.0 {
+            let n = s.ng.get(i) * s.side[i];
+            let frame = Frame::from_normal_tangent(n, s.tangent.get(i));
+            s.ns.set(i, n);
+            s.axes[0].set(i, frame.s);
+            s.axes[1].set(i, frame.t);
+            s.wo.set(i, frame.to_local(s.towards.get(i)));
+        }
+    }
+}
+
+/// Draws points of the one light of a scene, as `Area::sample` does.
+///
+/// * `u`: of the points.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
+    "x86_64+avx2+fma+bmi1+bmi2"
+))]
+pub(super) fn draw_light(
+    n: usize,
+    light: &Parallelogram,
+    u: [&Column; 2],
+    s: &Surfaces,
+    a: &mut Arriving,
+) {
+    let [e0, e1] = light.edges;
+    let error = coupled(abs(light.corner) + abs(e0) + abs(e1)).x;
+    let per_area = 1.0 / light.area;
+    for i in 0..n.min(LANES) {
+        let point = light.corner + e0 * u[0][i] + e1 * u[1][i];
+        let d = point - s.position.get(i);
+        let distance_squared = d.length_squared();
+        let wi = d * (1.0 / distance_squared.sqrt());
+        let cos = light.normal.dot(wi);
+        let pdf = per_area * distance_squared / cos.abs();
+        let shines = light.two_sided | (cos < 0.0);
+        let usable = shines & (pdf > 0.0) & (pdf < f32::INFINITY) & (wi.length_squared() > 0.5);
+        a.pdf[i] = if usable { pdf } else { 0.0 };
+        a.towards.set(i, wi);
+        a.radiance.set_colour(i, light.radiance);
+        a.delta[i] = false;
+        a.far[i] = false;
+        a.target.set(i, point);
+        a.target_error[i] = error;
+        a.target_normal.set(i, light.normal);
+    }
+}
+
+/// Turns the light that could arrive into the frames; what comes from the wrong side is taken out.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
+    "x86_64+avx2+fma+bmi1+bmi2"
+))]
+pub(super) fn to_frames(n: usize, s: &Surfaces, a: &mut Arriving) {
+    for i in 0..n.min(LANES) {
+        let towards = a.towards.get(i);
+        let wi = s.frame(i).to_local(towards);
+        let through = wi.z * s.facing(i, towards);
+        a.wi.set(i, wi);
+        a.pdf[i] = if through > 0.0 { a.pdf[i] } else { 0.0 };
+    }
+}
+
+/// Weighs light that was drawn against the lobe's directions, by the power heuristic, and aims the
+/// rays that look for it.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
+    "x86_64+avx2+fma+bmi1+bmi2"
+))]
+pub(super) fn weigh(n: usize, s: &Surfaces, throughput: &Vectors, a: &mut Arriving) {
+    for i in 0..n.min(LANES) {
+        let pdf = a.pdf[i];
+        let ratio = a.lobe_pdf[i] / pdf;
+        let both = 1.0 / (1.0 + ratio * ratio);
+        let weight = if a.delta[i] { 1.0 } else { both };
+        let arrives = pdf > 0.0;
+        let scale = if arrives { weight / pdf } else { 0.0 };
+        let brought = throughput.colour(i) * a.f_cos.colour(i) * (a.radiance.colour(i) * scale);
+        let pick = |c: f32| if arrives { c } else { 0.0 };
+        a.brought.set_colour(i, brought.map(pick));
+        let towards = a.towards.get(i);
+        let error = Vec3::splat(s.error[i]);
+        let origin = leave(s.position.get(i), error, s.ng.get(i), towards);
+        let error = Vec3::splat(a.target_error[i]);
+        let end = leave(a.target.get(i), error, a.target_normal.get(i), -towards);
+        let along = end - origin;
+        let far = a.far[i];
+        a.origin.set(i, origin);
+        a.direction.x[i] = if far { towards.x } else { along.x };
+        a.direction.y[i] = if far { towards.y } else { along.y };
+        a.direction.z[i] = if far { towards.z } else { along.z };
+    }
+}
+
+/// Goes on in the directions that were drawn, by the rules of `PathTracer::scatter`.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
+    "x86_64+avx2+fma+bmi1+bmi2"
+))]
+pub(super) fn go_on(n: usize, depth: u32, s: &Surfaces, survival: &Column, o: &mut Onward) {
+    let plays = depth >= ROULETTE_FROM;
+    for i in 0..n.min(LANES) {
+        let wi = o.wi.get(i);
+        let direction = s.frame(i).to_world(wi).normalize();
+        let throughput = o.throughput.colour(i) * o.weight.colour(i);
+        let largest = throughput.max_channel() * o.eta_scale[i];
+        let probability = survival_probability(largest);
+        let thinned = plays & (probability < 0.95);
+        let survives = !thinned | (survival[i] < probability);
+        let scale = if thinned { 1.0 / probability } else { 1.0 };
+        o.alive[i] = (wi.z * s.facing(i, direction) > 0.0) & (largest > 0.0) & survives;
+        o.throughput.set_colour(i, throughput * scale);
+        o.direction.set(i, direction);
+        let error = Vec3::splat(s.error[i]);
+        let origin = leave(s.position.get(i), error, s.ng.get(i), direction);
+        o.origin.set(i, origin);
+    }
+}

@@ -1,0 +1,303 @@
+//! How much memory a render will take, before it begins.
+//!
+//! A count of the arrays that preparing and rendering make, in the order in which they make and free
+//! them; the largest sum is the peak. Sizes of a triangle's share of the tree, and of what building
+//! takes besides, are measured (`tests` and the command line's tests hold the estimate against what
+//! the system reports). Reading a scene is over when its estimate is made, and not in it.
+
+use specula_scene::Scene;
+use specula_scene::scene::{Geometry, Instance, Light, Mesh, Shape, Texture};
+
+use crate::accel::predicted;
+use crate::film::BYTES_PER_PIXEL;
+use crate::light::{BYTES_PER_EMITTER, BYTES_PER_FAR_PIXEL};
+use crate::options::RenderOptions;
+
+/// A pixel of a scene's picture: three numbers.
+const FLOATS: u64 = 12;
+/// A picture's pixel developed (14 numbers), and once more for the file's channels.
+const DEVELOPED: u64 = 2 * 14 * 4;
+/// The program itself.
+const PROGRAM: u64 = 10 << 20;
+/// Stack and buffers of a thread.
+const THREAD: u64 = 1 << 20;
+
+/// Bytes that a render takes, by what takes them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MemoryEstimate {
+    /// Shapes, meshes and pictures as they were read; freed while the render is prepared.
+    pub scene: u64,
+    /// Vertices and triangles in the world.
+    pub geometry: u64,
+    /// The tree over them.
+    pub tree: u64,
+    /// Pictures of textures.
+    pub textures: u64,
+    /// Lights, the tree over them, and pictures of skies.
+    pub lights: u64,
+    /// Sums of samples.
+    pub film: u64,
+    /// The film as a picture, and what is written of it.
+    pub pictures: u64,
+    /// The program and its threads.
+    pub program: u64,
+    /// Largest sum while the render is prepared.
+    preparing: u64,
+}
+
+impl MemoryEstimate {
+    /// The estimate for a scene, as it is before [`PreparedScene::consume`].
+    ///
+    /// * `threads`: of the pool in which it is prepared and rendered.
+    ///
+    /// [`PreparedScene::consume`]: crate::PreparedScene::consume
+    #[must_use]
+    pub fn new(scene: &Scene, options: &RenderOptions, threads: usize) -> Self {
+        let mut estimate = Self {
+            program: PROGRAM + THREAD * threads as u64,
+            ..Self::default()
+        };
+        let meshes: u64 = scene.meshes.iter().map(mesh_bytes).sum();
+        let pictures: u64 = scene.images.iter().map(|i| FLOATS * pixels(i)).sum();
+        let objects = scene.objects.iter().map(|o| o.shapes.len());
+        let shapes = scene.shapes.len() + objects.sum::<usize>();
+        let places = shapes * size_of::<Shape>() + scene.instances.len() * size_of::<Instance>();
+        estimate.scene = meshes + pictures + places as u64;
+        let mut held = Held {
+            now: estimate.program + estimate.scene,
+            peak: 0,
+        };
+        estimate.add_textures(scene, &mut held);
+        estimate.add_geometry(scene, threads, &mut held);
+        estimate.add_lights(scene, &mut held);
+        estimate.preparing = held.peak;
+        let pixels = film_pixels(scene, options);
+        estimate.film = BYTES_PER_PIXEL * pixels;
+        estimate.pictures = DEVELOPED * pixels;
+        estimate
+    }
+
+    /// The most that is taken at any time.
+    #[must_use]
+    pub fn peak(&self) -> u64 {
+        self.preparing.max(self.rendering())
+    }
+
+    /// What is taken when a picture is written.
+    #[must_use]
+    pub fn rendering(&self) -> u64 {
+        let lasting = self.geometry + self.tree + self.textures + self.lights;
+        self.program + lasting + self.film + self.pictures
+    }
+
+    /// What is taken at most before the first sample.
+    #[must_use]
+    pub fn preparing(&self) -> u64 {
+        self.preparing
+    }
+
+    fn add_textures(&mut self, scene: &Scene, held: &mut Held) {
+        let mut used = vec![false; scene.images.len()];
+        for texture in &scene.textures {
+            if let Texture::Image { image, .. } = texture {
+                used[image.0] = true;
+            }
+        }
+        for (index, image) in scene.images.iter().enumerate().filter(|(i, _)| used[*i]) {
+            let floats = FLOATS * pixels(image);
+            let kept = if crate::texture::is_of_bytes(image) {
+                3 * pixels(image)
+            } else {
+                floats
+            };
+            let shared = skies(scene).any(|id| id == index);
+            held.add(if shared || kept != floats { kept } else { 0 });
+            if !shared && kept != floats {
+                held.free(floats);
+            }
+            self.textures += kept;
+        }
+    }
+
+    fn add_geometry(&mut self, scene: &Scene, threads: usize, held: &mut Held) {
+        let mut shown = vec![false; scene.objects.len()];
+        for instance in &scene.instances {
+            shown[instance.object.0] = true;
+        }
+        let objects = scene.objects.iter().zip(shown).filter(|(_, shown)| *shown);
+        let groups: Vec<&[Shape]> = std::iter::once(scene.shapes.as_slice())
+            .chain(objects.map(|(o, _)| o.shapes.as_slice()))
+            .collect();
+        let mut uses = vec![0_u32; scene.meshes.len()];
+        for mesh in groups.iter().copied().flatten().filter_map(mesh_of) {
+            uses[mesh] += 1;
+        }
+        let mut sizes = Vec::new();
+        for group in groups {
+            let mut size = (0, 0);
+            for shape in group {
+                let Some(index) = mesh_of(shape) else {
+                    size.1 += 1;
+                    continue;
+                };
+                let mesh = &scene.meshes[index];
+                let triangles = mesh.triangles.len();
+                size.0 += triangles;
+                // The shape of every triangle, and its light.
+                let per_triangle = if shape.emission.is_some() { 12 } else { 4 };
+                let baked = mesh_bytes(mesh) + (per_triangle * triangles) as u64;
+                held.add(baked);
+                self.geometry += baked;
+                uses[index] -= 1;
+                if uses[index] == 0 {
+                    held.free(mesh_bytes(mesh));
+                }
+            }
+            sizes.push(size);
+        }
+        let quadrics: usize = sizes.iter().map(|s| s.1).sum();
+        let placed = crate::geometry::BYTES_PER_QUADRIC * quadrics as u64
+            + crate::geometry::BYTES_PER_INSTANCE * scene.instances.len() as u64;
+        held.add(placed);
+        self.geometry += placed;
+        let tree = predicted(&sizes, scene.instances.len(), threads);
+        held.add(tree.kept + tree.building);
+        held.free(tree.building);
+        self.tree = tree.kept;
+    }
+
+    fn add_lights(&mut self, scene: &Scene, held: &mut Held) {
+        let objects = scene.instances.iter().map(|i| &scene.objects[i.object.0]);
+        let shapes = scene.shapes.iter().chain(objects.flat_map(|o| &o.shapes));
+        let emitters: usize = shapes
+            .filter(|s| s.emission.is_some())
+            .map(|s| mesh_of(s).map_or(1, |m| scene.meshes[m].triangles.len()))
+            .sum();
+        self.lights = BYTES_PER_EMITTER * emitters as u64;
+        for id in skies(scene) {
+            self.lights += BYTES_PER_FAR_PIXEL * pixels(&scene.images[id]);
+        }
+        held.add(self.lights);
+    }
+}
+
+/// What is held, and what was at most.
+struct Held {
+    now: u64,
+    peak: u64,
+}
+
+impl Held {
+    fn add(&mut self, bytes: u64) {
+        self.now += bytes;
+        self.peak = self.peak.max(self.now);
+    }
+
+    fn free(&mut self, bytes: u64) {
+        self.now = self.now.saturating_sub(bytes);
+    }
+}
+
+fn mesh_of(shape: &Shape) -> Option<usize> {
+    match shape.geometry {
+        Geometry::Mesh(mesh) => Some(mesh.0),
+        Geometry::Sphere { .. } | Geometry::Disk { .. } => None,
+    }
+}
+
+fn mesh_bytes(mesh: &Mesh) -> u64 {
+    let triples =
+        mesh.positions.len() + mesh.normals.len() + mesh.colours.len() + mesh.triangles.len();
+    let pairs = mesh.uvs.len() + mesh.second_uvs.len();
+    (12 * triples + 8 * pairs + 16 * mesh.tangents.len()) as u64
+}
+
+fn pixels(image: &specula_scene::Image) -> u64 {
+    image.pixels.len() as u64
+}
+
+/// Pictures of infinite lights.
+fn skies(scene: &Scene) -> impl Iterator<Item = usize> {
+    scene.lights.iter().filter_map(|light| match light {
+        Light::Infinite { image, .. } => image.map(|(id, _)| id.0),
+        _ => None,
+    })
+}
+
+/// Pixels that are rendered.
+fn film_pixels(scene: &Scene, options: &RenderOptions) -> u64 {
+    let area = |[x0, x1, y0, y1]: [u32; 4]| {
+        u64::from(x1.saturating_sub(x0)) * u64::from(y1.saturating_sub(y0))
+    };
+    let [width, height] = options.resolution.unwrap_or(scene.film.resolution);
+    let whole = u64::from(width) * u64::from(height);
+    let of_file = area([0, scene.film.resolution[0], 0, scene.film.resolution[1]]);
+    match options.crop {
+        Some(crop) => area(crop).min(whole),
+        // The file's crop scales with the resolution.
+        None => {
+            let scaled = u128::from(whole) * u128::from(area(scene.film.crop));
+            let scaled = scaled / u128::from(of_file.max(1));
+            u64::try_from(scaled).map_or(whole, |pixels| pixels.min(whole))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use specula_scene::builtin;
+
+    fn of(scene: &Scene) -> MemoryEstimate {
+        MemoryEstimate::new(scene, &RenderOptions::from_scene(scene), 4)
+    }
+
+    #[test]
+    fn films_count_the_pixels_that_are_rendered() {
+        let scene = builtin::orbs();
+        let options = |resolution, crop| RenderOptions {
+            resolution,
+            crop,
+            ..RenderOptions::from_scene(&scene)
+        };
+        let film = |options| MemoryEstimate::new(&scene, &options, 1).film;
+        let whole = film(options(Some([4096, 4096]), None));
+        assert_eq!(whole / 4096 / 4096, 168);
+        let part = film(options(Some([4096, 4096]), Some([0, 1024, 0, 1024])));
+        assert_eq!(whole, 16 * part);
+    }
+
+    #[test]
+    fn meshes_count_once_as_read_and_once_as_baked() {
+        let mut scene = builtin::orbs();
+        let before = of(&scene);
+        let mesh = Mesh {
+            positions: vec![[0.0; 3]; 500],
+            triangles: vec![[0, 1, 2]; 1000],
+            ..Mesh::default()
+        };
+        scene.meshes.push(mesh);
+        let unused = of(&scene);
+        assert_eq!(unused.scene - before.scene, 18_000);
+        assert_eq!(unused.geometry, before.geometry);
+        let mut shape = scene.shapes[0].clone();
+        shape.geometry = Geometry::Mesh(specula_scene::scene::MeshId(scene.meshes.len() - 1));
+        shape.emission = None;
+        scene.shapes.push(shape);
+        assert_eq!(of(&scene).geometry - unused.geometry, 18_000 + 4_000);
+        assert!(of(&scene).tree > unused.tree);
+        assert!(of(&scene).peak() > unused.peak());
+    }
+
+    #[test]
+    fn trees_are_as_large_as_predicted() {
+        let scene = builtin::orbs();
+        let options = RenderOptions::from_scene(&scene);
+        let estimate = of(&scene);
+        let prepared = crate::PreparedScene::new(&scene, &options).unwrap();
+        let built = prepared.geometry.accel.stats().bytes as f64;
+        let ratio = estimate.tree as f64 / built;
+        // Packets of its smooth surfaces are full.
+        assert!((0.9..1.5).contains(&ratio), "{ratio}");
+    }
+}

@@ -1,0 +1,212 @@
+//! `cargo xtask versus`: time to equal error against other renderers.
+
+mod measure;
+mod renderers;
+mod report;
+mod scenes;
+mod sheet;
+mod statistics;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Instant;
+
+use clap::{Args, ValueEnum};
+
+use crate::{Result, suite};
+use measure::{Contestant, Outcome, Plan};
+use renderers::{Pbrt, Served, Specula};
+use scenes::{SCENES, SceneFile};
+
+/// Which seconds are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Clock {
+    /// Seconds by the clock: for a machine that does nothing else.
+    Wall,
+    /// Seconds of user and system over the number of threads: for a machine that is shared.
+    Cpu,
+}
+
+/// What to compare, and how.
+#[derive(Args)]
+pub(crate) struct Versus {
+    /// A Python that has Mitsuba 3
+    #[arg(long, value_name = "PYTHON")]
+    mitsuba: Option<PathBuf>,
+    /// A Python that has Blender's `bpy`
+    #[arg(long, value_name = "PYTHON")]
+    cycles: Option<PathBuf>,
+    /// pbrt-v4
+    #[arg(long, value_name = "PROGRAM")]
+    pbrt: Option<PathBuf>,
+    /// Specula [default: built from this workspace]
+    #[arg(long, value_name = "PROGRAM")]
+    specula: Option<PathBuf>,
+    /// Folder for pictures, references (which are kept) and the report
+    #[arg(long, value_name = "DIR", default_value = "target/versus")]
+    out: PathBuf,
+    /// Scenes to render [default: all]
+    #[arg(long, value_name = "NAME", value_parser = scene_names())]
+    scene: Vec<String>,
+    /// Rounds, in each of which everybody renders once [default: 5, quick 3]
+    #[arg(long)]
+    rounds: Option<u32>,
+    /// Seconds that a render should take [default: 3, quick 0.5]
+    #[arg(long)]
+    seconds: Option<f64>,
+    /// Samples of a reference over those of a render
+    #[arg(long, default_value_t = 16)]
+    reference: u32,
+    /// Threads of every renderer
+    #[arg(long, default_value_t = 2)]
+    threads: u32,
+    /// Which seconds are compared
+    #[arg(long, value_enum, default_value_t = Clock::Wall)]
+    clock: Clock,
+    /// Mitsuba's variant
+    #[arg(long, default_value = "llvm_ad_rgb")]
+    variant: String,
+    /// Short renders and few rounds, for a look
+    #[arg(long)]
+    quick: bool,
+    /// Copy the report and its pictures to docs/versus
+    #[arg(long)]
+    publish: bool,
+}
+
+fn scene_names() -> Vec<&'static str> {
+    SCENES.iter().map(|s| s.name).collect()
+}
+
+/// Renders, compares, prints and writes the report.
+pub(crate) fn run(root: &Path, versus: &Versus) -> Result<()> {
+    let start = Instant::now();
+    fs::create_dir_all(&versus.out)?;
+    let out = fs::canonicalize(&versus.out)?;
+    let specula = versus.program(root)?;
+    let mut outcomes: Vec<Outcome> = Vec::new();
+    for scene in &SCENES {
+        if versus.scene.is_empty() || versus.scene.iter().any(|n| n == scene.name) {
+            println!("== {}: {}", scene.name, scene.title);
+            let outcome = versus.compare(root, &out, &specula, scene)?;
+            print!("{}", report::scene(&outcome));
+            outcomes.push(outcome);
+        }
+    }
+    let minutes = start.elapsed().as_secs_f64() / 60.0;
+    let text = report::document(versus, &outcomes, minutes);
+    fs::write(out.join("README.md"), &text)?;
+    print!("{}", report::summary(&outcomes));
+    println!("{minutes:.1} minutes; report in {}", out.display());
+    if versus.publish {
+        let docs = root.join("docs/versus");
+        fs::create_dir_all(&docs)?;
+        fs::write(docs.join("README.md"), text)?;
+        for outcome in &outcomes {
+            let name = format!("{}.png", outcome.scene.name);
+            fs::copy(out.join(&name), docs.join(&name))?;
+        }
+    }
+    Ok(())
+}
+
+impl Versus {
+    fn plan(&self) -> Plan {
+        Plan {
+            rounds: self.rounds.unwrap_or(if self.quick { 3 } else { 5 }).max(1),
+            seconds: self.seconds.unwrap_or(if self.quick { 0.5 } else { 3.0 }),
+            reference: self.reference.max(1),
+            threads: self.threads,
+            clock: self.clock,
+        }
+    }
+
+    /// Specula's program, built where none is given: cargo puts it beside this chore's.
+    fn program(&self, root: &Path) -> Result<PathBuf> {
+        if let Some(program) = &self.specula {
+            return Ok(program.clone());
+        }
+        let mut build = suite::cargo(root);
+        build.args(["build", "--release", "--quiet", "--package", "specula"]);
+        if !build.status()?.success() {
+            return Err("Specula does not build".into());
+        }
+        let name = format!("specula{}", std::env::consts::EXE_SUFFIX);
+        Ok(std::env::current_exe()?.with_file_name(name))
+    }
+
+    fn compare(
+        &self,
+        root: &Path,
+        out: &Path,
+        specula: &Path,
+        scene: &'static SceneFile,
+    ) -> Result<Outcome> {
+        let folder = out.join("scenes");
+        let file = scene.prepare(root, &folder)?;
+        let converted = file.with_extension("pbrt");
+        let conversion = Command::new(specula)
+            .arg("convert")
+            .args([&file, &converted])
+            .output()?;
+        if !conversion.status.success() {
+            return Err(String::from_utf8_lossy(&conversion.stderr).into());
+        }
+        let ours = |scene: &Path| Specula {
+            program: specula.to_owned(),
+            scene: scene.to_owned(),
+            threads: self.threads,
+            writing: None,
+        };
+        let mut contestants = Vec::new();
+        if let Some(python) = &self.mitsuba {
+            let mut command = Command::new(python);
+            command
+                .arg(root.join("data/versus/mitsuba_peer.py"))
+                .arg(&file)
+                .args([&self.variant, &self.threads.to_string()]);
+            let engine = Served::start("Mitsuba", &mut command)?;
+            contestants.push(Contestant::new("specula-xml", &["sobol"], ours(&file)));
+            let samplers = &[
+                "independent",
+                "stratified",
+                "multijitter",
+                "orthogonal",
+                "ldsampler",
+            ];
+            contestants.push(Contestant::new("mitsuba", samplers, engine).against("specula-xml"));
+        }
+        if self.cycles.is_some() || self.pbrt.is_some() {
+            contestants.push(Contestant::new(
+                "specula-pbrt",
+                &["sobol"],
+                ours(&converted),
+            ));
+        }
+        if let Some(python) = &self.cycles {
+            let mut command = Command::new(python);
+            command
+                .arg(root.join("data/versus/cycles_peer.py"))
+                .arg(&file)
+                .arg(self.threads.to_string());
+            let engine = Served::start("Cycles", &mut command)?;
+            let samplers = &["TABULATED_SOBOL", "BLUE_NOISE"];
+            contestants.push(Contestant::new("cycles", samplers, engine).against("specula-pbrt"));
+        }
+        if let Some(program) = &self.pbrt {
+            let engine = Pbrt {
+                program: program.clone(),
+                scene: converted.clone(),
+                threads: self.threads,
+                loading: None,
+            };
+            contestants.push(Contestant::new("pbrt", &["zsobol"], engine).against("specula-pbrt"));
+        }
+        let pictures = out.join(scene.name);
+        let key = measure::key(&fs::read(&file)?);
+        let outcome = measure::run(scene, &self.plan(), contestants, &pictures, key)?;
+        sheet::write(&outcome, &out.join(format!("{}.png", scene.name)))?;
+        Ok(outcome)
+    }
+}
