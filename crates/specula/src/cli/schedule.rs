@@ -45,13 +45,11 @@ impl Goal {
     ) -> Option<u32> {
         // 1, 1, 2, 4, ...: what there is doubles, until a pass is long enough.
         let mut samples = done.max(1);
-        let mut budget = LONGEST_PASS;
-        if let Some(limit) = self.time {
-            if done > 0 && elapsed >= limit {
-                return None;
-            }
-            budget = budget.min(limit.saturating_sub(elapsed));
+        let rest = self.time.map(|limit| limit.saturating_sub(elapsed));
+        if done > 0 && rest.is_some_and(|rest| rest.is_zero()) {
+            return None;
         }
+        let budget = rest.unwrap_or(LONGEST_PASS).min(LONGEST_PASS);
         if let Some((taken, duration)) = last {
             let per_sample = duration.as_secs_f64() / f64::from(taken.max(1));
             #[expect(
@@ -61,12 +59,10 @@ impl Goal {
             )]
             let fitting = (budget.as_secs_f64() / per_sample.max(1e-9)) as u32;
             samples = samples.min(fitting.max(1));
-            if self.time.is_some() && done > 0 && fitting == 0 {
-                // One more would end after the limit by more than half of itself.
-                let late = per_sample * 0.5 > budget.as_secs_f64();
-                if late {
-                    return None;
-                }
+            // One more would end after the limit by more than half of itself.
+            let late = rest.is_some_and(|rest| 0.5 * per_sample > rest.as_secs_f64());
+            if done > 0 && late {
+                return None;
             }
         }
         let left = self.most_samples.saturating_sub(done);
@@ -122,6 +118,15 @@ mod tests {
         let half = Duration::from_millis(500);
         let quick = Some((8, Duration::from_millis(80)));
         assert_eq!(goal.next_pass(100, quick, half), Some(50));
+    }
+
+    #[test]
+    fn samples_that_take_longer_than_a_pass_should_do_not_end_a_render() {
+        let goal = Goal::time(Duration::from_secs(2400));
+        let slow = Some((1, Duration::from_secs(8)));
+        assert_eq!(goal.next_pass(8, slow, Duration::from_secs(20)), Some(1));
+        assert_eq!(goal.next_pass(8, slow, Duration::from_secs(2395)), Some(1));
+        assert_eq!(goal.next_pass(8, slow, Duration::from_secs(2397)), None);
     }
 
     #[test]
