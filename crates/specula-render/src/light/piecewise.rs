@@ -47,9 +47,7 @@ impl Piecewise {
     pub(super) fn density(&self, [u, v]: [f32; 2]) -> f32 {
         let x = floor_index(u * self.width as f32).min(self.width - 1);
         let y = floor_index(v * self.height as f32).min(self.height - 1);
-        let row = y * (self.width + 1) + x;
-        let share = (self.rows[row + 1] - self.rows[row]) * (self.columns[y + 1] - self.columns[y]);
-        share * self.width as f32 * self.height as f32
+        self.share([x, y]) * self.width as f32 * self.height as f32
     }
 
     /// A point drawn with that density.
@@ -57,13 +55,29 @@ impl Piecewise {
     /// * `u`: uniform in `[0, 1)^2`.
     #[inline]
     pub(super) fn sample(&self, u: [f32; 2]) -> [f32; 2] {
-        let (y, v) = invert(&self.columns, u[1]);
-        let row = &self.rows[y * (self.width + 1)..(y + 1) * (self.width + 1)];
-        let (x, s) = invert(row, u[0]);
+        let ([x, y], [s, t]) = self.sample_cell(u);
         [
             (x as f32 + s) / self.width as f32,
-            (y as f32 + v) / self.height as f32,
+            (y as f32 + t) / self.height as f32,
         ]
+    }
+
+    /// A cell drawn by its weight, and where in it the point lies, uniform in `[0, 1)^2`.
+    ///
+    /// * `u`: uniform in `[0, 1)^2`.
+    #[inline]
+    pub(super) fn sample_cell(&self, u: [f32; 2]) -> ([usize; 2], [f32; 2]) {
+        let (y, t) = invert(&self.columns, u[1]);
+        let row = &self.rows[y * (self.width + 1)..(y + 1) * (self.width + 1)];
+        let (x, s) = invert(row, u[0]);
+        ([x, y], [s, t])
+    }
+
+    /// Probability of a cell.
+    #[inline]
+    pub(super) fn share(&self, [x, y]: [usize; 2]) -> f32 {
+        let row = y * (self.width + 1) + x;
+        (self.rows[row + 1] - self.rows[row]) * (self.columns[y + 1] - self.columns[y])
     }
 }
 
