@@ -34,7 +34,7 @@ pub(crate) fn direction(mapping: EnvironmentMapping, [u, v]: [f32; 2]) -> Vec3<f
 pub(crate) struct Environment {
     /// Factor on the picture.
     radiance: Rgb<f32>,
-    picture: Option<Picture>,
+    picture: Option<Box<Picture>>,
     to_world: Affine,
     to_light: Affine,
 }
@@ -65,7 +65,7 @@ impl Environment {
         let m = m * m.determinant().abs().cbrt().recip();
         Self {
             radiance,
-            picture: image.and_then(|(image, mapping)| Picture::new(image, mapping)),
+            picture: image.and_then(|(image, mapping)| Picture::new(image, mapping).map(Box::new)),
             to_world: Affine::linear(&m),
             to_light: Affine::linear(&m.inverse()),
         }
