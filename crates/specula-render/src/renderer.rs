@@ -242,10 +242,9 @@ fn render_tile(
     let [x0, x1, y0, _] = tile.bounds;
     let width = x1 - x0;
     let (seed, first) = (options.seed, options.first_sample);
-    let counts = tile.pixels.iter().map(|p| p.count).collect::<Vec<u32>>();
-    let mut samples = (0_u32..)
-        .zip(counts)
-        .flat_map(|(i, count)| (count..target).map(move |nth| (i, nth)));
+    let count = tile.count();
+    let mut samples = (0..crate::convert::id(tile.pixels.len()))
+        .flat_map(|i| (count..target).map(move |nth| (i, nth)));
     let begin = |[x, y]: [u32; 2], nth: u32| {
         let sampler = Sampler::new([x, y], first.wrapping_add(nth), seed);
         let [u0, u1, u2, u3] = sampler.camera();
