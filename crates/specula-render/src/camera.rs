@@ -1,9 +1,11 @@
 //! Cameras: from a point of the picture to a ray.
 
+use multiversion::multiversion;
 use specula_bsdf::Vec3;
 use specula_bsdf::math::vec3;
 use specula_scene::scene::{self, EnvironmentMapping, Projection};
 
+use crate::accel::Ray;
 use crate::convert::{Affine, narrow};
 use crate::light::direction_of_sphere;
 
@@ -66,7 +68,7 @@ impl Camera {
     ///
     /// The lens of an orthographic camera is a copy around the origin of every ray; pbrt-v4 puts it
     /// at the origin of camera space, where it would make the view a perspective one.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn ray(&self, raster: [f32; 2], lens: [f32; 2]) -> (Vec3<f32>, Vec3<f32>) {
         let x = self.origin[0] + raster[0] * self.step[0];
         let y = self.origin[1] + raster[1] * self.step[1];
@@ -91,6 +93,42 @@ impl Camera {
             self.to_world.point(from),
             self.to_world.vector(towards).normalize(),
         )
+    }
+}
+
+impl Camera {
+    /// [`Camera::ray`] for many points, as many as numbers for the lens.
+    ///
+    /// * `keep`: takes each ray with the point's index.
+    pub(crate) fn rays(
+        &self,
+        raster: [&[f32]; 2],
+        lens: [&[f32]; 2],
+        keep: impl FnMut(usize, Ray),
+    ) {
+        rays(self, raster, lens, keep);
+    }
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
+    "x86_64+avx2+fma+bmi1+bmi2"
+))]
+fn rays<K: FnMut(usize, Ray)>(
+    camera: &Camera,
+    [x, y]: [&[f32]; 2],
+    [u, v]: [&[f32]; 2],
+    mut keep: K,
+) {
+    let points = x.iter().zip(y).zip(u.iter().zip(v));
+    for (i, ((&x, &y), (&u, &v))) in points.enumerate() {
+        let (origin, direction) = camera.ray([x, y], [u, v]);
+        let ray = Ray {
+            origin,
+            direction,
+            t_max: f32::INFINITY,
+        };
+        keep(i, ray);
     }
 }
 

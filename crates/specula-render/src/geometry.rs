@@ -18,7 +18,7 @@ use specula_bsdf::Vec3;
 use specula_bsdf::math::vec3;
 use specula_scene::scene::{ColourParam, FloatParam, Scene};
 
-use crate::accel::{Accel, AccelError, Group, Instance, Quadric, QuadricShape};
+use crate::accel::{Accel, AccelError, Group, Hit, Instance, Quadric, QuadricShape};
 use crate::convert::{Affine, id, narrow3, normal_matrix, widen3};
 use crate::texture::Textures;
 use bake::Baker;
@@ -155,6 +155,13 @@ impl Geometry {
 }
 
 impl Geometry {
+    /// The group that a hit is in.
+    #[inline(always)]
+    pub(crate) fn group_of(&self, hit: &Hit) -> &GroupData {
+        let placement = &self.placements[hit.instance as usize];
+        &self.groups[placement.group as usize]
+    }
+
     /// Whether all shapes, in the world and in the space of their group, are near enough for rays.
     pub(crate) fn is_within_reach(&self) -> bool {
         let near = |p: &[f32; 3]| p.iter().all(|x| x.abs() <= FARTHEST);

@@ -19,6 +19,8 @@ mod block;
 mod lanes;
 pub(crate) mod lobes;
 mod passing;
+mod paths;
+mod vertices;
 
 pub(crate) use block::Block;
 
@@ -102,43 +104,13 @@ struct State {
 }
 
 /// A path on its way.
-pub(crate) struct Path {
+struct Path {
     sampler: Sampler,
     /// The one that it goes on with.
     ray: Ray,
     state: State,
     /// What its first vertex showed.
     first: PixelSample,
-}
-
-impl Path {
-    /// A path that begins at the camera.
-    #[inline]
-    pub(crate) fn new(sampler: Sampler, origin: Vec3<f32>, direction: Vec3<f32>) -> Self {
-        Self {
-            sampler,
-            ray: Ray {
-                origin,
-                direction,
-                t_max: f32::INFINITY,
-            },
-            state: State {
-                radiance: Rgb::BLACK,
-                throughput: Rgb::WHITE,
-                eta_scale: 1.0,
-                bodies: Bodies::NONE,
-                straight: true,
-                previous: None,
-                rays: 0,
-            },
-            first: PixelSample {
-                colour: Rgb::BLACK,
-                albedo: Rgb::BLACK,
-                normal: Vec3::ZERO,
-                depth: None,
-            },
-        }
-    }
 }
 
 impl<'a> PathTracer<'a> {
@@ -151,14 +123,15 @@ impl<'a> PathTracer<'a> {
         }
     }
 
-    /// What a path that has ended brings to its pixel, and the rays that it took.
-    #[inline]
-    pub(crate) fn brought(&self, path: &Path) -> (PixelSample, u64) {
+    /// What a path of a block that has ended brings to its pixel, and the weight of its sample.
+    #[inline(always)]
+    pub(crate) fn brought(&self, block: &Block, path: usize) -> (PixelSample, f32) {
+        let (seen, weight) = block.seen(path);
         let sample = PixelSample {
-            colour: self.scene.develop.of(path.state.radiance),
-            ..path.first
+            colour: self.scene.develop.of(seen.colour),
+            ..seen
         };
-        (sample, path.state.rays)
+        (sample, weight)
     }
 
     /// Follows a path to its end, one vertex after the other.
@@ -170,10 +143,17 @@ impl<'a> PathTracer<'a> {
         }
     }
 
-    /// The material of the surface at which a path goes wrong, if it is a surface's: follows it again
+    /// The material of the surface at which a sample goes wrong, if it is a surface's: follows it again
     /// until its radiance is not finite.
     #[cold]
-    pub(crate) fn blame(&self, mut path: Path) -> Option<u32> {
+    pub(crate) fn blame(
+        &self,
+        block: &mut Block,
+        pixel: [u32; 2],
+        sampler: Sampler,
+    ) -> Option<u32> {
+        self.begin(block, std::iter::once((pixel, sampler)));
+        let mut path = block.first();
         let mut depth = 0;
         loop {
             let found = self.nearest(&path.ray, &path.sampler, depth, &mut path.state);
@@ -209,10 +189,14 @@ impl<'a> PathTracer<'a> {
             first,
         } = path;
         let Some(surface) = found else {
-            self.add_background(state, ray.direction);
+            if !(state.straight && self.scene.hide_emitters) {
+                let radiance = self.background(state.previous, ray.direction);
+                state.radiance += state.throughput * radiance;
+            }
             return false;
         };
-        self.add_emission(state, &surface, ray.direction);
+        let radiance = self.emission(state.previous, &surface, ray.direction);
+        state.radiance += state.throughput * radiance;
         if depth >= self.max_depth && depth > 0 {
             return false;
         }
@@ -234,40 +218,48 @@ impl<'a> PathTracer<'a> {
     }
 
     /// Light from infinity on a ray that meets nothing.
+    ///
+    /// * `previous`: where it was drawn, if lights could have found it too.
     #[inline]
-    fn add_background(&self, state: &mut State, direction: Vec3<f32>) {
-        if state.straight && self.scene.hide_emitters {
-            return;
-        }
-        for (radiance, pdf) in self.scene.lights.arriving_from_infinity(direction) {
-            let weight = self.lobe_weight(state.previous, |receiver| {
-                self.scene.lights.share_from_infinity(receiver) * pdf
+    fn background(&self, previous: Option<Previous>, direction: Vec3<f32>) -> Rgb<f32> {
+        let lights = &self.scene.lights;
+        let mut sum = Rgb::BLACK;
+        for (radiance, pdf) in lights.arriving_from_infinity(direction) {
+            let weight = self.lobe_weight(previous, |receiver| {
+                lights.share_from_infinity(receiver) * pdf
             });
-            state.radiance += state.throughput * radiance * weight;
+            sum += radiance * weight;
         }
+        sum
     }
 
     /// Light that the surface sends out itself.
+    ///
+    /// * `previous`: as of [`Self::background`].
     #[inline]
-    fn add_emission(&self, state: &mut State, surface: &Surface, direction: Vec3<f32>) {
-        if surface.light == NONE {
-            return;
-        }
+    fn emission(
+        &self,
+        previous: Option<Previous>,
+        surface: &Surface,
+        direction: Vec3<f32>,
+    ) -> Rgb<f32> {
         let shape = &self.scene.geometry.shapes[surface.shape as usize];
-        if shape.two_sided || surface.ng.dot(direction) < 0.0 {
-            let weight = self.lobe_weight(state.previous, |receiver| {
-                self.scene.lights.pdf_of_surface(receiver, surface)
-            });
-            let radiance = match shape.radiance {
-                ColourParam::Value(radiance) => radiance,
-                textured => {
-                    let place = surface.place();
-                    let colour = self.scene.textures.colour(textured, &place);
-                    colour.map(|v| v.max(0.0))
-                }
-            };
-            state.radiance += state.throughput * radiance * weight;
+        let shines = shape.two_sided || surface.ng.dot(direction) < 0.0;
+        if surface.light == NONE || !shines {
+            return Rgb::BLACK;
         }
+        let weight = self.lobe_weight(previous, |receiver| {
+            self.scene.lights.pdf_of_surface(receiver, surface)
+        });
+        let radiance = match shape.radiance {
+            ColourParam::Value(radiance) => radiance,
+            textured => {
+                let place = surface.place();
+                let colour = self.scene.textures.colour(textured, &place);
+                colour.map(|v| v.max(0.0))
+            }
+        };
+        radiance * weight
     }
 
     /// Weight of light found by a lobe's direction.

@@ -29,6 +29,8 @@ pub struct PreparedScene {
     pub(crate) textures: Textures,
     pub(crate) materials: Materials,
     pub(crate) lights: Lights,
+    /// Material of each shape that is dealt with in lanes, and whether its sides differ.
+    pub(crate) lanes_of: Vec<Option<(u32, bool)>>,
     /// Whether lights are hidden from the camera.
     pub(crate) hide_emitters: bool,
 }
@@ -119,12 +121,17 @@ impl PreparedScene {
             return Err(PrepareError::TooFar);
         }
         let lights = Lights::new(&scene, &geometry, &textures);
+        let lanes_of = geometry.shapes.iter().map(|s| {
+            let [plain, _] = materials.plain(s.material)?;
+            Some((s.material, plain.is_sided))
+        });
         Ok(Self {
             camera,
             filter,
             develop,
             resolution,
             crop,
+            lanes_of: lanes_of.collect(),
             geometry,
             textures,
             materials,

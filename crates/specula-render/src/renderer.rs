@@ -1,11 +1,13 @@
 //! Passes over the film: all cores, the same picture for any number of them.
 
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use multiversion::multiversion;
 use rayon::prelude::*;
 
-use crate::film::{Criterion, FIRST_JUDGED, FilmBuffer, Tile};
-use crate::integrator::{Block, Path, PathTracer};
+use crate::film::{Criterion, FIRST_JUDGED, FilmBuffer, PixelSums, Tile};
+use crate::integrator::{Block, PathTracer};
 use crate::options::RenderOptions;
 use crate::prepared::PreparedScene;
 use crate::sampler::Sampler;
@@ -20,6 +22,8 @@ pub struct Renderer<'a> {
     scene: &'a PreparedScene,
     options: RenderOptions,
     film: FilmBuffer,
+    /// Those that no thread uses.
+    blocks: Mutex<Vec<Block>>,
 }
 
 /// What a pass did.
@@ -82,6 +86,7 @@ impl<'a> Renderer<'a> {
             scene,
             film: FilmBuffer::new(scene.resolution, scene.crop, options.first_sample),
             options,
+            blocks: Mutex::default(),
         }
     }
 
@@ -121,6 +126,7 @@ impl<'a> Renderer<'a> {
             scene,
             options,
             film,
+            blocks: Mutex::default(),
         };
         if renderer.options.noise.is_some() {
             renderer.film.take_reference();
@@ -138,24 +144,28 @@ impl<'a> Renderer<'a> {
     /// * `stop`: looked at before every tile.
     pub fn render_pass(&mut self, samples: u32, stop: &AtomicBool) -> PassReport {
         let target = self.samples_done().map(|done| done.saturating_add(samples));
-        let scene = self.scene;
         let options = &self.options;
-        let tracer = PathTracer::new(scene, options);
+        let tracer = PathTracer::new(self.scene, options);
+        let blocks = &self.blocks;
         let criterion = options.noise.map(|noise| self.film.criterion(noise));
         let (done, complete) = self
             .film
             .tiles
             .par_iter_mut()
             .with_max_len(1)
-            .map_init(Block::new, |block, tile| {
+            .map(|tile| {
                 let mut done = Done::default();
+                let mut block = free(blocks).pop().unwrap_or_else(Block::new);
+                let mut complete = true;
                 while let Some(next) = next_target(tile, criterion.as_ref(), target) {
-                    if stop.load(Ordering::Relaxed) {
-                        return (done, false);
+                    complete = !stop.load(Ordering::Relaxed);
+                    if !complete {
+                        break;
                     }
-                    done = done.and(render_tile(scene, (&tracer, block), options, tile, next));
+                    done = done.and(render_tile(&tracer, &mut block, options, tile, next));
                 }
-                (done, true)
+                free(blocks).push(block);
+                (done, complete)
             })
             .reduce(
                 || (Done::default(), true),
@@ -207,6 +217,11 @@ impl<'a> Renderer<'a> {
     }
 }
 
+/// The blocks that no thread uses.
+fn free(blocks: &Mutex<Vec<Block>>) -> MutexGuard<'_, Vec<Block>> {
+    blocks.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// Samples that a tile is to be taken to next, at most `last`; `None`: it has what this pass brings.
 fn next_target(tile: &Tile, criterion: Option<&Criterion>, last: Option<u32>) -> Option<u32> {
     let wanted = criterion.map_or(last, |c| c.target(tile));
@@ -233,8 +248,8 @@ impl Done {
 
 /// Brings every pixel of a tile to `target` samples.
 fn render_tile(
-    scene: &PreparedScene,
-    (tracer, block): (&PathTracer<'_>, &mut Block),
+    tracer: &PathTracer<'_>,
+    block: &mut Block,
     options: &RenderOptions,
     tile: &mut Tile,
     target: u32,
@@ -243,44 +258,54 @@ fn render_tile(
     let width = x1 - x0;
     let (seed, first) = (options.seed, options.first_sample);
     let count = tile.count();
+    let sample = |(i, nth): (u32, u32)| {
+        let pixel = [x0 + i % width, y0 + i / width];
+        (pixel, Sampler::new(pixel, first.wrapping_add(nth), seed))
+    };
     let mut samples = (0..crate::convert::id(tile.pixels.len()))
         .flat_map(|i| (count..target).map(move |nth| (i, nth)));
-    let begin = |[x, y]: [u32; 2], nth: u32| {
-        let sampler = Sampler::new([x, y], first.wrapping_add(nth), seed);
-        let [u0, u1, u2, u3] = sampler.camera();
-        let ([dx, dy], weight) = scene.filter.sample([u0, u1]);
-        let raster = [x as f32 + 0.5 + dx, y as f32 + 0.5 + dy];
-        let (origin, direction) = scene.camera.ray(raster, [u2, u3]);
-        (weight, Path::new(sampler, origin, direction))
-    };
     let mut done = Done::default();
     let mut places = Vec::with_capacity(Block::SIZE);
     loop {
-        block.paths.clear();
         places.clear();
-        for (i, nth) in samples.by_ref().take(Block::SIZE) {
-            let (weight, path) = begin([x0 + i % width, y0 + i / width], nth);
-            block.paths.push(path);
-            places.push((i, nth, weight));
-        }
+        places.extend(samples.by_ref().take(Block::SIZE));
         if places.is_empty() {
             return done;
         }
+        tracer.begin(block, places.iter().copied().map(sample));
         tracer.follow_all(block);
-        for (&(i, nth, weight), path) in places.iter().zip(&block.paths) {
-            let (sample, traced) = tracer.brought(path);
-            done.rays += traced;
-            if !tile.pixels[i as usize].add(&sample, weight) {
-                tile.invalid += 1;
-                let pixel = [x0 + i % width, y0 + i / width];
-                let (_, path) = begin(pixel, nth);
-                let material = tracer.blame(path).map(|m| m as usize);
-                done.invalid = Some(InvalidSample {
-                    pixel,
-                    number: first.wrapping_add(nth),
-                    material,
-                });
-            }
+        done.rays += block.take_rays();
+        for place in add_samples(tracer, block, &places, &mut tile.pixels) {
+            tile.invalid += 1;
+            let (pixel, sampler) = sample(place);
+            done.invalid = Some(InvalidSample {
+                pixel,
+                number: first.wrapping_add(place.1),
+                material: tracer.blame(block, pixel, sampler).map(|m| m as usize),
+            });
         }
     }
+}
+
+/// Adds the samples of a block to their pixels; returns those that are not finite.
+///
+/// * `places`: of each path the pixel, and the number of the sample there.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
+    "x86_64+avx2+fma+bmi1+bmi2"
+))]
+fn add_samples(
+    tracer: &PathTracer<'_>,
+    block: &Block,
+    places: &[(u32, u32)],
+    pixels: &mut [PixelSums],
+) -> Vec<(u32, u32)> {
+    let mut invalid = Vec::new();
+    for (i, &place) in places.iter().enumerate() {
+        let (sample, weight) = tracer.brought(block, i);
+        if !pixels[place.0 as usize].add(&sample, weight) {
+            invalid.push(place);
+        }
+    }
+    invalid
 }

@@ -42,9 +42,9 @@ impl Sampler {
     }
 
     /// Two numbers for the filter, two for the lens.
-    #[inline]
+    #[cfg(test)]
     pub(crate) fn camera(&self) -> [f32; 4] {
-        self.set(0)
+        self.set(Purpose::Camera.set(0))
     }
 
     /// Three numbers for the lobe, one for Russian roulette.
@@ -88,6 +88,8 @@ impl Sampler {
 /// What the numbers at a vertex are for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Purpose {
+    /// The filter and the lens, whatever the vertex.
+    Camera,
     /// [`Sampler::scatter`].
     Scatter,
     /// [`Sampler::light`].
@@ -97,6 +99,7 @@ pub(crate) enum Purpose {
 impl Purpose {
     fn set(self, vertex: u32) -> u32 {
         match self {
+            Self::Camera => 0,
             Self::Scatter => 1 + 2 * vertex,
             Self::Light => 2 + 2 * vertex,
         }
@@ -112,7 +115,7 @@ fn seed_of_round(seed: u32, round: u32) -> u32 {
     }
 }
 
-/// Numbers of many samples at once: those of [`Sampler::scatter`] or [`Sampler::light`], bit for bit.
+/// Numbers of many samples at once: those that a [`Sampler`] draws, bit for bit.
 #[derive(Clone, Debug)]
 pub(crate) struct Numbers<const N: usize> {
     indices: [u32; N],
@@ -264,8 +267,8 @@ mod tests {
 
     #[test]
     fn samples_beyond_the_length_of_the_sequence_are_new() {
-        let early = Sampler::new([0, 0], 1, 0).camera();
-        let late = Sampler::new([0, 0], 1 + (1 << 16), 0).camera();
+        let early = Sampler::new([0, 0], 1, 0).set(0);
+        let late = Sampler::new([0, 0], 1 + (1 << 16), 0).set(0);
         assert_ne!(early, late);
     }
 
@@ -274,8 +277,8 @@ mod tests {
         let n = 4096;
         let mut product = 0.0_f64;
         for x in 0..n {
-            let a = Sampler::new([x, 0], 0, 0).camera()[0];
-            let b = Sampler::new([x + 1, 0], 0, 0).camera()[0];
+            let a = Sampler::new([x, 0], 0, 0).set(0)[0];
+            let b = Sampler::new([x + 1, 0], 0, 0).set(0)[0];
             product += f64::from(a - 0.5) * f64::from(b - 0.5);
         }
         // Standard deviation of the mean: (1/12) / sqrt(n).

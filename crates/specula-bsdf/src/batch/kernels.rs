@@ -14,7 +14,7 @@ use crate::math::{Real, Vec3, vec3};
 use crate::vndf::Sampler;
 
 /// Elements between two stages, few enough to stay in the nearest cache.
-const CHUNK: usize = 128;
+const CHUNK: usize = 64;
 
 /// Runs `$body` with `$f` standing for the family with a constant sampler.
 macro_rules! per_sampler {

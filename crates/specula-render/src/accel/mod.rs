@@ -220,6 +220,18 @@ impl Accel {
         }
     }
 
+    /// [`Accel::intersect`] of each ray, in order.
+    pub fn intersect_all(&self, rays: &[Ray], hits: &mut Vec<Option<Hit>>) {
+        hits.clear();
+        hits.extend(rays.iter().map(|ray| self.intersect(ray)));
+    }
+
+    /// [`Accel::occluded`] of each ray, in order.
+    pub fn occluded_all(&self, rays: &[Ray], found: &mut Vec<bool>) {
+        found.clear();
+        found.extend(rays.iter().map(|ray| self.occluded(ray)));
+    }
+
     /// A box around everything in the world, a little larger than it; `None` where there is nothing.
     pub fn bounds(&self) -> Option<Bounds> {
         self.bounds

@@ -42,7 +42,7 @@ impl PixelSums {
 
     /// Adds a sample with its filter weight; returns whether it was finite. A sample that is not
     /// counts as black.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn add(&mut self, sample: &PixelSample, weight: f32) -> bool {
         self.count += 1;
         let value = sample.colour * weight;

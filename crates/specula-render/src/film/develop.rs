@@ -22,7 +22,7 @@ impl Develop {
     }
 
     /// Picture values of a radiance.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn of(&self, radiance: Rgb<f32>) -> Rgb<f32> {
         let mut c = radiance * self.exposure;
         let largest = c.r.max(c.g).max(c.b);

@@ -25,6 +25,10 @@ struct Axis {
     radius: f32,
     /// `cdf[i]`: share of `|f|` left of cell `i`; the last is 1.
     cdf: Vec<f32>,
+    /// Last cell that begins at or before each share of [`CELLS`].
+    guide: Vec<u16>,
+    /// Whether it is 1 everywhere.
+    is_box: bool,
     /// Where `f` is negative.
     negative: Vec<bool>,
     /// `int |f| / int f`.
@@ -49,12 +53,14 @@ impl FilterSampler {
         }
     }
 
-    /// An offset from the pixel's centre, and the sample's weight.
-    #[inline]
-    pub(crate) fn sample(&self, u: [f32; 2]) -> ([f32; 2], f32) {
-        let (x, wx) = self.axes[0].sample(u[0]);
-        let (y, wy) = self.axes[1].sample(u[1]);
-        ([x, y], wx * wy)
+    /// Moves points from their pixels' centres, and weighs their samples.
+    ///
+    /// * `u`: as many numbers as points along each axis.
+    pub(crate) fn sample_all(&self, u: [&[f32]; 2], at: [&mut [f32]; 2], weights: &mut [f32]) {
+        weights.fill(1.0);
+        for ((axis, u), at) in self.axes.iter().zip(u).zip(at) {
+            axis.sample_all(u, at, weights);
+        }
     }
 }
 
@@ -78,8 +84,15 @@ impl Axis {
             sum += v.abs();
         }
         cdf.push(1.0);
+        let first = |i: usize| {
+            let share = i as f32 / CELLS as f32;
+            let cell = cdf.partition_point(|&c| c <= share).clamp(1, CELLS) - 1;
+            u16::try_from(cell).unwrap_or(0)
+        };
         Self {
             radius,
+            guide: (0..CELLS).map(first).collect(),
+            is_box: values.iter().all(|&v| v == 1.0),
             cdf,
             negative: values.iter().map(|&v| usable && v < 0.0).collect(),
             magnitude: if usable {
@@ -90,9 +103,28 @@ impl Axis {
         }
     }
 
+    fn sample_all(&self, u: &[f32], at: &mut [f32], weights: &mut [f32]) {
+        if self.is_box {
+            // What the cells come to.
+            for (u, at) in u.iter().zip(at) {
+                *at += (u * 2.0 - 1.0) * self.radius;
+            }
+            return;
+        }
+        for ((&u, at), weight) in u.iter().zip(at).zip(weights) {
+            let (x, w) = self.sample(u);
+            *at += x;
+            *weight *= w;
+        }
+    }
+
+    /// An offset, and the weight there.
     #[inline]
     fn sample(&self, u: f32) -> (f32, f32) {
-        let cell = self.cdf.partition_point(|&c| c <= u).clamp(1, CELLS) - 1;
+        let mut cell = usize::from(self.guide[floor_index(u * CELLS as f32).min(CELLS - 1)]);
+        while cell + 1 < CELLS && self.cdf[cell + 1] <= u {
+            cell += 1;
+        }
         let width = self.cdf[cell + 1] - self.cdf[cell];
         let within = if width > 0.0 {
             ((u - self.cdf[cell]) / width).clamp(0.0, 1.0)
@@ -100,11 +132,7 @@ impl Axis {
             0.5
         };
         let x = ((cell as f32 + within) / CELLS as f32 * 2.0 - 1.0) * self.radius;
-        let sign = if self.negative[floor_index(cell as f32)] {
-            -1.0
-        } else {
-            1.0
-        };
+        let sign = if self.negative[cell] { -1.0 } else { 1.0 };
         (x, sign * self.magnitude)
     }
 }
@@ -164,8 +192,14 @@ mod tests {
         let sampler = FilterSampler::new(&filter);
         let (mut moment, mut weights) = (0.0, 0.0);
         for i in 0..n {
-            let ([x, _], w) = sampler.sample([(i as f32 + 0.5) / n as f32, 0.5]);
-            let sign = sampler.sample([0.5, 0.5]).1.abs().sqrt();
+            let sample = |u: f32| {
+                let (mut at, mut weight) = ([[0.0]; 2], [0.0]);
+                let [x, y] = &mut at;
+                sampler.sample_all([&[u], &[0.5]], [x, y], &mut weight);
+                (at[0][0], weight[0])
+            };
+            let (x, w) = sample((i as f32 + 0.5) / n as f32);
+            let sign = sample(0.5).1.abs().sqrt();
             let w = f64::from(w / sign);
             moment += w * f64::from(x * x);
             weights += w;

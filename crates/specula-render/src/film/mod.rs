@@ -11,5 +11,5 @@ pub use adaptive::MOST_SAMPLES;
 pub(crate) use adaptive::{Criterion, FIRST_JUDGED};
 pub(crate) use buffer::BYTES_PER_PIXEL;
 pub use buffer::{FilmBuffer, MergeError};
-pub(crate) use buffer::{PixelSample, Tile};
+pub(crate) use buffer::{PixelSample, PixelSums, Tile};
 pub use file::{FilmFile, FilmFileError, Label};

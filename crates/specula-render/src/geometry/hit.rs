@@ -89,6 +89,34 @@ impl Geometry {
         Some((positions, corners.map(|v| Vec3::from(normal(v)))))
     }
 
+    /// The tangent at a hit of a triangle, as of [`Surface::tangent`], where the group is not placed.
+    #[inline]
+    pub(crate) fn tangent(&self, hit: &Hit) -> Vec3<f32> {
+        let group = &self.groups[self.placements[hit.instance as usize].group as usize];
+        let at = At {
+            instance: hit.instance,
+            primitive: hit.primitive,
+            weights: [hit.u, hit.v],
+        };
+        let shape = group.shape_of[hit.primitive as usize];
+        group.tangent_of_triangle(&at, self.shapes[shape as usize].has_uvs)
+    }
+
+    /// Position, its error, normal and tangent at a hit of a quadric, as of [`Geometry::surface`]; `None`
+    /// for triangles, and in groups that are placed.
+    #[inline]
+    pub(crate) fn quadric(&self, ray: &Ray, hit: &Hit) -> Option<[Vec3<f32>; 4]> {
+        let placement = &self.placements[hit.instance as usize];
+        let group = &self.groups[placement.group as usize];
+        let index = (hit.primitive as usize).checked_sub(group.triangles.len())?;
+        if !placement.identity {
+            return None;
+        }
+        let near = ray.origin + ray.direction * hit.t;
+        let bare = group.quadrics[index].bare(near);
+        Some([bare.position, bare.error, bare.normal, bare.tangent])
+    }
+
     /// The surface at a point of a primitive.
     ///
     /// * `near`: the point in the world, roughly; for quadrics only.
@@ -147,6 +175,31 @@ impl GroupData {
         (vec3(x, y, z), side)
     }
 
+    /// dp/du of a triangle, or the mesh's own tangent, unit; zero where it has neither.
+    ///
+    /// pbrt's tangent without coordinates, the first edge, would turn brushed metal at every
+    /// triangle: there is none.
+    #[inline]
+    fn tangent_of_triangle(&self, at: &At, has_uvs: bool) -> Vec3<f32> {
+        let [i, j, k] = self.triangles[at.primitive as usize].map(|v| v as usize);
+        let mut tangent = Vec3::ZERO;
+        if has_uvs {
+            let [ta, tb, tc] = [i, j, k].map(|v| self.uvs[v]);
+            let [a, b, c] = [i, j, k].map(|v| Vec3::from(self.positions[v]));
+            let (du1, dv1) = (tb[0] - ta[0], tb[1] - ta[1]);
+            let (du2, dv2) = (tc[0] - ta[0], tc[1] - ta[1]);
+            let determinant = du1 * dv2 - dv1 * du2;
+            let dpdu = ((b - a) * dv2 - (c - a) * dv1) * 1.0_f32.copysign(determinant);
+            if determinant != 0.0 {
+                tangent = unit_or(dpdu, Vec3::ZERO);
+            }
+        }
+        if self.tangents.len() > i.max(j).max(k) {
+            tangent = unit_or(self.tangent(at).0, tangent);
+        }
+        tangent
+    }
+
     #[inline]
     fn triangle_surface(&self, at: &At, has_uvs: bool) -> Surface {
         let [i, j, k] = self.triangles[at.primitive as usize].map(|v| v as usize);
@@ -161,34 +214,18 @@ impl GroupData {
         } else {
             ng
         };
-        let (uv, tangent) = if has_uvs {
+        let uv = if has_uvs {
             let [ta, tb, tc] = [i, j, k].map(|v| self.uvs[v]);
-            let uv = [0, 1].map(|x| ta[x] * w + tb[x] * u + tc[x] * v);
-            let (du1, dv1) = (tb[0] - ta[0], tb[1] - ta[1]);
-            let (du2, dv2) = (tc[0] - ta[0], tc[1] - ta[1]);
-            let determinant = du1 * dv2 - dv1 * du2;
-            let dpdu = (e1 * dv2 - e2 * dv1) * 1.0_f32.copysign(determinant);
-            let tangent = if determinant == 0.0 {
-                Vec3::ZERO
-            } else {
-                unit_or(dpdu, Vec3::ZERO)
-            };
-            (uv, tangent)
+            [0, 1].map(|x| ta[x] * w + tb[x] * u + tc[x] * v)
         } else {
-            // pbrt's coordinates of triangles without any: (0, 0), (1, 0), (1, 1). Its tangent,
-            // the first edge, would turn brushed metal at every triangle; so there is none.
-            ([u + v, v], Vec3::ZERO)
+            // pbrt's coordinates of triangles without any: (0, 0), (1, 0), (1, 1).
+            [u + v, v]
         };
         let second_uv = if self.second_uvs.len() > i.max(j).max(k) {
             let [ta, tb, tc] = [i, j, k].map(|v| self.second_uvs[v]);
             [0, 1].map(|x| ta[x] * w + tb[x] * u + tc[x] * v)
         } else {
             [0.0; 2]
-        };
-        let tangent = if self.tangents.len() > i.max(j).max(k) {
-            unit_or(self.tangent(at).0, tangent)
-        } else {
-            tangent
         };
         let colour = if self.colours.len() > i.max(j).max(k) {
             let [ca, cb, cc] = [i, j, k].map(|v| self.colours[v]);
@@ -202,7 +239,7 @@ impl GroupData {
             error: coupled(largest(abs(a), largest(abs(b), abs(c)))),
             ng,
             ns,
-            tangent,
+            tangent: self.tangent_of_triangle(at, has_uvs),
             uv,
             second_uv,
             colour,
@@ -217,34 +254,29 @@ impl PlacedQuadric {
     /// The surface next to a point of the group's space.
     fn surface(&self, near: Vec3<f32>) -> Surface {
         use core::f32::consts::{PI, TAU};
-        let q = self.backward.point(near);
+        let bare = self.bare(near);
+        let q = bare.own;
         let phi = q.y.atan2(q.x);
         let u = if phi < 0.0 {
             phi / TAU + 1.0
         } else {
             phi / TAU
         };
-        let (q, normal, v) = match self.shape {
+        let v = match self.shape {
+            // pbrt's v runs from -z to +z.
             QuadricShape::Sphere { radius } => {
-                let r = narrow(radius);
-                let n = unit_or(q, Vec3::Z);
-                // pbrt's v runs from -z to +z.
-                (n * r, n, 1.0 - n.z.clamp(-1.0, 1.0).acos() / PI)
+                1.0 - (q.z / narrow(radius)).clamp(-1.0, 1.0).acos() / PI
             }
-            QuadricShape::Disk { radius, height } => {
-                let distance = (q.x * q.x + q.y * q.y).sqrt();
-                let v = 1.0 - distance / narrow(radius);
-                (vec3(q.x, q.y, narrow(height)), Vec3::Z, v)
+            QuadricShape::Disk { radius, .. } => {
+                1.0 - (q.x * q.x + q.y * q.y).sqrt() / narrow(radius)
             }
         };
-        let normal = if self.flipped { -normal } else { normal };
-        let ng = unit_or(self.normals.vector(normal), normal);
         Surface {
-            position: self.forward.point(q),
-            error: coupled(self.forward.magnitude(q)),
-            ng,
-            ns: ng,
-            tangent: self.forward.vector(vec3(-q.y, q.x, 0.0)),
+            position: bare.position,
+            error: bare.error,
+            ng: bare.normal,
+            ns: bare.normal,
+            tangent: bare.tangent,
             uv: [u, v.clamp(0.0, 1.0)],
             second_uv: [0.0; 2],
             colour: Rgb::WHITE,
@@ -253,6 +285,37 @@ impl PlacedQuadric {
             at: At::default(),
         }
     }
+
+    /// What needs no coordinates of the surface next to a point of the group's space.
+    #[inline]
+    fn bare(&self, near: Vec3<f32>) -> Bare {
+        let q = self.backward.point(near);
+        let (q, normal) = match self.shape {
+            QuadricShape::Sphere { radius } => {
+                let n = unit_or(q, Vec3::Z);
+                (n * narrow(radius), n)
+            }
+            QuadricShape::Disk { height, .. } => (vec3(q.x, q.y, narrow(height)), Vec3::Z),
+        };
+        let normal = if self.flipped { -normal } else { normal };
+        Bare {
+            position: self.forward.point(q),
+            error: coupled(self.forward.magnitude(q)),
+            normal: unit_or(self.normals.vector(normal), normal),
+            tangent: self.forward.vector(vec3(-q.y, q.x, 0.0)),
+            own: q,
+        }
+    }
+}
+
+/// A point of a quadric.
+struct Bare {
+    position: Vec3<f32>,
+    error: Vec3<f32>,
+    normal: Vec3<f32>,
+    tangent: Vec3<f32>,
+    /// In the quadric's own space.
+    own: Vec3<f32>,
 }
 
 #[inline(always)]

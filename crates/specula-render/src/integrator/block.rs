@@ -1,55 +1,123 @@
 //! Many paths in step, vertex by vertex.
 //!
-//! Of the surfaces that the paths of a block meet, those with constant opaque materials are sorted by
-//! material and dealt with in lanes (`lanes`); the rest goes the scalar way (`PathTracer::meet`).
-//! Which way a vertex goes is a matter of the scene alone, and a path never depends on the others of
-//! its block.
+//! Of the surfaces that the paths of a block meet, those with constant materials are sorted by material
+//! and dealt with in lanes (`vertices`); the rest goes the scalar way (`PathTracer::meet`). Which way a
+//! vertex goes is a matter of the scene alone, and a path never depends on the others of its block.
 
-use core::ops::Range;
-
-use specula_bsdf::batch::Kind;
+use specula_bsdf::Vec3;
 use specula_bsdf::math::Stream;
-use specula_bsdf::{Bsdf, Vec3};
 
-use super::lanes::{self, LANES, Lanes};
-use super::passing::TO_LIGHT;
-use super::{Path, PathTracer, Previous, lobes};
+use super::lanes::{self, Column, LANES, Lanes, ZERO};
+use super::paths::Paths;
+use super::{Path, PathTracer};
 use crate::accel::{Hit, Ray};
 use crate::convert::id;
+use crate::film::PixelSample;
 use crate::geometry::NONE;
-use crate::material::Plain;
 use crate::options::Strategy;
-use crate::sampler::Purpose;
+use crate::prepared::PreparedScene;
+use crate::sampler::{Purpose, Sampler};
 
 /// A surface in waiting for its lanes.
-struct Waiting {
-    path: u32,
+pub(super) struct Waiting {
+    /// Place among the paths that live.
+    pub(super) at: u32,
     /// Twice the material, and one more where that is seen from the outside or may be seen from either
     /// side.
     key: u32,
-    hit: Hit,
 }
 
 /// A stretch of lanes of one key.
-struct Stretch {
-    from: usize,
-    to: usize,
-    key: u32,
+#[derive(Clone, Copy)]
+pub(super) struct Stretch {
+    pub(super) from: usize,
+    pub(super) to: usize,
+    pub(super) key: u32,
 }
 
 /// Paths in step, and the room that they need.
 pub(crate) struct Block {
-    pub(crate) paths: Vec<Path>,
-    live: Vec<u32>,
-    next: Vec<u32>,
+    pub(super) paths: Box<Paths>,
+    /// Filter weights of the samples.
+    weights: Column,
+    /// Rays that were traced.
+    pub(super) rays_traced: u64,
+    /// The paths that go on, and what their rays meet.
+    pub(super) live: Box<Queue>,
+    pub(super) hits: Vec<Option<Hit>>,
+    /// Those that go on from there.
+    pub(super) next: Box<Queue>,
+    /// Places among those that live, of rays that meet nothing.
+    escaped: Vec<u32>,
     waiting: Vec<Waiting>,
     /// How many wait of each key, then where they begin.
     starts: Vec<u32>,
-    order: Vec<u32>,
-    stretches: Vec<Stretch>,
-    lanes: Box<Lanes>,
-    owners: Vec<u32>,
-    streams: Vec<Stream>,
+    pub(super) stretches: Vec<Stretch>,
+    pub(super) lanes: Box<Lanes>,
+    pub(super) streams: Vec<Stream>,
+    /// Rays towards lights, with the lanes that they are of.
+    pub(super) shadows: Box<Queue>,
+    /// Whether anything is in their way.
+    pub(super) blocked: Vec<bool>,
+}
+
+/// Numbers of paths or lanes, each with a ray.
+pub(super) struct Queue {
+    numbers: [u32; LANES],
+    rays: [Ray; LANES],
+    len: usize,
+}
+
+impl Queue {
+    fn new() -> Box<Self> {
+        let nowhere = Ray {
+            origin: Vec3::ZERO,
+            direction: Vec3::Z,
+            t_max: 0.0,
+        };
+        Box::new(Self {
+            numbers: [0; LANES],
+            rays: [nowhere; LANES],
+            len: 0,
+        })
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.len = 0;
+    }
+
+    #[inline(always)]
+    pub(super) fn push(&mut self, number: u32, ray: Ray) {
+        let at = self.len % LANES;
+        self.numbers[at] = number;
+        self.rays[at] = ray;
+        self.len = at + 1;
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.len.min(LANES)
+    }
+
+    /// The number at a place, as an index.
+    #[inline(always)]
+    pub(super) fn number(&self, k: usize) -> usize {
+        index(self.numbers[k % LANES])
+    }
+
+    #[inline(always)]
+    pub(super) fn ray(&self, k: usize) -> &Ray {
+        &self.rays[k % LANES]
+    }
+
+    pub(super) fn rays(&self) -> &[Ray] {
+        &self.rays[..self.len()]
+    }
+}
+
+/// A path's number as an index that needs no check.
+#[inline(always)]
+pub(super) fn index(number: u32) -> usize {
+    number as usize % LANES
 }
 
 impl Block {
@@ -59,104 +127,210 @@ impl Block {
     /// An empty one.
     pub(crate) fn new() -> Self {
         Self {
-            paths: Vec::with_capacity(Self::SIZE),
-            live: Vec::new(),
-            next: Vec::new(),
+            paths: Paths::new(),
+            weights: ZERO,
+            rays_traced: 0,
+            live: Queue::new(),
+            hits: Vec::with_capacity(LANES),
+            next: Queue::new(),
+            escaped: Vec::new(),
             waiting: Vec::new(),
             starts: Vec::new(),
-            order: Vec::new(),
             stretches: Vec::new(),
             lanes: Lanes::new(),
-            owners: Vec::new(),
             streams: Vec::new(),
+            shadows: Queue::new(),
+            blocked: Vec::new(),
         }
+    }
+
+    /// What the path of a sample brought, and the sample's weight, before the film has developed it.
+    #[inline(always)]
+    pub(crate) fn seen(&self, i: usize) -> (PixelSample, f32) {
+        (self.paths.seen(i), self.weights[i])
+    }
+
+    /// The first path, which has just begun.
+    pub(super) fn first(&self) -> Path {
+        self.paths.take(0, *self.live.ray(0))
+    }
+
+    /// Rays that were traced since this was asked last.
+    pub(crate) fn take_rays(&mut self) -> u64 {
+        std::mem::take(&mut self.rays_traced)
     }
 }
 
 impl PathTracer<'_> {
+    /// Begins a path for each sample, at most [`Block::SIZE`]: its pixel and its sampler.
+    pub(crate) fn begin(
+        &self,
+        block: &mut Block,
+        samples: impl Iterator<Item = ([u32; 2], Sampler)>,
+    ) {
+        let PreparedScene {
+            filter,
+            camera,
+            materials,
+            ..
+        } = self.scene;
+        let Block {
+            paths,
+            weights,
+            live,
+            lanes,
+            ..
+        } = block;
+        let Lanes {
+            numbers, raster, ..
+        } = &mut **lanes;
+        let mut n = 0;
+        for (i, (pixel, sampler)) in samples.take(LANES).enumerate() {
+            paths.samplers[i] = sampler;
+            numbers.place(i, &sampler);
+            raster[0][i] = pixel[0] as f32 + 0.5;
+            raster[1][i] = pixel[1] as f32 + 0.5;
+            n = i + 1;
+        }
+        paths.begin(n, materials.has_boundaries());
+        numbers.draw(n, Purpose::Camera, 0);
+        let [u0, u1, u2, u3] = &numbers.values;
+        let [x, y] = raster;
+        filter.sample_all(
+            [&u0[..n], &u1[..n]],
+            [&mut x[..n], &mut y[..n]],
+            &mut weights[..n],
+        );
+        live.clear();
+        camera.rays([&x[..n], &y[..n]], [&u2[..n], &u3[..n]], |i, ray| {
+            live.push(id(i), ray)
+        });
+    }
+
     /// Follows all paths of a block to their ends.
     pub(crate) fn follow_all(&self, block: &mut Block) {
-        block.live.clear();
-        block.live.extend(0..id(block.paths.len()));
         let mut depth = 0;
-        while !block.live.is_empty() {
+        while block.live.len() > 0 {
             block.next.clear();
-            block.waiting.clear();
-            self.meet_all(block, depth);
-            if !block.waiting.is_empty() {
-                self.sort(block);
-                self.step_lanes(block, depth);
+            if self.goes_in_lanes(depth) {
+                self.meet_all(block, depth);
+            } else {
+                for k in 0..block.live.len() {
+                    self.alone(block, k, |path| self.step(path, depth));
+                }
             }
             std::mem::swap(&mut block.live, &mut block.next);
             depth += 1;
         }
     }
 
-    /// Finds what all rays meet; what is for lanes is left waiting.
-    fn meet_all(&self, block: &mut Block, depth: u32) {
-        let Block {
-            paths,
-            live,
-            next,
-            waiting,
-            ..
-        } = block;
-        let geometry = &self.scene.geometry;
+    /// Whether rays stop at what they meet.
+    fn goes_in_lanes(&self, depth: u32) -> bool {
         let hides = self.scene.hide_emitters && depth == 0;
-        let straight = !geometry.has_passable && !hides && !self.scene.materials.has_boundaries();
-        let in_lanes = straight && self.strategy == Strategy::Mis && self.max_depth > 0;
-        for &index in live.iter() {
-            let path = &mut paths[index as usize];
-            if !in_lanes {
-                if self.step(path, depth) {
-                    next.push(index);
-                }
-                continue;
-            }
-            path.state.rays += 1;
-            let Some(hit) = geometry.accel.intersect(&path.ray) else {
-                self.meet(path, None, depth);
+        let straight = !self.scene.geometry.has_passable && !hides;
+        straight
+            && !self.scene.materials.has_boundaries()
+            && self.strategy == Strategy::Mis
+            && self.max_depth > 0
+    }
+
+    /// Takes one path a step by itself.
+    ///
+    /// * `step`: whether it goes on.
+    fn alone(&self, block: &mut Block, k: usize, step: impl FnOnce(&mut Path) -> bool) {
+        let number = block.live.number(k);
+        let mut path = block.paths.take(number, *block.live.ray(k));
+        if step(&mut path) {
+            block.next.push(id(number), path.ray);
+        }
+        block.rays_traced += block.paths.put(number, &path);
+    }
+
+    /// Takes all paths from one vertex to the next.
+    fn meet_all(&self, block: &mut Block, depth: u32) {
+        let geometry = &self.scene.geometry;
+        geometry
+            .accel
+            .intersect_all(block.live.rays(), &mut block.hits);
+        block.rays_traced += block.live.len() as u64;
+        block.waiting.clear();
+        block.escaped.clear();
+        for k in 0..block.live.len() {
+            let Some(hit) = block.hits[k] else {
+                block.escaped.push(id(k));
                 continue;
             };
-            if let Some(key) = self.key(&path.ray, &hit) {
-                if depth < self.max_depth {
-                    waiting.push(Waiting {
-                        path: index,
-                        key,
-                        hit,
-                    });
+            let ray = block.live.ray(k);
+            match self.key(ray, &hit) {
+                Some((key, sends_light)) => {
+                    if sends_light {
+                        self.add_emission_of(block, k, &hit);
+                    }
+                    if depth < self.max_depth {
+                        block.waiting.push(Waiting { at: id(k), key });
+                    }
                 }
-                continue;
+                None => {
+                    let surface = geometry.surface(ray, &hit);
+                    self.alone(block, k, |path| self.meet(path, Some(surface), depth));
+                }
             }
-            let surface = geometry.surface(&path.ray, &hit);
-            if self.meet(path, Some(surface), depth) {
-                next.push(index);
-            }
+        }
+        self.add_background_of(block);
+        if !block.waiting.is_empty() {
+            self.sort(block);
+            self.step_lanes(block, depth);
         }
     }
 
-    /// The key of a surface for lanes, which sends out no light.
-    #[inline]
-    fn key(&self, ray: &Ray, hit: &Hit) -> Option<u32> {
-        let geometry = &self.scene.geometry;
-        let placement = &geometry.placements[hit.instance as usize];
-        let group = &geometry.groups[placement.group as usize];
-        if group.light_of(hit.primitive) != NONE {
-            return None;
+    /// Light that a surface sends out along the ray of a path that lives.
+    #[inline(never)]
+    fn add_emission_of(&self, block: &mut Block, k: usize, hit: &Hit) {
+        let ray = block.live.ray(k);
+        let surface = self.scene.geometry.surface(ray, hit);
+        let number = block.live.number(k);
+        let previous = block.paths.previous(number);
+        let radiance = self.emission(previous, &surface, ray.direction);
+        let throughput = block.paths.throughput.colour(number);
+        block.paths.add(number, throughput * radiance);
+    }
+
+    /// Light from infinity on the rays that meet nothing.
+    fn add_background_of(&self, block: &mut Block) {
+        let paths = &mut block.paths;
+        for &k in &block.escaped {
+            let k = k as usize;
+            let number = block.live.number(k);
+            if paths.straight[number] && self.scene.hide_emitters {
+                continue;
+            }
+            let (previous, direction) = (paths.previous(number), block.live.ray(k).direction);
+            let radiance = self.background(previous, direction);
+            let throughput = paths.throughput.colour(number);
+            paths.add(number, throughput * radiance);
         }
+    }
+
+    /// The key of a surface for lanes, and whether it sends out light.
+    #[inline(always)]
+    fn key(&self, ray: &Ray, hit: &Hit) -> Option<(u32, bool)> {
+        let geometry = &self.scene.geometry;
+        let group = geometry.group_of(hit);
         let shape = group.shape_of[hit.primitive as usize];
-        let material = geometry.shapes[shape as usize].material;
-        let [plain, _] = self.scene.materials.plain(material)?;
-        let outside = !plain.is_sided || self.meets_outside(ray, hit);
-        Some(2 * material + u32::from(outside))
+        let (material, is_sided) = self.scene.lanes_of[shape as usize]?;
+        let outside = !is_sided || self.meets_outside(ray, hit);
+        let sends_light = group.light_of(hit.primitive) != NONE;
+        Some((2 * material + u32::from(outside), sends_light))
     }
 
     fn meets_outside(&self, ray: &Ray, hit: &Hit) -> bool {
         let geometry = &self.scene.geometry;
-        match geometry.corners(hit) {
-            Some(([a, b, c], _)) => lanes::normal([a, b, c]).dot(ray.direction) < 0.0,
-            None => geometry.surface(ray, hit).ng.dot(ray.direction) < 0.0,
-        }
+        let normal = match (geometry.corners(hit), geometry.quadric(ray, hit)) {
+            (Some((corners, _)), _) => lanes::normal(corners),
+            (None, Some([_, _, normal, _])) => normal,
+            (None, None) => geometry.surface(ray, hit).ng,
+        };
+        normal.dot(ray.direction) < 0.0
     }
 
     /// Sorts what waits by key into stretches of lanes.
@@ -166,8 +340,8 @@ impl PathTracer<'_> {
         let Block {
             waiting,
             starts,
-            order,
             stretches,
+            lanes,
             ..
         } = block;
         starts.clear();
@@ -185,270 +359,11 @@ impl PathTracer<'_> {
             *count = id(at);
             at = to;
         }
-        order.clear();
-        order.resize(at, 0);
-        for (i, w) in (0..).zip(waiting.iter()) {
+        lanes.count = at;
+        for w in waiting.iter() {
             let place = &mut starts[w.key as usize];
-            order[*place as usize] = i;
+            lanes.places[index(*place)] = w.at;
             *place += 1;
-        }
-    }
-
-    /// Takes the paths in lanes from this vertex to the next.
-    fn step_lanes(&self, block: &mut Block, depth: u32) {
-        self.load(block);
-        let Block {
-            paths,
-            stretches,
-            lanes,
-            owners,
-            ..
-        } = block;
-        let n = owners.len();
-        lanes::make_surfaces(n, &lanes.triangles, &mut lanes.surfaces);
-        lanes::turn(n, &mut lanes.surfaces);
-        for (plain, range) in self.each(stretches) {
-            if plain.specular {
-                lanes::straighten(range.start, range.end, &mut lanes.surfaces);
-            }
-        }
-        if depth == 0 {
-            for (plain, range) in self.each(stretches) {
-                for i in range {
-                    let s = &lanes.surfaces;
-                    let path = &mut paths[owners[i] as usize];
-                    if !(plain.black_inside && s.side[i] < 0.0) {
-                        path.first.albedo = plain.lobe.albedo();
-                    }
-                    path.first.normal = s.ns.get(i);
-                    path.first.depth = Some((s.position.get(i) - path.ray.origin).length());
-                }
-            }
-        }
-        self.light_lanes(block, depth);
-        self.scatter_lanes(block, depth);
-    }
-
-    /// Stretches of lanes with their materials.
-    fn each<'s>(
-        &'s self,
-        stretches: &'s [Stretch],
-    ) -> impl Iterator<Item = (&'s Plain, Range<usize>)> {
-        stretches.iter().filter_map(|s| {
-            let sides = self.scene.materials.plain(s.key / 2)?;
-            Some((&sides[(s.key % 2) as usize], s.from..s.to))
-        })
-    }
-
-    /// Brings what is sorted into the lanes.
-    fn load(&self, block: &mut Block) {
-        let Block {
-            paths,
-            waiting,
-            order,
-            stretches,
-            lanes,
-            owners,
-            ..
-        } = block;
-        let geometry = &self.scene.geometry;
-        owners.clear();
-        let Lanes {
-            triangles: t,
-            surfaces: s,
-            onward: o,
-            numbers,
-            ..
-        } = &mut **lanes;
-        for (plain, range) in self.each(stretches) {
-            let needs_tangent = !plain.isotropic;
-            for i in range {
-                let w = &waiting[order[i] as usize];
-                owners.push(w.path);
-                let path = &paths[w.path as usize];
-                numbers.place(i, &path.sampler);
-                s.towards.set(i, -path.ray.direction);
-                o.throughput.set_colour(i, path.state.throughput);
-                o.eta_scale[i] = path.state.eta_scale;
-                let corners = if needs_tangent {
-                    None
-                } else {
-                    geometry.corners(&w.hit)
-                };
-                t.wanted[i] = corners.is_some();
-                if let Some((corners, normals)) = corners {
-                    for (c, v) in t.corners.iter_mut().zip(corners) {
-                        c.set(i, v);
-                    }
-                    for (c, v) in t.normals.iter_mut().zip(normals) {
-                        c.set(i, v);
-                    }
-                    t.weights[0][i] = w.hit.u;
-                    t.weights[1][i] = w.hit.v;
-                    s.tangent.set(i, Vec3::ZERO);
-                } else {
-                    let surface = geometry.surface(&path.ray, &w.hit);
-                    s.position.set(i, surface.position);
-                    s.error[i] = surface.error.x;
-                    s.ng.set(i, surface.ng);
-                    s.ns.set(i, surface.ns);
-                    let tangent = if needs_tangent {
-                        surface.tangent
-                    } else {
-                        Vec3::ZERO
-                    };
-                    s.tangent.set(i, tangent);
-                }
-            }
-        }
-    }
-
-    /// Adds light from one sampled light to each path.
-    fn light_lanes(&self, block: &mut Block, depth: u32) {
-        let Block {
-            paths,
-            stretches,
-            lanes,
-            owners,
-            streams,
-            ..
-        } = block;
-        let n = owners.len();
-        let scene = self.scene;
-        lanes.numbers.draw(n, Purpose::Light, depth);
-        let Lanes {
-            surfaces: s,
-            arriving: a,
-            onward: o,
-            numbers,
-            ..
-        } = &mut **lanes;
-        if let Some(light) = scene.lights.lone_parallelogram() {
-            let [_, u, v, _] = &numbers.values;
-            lanes::draw_light(n, &light, [u, v], s, a);
-        } else {
-            let world = (&scene.geometry, &scene.textures);
-            for (plain, range) in self.each(stretches).filter(|(plain, _)| !plain.specular) {
-                for i in range {
-                    let u = [0, 1, 2, 3].map(|k| numbers.values[k][i]);
-                    a.set(i, scene.lights.sample(&s.receiver(i, plain), world, u));
-                }
-            }
-        }
-        lanes::to_frames(n, s, a);
-        for (plain, range) in self.each(stretches) {
-            let (from, to) = (range.start, range.end);
-            if plain.specular {
-                a.pdf[range].fill(0.0);
-                continue;
-            }
-            if plain.black_inside {
-                for i in range {
-                    a.pdf[i] = if s.side[i] < 0.0 { 0.0 } else { a.pdf[i] };
-                }
-            }
-            self.fill_streams(paths, &owners[from..to], plain, (depth, 0), streams);
-            lobes::eval_pdf(
-                &plain.lobe,
-                s.wo.directions(from, to),
-                a.wi.directions(from, to),
-                streams,
-                a.f_cos.colours_mut(from, to),
-                &mut a.lobe_pdf[from..to],
-            );
-        }
-        lanes::weigh(n, s, &o.throughput, a);
-        for i in 0..n {
-            let brought = a.brought.colour(i);
-            if brought.is_black() {
-                continue;
-            }
-            let path = &mut paths[owners[i] as usize];
-            let ray = Ray {
-                origin: a.origin.get(i),
-                direction: a.direction.get(i),
-                t_max: if a.far[i] { f32::INFINITY } else { TO_LIGHT },
-            };
-            path.state.rays += 1;
-            if !scene.geometry.accel.occluded(&ray) {
-                path.state.radiance += brought;
-            }
-        }
-    }
-
-    /// Streams for lobes whose values are estimates.
-    fn fill_streams(
-        &self,
-        paths: &[Path],
-        owners: &[u32],
-        plain: &Plain,
-        (depth, purpose): (u32, u32),
-        streams: &mut Vec<Stream>,
-    ) {
-        streams.clear();
-        if lobes::takes_streams(&plain.lobe) {
-            let stream = |&p: &u32| paths[p as usize].sampler.stream(depth, purpose);
-            streams.extend(owners.iter().map(stream));
-        }
-    }
-
-    /// Draws the next direction of each path.
-    fn scatter_lanes(&self, block: &mut Block, depth: u32) {
-        let Block {
-            paths,
-            next,
-            stretches,
-            lanes,
-            owners,
-            streams,
-            ..
-        } = block;
-        let n = owners.len();
-        lanes.numbers.draw(n, Purpose::Scatter, depth);
-        let Lanes {
-            surfaces: s,
-            onward: o,
-            numbers,
-            ..
-        } = &mut **lanes;
-        for (plain, range) in self.each(stretches) {
-            let (from, to) = (range.start, range.end);
-            self.fill_streams(paths, &owners[from..to], plain, (depth, 1), streams);
-            let u = [0, 1, 2].map(|k| &numbers.values[k][from..to]);
-            let samples = specula_bsdf::batch::Samples {
-                wi: o.wi.directions_mut(from, to),
-                weight: o.weight.colours_mut(from, to),
-                pdf: &mut o.pdf[from..to],
-                kind: &mut o.kind[from..to],
-            };
-            lobes::sample(&plain.lobe, s.wo.directions(from, to), u, streams, samples);
-            for i in range.filter(|_| !plain.opaque) {
-                if matches!(o.kind[i], Kind::Transmission | Kind::SpecularTransmission) {
-                    o.eta_scale[i] *= plain.eta * plain.eta;
-                }
-            }
-        }
-        lanes::go_on(n, depth, s, &numbers.values[3], o);
-        for (plain, range) in self.each(stretches) {
-            for i in range {
-                if !o.alive[i] || (plain.black_inside && s.side[i] < 0.0) {
-                    continue;
-                }
-                let path = &mut paths[owners[i] as usize];
-                path.ray = Ray {
-                    origin: o.origin.get(i),
-                    direction: o.direction.get(i),
-                    t_max: f32::INFINITY,
-                };
-                path.state.throughput = o.throughput.colour(i);
-                path.state.eta_scale = o.eta_scale[i];
-                path.state.straight = false;
-                path.state.previous = (!plain.specular).then(|| Previous {
-                    receiver: s.receiver(i, plain),
-                    pdf: o.pdf[i],
-                });
-                next.push(owners[i]);
-            }
         }
     }
 }
@@ -456,10 +371,7 @@ impl PathTracer<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::film::PixelSample;
     use crate::options::RenderOptions;
-    use crate::prepared::PreparedScene;
-    use crate::sampler::Sampler;
 
     /// What paths bring in blocks and one by one.
     fn both_ways(scene: &specula_scene::Scene) -> (PreparedScene, Vec<[PixelSample; 2]>) {
@@ -470,26 +382,23 @@ mod tests {
         };
         let prepared = PreparedScene::new(scene, &options).unwrap();
         let tracer = PathTracer::new(&prepared, &options);
-        let path = |i: u32| {
-            let sampler = Sampler::new([i % 64, i / 64], 3, 5);
-            let raster = [(i % 64) as f32 + 0.3, (i / 64) as f32 + 0.6];
-            let (origin, direction) = prepared.camera.ray(raster, [0.4, 0.7]);
-            Path::new(sampler, origin, direction)
+        let sample = |i: u32| {
+            let pixel = [i % 64, i / 64];
+            (pixel, Sampler::new(pixel, 3, 5))
         };
-        let mut block = Block::new();
+        let (mut block, mut lone) = (Block::new(), Block::new());
         let mut found = Vec::new();
         for first in (0..64 * 48).step_by(Block::SIZE) {
             let numbers = first..first + id(Block::SIZE);
-            block.paths.clear();
-            block.paths.extend(numbers.clone().map(path));
+            tracer.begin(&mut block, numbers.clone().map(sample));
             tracer.follow_all(&mut block);
-            for (path_of_block, i) in block.paths.iter().zip(numbers) {
-                let mut alone = path(i);
-                tracer.follow(&mut alone);
-                let (a, rays) = tracer.brought(path_of_block);
-                let (b, rays_alone) = tracer.brought(&alone);
-                assert!(rays > 0 && rays_alone > 0);
-                found.push([a, b]);
+            assert!(block.take_rays() > 0);
+            for (k, i) in numbers.enumerate() {
+                tracer.begin(&mut lone, std::iter::once(sample(i)));
+                let mut path = lone.first();
+                tracer.follow(&mut path);
+                lone.paths.put(0, &path);
+                found.push([tracer.brought(&block, k).0, tracer.brought(&lone, 0).0]);
             }
         }
         (prepared, found)

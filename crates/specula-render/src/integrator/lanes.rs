@@ -34,7 +34,7 @@ pub(super) struct Vectors {
 }
 
 impl Vectors {
-    const ZERO: Self = Self {
+    pub(super) const ZERO: Self = Self {
         x: [0.0; LANES],
         y: [0.0; LANES],
         z: [0.0; LANES],
@@ -161,19 +161,30 @@ pub(super) struct Onward {
 
 /// Everything about the vertices of a block.
 pub(super) struct Lanes {
+    /// How many there are.
+    pub(super) count: usize,
+    /// Of each vertex the number of its path, and its place among those that live.
+    pub(super) owners: [u32; LANES],
+    pub(super) places: [u32; LANES],
     pub(super) triangles: Triangles,
     pub(super) surfaces: Surfaces,
     pub(super) arriving: Arriving,
     pub(super) onward: Onward,
     /// Of the sequences.
     pub(super) numbers: Numbers<LANES>,
+    /// Where camera rays pass the raster.
+    pub(super) raster: [Column; 2],
 }
 
-const ZERO: Column = [0.0; LANES];
+/// Of zeros.
+pub(super) const ZERO: Column = [0.0; LANES];
 
 impl Lanes {
     pub(super) fn new() -> Box<Self> {
         Box::new(Self {
+            count: 0,
+            owners: [0; LANES],
+            places: [0; LANES],
             triangles: Triangles {
                 corners: [Vectors::ZERO; 3],
                 normals: [Vectors::ZERO; 3],
@@ -219,6 +230,7 @@ impl Lanes {
                 alive: [false; LANES],
             },
             numbers: Numbers::ZERO,
+            raster: [ZERO; 2],
         })
     }
 }

@@ -1,0 +1,358 @@
+//! The vertices of a block that are dealt with in lanes: from hits to lanes, light, and onwards.
+
+use core::ops::Range;
+
+use specula_bsdf::batch::Kind;
+use specula_bsdf::math::Stream;
+use specula_bsdf::{Bsdf, Vec3};
+
+use super::block::{Block, Stretch, index};
+use super::lanes::{self, LANES, Lanes};
+use super::passing::TO_LIGHT;
+use super::paths::Paths;
+use super::{PathTracer, lobes};
+use crate::accel::{Hit, Ray};
+use crate::convert::id;
+use crate::material::Plain;
+use crate::sampler::Purpose;
+
+impl PathTracer<'_> {
+    /// Takes the paths in lanes from this vertex to the next.
+    pub(super) fn step_lanes(&self, block: &mut Block, depth: u32) {
+        self.load(block);
+        let lanes = &mut *block.lanes;
+        let n = lanes.count;
+        lanes::make_surfaces(n, &lanes.triangles, &mut lanes.surfaces);
+        lanes::turn(n, &mut lanes.surfaces);
+        for (plain, range) in self.each(&block.stretches) {
+            if plain.specular {
+                lanes::straighten(range.start, range.end, &mut lanes.surfaces);
+            }
+        }
+        if depth == 0 {
+            self.show(block);
+        }
+        self.light_lanes(block, depth);
+        self.scatter_lanes(block, depth);
+    }
+
+    /// Keeps what the first vertices show.
+    fn show(&self, block: &mut Block) {
+        let Block {
+            paths,
+            live,
+            stretches,
+            lanes,
+            ..
+        } = block;
+        let Lanes {
+            surfaces: s,
+            owners,
+            places,
+            ..
+        } = &**lanes;
+        for (plain, range) in self.each(stretches) {
+            let albedo = plain.lobe.albedo();
+            for i in range {
+                let path = index(owners[i]);
+                if !(plain.black_inside && s.side[i] < 0.0) {
+                    paths.first.albedo.set_colour(path, albedo);
+                }
+                paths.first.normal.set(path, s.ns.get(i));
+                let ray = live.ray(places[i] as usize);
+                paths.first.depth[path] = (s.position.get(i) - ray.origin).length();
+            }
+        }
+    }
+
+    /// Stretches of lanes with their materials.
+    fn each<'s>(
+        &'s self,
+        stretches: &'s [Stretch],
+    ) -> impl Iterator<Item = (&'s Plain, Range<usize>)> {
+        stretches.iter().filter_map(|s| {
+            let sides = self.scene.materials.plain(s.key / 2)?;
+            Some((&sides[(s.key % 2) as usize], s.from..s.to.min(LANES)))
+        })
+    }
+
+    /// Brings what is sorted into the lanes.
+    fn load(&self, block: &mut Block) {
+        let Block {
+            paths,
+            live,
+            hits,
+            stretches,
+            lanes,
+            ..
+        } = block;
+        let Lanes {
+            surfaces: s,
+            onward: o,
+            numbers,
+            owners,
+            places,
+            count,
+            ..
+        } = &mut **lanes;
+        for i in 0..LANES.min(*count) {
+            let k = places[i] as usize;
+            let (path, ray) = (live.number(k), live.ray(k));
+            owners[i] = id(path);
+            numbers.place(i, &paths.samplers[path]);
+            s.towards.set(i, -ray.direction);
+            o.throughput.set_colour(i, paths.throughput.colour(path));
+            o.eta_scale[i] = paths.eta_scale[path];
+        }
+        for (plain, range) in self.each(stretches) {
+            for i in range {
+                let k = lanes.places[i] as usize;
+                if let Some(hit) = &hits[k] {
+                    self.load_surface(lanes, i, (live.ray(k), hit), !plain.isotropic);
+                }
+            }
+        }
+    }
+
+    /// Brings a surface into its lane.
+    #[inline(always)]
+    fn load_surface(
+        &self,
+        lanes: &mut Lanes,
+        i: usize,
+        (ray, hit): (&Ray, &Hit),
+        needs_tangent: bool,
+    ) {
+        let geometry = &self.scene.geometry;
+        let (t, s) = (&mut lanes.triangles, &mut lanes.surfaces);
+        let mut tangent = Vec3::ZERO;
+        if let Some((corners, normals)) = geometry.corners(hit) {
+            for (c, v) in t.corners.iter_mut().zip(corners) {
+                c.set(i, v);
+            }
+            for (c, v) in t.normals.iter_mut().zip(normals) {
+                c.set(i, v);
+            }
+            t.weights[0][i] = hit.u;
+            t.weights[1][i] = hit.v;
+            t.wanted[i] = true;
+            if needs_tangent {
+                tangent = geometry.tangent(hit);
+            }
+        } else {
+            let [position, error, ng, ns, along] = match geometry.quadric(ray, hit) {
+                Some([position, error, normal, along]) => [position, error, normal, normal, along],
+                None => {
+                    let s = geometry.surface(ray, hit);
+                    [s.position, s.error, s.ng, s.ns, s.tangent]
+                }
+            };
+            t.wanted[i] = false;
+            s.position.set(i, position);
+            s.error[i] = error.x;
+            s.ng.set(i, ng);
+            s.ns.set(i, ns);
+            if needs_tangent {
+                tangent = along;
+            }
+        }
+        s.tangent.set(i, tangent);
+    }
+
+    /// Adds light from one sampled light to each path.
+    fn light_lanes(&self, block: &mut Block, depth: u32) {
+        self.draw_lights(block, depth);
+        let Block {
+            paths,
+            stretches,
+            lanes,
+            streams,
+            ..
+        } = block;
+        let n = lanes.count;
+        let Lanes {
+            surfaces: s,
+            arriving: a,
+            onward: o,
+            owners,
+            ..
+        } = &mut **lanes;
+        lanes::to_frames(n, s, a);
+        for (plain, range) in self.each(stretches) {
+            let (from, to) = (range.start, range.end);
+            if plain.specular {
+                a.pdf[range].fill(0.0);
+                continue;
+            }
+            if plain.black_inside {
+                for i in range {
+                    a.pdf[i] = if s.side[i] < 0.0 { 0.0 } else { a.pdf[i] };
+                }
+            }
+            fill_streams(paths, &owners[from..to], plain, (depth, 0), streams);
+            lobes::eval_pdf(
+                &plain.lobe,
+                s.wo.directions(from, to),
+                a.wi.directions(from, to),
+                streams,
+                a.f_cos.colours_mut(from, to),
+                &mut a.lobe_pdf[from..to],
+            );
+        }
+        lanes::weigh(n, s, &o.throughput, a);
+        self.add_unblocked(block);
+    }
+
+    /// Draws a light for each vertex.
+    fn draw_lights(&self, block: &mut Block, depth: u32) {
+        let Block {
+            stretches, lanes, ..
+        } = block;
+        let n = lanes.count;
+        let scene = self.scene;
+        lanes.numbers.draw(n, Purpose::Light, depth);
+        let Lanes {
+            surfaces: s,
+            arriving: a,
+            numbers,
+            ..
+        } = &mut **lanes;
+        if let Some(light) = scene.lights.lone_parallelogram() {
+            let [_, u, v, _] = &numbers.values;
+            lanes::draw_light(n, &light, [u, v], s, a);
+            return;
+        }
+        let world = (&scene.geometry, &scene.textures);
+        for (plain, range) in self.each(stretches).filter(|(plain, _)| !plain.specular) {
+            for i in range {
+                let u = [0, 1, 2, 3].map(|k| numbers.values[k][i]);
+                a.set(i, scene.lights.sample(&s.receiver(i, plain), world, u));
+            }
+        }
+    }
+
+    /// Adds the light that nothing is in the way of.
+    fn add_unblocked(&self, block: &mut Block) {
+        let Block {
+            paths,
+            lanes,
+            shadows,
+            blocked,
+            rays_traced,
+            ..
+        } = block;
+        let (a, owners) = (&lanes.arriving, &lanes.owners);
+        shadows.clear();
+        for i in 0..LANES.min(lanes.count) {
+            if a.brought.colour(i).is_black() {
+                continue;
+            }
+            let ray = Ray {
+                origin: a.origin.get(i),
+                direction: a.direction.get(i),
+                t_max: if a.far[i] { f32::INFINITY } else { TO_LIGHT },
+            };
+            shadows.push(id(i), ray);
+        }
+        let accel = &self.scene.geometry.accel;
+        accel.occluded_all(shadows.rays(), blocked);
+        *rays_traced += shadows.len() as u64;
+        for (k, &blocked) in blocked.iter().enumerate() {
+            if !blocked {
+                let lane = shadows.number(k);
+                paths.add(index(owners[lane]), a.brought.colour(lane));
+            }
+        }
+    }
+
+    /// Draws the next direction of each path.
+    fn scatter_lanes(&self, block: &mut Block, depth: u32) {
+        let Block {
+            paths,
+            stretches,
+            lanes,
+            streams,
+            ..
+        } = block;
+        let n = lanes.count;
+        lanes.numbers.draw(n, Purpose::Scatter, depth);
+        let Lanes {
+            surfaces: s,
+            onward: o,
+            numbers,
+            owners,
+            ..
+        } = &mut **lanes;
+        for (plain, range) in self.each(stretches) {
+            let (from, to) = (range.start, range.end);
+            fill_streams(paths, &owners[from..to], plain, (depth, 1), streams);
+            let u = [0, 1, 2].map(|k| &numbers.values[k][from..to]);
+            let samples = specula_bsdf::batch::Samples {
+                wi: o.wi.directions_mut(from, to),
+                weight: o.weight.colours_mut(from, to),
+                pdf: &mut o.pdf[from..to],
+                kind: &mut o.kind[from..to],
+            };
+            lobes::sample(&plain.lobe, s.wo.directions(from, to), u, streams, samples);
+            for i in range.filter(|_| !plain.opaque) {
+                if matches!(o.kind[i], Kind::Transmission | Kind::SpecularTransmission) {
+                    o.eta_scale[i] *= plain.eta * plain.eta;
+                }
+            }
+        }
+        lanes::go_on(n, depth, s, &numbers.values[3], o);
+        self.keep(block);
+    }
+
+    /// Brings the paths that go on back from the lanes.
+    fn keep(&self, block: &mut Block) {
+        let Block {
+            paths,
+            next,
+            stretches,
+            lanes,
+            ..
+        } = block;
+        let (s, o) = (&lanes.surfaces, &lanes.onward);
+        for (plain, range) in self.each(stretches) {
+            for i in range {
+                if !o.alive[i] || (plain.black_inside && s.side[i] < 0.0) {
+                    continue;
+                }
+                let number = lanes.owners[i];
+                let path = index(number);
+                let ray = Ray {
+                    origin: o.origin.get(i),
+                    direction: o.direction.get(i),
+                    t_max: f32::INFINITY,
+                };
+                next.push(number, ray);
+                let throughput = o.throughput.colour(i);
+                paths.throughput.set_colour(path, throughput);
+                paths.eta_scale[path] = o.eta_scale[i];
+                paths.straight[path] = false;
+                if plain.specular {
+                    paths.previous_pdf[path] = 0.0;
+                } else {
+                    paths.previous_pdf[path] = o.pdf[i];
+                    paths.previous.set(path, &s.receiver(i, plain));
+                }
+            }
+        }
+    }
+}
+
+/// Streams for lobes whose values are estimates.
+fn fill_streams(
+    paths: &Paths,
+    owners: &[u32],
+    plain: &Plain,
+    (depth, purpose): (u32, u32),
+    streams: &mut Vec<Stream>,
+) {
+    streams.clear();
+    if lobes::takes_streams(&plain.lobe) {
+        let stream = |&p: &u32| paths.samplers[index(p)].stream(depth, purpose);
+        streams.extend(owners.iter().map(stream));
+    }
+}
