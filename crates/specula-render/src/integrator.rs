@@ -136,7 +136,7 @@ impl<'a> PathTracer<'a> {
 
     /// Follows a path to its end, one vertex after the other.
     #[cfg(test)]
-    pub(crate) fn follow(&self, path: &mut Path) {
+    fn follow(&self, path: &mut Path) {
         let mut depth = 0;
         while self.step(path, depth) {
             depth += 1;

@@ -14,7 +14,7 @@ use crate::math::{Real, Vec3, vec3};
 use crate::vndf::Sampler;
 
 /// Elements between two stages, few enough to stay in the nearest cache.
-const CHUNK: usize = 64;
+const CHUNK: usize = 128;
 
 /// Runs `$body` with `$f` standing for the family with a constant sampler.
 macro_rules! per_sampler {
@@ -175,8 +175,6 @@ impl<T: Real> EvalPdf<'_, T> {
     #[inline(always)]
     fn in_stages<U: Real, F: Family<U>>(mut self, family: F) {
         let n = self.pdf.len();
-        let mut norms = [[U::ZERO; CHUNK]; 2];
-        let [first, second] = &mut norms;
         let mut start = 0;
         while start < n {
             let end = n.min(start + CHUNK);
@@ -186,16 +184,17 @@ impl<T: Real> EvalPdf<'_, T> {
             let wi = self.wi.range(start, end).first(count);
             let mut f_cos = self.f_cos.range(start, end).first(count);
             let pdf = &mut self.pdf[start..end][..count];
-            let (first, second) = (&mut first[..count], &mut second[..count]);
             let family = family.range(start, end);
+            // What the first stage finds waits where the second will put its answers.
             per_sampler!(family, f => for i in 0..count {
-                [first[i], second[i]] = f.at(i).eval_first(wo.get_as(i));
+                let [first, second] = f.at(i).eval_first(wo.get_as(i));
+                (f_cos.r[i], f_cos.g[i]) = (number(first), number(second));
             });
-            per_reflectance!(family, f => for i in 0..count {
-                let first = [first[i], second[i]];
+            per_reflectance!(family, f => for (i, pdf) in pdf.iter_mut().enumerate() {
+                let first = [number(f_cos.r[i]), number(f_cos.g[i])];
                 let (value, density) = f.at(i).eval_second(wo.get_as(i), wi.get_as(i), first);
                 f_cos.set_from(i, value);
-                pdf[i] = number(density);
+                *pdf = number(density);
             });
             start = end;
         }
@@ -236,8 +235,6 @@ impl<T: Real> Sample<'_, T> {
     #[inline(always)]
     fn in_stages<U: Real, F: Family<U>>(mut self, family: F) {
         let n = self.samples.pdf.len();
-        let mut drawn = [[U::ZERO; CHUNK]; 5];
-        let [x, y, z, first, second] = &mut drawn;
         let mut start = 0;
         while start < n {
             let end = n.min(start + CHUNK);
@@ -245,20 +242,28 @@ impl<T: Real> Sample<'_, T> {
             let wo = self.wo.range(start, end).first(count);
             let u = range(self.u, start, end);
             let mut samples = self.samples.range(start, end).first(count);
-            let (x, y, z) = (&mut x[..count], &mut y[..count], &mut z[..count]);
-            let (first, second) = (&mut first[..count], &mut second[..count]);
             let family = family.range(start, end);
+            // What the first stage finds waits where the second will put its answers.
             per_sampler!(family, f => for i in 0..count {
                 let (wi, norms) = f.at(i).draw_first(wo.get_as(i), numbers(u, i));
-                (x[i], y[i], z[i]) = (wi.x, wi.y, wi.z);
-                first[i] = norms[0];
+                samples.wi.set_from(i, wi);
+                samples.weight.r[i] = number(norms[0]);
                 if F::Lobe::TWO_NUMBERS {
-                    second[i] = norms[1];
+                    samples.weight.g[i] = number(norms[1]);
                 }
             });
             per_reflectance!(family, f => for i in 0..count {
-                let other = if F::Lobe::TWO_NUMBERS { second[i] } else { U::ONE };
-                let first = (vec3(x[i], y[i], z[i]), [first[i], other]);
+                let other = if F::Lobe::TWO_NUMBERS {
+                    number(samples.weight.g[i])
+                } else {
+                    U::ONE
+                };
+                let wi = vec3(
+                    number(samples.wi.x[i]),
+                    number(samples.wi.y[i]),
+                    number(samples.wi.z[i]),
+                );
+                let first = (wi, [number(samples.weight.r[i]), other]);
                 samples.set_from(i, f.at(i).draw_second(wo.get_as(i), first));
             });
             start = end;

@@ -9,8 +9,12 @@ use crate::convert::{abs, narrow};
 use crate::offset::{RELATIVE_ERROR, coupled};
 use crate::texture::Place;
 
-/// Something of each corner of a triangle.
-type Corners = [Vec3<f32>; 3];
+/// A triangle of a mesh.
+pub(crate) struct Facet<'a> {
+    pub(crate) corners: [&'a [f32; 3]; 3],
+    /// Normals of the corners, zero where the mesh has none.
+    pub(crate) normals: [&'a [f32; 3]; 3],
+}
 
 /// A point of a surface, in the world.
 #[derive(Clone, Copy, Debug)]
@@ -74,19 +78,21 @@ impl Geometry {
         self.surface_at(&at, || ray.origin + ray.direction * hit.t)
     }
 
-    /// Corners of the triangle at a hit, and the normals there, zero where the mesh has none; `None` for
-    /// quadrics, and in groups that are placed.
-    #[inline]
-    pub(crate) fn corners(&self, hit: &Hit) -> Option<(Corners, Corners)> {
+    /// The triangle at a hit; `None` for quadrics, and in groups that are placed.
+    #[inline(always)]
+    pub(crate) fn facet(&self, hit: &Hit) -> Option<Facet<'_>> {
         let placement = &self.placements[hit.instance as usize];
         let group = &self.groups[placement.group as usize];
-        let corners = *group.triangles.get(hit.primitive as usize)?;
+        let [a, b, c] = group.triangles.get(hit.primitive as usize)?;
         if !placement.identity {
             return None;
         }
-        let positions = corners.map(|v| Vec3::from(group.positions[v as usize]));
-        let normal = |v: u32| group.normals.get(v as usize).copied().unwrap_or([0.0; 3]);
-        Some((positions, corners.map(|v| Vec3::from(normal(v)))))
+        let corner = |v: u32| &group.positions[v as usize];
+        let normal = |v: u32| group.normals.get(v as usize).unwrap_or(&[0.0; 3]);
+        Some(Facet {
+            corners: [corner(*a), corner(*b), corner(*c)],
+            normals: [normal(*a), normal(*b), normal(*c)],
+        })
     }
 
     /// The tangent at a hit of a triangle, as of [`Surface::tangent`], where the group is not placed.

@@ -297,18 +297,30 @@ impl PathTracer<'_> {
 
     /// Light from infinity on the rays that meet nothing.
     fn add_background_of(&self, block: &mut Block) {
-        let paths = &mut block.paths;
-        for &k in &block.escaped {
-            let k = k as usize;
-            let number = block.live.number(k);
-            if paths.straight[number] && self.scene.hide_emitters {
-                continue;
-            }
-            let (previous, direction) = (paths.previous(number), block.live.ray(k).direction);
-            let radiance = self.background(previous, direction);
-            let throughput = paths.throughput.colour(number);
-            paths.add(number, throughput * radiance);
+        if block.escaped.is_empty() {
+            return;
         }
+        let Block {
+            paths,
+            live,
+            escaped,
+            ..
+        } = block;
+        let lights = &self.scene.lights;
+        let directions = escaped
+            .iter()
+            .map(|&k| (k as usize, live.ray(k as usize).direction));
+        lights.arriving_from_infinity_all(directions, |k, radiance, pdf| {
+            let number = live.number(k);
+            if paths.straight[number] && self.scene.hide_emitters {
+                return;
+            }
+            let weight = self.lobe_weight(paths.previous(number), |receiver| {
+                lights.share_from_infinity(receiver) * pdf
+            });
+            let throughput = paths.throughput.colour(number);
+            paths.add(number, throughput * radiance * weight);
+        });
     }
 
     /// The key of a surface for lanes, and whether it sends out light.
@@ -325,8 +337,8 @@ impl PathTracer<'_> {
 
     fn meets_outside(&self, ray: &Ray, hit: &Hit) -> bool {
         let geometry = &self.scene.geometry;
-        let normal = match (geometry.corners(hit), geometry.quadric(ray, hit)) {
-            (Some((corners, _)), _) => lanes::normal(corners),
+        let normal = match (geometry.facet(hit), geometry.quadric(ray, hit)) {
+            (Some(facet), _) => lanes::normal(facet.corners.map(|&c| Vec3::from(c))),
             (None, Some([_, _, normal, _])) => normal,
             (None, None) => geometry.surface(ray, hit).ng,
         };

@@ -15,7 +15,7 @@ use specula_bsdf::{Frame, Rgb, Vec3};
 
 use super::{ROULETTE_FROM, survival_probability};
 use crate::geometry::unit_or;
-use crate::light::{LightSample, Parallelogram, Receiver};
+use crate::light::{LightSample, Parallelogram, Receiver, Seen};
 use crate::material::Plain;
 use crate::offset::{coupled, leave};
 use crate::sampler::Numbers;
@@ -50,6 +50,13 @@ impl Vectors {
         self.x[i] = v.x;
         self.y[i] = v.y;
         self.z[i] = v.z;
+    }
+
+    #[inline(always)]
+    pub(super) fn set_array(&mut self, i: usize, [x, y, z]: &[f32; 3]) {
+        self.x[i] = *x;
+        self.y[i] = *y;
+        self.z[i] = *z;
     }
 
     #[inline(always)]
@@ -377,31 +384,23 @@ pub(super) fn straighten(from: usize, to: usize, s: &mut Surfaces) {
 ))]
 pub(super) fn draw_light(
     n: usize,
-    light: &Parallelogram,
+    (light, radiance, two_sided): (&Parallelogram, Rgb<f32>, bool),
     u: [&Column; 2],
     s: &Surfaces,
     a: &mut Arriving,
 ) {
-    let [e0, e1] = light.edges;
-    let error = coupled(abs(light.corner) + abs(e0) + abs(e1)).x;
-    let per_area = 1.0 / light.area;
+    let (normal, error) = (light.normal, light.error.x);
     for i in 0..n.min(LANES) {
-        let point = light.corner + e0 * u[0][i] + e1 * u[1][i];
-        let d = point - s.position.get(i);
-        let distance_squared = d.length_squared();
-        let wi = d * (1.0 / distance_squared.sqrt());
-        let cos = light.normal.dot(wi);
-        let pdf = per_area * distance_squared / cos.abs();
-        let shines = light.two_sided | (cos < 0.0);
-        let usable = shines & (pdf > 0.0) & (pdf < f32::INFINITY) & (wi.length_squared() > 0.5);
-        a.pdf[i] = if usable { pdf } else { 0.0 };
+        let Seen { point, wi, pdf } = light.sample(s.position.get(i), [u[0][i], u[1][i]]);
+        let shines = two_sided | (normal.dot(wi) < 0.0);
+        a.pdf[i] = if shines { pdf } else { 0.0 };
         a.towards.set(i, wi);
-        a.radiance.set_colour(i, light.radiance);
+        a.radiance.set_colour(i, radiance);
         a.delta[i] = false;
         a.far[i] = false;
         a.target.set(i, point);
         a.target_error[i] = error;
-        a.target_normal.set(i, light.normal);
+        a.target_normal.set(i, normal);
     }
 }
 
@@ -420,13 +419,12 @@ pub(super) fn to_frames(n: usize, s: &Surfaces, a: &mut Arriving) {
     }
 }
 
-/// Weighs light that was drawn against the lobe's directions, by the power heuristic, and aims the
-/// rays that look for it.
+/// Weighs light that was drawn against the lobe's directions, by the power heuristic.
 #[multiversion(targets(
     "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
     "x86_64+avx2+fma+bmi1+bmi2"
 ))]
-pub(super) fn weigh(n: usize, s: &Surfaces, throughput: &Vectors, a: &mut Arriving) {
+pub(super) fn weigh(n: usize, throughput: &Vectors, a: &mut Arriving) {
     for i in 0..n.min(LANES) {
         let pdf = a.pdf[i];
         let ratio = a.lobe_pdf[i] / pdf;
@@ -437,6 +435,16 @@ pub(super) fn weigh(n: usize, s: &Surfaces, throughput: &Vectors, a: &mut Arrivi
         let brought = throughput.colour(i) * a.f_cos.colour(i) * (a.radiance.colour(i) * scale);
         let pick = |c: f32| if arrives { c } else { 0.0 };
         a.brought.set_colour(i, brought.map(pick));
+    }
+}
+
+/// Aims the rays that look for the light that was drawn.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
+    "x86_64+avx2+fma+bmi1+bmi2"
+))]
+pub(super) fn aim(n: usize, s: &Surfaces, a: &mut Arriving) {
+    for i in 0..n.min(LANES) {
         let towards = a.towards.get(i);
         let error = Vec3::splat(s.error[i]);
         let origin = leave(s.position.get(i), error, s.ng.get(i), towards);

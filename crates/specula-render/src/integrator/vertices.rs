@@ -126,12 +126,12 @@ impl PathTracer<'_> {
         let geometry = &self.scene.geometry;
         let (t, s) = (&mut lanes.triangles, &mut lanes.surfaces);
         let mut tangent = Vec3::ZERO;
-        if let Some((corners, normals)) = geometry.corners(hit) {
-            for (c, v) in t.corners.iter_mut().zip(corners) {
-                c.set(i, v);
+        if let Some(facet) = geometry.facet(hit) {
+            for (c, v) in t.corners.iter_mut().zip(facet.corners) {
+                c.set_array(i, v);
             }
-            for (c, v) in t.normals.iter_mut().zip(normals) {
-                c.set(i, v);
+            for (c, v) in t.normals.iter_mut().zip(facet.normals) {
+                c.set_array(i, v);
             }
             t.weights[0][i] = hit.u;
             t.weights[1][i] = hit.v;
@@ -199,7 +199,8 @@ impl PathTracer<'_> {
                 &mut a.lobe_pdf[from..to],
             );
         }
-        lanes::weigh(n, s, &o.throughput, a);
+        lanes::weigh(n, &o.throughput, a);
+        lanes::aim(n, s, a);
         self.add_unblocked(block);
     }
 
@@ -219,16 +220,18 @@ impl PathTracer<'_> {
         } = &mut **lanes;
         if let Some(light) = scene.lights.lone_parallelogram() {
             let [_, u, v, _] = &numbers.values;
-            lanes::draw_light(n, &light, [u, v], s, a);
+            lanes::draw_light(n, light, [u, v], s, a);
             return;
         }
         let world = (&scene.geometry, &scene.textures);
-        for (plain, range) in self.each(stretches).filter(|(plain, _)| !plain.specular) {
-            for i in range {
-                let u = [0, 1, 2, 3].map(|k| numbers.values[k][i]);
-                a.set(i, scene.lights.sample(&s.receiver(i, plain), world, u));
-            }
-        }
+        let receivers = self
+            .each(stretches)
+            .filter(|(plain, _)| !plain.specular)
+            .flat_map(|(plain, range)| range.map(move |i| (i, plain)))
+            .map(|(i, plain)| (i, s.receiver(i, plain)));
+        let u = [0, 1, 2, 3].map(|k| &numbers.values[k][..]);
+        let place = |i, light| a.set(i, light);
+        scene.lights.sample_all(receivers, world, u, place);
     }
 
     /// Adds the light that nothing is in the way of.

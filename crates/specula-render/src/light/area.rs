@@ -5,6 +5,7 @@ use specula_bsdf::math::vec3;
 use specula_bsdf::{Frame, Real, Vec3};
 
 use super::cone::EmissionCone;
+use super::parallelogram::{Parallelogram, Seen};
 use crate::accel::{Bounds, QuadricShape};
 use crate::camera::concentric_disk;
 use crate::convert::{Affine, abs, narrow, normal_matrix};
@@ -34,13 +35,8 @@ pub(crate) enum Area {
         normal: Vec3<f32>,
         area: f32,
     },
-    /// Sampled uniformly by area.
-    Parallelogram {
-        corner: Vec3<f32>,
-        edges: [Vec3<f32>; 2],
-        normal: Vec3<f32>,
-        area: f32,
-    },
+    /// Rectangles are sampled uniformly by solid angle.
+    Parallelogram(Parallelogram),
     /// Sampled uniformly within the cone that it is seen in; by area from inside.
     Sphere {
         centre: Vec3<f32>,
@@ -82,15 +78,8 @@ impl Area {
     }
 
     /// A parallelogram by a corner and its neighbours, in winding order about the outside.
-    pub(crate) fn parallelogram([a, b, c]: [Vec3<f32>; 3]) -> Self {
-        let edges = [b - a, c - a];
-        let cross = edges[0].cast::<f64>().cross(edges[1].cast());
-        Self::Parallelogram {
-            corner: a,
-            edges,
-            normal: unit_or(edges[0].cross(edges[1]), Vec3::Z),
-            area: narrow(cross.length()),
-        }
+    pub(crate) fn parallelogram(corners: [Vec3<f32>; 3]) -> Self {
+        Self::Parallelogram(Parallelogram::new(corners))
     }
 
     /// A sphere or disk under a transform.
@@ -141,7 +130,7 @@ impl Area {
     pub(crate) fn area(&self) -> f32 {
         match *self {
             Self::Triangle { area, .. }
-            | Self::Parallelogram { area, .. }
+            | Self::Parallelogram(Parallelogram { area, .. })
             | Self::Disk { area, .. }
             | Self::Ellipsoid { area, .. } => area,
             Self::Sphere { radius, .. } => 4.0 * core::f32::consts::PI * radius * radius,
@@ -151,7 +140,7 @@ impl Area {
     /// Area of the shadow along the normal; of a closed surface, the mean over directions.
     pub(crate) fn projected_area(&self) -> f32 {
         match self {
-            Self::Triangle { .. } | Self::Parallelogram { .. } | Self::Disk { .. } => self.area(),
+            Self::Triangle { .. } | Self::Parallelogram(_) | Self::Disk { .. } => self.area(),
             // Cauchy's formula for convex bodies.
             Self::Sphere { .. } | Self::Ellipsoid { .. } => 0.25 * self.area(),
         }
@@ -171,7 +160,7 @@ impl Area {
             Self::Triangle { corner, edges, .. } => {
                 return around(&[corner, corner + edges[0], corner + edges[1]]);
             }
-            Self::Parallelogram { corner, edges, .. } => {
+            Self::Parallelogram(Parallelogram { corner, edges, .. }) => {
                 let [a, b] = edges;
                 return around(&[corner, corner + a, corner + b, corner + a + b]);
             }
@@ -191,21 +180,23 @@ impl Area {
     pub(super) fn cone(&self, two_sided: bool) -> EmissionCone {
         match *self {
             Self::Triangle { normal, .. }
-            | Self::Parallelogram { normal, .. }
+            | Self::Parallelogram(Parallelogram { normal, .. })
             | Self::Disk { normal, .. } => EmissionCone::flat(normal, two_sided),
             Self::Sphere { .. } | Self::Ellipsoid { .. } => EmissionCone::SPHERE,
         }
     }
 
     /// A point of the surface, uniform by area but on ellipsoids; the same as [`Area::sample`] draws,
-    /// except on spheres.
+    /// except on spheres and rectangles.
     pub(super) fn point(&self, u: [f32; 2]) -> Vec3<f32> {
         match *self {
             Self::Triangle { corner, edges, .. } => {
                 let b = uniform_triangle(u);
                 corner + edges[0] * b[0] + edges[1] * b[1]
             }
-            Self::Parallelogram { corner, edges, .. } => corner + edges[0] * u[0] + edges[1] * u[1],
+            Self::Parallelogram(Parallelogram { corner, edges, .. }) => {
+                corner + edges[0] * u[0] + edges[1] * u[1]
+            }
             Self::Sphere { centre, radius, .. } => {
                 centre + specula_bsdf::math::warp::uniform_sphere(u) * radius
             }
@@ -251,15 +242,15 @@ impl Area {
                 let reach = abs(corner) + abs(edges[0]) + abs(edges[1]);
                 by_area(p, point, reach, normal, 1.0 / area)
             }
-            Self::Parallelogram {
-                corner,
-                edges,
-                normal,
-                area,
-            } => {
-                let point = corner + edges[0] * u[0] + edges[1] * u[1];
-                let reach = abs(corner) + abs(edges[0]) + abs(edges[1]);
-                by_area(p, point, reach, normal, 1.0 / area)
+            Self::Parallelogram(light) => {
+                let Seen { point, wi, pdf } = light.sample(p, u);
+                (pdf > 0.0).then_some(AreaSample {
+                    point,
+                    error: light.error,
+                    normal: light.normal,
+                    wi,
+                    pdf,
+                })
             }
             Self::Sphere {
                 centre,
@@ -300,9 +291,8 @@ impl Area {
     #[inline]
     pub(crate) fn pdf(&self, p: Vec3<f32>, q: Vec3<f32>, normal: Vec3<f32>) -> f32 {
         let per_area = match *self {
-            Self::Triangle { area, .. }
-            | Self::Parallelogram { area, .. }
-            | Self::Disk { area, .. } => 1.0 / area,
+            Self::Triangle { area, .. } | Self::Disk { area, .. } => 1.0 / area,
+            Self::Parallelogram(light) => return finite_or_zero(light.pdf(p, q)),
             Self::Sphere { centre, radius, .. } => match Cone::new(p, centre, radius) {
                 Some(cone) => return cone.pdf(),
                 None => 1.0 / self.area(),

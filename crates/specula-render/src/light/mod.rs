@@ -1,13 +1,16 @@
 //! Lights, and the choice among them: see [`select`] for how one is chosen at a point.
 
 mod alias;
+mod angles;
 mod area;
 mod build;
 mod cone;
 mod delta;
 mod environment;
+mod lanes;
 mod node;
 mod octahedral;
+mod parallelogram;
 mod piecewise;
 mod select;
 mod sun;
@@ -35,6 +38,7 @@ use textured::{Textured, Varying};
 
 pub(crate) use environment::direction as direction_of_sphere;
 pub(crate) use node::Receiver;
+pub(crate) use parallelogram::{Parallelogram, Seen};
 
 #[derive(Clone, Debug)]
 enum Source {
@@ -63,6 +67,8 @@ pub(crate) struct Lights {
     sources: Vec<Source>,
     /// With their places in `sources`.
     far: Vec<(Far, u32)>,
+    /// Place in `far` of the light that is drawn in lanes, if any.
+    sky: Option<usize>,
     selection: Selection,
 }
 
@@ -81,17 +87,6 @@ pub(crate) struct LightSample {
     pub(crate) from: Option<Target>,
 }
 
-/// A parallelogram that sends out light.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Parallelogram {
-    pub(crate) corner: Vec3<f32>,
-    pub(crate) edges: [Vec3<f32>; 2],
-    pub(crate) normal: Vec3<f32>,
-    pub(crate) area: f32,
-    pub(crate) radiance: Rgb<f32>,
-    pub(crate) two_sided: bool,
-}
-
 /// The end of a shadow ray.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Target {
@@ -104,8 +99,8 @@ pub(crate) struct Target {
 pub(crate) const BYTES_PER_EMITTER: u64 =
     (size_of::<Source>() + 2 * size_of::<node::Node>() + 8 + size_of::<Emitter>()) as u64;
 
-/// A pixel of an infinite light's picture: itself, and its place in the table.
-pub(crate) const BYTES_PER_FAR_PIXEL: u64 = 16;
+/// A pixel of an infinite light's picture.
+pub(crate) const BYTES_PER_FAR_PIXEL: u64 = environment::BYTES_PER_PIXEL;
 
 impl Lights {
     /// Gathers the lights of a scene.
@@ -113,6 +108,7 @@ impl Lights {
         let mut lights = Self {
             sources: Vec::new(),
             far: Vec::new(),
+            sky: None,
             selection: Selection::default(),
         };
         let mut near = Vec::new();
@@ -141,6 +137,7 @@ impl Lights {
             }
         }
         lights.selection = Selection::new(near, &far, lights.sources.len());
+        lights.sky = lights.far.iter().position(|(light, _)| light.is_picture());
         lights
     }
 
@@ -235,25 +232,36 @@ impl Lights {
         world: (&Geometry, &Textures),
         u: [f32; 4],
     ) -> Option<LightSample> {
-        let p = receiver.point;
-        let (index, probability) = self.selection.sample(receiver, [u[0], u[3]])?;
+        let chosen = self.selection.sample(receiver, [u[0], u[3]])?;
+        self.sample_one(chosen, receiver.point, world, [u[1], u[2]])
+    }
+
+    /// Light at a point `p` from a light that was drawn with a probability.
+    #[inline]
+    fn sample_one(
+        &self,
+        (index, probability): (u32, f32),
+        p: Vec3<f32>,
+        world: (&Geometry, &Textures),
+        u: [f32; 2],
+    ) -> Option<LightSample> {
         match &self.sources[index as usize] {
             Source::Area {
                 area,
                 radiance,
                 two_sided,
             } => {
-                let s = area.sample(p, [u[1], u[2]])?;
+                let s = area.sample(p, u)?;
                 (*two_sided || s.normal.dot(s.wi) < 0.0)
                     .then(|| from_area(&s, *radiance, probability))
             }
             Source::Textured(light) => {
-                let (s, radiance) = light.sample(p, [u[1], u[2]], world)?;
+                let (s, radiance) = light.sample(p, u, world)?;
                 (light.two_sided || s.normal.dot(s.wi) < 0.0)
                     .then(|| from_area(&s, radiance, probability))
             }
             Source::Far(number) => {
-                let (wi, radiance, pdf) = self.far[*number].0.sample([u[1], u[2]])?;
+                let (wi, radiance, pdf) = self.far[*number].0.sample(u)?;
                 Some(LightSample {
                     wi,
                     radiance,
@@ -281,19 +289,13 @@ impl Lights {
         }
     }
 
-    /// The one light of the scene, where that is a parallelogram: corner, edges, normal and area of it; its
-    /// radiance; whether it shines to both sides.
+    /// The one light of the scene, where that is a parallelogram; its radiance; whether it shines to
+    /// both sides.
     #[inline]
-    pub(crate) fn lone_parallelogram(&self) -> Option<Parallelogram> {
+    pub(crate) fn lone_parallelogram(&self) -> Option<(&Parallelogram, Rgb<f32>, bool)> {
         let [
             Source::Area {
-                area:
-                    Area::Parallelogram {
-                        corner,
-                        edges,
-                        normal,
-                        area,
-                    },
+                area: Area::Parallelogram(light),
                 radiance,
                 two_sided,
             },
@@ -301,14 +303,7 @@ impl Lights {
         else {
             return None;
         };
-        (!self.selection.is_empty()).then_some(Parallelogram {
-            corner: *corner,
-            edges: *edges,
-            normal: *normal,
-            area: *area,
-            radiance: *radiance,
-            two_sided: *two_sided,
-        })
+        (!self.selection.is_empty()).then_some((light, *radiance, *two_sided))
     }
 
     /// Density in 1/sr, times the probability of the light, with which [`Lights::sample`] at the
@@ -338,7 +333,8 @@ impl Lights {
     ) -> impl Iterator<Item = (Rgb<f32>, f32)> {
         self.far.iter().map(move |(light, index)| {
             let probability = self.selection.probability_far(*index);
-            (light.radiance(wi), probability * light.pdf(wi))
+            let (radiance, pdf) = light.arriving(wi);
+            (radiance, probability * pdf)
         })
     }
 
@@ -372,19 +368,12 @@ impl Far {
         }
     }
 
+    /// Radiance from a direction, and the density in 1/sr with which [`Far::sample`] draws it.
     #[inline]
-    fn radiance(&self, wi: Vec3<f32>) -> Rgb<f32> {
+    fn arriving(&self, wi: Vec3<f32>) -> (Rgb<f32>, f32) {
         match self {
-            Self::Environment(light) => light.radiance(wi),
-            Self::Sun(light) => light.radiance(wi),
-        }
-    }
-
-    #[inline]
-    fn pdf(&self, wi: Vec3<f32>) -> f32 {
-        match self {
-            Self::Environment(light) => light.pdf(wi),
-            Self::Sun(light) => light.pdf(wi),
+            Self::Environment(light) => light.arriving(wi),
+            Self::Sun(light) => (light.radiance(wi), light.pdf(wi)),
         }
     }
 
@@ -394,6 +383,10 @@ impl Far {
             Self::Environment(light) => light.sample(u),
             Self::Sun(light) => Some(light.sample(u)),
         }
+    }
+
+    fn is_picture(&self) -> bool {
+        matches!(self, Self::Environment(light) if light.is_picture())
     }
 
     fn luminous_integral(&self) -> f64 {

@@ -6,16 +6,18 @@
 use specula_bsdf::Vec3;
 use specula_bsdf::math::vec3;
 
+use super::angles::{sin_cos_half_turns, turns};
+
 /// The direction of a point of `[0, 1]^2`.
-#[inline]
+#[inline(always)]
 pub(crate) fn direction_of([s, t]: [f32; 2]) -> Vec3<f32> {
     let (u, v) = (2.0 * s - 1.0, 2.0 * t - 1.0);
     let (au, av) = (u.abs(), v.abs());
     let signed_distance = 1.0 - (au + av);
     let r = 1.0 - signed_distance.abs();
     let quarter = if r == 0.0 { 1.0 } else { (av - au) / r + 1.0 };
-    let (sin, cos) = (quarter * core::f32::consts::FRAC_PI_4).sin_cos();
-    let planar = r * (2.0 - r * r).max(0.0).sqrt();
+    let (sin, cos) = sin_cos_half_turns(0.25 * quarter);
+    let planar = r * (2.0 - r * r).sqrt();
     vec3(
         (planar * cos).copysign(u),
         (planar * sin).copysign(v),
@@ -24,25 +26,20 @@ pub(crate) fn direction_of([s, t]: [f32; 2]) -> Vec3<f32> {
 }
 
 /// The point of `[0, 1]^2` of a unit direction.
-#[inline]
+#[inline(always)]
 pub(crate) fn square_of(w: Vec3<f32>) -> [f32; 2] {
     let (x, y, z) = (w.x.abs(), w.y.abs(), w.z.abs());
     // sqrt(1 - z) without cancellation.
-    let r = ((x * x + y * y) / (1.0 + z)).sqrt().min(1.0);
-    let phi = if x == 0.0 && y == 0.0 {
-        0.0
-    } else {
-        y.atan2(x) * core::f32::consts::FRAC_2_PI
-    };
-    let mut v = phi * r;
-    let mut u = r - v;
-    if w.z < 0.0 {
-        (u, v) = (1.0 - v, 1.0 - u);
-    }
-    [
-        (0.5 * (u.copysign(w.x) + 1.0)).clamp(0.0, 1.0),
-        (0.5 * (v.copysign(w.y) + 1.0)).clamp(0.0, 1.0),
-    ]
+    let r = ((x * x + y * y) / (1.0 + z)).sqrt();
+    let r = if r < 1.0 { r } else { 1.0 };
+    let v = 4.0 * turns(y, x) * r;
+    let u = r - v;
+    let below = w.z < 0.0;
+    let (u, v) = (
+        if below { 1.0 - v } else { u },
+        if below { 1.0 - u } else { v },
+    );
+    [0.5 * (u.copysign(w.x) + 1.0), 0.5 * (v.copysign(w.y) + 1.0)]
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! A distribution over the unit square, constant in every cell of a grid.
 
-use crate::convert::{floor_index, narrow};
+use crate::convert::{floor_index, id, narrow};
 
 /// A piecewise constant density over `[0, 1)^2`.
 #[derive(Clone, Debug)]
@@ -73,6 +73,40 @@ impl Piecewise {
         ([x, y], [s, t])
     }
 
+    /// [`Piecewise::sample_cell`] for each of the first `n` lanes.
+    ///
+    /// * `u`: numbers to draw by; then where in its cell each point lies.
+    #[inline(always)]
+    pub(super) fn sample_cells<const N: usize>(
+        &self,
+        n: usize,
+        u: &mut [[f32; N]; 2],
+        cells: &mut [[u32; N]; 2],
+    ) {
+        let n = n.min(N);
+        let stride = id(self.width + 1);
+        let mut from = [0; N];
+        invert_all(
+            n,
+            &self.columns,
+            id(self.height),
+            &from,
+            &mut u[1],
+            &mut cells[1],
+        );
+        for i in 0..n {
+            from[i] = cells[1][i] * stride;
+        }
+        invert_all(
+            n,
+            &self.rows,
+            id(self.width),
+            &from,
+            &mut u[0],
+            &mut cells[0],
+        );
+    }
+
     /// Probability of a cell.
     #[inline]
     pub(super) fn share(&self, [x, y]: [usize; 2]) -> f32 {
@@ -98,12 +132,49 @@ fn cumulate(weights: &[f64], to: &mut Vec<f32>) {
 
 /// The cell in which `u` falls, and where within it, in `[0, 1)`.
 fn invert(cdf: &[f32], u: f32) -> (usize, f32) {
-    let cell = cdf.partition_point(|&c| c <= u).clamp(1, cdf.len() - 1) - 1;
-    let width = cdf[cell + 1] - cdf[cell];
-    let within = if width > 0.0 {
-        (u - cdf[cell]) / width
-    } else {
-        0.5
-    };
-    (cell, within.clamp(0.0, 1.0 - f32::EPSILON))
+    let (mut cell, mut size) = (0, cdf.len() - 1);
+    while size > 1 {
+        let half = size / 2;
+        cell += if cdf[cell + half] <= u { half } else { 0 };
+        size -= half;
+    }
+    (cell, within(cdf[cell], cdf[cell + 1], u))
+}
+
+/// Where `u` lies between two cumulated shares, in `[0, 1)`.
+#[inline(always)]
+fn within(from: f32, to: f32, u: f32) -> f32 {
+    let width = to - from;
+    let at = if width > 0.0 { (u - from) / width } else { 0.5 };
+    let below_one = 1.0 - f32::EPSILON;
+    let at = if at > 0.0 { at } else { 0.0 };
+    if at < below_one { at } else { below_one }
+}
+
+/// [`invert`] in many distributions of `size` cells, level by level.
+///
+/// * `from`: where in `cdf` each begins.
+#[inline(always)]
+fn invert_all<const N: usize>(
+    n: usize,
+    cdf: &[f32],
+    mut size: u32,
+    from: &[u32; N],
+    u: &mut [f32; N],
+    cells: &mut [u32; N],
+) {
+    let share = |at: u32| cdf.get(at as usize).copied().unwrap_or(0.0);
+    cells.fill(0);
+    while size > 1 {
+        let half = size / 2;
+        for i in 0..n {
+            let low = share(from[i] + cells[i] + half) <= u[i];
+            cells[i] += if low { half } else { 0 };
+        }
+        size -= half;
+    }
+    for i in 0..n {
+        let at = from[i] + cells[i];
+        u[i] = within(share(at), share(at + 1), u[i]);
+    }
 }

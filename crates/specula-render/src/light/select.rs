@@ -29,6 +29,8 @@ pub(super) struct Selection {
     far: AliasTable,
     /// Relative to the intensities in the tree.
     far_irradiance: f32,
+    /// The light that is always drawn, where there is but one.
+    only: Option<u32>,
 }
 
 impl Selection {
@@ -44,8 +46,14 @@ impl Selection {
         for e in &mut near {
             e.intensity /= scale;
         }
+        let far = || far.iter().filter(|f| shines(f.1));
+        let only = match (near.as_slice(), far().count()) {
+            ([], 1) => far().next().map(|f| f.0),
+            ([one], 0) => Some(one.light),
+            _ => None,
+        };
         let mut weights = Vec::new();
-        for &(light, strength) in far.iter().filter(|f| shines(f.1)) {
+        for &(light, strength) in far() {
             weights.resize(lights, 0.0);
             weights[light as usize] = strength;
         }
@@ -59,6 +67,7 @@ impl Selection {
             } else {
                 0.0
             },
+            only,
         }
     }
 
@@ -73,6 +82,9 @@ impl Selection {
     ///   run out over hundreds of thousands of lights.
     #[inline]
     pub(super) fn sample(&self, receiver: &Receiver, u: [f32; 2]) -> Option<(u32, f32)> {
+        if let Some(light) = self.only {
+            return Some((light, 1.0));
+        }
         let u = f64::from(u[0]) + FINER * f64::from(u[1]);
         let share = self.share_far(receiver);
         let threshold = f64::from(share);
