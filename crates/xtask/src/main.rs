@@ -13,6 +13,9 @@ mod interface;
 mod interface_single;
 mod metals;
 mod plastic;
+mod profile;
+mod rays;
+mod scaling;
 mod soak;
 mod suite;
 mod tables;
@@ -80,6 +83,12 @@ enum Chore {
     },
     /// Compare with other renderers: time to equal error
     Versus(versus::Versus),
+    /// Count where the instructions of a render go, under valgrind
+    Profile(profile::Profile),
+    /// Measure the gain of a second thread, and the cost of a sample against the triangles
+    Scaling(scaling::Scaling),
+    /// Compare ray casting with Embree, and with itself over the number of triangles
+    Rays(rays::Rays),
     /// Render for an hour, and fail where its memory grows
     Soak(soak::Soak),
     /// Check what no compiler checks: file heads, lengths, leftovers, trailing spaces
@@ -114,6 +123,9 @@ fn run(chore: &Chore) -> Result<()> {
         Chore::Exact { fuzz, .. } => exact::run(*fuzz),
         Chore::Instructions { check } => instructions::run(&root, *check),
         Chore::Versus(versus) => versus::run(&root, versus),
+        Chore::Profile(profile) => profile::run(&root, profile),
+        Chore::Scaling(scaling) => scaling::run(&root, scaling),
+        Chore::Rays(rays) => rays::run(&root, rays),
         Chore::Soak(soak) => soak::run(&root, soak),
         Chore::Tidy => tidy::run(&root),
     }

@@ -2,12 +2,27 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::Result;
+use crate::{Result, suite};
 
 /// The workspace's root folder.
 pub(crate) fn root() -> PathBuf {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     here.ancestors().nth(2).unwrap_or(here).to_path_buf()
+}
+
+/// Specula's program: `given`, or built from this workspace.
+pub(crate) fn program(root: &Path, given: Option<&Path>) -> Result<PathBuf> {
+    if let Some(program) = given {
+        return Ok(program.to_owned());
+    }
+    let mut build = suite::cargo(root);
+    build.args(["build", "--release", "--quiet", "--package", "specula"]);
+    if !build.status()?.success() {
+        return Err("Specula does not build".into());
+    }
+    let name = format!("specula{}", std::env::consts::EXE_SUFFIX);
+    // Cargo puts it beside this chore's.
+    Ok(std::env::current_exe()?.with_file_name(name))
 }
 
 /// Every `.rs` file under `crates`, sorted; folders named `target` are left out.

@@ -12,9 +12,9 @@ use std::mem::MaybeUninit;
 
 use super::frame::RayFrame;
 use super::kernel::{EntryStack, Kernel, PacketHits, STACK};
-use super::node::{Lanes, Node8, Packet8};
+use super::node::{Child, Kind, Lanes, Node8, Packet8};
 use super::traverse::{self, Scene};
-use super::{Hit, Ray};
+use super::{Hit, Ray, in_step};
 
 /// Proof that the machine has the instructions: only [`Avx2::detect`] makes one.
 #[derive(Clone, Copy, Debug)]
@@ -40,6 +40,16 @@ impl Avx2 {
         // SAFETY: `self` proves that the machine has the features.
         unsafe { occluded(self, scene, ray) }
     }
+
+    pub(super) fn intersect_in_step(self, scene: &Scene, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        // SAFETY: `self` proves that the machine has the features.
+        unsafe { intersect_in_step(self, scene, rays, hits) }
+    }
+
+    pub(super) fn occluded_in_step(self, scene: &Scene, rays: &[Ray], found: &mut [bool]) {
+        // SAFETY: `self` proves that the machine has the features.
+        unsafe { occluded_in_step(self, scene, rays, found) }
+    }
 }
 
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
@@ -50,6 +60,16 @@ fn intersect(kernel: Avx2, scene: &Scene, ray: &Ray) -> Option<Hit> {
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
 fn occluded(kernel: Avx2, scene: &Scene, ray: &Ray) -> bool {
     traverse::occluded(kernel, scene, ray)
+}
+
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
+fn intersect_in_step(kernel: Avx2, scene: &Scene, rays: &[Ray], hits: &mut [Option<Hit>]) {
+    in_step::intersect(kernel, scene, rays, hits);
+}
+
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
+fn occluded_in_step(kernel: Avx2, scene: &Scene, rays: &[Ray], found: &mut [bool]) {
+    in_step::occluded(kernel, scene, rays, found);
 }
 
 /// A stack whose entries are not initialised until they are written.
@@ -77,6 +97,15 @@ impl Kernel for Avx2 {
     }
 
     #[inline(always)]
+    fn prefetch(self, scene: &Scene, child: Child) {
+        match child.kind() {
+            Kind::Node => prefetch(&scene.nodes[child.index()]),
+            Kind::Packet => prefetch(&scene.packets[child.index()]),
+            Kind::Quadric | Kind::Placement => {}
+        }
+    }
+
+    #[inline(always)]
     fn boxes(self, node: &Node8, frame: &RayFrame, t_cull: f32, entry: &mut Lanes) -> u32 {
         // SAFETY: `self` proves that the machine has the features.
         unsafe { boxes(node, frame, t_cull, entry) }
@@ -92,6 +121,16 @@ impl Kernel for Avx2 {
     ) -> u32 {
         // SAFETY: `self` proves that the machine has the features.
         unsafe { triangles(packet, frame, t_most, hits) }
+    }
+}
+
+/// All lines of the cache that a value lies in.
+#[inline(always)]
+fn prefetch<T>(value: &T) {
+    let start = std::ptr::from_ref(value).cast::<i8>();
+    for offset in (0..size_of::<T>()).step_by(64) {
+        // SAFETY: prefetching reads nothing, and the address is within the value.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(start.add(offset)) };
     }
 }
 

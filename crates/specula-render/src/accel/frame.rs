@@ -33,21 +33,8 @@ impl RayFrame {
     /// `None` where the ray cannot hit: not finite, without direction, or `t_max` not positive.
     #[inline(always)]
     pub(super) fn new(ray: &Ray) -> Option<Self> {
+        let z = usize::from(greatest_axis(ray)?);
         let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
-        // Infinite and NaN components make NaN, finite ones 0.
-        let finite =
-            (o[0] * 0.0 + o[1] * 0.0 + o[2] * 0.0) + (d[0] * 0.0 + d[1] * 0.0 + d[2] * 0.0) == 0.0;
-        let size = d.map(f32::abs);
-        let z = if size[0] > size[1] {
-            if size[0] > size[2] { 0 } else { 2 }
-        } else if size[1] > size[2] {
-            1
-        } else {
-            2
-        };
-        if !finite || size[z] <= 0.0 || ray.t_max.is_nan() || ray.t_max <= 0.0 {
-            return None;
-        }
         const AXES: [[u8; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
         let axes = AXES[z];
         let [x, y] = [usize::from(axes[0]), usize::from(axes[1])];
@@ -67,4 +54,23 @@ impl RayFrame {
             shear: [d[x] / d[z], d[y] / d[z], near_scale[z]],
         })
     }
+}
+
+/// The axis in which the direction is greatest; `None` where the ray cannot hit: not finite, without
+/// direction, or `t_max` not positive.
+#[inline(always)]
+pub(super) fn greatest_axis(ray: &Ray) -> Option<u8> {
+    let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
+    // Infinite and NaN components make NaN, finite ones 0.
+    let finite =
+        (o[0] * 0.0 + o[1] * 0.0 + o[2] * 0.0) + (d[0] * 0.0 + d[1] * 0.0 + d[2] * 0.0) == 0.0;
+    let [x, y, z] = d.map(f32::abs);
+    // Without branches, which would be guessed wrong as often as not.
+    let axis = if (x > y) & (x > z) {
+        0
+    } else {
+        2 - u8::from((y >= x) & (y > z))
+    };
+    let can_hit = finite & (x.max(y).max(z) > 0.0) & (ray.t_max > 0.0);
+    can_hit.then_some(axis)
 }

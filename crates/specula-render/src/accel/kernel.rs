@@ -1,7 +1,8 @@
 //! What the traversal asks of the machine, and the portable answer.
 
 use super::frame::RayFrame;
-use super::node::{Lanes, Node8, Packet8, WIDTH};
+use super::node::{Child, Lanes, Node8, Packet8, WIDTH};
+use super::traverse::Scene;
 use super::triangle::{self, max, min};
 
 /// Most levels of 8-wide nodes that a tree may have; deeper ones are rebuilt balanced.
@@ -32,6 +33,8 @@ pub(super) trait Kernel: Copy {
     type Stack: EntryStack;
     /// An empty stack.
     fn stack(self) -> Self::Stack;
+    /// Has what a child refers to brought into the cache.
+    fn prefetch(self, scene: &Scene, child: Child);
     /// Which children's boxes the ray meets in `[0, t_cull]`, as bits, and where it enters.
     fn boxes(self, node: &Node8, frame: &RayFrame, t_cull: f32, entry: &mut Lanes) -> u32;
     /// Which triangles the ray meets in `(0, t_most]`, as bits, and where.
@@ -67,6 +70,9 @@ impl Kernel for Portable {
     fn stack(self) -> Self::Stack {
         [0; STACK]
     }
+
+    #[inline(always)]
+    fn prefetch(self, _: &Scene, _: Child) {}
 
     #[inline(always)]
     fn boxes(self, node: &Node8, frame: &RayFrame, t_cull: f32, entry: &mut Lanes) -> u32 {

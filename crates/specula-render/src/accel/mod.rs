@@ -14,6 +14,8 @@
 //! - **Ties.** Of hits with equal `t` the smallest `(instance, primitive)` wins, whatever the order
 //!   of traversal.
 //! - **No leaks.** A ray from inside a closed mesh hits it: `triangle.rs` has the argument.
+//! - **Batches are rays one by one.** Small scenes (`small.rs`) and rays that part in large trees
+//!   (`in_step.rs`) go other ways in batches, to the same answers bit for bit.
 //! - **It cannot fail.** Rays that are not finite hit nothing; indices are checked at build.
 
 mod binary;
@@ -22,12 +24,14 @@ mod chunks;
 mod collapse;
 mod frame;
 mod group;
+mod in_step;
 mod input;
 mod instances;
 mod kernel;
 mod node;
 mod predicted;
 mod quadric;
+mod small;
 mod traverse;
 mod triangle;
 
@@ -48,6 +52,7 @@ use group::GroupTree;
 use instances::Placement;
 use kernel::Portable;
 use rayon::prelude::*;
+use small::Small;
 use specula_bsdf::Vec3;
 use traverse::Scene;
 
@@ -131,6 +136,8 @@ pub struct AccelStats {
 #[derive(Clone, Debug)]
 pub struct Accel {
     scene: Scene,
+    /// The same once more, where it is small.
+    small: Option<Small>,
     bounds: Option<Bounds>,
     kernel: Choice,
     stats: AccelStats,
@@ -184,6 +191,7 @@ impl Accel {
         }
         Ok(Self {
             bounds,
+            small: Small::new(&scene),
             kernel: Choice::best(),
             stats: AccelStats {
                 triangles,
@@ -220,16 +228,38 @@ impl Accel {
         }
     }
 
-    /// [`Accel::intersect`] of each ray, in order.
+    /// [`Accel::intersect`] of each ray, in order: the same answers, but faster for many rays.
     pub fn intersect_all(&self, rays: &[Ray], hits: &mut Vec<Option<Hit>>) {
         hits.clear();
-        hits.extend(rays.iter().map(|ray| self.intersect(ray)));
+        if let Some(small) = &self.small {
+            return small.intersect(rays, hits);
+        }
+        if !in_step::gains(&self.scene, rays) {
+            return hits.extend(rays.iter().map(|ray| self.intersect(ray)));
+        }
+        hits.resize(rays.len(), None);
+        match self.kernel {
+            Choice::Portable => in_step::intersect(Portable, &self.scene, rays, hits),
+            #[cfg(target_arch = "x86_64")]
+            Choice::Avx2(kernel) => kernel.intersect_in_step(&self.scene, rays, hits),
+        }
     }
 
-    /// [`Accel::occluded`] of each ray, in order.
+    /// [`Accel::occluded`] of each ray, in order: the same answers, but faster for many rays.
     pub fn occluded_all(&self, rays: &[Ray], found: &mut Vec<bool>) {
         found.clear();
-        found.extend(rays.iter().map(|ray| self.occluded(ray)));
+        if let Some(small) = &self.small {
+            return small.occluded(rays, found);
+        }
+        if !in_step::gains(&self.scene, rays) {
+            return found.extend(rays.iter().map(|ray| self.occluded(ray)));
+        }
+        found.resize(rays.len(), false);
+        match self.kernel {
+            Choice::Portable => in_step::occluded(Portable, &self.scene, rays, found),
+            #[cfg(target_arch = "x86_64")]
+            Choice::Avx2(kernel) => kernel.occluded_in_step(&self.scene, rays, found),
+        }
     }
 
     /// A box around everything in the world, a little larger than it; `None` where there is nothing.

@@ -1,6 +1,6 @@
 //! The arrays that rays walk over: 8-wide nodes and packets of 8 triangles, 64-byte aligned.
 
-use super::Bounds;
+use super::{Bounds, triangle};
 
 /// How many children a node has at most, and triangles a packet.
 pub(super) const WIDTH: usize = 8;
@@ -81,6 +81,13 @@ impl Node8 {
         }
         self.children[lane] = child;
     }
+
+    /// The children that there are.
+    pub(super) fn held(&self) -> impl Iterator<Item = Child> {
+        let [low, high] = [0, 1].map(|side| self.bounds[side].0);
+        let lanes = (0..WIDTH).filter(move |&lane| low[lane] <= high[lane]);
+        lanes.map(|lane| self.children[lane])
+    }
 }
 
 /// Up to eight triangles. Lanes without one hold a point, which no ray hits.
@@ -107,5 +114,19 @@ impl Packet8 {
             }
         }
         self.primitives[lane] = primitive;
+    }
+
+    /// The triangles that there are, with their indices.
+    pub(super) fn held(&self) -> impl Iterator<Item = (u32, [[f32; 3]; 3])> {
+        let corners = |lane: usize| {
+            self.vertices
+                .each_ref()
+                .map(|c| c.each_ref().map(|x| x.0[lane]))
+        };
+        (0..WIDTH).filter_map(move |lane| {
+            let corners = corners(lane);
+            triangle::bounds(&corners)?;
+            Some((self.primitives[lane], corners))
+        })
     }
 }

@@ -1,7 +1,7 @@
 //! Spheres and disks under any affine transform, intersected in double precision.
 
 use glam::{DAffine3, DMat4, DVec3};
-use specula_bsdf::Real;
+use specula_bsdf::{Real, Vec3};
 
 use super::input::invertible;
 use super::{Bounds, Ray};
@@ -88,43 +88,90 @@ impl Placed {
         }
     }
 
-    /// The least `t > 0` at which the ray meets the surface; NaN or infinite where it does not.
-    ///
-    /// Sphere: the discriminant comes from the vector between the centre and the ray's closest
-    /// point, the roots from `q` and `c / q`, neither of which cancels (Haines, Guenther and
-    /// Akenine-Moeller 2019, Ray Tracing Gems 7, eqs. 5 and 10).
+    /// The least `t > 0` at which the ray meets the surface; NaN or not positive where it does not.
     #[inline(never)]
     pub(super) fn t(&self, ray: &Ray) -> f32 {
-        let o = self
-            .to_object
-            .transform_point3(DVec3::from_array(ray.origin.to_array().map(f64::from)));
-        let d = self
-            .to_object
-            .transform_vector3(DVec3::from_array(ray.direction.to_array().map(f64::from)));
+        let wide = |v: Vec3<f32>| v.to_array().map(f64::from);
+        let (o, d) = self.enter(wide(ray.origin), wide(ray.direction));
         match self.shape {
-            QuadricShape::Disk { radius, height } => {
-                let t = (height - o.z) / d.z;
-                let (x, y) = (o.x + t * d.x, o.y + t * d.y);
-                if t > 0.0 && x * x + y * y <= radius * radius {
-                    f32::of(t)
+            QuadricShape::Disk { radius, height } => disk(o, d, radius, height),
+            QuadricShape::Sphere { radius } => {
+                let near = Approach::new(o, d, radius);
+                if near.meets() {
+                    near.t(o, radius)
                 } else {
                     f32::NAN
                 }
             }
-            QuadricShape::Sphere { radius } => {
-                let a = d.length_squared();
-                let b = -o.dot(d);
-                let closest = o + d * (b / a);
-                let discriminant = radius * radius - closest.length_squared();
-                if discriminant.is_nan() || discriminant < 0.0 {
-                    return f32::NAN;
-                }
-                let q = b + (a * discriminant).sqrt().copysign(b);
-                let c = (o.length() - radius) * (o.length() + radius);
-                let (t0, t1) = (c / q, q / a);
-                let (near, far) = if t0 < t1 { (t0, t1) } else { (t1, t0) };
-                f32::of(if near > 0.0 { near } else { far })
-            }
         }
+    }
+
+    /// What it is in its own space.
+    #[inline(always)]
+    pub(super) fn shape(&self) -> QuadricShape {
+        self.shape
+    }
+
+    /// A ray's origin and direction in its own space.
+    #[inline(always)]
+    pub(super) fn enter(&self, origin: [f64; 3], direction: [f64; 3]) -> ([f64; 3], [f64; 3]) {
+        let (origin, direction) = (DVec3::from_array(origin), DVec3::from_array(direction));
+        let o = self.to_object.transform_point3(origin);
+        let d = self.to_object.transform_vector3(direction);
+        (o.to_array(), d.to_array())
+    }
+}
+
+/// Where a ray meets the disk; NaN or not positive where it does not.
+#[inline(always)]
+pub(super) fn disk(o: [f64; 3], d: [f64; 3], radius: f64, height: f64) -> f32 {
+    let t = (height - o[2]) / d[2];
+    let (x, y) = (o[0] + t * d[0], o[1] + t * d[1]);
+    let inside = x * x + y * y <= radius * radius;
+    f32::of(if inside { t } else { f64::NAN })
+}
+
+/// How close a ray comes to a sphere's centre.
+///
+/// The discriminant comes from the vector between the centre and the ray's closest point, the roots
+/// from `q` and `c / q`, neither of which cancels (Haines, Guenther and Akenine-Moeller 2019, Ray
+/// Tracing Gems 7, eqs. 5 and 10).
+#[derive(Clone, Copy)]
+pub(super) struct Approach {
+    a: f64,
+    b: f64,
+    discriminant: f64,
+}
+
+impl Approach {
+    #[inline(always)]
+    pub(super) fn new(o: [f64; 3], d: [f64; 3], radius: f64) -> Self {
+        let (o, d) = (DVec3::from_array(o), DVec3::from_array(d));
+        let a = d.length_squared();
+        let b = -o.dot(d);
+        let closest = o + d * (b / a);
+        Self {
+            a,
+            b,
+            discriminant: radius * radius - closest.length_squared(),
+        }
+    }
+
+    /// Whether the ray, or its backward extension, meets the sphere.
+    #[inline(always)]
+    pub(super) fn meets(&self) -> bool {
+        self.discriminant >= 0.0
+    }
+
+    /// Where, if it does; not positive where the sphere lies behind.
+    #[inline(always)]
+    pub(super) fn t(&self, o: [f64; 3], radius: f64) -> f32 {
+        let Self { a, b, discriminant } = *self;
+        let distance = DVec3::from_array(o).length();
+        let q = b + (a * discriminant).sqrt().copysign(b);
+        let c = (distance - radius) * (distance + radius);
+        let (t0, t1) = (c / q, q / a);
+        let (near, far) = if t0 < t1 { (t0, t1) } else { (t1, t0) };
+        f32::of(if near > 0.0 { near } else { far })
     }
 }

@@ -24,13 +24,13 @@ pub(super) struct Scene {
 pub(super) struct Best {
     hit: Hit,
     /// `hit.t` with slack: boxes beyond it are culled.
-    t_cull: f32,
+    pub(super) t_cull: f32,
     found: bool,
 }
 
 impl Best {
     #[inline(always)]
-    fn new(t_max: f32) -> Self {
+    pub(super) fn new(t_max: f32) -> Self {
         Self {
             // No primitive comes before (0, 0), so that a hit at `t_max` itself never counts.
             hit: Hit {
@@ -43,6 +43,12 @@ impl Best {
             t_cull: t_max * SLACK,
             found: false,
         }
+    }
+
+    /// What was found.
+    #[inline(always)]
+    pub(super) fn hit(&self) -> Option<Hit> {
+        self.found.then_some(self.hit)
     }
 
     /// Takes the hit if it is closer, or as close and of a lesser instance or primitive.
@@ -62,8 +68,7 @@ impl Best {
 
 #[inline(always)]
 pub(super) fn intersect<K: Kernel>(kernel: K, scene: &Scene, ray: &Ray) -> Option<Hit> {
-    let best = cast::<K, false>(kernel, scene, ray)?;
-    best.found.then_some(best.hit)
+    cast::<K, false>(kernel, scene, ray)?.hit()
 }
 
 #[inline(always)]
@@ -88,7 +93,7 @@ fn cast<K: Kernel, const ANY: bool>(kernel: K, scene: &Scene, ray: &Ray) -> Opti
 }
 
 /// What happens at a child that is not a node.
-trait Leaves {
+pub(super) trait Leaves {
     /// Offers what is hit in it to `best`; says whether anything was taken.
     fn visit<K: Kernel, const ANY: bool>(
         &self,
@@ -169,14 +174,14 @@ fn walk<K: Kernel, L: Leaves, const ANY: bool>(
 }
 
 #[inline(always)]
-fn child_of(entry: u64) -> Child {
+pub(super) fn child_of(entry: u64) -> Child {
     Child((entry & 0xffff_ffff) as u32)
 }
 
 /// Triangles and quadrics.
-struct GroupLeaves<'a> {
-    scene: &'a Scene,
-    instance: u32,
+pub(super) struct GroupLeaves<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) instance: u32,
 }
 
 impl Leaves for GroupLeaves<'_> {

@@ -14,6 +14,7 @@ use crate::accel::{Hit, Ray};
 use crate::convert::id;
 use crate::film::PixelSample;
 use crate::geometry::NONE;
+use crate::light;
 use crate::options::Strategy;
 use crate::prepared::PreparedScene;
 use crate::sampler::{Purpose, Sampler};
@@ -59,6 +60,7 @@ pub(crate) struct Block {
     pub(super) shadows: Box<Queue>,
     /// Whether anything is in their way.
     pub(super) blocked: Vec<bool>,
+    pub(super) lights: Box<light::Waiting>,
 }
 
 /// Numbers of paths or lanes, each with a ray.
@@ -141,6 +143,7 @@ impl Block {
             streams: Vec::new(),
             shadows: Queue::new(),
             blocked: Vec::new(),
+            lights: light::Waiting::new(),
         }
     }
 
@@ -304,13 +307,14 @@ impl PathTracer<'_> {
             paths,
             live,
             escaped,
+            lights: waiting,
             ..
         } = block;
         let lights = &self.scene.lights;
         let directions = escaped
             .iter()
             .map(|&k| (k as usize, live.ray(k as usize).direction));
-        lights.arriving_from_infinity_all(directions, |k, radiance, pdf| {
+        lights.arriving_from_infinity_all(waiting, directions, |k, radiance, pdf| {
             let number = live.number(k);
             if paths.straight[number] && self.scene.hide_emitters {
                 return;

@@ -21,7 +21,7 @@ use crate::offset::{coupled, leave};
 use crate::sampler::Numbers;
 
 /// Most vertices at once.
-pub(super) const LANES: usize = 256;
+pub(super) const LANES: usize = 512;
 
 /// A number of each vertex.
 pub(super) type Column = [f32; LANES];

@@ -207,7 +207,10 @@ impl PathTracer<'_> {
     /// Draws a light for each vertex.
     fn draw_lights(&self, block: &mut Block, depth: u32) {
         let Block {
-            stretches, lanes, ..
+            stretches,
+            lanes,
+            lights,
+            ..
         } = block;
         let n = lanes.count;
         let scene = self.scene;
@@ -231,7 +234,7 @@ impl PathTracer<'_> {
             .map(|(i, plain)| (i, s.receiver(i, plain)));
         let u = [0, 1, 2, 3].map(|k| &numbers.values[k][..]);
         let place = |i, light| a.set(i, light);
-        scene.lights.sample_all(receivers, world, u, place);
+        scene.lights.sample_all(lights, receivers, world, u, place);
     }
 
     /// Adds the light that nothing is in the way of.

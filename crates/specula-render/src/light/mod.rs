@@ -37,6 +37,7 @@ use sun::Sun;
 use textured::{Textured, Varying};
 
 pub(crate) use environment::direction as direction_of_sphere;
+pub(crate) use lanes::Waiting;
 pub(crate) use node::Receiver;
 pub(crate) use parallelogram::{Parallelogram, Seen};
 

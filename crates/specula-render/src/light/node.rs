@@ -77,46 +77,50 @@ impl Node {
     /// bounded by the sphere's radius; receivers within the sphere know no angles.
     #[inline]
     pub(super) fn importance(&self, receiver: &Receiver) -> f32 {
-        let d = self.centre - receiver.point;
+        self.importance_at(receiver.point, receiver.normal.unwrap_or(Vec3::ZERO))
+    }
+
+    /// [`Node::importance`] without branches on the receiver, so that loops over many become vectors.
+    ///
+    /// * `normal`: zero where light from every side counts.
+    #[inline(always)]
+    pub(super) fn importance_at(&self, point: Vec3<f32>, normal: Vec3<f32>) -> f32 {
+        let d = self.centre - point;
         let distance_squared = d.length_squared();
         let radius_squared = self.radius * self.radius;
-        if distance_squared <= radius_squared {
-            return (self.intensity / radius_squared).min(MOST);
-        }
         let to_centre = d * (1.0 / distance_squared.sqrt());
         let sin2_u = radius_squared / distance_squared;
         let (sin_u, cos_u) = (sin2_u.sqrt(), (1.0 - sin2_u).sqrt());
-        let mut factor = 1.0;
-        if let Some(n) = receiver.normal {
-            let cos_i = minus_clamped(n.dot(to_centre), sin_u, cos_u);
-            if cos_i <= -SLACK {
-                return 0.0;
-            }
-            factor = cos_i.max(SLACK);
-        }
+        let has_normal = (normal.x != 0.0) | (normal.y != 0.0) | (normal.z != 0.0);
+        let cos_i = minus_clamped(normal.dot(to_centre), sin_u, cos_u);
+        let cos_i = if has_normal { cos_i } else { 1.0 };
+        let mut lit = cos_i > -SLACK;
+        let mut factor = cos_i.max(SLACK);
         // Lights all around their normals, spheres and points, send everywhere alike.
         if self.cos_o > -1.0 {
             let cos = -self.axis.dot(to_centre);
             let cos = if self.two_sided { cos.abs() } else { cos };
             let sin_o = (1.0 - self.cos_o * self.cos_o).max(0.0).sqrt();
             let cos = minus_clamped(minus_clamped(cos, sin_o, self.cos_o), sin_u, cos_u);
-            if cos <= self.cos_e - SLACK {
-                return 0.0;
-            }
+            lit &= cos > self.cos_e - SLACK;
             factor *= cos.max(SLACK);
         }
-        (self.intensity * factor / distance_squared).min(MOST)
+        let inside = distance_squared <= radius_squared;
+        let (numerator, denominator) = if inside {
+            (self.intensity, radius_squared)
+        } else {
+            (self.intensity * factor, distance_squared)
+        };
+        let importance = (numerator / denominator).min(MOST);
+        if inside | lit { importance } else { 0.0 }
     }
 }
 
 /// `cos(max(a - b, 0))` of angles in `[0, pi]`.
 #[inline(always)]
 fn minus_clamped(cos_a: f32, sin_b: f32, cos_b: f32) -> f32 {
-    if cos_a >= cos_b {
-        1.0
-    } else {
-        cos_a * cos_b + (1.0 - cos_a * cos_a).max(0.0).sqrt() * sin_b
-    }
+    let less = cos_a * cos_b + (1.0 - cos_a * cos_a).max(0.0).sqrt() * sin_b;
+    if cos_a >= cos_b { 1.0 } else { less }
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@
 
 use super::alias::AliasTable;
 use super::build::Emitter;
-use super::node::Receiver;
+use super::node::{Node, Receiver};
 use super::tree::LightTree;
 use crate::convert::narrow;
 
@@ -82,18 +82,28 @@ impl Selection {
     ///   run out over hundreds of thousands of lights.
     #[inline]
     pub(super) fn sample(&self, receiver: &Receiver, u: [f32; 2]) -> Option<(u32, f32)> {
+        self.choose(&self.near.importances(receiver), u)
+    }
+
+    /// [`Selection::sample`] by the importances of the tree's nodes.
+    #[inline]
+    pub(super) fn choose(
+        &self,
+        importance: &impl Fn(usize) -> f32,
+        u: [f32; 2],
+    ) -> Option<(u32, f32)> {
         if let Some(light) = self.only {
             return Some((light, 1.0));
         }
         let u = f64::from(u[0]) + FINER * f64::from(u[1]);
-        let share = self.share_far(receiver);
+        let share = self.share(importance);
         let threshold = f64::from(share);
         let below_one = 1.0 - f64::EPSILON;
         let (choice, share) = if u < threshold {
             (self.far.sample((u / threshold).min(below_one)), share)
         } else {
             let rest = (u - threshold) / (1.0 - threshold);
-            let choice = self.near.sample(receiver, rest.min(below_one));
+            let choice = self.near.sample(importance, rest.min(below_one));
             (choice, 1.0 - share)
         };
         choice.map(|(light, probability)| (light, share * probability))
@@ -102,25 +112,41 @@ impl Selection {
     /// Probability with which [`Selection::sample`] draws a light in the scene.
     #[inline]
     pub(super) fn probability_near(&self, receiver: &Receiver, light: u32) -> f32 {
-        let share = 1.0 - self.share_far(receiver);
-        share * self.near.probability(receiver, light)
+        let importance = self.near.importances(receiver);
+        let share = 1.0 - self.share(&importance);
+        share * self.near.probability(&importance, light)
     }
 
     /// Probability with which [`Selection::sample`] draws any light from infinity.
     #[inline]
     pub(super) fn share_far(&self, receiver: &Receiver) -> f32 {
+        self.share(&self.near.importances(receiver))
+    }
+
+    #[inline(always)]
+    fn share(&self, importance: &impl Fn(usize) -> f32) -> f32 {
         if self.far_irradiance <= 0.0 {
             return 0.0;
         }
         if self.near.is_empty() {
             return 1.0;
         }
-        let near = self.near.importance(receiver);
+        let near = self.near.total(importance);
         if near <= 0.0 {
             return 1.0;
         }
         let share = self.far_irradiance / (self.far_irradiance + near);
         share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE)
+    }
+
+    /// Whether there is more than one light to choose from.
+    pub(super) fn chooses(&self) -> bool {
+        self.only.is_none()
+    }
+
+    /// The nodes of the tree over the lights in the scene.
+    pub(super) fn nodes(&self) -> &[Node] {
+        self.near.nodes()
     }
 
     /// Probability of a light from infinity among those.

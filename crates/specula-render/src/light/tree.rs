@@ -47,15 +47,25 @@ impl LightTree {
         self.nodes.is_empty()
     }
 
+    pub(super) fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// The importance of each node for a receiver.
+    #[inline(always)]
+    pub(super) fn importances(&self, receiver: &Receiver) -> impl Fn(usize) -> f32 {
+        |at| self.nodes[at].importance(receiver)
+    }
+
     /// An estimate of the irradiance by all lights: the sum over the root's children. 0 only where
     /// no light can contribute.
     #[inline]
-    pub(super) fn importance(&self, receiver: &Receiver) -> f32 {
+    pub(super) fn total(&self, importance: &impl Fn(usize) -> f32) -> f32 {
         match self.nodes.first() {
             None => 0.0,
-            Some(root) if root.leaf => root.importance(receiver),
+            Some(root) if root.leaf => importance(0),
             Some(_) => {
-                let [a, b] = self.children(0, receiver);
+                let [a, b] = self.children(0, importance);
                 a + b
             }
         }
@@ -63,9 +73,14 @@ impl LightTree {
 
     /// A light and its probability; `None` where the tree is empty.
     ///
+    /// * `importance`: of each node.
     /// * `u`: uniform in `[0, 1)`, with more digits than `f32` has: every step takes one.
     #[inline]
-    pub(super) fn sample(&self, receiver: &Receiver, mut u: f64) -> Option<(u32, f32)> {
+    pub(super) fn sample(
+        &self,
+        importance: &impl Fn(usize) -> f32,
+        mut u: f64,
+    ) -> Option<(u32, f32)> {
         let mut at = 0;
         let mut probability = 1.0;
         loop {
@@ -73,7 +88,7 @@ impl LightTree {
             if node.leaf {
                 return Some((node.link, probability));
             }
-            let left = share(self.children(at, receiver));
+            let left = share(self.children(at, importance));
             let threshold = f64::from(left);
             if u < threshold {
                 u /= threshold;
@@ -88,9 +103,9 @@ impl LightTree {
         }
     }
 
-    /// Probability with which [`LightTree::sample`] draws a light at the same receiver.
+    /// Probability with which [`LightTree::sample`] draws a light by the same importances.
     #[inline]
-    pub(super) fn probability(&self, receiver: &Receiver, light: u32) -> f32 {
+    pub(super) fn probability(&self, importance: &impl Fn(usize) -> f32, light: u32) -> f32 {
         let Some(mut trail) = self.trails.get(light as usize).copied() else {
             return 0.0;
         };
@@ -100,7 +115,7 @@ impl LightTree {
         let mut at = 0;
         let mut probability = 1.0;
         while !self.nodes[at].leaf {
-            let left = share(self.children(at, receiver));
+            let left = share(self.children(at, importance));
             if trail & 1 == 0 {
                 probability *= left;
                 at += 1;
@@ -114,9 +129,9 @@ impl LightTree {
     }
 
     #[inline(always)]
-    fn children(&self, at: usize, receiver: &Receiver) -> [f32; 2] {
+    fn children(&self, at: usize, importance: &impl Fn(usize) -> f32) -> [f32; 2] {
         let right = at + self.nodes[at].link as usize;
-        [at + 1, right].map(|child| self.nodes[child].importance(receiver))
+        [at + 1, right].map(importance)
     }
 }
 

@@ -1,18 +1,25 @@
 //! Pictures to OpenEXR: 32-bit floats, ZIP without loss, one part with all layers.
 
-use std::io;
+use std::io::{self, Seek, Write};
 use std::path::Path;
 
+use exr::block::UncompressedBlock;
+use exr::block::writer::ChunksWriter;
+use exr::image::write::layers::{LayersWriter, WritableLayers};
 use exr::meta::attribute::AttributeValue;
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer,
-    LayerAttributes, SmallVec, Text, Vec2, WritableImage,
+    LayerAttributes, SmallVec, Text, Vec2,
 };
+use rayon::prelude::*;
 use specula_bsdf::Rgb;
 
 use specula_scene::atomic;
 
 use super::{Picture, PictureError, finite};
+
+/// Blocks that are compressed at once, each of a few rows.
+const GROUP: usize = 64;
 
 /// What is written beside the pixels, as attributes of the file; `None` is left out.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -63,7 +70,7 @@ pub fn write_exr(
     );
     let image = Image::empty(ImageAttributes::new(display_window)).with_layer(layer);
     atomic::replace(path, |file| {
-        image.write().to_buffered(file).map_err(|e| match e {
+        write_blocks(&image, file).map_err(|e| match e {
             exr::error::Error::Io(source) => source,
             other => io::Error::other(other.to_string()),
         })
@@ -73,6 +80,33 @@ pub fn write_exr(
         source,
     })?;
     Ok(picture.non_finite_count())
+}
+
+/// Writes the file, its blocks compressed in rayon's current pool.
+///
+/// Departure: the crate's own writer starts threads for every picture, as many as there are cores,
+/// whatever the render was allowed; each takes memory of its own from the allocator.
+fn write_blocks<'a, L: WritableLayers<'a>>(
+    image: &'a Image<L>,
+    file: impl Write + Seek,
+) -> exr::error::UnitResult {
+    let headers = image.layer_data.infer_headers(&image.attributes);
+    let layers = image.layer_data.create_writer(&headers);
+    exr::block::write(file, headers, true, |meta, writer| {
+        let blocks: Vec<_> = meta.enumerate_ordered_header_block_indices().collect();
+        for group in blocks.chunks(GROUP) {
+            let compress = |&(number, index)| {
+                let data = layers.extract_uncompressed_block(&meta.headers, index);
+                let block = UncompressedBlock { index, data };
+                Ok((number, block.compress_to_chunk(&meta.headers)?))
+            };
+            let chunks: exr::error::Result<Vec<_>> = group.par_iter().map(compress).collect();
+            for (number, chunk) in chunks? {
+                writer.write_chunk(number, chunk)?;
+            }
+        }
+        Ok(())
+    })
 }
 
 /// OpenEXR's text is one byte per character: others become question marks.

@@ -71,7 +71,8 @@ Examples:
   specula render scene.pbrt --threads -1 --nice --max-memory 8GiB --display-server localhost
       next to other work, shown in tev meanwhile
 
-Ctrl-C stops the render and writes what there is; a second Ctrl-C ends the program at once.
+Ctrl-C finishes the pass, writes and ends with code 130; a second Ctrl-C stops between tiles and writes
+what there is; a third ends the program at once.
 Every half minute the picture so far is written, and a checkpoint beside it (scene.film for
 scene.exr) from which --resume goes on after Ctrl-C, a crash or a power cut, to the same picture
 bit for bit; it is removed when the render is done. Files are replaced whole or not at all.";

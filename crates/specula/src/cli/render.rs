@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use specula::render::{
     FilmBuffer, InvalidSample, Label, MOST_SAMPLES, PrepareError, PreparedScene, RenderOptions,
@@ -190,7 +190,9 @@ impl Job<'_> {
                 .and_then(|done| self.goal.next_pass(done, last, start.elapsed()));
             let Some(next) = next else { break };
             let pass_start = Instant::now();
-            let report = self.renderer.render_pass(next, self.stop.flag());
+            self.stop.pass_begins(expected(next, last));
+            let report = self.renderer.render_pass(next, self.stop.at_once());
+            self.stop.pass_ends();
             last = Some((next, pass_start.elapsed()));
             rays += report.rays;
             invalid = report.invalid_samples;
@@ -283,6 +285,11 @@ impl Job<'_> {
             rays as f64 * 1e-6 / seconds.max(1e-9),
         );
     }
+}
+
+/// How long a pass of `samples` will take, from the samples and the duration of the last.
+fn expected(samples: u32, last: Option<(u32, Duration)>) -> Option<Duration> {
+    last.map(|(taken, duration)| duration.mul_f64(f64::from(samples) / f64::from(taken.max(1))))
 }
 
 /// `64 spp`; where pixels differ, `32 to 512 spp, 77 on average`.

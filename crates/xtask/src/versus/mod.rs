@@ -1,11 +1,13 @@
 //! `cargo xtask versus`: time to equal error against other renderers.
 
 mod measure;
-mod renderers;
+pub(crate) mod mesh;
+pub(crate) mod renderers;
 mod report;
-mod scenes;
+pub(crate) mod scenes;
 mod sheet;
-mod statistics;
+mod sky;
+pub(crate) mod statistics;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,10 +16,17 @@ use std::time::Instant;
 
 use clap::{Args, ValueEnum};
 
-use crate::{Result, suite};
+use crate::{Result, workspace};
 use measure::{Contestant, Outcome, Plan};
 use renderers::{Pbrt, Served, Specula};
 use scenes::{SCENES, SceneFile};
+
+/// Most that the means of references may differ by, as a share.
+const CLOSE: f64 = 0.005;
+/// The same for a renderer that computes with spectra.
+const SPECTRAL: f64 = 0.02;
+/// A picture of the report is smaller, in bytes.
+const LARGEST_PICTURE: u64 = 300_000;
 
 /// Which seconds are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -52,11 +61,11 @@ pub(crate) struct Versus {
     /// Rounds, in each of which everybody renders once [default: 5, quick 3]
     #[arg(long)]
     rounds: Option<u32>,
-    /// Seconds that a render should take [default: 3, quick 0.5]
+    /// Seconds that a render should take [default: 2, quick 0.5]
     #[arg(long)]
     seconds: Option<f64>,
     /// Samples of a reference over those of a render
-    #[arg(long, default_value_t = 16)]
+    #[arg(long, default_value_t = 8)]
     reference: u32,
     /// Threads of every renderer
     #[arg(long, default_value_t = 2)]
@@ -84,7 +93,7 @@ pub(crate) fn run(root: &Path, versus: &Versus) -> Result<()> {
     let start = Instant::now();
     fs::create_dir_all(&versus.out)?;
     let out = fs::canonicalize(&versus.out)?;
-    let specula = versus.program(root)?;
+    let specula = workspace::program(root, versus.specula.as_deref())?;
     let mut outcomes: Vec<Outcome> = Vec::new();
     for scene in &SCENES {
         if versus.scene.is_empty() || versus.scene.iter().any(|n| n == scene.name) {
@@ -99,13 +108,30 @@ pub(crate) fn run(root: &Path, versus: &Versus) -> Result<()> {
     fs::write(out.join("README.md"), &text)?;
     print!("{}", report::summary(&outcomes));
     println!("{minutes:.1} minutes; report in {}", out.display());
+    let faults: Vec<&str> = outcomes
+        .iter()
+        .flat_map(|o| &o.rows)
+        .filter_map(|row| row.fault.as_deref())
+        .collect();
+    if !faults.is_empty() {
+        return Err(faults.join("\n").into());
+    }
     if versus.publish {
-        let docs = root.join("docs/versus");
-        fs::create_dir_all(&docs)?;
-        fs::write(docs.join("README.md"), text)?;
-        for outcome in &outcomes {
-            let name = format!("{}.png", outcome.scene.name);
-            fs::copy(out.join(&name), docs.join(&name))?;
+        publish(root, &out, &text, &outcomes)?;
+    }
+    Ok(())
+}
+
+/// Copies the report and its pictures to the documents.
+fn publish(root: &Path, out: &Path, text: &str, outcomes: &[Outcome]) -> Result<()> {
+    let docs = root.join("docs/versus");
+    fs::create_dir_all(&docs)?;
+    fs::write(docs.join("README.md"), text)?;
+    for outcome in outcomes {
+        let name = format!("{}.png", outcome.scene.name);
+        let size = fs::copy(out.join(&name), docs.join(&name))?;
+        if size >= LARGEST_PICTURE {
+            return Err(format!("{name} is too large to publish: {size} bytes").into());
         }
     }
     Ok(())
@@ -115,25 +141,11 @@ impl Versus {
     fn plan(&self) -> Plan {
         Plan {
             rounds: self.rounds.unwrap_or(if self.quick { 3 } else { 5 }).max(1),
-            seconds: self.seconds.unwrap_or(if self.quick { 0.5 } else { 3.0 }),
+            seconds: self.seconds.unwrap_or(if self.quick { 0.5 } else { 2.0 }),
             reference: self.reference.max(1),
             threads: self.threads,
             clock: self.clock,
         }
-    }
-
-    /// Specula's program, built where none is given: cargo puts it beside this chore's.
-    fn program(&self, root: &Path) -> Result<PathBuf> {
-        if let Some(program) = &self.specula {
-            return Ok(program.clone());
-        }
-        let mut build = suite::cargo(root);
-        build.args(["build", "--release", "--quiet", "--package", "specula"]);
-        if !build.status()?.success() {
-            return Err("Specula does not build".into());
-        }
-        let name = format!("specula{}", std::env::consts::EXE_SUFFIX);
-        Ok(std::env::current_exe()?.with_file_name(name))
     }
 
     fn compare(
@@ -145,14 +157,7 @@ impl Versus {
     ) -> Result<Outcome> {
         let folder = out.join("scenes");
         let file = scene.prepare(root, &folder)?;
-        let converted = file.with_extension("pbrt");
-        let conversion = Command::new(specula)
-            .arg("convert")
-            .args([&file, &converted])
-            .output()?;
-        if !conversion.status.success() {
-            return Err(String::from_utf8_lossy(&conversion.stderr).into());
-        }
+        let twin = file.with_extension("pbrt");
         let ours = |scene: &Path| Specula {
             program: specula.to_owned(),
             scene: scene.to_owned(),
@@ -175,14 +180,11 @@ impl Versus {
                 "orthogonal",
                 "ldsampler",
             ];
-            contestants.push(Contestant::new("mitsuba", samplers, engine).against("specula-xml"));
+            contestants
+                .push(Contestant::new("mitsuba", samplers, engine).against("specula-xml", CLOSE));
         }
         if self.cycles.is_some() || self.pbrt.is_some() {
-            contestants.push(Contestant::new(
-                "specula-pbrt",
-                &["sobol"],
-                ours(&converted),
-            ));
+            contestants.push(Contestant::new("specula-pbrt", &["sobol"], ours(&twin)));
         }
         if let Some(python) = &self.cycles {
             let mut command = Command::new(python);
@@ -192,19 +194,23 @@ impl Versus {
                 .arg(self.threads.to_string());
             let engine = Served::start("Cycles", &mut command)?;
             let samplers = &["TABULATED_SOBOL", "BLUE_NOISE"];
-            contestants.push(Contestant::new("cycles", samplers, engine).against("specula-pbrt"));
+            contestants
+                .push(Contestant::new("cycles", samplers, engine).against("specula-pbrt", CLOSE));
         }
         if let Some(program) = &self.pbrt {
             let engine = Pbrt {
                 program: program.clone(),
-                scene: converted.clone(),
+                scene: twin,
                 threads: self.threads,
                 loading: None,
             };
-            contestants.push(Contestant::new("pbrt", &["zsobol"], engine).against("specula-pbrt"));
+            contestants.push(
+                Contestant::new("pbrt", &["zsobol"], engine).against("specula-pbrt", SPECTRAL),
+            );
         }
         let pictures = out.join(scene.name);
-        let key = measure::key(&fs::read(&file)?);
+        let key =
+            measure::key(&[fs::read(&file)?, fs::read(file.with_extension("pbrt"))?].concat());
         let outcome = measure::run(scene, &self.plan(), contestants, &pictures, key)?;
         sheet::write(&outcome, &out.join(format!("{}.png", scene.name)))?;
         Ok(outcome)

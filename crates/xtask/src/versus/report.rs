@@ -44,6 +44,10 @@ pub(crate) fn scene(outcome: &Outcome) -> String {
     }
     text.push('\n');
     for (ours, theirs) in pairs(outcome) {
+        if let Some(fault) = &theirs.fault {
+            let _ = writeln!(text, "- error: {fault}.");
+            continue;
+        }
         let spread = ratios(ours, theirs, 0);
         let (least, most) = spread
             .iter()
@@ -70,6 +74,11 @@ pub(crate) fn summary(outcomes: &[Outcome]) -> String {
     );
     for outcome in outcomes {
         for (ours, theirs) in pairs(outcome) {
+            if let Some(fault) = &theirs.fault {
+                let name = outcome.scene.name;
+                let _ = writeln!(text, "| {name} | {} | error: {fault} | | | |", theirs.name);
+                continue;
+            }
             let [plain, trimmed, relative] =
                 [0, 1, 2].map(|metric| median(&ratios(ours, theirs, metric)));
             let _ = writeln!(
@@ -96,7 +105,8 @@ fn ratios(ours: &Row, theirs: &Row, metric: usize) -> Vec<f64> {
 fn pairs(outcome: &Outcome) -> impl Iterator<Item = (&Row, &Row)> {
     let rows = &outcome.rows;
     rows.iter().filter_map(move |theirs| {
-        let ours = rows.iter().find(|r| Some(r.name) == theirs.against)?;
+        let pair = theirs.against?;
+        let ours = rows.iter().find(|r| r.name == pair.ours)?;
         Some((ours, theirs))
     })
 }
@@ -152,39 +162,45 @@ fn processor() -> String {
 const HEAD: &str = "\
 # Equal time, other renderers
 
-Written by `cargo xtask versus --publish`; the scenes are in [`data/versus`](../../data/versus).
+Written by the chore below, on a machine that does nothing else; the scenes are in [`data/versus`](../../data/versus).
 
-    cargo xtask versus --mitsuba PYTHON --cycles PYTHON --pbrt PROGRAM --publish
+    cargo xtask versus --mitsuba PYTHON --cycles PYTHON --publish
 
 ## What is compared, and how
 
-- **Scenes.** Four files in Mitsuba's format, 512x512 pixels, box filter. Mitsuba and `specula-xml` read
-  the very same file (GGX with separable masking, as Mitsuba's). Cycles builds the same shapes, lights
-  and materials from it (spheres as smooth meshes of 256 x 128, Metallic and Glass with GGX, no
-  multiple scattering, front sides of lamps only); `specula-pbrt` and pbrt read what `specula convert`
-  makes of it, with height-correlated masking, as Cycles and pbrt have. Path lengths agree; Russian
-  roulette is each renderer's own.
+- **Scenes.** Four, each in Mitsuba's and in pbrt's format, 512x512 pixels, box filter. Mitsuba and
+  `specula-xml` read the very same file (GGX with separable masking, as Mitsuba's), pbrt and
+  `specula-pbrt` the other (height-correlated masking); a test holds that both are the same picture but
+  for the masking. Cycles, whose masking is height-correlated, builds the same shapes, lights and
+  materials from the first (spheres as smooth meshes of 256 x 128, Metallic and Glass with GGX, no
+  multiple scattering, front sides of lamps only). Path lengths agree; Russian roulette is each
+  renderer's own.
 - **Settings.** No denoising, clamping or adaptive sampling; caustics on; light tree on. Mitsuba with the
   best of its five samplers and Cycles with the best of tabulated Sobol and blue noise, chosen
-  per scene by seconds times trimmed squared error.
+  per scene by seconds times trimmed variance, from two renders each. Samples are what the sampler took:
+  Mitsuba's stratified ones round up to squares.
 - **Time** is that of rendering alone. Specula: what its picture says, without reading the scene, building
   the hierarchy and writing the picture (for CPU time, twice that of one sample less that of two).
   Mitsuba: `mi.render`, evaluated and synchronised, its kernels compiled before (warm-up). Cycles: the
   render operator with persistent data, scene and hierarchy transferred before. pbrt: the process less
   one that renders a pixel.
-- **Error** is against each renderer's own reference, of the stated multiple of samples and another
-  seed; the column beside gives it against the other's. RMSE over pixels and channels; trimmed: without the
-  largest 0.1 % of squares; relMSE with 0.01 added to the squared reference.
+- **Error** is against each renderer's own reference, made with the sampler of the renders: the mean of
+  two halves of other seeds, together of the stated multiple of samples. The halves tell the
+  reference's own squared error, a quarter of their mean squared difference, which is taken off
+  what is measured. The column beside gives the error against the other's reference. RMSE over
+  pixels and channels; trimmed: without the largest 0.1 % of squares; relMSE with 0.01 added to the
+  squared reference.
 - **Time to equal error**, ours over theirs: t mse / (t' mse'), as squared errors fall with time. The
   column `rate` checks that: the exponent of the trimmed RMSE's fall from the rounds to a render of four
-  times the samples, less the references' noise: 0.5 for independent samples.
-- **The means** of the references tell that the scene is the same.
+  times the samples: 0.5 for independent samples.
+- **The means** of a pair's references must agree within 0.5 %, pbrt's, which is spectral, within 2 %;
+  else the row is an error and the chore fails.
 
 ";
 
 #[cfg(test)]
 mod tests {
-    use super::super::measure::Render;
+    use super::super::measure::{Pair, Render};
     use super::super::scenes::SCENES;
     use super::super::statistics::Errors;
     use super::*;
@@ -203,7 +219,10 @@ mod tests {
         Row {
             name,
             version: format!("{name} 1"),
-            against,
+            against: against.map(|ours| Pair {
+                ours,
+                tolerance: 0.005,
+            }),
             sampler: "s",
             spp: 16,
             pixels: 4,
@@ -213,6 +232,7 @@ mod tests {
             renders: seconds.iter().map(render).collect(),
             rmse_of_other: None,
             rate: 0.5,
+            fault: None,
         }
     }
 
@@ -235,6 +255,10 @@ mod tests {
         );
         assert!(scene(&outcome).contains("0.500 (0.250 to 2.250)"));
         outcome.rows[0] = row("ours", None, &[3.0], 0.01);
-        assert!(summary(&[outcome]).contains("| 0.750 | 0.750 | 0.750 | missed |"));
+        let one = std::slice::from_ref(&outcome);
+        assert!(summary(one).contains("| 0.750 | 0.750 | 0.750 | missed |"));
+        outcome.rows[1].fault = Some("dark".to_owned());
+        assert!(summary(std::slice::from_ref(&outcome)).contains("| theirs | error: dark |"));
+        assert!(scene(&outcome).contains("- error: dark."));
     }
 }

@@ -22,19 +22,31 @@ pub(crate) struct Errors {
 impl Errors {
     /// The errors of `test`, or `None` where the pictures differ in size or are empty.
     pub(crate) fn of(reference: &[Rgb<f32>], test: &[Rgb<f32>]) -> Option<Self> {
-        if reference.len() != test.len() || reference.is_empty() {
+        Self::between(reference, reference, test)
+    }
+
+    /// What two halves of a reference, the mean of which is `whole`, tell of its own errors, or `None`
+    /// as above: with `v` the variance of a half, that of their mean is `v / 2` and their mean squared
+    /// difference `2 v`.
+    pub(crate) fn of_mean(whole: &[Rgb<f32>], halves: [&[Rgb<f32>]; 2]) -> Option<Self> {
+        let difference = Self::between(whole, halves[0], halves[1])?;
+        Some(difference.map(|e| 0.25 * e))
+    }
+
+    /// Differences of `a` and `b`, relative ones over `base`.
+    fn between(base: &[Rgb<f32>], a: &[Rgb<f32>], b: &[Rgb<f32>]) -> Option<Self> {
+        if a.len() != b.len() || a.len() != base.len() || a.is_empty() {
             return None;
         }
-        let pairs = reference.iter().zip(test).flat_map(|(r, t)| {
-            let (r, t) = (r.to_array(), t.to_array());
-            [0, 1, 2].map(|c| (f64::from(r[c]), f64::from(t[c])))
-        });
-        let mut squares = Vec::with_capacity(3 * reference.len());
+        let mut squares = Vec::with_capacity(3 * a.len());
         let mut relative = 0.0;
-        for (r, t) in pairs {
-            let square = (t - r).powi(2);
-            relative += square / (r * r + REL_MSE_EPSILON);
-            squares.push(square);
+        for ((base, a), b) in base.iter().zip(a).zip(b) {
+            let [base, a, b] = [base, a, b].map(|c| c.to_array().map(f64::from));
+            for c in 0..3 {
+                let square = (a[c] - b[c]).powi(2);
+                relative += square / (base[c] * base[c] + REL_MSE_EPSILON);
+                squares.push(square);
+            }
         }
         let count = squares.len() as f64;
         let mse = squares.iter().sum::<f64>() / count;
@@ -43,6 +55,24 @@ impl Errors {
             trimmed_mse: trimmed_mean(&mut squares),
             rel_mse: relative / count,
         })
+    }
+
+    /// The errors without those of the reference, which add to what is measured against it: picture and
+    /// reference are independent.
+    pub(crate) fn less(self, reference: Self) -> Self {
+        Self {
+            mse: (self.mse - reference.mse).max(0.0),
+            trimmed_mse: (self.trimmed_mse - reference.trimmed_mse).max(0.0),
+            rel_mse: (self.rel_mse - reference.rel_mse).max(0.0),
+        }
+    }
+
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        Self {
+            mse: f(self.mse),
+            trimmed_mse: f(self.trimmed_mse),
+            rel_mse: f(self.rel_mse),
+        }
     }
 
     /// `[mse, trimmed_mse, rel_mse]`: the order of the tables.
@@ -99,12 +129,8 @@ pub(crate) fn equal_error_ratio(ours: (f64, f64), theirs: (f64, f64)) -> f64 {
 
 /// The exponent `a` of `rmse = c samples^-a` through two renders `(samples, mse)`: 1/2 for
 /// independent samples.
-///
-/// Each error holds the noise of its reference, of `reference` samples: a share that is taken off as
-/// if it fell with exponent 1/2.
-pub(crate) fn rate(few: (f64, f64), many: (f64, f64), reference: f64) -> f64 {
-    let own = |(samples, mse): (f64, f64)| mse / (1.0 + samples / reference);
-    0.5 * (own(few) / own(many)).ln() / (many.0 / few.0).ln()
+pub(crate) fn rate(few: (f64, f64), many: (f64, f64)) -> f64 {
+    0.5 * (few.1 / many.1).ln() / (many.0 / few.0).ln()
 }
 
 #[cfg(test)]
@@ -159,12 +185,18 @@ mod tests {
 
     #[test]
     fn independent_samples_converge_at_one_half() {
-        let endless = f64::INFINITY;
-        assert!((rate((16.0, 0.4), (64.0, 0.1), endless) - 0.5).abs() < 1e-12);
-        assert!((rate((16.0, 0.64), (64.0, 0.04), endless) - 1.0).abs() < 1e-12);
-        // 1/16 and 1/64 of a variance, each with the 1/128 of the reference.
-        let noise = 1.0 / 128.0;
-        let measured = [(16.0, 1.0 / 16.0 + noise), (64.0, 1.0 / 64.0 + noise)];
-        assert!((rate(measured[0], measured[1], 128.0) - 0.5).abs() < 1e-12);
+        assert!((rate((16.0, 0.4), (64.0, 0.1)) - 0.5).abs() < 1e-12);
+        assert!((rate((16.0, 0.64), (64.0, 0.04)) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn two_halves_tell_the_error_of_their_mean() {
+        // Halves 0.2 apart, as where each is off by 0.1 one way or the other.
+        let e = Errors::of_mean(&grey(&[1.0; 9]), [&grey(&[0.9; 9]), &grey(&[1.1; 9])]).unwrap();
+        assert!((e.mse - 0.01).abs() < 1e-7, "{e:?}");
+        assert!((e.rel_mse - 0.01 / 1.01).abs() < 1e-7, "{e:?}");
+        let measured = Errors::of(&grey(&[1.0; 9]), &grey(&[1.2; 9])).unwrap();
+        assert!((measured.less(e).mse - 0.03).abs() < 1e-6);
+        assert_eq!(e.less(measured).mse, 0.0);
     }
 }

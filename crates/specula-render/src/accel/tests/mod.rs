@@ -1,10 +1,12 @@
 //! Tests of the acceleration structure: against brute force, against itself, against doubles.
 
+mod batches;
 mod degenerate;
 mod instances;
 mod large;
 mod quadrics;
 mod reference;
+
 mod watertight;
 
 use specula_bsdf::Vec3;

@@ -1,0 +1,339 @@
+//! Small scenes: sixteen rays at a time against every primitive.
+//!
+//! Below a few dozen primitives a tree costs more than it saves. Rays are sorted by the axis in which
+//! their direction is greatest, so that the triangle test permutes the coordinates of all alike, and
+//! laid side by side. The loops over [`PACK`] rays are compiled to vectors.
+//!
+//! Operation by operation the same as the traversal, whose boxes never cull a hit: the answers are
+//! equal bit for bit. Primitives come in ascending order, so that of equal distances the first stays.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "an index below the arrays' length is what the compiler makes vectors of"
+)]
+
+use multiversion::multiversion;
+
+use super::frame::greatest_axis;
+use super::node::Kind;
+use super::quadric::{self, Approach, Placed};
+use super::traverse::Scene;
+use super::triangle;
+use super::{Hit, QuadricShape, Ray};
+
+/// Rays of a pack.
+const PACK: usize = 16;
+/// Most rays that are sorted together.
+const BATCH: usize = 256;
+/// Most triangles of a small scene, a quadric counting as [`QUADRIC`] of them. Measured in rooms with
+/// boxes and spheres: at twice as many the tree is as fast.
+const MOST: usize = 64;
+/// Triangles that take as long as a quadric.
+const QUADRIC: usize = 3;
+
+/// A number of each ray.
+type Column = [f32; PACK];
+
+/// Everything that there is.
+#[derive(Clone, Debug)]
+pub(super) struct Small {
+    /// By the axis in which directions are greatest, with coordinates in the order of its shear.
+    triangles: [Vec<[[f32; 3]; 3]>; 3],
+    /// Of the triangles and then of the quadrics, ascending.
+    primitives: Vec<u32>,
+    quadrics: Vec<Placed>,
+    /// How many triangles there are.
+    first_quadric: u32,
+    instance: u32,
+}
+
+impl Small {
+    /// `None` where there is nothing, too much, or anything but one instance in its own space.
+    pub(super) fn new(scene: &Scene) -> Option<Self> {
+        let instance = scene.single?;
+        if scene.packets.len() + scene.quadrics.len() > MOST {
+            return None;
+        }
+        let mut triangles: Vec<(u32, [[f32; 3]; 3])> = Vec::new();
+        let mut quadrics: Vec<Placed> = Vec::new();
+        let mut pending = vec![scene.root?];
+        while let Some(child) = pending.pop() {
+            match child.kind() {
+                Kind::Node => pending.extend(scene.nodes[child.index()].held()),
+                Kind::Packet => triangles.extend(scene.packets[child.index()].held()),
+                Kind::Quadric => quadrics.push(scene.quadrics[child.index()]),
+                Kind::Placement => return None,
+            }
+        }
+        if triangles.len() + QUADRIC * quadrics.len() > MOST {
+            return None;
+        }
+        triangles.sort_unstable_by_key(|t| t.0);
+        quadrics.sort_unstable_by_key(|q| q.primitive);
+        Some(Self {
+            triangles: [0, 1, 2].map(|axis| {
+                let permuted = |p: [f32; 3]| [p[(axis + 1) % 3], p[(axis + 2) % 3], p[axis]];
+                triangles.iter().map(|t| t.1.map(permuted)).collect()
+            }),
+            primitives: triangles
+                .iter()
+                .map(|t| t.0)
+                .chain(quadrics.iter().map(|q| q.primitive))
+                .collect(),
+            first_quadric: crate::convert::id(triangles.len()),
+            quadrics,
+            instance,
+        })
+    }
+
+    /// The closest hits of the rays, in order.
+    pub(super) fn intersect(&self, rays: &[Ray], hits: &mut Vec<Option<Hit>>) {
+        hits.clear();
+        hits.resize(rays.len(), None);
+        for (rays, hits) in rays.chunks(BATCH).zip(hits.chunks_mut(BATCH)) {
+            closest(self, rays, hits);
+        }
+    }
+
+    /// Whether the rays hit anything, in order.
+    pub(super) fn occluded(&self, rays: &[Ray], found: &mut Vec<bool>) {
+        found.clear();
+        found.resize(rays.len(), false);
+        for (rays, found) in rays.chunks(BATCH).zip(found.chunks_mut(BATCH)) {
+            any(self, rays, found);
+        }
+    }
+}
+
+/// Rays that can hit, by the axes in which their directions are greatest.
+struct Order {
+    rays: [u8; BATCH],
+    /// Where those of each axis end.
+    ends: [usize; 3],
+}
+
+impl Order {
+    #[inline(always)]
+    fn new(rays: &[Ray]) -> Self {
+        const NEVER: u8 = 3;
+        let mut axes = [NEVER; BATCH];
+        for (ray, axis) in rays.iter().zip(&mut axes) {
+            *axis = greatest_axis(ray).unwrap_or(NEVER);
+        }
+        let count = |wanted: u8| axes.iter().filter(|&&axis| axis == wanted).count();
+        let [x, y, z] = [0, 1, 2].map(count);
+        let mut next = [0, x, x + y, x + y + z];
+        let mut order = [0; BATCH];
+        for (i, axis) in (0..=u8::MAX).zip(&axes[..rays.len()]) {
+            let place = &mut next[usize::from(*axis)];
+            order[*place] = i;
+            *place += 1;
+        }
+        Self {
+            rays: order,
+            ends: [x, x + y, x + y + z],
+        }
+    }
+
+    /// The packs of rays of each axis.
+    #[inline(always)]
+    fn packs(&self) -> impl Iterator<Item = (usize, &[u8])> {
+        let begins = [0, self.ends[0], self.ends[1]];
+        (0..3).flat_map(move |axis| {
+            let rays = &self.rays[begins[axis]..self.ends[axis]];
+            rays.chunks(PACK).map(move |pack| (axis, pack))
+        })
+    }
+}
+
+/// Rays side by side, and their closest hits so far.
+struct Pack {
+    origin: [Column; 3],
+    direction: [Column; 3],
+    /// In the order of the shear.
+    sheared_origin: [Column; 3],
+    /// See [`super::frame::RayFrame`].
+    shear: [Column; 3],
+    t: Column,
+    u: Column,
+    v: Column,
+    /// Index in the list of triangles, then of quadrics.
+    place: [u32; PACK],
+}
+
+/// What a lane holds.
+#[inline(always)]
+fn at<T: Copy>(columns: &[[T; PACK]; 3], lane: usize) -> [T; 3] {
+    [columns[0][lane], columns[1][lane], columns[2][lane]]
+}
+
+#[inline(always)]
+fn set(columns: &mut [Column; 3], lane: usize, values: [f32; 3]) {
+    for k in 0..3 {
+        columns[k][lane] = values[k];
+    }
+}
+
+/// No triangle or quadric.
+const NOTHING: u32 = u32::MAX;
+
+impl Pack {
+    #[inline(always)]
+    fn new(rays: &[Ray], pack: &[u8], axis: usize) -> Self {
+        let (mut origin, mut direction) = ([[0.0; PACK]; 3], [[1.0; PACK]; 3]);
+        // Where there is no ray, nothing is hit.
+        let mut t = [-1.0; PACK];
+        for (lane, &i) in pack.iter().enumerate() {
+            let ray = &rays[usize::from(i)];
+            let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
+            for k in 0..3 {
+                origin[k][lane] = o[k];
+                direction[k][lane] = d[k];
+            }
+            t[lane] = ray.t_max;
+        }
+        let [x, y, z] = [(axis + 1) % 3, (axis + 2) % 3, axis];
+        let mut shear = [[0.0; PACK]; 3];
+        for lane in 0..PACK {
+            let dz = direction[z][lane];
+            shear[0][lane] = direction[x][lane] / dz;
+            shear[1][lane] = direction[y][lane] / dz;
+            shear[2][lane] = 1.0 / dz;
+        }
+        Self {
+            origin,
+            direction,
+            sheared_origin: [origin[x], origin[y], origin[z]],
+            shear,
+            t,
+            u: [0.0; PACK],
+            v: [0.0; PACK],
+            place: [NOTHING; PACK],
+        }
+    }
+
+    /// Takes what is closer of a triangle.
+    #[inline(always)]
+    fn offer(&mut self, corners: &[[f32; 3]; 3], place: u32) {
+        let (o, s) = (&self.sheared_origin, &self.shear);
+        let mut p = [[[0.0; PACK]; 3]; 3];
+        for corner in 0..3 {
+            for lane in 0..PACK {
+                let sheared = triangle::shear(corners[corner], at(o, lane), at(s, lane));
+                set(&mut p[corner], lane, sheared);
+            }
+        }
+        let mut weights = [[0.0; PACK]; 3];
+        let mut inside = [0; PACK];
+        let mut some = 0;
+        for lane in 0..PACK {
+            let [a, b, c] = [at(&p[0], lane), at(&p[1], lane), at(&p[2], lane)];
+            let uvw = triangle::edge_functions(a, b, c);
+            set(&mut weights, lane, uvw);
+            inside[lane] = u32::from(triangle::inside(uvw));
+            some |= inside[lane];
+        }
+        if some == 0 {
+            return;
+        }
+        for lane in 0..PACK {
+            let z = [p[0][2][lane], p[1][2][lane], p[2][2][lane]];
+            let (t, u, v) = triangle::distance(at(&weights, lane), z, s[2][lane]);
+            let closer = (inside[lane] != 0) & (t > 0.0) & (t < self.t[lane]);
+            self.t[lane] = if closer { t } else { self.t[lane] };
+            self.u[lane] = if closer { u } else { self.u[lane] };
+            self.v[lane] = if closer { v } else { self.v[lane] };
+            self.place[lane] = if closer { place } else { self.place[lane] };
+        }
+    }
+
+    /// Takes what is closer of a quadric.
+    #[inline(always)]
+    fn offer_quadric(&mut self, quadric: &Placed, place: u32) {
+        let [mut o, mut d] = [[[0.0; PACK]; 3]; 2];
+        for lane in 0..PACK {
+            let origin = [0, 1, 2].map(|k| f64::from(self.origin[k][lane]));
+            let direction = [0, 1, 2].map(|k| f64::from(self.direction[k][lane]));
+            let (origin, direction) = quadric.enter(origin, direction);
+            for k in 0..3 {
+                o[k][lane] = origin[k];
+                d[k][lane] = direction[k];
+            }
+        }
+        let mut t = [0.0; PACK];
+        let mut meets = [1_u32; PACK];
+        match quadric.shape() {
+            QuadricShape::Disk { radius, height } => {
+                for lane in 0..PACK {
+                    t[lane] = quadric::disk(at(&o, lane), at(&d, lane), radius, height);
+                }
+            }
+            QuadricShape::Sphere { radius } => {
+                let mut some = 0;
+                for lane in 0..PACK {
+                    let near = Approach::new(at(&o, lane), at(&d, lane), radius);
+                    meets[lane] = u32::from(near.meets());
+                    some |= meets[lane];
+                }
+                if some == 0 {
+                    return;
+                }
+                for lane in 0..PACK {
+                    let near = Approach::new(at(&o, lane), at(&d, lane), radius);
+                    t[lane] = near.t(at(&o, lane), radius);
+                }
+            }
+        }
+        for lane in 0..PACK {
+            let closer = (meets[lane] != 0) & (t[lane] > 0.0) & (t[lane] < self.t[lane]);
+            self.t[lane] = if closer { t[lane] } else { self.t[lane] };
+            self.u[lane] = if closer { 0.0 } else { self.u[lane] };
+            self.v[lane] = if closer { 0.0 } else { self.v[lane] };
+            self.place[lane] = if closer { place } else { self.place[lane] };
+        }
+    }
+
+    /// Takes what is closer of everything.
+    #[inline(always)]
+    fn offer_all(&mut self, small: &Small, axis: usize) {
+        for (place, corners) in (0..).zip(&small.triangles[axis]) {
+            self.offer(corners, place);
+        }
+        for (place, quadric) in (small.first_quadric..).zip(&small.quadrics) {
+            self.offer_quadric(quadric, place);
+        }
+    }
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
+    "x86_64+avx2+fma+bmi1+bmi2"
+))]
+fn closest(small: &Small, rays: &[Ray], hits: &mut [Option<Hit>]) {
+    for (axis, members) in Order::new(rays).packs() {
+        let mut pack = Pack::new(rays, members, axis);
+        pack.offer_all(small, axis);
+        for (lane, &i) in members.iter().enumerate() {
+            hits[usize::from(i)] = (pack.place[lane] != NOTHING).then(|| Hit {
+                t: pack.t[lane],
+                u: pack.u[lane],
+                v: pack.v[lane],
+                primitive: small.primitives[pack.place[lane] as usize],
+                instance: small.instance,
+            });
+        }
+    }
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
+    "x86_64+avx2+fma+bmi1+bmi2"
+))]
+fn any(small: &Small, rays: &[Ray], found: &mut [bool]) {
+    for (axis, members) in Order::new(rays).packs() {
+        let mut pack = Pack::new(rays, members, axis);
+        pack.offer_all(small, axis);
+        for (lane, &i) in members.iter().enumerate() {
+            found[usize::from(i)] = pack.place[lane] != NOTHING;
+        }
+    }
+}

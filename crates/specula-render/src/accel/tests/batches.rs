@@ -1,0 +1,222 @@
+//! Batches against rays one by one, bit for bit.
+
+use glam::{DMat4, DQuat, DVec3};
+
+#[cfg(target_arch = "x86_64")]
+use super::super::avx2::Avx2;
+use super::super::in_step;
+use super::super::kernel::Portable;
+use super::*;
+
+/// Spheres and disks, some squeezed.
+fn quadrics(count: usize, random: &mut Random) -> Vec<Quadric> {
+    let wide = |v: Vec3<f32>| DVec3::from_array(v.to_array().map(f64::from));
+    (0..count)
+        .map(|i| {
+            let radius = 0.3 + 0.2 * f64::from(random.signed());
+            let turn = DQuat::from_axis_angle(wide(random.direction()).normalize(), 1.0);
+            let scale = wide(random.vector()).abs() + 0.5;
+            let at = wide(random.vector());
+            Quadric {
+                shape: match i % 2 {
+                    0 => QuadricShape::Sphere { radius },
+                    _ => QuadricShape::Disk {
+                        radius,
+                        height: 0.1,
+                    },
+                },
+                to_group: DMat4::from_scale_rotation_translation(scale, turn, at),
+            }
+        })
+        .collect()
+}
+
+/// Rays of all kinds, those included that can hit nothing.
+fn rays(count: usize, mesh: &Mesh, random: &mut Random) -> Vec<Ray> {
+    let zero = vec3(0.0, 0.0, 0.0);
+    let corner = |random: &mut Random| match mesh.positions.len() {
+        0 => zero,
+        n => Vec3::from(mesh.positions[random.below(n)]),
+    };
+    (0..count)
+        .map(|i| {
+            let mut ray = ray(random.vector() * 1.5, random.direction());
+            match random.below(12) {
+                0 => ray.direction.x = 0.0,
+                1 => ray.direction = vec3(0.0, -0.0, ray.direction.z),
+                2 => ray.direction = vec3(0.5, -0.5, 0.5),
+                3 => ray.origin = corner(random),
+                4 => ray.direction = corner(random) - ray.origin,
+                5 => ray.t_max = random.signed(),
+                6 => ray.t_max = 2.0 * random.signed().abs(),
+                7 if i % 7 == 0 => ray.t_max = f32::NAN,
+                8 if i % 7 == 0 => ray.direction = zero,
+                9 if i % 7 == 0 => ray.direction.y = f32::INFINITY,
+                10 if i % 7 == 0 => ray.origin.z = f32::NAN,
+                _ => {}
+            }
+            ray
+        })
+        .collect()
+}
+
+/// Holds batches of all lengths against single rays; returns how many hit.
+fn compare(accel: &Accel, rays: &[Ray]) -> usize {
+    let (mut hits, mut found) = (vec![None; 3], vec![true; 3]);
+    let mut count = 0;
+    let mut rest = rays;
+    for length in [0, 1, 15, 16, 17, 255, 256, 257].into_iter().cycle() {
+        let batch = &rest[..rest.len().min(length)];
+        rest = &rest[batch.len()..];
+        accel.intersect_all(batch, &mut hits);
+        accel.occluded_all(batch, &mut found);
+        assert_eq!((hits.len(), found.len()), (batch.len(), batch.len()));
+        for ((ray, &hit), &found) in batch.iter().zip(&hits).zip(&found) {
+            assert_eq!(exact(hit), exact(accel.intersect(ray)), "{ray:?}");
+            assert_eq!(found, accel.occluded(ray), "{ray:?}");
+            count += usize::from(found);
+        }
+        if rest.is_empty() {
+            break;
+        }
+    }
+    count
+}
+
+#[test]
+fn batches_are_rays_one_by_one() {
+    let mut random = Random(20);
+    let mut hits = 0;
+    // On both sides of what is small.
+    for (triangles, spheres) in [
+        (0, 0),
+        (0, 1),
+        (1, 0),
+        (9, 3),
+        (40, 0),
+        (12, 9),
+        (60, 1),
+        (90, 20),
+        (3000, 40),
+    ] {
+        let mut mesh = Mesh::soup(triangles, &mut random);
+        // Each once more, and one of no area, which keeps its place.
+        if triangles == 9 {
+            mesh.triangles.insert(4, [0, 1, 0]);
+            mesh.triangles.extend_from_within(..);
+        }
+        let quadrics = quadrics(spheres, &mut random);
+        let group = Group {
+            quadrics: &quadrics,
+            ..mesh.group()
+        };
+        let accel = Accel::build(&[group], &[Instance::of(0)]).unwrap();
+        let rays = rays(20_000, &mesh, &mut random);
+        hits += compare(&accel, &rays);
+        assert_eq!(
+            compare(&accel.clone().portable(), &rays[..4000]),
+            compare(&accel, &rays[..4000])
+        );
+    }
+    assert!(hits > 20_000, "{hits}");
+}
+
+#[test]
+fn equal_distances_in_a_batch_go_to_the_smallest_index() {
+    // Triangles of all shapes in one plane, and a disk in it.
+    let mut random = Random(21);
+    let mut mesh = Mesh::default();
+    for _ in 0..40 {
+        let mut corner = || vec3(random.signed(), random.signed(), 1.0);
+        mesh.push([corner(), corner(), corner()]);
+    }
+    let disk = Quadric {
+        shape: QuadricShape::Disk {
+            radius: 0.9,
+            height: 1.0,
+        },
+        to_group: DMat4::IDENTITY,
+    };
+    let quadrics = [disk; 2];
+    let group = Group {
+        quadrics: &quadrics,
+        ..mesh.group()
+    };
+    let accel = Accel::build(&[group], &[Instance::of(0)]).unwrap();
+    let rays: Vec<Ray> = (0..4000)
+        .map(|_| ray(vec3(random.signed(), random.signed(), 0.0), Vec3::Z))
+        .collect();
+    assert!(compare(&accel, &rays) > 3000);
+}
+
+#[test]
+fn groups_that_are_not_placed_are_not_hit() {
+    let mut random = Random(22);
+    let [shown, hidden] = [5, 7].map(|count| Mesh::soup(count, &mut random));
+    let groups = [hidden.group(), shown.group(), hidden.group()];
+    for instances in [
+        &[Instance::of(1)][..],
+        &[],
+        &[Instance::of(1), Instance::of(2)],
+    ] {
+        let accel = Accel::build(&groups, instances).unwrap();
+        let hits = compare(&accel, &rays(5000, &shown, &mut random));
+        assert_eq!(hits > 0, !instances.is_empty());
+    }
+}
+
+#[test]
+fn rays_in_step_are_rays_one_by_one() {
+    let mut random = Random(23);
+    let mut count = 0;
+    for (triangles, spheres) in [(1, 0), (0, 1), (500, 30), (5000, 0)] {
+        let mesh = Mesh::soup(triangles, &mut random);
+        let quadrics = quadrics(spheres, &mut random);
+        let group = Group {
+            quadrics: &quadrics,
+            ..mesh.group()
+        };
+        let accel = Accel::build(&[group], &[Instance::of(0)]).unwrap();
+        let scene = &accel.scene;
+        let rays = rays(20_000, &mesh, &mut random);
+        // Fewer than go in step, too.
+        for batch in [&rays[..], &rays[..2], &rays[..0]] {
+            let (mut hits, mut found) = (vec![None; batch.len()], vec![false; batch.len()]);
+            in_step::intersect(Portable, scene, batch, &mut hits);
+            in_step::occluded(Portable, scene, batch, &mut found);
+            #[cfg(target_arch = "x86_64")]
+            if let Some(kernel) = Avx2::detect() {
+                let (mut other, mut others) = (vec![None; batch.len()], vec![false; batch.len()]);
+                kernel.intersect_in_step(scene, batch, &mut other);
+                kernel.occluded_in_step(scene, batch, &mut others);
+                let bits = |hits: Vec<Option<Hit>>| hits.into_iter().map(exact).collect::<Vec<_>>();
+                assert_eq!((bits(other), others), (bits(hits.clone()), found.clone()));
+            }
+            for ((ray, hit), found) in batch.iter().zip(hits).zip(found) {
+                assert_eq!(exact(hit), exact(accel.intersect(ray)), "{ray:?}");
+                assert_eq!(found, hit.is_some(), "{ray:?}");
+                count += usize::from(found);
+            }
+        }
+    }
+    assert!(count > 10_000, "{count}");
+}
+
+#[test]
+fn rays_gain_in_step_where_they_part_in_a_large_tree() {
+    let mut random = Random(24);
+    let large = Mesh::soup(60_000, &mut random).accel();
+    let small = Mesh::soup(1000, &mut random).accel();
+    let parting: Vec<Ray> = (0..256)
+        .map(|_| ray(Vec3::ZERO, random.direction()))
+        .collect();
+    let mut narrow = parting.clone();
+    for ray in &mut narrow {
+        ray.direction = ray.direction * 0.1 + Vec3::Z * 3.0;
+    }
+    assert!(in_step::gains(&large.scene, &parting));
+    assert!(!in_step::gains(&large.scene, &narrow));
+    assert!(!in_step::gains(&small.scene, &parting));
+    assert!(compare(&large, &parting) > 100);
+    assert_eq!(compare(&large.portable(), &narrow), 256);
+}

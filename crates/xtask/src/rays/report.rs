@@ -1,0 +1,89 @@
+//! Tables of what was measured.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use super::Row;
+use crate::Result;
+
+const BEGIN: &str = "<!-- figures -->\n";
+const END: &str = "<!-- end of figures -->\n";
+
+/// One mesh, to be read while others are measured.
+pub(super) fn row(row: &Row) -> String {
+    let mut text = format!("{} triangles\n", row.triangles);
+    for cell in &row.cells {
+        let _ = write!(text, "  {:34}{:7.0} ns", cell.what, cell.ours);
+        if let Some([peer, layer]) = cell.peer {
+            let _ = write!(text, "; Embree {peer:.0} ns, of which layer {layer:.0} ns");
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// All of it, as Markdown.
+pub(super) fn tables(rows: &[Row]) -> String {
+    let mut text = String::from(
+        "Millions of rays a second, one thread, and ours over Embree's:\n\n\
+         | triangles | rays | ours | Embree | with its layer | ratio | ratio with layer |\n\
+         |---|---|---|---|---|---|---|\n",
+    );
+    for row in rows {
+        for cell in &row.cells {
+            let _ = write!(
+                text,
+                "| {} | {} | {:.2} |",
+                row.triangles,
+                cell.what,
+                1e3 / cell.ours
+            );
+            match cell.peer {
+                Some([peer, layer]) => {
+                    let own = peer - layer;
+                    let _ = writeln!(
+                        text,
+                        " {:.2} | {:.2} | {:.2} | {:.2} |",
+                        1e3 / own,
+                        1e3 / peer,
+                        own / cell.ours,
+                        peer / cell.ours
+                    );
+                }
+                None => text.push_str(" | | | |\n"),
+            }
+        }
+    }
+    text.push_str(
+        "\nSeconds to build, by the clock, and bytes a triangle:\n\n\
+         | triangles | ours, 1 thread | 2 threads | Embree, 1 thread | 2 threads | ours, bytes | Embree, bytes |\n\
+         |---|---|---|---|---|---|---|\n",
+    );
+    for row in rows {
+        let [one, two] = row.build;
+        let _ = write!(text, "| {} | {one:.3} | {two:.3} |", row.triangles);
+        match row.peer_build {
+            Some([one, two]) => {
+                let _ = write!(text, " {one:.3} | {two:.3} |");
+            }
+            None => text.push_str(" | |"),
+        }
+        let each = |bytes: f64| format!("{:.0}", bytes / row.triangles as f64);
+        let peer = row.peer_bytes.map_or(String::new(), each);
+        let _ = writeln!(text, " {} | {peer} |", each(row.bytes));
+    }
+    text
+}
+
+/// Puts the tables between their marks.
+pub(super) fn write(path: &Path, tables: &str) -> Result<()> {
+    let text = std::fs::read_to_string(path)?;
+    let (before, rest) = text
+        .split_once(BEGIN)
+        .ok_or("the document has no mark for figures")?;
+    let (_, after) = rest
+        .split_once(END)
+        .ok_or("the document has no mark for figures' end")?;
+    std::fs::write(path, format!("{before}{BEGIN}\n{tables}\n{END}{after}"))?;
+    Ok(())
+}
