@@ -175,6 +175,8 @@ impl<T: Real> EvalPdf<'_, T> {
     #[inline(always)]
     fn in_stages<U: Real, F: Family<U>>(mut self, family: F) {
         let n = self.pdf.len();
+        let mut norms = [[U::ZERO; CHUNK]; 2];
+        let [first, second] = &mut norms;
         let mut start = 0;
         while start < n {
             let end = n.min(start + CHUNK);
@@ -184,17 +186,16 @@ impl<T: Real> EvalPdf<'_, T> {
             let wi = self.wi.range(start, end).first(count);
             let mut f_cos = self.f_cos.range(start, end).first(count);
             let pdf = &mut self.pdf[start..end][..count];
+            let (first, second) = (&mut first[..count], &mut second[..count]);
             let family = family.range(start, end);
-            // What the first stage finds waits where the second will put its answers.
             per_sampler!(family, f => for i in 0..count {
-                let [first, second] = f.at(i).eval_first(wo.get_as(i));
-                (f_cos.r[i], f_cos.g[i]) = (number(first), number(second));
+                [first[i], second[i]] = f.at(i).eval_first(wo.get_as(i));
             });
-            per_reflectance!(family, f => for (i, pdf) in pdf.iter_mut().enumerate() {
-                let first = [number(f_cos.r[i]), number(f_cos.g[i])];
+            per_reflectance!(family, f => for i in 0..count {
+                let first = [first[i], second[i]];
                 let (value, density) = f.at(i).eval_second(wo.get_as(i), wi.get_as(i), first);
                 f_cos.set_from(i, value);
-                *pdf = number(density);
+                pdf[i] = number(density);
             });
             start = end;
         }
