@@ -85,7 +85,7 @@ fn specula(program: &Path, scene: PathBuf, threads: u32) -> Specula {
     }
 }
 
-/// Wall time of one thread over that of two, turn by turn.
+/// Wall time of rendering with one thread over that with two, turn by turn.
 fn threads(root: &Path, scaling: &Scaling, program: &Path, out: &Path) -> Result<()> {
     let mut least = f64::INFINITY;
     for scene in &SCENES {
@@ -95,8 +95,8 @@ fn threads(root: &Path, scaling: &Scaling, program: &Path, out: &Path) -> Result
         for round in 0..scaling.rounds.max(1) {
             let mut seconds = [0.0; 2];
             for (seconds, threads) in seconds.iter_mut().zip([1, 2]) {
-                let one = specula(program, file.clone(), threads);
-                *seconds = one.process(scaling.spp, round, &picture)?.wall;
+                let mut one = specula(program, file.clone(), threads);
+                *seconds = one.render("", 4 * scaling.spp, round, &picture)?.wall;
             }
             gains.push(seconds[0] / seconds[1]);
         }

@@ -145,7 +145,9 @@ fn origin(symbol: &str, file: &str, function: &str) -> Origin {
     };
     let starts = |names: &[&str]| names.iter().any(|name| rest.starts_with(name));
     if starts(&["accel"]) {
-        return Origin::Of(match symbol.contains("occluded") {
+        // Of small scenes: `small::any`, mangled or not.
+        let is_any = ["occluded", "small::any", "small3any"];
+        return Origin::Of(match is_any.iter().any(|name| symbol.contains(name)) {
             true => Part::Any,
             false => Part::Closest,
         });
@@ -299,6 +301,17 @@ mod tests {
         };
         let memory = super::totals(&[clearing], &mut sources)[Part::Memory as usize];
         assert_eq!(memory, 9);
+        let small = |symbol| Cost {
+            symbol,
+            file: "/w/crates/specula-render/src/accel/small.rs",
+            ..clearing
+        };
+        let costs = [small("accel::small::any::v3"), small("accel5small7closest")];
+        let found = super::totals(&costs, &mut sources);
+        assert_eq!(
+            [found[Part::Any as usize], found[Part::Closest as usize]],
+            [9, 9]
+        );
     }
 
     #[test]
