@@ -53,7 +53,7 @@ pub(super) fn write(folder: &Path, mesh: &Mesh, sets: &[Set]) -> Result<()> {
 }
 
 impl Peer {
-    /// Starts it on what [`write`] left in `folder`; its tree is built by `threads`.
+    /// Starts it on what [`write()`] left in `folder`; its tree is built by `threads`.
     pub(super) fn start(
         python: &Path,
         script: &Path,
