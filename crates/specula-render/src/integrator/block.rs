@@ -20,16 +20,15 @@ use crate::prepared::PreparedScene;
 use crate::sampler::{Purpose, Sampler};
 
 /// A surface in waiting for its lanes.
-pub(super) struct Waiting {
+struct Waiting {
     /// Place among the paths that live.
-    pub(super) at: u32,
+    at: u32,
     /// Twice the material, and one more where that is seen from the outside or may be seen from either
     /// side.
     key: u32,
 }
 
 /// A stretch of lanes of one key.
-#[derive(Clone, Copy)]
 pub(super) struct Stretch {
     pub(super) from: usize,
     pub(super) to: usize,
@@ -341,10 +340,12 @@ impl PathTracer<'_> {
 
     fn meets_outside(&self, ray: &Ray, hit: &Hit) -> bool {
         let geometry = &self.scene.geometry;
-        let normal = match (geometry.facet(hit), geometry.quadric(ray, hit)) {
-            (Some(facet), _) => lanes::normal(facet.corners.map(|&c| Vec3::from(c))),
-            (None, Some([_, _, normal, _])) => normal,
-            (None, None) => geometry.surface(ray, hit).ng,
+        let normal = if let Some(facet) = geometry.facet(hit) {
+            lanes::normal(facet.corners.map(|&c| Vec3::from(c)))
+        } else if let Some([_, _, normal, _]) = geometry.quadric(ray, hit) {
+            normal
+        } else {
+            geometry.surface(ray, hit).ng
         };
         normal.dot(ray.direction) < 0.0
     }

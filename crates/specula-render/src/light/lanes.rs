@@ -52,7 +52,7 @@ struct Group {
     count: usize,
 }
 
-/// [`Seen`] of each.
+/// [`Seen`](super::Seen) of each.
 struct SeenColumns {
     point: [Column; 3],
     wi: [Column; 3],

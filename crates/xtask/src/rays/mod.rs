@@ -17,6 +17,7 @@ use self::meshes::Mesh;
 use self::peer::Peer;
 use self::sets::{BATCH, Set};
 use crate::Result;
+use crate::versus::statistics::median;
 
 /// What is measured.
 #[derive(Args)]
@@ -136,11 +137,11 @@ fn cell(accel: &Accel, set: &Set, mut peer: Option<&mut Peer>, runs: usize) -> R
             }
         }
     }
-    let per_ray = |seconds: &mut Vec<f64>| median(seconds) * 1e9 / set.rays.len() as f64;
+    let per_ray = |seconds: &[f64]| median(seconds) * 1e9 / set.rays.len() as f64;
     Ok(Cell {
         what: set.what,
-        ours: per_ray(&mut ours),
-        peer: peer.map(|_| [per_ray(&mut theirs), per_ray(&mut away)]),
+        ours: per_ray(&ours),
+        peer: peer.map(|_| [per_ray(&theirs), per_ray(&away)]),
     })
 }
 
@@ -176,11 +177,6 @@ fn processor_time() -> f64 {
         },
         |n| n * 1e-9,
     )
-}
-
-fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 #[cfg(test)]

@@ -45,7 +45,7 @@ pub(crate) struct Specula {
 impl Specula {
     /// Wall time is the one that the picture holds; CPU time is counted from the line that says that
     /// the scene is ready to the end.
-    pub(crate) fn process(&self, spp: u32, seed: u32, target: &Path) -> Result<Timing> {
+    fn process(&self, spp: u32, seed: u32, target: &Path) -> Result<Timing> {
         let before = children_cpu()?;
         let mut child = Command::new(&self.program)
             .args(["render", "--checkpoint", "off"])
