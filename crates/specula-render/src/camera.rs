@@ -7,6 +7,7 @@ use specula_scene::scene::{self, EnvironmentMapping, Projection};
 
 use crate::accel::Ray;
 use crate::convert::{Affine, narrow};
+use crate::flat::Flattening;
 use crate::light::direction_of_sphere;
 
 /// A camera for a picture of a certain size.
@@ -129,6 +130,27 @@ fn rays<K: FnMut(usize, Ray)>(
             t_max: f32::INFINITY,
         };
         keep(i, ray);
+    }
+}
+
+impl Camera {
+    /// The camera for shaders.
+    pub(crate) fn flatten(&self, to: &mut Flattening) {
+        let view = match self.view {
+            View::Perspective => 0,
+            View::Orthographic => 1,
+            View::Spherical(_) => {
+                to.lacks("cameras that see all around");
+                2
+            }
+        };
+        let words = &mut to.words;
+        words.constant("CAMERA_VIEW", view);
+        words.begin("CAMERA");
+        words.affine(&self.to_world);
+        words.numbers(self.origin);
+        words.numbers(self.step);
+        words.numbers([self.lens_radius, self.focal_distance]);
     }
 }
 

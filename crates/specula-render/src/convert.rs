@@ -38,6 +38,12 @@ pub(crate) fn id(x: usize) -> u32 {
     u32::try_from(x).unwrap_or(u32::MAX)
 }
 
+/// The lower and the upper half.
+#[inline(always)]
+pub(crate) fn words_of(x: u64) -> [u32; 2] {
+    [x as u32, (x >> 32) as u32]
+}
+
 /// The nearest vector in `f32`.
 #[inline(always)]
 pub(crate) fn narrow3(v: DVec3) -> Vec3<f32> {

@@ -9,6 +9,7 @@
 //! spheres and disks inside out; here they stay as they are.
 
 mod bake;
+mod flat;
 mod hit;
 mod partials;
 

@@ -127,11 +127,16 @@ impl<'a> PathTracer<'a> {
     #[inline(always)]
     pub(crate) fn brought(&self, block: &Block, path: usize) -> (PixelSample, f32) {
         let (seen, weight) = block.seen(path);
-        let sample = PixelSample {
+        (self.developed(seen), weight)
+    }
+
+    /// A sample as the film takes it.
+    #[inline(always)]
+    pub(crate) fn developed(&self, seen: PixelSample) -> PixelSample {
+        PixelSample {
             colour: self.scene.develop.of(seen.colour),
             ..seen
-        };
-        (sample, weight)
+        }
     }
 
     /// Follows a path to its end, one vertex after the other.

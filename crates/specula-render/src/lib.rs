@@ -5,6 +5,7 @@ mod bodies;
 mod camera;
 mod convert;
 mod film;
+mod flat;
 mod geometry;
 mod integrator;
 mod light;
@@ -20,7 +21,8 @@ mod sampler;
 mod texture;
 
 pub use film::{FilmBuffer, FilmFile, FilmFileError, Label, MOST_SAMPLES, MergeError};
+pub use flat::{FlatScene, LobeKind};
 pub use memory::MemoryEstimate;
 pub use options::{RenderOptions, Strategy};
 pub use prepared::{PrepareError, PreparedScene};
-pub use renderer::{InvalidSample, PassReport, Renderer, ResumeError};
+pub use renderer::{Found, InvalidSample, PassReport, Renderer, ResumeError, Wanted};

@@ -3,8 +3,11 @@
 use specula_bsdf::{Frame, Vec3};
 use specula_scene::scene::{ColourParam, Relief, ReliefRules};
 
-use crate::geometry::{Geometry, Partials, Surface, unit_or};
-use crate::texture::{Place, Textures};
+use crate::convert::id;
+use crate::flat::Words;
+use crate::geometry::{At, Geometry, Partials, Surface, unit_or};
+use crate::prepared::PreparedScene;
+use crate::texture::{Place, Textures, float_parameter};
 
 /// Step of finite differences in surface coordinates, as in pbrt where it knows no footprint: half
 /// a pixel of a picture of 1000.
@@ -105,6 +108,77 @@ pub(crate) fn bend(
             let bent = s * (x * scale) + t * (y * scale) + n * z;
             (unit_or(bent, n), dp[0])
         }
+    }
+}
+
+/// 4 words for shaders: what it is (nothing, heights, normals), its rules (plain, Mitsuba's, with
+/// light that fades), then the parameter of the heights or the normals' texture and factor.
+pub(crate) fn flatten(relief: Option<&Relief>, rules: ReliefRules, to: &mut Words) {
+    to.id(match relief {
+        None => 0,
+        Some(Relief::Height(_)) => 1,
+        Some(Relief::Normal { .. }) => 2,
+    });
+    to.id(match rules {
+        ReliefRules::Plain => 0,
+        ReliefRules::Mitsuba { fades } => 1 + u32::from(fades),
+    });
+    match relief {
+        None => to.ids([0; 2]),
+        Some(Relief::Height(height)) => float_parameter(to, *height),
+        Some(Relief::Normal { map, scale }) => {
+            to.id(id(map.0));
+            to.number(*scale);
+        }
+    }
+}
+
+impl PreparedScene {
+    /// Normal and tangent under the relief of a material at a point of a primitive, for twins of
+    /// shaders.
+    ///
+    /// * `primitive`: index of the placement, index within its group.
+    /// * `near`: the point in the world, roughly; for quadrics only.
+    #[doc(hidden)]
+    pub fn probe_relief(
+        &self,
+        material: u32,
+        primitive: [u32; 2],
+        weights: [f32; 2],
+        near: [f32; 3],
+    ) -> [[f32; 3]; 2] {
+        let at = At {
+            instance: primitive[0],
+            primitive: primitive[1],
+            weights,
+        };
+        let surface = self.geometry.surface_at(&at, || Vec3::from(near));
+        let (textures, geometry) = (&self.textures, &self.geometry);
+        let chosen = self
+            .materials
+            .at(material, textures, &surface.place(), |_| 0.5);
+        let material = chosen.material;
+        let (normal, tangent) = match &material.relief {
+            None => (surface.ns, surface.tangent),
+            Some(r) => bend(r, material.relief_rules, textures, geometry, &surface),
+        };
+        [normal.to_array(), tangent.to_array()]
+    }
+
+    /// A bent normal turned back as the material asks, and the factor on light from `wi`, for twins of
+    /// shaders.
+    #[doc(hidden)]
+    pub fn probe_softness(&self, material: u32, directions: [[f32; 3]; 4]) -> ([f32; 3], f32) {
+        let [unbent, bent, wo, wi] = directions.map(Vec3::from);
+        let place = Place::default();
+        let chosen = self.materials.at(material, &self.textures, &place, |_| 0.5);
+        let (normal, softness) = match chosen.material.relief_rules {
+            ReliefRules::Mitsuba { fades } if chosen.material.relief.is_some() => {
+                Softness::new(unbent, bent, wo, fades)
+            }
+            _ => (bent, None),
+        };
+        (normal.to_array(), softness.map_or(1.0, |s| s.factor(wi)))
     }
 }
 

@@ -23,6 +23,8 @@ use sobol_burley::parts::sobol_rev;
 use sobol_burley::{NUM_DIMENSION_SETS_4D, sample_4d};
 use specula_bsdf::math::Stream;
 
+use crate::flat::Words;
+
 /// The numbers of one sample of one pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sampler {
@@ -164,6 +166,13 @@ static COLUMNS: LazyLock<Vec<[[u32; 4]; 16]>> = LazyLock::new(|| {
     };
     (0..NUM_DIMENSION_SETS_4D).map(each).collect()
 });
+
+/// The generator matrices for shaders, by set, bit and dimension.
+pub(crate) fn flatten(to: &mut Words) {
+    to.constant("SOBOL_SETS", NUM_DIMENSION_SETS_4D);
+    to.begin("SOBOL_COLUMNS");
+    to.ids(COLUMNS.iter().flatten().flatten().copied());
+}
 
 /// Burley's shuffled and scrambled sequence, as in the crate's `sample_4d`.
 #[multiversion(targets(

@@ -49,6 +49,18 @@ impl<'a, const N: usize> Rows<'a, N> {
         sum
     }
 
+    /// All coefficients, row by row.
+    pub fn numbers(&self) -> impl Iterator<Item = f32> + use<'a, N> {
+        self.text.chunks(2 * N + 1).flat_map(|line| {
+            line[..2 * N].as_chunks::<2>().0.iter().map(|digits| {
+                let [first, second] = digits.map(f64::from);
+                #[allow(clippy::cast_possible_truncation, reason = "rounding is meant")]
+                let number = Self::coefficient(first * 94.0 + second) as f32;
+                number
+            })
+        })
+    }
+
     /// The value of a sum of numbers whose weights sum to 1.
     #[inline(always)]
     pub fn coefficient<T: Real>(sum: T) -> T {

@@ -40,6 +40,11 @@ impl Placement {
         }
     }
 
+    /// The group's space from the world's.
+    pub(super) fn group_space(&self) -> &DAffine3 {
+        &self.to_group
+    }
+
     /// The ray in the group's space, with the same `t`.
     #[inline(always)]
     pub(super) fn enter(&self, ray: &Ray) -> Ray {

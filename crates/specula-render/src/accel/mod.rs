@@ -22,6 +22,7 @@ mod binary;
 mod bounds;
 mod chunks;
 mod collapse;
+mod flat;
 mod frame;
 mod group;
 mod in_step;

@@ -1,17 +1,19 @@
 //! The arrays that rays walk over: 8-wide nodes and packets of 8 triangles, 64-byte aligned.
 
+use bytemuck::{Pod, Zeroable};
+
 use super::{Bounds, triangle};
 
 /// How many children a node has at most, and triangles a packet.
 pub(super) const WIDTH: usize = 8;
 
 /// Eight numbers, one for each child or triangle.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C, align(32))]
 pub(super) struct Lanes(pub(super) [f32; WIDTH]);
 
 /// What a node's lane, or the root, refers to: two bits of kind and an index of 30 bits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 #[repr(transparent)]
 pub(super) struct Child(pub(super) u32);
 
@@ -53,12 +55,14 @@ impl Child {
 }
 
 /// A node: the boxes of up to eight children, and the children.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C, align(64))]
 pub(super) struct Node8 {
     /// `min x, max x, min y, max y, min z, max z`, each over the children.
     pub(super) bounds: [Lanes; 6],
     pub(super) children: [Child; WIDTH],
+    /// Up to a multiple of the alignment.
+    pub(super) unused: [u32; WIDTH],
 }
 
 impl Node8 {
@@ -72,6 +76,7 @@ impl Node8 {
             [min, max, min, max, min, max]
         },
         children: [Child(0); WIDTH],
+        unused: [0; WIDTH],
     };
 
     pub(super) fn set(&mut self, lane: usize, bounds: &Bounds, child: Child) {
@@ -91,7 +96,7 @@ impl Node8 {
 }
 
 /// Up to eight triangles. Lanes without one hold a point, which no ray hits.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C, align(64))]
 pub(super) struct Packet8 {
     /// `vertices[corner][axis]`.

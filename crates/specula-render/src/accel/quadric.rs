@@ -106,6 +106,11 @@ impl Placed {
         }
     }
 
+    /// Its own space from the group's.
+    pub(super) fn own_space(&self) -> &DAffine3 {
+        &self.to_object
+    }
+
     /// What it is in its own space.
     #[inline(always)]
     pub(super) fn shape(&self) -> QuadricShape {

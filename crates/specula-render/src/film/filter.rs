@@ -10,6 +10,7 @@
 use specula_scene::scene::Filter;
 
 use crate::convert::{floor_index, narrow};
+use crate::flat::Words;
 
 /// Cells that a filter's width is tabulated in.
 const CELLS: usize = 1024;
@@ -60,6 +61,22 @@ impl FilterSampler {
         weights.fill(1.0);
         for ((axis, u), at) in self.axes.iter().zip(u).zip(at) {
             axis.sample_all(u, at, weights);
+        }
+    }
+}
+
+impl FilterSampler {
+    /// The filter for shaders: of each axis the radius, whether it is a box, the magnitude of weights,
+    /// the distribution over cells, and whether each cell is negative.
+    pub(crate) fn flatten(&self, to: &mut Words) {
+        to.constant("FILTER_CELLS", crate::convert::id(CELLS));
+        for (axis, name) in self.axes.iter().zip(["FILTER_ACROSS", "FILTER_DOWN"]) {
+            to.begin(name);
+            to.number(axis.radius);
+            to.flag(axis.is_box);
+            to.number(axis.magnitude);
+            to.numbers(axis.cdf.iter().copied());
+            to.ids(axis.negative.iter().map(|&n| u32::from(n)));
         }
     }
 }

@@ -1,6 +1,7 @@
 //! A fixed discrete distribution, sampled in constant time.
 
 use crate::convert::{floor_index, id, narrow};
+use crate::flat::Words;
 
 /// A discrete distribution.
 ///
@@ -84,6 +85,19 @@ impl AliasTable {
         self.bins
             .get(index as usize)
             .map_or(0.0, |bin| bin.probability)
+    }
+}
+
+impl AliasTable {
+    /// Bins of three words for shaders: own share, alias, probability.
+    pub(super) fn flatten(&self, to: &mut Words) {
+        to.constant("LIGHT_ALIAS_COUNT", id(self.bins.len()));
+        to.begin("LIGHT_ALIAS");
+        for bin in &self.bins {
+            to.number(bin.own);
+            to.id(bin.alias);
+            to.number(bin.probability);
+        }
     }
 }
 

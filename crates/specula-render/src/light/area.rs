@@ -9,6 +9,7 @@ use super::parallelogram::{Parallelogram, Seen};
 use crate::accel::{Bounds, QuadricShape};
 use crate::camera::concentric_disk;
 use crate::convert::{Affine, abs, narrow, normal_matrix};
+use crate::flat::Words;
 use crate::geometry::{normal_of, unit_or};
 use crate::offset::coupled;
 
@@ -122,6 +123,59 @@ impl Area {
                     normal: crate::convert::narrow3(normal),
                     area: narrow(core::f64::consts::PI * cross.length()),
                 }
+            }
+        }
+    }
+
+    /// Kind and parameters, for shaders.
+    pub(super) fn flatten(&self, to: &mut Words) {
+        let mut flat = |kind: u32, corner, edges: [Vec3<f32>; 2], normal, area| {
+            to.id(kind);
+            to.vector(corner);
+            for v in [edges[0], edges[1], normal] {
+                to.vector(v);
+            }
+            to.number(area);
+        };
+        match *self {
+            Self::Triangle {
+                corner,
+                edges,
+                normal,
+                area,
+            } => flat(0, corner, edges, normal, area),
+            Self::Disk {
+                centre,
+                axes,
+                normal,
+                area,
+            } => flat(3, centre, axes, normal, area),
+            Self::Parallelogram(light) => {
+                to.id(1);
+                light.flatten(to);
+            }
+            Self::Sphere {
+                centre,
+                radius,
+                flipped,
+            } => {
+                to.id(2);
+                to.vector(centre);
+                to.number(radius);
+                to.flag(flipped);
+            }
+            Self::Ellipsoid {
+                forward,
+                backward,
+                cofactor,
+                flipped,
+                area: _,
+            } => {
+                to.id(4);
+                for map in [&forward, &backward, &cofactor] {
+                    to.affine(map);
+                }
+                to.flag(flipped);
             }
         }
     }

@@ -6,6 +6,7 @@ use specula_scene::scene::{Light, SpotFalloff};
 use super::cone::EmissionCone;
 use super::thrown::Thrown;
 use crate::convert::{narrow, narrow3};
+use crate::flat::Flattening;
 use crate::texture::Textures;
 
 /// A light that only its own sampling can find.
@@ -115,6 +116,40 @@ impl Delta {
                 let irradiance = intensity * (1.0 / distance_squared);
                 (irradiance, wi, Some(thrown.position))
             }
+        }
+    }
+
+    /// Kind and parameters, for shaders.
+    pub(super) fn flatten(&self, to: &mut Flattening) {
+        match *self {
+            Self::Distant {
+                irradiance,
+                to_light,
+            } => {
+                to.words.id(0);
+                to.words.colour(irradiance);
+                to.words.vector(to_light);
+            }
+            Self::Point {
+                position,
+                axis,
+                intensity,
+                cos_cone,
+                cos_start,
+                falloff,
+            } => {
+                to.words.id(1);
+                to.words.vector(position);
+                to.words.vector(axis);
+                to.words.colour(intensity);
+                to.words.numbers([cos_cone, cos_start]);
+                to.words.id(match falloff {
+                    SpotFalloff::SmoothCosine => 0,
+                    SpotFalloff::LinearAngle => 1,
+                    SpotFalloff::SquaredCosine => 2,
+                });
+            }
+            Self::Thrown(_) => to.lacks("lights that throw a picture or an intensity diagram"),
         }
     }
 

@@ -21,6 +21,7 @@ use specula_scene::Image;
 use specula_scene::scene::EnvironmentMapping;
 
 use crate::convert::Affine;
+use crate::flat::Words;
 pub(super) use lanes::{Bundle, LANES};
 use picture::{Picture, Pixel, direction_and_sine, uv_and_sine};
 
@@ -58,6 +59,21 @@ impl Environment {
             to_world: Affine::linear(&m),
             to_light: Affine::linear(&m.inverse()),
         }
+    }
+
+    /// Factor, maps and picture, for shaders; `prefix` goes in front. Returns the place of that.
+    pub(super) fn flatten(&self, prefix: u32, to: &mut Words) -> u32 {
+        let tables = self.picture.as_ref().map(|p| p.flatten_tables(to));
+        let place = to.place();
+        to.id(prefix);
+        to.colour(self.radiance);
+        to.affine(&self.to_world);
+        to.affine(&self.to_light);
+        to.flag(self.picture.is_some());
+        if let (Some(picture), Some(tables)) = (&self.picture, tables) {
+            picture.flatten(tables, to);
+        }
+        place
     }
 
     /// Radiance from the direction `wi` (unit, world), and the density in 1/sr with which

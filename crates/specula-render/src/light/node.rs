@@ -4,6 +4,7 @@ use specula_bsdf::Vec3;
 
 use super::cone::EmissionCone;
 use crate::convert::narrow;
+use crate::flat::Words;
 
 /// How far a cosine must be beyond its bound before a light is left out; also the least value of
 /// either cosine that is not left out. It covers the rounding of `f32`.
@@ -57,6 +58,16 @@ impl Node {
             leaf,
             link,
         }
+    }
+
+    /// 12 words for shaders: sphere, axis, cosines, intensity, flags (two-sided, leaf), link.
+    pub(super) fn flatten(&self, to: &mut Words) {
+        to.vector(self.centre);
+        to.number(self.radius);
+        to.vector(self.axis);
+        to.numbers([self.cos_o, self.cos_e, self.intensity]);
+        to.id(u32::from(self.two_sided) | u32::from(self.leaf) << 1);
+        to.id(self.link);
     }
 
     /// An estimate of the irradiance by the node's lights, 0 only where none can contribute.

@@ -8,6 +8,7 @@ use specula_bsdf::Vec3;
 
 use super::angles::{sin_cos_of_half, turns};
 use crate::convert::{abs, narrow};
+use crate::flat::Words;
 use crate::geometry::unit_or;
 use crate::offset::coupled;
 
@@ -77,6 +78,20 @@ impl Parallelogram {
             },
             error: coupled(abs(corner) + abs(edges[0]) + abs(edges[1])),
         }
+    }
+
+    /// 25 words for shaders, which have no infinity.
+    pub(super) fn flatten(&self, to: &mut Words) {
+        for v in [self.corner, self.edges[0], self.edges[1], self.normal] {
+            to.vector(v);
+        }
+        to.number(self.area);
+        for axis in self.axes {
+            to.vector(axis);
+        }
+        to.numbers(self.sides);
+        to.number(self.least.min(f32::MAX));
+        to.vector(self.error);
     }
 
     /// A point as seen from `p`.

@@ -1,6 +1,7 @@
 //! A distribution over the unit square, constant in every cell of a grid.
 
 use crate::convert::{floor_index, id, narrow};
+use crate::flat::Words;
 
 /// A piecewise constant density over `[0, 1)^2`.
 #[derive(Clone, Debug)]
@@ -105,6 +106,15 @@ impl Piecewise {
             &mut u[0],
             &mut cells[0],
         );
+    }
+
+    /// Places of the cumulated shares in the rows, and of those of the rows, for shaders.
+    pub(super) fn flatten(&self, to: &mut Words) -> [u32; 2] {
+        [&self.rows, &self.columns].map(|shares| {
+            let place = to.place();
+            to.numbers(shares.iter().copied());
+            place
+        })
     }
 
     /// Probability of a cell.

@@ -15,6 +15,7 @@ use super::build::Emitter;
 use super::node::{Node, Receiver};
 use super::tree::LightTree;
 use crate::convert::narrow;
+use crate::flat::Words;
 
 /// Smallest share of either class of lights where there are both.
 const LEAST_SHARE: f32 = 0.15;
@@ -69,6 +70,15 @@ impl Selection {
             },
             only,
         }
+    }
+
+    /// Tree, table and what decides between them, for shaders.
+    pub(super) fn flatten(&self, to: &mut Words) {
+        self.near.flatten(to);
+        self.far.flatten(to);
+        to.begin("LIGHT_FAR_IRRADIANCE");
+        to.number(self.far_irradiance);
+        to.constant("LIGHT_ONLY", self.only.unwrap_or(u32::MAX));
     }
 
     /// Whether there is no light to choose.

@@ -4,6 +4,7 @@ use specula_bsdf::math::vec3;
 use specula_bsdf::{Frame, Real, Rgb, Vec3};
 
 use crate::convert::{narrow, narrow3};
+use crate::flat::Words;
 
 /// The same radiance from every direction within a cone.
 #[derive(Clone, Debug)]
@@ -26,6 +27,15 @@ impl Sun {
             radiance: irradiance * narrow(per_irradiance),
             one_minus_cos: narrow(2.0 * half_sine * half_sine),
         }
+    }
+
+    /// Frame, radiance and size, for shaders.
+    pub(super) fn flatten(&self, to: &mut Words) {
+        for v in [self.frame.s, self.frame.t, self.frame.n] {
+            to.vector(v);
+        }
+        to.colour(self.radiance);
+        to.number(self.one_minus_cos);
     }
 
     /// Whether it is seen in the direction `wi` (unit).

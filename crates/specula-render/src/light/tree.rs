@@ -9,6 +9,8 @@
 
 use super::build::{Emitter, build};
 use super::node::{Node, Receiver};
+use crate::convert::{id, words_of};
+use crate::flat::Words;
 
 /// Trail of a light that is not in the tree; no trail is 64 long.
 const ABSENT: u64 = u64::MAX;
@@ -49,6 +51,19 @@ impl LightTree {
 
     pub(super) fn nodes(&self) -> &[Node] {
         &self.nodes
+    }
+
+    /// Nodes, and trails as lower and upper words, for shaders.
+    pub(super) fn flatten(&self, to: &mut Words) {
+        to.constant("LIGHT_NODE_COUNT", id(self.nodes.len()));
+        to.begin("LIGHT_NODES");
+        for node in &self.nodes {
+            node.flatten(to);
+        }
+        to.begin("LIGHT_TRAILS");
+        for &trail in &self.trails {
+            to.ids(words_of(trail));
+        }
     }
 
     /// The importance of each node for a receiver.

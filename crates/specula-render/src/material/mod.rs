@@ -1,6 +1,7 @@
 //! From a material and a point of its surface to the lobe there.
 
 mod bind;
+mod flat;
 mod fold;
 mod metal;
 mod rough;

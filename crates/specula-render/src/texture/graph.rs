@@ -60,12 +60,12 @@ pub(super) enum Node {
 /// A picture and what is done to its values.
 #[derive(Clone, Debug)]
 pub(super) struct Picture {
-    image: usize,
-    mapping: Mapping,
-    lookup: Lookup,
-    channel: Channel,
-    invert: bool,
-    scale: f32,
+    pub(super) image: usize,
+    pub(super) mapping: Mapping,
+    pub(super) lookup: Lookup,
+    pub(super) channel: Channel,
+    pub(super) invert: bool,
+    pub(super) scale: f32,
 }
 
 impl Node {

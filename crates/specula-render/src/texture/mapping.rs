@@ -6,6 +6,7 @@ use specula_scene::scene::{TextureMapping, UvMapping};
 
 use super::Place;
 use crate::convert::Affine;
+use crate::flat::Words;
 
 /// [`TextureMapping`] in single precision.
 #[derive(Clone, Copy, Debug)]
@@ -59,6 +60,37 @@ impl Mapping {
             Self::Cylindrical(to_texture) => {
                 let p = to_texture.point(place.position);
                 [(PI + p.y.atan2(p.x)) / TAU, p.z]
+            }
+        }
+    }
+}
+
+impl Mapping {
+    /// Its kind, then its numbers.
+    pub(super) fn flatten(&self, to: &mut Words) {
+        match self {
+            Self::Uv(m) => {
+                to.id(0);
+                to.numbers(m.iter().flatten().copied());
+            }
+            Self::SecondUv(m) => {
+                to.id(1);
+                to.numbers(m.iter().flatten().copied());
+            }
+            Self::Planar(axes) => {
+                to.id(2);
+                for (along, offset) in axes {
+                    to.vector(*along);
+                    to.number(*offset);
+                }
+            }
+            Self::Spherical(to_texture) => {
+                to.id(3);
+                to.affine(to_texture);
+            }
+            Self::Cylindrical(to_texture) => {
+                to.id(4);
+                to.affine(to_texture);
             }
         }
     }

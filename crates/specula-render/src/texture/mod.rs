@@ -1,5 +1,6 @@
 //! Textures: parameters that vary over surfaces.
 
+mod flat;
 mod graph;
 mod mapping;
 mod noise;
@@ -12,6 +13,8 @@ use specula_scene::scene::{ColourParam, FloatParam, Texture};
 
 use graph::Node;
 use raster::Raster;
+
+pub(crate) use flat::{colour_parameter, float_parameter};
 
 /// Where a texture is evaluated.
 #[derive(Clone, Copy, Debug)]

@@ -6,6 +6,7 @@ use specula_bsdf::math::rgb;
 use specula_bsdf::{Rgb, Vec3};
 
 use crate::convert::{floor_i32, floor_index};
+use crate::flat::Words;
 
 /// Frequency of an octave over that of the one before: not 2, so that the lattices do not meet.
 const LACUNARITY: f32 = 1.99;
@@ -109,6 +110,20 @@ pub(super) fn in_dot([s, t]: [f32; 2]) -> bool {
     let x = s - (cell[0] + shift * noise(1.5, 2.8));
     let y = t - (cell[1] + shift * noise(4.5, 9.8));
     x * x + y * y < RADIUS * RADIUS
+}
+
+/// The tables for shaders: the permutation, the colours of marble.
+pub(super) fn flatten(to: &mut Words) {
+    to.begin("NOISE_PERMUTATION");
+    to.ids(PERMUTATION.map(u32::from));
+    to.begin("NOISE_MARBLE");
+    to.numbers(MARBLE.into_iter().flatten());
+}
+
+/// Names for the tables where no texture reads them.
+pub(super) fn leave_out(to: &mut Words) {
+    to.constant("NOISE_PERMUTATION", 0);
+    to.constant("NOISE_MARBLE", 0);
 }
 
 /// pbrt's colours of marble.

@@ -5,6 +5,7 @@ use specula_bsdf::math::rgb;
 use specula_scene::scene::{Interpolation, Wrap};
 
 use crate::convert::floor_i32;
+use crate::flat::Words;
 
 /// A picture's pixels, row by row from the top.
 #[derive(Clone, Debug, Default)]
@@ -95,6 +96,31 @@ impl Raster {
             Pixels::Bytes { palette, pixels } => pixels[at].map(|i| palette[usize::from(i)]),
         };
         rgb(r, g, b)
+    }
+}
+
+impl Raster {
+    /// Width, height, whether it is of bytes; then three numbers for each pixel, or 256 numbers and a
+    /// word for each pixel, red in its lowest byte. Returns its place.
+    pub(super) fn flatten(&self, to: &mut Words) -> u32 {
+        let here = to.place();
+        to.ids([self.width, self.height].map(i32::unsigned_abs));
+        match &self.pixels {
+            Pixels::Floats(pixels) => {
+                to.flag(false);
+                to.numbers(pixels.iter().flatten().copied());
+            }
+            Pixels::Bytes { palette, pixels } => {
+                to.flag(true);
+                to.numbers(palette.iter().copied());
+                to.ids(
+                    pixels
+                        .iter()
+                        .map(|&[r, g, b]| u32::from_le_bytes([r, g, b, 0])),
+                );
+            }
+        }
+        here
     }
 }
 

@@ -9,7 +9,9 @@ use specula::render::picture::{Display, ToneMap};
 use specula::scene::Energy;
 use specula::scene::material_text::parse_material;
 use specula::scene::scene::MaterialKind;
+use specula::shaders::Language;
 
+use super::device::Device;
 use super::loading::LoadingArguments;
 use super::machine::MachineArguments;
 use super::{live_view, values};
@@ -50,6 +52,10 @@ pub(crate) enum Command {
     Merge(MergeArguments),
     /// Denoise an EXR picture with Open Image Denoise, in programs built with it.
     Denoise(DenoiseArguments),
+    /// Write the microfacet library for shaders, in WGSL, HLSL, GLSL, Metal or SPIR-V.
+    Shaders(ShadersArguments),
+    /// List what `render --device` can be given.
+    Devices,
 }
 
 const RENDER_EXAMPLES: &str = "\
@@ -170,6 +176,11 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "HOST:PORT", value_parser = live_view::address)]
     pub(crate) display_server: Option<String>,
 
+    /// What takes the samples: cpu; gpu, gpu:INDEX or gpu:NAME as `specula devices` lists them; or auto:
+    /// a real GPU where there is one that renders all of the scene, else the processor, with a note
+    #[arg(long, value_name = "NAME", default_value_t = Device::Cpu)]
+    pub(crate) device: Device,
+
     #[command(flatten)]
     pub(crate) machine: MachineArguments,
 
@@ -264,6 +275,39 @@ pub(crate) struct DenoiseArguments {
     /// Print errors only
     #[arg(short, long)]
     pub(crate) quiet: bool,
+}
+
+const SHADERS_EXAMPLES: &str = "\
+Examples:
+  specula shaders --lang hlsl -o shaders
+      shaders/specula.hlsl to include, shaders/example.hlsl that does, and the energy tables
+  specula shaders --lang glsl --modules ggx,bounded -o shaders
+      these modules and what they use
+  specula shaders -o shaders
+      all languages
+  specula shaders --list
+      the modules
+
+Every function keeps its name and its documentation. Files are replaced whole or not at all.";
+
+#[derive(Args, Debug)]
+#[command(after_help = SHADERS_EXAMPLES)]
+pub(crate) struct ShadersArguments {
+    /// Languages, separated by commas: wgsl, hlsl, glsl, glsl-es, msl, spirv [default: all]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub(crate) lang: Vec<Language>,
+
+    /// Modules, separated by commas; what they use comes with them [default: all]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub(crate) modules: Vec<String>,
+
+    /// Folder to write to, made where there is none
+    #[arg(short, long, value_name = "DIR", required_unless_present = "list")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// List the modules and write nothing
+    #[arg(long, conflicts_with_all = ["lang", "modules", "output"])]
+    pub(crate) list: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

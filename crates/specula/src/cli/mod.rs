@@ -6,6 +6,7 @@ mod checkpoint;
 mod compare;
 mod convert;
 mod denoise;
+mod device;
 mod failure;
 mod info;
 mod live_view;
@@ -18,6 +19,7 @@ mod outputs;
 mod progress;
 mod render;
 mod schedule;
+mod shaders;
 mod stop;
 mod values;
 
@@ -37,6 +39,8 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
         Command::Compare(a) => compare::run(&a),
         Command::Merge(a) => merge::run(&a),
         Command::Denoise(a) => denoise::run(&a),
+        Command::Shaders(a) => shaders::run(&a),
+        Command::Devices => Ok(device::list()),
     }
 }
 

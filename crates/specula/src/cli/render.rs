@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
+use specula::gpu::GpuError;
 use specula::render::{
     FilmBuffer, InvalidSample, Label, MOST_SAMPLES, PrepareError, PreparedScene, RenderOptions,
     Renderer,
@@ -12,6 +13,7 @@ use specula::scene::Scene;
 
 use super::arguments::RenderArguments;
 use super::checkpoint::{Checkpoint, Start};
+use super::device::{self, Samples};
 use super::live_view::LiveView;
 use super::load::{self, Named};
 use super::outputs::Outputs;
@@ -41,6 +43,7 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
         load::print_warnings(&warnings);
     }
     let options = options(arguments, &scene)?;
+    let gpu = device::open(&arguments.device)?;
     let threads = arguments.machine.thread_count();
     let most = arguments.machine.max_memory;
     memory::check(&scene, &options, threads, most, arguments.quiet)?;
@@ -64,6 +67,8 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
             let ready = short(start.elapsed().as_secs_f64());
             eprintln!("{name}: {width}x{height}, ready after {ready}");
         }
+        let (device, quiet) = (&arguments.device, arguments.quiet);
+        let source = Samples::new(device, gpu.as_ref(), &prepared, &options, quiet)?;
         let renderer = match begun {
             None => Renderer::new(&prepared, options.clone()),
             Some(film) => Renderer::resume(&prepared, options.clone(), film).map_err(|e| {
@@ -73,6 +78,7 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
         Job {
             goal: goal(arguments, &options),
             renderer,
+            source,
             outputs: &outputs,
             checkpoint,
             stop: &stop,
@@ -169,6 +175,7 @@ fn checkpoint(
 struct Job<'a> {
     goal: Goal,
     renderer: Renderer<'a>,
+    source: Samples<'a>,
     outputs: &'a Outputs,
     checkpoint: Checkpoint,
     stop: &'a Stop,
@@ -191,8 +198,11 @@ impl Job<'_> {
             let Some(next) = next else { break };
             let pass_start = Instant::now();
             self.stop.pass_begins(expected(next, last));
-            let report = self.renderer.render_pass(next, self.stop.at_once());
+            let taken = self
+                .source
+                .pass(&mut self.renderer, next, self.stop.at_once());
             self.stop.pass_ends();
+            let report = taken.or_else(|error| self.give_up(&error, start.elapsed()))?;
             last = Some((next, pass_start.elapsed()));
             rays += report.rays;
             invalid = report.invalid_samples;
@@ -236,6 +246,16 @@ impl Job<'_> {
             self.print_summary(rays, seconds, interrupted);
         }
         Ok(ExitCode::from(if interrupted { INTERRUPTED } else { 0 }))
+    }
+
+    /// Keeps what there is where the device failed.
+    fn give_up<T>(&mut self, error: &GpuError, elapsed: Duration) -> Result<T, Failure> {
+        let seconds = elapsed.as_secs_f64();
+        self.checkpoint.save(self.renderer.film(), seconds);
+        let kept = self.checkpoint.path().map_or_else(String::new, |path| {
+            format!("; --resume goes on with {}", path.display())
+        });
+        Err(Failure::other(format_args!("{error}{kept}")))
     }
 
     /// Where a sample went wrong, after a colon.

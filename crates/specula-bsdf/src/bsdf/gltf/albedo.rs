@@ -105,6 +105,13 @@ pub fn sheen<T: Real>(roughness: &Stencil<T>, mu: T) -> T {
     Real::clamp(sum + margin, T::ZERO, T::ONE)
 }
 
+/// The tables as plain numbers, for shaders: `q` by width and cosine, and the sheen's albedo by roughness
+/// and cosine.
+pub fn numbers() -> [Vec<f32>; 2] {
+    let share = |&x: &u16| f32::from(x) / 65535.0;
+    [SCHLICK.as_flattened(), SHEEN.as_flattened()].map(|table| table.iter().map(share).collect())
+}
+
 #[inline(always)]
 fn number<T: Real>(x: u16) -> T {
     T::of(f64::from(x) / SCALE)

@@ -73,6 +73,15 @@ pub fn transmittance<T: Real, N: Tabulated<T>>(ndf: N, eta: T, mu: T) -> T {
     Interface::rough(ndf, eta).0.transmittance(mu)
 }
 
+/// The tables as plain numbers, for shaders: `T` by distribution, index, width and cosine, and `R_int`
+/// by distribution, index and width.
+pub fn numbers() -> [Vec<f32>; 2] {
+    let share = |&x: &u16| f32::from(x) / 65535.0;
+    let rows = TRANSMITTANCE.as_flattened().as_flattened().as_flattened();
+    let internal = INTERNAL_REFLECTANCE.as_flattened().as_flattened();
+    [rows, internal].map(|table| table.iter().map(share).collect())
+}
+
 /// The tables' coordinate of an index.
 #[inline(always)]
 fn eta_coordinate<T: Real>(eta: T) -> T {

@@ -1,6 +1,7 @@
 //! Cells between the centres of a picture's pixels, along one axis.
 
 use crate::convert::{floor_i32, id};
+use crate::flat::Words;
 
 /// How the cells lie along one axis of a picture.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +46,12 @@ impl Axis {
             ends,
             first_pixel,
         }
+    }
+
+    /// Five words for shaders.
+    pub(super) fn flatten(&self, to: &mut Words) {
+        to.id(self.cells);
+        to.numbers([self.steps, self.begin, self.ends[0], self.ends[1]]);
     }
 
     /// The part of a cell that lies within the picture.

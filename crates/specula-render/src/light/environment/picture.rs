@@ -13,6 +13,7 @@ use super::super::octahedral::{direction_of, square_of};
 use super::super::piecewise::Piecewise;
 use super::axis::{Axis, AxisKind};
 use crate::convert::narrow;
+use crate::flat::Words;
 
 /// Red, green, blue, and what is drawn by.
 pub(super) type Pixel = [f32; 4];
@@ -100,6 +101,29 @@ impl Picture {
         };
         self.density = sines.iter().map(per_strength).collect();
         self.table = table;
+    }
+
+    /// Pixels and tables for shaders; returns their places.
+    pub(super) fn flatten_tables(&self, to: &mut Words) -> [u32; 4] {
+        let corners = to.place();
+        to.numbers(self.corners.iter().flatten().copied());
+        let density = to.place();
+        to.numbers(self.density.iter().copied());
+        let [rows, columns] = self.table.flatten(to);
+        [corners, density, rows, columns]
+    }
+
+    /// Mapping, axes and places of the tables, for shaders.
+    pub(super) fn flatten(&self, tables: [u32; 4], to: &mut Words) {
+        to.id(match self.mapping {
+            EnvironmentMapping::EqualAreaOctahedral => 0,
+            EnvironmentMapping::LatitudeLongitude => 1,
+            EnvironmentMapping::LatitudeLongitudePoles => 2,
+        });
+        for axis in &self.axes {
+            axis.flatten(to);
+        }
+        to.ids(tables);
     }
 
     /// Integral over a cell, in pixels, of what is drawn by, without the sine.

@@ -1,0 +1,69 @@
+//! The tables as plain numbers, for shaders, which cannot read the text that they are stored in.
+
+use super::albedo_tables::TABLES;
+use super::{interface_single_table, interface_table};
+
+/// A table and what it is called.
+pub type Named = (&'static str, Vec<f32>);
+
+/// The tables of lost energy, coefficients of splines, of one distribution and masking.
+///
+/// * `table`: 0 to 3: GGX with height-correlated and with separable masking, Beckmann with both.
+///
+/// # Panics
+/// Where `table` is above 3.
+pub fn losses(table: usize) -> [Named; 8] {
+    let t = &TABLES[table];
+    [
+        ("ISOTROPIC", t.isotropic.as_flattened().to_vec()),
+        ("ISOTROPIC_AVERAGE", t.isotropic_average.to_vec()),
+        ("ANISOTROPIC", t.anisotropic.numbers().collect()),
+        ("ANISOTROPIC_AVERAGE", t.anisotropic_average.to_vec()),
+        ("INTERFACE", t.interface.numbers().collect()),
+        (
+            "INTERFACE_AVERAGE",
+            t.interface_average.as_flattened().to_vec(),
+        ),
+        ("STRETCHED", t.stretched.numbers().collect()),
+        (
+            "STRETCHED_AVERAGE",
+            t.stretched_average.as_flattened().to_vec(),
+        ),
+    ]
+}
+
+/// The tables of what interfaces let through and throw back (`interface`, `interface_single`,
+/// `interface_layer`).
+pub fn interfaces() -> [Named; 6] {
+    use interface_single_table as single;
+    let cubes = |table: &[[[f32; 25]; 25]]| table.as_flattened().as_flattened().to_vec();
+    [
+        ("TRANSMITTANCE", cubes(&interface_table::TRANSMITTANCE)),
+        (
+            "INTERNAL",
+            interface_table::INTERNAL_REFLECTANCE
+                .as_flattened()
+                .to_vec(),
+        ),
+        ("SINGLE_TRANSMITTANCE", cubes(&single::TRANSMITTANCE)),
+        (
+            "SINGLE_INTERNAL",
+            single::INTERNAL_REFLECTANCE.as_flattened().to_vec(),
+        ),
+        (
+            "CROSSING",
+            single::CROSSING
+                .as_flattened()
+                .as_flattened()
+                .as_flattened()
+                .to_vec(),
+        ),
+        (
+            "THERE_AND_BACK",
+            single::THERE_AND_BACK
+                .as_flattened()
+                .as_flattened()
+                .to_vec(),
+        ),
+    ]
+}

@@ -1,0 +1,298 @@
+//! One compute kernel over arrays: upload, run, read back.
+
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
+
+use wgpu::util::DeviceExt;
+
+use crate::adapter::{Gpu, GpuError};
+
+/// A compiled compute shader that reads arrays and writes one.
+///
+/// In group 0 the bindings `0..inputs` are the arrays that it reads
+/// (`var<storage, read>`), and the binding `inputs` is the one that it writes
+/// (`var<storage, read_write>`). It need not use all of them.
+#[derive(Debug)]
+pub struct Kernel {
+    label: String,
+    inputs: usize,
+    layout: wgpu::BindGroupLayout,
+    pipeline: wgpu::ComputePipeline,
+}
+
+/// The arrays of a [`Kernel`], on the device.
+#[derive(Debug)]
+pub struct Arrays {
+    group: wgpu::BindGroup,
+    output: wgpu::Buffer,
+}
+
+impl Gpu {
+    /// Compiles WGSL.
+    ///
+    /// # Errors
+    /// [`GpuError::Shader`] with the compiler's text where it does not compile.
+    pub fn shader(&self, label: &str, source: &str) -> Result<wgpu::ShaderModule, GpuError> {
+        let module = self.caught(|gpu| {
+            gpu.device
+                .create_shader_module(wgpu::ShaderModuleDescriptor {
+                    label: Some(label),
+                    source: wgpu::ShaderSource::Wgsl(source.into()),
+                })
+        });
+        module.map_err(|error| named(label, error))
+    }
+
+    /// Copies the first `size` bytes of a buffer here; its usage must include `COPY_SRC`.
+    ///
+    /// # Errors
+    /// Where memory does not suffice or the device was lost.
+    pub fn read(&self, buffer: &wgpu::Buffer, size: u64) -> Result<Vec<u8>, GpuError> {
+        let staging = self.caught(|gpu| {
+            let staging = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("read back"),
+                size,
+                usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            });
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, size);
+            gpu.queue.submit([encoder.finish()]);
+            staging
+        })?;
+        let (sender, receiver) = channel();
+        self.caught(|_| {
+            staging.map_async(wgpu::MapMode::Read, .., move |mapped| {
+                // The receiver waits below; where it is gone, so is the interest.
+                let _ = sender.send(mapped);
+            });
+        })?;
+        let lost = |reason: &dyn std::fmt::Display| GpuError::Lost(reason.to_string());
+        // Where several threads wait, another one may be about to make the call.
+        let mapped = loop {
+            self.wait()?;
+            match receiver.recv_timeout(Duration::from_millis(10)) {
+                Err(RecvTimeoutError::Timeout) => {}
+                other => break other,
+            }
+        };
+        mapped.map_err(|e| lost(&e))?.map_err(|e| lost(&e))?;
+        let view = staging.get_mapped_range(..).map_err(|e| lost(&e))?;
+        Ok(view.to_vec())
+    }
+}
+
+impl Kernel {
+    /// Compiles the entry point `entry` of a shader module that reads so many arrays.
+    ///
+    /// # Errors
+    /// [`GpuError::Shader`] where the driver does not compile it.
+    pub fn new(
+        gpu: &Gpu,
+        module: &wgpu::ShaderModule,
+        entry: &str,
+        inputs: usize,
+    ) -> Result<Self, GpuError> {
+        let slots: Vec<_> = (0_u32..)
+            .zip(0..=inputs)
+            .map(|(binding, place)| wgpu::BindGroupLayoutEntry {
+                binding,
+                visibility: wgpu::ShaderStages::COMPUTE,
+                ty: wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Storage {
+                        read_only: place < inputs,
+                    },
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            })
+            .collect();
+        let made = gpu.caught(|gpu| {
+            let device = &gpu.device;
+            let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(entry),
+                entries: &slots,
+            });
+            let whole = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(entry),
+                bind_group_layouts: &[Some(&layout)],
+                ..Default::default()
+            });
+            let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(entry),
+                layout: Some(&whole),
+                module,
+                entry_point: Some(entry),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                cache: None,
+            });
+            (layout, pipeline)
+        });
+        let (layout, pipeline) = made.map_err(|error| named(entry, error))?;
+        Ok(Self {
+            label: entry.to_owned(),
+            inputs,
+            layout,
+            pipeline,
+        })
+    }
+
+    /// Uploads what the kernel reads and makes room for what it writes, cleared to 0.
+    ///
+    /// * `inputs`: bytes of each array, in the order of the bindings; no array is empty.
+    /// * `output`: size in bytes of the array that is written, a multiple of 4.
+    ///
+    /// # Errors
+    /// Where the number of arrays is not the kernel's or memory does not suffice.
+    pub fn upload(&self, gpu: &Gpu, inputs: &[&[u8]], output: u64) -> Result<Arrays, GpuError> {
+        if inputs.len() != self.inputs {
+            return Err(GpuError::Refused(format!(
+                "kernel '{}' reads {} arrays, got {}",
+                self.label,
+                self.inputs,
+                inputs.len()
+            )));
+        }
+        gpu.caught(|gpu| {
+            let read = |contents: &&[u8]| {
+                let descriptor = wgpu::util::BufferInitDescriptor {
+                    label: Some(&self.label),
+                    contents,
+                    usage: wgpu::BufferUsages::STORAGE,
+                };
+                gpu.device.create_buffer_init(&descriptor)
+            };
+            let mut buffers: Vec<_> = inputs.iter().map(read).collect();
+            let output = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(&self.label),
+                size: output,
+                usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+                mapped_at_creation: false,
+            });
+            buffers.push(output.clone());
+            let entries: Vec<_> = (0_u32..)
+                .zip(&buffers)
+                .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                    binding,
+                    resource: buffer.as_entire_binding(),
+                })
+                .collect();
+            let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some(&self.label),
+                layout: &self.layout,
+                entries: &entries,
+            });
+            Arrays { group, output }
+        })
+    }
+
+    /// Runs the kernel and waits for it.
+    ///
+    /// # Errors
+    /// Where the device refuses the number of workgroups or is lost.
+    pub fn run(&self, gpu: &Gpu, arrays: &Arrays, workgroups: [u32; 3]) -> Result<(), GpuError> {
+        gpu.caught(|gpu| {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            {
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                    label: Some(&self.label),
+                    timestamp_writes: None,
+                });
+                pass.set_pipeline(&self.pipeline);
+                pass.set_bind_group(0, &arrays.group, &[]);
+                let [x, y, z] = workgroups;
+                pass.dispatch_workgroups(x, y, z);
+            }
+            gpu.queue.submit([encoder.finish()]);
+        })?;
+        gpu.wait()
+    }
+}
+
+impl Arrays {
+    /// The bytes that the kernel wrote.
+    ///
+    /// # Errors
+    /// Where memory does not suffice or the device was lost.
+    pub fn output(&self, gpu: &Gpu) -> Result<Vec<u8>, GpuError> {
+        gpu.read(&self.output, self.output.size())
+    }
+}
+
+/// A refusal of a shader, with its name.
+fn named(label: &str, error: GpuError) -> GpuError {
+    match error {
+        GpuError::Refused(text) => GpuError::Shader {
+            label: label.to_owned(),
+            text,
+        },
+        other => other,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::adapter::AdapterChoice;
+
+    const DOUBLING: &str = "
+        @group(0) @binding(0) var<storage, read> numbers: array<f32>;
+        @group(0) @binding(1) var<storage, read_write> doubled: array<f32>;
+        @compute @workgroup_size(4)
+        fn main(@builtin(global_invocation_id) place: vec3u) {
+            doubled[place.x] = 2.0 * numbers[place.x];
+        }";
+
+    /// The best adapter; without one the test says that it is skipped.
+    #[allow(clippy::print_stdout, reason = "a test that is skipped says so")]
+    fn gpu() -> Option<Gpu> {
+        let gpu = Gpu::open(&AdapterChoice::Best);
+        if let Err(error) = &gpu {
+            println!("SKIPPED: {error}");
+        }
+        gpu.ok()
+    }
+
+    #[test]
+    fn a_kernel_reads_and_writes_arrays() {
+        let Some(gpu) = gpu() else { return };
+        let module = gpu.shader("doubling", DOUBLING).unwrap();
+        let kernel = Kernel::new(&gpu, &module, "main", 1).unwrap();
+        let numbers = [1.0_f32, -2.5, 3.0, 1e30];
+        let bytes = bytemuck::bytes_of(&numbers);
+        let arrays = kernel.upload(&gpu, &[bytes], 16).unwrap();
+        kernel.run(&gpu, &arrays, [1, 1, 1]).unwrap();
+        let output = arrays.output(&gpu).unwrap();
+        let doubled: &[f32] = bytemuck::cast_slice(&output);
+        assert_eq!(doubled, numbers.map(|x| 2.0 * x));
+    }
+
+    #[test]
+    fn mistakes_are_errors_and_leave_the_device_whole() {
+        let Some(gpu) = gpu() else { return };
+        let wrong = gpu
+            .shader("wrong", "fn main() { undefined(); }")
+            .unwrap_err();
+        assert!(
+            matches!(&wrong, GpuError::Shader { label, text }
+                if label == "wrong" && text.contains("undefined")),
+            "{wrong}"
+        );
+        let module = gpu.shader("doubling", DOUBLING).unwrap();
+        let missing = Kernel::new(&gpu, &module, "absent", 1);
+        assert!(matches!(missing, Err(GpuError::Shader { .. })));
+        let kernel = Kernel::new(&gpu, &module, "main", 1).unwrap();
+        let too_few = kernel.upload(&gpu, &[], 16);
+        assert!(matches!(too_few, Err(GpuError::Refused(_))));
+        let too_large = kernel.upload(&gpu, &[&[0; 16]], 1 << 50);
+        assert!(matches!(
+            too_large,
+            Err(GpuError::Refused(_) | GpuError::OutOfMemory(_))
+        ));
+        let arrays = kernel.upload(&gpu, &[&[0; 16]], 16).unwrap();
+        let too_many = kernel.run(&gpu, &arrays, [1 << 30, 1, 1]);
+        assert!(matches!(too_many, Err(GpuError::Refused(_))));
+        assert!(kernel.run(&gpu, &arrays, [1, 1, 1]).is_ok());
+    }
+}

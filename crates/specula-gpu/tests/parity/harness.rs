@@ -1,0 +1,566 @@
+//! Cases of parity: a piece of WGSL, the same in Rust, inputs and a bound; and faults planted in the
+//! modules, which the cases must catch.
+//!
+//! The error of a value is counted in units of the last place (ulps) of `f32` at
+//! `max(|value|, scale)`, where the value is that of the `f64` twin at the same `f32` inputs. The
+//! scale is 0 where every digit counts, and otherwise says what the value is a part of: a component
+//! of a unit vector has the scale 1.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::sync::LazyLock;
+use std::time::{Duration, Instant};
+
+use specula_bsdf::{Alpha, Real, Vec3};
+use specula_gpu::{AdapterChoice, Gpu, GpuError, Kernel};
+use specula_shaders::{Declaration, Kind, MODULES, Module, declarations, ordered};
+
+/// Invocations of a workgroup.
+const GROUP: usize = 64;
+/// Workgroups along x; more inputs go to the next row.
+const ROW: usize = 1024;
+
+/// What the names of entry points begin with, so that no module has them.
+const PREFIX: &str = "parity_";
+/// Name of the array of energy tables.
+const TABLES: &str = "specula_tables";
+
+/// A function of the inputs of one evaluation.
+pub(crate) type Twin<T> = fn(&[T]) -> Vec<T>;
+
+/// One function (or a few) of the modules beside its twins.
+#[derive(Clone)]
+pub(crate) struct Case {
+    /// Unique, of lower-case letters and underscores: it names the entry point.
+    pub(crate) name: &'static str,
+    /// Modules that the body names; what they import is there as well.
+    pub(crate) modules: &'static [&'static str],
+    /// WGSL statements that read `x: array<f32, N>` and write `y: array<f32, M>`.
+    pub(crate) body: &'static str,
+    /// How many numbers an evaluation takes, `N`.
+    pub(crate) arguments: usize,
+    /// The evaluations' arguments, one after the other.
+    pub(crate) inputs: Vec<f32>,
+    /// The twin in `f32`.
+    pub(crate) single: Twin<f32>,
+    /// The twin in `f64`.
+    pub(crate) double: Twin<f64>,
+    /// Largest error of the shader in ulps.
+    pub(crate) bound: f64,
+    /// The least number whose ulps are counted: one for all results, or one for each.
+    pub(crate) scale: &'static [f64],
+    /// Evaluations that may miss the bound: where the function jumps, rounding chooses the side.
+    pub(crate) strays: usize,
+}
+
+/// Both twins of an expression of `x: &[T]`, for any `T: Real`, with a `Vec<T>` as its value.
+macro_rules! twins {
+    (|$x:ident| $body:expr) => {{
+        fn twin<T: specula_bsdf::Real>($x: &[T]) -> Vec<T> {
+            $body
+        }
+        (twin::<f32>, twin::<f64>)
+    }};
+}
+pub(crate) use twins;
+
+impl Case {
+    /// A case in which every digit counts.
+    ///
+    /// * `inputs`: one row for each evaluation, all of the same length.
+    /// * `twins`: of the macro `twins`.
+    /// * `bound`: in ulps.
+    pub(crate) fn new<const N: usize>(
+        name: &'static str,
+        modules: &'static [&'static str],
+        body: &'static str,
+        inputs: Vec<[f32; N]>,
+        (single, double): (Twin<f32>, Twin<f64>),
+        bound: f64,
+    ) -> Self {
+        Self {
+            name,
+            modules,
+            body,
+            arguments: N,
+            inputs: inputs.into_flattened(),
+            single,
+            double,
+            bound,
+            scale: &[0.0],
+            strays: 0,
+        }
+    }
+
+    /// The same with ulps counted at `scale` or above.
+    pub(crate) fn at_scale(self, scale: &'static [f64]) -> Self {
+        Self { scale, ..self }
+    }
+
+    /// The same where so many evaluations may lie on the other side of a jump.
+    pub(crate) fn with_strays(self, strays: usize) -> Self {
+        Self { strays, ..self }
+    }
+}
+
+/// A text of a module to be replaced, and the case that has to notice.
+pub(crate) struct Fault {
+    /// Name of the case.
+    pub(crate) case: &'static str,
+    /// Path of the module.
+    pub(crate) module: &'static str,
+    /// What is there, exactly once.
+    pub(crate) from: &'static str,
+    /// What stands there instead.
+    pub(crate) to: &'static str,
+}
+
+/// Errors of a case.
+pub(crate) struct Outcome {
+    name: &'static str,
+    evaluations: usize,
+    /// Largest error of the shader in ulps, strays left out.
+    pub(crate) shader: f64,
+    /// Largest error of the Rust twin in ulps, as many left out.
+    single: f64,
+    bound: f64,
+    /// The evaluation with the largest error, for the message.
+    worst: String,
+    /// Compilation and running.
+    time: [Duration; 2],
+}
+
+impl Outcome {
+    fn is_pass(&self) -> bool {
+        self.shader <= self.bound
+    }
+}
+
+/// The GPU of all tests, `None` where the machine has none.
+///
+/// `SPECULA_GPU=require` makes it a failure; `SPECULA_GPU_ADAPTER` chooses one by its place or name.
+static GPU: LazyLock<Result<Gpu, GpuError>> = LazyLock::new(|| {
+    let choice = std::env::var("SPECULA_GPU_ADAPTER").unwrap_or_default();
+    let choice = if choice.is_empty() {
+        AdapterChoice::Best
+    } else {
+        choice.parse().unwrap_or_default()
+    };
+    let gpu = Gpu::open(&choice);
+    if let Ok(gpu) = &gpu {
+        println!("GPU {}", gpu.adapter);
+    }
+    gpu
+});
+
+/// The GPU, or a loud line that `what` is skipped.
+pub(crate) fn gpu(what: &str) -> Option<&'static Gpu> {
+    match &*GPU {
+        Ok(gpu) => Some(gpu),
+        Err(error) => {
+            let required = std::env::var("SPECULA_GPU").is_ok_and(|v| v == "require");
+            assert!(!required, "SPECULA_GPU=require, but: {error}");
+            println!("SKIPPED: {what}: {error}");
+            None
+        }
+    }
+}
+
+/// The text of the modules named and of all that they import, with a fault where one is given.
+fn text(modules: &[&str], fault: Option<&Fault>) -> String {
+    let replaced = |module: &Module| match fault {
+        Some(fault) if fault.module == module.path => {
+            let code = module.code();
+            let times = code.matches(fault.from).count();
+            assert!(times == 1, "'{}' occurs {times} times", fault.from);
+            code.replace(fault.from, fault.to)
+        }
+        _ => module.code(),
+    };
+    let all = ordered(modules).unwrap_or_else(|error| panic!("{error}"));
+    let parts: Vec<String> = all.iter().map(replaced).collect();
+    parts.join("\n")
+}
+
+/// WGSL with one entry point for each of the bodies, `(name, arguments, results, body)`.
+fn source(text: &str, bodies: &[(&str, usize, usize, &str)]) -> String {
+    let mut source = text.to_owned();
+    if !source.contains(TABLES) {
+        source.push_str("@group(0) @binding(0) var<storage, read> unused: array<f32>;\n");
+    }
+    source.push_str(
+        "@group(0) @binding(1) var<storage, read> parity_x: array<f32>;\n\
+         @group(0) @binding(2) var<storage, read_write> parity_y: array<f32>;\n",
+    );
+    for (name, arguments, results, body) in bodies {
+        let _ = write!(
+            source,
+            "@compute @workgroup_size({GROUP})\n\
+             fn {PREFIX}{name}(@builtin(global_invocation_id) place: vec3u) {{\n\
+             let parity_i = place.y * {row}u + place.x;\n\
+             if parity_i >= arrayLength(&parity_y) / {results}u {{ return; }}\n\
+             var x: array<f32, {arguments}>;\n\
+             for (var k = 0u; k < {arguments}u; k++) {{ x[k] = parity_x[parity_i * {arguments}u + k]; }}\n\
+             var y: array<f32, {results}>;\n\
+             {body}\n\
+             for (var k = 0u; k < {results}u; k++) {{ parity_y[parity_i * {results}u + k] = y[k]; }}\n\
+             }}\n",
+            row = GROUP * ROW,
+        );
+    }
+    source
+}
+
+/// Runs an entry point over `inputs`, `results` numbers for every `arguments`.
+fn run(
+    gpu: &Gpu,
+    kernel: &Kernel,
+    tables: &[u8],
+    inputs: &[f32],
+    [arguments, results]: [usize; 2],
+) -> Result<Vec<f32>, GpuError> {
+    let count = inputs.len() / arguments;
+    let bytes: Vec<u8> = inputs.iter().flat_map(|v| v.to_le_bytes()).collect();
+    let output = 4 * u64::try_from(count * results).unwrap_or(u64::MAX);
+    let arrays = kernel.upload(gpu, &[tables, &bytes], output)?;
+    let groups = count.div_ceil(GROUP);
+    let rows = [groups.min(ROW), groups.div_ceil(ROW), 1];
+    kernel.run(gpu, &arrays, rows.map(|n| u32::try_from(n).unwrap_or(0)))?;
+    let bytes = arrays.output(gpu)?;
+    let number = |b: &[u8; 4]| f32::from_le_bytes(*b);
+    Ok(bytes.as_chunks().0.iter().map(number).collect())
+}
+
+/// Bytes of the energy tables where `text` reads them, else next to nothing: an empty array cannot be.
+fn tables_for(text: &str) -> &'static [u8] {
+    if text.contains(TABLES) {
+        specula_shaders::tables()
+    } else {
+        &[0; 4]
+    }
+}
+
+/// Evaluates a body on the GPU: for sums and statistics over its results.
+///
+/// * `modules`, `body`: as of a [`Case`]; `results` is the length of `y`.
+pub(crate) fn evaluate<const N: usize>(
+    gpu: &Gpu,
+    modules: &[&str],
+    body: &str,
+    inputs: &[[f32; N]],
+    results: usize,
+) -> Vec<f32> {
+    let text = text(modules, None);
+    let source = source(&text, &[("evaluate", N, results, body)]);
+    let done = gpu.shader("evaluate", &source).and_then(|module| {
+        let kernel = Kernel::new(gpu, &module, &format!("{PREFIX}evaluate"), 2)?;
+        let tables = tables_for(&text);
+        run(gpu, &kernel, tables, inputs.as_flattened(), [N, results])
+    });
+    done.unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Proves all cases of a family: prints a table of errors and panics with those beyond their bounds.
+pub(crate) fn prove(family: &str, cases: &[Case]) {
+    let Some(gpu) = gpu(&format!("{} cases of {family}", cases.len())) else {
+        return;
+    };
+    let start = Instant::now();
+    let outcomes = outcomes(gpu, cases, None).unwrap_or_else(|error| panic!("{family}: {error}"));
+    let mut report = String::new();
+    for o in &outcomes {
+        let _ = writeln!(
+            report,
+            "  {:34} {:>10.2} {:>10.2} {:>8} {:>8}  {:>5.0} {:>5.0}",
+            o.name,
+            o.shader,
+            o.single,
+            o.bound,
+            o.evaluations,
+            1e3 * o.time[0].as_secs_f64(),
+            1e3 * o.time[1].as_secs_f64()
+        );
+    }
+    println!(
+        "{family}: {} cases, {:.1} s\n  {:34} {:>10} {:>10} {:>8} {:>8}  {:>5} {:>5}\n{report}",
+        cases.len(),
+        start.elapsed().as_secs_f64(),
+        "largest error in ulps of",
+        "shader",
+        "Rust f32",
+        "bound",
+        "count",
+        "ms",
+        "ms",
+    );
+    let failures: Vec<String> = outcomes
+        .iter()
+        .filter(|o| !o.is_pass())
+        .map(|o| {
+            format!(
+                "{}: {} ulps, bound {}: {}",
+                o.name, o.shader, o.bound, o.worst
+            )
+        })
+        .collect();
+    assert!(failures.is_empty(), "{family}:\n{}", failures.join("\n"));
+}
+
+/// Plants each fault and panics with those that their case does not notice.
+pub(crate) fn catch(family: &str, cases: &[Case], faults: &[Fault]) {
+    let Some(gpu) = gpu(&format!("{} planted faults of {family}", faults.len())) else {
+        return;
+    };
+    for fault in faults {
+        let case = cases.iter().find(|c| c.name == fault.case);
+        let case = case.unwrap_or_else(|| panic!("no case '{}'", fault.case));
+        let outcome = outcomes(gpu, std::slice::from_ref(case), Some(fault));
+        let error = outcome.unwrap_or_else(|error| panic!("{}: {error}", fault.case))[0].shader;
+        println!(
+            "{family}: '{}' for '{}' in {}: {error:.3e} ulps of {}",
+            fault.to, fault.from, fault.module, case.bound
+        );
+        assert!(
+            error > case.bound,
+            "{}: '{}' for '{}' in {} goes unnoticed: {error} ulps",
+            fault.case,
+            fault.to,
+            fault.from,
+            fault.module
+        );
+    }
+}
+
+/// Runs cases: one shader module for those of the same modules, one pipeline each.
+fn outcomes(gpu: &Gpu, cases: &[Case], fault: Option<&Fault>) -> Result<Vec<Outcome>, GpuError> {
+    let mut groups: BTreeMap<&[&str], Vec<&Case>> = BTreeMap::new();
+    for case in cases {
+        groups.entry(case.modules).or_default().push(case);
+    }
+    let mut outcomes = Vec::new();
+    for (modules, cases) in groups {
+        let results = |case: &Case| {
+            let first: Vec<f64> = wide(&case.inputs[..case.arguments]);
+            (case.double)(&first).len()
+        };
+        let bodies: Vec<_> = cases
+            .iter()
+            .map(|c| (c.name, c.arguments, results(c), c.body))
+            .collect();
+        let label = modules.join(" ");
+        let text = text(modules, fault);
+        let module = gpu.shader(&label, &source(&text, &bodies))?;
+        let tables = tables_for(&text);
+        for (case, (_, arguments, results, _)) in cases.into_iter().zip(bodies) {
+            let start = Instant::now();
+            let kernel = Kernel::new(gpu, &module, &format!("{PREFIX}{}", case.name), 2)?;
+            let compiled = start.elapsed();
+            let values = run(gpu, &kernel, tables, &case.inputs, [arguments, results])?;
+            let time = [compiled, start.elapsed().saturating_sub(compiled)];
+            outcomes.push(judge(case, &values, results, time));
+        }
+    }
+    Ok(outcomes)
+}
+
+/// Compares what the shader computed with the twins.
+fn judge(case: &Case, values: &[f32], results: usize, time: [Duration; 2]) -> Outcome {
+    assert!(
+        case.scale.len() == 1 || case.scale.len() == results,
+        "{}: {} scales for {results} results",
+        case.name,
+        case.scale.len()
+    );
+    let inputs: Vec<&[f32]> = case.inputs.chunks(case.arguments).collect();
+    let shaders: Vec<&[f32]> = values.chunks(results).collect();
+    let doubles: Vec<Vec<f64>> = inputs.iter().map(|x| (case.double)(&wide(x))).collect();
+    let singles: Vec<Vec<f32>> = inputs.iter().map(|x| (case.single)(x)).collect();
+    let worst = |got: &[f32], expected: &[f64]| {
+        let pairs = got.iter().zip(expected).enumerate();
+        let errors = pairs.map(|(k, (&g, &e))| {
+            let scale = case.scale[k.min(case.scale.len() - 1)];
+            error_in_ulps(f64::from(g), e, scale)
+        });
+        errors.fold(0.0, f64::max)
+    };
+    let ranked = |got: &dyn Fn(usize) -> f64| {
+        let mut errors: Vec<(f64, usize)> = (0..inputs.len()).map(|i| (got(i), i)).collect();
+        errors.sort_by(|a, b| b.0.total_cmp(&a.0));
+        errors[case.strays.min(errors.len() - 1)]
+    };
+    let (shader, at) = ranked(&|i| worst(shaders[i], &doubles[i]));
+    let (single, _) = ranked(&|i| worst(&singles[i], &doubles[i]));
+    Outcome {
+        name: case.name,
+        evaluations: inputs.len(),
+        shader,
+        single,
+        bound: case.bound,
+        worst: format!(
+            "x {:?}: shader {:?}, f64 {:?}, f32 {:?}",
+            inputs[at], shaders[at], doubles[at], singles[at]
+        ),
+        time,
+    }
+}
+
+/// `|got - expected|` in units of the last place of `f32` at `max(|expected|, scale)`; infinite where
+/// `got` is no number.
+pub(crate) fn error_in_ulps(got: f64, expected: f64, scale: f64) -> f64 {
+    let error = (got - expected).abs();
+    if error == 0.0 {
+        return 0.0;
+    }
+    // Below the normal numbers digits are lost, and a GPU may take them for 0.
+    let magnitude = expected.abs().max(scale).max(f64::from(f32::MIN_POSITIVE));
+    let ulps = error / (magnitude.log2().floor() - 23.0).exp2();
+    if ulps.is_nan() { f64::INFINITY } else { ulps }
+}
+
+fn wide(x: &[f32]) -> Vec<f64> {
+    x.iter().copied().map(f64::from).collect()
+}
+
+/// Panics unless every function of a folder's modules is named by the body of a case, or listed in
+/// `elsewhere` with the reason; and unless every name listed is one of theirs.
+pub(crate) fn assert_covered(folder: &str, cases: &[Case], elsewhere: &[(&str, &str)]) {
+    let modules = MODULES.iter().filter(|m| m.folder() == folder);
+    let functions: Vec<Declaration<'_>> = modules
+        .flat_map(|m| declarations(m.text))
+        .filter(|d| d.kind == Kind::Function)
+        .collect();
+    assert!(!functions.is_empty(), "no modules in '{folder}'");
+    let is_called = |name: &str| {
+        let call = format!("{name}(");
+        cases.iter().any(|case| {
+            let ends =
+                |at: usize| case.body[..at].ends_with(|c: char| c == '_' || c.is_alphanumeric());
+            case.body.match_indices(&call).any(|(at, _)| !ends(at))
+        })
+    };
+    let listed = |name: &str| elsewhere.iter().any(|(n, _)| *n == name);
+    let bare: Vec<&str> = functions
+        .iter()
+        .map(|d| d.name)
+        .filter(|name| !is_called(name) && !listed(name))
+        .collect();
+    assert!(bare.is_empty(), "no case calls {}", bare.join(", "));
+    for (name, reason) in elsewhere {
+        let known = functions.iter().any(|d| d.name == *name);
+        assert!(
+            known && !reason.is_empty(),
+            "'{name}' is no function of '{folder}'"
+        );
+        assert!(!is_called(name), "'{name}' is listed and called by a case");
+    }
+}
+
+/// Cosines of views above the horizon.
+pub(crate) const ABOVE: [f64; 5] = [1.0, 0.7, 0.3, 0.05, 0.005];
+/// Cosines of views below it: backfacing shading normals.
+pub(crate) const BELOW: [f64; 3] = [-0.05, -0.3, -0.9];
+/// Azimuths, radians.
+pub(crate) const AZIMUTHS: [f64; 2] = [0.3, 2.1];
+/// Widths along x and y: those of the statistical proof, and the ends of the range.
+pub(crate) const ALPHAS: [[f32; 2]; 14] = [
+    [1e-4, 1e-4],
+    [1e-3, 1e-3],
+    [0.05, 0.05],
+    [0.3, 0.3],
+    [0.6, 0.6],
+    [1.0, 1.0],
+    [1.5, 1.5],
+    [10.0, 10.0],
+    [1e-4, 10.0],
+    [0.05, 0.5],
+    [0.2, 0.8],
+    [0.6, 1.0],
+    [1.2, 3.0],
+    [8.0, 0.01],
+];
+/// Relative indices of refraction, inside over outside.
+pub(crate) const ETAS: [f32; 4] = [1.5, 1.0 / 1.5, 1.1, 2.4];
+
+/// The unit direction of a cosine and an azimuth, rounded to `f32`.
+pub(crate) fn direction(cosine: f64, azimuth: f64) -> [f32; 3] {
+    let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
+    let w = [sine * azimuth.cos(), sine * azimuth.sin(), cosine];
+    w.map(round)
+}
+
+/// Every cosine at every azimuth.
+pub(crate) fn views(cosines: &[f64]) -> Vec<[f32; 3]> {
+    let at = |&cosine: &f64| AZIMUTHS.map(|azimuth| direction(cosine, azimuth));
+    cosines.iter().flat_map(at).collect()
+}
+
+/// Views above and below the horizon.
+pub(crate) fn both_sides() -> Vec<[f32; 3]> {
+    views(&[&ABOVE[..], &BELOW[..]].concat())
+}
+
+/// Point `i` of the two-dimensional R2 sequence, below 1 in `f32` too.
+pub(crate) fn r2(i: usize) -> [f32; 2] {
+    let at = |step: f64| {
+        let i = u32::try_from(i).map_or(0.0, f64::from);
+        // 24 digits: rounding up to 1 would be no random number.
+        ((0.5 + i * step).fract() * 16_777_216.0).floor() / 16_777_216.0
+    };
+    [at(0.754_877_666_246_693), at(0.569_840_290_998_053)].map(round)
+}
+
+/// A number rounded to `f32`.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "rounding is what it is for"
+)]
+pub(crate) fn round(x: f64) -> f32 {
+    x as f32
+}
+
+/// Arguments `x[at..at + 3]` as a vector.
+pub(crate) fn vector<T: Real>(x: &[T], at: usize) -> Vec3<T> {
+    Vec3 {
+        x: x[at],
+        y: x[at + 1],
+        z: x[at + 2],
+    }
+}
+
+/// Arguments `x[at..at + 2]` as widths.
+pub(crate) fn alpha<T: Real>(x: &[T], at: usize) -> Alpha<T> {
+    Alpha {
+        x: x[at],
+        y: x[at + 1],
+    }
+}
+
+/// Every one of `a` before every one of `b`, as one row of arguments.
+pub(crate) fn product<const A: usize, const B: usize, const N: usize>(
+    a: &[[f32; A]],
+    b: &[[f32; B]],
+) -> Vec<[f32; N]> {
+    const { assert!(A + B == N) };
+    let joined = |x: &[f32; A], y: &[f32; B]| {
+        let mut row = [0.0; N];
+        row[..A].copy_from_slice(x);
+        row[A..].copy_from_slice(y);
+        row
+    };
+    let rows = a.iter().flat_map(|x| b.iter().map(move |y| joined(x, y)));
+    rows.collect()
+}
+
+#[test]
+fn ulps_are_counted_at_the_scale_or_above() {
+    let ulp = f64::from(f32::EPSILON);
+    assert_eq!(error_in_ulps(1.0 + 3.0 * ulp, 1.0, 0.0), 3.0);
+    assert_eq!(error_in_ulps(1.0 - ulp, 1.0, 0.0), 1.0);
+    assert_eq!(error_in_ulps(2e-3 + 5.0 * ulp, 2e-3, 1.0).round(), 5.0);
+    assert!(error_in_ulps(2e-3 + 5.0 * ulp, 2e-3, 0.0) > 1000.0);
+    assert_eq!(error_in_ulps(f64::NAN, 1.0, 0.0), f64::INFINITY);
+    assert_eq!(
+        error_in_ulps(1e-40, 0.0, 0.0),
+        1e-40 / f64::from(f32::MIN_POSITIVE) * 8_388_608.0
+    );
+}

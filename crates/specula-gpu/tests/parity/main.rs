@@ -1,0 +1,17 @@
+//! Parity: every function of the shader modules, run on the GPU, beside its Rust twins in `f32` and
+//! `f64`.
+//!
+//! One file for each family. Where no GPU is found, the tests say that they are skipped;
+//! `SPECULA_GPU=require` makes that a failure.
+#![allow(clippy::print_stdout, reason = "a suite says how much it checked")]
+
+mod bsdf;
+mod energy;
+mod fresnel;
+mod harness;
+mod layered;
+mod math;
+mod multibounce;
+mod ndf;
+mod vndf;
+mod vndf_statistics;

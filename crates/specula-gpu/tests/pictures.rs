@@ -1,0 +1,357 @@
+//! Pictures of the GPU beside the processor's: the same samples follow the same paths up to rounding,
+//! and renders of other seeds have the same expectation.
+//!
+//! Where no GPU is found, the tests say that they are skipped; `SPECULA_GPU=require` makes that a
+//! failure.
+#![allow(clippy::print_stdout, reason = "a suite says how much it checked")]
+
+use std::sync::LazyLock;
+use std::sync::atomic::AtomicBool;
+
+use specula_bsdf::Rgb;
+use specula_gpu::{AdapterChoice, Gpu, GpuError, Tracer};
+use specula_render::picture::Picture;
+use specula_render::{PreparedScene, RenderOptions, Renderer, Strategy};
+use specula_scene::Scene;
+use specula_scene::scene::{Filter, Projection};
+use specula_stat::image::{NoisyImage, compare};
+
+static GPU: LazyLock<Result<Gpu, GpuError>> = LazyLock::new(|| Gpu::open(&AdapterChoice::Best));
+
+/// The GPU, or a loud line that `what` is skipped.
+fn gpu(what: &str) -> Option<&'static Gpu> {
+    match &*GPU {
+        Ok(gpu) => Some(gpu),
+        Err(error) => {
+            let required = std::env::var("SPECULA_GPU").is_ok_and(|v| v == "require");
+            assert!(!required, "SPECULA_GPU=require, but: {error}");
+            println!("SKIPPED: {what}: {error}");
+            None
+        }
+    }
+}
+
+/// A scene of a pbrt-v4 file with this text after its camera.
+fn scene(text: &str) -> Scene {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("scene.pbrt");
+    let head = "LookAt 0 -4 1.6  0 0 0.6  0 0 1\n\
+        Camera \"perspective\" \"float fov\" 45\n\
+        Film \"rgb\" \"integer xresolution\" 40 \"integer yresolution\" 32\n\
+        Sampler \"zsobol\" \"integer pixelsamples\" 16\n\
+        Integrator \"volpath\" \"integer maxdepth\" 6\nWorldBegin\n";
+    std::fs::write(&file, format!("{head}{text}")).unwrap();
+    specula_scene::load(&file).unwrap().scene
+}
+
+fn options(scene: &Scene, seed: u32) -> RenderOptions {
+    RenderOptions {
+        seed,
+        ..RenderOptions::from_scene(scene)
+    }
+}
+
+fn on_processor(scene: &Scene, options: &RenderOptions, samples: u32) -> Picture {
+    let prepared = PreparedScene::new(scene, options).unwrap();
+    let mut renderer = Renderer::new(&prepared, options.clone());
+    renderer.render_pass(samples, &AtomicBool::new(false));
+    renderer.film().picture()
+}
+
+fn on_gpu(gpu: &Gpu, scene: &Scene, options: &RenderOptions, samples: u32) -> Picture {
+    let prepared = PreparedScene::new(scene, options).unwrap();
+    let mut renderer = Renderer::new(&prepared, options.clone());
+    let mut tracer = Tracer::new(gpu, &prepared, options).unwrap_or_else(|e| panic!("{e}"));
+    let go = AtomicBool::new(false);
+    let report = tracer.render_pass(&mut renderer, samples, &go).unwrap();
+    assert_eq!((report.invalid_samples, report.complete), (0, true));
+    assert_eq!(report.samples_done_total, samples);
+    renderer.film().picture()
+}
+
+fn mean(picture: &Picture) -> f64 {
+    let sum: f64 = picture
+        .colour
+        .iter()
+        .map(|c| f64::from(c.luminance()))
+        .sum();
+    sum / picture.colour.len() as f64
+}
+
+/// Share of the pixels that differ by more than a thousandth of themselves and of the mean.
+fn differing(a: &Picture, b: &Picture) -> f64 {
+    let mean = mean(a) as f32;
+    let differ = a.colour.iter().zip(&b.colour).filter(|(a, b)| {
+        (**a - **b)
+            .to_array()
+            .iter()
+            .any(|d| d.abs() > 1e-3 * (mean + a.max_channel()))
+    });
+    differ.count() as f64 / a.colour.len() as f64
+}
+
+/// The luminance of a picture's pixels, and the variance of each.
+fn luminance(picture: &Picture) -> [Vec<f64>; 2] {
+    let mean = picture.colour.iter().map(|c| f64::from(c.luminance()));
+    let deviation = |v: &Rgb<f32>| f64::from(v.map(f32::sqrt).luminance());
+    let variance = picture.variance.iter().map(|v| deviation(v).powi(2));
+    [mean.collect(), variance.collect()]
+}
+
+fn image([mean, variance]: &[Vec<f64>; 2]) -> NoisyImage<'_> {
+    NoisyImage {
+        width: 40,
+        mean,
+        variance,
+    }
+}
+
+/// Share of pixels that differ between the devices, of the same samples of two scenes, and the quotient of
+/// means.
+fn compared(gpu: &Gpu, [processor, other]: [&Scene; 2], options: &RenderOptions) -> [f64; 2] {
+    let a = on_processor(processor, options, 2);
+    let b = on_gpu(gpu, other, options, 2);
+    assert!(mean(&a) > 0.0, "a black picture shows nothing");
+    [differing(&a, &b), mean(&b) / mean(&a)]
+}
+
+/// The same samples give the same picture.
+fn check(name: &str, scene: &Scene, change: impl Fn(RenderOptions) -> RenderOptions) {
+    let Some(gpu) = gpu(name) else { return };
+    let [share, ratio] = compared(gpu, [scene; 2], &change(options(scene, 1)));
+    println!(
+        "{name}: {:.2} % of pixels differ, means {ratio:.5}",
+        100.0 * share
+    );
+    assert!(
+        share < 0.02,
+        "{name}: {:.1} % of pixels differ",
+        100.0 * share
+    );
+}
+
+const ROOM: &str = "
+AttributeBegin
+  AreaLightSource \"diffuse\" \"rgb L\" [8 7 6]
+  Shape \"bilinearmesh\" \"point3 P\" [-0.5 -0.5 2.4  -0.5 0.5 2.4  0.5 -0.5 2.4  0.5 0.5 2.4]
+AttributeEnd
+Material \"diffuse\" \"rgb reflectance\" [0.6 0.5 0.4]
+Shape \"trianglemesh\" \"point3 P\" [-3 -5 0  3 -5 0  3 3 0  -3 3 0] \"integer indices\" [0 1 2 0 2 3]
+Shape \"trianglemesh\" \"point3 P\" [-3 3 0  3 3 0  3 3 3  -3 3 3] \"integer indices\" [0 1 2 0 2 3]
+";
+
+const SKY: &str = "LightSource \"infinite\" \"rgb L\" [0.4 0.5 0.6]\n";
+
+/// Two spheres of two materials on the floor, one of them squeezed.
+fn orbs(materials: [&str; 2]) -> String {
+    let orb = |x: f32, material: &str, size: &str| {
+        format!(
+            "AttributeBegin\n{material}\nTranslate {x} 0 0.6 Scale {size}\n\
+             Shape \"sphere\" \"float radius\" 0.6\nAttributeEnd\n"
+        )
+    };
+    orb(-0.75, materials[0], "1 1 1") + &orb(0.75, materials[1], "0.9 0.9 1.2")
+}
+
+fn metal(roughness: &str) -> String {
+    format!(
+        "Material \"conductor\" \"spectrum eta\" \"metal-Au-eta\" \"spectrum k\" \"metal-Au-k\" {roughness}"
+    )
+}
+
+const NARROW: &str = "\"float uroughness\" 0.05 \"float vroughness\" 0.3";
+const WIDE: &str = "\"float roughness\" 0.5";
+
+#[test]
+fn diffuse_triangles_under_an_area_light() {
+    let triangle = "Shape \"trianglemesh\" \"point3 P\" [-0.5 0 0  0.5 0.3 0  0 0 1] \"integer indices\" [0 1 2]";
+    check("diffuse", &scene(&format!("{ROOM}{triangle}")), |o| o);
+}
+
+#[test]
+fn renders_of_other_seeds_have_the_same_expectation() {
+    let Some(gpu) = gpu("other seeds") else {
+        return;
+    };
+    let scene = scene(&format!(
+        "{ROOM}{SKY}{}",
+        orbs([&metal(NARROW), &metal(WIDE)])
+    ));
+    let [a, b] = [
+        on_processor(&scene, &options(&scene, 1), 64),
+        on_gpu(gpu, &scene, &options(&scene, 2), 64),
+    ]
+    .map(|picture| luminance(&picture));
+    let report = compare(&image(&a), &image(&b), 8, 1e-4);
+    assert!(report.is_pass(), "{report}");
+}
+
+#[test]
+fn small_differences_are_noticed() {
+    let Some(gpu) = gpu("small differences") else {
+        return;
+    };
+    let text = |rough| format!("{ROOM}{SKY}{}", orbs([&metal(NARROW), &metal(rough)]));
+    let [right, rougher] = [WIDE, "\"float roughness\" 0.505"].map(|rough| scene(&text(rough)));
+    let [share, _] = compared(gpu, [&right, &rougher], &options(&right, 1));
+    assert!(share > 0.05, "a width 1 % larger: {share}");
+    let darker = scene(&text(WIDE).replace("[8 7 6]", "[7.92 6.93 5.94]"));
+    let [share, _] = compared(gpu, [&right, &darker], &options(&right, 1));
+    assert!(share > 0.05, "a lamp 1 % darker: {share}");
+}
+
+#[test]
+fn metals_by_every_treatment_of_energy() {
+    let [narrow, wide] = [NARROW, WIDE].map(metal);
+    let scene = scene(&format!("{ROOM}{SKY}{}", orbs([&narrow, &wide])));
+    for energy in [
+        "none",
+        "turquin",
+        "kulla-conty",
+        "multibounce",
+        "multibounce=heitz",
+    ] {
+        check(&format!("metal, {energy}"), &scene, |o| RenderOptions {
+            energy: energy.parse().unwrap(),
+            ..o
+        });
+    }
+}
+
+#[test]
+fn glass_by_every_treatment_of_energy() {
+    let smooth = "Material \"dielectric\" \"float eta\" 1.5";
+    let rough = "Material \"dielectric\" \"float eta\" 1.5 \"float roughness\" 0.3";
+    let scene = scene(&format!("{ROOM}{SKY}{}", orbs([smooth, rough])));
+    for energy in ["none", "turquin", "multibounce"] {
+        check(&format!("glass, {energy}"), &scene, |o| RenderOptions {
+            energy: energy.parse().unwrap(),
+            ..o
+        });
+    }
+}
+
+#[test]
+fn coats_panes_and_sheets() {
+    let coated =
+        "Material \"coateddiffuse\" \"rgb reflectance\" [0.2 0.5 0.1] \"float roughness\" 0.2";
+    let sheet = "Material \"diffusetransmission\" \"rgb reflectance\" [0.3 0.3 0.2] \"rgb transmittance\" [0.2 0.4 0.4]";
+    check(
+        "coat, sheet",
+        &scene(&format!("{ROOM}{SKY}{}", orbs([coated, sheet]))),
+        |o| o,
+    );
+    let pane = "Material \"thindielectric\" \"float eta\" 1.5";
+    let mix = "MakeNamedMaterial \"a\" \"string type\" \"diffuse\"\n\
+        MakeNamedMaterial \"b\" \"string type\" \"conductor\" \"rgb reflectance\" [0.9 0.8 0.7]\n\
+        Material \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" 0.4";
+    check(
+        "pane, mix",
+        &scene(&format!("{ROOM}{SKY}{}", orbs([pane, mix]))),
+        |o| o,
+    );
+}
+
+#[test]
+fn lights_of_every_kind_and_instances() {
+    let lights = "
+LightSource \"point\" \"rgb I\" [2 1 1] \"point3 from\" [-2 -2 2]
+LightSource \"spot\" \"rgb I\" [9 9 3] \"point3 from\" [2 -2 2] \"point3 to\" [0 0 0] \"float coneangle\" 40
+LightSource \"distant\" \"rgb L\" [0.5 0.6 1] \"point3 from\" [1 1 3] \"point3 to\" [0 0 0]
+AttributeBegin
+AreaLightSource \"diffuse\" \"rgb L\" [3 9 3]
+Translate 1.5 0.4 1.6
+Shape \"sphere\" \"float radius\" 0.15
+AttributeEnd
+AttributeBegin
+AreaLightSource \"diffuse\" \"rgb L\" [9 3 3] \"bool twosided\" true
+Translate -1.5 0.4 1.6 Rotate 40 1 1 0
+Shape \"disk\" \"float radius\" 0.2
+AttributeEnd
+ObjectBegin \"thing\"
+Material \"conductor\" \"rgb reflectance\" [0.8 0.8 0.9] \"float roughness\" 0.2
+Shape \"trianglemesh\" \"point3 P\" [-0.5 0 0  0.5 0.3 0  0 0 1  0.2 0.9 0.3] \"integer indices\" [0 1 2 1 3 2]
+Shape \"sphere\" \"float radius\" 0.25
+ObjectEnd
+AttributeBegin Translate -1 0 0.3 Rotate 30 0 0 1 ObjectInstance \"thing\" AttributeEnd
+AttributeBegin Translate 0.8 0 0.3 Scale 0.8 0.8 1.2 ObjectInstance \"thing\" AttributeEnd
+";
+    let scene = scene(&format!("{ROOM}{SKY}{lights}"));
+    check("lights, instances", &scene, |o| o);
+    check("lights only", &scene, |o| RenderOptions {
+        strategy: Strategy::LightsOnly,
+        ..o
+    });
+    check("lobes only", &scene, |o| RenderOptions {
+        strategy: Strategy::BsdfOnly,
+        ..o
+    });
+}
+
+#[test]
+fn lenses_filters_and_orthographic_views() {
+    let text = format!(
+        "{ROOM}{SKY}{}",
+        orbs([&metal(WIDE), "Material \"diffuse\""])
+    );
+    let mut lens = scene(&text);
+    lens.camera.lens_radius = 0.1;
+    lens.camera.focal_distance = 4.0;
+    lens.film.filter = Filter::Mitchell {
+        radius: [2.0; 2],
+        b: 1.0 / 3.0,
+        c: 1.0 / 3.0,
+    };
+    check("lens, Mitchell", &lens, |o| o);
+    let mut flat = scene(&text);
+    flat.camera.projection = Projection::Orthographic;
+    flat.camera.screen_window = [-2.0, 2.0, -1.6, 1.6];
+    check("orthographic", &flat, |o| o);
+}
+
+#[test]
+fn textures_reliefs_and_cut_outs() {
+    let textures = "
+Texture \"squares\" \"spectrum\" \"checkerboard\" \"float uscale\" 8 \"float vscale\" 8 \"rgb tex1\" [0.1 0.3 0.7] \"rgb tex2\" [0.8 0.7 0.2]
+Texture \"spots\" \"float\" \"fbm\" \"integer octaves\" 4
+Texture \"rough\" \"float\" \"scale\" \"texture tex\" \"spots\" \"float scale\" 0.4
+Texture \"bumps\" \"float\" \"scale\" \"texture tex\" \"spots\" \"float scale\" 0.05
+Texture \"holes\" \"float\" \"checkerboard\" \"float uscale\" 6 \"float vscale\" 6 \"float tex1\" 1 \"float tex2\" 0.2
+";
+    let painted = "Material \"diffuse\" \"texture reflectance\" \"squares\" \"texture displacement\" \"bumps\"";
+    let worn =
+        "Material \"conductor\" \"rgb reflectance\" [0.9 0.8 0.7] \"texture roughness\" \"rough\"";
+    let text = format!("{ROOM}{SKY}{textures}{}", orbs([painted, worn]));
+    check("textures, reliefs", &scene(&text), |o| o);
+    let veil = "Material \"diffuse\" Shape \"disk\" \"float radius\" 1 \"float height\" 1.4 \"texture alpha\" \"holes\"\n";
+    check("cut-outs", &scene(&format!("{text}{veil}")), |o| o);
+}
+
+#[test]
+fn bodies_that_absorb_and_hidden_lights() {
+    let media = "
+MakeNamedMedium \"dark\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [0.4 1.2 2] \"rgb sigma_s\" [0 0 0]
+MakeNamedMedium \"light\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [1.5 0.2 0.3] \"rgb sigma_s\" [0 0 0]
+AttributeBegin
+MediumInterface \"dark\" \"\"
+Material \"dielectric\" \"float eta\" 1.4
+Translate -0.7 0 0.6
+Shape \"sphere\" \"float radius\" 0.6
+AttributeEnd
+AttributeBegin
+MediumInterface \"light\" \"\"
+Material \"interface\"
+Translate 0.7 0 0.6
+Shape \"sphere\" \"float radius\" 0.6
+AttributeEnd
+AttributeBegin
+Material \"conductor\" \"rgb reflectance\" [0.9 0.9 0.9] \"float roughness\" 0.1
+Translate 0.7 0 0.6
+Shape \"sphere\" \"float radius\" 0.25
+AttributeEnd
+";
+    let mut scene = scene(&format!("{ROOM}{SKY}{media}"));
+    check("bodies", &scene, |o| o);
+    scene.settings.hide_emitters = true;
+    check("hidden lights", &scene, |o| o);
+}

@@ -1,0 +1,149 @@
+//! Shaders of textures on a GPU.
+
+use specula_gpu::{Gpu, Kernel};
+use specula_render::PreparedScene;
+
+/// A file of `wgsl/`, by its name.
+pub(crate) type Module = (&'static str, &'static str);
+
+const WORLD: Module = ("world", include_str!("../../wgsl/world.wgsl"));
+const ANGLES: Module = ("angles", include_str!("../../wgsl/angles.wgsl"));
+const PLACE: Module = (
+    "texture_place",
+    include_str!("../../wgsl/texture_place.wgsl"),
+);
+const MAPPING: Module = (
+    "texture_mapping",
+    include_str!("../../wgsl/texture_mapping.wgsl"),
+);
+const RASTER: Module = (
+    "texture_raster",
+    include_str!("../../wgsl/texture_raster.wgsl"),
+);
+const NOISE: Module = (
+    "texture_noise",
+    include_str!("../../wgsl/texture_noise.wgsl"),
+);
+const GRAPH: Module = (
+    "texture_graph",
+    include_str!("../../wgsl/texture_graph.wgsl"),
+);
+
+/// Modules of textures.
+pub(crate) const TEXTURES: [Module; 7] = [WORLD, ANGLES, PLACE, MAPPING, RASTER, NOISE, GRAPH];
+
+/// Modules of reliefs, besides the library's `frame`.
+pub(crate) const RELIEFS: [Module; 11] = [
+    WORLD,
+    ANGLES,
+    PLACE,
+    MAPPING,
+    RASTER,
+    NOISE,
+    GRAPH,
+    ("traverse", include_str!("../../wgsl/traverse.wgsl")),
+    ("surface", include_str!("../../wgsl/surface.wgsl")),
+    ("partials", include_str!("../../wgsl/partials.wgsl")),
+    ("relief", include_str!("../../wgsl/relief.wgsl")),
+];
+
+/// A text of a module that is replaced by a wrong one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fault {
+    pub(crate) module: &'static str,
+    pub(crate) from: &'static str,
+    pub(crate) to: &'static str,
+}
+
+/// What a test runs.
+pub(crate) struct Shader<'a> {
+    /// Reads binding 0, writes binding 4.
+    pub(crate) kernel: &'a str,
+    pub(crate) modules: &'a [Module],
+    pub(crate) fault: Option<Fault>,
+}
+
+/// The GPU of the tests.
+pub(crate) struct Device(Gpu);
+
+impl Device {
+    /// The GPU, or `None` where there is none and the test is left out. `SPECULA_GPU_ADAPTER` chooses
+    /// one by its place or name.
+    ///
+    /// # Panics
+    ///
+    /// Where there is none though `SPECULA_GPU=require` asks for it.
+    pub(crate) fn open(test: &str) -> Option<Self> {
+        let choice = std::env::var("SPECULA_GPU_ADAPTER").unwrap_or_else(|_| "best".to_owned());
+        match Gpu::open(&choice.parse().unwrap_or_default()) {
+            Ok(gpu) => {
+                println!("{test}: {}", gpu.adapter);
+                Some(Self(gpu))
+            }
+            Err(error) => {
+                let required = std::env::var("SPECULA_GPU").is_ok_and(|v| v == "require");
+                assert!(!required, "SPECULA_GPU=require, but: {error}");
+                eprintln!("SKIPPED {test}: {error}");
+                None
+            }
+        }
+    }
+
+    /// Runs a shader over a scene.
+    ///
+    /// * `numbers`: what it reads.
+    /// * `count`: how many numbers it writes.
+    pub(crate) fn run(
+        &self,
+        scene: &PreparedScene,
+        shader: &Shader<'_>,
+        numbers: &[f32],
+        count: usize,
+        workgroups: [u32; 3],
+    ) -> Vec<f32> {
+        let gpu = &self.0;
+        let flat = scene.flatten();
+        let mut source = specula_shaders::compose(&["frame"]).unwrap();
+        source += "const STACK_SIZE: u32 = 64u;\n";
+        for (name, value) in &flat.constants {
+            source += &format!("const {name}: u32 = {value}u;\n");
+        }
+        for (name, text) in shader.modules {
+            let text = match shader.fault {
+                Some(fault) if fault.module == *name => {
+                    assert_eq!(text.matches(fault.from).count(), 1, "{fault:?}");
+                    text.replace(fault.from, fault.to)
+                }
+                _ => (*text).to_owned(),
+            };
+            let code = text.lines().filter(|line| !line.starts_with("import "));
+            source.extend(code.flat_map(|line| [line, "\n"]));
+        }
+        source += shader.kernel;
+        let module = gpu.shader("textures", &source).unwrap();
+        let kernel = Kernel::new(gpu, &module, "main", 4).unwrap();
+        let or_one = |bytes: &[u8]| {
+            if bytes.is_empty() {
+                vec![0; 4]
+            } else {
+                bytes.to_vec()
+            }
+        };
+        let inputs = [
+            or_one(bytes(numbers)),
+            or_one(flat.nodes),
+            or_one(flat.packets),
+            or_one(bytes(&flat.words)),
+        ];
+        let inputs: Vec<&[u8]> = inputs.iter().map(Vec::as_slice).collect();
+        let arrays = kernel.upload(gpu, &inputs, 4 * count as u64).unwrap();
+        kernel.run(gpu, &arrays, workgroups).unwrap();
+        let output = arrays.output(gpu).unwrap();
+        let number = |b: &[u8]| f32::from_le_bytes([b[0], b[1], b[2], b[3]]);
+        output.chunks_exact(4).map(number).collect()
+    }
+}
+
+fn bytes<T: bytemuck::NoUninit>(values: &[T]) -> &[u8] {
+    bytemuck::cast_slice(values)
+}

@@ -1,0 +1,124 @@
+// A material at a point: its parameters there, textures looked up.
+//
+// Each kind of material has a module of its own (`material_diffuse`, `material_conductor`, ...) with
+// four functions: bind, eval, draw and albedo. The switch over the kinds that a scene has is written for
+// each scene (`specula-gpu/src/program.rs`).
+//
+// Twin of specula-render/src/material/{mod,bind,flat}.rs.
+
+import tracer::world::{word, number};
+import tracer::texture_place::{Place};
+import tracer::texture_graph::{parameter_colour};
+
+/// A material's parameters at a point; what `first`, `second` and `third` are is its kind's matter.
+struct Bound {
+    kind: u32,
+    // The material's number; of a mix, the chosen one's.
+    material: u32,
+    // Turn of the tangent, in radians.
+    rotation: f32,
+    // Which of the kind's lobes it is.
+    variant: u32,
+    // Whether nothing but Dirac deltas is left.
+    specular: bool,
+    // Whether it is black where `wi.z <= 0`.
+    opaque: bool,
+    // Whether tangents do not matter.
+    isotropic: bool,
+    // Energy model: 0 for single scattering; see specula-render/src/material/flat.rs.
+    energy: u32,
+    masking: u32,
+    distribution: u32,
+    alpha: vec2f,
+    eta: f32,
+    first: vec3f,
+    second: vec3f,
+    third: vec3f,
+}
+
+// Words of a record's head.
+/// Kind.
+const MATERIAL_KIND: u32 = 0u;
+/// Whether its back is black.
+const MATERIAL_ONE_SIDED: u32 = 1u;
+/// Rotation of the tangent, in radians.
+const MATERIAL_ROTATION: u32 = 3u;
+/// Whether tangents do not matter.
+const MATERIAL_ISOTROPIC: u32 = 4u;
+/// Energy model.
+const MATERIAL_ENERGY: u32 = 5u;
+/// How many parameters may have a texture; they follow.
+const MATERIAL_PARAMETERS: u32 = 6u;
+/// Least width of a rough surface.
+const BOUND_SMOOTH_BELOW: f32 = 1.0e-3;
+/// Most parameters that may have a texture.
+const MOST_PARAMETERS: u32 = 12u;
+/// Kind of what is black.
+const BOUND_BLACK: u32 = 0xffffffffu;
+
+/// A black surface.
+fn bound_black() -> Bound {
+    var b: Bound;
+    b.kind = BOUND_BLACK;
+    b.opaque = true;
+    b.isotropic = true;
+    b.eta = 1.0;
+    return b;
+}
+
+/// What the head of a record says.
+fn bound_head(record: u32) -> Bound {
+    var b: Bound;
+    b.kind = word(record + MATERIAL_KIND);
+    b.rotation = number(record + MATERIAL_ROTATION);
+    b.isotropic = word(record + MATERIAL_ISOTROPIC) != 0u;
+    b.energy = word(record + MATERIAL_ENERGY);
+    b.eta = 1.0;
+    return b;
+}
+
+/// A material's parameters at a place: those that may have a texture, looked up, and the place of the other
+/// words.
+struct Parameters {
+    values: array<vec3f, MOST_PARAMETERS>,
+    plain: u32,
+}
+
+/// Looks up the parameters of a record. One call in a loop: textures are long.
+fn bound_parameters(record: u32, place: Place) -> Parameters {
+    var p: Parameters;
+    let count = word(record + MATERIAL_PARAMETERS);
+    var at = record + MATERIAL_PARAMETERS + 1u;
+    for (var i = 0u; i < min(count, MOST_PARAMETERS); i += 1u) {
+        p.values[i] = parameter_colour(at, place);
+        at += 4u;
+    }
+    p.plain = at;
+    return p;
+}
+
+/// A colour in `[0, 1]`.
+fn bound_albedo(colour: vec3f) -> vec3f {
+    return clamp(colour, vec3f(0.0), vec3f(1.0));
+}
+
+/// Widths, distribution and masking from the first two parameters and the first three words; widths of 0
+/// where it is smooth.
+///
+/// Twin: specula-render/src/material/metal.rs, alpha.
+fn bound_roughness(b: Bound, p: Parameters) -> Bound {
+    var rough = b;
+    var r = max(vec2f(p.values[0].x, p.values[1].x), vec2f(0.0));
+    let mapping = word(p.plain);
+    if mapping == 1u {
+        r = sqrt(r);
+    } else if mapping == 2u {
+        r = r * r;
+    }
+    let is_rough = r.x >= BOUND_SMOOTH_BELOW || r.y >= BOUND_SMOOTH_BELOW;
+    let widths = clamp(r, vec2f(BOUND_SMOOTH_BELOW), vec2f(10.0));
+    rough.alpha = select(vec2f(0.0), widths, is_rough);
+    rough.distribution = word(p.plain + 1u);
+    rough.masking = word(p.plain + 2u);
+    return rough;
+}

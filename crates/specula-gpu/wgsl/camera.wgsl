@@ -1,0 +1,94 @@
+// Cameras and filters: from a sample of a pixel to a ray and the sample's weight.
+//
+// Twin of specula-render/src/camera.rs and film/filter.rs.
+
+import tracer::world::{word, number, affine_point, affine_vector};
+
+/// A camera's ray, and the weight of its sample.
+struct CameraRay {
+    origin: vec3f,
+    direction: vec3f,
+    weight: f32,
+}
+
+/// A point of the unit disk, area-preserving and continuous (Shirley and Chiu 1997).
+///
+/// Twin: specula-render/src/camera.rs, concentric_disk.
+fn camera_disk(u: vec2f) -> vec2f {
+    let a = 2.0 * u.x - 1.0;
+    let b = 2.0 * u.y - 1.0;
+    if a == 0.0 && b == 0.0 {
+        return vec2f(0.0);
+    }
+    var r = a;
+    var phi = 0.0;
+    if a * a > b * b {
+        phi = 0.78539816339 * (b / a);
+    } else {
+        r = b;
+        phi = 1.57079632679 - 0.78539816339 * (a / b);
+    }
+    return vec2f(r * cos(phi), r * sin(phi));
+}
+
+/// A position about the pixel's middle drawn by one axis of the filter, and its weight.
+///
+/// * `at`: the axis.
+///
+/// Twin: specula-render/src/film/filter.rs, Axis::sample.
+fn camera_filter(at: u32, u: f32) -> vec2f {
+    let radius = number(at);
+    if word(at + 1u) != 0u {
+        return vec2f((u * 2.0 - 1.0) * radius, 1.0);
+    }
+    let cdf = at + 3u;
+    var cell = 0u;
+    var size = FILTER_CELLS;
+    while size > 1u {
+        let part = size / 2u;
+        if number(cdf + cell + part) <= u {
+            cell += part;
+        }
+        size -= part;
+    }
+    let begin = number(cdf + cell);
+    let width = number(cdf + cell + 1u) - begin;
+    var within = 0.5;
+    if width > 0.0 {
+        within = clamp((u - begin) / width, 0.0, 1.0);
+    }
+    let x = ((f32(cell) + within) / f32(FILTER_CELLS) * 2.0 - 1.0) * radius;
+    let magnitude = number(at + 2u);
+    let negative = word(cdf + FILTER_CELLS + 1u + cell) != 0u;
+    return vec2f(x, select(magnitude, -magnitude, negative));
+}
+
+/// The ray of a sample.
+///
+/// * `u`: two numbers for the filter, two for the lens.
+///
+/// Twin: specula-render/src/camera.rs, Camera::ray.
+fn camera_ray(pixel: vec2u, u: vec4f) -> CameraRay {
+    let across = camera_filter(FILTER_ACROSS, u.x);
+    let down = camera_filter(FILTER_DOWN, u.y);
+    let raster = vec2f(pixel) + 0.5 + vec2f(across.x, down.x);
+    let x = number(CAMERA + 12u) + raster.x * number(CAMERA + 14u);
+    let y = number(CAMERA + 13u) + raster.y * number(CAMERA + 15u);
+    var begin = vec3f(0.0);
+    var towards = vec3f(x, y, 1.0);
+    if CAMERA_VIEW == 1u {
+        begin = vec3f(x, y, 0.0);
+        towards = vec3f(0.0, 0.0, 1.0);
+    }
+    let radius = number(CAMERA + 16u);
+    if radius > 0.0 {
+        let focus = begin + towards * number(CAMERA + 17u);
+        begin += vec3f(camera_disk(u.zw) * radius, 0.0);
+        towards = focus - begin;
+    }
+    return CameraRay(
+        affine_point(CAMERA, begin),
+        normalize(affine_vector(CAMERA, towards)),
+        across.y * down.y,
+    );
+}

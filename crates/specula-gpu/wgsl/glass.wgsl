@@ -1,0 +1,38 @@
+// Indices, tints and widths of glass from a material's parameters.
+//
+// Twin of specula-render/src/material/bind.rs, MaterialKind::Dielectric.
+
+import tracer::world::{number};
+import tracer::bound::{Bound, Parameters, bound_albedo, bound_roughness};
+import package::bsdf::tints::{Tints};
+import package::bsdf::microfacets::{Microfacets};
+import package::bsdf::smooth_dielectric::{SmoothDielectric};
+
+/// The parameters at a place: `eta` the index beyond the surface over that on the viewer's side,
+/// `first` and `second` the tints of reflection and transmission.
+fn glass_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
+    var b = bound_roughness(head, p);
+    let eta = number(p.plain + 3u);
+    b.eta = select(1.0 / eta, eta, outside);
+    b.first = bound_albedo(p.values[2]);
+    b.second = bound_albedo(p.values[3]);
+    // With equal indices nothing is bent, however rough.
+    b.specular = b.alpha.x == 0.0 || abs(b.eta - 1.0) <= 1.0e-4;
+    return b;
+}
+
+/// The tints of what `glass_bind` made.
+fn glass_tints(b: Bound) -> Tints {
+    return Tints(b.first, b.second);
+}
+
+/// The facets of what `glass_bind` made. Caps whatever is chosen for metals: refraction needs all visible
+/// normals.
+fn glass_facets(b: Bound) -> Microfacets {
+    return Microfacets(b.alpha, b.distribution, b.masking, SAMPLER_CAP);
+}
+
+/// The smooth surface of what `glass_bind` made, facing the viewer.
+fn glass_smooth(b: Bound) -> SmoothDielectric {
+    return SmoothDielectric(b.eta, 0u, glass_tints(b));
+}

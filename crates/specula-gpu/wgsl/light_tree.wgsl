@@ -1,0 +1,156 @@
+// A binary tree over the lights in the scene: choice by importance at a point.
+//
+// From the root down, either child is taken with the probability of its share of the importance of both;
+// the path to every light is kept as a trail of bits, such that the probability of a light that a ray
+// met by chance is the same product.
+//
+// LIGHT_NODES has LIGHT_NODE_COUNT nodes, LIGHT_TRAILS two words for each light: the lower and the upper
+// bits of its trail, from the root on; 1 for right.
+//
+// Source: Conty Estevez and Kulla 2018, section 5.4; Pharr, Jakob and Humphreys, 4th edition, 12.6.3.
+// Twin of specula-render/src/light/tree.rs.
+
+import tracer::light_node::{LIGHT_NODE_WORDS, light_node_importance};
+import tracer::world::{word};
+
+/// Trail of a light that is not in the tree.
+const LIGHT_TREE_ABSENT: vec2u = vec2u(0xffffffffu, 0xffffffffu);
+/// Rounding must not take the chance of the lesser child.
+const LIGHT_TREE_LEAST_SHARE: f32 = 1e-6;
+/// The largest number below 1.
+const LIGHT_TREE_BELOW_ONE: f32 = 0.99999994;
+
+/// A light and its probability; 0: there is no light.
+struct LightChoice {
+    /// Its number.
+    light: u32,
+    /// In (0, 1].
+    probability: f32,
+}
+
+/// A number in `[0, 1)` with more digits than a word holds: `coarse + spacing * digits`.
+///
+/// `digits` are drawn once and count what `coarse` leaves open: decisions consume digits of `coarse`,
+/// and as its part is stretched, `spacing` grows with it. The twins have `f64` for it; against these, a
+/// decision errs where the number is within a rounding of `f32` (2^-24) of its threshold.
+struct LightNumber {
+    /// A multiple of `spacing` but for a shift: below 0 where a threshold cut its part.
+    coarse: f32,
+    /// Distance of two values of `coarse`.
+    spacing: f32,
+    /// In `[0, 1)`.
+    digits: f32,
+}
+
+/// The word at a node.
+fn light_tree_place(node: u32) -> u32 {
+    return LIGHT_NODES + LIGHT_NODE_WORDS * node;
+}
+
+/// Whether a node is a leaf.
+fn light_tree_is_leaf(node: u32) -> bool {
+    return (word(light_tree_place(node) + 10u) & 2u) != 0u;
+}
+
+/// A leaf's light, or the distance in nodes to the right child.
+fn light_tree_link(node: u32) -> u32 {
+    return word(light_tree_place(node) + 11u);
+}
+
+/// Importances of the children of a node.
+fn light_tree_children(node: u32, position: vec3f, normal: vec3f) -> vec2f {
+    let right = node + light_tree_link(node);
+    return vec2f(
+        light_node_importance(light_tree_place(node + 1u), position, normal),
+        light_node_importance(light_tree_place(right), position, normal),
+    );
+}
+
+/// Share of the first of two importances, off 0 and 1 unless one is 0 alone; a half where both are:
+/// nothing arrives then, but the probabilities still add up to 1.
+/// Twin: specula-render/src/light/tree.rs, share.
+fn light_tree_share(importances: vec2f) -> f32 {
+    if importances.x <= 0.0 {
+        return select(0.5, 0.0, importances.y > 0.0);
+    }
+    if importances.y <= 0.0 {
+        return 1.0;
+    }
+    let share = importances.x / (importances.x + importances.y);
+    return clamp(share, LIGHT_TREE_LEAST_SHARE, 1.0 - LIGHT_TREE_LEAST_SHARE);
+}
+
+/// An estimate of the irradiance by all lights: the sum over the root's children. 0 only where no light
+/// can contribute.
+/// Twin: specula-render/src/light/tree.rs, LightTree::total.
+fn light_tree_total(position: vec3f, normal: vec3f) -> f32 {
+    if LIGHT_NODE_COUNT == 0u {
+        return 0.0;
+    }
+    if light_tree_is_leaf(0u) {
+        return light_node_importance(LIGHT_NODES, position, normal);
+    }
+    let importances = light_tree_children(0u, position, normal);
+    return importances.x + importances.y;
+}
+
+/// The number itself, as far as `f32` holds it.
+fn light_tree_value(u: LightNumber) -> f32 {
+    return clamp(u.coarse + u.spacing * u.digits, 0.0, LIGHT_TREE_BELOW_ONE);
+}
+
+/// The part of a number's range from `begin` on, stretched by `1 / size` to `[0, 1)`.
+fn light_tree_within(u: LightNumber, begin: f32, size: f32) -> LightNumber {
+    return LightNumber((u.coarse - begin) / size, u.spacing / size, u.digits);
+}
+
+/// A light and its probability.
+///
+/// * `u`: uniform in `[0, 1)`.
+///
+/// Twin: specula-render/src/light/tree.rs, LightTree::sample.
+fn light_tree_draw(position: vec3f, normal: vec3f, u: LightNumber) -> LightChoice {
+    if LIGHT_NODE_COUNT == 0u {
+        return LightChoice(0u, 0.0);
+    }
+    var rest = u;
+    var node = 0u;
+    var probability = 1.0;
+    while !light_tree_is_leaf(node) {
+        let left = light_tree_share(light_tree_children(node, position, normal));
+        if light_tree_value(rest) < left {
+            rest = light_tree_within(rest, 0.0, left);
+            probability *= left;
+            node += 1u;
+        } else {
+            rest = light_tree_within(rest, left, 1.0 - left);
+            probability *= 1.0 - left;
+            node += light_tree_link(node);
+        }
+    }
+    return LightChoice(light_tree_link(node), probability);
+}
+
+/// Probability with which `light_tree_draw` draws a light.
+/// Twin: specula-render/src/light/tree.rs, LightTree::probability.
+fn light_tree_probability(position: vec3f, normal: vec3f, light: u32) -> f32 {
+    let at = LIGHT_TRAILS + 2u * light;
+    var trail = vec2u(word(at), word(at + 1u));
+    if all(trail == LIGHT_TREE_ABSENT) {
+        return 0.0;
+    }
+    var node = 0u;
+    var probability = 1.0;
+    while !light_tree_is_leaf(node) {
+        let left = light_tree_share(light_tree_children(node, position, normal));
+        if (trail.x & 1u) == 0u {
+            probability *= left;
+            node += 1u;
+        } else {
+            probability *= 1.0 - left;
+            node += light_tree_link(node);
+        }
+        trail = vec2u((trail.x >> 1u) | (trail.y << 31u), trail.y >> 1u);
+    }
+    return probability;
+}

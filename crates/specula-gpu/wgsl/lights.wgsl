@@ -1,0 +1,255 @@
+// The lights of a scene: one is chosen at a point and a point on it drawn; what is met by chance is
+// looked up with the density of just that.
+//
+// LIGHT_PLACES has the place of each of LIGHT_COUNT lights: its kind, then of
+// - a shape: whether it shines to both sides, radiance (3), the shape (area.wgsl);
+// - a light with extent at infinity: its number among those;
+// - a light without extent: itself (delta.wgsl).
+//
+// LIGHT_FAR has the place and the number of each of LIGHT_FAR_COUNT lights with extent at infinity: kind,
+// then itself (environment.wgsl, sun.wgsl). LIGHT_ALIAS has LIGHT_ALIAS_COUNT bins of an alias table over
+// all lights, of which only those at infinity have weights: share of the bin that is its own, whom the
+// rest belongs to, probability of the entry. LIGHT_FAR_IRRADIANCE is the place of their irradiance,
+// LIGHT_ONLY the light that is always drawn, or NONE.
+//
+// Twin of specula-render/src/light/{mod,select,alias}.rs. Departures: shapes with textures or opacity and
+// pictures thrown from a point are not there.
+
+import tracer::area::{area_draw, area_pdf};
+import tracer::delta::{delta_illuminate};
+import tracer::environment::{environment_arriving, environment_draw};
+import tracer::light_tree::{LightChoice, LightNumber, light_tree_draw, light_tree_probability, light_tree_total, light_tree_value, light_tree_within};
+import tracer::sun::{sun_arriving, sun_density, sun_draw};
+import tracer::world::{NONE, number, vector, word};
+
+/// Kinds of lights.
+const LIGHTS_AREA: u32 = 0u;
+const LIGHTS_FAR: u32 = 1u;
+const LIGHTS_DELTA: u32 = 2u;
+/// Kinds of lights with extent at infinity.
+const LIGHTS_ENVIRONMENT: u32 = 0u;
+const LIGHTS_SUN: u32 = 1u;
+/// Smallest share of either class of lights where there are both.
+const LIGHTS_LEAST_SHARE: f32 = 0.15;
+/// What the second number of a choice counts: the first is a multiple of it, 2^-23.
+const LIGHTS_FINER: f32 = 1.1920929e-7;
+
+/// A point to be lit.
+/// Twin: specula-render/src/light/node.rs, Receiver.
+struct Receiver {
+    /// Where it is.
+    position: vec3f,
+    /// Unit; light from below it is lost. Zero where light from every side counts.
+    normal: vec3f,
+}
+
+/// Light that could arrive, if nothing is in the way.
+/// Twin: specula-render/src/light/mod.rs, LightSample and Target.
+struct LightSample {
+    /// Unit, towards the light.
+    wi: vec3f,
+    /// Density in 1/sr, times the probability of the light; the probability alone where `delta`.
+    pdf: f32,
+    /// Radiance; of a light without extent, irradiance on a surface that faces it.
+    radiance: vec3f,
+    /// Whether no direction drawn otherwise can find it.
+    delta: u32,
+    /// Where it comes from.
+    target_position: vec3f,
+    /// Bound on the error of each component of that.
+    target_error: vec3f,
+    /// Of the light there.
+    target_normal: vec3f,
+    /// Whether it comes from infinity: there is no target then.
+    from_infinity: u32,
+    /// 0: there is no sample.
+    valid: u32,
+}
+
+/// Light at a point from one light.
+///
+/// * `u`: choice of light, two for the point on it, finer digits of the choice.
+///
+/// Twin: specula-render/src/light/mod.rs, Lights::sample.
+fn lights_draw(receiver: Receiver, u: vec4f) -> LightSample {
+    let choice = lights_choose(receiver, u.x, u.w);
+    var drawn: LightSample;
+    if choice.probability <= 0.0 {
+        return drawn;
+    }
+    let at = word(LIGHT_PLACES + choice.light);
+    switch word(at) {
+        case LIGHTS_AREA: {
+            drawn = lights_draw_area(at + 1u, receiver.position, u.yz);
+        }
+        case LIGHTS_FAR: {
+            drawn = lights_draw_far(word(LIGHT_FAR + 2u * word(at + 1u)), u.yz);
+        }
+        case LIGHTS_DELTA: {
+            drawn = lights_draw_delta(at + 1u, receiver.position);
+        }
+        default: {}
+    }
+    drawn.pdf *= choice.probability;
+    return drawn;
+}
+
+/// A point of the shape that shines at `at`, seen from `p`.
+/// Twin: specula-render/src/light/mod.rs, Lights::sample_one.
+fn lights_draw_area(at: u32, p: vec3f, u: vec2f) -> LightSample {
+    let s = area_draw(at + 4u, p, u);
+    var drawn: LightSample;
+    drawn.wi = s.wi;
+    drawn.pdf = s.pdf;
+    drawn.radiance = vector(at + 1u);
+    drawn.target_position = s.position;
+    drawn.target_error = s.error;
+    drawn.target_normal = s.normal;
+    let shines = word(at) != 0u || dot(s.normal, s.wi) < 0.0;
+    drawn.valid = u32(s.pdf > 0.0 && shines);
+    return drawn;
+}
+
+/// A direction to the light at infinity at `at`.
+/// Twin: specula-render/src/light/mod.rs, Far::sample.
+fn lights_draw_far(at: u32, u: vec2f) -> LightSample {
+    var drawn: LightSample;
+    drawn.from_infinity = 1u;
+    if word(at) == LIGHTS_SUN {
+        drawn.wi = sun_draw(at + 1u, u);
+        drawn.radiance = vector(at + 10u);
+        drawn.pdf = sun_density(at + 1u);
+        drawn.valid = 1u;
+        return drawn;
+    }
+    let s = environment_draw(at + 1u, u);
+    drawn.wi = s.wi;
+    drawn.radiance = s.radiance;
+    drawn.pdf = s.pdf;
+    drawn.valid = u32(s.pdf > 0.0);
+    return drawn;
+}
+
+/// What the light without extent at `at` sends to `p`.
+/// Twin: specula-render/src/light/mod.rs, Lights::sample_one.
+fn lights_draw_delta(at: u32, p: vec3f) -> LightSample {
+    let arrival = delta_illuminate(at, p);
+    var drawn: LightSample;
+    drawn.wi = arrival.wi;
+    drawn.pdf = 1.0;
+    drawn.radiance = arrival.irradiance;
+    drawn.delta = 1u;
+    drawn.target_position = arrival.position;
+    drawn.target_normal = arrival.wi;
+    drawn.from_infinity = u32(arrival.distant);
+    drawn.valid = u32(any(arrival.irradiance != vec3f(0.0)));
+    return drawn;
+}
+
+/// Density in 1/sr, times the probability of the light, with which `lights_draw` draws the direction to
+/// the point `position` of the surface of a light.
+///
+/// * `light`: its number; NONE of a surface that does not shine.
+/// * `normal`: of the surface there.
+///
+/// Twin: specula-render/src/light/mod.rs, Lights::pdf_of_surface.
+fn lights_pdf_of_surface(
+    receiver: Receiver,
+    light: u32,
+    position: vec3f,
+    normal: vec3f,
+) -> f32 {
+    if light >= LIGHT_COUNT {
+        return 0.0;
+    }
+    let at = word(LIGHT_PLACES + light);
+    if word(at) != LIGHTS_AREA {
+        return 0.0;
+    }
+    let probability = lights_probability_near(receiver, light);
+    return probability * area_pdf(at + 5u, receiver.position, position, normal);
+}
+
+/// How many lights with extent at infinity there are.
+fn lights_arriving_count() -> u32 {
+    return LIGHT_FAR_COUNT;
+}
+
+/// Radiance from the direction `wi` of light `i` at infinity, and the density in 1/sr, times its
+/// probability among those: `lights_draw` draws it with that density times `lights_share_from_infinity`.
+/// Twin: specula-render/src/light/mod.rs, Lights::arriving_from_infinity.
+fn lights_arriving(i: u32, wi: vec3f) -> vec4f {
+    let at = word(LIGHT_FAR + 2u * i);
+    let light = word(LIGHT_FAR + 2u * i + 1u);
+    var arriving = vec4f(0.0);
+    if word(at) == LIGHTS_SUN {
+        arriving = sun_arriving(at + 1u, wi);
+    } else {
+        arriving = environment_arriving(at + 1u, wi);
+    }
+    var probability = 0.0;
+    if light < LIGHT_ALIAS_COUNT {
+        probability = number(LIGHT_ALIAS + 3u * light + 2u);
+    }
+    return vec4f(arriving.rgb, probability * arriving.w);
+}
+
+/// Probability with which `lights_draw` takes any light from infinity: the estimates of irradiance
+/// decide, within bounds, since neither knows what is in the way.
+/// Twin: specula-render/src/light/select.rs, Selection::share.
+fn lights_share_from_infinity(receiver: Receiver) -> f32 {
+    let far = number(LIGHT_FAR_IRRADIANCE);
+    if far <= 0.0 {
+        return 0.0;
+    }
+    let near = light_tree_total(receiver.position, receiver.normal);
+    if near <= 0.0 {
+        return 1.0;
+    }
+    return clamp(far / (far + near), LIGHTS_LEAST_SHARE, 1.0 - LIGHTS_LEAST_SHARE);
+}
+
+/// Probability with which `lights_draw` takes a light in the scene.
+/// Twin: specula-render/src/light/select.rs, Selection::probability_near.
+fn lights_probability_near(receiver: Receiver, light: u32) -> f32 {
+    let share = 1.0 - lights_share_from_infinity(receiver);
+    return share * light_tree_probability(receiver.position, receiver.normal, light);
+}
+
+/// A light and its probability.
+///
+/// * `u`, `finer`: uniform in `[0, 1)`; the second adds digits to the first.
+///
+/// Twin: specula-render/src/light/select.rs, Selection::choose.
+fn lights_choose(receiver: Receiver, u: f32, finer: f32) -> LightChoice {
+    if LIGHT_ONLY != NONE {
+        return LightChoice(LIGHT_ONLY, 1.0);
+    }
+    let share = lights_share_from_infinity(receiver);
+    let choosing = LightNumber(u, LIGHTS_FINER, finer);
+    if light_tree_value(choosing) < share {
+        let choice = lights_alias(light_tree_value(light_tree_within(choosing, 0.0, share)));
+        return LightChoice(choice.light, share * choice.probability);
+    }
+    let rest = light_tree_within(choosing, share, 1.0 - share);
+    let choice = light_tree_draw(receiver.position, receiver.normal, rest);
+    return LightChoice(choice.light, (1.0 - share) * choice.probability);
+}
+
+/// A light at infinity and its probability among those.
+///
+/// * `u`: uniform in `[0, 1)`: `u n` chooses a bin, its fraction between the bin's two entries. A
+///   fraction in `f32` moves the border between two lights by 2^-24 of `u` at most.
+///
+/// Twin: specula-render/src/light/alias.rs, AliasTable::sample.
+fn lights_alias(u: f32) -> LightChoice {
+    if LIGHT_ALIAS_COUNT == 0u {
+        return LightChoice(0u, 0.0);
+    }
+    let along = u * f32(LIGHT_ALIAS_COUNT);
+    let at = min(u32(along), LIGHT_ALIAS_COUNT - 1u);
+    let bin = LIGHT_ALIAS + 3u * at;
+    let own = along - f32(at) < number(bin);
+    let chosen = select(word(bin + 1u), at, own);
+    return LightChoice(chosen, number(LIGHT_ALIAS + 3u * chosen + 2u));
+}

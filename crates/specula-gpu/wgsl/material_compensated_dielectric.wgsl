@@ -1,0 +1,39 @@
+// Glass with compensated energy.
+//
+// Twin of specula-render/src/material/{bind,rough}.rs.
+
+import tracer::bound::{Bound, Parameters};
+import tracer::glass::{glass_bind, glass_tints, glass_facets, glass_smooth};
+import package::bsdf::compensated_dielectric::{compensated_dielectric_new};
+import package::bsdf::compensated_dielectric::{compensated_dielectric_eval_pdf};
+import package::bsdf::compensated_dielectric::{compensated_dielectric_draw};
+import package::bsdf::smooth_dielectric::{smooth_dielectric_draw};
+import package::bsdf::bsdf_sample::{BsdfSample, TRANSPORT_RADIANCE};
+
+/// The parameters at a place: those of `glass_bind`.
+fn material_compensated_dielectric_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
+    return glass_bind(head, p, outside);
+}
+
+/// `f |cos|` and its density.
+fn material_compensated_dielectric_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
+    if b.specular {
+        return vec4f(0.0);
+    }
+    let lobe = compensated_dielectric_new(glass_facets(b), b.eta, 0u, glass_tints(b));
+    return compensated_dielectric_eval_pdf(lobe, wo, wi, TRANSPORT_RADIANCE);
+}
+
+/// A direction.
+fn material_compensated_dielectric_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
+    if b.specular {
+        return smooth_dielectric_draw(glass_smooth(b), wo, u, TRANSPORT_RADIANCE);
+    }
+    let lobe = compensated_dielectric_new(glass_facets(b), b.eta, 0u, glass_tints(b));
+    return compensated_dielectric_draw(lobe, wo, u, TRANSPORT_RADIANCE);
+}
+
+/// For denoisers.
+fn material_compensated_dielectric_albedo(b: Bound) -> vec3f {
+    return vec3f(1.0);
+}

@@ -1,0 +1,39 @@
+// Lambert, and Oren-Nayar where it is rough.
+//
+// Twin of specula-render/src/material/bind.rs, MaterialKind::Diffuse.
+
+import tracer::bound::{Bound, Parameters, bound_albedo};
+import package::bsdf::lambert::{Lambert, lambert_eval_pdf, lambert_draw};
+import package::bsdf::eon::{Eon, eon_eval_pdf, eon_draw};
+import package::bsdf::bsdf_sample::{BsdfSample, TRANSPORT_RADIANCE};
+
+/// The parameters at a place: `first` the albedo, `eta` the roughness.
+fn material_diffuse_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
+    var b = head;
+    b.first = bound_albedo(p.values[0]);
+    b.eta = clamp(p.values[1].x, 0.0, 1.0);
+    b.variant = select(0u, 1u, b.eta > 0.0);
+    b.opaque = true;
+    return b;
+}
+
+/// `f |cos|` and its density.
+fn material_diffuse_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
+    if b.variant == 1u {
+        return eon_eval_pdf(Eon(b.first, b.eta), wo, wi, TRANSPORT_RADIANCE);
+    }
+    return lambert_eval_pdf(Lambert(b.first), wo, wi, TRANSPORT_RADIANCE);
+}
+
+/// A direction.
+fn material_diffuse_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
+    if b.variant == 1u {
+        return eon_draw(Eon(b.first, b.eta), wo, u, TRANSPORT_RADIANCE);
+    }
+    return lambert_draw(Lambert(b.first), wo, u, TRANSPORT_RADIANCE);
+}
+
+/// For denoisers.
+fn material_diffuse_albedo(b: Bound) -> vec3f {
+    return b.first;
+}

@@ -1,0 +1,47 @@
+// Metal whose bounces are simulated.
+//
+// Twin of specula-render/src/material/{bind,rough}.rs.
+
+import tracer::bound::{Bound, Parameters};
+import tracer::metal::{metal_bind, metal_reflectance, metal_facets, metal_albedo};
+import package::bsdf::smooth_conductor::{SmoothConductor, smooth_conductor_draw};
+import package::math::stream::{Stream};
+import package::multibounce::normals::{Normals};
+import package::multibounce::walk::{Facets};
+import package::multibounce::multibounce_conductor::{MultibounceConductor};
+import package::multibounce::multibounce_conductor::{multibounce_conductor_eval_pdf};
+import package::multibounce::multibounce_conductor::{multibounce_conductor_draw};
+import package::bsdf::bsdf_sample::{BsdfSample, TRANSPORT_RADIANCE};
+
+/// The parameters at a place: those of `metal_bind`.
+fn material_multibounce_conductor_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
+    return metal_bind(head, p, outside);
+}
+
+/// `f |cos|` and its density.
+fn material_multibounce_conductor_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
+    if b.specular {
+        return vec4f(0.0);
+    }
+    let facets = Facets(Normals(b.alpha, b.distribution), metal_reflectance(b));
+    var random = Stream(stream);
+    let lobe = MultibounceConductor(facets, b.energy, BOUNCES_PDF);
+    return multibounce_conductor_eval_pdf(lobe, wo, wi, &random);
+}
+
+/// A direction.
+fn material_multibounce_conductor_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
+    if b.specular {
+        let mirror = SmoothConductor(metal_reflectance(b));
+        return smooth_conductor_draw(mirror, wo, u, TRANSPORT_RADIANCE);
+    }
+    let facets = Facets(Normals(b.alpha, b.distribution), metal_reflectance(b));
+    var random = Stream(stream);
+    let lobe = MultibounceConductor(facets, b.energy, BOUNCES_PDF);
+    return multibounce_conductor_draw(lobe, wo, u, &random);
+}
+
+/// For denoisers.
+fn material_multibounce_conductor_albedo(b: Bound) -> vec3f {
+    return metal_albedo(b);
+}

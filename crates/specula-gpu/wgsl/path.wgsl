@@ -1,0 +1,304 @@
+// Unidirectional path tracing with next-event estimation: one thread follows one sample to its end.
+//
+// Twin of specula-render/src/integrator.rs: the same numbers decide the same things, so that a sample
+// follows the same path up to rounding. SEED, MAX_DEPTH and STRATEGY are constants of the render.
+
+import tracer::world::{word, number, offset_leave};
+import tracer::sequence::{Sequence, sequence_of, sequence_camera, sequence_scatter, sequence_light};
+import tracer::sequence::{sequence_stream};
+import tracer::camera::{camera_ray};
+import tracer::traverse::{Ray};
+import tracer::surface::{Surface, SHAPE_SIZE};
+import tracer::bodies::{Bodies};
+import tracer::passing::{passing_nearest, passing_shine, passing_cross, passing_place};
+import tracer::passing::{passing_radiance};
+import tracer::partials::{partials_of};
+import tracer::relief::{Softness, relief_of_material, relief_is_there, relief_bend, relief_softened};
+import tracer::relief::{relief_softness};
+import tracer::lights::{Receiver, LightSample, lights_draw, lights_pdf_of_surface};
+import tracer::lights::{lights_arriving_count, lights_arriving, lights_share_from_infinity};
+import tracer::material::{Bound, material_bind, material_eval, material_draw, material_albedo};
+import tracer::bound::{MATERIAL_ROTATION};
+import package::math::frame::{Frame, frame_from_normal_tangent, frame_to_local, frame_to_world};
+import package::bsdf::bsdf_sample::{BsdfSample};
+
+/// Samples to take: column, row, number, and 1 (0 for none).
+@group(0) @binding(4) var<storage, read> path_wanted: array<vec4u>;
+/// Three vectors a sample: radiance and weight; albedo and depth (negative where nothing was met);
+/// normal and rays traced.
+@group(0) @binding(5) var<storage, read_write> path_found: array<vec4f>;
+
+/// Vertices before roulette begins.
+const PATH_ROULETTE_FROM: u32 = 3u;
+/// Strategies of direct light, as in specula-render/src/options.rs.
+const STRATEGY_BALANCE: u32 = 1u;
+/// By lights only.
+const STRATEGY_LIGHTS_ONLY: u32 = 2u;
+/// By lobes only.
+const STRATEGY_BSDF_ONLY: u32 = 3u;
+
+/// A path on its way.
+struct PathState {
+    radiance: vec3f,
+    throughput: vec3f,
+    eta_scale: f32,
+    // What the path is in.
+    bodies: Bodies,
+    // Whether it has only passed through thin panes: lights that are hidden stay so.
+    straight: bool,
+    // Where the last direction was drawn, and its density; 0 where lights could not have found it.
+    previous: Receiver,
+    previous_pdf: f32,
+    rays: u32,
+}
+
+/// A surface with its lobe and frame, turned to the viewer.
+struct PathVertex {
+    surface: Surface,
+    bound: Bound,
+    frame: Frame,
+    // How light fades where a relief by Mitsuba's rules bends the normal.
+    softness: Softness,
+    // Geometric normal on the viewer's side.
+    facing: vec3f,
+    // Towards the viewer, local.
+    wo: vec3f,
+}
+
+/// Weight of the strategy with density `a` against the one with density `b`.
+fn path_heuristic(a: f32, b: f32) -> f32 {
+    // As a ratio: squares of densities overflow.
+    let ratio = min(b / a, 1.0e18);
+    if STRATEGY == STRATEGY_BALANCE {
+        return 1.0 / (1.0 + ratio);
+    }
+    return 1.0 / (1.0 + ratio * ratio);
+}
+
+/// Weight of light found by a lobe's direction, which lights find with density `light_pdf`.
+fn path_lobe_weight(pdf: f32, light_pdf: f32) -> f32 {
+    if pdf <= 0.0 || STRATEGY == STRATEGY_BSDF_ONLY {
+        return 1.0;
+    }
+    if STRATEGY == STRATEGY_LIGHTS_ONLY {
+        return 0.0;
+    }
+    return path_heuristic(pdf, light_pdf);
+}
+
+/// Light from infinity on a ray that meets nothing.
+fn path_background(state: PathState, direction: vec3f) -> vec3f {
+    var sum = vec3f(0.0);
+    let count = lights_arriving_count();
+    var share = 0.0;
+    if count > 0u && state.previous_pdf > 0.0 {
+        share = lights_share_from_infinity(state.previous);
+    }
+    for (var i = 0u; i < count; i += 1u) {
+        let arriving = lights_arriving(i, direction);
+        sum += arriving.xyz * path_lobe_weight(state.previous_pdf, share * arriving.w);
+    }
+    return sum;
+}
+
+/// Light that a surface sends out itself.
+fn path_emission(state: PathState, surface: Surface, direction: vec3f) -> vec3f {
+    let radiance = passing_radiance(surface, direction);
+    if all(radiance == vec3f(0.0)) {
+        return radiance;
+    }
+    var light_pdf = 0.0;
+    if state.previous_pdf > 0.0 {
+        light_pdf = lights_pdf_of_surface(
+            state.previous, surface.light, surface.position, surface.ng);
+    }
+    return radiance * path_lobe_weight(state.previous_pdf, light_pdf);
+}
+
+/// Tangent of a surface, turned as its material asks.
+///
+/// * `normal`, `tangent`: bent by its relief.
+///
+/// Twin: specula-render/src/integrator.rs, PathTracer::shading.
+fn path_tangent(surface: Surface, bound: Bound, normal: vec3f, tangent: vec3f) -> vec3f {
+    if bound.isotropic {
+        return vec3f(0.0);
+    }
+    if bound.rotation == 0.0 {
+        return tangent;
+    }
+    let along_v = partials_of(surface).along_v;
+    let frame = frame_from_normal_tangent(normal, tangent);
+    let side = select(1.0, -1.0, dot(frame.t, along_v) < 0.0);
+    return frame.s * cos(bound.rotation) + frame.t * (sin(bound.rotation) * side);
+}
+
+/// The vertex at a surface.
+///
+/// Twin: specula-render/src/integrator.rs, PathTracer::vertex.
+fn path_vertex(surface: Surface, wo: vec3f, s: Sequence, depth: u32) -> PathVertex {
+    let outside = dot(surface.ng, wo) > 0.0;
+    let facing = select(-surface.ng, surface.ng, outside);
+    let material = word(SHAPES + surface.shape * SHAPE_SIZE);
+    let bound = material_bind(material, passing_place(surface), outside, s, depth);
+    let relief = relief_of_material(bound.material);
+    let bent = relief_bend(relief, surface);
+    let tangent = path_tangent(surface, bound, bent.normal, bent.tangent);
+    let upright = select(bent.normal, -bent.normal, dot(bent.normal, facing) < 0.0);
+    let unbent = select(surface.ns, -surface.ns, dot(surface.ns, facing) < 0.0);
+    let softened = relief_softened(relief, unbent, upright, wo);
+    let ns = softened.normal;
+    let n = select(ns, facing, dot(ns, wo) <= 0.0 && bound.specular);
+    let frame = frame_from_normal_tangent(n, tangent);
+    let local = frame_to_local(frame, normalize(wo));
+    return PathVertex(surface, bound, frame, softened.softness, facing, local);
+}
+
+/// The vertex as lights are chosen for it.
+fn path_receiver(vertex: PathVertex) -> Receiver {
+    let normal = select(vec3f(0.0), vertex.frame.n, vertex.bound.opaque);
+    return Receiver(vertex.surface.position, normal);
+}
+
+/// Light from one sampled light.
+///
+/// Twin: specula-render/src/integrator.rs, PathTracer::add_direct.
+fn path_direct(state: ptr<function, PathState>, vertex: PathVertex, s: Sequence, depth: u32) {
+    if vertex.bound.specular {
+        return;
+    }
+    let light = lights_draw(path_receiver(vertex), sequence_light(s, depth));
+    if light.valid == 0u || (STRATEGY == STRATEGY_BSDF_ONLY && light.delta == 0u) {
+        return;
+    }
+    let wi = frame_to_local(vertex.frame, light.wi);
+    if wi.z * dot(vertex.facing, light.wi) <= 0.0 {
+        return;
+    }
+    let f = material_eval(vertex.bound, vertex.wo, wi, sequence_stream(s, depth, 0u));
+    if all(f.xyz == vec3f(0.0)) {
+        return;
+    }
+    var weight = 1.0;
+    if light.delta == 0u && STRATEGY != STRATEGY_LIGHTS_ONLY {
+        weight = path_heuristic(light.pdf, f.w);
+    }
+    if weight <= 0.0 {
+        return;
+    }
+    var bodies = (*state).bodies;
+    if wi.z < 0.0 {
+        passing_cross(&bodies, vertex.surface, light.wi);
+    }
+    var rays = 0u;
+    let left = passing_shine(vertex.surface, light, bodies, s, depth, &rays);
+    (*state).rays += rays;
+    let fading = relief_softness(vertex.softness, light.wi);
+    let arrived = light.radiance * (weight * fading / light.pdf) * left;
+    (*state).radiance += (*state).throughput * f.xyz * arrived;
+}
+
+/// Draws the next direction; returns whether the path goes on, along `ray`.
+///
+/// Twin: specula-render/src/integrator.rs, PathTracer::scatter.
+fn path_scatter(
+    state: ptr<function, PathState>,
+    vertex: PathVertex,
+    s: Sequence,
+    depth: u32,
+    ray: ptr<function, Ray>,
+) -> bool {
+    let u = sequence_scatter(s, depth);
+    let drawn = material_draw(vertex.bound, vertex.wo, u.xyz, sequence_stream(s, depth, 1u));
+    if drawn.flags == 0u {
+        return false;
+    }
+    let direction = normalize(frame_to_world(vertex.frame, drawn.wi));
+    if drawn.wi.z * dot(vertex.facing, direction) <= 0.0 {
+        return false;
+    }
+    (*state).throughput *= drawn.weight * relief_softness(vertex.softness, direction);
+    (*state).eta_scale *= drawn.eta * drawn.eta;
+    let passes = (drawn.flags & BSDF_TRANSMISSION) != 0u;
+    (*state).straight = (*state).straight && passes && vertex.bound.kind == KIND_THIN_PANE;
+    if passes {
+        var bodies = (*state).bodies;
+        passing_cross(&bodies, vertex.surface, direction);
+        (*state).bodies = bodies;
+    }
+    let t = (*state).throughput;
+    let largest = max(t.x, max(t.y, t.z)) * (*state).eta_scale;
+    if !(largest > 0.0) {
+        return false;
+    }
+    let probability = clamp(2.0 * largest, 0.05, 1.0);
+    if depth >= PATH_ROULETTE_FROM && probability < 0.95 {
+        if u.w >= probability {
+            return false;
+        }
+        (*state).throughput *= 1.0 / probability;
+    }
+    (*state).previous_pdf = select(drawn.pdf, 0.0, (drawn.flags & BSDF_SPECULAR) != 0u);
+    (*state).previous = path_receiver(vertex);
+    let surface = vertex.surface;
+    let origin = offset_leave(surface.position, surface.error, surface.ng, direction);
+    *ray = Ray(origin, direction, FARTHEST);
+    return true;
+}
+
+/// Takes one sample.
+@compute @workgroup_size(64)
+fn path_main(@builtin(global_invocation_id) id: vec3u) {
+    if id.x >= arrayLength(&path_wanted) {
+        return;
+    }
+    let wanted = path_wanted[id.x];
+    if wanted.w == 0u {
+        return;
+    }
+    let s = sequence_of(wanted.xy, wanted.z, SEED);
+    let begin = camera_ray(wanted.xy, sequence_camera(s));
+    var ray = Ray(begin.origin, begin.direction, FARTHEST);
+    var state: PathState;
+    state.throughput = vec3f(1.0);
+    state.eta_scale = 1.0;
+    state.straight = true;
+    var albedo = vec3f(0.0);
+    var normal = vec3f(0.0);
+    var distance = -1.0;
+    for (var depth = 0u; depth <= MAX_DEPTH; depth += 1u) {
+        var bodies = state.bodies;
+        let met = passing_nearest(&ray, &bodies, s, depth);
+        state.bodies = bodies;
+        state.rays += met.rays;
+        state.throughput *= met.left;
+        if !met.found {
+            if !(state.straight && HIDES_EMITTERS != 0u) {
+                state.radiance += state.throughput * path_background(state, ray.direction);
+            }
+            break;
+        }
+        let surface = met.surface;
+        state.radiance += state.throughput * path_emission(state, surface, ray.direction);
+        if depth >= MAX_DEPTH && depth > 0u {
+            break;
+        }
+        let vertex = path_vertex(surface, -ray.direction, s, depth);
+        if depth == 0u {
+            albedo = material_albedo(vertex.bound);
+            normal = vertex.frame.n;
+            distance = length(surface.position - begin.origin);
+            if MAX_DEPTH == 0u {
+                break;
+            }
+        }
+        path_direct(&state, vertex, s, depth);
+        if !path_scatter(&state, vertex, s, depth, &ray) {
+            break;
+        }
+    }
+    let at = 3u * id.x;
+    path_found[at] = vec4f(state.radiance, begin.weight);
+    path_found[at + 1u] = vec4f(albedo, distance);
+    path_found[at + 2u] = vec4f(normal, f32(state.rays));
+}

@@ -1,0 +1,194 @@
+// Reliefs: heights and normal maps that bend shading normals.
+//
+// Twin of specula-render/src/relief.rs. A relief is 4 words, as `flatten` writes them there: what it
+// is, its rules, then the parameter of its heights or a texture and a factor.
+
+import tracer::partials::{Partials, partials_of};
+import tracer::surface::{Surface};
+import tracer::texture_graph::{parameter_float, texture_colour};
+import tracer::texture_place::{Place};
+import tracer::world::{word, number, unit_or};
+import package::math::frame::{Frame, frame_from_normal_tangent};
+
+/// No relief.
+const RELIEF_NONE: u32 = 0u;
+/// Heights.
+const RELIEF_HEIGHT: u32 = 1u;
+/// Normals are bent as the relief says, and nothing more.
+const RELIEF_PLAIN: u32 = 0u;
+/// By Mitsuba's rules, and light fades towards the horizon.
+const RELIEF_FADES: u32 = 2u;
+
+/// Step of finite differences in surface coordinates, as in pbrt where it knows no footprint: half
+/// a pixel of a picture of 1000.
+///
+/// Twin: specula-render/src/relief.rs, STEP.
+const RELIEF_STEP: f32 = 0.0005;
+
+/// Words of a material's reliefs: its own, whether its clear coat is bent otherwise, the coat's.
+const RELIEF_SIZE: u32 = 9u;
+
+/// A shading normal with the tangent along u.
+struct Bent {
+    normal: vec3f,
+    tangent: vec3f,
+}
+
+/// How light fades towards the horizon of a bent normal, by Mitsuba's rules.
+///
+/// ```text
+/// 2 / (1 + sqrt(1 + a tan^2(n0, wi))),   a = min(tan^2(n0, n) / 8, 1)
+/// ```
+///
+/// with `n0` the normal before it was bent to `n`. It does not fade where `a` is 0.
+///
+/// Source: Conty Estevez, Lecocq and Stein 2019, "A Microfacet-Based Shadowing Function to Solve
+/// the Bump Terminator Problem".
+///
+/// Twin: specula-render/src/relief.rs, Softness.
+struct Softness {
+    /// The normal before it was bent, unit.
+    normal: vec3f,
+    a: f32,
+}
+
+/// A bent normal, and how light fades on it.
+struct Softened {
+    normal: vec3f,
+    softness: Softness,
+}
+
+/// Place of a material's relief.
+fn relief_of_material(material: u32) -> u32 {
+    return RELIEFS + RELIEF_SIZE * material;
+}
+
+/// Whether a clear coat is bent otherwise than the rest of its material.
+fn relief_coat_differs(material: u32) -> bool {
+    return RELIEF_COUNT != 0u && word(relief_of_material(material) + 4u) != 0u;
+}
+
+/// Place of the relief of such a coat.
+fn relief_of_coat(material: u32) -> u32 {
+    return relief_of_material(material) + 5u;
+}
+
+/// Whether there is a relief at a place.
+fn relief_is_there(at: u32) -> bool {
+    return RELIEF_COUNT != 0u && word(at) != RELIEF_NONE;
+}
+
+/// The bent normal, turned back where it faces away from `wo` though the unbent one does not
+/// (or the other way round), and how light fades on it; nothing of this by plain rules.
+///
+/// * `at`: the relief.
+/// * `unbent`, `bent`: unit, on the same side of the surface.
+///
+/// Twin: specula-render/src/relief.rs, Softness::new, with the choice around its call in
+/// integrator.rs.
+fn relief_softened(at: u32, unbent: vec3f, bent: vec3f, wo: vec3f) -> Softened {
+    if !relief_is_there(at) || word(at + 1u) == RELIEF_PLAIN {
+        return Softened(bent, Softness(unbent, 0.0));
+    }
+    let along = dot(unbent, bent);
+    var normal = bent;
+    if dot(unbent, wo) * dot(bent, wo) <= 0.0 {
+        normal = unbent * (2.0 * along) - bent;
+    }
+    var softness = Softness(unbent, 0.0);
+    if word(at + 1u) == RELIEF_FADES {
+        softness.a = min(0.125 * relief_squared_tangent(along), 1.0);
+    }
+    return Softened(normal, softness);
+}
+
+/// Factor on what the surface does with light from `wi`, in `(0, 1]`.
+///
+/// Twin: specula-render/src/relief.rs, Softness::factor.
+fn relief_softness(softness: Softness, wi: vec3f) -> f32 {
+    let grown = softness.a * relief_squared_tangent(dot(softness.normal, wi));
+    return 2.0 / (1.0 + sqrt(1.0 + min(grown, 1.0e12)));
+}
+
+/// `tan^2` of the angle with this cosine.
+///
+/// Twin: specula-render/src/relief.rs, squared_tangent.
+fn relief_squared_tangent(cosine: f32) -> f32 {
+    let squared = max(cosine * cosine, 1.0e-12);
+    return max(1.0 - squared, 0.0) / squared;
+}
+
+/// The shading normal and the tangent along u of a surface under its relief; those of the surface where
+/// there is none.
+///
+/// The normal points to the outside of the surface it bends, not necessarily to the side of the
+/// geometric one.
+///
+/// Twin: specula-render/src/relief.rs, bend.
+fn relief_bend(at: u32, s: Surface) -> Bent {
+    if !relief_is_there(at) {
+        return Bent(s.ns, s.tangent);
+    }
+    var partials = partials_of(s);
+    let n = s.ns;
+    // The triangle's plane is not that of its shading normal.
+    partials.along_u -= n * dot(n, partials.along_u);
+    partials.along_v -= n * dot(n, partials.along_v);
+    let area = cross(partials.along_u, partials.along_v);
+    if !(dot(area, area) > 0.0) {
+        let frame = frame_from_normal_tangent(n, s.tangent);
+        partials.along_u = frame.s;
+        partials.along_v = frame.t;
+    }
+    let place = Place(s.uv, s.second_uv, s.position, s.ng, s.colour);
+    if word(at) == RELIEF_HEIGHT {
+        return relief_displaced(at + 2u, n, place, partials);
+    }
+    let c = 2.0 * texture_colour(word(at + 2u), place) - 1.0;
+    let scale = number(at + 3u);
+    let along_u = unit_or(partials.along_u, n);
+    let across = cross(n, along_u);
+    let backwards = word(at + 1u) == RELIEF_PLAIN && dot(across, partials.along_v) < 0.0;
+    let along_v = select(across, -across, backwards);
+    let bent = along_u * (c.x * scale) + along_v * (c.y * scale) + n * c.z;
+    return Bent(unit_or(bent, n), partials.along_u);
+}
+
+/// Normal and tangent of the surface moved along its normal by a height:
+///
+/// ```text
+/// dp'/du = dp/du + dh/du n + h dn/du,   n' ~ +-(dp'/du x dp'/dv)
+/// ```
+///
+/// Source: Blinn 1978; Pharr, Jakob and Humphreys, 4th edition, 10.5.3. Departure: dp/dv is the
+/// surface's own. For meshes with normals pbrt-v4 takes dp/du turned by 90 degrees in its place,
+/// which doubles the heights' slope along v where a texture is twice as long that way.
+///
+/// * `height`: the parameter.
+///
+/// Twin: specula-render/src/relief.rs, displaced.
+fn relief_displaced(height: u32, n: vec3f, place: Place, partials: Partials) -> Bent {
+    // The step that rounding left: coordinates of large tiled planes have few digits.
+    let moved = place.uv + RELIEF_STEP;
+    let steps = moved - place.uv;
+    // One call in a loop: textures are long. Here, along u, along v.
+    var heights = vec3f(0.0);
+    for (var i = 0u; i < 3u; i++) {
+        var there = place;
+        if i == 1u {
+            there.uv.x = moved.x;
+            there.position += partials.along_u * RELIEF_STEP;
+        } else if i == 2u {
+            there.uv.y = moved.y;
+            there.position += partials.along_v * RELIEF_STEP;
+        }
+        heights[i] = parameter_float(height, there);
+    }
+    let slopes = select(vec2f(0.0), (heights.yz - heights.x) / max(steps, vec2f(1.0e-9)),
+        steps > vec2f(0.0));
+    let along_u = partials.along_u + n * slopes.x + partials.normal_along_u * heights.x;
+    let along_v = partials.along_v + n * slopes.y + partials.normal_along_v * heights.x;
+    let normal = unit_or(cross(along_u, along_v), n);
+    let side = dot(cross(partials.along_u, partials.along_v), n);
+    return Bent(select(normal, -normal, side < 0.0), along_u);
+}

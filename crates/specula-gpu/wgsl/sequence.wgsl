@@ -1,0 +1,114 @@
+// Sample sequences: Owen-scrambled Sobol, one per pixel (Burley 2020), and hashed numbers.
+//
+// Twin of specula-render/src/sampler.rs, bit for bit; its table of dimensions holds here too.
+
+import tracer::world::{word};
+
+/// The numbers of one sample of one pixel.
+struct Sequence {
+    index: u32,
+    seed: u32,
+}
+
+/// A bijective mix of 32 bits (Wellons 2018, `lowbias32`).
+///
+/// Twin: specula-render/src/sampler.rs, hash.
+fn sequence_hash(bits: u32) -> u32 {
+    var x = bits + 0x9e3779b9u;
+    x = x ^ (x >> 16u);
+    x = x * 0x7feb352du;
+    x = x ^ (x >> 15u);
+    x = x * 0x846ca68bu;
+    return x ^ (x >> 16u);
+}
+
+/// The numbers of sample `number` of a pixel.
+///
+/// Twin: specula-render/src/sampler.rs, Sampler::new.
+fn sequence_of(pixel: vec2u, number: u32, seed: u32) -> Sequence {
+    let block = number >> 16u;
+    let mixed = sequence_hash(pixel.y ^ sequence_hash(seed ^ sequence_hash(block)));
+    return Sequence(number & 0xffffu, sequence_hash(pixel.x ^ mixed));
+}
+
+/// The mix of the crate `sobol_burley`.
+fn sequence_mix(bits: u32) -> u32 {
+    var n = bits ^ 0xe6fe3bebu;
+    n = n ^ (n >> 16u);
+    n = n * 0x7feb352du;
+    n = n ^ (n >> 15u);
+    n = n * 0x846ca68bu;
+    return n ^ (n >> 16u);
+}
+
+/// Owen scrambling of reversed bits (Burley 2020, with the constants of the crate `sobol_burley`).
+fn sequence_scramble(reversed: u32, key: u32) -> u32 {
+    var n = reversed;
+    n = n ^ (n * 0x3d20adeau);
+    n = n + key;
+    n = n * ((key >> 16u) | 1u);
+    n = n ^ (n * 0x05526c56u);
+    return n ^ (n * 0x53a22864u);
+}
+
+/// Four numbers in `[0, 1)`: dimensions `4 set` to `4 set + 3`.
+///
+/// Twin: specula-render/src/sampler.rs, Sampler::set.
+fn sequence_set(s: Sequence, purpose: u32) -> vec4f {
+    let round = purpose / SOBOL_SETS;
+    let chosen = purpose % SOBOL_SETS;
+    var seed = s.seed;
+    if round > 0u {
+        seed = sequence_hash(s.seed + round * 0x9e3779b9u);
+    }
+    let rest = sequence_scramble(reverseBits(s.index), sequence_mix(seed ^ 0x79c68e4au));
+    var bits = vec4u(0u);
+    var at = SOBOL_COLUMNS + chosen * 64u;
+    for (var bit = 0u; bit < 16u; bit += 1u) {
+        if ((rest << bit) & 0x80000000u) != 0u {
+            bits = bits ^ vec4u(word(at), word(at + 1u), word(at + 2u), word(at + 3u));
+        }
+        at += 4u;
+    }
+    let key = (seed * 0x9c8f2d3bu) ^ chosen;
+    let keys = vec4u(key) ^ vec4u(0x912f69bau, 0x174f18abu, 0x691e72cau, 0xb40cc1b8u);
+    let scrambled = vec4u(
+        sequence_scramble(bits.x, sequence_mix(keys.x)),
+        sequence_scramble(bits.y, sequence_mix(keys.y)),
+        sequence_scramble(bits.z, sequence_mix(keys.z)),
+        sequence_scramble(bits.w, sequence_mix(keys.w)),
+    );
+    return bitcast<vec4f>((reverseBits(scrambled) >> vec4u(9u)) | vec4u(0x3f800000u)) - 1.0;
+}
+
+/// Two numbers for the filter, two for the lens.
+fn sequence_camera(s: Sequence) -> vec4f {
+    return sequence_set(s, 0u);
+}
+
+/// Three numbers for the lobe, one for Russian roulette.
+fn sequence_scatter(s: Sequence, depth: u32) -> vec4f {
+    return sequence_set(s, 1u + 2u * depth);
+}
+
+/// One number for the choice of a light, two for the point on it, one for finer digits of the choice.
+fn sequence_light(s: Sequence, depth: u32) -> vec4f {
+    return sequence_set(s, 2u + 2u * depth);
+}
+
+/// A number in `[0, 1)` that depends on the sample and on `key`.
+///
+/// Twin: specula-render/src/sampler.rs, Sampler::hashed.
+fn sequence_hashed(s: Sequence, key: vec3u) -> f32 {
+    let inner = sequence_hash(key.x ^ sequence_hash(key.y ^ sequence_hash(key.z)));
+    let bits = sequence_hash(s.seed ^ sequence_hash(s.index ^ inner));
+    return f32(bits >> 8u) * (1.0 / 16777216.0);
+}
+
+/// The state of a stream without end for a lobe whose values are estimates: low word, high word.
+///
+/// Twin: specula-render/src/sampler.rs, Sampler::stream.
+fn sequence_stream(s: Sequence, depth: u32, purpose: u32) -> vec2u {
+    let low = sequence_hash(s.seed ^ sequence_hash(depth ^ sequence_hash(purpose)));
+    return vec2u(low, sequence_hash(low ^ sequence_hash(s.index)));
+}

@@ -1,0 +1,328 @@
+// Graphs of texture nodes, and parameters that may be textures.
+//
+// Twin of specula-render/src/texture/graph.rs and mod.rs. WGSL has no recursion: nodes that wait for
+// the values of their inputs stand on a stack, as long as the scene's graphs need it (TEXTURE_WAITING,
+// at most 32). Nodes without inputs need none, and what a scene does not use is not compiled: the
+// constants are those of specula-render/src/texture/flat.rs.
+
+import tracer::texture_mapping::{texture_mapping_at};
+import tracer::texture_noise::{texture_noise_fbm, texture_noise_turbulence, texture_noise_windy};
+import tracer::texture_noise::{texture_noise_marble, texture_noise_in_dot};
+import tracer::texture_place::{Place};
+import tracer::texture_raster::{texture_raster_at};
+import tracer::world::{NONE, word, number, vector, affine_point};
+
+// Kinds of nodes, as `Node::kind` in specula-render/src/texture/flat.rs numbers them: first those
+// without inputs (a vertex's colour is 4), then those that show one of two (5 to 7, a checkerboard
+// 5), then those that wait for their inputs.
+
+/// A colour.
+const TEXTURE_CONSTANT: u32 = 0u;
+/// A picture.
+const TEXTURE_IMAGE: u32 = 1u;
+/// Between four colours.
+const TEXTURE_BILINEAR: u32 = 2u;
+/// A sum of octaves.
+const TEXTURE_NOISE: u32 = 3u;
+/// The first that shows one of two.
+const TEXTURE_CHECKERBOARD: u32 = 5u;
+/// Checks in three dimensions.
+const TEXTURE_CHECKERBOARD_SOLID: u32 = 6u;
+/// Dots of one on another.
+const TEXTURE_DOTS: u32 = 7u;
+/// A product, and the first that waits.
+const TEXTURE_SCALE: u32 = 8u;
+/// A sum.
+const TEXTURE_SUM: u32 = 9u;
+/// Interpolation by a number.
+const TEXTURE_MIX: u32 = 10u;
+/// 1 from a bound on.
+const TEXTURE_THRESHOLD: u32 = 11u;
+/// Interpolation by the normal.
+const TEXTURE_DIRECTION_MIX: u32 = 12u;
+
+/// A node that waits for the value of an input.
+struct TextureWaiting {
+    /// Place of the node.
+    at: u32,
+    /// Which input comes next: `TEXTURE_AMOUNT`, `TEXTURE_FIRST` or `TEXTURE_SECOND`.
+    stage: u32,
+    /// Share of the second input.
+    amount: f32,
+    /// Value of the first.
+    first: vec3f,
+}
+
+/// The amount of a mix.
+const TEXTURE_AMOUNT: u32 = 0u;
+/// The first input.
+const TEXTURE_FIRST: u32 = 1u;
+/// The second, or the only one.
+const TEXTURE_SECOND: u32 = 2u;
+
+/// A colour parameter of 4 words: a texture's number, or NONE and the value.
+///
+/// Twin: specula-render/src/texture/mod.rs, Textures::colour.
+fn parameter_colour(at: u32, place: Place) -> vec3f {
+    if TEXTURE_COUNT == 0u || word(at) == NONE {
+        return vector(at + 1u);
+    }
+    return texture_colour(word(at), place);
+}
+
+/// A number parameter of 2 words: a texture's number, or NONE and the value.
+///
+/// Twin: specula-render/src/texture/mod.rs, Textures::float.
+fn parameter_float(at: u32, place: Place) -> f32 {
+    if TEXTURE_COUNT == 0u || word(at) == NONE {
+        return number(at + 1u);
+    }
+    return texture_float(word(at), place);
+}
+
+/// The colour of a texture; 0 where it is no number.
+///
+/// Twin: specula-render/src/texture/mod.rs, Textures::colour.
+fn texture_colour(id: u32, place: Place) -> vec3f {
+    if TEXTURE_COUNT == 0u {
+        return vec3f(0.0);
+    }
+    let value = texture_graph_value(word(TEXTURES + id), place);
+    return vec3f(
+        texture_graph_finite(value.x),
+        texture_graph_finite(value.y),
+        texture_graph_finite(value.z),
+    );
+}
+
+/// The number that a texture gives; 0 where it is none.
+///
+/// Twin: specula-render/src/texture/mod.rs, Textures::float.
+fn texture_float(id: u32, place: Place) -> f32 {
+    return texture_colour(id, place).x;
+}
+
+/// The number, or 0 where its bits are none: comparisons may be compiled as if all numbers were finite.
+///
+/// Twin: specula-render/src/texture/mod.rs, finite.
+fn texture_graph_finite(v: f32) -> f32 {
+    return select(v, 0.0, (bitcast<u32>(v) & 0x7f800000u) == 0x7f800000u);
+}
+
+/// The value of the node whose record begins at `root`.
+///
+/// Twin: specula-render/src/texture/graph.rs, Textures::node.
+fn texture_graph_value(root: u32, place: Place) -> vec3f {
+    if TEXTURE_HAS_INPUTS == 0u {
+        return texture_graph_leaf(root, place);
+    }
+    var waiting: array<TextureWaiting, TEXTURE_WAITING>;
+    var count = 0u;
+    var at = root;
+    loop {
+        let kind = word(at);
+        if kind >= TEXTURE_SCALE {
+            let node = texture_graph_begun(at, place);
+            waiting[count] = node;
+            count += 1u;
+            at = texture_graph_next(node);
+            continue;
+        }
+        if kind >= TEXTURE_CHECKERBOARD {
+            at = word(at + select(2u, 1u, texture_graph_shows_first(at, place)));
+            continue;
+        }
+        var value = texture_graph_leaf(at, place);
+        // Nodes that waited for this value alone have theirs; one that needs another input goes on.
+        at = NONE;
+        while count > 0u && at == NONE {
+            var node = waiting[count - 1u];
+            if node.stage == TEXTURE_SECOND {
+                value = texture_graph_done(node, value);
+                count -= 1u;
+                continue;
+            }
+            if node.stage == TEXTURE_FIRST {
+                node.first = value;
+                node.stage = TEXTURE_SECOND;
+            } else {
+                node.amount = texture_graph_finite(value.x);
+                node.stage = TEXTURE_FIRST;
+            }
+            at = texture_graph_next(node);
+            if node.stage == TEXTURE_FIRST && (node.amount <= 0.0 || node.amount >= 1.0) {
+                // One input shows alone.
+                count -= 1u;
+            } else {
+                waiting[count - 1u] = node;
+            }
+        }
+        if at == NONE {
+            return value;
+        }
+    }
+    return vec3f(0.0);
+}
+
+/// A node that waits for its inputs, none of which has been evaluated.
+fn texture_graph_begun(at: u32, place: Place) -> TextureWaiting {
+    let kind = word(at);
+    if kind == TEXTURE_MIX {
+        if word(at + 3u) != NONE {
+            return TextureWaiting(at, TEXTURE_AMOUNT, 0.5, vec3f(0.0));
+        }
+        return TextureWaiting(at, TEXTURE_FIRST, number(at + 4u), vec3f(0.0));
+    }
+    if kind == TEXTURE_THRESHOLD {
+        return TextureWaiting(at, TEXTURE_SECOND, 0.5, vec3f(0.0));
+    }
+    var amount = 0.5;
+    if kind == TEXTURE_DIRECTION_MIX {
+        amount = abs(dot(place.normal, vector(at + 3u)));
+    }
+    return TextureWaiting(at, TEXTURE_FIRST, amount, vec3f(0.0));
+}
+
+/// Place of the input that a waiting node needs next.
+fn texture_graph_next(node: TextureWaiting) -> u32 {
+    if node.stage == TEXTURE_AMOUNT {
+        return word(node.at + 3u);
+    }
+    let is_only = word(node.at) == TEXTURE_THRESHOLD;
+    let is_alone = word(node.at) == TEXTURE_MIX && node.amount >= 1.0;
+    let is_second = node.stage == TEXTURE_SECOND && !is_only;
+    return word(node.at + select(1u, 2u, is_second || is_alone));
+}
+
+/// The value of a node with that of its last input.
+fn texture_graph_done(node: TextureWaiting, last: vec3f) -> vec3f {
+    let kind = word(node.at);
+    if kind == TEXTURE_SCALE {
+        return node.first * last;
+    }
+    if kind == TEXTURE_SUM {
+        return node.first + last;
+    }
+    if kind == TEXTURE_THRESHOLD {
+        return texture_graph_step(last, number(node.at + 2u));
+    }
+    return texture_graph_mixed(node.first, last, node.amount);
+}
+
+/// Whether a node that shows one of two shows the first.
+fn texture_graph_shows_first(at: u32, place: Place) -> bool {
+    let kind = word(at);
+    if kind == TEXTURE_CHECKERBOARD_SOLID {
+        return texture_graph_is_even(affine_point(at + 3u, place.position));
+    }
+    let coordinates = texture_mapping_at(at + 3u, place);
+    if TEXTURE_HAS_NOISE != 0u && kind == TEXTURE_DOTS {
+        return texture_noise_in_dot(coordinates);
+    }
+    return texture_graph_is_even(vec3f(coordinates, 0.0));
+}
+
+/// The value of a node without inputs.
+fn texture_graph_leaf(at: u32, place: Place) -> vec3f {
+    switch word(at) {
+        case TEXTURE_CONSTANT: {
+            return vector(at + 1u);
+        }
+        case TEXTURE_IMAGE: {
+            return texture_graph_picture(at + 1u, place);
+        }
+        case TEXTURE_BILINEAR: {
+            let st = texture_mapping_at(at + 13u, place);
+            return texture_graph_mixed(
+                texture_graph_mixed(vector(at + 1u), vector(at + 7u), st.x),
+                texture_graph_mixed(vector(at + 4u), vector(at + 10u), st.x),
+                st.y,
+            );
+        }
+        case TEXTURE_NOISE: {
+            if TEXTURE_HAS_NOISE != 0u {
+                return texture_graph_noise(at + 1u, place);
+            }
+            return vec3f(0.0);
+        }
+        default: {
+            return place.colour;
+        }
+    }
+}
+
+/// The value of a node of noise.
+///
+/// * `at`: the kind of noise, behind which its numbers are.
+fn texture_graph_noise(at: u32, place: Place) -> vec3f {
+    let p = affine_point(at + 5u, place.position);
+    let octaves = word(at + 1u);
+    let roughness = number(at + 2u);
+    switch word(at) {
+        case 0u: {
+            return vec3f(texture_noise_fbm(p, roughness, octaves));
+        }
+        case 1u: {
+            return vec3f(texture_noise_turbulence(p, roughness, octaves));
+        }
+        case 2u: {
+            return vec3f(texture_noise_windy(p));
+        }
+        default: {
+            return texture_noise_marble(p * number(at + 3u), number(at + 4u), roughness, octaves);
+        }
+    }
+}
+
+/// The value of a picture: its channel, inverted, scaled.
+///
+/// * `at`: the picture's place within its node.
+///
+/// Twin: specula-render/src/texture/graph.rs, Textures::picture.
+fn texture_graph_picture(at: u32, place: Place) -> vec3f {
+    let wrap = vec2u(word(at + 4u), word(at + 5u));
+    let coordinates = texture_mapping_at(at + 7u, place);
+    var c = texture_raster_at(word(at), coordinates, wrap, word(at + 6u) != 0u);
+    switch word(at + 1u) {
+        case 0u: {}
+        case 1u: {
+            c = vec3f((c.x + c.y + c.z) * (1.0 / 3.0));
+        }
+        case 2u: {
+            c = vec3f(0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z);
+        }
+        case 3u: {
+            c = c.xxx;
+        }
+        case 4u: {
+            c = c.yyy;
+        }
+        default: {
+            c = c.zzz;
+        }
+    }
+    if word(at + 2u) != 0u {
+        c = max(1.0 - c, vec3f(0.0));
+    }
+    return c * number(at + 3u);
+}
+
+/// Whether the floors of the coordinates have an even sum.
+///
+/// Twin: specula-render/src/texture/graph.rs, is_even; beyond 2^30 all numbers are even.
+fn texture_graph_is_even(coordinates: vec3f) -> bool {
+    let farthest = vec3f(1073741824.0);
+    let cell = vec3i(clamp(floor(coordinates), -farthest, farthest));
+    return ((cell.x ^ cell.y ^ cell.z) & 1) == 0;
+}
+
+/// Twin: specula-render/src/texture/graph.rs, mixed.
+fn texture_graph_mixed(a: vec3f, b: vec3f, t: f32) -> vec3f {
+    return a * (1.0 - t) + b * t;
+}
+
+/// Twin: specula-render/src/texture/graph.rs, step.
+fn texture_graph_step(c: vec3f, cutoff: f32) -> vec3f {
+    let value = vec3f(texture_graph_finite(c.x), texture_graph_finite(c.y), texture_graph_finite(c.z));
+    return select(vec3f(0.0), vec3f(1.0), value >= vec3f(cutoff));
+}

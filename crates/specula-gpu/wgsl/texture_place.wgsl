@@ -1,0 +1,19 @@
+// Where a texture is evaluated.
+//
+// Twin of specula-render/src/texture/mod.rs, Place.
+
+/// Where a texture is evaluated.
+///
+/// Twin: specula-render/src/texture/mod.rs, Place.
+struct Place {
+    /// Surface coordinates.
+    uv: vec2f,
+    /// Of the second set; 0 where the mesh has none.
+    second_uv: vec2f,
+    /// In the world.
+    position: vec3f,
+    /// Geometric normal in the world, unit: pbrt's `directionmix` takes this one, too.
+    normal: vec3f,
+    /// The mesh's, interpolated; white where it has none.
+    colour: vec3f,
+}

@@ -1,0 +1,117 @@
+// Pictures, looked up.
+//
+// Twin of specula-render/src/texture/raster.rs. Coordinates are finite here: nothing that shaders
+// compute leads to others.
+
+import tracer::world::{word, number, vector};
+
+// What pictures are outside, as `Picture::flatten` in specula-render/src/texture/flat.rs writes it;
+// black is any other number.
+
+/// They repeat.
+const TEXTURE_RASTER_REPEAT: u32 = 0u;
+/// Their border extends.
+const TEXTURE_RASTER_CLAMP: u32 = 2u;
+/// They repeat, every other copy mirrored.
+const TEXTURE_RASTER_MIRROR: u32 = 3u;
+
+/// Pixel numbers stay within this: conversions of larger numbers differ between devices.
+const TEXTURE_RASTER_FARTHEST: f32 = 1073741824.0;
+
+/// The value at `(s, t)`; t = 0 is the lower edge of the picture.
+///
+/// * `at`: the raster: width, height, whether it is of bytes, then its pixels.
+/// * `wrap`: along s and t.
+///
+/// Twin: specula-render/src/texture/raster.rs, Raster::at.
+fn texture_raster_at(at: u32, coordinates: vec2f, wrap: vec2u, nearest: bool) -> vec3f {
+    let size = vec2i(vec2u(word(at), word(at + 1u)));
+    if size.x == 0 {
+        return vec3f(0.0);
+    }
+    let s = texture_raster_reduced(coordinates.x, wrap.x);
+    let t = texture_raster_reduced(coordinates.y, wrap.y);
+    let place = vec2f(s, 1.0 - t) * vec2f(size);
+    if nearest {
+        return texture_raster_pixel(at, size, texture_raster_floor(place), wrap);
+    }
+    let shifted = place - 0.5;
+    let first = texture_raster_floor(shifted);
+    let part = shifted - floor(shifted);
+    var sum = vec3f(0.0);
+    for (var corner = 0; corner < 4; corner++) {
+        let shift = vec2i(corner & 1, corner >> 1u);
+        let weights = select(1.0 - part, part, shift == vec2i(1));
+        sum += texture_raster_pixel(at, size, first + shift, wrap) * (weights.x * weights.y);
+    }
+    return sum;
+}
+
+/// Numbers of the pixel around a point.
+///
+/// Twin: specula-render/src/convert.rs, floor_i32; far outside it saturates earlier.
+fn texture_raster_floor(place: vec2f) -> vec2i {
+    let farthest = vec2f(TEXTURE_RASTER_FARTHEST);
+    return vec2i(clamp(floor(place), -farthest, farthest));
+}
+
+/// A pixel; black outside where the picture ends there.
+///
+/// Twin: specula-render/src/texture/raster.rs, Raster::pixel.
+fn texture_raster_pixel(at: u32, size: vec2i, pixel: vec2i, wrap: vec2u) -> vec3f {
+    let x = texture_raster_wrapped(pixel.x, size.x, wrap.x);
+    let y = texture_raster_wrapped(pixel.y, size.y, wrap.y);
+    if x < 0 || y < 0 {
+        return vec3f(0.0);
+    }
+    let index = u32(y) * u32(size.x) + u32(x);
+    if word(at + 2u) == 0u {
+        return vector(at + 3u + 3u * index);
+    }
+    let palette = at + 3u;
+    let bytes = word(palette + 256u + index);
+    return vec3f(
+        number(palette + (bytes & 255u)),
+        number(palette + ((bytes >> 8u) & 255u)),
+        number(palette + (bytes >> 16u)),
+    );
+}
+
+/// Coordinates that repeat are reduced first: pixel numbers stay small and exact.
+///
+/// Twin: specula-render/src/texture/raster.rs, reduced.
+fn texture_raster_reduced(s: f32, wrap: u32) -> f32 {
+    if wrap == TEXTURE_RASTER_REPEAT {
+        return s - floor(s);
+    }
+    if wrap == TEXTURE_RASTER_MIRROR {
+        return s - 2.0 * floor(0.5 * s);
+    }
+    return s;
+}
+
+/// A number of `0..size`; -1 where the picture is black.
+///
+/// Twin: specula-render/src/texture/raster.rs, wrapped.
+fn texture_raster_wrapped(x: i32, size: i32, wrap: u32) -> i32 {
+    if x >= 0 && x < size {
+        return x;
+    }
+    if wrap == TEXTURE_RASTER_CLAMP {
+        return clamp(x, 0, size - 1);
+    }
+    if wrap == TEXTURE_RASTER_REPEAT {
+        return texture_raster_remainder(x, size);
+    }
+    if wrap == TEXTURE_RASTER_MIRROR {
+        let back = texture_raster_remainder(x, 2 * size);
+        return min(back, 2 * size - 1 - back);
+    }
+    return -1;
+}
+
+/// The remainder in `0..size`.
+fn texture_raster_remainder(x: i32, size: i32) -> i32 {
+    let remainder = x % size;
+    return select(remainder, remainder + size, remainder < 0);
+}

@@ -1,0 +1,243 @@
+// Rays through the trees: 8-wide nodes over packets of 8 triangles, spheres, disks and placements.
+//
+// Twin of specula-render/src/accel/{traverse,frame,triangle,quadric,instances}.rs: the same boxes, the
+// same watertight test of triangles (Woop, Benthin and Wald 2013), the same rule for ties. Departures:
+// quadrics and placements in f32, where the CPU computes in f64; directions along an axis get a tiny
+// component instead of an infinite reciprocal, which shaders may not count on.
+
+import tracer::world::{word, number, affine_point, affine_vector};
+
+/// A ray, `origin + t direction` for `t` in `(0, t_max)`.
+struct Ray {
+    origin: vec3f,
+    direction: vec3f,
+    t_max: f32,
+}
+
+/// Where a ray first meets a surface; `instance` is NONE where it meets none.
+struct Hit {
+    t: f32,
+    u: f32,
+    v: f32,
+    primitive: u32,
+    instance: u32,
+}
+
+/// A ray prepared for boxes and triangles.
+///
+/// Twin: specula-render/src/accel/frame.rs, RayFrame.
+struct RayFrame {
+    origin: vec3f,
+    direction: vec3f,
+    scale: vec3f,
+    // Rows of the nodes' boxes that the ray meets first.
+    near: vec3u,
+    // The two lesser axes, and the one in which the direction is greatest.
+    axes: vec3u,
+    shear: vec3f,
+}
+
+/// Slack of the slab test.
+///
+/// Twin: specula-render/src/accel/frame.rs, SLACK.
+const TRAVERSE_SLACK: f32 = 1.00000095367431640625;
+/// Marks where rays leave a placed group, on the stack.
+const TRAVERSE_LEAVE: u32 = 0xffffffffu;
+/// Least size of a component of a direction in the test of boxes.
+const TRAVERSE_LEAST: f32 = 1.0e-30;
+
+/// Prepares a ray.
+fn traverse_frame(origin: vec3f, direction: vec3f) -> RayFrame {
+    let size = abs(direction);
+    var z = 2u;
+    if size.x > size.y && size.x > size.z {
+        z = 0u;
+    } else if size.y >= size.x && size.y > size.z {
+        z = 1u;
+    }
+    let x = (z + 1u) % 3u;
+    let y = (z + 2u) % 3u;
+    let negative = direction < vec3f(0.0);
+    let least = select(vec3f(TRAVERSE_LEAST), vec3f(-TRAVERSE_LEAST), negative);
+    let safe = select(direction, least, size < vec3f(TRAVERSE_LEAST));
+    let inverse = 1.0 / direction[z];
+    return RayFrame(
+        origin,
+        direction,
+        1.0 / safe,
+        select(vec3u(0u, 2u, 4u), vec3u(1u, 3u, 5u), negative),
+        vec3u(x, y, z),
+        vec3f(direction[x] * inverse, direction[y] * inverse, inverse),
+    );
+}
+
+/// Where a ray enters a child's box; negative where it misses it.
+fn traverse_box(base: u32, lane: u32, frame: RayFrame, end: f32) -> f32 {
+    let near = vec3f(
+        bitcast<f32>(world_nodes[base + frame.near.x * 8u + lane]),
+        bitcast<f32>(world_nodes[base + frame.near.y * 8u + lane]),
+        bitcast<f32>(world_nodes[base + frame.near.z * 8u + lane]),
+    );
+    let far = vec3f(
+        bitcast<f32>(world_nodes[base + (frame.near.x ^ 1u) * 8u + lane]),
+        bitcast<f32>(world_nodes[base + (frame.near.y ^ 1u) * 8u + lane]),
+        bitcast<f32>(world_nodes[base + (frame.near.z ^ 1u) * 8u + lane]),
+    );
+    let enter = (near - frame.origin) * frame.scale;
+    let leave = (far - frame.origin) * (frame.scale * TRAVERSE_SLACK);
+    let first = max(max(enter.x, enter.y), max(enter.z, 0.0));
+    let last = min(min(leave.x, leave.y), min(leave.z, end));
+    return select(-1.0, first, first <= last);
+}
+
+/// Keeps a hit where it is nearer than what was found, or as near and of a smaller number.
+fn traverse_offer(best: ptr<function, Hit>, t: f32, u: f32, v: f32, primitive: u32, instance: u32) {
+    let found = (*best).instance != NONE;
+    let tied = t == (*best).t && found
+        && (instance < (*best).instance
+            || (instance == (*best).instance && primitive < (*best).primitive));
+    if t < (*best).t || tied {
+        *best = Hit(t, u, v, primitive, instance);
+    }
+}
+
+/// A vertex of a packet's triangle, sheared along the ray.
+fn traverse_vertex(base: u32, lane: u32, corner: u32, frame: RayFrame) -> vec3f {
+    let at = base + corner * 24u + lane;
+    let z = bitcast<f32>(world_packets[at + frame.axes.z * 8u]) - frame.origin[frame.axes.z];
+    let x = bitcast<f32>(world_packets[at + frame.axes.x * 8u]) - frame.origin[frame.axes.x];
+    let y = bitcast<f32>(world_packets[at + frame.axes.y * 8u]) - frame.origin[frame.axes.y];
+    return vec3f(x - frame.shear.x * z, y - frame.shear.y * z, z);
+}
+
+/// Tries the triangles of a packet.
+fn traverse_packet(index: u32, frame: RayFrame, instance: u32, best: ptr<function, Hit>) {
+    let base = index * 80u;
+    for (var lane = 0u; lane < 8u; lane += 1u) {
+        let a = traverse_vertex(base, lane, 0u, frame);
+        let b = traverse_vertex(base, lane, 1u, frame);
+        let c = traverse_vertex(base, lane, 2u, frame);
+        let u = c.x * b.y - c.y * b.x;
+        let v = a.x * c.y - a.y * c.x;
+        let w = b.x * a.y - b.y * a.x;
+        let low = min(u, min(v, w));
+        let high = max(u, max(v, w));
+        let total = (u + v) + w;
+        if (low >= 0.0 || high <= 0.0) && total != 0.0 {
+            // Divided one by one: the products with z, or 1 / total, may overflow.
+            let weights = vec3f(u, v, w) / total;
+            let t = ((weights.x * a.z + weights.y * b.z) + weights.z * c.z) * frame.shear.z;
+            if t > 0.0 && t <= (*best).t {
+                let primitive = world_packets[base + 72u + lane];
+                traverse_offer(best, t, weights.y, weights.z, primitive, instance);
+            }
+        }
+    }
+}
+
+/// The least `t > 0` at which a ray meets a quadric; not positive where it does not.
+///
+/// Source: Haines, Guenther and Akenine-Moeller 2019 (Ray Tracing Gems 7), eqs. 5 and 10.
+fn traverse_quadric(at: u32, frame: RayFrame) -> f32 {
+    let o = affine_point(at + 4u, frame.origin);
+    let d = affine_vector(at + 4u, frame.direction);
+    let radius = number(at + 1u);
+    if word(at) == 1u {
+        let t = (number(at + 2u) - o.z) / d.z;
+        let p = o.xy + t * d.xy;
+        return select(-1.0, t, dot(p, p) <= radius * radius && d.z != 0.0);
+    }
+    let a = dot(d, d);
+    let b = -dot(o, d);
+    let closest = o + d * (b / a);
+    let discriminant = radius * radius - dot(closest, closest);
+    if discriminant < 0.0 {
+        return -1.0;
+    }
+    let distance = length(o);
+    let root = sqrt(a * discriminant);
+    let q = b + select(root, -root, b < 0.0);
+    let c = (distance - radius) * (distance + radius);
+    if q == 0.0 {
+        return -1.0;
+    }
+    let first = min(c / q, q / a);
+    let second = max(c / q, q / a);
+    return select(second, first, first > 0.0);
+}
+
+/// The first surface that a ray meets; any surface where `any` is set.
+///
+/// Twin: specula-render/src/accel/traverse.rs, cast.
+fn traverse(ray: Ray, any: bool) -> Hit {
+    var best = Hit(ray.t_max, 0.0, 0.0, 0u, NONE);
+    if TREE_ROOT == NONE {
+        return best;
+    }
+    var frame = traverse_frame(ray.origin, ray.direction);
+    var instance = LONE_INSTANCE;
+    var stack: array<vec2u, STACK_SIZE>;
+    var top = 0u;
+    var current = TREE_ROOT;
+    loop {
+        let kind = current >> 30u;
+        let index = current & 0x3fffffffu;
+        if current == TRAVERSE_LEAVE {
+            frame = traverse_frame(ray.origin, ray.direction);
+        } else if kind == 0u {
+            let base = index * 64u;
+            let begin = top;
+            for (var lane = 0u; lane < 8u; lane += 1u) {
+                let enter = traverse_box(base, lane, frame, best.t * TRAVERSE_SLACK);
+                if enter >= 0.0 {
+                    var at = top;
+                    // The farthest at the bottom.
+                    while !any && at > begin && bitcast<f32>(stack[at - 1u].y) < enter {
+                        stack[at] = stack[at - 1u];
+                        at -= 1u;
+                    }
+                    stack[at] = vec2u(world_nodes[base + 48u + lane], bitcast<u32>(enter));
+                    top += 1u;
+                }
+            }
+        } else if kind == 1u {
+            traverse_packet(index, frame, instance, &best);
+        } else if kind == 2u {
+            let at = QUADRICS + index * 16u;
+            let t = traverse_quadric(at, frame);
+            if t > 0.0 && t <= best.t {
+                traverse_offer(&best, t, 0.0, 0.0, word(at + 3u), instance);
+            }
+        } else {
+            let at = PLACEMENTS + index * 15u;
+            instance = word(at + 1u);
+            if word(at + 2u) == 0u {
+                let origin = affine_point(at + 3u, ray.origin);
+                frame = traverse_frame(origin, affine_vector(at + 3u, ray.direction));
+                stack[top] = vec2u(TRAVERSE_LEAVE, 0u);
+                top += 1u;
+            }
+            current = word(at);
+            continue;
+        }
+        if any && best.instance != NONE {
+            return best;
+        }
+        loop {
+            if top == 0u {
+                return best;
+            }
+            top -= 1u;
+            if any || bitcast<f32>(stack[top].y) <= best.t * TRAVERSE_SLACK {
+                break;
+            }
+        }
+        current = stack[top].x;
+    }
+    return best;
+}
+
+/// Whether anything is in a ray's way.
+fn traverse_occluded(ray: Ray) -> bool {
+    return traverse(ray, true).instance != NONE;
+}

@@ -1,0 +1,58 @@
+//! The trees for shaders.
+
+use glam::DAffine3;
+
+use super::{Accel, QuadricShape, instances, quadric};
+use crate::convert::{id, narrow3};
+use crate::flat::Words;
+use crate::geometry::NONE;
+
+impl Accel {
+    /// Nodes and packets as they are; the root, quadrics and placements as words.
+    ///
+    /// A quadric: its kind (sphere, disk), radius, height, number, and its space from the group's; a
+    /// placement: root, instance, whether it moves nothing, and the group's space from the world's.
+    pub(crate) fn flatten(&self, to: &mut Words) -> (&[u8], &[u8]) {
+        let scene = &self.scene;
+        to.constant("TREE_ROOT", scene.root.map_or(NONE, |root| root.0));
+        to.constant("LONE_INSTANCE", scene.single.unwrap_or(NONE));
+        to.constant("TREE_DEPTH", id(self.stats.depth));
+        to.begin("QUADRICS");
+        for quadric in &scene.quadrics {
+            flatten_quadric(quadric, to);
+        }
+        to.begin("PLACEMENTS");
+        for placement in &scene.placements {
+            flatten_placement(placement, to);
+        }
+        (
+            bytemuck::cast_slice(&scene.nodes),
+            bytemuck::cast_slice(&scene.packets),
+        )
+    }
+}
+
+fn flatten_quadric(quadric: &quadric::Placed, to: &mut Words) {
+    let (kind, radius, height) = match quadric.shape() {
+        QuadricShape::Sphere { radius } => (0, radius, 0.0),
+        QuadricShape::Disk { radius, height } => (1, radius, height),
+    };
+    to.id(kind);
+    to.numbers([radius, height].map(crate::convert::narrow));
+    to.id(quadric.primitive);
+    affine(quadric.own_space(), to);
+}
+
+fn flatten_placement(placement: &instances::Placement, to: &mut Words) {
+    to.id(placement.root.0);
+    to.id(placement.instance);
+    to.flag(placement.identity);
+    affine(placement.group_space(), to);
+}
+
+fn affine(m: &DAffine3, to: &mut Words) {
+    let columns = [m.matrix3.x_axis, m.matrix3.y_axis, m.matrix3.z_axis];
+    for column in columns.into_iter().chain([m.translation]) {
+        to.vector(narrow3(column));
+    }
+}

@@ -1,0 +1,70 @@
+//! An array of words: numbers, indices and vectors one after the other.
+
+use specula_bsdf::{Rgb, Vec3};
+
+use crate::convert::{Affine, id};
+
+/// Words that a shader reads by their place; `f32` as its bits.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Words {
+    words: Vec<u32>,
+    constants: Vec<(&'static str, u32)>,
+}
+
+impl Words {
+    /// The place of the next word.
+    pub(crate) fn place(&self) -> u32 {
+        id(self.words.len())
+    }
+
+    /// Names the place of the next word for shaders.
+    pub(crate) fn begin(&mut self, name: &'static str) {
+        let place = self.place();
+        self.constant(name, place);
+    }
+
+    /// Names a number for shaders.
+    pub(crate) fn constant(&mut self, name: &'static str, value: u32) {
+        self.constants.push((name, value));
+    }
+
+    pub(crate) fn id(&mut self, word: u32) {
+        self.words.push(word);
+    }
+
+    pub(crate) fn ids(&mut self, words: impl IntoIterator<Item = u32>) {
+        self.words.extend(words);
+    }
+
+    pub(crate) fn flag(&mut self, flag: bool) {
+        self.words.push(u32::from(flag));
+    }
+
+    pub(crate) fn number(&mut self, x: f32) {
+        self.words.push(x.to_bits());
+    }
+
+    pub(crate) fn numbers(&mut self, numbers: impl IntoIterator<Item = f32>) {
+        self.words.extend(numbers.into_iter().map(f32::to_bits));
+    }
+
+    pub(crate) fn vector(&mut self, v: Vec3<f32>) {
+        self.numbers(v.to_array());
+    }
+
+    pub(crate) fn colour(&mut self, c: Rgb<f32>) {
+        self.numbers(c.to_array());
+    }
+
+    /// 12 words: three columns, then the translation.
+    pub(crate) fn affine(&mut self, m: &Affine) {
+        for v in m.columns {
+            self.vector(v);
+        }
+        self.vector(m.translation);
+    }
+
+    pub(super) fn finish(self) -> (Vec<u32>, Vec<(&'static str, u32)>) {
+        (self.words, self.constants)
+    }
+}

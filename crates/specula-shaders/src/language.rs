@@ -1,0 +1,116 @@
+//! The languages that the library is written in.
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::names::nearest;
+
+/// A shading language.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Language {
+    /// WebGPU Shading Language: the sources as they are.
+    Wgsl,
+    /// High Level Shading Language, shader model 5.1 and later.
+    Hlsl,
+    /// OpenGL Shading Language 4.50, for Vulkan and OpenGL.
+    Glsl,
+    /// OpenGL ES Shading Language 3.10.
+    GlslEs,
+    /// Metal Shading Language 2.0.
+    Msl,
+    /// SPIR-V 1.3.
+    SpirV,
+}
+
+impl Language {
+    /// All of them, in the order of the documentation.
+    pub const ALL: [Self; 6] = [
+        Self::Wgsl,
+        Self::Hlsl,
+        Self::Glsl,
+        Self::GlslEs,
+        Self::Msl,
+        Self::SpirV,
+    ];
+
+    /// What it is called at the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Wgsl => "wgsl",
+            Self::Hlsl => "hlsl",
+            Self::Glsl => "glsl",
+            Self::GlslEs => "glsl-es",
+            Self::Msl => "msl",
+            Self::SpirV => "spirv",
+        }
+    }
+
+    /// The library's file.
+    #[must_use]
+    pub fn library_file(self) -> &'static str {
+        match self {
+            Self::Wgsl => "specula.wgsl",
+            Self::Hlsl => "specula.hlsl",
+            Self::Glsl => "specula.glsl",
+            Self::GlslEs => "specula_es.glsl",
+            Self::Msl => "specula.metal",
+            Self::SpirV => "specula.spv",
+        }
+    }
+
+    /// The worked example's file.
+    #[must_use]
+    pub fn example_file(self) -> &'static str {
+        match self {
+            Self::Wgsl => "example.wgsl",
+            Self::Hlsl => "example.hlsl",
+            Self::Glsl => "example.comp",
+            Self::GlslEs => "example_es.comp",
+            Self::Msl => "example.metal",
+            Self::SpirV => "example.spv",
+        }
+    }
+}
+
+impl fmt::Display for Language {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Language {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        let found = Self::ALL.into_iter().find(|l| l.name() == name);
+        found.ok_or_else(|| {
+            let names = Self::ALL.map(Self::name);
+            let near = match nearest(name, names).first() {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("expected one of {}", names.join(", ")),
+            };
+            format!("there is no shading language `{name}`; {near}")
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_back() {
+        for language in Language::ALL {
+            assert_eq!(language.name().parse(), Ok(language));
+        }
+        assert_eq!(
+            "hlsls".parse::<Language>().unwrap_err(),
+            "there is no shading language `hlsls`; did you mean `hlsl`?"
+        );
+        assert_eq!(
+            "cuda-c".parse::<Language>().unwrap_err(),
+            "there is no shading language `cuda-c`; expected one of wgsl, hlsl, glsl, glsl-es, msl, spirv"
+        );
+    }
+}

@@ -1,0 +1,35 @@
+//! The microfacet library as WGSL.
+//!
+//! `wgsl/` mirrors the folders of `specula-bsdf`: each module is the twin of the Rust file of its name.
+//! [`MODULES`] lists them, and [`compose()`] puts the wanted ones and what they import into one text:
+//!
+//! ```
+//! # fn main() -> Result<(), specula_shaders::ComposeError> {
+//! let all = specula_shaders::compose(&[])?;
+//! # let _ = all;
+//! # Ok(())
+//! # }
+//! ```
+
+mod compose;
+mod declarations;
+mod document;
+mod export;
+mod header;
+mod items;
+mod language;
+mod modules;
+mod names;
+mod papers;
+mod restore;
+mod spirv;
+mod tables;
+mod translate;
+
+pub use compose::{ComposeError, compose, ordered};
+pub use declarations::{Declaration, Field, Kind, declarations, fields};
+pub use export::{EXAMPLE_MODULES, ExportError, File, export};
+pub use language::Language;
+pub use modules::{Import, MODULES, Module};
+pub use tables::{offset, tables};
+pub use translate::TranslateError;

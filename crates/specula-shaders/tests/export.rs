@@ -1,0 +1,283 @@
+//! What `export` writes: names and documentation survive, and other compilers take it.
+//!
+//! Compilers that are not there are skipped, loudly: `glslangValidator` (GLSL, GLSL ES, HLSL), `spirv-val`
+//! and `spirv-link` (SPIR-V), DXC (HLSL) through a Python that has the package `compushady`, named by
+//! the variable `SPECULA_DXC_PYTHON`.
+
+#![allow(clippy::unwrap_used, reason = "a panic is a failed test")]
+
+mod tools;
+
+use std::collections::BTreeSet;
+
+use specula_shaders::{Kind, Language, MODULES, compose, declarations, export, fields, ordered};
+use tools::Folder;
+
+const TEXTS: [Language; 5] = [
+    Language::Wgsl,
+    Language::Hlsl,
+    Language::Glsl,
+    Language::GlslEs,
+    Language::Msl,
+];
+
+/// The library of all modules in a language of text.
+fn library(language: Language) -> String {
+    let files = export(language, &[]).unwrap();
+    String::from_utf8(files[0].bytes.clone()).unwrap()
+}
+
+/// Whole words of a text.
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| c != '_' && !c.is_ascii_alphanumeric())
+}
+
+#[test]
+fn every_name_survives() {
+    let wgsl = compose(&[]).unwrap();
+    let parsed = naga::front::wgsl::parse_str(&wgsl).unwrap();
+    for language in TEXTS {
+        let text = library(language);
+        let words: BTreeSet<&str> = words(&text).collect();
+        let mut findings = Vec::new();
+        for declared in declarations(&wgsl) {
+            if !words.contains(declared.name) {
+                findings.push(declared.name.to_owned());
+            }
+        }
+        for (_, function) in parsed.functions.iter() {
+            let name = function.name.as_deref().unwrap();
+            let Some(signature) = signature(&text, name) else {
+                findings.push(format!("{name}()"));
+                continue;
+            };
+            let arguments = function.arguments.iter().filter_map(|a| a.name.as_deref());
+            for argument in arguments {
+                if !self::words(signature).any(|w| w == argument) {
+                    findings.push(format!("{argument} in `{signature}`"));
+                }
+            }
+        }
+        // A field whose name is reserved would get an underscore.
+        let reserved = fields(&wgsl).into_iter().map(|f| format!("{}_", f.name));
+        findings.extend(reserved.filter(|name| text.contains(&format!(".{name} "))));
+        assert!(findings.is_empty(), "{language}: {}", findings.join("\n"));
+    }
+}
+
+/// The arguments in the definition of a function.
+fn signature<'a>(text: &'a str, name: &str) -> Option<&'a str> {
+    let call = format!(" {name}(");
+    let mut places = text.match_indices(&call).map(|(at, _)| at);
+    let definition = places.find(|&at| {
+        let line = &text[text[..at].rfind('\n').map_or(0, |n| n + 1)..at];
+        !line.starts_with([' ', '/'])
+    })?;
+    let end = text[definition..].find(')')?;
+    Some(&text[definition..definition + end])
+}
+
+#[test]
+fn all_documentation_survives() {
+    for language in TEXTS {
+        let text = library(language);
+        let mut lines = text.lines().filter_map(|l| l.strip_prefix("///"));
+        let count = |kind: Kind| {
+            let all = MODULES.iter().flat_map(|m| declarations(m.text));
+            let documented = all.filter(|d| d.kind == kind);
+            documented.map(|d| d.docs.len()).sum::<usize>()
+        };
+        // naga writes buffers its own way, and no comment finds them.
+        let expected = count(Kind::Function) + count(Kind::Struct) + count(Kind::Constant);
+        let found = lines.by_ref().count();
+        assert!(found >= expected, "{language}: {found} lines of {expected}");
+        for module in MODULES {
+            assert!(
+                text.contains(&format!("--- {}\n", module.path))
+                    || is_without_functions(module.text),
+                "{language}: {}",
+                module.path
+            );
+        }
+    }
+}
+
+fn is_without_functions(text: &str) -> bool {
+    !declarations(text).iter().any(|d| d.kind == Kind::Function)
+}
+
+#[test]
+fn every_module_is_written_alone_in_every_language() {
+    for module in MODULES {
+        for language in Language::ALL {
+            let files = export(language, &[module.path]);
+            assert!(files.is_ok(), "{}: {}", module.path, files.unwrap_err());
+        }
+    }
+}
+
+#[test]
+fn headers_say_what_the_file_is() {
+    for language in TEXTS {
+        let files = export(language, &["bounded", "ggx"]).unwrap();
+        let text = String::from_utf8(files[0].bytes.clone()).unwrap();
+        let head = text.split("\n\n").next().unwrap();
+        for part in [
+            format!("// Specula {}: ", env!("CARGO_PKG_VERSION")),
+            "SPDX-License-Identifier: MIT OR Apache-2.0".to_owned(),
+            format!("`specula shaders --lang {language} --modules bounded,ggx`"),
+            "// Usage:\n".to_owned(),
+            "// * vndf/bounded: ".to_owned(),
+            "// * Tokuyoshi and Eto 2024. Bounded VNDF".to_owned(),
+        ] {
+            assert!(head.contains(&part), "{language}: {part} in\n{head}");
+        }
+        assert!(!head.contains("energy_tables"), "{head}");
+        assert!(head.lines().all(|l| l.len() <= 110), "{head}");
+    }
+}
+
+#[test]
+fn tables_and_examples_come_with_what_uses_them() {
+    for language in Language::ALL {
+        let names = |modules: &[&str]| -> Vec<&str> {
+            let files = export(language, modules).unwrap();
+            files.iter().map(|f| f.name).collect()
+        };
+        let (library, example) = (language.library_file(), language.example_file());
+        assert_eq!(names(&["ggx"]), [library]);
+        assert_eq!(names(&["ggx", "bounded"]), [library, example]);
+        assert_eq!(names(&[]), [library, example, "energy_tables.bin"]);
+    }
+    let names: Vec<_> = ordered(&["bounded"]).unwrap();
+    assert!(names.iter().any(|m| m.path == "vndf/bounded"));
+}
+
+#[test]
+fn glsl_compiles() {
+    let Some(compiler) = tools::program("glslangValidator", "GLSL and GLSL ES") else {
+        return;
+    };
+    let heads = [
+        (Language::Glsl, "#version 430\n"),
+        (
+            Language::GlslEs,
+            "#version 310 es\nprecision highp float;\nprecision highp int;\n",
+        ),
+    ];
+    for (language, head) in heads {
+        let folder = Folder::with(&export(language, &[]).unwrap());
+        let whole =
+            |text: &str| format!("{head}{text}\nlayout(local_size_x = 1) in;\nvoid main() {{}}\n");
+        let text = library(language);
+        folder.write("whole.comp", &whole(&text));
+        let example = folder.read(language.example_file());
+        folder.write(
+            "pasted.comp",
+            &pasted(&example, language.library_file(), &text),
+        );
+        for arguments in [
+            &["whole.comp"][..],
+            &["-V", "--target-env", "vulkan1.1", "whole.comp"],
+            &["pasted.comp"],
+            &["-V", "--target-env", "vulkan1.1", language.example_file()],
+        ] {
+            folder.accepted(&compiler, arguments);
+        }
+        folder.write(
+            "whole.comp",
+            &whole(&text.replacen("return ", "return not_there * ", 1)),
+        );
+        folder.refused(&compiler, &["-V", "whole.comp"]);
+    }
+}
+
+/// The example with the library's text in place of its include.
+fn pasted(example: &str, file: &str, library: &str) -> String {
+    example
+        .replace(&format!("#include \"{file}\""), library)
+        .replace("#extension GL_GOOGLE_include_directive : require\n", "")
+}
+
+#[test]
+fn hlsl_compiles_with_glslang() {
+    let Some(compiler) = tools::program("glslangValidator", "HLSL") else {
+        return;
+    };
+    let folder = Folder::with(&export(Language::Hlsl, &[]).unwrap());
+    let text = library(Language::Hlsl);
+    let whole = |text: &str| format!("{text}\n[numthreads(1, 1, 1)] void main() {{}}\n");
+    folder.write("whole.hlsl", &whole(&text));
+    for file in ["whole.hlsl", "example.hlsl"] {
+        folder.accepted(&compiler, &["-V", "-D", "-S", "comp", "-e", "main", file]);
+    }
+    folder.write(
+        "whole.hlsl",
+        &whole(&text.replacen("return ", "return not_there * ", 1)),
+    );
+    folder.refused(
+        &compiler,
+        &["-V", "-D", "-S", "comp", "-e", "main", "whole.hlsl"],
+    );
+}
+
+#[test]
+fn hlsl_compiles_with_dxc() {
+    let Some(python) = tools::dxc_python() else {
+        return;
+    };
+    let folder = Folder::with(&export(Language::Hlsl, &[]).unwrap());
+    let text = library(Language::Hlsl);
+    folder.write("dxc.py", include_str!("tools/dxc.py"));
+    let example = folder.read("example.hlsl");
+    folder.write("pasted.hlsl", &pasted(&example, "specula.hlsl", &text));
+    for arguments in [
+        ["dxc.py", "specula.hlsl", "", "lib_6_3"],
+        ["dxc.py", "pasted.hlsl", "main", "cs_6_0"],
+        ["dxc.py", "pasted.hlsl", "main", "cs_6_6"],
+    ] {
+        folder.accepted(&python, &arguments);
+    }
+    folder.write(
+        "broken.hlsl",
+        &text.replacen("return ", "return not_there * ", 1),
+    );
+    folder.refused(&python, &["dxc.py", "broken.hlsl", "", "lib_6_3"]);
+}
+
+#[test]
+fn spirv_is_valid_and_links() {
+    let (Some(validator), Some(assembler), Some(linker)) = (
+        tools::program("spirv-val", "SPIR-V"),
+        tools::program("spirv-as", "linking SPIR-V"),
+        tools::program("spirv-link", "linking SPIR-V"),
+    ) else {
+        return;
+    };
+    let folder = Folder::with(&export(Language::SpirV, &[]).unwrap());
+    folder.accepted(&validator, &["--target-env", "vulkan1.1", "example.spv"]);
+    folder.accepted(&validator, &["--target-env", "spv1.3", "specula.spv"]);
+    folder.write("caller.spvasm", include_str!("tools/caller.spvasm"));
+    let assemble = [
+        "--target-env",
+        "spv1.3",
+        "caller.spvasm",
+        "-o",
+        "caller.spv",
+    ];
+    folder.accepted(&assembler, &assemble);
+    let link = [
+        "--target-env",
+        "spv1.3",
+        "caller.spv",
+        "specula.spv",
+        "-o",
+        "linked.spv",
+    ];
+    folder.accepted(&linker, &link);
+    folder.accepted(&validator, &["--target-env", "vulkan1.1", "linked.spv"]);
+    let other = include_str!("tools/caller.spvasm").replace("ggx_d", "ggx_e");
+    folder.write("caller.spvasm", &other);
+    folder.accepted(&assembler, &assemble);
+    folder.refused(&linker, &link);
+}

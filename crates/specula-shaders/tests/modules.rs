@@ -1,0 +1,336 @@
+//! Rules that every file of `wgsl/` obeys. A failure lists all findings.
+
+#![allow(clippy::unwrap_used, reason = "a panic is a failed test")]
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+use specula_shaders::{Kind, MODULES, Module, compose, declarations};
+
+/// Prefixes of names, besides the module's own, that belong to a module.
+const PREFIXES: &[(&str, &[&str])] = &[
+    ("bsdf_sample", &["BSDF_", "TRANSPORT_"]),
+    ("reflection", &["SAMPLER_"]),
+];
+
+fn crate_folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Fails with everything that was found.
+fn none(findings: &[String]) {
+    assert!(findings.is_empty(), "\n{}", findings.join("\n"));
+}
+
+/// Paths of the files below a folder of `wgsl/`, as `Module::path`.
+fn files(folder: &Path, prefix: &str, found: &mut BTreeSet<String>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let stem = path.file_stem().unwrap().to_str().unwrap();
+        if path.is_dir() {
+            files(&path, &format!("{prefix}{stem}/"), found);
+        } else if path.extension().is_some_and(|e| e == "wgsl") {
+            found.insert(format!("{prefix}{stem}"));
+        }
+    }
+}
+
+/// Whole words of a text without its `//` comments.
+fn words(text: &str) -> BTreeSet<&str> {
+    let code = text.lines().map(|l| l.split("//").next().unwrap_or(l));
+    code.flat_map(|l| l.split(|c: char| c != '_' && !c.is_ascii_alphanumeric()))
+        .collect()
+}
+
+#[test]
+fn every_file_is_registered() {
+    let mut found = BTreeSet::new();
+    files(&crate_folder().join("wgsl"), "", &mut found);
+    let registered: BTreeSet<String> = MODULES.iter().map(|m| m.path.to_owned()).collect();
+    let missing: Vec<_> = found.difference(&registered).cloned().collect();
+    assert!(missing.is_empty(), "not in src/modules.rs: {missing:?}");
+    assert_eq!(registered.len(), MODULES.len(), "a row stands there twice");
+}
+
+#[test]
+fn names_of_modules_and_declarations_are_unique() {
+    let mut findings = Vec::new();
+    let mut seen: BTreeMap<&str, &str> = BTreeMap::new();
+    for module in MODULES {
+        if let Some(other) = seen.insert(module.name(), module.path) {
+            findings.push(format!("{} and {other} have one name", module.path));
+        }
+    }
+    let mut seen: BTreeMap<&str, &str> = BTreeMap::new();
+    for module in MODULES {
+        for declared in declarations(module.text) {
+            if let Some(other) = seen.insert(declared.name, module.path) {
+                let name = declared.name;
+                findings.push(format!(
+                    "`{name}` is declared in {other} and {}",
+                    module.path
+                ));
+            }
+        }
+    }
+    none(&findings);
+}
+
+#[test]
+fn every_module_is_valid_with_what_it_imports() {
+    let mut findings = Vec::new();
+    for module in MODULES {
+        let text = match compose(&[module.path]) {
+            Ok(text) => text,
+            Err(error) => {
+                findings.push(format!("{}: {error}", module.path));
+                continue;
+            }
+        };
+        if let Err(report) = validated(&text) {
+            findings.push(format!("{}: {report}", module.path));
+        }
+    }
+    none(&findings);
+}
+
+/// The module that naga makes of a text, validated.
+fn validated(text: &str) -> Result<naga::Module, String> {
+    let module = naga::front::wgsl::parse_str(text).map_err(|e| e.emit_to_string(text))?;
+    Validator::new(ValidationFlags::all(), Capabilities::empty())
+        .validate(&module)
+        .map_err(|e| e.emit_to_string(text))?;
+    Ok(module)
+}
+
+#[test]
+fn every_import_exists_and_is_used() {
+    let mut findings = Vec::new();
+    for module in MODULES {
+        let imports = match module.imports() {
+            Ok(imports) => imports,
+            Err(error) => {
+                findings.push(error.to_string());
+                continue;
+            }
+        };
+        let code = module.code();
+        let used = words(&code);
+        for import in imports {
+            let Some(other) = MODULES.iter().find(|m| m.path == import.path) else {
+                findings.push(format!("{}: there is no {}", module.path, import.path));
+                continue;
+            };
+            let declared: Vec<&str> = declarations(other.text).iter().map(|d| d.name).collect();
+            for name in &import.names {
+                if !declared.contains(&name.as_str()) {
+                    findings.push(format!("{}: {} has no `{name}`", module.path, other.path));
+                }
+                if !used.contains(name.as_str()) {
+                    findings.push(format!("{}: `{name}` is not used", module.path));
+                }
+            }
+        }
+        findings.extend(not_imported(module, &used));
+    }
+    none(&findings);
+}
+
+/// Names of other modules that are used without an import.
+fn not_imported(module: &Module, used: &BTreeSet<&str>) -> Vec<String> {
+    let imports = module.imports().unwrap();
+    let imported: BTreeSet<&String> = imports.iter().flat_map(|i| &i.names).collect();
+    let others = MODULES.iter().filter(|m| m.path != module.path);
+    others
+        .flat_map(|other| {
+            declarations(other.text)
+                .into_iter()
+                .map(move |d| (other, d))
+        })
+        .filter(|(_, d)| used.contains(d.name) && !imported.contains(&d.name.to_owned()))
+        .map(|(other, d)| {
+            let (name, from) = (d.name, other.path);
+            format!("{}: `{name}` of {from} is not imported", module.path)
+        })
+        .collect()
+}
+
+#[test]
+fn everything_is_documented() {
+    let mut findings = Vec::new();
+    for module in MODULES {
+        if !module.text.starts_with("// ") || module.summary().is_empty() {
+            findings.push(format!("{}: the first line says nothing", module.path));
+        }
+        for declared in declarations(module.text) {
+            if declared.docs.first().is_none_or(|d| d.is_empty()) {
+                findings.push(format!(
+                    "{}: `{}` has no documentation",
+                    module.path, declared.name
+                ));
+            }
+        }
+        findings.extend(undocumented_fields(module));
+    }
+    none(&findings);
+}
+
+/// Fields of structures with no `///` line above them.
+fn undocumented_fields(module: &Module) -> Vec<String> {
+    let mut findings = Vec::new();
+    let mut before = "";
+    let mut structure = None;
+    for line in module.text.lines() {
+        if let Some(rest) = line.strip_prefix("struct ") {
+            structure = Some(rest.trim_end_matches([' ', '{']));
+        } else if line.starts_with('}') {
+            structure = None;
+        } else if let (Some(name), Some((field, _))) = (structure, line.split_once(':')) {
+            let is_field = !line.trim_start().starts_with("//");
+            if is_field && !before.trim_start().starts_with("///") {
+                let field = field.trim();
+                findings.push(format!(
+                    "{}: `{name}.{field}` has no documentation",
+                    module.path
+                ));
+            }
+        }
+        before = line;
+    }
+    findings
+}
+
+#[test]
+fn every_module_has_its_twin() {
+    let mut findings = Vec::new();
+    for module in MODULES {
+        let lines = module.text.lines();
+        let twins: Vec<&str> = lines
+            .filter_map(|l| l.trim_start().strip_prefix("/// Twin: "))
+            .collect();
+        if twins.is_empty() {
+            findings.push(format!("{}: nothing has a twin", module.path));
+        }
+        // Others are functions of Rust's libraries, or none for a reason that is given.
+        let ours = twins.iter().filter(|t| t.starts_with("specula-"));
+        let wrong = ours.filter_map(|twin| missing_twin(twin));
+        findings.extend(wrong.map(|w| format!("{}: {w}", module.path)));
+    }
+    none(&findings);
+}
+
+/// What is not there of `specula-bsdf/src/vndf/cap.rs, sample_wm`.
+fn missing_twin(twin: &str) -> Option<String> {
+    let crates = crate_folder().join("..");
+    let (file, names) = match twin.split_once(".rs") {
+        Some((file, names)) => (format!("{file}.rs"), names),
+        None => return Some(format!("no file in `{twin}`")),
+    };
+    // Several files: the first of `{heitz,cap}`.
+    let file = match (file.find('{'), file.find(','), file.find('}')) {
+        (Some(open), Some(comma), Some(close)) => {
+            format!(
+                "{}{}{}",
+                &file[..open],
+                &file[open + 1..comma],
+                &file[close + 1..]
+            )
+        }
+        _ => file,
+    };
+    let Ok(source) = std::fs::read_to_string(crates.join(&file)) else {
+        return Some(format!("there is no {file}"));
+    };
+    // What the trait gives to every lobe.
+    let lobes = std::fs::read_to_string(crates.join("specula-bsdf/src/bsdf/mod.rs")).unwrap();
+    let names = names.trim_start_matches(", ");
+    let name = names.split([' ', ',', ';', '.', '(']).next().unwrap_or("");
+    let last = name.rsplit("::").next().unwrap_or(name).trim_matches('`');
+    let is_there = source.contains(last) || lobes.contains(&format!("fn {last}("));
+    (!is_there).then(|| format!("{file} has no `{last}`"))
+}
+
+#[test]
+fn names_obey_the_rules() {
+    let mut findings = Vec::new();
+    for module in MODULES {
+        let stem = module.name().trim_end_matches(|c: char| c.is_ascii_digit());
+        let extra = PREFIXES.iter().find(|(m, _)| *m == module.name());
+        let extra = extra.map_or(&[][..], |(_, prefixes)| prefixes);
+        for declared in declarations(module.text) {
+            let name = declared.name;
+            let (prefix, case): (String, fn(char) -> bool) = match declared.kind {
+                Kind::Function => (stem.to_owned(), |c| !c.is_ascii_uppercase()),
+                Kind::Constant => (stem.to_uppercase(), |c| !c.is_ascii_lowercase()),
+                _ => continue,
+            };
+            let begins = name.starts_with(&prefix) || extra.iter().any(|p| name.starts_with(p));
+            if !begins || !name.chars().all(case) {
+                findings.push(format!(
+                    "{}: `{name}` does not begin with `{prefix}`",
+                    module.path
+                ));
+            }
+        }
+        if let Ok(text) = compose(&[module.path])
+            && let Ok(parsed) = naga::front::wgsl::parse_str(&text)
+        {
+            let names = all_names(&parsed).into_iter();
+            let bad = names.filter(|n| {
+                n.ends_with(|c: char| c.is_ascii_digit() || c == '_') || n.contains("__")
+            });
+            findings
+                .extend(bad.map(|n| format!("{}: `{n}` ends in a digit or has `__`", module.path)));
+        }
+    }
+    none(&findings);
+}
+
+/// Names of functions, arguments, variables, structures, fields and constants.
+fn all_names(module: &naga::Module) -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    for (_, function) in module.functions.iter() {
+        names.extend(function.name.clone());
+        names.extend(function.arguments.iter().filter_map(|a| a.name.clone()));
+        names.extend(
+            function
+                .local_variables
+                .iter()
+                .filter_map(|(_, v)| v.name.clone()),
+        );
+        names.extend(function.named_expressions.values().cloned());
+    }
+    for (_, kind) in module.types.iter() {
+        names.extend(kind.name.clone());
+        if let naga::TypeInner::Struct { members, .. } = &kind.inner {
+            names.extend(members.iter().filter_map(|m| m.name.clone()));
+        }
+    }
+    names.extend(module.constants.iter().filter_map(|(_, c)| c.name.clone()));
+    names
+}
+
+#[test]
+fn every_name_that_is_parsed_is_a_declaration() {
+    for module in MODULES {
+        let Ok(text) = compose(&[module.path]) else {
+            continue;
+        };
+        let Ok(parsed) = naga::front::wgsl::parse_str(&text) else {
+            continue;
+        };
+        let found: BTreeSet<&str> = declarations(&text).iter().map(|d| d.name).collect();
+        let functions = parsed
+            .functions
+            .iter()
+            .filter_map(|(_, f)| f.name.as_deref());
+        let constants = parsed
+            .constants
+            .iter()
+            .filter_map(|(_, c)| c.name.as_deref());
+        for name in functions.chain(constants) {
+            assert!(found.contains(name), "{}: `{name}`", module.path);
+        }
+    }
+}

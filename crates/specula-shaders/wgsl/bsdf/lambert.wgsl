@@ -1,0 +1,42 @@
+// Lambert's diffuse reflection.
+
+import package::bsdf::bsdf_sample::{BsdfSample, bsdf_sample_reflected};
+import package::math::warp::{warp_cosine_hemisphere, warp_cosine_hemisphere_pdf};
+
+/// `f = albedo / pi`.
+///
+/// Twin: specula-bsdf/src/bsdf/lambert.rs, Lambert.
+struct Lambert {
+    /// In [0, 1].
+    albedo: vec3f,
+}
+
+/// `f |cos|`, in 1/sr.
+///
+/// Twin: specula-bsdf/src/bsdf/lambert.rs, Lambert::eval.
+fn lambert_eval(lobe: Lambert, wo: vec3f, wi: vec3f, transport: u32) -> vec3f {
+    return lobe.albedo * warp_cosine_hemisphere_pdf(wi);
+}
+
+/// Density of `lambert_draw`, in 1/sr.
+///
+/// Twin: specula-bsdf/src/bsdf/lambert.rs, Lambert::pdf.
+fn lambert_pdf(lobe: Lambert, wo: vec3f, wi: vec3f) -> f32 {
+    return warp_cosine_hemisphere_pdf(wi);
+}
+
+/// `f |cos|` and its density: (red, green, blue, density).
+///
+/// Twin: specula-bsdf/src/bsdf/lambert.rs, Lambert::eval_pdf.
+fn lambert_eval_pdf(lobe: Lambert, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
+    let pdf = warp_cosine_hemisphere_pdf(wi);
+    return vec4f(lobe.albedo * pdf, pdf);
+}
+
+/// Draws `wi` by the cosine.
+///
+/// Twin: specula-bsdf/src/bsdf/lambert.rs, Lambert::sample.
+fn lambert_draw(lobe: Lambert, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+    let wi = warp_cosine_hemisphere(u.yz);
+    return bsdf_sample_reflected(wi, lobe.albedo, warp_cosine_hemisphere_pdf(wi));
+}

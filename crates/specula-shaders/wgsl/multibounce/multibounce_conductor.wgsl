@@ -1,0 +1,136 @@
+// A rough metal with all its bounces, by one of the models.
+//
+// Values are estimates from a stream of random numbers. Draws are the walk's; their true density is not
+// known, and that of `mis_pdf` takes its place for the weights of multiple importance sampling (any
+// positive function serves there: the weights of two strategies sum to 1 whatever it is).
+//
+// Departure from the Rust source: a caller always brings a stream.
+
+import package::bsdf::bsdf_sample::{BsdfSample, bsdf_sample_reflected};
+import package::math::stream::{Stream};
+import package::multibounce::bitterli2022::{bitterli_eval};
+import package::multibounce::cui2023::{cui_draw, cui_eval, cui_eval_bidirectional};
+import package::multibounce::heitz2016::{heitz_walk_draw, heitz_walk_eval};
+import package::multibounce::mis_pdf::{mis_pdf_reflection};
+import package::multibounce::multibounce_model::{MULTIBOUNCE_MODEL_BITTERLI, MULTIBOUNCE_MODEL_CUI, MULTIBOUNCE_MODEL_CUI_BIDIRECTIONAL, MULTIBOUNCE_MODEL_HEITZ, MULTIBOUNCE_MODEL_WANG, MULTIBOUNCE_MODEL_WANG_UNCORRELATED};
+import package::multibounce::ours::{ours_draw, ours_eval};
+import package::multibounce::walk::{Facets};
+import package::multibounce::wang2022::{wang_draw, wang_eval};
+
+/// Reflection off a rough metal with every bounce between its facets.
+///
+/// Backfacing views (`wo.z < 0`) are continued: the first collision is `Exp(sigma(wo) / |wo.z|)` deep.
+///
+/// Twin: specula-bsdf/src/multibounce/conductor.rs, Conductor.
+struct MultibounceConductor {
+    /// Its facets.
+    facets: Facets,
+    /// One of the `MULTIBOUNCE_MODEL` constants.
+    model: u32,
+    /// One of the `MIS_PDF` constants.
+    mis: u32,
+}
+
+/// An estimate of the model's `f cos` alone, without the density of multiple importance sampling; black
+/// where `wi.z <= 0`.
+///
+/// Twin: specula-bsdf/src/multibounce/conductor.rs, Conductor::estimate.
+fn multibounce_conductor_eval(
+    lobe: MultibounceConductor,
+    wo: vec3f,
+    wi: vec3f,
+    stream: ptr<function, Stream>,
+) -> vec3f {
+    if wi.z <= 0.0 {
+        return vec3f(0.0);
+    }
+    switch lobe.model {
+        case MULTIBOUNCE_MODEL_HEITZ: {
+            return heitz_walk_eval(lobe.facets, true, wo, wi, stream);
+        }
+        case MULTIBOUNCE_MODEL_BITTERLI: {
+            return bitterli_eval(lobe.facets, wo, wi, stream);
+        }
+        case MULTIBOUNCE_MODEL_WANG, MULTIBOUNCE_MODEL_WANG_UNCORRELATED: {
+            let correlated = lobe.model == MULTIBOUNCE_MODEL_WANG;
+            return wang_eval(lobe.facets, correlated, wo, wi, stream);
+        }
+        case MULTIBOUNCE_MODEL_CUI, MULTIBOUNCE_MODEL_CUI_BIDIRECTIONAL: {
+            if lobe.model == MULTIBOUNCE_MODEL_CUI_BIDIRECTIONAL && wo.z > 0.0 {
+                return cui_eval_bidirectional(lobe.facets, wo, wi, stream);
+            }
+            return cui_eval(lobe.facets, wo, wi, stream);
+        }
+        default: {
+            return ours_eval(lobe.facets, wo, wi, stream);
+        }
+    }
+}
+
+/// The density for multiple importance sampling, in 1/sr; 0 where `wi.z <= 0`.
+///
+/// Twin: specula-bsdf/src/multibounce/conductor.rs, Conductor::pdf.
+fn multibounce_conductor_pdf(lobe: MultibounceConductor, wo: vec3f, wi: vec3f) -> f32 {
+    return mis_pdf_reflection(lobe.mis, lobe.facets.normals, wo, wi);
+}
+
+/// An estimate of `f cos` and the density: (red, green, blue, density).
+///
+/// Twin: specula-bsdf/src/multibounce/conductor.rs, Conductor::eval_pdf_random.
+fn multibounce_conductor_eval_pdf(
+    lobe: MultibounceConductor,
+    wo: vec3f,
+    wi: vec3f,
+    stream: ptr<function, Stream>,
+) -> vec4f {
+    let value = multibounce_conductor_eval(lobe, wo, wi, stream);
+    return vec4f(value, multibounce_conductor_pdf(lobe, wo, wi));
+}
+
+/// A direction of the model's walk and its weight, without the density of multiple importance sampling
+/// (`pdf` is 0); none for a walk that was given up.
+///
+/// * `u`: draws the first facet.
+///
+/// Twin: specula-bsdf/src/multibounce/conductor.rs, Conductor::draw.
+fn multibounce_conductor_walk(
+    lobe: MultibounceConductor,
+    wo: vec3f,
+    u: vec2f,
+    stream: ptr<function, Stream>,
+) -> BsdfSample {
+    switch lobe.model {
+        case MULTIBOUNCE_MODEL_HEITZ, MULTIBOUNCE_MODEL_BITTERLI: {
+            return heitz_walk_draw(lobe.facets, wo, u, stream);
+        }
+        case MULTIBOUNCE_MODEL_WANG, MULTIBOUNCE_MODEL_WANG_UNCORRELATED: {
+            let correlated = lobe.model == MULTIBOUNCE_MODEL_WANG;
+            return wang_draw(lobe.facets, correlated, wo, u, stream);
+        }
+        case MULTIBOUNCE_MODEL_CUI, MULTIBOUNCE_MODEL_CUI_BIDIRECTIONAL: {
+            return cui_draw(lobe.facets, wo, u, stream);
+        }
+        default: {
+            return ours_draw(lobe.facets, wo, u, stream);
+        }
+    }
+}
+
+/// A direction of the model's walk with the density of multiple importance sampling.
+///
+/// * `u`: `u.yz` draws the first facet.
+///
+/// Twin: specula-bsdf/src/multibounce/conductor.rs, Conductor::sample_random.
+fn multibounce_conductor_draw(
+    lobe: MultibounceConductor,
+    wo: vec3f,
+    u: vec3f,
+    stream: ptr<function, Stream>,
+) -> BsdfSample {
+    let left = multibounce_conductor_walk(lobe, wo, u.yz, stream);
+    if left.flags == 0u {
+        return left;
+    }
+    let pdf = multibounce_conductor_pdf(lobe, wo, left.wi);
+    return bsdf_sample_reflected(left.wi, left.weight, pdf);
+}

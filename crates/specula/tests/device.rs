@@ -1,0 +1,135 @@
+//! `--device` and `specula devices`. What needs a GPU says that it is skipped where there is none, and
+//! fails where `SPECULA_GPU=require`.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail loudly")]
+#![allow(clippy::print_stdout, reason = "tests that are skipped say so")]
+
+mod common;
+
+use std::path::Path;
+
+use common::{small_scene, specula, stderr};
+use specula::gpu::{AdapterKind, adapters};
+use specula::render::picture::{Picture, read_exr};
+
+fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
+    let output = specula(folder).args(arguments).output().unwrap();
+    (output.status.code(), stderr(&output))
+}
+
+fn succeed(folder: &Path, arguments: &[&str]) -> String {
+    let (code, said) = run(folder, arguments);
+    assert_eq!(code, Some(0), "{arguments:?}: {said}");
+    said
+}
+
+fn picture(folder: &Path, name: &str) -> Picture {
+    read_exr(&folder.join(name)).unwrap()
+}
+
+/// Whether there is a GPU; else a loud line that `what` is skipped.
+fn has_gpu(what: &str) -> bool {
+    let found = !adapters().is_empty();
+    if !found {
+        let required = std::env::var("SPECULA_GPU").is_ok_and(|v| v == "require");
+        assert!(!required, "SPECULA_GPU=require, but there is none");
+        println!("SKIPPED: {what}: no GPU found");
+    }
+    found
+}
+
+#[test]
+fn devices_are_listed() {
+    let (folder, _) = small_scene();
+    let output = specula(folder.path()).arg("devices").output().unwrap();
+    assert!(output.status.success());
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(said.starts_with("cpu: "), "{said}");
+    for adapter in adapters() {
+        assert!(said.contains(&format!("gpu:{adapter}")), "{said}");
+    }
+}
+
+#[test]
+fn devices_that_are_not_there_are_named_and_nothing_is_written() {
+    let (folder, _) = small_scene();
+    let folder = folder.path();
+    let output = ["-o", "a.exr"];
+    for (device, expected) in [
+        ("tpu", "expected auto, cpu, gpu"),
+        ("gpu:99", "no GPU"),
+        ("gpu:no such card", "no GPU"),
+    ] {
+        let arguments = [&["render", "small.pbrt", "--device", device], &output[..]].concat();
+        let (code, said) = run(folder, &arguments);
+        assert_eq!(code, Some(2), "{said}");
+        assert!(said.contains(expected), "{said}");
+    }
+    assert!(!folder.join("a.exr").exists());
+}
+
+#[test]
+fn auto_renders_everywhere() {
+    let (folder, _) = small_scene();
+    let folder = folder.path();
+    succeed(folder, &["render", "small.pbrt", "-o", "cpu.exr"]);
+    let auto = ["render", "small.pbrt", "--device", "auto", "-o", "auto.exr"];
+    succeed(folder, &auto);
+    let real = adapters().iter().any(|a| a.kind != AdapterKind::Software);
+    if !real {
+        assert_eq!(picture(folder, "auto.exr"), picture(folder, "cpu.exr"));
+    }
+}
+
+#[test]
+fn a_gpu_renders_the_processors_picture_and_resumes() {
+    if !has_gpu("rendering on a GPU") {
+        return;
+    }
+    let (folder, _) = small_scene();
+    let folder = folder.path();
+    succeed(folder, &["render", "small.pbrt", "-o", "cpu.exr"]);
+    let gpu = ["render", "small.pbrt", "--device", "gpu"];
+    let on_gpu = |rest: &[&str]| succeed(folder, &[&gpu[..], rest].concat());
+    let said = on_gpu(&["-o", "gpu.exr"]);
+    assert!(said.contains("rendering on "), "{said}");
+    let [a, b] = ["cpu.exr", "gpu.exr"].map(|name| picture(folder, name));
+    let far = a.colour.iter().zip(&b.colour);
+    let far = far.filter(|(a, b)| (**a - **b).to_array().iter().any(|d| d.abs() > 1e-3));
+    assert!(far.count() < 8, "of 384 pixels");
+
+    on_gpu(&["--spp", "6", "-o", "whole.exr"]);
+    on_gpu(&["--samples", "0..4", "-o", "part.film"]);
+    on_gpu(&[
+        "--spp",
+        "6",
+        "--resume",
+        "-o",
+        "part.film",
+        "-o",
+        "part.exr",
+    ]);
+    assert_eq!(picture(folder, "part.exr"), picture(folder, "whole.exr"));
+}
+
+#[test]
+fn what_a_gpu_does_not_render_is_named_before_anything_is_done() {
+    if !has_gpu("what a GPU does not render") {
+        return;
+    }
+    let (folder, scene) = small_scene();
+    let folder = folder.path();
+    let text = std::fs::read_to_string(&scene).unwrap();
+    let layered = text.replace(
+        "\"conductor\" \"float roughness\"",
+        "\"coatedconductor\" \"float conductor.roughness\"",
+    );
+    std::fs::write(&scene, layered).unwrap();
+    let (code, said) = run(
+        folder,
+        &["render", "small.pbrt", "--device", "gpu", "-o", "a.exr"],
+    );
+    assert_eq!(code, Some(2), "{said}");
+    let said: String = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("layers between which light walks"), "{said}");
+    assert!(!folder.join("a.exr").exists());
+}
