@@ -12,14 +12,8 @@
 mod draws;
 #[path = "gpu/renders.rs"]
 mod renders;
-/// The scenes of the comparison with other renderers; the chore has them.
-#[path = "../../xtask/src/versus"]
-#[allow(dead_code, reason = "the chore makes more of them")]
-mod versus {
-    pub(crate) mod mesh;
-    pub(crate) mod scenes;
-    pub(crate) mod sky;
-}
+#[path = "gpu/scenes.rs"]
+mod scenes;
 
 use std::fmt::Write as _;
 use std::fs;
@@ -109,7 +103,7 @@ impl Options {
             true => Effort {
                 quick: true,
                 draw_rounds: 7,
-                render_rounds: 3,
+                render_rounds: 5,
                 side: 64,
                 seconds: 0.1,
             },
@@ -167,7 +161,7 @@ fn machine(gpu: &Gpu, options: &Options) -> String {
         rayon::current_num_threads(),
     );
     if options.quick {
-        text += "- `--quick`: few rounds of short runs; differences of a few percent are noise.\n";
+        text += "- `--quick`: few rounds of short runs.\n";
     }
     if cfg!(debug_assertions) {
         text += "- Built with debug assertions: the processor's figures are too low.\n";
@@ -205,6 +199,13 @@ fn median(mut values: Vec<f64>) -> f64 {
         n if n % 2 == 1 => values[n / 2],
         n => 0.5 * (values[n / 2 - 1] + values[n / 2]),
     }
+}
+
+/// The least and the greatest of numbers.
+fn range(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    let wider = |[low, high]: [f64; 2], v: f64| [low.min(v), high.max(v)];
+    let none = [f64::INFINITY, f64::NEG_INFINITY];
+    values.into_iter().fold(none, wider)
 }
 
 /// Three digits that count.
@@ -247,6 +248,6 @@ Written by the bench below, which runs on any GPU that offers Vulkan, Metal or D
 - **Time** is the clock's around whole runs, with handing in the work and waiting for it, each run so much
   work that it lasts 0.1 s or more. Compilation and uploading come before and are told apart.
 - **Medians** of rounds; in a round all that is compared takes its turn. Ratios are medians of the rounds'
-  ratios.
+  ratios; where other programs run, single rounds stray from them as far as each table says.
 - `--adapter` chooses a GPU by its place or a part of its name, `--quick` takes a look.
 ";

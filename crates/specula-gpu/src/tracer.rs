@@ -1,6 +1,6 @@
 //! The path tracer: a scene on the device, and samples that it takes there.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use specula_render::{Found, PassReport, PreparedScene, RenderOptions, Renderer, Wanted};
@@ -91,13 +91,15 @@ impl<'a> Tracer<'a> {
         }
         let tables = specula_shaders::tables();
         let arrays = [
-            bytemuck::cast_slice(&tables),
+            bytemuck::cast_slice(tables),
             flat.nodes,
             flat.packets,
             bytemuck::cast_slice(&flat.words),
         ];
         let limits = gpu.device.limits();
-        let limit = u64::from(limits.max_storage_buffer_binding_size).min(limits.max_buffer_size);
+        let limit = limits
+            .max_storage_buffer_binding_size
+            .min(limits.max_buffer_size);
         let needed = arrays.iter().map(|a| a.len() as u64).max().unwrap_or(0);
         if needed > limit {
             return Err(TracerError::TooLarge { needed, limit });
@@ -137,7 +139,7 @@ impl<'a> Tracer<'a> {
             stop,
             || most.get(),
             |wanted| {
-                let found = self.take(wanted, stop);
+                let found = self.take(wanted);
                 most.set(self.samples);
                 found
             },
@@ -145,7 +147,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// Takes the samples of tiles, in the order of [`Wanted::each`], in waves.
-    fn take(&mut self, wanted: &[Wanted], stop: &AtomicBool) -> Result<Vec<Found>, GpuError> {
+    fn take(&mut self, wanted: &[Wanted]) -> Result<Vec<Found>, GpuError> {
         let list: Vec<[u32; 4]> = wanted
             .iter()
             .flat_map(Wanted::each)
@@ -159,8 +161,6 @@ impl<'a> Tracer<'a> {
             let start = Instant::now();
             found.extend(self.wave(wave)?);
             self.adjust(wave.len(), start.elapsed());
-            // A tile is taken whole or not at all; it is not long.
-            let _ = stop.load(Ordering::Relaxed);
         }
         Ok(found)
     }

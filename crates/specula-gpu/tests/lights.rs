@@ -9,12 +9,14 @@
     reason = "a suite says how much it checked, and its helpers fail loudly"
 )]
 
+mod common;
+
 use std::fmt::Write as _;
-use std::sync::LazyLock;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use common::gpu;
 use specula_bsdf::math::{Stream, rgb, warp};
-use specula_gpu::{AdapterChoice, Gpu, GpuError, Kernel};
+use specula_gpu::{Gpu, Kernel};
 use specula_render::{FlatScene, PreparedScene, RenderOptions};
 use specula_scene::scene::{EnvironmentMapping, ImageId, Light, SpotFalloff};
 use specula_scene::{Image, Scene};
@@ -88,21 +90,6 @@ fn answer_all(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 ";
-
-static GPU: LazyLock<Result<Gpu, GpuError>> = LazyLock::new(|| Gpu::open(&AdapterChoice::Best));
-
-/// The GPU, or a loud line that `what` is skipped.
-fn gpu(what: &str) -> Option<&'static Gpu> {
-    match &*GPU {
-        Ok(gpu) => Some(gpu),
-        Err(error) => {
-            let required = std::env::var("SPECULA_GPU").is_ok_and(|v| v == "require");
-            assert!(!required, "SPECULA_GPU=require, but: {error}");
-            println!("SKIPPED: {what}: {error}");
-            None
-        }
-    }
-}
 
 /// A scene of the shapes in `world`, a piece of a pbrt file.
 fn scene(name: &str, world: &str) -> Scene {

@@ -4,32 +4,20 @@
 //! Where no GPU is found, the tests say that they are skipped; `SPECULA_GPU=require` makes that a
 //! failure.
 #![allow(clippy::print_stdout, reason = "a suite says how much it checked")]
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail loudly")]
 
-use std::sync::LazyLock;
+mod common;
+
 use std::sync::atomic::AtomicBool;
 
+use common::gpu;
 use specula_bsdf::Rgb;
-use specula_gpu::{AdapterChoice, Gpu, GpuError, Tracer};
+use specula_gpu::{Gpu, Tracer};
 use specula_render::picture::Picture;
 use specula_render::{PreparedScene, RenderOptions, Renderer, Strategy};
 use specula_scene::Scene;
 use specula_scene::scene::{Filter, Projection};
 use specula_stat::image::{NoisyImage, compare};
-
-static GPU: LazyLock<Result<Gpu, GpuError>> = LazyLock::new(|| Gpu::open(&AdapterChoice::Best));
-
-/// The GPU, or a loud line that `what` is skipped.
-fn gpu(what: &str) -> Option<&'static Gpu> {
-    match &*GPU {
-        Ok(gpu) => Some(gpu),
-        Err(error) => {
-            let required = std::env::var("SPECULA_GPU").is_ok_and(|v| v == "require");
-            assert!(!required, "SPECULA_GPU=require, but: {error}");
-            println!("SKIPPED: {what}: {error}");
-            None
-        }
-    }
-}
 
 /// A scene of a pbrt-v4 file with this text after its camera.
 fn scene(text: &str) -> Scene {
@@ -80,12 +68,12 @@ fn mean(picture: &Picture) -> f64 {
 
 /// Share of the pixels that differ by more than a thousandth of themselves and of the mean.
 fn differing(a: &Picture, b: &Picture) -> f64 {
-    let mean = mean(a) as f32;
+    let mean = mean(a);
     let differ = a.colour.iter().zip(&b.colour).filter(|(a, b)| {
         (**a - **b)
             .to_array()
             .iter()
-            .any(|d| d.abs() > 1e-3 * (mean + a.max_channel()))
+            .any(|d| f64::from(d.abs()) > 1e-3 * (mean + f64::from(a.max_channel())))
     });
     differ.count() as f64 / a.colour.len() as f64
 }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use specula_bsdf::math::warp::uniform_sphere;
 use specula_gpu::{Arrays, Gpu, Kernel};
 
-use crate::{Effort, Result, figure, median, row, table};
+use crate::{Effort, Result, figure, median, range, row, table};
 
 /// Draws of a lane, as in Dupuy and Benyoub 2023, section 4.
 const DRAWS: usize = 64;
@@ -292,18 +292,41 @@ impl Outcome {
         median(self.times[widths][place].clone())
     }
 
+    /// Of every round: the ratio of two works' times.
+    fn ratios(&self, widths: usize, place: usize, to: usize) -> Vec<f64> {
+        let [a, b] = [place, to].map(|i| &self.times[widths][i]);
+        a.iter().zip(b).map(|(a, b)| a / b).collect()
+    }
+
     /// Median of the rounds' ratios of two works' times.
     fn ratio(&self, widths: usize, place: usize, to: usize) -> f64 {
-        let [a, b] = [place, to].map(|i| &self.times[widths][i]);
-        median(a.iter().zip(b).map(|(a, b)| a / b).collect())
+        median(self.ratios(widths, place, to))
+    }
+
+    /// How far single rounds stray from the medians of ratios, as a sentence.
+    ///
+    /// * `to`: the place that all works but itself are compared with.
+    fn strays(&self, to: usize) -> String {
+        let places = 0..self.times[0].len();
+        let all = places.flat_map(|place| {
+            (0..2).flat_map(move |widths| {
+                let middle = self.ratio(widths, place, to);
+                let ratios = self.ratios(widths, place, to);
+                ratios.into_iter().map(move |r| r / middle)
+            })
+        });
+        let [low, high] = range(all);
+        format!("Ratios of single rounds are {low:.2} to {high:.2} of their medians.")
     }
 
     /// Fails where two works that estimate the same do not.
-    fn agree(&self, places: [usize; 2]) -> Result<()> {
+    fn agree(&self, works: &[Work], places: [usize; 2]) -> Result<()> {
         for means in &self.means {
             let [a, b] = places.map(|i| means[i]);
-            if !((a - b).abs() <= DIFFERENCE * b.abs()) {
-                return Err(format!("works {places:?} have the means {a} and {b}").into());
+            let is_same = (a - b).abs() <= DIFFERENCE * b.abs();
+            if !is_same {
+                let [first, second] = places.map(|i| works[i].name);
+                return Err(format!("{first} and {second} have the means {a} and {b}").into());
             }
         }
         Ok(())
@@ -314,8 +337,8 @@ impl Outcome {
 pub(crate) fn normals(gpu: &Gpu, effort: &Effort) -> Result<String> {
     let rounds = effort.draw_rounds;
     let outcome = Outcome::new(gpu, &DIRECTIONS, rounds)?;
-    outcome.agree([1, 2])?;
-    outcome.agree([3, 4])?;
+    outcome.agree(&DIRECTIONS, [1, 2])?;
+    outcome.agree(&DIRECTIONS, [3, 4])?;
     let mut rows = vec![row([
         "drawn",
         "sampler",
@@ -347,9 +370,10 @@ pub(crate) fn normals(gpu: &Gpu, effort: &Effort) -> Result<String> {
          turns before each draw.\n\
          The paper: caps 39.25 % (RTX 2080) and 52.96 % (Arc A770) faster than Heitz 2018, read as \
          quotients of 1.39 and 1.53.\n\
-         Medians of {rounds} rounds; {} shaders compiled in {:.1} s.\n\n{}",
+         Medians of {rounds} rounds; {} shaders compiled in {:.1} s. {}\n\n{}",
         2 * DIRECTIONS.len(),
         outcome.compilation,
+        outcome.strays(3),
         table(&rows)
     ))
 }
@@ -359,7 +383,7 @@ pub(crate) fn furnace(gpu: &Gpu, effort: &Effort) -> Result<String> {
     let rounds = effort.draw_rounds;
     let outcome = Outcome::new(gpu, &REFLECTIONS, rounds)?;
     for place in [0, 2, 3] {
-        outcome.agree([place, 1])?;
+        outcome.agree(&REFLECTIONS, [place, 1])?;
     }
     let mut rows = vec![row([
         "sampler",
@@ -384,9 +408,10 @@ pub(crate) fn furnace(gpu: &Gpu, effort: &Effort) -> Result<String> {
          As above, of white rough metal: a reflection with its density and weight. The mean weight is the \
          albedo, the same for all samplers.\n\
          The paper: no clear difference on the GPU between the bounded cap and the cap.\n\
-         Medians of {rounds} rounds; {} shaders compiled in {:.1} s.\n\n{}",
+         Medians of {rounds} rounds; {} shaders compiled in {:.1} s. {}\n\n{}",
         2 * REFLECTIONS.len(),
         outcome.compilation,
+        outcome.strays(1),
         table(&rows)
     ))
 }

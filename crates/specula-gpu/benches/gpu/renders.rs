@@ -1,6 +1,5 @@
 //! Renders on the GPU: what longer paths cost, and speed beside the processor's.
 
-use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
@@ -9,8 +8,8 @@ use specula_gpu::{Gpu, Tracer, TracerError};
 use specula_render::{PreparedScene, RenderOptions, Renderer};
 use specula_scene::Scene;
 
-use crate::versus::scenes::{SCENES, SceneFile};
-use crate::{Effort, Result, figure, median, root, row, table};
+use crate::scenes::{SCENES, SceneFile};
+use crate::{Effort, Result, figure, median, range, row, table};
 
 /// Longest paths of table 3, in reflections.
 const DEPTHS: [u32; 4] = [1, 2, 4, 8];
@@ -87,12 +86,6 @@ impl<'a> Render<'a> {
     }
 }
 
-fn load(scene: &SceneFile) -> Result<Scene> {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("versus");
-    let file = scene.prepare(&root(), &folder)?.with_extension("pbrt");
-    Ok(specula_scene::load(&file)?.scene)
-}
-
 /// Medians of a quantity over the passes of one render.
 fn over(passes: &[Pass], of: impl Fn(&Pass) -> f64) -> f64 {
     median(passes.iter().map(of).collect())
@@ -100,12 +93,14 @@ fn over(passes: &[Pass], of: impl Fn(&Pass) -> f64) -> f64 {
 
 /// Table 3: Tokuyoshi and Eto 2024, table 3.
 pub(crate) fn longest_paths(gpu: &Gpu, effort: &Effort) -> Result<String> {
-    let scene = load(&SCENES[0])?;
+    let scene = SCENES[0].load()?;
+    let side = effort.side;
     let mut rows = vec![row([
         "longest path",
         "sampler",
         "s per million samples",
         "time / cap",
+        "in single rounds",
         "rays per sample",
         "rays / cap",
         "variance / cap",
@@ -118,15 +113,15 @@ pub(crate) fn longest_paths(gpu: &Gpu, effort: &Effort) -> Result<String> {
     }
     Ok(format!(
         "## Longer paths (Tokuyoshi and Eto 2024, table 3)\n\n\
-         A bounded cap rejects fewer reflections, so that paths are longer. The scene `metal-room` ({}), \
-         {2}x{2} pixels, all on the GPU.\n\
+         A bounded cap rejects fewer reflections, so that paths are longer. The scene `{}`: {}; \
+         {side}x{side} pixels.\n\
          The paper: the bounded cap takes 0.2 to 1.3 % more time than the cap up to 1 bounce, 0.3 to 2.9 % up \
          to 2, 0.5 to 6.2 % up to 4, 1.2 to 10.4 % up to 1024.\n\
-         The variance is that of a sample, as the film estimates it; a longer path shows more light.\n\
+         The variance is that of a sample, as the film estimates it. The samplers of one longest path have the same expectation.\n\
          Medians of {} rounds; {} shaders compiled in {compilation:.1} s of {:.0} s.\n\n{}",
+        SCENES[0].name,
         SCENES[0].title,
         effort.render_rounds,
-        effort.side,
         DEPTHS.len() * SAMPLERS.len(),
         start.elapsed().as_secs_f64(),
         table(&rows)
@@ -172,16 +167,19 @@ fn longest_path(
     let variance = renders.iter().map(Render::variance).collect::<Vec<_>>();
     let cells = |place: usize| {
         let [these, caps] = [&passes[place], &passes[0]];
-        let ratio = |of: fn(&Pass) -> f64| {
-            let ratios = these.iter().zip(caps).map(|(a, b)| of(a) / of(b));
-            median(ratios.collect())
+        let ratios = |of: fn(&Pass) -> f64| -> Vec<f64> {
+            let pairs = these.iter().zip(caps);
+            pairs.map(|(a, b)| of(a) / of(b)).collect()
         };
-        let (time, noise) = (ratio(|p| p.per_sample), variance[place] / variance[0]);
+        let times = ratios(|p| p.per_sample);
+        let [low, high] = range(times.iter().copied());
+        let (time, noise) = (median(times), variance[place] / variance[0]);
         let mut cells = vec![depth.to_string(), SAMPLERS[place].to_string()];
         cells.push(figure(1e6 * over(these, |p| p.per_sample)));
         cells.push(format!("{time:.3}"));
+        cells.push(format!("{low:.2} to {high:.2}"));
         cells.push(figure(over(these, |p| p.rays_per_sample)));
-        cells.push(format!("{:.3}", ratio(|p| p.rays_per_sample)));
+        cells.push(format!("{:.3}", median(ratios(|p| p.rays_per_sample))));
         cells.push(figure(noise));
         cells.push(figure(time * noise));
         cells
@@ -198,7 +196,8 @@ pub(crate) fn speeds(gpu: &Gpu, effort: &Effort) -> Result<String> {
         "processor: Msamples/s",
         "Mrays/s",
         "GPU / processor",
-        "compiled and uploaded",
+        "in single rounds",
+        "compiled",
     ])];
     let scenes = match effort.quick {
         true => &SCENES[..3],
@@ -224,7 +223,7 @@ pub(crate) fn speeds(gpu: &Gpu, effort: &Effort) -> Result<String> {
 
 /// The row of one scene.
 fn speed(gpu: &Gpu, effort: &Effort, file: &SceneFile) -> Result<Vec<String>> {
-    let scene = load(file)?;
+    let scene = file.load()?;
     let options = RenderOptions {
         resolution: Some([effort.side; 2]),
         ..RenderOptions::from_scene(&scene)
@@ -234,7 +233,7 @@ fn speed(gpu: &Gpu, effort: &Effort, file: &SceneFile) -> Result<Vec<String>> {
     let tracer = match Tracer::new(gpu, &prepared, &options) {
         Ok(tracer) => tracer,
         Err(error @ (TracerError::Missing(_) | TracerError::TooLarge { .. })) => {
-            return Ok(row([file.name, &error.to_string(), "", "", "", "", ""]));
+            return Ok(row([file.name, &error.to_string(), "", "", "", "", "", ""]));
         }
         Err(error) => return Err(error.into()),
     };
@@ -258,7 +257,10 @@ fn speed(gpu: &Gpu, effort: &Effort, file: &SceneFile) -> Result<Vec<String>> {
     let [gpu, processor] = &passes;
     let ratios = gpu.iter().zip(processor);
     let ratios = ratios.map(|(a, b)| b.per_sample / a.per_sample);
-    cells.push(figure(median(ratios.collect())));
+    let ratios: Vec<f64> = ratios.collect();
+    let [low, high] = range(ratios.iter().copied());
+    cells.push(figure(median(ratios)));
+    cells.push(format!("{} to {}", figure(low), figure(high)));
     cells.push(format!("{compiled:.1} s"));
     Ok(cells)
 }

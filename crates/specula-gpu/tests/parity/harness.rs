@@ -8,11 +8,11 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
+pub(crate) use crate::common::gpu;
 use specula_bsdf::{Alpha, Real, Vec3};
-use specula_gpu::{AdapterChoice, Gpu, GpuError, Kernel};
+use specula_gpu::{Gpu, GpuError, Kernel};
 use specula_shaders::{Declaration, Kind, MODULES, Module, declarations, ordered};
 
 /// Invocations of a workgroup.
@@ -133,36 +133,6 @@ pub(crate) struct Outcome {
 impl Outcome {
     fn is_pass(&self) -> bool {
         self.shader <= self.bound
-    }
-}
-
-/// The GPU of all tests, `None` where the machine has none.
-///
-/// `SPECULA_GPU=require` makes it a failure; `SPECULA_GPU_ADAPTER` chooses one by its place or name.
-static GPU: LazyLock<Result<Gpu, GpuError>> = LazyLock::new(|| {
-    let choice = std::env::var("SPECULA_GPU_ADAPTER").unwrap_or_default();
-    let choice = if choice.is_empty() {
-        AdapterChoice::Best
-    } else {
-        choice.parse().unwrap_or_default()
-    };
-    let gpu = Gpu::open(&choice);
-    if let Ok(gpu) = &gpu {
-        println!("GPU {}", gpu.adapter);
-    }
-    gpu
-});
-
-/// The GPU, or a loud line that `what` is skipped.
-pub(crate) fn gpu(what: &str) -> Option<&'static Gpu> {
-    match &*GPU {
-        Ok(gpu) => Some(gpu),
-        Err(error) => {
-            let required = std::env::var("SPECULA_GPU").is_ok_and(|v| v == "require");
-            assert!(!required, "SPECULA_GPU=require, but: {error}");
-            println!("SKIPPED: {what}: {error}");
-            None
-        }
     }
 }
 

@@ -6,6 +6,8 @@
 #![allow(clippy::print_stdout, reason = "a suite says how much it checked")]
 
 mod bsdf;
+#[path = "../common/mod.rs"]
+mod common;
 mod energy;
 mod fresnel;
 mod harness;

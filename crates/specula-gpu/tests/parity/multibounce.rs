@@ -13,14 +13,16 @@ use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Bsdf, BsdfSample, Event, Real, Rgb, Transport, Vec3};
 
 use crate::harness::{
-    ABOVE, Case, ETAS, Fault, Twin, alpha, assert_covered, both_sides, catch, product, prove, r2,
-    round, vector, views,
+    ABOVE, Case, ETAS, Twin, alpha, assert_covered, both_sides, catch, product, prove, r2, round,
+    vector, views,
 };
 
 mod closed;
+mod faults;
 pub(crate) mod means;
 
 use closed::closed;
+use faults::{ELSEWHERE, FAULTS};
 
 /// Widths of the walks.
 const ALPHAS: [[f32; 2]; 6] = [
@@ -35,8 +37,8 @@ const ALPHAS: [[f32; 2]; 6] = [
 /// on lavapipe: none of the 70 000 here does; the largest error of all, of long walks over the roughest
 /// surface, is 2.4e-3.)
 const STRAYS: usize = 1;
-/// The error of the others, in ulps of `SCALE` or more: 2.4e-4 of larger values.
-const BOUND: f64 = 2000.0;
+/// The error of the others, in ulps of `SCALE` or more: 4.8e-4 of larger values.
+const BOUND: f64 = 4000.0;
 /// The least value whose digits count.
 const SCALE: f64 = 0.01;
 /// The high word of all seeds.
@@ -199,16 +201,23 @@ fn glass_pairs() -> Vec<[f32; 10]> {
     with_index(&pairs)
 }
 
+/// A case of values.
+fn value_case(
+    name: &'static str,
+    modules: &'static [&'static str],
+    body: &'static str,
+    twin: (Twin<f32>, Twin<f64>),
+) -> Case {
+    let case = Case::new(name, modules, body, pairs(), twin, BOUND);
+    let strays = case.inputs.len() / case.arguments * STRAYS / 1000;
+    case.at_scale(&[SCALE]).with_strays(strays)
+}
+
 /// The models' values, one case each.
 fn values() -> Vec<Case> {
-    let case = |name, modules, body, twin, bound| {
-        let case = Case::new(name, modules, body, pairs(), twin, bound);
-        let strays = case.inputs.len() / case.arguments * STRAYS / 1000;
-        case.at_scale(&[SCALE]).with_strays(strays)
-    };
     macro_rules! value {
         ($name:literal, $module:literal, $call:literal, $model:expr) => {
-            case(
+            value_case(
                 $name,
                 &[$module, "reflectance", "distribution"],
                 metal!("let f = ", $call, "; y[0] = f.r; y[1] = f.g; y[2] = f.b;"),
@@ -216,7 +225,6 @@ fn values() -> Vec<Case> {
                     let mut stream = stream(x, 8);
                     colour(conductor(x, $model).estimate(vector(x, 2), vector(x, 5), &mut stream))
                 }),
-                BOUND,
             )
         };
     }
@@ -259,7 +267,13 @@ fn values() -> Vec<Case> {
             "ours_eval(facets, wo, wi, &stream)",
             Model::Ours
         ),
-        case(
+    ]
+}
+
+/// Values in other forms.
+fn other_values() -> Vec<Case> {
+    vec![
+        value_case(
             "heitz_as_published_value",
             &["heitz2016", "reflectance", "distribution"],
             metal!(
@@ -271,9 +285,8 @@ fn values() -> Vec<Case> {
                 let mut stream = stream(x, 8);
                 colour(lobe.estimate_as_heitz(vector(x, 2), vector(x, 5), &mut stream))
             }),
-            BOUND,
         ),
-        case(
+        value_case(
             "cui_bidirectional_value",
             &["cui2023", "reflectance", "distribution"],
             metal!(
@@ -291,7 +304,6 @@ fn values() -> Vec<Case> {
                 let mut stream = stream(x, 8);
                 colour(conductor(x, model).estimate(vector(x, 2), vector(x, 5), &mut stream))
             }),
-            BOUND,
         ),
     ]
 }
@@ -533,6 +545,7 @@ fn interfaces() -> Vec<Case> {
 
 fn cases() -> Vec<Case> {
     let mut cases = values();
+    cases.extend(other_values());
     cases.extend(draws());
     cases.extend(lobes());
     cases.extend(interfaces());
@@ -548,6 +561,7 @@ fn closed_forms_hold() {
 #[test]
 fn walks_of_metals_are_the_twins() {
     let mut cases = values();
+    cases.extend(other_values());
     cases.extend(draws());
     cases.extend(lobes());
     prove("multibounce, metals", &cases);
@@ -571,181 +585,3 @@ fn every_function_is_covered() {
 fn planted_faults_are_caught() {
     catch("multibounce", &cases(), FAULTS);
 }
-
-/// Functions that no body names, with the cases that run them.
-const ELSEWHERE: &[(&str, &str)] = &[
-    (
-        "cui_bidirectional_value",
-        "cui_subpath cui_path_over_density cui_fly cui_rivals cui_rivals_along cui_roulette",
-    ),
-    (
-        "heitz_value and heitz_draw",
-        "heitz_walk_step heitz_walk_depth",
-    ),
-    (
-        "heitz_interface_value and heitz_interface_draw",
-        "heitz_interface_eval heitz_interface_draw heitz_interface_left heitz_interface_collisions
-         heitz_interface_after heitz_interface_flown multibounce_interface_connection
-         multibounce_interface_leaves multibounce_interface_lambda
-         multibounce_dielectric_is_index_matched multibounce_dielectric_is_turned
-         multibounce_dielectric_side multibounce_dielectric_upright",
-    ),
-    (
-        "ours_interface_value and ours_interface_draw",
-        "ours_interface_eval ours_interface_is_better_end ours_interface_eval_end
-         ours_interface_walk ours_interface_draw",
-    ),
-    (
-        "mis_lambert and mis_hapke",
-        "mis_pdf_first_facet mis_pdf_hapke",
-    ),
-    (
-        "interface_lambert and interface_normalised",
-        "mis_pdf_lambert_share mis_pdf_interface multibounce_interface_phase",
-    ),
-    (
-        "conductor_value and conductor_draw",
-        "multibounce_conductor_eval multibounce_conductor_pdf multibounce_conductor_walk",
-    ),
-    (
-        "a pair of functions that cases name",
-        "multibounce_dielectric_eval_pdf",
-    ),
-    (
-        "diffuse_value and diffuse_draw",
-        "multibounce_diffuse_eval multibounce_diffuse_scatter multibounce_diffuse_pdf",
-    ),
-    (
-        "interface_masking",
-        "multibounce_interface_log_above multibounce_interface_binet",
-    ),
-    (
-        "mis_normalised and normalised_directions",
-        "normalised_takes normalised_sent normalised_met normalised_slow normalised_fast
-         normalised_at normalised_maps normalised_stays normalised_turn normalised_to_axis
-         normalised_of_axis normalised_roll_back normalised_roll normalised_horizontal",
-    ),
-    ("ours_value", "ours_stratum ours_goes_on ours_walk"),
-    ("wang_value and wang_draw", "wang_leaves"),
-];
-
-const fn fault(
-    case: &'static str,
-    module: &'static str,
-    from: &'static str,
-    to: &'static str,
-) -> Fault {
-    Fault {
-        case,
-        module,
-        from,
-        to,
-    }
-}
-
-/// One at least for every module.
-const FAULTS: &[Fault] = &[
-    fault(
-        "states",
-        "multibounce/state",
-        "carry = l * r;",
-        "carry = 1.0001 * l * r;",
-    ),
-    fault(
-        "meetings",
-        "multibounce/walk",
-        "2.0 * along",
-        "2.0001 * along",
-    ),
-    fault(
-        "normals_of_both",
-        "multibounce/normals",
-        "return beckmann_projected_area(",
-        "return 1.0001 * beckmann_projected_area(",
-    ),
-    fault(
-        "heitz_value",
-        "multibounce/heitz2016",
-        "exp(-(tau * leaving.rate))",
-        "exp(-(1.01 * tau * leaving.rate))",
-    ),
-    fault(
-        "bitterli_value",
-        "multibounce/bitterli2022",
-        ">= staying",
-        ">= 0.95 * staying",
-    ),
-    fault(
-        "wang_value",
-        "multibounce/wang2022",
-        "against / (against + outgoing)",
-        "against / (against + 1.01 * outgoing)",
-    ),
-    fault(
-        "cui_value",
-        "multibounce/cui2023",
-        "CUI_GOES_ON: f32 = 0.7;",
-        "CUI_GOES_ON: f32 = 0.71;",
-    ),
-    fault(
-        "cui_bidirectional_value",
-        "multibounce/cui2023",
-        "0.25 * normals_d",
-        "0.26 * normals_d",
-    ),
-    fault(
-        "ours_value",
-        "multibounce/ours",
-        "OURS_CARRIED: f32 = 0.5;",
-        "OURS_CARRIED: f32 = 0.51;",
-    ),
-    fault(
-        "mis_normalised",
-        "multibounce/normalised",
-        "0.45 * rolled",
-        "0.46 * rolled",
-    ),
-    fault("mis_hapke", "multibounce/mis_pdf", "0.975", "0.974"),
-    fault(
-        "interface_masking",
-        "multibounce/multibounce_interface",
-        "-0.08106146679532726",
-        "-0.0811",
-    ),
-    fault(
-        "interface_lambert",
-        "multibounce/multibounce_interface",
-        "0.25 * bent.reflectance",
-        "0.2501 * bent.reflectance",
-    ),
-    fault(
-        "heitz_interface_value",
-        "multibounce/heitz_interface",
-        "next.is_beyond = !walk.is_beyond;",
-        "next.is_beyond = true;",
-    ),
-    fault(
-        "ours_interface_value",
-        "multibounce/ours_interface",
-        "1.02 - 0.22",
-        "1.2 - 0.22",
-    ),
-    fault(
-        "heitz_interface_value",
-        "multibounce/multibounce_dielectric",
-        "return lobe.tints.reflection * f_cos",
-        "return lobe.tints.transmission * f_cos",
-    ),
-    fault(
-        "conductor_value",
-        "multibounce/multibounce_conductor",
-        "heitz_walk_eval(lobe.facets, true",
-        "heitz_walk_eval(lobe.facets, false",
-    ),
-    fault(
-        "diffuse_value",
-        "multibounce/multibounce_diffuse",
-        "cos_i * 0.31830987",
-        "cos_i * 0.3184",
-    ),
-];

@@ -64,29 +64,12 @@ pub(crate) struct Shader<'a> {
 }
 
 /// The GPU of the tests.
-pub(crate) struct Device(Gpu);
+pub(crate) struct Device(&'static Gpu);
 
 impl Device {
-    /// The GPU, or `None` where there is none and the test is left out. `SPECULA_GPU_ADAPTER` chooses
-    /// one by its place or name.
-    ///
-    /// # Panics
-    ///
-    /// Where there is none though `SPECULA_GPU=require` asks for it.
+    /// The GPU, or `None` where there is none and the test is left out.
     pub(crate) fn open(test: &str) -> Option<Self> {
-        let choice = std::env::var("SPECULA_GPU_ADAPTER").unwrap_or_else(|_| "best".to_owned());
-        match Gpu::open(&choice.parse().unwrap_or_default()) {
-            Ok(gpu) => {
-                println!("{test}: {}", gpu.adapter);
-                Some(Self(gpu))
-            }
-            Err(error) => {
-                let required = std::env::var("SPECULA_GPU").is_ok_and(|v| v == "require");
-                assert!(!required, "SPECULA_GPU=require, but: {error}");
-                eprintln!("SKIPPED {test}: {error}");
-                None
-            }
-        }
+        crate::common::gpu(test).map(Self)
     }
 
     /// Runs a shader over a scene.
@@ -101,7 +84,7 @@ impl Device {
         count: usize,
         workgroups: [u32; 3],
     ) -> Vec<f32> {
-        let gpu = &self.0;
+        let gpu = self.0;
         let flat = scene.flatten();
         let mut source = specula_shaders::compose(&["frame"]).unwrap();
         source += "const STACK_SIZE: u32 = 64u;\n";

@@ -13,6 +13,8 @@
     reason = "tests say what they found, and stop where something is missing"
 )]
 
+#[path = "../common/mod.rs"]
+mod common;
 mod device;
 mod nodes;
 mod reliefs;

@@ -17,6 +17,7 @@ pub(super) fn closed() -> Vec<Case> {
     let mut cases = densities();
     cases.extend(flights());
     cases.extend(depths());
+    cases.extend(sides());
     cases
 }
 
@@ -188,47 +189,52 @@ fn flights() -> Vec<Case> {
             }),
             64.0,
         ),
-        Case::new(
-            "normals_of_both",
-            modules,
-            metal!(
-                "let other = Normals(normals.alpha, DISTRIBUTION_BECKMANN);
-                 let wm = normalize(vec3f(wo.x, wo.y, 0.3 + abs(wo.z)));
-                 y[0] = normals_projected_area(normals, wo);
-                 y[1] = normals_d(other, wm) * min(normals.alpha.x, 1.0) * min(normals.alpha.y, 1.0);
-                 y[2] = normals_lambda_cos(other, wo); y[3] = normals_projected_area(other, wo);
-                 let drawn = normals_sample_wm(other, wo, wi.yz);
-                 y[4] = drawn.x; y[5] = drawn.y; y[6] = drawn.z;
-                 let first = walk_pair(&stream); y[7] = first.x; y[8] = first.y;"
-            ),
-            numbers(),
-            twins!(|x| {
-                let (one, other, wo) = (ggx(x), Beckmann::new(alpha(x, 0)), vector(x, 2));
-                let wm = Vec3 {
-                    z: T::of(f64::from(0.3_f32)) + wo.z.abs(),
-                    ..wo
-                };
-                let narrow = Real::min(x[0], T::ONE) * Real::min(x[1], T::ONE);
-                let drawn = other.sample_wm(wo, [x[6], x[7]]);
-                let mut stream = stream(x, 8);
-                let mut next = || T::of(f64::from(stream.next::<f32>()));
-                let (first, second) = (next(), next());
-                vec![
-                    one.projected_area(wo),
-                    other.d(wm.normalize()) * narrow,
-                    other.lambda_cos(wo),
-                    other.projected_area(wo),
-                    drawn.x,
-                    drawn.y,
-                    drawn.z,
-                    first,
-                    second,
-                ]
-            }),
-            64.0,
-        )
-        .at_scale(&[1.0]),
+        normals(modules),
     ]
+}
+
+/// Both distributions.
+fn normals(modules: &'static [&'static str]) -> Case {
+    Case::new(
+        "normals_of_both",
+        modules,
+        metal!(
+            "let other = Normals(normals.alpha, DISTRIBUTION_BECKMANN);
+             let wm = normalize(vec3f(wo.x, wo.y, 0.3 + abs(wo.z)));
+             y[0] = normals_projected_area(normals, wo);
+             y[1] = normals_d(other, wm) * min(normals.alpha.x, 1.0) * min(normals.alpha.y, 1.0);
+             y[2] = normals_lambda_cos(other, wo); y[3] = normals_projected_area(other, wo);
+             let drawn = normals_sample_wm(other, wo, wi.yz);
+             y[4] = drawn.x; y[5] = drawn.y; y[6] = drawn.z;
+             let first = walk_pair(&stream); y[7] = first.x; y[8] = first.y;"
+        ),
+        numbers(),
+        twins!(|x| {
+            let (one, other, wo) = (ggx(x), Beckmann::new(alpha(x, 0)), vector(x, 2));
+            let wm = Vec3 {
+                z: T::of(f64::from(0.3_f32)) + wo.z.abs(),
+                ..wo
+            };
+            let narrow = Real::min(x[0], T::ONE) * Real::min(x[1], T::ONE);
+            let drawn = other.sample_wm(wo, [x[6], x[7]]);
+            let mut stream = stream(x, 8);
+            let mut next = || T::of(f64::from(stream.next::<f32>()));
+            let (first, second) = (next(), next());
+            vec![
+                one.projected_area(wo),
+                other.d(wm.normalize()) * narrow,
+                other.lambda_cos(wo),
+                other.projected_area(wo),
+                drawn.x,
+                drawn.y,
+                drawn.z,
+                first,
+                second,
+            ]
+        }),
+        64.0,
+    )
+    .at_scale(&[1.0])
 }
 
 /// Rates of seven flights, below 0 for upward ones; a rate of leaving; a number; a seed.
@@ -285,13 +291,6 @@ fn log_gamma(x: f64) -> f64 {
 
 fn depths() -> Vec<Case> {
     let states: &[&str] = &["state"];
-    let interface: &[&str] = &["multibounce_interface", "distribution"];
-    let exponents: Vec<[f32; 1]> = [1.0, 1.01, 1.5, 2.0, 4.0, 30.0, 400.0, 1e4]
-        .map(|l| [l])
-        .into();
-    let lambdas: Vec<[f32; 1]> = [0.0, 1e-6, 0.01, 0.3, 1.0, 2.0, 9.0, 300.0, 1e4, 1e6]
-        .map(|l| [l])
-        .into();
     macro_rules! flown {
         ($($body:literal),*) => {
             concat!(
@@ -337,6 +336,19 @@ fn depths() -> Vec<Case> {
             64.0,
         )
         .at_scale(&[0.1]),
+    ]
+}
+
+/// What separates the two sides of a dielectric.
+fn sides() -> Vec<Case> {
+    let interface: &[&str] = &["multibounce_interface", "distribution"];
+    let exponents: Vec<[f32; 1]> = [1.0, 1.01, 1.5, 2.0, 4.0, 30.0, 400.0, 1e4]
+        .map(|l| [l])
+        .into();
+    let lambdas: Vec<[f32; 1]> = [0.0, 1e-6, 0.01, 0.3, 1.0, 2.0, 9.0, 300.0, 1e4, 1e6]
+        .map(|l| [l])
+        .into();
+    vec![
         Case::new(
             "interface_depths",
             interface,

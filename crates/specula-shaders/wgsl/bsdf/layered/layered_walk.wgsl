@@ -110,20 +110,20 @@ fn layered_walk_eval(lobe: Layered, wo: vec3f, wi: vec3f, stream: ptr<function, 
             state.w = next.w;
             state.throughput *= next.weight;
         } else {
-            var vertex: LayeredVertex;
+            var found: LayeredVertex;
             if end == LAYERED_WALK_BASE {
-                vertex = layered_connect_at_base(ends, lobe, state.w, stream);
+                found = layered_connect_at_base(ends, lobe, state.w, stream);
             } else {
                 let ways = vec2f(state.height, thickness - state.height);
                 let left = lobe.max_depth - state.events;
-                vertex = layered_connect_at_particle(ends, lobe, state.w, ways, left, stream);
+                found = layered_connect_at_particle(ends, lobe, state.w, ways, left, stream);
             }
-            sum += state.throughput * vertex.light;
-            if !vertex.goes_on {
+            sum += state.throughput * found.light;
+            if !found.goes_on {
                 break;
             }
-            state.w = vertex.w;
-            state.throughput *= vertex.weight;
+            state.w = found.w;
+            state.throughput *= found.weight;
         }
         ends.is_first = false;
         if state.w.z == 0.0 || !layered_walk_survives(&state, stream) {

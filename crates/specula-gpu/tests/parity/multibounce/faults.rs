@@ -1,0 +1,181 @@
+//! Planted faults, and functions that cases run without naming them.
+
+use crate::harness::Fault;
+
+/// Functions that no body names, with the cases that run them.
+pub(super) const ELSEWHERE: &[(&str, &str)] = &[
+    (
+        "cui_bidirectional_value",
+        "cui_subpath cui_path_over_density cui_fly cui_rivals cui_rivals_along cui_roulette",
+    ),
+    (
+        "heitz_value and heitz_draw",
+        "heitz_walk_step heitz_walk_depth",
+    ),
+    (
+        "heitz_interface_value and heitz_interface_draw",
+        "heitz_interface_eval heitz_interface_draw heitz_interface_left heitz_interface_collisions
+         heitz_interface_after heitz_interface_flown multibounce_interface_connection
+         multibounce_interface_leaves multibounce_interface_lambda
+         multibounce_dielectric_is_index_matched multibounce_dielectric_is_turned
+         multibounce_dielectric_side multibounce_dielectric_upright",
+    ),
+    (
+        "ours_interface_value and ours_interface_draw",
+        "ours_interface_eval ours_interface_is_better_end ours_interface_eval_end
+         ours_interface_walk ours_interface_draw",
+    ),
+    (
+        "mis_lambert and mis_hapke",
+        "mis_pdf_first_facet mis_pdf_hapke",
+    ),
+    (
+        "interface_lambert and interface_normalised",
+        "mis_pdf_lambert_share mis_pdf_interface multibounce_interface_phase",
+    ),
+    (
+        "conductor_value and conductor_draw",
+        "multibounce_conductor_eval multibounce_conductor_pdf multibounce_conductor_walk",
+    ),
+    (
+        "a pair of functions that cases name",
+        "multibounce_dielectric_eval_pdf",
+    ),
+    (
+        "diffuse_value and diffuse_draw",
+        "multibounce_diffuse_eval multibounce_diffuse_scatter multibounce_diffuse_pdf",
+    ),
+    (
+        "interface_masking",
+        "multibounce_interface_log_above multibounce_interface_binet",
+    ),
+    (
+        "mis_normalised and normalised_directions",
+        "normalised_takes normalised_sent normalised_met normalised_slow normalised_fast
+         normalised_at normalised_maps normalised_stays normalised_turn normalised_to_axis
+         normalised_of_axis normalised_roll_back normalised_roll normalised_horizontal",
+    ),
+    ("ours_value", "ours_stratum ours_goes_on ours_walk"),
+    ("wang_value and wang_draw", "wang_leaves"),
+];
+
+const fn fault(
+    case: &'static str,
+    module: &'static str,
+    from: &'static str,
+    to: &'static str,
+) -> Fault {
+    Fault {
+        case,
+        module,
+        from,
+        to,
+    }
+}
+
+/// One at least for every module.
+pub(super) const FAULTS: &[Fault] = &[
+    fault(
+        "states",
+        "multibounce/state",
+        "carry = l * r;",
+        "carry = 1.0001 * l * r;",
+    ),
+    fault(
+        "meetings",
+        "multibounce/walk",
+        "2.0 * along",
+        "2.0001 * along",
+    ),
+    fault(
+        "normals_of_both",
+        "multibounce/normals",
+        "return beckmann_projected_area(",
+        "return 1.0001 * beckmann_projected_area(",
+    ),
+    fault(
+        "heitz_value",
+        "multibounce/heitz2016",
+        "exp(-(tau * leaving.rate))",
+        "exp(-(1.01 * tau * leaving.rate))",
+    ),
+    fault(
+        "bitterli_value",
+        "multibounce/bitterli2022",
+        ">= staying",
+        ">= 0.95 * staying",
+    ),
+    fault(
+        "wang_value",
+        "multibounce/wang2022",
+        "against / (against + outgoing)",
+        "against / (against + 1.01 * outgoing)",
+    ),
+    fault(
+        "cui_value",
+        "multibounce/cui2023",
+        "CUI_GOES_ON: f32 = 0.7;",
+        "CUI_GOES_ON: f32 = 0.71;",
+    ),
+    fault(
+        "cui_bidirectional_value",
+        "multibounce/cui2023",
+        "0.25 * normals_d",
+        "0.26 * normals_d",
+    ),
+    fault(
+        "ours_value",
+        "multibounce/ours",
+        "OURS_CARRIED: f32 = 0.5;",
+        "OURS_CARRIED: f32 = 0.51;",
+    ),
+    fault(
+        "mis_normalised",
+        "multibounce/normalised",
+        "0.45 * rolled",
+        "0.46 * rolled",
+    ),
+    fault("mis_hapke", "multibounce/mis_pdf", "0.975", "0.974"),
+    fault(
+        "interface_masking",
+        "multibounce/multibounce_interface",
+        "-0.08106146679532726",
+        "-0.0811",
+    ),
+    fault(
+        "interface_lambert",
+        "multibounce/multibounce_interface",
+        "0.25 * bent.reflectance",
+        "0.2501 * bent.reflectance",
+    ),
+    fault(
+        "heitz_interface_value",
+        "multibounce/heitz_interface",
+        "next.is_beyond = !walk.is_beyond;",
+        "next.is_beyond = true;",
+    ),
+    fault(
+        "ours_interface_value",
+        "multibounce/ours_interface",
+        "1.02 - 0.22",
+        "1.2 - 0.22",
+    ),
+    fault(
+        "heitz_interface_value",
+        "multibounce/multibounce_dielectric",
+        "return lobe.tints.reflection * f_cos",
+        "return lobe.tints.transmission * f_cos",
+    ),
+    fault(
+        "conductor_value",
+        "multibounce/multibounce_conductor",
+        "heitz_walk_eval(lobe.facets, true",
+        "heitz_walk_eval(lobe.facets, false",
+    ),
+    fault(
+        "diffuse_value",
+        "multibounce/multibounce_diffuse",
+        "cos_i * 0.31830987",
+        "cos_i * 0.32",
+    ),
+];
