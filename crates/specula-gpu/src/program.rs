@@ -262,3 +262,48 @@ fn material_albedo(b: Bound) -> vec3f {{
         albedo = arms("albedo(b)"),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use specula_shaders::{MODULES, declarations};
+
+    use super::*;
+
+    #[test]
+    fn names_are_unique_over_the_tracer_and_the_library() {
+        let tracer = BEFORE.iter().chain(MATERIALS).chain(AFTER);
+        let own = tracer.flat_map(|m| declarations(m.text).into_iter().map(|d| (d.name, m.name)));
+        let library = MODULES
+            .iter()
+            .flat_map(|m| declarations(m.text).into_iter().map(|d| (d.name, m.path)));
+        let mut all: Vec<(&str, &str)> = own.chain(library).collect();
+        all.sort_unstable();
+        for pair in all.windows(2) {
+            assert_ne!(pair[0].0, pair[1].0, "{pair:?}");
+        }
+        assert!(all.len() > 500);
+    }
+
+    #[test]
+    fn modules_import_what_is_there() {
+        let tracer: Vec<&Module> = BEFORE.iter().chain(MATERIALS).chain(AFTER).collect();
+        for module in &tracer {
+            for line in module.text.lines() {
+                let Some(path) = line.strip_prefix("import tracer::") else {
+                    continue;
+                };
+                let (from, names) = path.split_once("::{").unwrap_or((path, ""));
+                // What is written for each scene.
+                if from == "material" {
+                    continue;
+                }
+                let other = tracer.iter().find(|m| m.name == from);
+                let text = other.map_or("", |m| m.text);
+                for name in names.trim_end_matches("};").split(", ") {
+                    let there = declarations(text).iter().any(|d| d.name == name);
+                    assert!(there, "{}: {line}: no {name}", module.name);
+                }
+            }
+        }
+    }
+}

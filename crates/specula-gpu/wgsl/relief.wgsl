@@ -29,7 +29,7 @@ const RELIEF_STEP: f32 = 0.0005;
 const RELIEF_SIZE: u32 = 9u;
 
 /// A shading normal with the tangent along u.
-struct Bent {
+struct ReliefBent {
     normal: vec3f,
     tangent: vec3f,
 }
@@ -125,9 +125,9 @@ fn relief_squared_tangent(cosine: f32) -> f32 {
 /// geometric one.
 ///
 /// Twin: specula-render/src/relief.rs, bend.
-fn relief_bend(at: u32, s: Surface) -> Bent {
+fn relief_bend(at: u32, s: Surface) -> ReliefBent {
     if !relief_is_there(at) {
-        return Bent(s.ns, s.tangent);
+        return ReliefBent(s.ns, s.tangent);
     }
     var partials = partials_of(s);
     let n = s.ns;
@@ -151,7 +151,7 @@ fn relief_bend(at: u32, s: Surface) -> Bent {
     let backwards = word(at + 1u) == RELIEF_PLAIN && dot(across, partials.along_v) < 0.0;
     let along_v = select(across, -across, backwards);
     let bent = along_u * (c.x * scale) + along_v * (c.y * scale) + n * c.z;
-    return Bent(unit_or(bent, n), partials.along_u);
+    return ReliefBent(unit_or(bent, n), partials.along_u);
 }
 
 /// Normal and tangent of the surface moved along its normal by a height:
@@ -167,7 +167,7 @@ fn relief_bend(at: u32, s: Surface) -> Bent {
 /// * `height`: the parameter.
 ///
 /// Twin: specula-render/src/relief.rs, displaced.
-fn relief_displaced(height: u32, n: vec3f, place: Place, partials: Partials) -> Bent {
+fn relief_displaced(height: u32, n: vec3f, place: Place, partials: Partials) -> ReliefBent {
     // The step that rounding left: coordinates of large tiled planes have few digits.
     let moved = place.uv + RELIEF_STEP;
     let steps = moved - place.uv;
@@ -190,5 +190,5 @@ fn relief_displaced(height: u32, n: vec3f, place: Place, partials: Partials) -> 
     let along_v = partials.along_v + n * slopes.y + partials.normal_along_v * heights.x;
     let normal = unit_or(cross(along_u, along_v), n);
     let side = dot(cross(partials.along_u, partials.along_v), n);
-    return Bent(select(normal, -normal, side < 0.0), along_u);
+    return ReliefBent(select(normal, -normal, side < 0.0), along_u);
 }
