@@ -65,6 +65,9 @@ const MATERIALS: &[Module] = modules![
     "material_thin",
     "material_coated_diffuse",
     "material_plastic",
+    "material_principled",
+    "material_gltf",
+    "material_layered",
 ];
 
 /// What comes behind the switch over materials.
@@ -72,7 +75,7 @@ const AFTER: &[Module] = modules!["path"];
 
 /// What a kind's module imports of the others.
 fn base_of(module: &str) -> Option<&'static str> {
-    if module.ends_with("conductor") {
+    if module.ends_with("conductor") || module == "material_layered" {
         Some("metal")
     } else if module.ends_with("dielectric") {
         Some("glass")
@@ -95,6 +98,9 @@ fn module_of(kind: LobeKind) -> Option<&'static str> {
         LobeKind::Plastic => "material_plastic",
         LobeKind::ThinDielectric => "material_thin",
         LobeKind::CoatedDiffuse => "material_coated_diffuse",
+        LobeKind::Principled => "material_principled",
+        LobeKind::Gltf => "material_gltf",
+        LobeKind::Layered => "material_layered",
         _ => return None,
     })
 }
@@ -159,12 +165,25 @@ fn constants(flat: &FlatScene<'_>, options: &RenderOptions) -> String {
     let find = |name: &str| flat.constants.iter().find(|c| c.0 == name).map(|c| c.1);
     // Eight children a level, of the trees over instances and within them.
     let levels = 2 * find("TREE_DEPTH").unwrap_or(0) + 1;
+    let has_many = |kind: &LobeKind| {
+        matches!(
+            kind,
+            LobeKind::Principled | LobeKind::Gltf | LobeKind::Layered
+        )
+    };
+    let kept = if flat.lobes.iter().any(has_many) {
+        12
+    } else {
+        1
+    };
     let own = [
         ("STACK_SIZE", 8 * levels),
         ("SEED", options.seed),
         ("MAX_DEPTH", options.max_depth),
         ("STRATEGY", options.strategy as u32),
         ("KIND_THIN_PANE", LobeKind::ThinDielectric as u32),
+        ("KIND_GLTF", LobeKind::Gltf as u32),
+        ("BOUND_KEPT", kept),
     ];
     let mut text = String::from("// Constants of the scene and the render.\n");
     for (name, value) in flat.constants.iter().copied().chain(own) {
@@ -214,6 +233,12 @@ fn dispatch(flat: &FlatScene<'_>) -> String {
     } else {
         String::new()
     };
+    let turns = flat.constants.contains(&("HAS_DIRECTIONS", 1));
+    let turn = if turns {
+        "        head.rotation += bound_direction(record, place);\n"
+    } else {
+        ""
+    };
     format!(
         "
 /// The material of a surface at a point of it; mixes choose by chance.
@@ -225,8 +250,8 @@ fn material_bind(material: u32, place: Place, outside: bool, s: Sequence, depth:
     var one_sided = word(record + MATERIAL_ONE_SIDED) != 0u;
 {choice}    var b = bound_black();
     if outside || !one_sided {{
-        let head = bound_head(record);
-        let p = bound_parameters(record, place);
+        var head = bound_head(record);
+{turn}        let p = bound_parameters(record, place);
         switch word(record + MATERIAL_KIND) {{
 {bind}            default: {{}}
         }}

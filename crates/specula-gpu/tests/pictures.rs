@@ -12,11 +12,14 @@ use std::sync::atomic::AtomicBool;
 
 use common::gpu;
 use specula_bsdf::Rgb;
+use specula_bsdf::math::rgb;
 use specula_gpu::{Gpu, Tracer};
 use specula_render::picture::Picture;
 use specula_render::{PreparedScene, RenderOptions, Renderer, Strategy};
 use specula_scene::Scene;
-use specula_scene::scene::{Filter, Projection};
+use specula_scene::scene::{
+    ColourParam, EnvironmentMapping, Filter, FloatParam, Gltf, MaterialKind, Principled, Projection,
+};
 use specula_stat::image::{NoisyImage, compare};
 
 /// A scene of a pbrt-v4 file with this text after its camera.
@@ -271,11 +274,8 @@ AttributeBegin Translate 0.8 0 0.3 Scale 0.8 0.8 1.2 ObjectInstance \"thing\" At
 }
 
 #[test]
-fn lenses_filters_and_orthographic_views() {
-    let text = format!(
-        "{ROOM}{SKY}{}",
-        orbs([&metal(WIDE), "Material \"diffuse\""])
-    );
+fn lenses_filters_and_views() {
+    let text = format!("{ROOM}{SKY}{}", orbs(["Material \"diffuse\""; 2]));
     let mut lens = scene(&text);
     lens.camera.lens_radius = 0.1;
     lens.camera.focal_distance = 4.0;
@@ -289,6 +289,9 @@ fn lenses_filters_and_orthographic_views() {
     flat.camera.projection = Projection::Orthographic;
     flat.camera.screen_window = [-2.0, 2.0, -1.6, 1.6];
     check("orthographic", &flat, |o| o);
+    let mapping = EnvironmentMapping::EqualAreaOctahedral;
+    flat.camera.projection = Projection::Spherical(mapping);
+    check("all around", &flat, |o| o);
 }
 
 #[test]
@@ -340,4 +343,97 @@ AttributeEnd
     check("bodies", &scene, |o| o);
     scene.settings.hide_emitters = true;
     check("hidden lights", &scene, |o| o);
+}
+
+/// The room with orbs of these two materials.
+fn with_materials(materials: [MaterialKind; 2]) -> Scene {
+    let textures = "Texture \"slight\" \"float\" \"bilerp\" \"float v00\" 0 \"float v01\" 0.2 \
+        \"float v10\" 0.4 \"float v11\" -0.3\n";
+    let diffuse = format!(
+        "{textures}Material \"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5] \"texture displacement\" \"slight\""
+    );
+    let glossy = "Material \"conductor\"";
+    let mut scene = scene(&format!("{ROOM}{SKY}{}", orbs([&diffuse, glossy])));
+    let count = scene.shapes.len();
+    for (shape, kind) in scene.shapes[count - 2..].iter().zip(materials) {
+        scene.materials[shape.material.0].kind = kind;
+    }
+    scene
+}
+
+const ORANGE: ColourParam = ColourParam::Value(rgb(0.8, 0.4, 0.2));
+
+fn colour(r: f32, g: f32, b: f32) -> ColourParam {
+    ColourParam::Value(rgb(r, g, b))
+}
+
+#[test]
+fn principled_materials() {
+    let value = FloatParam::Value;
+    let solid = Principled {
+        base_colour: ORANGE,
+        roughness: value(0.4),
+        anisotropic: value(0.5),
+        metallic: value(0.3),
+        spec_trans: value(0.3),
+        eta: 1.5,
+        spec_tint: value(0.3),
+        sheen: value(0.4),
+        sheen_tint: value(0.5),
+        clearcoat: value(0.6),
+        clearcoat_gloss: value(0.7),
+        flatness: value(0.2),
+        diff_trans: value(0.7),
+        thin: false,
+    };
+    let thin = Principled {
+        thin: true,
+        ..solid
+    };
+    let scene = with_materials([solid, thin].map(MaterialKind::Principled));
+    check("principled", &scene, |o| o);
+}
+
+#[test]
+fn gltf_materials() {
+    let value = FloatParam::Value;
+    let coated = Gltf {
+        base_colour: ORANGE,
+        metallic: value(0.4),
+        roughness: value(0.5),
+        anisotropy: value(0.5),
+        anisotropy_rotation_rad: 0.6,
+        anisotropy_direction: None,
+        ior: 1.5,
+        specular: value(0.8),
+        specular_colour: colour(0.9, 0.8, 0.7),
+        transmission: value(0.0),
+        volume: false,
+        clearcoat: value(0.7),
+        clearcoat_roughness: value(0.2),
+        clearcoat_relief: None,
+        sheen_colour: colour(0.3, 0.2, 0.4),
+        sheen_roughness: value(0.5),
+    };
+    let clear = Gltf {
+        transmission: value(0.8),
+        volume: true,
+        metallic: value(0.0),
+        roughness: value(0.3),
+        clearcoat: value(0.0),
+        ..coated
+    };
+    let scene = with_materials([coated, clear].map(MaterialKind::Gltf));
+    check("glTF", &scene, |o| o);
+}
+
+#[test]
+fn layers_between_which_light_walks() {
+    let metal = "Material \"coatedconductor\" \"float interface.roughness\" 0.1 \"float conductor.roughness\" 0.3";
+    let cloudy = "Material \"coateddiffuse\" \"rgb reflectance\" [0.2 0.5 0.1] \"float roughness\" 0.2 \"rgb albedo\" [0.6 0.4 0.2] \"float g\" 0.4 \"float thickness\" 0.4";
+    check(
+        "layers",
+        &scene(&format!("{ROOM}{SKY}{}", orbs([metal, cloudy]))),
+        |o| o,
+    );
 }

@@ -8,7 +8,7 @@
 
 import tracer::world::{word, number};
 import tracer::texture_place::{Place};
-import tracer::texture_graph::{parameter_colour};
+import tracer::texture_graph::{parameter_colour, texture_colour};
 
 /// A material's parameters at a point; what `first`, `second` and `third` are is its kind's matter.
 struct Bound {
@@ -34,6 +34,8 @@ struct Bound {
     first: vec3f,
     second: vec3f,
     third: vec3f,
+    // All parameters, of kinds that have many.
+    kept: array<vec3f, BOUND_KEPT>,
 }
 
 // Words of a record's head.
@@ -41,14 +43,18 @@ struct Bound {
 const MATERIAL_KIND: u32 = 0u;
 /// Whether its back is black.
 const MATERIAL_ONE_SIDED: u32 = 1u;
+/// Whether layers let nothing through.
+const MATERIAL_OPAQUE: u32 = 2u;
 /// Rotation of the tangent, in radians.
 const MATERIAL_ROTATION: u32 = 3u;
 /// Whether tangents do not matter.
 const MATERIAL_ISOTROPIC: u32 = 4u;
 /// Energy model.
 const MATERIAL_ENERGY: u32 = 5u;
+/// Texture of directions, or NONE.
+const MATERIAL_DIRECTION: u32 = 6u;
 /// How many parameters may have a texture; they follow.
-const MATERIAL_PARAMETERS: u32 = 6u;
+const MATERIAL_PARAMETERS: u32 = 7u;
 /// Least width of a rough surface.
 const BOUND_SMOOTH_BELOW: f32 = 1.0e-3;
 /// Most parameters that may have a texture.
@@ -71,6 +77,7 @@ fn bound_head(record: u32) -> Bound {
     var b: Bound;
     b.kind = word(record + MATERIAL_KIND);
     b.rotation = number(record + MATERIAL_ROTATION);
+    b.opaque = word(record + MATERIAL_OPAQUE) != 0u;
     b.isotropic = word(record + MATERIAL_ISOTROPIC) != 0u;
     b.energy = word(record + MATERIAL_ENERGY);
     b.eta = 1.0;
@@ -81,6 +88,7 @@ fn bound_head(record: u32) -> Bound {
 /// words.
 struct Parameters {
     values: array<vec3f, MOST_PARAMETERS>,
+    count: u32,
     plain: u32,
 }
 
@@ -93,8 +101,39 @@ fn bound_parameters(record: u32, place: Place) -> Parameters {
         p.values[i] = parameter_colour(at, place);
         at += 4u;
     }
+    p.count = count;
     p.plain = at;
     return p;
+}
+
+/// The turn of tangents that a texture of directions says, in radians.
+///
+/// Twin: specula-render/src/material/mod.rs, azimuth.
+fn bound_direction(record: u32, place: Place) -> f32 {
+    let texture = word(record + MATERIAL_DIRECTION);
+    if texture == NONE {
+        return 0.0;
+    }
+    let at = 2.0 * texture_colour(texture, place).xy - vec2f(1.0);
+    // The middle of 8 bits is not exactly 1/2.
+    if max(abs(at.x), abs(at.y)) < 0.01 {
+        return 0.0;
+    }
+    return atan2(at.y, at.x);
+}
+
+/// Keeps all parameters.
+fn bound_keep(b: Bound, p: Parameters) -> Bound {
+    var keeping = b;
+    for (var i = 0u; i < BOUND_KEPT; i += 1u) {
+        keeping.kept[i] = p.values[i];
+    }
+    return keeping;
+}
+
+/// A number in `[0, 1]`.
+fn bound_unit(x: vec3f) -> f32 {
+    return clamp(x.x, 0.0, 1.0);
 }
 
 /// A colour in `[0, 1]`.
@@ -102,22 +141,24 @@ fn bound_albedo(colour: vec3f) -> vec3f {
     return clamp(colour, vec3f(0.0), vec3f(1.0));
 }
 
-/// Widths, distribution and masking from the first two parameters and the first three words; widths of 0
-/// where it is smooth.
+/// Widths of facets from two numbers and what these are; 0 where the surface is smooth.
 ///
 /// Twin: specula-render/src/material/metal.rs, alpha.
-fn bound_roughness(b: Bound, p: Parameters) -> Bound {
-    var rough = b;
-    var r = max(vec2f(p.values[0].x, p.values[1].x), vec2f(0.0));
-    let mapping = word(p.plain);
+fn bound_widths(across: f32, along: f32, mapping: u32) -> vec2f {
+    var r = max(vec2f(across, along), vec2f(0.0));
     if mapping == 1u {
         r = sqrt(r);
     } else if mapping == 2u {
         r = r * r;
     }
     let is_rough = r.x >= BOUND_SMOOTH_BELOW || r.y >= BOUND_SMOOTH_BELOW;
-    let widths = clamp(r, vec2f(BOUND_SMOOTH_BELOW), vec2f(10.0));
-    rough.alpha = select(vec2f(0.0), widths, is_rough);
+    return select(vec2f(0.0), clamp(r, vec2f(BOUND_SMOOTH_BELOW), vec2f(10.0)), is_rough);
+}
+
+/// Widths, distribution and masking from the first two parameters and the first three words.
+fn bound_roughness(b: Bound, p: Parameters) -> Bound {
+    var rough = b;
+    rough.alpha = bound_widths(p.values[0].x, p.values[1].x, word(p.plain));
     rough.distribution = word(p.plain + 1u);
     rough.masking = word(p.plain + 2u);
     return rough;

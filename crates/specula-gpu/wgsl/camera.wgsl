@@ -3,6 +3,7 @@
 // Twin of specula-render/src/camera.rs and film/filter.rs.
 
 import tracer::world::{word, number, affine_point, affine_vector};
+import tracer::environment::{environment_direction};
 
 /// A camera's ray, and the weight of its sample.
 struct CameraRay {
@@ -63,6 +64,34 @@ fn camera_filter(at: u32, u: f32) -> vec2f {
     return vec2f(x, select(magnitude, -magnitude, negative));
 }
 
+/// A coordinate beyond the unit interval mirrored at its nearer end.
+fn camera_folded(x: f32) -> f32 {
+    return select(2.0 - x, -x, x < 0.0);
+}
+
+/// A point next to the unit square, where filters reach over its edges, as the point of the square for the
+/// same direction.
+///
+/// Twin: specula-render/src/camera.rs, within_sphere.
+fn camera_within_sphere(mapping: u32, at: vec2f) -> vec2f {
+    var u = at.x;
+    var v = at.y;
+    let is_square = mapping == 0u;
+    if is_square && (u < 0.0 || u > 1.0) {
+        // Each edge of the square is folded about its middle.
+        u = camera_folded(u);
+        v = 1.0 - v;
+    }
+    if v < 0.0 || v > 1.0 {
+        u = select(u + 0.5, 1.0 - u, is_square);
+        v = camera_folded(v);
+    }
+    if !is_square {
+        u -= floor(u);
+    }
+    return clamp(vec2f(u, v), vec2f(0.0), vec2f(1.0));
+}
+
 /// The ray of a sample.
 ///
 /// * `u`: two numbers for the filter, two for the lens.
@@ -79,6 +108,9 @@ fn camera_ray(pixel: vec2u, u: vec4f) -> CameraRay {
     if CAMERA_VIEW == 1u {
         begin = vec3f(x, y, 0.0);
         towards = vec3f(0.0, 0.0, 1.0);
+    } else if CAMERA_VIEW > 1u {
+        let mapping = CAMERA_VIEW - 2u;
+        towards = environment_direction(mapping, camera_within_sphere(mapping, vec2f(x, y))).w;
     }
     let radius = number(CAMERA + 16u);
     if radius > 0.0 {

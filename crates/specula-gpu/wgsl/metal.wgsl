@@ -7,25 +7,33 @@ import tracer::bound::{Bound, Parameters, bound_albedo, bound_roughness};
 import package::fresnel::reflectance::{Reflectance};
 import package::bsdf::microfacets::{Microfacets};
 
-/// Widths and reflectance of a metal: `first` and `second` are eta and k, or the reflectance at normal
-/// incidence, or white; `variant` says which, plus 4 where it is rough; `third` the tint.
-fn metal_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
-    var b = bound_roughness(head, p);
-    let kind = word(p.plain + 3u);
+/// Reflectance of a metal by what two colours are: `first` and `second` are eta and k, or the reflectance at
+/// normal incidence, or white; `variant` says which.
+fn metal_indices(b: Bound, kind: u32, one: vec3f, other: vec3f) -> Bound {
+    var m = b;
     if kind == 0u {
-        b.first = max(p.values[2], vec3f(1.0e-4));
-        b.second = max(p.values[3], vec3f(0.0));
+        m.first = max(one, vec3f(1.0e-4));
+        m.second = max(other, vec3f(0.0));
     } else if kind == 1u {
         // pbrt-v4: the k that gives this reflectance at normal incidence with eta = 1.
-        let r = min(bound_albedo(p.values[2]), vec3f(0.9999));
-        b.first = vec3f(1.0);
-        b.second = 2.0 * sqrt(r) / sqrt(1.0 - r);
+        let r = min(bound_albedo(one), vec3f(0.9999));
+        m.first = vec3f(1.0);
+        m.second = 2.0 * sqrt(r) / sqrt(1.0 - r);
     } else {
-        b.first = bound_albedo(p.values[2]);
+        m.first = bound_albedo(one);
     }
+    m.variant = kind;
+    return m;
+}
+
+/// Widths and reflectance of a metal, as of `metal_indices`; `variant` is 4 more where it is rough; `third` the
+/// tint.
+fn metal_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
+    let kind = word(p.plain + 3u);
+    var b = metal_indices(bound_roughness(head, p), kind, p.values[2], p.values[3]);
     b.third = bound_albedo(p.values[4]);
     b.specular = b.alpha.x == 0.0;
-    b.variant = kind + select(4u, 0u, b.specular);
+    b.variant += select(4u, 0u, b.specular);
     b.opaque = true;
     return b;
 }

@@ -14,7 +14,7 @@ import tracer::passing::{passing_nearest, passing_shine, passing_cross, passing_
 import tracer::passing::{passing_radiance};
 import tracer::partials::{partials_of};
 import tracer::relief::{Softness, relief_of_material, relief_is_there, relief_bend, relief_softened};
-import tracer::relief::{relief_softness};
+import tracer::relief::{relief_softness, relief_coat_differs, relief_of_coat};
 import tracer::lights::{Receiver, LightSample, lights_draw, lights_pdf_of_surface};
 import tracer::lights::{lights_arriving_count, lights_arriving, lights_share_from_infinity};
 import tracer::material::{Bound, material_bind, material_eval, material_draw, material_albedo};
@@ -140,7 +140,7 @@ fn path_vertex(surface: Surface, wo: vec3f, s: Sequence, depth: u32) -> PathVert
     let outside = dot(surface.ng, wo) > 0.0;
     let facing = select(-surface.ng, surface.ng, outside);
     let material = word(SHAPES + surface.shape * SHAPE_SIZE);
-    let bound = material_bind(material, passing_place(surface), outside, s, depth);
+    var bound = material_bind(material, passing_place(surface), outside, s, depth);
     let relief = relief_of_material(bound.material);
     let bent = relief_bend(relief, surface);
     let tangent = path_tangent(surface, bound, bent.normal, bent.tangent);
@@ -151,6 +151,10 @@ fn path_vertex(surface: Surface, wo: vec3f, s: Sequence, depth: u32) -> PathVert
     let n = select(ns, facing, dot(ns, wo) <= 0.0 && bound.specular);
     let frame = frame_from_normal_tangent(n, tangent);
     let local = frame_to_local(frame, normalize(wo));
+    if bound.kind == KIND_GLTF && relief_coat_differs(bound.material) {
+        let coat = relief_bend(relief_of_coat(bound.material), surface).normal;
+        bound.first = frame_to_local(frame, select(coat, -coat, dot(coat, facing) < 0.0));
+    }
     return PathVertex(surface, bound, frame, softened.softness, facing, local);
 }
 

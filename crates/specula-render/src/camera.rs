@@ -7,7 +7,7 @@ use specula_scene::scene::{self, EnvironmentMapping, Projection};
 
 use crate::accel::Ray;
 use crate::convert::{Affine, narrow};
-use crate::flat::Flattening;
+use crate::flat::Words;
 use crate::light::direction_of_sphere;
 
 /// A camera for a picture of a certain size.
@@ -134,17 +134,13 @@ fn rays<K: FnMut(usize, Ray)>(
 }
 
 impl Camera {
-    /// The camera for shaders.
-    pub(crate) fn flatten(&self, to: &mut Flattening) {
+    /// The camera for shaders; views of the sphere are numbered as its mappings, from 2 on.
+    pub(crate) fn flatten(&self, words: &mut Words) {
         let view = match self.view {
             View::Perspective => 0,
             View::Orthographic => 1,
-            View::Spherical(_) => {
-                to.lacks("cameras that see all around");
-                2
-            }
+            View::Spherical(mapping) => 2 + mapping as u32,
         };
-        let words = &mut to.words;
         words.constant("CAMERA_VIEW", view);
         words.begin("CAMERA");
         words.affine(&self.to_world);

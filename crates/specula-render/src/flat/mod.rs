@@ -62,7 +62,7 @@ impl PreparedScene {
     pub fn flatten(&self) -> FlatScene<'_> {
         let mut to = Flattening::default();
         crate::sampler::flatten(&mut to.words);
-        self.camera.flatten(&mut to);
+        self.camera.flatten(&mut to.words);
         self.filter.flatten(&mut to.words);
         let (nodes, packets) = self.geometry.flatten(&mut to);
         self.textures.flatten(&mut to);

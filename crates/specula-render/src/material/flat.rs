@@ -6,8 +6,8 @@ use specula_bsdf::Rgb;
 use specula_bsdf::ndf::Masking;
 use specula_scene::Energy;
 use specula_scene::scene::{
-    ColourParam, ConductorFresnel, Distribution, FloatParam, MaterialKind, ReliefRules, Roughness,
-    RoughnessMapping,
+    CoatMedium, ColourParam, ConductorFresnel, Distribution, FloatParam, Gltf, MaterialKind,
+    Principled, ReliefRules, Roughness, RoughnessMapping,
 };
 
 use super::{Material, Materials};
@@ -36,6 +36,11 @@ impl Materials {
         }
         to.words
             .constant("HAS_BOUNDARIES", u32::from(self.has_boundaries));
+        let turns = |m: &Material| m.turn.is_some_and(|t| t.direction.is_some());
+        to.words.constant(
+            "HAS_DIRECTIONS",
+            u32::from(self.materials.iter().any(turns)),
+        );
         let bent = self.materials.iter().filter(|m| m.is_bent()).count();
         to.words.constant("RELIEF_COUNT", id(bent));
         // A render has one sampler and one density for simulated bounces.
@@ -49,15 +54,10 @@ impl Materials {
 
 impl Material {
     /// The head: kind, whether it has one side, whether layers let nothing through, rotation, whether
-    /// tangents do not matter, model of energy.
+    /// tangents do not matter, model of energy, texture of directions.
     fn flatten(&self, to: &mut Flattening) {
-        let rotation_rad = match self.turn {
-            Some(turn) if turn.direction.is_some() => {
-                to.lacks("textures of directions");
-                0.0
-            }
-            turn => turn.map_or(0.0, |t| t.rotation_rad),
-        };
+        let rotation_rad = self.turn.map_or(0.0, |t| t.rotation_rad);
+        let direction = self.turn.and_then(|t| t.direction);
         let kind = self.lobe_kind();
         to.uses(kind);
         let words = &mut to.words;
@@ -66,6 +66,7 @@ impl Material {
         words.number(rotation_rad);
         words.flag(self.is_plain_and_isotropic());
         words.id(energy_code(self.models.energy));
+        words.id(direction.map_or(u32::MAX, |texture| id(texture.0)));
         self.parameters().flatten(words);
     }
 
@@ -160,6 +161,17 @@ impl Material {
                 eta,
                 ref roughness,
                 ref medium,
+                ..
+            } if medium.scatters() => to
+                .roughness(roughness)
+                .number(eta)
+                .medium(medium)
+                .colours([reflectance]),
+            MaterialKind::CoatedDiffuse {
+                reflectance,
+                eta,
+                ref roughness,
+                ref medium,
                 lossless,
             } => to
                 .roughness(roughness)
@@ -183,11 +195,21 @@ impl Material {
                 let [first, second] = materials.map(|m| id(m.0));
                 to.floats([amount]).id(first).id(second)
             }
-            // Named as missing by their kind.
-            MaterialKind::CoatedConductor { .. }
-            | MaterialKind::Principled(_)
-            | MaterialKind::Gltf(_)
-            | MaterialKind::Interface => &mut to,
+            MaterialKind::CoatedConductor {
+                coat_eta,
+                ref coat_roughness,
+                ref fresnel,
+                ref roughness,
+                ref medium,
+            } => to
+                .roughness(coat_roughness)
+                .number(coat_eta)
+                .medium(medium)
+                .roughness(roughness)
+                .fresnel(fresnel),
+            MaterialKind::Principled(ref p) => to.principled(p),
+            MaterialKind::Gltf(ref g) => to.gltf(g),
+            MaterialKind::Interface => &mut to,
         };
         to
     }
@@ -256,6 +278,33 @@ impl Parameters {
             ConductorFresnel::Mirror => (3, [none; 2]),
         };
         self.colours(colours).id(kind)
+    }
+
+    /// Thickness, albedo, asymmetry; most events, walks.
+    fn medium(&mut self, medium: &CoatMedium) -> &mut Self {
+        self.floats([medium.thickness])
+            .colours([medium.albedo])
+            .floats([medium.g])
+            .id(medium.max_depth.unwrap_or(u32::MAX))
+            .id(medium.samples)
+    }
+
+    fn principled(&mut self, p: &Principled) -> &mut Self {
+        self.colours([p.base_colour])
+            .floats([p.roughness, p.anisotropic, p.metallic, p.spec_trans])
+            .floats([p.spec_tint, p.sheen, p.sheen_tint, p.clearcoat])
+            .floats([p.clearcoat_gloss, p.flatness, p.diff_trans])
+            .number(p.eta)
+            .flag(p.thin)
+    }
+
+    fn gltf(&mut self, g: &Gltf) -> &mut Self {
+        self.colours([g.base_colour, g.specular_colour, g.sheen_colour])
+            .floats([g.metallic, g.roughness, g.anisotropy, g.specular])
+            .floats([g.transmission, g.clearcoat, g.clearcoat_roughness])
+            .floats([g.sheen_roughness])
+            .number(g.ior)
+            .flag(g.volume)
     }
 
     fn flatten(&self, to: &mut Words) {
