@@ -161,25 +161,13 @@ impl Material {
                 eta,
                 ref roughness,
                 ref medium,
-                ..
-            } if medium.scatters() => to
-                .roughness(roughness)
-                .number(eta)
-                .medium(medium)
-                .colours([reflectance]),
-            MaterialKind::CoatedDiffuse {
-                reflectance,
-                eta,
-                ref roughness,
-                ref medium,
                 lossless,
-            } => to
-                .roughness(roughness)
-                .number(eta)
-                .colours([reflectance])
-                .flag(lossless || self.models.energy != Energy::None)
-                .floats([medium.thickness])
-                .id(medium.max_depth.unwrap_or(u32::MAX)),
+            } => {
+                let lossless = lossless || self.models.energy != Energy::None;
+                to.roughness(roughness)
+                    .number(eta)
+                    .coated_diffuse(reflectance, medium, lossless)
+            }
             MaterialKind::Plastic {
                 diffuse,
                 specular,
@@ -287,6 +275,22 @@ impl Parameters {
             .floats([medium.g])
             .id(medium.max_depth.unwrap_or(u32::MAX))
             .id(medium.samples)
+    }
+
+    /// In closed form where nothing scatters under the coat.
+    fn coated_diffuse(
+        &mut self,
+        reflectance: ColourParam,
+        medium: &CoatMedium,
+        lossless: bool,
+    ) -> &mut Self {
+        if medium.scatters() {
+            return self.medium(medium).colours([reflectance]);
+        }
+        self.colours([reflectance])
+            .flag(lossless)
+            .floats([medium.thickness])
+            .id(medium.max_depth.unwrap_or(u32::MAX))
     }
 
     fn principled(&mut self, p: &Principled) -> &mut Self {
