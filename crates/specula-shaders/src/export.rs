@@ -53,7 +53,7 @@ pub fn export(language: Language, wanted: &[&str]) -> Result<Vec<File>, ExportEr
     let modules = ordered(wanted)?;
     let failed = |error| ExportError::Translate { language, error };
     let mut files = vec![File {
-        name: language.library_file(),
+        name: language.text_file(),
         bytes: library(language, wanted, &modules).map_err(failed)?,
     }];
     if example_modules()?.iter().all(|m| modules.contains(m)) {

@@ -48,7 +48,7 @@ impl Language {
 
     /// The library's file.
     #[must_use]
-    pub fn library_file(self) -> &'static str {
+    pub fn text_file(self) -> &'static str {
         match self {
             Self::Wgsl => "specula.wgsl",
             Self::Hlsl => "specula.hlsl",

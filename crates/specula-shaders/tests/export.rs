@@ -144,7 +144,7 @@ fn tables_and_examples_come_with_what_uses_them() {
             let files = export(language, modules).unwrap();
             files.iter().map(|f| f.name).collect()
         };
-        let (library, example) = (language.library_file(), language.example_file());
+        let (library, example) = (language.text_file(), language.example_file());
         assert_eq!(names(&["ggx"]), [library]);
         assert_eq!(names(&["ggx", "bounded"]), [library, example]);
         assert_eq!(names(&[]), [library, example, "energy_tables.bin"]);
@@ -174,7 +174,7 @@ fn glsl_compiles() {
         let example = folder.read(language.example_file());
         folder.write(
             "pasted.comp",
-            &pasted(&example, language.library_file(), &text),
+            &pasted(&example, language.text_file(), &text),
         );
         for arguments in [
             &["whole.comp"][..],
