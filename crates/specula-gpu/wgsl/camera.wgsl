@@ -3,6 +3,7 @@
 // Twin of specula-render/src/camera.rs and film/filter.rs.
 
 import tracer::world::{word, number, affine_point, affine_vector};
+import tracer::area::{area_disk};
 import tracer::environment::{environment_direction};
 
 /// A camera's ray, and the weight of its sample.
@@ -10,26 +11,6 @@ struct CameraRay {
     origin: vec3f,
     direction: vec3f,
     weight: f32,
-}
-
-/// A point of the unit disk, area-preserving and continuous (Shirley and Chiu 1997).
-///
-/// Twin: specula-render/src/camera.rs, concentric_disk.
-fn camera_disk(u: vec2f) -> vec2f {
-    let a = 2.0 * u.x - 1.0;
-    let b = 2.0 * u.y - 1.0;
-    if a == 0.0 && b == 0.0 {
-        return vec2f(0.0);
-    }
-    var r = a;
-    var phi = 0.0;
-    if a * a > b * b {
-        phi = 0.78539816339 * (b / a);
-    } else {
-        r = b;
-        phi = 1.57079632679 - 0.78539816339 * (a / b);
-    }
-    return vec2f(r * cos(phi), r * sin(phi));
 }
 
 /// A position about the pixel's middle drawn by one axis of the filter, and its weight.
@@ -115,7 +96,7 @@ fn camera_ray(pixel: vec2u, u: vec4f) -> CameraRay {
     let radius = number(CAMERA + 16u);
     if radius > 0.0 {
         let focus = begin + towards * number(CAMERA + 17u);
-        begin += vec3f(camera_disk(u.zw) * radius, 0.0);
+        begin += vec3f(area_disk(u.zw) * radius, 0.0);
         towards = focus - begin;
     }
     return CameraRay(

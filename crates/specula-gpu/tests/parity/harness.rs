@@ -115,6 +115,21 @@ pub(crate) struct Fault {
     pub(crate) to: &'static str,
 }
 
+/// One of a list.
+pub(crate) const fn fault(
+    case: &'static str,
+    module: &'static str,
+    from: &'static str,
+    to: &'static str,
+) -> Fault {
+    Fault {
+        case,
+        module,
+        from,
+        to,
+    }
+}
+
 /// Errors of a case.
 pub(crate) struct Outcome {
     name: &'static str,

@@ -8,7 +8,8 @@ use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Alpha, Bsdf, Real, Rgb, Transport};
 
 use crate::harness::{
-    Case, Fault, Twin, assert_covered, catch, direction, product, prove, r2, round, twins, vector,
+    Case, Fault, Twin, assert_covered, catch, direction, fault, product, prove, r2, round, twins,
+    vector,
 };
 use crate::multibounce::means::{compare, held, summed};
 use crate::multibounce::{drawn, ggx, stored, stream, walks};
@@ -220,20 +221,6 @@ const ELSEWHERE: &[(&str, &str)] = &[
          layered_density_quarter",
     ),
 ];
-
-const fn fault(
-    case: &'static str,
-    module: &'static str,
-    from: &'static str,
-    to: &'static str,
-) -> Fault {
-    Fault {
-        case,
-        module,
-        from,
-        to,
-    }
-}
 
 /// One for every module.
 const FAULTS: &[Fault] = &[

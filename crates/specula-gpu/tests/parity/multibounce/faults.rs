@@ -1,6 +1,6 @@
 //! Planted faults, and functions that cases run without naming them.
 
-use crate::harness::Fault;
+use crate::harness::{Fault, fault};
 
 /// Functions that no body names, with the cases that run them.
 pub(super) const ELSEWHERE: &[(&str, &str)] = &[
@@ -58,20 +58,6 @@ pub(super) const ELSEWHERE: &[(&str, &str)] = &[
     ("ours_value", "ours_stratum ours_goes_on ours_walk"),
     ("wang_value and wang_draw", "wang_leaves"),
 ];
-
-const fn fault(
-    case: &'static str,
-    module: &'static str,
-    from: &'static str,
-    to: &'static str,
-) -> Fault {
-    Fault {
-        case,
-        module,
-        from,
-        to,
-    }
-}
 
 /// One at least for every module.
 pub(super) const FAULTS: &[Fault] = &[
