@@ -15,10 +15,15 @@ use std::fmt::Write as _;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use common::gpu;
+use glam::DMat4;
+use specula_bsdf::Rgb;
 use specula_bsdf::math::{Stream, rgb, warp};
 use specula_gpu::{Gpu, Kernel};
 use specula_render::{FlatScene, PreparedScene, RenderOptions};
-use specula_scene::scene::{EnvironmentMapping, ImageId, Light, SpotFalloff};
+use specula_scene::scene::{
+    Channel, ColourParam, EnvironmentMapping, ImageId, Instance, Interpolation, Light, Object,
+    ObjectId, Profile, SpotFalloff, Texture, TextureId, TextureMapping, Throw, Wrap,
+};
 use specula_scene::{Image, Scene};
 
 /// Receivers of each scene.
@@ -26,8 +31,8 @@ const CASES: u32 = 16_384;
 /// Share of answers that may differ where rounding decides between two lights, or at edges.
 const STRAYS: f64 = 3e-4;
 /// Words of a case: point, normal (zero: none), four numbers, a light, a target and its normal, a
-/// direction.
-const CASE: usize = 20;
+/// direction, weights of the target's corners.
+const CASE: usize = 22;
 /// Words of an answer: the sample (20), the density of the target, the share of lights at infinity, and
 /// what arrives from up to three of those.
 const ANSWER: usize = 34;
@@ -37,10 +42,28 @@ const FAR: usize = 3;
 /// The modules in the order of their imports.
 const MODULES: &[(&str, &str)] = &[
     ("world", include_str!("../wgsl/world.wgsl")),
+    ("sequence", include_str!("../wgsl/sequence.wgsl")),
+    ("traverse", include_str!("../wgsl/traverse.wgsl")),
     ("angles", include_str!("../wgsl/angles.wgsl")),
+    ("surface", include_str!("../wgsl/surface.wgsl")),
+    ("texture_place", include_str!("../wgsl/texture_place.wgsl")),
+    (
+        "texture_mapping",
+        include_str!("../wgsl/texture_mapping.wgsl"),
+    ),
+    ("texture_noise", include_str!("../wgsl/texture_noise.wgsl")),
+    (
+        "texture_raster",
+        include_str!("../wgsl/texture_raster.wgsl"),
+    ),
+    ("texture_graph", include_str!("../wgsl/texture_graph.wgsl")),
     ("octahedral", include_str!("../wgsl/octahedral.wgsl")),
     ("parallelogram", include_str!("../wgsl/parallelogram.wgsl")),
     ("area", include_str!("../wgsl/area.wgsl")),
+    ("piecewise", include_str!("../wgsl/piecewise.wgsl")),
+    ("textured", include_str!("../wgsl/textured.wgsl")),
+    ("spot", include_str!("../wgsl/spot.wgsl")),
+    ("thrown", include_str!("../wgsl/thrown.wgsl")),
     ("sun", include_str!("../wgsl/sun.wgsl")),
     ("delta", include_str!("../wgsl/delta.wgsl")),
     ("environment", include_str!("../wgsl/environment.wgsl")),
@@ -65,7 +88,7 @@ fn answer_vector(at: u32, v: vec3f) {
 
 @compute @workgroup_size(64)
 fn answer_all(@builtin(global_invocation_id) id: vec3u) {
-    let at = 20u * id.x;
+    let at = 22u * id.x;
     let to = 34u * id.x;
     let receiver = Receiver(case_vector(at), case_vector(at + 3u));
     let u = vec4f(cases[at + 6u], cases[at + 7u], cases[at + 8u], cases[at + 9u]);
@@ -80,8 +103,9 @@ fn answer_all(@builtin(global_invocation_id) id: vec3u) {
     answer_vector(to + 15u, drawn.target_normal);
     answers[to + 18u] = f32(drawn.from_infinity);
     let light = bitcast<u32>(cases[at + 10u]);
-    answers[to + 20u] =
-        lights_pdf_of_surface(receiver, light, case_vector(at + 11u), case_vector(at + 14u));
+    let weights = vec2f(cases[at + 20u], cases[at + 21u]);
+    answers[to + 20u] = lights_pdf_of_surface(
+        receiver, light, case_vector(at + 11u), case_vector(at + 14u), weights);
     answers[to + 21u] = lights_share_from_infinity(receiver);
     for (var i = 0u; i < lights_arriving_count(); i += 1u) {
         let arriving = lights_arriving(i, case_vector(at + 17u));
@@ -210,6 +234,33 @@ fn with_picture(mut scene: Scene, mapping: EnvironmentMapping) -> Scene {
     scene
 }
 
+/// Shapes whose emission varies, with and without a table, under a mirror, and cut out.
+const VARYING: &str = r#"
+Texture "holes" "float" "checkerboard" "float uscale" 4 "float vscale" 4
+  "float tex1" 1 "float tex2" 0.25
+AttributeBegin
+  AreaLightSource "diffuse"
+  Shape "trianglemesh" "point3 P" [-1 -1 3  1 -1 3  0 1 3.5] "point2 uv" [0 0 1 0 0 1]
+    "integer indices" [0 1 2]
+  Scale -1 1 1
+  Shape "trianglemesh" "point3 P" [-3 -1 0  -3 1 0  -3 1 2  -3 -1 2] "point2 uv" [0 0 1 0 1 1 0 1]
+    "integer indices" [0 1 2 0 2 3]
+AttributeEnd
+AttributeBegin
+  AreaLightSource "diffuse" "bool twosided" true
+  Translate 0 -3 1
+  Shape "disk" "float radius" 0.7
+  Translate 0 5 0
+  Scale 1 0.5 0.7
+  Shape "sphere" "float radius" 0.6
+AttributeEnd
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [1 2 3]
+  Shape "trianglemesh" "point3 P" [2 2 -3  4 2 -3  3 4 -3] "point2 uv" [0 0 1 0 0 1]
+    "integer indices" [0 1 2] "texture alpha" "holes"
+AttributeEnd
+"#;
+
 const SKY: &str = r#"
 AttributeBegin
   Rotate 50 1 2 0
@@ -248,6 +299,72 @@ fn with_deltas(mut scene: Scene) -> Scene {
     scene
 }
 
+/// Gives all shapes that shine a radiance that varies, but the last, and adds mirrored copies of the first.
+fn with_varying(mut scene: Scene) -> Scene {
+    let texture = TextureId(scene.textures.len());
+    scene.textures.push(Texture::Bilinear {
+        corners: [[0.0; 3], [0.3, 0.2, 0.1], [0.1, 0.2, 0.3], [9.0, 8.0, 7.0]].map(Rgb::from),
+        mapping: TextureMapping::default(),
+    });
+    let count = scene.shapes.len();
+    for emission in scene.shapes[..count - 1]
+        .iter_mut()
+        .filter_map(|s| s.emission.as_mut())
+    {
+        emission.radiance = ColourParam::Texture(texture);
+    }
+    let object = ObjectId(scene.objects.len());
+    scene.objects.push(Object {
+        name: "copied".into(),
+        shapes: scene.shapes[..1].to_vec(),
+    });
+    scene.instances.push(Instance {
+        object,
+        to_world: DMat4::from_translation([0.0, 0.0, -6.0].into())
+            * DMat4::from_scale([-1.0, 1.0, 1.0].into()),
+    });
+    scene
+}
+
+/// Pictures thrown from a point: to all sides, and through windows of every profile.
+fn with_thrown(mut scene: Scene) -> Scene {
+    let image = ImageId(scene.images.len());
+    scene.images.push(picture(12, 12));
+    let texture = TextureId(scene.textures.len());
+    scene.textures.push(Texture::Image {
+        image,
+        mapping: TextureMapping::default(),
+        wrap: [Wrap::Clamp; 2],
+        filter: Interpolation::Bilinear,
+        invert: false,
+        scale: 2.0,
+        channel: Channel::Rgb,
+    });
+    let window = |profile| Throw::Window {
+        half: [0.7, 0.5],
+        profile,
+    };
+    let spot = Profile::Spot {
+        cone_angle_deg: 30.0,
+        falloff_start_deg: 10.0,
+    };
+    let throws = [
+        Throw::Sphere,
+        window(Profile::Intensity),
+        window(Profile::Irradiance),
+        window(spot),
+    ];
+    for (x, throw) in (0_u8..).zip(throws) {
+        let turned = DMat4::from_rotation_x(0.9 * f64::from(x));
+        scene.lights.push(Light::Picture {
+            to_world: DMat4::from_translation([f64::from(x) - 1.5, 0.3, 1.0].into()) * turned,
+            intensity: ColourParam::Texture(texture),
+            throw,
+        });
+    }
+    scene
+}
+
 /// Scenes by name.
 fn scenes() -> Vec<(&'static str, Scene)> {
     use EnvironmentMapping::{EqualAreaOctahedral, LatitudeLongitude, LatitudeLongitudePoles};
@@ -267,6 +384,8 @@ fn scenes() -> Vec<(&'static str, Scene)> {
         ("a sky by latitude", sky(LatitudeLongitude)),
         ("a sky with poles", sky(LatitudeLongitudePoles)),
         ("lights without extent", with_deltas(scene("deltas", FLOOR))),
+        ("shapes that vary", with_varying(scene("varying", VARYING))),
+        ("thrown pictures", with_thrown(scene("thrown", FLOOR))),
         ("everything", with_picture(all, LatitudeLongitude)),
         ("falling distances", scene("falling", &falling())),
         (
@@ -318,6 +437,7 @@ fn question(
     words[11..14].copy_from_slice(&[2.0, 0.3, 0.7]);
     words[14..17].copy_from_slice(&[0.0, 0.6, 0.8]);
     words[17..20].copy_from_slice(&warp::uniform_sphere([u[1], u[2]]).to_array());
+    words[20..22].copy_from_slice(&[0.5 * u[1], 0.5 * u[2]]);
     if let Some(drawn) = scene.probe_light(lit, u) {
         answer[0] = 1.0;
         answer[1..19].copy_from_slice(&drawn);
@@ -329,7 +449,8 @@ fn question(
         }
     }
     let triple = |at: usize| [words[at], words[at + 1], words[at + 2]];
-    answer[20] = scene.probe_light_pdf(lit, light, triple(11), triple(14));
+    let weights = [words[20], words[21]];
+    answer[20] = scene.probe_light_pdf(lit, light, triple(11), triple(14), weights);
     answer[21] = scene.probe_share_from_infinity(lit);
     let arriving = scene.probe_infinity(triple(17));
     assert!(arriving.len() <= FAR);
@@ -345,7 +466,8 @@ struct Fault {
 }
 
 fn source(flat: &FlatScene<'_>, fault: Option<&Fault>) -> String {
-    let mut text = String::new();
+    // No rays are traced: the stack is never used.
+    let mut text = String::from("const STACK_SIZE: u32 = 1u;\n");
     for (name, value) in &flat.constants {
         let _ = writeln!(text, "const {name}: u32 = {value}u;");
     }
@@ -463,6 +585,7 @@ fn lights_are_drawn_and_looked_up_as_on_the_cpu() {
         let shines = [
             "one rectangle",
             "shapes",
+            "shapes that vary",
             "everything",
             "many triangles and a sky",
             "falling distances",
@@ -494,14 +617,31 @@ fn planted_faults_are_noticed() {
             "2.0 * angles_turns(sine, w.z)",
             "angles_turns(sine, w.z)",
         ),
-        ("delta", "3.0 - 2.0 * t", "3.0 - 1.9 * t"),
+        ("spot", "3.0 - 2.0 * t", "3.0 - 1.9 * t"),
         ("sun", "t * (2.0 - t)", "t * (1.9 - t)"),
         ("lights", "far / (far + near)", "near / (far + near)"),
     ];
     let falling = [("light_tree", "trail.y << 31u", "trail.y << 30u")];
+    let varying = [
+        ("textured", "drawn.area.pdf *= density;", ""),
+        (
+            "textured",
+            "weights.yx, word(at + 2u) != 0u",
+            "weights.yx, false",
+        ),
+        ("textured", "2.0 * weights.x, sum", "weights.x, sum"),
+        ("piecewise", "(cells + 1u) + x", "cells + x"),
+    ];
+    let thrown = [
+        ("thrown", "1.0 - square.y", "square.y"),
+        ("thrown", "cosine * cosine * cosine", "cosine * cosine"),
+        ("spot", "(last - spot_angle(x))", "spot_angle(x)"),
+    ];
     for (name, faults) in [
         ("everything", &everything[..]),
         ("falling distances", &falling),
+        ("shapes that vary", &varying),
+        ("thrown pictures", &thrown),
     ] {
         let found = scenes().into_iter().find(|(n, _)| *n == name);
         let scene = prepared(&found.expect("the scene is in the list").1);

@@ -11,6 +11,7 @@ mod common;
 use std::sync::atomic::AtomicBool;
 
 use common::gpu;
+use glam::DMat4;
 use specula_bsdf::Rgb;
 use specula_bsdf::math::rgb;
 use specula_gpu::{Gpu, Tracer};
@@ -18,7 +19,8 @@ use specula_render::picture::Picture;
 use specula_render::{PreparedScene, RenderOptions, Renderer, Strategy};
 use specula_scene::Scene;
 use specula_scene::scene::{
-    ColourParam, EnvironmentMapping, Filter, FloatParam, Gltf, MaterialKind, Principled, Projection,
+    ColourParam, EnvironmentMapping, Filter, FloatParam, Gltf, Light, MaterialKind, Principled,
+    Profile, Projection, Texture, TextureId, TextureMapping, Throw,
 };
 use specula_stat::image::{NoisyImage, compare};
 
@@ -271,6 +273,50 @@ AttributeBegin Translate 0.8 0 0.3 Scale 0.8 0.8 1.2 ObjectInstance \"thing\" At
         strategy: Strategy::BsdfOnly,
         ..o
     });
+}
+
+#[test]
+fn lights_that_vary_and_thrown_pictures() {
+    let room = "
+Texture \"holes\" \"float\" \"checkerboard\" \"float uscale\" 6 \"float vscale\" 6 \"float tex1\" 1 \"float tex2\" 0.2
+Material \"diffuse\"
+Shape \"disk\" \"float radius\" 4
+AttributeBegin
+AreaLightSource \"diffuse\"
+Shape \"trianglemesh\" \"point3 P\" [-1.5 1 0.2  0.5 1 0.2  0.5 1.4 1.8  -1.5 1.4 1.8] \"point2 uv\" [0 0 1 0 1 1 0 1] \"integer indices\" [0 1 2 0 2 3]
+AttributeEnd
+AttributeBegin
+AreaLightSource \"diffuse\" \"rgb L\" [2 3 4] \"bool twosided\" true
+Translate 1 0 0.7
+Shape \"sphere\" \"float radius\" 0.4 \"texture alpha\" \"holes\"
+AttributeEnd
+";
+    let painted = |scene: &mut Scene| {
+        let texture = TextureId(scene.textures.len());
+        scene.textures.push(Texture::Bilinear {
+            corners: [[0.0; 3], [4.0, 2.0, 1.0], [1.0, 3.0, 5.0], [9.0; 3]].map(Rgb::from),
+            mapping: TextureMapping::default(),
+        });
+        ColourParam::Texture(texture)
+    };
+    let mut vary = scene(room);
+    let radiance = painted(&mut vary);
+    for emission in vary.shapes.iter_mut().filter_map(|s| s.emission.as_mut()) {
+        emission.radiance = radiance;
+    }
+    check("lights that vary", &vary, |o| o);
+    let mut thrown = scene("Material \"diffuse\" Shape \"disk\" \"float radius\" 4");
+    let intensity = painted(&mut thrown);
+    thrown.lights.push(Light::Picture {
+        to_world: DMat4::from_translation([0.0, 0.0, 1.5].into())
+            * DMat4::from_rotation_x(std::f64::consts::PI),
+        intensity,
+        throw: Throw::Window {
+            half: [0.9, 0.6],
+            profile: Profile::Intensity,
+        },
+    });
+    check("thrown pictures", &thrown, |o| o);
 }
 
 #[test]

@@ -7,17 +7,16 @@
 // ends), and the places of: pixels at the corners of the cells (red, green, blue, what is drawn by),
 // densities by row of cells, cumulated shares in the rows, cumulated shares of the rows.
 //
-// Twin of specula-render/src/light/environment.rs, environment/{axis,picture}.rs and piecewise.rs.
+// Twin of specula-render/src/light/environment.rs, environment/{axis,picture}.rs.
 
 import package::math::warp::{warp_uniform_sphere};
 import tracer::angles::{angles_sin_cos_half_turns, angles_sin_cos_turns, angles_turns};
 import tracer::octahedral::{octahedral_direction, octahedral_square};
+import tracer::piecewise::{PiecewiseCell, piecewise_invert};
 import tracer::world::{affine_vector, number, vector, word};
 
 /// `1 / (4 pi)`.
 const ENVIRONMENT_PER_SPHERE: f32 = 0.07957747;
-/// The largest number below 1 that is a multiple of `f32`'s epsilon.
-const ENVIRONMENT_BELOW_ONE: f32 = 0.9999999;
 /// Places within the words.
 const ENVIRONMENT_TO_WORLD: u32 = 3u;
 const ENVIRONMENT_TO_LIGHT: u32 = 15u;
@@ -46,14 +45,6 @@ struct EnvironmentDirection {
     w: vec3f,
     /// Of the polar angle, or 1.
     sine: f32,
-}
-
-/// A cell along one axis, and where in it a point lies.
-struct EnvironmentCell {
-    /// Its number.
-    cell: u32,
-    /// In `[0, 1]`.
-    within: f32,
 }
 
 /// The values at the corners of a cell: upper row, lower row.
@@ -103,9 +94,9 @@ fn environment_draw(at: u32, u: vec2f) -> EnvironmentSample {
     }
     let width = word(at + ENVIRONMENT_ACROSS);
     let height = word(at + ENVIRONMENT_DOWN);
-    let down = environment_invert(word(at + ENVIRONMENT_COLUMNS), height, u.y);
+    let down = piecewise_invert(word(at + ENVIRONMENT_COLUMNS), height, u.y);
     let row = word(at + ENVIRONMENT_ROWS) + down.cell * (width + 1u);
-    let across = environment_invert(row, width, u.x);
+    let across = piecewise_invert(row, width, u.x);
     let corners = environment_corners(at, across.cell, down.cell);
     let left_right = environment_range(at + ENVIRONMENT_ACROSS, across.cell);
     let top_bottom = environment_range(at + ENVIRONMENT_DOWN, down.cell);
@@ -228,29 +219,10 @@ fn environment_place(at: u32, cell: u32, within: f32) -> f32 {
 
 /// The cell of a coordinate along the axis at `at`.
 /// Twin: specula-render/src/light/environment/axis.rs, Axis::cell_of.
-fn environment_cell(at: u32, coordinate: f32) -> EnvironmentCell {
+fn environment_cell(at: u32, coordinate: f32) -> PiecewiseCell {
     let steps = number(at + 1u);
     let from_first = coordinate * steps - number(at + 2u);
     let along = select(from_first, from_first + steps, from_first < 0.0);
     let cell = clamp(floor(along), 0.0, f32(word(at)) - 1.0);
-    return EnvironmentCell(u32(cell), along - cell);
-}
-
-/// The cell in which `u` falls among `count` of them, by their cumulated shares from `cdf` on, and where
-/// within it.
-/// Twin: specula-render/src/light/piecewise.rs, invert.
-fn environment_invert(cdf: u32, count: u32, u: f32) -> EnvironmentCell {
-    var cell = 0u;
-    var size = count;
-    while size > 1u {
-        let part = size / 2u;
-        cell += select(0u, part, number(cdf + cell + part) <= u);
-        size -= part;
-    }
-    let begin = number(cdf + cell);
-    let width = number(cdf + cell + 1u) - begin;
-    if width > 0.0 {
-        return EnvironmentCell(cell, clamp((u - begin) / width, 0.0, ENVIRONMENT_BELOW_ONE));
-    }
-    return EnvironmentCell(cell, 0.5);
+    return PiecewiseCell(u32(cell), along - cell);
 }

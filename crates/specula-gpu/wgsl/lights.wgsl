@@ -3,6 +3,7 @@
 //
 // LIGHT_PLACES has the place of each of LIGHT_COUNT lights: its kind, then of
 // - a shape: whether it shines to both sides, radiance (3), the shape (area.wgsl);
+// - a shape whose emission varies: whether it shines to both sides, itself (textured.wgsl);
 // - a light with extent at infinity: its number among those;
 // - a light without extent: itself (delta.wgsl).
 //
@@ -12,20 +13,23 @@
 // rest belongs to, probability of the entry. LIGHT_FAR_IRRADIANCE is the place of their irradiance,
 // LIGHT_ONLY the light that is always drawn, or NONE.
 //
-// Twin of specula-render/src/light/{mod,select,alias}.rs. Departures: shapes with textures or opacity and
-// pictures thrown from a point are not there.
+// What a scene lacks is not compiled: LIGHT_HAS_TEXTURED, LIGHT_HAS_THROWN.
+//
+// Twin of specula-render/src/light/{mod,select,alias}.rs.
 
-import tracer::area::{area_draw, area_pdf};
+import tracer::area::{AreaSample, area_draw, area_pdf};
 import tracer::delta::{delta_illuminate};
 import tracer::environment::{environment_arriving, environment_draw};
 import tracer::light_tree::{LightChoice, LightNumber, light_tree_draw, light_tree_probability, light_tree_total, light_tree_value, light_tree_within};
 import tracer::sun::{sun_arriving, sun_density, sun_draw};
+import tracer::textured::{textured_draw, textured_pdf};
 import tracer::world::{NONE, number, vector, word};
 
 /// Kinds of lights.
 const LIGHTS_AREA: u32 = 0u;
 const LIGHTS_FAR: u32 = 1u;
 const LIGHTS_DELTA: u32 = 2u;
+const LIGHTS_TEXTURED: u32 = 3u;
 /// Kinds of lights with extent at infinity.
 const LIGHTS_ENVIRONMENT: u32 = 0u;
 const LIGHTS_SUN: u32 = 1u;
@@ -88,6 +92,11 @@ fn lights_draw(receiver: Receiver, u: vec4f) -> LightSample {
         case LIGHTS_DELTA: {
             drawn = lights_draw_delta(at + 1u, receiver.position);
         }
+        case LIGHTS_TEXTURED: {
+            if LIGHT_HAS_TEXTURED != 0u {
+                drawn = lights_draw_textured(at + 1u, receiver.position, u.yz);
+            }
+        }
         default: {}
     }
     drawn.pdf *= choice.probability;
@@ -97,15 +106,27 @@ fn lights_draw(receiver: Receiver, u: vec4f) -> LightSample {
 /// A point of the shape that shines at `at`, seen from `p`.
 /// Twin: specula-render/src/light/mod.rs, Lights::sample_one.
 fn lights_draw_area(at: u32, p: vec3f, u: vec2f) -> LightSample {
-    let s = area_draw(at + 4u, p, u);
+    return lights_from_area(area_draw(at + 4u, p, u), vector(at + 1u), word(at) != 0u);
+}
+
+/// A point of the shape at `at` whose emission varies, seen from `p`.
+/// Twin: specula-render/src/light/mod.rs, Lights::sample_one.
+fn lights_draw_textured(at: u32, p: vec3f, u: vec2f) -> LightSample {
+    let s = textured_draw(at + 1u, p, u);
+    return lights_from_area(s.area, s.radiance, word(at) != 0u);
+}
+
+/// A sampled point of a shape.
+/// Twin: specula-render/src/light/mod.rs, from_area.
+fn lights_from_area(s: AreaSample, radiance: vec3f, two_sided: bool) -> LightSample {
     var drawn: LightSample;
     drawn.wi = s.wi;
     drawn.pdf = s.pdf;
-    drawn.radiance = vector(at + 1u);
+    drawn.radiance = radiance;
     drawn.target_position = s.position;
     drawn.target_error = s.error;
     drawn.target_normal = s.normal;
-    let shines = word(at) != 0u || dot(s.normal, s.wi) < 0.0;
+    let shines = two_sided || dot(s.normal, s.wi) < 0.0;
     drawn.valid = u32(s.pdf > 0.0 && shines);
     return drawn;
 }
@@ -151,6 +172,7 @@ fn lights_draw_delta(at: u32, p: vec3f) -> LightSample {
 ///
 /// * `light`: its number; NONE of a surface that does not shine.
 /// * `normal`: of the surface there.
+/// * `weights`: of its primitive's second and third corner there.
 ///
 /// Twin: specula-render/src/light/mod.rs, Lights::pdf_of_surface.
 fn lights_pdf_of_surface(
@@ -158,16 +180,22 @@ fn lights_pdf_of_surface(
     light: u32,
     position: vec3f,
     normal: vec3f,
+    weights: vec2f,
 ) -> f32 {
     if light >= LIGHT_COUNT {
         return 0.0;
     }
     let at = word(LIGHT_PLACES + light);
-    if word(at) != LIGHTS_AREA {
+    var pdf = 0.0;
+    if word(at) == LIGHTS_AREA {
+        pdf = area_pdf(at + 5u, receiver.position, position, normal);
+    } else if LIGHT_HAS_TEXTURED != 0u && word(at) == LIGHTS_TEXTURED {
+        pdf = textured_pdf(at + 2u, receiver.position, position, normal, weights);
+    }
+    if pdf <= 0.0 {
         return 0.0;
     }
-    let probability = lights_probability_near(receiver, light);
-    return probability * area_pdf(at + 5u, receiver.position, position, normal);
+    return lights_probability_near(receiver, light) * pdf;
 }
 
 /// How many lights with extent at infinity there are.

@@ -110,7 +110,7 @@ fn path_emission(state: PathState, surface: Surface, direction: vec3f) -> vec3f 
     var light_pdf = 0.0;
     if state.previous_pdf > 0.0 {
         light_pdf = lights_pdf_of_surface(
-            state.previous, surface.light, surface.position, surface.ng);
+            state.previous, surface.light, surface.position, surface.ng, surface.weights);
     }
     return radiance * path_lobe_weight(state.previous_pdf, light_pdf);
 }

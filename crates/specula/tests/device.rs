@@ -120,14 +120,21 @@ fn what_a_gpu_does_not_render_is_named_before_anything_is_done() {
     let (folder, scene) = small_scene();
     let folder = folder.path();
     let text = std::fs::read_to_string(&scene).unwrap();
-    let veiled = "AreaLightSource \"diffuse\"\nShape \"sphere\" \"float alpha\" 0.5\n";
-    std::fs::write(&scene, text + veiled).unwrap();
+    let mut nested = String::from("Texture \"t0\" \"spectrum\" \"checkerboard\"\n");
+    for i in 1..40 {
+        nested += &format!(
+            "Texture \"t{i}\" \"spectrum\" \"mix\" \"texture tex1\" \"t{}\" \"texture tex2\" \"t0\"\n",
+            i - 1
+        );
+    }
+    nested += "Material \"diffuse\" \"texture reflectance\" \"t39\"\nShape \"sphere\"\n";
+    std::fs::write(&scene, text + &nested).unwrap();
     let (code, said) = run(
         folder,
         &["render", "small.pbrt", "--device", "gpu", "-o", "a.exr"],
     );
     assert_eq!(code, Some(2), "{said}");
     let said: String = said.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(said.contains("shapes that shine with a texture"), "{said}");
+    assert!(said.contains("textures that are nested more than"), "{said}");
     assert!(!folder.join("a.exr").exists());
 }

@@ -67,7 +67,7 @@ impl PreparedScene {
         let (nodes, packets) = self.geometry.flatten(&mut to);
         self.textures.flatten(&mut to);
         self.materials.flatten(&mut to);
-        self.lights.flatten(&mut to);
+        self.lights.flatten(&mut to.words);
         let [width, height] = self.resolution;
         to.words.constant("WIDTH", width);
         to.words.constant("HEIGHT", height);

@@ -6,7 +6,7 @@ use specula_scene::scene::{Light, SpotFalloff};
 use super::cone::EmissionCone;
 use super::thrown::Thrown;
 use crate::convert::{narrow, narrow3};
-use crate::flat::Flattening;
+use crate::flat::Words;
 use crate::texture::Textures;
 
 /// A light that only its own sampling can find.
@@ -120,15 +120,15 @@ impl Delta {
     }
 
     /// Kind and parameters, for shaders.
-    pub(super) fn flatten(&self, to: &mut Flattening) {
+    pub(super) fn flatten(&self, to: &mut Words) {
         match *self {
             Self::Distant {
                 irradiance,
                 to_light,
             } => {
-                to.words.id(0);
-                to.words.colour(irradiance);
-                to.words.vector(to_light);
+                to.id(0);
+                to.colour(irradiance);
+                to.vector(to_light);
             }
             Self::Point {
                 position,
@@ -138,18 +138,21 @@ impl Delta {
                 cos_start,
                 falloff,
             } => {
-                to.words.id(1);
-                to.words.vector(position);
-                to.words.vector(axis);
-                to.words.colour(intensity);
-                to.words.numbers([cos_cone, cos_start]);
-                to.words.id(match falloff {
+                to.id(1);
+                to.vector(position);
+                to.vector(axis);
+                to.colour(intensity);
+                to.numbers([cos_cone, cos_start]);
+                to.id(match falloff {
                     SpotFalloff::SmoothCosine => 0,
                     SpotFalloff::LinearAngle => 1,
                     SpotFalloff::SquaredCosine => 2,
                 });
             }
-            Self::Thrown(_) => to.lacks("lights that throw a picture or an intensity diagram"),
+            Self::Thrown(ref thrown) => {
+                to.id(2);
+                thrown.flatten(to);
+            }
         }
     }
 

@@ -1,57 +1,68 @@
 //! Lights for shaders: see `lights.wgsl` of the crate `specula-gpu`.
 
+use super::delta::Delta;
 use super::{Far, Lights, Source};
 use crate::convert::id;
-use crate::flat::Flattening;
+use crate::flat::Words;
 
 /// Kinds of lights: the first word of each.
 const AREA: u32 = 0;
 const FAR: u32 = 1;
 const DELTA: u32 = 2;
-/// Without a twin: never lit.
-const UNKNOWN: u32 = 3;
+const TEXTURED: u32 = 3;
 /// Kinds of lights with extent at infinity.
 const ENVIRONMENT: u32 = 0;
 const SUN: u32 = 1;
 
 impl Lights {
     /// Every light, those at infinity, and how one is chosen.
-    pub(crate) fn flatten(&self, to: &mut Flattening) {
+    pub(crate) fn flatten(&self, to: &mut Words) {
         let places: Vec<u32> = self.sources.iter().map(|s| s.flatten(to)).collect();
-        to.words.constant("LIGHT_COUNT", id(places.len()));
-        to.words.begin("LIGHT_PLACES");
-        to.words.ids(places);
+        to.constant("LIGHT_COUNT", id(places.len()));
+        let has = |test: fn(&Source) -> bool| u32::from(self.sources.iter().any(test));
+        let textured = has(|s| matches!(s, Source::Textured(_)));
+        to.constant("LIGHT_HAS_TEXTURED", textured);
+        let thrown = has(|s| matches!(s, Source::Delta(Delta::Thrown(_))));
+        to.constant("LIGHT_HAS_THROWN", thrown);
+        to.begin("LIGHT_PLACES");
+        to.ids(places);
         let far = self.far.iter();
         let far: Vec<[u32; 2]> = far.map(|(f, light)| [f.flatten(to), *light]).collect();
-        to.words.constant("LIGHT_FAR_COUNT", id(far.len()));
-        to.words.begin("LIGHT_FAR");
-        to.words.ids(far.into_iter().flatten());
-        self.selection.flatten(&mut to.words);
+        to.constant("LIGHT_FAR_COUNT", id(far.len()));
+        to.begin("LIGHT_FAR");
+        to.ids(far.into_iter().flatten());
+        self.selection.flatten(to);
     }
 }
 
 impl Source {
     /// Kind and parameters; returns their place.
-    fn flatten(&self, to: &mut Flattening) -> u32 {
-        let place = to.words.place();
+    fn flatten(&self, to: &mut Words) -> u32 {
+        // Arrays stand before the record that names them.
+        let table = match self {
+            Self::Textured(light) => light.flatten_table(to),
+            _ => [0; 3],
+        };
+        let place = to.place();
         match self {
+            Self::Textured(light) => {
+                to.id(TEXTURED);
+                to.flag(light.two_sided);
+                light.flatten(table, to);
+            }
             Self::Area {
                 area,
                 radiance,
                 two_sided,
             } => {
-                to.words.id(AREA);
-                to.words.flag(*two_sided);
-                to.words.colour(*radiance);
-                area.flatten(&mut to.words);
+                to.id(AREA);
+                to.flag(*two_sided);
+                to.colour(*radiance);
+                area.flatten(to);
             }
-            Self::Textured(_) => {
-                to.lacks("shapes that shine with a texture or an opacity");
-                to.words.id(UNKNOWN);
-            }
-            Self::Far(number) => to.words.ids([FAR, id(*number)]),
+            Self::Far(number) => to.ids([FAR, id(*number)]),
             Self::Delta(delta) => {
-                to.words.id(DELTA);
+                to.id(DELTA);
                 delta.flatten(to);
             }
         }
@@ -61,13 +72,13 @@ impl Source {
 
 impl Far {
     /// Kind and parameters; returns their place.
-    fn flatten(&self, to: &mut Flattening) -> u32 {
+    fn flatten(&self, to: &mut Words) -> u32 {
         match self {
-            Self::Environment(light) => light.flatten(ENVIRONMENT, &mut to.words),
+            Self::Environment(light) => light.flatten(ENVIRONMENT, to),
             Self::Sun(light) => {
-                let place = to.words.place();
-                to.words.id(SUN);
-                light.flatten(&mut to.words);
+                let place = to.place();
+                to.id(SUN);
+                light.flatten(to);
                 place
             }
         }

@@ -117,6 +117,11 @@ impl Piecewise {
         })
     }
 
+    /// Cells in a row.
+    pub(super) fn width(&self) -> u32 {
+        id(self.width)
+    }
+
     /// Probability of a cell.
     #[inline]
     pub(super) fn share(&self, [x, y]: [usize; 2]) -> f32 {

@@ -50,6 +50,8 @@ impl PreparedScene {
     }
 
     /// Density with which a point of a light's surface is drawn.
+    ///
+    /// * `weights`: of its primitive's second and third corner.
     #[doc(hidden)]
     pub fn probe_light_pdf(
         &self,
@@ -57,6 +59,7 @@ impl PreparedScene {
         light: u32,
         position: [f32; 3],
         normal: [f32; 3],
+        weights: [f32; 2],
     ) -> f32 {
         let surface = Surface {
             position: Vec3::from(position),
@@ -69,7 +72,10 @@ impl PreparedScene {
             colour: Rgb::WHITE,
             shape: 0,
             light,
-            at: At::default(),
+            at: At {
+                weights,
+                ..At::default()
+            },
         };
         self.lights.pdf_of_surface(&receiver(lit), &surface)
     }

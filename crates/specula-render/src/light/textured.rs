@@ -5,6 +5,7 @@ use specula_scene::scene::{ColourParam, FloatParam};
 
 use super::area::{Area, AreaSample};
 use super::piecewise::Piecewise;
+use crate::flat::Words;
 use crate::geometry::{At, Geometry, Surface};
 use crate::texture::{Place, Textures};
 
@@ -145,6 +146,24 @@ impl Textured {
         let surface = self.surface(geometry, u, sample.point);
         let radiance = self.emits.radiance(textures, &surface.place());
         (sample.pdf > 0.0 && !radiance.is_black()).then_some((sample, radiance))
+    }
+
+    /// Cells along the sides of the table, 0 where there is none, and the places of its shares.
+    pub(super) fn flatten_table(&self, to: &mut Words) -> [u32; 3] {
+        match &self.table {
+            None => [0; 3],
+            Some(table) => {
+                let [rows, columns] = table.flatten(to);
+                [table.width(), rows, columns]
+            }
+        }
+    }
+
+    /// Parameters, for shaders; radiance and opacity are those of the shape.
+    pub(super) fn flatten(&self, table: [u32; 3], to: &mut Words) {
+        to.ids([self.instance, self.primitive, u32::from(self.swapped)]);
+        to.ids(table);
+        self.area.flatten(to);
     }
 
     /// Density in 1/sr with which [`Textured::sample`] draws the direction from `p` to `s`.

@@ -11,7 +11,8 @@ use super::cone::EmissionCone;
 use super::delta::share;
 use super::octahedral::{direction_of, square_of};
 use crate::convert::{Affine, narrow, narrow3};
-use crate::texture::{Place, Textures};
+use crate::flat::Words;
+use crate::texture::{Place, Textures, colour_parameter};
 
 /// Cells along each side of a picture over which its brightness is averaged.
 const CELLS: u32 = 256;
@@ -114,6 +115,24 @@ impl Thrown {
             Beside::Spot(cosines) => share(SpotFalloff::LinearAngle, cosines, cos),
         };
         Some((uv, factor))
+    }
+
+    /// Parameters, for shaders.
+    pub(super) fn flatten(&self, to: &mut Words) {
+        to.vector(self.position);
+        to.affine(&self.to_light);
+        let (through, half, cosines) = match self.window {
+            None => (0, [0.0; 2], [0.0; 2]),
+            Some(Window { half, profile }) => match profile {
+                Beside::Intensity => (1, half, [0.0; 2]),
+                Beside::Irradiance => (2, half, [0.0; 2]),
+                Beside::Spot(cosines) => (3, half, cosines),
+            },
+        };
+        to.id(through);
+        to.numbers(half);
+        to.numbers(cosines);
+        colour_parameter(to, self.intensity);
     }
 
     fn mean_luminance(&self, textures: &Textures) -> f64 {

@@ -1,0 +1,95 @@
+// Shapes whose emission varies over them, by textures or by opacity.
+//
+// Words of one: instance, primitive, whether the area's second and third corner are the primitive's third
+// and second, cells along the sides of the table by which points are drawn (0: uniformly), the table's
+// rows and columns (piecewise.wgsl), the shape (area.wgsl). Radiance and opacity are those of the
+// surface's shape.
+//
+// Twin of specula-render/src/light/textured.rs.
+
+import tracer::area::{AreaSample, area_draw, area_pdf, area_triangle};
+import tracer::piecewise::{piecewise_density, piecewise_draw};
+import tracer::surface::{Surface, surface_at, SHAPE_SIZE};
+import tracer::texture_graph::{parameter_colour, parameter_float};
+import tracer::texture_place::{Place};
+import tracer::traverse::{Hit, Ray};
+import tracer::world::{word};
+
+/// Place of the shape.
+const TEXTURED_AREA: u32 = 6u;
+
+/// A point of a light, and the radiance that it sends to either side.
+struct TexturedSample {
+    /// The point; no sample where its density is 0.
+    area: AreaSample,
+    /// From there.
+    radiance: vec3f,
+}
+
+/// A point of the light at `at` as seen from `p`.
+///
+/// * `u`: uniform in `[0, 1)^2`.
+///
+/// Twin: specula-render/src/light/textured.rs, Textured::sample.
+fn textured_draw(at: u32, p: vec3f, u: vec2f) -> TexturedSample {
+    let cells = word(at + 3u);
+    var uv = u;
+    var density = 1.0;
+    if cells > 0u {
+        uv = piecewise_draw(word(at + 4u), word(at + 5u), cells, u);
+        density = piecewise_density(word(at + 4u), word(at + 5u), cells, uv);
+    }
+    var drawn = TexturedSample(area_draw(at + TEXTURED_AREA, p, uv), vec3f(0.0));
+    drawn.area.pdf *= density;
+    let weights = textured_swapped(at, area_triangle(uv));
+    // Quadrics project the ray's end, triangles take the weights.
+    let ray = Ray(drawn.area.position, vec3f(0.0), 0.0);
+    let hit = Hit(0.0, weights.x, weights.y, word(at + 1u), word(at));
+    drawn.radiance = textured_radiance(surface_at(ray, hit));
+    if all(drawn.radiance == vec3f(0.0)) {
+        drawn.area.pdf = 0.0;
+    }
+    return drawn;
+}
+
+/// Density in 1/sr with which `textured_draw` draws the direction from `p` to the point `position` of the
+/// light at `at`.
+///
+/// * `normal`: of the surface there.
+/// * `weights`: of the primitive's second and third corner.
+///
+/// Twin: specula-render/src/light/textured.rs, Textured::pdf.
+fn textured_pdf(at: u32, p: vec3f, position: vec3f, normal: vec3f, weights: vec2f) -> f32 {
+    let pdf = area_pdf(at + TEXTURED_AREA, p, position, normal);
+    let cells = word(at + 3u);
+    if cells == 0u {
+        return pdf;
+    }
+    let uv = textured_square(textured_swapped(at, weights));
+    return pdf * piecewise_density(word(at + 4u), word(at + 5u), cells, uv);
+}
+
+/// What a point of a shape sends out; what is cut out sends nothing.
+///
+/// Twin: specula-render/src/light/textured.rs, Varying::radiance.
+fn textured_radiance(s: Surface) -> vec3f {
+    let shape = SHAPES + s.shape * SHAPE_SIZE;
+    let place = Place(s.uv, s.second_uv, s.position, s.ng, s.colour);
+    let radiance = max(parameter_colour(shape + 3u, place), vec3f(0.0));
+    return radiance * clamp(parameter_float(shape + 7u, place), 0.0, 1.0);
+}
+
+/// Weights of the area's corners from those of the primitive, and back.
+fn textured_swapped(at: u32, weights: vec2f) -> vec2f {
+    return select(weights, weights.yx, word(at + 2u) != 0u);
+}
+
+/// The inverse of `area_triangle`.
+/// Twin: specula-render/src/light/area.rs, Area::square_of.
+fn textured_square(weights: vec2f) -> vec2f {
+    let sum = weights.x + weights.y;
+    if weights.y > weights.x {
+        return vec2f(2.0 * weights.x, sum);
+    }
+    return vec2f(sum, 2.0 * weights.y);
+}
