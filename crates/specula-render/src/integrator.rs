@@ -38,6 +38,7 @@ use crate::offset::leave;
 use crate::options::{RenderOptions, Strategy};
 use crate::prepared::PreparedScene;
 use crate::relief::{self, Softness};
+use crate::renderer::Scattered;
 use crate::sampler::Sampler;
 
 /// Vertices before roulette begins.
@@ -100,7 +101,25 @@ struct State {
     /// Whether the path has only passed through thin panes: lights that are hidden stay so.
     straight: bool,
     previous: Option<Previous>,
-    rays: u64,
+    tally: Tally,
+}
+
+/// What is counted on the way.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Tally {
+    pub(crate) rays: u64,
+    pub(crate) scattered: Scattered,
+}
+
+impl Tally {
+    /// Of both.
+    #[inline(always)]
+    pub(crate) fn and(self, other: Self) -> Self {
+        Self {
+            rays: self.rays + other.rays,
+            scattered: self.scattered.and(other.scattered),
+        }
+    }
 }
 
 /// A path on its way.
@@ -432,7 +451,7 @@ impl<'a> PathTracer<'a> {
         };
         let s = &vertex.surface;
         let place = (s.position, s.error, s.ng);
-        let left = self.shine(place, &light, bodies, sampler, depth, &mut state.rays);
+        let left = self.shine(place, &light, bodies, sampler, depth, &mut state.tally.rays);
         if let Some(left) = left {
             let arrived = light.radiance * (weight / light.pdf) * left;
             state.radiance += state.throughput * f_cos * arrived;
@@ -450,6 +469,14 @@ impl<'a> PathTracer<'a> {
     ) -> Option<Ray> {
         let [u0, u1, u2, survival] = sampler.scatter(depth);
         let wo = vertex.frame.to_local(vertex.wo);
+        let mut stream = sampler.stream(depth, 1);
+        let sample =
+            (vertex.lobe).sample_random(wo, [u0, u1, u2], Transport::Radiance, &mut stream);
+        if !matches!(vertex.lobe, Lobe::Black(_)) {
+            let scattered = &mut state.tally.scattered;
+            scattered.drawn += 1;
+            scattered.rejected += u64::from(sample.is_none());
+        }
         let BsdfSample {
             wi,
             weight,
@@ -457,12 +484,7 @@ impl<'a> PathTracer<'a> {
             specular,
             eta,
             event,
-        } = vertex.lobe.sample_random(
-            wo,
-            [u0, u1, u2],
-            Transport::Radiance,
-            &mut sampler.stream(depth, 1),
-        )?;
+        } = sample?;
         let direction = vertex.frame.to_world(wi).normalize();
         if wi.z * vertex.facing.dot(direction) <= 0.0 {
             return None;

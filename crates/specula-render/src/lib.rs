@@ -25,4 +25,6 @@ pub use flat::{FlatScene, LobeKind};
 pub use memory::MemoryEstimate;
 pub use options::{RenderOptions, Strategy};
 pub use prepared::{PrepareError, PreparedScene};
-pub use renderer::{Found, InvalidSample, PassReport, Renderer, ResumeError, Wanted};
+pub use renderer::{
+    Found, InvalidSample, PassReport, Renderer, ResumeError, Scattered, Wanted,
+};

@@ -1,5 +1,6 @@
 //! A scene made ready for rendering: flat arrays, trees and tables.
 
+use specula_bsdf::bsdf::Lobe;
 use specula_scene::Scene;
 use thiserror::Error;
 
@@ -153,6 +154,14 @@ impl PreparedScene {
     /// The file's name for a material, by its index in the scene.
     pub fn material_name(&self, material: usize) -> Option<&str> {
         self.materials.name(material)
+    }
+
+    /// The lobe of a material, by its index in the scene; `None` where textures make it vary, or where it
+    /// is a mix.
+    ///
+    /// * `outside`: whether it is seen from the outside of its shape.
+    pub fn lobe(&self, material: usize, outside: bool) -> Option<Lobe<f32>> {
+        self.materials.constant_lobe(material, outside)
     }
 
     /// Lights, each emitting triangle, parallelogram, sphere and disk counted.

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use specula_bsdf::{Rgb, Vec3};
 
 use crate::film::{Criterion, FIRST_JUDGED, FilmBuffer, PixelSample, PixelSums, Tile};
-use crate::integrator::{Block, PathTracer};
+use crate::integrator::{Block, PathTracer, Tally};
 use crate::options::RenderOptions;
 use crate::prepared::PreparedScene;
 use crate::sampler::Sampler;
@@ -35,12 +35,40 @@ pub struct PassReport {
     pub samples_done_total: u32,
     /// Rays of this pass: camera, bounces and shadows.
     pub rays: u64,
+    /// Directions that this pass drew from lobes; `None` where a device drew them.
+    pub scattered: Option<Scattered>,
     /// Whether the pass was finished, not stopped.
     pub complete: bool,
     /// Samples of the film so far that were not finite: 0 in a correct render.
     pub invalid_samples: u64,
     /// One of those of this pass.
     pub invalid: Option<InvalidSample>,
+}
+
+/// Directions drawn at surfaces, black ones apart.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Scattered {
+    /// How many.
+    pub drawn: u64,
+    /// Those of them at which a lobe gave none, so that the path ended: a sampler's waste.
+    pub rejected: u64,
+}
+
+impl Scattered {
+    /// Share of the draws that were rejected, in `[0, 1]`; 0 where there was none.
+    pub fn rejected_share(&self) -> f64 {
+        self.rejected as f64 / self.drawn.max(1) as f64
+    }
+
+    /// Of both.
+    #[must_use]
+    #[inline(always)]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            drawn: self.drawn + other.drawn,
+            rejected: self.rejected + other.rejected,
+        }
+    }
 }
 
 /// A sample that was not finite.
@@ -176,7 +204,7 @@ impl<'a> Renderer<'a> {
         if criterion.is_some() {
             self.film.take_reference();
         }
-        self.report(done, complete)
+        self.report(done, Some(done.tally.scattered), complete)
     }
 
     /// [`Renderer::render_pass`] with samples that a device takes.
@@ -208,7 +236,7 @@ impl<'a> Renderer<'a> {
         if criterion.is_some() {
             self.film.take_reference();
         }
-        Ok(self.report(done, complete))
+        Ok(self.report(done, None, complete))
     }
 
     /// What tiles need next, of so many samples together, a tile at least.
@@ -245,7 +273,7 @@ impl<'a> Renderer<'a> {
             rest = after;
             let tile = &mut self.film.tiles[one.place];
             for ((i, pixel, number), found) in one.each().zip(own) {
-                done.rays += u64::from(found.rays());
+                done.tally.rays += u64::from(found.rays());
                 if tile.pixels[i].add(&tracer.developed(found.sample()), found.weight) {
                     continue;
                 }
@@ -262,10 +290,16 @@ impl<'a> Renderer<'a> {
         done
     }
 
-    fn report(&self, done: Done, complete: bool) -> PassReport {
+    fn report(
+        &self,
+        done: Done,
+        scattered: Option<Scattered>,
+        complete: bool,
+    ) -> PassReport {
         PassReport {
             samples_done_total: self.film.complete_samples(),
-            rays: done.rays,
+            rays: done.tally.rays,
+            scattered,
             complete,
             invalid_samples: self.film.invalid_samples(),
             invalid: done.invalid,
@@ -396,7 +430,7 @@ fn next_target(tile: &Tile, criterion: Option<&Criterion>, last: Option<u32>) ->
 /// What was done for a tile, or for several.
 #[derive(Clone, Copy, Default)]
 struct Done {
-    rays: u64,
+    tally: Tally,
     invalid: Option<InvalidSample>,
 }
 
@@ -404,7 +438,7 @@ impl Done {
     /// Of two sets of tiles in order.
     fn and(self, later: Self) -> Self {
         Self {
-            rays: self.rays + later.rays,
+            tally: self.tally.and(later.tally),
             invalid: self.invalid.or(later.invalid),
         }
     }
@@ -438,7 +472,7 @@ fn render_tile(
         }
         tracer.begin(block, places.iter().copied().map(sample));
         tracer.follow_all(block);
-        done.rays += block.take_rays();
+        done.tally = done.tally.and(block.take_tally());
         for place in add_samples(tracer, block, &places, &mut tile.pixels) {
             tile.invalid += 1;
             let (pixel, sampler) = sample(place);

@@ -23,6 +23,7 @@
 
 pub use specula_bsdf as bsdf;
 pub use specula_gpu as gpu;
+pub use specula_lab as lab;
 pub use specula_render as render;
 pub use specula_scene as scene;
 pub use specula_shaders as shaders;

@@ -9,7 +9,7 @@ use specula_bsdf::math::Stream;
 
 use super::lanes::{self, Column, LANES, Lanes, ZERO};
 use super::paths::Paths;
-use super::{Path, PathTracer};
+use super::{Path, PathTracer, Tally};
 use crate::accel::{Hit, Ray};
 use crate::convert::id;
 use crate::film::PixelSample;
@@ -40,8 +40,8 @@ pub(crate) struct Block {
     pub(super) paths: Box<Paths>,
     /// Filter weights of the samples.
     weights: Column,
-    /// Rays that were traced.
-    pub(super) rays_traced: u64,
+    /// What was counted since it was taken last.
+    pub(super) tally: Tally,
     /// The paths that go on, and what their rays meet.
     pub(super) live: Box<Queue>,
     pub(super) hits: Vec<Option<Hit>>,
@@ -130,7 +130,7 @@ impl Block {
         Self {
             paths: Paths::new(),
             weights: ZERO,
-            rays_traced: 0,
+            tally: Tally::default(),
             live: Queue::new(),
             hits: Vec::with_capacity(LANES),
             next: Queue::new(),
@@ -157,9 +157,9 @@ impl Block {
         self.paths.take(0, *self.live.ray(0))
     }
 
-    /// Rays that were traced since this was asked last.
-    pub(crate) fn take_rays(&mut self) -> u64 {
-        std::mem::take(&mut self.rays_traced)
+    /// What was counted since this was asked last.
+    pub(crate) fn take_tally(&mut self) -> Tally {
+        std::mem::take(&mut self.tally)
     }
 }
 
@@ -245,7 +245,7 @@ impl PathTracer<'_> {
         if step(&mut path) {
             block.next.push(id(number), path.ray);
         }
-        block.rays_traced += block.paths.put(number, &path);
+        block.tally = block.tally.and(block.paths.put(number, &path));
     }
 
     /// Takes all paths from one vertex to the next.
@@ -254,7 +254,7 @@ impl PathTracer<'_> {
         geometry
             .accel
             .intersect_all(block.live.rays(), &mut block.hits);
-        block.rays_traced += block.live.len() as u64;
+        block.tally.rays += block.live.len() as u64;
         block.waiting.clear();
         block.escaped.clear();
         for k in 0..block.live.len() {
@@ -409,7 +409,7 @@ mod tests {
             let numbers = first..first + id(Block::SIZE);
             tracer.begin(&mut block, numbers.clone().map(sample));
             tracer.follow_all(&mut block);
-            assert!(block.take_rays() > 0);
+            assert!(block.take_tally().rays > 0);
             for (k, i) in numbers.enumerate() {
                 tracer.begin(&mut lone, std::iter::once(sample(i)));
                 let mut path = lone.first();

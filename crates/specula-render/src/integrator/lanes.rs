@@ -18,6 +18,7 @@ use crate::geometry::unit_or;
 use crate::light::{LightSample, Parallelogram, Receiver, Seen};
 use crate::material::Plain;
 use crate::offset::{coupled, leave};
+use crate::renderer::Scattered;
 use crate::sampler::Numbers;
 
 /// Most vertices at once.
@@ -456,6 +457,25 @@ pub(super) fn aim(n: usize, s: &Surfaces, a: &mut Arriving) {
         a.direction.x[i] = if far { towards.x } else { along.x };
         a.direction.y[i] = if far { towards.y } else { along.y };
         a.direction.z[i] = if far { towards.z } else { along.z };
+    }
+}
+
+/// How many directions were drawn, and how many of them rejected.
+///
+/// * `sides`: 1 or -1 where lobes are black from the inside, from which none is drawn.
+pub(super) fn count_scattered(kinds: &[Kind], sides: Option<&[f32]>) -> Scattered {
+    let is_rejected = |k: &Kind| *k == Kind::Rejected;
+    match sides {
+        None => Scattered {
+            drawn: kinds.len() as u64,
+            rejected: kinds.iter().filter(|k| is_rejected(k)).count() as u64,
+        },
+        Some(sides) => (kinds.iter().zip(sides))
+            .filter(|(_, side)| **side >= 0.0)
+            .fold(Scattered::default(), |sum, (kind, _)| Scattered {
+                drawn: sum.drawn + 1,
+                rejected: sum.rejected + u64::from(is_rejected(kind)),
+            }),
     }
 }
 

@@ -41,7 +41,7 @@ impl PathTracer<'_> {
         let mut begin = ray.origin;
         let mut hidden = self.scene.hide_emitters && depth == 0;
         for pass in 0..MOST_PASSES {
-            state.rays += 1;
+            state.tally.rays += 1;
             let hit = geometry.accel.intersect(&ray)?;
             let surface = geometry.surface(&ray, &hit);
             hidden &= surface.light != NONE;

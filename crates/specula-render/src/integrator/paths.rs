@@ -3,7 +3,7 @@
 use specula_bsdf::{Rgb, Vec3};
 
 use super::lanes::{Column, LANES, Vectors, ZERO};
-use super::{Path, Previous, State};
+use super::{Path, Previous, State, Tally};
 use crate::accel::Ray;
 use crate::bodies::Bodies;
 use crate::film::PixelSample;
@@ -144,14 +144,14 @@ impl Paths {
                 bodies: self.bodies[i],
                 straight: self.straight[i],
                 previous: self.previous(i),
-                rays: 0,
+                tally: Tally::default(),
             },
             first: self.seen(i),
         }
     }
 
-    /// Puts a path back; returns the rays that it took since.
-    pub(super) fn put(&mut self, i: usize, path: &Path) -> u64 {
+    /// Puts a path back; returns what it counted since.
+    pub(super) fn put(&mut self, i: usize, path: &Path) -> Tally {
         let State {
             radiance,
             throughput,
@@ -159,7 +159,7 @@ impl Paths {
             bodies,
             straight,
             previous,
-            rays,
+            tally,
         } = &path.state;
         self.radiance.set_colour(i, *radiance);
         self.throughput.set_colour(i, *throughput);
@@ -173,6 +173,6 @@ impl Paths {
         self.first.albedo.set_colour(i, path.first.albedo);
         self.first.normal.set(i, path.first.normal);
         self.first.depth[i] = path.first.depth.unwrap_or(f32::INFINITY);
-        *rays
+        *tally
     }
 }

@@ -244,7 +244,7 @@ impl PathTracer<'_> {
             lanes,
             shadows,
             blocked,
-            rays_traced,
+            tally,
             ..
         } = block;
         let (a, owners) = (&lanes.arriving, &lanes.owners);
@@ -262,7 +262,7 @@ impl PathTracer<'_> {
         }
         let accel = &self.scene.geometry.accel;
         accel.occluded_all(shadows.rays(), blocked);
-        *rays_traced += shadows.len() as u64;
+        tally.rays += shadows.len() as u64;
         for (k, &blocked) in blocked.iter().enumerate() {
             if !blocked {
                 let lane = shadows.number(k);
@@ -278,6 +278,7 @@ impl PathTracer<'_> {
             stretches,
             lanes,
             streams,
+            tally,
             ..
         } = block;
         let n = lanes.count;
@@ -300,6 +301,9 @@ impl PathTracer<'_> {
                 kind: &mut o.kind[from..to],
             };
             lobes::sample(&plain.lobe, s.wo.directions(from, to), u, streams, samples);
+            let sides = plain.black_inside.then(|| &s.side[from..to]);
+            let scattered = lanes::count_scattered(&o.kind[from..to], sides);
+            tally.scattered = tally.scattered.and(scattered);
             for i in range.filter(|_| !plain.opaque) {
                 if matches!(o.kind[i], Kind::Transmission | Kind::SpecularTransmission) {
                     o.eta_scale[i] *= plain.eta * plain.eta;

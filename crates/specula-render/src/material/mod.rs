@@ -159,6 +159,12 @@ impl Materials {
         self.names.get(material)?.as_deref()
     }
 
+    /// The lobe of a material that is the same everywhere.
+    pub(crate) fn constant_lobe(&self, material: usize, outside: bool) -> Option<Lobe<f32>> {
+        let lobes = self.materials.get(material)?.constant.as_ref()?;
+        Some(lobes[usize::from(outside)])
+    }
+
     /// Whether any bounds what absorbs.
     pub(crate) fn has_boundaries(&self) -> bool {
         self.has_boundaries

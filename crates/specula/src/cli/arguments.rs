@@ -12,6 +12,7 @@ use specula::scene::scene::MaterialKind;
 use specula::shaders::Language;
 
 use super::device::Device;
+use super::lab_arguments::LabArguments;
 use super::loading::LoadingArguments;
 use super::machine::MachineArguments;
 use super::{live_view, values};
@@ -32,6 +33,7 @@ Examples:
   specula info scene.pbrt                     what is in it, and what is not supported
   specula compare reference.exr picture.exr   how far two pictures are apart
   specula merge a.film b.film -o picture.exr  parts of a render into one
+  specula lab compare scene.pbrt              which sampler suits a scene
 
 Exit codes: 0 done; 1 failed (or `compare` found too large a difference); 2 the arguments or
 the scene are wrong; 130 stopped by Ctrl-C, what was rendered is written.";
@@ -54,6 +56,8 @@ pub(crate) enum Command {
     Denoise(DenoiseArguments),
     /// Write the microfacet library for shaders, in WGSL, HLSL, GLSL, Metal or SPIR-V.
     Shaders(ShadersArguments),
+    /// The papers' tables and figures, and measurements on a scene or a material of yours.
+    Lab(LabArguments),
     /// List what `render --device` can be given.
     Devices,
 }

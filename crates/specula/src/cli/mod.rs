@@ -9,6 +9,11 @@ mod denoise;
 mod device;
 mod failure;
 mod info;
+mod lab;
+mod lab_arguments;
+mod lab_compare;
+mod lab_material;
+mod lab_run;
 mod live_view;
 mod load;
 mod loading;
@@ -40,6 +45,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
         Command::Merge(a) => merge::run(&a),
         Command::Denoise(a) => denoise::run(&a),
         Command::Shaders(a) => shaders::run(&a),
+        Command::Lab(a) => lab::run(&a),
         Command::Devices => Ok(device::list()),
     }
 }

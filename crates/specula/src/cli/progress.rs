@@ -51,18 +51,33 @@ impl Progress {
 
     /// Shows a state.
     pub(crate) fn show(&mut self, state: &State) {
-        let message = self.describe(state);
+        self.tell(state.share_done, &describe(state));
+    }
+
+    /// Shows how far it is, and what is left.
+    ///
+    /// * `share_done`: in `[0, 1]`.
+    pub(crate) fn tell(&mut self, share_done: f64, what: &str) {
+        let message = format!("{what}{}", remaining(self.start.elapsed(), share_done));
         if let Some(bar) = &self.bar {
             #[expect(
                 clippy::cast_possible_truncation,
                 clippy::cast_sign_loss,
                 reason = "in 0..=1000"
             )]
-            bar.set_position((state.share_done * 1000.0) as u64);
+            bar.set_position((share_done * 1000.0) as u64);
             bar.set_message(message);
         } else if self.lines && self.last_line.elapsed() >= LINE_EVERY {
             self.last_line = Instant::now();
-            eprintln!("{:3.0} %  {message}", 100.0 * state.share_done);
+            eprintln!("{:3.0} %  {message}", 100.0 * share_done);
+        }
+    }
+
+    /// Does what writes lines, beside the bar.
+    pub(crate) fn aside(&self, write: impl FnOnce()) {
+        match &self.bar {
+            Some(bar) => bar.suspend(write),
+            None => write(),
         }
     }
 
@@ -72,20 +87,19 @@ impl Progress {
             bar.finish_and_clear();
         }
     }
+}
 
-    fn describe(&self, state: &State) -> String {
-        let noise = if state.noise.is_finite() {
-            format!("  noise {:.1} %", 100.0 * state.noise)
-        } else {
-            String::new()
-        };
-        format!(
-            "{}  {:.2} Mrays/s{noise}{}",
-            state.samples,
-            state.rays_per_second * 1e-6,
-            remaining(self.start.elapsed(), state.share_done)
-        )
-    }
+fn describe(state: &State) -> String {
+    let noise = if state.noise.is_finite() {
+        format!("  noise {:.1} %", 100.0 * state.noise)
+    } else {
+        String::new()
+    };
+    format!(
+        "{}  {:.2} Mrays/s{noise}",
+        state.samples,
+        state.rays_per_second * 1e-6
+    )
 }
 
 fn remaining(elapsed: Duration, share_done: f64) -> String {

@@ -104,6 +104,21 @@ impl Stop {
     }
 }
 
+/// A flag that the first Ctrl-C sets; the second ends the program.
+pub(crate) fn listen_for_one() -> Result<Arc<AtomicBool>, Failure> {
+    let asked = Arc::new(AtomicBool::new(false));
+    let flag = asked.clone();
+    let press = move || {
+        if flag.swap(true, Ordering::SeqCst) {
+            std::process::exit(i32::from(INTERRUPTED));
+        }
+        eprintln!("\nstopping; what is finished is kept");
+    };
+    ctrlc::set_handler(press)
+        .map_err(|e| Failure::other(format_args!("cannot listen for Ctrl-C: {e}")))?;
+    Ok(asked)
+}
+
 /// What the first Ctrl-C says, `elapsed` into a pass.
 fn finishing(elapsed: Duration, expected: Option<Duration>) -> String {
     let again = "Ctrl-C again to stop at once";

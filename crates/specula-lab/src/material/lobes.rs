@@ -1,0 +1,204 @@
+//! A material as the lobes that renderers make of it: one for each treatment of energy, one for each
+//! sampler.
+
+use specula_bsdf::bsdf::Lobe;
+use specula_bsdf::energy::{FmsVariant, Model};
+use specula_bsdf::math::Stream;
+use specula_bsdf::vndf::Sampler;
+use specula_bsdf::{Bsdf, Rgb, Transport, Vec3, multibounce};
+use specula_render::{PreparedScene, RenderOptions};
+use specula_scene::scene::{
+    ColourParam, ConductorFresnel, FloatParam, Material, MaterialKind, Roughness, RoughnessMapping,
+};
+use specula_scene::{Energy, builtin};
+
+use crate::{LabError, Result};
+
+/// Treatments that are shown, with the styles of their lines.
+const ENERGIES: [(Energy, usize); 4] = [
+    (Energy::None, 4),
+    (
+        Energy::Compensated(Model::Turquin(FmsVariant::NormalIncidence)),
+        0,
+    ),
+    (Energy::Compensated(Model::KullaConty), 5),
+    (Energy::Multibounce(multibounce::Model::Ours), 1),
+];
+/// In the order of their years.
+const SAMPLERS: [Sampler; 4] = [
+    Sampler::Heitz,
+    Sampler::Cap,
+    Sampler::Bounded,
+    Sampler::Exact,
+];
+
+/// A lobe with its name and style.
+pub(super) struct Named {
+    pub(super) name: String,
+    pub(super) style: usize,
+    pub(super) lobe: Lobe<f32>,
+    /// The same where all that is reflected is white.
+    pub(super) white: Lobe<f32>,
+}
+
+/// All lobes of a material.
+pub(super) struct Variants {
+    /// By treatment of energy, those that make a difference; the first is without.
+    pub(super) energies: Vec<Named>,
+    /// By sampler, those that make a difference.
+    pub(super) samplers: Vec<Named>,
+    /// Index below the surface over the one above it.
+    pub(super) eta: f64,
+    /// The narrower of the widths of its microfacets.
+    pub(super) sharpness: f64,
+    /// Whether the widths differ.
+    pub(super) is_anisotropic: bool,
+}
+
+impl Variants {
+    /// # Errors
+    ///
+    /// Where the material has textures.
+    pub(super) fn new(kind: &MaterialKind) -> Result<Self> {
+        let white_kind = white(kind);
+        let both = |options: &RenderOptions| -> Result<[Lobe<f32>; 2]> {
+            Ok([lobe(kind, options)?, lobe(&white_kind, options)?])
+        };
+        let mut energies: Vec<Named> = Vec::new();
+        for (energy, style) in ENERGIES {
+            let [lobe, white] = both(&RenderOptions {
+                energy,
+                ..RenderOptions::default()
+            })?;
+            add(&mut energies, energy.to_string(), style, [lobe, white]);
+        }
+        let mut samplers = Vec::new();
+        for sampler in SAMPLERS {
+            let lobes = both(&RenderOptions {
+                vndf_sampler: sampler,
+                ..RenderOptions::default()
+            })?;
+            let style = crate::compare::style(sampler);
+            add(&mut samplers, sampler.to_string(), style, lobes);
+        }
+        if let [only] = &mut samplers[..] {
+            "its own".clone_into(&mut only.name);
+        }
+        let widths = widths(kind);
+        Ok(Self {
+            energies,
+            samplers,
+            eta: match kind {
+                MaterialKind::Dielectric { eta, .. } => f64::from(*eta),
+                _ => 1.0,
+            },
+            sharpness: widths.map_or(0.5, |[a, b]| a.min(b)),
+            is_anisotropic: widths.is_some_and(|[a, b]| a != b),
+        })
+    }
+
+    /// Whether there is nothing but Dirac deltas.
+    pub(super) fn is_specular(&self) -> bool {
+        self.energies[0].lobe.is_specular()
+    }
+
+    /// Whether some values are estimates.
+    pub(super) fn is_stochastic(&self) -> bool {
+        self.energies.iter().any(|n| is_stochastic(&n.lobe))
+    }
+
+    /// Whether light comes through.
+    pub(super) fn lets_pass(&self) -> bool {
+        matches!(
+            self.energies[0].lobe,
+            Lobe::RoughDielectric(_) | Lobe::SmoothDielectric(_)
+        )
+    }
+}
+
+pub(super) fn is_stochastic(lobe: &Lobe<f32>) -> bool {
+    Bsdf::<f32>::is_stochastic(lobe)
+}
+
+/// Adds what is not there under another name.
+fn add(all: &mut Vec<Named>, name: String, style: usize, [lobe, white]: [Lobe<f32>; 2]) {
+    if all.iter().all(|n| n.lobe != lobe) {
+        all.push(Named {
+            name,
+            style,
+            lobe,
+            white,
+        });
+    }
+}
+
+/// What a renderer binds, seen from the outside.
+fn lobe(kind: &MaterialKind, options: &RenderOptions) -> Result<Lobe<f32>> {
+    let mut scene = builtin::orbs();
+    for material in &mut scene.materials {
+        *material = Material::new(*kind);
+    }
+    PreparedScene::new(&scene, options)?
+        .lobe(0, true)
+        .ok_or_else(|| LabError::Material("a material with textures has no lobe of its own".into()))
+}
+
+/// The material with a reflectance of 1.
+fn white(kind: &MaterialKind) -> MaterialKind {
+    let mut kind = *kind;
+    match &mut kind {
+        MaterialKind::Conductor { fresnel, .. } | MaterialKind::CoatedConductor { fresnel, .. } => {
+            *fresnel = ConductorFresnel::Mirror;
+        }
+        MaterialKind::Diffuse { reflectance, .. }
+        | MaterialKind::CoatedDiffuse { reflectance, .. } => *reflectance = ColourParam::WHITE,
+        _ => {}
+    }
+    kind
+}
+
+/// Widths of the microfacets, where there are any.
+fn widths(kind: &MaterialKind) -> Option<[f64; 2]> {
+    let roughness: &Roughness = match kind {
+        MaterialKind::Conductor { roughness, .. }
+        | MaterialKind::Dielectric { roughness, .. }
+        | MaterialKind::CoatedDiffuse { roughness, .. }
+        | MaterialKind::CoatedConductor { roughness, .. } => roughness,
+        _ => return None,
+    };
+    let value = |parameter| match parameter {
+        FloatParam::Value(v) => Some(f64::from(v)),
+        FloatParam::Texture(_) => None,
+    };
+    let both = [value(roughness.u)?, value(roughness.v)?];
+    Some(match roughness.mapping {
+        RoughnessMapping::Alpha => both,
+        _ => both.map(|r| r * r),
+    })
+}
+
+/// A direction: `theta` from the normal, in the plane of `azimuth`; both in degrees.
+pub(super) fn direction(theta_deg: f64, azimuth_deg: f64) -> Vec3<f32> {
+    let (sin, cos) = theta_deg.to_radians().sin_cos();
+    let (sin_a, cos_a) = azimuth_deg.to_radians().sin_cos();
+    Vec3 {
+        x: sin * cos_a,
+        y: sin * sin_a,
+        z: cos,
+    }
+    .cast()
+}
+
+/// `f |cos theta_i|`: the mean over `walks` where it is an estimate.
+pub(super) fn f_cos(lobe: &Lobe<f32>, wo: Vec3<f32>, wi: Vec3<f32>, walks: u32) -> Rgb<f64> {
+    if !is_stochastic(lobe) {
+        return lobe.eval(wo, wi, Transport::Radiance).cast();
+    }
+    let mut stream = Stream::new(1);
+    let mut sum = Rgb::BLACK;
+    for _ in 0..walks {
+        let (value, _) = lobe.eval_pdf_random(wo, wi, Transport::Radiance, &mut stream);
+        sum += value.cast();
+    }
+    sum * (1.0 / f64::from(walks))
+}

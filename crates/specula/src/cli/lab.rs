@@ -1,0 +1,197 @@
+//! `specula lab`: what its commands share, and those that measure nothing.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use serde_json::json;
+use specula::lab::report::{LARGE, Page};
+use specula::lab::{Experiment, LabError, Outcome, Record, Source, experiments, report};
+
+use super::lab_arguments::{EffortArguments, LabArguments, LabCommand, ListArguments};
+use super::progress::Progress;
+use super::{Failure, lab_compare, lab_material, lab_run, machine, print, stop};
+
+/// Runs the command that was asked for.
+pub(crate) fn run(arguments: &LabArguments) -> Result<ExitCode, Failure> {
+    match &arguments.command {
+        LabCommand::List(a) => {
+            print(&list(a));
+            Ok(ExitCode::SUCCESS)
+        }
+        LabCommand::Run(a) => lab_run::run(a),
+        LabCommand::Report(a) => {
+            write_page(&a.folder)?;
+            Ok(ExitCode::SUCCESS)
+        }
+        LabCommand::Compare(a) => lab_compare::run(a),
+        LabCommand::Material(a) => lab_material::run(a),
+    }
+}
+
+/// Every experiment on a line.
+fn list(arguments: &ListArguments) -> String {
+    if arguments.json {
+        let line = |e: &Experiment| {
+            let (source, item, title) = (e.source.cite(), e.item, e.title);
+            let statement = e.statement;
+            let line = json!({ "id": e.id, "source": source, "item": item, "title": title, "statement": statement });
+            format!("{line}\n")
+        };
+        return experiments::ALL.iter().map(line).collect();
+    }
+    let width = |of: fn(&Experiment) -> usize| experiments::ALL.iter().map(of).max().unwrap_or(0);
+    let (ids, items) = (width(|e| e.id.len()), width(|e| e.item.len()));
+    let mut text = String::new();
+    let mut source = None;
+    for e in experiments::ALL {
+        if source != Some(e.source) {
+            source = Some(e.source);
+            text += &format!("\n{}\n", e.source.cite());
+        }
+        text += &format!("  {:ids$}  {:items$}  {}\n", e.id, e.item, e.title);
+    }
+    text
+}
+
+/// The folder that results go to, made where there is none.
+pub(crate) fn folder(path: &Path) -> Result<(), Failure> {
+    let name = path.display();
+    if path.exists() && !path.is_dir() {
+        let message = format!("'{name}' is a file; the results need a folder");
+        return Err(Failure::bad_input(message));
+    }
+    std::fs::create_dir_all(path).map_err(|e: io::Error| {
+        Failure::other(format_args!("cannot make the folder '{name}': {e}"))
+    })
+}
+
+/// The page about a folder, which is then named.
+pub(crate) fn write_page(folder: &Path) -> Result<(), Failure> {
+    if !folder.is_dir() {
+        let message = format!("'{}' is no folder with results", folder.display());
+        return Err(Failure::bad_input(message));
+    }
+    announce(&report::write(folder).map_err(failure)?);
+    Ok(())
+}
+
+/// Names a page that was written.
+pub(crate) fn announce(page: &Page) {
+    eprintln!("wrote {}", page.path.display());
+    if page.bytes > LARGE {
+        eprintln!(
+            "note: the page has {} MB and opens slowly; pictures of draft quality are smaller",
+            page.bytes >> 20
+        );
+    }
+}
+
+/// An error with its exit code.
+pub(crate) fn failure(error: LabError) -> Failure {
+    match error {
+        LabError::UnknownExperiment { .. }
+        | LabError::NoResults(_)
+        | LabError::NotAResult { .. }
+        | LabError::Material(_)
+        | LabError::Prepare(_) => Failure::bad_input(error),
+        other => Failure::other(other),
+    }
+}
+
+/// How a result came out, in a line or two.
+pub(crate) fn line(record: &Record) -> String {
+    let outcome = match (record.source, record.outcome) {
+        (Source::Specula, Outcome::Reproduced) => "holds",
+        (Source::Specula, Outcome::NotReproduced) => "does not hold",
+        (_, outcome) => outcome.name(),
+    };
+    format!("{}: {outcome}. {}\n", record.id, record.verdict.summary)
+}
+
+/// What the machine does for a command, and how it is stopped.
+pub(crate) struct Desk {
+    pub(crate) stop: Arc<AtomicBool>,
+    progress: Mutex<Progress>,
+    pool: rayon::ThreadPool,
+}
+
+impl Desk {
+    /// Listens for Ctrl-C from now on.
+    pub(crate) fn new(effort: &EffortArguments) -> Result<Self, Failure> {
+        Ok(Self {
+            pool: machine::pool(machine::count(effort.threads), false)?,
+            stop: stop::listen_for_one()?,
+            progress: Mutex::new(Progress::new(effort.quiet)),
+        })
+    }
+
+    /// Works with its threads.
+    pub(crate) fn work<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        self.pool.install(work)
+    }
+
+    /// Shows how far it is.
+    pub(crate) fn tell(&self, share: f64, what: &str) {
+        self.locked().tell(share, what);
+    }
+
+    /// Prints a result.
+    pub(crate) fn print(&self, text: &str) {
+        self.locked().aside(|| print(text));
+    }
+
+    /// Takes the bar away.
+    pub(crate) fn finish(&self) {
+        self.locked().finish();
+    }
+
+    fn locked(&self) -> std::sync::MutexGuard<'_, Progress> {
+        self.progress.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The exit code after Ctrl-C.
+pub(crate) fn interrupted() -> ExitCode {
+    ExitCode::from(stop::INTERRUPTED)
+}
+
+/// The command as it was typed, to be typed again.
+pub(crate) fn command_line() -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_=.,:/+".contains(c);
+    let quoted = |word: String| {
+        if !word.is_empty() && word.chars().all(is_plain) {
+            word
+        } else {
+            format!("'{}'", word.replace('\'', r"'\''"))
+        }
+    };
+    let words = std::env::args().skip(1).map(quoted);
+    let all: Vec<String> = std::iter::once("specula".to_owned()).chain(words).collect();
+    all.join(" ")
+}
+
+/// Whether a path names a page.
+pub(crate) fn is_page(path: &Path) -> bool {
+    let end = path.extension();
+    end.is_some_and(|e| e.eq_ignore_ascii_case("html") || e.eq_ignore_ascii_case("htm"))
+}
+
+/// A folder for what is not kept.
+pub(crate) fn scratch(page: &Path) -> Result<(tempfile::TempDir, PathBuf), Failure> {
+    let parent = match page.parent() {
+        Some(p) if !p.as_os_str().is_empty() => p.to_owned(),
+        _ => PathBuf::from("."),
+    };
+    let cannot =
+        |e: io::Error| Failure::bad_input(format_args!("cannot write '{}': {e}", page.display()));
+    // Where the page goes, a fault is to be found before the work is done.
+    let folder = tempfile::Builder::new()
+        .prefix(".specula-lab-")
+        .tempdir_in(&parent)
+        .map_err(cannot)?;
+    let path = folder.path().to_owned();
+    Ok((folder, path))
+}

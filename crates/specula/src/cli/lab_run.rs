@@ -1,0 +1,53 @@
+//! `specula lab run`.
+
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use specula::lab::report::read;
+use specula::lab::{Event, LabError, RunOptions, experiments};
+
+use super::Failure;
+use super::lab::{Desk, failure, folder, interrupted, line, write_page};
+use super::lab_arguments::RunArguments;
+
+/// Runs experiments; the page is written in the end, after Ctrl-C too.
+pub(crate) fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
+    let chosen = experiments::named(&arguments.ids).map_err(failure)?;
+    folder(&arguments.output)?;
+    let desk = Desk::new(&arguments.effort)?;
+    let options = RunOptions {
+        quality: arguments.quality.into(),
+        seed: arguments.effort.seed,
+    };
+    let (done, all) = (AtomicUsize::new(0), chosen.len() as f64);
+    let show = |share: f64, what: &str| {
+        let before = done.load(Ordering::Relaxed) as f64;
+        desk.tell((before + share) / all, what);
+    };
+    let events = |event: Event<'_>| match event {
+        Event::Began(e, ..) => show(0.0, e.id),
+        Event::Step(e, p) => show(p.share.clamp(0.0, 1.0), &format!("{}: {}", e.id, p.what)),
+        Event::Done(_, record) => {
+            done.fetch_add(1, Ordering::Relaxed);
+            desk.print(&line(record));
+        }
+    };
+    let output = &arguments.output;
+    let result = desk.work(|| specula::lab::run(&chosen, options, output, &desk.stop, &events));
+    desk.finish();
+    match result {
+        Ok(_) => write_page(output)?,
+        Err(LabError::Stopped) => {
+            let finished = done.load(Ordering::Relaxed);
+            eprintln!("stopped by Ctrl-C: {finished} of {all} experiments are finished");
+            // Earlier results may be there.
+            match read(output) {
+                Err(LabError::NoResults(_)) => {}
+                _ => write_page(output)?,
+            }
+            return Ok(interrupted());
+        }
+        Err(error) => return Err(failure(error)),
+    }
+    Ok(ExitCode::SUCCESS)
+}
