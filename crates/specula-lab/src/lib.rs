@@ -15,6 +15,7 @@ mod machine;
 pub mod material;
 pub mod output;
 pub mod plot;
+mod publish;
 mod rendered;
 pub mod report;
 mod runner;
@@ -25,6 +26,7 @@ pub use experiment::{Claim, Experiment, Kind, Outcome, Quality, Source, Verdict}
 pub use lab::{Lab, Progress};
 pub use machine::Machine;
 pub use output::record::Record;
+pub use publish::publish;
 pub use rendered::{Errors, Rendered, errors, render};
 pub use runner::{Event, RunOptions, run};
 

@@ -21,7 +21,7 @@ fn stripes(gain: f32) -> Picture {
 /// A result with everything that there can be, in a folder of its own.
 fn result(folder: &Path, id: &str, source: Source) -> Record {
     let place = folder.join(id);
-    fs::create_dir(&place).unwrap();
+    fs::create_dir(&place).expect("a writable folder");
     let (a, b, c) = (stripes(0.5), stripes(0.8), stripes(0.6));
     let shot = |label, picture, note: &str| Shot {
         label,
@@ -44,7 +44,7 @@ fn result(folder: &Path, id: &str, source: Source) -> Record {
     short.push([0.25.into()]);
     for table in [&long, &short] {
         let path = place.join(format!("{}.csv", table.name));
-        table.write_csv(&path).unwrap();
+        table.write_csv(&path).expect("a writable folder");
     }
     let line = Series::new("a line", 1, vec![[0.0, 0.0], [1.0, 2.0]]);
     let figure = Figure::single(Panel {
@@ -74,21 +74,25 @@ fn result(folder: &Path, id: &str, source: Source) -> Record {
         outcome: Outcome::Partly,
         verdict,
         tables: vec![long, short],
-        plots: vec![figure.write(&place, "plot", "A plot.").unwrap()],
-        comparisons: vec![pictures.write(&place).unwrap()],
+        plots: vec![
+            figure
+                .write(&place, "plot", "A plot.")
+                .expect("a writable folder"),
+        ],
+        comparisons: vec![pictures.write(&place).expect("a writable folder")],
     };
-    record.write(&place).unwrap();
+    record.write(&place).expect("a writable folder");
     record
 }
 
 /// A folder with two results, and the page about them.
 fn page() -> (tempfile::TempDir, String) {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempfile::tempdir().expect("a writable folder");
     result(folder.path(), "tokuyoshi24-fig99", Source::Tokuyoshi24);
     result(folder.path(), "compare-stripes", Source::Specula);
-    let page = report::write(folder.path()).unwrap();
+    let page = report::write(folder.path()).expect("a writable folder");
     assert_eq!(page.results, 2);
-    let text = fs::read_to_string(&page.path).unwrap();
+    let text = fs::read_to_string(&page.path).expect("a writable folder");
     assert_eq!(text.len() as u64, page.bytes);
     (folder, text)
 }

@@ -25,6 +25,4 @@ pub use flat::{FlatScene, LobeKind};
 pub use memory::MemoryEstimate;
 pub use options::{RenderOptions, Strategy};
 pub use prepared::{PrepareError, PreparedScene};
-pub use renderer::{
-    Found, InvalidSample, PassReport, Renderer, ResumeError, Scattered, Wanted,
-};
+pub use renderer::{Found, InvalidSample, PassReport, Renderer, ResumeError, Scattered, Wanted};

@@ -290,12 +290,7 @@ impl<'a> Renderer<'a> {
         done
     }
 
-    fn report(
-        &self,
-        done: Done,
-        scattered: Option<Scattered>,
-        complete: bool,
-    ) -> PassReport {
+    fn report(&self, done: Done, scattered: Option<Scattered>, complete: bool) -> PassReport {
         PassReport {
             samples_done_total: self.film.complete_samples(),
             rays: done.tally.rays,
@@ -340,7 +335,6 @@ impl<'a> Renderer<'a> {
     }
 }
 
-/// The blocks that no thread uses.
 /// Samples that are wanted of every pixel of a tile.
 #[derive(Clone, Copy, Debug)]
 pub struct Wanted {
@@ -416,6 +410,7 @@ impl Found {
     }
 }
 
+/// The blocks that no thread uses.
 fn free(blocks: &Mutex<Vec<Block>>) -> MutexGuard<'_, Vec<Block>> {
     blocks.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -6,6 +6,7 @@ use common::*;
 use core::cell::RefCell;
 use core::f64::consts::PI;
 use specula_bsdf::Rgb;
+use specula_bsdf::bsdf::Lobe;
 use specula_bsdf::ndf::Masking;
 use specula_render::{PreparedScene, RenderOptions, Renderer, Strategy};
 use specula_scene::Energy;
@@ -480,4 +481,21 @@ fn layered_kinds(f: Float, c: Grey) -> Vec<MaterialKind> {
             ..gltf()
         }),
     ]
+}
+
+/// The lobe of a material can be had where it is the same everywhere.
+#[test]
+fn constant_materials_have_a_lobe() {
+    let mut scene = floor_of(glass(0.3), 1.0);
+    let mix = MaterialKind::Mix {
+        materials: [MaterialId(0); 2],
+        amount: FloatParam::Value(0.5),
+    };
+    let mixed = material(&mut scene, mix);
+    let prepared = PreparedScene::new(&scene, &RenderOptions::default()).unwrap();
+    let [outside, inside] = [true, false].map(|side| prepared.lobe(0, side));
+    assert!(matches!(outside, Some(Lobe::RoughDielectric(_))));
+    assert!(inside.is_some() && inside != outside);
+    assert_eq!(prepared.lobe(mixed.0, true), None);
+    assert_eq!(prepared.lobe(99, true), None);
 }

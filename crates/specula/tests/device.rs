@@ -135,6 +135,9 @@ fn what_a_gpu_does_not_render_is_named_before_anything_is_done() {
     );
     assert_eq!(code, Some(2), "{said}");
     let said: String = said.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(said.contains("textures that are nested more than"), "{said}");
+    assert!(
+        said.contains("textures that are nested more than"),
+        "{said}"
+    );
     assert!(!folder.join("a.exr").exists());
 }

@@ -9,15 +9,19 @@ use common::{small_scene, specula, stderr};
 
 /// Runs `specula lab` with these arguments; exit code, standard output and standard error.
 fn lab(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let run = specula(folder).arg("lab").args(arguments).output().unwrap();
+    let run = specula(folder)
+        .arg("lab")
+        .args(arguments)
+        .output()
+        .expect("the program answers");
     let said = String::from_utf8_lossy(&run.stdout).into_owned();
     (run.status.code().unwrap_or(-1), said, stderr(&run))
 }
 
 /// The JSON of a result.
 fn result(folder: &Path) -> serde_json::Value {
-    let text = fs::read_to_string(folder.join("result.json")).unwrap();
-    serde_json::from_str(&text).unwrap()
+    let text = fs::read_to_string(folder.join("result.json")).expect("the program answers");
+    serde_json::from_str(&text).expect("the program answers")
 }
 
 #[test]
@@ -229,12 +233,15 @@ mod interrupted {
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()
-            .unwrap()
+            .expect("the program runs")
     }
 
     fn interrupt(child: &Child) {
         let id = child.id().to_string();
-        let sent = Command::new("kill").args(["-INT", &id]).status().unwrap();
+        let sent = Command::new("kill")
+            .args(["-INT", &id])
+            .status()
+            .expect("the program runs");
         assert!(sent.success());
     }
 

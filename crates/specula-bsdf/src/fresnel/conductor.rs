@@ -66,7 +66,8 @@ fn quotient<T: Real>(cos: T, eta: T, k: T) -> (T, T) {
     let (eta2, k2) = (eta * eta, k * k);
     let cos2 = cos * cos;
     let sin2 = T::ONE - cos2;
-    let t = eta2 - k2 - sin2;
+    // eta^2 - k^2 - sin^2, added up so that at an index of 1 nothing cancels at grazing angles.
+    let t = (eta2 - T::ONE - k2) + cos2;
     let a2_plus_b2 = t.mul_add(t, T::of(4.0) * eta2 * k2).sqrt();
     let s = a2_plus_b2 + cos2;
     let s2 = cos * (T::TWO * (a2_plus_b2 + t)).safe_sqrt();
@@ -104,6 +105,27 @@ mod tests {
             };
             let expected = crate::fresnel::dielectric(cos, 1.5).reflectance;
             assert!((f.eval(cos).r - expected).abs() < 1e-12, "{cos}");
+        }
+    }
+
+    #[test]
+    fn an_index_near_1_reflects_as_the_dielectric_in_single_precision() {
+        for (cos, eta) in [
+            (1e-3_f32, 1.0_f32),
+            (1e-3, 1.001),
+            (0.02, 0.999_9),
+            (0.5, 1.01),
+        ] {
+            let f = Conductor {
+                eta: Rgb::splat(eta),
+                k: Rgb::splat(0.0),
+            };
+            let exact = crate::fresnel::dielectric(f64::from(cos), f64::from(eta)).reflectance;
+            let single = f64::from(f.eval(cos).r);
+            assert!(
+                (single - exact).abs() < 1e-6 + 3e-4 * exact,
+                "{cos} {eta}: {single} {exact}"
+            );
         }
     }
 

@@ -16,7 +16,7 @@ pub struct Refraction<T> {
 /// Unpolarised reflectance of a dielectric interface.
 ///
 /// ```text
-/// cos_t = sqrt(1 - (1 - cos^2) / eta^2)
+/// cos_t = sqrt(1 - (1 - cos^2) / eta^2) = sqrt((eta - 1) (eta + 1) + cos^2) / eta
 /// rs = (cos - eta cos_t) / (cos + eta cos_t),   rp = (eta cos - cos_t) / (eta cos + cos_t)
 /// F = (rs^2 + rp^2) / 2
 /// 1 - F = 2 eta cos cos_t (1 / (cos + eta cos_t)^2 + 1 / (eta cos + cos_t)^2)
@@ -24,11 +24,14 @@ pub struct Refraction<T> {
 ///
 /// * `cos`: cosine between the direction and the normal on its side, in `[0, 1]`.
 /// * `eta`: index beyond the interface over the index on the direction's side, above 0.
+///
+/// Departure: the second form of `cos_t`, which does not cancel where `eta` is near 1 and the angle
+/// grazing.
 #[inline(always)]
 pub fn dielectric<T: Real>(cos: T, eta: T) -> Refraction<T> {
     let cos = Real::clamp(cos, T::ZERO, T::ONE);
-    let sin2_t = (T::ONE - cos) * (T::ONE + cos) / (eta * eta);
-    refraction(cos, T::ONE - sin2_t, eta)
+    let refracted = (eta - T::ONE) * (eta + T::ONE) + cos * cos;
+    refraction(cos, refracted / (eta * eta), eta)
 }
 
 /// [`dielectric`] where the square of the refracted cosine is known, 0 or less beyond the critical
@@ -115,6 +118,26 @@ mod tests {
         let brewster = 1.0 / (1.0 + 1.5_f64 * 1.5).sqrt();
         let expected = 0.5 * ((1.0 - 2.25_f64) / (1.0 + 2.25)).powi(2);
         assert!((dielectric(brewster, 1.5).reflectance - expected).abs() < 1e-12);
+    }
+
+    #[test]
+    fn equal_indices_reflect_nothing_in_single_precision() {
+        for cos in [1.0_f32, 0.1, 1e-3, 1e-6] {
+            let there = dielectric(cos, 1.0);
+            assert!(there.reflectance < 1e-12, "{cos}: {}", there.reflectance);
+            assert!(
+                (there.cos_t - cos).abs() <= 2.0 * f32::EPSILON * cos,
+                "{cos}"
+            );
+        }
+        for (cos, eta) in [(1e-4_f32, 1.000_01_f32), (1e-3, 1.001), (0.02, 0.999_9)] {
+            let exact = dielectric(f64::from(cos), f64::from(eta)).reflectance;
+            let single = f64::from(dielectric(cos, eta).reflectance);
+            assert!(
+                (single - exact).abs() < 1e-5 * exact,
+                "{cos} {eta}: {single} {exact}"
+            );
+        }
     }
 
     #[test]

@@ -7,7 +7,7 @@ use specula_render::picture::Picture;
 use specula_scene::Scene;
 
 use super::cui23_models::{SPECULA, Shown};
-use super::cui23_renders::{Trial, Way, at_equal_time, reference, sum, trials};
+use super::cui23_renders::{Trial, Way, at_equal_time, insets, reference, sum, trials};
 use crate::output::{Comparison, Shot, Table};
 use crate::{Lab, Result};
 
@@ -31,6 +31,8 @@ pub(super) struct Lit {
     pub(super) reference_samples: u32,
     /// Renders of each.
     pub(super) rounds: u32,
+    /// What is shown enlarged, as shares of width and height.
+    pub(super) places: [[f64; 2]; 3],
 }
 
 /// What came out, by model.
@@ -82,7 +84,7 @@ pub(super) fn judge<const N: usize>(
         caption: lit.caption,
         shots: shots.collect(),
         reference: Some(&sum(&truth.picture, &under_sky.picture)),
-        insets: Vec::new(),
+        insets: insets(&truth.picture, lit.places, 0.24),
         exposure_stops: 0.0,
     })?;
     Ok(Judged {

@@ -25,20 +25,21 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     let size = lab.pick([120, 54], [384, 172]);
     let lights = [
-        Lighting::Parallel(dvec3(0.6, -0.5, 0.65), 1.2),
-        Lighting::Point(dvec3(-2.8, -3.2, 3.4), 24.0),
+        Lighting::Parallel(dvec3(0.6, -0.5, 0.65), 0.6),
+        Lighting::Point(dvec3(-2.8, -3.2, 3.4), 12.0),
     ];
     let lit = Lit {
         name: "set",
         caption: "Gold 0.3, aluminium 0.8, copper 1, silver 0.5, brass 0.15; light of an environment \
                   at equal samples, of a direction and a point in equal time, direct and indirect.",
         timed: decorative_set(size, &lights),
-        environment: decorative_set(size, &[Lighting::Studio(0.6)]),
+        environment: decorative_set(size, &[Lighting::Studio(0.4)]),
         environment_samples: lab.pick(8, 128),
         samples: 16,
         max_depth: 4,
         reference_samples: lab.pick(256, 768),
         rounds: lab.pick(5, 8),
+        places: [[0.34, 0.55], [0.51, 0.45], [0.68, 0.6]],
     };
     let models = [CUI, HEITZ, BITTERLI, SPECULA];
     let judged = judge(lab, &lit, &models)?;

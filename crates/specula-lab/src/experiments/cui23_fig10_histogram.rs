@@ -10,7 +10,7 @@ use specula_scene::scene::{Distribution, Projection};
 
 use super::cui23_walks::{evaluated, sampled};
 use crate::output::Table;
-use crate::plot::{Axis, Content, Figure, Panel, Series};
+use crate::plot::{Axis, Bars, Content, Figure, Panel};
 use crate::scenes::statues::{Metal, SET, VASES, decorative_set, vases};
 use crate::{Claim, Experiment, Lab, Result, Source, Verdict};
 
@@ -154,16 +154,18 @@ fn table(all: &[Counted]) -> Table {
 
 fn figure(all: &[Counted]) -> Figure {
     let panel = |title: &str, shares: fn(&Counted) -> &Shares| {
-        let series = all.iter().map(|counted| {
-            let points = shares(counted).iter().zip(1_u32..);
-            let points = points.map(|(s, n)| [f64::from(n), 100.0 * s]).collect();
-            Series::new(counted.name, counted.style, points)
-        });
+        let bar = |counted: &Counted| {
+            let heights = shares(counted).iter().map(|s| 100.0 * s);
+            (counted.name.to_owned(), counted.style, heights.collect())
+        };
         Panel {
             title: title.to_owned(),
-            x: Axis::linear("downward flights").from_to(0.0, MOST as f64),
+            x: Axis::linear("downward flights"),
             y: Axis::linear("share of paths [%]").from_to(0.0, 100.0),
-            content: Content::Lines(series.collect()),
+            content: Content::Bars(Bars {
+                groups: (1..=MOST).map(|n| n.to_string()).collect(),
+                bars: all.iter().map(bar).collect(),
+            }),
         }
     };
     Figure::grid(
@@ -199,7 +201,7 @@ fn verdict(all: &[Counted]) -> Verdict {
         )],
         caveat:
             "Vases and statues of our own; views are those of all pixels that show metal. Flights \
-                 go down first and up then: a mirror-like facet never turns an upward one down."
+                 go down first and up then: a facet that reflects never turns an upward one down."
                 .to_owned(),
     }
 }

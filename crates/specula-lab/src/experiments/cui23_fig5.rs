@@ -15,6 +15,7 @@ use super::cui23_models::{
     BITTERLI, CUI, CUI_BIDIRECTIONAL, HEITZ, IMPLEMENTATIONS, SPECULA, Shown, WANG,
     WANG_UNCORRELATED,
 };
+use super::stopwatch::median;
 use crate::output::Table;
 use crate::plot::{Axis, Content, Figure, Panel, Series};
 use crate::{Claim, Experiment, Lab, Result, Source, Verdict};
@@ -99,9 +100,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
             .into_par_iter()
             .map(|i| estimate(lab, column, f32::from(i) * step_deg))
             .collect();
-        for point in &mut row {
-            measure_times(lab, point);
-        }
+        measure_times(lab, &mut row);
         points.extend(row);
     }
     lab.step(0.9, "plotting")?;
@@ -149,28 +148,27 @@ fn estimate(lab: &Lab<'_>, column: usize, theta_o_deg: f32) -> Point {
     }
 }
 
-/// All models take turns; medians.
-fn measure_times(lab: &Lab<'_>, point: &mut Point) {
-    let rounds = lab.pick(5, 15);
+/// All models and angles of a column take turns; medians.
+fn measure_times(lab: &Lab<'_>, row: &mut [Point]) {
     let evaluations = lab.pick(300_u32, 1000);
-    let (alpha, theta_i_deg) = COLUMNS[point.column];
-    let (wo, wi) = directions(theta_i_deg, point.theta_o_deg);
-    let lobes = lobes(alpha);
     let mut stream = Stream::new(lab.seed());
-    let mut times = [const { Vec::new() }; MODELS.len()];
-    for _ in 0..rounds {
-        for (lobe, times) in lobes.iter().zip(&mut times) {
-            let begin = Instant::now();
-            for _ in 0..evaluations {
-                let (wo, wi) = black_box((wo, wi));
-                black_box(lobe.estimate(wo, wi, &mut stream));
+    let mut times = vec![[const { Vec::new() }; MODELS.len()]; row.len()];
+    for _ in 0..lab.pick(5, 15) {
+        for (point, times) in row.iter().zip(&mut times) {
+            let (alpha, theta_i_deg) = COLUMNS[point.column];
+            let (wo, wi) = directions(theta_i_deg, point.theta_o_deg);
+            for (lobe, times) in lobes(alpha).iter().zip(times) {
+                let begin = Instant::now();
+                for _ in 0..evaluations {
+                    let (wo, wi) = black_box((wo, wi));
+                    black_box(lobe.estimate(wo, wi, &mut stream));
+                }
+                times.push(begin.elapsed().as_secs_f64() * 1e9 / f64::from(evaluations));
             }
-            times.push(begin.elapsed().as_secs_f64() * 1e9 / f64::from(evaluations));
         }
     }
-    for (ns, times) in point.ns.iter_mut().zip(&mut times) {
-        times.sort_by(f64::total_cmp);
-        *ns = times[times.len() / 2];
+    for (point, times) in row.iter_mut().zip(times) {
+        point.ns = times.map(median);
     }
 }
 

@@ -4,7 +4,7 @@ use specula_bsdf::multibounce::MisPdf;
 use specula_render::RenderOptions;
 
 use super::cui23_models::{CUI, CUI_BIDIRECTIONAL, SPECULA, Shown};
-use super::cui23_renders::{Reference, Trial, Way, reference, trials};
+use super::cui23_renders::{Reference, Trial, Way, insets, reference, trials};
 use crate::output::{Comparison, Shot, Table};
 use crate::scenes::pots::pots;
 use crate::{Claim, Experiment, Lab, Result, Source, Verdict};
@@ -65,7 +65,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
                   density.",
         shots: SHOTS.map(|i| shot(&done[i])).into(),
         reference: Some(&truth.picture),
-        insets: Vec::new(),
+        insets: insets(&truth.picture, [[0.2, 0.6], [0.5, 0.6], [0.8, 0.6]], 0.3),
         exposure_stops: 0.0,
     })?;
     Ok(verdict(&done, &truth))

@@ -39,8 +39,9 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         environment_samples: lab.pick(16, 256),
         samples: SAMPLES,
         max_depth: DIRECT,
-        reference_samples: lab.pick(512, 1024),
+        reference_samples: lab.pick(256, 1024),
         rounds: lab.pick(6, 8),
+        places: [[0.18, 0.45], [0.48, 0.6], [0.78, 0.6]],
     };
     let models = [CUI_BIDIRECTIONAL, HEITZ, WANG, SPECULA];
     let judged = judge(lab, &lit, &models)?;

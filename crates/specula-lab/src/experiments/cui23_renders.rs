@@ -8,6 +8,7 @@ use specula_stat::z_test::Moments;
 
 use super::cui23_models::Shown;
 use super::stopwatch::{median, processor_seconds};
+use crate::output::Inset;
 use crate::rendered::render_prepared;
 use crate::{Lab, Result};
 
@@ -56,12 +57,7 @@ pub(super) struct Reference {
 impl Reference {
     /// Mean squared difference over pixels and channels, without the reference's own variance.
     pub(super) fn mse(&self, picture: &Picture) -> f64 {
-        let pairs = self.picture.colour.iter().zip(&picture.colour);
-        let squares = pairs.map(|(a, b)| {
-            let d = (*a - *b).cast::<f64>();
-            (d.r * d.r + d.g * d.g + d.b * d.b) / 3.0
-        });
-        squares.sum::<f64>() / self.picture.colour.len() as f64 - self.variance
+        mean_square(&self.picture, picture) - self.variance
     }
 
     /// Root of the own variance over the mean of the picture.
@@ -73,7 +69,8 @@ impl Reference {
     }
 }
 
-/// Renders what others are compared with: another seed, many samples.
+/// Renders what others are compared with: the mean of two pictures of other seeds, whose difference
+/// tells its variance. (The films' own estimates take samples for independent, and are too large.)
 pub(super) fn reference(
     lab: &Lab<'_>,
     scene: &Scene,
@@ -81,22 +78,33 @@ pub(super) fn reference(
     samples_per_pixel: u32,
     max_depth: u32,
 ) -> Result<Reference> {
-    let options = RenderOptions {
-        samples_per_pixel,
-        max_depth,
-        energy: Energy::Multibounce(model),
-        seed: lab.render_seed().wrapping_add(OTHER_SEED),
-        ..RenderOptions::default()
+    let half = |offset: u32| -> Result<Picture> {
+        let options = RenderOptions {
+            samples_per_pixel: samples_per_pixel / 2,
+            max_depth,
+            energy: Energy::Multibounce(model),
+            seed: lab.render_seed().wrapping_add(OTHER_SEED + offset),
+            ..RenderOptions::default()
+        };
+        Ok(lab.render(scene, &options)?.picture)
     };
-    let picture = lab.render(scene, &options)?.picture;
-    let variance = mean_variance(&picture);
+    let (a, b) = (half(0)?, half(1)?);
+    let variance = 0.25 * mean_square(&a, &b);
+    let mut picture = sum(&a, &b);
+    for colour in &mut picture.colour {
+        *colour *= 0.5;
+    }
     Ok(Reference { picture, variance })
 }
 
-/// Mean over pixels and channels of a picture's estimate of its own variance.
-pub(super) fn mean_variance(picture: &Picture) -> f64 {
-    let sum: f64 = picture.variance.iter().map(|c| f64::from(c.mean())).sum();
-    sum / picture.variance.len() as f64
+/// Mean over pixels and channels of the squared difference.
+fn mean_square(a: &Picture, b: &Picture) -> f64 {
+    let pairs = a.colour.iter().zip(&b.colour);
+    let squares = pairs.map(|(a, b)| {
+        let d = (*a - *b).cast::<f64>();
+        (d.r * d.r + d.g * d.g + d.b * d.b) / 3.0
+    });
+    squares.sum::<f64>() / a.colour.len() as f64
 }
 
 /// What a way left.
@@ -105,11 +113,11 @@ pub(super) struct Trial {
     pub(super) label: &'static str,
     /// The way's.
     pub(super) samples_per_pixel: u32,
-    /// Of the first round.
+    /// Of the last round.
     pub(super) picture: Picture,
     /// Mean squared error of each round.
     pub(super) mse: Vec<f64>,
-    /// Estimated variance of each round, mean over pixels and channels.
+    /// Half the mean squared difference of each round from the one before: the variance.
     pub(super) variance: Vec<f64>,
     /// Processor time of each round.
     pub(super) seconds: Vec<f64>,
@@ -193,11 +201,12 @@ pub(super) fn trials<const N: usize>(
             let picture = rendered.picture;
             let trial = &mut trials[i];
             trial.mse.push(reference.mse(&picture));
-            trial.variance.push(mean_variance(&picture));
-            trial.seconds.push(seconds);
-            if round == 0 {
-                trial.picture = picture;
+            if round > 0 {
+                let half = 0.5 * mean_square(&trial.picture, &picture);
+                trial.variance.push(half);
             }
+            trial.seconds.push(seconds);
+            trial.picture = picture;
         }
     }
     Ok(trials)
@@ -223,4 +232,27 @@ pub(super) fn at_equal_time<const N: usize>(
 pub(super) fn sum(a: &Picture, b: &Picture) -> Picture {
     let pairs = a.colour.iter().zip(&b.colour);
     Picture::from_colour(a.width, a.height, pairs.map(|(a, b)| *a + *b).collect())
+}
+
+/// Squares about places that are given as shares of width and height; `share` of the height wide.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "pixels of a picture"
+)]
+pub(super) fn insets<const N: usize>(
+    picture: &Picture,
+    places: [[f64; 2]; N],
+    share: f64,
+) -> Vec<Inset> {
+    let [width, height] = [picture.width, picture.height].map(f64::from);
+    let side = (share * height).round().max(4.0);
+    let from = |place: f64, size: f64| (place * size - 0.5 * side).clamp(0.0, size - side) as u32;
+    let inset = |[x, y]: [f64; 2]| Inset {
+        x: from(x, width),
+        y: from(y, height),
+        width: side as u32,
+        height: side as u32,
+    };
+    places.map(inset).into()
 }

@@ -8,6 +8,8 @@ use specula_bsdf::math::{Stream, warp};
 use specula_bsdf::vndf::{self, Sampler};
 use specula_bsdf::{Alpha, Vec3};
 
+use super::stopwatch::median;
+
 /// Elements of a run.
 const COUNT: usize = 2048;
 
@@ -143,10 +145,4 @@ pub(super) fn medians(runs: &mut [Run<'_>], rounds: usize) -> Vec<f64> {
         .into_iter()
         .map(|times| 1e9 * median(times) / COUNT as f64)
         .collect()
-}
-
-/// The middle of numbers; NaN of none.
-pub(super) fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }

@@ -5,6 +5,7 @@ use specula_bsdf::vndf::{self, Sampler};
 use specula_bsdf::{Alpha, Vec3};
 
 use super::draw_times::{self, Inputs};
+use super::stopwatch::median;
 use crate::output::Table;
 use crate::plot::{Axis, Content, Figure, Panel, Series};
 use crate::{Claim, Experiment, Lab, Result, Source, Verdict};
@@ -79,6 +80,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         }
     }
     lab.table(table)?;
+    let highest = quotients.iter().flatten().copied().fold(1.5, f64::max);
     let panels = (lines.into_iter().zip(["scalar", "in batches"]))
         .map(|(mut series, title)| {
             series.push(Series::new(
@@ -89,7 +91,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
             Panel {
                 title: title.to_owned(),
                 x: Axis::linear("alpha").from_to(0.0, 1.0),
-                y: Axis::linear("time of Heitz 2018 / time of the cap").from_to(0.0, 3.0),
+                y: Axis::linear("time of Heitz 2018 / time of the cap").from_to(0.0, 1.1 * highest),
                 content: Content::Lines(series),
             }
         })
@@ -145,7 +147,7 @@ impl Spread {
     fn of(values: &[f64]) -> Self {
         Self {
             low: values.iter().copied().fold(f64::INFINITY, f64::min),
-            middle: draw_times::median(values.to_vec()),
+            middle: median(values.iter().copied()),
             high: values.iter().copied().fold(0.0, f64::max),
         }
     }

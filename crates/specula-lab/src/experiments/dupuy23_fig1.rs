@@ -96,9 +96,7 @@ impl Pictures {
         let p = |name| check(name).and_then(|c| c.p_value).unwrap_or(0.0);
         let ((mean, variance), (mean_b, variance_b)) = (noisy(&a), noisy(&b));
         let mut quotients = Moments::default();
-        quotients.extend(
-            (cap.variance.iter().zip(&heitz.variance)).map(|(a, b)| a / b),
-        );
+        quotients.extend((cap.variance.iter().zip(&heitz.variance)).map(|(a, b)| a / b));
         Self {
             apart: [
                 (mean - mean_b) / mean_b,
@@ -140,7 +138,11 @@ fn pictures_table(
     );
     let none = [f64::NAN; 2];
     for (quantity, [value, error], [value_again, error_again]) in [
-        ("mean of caps over that of the other, less 1", found.apart, control.apart),
+        (
+            "mean of caps over that of the other, less 1",
+            found.apart,
+            control.apart,
+        ),
         (
             "p-value of equal means",
             [found.p_values[0], f64::NAN],
@@ -151,8 +153,16 @@ fn pictures_table(
             [found.p_values[1], f64::NAN],
             [control.p_values[1], f64::NAN],
         ),
-        ("variance of caps over that of the other", found.variance, control.variance),
-        ("time of the other over that of caps, median", [time, f64::NAN], none),
+        (
+            "variance of caps over that of the other",
+            found.variance,
+            control.variance,
+        ),
+        (
+            "time of the other over that of caps, median",
+            [time, f64::NAN],
+            none,
+        ),
     ] {
         table.push([
             quantity.into(),
@@ -322,12 +332,16 @@ fn verdict(pictures: &Pictures, glass: &Glass, time: f64) -> Verdict {
         ),
         claims: vec![
             Claim::law(
-                "Caps and Heitz 2018 converge to the same picture",
+                "Caps and Heitz 2018 converge to the same mean",
                 "the same result",
-                format!(
-                    "means apart by {apart:.3} +- {error:.3} %, p = {mean:.2}; worst tile p = {tiles:.1e}"
-                ),
-                mean > SIGNIFICANCE && pictures.tiles_pass,
+                format!("means apart by {apart:.3} +- {error:.3} %, p = {mean:.2}"),
+                mean > SIGNIFICANCE,
+            ),
+            Claim::measured(
+                "No tile of 16 x 16 pixels differs by more than the pictures' own estimate of noise allows",
+                "the same result",
+                format!("worst tile p = {tiles:.1e}"),
+                pictures.tiles_pass,
             ),
             Claim::law(
                 "Directions reflected and refracted by rough glass have the same distribution",

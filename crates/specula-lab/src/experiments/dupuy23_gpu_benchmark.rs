@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use specula_gpu::{AdapterChoice, AdapterKind, Arrays, Gpu, GpuError, Kernel};
 
-use super::draw_times::median;
+use super::stopwatch::median;
 use crate::output::Table;
 use crate::plot::{Axis, Content, Figure, Panel, Series};
 use crate::{Claim, Experiment, Lab, LabError, Result, Source, Verdict};
@@ -55,7 +55,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         Err(error) => return Err(error.into()),
     };
     let rounds = lab.pick(11, 100);
-    let seconds = lab.pick(0.005, 0.02);
+    let seconds = lab.pick(0.005, 0.01);
     let kernels = SAMPLERS.map(|(module, function)| kernel(&gpu, module, function));
     let [heitz, cap] = kernels;
     let kernels = [heitz?, cap?];
@@ -78,8 +78,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
                 }
             }
             farthest = farthest.max((works[0].mean / works[1].mean - 1.0).abs());
-            let ratios = times[0].iter().zip(&times[1]).map(|(a, b)| a / b).collect();
-            let ratio = median(ratios);
+            let ratio = median(times[0].iter().zip(&times[1]).map(|(a, b)| a / b));
             let [heitz, cap] = times.map(median);
             quotients.push(ratio);
             points.push([f64::from(alpha), ratio]);
@@ -107,10 +106,12 @@ fn plot(lab: &mut Lab<'_>, mut lines: Vec<Series>) -> Result<()> {
     ] {
         lines.push(Series::new(name, style, vec![[0.0, value], [1.0, value]]));
     }
+    let points = lines.iter().flat_map(|line| &line.points);
+    let highest = points.map(|p| p[1]).fold(0.0, f64::max);
     let panel = Panel {
         title: "64 normals per lane".to_owned(),
         x: Axis::linear("alpha").from_to(0.0, 1.0),
-        y: Axis::linear("time of Heitz 2018 / time of the cap").from_to(0.0, 2.0),
+        y: Axis::linear("time of Heitz 2018 / time of the cap").from_to(0.0, 1.1 * highest),
         content: Content::Lines(lines),
     };
     let caption = "How many times faster the cap draws than Heitz 2018.";
@@ -249,7 +250,7 @@ fn faster(measured: String, holds: bool) -> Claim {
 
 fn verdict(gpu: &Gpu, quotients: &[f64], farthest: f64) -> Verdict {
     let is_software = gpu.adapter.kind == AdapterKind::Software;
-    let middle = median(quotients.to_vec());
+    let middle = median(quotients.iter().copied());
     let low = quotients.iter().copied().fold(f64::INFINITY, f64::min);
     let high = quotients.iter().copied().fold(0.0, f64::max);
     let where_measured = if is_software {

@@ -3,6 +3,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use specula_bsdf::vndf::Sampler;
 use specula_bsdf::{Alpha, Rgb};
 use specula_render::RenderOptions;
 use specula_scene::Scene;
@@ -17,8 +18,6 @@ use super::stopwatch::median;
 use crate::output::Table;
 use crate::plot::{Axis, Content, Figure, Panel, Series};
 use crate::{Claim, Experiment, Lab, Result, Source, Verdict};
-
-use specula_bsdf::vndf::Sampler;
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -121,8 +120,7 @@ fn measure(
     let ways = [ALL_WAYS[3], ALL_WAYS[0]];
     let prepared = Prepared::new(&scene, &ways, &plan.options)?;
     let trials = trials(lab, &prepared, &plan, shares)?;
-    let samples = f64::from(plan.options.samples_per_pixel)
-        * trials[0].picture.colour.len() as f64;
+    let samples = f64::from(plan.options.samples_per_pixel) * trials[0].picture.colour.len() as f64;
     let [scalar, batch] = draw_costs(lab, stuff, alpha);
     let both = |value: &dyn Fn(usize) -> f64| [value(0), value(1)];
     Ok(Row {
@@ -240,8 +238,8 @@ fn panels(rows: &[Row]) -> Vec<Panel> {
             };
             panels.push(Panel {
                 title: format!("{name}, {title}"),
-                x: Axis::linear("alpha"),
-                y: Axis::linear("share of time [%]"),
+                x: Axis::linear("alpha").from_to(0.0, 1.0),
+                y: Axis::linear("share of time [%]").from_to(0.0, if is_batch { 0.8 } else { 6.0 }),
                 content: Content::Lines(vec![
                     Series::new("heitz", 6, line(0)),
                     Series::new("cap", 3, line(1)),

@@ -21,8 +21,11 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
+/// Two numbers along x and y.
+type Pair = (f64, f64);
+
 /// Panels: name, widths, x and y of the view.
-const CASES: [(&str, (f64, f64), (f64, f64)); 4] = [
+const CASES: [(&str, Pair, Pair); 4] = [
     ("a", (0.7, 0.4), (0.3, 0.0)),
     ("b", (0.7, 0.8), (0.3, 0.6)),
     ("c", (1.5, 0.2), (-0.2, 0.8)),

@@ -21,6 +21,7 @@ mod draw_times;
 mod dupuy23_cpu_benchmark;
 mod dupuy23_fig1;
 mod dupuy23_gpu_benchmark;
+mod dupuy23_table1;
 mod eto23_fig1;
 mod orb_render;
 mod room_pictures;
@@ -63,6 +64,7 @@ pub const ALL: &[Experiment] = &[
     dupuy23_fig1::EXPERIMENT,
     dupuy23_cpu_benchmark::EXPERIMENT,
     dupuy23_gpu_benchmark::EXPERIMENT,
+    dupuy23_table1::EXPERIMENT,
     cui23_fig1::EXPERIMENT,
     cui23_fig5::EXPERIMENT,
     cui23_fig6::EXPERIMENT,

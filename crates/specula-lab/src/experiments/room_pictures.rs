@@ -9,6 +9,7 @@ use super::sampler_trials::{
     CAP_BOUNDED_EXACT, Plan, Prepared, Reference, TURQUIN, Trial, deviations_above, mean, trials,
 };
 use crate::output::{Comparison, Inset, Shot, Table};
+use crate::scenes::orbs::{self, Tessellation};
 use crate::scenes::{bathroom, interior, kitchen};
 use crate::{Errors, Lab, Result, errors};
 
@@ -26,7 +27,7 @@ pub(super) fn fireplace_room() -> Room {
     Room {
         name: "fireplace room",
         scene: interior::interior(),
-        insets: [[208, 30, 64, 48], [20, 60, 64, 48], [300, 225, 64, 48]],
+        insets: [[264, 36, 64, 48], [70, 70, 64, 48], [330, 196, 64, 48]],
         exposure_stops: 0.0,
     }
 }
@@ -36,7 +37,7 @@ pub(super) fn kitchen_room() -> Room {
     Room {
         name: "kitchen",
         scene: kitchen::kitchen(),
-        insets: [[208, 30, 64, 48], [20, 60, 64, 48], [300, 225, 64, 48]],
+        insets: [[244, 70, 64, 48], [92, 142, 64, 48], [430, 110, 64, 48]],
         exposure_stops: 0.0,
     }
 }
@@ -46,9 +47,15 @@ pub(super) fn bathroom_room() -> Room {
     Room {
         name: "bathroom",
         scene: bathroom::bathroom(),
-        insets: [[208, 30, 64, 48], [20, 60, 64, 48], [300, 225, 64, 48]],
+        insets: [[226, 40, 64, 48], [346, 156, 64, 48], [330, 226, 64, 48]],
         exposure_stops: 0.5,
     }
+}
+
+/// Three orbs, 3:1: in the place of the paper's orb, where there are no rooms.
+pub(super) fn rough_orbs() -> Scene {
+    let widths = [(0.4, 0.4), (0.7, 0.7), (1.0, 1.0)];
+    orbs::row(&widths, Tessellation::FINE, 96)
 }
 
 /// Work for a room.

@@ -13,8 +13,7 @@ use crate::rendered::render_prepared;
 use crate::{Lab, Result};
 
 /// Turquin's compensation with the reflectance along the normal, as Tokuyoshi and Eto 2024 render.
-pub(super) const TURQUIN: Energy =
-    Energy::Compensated(Model::Turquin(FmsVariant::NormalIncidence));
+pub(super) const TURQUIN: Energy = Energy::Compensated(Model::Turquin(FmsVariant::NormalIncidence));
 
 /// A sampler as tables and plots show it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,11 +99,8 @@ impl Trial {
 
     fn empty(way: Way, like: &Picture) -> Self {
         let black = Rgb::BLACK;
-        let mut picture = Picture::from_colour(
-            like.width,
-            like.height,
-            vec![black; like.colour.len()],
-        );
+        let mut picture =
+            Picture::from_colour(like.width, like.height, vec![black; like.colour.len()]);
         picture.variance = picture.colour.clone();
         Self {
             way,
@@ -123,9 +119,9 @@ impl Trial {
     fn add(&mut self, rendered: Picture, rounds: u32) {
         let share = 1.0 / f64::from(rounds);
         let pairs = self.picture.colour.iter_mut().zip(&rendered.colour);
-        pairs.for_each(|(sum, c)| *sum = *sum + *c * narrow(share));
+        pairs.for_each(|(sum, c)| *sum += *c * narrow(share));
         let pairs = self.picture.variance.iter_mut().zip(&rendered.variance);
-        pairs.for_each(|(sum, c)| *sum = *sum + *c * narrow(share * share));
+        pairs.for_each(|(sum, c)| *sum += *c * narrow(share * share));
         self.variance.push(mean_variance(&rendered));
         match self.waiting.take() {
             Some(first) => self.squares.push(0.5 * mean_square(&first, &rendered)),

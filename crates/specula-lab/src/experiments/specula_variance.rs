@@ -22,8 +22,11 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
-/// Radiance by direction: uniform, and growing with the height from 0 and from 1.
-const LIGHTS: [(&str, fn(Vec3<f64>) -> f64); 3] = [
+/// Radiance by direction.
+type Light = fn(Vec3<f64>) -> f64;
+
+/// Uniform, and growing with the height from 0 and from 1.
+const LIGHTS: [(&str, Light); 3] = [
     ("uniform", |_| 1.0),
     ("cosine", |wi| wi.z),
     ("linear", |wi| 1.0 + wi.z),

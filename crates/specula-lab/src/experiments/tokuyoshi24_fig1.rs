@@ -70,12 +70,9 @@ fn verdict(all: &[(&str, Vec<Found>)]) -> Verdict {
         let [cap, bounded, exact] = [0, 1, 2].map(|i| mean(&f[i].trial.rays));
         format!("cap {cap:.3}, bounded {bounded:.3}, exact {exact:.3}")
     });
-    let longer = |f: &[Found], i: usize, j: usize| {
-        mean(&f[i].trial.rays) > mean(&f[j].trial.rays)
-    };
-    let less = |f: &[Found], i: usize, j: usize| {
-        mean(&f[i].trial.variance) > mean(&f[j].trial.variance)
-    };
+    let longer = |f: &[Found], i: usize, j: usize| mean(&f[i].trial.rays) > mean(&f[j].trial.rays);
+    let less =
+        |f: &[Found], i: usize, j: usize| mean(&f[i].trial.variance) > mean(&f[j].trial.variance);
     Verdict {
         summary: format!("RMSE at equal samples: {rmse}."),
         claims: vec![
@@ -116,8 +113,9 @@ fn verdict(all: &[(&str, Vec<Found>)]) -> Verdict {
                 all.iter().all(|(_, f)| below(f, 1, 2) > 0.0),
             ),
         ],
-        caveat: "Rooms of our own; the paper's pictures are 3840 x 2160 from a graphics card. Russian \
+        caveat:
+            "Rooms of our own; the paper's pictures are 3840 x 2160 from a graphics card. Russian \
                  roulette from the third bounce."
-            .to_owned(),
+                .to_owned(),
     }
 }

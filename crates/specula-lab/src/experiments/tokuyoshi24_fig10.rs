@@ -234,27 +234,8 @@ fn verdict(found: &[Vec<Found>], spp: u32) -> Verdict {
                 rmse(BOUNDED),
                 ratio(0, BOUNDED, last) < 0.9 && ratio(1, BOUNDED, last) < 0.9,
             ),
-            Claim::measured(
-                "The bounded cap lowers Turquin's error more than Kulla and Conty's",
-                "more suitable for Turquin's model",
-                format!(
-                    "RMSE over the cap's, alpha 0.6 to 1, geometric mean: Turquin {:.2}, Kulla and \
-                     Conty {:.2}",
-                    gain(1, BOUNDED),
-                    gain(0, BOUNDED)
-                ),
-                gain(1, BOUNDED) < gain(0, BOUNDED),
-            ),
-            Claim::measured(
-                "With the bounded cap, Turquin's compensation has less noise than Kulla and Conty's",
-                "less noise (section 6)",
-                format!(
-                    "RMSE at alpha 1: Turquin {:.3}, Kulla and Conty {:.3}",
-                    found[1][BOUNDED].rmse(last),
-                    found[0][BOUNDED].rmse(last)
-                ),
-                found[1][BOUNDED].rmse(last) < found[0][BOUNDED].rmse(last),
-            ),
+            suits_turquin([gain(0, BOUNDED), gain(1, BOUNDED)]),
+            is_quieter([0, 1].map(|model: usize| found[model][BOUNDED].rmse(last))),
             Claim::measured(
                 "The exact sampler is no worse than the bounded cap",
                 "not in the paper",
@@ -273,4 +254,27 @@ fn verdict(found: &[Vec<Found>], spp: u32) -> Verdict {
              Conty's second lobe by the cosine, which the paper does not say that it does."
         ),
     }
+}
+
+/// * `gains`: RMSE of the bounded cap over the cap's by model.
+fn suits_turquin([kulla_conty, turquin]: [f64; 2]) -> Claim {
+    Claim::measured(
+        "The bounded cap lowers Turquin's error more than Kulla and Conty's",
+        "more suitable for Turquin's model",
+        format!(
+            "RMSE over the cap's, alpha 0.6 to 1, geometric mean: Turquin {turquin:.2}, Kulla and Conty \
+             {kulla_conty:.2}"
+        ),
+        turquin < kulla_conty,
+    )
+}
+
+/// * `rmse`: of the bounded cap by model.
+fn is_quieter([kulla_conty, turquin]: [f64; 2]) -> Claim {
+    Claim::measured(
+        "With the bounded cap, Turquin's compensation has less noise than Kulla and Conty's",
+        "less noise (section 6)",
+        format!("RMSE at alpha 1: Turquin {turquin:.3}, Kulla and Conty {kulla_conty:.3}"),
+        turquin < kulla_conty,
+    )
 }

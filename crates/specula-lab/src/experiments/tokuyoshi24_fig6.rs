@@ -42,9 +42,9 @@ struct Found {
 }
 
 fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
-    let side = lab.pick(64, 160);
-    let count = lab.pick(3, 4);
-    let reference_spp = lab.pick(64, 384);
+    let side = lab.pick(80, 160);
+    let count = lab.pick(2, 4);
+    let reference_spp = lab.pick(48, 384);
     let mut table = Table::new(
         "errors",
         "Root mean squared errors, 16 samples per pixel.",

@@ -96,8 +96,9 @@ fn verdict(mis: &[Found], plain: &[Found]) -> Verdict {
                 below(&mis[1], &mis[2]) > 0.0,
             ),
         ],
-        caveat: "A room of our own; the paper's pictures are 3840 x 2160 from a graphics card. Russian \
+        caveat:
+            "A room of our own; the paper's pictures are 3840 x 2160 from a graphics card. Russian \
                  roulette from the third bounce."
-            .to_owned(),
+                .to_owned(),
     }
 }

@@ -27,18 +27,18 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     let room = bathroom_room();
     let options = budget.options(Strategy::Mis);
     let reference = reference(lab, &room.scene, &options, budget.reference_samples, 0.0)?;
-    let found = render_room(
-        lab,
-        &room,
-        &budget,
-        Strategy::Mis,
-        &reference,
-        [0.4, 0.95],
-    )?;
+    let found = render_room(lab, &room, &budget, Strategy::Mis, &reference, [0.4, 0.95])?;
     let caption = "The bathroom with multiple importance sampling, Turquin's compensation.";
     show(lab, &room, &budget, caption, &found, &reference)?;
     let mut table = table();
-    add_rows(&mut table, &room, &budget, Strategy::Mis, &found, &reference);
+    add_rows(
+        &mut table,
+        &room,
+        &budget,
+        Strategy::Mis,
+        &found,
+        &reference,
+    );
     lab.table(table)?;
     Ok(verdict(&found))
 }
@@ -98,8 +98,9 @@ fn verdict(found: &[Found]) -> Verdict {
                 less(2) > less(1),
             ),
         ],
-        caveat: "A room of our own; the paper's pictures are 3840 x 2160 from a graphics card. Russian \
+        caveat:
+            "A room of our own; the paper's pictures are 3840 x 2160 from a graphics card. Russian \
                  roulette from the third bounce."
-            .to_owned(),
+                .to_owned(),
     }
 }

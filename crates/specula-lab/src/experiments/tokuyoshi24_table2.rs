@@ -4,6 +4,7 @@ use specula_bsdf::Alpha;
 use specula_bsdf::vndf::Sampler;
 
 use super::draw_times::{self, Inputs, Run};
+use super::stopwatch::median;
 use crate::output::Table;
 use crate::plot::{Axis, Content, Figure, Panel, Series};
 use crate::{Claim, Experiment, Lab, Result, Source, Verdict};
@@ -121,7 +122,7 @@ fn add(table: &mut Table, (ax, ay): (f32, f32), times: &Times) {
 
 /// Median over the widths of a sampler's time.
 fn typical(all: &[Times], kind: usize, sampler: usize) -> f64 {
-    draw_times::median(all.iter().map(|times| times[kind][sampler]).collect())
+    median(all.iter().map(|times| times[kind][sampler]))
 }
 
 fn verdict(all: &[Times], unequal: &Times) -> Verdict {

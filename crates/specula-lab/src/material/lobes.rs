@@ -10,7 +10,7 @@ use specula_render::{PreparedScene, RenderOptions};
 use specula_scene::scene::{
     ColourParam, ConductorFresnel, FloatParam, Material, MaterialKind, Roughness, RoughnessMapping,
 };
-use specula_scene::{Energy, builtin};
+use specula_scene::{Energy, Scene, builtin};
 
 use crate::{LabError, Result};
 
@@ -61,8 +61,10 @@ impl Variants {
     /// Where the material has textures.
     pub(super) fn new(kind: &MaterialKind) -> Result<Self> {
         let white_kind = white(kind);
-        let both = |options: &RenderOptions| -> Result<[Lobe<f32>; 2]> {
-            Ok([lobe(kind, options)?, lobe(&white_kind, options)?])
+        let mut scene = bare();
+        let mut both = |options: &RenderOptions| -> Result<[Lobe<f32>; 2]> {
+            let own = lobe(&mut scene, kind, options)?;
+            Ok([own, lobe(&mut scene, &white_kind, options)?])
         };
         let mut energies: Vec<Named> = Vec::new();
         for (energy, style) in ENERGIES {
@@ -132,13 +134,21 @@ fn add(all: &mut Vec<Named>, name: String, style: usize, [lobe, white]: [Lobe<f3
     }
 }
 
-/// What a renderer binds, seen from the outside.
-fn lobe(kind: &MaterialKind, options: &RenderOptions) -> Result<Lobe<f32>> {
+/// A scene without anything in it.
+fn bare() -> Scene {
     let mut scene = builtin::orbs();
-    for material in &mut scene.materials {
-        *material = Material::new(*kind);
-    }
-    PreparedScene::new(&scene, options)?
+    scene.shapes.clear();
+    scene.meshes.clear();
+    scene.lights.clear();
+    scene.textures.clear();
+    scene.images.clear();
+    scene
+}
+
+/// What a renderer binds, seen from the outside.
+fn lobe(scene: &mut Scene, kind: &MaterialKind, options: &RenderOptions) -> Result<Lobe<f32>> {
+    scene.materials = vec![Material::new(*kind)];
+    PreparedScene::new(scene, options)?
         .lobe(0, true)
         .ok_or_else(|| LabError::Material("a material with textures has no lobe of its own".into()))
 }

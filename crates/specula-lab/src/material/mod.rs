@@ -132,8 +132,8 @@ fn verdict(
         .min_by(|a, b| a.white[1].total_cmp(&b.white[1]));
     let lost = least.map_or_else(String::new, |r| {
         format!(
-            "With F = 1, {} sends back {:.1} % of the light at theta_o = {:.0} deg, the least over all \
-             angles and treatments. ",
+            "In a white furnace, energy {} sends back {:.1} % of the light at theta_o = {:.0} deg, the \
+             least over all angles and treatments. ",
             r.energy,
             100.0 * r.white[1],
             r.theta_deg
@@ -152,6 +152,10 @@ fn verdict(
         .collect();
     let caveat = if variants.is_specular() {
         "The lobe is a Dirac delta: there is no density to draw or to test.".to_owned()
+    } else if fits.is_empty() {
+        "The lobe is estimated by walks: curves are means over many, and its density is an approximation \
+         for multiple importance sampling that draws do not follow, so that it is not tested."
+            .to_owned()
     } else if variants.is_stochastic() {
         "Simulated bounces are estimates: their curves are means over many walks.".to_owned()
     } else {
@@ -183,7 +187,7 @@ fn no_energy_made(reflected: &[Reflected]) -> Claim {
     });
     Claim::measured(
         "No treatment of energy sends back more light than arrives",
-        "albedo at most 1 where F = 1",
+        "albedo at most 1 in a white furnace",
         measured,
         holds,
     )

@@ -132,7 +132,7 @@ pub(super) fn reflected(all: &[Reflected], lab: &mut Lab<'_>) -> Result<()> {
     let mut table = Table::new(
         "albedo",
         "Light that is sent back, of what arrives from all sides; furnace: the same with white in place of \
-         all colours (F = 1).",
+         all colours.",
         &[
             "energy",
             "theta_o [deg]",
@@ -169,7 +169,7 @@ pub(super) fn reflected(all: &[Reflected], lab: &mut Lab<'_>) -> Result<()> {
     let luminance = |r: &Reflected| specula_bsdf::Rgb::from(r.own).luminance();
     let panels = vec![
         panel("albedo (luminance)", luminance),
-        panel("furnace: F = 1", |r| r.white[1]),
+        panel("white furnace", |r| r.white[1]),
     ];
     let caption = "Directional albedo by treatment of energy, of the material and of a white one.";
     lab.plot("albedo", caption, &Figure::grid(2, panels))
@@ -209,7 +209,9 @@ pub(super) fn samplers(all: &[Trial], lab: &mut Lab<'_>) -> Result<()> {
         )),
     };
     let panels = vec![
-        panel("rejected draws", "share of draws [%]", |t| 100.0 * t.rejected),
+        panel("rejected draws", "share of draws [%]", |t| {
+            100.0 * t.rejected
+        }),
         panel("variance of the weight", "variance", |t| t.variance),
     ];
     let caption = "Rejected draws and the variance of the weight's luminance, over the angle of view; single \

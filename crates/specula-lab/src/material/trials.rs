@@ -1,5 +1,6 @@
 //! Draws from lobes: what they reflect, what samplers waste, and whether they are right.
 
+use rayon::prelude::*;
 use specula_bsdf::bsdf::Lobe;
 use specula_bsdf::math::{Stream, vec3};
 use specula_bsdf::{Bsdf, Rgb, Transport, Vec3};
@@ -48,7 +49,7 @@ pub(super) struct Fit {
     pub(super) sampler: String,
     pub(super) theta_deg: f64,
     pub(super) chi_square: ChiSquare,
-    /// `None` where the lobe's values are estimates.
+    /// `None` where there is nothing to test.
     pub(super) furnace_p: Option<f64>,
 }
 
@@ -60,7 +61,15 @@ fn angles() -> Vec<f64> {
 
 /// Weights of draws in `side * side` strata; the moments per channel, of the luminance, and the share
 /// that was rejected.
-fn draw(lobe: &Lobe<f32>, wo: Vec3<f32>, side: u32, rng: &mut Rng) -> ([Moments; 3], Moments, f64) {
+///
+/// * `transport`: importance counts energy; radiance is squeezed by refraction.
+fn draw(
+    lobe: &Lobe<f32>,
+    wo: Vec3<f32>,
+    transport: Transport,
+    side: u32,
+    rng: &mut Rng,
+) -> ([Moments; 3], Moments, f64) {
     let mut channels = [Moments::default(); 3];
     let (mut luminance, mut rejected) = (Moments::default(), 0_u32);
     let mut stream = Stream::new(rng.bits());
@@ -70,7 +79,7 @@ fn draw(lobe: &Lobe<f32>, wo: Vec3<f32>, side: u32, rng: &mut Rng) -> ([Moments;
         #[expect(clippy::cast_possible_truncation, reason = "kept below 1")]
         let u = [u0, stratum(i % side, u1), stratum(i / side, u2)]
             .map(|u| (u as f32).min(1.0 - f32::EPSILON / 2.0));
-        let sample = lobe.sample_random(wo, u, Transport::Radiance, &mut stream);
+        let sample = lobe.sample_random(wo, u, transport, &mut stream);
         rejected += u32::from(sample.is_none());
         let weight: Rgb<f64> = sample.map_or(Rgb::BLACK, |s| s.weight.cast());
         for (moments, value) in channels.iter_mut().zip(weight.to_array()) {
@@ -92,7 +101,7 @@ pub(super) fn reflected(variants: &Variants, lab: &Lab<'_>) -> Result<Vec<Reflec
         for theta_deg in angles() {
             lab.step(0.2 + 0.2 * share, "albedo")?;
             let wo = direction(theta_deg, 0.0);
-            let mut of = |lobe| draw(lobe, wo, side, &mut rng).0;
+            let mut of = |lobe| draw(lobe, wo, Transport::Importance, side, &mut rng).0;
             let [own, white] = [of(&named.lobe), of(&named.white)];
             let errors = white.map(|m| m.variance_of_mean().sqrt());
             all.push(Reflected {
@@ -117,7 +126,8 @@ pub(super) fn samplers(variants: &Variants, lab: &Lab<'_>) -> Result<Vec<Trial>>
         for theta_deg in angles() {
             lab.step(0.4, "samplers")?;
             let wo = direction(theta_deg, 0.0);
-            let (_, luminance, rejected) = draw(&named.lobe, wo, side, &mut rng);
+            let (_, luminance, rejected) =
+                draw(&named.lobe, wo, Transport::Radiance, side, &mut rng);
             all.push(Trial {
                 sampler: named.name.clone(),
                 style: named.style,
@@ -134,25 +144,26 @@ pub(super) fn samplers(variants: &Variants, lab: &Lab<'_>) -> Result<Vec<Trial>>
 /// Every sampler against its density.
 pub(super) fn fits(variants: &Variants, lab: &Lab<'_>) -> Result<Vec<Fit>> {
     let mut all = Vec::new();
-    if variants.is_specular() {
+    // The density of a lobe that is estimated is not that of its draws.
+    if variants.is_specular() || is_stochastic(&variants.samplers[0].lobe) {
         return Ok(all);
     }
-    let count = variants.samplers.len() * VIEWS_DEG.len();
-    for named in &variants.samplers {
-        for theta_deg in VIEWS_DEG {
-            lab.step(0.5 + 0.5 * all.len() as f64 / count as f64, "chi-square")?;
-            all.push(fit(named, theta_deg, variants, lab));
-        }
+    let count = variants.samplers.len() as f64;
+    for (i, named) in variants.samplers.iter().enumerate() {
+        lab.step(0.5 + 0.5 * i as f64 / count, "chi-square")?;
+        let (samples, seed) = (lab.pick(20_000, 200_000), lab.seed());
+        let views = VIEWS_DEG.par_iter();
+        let fits = views.map(|&theta_deg| fit(named, theta_deg, variants, samples, seed));
+        all.extend(fits.collect::<Vec<Fit>>());
     }
     Ok(all)
 }
 
-fn fit(named: &Named, theta_deg: f64, variants: &Variants, lab: &Lab<'_>) -> Fit {
-    let samples = lab.pick(20_000, 200_000);
+fn fit(named: &Named, theta_deg: f64, variants: &Variants, samples: u32, seed: u64) -> Fit {
     let subject = Subject::from_bsdf(&named.lobe, Transport::Radiance);
     // Off the axes, where nothing is symmetric.
     let wo: Vec3<f64> = direction(theta_deg, 20.0).cast();
-    let name = format!("{} {theta_deg} {}", named.name, lab.seed());
+    let name = format!("{} {theta_deg} {seed}", named.name);
     let mut rng = Rng::from_name(&name);
     let eta = variants.eta;
     let edges: Vec<f64> = [1.0, eta, 1.0 / eta]
@@ -171,18 +182,14 @@ fn fit(named: &Named, theta_deg: f64, variants: &Variants, lab: &Lab<'_>) -> Fit
             ..chi_square::Options::default()
         },
     );
-    let furnace_p = (!is_stochastic(&named.lobe))
-        .then(|| {
-            let quadrature = Quadrature {
-                relative_tolerance: 1e-4,
-                absolute_tolerance: 1e-6,
-                peaks,
-                ..Quadrature::default()
-            };
-            let albedo = furnace::albedo(&subject, wo, &edges, &quadrature);
-            furnace::test("", &subject, wo, &albedo, samples, 1e-3, &mut rng).p_value
-        })
-        .flatten();
+    let quadrature = Quadrature {
+        relative_tolerance: 1e-4,
+        absolute_tolerance: 1e-6,
+        peaks,
+        ..Quadrature::default()
+    };
+    let albedo = furnace::albedo(&subject, wo, &edges, &quadrature);
+    let furnace_p = furnace::test("", &subject, wo, &albedo, samples, 1e-3, &mut rng).p_value;
     Fit {
         sampler: named.name.clone(),
         theta_deg,

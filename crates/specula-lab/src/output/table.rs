@@ -60,12 +60,15 @@ impl From<String> for Cell {
 }
 
 impl Cell {
-    /// With so many significant digits, for people.
+    /// With so many significant digits, for people; whole numbers whole.
     #[must_use]
     pub fn show(&self, digits: usize) -> String {
         match self {
             Self::Text(text) => text.clone(),
             Self::Number(None) => String::new(),
+            Self::Number(Some(value)) if value.fract() == 0.0 && value.abs() < 1e7 => {
+                format!("{value:.0}")
+            }
             Self::Number(Some(value)) => significant(*value, digits),
         }
     }

@@ -8,8 +8,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use kuva::backend::svg::SvgBackend;
-use kuva::plot::LinePlot;
 use kuva::plot::line::LineStyle;
+use kuva::plot::{BarPlot, LinePlot};
 use kuva::prelude::{ColorMap, Heatmap, Layout, Plot};
 use kuva::render::figure::Figure as Grid;
 
@@ -49,6 +49,18 @@ pub enum Content {
     Map(Map),
     /// A map with lines over it.
     MapAndLines(Map, Vec<Series>),
+    /// Bars side by side, a group for each thing.
+    Bars(Bars),
+}
+
+/// Groups of bars.
+#[derive(Clone, Debug)]
+pub struct Bars {
+    /// What stands under each group.
+    pub groups: Vec<String>,
+    /// Of each bar of a group, from left to right: its name in the legend, which of the [`STYLES`]
+    /// colours it, and its height in each group.
+    pub bars: Vec<(String, usize, Vec<f64>)>,
 }
 
 /// An axis.
@@ -206,6 +218,20 @@ impl Map {
     }
 }
 
+impl Bars {
+    fn plot(&self) -> BarPlot {
+        let mut plot = BarPlot::new();
+        for (i, group) in self.groups.iter().enumerate() {
+            let bar = |(_, style, heights): &(String, usize, Vec<f64>)| {
+                let height = heights.get(i).copied().unwrap_or(0.0);
+                (height, STYLES[style % STYLES.len()].0)
+            };
+            plot = plot.with_group(group.clone(), self.bars.iter().map(bar));
+        }
+        plot.with_legend(self.bars.iter().map(|b| b.0.as_str()).collect())
+    }
+}
+
 impl Panel {
     fn plots(&self) -> Vec<Plot> {
         let lines = |series: &[Series]| -> Vec<Plot> {
@@ -219,6 +245,7 @@ impl Panel {
                 all.extend(lines(series));
                 all
             }
+            Content::Bars(bars) => vec![bars.plot().into()],
         }
     }
 

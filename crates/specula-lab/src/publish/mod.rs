@@ -11,6 +11,7 @@ use resvg::tiny_skia::Pixmap;
 
 use crate::output::comparison::{WrittenComparison, write_sheet};
 use crate::output::insets::Sheet;
+use crate::output::record;
 use crate::output::table::Table;
 use crate::{Claim, LabError, Outcome, Record, Result, experiments};
 
@@ -18,26 +19,37 @@ use crate::{Claim, LabError, Outcome, Record, Result, experiments};
 const WIDEST: usize = 1100;
 /// Most rows of a table on a page; the CSV has all.
 const MOST_ROWS: usize = 40;
+/// Largest SVG and CSV file that is kept, in bytes: plots are PNG beyond, and data are made anew by the command.
+const LARGEST: u64 = 250_000;
 
 /// Writes `to/README.md`, and per experiment a folder with its page, plots, small pictures and CSV files,
-/// from the results in `from`. Pages of experiments that are not in `from` stay as they are.
+/// from the results in `from`. Experiments that have no result there are named as missing.
 ///
 /// # Errors
 ///
-/// Where a result is missing or damaged, or a file cannot be written.
+/// Where there is no result at all or one is damaged, or a file cannot be written.
 pub fn publish(from: &Path, to: &Path) -> Result<()> {
     let mut records = Vec::new();
+    let mut missing = Vec::new();
     for experiment in experiments::ALL {
-        let record = Record::read(&from.join(experiment.id))?;
-        page(&record, &from.join(experiment.id), &to.join(experiment.id))?;
+        let folder = from.join(experiment.id);
+        if !folder.join(record::FILE).is_file() {
+            missing.push(experiment.id);
+            continue;
+        }
+        let record = Record::read(&folder)?;
+        page(&record, &folder, &to.join(experiment.id))?;
         records.push(record);
     }
+    if records.is_empty() {
+        return Err(LabError::NoResults(from.to_owned()));
+    }
     let path = to.join("README.md");
-    fs::write(&path, overview(&records)).map_err(LabError::io(&path))
+    fs::write(&path, overview(&records, &missing)).map_err(LabError::io(&path))
 }
 
 /// The table over all.
-fn overview(records: &[Record]) -> String {
+fn overview(records: &[Record], missing: &[&str]) -> String {
     let mut text = String::from(HEAD);
     if let Some(record) = records.first() {
         let _ = writeln!(
@@ -76,6 +88,9 @@ fn overview(records: &[Record]) -> String {
             record.command,
         );
     }
+    if !missing.is_empty() {
+        let _ = writeln!(text, "\nNot run: {}.", missing.join(", "));
+    }
     text += BETWEEN;
     for item in items::ITEMS {
         let _ = writeln!(
@@ -112,16 +127,27 @@ fn page(record: &Record, from: &Path, to: &Path) -> Result<()> {
     fs::create_dir_all(to).map_err(LabError::io(to))?;
     let mut text = head(record);
     for plot in &record.plots {
-        copy(from, to, &plot.svg)?;
-        let _ = writeln!(text, "![{}]({})\n\n{}\n", cell(&plot.caption), plot.svg, plot.caption);
+        let kept = if is_small(&from.join(&plot.svg))? {
+            copy(from, to, &plot.svg)?;
+            &plot.svg
+        } else {
+            small(&from.join(&plot.png), &to.join(&plot.png))?;
+            &plot.png
+        };
+        let caption = &plot.caption;
+        let _ = writeln!(text, "![{}]({kept})\n\n{caption}\n", cell(caption));
     }
     for comparison in &record.comparisons {
         small(&from.join(&comparison.sheet), &to.join(&comparison.sheet))?;
         text += &pictures(comparison);
     }
     for table in &record.tables {
-        copy(from, to, &format!("{}.csv", table.name))?;
-        text += &data(table);
+        let name = format!("{}.csv", table.name);
+        let is_kept = is_small(&from.join(&name))?;
+        if is_kept {
+            copy(from, to, &name)?;
+        }
+        text += &data(table, is_kept);
     }
     let path = to.join("README.md");
     fs::write(&path, text).map_err(LabError::io(&path))
@@ -201,16 +227,23 @@ fn pictures(comparison: &WrittenComparison) -> String {
     text
 }
 
-fn data(table: &Table) -> String {
-    let mut shown = table.clone();
-    shown.rows.truncate(MOST_ROWS);
-    let mut text = format!("{} ([{}.csv]({}.csv)", table.caption, table.name, table.name);
-    if shown.rows.len() < table.rows.len() {
-        let _ = write!(text, ", {} rows)\n\n", table.rows.len());
-        return text;
+fn data(table: &Table, is_kept: bool) -> String {
+    let name = &table.name;
+    let file = if is_kept {
+        format!("[{name}.csv]({name}.csv)")
+    } else {
+        format!("{name}.csv, made by the command")
+    };
+    let rows = table.rows.len();
+    if rows > MOST_ROWS {
+        return format!("{} ({file}, {rows} rows)\n\n", table.caption);
     }
-    let _ = write!(text, ")\n\n{}\n", shown.markdown());
-    text
+    format!("{} ({file})\n\n{}\n", table.caption, table.markdown())
+}
+
+fn is_small(path: &Path) -> Result<bool> {
+    let metadata = fs::metadata(path).map_err(LabError::io(path))?;
+    Ok(metadata.len() <= LARGEST)
 }
 
 fn copy(from: &Path, to: &Path, name: &str) -> Result<()> {
@@ -249,7 +282,10 @@ fn mean(
     let mut sum = [0_usize; 3];
     for row in y..y + side {
         for pixel in &pixels[row * width + x..row * width + x + side] {
-            for (s, v) in sum.iter_mut().zip([pixel.red(), pixel.green(), pixel.blue()]) {
+            for (s, v) in sum
+                .iter_mut()
+                .zip([pixel.red(), pixel.green(), pixel.blue()])
+            {
                 *s += usize::from(v);
             }
         }

@@ -120,14 +120,32 @@ fn details(room: &mut Builder) {
     room.cuboid(dvec3(0.15, 1.93, 1.6), dvec3(0.55, 1.95, 1.62), rail);
     room.cuboid(dvec3(0.2, 1.91, 1.0), dvec3(0.5, 1.96, 1.63), towel);
     let wood = room.diffuse("stool", [0.45, 0.30, 0.17]);
-    let stool = [[0.16, 0.0], [0.1, 0.2], [0.19, 0.42], [0.19, 0.45], [0.001, 0.45]];
+    let stool = [
+        [0.16, 0.0],
+        [0.1, 0.2],
+        [0.19, 0.42],
+        [0.19, 0.45],
+        [0.001, 0.45],
+    ];
     room.lathe(dvec3(-0.95, 0.45, 0.0), &stool, wood);
     let folded = room.diffuse("folded towel", [0.72, 0.70, 0.60]);
     room.cuboid(dvec3(-1.08, 0.32, 0.45), dvec3(-0.82, 0.58, 0.55), folded);
     let bin = room.metal("Fe", 0.7);
-    let profile = [[0.13, 0.0], [0.15, 0.36], [0.15, 0.38], [0.1, 0.43], [0.001, 0.45]];
+    let profile = [
+        [0.13, 0.0],
+        [0.15, 0.36],
+        [0.15, 0.38],
+        [0.1, 0.43],
+        [0.001, 0.45],
+    ];
     room.lathe(dvec3(0.35, 1.25, 0.0), &profile, bin);
-    let bottle = [[0.035, 0.0], [0.035, 0.12], [0.012, 0.15], [0.012, 0.18], [0.001, 0.18]];
+    let bottle = [
+        [0.035, 0.0],
+        [0.035, 0.12],
+        [0.012, 0.15],
+        [0.012, 0.18],
+        [0.001, 0.18],
+    ];
     for (x, colour) in [(1.5, [0.2, 0.45, 0.3]), (1.6, [0.7, 0.5, 0.2])] {
         let soap = room.diffuse("bottle", colour);
         room.lathe(dvec3(x, 1.75, 0.83), &bottle, soap);

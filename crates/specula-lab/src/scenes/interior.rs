@@ -203,8 +203,7 @@ fn seats(room: &mut Builder) {
         room.turned_cuboid(place, -half, half, cushion);
     }
     let green = room.diffuse("armchair", [0.13, 0.22, 0.13]);
-    let place =
-        DMat4::from_translation(dvec3(1.95, 1.35, 0.0)) * DMat4::from_rotation_z(-0.75);
+    let place = DMat4::from_translation(dvec3(1.95, 1.35, 0.0)) * DMat4::from_rotation_z(-0.75);
     for (low, high) in [
         ([-0.4, -0.4, 0.12], [0.4, 0.4, 0.42]),
         ([-0.4, 0.25, 0.12], [0.4, 0.42, 0.95]),
@@ -219,7 +218,13 @@ fn seats(room: &mut Builder) {
 fn lamp(room: &mut Builder) {
     let steel = room.metal("Cr", 0.35);
     let foot = dvec3(-2.35, 2.3, 0.0);
-    let profile = [[0.18, 0.0], [0.17, 0.03], [0.02, 0.05], [0.02, 1.4], [0.06, 1.44]];
+    let profile = [
+        [0.18, 0.0],
+        [0.17, 0.03],
+        [0.02, 0.05],
+        [0.02, 1.4],
+        [0.06, 1.44],
+    ];
     room.lathe(foot, &profile, steel);
     let black = room.diffuse("globe", [0.0; 3]);
     room.sphere(foot + DVec3::Z * 1.6, 0.18, black);

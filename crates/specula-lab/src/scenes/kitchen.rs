@@ -178,6 +178,12 @@ fn island(room: &mut Builder) {
     let board = room.diffuse("board", [0.6, 0.42, 0.22]);
     room.cuboid(dvec3(0.25, -0.2, 0.9), dvec3(0.6, 0.25, 0.92), board);
     let mug = room.metal("Ti", 0.9);
-    let profile = [[0.001, 0.0], [0.045, 0.002], [0.045, 0.11], [0.04, 0.11], [0.04, 0.01]];
+    let profile = [
+        [0.001, 0.0],
+        [0.045, 0.002],
+        [0.045, 0.11],
+        [0.04, 0.11],
+        [0.04, 0.01],
+    ];
     room.lathe(dvec3(-0.6, -0.1, 0.9), &profile, mug);
 }

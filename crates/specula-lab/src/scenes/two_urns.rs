@@ -43,12 +43,7 @@ pub fn two_urns() -> Scene {
         black,
     );
     scene.glow([2.6, 2.45, 2.2]);
-    scene.quad(
-        dvec3(2.9, -2.4, 0.2),
-        DVec3::Z * 2.6,
-        DVec3::Y * 4.0,
-        black,
-    );
+    scene.quad(dvec3(2.9, -2.4, 0.2), DVec3::Z * 2.6, DVec3::Y * 4.0, black);
     scene.glow([0.9, 1.05, 1.25]);
     let urn = [
         [0.001, 0.0],

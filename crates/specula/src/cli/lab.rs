@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use serde_json::json;
 use specula::lab::report::{LARGE, Page};
-use specula::lab::{Experiment, LabError, Outcome, Record, Source, experiments, report};
+use specula::lab::{Experiment, LabError, Outcome, Record, Source, experiments, publish, report};
 
 use super::lab_arguments::{EffortArguments, LabArguments, LabCommand, ListArguments};
 use super::progress::Progress;
@@ -24,6 +24,11 @@ pub(crate) fn run(arguments: &LabArguments) -> Result<ExitCode, Failure> {
         LabCommand::Run(a) => lab_run::run(a),
         LabCommand::Report(a) => {
             write_page(&a.folder)?;
+            if let Some(to) = &a.markdown {
+                folder(to)?;
+                publish(&a.folder, to).map_err(failure)?;
+                eprintln!("wrote {}", to.join("README.md").display());
+            }
             Ok(ExitCode::SUCCESS)
         }
         LabCommand::Compare(a) => lab_compare::run(a),
@@ -35,9 +40,13 @@ pub(crate) fn run(arguments: &LabArguments) -> Result<ExitCode, Failure> {
 fn list(arguments: &ListArguments) -> String {
     if arguments.json {
         let line = |e: &Experiment| {
-            let (source, item, title) = (e.source.cite(), e.item, e.title);
-            let statement = e.statement;
-            let line = json!({ "id": e.id, "source": source, "item": item, "title": title, "statement": statement });
+            let line = json!({
+                "id": e.id,
+                "source": e.source.cite(),
+                "item": e.item,
+                "title": e.title,
+                "statement": e.statement,
+            });
             format!("{line}\n")
         };
         return experiments::ALL.iter().map(line).collect();

@@ -22,8 +22,9 @@ Examples:
   specula lab compare scene.pbrt --time 30s         which sampler suits a scene of yours
   specula lab material \"conductor Au alpha 0.3\"     all about one material
 
-Every result is a folder with result.json (verdict, seed, version, machine), tables as CSV, plots as SVG
-and PNG, pictures as EXR and PNG. The page report.html holds all of them and needs no network.
+Every result is a folder with result.json (verdict, seed, version, machine), tables as CSV, plots
+as SVG and PNG, pictures as EXR and PNG. The page report.html holds all of them and needs no
+network.
 
 Exit codes: 0 done; 1 failed; 2 the arguments, the scene or the results are wrong; 130 stopped by
 Ctrl-C, what was finished is kept and reported.";
@@ -99,8 +100,9 @@ Examples:
   specula lab run 'tokuyoshi24-*' --quality paper -o results
       all whose names begin so
 
-Each experiment's folder is replaced when it is done, not before. The page is about all results in the
-folder, those of earlier runs too. Ctrl-C keeps what is finished; once more ends the program at once.";
+Each experiment's folder is replaced when it is done, not before. The page is about all results in
+the folder, those of earlier runs too. Ctrl-C keeps what is finished; once more ends the program at
+once.";
 
 #[derive(Args, Debug)]
 #[command(after_help = RUN_EXAMPLES)]
@@ -121,15 +123,37 @@ pub(crate) struct RunArguments {
     pub(crate) effort: EffortArguments,
 }
 
+const REPORT_EXAMPLES: &str = "\
+Examples:
+  specula lab report
+      lab/report.html about all results in lab/
+  specula lab report results/tokuyoshi24-fig5
+      about one of them
+  specula lab report results --markdown docs/results
+      also as Markdown with small pictures, for a repository
+
+The page is replaced whole or not at all.";
+
 #[derive(Args, Debug)]
-#[command(
-    after_help = "Examples:\n  specula lab report\n  specula lab report results\n\nThe page is replaced whole or not at all."
-)]
+#[command(after_help = REPORT_EXAMPLES)]
 pub(crate) struct ReportArguments {
     /// Folder with results, or one result's own
     #[arg(value_name = "DIR", default_value = "lab")]
     pub(crate) folder: PathBuf,
+
+    /// Also write Markdown into this folder: README.md, and a page with plots, small pictures and CSV for each
+    /// experiment
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) markdown: Option<PathBuf>,
 }
+
+/// In the order of their years.
+const ALL_SAMPLERS: [SamplerName; 4] = [
+    SamplerName::Heitz,
+    SamplerName::Cap,
+    SamplerName::Bounded,
+    SamplerName::Exact,
+];
 
 const COMPARE_EXAMPLES: &str = "\
 Examples:
@@ -154,7 +178,7 @@ pub(crate) struct LabCompareArguments {
 
     /// Samplers, separated by commas
     #[arg(long, value_name = "NAMES", value_enum, value_delimiter = ',',
-          default_values_t = [SamplerName::Heitz, SamplerName::Cap, SamplerName::Bounded, SamplerName::Exact])]
+          default_values_t = ALL_SAMPLERS)]
     pub(crate) samplers: Vec<SamplerName>,
 
     /// Treatments of energy, separated by commas, as of `render --energy`
