@@ -23,7 +23,7 @@ pub static METALS: &[Metal] = &[
         symbol: "Au",
         name: "gold",
         eta: [0.07357, 0.49770, 1.47466],
-        k: [11.27266, 2.25734, 1.77632],
+        k: [11.27265, 2.25734, 1.77632],
         source: "Johnson and Christy 1972, Phys. Rev. B 6, 4370",
     },
     Metal {
