@@ -4,7 +4,7 @@ use super::cui23_models::{
     BITTERLI, CUI, CUI_BIDIRECTIONAL, HEITZ, IMPLEMENTATIONS, SPECULA, WANG,
 };
 use super::cui23_renders::{Reference, Trial, Way, insets, mean, reference, trials};
-use crate::output::{Comparison, Shot, Table};
+use crate::output::{Comparison, Table};
 use crate::scenes::testball::testball;
 use crate::{Claim, Experiment, Lab, Result, Source, Verdict};
 
@@ -37,20 +37,12 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     lab.comparison(&Comparison {
         name: "ball",
         caption: "Copper, alpha = 1, directional light, 4 samples per pixel.",
-        shots: done.iter().map(shot).collect(),
+        shots: done.iter().map(Trial::shot).collect(),
         reference: Some(&truth.picture),
         insets: insets(&truth.picture, [[0.4, 0.3], [0.45, 0.55]], 0.2),
         exposure_stops: 0.0,
     })?;
     Ok(verdict(&done, &truth))
-}
-
-fn shot(trial: &Trial) -> Shot<'_> {
-    Shot {
-        label: trial.label,
-        picture: &trial.picture,
-        note: format!("{SAMPLES} spp, MSE {:.2e}", trial.error()),
-    }
 }
 
 fn table(trials: &[Trial]) -> Table {

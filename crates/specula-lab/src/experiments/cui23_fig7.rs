@@ -5,7 +5,7 @@ use specula_render::RenderOptions;
 
 use super::cui23_models::{CUI, CUI_BIDIRECTIONAL, SPECULA, Shown};
 use super::cui23_renders::{Reference, Trial, Way, insets, reference, trials};
-use crate::output::{Comparison, Shot, Table};
+use crate::output::{Comparison, Table};
 use crate::scenes::pots::pots;
 use crate::{Claim, Experiment, Lab, Result, Source, Verdict};
 
@@ -63,20 +63,12 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         name: "pots",
         caption: "Aluminium, alpha 0.15, 0.2 and 0.1, environment, 16 samples per pixel: estimator and \
                   density.",
-        shots: SHOTS.map(|i| shot(&done[i])).into(),
+        shots: SHOTS.map(|i| done[i].shot()).into(),
         reference: Some(&truth.picture),
         insets: insets(&truth.picture, [[0.2, 0.6], [0.5, 0.6], [0.8, 0.6]], 0.3),
         exposure_stops: 0.0,
     })?;
     Ok(verdict(&done, &truth))
-}
-
-fn shot(trial: &Trial) -> Shot<'_> {
-    Shot {
-        label: trial.label,
-        picture: &trial.picture,
-        note: format!("{SAMPLES} spp, MSE {:.2e}", trial.error()),
-    }
 }
 
 fn table(trials: &[Trial]) -> Table {

@@ -8,7 +8,7 @@ use specula_stat::z_test::Moments;
 
 use super::cui23_models::Shown;
 use super::stopwatch::{median, processor_seconds};
-use crate::output::Inset;
+use crate::output::{Inset, Shot};
 use crate::rendered::render_prepared;
 use crate::{Lab, Result};
 
@@ -124,6 +124,15 @@ pub(super) struct Trial {
 }
 
 impl Trial {
+    /// As it is shown beside others.
+    pub(super) fn shot(&self) -> Shot<'_> {
+        Shot {
+            label: self.label,
+            picture: &self.picture,
+            note: format!("{} spp, MSE {:.2e}", self.samples_per_pixel, self.error()),
+        }
+    }
+
     /// Median of the mean squared errors of the rounds: of a render as one sees it, without the rare
     /// firefly.
     pub(super) fn error(&self) -> f64 {
