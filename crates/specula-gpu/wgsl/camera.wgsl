@@ -75,12 +75,12 @@ fn camera_within_sphere(mapping: u32, at: vec2f) -> vec2f {
 
 /// The ray of a sample.
 ///
-/// * `u`: two numbers for the filter, two for the lens.
+/// * `u`: the second and third number for the filter, the first and last for the lens.
 ///
 /// Twin: specula-render/src/camera.rs, Camera::ray.
 fn camera_ray(pixel: vec2u, u: vec4f) -> CameraRay {
-    let across = camera_filter(FILTER_ACROSS, u.x);
-    let down = camera_filter(FILTER_DOWN, u.y);
+    let across = camera_filter(FILTER_ACROSS, u.y);
+    let down = camera_filter(FILTER_DOWN, u.z);
     let raster = vec2f(pixel) + 0.5 + vec2f(across.x, down.x);
     let x = number(CAMERA + 12u) + raster.x * number(CAMERA + 14u);
     let y = number(CAMERA + 13u) + raster.y * number(CAMERA + 15u);
@@ -96,7 +96,7 @@ fn camera_ray(pixel: vec2u, u: vec4f) -> CameraRay {
     let radius = number(CAMERA + 16u);
     if radius > 0.0 {
         let focus = begin + towards * number(CAMERA + 17u);
-        begin += vec3f(area_disk(u.zw) * radius, 0.0);
+        begin += vec3f(area_disk(u.xw) * radius, 0.0);
         towards = focus - begin;
     }
     return CameraRay(

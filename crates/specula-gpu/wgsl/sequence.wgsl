@@ -1,6 +1,6 @@
-// Sample sequences: Owen-scrambled Sobol, one per pixel (Burley 2020), and hashed numbers.
+// Sample sequences: Owen-scrambled Sobol, one per pixel and set (Burley 2020), and hashed numbers.
 //
-// Twin of specula-render/src/sampler.rs, bit for bit; its table of dimensions holds here too.
+// Twin of specula-render/src/sampler.rs, bit for bit; its table of numbers holds here too.
 
 import tracer::world::{word};
 
@@ -51,27 +51,22 @@ fn sequence_scramble(reversed: u32, key: u32) -> u32 {
     return n ^ (n * 0x53a22864u);
 }
 
-/// Four numbers in `[0, 1)`: dimensions `4 set` to `4 set + 3`.
+/// Four numbers in `[0, 1)`.
 ///
 /// Twin: specula-render/src/sampler.rs, Sampler::set.
 fn sequence_set(s: Sequence, purpose: u32) -> vec4f {
-    let round = purpose / SOBOL_SETS;
-    let chosen = purpose % SOBOL_SETS;
-    var seed = s.seed;
-    if round > 0u {
-        seed = sequence_hash(s.seed + round * 0x9e3779b9u);
-    }
+    let seed = sequence_hash(s.seed + purpose * 0x9e3779b9u);
     let rest = sequence_scramble(reverseBits(s.index), sequence_mix(seed ^ 0x79c68e4au));
     var bits = vec4u(0u);
-    var at = SOBOL_COLUMNS + chosen * 64u;
+    var at = SOBOL_COLUMNS;
     for (var bit = 0u; bit < 16u; bit += 1u) {
         if ((rest << bit) & 0x80000000u) != 0u {
             bits = bits ^ vec4u(word(at), word(at + 1u), word(at + 2u), word(at + 3u));
         }
         at += 4u;
     }
-    let key = (seed * 0x9c8f2d3bu) ^ chosen;
-    let keys = vec4u(key) ^ vec4u(0x912f69bau, 0x174f18abu, 0x691e72cau, 0xb40cc1b8u);
+    let key = seed * 0x9c8f2d3bu;
+    let keys = vec4u(key) ^ vec4u(0x691e72cau, 0x912f69bau, 0x174f18abu, 0xb40cc1b8u);
     let scrambled = vec4u(
         sequence_scramble(bits.x, sequence_mix(keys.x)),
         sequence_scramble(bits.y, sequence_mix(keys.y)),
@@ -81,7 +76,7 @@ fn sequence_set(s: Sequence, purpose: u32) -> vec4f {
     return bitcast<vec4f>((reverseBits(scrambled) >> vec4u(9u)) | vec4u(0x3f800000u)) - 1.0;
 }
 
-/// Two numbers for the filter, two for the lens.
+/// The second and third number for the filter, the first and last for the lens.
 fn sequence_camera(s: Sequence) -> vec4f {
     return sequence_set(s, 0u);
 }

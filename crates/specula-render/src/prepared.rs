@@ -12,7 +12,7 @@ use crate::film::filter::FilterSampler;
 use crate::geometry::{FARTHEST, Geometry};
 use crate::light::Lights;
 use crate::material::Materials;
-use crate::options::RenderOptions;
+use crate::options::{RenderOptions, Strategy};
 use crate::texture::Textures;
 
 /// Most pixels of a picture.
@@ -121,7 +121,8 @@ impl PreparedScene {
         if !geometry.is_within_reach() {
             return Err(PrepareError::TooFar);
         }
-        let lights = Lights::new(&scene, &geometry, &textures);
+        let beside_lobes = matches!(options.strategy, Strategy::Mis | Strategy::Balance);
+        let lights = Lights::new(&scene, &geometry, &textures, beside_lobes);
         let lanes_of = geometry.shapes.iter().map(|s| {
             let [plain, _] = materials.plain(s.material)?;
             Some((s.material, plain.is_sided))

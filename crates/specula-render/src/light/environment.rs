@@ -23,7 +23,7 @@ use specula_scene::scene::EnvironmentMapping;
 use crate::convert::Affine;
 use crate::flat::Words;
 pub(super) use lanes::{Bundle, LANES};
-use picture::{Picture, Pixel, direction_and_sine, uv_and_sine};
+use picture::{LEAST_KEPT, Picture, Pixel, direction_and_sine, uv_and_sine};
 
 /// A pixel of the picture: itself with what it is drawn by, and its place in the table.
 pub(super) const BYTES_PER_PIXEL: u64 = (size_of::<Pixel>() + size_of::<f32>()) as u64;
@@ -39,23 +39,30 @@ pub(crate) struct Environment {
     /// Factor on the picture.
     radiance: Rgb<f32>,
     picture: Option<Box<Picture>>,
+    /// Share of a constant light that is not left to lobes.
+    kept: f32,
     to_world: Affine,
     to_light: Affine,
 }
 
 impl Environment {
     /// * `to_world`: light space to world space; lengths in it do not matter.
+    /// * `beside_lobes`: whether lobes are drawn from as well, weighted against this.
     pub(crate) fn new(
         radiance: Rgb<f32>,
         image: Option<(&Image, EnvironmentMapping)>,
         to_world: &glam::DMat4,
+        beside_lobes: bool,
     ) -> Self {
         let m = DMat3::from_mat4(*to_world);
         // A scale (of the file's whole world) is no matter of directions.
         let m = m * m.determinant().abs().cbrt().recip();
         Self {
             radiance,
-            picture: image.and_then(|(image, mapping)| Picture::new(image, mapping).map(Box::new)),
+            picture: image.and_then(|(image, mapping)| {
+                Picture::new(image, mapping, beside_lobes).map(Box::new)
+            }),
+            kept: if beside_lobes { LEAST_KEPT } else { 1.0 },
             to_world: Affine::linear(&m),
             to_light: Affine::linear(&m.inverse()),
         }
@@ -111,12 +118,12 @@ impl Environment {
         }
     }
 
-    /// Integral of luminance over the sphere of directions.
-    pub(crate) fn luminous_integral(&self) -> f64 {
+    /// Integral over the sphere of directions of what is drawn by, for the choice between lights.
+    pub(crate) fn drawn_integral(&self) -> f64 {
         let factor = f64::from(self.radiance.luminance().max(self.radiance.mean()));
         factor
             * match &self.picture {
-                None => 4.0 * core::f64::consts::PI,
+                None => f64::from(self.kept) * 4.0 * core::f64::consts::PI,
                 Some(p) => p.integral(),
             }
     }
@@ -145,7 +152,7 @@ mod tests {
             pixels,
         };
         let turn = glam::DMat4::from_rotation_x(0.7) * glam::DMat4::from_rotation_z(2.0);
-        Environment::new(Rgb::WHITE, Some((&image, mapping)), &turn)
+        Environment::new(Rgb::WHITE, Some((&image, mapping)), &turn, false)
     }
 
     pub(super) const MAPPINGS: [EnvironmentMapping; 3] = [
@@ -230,8 +237,8 @@ mod tests {
                 pixels,
             };
             let identity = glam::DMat4::IDENTITY;
-            let sky = Environment::new(Rgb::WHITE, Some((&image, mapping)), &identity);
-            let all = sky.luminous_integral();
+            let sky = Environment::new(Rgb::WHITE, Some((&image, mapping)), &identity, false);
+            let all = sky.drawn_integral();
             for i in 0..2000 {
                 let u = Sampler::new([i, 1], 0, 5).camera();
                 let (_, radiance, pdf) = sky.sample([u[0], u[1]]).unwrap();

@@ -107,7 +107,14 @@ pub(crate) const BYTES_PER_FAR_PIXEL: u64 = environment::BYTES_PER_PIXEL;
 
 impl Lights {
     /// Gathers the lights of a scene.
-    pub(crate) fn new(scene: &Scene, geometry: &Geometry, textures: &Textures) -> Self {
+    ///
+    /// * `beside_lobes`: whether lobes are drawn from as well, weighted against lights.
+    pub(crate) fn new(
+        scene: &Scene,
+        geometry: &Geometry,
+        textures: &Textures,
+        beside_lobes: bool,
+    ) -> Self {
         let mut lights = Self {
             sources: Vec::new(),
             far: Vec::new(),
@@ -133,8 +140,8 @@ impl Lights {
                     }),
                 }
                 lights.sources.push(Source::Delta(delta));
-            } else if let Some(light) = Far::new(light, scene) {
-                far.push((index, light.luminous_integral()));
+            } else if let Some(light) = Far::new(light, scene, beside_lobes) {
+                far.push((index, light.drawn_integral()));
                 lights.sources.push(Source::Far(lights.far.len()));
                 lights.far.push((light, index));
             }
@@ -350,7 +357,7 @@ impl Lights {
 
 impl Far {
     /// `None` for lights without extent.
-    fn new(light: &Light, scene: &Scene) -> Option<Self> {
+    fn new(light: &Light, scene: &Scene, beside_lobes: bool) -> Option<Self> {
         match light {
             Light::Infinite {
                 radiance,
@@ -359,7 +366,10 @@ impl Far {
             } => {
                 let image = image.map(|(id, mapping)| (&scene.images[id.0], mapping));
                 Some(Self::Environment(Environment::new(
-                    *radiance, image, to_world,
+                    *radiance,
+                    image,
+                    to_world,
+                    beside_lobes,
                 )))
             }
             Light::Distant {
@@ -392,10 +402,10 @@ impl Far {
         matches!(self, Self::Environment(light) if light.is_picture())
     }
 
-    fn luminous_integral(&self) -> f64 {
+    fn drawn_integral(&self) -> f64 {
         match self {
-            Self::Environment(light) => light.luminous_integral(),
-            Self::Sun(light) => light.luminous_integral(),
+            Self::Environment(light) => light.drawn_integral(),
+            Self::Sun(light) => light.drawn_integral(),
         }
     }
 }

@@ -18,6 +18,10 @@ use crate::flat::Words;
 /// Red, green, blue, and what is drawn by.
 pub(super) type Pixel = [f32; 4];
 
+/// What lights drawn beside lobes keep of a pixel that is darker than the sky's mean: lobes whose density
+/// is wrong, or which draw nothing, still have their light from there.
+pub(super) const LEAST_KEPT: f32 = 0.01;
+
 /// A picture, ready to be drawn from.
 #[derive(Clone, Debug)]
 pub(super) struct Picture {
@@ -36,7 +40,13 @@ pub(super) struct Picture {
 
 impl Picture {
     /// `None` where the picture is empty.
-    pub(super) fn new(image: &Image, mapping: EnvironmentMapping) -> Option<Self> {
+    ///
+    /// * `beside_lobes`: whether lobes are drawn from as well, weighted against this.
+    pub(super) fn new(
+        image: &Image,
+        mapping: EnvironmentMapping,
+        beside_lobes: bool,
+    ) -> Option<Self> {
         let size = [image.width as usize, image.height as usize];
         if size[0] == 0 || size[1] == 0 || image.pixels.len() != size[0] * size[1] {
             return None;
@@ -70,7 +80,22 @@ impl Picture {
             mean: 0.0,
         };
         picture.tabulate();
+        if beside_lobes {
+            picture.leave_to_lobes();
+        }
         Some(picture)
+    }
+
+    /// Takes the mean over the sphere off what is drawn by: drawing from lobes finds what is as bright
+    /// everywhere, so that samples of lights do more in what stands out.
+    ///
+    /// Source: Karlik et al. 2019, MIS compensation, eq. 17 (there without a floor).
+    fn leave_to_lobes(&mut self) {
+        let mean = narrow(self.integral() / (4.0 * core::f64::consts::PI));
+        for [_, _, _, strength] in &mut self.corners {
+            *strength = (*strength - mean).max(LEAST_KEPT * *strength);
+        }
+        self.tabulate();
     }
 
     fn tabulate(&mut self) {
