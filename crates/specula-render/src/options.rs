@@ -40,6 +40,9 @@ pub struct RenderOptions {
     pub crop: Option<[u32; 4]>,
     /// How direct light is found.
     pub strategy: Strategy,
+    /// Whether, with both strategies, lights are drawn by what lobes find less well: skies by what
+    /// exceeds their mean (Karlik et al. 2019). Otherwise by luminance.
+    pub mis_compensation: bool,
     /// Number of each pixel's first sample: renders of different numbers are parts of one picture.
     pub first_sample: u32,
     /// Estimated error at which the picture is done, with samples spread by their error (see
@@ -62,14 +65,20 @@ impl RenderOptions {
             resolution: _,
             crop: _,
             strategy,
+            mis_compensation,
             first_sample: _,
             noise,
         } = self;
         // Not which noise: a film goes on to a smaller one as if that had been asked for at first.
         let spread = if noise.is_some() { ", adaptive" } else { "" };
+        let drawn = if *mis_compensation {
+            ""
+        } else {
+            ", lights by luminance"
+        };
         format!(
             "depth {max_depth}, seed {seed}, sampler {vndf_sampler}, energy {energy}, {mis_pdf:?}, \
-             {strategy:?}{spread}"
+             {strategy:?}{drawn}{spread}"
         )
     }
 
@@ -95,6 +104,7 @@ impl Default for RenderOptions {
             resolution: None,
             crop: None,
             strategy: Strategy::default(),
+            mis_compensation: true,
             first_sample: 0,
             noise: None,
         }

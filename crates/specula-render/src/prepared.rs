@@ -121,7 +121,8 @@ impl PreparedScene {
         if !geometry.is_within_reach() {
             return Err(PrepareError::TooFar);
         }
-        let beside_lobes = matches!(options.strategy, Strategy::Mis | Strategy::Balance);
+        let beside_lobes = options.mis_compensation
+            && matches!(options.strategy, Strategy::Mis | Strategy::Balance);
         let lights = Lights::new(&scene, &geometry, &textures, beside_lobes);
         let lanes_of = geometry.shapes.iter().map(|s| {
             let [plain, _] = materials.plain(s.material)?;

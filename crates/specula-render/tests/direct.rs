@@ -4,9 +4,10 @@ mod common;
 
 use common::*;
 use core::f64::consts::PI;
+use core::sync::atomic::AtomicBool;
 use glam::{DMat4, DVec3};
 use specula_bsdf::Rgb;
-use specula_render::Strategy;
+use specula_render::{PreparedScene, RenderOptions, Renderer, Strategy};
 use specula_scene::Image;
 use specula_scene::scene::*;
 
@@ -335,6 +336,50 @@ fn skies_of_both_mappings_agree_by_all_strategies() {
             assert!(z.abs() < 4.5, "{mapping:?}: {results:?}");
         }
     }
+}
+
+/// Lights that leave to lobes what is as bright everywhere: the same picture with less noise.
+#[test]
+fn compensation_takes_noise_off_a_sky_with_a_sun() {
+    let mut scene = lit_floor();
+    scene.camera = look([0.0, -2.5, 3.0], [0.0; 3], 6.0);
+    scene.materials[0].kind = mirror_metal(0.3);
+    let (width, height) = (64, 32);
+    let mut pixels = vec![[0.5_f32; 3]; 64 * 32];
+    pixels[6 * 64 + 20] = [600.0; 3];
+    scene.images.push(Image {
+        name: "sky".into(),
+        width,
+        height,
+        pixels,
+    });
+    scene.lights.push(Light::Infinite {
+        radiance: Rgb::splat(1.0),
+        image: Some((ImageId(0), EnvironmentMapping::LatitudeLongitude)),
+        to_world: DMat4::IDENTITY,
+    });
+    let render = |mis_compensation: bool, seed: u32| {
+        let options = RenderOptions {
+            samples_per_pixel: 64,
+            max_depth: 1,
+            seed,
+            mis_compensation,
+            ..RenderOptions::default()
+        };
+        let prepared = PreparedScene::new(&scene, &options).expect("the scene is sound");
+        let mut renderer = Renderer::new(&prepared, options);
+        renderer.render_pass(64, &AtomicBool::new(false));
+        renderer.film().picture()
+    };
+    let [[with, noise_with], [without, noise_without]] = [true, false].map(|compensated| {
+        let [a, b] = [1, 2].map(|seed| render(compensated, seed));
+        let apart = a.colour.iter().zip(&b.colour);
+        let squares: f64 = apart.map(|(a, b)| f64::from(a.g - b.g).powi(2)).sum();
+        [0.5 * (mean(&a).0 + mean(&b).0), squares]
+    });
+    assert!((with / without - 1.0).abs() < 0.01, "{with}, {without}");
+    let ratio = noise_with / noise_without;
+    assert!(ratio < 0.7, "{ratio}");
 }
 
 /// Strategies on a metal, where lobes and lights differ most; a wrong weight shows here.

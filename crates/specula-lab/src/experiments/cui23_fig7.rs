@@ -34,6 +34,8 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         label,
         options: RenderOptions {
             mis_pdf,
+            // As the paper's renderer.
+            mis_compensation: false,
             ..Way::of(shown, SAMPLES, DIRECT).options
         },
     };
@@ -142,7 +144,9 @@ fn verdict(trials: &[Trial; 9], truth: &Reference) -> Verdict {
         ],
         caveat: format!(
             "Pots and environment of our own, on a floor so dark that noise is of the metal; direct \
-             light only. The paper does not say which of its estimators it shows. A smaller density \
+             light only, the environment drawn by luminance. (Drawn by what exceeds \
+             the environment's mean, as Specula does, it leaves Cui's bidirectional estimator the same noise \
+             with each density.) The paper does not say which of its estimators it shows. A smaller density \
              gives samples of the light more weight, whose evaluation is noisy: that pays only with a \
              good estimator. The H of eq. 15 is the repaired one. The reference's own error is {:.1e} \
              of its mean.",

@@ -2,7 +2,8 @@
 //!
 //! Below a few dozen primitives a tree costs more than it saves. Rays are sorted by the axis in which
 //! their direction is greatest, so that the triangle test permutes the coordinates of all alike, and
-//! laid side by side. The loops over [`PACK`] rays are compiled to vectors.
+//! laid side by side. The loops over [`PACK`] rays are compiled to vectors. Triangles that share corners
+//! are tested together: each corner is sheared once.
 //!
 //! Operation by operation the same as the traversal, whose boxes never cull a hit: the answers are
 //! equal bit for bit. Primitives come in ascending order, so that of equal distances the first stays.
@@ -30,14 +31,57 @@ const MOST: usize = 64;
 /// Triangles that take as long as a quadric.
 const QUADRIC: usize = 3;
 
+/// Corners of a cluster: those of a box. A power of two.
+const CORNERS: usize = 8;
+
 /// A number of each ray.
 type Column = [f32; PACK];
+
+/// Triangles one after the other, and the corners that they share.
+#[derive(Clone, Debug)]
+struct Cluster {
+    /// By the axis in which directions are greatest, with coordinates in the order of its shear.
+    corners: [Vec<[f32; 3]>; 3],
+    /// Places among the corners.
+    triangles: Vec<[u8; 3]>,
+}
+
+impl Cluster {
+    const EMPTY: Self = Self {
+        corners: [const { Vec::new() }; 3],
+        triangles: Vec::new(),
+    };
+
+    /// Adds a triangle; `false` where its corners are too many.
+    fn take(&mut self, corners: &[[f32; 3]; 3]) -> bool {
+        let mut all = self.corners[2].clone();
+        let places = corners.map(|p| {
+            // By their bits: what is sheared must be the same to the sign of zero.
+            let bits = |p: &[f32; 3]| p.map(f32::to_bits);
+            let known = all.iter().position(|q| bits(q) == bits(&p));
+            known.unwrap_or_else(|| {
+                all.push(p);
+                all.len() - 1
+            })
+        });
+        if all.len() > CORNERS {
+            return false;
+        }
+        self.corners = [0, 1, 2].map(|axis: usize| {
+            let permuted = |p: &[f32; 3]| [p[(axis + 1) % 3], p[(axis + 2) % 3], p[axis]];
+            all.iter().map(permuted).collect()
+        });
+        self.triangles
+            .push(places.map(|place| u8::try_from(place).unwrap_or(0)));
+        true
+    }
+}
 
 /// Everything that there is.
 #[derive(Clone, Debug)]
 pub(super) struct Small {
-    /// By the axis in which directions are greatest, with coordinates in the order of its shear.
-    triangles: [Vec<[[f32; 3]; 3]>; 3],
+    /// All triangles, ascending.
+    clusters: Vec<Cluster>,
     /// Of the triangles and then of the quadrics, ascending.
     primitives: Vec<u32>,
     quadrics: Vec<Placed>,
@@ -69,11 +113,16 @@ impl Small {
         }
         triangles.sort_unstable_by_key(|t| t.0);
         quadrics.sort_unstable_by_key(|q| q.primitive);
+        let mut clusters: Vec<Cluster> = Vec::new();
+        for (_, corners) in &triangles {
+            if !clusters.last_mut().is_some_and(|c| c.take(corners)) {
+                let mut cluster = Cluster::EMPTY;
+                cluster.take(corners);
+                clusters.push(cluster);
+            }
+        }
         Some(Self {
-            triangles: [0, 1, 2].map(|axis| {
-                let permuted = |p: [f32; 3]| [p[(axis + 1) % 3], p[(axis + 2) % 3], p[axis]];
-                triangles.iter().map(|t| t.1.map(permuted)).collect()
-            }),
+            clusters,
             primitives: triangles
                 .iter()
                 .map(|t| t.0)
@@ -211,22 +260,33 @@ impl Pack {
         }
     }
 
-    /// Takes what is closer of a triangle.
+    /// Takes what is closer of some triangles, whose places begin with `place`.
     #[inline(always)]
-    fn offer(&mut self, corners: &[[f32; 3]; 3], place: u32) {
+    fn offer_cluster(&mut self, cluster: &Cluster, axis: usize, place: u32) {
         let (o, s) = (&self.sheared_origin, &self.shear);
-        let mut p = [[[0.0; PACK]; 3]; 3];
-        for corner in 0..3 {
+        let mut sheared = [[[0.0; PACK]; 3]; CORNERS];
+        for (corner, p) in cluster.corners[axis].iter().zip(&mut sheared) {
             for lane in 0..PACK {
-                let sheared = triangle::shear(corners[corner], at(o, lane), at(s, lane));
-                set(&mut p[corner], lane, sheared);
+                set(p, lane, triangle::shear(*corner, at(o, lane), at(s, lane)));
             }
         }
+        for (place, corners) in (place..).zip(&cluster.triangles) {
+            let p = corners.map(|c| &sheared[usize::from(c) % CORNERS]);
+            self.offer(p, place);
+        }
+    }
+
+    /// Takes what is closer of a triangle.
+    ///
+    /// * `p`: its corners, sheared.
+    #[inline(always)]
+    fn offer(&mut self, p: [&[Column; 3]; 3], place: u32) {
+        let dz = &self.shear[2];
         let mut weights = [[0.0; PACK]; 3];
         let mut inside = [0; PACK];
         let mut some = 0;
         for lane in 0..PACK {
-            let [a, b, c] = [at(&p[0], lane), at(&p[1], lane), at(&p[2], lane)];
+            let [a, b, c] = p.map(|corner| at(corner, lane));
             let uvw = triangle::edge_functions(a, b, c);
             set(&mut weights, lane, uvw);
             inside[lane] = u32::from(triangle::inside(uvw));
@@ -237,7 +297,7 @@ impl Pack {
         }
         for lane in 0..PACK {
             let z = [p[0][2][lane], p[1][2][lane], p[2][2][lane]];
-            let (t, u, v) = triangle::distance(at(&weights, lane), z, s[2][lane]);
+            let (t, u, v) = triangle::distance(at(&weights, lane), z, dz[lane]);
             let closer = (inside[lane] != 0) & (t > 0.0) & (t < self.t[lane]);
             self.t[lane] = if closer { t } else { self.t[lane] };
             self.u[lane] = if closer { u } else { self.u[lane] };
@@ -295,8 +355,10 @@ impl Pack {
     /// Takes what is closer of everything.
     #[inline(always)]
     fn offer_all(&mut self, small: &Small, axis: usize) {
-        for (place, corners) in (0..).zip(&small.triangles[axis]) {
-            self.offer(corners, place);
+        let mut place = 0;
+        for cluster in &small.clusters {
+            self.offer_cluster(cluster, axis, place);
+            place += crate::convert::id(cluster.triangles.len());
         }
         for (place, quadric) in (small.first_quadric..).zip(&small.quadrics) {
             self.offer_quadric(quadric, place);

@@ -136,7 +136,7 @@ mod tests {
     use crate::sampler::Sampler;
     use specula_bsdf::math::vec3;
 
-    pub(super) fn sky(mapping: EnvironmentMapping) -> Environment {
+    pub(super) fn sky(mapping: EnvironmentMapping, beside_lobes: bool) -> Environment {
         let (width, height) = (12_u32, 12_u32);
         let pixels = (0..width * height)
             .map(|i| match (i % width, i / width) {
@@ -152,7 +152,7 @@ mod tests {
             pixels,
         };
         let turn = glam::DMat4::from_rotation_x(0.7) * glam::DMat4::from_rotation_z(2.0);
-        Environment::new(Rgb::WHITE, Some((&image, mapping)), &turn, false)
+        Environment::new(Rgb::WHITE, Some((&image, mapping)), &turn, beside_lobes)
     }
 
     pub(super) const MAPPINGS: [EnvironmentMapping; 3] = [
@@ -168,8 +168,8 @@ mod tests {
     fn densities_integrate_to_one_and_match_where_samples_fall() {
         let [rows, columns] = CELLS;
         let cells = (rows * columns) as usize;
-        for mapping in MAPPINGS {
-            let sky = sky(mapping);
+        for (mapping, beside_lobes) in MAPPINGS.into_iter().flat_map(|m| [(m, false), (m, true)]) {
+            let sky = sky(mapping, beside_lobes);
             let mut expected = vec![0.0_f64; cells];
             let fine = 96;
             for i in 0..rows * fine {
@@ -250,8 +250,8 @@ mod tests {
 
     #[test]
     fn no_light_has_density_zero() {
-        for mapping in MAPPINGS {
-            let sky = sky(mapping);
+        for (mapping, beside_lobes) in MAPPINGS.into_iter().flat_map(|m| [(m, false), (m, true)]) {
+            let sky = sky(mapping, beside_lobes);
             for i in 0..20_000 {
                 let u = Sampler::new([i, 2], 0, 5).camera();
                 let wi = specula_bsdf::math::warp::uniform_sphere([u[0], u[1]]);
@@ -263,7 +263,7 @@ mod tests {
 
     #[test]
     fn interpolation_is_continuous_over_the_edges_of_the_square() {
-        let sky = sky(EnvironmentMapping::EqualAreaOctahedral);
+        let sky = sky(EnvironmentMapping::EqualAreaOctahedral, false);
         let p = sky.picture.as_ref().unwrap();
         for i in 0..1000 {
             // Neighbouring directions on either side of the seams.

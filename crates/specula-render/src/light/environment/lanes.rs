@@ -201,7 +201,7 @@ mod tests {
     #[test]
     fn lanes_do_what_is_done_for_one() {
         for mapping in MAPPINGS {
-            let sky = sky(mapping);
+            let sky = sky(mapping, true);
             let mut bundle = Bundle::ZERO;
             for first in (0..1000).step_by(LANES) {
                 // Not a multiple of any vector's length.
