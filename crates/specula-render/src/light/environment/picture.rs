@@ -89,7 +89,7 @@ impl Picture {
     /// Takes the mean over the sphere off what is drawn by: drawing from lobes finds what is as bright
     /// everywhere, so that samples of lights do more in what stands out.
     ///
-    /// Source: Karlik et al. 2019, MIS compensation, eq. 17 (there without a floor).
+    /// Source: Karlik et al. 2019, "MIS Compensation", for light from a picture (there without a floor).
     fn leave_to_lobes(&mut self) {
         let mean = narrow(self.integral() / (4.0 * core::f64::consts::PI));
         for [_, _, _, strength] in &mut self.corners {
