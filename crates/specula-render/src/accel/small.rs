@@ -261,11 +261,18 @@ impl Pack {
     }
 
     /// Takes what is closer of some triangles, whose places begin with `place`.
+    ///
+    /// * `sheared`: room for corners.
     #[inline(always)]
-    fn offer_cluster(&mut self, cluster: &Cluster, axis: usize, place: u32) {
+    fn offer_cluster(
+        &mut self,
+        cluster: &Cluster,
+        axis: usize,
+        place: u32,
+        sheared: &mut [[Column; 3]; CORNERS],
+    ) {
         let (o, s) = (&self.sheared_origin, &self.shear);
-        let mut sheared = [[[0.0; PACK]; 3]; CORNERS];
-        for (corner, p) in cluster.corners[axis].iter().zip(&mut sheared) {
+        for (corner, p) in cluster.corners[axis].iter().zip(&mut *sheared) {
             for lane in 0..PACK {
                 set(p, lane, triangle::shear(*corner, at(o, lane), at(s, lane)));
             }
@@ -356,8 +363,9 @@ impl Pack {
     #[inline(always)]
     fn offer_all(&mut self, small: &Small, axis: usize) {
         let mut place = 0;
+        let mut sheared = [[[0.0; PACK]; 3]; CORNERS];
         for cluster in &small.clusters {
-            self.offer_cluster(cluster, axis, place);
+            self.offer_cluster(cluster, axis, place, &mut sheared);
             place += crate::convert::id(cluster.triangles.len());
         }
         for (place, quadric) in (small.first_quadric..).zip(&small.quadrics) {
