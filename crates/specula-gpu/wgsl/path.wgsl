@@ -36,6 +36,8 @@ const STRATEGY_BALANCE: u32 = 1u;
 const STRATEGY_LIGHTS_ONLY: u32 = 2u;
 /// By lobes only.
 const STRATEGY_BSDF_ONLY: u32 = 3u;
+/// Both, weighed by the power heuristic with exponent 2 instead of 3/2.
+const STRATEGY_POWER: u32 = 4u;
 
 /// A path on its way.
 struct PathState {
@@ -72,7 +74,10 @@ fn path_heuristic(a: f32, b: f32) -> f32 {
     if STRATEGY == STRATEGY_BALANCE {
         return 1.0 / (1.0 + ratio);
     }
-    return 1.0 / (1.0 + ratio * ratio);
+    if STRATEGY == STRATEGY_POWER {
+        return 1.0 / (1.0 + ratio * ratio);
+    }
+    return 1.0 / (1.0 + ratio * sqrt(ratio));
 }
 
 /// Weight of light found by a lobe's direction, which lights find with density `light_pdf`.

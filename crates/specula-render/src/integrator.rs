@@ -50,6 +50,14 @@ fn survival_probability(largest: f32) -> f32 {
     (2.0 * largest).clamp(0.05, 1.0)
 }
 
+/// Weight by the power heuristic with exponent 3/2.
+///
+/// * `ratio`: the other strategy's density over this one's.
+#[inline(always)]
+fn power_heuristic(ratio: f32) -> f32 {
+    1.0 / (1.0 + ratio * ratio.sqrt())
+}
+
 /// Traces paths through a scene.
 #[derive(Clone, Copy)]
 pub(crate) struct PathTracer<'a> {
@@ -307,7 +315,8 @@ impl<'a> PathTracer<'a> {
         let ratio = b / a;
         match self.strategy {
             Strategy::Balance => 1.0 / (1.0 + ratio),
-            _ => 1.0 / (1.0 + ratio * ratio),
+            Strategy::Power => 1.0 / (1.0 + ratio * ratio),
+            _ => power_heuristic(ratio),
         }
     }
 

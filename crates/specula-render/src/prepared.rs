@@ -122,7 +122,10 @@ impl PreparedScene {
             return Err(PrepareError::TooFar);
         }
         let beside_lobes = options.mis_compensation
-            && matches!(options.strategy, Strategy::Mis | Strategy::Balance);
+            && matches!(
+                options.strategy,
+                Strategy::Mis | Strategy::Balance | Strategy::Power
+            );
         let lights = Lights::new(&scene, &geometry, &textures, beside_lobes);
         let lanes_of = geometry.shapes.iter().map(|s| {
             let [plain, _] = materials.plain(s.material)?;

@@ -123,11 +123,13 @@ fn seed_of_set(seed: u32, set: u32) -> u32 {
 pub(crate) struct Numbers<const N: usize> {
     indices: [u32; N],
     seeds: [u32; N],
+    /// What the sets are shuffled and scrambled by.
+    keys: [u32; N],
     /// Shuffled indices, bits reversed.
     rest: [u32; N],
-    /// Of the sequence before it is scrambled, by dimension.
-    bits: [[u32; N]; 4],
-    /// By dimension.
+    /// Of the sequence's third and fourth dimension, before they are scrambled.
+    bits: [[u32; N]; 2],
+    /// By number of the set.
     pub(crate) values: [[f32; N]; 4],
 }
 
@@ -135,8 +137,9 @@ impl<const N: usize> Numbers<N> {
     pub(crate) const ZERO: Self = Self {
         indices: [0; N],
         seeds: [0; N],
+        keys: [0; N],
         rest: [0; N],
-        bits: [[0; N]; 4],
+        bits: [[0; N]; 2],
         values: [[0.0; N]; 4],
     };
 
@@ -175,43 +178,60 @@ pub(crate) fn flatten(to: &mut Words) {
 }
 
 /// Burley's shuffled and scrambled sequence, as in the crate's `sample_4d`.
+///
+/// The first dimension's generator matrix is the identity, the second's Pascal's triangle modulo 2, whose
+/// entry at `i`, `j` is 1 where the bits of `i` are among those of `j` (Lucas's theorem): four steps
+/// instead of sixteen columns.
 #[multiversion(targets(
     "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
     "x86_64+avx2+fma+bmi1+bmi2"
 ))]
 fn draw<const N: usize>(n: usize, set: u32, numbers: &mut Numbers<N>) {
-    use sobol_burley::parts::{hash, owen_scramble_rev, u32_to_f32_norm};
+    use sobol_burley::parts::{hash, owen_scramble_rev};
     let n = n.min(N);
     let Numbers {
         indices,
         seeds,
+        keys,
         rest,
         bits,
         values,
     } = numbers;
     for i in 0..n {
-        let seed = seed_of_set(seeds[i], set);
-        rest[i] = owen_scramble_rev(indices[i].reverse_bits(), hash(seed ^ 0x79c6_8e4a));
+        keys[i] = seed_of_set(seeds[i], set);
+        rest[i] = owen_scramble_rev(indices[i].reverse_bits(), hash(keys[i] ^ 0x79c6_8e4a));
     }
-    // One column after the other: these are the loops that become vectors.
-    let [b0, b1, b2, b3] = bits;
-    for (bit, [c0, c1, c2, c3]) in (0_u32..).zip(&*COLUMNS) {
+    let [b0, b3] = bits;
+    for (bit, [c0, _, _, c3]) in (0_u32..).zip(&*COLUMNS) {
         for i in 0..n {
             let mask = ((rest[i] << bit) >> 31).wrapping_neg();
             let so_far = |b: u32| if bit == 0 { 0 } else { b };
             b0[i] = so_far(b0[i]) ^ (mask & c0);
-            b1[i] = so_far(b1[i]) ^ (mask & c1);
-            b2[i] = so_far(b2[i]) ^ (mask & c2);
             b3[i] = so_far(b3[i]) ^ (mask & c3);
         }
     }
-    for ((bits, values), key) in [b0, b1, b2, b3].into_iter().zip(values).zip(KEYS) {
-        for i in 0..n {
-            let seed = seed_of_set(seeds[i], set);
-            let key = hash(seed.wrapping_mul(0x9c8f_2d3b) ^ key);
-            values[i] = u32_to_f32_norm(owen_scramble_rev(bits[i], key).reverse_bits());
-        }
+    let [v0, v1, v2, v3] = values;
+    for i in 0..n {
+        v0[i] = scrambled(b0[i], keys[i], KEYS[0]);
+        v3[i] = scrambled(b3[i], keys[i], KEYS[3]);
     }
+    for i in 0..n {
+        let x = (rest[i] & 0xffff_0000).reverse_bits();
+        v1[i] = scrambled(x, keys[i], KEYS[1]);
+        let x = x ^ ((x >> 1) & 0x5555);
+        let x = x ^ ((x >> 2) & 0x3333);
+        let x = x ^ ((x >> 4) & 0x0f0f);
+        let x = x ^ ((x >> 8) & 0x00ff);
+        v2[i] = scrambled(x, keys[i], KEYS[2]);
+    }
+}
+
+/// A number of a set in `[0, 1)` from its bits, reversed.
+#[inline(always)]
+fn scrambled(bits: u32, set: u32, number: u32) -> f32 {
+    use sobol_burley::parts::{hash, owen_scramble_rev, u32_to_f32_norm};
+    let key = hash(set.wrapping_mul(0x9c8f_2d3b) ^ number);
+    u32_to_f32_norm(owen_scramble_rev(bits, key).reverse_bits())
 }
 
 /// A bijective mix of 32 bits.
@@ -259,17 +279,20 @@ mod tests {
         for i in 0..33 {
             numbers.place(i, &sampler(i));
         }
+        let found = |numbers: &Numbers<48>, i: usize| [0, 1, 2, 3].map(|d| numbers.values[d][i]);
         for vertex in [0, 1, 30, 31, 32, 99] {
             numbers.draw(33, Purpose::Scatter, vertex);
             for i in 0..33 {
-                let found = [0, 1, 2, 3].map(|d| numbers.values[d][i]);
-                assert_eq!(found, sampler(i).scatter(vertex));
+                assert_eq!(found(&numbers, i), sampler(i).scatter(vertex));
             }
             numbers.draw(33, Purpose::Light, vertex);
             for i in 0..33 {
-                let found = [0, 1, 2, 3].map(|d| numbers.values[d][i]);
-                assert_eq!(found, sampler(i).light(vertex));
+                assert_eq!(found(&numbers, i), sampler(i).light(vertex));
             }
+        }
+        numbers.draw(33, Purpose::Camera, 7);
+        for i in 0..33 {
+            assert_eq!(found(&numbers, i), sampler(i).camera());
         }
     }
 

@@ -22,9 +22,10 @@ fn check(what: &str, scene: &Scene, irradiance: f64, strategies: &[(Strategy, u3
     }
 }
 
-const ALL: [(Strategy, u32); 4] = [
+const ALL: [(Strategy, u32); 5] = [
     (Strategy::Mis, 1024),
     (Strategy::Balance, 1024),
+    (Strategy::Power, 1024),
     (Strategy::LightsOnly, 1024),
     (Strategy::BsdfOnly, 4096),
 ];
@@ -398,6 +399,7 @@ fn strategies_agree_on_rough_metal() {
             (Strategy::Balance, 1024),
             (Strategy::LightsOnly, 4096),
             (Strategy::BsdfOnly, 16384),
+            (Strategy::Power, 1024),
         ]
         .map(|(strategy, spp)| mean(&render(&scene, spp, 3, strategy)));
         assert_agree(&format!("alpha {a}"), &results, 0, 0.01);

@@ -114,6 +114,7 @@ pub(super) fn strategy_name(strategy: Strategy) -> &'static str {
     match strategy {
         Strategy::Mis => "MIS",
         Strategy::Balance => "MIS, balance heuristic",
+        Strategy::Power => "MIS, power heuristic with exponent 2",
         Strategy::LightsOnly => "lights only",
         Strategy::BsdfOnly => "lobes only",
     }

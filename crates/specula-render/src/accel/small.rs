@@ -5,8 +5,9 @@
 //! laid side by side. The loops over [`PACK`] rays are compiled to vectors. Triangles that share corners
 //! are tested together: each corner is sheared once.
 //!
-//! Operation by operation the same as the traversal, whose boxes never cull a hit: the answers are
-//! equal bit for bit. Primitives come in ascending order, so that of equal distances the first stays.
+//! Operation by operation the same as the traversal, whose boxes cull no hit: the answers are equal bit
+//! for bit, but for slivers a million of their room's sizes from the origin, which rounding opens to rays
+//! beside them. Primitives come in ascending order, so that of equal distances the first stays.
 #![allow(
     clippy::needless_range_loop,
     reason = "an index below the arrays' length is what the compiler makes vectors of"

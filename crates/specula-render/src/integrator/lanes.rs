@@ -13,7 +13,7 @@ use specula_bsdf::batch::{Colours, Directions, Kind};
 use specula_bsdf::math::{rgb, vec3};
 use specula_bsdf::{Frame, Rgb, Vec3};
 
-use super::{ROULETTE_FROM, survival_probability};
+use super::{ROULETTE_FROM, power_heuristic, survival_probability};
 use crate::geometry::unit_or;
 use crate::light::{LightSample, Parallelogram, Receiver, Seen};
 use crate::material::Plain;
@@ -429,7 +429,7 @@ pub(super) fn weigh(n: usize, throughput: &Vectors, a: &mut Arriving) {
     for i in 0..n.min(LANES) {
         let pdf = a.pdf[i];
         let ratio = a.lobe_pdf[i] / pdf;
-        let both = 1.0 / (1.0 + ratio * ratio);
+        let both = power_heuristic(ratio);
         let weight = if a.delta[i] { 1.0 } else { both };
         let arrives = pdf > 0.0;
         let scale = if arrives { weight / pdf } else { 0.0 };

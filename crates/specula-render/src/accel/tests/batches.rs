@@ -65,7 +65,10 @@ fn compare(accel: &Accel, rays: &[Ray]) -> usize {
     let (mut hits, mut found) = (vec![None; 3], vec![true; 3]);
     let mut count = 0;
     let mut rest = rays;
-    for length in [0, 1, 15, 16, 17, 255, 256, 257].into_iter().cycle() {
+    for length in [0, 1, 15, 16, 17, 255, 256, 257, 511, 512, 513]
+        .into_iter()
+        .cycle()
+    {
         let batch = &rest[..rest.len().min(length)];
         rest = &rest[batch.len()..];
         accel.intersect_all(batch, &mut hits);
@@ -163,6 +166,112 @@ fn groups_that_are_not_placed_are_not_hit() {
         let hits = compare(&accel, &rays(5000, &shown, &mut random));
         assert_eq!(hits > 0, !instances.is_empty());
     }
+}
+
+/// A large octahedron around small ones and around small quadrics, some squeezed up to a hundredfold.
+fn room(scale: f32, offset: Vec3<f32>, random: &mut Random) -> (Mesh, Vec<Quadric>) {
+    let wide = |v: Vec3<f32>| DVec3::from_array(v.to_array().map(f64::from));
+    let mut mesh = Mesh::closed(1, |p| p * scale + offset);
+    for _ in 0..4 {
+        let (at, size) = (random.vector() * 0.3, 0.1 * random.signed().abs() + 1e-3);
+        let small = Mesh::closed(1, |p| (p * size + at) * scale + offset);
+        let first = u32::try_from(mesh.positions.len()).unwrap();
+        mesh.positions.extend(small.positions);
+        let shifted = small.triangles.iter().map(|t| t.map(|v| v + first));
+        mesh.triangles.extend(shifted);
+    }
+    let quadrics = (0..7).map(|i| {
+        let at = wide(random.vector() * (0.3 * scale) + offset);
+        let turn = DQuat::from_axis_angle(wide(random.direction()).normalize(), 1.0);
+        let squeezed = if i > 3 { 0.01 } else { 1.0 };
+        let size = f64::from(scale) * DVec3::new(1.0, squeezed, 1.0);
+        let radius = 0.02 + 0.1 * f64::from(random.signed().abs());
+        Quadric {
+            shape: match i % 4 {
+                3 => QuadricShape::Disk {
+                    radius,
+                    height: 0.05,
+                },
+                _ => QuadricShape::Sphere { radius },
+            },
+            to_group: DMat4::from_scale_rotation_translation(size, turn, at),
+        }
+    });
+    let quadrics = quadrics.collect();
+    (mesh, quadrics)
+}
+
+/// A ray at the rim of what is in a room, or at a corner, off by about what rounding takes.
+fn grazing(
+    mesh: &Mesh,
+    quadrics: &[Quadric],
+    [scale, x, y, z]: [f32; 4],
+    random: &mut Random,
+) -> Ray {
+    let narrow = |v: DVec3| Vec3::from(v.to_array().map(crate::convert::narrow));
+    let wide = |v: Vec3<f32>| DVec3::from_array(v.to_array().map(f64::from));
+    let centre = vec3(x, y, z);
+    let mut origin = centre + random.vector() * (0.5 * scale);
+    if random.below(4) == 0 {
+        origin = centre + random.vector() * (1e4 * scale);
+    }
+    let target = if random.below(2) == 0 {
+        Vec3::from(mesh.positions[random.below(mesh.positions.len())])
+    } else {
+        let quadric = quadrics[random.below(quadrics.len())];
+        let (radius, height) = match quadric.shape {
+            QuadricShape::Sphere { radius } => (radius, 0.0),
+            QuadricShape::Disk { radius, height } => (radius, height),
+        };
+        // In its own space spheres are round: of what is seen from the origin the rim.
+        let own = quadric.to_group.inverse();
+        let from = own.transform_point3(wide(origin));
+        let side = from.cross(wide(random.direction())).normalize_or_zero();
+        let off = 1.0 + 1e-6 * f64::from(random.signed().powi(5));
+        let rim = match quadric.shape {
+            QuadricShape::Sphere { .. } => {
+                let (d, r) = (from.length().max(radius), radius * off);
+                let cos = (r / d).min(1.0);
+                from / d * (r * cos) + side * (r * (1.0 - cos * cos).sqrt())
+            }
+            QuadricShape::Disk { .. } => {
+                let flat = DVec3::new(side.x, side.y, 0.0).normalize_or_zero();
+                flat * (radius * off) + DVec3::Z * height
+            }
+        };
+        narrow(quadric.to_group.transform_point3(rim))
+    };
+    let t_max = [f32::INFINITY, 1.0, 1.0 - 1e-7, 1.0 + 1e-7, 0.5][random.below(5)];
+    let mut ray = ray(origin, target - origin);
+    ray.t_max = t_max;
+    if random.below(4) == 0 {
+        ray.direction *= -1.0;
+    }
+    ray
+}
+
+#[test]
+fn what_is_small_in_a_room_is_not_passed_by() {
+    let mut random = Random(25);
+    let mut hits = 0;
+    for exponent in [-18, -12, -6, -3, 0, 3, 6, 12, 17] {
+        for far in [0.0, 1.0, 100.0, 1e4] {
+            let scale = 10.0_f32.powi(exponent);
+            let offset = random.direction() * (far * scale);
+            let place = [scale, offset.x, offset.y, offset.z];
+            let (mesh, quadrics) = room(scale, offset, &mut random);
+            let group = Group {
+                quadrics: &quadrics,
+                ..mesh.group()
+            };
+            let accel = Accel::build(&[group], &[Instance::of(0)]).unwrap();
+            let rays: Vec<Ray> = (0..10_000)
+                .map(|_| grazing(&mesh, &quadrics, place, &mut random))
+                .collect();
+            hits += compare(&accel, &rays);
+        }
+    }
+    assert!(hits > 100_000, "{hits}");
 }
 
 #[test]
