@@ -1,8 +1,8 @@
 //! Unidirectional path tracing with next-event estimation.
 //!
 //! At every vertex one light is sampled and one direction; what both can find is weighted by the
-//! power heuristic (Veach 1997, 9.2.4). From the fourth vertex on, paths survive with twice
-//! their throughput's largest channel as probability, corrected for the squeezing of radiance by
+//! power heuristic (Veach 1997, 9.2.4) with exponent 3/2. From the fourth vertex on, paths survive with
+//! twice their throughput's largest channel as probability, corrected for the squeezing of radiance by
 //! refraction (pbrt's eta scale), at least 5 %; above 95 % roulette is not played. Once the channel
 //! itself costs a quarter more time to the same noise in a room of rough metal, and 6 % less in the
 //! Cornell box.

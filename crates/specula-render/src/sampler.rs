@@ -201,6 +201,7 @@ fn draw<const N: usize>(n: usize, set: u32, numbers: &mut Numbers<N>) {
         keys[i] = seed_of_set(seeds[i], set);
         rest[i] = owen_scramble_rev(indices[i].reverse_bits(), hash(keys[i] ^ 0x79c6_8e4a));
     }
+    // One column after the other: these are the loops that become vectors.
     let [b0, b3] = bits;
     for (bit, [c0, _, _, c3]) in (0_u32..).zip(&*COLUMNS) {
         for i in 0..n {
