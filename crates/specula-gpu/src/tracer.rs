@@ -85,7 +85,10 @@ impl<'a> Tracer<'a> {
         options: &RenderOptions,
     ) -> Result<Self, TracerError> {
         let flat = scene.flatten();
-        let missing = program::missing(&flat);
+        let mut missing = program::missing(&flat);
+        if options.share_paths > 1 {
+            missing.push("paths that share".to_owned());
+        }
         if !missing.is_empty() {
             return Err(TracerError::Missing(missing));
         }

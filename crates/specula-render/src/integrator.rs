@@ -20,6 +20,7 @@ mod lanes;
 pub(crate) mod lobes;
 mod passing;
 mod paths;
+mod sharing;
 mod vertices;
 
 pub(crate) use block::Block;
@@ -64,6 +65,8 @@ pub(crate) struct PathTracer<'a> {
     scene: &'a PreparedScene,
     max_depth: u32,
     strategy: Strategy,
+    /// Whether paths of a group share what they find.
+    shares: bool,
 }
 
 /// Where the last direction was drawn, if lights could have found it too.
@@ -147,6 +150,7 @@ impl<'a> PathTracer<'a> {
             scene,
             max_depth: options.max_depth,
             strategy: options.strategy,
+            shares: options.share_paths > 1,
         }
     }
 
@@ -214,12 +218,7 @@ impl<'a> PathTracer<'a> {
     ///
     /// * `found`: the surface there; `None` where there is none.
     fn meet(&self, path: &mut Path, found: Option<Surface>, depth: u32) -> bool {
-        let Path {
-            sampler,
-            ray,
-            state,
-            first,
-        } = path;
+        let Path { ray, state, .. } = path;
         let Some(surface) = found else {
             if !(state.straight && self.scene.hide_emitters) {
                 let radiance = self.background(state.previous, ray.direction);
@@ -229,6 +228,17 @@ impl<'a> PathTracer<'a> {
         };
         let radiance = self.emission(state.previous, &surface, ray.direction);
         state.radiance += state.throughput * radiance;
+        self.pass_on(path, surface, depth)
+    }
+
+    /// What a path does at a surface, its emission aside; returns whether it goes on.
+    fn pass_on(&self, path: &mut Path, surface: Surface, depth: u32) -> bool {
+        let Path {
+            sampler,
+            ray,
+            state,
+            first,
+        } = path;
         if depth >= self.max_depth && depth > 0 {
             return false;
         }

@@ -46,6 +46,10 @@ pub struct RenderOptions {
     /// Whether, with both strategies, lights are drawn by what lobes find less well: skies by what
     /// exceeds their mean (Karlik et al. 2019). Otherwise by luminance.
     pub mis_compensation: bool,
+    /// Paths of how many neighbouring pixels share what lies behind their first rough vertices (Bekaert et
+    /// al. 2002), at most [`RenderOptions::MOST_SHARING`]; 1: none. Less noise for the time between rough
+    /// surfaces that light each other; pixels that share have some of their noise in common.
+    pub share_paths: u32,
     /// Number of each pixel's first sample: renders of different numbers are parts of one picture.
     pub first_sample: u32,
     /// Estimated error at which the picture is done, with samples spread by their error (see
@@ -54,6 +58,9 @@ pub struct RenderOptions {
 }
 
 impl RenderOptions {
+    /// Most paths that share.
+    pub const MOST_SHARING: u32 = 16;
+
     /// Those that change a sample, as text: films agree in it where their samples are of one picture.
     #[must_use]
     pub fn settings(&self) -> String {
@@ -69,6 +76,7 @@ impl RenderOptions {
             crop: _,
             strategy,
             mis_compensation,
+            share_paths,
             first_sample: _,
             noise,
         } = self;
@@ -79,9 +87,13 @@ impl RenderOptions {
         } else {
             ", lights by luminance"
         };
+        let shared = match share_paths {
+            0 | 1 => String::new(),
+            n => format!(", {n} share"),
+        };
         format!(
             "depth {max_depth}, seed {seed}, sampler {vndf_sampler}, energy {energy}, {mis_pdf:?}, \
-             {strategy:?}{drawn}{spread}"
+             {strategy:?}{drawn}{shared}{spread}"
         )
     }
 
@@ -108,6 +120,7 @@ impl Default for RenderOptions {
             crop: None,
             strategy: Strategy::default(),
             mis_compensation: true,
+            share_paths: 1,
             first_sample: 0,
             noise: None,
         }

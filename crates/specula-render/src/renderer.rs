@@ -455,20 +455,15 @@ fn render_tile(
         let pixel = [x0 + i % width, y0 + i / width];
         (pixel, Sampler::new(pixel, first.wrapping_add(nth), seed))
     };
-    let mut samples = (0..crate::convert::id(tile.pixels.len()))
-        .flat_map(|i| (count..target).map(move |nth| (i, nth)));
+    let pixels = crate::convert::id(tile.pixels.len());
+    let bounds = tile.bounds;
     let mut done = Done::default();
-    let mut places = Vec::with_capacity(Block::SIZE);
-    loop {
-        places.clear();
-        places.extend(samples.by_ref().take(Block::SIZE));
-        if places.is_empty() {
-            return done;
-        }
+    let mut add = |places: &[(u32, u32)], sizes: &[usize]| {
         tracer.begin(block, places.iter().copied().map(sample));
         tracer.follow_all(block);
+        tracer.share(block, sizes);
         done.tally = done.tally.and(block.take_tally());
-        for place in add_samples(tracer, block, &places, &mut tile.pixels) {
+        for place in add_samples(tracer, block, places, &mut tile.pixels) {
             tile.invalid += 1;
             let (pixel, sampler) = sample(place);
             done.invalid = Some(InvalidSample {
@@ -477,7 +472,61 @@ fn render_tile(
                 material: tracer.blame(block, pixel, sampler).map(|m| m as usize),
             });
         }
+    };
+    let mut places = Vec::with_capacity(Block::SIZE);
+    if options.share_paths > 1 {
+        let mut sizes = Vec::new();
+        for nth in count..target {
+            for group in groups(bounds, options.share_paths, |i| sample((i, nth)).1) {
+                if places.len() + group.len() > Block::SIZE {
+                    add(&places, &sizes);
+                    places.clear();
+                    sizes.clear();
+                }
+                places.extend(group.iter().map(|&i| (i, nth)));
+                sizes.push(group.len());
+            }
+        }
+        add(&places, &sizes);
+        return done;
     }
+    let mut samples = (0..pixels).flat_map(|i| (count..target).map(move |nth| (i, nth)));
+    loop {
+        places.clear();
+        places.extend(samples.by_ref().take(Block::SIZE));
+        if places.is_empty() {
+            return done;
+        }
+        add(&places, &[]);
+    }
+}
+
+/// Groups of at most `size` pixels of a tile whose paths share: squares of 4 x 4 pixels are dealt out by
+/// chance, anew for every sample, so that no pixel keeps its partners.
+///
+/// * `bounds`: of the tile.
+/// * `sampler`: of the sample of a pixel, by its place in the tile.
+fn groups(
+    [x0, x1, y0, y1]: [u32; 4],
+    size: u32,
+    sampler: impl Fn(u32) -> Sampler,
+) -> Vec<Vec<u32>> {
+    const SIDE: u32 = 4;
+    let [width, height] = [x1 - x0, y1 - y0];
+    let mut groups = Vec::new();
+    for top in (0..height).step_by(SIDE as usize) {
+        for left in (0..width).step_by(SIDE as usize) {
+            let [right, bottom] = [(left + SIDE).min(width), (top + SIDE).min(height)];
+            let mut square: Vec<(f32, u32)> = (top..bottom)
+                .flat_map(|y| (left..right).map(move |x| y * width + x))
+                .map(|i| (sampler(i).hashed([u32::MAX, 0, 0]), i))
+                .collect();
+            square.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let dealt = square.chunks(size.max(1) as usize);
+            groups.extend(dealt.map(|group| group.iter().map(|&(_, i)| i).collect()));
+        }
+    }
+    groups
 }
 
 /// Adds the samples of a block to their pixels; returns those that are not finite.

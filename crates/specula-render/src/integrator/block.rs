@@ -9,6 +9,7 @@ use specula_bsdf::math::Stream;
 
 use super::lanes::{self, Column, LANES, Lanes, ZERO};
 use super::paths::Paths;
+use super::sharing::Shared;
 use super::{Path, PathTracer, Tally};
 use crate::accel::{Hit, Ray};
 use crate::convert::id;
@@ -60,6 +61,8 @@ pub(crate) struct Block {
     /// Whether anything is in their way.
     pub(super) blocked: Vec<bool>,
     pub(super) lights: Box<light::Waiting>,
+    /// Where paths share.
+    pub(super) shared: Option<Box<Shared>>,
 }
 
 /// Numbers of paths or lanes, each with a ray.
@@ -70,7 +73,7 @@ pub(super) struct Queue {
 }
 
 impl Queue {
-    fn new() -> Box<Self> {
+    pub(super) fn new() -> Box<Self> {
         let nowhere = Ray {
             origin: Vec3::ZERO,
             direction: Vec3::Z,
@@ -143,6 +146,7 @@ impl Block {
             shadows: Queue::new(),
             blocked: Vec::new(),
             lights: light::Waiting::new(),
+            shared: None,
         }
     }
 
@@ -155,6 +159,12 @@ impl Block {
     /// The first path, which has just begun.
     pub(super) fn first(&self) -> Path {
         self.paths.take(0, *self.live.ray(0))
+    }
+
+    /// Whether the vertex before was what a path shares with others; `k`: among those that live.
+    fn is_at_y(&self, k: usize) -> bool {
+        let number = self.live.number(k);
+        (self.shared.as_ref()).is_some_and(|shared| shared.is_at_y(number))
     }
 
     /// What was counted since this was asked last.
@@ -181,8 +191,12 @@ impl PathTracer<'_> {
             weights,
             live,
             lanes,
+            shared,
             ..
         } = block;
+        if self.shares {
+            shared.get_or_insert_with(Shared::new).begin();
+        }
         let Lanes {
             numbers, raster, ..
         } = &mut **lanes;
@@ -248,6 +262,9 @@ impl PathTracer<'_> {
             block.next.push(id(number), path.ray);
         }
         block.tally = block.tally.and(block.paths.put(number, &path));
+        if let Some(shared) = &mut block.shared {
+            shared.pass_alone(number);
+        }
     }
 
     /// Takes all paths from one vertex to the next.
@@ -276,7 +293,12 @@ impl PathTracer<'_> {
                 }
                 None => {
                     let surface = geometry.surface(ray, &hit);
-                    self.alone(block, k, |path| self.meet(path, Some(surface), depth));
+                    if block.is_at_y(k) {
+                        self.add_emission_of(block, k, &hit);
+                        self.alone(block, k, |path| self.pass_on(path, surface, depth));
+                    } else {
+                        self.alone(block, k, |path| self.meet(path, Some(surface), depth));
+                    }
                 }
             }
         }
@@ -294,6 +316,15 @@ impl PathTracer<'_> {
         let surface = self.scene.geometry.surface(ray, hit);
         let number = block.live.number(k);
         let previous = block.paths.previous(number);
+        if let (Some(shared), Some(previous)) = (&mut block.shared, previous)
+            && shared.is_at_y(number)
+        {
+            let radiance = self.emission(None, &surface, ray.direction);
+            let lights = &self.scene.lights;
+            let light_pdf = lights.pdf_of_surface(&previous.receiver, &surface);
+            shared.meet(number, radiance, light_pdf);
+            return;
+        }
         let radiance = self.emission(previous, &surface, ray.direction);
         let throughput = block.paths.throughput.colour(number);
         block.paths.add(number, throughput * radiance);
@@ -309,6 +340,7 @@ impl PathTracer<'_> {
             live,
             escaped,
             lights: waiting,
+            shared,
             ..
         } = block;
         let lights = &self.scene.lights;
@@ -320,7 +352,15 @@ impl PathTracer<'_> {
             if paths.straight[number] && self.scene.hide_emitters {
                 return;
             }
-            let weight = self.lobe_weight(paths.previous(number), |receiver| {
+            let previous = paths.previous(number);
+            if let (Some(shared), Some(previous)) = (&mut *shared, previous)
+                && shared.is_at_y(number)
+            {
+                let share = lights.share_from_infinity(&previous.receiver);
+                shared.meet(number, radiance, share * pdf);
+                return;
+            }
+            let weight = self.lobe_weight(previous, |receiver| {
                 lights.share_from_infinity(receiver) * pdf
             });
             let throughput = paths.throughput.colour(number);

@@ -32,6 +32,7 @@ impl PathTracer<'_> {
         if depth == 0 {
             self.show(block);
         }
+        self.note_shared(block);
         self.light_lanes(block, depth);
         self.scatter_lanes(block, depth);
     }
@@ -245,9 +246,10 @@ impl PathTracer<'_> {
             shadows,
             blocked,
             tally,
+            shared,
             ..
         } = block;
-        let (a, owners) = (&lanes.arriving, &lanes.owners);
+        let a = &lanes.arriving;
         shadows.clear();
         for i in 0..LANES.min(lanes.count) {
             if a.brought.colour(i).is_black() {
@@ -266,7 +268,11 @@ impl PathTracer<'_> {
         for (k, &blocked) in blocked.iter().enumerate() {
             if !blocked {
                 let lane = shadows.number(k);
-                paths.add(index(owners[lane]), a.brought.colour(lane));
+                let path = index(lanes.owners[lane]);
+                match shared {
+                    Some(shared) if shared.is_at_y(path) => shared.keep_light(path, lanes, lane),
+                    _ => paths.add(path, a.brought.colour(lane)),
+                }
             }
         }
     }
@@ -279,6 +285,7 @@ impl PathTracer<'_> {
             lanes,
             streams,
             tally,
+            shared,
             ..
         } = block;
         let n = lanes.count;
@@ -310,6 +317,10 @@ impl PathTracer<'_> {
                 }
             }
         }
+        if let Some(shared) = shared {
+            let n = n.min(LANES);
+            shared.let_pass(&owners[..n], &mut numbers.values[3][..n]);
+        }
         lanes::go_on(n, depth, s, &numbers.values[3], o);
         self.keep(block);
     }
@@ -321,6 +332,7 @@ impl PathTracer<'_> {
             next,
             stretches,
             lanes,
+            shared,
             ..
         } = block;
         let (s, o) = (&lanes.surfaces, &lanes.onward);
@@ -337,7 +349,14 @@ impl PathTracer<'_> {
                     t_max: f32::INFINITY,
                 };
                 next.push(number, ray);
-                let throughput = o.throughput.colour(i);
+                let mut throughput = o.throughput.colour(i);
+                if let Some(shared) = shared {
+                    if shared.is_at_y(path) {
+                        shared.keep_direction(path, lanes, i);
+                    }
+                    let from_x = shared.carried_from_x(path, o.weight.colour(i));
+                    throughput = from_x.unwrap_or(throughput);
+                }
                 paths.throughput.set_colour(path, throughput);
                 paths.eta_scale[path] = o.eta_scale[i];
                 paths.straight[path] = false;

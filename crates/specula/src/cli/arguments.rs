@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use specula::bsdf::vndf;
+use specula::render::RenderOptions;
 use specula::render::picture::{Display, ToneMap};
 use specula::scene::Energy;
 use specula::scene::material_text::parse_material;
@@ -174,6 +175,13 @@ pub(crate) struct RenderArguments {
     /// Seed of the random sequences: renders of different seeds are independent
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u32,
+
+    /// Let the paths of N neighbouring pixels, 1 to 16, share what they find behind their first rough
+    /// surfaces: half the time to the same noise where rough surfaces light each other (8 is good),
+    /// more on fine detail under open skies. Pixels that share have some of their noise in common
+    #[arg(long, value_name = "N", default_value_t = 1,
+          value_parser = clap::value_parser!(u32).range(1..=i64::from(RenderOptions::MOST_SHARING)))]
+    pub(crate) share_paths: u32,
 
     /// Show the picture while it is rendered, in the viewer tev that runs at HOST: it is sent after
     /// passes, once in a second at most. The port may be left out: 14158
