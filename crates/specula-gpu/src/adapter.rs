@@ -4,6 +4,9 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::{Arc, Mutex, PoisonError};
 
+/// What wgpu calls ray queries.
+pub(crate) const RAY_QUERIES: wgpu::Features = wgpu::Features::EXPERIMENTAL_RAY_QUERY;
+
 /// What an adapter is, the better ones first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum AdapterKind {
@@ -44,6 +47,8 @@ pub struct AdapterDescription {
     pub backend: String,
     /// The driver and its version.
     pub driver: String,
+    /// Whether it searches for what rays hit by itself.
+    pub ray_queries: bool,
 }
 
 impl AdapterDescription {
@@ -62,6 +67,7 @@ impl AdapterDescription {
             },
             backend: info.backend.to_string(),
             driver: driver.trim().to_owned(),
+            ray_queries: adapter.features().contains(RAY_QUERIES),
         }
     }
 }
@@ -74,10 +80,14 @@ impl fmt::Display for AdapterDescription {
             kind,
             backend,
             driver,
+            ray_queries,
         } = self;
         write!(f, "{index}: {name} ({kind}, {backend}")?;
         if !driver.is_empty() {
             write!(f, ", {driver}")?;
+        }
+        if *ray_queries {
+            f.write_str(", ray queries")?;
         }
         f.write_str(")")
     }
@@ -219,7 +229,7 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// Opens an adapter with all the limits that it offers.
+    /// Opens an adapter with all the limits that it offers, and ray queries where it does.
     ///
     /// # Errors
     /// Where there is no such adapter or its driver does not open it.
@@ -231,8 +241,9 @@ impl Gpu {
         let adapter = found[place].clone();
         let request = handle.request_device(&wgpu::DeviceDescriptor {
             label: Some("specula"),
-            required_features: wgpu::Features::empty(),
+            required_features: handle.features() & RAY_QUERIES,
             required_limits: handle.limits(),
+            experimental_features: crate::experimental::consent(),
             ..wgpu::DeviceDescriptor::default()
         });
         let (device, queue) = pollster::block_on(request).map_err(|error| GpuError::NotOpened {
@@ -330,6 +341,7 @@ mod tests {
             kind,
             backend: "vulkan".to_owned(),
             driver: String::new(),
+            ray_queries: kind == AdapterKind::Discrete,
         };
         kinds.iter().enumerate().map(one).collect()
     }
@@ -348,6 +360,8 @@ mod tests {
         assert_eq!(place("LLVM"), Ok(0));
         assert_eq!(AdapterChoice::Best.among(&[]), Err(GpuError::NoAdapter));
         let error = place("7").unwrap_err().to_string();
-        assert!(error.contains("'7'") && error.contains("2: RTX 4090 (discrete, vulkan)"));
+        assert!(
+            error.contains("'7'") && error.contains("2: RTX 4090 (discrete, vulkan, ray queries)")
+        );
     }
 }

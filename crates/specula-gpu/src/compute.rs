@@ -6,6 +6,7 @@ use std::time::Duration;
 use wgpu::util::DeviceExt;
 
 use crate::adapter::{Gpu, GpuError};
+use crate::queries::Structures;
 
 /// A compiled compute shader that reads arrays and writes one.
 ///
@@ -18,6 +19,8 @@ pub struct Kernel {
     inputs: usize,
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
+    /// Group 1.
+    structures: Option<wgpu::BindGroup>,
 }
 
 /// The arrays of a [`Kernel`], on the device.
@@ -93,6 +96,31 @@ impl Kernel {
         entry: &str,
         inputs: usize,
     ) -> Result<Self, GpuError> {
+        Self::build(gpu, module, entry, inputs, None)
+    }
+
+    /// The same for a shader that casts rays by queries: in group 1 the binding 0 is the scene's
+    /// `acceleration_structure`.
+    ///
+    /// # Errors
+    /// [`GpuError::Shader`] where the driver does not compile it.
+    pub fn with_structures(
+        gpu: &Gpu,
+        module: &wgpu::ShaderModule,
+        entry: &str,
+        inputs: usize,
+        structures: &Structures,
+    ) -> Result<Self, GpuError> {
+        Self::build(gpu, module, entry, inputs, Some(structures))
+    }
+
+    fn build(
+        gpu: &Gpu,
+        module: &wgpu::ShaderModule,
+        entry: &str,
+        inputs: usize,
+        structures: Option<&Structures>,
+    ) -> Result<Self, GpuError> {
         let slots: Vec<_> = (0_u32..)
             .zip(0..=inputs)
             .map(|(binding, place)| wgpu::BindGroupLayoutEntry {
@@ -116,7 +144,7 @@ impl Kernel {
             });
             let whole = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(entry),
-                bind_group_layouts: &[Some(&layout)],
+                bind_group_layouts: &[Some(&layout), structures.map(|s| &s.layout)],
                 ..Default::default()
             });
             let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -135,6 +163,7 @@ impl Kernel {
             inputs,
             layout,
             pipeline,
+            structures: structures.map(|s| s.group.clone()),
         })
     }
 
@@ -201,6 +230,9 @@ impl Kernel {
                 });
                 pass.set_pipeline(&self.pipeline);
                 pass.set_bind_group(0, &arrays.group, &[]);
+                if let Some(structures) = &self.structures {
+                    pass.set_bind_group(1, structures, &[]);
+                }
                 let [x, y, z] = workgroups;
                 pass.dispatch_workgroups(x, y, z);
             }

@@ -6,8 +6,12 @@ use std::fmt::Write as _;
 use specula_render::{FlatScene, LobeKind, RenderOptions};
 use specula_shaders::ComposeError;
 
-/// The entry point.
-pub(crate) const ENTRY: &str = "path_main";
+/// The kernel that adds samples, complete in itself.
+pub(crate) const SUMS: &str = include_str!("../wgsl/sums.wgsl");
+/// Its entry point.
+pub(crate) const SUMS_ENTRY: &str = "sums_main";
+/// The kernel between two vertices of paths in queues, complete in itself.
+pub(crate) const TURN: &str = include_str!("../wgsl/turn.wgsl");
 
 /// A module of the tracer.
 struct Module {
@@ -26,7 +30,9 @@ const BEFORE: &[Module] = modules![
     "world",
     "sequence",
     "camera",
-    "traverse",
+    "film",
+    "ray",
+    "quadric",
     "surface",
     "texture_place",
     "texture_mapping",
@@ -54,6 +60,9 @@ const BEFORE: &[Module] = modules![
     "bound",
 ];
 
+/// Ways of rays to what they hit, one of which a shader has: through the tree, by ray queries.
+const RAYS: &[Module] = modules!["traverse", "query"];
+
 /// Kinds of material; only those that a scene has are in its shader.
 const MATERIALS: &[Module] = modules![
     "metal",
@@ -75,7 +84,7 @@ const MATERIALS: &[Module] = modules![
 ];
 
 /// What comes behind the switch over materials.
-const AFTER: &[Module] = modules!["path"];
+const AFTER: &[Module] = modules!["path", "queue"];
 
 /// What a kind's module imports of the others.
 fn base_of(module: &str) -> Option<&'static str> {
@@ -121,15 +130,19 @@ pub(crate) fn missing(flat: &FlatScene<'_>) -> Vec<String> {
 }
 
 /// The shader's text.
+///
+/// * `queries`: whether rays are cast by the adapter's ray queries.
 pub(crate) fn source(
     flat: &FlatScene<'_>,
     options: &RenderOptions,
+    queries: bool,
 ) -> Result<String, ComposeError> {
     let mut names: Vec<&str> = flat.lobes.iter().filter_map(|&k| module_of(k)).collect();
     let bases: Vec<&str> = names.iter().filter_map(|name| base_of(name)).collect();
     names.extend(bases);
     let used = MATERIALS.iter().filter(|m| names.contains(&m.name));
-    let tracer: Vec<&Module> = BEFORE.iter().chain(used).collect();
+    let rays = &RAYS[usize::from(queries)];
+    let tracer: Vec<&Module> = BEFORE.iter().chain([rays]).chain(used).collect();
     let imports = tracer
         .iter()
         .copied()
@@ -138,7 +151,11 @@ pub(crate) fn source(
     let mut library: Vec<&str> = imports.collect();
     library.sort_unstable();
     library.dedup();
-    let mut text = constants(flat, options);
+    let mut text = String::new();
+    if queries {
+        text += "enable wgpu_ray_query;\n";
+    }
+    text += &constants(flat, options);
     text += &specula_shaders::compose(&library)?;
     for module in &tracer {
         text += &code(module.text);
@@ -300,22 +317,26 @@ mod tests {
 
     #[test]
     fn names_are_unique_over_the_tracer_and_the_library() {
-        let tracer = BEFORE.iter().chain(MATERIALS).chain(AFTER);
-        let own = tracer.flat_map(|m| declarations(m.text).into_iter().map(|d| (d.name, m.name)));
-        let library = MODULES
-            .iter()
-            .flat_map(|m| declarations(m.text).into_iter().map(|d| (d.name, m.path)));
-        let mut all: Vec<(&str, &str)> = own.chain(library).collect();
-        all.sort_unstable();
-        for pair in all.windows(2) {
-            assert_ne!(pair[0].0, pair[1].0, "{pair:?}");
+        for rays in RAYS {
+            let tracer = BEFORE.iter().chain([rays]).chain(MATERIALS).chain(AFTER);
+            let own =
+                tracer.flat_map(|m| declarations(m.text).into_iter().map(|d| (d.name, m.name)));
+            let library = MODULES
+                .iter()
+                .flat_map(|m| declarations(m.text).into_iter().map(|d| (d.name, m.path)));
+            let mut all: Vec<(&str, &str)> = own.chain(library).collect();
+            all.sort_unstable();
+            for pair in all.windows(2) {
+                assert_ne!(pair[0].0, pair[1].0, "{pair:?}");
+            }
+            assert!(all.len() > 500);
         }
-        assert!(all.len() > 500);
     }
 
     #[test]
     fn modules_import_what_is_there() {
-        let tracer: Vec<&Module> = BEFORE.iter().chain(MATERIALS).chain(AFTER).collect();
+        let every = BEFORE.iter().chain(RAYS).chain(MATERIALS).chain(AFTER);
+        let tracer: Vec<&Module> = every.collect();
         for module in &tracer {
             for line in module.text.lines() {
                 let Some(path) = line.strip_prefix("import tracer::") else {

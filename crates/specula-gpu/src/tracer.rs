@@ -3,22 +3,25 @@
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-use specula_render::{Found, PassReport, PreparedScene, RenderOptions, Renderer, Wanted};
+use specula_render::{
+    FlatScene, PassReport, PreparedScene, RenderOptions, Renderer, Run, RunSums, Wanted,
+};
 use wgpu::util::DeviceExt;
 
 use crate::adapter::{Gpu, GpuError};
 use crate::program;
+use crate::queries::{Rays, Structures};
+use crate::schedule::Schedule;
+use crate::stage::WORKGROUP;
+use crate::taker::Taker;
+use crate::wave::{Kernels, Wave};
 
 /// How long a dispatch should take: systems take devices away from work of seconds.
-const WAVE: Duration = Duration::from_millis(100);
+const WAVE_TIME: Duration = Duration::from_millis(100);
 /// Samples of the first wave.
 const FIRST_WAVE: usize = 1 << 12;
 /// Most samples of a wave.
 const LARGEST_WAVE: usize = 1 << 21;
-/// Threads of a workgroup, as the shader says.
-const WORKGROUP: usize = 64;
-/// Bytes of a wanted sample.
-const WANTED_SIZE: u64 = 16;
 
 /// Why a scene cannot be rendered on a device.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -38,32 +41,35 @@ pub enum TracerError {
     /// The library's modules do not fit together.
     #[error(transparent)]
     Program(#[from] specula_shaders::ComposeError),
+    /// Ray queries are asked for, and cannot be had.
+    #[error("no ray queries: {0}")]
+    Queries(String),
     /// The device failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
+}
+
+/// How a device renders. The samples are the same, but for rays at edges and rounding.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TracerOptions {
+    /// How rays find what they hit.
+    pub rays: Rays,
+    /// In which order paths are followed.
+    pub schedule: Schedule,
 }
 
 /// A scene on a device, ready to be sampled.
 #[derive(Debug)]
 pub struct Tracer<'a> {
     gpu: &'a Gpu,
-    pipeline: wgpu::ComputePipeline,
-    layout: wgpu::BindGroupLayout,
+    kernels: Kernels,
     /// Tables, nodes, packets, words.
     scene: [wgpu::Buffer; 4],
-    wave: Option<WaveBuffers>,
+    uses_ray_queries: bool,
+    wave: Option<Wave>,
     /// Samples of the next wave.
     samples: usize,
     largest: usize,
-}
-
-/// What goes to the device for a wave and comes back.
-#[derive(Debug)]
-struct WaveBuffers {
-    capacity: usize,
-    wanted: wgpu::Buffer,
-    found: wgpu::Buffer,
-    group: wgpu::BindGroup,
 }
 
 /// Features of a scene that shaders do not know, in a person's words; none: it can be rendered on a
@@ -74,7 +80,7 @@ pub fn missing(scene: &PreparedScene) -> Vec<String> {
 }
 
 impl<'a> Tracer<'a> {
-    /// Compiles the scene's shader and uploads the scene.
+    /// Compiles the scene's shader and uploads the scene, by the ways of [`TracerOptions::default`].
     ///
     /// # Errors
     /// [`TracerError::Missing`] before anything else; where the scene is too large, or the device
@@ -84,6 +90,19 @@ impl<'a> Tracer<'a> {
         scene: &PreparedScene,
         options: &RenderOptions,
     ) -> Result<Self, TracerError> {
+        Self::with_options(gpu, scene, options, TracerOptions::default())
+    }
+
+    /// The same by ways of choice.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); [`TracerError::Queries`] where ray queries are asked for and cannot be had.
+    pub fn with_options(
+        gpu: &'a Gpu,
+        scene: &PreparedScene,
+        options: &RenderOptions,
+        on_gpu: TracerOptions,
+    ) -> Result<Self, TracerError> {
         let flat = scene.flatten();
         let mut missing = program::missing(&flat);
         if options.share_paths > 1 {
@@ -92,38 +111,52 @@ impl<'a> Tracer<'a> {
         if !missing.is_empty() {
             return Err(TracerError::Missing(missing));
         }
-        let tables = specula_shaders::tables();
-        let arrays = [
-            bytemuck::cast_slice(tables),
-            flat.nodes,
-            flat.packets,
-            bytemuck::cast_slice(&flat.words),
-        ];
-        let limits = gpu.device.limits();
-        let limit = limits
-            .max_storage_buffer_binding_size
-            .min(limits.max_buffer_size);
-        let needed = arrays.iter().map(|a| a.len() as u64).max().unwrap_or(0);
+        let (needed, limit) = (largest_array(&flat), limit(gpu));
         if needed > limit {
             return Err(TracerError::TooLarge { needed, limit });
         }
-        let text = program::source(&flat, options)?;
-        let module = gpu.shader("path tracer", &text)?;
-        let (layout, pipeline) = pipeline(gpu, &module)?;
-        let scene = gpu.caught(|gpu| arrays.map(|contents| upload(gpu, contents)))?;
-        let per_sample = size_of::<Found>() as u64;
-        let largest = usize::try_from(limit / per_sample).unwrap_or(usize::MAX);
+        let structures = Structures::chosen(on_gpu.rays, gpu, scene)?;
+        let text = program::source(&flat, options, structures.is_some())?;
+        let texts = [text.as_str(), program::SUMS];
+        Self::of_texts(gpu, &flat, options, (on_gpu.schedule, structures), texts)
+    }
+
+    /// * `structures`: what rays are cast by; `None`: the tree.
+    /// * `texts`: of the scene's shader, and of the one that adds.
+    fn of_texts(
+        gpu: &'a Gpu,
+        flat: &FlatScene<'_>,
+        options: &RenderOptions,
+        (schedule, structures): (Schedule, Option<Structures>),
+        texts: [&str; 2],
+    ) -> Result<Self, TracerError> {
+        let limits = gpu.device.limits();
+        let [path_tracer, adder] = texts;
+        let module = gpu.shader("path tracer", path_tracer)?;
+        let is_queues = schedule.is_queues(limits.max_storage_buffers_per_shader_stage);
+        let structures = structures.as_ref();
+        let taker = Taker::new(gpu, &module, is_queues, structures, options.max_depth)?;
+        let kernels = Kernels::new(gpu, taker, adder)?;
+        let scene = gpu.caught(|gpu| arrays(flat).map(|contents| upload(gpu, contents)))?;
+        let largest = limit(gpu) / kernels.taker.sample_size().max(size_of::<RunSums>() as u64);
         Ok(Self {
             gpu,
-            pipeline,
-            layout,
+            kernels,
             scene,
+            uses_ray_queries: structures.is_some(),
             wave: None,
             samples: FIRST_WAVE,
-            largest: largest
+            largest: usize::try_from(largest)
+                .unwrap_or(usize::MAX)
                 .min(LARGEST_WAVE)
                 .min(limits.max_compute_workgroups_per_dimension as usize * WORKGROUP),
         })
+    }
+
+    /// Whether rays are cast by the adapter's ray queries; else they go through the tree.
+    #[must_use]
+    pub fn uses_ray_queries(&self) -> bool {
+        self.uses_ray_queries
     }
 
     /// Adds samples to a render's film: [`Renderer::render_pass`] on the device.
@@ -149,111 +182,73 @@ impl<'a> Tracer<'a> {
         )
     }
 
-    /// Takes the samples of tiles, in the order of [`Wanted::each`], in waves.
-    fn take(&mut self, wanted: &[Wanted]) -> Result<Vec<Found>, GpuError> {
-        let list: Vec<[u32; 4]> = wanted
-            .iter()
-            .flat_map(Wanted::each)
-            .map(|(_, [x, y], number)| [x, y, number, 1])
-            .collect();
-        let mut found = Vec::with_capacity(list.len());
-        let mut rest = list.as_slice();
-        while !rest.is_empty() {
-            let (wave, after) = rest.split_at(rest.len().min(self.largest));
-            rest = after;
+    /// The sums of tiles, in the order of [`Wanted::runs`], in waves.
+    fn take(&mut self, wanted: &[Wanted]) -> Result<Vec<RunSums>, GpuError> {
+        let longest = wanted.iter().map(Wanted::longest_run).max().unwrap_or(0);
+        let longest = longest.max(1);
+        let runs: Vec<Run> = wanted.iter().flat_map(Wanted::runs).collect();
+        let most = (self.largest / longest as usize).max(1);
+        let mut sums = Vec::with_capacity(runs.len());
+        for runs in runs.chunks(most) {
             let start = Instant::now();
-            found.extend(self.wave(wave)?);
-            self.adjust(wave.len(), start.elapsed());
+            sums.extend(self.wave(runs, longest)?);
+            let samples = runs.iter().map(|run| run.count as usize).sum();
+            self.adjust(samples, start.elapsed());
         }
-        Ok(found)
+        Ok(sums)
     }
 
-    /// Makes the next wave as large as lasts [`WAVE`].
+    /// Makes the next wave as large as lasts [`WAVE_TIME`].
     fn adjust(&mut self, samples: usize, took: Duration) {
-        if took < WAVE / 2 && samples >= self.samples / 2 {
+        if took < WAVE_TIME / 2 && samples >= self.samples / 2 {
             self.samples = (self.samples * 2).min(self.largest);
-        } else if took > 2 * WAVE {
+        } else if took > 2 * WAVE_TIME {
             self.samples = (self.samples / 2).max(WORKGROUP);
         }
     }
 
-    fn wave(&mut self, list: &[[u32; 4]]) -> Result<Vec<Found>, GpuError> {
-        let gpu = self.gpu;
-        if self.wave.as_ref().is_none_or(|w| w.capacity < list.len()) {
-            self.wave = None;
-            self.wave = Some(self.wave_buffers(list.len().next_power_of_two().min(self.largest))?);
-        }
-        let Some(wave) = &self.wave else {
-            return Ok(Vec::new());
+    /// The sums of runs.
+    ///
+    /// * `longest`: samples of the longest one.
+    fn wave(&mut self, runs: &[Run], longest: u32) -> Result<Vec<RunSums>, GpuError> {
+        let needed = [runs.len() * longest as usize, runs.len()];
+        let wave = match self.wave.take() {
+            Some(wave) if wave.holds(needed) => wave,
+            smaller => {
+                // What there is goes before more is asked for.
+                drop(smaller);
+                let room = needed.map(|n| n.next_power_of_two().min(self.largest).max(n));
+                Wave::new(self.gpu, &self.kernels, &self.scene, room)?
+            }
         };
-        let bytes: &[u8] = bytemuck::cast_slice(list);
-        gpu.caught(|gpu| {
-            gpu.queue.write_buffer(&wave.wanted, 0, bytes);
-            // Threads behind the list, in its last workgroup, take nothing.
-            let end = list.len().next_multiple_of(WORKGROUP).min(wave.capacity);
-            let idle = vec![[0_u32; 4]; end - list.len()];
-            gpu.queue.write_buffer(
-                &wave.wanted,
-                bytes.len() as u64,
-                bytemuck::cast_slice(&idle),
-            );
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            {
-                let mut pass = encoder.begin_compute_pass(&Default::default());
-                pass.set_pipeline(&self.pipeline);
-                pass.set_bind_group(0, &wave.group, &[]);
-                let groups = u32::try_from(list.len().div_ceil(WORKGROUP)).unwrap_or(u32::MAX);
-                pass.dispatch_workgroups(groups, 1, 1);
-            }
-            gpu.queue.submit([encoder.finish()]);
-        })?;
-        let size = (list.len() * size_of::<Found>()) as u64;
-        let bytes = gpu.read(&wave.found, size)?;
-        Ok(bytemuck::pod_collect_to_vec(&bytes))
+        let sums = wave.take(self.gpu, &self.kernels, runs, longest)?;
+        self.wave = Some(wave);
+        Ok(sums)
     }
+}
 
-    fn wave_buffers(&self, capacity: usize) -> Result<WaveBuffers, GpuError> {
-        let capacity = capacity.max(WORKGROUP);
-        self.gpu.caught(|gpu| {
-            let buffer = |label, size, usage| {
-                gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                    label: Some(label),
-                    size,
-                    usage: wgpu::BufferUsages::STORAGE | usage,
-                    mapped_at_creation: false,
-                })
-            };
-            let samples = capacity as u64;
-            let wanted = buffer(
-                "wanted samples",
-                samples * WANTED_SIZE,
-                wgpu::BufferUsages::COPY_DST,
-            );
-            let found = buffer(
-                "found samples",
-                samples * size_of::<Found>() as u64,
-                wgpu::BufferUsages::COPY_SRC,
-            );
-            let entries: Vec<_> = (0_u32..)
-                .zip(self.scene.iter().chain([&wanted, &found]))
-                .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                    binding,
-                    resource: buffer.as_entire_binding(),
-                })
-                .collect();
-            let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("path tracer"),
-                layout: &self.layout,
-                entries: &entries,
-            });
-            WaveBuffers {
-                capacity,
-                wanted,
-                found,
-                group,
-            }
-        })
-    }
+/// Tables, nodes, packets, words.
+fn arrays<'f>(flat: &'f FlatScene<'_>) -> [&'f [u8]; 4] {
+    [
+        bytemuck::cast_slice(specula_shaders::tables()),
+        flat.nodes,
+        flat.packets,
+        bytemuck::cast_slice(&flat.words),
+    ]
+}
+
+/// Bytes of the largest array.
+fn largest_array(flat: &FlatScene<'_>) -> u64 {
+    let sizes = arrays(flat).map(|array| array.len() as u64);
+    sizes.into_iter().max().unwrap_or(0)
+}
+
+/// Bytes that an array may have.
+fn limit(gpu: &Gpu) -> u64 {
+    let limits = gpu.device.limits();
+    limits
+        .max_storage_buffer_binding_size
+        .min(limits.max_buffer_size)
 }
 
 /// A buffer that is never empty, which bindings must not be.
@@ -271,43 +266,5 @@ fn upload(gpu: &Gpu, contents: &[u8]) -> wgpu::Buffer {
         })
 }
 
-fn pipeline(
-    gpu: &Gpu,
-    module: &wgpu::ShaderModule,
-) -> Result<(wgpu::BindGroupLayout, wgpu::ComputePipeline), GpuError> {
-    const BUFFERS: u32 = 6;
-    let entry = |binding| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage {
-                read_only: binding + 1 < BUFFERS,
-            },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
-    let entries: Vec<_> = (0..BUFFERS).map(entry).collect();
-    gpu.caught(|gpu| {
-        let device = &gpu.device;
-        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("path tracer"),
-            entries: &entries,
-        });
-        let whole = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("path tracer"),
-            bind_group_layouts: &[Some(&layout)],
-            ..Default::default()
-        });
-        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some("path tracer"),
-            layout: Some(&whole),
-            module,
-            entry_point: Some(program::ENTRY),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            cache: None,
-        });
-        (layout, pipeline)
-    })
-}
+#[cfg(test)]
+mod tests;

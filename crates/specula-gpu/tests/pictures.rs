@@ -1,20 +1,25 @@
 //! Pictures of the GPU beside the processor's: the same samples follow the same paths up to rounding,
 //! and renders of other seeds have the same expectation.
 //!
-//! Where no GPU is found, the tests say that they are skipped; `SPECULA_GPU=require` makes that a
-//! failure.
+//! Rays go through the tree, and where the GPU offers ray queries, by these too.
+//!
+//! Where no GPU is found, or none with ray queries, the tests say what is skipped; `SPECULA_GPU=require`
+//! and `SPECULA_RAY_QUERIES=require` make that a failure.
 #![allow(clippy::print_stdout, reason = "a suite says how much it checked")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail loudly")]
 
 mod common;
+#[path = "common/queries.rs"]
+mod offered;
 
 use std::sync::atomic::AtomicBool;
 
 use common::gpu;
 use glam::DMat4;
+use offered::gpu_with_queries;
 use specula_bsdf::Rgb;
 use specula_bsdf::math::rgb;
-use specula_gpu::{Gpu, Tracer};
+use specula_gpu::{AdapterKind, Gpu, Rays, Tracer, TracerOptions};
 use specula_render::picture::Picture;
 use specula_render::{PreparedScene, RenderOptions, Renderer, Strategy};
 use specula_scene::Scene;
@@ -51,10 +56,38 @@ fn on_processor(scene: &Scene, options: &RenderOptions, samples: u32) -> Picture
     renderer.film().picture()
 }
 
-fn on_gpu(gpu: &Gpu, scene: &Scene, options: &RenderOptions, samples: u32) -> Picture {
+/// A GPU, and how rays find there what they hit.
+type Device<'a> = (&'a Gpu, Rays);
+
+/// What software renders by ray queries too: it compiles such a shader for half a minute.
+const ON_SOFTWARE: [&str; 3] = ["lights, instances", "bodies", "other seeds"];
+
+/// The GPU through the tree, and by ray queries where it offers them.
+fn devices(what: &str) -> Vec<Device<'static>> {
+    let tree = gpu(what).map(|gpu| (gpu, Rays::Tree));
+    let quick =
+        |gpu: &Gpu| gpu.adapter.kind != AdapterKind::Software || ON_SOFTWARE.contains(&what);
+    let queries = gpu_with_queries(&format!("{what}, by ray queries"));
+    let queries = queries.filter(|gpu| quick(gpu));
+    let queries = queries.map(|gpu| (gpu, Rays::Query));
+    tree.into_iter().chain(queries).collect()
+}
+
+fn on_gpu(
+    (gpu, rays): Device<'_>,
+    scene: &Scene,
+    options: &RenderOptions,
+    samples: u32,
+) -> Picture {
     let prepared = PreparedScene::new(scene, options).unwrap();
     let mut renderer = Renderer::new(&prepared, options.clone());
-    let mut tracer = Tracer::new(gpu, &prepared, options).unwrap_or_else(|e| panic!("{e}"));
+    let on_gpu = TracerOptions {
+        rays,
+        ..TracerOptions::default()
+    };
+    let tracer = Tracer::with_options(gpu, &prepared, options, on_gpu);
+    let mut tracer = tracer.unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(tracer.uses_ray_queries(), rays == Rays::Query);
     let go = AtomicBool::new(false);
     let report = tracer.render_pass(&mut renderer, samples, &go).unwrap();
     assert_eq!((report.invalid_samples, report.complete), (0, true));
@@ -101,26 +134,31 @@ fn image([mean, variance]: &[Vec<f64>; 2]) -> NoisyImage<'_> {
 
 /// Share of pixels that differ between the devices, of the same samples of two scenes, and the quotient of
 /// means.
-fn compared(gpu: &Gpu, [processor, other]: [&Scene; 2], options: &RenderOptions) -> [f64; 2] {
+fn compared(
+    device: Device<'_>,
+    [processor, other]: [&Scene; 2],
+    options: &RenderOptions,
+) -> [f64; 2] {
     let a = on_processor(processor, options, 2);
-    let b = on_gpu(gpu, other, options, 2);
+    let b = on_gpu(device, other, options, 2);
     assert!(mean(&a) > 0.0, "a black picture shows nothing");
     [differing(&a, &b), mean(&b) / mean(&a)]
 }
 
 /// The same samples give the same picture.
 fn check(name: &str, scene: &Scene, change: impl Fn(RenderOptions) -> RenderOptions) {
-    let Some(gpu) = gpu(name) else { return };
-    let [share, ratio] = compared(gpu, [scene; 2], &change(options(scene, 1)));
-    println!(
-        "{name}: {:.2} % of pixels differ, means {ratio:.5}",
-        100.0 * share
-    );
-    assert!(
-        share < 0.02,
-        "{name}: {:.1} % of pixels differ",
-        100.0 * share
-    );
+    for (gpu, rays) in devices(name) {
+        let [share, ratio] = compared((gpu, rays), [scene; 2], &change(options(scene, 1)));
+        println!(
+            "{name}, {rays}: {:.2} % of pixels differ, means {ratio:.5}",
+            100.0 * share
+        );
+        assert!(
+            share < 0.02,
+            "{name}, {rays}: {:.1} % of pixels differ",
+            100.0 * share
+        );
+    }
 }
 
 const ROOM: &str = "
@@ -163,34 +201,29 @@ fn diffuse_triangles_under_an_area_light() {
 
 #[test]
 fn renders_of_other_seeds_have_the_same_expectation() {
-    let Some(gpu) = gpu("other seeds") else {
-        return;
-    };
     let scene = scene(&format!(
         "{ROOM}{SKY}{}",
         orbs([&metal(NARROW), &metal(WIDE)])
     ));
-    let [a, b] = [
-        on_processor(&scene, &options(&scene, 1), 64),
-        on_gpu(gpu, &scene, &options(&scene, 2), 64),
-    ]
-    .map(|picture| luminance(&picture));
-    let report = compare(&image(&a), &image(&b), 8, 1e-4);
-    assert!(report.is_pass(), "{report}");
+    let a = luminance(&on_processor(&scene, &options(&scene, 1), 64));
+    for device in devices("other seeds") {
+        let b = luminance(&on_gpu(device, &scene, &options(&scene, 2), 64));
+        let report = compare(&image(&a), &image(&b), 8, 1e-4);
+        assert!(report.is_pass(), "{}: {report}", device.1);
+    }
 }
 
 #[test]
 fn small_differences_are_noticed() {
-    let Some(gpu) = gpu("small differences") else {
-        return;
-    };
     let text = |rough| format!("{ROOM}{SKY}{}", orbs([&metal(NARROW), &metal(rough)]));
     let [right, rougher] = [WIDE, "\"float roughness\" 0.505"].map(|rough| scene(&text(rough)));
-    let [share, _] = compared(gpu, [&right, &rougher], &options(&right, 1));
-    assert!(share > 0.05, "a width 1 % larger: {share}");
     let darker = scene(&text(WIDE).replace("[8 7 6]", "[7.92 6.93 5.94]"));
-    let [share, _] = compared(gpu, [&right, &darker], &options(&right, 1));
-    assert!(share > 0.05, "a lamp 1 % darker: {share}");
+    for device in devices("small differences") {
+        let [share, _] = compared(device, [&right, &rougher], &options(&right, 1));
+        assert!(share > 0.05, "a width 1 % larger: {share}");
+        let [share, _] = compared(device, [&right, &darker], &options(&right, 1));
+        assert!(share > 0.05, "a lamp 1 % darker: {share}");
+    }
 }
 
 #[test]
@@ -338,6 +371,15 @@ fn lenses_filters_and_views() {
     let mapping = EnvironmentMapping::EqualAreaOctahedral;
     flat.camera.projection = Projection::Spherical(mapping);
     check("all around", &flat, |o| o);
+}
+
+#[test]
+fn films_that_expose_bound_and_balance() {
+    let mut scene = scene(&format!("{ROOM}{SKY}"));
+    scene.film.exposure = 1.7;
+    scene.film.max_component = Some(0.6);
+    scene.film.balance = [[0.9, 0.2, -0.1], [0.1, 1.1, 0.0], [0.0, -0.2, 1.3]];
+    check("films", &scene, |o| o);
 }
 
 #[test]

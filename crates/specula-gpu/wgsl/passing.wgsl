@@ -5,7 +5,8 @@
 
 import tracer::world::{word, offset_leave};
 import tracer::sequence::{Sequence, sequence_hashed};
-import tracer::traverse::{Ray, traverse, traverse_occluded};
+import tracer::ray::{Ray};
+import tracer::traverse::{traverse, traverse_occluded};
 import tracer::surface::{Surface, surface_at, SHAPE_SIZE};
 import tracer::bodies::{Bodies, bodies_cross, bodies_transmittance};
 import tracer::texture_place::{Place};

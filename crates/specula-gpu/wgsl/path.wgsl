@@ -1,4 +1,5 @@
-// Unidirectional path tracing with next-event estimation: one thread follows one sample to its end.
+// Unidirectional path tracing with next-event estimation, vertex by vertex. Here one thread follows one
+// sample to its end; queue.wgsl takes all paths from one vertex to the next.
 //
 // Twin of specula-render/src/integrator.rs: the same numbers decide the same things, so that a sample
 // follows the same path up to rounding. SEED, MAX_DEPTH and STRATEGY are constants of the render.
@@ -7,7 +8,8 @@ import tracer::world::{word, number, offset_leave};
 import tracer::sequence::{Sequence, sequence_of, sequence_camera, sequence_scatter, sequence_light};
 import tracer::sequence::{sequence_stream};
 import tracer::camera::{camera_ray};
-import tracer::traverse::{Ray};
+import tracer::film::{film_developed};
+import tracer::ray::{Ray};
 import tracer::surface::{Surface, SHAPE_SIZE};
 import tracer::bodies::{Bodies};
 import tracer::passing::{passing_nearest, passing_shine, passing_cross, passing_place};
@@ -22,10 +24,11 @@ import tracer::bound::{MATERIAL_ROTATION};
 import package::math::frame::{Frame, frame_from_normal_tangent, frame_to_local, frame_to_world};
 import package::bsdf::bsdf_sample::{BsdfSample};
 
-/// Samples to take: column, row, number, and 1 (0 for none).
+/// The wave: places that each run has among the samples, and the number of runs. Then the runs, of samples of
+/// a pixel: column, row, number of the first, how many.
 @group(0) @binding(4) var<storage, read> path_wanted: array<vec4u>;
-/// Three vectors a sample: radiance and weight; albedo and depth (negative where nothing was met);
-/// normal and rays traced.
+/// Three vectors a sample, as sums.wgsl reads them: picture values and depth (negative where nothing was
+/// met); albedo and rays traced; normal and the filter's weight, which the other vectors are times.
 @group(0) @binding(5) var<storage, read_write> path_found: array<vec4f>;
 
 /// Vertices before roulette begins.
@@ -42,16 +45,18 @@ const STRATEGY_POWER: u32 = 4u;
 /// A path on its way.
 struct PathState {
     radiance: vec3f,
-    throughput: vec3f,
     eta_scale: f32,
+    throughput: vec3f,
+    rays: u32,
+    // The one that it goes on with.
+    ray: Ray,
     // What the path is in.
     bodies: Bodies,
-    // Whether it has only passed through thin panes: lights that are hidden stay so.
-    straight: bool,
     // Where the last direction was drawn, and its density; 0 where lights could not have found it.
     previous: Receiver,
     previous_pdf: f32,
-    rays: u32,
+    // Whether it has only passed through thin panes: lights that are hidden stay so.
+    straight: u32,
 }
 
 /// A surface with its lobe and frame, turned to the viewer.
@@ -207,7 +212,7 @@ fn path_direct(state: ptr<function, PathState>, vertex: PathVertex, s: Sequence,
     (*state).radiance += (*state).throughput * f.xyz * arrived;
 }
 
-/// Draws the next direction; returns whether the path goes on, along `ray`.
+/// Draws the next direction; returns whether the path goes on, along its ray.
 ///
 /// Twin: specula-render/src/integrator.rs, PathTracer::scatter.
 fn path_scatter(
@@ -215,7 +220,6 @@ fn path_scatter(
     vertex: PathVertex,
     s: Sequence,
     depth: u32,
-    ray: ptr<function, Ray>,
 ) -> bool {
     let u = sequence_scatter(s, depth);
     let drawn = material_draw(vertex.bound, vertex.wo, u.xyz, sequence_stream(s, depth, 1u));
@@ -229,7 +233,9 @@ fn path_scatter(
     (*state).throughput *= drawn.weight * relief_softness(vertex.softness, direction);
     (*state).eta_scale *= drawn.eta * drawn.eta;
     let passes = (drawn.flags & BSDF_TRANSMISSION) != 0u;
-    (*state).straight = (*state).straight && passes && vertex.bound.kind == KIND_THIN_PANE;
+    if !(passes && vertex.bound.kind == KIND_THIN_PANE) {
+        (*state).straight = 0u;
+    }
     if passes {
         var bodies = (*state).bodies;
         passing_cross(&bodies, vertex.surface, direction);
@@ -251,63 +257,98 @@ fn path_scatter(
     (*state).previous = path_receiver(vertex);
     let surface = vertex.surface;
     let origin = offset_leave(surface.position, surface.error, surface.ng, direction);
-    *ray = Ray(origin, direction, FARTHEST);
+    (*state).ray = Ray(origin, direction, FARTHEST);
     return true;
+}
+
+/// Whether a thread has a sample to take.
+fn path_is_wanted(slot: u32) -> bool {
+    let wave = path_wanted[0];
+    let run = slot / wave.x;
+    return run < wave.y && slot % wave.x < path_wanted[run + 1u].w;
+}
+
+/// The numbers of a sample.
+fn path_sequence(slot: u32) -> Sequence {
+    let places = path_wanted[0].x;
+    let run = path_wanted[slot / places + 1u];
+    return sequence_of(run.xy, run.z + slot % places, SEED);
+}
+
+/// A path at the camera.
+fn path_begin(slot: u32, s: Sequence) -> PathState {
+    let pixel = path_wanted[slot / path_wanted[0].x + 1u].xy;
+    let begin = camera_ray(pixel, sequence_camera(s));
+    var state: PathState;
+    state.ray = Ray(begin.origin, begin.direction, FARTHEST);
+    state.throughput = vec3f(1.0);
+    state.eta_scale = 1.0;
+    state.straight = 1u;
+    path_found[3u * slot] = vec4f(vec3f(0.0), -1.0);
+    path_found[3u * slot + 1u] = vec4f(0.0);
+    path_found[3u * slot + 2u] = vec4f(vec3f(0.0), begin.weight);
+    return state;
+}
+
+/// Notes what the first vertex shows.
+fn path_shows(slot: u32, vertex: PathVertex, distance: f32) {
+    let weight = path_found[3u * slot + 2u].w;
+    path_found[3u * slot].w = distance;
+    path_found[3u * slot + 1u] = vec4f(material_albedo(vertex.bound) * weight, 0.0);
+    path_found[3u * slot + 2u] = vec4f(vertex.frame.n * weight, weight);
+}
+
+/// Takes a path from one vertex to the next; returns whether it goes on.
+///
+/// Twin: specula-render/src/integrator.rs, PathTracer::step.
+fn path_step(slot: u32, state: ptr<function, PathState>, s: Sequence, depth: u32) -> bool {
+    let begin = (*state).ray.origin;
+    var ray = (*state).ray;
+    var bodies = (*state).bodies;
+    let met = passing_nearest(&ray, &bodies, s, depth);
+    (*state).bodies = bodies;
+    (*state).rays += met.rays;
+    (*state).throughput *= met.left;
+    if !met.found {
+        if !((*state).straight != 0u && HIDES_EMITTERS != 0u) {
+            (*state).radiance += (*state).throughput * path_background(*state, ray.direction);
+        }
+        return false;
+    }
+    let surface = met.surface;
+    (*state).radiance += (*state).throughput * path_emission(*state, surface, ray.direction);
+    if depth >= MAX_DEPTH && depth > 0u {
+        return false;
+    }
+    let vertex = path_vertex(surface, -ray.direction, s, depth);
+    if depth == 0u {
+        path_shows(slot, vertex, length(surface.position - begin));
+        if MAX_DEPTH == 0u {
+            return false;
+        }
+    }
+    path_direct(state, vertex, s, depth);
+    return path_scatter(state, vertex, s, depth);
+}
+
+/// Notes what a path has brought.
+fn path_end(slot: u32, state: PathState) {
+    let weight = path_found[3u * slot + 2u].w;
+    let value = film_developed(state.radiance) * weight;
+    path_found[3u * slot] = vec4f(value, path_found[3u * slot].w);
+    path_found[3u * slot + 1u].w = f32(state.rays);
 }
 
 /// Takes one sample.
 @compute @workgroup_size(64)
 fn path_main(@builtin(global_invocation_id) id: vec3u) {
-    if id.x >= arrayLength(&path_wanted) {
+    let slot = id.x;
+    if !path_is_wanted(slot) {
         return;
     }
-    let wanted = path_wanted[id.x];
-    if wanted.w == 0u {
-        return;
+    let s = path_sequence(slot);
+    var state = path_begin(slot, s);
+    for (var depth = 0u; path_step(slot, &state, s, depth); depth += 1u) {
     }
-    let s = sequence_of(wanted.xy, wanted.z, SEED);
-    let begin = camera_ray(wanted.xy, sequence_camera(s));
-    var ray = Ray(begin.origin, begin.direction, FARTHEST);
-    var state: PathState;
-    state.throughput = vec3f(1.0);
-    state.eta_scale = 1.0;
-    state.straight = true;
-    var albedo = vec3f(0.0);
-    var normal = vec3f(0.0);
-    var distance = -1.0;
-    for (var depth = 0u; depth <= MAX_DEPTH; depth += 1u) {
-        var bodies = state.bodies;
-        let met = passing_nearest(&ray, &bodies, s, depth);
-        state.bodies = bodies;
-        state.rays += met.rays;
-        state.throughput *= met.left;
-        if !met.found {
-            if !(state.straight && HIDES_EMITTERS != 0u) {
-                state.radiance += state.throughput * path_background(state, ray.direction);
-            }
-            break;
-        }
-        let surface = met.surface;
-        state.radiance += state.throughput * path_emission(state, surface, ray.direction);
-        if depth >= MAX_DEPTH && depth > 0u {
-            break;
-        }
-        let vertex = path_vertex(surface, -ray.direction, s, depth);
-        if depth == 0u {
-            albedo = material_albedo(vertex.bound);
-            normal = vertex.frame.n;
-            distance = length(surface.position - begin.origin);
-            if MAX_DEPTH == 0u {
-                break;
-            }
-        }
-        path_direct(&state, vertex, s, depth);
-        if !path_scatter(&state, vertex, s, depth, &ray) {
-            break;
-        }
-    }
-    let at = 3u * id.x;
-    path_found[at] = vec4f(state.radiance, begin.weight);
-    path_found[at + 1u] = vec4f(albedo, distance);
-    path_found[at + 2u] = vec4f(normal, f32(state.rays));
+    path_end(slot, state);
 }

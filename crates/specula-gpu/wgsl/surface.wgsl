@@ -5,7 +5,7 @@
 import tracer::world::{word, number, vector, affine_point, affine_vector, affine_magnitude};
 import tracer::world::{offset_coupled, unit_or};
 import tracer::angles::{angles_turns};
-import tracer::traverse::{Hit, Ray};
+import tracer::ray::{Hit, Ray};
 
 /// A point of a surface, in the world.
 ///

@@ -9,10 +9,10 @@
 
 import tracer::area::{AreaSample, area_draw, area_pdf, area_triangle};
 import tracer::piecewise::{piecewise_density, piecewise_draw};
+import tracer::ray::{Hit, Ray};
 import tracer::surface::{Surface, surface_at, SHAPE_SIZE};
 import tracer::texture_graph::{parameter_colour, parameter_float};
 import tracer::texture_place::{Place};
-import tracer::traverse::{Hit, Ray};
 import tracer::world::{word};
 
 /// Place of the shape.

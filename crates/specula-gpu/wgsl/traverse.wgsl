@@ -1,27 +1,14 @@
 // Rays through the trees: 8-wide nodes over packets of 8 triangles, spheres, disks and placements.
 //
-// Twin of specula-render/src/accel/{traverse,frame,triangle,quadric,instances}.rs: the same boxes, the
+// Twin of specula-render/src/accel/{traverse,frame,triangle,instances}.rs: the same boxes, the
 // same watertight test of triangles (Woop, Benthin and Wald 2013), the same rule for ties. Departures:
-// quadrics and placements in f32, where the CPU computes in f64; directions along an axis get a tiny
-// component instead of an infinite reciprocal, which shaders may not count on.
+// placements in f32, where the CPU computes in f64; directions along an axis get a tiny component
+// instead of an infinite reciprocal, which shaders may not count on. Where rays are cast by the adapter's
+// queries, query.wgsl stands in this module's place.
 
-import tracer::world::{word, number, affine_point, affine_vector};
-
-/// A ray, `origin + t direction` for `t` in `(0, t_max)`.
-struct Ray {
-    origin: vec3f,
-    direction: vec3f,
-    t_max: f32,
-}
-
-/// Where a ray first meets a surface; `instance` is NONE where it meets none.
-struct Hit {
-    t: f32,
-    u: f32,
-    v: f32,
-    primitive: u32,
-    instance: u32,
-}
+import tracer::world::{word, affine_point, affine_vector};
+import tracer::ray::{Ray, Hit};
+import tracer::quadric::{quadric_distance};
 
 /// A ray prepared for boxes and triangles.
 ///
@@ -135,37 +122,6 @@ fn traverse_packet(index: u32, frame: RayFrame, instance: u32, best: ptr<functio
     }
 }
 
-/// The least `t > 0` at which a ray meets a quadric; not positive where it does not.
-///
-/// Source: Haines, Guenther and Akenine-Moeller 2019 (Ray Tracing Gems 7), eqs. 5 and 10.
-fn traverse_quadric(at: u32, frame: RayFrame) -> f32 {
-    let o = affine_point(at + 4u, frame.origin);
-    let d = affine_vector(at + 4u, frame.direction);
-    let radius = number(at + 1u);
-    if word(at) == 1u {
-        let t = (number(at + 2u) - o.z) / d.z;
-        let p = o.xy + t * d.xy;
-        return select(-1.0, t, dot(p, p) <= radius * radius && d.z != 0.0);
-    }
-    let a = dot(d, d);
-    let b = -dot(o, d);
-    let closest = o + d * (b / a);
-    let discriminant = radius * radius - dot(closest, closest);
-    if discriminant < 0.0 {
-        return -1.0;
-    }
-    let distance = length(o);
-    let root = sqrt(a * discriminant);
-    let q = b + select(root, -root, b < 0.0);
-    let c = (distance - radius) * (distance + radius);
-    if q == 0.0 {
-        return -1.0;
-    }
-    let first = min(c / q, q / a);
-    let second = max(c / q, q / a);
-    return select(second, first, first > 0.0);
-}
-
 /// The first surface that a ray meets; any surface where `any` is set.
 ///
 /// Twin: specula-render/src/accel/traverse.rs, cast.
@@ -204,7 +160,7 @@ fn traverse(ray: Ray, any: bool) -> Hit {
             traverse_packet(index, frame, instance, &best);
         } else if kind == 2u {
             let at = QUADRICS + index * 16u;
-            let t = traverse_quadric(at, frame);
+            let t = quadric_distance(at, at + 4u, frame.origin, frame.direction);
             if t > 0.0 && t <= best.t {
                 traverse_offer(&best, t, 0.0, 0.0, word(at + 3u), instance);
             }

@@ -158,16 +158,8 @@ impl<'a> PathTracer<'a> {
     #[inline(always)]
     pub(crate) fn brought(&self, block: &Block, path: usize) -> (PixelSample, f32) {
         let (seen, weight) = block.seen(path);
-        (self.developed(seen), weight)
-    }
-
-    /// A sample as the film takes it.
-    #[inline(always)]
-    pub(crate) fn developed(&self, seen: PixelSample) -> PixelSample {
-        PixelSample {
-            colour: self.scene.develop.of(seen.colour),
-            ..seen
-        }
+        let colour = self.scene.develop.of(seen.colour);
+        (PixelSample { colour, ..seen }, weight)
     }
 
     /// Follows a path to its end, one vertex after the other.

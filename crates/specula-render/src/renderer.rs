@@ -3,12 +3,10 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use bytemuck::{Pod, Zeroable};
 use multiversion::multiversion;
 use rayon::prelude::*;
-use specula_bsdf::{Rgb, Vec3};
 
-use crate::film::{Criterion, FIRST_JUDGED, FilmBuffer, PixelSample, PixelSums, Tile};
+use crate::film::{Criterion, FIRST_JUDGED, FilmBuffer, PixelSums, Tile};
 use crate::integrator::{Block, PathTracer, Tally};
 use crate::options::RenderOptions;
 use crate::prepared::PreparedScene;
@@ -21,9 +19,9 @@ use crate::sampler::Sampler;
 /// number of threads or on how the samples are split into passes. Where a noise is asked for, tiles
 /// are judged at fixed numbers of samples by their own sums, so that this holds there too.
 pub struct Renderer<'a> {
-    scene: &'a PreparedScene,
-    options: RenderOptions,
-    film: FilmBuffer,
+    pub(crate) scene: &'a PreparedScene,
+    pub(crate) options: RenderOptions,
+    pub(crate) film: FilmBuffer,
     /// Those that no thread uses.
     blocks: Mutex<Vec<Block>>,
 }
@@ -207,90 +205,12 @@ impl<'a> Renderer<'a> {
         self.report(done, Some(done.tally.scattered), complete)
     }
 
-    /// [`Renderer::render_pass`] with samples that a device takes.
-    ///
-    /// * `most`: samples that the device is asked for at once, a tile at least.
-    /// * `device`: takes the samples of tiles, in the order of [`Wanted::each`].
-    ///
-    /// # Errors
-    /// Those of the device. The film keeps what came before, and can be gone on with.
-    pub fn render_pass_with<E>(
-        &mut self,
-        samples: u32,
-        stop: &AtomicBool,
-        mut most: impl FnMut() -> usize,
-        mut device: impl FnMut(&[Wanted]) -> Result<Vec<Found>, E>,
-    ) -> Result<PassReport, E> {
-        let last = self.samples_done().map(|done| done.saturating_add(samples));
-        let criterion = self.options.noise.map(|noise| self.film.criterion(noise));
-        let (mut done, mut complete) = (Done::default(), true);
-        while complete {
-            let wanted = self.wanted(criterion.as_ref(), last, most());
-            if wanted.is_empty() {
-                break;
-            }
-            let found = device(&wanted)?;
-            done = done.and(self.add(&wanted, &found));
-            complete = !stop.load(Ordering::Relaxed);
-        }
-        if criterion.is_some() {
-            self.film.take_reference();
-        }
-        Ok(self.report(done, None, complete))
-    }
-
-    /// What tiles need next, of so many samples together, a tile at least.
-    fn wanted(&self, criterion: Option<&Criterion>, last: Option<u32>, most: usize) -> Vec<Wanted> {
-        let mut wanted: Vec<Wanted> = Vec::new();
-        let mut samples = 0;
-        let first = self.options.first_sample;
-        for (tile, place) in self.film.tiles.iter().zip(0..) {
-            let Some(next) = next_target(tile, criterion, last) else {
-                continue;
-            };
-            let one = Wanted {
-                place,
-                bounds: tile.bounds,
-                first,
-                counts: [tile.count(), next],
-            };
-            samples += one.len();
-            if samples > most && !wanted.is_empty() {
-                break;
-            }
-            wanted.push(one);
-        }
-        wanted
-    }
-
-    /// Adds what a device found.
-    fn add(&mut self, wanted: &[Wanted], found: &[Found]) -> Done {
-        let tracer = PathTracer::new(self.scene, &self.options);
-        let mut done = Done::default();
-        let mut rest = found;
-        for one in wanted {
-            let (own, after) = rest.split_at(one.len().min(rest.len()));
-            rest = after;
-            let tile = &mut self.film.tiles[one.place];
-            for ((i, pixel, number), found) in one.each().zip(own) {
-                done.tally.rays += u64::from(found.rays());
-                if tile.pixels[i].add(&tracer.developed(found.sample()), found.weight) {
-                    continue;
-                }
-                tile.invalid += 1;
-                let sampler = Sampler::new(pixel, number, self.options.seed);
-                let mut block = Block::new();
-                done.invalid = Some(InvalidSample {
-                    pixel,
-                    number,
-                    material: tracer.blame(&mut block, pixel, sampler).map(|m| m as usize),
-                });
-            }
-        }
-        done
-    }
-
-    fn report(&self, done: Done, scattered: Option<Scattered>, complete: bool) -> PassReport {
+    pub(crate) fn report(
+        &self,
+        done: Done,
+        scattered: Option<Scattered>,
+        complete: bool,
+    ) -> PassReport {
         PassReport {
             samples_done_total: self.film.complete_samples(),
             rays: done.tally.rays,
@@ -335,88 +255,17 @@ impl<'a> Renderer<'a> {
     }
 }
 
-/// Samples that are wanted of every pixel of a tile.
-#[derive(Clone, Copy, Debug)]
-pub struct Wanted {
-    place: usize,
-    bounds: [u32; 4],
-    first: u32,
-    counts: [u32; 2],
-}
-
-impl Wanted {
-    /// How many samples.
-    pub fn len(&self) -> usize {
-        let [x0, x1, y0, y1] = self.bounds;
-        let pixels = (x1 - x0) as usize * (y1 - y0) as usize;
-        pixels * (self.counts[1] - self.counts[0]) as usize
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// Every sample: its pixel's place in the tile, its pixel, and its number.
-    pub fn each(&self) -> impl Iterator<Item = (usize, [u32; 2], u32)> + use<> {
-        let Self {
-            bounds: [x0, x1, y0, y1],
-            first,
-            counts: [from, to],
-            ..
-        } = *self;
-        let pixels = (y0..y1).flat_map(move |y| (x0..x1).map(move |x| [x, y]));
-        pixels.enumerate().flat_map(move |(i, pixel)| {
-            (from..to).map(move |count| (i, pixel, first.wrapping_add(count)))
-        })
-    }
-}
-
-/// A sample that a device took.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-#[repr(C)]
-pub struct Found {
-    /// Before the film develops it.
-    pub radiance: [f32; 3],
-    /// Of the reconstruction filter.
-    pub weight: f32,
-    /// Of the first surface, for denoisers.
-    pub albedo: [f32; 3],
-    /// Distance of the first surface; negative where there is none.
-    pub depth: f32,
-    /// Shading normal of the first surface.
-    pub normal: [f32; 3],
-    /// Rays that were traced.
-    pub rays: f32,
-}
-
-impl Found {
-    fn sample(&self) -> PixelSample {
-        PixelSample {
-            colour: Rgb::from(self.radiance),
-            albedo: Rgb::from(self.albedo),
-            normal: Vec3::from(self.normal),
-            depth: (self.depth >= 0.0).then_some(self.depth),
-        }
-    }
-
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "saturates; counts are small"
-    )]
-    fn rays(&self) -> u32 {
-        self.rays as u32
-    }
-}
-
 /// The blocks that no thread uses.
 fn free(blocks: &Mutex<Vec<Block>>) -> MutexGuard<'_, Vec<Block>> {
     blocks.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Samples that a tile is to be taken to next, at most `last`; `None`: it has what this pass brings.
-fn next_target(tile: &Tile, criterion: Option<&Criterion>, last: Option<u32>) -> Option<u32> {
+pub(crate) fn next_target(
+    tile: &Tile,
+    criterion: Option<&Criterion>,
+    last: Option<u32>,
+) -> Option<u32> {
     let wanted = criterion.map_or(last, |c| c.target(tile));
     let next = wanted?.min(last?);
     (tile.count() < next).then_some(next)
@@ -424,14 +273,14 @@ fn next_target(tile: &Tile, criterion: Option<&Criterion>, last: Option<u32>) ->
 
 /// What was done for a tile, or for several.
 #[derive(Clone, Copy, Default)]
-struct Done {
-    tally: Tally,
-    invalid: Option<InvalidSample>,
+pub(crate) struct Done {
+    pub(crate) tally: Tally,
+    pub(crate) invalid: Option<InvalidSample>,
 }
 
 impl Done {
     /// Of two sets of tiles in order.
-    fn and(self, later: Self) -> Self {
+    pub(crate) fn and(self, later: Self) -> Self {
         Self {
             tally: self.tally.and(later.tally),
             invalid: self.invalid.or(later.invalid),

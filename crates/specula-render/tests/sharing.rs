@@ -180,4 +180,6 @@ fn threads_and_passes_do_not_change_what_is_shared() {
     assert_eq!(run(2, &[1, 2, 5]), whole);
     let alone = render_passes(&scene, &options(1, 0), &[8]);
     assert_ne!(alone.colour, whole.colour);
+    // What a checkpoint goes by.
+    assert_ne!(options(1, 0).settings(), options(5, 0).settings());
 }

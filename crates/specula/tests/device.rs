@@ -1,5 +1,5 @@
-//! `--device` and `specula devices`. What needs a GPU says that it is skipped where there is none, and
-//! fails where `SPECULA_GPU=require`.
+//! `--device`, `--gpu-rays`, `--gpu-schedule` and `specula devices`. What needs a GPU says that it is skipped
+//! where there is none, and fails where `SPECULA_GPU=require`.
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail loudly")]
 
 mod common;
@@ -110,6 +110,67 @@ fn a_gpu_renders_the_processors_picture_and_resumes() {
         "part.exr",
     ]);
     assert_eq!(picture(folder, "part.exr"), picture(folder, "whole.exr"));
+
+    on_gpu(&["--gpu-schedule", "paths", "-o", "paths.exr"]);
+    on_gpu(&["--gpu-schedule", "queues", "-o", "queues.exr"]);
+    assert_eq!(picture(folder, "paths.exr"), picture(folder, "queues.exr"));
+}
+
+#[test]
+fn schedules_that_are_not_there_are_named() {
+    let (folder, _) = small_scene();
+    let arguments = ["render", "small.pbrt", "--gpu-schedule", "threads"];
+    let (code, said) = run(folder.path(), &arguments);
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("expected auto, paths or queues"), "{said}");
+}
+
+#[test]
+fn ray_queries_that_are_not_there_are_named_before_anything_is_done() {
+    let (folder, _) = small_scene();
+    let folder = folder.path();
+    let render = |device: &str, rays: &str| {
+        let arguments = [
+            "render",
+            "small.pbrt",
+            "--device",
+            device,
+            "--gpu-rays",
+            rays,
+        ];
+        let (code, said) = run(folder, &[&arguments[..], &["-o", "a.exr"]].concat());
+        // Reports are broken into lines with a bar before each.
+        let words = said.split_whitespace().filter(|word| *word != "│");
+        (code, words.collect::<Vec<_>>().join(" "))
+    };
+    let (code, said) = render("cpu", "query");
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("the processor has no ray queries"), "{said}");
+    let (code, said) = render("cpu", "some");
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("expected auto, tree or query"), "{said}");
+    if has_gpu("ray queries") {
+        let offered = adapters()[0].ray_queries;
+        let (code, said) = render("gpu", "query");
+        if !offered {
+            assert_eq!(code, Some(2), "{said}");
+            assert!(said.contains("offers no ray queries"), "{said}");
+            assert!(!folder.join("a.exr").exists());
+        } else {
+            assert_eq!(code, Some(0), "{said}");
+            assert!(said.contains("rays by its ray queries"), "{said}");
+            for schedule in ["paths", "queues"] {
+                let output = format!("{schedule}.exr");
+                let ways = ["--gpu-rays", "query", "--gpu-schedule", schedule];
+                let render = ["render", "small.pbrt", "--device", "gpu", "-o", &output];
+                succeed(folder, &[&render[..], &ways].concat());
+            }
+            assert_eq!(picture(folder, "paths.exr"), picture(folder, "queues.exr"));
+        }
+        let (code, said) = render("gpu", "tree");
+        assert_eq!(code, Some(0), "{said}");
+        assert!(said.contains("rays through Specula's tree"), "{said}");
+    }
 }
 
 #[test]
@@ -119,6 +180,10 @@ fn what_a_gpu_does_not_render_is_named_before_anything_is_done() {
     }
     let (folder, scene) = small_scene();
     let folder = folder.path();
+    let shared = ["--device", "gpu", "--share-paths", "4", "-o", "a.exr"];
+    let (code, said) = run(folder, &[&["render", "small.pbrt"], &shared[..]].concat());
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("paths that share"), "{said}");
     let text = std::fs::read_to_string(&scene).unwrap();
     let mut nested = String::from("Texture \"t0\" \"spectrum\" \"checkerboard\"\n");
     for i in 1..40 {

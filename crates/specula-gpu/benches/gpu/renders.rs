@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use specula_bsdf::vndf::Sampler;
-use specula_gpu::{Gpu, Tracer, TracerError};
+use specula_gpu::{Gpu, Rays, Schedule, Tracer, TracerError, TracerOptions};
 use specula_render::{PreparedScene, RenderOptions, Renderer};
 use specula_scene::Scene;
 
@@ -187,12 +187,16 @@ fn longest_path(
     Ok((0..SAMPLERS.len()).map(cells).collect())
 }
 
-/// Table 4: samples and rays per second beside the processor's.
+/// Table 4: samples and rays per second beside the processor's, by both schedules and ways of rays.
 pub(crate) fn speeds(gpu: &Gpu, effort: &Effort) -> Result<String> {
     let mut rows = vec![row([
         "scene",
+        "schedule",
+        "rays",
         "GPU: Msamples/s",
         "Mrays/s",
+        "time / paths",
+        "in single rounds",
         "processor: Msamples/s",
         "Mrays/s",
         "GPU / processor",
@@ -204,16 +208,25 @@ pub(crate) fn speeds(gpu: &Gpu, effort: &Effort) -> Result<String> {
         false => &SCENES[..],
     };
     for file in scenes {
-        rows.push(speed(gpu, effort, file)?);
+        rows.extend(speed(gpu, effort, file, Rays::Tree)?);
+        if gpu.has_ray_queries() {
+            rows.extend(speed(gpu, effort, file, Rays::Query)?);
+        }
     }
+    let queries = match gpu.has_ray_queries() {
+        true => "Rays go through Specula's tree, or are cast by the GPU's ray queries.\n",
+        false => "This GPU offers no ray queries: rays go through Specula's tree.\n",
+    };
     let left_out = match effort.quick {
         true => "`--quick` leaves `two-million-triangles` out.\n",
         false => "",
     };
     Ok(format!(
         "## Speed beside the processor's\n\n\
-         The scenes of [`data/versus`](../../data/versus), {0}x{0} pixels, paths as long as they say, the \
-         film on the processor on both sides; rays of cameras, bounces and shadows.\n{left_out}\
+         The scenes of [`data/versus`](../../data/versus), {0}x{0} pixels, paths as long as they say; rays of \
+         cameras, bounces and shadows.\n\
+         `paths`: a thread follows a path to its end. `queues`: a thread takes a path to its next vertex, and \
+         paths that go on form a queue (`--gpu-schedule`).\n{queries}{left_out}\
          Medians of {1} rounds.\n\n{2}",
         effort.side,
         effort.render_rounds,
@@ -221,46 +234,75 @@ pub(crate) fn speeds(gpu: &Gpu, effort: &Effort) -> Result<String> {
     ))
 }
 
-/// The row of one scene.
-fn speed(gpu: &Gpu, effort: &Effort, file: &SceneFile) -> Result<Vec<String>> {
+/// Schedules of table 4; the second is compared with the first.
+const SCHEDULES: [Schedule; 2] = [Schedule::Paths, Schedule::Queues];
+
+/// The row of a scene that is not rendered.
+fn row_of_reason(file: &SceneFile, rays: Rays, reason: &TracerError) -> Vec<String> {
+    let mut cells = vec![String::new(); 12];
+    cells[0] = file.name.to_owned();
+    cells[2] = rays.to_string();
+    cells[3] = reason.to_string();
+    cells
+}
+
+/// The rows of one scene and way of rays.
+fn speed(gpu: &Gpu, effort: &Effort, file: &SceneFile, rays: Rays) -> Result<Vec<Vec<String>>> {
     let scene = file.load()?;
     let options = RenderOptions {
         resolution: Some([effort.side; 2]),
         ..RenderOptions::from_scene(&scene)
     };
     let prepared = PreparedScene::consume(scene, &options)?;
-    let start = Instant::now();
-    let tracer = match Tracer::new(gpu, &prepared, &options) {
-        Ok(tracer) => tracer,
-        Err(error @ (TracerError::Missing(_) | TracerError::TooLarge { .. })) => {
-            return Ok(row([file.name, &error.to_string(), "", "", "", "", "", ""]));
-        }
-        Err(error) => return Err(error.into()),
-    };
-    let compiled = start.elapsed().as_secs_f64();
-    let mut renders = [Some(tracer), None].map(|t| Render::new(&prepared, &options, t));
+    let mut renders = vec![Render::new(&prepared, &options, None)];
+    let mut compiled = Vec::new();
+    for schedule in SCHEDULES {
+        let start = Instant::now();
+        let on_gpu = TracerOptions { rays, schedule };
+        let tracer = match Tracer::with_options(gpu, &prepared, &options, on_gpu) {
+            Ok(tracer) => tracer,
+            Err(
+                error @ (TracerError::Missing(_)
+                | TracerError::TooLarge { .. }
+                | TracerError::Queries(_)),
+            ) => return Ok(vec![row_of_reason(file, rays, &error)]),
+            Err(error) => return Err(error.into()),
+        };
+        compiled.push(start.elapsed().as_secs_f64());
+        renders.push(Render::new(&prepared, &options, Some(tracer)));
+    }
     for render in &mut renders {
         render.warm_up(effort.seconds)?;
     }
-    let mut passes = [Vec::new(), Vec::new()];
+    let mut passes = vec![Vec::new(); renders.len()];
     for _ in 0..effort.render_rounds {
         for (render, passes) in renders.iter_mut().zip(&mut passes) {
             passes.push(render.pass()?);
         }
     }
-    let mut cells = row([file.name]);
-    for passes in &passes {
-        cells.push(figure(over(passes, |p| 1e-6 / p.per_sample)));
+    let [processor, on_gpu @ ..] = passes.as_slice() else {
+        return Ok(Vec::new());
+    };
+    let speed = |passes: &[Pass]| {
         let rays = over(passes, |p| 1e-6 * p.rays_per_sample / p.per_sample);
-        cells.push(figure(rays));
-    }
-    let [gpu, processor] = &passes;
-    let ratios = gpu.iter().zip(processor);
-    let ratios = ratios.map(|(a, b)| b.per_sample / a.per_sample);
-    let ratios: Vec<f64> = ratios.collect();
-    let [low, high] = range(ratios.iter().copied());
-    cells.push(figure(median(ratios)));
-    cells.push(format!("{} to {}", figure(low), figure(high)));
-    cells.push(format!("{compiled:.1} s"));
-    Ok(cells)
+        [over(passes, |p| 1e-6 / p.per_sample), rays].map(figure)
+    };
+    // Of times, round by round: the median, and the range.
+    let quotient = |a: &[Pass], b: &[Pass]| {
+        let rounds = a.iter().zip(b).map(|(a, b)| a.per_sample / b.per_sample);
+        let rounds: Vec<f64> = rounds.collect();
+        let [low, high] = range(rounds.iter().copied()).map(figure);
+        [figure(median(rounds)), format!("{low} to {high}")]
+    };
+    let cells = |place: usize| {
+        let these = &on_gpu[place];
+        let mut cells = row([file.name, &SCHEDULES[place].to_string(), &rays.to_string()]);
+        cells.extend(speed(these));
+        cells.extend(quotient(these, &on_gpu[0]));
+        cells.extend(speed(processor));
+        cells.extend(quotient(processor, these));
+        cells.push(format!("{:.1} s", compiled[place]));
+        cells
+    };
+    Ok((0..SCHEDULES.len()).map(cells).collect())
 }

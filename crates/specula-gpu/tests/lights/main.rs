@@ -39,7 +39,7 @@ const FAR: usize = 3;
 const MODULES: &[(&str, &str)] = &[
     ("world", include_str!("../../wgsl/world.wgsl")),
     ("sequence", include_str!("../../wgsl/sequence.wgsl")),
-    ("traverse", include_str!("../../wgsl/traverse.wgsl")),
+    ("ray", include_str!("../../wgsl/ray.wgsl")),
     ("angles", include_str!("../../wgsl/angles.wgsl")),
     ("surface", include_str!("../../wgsl/surface.wgsl")),
     (
@@ -195,7 +195,7 @@ struct Fault {
 
 fn source(flat: &FlatScene<'_>, fault: Option<&Fault>) -> String {
     // No rays are traced: the stack is never used.
-    let mut text = String::from("const STACK_SIZE: u32 = 1u;\n");
+    let mut text = String::new();
     for (name, value) in &flat.constants {
         let _ = writeln!(text, "const {name}: u32 = {value}u;");
     }

@@ -41,7 +41,7 @@ pub(crate) const RELIEFS: [Module; 11] = [
     RASTER,
     NOISE,
     GRAPH,
-    ("traverse", include_str!("../../wgsl/traverse.wgsl")),
+    ("ray", include_str!("../../wgsl/ray.wgsl")),
     ("surface", include_str!("../../wgsl/surface.wgsl")),
     ("partials", include_str!("../../wgsl/partials.wgsl")),
     ("relief", include_str!("../../wgsl/relief.wgsl")),
@@ -87,7 +87,6 @@ impl Device {
         let gpu = self.0;
         let flat = scene.flatten();
         let mut source = specula_shaders::compose(&["frame"]).unwrap();
-        source += "const STACK_SIZE: u32 = 64u;\n";
         for (name, value) in &flat.constants {
             source += &format!("const {name}: u32 = {value}u;\n");
         }

@@ -17,6 +17,7 @@ impl Accel {
         to.constant("TREE_ROOT", scene.root.map_or(NONE, |root| root.0));
         to.constant("LONE_INSTANCE", scene.single.unwrap_or(NONE));
         to.constant("TREE_DEPTH", id(self.stats.depth));
+        to.constant("QUADRIC_COUNT", id(scene.quadrics.len()));
         to.begin("QUADRICS");
         for quadric in &scene.quadrics {
             flatten_quadric(quadric, to);

@@ -45,6 +45,7 @@ pub use bounds::Bounds;
 pub use input::{AccelError, Group, Instance};
 pub(crate) use predicted::predicted;
 pub use quadric::{Quadric, QuadricShape};
+pub(crate) use triangle::has_area;
 
 #[cfg(target_arch = "x86_64")]
 use avx2::Avx2;

@@ -46,7 +46,7 @@ impl Quadric {
     ///
     /// The extent of the image of a ball under `A` along axis `i` is the radius times the length of
     /// row `i` of `A`; of a disk, without the row's z.
-    pub(super) fn bounds(&self) -> Bounds {
+    pub(crate) fn bounds(&self) -> Bounds {
         let to_group = DAffine3::from_mat4(self.to_group);
         let (radius, height, flat) = match self.shape {
             QuadricShape::Sphere { radius } => (radius, 0.0, 1.0),

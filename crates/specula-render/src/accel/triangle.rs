@@ -42,6 +42,11 @@ pub(super) fn bounds(corners: &[[f32; 3]; 3]) -> Option<Bounds> {
     (finite && n != [0.0; 3]).then(|| Bounds::around(corners).padded(PAD))
 }
 
+/// Whether a triangle can be hit.
+pub(crate) fn has_area(corners: &[[f32; 3]; 3]) -> bool {
+    bounds(corners).is_some()
+}
+
 /// `U, V, W` of sheared vertices.
 ///
 /// This and the next two are the reference that the AVX2 kernel follows operation by operation.

@@ -24,12 +24,12 @@ pub(crate) struct PixelSample {
 /// Sums over the samples of one pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct PixelSums {
-    colour: [Sum; 3],
-    squares: [Sum; 3],
-    albedo: [FixedSum; 3],
-    normal: [FixedSum; 3],
-    depth: Sum,
-    hits: u32,
+    pub(super) colour: [Sum; 3],
+    pub(super) squares: [Sum; 3],
+    pub(super) albedo: [FixedSum; 3],
+    pub(super) normal: [FixedSum; 3],
+    pub(super) depth: Sum,
+    pub(super) hits: u32,
     pub(crate) count: u32,
 }
 

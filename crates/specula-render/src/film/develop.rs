@@ -3,6 +3,8 @@
 use specula_bsdf::Rgb;
 use specula_scene::scene::Film;
 
+use crate::flat::Words;
+
 /// What a film does with radiance.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Develop {
@@ -19,6 +21,15 @@ impl Develop {
             max_component: film.max_component.unwrap_or(f32::INFINITY),
             balance: (film.balance != Film::NO_BALANCE).then_some(film.balance),
         }
+    }
+
+    /// Exposure, bound, and rows of the balance where there is one.
+    pub(crate) fn flatten(&self, to: &mut Words) {
+        to.constant("FILM_BOUNDED", u32::from(self.max_component.is_finite()));
+        to.constant("FILM_BALANCED", u32::from(self.balance.is_some()));
+        to.begin("FILM");
+        to.numbers([self.exposure, self.max_component.min(f32::MAX)]);
+        to.numbers(self.balance.iter().flatten().flatten().copied());
     }
 
     /// Picture values of a radiance.

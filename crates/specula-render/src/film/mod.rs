@@ -5,6 +5,7 @@ mod buffer;
 pub(crate) mod develop;
 mod file;
 pub(crate) mod filter;
+mod run;
 mod sum;
 
 pub use adaptive::MOST_SAMPLES;
@@ -13,3 +14,5 @@ pub(crate) use buffer::BYTES_PER_PIXEL;
 pub use buffer::{FilmBuffer, MergeError};
 pub(crate) use buffer::{PixelSample, PixelSums, Tile};
 pub use file::{FilmFile, FilmFileError, Label};
+pub(crate) use run::LONGEST_RUN;
+pub use run::RunSums;

@@ -26,6 +26,23 @@ impl Sum {
         self.low += other.low;
     }
 
+    /// Adds `units * 2^exponent`, and gives the sum the one form that its value has: the nearest `f64`,
+    /// and the rest.
+    pub(crate) fn add_units(&mut self, units: i128, exponent: i32) {
+        // 53 bits or fewer each, so that they are exact.
+        const BITS: i32 = 43;
+        let part = |i: i32| {
+            let bits = (units.unsigned_abs() >> (BITS * i)) & ((1 << BITS) - 1);
+            bits as f64 * power_of_two(exponent + BITS * i)
+        };
+        for i in [2, 1, 0] {
+            let magnitude = part(i);
+            self.add(if units < 0 { -magnitude } else { magnitude });
+        }
+        let rest = std::mem::take(&mut self.low);
+        self.add(rest);
+    }
+
     pub(crate) fn value(self) -> f64 {
         self.high + self.low
     }
@@ -65,6 +82,10 @@ impl FixedSum {
         self.0 = self.0.saturating_add(other.0);
     }
 
+    pub(crate) fn add_units(&mut self, units: i64) {
+        self.0 = self.0.saturating_add(units);
+    }
+
     pub(crate) fn value(self) -> f64 {
         self.0 as f64 * Self::UNIT
     }
@@ -76,6 +97,12 @@ impl FixedSum {
     pub(crate) fn from_word(word: u64) -> Self {
         Self(word.cast_signed())
     }
+}
+
+/// `2^exponent`, of a normal number.
+fn power_of_two(exponent: i32) -> f64 {
+    let biased = u64::try_from(1023 + exponent.clamp(-1022, 1023)).unwrap_or(0);
+    f64::from_bits(biased << 52)
 }
 
 #[cfg(test)]
@@ -124,6 +151,38 @@ mod tests {
             plain(&mut numbers.iter()).to_bits(),
             plain(&mut numbers.iter().rev()).to_bits()
         );
+    }
+
+    #[test]
+    #[allow(clippy::cast_possible_truncation, reason = "whole numbers below 2^56")]
+    fn whole_sums_are_the_same_however_they_are_split() {
+        // Units of 2^-60, the terms' lowest bits.
+        let units: Vec<i128> = numbers()
+            .iter()
+            .zip(0..)
+            .map(|(&x, i)| {
+                let whole = (x * 2.0_f64.powi(16)) as i64;
+                let units = i128::from(whole) << 44;
+                if i % 3 == 0 { -units } else { units }
+            })
+            .collect();
+        let sum = |runs: usize| {
+            let mut sum = Sum::default();
+            for run in units.chunks(runs) {
+                sum.add_units(run.iter().sum(), -60);
+            }
+            sum
+        };
+        let one_by_one = sum(1);
+        for runs in [7, 64, 10_000] {
+            // To the last bit of both parts, not their value only.
+            assert_eq!(sum(runs), one_by_one, "{runs}");
+        }
+        let mut plain = Sum::default();
+        for (&x, i) in numbers().iter().zip(0..) {
+            plain.add(if i % 3 == 0 { -x } else { x });
+        }
+        assert_eq!(plain.value().to_bits(), one_by_one.value().to_bits());
     }
 
     #[test]

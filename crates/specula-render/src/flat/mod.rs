@@ -5,9 +5,11 @@
 //! (`flatten`); the places where parts begin, and counts, are named constants, which shaders are
 //! compiled with. What has no twin in shaders yet is named in [`FlatScene::missing`].
 
+mod groups;
 mod lobe_kind;
 mod words;
 
+pub use groups::{FlatGroup, FlatInstance};
 pub use lobe_kind::LobeKind;
 pub(crate) use words::Words;
 
@@ -64,6 +66,7 @@ impl PreparedScene {
         crate::sampler::flatten(&mut to.words);
         self.camera.flatten(&mut to.words);
         self.filter.flatten(&mut to.words);
+        self.develop.flatten(&mut to.words);
         let (nodes, packets) = self.geometry.flatten(&mut to);
         self.textures.flatten(&mut to);
         self.materials.flatten(&mut to);

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use specula::bsdf::vndf;
+use specula::gpu::{Rays, Schedule};
 use specula::render::RenderOptions;
 use specula::render::picture::{Display, ToneMap};
 use specula::scene::Energy;
@@ -192,6 +193,17 @@ pub(crate) struct RenderArguments {
     /// a real GPU where there is one that renders all of the scene, else the processor, with a note
     #[arg(long, value_name = "NAME", default_value_t = Device::Cpu)]
     pub(crate) device: Device,
+
+    /// How a GPU follows paths, to the same samples: paths (a thread follows one to its end), queues (a
+    /// thread takes one to its next vertex, and those that go on form a queue), or auto:
+    /// queues, as measurements say (of software only: no real GPU has been measured)
+    #[arg(long, value_name = "NAME", default_value_t = Schedule::Auto)]
+    pub(crate) gpu_schedule: Schedule,
+
+    /// How rays find on a GPU what they hit: tree, through Specula's own; query, by the GPU's ray
+    /// queries, or an error; or auto: queries where a real GPU offers them and they take the scene
+    #[arg(long, value_name = "NAME", default_value_t = Rays::Auto)]
+    pub(crate) gpu_rays: Rays,
 
     #[command(flatten)]
     pub(crate) machine: MachineArguments,

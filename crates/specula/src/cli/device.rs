@@ -1,11 +1,13 @@
-//! Where samples are taken: `--device`, and `specula devices`.
+//! Where samples are taken: `--device`, `--gpu-rays`, `--gpu-schedule`, and `specula devices`.
 
 use std::fmt;
 use std::process::ExitCode;
 use std::str::FromStr;
 use std::sync::atomic::AtomicBool;
 
-use specula::gpu::{AdapterChoice, AdapterKind, Gpu, GpuError, Tracer, TracerError, adapters};
+use specula::gpu::{
+    AdapterChoice, AdapterKind, Gpu, GpuError, Rays, Tracer, TracerError, TracerOptions, adapters,
+};
 use specula::render::{PassReport, PreparedScene, RenderOptions, Renderer};
 
 use super::{Failure, print};
@@ -70,8 +72,23 @@ pub(crate) fn list() -> ExitCode {
 /// Opens the GPU that is asked for; `None`: the processor renders.
 ///
 /// # Errors
-/// Where a GPU is asked for and cannot be opened.
-pub(crate) fn open(device: &Device) -> Result<Option<Gpu>, Failure> {
+/// Where a GPU is asked for and cannot be opened, or ray queries are and it offers none.
+pub(crate) fn open(device: &Device, rays: Rays) -> Result<Option<Gpu>, Failure> {
+    let gpu = opened(device)?;
+    let lacks = match &gpu {
+        _ if rays != Rays::Query => return Ok(gpu),
+        Some(open) if open.has_ray_queries() => return Ok(gpu),
+        Some(gpu) => format!("{} offers no ray queries", gpu.adapter),
+        None if *device == Device::Cpu => "the processor has no ray queries".to_owned(),
+        None => "there is no real GPU".to_owned(),
+    };
+    Err(Failure::bad_input(format_args!(
+        "--device {device} --gpu-rays query: {lacks} (`specula devices` tells who does); \
+         --gpu-rays auto goes on without"
+    )))
+}
+
+fn opened(device: &Device) -> Result<Option<Gpu>, Failure> {
     match device {
         Device::Cpu => Ok(None),
         Device::Auto => {
@@ -115,20 +132,30 @@ impl<'a> Samples<'a> {
     /// # Errors
     /// Where a GPU is asked for and does not render the scene.
     pub(crate) fn new(
-        device: &Device,
+        (device, on_gpu): (&Device, TracerOptions),
         gpu: Option<&'a Gpu>,
         scene: &PreparedScene,
         options: &RenderOptions,
         quiet: bool,
     ) -> Result<Self, Failure> {
         let falls_back = *device == Device::Auto;
-        let tracer = match gpu.map(|gpu| (Tracer::new(gpu, scene, options), gpu)) {
+        let prepare = |gpu| Tracer::with_options(gpu, scene, options, on_gpu);
+        let tracer = match gpu.map(|gpu| (prepare(gpu), gpu)) {
             None => None,
             Some((Ok(tracer), gpu)) => {
                 if !quiet {
-                    eprintln!("rendering on {}", gpu.adapter);
+                    let way = match tracer.uses_ray_queries() {
+                        true => "by its ray queries",
+                        false => "through Specula's tree",
+                    };
+                    eprintln!("rendering on {}, rays {way}", gpu.adapter);
                 }
                 Some(tracer)
+            }
+            Some((Err(error @ TracerError::Queries(_)), _)) => {
+                return Err(Failure::bad_input(format_args!(
+                    "--gpu-rays query: {error}; --gpu-rays tree does"
+                )));
             }
             Some((Err(error), _)) if falls_back => {
                 note(&error);

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use specula::gpu::GpuError;
+use specula::gpu::{GpuError, TracerOptions};
 use specula::render::{
     FilmBuffer, InvalidSample, Label, MOST_SAMPLES, PrepareError, PreparedScene, RenderOptions,
     Renderer,
@@ -43,7 +43,7 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
         load::print_warnings(&warnings);
     }
     let options = options(arguments, &scene)?;
-    let gpu = device::open(&arguments.device)?;
+    let gpu = device::open(&arguments.device, arguments.gpu_rays)?;
     let threads = arguments.machine.thread_count();
     let most = arguments.machine.max_memory;
     memory::check(&scene, &options, threads, most, arguments.quiet)?;
@@ -67,8 +67,12 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
             let ready = short(start.elapsed().as_secs_f64());
             eprintln!("{name}: {width}x{height}, ready after {ready}");
         }
-        let (device, quiet) = (&arguments.device, arguments.quiet);
-        let source = Samples::new(device, gpu.as_ref(), &prepared, &options, quiet)?;
+        let on_gpu = TracerOptions {
+            rays: arguments.gpu_rays,
+            schedule: arguments.gpu_schedule,
+        };
+        let chosen = (&arguments.device, on_gpu);
+        let source = Samples::new(chosen, gpu.as_ref(), &prepared, &options, arguments.quiet)?;
         let renderer = match begun {
             None => Renderer::new(&prepared, options.clone()),
             Some(film) => Renderer::resume(&prepared, options.clone(), film).map_err(|e| {

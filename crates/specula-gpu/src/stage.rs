@@ -1,0 +1,154 @@
+//! A compiled kernel of a wave, and its arrays.
+
+use crate::adapter::{Gpu, GpuError};
+use crate::queries::Structures;
+
+/// Threads of a workgroup, as the shaders say.
+pub(crate) const WORKGROUP: usize = 64;
+
+/// An array of a kernel.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slot {
+    pub(crate) binding: u32,
+    pub(crate) is_written: bool,
+}
+
+/// The arrays of kernels that share them.
+pub(crate) fn layout(
+    gpu: &Gpu,
+    slots: impl IntoIterator<Item = Slot>,
+) -> Result<wgpu::BindGroupLayout, GpuError> {
+    let entry = |slot: Slot| wgpu::BindGroupLayoutEntry {
+        binding: slot.binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage {
+                read_only: !slot.is_written,
+            },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let entries: Vec<_> = slots.into_iter().map(entry).collect();
+    gpu.caught(|gpu| {
+        let device = &gpu.device;
+        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("wave"),
+            entries: &entries,
+        })
+    })
+}
+
+/// A compiled kernel.
+#[derive(Clone, Debug)]
+pub(crate) struct Stage {
+    pipeline: wgpu::ComputePipeline,
+    layout: wgpu::BindGroupLayout,
+    /// Group 1, of a kernel that casts rays by ray queries.
+    structures: Option<wgpu::BindGroup>,
+}
+
+impl Stage {
+    /// Compiles an entry point of a module.
+    ///
+    /// * `structures`: where it casts rays by ray queries.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        layout: &wgpu::BindGroupLayout,
+        module: &wgpu::ShaderModule,
+        entry: &str,
+        structures: Option<&Structures>,
+    ) -> Result<Self, GpuError> {
+        gpu.caught(|gpu| {
+            let device = &gpu.device;
+            let whole = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(entry),
+                bind_group_layouts: &[Some(layout), structures.map(|s| &s.layout)],
+                ..Default::default()
+            });
+            let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(entry),
+                layout: Some(&whole),
+                module,
+                entry_point: Some(entry),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                cache: None,
+            });
+            Self {
+                pipeline,
+                layout: layout.clone(),
+                structures: structures.map(|s| s.group.clone()),
+            }
+        })
+    }
+
+    /// The kernel's arrays, in the order of their bindings.
+    pub(crate) fn group(&self, gpu: &Gpu, buffers: &[&wgpu::Buffer]) -> wgpu::BindGroup {
+        let entries: Vec<_> = (0_u32..)
+            .zip(buffers)
+            .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("wave"),
+            layout: &self.layout,
+            entries: &entries,
+        })
+    }
+
+    fn bind(&self, pass: &mut wgpu::ComputePass<'_>, group: &wgpu::BindGroup) {
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, group, &[]);
+        if let Some(structures) = &self.structures {
+            pass.set_bind_group(1, structures, &[]);
+        }
+    }
+
+    /// Runs a thread for each of `count`.
+    pub(crate) fn run(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        group: &wgpu::BindGroup,
+        count: usize,
+    ) {
+        let workgroups = u32::try_from(count.div_ceil(WORKGROUP)).unwrap_or(u32::MAX);
+        self.bind(pass, group);
+        pass.dispatch_workgroups(workgroups, 1, 1);
+    }
+
+    /// Runs as many workgroups as a buffer says by then.
+    pub(crate) fn run_as_said(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        group: &wgpu::BindGroup,
+        workgroups: &wgpu::Buffer,
+    ) {
+        self.bind(pass, group);
+        pass.dispatch_workgroups_indirect(workgroups, 0);
+    }
+}
+
+/// Hands in what `record` records.
+pub(crate) fn submit(
+    gpu: &Gpu,
+    record: impl FnOnce(&mut wgpu::ComputePass<'_>),
+) -> Result<(), GpuError> {
+    gpu.caught(|gpu| {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        record(&mut encoder.begin_compute_pass(&Default::default()));
+        gpu.queue.submit([encoder.finish()]);
+    })
+}
+
+/// An array on the device.
+pub(crate) fn array(gpu: &Gpu, label: &str, size: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size,
+        usage: wgpu::BufferUsages::STORAGE | usage,
+        mapped_at_creation: false,
+    })
+}

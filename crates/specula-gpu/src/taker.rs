@@ -1,0 +1,168 @@
+//! The kernels that take samples: paths to their ends, or in queues from vertex to vertex.
+
+use wgpu::BufferUsages as Usages;
+
+use crate::adapter::{Gpu, GpuError};
+use crate::program;
+use crate::queries::Structures;
+use crate::stage::{Slot, Stage, array, layout, submit};
+
+/// Bytes of a sample on the device.
+pub(crate) const SAMPLE_SIZE: u64 = 48;
+/// Bytes of a path's state between its vertices: `PathState` in path.wgsl.
+const STATE_SIZE: u64 = 144;
+/// Arrays that are only read: the scene's, and the wave's.
+const READ: u32 = 5;
+/// Arrays of a kernel that follows whole paths.
+const PATH_ARRAYS: u32 = 6;
+/// Arrays of a kernel of paths in queues.
+pub(crate) const QUEUE_ARRAYS: u32 = 9;
+/// Vertices of paths in queues that are handed in at once. Few paths are longer; whether one is, the
+/// device says before more are handed in.
+const VERTICES_AT_ONCE: u32 = 16;
+
+/// The kernels that take samples.
+#[derive(Clone, Debug)]
+pub(crate) enum Taker {
+    /// One for a whole path.
+    Paths(Stage),
+    /// One for each part of a path.
+    Queues(Queues),
+}
+
+/// The kernels of paths in queues.
+#[derive(Clone, Debug)]
+pub(crate) struct Queues {
+    begin: Stage,
+    bounce: Stage,
+    turn: Stage,
+    /// Vertices that a path has at most.
+    most: u32,
+}
+
+/// A taker with its arrays.
+#[derive(Debug)]
+pub(crate) enum Taking {
+    Paths(Stage, wgpu::BindGroup),
+    Queues(Queues, QueueArrays),
+}
+
+/// Arrays of paths in queues.
+#[derive(Debug)]
+pub(crate) struct QueueArrays {
+    group: wgpu::BindGroup,
+    turning: wgpu::BindGroup,
+    control: wgpu::Buffer,
+    workgroups: wgpu::Buffer,
+}
+
+impl Taker {
+    /// * `module`: the scene's shader.
+    /// * `structures`: what its rays are cast by; `None`: the tree.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        module: &wgpu::ShaderModule,
+        is_queues: bool,
+        structures: Option<&Structures>,
+        max_depth: u32,
+    ) -> Result<Self, GpuError> {
+        let slot = |binding| Slot {
+            binding,
+            is_written: binding >= READ,
+        };
+        if !is_queues {
+            let arrays = layout(gpu, (0..PATH_ARRAYS).map(slot))?;
+            let stage = Stage::new(gpu, &arrays, module, "path_main", structures)?;
+            return Ok(Self::Paths(stage));
+        }
+        let arrays = layout(gpu, (0..QUEUE_ARRAYS).map(slot))?;
+        let both = [0, 1].map(|binding| Slot {
+            binding,
+            is_written: true,
+        });
+        let turn = gpu.shader("turn", program::TURN)?;
+        Ok(Self::Queues(Queues {
+            begin: Stage::new(gpu, &arrays, module, "queue_begin", None)?,
+            bounce: Stage::new(gpu, &arrays, module, "queue_bounce", structures)?,
+            turn: Stage::new(gpu, &layout(gpu, both)?, &turn, "turn_main", None)?,
+            most: max_depth.saturating_add(1),
+        }))
+    }
+
+    /// Bytes of a sample in the largest array.
+    pub(crate) fn sample_size(&self) -> u64 {
+        match self {
+            Self::Paths(_) => SAMPLE_SIZE,
+            Self::Queues(_) => STATE_SIZE,
+        }
+    }
+
+    /// Arrays for so many samples.
+    ///
+    /// * `arrays`: the scene's, the runs that are wanted, the samples that are found.
+    pub(crate) fn with_room(&self, gpu: &Gpu, arrays: &[&wgpu::Buffer], samples: usize) -> Taking {
+        match self {
+            Self::Paths(stage) => Taking::Paths(stage.clone(), stage.group(gpu, arrays)),
+            Self::Queues(queues) => {
+                let samples = samples as u64;
+                let states = array(gpu, "paths", samples * STATE_SIZE, Usages::empty());
+                let slots = array(gpu, "queues", samples * 8, Usages::empty());
+                let control = array(gpu, "control", 12, Usages::COPY_DST | Usages::COPY_SRC);
+                let workgroups = array(gpu, "workgroups", 12, Usages::INDIRECT);
+                let all = [arrays, &[&states, &control, &slots]].concat();
+                let arrays = QueueArrays {
+                    group: queues.bounce.group(gpu, &all),
+                    turning: queues.turn.group(gpu, &[&control, &workgroups]),
+                    control,
+                    workgroups,
+                };
+                Taking::Queues(queues.clone(), arrays)
+            }
+        }
+    }
+}
+
+impl Taking {
+    /// Takes the samples of a wave that has so many places for them.
+    pub(crate) fn take(&self, gpu: &Gpu, places: usize) -> Result<(), GpuError> {
+        match self {
+            Self::Paths(stage, group) => submit(gpu, |pass| stage.run(pass, group, places)),
+            Self::Queues(queues, arrays) => queues.take(gpu, arrays, places),
+        }
+    }
+}
+
+impl Queues {
+    fn take(&self, gpu: &Gpu, arrays: &QueueArrays, places: usize) -> Result<(), GpuError> {
+        // The first turn is to vertex 0.
+        let before: [u32; 3] = [u32::MAX, 0, 0];
+        gpu.caught(|gpu| {
+            let control = bytemuck::bytes_of(&before);
+            gpu.queue.write_buffer(&arrays.control, 0, control);
+        })?;
+        let mut done = 0;
+        loop {
+            let next = VERTICES_AT_ONCE.min(self.most - done);
+            submit(gpu, |pass| {
+                if done == 0 {
+                    self.begin.run(pass, &arrays.group, places);
+                }
+                for _ in 0..next {
+                    self.turn.run(pass, &arrays.turning, 1);
+                    self.bounce
+                        .run_as_said(pass, &arrays.group, &arrays.workgroups);
+                }
+            })?;
+            done += next;
+            if done >= self.most {
+                return Ok(());
+            }
+            let control = gpu.read(&arrays.control, 12)?;
+            let control: Vec<u32> = bytemuck::pod_collect_to_vec(&control);
+            // The queue of the vertex after the last one.
+            if control.get(1 + (done & 1) as usize) == Some(&0) {
+                return Ok(());
+            }
+        }
+    }
+}

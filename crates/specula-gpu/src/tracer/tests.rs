@@ -1,0 +1,188 @@
+//! Films do not depend on waves, passes or schedules, by a single bit; and planted faults show.
+
+use specula_bsdf::Rgb;
+use specula_render::FilmBuffer;
+use specula_scene::Scene;
+use specula_scene::scene::Light;
+
+use super::*;
+use crate::adapter::AdapterChoice;
+
+/// The GPU of the tests; without one a test says that it is skipped.
+#[allow(clippy::print_stdout, reason = "a test that is skipped says so")]
+fn gpu() -> Option<Gpu> {
+    let choice = std::env::var("SPECULA_GPU_ADAPTER").unwrap_or_else(|_| "best".to_owned());
+    let gpu = Gpu::open(&choice.parse::<AdapterChoice>().unwrap_or_default());
+    if let Err(error) = &gpu {
+        let required = std::env::var("SPECULA_GPU").is_ok_and(|v| v == "require");
+        assert!(!required, "SPECULA_GPU=require, but: {error}");
+        println!("SKIPPED: {error}");
+    }
+    gpu.ok()
+}
+
+/// A closed bright room, so that paths are long, with glass in it.
+fn room() -> Scene {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("scene.pbrt");
+    let text = "LookAt 0 -1.8 0  0 0 0  0 0 1\n\
+        Camera \"perspective\" \"float fov\" 60\n\
+        Film \"rgb\" \"integer xresolution\" 17 \"integer yresolution\" 3\n\
+        Integrator \"volpath\" \"integer maxdepth\" 40\nWorldBegin\n\
+        LightSource \"point\" \"point3 from\" [0.5 -1 1] \"rgb I\" [2 3 4]\n\
+        Material \"diffuse\" \"rgb reflectance\" [0.95 0.9 0.85]\n\
+        Shape \"sphere\" \"float radius\" 2\n\
+        Material \"dielectric\" \"float eta\" 1.5 \"float roughness\" 0.2\n\
+        Shape \"sphere\" \"float radius\" 0.6\n";
+    std::fs::write(&file, text).unwrap();
+    specula_scene::load(&file).unwrap().scene
+}
+
+/// A render by shaders whose text is changed.
+struct Render<'a> {
+    prepared: &'a PreparedScene,
+    options: RenderOptions,
+    tracer: Tracer<'a>,
+}
+
+impl<'a> Render<'a> {
+    fn new(
+        gpu: &'a Gpu,
+        prepared: &'a PreparedScene,
+        options: &RenderOptions,
+        schedule: Schedule,
+        change: impl Fn(&str) -> String,
+    ) -> Self {
+        let flat = prepared.flatten();
+        let text = change(&program::source(&flat, options, false).unwrap());
+        let texts = [text.as_str(), program::SUMS];
+        Self {
+            prepared,
+            options: options.clone(),
+            tracer: Tracer::of_texts(gpu, &flat, options, (schedule, None), texts).unwrap(),
+        }
+    }
+
+    /// The film after these passes; where a noise is asked for, after as many as it takes.
+    ///
+    /// * `first_sample`: the number of the first sample of a pixel.
+    /// * `largest`: most samples of a wave.
+    fn film(&mut self, first_sample: u32, largest: usize, passes: &[u32]) -> FilmBuffer {
+        let options = RenderOptions {
+            first_sample,
+            ..self.options.clone()
+        };
+        self.tracer.largest = largest;
+        self.tracer.samples = FIRST_WAVE.min(largest);
+        let mut renderer = Renderer::new(self.prepared, options);
+        let mut passes = passes.iter().copied();
+        loop {
+            let noise = self.options.noise;
+            let needed = noise.and_then(|_| renderer.samples_done());
+            let Some(samples) = passes.next().or(needed.map(|_| 1 << 16)) else {
+                return renderer.film().clone();
+            };
+            let go = AtomicBool::new(false);
+            let report = self.tracer.render_pass(&mut renderer, samples, &go);
+            assert!(report.unwrap().complete);
+        }
+    }
+}
+
+#[test]
+fn films_are_the_same_however_samples_are_cut() {
+    let Some(gpu) = gpu() else { return };
+    let options = RenderOptions::from_scene(&room());
+    let prepared = PreparedScene::new(&room(), &options).unwrap();
+    let render = |schedule| Render::new(&gpu, &prepared, &options, schedule, str::to_owned);
+    let mut paths = render(Schedule::Paths);
+    let whole = paths.film(0, LARGEST_WAVE, &[70]);
+    let lit = whole.picture();
+    assert!(lit.colour.iter().all(|c| c.g > 0.0), "a lit room");
+    assert!(paths.film(0, 1 << 10, &[70]) == whole, "waves");
+    assert!(paths.film(0, 200, &[1, 2, 67]) == whole, "passes");
+    let mut merged = paths.film(41, LARGEST_WAVE, &[29]);
+    merged.merge(&paths.film(0, LARGEST_WAVE, &[41])).unwrap();
+    assert!(merged.picture() == lit, "parts");
+    let mut queues = render(Schedule::Queues);
+    assert!(queues.film(0, LARGEST_WAVE, &[70]) == whole, "queues");
+    assert!(queues.film(0, 1 << 10, &[33, 37]) == whole, "queues, cut");
+}
+
+#[test]
+fn adaptive_films_are_the_same_however_samples_are_cut() {
+    let Some(gpu) = gpu() else { return };
+    let options = RenderOptions {
+        noise: Some(0.1),
+        ..RenderOptions::from_scene(&room())
+    };
+    let prepared = PreparedScene::new(&room(), &options).unwrap();
+    let mut render = Render::new(&gpu, &prepared, &options, Schedule::Auto, str::to_owned);
+    let whole = render.film(0, LARGEST_WAVE, &[]);
+    assert!(whole.is_adaptive() && whole.most_and_mean_samples().0 > 32);
+    assert!(render.film(0, 300, &[20, 33, 2]) == whole);
+}
+
+#[test]
+fn faults_of_queues_show_in_films() {
+    let Some(gpu) = gpu() else { return };
+    let options = RenderOptions {
+        max_depth: 6,
+        ..RenderOptions::from_scene(&room())
+    };
+    let prepared = PreparedScene::new(&room(), &options).unwrap();
+    let film = |schedule, change: &dyn Fn(&str) -> String| {
+        Render::new(&gpu, &prepared, &options, schedule, change).film(0, LARGEST_WAVE, &[3])
+    };
+    let right = film(Schedule::Paths, &str::to_owned);
+    let text = include_str!("../../wgsl/queue.wgsl");
+    for (from, to) in [
+        // A path that the next queue lacks.
+        (
+            "path_step(slot, &state, path_sequence(slot), depth)",
+            "path_step(slot, &state, path_sequence(slot), depth) && slot != 50u",
+        ),
+        // A path in a neighbour's place.
+        (
+            "var state = queue_states[slot];",
+            "var state = queue_states[slot ^ 1u];",
+        ),
+    ] {
+        assert!(text.contains(from), "{from}");
+        let wrong = film(Schedule::Queues, &|text| text.replace(from, to));
+        assert!(wrong != right, "{to}");
+    }
+}
+
+#[test]
+fn samples_that_are_not_finite_are_counted_and_named() {
+    let Some(gpu) = gpu() else { return };
+    let mut scene = room();
+    scene.lights.clear();
+    for i in 0..64 {
+        scene.lights.push(Light::Point {
+            position: [0.0, -1.0, 1.0 + 0.01 * f64::from(i)],
+            intensity: Rgb::splat(2e37),
+        });
+    }
+    let options = RenderOptions::from_scene(&scene);
+    let prepared = PreparedScene::new(&scene, &options).unwrap();
+    let mut renderer = Renderer::new(&prepared, options.clone());
+    let mut tracer = Tracer::new(&gpu, &prepared, &options).unwrap();
+    let go = AtomicBool::new(false);
+    let report = tracer.render_pass(&mut renderer, 8, &go).unwrap();
+    assert!(report.invalid_samples > 0, "nothing overflows");
+    let one = report.invalid.unwrap();
+    assert!(one.number < 8 && one.material.is_some(), "{one:?}");
+    let picture = renderer.film().picture();
+    let finite = |c: &Rgb<f32>| c.is_finite();
+    assert!(picture.colour.iter().all(finite));
+    // The processor finds the same ones, but for paths that round otherwise.
+    let mut processor = Renderer::new(&prepared, options);
+    let there = processor.render_pass(8, &go).invalid_samples;
+    assert!(
+        there.abs_diff(report.invalid_samples) <= 1 + there / 20,
+        "{there}, {}",
+        report.invalid_samples
+    );
+}

@@ -1,0 +1,106 @@
+//! A wave: runs of samples that a device takes at once, and their sums.
+
+use specula_render::{Run, RunSums};
+use wgpu::BufferUsages as Usages;
+
+use crate::adapter::{Gpu, GpuError};
+use crate::program;
+use crate::stage::{Slot, Stage, array, layout, submit};
+use crate::taker::{SAMPLE_SIZE, Taker, Taking};
+
+/// Bytes of a run that is wanted.
+const RUN_SIZE: u64 = 16;
+
+/// The kernels of a wave.
+#[derive(Debug)]
+pub(crate) struct Kernels {
+    pub(crate) taker: Taker,
+    /// Adds the samples of each run.
+    sums: Stage,
+}
+
+/// Arrays on the device for a wave.
+#[derive(Debug)]
+pub(crate) struct Wave {
+    /// Room for samples and runs.
+    room: [usize; 2],
+    wanted: wgpu::Buffer,
+    sums: wgpu::Buffer,
+    taking: Taking,
+    adding: wgpu::BindGroup,
+}
+
+impl Kernels {
+    /// * `adder`: the text of the kernel that adds.
+    pub(crate) fn new(gpu: &Gpu, taker: Taker, adder: &str) -> Result<Self, GpuError> {
+        let slots = (0..3).map(|binding| Slot {
+            binding,
+            is_written: binding == 2,
+        });
+        let module = gpu.shader("sums", adder)?;
+        let arrays = layout(gpu, slots)?;
+        let sums = Stage::new(gpu, &arrays, &module, program::SUMS_ENTRY, None)?;
+        Ok(Self { taker, sums })
+    }
+}
+
+impl Wave {
+    /// * `room`: for so many samples and runs.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        kernels: &Kernels,
+        scene: &[wgpu::Buffer],
+        room: [usize; 2],
+    ) -> Result<Self, GpuError> {
+        gpu.caught(|gpu| {
+            let [samples, runs] = room.map(|n| n as u64);
+            let wanted = array(gpu, "wanted", (runs + 1) * RUN_SIZE, Usages::COPY_DST);
+            let found = array(gpu, "found", samples * SAMPLE_SIZE, Usages::empty());
+            let sums_size = runs * size_of::<RunSums>() as u64;
+            let sums = array(gpu, "sums", sums_size, Usages::COPY_SRC);
+            let read: Vec<_> = scene.iter().chain([&wanted, &found]).collect();
+            Self {
+                room,
+                taking: kernels.taker.with_room(gpu, &read, room[0]),
+                adding: kernels.sums.group(gpu, &[&wanted, &found, &sums]),
+                wanted,
+                sums,
+            }
+        })
+    }
+
+    /// Whether so many samples and runs have room.
+    pub(crate) fn holds(&self, [samples, runs]: [usize; 2]) -> bool {
+        self.room[0] >= samples && self.room[1] >= runs
+    }
+
+    /// Takes the samples of runs, and adds those of each.
+    ///
+    /// * `longest`: samples of the longest run.
+    pub(crate) fn take(
+        &self,
+        gpu: &Gpu,
+        kernels: &Kernels,
+        runs: &[Run],
+        longest: u32,
+    ) -> Result<Vec<RunSums>, GpuError> {
+        let count = u32::try_from(runs.len()).unwrap_or(u32::MAX);
+        let words = runs.iter().map(|run| {
+            let [x, y] = run.pixel;
+            [x, y, run.number, run.count]
+        });
+        let wanted: Vec<[u32; 4]> = std::iter::once([longest, count, 0, 0])
+            .chain(words)
+            .collect();
+        gpu.caught(|gpu| {
+            let wanted = bytemuck::cast_slice(&wanted);
+            gpu.queue.write_buffer(&self.wanted, 0, wanted);
+        })?;
+        self.taking.take(gpu, runs.len() * longest as usize)?;
+        submit(gpu, |pass| {
+            kernels.sums.run(pass, &self.adding, runs.len());
+        })?;
+        let bytes = gpu.read(&self.sums, (runs.len() * size_of::<RunSums>()) as u64)?;
+        Ok(bytemuck::pod_collect_to_vec(&bytes))
+    }
+}

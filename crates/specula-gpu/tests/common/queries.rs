@@ -1,0 +1,28 @@
+//! The GPU of the tests, where it offers ray queries.
+
+use std::io::Write as _;
+
+use specula_gpu::Gpu;
+
+/// The GPU; where there is none or it offers no ray queries, a loud line that `what` is skipped.
+///
+/// # Panics
+/// Where there are none though `SPECULA_RAY_QUERIES=require` asks for them.
+pub(crate) fn gpu_with_queries(what: &str) -> Option<&'static Gpu> {
+    let gpu = super::common::gpu(what);
+    if let Some(gpu) = gpu.filter(|gpu| gpu.has_ray_queries()) {
+        return Some(gpu);
+    }
+    let required = std::env::var("SPECULA_RAY_QUERIES").is_ok_and(|v| v == "require");
+    assert!(
+        !required,
+        "SPECULA_RAY_QUERIES=require, but the GPU offers none"
+    );
+    // Not `eprintln`, whose output tests keep to themselves.
+    let _ = writeln!(
+        std::io::stderr(),
+        "SKIPPED: {what}: the GPU offers no ray queries. Mesa's software has them from 25.0 on (on Debian 12: \
+         `apt-get install -t bookworm-backports mesa-vulkan-drivers`)"
+    );
+    None
+}

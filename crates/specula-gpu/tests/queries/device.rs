@@ -1,0 +1,134 @@
+//! Casts rays on a GPU, through the tree or by queries.
+
+use specula_gpu::{Gpu, Kernel, Structures};
+use specula_render::PreparedScene;
+
+use crate::rays::Ray;
+
+/// A text of `query.wgsl` that is replaced by a wrong one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fault {
+    pub(crate) from: &'static str,
+    pub(crate) to: &'static str,
+}
+
+/// How rays find what they hit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Way {
+    Tree,
+    Query(Option<Fault>),
+}
+
+/// What a ray hit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hit {
+    pub(crate) t: f32,
+    pub(crate) u: f32,
+    pub(crate) v: f32,
+    pub(crate) primitive: u32,
+    pub(crate) instance: u32,
+}
+
+impl Hit {
+    pub(crate) fn is_there(&self) -> bool {
+        self.instance != u32::MAX
+    }
+}
+
+const SHARED: [&str; 5] = [
+    include_str!("../../wgsl/world.wgsl"),
+    include_str!("../../wgsl/ray.wgsl"),
+    include_str!("../../wgsl/quadric.wgsl"),
+    include_str!("../../wgsl/angles.wgsl"),
+    include_str!("../../wgsl/surface.wgsl"),
+];
+const TREE: &str = include_str!("../../wgsl/traverse.wgsl");
+const QUERY: &str = include_str!("../../wgsl/query.wgsl");
+
+/// Eight words a ray: origin, direction, end, whether any hit will do. Five a hit.
+const ENTRY: &str = "
+@group(0) @binding(0) var<storage, read> rays: array<f32>;
+@group(0) @binding(4) var<storage, read_write> found: array<u32>;
+
+@compute @workgroup_size(64)
+fn cast_all(@builtin(global_invocation_id) id: vec3u) {
+    let at = 8u * id.x;
+    let origin = vec3f(rays[at], rays[at + 1u], rays[at + 2u]);
+    let direction = vec3f(rays[at + 3u], rays[at + 4u], rays[at + 5u]);
+    let ray = Ray(origin, direction, rays[at + 6u]);
+    var hit = Hit(0.0, 0.0, 0.0, 0u, NONE);
+    if rays[at + 7u] == 0.0 {
+        hit = traverse(ray, false);
+    } else if traverse_occluded(ray) {
+        hit.instance = 0u;
+    }
+    let to = 5u * id.x;
+    found[to] = bitcast<u32>(hit.t);
+    found[to + 1u] = bitcast<u32>(hit.u);
+    found[to + 2u] = bitcast<u32>(hit.v);
+    found[to + 3u] = hit.primitive;
+    found[to + 4u] = hit.instance;
+}
+";
+
+/// What the rays hit; their number is a multiple of 64.
+pub(crate) fn hits(gpu: &Gpu, scene: &PreparedScene, rays: &[Ray], way: Way) -> Vec<Hit> {
+    let flat = scene.flatten();
+    let structures = matches!(way, Way::Query(_)).then(|| Structures::new(gpu, scene).unwrap());
+    let module = gpu.shader("rays", &source(&flat.constants, way)).unwrap();
+    let kernel = match &structures {
+        None => Kernel::new(gpu, &module, "cast_all", 4),
+        Some(structures) => Kernel::with_structures(gpu, &module, "cast_all", 4, structures),
+    };
+    let kernel = kernel.unwrap();
+    let words: Vec<[f32; 8]> = rays.iter().map(Ray::words).collect();
+    let or_some = |bytes: &[u8]| match bytes {
+        [] => vec![0; 4],
+        bytes => bytes.to_vec(),
+    };
+    let inputs = [
+        bytemuck::cast_slice(&words).to_vec(),
+        or_some(flat.nodes),
+        or_some(flat.packets),
+        bytemuck::cast_slice(&flat.words).to_vec(),
+    ];
+    let inputs: Vec<&[u8]> = inputs.iter().map(Vec::as_slice).collect();
+    let size = rays.len() * size_of::<[u32; 5]>();
+    let arrays = kernel.upload(gpu, &inputs, size as u64).unwrap();
+    let groups = u32::try_from(rays.len() / 64).unwrap();
+    kernel.run(gpu, &arrays, [groups, 1, 1]).unwrap();
+    let output: Vec<[u32; 5]> = bytemuck::pod_collect_to_vec(&arrays.output(gpu).unwrap());
+    let hit = |[t, u, v, primitive, instance]: [u32; 5]| Hit {
+        t: f32::from_bits(t),
+        u: f32::from_bits(u),
+        v: f32::from_bits(v),
+        primitive,
+        instance,
+    };
+    output.into_iter().map(hit).collect()
+}
+
+fn source(constants: &[(&str, u32)], way: Way) -> String {
+    let (mut text, way) = match way {
+        Way::Tree => (String::new(), TREE.to_owned()),
+        Way::Query(fault) => {
+            let module = match fault {
+                None => QUERY.to_owned(),
+                Some(Fault { from, to }) => {
+                    assert_eq!(QUERY.matches(from).count(), 1, "{from}");
+                    QUERY.replace(from, to)
+                }
+            };
+            ("enable wgpu_ray_query;\n".to_owned(), module)
+        }
+    };
+    text += "const STACK_SIZE: u32 = 256u;\n";
+    for (name, value) in constants {
+        text += &format!("const {name}: u32 = {value}u;\n");
+    }
+    for module in SHARED.into_iter().chain([way.as_str(), ENTRY]) {
+        let code = module.lines().filter(|line| !line.starts_with("import "));
+        text.extend(code.flat_map(|line| [line, "\n"]));
+    }
+    text
+}

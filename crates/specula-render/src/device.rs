@@ -1,0 +1,162 @@
+//! Passes whose samples a device takes: what it is asked for, and what it brings.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::film::{Criterion, LONGEST_RUN, RunSums};
+use crate::integrator::{Block, PathTracer};
+use crate::renderer::{Done, InvalidSample, PassReport, Renderer, next_target};
+use crate::sampler::Sampler;
+
+/// Samples that are wanted of every pixel of a tile.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted {
+    place: usize,
+    bounds: [u32; 4],
+    first: u32,
+    counts: [u32; 2],
+}
+
+/// Samples of a pixel whose numbers follow each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Run {
+    /// Column and row.
+    pub pixel: [u32; 2],
+    /// Number of the first.
+    pub number: u32,
+    /// How many, at most 64.
+    pub count: u32,
+    /// The pixel's place in the tile.
+    place: usize,
+}
+
+impl Wanted {
+    /// How many samples.
+    pub fn len(&self) -> usize {
+        let [x0, x1, y0, y1] = self.bounds;
+        let pixels = (x1 - x0) as usize * (y1 - y0) as usize;
+        pixels * (self.counts[1] - self.counts[0]) as usize
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Samples of the longest run.
+    pub fn longest_run(&self) -> u32 {
+        let count = self.counts[1] - self.counts[0];
+        // Runs of a pixel are nearly as long as each other.
+        count.div_ceil(count.div_ceil(LONGEST_RUN).max(1))
+    }
+
+    /// Every run, pixel by pixel.
+    pub fn runs(&self) -> impl Iterator<Item = Run> + use<> {
+        let Self {
+            bounds: [x0, x1, y0, y1],
+            first,
+            counts: [from, to],
+            ..
+        } = *self;
+        let longest = self.longest_run();
+        let pixels = (y0..y1).flat_map(move |y| (x0..x1).map(move |x| [x, y]));
+        pixels.enumerate().flat_map(move |(place, pixel)| {
+            let begins = (from..to).step_by(longest.max(1) as usize);
+            begins.map(move |begin| Run {
+                pixel,
+                number: first.wrapping_add(begin),
+                count: longest.min(to - begin),
+                place,
+            })
+        })
+    }
+}
+
+impl Renderer<'_> {
+    /// [`Renderer::render_pass`] with samples that a device takes and adds run by run.
+    ///
+    /// * `most`: samples that the device is asked for at once, a tile at least.
+    /// * `device`: the sums of tiles, in the order of [`Wanted::runs`].
+    ///
+    /// # Errors
+    /// Those of the device. The film keeps what came before, and can be gone on with.
+    pub fn render_pass_with<E>(
+        &mut self,
+        samples: u32,
+        stop: &AtomicBool,
+        mut most: impl FnMut() -> usize,
+        mut device: impl FnMut(&[Wanted]) -> Result<Vec<RunSums>, E>,
+    ) -> Result<PassReport, E> {
+        let last = self.samples_done().map(|done| done.saturating_add(samples));
+        let criterion = self.options.noise.map(|noise| self.film.criterion(noise));
+        let (mut done, mut complete) = (Done::default(), true);
+        while complete {
+            let wanted = self.wanted(criterion.as_ref(), last, most());
+            if wanted.is_empty() {
+                break;
+            }
+            let sums = device(&wanted)?;
+            done = done.and(self.add(&wanted, &sums));
+            complete = !stop.load(Ordering::Relaxed);
+        }
+        if criterion.is_some() {
+            self.film.take_reference();
+        }
+        Ok(self.report(done, None, complete))
+    }
+
+    /// What tiles need next, of so many samples together, a tile at least.
+    fn wanted(&self, criterion: Option<&Criterion>, last: Option<u32>, most: usize) -> Vec<Wanted> {
+        let mut wanted: Vec<Wanted> = Vec::new();
+        let mut samples = 0;
+        let first = self.options.first_sample;
+        for (tile, place) in self.film.tiles.iter().zip(0..) {
+            let Some(next) = next_target(tile, criterion, last) else {
+                continue;
+            };
+            let one = Wanted {
+                place,
+                bounds: tile.bounds,
+                first,
+                counts: [tile.count(), next],
+            };
+            samples += one.len();
+            if samples > most && !wanted.is_empty() {
+                break;
+            }
+            wanted.push(one);
+        }
+        wanted
+    }
+
+    /// Adds what a device brought.
+    fn add(&mut self, wanted: &[Wanted], sums: &[RunSums]) -> Done {
+        let (mut done, mut invalid) = (Done::default(), None);
+        let mut sums = sums.iter();
+        for one in wanted {
+            let tile = &mut self.film.tiles[one.place];
+            for (run, sums) in one.runs().zip(sums.by_ref()) {
+                done.tally.rays += u64::from(sums.rays);
+                tile.pixels[run.place].add_run(sums, run.count);
+                tile.invalid += u64::from(sums.invalid.count_ones());
+                if sums.invalid != 0 {
+                    let number = run.number.wrapping_add(sums.invalid.trailing_zeros());
+                    invalid = Some((run.pixel, number));
+                }
+            }
+        }
+        done.invalid = invalid.map(|(pixel, number)| self.invalid(pixel, number));
+        done
+    }
+
+    /// A sample that was not finite, with the material at which it went wrong.
+    fn invalid(&self, pixel: [u32; 2], number: u32) -> InvalidSample {
+        let tracer = PathTracer::new(self.scene, &self.options);
+        let sampler = Sampler::new(pixel, number, self.options.seed);
+        let material = tracer.blame(&mut Block::new(), pixel, sampler);
+        InvalidSample {
+            pixel,
+            number,
+            material: material.map(|m| m as usize),
+        }
+    }
+}
