@@ -295,6 +295,8 @@ impl Gpu {
     /// # Errors
     /// That it was lost, or what went wrong outside [`caught`](Self::caught).
     pub fn check(&self) -> Result<(), GpuError> {
+        // A loss is told when the device is asked; what fails because of it may be told before.
+        let _ = self.device.poll(wgpu::PollType::Poll);
         let failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
         match failure.as_ref() {
             Some(error) => Err(error.clone()),
@@ -315,9 +317,15 @@ impl Gpu {
     }
 }
 
+/// Keeps the first error, or that the device was lost: other errors follow from that.
 fn keep_first(failure: &Mutex<Option<GpuError>>, error: GpuError) {
     let mut failure = failure.lock().unwrap_or_else(PoisonError::into_inner);
-    failure.get_or_insert(error);
+    let is_loss = |e: &GpuError| matches!(e, GpuError::Lost(_));
+    if is_loss(&error) && !failure.as_ref().is_some_and(is_loss) {
+        *failure = Some(error);
+    } else {
+        failure.get_or_insert(error);
+    }
 }
 
 impl From<wgpu::Error> for GpuError {

@@ -186,3 +186,28 @@ fn samples_that_are_not_finite_are_counted_and_named() {
         report.invalid_samples
     );
 }
+
+/// A device that goes away in the midst of a render is an error, and the film keeps what came before.
+#[test]
+fn a_lost_device_is_an_error_and_the_film_stays() {
+    let Some(gpu) = gpu() else { return };
+    let options = RenderOptions::from_scene(&room());
+    let prepared = PreparedScene::new(&room(), &options).unwrap();
+    for schedule in [Schedule::Paths, Schedule::Queues] {
+        let Ok(gpu) = Gpu::open(&AdapterChoice::Name(gpu.adapter.name.clone())) else {
+            continue;
+        };
+        let mut render = Render::new(&gpu, &prepared, &options, schedule, str::to_owned);
+        let mut renderer = Renderer::new(&prepared, options.clone());
+        let go = AtomicBool::new(false);
+        render.tracer.render_pass(&mut renderer, 2, &go).unwrap();
+        let before = renderer.film().clone();
+        gpu.device.destroy();
+        let error = render
+            .tracer
+            .render_pass(&mut renderer, 2, &go)
+            .unwrap_err();
+        assert!(matches!(error, GpuError::Lost(_)), "{schedule}: {error:?}");
+        assert!(*renderer.film() == before, "{schedule}");
+    }
+}
