@@ -172,7 +172,11 @@ impl Versus {
                 .arg(&file)
                 .args([&self.variant, &self.threads.to_string()]);
             let engine = Served::start("Mitsuba", &mut command)?;
-            contestants.push(Contestant::new("specula-xml", &["sobol"], ours(&file)));
+            contestants.push(Contestant::new(
+                "specula-xml",
+                &Specula::SAMPLERS,
+                ours(&file),
+            ));
             let samplers = &[
                 "independent",
                 "stratified",
@@ -184,7 +188,11 @@ impl Versus {
                 .push(Contestant::new("mitsuba", samplers, engine).against("specula-xml", CLOSE));
         }
         if self.cycles.is_some() || self.pbrt.is_some() {
-            contestants.push(Contestant::new("specula-pbrt", &["sobol"], ours(&twin)));
+            contestants.push(Contestant::new(
+                "specula-pbrt",
+                &Specula::SAMPLERS,
+                ours(&twin),
+            ));
         }
         if let Some(python) = &self.cycles {
             let mut command = Command::new(python);

@@ -43,14 +43,19 @@ pub(crate) struct Specula {
 }
 
 impl Specula {
+    /// Alone, and with paths that are shared between so many pixels.
+    pub(crate) const SAMPLERS: [&'static str; 3] = ["sobol", "sobol, 8 share", "sobol, 16 share"];
+
     /// Wall time is the one that the picture holds; CPU time is counted from the line that says that
     /// the scene is ready to the end.
-    fn process(&self, spp: u32, seed: u32, target: &Path) -> Result<Timing> {
+    fn process(&self, sampler: &str, spp: u32, seed: u32, target: &Path) -> Result<Timing> {
         let before = children_cpu()?;
+        let shared = sampler.split_whitespace().nth(1).unwrap_or("1");
         let mut child = Command::new(&self.program)
             .args(["render", "--checkpoint", "off"])
             .args(["--threads", &self.threads.to_string()])
             .args(["--spp", &spp.to_string(), "--seed", &seed.to_string()])
+            .args(["--share-paths", shared])
             .arg("-o")
             .arg(target)
             .arg(&self.scene)
@@ -79,17 +84,17 @@ impl Specula {
 }
 
 impl Engine for Specula {
-    fn render(&mut self, _: &str, spp: u32, seed: u32, target: &Path) -> Result<Timing> {
+    fn render(&mut self, sampler: &str, spp: u32, seed: u32, target: &Path) -> Result<Timing> {
         let writing = match self.writing {
             Some(writing) => writing,
             None => {
-                let one = self.process(1, seed, target)?.cpu;
-                let two = self.process(2, seed, target)?.cpu;
+                let one = self.process(sampler, 1, seed, target)?.cpu;
+                let two = self.process(sampler, 2, seed, target)?.cpu;
                 (2.0 * one - two).clamp(0.0, one)
             }
         };
         self.writing = Some(writing);
-        let timing = self.process(spp, seed, target)?;
+        let timing = self.process(sampler, spp, seed, target)?;
         Ok(Timing {
             cpu: timing.cpu - writing,
             ..timing

@@ -175,7 +175,8 @@ Written by the chore below, on a machine that does nothing else; the scenes are 
   materials from the first (spheres as smooth meshes of 256 x 128, Metallic and Glass with GGX, no
   multiple scattering, front sides of lamps only). Path lengths agree; Russian roulette is each
   renderer's own.
-- **Settings.** No denoising, clamping or adaptive sampling; caustics on; light tree on. Mitsuba with the
+- **Settings.** No denoising, clamping or adaptive sampling; caustics on; light tree on. Specula with
+  every path alone or with the paths of 8 or of 16 pixels that share (`--share-paths`), Mitsuba with the
   best of its five samplers and Cycles with the best of tabulated Sobol and blue noise, chosen
   per scene by seconds times trimmed variance, from two renders each. Samples are what the sampler took:
   Mitsuba's stratified ones round up to squares.
