@@ -7,6 +7,7 @@ use wgpu::util::DeviceExt;
 
 use crate::adapter::{Gpu, GpuError};
 use crate::queries::Structures;
+use crate::stage::{Slot, Stage, layout};
 
 /// A compiled compute shader that reads arrays and writes one.
 ///
@@ -17,10 +18,7 @@ use crate::queries::Structures;
 pub struct Kernel {
     label: String,
     inputs: usize,
-    layout: wgpu::BindGroupLayout,
-    pipeline: wgpu::ComputePipeline,
-    /// Group 1.
-    structures: Option<wgpu::BindGroup>,
+    stage: Stage,
 }
 
 /// The arrays of a [`Kernel`], on the device.
@@ -121,49 +119,16 @@ impl Kernel {
         inputs: usize,
         structures: Option<&Structures>,
     ) -> Result<Self, GpuError> {
-        let slots: Vec<_> = (0_u32..)
-            .zip(0..=inputs)
-            .map(|(binding, place)| wgpu::BindGroupLayoutEntry {
-                binding,
-                visibility: wgpu::ShaderStages::COMPUTE,
-                ty: wgpu::BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Storage {
-                        read_only: place < inputs,
-                    },
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                },
-                count: None,
-            })
-            .collect();
-        let made = gpu.caught(|gpu| {
-            let device = &gpu.device;
-            let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                label: Some(entry),
-                entries: &slots,
-            });
-            let whole = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some(entry),
-                bind_group_layouts: &[Some(&layout), structures.map(|s| &s.layout)],
-                ..Default::default()
-            });
-            let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(entry),
-                layout: Some(&whole),
-                module,
-                entry_point: Some(entry),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                cache: None,
-            });
-            (layout, pipeline)
+        let slots = (0_u32..).zip(0..=inputs).map(|(binding, place)| Slot {
+            binding,
+            is_written: place >= inputs,
         });
-        let (layout, pipeline) = made.map_err(|error| named(entry, error))?;
+        let made = layout(gpu, slots)
+            .and_then(|layout| Stage::new(gpu, &layout, module, entry, structures));
         Ok(Self {
             label: entry.to_owned(),
             inputs,
-            layout,
-            pipeline,
-            structures: structures.map(|s| s.group.clone()),
+            stage: made.map_err(|error| named(entry, error))?,
         })
     }
 
@@ -200,18 +165,8 @@ impl Kernel {
                 mapped_at_creation: false,
             });
             buffers.push(output.clone());
-            let entries: Vec<_> = (0_u32..)
-                .zip(&buffers)
-                .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                    binding,
-                    resource: buffer.as_entire_binding(),
-                })
-                .collect();
-            let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some(&self.label),
-                layout: &self.layout,
-                entries: &entries,
-            });
+            let buffers: Vec<_> = buffers.iter().collect();
+            let group = self.stage.group(gpu, &buffers);
             Arrays { group, output }
         })
     }
@@ -228,11 +183,7 @@ impl Kernel {
                     label: Some(&self.label),
                     timestamp_writes: None,
                 });
-                pass.set_pipeline(&self.pipeline);
-                pass.set_bind_group(0, &arrays.group, &[]);
-                if let Some(structures) = &self.structures {
-                    pass.set_bind_group(1, structures, &[]);
-                }
+                self.stage.bind(&mut pass, &arrays.group);
                 let [x, y, z] = workgroups;
                 pass.dispatch_workgroups(x, y, z);
             }

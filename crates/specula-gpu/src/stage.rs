@@ -1,4 +1,4 @@
-//! A compiled kernel of a wave, and its arrays.
+//! A compiled kernel, and its arrays.
 
 use crate::adapter::{Gpu, GpuError};
 use crate::queries::Structures;
@@ -34,7 +34,7 @@ pub(crate) fn layout(
     gpu.caught(|gpu| {
         let device = &gpu.device;
         device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("wave"),
+            label: Some("arrays"),
             entries: &entries,
         })
     })
@@ -93,13 +93,14 @@ impl Stage {
             })
             .collect();
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("wave"),
+            label: Some("arrays"),
             layout: &self.layout,
             entries: &entries,
         })
     }
 
-    fn bind(&self, pass: &mut wgpu::ComputePass<'_>, group: &wgpu::BindGroup) {
+    /// Sets the kernel and its arrays.
+    pub(crate) fn bind(&self, pass: &mut wgpu::ComputePass<'_>, group: &wgpu::BindGroup) {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, group, &[]);
         if let Some(structures) = &self.structures {

@@ -113,8 +113,8 @@ fn real_scenes() {
     ] {
         let file = folder.join(name);
         if file.exists() {
-            // Frames about normals along an axis turn with the sign of a rounding: other directions, drawn
-            // with the same density.
+            // Presumably frames about normals along an axis turn with the sign of a rounding: other
+            // directions, drawn with the same density.
             check(gpu, &file, 0.5);
             found += 1;
         }

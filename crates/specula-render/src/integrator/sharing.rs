@@ -11,8 +11,8 @@
 //! * the light drawn at `y_j`: `f_i g_i f(y_j, light) L w_L / (pdf sum_k p_k)`
 //! * what the drawn direction found: `f_i g_i f(y_j, direction) L w_B / (sum_k p_k q_k)`
 //!
-//! As `k = i` is in both sums, no estimate exceeds what path `i` could have found by itself: sharing makes
-//! no fireflies. Light that both strategies find at `y_j` is weighed with the mean density of the
+//! As `k = i` is in both sums, what is found is scaled no higher than path `i` would have scaled it, the
+//! weight of light at `y_j` aside: sharing makes no fireflies of far-fetched connections. Light that both strategies find at `y_j` is weighed with the mean density of the
 //! group, `sum p_k q_k / sum p_k`, the same in both, so that the weights add up to 1. Light of the
 //! surfaces at `y_j` themselves, and all that is found beyond vertices that are smooth, textured or
 //! estimates, stays with its own path.
@@ -216,7 +216,8 @@ impl Shared {
     /// Keeps the direction drawn at a `y`, in which the path goes on.
     pub(super) fn keep_direction(&mut self, path: usize, lanes: &Lanes, lane: usize) {
         let o = &lanes.onward;
-        let carried = o.weight.colour(lane) * self.scale_of(path);
+        // Until now the throughput without colour with which the path met its `y`.
+        let carried = o.weight.colour(lane) * self.roulette[path];
         let throughput = o.throughput.colour(lane).max_channel();
         self.onward.set(path, o.direction.get(lane));
         self.carried.set_colour(path, carried);
@@ -239,13 +240,6 @@ impl Shared {
                 *survival = 0.0;
             }
         }
-    }
-
-    /// Throughput with which a path leaves its `y`, the lobe there aside: without colour, since others
-    /// may have other colours.
-    pub(super) fn scale_of(&self, path: usize) -> f32 {
-        // Kept until there is a direction.
-        self.roulette[path]
     }
 
     fn has_y(&self, path: usize) -> bool {
@@ -296,6 +290,7 @@ impl PathTracer<'_> {
                         shared.light_pdf[path] = 0.0;
                         shared.onward.set(path, Vec3::ZERO);
                         let o = &mut lanes.onward;
+                        // Without colour: others may have another.
                         let scale = o.throughput.colour(lane).max_channel();
                         shared.roulette[path] = scale;
                         o.throughput.set_colour(lane, rgb(scale, scale, scale));
