@@ -214,7 +214,7 @@ def settings(scene, bounces):
     render.image_settings.color_depth = "32"
     scene.view_settings.view_transform = "Raw"
     cycles.device = "CPU"
-    cycles.use_adaptive_sampling = cycles.use_denoising = False
+    cycles.use_denoising = False
     cycles.pixel_filter_type = "BOX"
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
     cycles.light_sampling_threshold = cycles.blur_glossy = 0
@@ -249,7 +249,11 @@ scene = build()
 print("ready", bpy.app.version_string.replace(" ", "-"), time.perf_counter() - start, flush=True)
 for line in sys.stdin:
     pattern, spp, seed, target = line.split()
+    pattern, *adaptive = pattern.split(",")
     scene.cycles.sampling_pattern = pattern
+    # Its threshold follows the number of samples.
+    scene.cycles.use_adaptive_sampling = bool(adaptive)
+    scene.cycles.adaptive_threshold = 0
     scene.cycles.samples, scene.cycles.seed = int(spp), int(seed)
     scene.update_tag()
     begin, used = time.perf_counter(), os.times()

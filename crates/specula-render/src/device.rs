@@ -2,9 +2,9 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::film::{Criterion, LONGEST_RUN, RunSums};
+use crate::film::{LONGEST_RUN, RunSums};
 use crate::integrator::{Block, PathTracer};
-use crate::renderer::{Done, InvalidSample, PassReport, Renderer, next_target};
+use crate::renderer::{Done, InvalidSample, PassReport, Renderer};
 use crate::sampler::Sampler;
 
 /// Samples that are wanted of every pixel of a tile.
@@ -86,11 +86,10 @@ impl Renderer<'_> {
         mut most: impl FnMut() -> usize,
         mut device: impl FnMut(&[Wanted]) -> Result<Vec<RunSums>, E>,
     ) -> Result<PassReport, E> {
-        let last = self.samples_done().map(|done| done.saturating_add(samples));
-        let criterion = self.options.noise.map(|noise| self.film.criterion(noise));
+        let goals = self.goals(samples);
         let (mut done, mut complete) = (Done::default(), true);
         while complete {
-            let wanted = self.wanted(criterion.as_ref(), last, most());
+            let wanted = self.wanted(&goals, most());
             if wanted.is_empty() {
                 break;
             }
@@ -98,26 +97,26 @@ impl Renderer<'_> {
             done = done.and(self.add(&wanted, &sums));
             complete = !stop.load(Ordering::Relaxed);
         }
-        if criterion.is_some() {
-            self.film.take_reference();
-        }
+        self.plan();
         Ok(self.report(done, None, complete))
     }
 
     /// What tiles need next, of so many samples together, a tile at least.
-    fn wanted(&self, criterion: Option<&Criterion>, last: Option<u32>, most: usize) -> Vec<Wanted> {
+    ///
+    /// * `goals`: samples that they are to have.
+    fn wanted(&self, goals: &[u32], most: usize) -> Vec<Wanted> {
         let mut wanted: Vec<Wanted> = Vec::new();
         let mut samples = 0;
         let first = self.options.first_sample;
-        for (tile, place) in self.film.tiles.iter().zip(0..) {
-            let Some(next) = next_target(tile, criterion, last) else {
+        for ((tile, goal), place) in self.film.tiles.iter().zip(goals).zip(0..) {
+            if tile.count() >= *goal {
                 continue;
-            };
+            }
             let one = Wanted {
                 place,
                 bounds: tile.bounds,
                 first,
-                counts: [tile.count(), next],
+                counts: [tile.count(), *goal],
             };
             samples += one.len();
             if samples > most && !wanted.is_empty() {
@@ -136,6 +135,7 @@ impl Renderer<'_> {
             let tile = &mut self.film.tiles[one.place];
             for (run, sums) in one.runs().zip(sums.by_ref()) {
                 done.tally.rays += u64::from(sums.rays);
+                tile.rays += u64::from(sums.rays);
                 tile.pixels[run.place].add_run(sums, run.count);
                 tile.invalid += u64::from(sums.invalid.count_ones());
                 if sums.invalid != 0 {

@@ -24,7 +24,8 @@ pub enum Strategy {
 /// Settings of a render.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderOptions {
-    /// Samples per pixel that the render aims at; passes decide what is taken.
+    /// Samples per pixel that the render aims at; passes decide what is taken. In adaptive sampling: as
+    /// much work as so many samples of every pixel take.
     pub samples_per_pixel: u32,
     /// Longest path in scattering events, as pbrt counts `maxdepth`: 0 shows emission only.
     pub max_depth: u32,
@@ -52,8 +53,9 @@ pub struct RenderOptions {
     pub share_paths: u32,
     /// Number of each pixel's first sample: renders of different numbers are parts of one picture.
     pub first_sample: u32,
-    /// Estimated error at which the picture is done, with samples spread by their error (see
-    /// [`FilmBuffer::noise`](crate::FilmBuffer::noise)); `None`: as many for every pixel.
+    /// Estimated error at which the picture is done, with samples spread by their error and cost (see
+    /// [`FilmBuffer::noise`](crate::FilmBuffer::noise)); at 0 it is done after the samples that were asked
+    /// for. `None`: as many for every pixel.
     pub noise: Option<f32>,
 }
 

@@ -6,7 +6,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use multiversion::multiversion;
 use rayon::prelude::*;
 
-use crate::film::{Criterion, FIRST_JUDGED, FilmBuffer, PixelSums, Tile};
+use crate::film::{Aim, FilmBuffer, PixelSums, Tile};
 use crate::integrator::{Block, PathTracer, Tally};
 use crate::options::RenderOptions;
 use crate::prepared::PreparedScene;
@@ -16,8 +16,8 @@ use crate::sampler::Sampler;
 ///
 /// A sample is determined by its pixel, its number in the pixel and the seed, and a pixel adds its
 /// samples in the order of their numbers: the picture does not depend, by a single bit, on the
-/// number of threads or on how the samples are split into passes. Where a noise is asked for, tiles
-/// are judged at fixed numbers of samples by their own sums, so that this holds there too.
+/// number of threads or on how the samples are split into passes. Adaptive sampling allots work when
+/// all tiles have what was allotted before, so that this holds there too.
 pub struct Renderer<'a> {
     pub(crate) scene: &'a PreparedScene,
     pub(crate) options: RenderOptions,
@@ -110,12 +110,14 @@ pub enum ResumeError {
 impl<'a> Renderer<'a> {
     /// A render that has not begun.
     pub fn new(scene: &'a PreparedScene, options: RenderOptions) -> Self {
-        Self {
+        let mut renderer = Self {
             scene,
             film: FilmBuffer::new(scene.resolution, scene.crop, options.first_sample),
             options,
             blocks: Mutex::default(),
-        }
+        };
+        renderer.plan();
+        renderer
     }
 
     /// A render that goes on with a film. It ends, bit for bit, as it would have without the break.
@@ -142,12 +144,8 @@ impl<'a> Renderer<'a> {
         if film.first_sample() != options.first_sample {
             return Err(ResumeError::FirstSample(film.first_sample()));
         }
-        // Up to the first judgement the two are the same.
-        let is_other = match options.noise {
-            Some(_) => !film.is_adaptive() && film.most_and_mean_samples().0 > FIRST_JUDGED,
-            None => film.is_adaptive(),
-        };
-        if is_other {
+        let has_samples = film.most_and_mean_samples().0 > 0;
+        if has_samples && options.noise.is_some() != film.is_adaptive() {
             return Err(ResumeError::Adaptive);
         }
         let mut renderer = Self {
@@ -156,52 +154,68 @@ impl<'a> Renderer<'a> {
             film,
             blocks: Mutex::default(),
         };
-        if renderer.options.noise.is_some() {
-            renderer.film.take_reference();
-        }
+        renderer.plan();
         Ok(renderer)
     }
 
-    /// Adds `samples` samples to every pixel, in rayon's current pool. Where a noise is asked for:
-    /// to those that have the fewest among the pixels that need more; others are taken to the same
-    /// count.
+    /// Allots what adaptive sampling does next, once what was allotted is done.
+    pub(crate) fn plan(&mut self) {
+        if let Some(aim) = self.aim() {
+            self.film.plan(aim);
+        }
+    }
+
+    fn aim(&self) -> Option<Aim> {
+        let samples = self.options.samples_per_pixel;
+        (self.options.noise).map(|noise| Aim { noise, samples })
+    }
+
+    /// Samples that each tile is to have after a pass of so many.
+    pub(crate) fn goals(&self, samples: u32) -> Vec<u32> {
+        let even = self.film.complete_samples().saturating_add(samples);
+        let adaptive = self.options.noise.is_some();
+        let goal = |tile: &Tile| match adaptive {
+            true => tile.target.min(tile.count().saturating_add(samples)),
+            false => even,
+        };
+        self.film.tiles.iter().map(goal).collect()
+    }
+
+    /// Adds `samples` samples to every pixel, in rayon's current pool. In adaptive sampling: at most as
+    /// many, to those that have not got yet what was allotted to them.
     ///
     /// A pass that is stopped leaves whole tiles unrendered; the next pass begins with what they
     /// lack, and takes every pixel to the same count.
     ///
     /// * `stop`: looked at before every tile.
     pub fn render_pass(&mut self, samples: u32, stop: &AtomicBool) -> PassReport {
-        let target = self.samples_done().map(|done| done.saturating_add(samples));
+        let goals = self.goals(samples);
         let options = &self.options;
         let tracer = PathTracer::new(self.scene, options);
         let blocks = &self.blocks;
-        let criterion = options.noise.map(|noise| self.film.criterion(noise));
         let (done, complete) = self
             .film
             .tiles
             .par_iter_mut()
+            .zip(goals)
             .with_max_len(1)
-            .map(|tile| {
-                let mut done = Done::default();
-                let mut block = free(blocks).pop().unwrap_or_else(Block::new);
-                let mut complete = true;
-                while let Some(next) = next_target(tile, criterion.as_ref(), target) {
-                    complete = !stop.load(Ordering::Relaxed);
-                    if !complete {
-                        break;
-                    }
-                    done = done.and(render_tile(&tracer, &mut block, options, tile, next));
+            .map(|(tile, goal)| {
+                if tile.count() >= goal {
+                    return (Done::default(), true);
                 }
+                if stop.load(Ordering::Relaxed) {
+                    return (Done::default(), false);
+                }
+                let mut block = free(blocks).pop().unwrap_or_else(Block::new);
+                let done = render_tile(&tracer, &mut block, options, tile, goal);
                 free(blocks).push(block);
-                (done, complete)
+                (done, true)
             })
             .reduce(
                 || (Done::default(), true),
                 |a, b| (a.0.and(b.0), a.1 && b.1),
             );
-        if criterion.is_some() {
-            self.film.take_reference();
-        }
+        self.plan();
         self.report(done, Some(done.tally.scattered), complete)
     }
 
@@ -221,20 +235,20 @@ impl<'a> Renderer<'a> {
         }
     }
 
-    /// Samples of the pixels that have the fewest; where a noise is asked for, of those that need more
-    /// for it. `None`: none does.
+    /// Samples of the pixels that have the fewest; in adaptive sampling, of those that need more.
+    /// `None`: none does.
     pub fn samples_done(&self) -> Option<u32> {
         match self.options.noise {
-            Some(noise) => self.film.fewest_of_open(noise),
+            Some(_) => self.film.fewest_of_open(),
             None => Some(self.film.complete_samples()),
         }
     }
 
-    /// Share of the samples that have been taken, in `[0, 1]`: of `most` per pixel, or of what a noise
-    /// that is asked for is likely to need; 0 where that is not known yet.
+    /// Share of the samples that have been taken, in `[0, 1]`: of `most` per pixel, or of what adaptive
+    /// sampling is likely to need; 0 where that is not known yet.
     pub fn share_done(&self, most: u32) -> f64 {
-        match self.options.noise {
-            Some(noise) => self.film.share_of_samples(noise, most),
+        match self.aim() {
+            Some(aim) => self.film.share_of_work(aim),
             None => f64::from(self.film.complete_samples()) / f64::from(most.max(1)),
         }
     }
@@ -258,17 +272,6 @@ impl<'a> Renderer<'a> {
 /// The blocks that no thread uses.
 fn free(blocks: &Mutex<Vec<Block>>) -> MutexGuard<'_, Vec<Block>> {
     blocks.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Samples that a tile is to be taken to next, at most `last`; `None`: it has what this pass brings.
-pub(crate) fn next_target(
-    tile: &Tile,
-    criterion: Option<&Criterion>,
-    last: Option<u32>,
-) -> Option<u32> {
-    let wanted = criterion.map_or(last, |c| c.target(tile));
-    let next = wanted?.min(last?);
-    (tile.count() < next).then_some(next)
 }
 
 /// What was done for a tile, or for several.
@@ -311,7 +314,9 @@ fn render_tile(
         tracer.begin(block, places.iter().copied().map(sample));
         tracer.follow_all(block);
         tracer.share(block, sizes);
-        done.tally = done.tally.and(block.take_tally());
+        let tally = block.take_tally();
+        tile.rays += tally.rays;
+        done.tally = done.tally.and(tally);
         for place in add_samples(tracer, block, places, &mut tile.pixels) {
             tile.invalid += 1;
             let (pixel, sampler) = sample(place);

@@ -68,8 +68,8 @@ fn threads_and_passes_do_not_change_a_bit() {
     assert_ne!(run(&scene, 1, &[7], None).colour, reference.colour);
 }
 
-/// Goes on with a film until `noise`, at most 512 samples per pixel, resumed after every pass of
-/// `samples`.
+/// Goes on with a film until `noise`, at most the work of 512 samples per pixel, resumed after every pass
+/// of `samples`.
 fn adaptive(
     scene: &Scene,
     noise: f32,
@@ -80,6 +80,7 @@ fn adaptive(
     let options = RenderOptions {
         max_depth: 6,
         noise: Some(noise),
+        samples_per_pixel: 512,
         ..RenderOptions::default()
     };
     let pool = rayon::ThreadPoolBuilder::new()
@@ -94,12 +95,12 @@ fn adaptive(
                     .expect("the film is of this render"),
                 None => Renderer::new(&prepared, options.clone()),
             };
-            let left = renderer.samples_done().map_or(0, |done| 512 - done);
-            if left > 0 {
-                renderer.render_pass(samples.min(left), &AtomicBool::new(false));
+            let is_done = renderer.samples_done().is_none();
+            if !is_done {
+                renderer.render_pass(samples, &AtomicBool::new(false));
             }
             *film = Some(renderer.film().clone());
-            if left == 0 {
+            if is_done {
                 break;
             }
         }

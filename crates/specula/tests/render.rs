@@ -130,11 +130,12 @@ fn time_and_noise_end_a_render() {
         (fewest, most)
     };
     assert!(samples("t.exr").0 >= 1.0);
-    // A noise alone, with an end by samples, and with an end by time.
-    let noise: [(&[&str], &str); 3] = [
+    // A noise alone, with an end by samples, with an end by time; and samples alone.
+    let noise: [(&[&str], &str); 4] = [
         (&["--noise", "0.01"], " to "),
-        (&["--noise", "1e-5", "--spp", "100"], "100 spp"),
+        (&["--noise", "1e-5", "--spp", "100"], " to "),
         (&["--noise", "1e-5", "--time", "300ms"], "spp"),
+        (&["--adaptive", "--spp", "100"], " to "),
     ];
     for (i, (arguments, expected)) in noise.into_iter().enumerate() {
         let name = format!("{i}.exr");
@@ -150,7 +151,18 @@ fn time_and_noise_end_a_render() {
     }
     let (fewest, most) = samples("0.exr");
     assert!(fewest >= 32.0 && most > fewest, "{fewest} to {most}");
-    assert_eq!(samples("1.exr").1, 100.0);
+    let mean = |name: &str| {
+        let counts = read_exr(&folder.path().join(name)).unwrap().sample_count;
+        counts.iter().sum::<f32>() / counts.len() as f32
+    };
+    // As much work as 100 samples everywhere.
+    for name in ["1.exr", "3.exr"] {
+        assert!((50.0..200.0).contains(&mean(name)), "{}", mean(name));
+    }
+    assert_eq!(
+        read_exr(&folder.path().join("1.exr")).unwrap(),
+        read_exr(&folder.path().join("3.exr")).unwrap()
+    );
 }
 
 #[test]

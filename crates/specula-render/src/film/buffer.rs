@@ -3,7 +3,6 @@
 use specula_bsdf::math::vec3;
 use specula_bsdf::{Rgb, Vec3};
 
-use super::adaptive::Reference;
 use super::sum::{FixedSum, Sum};
 use crate::convert::narrow;
 use crate::picture::Picture;
@@ -150,6 +149,10 @@ pub(crate) struct Tile {
     pub(crate) pixels: Vec<PixelSums>,
     /// Samples that were not finite.
     pub(crate) invalid: u64,
+    /// Rays that its samples took.
+    pub(crate) rays: u64,
+    /// Samples of each pixel that adaptive sampling has allotted; 0 in other films.
+    pub(crate) target: u32,
 }
 
 /// The film: sums per pixel, in tiles.
@@ -165,8 +168,8 @@ pub struct FilmBuffer {
     /// Numbers of the samples of a film that was merged from parts which leave gaps, half open, in
     /// order; empty: `first_sample` and what follows.
     parts: Vec<[u32; 2]>,
-    /// What tiles are judged by in adaptive sampling, once it is known.
-    pub(super) reference: Option<Reference>,
+    /// Work that adaptive sampling has allotted so far, in samples of every pixel; 0 in other films.
+    pub(super) work: f64,
     pub(crate) tiles: Vec<Tile>,
 }
 
@@ -202,6 +205,8 @@ impl FilmBuffer {
                     bounds,
                     pixels: vec![PixelSums::default(); area as usize],
                     invalid: 0,
+                    rays: 0,
+                    target: 0,
                 });
             }
         }
@@ -210,7 +215,7 @@ impl FilmBuffer {
             crop,
             first_sample,
             parts: Vec::new(),
-            reference: None,
+            work: 0.0,
             tiles,
         }
     }
@@ -246,7 +251,7 @@ impl FilmBuffer {
     pub(crate) fn restore(
         mut self,
         parts: Vec<[u32; 2]>,
-        reference: Option<Reference>,
+        work: f64,
         tiles: Vec<Tile>,
     ) -> Option<Self> {
         let ordered = parts.windows(2).all(|p| p[0][1] < p[1][0]);
@@ -260,7 +265,7 @@ impl FilmBuffer {
             return None;
         }
         self.parts = parts;
-        self.reference = reference;
+        self.work = work;
         self.tiles = tiles;
         Some(self)
     }
@@ -309,6 +314,7 @@ impl FilmBuffer {
                 p.merge(q);
             }
             a.invalid += b.invalid;
+            a.rays += b.rays;
         }
         all.dedup_by(|next, range| {
             let adjoin = range[1] == next[0];

@@ -8,8 +8,8 @@
 //! | 8 bytes | `SPECFILM` |
 //! | `u32` | version of the format |
 //! | label | program's version, scene's name, settings (texts: `u32` length, UTF-8), scene's fingerprint (`u64`), seconds (`f64`) |
-//! | film | resolution, crop, first sample (`u32` each), number of parts and parts (`u32`), brightness and deviation that adaptive sampling refers to (`f64`, -1 where it is not), number of tiles (`u32`) |
-//! | per tile | samples that were not finite (`u64`), length (`u32`), words of its pixels, one column for each word, deflated |
+//! | film | resolution, crop, first sample (`u32` each), number of parts and parts (`u32`), work that adaptive sampling has allotted (`f64`, 0 in other films), number of tiles (`u32`) |
+//! | per tile | samples that were not finite (`u64`), rays (`u64`), samples that adaptive sampling has allotted (`u32`), length (`u32`), words of its pixels, one column for each word, deflated |
 //! | `u64` | XXH3 of all before |
 
 use std::hash::Hasher;
@@ -24,11 +24,10 @@ use specula_scene::atomic;
 use thiserror::Error;
 use twox_hash::XxHash3_64;
 
-use super::adaptive::Reference;
 use super::buffer::{FilmBuffer, PixelSums, Tile};
 
 const MAGIC: &[u8; 8] = b"SPECFILM";
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 /// Longest text of a label.
 const LONGEST_TEXT: usize = 1 << 16;
 /// Most pixels of a film that is read: those of a picture.
@@ -116,6 +115,8 @@ impl FilmFile {
                 for (tile, packed) in tiles.iter().zip(packed) {
                     let packed = packed?;
                     out.write_all(&tile.invalid.to_le_bytes())?;
+                    out.write_all(&tile.rays.to_le_bytes())?;
+                    out.write_all(&tile.target.to_le_bytes())?;
                     out.write_all(&length(packed.len())?.to_le_bytes())?;
                     out.write_all(&packed)?;
                 }
@@ -171,11 +172,7 @@ fn write_head(out: &mut impl Write, film: &FilmBuffer) -> io::Result<()> {
     for number in head {
         out.write_all(&number.to_le_bytes())?;
     }
-    let [brightness, deviation] = film
-        .reference
-        .map_or([-1.0; 2], |r| [r.brightness, r.deviation]);
-    out.write_all(&brightness.to_le_bytes())?;
-    out.write_all(&deviation.to_le_bytes())?;
+    out.write_all(&film.work.to_le_bytes())?;
     out.write_all(&length(film.tiles.len())?.to_le_bytes())
 }
 
@@ -233,36 +230,37 @@ fn parse(mut input: Input<'_>) -> Option<FilmFile> {
     let parts = (0..part_count)
         .map(|_| Some([number()?, number()?]))
         .collect::<Option<Vec<_>>>()?;
-    let [brightness, deviation] = [input.f64()?, input.f64()?];
+    let work = input.f64()?;
     let tile_count = input.u32()?;
     let empty = FilmBuffer::new([width, height], [x0, x1, y0, y1], first);
-    if empty.tiles.len() != tile_count as usize {
+    if empty.tiles.len() != tile_count as usize || !(0.0..=f64::MAX).contains(&work) {
         return None;
     }
-    let reference = (brightness >= 0.0).then_some(Reference {
-        brightness,
-        deviation,
-    });
     let packed = empty
         .tiles
         .iter()
         .map(|tile| {
-            let invalid = u64::from_le_bytes(input.array()?);
+            let [invalid, rays] = [input.array()?, input.array()?].map(u64::from_le_bytes);
+            let target = input.u32()?;
             let length = input.u32()? as usize;
-            Some((tile, invalid, input.take(length)?))
+            let empty = Tile {
+                invalid,
+                rays,
+                target,
+                pixels: Vec::new(),
+                ..*tile
+            };
+            Some((empty, tile.pixels.len(), input.take(length)?))
         })
         .collect::<Option<Vec<_>>>()?;
     let tiles = packed
         .into_par_iter()
-        .map(|(tile, invalid, packed)| {
-            Some(Tile {
-                bounds: tile.bounds,
-                pixels: unpack(packed, tile.pixels.len())?,
-                invalid,
-            })
+        .map(|(tile, count, packed)| {
+            let pixels = unpack(packed, count)?;
+            Some(Tile { pixels, ..tile })
         })
         .collect::<Option<Vec<_>>>()?;
-    let film = empty.restore(parts, reference, tiles)?;
+    let film = empty.restore(parts, work, tiles)?;
     Some(FilmFile { label, film })
 }
 
@@ -358,10 +356,10 @@ mod tests {
         let mut gaps = film(0);
         gaps.merge(&film(9)).unwrap();
         let mut adaptive = film(0);
-        adaptive.reference = Some(Reference {
-            brightness: 0.1,
-            deviation: 2.0,
-        });
+        adaptive.work = 3.5;
+        for (tile, target) in adaptive.tiles.iter_mut().zip(3..) {
+            (tile.rays, tile.target) = (1 << 40, target);
+        }
         let empty = FilmBuffer::new([3, 2], [0, 3, 0, 2], 0);
         for film in [film(5), gaps, adaptive, empty] {
             FilmFile::write(&path, &label(), &film).unwrap();

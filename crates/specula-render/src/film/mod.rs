@@ -8,8 +8,8 @@ pub(crate) mod filter;
 mod run;
 mod sum;
 
+pub(crate) use adaptive::Aim;
 pub use adaptive::MOST_SAMPLES;
-pub(crate) use adaptive::{Criterion, FIRST_JUDGED};
 pub(crate) use buffer::BYTES_PER_PIXEL;
 pub use buffer::{FilmBuffer, MergeError};
 pub(crate) use buffer::{PixelSample, PixelSums, Tile};

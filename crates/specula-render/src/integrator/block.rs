@@ -9,7 +9,7 @@ use specula_bsdf::math::Stream;
 
 use super::lanes::{self, Column, LANES, Lanes, ZERO};
 use super::paths::Paths;
-use super::sharing::Shared;
+use super::sharing::{Shared, Work};
 use super::{Path, PathTracer, Tally};
 use crate::accel::{Hit, Ray};
 use crate::convert::id;
@@ -63,6 +63,7 @@ pub(crate) struct Block {
     pub(super) lights: Box<light::Waiting>,
     /// Where paths share.
     pub(super) shared: Option<Box<Shared>>,
+    pub(super) pairs: Option<Box<Work>>,
 }
 
 /// Numbers of paths or lanes, each with a ray.
@@ -147,6 +148,7 @@ impl Block {
             blocked: Vec::new(),
             lights: light::Waiting::new(),
             shared: None,
+            pairs: None,
         }
     }
 
@@ -192,10 +194,12 @@ impl PathTracer<'_> {
             live,
             lanes,
             shared,
+            pairs,
             ..
         } = block;
         if self.shares {
             shared.get_or_insert_with(Shared::new).begin();
+            pairs.get_or_insert_with(|| Box::new(Work::new()));
         }
         let Lanes {
             numbers, raster, ..

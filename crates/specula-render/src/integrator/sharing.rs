@@ -17,12 +17,13 @@
 //! surfaces at `y_j` themselves, and all that is found beyond vertices that are smooth, textured or
 //! estimates, stays with its own path.
 
-use specula_bsdf::math::rgb;
+use specula_bsdf::math::{rgb, vec3};
 use specula_bsdf::{Frame, Rgb, Vec3};
 
+mod connect;
 mod pairs;
 
-use pairs::Work;
+pub(super) use pairs::Work;
 
 use super::block::{Block, index};
 use super::lanes::{Column, LANES, Lanes, Vectors, ZERO};
@@ -91,7 +92,6 @@ pub(super) struct Shared {
     carried: Vectors,
     roulette: Column,
     met: Vec<Met>,
-    work: Work,
 }
 
 impl Vertices {
@@ -114,28 +114,30 @@ impl Vertices {
         self.key[path] = key;
     }
 
+    #[inline(always)]
     fn frame(&self, path: usize) -> Frame<f32> {
         let [s, t, n] = [0, 1, 2].map(|k| self.axes[k].get(path));
         Frame { s, t, n }
     }
 
     /// A direction in the frame; zero where it is on different sides of surface and frame.
+    #[inline(always)]
     fn local(&self, path: usize, w: Vec3<f32>) -> Vec3<f32> {
         let local = self.frame(path).to_local(w);
-        if local.z * self.facing.get(path).dot(w) > 0.0 {
-            local
-        } else {
-            Vec3::ZERO
-        }
+        let agree = local.z * self.facing.get(path).dot(w) > 0.0;
+        let keep = |v: f32| if agree { v } else { 0.0 };
+        vec3(keep(local.x), keep(local.y), keep(local.z))
     }
 
     /// Whether a point is far enough from a vertex for a direction between them.
+    #[inline(always)]
     fn is_far(&self, path: usize, point: Vec3<f32>, error: f32) -> bool {
         let away = (point - self.position.get(path)).length();
         away > FAR * (self.error[path] + error)
     }
 
     /// Where a ray leaves a vertex.
+    #[inline(always)]
     fn leave(&self, path: usize, w: Vec3<f32>) -> Vec3<f32> {
         let error = Vec3::splat(self.error[path]);
         leave(self.position.get(path), error, self.facing.get(path), w)
@@ -160,7 +162,6 @@ impl Shared {
             carried: Vectors::ZERO,
             roulette: ZERO,
             met: Vec::new(),
-            work: Work::new(),
         })
     }
 

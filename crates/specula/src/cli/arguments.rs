@@ -72,6 +72,8 @@ Examples:
       as many samples as fit into five minutes
   specula render scene.pbrt --noise 0.02 --time 1h
       until the estimated relative error is 2 %, an hour at most
+  specula render scene.pbrt --adaptive --spp 256
+      the work of 256 samples per pixel, spread to where it takes most noise away
   specula render scene.pbrt --resolution 480x270 --spp 4 -o preview.png
       a quick look
   specula render bunny.ply --material \"conductor Au alpha 0.3\"
@@ -102,8 +104,8 @@ pub(crate) struct RenderArguments {
     #[arg(short, long = "output", value_name = "OUT", value_parser = values::output)]
     pub(crate) output: Vec<PathBuf>,
 
-    /// Samples per pixel, with --noise the most of any pixel [default: as the scene says, with --noise
-    /// 65536]
+    /// Samples per pixel; with --adaptive and --noise as much work as so many everywhere [default: as the
+    /// scene says, with --noise 65536]
     #[arg(long, value_name = "N", group = "effort",
           value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
     pub(crate) spp: Option<u32>,
@@ -112,11 +114,15 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "T", group = "effort", value_parser = values::duration)]
     pub(crate) time: Option<Duration>,
 
-    /// Render until the estimated relative error of the picture is E, such as 0.02, with more samples
-    /// where there is more noise: less error in the same time where noise is uneven. --spp and
-    /// --time end it earlier
+    /// Render until the estimated relative error of the picture is E, such as 0.02, with samples spread as
+    /// by --adaptive. --spp and --time end it earlier
     #[arg(long, value_name = "E", conflicts_with = "samples", value_parser = values::positive)]
     pub(crate) noise: Option<f32>,
+
+    /// Put more samples where there is more noise, less where they cost more: --spp and --time say how much
+    /// work it is in all. Less error in the same time where noise is uneven
+    #[arg(long, conflicts_with = "samples")]
+    pub(crate) adaptive: bool,
 
     /// Render these samples of every pixel only, such as 512..1024, for `specula merge`
     /// [default output: the scene's name, the range and .film]
@@ -513,13 +519,18 @@ mod tests {
 
     #[test]
     fn efforts_exclude_each_other() {
-        for pair in [["--spp=4", "--time=3s"], ["--noise=0.1", "--samples=0..4"]] {
+        for pair in [
+            ["--spp=4", "--time=3s"],
+            ["--noise=0.1", "--samples=0..4"],
+            ["--adaptive", "--samples=0..4"],
+        ] {
             let line = ["specula", "render", pair[0], pair[1]];
             assert!(Arguments::try_parse_from(line).is_err(), "{pair:?}");
         }
         for pair in [
             ["--exposure", "-1.5"],
             ["--noise=0.1", "--spp=4"],
+            ["--adaptive", "--spp=4"],
             ["--noise=1", "--time=3s"],
         ] {
             let line = ["specula", "render", pair[0], pair[1]];

@@ -104,11 +104,13 @@ fn options(arguments: &RenderArguments, scene: &Scene) -> Result<RenderOptions, 
             )));
         }
     }
+    let by_samples = arguments.noise.is_none() && arguments.time.is_none();
+    let samples = match by_samples {
+        true => from_scene.samples_per_pixel,
+        false => MOST_SAMPLES,
+    };
     Ok(RenderOptions {
-        samples_per_pixel: arguments.spp.unwrap_or(match arguments.noise {
-            Some(_) => MOST_SAMPLES,
-            None => from_scene.samples_per_pixel,
-        }),
+        samples_per_pixel: arguments.spp.unwrap_or(samples),
         max_depth: arguments.max_depth.unwrap_or(from_scene.max_depth),
         seed: arguments.seed,
         share_paths: arguments.share_paths,
@@ -117,18 +119,16 @@ fn options(arguments: &RenderArguments, scene: &Scene) -> Result<RenderOptions, 
         resolution: arguments.resolution,
         crop: arguments.crop,
         first_sample: arguments.samples.map_or(0, |[from, _]| from),
-        noise: arguments.noise,
+        noise: arguments.noise.or(arguments.adaptive.then_some(0.0)),
         ..from_scene
     })
 }
 
 fn goal(arguments: &RenderArguments, options: &RenderOptions) -> Goal {
     match (arguments.time, arguments.samples) {
-        (Some(time), _) if arguments.noise.is_some() => Goal {
-            most_samples: options.samples_per_pixel,
-            time: Some(time),
-        },
         (Some(time), _) => Goal::time(time),
+        // What is done is the film's to say.
+        (None, _) if options.noise.is_some() => Goal::samples(MOST_SAMPLES),
         (None, Some([from, to])) => Goal::samples(to - from),
         (None, None) => Goal::samples(options.samples_per_pixel),
     }

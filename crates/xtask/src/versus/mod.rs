@@ -201,7 +201,7 @@ impl Versus {
                 .arg(&file)
                 .arg(self.threads.to_string());
             let engine = Served::start("Cycles", &mut command)?;
-            let samplers = &["TABULATED_SOBOL", "BLUE_NOISE"];
+            let samplers = &["TABULATED_SOBOL", "BLUE_NOISE", "TABULATED_SOBOL,adaptive"];
             contestants
                 .push(Contestant::new("cycles", samplers, engine).against("specula-pbrt", CLOSE));
         }

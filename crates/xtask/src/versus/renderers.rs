@@ -43,19 +43,40 @@ pub(crate) struct Specula {
 }
 
 impl Specula {
-    /// Alone, and with paths that are shared between so many pixels.
-    pub(crate) const SAMPLERS: [&'static str; 3] = ["sobol", "sobol, 8 share", "sobol, 16 share"];
+    /// With as many samples everywhere and spread by their error, paths alone and shared between so many
+    /// pixels.
+    pub(crate) const SAMPLERS: [&'static str; 6] = [
+        "sobol",
+        "sobol, 8 share",
+        "sobol, 16 share",
+        "adaptive",
+        "adaptive, 8 share",
+        "adaptive, 16 share",
+    ];
+
+    /// The options that a name in [`SAMPLERS`](Self::SAMPLERS) stands for.
+    fn options(sampler: &str) -> Vec<&str> {
+        let option = |part: &'_ str| match part.split_once(' ') {
+            Some((_, "share")) => Some("--share-paths"),
+            _ => (part == "adaptive").then_some("--adaptive"),
+        };
+        let mut options = Vec::new();
+        for part in sampler.split(", ") {
+            options.extend(option(part));
+            options.extend(part.split_once(' ').map(|(count, _)| count));
+        }
+        options
+    }
 
     /// Wall time is the one that the picture holds; CPU time is counted from the line that says that
     /// the scene is ready to the end.
     fn process(&self, sampler: &str, spp: u32, seed: u32, target: &Path) -> Result<Timing> {
         let before = children_cpu()?;
-        let shared = sampler.split_whitespace().nth(1).unwrap_or("1");
         let mut child = Command::new(&self.program)
             .args(["render", "--checkpoint", "off"])
             .args(["--threads", &self.threads.to_string()])
             .args(["--spp", &spp.to_string(), "--seed", &seed.to_string()])
-            .args(["--share-paths", shared])
+            .args(Self::options(sampler))
             .arg("-o")
             .arg(target)
             .arg(&self.scene)

@@ -1,72 +1,120 @@
 //! The pairs of an `x` and a `y` of a group: what lies between, and what the one gets of the other.
 
+use specula_bsdf::Rgb;
 use specula_bsdf::math::rgb;
-use specula_bsdf::{Rgb, Vec3};
 
-use super::super::block::{Block, Queue};
+use super::super::block::{Block, Queue, index};
 use super::super::lanes::{Column, LANES, Vectors, ZERO};
 use super::super::passing::TO_LIGHT;
 use super::super::{PathTracer, lobes, power_heuristic};
-use super::Shared;
+use super::{Shared, connect};
 use crate::accel::Ray;
 use crate::convert::id;
 
-/// Pairs of an `x` and a `y` of a group.
-struct Pair {
-    /// Those of `x` and of `y`.
-    paths: [usize; 2],
-    /// Away from `x`.
-    direction: Vec3<f32>,
-    /// Cosine at `y` over squared distance, in the units of `y`'s own path.
-    g: f32,
+/// What a lobe makes of a direction: `f |cos|` and density.
+pub(super) struct Found {
+    pub(super) f: Vectors,
+    pub(super) pdf: Column,
+}
+
+/// Pairs of an `x` and a `y` of a group, side by side; those of one `y` in a row.
+pub(super) struct Pairs {
+    pub(super) count: usize,
+    /// Paths of `x` and of `y`.
+    pub(super) x: [u32; LANES],
+    pub(super) y: [u32; LANES],
+    /// Cosine at `y` over squared distance, in the units of `y`'s own path; 0 where the two are too close or
+    /// turned away from each other.
+    pub(super) g: Column,
+    /// At `x`, local: towards its viewer and towards `y`.
+    pub(super) at_x: [Vectors; 2],
+    /// At `y`, local: towards `x`.
+    pub(super) back: Vectors,
+    /// The ray between them.
+    pub(super) origin: Vectors,
+    pub(super) along: Vectors,
     /// `f |cos|` at `x` times `g`.
-    f: Rgb<f32>,
+    pub(super) f: Vectors,
     /// Density of `y`; 0 where something stands between.
-    p: f32,
-    /// `f |cos|` and density at `y` towards the light, and in the direction that was drawn.
-    behind: [(Rgb<f32>, f32); 2],
+    pub(super) p: Column,
+    /// At `y`: towards the light, and in the direction that was drawn.
+    behind: [Found; 2],
 }
 
 /// Room for evaluations.
-pub(super) struct Work {
-    pairs: Vec<Pair>,
+pub(in super::super) struct Work {
+    pairs: Box<Pairs>,
+    /// The pairs of each `y`: its path, from, to.
+    rows: Vec<(usize, usize, usize)>,
     /// Pairs by the keys of their lobes, and how many there are up to each key.
     order: Vec<u32>,
     ends: Vec<u32>,
+    /// In that order: `wo`, `wi`, and what the lobes make of them.
     wo: Vectors,
     wi: Vectors,
-    f: Vectors,
-    pdf: Column,
+    found: Found,
+    /// Directions at each `y`, local, by path; 0 where they are on different sides of surface and frame.
+    beyond: [Vectors; 2],
     rays: Box<Queue>,
     blocked: Vec<bool>,
 }
 
+impl Found {
+    const NONE: Self = Self {
+        f: Vectors::ZERO,
+        pdf: ZERO,
+    };
+}
+
+impl Pairs {
+    const NONE: Self = Self {
+        count: 0,
+        x: [0; LANES],
+        y: [0; LANES],
+        g: ZERO,
+        at_x: [Vectors::ZERO; 2],
+        back: Vectors::ZERO,
+        origin: Vectors::ZERO,
+        along: Vectors::ZERO,
+        f: Vectors::ZERO,
+        p: ZERO,
+        behind: [Found::NONE; 2],
+    };
+}
+
 impl Work {
-    pub(super) fn new() -> Self {
+    pub(in super::super) fn new() -> Self {
         Self {
-            pairs: Vec::new(),
+            pairs: Box::new(Pairs::NONE),
+            rows: Vec::new(),
             order: Vec::new(),
             ends: Vec::new(),
             wo: Vectors::ZERO,
             wi: Vectors::ZERO,
-            f: Vectors::ZERO,
-            pdf: ZERO,
+            found: Found::NONE,
+            beyond: [Vectors::ZERO; 2],
             rays: Queue::new(),
             blocked: Vec::new(),
         }
     }
 
-    /// Sorts the pairs that have a key by it.
+    /// Sorts the pairs that are wanted by key.
     ///
     /// * `count`: of keys.
-    fn sort(&mut self, count: usize, key: impl Fn(&Pair) -> Option<u32>) {
+    fn sort(
+        &mut self,
+        count: usize,
+        is_wanted: impl Fn(&Pairs, usize) -> bool,
+        key: impl Fn(&Pairs, usize) -> u32,
+    ) {
         let Self {
             pairs, order, ends, ..
         } = self;
         ends.clear();
         ends.resize(count + 1, 0);
-        for key in pairs.iter().filter_map(&key) {
-            ends[key as usize + 1] += 1;
+        let wanted = || (0..pairs.count.min(LANES)).filter(|&k| is_wanted(pairs, k));
+        for k in wanted() {
+            ends[key(pairs, k) as usize + 1] += 1;
         }
         let mut sum = 0;
         for end in &mut *ends {
@@ -76,13 +124,93 @@ impl Work {
         order.clear();
         order.resize(sum as usize, 0);
         // Where pairs of a key begin becomes where they end.
-        for (p, pair) in (0..).zip(pairs.iter()) {
-            if let Some(key) = key(pair) {
-                let place = &mut ends[key as usize];
-                order[*place as usize] = p;
-                *place += 1;
+        for k in wanted() {
+            let place = &mut ends[key(pairs, k) as usize];
+            order[*place as usize] = id(k);
+            *place += 1;
+        }
+    }
+
+    /// The rows and columns of a group.
+    fn list(&mut self, shared: &Shared, group: core::ops::Range<usize>) {
+        let pairs = &mut *self.pairs;
+        for j in group.clone().filter(|&j| shared.has_y(j)) {
+            let from = pairs.count;
+            for i in group.clone().filter(|&i| shared.has_x[i]) {
+                let k = pairs.count % LANES;
+                pairs.x[k] = id(i);
+                pairs.y[k] = id(j);
+                pairs.count = k + 1;
+            }
+            self.rows.push((j, from, pairs.count));
+        }
+    }
+}
+
+impl Shared {
+    /// Adds what each `x` gets from the `y` of its group.
+    ///
+    /// * `radiance`: of the paths, that with a `y` behind it.
+    fn combine(&self, work: &Work, radiance: &Vectors, sums: &mut [Rgb<f32>; LANES]) {
+        let pairs = &*work.pairs;
+        let [light, drawn] = &pairs.behind;
+        for &(j, from, to) in &work.rows {
+            let row = || (from..to.min(LANES)).filter(|&k| pairs.p[k] > 0.0);
+            let (mut area, mut at_light, mut at_drawn) = (0.0, 0.0, 0.0);
+            for k in row() {
+                area += pairs.p[k];
+                at_light += pairs.p[k] * light.pdf[k];
+                at_drawn += pairs.p[k] * drawn.pdf[k];
+            }
+            if area.is_nan() || area <= 0.0 {
+                continue;
+            }
+            let lit = self.light_at(j, at_light / area) * (1.0 / area);
+            let beyond = if at_drawn > 0.0 {
+                self.found_beyond(j, at_drawn / area, radiance) * (1.0 / at_drawn)
+            } else {
+                Rgb::BLACK
+            };
+            for k in row() {
+                let arrives = light.f.colour(k) * lit + drawn.f.colour(k) * beyond;
+                sums[index(pairs.x[k])] += pairs.f.colour(k) * arrives;
             }
         }
+    }
+
+    /// The light that was drawn at a `y`, weighed.
+    ///
+    /// * `density`: of its direction among the group's.
+    fn light_at(&self, j: usize, density: f32) -> Rgb<f32> {
+        let pdf = self.light_pdf[j];
+        if pdf <= 0.0 {
+            return Rgb::BLACK;
+        }
+        let weight = if self.light_delta[j] {
+            1.0
+        } else {
+            power_heuristic(density / pdf)
+        };
+        self.light.colour(j) * weight
+    }
+
+    /// What came along the direction that was drawn at a `y`.
+    ///
+    /// * `density`: of the direction among the group's.
+    fn found_beyond(&self, j: usize, density: f32, radiance: &Vectors) -> Rgb<f32> {
+        let (found, carried) = (radiance.colour(j), self.carried.colour(j));
+        let over = |a: f32, b: f32| if b > 0.0 { a / b } else { 0.0 };
+        let mut sum = rgb(
+            over(found.r, carried.r),
+            over(found.g, carried.g),
+            over(found.b, carried.b),
+        );
+        let first = self.met.partition_point(|met| met.path < j);
+        for met in self.met[first..].iter().take_while(|met| met.path == j) {
+            let weight = power_heuristic(met.light_pdf / density);
+            sum += met.radiance * (weight * self.roulette[j]);
+        }
+        sum
     }
 }
 
@@ -91,33 +219,37 @@ impl PathTracer<'_> {
     ///
     /// * `sizes`: of the groups, one behind the other.
     pub(crate) fn share(&self, block: &mut Block, sizes: &[usize]) {
-        let Some(mut shared) = block.shared.take() else {
+        let (Some(mut shared), Some(mut work)) = (block.shared.take(), block.pairs.take()) else {
             return;
         };
         let mut sums = [Rgb::BLACK; LANES];
         let mut begin = 0;
         shared.met.sort_by_key(|met| met.path);
+        let all = sizes.iter().sum::<usize>().min(LANES);
+        for (local, w) in (work.beyond.iter_mut()).zip([&shared.towards, &shared.onward]) {
+            connect::turn(all, &shared.y, w, local);
+        }
         // As many groups at once as have pairs for the lanes.
         let mut rest = sizes;
         while !rest.is_empty() {
-            shared.work.pairs.clear();
+            work.pairs.count = 0;
+            work.rows.clear();
             let (mut pairs, mut taken) = (0, 0);
             while let Some(&size) = rest.get(taken) {
                 if taken > 0 && pairs + size * size > LANES {
                     break;
                 }
                 pairs += size * size;
-                self.pair(&mut shared, begin..begin + size);
+                work.list(&shared, begin..begin + size);
                 begin += size;
                 taken += 1;
             }
             rest = &rest[taken..];
-            self.evaluate_x(&mut shared);
-            block.tally.rays += self.look(&mut shared);
-            for towards in [Towards::Light, Towards::Drawn] {
-                self.evaluate_y(&mut shared, towards);
-            }
-            self.combine(&shared, &block.paths.radiance, &mut sums);
+            connect::connect(&shared.x, &shared.y, &shared.wo, &mut work.pairs);
+            self.evaluate_x(&shared, &mut work);
+            block.tally.rays += self.look(&mut work);
+            self.evaluate_y(&shared, &mut work);
+            shared.combine(&work, &block.paths.radiance, &mut sums);
         }
         for (path, sum) in sums.iter().enumerate().take(begin) {
             let own = if shared.has_y(path) {
@@ -125,274 +257,109 @@ impl PathTracer<'_> {
             } else {
                 block.paths.radiance.colour(path)
             };
-            block.paths.radiance.set_colour(path, own + *sum);
+            let got = shared.throughput.colour(path) * *sum;
+            let sum = if shared.has_x[path] { own + got } else { own };
+            block.paths.radiance.set_colour(path, sum);
         }
         block.shared = Some(shared);
-    }
-
-    /// Adds all pairs of a group that may see each other, those of one `y` in a row.
-    fn pair(&self, shared: &mut Shared, group: core::ops::Range<usize>) {
-        for j in group.clone() {
-            if !shared.has_y(j) {
-                continue;
-            }
-            let y = shared.y.position.get(j);
-            let own = (y - shared.x.position.get(j)).length();
-            for i in group.clone() {
-                if !shared.has_x[i] || !shared.x.is_far(i, y, shared.y.error[j]) {
-                    continue;
-                }
-                // In units of the own distance: squares of lengths overflow.
-                let between = (y - shared.x.position.get(i)) * (1.0 / own);
-                let squared = between.dot(between);
-                if !(squared > 0.0 && squared < f32::INFINITY) {
-                    continue;
-                }
-                let direction = between * (1.0 / squared.sqrt());
-                let cos = -shared.y.facing.get(j).dot(direction);
-                if cos <= 0.0 {
-                    continue;
-                }
-                shared.work.pairs.push(Pair {
-                    paths: [i, j],
-                    direction,
-                    g: cos / squared,
-                    f: Rgb::BLACK,
-                    p: 0.0,
-                    behind: [(Rgb::BLACK, 0.0); 2],
-                });
-            }
-        }
+        block.pairs = Some(work);
     }
 
     /// Evaluates the lobes of the `x`.
-    fn evaluate_x(&self, shared: &mut Shared) {
-        let Shared {
-            x,
-            wo,
-            throughput,
-            work,
-            ..
-        } = shared;
-        let keys = |pair: &Pair| Some(x.key[pair.paths[0]]);
-        let ways = |pair: &Pair| {
-            let i = pair.paths[0];
-            [wo.get(i), x.local(i, pair.direction)]
-        };
-        self.evaluate(work, keys, ways, |pair, f, pdf| {
-            pair.f = f * pair.g;
-            // Paths that carry nothing end, and never reach the point.
-            let ends = (throughput.colour(pair.paths[0]) * f).is_black();
-            pair.p = if ends { 0.0 } else { pdf * pair.g };
-        });
-    }
-
-    /// Evaluates the lobes of the `y`.
-    fn evaluate_y(&self, shared: &mut Shared, towards: Towards) {
-        let Shared {
-            y,
-            work,
-            towards: light,
-            light_pdf,
-            onward,
-            ..
-        } = shared;
-        let wanted = |pair: &Pair| {
-            let j = pair.paths[1];
-            let is_there = match towards {
-                Towards::Light => light_pdf[j] > 0.0,
-                Towards::Drawn => onward.get(j) != Vec3::ZERO,
-            };
-            (pair.p > 0.0 && is_there).then(|| y.key[j])
-        };
-        let ways = |pair: &Pair| {
-            let j = pair.paths[1];
-            let wi = match towards {
-                Towards::Light => light.get(j),
-                Towards::Drawn => onward.get(j),
-            };
-            [y.frame(j).to_local(-pair.direction), y.local(j, wi)]
-        };
-        self.evaluate(work, wanted, ways, |pair, f, pdf| {
-            pair.behind[towards as usize] = (f, pdf);
-        });
-    }
-
-    /// Evaluates lobes of pairs, many of one key at once.
-    ///
-    /// * `key`: of the lobe; `None`: not wanted.
-    /// * `ways`: `wo` and `wi` there, local.
-    fn evaluate(
-        &self,
-        work: &mut Work,
-        key: impl Fn(&Pair) -> Option<u32>,
-        ways: impl Fn(&Pair) -> [Vec3<f32>; 2],
-        mut done: impl FnMut(&mut Pair, Rgb<f32>, f32),
-    ) {
-        let count = 2 * self.scene.materials.count();
-        work.sort(count, key);
+    fn evaluate_x(&self, shared: &Shared, work: &mut Work) {
+        let key = |pairs: &Pairs, k: usize| shared.x.key[index(pairs.x[k])];
+        work.sort(self.key_count(), |pairs, k| pairs.g[k] > 0.0, key);
         let Work {
             pairs,
             order,
-            ends,
             wo,
             wi,
-            f,
-            pdf,
+            found,
             ..
         } = work;
+        connect::bring(order, &pairs.at_x[0], wo);
+        connect::bring(order, &pairs.at_x[1], wi);
+        self.evaluate(&work.ends, wo, wi, found);
+        connect::hand_back(order, wi, found, (&mut pairs.f, &mut pairs.p));
+        connect::weigh(&shared.throughput, pairs);
+    }
+
+    /// Evaluates the lobes of the `y`.
+    fn evaluate_y(&self, shared: &Shared, work: &mut Work) {
+        let key = |pairs: &Pairs, k: usize| shared.y.key[index(pairs.y[k])];
+        work.sort(self.key_count(), |pairs, k| pairs.p[k] > 0.0, key);
+        let Work {
+            pairs,
+            order,
+            wo,
+            wi,
+            found,
+            beyond,
+            ..
+        } = work;
+        let Pairs {
+            y, back, behind, ..
+        } = &mut **pairs;
+        connect::bring(order, back, wo);
+        for (beyond, behind) in beyond.iter().zip(behind) {
+            connect::bring_of(order, y, beyond, wi);
+            self.evaluate(&work.ends, wo, wi, found);
+            connect::hand_back(order, wi, found, (&mut behind.f, &mut behind.pdf));
+        }
+    }
+
+    /// How many keys of lobes there are.
+    fn key_count(&self) -> usize {
+        2 * self.scene.materials.count()
+    }
+
+    /// Evaluates lobes of sorted pairs.
+    ///
+    /// * `ends`: of each key.
+    fn evaluate(&self, ends: &[u32], wo: &Vectors, wi: &Vectors, found: &mut Found) {
         let mut from = 0;
-        for (key, &end) in (0..).zip(&ends[..count]) {
-            let alike = &order[from..end as usize];
-            from = end as usize;
-            let Some(sides) = self.scene.materials.plain(key / 2) else {
+        for (key, &end) in (0..).zip(&ends[..self.key_count()]) {
+            let to = (end as usize).min(LANES);
+            if to == from {
                 continue;
-            };
-            let lobe = &sides[(key % 2) as usize].lobe;
-            for some in alike.chunks(LANES) {
-                let n = some.len();
-                for (lane, &p) in some.iter().enumerate() {
-                    let [o, i] = ways(&pairs[p as usize]);
-                    wo.set(lane, o);
-                    wi.set(lane, i);
-                }
-                lobes::eval_pdf(
-                    lobe,
-                    wo.directions(0, n),
-                    wi.directions(0, n),
-                    &mut [],
-                    f.colours_mut(0, n),
-                    &mut pdf[..n],
-                );
-                for (lane, &p) in some.iter().enumerate() {
-                    // Zero is no direction.
-                    let there = wi.get(lane) != Vec3::ZERO && pdf[lane] > 0.0;
-                    let found = if there { f.colour(lane) } else { Rgb::BLACK };
-                    let density = if there { pdf[lane] } else { 0.0 };
-                    done(&mut pairs[p as usize], found, density);
-                }
             }
+            if let Some(sides) = self.scene.materials.plain(key / 2) {
+                lobes::eval_pdf(
+                    &sides[(key % 2) as usize].lobe,
+                    wo.directions(from, to),
+                    wi.directions(from, to),
+                    &mut [],
+                    found.f.colours_mut(from, to),
+                    &mut found.pdf[from..to],
+                );
+            }
+            from = to;
         }
     }
 
     /// Takes out the pairs that do not see each other; returns how many rays that took.
-    fn look(&self, shared: &mut Shared) -> u64 {
-        let Shared { x, y, work, .. } = shared;
+    fn look(&self, work: &mut Work) -> u64 {
         let Work {
             pairs,
-            order,
             rays,
             blocked,
             ..
         } = work;
-        order.clear();
-        let apart = |pair: &Pair| pair.paths[0] != pair.paths[1] && pair.p > 0.0;
-        order.extend((0..id(pairs.len())).filter(|&p| apart(&pairs[p as usize])));
-        let mut count = 0;
-        for some in order.chunks(LANES) {
-            rays.clear();
-            for &p in some {
-                let Pair {
-                    paths: [i, j],
-                    direction,
-                    ..
-                } = pairs[p as usize];
-                let origin = x.leave(i, direction);
+        rays.clear();
+        for k in 0..pairs.count.min(LANES) {
+            if pairs.x[k] != pairs.y[k] && pairs.p[k] > 0.0 {
                 let ray = Ray {
-                    origin,
-                    direction: y.leave(j, -direction) - origin,
+                    origin: pairs.origin.get(k),
+                    direction: pairs.along.get(k),
                     t_max: TO_LIGHT,
                 };
-                rays.push(p, ray);
-            }
-            count += some.len() as u64;
-            self.scene.geometry.accel.occluded_all(rays.rays(), blocked);
-            for (&p, &blocked) in some.iter().zip(blocked.iter()) {
-                if blocked {
-                    pairs[p as usize].p = 0.0;
-                }
+                rays.push(id(k), ray);
             }
         }
-        count
-    }
-
-    /// Adds what each `x` gets from the `y` of its group.
-    ///
-    /// * `radiance`: of the paths, that with a `y` behind it.
-    fn combine(&self, shared: &Shared, radiance: &Vectors, sums: &mut [Rgb<f32>; LANES]) {
-        let pairs = &shared.work.pairs;
-        for row in pairs.chunk_by(|a, b| a.paths[1] == b.paths[1]) {
-            let (mut area, mut at_light, mut at_drawn) = (0.0, 0.0, 0.0);
-            for pair in row {
-                area += pair.p;
-                at_light += pair.p * pair.behind[0].1;
-                at_drawn += pair.p * pair.behind[1].1;
-            }
-            let Some(j) = row.first().map(|pair| pair.paths[1]) else {
-                continue;
-            };
-            if area.is_nan() || area <= 0.0 {
-                continue;
-            }
-            let light = self.shared_light(shared, j, at_light / area) * (1.0 / area);
-            let drawn = if at_drawn > 0.0 {
-                self.shared_beyond(shared, j, at_drawn / area, radiance) * (1.0 / at_drawn)
-            } else {
-                Rgb::BLACK
-            };
-            for pair in row.iter().filter(|pair| pair.p > 0.0) {
-                let i = pair.paths[0];
-                let arrives = pair.behind[0].0 * light + pair.behind[1].0 * drawn;
-                sums[i] += shared.throughput.colour(i) * pair.f * arrives;
-            }
+        self.scene.geometry.accel.occluded_all(rays.rays(), blocked);
+        for (r, _) in blocked.iter().enumerate().filter(|(_, blocked)| **blocked) {
+            pairs.p[rays.number(r)] = 0.0;
         }
+        rays.len() as u64
     }
-
-    /// The light that was drawn at a `y`, weighed.
-    ///
-    /// * `density`: of its direction among the group's.
-    fn shared_light(&self, shared: &Shared, j: usize, density: f32) -> Rgb<f32> {
-        let pdf = shared.light_pdf[j];
-        if pdf <= 0.0 {
-            return Rgb::BLACK;
-        }
-        let weight = if shared.light_delta[j] {
-            1.0
-        } else {
-            power_heuristic(density / pdf)
-        };
-        shared.light.colour(j) * weight
-    }
-
-    /// What came along the direction that was drawn at a `y`.
-    ///
-    /// * `density`: of the direction among the group's.
-    fn shared_beyond(
-        &self,
-        shared: &Shared,
-        j: usize,
-        density: f32,
-        radiance: &Vectors,
-    ) -> Rgb<f32> {
-        let (found, carried) = (radiance.colour(j), shared.carried.colour(j));
-        let over = |a: f32, b: f32| if b > 0.0 { a / b } else { 0.0 };
-        let mut sum = rgb(
-            over(found.r, carried.r),
-            over(found.g, carried.g),
-            over(found.b, carried.b),
-        );
-        let first = shared.met.partition_point(|met| met.path < j);
-        for met in shared.met[first..].iter().take_while(|met| met.path == j) {
-            let weight = power_heuristic(met.light_pdf / density);
-            sum += met.radiance * (weight * shared.roulette[j]);
-        }
-        sum
-    }
-}
-
-/// Which direction at a `y`.
-#[derive(Clone, Copy)]
-enum Towards {
-    Light,
-    Drawn,
 }
