@@ -16,10 +16,11 @@ pub struct Frame<T> {
 impl<T: Real> Frame<T> {
     /// A frame about the unit vector `n`, continuous but for the sign of `n.z`.
     ///
-    /// Source: Duff et al. 2017, Building an Orthonormal Basis, Revisited, listing 3.
+    /// Source: Duff et al. 2017, Building an Orthonormal Basis, Revisited, listing 3. Departure: a negative
+    /// zero counts as positive, so that normals of walls, turned to and fro, have one frame on all devices.
     #[inline(always)]
     pub fn from_normal(n: Vec3<T>) -> Self {
-        let sign = T::ONE.copysign(n.z);
+        let sign = T::select(n.z < T::ZERO, -T::ONE, T::ONE);
         let a = -T::ONE / (sign + n.z);
         let b = n.x * n.y * a;
         Self {
@@ -58,5 +59,19 @@ impl<T: Real> Frame<T> {
     #[inline(always)]
     pub fn to_world(&self, v: Vec3<T>) -> Vec3<T> {
         self.s * v.x + self.t * v.y + self.n * v.z
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sign_of_a_zero_turns_no_frame() {
+        for (x, y) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.6, -0.8_f32)] {
+            let frame = |z| Frame::from_normal(vec3(x, y, z));
+            let [a, b] = [frame(0.0), frame(-0.0)];
+            assert_eq!((a.s, a.t), (b.s, b.t));
+        }
     }
 }
