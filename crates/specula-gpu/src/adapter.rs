@@ -187,6 +187,19 @@ pub enum GpuError {
     Refused(String),
 }
 
+impl GpuError {
+    /// A refusal as that of a shader.
+    pub(crate) fn of_shader(self, label: &str) -> Self {
+        match self {
+            Self::Refused(text) => Self::Shader {
+                label: label.to_owned(),
+                text,
+            },
+            other => other,
+        }
+    }
+}
+
 /// Every adapter, real ones before software.
 #[must_use]
 pub fn adapters() -> Vec<AdapterDescription> {
@@ -244,6 +257,8 @@ impl Gpu {
             required_features: handle.features() & RAY_QUERIES,
             required_limits: handle.limits(),
             experimental_features: crate::experimental::consent(),
+            // Few and large arrays: memory that is taken beforehand is lost to them.
+            memory_hints: wgpu::MemoryHints::MemoryUsage,
             ..wgpu::DeviceDescriptor::default()
         });
         let (device, queue) = pollster::block_on(request).map_err(|error| GpuError::NotOpened {
@@ -254,7 +269,7 @@ impl Gpu {
         let lost = Arc::clone(&failure);
         device.set_device_lost_callback(move |reason, message| {
             // Reported too when the device is dropped on purpose; nobody is left to read it then.
-            keep_first(&lost, GpuError::Lost(format!("{reason:?}: {message}")));
+            keep_first(&lost, lost_because(&format!("{reason:?}"), &message));
         });
         let uncaught = Arc::clone(&failure);
         device.on_uncaptured_error(Arc::new(move |error| {
@@ -271,7 +286,8 @@ impl Gpu {
     /// Does `work` and gives its errors back: refusals, exhausted memory, failures of the driver.
     ///
     /// # Errors
-    /// The first error that `work` causes, or one that happened before where nobody asked.
+    /// What `work` causes, exhausted memory before the refusals that follow from it; or an error that
+    /// happened before where nobody asked.
     pub fn caught<T>(&self, work: impl FnOnce(&Self) -> T) -> Result<T, GpuError> {
         use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
         self.check()?;
@@ -281,13 +297,10 @@ impl Gpu {
         let errors = scopes
             .into_iter()
             .rev()
-            .filter_map(|scope| pollster::block_on(scope.pop()))
-            .fold(None, |first, error| first.or(Some(error)));
+            .filter_map(|scope| pollster::block_on(scope.pop()));
+        let error = errors.map(GpuError::from).reduce(cause);
         self.check()?;
-        match errors {
-            Some(error) => Err(GpuError::from(error)),
-            None => Ok(done),
-        }
+        error.map_or(Ok(done), Err)
     }
 
     /// Whether the device still works.
@@ -317,14 +330,36 @@ impl Gpu {
     }
 }
 
-/// Keeps the first error, or that the device was lost: other errors follow from that.
+/// Keeps the error that others follow from: see [`cause`].
 fn keep_first(failure: &Mutex<Option<GpuError>>, error: GpuError) {
     let mut failure = failure.lock().unwrap_or_else(PoisonError::into_inner);
-    let is_loss = |e: &GpuError| matches!(e, GpuError::Lost(_));
-    if is_loss(&error) && !failure.as_ref().is_some_and(is_loss) {
-        *failure = Some(error);
+    *failure = Some(match failure.take() {
+        Some(first) => cause(first, error),
+        None => error,
+    });
+}
+
+/// Which of two errors is told: exhausted memory, else that the device was lost, else the first.
+fn cause(first: GpuError, second: GpuError) -> GpuError {
+    let weight = |error: &GpuError| match error {
+        GpuError::OutOfMemory(_) => 2,
+        GpuError::Lost(_) => 1,
+        _ => 0,
+    };
+    if weight(&second) > weight(&first) {
+        second
     } else {
-        failure.get_or_insert(error);
+        first
+    }
+}
+
+/// wgpu gives a device up where memory ends in the midst of work, and says why in words alone.
+fn lost_because(reason: &str, message: &str) -> GpuError {
+    let text = format!("{reason}: {message}");
+    if message.to_lowercase().contains("out of memory") {
+        GpuError::OutOfMemory(text)
+    } else {
+        GpuError::Lost(text)
     }
 }
 
@@ -371,5 +406,25 @@ mod tests {
         assert!(
             error.contains("'7'") && error.contains("2: RTX 4090 (discrete, vulkan, ray queries)")
         );
+    }
+
+    #[test]
+    fn what_other_errors_follow_from_is_told() {
+        let memory = || GpuError::OutOfMemory(String::new());
+        let lost = || lost_because("Unknown", "the driver crashed");
+        let refused = || GpuError::Refused("buffer '' is invalid".to_owned());
+        assert!(matches!(lost(), GpuError::Lost(_)));
+        // In wgpu's words.
+        let ended = lost_because("Unknown", "Out of memory");
+        assert!(matches!(ended, GpuError::OutOfMemory(_)), "{ended}");
+        for (first, second, told) in [
+            (refused(), memory(), memory()),
+            (memory(), refused(), memory()),
+            (memory(), lost(), memory()),
+            (refused(), lost(), lost()),
+            (lost(), refused(), lost()),
+        ] {
+            assert_eq!(cause(first, second), told);
+        }
     }
 }

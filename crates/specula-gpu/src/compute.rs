@@ -3,11 +3,9 @@
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
-use wgpu::util::DeviceExt;
-
 use crate::adapter::{Gpu, GpuError};
 use crate::queries::Structures;
-use crate::stage::{Slot, Stage, layout};
+use crate::stage::{Slot, Stage, filled, layout};
 
 /// A compiled compute shader that reads arrays and writes one.
 ///
@@ -41,7 +39,7 @@ impl Gpu {
                     source: wgpu::ShaderSource::Wgsl(source.into()),
                 })
         });
-        module.map_err(|error| named(label, error))
+        module.map_err(|error| error.of_shader(label))
     }
 
     /// Copies the first `size` bytes of a buffer here; its usage must include `COPY_SRC`.
@@ -123,12 +121,11 @@ impl Kernel {
             binding,
             is_written: place >= inputs,
         });
-        let made = layout(gpu, slots)
-            .and_then(|layout| Stage::new(gpu, &layout, module, entry, structures));
+        let layout = layout(gpu, slots).map_err(|error| error.of_shader(entry))?;
         Ok(Self {
             label: entry.to_owned(),
             inputs,
-            stage: made.map_err(|error| named(entry, error))?,
+            stage: Stage::new(gpu, &layout, module, entry, structures)?,
         })
     }
 
@@ -148,16 +145,12 @@ impl Kernel {
                 inputs.len()
             )));
         }
+        let read = |contents: &&[u8]| {
+            let usage = wgpu::BufferUsages::STORAGE;
+            filled(gpu, &self.label, contents, usage)
+        };
+        let mut buffers = inputs.iter().map(read).collect::<Result<Vec<_>, _>>()?;
         gpu.caught(|gpu| {
-            let read = |contents: &&[u8]| {
-                let descriptor = wgpu::util::BufferInitDescriptor {
-                    label: Some(&self.label),
-                    contents,
-                    usage: wgpu::BufferUsages::STORAGE,
-                };
-                gpu.device.create_buffer_init(&descriptor)
-            };
-            let mut buffers: Vec<_> = inputs.iter().map(read).collect();
             let output = gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(&self.label),
                 size: output,
@@ -200,17 +193,6 @@ impl Arrays {
     /// Where memory does not suffice or the device was lost.
     pub fn output(&self, gpu: &Gpu) -> Result<Vec<u8>, GpuError> {
         gpu.read(&self.output, self.output.size())
-    }
-}
-
-/// A refusal of a shader, with its name.
-fn named(label: &str, error: GpuError) -> GpuError {
-    match error {
-        GpuError::Refused(text) => GpuError::Shader {
-            label: label.to_owned(),
-            text,
-        },
-        other => other,
     }
 }
 

@@ -8,9 +8,9 @@ use std::fmt;
 use std::str::FromStr;
 
 use specula_render::{FlatGroup, FlatInstance, PreparedScene};
-use wgpu::util::DeviceExt;
 
 use crate::adapter::{AdapterKind, Gpu, GpuError, RAY_QUERIES};
+use crate::stage::filled;
 use crate::tracer::TracerError;
 
 /// How rays find on a device what they hit.
@@ -85,7 +85,7 @@ impl Structures {
         if let Some(reason) = beyond(&gpu.device.limits(), &groups, &instances) {
             return Err(TracerError::Queries(reason));
         }
-        Ok(gpu.caught(|gpu| build(gpu, &groups, &instances))?)
+        Ok(gpu.caught(|gpu| build(gpu, &groups, &instances))??)
     }
 
     /// The structures where they are asked for, `None` where rays go through the tree.
@@ -171,12 +171,16 @@ struct Pending {
     geometry: Geometry,
 }
 
-fn build(gpu: &Gpu, groups: &[FlatGroup<'_>], instances: &[FlatInstance]) -> Structures {
+fn build(
+    gpu: &Gpu,
+    groups: &[FlatGroup<'_>],
+    instances: &[FlatInstance],
+) -> Result<Structures, GpuError> {
     let mut pending: Vec<Pending> = Vec::new();
     let mut waiting = 0;
     let mut structures: Vec<Vec<wgpu::Blas>> = Vec::new();
     for group in groups {
-        let made: Vec<Pending> = [triangles(gpu, group), boxes(gpu, group)]
+        let made: Vec<Pending> = [triangles(gpu, group)?, boxes(gpu, group)?]
             .into_iter()
             .flatten()
             .collect();
@@ -210,13 +214,13 @@ fn build(gpu: &Gpu, groups: &[FlatGroup<'_>], instances: &[FlatInstance]) -> Str
         tlas[place] = Some(instance);
     }
     submit(gpu, &[], Some(&tlas));
-    bound(gpu, &tlas)
+    Ok(bound(gpu, &tlas))
 }
 
 /// The group of triangles as a structure; `None` where there are none.
-fn triangles(gpu: &Gpu, group: &FlatGroup<'_>) -> Option<Pending> {
+fn triangles(gpu: &Gpu, group: &FlatGroup<'_>) -> Result<Option<Pending>, GpuError> {
     if group.triangles.is_empty() {
-        return None;
+        return Ok(None);
     }
     let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
     let size = wgpu::BlasTriangleGeometrySizeDescriptor {
@@ -233,16 +237,16 @@ fn triangles(gpu: &Gpu, group: &FlatGroup<'_>) -> Option<Pending> {
     );
     let geometry = Geometry::Triangles {
         size,
-        positions: input(gpu, bytemuck::cast_slice(group.positions)),
-        indices: input(gpu, bytemuck::cast_slice(&group.triangles)),
+        positions: input(gpu, bytemuck::cast_slice(group.positions))?,
+        indices: input(gpu, bytemuck::cast_slice(&group.triangles))?,
     };
-    Some(Pending { blas, geometry })
+    Ok(Some(Pending { blas, geometry }))
 }
 
 /// The group of spheres and disks as a structure; `None` where there are none.
-fn boxes(gpu: &Gpu, group: &FlatGroup<'_>) -> Option<Pending> {
+fn boxes(gpu: &Gpu, group: &FlatGroup<'_>) -> Result<Option<Pending>, GpuError> {
     if group.boxes.is_empty() {
-        return None;
+        return Ok(None);
     }
     let size = wgpu::BlasAABBGeometrySizeDescriptor {
         primitive_count: u32::try_from(group.boxes.len()).unwrap_or(u32::MAX),
@@ -256,9 +260,9 @@ fn boxes(gpu: &Gpu, group: &FlatGroup<'_>) -> Option<Pending> {
     let corners: Vec<[[f32; 3]; 2]> = group.boxes.iter().map(|b| [b.min, b.max]).collect();
     let geometry = Geometry::Boxes {
         size,
-        boxes: input(gpu, bytemuck::cast_slice(&corners)),
+        boxes: input(gpu, bytemuck::cast_slice(&corners))?,
     };
-    Some(Pending { blas, geometry })
+    Ok(Some(Pending { blas, geometry }))
 }
 
 fn create(gpu: &Gpu, sizes: wgpu::BlasGeometrySizeDescriptors) -> wgpu::Blas {
@@ -270,13 +274,8 @@ fn create(gpu: &Gpu, sizes: wgpu::BlasGeometrySizeDescriptors) -> wgpu::Blas {
     gpu.device.create_blas(&descriptor, sizes)
 }
 
-fn input(gpu: &Gpu, contents: &[u8]) -> wgpu::Buffer {
-    let descriptor = wgpu::util::BufferInitDescriptor {
-        label: Some("object"),
-        contents,
-        usage: wgpu::BufferUsages::BLAS_INPUT,
-    };
-    gpu.device.create_buffer_init(&descriptor)
+fn input(gpu: &Gpu, contents: &[u8]) -> Result<wgpu::Buffer, GpuError> {
+    filled(gpu, "object", contents, wgpu::BufferUsages::BLAS_INPUT)
 }
 
 /// Has structures built.

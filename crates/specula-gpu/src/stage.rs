@@ -60,7 +60,7 @@ impl Stage {
         entry: &str,
         structures: Option<&Structures>,
     ) -> Result<Self, GpuError> {
-        gpu.caught(|gpu| {
+        let made = gpu.caught(|gpu| {
             let device = &gpu.device;
             let whole = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(entry),
@@ -80,7 +80,8 @@ impl Stage {
                 layout: layout.clone(),
                 structures: structures.map(|s| s.group.clone()),
             }
-        })
+        });
+        made.map_err(|error| error.of_shader(entry))
     }
 
     /// The kernel's arrays, in the order of their bindings.
@@ -152,4 +153,45 @@ pub(crate) fn array(gpu: &Gpu, label: &str, size: u64, usage: wgpu::BufferUsages
         usage: wgpu::BufferUsages::STORAGE | usage,
         mapped_at_creation: false,
     })
+}
+
+/// Bytes that are on their way to the device at once.
+const CHUNK: usize = 1 << 24;
+
+/// An array on the device with contents, and zeros up to a multiple of four bytes.
+///
+/// # Errors
+/// Where memory does not suffice or the device was lost. (wgpu's `create_buffer_init` panics instead, and needs
+/// memory for all of the contents once more.)
+pub(crate) fn filled(
+    gpu: &Gpu,
+    label: &str,
+    contents: &[u8],
+    usage: wgpu::BufferUsages,
+) -> Result<wgpu::Buffer, GpuError> {
+    let buffer = gpu.caught(|gpu| {
+        gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size: contents.len().next_multiple_of(4) as u64,
+            usage: usage | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })
+    })?;
+    for (chunk, number) in contents.chunks(CHUNK).zip(0_u64..) {
+        let (whole, last) = chunk.split_at(chunk.len() / 4 * 4);
+        let mut end = [0; 4];
+        end[..last.len()].copy_from_slice(last);
+        let place = number * CHUNK as u64;
+        gpu.caught(|gpu| {
+            gpu.queue.write_buffer(&buffer, place, whole);
+            if !last.is_empty() {
+                let place = place + whole.len() as u64;
+                gpu.queue.write_buffer(&buffer, place, &end);
+            }
+            gpu.queue.submit([]);
+        })?;
+        // So that the next chunk takes the place of this one.
+        gpu.wait()?;
+    }
+    Ok(buffer)
 }

@@ -6,13 +6,12 @@ use std::time::{Duration, Instant};
 use specula_render::{
     FlatScene, PassReport, PreparedScene, RenderOptions, Renderer, Run, RunSums, Wanted,
 };
-use wgpu::util::DeviceExt;
 
 use crate::adapter::{Gpu, GpuError};
 use crate::program;
 use crate::queries::{Rays, Structures};
 use crate::schedule::Schedule;
-use crate::stage::WORKGROUP;
+use crate::stage::{WORKGROUP, filled};
 use crate::taker::Taker;
 use crate::wave::{Kernels, Wave};
 
@@ -31,7 +30,7 @@ pub enum TracerError {
     #[error("the GPU does not render {}", .0.join(", "))]
     Missing(Vec<String>),
     /// The scene's arrays are larger than the device takes.
-    #[error("the scene's largest array has {needed} bytes; the GPU takes {limit}")]
+    #[error("the GPU does not hold the scene: its largest array has {needed} bytes, {limit} fit")]
     TooLarge {
         /// Bytes of the largest array.
         needed: u64,
@@ -137,7 +136,13 @@ impl<'a> Tracer<'a> {
         let structures = structures.as_ref();
         let taker = Taker::new(gpu, &module, is_queues, structures, options.max_depth)?;
         let kernels = Kernels::new(gpu, taker, adder)?;
-        let scene = gpu.caught(|gpu| arrays(flat).map(|contents| upload(gpu, contents)))?;
+        let [tables, nodes, packets, words] = arrays(flat);
+        let scene = [
+            upload(gpu, tables)?,
+            upload(gpu, nodes)?,
+            upload(gpu, packets)?,
+            upload(gpu, words)?,
+        ];
         let largest = limit(gpu) / kernels.taker.sample_size().max(size_of::<RunSums>() as u64);
         Ok(Self {
             gpu,
@@ -187,15 +192,32 @@ impl<'a> Tracer<'a> {
         let longest = wanted.iter().map(Wanted::longest_run).max().unwrap_or(0);
         let longest = longest.max(1);
         let runs: Vec<Run> = wanted.iter().flat_map(Wanted::runs).collect();
-        let most = (self.largest / longest as usize).max(1);
         let mut sums = Vec::with_capacity(runs.len());
-        for runs in runs.chunks(most) {
+        let mut rest = runs.as_slice();
+        while !rest.is_empty() {
+            let most = (self.largest / longest as usize).clamp(1, rest.len());
+            let (now, later) = rest.split_at(most);
             let start = Instant::now();
-            sums.extend(self.wave(runs, longest)?);
-            let samples = runs.iter().map(|run| run.count as usize).sum();
+            match self.wave(now, longest) {
+                Ok(found) => sums.extend(found),
+                Err(GpuError::OutOfMemory(_)) if self.shrinks(now.len() * longest as usize) => {
+                    continue;
+                }
+                Err(error) => return Err(error),
+            }
+            let samples = now.iter().map(|run| run.count as usize).sum();
             self.adjust(samples, start.elapsed());
+            rest = later;
         }
         Ok(sums)
+    }
+
+    /// Halves all waves from now on where memory did not suffice for one of so many samples; whether that
+    /// may help.
+    fn shrinks(&mut self, samples: usize) -> bool {
+        self.largest = samples / 2;
+        self.samples = self.samples.min(self.largest);
+        self.largest >= WORKGROUP && self.gpu.check().is_ok()
     }
 
     /// Makes the next wave as large as lasts [`WAVE_TIME`].
@@ -252,18 +274,13 @@ fn limit(gpu: &Gpu) -> u64 {
 }
 
 /// A buffer that is never empty, which bindings must not be.
-fn upload(gpu: &Gpu, contents: &[u8]) -> wgpu::Buffer {
+fn upload(gpu: &Gpu, contents: &[u8]) -> Result<wgpu::Buffer, GpuError> {
     let contents = if contents.is_empty() {
         &[0; 4]
     } else {
         contents
     };
-    gpu.device
-        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("scene"),
-            contents,
-            usage: wgpu::BufferUsages::STORAGE,
-        })
+    filled(gpu, "scene", contents, wgpu::BufferUsages::STORAGE)
 }
 
 #[cfg(test)]

@@ -19,6 +19,7 @@ use glam::DMat4;
 use offered::gpu_with_queries;
 use specula_bsdf::Rgb;
 use specula_bsdf::math::rgb;
+use specula_bsdf::vndf;
 use specula_gpu::{AdapterKind, Gpu, Rays, Tracer, TracerOptions};
 use specula_render::picture::Picture;
 use specula_render::{PreparedScene, RenderOptions, Renderer, Strategy};
@@ -59,14 +60,16 @@ fn on_processor(scene: &Scene, options: &RenderOptions, samples: u32) -> Picture
 /// A GPU, and how rays find there what they hit.
 type Device<'a> = (&'a Gpu, Rays);
 
-/// What software renders by ray queries too: it compiles such a shader for half a minute.
+/// What software renders by ray queries too: it compiles such a shader for half a minute. All with
+/// `SPECULA_RAY_QUERIES=all`.
 const ON_SOFTWARE: [&str; 3] = ["lights, instances", "bodies", "other seeds"];
 
 /// The GPU through the tree, and by ray queries where it offers them.
 fn devices(what: &str) -> Vec<Device<'static>> {
     let tree = gpu(what).map(|gpu| (gpu, Rays::Tree));
+    let all = std::env::var("SPECULA_RAY_QUERIES").is_ok_and(|v| v == "all");
     let quick =
-        |gpu: &Gpu| gpu.adapter.kind != AdapterKind::Software || ON_SOFTWARE.contains(&what);
+        |gpu: &Gpu| all || gpu.adapter.kind != AdapterKind::Software || ON_SOFTWARE.contains(&what);
     let queries = gpu_with_queries(&format!("{what}, by ray queries"));
     let queries = queries.filter(|gpu| quick(gpu));
     let queries = queries.map(|gpu| (gpu, Rays::Query));
@@ -223,6 +226,24 @@ fn small_differences_are_noticed() {
         assert!(share > 0.05, "a width 1 % larger: {share}");
         let [share, _] = compared(device, [&right, &darker], &options(&right, 1));
         assert!(share > 0.05, "a lamp 1 % darker: {share}");
+    }
+}
+
+#[test]
+fn samplers_and_strategies() {
+    let glass = "Material \"dielectric\" \"float roughness\" 0.3\n";
+    let scene = scene(&format!("{ROOM}{SKY}{}", orbs([&metal(NARROW), glass])));
+    for (vndf_sampler, strategy) in [
+        (vndf::Sampler::Heitz, Strategy::Balance),
+        (vndf::Sampler::Cap, Strategy::Power),
+        (vndf::Sampler::Bounded, Strategy::Mis),
+    ] {
+        let name = format!("{vndf_sampler:?}, {strategy:?}");
+        check(&name, &scene, |o| RenderOptions {
+            vndf_sampler,
+            strategy,
+            ..o
+        });
     }
 }
 

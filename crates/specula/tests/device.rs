@@ -206,3 +206,85 @@ fn what_a_gpu_does_not_render_is_named_before_anything_is_done() {
     );
     assert!(!folder.join("a.exr").exists());
 }
+
+/// Drivers that are not there, or are no drivers, as far as Vulkan's loader is told.
+#[test]
+#[cfg(target_os = "linux")]
+fn without_a_driver_gpus_are_refused_and_auto_goes_on() {
+    let (folder, _) = small_scene();
+    let folder = folder.path();
+    std::fs::write(folder.join("junk.so"), "no library").unwrap();
+    let manifest = r#"{"file_format_version": "1.0.0", "ICD": {"library_path": "./junk.so", "api_version": "1.3.0"}}"#;
+    std::fs::write(folder.join("junk.json"), manifest).unwrap();
+    succeed(folder, &["render", "small.pbrt", "-o", "cpu.exr"]);
+    for drivers in ["none.json", "junk.json"] {
+        let drivers = folder.join(drivers);
+        let run = |arguments: &[&str]| {
+            let mut command = specula(folder);
+            command.env("VK_DRIVER_FILES", &drivers);
+            command.env("VK_ICD_FILENAMES", &drivers);
+            let output = command.args(arguments).output().unwrap();
+            let listed = String::from_utf8_lossy(&output.stdout).into_owned();
+            (output.status.code(), listed + &stderr(&output))
+        };
+        let (code, said) = run(&["devices"]);
+        assert_eq!(code, Some(0), "{said}");
+        assert!(said.contains("no GPU found: no driver"), "{said}");
+        std::fs::write(folder.join("a.exr"), "good").unwrap();
+        let render = |device| run(&["render", "small.pbrt", "--device", device, "-o", "a.exr"]);
+        let (code, said) = render("gpu");
+        assert_eq!(code, Some(2), "{said}");
+        assert!(said.contains("no GPU found: no driver"), "{said}");
+        assert_eq!(std::fs::read(folder.join("a.exr")).unwrap(), b"good");
+        let (code, said) = render("auto");
+        assert_eq!(code, Some(0), "{said}");
+        assert_eq!(picture(folder, "a.exr"), picture(folder, "cpu.exr"));
+    }
+}
+
+/// A texture of so many pixels along each side, of three words each on a GPU. The file takes no room.
+fn with_large_texture(folder: &Path, scene: &Path, side: u64) {
+    let header = format!("Pf\n{side} {side}\n-1.0\n");
+    let mut file = std::fs::File::create(folder.join("large.pfm")).unwrap();
+    file.write_all(header.as_bytes()).unwrap();
+    // Too many values for a palette.
+    for i in 0..300_u16 {
+        let value = f32::from(i) * 1e-3;
+        file.write_all(&value.to_le_bytes()).unwrap();
+    }
+    file.set_len(header.len() as u64 + 4 * side * side).unwrap();
+    let text = std::fs::read_to_string(scene).unwrap()
+        + "Texture \"large\" \"spectrum\" \"imagemap\" \"string filename\" \"large.pfm\"\n\
+           Material \"diffuse\" \"texture reflectance\" \"large\"\nShape \"disk\"\n";
+    std::fs::write(scene, text).unwrap();
+}
+
+/// Whether the GPU's memory is the processor's; else a line that `what` is skipped.
+fn has_software(what: &str) -> bool {
+    let found = adapters().first().map(|a| a.kind) == Some(AdapterKind::Software);
+    if has_gpu(what) && !found {
+        let _ = writeln!(
+            std::io::stderr(),
+            "SKIPPED: {what}: of GPUs in software only"
+        );
+    }
+    found
+}
+
+#[test]
+fn scenes_larger_than_a_gpu_takes_are_named_and_nothing_is_written() {
+    if !has_software("scenes larger than a GPU takes") {
+        return;
+    }
+    let (folder, scene) = small_scene();
+    let folder = folder.path();
+    with_large_texture(folder, &scene, 3500);
+    std::fs::write(folder.join("a.exr"), "good").unwrap();
+    let render = ["render", "small.pbrt", "--device", "gpu", "-o", "a.exr"];
+    let (code, said) = run(folder, &render);
+    assert_eq!(code, Some(2), "{said}");
+    let said: String = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("the GPU does not hold the scene"), "{said}");
+    assert!(said.contains("--device cpu does"), "{said}");
+    assert_eq!(std::fs::read(folder.join("a.exr")).unwrap(), b"good");
+}

@@ -8,6 +8,8 @@ use specula_scene::scene::Light;
 use super::*;
 use crate::adapter::AdapterChoice;
 
+mod memory;
+
 /// The GPU of the tests; without one a test says that it is skipped.
 #[allow(clippy::print_stdout, reason = "a test that is skipped says so")]
 fn gpu() -> Option<Gpu> {
@@ -210,4 +212,31 @@ fn a_lost_device_is_an_error_and_the_film_stays() {
         assert!(matches!(error, GpuError::Lost(_)), "{schedule}: {error:?}");
         assert!(*renderer.film() == before, "{schedule}");
     }
+}
+
+/// A shader that does not compile is an error with its name, and the device goes on.
+#[test]
+fn shaders_that_do_not_compile_are_errors() {
+    let Some(gpu) = gpu() else { return };
+    let options = RenderOptions::from_scene(&room());
+    let prepared = PreparedScene::new(&room(), &options).unwrap();
+    let flat = prepared.flatten();
+    let right = program::source(&flat, &options, false).unwrap();
+    let wrong = right.replace("fn path_step(", "fn path_stop(");
+    assert!(wrong != right);
+    let tracer = |texts| {
+        let how = (Schedule::Queues, None);
+        Tracer::of_texts(&gpu, &flat, &options, how, texts)
+    };
+    for (texts, name) in [
+        ([wrong.as_str(), program::SUMS], "path tracer"),
+        ([right.as_str(), "fn sums_main() {}"], "sums_main"),
+    ] {
+        let error = tracer(texts).unwrap_err();
+        let TracerError::Gpu(GpuError::Shader { label, text }) = &error else {
+            panic!("{error:?}");
+        };
+        assert_eq!(label, name, "{text}");
+    }
+    assert!(tracer([right.as_str(), program::SUMS]).is_ok());
 }

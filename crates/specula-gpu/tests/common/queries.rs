@@ -7,16 +7,16 @@ use specula_gpu::Gpu;
 /// The GPU; where there is none or it offers no ray queries, a loud line that `what` is skipped.
 ///
 /// # Panics
-/// Where there are none though `SPECULA_RAY_QUERIES=require` asks for them.
+/// Where there are none though `SPECULA_RAY_QUERIES` asks for them, by `require` or `all`.
 pub(crate) fn gpu_with_queries(what: &str) -> Option<&'static Gpu> {
     let gpu = super::common::gpu(what);
     if let Some(gpu) = gpu.filter(|gpu| gpu.has_ray_queries()) {
         return Some(gpu);
     }
-    let required = std::env::var("SPECULA_RAY_QUERIES").is_ok_and(|v| v == "require");
+    let required = std::env::var("SPECULA_RAY_QUERIES").is_ok_and(|v| v == "require" || v == "all");
     assert!(
         !required,
-        "SPECULA_RAY_QUERIES=require, but the GPU offers none"
+        "SPECULA_RAY_QUERIES asks for them, but the GPU offers none"
     );
     // Not `eprintln`, whose output tests keep to themselves.
     let _ = writeln!(

@@ -108,7 +108,7 @@ impl Raster {
         match &self.pixels {
             Pixels::Floats(pixels) => {
                 to.flag(false);
-                to.numbers(pixels.iter().flatten().copied());
+                to.numbers(pixels.as_flattened().iter().copied());
             }
             Pixels::Bytes { palette, pixels } => {
                 to.flag(true);

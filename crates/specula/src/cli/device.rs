@@ -115,6 +115,18 @@ fn opened(device: &Device) -> Result<Option<Gpu>, Failure> {
     }
 }
 
+/// A device that fails under the scene.
+///
+/// * `kept`: what there is of the picture, after a semicolon.
+pub(crate) fn failed(error: &GpuError, kept: &str) -> Failure {
+    match error {
+        GpuError::OutOfMemory(_) => Failure::bad_input(format_args!(
+            "{error}; --device cpu renders in the processor's memory{kept}"
+        )),
+        _ => Failure::other(format_args!("{error}{kept}")),
+    }
+}
+
 fn note(error: &dyn fmt::Display) {
     eprintln!("note: {error}; the processor renders");
 }
@@ -161,11 +173,12 @@ impl<'a> Samples<'a> {
                 note(&error);
                 None
             }
-            Some((Err(error @ TracerError::Missing(_)), _)) => {
+            Some((Err(error @ (TracerError::Missing(_) | TracerError::TooLarge { .. })), _)) => {
                 return Err(Failure::bad_input(format_args!(
                     "--device {device}: {error}; --device cpu does"
                 )));
             }
+            Some((Err(TracerError::Gpu(error)), _)) => return Err(failed(&error, "")),
             Some((Err(error), _)) => return Err(Failure::other(error)),
         };
         Ok(Self { tracer, falls_back })
@@ -195,7 +208,14 @@ impl<'a> Samples<'a> {
 }
 
 #[cfg(test)]
+#[path = "../../../specula-gpu/tests/common/limited.rs"]
+mod limited;
+
+#[cfg(test)]
 mod tests {
+    use std::io::Write as _;
+
+    use super::limited::{Limit, MIB, is_alone};
     use super::*;
 
     #[test]
@@ -207,5 +227,106 @@ mod tests {
         for text in ["", "gpu:", "tpu", "cpu:1"] {
             assert!(text.parse::<Device>().is_err(), "{text}");
         }
+    }
+
+    /// The GPU of the tests; without one a loud line that `what` is skipped.
+    fn gpu(what: &str) -> Option<Gpu> {
+        let gpu = Gpu::open(&AdapterChoice::Best);
+        if let Err(error) = &gpu {
+            let required = std::env::var("SPECULA_GPU").is_ok_and(|v| v == "require");
+            assert!(!required, "SPECULA_GPU=require, but: {error}");
+            // Not `eprintln`, whose output tests keep to themselves.
+            let _ = writeln!(std::io::stderr(), "SKIPPED: {what}: {error}");
+        }
+        gpu.ok()
+    }
+
+    /// A lit disk with a texture of so many pixels along each side.
+    fn textured(side: u64) -> (PreparedScene, RenderOptions) {
+        let folder = tempfile::tempdir().unwrap();
+        let header = format!("Pf\n{side} {side}\n-1.0\n");
+        let mut file = std::fs::File::create(folder.path().join("t.pfm")).unwrap();
+        file.write_all(header.as_bytes()).unwrap();
+        // Too many values for a palette; black else, and the file takes no room.
+        for i in 0..u16::try_from(side.min(300)).unwrap() {
+            let value = f32::from(i) * 1e-3;
+            file.write_all(&value.to_le_bytes()).unwrap();
+        }
+        file.set_len(header.len() as u64 + 4 * side * side).unwrap();
+        let text = "LookAt 0 0 4  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 40\n\
+            Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\nWorldBegin\n\
+            LightSource \"infinite\" \"rgb L\" [0.7 0.8 1.0]\n\
+            Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"t.pfm\"\n\
+            Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"disk\"\n";
+        let path = folder.path().join("scene.pbrt");
+        std::fs::write(&path, text).unwrap();
+        let scene = specula::scene::load(&path).unwrap().scene;
+        let options = RenderOptions::from_scene(&scene);
+        (PreparedScene::new(&scene, &options).unwrap(), options)
+    }
+
+    /// `auto` on a GPU that is there, in software too.
+    fn auto<'a>(gpu: &'a Gpu, scene: &PreparedScene, options: &RenderOptions) -> Samples<'a> {
+        let chosen = (&Device::Auto, TracerOptions::default());
+        let samples = Samples::new(chosen, Some(gpu), scene, options, true);
+        samples.unwrap_or_else(|_| panic!("auto fails"))
+    }
+
+    /// Takes samples, which must be the processor's.
+    fn is_the_processors(mut samples: Samples<'_>, scene: &PreparedScene, options: &RenderOptions) {
+        let go = AtomicBool::new(false);
+        let mut renderer = Renderer::new(scene, options.clone());
+        let report = samples.pass(&mut renderer, 4, &go).unwrap();
+        assert!(report.complete);
+        assert!(samples.tracer.is_none(), "the GPU goes on");
+        let mut processor = Renderer::new(scene, options.clone());
+        processor.render_pass(4, &go);
+        assert!(renderer.film() == processor.film());
+    }
+
+    #[test]
+    fn auto_goes_on_where_a_device_is_lost_or_does_not_hold_the_scene() {
+        let Some(gpu) = gpu("what auto does") else {
+            return;
+        };
+        if gpu.adapter.kind == AdapterKind::Software {
+            let (scene, options) = textured(3500);
+            is_the_processors(auto(&gpu, &scene, &options), &scene, &options);
+        }
+        let (scene, options) = textured(4);
+        let samples = auto(&gpu, &scene, &options);
+        assert!(samples.tracer.is_some());
+        gpu.device.destroy();
+        is_the_processors(samples, &scene, &options);
+        is_the_processors(auto(&gpu, &scene, &options), &scene, &options);
+    }
+
+    #[test]
+    fn where_memory_ends_auto_goes_on_and_a_gpu_that_is_asked_for_is_an_error() {
+        let what = "where_memory_ends_auto_goes_on_and_a_gpu_that_is_asked_for_is_an_error";
+        let Some(gpu) = gpu(what) else { return };
+        if !is_alone(&gpu, &format!("cli::device::tests::{what}")) {
+            return;
+        }
+        let side = 3300;
+        let (scene, options) = textured(side);
+        assert!(auto(&gpu, &scene, &options).tracer.is_some());
+        gpu.wait().unwrap();
+        // For the scene as an array here, which grows by doubling, and for the driver's compiler, which
+        // crashes without; not for another array there.
+        let limit = Limit::new(2 * 12 * side * side + 96 * MIB);
+        let samples = auto(&gpu, &scene, &options);
+        let chosen = Device::Gpu(AdapterChoice::Best);
+        let chosen = (&chosen, TracerOptions::default());
+        let refused = Samples::new(chosen, Some(&gpu), &scene, &options, true);
+        limit.lift();
+        let (code, said) = refused
+            .err()
+            .map(|failure| failure.told())
+            .unwrap_or_default();
+        assert_eq!(code, 2, "{said}");
+        assert!(said.contains("the GPU is out of memory"), "{said}");
+        assert!(said.contains("--device cpu renders"), "{said}");
+        is_the_processors(samples, &scene, &options);
     }
 }

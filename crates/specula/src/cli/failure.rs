@@ -40,6 +40,12 @@ impl Failure {
         }
     }
 
+    /// The exit code and the words.
+    #[cfg(test)]
+    pub(crate) fn told(&self) -> (u8, String) {
+        (self.code, self.report.to_string())
+    }
+
     /// Prints the report to standard error; returns the exit code.
     pub(crate) fn print(&self) -> ExitCode {
         eprintln!("{:?}", self.report);

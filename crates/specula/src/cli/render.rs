@@ -260,7 +260,7 @@ impl Job<'_> {
         let kept = self.checkpoint.path().map_or_else(String::new, |path| {
             format!("; --resume goes on with {}", path.display())
         });
-        Err(Failure::other(format_args!("{error}{kept}")))
+        Err(device::failed(error, &kept))
     }
 
     /// Where a sample went wrong, after a colon.

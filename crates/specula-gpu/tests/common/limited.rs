@@ -1,0 +1,81 @@
+//! Processes whose memory ends.
+
+use std::io::Write as _;
+use std::process::{Child, Command, Stdio};
+
+use super::{AdapterKind, Gpu};
+
+/// Set in the process of a single test.
+const ALONE: &str = "SPECULA_TEST_ALONE";
+/// 2^20 bytes.
+pub(crate) const MIB: u64 = 1 << 20;
+
+/// Whether this process has a test alone. If not, the test is done in one that has: limits hold for whole
+/// processes. Where they say nothing about the GPU's memory, a loud line that it is skipped.
+///
+/// * `test`: its full name.
+///
+/// # Panics
+/// Where it fails there.
+pub(crate) fn is_alone(gpu: &Gpu, test: &str) -> bool {
+    let skip = |why: &str| {
+        // Not `eprintln`, whose output tests keep to themselves.
+        let _ = writeln!(std::io::stderr(), "SKIPPED: {test}: {why}");
+    };
+    if gpu.adapter.kind != AdapterKind::Software {
+        skip("the GPU's memory is its own");
+        return false;
+    }
+    if Command::new("prlimit").arg("--version").output().is_err() {
+        skip("needs util-linux's prlimit");
+        return false;
+    }
+    if std::env::var_os(ALONE).is_some() {
+        return true;
+    }
+    let output = Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", "--nocapture", test])
+        .env(ALONE, "1")
+        .output()
+        .unwrap();
+    let [said, failed] = [&output.stdout, &output.stderr].map(|s| String::from_utf8_lossy(s));
+    assert!(output.status.success(), "{said}{failed}");
+    assert!(said.contains("1 passed"), "{said}{failed}");
+    false
+}
+
+/// A limit of this process's memory.
+pub(crate) struct Limit {
+    /// Lifts it when told to; it is there from the beginning, since starting a process takes memory.
+    lifting: Child,
+}
+
+impl Limit {
+    /// Lets this process have so many bytes more than it has.
+    pub(crate) fn new(more: u64) -> Self {
+        let process = std::process::id();
+        let lifting = Command::new("sh")
+            .arg("-c")
+            .arg(format!(
+                "read line; prlimit --pid={process} --as=unlimited:"
+            ))
+            .stdin(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let pages = std::fs::read_to_string("/proc/self/statm").unwrap();
+        let pages: u64 = pages.split(' ').next().unwrap().parse().unwrap();
+        let limit = pages * 4096 + more;
+        let set = Command::new("prlimit")
+            .arg(format!("--pid={process}"))
+            .arg(format!("--as={limit}:"))
+            .status();
+        assert!(set.unwrap().success(), "prlimit");
+        Self { lifting }
+    }
+
+    /// Ends the limit.
+    pub(crate) fn lift(mut self) {
+        drop(self.lifting.stdin.take());
+        assert!(self.lifting.wait().unwrap().success(), "prlimit");
+    }
+}
