@@ -43,12 +43,9 @@ pub(crate) struct Specula {
 }
 
 impl Specula {
-    /// With as many samples everywhere and spread by their error, paths alone and shared between so many
-    /// pixels.
-    pub(crate) const SAMPLERS: [&'static str; 6] = [
+    /// As many samples everywhere; spread by their error, paths alone and shared between so many pixels.
+    pub(crate) const SAMPLERS: [&'static str; 4] = [
         "sobol",
-        "sobol, 8 share",
-        "sobol, 16 share",
         "adaptive",
         "adaptive, 8 share",
         "adaptive, 16 share",

@@ -175,11 +175,12 @@ Written by the chore below, on a machine that does nothing else; the scenes are 
   materials from the first (spheres as smooth meshes of 256 x 128, Metallic and Glass with GGX, no
   multiple scattering, front sides of lamps only). Path lengths agree; Russian roulette is each
   renderer's own.
-- **Settings.** No denoising, clamping or adaptive sampling; caustics on; light tree on. Specula with
-  every path alone or with the paths of 8 or of 16 pixels that share (`--share-paths`), Mitsuba with the
-  best of its five samplers and Cycles with the best of tabulated Sobol and blue noise, chosen
-  per scene by seconds times trimmed variance, from two renders each. Samples are what the sampler took:
-  Mitsuba's stratified ones round up to squares.
+- **Settings.** No denoising or clamping; caustics on; light tree on. Specula with the best of even sampling and
+  `--adaptive` with every path alone or with those of 8 or of 16 pixels that share (`--share-paths`), Mitsuba
+  with the best of its five samplers (it has no adaptive sampling) and Cycles with the best of tabulated Sobol, blue
+  noise and adaptive sampling with its own threshold, chosen per scene by seconds times trimmed variance, from two
+  renders each. Samples are what the sampler took: Mitsuba's stratified ones round up to squares; where sampling is
+  adaptive they are what was asked for.
 - **Time** is that of rendering alone. Specula: what its picture says, without reading the scene, building
   the hierarchy and writing the picture (for CPU time, twice that of one sample less that of two).
   Mitsuba: `mi.render`, evaluated and synchronised, its kernels compiled before (warm-up). Cycles: the
