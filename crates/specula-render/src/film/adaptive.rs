@@ -25,6 +25,8 @@
 //! interruptions, and a film that was made for one noise can be gone on with for a smaller one: it
 //! ends as if that had been asked for at first.
 
+use rayon::prelude::*;
+
 use super::buffer::{FilmBuffer, PixelSums, TILE, Tile};
 use crate::convert::narrow;
 
@@ -119,15 +121,20 @@ impl FilmBuffer {
     /// luminance where they are not, and samples for independent, though their sequences are
     /// better than that. Infinite below two samples per pixel.
     pub fn noise(&self) -> f32 {
-        let pixels = self.sums().count().max(1) as f64;
         let brightness = self.brightness();
-        let sum: f64 = self.sums().map(|p| squared_error(p, brightness)).sum();
-        narrow((sum / pixels).sqrt())
+        narrow(self.mean(|p| squared_error(p, brightness)).sqrt())
     }
 
     fn brightness(&self) -> f64 {
-        let sum: f64 = self.sums().map(PixelSums::luminance).sum();
-        (sum / self.sums().count().max(1) as f64).max(0.0)
+        self.mean(PixelSums::luminance).max(0.0)
+    }
+
+    /// The mean over the pixels: that of tiles first, so that it is the same for any number of threads.
+    fn mean(&self, of: impl Fn(&PixelSums) -> f64 + Sync) -> f64 {
+        let tile = |t: &Tile| t.pixels.iter().map(&of).sum::<f64>();
+        let sums: Vec<f64> = self.tiles.par_iter().map(tile).collect();
+        let pixels: usize = self.tiles.iter().map(|t| t.pixels.len()).sum();
+        sums.iter().sum::<f64>() / pixels.max(1) as f64
     }
 
     /// Begins a round where the last one is done and the aim not reached.
@@ -140,9 +147,9 @@ impl FilmBuffer {
                 tile.target = first;
             }
         }
+        let is_reached = |film: &Self| aim.noise > 0.0 && film.noise() <= aim.noise;
         // A round may bring no tile to its next number of samples.
-        while !self.tiles.iter().any(Tile::is_open) && self.work < most && self.noise() > aim.noise
-        {
+        while !self.tiles.iter().any(Tile::is_open) && self.work < most && !is_reached(self) {
             self.work = (self.work * GROWTH).min(most);
             self.allot();
         }
@@ -198,7 +205,7 @@ impl FilmBuffer {
     /// in it, as one that has not met what they have may do so.
     fn wishes(&self) -> Vec<f64> {
         let brightness = self.brightness();
-        let squares: Vec<f64> = (self.tiles.iter())
+        let squares: Vec<f64> = (self.tiles.par_iter())
             .map(|tile| tile.squared_error(brightness))
             .collect();
         let [x0, x1, _, _] = self.crop();
