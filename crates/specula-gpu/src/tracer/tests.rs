@@ -116,6 +116,7 @@ fn adaptive_films_are_the_same_however_samples_are_cut() {
     let Some(gpu) = gpu() else { return };
     let options = RenderOptions {
         noise: Some(0.1),
+        samples_per_pixel: 1 << 12,
         ..RenderOptions::from_scene(&room())
     };
     let prepared = PreparedScene::new(&room(), &options).unwrap();
