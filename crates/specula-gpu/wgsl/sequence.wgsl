@@ -51,12 +51,31 @@ fn sequence_scramble(reversed: u32, key: u32) -> u32 {
     return n ^ (n * 0x53a22864u);
 }
 
+/// A shuffled number for the sets that go with the camera's, bits reversed.
+///
+/// Twin: specula-render/src/sampler.rs, turned.
+fn sequence_turned(rest: u32) -> u32 {
+    var bits = 0u;
+    for (var bit = 0u; bit < 16u; bit += 1u) {
+        if ((rest << bit) & 0x80000000u) != 0u {
+            bits = bits ^ word(SEQUENCE_TURN + bit);
+        }
+    }
+    return bits;
+}
+
 /// Four numbers in `[0, 1)`.
 ///
 /// Twin: specula-render/src/sampler.rs, Sampler::set.
 fn sequence_set(s: Sequence, purpose: u32) -> vec4f {
     let seed = sequence_hash(s.seed + purpose * 0x9e3779b9u);
-    let rest = sequence_scramble(reverseBits(s.index), sequence_mix(seed ^ 0x79c68e4au));
+    // The sets of the first vertex go with the camera's.
+    let together = purpose == 1u || purpose == 2u;
+    let shuffle = select(seed, sequence_hash(s.seed), together);
+    var rest = sequence_scramble(reverseBits(s.index), sequence_mix(shuffle ^ 0x79c68e4au));
+    if together {
+        rest = sequence_turned(rest);
+    }
     var bits = vec4u(0u);
     var at = SOBOL_COLUMNS;
     for (var bit = 0u; bit < 16u; bit += 1u) {

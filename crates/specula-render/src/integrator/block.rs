@@ -360,12 +360,12 @@ impl PathTracer<'_> {
             if let (Some(shared), Some(previous)) = (&mut *shared, previous)
                 && shared.is_at_y(number)
             {
-                let share = lights.share_from_infinity(&previous.receiver);
+                let share = paths.share_from_infinity(number, lights, &previous.receiver);
                 shared.meet(number, radiance, share * pdf);
                 return;
             }
             let weight = self.lobe_weight(previous, |receiver| {
-                lights.share_from_infinity(receiver) * pdf
+                paths.share_from_infinity(number, lights, receiver) * pdf
             });
             let throughput = paths.throughput.colour(number);
             paths.add(number, throughput * radiance * weight);

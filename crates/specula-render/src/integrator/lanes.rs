@@ -177,6 +177,8 @@ pub(super) struct Lanes {
     pub(super) triangles: Triangles,
     pub(super) surfaces: Surfaces,
     pub(super) arriving: Arriving,
+    /// Probability with which the light to be drawn is one from infinity.
+    pub(super) share_far: Column,
     pub(super) onward: Onward,
     /// Of the sequences.
     pub(super) numbers: Numbers<LANES>,
@@ -226,6 +228,7 @@ impl Lanes {
                 origin: Vectors::ZERO,
                 direction: Vectors::ZERO,
             },
+            share_far: ZERO,
             onward: Onward {
                 wi: Vectors::ZERO,
                 weight: Vectors::ZERO,

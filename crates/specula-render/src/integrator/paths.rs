@@ -7,7 +7,7 @@ use super::{Path, Previous, State, Tally};
 use crate::accel::Ray;
 use crate::bodies::Bodies;
 use crate::film::PixelSample;
-use crate::light::Receiver;
+use crate::light::{Lights, Receiver};
 use crate::sampler::Sampler;
 
 /// The columns.
@@ -24,6 +24,9 @@ pub(super) struct Paths {
     pub(super) previous: Receivers,
     /// Density of the last direction there; 0 where no light could have found it.
     pub(super) previous_pdf: Column,
+    /// Probability with which the light drawn there was to be one from infinity; negative where it was not
+    /// kept.
+    pub(super) previous_share: Column,
     pub(super) first: FirstSeen,
 }
 
@@ -73,6 +76,7 @@ impl Paths {
                 normal: Vectors::ZERO,
             },
             previous_pdf: ZERO,
+            previous_share: ZERO,
             first: FirstSeen {
                 albedo: Vectors::ZERO,
                 normal: Vectors::ZERO,
@@ -118,6 +122,22 @@ impl Paths {
             receiver: self.previous.get(i),
             pdf,
         })
+    }
+
+    /// [`Lights::share_from_infinity`] where the last direction was drawn, at `receiver`.
+    #[inline(always)]
+    pub(super) fn share_from_infinity(
+        &self,
+        i: usize,
+        lights: &Lights,
+        receiver: &Receiver,
+    ) -> f32 {
+        let kept = self.previous_share[i];
+        if kept >= 0.0 {
+            kept
+        } else {
+            lights.share_from_infinity(receiver)
+        }
     }
 
     /// What a path brings to its pixel.
@@ -167,6 +187,7 @@ impl Paths {
         self.bodies[i] = *bodies;
         self.straight[i] = *straight;
         self.previous_pdf[i] = previous.map_or(0.0, |p| p.pdf);
+        self.previous_share[i] = -1.0;
         if let Some(previous) = previous {
             self.previous.set(i, &previous.receiver);
         }

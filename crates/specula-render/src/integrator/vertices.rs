@@ -219,6 +219,7 @@ impl PathTracer<'_> {
         let Lanes {
             surfaces: s,
             arriving: a,
+            share_far,
             numbers,
             ..
         } = &mut **lanes;
@@ -235,7 +236,7 @@ impl PathTracer<'_> {
             .map(|(i, plain)| (i, s.receiver(i, plain)));
         let u = [0, 1, 2, 3].map(|k| &numbers.values[k][..]);
         let place = |i, light| a.set(i, light);
-        scene.lights.sample_all(lights, receivers, world, u, place);
+        (scene.lights).sample_all(lights, receivers, world, u, share_far, place);
     }
 
     /// Adds the light that nothing is in the way of.
@@ -364,6 +365,7 @@ impl PathTracer<'_> {
                     paths.previous_pdf[path] = 0.0;
                 } else {
                     paths.previous_pdf[path] = o.pdf[i];
+                    paths.previous_share[path] = lanes.share_far[i];
                     paths.previous.set(path, &s.receiver(i, plain));
                 }
             }

@@ -129,6 +129,7 @@ impl Lights {
     ///
     /// * `receivers`: with their lanes.
     /// * `u`: as of [`Lights::sample`], by lane.
+    /// * `shares`: takes [`Lights::share_from_infinity`], by lane.
     /// * `place`: takes what was drawn for a lane, once for each.
     #[inline]
     pub(crate) fn sample_all(
@@ -137,6 +138,7 @@ impl Lights {
         receivers: impl Iterator<Item = (usize, Receiver)>,
         world: (&Geometry, &Textures),
         u: [&[f32]; 4],
+        shares: &mut [f32],
         mut place: impl FnMut(usize, Option<LightSample>),
     ) {
         for (i, receiver) in receivers {
@@ -148,10 +150,10 @@ impl Lights {
             set(&mut r.normal, at, receiver.normal.unwrap_or(Vec3::ZERO));
             r.count = at + 1;
             if r.count == LANES {
-                self.choose_all(waiting, world, u, &mut place);
+                self.choose_all(waiting, world, u, shares, &mut place);
             }
         }
-        self.choose_all(waiting, world, u, &mut place);
+        self.choose_all(waiting, world, u, shares, &mut place);
         self.draw_sky(waiting, &mut place);
         for node in 0..NODES {
             self.draw_parallelogram(waiting, node, &mut place);
@@ -164,6 +166,7 @@ impl Lights {
         waiting: &mut Waiting,
         world: (&Geometry, &Textures),
         u: [&[f32]; 4],
+        shares: &mut [f32],
         place: &mut impl FnMut(usize, Option<LightSample>),
     ) {
         let r = &mut waiting.receivers;
@@ -182,8 +185,10 @@ impl Lights {
             let u = u.map(|u| u[lane]);
             let chosen = if few {
                 let importance = |node: usize| r.importance[node % NODES][at];
-                self.selection.choose(&importance, [u[0], u[3]])
+                shares[lane] = self.selection.share(&importance);
+                (self.selection).choose(&importance, shares[lane], [u[0], u[3]])
             } else {
+                shares[lane] = self.selection.share_far(&receiver);
                 self.selection.sample(&receiver, [u[0], u[3]])
             };
             let Some((light, probability)) = chosen else {
@@ -423,11 +428,13 @@ mod tests {
             let mut drawn = vec![None; COUNT];
             let receivers = (0..COUNT).filter(|i| i % 7 != 2).map(|i| (i, receiver(i)));
             let columns = [0, 1, 2, 3].map(|k| &u[k][..]);
+            let mut shares = vec![-1.0; COUNT];
             lights.sample_all(
                 &mut Waiting::new(),
                 receivers,
                 world,
                 columns,
+                &mut shares,
                 |i, light| {
                     assert!(drawn[i].is_none(), "twice");
                     drawn[i] = Some(light);
@@ -440,6 +447,7 @@ mod tests {
                     continue;
                 };
                 let one = lights.sample(&receiver(i), world, number(i));
+                assert_eq!(shares[i], lights.share_from_infinity(&receiver(i)));
                 let (Some(a), Some(b)) = (lane, one) else {
                     assert!(lane.is_none() && one.is_none());
                     continue;

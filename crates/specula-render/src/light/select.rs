@@ -92,21 +92,24 @@ impl Selection {
     ///   run out over hundreds of thousands of lights.
     #[inline]
     pub(super) fn sample(&self, receiver: &Receiver, u: [f32; 2]) -> Option<(u32, f32)> {
-        self.choose(&self.near.importances(receiver), u)
+        let importance = self.near.importances(receiver);
+        self.choose(&importance, self.share(&importance), u)
     }
 
     /// [`Selection::sample`] by the importances of the tree's nodes.
+    ///
+    /// * `share`: what [`Selection::share`] makes of them.
     #[inline]
     pub(super) fn choose(
         &self,
         importance: &impl Fn(usize) -> f32,
+        share: f32,
         u: [f32; 2],
     ) -> Option<(u32, f32)> {
         if let Some(light) = self.only {
             return Some((light, 1.0));
         }
         let u = f64::from(u[0]) + FINER * f64::from(u[1]);
-        let share = self.share(importance);
         let threshold = f64::from(share);
         let below_one = 1.0 - f64::EPSILON;
         let (choice, share) = if u < threshold {
@@ -133,8 +136,9 @@ impl Selection {
         self.share(&self.near.importances(receiver))
     }
 
+    /// [`Selection::share_far`] by the importances of the tree's nodes.
     #[inline(always)]
-    fn share(&self, importance: &impl Fn(usize) -> f32) -> f32 {
+    pub(super) fn share(&self, importance: &impl Fn(usize) -> f32) -> f32 {
         if self.far_irradiance <= 0.0 {
             return 0.0;
         }
