@@ -95,11 +95,7 @@ impl Sampler {
         let key = seed_of_set(self.seed, set);
         if goes_with_camera(set) {
             let rest = turned(shuffled(self.index, seed_of_set(self.seed, CAMERA)));
-            let bits = |k: usize| {
-                let columns = COLUMNS.iter().enumerate();
-                columns.fold(0, |bits, (bit, c)| bits ^ (mask(rest, bit) & c[k]))
-            };
-            return [0, 1, 2, 3].map(|k| scrambled(bits(k), key, KEYS[k]));
+            return [0, 1, 2, 3].map(|k| scrambled(number(rest, k), key, KEYS[k]));
         }
         let [x, y, z, w] = sample_4d(self.index, 0, key);
         [z, x, y, w]
@@ -161,6 +157,15 @@ fn turned(rest: u32) -> u32 {
 fn shuffled(index: u32, key: u32) -> u32 {
     use sobol_burley::parts::{hash, owen_scramble_rev};
     owen_scramble_rev(index.reverse_bits(), hash(key ^ 0x79c6_8e4a))
+}
+
+/// A number of a set before it is scrambled, bits reversed.
+///
+/// * `rest`: the shuffled number of the sample, bits reversed.
+#[inline(always)]
+fn number(rest: u32, k: usize) -> u32 {
+    let columns = COLUMNS.iter().enumerate();
+    columns.fold(0, |bits, (bit, c)| bits ^ (mask(rest, bit) & c[k]))
 }
 
 /// All ones where a bit of a reversed word is 1.
@@ -384,10 +389,8 @@ mod tests {
             sum - next
         });
         let term = |index: u32, k: usize| {
-            let rest = index.reverse_bits();
-            let columns = COLUMNS.iter().enumerate();
-            let bits = columns.fold(0, |bits, (bit, c)| bits ^ (mask(rest, bit) & c[k]));
-            terms[bits.trailing_zeros().min(16) as usize]
+            let digits = number(index.reverse_bits(), k);
+            terms[digits.trailing_zeros().min(16) as usize]
         };
         let of = |(index, turned): (u32, u32)| {
             let [a, b] = [1, 2].map(|k| term(index, k));
@@ -407,7 +410,7 @@ mod tests {
     #[test]
     fn the_turn_is_the_best_column_by_column() {
         for (bit, &column) in TURN.iter().enumerate() {
-            assert_eq!(31 - column.leading_zeros(), id_of(bit));
+            assert_eq!(31 - column.leading_zeros(), crate::convert::id(bit));
         }
         for (bit, &column) in TURN.iter().enumerate().take(12) {
             let top = 1_u32 << bit;
@@ -416,10 +419,6 @@ mod tests {
             let least = (top..2 * top).map(with).fold(f64::INFINITY, f64::min);
             assert!(found <= least + 1e-9, "{bit}: {found} {least}");
         }
-    }
-
-    fn id_of(bit: usize) -> u32 {
-        u32::try_from(bit).unwrap()
     }
 
     /// Variance of what depends on numbers of both sets, over that with sets by themselves.

@@ -188,8 +188,9 @@ impl Lights {
                 shares[lane] = self.selection.share(&importance);
                 (self.selection).choose(&importance, shares[lane], [u[0], u[3]])
             } else {
-                shares[lane] = self.selection.share_far(&receiver);
-                self.selection.sample(&receiver, [u[0], u[3]])
+                let importance = self.selection.importances(&receiver);
+                shares[lane] = self.selection.share(&importance);
+                (self.selection).choose(&importance, shares[lane], [u[0], u[3]])
             };
             let Some((light, probability)) = chosen else {
                 place(lane, None);

@@ -92,8 +92,14 @@ impl Selection {
     ///   run out over hundreds of thousands of lights.
     #[inline]
     pub(super) fn sample(&self, receiver: &Receiver, u: [f32; 2]) -> Option<(u32, f32)> {
-        let importance = self.near.importances(receiver);
+        let importance = self.importances(receiver);
         self.choose(&importance, self.share(&importance), u)
+    }
+
+    /// Importances of the tree's nodes.
+    #[inline]
+    pub(super) fn importances(&self, receiver: &Receiver) -> impl Fn(usize) -> f32 {
+        self.near.importances(receiver)
     }
 
     /// [`Selection::sample`] by the importances of the tree's nodes.
