@@ -202,6 +202,15 @@ fn constants(flat: &FlatScene<'_>, options: &RenderOptions) -> String {
         ("SEED", options.seed),
         ("MAX_DEPTH", options.max_depth),
         ("STRATEGY", options.strategy as u32),
+        ("KIND_CONDUCTOR", LobeKind::Conductor as u32),
+        (
+            "KIND_COMPENSATED_CONDUCTOR",
+            LobeKind::CompensatedConductor as u32,
+        ),
+        (
+            "KIND_MULTIBOUNCE_CONDUCTOR",
+            LobeKind::MultibounceConductor as u32,
+        ),
         ("KIND_THIN_PANE", LobeKind::ThinDielectric as u32),
         ("KIND_GLTF", LobeKind::Gltf as u32),
         ("BOUND_KEPT", kept),

@@ -4,9 +4,9 @@
 // Twin of specula-render/src/integrator.rs: the same numbers decide the same things, so that a sample
 // follows the same path up to rounding. SEED, MAX_DEPTH and STRATEGY are constants of the render.
 
-import tracer::world::{word, number, offset_leave};
+import tracer::world::{NONE, word, number, offset_leave};
 import tracer::sequence::{Sequence, sequence_of, sequence_camera, sequence_scatter, sequence_light};
-import tracer::sequence::{sequence_stream};
+import tracer::sequence::{sequence_stream, sequence_hashed};
 import tracer::camera::{camera_ray};
 import tracer::film::{film_developed};
 import tracer::ray::{Ray};
@@ -174,6 +174,74 @@ fn path_receiver(vertex: PathVertex) -> Receiver {
     return Receiver(vertex.surface.position, normal);
 }
 
+/// How many lights are drawn at a vertex.
+///
+/// Twin: specula-render/src/integrator/candidates.rs, PathTracer::lights_at.
+fn path_lights_at(bound: Bound, depth: u32) -> u32 {
+    let is_metal = bound.kind == KIND_CONDUCTOR || bound.kind == KIND_COMPENSATED_CONDUCTOR
+        || bound.kind == KIND_MULTIBOUNCE_CONDUCTOR;
+    let two = depth == 0u && is_metal && !bound.specular && LIGHT_ONLY == NONE;
+    return select(1u, 2u, two);
+}
+
+/// The numbers of one of several lights.
+///
+/// Twin: specula-render/src/integrator/candidates.rs, numbers.
+fn path_light_numbers(u: vec4f, which: u32, count: u32) -> vec4f {
+    if count == 1u {
+        return u;
+    }
+    let second = which == 1u;
+    let opposite = select(u.yz - 0.5, u.yz + 0.5, u.yz < vec2f(0.5));
+    let at = select(u.yz, opposite, second);
+    return vec4f(0.5 * u.x + select(0.0, 0.5, second), at, 0.5 * u.w);
+}
+
+/// A light, and what it would bring to the path; black: nothing.
+struct PathLight {
+    light: LightSample,
+    brought: vec3f,
+}
+
+/// Draws a light, one of so many.
+///
+/// Twin: specula-render/src/integrator.rs, PathTracer::consider_light.
+fn path_consider(
+    throughput: vec3f,
+    vertex: PathVertex,
+    s: Sequence,
+    depth: u32,
+    which: u32,
+    count: u32,
+) -> PathLight {
+    var found: PathLight;
+    let u = path_light_numbers(sequence_light(s, depth), which, count);
+    let light = lights_draw(path_receiver(vertex), u);
+    if light.valid == 0u || (STRATEGY == STRATEGY_BSDF_ONLY && light.delta == 0u) {
+        return found;
+    }
+    let wi = frame_to_local(vertex.frame, light.wi);
+    if wi.z * dot(vertex.facing, light.wi) <= 0.0 {
+        return found;
+    }
+    let f = material_eval(vertex.bound, vertex.wo, wi, sequence_stream(s, depth, 2u * which));
+    if all(f.xyz == vec3f(0.0)) {
+        return found;
+    }
+    let pdf = light.pdf * f32(count);
+    var weight = 1.0;
+    if light.delta == 0u && STRATEGY != STRATEGY_LIGHTS_ONLY {
+        weight = path_heuristic(pdf, f.w);
+    }
+    if weight <= 0.0 {
+        return found;
+    }
+    let fading = relief_softness(vertex.softness, light.wi);
+    found.light = light;
+    found.brought = throughput * f.xyz * (light.radiance * (weight * fading / pdf));
+    return found;
+}
+
 /// Light from one sampled light.
 ///
 /// Twin: specula-render/src/integrator.rs, PathTracer::add_direct.
@@ -181,35 +249,39 @@ fn path_direct(state: ptr<function, PathState>, vertex: PathVertex, s: Sequence,
     if vertex.bound.specular {
         return;
     }
-    let light = lights_draw(path_receiver(vertex), sequence_light(s, depth));
-    if light.valid == 0u || (STRATEGY == STRATEGY_BSDF_ONLY && light.delta == 0u) {
+    let count = path_lights_at(vertex.bound, depth);
+    var kept: PathLight;
+    // What all would bring that have been drawn. Twin: candidates.rs, keeps_second.
+    var all_bring = 0.0;
+    var kept_brings = 0.0;
+    for (var which = 0u; which < count; which += 1u) {
+        let found = path_consider((*state).throughput, vertex, s, depth, which, count);
+        let brings = path_mean(found.brought);
+        let before = all_bring;
+        all_bring += brings;
+        let u = sequence_hashed(s, vec3u(depth, 0u, 3u));
+        if !(brings <= 0.0) && (which == 0u || u * all_bring >= before) {
+            kept = found;
+            kept_brings = brings;
+        }
+    }
+    if kept_brings == 0.0 {
         return;
     }
-    let wi = frame_to_local(vertex.frame, light.wi);
-    if wi.z * dot(vertex.facing, light.wi) <= 0.0 {
-        return;
-    }
-    let f = material_eval(vertex.bound, vertex.wo, wi, sequence_stream(s, depth, 0u));
-    if all(f.xyz == vec3f(0.0)) {
-        return;
-    }
-    var weight = 1.0;
-    if light.delta == 0u && STRATEGY != STRATEGY_LIGHTS_ONLY {
-        weight = path_heuristic(light.pdf, f.w);
-    }
-    if weight <= 0.0 {
-        return;
-    }
+    let light = kept.light;
     var bodies = (*state).bodies;
-    if wi.z < 0.0 {
+    if dot(vertex.frame.n, light.wi) < 0.0 {
         passing_cross(&bodies, vertex.surface, light.wi);
     }
     var rays = 0u;
     let left = passing_shine(vertex.surface, light, bodies, s, depth, &rays);
     (*state).rays += rays;
-    let fading = relief_softness(vertex.softness, light.wi);
-    let arrived = light.radiance * (weight * fading / light.pdf) * left;
-    (*state).radiance += (*state).throughput * f.xyz * arrived;
+    (*state).radiance += kept.brought * (all_bring / kept_brings) * left;
+}
+
+/// Mean of the channels.
+fn path_mean(c: vec3f) -> f32 {
+    return (c.x + c.y + c.z) * (1.0 / 3.0);
 }
 
 /// Draws the next direction; returns whether the path goes on, along its ray.
@@ -253,7 +325,8 @@ fn path_scatter(
         }
         (*state).throughput *= 1.0 / probability;
     }
-    (*state).previous_pdf = select(drawn.pdf, 0.0, (drawn.flags & BSDF_SPECULAR) != 0u);
+    let lights = f32(path_lights_at(vertex.bound, depth));
+    (*state).previous_pdf = select(drawn.pdf / lights, 0.0, (drawn.flags & BSDF_SPECULAR) != 0u);
     (*state).previous = path_receiver(vertex);
     let surface = vertex.surface;
     let origin = offset_leave(surface.position, surface.error, surface.ng, direction);

@@ -1,6 +1,7 @@
 //! Unidirectional path tracing with next-event estimation.
 //!
-//! At every vertex one light is sampled and one direction; what both can find is weighted by the
+//! At every vertex one light is sampled (of two, at first vertices of rough metal: `candidates`) and one
+//! direction; what both can find is weighted by the
 //! power heuristic (Veach 1997, 9.2.4) with exponent 3/2. From the fourth vertex on, paths survive with
 //! twice their throughput's largest channel as probability, corrected for the squeezing of radiance by
 //! refraction (pbrt's eta scale), at least 5 %; above 95 % roulette is not played. Once the channel
@@ -16,6 +17,7 @@
 //! (`bodies`); a path begins in none.
 
 mod block;
+mod candidates;
 mod lanes;
 pub(crate) mod lobes;
 mod passing;
@@ -33,7 +35,7 @@ use crate::accel::Ray;
 use crate::bodies::Bodies;
 use crate::film::PixelSample;
 use crate::geometry::{NONE, Surface};
-use crate::light::Receiver;
+use crate::light::{LightSample, Receiver};
 use crate::material::{Coat, Material};
 use crate::offset::leave;
 use crate::options::{RenderOptions, Strategy};
@@ -419,41 +421,19 @@ impl<'a> PathTracer<'a> {
         if vertex.lobe.is_specular() {
             return;
         }
-        let receiver = vertex.receiver();
-        let scene = self.scene;
-        let world = (&scene.geometry, &scene.textures);
-        let Some(light) = scene.lights.sample(&receiver, world, sampler.light(depth)) else {
-            return;
-        };
-        if self.strategy == Strategy::BsdfOnly && !light.delta {
-            return;
-        }
-        let wi = vertex.frame.to_local(light.wi);
-        if wi.z * vertex.facing.dot(light.wi) <= 0.0 {
-            return;
-        }
-        let wo = vertex.frame.to_local(vertex.wo);
-        let (f_cos, pdf) =
-            vertex
-                .lobe
-                .eval_pdf_random(wo, wi, Transport::Radiance, &mut sampler.stream(depth, 0));
-        if f_cos.is_black() {
-            return;
-        }
-        let f_cos = match &vertex.softness {
-            Some(softness) => f_cos * softness.factor(light.wi),
-            None => f_cos,
-        };
-        let weight = if light.delta || self.strategy == Strategy::LightsOnly {
-            1.0
+        let count = self.lights_at(&vertex.lobe, depth);
+        let consider = |which| self.consider_light(state, vertex, sampler, depth, [which, count]);
+        let first = consider(0);
+        let kept = if count == 1 {
+            first
         } else {
-            self.heuristic(light.pdf, pdf)
+            candidates::keep_one([first, consider(1)], || candidates::choice(sampler, depth))
         };
-        if weight <= 0.0 {
+        let Some((light, brought)) = kept else {
             return;
-        }
+        };
         let mut beyond;
-        let bodies = if wi.z < 0.0 {
+        let bodies = if vertex.frame.n.dot(light.wi) < 0.0 {
             beyond = state.bodies;
             self.cross(&mut beyond, &vertex.surface, light.wi);
             &beyond
@@ -464,9 +444,54 @@ impl<'a> PathTracer<'a> {
         let place = (s.position, s.error, s.ng);
         let left = self.shine(place, &light, bodies, sampler, depth, &mut state.tally.rays);
         if let Some(left) = left {
-            let arrived = light.radiance * (weight / light.pdf) * left;
-            state.radiance += state.throughput * f_cos * arrived;
+            state.radiance += brought * left;
         }
+    }
+
+    /// Draws a light, and says what it would bring to the path; `None`: nothing.
+    ///
+    /// * `which`, `count`: of how many.
+    #[inline]
+    fn consider_light(
+        &self,
+        state: &State,
+        vertex: &Vertex,
+        sampler: &Sampler,
+        depth: u32,
+        [which, count]: [u32; 2],
+    ) -> Option<(LightSample, Rgb<f32>)> {
+        let receiver = vertex.receiver();
+        let scene = self.scene;
+        let world = (&scene.geometry, &scene.textures);
+        let u = candidates::numbers(sampler.light(depth), which, count);
+        let mut light = scene.lights.sample(&receiver, world, u)?;
+        if self.strategy == Strategy::BsdfOnly && !light.delta {
+            return None;
+        }
+        light.pdf *= count as f32;
+        let wi = vertex.frame.to_local(light.wi);
+        if wi.z * vertex.facing.dot(light.wi) <= 0.0 {
+            return None;
+        }
+        let wo = vertex.frame.to_local(vertex.wo);
+        let mut stream = sampler.stream(depth, candidates::stream(which));
+        let (f_cos, pdf) = vertex
+            .lobe
+            .eval_pdf_random(wo, wi, Transport::Radiance, &mut stream);
+        if f_cos.is_black() {
+            return None;
+        }
+        let f_cos = match &vertex.softness {
+            Some(softness) => f_cos * softness.factor(light.wi),
+            None => f_cos,
+        };
+        let weight = if light.delta || self.strategy == Strategy::LightsOnly {
+            1.0
+        } else {
+            self.heuristic(light.pdf, pdf)
+        };
+        let brought = state.throughput * f_cos * (light.radiance * (weight / light.pdf));
+        (weight > 0.0).then_some((light, brought))
     }
 
     /// Draws the next direction; `None` where the path ends.
@@ -524,7 +549,7 @@ impl<'a> PathTracer<'a> {
         let s = &vertex.surface;
         state.previous = (!specular).then_some(Previous {
             receiver: vertex.receiver(),
-            pdf,
+            pdf: candidates::density(pdf, self.lights_at(&vertex.lobe, depth)),
         });
         Some(Ray {
             origin: leave(s.position, s.error, s.ng, direction),

@@ -64,3 +64,44 @@ fn strategies_agree_where_the_normal_decides_among_lights() {
         assert_agree("where the normal decides", &results, 2, 0.005);
     }
 }
+
+/// Light is a sum over lights: of one light alone one is drawn, of several two where metal is rough.
+#[test]
+fn lights_of_rough_metal_add_up() {
+    let seen = |lights: &[usize], energy: &str, hides: bool| {
+        let mut scene = floor();
+        scene.materials[0].kind = mirror_metal(0.4);
+        scene.materials[0].energy = Some(energy.parse().expect("a known name"));
+        // Hidden lights send first vertices the scalar way.
+        scene.settings.hide_emitters = hides;
+        // In front of the sky, lit or not.
+        let mut lamp = sphere(0.7, [-4.0, 0.0, 4.0], MaterialId(0));
+        for light in lights {
+            match light {
+                0 => scene.lights.push(constant_sky(0.3)),
+                1 => scene.lights.push(Light::Point {
+                    position: [-1.0, 0.5, 1.0],
+                    intensity: Rgb::splat(2.0),
+                }),
+                _ => lamp = emitting(lamp, 3.0),
+            }
+        }
+        scene.shapes.push(lamp);
+        mean(&render(&scene, 2048, 1, Strategy::Mis))
+    };
+    for energy in ["none", "turquin", "multibounce=heitz"] {
+        for hides in [false, true] {
+            let [sky, point, lamp] = [0, 1, 2].map(|light| seen(&[light], energy, hides));
+            let all = seen(&[0, 1, 2], energy, hides);
+            let sum = sky.0 + point.0 + lamp.0;
+            let error = [sky, point, lamp, all].map(|(_, e)| e * e);
+            let error = error.iter().sum::<f64>().sqrt();
+            let what = format!("{energy}, {hides}: {sky:?} {point:?} {lamp:?} {all:?}");
+            for part in [sky, point, lamp] {
+                assert!(part.0 > 0.05 * sum, "{what}");
+            }
+            assert!(error < 0.01 * sum, "too noisy: {what}");
+            assert!((all.0 - sum).abs() < 4.5 * error, "{what}");
+        }
+    }
+}

@@ -13,7 +13,7 @@ use specula_bsdf::batch::{Colours, Directions, Kind};
 use specula_bsdf::math::{rgb, vec3};
 use specula_bsdf::{Frame, Rgb, Vec3};
 
-use super::{ROULETTE_FROM, power_heuristic, survival_probability};
+use super::{ROULETTE_FROM, candidates, power_heuristic, survival_probability};
 use crate::geometry::unit_or;
 use crate::light::{LightSample, Parallelogram, Receiver, Seen};
 use crate::material::Plain;
@@ -177,11 +177,15 @@ pub(super) struct Lanes {
     pub(super) triangles: Triangles,
     pub(super) surfaces: Surfaces,
     pub(super) arriving: Arriving,
+    /// The second, where two are drawn.
+    pub(super) second: Arriving,
     /// Probability with which the light to be drawn is one from infinity.
     pub(super) share_far: Column,
     pub(super) onward: Onward,
     /// Of the sequences.
     pub(super) numbers: Numbers<LANES>,
+    /// Those of second lights.
+    pub(super) second_numbers: [Column; 4],
     /// Where camera rays pass the raster.
     pub(super) raster: [Column; 2],
 }
@@ -212,22 +216,8 @@ impl Lanes {
                 axes: [Vectors::ZERO; 2],
                 wo: Vectors::ZERO,
             },
-            arriving: Arriving {
-                towards: Vectors::ZERO,
-                radiance: Vectors::ZERO,
-                pdf: ZERO,
-                delta: [false; LANES],
-                far: [false; LANES],
-                target: Vectors::ZERO,
-                target_error: ZERO,
-                target_normal: Vectors::ZERO,
-                wi: Vectors::ZERO,
-                f_cos: Vectors::ZERO,
-                lobe_pdf: ZERO,
-                brought: Vectors::ZERO,
-                origin: Vectors::ZERO,
-                direction: Vectors::ZERO,
-            },
+            arriving: Arriving::ZERO,
+            second: Arriving::ZERO,
             share_far: ZERO,
             onward: Onward {
                 wi: Vectors::ZERO,
@@ -241,12 +231,30 @@ impl Lanes {
                 alive: [false; LANES],
             },
             numbers: Numbers::ZERO,
+            second_numbers: [ZERO; 4],
             raster: [ZERO; 2],
         })
     }
 }
 
 impl Arriving {
+    const ZERO: Self = Self {
+        towards: Vectors::ZERO,
+        radiance: Vectors::ZERO,
+        pdf: ZERO,
+        delta: [false; LANES],
+        far: [false; LANES],
+        target: Vectors::ZERO,
+        target_error: ZERO,
+        target_normal: Vectors::ZERO,
+        wi: Vectors::ZERO,
+        f_cos: Vectors::ZERO,
+        lobe_pdf: ZERO,
+        brought: Vectors::ZERO,
+        origin: Vectors::ZERO,
+        direction: Vectors::ZERO,
+    };
+
     /// Places light that was drawn.
     #[inline]
     pub(super) fn set(&mut self, i: usize, light: Option<LightSample>) {
@@ -379,7 +387,7 @@ pub(super) fn straighten(from: usize, to: usize, s: &mut Surfaces) {
     }
 }
 
-/// Draws points of the one light of a scene, as `Area::sample` does.
+/// Draws points of the one light of a scene for the first `n` vertices, as `Area::sample` does.
 ///
 /// * `u`: of the points.
 #[multiversion(targets(
@@ -409,12 +417,14 @@ pub(super) fn draw_light(
 }
 
 /// Turns the light that could arrive into the frames; what comes from the wrong side is taken out.
+///
+/// * `from`, `to`: at which vertices.
 #[multiversion(targets(
     "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
     "x86_64+avx2+fma+bmi1+bmi2"
 ))]
-pub(super) fn to_frames(n: usize, s: &Surfaces, a: &mut Arriving) {
-    for i in 0..n.min(LANES) {
+pub(super) fn to_frames(from: usize, to: usize, s: &Surfaces, a: &mut Arriving) {
+    for i in from..to.min(LANES) {
         let towards = a.towards.get(i);
         let wi = s.frame(i).to_local(towards);
         let through = wi.z * s.facing(i, towards);
@@ -424,12 +434,14 @@ pub(super) fn to_frames(n: usize, s: &Surfaces, a: &mut Arriving) {
 }
 
 /// Weighs light that was drawn against the lobe's directions, by the power heuristic.
+///
+/// * `from`, `to`: at which vertices.
 #[multiversion(targets(
     "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
     "x86_64+avx2+fma+bmi1+bmi2"
 ))]
-pub(super) fn weigh(n: usize, throughput: &Vectors, a: &mut Arriving) {
-    for i in 0..n.min(LANES) {
+pub(super) fn weigh(from: usize, to: usize, throughput: &Vectors, a: &mut Arriving) {
+    for i in from..to.min(LANES) {
         let pdf = a.pdf[i];
         let ratio = a.lobe_pdf[i] / pdf;
         let both = power_heuristic(ratio);
@@ -439,6 +451,33 @@ pub(super) fn weigh(n: usize, throughput: &Vectors, a: &mut Arriving) {
         let brought = throughput.colour(i) * a.f_cos.colour(i) * (a.radiance.colour(i) * scale);
         let pick = |c: f32| if arrives { c } else { 0.0 };
         a.brought.set_colour(i, brought.map(pick));
+    }
+}
+
+/// Keeps one of two lights, which brings as much as both; see `candidates`.
+///
+/// * `u`: decides, by lane.
+/// * `a`, `b`: the first, which the kept one takes the place of, and the second.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
+    "x86_64+avx2+fma+bmi1+bmi2"
+))]
+pub(super) fn keep_one(from: usize, to: usize, u: &Column, a: &mut Arriving, b: &Arriving) {
+    for i in from..to.min(LANES) {
+        let [x, y] = [a.brought.colour(i), b.brought.colour(i)];
+        let (keeps_b, scale) = candidates::keeps_second(x, y, u[i]);
+        let pick = |a: f32, b: f32| if keeps_b { b } else { a };
+        let [of_a, of_b] =
+            [&*a, b].map(|a| (a.towards.get(i), a.target.get(i), a.target_normal.get(i)));
+        let pick_vector =
+            |a: Vec3<f32>, b: Vec3<f32>| vec3(pick(a.x, b.x), pick(a.y, b.y), pick(a.z, b.z));
+        let brought = rgb(pick(x.r, y.r), pick(x.g, y.g), pick(x.b, y.b));
+        a.brought.set_colour(i, brought * scale);
+        a.towards.set(i, pick_vector(of_a.0, of_b.0));
+        a.target.set(i, pick_vector(of_a.1, of_b.1));
+        a.target_normal.set(i, pick_vector(of_a.2, of_b.2));
+        a.target_error[i] = pick(a.target_error[i], b.target_error[i]);
+        a.far[i] = (keeps_b & b.far[i]) | (!keeps_b & a.far[i]);
     }
 }
 

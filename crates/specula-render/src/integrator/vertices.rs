@@ -10,7 +10,7 @@ use super::block::{Block, Stretch, index};
 use super::lanes::{self, LANES, Lanes};
 use super::passing::TO_LIGHT;
 use super::paths::Paths;
-use super::{PathTracer, lobes};
+use super::{PathTracer, candidates, lobes};
 use crate::accel::{Hit, Ray};
 use crate::convert::id;
 use crate::material::Plain;
@@ -162,7 +162,86 @@ impl PathTracer<'_> {
 
     /// Adds light from one sampled light to each path.
     fn light_lanes(&self, block: &mut Block, depth: u32) {
-        self.draw_lights(block, depth);
+        block
+            .lanes
+            .numbers
+            .draw(block.lanes.count, Purpose::Light, depth);
+        let twice = self
+            .with_two_lights(&block.stretches, depth)
+            .next()
+            .is_some();
+        if twice {
+            self.part_numbers(block, depth);
+        }
+        self.consider(block, depth, 0);
+        if twice {
+            self.consider(block, depth, 1);
+            self.keep_one(block, depth);
+        }
+        let lanes = &mut *block.lanes;
+        lanes::aim(lanes.count, &lanes.surfaces, &mut lanes.arriving);
+        self.add_unblocked(block);
+    }
+
+    /// Stretches where two lights are drawn.
+    fn with_two_lights<'s>(
+        &'s self,
+        stretches: &'s [Stretch],
+        depth: u32,
+    ) -> impl Iterator<Item = (&'s Plain, Range<usize>)> {
+        let two = move |plain: &Plain| self.lights_at(&plain.lobe, depth) == 2;
+        self.each(stretches).filter(move |(plain, _)| two(plain))
+    }
+
+    /// Makes the numbers of one light those of two where as many are drawn.
+    fn part_numbers(&self, block: &mut Block, depth: u32) {
+        let Lanes {
+            numbers,
+            second_numbers,
+            ..
+        } = &mut *block.lanes;
+        let first_numbers = &mut numbers.values;
+        for (_, range) in self.with_two_lights(&block.stretches, depth) {
+            for i in range {
+                let u = [0, 1, 2, 3].map(|k| first_numbers[k][i]);
+                for (to, which) in [(&mut *first_numbers, 0), (second_numbers, 1)] {
+                    let parted = candidates::numbers(u, which, 2);
+                    for k in 0..4 {
+                        to[k][i] = parted[k];
+                    }
+                }
+            }
+        }
+    }
+
+    /// Keeps one of two lights.
+    fn keep_one(&self, block: &mut Block, depth: u32) {
+        let Block {
+            paths,
+            stretches,
+            lanes,
+            ..
+        } = block;
+        let Lanes {
+            arriving,
+            second,
+            second_numbers: [choices, ..],
+            owners,
+            ..
+        } = &mut **lanes;
+        for (_, range) in self.with_two_lights(stretches, depth) {
+            for i in range.clone() {
+                choices[i] = candidates::choice(&paths.samplers[index(owners[i])], depth);
+            }
+            lanes::keep_one(range.start, range.end, choices, arriving, second);
+        }
+    }
+
+    /// Draws a light for each vertex, and weighs what it would bring.
+    ///
+    /// * `which`: 1 for the second where two are drawn; else 0.
+    fn consider(&self, block: &mut Block, depth: u32, which: u32) {
+        self.draw_lights(block, depth, which);
         let Block {
             paths,
             stretches,
@@ -170,27 +249,34 @@ impl PathTracer<'_> {
             streams,
             ..
         } = block;
-        let n = lanes.count;
         let Lanes {
             surfaces: s,
-            arriving: a,
+            arriving,
+            second,
             onward: o,
             owners,
             ..
         } = &mut **lanes;
-        lanes::to_frames(n, s, a);
+        let a = if which == 0 { arriving } else { second };
         for (plain, range) in self.each(stretches) {
             let (from, to) = (range.start, range.end);
-            if plain.specular {
-                a.pdf[range].fill(0.0);
+            let count = self.lights_at(&plain.lobe, depth);
+            if which >= count {
                 continue;
             }
-            if plain.black_inside {
-                for i in range {
-                    a.pdf[i] = if s.side[i] < 0.0 { 0.0 } else { a.pdf[i] };
-                }
+            if plain.specular {
+                a.brought.x[range.clone()].fill(0.0);
+                a.brought.y[range.clone()].fill(0.0);
+                a.brought.z[range].fill(0.0);
+                continue;
             }
-            fill_streams(paths, &owners[from..to], plain, (depth, 0), streams);
+            for i in range {
+                let black = plain.black_inside && s.side[i] < 0.0;
+                a.pdf[i] *= if black { 0.0 } else { count as f32 };
+            }
+            lanes::to_frames(from, to, s, a);
+            let purpose = candidates::stream(which);
+            fill_streams(paths, &owners[from..to], plain, (depth, purpose), streams);
             lobes::eval_pdf(
                 &plain.lobe,
                 s.wo.directions(from, to),
@@ -199,14 +285,12 @@ impl PathTracer<'_> {
                 a.f_cos.colours_mut(from, to),
                 &mut a.lobe_pdf[from..to],
             );
+            lanes::weigh(from, to, &o.throughput, a);
         }
-        lanes::weigh(n, &o.throughput, a);
-        lanes::aim(n, s, a);
-        self.add_unblocked(block);
     }
 
     /// Draws a light for each vertex.
-    fn draw_lights(&self, block: &mut Block, depth: u32) {
+    fn draw_lights(&self, block: &mut Block, depth: u32, which: u32) {
         let Block {
             stretches,
             lanes,
@@ -215,26 +299,32 @@ impl PathTracer<'_> {
         } = block;
         let n = lanes.count;
         let scene = self.scene;
-        lanes.numbers.draw(n, Purpose::Light, depth);
         let Lanes {
             surfaces: s,
-            arriving: a,
+            arriving,
+            second,
             share_far,
             numbers,
+            second_numbers,
             ..
         } = &mut **lanes;
+        let (numbers, a) = match which {
+            0 => (&numbers.values, arriving),
+            _ => (&*second_numbers, second),
+        };
         if let Some(light) = scene.lights.lone_parallelogram() {
-            let [_, u, v, _] = &numbers.values;
+            let [_, u, v, _] = numbers;
             lanes::draw_light(n, light, [u, v], s, a);
             return;
         }
         let world = (&scene.geometry, &scene.textures);
+        let wanted = |plain: &Plain| !plain.specular && self.lights_at(&plain.lobe, depth) > which;
         let receivers = self
             .each(stretches)
-            .filter(|(plain, _)| !plain.specular)
+            .filter(|(plain, _)| wanted(plain))
             .flat_map(|(plain, range)| range.map(move |i| (i, plain)))
             .map(|(i, plain)| (i, s.receiver(i, plain)));
-        let u = [0, 1, 2, 3].map(|k| &numbers.values[k][..]);
+        let u = [0, 1, 2, 3].map(|k| &numbers[k][..]);
         let place = |i, light| a.set(i, light);
         (scene.lights).sample_all(lights, receivers, world, u, share_far, place);
     }
@@ -323,11 +413,11 @@ impl PathTracer<'_> {
             shared.let_pass(&owners[..n], &mut numbers.values[3][..n]);
         }
         lanes::go_on(n, depth, s, &numbers.values[3], o);
-        self.keep(block);
+        self.keep(block, depth);
     }
 
     /// Brings the paths that go on back from the lanes.
-    fn keep(&self, block: &mut Block) {
+    fn keep(&self, block: &mut Block, depth: u32) {
         let Block {
             paths,
             next,
@@ -364,7 +454,8 @@ impl PathTracer<'_> {
                 if plain.specular {
                     paths.previous_pdf[path] = 0.0;
                 } else {
-                    paths.previous_pdf[path] = o.pdf[i];
+                    let lights = self.lights_at(&plain.lobe, depth);
+                    paths.previous_pdf[path] = candidates::density(o.pdf[i], lights);
                     paths.previous_share[path] = lanes.share_far[i];
                     paths.previous.set(path, &s.receiver(i, plain));
                 }

@@ -316,6 +316,11 @@ impl Lights {
         (!self.selection.is_empty()).then_some((light, *radiance, *two_sided))
     }
 
+    /// Whether there is more than one light to choose from.
+    pub(crate) fn are_chosen(&self) -> bool {
+        self.selection.chooses() && !self.selection.is_empty()
+    }
+
     /// Density in 1/sr, times the probability of the light, with which [`Lights::sample`] at the
     /// receiver draws the direction to the emitting surface `s`.
     #[inline]
