@@ -3,7 +3,7 @@
 //! Lights are chosen without regard to the lobe: sky or lamp, whichever is brighter at the point. What a metal
 //! makes of them differs by orders of magnitude. So two are drawn, `c_1` and `c_2` is what they would bring,
 //! each over twice its density and weighed with that, and one is kept by chance, in proportion to these;
-//! it then brings `c_1 + c_2` unless something is in its way (resampled importance sampling: Talbot et al.
+//! it then brings as much as both unless something is in its way (resampled importance sampling: Talbot et al.
 //! 2005, "Importance resampling for global illumination", eq. 6). The choice of light is drawn in the lower half of its
 //! numbers for one and the upper half for the other, and the points on them half a period apart, so that both together are
 //! as even as one was.
