@@ -34,7 +34,7 @@ const LIGHTS_TEXTURED: u32 = 3u;
 const LIGHTS_ENVIRONMENT: u32 = 0u;
 const LIGHTS_SUN: u32 = 1u;
 /// Smallest share of either class of lights where there are both.
-const LIGHTS_LEAST_SHARE: f32 = 0.15;
+const LIGHTS_LEAST_SHARE: f32 = 0.1;
 /// What the second number of a choice counts: the first is a multiple of it, 2^-23.
 const LIGHTS_FINER: f32 = 1.1920929e-7;
 

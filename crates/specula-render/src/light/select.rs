@@ -4,7 +4,7 @@
 //! their irradiance. Between the two classes the estimates of irradiance decide, where both are:
 //!
 //! ```text
-//! P(far) = clamp(E_far / (E_far + E_near(receiver)), 0.15, 0.85)
+//! P(far) = clamp(E_far / (E_far + E_near(receiver)), 0.1, 0.9)
 //! ```
 //!
 //! Neither knows what is in the way, hence the bounds. Everything is a function of the receiver
@@ -18,7 +18,12 @@ use crate::convert::narrow;
 use crate::flat::Words;
 
 /// Smallest share of either class of lights where there are both.
-const LEAST_SHARE: f32 = 0.15;
+const LEAST_SHARE: f32 = 0.1;
+/// Irradiance of lights from infinity over that at normal incidence. The mean of the cosine over the normals of all
+/// surfaces is 1/4; the tree's estimates, which bound the cosine and the distance of whole nodes, are larger than what arrives
+/// in the same measure. (Squared error with 0.35 over that with 0.25: 0.98 on two million triangles, 0.97 in the built-in
+/// scene, 0.91 of its relative error; with 1 it is 1.05.)
+const FAR_COSINE: f64 = 0.35;
 /// What the second number of a choice counts: the first is a multiple of it.
 const FINER: f64 = 1.0 / 8_388_608.0;
 
@@ -58,8 +63,7 @@ impl Selection {
             weights.resize(lights, 0.0);
             weights[light as usize] = strength;
         }
-        // The mean of the cosine over the normals of all surfaces.
-        let irradiance = 0.25 * weights.iter().sum::<f64>() / scale;
+        let irradiance = FAR_COSINE * weights.iter().sum::<f64>() / scale;
         Self {
             near: LightTree::new(near, lights),
             far: AliasTable::new(&weights),
