@@ -179,8 +179,8 @@ Written by the chore below, on a machine that does nothing else; the scenes are 
   `--adaptive` with every path alone or with those of 8 or of 16 pixels that share (`--share-paths`), Mitsuba
   with the best of its five samplers (it has no adaptive sampling) and Cycles with the best of tabulated Sobol, blue
   noise and adaptive sampling with its own threshold, chosen per scene by seconds times trimmed variance, from two
-  renders each, of which the quicker tells the time. Samples are what the sampler took: Mitsuba's stratified ones round up to squares; where sampling is
-  adaptive they are what was asked for.
+  renders each, of which the quicker tells the time. Samples are what the sampler took: Mitsuba's stratified ones
+  round up to squares; where sampling is adaptive they are what was asked for.
 - **Time** is that of rendering alone. Specula: what its picture says, without reading the scene, building
   the hierarchy and writing the picture (for CPU time, twice that of one sample less that of two).
   Mitsuba: `mi.render`, evaluated and synchronised, its kernels compiled before (warm-up). Cycles: the
