@@ -42,7 +42,7 @@ impl Plan {
 /// A renderer with its scene.
 pub(crate) struct Contestant {
     name: &'static str,
-    samplers: &'static [&'static str],
+    samplers: Vec<&'static str>,
     against: Option<Pair>,
     engine: Box<dyn Engine>,
 }
@@ -58,12 +58,12 @@ pub(crate) struct Pair {
 impl Contestant {
     pub(crate) fn new(
         name: &'static str,
-        samplers: &'static [&'static str],
+        samplers: &[&'static str],
         engine: impl Engine + 'static,
     ) -> Self {
         Self {
             name,
-            samplers,
+            samplers: samplers.to_vec(),
             against: None,
             engine: Box::new(engine),
         }
@@ -75,6 +75,15 @@ impl Contestant {
             against: Some(Pair { ours, tolerance }),
             ..self
         }
+    }
+
+    /// Leaves only those of its samplers that are named; all of them where none is.
+    pub(crate) fn among(mut self, named: &[String]) -> Self {
+        let is_named = |sampler: &&str| named.iter().any(|n| n == sampler);
+        if self.samplers.iter().any(is_named) {
+            self.samplers.retain(is_named);
+        }
+        self
     }
 }
 
@@ -294,7 +303,7 @@ fn prepare(
     let warm = engine.render(start, FIRST_SPP, TRIAL_SEED, &trial)?;
     let each = |seconds: f64| seconds / f64::from(warm.spp.max(1));
     let wanted = samples_for(plan.seconds, each(plan.seconds_of(warm)));
-    let (sampler, spp) = match contestant.samplers {
+    let (sampler, spp) = match contestant.samplers.as_slice() {
         [only] => (*only, engine.render(only, wanted, TRIAL_SEED, &trial)?.spp),
         samplers => best_sampler(plan, name, (engine, samplers), wanted, folder)?,
     };
@@ -495,7 +504,7 @@ mod tests {
         }
     }
 
-    fn outcome(name: &str, radiance: f32, samplers: &'static [&'static str]) -> Outcome {
+    fn outcome(name: &str, radiance: f32, samplers: &[&'static str]) -> Outcome {
         let folder = scratch(name);
         let plan = Plan {
             rounds: 3,
@@ -545,6 +554,23 @@ mod tests {
     fn a_sampler_that_was_held_up_once_is_not_charged_with_it() {
         let found = outcome("held-up", 10.0, &["plain", "held up"]);
         assert_eq!(found.rows[1].sampler, "held up");
+    }
+
+    #[test]
+    fn samplers_that_are_named_are_all_that_is_left_of_a_renderers() {
+        let left = |named: &[&str]| {
+            let named: Vec<String> = named.iter().map(ToString::to_string).collect();
+            Contestant::new(
+                "any",
+                &["plain", "square", "bad"],
+                Painter { radiance: 1.0 },
+            )
+            .among(&named)
+            .samplers
+        };
+        assert_eq!(left(&["bad", "plain", "adaptive"]), ["plain", "bad"]);
+        assert_eq!(left(&["adaptive"]), ["plain", "square", "bad"]);
+        assert_eq!(left(&[]), ["plain", "square", "bad"]);
     }
 
     #[test]

@@ -58,6 +58,9 @@ pub(crate) struct Versus {
     /// Scenes to render [default: all]
     #[arg(long, value_name = "NAME", value_parser = scene_names())]
     scene: Vec<String>,
+    /// Samplers to choose from, of the renderers that have one of them [default: all]
+    #[arg(long, value_name = "NAME")]
+    sampler: Vec<String>,
     /// Rounds, in each of which everybody renders once [default: 5, quick 3]
     #[arg(long)]
     rounds: Option<u32>,
@@ -219,6 +222,10 @@ impl Versus {
         let pictures = out.join(scene.name);
         let key =
             measure::key(&[fs::read(&file)?, fs::read(file.with_extension("pbrt"))?].concat());
+        let contestants = contestants
+            .into_iter()
+            .map(|contestant| contestant.among(&self.sampler))
+            .collect();
         let outcome = measure::run(scene, &self.plan(), contestants, &pictures, key)?;
         sheet::write(&outcome, &out.join(format!("{}.png", scene.name)))?;
         Ok(outcome)
