@@ -28,6 +28,18 @@ const SPECTRAL: f64 = 0.02;
 /// A picture of the report is smaller, in bytes.
 const LARGEST_PICTURE: u64 = 300_000;
 
+const MITSUBA_SAMPLERS: [&str; 5] = [
+    "independent",
+    "stratified",
+    "multijitter",
+    "orthogonal",
+    "ldsampler",
+];
+
+const CYCLES_SAMPLERS: [&str; 3] = ["TABULATED_SOBOL", "BLUE_NOISE", "TABULATED_SOBOL,adaptive"];
+
+const PBRT_SAMPLERS: [&str; 1] = ["zsobol"];
+
 /// Which seconds are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Clock {
@@ -59,7 +71,7 @@ pub(crate) struct Versus {
     #[arg(long, value_name = "NAME", value_parser = scene_names())]
     scene: Vec<String>,
     /// Samplers to choose from, of the renderers that have one of them [default: all]
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = sampler_names())]
     sampler: Vec<String>,
     /// Rounds, in each of which everybody renders once [default: 5, quick 3]
     #[arg(long)]
@@ -89,6 +101,16 @@ pub(crate) struct Versus {
 
 fn scene_names() -> Vec<&'static str> {
     SCENES.iter().map(|s| s.name).collect()
+}
+
+fn sampler_names() -> Vec<&'static str> {
+    [
+        &Specula::SAMPLERS[..],
+        &MITSUBA_SAMPLERS,
+        &CYCLES_SAMPLERS,
+        &PBRT_SAMPLERS,
+    ]
+    .concat()
 }
 
 /// Renders, compares, prints and writes the report.
@@ -180,15 +202,9 @@ impl Versus {
                 &Specula::SAMPLERS,
                 ours(&file),
             ));
-            let samplers = &[
-                "independent",
-                "stratified",
-                "multijitter",
-                "orthogonal",
-                "ldsampler",
-            ];
-            contestants
-                .push(Contestant::new("mitsuba", samplers, engine).against("specula-xml", CLOSE));
+            contestants.push(
+                Contestant::new("mitsuba", &MITSUBA_SAMPLERS, engine).against("specula-xml", CLOSE),
+            );
         }
         if self.cycles.is_some() || self.pbrt.is_some() {
             contestants.push(Contestant::new(
@@ -204,9 +220,9 @@ impl Versus {
                 .arg(&file)
                 .arg(self.threads.to_string());
             let engine = Served::start("Cycles", &mut command)?;
-            let samplers = &["TABULATED_SOBOL", "BLUE_NOISE", "TABULATED_SOBOL,adaptive"];
-            contestants
-                .push(Contestant::new("cycles", samplers, engine).against("specula-pbrt", CLOSE));
+            contestants.push(
+                Contestant::new("cycles", &CYCLES_SAMPLERS, engine).against("specula-pbrt", CLOSE),
+            );
         }
         if let Some(program) = &self.pbrt {
             let engine = Pbrt {
@@ -216,7 +232,7 @@ impl Versus {
                 loading: None,
             };
             contestants.push(
-                Contestant::new("pbrt", &["zsobol"], engine).against("specula-pbrt", SPECTRAL),
+                Contestant::new("pbrt", &PBRT_SAMPLERS, engine).against("specula-pbrt", SPECTRAL),
             );
         }
         let pictures = out.join(scene.name);
