@@ -202,6 +202,8 @@ fn constants(flat: &FlatScene<'_>, options: &RenderOptions) -> String {
         ("SEED", options.seed),
         ("MAX_DEPTH", options.max_depth),
         ("STRATEGY", options.strategy as u32),
+        ("CLAMPS", u32::from(options.clamp.is_some())),
+        ("CLAMP_BITS", options.clamp.unwrap_or(f32::MAX).to_bits()),
         ("KIND_CONDUCTOR", LobeKind::Conductor as u32),
         (
             "KIND_COMPENSATED_CONDUCTOR",

@@ -247,6 +247,36 @@ fn samplers_and_strategies() {
     }
 }
 
+fn regularized(options: RenderOptions) -> RenderOptions {
+    RenderOptions {
+        regularize: true,
+        ..options
+    }
+}
+
+/// Smooth glass that becomes rough, rough metal that becomes rougher, and a mix of both; bounds that are met.
+#[test]
+fn renders_with_bias() {
+    let mix = "MakeNamedMaterial \"a\" \"string type\" \"dielectric\"\n\
+        MakeNamedMaterial \"b\" \"string type\" \"conductor\" \"float roughness\" 0.01\n\
+        Material \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" 0.4";
+    let scene = scene(&format!("{ROOM}{SKY}{}", orbs([&metal(NARROW), mix])));
+    let clamped = |most, options| RenderOptions {
+        clamp: Some(most),
+        ..options
+    };
+    check("regularized", &scene, regularized);
+    check("clamped", &scene, |o| clamped(0.2, o));
+    check("both", &scene, |o| clamped(0.2, regularized(o)));
+    // The test can fail: they do change the picture.
+    let plain = on_processor(&scene, &options(&scene, 1), 2);
+    let rougher = on_processor(&scene, &regularized(options(&scene, 1)), 2);
+    let darker = on_processor(&scene, &clamped(0.2, options(&scene, 1)), 2);
+    for changed in [rougher, darker] {
+        assert!(differing(&plain, &changed) > 0.05);
+    }
+}
+
 #[test]
 fn metals_by_every_treatment_of_energy() {
     let [narrow, wide] = [NARROW, WIDE].map(metal);
@@ -501,6 +531,7 @@ fn principled_materials() {
     };
     let scene = with_materials([solid, thin].map(MaterialKind::Principled));
     check("principled", &scene, |o| o);
+    check("principled, regularized", &scene, regularized);
 }
 
 #[test]
@@ -534,6 +565,7 @@ fn gltf_materials() {
     };
     let scene = with_materials([coated, clear].map(MaterialKind::Gltf));
     check("glTF", &scene, |o| o);
+    check("glTF, regularized", &scene, regularized);
 }
 
 #[test]

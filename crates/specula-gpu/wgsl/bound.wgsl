@@ -141,15 +141,36 @@ fn bound_albedo(colour: vec3f) -> vec3f {
     return clamp(colour, vec3f(0.0), vec3f(1.0));
 }
 
+/// Widths of facets behind a rough surface.
+///
+/// Twin: specula-render/src/integrator/bias.rs, regularized.
+fn bound_regularized(alpha: vec2f) -> vec2f {
+    return select(alpha, clamp(2.0 * alpha, vec2f(0.1), vec2f(0.3)), alpha < vec2f(0.3));
+}
+
+/// A roughness whose square is the width of facets.
+///
+/// Twin: specula-render/src/material/bind.rs, At::roughness.
+fn bound_unit_roughness(x: vec3f, is_regularized: bool) -> f32 {
+    let r = bound_unit(x);
+    if is_regularized && r * r < 0.3 {
+        return sqrt(bound_regularized(vec2f(r * r)).x);
+    }
+    return r;
+}
+
 /// Widths of facets from two numbers and what these are; 0 where the surface is smooth.
 ///
 /// Twin: specula-render/src/material/metal.rs, alpha.
 fn bound_widths(across: f32, along: f32, mapping: u32) -> vec2f {
     var r = max(vec2f(across, along), vec2f(0.0));
-    if mapping == 1u {
+    if (mapping & 3u) == 1u {
         r = sqrt(r);
-    } else if mapping == 2u {
+    } else if (mapping & 3u) == 2u {
         r = r * r;
+    }
+    if (mapping & 4u) != 0u {
+        r = bound_regularized(r);
     }
     let is_rough = r.x >= BOUND_SMOOTH_BELOW || r.y >= BOUND_SMOOTH_BELOW;
     return select(vec2f(0.0), clamp(r, vec2f(BOUND_SMOOTH_BELOW), vec2f(10.0)), is_rough);

@@ -4,8 +4,8 @@
 
 import tracer::world::{number};
 import tracer::bound::{Bound, Parameters, bound_albedo, bound_roughness};
-import package::bsdf::tints::{Tints};
-import package::bsdf::microfacets::{Microfacets};
+import package::bsdf::tints::{TintsPair};
+import package::bsdf::microfacets::{MicrofacetsModel};
 import package::bsdf::smooth_dielectric::{SmoothDielectric};
 
 /// The parameters at a place: `eta` the index beyond the surface over that on the viewer's side,
@@ -22,14 +22,14 @@ fn glass_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
 }
 
 /// The tints of what `glass_bind` made.
-fn glass_tints(b: Bound) -> Tints {
-    return Tints(b.first, b.second);
+fn glass_tints(b: Bound) -> TintsPair {
+    return TintsPair(b.first, b.second);
 }
 
 /// The facets of what `glass_bind` made. Caps whatever is chosen for metals: refraction needs all visible
 /// normals.
-fn glass_facets(b: Bound) -> Microfacets {
-    return Microfacets(b.alpha, b.distribution, b.masking, SAMPLER_CAP);
+fn glass_facets(b: Bound) -> MicrofacetsModel {
+    return MicrofacetsModel(b.alpha, b.distribution, b.masking, SAMPLER_CAP);
 }
 
 /// The smooth surface of what `glass_bind` made, facing the viewer.

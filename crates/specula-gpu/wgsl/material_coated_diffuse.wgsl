@@ -6,10 +6,10 @@ import tracer::world::{word, number};
 import tracer::bound::{Bound, Parameters, bound_albedo, bound_roughness};
 import package::ndf::distribution::{DISTRIBUTION_GGX};
 import package::ndf::masking::{MASKING_HEIGHT_CORRELATED};
-import package::bsdf::microfacets::{Microfacets};
+import package::bsdf::microfacets::{MicrofacetsModel};
 import package::bsdf::coated_diffuse::{CoatedDiffuse, coated_diffuse_new};
 import package::bsdf::coated_diffuse::{coated_diffuse_eval_pdf, coated_diffuse_draw};
-import package::bsdf::bsdf_sample::{BsdfSample, TRANSPORT_RADIANCE};
+import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
 /// The parameters at a place: `first` the albedo, `eta` the coat's index, `second.x` the thickness of
 /// what absorbs, `variant` whether facets lose no light, `energy` the most events.
@@ -26,19 +26,19 @@ fn material_coated_diffuse_bind(head: Bound, p: Parameters, outside: bool) -> Bo
 
 /// The lobe. Coats know GGX only, with height-correlated masking: Beckmann's widths are taken for its.
 fn material_coated_diffuse_lobe(b: Bound) -> CoatedDiffuse {
-    let facets = Microfacets(b.alpha, DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, SAMPLER);
+    let facets = MicrofacetsModel(b.alpha, DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, SAMPLER);
     let rough = b.alpha.x > 0.0;
     return coated_diffuse_new(facets, rough, b.eta, b.first, b.second.x, b.energy, b.variant);
 }
 
 /// `f |cos|` and its density.
 fn material_coated_diffuse_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
-    return coated_diffuse_eval_pdf(material_coated_diffuse_lobe(b), wo, wi, TRANSPORT_RADIANCE);
+    return coated_diffuse_eval_pdf(material_coated_diffuse_lobe(b), wo, wi, BSDF_SAMPLE_RADIANCE);
 }
 
 /// A direction.
 fn material_coated_diffuse_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
-    return coated_diffuse_draw(material_coated_diffuse_lobe(b), wo, u, TRANSPORT_RADIANCE);
+    return coated_diffuse_draw(material_coated_diffuse_lobe(b), wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
 /// For denoisers.

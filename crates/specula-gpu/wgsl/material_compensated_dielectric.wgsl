@@ -8,7 +8,7 @@ import package::bsdf::compensated_dielectric::{compensated_dielectric_new};
 import package::bsdf::compensated_dielectric::{compensated_dielectric_eval_pdf};
 import package::bsdf::compensated_dielectric::{compensated_dielectric_draw};
 import package::bsdf::smooth_dielectric::{smooth_dielectric_draw};
-import package::bsdf::bsdf_sample::{BsdfSample, TRANSPORT_RADIANCE};
+import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
 /// The parameters at a place: those of `glass_bind`.
 fn material_compensated_dielectric_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
@@ -21,16 +21,16 @@ fn material_compensated_dielectric_eval(b: Bound, wo: vec3f, wi: vec3f, stream: 
         return vec4f(0.0);
     }
     let lobe = compensated_dielectric_new(glass_facets(b), b.eta, 0u, glass_tints(b));
-    return compensated_dielectric_eval_pdf(lobe, wo, wi, TRANSPORT_RADIANCE);
+    return compensated_dielectric_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE);
 }
 
 /// A direction.
 fn material_compensated_dielectric_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     if b.specular {
-        return smooth_dielectric_draw(glass_smooth(b), wo, u, TRANSPORT_RADIANCE);
+        return smooth_dielectric_draw(glass_smooth(b), wo, u, BSDF_SAMPLE_RADIANCE);
     }
     let lobe = compensated_dielectric_new(glass_facets(b), b.eta, 0u, glass_tints(b));
-    return compensated_dielectric_draw(lobe, wo, u, TRANSPORT_RADIANCE);
+    return compensated_dielectric_draw(lobe, wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
 /// For denoisers.

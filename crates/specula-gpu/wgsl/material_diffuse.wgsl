@@ -3,9 +3,9 @@
 // Twin of specula-render/src/material/bind.rs, MaterialKind::Diffuse.
 
 import tracer::bound::{Bound, Parameters, bound_albedo};
-import package::bsdf::lambert::{Lambert, lambert_eval_pdf, lambert_draw};
-import package::bsdf::eon::{Eon, eon_eval_pdf, eon_draw};
-import package::bsdf::bsdf_sample::{BsdfSample, TRANSPORT_RADIANCE};
+import package::bsdf::lambert::{LambertLobe, lambert_eval_pdf, lambert_draw};
+import package::bsdf::eon::{EonLobe, eon_eval_pdf, eon_draw};
+import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
 /// The parameters at a place: `first` the albedo, `eta` the roughness.
 fn material_diffuse_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
@@ -20,17 +20,17 @@ fn material_diffuse_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
 /// `f |cos|` and its density.
 fn material_diffuse_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
     if b.variant == 1u {
-        return eon_eval_pdf(Eon(b.first, b.eta), wo, wi, TRANSPORT_RADIANCE);
+        return eon_eval_pdf(EonLobe(b.first, b.eta), wo, wi, BSDF_SAMPLE_RADIANCE);
     }
-    return lambert_eval_pdf(Lambert(b.first), wo, wi, TRANSPORT_RADIANCE);
+    return lambert_eval_pdf(LambertLobe(b.first), wo, wi, BSDF_SAMPLE_RADIANCE);
 }
 
 /// A direction.
 fn material_diffuse_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     if b.variant == 1u {
-        return eon_draw(Eon(b.first, b.eta), wo, u, TRANSPORT_RADIANCE);
+        return eon_draw(EonLobe(b.first, b.eta), wo, u, BSDF_SAMPLE_RADIANCE);
     }
-    return lambert_draw(Lambert(b.first), wo, u, TRANSPORT_RADIANCE);
+    return lambert_draw(LambertLobe(b.first), wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
 /// For denoisers.

@@ -4,47 +4,51 @@
 
 import tracer::world::{word, number};
 import tracer::bound::{Bound, Parameters, bound_albedo, bound_keep, bound_unit};
-import package::bsdf::gltf::{Gltf, GltfParameters, gltf_new, gltf_eval_pdf, gltf_draw};
-import package::bsdf::bsdf_sample::{BsdfSample, TRANSPORT_RADIANCE};
+import tracer::bound::{bound_unit_roughness};
+import package::bsdf::gltf::{GltfLobe, GltfParameters, gltf_new, gltf_eval_pdf, gltf_draw};
+import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
-/// The parameters at a place: `kept`, `eta`, and `variant`: 1 where it bounds a volume, 2 more where it is
-/// seen from its outside. `first` is the normal of the clear coat, local, which the vertex sets.
+/// The parameters at a place: `kept`, `eta`, and `variant`: 1 where it bounds a volume, 2 more where its metal
+/// is compensated, 4 more where it is seen from its outside, 8 more where it is made rougher. `first` is the
+/// normal of the clear coat, local, which the vertex sets.
 fn material_gltf_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     var b = bound_keep(head, p);
     b.eta = number(p.plain);
-    b.variant = word(p.plain + 1u) + select(0u, 2u, outside);
+    b.variant = word(p.plain + 1u) + select(0u, 4u, outside) + 8u * word(p.plain + 2u);
     b.first = vec3f(0.0, 0.0, 1.0);
     return b;
 }
 
 /// The lobe.
-fn material_gltf_lobe(b: Bound) -> Gltf {
+fn material_gltf_lobe(b: Bound) -> GltfLobe {
     var p: GltfParameters;
     p.base_colour = bound_albedo(b.kept[0]);
     p.specular_colour = max(b.kept[1], vec3f(0.0));
     p.sheen_colour = bound_albedo(b.kept[2]);
     p.metallic = bound_unit(b.kept[3]);
-    p.roughness = bound_unit(b.kept[4]);
+    let regularized = (b.variant & 8u) != 0u;
+    p.roughness = bound_unit_roughness(b.kept[4], regularized);
     p.anisotropy = bound_unit(b.kept[5]);
     p.specular = bound_unit(b.kept[6]);
     p.transmission = bound_unit(b.kept[7]);
     p.clearcoat = bound_unit(b.kept[8]);
-    p.clearcoat_roughness = bound_unit(b.kept[9]);
+    p.clearcoat_roughness = bound_unit_roughness(b.kept[9], regularized);
     p.sheen_roughness = bound_unit(b.kept[10]);
     p.ior = b.eta;
     p.volume = b.variant & 1u;
-    p.outside = b.variant >> 1u;
+    p.compensated = (b.variant >> 1u) & 1u;
+    p.outside = (b.variant >> 2u) & 1u;
     return gltf_new(p, b.first);
 }
 
 /// `f |cos|` and its density.
 fn material_gltf_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
-    return gltf_eval_pdf(material_gltf_lobe(b), wo, wi, TRANSPORT_RADIANCE);
+    return gltf_eval_pdf(material_gltf_lobe(b), wo, wi, BSDF_SAMPLE_RADIANCE);
 }
 
 /// A direction.
 fn material_gltf_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
-    return gltf_draw(material_gltf_lobe(b), wo, u, TRANSPORT_RADIANCE);
+    return gltf_draw(material_gltf_lobe(b), wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
 /// For denoisers.

@@ -5,15 +5,15 @@
 import tracer::world::{word, number};
 import tracer::bound::{Bound, Parameters, bound_albedo, bound_keep, bound_roughness};
 import tracer::metal::{metal_indices, metal_reflectance};
-import package::math::stream::{Stream};
+import package::math::stream::{StreamState};
 import package::ndf::distribution::{DISTRIBUTION_GGX};
 import package::ndf::masking::{MASKING_HEIGHT_CORRELATED};
 import package::fresnel::reflectance::{reflectance_constant};
-import package::bsdf::microfacets::{Microfacets};
+import package::bsdf::microfacets::{MicrofacetsModel};
 import package::bsdf::layered::layered::{layered_new, layered_eval_pdf, layered_draw, layered_albedo};
 import package::bsdf::layered::layered_base::{LayeredBase, LAYERED_BASE_DIFFUSE, LAYERED_BASE_METAL};
 import package::bsdf::layered::layered_base::{LAYERED_BASE_MIRROR};
-import package::bsdf::layered::layered_lobe::{Layered, LAYERED_LOBE_MOST_EVENTS};
+import package::bsdf::layered::layered_lobe::{LayeredLobe, LAYERED_LOBE_MOST_EVENTS};
 import package::bsdf::layered::layered_lobe::{layered_lobe_is_mirror};
 import package::bsdf::layered::layered_medium::{LayeredMedium};
 import package::bsdf::bsdf_sample::{BsdfSample};
@@ -48,9 +48,9 @@ fn material_layered_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
 }
 
 /// The lobe. Coats know GGX only, with height-correlated masking.
-fn material_layered_lobe(b: Bound) -> Layered {
+fn material_layered_lobe(b: Bound) -> LayeredLobe {
     let widths = b.kept[5].xy;
-    let facets = Microfacets(widths, DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, SAMPLER);
+    let facets = MicrofacetsModel(widths, DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, SAMPLER);
     var base = LayeredBase(LAYERED_BASE_DIFFUSE, facets, reflectance_constant(vec3f(0.0)), vec3f(0.0));
     if b.variant == 8u {
         base.albedo = bound_albedo(b.kept[5]);
@@ -67,13 +67,13 @@ fn material_layered_lobe(b: Bound) -> Layered {
 
 /// `f |cos|` and its density.
 fn material_layered_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
-    var random = Stream(stream);
+    var random = StreamState(stream);
     return layered_eval_pdf(material_layered_lobe(b), wo, wi, &random);
 }
 
 /// A direction.
 fn material_layered_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
-    var random = Stream(stream);
+    var random = StreamState(stream);
     return layered_draw(material_layered_lobe(b), wo, u, &random);
 }
 

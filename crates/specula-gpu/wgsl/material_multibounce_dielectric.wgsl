@@ -4,13 +4,13 @@
 
 import tracer::bound::{Bound, Parameters};
 import tracer::glass::{glass_bind, glass_tints, glass_smooth};
-import package::math::stream::{Stream};
-import package::multibounce::normals::{Normals};
+import package::math::stream::{StreamState};
+import package::multibounce::normals::{NormalsModel};
 import package::multibounce::multibounce_dielectric::{MultibounceDielectric};
 import package::multibounce::multibounce_dielectric::{multibounce_dielectric_eval_pdf};
 import package::multibounce::multibounce_dielectric::{multibounce_dielectric_draw};
 import package::bsdf::smooth_dielectric::{smooth_dielectric_draw};
-import package::bsdf::bsdf_sample::{BsdfSample, TRANSPORT_RADIANCE};
+import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
 /// The parameters at a place: those of `glass_bind`.
 fn material_multibounce_dielectric_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
@@ -19,7 +19,7 @@ fn material_multibounce_dielectric_bind(head: Bound, p: Parameters, outside: boo
 
 /// The lobe of a rough surface.
 fn material_multibounce_dielectric_lobe(b: Bound) -> MultibounceDielectric {
-    let normals = Normals(b.alpha, b.distribution);
+    let normals = NormalsModel(b.alpha, b.distribution);
     return MultibounceDielectric(normals, b.eta, 0u, b.energy, BOUNCES_PDF, glass_tints(b));
 }
 
@@ -28,19 +28,19 @@ fn material_multibounce_dielectric_eval(b: Bound, wo: vec3f, wi: vec3f, stream: 
     if b.specular {
         return vec4f(0.0);
     }
-    var random = Stream(stream);
+    var random = StreamState(stream);
     let lobe = material_multibounce_dielectric_lobe(b);
-    return multibounce_dielectric_eval_pdf(lobe, wo, wi, TRANSPORT_RADIANCE, &random);
+    return multibounce_dielectric_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE, &random);
 }
 
 /// A direction.
 fn material_multibounce_dielectric_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     if b.specular {
-        return smooth_dielectric_draw(glass_smooth(b), wo, u, TRANSPORT_RADIANCE);
+        return smooth_dielectric_draw(glass_smooth(b), wo, u, BSDF_SAMPLE_RADIANCE);
     }
-    var random = Stream(stream);
+    var random = StreamState(stream);
     let lobe = material_multibounce_dielectric_lobe(b);
-    return multibounce_dielectric_draw(lobe, wo, u, TRANSPORT_RADIANCE, &random);
+    return multibounce_dielectric_draw(lobe, wo, u, BSDF_SAMPLE_RADIANCE, &random);
 }
 
 /// For denoisers.

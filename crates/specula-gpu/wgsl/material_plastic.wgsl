@@ -4,9 +4,9 @@
 
 import tracer::world::{word, number};
 import tracer::bound::{Bound, Parameters, bound_albedo, bound_black, bound_roughness};
-import package::bsdf::microfacets::{Microfacets};
-import package::bsdf::plastic::{Plastic, plastic_smooth, plastic_rough, plastic_eval_pdf, plastic_draw};
-import package::bsdf::bsdf_sample::{BsdfSample, TRANSPORT_RADIANCE};
+import package::bsdf::microfacets::{MicrofacetsModel};
+import package::bsdf::plastic::{PlasticLobe, plastic_smooth, plastic_rough, plastic_eval_pdf, plastic_draw};
+import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
 /// The parameters at a place: `eta`, `first` and `second` the colours of base and coat, `variant` whether
 /// the base colours what comes back to it. Its back is black, as Mitsuba's.
@@ -24,23 +24,23 @@ fn material_plastic_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
 }
 
 /// The lobe.
-fn material_plastic_lobe(b: Bound) -> Plastic {
+fn material_plastic_lobe(b: Bound) -> PlasticLobe {
     let nonlinear = b.variant != 0u;
     if b.alpha.x == 0.0 {
         return plastic_smooth(b.eta, b.first, b.second, nonlinear);
     }
-    let facets = Microfacets(b.alpha, b.distribution, b.masking, SAMPLER);
+    let facets = MicrofacetsModel(b.alpha, b.distribution, b.masking, SAMPLER);
     return plastic_rough(facets, b.eta, b.first, b.second, nonlinear);
 }
 
 /// `f |cos|` and its density.
 fn material_plastic_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
-    return plastic_eval_pdf(material_plastic_lobe(b), wo, wi, TRANSPORT_RADIANCE);
+    return plastic_eval_pdf(material_plastic_lobe(b), wo, wi, BSDF_SAMPLE_RADIANCE);
 }
 
 /// A direction.
 fn material_plastic_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
-    return plastic_draw(material_plastic_lobe(b), wo, u, TRANSPORT_RADIANCE);
+    return plastic_draw(material_plastic_lobe(b), wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
 /// For denoisers.

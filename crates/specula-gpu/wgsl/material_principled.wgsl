@@ -3,20 +3,20 @@
 // Twin of specula-render/src/material/bind.rs, MaterialKind::Principled.
 
 import tracer::world::{word, number};
-import tracer::bound::{Bound, Parameters, bound_albedo, bound_keep, bound_unit};
+import tracer::bound::{Bound, Parameters, bound_albedo, bound_keep, bound_unit_roughness};
 import package::bsdf::principled_parameters::{PrincipledParameters, principled_parameters_held};
 import package::bsdf::principled_solid::{principled_solid_new, principled_solid_eval_pdf};
 import package::bsdf::principled_solid::{principled_solid_draw};
 import package::bsdf::principled_thin::{principled_thin_new, principled_thin_eval_pdf};
 import package::bsdf::principled_thin::{principled_thin_draw};
-import package::bsdf::bsdf_sample::{BsdfSample, TRANSPORT_RADIANCE};
+import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
 /// The parameters at a place: `kept`, `eta`, and `variant`: 1 where it is thin, 2 more where it is seen
-/// from its outside.
+/// from its outside, 4 more where it is made rougher.
 fn material_principled_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     var b = bound_keep(head, p);
     b.eta = number(p.plain);
-    b.variant = word(p.plain + 1u) + select(0u, 2u, outside);
+    b.variant = word(p.plain + 1u) + select(0u, 2u, outside) + 4u * word(p.plain + 2u);
     return b;
 }
 
@@ -24,7 +24,8 @@ fn material_principled_bind(head: Bound, p: Parameters, outside: bool) -> Bound 
 fn material_principled_parameters(b: Bound) -> PrincipledParameters {
     var p: PrincipledParameters;
     p.base_colour = bound_albedo(b.kept[0]);
-    p.roughness = b.kept[1].x;
+    let regularized = (b.variant & 4u) != 0u;
+    p.roughness = bound_unit_roughness(b.kept[1], regularized);
     p.anisotropic = b.kept[2].x;
     p.metallic = b.kept[3].x;
     p.spec_trans = b.kept[4].x;
@@ -33,10 +34,10 @@ fn material_principled_parameters(b: Bound) -> PrincipledParameters {
     p.sheen = b.kept[6].x;
     p.sheen_tint = b.kept[7].x;
     p.clearcoat = b.kept[8].x;
-    p.clearcoat_gloss = b.kept[9].x;
+    p.clearcoat_gloss = select(b.kept[9].x, 0.0, regularized);
     p.flatness = b.kept[10].x;
     p.diff_trans = b.kept[11].x;
-    p.outside = b.variant >> 1u;
+    p.outside = (b.variant >> 1u) & 1u;
     return principled_parameters_held(p);
 }
 
@@ -44,18 +45,18 @@ fn material_principled_parameters(b: Bound) -> PrincipledParameters {
 fn material_principled_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
     let p = material_principled_parameters(b);
     if (b.variant & 1u) != 0u {
-        return principled_thin_eval_pdf(principled_thin_new(p), wo, wi, TRANSPORT_RADIANCE);
+        return principled_thin_eval_pdf(principled_thin_new(p), wo, wi, BSDF_SAMPLE_RADIANCE);
     }
-    return principled_solid_eval_pdf(principled_solid_new(p), wo, wi, TRANSPORT_RADIANCE);
+    return principled_solid_eval_pdf(principled_solid_new(p), wo, wi, BSDF_SAMPLE_RADIANCE);
 }
 
 /// A direction.
 fn material_principled_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     let p = material_principled_parameters(b);
     if (b.variant & 1u) != 0u {
-        return principled_thin_draw(principled_thin_new(p), wo, u, TRANSPORT_RADIANCE);
+        return principled_thin_draw(principled_thin_new(p), wo, u, BSDF_SAMPLE_RADIANCE);
     }
-    return principled_solid_draw(principled_solid_new(p), wo, u, TRANSPORT_RADIANCE);
+    return principled_solid_draw(principled_solid_new(p), wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
 /// For denoisers.

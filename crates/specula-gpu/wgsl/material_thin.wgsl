@@ -4,9 +4,9 @@
 
 import tracer::world::{number};
 import tracer::bound::{Bound, Parameters, bound_albedo};
-import package::bsdf::tints::{Tints};
+import package::bsdf::tints::{TintsPair};
 import package::bsdf::thin_dielectric::{ThinDielectric, thin_dielectric_draw};
-import package::bsdf::bsdf_sample::{BsdfSample, TRANSPORT_RADIANCE};
+import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
 /// The parameters at a place: `eta`, and the tints of reflection and transmission.
 fn material_thin_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
@@ -25,8 +25,8 @@ fn material_thin_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
 
 /// A direction.
 fn material_thin_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
-    let pane = ThinDielectric(b.eta, Tints(b.first, b.second));
-    return thin_dielectric_draw(pane, wo, u, TRANSPORT_RADIANCE);
+    let pane = ThinDielectric(b.eta, TintsPair(b.first, b.second));
+    return thin_dielectric_draw(pane, wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
 /// For denoisers.

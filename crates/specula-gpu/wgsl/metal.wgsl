@@ -4,8 +4,8 @@
 
 import tracer::world::{word};
 import tracer::bound::{Bound, Parameters, bound_albedo, bound_roughness};
-import package::fresnel::reflectance::{Reflectance};
-import package::bsdf::microfacets::{Microfacets};
+import package::fresnel::reflectance::{ReflectanceModel};
+import package::bsdf::microfacets::{MicrofacetsModel};
 
 /// Reflectance of a metal by what two colours are: `first` and `second` are eta and k, or the reflectance at
 /// normal incidence, or white; `variant` says which.
@@ -39,7 +39,7 @@ fn metal_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
 }
 
 /// The reflectance of what `metal_bind` made.
-fn metal_reflectance(b: Bound) -> Reflectance {
+fn metal_reflectance(b: Bound) -> ReflectanceModel {
     let kind = b.variant & 3u;
     if kind < 2u {
         return reflectance_tinted(reflectance_conductor(b.first, b.second), b.third);
@@ -51,8 +51,8 @@ fn metal_reflectance(b: Bound) -> Reflectance {
 }
 
 /// The facets of what `metal_bind` made.
-fn metal_facets(b: Bound) -> Microfacets {
-    return Microfacets(b.alpha, b.distribution, b.masking, SAMPLER);
+fn metal_facets(b: Bound) -> MicrofacetsModel {
+    return MicrofacetsModel(b.alpha, b.distribution, b.masking, SAMPLER);
 }
 
 /// A colour for denoisers.

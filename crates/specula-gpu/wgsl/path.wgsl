@@ -21,7 +21,7 @@ import tracer::lights::{Receiver, LightSample, lights_draw, lights_pdf_of_surfac
 import tracer::lights::{lights_arriving_count, lights_arriving, lights_share_from_infinity};
 import tracer::material::{Bound, material_bind, material_eval, material_draw, material_albedo};
 import tracer::bound::{MATERIAL_ROTATION};
-import package::math::frame::{Frame, frame_from_normal_tangent, frame_to_local, frame_to_world};
+import package::math::frame::{FrameBasis, frame_from_normal_tangent, frame_to_local, frame_to_world};
 import package::bsdf::bsdf_sample::{BsdfSample};
 
 /// The wave: places that each run has among the samples, and the number of runs. Then the runs, of samples of
@@ -42,6 +42,11 @@ const STRATEGY_BSDF_ONLY: u32 = 3u;
 /// Both, weighed by the power heuristic with exponent 2 instead of 3/2.
 const STRATEGY_POWER: u32 = 4u;
 
+/// It has only passed through thin panes: lights that are hidden stay so.
+const PATH_STRAIGHT: u32 = 1u;
+/// It was scattered by a lobe that is not perfectly smooth.
+const PATH_ROUGH: u32 = 2u;
+
 /// A path on its way.
 struct PathState {
     radiance: vec3f,
@@ -55,15 +60,15 @@ struct PathState {
     // Where the last direction was drawn, and its density; 0 where lights could not have found it.
     previous: Receiver,
     previous_pdf: f32,
-    // Whether it has only passed through thin panes: lights that are hidden stay so.
-    straight: u32,
+    // PATH_STRAIGHT and PATH_ROUGH.
+    flags: u32,
 }
 
 /// A surface with its lobe and frame, turned to the viewer.
 struct PathVertex {
     surface: Surface,
     bound: Bound,
-    frame: Frame,
+    frame: FrameBasis,
     // How light fades where a relief by Mitsuba's rules bends the normal.
     softness: Softness,
     // Geometric normal on the viewer's side.
@@ -146,10 +151,19 @@ fn path_tangent(surface: Surface, bound: Bound, normal: vec3f, tangent: vec3f) -
 /// The vertex at a surface.
 ///
 /// Twin: specula-render/src/integrator.rs, PathTracer::vertex.
-fn path_vertex(surface: Surface, wo: vec3f, s: Sequence, depth: u32) -> PathVertex {
+fn path_vertex(
+    surface: Surface,
+    wo: vec3f,
+    s: Sequence,
+    depth: u32,
+    rough: bool,
+) -> PathVertex {
     let outside = dot(surface.ng, wo) > 0.0;
     let facing = select(-surface.ng, surface.ng, outside);
-    let material = word(SHAPES + surface.shape * SHAPE_SIZE);
+    var material = word(SHAPES + surface.shape * SHAPE_SIZE);
+    if REGULARIZES != 0u && rough {
+        material = word(BEHIND_ROUGH + material);
+    }
     var bound = material_bind(material, passing_place(surface), outside, s, depth);
     let relief = relief_of_material(bound.material);
     let bent = relief_bend(relief, surface);
@@ -242,6 +256,21 @@ fn path_consider(
     return found;
 }
 
+/// Adds light that was scattered so many times on its way to the camera.
+///
+/// Twin: specula-render/src/integrator/bias.rs, bounded.
+fn path_add(state: ptr<function, PathState>, contribution: vec3f, events: u32) {
+    var c = contribution;
+    if CLAMPS != 0u && events > 1u {
+        let bound = bitcast<f32>(CLAMP_BITS) / number(FILM);
+        let largest = max(c.x, max(c.y, c.z));
+        if largest > bound {
+            c *= bound / largest;
+        }
+    }
+    (*state).radiance += c;
+}
+
 /// Light from one sampled light.
 ///
 /// Twin: specula-render/src/integrator.rs, PathTracer::add_direct.
@@ -276,7 +305,7 @@ fn path_direct(state: ptr<function, PathState>, vertex: PathVertex, s: Sequence,
     var rays = 0u;
     let left = passing_shine(vertex.surface, light, bodies, s, depth, &rays);
     (*state).rays += rays;
-    (*state).radiance += kept.brought * (all_bring / kept_brings) * left;
+    path_add(state, kept.brought * (all_bring / kept_brings) * left, depth + 1u);
 }
 
 /// Mean of the channels.
@@ -304,9 +333,12 @@ fn path_scatter(
     }
     (*state).throughput *= drawn.weight * relief_softness(vertex.softness, direction);
     (*state).eta_scale *= drawn.eta * drawn.eta;
-    let passes = (drawn.flags & BSDF_TRANSMISSION) != 0u;
+    let passes = (drawn.flags & BSDF_SAMPLE_TRANSMISSION) != 0u;
     if !(passes && vertex.bound.kind == KIND_THIN_PANE) {
-        (*state).straight = 0u;
+        (*state).flags &= PATH_ROUGH;
+    }
+    if (drawn.flags & BSDF_SAMPLE_SPECULAR) == 0u {
+        (*state).flags |= PATH_ROUGH;
     }
     if passes {
         var bodies = (*state).bodies;
@@ -326,7 +358,7 @@ fn path_scatter(
         (*state).throughput *= 1.0 / probability;
     }
     let lights = f32(path_lights_at(vertex.bound, depth));
-    (*state).previous_pdf = select(drawn.pdf / lights, 0.0, (drawn.flags & BSDF_SPECULAR) != 0u);
+    (*state).previous_pdf = select(drawn.pdf / lights, 0.0, (drawn.flags & BSDF_SAMPLE_SPECULAR) != 0u);
     (*state).previous = path_receiver(vertex);
     let surface = vertex.surface;
     let origin = offset_leave(surface.position, surface.error, surface.ng, direction);
@@ -356,7 +388,7 @@ fn path_begin(slot: u32, s: Sequence) -> PathState {
     state.ray = Ray(begin.origin, begin.direction, FARTHEST);
     state.throughput = vec3f(1.0);
     state.eta_scale = 1.0;
-    state.straight = 1u;
+    state.flags = PATH_STRAIGHT;
     path_found[3u * slot] = vec4f(vec3f(0.0), -1.0);
     path_found[3u * slot + 1u] = vec4f(0.0);
     path_found[3u * slot + 2u] = vec4f(vec3f(0.0), begin.weight);
@@ -383,17 +415,20 @@ fn path_step(slot: u32, state: ptr<function, PathState>, s: Sequence, depth: u32
     (*state).rays += met.rays;
     (*state).throughput *= met.left;
     if !met.found {
-        if !((*state).straight != 0u && HIDES_EMITTERS != 0u) {
-            (*state).radiance += (*state).throughput * path_background(*state, ray.direction);
+        if !(((*state).flags & PATH_STRAIGHT) != 0u && HIDES_EMITTERS != 0u) {
+            let radiance = path_background(*state, ray.direction);
+            path_add(state, (*state).throughput * radiance, depth);
         }
         return false;
     }
     let surface = met.surface;
-    (*state).radiance += (*state).throughput * path_emission(*state, surface, ray.direction);
+    let radiance = path_emission(*state, surface, ray.direction);
+    path_add(state, (*state).throughput * radiance, depth);
     if depth >= MAX_DEPTH && depth > 0u {
         return false;
     }
-    let vertex = path_vertex(surface, -ray.direction, s, depth);
+    let rough = ((*state).flags & PATH_ROUGH) != 0u;
+    let vertex = path_vertex(surface, -ray.direction, s, depth, rough);
     if depth == 0u {
         path_shows(slot, vertex, length(surface.position - begin));
         if MAX_DEPTH == 0u {

@@ -8,7 +8,7 @@ import tracer::surface::{Surface};
 import tracer::texture_graph::{parameter_float, texture_colour};
 import tracer::texture_place::{Place};
 import tracer::world::{word, number, unit_or};
-import package::math::frame::{Frame, frame_from_normal_tangent};
+import package::math::frame::{FrameBasis, frame_from_normal_tangent};
 
 /// No relief.
 const RELIEF_NONE: u32 = 0u;

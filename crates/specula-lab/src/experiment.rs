@@ -87,6 +87,89 @@ pub enum Kind {
     Measured,
 }
 
+/// What the figures say of a claim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Answer {
+    /// It holds.
+    Yes,
+    /// It does not.
+    No,
+    /// The figures are too uncertain to tell.
+    Undecided,
+}
+
+impl Answer {
+    /// The word, also in records.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Yes => "yes",
+            Self::No => "no",
+            Self::Undecided => "undecided",
+        }
+    }
+
+    /// Of a figure that is so many standard errors on the claim's side: yes or no beyond
+    /// [`DECIDED`](Self::DECIDED).
+    #[must_use]
+    pub fn beyond(deviations: f64) -> Self {
+        if deviations > Self::DECIDED {
+            Self::Yes
+        } else if deviations < -Self::DECIDED {
+            Self::No
+        } else {
+            Self::Undecided
+        }
+    }
+
+    /// Standard errors that decide: 95 % confidence with half a dozen rounds and a few comparisons.
+    pub const DECIDED: f64 = 3.0;
+
+    /// Of a claim that is made of several: no where one is refuted, yes where all hold.
+    #[must_use]
+    pub fn all(parts: impl IntoIterator<Item = Self>) -> Self {
+        parts
+            .into_iter()
+            .fold(Self::Yes, |all, part| match (all, part) {
+                (Self::No, _) | (_, Self::No) => Self::No,
+                (Self::Undecided, _) | (_, Self::Undecided) => Self::Undecided,
+                _ => Self::Yes,
+            })
+    }
+}
+
+impl From<bool> for Answer {
+    fn from(holds: bool) -> Self {
+        if holds { Self::Yes } else { Self::No }
+    }
+}
+
+/// Records of version 0.1 say `true` and `false`.
+impl<'de> Deserialize<'de> for Answer {
+    fn deserialize<D: serde::Deserializer<'de>>(
+        deserializer: D,
+    ) -> std::result::Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Written {
+            Whether(bool),
+            Word(String),
+        }
+        match Written::deserialize(deserializer)? {
+            Written::Whether(holds) => Ok(holds.into()),
+            Written::Word(word) => [Self::Yes, Self::No, Self::Undecided]
+                .into_iter()
+                .find(|answer| answer.name() == word)
+                .ok_or_else(|| {
+                    serde::de::Error::custom(format!(
+                        "expected yes, no or undecided, found '{word}'"
+                    ))
+                }),
+        }
+    }
+}
+
 /// One thing that a source states, and what came out here.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Claim {
@@ -97,25 +180,30 @@ pub struct Claim {
     /// Ours.
     pub measured: String,
     /// Whether ours says the same.
-    pub holds: bool,
+    pub holds: Answer,
     /// Whether that may be relied upon.
     pub kind: Kind,
 }
 
 impl Claim {
     /// A claim that holds on every machine.
-    pub fn law(statement: &str, stated: &str, measured: String, holds: bool) -> Self {
+    pub fn law(statement: &str, stated: &str, measured: String, holds: impl Into<Answer>) -> Self {
         Self {
             statement: statement.to_owned(),
             stated: stated.to_owned(),
             measured,
-            holds,
+            holds: holds.into(),
             kind: Kind::Law,
         }
     }
 
     /// A claim that is found not to hold, on every machine.
-    pub fn refuted(statement: &str, stated: &str, measured: String, holds: bool) -> Self {
+    pub fn refuted(
+        statement: &str,
+        stated: &str,
+        measured: String,
+        holds: impl Into<Answer>,
+    ) -> Self {
         Self {
             kind: Kind::Refuted,
             ..Self::law(statement, stated, measured, holds)
@@ -123,7 +211,12 @@ impl Claim {
     }
 
     /// A claim about times, or one that takes much work to see.
-    pub fn measured(statement: &str, stated: &str, measured: String, holds: bool) -> Self {
+    pub fn measured(
+        statement: &str,
+        stated: &str,
+        measured: String,
+        holds: impl Into<Answer>,
+    ) -> Self {
         Self {
             kind: Kind::Measured,
             ..Self::law(statement, stated, measured, holds)
@@ -141,6 +234,8 @@ pub enum Outcome {
     Partly,
     /// None does.
     NotReproduced,
+    /// None is refuted, but of some the figures are too uncertain to tell.
+    Undecided,
 }
 
 impl Outcome {
@@ -151,6 +246,7 @@ impl Outcome {
             Self::Reproduced => "reproduced",
             Self::Partly => "partly",
             Self::NotReproduced => "not reproduced",
+            Self::Undecided => "undecided",
         }
     }
 }
@@ -171,11 +267,79 @@ impl Verdict {
     /// How it came out over all claims.
     #[must_use]
     pub fn outcome(&self) -> Outcome {
-        let held = self.claims.iter().filter(|c| c.holds).count();
-        match held {
-            0 => Outcome::NotReproduced,
-            n if n == self.claims.len() => Outcome::Reproduced,
-            _ => Outcome::Partly,
+        let is_there = |answer| self.claims.iter().any(|c| c.holds == answer);
+        match (
+            is_there(Answer::Yes),
+            is_there(Answer::No),
+            is_there(Answer::Undecided),
+        ) {
+            (true, false, false) => Outcome::Reproduced,
+            (true, true, _) => Outcome::Partly,
+            (_, false, true) => Outcome::Undecided,
+            (false, ..) => Outcome::NotReproduced,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn outcomes_follow_from_the_answers() {
+        use Answer::{No, Undecided, Yes};
+        let claim = |holds| Claim::law("", "", String::new(), holds);
+        for (answers, expected) in [
+            (&[Yes, Yes][..], Outcome::Reproduced),
+            (&[Yes, No], Outcome::Partly),
+            (&[Yes, No, Undecided], Outcome::Partly),
+            (&[Yes, Undecided], Outcome::Undecided),
+            (&[Undecided], Outcome::Undecided),
+            (&[No, Undecided], Outcome::NotReproduced),
+            (&[No], Outcome::NotReproduced),
+            (&[], Outcome::NotReproduced),
+        ] {
+            let verdict = Verdict {
+                summary: String::new(),
+                claims: answers.iter().map(|&a| claim(a)).collect(),
+                caveat: String::new(),
+            };
+            assert_eq!(verdict.outcome(), expected, "{answers:?}");
+        }
+    }
+
+    #[test]
+    fn a_claim_of_several_parts_needs_them_all() {
+        use Answer::{No, Undecided, Yes};
+        assert_eq!(Answer::all([Yes, Yes]), Yes);
+        assert_eq!(Answer::all([Yes, Undecided]), Undecided);
+        assert_eq!(Answer::all([Undecided, No, Yes]), No);
+        assert_eq!(Answer::all([]), Yes);
+    }
+
+    #[test]
+    fn figures_decide_beyond_their_noise() {
+        use Answer::{No, Undecided, Yes};
+        for (deviations, expected) in [(3.5, Yes), (1.0, Undecided), (-1.0, Undecided), (-3.5, No)]
+        {
+            assert_eq!(Answer::beyond(deviations), expected, "{deviations}");
+        }
+        assert_eq!(Answer::beyond(f64::NAN), Undecided);
+    }
+
+    #[test]
+    fn earlier_records_are_read() {
+        let read = |text: &str| serde_json::from_str::<Answer>(text);
+        assert_eq!(read("true").unwrap(), Answer::Yes);
+        assert_eq!(read("false").unwrap(), Answer::No);
+        for answer in [Answer::Yes, Answer::No, Answer::Undecided] {
+            let text = serde_json::to_string(&answer).unwrap();
+            assert_eq!(read(&text).unwrap(), answer, "{text}");
+        }
+        let error = read("\"maybe\"").unwrap_err().to_string();
+        assert!(
+            error.contains("expected yes, no or undecided, found 'maybe'"),
+            "{error}"
+        );
     }
 }

@@ -20,9 +20,10 @@ mod rendered;
 pub mod report;
 mod runner;
 pub mod scenes;
+mod typeset;
 
 pub use error::LabError;
-pub use experiment::{Claim, Experiment, Kind, Outcome, Quality, Source, Verdict};
+pub use experiment::{Answer, Claim, Experiment, Kind, Outcome, Quality, Source, Verdict};
 pub use lab::{Lab, Progress};
 pub use machine::Machine;
 pub use output::record::Record;

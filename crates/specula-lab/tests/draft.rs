@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use specula_lab::{Kind, Quality, Record, RunOptions, experiments, run};
+use specula_lab::{Answer, Kind, Quality, Record, RunOptions, experiments, run};
 
 /// Runs all of them; the records are read back from their files.
 #[test]
@@ -34,8 +34,8 @@ fn claims_come_out_as_they_are_known_to() {
         );
         for claim in &record.verdict.claims {
             let expected = match claim.kind {
-                Kind::Law => true,
-                Kind::Refuted => false,
+                Kind::Law => Answer::Yes,
+                Kind::Refuted => Answer::No,
                 Kind::Measured => continue,
             };
             if claim.holds != expected {

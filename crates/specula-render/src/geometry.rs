@@ -120,7 +120,12 @@ impl Geometry {
     /// Bakes the scene's shapes and builds the tree over them.
     ///
     /// * `scene`: left without its shapes, objects, and the meshes that were baked.
-    pub(crate) fn new(scene: &mut Scene, textures: &Textures) -> Result<Self, AccelError> {
+    /// * `earlier`: geometry whose tree is taken over, if it is over the same shapes.
+    pub(crate) fn after(
+        scene: &mut Scene,
+        textures: &Textures,
+        earlier: Option<Self>,
+    ) -> Result<Self, AccelError> {
         let mut baker = Baker::new(scene, textures);
         let world = std::mem::take(&mut baker.world);
         let mut groups = vec![baker.bake(world)];
@@ -142,7 +147,11 @@ impl Geometry {
             p.first_light = lights;
             lights += id(groups[p.group as usize].emitters.len());
         }
-        let accel = build_accel(&groups, &placements)?;
+        let same = earlier.filter(|e| e.has_shapes_of(&groups, &placements));
+        let accel = match same {
+            Some(earlier) => earlier.accel,
+            None => build_accel(&groups, &placements)?,
+        };
         let passable = |s: &ShapeRecord| s.alpha.is_some() || s.is_interface;
         let has_passable = shapes.iter().any(passable);
         Ok(Self {
@@ -156,6 +165,19 @@ impl Geometry {
 }
 
 impl Geometry {
+    /// Whether its tree is the one over these groups at these places.
+    fn has_shapes_of(&self, groups: &[GroupData], placements: &[Placement]) -> bool {
+        let place = |p: &Placement| (p.group, p.transform);
+        self.groups.len() == groups.len()
+            && (self.placements.iter().map(place)).eq(placements.iter().map(place))
+            && (self.groups.iter().zip(groups)).all(|(a, b)| {
+                a.positions == b.positions
+                    && a.triangles == b.triangles
+                    && (a.quadrics.iter().map(PlacedQuadric::in_tree))
+                        .eq(b.quadrics.iter().map(PlacedQuadric::in_tree))
+            })
+    }
+
     /// The group that a hit is in.
     #[inline(always)]
     pub(crate) fn group_of(&self, hit: &Hit) -> &GroupData {
@@ -178,13 +200,7 @@ impl Geometry {
 fn build_accel(groups: &[GroupData], placements: &[Placement]) -> Result<Accel, AccelError> {
     let quadrics: Vec<Vec<Quadric>> = groups
         .iter()
-        .map(|g| {
-            let quadric = |q: &PlacedQuadric| Quadric {
-                shape: q.shape,
-                to_group: q.to_group,
-            };
-            g.quadrics.iter().map(quadric).collect()
-        })
+        .map(|g| g.quadrics.iter().map(PlacedQuadric::in_tree).collect())
         .collect();
     let inputs: Vec<Group<'_>> = groups
         .iter()
@@ -223,6 +239,14 @@ impl GroupData {
 }
 
 impl PlacedQuadric {
+    /// As the tree knows it.
+    fn in_tree(&self) -> Quadric {
+        Quadric {
+            shape: self.shape,
+            to_group: self.to_group,
+        }
+    }
+
     /// A bound on its coordinates.
     fn reach(&self) -> f64 {
         let (radius, height) = match self.shape {

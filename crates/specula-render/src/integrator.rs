@@ -16,6 +16,7 @@
 //! Bodies absorb between the surface where a path enters them and the one where it leaves
 //! (`bodies`); a path begins in none.
 
+pub(crate) mod bias;
 mod block;
 mod candidates;
 mod lanes;
@@ -69,6 +70,8 @@ pub(crate) struct PathTracer<'a> {
     strategy: Strategy,
     /// Whether paths of a group share what they find.
     shares: bool,
+    /// The most radiance that a contribution of indirect light may bring; infinite where it is unbounded.
+    bound: f32,
 }
 
 /// Where the last direction was drawn, if lights could have found it too.
@@ -113,8 +116,20 @@ struct State {
     bodies: Bodies,
     /// Whether the path has only passed through thin panes: lights that are hidden stay so.
     straight: bool,
+    /// Whether it was scattered by a lobe that is not perfectly smooth.
+    rough: bool,
+    /// As of `PathTracer`; infinite while others may have another throughput.
+    bound: f32,
     previous: Option<Previous>,
     tally: Tally,
+}
+
+impl State {
+    /// Adds light that was scattered so many times on its way to the camera.
+    #[inline(always)]
+    fn add(&mut self, contribution: Rgb<f32>, events: u32) {
+        self.radiance += bias::bounded(contribution, events, self.bound);
+    }
 }
 
 /// What is counted on the way.
@@ -153,6 +168,7 @@ impl<'a> PathTracer<'a> {
             max_depth: options.max_depth,
             strategy: options.strategy,
             shares: options.share_paths > 1,
+            bound: (options.clamp).map_or(f32::INFINITY, |most| most / scene.develop.exposure()),
         }
     }
 
@@ -216,12 +232,12 @@ impl<'a> PathTracer<'a> {
         let Some(surface) = found else {
             if !(state.straight && self.scene.hide_emitters) {
                 let radiance = self.background(state.previous, ray.direction);
-                state.radiance += state.throughput * radiance;
+                state.add(state.throughput * radiance, depth);
             }
             return false;
         };
         let radiance = self.emission(state.previous, &surface, ray.direction);
-        state.radiance += state.throughput * radiance;
+        state.add(state.throughput * radiance, depth);
         self.pass_on(path, surface, depth)
     }
 
@@ -236,7 +252,7 @@ impl<'a> PathTracer<'a> {
         if depth >= self.max_depth && depth > 0 {
             return false;
         }
-        let vertex = self.vertex(surface, -ray.direction, sampler, depth);
+        let vertex = self.vertex(surface, -ray.direction, sampler, depth, state.rough);
         if depth == 0 {
             first.albedo = vertex.lobe.albedo();
             first.normal = vertex.frame.n;
@@ -324,18 +340,25 @@ impl<'a> PathTracer<'a> {
         }
     }
 
-    fn vertex(&self, surface: Surface, wo: Vec3<f32>, sampler: &Sampler, depth: u32) -> Vertex {
+    /// * `rough`: whether the path was scattered by a lobe that is not perfectly smooth.
+    fn vertex(
+        &self,
+        surface: Surface,
+        wo: Vec3<f32>,
+        sampler: &Sampler,
+        depth: u32,
+        rough: bool,
+    ) -> Vertex {
         let outside = surface.ng.dot(wo) > 0.0;
         let facing = if outside { surface.ng } else { -surface.ng };
         let shape = &self.scene.geometry.shapes[surface.shape as usize];
         let textures = &self.scene.textures;
         let place = surface.place();
-        let chosen = self
-            .scene
-            .materials
-            .at(shape.material, textures, &place, |level| {
-                sampler.hashed([depth, level, 0])
-            });
+        let materials = &self.scene.materials;
+        let material = materials.on_path(shape.material, rough);
+        let chosen = materials.at(material, textures, &place, |level| {
+            sampler.hashed([depth, level, 0])
+        });
         let mut lobe = chosen.lobe(textures, &place, outside);
         let material = chosen.material;
         let (ns, tangent) = self.shading(&surface, material);
@@ -444,7 +467,7 @@ impl<'a> PathTracer<'a> {
         let place = (s.position, s.error, s.ng);
         let left = self.shine(place, &light, bodies, sampler, depth, &mut state.tally.rays);
         if let Some(left) = left {
-            state.radiance += brought * left;
+            state.add(brought * left, depth + 1);
         }
     }
 
@@ -530,6 +553,7 @@ impl<'a> PathTracer<'a> {
             state.throughput *= softness.factor(direction);
         }
         state.eta_scale *= eta * eta;
+        state.rough |= !specular;
         state.straight &=
             matches!(vertex.lobe, Lobe::ThinDielectric(_)) && event == Event::Transmission;
         if event == Event::Transmission {

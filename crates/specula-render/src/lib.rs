@@ -22,7 +22,10 @@ mod sampler;
 mod texture;
 
 pub use device::{Run, Wanted};
-pub use film::{FilmBuffer, FilmFile, FilmFileError, Label, MOST_SAMPLES, MergeError, RunSums};
+pub use film::{
+    FilmBuffer, FilmFile, FilmFileError, Label, MOST_SAMPLES, MergeError, NoiseEstimate,
+    NoiseOutlook, NoiseTrend, RunSums,
+};
 pub use flat::{FlatGroup, FlatInstance, FlatScene, LobeKind};
 pub use memory::MemoryEstimate;
 pub use options::{RenderOptions, Strategy};

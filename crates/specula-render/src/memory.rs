@@ -1,9 +1,10 @@
 //! How much memory a render will take, before it begins.
 //!
-//! A count of the arrays that preparing and rendering make, in the order in which they make and free
+//! A bound: a count of the arrays that preparing and rendering make, in the order in which they make and free
 //! them; the largest sum is the peak. Sizes of a triangle's share of the tree, and of what building
 //! takes besides, are measured (`tests` and the command line's tests hold the estimate against what
-//! the system reports). Reading a scene is over when its estimate is made, and not in it.
+//! the system reports). Reading a scene is over when its estimate is made: what that took is measured
+//! ([`MemoryEstimate::after_reading`]).
 
 use specula_scene::Scene;
 use specula_scene::scene::{Geometry, Instance, Light, Mesh, Shape, Texture};
@@ -12,13 +13,12 @@ use crate::accel::predicted;
 use crate::film::BYTES_PER_PIXEL;
 use crate::light::{BYTES_PER_EMITTER, BYTES_PER_FAR_PIXEL};
 use crate::options::RenderOptions;
+use crate::picture::{ALL_CHANNELS, blocks_size};
 
-/// A pixel of a scene's picture: three numbers.
-const FLOATS: u64 = 12;
-/// A picture's pixel developed (14 numbers), and once more for the file's channels.
-const DEVELOPED: u64 = 2 * 14 * 4;
-/// The program itself.
+/// The program itself, as it is before a scene is read.
 const PROGRAM: u64 = 10 << 20;
+/// Code and buffers that only rendering and writing bring into memory.
+const LATER: u64 = 6 << 20;
 /// Stack and buffers of a thread.
 const THREAD: u64 = 1 << 20;
 
@@ -41,8 +41,12 @@ pub struct MemoryEstimate {
     pub pictures: u64,
     /// The program and its threads.
     pub program: u64,
+    /// The most that reading the scene took.
+    pub reading: u64,
     /// Largest sum while the render is prepared.
     preparing: u64,
+    /// What of the scene is freed in small pieces: allocators may keep those.
+    loose: u64,
 }
 
 impl MemoryEstimate {
@@ -54,15 +58,16 @@ impl MemoryEstimate {
     #[must_use]
     pub fn new(scene: &Scene, options: &RenderOptions, threads: usize) -> Self {
         let mut estimate = Self {
-            program: PROGRAM + THREAD * threads as u64,
+            program: PROGRAM + LATER + THREAD * threads as u64,
             ..Self::default()
         };
         let meshes: u64 = scene.meshes.iter().map(mesh_bytes).sum();
-        let pictures: u64 = scene.images.iter().map(|i| FLOATS * pixels(i)).sum();
+        let pictures: u64 = scene.images.iter().map(|i| i.pixels.size()).sum();
         let objects = scene.objects.iter().map(|o| o.shapes.len());
         let shapes = scene.shapes.len() + objects.sum::<usize>();
         let places = shapes * size_of::<Shape>() + scene.instances.len() * size_of::<Instance>();
         estimate.scene = meshes + pictures + places as u64;
+        estimate.loose = meshes + places as u64;
         let mut held = Held {
             now: estimate.program + estimate.scene,
             peak: 0,
@@ -73,21 +78,40 @@ impl MemoryEstimate {
         estimate.preparing = held.peak;
         let pixels = film_pixels(scene, options);
         estimate.film = BYTES_PER_PIXEL * pixels;
-        estimate.pictures = DEVELOPED * pixels;
+        let [width, _] = options.resolution.unwrap_or(scene.film.resolution);
+        // A picture's pixel developed, and once more for the file's channels.
+        estimate.pictures = 2 * ALL_CHANNELS * pixels + blocks_size(width, threads);
         estimate
+    }
+
+    /// The estimate beside what the process took to read the scene. What it holds beyond the scene
+    /// (libraries, tables, what an allocator does not give back) is then measured, not guessed.
+    ///
+    /// * `now`: bytes that are resident.
+    /// * `most`: the most that were.
+    #[must_use]
+    pub fn after_reading(self, now: u64, most: u64) -> Self {
+        let program = self.program.max(now.saturating_sub(self.scene) + LATER);
+        Self {
+            preparing: self.preparing + (program - self.program),
+            program,
+            // The system counts by pages of each processor: it may be behind.
+            reading: most + (1 << 20),
+            ..self
+        }
     }
 
     /// The most that is taken at any time.
     #[must_use]
     pub fn peak(&self) -> u64 {
-        self.preparing.max(self.rendering())
+        self.reading.max(self.preparing).max(self.rendering())
     }
 
     /// What is taken when a picture is written.
     #[must_use]
     pub fn rendering(&self) -> u64 {
         let lasting = self.geometry + self.tree + self.textures + self.lights;
-        self.program + lasting + self.film + self.pictures
+        self.program + self.loose + lasting + self.film + self.pictures
     }
 
     /// What is taken at most before the first sample.
@@ -104,18 +128,12 @@ impl MemoryEstimate {
             }
         }
         for (index, image) in scene.images.iter().enumerate().filter(|(i, _)| used[*i]) {
-            let floats = FLOATS * pixels(image);
-            let kept = if crate::texture::is_of_bytes(image) {
-                3 * pixels(image)
-            } else {
-                floats
-            };
-            let shared = skies(scene).any(|id| id == index);
-            held.add(if shared || kept != floats { kept } else { 0 });
-            if !shared && kept != floats {
-                held.free(floats);
+            // Textures take the pictures over, but for those that lights have as well.
+            let size = image.pixels.size();
+            if skies(scene).any(|id| id == index) {
+                held.add(size);
             }
-            self.textures += kept;
+            self.textures += size;
         }
     }
 

@@ -4,6 +4,9 @@ use specula_bsdf::multibounce::MisPdf;
 use specula_bsdf::vndf;
 use specula_scene::{Energy, Scene};
 
+/// What stands before the options that bias a picture, at the end of [`RenderOptions::settings`].
+pub(crate) const BIASED: &str = "biased: ";
+
 /// How direct light is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Strategy {
@@ -57,6 +60,15 @@ pub struct RenderOptions {
     /// [`FilmBuffer::noise`](crate::FilmBuffer::noise)); at 0 it is done after the samples that were asked
     /// for. `None`: as many for every pixel.
     pub noise: Option<f32>,
+    /// Bias: the most that a contribution of indirect light may bring in any channel, in picture values (1 is white,
+    /// the film's exposure applied, its white balance not); larger ones are scaled down whole, which keeps their
+    /// hue. Indirect is light that was scattered twice or more, as in Cycles' "clamp indirect". Takes away fireflies
+    /// and with them the light that they stand for: the picture gets darker. Finite and above 0; `None`: unbounded.
+    pub clamp: Option<f32>,
+    /// Bias: whether surfaces that a path meets behind a surface that is not perfectly smooth are made rougher, as
+    /// by pbrt-v4's `regularize`: widths `alpha` below 0.3 become `clamp(2 alpha, 0.1, 0.3)`, so that mirrors and
+    /// clear glass have `alpha` 0.1. Caustics become blurred, and lights are found through glass.
+    pub regularize: bool,
 }
 
 impl RenderOptions {
@@ -81,6 +93,8 @@ impl RenderOptions {
             share_paths,
             first_sample: _,
             noise,
+            clamp: _,
+            regularize: _,
         } = self;
         // Not which noise: a film goes on to a smaller one as if that had been asked for at first.
         let spread = if noise.is_some() { ", adaptive" } else { "" };
@@ -93,10 +107,23 @@ impl RenderOptions {
             0 | 1 => String::new(),
             n => format!(", {n} share"),
         };
+        let biased = self.bias().map(|bias| format!(", {BIASED}{bias}"));
+        let biased = biased.unwrap_or_default();
         format!(
             "depth {max_depth}, seed {seed}, sampler {vndf_sampler}, energy {energy}, {mis_pdf:?}, \
-             {strategy:?}{drawn}{shared}{spread}"
+             {strategy:?}{drawn}{shared}{spread}{biased}"
         )
+    }
+
+    /// The options that bias the picture, in words; `None`: there is none.
+    #[must_use]
+    pub fn bias(&self) -> Option<String> {
+        let clamped = self
+            .clamp
+            .map(|most| format!("indirect light clamped to {most}"));
+        let regularized = self.regularize.then(|| "regularized".to_owned());
+        let all: Vec<String> = clamped.into_iter().chain(regularized).collect();
+        (!all.is_empty()).then(|| all.join(", "))
     }
 
     /// What the scene's file asks for.
@@ -104,6 +131,7 @@ impl RenderOptions {
         Self {
             samples_per_pixel: scene.settings.samples_per_pixel,
             max_depth: scene.settings.max_depth,
+            energy: scene.settings.energy,
             ..Self::default()
         }
     }
@@ -125,6 +153,8 @@ impl Default for RenderOptions {
             share_paths: 1,
             first_sample: 0,
             noise: None,
+            clamp: None,
+            regularize: false,
         }
     }
 }

@@ -31,7 +31,9 @@ pub struct PreparedScene {
     pub(crate) materials: Materials,
     pub(crate) lights: Lights,
     /// Material of each shape that is dealt with in lanes, and whether its sides differ.
-    pub(crate) lanes_of: Vec<Option<(u32, bool)>>,
+    lanes_of: Vec<Option<(u32, bool)>>,
+    /// The same behind rough surfaces; empty where that makes no difference.
+    lanes_behind_rough: Vec<Option<(u32, bool)>>,
     /// Whether lights are hidden from the camera.
     pub(crate) hide_emitters: bool,
 }
@@ -84,7 +86,20 @@ impl PreparedScene {
     ///
     /// # Errors
     /// Where the picture is empty or the shapes cannot be prepared.
-    pub fn consume(mut scene: Scene, options: &RenderOptions) -> Result<Self, PrepareError> {
+    pub fn consume(scene: Scene, options: &RenderOptions) -> Result<Self, PrepareError> {
+        Self::consume_after(scene, options, None)
+    }
+
+    /// Prepares a scene that was changed, as [`PreparedScene::consume`] does: the tree over the shapes of
+    /// the one before is taken over where no shape has changed.
+    ///
+    /// # Errors
+    /// Those of [`PreparedScene::consume`].
+    pub fn consume_after(
+        mut scene: Scene,
+        options: &RenderOptions,
+        earlier: Option<Self>,
+    ) -> Result<Self, PrepareError> {
         let film = &scene.film;
         let resolution = options.resolution.unwrap_or(film.resolution);
         let [width, height] = resolution;
@@ -117,7 +132,8 @@ impl PreparedScene {
         let (filter, develop) = (FilterSampler::new(&film.filter), Develop::new(film));
         let textures = Textures::new(&mut scene);
         let materials = Materials::new(&scene, &textures, options);
-        let geometry = Geometry::new(&mut scene, &textures)?;
+        let earlier = earlier.map(|e| e.geometry);
+        let geometry = Geometry::after(&mut scene, &textures, earlier)?;
         if !geometry.is_within_reach() {
             return Err(PrepareError::TooFar);
         }
@@ -127,23 +143,47 @@ impl PreparedScene {
                 Strategy::Mis | Strategy::Balance | Strategy::Power
             );
         let lights = Lights::new(&scene, &geometry, &textures, beside_lobes);
-        let lanes_of = geometry.shapes.iter().map(|s| {
-            let [plain, _] = materials.plain(s.material)?;
-            Some((s.material, plain.is_sided))
-        });
+        let lanes = |rough: bool| -> Vec<Option<(u32, bool)>> {
+            let of = |material: u32| {
+                let material = materials.on_path(material, rough);
+                let [plain, _] = materials.plain(material)?;
+                Some((material, plain.is_sided))
+            };
+            geometry.shapes.iter().map(|s| of(s.material)).collect()
+        };
+        let lanes_of = lanes(false);
+        let lanes_behind_rough = match materials.are_regularized() {
+            true => lanes(true),
+            false => Vec::new(),
+        };
         Ok(Self {
             camera,
             filter,
             develop,
             resolution,
             crop,
-            lanes_of: lanes_of.collect(),
+            lanes_of,
+            lanes_behind_rough,
             geometry,
             textures,
             materials,
             lights,
             hide_emitters: scene.settings.hide_emitters,
         })
+    }
+
+    /// Material of a shape that is dealt with in lanes, and whether its sides differ.
+    ///
+    /// * `rough`: whether the path was scattered by a lobe that is not perfectly smooth.
+    #[inline(always)]
+    pub(crate) fn lanes_of(&self, shape: u32, rough: bool) -> Option<(u32, bool)> {
+        let behind = rough && !self.lanes_behind_rough.is_empty();
+        let lanes = if behind {
+            &self.lanes_behind_rough
+        } else {
+            &self.lanes_of
+        };
+        lanes[shape as usize]
     }
 
     /// Width and height of the whole picture.

@@ -187,7 +187,8 @@ impl<'a> Renderer<'a> {
     /// A pass that is stopped leaves whole tiles unrendered; the next pass begins with what they
     /// lack, and takes every pixel to the same count.
     ///
-    /// * `stop`: looked at before every tile.
+    /// * `stop`: looked at before every vertex, so that a pass ends within milliseconds; the tiles that
+    ///   were being rendered stay as they were.
     pub fn render_pass(&mut self, samples: u32, stop: &AtomicBool) -> PassReport {
         let goals = self.goals(samples);
         let options = &self.options;
@@ -207,7 +208,12 @@ impl<'a> Renderer<'a> {
                     return (Done::default(), false);
                 }
                 let mut block = free(blocks).pop().unwrap_or_else(Block::new);
-                let done = render_tile(&tracer, &mut block, options, tile, goal);
+                let before = tile.clone();
+                let done = render_tile(&tracer, &mut block, (options, stop), tile, goal);
+                let Some(done) = done else {
+                    *tile = before;
+                    return (Done::default(), false);
+                };
                 free(blocks).push(block);
                 (done, true)
             })
@@ -291,14 +297,15 @@ impl Done {
     }
 }
 
-/// Brings every pixel of a tile to `target` samples.
+/// Takes every pixel of a tile to `target` samples. `None`: stopped, with the tile and the block in a state
+/// that is of no use.
 fn render_tile(
     tracer: &PathTracer<'_>,
     block: &mut Block,
-    options: &RenderOptions,
+    (options, stop): (&RenderOptions, &AtomicBool),
     tile: &mut Tile,
     target: u32,
-) -> Done {
+) -> Option<Done> {
     let [x0, x1, y0, _] = tile.bounds;
     let width = x1 - x0;
     let (seed, first) = (options.seed, options.first_sample);
@@ -312,7 +319,9 @@ fn render_tile(
     let mut done = Done::default();
     let mut add = |places: &[(u32, u32)], sizes: &[usize]| {
         tracer.begin(block, places.iter().copied().map(sample));
-        tracer.follow_all(block);
+        if !tracer.follow_until(block, stop) {
+            return false;
+        }
         tracer.share(block, sizes);
         let tally = block.take_tally();
         tile.rays += tally.rays;
@@ -326,6 +335,7 @@ fn render_tile(
                 material: tracer.blame(block, pixel, sampler).map(|m| m as usize),
             });
         }
+        true
     };
     let mut places = Vec::with_capacity(Block::SIZE);
     if options.share_paths > 1 {
@@ -333,7 +343,9 @@ fn render_tile(
         for nth in count..target {
             for group in groups(bounds, options.share_paths, |i| sample((i, nth)).1) {
                 if places.len() + group.len() > Block::SIZE {
-                    add(&places, &sizes);
+                    if !add(&places, &sizes) {
+                        return None;
+                    }
                     places.clear();
                     sizes.clear();
                 }
@@ -341,17 +353,18 @@ fn render_tile(
                 sizes.push(group.len());
             }
         }
-        add(&places, &sizes);
-        return done;
+        return add(&places, &sizes).then_some(done);
     }
     let mut samples = (0..pixels).flat_map(|i| (count..target).map(move |nth| (i, nth)));
     loop {
         places.clear();
         places.extend(samples.by_ref().take(Block::SIZE));
         if places.is_empty() {
-            return done;
+            return Some(done);
         }
-        add(&places, &[]);
+        if !add(&places, &[]) {
+            return None;
+        }
     }
 }
 

@@ -140,7 +140,7 @@ fn adaptive_renders_are_the_same_bit_for_bit_however_they_are_made() {
 fn adaptive_renders_keep_the_mean() {
     let scene = scene();
     let mut film = None;
-    adaptive(&scene, 0.08, 512, 2, &mut film);
+    adaptive(&scene, 0.06, 512, 2, &mut film);
     let (found, error) = mean(&film.unwrap().picture());
     let (expected, other) = mean(&run(&scene, 2, &[512], None));
     let apart = (found - expected).abs();

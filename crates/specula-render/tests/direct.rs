@@ -305,7 +305,7 @@ fn sky_picture(width: u32, height: u32) -> Image {
         name: "sky".into(),
         width,
         height,
-        pixels,
+        pixels: pixels.into(),
     }
 }
 
@@ -352,7 +352,7 @@ fn compensation_takes_noise_off_a_sky_with_a_sun() {
         name: "sky".into(),
         width,
         height,
-        pixels,
+        pixels: pixels.into(),
     });
     scene.lights.push(Light::Infinite {
         radiance: Rgb::splat(1.0),

@@ -77,7 +77,7 @@ fn picture(scene: &mut Scene, colour: [f32; 3], mapping: TextureMapping) -> Text
         name: "colour".into(),
         width: 1,
         height: 1,
-        pixels: vec![colour],
+        pixels: vec![colour].into(),
     });
     scene.textures.push(Texture::Image {
         image: ImageId(scene.images.len() - 1),

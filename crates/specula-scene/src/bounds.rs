@@ -3,7 +3,7 @@
 use glam::{DMat4, DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::scene::{Geometry, Mesh, Scene};
+use crate::scene::{Geometry, Mesh, Scene, Shape};
 
 /// Farthest coordinate of a scene: squares of distances must fit single precision.
 pub(crate) const FARTHEST: f64 = 1e18;
@@ -46,6 +46,18 @@ impl Bounds {
     #[must_use]
     pub fn is_empty(self) -> bool {
         self.min.x > self.max.x
+    }
+
+    /// The middle; of a box that is not empty.
+    #[must_use]
+    pub fn centre(self) -> DVec3 {
+        0.5 * (self.min + self.max)
+    }
+
+    /// Half the diagonal: the radius of the sphere around a box that is not empty.
+    #[must_use]
+    pub fn radius(self) -> f64 {
+        0.5 * (self.max - self.min).length()
     }
 
     /// A box around the transformed box.
@@ -117,9 +129,17 @@ pub(crate) fn of_geometry(meshes: &[Mesh], geometry: &Geometry) -> Bounds {
 
 /// Bounds of a scene in world space.
 pub(crate) fn of_scene(scene: &Scene) -> Bounds {
-    let of_shapes = |shapes: &[crate::scene::Shape]| {
-        let boxes = shapes
-            .iter()
+    of_shapes_where(scene, |_| true)
+}
+
+/// Bounds of what a scene's file shows: those of the scene without a floor that was put under it.
+pub(crate) fn of_file(scene: &Scene) -> Bounds {
+    of_shapes_where(scene, |shape| Some(shape.material) != scene.floor)
+}
+
+fn of_shapes_where(scene: &Scene, counts: impl Fn(&Shape) -> bool) -> Bounds {
+    let of_shapes = |shapes: &[Shape]| {
+        let boxes = (shapes.iter().filter(|s| counts(s)))
             .map(|s| of_geometry(&scene.meshes, &s.geometry).transformed(&s.to_world));
         boxes.fold(Bounds::EMPTY, Bounds::union)
     };

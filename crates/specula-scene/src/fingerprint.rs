@@ -27,6 +27,8 @@ impl Scene {
                     max_depth: _,
                     samples_per_pixel: _,
                     hide_emitters,
+                    // A part of the render's settings.
+                    energy: _,
                 },
             images,
             textures,
@@ -36,6 +38,8 @@ impl Scene {
             objects,
             instances,
             lights,
+            // A floor shows by its shape and material.
+            floor: _,
         } = self;
         let mut hash = Hash::new();
         hash.text(camera);
@@ -87,7 +91,10 @@ impl Hash {
         } = image;
         self.bytes(&width.to_le_bytes());
         self.bytes(&height.to_le_bytes());
-        self.floats(pixels);
+        self.bytes(&(pixels.len() as u64).to_le_bytes());
+        for number in pixels.iter().flatten() {
+            self.bytes(&number.to_le_bytes());
+        }
     }
 
     fn mesh(&mut self, mesh: &Mesh) {

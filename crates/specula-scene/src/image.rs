@@ -1,11 +1,16 @@
 //! Decoded pictures, and the formats they are read from.
 
 mod exr_file;
+mod format;
+mod integers;
 mod pfm;
+mod pixels;
 mod read;
 
 pub use exr_file::guarded;
-pub(crate) use read::{Content, Encoding, Format, decode, read};
+pub(crate) use format::Format;
+pub use pixels::{Indexed, Pixels};
+pub(crate) use read::{Content, Encoding, decode, read};
 
 /// A picture in linear RGB (sRGB primaries), row by row from the top.
 ///
@@ -19,7 +24,7 @@ pub struct Image {
     /// Rows.
     pub height: u32,
     /// `width * height` linear RGB values.
-    pub pixels: Vec<[f32; 3]>,
+    pub pixels: Pixels,
 }
 
 impl Image {
@@ -29,7 +34,7 @@ impl Image {
             name: String::new(),
             width: 1,
             height: 1,
-            pixels: vec![[0.5; 3]],
+            pixels: vec![[0.5; 3]].into(),
         }
     }
 }

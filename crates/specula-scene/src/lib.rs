@@ -19,6 +19,7 @@ pub mod error;
 mod faults;
 pub mod features;
 mod fingerprint;
+mod format;
 pub mod gltf;
 pub mod image;
 mod limits;
@@ -48,7 +49,8 @@ use std::path::{Path, PathBuf};
 pub use energy::{Energy, UnknownEnergy};
 pub use error::{ErrorKind, Place, SceneError, Source, Warning};
 pub use features::{Feature, Support};
-pub use image::Image;
+pub use format::Format;
+pub use image::{Image, Indexed, Pixels};
 pub use limits::Limits;
 pub use report::{Problem, Report, Severity};
 pub use scene::Scene;
@@ -56,6 +58,7 @@ pub use summary::Summary;
 pub use validate::Invalid;
 
 use problems::Problems;
+use read_file::Files;
 
 /// What a caller may say about how a scene is read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -75,11 +78,27 @@ pub struct Loaded {
     pub scene: Scene,
     /// Stand-ins, unused parameters and dropped geometry, in the order in which they were met.
     pub warnings: Vec<Warning>,
+    /// The format that it was read as.
+    pub format: Format,
+    /// Every file that was read for the scene, the scene's own first, as the path that was opened; each
+    /// once, in the order in which the reader met them.
+    pub files: Vec<PathBuf>,
 }
 
-/// Reads a scene in the format that its name's end tells, within the default [`Limits`]: `.xml` is
-/// Mitsuba's, `.gltf` and `.glb` are glTF 2.0, `.obj` and `.ply` (also gzipped) meshes alone, which are
-/// staged, and anything else is pbrt-v4's (also gzipped).
+impl Loaded {
+    fn new(format: Format, scene: Scene, warnings: Vec<Warning>, files: &Files) -> Self {
+        Self {
+            scene,
+            warnings,
+            format,
+            files: files.list(),
+        }
+    }
+}
+
+/// Reads a scene within the default [`Limits`], in the format that its content tells, packed by gzip or not:
+/// pbrt-v4, Mitsuba's XML, glTF 2.0 (JSON or binary), or a mesh alone (OBJ, PLY), which is staged. The end of
+/// the name decides only where the content does not, as in an empty file.
 ///
 /// # Errors
 ///
@@ -108,7 +127,8 @@ pub fn load_with(path: &Path, limits: &Limits) -> Result<Loaded, SceneError> {
 ///
 /// Those of [`load`].
 pub fn load_with_options(path: &Path, options: &LoadOptions) -> Result<Loaded, SceneError> {
-    read(path, options, &Problems::default())
+    let files = Files::new(options.limits);
+    read(path, options, &files, &Problems::default())
 }
 
 /// Reads a scene for its problems: all errors that reading meets, with a stand-in for what has one,
@@ -123,24 +143,66 @@ pub fn load_with_options(path: &Path, options: &LoadOptions) -> Result<Loaded, S
 #[must_use]
 pub fn check(path: &Path, options: &LoadOptions) -> Report {
     let problems = Problems::collecting();
-    let loaded = read(path, options, &problems);
-    Report::new(loaded, problems.take())
+    let files = Files::new(options.limits);
+    let loaded = read(path, options, &files, &problems);
+    Report::new(loaded, problems.take(), files.list())
 }
 
-fn read(path: &Path, options: &LoadOptions, problems: &Problems) -> Result<Loaded, SceneError> {
-    let extension = |path: &Path| {
-        let extension = path.extension()?.to_string_lossy().to_ascii_lowercase();
-        Some(extension)
+/// Reads a scene from memory: what a pipe brought, say.
+///
+/// * `name`: what messages call it; files that it names are looked for beside this path.
+///
+/// # Errors
+///
+/// Those of [`load`].
+///
+/// ```
+/// let text = b"Camera \"perspective\"\nWorldBegin\nShape \"sphere\"\n".to_vec();
+/// let loaded = specula_scene::load_bytes("<stdin>".as_ref(), text, &Default::default())?;
+/// assert_eq!(loaded.scene.shapes.len(), 1);
+/// # Ok::<(), specula_scene::SceneError>(())
+/// ```
+pub fn load_bytes(
+    name: &Path,
+    bytes: Vec<u8>,
+    options: &LoadOptions,
+) -> Result<Loaded, SceneError> {
+    let files = Files::new(options.limits);
+    let format = files.give(name, bytes);
+    read_as(format, name, options, &files, &Problems::default())
+}
+
+fn read(
+    path: &Path,
+    options: &LoadOptions,
+    files: &Files,
+    problems: &Problems,
+) -> Result<Loaded, SceneError> {
+    let is_file = std::fs::metadata(path).is_ok_and(|m| m.is_file());
+    let (format, name) = match files.scene(path) {
+        Ok(bytes) => {
+            // A pipe is no place for the files that a scene names: those are looked for here.
+            let name = if is_file { path } else { Path::new("<pipe>") };
+            (files.give(name, bytes), name)
+        }
+        // The reader meets the same fault, and knows where to say it.
+        Err(_) => (Format::of_name(path).unwrap_or(Format::Pbrt), path),
     };
-    let extension = match extension(path) {
-        Some(gz) if gz == "gz" => extension(&path.with_extension("")),
-        other => other,
-    };
-    match extension.as_deref() {
-        Some("xml") => mitsuba::read_into(path, options, problems),
-        Some("gltf" | "glb") => gltf::read(path, options, problems),
-        Some("obj") => single::read(path, options, problems, obj::read),
-        Some("ply") => single::read(path, options, problems, ply::read),
-        _ => pbrt::read(path, options, problems),
+    read_as(format, name, options, files, problems)
+}
+
+fn read_as(
+    format: Format,
+    path: &Path,
+    options: &LoadOptions,
+    files: &Files,
+    problems: &Problems,
+) -> Result<Loaded, SceneError> {
+    match format {
+        Format::Mitsuba => mitsuba::read_into(path, options, files, problems),
+        Format::Gltf => gltf::read(path, options, files, problems),
+        Format::Obj => single::read(path, files, problems, (format, obj::read)),
+        Format::Ply => single::read(path, files, problems, (format, ply::read)),
+        Format::Pbrt => pbrt::read(path, options, files, problems),
     }
 }

@@ -12,6 +12,11 @@ pub struct Limits {
     pub max_pixels: u64,
     /// Most vertices, and most triangles, of one mesh; also of what a shape is tessellated into.
     pub max_vertices: u64,
+    /// Most triangles that a surface is subdivided into, where `max_vertices` is not less.
+    pub max_subdivided: u64,
+    /// Most files that a scene's own file includes, directly or not; one counts as often as it is
+    /// included.
+    pub max_files: usize,
 }
 
 impl Default for Limits {
@@ -21,6 +26,8 @@ impl Default for Limits {
             max_bytes: 4 << 30,
             max_pixels: 1 << 28,
             max_vertices: 1 << 28,
+            max_subdivided: 1 << 24,
+            max_files: 100_000,
         }
     }
 }
@@ -34,6 +41,8 @@ impl Limits {
             max_bytes: 16 << 20,
             max_pixels: 1 << 20,
             max_vertices: 1 << 18,
+            max_subdivided: 1 << 18,
+            max_files: 1000,
         }
     }
 }

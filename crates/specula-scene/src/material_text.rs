@@ -5,7 +5,7 @@ use specula_bsdf::metals;
 
 use crate::num::f32_of;
 use crate::scene::{
-    CoatMedium, ColourParam, ConductorFresnel, FloatParam, MaterialKind, Roughness,
+    CoatMedium, ColourParam, ConductorFresnel, FloatParam, Material, MaterialKind, Roughness,
     RoughnessMapping, Scene,
 };
 
@@ -140,15 +140,35 @@ fn kind(
 }
 
 impl Scene {
-    /// Gives every surface this material, but those that are no surface at all or shine.
+    /// Gives every surface this material, but those that are no surface at all or emit light, and a
+    /// floor that is not the file's ([`Scene::floor`]).
     pub fn replace_materials(&mut self, kind: MaterialKind) {
+        let floor = self.floor.map(|id| id.0);
+        self.replace_where(|i, _| Some(i) != floor, kind);
+    }
+
+    /// Gives this material to every surface whose material's name in the file `matches`, but those that
+    /// are no surface at all or emit light. Returns how many materials have such a name.
+    pub fn replace_materials_named(
+        &mut self,
+        matches: impl Fn(&str) -> bool,
+        kind: MaterialKind,
+    ) -> usize {
+        let named = |m: &Material| m.name.as_deref().is_some_and(&matches);
+        let count = self.materials.iter().filter(|m| named(m)).count();
+        self.replace_where(|_, m| named(m), kind);
+        count
+    }
+
+    fn replace_where(&mut self, chosen: impl Fn(usize, &Material) -> bool, kind: MaterialKind) {
         let shining: Vec<usize> = (self.shapes.iter())
             .chain(self.objects.iter().flat_map(|o| &o.shapes))
             .filter(|s| s.emission.is_some())
             .map(|s| s.material.0)
             .collect();
         for (i, material) in self.materials.iter_mut().enumerate() {
-            if material.kind != MaterialKind::Interface && !shining.contains(&i) {
+            let is_surface = material.kind != MaterialKind::Interface && !shining.contains(&i);
+            if is_surface && chosen(i, material) {
                 material.kind = kind;
                 material.relief = None;
                 material.one_sided = false;

@@ -166,8 +166,8 @@ pub(crate) fn is_dark(light: &Light, images: &[Image]) -> bool {
         },
     };
     let is_black = |id: usize| {
-        let pixels = images.get(id).map(|i| i.pixels.as_slice());
-        pixels.is_some_and(|p| p.iter().flatten().all(|v| *v == 0.0))
+        let image = images.get(id);
+        image.is_some_and(|image| image.pixels.position(|v| v != 0.0).is_none())
     };
     colour == Rgb::BLACK || picture.is_some_and(|(id, _)| is_black(id.0))
 }

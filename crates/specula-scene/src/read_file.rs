@@ -1,38 +1,206 @@
-//! Whole files, decompressed where their name ends in `.gz`.
+//! Whole files, decompressed where their name ends in `.gz`, and the list of those that were read.
+//!
+//! What a scene names must be an ordinary file: opening a pipe would wait for another program, and
+//! opening a device may do anything. The scene itself, which the caller names, may be a pipe.
 
-use std::fs::File;
-use std::io::{Error, Read};
-use std::path::Path;
+use std::collections::HashMap;
+use std::fs::{File, Metadata, OpenOptions};
+use std::io::{BufReader, Error, Read};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::Limits;
+use crate::format::{Format, GZIP};
 
-/// Reads a file; one whose name ends in `.gz` is unpacked.
-///
-/// # Errors
-///
-/// A message without the file's name.
-pub(crate) fn read_bytes(path: &Path, limits: &Limits) -> Result<Vec<u8>, String> {
-    let bytes = plain_bytes(path, limits)?;
-    let packed = path
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("gz"));
-    if packed {
-        unpack(&bytes, limits)
-    } else {
-        Ok(bytes)
+/// Opens the files of a scene, and lists them. Clones share the list, also between threads.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Files {
+    limits: Limits,
+    list: Arc<Mutex<List>>,
+    /// The scene's own content, until a reader takes it.
+    given: Arc<Mutex<Option<Given>>>,
+}
+
+/// A file that was read already.
+type Given = (PathBuf, Vec<u8>);
+
+/// Files in the order in which a reader met them.
+#[derive(Debug, Default)]
+struct List {
+    /// Whether a file was read, with its path.
+    files: Vec<(PathBuf, bool)>,
+    index: HashMap<PathBuf, usize>,
+}
+
+impl List {
+    fn entry(&mut self, path: &Path) -> &mut bool {
+        let i = match self.index.get(path) {
+            Some(&i) => i,
+            None => {
+                self.files.push((path.to_owned(), false));
+                self.index.insert(path.to_owned(), self.files.len() - 1);
+                self.files.len() - 1
+            }
+        };
+        &mut self.files[i].1
     }
 }
 
-/// Reads a file as it is.
+impl Files {
+    pub(crate) fn new(limits: Limits) -> Self {
+        Self {
+            limits,
+            list: Arc::default(),
+            given: Arc::default(),
+        }
+    }
+
+    pub(crate) fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    /// Gives a file its place in the list before threads read it, so that the order does not depend on
+    /// them. A file that nobody reads after it is not listed.
+    pub(crate) fn announce(&self, path: &Path) {
+        self.locked(|list| {
+            list.entry(path);
+        });
+    }
+
+    /// Every file that was opened and read to its end, once.
+    pub(crate) fn list(&self) -> Vec<PathBuf> {
+        self.locked(|list| {
+            let read = list.files.iter().filter(|(_, is_read)| *is_read);
+            read.map(|(path, _)| path.clone()).collect()
+        })
+    }
+
+    /// Reads a file; one whose name ends in `.gz` is unpacked.
+    ///
+    /// # Errors
+    ///
+    /// A message without the file's name.
+    pub(crate) fn unpacked(&self, path: &Path) -> Result<Vec<u8>, String> {
+        if let Some(bytes) = self.taken(path) {
+            return Ok(bytes);
+        }
+        let bytes = self.plain(path)?;
+        let packed = path
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("gz"));
+        if packed {
+            unpack(&bytes, &self.limits)
+        } else {
+            Ok(bytes)
+        }
+    }
+
+    /// Reads an ordinary file as it is.
+    ///
+    /// # Errors
+    ///
+    /// A message without the file's name.
+    pub(crate) fn plain(&self, path: &Path) -> Result<Vec<u8>, String> {
+        if let Some(bytes) = self.taken(path) {
+            return Ok(bytes);
+        }
+        self.whole(path, open_ordinary(path)?)
+    }
+
+    /// Opens an ordinary file to be read piece by piece.
+    ///
+    /// # Errors
+    ///
+    /// A message without the file's name.
+    pub(crate) fn open(&self, path: &Path) -> Result<BufReader<File>, String> {
+        let file = open_ordinary(path)?;
+        let most = self.limits.max_bytes;
+        if file.metadata().map_err(|e| unreadable(&e))?.len() > most {
+            return Err(format!("has more than {most} bytes (`max_bytes`)"));
+        }
+        self.locked(|list| *list.entry(path) = true);
+        Ok(BufReader::with_capacity(1 << 16, file))
+    }
+
+    /// Reads the file that the caller names, which may be a pipe: once, to its end.
+    ///
+    /// # Errors
+    ///
+    /// A message without the file's name.
+    pub(crate) fn scene(&self, path: &Path) -> Result<Vec<u8>, String> {
+        if let Some(bytes) = self.taken(path) {
+            return Ok(bytes);
+        }
+        let file = File::open(path).map_err(|e| unreadable(&e))?;
+        if file.metadata().is_ok_and(|m| m.is_dir()) {
+            return Err("is a folder; expected a file".to_owned());
+        }
+        self.whole(path, file)
+    }
+
+    fn whole(&self, path: &Path, file: File) -> Result<Vec<u8>, String> {
+        let bytes = bytes_of(file, &self.limits)?;
+        self.locked(|list| *list.entry(path) = true);
+        Ok(bytes)
+    }
+
+    /// Hands the content of the scene's own file to the reader that will ask for `path`; returns its format.
+    pub(crate) fn give(&self, path: &Path, bytes: Vec<u8>) -> Format {
+        let bytes = match bytes.starts_with(&GZIP) {
+            // What cannot be unpacked is for the reader to refuse.
+            true => unpack(&bytes, &self.limits).unwrap_or(bytes),
+            false => bytes,
+        };
+        let format = Format::of(&bytes, path);
+        *self.given.lock().unwrap_or_else(PoisonError::into_inner) = Some((path.to_owned(), bytes));
+        format
+    }
+
+    fn taken(&self, path: &Path) -> Option<Vec<u8>> {
+        let mut given = self.given.lock().unwrap_or_else(PoisonError::into_inner);
+        given.take_if(|(of, _)| of == path).map(|(_, bytes)| bytes)
+    }
+
+    fn locked<T>(&self, f: impl FnOnce(&mut List) -> T) -> T {
+        // A list is whole whatever a thread does that holds it.
+        f(&mut self.list.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+}
+
+fn unreadable(error: &Error) -> String {
+    format!("cannot be read: {error}")
+}
+
+/// Opens a file that is neither folder, pipe, socket nor device.
 ///
 /// # Errors
 ///
 /// A message without the file's name.
-pub(crate) fn plain_bytes(path: &Path, limits: &Limits) -> Result<Vec<u8>, String> {
+fn open_ordinary(path: &Path) -> Result<File, String> {
+    let is_ordinary = |metadata: Metadata| match metadata.file_type() {
+        kind if kind.is_file() => Ok(()),
+        kind if kind.is_dir() => Err("is a folder; expected a file".to_owned()),
+        _ => Err("is a pipe, a socket or a device; expected an ordinary file".to_owned()),
+    };
+    // Opening a device may do something: it is looked at first.
+    std::fs::metadata(path)
+        .map_err(|e| unreadable(&e))
+        .and_then(is_ordinary)?;
+    let mut options = OpenOptions::new();
+    options.read(true);
+    // A pipe that took its place since then must not be waited for.
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::custom_flags(&mut options, libc::O_NONBLOCK);
+    let file = options.open(path).map_err(|e| unreadable(&e))?;
+    file.metadata()
+        .map_err(|e| unreadable(&e))
+        .and_then(is_ordinary)?;
+    Ok(file)
+}
+
+fn bytes_of(file: File, limits: &Limits) -> Result<Vec<u8>, String> {
     let most = limits.max_bytes;
-    let unreadable = |e: Error| format!("cannot be read: {e}");
-    let file = File::open(path).map_err(unreadable)?;
-    let promised = file.metadata().map_err(unreadable)?.len();
+    let promised = file.metadata().map_err(|e| unreadable(&e))?.len();
     let too_long = || format!("has more than {most} bytes (`max_bytes`)");
     if promised > most {
         return Err(too_long());
@@ -41,7 +209,7 @@ pub(crate) fn plain_bytes(path: &Path, limits: &Limits) -> Result<Vec<u8>, Strin
     // A pipe or a device promises nothing.
     file.take(most.saturating_add(1))
         .read_to_end(&mut bytes)
-        .map_err(unreadable)?;
+        .map_err(|e| unreadable(&e))?;
     if bytes.len() as u64 > most {
         return Err(too_long());
     }
@@ -59,4 +227,32 @@ fn unpack(bytes: &[u8], limits: &Limits) -> Result<Vec<u8>, String> {
         return Err(format!("unpacks to more than {most} bytes (`max_bytes`)"));
     }
     Ok(unpacked)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_listed_once_in_the_order_of_their_announcement() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        for name in ["a", "b", "c"] {
+            std::fs::write(at(name), "text").unwrap();
+        }
+        let files = Files::new(Limits::default());
+        files.announce(&at("c"));
+        files.announce(&at("b"));
+        files.announce(&at("missing"));
+        let other = files.clone();
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                for name in ["a", "c", "c"] {
+                    other.plain(&at(name)).unwrap();
+                }
+                other.plain(&at("missing")).unwrap_err();
+            });
+        });
+        assert_eq!(files.list(), [at("c"), at("a")], "`b` was not read");
+    }
 }

@@ -1,6 +1,7 @@
 //! All problems of a scene in one report.
 
 use std::collections::HashMap;
+use std::path::PathBuf;
 
 use crate::Loaded;
 use crate::error::{ErrorKind, Place, SceneError, Warning};
@@ -121,10 +122,11 @@ impl From<Note> for Problem {
 pub struct Report {
     problems: Vec<Problem>,
     counts: [usize; 3],
+    files: Vec<PathBuf>,
 }
 
 impl Report {
-    pub(crate) fn new(loaded: Result<Loaded, SceneError>, kept: Kept) -> Self {
+    pub(crate) fn new(loaded: Result<Loaded, SceneError>, kept: Kept, files: Vec<PathBuf>) -> Self {
         let mut found: Vec<Problem> = kept.errors.into_iter().map(Problem::from).collect();
         let mut warnings = kept.warnings;
         match loaded {
@@ -132,7 +134,10 @@ impl Report {
             // One that nothing could stand in for.
             Err(error) => found.push(error.into()),
         }
-        let mut report = Self::default();
+        let mut report = Self {
+            files,
+            ..Self::default()
+        };
         report.counts[Severity::Error as usize] = found.len() + kept.more_errors;
         for group in [
             warnings.into_iter().map(Problem::from).collect(),
@@ -155,6 +160,11 @@ impl Report {
     /// with a count; at most 100 of each severity are listed.
     pub fn problems(&self) -> &[Problem] {
         &self.problems
+    }
+
+    /// Every file that was read, as [`Loaded::files`]; also where the scene has errors.
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
     }
 
     /// How many different problems of a severity there are, listed or not.
@@ -249,7 +259,7 @@ mod tests {
         ];
         problems.keep_warnings(&mut warnings);
         let last = SceneError::new(ErrorKind::EmptyScene, &at(4), "nothing");
-        let report = Report::new(Err(last), problems.take());
+        let report = Report::new(Err(last), problems.take(), Vec::new());
         let lines: Vec<_> = (report.problems().iter())
             .map(|p| (p.severity().name(), p.place().line(), p.count()))
             .collect();
@@ -281,6 +291,7 @@ mod tests {
         let report = Report::new(
             Err(SceneError::new(ErrorKind::Io, &place, "last")),
             problems.take(),
+            Vec::new(),
         );
         assert_eq!(report.unlisted(Severity::Error), 3);
         assert_eq!(report.unlisted(Severity::Note), 3);

@@ -23,6 +23,7 @@ pub use texture::{
     Wrap,
 };
 
+use crate::energy::Energy;
 use crate::image::Image;
 
 /// Index into [`Scene::images`].
@@ -69,6 +70,8 @@ pub struct Scene {
     pub instances: Vec<Instance>,
     /// Lights that are not shapes.
     pub lights: Vec<Light>,
+    /// Material of the floor that is not the file's: it was put under an object without light.
+    pub floor: Option<MaterialId>,
 }
 
 /// What the file asks of the renderer; the command line may override each.
@@ -82,4 +85,7 @@ pub struct Settings {
     /// Whether lights are hidden from the camera: its rays pass shapes that emit until they meet
     /// one that does not, and see no light from infinity (Mitsuba's `hide_emitters`).
     pub hide_emitters: bool,
+    /// Treatment of multiple scattering where a material does not say it itself: none for the scenes of
+    /// renderers that scatter singly (pbrt-v4, Mitsuba 3), [`Energy::DEFAULT`] for all others.
+    pub energy: Energy,
 }

@@ -8,12 +8,14 @@ use specula_bsdf::Rgb;
 use crate::bounds::{self, Bounds};
 use crate::error::{ErrorKind, Place, SceneError, Source, Warning};
 use crate::faults::Fault;
+use crate::format::Format;
 use crate::problems::Problems;
+use crate::read_file::Files;
 use crate::scene::{
     ColourParam, FloatParam, Geometry, Material, MaterialId, MaterialKind, Mesh, MeshId, Scene,
     Shape,
 };
-use crate::{Limits, LoadOptions, Loaded, mesh, read_file, stage};
+use crate::{Limits, Loaded, mesh, stage};
 
 /// Size of the picture.
 const RESOLUTION: [u32; 2] = [960, 960];
@@ -21,27 +23,30 @@ const RESOLUTION: [u32; 2] = [960, 960];
 /// Longest file that is kept for excerpts of its mistakes.
 const LONGEST_TEXT: u64 = 16 << 20;
 
-/// Reads a mesh with `parse`, and gives it grey paint, a camera that frames it and the built-in
-/// studio's light, which a warning says.
+/// Reads a mesh with `parse`, and gives it grey paint, a camera that frames it, the built-in studio's
+/// light and a floor, which a warning says.
 ///
 /// # Errors
 ///
 /// Where the file cannot be read, is damaged, or holds no triangle.
 pub(crate) fn read(
     path: &Path,
-    options: &LoadOptions,
+    files: &Files,
     problems: &Problems,
-    parse: impl FnOnce(&Path, &Limits, bool) -> Result<Mesh, Vec<Fault>>,
+    (format, parse): (
+        Format,
+        impl FnOnce(&Path, &Files, bool) -> Result<Mesh, Vec<Fault>>,
+    ),
 ) -> Result<Loaded, SceneError> {
     let place = Place::start(&Source::unread(path));
     let keeps = problems.is_check();
-    let read = parse(path, &options.limits, keeps).and_then(|mut mesh| {
+    let read = parse(path, files, keeps).and_then(|mut mesh| {
         let cleaning = mesh::clean_or_name(&mut mesh, keeps)?;
         Ok((mesh, cleaning))
     });
     let (mesh, cleaning) = match read {
         Ok(read) => read,
-        Err(faults) => return Err(refuse(path, &options.limits, problems, &faults)?),
+        Err(faults) => return Err(refuse(path, files.limits(), problems, &faults)?),
     };
     let material = Material::new(MaterialKind::Diffuse {
         reflectance: ColourParam::Value(Rgb::splat(0.5)),
@@ -66,9 +71,11 @@ pub(crate) fn read(
         objects: Vec::new(),
         instances: Vec::new(),
         lights: Vec::new(),
+        floor: None,
     };
-    scene.camera = stage::camera(bounds::of_scene(&scene), RESOLUTION);
-    stage::add_studio(&mut scene);
+    let bounds = bounds::of_scene(&scene);
+    scene.camera = stage::camera(bounds, RESOLUTION);
+    stage::light(&mut scene, bounds);
     scene.each_fault(|fault| {
         problems.keep(SceneError::new(
             ErrorKind::Structure,
@@ -76,12 +83,17 @@ pub(crate) fn read(
             fault.to_string(),
         ))
     })?;
-    let message = "the file is a mesh alone: grey paint, the built-in studio's light and a camera \
-                   that frames it are used (y is up)";
+    let message = "the file is a mesh alone: grey paint, the built-in studio's light, a floor and a \
+                   camera that frames it are used (y is up)";
     let mut warnings = vec![Warning::new(&place, message)];
     let told = cleaning.messages().into_iter();
     warnings.extend(told.map(|message| Warning::new(&place, message)));
-    Ok(Loaded { scene, warnings })
+    Ok(Loaded {
+        format,
+        scene,
+        warnings,
+        files: files.list(),
+    })
 }
 
 /// Keeps all mistakes of a file but the last, which it returns: nothing stands in for the mesh.
@@ -99,7 +111,7 @@ fn refuse(
         max_bytes: limits.max_bytes.min(LONGEST_TEXT),
         ..*limits
     };
-    let text = read_file::read_bytes(path, &limits).ok();
+    let text = Files::new(limits).unpacked(path).ok();
     let text = text.and_then(|bytes| String::from_utf8(bytes).ok());
     let source = Source::new(path.display().to_string(), text.unwrap_or_default());
     let error = |fault: &Fault| match fault.line {

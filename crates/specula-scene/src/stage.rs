@@ -1,10 +1,13 @@
-//! A camera and light for files that have none; y is up.
+//! A camera, light and a floor for files that have none; y is up.
 
-use glam::{DMat4, DVec3};
+mod floor;
+
+use glam::{DMat4, DVec3, DVec4};
 use specula_bsdf::Rgb;
 
 use crate::bounds::Bounds;
 use crate::builtin;
+use crate::energy::Energy;
 use crate::scene::{
     Camera, EnvironmentMapping, Film, Filter, ImageId, Light, Projection, Scene, Settings,
 };
@@ -14,6 +17,7 @@ pub(crate) const SETTINGS: Settings = Settings {
     max_depth: 16,
     samples_per_pixel: 128,
     hide_emitters: false,
+    energy: Energy::DEFAULT,
 };
 
 /// Field of view of the framing camera, over the shorter side.
@@ -41,8 +45,7 @@ pub(crate) fn camera(bounds: Bounds, resolution: [u32; 2]) -> Camera {
     let (centre, radius) = if bounds.is_empty() {
         (DVec3::ZERO, 1.0)
     } else {
-        let radius = 0.5 * (bounds.max - bounds.min).length();
-        (0.5 * (bounds.min + bounds.max), radius.max(1e-6))
+        (bounds.centre(), bounds.radius().max(f64::MIN_POSITIVE))
     };
     let from = DVec3::new(0.5, 0.35, 1.0).normalize();
     let distance = radius / (0.5 * FOV_DEG.to_radians()).sin();
@@ -73,24 +76,52 @@ pub(crate) fn fit_screen(camera: &mut Camera, [width, height]: [u32; 2]) {
     }
 }
 
-/// Adds the environment of the built-in studio, turned so that its front is the framing camera's.
-pub(crate) fn add_studio(scene: &mut Scene) {
-    scene.images.push(builtin::studio_environment());
-    // The studio has z up and is seen from -y; here y is up and the view is from +z.
-    let to_world = DMat4::from_cols(
-        DVec3::X.extend(0.0),
-        DVec3::NEG_Z.extend(0.0),
-        DVec3::Y.extend(0.0),
-        DVec3::ZERO.extend(1.0),
-    );
+/// The studio's axes in the world: it has z up and is seen from -y; here y is up and the view is
+/// from +z.
+const Z_UP: DMat4 = DMat4::from_cols(
+    DVec4::X,
+    DVec4::new(0.0, 0.0, -1.0, 0.0),
+    DVec4::Y,
+    DVec4::W,
+);
+
+/// What [`light`] has added.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Lit {
+    /// The studio's light alone.
+    Alone,
+    /// Light, and a floor on which the object throws a shadow.
+    OverFloor,
+}
+
+/// Adds the built-in studio's light, its front towards the framing camera, and a floor under what the
+/// scene shows, unless its camera looks from below.
+///
+/// The floor reflects as much as comes from the horizon behind it and from all that is below, so that
+/// it has no visible rim. It is so much wider than the object that the object's size is left to
+/// `bounds`, which the caller has taken before.
+pub(crate) fn light(scene: &mut Scene, bounds: Bounds) -> Lit {
+    scene
+        .images
+        .push(builtin::studio_above_floor(f64::from(floor::ALBEDO)));
     scene.lights.push(Light::Infinite {
         radiance: Rgb::WHITE,
         image: Some((
             ImageId(scene.images.len() - 1),
             EnvironmentMapping::LatitudeLongitude,
         )),
-        to_world,
+        to_world: Z_UP,
     });
+    let eye = scene.camera.to_world.w_axis.y;
+    match floor::under(scene, bounds) {
+        Some((material, shape)) if eye > shape.to_world.w_axis.y => {
+            scene.floor = Some(shape.material);
+            scene.materials.push(material);
+            scene.shapes.push(shape);
+            Lit::OverFloor
+        }
+        _ => Lit::Alone,
+    }
 }
 
 #[cfg(test)]

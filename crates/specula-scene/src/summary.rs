@@ -42,7 +42,7 @@ pub struct Summary {
     pub images: Vec<ImageSummary>,
     /// Lights by kind; `area` counts shapes that emit.
     pub lights: BTreeMap<&'static str, usize>,
-    /// Bounds of all shapes in world space.
+    /// Bounds of all shapes in world space, but of a floor that is not the file's ([`Scene::floor`]).
     pub bounds: Bounds,
     /// The camera.
     pub camera: Camera,
@@ -103,7 +103,7 @@ impl Summary {
                 })
                 .collect(),
             lights,
-            bounds: bounds::of_scene(scene),
+            bounds: bounds::of_file(scene),
             camera: scene.camera.clone(),
             film: scene.film.clone(),
             settings: scene.settings.clone(),

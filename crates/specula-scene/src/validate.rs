@@ -106,6 +106,11 @@ impl Scene {
             hear(self.check_light(&format!("light {i}"), light))?;
         }
         hear(ensure(
+            self.floor.is_none_or(|id| id.0 < self.materials.len()),
+            "scene",
+            "the material of its floor is out of range",
+        ))?;
+        hear(ensure(
             !(self.shapes.is_empty() && self.instances.is_empty()),
             "scene",
             "there is no shape",
@@ -348,9 +353,9 @@ fn check_image(what: &str, image: &Image) -> Result<(), Invalid> {
         what,
         "pixels do not match its size",
     )?;
-    let bad = |p: &[f32; 3]| !p.iter().all(|v| v.is_finite() && *v >= 0.0);
+    let bad = |v: f32| !(v.is_finite() && v >= 0.0);
     ensure(
-        first(&image.pixels, bad).is_none(),
+        image.pixels.position(bad).is_none(),
         what,
         "a pixel is negative or not finite",
     )
@@ -411,7 +416,7 @@ fn check_mesh(what: &str, mesh: &Mesh) -> Result<(), Invalid> {
     )
 }
 
-mod surface;
+pub(crate) mod surface;
 
 #[cfg(test)]
 mod tests;

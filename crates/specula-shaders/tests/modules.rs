@@ -8,12 +8,6 @@ use std::path::{Path, PathBuf};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use specula_shaders::{Kind, MODULES, Module, compose, declarations};
 
-/// Prefixes of names, besides the module's own, that belong to a module.
-const PREFIXES: &[(&str, &[&str])] = &[
-    ("bsdf_sample", &["BSDF_", "TRANSPORT_"]),
-    ("reflection", &["SAMPLER_"]),
-];
-
 fn crate_folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
@@ -252,27 +246,122 @@ fn missing_twin(twin: &str) -> Option<String> {
 }
 
 #[test]
-fn names_obey_the_rules() {
+fn every_name_begins_with_its_module() {
     let mut findings = Vec::new();
     for module in MODULES {
-        let stem = module.name().trim_end_matches(|c: char| c.is_ascii_digit());
-        let extra = PREFIXES.iter().find(|(m, _)| *m == module.name());
-        let extra = extra.map_or(&[][..], |(_, prefixes)| prefixes);
         for declared in declarations(module.text) {
-            let name = declared.name;
-            let (prefix, case): (String, fn(char) -> bool) = match declared.kind {
-                Kind::Function => (stem.to_owned(), |c| !c.is_ascii_uppercase()),
-                Kind::Constant => (stem.to_uppercase(), |c| !c.is_ascii_lowercase()),
-                _ => continue,
-            };
-            let begins = name.starts_with(&prefix) || extra.iter().any(|p| name.starts_with(p));
-            if !begins || !name.chars().all(case) {
-                findings.push(format!(
-                    "{}: `{name}` does not begin with `{prefix}`",
-                    module.path
-                ));
+            if let Some(fault) = fault_of_name(module, declared.kind, declared.name) {
+                findings.push(format!("{}: {fault}", module.path));
             }
         }
+    }
+    none(&findings);
+}
+
+/// What is wrong with the name of a declaration.
+///
+/// Functions and constants begin with the module's name, structures with its words in capitals; so that a
+/// structure does not take a common word from the caller (`Frame`), it has two words at least. No name begins
+/// with another module's longer name.
+fn fault_of_name(module: &Module, kind: Kind, name: &str) -> Option<String> {
+    let spelt = |m: &Module| match kind {
+        Kind::Constant => m.name().to_uppercase(),
+        Kind::Struct | Kind::Alias => m.name().split('_').map(capitalised).collect(),
+        Kind::Variable => "specula".to_owned(),
+        _ => m.name().to_owned(),
+    };
+    let is_type = matches!(kind, Kind::Struct | Kind::Alias);
+    let begins = |m: &Module| {
+        name.strip_prefix(spelt(m).as_str()).is_some_and(|rest| {
+            let next = rest.chars().next();
+            next.is_none_or(|c| c == '_' || (is_type && c.is_ascii_uppercase()))
+        })
+    };
+    let case = match kind {
+        Kind::Constant => name.chars().all(|c| !c.is_ascii_lowercase()),
+        Kind::Struct | Kind::Alias => !name.contains('_'),
+        _ => name.chars().all(|c| !c.is_ascii_uppercase()),
+    };
+    let prefix = spelt(module);
+    if !begins(module) || !case {
+        return Some(format!("`{name}` does not begin with `{prefix}`"));
+    }
+    if is_type && name.chars().filter(char::is_ascii_uppercase).count() < 2 {
+        return Some(format!(
+            "`{name}` is one word: say what of `{prefix}` it is"
+        ));
+    }
+    let longer = |m: &&Module| m.name().len() > module.name().len() && begins(m);
+    let other = MODULES
+        .iter()
+        .find(longer)
+        .filter(|_| kind != Kind::Variable)?;
+    Some(format!("`{name}` looks like a name of {}", other.path))
+}
+
+/// `Frame` of `frame`.
+fn capitalised(word: &str) -> String {
+    let (first, rest) = word.split_at(usize::from(!word.is_empty()));
+    first.to_uppercase() + rest
+}
+
+#[test]
+fn names_without_their_module_are_found() {
+    let module = |path: &str| MODULES.iter().find(|m| m.path == path).unwrap();
+    for (path, kind, name, sound) in [
+        ("math/frame", Kind::Struct, "FrameBasis", true),
+        ("math/frame", Kind::Struct, "Frame", false),
+        ("math/frame", Kind::Struct, "Basis", false),
+        ("math/frame", Kind::Struct, "Framework", false),
+        ("energy/albedo", Kind::Struct, "Loss", false),
+        ("energy/interface", Kind::Struct, "InterfaceKnot", true),
+        ("energy/interface", Kind::Struct, "InterfaceLayer", false),
+        (
+            "energy/interface_layer",
+            Kind::Struct,
+            "InterfaceLayer",
+            true,
+        ),
+        ("fresnel/dielectric", Kind::Function, "dielectric", true),
+        ("fresnel/dielectric", Kind::Function, "dielectrics_f", false),
+        (
+            "fresnel/dielectric",
+            Kind::Function,
+            "dielectric_albedo_f",
+            false,
+        ),
+        ("fresnel/f82", Kind::Function, "f82_eval", true),
+        ("fresnel/f82", Kind::Function, "f_eval", false),
+        (
+            "bsdf/bsdf_sample",
+            Kind::Constant,
+            "BSDF_SAMPLE_VALID",
+            true,
+        ),
+        ("bsdf/bsdf_sample", Kind::Constant, "BSDF_VALID", false),
+        (
+            "bsdf/bsdf_sample",
+            Kind::Constant,
+            "bsdf_sample_valid",
+            false,
+        ),
+        (
+            "energy/energy_table",
+            Kind::Variable,
+            "specula_tables",
+            true,
+        ),
+        ("energy/energy_table", Kind::Variable, "tables", false),
+    ] {
+        let fault = fault_of_name(module(path), kind, name);
+        assert_eq!(fault.is_none(), sound, "{path} {name}: {fault:?}");
+    }
+}
+
+#[test]
+fn names_survive_translation() {
+    let mut findings = Vec::new();
+    for module in MODULES {
         if let Ok(text) = compose(&[module.path])
             && let Ok(parsed) = naga::front::wgsl::parse_str(&text)
         {

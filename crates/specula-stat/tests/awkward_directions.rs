@@ -77,6 +77,7 @@ fn gltf<T: Real>(i: u32) -> Lobe<T> {
         clearcoat_roughness: s(11),
         sheen_colour: rgb(s(12), s(13), s(14)),
         sheen_roughness: s(15),
+        compensated: i.is_multiple_of(2),
     })
     .into()
 }

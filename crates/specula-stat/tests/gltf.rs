@@ -93,6 +93,24 @@ fn coated<T: Real>() -> Case<T> {
     ("coated", coated)
 }
 
+/// Metals that give back what they lose by scattering once.
+fn compensated<T: Real>() -> Vec<Case<T>> {
+    let t = T::of;
+    let rough = GltfParameters {
+        metallic: T::ONE,
+        roughness: t(0.9),
+        compensated: true,
+        ..base()
+    };
+    let half = GltfParameters {
+        metallic: t(0.5),
+        anisotropy: t(0.7),
+        roughness: t(0.7),
+        ..rough
+    };
+    vec![("compensated", rough), ("compensated half metal", half)]
+}
+
 fn narrowest(p: &GltfParameters<f64>) -> (f64, f64) {
     let of = |r: f64| r * r;
     let alpha = if p.clearcoat > 0.0 {
@@ -114,7 +132,7 @@ fn bends(p: &GltfParameters<f64>) -> f64 {
 fn plan_of(p: &GltfParameters<f64>) -> Plan {
     Plan {
         eta: bends(p),
-        reciprocity: if p.clearcoat > 0.0 {
+        reciprocity: if p.clearcoat > 0.0 || p.compensated {
             Domain::Nowhere
         } else {
             Domain::Above
@@ -135,6 +153,7 @@ fn every_material_from_above() {
             ..passing()[1].1
         },
     ));
+    cases.extend(compensated());
     prove_all("gltf", &cases, |&(name, p)| {
         let lobe = Gltf::new(p);
         let subject = Subject::from_bsdf(&lobe, Transport::Radiance);
@@ -267,7 +286,18 @@ fn gltf_makes_no_light() {
             outside: false,
             ..body
         };
+        let compensated = GltfParameters {
+            metallic: 1.0,
+            compensated: true,
+            ..half
+        };
+        let compensated_half = GltfParameters {
+            metallic: 0.5,
+            anisotropy: 0.0,
+            ..compensated
+        };
         materials.extend([plain, bright, velvet, coated, half, pane, body, inside]);
+        materials.extend([compensated, compensated_half]);
     }
     let mut brightest = 0.0_f64;
     for wo in few_views(&[1.0, 0.6, 0.2, 0.05]) {
@@ -330,4 +360,58 @@ fn the_formulas_are_the_appendixs() {
             );
         }
     }
+}
+
+/// A white metal loses nothing once it is compensated, and a coloured one has Turquin's albedo: the single
+/// scattering of each channel times `1 + b L / (1 - L)`, by the uncompensated lobes alone.
+#[test]
+fn compensated_metals_keep_their_energy_and_their_colour() {
+    for roughness in [0.4, 0.7, 1.0] {
+        let metal = |base_colour, compensated| {
+            Gltf::new(GltfParameters::<f64> {
+                base_colour,
+                roughness,
+                compensated,
+                ..GltfParameters::default()
+            })
+        };
+        let gold = rgb(1.0, 0.7, 0.3);
+        let lobes = [
+            metal(Rgb::WHITE, false),
+            metal(Rgb::WHITE, true),
+            metal(gold, false),
+            metal(gold, true),
+        ];
+        for cos in [0.95_f64, 0.5, 0.1] {
+            let wo = vec3((1.0 - cos * cos).sqrt(), 0.0, cos);
+            let [white, whole, plain, full] = lobes.map(|lobe| mean_weight(&lobe, wo));
+            let lost = 1.0 - white.r;
+            assert!(lost > 5e-4, "{roughness} {cos}: nothing is lost");
+            assert!((whole.r - 1.0).abs() < 3e-3, "{roughness} {cos}: {whole:?}");
+            let expected = [plain.r, plain.g, plain.b];
+            let base = gold.to_array();
+            for ((got, single), b) in full.to_array().iter().zip(expected).zip(base) {
+                let wanted = single * (1.0 + b * lost / (1.0 - lost));
+                assert!(
+                    (got - wanted).abs() < 3e-3,
+                    "{roughness} {cos}: {got} {wanted}"
+                );
+            }
+        }
+    }
+}
+
+/// Directional albedo: the mean weight of samples on a grid.
+fn mean_weight(lobe: &Gltf<f64>, wo: Vec3<f64>) -> Rgb<f64> {
+    const SIDE: u32 = 400;
+    let place = |i: u32| (f64::from(i) + 0.5) / f64::from(SIDE);
+    let mut sum = Rgb::BLACK;
+    for i in 0..SIDE * SIDE {
+        let choice = (f64::from(i) * 0.618_033_988_749_895).fract();
+        let u = [choice, place(i % SIDE), place(i / SIDE)];
+        if let Some(sample) = lobe.sample(wo, u, Transport::Radiance) {
+            sum += sample.weight;
+        }
+    }
+    sum * (1.0 / f64::from(SIDE * SIDE))
 }

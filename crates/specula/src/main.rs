@@ -1,5 +1,9 @@
 //! The command line: arguments in, pictures and messages out. All else is in the libraries.
 #![forbid(unsafe_code)]
+#![deny(
+    clippy::print_stderr,
+    reason = "a lost standard error must end nothing: `console::say`"
+)]
 
 mod cli;
 
@@ -8,10 +12,10 @@ use std::process::ExitCode;
 use clap::Parser;
 
 fn main() -> ExitCode {
-    // Usage errors end here, with code 2.
-    let arguments = cli::Arguments::parse();
-    match cli::run(arguments) {
-        Ok(code) => code,
-        Err(failure) => failure.print(),
-    }
+    let run = match cli::Arguments::try_parse() {
+        Ok(arguments) => cli::run(arguments),
+        // Help, the version, or a usage error, which ends with code 2.
+        Err(told) => return cli::usage(&told),
+    };
+    run.unwrap_or_else(|failure| failure.print())
 }

@@ -114,7 +114,7 @@ fn warnings_count_under_strict_alone() {
     let run = check(folder.path(), &["a.pbrt"]);
     assert_eq!(run.status.code(), Some(0), "{}", stdout(&run));
     assert!(
-        stdout(&run).contains("a.pbrt: 2 warnings"),
+        stdout(&run).contains("a.pbrt: 3 warnings"),
         "{}",
         stdout(&run)
     );

@@ -7,31 +7,11 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use common::{SMALL, small_scene, specula, stderr};
+use common::{SMALL, names, run, small_scene, stderr, succeed};
 use specula::render::picture::{Picture, read_exr};
-
-/// Runs the program; returns its exit code and what it said.
-fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
-    let output = specula(folder).args(arguments).output().unwrap();
-    (output.status.code(), stderr(&output))
-}
-
-fn succeed(folder: &Path, arguments: &[&str]) {
-    let (code, said) = run(folder, arguments);
-    assert_eq!(code, Some(0), "{arguments:?}: {said}");
-}
 
 fn picture(folder: &Path, name: &str) -> Picture {
     read_exr(&folder.join(name)).unwrap()
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let mut names: Vec<_> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|e| e.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    names
 }
 
 #[test]
@@ -87,7 +67,7 @@ fn what_does_not_belong_together_is_not_merged() {
         folder,
         &["render", "small.pbrt", "--samples", "0..4", "-o", "a.film"],
     );
-    let parts: [(&[&str], &str); 5] = [
+    let parts: [(&[&str], &str); 7] = [
         (&["small.pbrt", "--noise", "0.1"], "different settings"),
         (
             &["small.pbrt", "--samples", "3..6"],
@@ -96,6 +76,14 @@ fn what_does_not_belong_together_is_not_merged() {
         (
             &["small.pbrt", "--samples", "4..6", "--seed", "1"],
             "different settings",
+        ),
+        (
+            &["small.pbrt", "--samples", "4..6", "--clamp", "3"],
+            "biased: indirect light clamped to 3",
+        ),
+        (
+            &["small.pbrt", "--samples", "4..6", "--regularize"],
+            "biased: regularized",
         ),
         (&["other.pbrt", "--samples", "4..6"], "different scenes"),
         (
@@ -109,6 +97,8 @@ fn what_does_not_belong_together_is_not_merged() {
         succeed(folder, &line);
         let (code, said) = run(folder, &["merge", "a.film", "b.film", "-o", "out.exr"]);
         assert_eq!(code, Some(2), "{said}");
+        // On one line, however wide the terminal is.
+        let said = said.replace("\n  │ ", " ");
         assert!(said.contains(expected), "{said}");
     }
     std::fs::write(folder.join("b.film"), "no film").unwrap();
@@ -252,4 +242,140 @@ fn a_full_disk_is_told_and_the_old_picture_stays() {
     let kept = std::fs::read(folder.join("a.exr")).unwrap();
     assert_eq!(kept, b"an old picture");
     assert_eq!(names(folder), ["a.exr", "small.pbrt"]);
+}
+
+/// A render with two outputs, in folders of which one is gone at the end.
+#[test]
+fn one_output_that_cannot_be_written_costs_neither_the_other_nor_the_samples() {
+    let (folder, _) = small_scene();
+    let folder = folder.path();
+    for name in ["gone", "temporary"] {
+        std::fs::create_dir(folder.join(name)).unwrap();
+    }
+    let line = [
+        "small.pbrt",
+        "--spp",
+        "300",
+        "--resolution",
+        "96x64",
+        "--threads",
+        "1",
+    ];
+    let mut child = Command::new(env!("CARGO_BIN_EXE_specula"))
+        .current_dir(folder)
+        .arg("render")
+        .args(line)
+        // The film goes beside the first output.
+        .args(["-o", "gone/a.exr", "-o", "b.exr", "--checkpoint", "off"])
+        .env("TMPDIR", folder.join("temporary"))
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(Duration::from_millis(300));
+    std::fs::remove_dir_all(folder.join("gone")).unwrap();
+    assert!(child.try_wait().unwrap().is_none(), "it ended too early");
+    let output = child.wait_with_output().unwrap();
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("cannot write the picture"), "{said}");
+    assert_eq!(picture(folder, "b.exr").sample_count[0], 300.0);
+    // Beside the output there is no folder: elsewhere, and told.
+    let kept = names(&folder.join("temporary"));
+    assert_eq!(kept.len(), 1, "{kept:?}\n{said}");
+    let film = format!("temporary/{}", kept[0]);
+    assert!(said.replace('\n', "").contains(&kept[0]), "{said}");
+
+    let resume = format!("--resume={film}");
+    let rest = [&["render"], &line[..], &[&resume, "-o", "c.exr"]].concat();
+    succeed(folder, &rest);
+    assert_eq!(picture(folder, "c.exr"), picture(folder, "b.exr"));
+    let (code, said) = run(
+        folder,
+        &["render", "small.pbrt", "--resume=none.film", "-o", "d.exr"],
+    );
+    assert_eq!(code, Some(2), "{said}");
+}
+
+/// A film that was kept elsewhere does not replace another render's beside the output.
+#[test]
+fn a_film_from_elsewhere_replaces_no_other_work() {
+    let (folder, _) = small_scene();
+    let folder = folder.path();
+    for (spp, film) in [("4", "kept.film"), ("8", "a.film")] {
+        succeed(folder, &["render", "small.pbrt", "--spp", spp, "-o", film]);
+    }
+    let farther = std::fs::read(folder.join("a.film")).unwrap();
+    let line = [
+        "render",
+        "small.pbrt",
+        "--spp",
+        "16",
+        "--resume=kept.film",
+        "-o",
+        "a.exr",
+    ];
+    let (code, said) = run(folder, &line);
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("another render"), "{said}");
+    assert_eq!(std::fs::read(folder.join("a.film")).unwrap(), farther);
+    succeed(
+        folder,
+        &[
+            "render",
+            "small.pbrt",
+            "--spp",
+            "2",
+            "--restart",
+            "-o",
+            "a.film",
+        ],
+    );
+    succeed(folder, &line);
+    succeed(
+        folder,
+        &["render", "small.pbrt", "--spp", "16", "-o", "b.exr"],
+    );
+    assert_eq!(picture(folder, "a.exr"), picture(folder, "b.exr"));
+}
+
+#[test]
+fn a_second_render_to_the_same_output_is_refused() {
+    let (folder, _) = small_scene();
+    let folder = folder.path();
+    let mut first = Command::new(env!("CARGO_BIN_EXE_specula"))
+        .current_dir(folder)
+        .args([
+            "render",
+            "small.pbrt",
+            "--spp",
+            "16000000",
+            "--threads",
+            "1",
+            "-o",
+            "a.exr",
+        ])
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(Duration::from_millis(500));
+    // The picture, and the checkpoint of another picture.
+    for outputs in [
+        &["-o", "a.exr"][..],
+        &["-o", "b.png", "-o", "./a.exr"],
+        &["-o", "a.png"],
+    ] {
+        let line = [&["render", "small.pbrt", "--restart"], outputs].concat();
+        let (code, said) = run(folder, &line);
+        assert_eq!(code, Some(2), "{outputs:?}: {said}");
+        assert!(said.contains("another render"), "{said}");
+    }
+    succeed(folder, &["render", "small.pbrt", "-o", "c.exr"]);
+    first.kill().unwrap();
+    first.wait().unwrap();
+    // What was killed holds no lock.
+    succeed(
+        folder,
+        &["render", "small.pbrt", "--restart", "-o", "a.exr"],
+    );
+    assert_eq!(names(folder), ["a.exr", "c.exr", "small.pbrt"]);
 }

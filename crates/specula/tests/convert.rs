@@ -43,7 +43,7 @@ fn a_scene_is_not_written_over_itself() {
         .output()
         .unwrap();
     assert_eq!(run.status.code(), Some(2));
-    assert!(stderr(&run).contains("over itself"), "{}", stderr(&run));
+    assert!(stderr(&run).contains("it was read"), "{}", stderr(&run));
     assert_eq!(std::fs::read(&scene).unwrap(), before);
     let other = specula(folder.path())
         .arg("convert")

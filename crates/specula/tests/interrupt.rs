@@ -1,4 +1,4 @@
-//! Ctrl-C during a long render.
+//! Ctrl-C, SIGTERM and SIGHUP during a long render.
 #![cfg(unix)]
 
 mod common;
@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Child, ChildStderr, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-use common::{small_scene, specula};
+use common::{send, small_scene, specula};
 use specula::render::FilmFile;
 use specula::render::picture::{Picture, read_exr};
 
@@ -56,10 +56,7 @@ impl Render {
     }
 
     fn interrupt(&self) {
-        let sent = Command::new("kill")
-            .args(["-INT", &self.child.id().to_string()])
-            .status();
-        assert!(sent.expect("there is `kill`").success());
+        send("INT", self.child.id());
     }
 
     /// Reads until it has said `wanted`.
@@ -132,11 +129,12 @@ fn the_second_interrupt_stops_between_tiles_and_the_render_can_be_resumed() {
     let (folder, scene) = closed_scene();
     let mut render = Render::start(folder.path(), &scene, &["--spp", "2"]);
     render.wait_for("ready after");
-    std::thread::sleep(Duration::from_millis(50));
+    // A few tiles of twelve.
+    std::thread::sleep(Duration::from_millis(300));
     render.interrupt();
     render.wait_for("finishing the first pass");
     render.interrupt();
-    render.wait_for("stopping between tiles");
+    render.wait_for("stopping within the pass");
     let (status, text) = render.end();
     assert_eq!(status.code(), Some(130), "{text}");
     let [least, most] = counts(&read_exr(&folder.path().join("a.exr")).unwrap());
@@ -164,20 +162,77 @@ fn the_second_interrupt_stops_between_tiles_and_the_render_can_be_resumed() {
 }
 
 #[test]
-fn the_third_interrupt_ends_the_program() {
+fn the_second_interrupt_does_not_wait_for_a_tile() {
     let (folder, scene) = closed_scene();
+    // A tile takes longer than the test may.
     let size = ["--spp", "1000", "--max-depth", "60000"];
     let mut render = Render::start(folder.path(), &scene, &size);
     render.wait_for("ready after");
     std::thread::sleep(Duration::from_millis(50));
     render.interrupt();
     render.wait_for("finishing the first pass");
-    render.interrupt();
-    render.wait_for("stopping between tiles");
-    // The tile that is being rendered takes longer than this.
+    let start = Instant::now();
     render.interrupt();
     let (status, text) = render.end();
     assert_eq!(status.code(), Some(130), "{text}");
-    assert!(!text.contains("wrote"), "{text}");
-    assert!(!folder.path().join("a.exr").exists());
+    assert!(start.elapsed() < Duration::from_secs(5), "{text}");
+    assert!(text.contains("stopped by Ctrl-C; wrote"), "{text}");
+    assert!(folder.path().join("a.exr").exists());
+}
+
+/// Schedulers and lost terminals: the picture and the film are written within seconds, whatever the pass.
+#[test]
+fn sigterm_and_sighup_write_what_there_is() {
+    for (signal, code, name) in [("TERM", 143, "SIGTERM"), ("HUP", 129, "SIGHUP")] {
+        let (folder, scene) = closed_scene();
+        // A pass takes minutes, a tile many seconds.
+        let size = ["--spp", "1000", "--max-depth", "60000"];
+        let mut render = Render::start(folder.path(), &scene, &size);
+        render.wait_for("ready after");
+        std::thread::sleep(Duration::from_millis(300));
+        let start = Instant::now();
+        send(signal, render.child.id());
+        let (status, text) = render.end();
+        assert_eq!(status.code(), Some(code), "{text}");
+        assert!(start.elapsed() < Duration::from_secs(5), "{text}");
+        assert!(
+            text.contains(&format!("stopped by {name}; wrote")),
+            "{text}"
+        );
+        assert!(read_exr(&folder.path().join("a.exr")).is_ok());
+        assert!(FilmFile::read(&folder.path().join("a.film")).is_ok());
+    }
+}
+
+#[test]
+fn before_the_first_sample_a_signal_ends_the_program() {
+    let folder = tempfile::tempdir().unwrap();
+    // A scene that never comes.
+    let mut child = Command::new(env!("CARGO_BIN_EXE_specula"))
+        .current_dir(folder.path())
+        .args(["render", "-", "-o", "a.exr"])
+        .stdin(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(Duration::from_millis(300));
+    send("TERM", child.id());
+    assert_eq!(child.wait().unwrap().code(), Some(143));
+}
+
+/// `nohup`, and jobs that a script starts in the background, are not to be stopped by what they ignore.
+#[test]
+fn signals_that_are_ignored_from_the_start_stay_so() {
+    let (folder, _) = small_scene();
+    let script = "trap '' HUP; exec \"$0\" render small.pbrt --time 1500ms -o a.exr";
+    let child = Command::new("sh")
+        .current_dir(folder.path())
+        .args(["-c", script, env!("CARGO_BIN_EXE_specula")])
+        .stderr(Stdio::null())
+        .spawn();
+    let mut child = child.unwrap();
+    std::thread::sleep(Duration::from_millis(700));
+    send("HUP", child.id());
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    assert!(folder.path().join("a.exr").exists());
 }

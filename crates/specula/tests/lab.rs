@@ -1,4 +1,5 @@
 //! `specula lab`, end to end.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail loudly")]
 
 mod common;
 
@@ -175,8 +176,9 @@ fn samplers_are_compared_on_a_scene() {
     let (code, said, error) = lab(folder.path(), &arguments);
     assert_eq!(code, 0, "{error}");
     for part in [
-        "With energy none, take ",
-        "With energy turquin, take ",
+        "With energy none, ",
+        "With energy turquin, ",
+        "take ",
         "mean brightness",
     ] {
         assert!(said.contains(part), "{said}");
@@ -190,6 +192,7 @@ fn samplers_are_compared_on_a_scene() {
             .unwrap()
             .contains("--samplers cap,exact")
     );
+    answers_follow_from_figures(&found);
     let pictures = &found["comparisons"][0];
     assert_eq!(pictures["shots"].as_array().unwrap().len(), 3);
     // Its own reference may be used again, but only for one treatment of energy and the same size.
@@ -217,6 +220,41 @@ fn samplers_are_compared_on_a_scene() {
         assert_eq!(code, 2, "{error}");
         assert!(error.contains(part), "{error}");
     }
+}
+
+/// The claim about the exact sampler says what the table of pairs says: yes where no interval is below 1, no
+/// where one is.
+fn answers_follow_from_figures(found: &serde_json::Value) {
+    let tables = found["tables"].as_array().unwrap();
+    let pairs = tables.iter().find(|t| t["name"] == "pairs").unwrap();
+    let rows = pairs["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 2, "cap and exact, twice");
+    let mut expected = "yes";
+    for row in rows {
+        assert_eq!((&row[1], &row[2]), (&"exact".into(), &"cap".into()));
+        // Where nothing is known there is no number.
+        let bound = |i: usize, otherwise: f64| row[i].as_f64().unwrap_or(otherwise);
+        let (from, to) = (bound(4, 0.0), bound(5, f64::INFINITY));
+        let decided = match (from > 1.0, to < 1.0) {
+            (true, _) => "more efficient",
+            (_, true) => "less efficient",
+            _ => "not told apart",
+        };
+        assert_eq!(row[6], decided, "{row}");
+        if to < 1.0 {
+            expected = "no";
+        } else if from < 1.0 && expected == "yes" {
+            expected = "undecided";
+        }
+    }
+    let claims = found["verdict"]["claims"].as_array().unwrap();
+    let about_exact = |c: &&serde_json::Value| {
+        c["statement"]
+            .as_str()
+            .is_some_and(|s| s.contains("at least as efficient"))
+    };
+    let claim = claims.iter().find(about_exact).unwrap();
+    assert_eq!(claim["holds"], expected, "{claim}");
 }
 
 #[cfg(unix)]

@@ -192,3 +192,26 @@ fn without_a_viewer_nothing_begins() {
         assert!(!folder.path().join("a.exr").exists());
     }
 }
+
+/// A viewer that takes the connection and never reads: packets of a large picture pile up.
+#[test]
+fn a_viewer_that_does_not_read_does_not_hold_up_the_render() {
+    let (folder, scene) = small_scene();
+    let server = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = server.local_addr().unwrap().to_string();
+    let start = std::time::Instant::now();
+    let run = specula(folder.path())
+        .args(["render", "--display-server", &address, "-o", "a.exr"])
+        .args(["--time", "3s", "--resolution", "1024x768"])
+        .arg(&scene)
+        .output()
+        .unwrap();
+    let said = stderr(&run);
+    assert!(run.status.success(), "{said}");
+    // 3 s, the last picture's 2 s, and the files.
+    let taken = start.elapsed().as_secs_f64();
+    assert!(taken < 12.0, "{taken}: {said}");
+    assert!(said.contains("the viewer"), "{said}");
+    let picture = read_exr(&folder.path().join("a.exr")).unwrap();
+    assert!(picture.sample_count[0] > 1.0, "{said}");
+}

@@ -226,3 +226,38 @@ fn wrong_arguments_end_with_code_2_and_say_what_was_expected() {
         );
     }
 }
+
+/// Where a picture is biased by an option, the help, the summary and the file say so.
+#[test]
+fn bias_is_named() {
+    let (folder, scene) = small_scene();
+    let help = specula(folder.path()).args(["render", "--help"]).output();
+    let help = String::from_utf8(help.unwrap().stdout).unwrap();
+    assert_eq!(help.matches("Bias: ").count(), 2, "{help}");
+    let render = |arguments: &[&str], name: &str| {
+        let run = specula(folder.path())
+            .args(["render", "--resolution", "12x8", "--spp", "2", "-o", name])
+            .args(arguments)
+            .arg(&scene)
+            .output()
+            .unwrap();
+        assert!(run.status.success(), "{}", stderr(&run));
+        let file = std::fs::read(folder.path().join(name)).unwrap();
+        let named = file.windows(12).any(|w| w == b"specula.bias");
+        (stderr(&run), named)
+    };
+    let (said, named) = render(&[], "plain.exr");
+    assert!(!said.contains("biased") && !named, "{said}");
+    let (said, named) = render(&["--clamp", "2.5", "--regularize"], "biased.exr");
+    let expected = "biased (indirect light clamped to 2.5, regularized)";
+    assert!(said.contains(expected) && named, "{said}");
+    for wrong in ["0", "-1", "inf", "much"] {
+        let clamp = format!("--clamp={wrong}");
+        let run = specula(folder.path())
+            .args(["render", &clamp])
+            .output()
+            .unwrap();
+        assert_eq!(run.status.code(), Some(2));
+        assert!(stderr(&run).contains("above 0"), "{}", stderr(&run));
+    }
+}

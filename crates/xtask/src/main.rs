@@ -11,6 +11,7 @@ mod gltf;
 mod instructions;
 mod interface;
 mod interface_single;
+mod memory;
 mod metals;
 mod plastic;
 mod profile;
@@ -89,6 +90,8 @@ enum Chore {
     Scaling(scaling::Scaling),
     /// Compare ray casting with Embree, and with itself over the number of triangles
     Rays(rays::Rays),
+    /// Compare the memory that renders say they take with what they take
+    Memory(memory::Memory),
     /// Render for an hour, and fail where its memory grows
     Soak(soak::Soak),
     /// Check what no compiler checks: file heads, lengths, leftovers, trailing spaces
@@ -126,6 +129,7 @@ fn run(chore: &Chore) -> Result<()> {
         Chore::Profile(profile) => profile::run(&root, profile),
         Chore::Scaling(scaling) => scaling::run(&root, scaling),
         Chore::Rays(rays) => rays::run(&root, rays),
+        Chore::Memory(memory) => memory::run(&root, memory),
         Chore::Soak(soak) => soak::run(&root, soak),
         Chore::Tidy => tidy::run(&root),
     }

@@ -120,7 +120,7 @@ fn memory(process: u32) -> Option<[f64; 2]> {
 }
 
 /// A field of `/proc/N/status`, in mebibytes.
-fn field(text: &str, name: &str) -> Option<f64> {
+pub(crate) fn field(text: &str, name: &str) -> Option<f64> {
     let line = text.lines().find_map(|l| l.strip_prefix(name))?;
     let kibibytes: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     Some(kibibytes / 1024.0)

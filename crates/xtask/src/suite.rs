@@ -41,7 +41,7 @@ const CARGO_STEPS: &[Step] = &[
     Step {
         // The examples in the documentation are among them.
         name: "tests",
-        arguments: &["test", "--workspace", "--quiet"],
+        arguments: &["test", "--workspace", "--quiet", "--no-fail-fast"],
         environment: None,
     },
 ];

@@ -79,11 +79,11 @@ const DIRECTIONS: [Work; 7] = [
 macro_rules! reflection {
     ($strategy:literal) => {
         concat!(
-            "let facets = Microfacets(alpha, DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, ",
+            "let facets = MicrofacetsModel(alpha, DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, ",
             $strategy,
             ");
         let lobe = RoughConductor(facets, reflectance_constant(vec3f(1.0)));
-        let drawn = rough_conductor_draw(lobe, wo, vec3f(0.5, u), TRANSPORT_RADIANCE);
+        let drawn = rough_conductor_draw(lobe, wo, vec3f(0.5, u), BSDF_SAMPLE_RADIANCE);
         sum += vec4f(drawn.wi.xy, drawn.pdf, drawn.weight.x);"
         )
     };

@@ -70,7 +70,7 @@ macro_rules! lobe_cases {
                  y[4] = drawn.weight.r; y[5] = drawn.weight.g; y[6] = drawn.weight.b;
                  y[7] = drawn.eta; y[8] = drawn.pdf;
              }
-             if drawn.flags != 0u && (drawn.flags & BSDF_SPECULAR) == 0u {
+             if drawn.flags != 0u && (drawn.flags & BSDF_SAMPLE_SPECULAR) == 0u {
                  let value = ",
             $module,
             "_eval_pdf(lobe, wo, drawn.wi, transport);
@@ -325,7 +325,7 @@ fn wrong_terms_are_caught() {
 /// One wrong term for each family of lobes, and more for those with many: case, module, what is there and
 /// what stands there instead.
 #[rustfmt::skip]
-const FAULTS: [[&str; 4]; 27] = [
+const FAULTS: [[&str; 4]; 28] = [
     ["rough_conductor_values", "rough_conductor", "let quarter = 0.25 * facet.x", "let quarter = 0.2501 * facet.x"],
     ["rough_conductor_draws", "rough_conductor", "norm * norm * quotient.x", "norm * quotient.x"],
     ["smooth_conductor_draws", "smooth_conductor", "vec3f(-wo.x, -wo.y", "vec3f(-wo.x, wo.y"],
@@ -351,6 +351,7 @@ const FAULTS: [[&str; 4]; 27] = [
     ["principled_thin_values", "principled_thin", "0.65 * p.eta", "0.651 * p.eta"],
     ["principled_thin_values", "principled_parameters", "clamp(p.diff_trans, 0.0, 2.0)", "clamp(p.diff_trans, 0.0, 0.9)"],
     ["gltf_values", "gltf", "lobe.clearcoat * (0.04 + 0.96", "lobe.clearcoat * (0.04 + 0.95"],
+    ["gltf_values", "gltf", "lobe.base * (lost / max(1.0 - lost", "lobe.base * (lost / max(1.001 - lost"],
     ["gltf_values", "gltf_sheen", "3.82987 + (3", "3.83987 + (3"],
     ["gltf_values", "gltf_albedo", "0.086456", "0.096456"],
 ];
@@ -402,7 +403,7 @@ fn white_metal_keeps_all_light() {
     }
     let draws = |&(cosine, alpha, model): &_| furnace_draws(cosine, alpha, model);
     let inputs: Vec<[f32; 9]> = views.iter().flat_map(draws).collect();
-    let body = "let facets = Microfacets(vec2f(x[6], x[7]), DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, SAMPLER_EXACT);
+    let body = "let facets = MicrofacetsModel(vec2f(x[6], x[7]), DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, SAMPLER_EXACT);
          let lobe = compensated_new(facets, reflectance_constant(vec3f(1.0)), u32(x[8]));
          let drawn = compensated_draw(lobe, vec3f(x[0], x[1], x[2]), vec3f(x[3], x[4], x[5]), 0u);
          y[0] = select(0.0, drawn.weight.g, drawn.flags != 0u);";

@@ -113,7 +113,7 @@ fn metals_and_schlick() -> Vec<Case> {
         Case::new(
             "conductor",
             &["conductor"],
-            "let metal = Conductor(vec3f(x[0], x[1], x[2]), vec3f(x[3], x[4], x[5]));
+            "let metal = ConductorIor(vec3f(x[0], x[1], x[2]), vec3f(x[3], x[4], x[5]));
              let f = conductor_eval(metal, x[6]);
              let under = conductor_eval(conductor_under(metal, 1.5), x[6]);
              for (var k = 0u; k < 3u; k++) { y[k] = f[k]; y[k + 3u] = under[k]; }",

@@ -37,7 +37,7 @@ macro_rules! coat {
             "let wo = vec3f(x[2], x[3], x[4]);
              let wi = vec3f(x[5], x[6], x[7]);
              var stream = stream_new(vec2u(u32(x[8]), 0x5eedu));
-             let metal = Microfacets(vec2f(0.2, 0.3), DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, SAMPLER_EXACT);
+             let metal = MicrofacetsModel(vec2f(0.2, 0.3), DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, SAMPLER_EXACT);
              let silver = reflectance_conductor(vec3f(0.2, 0.9, 1.1), vec3f(3.9, 2.4, 2.1));
              let base = LayeredBase(u32(x[9]), metal, silver, vec3f(0.8, 0.5, 0.2));
              let medium = LayeredMedium(x[11], vec3f(0.9, 0.5, 0.3) * x[12], 0.4);

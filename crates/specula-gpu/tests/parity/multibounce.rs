@@ -48,11 +48,11 @@ const SEED: u64 = 0x5eed;
 macro_rules! metal {
     ($($body:tt)*) => {
         concat!(
-            "let normals = Normals(vec2f(x[0], x[1]), DISTRIBUTION_GGX);
+            "let normals = NormalsModel(vec2f(x[0], x[1]), DISTRIBUTION_GGX);
              let wo = vec3f(x[2], x[3], x[4]);
              let wi = vec3f(x[5], x[6], x[7]);
              var stream = stream_new(vec2u(u32(x[8]), 0x5eedu));
-             let facets = Facets(normals, reflectance_schlick(vec3f(0.9, 0.6, 0.3)));
+             let facets = WalkFacets(normals, reflectance_schlick(vec3f(0.9, 0.6, 0.3)));
              ",
             $($body)*
         )
@@ -64,11 +64,11 @@ use metal;
 macro_rules! glass {
     ($model:literal, $mis:literal, $($body:tt)*) => {
         concat!(
-            "let normals = Normals(vec2f(x[0], x[1]), DISTRIBUTION_GGX);
+            "let normals = NormalsModel(vec2f(x[0], x[1]), DISTRIBUTION_GGX);
              let wo = vec3f(x[2], x[3], x[4]);
              let wi = vec3f(x[5], x[6], x[7]);
              var stream = stream_new(vec2u(u32(x[8]), 0x5eedu));
-             let tints = Tints(vec3f(0.9, 1.0, 1.0), vec3f(0.7, 1.0, 1.0));
+             let tints = TintsPair(vec3f(0.9, 1.0, 1.0), vec3f(0.7, 1.0, 1.0));
              let lobe = MultibounceDielectric(normals, x[9], 1u, ",
             $model, ", ", $mis, ", tints);
              ",
@@ -232,31 +232,31 @@ fn values() -> Vec<Case> {
         value!(
             "heitz_value",
             "heitz2016",
-            "heitz_walk_eval(facets, true, wo, wi, &stream)",
+            "heitz2016_eval(facets, true, wo, wi, &stream)",
             Model::Heitz2016
         ),
         value!(
             "bitterli_value",
             "bitterli2022",
-            "bitterli_eval(facets, wo, wi, &stream)",
+            "bitterli2022_eval(facets, wo, wi, &stream)",
             Model::BitterliDeon2022
         ),
         value!(
             "wang_value",
             "wang2022",
-            "wang_eval(facets, true, wo, wi, &stream)",
+            "wang2022_eval(facets, true, wo, wi, &stream)",
             Model::Wang2022 { correlated: true }
         ),
         value!(
             "wang_uncorrelated_value",
             "wang2022",
-            "wang_eval(facets, false, wo, wi, &stream)",
+            "wang2022_eval(facets, false, wo, wi, &stream)",
             Model::Wang2022 { correlated: false }
         ),
         value!(
             "cui_value",
             "cui2023",
-            "cui_eval(facets, wo, wi, &stream)",
+            "cui2023_eval(facets, wo, wi, &stream)",
             Model::Cui2023 {
                 bidirectional: false
             }
@@ -277,7 +277,7 @@ fn other_values() -> Vec<Case> {
             "heitz_as_published_value",
             &["heitz2016", "reflectance", "distribution"],
             metal!(
-                "let f = heitz_walk_eval(facets, false, wo, wi, &stream);
+                "let f = heitz2016_eval(facets, false, wo, wi, &stream);
                  y[0] = f.r; y[1] = f.g; y[2] = f.b;"
             ),
             walks!(|x| {
@@ -291,7 +291,7 @@ fn other_values() -> Vec<Case> {
             &["cui2023", "reflectance", "distribution"],
             metal!(
                 "var f = vec3f(0.0);
-                 if wo.z > 0.0 { f = cui_eval_bidirectional(facets, wo, wi, &stream); }
+                 if wo.z > 0.0 { f = cui2023_eval_bidirectional(facets, wo, wi, &stream); }
                  y[0] = f.r; y[1] = f.g; y[2] = f.b;"
             ),
             walks!(|x| {
@@ -340,25 +340,25 @@ fn draws() -> Vec<Case> {
         draw!(
             "heitz_draw",
             "heitz2016",
-            "heitz_walk_draw(facets, wo, wi.yz, &stream)",
+            "heitz2016_draw(facets, wo, wi.yz, &stream)",
             Model::Heitz2016
         ),
         draw!(
             "wang_draw",
             "wang2022",
-            "wang_draw(facets, true, wo, wi.yz, &stream)",
+            "wang2022_draw(facets, true, wo, wi.yz, &stream)",
             Model::Wang2022 { correlated: true }
         ),
         draw!(
             "wang_uncorrelated_draw",
             "wang2022",
-            "wang_draw(facets, false, wo, wi.yz, &stream)",
+            "wang2022_draw(facets, false, wo, wi.yz, &stream)",
             Model::Wang2022 { correlated: false }
         ),
         draw!(
             "cui_draw",
             "cui2023",
-            "cui_draw(facets, wo, wi.yz, &stream)",
+            "cui2023_draw(facets, wo, wi.yz, &stream)",
             Model::Cui2023 {
                 bidirectional: false
             }

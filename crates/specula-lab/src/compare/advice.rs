@@ -1,201 +1,229 @@
 //! Which sampler to take, in plain words, with figures.
 
 use specula_bsdf::vndf::Sampler;
-use specula_stat::z_test::{sidak, two_sided_p};
 
-use super::CompareOptions;
-use super::estimate::Judged;
-use super::reference::Reference;
-use super::results::gain;
-use crate::output::table::significant;
-use crate::{Claim, Verdict};
+use super::estimate::Field;
+use super::interval::Interval;
 
-/// Standard errors within which two efficiencies are called even.
-const EVEN: f64 = 2.0;
-/// Chance of calling right samplers wrong.
-const SIGNIFICANCE: f64 = 1e-3;
+/// Of those that cannot be told apart, the default is taken where its measured efficiency is at least this
+/// share of the largest.
+const NEARLY: f64 = 0.98;
 
-/// What is recommended and why, and what must hold.
-pub(super) fn verdict(
-    options: &CompareOptions<'_>,
-    judged: &[Judged],
-    references: &[Reference],
-) -> Verdict {
-    let mut sentences = Vec::new();
-    for number in 0..references.len() {
-        let own: Vec<&Judged> = judged.iter().filter(|j| j.reference == number).collect();
-        sentences.push(recommendation(&own));
+/// What is recommended for a treatment of energy.
+#[derive(Debug, PartialEq)]
+pub(super) struct Choice {
+    /// Index of the sampler.
+    pub(super) taken: usize,
+    /// All that cannot be told apart from it, itself among them: none is shown to be more efficient.
+    pub(super) tied: Vec<usize>,
+    /// Why it is that one.
+    pub(super) by: Reason,
+}
+
+/// Why a sampler is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Reason {
+    /// All others are shown to be less efficient.
+    Shown,
+    /// A tie-break: it is the default.
+    Default,
+    /// A tie-break: its measured efficiency is the largest.
+    Measured,
+}
+
+/// The most efficient sampler, and the tie-break where several may be it. `None` where no efficiency is
+/// known.
+pub(super) fn choice(field: &Field) -> Option<Choice> {
+    let all = 0..field.samplers.len();
+    let others = |i: usize| all.clone().filter(move |&j| j != i);
+    let is_known = |i: usize| others(i).any(|j| field.ratios[i][j].middle.is_finite());
+    let known: Vec<usize> = all.clone().filter(|&i| is_known(i)).collect();
+    let first = *known.first()?;
+    let measured = |i: usize| field.ratios[i][first].middle;
+    let best = known
+        .iter()
+        .copied()
+        .max_by(|&a, &b| measured(a).total_cmp(&measured(b)))?;
+    let is_beaten = |i: usize| others(i).any(|j| field.ratios[j][i].low > 1.0);
+    let tied: Vec<usize> = all.clone().filter(|&i| !is_beaten(i)).collect();
+    let default = tied
+        .iter()
+        .copied()
+        .find(|&i| field.samplers[i] == Sampler::default());
+    let (taken, by) = match default {
+        _ if tied.len() < 2 => (best, Reason::Shown),
+        Some(i) if field.ratios[i][best].middle >= NEARLY => (i, Reason::Default),
+        _ => (best, Reason::Measured),
+    };
+    Some(Choice { taken, tied, by })
+}
+
+/// What to take, in words.
+pub(super) fn recommendation(field: &Field) -> String {
+    let energy = field.energy;
+    if let [only] = field.samplers[..] {
+        return format!("With energy {energy}, only {only} was compared.");
     }
-    sentences.extend(treatments(options, references));
-    let mut claims = vec![same_mean(judged)];
-    claims.extend(fewer_rejected(judged));
-    claims.extend(gains(judged));
-    let origin = if options.reference.is_some() {
-        "The reference is as given: what is wrong with it counts as error of all. "
+    let Some(Choice { taken, tied, by }) = choice(field) else {
+        return format!(
+            "With energy {energy}, the errors are smaller than the reference can tell: give more time."
+        );
+    };
+    let name = field.samplers[taken];
+    let beaten: Vec<usize> = (0..field.samplers.len())
+        .filter(|i| !tied.contains(i))
+        .collect();
+    let needs = |it: &str| {
+        let each = beaten.iter().map(|&i| {
+            let times = field.ratios[i][taken].text(2);
+            format!("{times} of the time of {}", field.samplers[i])
+        });
+        format!("{it} needs {} for the same error", listed(each))
+    };
+    if by == Reason::Shown {
+        return format!("With energy {energy}, take {name}: {}.", needs("it"));
+    }
+    let names = listed(tied.iter().map(|&i| field.samplers[i].to_string()));
+    let why = match by {
+        Reason::Default => "it is the default",
+        _ => "it came out most efficient",
+    };
+    let mut text = format!(
+        "With energy {energy}, {names} cannot be told apart. The tie-break: take {name}, as of these {why}; {}.",
+        price(field, taken, &tied)
+    );
+    if !beaten.is_empty() {
+        text += &format!(" {}.", needs("It"));
+    }
+    text
+}
+
+/// What a tie-break costs at most.
+fn price(field: &Field, taken: usize, tied: &[usize]) -> String {
+    let most = tied.iter().map(|&i| field.ratios[i][taken].high);
+    let most = most.fold(1.0, f64::max);
+    if most.is_finite() {
+        format!("that takes at most {most:.2} times the time of the best of them")
     } else {
-        ""
-    };
-    Verdict {
-        summary: sentences.join(" "),
-        claims,
-        caveat: format!(
-            "{origin}Fireflies are counted against the reference with its own noise. Times are this \
-             machine's; uncertainties are one standard error."
-        ),
+        "how much more time that may take is not known: give more time".to_owned()
     }
 }
 
-/// Which sampler is best for one treatment of energy.
-fn recommendation(own: &[&Judged]) -> String {
-    let known: Vec<&&Judged> = own.iter().filter(|j| j.efficiency[0].is_finite()).collect();
-    let Some(best) = best(&known) else {
-        return "The errors are smaller than the reference can tell: give more time.".to_owned();
-    };
-    let energy = best.energy;
-    let others: Vec<&Judged> = known
-        .iter()
-        .filter(|j| j.sampler != best.sampler)
-        .map(|j| **j)
-        .collect();
-    let [even, behind]: [Vec<&Judged>; 2] = [true, false].map(|wanted| {
-        let is_wanted = |j: &&&Judged| is_even(j, best) == wanted;
-        others.iter().filter(is_wanted).copied().collect()
-    });
-    let mut text = format!("With energy {energy}, take {}", best.sampler);
-    if others.is_empty() {
-        return text + ": nothing else was compared.";
+/// `a, b and c`.
+fn listed(all: impl Iterator<Item = String>) -> String {
+    let all: Vec<String> = all.collect();
+    match all.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        None => String::new(),
     }
-    let needs = |all: &[&Judged]| {
-        let each: Vec<String> = all.iter().map(|j| factor(j, best)).collect();
-        format!("it needs {} for the same error", each.join(", "))
-    };
-    if !behind.is_empty() {
-        text += &format!(": {}", needs(&behind));
+}
+
+/// What a pair's interval says of the first one.
+pub(super) fn decided(ratio: Interval) -> &'static str {
+    if ratio.low > 1.0 {
+        "more efficient"
+    } else if ratio.high < 1.0 {
+        "less efficient"
+    } else {
+        "not told apart"
     }
-    if !even.is_empty() {
-        let names: Vec<String> = even.iter().map(|j| j.sampler.to_string()).collect();
-        let others = names.join(", ");
-        text += &format!("; it is not told apart from {others} ({})", needs(&even));
-    }
-    text + "."
 }
 
-/// The most efficient one; of those that are even with it, the one that rejects least.
-fn best<'a>(known: &[&&'a Judged]) -> Option<&'a Judged> {
-    let most = known
-        .iter()
-        .max_by(|a, b| a.efficiency[0].total_cmp(&b.efficiency[0]))?;
-    known
-        .iter()
-        .filter(|j| is_even(j, most))
-        .min_by(|a, b| a.rejected_share.total_cmp(&b.rejected_share))
-        .map(|j| **j)
-}
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::compare::estimate::square;
+    use Sampler::{Bounded, Cap, Exact, Heitz};
+    use specula_scene::Energy;
+    use specula_stat::Rng;
 
-fn is_even(a: &Judged, b: &Judged) -> bool {
-    let error = a.efficiency[1].hypot(b.efficiency[1]);
-    (a.efficiency[0] - b.efficiency[0]).abs() <= EVEN * error
-}
-
-/// `0.78 +- 0.02 of the time of cap`.
-fn factor(other: &Judged, best: &Judged) -> String {
-    let ratio = other.efficiency[0] / best.efficiency[0];
-    let [a, b] = [other, best].map(|j| j.efficiency[1] / j.efficiency[0]);
-    format!(
-        "{ratio:.2} +- {:.2} of the time of {}",
-        ratio * a.hypot(b),
-        other.sampler
-    )
-}
-
-/// What treatments of energy change.
-fn treatments(options: &CompareOptions<'_>, references: &[Reference]) -> Option<String> {
-    let first = options.energies.first()?;
-    let changes: Vec<String> = (options.energies.iter().zip(references).skip(1))
-        .map(|(energy, reference)| {
-            let [change, error] = gain(&references[0], reference).map(|v| 100.0 * v);
-            format!("{energy} by {change:+.2} +- {error:.2} %")
-        })
-        .collect();
-    (!changes.is_empty()).then(|| {
-        format!(
-            "Energy is a matter of what is shown, not of noise: over {first}, the mean brightness \
-             changes with {}.",
-            changes.join(", ")
-        )
-    })
-}
-
-/// All samplers converge to the same picture.
-fn same_mean(judged: &[Judged]) -> Claim {
-    let worst = judged.iter().map(|j| j.z.abs()).fold(0.0, f64::max);
-    let p = two_sided_p(worst);
-    Claim::measured(
-        "All samplers converge to the same mean brightness",
-        "equal",
-        format!(
-            "at most {worst:.1} standard errors from the reference (p = {})",
-            significant(p, 2)
-        ),
-        p >= sidak(SIGNIFICANCE, judged.len().max(1)),
-    )
-}
-
-/// Each of the papers' samplers rejects at most as many directions as the one before it.
-fn fewer_rejected(judged: &[Judged]) -> Option<Claim> {
-    let share = |sampler: Sampler, reference: usize| {
-        let own = judged
-            .iter()
-            .find(|j| j.sampler == sampler && j.reference == reference);
-        own.map(|j| j.rejected_share)
-    };
-    let order = [Sampler::Cap, Sampler::Bounded, Sampler::Exact];
-    let last = judged.iter().map(|j| j.reference).max()?;
-    let (mut holds, mut measured) = (true, Vec::new());
-    for reference in 0..=last {
-        let shares = order.map(|s| share(s, reference).map(|v| (s, v)));
-        let there: Vec<(Sampler, f64)> = shares.into_iter().flatten().collect();
-        if there.len() < 2 {
-            return None;
-        }
-        // Shares are estimates: a thousandth is not told apart.
-        holds &= there.windows(2).all(|w| w[1].1 <= w[0].1 + 1e-3);
-        let words: Vec<String> = there
-            .iter()
-            .map(|(s, v)| format!("{s} {:.2} %", 100.0 * v))
-            .collect();
-        measured.push(words.join(", "));
-    }
-    Some(Claim::measured(
-        "Bounded caps reject fewer directions than caps, and the exact sampler fewer still",
-        "at most as many",
-        measured.join("; "),
-        holds,
-    ))
-}
-
-/// The exact sampler's error in the same time.
-fn gains(judged: &[Judged]) -> Option<Claim> {
-    let exact: Vec<&Judged> = judged
-        .iter()
-        .filter(|j| j.sampler == Sampler::Exact)
-        .collect();
-    let others = judged.iter().filter(|j| j.sampler != Sampler::Exact);
-    let (mut holds, mut measured) = (true, Vec::new());
-    for other in others {
-        let own = exact.iter().find(|e| e.reference == other.reference)?;
-        if own.efficiency[0].is_finite() && other.efficiency[0].is_finite() {
-            holds &= own.efficiency[0] >= other.efficiency[0] || is_even(own, other);
-            let ratio = own.efficiency[0] / other.efficiency[0];
-            measured.push(format!("{ratio:.2} x {}", other.label));
+    /// Samplers with their efficiencies; every ratio is uncertain by a factor of `1 + width`.
+    pub(in crate::compare) fn field(all: &[(Sampler, f64)], width: f64) -> Field {
+        Field {
+            energy: Energy::None,
+            samplers: all.iter().map(|a| a.0).collect(),
+            ratios: square(all.len(), |a, b| {
+                let middle = all[a].1 / all[b].1;
+                Interval {
+                    middle,
+                    low: middle / (1.0 + width),
+                    high: middle * (1.0 + width),
+                }
+            }),
         }
     }
-    (!measured.is_empty()).then(|| {
-        Claim::measured(
-            "The exact sampler is at least as efficient as any other",
-            "1 / (MSE x time)",
-            measured.join("; "),
-            holds,
-        )
-    })
+
+    fn taken(all: &[(Sampler, f64)], width: f64) -> (Sampler, Reason, usize) {
+        let choice = choice(&field(all, width)).unwrap();
+        (all[choice.taken].0, choice.by, choice.tied.len())
+    }
+
+    #[test]
+    fn the_most_efficient_is_taken() {
+        let all = [(Heitz, 1.0), (Cap, 1.16), (Bounded, 1.14), (Exact, 0.98)];
+        assert_eq!(taken(&all, 0.01), (Cap, Reason::Shown, 1));
+        // Cap and bounded within 2 %, exact behind both.
+        assert_eq!(taken(&all, 0.05), (Cap, Reason::Measured, 2));
+        // The default takes 1.18 times as long: not even a tie-break takes it.
+        assert_eq!(taken(&all, 0.5), (Cap, Reason::Measured, 4));
+        let even = [(Heitz, 1.0), (Cap, 1.01), (Bounded, 1.0), (Exact, 1.0)];
+        assert_eq!(taken(&even, 0.05), (Exact, Reason::Default, 4));
+    }
+
+    #[test]
+    fn words_say_tie_breaks_and_what_they_cost() {
+        let all = [(Heitz, 0.5), (Bounded, 1.01), (Exact, 1.0)];
+        let text = recommendation(&field(&all, 0.05));
+        assert_eq!(
+            text,
+            "With energy none, bounded and exact cannot be told apart. The tie-break: take exact, as of these \
+             it is the default; that takes at most 1.06 times the time of the best of them. It needs \
+             0.50 [0.48, 0.53] of the time of heitz for the same error."
+        );
+        let text = recommendation(&field(&[(Heitz, 0.5), (Cap, 1.0)], 0.05));
+        assert_eq!(
+            text,
+            "With energy none, take cap: it needs 0.50 [0.48, 0.53] of the time of heitz for the same error."
+        );
+    }
+
+    #[test]
+    fn what_is_not_known_is_not_behind() {
+        let mut unknown = field(&[(Heitz, 1.0), (Cap, 2.0), (Exact, 1.0)], 0.05);
+        for other in 0..2 {
+            unknown.ratios[2][other] = Interval::unknown(f64::NAN).exp();
+            unknown.ratios[other][2] = Interval::unknown(f64::NAN).exp();
+        }
+        let found = choice(&unknown).unwrap();
+        assert_eq!((found.taken, found.tied), (1, vec![1, 2]));
+        assert!(recommendation(&unknown).contains("is not known: give more time"));
+        let nothing = field(&[(Heitz, f64::NAN), (Cap, f64::NAN)], 0.05);
+        assert_eq!(choice(&nothing), None);
+        assert!(recommendation(&nothing).contains("smaller than the reference can tell"));
+        let alone = recommendation(&field(&[(Cap, 1.0)], 0.0));
+        assert_eq!(alone, "With energy none, only cap was compared.");
+    }
+
+    /// Whatever the figures.
+    #[test]
+    fn advice_never_names_one_that_is_shown_to_be_behind() {
+        let mut rng = Rng::new(3);
+        for case in 0..2000 {
+            let all = [Heitz, Cap, Bounded, Exact].map(|s| (s, (0.6 * rng.uniform()).exp()));
+            let field = field(&all, 0.5 * rng.uniform());
+            let found = choice(&field).unwrap();
+            let ratios = (0..4).map(|other| field.ratios[other][found.taken]);
+            for ratio in ratios {
+                assert!(ratio.low <= 1.0, "case {case}: {all:?}, {found:?}");
+                // Nor is it measured to take much longer.
+                assert!(
+                    ratio.middle <= 1.0 / NEARLY,
+                    "case {case}: {all:?}, {found:?}"
+                );
+            }
+            assert_eq!(found.by == Reason::Shown, found.tied.len() == 1);
+            assert!(found.tied.contains(&found.taken));
+        }
+    }
 }

@@ -2,14 +2,17 @@
 //!
 //! With two references `r1`, `r2` whose errors are independent, the mean of `(p - r1) (p - r2)` is the
 //! mean squared error of `p`, without the references' own. The variance of what follows from it is
-//! found by leaving out one group of pixels after the other (the jackknife): pixels are independent.
+//! found by leaving out one group of pixels after the other (the jackknife): pixels are independent. Times
+//! are uncertain by what they differ between rounds; those of one round are compared, so that what else
+//! the machine does drops out.
 
 use specula_bsdf::vndf::Sampler;
 use specula_render::picture::Picture;
 use specula_scene::Energy;
 
+use super::interval::{Estimate, Interval};
 use super::reference::{Reference, variance_of_luminance};
-use super::turns::Entry;
+use super::turns::{Entry, Round};
 use crate::{Errors, Result, errors};
 
 /// Groups of pixels.
@@ -29,12 +32,20 @@ pub(super) struct Judged {
     pub(super) seconds: f64,
     pub(super) samples: u32,
     pub(super) rejected_share: f64,
+    pub(super) rounds: Vec<Option<Round>>,
     /// Root of the mean squared error over time.
     pub(super) course: Vec<[f64; 2]>,
-    /// Efficiency, `1 / (MSE x time)`, over that of the best of the same energy, and its standard error.
-    pub(super) efficiency: [f64; 2],
-    /// Standard errors that the mean luminance is from the reference's.
-    pub(super) z: f64,
+    /// How far the mean luminance is from the reference's, over the latter, and the standard error.
+    pub(super) shift: [f64; 2],
+}
+
+/// The samplers of one treatment of energy against each other.
+pub(super) struct Field {
+    pub(super) energy: Energy,
+    pub(super) samplers: Vec<Sampler>,
+    /// Efficiency, `1 / (MSE x time)`, of the first index's over that of the second's. All intervals of a
+    /// comparison hold together.
+    pub(super) ratios: Vec<Vec<Interval>>,
 }
 
 /// Sums of products of errors, per group.
@@ -85,8 +96,11 @@ pub(super) fn mse(picture: &Picture, reference: &Reference) -> f64 {
     sums(picture, reference).mse(None)
 }
 
-/// Judges all entries.
-pub(super) fn judge(entries: &[Entry], references: &[Reference]) -> Result<Vec<Judged>> {
+/// Judges all entries: each by itself, and all of a treatment of energy against each other.
+pub(super) fn judge(
+    entries: &[Entry],
+    references: &[Reference],
+) -> Result<(Vec<Judged>, Vec<Field>)> {
     let mut judged = Vec::new();
     let mut all_sums = Vec::new();
     for entry in entries {
@@ -105,41 +119,78 @@ pub(super) fn judge(entries: &[Entry], references: &[Reference]) -> Result<Vec<J
             seconds: entry.render.seconds,
             samples: entry.render.samples,
             rejected_share: entry.render.scattered.rejected_share(),
+            rounds: entry.rounds.clone(),
             course: entry.course.clone(),
-            efficiency: [f64::NAN; 2],
-            z: distance(&picture, reference),
+            shift: shift(&picture, reference),
             picture,
         });
-        all_sums.push((sums, pace_error(&entry.paces)));
+        all_sums.push(sums);
     }
-    for number in 0..references.len() {
-        let own: Vec<usize> = (0..judged.len())
-            .filter(|&i| judged[i].reference == number)
-            .collect();
-        let cost = |i: usize, group| all_sums[i].0.mse(group) * judged[i].seconds;
-        let best = own
-            .iter()
-            .copied()
-            .min_by(|&a, &b| cost(a, None).total_cmp(&cost(b, None)));
-        let Some(best) = best else { continue };
-        let found: Vec<(usize, [f64; 2])> = (own.iter())
-            .map(|&i| {
-                let ratio = |group| (cost(best, group) / cost(i, group)).ln();
-                let paces = if i == best {
-                    0.0
-                } else {
-                    all_sums[i].1.hypot(all_sums[best].1)
-                };
-                let error = jackknife(ratio).hypot(paces);
-                let efficiency = ratio(None).exp();
-                (i, [efficiency, efficiency * error])
-            })
-            .collect();
-        for (i, efficiency) in found {
-            judged[i].efficiency = efficiency;
-        }
-    }
-    Ok(judged)
+    let own = |number: usize| (0..judged.len()).filter(move |&i| entries[i].reference == number);
+    let pairs = |number: usize| {
+        let n = own(number).count();
+        n * n.saturating_sub(1) / 2
+    };
+    let intervals = (0..references.len()).map(pairs).sum();
+    let fields = (0..references.len()).filter_map(|number| {
+        let all: Vec<usize> = own(number).collect();
+        let ratio = |a: usize, b: usize| {
+            let errors = [&all_sums[a], &all_sums[b]];
+            ratio([&judged[a], &judged[b]], errors)
+                .interval(intervals)
+                .exp()
+        };
+        Some(Field {
+            energy: judged[*all.first()?].energy,
+            samplers: all.iter().map(|&i| judged[i].sampler).collect(),
+            ratios: square(all.len(), |a, b| ratio(all[a], all[b])),
+        })
+    });
+    let fields = fields.collect();
+    Ok((judged, fields))
+}
+
+/// A figure for every pair; below the diagonal it is one over that above.
+pub(super) fn square(count: usize, above: impl Fn(usize, usize) -> Interval) -> Vec<Vec<Interval>> {
+    let one = Interval {
+        middle: 1.0,
+        low: 1.0,
+        high: 1.0,
+    };
+    let figure = |a: usize, b: usize| match a.cmp(&b) {
+        std::cmp::Ordering::Less => above(a, b),
+        std::cmp::Ordering::Equal => one,
+        std::cmp::Ordering::Greater => above(b, a).inverse(),
+    };
+    (0..count)
+        .map(|a| (0..count).map(|b| figure(a, b)).collect())
+        .collect()
+}
+
+/// Logarithm of the efficiency of the first over that of the second.
+fn ratio([a, b]: [&Judged; 2], [errors_a, errors_b]: [&Sums; 2]) -> Estimate {
+    // NaN where an error is smaller than the reference can tell.
+    let log = |group| errors_b.mse(group).ln() - errors_a.mse(group).ln();
+    let errors = Estimate {
+        value: log(None),
+        error: jackknife(log),
+        freedom: (GROUPS - 1) as f64,
+    };
+    let paces = Estimate::of_mean(both_rounds(a, b).map(|[x, y]| (y.pace / x.pace).ln()));
+    errors.plus(Estimate {
+        // The errors are those after all the time.
+        value: (b.seconds / a.seconds).ln(),
+        ..paces
+    })
+}
+
+/// The rounds in which both had a turn.
+pub(super) fn both_rounds<'a>(
+    a: &'a Judged,
+    b: &'a Judged,
+) -> impl Iterator<Item = [Round; 2]> + 'a {
+    let pairs = a.rounds.iter().zip(&b.rounds);
+    pairs.filter_map(|(x, y)| Some([(*x)?, (*y)?]))
 }
 
 /// Standard error of an estimate that can be made without one group after the other.
@@ -150,20 +201,9 @@ fn jackknife(estimate: impl Fn(Option<usize>) -> f64) -> f64 {
     (spread * (GROUPS - 1) as f64 / GROUPS as f64).sqrt()
 }
 
-/// Standard error of the logarithm of the mean pace.
-fn pace_error(paces: &[f64]) -> f64 {
-    let n = paces.len() as f64;
-    if n < 2.0 {
-        return 0.0;
-    }
-    let logs: Vec<f64> = paces.iter().map(|p| p.ln()).collect();
-    let mean = logs.iter().sum::<f64>() / n;
-    let variance = logs.iter().map(|l| (l - mean).powi(2)).sum::<f64>() / (n - 1.0);
-    (variance / n).sqrt()
-}
-
-/// Standard errors between the mean luminance of a picture and that of its reference.
-fn distance(picture: &Picture, reference: &Reference) -> f64 {
+/// How far the mean luminance of a picture is from that of its reference, over the latter, and the standard
+/// error of that.
+fn shift(picture: &Picture, reference: &Reference) -> [f64; 2] {
     let n = picture.colour.len().max(1) as f64;
     let sum: f64 = picture
         .colour
@@ -173,7 +213,8 @@ fn distance(picture: &Picture, reference: &Reference) -> f64 {
     let variance: f64 = picture.variance.iter().map(variance_of_luminance).sum();
     let [mean, error] = reference.brightness();
     let error = error.hypot(variance.sqrt() / n);
-    (sum / n - mean) / error.max(f64::MIN_POSITIVE)
+    let scale = mean.abs().max(f64::MIN_POSITIVE);
+    [(sum / n - mean) / scale, error / scale]
 }
 
 #[cfg(test)]

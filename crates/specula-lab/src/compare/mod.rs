@@ -1,11 +1,15 @@
 //! Samplers and treatments of energy against each other on a scene of the user's: every combination
-//! renders for the same time, in turns, and is held against a reference of its treatment.
+//! renders for the same time, in turns, and is held against a reference of its treatment. What is said of
+//! them follows from intervals: yes, no, or undecided.
 
 mod advice;
+mod claims;
 mod estimate;
+mod interval;
 mod reference;
 mod results;
 mod turns;
+mod verdict;
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -100,9 +104,9 @@ fn measure(options: &CompareOptions<'_>, lab: &mut Lab<'_>) -> Result<Verdict> {
         }
     }
     turns::take(options, &mut entries, &references, &clock, lab)?;
-    let judged = estimate::judge(&entries, &references)?;
-    results::write(options, &judged, &references, lab)?;
-    Ok(advice::verdict(options, &judged, &references))
+    let (judged, fields) = estimate::judge(&entries, &references)?;
+    results::write(options, &judged, &fields, &references, lab)?;
+    Ok(verdict::verdict(options, &judged, &fields, &references))
 }
 
 /// How far all of it is, in seconds of rendering.

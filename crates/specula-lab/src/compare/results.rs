@@ -3,11 +3,13 @@
 use specula_bsdf::vndf::Sampler;
 
 use super::CompareOptions;
-use super::estimate::Judged;
+use super::advice::{choice, decided};
+use super::estimate::{Field, Judged};
+use super::interval::Interval;
 use super::reference::Reference;
 use crate::output::table::significant;
 use crate::output::{Comparison, Shot, Table};
-use crate::plot::{Axis, Content, Figure, Panel, Series};
+use crate::plot::{Axis, Content, Figure, Intervals, Panel, Series};
 use crate::{Lab, Result};
 
 /// Style of a sampler's lines, the same in all plots.
@@ -24,11 +26,14 @@ pub(crate) fn style(sampler: Sampler) -> usize {
 pub(super) fn write(
     options: &CompareOptions<'_>,
     judged: &[Judged],
+    fields: &[Field],
     references: &[Reference],
     lab: &mut Lab<'_>,
 ) -> Result<()> {
-    lab.table(table(judged))?;
+    lab.table(table(judged, fields))?;
+    lab.table(pairs(fields))?;
     lab.table(brightness(options, references))?;
+    efficiencies(fields, lab)?;
     plot(options, judged, lab)?;
     for (number, reference) in references.iter().enumerate() {
         let own = judged.iter().filter(|j| j.reference == number);
@@ -61,11 +66,12 @@ pub(super) fn write(
     Ok(())
 }
 
-fn table(judged: &[Judged]) -> Table {
+fn table(judged: &[Judged], fields: &[Field]) -> Table {
     let mut table = Table::new(
         "samplers",
         "Every combination after the same time. RMSE and relMSE are without the reference's own error; \
-         efficiency is 1 / (MSE x time), relative to the best of the same energy.",
+         efficiency is 1 / (MSE x time), over that of the sampler that is recommended for the same energy, with \
+         its interval of 95 % confidence.",
         &[
             "energy",
             "sampler",
@@ -77,11 +83,13 @@ fn table(judged: &[Judged]) -> Table {
             "fireflies [ppm]",
             "rejected [%]",
             "efficiency",
-            "its standard error",
+            "from",
+            "to",
         ],
     );
     for j in judged {
         let taken = f64::from(j.samples) * j.picture.colour.len() as f64;
+        let efficiency = over_the_recommended(j, fields).unwrap_or(Interval::unknown(f64::NAN));
         table.push([
             j.energy.to_string().into(),
             j.sampler.to_string().into(),
@@ -92,9 +100,51 @@ fn table(judged: &[Judged]) -> Table {
             j.rel_mse.into(),
             j.errors.fireflies_ppm.into(),
             (100.0 * j.rejected_share).into(),
-            j.efficiency[0].into(),
-            j.efficiency[1].into(),
+            efficiency.middle.into(),
+            efficiency.low.into(),
+            efficiency.high.into(),
         ]);
+    }
+    table
+}
+
+fn over_the_recommended(judged: &Judged, fields: &[Field]) -> Option<Interval> {
+    let field = fields.iter().find(|f| f.energy == judged.energy)?;
+    let own = field.samplers.iter().position(|&s| s == judged.sampler)?;
+    Some(field.ratios[own][choice(field)?.taken])
+}
+
+/// Every two samplers of a treatment.
+fn pairs(fields: &[Field]) -> Table {
+    let mut table = Table::new(
+        "pairs",
+        "Efficiency of each sampler over that of another, with intervals that all hold together at 95 % \
+         confidence.",
+        &[
+            "energy",
+            "sampler",
+            "over",
+            "efficiency",
+            "from",
+            "to",
+            "decided",
+        ],
+    );
+    for field in fields {
+        let count = field.samplers.len();
+        let each = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b)));
+        for (a, b) in each {
+            let ratio = field.ratios[b][a];
+            table.push([
+                field.energy.to_string().into(),
+                field.samplers[b].to_string().into(),
+                field.samplers[a].to_string().into(),
+                ratio.middle.into(),
+                ratio.low.into(),
+                ratio.high.into(),
+                decided(ratio).into(),
+            ]);
+        }
     }
     table
 }
@@ -134,6 +184,43 @@ pub(super) fn gain(first: &Reference, other: &Reference) -> [f64; 2] {
     let ([a, error_a], [b, error_b]) = (first.brightness(), other.brightness());
     let relative = (error_a / a).hypot(error_b / b);
     [b / a - 1.0, relative * b / a]
+}
+
+/// Points with their intervals, a panel for each treatment.
+fn efficiencies(fields: &[Field], lab: &mut Lab<'_>) -> Result<()> {
+    let panels = fields.iter().filter_map(|field| {
+        let taken = choice(field)?.taken;
+        let rows = field.samplers.iter().enumerate().map(|(i, &sampler)| {
+            let Interval { middle, low, high } = field.ratios[i][taken];
+            (sampler.to_string(), style(sampler), [middle, low, high])
+        });
+        Some(Panel {
+            title: format!("energy {}", field.energy),
+            x: Axis::linear(&format!(
+                "efficiency over that of {}",
+                field.samplers[taken]
+            )),
+            y: Axis::linear(""),
+            content: Content::Intervals(Intervals {
+                rows: rows.collect(),
+                mark: 1.0,
+            }),
+        })
+    });
+    let panels: Vec<Panel> = panels.collect();
+    if panels.is_empty() {
+        return Ok(());
+    }
+    let figure = Figure {
+        panel: [420.0, 190.0],
+        ..Figure::grid(panels.len().min(3), panels)
+    };
+    lab.plot(
+        "efficiency",
+        "Efficiency, 1 / (MSE x time), over that of the sampler that is recommended, with intervals of 95 % \
+         confidence. Whose interval holds 1 is not told apart from it.",
+        &figure,
+    )
 }
 
 fn plot(options: &CompareOptions<'_>, judged: &[Judged], lab: &mut Lab<'_>) -> Result<()> {

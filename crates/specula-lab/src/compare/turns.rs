@@ -11,8 +11,8 @@ use super::reference::Reference;
 use super::{Clock, CompareOptions, estimate};
 use crate::{Lab, LabError, Result};
 
-/// Times at which each combination has had its turns, as shares of the whole.
-pub(super) const TURNS: [f64; 5] = [1.0 / 16.0, 0.125, 0.25, 0.5, 1.0];
+/// Rounds in which each combination has one turn, all of the same length.
+const ROUNDS: u32 = 8;
 /// Seconds of a pass at most, so that progress is seen.
 const LONGEST_PASS: f64 = 1.0;
 
@@ -26,8 +26,17 @@ pub(super) struct Entry {
     pub(super) render: Render,
     /// Time and root of the mean squared error after each turn.
     pub(super) course: Vec<[f64; 2]>,
-    /// Seconds per sample of each turn.
-    pub(super) paces: Vec<f64>,
+    /// What each round gave; `None` where the one before had used up its time.
+    pub(super) rounds: Vec<Option<Round>>,
+}
+
+/// What a combination did in a round.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Round {
+    /// Seconds per sample of all pixels.
+    pub(super) pace: f64,
+    /// Share of the directions that were rejected.
+    pub(super) rejected_share: f64,
 }
 
 /// A render that is interrupted and gone on with.
@@ -54,8 +63,38 @@ impl Entry {
             reference,
             render: Render::new(options, sampler, energy, number),
             course: Vec::new(),
-            paces: Vec::new(),
+            rounds: Vec::new(),
         }
+    }
+
+    /// Goes on until so many seconds have been rendered for.
+    ///
+    /// * `share`: of all the work, with so many seconds of this turn.
+    fn turn(
+        &mut self,
+        until: f64,
+        scene: &PreparedScene,
+        lab: &Lab<'_>,
+        share: impl Fn(f64) -> f64,
+    ) -> Result<()> {
+        let what = self.label();
+        let render = &self.render;
+        let (seconds, samples, scattered) = (render.seconds, render.samples, render.scattered);
+        let step = |now: f64| lab.step(share(now - seconds), &what);
+        self.render.until(until, scene, lab, step)?;
+        let render = &self.render;
+        let taken = render.samples - samples;
+        self.rounds.push((taken > 0).then(|| {
+            Round {
+                pace: (render.seconds - seconds) / f64::from(taken),
+                rejected_share: Scattered {
+                    drawn: render.scattered.drawn - scattered.drawn,
+                    rejected: render.scattered.rejected - scattered.rejected,
+                }
+                .rejected_share(),
+            }
+        }));
+        Ok(())
     }
 
     /// Sampler and treatment in words.
@@ -153,6 +192,9 @@ impl Render {
 }
 
 /// Renders all entries. Only one of them has its scene made ready at a time.
+///
+/// Every other round goes the other way: a machine that slows down meets all alike, and the scene that is
+/// ready is used twice.
 pub(super) fn take(
     options: &CompareOptions<'_>,
     entries: &mut [Entry],
@@ -161,26 +203,53 @@ pub(super) fn take(
     lab: &Lab<'_>,
 ) -> Result<()> {
     let mut before: f64 = references.iter().map(|r| r.seconds).sum();
-    for turn in TURNS {
-        for entry in entries.iter_mut() {
-            let scene = entry.render.prepare(options)?;
-            let (seconds, samples) = (entry.render.seconds, entry.render.samples);
-            let what = entry.label();
-            let step = |now: f64| lab.step(clock.share(before + now - seconds), &what);
-            let until = turn * options.seconds;
-            entry.render.until(until, &scene, lab, step)?;
-            let taken = entry.render.samples - samples;
-            if taken > 0 {
-                let pace = (entry.render.seconds - seconds) / f64::from(taken);
-                entry.paces.push(pace);
-            }
+    let mut ready: Option<(usize, PreparedScene)> = None;
+    for round in 0..ROUNDS {
+        let until = options.seconds * f64::from(round + 1) / f64::from(ROUNDS);
+        for number in order(round, entries.len()) {
+            let entry = &mut entries[number];
+            let scene = match ready.take() {
+                Some((same, scene)) if same == number => scene,
+                other => {
+                    drop(other);
+                    entry.render.prepare(options)?
+                }
+            };
+            let seconds = entry.render.seconds;
+            entry.turn(until, &scene, lab, |now| clock.share(before + now))?;
             before += entry.render.seconds - seconds;
             let picture = entry.render.picture()?;
             let mse = estimate::mse(&picture, &references[entry.reference]);
             entry
                 .course
                 .push([entry.render.seconds, mse.max(0.0).sqrt()]);
+            ready = Some((number, scene));
         }
     }
     Ok(())
+}
+
+/// There and back.
+fn order(round: u32, entries: usize) -> Vec<usize> {
+    if round.is_multiple_of(2) {
+        (0..entries).collect()
+    } else {
+        (0..entries).rev().collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_have_the_same_mean_turn() {
+        let mut sums = [0; 4];
+        for round in 0..ROUNDS {
+            for (place, number) in order(round, 4).into_iter().enumerate() {
+                sums[number] += round as usize * 4 + place;
+            }
+        }
+        assert!(sums.iter().all(|s| *s == sums[0]), "{sums:?}");
+    }
 }

@@ -7,7 +7,7 @@ use super::cui23_models::{BITTERLI, CUI, HEITZ, IMPLEMENTATIONS, SPECULA};
 use super::cui23_renders::Trial;
 use crate::scenes::lighting::Lighting;
 use crate::scenes::statues::decorative_set;
-use crate::{Claim, Experiment, Lab, Result, Source, Verdict};
+use crate::{Answer, Claim, Experiment, Lab, Result, Source, Verdict};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -70,7 +70,7 @@ fn verdict(judged: &Judged<4>) -> Verdict {
                     samples(cui),
                     samples(heitz)
                 ),
-                over(cui) < 1.0,
+                Answer::beyond(cui.deviations_below(heitz)),
             ),
             Claim::measured(
                 "And less than Bitterli and d'Eon 2022",
@@ -81,7 +81,7 @@ fn verdict(judged: &Judged<4>) -> Verdict {
                     samples(cui),
                     samples(bitterli)
                 ),
-                cui.error() < bitterli.error(),
+                Answer::beyond(cui.deviations_below(bitterli)),
             ),
             Claim::measured(
                 "Heitz 2016 takes most samples, Bitterli and d'Eon fewest",
@@ -113,9 +113,10 @@ fn verdict(judged: &Judged<4>) -> Verdict {
                     samples(ours),
                     same(ours_same)
                 ),
-                [cui, heitz, bitterli]
-                    .iter()
-                    .all(|t| ours.error() < t.error()),
+                Answer::all(
+                    [cui, heitz, bitterli]
+                        .map(|other| Answer::beyond(ours.deviations_below(other))),
+                ),
             ),
         ],
         caveat: format!(

@@ -6,7 +6,7 @@ use super::cui23_models::{
 use super::cui23_renders::{Reference, Trial, Way, insets, mean, reference, trials};
 use crate::output::{Comparison, Table};
 use crate::scenes::testball::testball;
-use crate::{Claim, Experiment, Lab, Result, Source, Verdict};
+use crate::{Answer, Claim, Experiment, Lab, Result, Source, Verdict};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -126,7 +126,7 @@ fn verdict(trials: &[Trial; 6], truth: &Reference) -> Verdict {
                     wang.error() / variance(wang),
                     ratio(wang, heitz)
                 ),
-                wang.error() > heitz.error(),
+                Answer::beyond(heitz.deviations_below(wang)),
             ),
             Claim::law(
                 "Specula has less error than the unidirectional one at equal samples",

@@ -7,7 +7,7 @@ use super::cui23_models::{CUI, CUI_BIDIRECTIONAL, SPECULA, Shown};
 use super::cui23_renders::{Reference, Trial, Way, insets, reference, trials};
 use crate::output::{Comparison, Table};
 use crate::scenes::pots::pots;
-use crate::{Claim, Experiment, Lab, Result, Source, Verdict};
+use crate::{Answer, Claim, Experiment, Lab, Result, Source, Verdict};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -129,7 +129,7 @@ fn verdict(trials: &[Trial; 9], truth: &Reference) -> Verdict {
                 "With the unidirectional one too",
                 "less noise",
                 compared(one_hapke, one_lambert),
-                one_hapke.deviations_below(one_lambert) > 0.0,
+                Answer::beyond(one_hapke.deviations_below(one_lambert)),
             ),
             Claim::law(
                 "Specula's normalised density leaves less noise than Lambert's",

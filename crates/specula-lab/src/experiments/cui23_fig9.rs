@@ -7,7 +7,7 @@ use super::cui23_models::{CUI_BIDIRECTIONAL, HEITZ, IMPLEMENTATIONS, SPECULA, WA
 use super::cui23_renders::Trial;
 use crate::scenes::lighting::Lighting;
 use crate::scenes::statues::vases;
-use crate::{Claim, Experiment, Lab, Result, Source, Verdict};
+use crate::{Answer, Claim, Experiment, Lab, Result, Source, Verdict};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -71,7 +71,7 @@ fn verdict(judged: &Judged<4>) -> Verdict {
                     cui.samples_per_pixel,
                     heitz.samples_per_pixel
                 ),
-                over(cui) < 1.0,
+                Answer::beyond(cui.deviations_below(heitz)),
             ),
             Claim::measured(
                 "And less than Wang 2022",
@@ -82,7 +82,7 @@ fn verdict(judged: &Judged<4>) -> Verdict {
                     cui.samples_per_pixel,
                     wang.samples_per_pixel
                 ),
-                cui.error() < wang.error(),
+                Answer::beyond(cui.deviations_below(wang)),
             ),
             Claim::law(
                 "At equal samples the bidirectional estimator has less error than both",
@@ -104,7 +104,9 @@ fn verdict(judged: &Judged<4>) -> Verdict {
                     ours.samples_per_pixel,
                     same(ours_same)
                 ),
-                [cui, heitz, wang].iter().all(|t| ours.error() < t.error()),
+                Answer::all(
+                    [cui, heitz, wang].map(|other| Answer::beyond(ours.deviations_below(other))),
+                ),
             ),
         ],
         caveat: format!(

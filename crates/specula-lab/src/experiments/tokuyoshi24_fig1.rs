@@ -6,7 +6,7 @@ use super::room_pictures::{
     Budget, Found, add_rows, fireplace_room, kitchen_room, render_room, show, table,
 };
 use super::sampler_trials::{deviations_above, mean, reference};
-use crate::{Claim, Experiment, Lab, Result, Source, Verdict};
+use crate::{Answer, Claim, Experiment, Lab, Result, Source, Verdict};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -110,7 +110,7 @@ fn verdict(all: &[(&str, Vec<Found>)]) -> Verdict {
                         below(f, 1, 2)
                     )
                 }),
-                all.iter().all(|(_, f)| below(f, 1, 2) > 0.0),
+                Answer::all(all.iter().map(|(_, f)| Answer::beyond(below(f, 1, 2)))),
             ),
         ],
         caveat:

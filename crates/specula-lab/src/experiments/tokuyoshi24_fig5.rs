@@ -153,6 +153,18 @@ impl Found {
         }
     }
 
+    /// By how much the lobe is above the cap's density.
+    fn excess(&self) -> String {
+        if self.over_cap > 0.0 {
+            format!(
+                "the lobe is above it by {:.1e} of it at most",
+                self.over_cap
+            )
+        } else {
+            "the lobe does not exceed it".to_owned()
+        }
+    }
+
     fn verdict(&self) -> Verdict {
         let [cap, bounded, exact] = self.weights;
         let [far, nearer, nearest] = self.distances.map(|d| d / self.distances[0]);
@@ -165,7 +177,7 @@ impl Found {
                 Claim::law(
                     "The cap's density is at least the single-scattering lobe",
                     "equal or higher",
-                    format!("lobe exceeds it by {:.1e} at most", self.over_cap),
+                    self.excess(),
                     self.over_cap < 1e-12,
                 ),
                 Claim::law(

@@ -4,7 +4,7 @@ use specula_render::Strategy;
 
 use super::room_pictures::{Budget, Found, add_rows, fireplace_room, render_room, show, table};
 use super::sampler_trials::{deviations_above, mean, reference};
-use crate::{Claim, Experiment, Lab, Result, Source, Verdict};
+use crate::{Answer, Claim, Experiment, Lab, Result, Source, Verdict};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -93,7 +93,7 @@ fn verdict(mis: &[Found], plain: &[Found]) -> Verdict {
                     below(&mis[1], &mis[2]),
                     mean(&mis[2].trial.rays) / mean(&mis[1].trial.rays)
                 ),
-                below(&mis[1], &mis[2]) > 0.0,
+                Answer::beyond(below(&mis[1], &mis[2])),
             ),
         ],
         caveat:

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use crate::typeset::prose;
 use crate::{LabError, Result};
 
 /// A table whose rows all have as many cells as there are columns.
@@ -138,10 +139,14 @@ impl Table {
     #[must_use]
     pub fn markdown(&self) -> String {
         let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
-        let mut text = line(self.columns.clone());
+        let mut text = line(self.columns.iter().map(|c| prose(c)).collect());
         text += &line(vec!["---".to_owned(); self.columns.len()]);
         for row in &self.rows {
-            text += &line(row.iter().map(|c| c.show(4)).collect());
+            let cell = |c: &Cell| match c {
+                Cell::Text(text) => text.clone(),
+                Cell::Number(_) => prose(&c.show(4)),
+            };
+            text += &line(row.iter().map(cell).collect());
         }
         text
     }

@@ -1,20 +1,31 @@
-//! Plots in one style, drawn by the crate `kuva`, as
-//! pixels by `resvg` with a font of its own: axes with units, legends, lines that differ in dash as
-//! well as in colour, so that they can be told apart in greyscale.
+//! Plots in one style, fit for print, as SVG and as pixels by `resvg` with a font of its own: symbols set as
+//! symbols, even ticks, legends below the panels where they cover nothing, and lines that differ in dash and
+//! marker as well as in colour, so that they can be told apart in greyscale.
 
+mod bars;
+mod canvas;
+mod legend;
+mod lines;
+mod map;
+mod panel;
 mod raster;
+mod style;
+mod ticks;
 
 use std::path::Path;
-use std::sync::Arc;
-
-use kuva::backend::svg::SvgBackend;
-use kuva::plot::line::LineStyle;
-use kuva::plot::{BarPlot, LinePlot};
-use kuva::prelude::{ColorMap, Heatmap, Layout, Plot};
-use kuva::render::figure::Figure as Grid;
 
 use crate::output::record::WrittenPlot;
 use crate::{LabError, Result};
+
+use canvas::Canvas;
+use legend::Legend;
+use panel::{Frame, Prepared};
+pub use style::STYLES;
+
+/// Sizes of text, in pixels of a screen.
+const TITLE_SIZE: f64 = 13.0;
+const LABEL_SIZE: f64 = 12.0;
+const TICK_SIZE: f64 = 11.0;
 
 /// Panels in a grid, filled row by row.
 #[derive(Clone, Debug)]
@@ -23,7 +34,7 @@ pub struct Figure {
     pub panels: Vec<Panel>,
     /// Panels in a row.
     pub columns: usize,
-    /// Width and height of a panel in pixels of the PNG.
+    /// Width and height of a panel with its axes, in pixels of a screen; the PNG has twice as many.
     pub panel: [f64; 2],
 }
 
@@ -47,10 +58,20 @@ pub enum Content {
     Lines(Vec<Series>),
     /// A value per cell as brightness.
     Map(Map),
-    /// A map with lines over it.
-    MapAndLines(Map, Vec<Series>),
     /// Bars side by side, a group for each thing.
     Bars(Bars),
+    /// Points with intervals, below each other. The vertical axis has their names.
+    Intervals(Intervals),
+}
+
+/// Points with intervals.
+#[derive(Clone, Debug)]
+pub struct Intervals {
+    /// From the top: the name, which of the [`STYLES`], the point and from where to where it may be; bounds
+    /// that are not finite end with the axis.
+    pub rows: Vec<(String, usize, [f64; 3])>,
+    /// What all are held against: a line from top to bottom.
+    pub mark: f64,
 }
 
 /// Groups of bars.
@@ -96,24 +117,12 @@ pub struct Map {
     pub x: [f64; 2],
     /// Extent along y.
     pub y: [f64; 2],
-    /// What brightness means, with its unit; shown behind the panel's title.
+    /// What colours mean, with its unit; shown beside the bar of colours.
     pub label: String,
     /// Values of the darkest and the brightest colour; `None`: as the data are. What lies beyond is
     /// shown as the end.
     pub range: Option<[f64; 2]>,
 }
-
-/// Colours (Okabe and Ito 2008, ordered by brightness) and dashes.
-pub const STYLES: [(&str, &str); 8] = [
-    ("#000000", ""),
-    ("#0072B2", "9 4"),
-    ("#D55E00", "3 3"),
-    ("#009E73", "9 3 2 3"),
-    ("#CC79A7", "14 4"),
-    ("#E69F00", "2 2 6 2"),
-    ("#56B4E9", "5 5"),
-    ("#777777", "1 4"),
-];
 
 impl Axis {
     /// A linear axis.
@@ -156,133 +165,6 @@ impl Series {
             band: None,
         }
     }
-
-    fn plot(&self, panel: &Panel) -> LinePlot {
-        let (colour, dash) = STYLES[self.style % STYLES.len()];
-        // Where an axis is logarithmic, nothing is at 0.
-        let is_shown = |p: &&[f64; 2]| {
-            p.iter().all(|v| v.is_finite())
-                && (!panel.x.logarithmic || p[0] > 0.0)
-                && (!panel.y.logarithmic || p[1] > 0.0)
-        };
-        let shown = self.points.iter().filter(is_shown).map(|p| (p[0], p[1]));
-        let mut line = LinePlot::new()
-            .with_data(shown)
-            .with_color(colour)
-            .with_stroke_width(1.8);
-        if !dash.is_empty() {
-            line = line.with_line_style(LineStyle::Custom(dash.to_owned()));
-        }
-        if !self.label.is_empty() {
-            line = line.with_legend(self.label.clone());
-        }
-        if let Some(band) = &self.band {
-            line = line.with_band(band.iter().map(|b| b[0]), band.iter().map(|b| b[1]));
-        }
-        line
-    }
-}
-
-impl Map {
-    fn plot(&self) -> Heatmap {
-        let clamped = |v: &f64| match self.range {
-            Some([low, high]) => v.clamp(low, high),
-            None => *v,
-        };
-        let rows: Vec<Vec<f64>> = self
-            .rows
-            .iter()
-            .map(|row| row.iter().map(clamped).collect())
-            .collect();
-        let colours = self.colours(&rows);
-        Heatmap::new()
-            .with_data(rows)
-            .with_color_map(colours)
-            .with_x_range(self.x[0], self.x[1])
-            .with_y_range(self.y[0], self.y[1])
-    }
-
-    /// The same colour for the same value in all maps of a range: the library spreads colours over the
-    /// values that are there.
-    fn colours(&self, rows: &[Vec<f64>]) -> ColorMap {
-        let Some([low, high]) = self.range else {
-            return ColorMap::Viridis;
-        };
-        let values = || rows.iter().flatten().copied();
-        let least = values().fold(f64::INFINITY, f64::min);
-        let greatest = values().fold(f64::NEG_INFINITY, f64::max);
-        ColorMap::Custom(Arc::new(move |share| {
-            let value = least + share * (greatest - least);
-            ColorMap::Viridis.map(((value - low) / (high - low)).clamp(0.0, 1.0))
-        }))
-    }
-}
-
-impl Bars {
-    fn plot(&self) -> BarPlot {
-        let mut plot = BarPlot::new();
-        for (i, group) in self.groups.iter().enumerate() {
-            let bar = |(_, style, heights): &(String, usize, Vec<f64>)| {
-                let height = heights.get(i).copied().unwrap_or(0.0);
-                (height, STYLES[style % STYLES.len()].0)
-            };
-            plot = plot.with_group(group.clone(), self.bars.iter().map(bar));
-        }
-        plot.with_legend(self.bars.iter().map(|b| b.0.as_str()).collect())
-    }
-}
-
-impl Panel {
-    fn plots(&self) -> Vec<Plot> {
-        let lines = |series: &[Series]| -> Vec<Plot> {
-            series.iter().map(|s| s.plot(self).into()).collect()
-        };
-        match &self.content {
-            Content::Lines(series) => lines(series),
-            Content::Map(map) => vec![map.plot().into()],
-            Content::MapAndLines(map, series) => {
-                let mut all: Vec<Plot> = vec![map.plot().into()];
-                all.extend(lines(series));
-                all
-            }
-            Content::Bars(bars) => vec![bars.plot().into()],
-        }
-    }
-
-    /// The title, of maps with what brightness means.
-    fn full_title(&self) -> String {
-        match &self.content {
-            Content::Map(map) | Content::MapAndLines(map, _) if !map.label.is_empty() => {
-                format!("{}: {}", self.title, map.label)
-            }
-            _ => self.title.clone(),
-        }
-    }
-
-    fn layout(&self, plots: &[Plot]) -> Layout {
-        let mut layout = Layout::auto_from_plots(plots)
-            .with_title(self.full_title())
-            .with_x_label(self.x.label.clone())
-            .with_y_label(self.y.label.clone())
-            .with_font_family("DejaVu Sans, sans-serif")
-            .with_title_size(14)
-            .with_label_size(12)
-            .with_tick_size(11)
-            .with_body_size(11);
-        if self.x.logarithmic {
-            layout = layout.with_log_x();
-        }
-        if self.y.logarithmic {
-            layout = layout.with_log_y();
-        }
-        if let Some([low, high]) = self.x.range {
-            layout = layout.with_x_axis_min(low).with_x_axis_max(high);
-        }
-        if let Some([low, high]) = self.y.range {
-            layout = layout.with_y_axis_min(low).with_y_axis_max(high);
-        }
-        layout
-    }
 }
 
 impl Figure {
@@ -298,7 +180,7 @@ impl Figure {
         Self {
             panels,
             columns,
-            panel: [440.0, 340.0],
+            panel: [360.0, 290.0],
         }
     }
 
@@ -308,18 +190,7 @@ impl Figure {
     ///
     /// Where a file cannot be written.
     pub fn write(&self, folder: &Path, name: &str, caption: &str) -> Result<WrittenPlot> {
-        let rows = self.panels.len().div_ceil(self.columns);
-        let plots: Vec<Vec<Plot>> = self.panels.iter().map(Panel::plots).collect();
-        let layouts = (self.panels.iter().zip(&plots))
-            .map(|(panel, plots)| panel.layout(plots))
-            .collect();
-        let scene = Grid::new(rows, self.columns)
-            .with_plots(plots)
-            .with_layouts(layouts)
-            .with_cell_size(self.panel[0], self.panel[1])
-            .with_shared_legend()
-            .render();
-        let text = SvgBackend::new().render_scene(&scene);
+        let text = self.svg();
         let svg = format!("{name}.svg");
         let path = folder.join(&svg);
         std::fs::write(&path, &text).map_err(LabError::io(&path))?;
@@ -335,4 +206,37 @@ impl Figure {
             png,
         })
     }
+
+    /// The drawing.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        let columns = self.columns.clamp(1, self.panels.len().max(1));
+        let rows = self.panels.len().div_ceil(columns);
+        let prepared: Vec<Prepared<'_>> = self.panels.iter().map(Prepared::new).collect();
+        let margins = panel::margins(&prepared, self.panel);
+        let [width, height] = self.panel;
+        let legend = Legend::new(&self.panels, width * columns as f64);
+        let mut canvas = Canvas::default();
+        if self
+            .panels
+            .iter()
+            .any(|p| matches!(p.content, Content::Bars(_)))
+        {
+            canvas.raw("<defs>");
+            style::hatches(&mut canvas);
+            canvas.raw("</defs>");
+        }
+        for (number, prepared) in prepared.iter().enumerate() {
+            let (row, column) = (number / columns, number % columns);
+            let corner = [width * column as f64, height * row as f64];
+            let frame = Frame::within(corner, self.panel, margins);
+            prepared.draw(&mut canvas, &frame, number);
+        }
+        let bottom = height * rows as f64;
+        legend.draw(&mut canvas, bottom);
+        canvas.svg([width * columns as f64, bottom + legend.height()])
+    }
 }
+
+#[cfg(test)]
+mod tests;

@@ -13,6 +13,7 @@ use crate::output::comparison::{WrittenComparison, write_sheet};
 use crate::output::insets::Sheet;
 use crate::output::record;
 use crate::output::table::Table;
+use crate::typeset::prose;
 use crate::{Claim, LabError, Outcome, Record, Result, experiments};
 
 /// Widest picture, in pixels.
@@ -65,14 +66,20 @@ fn overview(records: &[Record], missing: &[&str]) -> String {
         );
     }
     let count = |outcome| records.iter().filter(|r| r.outcome == outcome).count();
-    let _ = writeln!(
+    let _ = write!(
         text,
-        "{} experiments: {} reproduced, {} in part, {} not.\n",
+        "{} experiments: {} reproduced, {} in part, {} not",
         records.len(),
         count(Outcome::Reproduced),
         count(Outcome::Partly),
         count(Outcome::NotReproduced),
     );
+    match count(Outcome::Undecided) {
+        0 => text += ".\n\n",
+        undecided => {
+            let _ = writeln!(text, ", {undecided} undecided.\n");
+        }
+    }
     text += "| table or figure | the paper's statement | ours | verdict | command |\n";
     text += "| --- | --- | --- | --- | --- |\n";
     for record in records {
@@ -115,7 +122,7 @@ const BETWEEN: &str = "\n## What is no result\n\n\
 
 /// Text within a cell of a table.
 fn cell(text: &str) -> String {
-    text.replace('|', "\\|").replace('\n', " ")
+    prose(text).replace('|', "\\|").replace('\n', " ")
 }
 
 /// One experiment's page with its files.
@@ -134,8 +141,8 @@ fn page(record: &Record, from: &Path, to: &Path) -> Result<()> {
             small(&from.join(&plot.png), &to.join(&plot.png))?;
             &plot.png
         };
-        let caption = &plot.caption;
-        let _ = writeln!(text, "![{}]({kept})\n\n{caption}\n", cell(caption));
+        let caption = prose(&plot.caption);
+        let _ = writeln!(text, "![{}]({kept})\n\n{caption}\n", cell(&caption));
     }
     for comparison in &record.comparisons {
         small(&from.join(&comparison.sheet), &to.join(&comparison.sheet))?;
@@ -159,12 +166,12 @@ fn head(record: &Record) -> String {
         record.source.cite(),
         record.item,
         record.title,
-        record.statement,
+        prose(&record.statement),
         capitalised(record.outcome.name()),
-        record.verdict.summary,
+        prose(&record.verdict.summary),
     );
     if !record.verdict.caveat.is_empty() {
-        let _ = write!(text, "\n{}\n", record.verdict.caveat);
+        let _ = write!(text, "\n{}\n", prose(&record.verdict.caveat));
     }
     text += "\n| claim | stated | measured | holds |\n| --- | --- | --- | --- |\n";
     for Claim {
@@ -175,7 +182,7 @@ fn head(record: &Record) -> String {
         ..
     } in &record.verdict.claims
     {
-        let holds = if *holds { "yes" } else { "no" };
+        let holds = holds.name();
         let _ = writeln!(
             text,
             "| {} | {} | {} | {holds} |",
@@ -205,7 +212,7 @@ fn pictures(comparison: &WrittenComparison) -> String {
         "![{}]({})\n\n{} In their order: {}.\n\n",
         cell(&comparison.caption),
         comparison.sheet,
-        comparison.caption,
+        prose(&comparison.caption),
         labels.join(", "),
     );
     text += "| picture | | RMSE | relMSE | HDR-FLIP | fireflies [ppm] |\n";
@@ -236,9 +243,13 @@ fn data(table: &Table, is_kept: bool) -> String {
     };
     let rows = table.rows.len();
     if rows > MOST_ROWS {
-        return format!("{} ({file}, {rows} rows)\n\n", table.caption);
+        return format!("{} ({file}, {rows} rows)\n\n", prose(&table.caption));
     }
-    format!("{} ({file})\n\n{}\n", table.caption, table.markdown())
+    format!(
+        "{} ({file})\n\n{}\n",
+        prose(&table.caption),
+        table.markdown()
+    )
 }
 
 fn is_small(path: &Path) -> Result<bool> {

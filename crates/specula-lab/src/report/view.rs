@@ -8,7 +8,8 @@ use super::embed;
 use crate::output::comparison::{WrittenComparison, WrittenShot};
 use crate::output::table::significant;
 use crate::output::{Cell, Table};
-use crate::{Claim, Kind, Outcome, Record, Result, Source};
+use crate::typeset::prose;
+use crate::{Answer, Claim, Kind, Outcome, Record, Result, Source};
 
 /// Tables with more rows are folded.
 const FOLDED: usize = 12;
@@ -24,6 +25,7 @@ pub(super) struct Counts {
     reproduced: usize,
     partly: usize,
     not: usize,
+    undecided: usize,
 }
 
 /// Of all results.
@@ -34,6 +36,7 @@ pub(super) fn counts(results: &[(PathBuf, Record)]) -> Counts {
         reproduced: of(Outcome::Reproduced),
         partly: of(Outcome::Partly),
         not: of(Outcome::NotReproduced),
+        undecided: of(Outcome::Undecided),
     }
 }
 
@@ -68,7 +71,10 @@ struct ClaimView {
     statement: String,
     stated: String,
     measured: String,
-    holds: bool,
+    /// `yes`, `no`, `undecided`.
+    holds: &'static str,
+    /// For the style.
+    class: &'static str,
     kind: &'static str,
 }
 
@@ -133,7 +139,7 @@ pub(super) fn record(folder: &Path, record: &Record) -> Result<RecordView> {
     let plots = record.plots.iter().map(|plot| {
         Ok(PlotView {
             name: plot.name.clone(),
-            caption: plot.caption.clone(),
+            caption: prose(&plot.caption),
             src: embed::plot(folder, plot)?,
         })
     });
@@ -143,7 +149,7 @@ pub(super) fn record(folder: &Path, record: &Record) -> Result<RecordView> {
         source: record.source.cite(),
         item: record.item.clone(),
         title: record.title.clone(),
-        statement: record.statement.clone(),
+        statement: prose(&record.statement),
         command: record.command.clone(),
         quality: record.quality.name(),
         seed: record.seed,
@@ -158,9 +164,10 @@ pub(super) fn record(folder: &Path, record: &Record) -> Result<RecordView> {
             Outcome::Reproduced => "good",
             Outcome::Partly => "fair",
             Outcome::NotReproduced => "bad",
+            Outcome::Undecided => "open",
         },
-        summary: record.verdict.summary.clone(),
-        caveat: record.verdict.caveat.clone(),
+        summary: prose(&record.verdict.summary),
+        caveat: prose(&record.verdict.caveat),
         claims: record.verdict.claims.iter().map(claim).collect(),
         plots: plots.collect::<Result<_>>()?,
         tables: each(&record.tables, |t| table(folder, t))?,
@@ -183,10 +190,15 @@ fn outcome(record: &Record) -> &'static str {
 
 fn claim(claim: &Claim) -> ClaimView {
     ClaimView {
-        statement: claim.statement.clone(),
-        stated: claim.stated.clone(),
-        measured: claim.measured.clone(),
-        holds: claim.holds,
+        statement: prose(&claim.statement),
+        stated: prose(&claim.stated),
+        measured: prose(&claim.measured),
+        holds: claim.holds.name(),
+        class: match claim.holds {
+            Answer::Yes => "good",
+            Answer::No => "bad",
+            Answer::Undecided => "open",
+        },
         kind: match claim.kind {
             Kind::Law => "on every machine",
             Kind::Refuted => "on no machine",
@@ -199,7 +211,7 @@ fn table(folder: &Path, table: &Table) -> Result<TableView> {
     let is_number = |cell: &Cell| matches!(cell, Cell::Number(_));
     let column = |i: usize| table.rows.iter().filter_map(move |row| row.get(i));
     let heads = table.columns.iter().enumerate().map(|(i, text)| Head {
-        text: text.clone(),
+        text: prose(text),
         is_number: column(i).all(is_number),
     });
     let whole: Vec<bool> = (0..table.columns.len())
@@ -207,15 +219,16 @@ fn table(folder: &Path, table: &Table) -> Result<TableView> {
         .collect();
     let cell = |(cell, is_whole): (&Cell, &bool)| CellView {
         text: match cell {
-            Cell::Number(Some(value)) if *is_whole => format!("{value:.0}"),
-            other => other.show(DIGITS),
+            Cell::Number(Some(value)) if *is_whole => prose(&format!("{value:.0}")),
+            Cell::Number(_) => prose(&cell.show(DIGITS)),
+            Cell::Text(text) => text.clone(),
         },
         is_number: is_number(cell),
     };
     let shown = table.rows.iter().take(MOST_ROWS);
     Ok(TableView {
         name: table.name.clone(),
-        caption: table.caption.clone(),
+        caption: prose(&table.caption),
         heads: heads.collect(),
         rows: shown
             .map(|row| row.iter().zip(&whole).map(cell).collect())
@@ -241,7 +254,7 @@ fn viewer(folder: &Path, comparison: &WrittenComparison) -> Result<Viewer> {
     let [width, height] = comparison.size;
     Ok(Viewer {
         name: comparison.name.clone(),
-        caption: comparison.caption.clone(),
+        caption: prose(&comparison.caption),
         width,
         height,
         has_errors: shots.iter().any(|s| s.error_src.is_some()),

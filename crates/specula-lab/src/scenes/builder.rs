@@ -4,12 +4,12 @@ use std::f64::consts::TAU;
 
 use glam::{DMat4, DVec3, dvec3};
 use specula_bsdf::{Rgb, metals};
-use specula_scene::Scene;
 use specula_scene::scene::{
     Camera, ColourParam, ConductorFresnel, Emission, Film, Filter, FloatParam, Geometry, Material,
     MaterialId, MaterialKind, Mesh, MeshId, Projection, Roughness, RoughnessMapping, Settings,
     Shape,
 };
+use specula_scene::{Energy, Scene};
 
 /// A scene that grows.
 pub(super) struct Builder {
@@ -37,6 +37,7 @@ impl Builder {
                     max_depth: 64,
                     samples_per_pixel: 64,
                     hide_emitters: false,
+                    energy: Energy::None,
                 },
                 images: Vec::new(),
                 textures: Vec::new(),
@@ -46,6 +47,7 @@ impl Builder {
                 objects: Vec::new(),
                 instances: Vec::new(),
                 lights: Vec::new(),
+                floor: None,
             },
         }
     }

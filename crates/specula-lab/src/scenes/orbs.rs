@@ -190,7 +190,7 @@ fn sky() -> Image {
         name: "sky".to_owned(),
         width: WIDTH,
         height: HEIGHT,
-        pixels,
+        pixels: pixels.into(),
     }
 }
 

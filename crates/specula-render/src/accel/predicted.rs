@@ -52,6 +52,7 @@ pub(crate) fn predicted(groups: &[(usize, usize)], instances: usize, threads: us
     let placed = instances * (size_of::<Placement>() + NODES_OF_QUADRIC);
     Predicted {
         kept: (kept + placed) as u64,
-        building: (side_by_side + copied) as u64,
+        // Lists that grow are copied, and allocators do not give all of it back at once.
+        building: (side_by_side + side_by_side / 4 + copied) as u64,
     }
 }

@@ -9,6 +9,8 @@
 //! * `Y`: the pixel's luminance, `v` the variance of its mean; `B`: luminance of the picture, the mean
 //!   over its pixels.
 //!
+//! Pixels whose variance is not known (`noise`) after many samples count as the worst of the others of their tile.
+//!
 //! At the picture's brightness this is the relative error. Elsewhere the root of `Y` takes the place
 //! of `Y`, as in the eye and in a screen's encoding (Dammertz et al. 2010, "A hierarchical automatic
 //! stopping condition for Monte Carlo global illumination", eq. 1; departures: the variance of all
@@ -27,8 +29,8 @@
 
 use rayon::prelude::*;
 
-use super::buffer::{FilmBuffer, PixelSums, TILE, Tile};
-use crate::convert::narrow;
+use super::buffer::{FilmBuffer, TILE, Tile};
+use super::noise::{is_unknown, squared_error};
 
 /// Samples of every pixel in the first round, at most. With fewer, light that is rare has often not been
 /// met, and a tile that is taken for quiet too early is too dark.
@@ -47,12 +49,13 @@ const LEAST_SHARE: f64 = 1.0 / 16.0;
 pub const MOST_SAMPLES: u32 = 1 << 16;
 /// What a sample costs without its rays, in rays.
 const COST_OF_SAMPLE: f64 = 0.5;
+/// Samples after which a pixel's variance that is not known then will not be by more: four rare paths in as many.
+/// With a small lamp, a pixel at its edge needs some hundred; a firefly would take any number.
+pub(super) const PATIENCE: u32 = 512;
 /// How much of a tile's squared error is the mean of those around it.
 const SHARE_AROUND: f64 = 0.25;
 /// Halvings by which the scale of all wishes is found.
 const SCALE_STEPS: u32 = 120;
-/// Below this share of the picture's brightness errors count as if it were reached.
-const DARKEST: f64 = 0.01;
 
 /// What ends an adaptive render: whatever comes first.
 #[derive(Clone, Copy, Debug)]
@@ -71,13 +74,6 @@ impl Aim {
     }
 }
 
-/// A pixel's squared error.
-fn squared_error(pixel: &PixelSums, brightness: f64) -> f64 {
-    let shown = brightness * (pixel.luminance().max(0.0) + DARKEST * brightness);
-    let deviation = pixel.luminance_deviation();
-    deviation * deviation / shown.max(f64::MIN_POSITIVE)
-}
-
 impl Tile {
     /// Samples of the tile's pixels.
     pub(crate) fn count(&self) -> u32 {
@@ -89,11 +85,21 @@ impl Tile {
         self.count() < self.target
     }
 
-    /// The squared error for one sample, `x^2`.
-    fn squared_error(&self, brightness: f64) -> f64 {
-        let squared = |p: &PixelSums| squared_error(p, brightness) * f64::from(p.count);
-        let sum: f64 = self.pixels.iter().map(squared).sum();
-        sum / self.pixels.len().max(1) as f64
+    /// The squared error for one sample, `x^2`. A pixel whose variance [`PATIENCE`] samples have not made known
+    /// counts as the worst of the others: it must not draw all work to it (Winsor's mean; Dixon 1960, "Simplified
+    /// estimation from censored normal samples"). `None`: there are no others.
+    fn squared_error(&self, brightness: f64) -> Option<f64> {
+        let (mut sum, mut worst, mut counted) = (0.0, 0.0_f64, 0_usize);
+        for p in &self.pixels {
+            if p.count < PATIENCE || !is_unknown(p) {
+                let squared = squared_error(p, brightness) * f64::from(p.count);
+                sum += squared;
+                worst = worst.max(squared);
+                counted += 1;
+            }
+        }
+        let apart = (self.pixels.len() - counted) as f64;
+        (counted > 0).then(|| (sum + apart * worst) / self.pixels.len() as f64)
     }
 
     /// What a sample of each of its pixels costs, in rays.
@@ -108,33 +114,6 @@ impl FilmBuffer {
     /// Whether samples are spread by their error, not evenly.
     pub fn is_adaptive(&self) -> bool {
         self.work > 0.0
-    }
-
-    /// Estimate of the picture's relative error: the square root of the mean over pixels of
-    ///
-    /// ```text
-    /// var(mean luminance) / (B (mean luminance + B / 100)),   B the picture's mean luminance
-    /// ```
-    ///
-    /// the relative error at the picture's brightness, weighed with the root of the luminance
-    /// elsewhere. The channels are taken for fully correlated, which overestimates the error of
-    /// luminance where they are not, and samples for independent, though their sequences are
-    /// better than that. Infinite below two samples per pixel.
-    pub fn noise(&self) -> f32 {
-        let brightness = self.brightness();
-        narrow(self.mean(|p| squared_error(p, brightness)).sqrt())
-    }
-
-    fn brightness(&self) -> f64 {
-        self.mean(PixelSums::luminance).max(0.0)
-    }
-
-    /// The mean over the pixels: that of tiles first, so that it is the same for any number of threads.
-    fn mean(&self, of: impl Fn(&PixelSums) -> f64 + Sync) -> f64 {
-        let tile = |t: &Tile| t.pixels.iter().map(&of).sum::<f64>();
-        let sums: Vec<f64> = self.tiles.par_iter().map(tile).collect();
-        let pixels: usize = self.tiles.iter().map(|t| t.pixels.len()).sum();
-        sums.iter().sum::<f64>() / pixels.max(1) as f64
     }
 
     /// Begins a round where the last one is done and the aim not reached.
@@ -203,11 +182,14 @@ impl FilmBuffer {
 
     /// What the samples of each tile should be in proportion to, `x / sqrt(c)`; `x` of the tiles around is
     /// in it, as one that has not met what they have may do so.
-    fn wishes(&self) -> Vec<f64> {
-        let brightness = self.brightness();
-        let squares: Vec<f64> = (self.tiles.par_iter())
+    pub(super) fn wishes(&self) -> Vec<f64> {
+        let brightness = self.survey().brightness;
+        let known: Vec<Option<f64>> = (self.tiles.par_iter())
             .map(|tile| tile.squared_error(brightness))
             .collect();
+        let (sum, count) = (known.iter().flatten()).fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
+        let mean = sum / f64::max(count, 1.0);
+        let squares: Vec<f64> = known.into_iter().map(|x| x.unwrap_or(mean)).collect();
         let [x0, x1, _, _] = self.crop();
         let columns = (x1 - x0).div_ceil(TILE) as usize;
         let rows = self.tiles.len() / columns.max(1);

@@ -23,6 +23,11 @@ impl Develop {
         }
     }
 
+    /// Picture values of a radiance of 1, before bound and balance.
+    pub(crate) fn exposure(&self) -> f32 {
+        self.exposure
+    }
+
     /// Exposure, bound, and rows of the balance where there is one.
     pub(crate) fn flatten(&self, to: &mut Words) {
         to.constant("FILM_BOUNDED", u32::from(self.max_component.is_finite()));

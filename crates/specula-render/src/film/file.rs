@@ -25,6 +25,7 @@ use thiserror::Error;
 use twox_hash::XxHash3_64;
 
 use super::buffer::{FilmBuffer, PixelSums, Tile};
+use crate::options::BIASED;
 
 const MAGIC: &[u8; 8] = b"SPECFILM";
 const FORMAT: u32 = 3;
@@ -51,6 +52,12 @@ pub struct Label {
 }
 
 impl Label {
+    /// What biases the picture, in words; `None`: nothing does.
+    #[must_use]
+    pub fn bias(&self) -> Option<&str> {
+        self.settings.split_once(BIASED).map(|(_, bias)| bias)
+    }
+
     /// Why films of this label and of `other` are not of the same render; `None` where they are.
     #[must_use]
     pub fn difference(&self, other: &Self) -> Option<String> {

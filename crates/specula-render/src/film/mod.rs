@@ -5,8 +5,10 @@ mod buffer;
 pub(crate) mod develop;
 mod file;
 pub(crate) mod filter;
+mod noise;
 mod run;
 mod sum;
+mod trend;
 
 pub(crate) use adaptive::Aim;
 pub use adaptive::MOST_SAMPLES;
@@ -14,5 +16,7 @@ pub(crate) use buffer::BYTES_PER_PIXEL;
 pub use buffer::{FilmBuffer, MergeError};
 pub(crate) use buffer::{PixelSample, PixelSums, Tile};
 pub use file::{FilmFile, FilmFileError, Label};
+pub use noise::NoiseEstimate;
 pub(crate) use run::LONGEST_RUN;
 pub use run::RunSums;
+pub use trend::{NoiseOutlook, NoiseTrend};

@@ -4,6 +4,8 @@
 //! and dealt with in lanes (`vertices`); the rest goes the scalar way (`PathTracer::meet`). Which way a
 //! vertex goes is a matter of the scene alone, and a path never depends on the others of its block.
 
+use core::sync::atomic::{AtomicBool, Ordering};
+
 use specula_bsdf::Vec3;
 use specula_bsdf::math::Stream;
 
@@ -212,7 +214,7 @@ impl PathTracer<'_> {
             raster[1][i] = pixel[1] as f32 + 0.5;
             n = i + 1;
         }
-        paths.begin(n, materials.has_boundaries());
+        paths.begin(n, materials.has_boundaries(), self.bound);
         numbers.draw(n, Purpose::Camera, 0);
         let [lens_x, filter_x, filter_y, lens_y] = &numbers.values;
         let [x, y] = raster;
@@ -230,9 +232,20 @@ impl PathTracer<'_> {
     }
 
     /// Follows all paths of a block to their ends.
+    #[cfg(test)]
     pub(crate) fn follow_all(&self, block: &mut Block) {
+        self.follow_until(block, &AtomicBool::new(false));
+    }
+
+    /// Follows all paths of a block to their ends; returns whether it came to that.
+    ///
+    /// * `stop`: looked at before every vertex.
+    pub(crate) fn follow_until(&self, block: &mut Block, stop: &AtomicBool) -> bool {
         let mut depth = 0;
         while block.live.len() > 0 {
+            if stop.load(Ordering::Relaxed) {
+                return false;
+            }
             block.next.clear();
             if self.goes_in_lanes(depth) {
                 self.meet_all(block, depth);
@@ -244,6 +257,7 @@ impl PathTracer<'_> {
             std::mem::swap(&mut block.live, &mut block.next);
             depth += 1;
         }
+        true
     }
 
     /// Whether rays stop at what they meet.
@@ -286,10 +300,11 @@ impl PathTracer<'_> {
                 continue;
             };
             let ray = block.live.ray(k);
-            match self.key(ray, &hit) {
+            let rough = block.paths.rough[block.live.number(k)];
+            match self.key(ray, &hit, rough) {
                 Some((key, sends_light)) => {
                     if sends_light {
-                        self.add_emission_of(block, k, &hit);
+                        self.add_emission_of(block, k, &hit, depth);
                     }
                     if depth < self.max_depth {
                         block.waiting.push(Waiting { at: id(k), key });
@@ -298,7 +313,7 @@ impl PathTracer<'_> {
                 None => {
                     let surface = geometry.surface(ray, &hit);
                     if block.is_at_y(k) {
-                        self.add_emission_of(block, k, &hit);
+                        self.add_emission_of(block, k, &hit, depth);
                         self.alone(block, k, |path| self.pass_on(path, surface, depth));
                     } else {
                         self.alone(block, k, |path| self.meet(path, Some(surface), depth));
@@ -306,7 +321,7 @@ impl PathTracer<'_> {
                 }
             }
         }
-        self.add_background_of(block);
+        self.add_background_of(block, depth);
         if !block.waiting.is_empty() {
             self.sort(block);
             self.step_lanes(block, depth);
@@ -315,7 +330,7 @@ impl PathTracer<'_> {
 
     /// Light that a surface sends out along the ray of a path that lives.
     #[inline(never)]
-    fn add_emission_of(&self, block: &mut Block, k: usize, hit: &Hit) {
+    fn add_emission_of(&self, block: &mut Block, k: usize, hit: &Hit, depth: u32) {
         let ray = block.live.ray(k);
         let surface = self.scene.geometry.surface(ray, hit);
         let number = block.live.number(k);
@@ -331,11 +346,11 @@ impl PathTracer<'_> {
         }
         let radiance = self.emission(previous, &surface, ray.direction);
         let throughput = block.paths.throughput.colour(number);
-        block.paths.add(number, throughput * radiance);
+        block.paths.add(number, throughput * radiance, depth);
     }
 
     /// Light from infinity on the rays that meet nothing.
-    fn add_background_of(&self, block: &mut Block) {
+    fn add_background_of(&self, block: &mut Block, depth: u32) {
         if block.escaped.is_empty() {
             return;
         }
@@ -368,17 +383,19 @@ impl PathTracer<'_> {
                 paths.share_from_infinity(number, lights, receiver) * pdf
             });
             let throughput = paths.throughput.colour(number);
-            paths.add(number, throughput * radiance * weight);
+            paths.add(number, throughput * radiance * weight, depth);
         });
     }
 
     /// The key of a surface for lanes, and whether it sends out light.
+    ///
+    /// * `rough`: as of `State`.
     #[inline(always)]
-    fn key(&self, ray: &Ray, hit: &Hit) -> Option<(u32, bool)> {
+    fn key(&self, ray: &Ray, hit: &Hit, rough: bool) -> Option<(u32, bool)> {
         let geometry = &self.scene.geometry;
         let group = geometry.group_of(hit);
         let shape = group.shape_of[hit.primitive as usize];
-        let (material, is_sided) = self.scene.lanes_of[shape as usize]?;
+        let (material, is_sided) = self.scene.lanes_of(shape, rough)?;
         let outside = !is_sided || self.meets_outside(ray, hit);
         let sends_light = group.light_of(hit.primitive) != NONE;
         Some((2 * material + u32::from(outside), sends_light))
@@ -437,10 +454,15 @@ mod tests {
     use crate::options::RenderOptions;
 
     /// What paths bring in blocks and one by one.
-    fn both_ways(scene: &specula_scene::Scene) -> (PreparedScene, Vec<[PixelSample; 2]>) {
+    fn both_ways(
+        scene: &specula_scene::Scene,
+        biased: bool,
+    ) -> (PreparedScene, Vec<[PixelSample; 2]>) {
         let options = RenderOptions {
             max_depth: 6,
             resolution: Some([64, 48]),
+            clamp: biased.then_some(0.3),
+            regularize: biased,
             ..RenderOptions::default()
         };
         let prepared = PreparedScene::new(scene, &options).unwrap();
@@ -472,11 +494,14 @@ mod tests {
     fn paths_in_blocks_are_paths_alone() {
         let metal = "conductor Au alpha 0.3";
         let brushed = "conductor Cu alpha 0.05 0.4";
-        for texts in [
-            [metal, "diffuse 0.5"],
-            [brushed, "conductor 0.9"],
-            ["coateddiffuse 0.6 alpha 0.2", "dielectric 1.5"],
-            ["dielectric 1.5 alpha 0.2", "diffuse 0.7"],
+        let coated = ["coateddiffuse 0.6 alpha 0.2", "dielectric 1.5"];
+        for (texts, biased) in [
+            ([metal, "diffuse 0.5"], false),
+            ([brushed, "conductor 0.9"], false),
+            (coated, false),
+            (["dielectric 1.5 alpha 0.2", "diffuse 0.7"], false),
+            ([brushed, "conductor 0.9"], true),
+            (coated, true),
         ] {
             let mut scene = specula_scene::builtin::orbs();
             let kinds = texts.map(|t| specula_scene::material_text::parse_material(t).unwrap());
@@ -484,7 +509,7 @@ mod tests {
             for (i, material) in scene.materials.iter_mut().enumerate() {
                 material.kind = kinds[i % 2];
             }
-            let (prepared, found) = both_ways(&scene);
+            let (prepared, found) = both_ways(&scene, biased);
             for material in 0..prepared.materials.count() {
                 in_lanes += usize::from(prepared.materials.plain(id(material)).is_some());
             }

@@ -3,7 +3,7 @@
 use specula_bsdf::{Rgb, Vec3};
 
 use super::lanes::{Column, LANES, Vectors, ZERO};
-use super::{Path, Previous, State, Tally};
+use super::{Path, Previous, State, Tally, bias};
 use crate::accel::Ray;
 use crate::bodies::Bodies;
 use crate::film::PixelSample;
@@ -21,6 +21,8 @@ pub(super) struct Paths {
     bodies: [Bodies; LANES],
     /// As of `State`.
     pub(super) straight: [bool; LANES],
+    pub(super) rough: [bool; LANES],
+    pub(super) bound: Column,
     pub(super) previous: Receivers,
     /// Density of the last direction there; 0 where no light could have found it.
     pub(super) previous_pdf: Column,
@@ -71,6 +73,8 @@ impl Paths {
             eta_scale: ZERO,
             bodies: [Bodies::NONE; LANES],
             straight: [true; LANES],
+            rough: [false; LANES],
+            bound: [f32::INFINITY; LANES],
             previous: Receivers {
                 point: Vectors::ZERO,
                 normal: Vectors::ZERO,
@@ -88,7 +92,8 @@ impl Paths {
     /// Makes the first `n` paths new ones, but for their samplers.
     ///
     /// * `has_bodies`: whether paths may have entered any.
-    pub(super) fn begin(&mut self, n: usize, has_bodies: bool) {
+    /// * `bound`: as of `PathTracer`.
+    pub(super) fn begin(&mut self, n: usize, has_bodies: bool, bound: f32) {
         let columns = |v: &mut Vectors, value: f32| {
             v.x[..n].fill(value);
             v.y[..n].fill(value);
@@ -102,13 +107,17 @@ impl Paths {
         self.eta_scale[..n].fill(1.0);
         self.previous_pdf[..n].fill(0.0);
         self.straight[..n].fill(true);
+        self.rough[..n].fill(false);
+        self.bound[..n].fill(bound);
         if has_bodies {
             self.bodies[..n].fill(Bodies::NONE);
         }
     }
 
+    /// Adds light that was scattered so many times on its way to the camera.
     #[inline(always)]
-    pub(super) fn add(&mut self, i: usize, radiance: Rgb<f32>) {
+    pub(super) fn add(&mut self, i: usize, contribution: Rgb<f32>, events: u32) {
+        let radiance = bias::bounded(contribution, events, self.bound[i]);
         self.radiance.x[i] += radiance.r;
         self.radiance.y[i] += radiance.g;
         self.radiance.z[i] += radiance.b;
@@ -163,6 +172,8 @@ impl Paths {
                 eta_scale: self.eta_scale[i],
                 bodies: self.bodies[i],
                 straight: self.straight[i],
+                rough: self.rough[i],
+                bound: self.bound[i],
                 previous: self.previous(i),
                 tally: Tally::default(),
             },
@@ -178,6 +189,8 @@ impl Paths {
             eta_scale,
             bodies,
             straight,
+            rough,
+            bound: _,
             previous,
             tally,
         } = &path.state;
@@ -186,6 +199,7 @@ impl Paths {
         self.eta_scale[i] = *eta_scale;
         self.bodies[i] = *bodies;
         self.straight[i] = *straight;
+        self.rough[i] = *rough;
         self.previous_pdf[i] = previous.map_or(0.0, |p| p.pdf);
         self.previous_share[i] = -1.0;
         if let Some(previous) = previous {

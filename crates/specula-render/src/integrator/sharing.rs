@@ -288,6 +288,8 @@ impl PathTracer<'_> {
                         shared.y.set(path, lanes, lane, stretch.key);
                         shared.before.set_colour(path, paths.radiance.colour(path));
                         paths.radiance.set_colour(path, Rgb::BLACK);
+                        // What others take is bounded when they take it.
+                        paths.bound[path] = f32::INFINITY;
                         shared.light_pdf[path] = 0.0;
                         shared.onward.set(path, Vec3::ZERO);
                         let o = &mut lanes.onward;

@@ -180,7 +180,7 @@ impl PathTracer<'_> {
         }
         let lanes = &mut *block.lanes;
         lanes::aim(lanes.count, &lanes.surfaces, &mut lanes.arriving);
-        self.add_unblocked(block);
+        self.add_unblocked(block, depth);
     }
 
     /// Stretches where two lights are drawn.
@@ -330,7 +330,7 @@ impl PathTracer<'_> {
     }
 
     /// Adds the light that nothing is in the way of.
-    fn add_unblocked(&self, block: &mut Block) {
+    fn add_unblocked(&self, block: &mut Block, depth: u32) {
         let Block {
             paths,
             lanes,
@@ -362,7 +362,7 @@ impl PathTracer<'_> {
                 let path = index(lanes.owners[lane]);
                 match shared {
                     Some(shared) if shared.is_at_y(path) => shared.keep_light(path, lanes, lane),
-                    _ => paths.add(path, a.brought.colour(lane)),
+                    _ => paths.add(path, a.brought.colour(lane), depth + 1),
                 }
             }
         }
@@ -451,6 +451,7 @@ impl PathTracer<'_> {
                 paths.throughput.set_colour(path, throughput);
                 paths.eta_scale[path] = o.eta_scale[i];
                 paths.straight[path] = false;
+                paths.rough[path] |= matches!(o.kind[i], Kind::Reflection | Kind::Transmission);
                 if plain.specular {
                     paths.previous_pdf[path] = 0.0;
                 } else {

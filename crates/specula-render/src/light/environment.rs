@@ -138,7 +138,7 @@ mod tests {
 
     pub(super) fn sky(mapping: EnvironmentMapping, beside_lobes: bool) -> Environment {
         let (width, height) = (12_u32, 12_u32);
-        let pixels = (0..width * height)
+        let pixels: Vec<[f32; 3]> = (0..width * height)
             .map(|i| match (i % width, i / width) {
                 (7, 2) => [9.0, 4.0, 1.0],
                 (x, _) if x % 3 == 0 => [0.0; 3],
@@ -149,7 +149,7 @@ mod tests {
             name: "sky".into(),
             width,
             height,
-            pixels,
+            pixels: pixels.into(),
         };
         let turn = glam::DMat4::from_rotation_x(0.7) * glam::DMat4::from_rotation_z(2.0);
         Environment::new(Rgb::WHITE, Some((&image, mapping)), &turn, beside_lobes)
@@ -234,7 +234,7 @@ mod tests {
                 name,
                 width,
                 height,
-                pixels,
+                pixels: pixels.into(),
             };
             let identity = glam::DMat4::IDENTITY;
             let sky = Environment::new(Rgb::WHITE, Some((&image, mapping)), &identity, false);

@@ -1,12 +1,13 @@
 //! Every kind of material as a lobe.
 
-use specula_bsdf::Rgb;
 use specula_bsdf::bsdf::{
     Base, Black, CoatLayer, CoatScattering, CoatedDiffuse, DiffuseTransmission, Eon, Gltf,
     GltfParameters, Lambert, Layered, Lobe, Medium, Plastic, Principled, PrincipledParameters,
     SmoothConductor, SmoothDielectric, ThinDielectric, Tints,
 };
+use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::ndf::{Beckmann, Ggx};
+use specula_bsdf::{Alpha, Rgb};
 use specula_scene::scene::{
     CoatMedium, ColourParam, Distribution, FloatParam, MaterialKind, Roughness,
 };
@@ -15,6 +16,7 @@ use specula_scene::{Energy, scene};
 use super::Models;
 use super::metal::{alpha, reflectance};
 use super::rough::{conductor, dielectric};
+use crate::integrator::bias;
 use crate::texture::{Place, Textures};
 
 /// What takes all light and gives none.
@@ -72,7 +74,7 @@ pub(super) fn lobe(
     outside: bool,
     models: Models,
 ) -> Lobe<f32> {
-    let at = At { textures, place };
+    let at = At::new(textures, place, models);
     match *kind {
         MaterialKind::Diffuse {
             reflectance,
@@ -94,10 +96,7 @@ pub(super) fn lobe(
             tint,
         } => {
             let metal = reflectance(fresnel, textures, place).tinted(at.albedo(tint));
-            match alpha(roughness, textures, place) {
-                Some(alpha) => conductor(roughness, alpha, metal, models),
-                None => SmoothConductor::new(metal).into(),
-            }
+            at.conductor(roughness, metal, models)
         }
         MaterialKind::Dielectric {
             eta,
@@ -150,7 +149,7 @@ pub(super) fn lobe(
             at.plastic(colours, eta, roughness, nonlinear, models)
         }
         MaterialKind::Principled(ref p) => Principled::new(at.principled(p, outside)).into(),
-        MaterialKind::Gltf(ref g) => Gltf::new(at.gltf(g, outside)).into(),
+        MaterialKind::Gltf(ref g) => Gltf::new(at.gltf(g, outside, models)).into(),
         // Shapes without a surface are dropped before; mixes nested too deeply are black.
         MaterialKind::Mix { .. } | MaterialKind::Interface => black(),
     }
@@ -161,9 +160,44 @@ pub(super) fn lobe(
 struct At<'a> {
     textures: &'a Textures,
     place: &'a Place,
+    /// Whether it is behind a rough surface that makes it rougher.
+    regularized: bool,
 }
 
-impl At<'_> {
+impl<'a> At<'a> {
+    fn new(textures: &'a Textures, place: &'a Place, models: Models) -> Self {
+        Self {
+            textures,
+            place,
+            regularized: models.regularized,
+        }
+    }
+
+    fn conductor(
+        &self,
+        roughness: &Roughness,
+        metal: Reflectance<f32>,
+        models: Models,
+    ) -> Lobe<f32> {
+        match self.alpha(roughness) {
+            Some(alpha) => conductor(roughness, alpha, metal, models),
+            None => SmoothConductor::new(metal).into(),
+        }
+    }
+
+    fn alpha(&self, roughness: &Roughness) -> Option<Alpha<f32>> {
+        alpha(roughness, self.textures, self.place, self.regularized)
+    }
+
+    /// A roughness in `[0, 1]` whose square is the width of facets.
+    fn roughness(&self, parameter: FloatParam) -> f32 {
+        let roughness = self.unit(parameter);
+        match self.regularized && roughness * roughness < 0.3 {
+            true => bias::regularized(roughness * roughness).sqrt(),
+            false => roughness,
+        }
+    }
+
     fn unit(&self, parameter: FloatParam) -> f32 {
         self.textures.float(parameter, self.place).clamp(0.0, 1.0)
     }
@@ -182,7 +216,7 @@ impl At<'_> {
 
     /// Coats know GGX only, with height-correlated masking: Beckmann's widths are taken for its.
     fn ggx(&self, roughness: &Roughness) -> Option<Ggx<f32>> {
-        alpha(roughness, self.textures, self.place).map(Ggx::new)
+        self.alpha(roughness).map(Ggx::new)
     }
 
     /// Lambert under a coat, in closed form where nothing scatters between them.
@@ -247,7 +281,7 @@ impl At<'_> {
         tints: Tints<f32>,
         models: Models,
     ) -> Lobe<f32> {
-        match alpha(roughness, self.textures, self.place) {
+        match self.alpha(roughness) {
             // With equal indices nothing is bent, however rough.
             Some(alpha) if (relative - 1.0).abs() > 1e-4 => {
                 dielectric(roughness, alpha, relative, tints, models)
@@ -265,7 +299,7 @@ impl At<'_> {
         models: Models,
     ) -> Lobe<f32> {
         let masking = roughness.masking;
-        let alpha = alpha(roughness, self.textures, self.place);
+        let alpha = self.alpha(roughness);
         match (alpha, roughness.distribution) {
             (None, _) => Plastic::smooth(eta, diffuse, specular, nonlinear).into(),
             (Some(alpha), Distribution::Ggx) => {
@@ -284,7 +318,7 @@ impl At<'_> {
     fn principled(&self, p: &scene::Principled, outside: bool) -> PrincipledParameters<f32> {
         PrincipledParameters {
             base_colour: self.albedo(p.base_colour),
-            roughness: self.unit(p.roughness),
+            roughness: self.roughness(p.roughness),
             anisotropic: self.unit(p.anisotropic),
             metallic: self.unit(p.metallic),
             spec_trans: self.unit(p.spec_trans),
@@ -293,7 +327,11 @@ impl At<'_> {
             sheen: self.unit(p.sheen),
             sheen_tint: self.unit(p.sheen_tint),
             clearcoat: self.unit(p.clearcoat),
-            clearcoat_gloss: self.unit(p.clearcoat_gloss),
+            // Its widths end at 0.1, that of gloss 0.
+            clearcoat_gloss: match self.regularized {
+                true => 0.0,
+                false => self.unit(p.clearcoat_gloss),
+            },
             flatness: self.unit(p.flatness),
             diff_trans: self
                 .textures
@@ -304,11 +342,11 @@ impl At<'_> {
         }
     }
 
-    fn gltf(&self, g: &scene::Gltf, outside: bool) -> GltfParameters<f32> {
+    fn gltf(&self, g: &scene::Gltf, outside: bool, models: Models) -> GltfParameters<f32> {
         GltfParameters {
             base_colour: self.albedo(g.base_colour),
             metallic: self.unit(g.metallic),
-            roughness: self.unit(g.roughness),
+            roughness: self.roughness(g.roughness),
             anisotropy: self.unit(g.anisotropy),
             ior: g.ior,
             specular: self.unit(g.specular),
@@ -320,9 +358,10 @@ impl At<'_> {
             volume: g.volume,
             outside,
             clearcoat: self.unit(g.clearcoat),
-            clearcoat_roughness: self.unit(g.clearcoat_roughness),
+            clearcoat_roughness: self.roughness(g.clearcoat_roughness),
             sheen_colour: self.albedo(g.sheen_colour),
             sheen_roughness: self.unit(g.sheen_roughness),
+            compensated: models.energy != Energy::None,
         }
     }
 }

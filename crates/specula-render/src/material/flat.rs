@@ -26,6 +26,10 @@ impl Materials {
         }
         to.words.begin("MATERIALS");
         to.words.ids(places);
+        to.words.begin("BEHIND_ROUGH");
+        to.words.ids(self.behind_rough.iter().copied());
+        to.words
+            .constant("REGULARIZES", u32::from(self.are_regularized()));
         to.words.begin("RELIEFS");
         for material in &self.materials {
             material.flatten_reliefs(&mut to.words);
@@ -127,7 +131,10 @@ impl Material {
 
     /// What the kind has.
     fn parameters(&self) -> Parameters {
-        let mut to = Parameters::default();
+        let mut to = Parameters {
+            regularized: self.models.regularized,
+            ..Parameters::default()
+        };
         match self.kind {
             MaterialKind::Diffuse {
                 reflectance,
@@ -196,7 +203,7 @@ impl Material {
                 .roughness(roughness)
                 .fresnel(fresnel),
             MaterialKind::Principled(ref p) => to.principled(p),
-            MaterialKind::Gltf(ref g) => to.gltf(g),
+            MaterialKind::Gltf(ref g) => to.gltf(g, self.models.energy != Energy::None),
             MaterialKind::Interface => &mut to,
         };
         to
@@ -209,6 +216,8 @@ impl Material {
 struct Parameters {
     textured: Vec<ColourParam>,
     plain: Vec<u32>,
+    /// Whether widths are made larger, as behind a rough surface.
+    regularized: bool,
 }
 
 impl Parameters {
@@ -238,14 +247,16 @@ impl Parameters {
         self.id(x.to_bits())
     }
 
-    /// Two widths; what they are, distribution, masking.
+    /// Two widths; what they are (4 more where they are made larger), distribution, masking.
     fn roughness(&mut self, roughness: &Roughness) -> &mut Self {
+        let mapping = match roughness.mapping {
+            RoughnessMapping::Alpha => 0,
+            RoughnessMapping::Sqrt => 1,
+            RoughnessMapping::Square => 2,
+        };
+        let larger = 4 * u32::from(self.regularized);
         self.floats([roughness.u, roughness.v])
-            .id(match roughness.mapping {
-                RoughnessMapping::Alpha => 0,
-                RoughnessMapping::Sqrt => 1,
-                RoughnessMapping::Square => 2,
-            })
+            .id(mapping + larger)
             .id(match roughness.distribution {
                 Distribution::Ggx => 0,
                 Distribution::Beckmann => 1,
@@ -294,21 +305,25 @@ impl Parameters {
     }
 
     fn principled(&mut self, p: &Principled) -> &mut Self {
+        let regularized = self.regularized;
         self.colours([p.base_colour])
             .floats([p.roughness, p.anisotropic, p.metallic, p.spec_trans])
             .floats([p.spec_tint, p.sheen, p.sheen_tint, p.clearcoat])
             .floats([p.clearcoat_gloss, p.flatness, p.diff_trans])
             .number(p.eta)
             .flag(p.thin)
+            .flag(regularized)
     }
 
-    fn gltf(&mut self, g: &Gltf) -> &mut Self {
+    fn gltf(&mut self, g: &Gltf, compensated: bool) -> &mut Self {
+        let regularized = self.regularized;
         self.colours([g.base_colour, g.specular_colour, g.sheen_colour])
             .floats([g.metallic, g.roughness, g.anisotropy, g.specular])
             .floats([g.transmission, g.clearcoat, g.clearcoat_roughness])
             .floats([g.sheen_roughness])
             .number(g.ior)
-            .flag(g.volume)
+            .id(u32::from(g.volume) | u32::from(compensated) << 1)
+            .flag(regularized)
     }
 
     fn flatten(&self, to: &mut Words) {

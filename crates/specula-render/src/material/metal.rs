@@ -5,22 +5,30 @@ use specula_bsdf::{Alpha, Rgb};
 use specula_scene::scene::{ConductorFresnel, Roughness, RoughnessMapping};
 
 use crate::convert::narrow;
+use crate::integrator::bias;
 use crate::texture::{Place, Textures};
 
 /// The widths; `None` where the surface is smooth: both are below [`Alpha::SPECULAR_BELOW`]. With
 /// one above, the other is raised to that bound.
+///
+/// * `regularized`: whether it is the material behind a rough surface; it is never smooth then.
 pub(super) fn alpha(
     roughness: &Roughness,
     textures: &Textures,
     place: &Place,
+    regularized: bool,
 ) -> Option<Alpha<f32>> {
     let bound = narrow(Alpha::<f32>::SPECULAR_BELOW);
     let [x, y] = [roughness.u, roughness.v].map(|p| {
         let r = textures.float(p, place).max(0.0);
-        match roughness.mapping {
+        let alpha = match roughness.mapping {
             RoughnessMapping::Alpha => r,
             RoughnessMapping::Sqrt => r.sqrt(),
             RoughnessMapping::Square => r * r,
+        };
+        match regularized {
+            true => bias::regularized(alpha),
+            false => alpha,
         }
     });
     (x >= bound || y >= bound).then(|| Alpha::clamped(x.max(bound), y.max(bound)))
@@ -64,7 +72,7 @@ mod tests {
                 v: FloatParam::Value(v),
                 ..Roughness::isotropic(FloatParam::Value(u), mapping)
             };
-            alpha(&roughness, &textures, &Place::default())
+            alpha(&roughness, &textures, &Place::default(), false)
         };
         let expected = |x, y| Some(Alpha::clamped(x, y));
         assert_eq!(of(9e-4, 0.0, RoughnessMapping::Alpha), None);

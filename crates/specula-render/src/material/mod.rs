@@ -5,6 +5,7 @@ mod flat;
 mod fold;
 mod metal;
 mod rough;
+mod twins;
 
 use specula_bsdf::bsdf::Lobe;
 use specula_bsdf::multibounce::MisPdf;
@@ -23,7 +24,10 @@ use crate::texture::{Place, Textures};
 /// All materials of a scene.
 #[derive(Clone, Debug)]
 pub(crate) struct Materials {
+    /// Those of the scene, then those that are found behind rough surfaces only.
     materials: Vec<Material>,
+    /// Of each of the scene the one that is found behind rough surfaces; empty where it is itself.
+    behind_rough: Vec<u32>,
     has_boundaries: bool,
     names: Vec<Option<String>>,
 }
@@ -93,6 +97,8 @@ struct Models {
     sampler: vndf::Sampler,
     energy: Energy,
     mis_pdf: MisPdf,
+    /// Whether they are made rougher, as behind a rough surface.
+    regularized: bool,
 }
 
 /// How deep mixes may be nested.
@@ -107,11 +113,12 @@ impl Materials {
             let around = m.around.unwrap_or(Rgb::BLACK);
             !(m.absorption.is_black() && around.is_black())
         });
-        let prepare = |material: &specula_scene::scene::Material| {
+        let prepare = |material: &specula_scene::scene::Material, regularized: bool| {
             let models = Models {
                 sampler: options.vndf_sampler,
                 energy: material.energy.unwrap_or(options.energy),
                 mis_pdf: options.mis_pdf,
+                regularized,
             };
             let (kind, varies) = fold::folded(&material.kind, textures);
             let nowhere = Place::default();
@@ -141,15 +148,21 @@ impl Materials {
             material.plain = material.as_plain();
             material
         };
-        let materials: Vec<Material> = scene.materials.iter().map(prepare).collect();
-        Self {
+        let materials = scene.materials.iter().map(|m| prepare(m, false));
+        let materials: Vec<Material> = materials.collect();
+        let mut prepared = Self {
             has_boundaries: materials.iter().any(|m| m.boundary.is_some()),
             names: scene.materials.iter().map(|m| m.name.clone()).collect(),
             materials,
+            behind_rough: Vec::new(),
+        };
+        if options.regularize {
+            prepared.add_twins(|i| prepare(&scene.materials[i], true));
         }
+        prepared
     }
 
-    /// How many there are.
+    /// How many there are, those behind rough surfaces among them.
     pub(crate) fn count(&self) -> usize {
         self.materials.len()
     }

@@ -182,6 +182,7 @@ mod tests {
             samples_per_pixel: Some(16),
             seed: Some(u32::MAX),
             render_seconds: Some(1.5),
+            bias: Some("regularized".to_owned()),
         };
         assert_eq!(write_exr(&path, &full(), &metadata).unwrap(), 0);
         assert_eq!(read_exr(&path).unwrap(), full());
@@ -192,7 +193,7 @@ mod tests {
             own.software_name.as_ref().unwrap().to_string(),
             "specula 0.1"
         );
-        assert_eq!(own.other.len(), 4);
+        assert_eq!(own.other.len(), 5);
     }
 
     #[test]

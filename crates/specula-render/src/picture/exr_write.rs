@@ -18,8 +18,20 @@ use specula_scene::atomic;
 
 use super::{Picture, PictureError, finite};
 
-/// Blocks that are compressed at once, each of a few rows.
-const GROUP: usize = 64;
+/// Blocks that are compressed at once, for each thread.
+const GROUP: usize = 2;
+/// Rows of a block that ZIP compresses.
+const ROWS: u64 = 16;
+/// Bytes of a pixel of all channels: 14 floats.
+pub(crate) const ALL_CHANNELS: u64 = 14 * 4;
+
+/// Bytes that are held of blocks while they are compressed: as they are, in the order in which they
+/// compress best, and compressed.
+///
+/// * `width`: of the picture, in pixels.
+pub(crate) fn blocks_size(width: u32, threads: usize) -> u64 {
+    3 * (GROUP * threads) as u64 * ROWS * ALL_CHANNELS * u64::from(width)
+}
 
 /// What is written beside the pixels, as attributes of the file; `None` is left out.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,6 +46,8 @@ pub struct Metadata {
     pub seed: Option<u32>,
     /// Seconds that the rendering took: attribute `specula.renderSeconds`.
     pub render_seconds: Option<f32>,
+    /// What biases the picture, such as a clamp: attribute `specula.bias`.
+    pub bias: Option<String>,
 }
 
 /// Writes `picture` as OpenEXR, whole or not at all.
@@ -94,7 +108,7 @@ fn write_blocks<'a, L: WritableLayers<'a>>(
     let layers = image.layer_data.create_writer(&headers);
     exr::block::write(file, headers, true, |meta, writer| {
         let blocks: Vec<_> = meta.enumerate_ordered_header_block_indices().collect();
-        for group in blocks.chunks(GROUP) {
+        for group in blocks.chunks(GROUP * rayon::current_num_threads()) {
             let compress = |&(number, index)| {
                 let data = layers.extract_uncompressed_block(&meta.headers, index);
                 let block = UncompressedBlock { index, data };
@@ -135,6 +149,10 @@ fn custom_attributes(metadata: &Metadata) -> std::collections::HashMap<Text, Att
             Text::from("specula.scene"),
             AttributeValue::Text(latin(scene)),
         );
+    }
+    if let Some(bias) = &metadata.bias {
+        let bias = AttributeValue::Text(latin(bias));
+        other.insert(Text::from("specula.bias"), bias);
     }
     if let Some(samples) = metadata.samples_per_pixel {
         other.insert(

@@ -21,6 +21,7 @@ pub use colour_map::{difference_rgb8, inferno};
 pub use compare::{Comparison, compare};
 pub use error::PictureError;
 pub use exr_read::read_exr;
+pub(crate) use exr_write::{ALL_CHANNELS, blocks_size};
 pub use exr_write::{Metadata, write_exr};
 pub use flip::{PIXELS_PER_DEGREE, flip_map, hdr_flip_map};
 pub use png_write::{write_png, write_rgb8};

@@ -20,6 +20,9 @@ const NONE: u32 = u32::MAX;
 /// Nodes that may wait for their inputs at the same time in a shader.
 const MOST_WAITING: u32 = 32;
 
+/// Most nodes that a shader evaluates for one value, each as often as others refer to it.
+const MOST_VISITS: u32 = 4096;
+
 /// 4 words: the texture's number, or [`NONE`] and the value.
 pub(crate) fn colour_parameter(to: &mut Words, parameter: ColourParam) {
     let (texture, value) = match parameter {
@@ -82,6 +85,11 @@ impl Textures {
                 "textures that are nested more than {MOST_WAITING} deep"
             ));
         }
+        if self.extents.iter().any(|e| e.visits > MOST_VISITS) {
+            to.lacks(format!(
+                "textures that share inputs so often that they unfold to more than {MOST_VISITS}"
+            ));
+        }
         let has_noise = self
             .nodes
             .iter()
@@ -116,11 +124,7 @@ struct Records {
 impl Records {
     fn add(&mut self, node: &Node, rasters: &[u32], to: &mut Words) {
         let [first, second] = node.inputs();
-        let deepest = [first, second, node.amount()]
-            .into_iter()
-            .flatten()
-            .map(|input| self.waiting[input.0])
-            .max();
+        let deepest = node.all_inputs().map(|input| self.waiting[input.0]).max();
         self.waiting
             .push(deepest.unwrap_or(0) + u32::from(node.waits()));
         let place = |input: TextureId| self.places[input.0];
@@ -217,6 +221,12 @@ impl Node {
             } => Some(texture),
             _ => None,
         }
+    }
+
+    /// All that it refers to.
+    pub(super) fn all_inputs(&self) -> impl Iterator<Item = TextureId> {
+        let [first, second] = self.inputs();
+        [first, second, self.amount()].into_iter().flatten()
     }
 
     fn has_inputs(&self) -> bool {

@@ -190,14 +190,27 @@ impl Textures {
 
     /// The value of a node at a place.
     pub(super) fn node(&self, index: usize, place: &Place) -> Rgb<f32> {
-        let input = |id: TextureId| self.node(id.0, place);
+        self.value(index, place, |id| self.node(id.0, place))
+    }
+
+    /// The value of a node whose inputs have values.
+    #[inline(always)]
+    fn value(
+        &self,
+        index: usize,
+        place: &Place,
+        input: impl Fn(TextureId) -> Rgb<f32>,
+    ) -> Rgb<f32> {
         match &self.nodes[index] {
             Node::Constant(c) => *c,
             Node::Image(picture) => self.picture(picture, place),
             Node::Scale(a, b) => input(*a) * input(*b),
             Node::Sum(a, b) => input(*a) + input(*b),
             Node::Mix { a, b, amount } => {
-                let t = self.float(*amount, place);
+                let t = finite(match *amount {
+                    FloatParam::Value(t) => t,
+                    FloatParam::Texture(id) => input(id).r,
+                });
                 if t <= 0.0 {
                     input(*a)
                 } else if t >= 1.0 {
@@ -261,6 +274,30 @@ impl Textures {
         }
     }
 
+    /// [`Textures::node`] with every node evaluated once, in order: what many nodes refer to takes no
+    /// longer than what one does.
+    ///
+    /// * `first`: the first of the nodes that it depends on.
+    pub(super) fn in_order(&self, first: usize, last: usize, place: &Place) -> Rgb<f32> {
+        let nodes = &self.nodes[first..=last];
+        let mut needed = vec![false; nodes.len()];
+        needed[last - first] = true;
+        for (i, node) in nodes.iter().enumerate().rev() {
+            if needed[i] {
+                for input in node.all_inputs() {
+                    needed[input.0 - first] = true;
+                }
+            }
+        }
+        let mut values = vec![Rgb::BLACK; nodes.len()];
+        for i in 0..nodes.len() {
+            if needed[i] {
+                values[i] = self.value(first + i, place, |id| values[id.0 - first]);
+            }
+        }
+        values[last - first]
+    }
+
     fn picture(&self, p: &Picture, place: &Place) -> Rgb<f32> {
         let c = self.rasters[p.image].at(p.mapping.at(place), p.lookup);
         let c = match p.channel {
@@ -314,7 +351,7 @@ mod tests {
             name: "pixels".into(),
             width: 2,
             height: 1,
-            pixels: vec![[0.1, 0.4, 0.7], [0.25, 0.5, 2.0]],
+            pixels: vec![[0.1, 0.4, 0.7], [0.25, 0.5, 2.0]].into(),
         }];
         Textures::new(&mut scene)
     }
@@ -539,5 +576,52 @@ mod tests {
         let colour = t.fold_colour(ColourParam::Texture(TextureId(2)));
         assert_eq!(colour, ColourParam::Value(Rgb::splat(0.125)));
         assert!(!t.shows_vertex_colours());
+    }
+
+    #[test]
+    fn graphs_that_share_their_nodes_take_no_longer_than_they_are_long() {
+        let half = TextureId(0);
+        let mut nodes = vec![image(Channel::Red, false, 1.0), constant(1.0)];
+        let check = |even, odd| Texture::Checkerboard {
+            even,
+            odd,
+            mapping: TextureMapping::default(),
+        };
+        for i in 0..40 {
+            let a = TextureId(if i == 0 { 0 } else { i + 1 });
+            nodes.push(match i % 4 {
+                0 => Texture::Mix {
+                    a,
+                    b: a,
+                    amount: FloatParam::Texture(a),
+                },
+                1 => check(a, half),
+                _ => Texture::Mix {
+                    a,
+                    b: a,
+                    amount: FloatParam::Value(0.5),
+                },
+            });
+        }
+        let t = textures(nodes);
+        // As a tree it would have more than 2^30 nodes.
+        let place = uv(0.2, 0.5);
+        assert!((at(&t, 41, place).g - 0.1).abs() < 1e-6);
+        // Small graphs go both ways to the same bits.
+        for index in [2, 5, 8] {
+            let tree = t.node(index, &place);
+            assert_eq!(tree, t.in_order(0, index, &place), "{index}");
+        }
+    }
+
+    #[test]
+    fn long_chains_do_not_exhaust_the_stack() {
+        let mut nodes = vec![image(Channel::Red, false, 4.0), constant(1.0)];
+        for i in 0..200_000 {
+            let a = TextureId(if i == 0 { 0 } else { i + 1 });
+            nodes.push(Texture::Scale { a, b: B });
+        }
+        let t = textures(nodes);
+        assert!((at(&t, 200_001, uv(0.2, 0.5)).g - 0.4).abs() < 1e-6);
     }
 }

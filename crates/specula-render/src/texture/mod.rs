@@ -9,7 +9,7 @@ mod raster;
 use specula_bsdf::math::vec3;
 use specula_bsdf::{Rgb, Vec3};
 use specula_scene::Scene;
-use specula_scene::scene::{ColourParam, FloatParam, Texture};
+use specula_scene::scene::{ColourParam, FloatParam, Texture, TextureId};
 
 use graph::Node;
 use raster::Raster;
@@ -42,11 +42,25 @@ impl Default for Place {
     }
 }
 
+/// Most nodes that are evaluated as a tree, each as often as others refer to it.
+const LARGEST_TREE: u32 = 256;
+
+/// What the value of a node takes.
+#[derive(Clone, Copy, Debug)]
+struct Extent {
+    /// Nodes of the tree that it unfolds to.
+    visits: u32,
+    /// The first of the nodes that it depends on.
+    first: usize,
+}
+
 /// All textures of a scene, with the pictures that they use.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Textures {
     /// By the scene's numbers. A node's inputs come before it.
     nodes: Vec<Node>,
+    /// Of every node.
+    extents: Vec<Extent>,
     /// By the scene's numbers; empty where no texture uses a picture.
     rasters: Vec<Raster>,
 }
@@ -58,6 +72,7 @@ impl Textures {
     pub(crate) fn new(scene: &mut Scene) -> Self {
         let mut textures = Self {
             nodes: Vec::with_capacity(scene.textures.len()),
+            extents: Vec::with_capacity(scene.textures.len()),
             rasters: vec![Raster::default(); scene.images.len()],
         };
         let mut used = vec![false; scene.images.len()];
@@ -86,9 +101,37 @@ impl Textures {
         }
         for texture in &scene.textures {
             let node = textures.folded(Node::new(texture));
+            textures.extents.push(textures.extent(&node));
             textures.nodes.push(node);
         }
         textures
+    }
+
+    /// Of the next node.
+    fn extent(&self, node: &Node) -> Extent {
+        let alone = Extent {
+            visits: 1,
+            first: self.nodes.len(),
+        };
+        node.all_inputs().fold(alone, |extent, input| {
+            let input = self.extents[input.0];
+            Extent {
+                visits: extent.visits.saturating_add(input.visits),
+                first: extent.first.min(input.first),
+            }
+        })
+    }
+
+    /// The value of a texture: of small graphs as a tree, which leaves out what is not shown, of large
+    /// ones in order.
+    #[inline]
+    fn at(&self, id: TextureId, place: &Place) -> Rgb<f32> {
+        let Extent { visits, first } = self.extents[id.0];
+        if visits <= LARGEST_TREE {
+            self.node(id.0, place)
+        } else {
+            self.in_order(first, id.0, place)
+        }
     }
 
     /// A colour at a place; 0 where it is no number.
@@ -96,7 +139,7 @@ impl Textures {
     pub(crate) fn colour(&self, parameter: ColourParam, place: &Place) -> Rgb<f32> {
         let value = match parameter {
             ColourParam::Value(c) => c,
-            ColourParam::Texture(id) => self.node(id.0, place),
+            ColourParam::Texture(id) => self.at(id, place),
         };
         value.map(finite)
     }
@@ -106,7 +149,7 @@ impl Textures {
     pub(crate) fn float(&self, parameter: FloatParam, place: &Place) -> f32 {
         finite(match parameter {
             FloatParam::Value(v) => v,
-            FloatParam::Texture(id) => self.node(id.0, place).r,
+            FloatParam::Texture(id) => self.at(id, place).r,
         })
     }
 
@@ -136,11 +179,6 @@ impl Textures {
     pub(crate) fn shows_vertex_colours(&self) -> bool {
         self.nodes.iter().any(|n| matches!(n, Node::VertexColour))
     }
-}
-
-/// Whether a texture keeps this picture in a byte for each number: a quarter of the memory.
-pub(crate) fn is_of_bytes(image: &specula_scene::Image) -> bool {
-    raster::is_of_bytes(&image.pixels)
 }
 
 #[inline(always)]

@@ -2,34 +2,18 @@
 
 use specula_bsdf::Rgb;
 use specula_bsdf::math::rgb;
+use specula_scene::Pixels;
 use specula_scene::scene::{Interpolation, Wrap};
 
 use crate::convert::floor_i32;
 use crate::flat::Words;
 
-/// A picture's pixels, row by row from the top.
+/// A picture's pixels, row by row from the top, in the depth of its file.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Raster {
     width: i32,
     height: i32,
     pixels: Pixels,
-}
-
-#[derive(Clone, Debug)]
-enum Pixels {
-    Floats(Vec<[f32; 3]>),
-    /// At most 256 different numbers, as pictures of 8 bits have, whatever their transfer curve: a
-    /// quarter of the memory.
-    Bytes {
-        palette: Box<[f32; 256]>,
-        pixels: Vec<[u8; 3]>,
-    },
-}
-
-impl Default for Pixels {
-    fn default() -> Self {
-        Self::Floats(Vec::new())
-    }
 }
 
 /// How a picture is looked up.
@@ -42,7 +26,7 @@ pub(super) struct Lookup {
 
 impl Raster {
     /// * `pixels`: `width * height`, else the picture is black.
-    pub(super) fn new(width: u32, height: u32, pixels: Vec<[f32; 3]>) -> Self {
+    pub(super) fn new(width: u32, height: u32, pixels: Pixels) -> Self {
         let [Ok(w), Ok(h)] = [width, height].map(i32::try_from) else {
             return Self::default();
         };
@@ -52,10 +36,7 @@ impl Raster {
         Self {
             width: w,
             height: h,
-            pixels: match bytes(&pixels) {
-                Some(bytes) => bytes,
-                None => Pixels::Floats(pixels),
-            },
+            pixels,
         }
     }
 
@@ -91,10 +72,7 @@ impl Raster {
             return Rgb::BLACK;
         };
         let at = y * self.width.unsigned_abs() as usize + x;
-        let [r, g, b] = match &self.pixels {
-            Pixels::Floats(pixels) => pixels[at],
-            Pixels::Bytes { palette, pixels } => pixels[at].map(|i| palette[usize::from(i)]),
-        };
+        let [r, g, b] = self.pixels.rgb(at);
         rgb(r, g, b)
     }
 }
@@ -105,20 +83,19 @@ impl Raster {
     pub(super) fn flatten(&self, to: &mut Words) -> u32 {
         let here = to.place();
         to.ids([self.width, self.height].map(i32::unsigned_abs));
-        match &self.pixels {
-            Pixels::Floats(pixels) => {
-                to.flag(false);
-                to.numbers(pixels.as_flattened().iter().copied());
-            }
-            Pixels::Bytes { palette, pixels } => {
-                to.flag(true);
-                to.numbers(palette.iter().copied());
-                to.ids(
-                    pixels
-                        .iter()
-                        .map(|&[r, g, b]| u32::from_le_bytes([r, g, b, 0])),
-                );
-            }
+        let Some(indexed) = self.pixels.indexed() else {
+            to.flag(false);
+            to.numbers(self.pixels.iter().flatten());
+            return here;
+        };
+        to.flag(true);
+        to.numbers(indexed.table.iter().copied());
+        if indexed.is_colour {
+            let words = indexed.indices.as_chunks().0.iter();
+            to.ids(words.map(|&[r, g, b]| u32::from_le_bytes([r, g, b, 0])));
+        } else {
+            let words = indexed.indices.iter();
+            to.ids(words.map(|&i| u32::from_le_bytes([i, i, i, 0])));
         }
         here
     }
@@ -153,59 +130,13 @@ fn wrapped(x: i32, size: i32, wrap: Wrap) -> Option<usize> {
     usize::try_from(inside).ok()
 }
 
-/// Whether a picture is kept in bytes.
-pub(super) fn is_of_bytes(pixels: &[[f32; 3]]) -> bool {
-    bytes(pixels).is_some()
-}
-
-/// Pixels as numbers of a palette; `None` where that would need more than 256.
-fn bytes(pixels: &[[f32; 3]]) -> Option<Pixels> {
-    /// A free place of the table.
-    const FREE: u16 = u16::MAX;
-    const PLACES: usize = 1024;
-    // Numbers by their bits, with open addressing.
-    let mut table = [(0_u32, FREE); PLACES];
-    let mut palette = Box::new([0.0; 256]);
-    let mut known = 0_u16;
-    let mut number = |v: f32| {
-        let bits = v.to_bits();
-        let mut place = (bits.wrapping_mul(0x9e37_79b9) >> 22) as usize;
-        loop {
-            match table[place] {
-                (b, n) if b == bits && n != FREE => return u8::try_from(n).ok(),
-                (_, FREE) => {
-                    let n = u8::try_from(known).ok()?;
-                    palette[usize::from(n)] = v;
-                    table[place] = (bits, known);
-                    known += 1;
-                    return Some(n);
-                }
-                _ => place = (place + 1) % PLACES,
-            }
-        }
-    };
-    let mut out = Vec::new();
-    // Pictures with more numbers show it soon: nothing is allocated for those.
-    for (i, &[r, g, b]) in pixels.iter().enumerate() {
-        let pixel = [number(r)?, number(g)?, number(b)?];
-        if i == 0 {
-            out.reserve_exact(pixels.len());
-        }
-        out.push(pixel);
-    }
-    Some(Pixels::Bytes {
-        palette,
-        pixels: out,
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     /// Upper row 0, 1; lower row 2, 3.
     fn square() -> Raster {
-        Raster::new(2, 2, vec![[0.0; 3], [1.0; 3], [2.0; 3], [3.0; 3]])
+        Raster::new(2, 2, vec![[0.0; 3], [1.0; 3], [2.0; 3], [3.0; 3]].into())
     }
 
     fn at(wrap: Wrap, filter: Interpolation, s: f32, t: f32) -> f32 {
@@ -258,20 +189,5 @@ mod tests {
         assert_eq!(at(0.49, 0.51), 0.0);
         assert_eq!(at(0.51, 0.49), 3.0);
         assert_eq!(at(-0.01, 0.51), 1.0);
-    }
-
-    #[test]
-    fn palettes_change_no_bit_and_are_left_where_they_are_too_small() {
-        for (count, fits) in [(256, true), (257, false)] {
-            let pixels: Vec<[f32; 3]> = (0..600_u16)
-                .map(|i| [i, i * 7, i * 31].map(|v| f32::from(v % count).sqrt()))
-                .collect();
-            let raster = Raster::new(30, 20, pixels.clone());
-            assert_eq!(matches!(raster.pixels, Pixels::Bytes { .. }), fits);
-            for (i, expected) in (0..600).zip(&pixels) {
-                let found = raster.pixel(i % 30, i / 30, [Wrap::Clamp; 2]);
-                assert_eq!(found.to_array(), *expected);
-            }
-        }
     }
 }

@@ -8,6 +8,7 @@ use glam::{DMat4, DVec3};
 use specula_bsdf::Rgb;
 use specula_render::picture::Picture;
 use specula_render::{PreparedScene, RenderOptions, Renderer, Strategy};
+use specula_scene::Energy;
 use specula_scene::scene::*;
 
 /// A camera at `from` that looks at `to`.
@@ -52,6 +53,7 @@ pub(crate) fn empty(camera: Camera, size: u32) -> Scene {
             max_depth: 5,
             samples_per_pixel: 1,
             hide_emitters: false,
+            energy: Energy::None,
         },
         images: Vec::new(),
         textures: Vec::new(),
@@ -61,6 +63,7 @@ pub(crate) fn empty(camera: Camera, size: u32) -> Scene {
         objects: Vec::new(),
         instances: Vec::new(),
         lights: Vec::new(),
+        floor: None,
     }
 }
 

@@ -8,12 +8,13 @@ mod revolve;
 mod stage;
 mod studio;
 
-pub(crate) use studio::environment as studio_environment;
+pub(crate) use studio::above_floor as studio_above_floor;
 
 use glam::{DMat4, DVec3};
 use specula_bsdf::math::rgb;
 use specula_bsdf::{Rgb, metals};
 
+use crate::energy::Energy;
 use crate::num::f32_of;
 use crate::scene::{
     Camera, CoatMedium, ColourParam, ConductorFresnel, Emission, Film, Filter, FloatParam,
@@ -131,6 +132,7 @@ impl Build {
                     max_depth: 8,
                     samples_per_pixel: 64,
                     hide_emitters: false,
+                    energy: Energy::DEFAULT,
                 },
                 images: Vec::new(),
                 textures: Vec::new(),
@@ -140,6 +142,7 @@ impl Build {
                 objects: Vec::new(),
                 instances: Vec::new(),
                 lights: Vec::new(),
+                floor: None,
             },
         }
     }

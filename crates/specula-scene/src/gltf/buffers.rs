@@ -7,7 +7,6 @@ use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 
 use super::Reader;
 use crate::error::{ErrorKind, SceneError};
-use crate::read_file;
 
 /// Base64 with or without its padding.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
@@ -93,7 +92,8 @@ impl Reader<'_> {
             )));
         }
         let path = self.search.find(&name);
-        read_file::read_bytes(&path, self.limits)
+        self.files
+            .unpacked(&path)
             .map_err(|message| wrong(message).with_hint(self.search.hint(&path)))
     }
 

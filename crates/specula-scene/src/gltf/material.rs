@@ -120,7 +120,7 @@ impl Reader<'_> {
             ));
             (factor, texture) = (old.diffuse_factor(), old.diffuse_texture());
         }
-        let [r, g, b, a] = factor.map(|x| x.max(0.0));
+        let [r, g, b, a] = factor.map(unit);
         let reference = texture.as_ref().map(TextureRef::of);
         let base = self.colour(Rgb { r, g, b }, reference)?;
         Ok((base, a, reference))
@@ -216,10 +216,11 @@ impl Reader<'_> {
                 }
                 _ => None,
             },
-            ior: if ior >= 1.0 {
-                ior.min(MAX_IOR)
-            } else {
+            // 0 stands for infinity.
+            ior: if ior == 0.0 {
                 MAX_IOR
+            } else {
+                ior.clamp(1.0, MAX_IOR)
             },
             specular,
             specular_colour,

@@ -11,6 +11,7 @@ use gltf::json::{Value, deserialize};
 use super::KNOWN_EXTENSIONS;
 use super::locate::Step;
 use super::schema::{Kind, LIGHTS, LISTS, Member, ROOT, RootList};
+use super::version;
 use crate::error::ErrorKind;
 
 /// Something wrong in a document.
@@ -29,6 +30,16 @@ pub(super) fn find(json: &[u8]) -> Option<(Vec<Mistake>, Option<Value>)> {
     let mut search = Search::default();
     if !root.is_object() {
         search.expected("an object", &root);
+        return Some((search.found, None));
+    }
+    if let Some((path, message)) = version::fault(root.get("asset").unwrap_or(&Value::Null)) {
+        search.found.push(Mistake {
+            path,
+            kind: ErrorKind::Unsupported,
+            message,
+            help: Some("export as glTF 2.0"),
+        });
+        // The rest would be held against the wrong schema.
         return Some((search.found, None));
     }
     let count = lights(&mut root).and_then(|l| l.as_array().map(Vec::len));

@@ -12,7 +12,7 @@
 //! | attenuation by distance | absorption `-ln(colour) / distance` of the closed body |
 //! | faces are culled from behind unless `doubleSided` | both sides are seen: light passes no wall |
 //!
-//! A file without lights gets the built-in studio's environment, a file without a camera one that
+//! A file without lights gets the built-in studio's and a floor, a file without a camera one that
 //! frames everything; both are said in warnings.
 
 mod accessor;
@@ -26,9 +26,11 @@ mod mesh;
 mod mistakes;
 mod node;
 mod precheck;
+mod range;
 mod schema;
 mod texture;
 mod texture_ref;
+mod version;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -38,12 +40,14 @@ pub use features::FEATURES;
 use crate::error::{ErrorKind, Place, SceneError, Source, Warning};
 use crate::image::Image;
 use crate::problems::Problems;
+use crate::read_file::Files;
 use crate::scene::{Light, Material, Mesh, Object, Shape, Texture, TextureId};
 use crate::search::Search;
-use crate::{Limits, LoadOptions, Loaded, read_file};
+use crate::{Limits, LoadOptions, Loaded};
 
 /// Extensions that a file may require.
-const KNOWN_EXTENSIONS: [&str; 15] = [
+const KNOWN_EXTENSIONS: [&str; 16] = [
+    "EXT_texture_webp",
     // Marks which triangles belong to one polygon: nothing that a picture shows.
     "FB_ngon_encoding",
     "KHR_lights_punctual",
@@ -66,6 +70,7 @@ const KNOWN_EXTENSIONS: [&str; 15] = [
 struct Reader<'a> {
     document: &'a gltf::Document,
     limits: &'a Limits,
+    files: &'a Files,
     problems: &'a Problems,
     search: Search,
     place: Place,
@@ -93,13 +98,15 @@ struct Reader<'a> {
 pub(crate) fn read(
     path: &Path,
     options: &LoadOptions,
+    files: &Files,
     problems: &Problems,
 ) -> Result<Loaded, SceneError> {
     let source = Source::unread(path);
     let start = Place::start(&source);
-    let bytes = read_file::read_bytes(path, &options.limits)
+    let bytes = files
+        .unpacked(path)
         .map_err(|message| SceneError::new(ErrorKind::Io, &start, message))?;
-    parse_into(path, &bytes, options, problems)
+    parse_into(path, &bytes, options, files, problems)
 }
 
 #[cfg(test)]
@@ -108,7 +115,13 @@ fn parse(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Loaded, SceneErro
         limits: *limits,
         ..LoadOptions::default()
     };
-    parse_into(path, bytes, &options, &Problems::default())
+    parse_into(
+        path,
+        bytes,
+        &options,
+        &Files::new(*limits),
+        &Problems::default(),
+    )
 }
 
 /// Reads a scene that is already in memory; `path` is for messages, and names the folder of files
@@ -117,6 +130,7 @@ fn parse_into(
     path: &Path,
     bytes: &[u8],
     options: &LoadOptions,
+    files: &Files,
     problems: &Problems,
 ) -> Result<Loaded, SceneError> {
     let parts = container::split(bytes).map_err(|message| {
@@ -132,6 +146,7 @@ fn parse_into(
     let mut reader = Reader {
         document: &document,
         limits: &options.limits,
+        files,
         problems,
         search: Search::new(path, &options.folders),
         place: Place::start(&source),
@@ -149,6 +164,7 @@ fn parse_into(
         sets: Vec::new(),
     };
     reader.warn_of_extensions();
+    reader.warn_of_ranges();
     reader.buffers = reader.read_buffers(parts.binary.map(<[u8]>::to_vec))?;
     reader.assemble()
 }
@@ -173,6 +189,12 @@ fn checked(mut root: gltf::json::Root, source: &Arc<Source>) -> Result<gltf::Doc
         let message = format!("not valid glTF 2.0: {message}");
         SceneError::new(ErrorKind::Structure, &Place::start(source), message)
     })?;
+    let asset = gltf::json::serialize::to_value(&root.asset).unwrap_or_default();
+    if let Some((path, message)) = version::fault(&asset) {
+        let message = format!("{}: {message}", locate::written(&path));
+        let start = Place::start(source);
+        return Err(SceneError::new(ErrorKind::Unsupported, &start, message));
+    }
     gltf::Document::from_json(root).map_err(|e| damaged(e, source))
 }
 

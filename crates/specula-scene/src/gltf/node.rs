@@ -4,14 +4,16 @@ use std::collections::HashMap;
 
 use glam::{DMat4, DVec3};
 use gltf::camera::Projection as GltfProjection;
+use gltf::scene::Transform;
 
 use super::Reader;
 use super::material::Look;
 use crate::error::{ErrorKind, SceneError};
+use crate::num::f32_of;
 use crate::scene::{
     Camera, Geometry, Instance, MeshId, Object, ObjectId, Projection, Scene, Shape,
 };
-use crate::stage;
+use crate::stage::{self, Lit};
 use crate::{Loaded, bounds};
 
 /// Width of pictures whose file gives no size.
@@ -105,14 +107,16 @@ impl Reader<'_> {
             objects: core::mem::take(&mut self.objects),
             instances,
             lights: core::mem::take(&mut self.lights),
+            floor: None,
         };
+        let bounds = bounds::of_scene(&scene);
         match camera {
             Some((mut camera, _)) => {
                 stage::fit_screen(&mut camera, [WIDTH, height]);
                 scene.camera = camera;
             }
             None => {
-                scene.camera = stage::camera(bounds::of_scene(&scene), [WIDTH, height]);
+                scene.camera = stage::camera(bounds, [WIDTH, height]);
                 self.warn("the file has no camera: one that frames everything is used");
             }
         }
@@ -121,8 +125,12 @@ impl Reader<'_> {
             || scene.shapes.iter().any(emits)
             || scene.objects.iter().flat_map(|o| &o.shapes).any(emits);
         if !lit {
-            stage::add_studio(&mut scene);
-            self.warn("the file has no lights: the built-in studio's are used");
+            self.warn(match stage::light(&mut scene, bounds) {
+                Lit::OverFloor => {
+                    "the file has no lights: the built-in studio's and a floor are used"
+                }
+                Lit::Alone => "the file has no lights: the built-in studio's are used",
+            });
         }
         // What stands in for mistakes need not make a scene.
         if !self.problems.has_errors() {
@@ -132,8 +140,10 @@ impl Reader<'_> {
             })?;
         }
         Ok(Loaded {
+            format: crate::Format::Gltf,
             scene,
             warnings: self.warnings,
+            files: self.files.list(),
         })
     }
 
@@ -152,7 +162,7 @@ impl Reader<'_> {
                 format!("{what}: nodes are nested too deeply, or contain themselves (`max_depth`)");
             return Err(self.error(ErrorKind::Limit, message));
         }
-        let columns = node.transform().matrix().map(|c| c.map(f64::from));
+        let columns = self.transform(node).matrix().map(|c| c.map(f64::from));
         let place = parent * DMat4::from_cols_array_2d(&columns);
         if let Some(mesh) = node.mesh() {
             if node.skin().is_some() {
@@ -166,7 +176,7 @@ impl Reader<'_> {
         if let Some(camera) = node.camera() {
             match found.camera {
                 Some(_) => self.warn("the file has several cameras: the first is used"),
-                None => found.camera = self.camera(&camera, &place),
+                None => found.camera = self.camera(&camera, &place)?,
             }
         }
         if let Some(light) = node.light() {
@@ -183,15 +193,16 @@ impl Reader<'_> {
         &mut self,
         camera: &gltf::Camera<'_>,
         place: &DMat4,
-    ) -> Option<(Camera, Option<f64>)> {
+    ) -> Result<Option<(Camera, Option<f64>)>, SceneError> {
         // Scale along the axes of a camera means nothing.
         let axis = |v: DVec3| place.transform_vector3(v).try_normalize();
         let (Some(right), Some(up), Some(forward)) =
             (axis(DVec3::X), axis(DVec3::Y), axis(DVec3::NEG_Z))
         else {
             self.warn("a camera without extent is left out");
-            return None;
+            return Ok(None);
         };
+        let what = format!("cameras[{}]", camera.index());
         let eye = place.transform_point3(DVec3::ZERO);
         let to_world = DMat4::from_cols(
             right.extend(0.0),
@@ -201,15 +212,37 @@ impl Reader<'_> {
         );
         let (projection, window, aspect) = match camera.projection() {
             GltfProjection::Perspective(p) => {
-                let aspect = p.aspect_ratio().map(f64::from);
-                let yfov = f64::from(p.yfov()).clamp(1e-3, 3.1);
+                let aspect = p.aspect_ratio().map(f64::from).filter(|aspect| {
+                    if *aspect <= 0.0 {
+                        self.warn(format!(
+                            "{what}.perspective.aspectRatio: expected a number above 0, found \
+                             {aspect}: it is left out"
+                        ));
+                    }
+                    *aspect > 0.0
+                });
+                let yfov = p.yfov();
+                if !(yfov > 0.0 && yfov < std::f32::consts::PI) {
+                    let message = format!(
+                        "{what}.perspective.yfov: expected an angle above 0 and below pi, found {yfov}"
+                    );
+                    return self.lost(message);
+                }
+                let yfov = f64::from(yfov).clamp(1e-3, 3.1);
                 // The angle belongs to the picture's shorter side.
                 let shorter = aspect.unwrap_or(1.0).min(1.0);
                 let fov_deg = (2.0 * ((0.5 * yfov).tan() * shorter).atan()).to_degrees();
                 (Projection::Perspective { fov_deg }, None, aspect)
             }
             GltfProjection::Orthographic(o) => {
-                let [x, y] = [o.xmag(), o.ymag()].map(|m| f64::from(m).abs().max(1e-6));
+                let [x, y] = [o.xmag(), o.ymag()].map(|m| f64::from(m).abs());
+                if !(x > 0.0 && y > 0.0 && (x + y).is_finite()) {
+                    let message = format!(
+                        "{what}.orthographic: expected an \"xmag\" and a \"ymag\" other than 0, \
+                         found {x} and {y}"
+                    );
+                    return self.lost(message);
+                }
                 let window = Some([-x, x, -y, y]);
                 (Projection::Orthographic, window, Some(x / y))
             }
@@ -222,7 +255,54 @@ impl Reader<'_> {
             // Perspective windows are set when the picture's size is known.
             screen_window: window.unwrap_or([0.0; 4]),
         };
-        Some((camera, aspect))
+        Ok(Some((camera, aspect)))
+    }
+
+    /// A camera with a mistake: in a check the file is taken for one without.
+    fn lost<T>(&self, message: String) -> Result<Option<T>, SceneError> {
+        let error = self.error(ErrorKind::Parameter, message);
+        self.problems.keep(error).map(|()| None)
+    }
+
+    /// The transform of a node, whose rotation has length 1.
+    fn transform(&mut self, node: &gltf::Node<'_>) -> Transform {
+        let transform = node.transform();
+        let Transform::Decomposed {
+            translation,
+            rotation,
+            scale,
+        } = transform
+        else {
+            return transform;
+        };
+        let length = rotation
+            .map(f64::from)
+            .map(|x| x * x)
+            .iter()
+            .sum::<f64>()
+            .sqrt();
+        // Exporters round, and quantise.
+        if (length - 1.0).abs() < 1e-2 {
+            return transform;
+        }
+        let what = format!(
+            "nodes[{}].rotation: expected a quaternion of length 1, found one of length {length}",
+            node.index()
+        );
+        let is_none = !(length > 1e-6 && length.is_finite());
+        self.warn(match is_none {
+            true => format!("{what}: the node is not turned"),
+            false => format!("{what}: it is scaled to 1"),
+        });
+        let rotation = match is_none {
+            true => [0.0, 0.0, 0.0, 1.0],
+            false => rotation.map(|x| f32_of(f64::from(x) / length)),
+        };
+        Transform::Decomposed {
+            translation,
+            rotation,
+            scale,
+        }
     }
 }
 

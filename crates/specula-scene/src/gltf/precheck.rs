@@ -4,7 +4,7 @@ use gltf::json::camera::Type as CameraType;
 use gltf::json::extensions::scene::khr_lights_punctual::Type as LightType;
 use gltf::json::image::MimeType;
 use gltf::json::validation::Checked;
-use gltf::json::{Root, mesh::Semantic};
+use gltf::json::{Index, Root, mesh::Semantic};
 
 use super::KNOWN_EXTENSIONS;
 
@@ -36,6 +36,19 @@ pub(super) fn precheck(root: &mut Root) -> Result<(), String> {
                 image.mime_type = Some(MimeType(String::new()));
             }
             _ => {}
+        }
+    }
+    for (i, texture) in root.textures.iter_mut().enumerate() {
+        let webp = texture.extensions.as_ref().and_then(|e| {
+            let source = e.others.get("EXT_texture_webp")?.get("source")?.as_u64()?;
+            u32::try_from(source).ok()
+        });
+        if let Some(source) = webp {
+            texture.source = Index::new(source);
+        }
+        // What the crate takes where there is none.
+        if texture.source.value() == u32::MAX as usize {
+            return Err(format!("textures[{i}]: expected a source"));
         }
     }
     for (i, camera) in root.cameras.iter().enumerate() {

@@ -181,7 +181,14 @@ const SAMPLER: Kind = Object(&[
 
 const TEXTURE: Kind = Object(&[
     may("sampler", Index("samplers")),
-    need("source", Index("images")),
+    may("source", Index("images")),
+    may(
+        "extensions",
+        Object(&[may(
+            "EXT_texture_webp",
+            Object(&[need("source", Index("images"))]),
+        )]),
+    ),
 ]);
 
 const TRANSFORM: Member = may(

@@ -1,5 +1,8 @@
 //! Small files in memory: what is read, what is refused, and that damage never panics.
 
+use std::io::Cursor;
+
+use base64::Engine;
 use specula_bsdf::Rgb;
 
 use super::*;
@@ -23,7 +26,6 @@ fn triangle(more: &str) -> String {
     ] {
         bytes.extend(tangent.iter().flat_map(|x| x.to_le_bytes()));
     }
-    use base64::Engine;
     let data = base64::engine::general_purpose::STANDARD.encode(&bytes);
     let length = bytes.len();
     format!(
@@ -55,14 +57,20 @@ fn messages(loaded: &Loaded) -> Vec<&str> {
     loaded.warnings.iter().map(Warning::message).collect()
 }
 
+/// Shapes that are the file's.
+fn shapes(scene: &Scene) -> Vec<&Shape> {
+    let is_own = |s: &&Shape| Some(s.material) != scene.floor;
+    scene.shapes.iter().filter(is_own).collect()
+}
+
 #[test]
-fn a_bare_triangle_gets_a_camera_and_light() {
+fn a_bare_triangle_gets_a_camera_light_and_a_floor() {
     let loaded = load(&format!(
         r#"{MESH}, "materials": [ {{ "name": "m" }} ], "nodes": [ {{ "mesh": 0, "translation": [0,0,5] }} ]"#
     ))
     .unwrap();
     let scene = &loaded.scene;
-    assert_eq!(scene.shapes.len(), 1);
+    assert_eq!((shapes(scene).len(), scene.shapes.len()), (1, 2));
     assert_eq!(scene.shapes[0].to_world.w_axis.z, 5.0);
     let mesh = &scene.meshes[0];
     assert_eq!(mesh.triangles, [[0, 1, 2]]);
@@ -189,6 +197,40 @@ fn mapping_of(scene: &Scene, texture: crate::scene::TextureId) -> &crate::scene:
     }
 }
 
+/// The picture of a texture is the extension's, beside another or alone.
+#[test]
+fn webp_pictures_are_read() {
+    let mut bytes = Cursor::new(Vec::new());
+    let picture = image::RgbImage::from_pixel(2, 1, image::Rgb([255, 0, 51]));
+    picture
+        .write_to(&mut bytes, image::ImageFormat::WebP)
+        .unwrap();
+    let webp = base64::engine::general_purpose::STANDARD.encode(bytes.into_inner());
+    let images = format!(
+        r#""images": [ {{ "uri": "nowhere.png" }}, {{ "uri": "data:image/webp;base64,{webp}" }} ]"#
+    );
+    let material =
+        r#""materials": [ { "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } } ]"#;
+    for source in ["", r#""source": 0, "#] {
+        let loaded = load(&format!(
+            r#"{SETS}, "extensionsRequired": [ "EXT_texture_webp" ], "textures": [ {{ {source}"extensions": {{
+   "EXT_texture_webp": {{ "source": 1 }} }} }} ], {images}, {material}"#
+        ))
+        .unwrap();
+        let [r, g, b] = loaded.scene.images[0].pixels.rgb(1);
+        assert_eq!((r, g), (1.0, 0.0));
+        assert!((b - 0.033_104_77).abs() < 1e-6, "{b}");
+    }
+    let missing = load(&format!(
+        r#"{SETS}, "textures": [ {{}} ], {images}, {material}"#
+    ));
+    let message = missing.unwrap_err().to_string();
+    assert!(
+        message.contains("textures[0]: expected a source"),
+        "{message}"
+    );
+}
+
 #[test]
 fn directions_coats_and_volumes_are_read() {
     let loaded = load(&format!(
@@ -284,7 +326,7 @@ fn meshes_in_several_places_are_instances() {
     ))
     .unwrap();
     assert_eq!(loaded.scene.instances.len(), 2);
-    assert!(loaded.scene.shapes.is_empty());
+    assert!(shapes(&loaded.scene).is_empty());
     assert!(matches!(
         loaded.scene.objects[0].shapes[0].geometry,
         Geometry::Mesh(_)
@@ -350,7 +392,7 @@ fn attributes_and_extensions_that_the_crate_refuses_are_read() {
  "extensionsUsed": ["KHR_mesh_quantization"], "extensionsRequired": ["KHR_mesh_quantization"]"#
     ))
     .unwrap();
-    assert_eq!(loaded.scene.shapes.len(), 1);
+    assert_eq!(shapes(&loaded.scene).len(), 1);
 }
 
 #[test]

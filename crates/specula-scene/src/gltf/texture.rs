@@ -1,6 +1,7 @@
 //! Textures: pictures with samplers, transforms and channels.
 
 use std::collections::HashMap;
+use std::io::Cursor;
 
 use gltf::texture::{MagFilter, WrappingMode};
 use specula_bsdf::Rgb;
@@ -130,13 +131,20 @@ impl Reader<'_> {
                 (bytes.as_slice(), mime_type, name)
             }
         };
-        let format = format(data).ok_or_else(|| {
+        let format = Format::of_content(data).ok_or_else(|| {
             let found = mime.map_or_else(String::new, |m| format!(", found {m}"));
-            let message = format!("{what}: expected a PNG or JPEG picture{found}");
+            let message = format!("{what}: expected a PNG, JPEG or WebP picture{found}");
             self.error(ErrorKind::Image, message)
         })?;
-        image::decode(data, format, &name, encoding, content, self.limits)
-            .map_err(|message| SceneError::new(ErrorKind::Image, &self.place_of(&what), message))
+        image::decode(
+            Cursor::new(data),
+            format,
+            &name,
+            encoding,
+            content,
+            self.limits,
+        )
+        .map_err(|message| SceneError::new(ErrorKind::Image, &self.place_of(&what), message))
     }
 
     /// A factor and a texture as a colour.
@@ -203,17 +211,6 @@ fn wrap(mode: WrappingMode) -> Wrap {
         WrappingMode::ClampToEdge => Wrap::Clamp,
         WrappingMode::MirroredRepeat => Wrap::Mirror,
         WrappingMode::Repeat => Wrap::Repeat,
-    }
-}
-
-/// The format by its first bytes: files lie about their types.
-fn format(bytes: &[u8]) -> Option<Format> {
-    if bytes.starts_with(b"\x89PNG") {
-        Some(Format::Png)
-    } else if bytes.starts_with(&[0xff, 0xd8]) {
-        Some(Format::Jpeg)
-    } else {
-        None
     }
 }
 

@@ -1,7 +1,10 @@
 //! Portable float maps: `PF` or `Pf`, width, height, scale (negative: little endian), then floats,
 //! the lowest row first.
 
-use super::read::{Decoded, check_size};
+use std::io::{BufRead, Read};
+
+use super::Pixels;
+use super::read::{Content, Decoded, check_size};
 use crate::Limits;
 use crate::spectrum::ColourSpace;
 
@@ -10,8 +13,18 @@ use crate::spectrum::ColourSpace;
 /// # Errors
 ///
 /// A message where the header or the length is wrong.
-pub(super) fn decode(bytes: &[u8], limits: &Limits) -> Result<Decoded, String> {
-    let mut rest = bytes;
+pub(super) fn decode(
+    mut source: impl BufRead,
+    content: Content,
+    limits: &Limits,
+) -> Result<Decoded, String> {
+    let mut bytes = Vec::new();
+    source
+        .by_ref()
+        .take(limits.max_bytes)
+        .read_to_end(&mut bytes)
+        .map_err(|e| format!("cannot be read: {e}"))?;
+    let mut rest = bytes.as_slice();
     let channels = match word(&mut rest) {
         Some("PF") => 3,
         Some("Pf") => 1,
@@ -52,25 +65,20 @@ pub(super) fn decode(bytes: &[u8], limits: &Limits) -> Result<Decoded, String> {
         f32::from_be_bytes
     };
     let factor = crate::num::f32_of(scale.abs());
-    let mut pixels = Vec::with_capacity(width as usize * height as usize);
+    let mut values = Vec::with_capacity(row * height as usize);
     for y in (0..height as usize).rev() {
-        let values = rest[y * row * 4..(y + 1) * row * 4]
-            .as_chunks::<4>()
-            .0
-            .iter()
-            .map(|b| factor * read(*b))
-            .collect::<Vec<f32>>();
-        if channels == 3 {
-            pixels.extend_from_slice(values.as_chunks::<3>().0);
-        } else {
-            pixels.extend(values.iter().map(|&v| [v; 3]));
-        }
+        let stored = rest[y * row * 4..(y + 1) * row * 4].as_chunks::<4>().0;
+        values.extend(stored.iter().map(|b| factor * read(*b)));
     }
+    let colours = Pixels::floats(values, channels == 3);
     Ok(Decoded {
         width,
         height,
-        pixels,
-        alpha: None,
+        pixels: match content {
+            Content::Colour | Content::Light => colours,
+            Content::Number => colours.means(),
+            Content::Alpha => Pixels::ones(colours.len()),
+        },
         space: ColourSpace::Srgb,
     })
 }
@@ -93,8 +101,8 @@ mod tests {
         let mut bytes = b"Pf\n1 2\n-1.0\n".to_vec();
         bytes.extend(1f32.to_le_bytes());
         bytes.extend(2f32.to_le_bytes());
-        let image = decode(&bytes, &Limits::default()).unwrap();
-        assert_eq!(image.pixels, [[2.0; 3], [1.0; 3]]);
+        let image = decode(bytes.as_slice(), Content::Light, &Limits::default()).unwrap();
+        assert_eq!(image.pixels, vec![[2.0; 3], [1.0; 3]].into());
     }
 
     #[test]
@@ -104,8 +112,10 @@ mod tests {
             bytes.extend(v.to_be_bytes());
         }
         assert_eq!(
-            decode(&bytes, &Limits::default()).unwrap().pixels,
-            [[2.0, 4.0, 6.0]]
+            decode(bytes.as_slice(), Content::Light, &Limits::default())
+                .unwrap()
+                .pixels,
+            vec![[2.0, 4.0, 6.0]].into()
         );
     }
 
@@ -120,7 +130,10 @@ mod tests {
             "PF 0 1 -1\n",
             "PF 2 2 -1\nabcd",
         ] {
-            assert!(decode(bad.as_bytes(), &Limits::default()).is_err(), "{bad}");
+            assert!(
+                decode(bad.as_bytes(), Content::Light, &Limits::default()).is_err(),
+                "{bad}"
+            );
         }
     }
 }

@@ -10,12 +10,16 @@ use super::texture::unknown;
 use crate::bounds::{self, Bounds, FARTHEST};
 use crate::error::{ErrorKind, Place, SceneError};
 use crate::problems::{NoteKind, is_dark};
+use crate::read_file::Files;
 use crate::scene::{Camera, Film, Instance, Light, Object, Scene, Settings};
-use crate::{Limits, Loaded, stage};
+use crate::{Energy, Format, Loaded, stage};
+
+/// What a picture of such a scene is good for.
+const NO_LIGHT: &str = "the scene has no light: the picture will be black";
 
 /// Builds the scene.
-pub(super) fn assemble(document: Document, limits: &Limits) -> Result<Loaded, SceneError> {
-    let (mut context, root) = Context::new(document, limits);
+pub(super) fn assemble(document: Document, files: &Files) -> Result<Loaded, SceneError> {
+    let (mut context, root) = Context::new(document, files);
     root.visited.set(true);
     context.look_for_media(&root)?;
     let mut parts = Parts::default();
@@ -61,6 +65,7 @@ pub(super) fn assemble(document: Document, limits: &Limits) -> Result<Loaded, Sc
             max_depth,
             samples_per_pixel,
             hide_emitters: context.hide_emitters,
+            energy: Energy::None,
         },
         images: std::mem::take(&mut context.images),
         textures: std::mem::take(&mut context.textures),
@@ -70,6 +75,7 @@ pub(super) fn assemble(document: Document, limits: &Limits) -> Result<Loaded, Sc
         objects: built.objects,
         instances: built.instances,
         lights,
+        floor: None,
     };
     // What stands in for mistakes need not make a scene.
     if !problems.has_errors() {
@@ -86,15 +92,9 @@ pub(super) fn assemble(document: Document, limits: &Limits) -> Result<Loaded, Sc
         shapes.any(|s| s.emission.is_some())
     };
     if scene.lights.is_empty() && !shines(&scene.objects) {
-        context.warn(
-            &root.place,
-            "the scene has no light: the picture will be black",
-        );
+        context.warn(&root.place, NO_LIGHT);
     }
-    Ok(Loaded {
-        scene,
-        warnings: context.warnings,
-    })
+    Ok(Loaded::new(Format::Mitsuba, scene, context.warnings, files))
 }
 
 fn no_sensor(root: &Element) -> SceneError {

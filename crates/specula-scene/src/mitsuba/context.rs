@@ -10,17 +10,19 @@ use super::document::{Document, hint, resolve};
 use super::element::{Element, Property};
 use super::medium::Sides;
 use super::number::shorten;
-use super::texture::{Frame, Role};
+use super::texture::{Built, Frame, Role};
 use super::value::Value;
 use crate::Limits;
 use crate::error::{ErrorKind, Place, SceneError, Warning};
 use crate::image::{self, Content, Encoding, Image};
 use crate::problems::{NoteKind, Problems};
+use crate::read_file::Files;
 use crate::scene::{ImageId, Material, MaterialId, Texture, TextureId};
 
 /// Shared state of the reader.
 pub(super) struct Context<'a> {
     pub(super) limits: &'a Limits,
+    pub(super) access: &'a Files,
     pub(super) problems: Problems,
     pub(super) warnings: Vec<Warning>,
     pub(super) images: Vec<Image>,
@@ -39,7 +41,7 @@ pub(super) struct Context<'a> {
     /// Whose surface coordinates textures are read for.
     pub(super) frame: Frame,
     /// Textures by element, role and frame.
-    pub(super) texture_ids: HashMap<(usize, Role, Frame), TextureId>,
+    pub(super) built_textures: HashMap<(usize, Role, Frame), Built>,
     image_ids: HashMap<(PathBuf, String), ImageId>,
     ids: HashMap<String, Rc<Element>>,
     folders: Vec<PathBuf>,
@@ -48,7 +50,7 @@ pub(super) struct Context<'a> {
 
 impl<'a> Context<'a> {
     /// The state after a document was read, and its root.
-    pub(super) fn new(document: Document, limits: &'a Limits) -> (Self, Element) {
+    pub(super) fn new(document: Document, access: &'a Files) -> (Self, Element) {
         let Document {
             root,
             ids,
@@ -57,7 +59,8 @@ impl<'a> Context<'a> {
             problems,
         } = document;
         let context = Self {
-            limits,
+            limits: access.limits(),
+            access,
             problems,
             warnings,
             images: Vec::new(),
@@ -69,7 +72,7 @@ impl<'a> Context<'a> {
             bounding: HashMap::new(),
             hide_emitters: false,
             frame: Frame::Mesh,
-            texture_ids: HashMap::new(),
+            built_textures: HashMap::new(),
             image_ids: HashMap::new(),
             ids,
             folders,
@@ -196,7 +199,7 @@ impl<'a> Context<'a> {
         if let Some(&id) = self.image_ids.get(&key) {
             return Ok(id);
         }
-        let image = image::read(path, encoding, Content::Colour, self.limits)
+        let image = image::read(path, encoding, Content::Colour, self.access)
             .map_err(|message| self.file_error(ErrorKind::Image, place, path, message));
         let image = self.problems.or(image, Image::stand_in)?;
         let id = ImageId(self.images.len());

@@ -16,7 +16,7 @@ use super::value::Value;
 use super::{spectrum, transform, upgrade};
 use crate::error::{ErrorKind, Place, SceneError, Source, Warning};
 use crate::problems::Problems;
-use crate::read_file::plain_bytes;
+use crate::read_file::Files;
 use crate::search;
 use crate::{Limits, LoadOptions};
 
@@ -34,10 +34,12 @@ pub(super) struct Document {
 pub(super) fn read(
     path: &Path,
     options: &LoadOptions,
+    access: &Files,
     problems: &Problems,
 ) -> Result<Document, SceneError> {
     let mut reader = Reader {
         limits: &options.limits,
+        access,
         problems,
         parameters: options.parameters.clone(),
         ids: HashMap::new(),
@@ -45,6 +47,7 @@ pub(super) fn read(
         warnings: Vec::new(),
         files: Vec::new(),
         bytes: 0,
+        opened: 0,
     };
     reader.folders.extend(options.folders.iter().cloned());
     let source = Source::unread(path);
@@ -84,8 +87,13 @@ const CLASSES: [&str; 14] = [
     "volume",
 ];
 
+/// Most bytes that an attribute with parameters in it unfolds to: a parameter of two others, and those
+/// of two others each, grow without bound.
+const LONGEST_VALUE: usize = 1 << 20;
+
 struct Reader<'a> {
     limits: &'a Limits,
+    access: &'a Files,
     problems: &'a Problems,
     /// Names without `$`, and values.
     parameters: Vec<(String, String)>,
@@ -96,6 +104,8 @@ struct Reader<'a> {
     files: Vec<PathBuf>,
     /// Bytes of all files so far.
     bytes: u64,
+    /// Files so far, counted as often as they are included.
+    opened: usize,
 }
 
 /// The file that a node belongs to.
@@ -145,6 +155,15 @@ impl Reader<'_> {
             );
             return Err(SceneError::new(ErrorKind::Limit, asked, message));
         }
+        // The scene's own file is not included.
+        if self.opened > self.limits.max_files {
+            let message = format!(
+                "more than {} files are included (`max_files`)",
+                self.limits.max_files
+            );
+            return Err(SceneError::new(ErrorKind::Limit, asked, message));
+        }
+        self.opened += 1;
         let unreadable = |message: String| {
             let message = format!("{} {message}", path.display());
             let error = SceneError::new(ErrorKind::Io, asked, message);
@@ -154,7 +173,7 @@ impl Reader<'_> {
                 false => error.with_hint(hint(&self.folders, asked, path)),
             }
         };
-        let bytes = plain_bytes(path, self.limits).map_err(unreadable)?;
+        let bytes = self.access.plain(path).map_err(unreadable)?;
         self.bytes += bytes.len() as u64;
         if self.bytes > self.limits.max_bytes {
             let message = format!(
@@ -276,7 +295,7 @@ impl Reader<'_> {
                 &folder_of(Path::new(file.source.name())),
                 name,
             );
-            Value::Spectrum(spectrum::from_file(&path, self.limits).map_err(|m| {
+            Value::Spectrum(spectrum::from_file(&path, self.access).map_err(|m| {
                 let place = file.place(node);
                 SceneError::new(ErrorKind::Spectrum, &place, m).with_hint(hint(
                     &self.folders,
@@ -465,16 +484,16 @@ impl Reader<'_> {
     ) -> Result<Attributes<'i>, SceneError> {
         node.attributes()
             .map(|a| {
-                let value = self.substitute(a.value()).map_err(|m| {
+                let value = self.substitute(a.value()).map_err(|(kind, message)| {
                     let place = Place::new(&file.source, a.range().start, a.range().len());
-                    SceneError::new(ErrorKind::UnknownName, &place, m)
+                    SceneError::new(kind, &place, message)
                 })?;
                 Ok((a.name(), value))
             })
             .collect()
     }
 
-    fn substitute(&self, text: &str) -> Result<String, String> {
+    fn substitute(&self, text: &str) -> Result<String, (ErrorKind, String)> {
         let mut out = String::with_capacity(text.len());
         let mut rest = text;
         while let Some(at) = rest.find('$') {
@@ -495,9 +514,14 @@ impl Reader<'_> {
             let Some((name, value)) = named else {
                 let end = after.find(|c: char| !(c.is_alphanumeric() || c == '_'));
                 let word = &after[..end.unwrap_or(after.len())];
-                return Err(format!("the parameter ${} has no value", shorten(word)));
+                let message = format!("the parameter ${} has no value", shorten(word));
+                return Err((ErrorKind::UnknownName, message));
             };
             out.push_str(value);
+            if out.len() > LONGEST_VALUE {
+                let message = format!("its parameters unfold to more than {LONGEST_VALUE} bytes");
+                return Err((ErrorKind::Limit, message));
+            }
             rest = &after[name.len()..];
         }
         out.push_str(rest);

@@ -11,8 +11,9 @@ use crate::error::{ErrorKind, Place, SceneError};
 use crate::faults::Fault;
 use crate::mesh::{self, Cleaning};
 use crate::num::f32_of;
+use crate::read_file::Files;
 use crate::scene::{Geometry, Mesh, MeshId};
-use crate::{Limits, obj, ply, serialized};
+use crate::{obj, ply, serialized};
 
 /// A mesh that is to be read.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -64,13 +65,18 @@ impl Meshes {
 
     /// Reads them all.
     pub(super) fn read(self, context: &mut Context) -> Result<(Vec<Ready>, Vec<Mesh>), SceneError> {
-        let limits = context.limits;
+        let files = context.access;
+        for (source, _) in &self.sources {
+            if let Source::File { path, .. } = source {
+                files.announce(path);
+            }
+        }
         let keeps = context.problems.is_check();
         // The order of results is that of the sources, whatever the threads do.
         let results: Vec<_> = self
             .sources
             .par_iter()
-            .map(|(source, _)| build(source, limits, keeps))
+            .map(|(source, _)| build(source, files, keeps))
             .collect();
         let mut ready = Vec::new();
         let mut meshes = Vec::new();
@@ -126,7 +132,7 @@ fn fault_error(context: &Context, source: &Source, place: &Place, fault: &Fault)
 }
 
 /// * `keeps`: whether mistakes are kept, as in a check.
-fn build(source: &Source, limits: &Limits, keeps: bool) -> Result<Built, Vec<Fault>> {
+fn build(source: &Source, files: &Files, keeps: bool) -> Result<Built, Vec<Fault>> {
     let plain = |mesh| Built {
         mesh,
         own_normals: false,
@@ -145,10 +151,10 @@ fn build(source: &Source, limits: &Limits, keeps: bool) -> Result<Built, Vec<Fau
     };
     let mut face_normals = face_normals;
     let mut mesh = match format {
-        Format::Obj => obj::read(path, limits, keeps)?,
-        Format::Ply => ply::read(path, limits, keeps)?,
+        Format::Obj => obj::read(path, files, keeps)?,
+        Format::Ply => ply::read(path, files, keeps)?,
         Format::Serialized(index) => {
-            let read = serialized::read(path, index, limits).map_err(|m| vec![m.into()])?;
+            let read = serialized::read(path, index, files).map_err(|m| vec![m.into()])?;
             face_normals |= read.face_normals;
             read.mesh
         }

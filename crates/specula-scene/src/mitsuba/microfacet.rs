@@ -49,11 +49,11 @@ impl Context<'_> {
                 }
             }
             (
-                self.float(element, "alpha_u", 0.1)?,
-                self.float(element, "alpha_v", 0.1)?,
+                self.alpha(element, "alpha_u")?,
+                self.alpha(element, "alpha_v")?,
             )
         } else {
-            let alpha = self.float(element, "alpha", 0.1)?;
+            let alpha = self.alpha(element, "alpha")?;
             (alpha, alpha)
         };
         Ok(Roughness {
@@ -64,6 +64,35 @@ impl Context<'_> {
             masking: Masking::Separable,
             rotation_rad: 0.0,
         })
+    }
+
+    fn alpha(&mut self, element: &Element, name: &str) -> Result<FloatParam, SceneError> {
+        let alpha = self.float(element, name, 0.1)?;
+        if let FloatParam::Value(x) = alpha
+            && let Some((message, most)) = RoughnessMapping::Alpha.too_wide(name, x)
+        {
+            self.warn(&element.place_of(name), message);
+            return Ok(FloatParam::Value(most));
+        }
+        Ok(alpha)
+    }
+
+    /// A number that is a share: what is above 1 is taken for 1.
+    pub(super) fn share(
+        &mut self,
+        element: &Element,
+        name: &str,
+        default: f32,
+    ) -> Result<FloatParam, SceneError> {
+        let value = self.float(element, name, default)?;
+        if let FloatParam::Value(x) = value
+            && x > 1.0
+        {
+            let message = format!("\"{name}\": a share above 1 is taken for 1");
+            self.warn(&element.place_of(name), message);
+            return Ok(FloatParam::Value(1.0));
+        }
+        Ok(value)
     }
 
     /// `eta` and `k`, or `material`.
@@ -112,9 +141,9 @@ impl Context<'_> {
             Some(Texture::Image { image, .. }) => {
                 let image = &self.images[image.0];
                 let mut sum = [0.0_f64; 3];
-                for pixel in &image.pixels {
+                for pixel in image.pixels.iter() {
                     for (s, v) in sum.iter_mut().zip(pixel) {
-                        *s += f64::from(*v);
+                        *s += f64::from(v);
                     }
                 }
                 let [r, g, b] =

@@ -49,6 +49,7 @@ pub use features::FEATURES;
 
 use crate::error::SceneError;
 use crate::problems::Problems;
+use crate::read_file::Files;
 use crate::{Limits, LoadOptions, Loaded};
 
 /// What a caller may add to a scene's file.
@@ -71,15 +72,17 @@ pub fn read(path: &Path, limits: &Limits, options: &Options) -> Result<Loaded, S
         parameters: options.parameters.clone(),
         folders: options.folders.clone(),
     };
-    read_into(path, &options, &Problems::default())
+    let files = Files::new(*limits);
+    read_into(path, &options, &files, &Problems::default())
 }
 
 /// [`read`] with a sink for errors.
 pub(crate) fn read_into(
     path: &Path,
     options: &LoadOptions,
+    files: &Files,
     problems: &Problems,
 ) -> Result<Loaded, SceneError> {
-    let document = document::read(path, options, problems)?;
-    assemble::assemble(document, &options.limits)
+    let document = document::read(path, options, files, problems)?;
+    assemble::assemble(document, files)
 }

@@ -27,26 +27,26 @@ impl Context<'_> {
             if thin {
                 Ok(zero)
             } else {
-                context.float(element, name, 0.0)
+                context.share(element, name, 0.0)
             }
         };
         Ok(Principled {
             base_colour: self.colour(element, "base_color", 0.5, Use::Reflectance)?,
-            roughness: self.float(element, "roughness", 0.5)?,
-            anisotropic: self.float(element, "anisotropic", 0.0)?,
+            roughness: self.share(element, "roughness", 0.5)?,
+            anisotropic: self.share(element, "anisotropic", 0.0)?,
             metallic: thick(self, "metallic")?,
-            spec_trans: self.float(element, "spec_trans", 0.0)?,
+            spec_trans: self.share(element, "spec_trans", 0.0)?,
             eta: if thin {
                 f32_of(element.above_zero("eta", 1.5)?)
             } else {
                 eta(element)?
             },
-            spec_tint: self.float(element, "spec_tint", 0.0)?,
+            spec_tint: self.share(element, "spec_tint", 0.0)?,
             sheen: self.float(element, "sheen", 0.0)?,
-            sheen_tint: self.float(element, "sheen_tint", 0.0)?,
+            sheen_tint: self.share(element, "sheen_tint", 0.0)?,
             clearcoat: thick(self, "clearcoat")?,
             clearcoat_gloss: thick(self, "clearcoat_gloss")?,
-            flatness: self.float(element, "flatness", 0.0)?,
+            flatness: self.share(element, "flatness", 0.0)?,
             diff_trans: if thin {
                 self.float(element, "diff_trans", 0.0)?
             } else {

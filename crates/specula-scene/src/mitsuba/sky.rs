@@ -105,7 +105,7 @@ impl Context<'_> {
             name: "sky".to_owned(),
             width,
             height,
-            pixels,
+            pixels: pixels.into(),
         });
         ImageId(self.images.len() - 1)
     }

@@ -15,9 +15,8 @@ use specula_bsdf::Rgb;
 
 use super::number::{number, words};
 use super::value::Samples;
-use crate::Limits;
 use crate::num::f32_of;
-use crate::read_file::plain_bytes;
+use crate::read_file::Files;
 use crate::spectrum::{Weight, observe};
 
 /// What a spectrum is used for, which decides how it becomes a colour.
@@ -178,9 +177,9 @@ pub(super) fn ordered(list: Vec<(f64, f64)>) -> Result<Samples, String> {
 /// # Errors
 ///
 /// A message that begins with the file's name.
-pub(super) fn from_file(path: &Path, limits: &Limits) -> Result<Samples, String> {
+pub(super) fn from_file(path: &Path, files: &Files) -> Result<Samples, String> {
     let wrong = |message: String| format!("spectrum {}: {message}", path.display());
-    let bytes = plain_bytes(path, limits).map_err(wrong)?;
+    let bytes = files.plain(path).map_err(wrong)?;
     let text = String::from_utf8(bytes).map_err(|_| wrong("it is not UTF-8 text".to_owned()))?;
     let spectrum = crate::spectrum::parse_spd(&text).map_err(|e| wrong(e.to_string()))?;
     ordered(spectrum.samples().to_vec()).map_err(wrong)

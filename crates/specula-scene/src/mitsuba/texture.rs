@@ -199,14 +199,12 @@ impl Context<'_> {
         role: Role,
     ) -> Result<Built, SceneError> {
         let key = (Rc::as_ptr(element) as usize, role, self.frame);
-        if let Some(&id) = self.texture_ids.get(&key) {
-            return Ok(Built::Texture(id));
+        if let Some(&built) = self.built_textures.get(&key) {
+            return Ok(built);
         }
         let read = self.new_texture(element, role);
         let built = element.or(read, || Built::Value(Rgb::splat(0.5)))?;
-        if let Built::Texture(id) = built {
-            self.texture_ids.insert(key, id);
-        }
+        self.built_textures.insert(key, built);
         Ok(built)
     }
 

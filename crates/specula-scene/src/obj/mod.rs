@@ -11,7 +11,7 @@ use std::path::Path;
 
 use crate::Limits;
 use crate::faults::{Fault, Faults};
-use crate::read_file::read_bytes;
+use crate::read_file::Files;
 use crate::scene::Mesh;
 
 /// Reads a mesh.
@@ -21,9 +21,9 @@ use crate::scene::Mesh;
 /// # Errors
 ///
 /// What is wrong with the file.
-pub(crate) fn read(path: &Path, limits: &Limits, keeps: bool) -> Result<Mesh, Vec<Fault>> {
-    let bytes = read_bytes(path, limits).map_err(|message| vec![message.into()])?;
-    parse(&bytes, limits, keeps)
+pub(crate) fn read(path: &Path, files: &Files, keeps: bool) -> Result<Mesh, Vec<Fault>> {
+    let bytes = files.unpacked(path).map_err(|m| vec![m.into()])?;
+    parse(&bytes, files.limits(), keeps)
 }
 
 /// Reads a mesh from the bytes of an OBJ file.

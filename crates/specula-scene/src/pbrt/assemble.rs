@@ -13,7 +13,6 @@ use super::shape::{self, ShapeEntity};
 use super::state::MaterialUse;
 use super::token::shorten;
 use super::{camera, light, material};
-use crate::Loaded;
 use crate::bounds::{self, FARTHEST};
 use crate::error::{ErrorKind, Place, SceneError, Warning};
 use crate::mesh;
@@ -22,6 +21,7 @@ use crate::scene::{
     ColourParam, Emission, FloatParam, Geometry, Instance, Light, Material, MaterialId,
     MaterialKind, Mesh, Object, ObjectId, Relief, Scene, Shape, TextureId,
 };
+use crate::{Format, Loaded};
 
 /// Builds the scene.
 pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
@@ -34,12 +34,13 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         ..
     } = reader;
     let (camera, film, settings) = camera::read(&mut context, &options, camera_to_world)?;
-    let all: Vec<&ShapeEntity> = reader
-        .objects
-        .iter()
-        .flat_map(|o| &o.shapes)
-        .chain(&reader.shapes)
-        .collect();
+    if !options.contains_key("Camera") && !context.problems.has_errors() {
+        let message = "the scene has no `Camera`: pbrt-v4's own is used, at the origin of the world, along \
+                       +z, with a field of view of 90 degrees";
+        context.warn(&end, message);
+    }
+    let in_objects = reader.objects.iter().flat_map(|o| &o.shapes);
+    let all: Vec<&ShapeEntity> = in_objects.chain(&reader.shapes).collect();
     let mut materials = read_materials(&mut context, &reader.materials, &named_materials, &all)?;
     let integrator = options.get("Integrator");
     materials.media = medium::read_all(
@@ -89,6 +90,7 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         objects,
         instances,
         lights,
+        floor: None,
     };
     // What stands in for mistakes need not make a scene.
     if !problems.has_errors() {
@@ -100,10 +102,8 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         let message = "the scene has no light: the picture will be black";
         context.warnings.push(Warning::new(&end, message));
     }
-    Ok(Loaded {
-        scene,
-        warnings: context.warnings,
-    })
+    let files = &context.files;
+    Ok(Loaded::new(Format::Pbrt, scene, context.warnings, files))
 }
 
 fn read_lights(

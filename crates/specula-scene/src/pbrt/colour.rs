@@ -9,7 +9,6 @@ use super::param::{Param, ParamList, Values};
 use super::token::shorten;
 use crate::error::{ErrorKind, Place, SceneError, Source};
 use crate::num::f32_of;
-use crate::read_file::plain_bytes;
 use crate::scene::{ColourParam, TextureId};
 use crate::spectrum::{self, ColourSpace, Spectrum};
 
@@ -253,7 +252,7 @@ fn read_spectrum(context: &Context, param: &Param) -> Result<(Spectrum, Ends), S
 
 fn spectrum_file(context: &Context, name: &str, place: &Place) -> Result<Spectrum, SceneError> {
     let path = context.resolve(name);
-    let bytes = plain_bytes(&path, &context.limits).map_err(|e| {
+    let bytes = context.files.plain(&path).map_err(|e| {
         let expected = "expected a name such as metal-Au-eta or glass-BK7, or a .spd file";
         let help = match context.search.hint(&path) {
             Some(hint) => format!("{expected}; {hint}"),

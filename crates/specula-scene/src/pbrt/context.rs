@@ -8,13 +8,14 @@ use specula_bsdf::Rgb;
 
 use super::param::{Param, ParamList, Values};
 use super::token::shorten;
+use crate::LoadOptions;
 use crate::error::{ErrorKind, Place, SceneError, Warning};
 use crate::image::{self, Content, Encoding, Image};
 use crate::num::f32_of;
 use crate::problems::{NoteKind, Problems};
+use crate::read_file::Files;
 use crate::scene::{FloatParam, ImageId, Texture, TextureId};
 use crate::search::Search;
-use crate::{Limits, LoadOptions};
 
 /// A directive with a name and parameters.
 #[derive(Clone, Debug)]
@@ -53,8 +54,8 @@ pub(super) struct ImageJob {
 
 impl ImageJob {
     /// Reads the picture.
-    pub(super) fn read(&self, limits: &Limits, search: &Search) -> Result<Image, SceneError> {
-        image::read(&self.path, self.encoding, self.content, limits).map_err(|message| {
+    pub(super) fn read(&self, files: &Files, search: &Search) -> Result<Image, SceneError> {
+        image::read(&self.path, self.encoding, self.content, files).map_err(|message| {
             SceneError::new(ErrorKind::Image, &self.place, message)
                 .with_hint(search.hint(&self.path))
         })
@@ -98,7 +99,7 @@ impl Textures {
 
 /// Shared state of the reader.
 pub(super) struct Context {
-    pub(super) limits: Limits,
+    pub(super) files: Files,
     pub(super) problems: Problems,
     /// pbrt-v4 resolves every file name against the folder of the scene's main file.
     pub(super) search: Search,
@@ -113,9 +114,14 @@ pub(super) struct Context {
 }
 
 impl Context {
-    pub(super) fn new(main: &Path, options: &LoadOptions, problems: &Problems) -> Self {
+    pub(super) fn new(
+        main: &Path,
+        options: &LoadOptions,
+        files: &Files,
+        problems: &Problems,
+    ) -> Self {
         Self {
-            limits: options.limits,
+            files: files.clone(),
             problems: problems.clone(),
             search: Search::new(main, &options.folders),
             warnings: Vec::new(),
@@ -153,6 +159,7 @@ impl Context {
         if let Some(&id) = self.image_ids.get(&key) {
             return id;
         }
+        self.files.announce(&path);
         let id = ImageId(self.images.len() + self.image_jobs.len());
         self.image_jobs.push(ImageJob {
             path,

@@ -16,11 +16,8 @@ use super::unknown;
 use crate::LoadOptions;
 use crate::error::{ErrorKind, Place, SceneError, Source};
 use crate::problems::Problems;
-use crate::read_file::read_bytes;
+use crate::read_file::Files;
 use crate::spectrum::{COLOUR_SPACES, ColourSpace};
-
-/// Most files that `Include` and `Import` may open, counted with repetition.
-const MAX_FILES: usize = 100_000;
 
 /// Most parameters that `Attribute` may set at a time: every later directive looks through them.
 const MAX_ATTRIBUTES: usize = 1000;
@@ -99,12 +96,19 @@ pub(super) struct Reader {
     /// Files being read, the outermost first.
     reading: Vec<PathBuf>,
     files: usize,
+    /// Bytes of all files so far.
+    bytes: u64,
 }
 
 impl Reader {
-    pub(super) fn new(main: &Path, options: &LoadOptions, problems: &Problems) -> Self {
+    pub(super) fn new(
+        main: &Path,
+        options: &LoadOptions,
+        files: &Files,
+        problems: &Problems,
+    ) -> Self {
         Self {
-            context: Context::new(main, options, problems),
+            context: Context::new(main, options, files, problems),
             options: HashMap::new(),
             camera_to_world: DMat4::IDENTITY,
             materials: Vec::new(),
@@ -125,6 +129,7 @@ impl Reader {
             camera_medium: None,
             reading: Vec::new(),
             files: 0,
+            bytes: 0,
         }
     }
 
@@ -160,9 +165,12 @@ impl Reader {
             )
             .with_hint(from.and_then(|_| self.context.search.hint(path)))
         };
-        let identity = path
-            .canonicalize()
-            .map_err(|e| unreadable(format!("cannot be read: {e}")))?;
+        let identity = match (path.canonicalize(), from) {
+            (Ok(identity), _) => identity,
+            // A scene that was given in memory.
+            (Err(_), None) => path.to_owned(),
+            (Err(e), Some(_)) => return Err(unreadable(format!("cannot be read: {e}"))),
+        };
         if self.reading.contains(&identity) {
             let message = format!("{} includes itself", path.display());
             let chain: Vec<_> = self
@@ -174,16 +182,25 @@ impl Reader {
                 .with_help(format!("files being read: {}", chain.join(" → "))));
         }
         self.files += 1;
-        let deepest = self.context.limits.max_depth;
+        let deepest = self.context.files.limits().max_depth;
         if self.reading.len() > deepest {
             let message = format!("files are included more than {deepest} deep (`max_depth`)");
             return Err(SceneError::new(ErrorKind::Limit, place, message));
         }
-        if self.files > MAX_FILES {
-            let message = format!("more than {MAX_FILES} files are included");
+        // The scene's own file is not included.
+        let most = self.context.files.limits().max_files;
+        if self.files > most.saturating_add(1) {
+            let message = format!("more than {most} files are included (`max_files`)");
             return Err(SceneError::new(ErrorKind::Limit, place, message));
         }
-        let bytes = read_bytes(path, &self.context.limits).map_err(unreadable)?;
+        let bytes = self.context.files.unpacked(path).map_err(unreadable)?;
+        self.bytes += bytes.len() as u64;
+        let most = self.context.files.limits().max_bytes;
+        if self.bytes > most {
+            let message =
+                format!("the scene's files have more than {most} bytes together (`max_bytes`)");
+            return Err(SceneError::new(ErrorKind::Limit, place, message));
+        }
         let source = decode(path, bytes)?;
         self.reading.push(identity);
         let mut tokens = Tokens::new(&source, self.context.problems.clone());
@@ -374,7 +391,7 @@ impl Reader {
 
     fn push(&mut self, directive: &'static str, place: &Place) -> Result<(), SceneError> {
         // Blocks nest deeper than files do.
-        let deepest = self.context.limits.max_depth.saturating_mul(16);
+        let deepest = self.context.files.limits().max_depth.saturating_mul(16);
         if self.stack.len() >= deepest {
             let message = format!("blocks are nested more than {deepest} deep (`max_depth`)");
             return Err(SceneError::new(ErrorKind::Limit, place, message));

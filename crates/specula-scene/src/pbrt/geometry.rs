@@ -7,12 +7,12 @@ use rayon::prelude::*;
 
 use super::context::Context;
 use super::shape::{Prepared, Recipe, ShapeEntity, prepare};
-use crate::Limits;
 use crate::error::{ErrorKind, Place, SceneError};
 use crate::faults::Fault;
 use crate::image::Image;
 use crate::mesh::{self, Cleaning};
 use crate::ply;
+use crate::read_file::Files;
 use crate::scene::{Geometry, Mesh, MeshId};
 
 /// Geometry of a shape, with what its light needs to know.
@@ -115,6 +115,7 @@ pub(super) fn read(
             Prepared::Disk { radius, height } => Slot::Ready(Geometry::Disk { radius, height }),
             Prepared::Mesh(mesh) => Slot::Job(jobs.add(Source::Mesh(mesh), &entity.place)),
             Prepared::File(path) => {
+                context.files.announce(&path);
                 let name = entity.params.string("filename").ok().flatten();
                 let place = name.map_or(&entity.place, |(_, place)| place);
                 Slot::Job(jobs.file(path, place))
@@ -126,7 +127,7 @@ pub(super) fn read(
         };
         slots.push((slot, own_area, pieces));
     }
-    let limits = context.limits;
+    let files = context.files.clone();
     let keeps = context.problems.is_check();
     let pictures = context.take_image_jobs();
     let search = context.search.clone();
@@ -139,11 +140,11 @@ pub(super) fn read(
     let (results, images) = rayon::join(
         || -> Vec<_> {
             let list = jobs.list.into_par_iter();
-            list.map(|j| make(j.source, &limits, keeps)).collect()
+            list.map(|j| make(j.source, &files, keeps)).collect()
         },
         || -> Vec<_> {
             let pictures = pictures.par_iter();
-            pictures.map(|p| p.read(&limits, &search)).collect()
+            pictures.map(|p| p.read(&files, &search)).collect()
         },
     );
     for image in images {
@@ -192,12 +193,12 @@ fn broken(context: &Context, place: &Place, path: Option<&Path>, fault: &Fault) 
 }
 
 /// * `keeps`: whether mistakes are kept, as in a check.
-fn make(source: Source, limits: &Limits, keeps: bool) -> Result<(Mesh, Cleaning), Vec<Fault>> {
+fn make(source: Source, files: &Files, keeps: bool) -> Result<(Mesh, Cleaning), Vec<Fault>> {
     let mut mesh = match source {
         Source::Mesh(mesh) => mesh,
-        Source::Recipe(recipe) => recipe.build(limits).map_err(|m| vec![m.into()])?,
+        Source::Recipe(recipe) => recipe.build(files.limits()).map_err(|m| vec![m.into()])?,
         Source::File(path) => {
-            let mut mesh = ply::read(&path, limits, keeps)?;
+            let mut mesh = ply::read(&path, files, keeps)?;
             // pbrt-v4 has no use for colours of vertices.
             mesh.colours = Vec::new();
             mesh

@@ -164,16 +164,31 @@ fn diffuse_transmission(
 }
 
 /// `roughness`, `uroughness` and `vroughness` after a prefix; 0 where absent.
-fn roughness(context: &Context, params: &ParamList, prefix: &str) -> Result<Roughness, SceneError> {
-    let read = |name: &str| context.float_from_zero_or_none(params, &format!("{prefix}{name}"));
+fn roughness(
+    context: &mut Context,
+    params: &ParamList,
+    prefix: &str,
+) -> Result<Roughness, SceneError> {
+    let mapping = match params.bool("remaproughness", true)? {
+        true => RoughnessMapping::Sqrt,
+        false => RoughnessMapping::Alpha,
+    };
+    let mut read = |name: &str| {
+        let name = format!("{prefix}{name}");
+        let value = context.float_from_zero_or_none(params, &name)?;
+        if let Some(FloatParam::Value(x)) = value
+            && let Some((message, most)) = mapping.too_wide(&name, x)
+        {
+            context.warn(&params.place_of(&name), message);
+            return Ok(Some(FloatParam::Value(most)));
+        }
+        Ok(value)
+    };
     let both = read("roughness")?.unwrap_or(FloatParam::Value(0.0));
     Ok(Roughness {
         u: read("uroughness")?.unwrap_or(both),
         v: read("vroughness")?.unwrap_or(both),
-        mapping: match params.bool("remaproughness", true)? {
-            true => RoughnessMapping::Sqrt,
-            false => RoughnessMapping::Alpha,
-        },
+        mapping,
         ..Roughness::smooth()
     })
 }
@@ -225,8 +240,21 @@ fn coat_medium(context: &mut Context, params: &ParamList) -> Result<CoatMedium, 
         max_depth: Some(params.integer_within("maxdepth", 10, 0..=i32::MAX.unsigned_abs())?),
         samples: params.integer_within("nsamples", 1, 1..=i32::MAX.unsigned_abs())?,
         albedo: colour::albedo(context, params, "albedo", 0.0)?,
-        g: context.float(params, "g", 0.0)?,
+        g: asymmetry(context, params)?,
     })
+}
+
+/// The mean cosine of scattering.
+fn asymmetry(context: &Context, params: &ParamList) -> Result<FloatParam, SceneError> {
+    let g = context.float(params, "g", 0.0)?;
+    if let FloatParam::Value(x) = g
+        && x.abs() > 1.0
+    {
+        let message = format!("\"g\": expected a number from -1 to 1, found {x}");
+        let error = SceneError::new(ErrorKind::Parameter, &params.place_of("g"), message);
+        return params.keep(error).map(|()| FloatParam::Value(0.0));
+    }
+    Ok(g)
 }
 
 fn mix(

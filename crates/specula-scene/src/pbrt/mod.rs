@@ -31,6 +31,7 @@ pub(crate) use state::check as check_transform;
 
 use crate::error::SceneError;
 use crate::problems::Problems;
+use crate::read_file::Files;
 use crate::{LoadOptions, Loaded};
 
 /// Reads the scene in `path` and all that it refers to.
@@ -41,9 +42,10 @@ use crate::{LoadOptions, Loaded};
 pub(crate) fn read(
     path: &Path,
     options: &LoadOptions,
+    files: &Files,
     problems: &Problems,
 ) -> Result<Loaded, SceneError> {
-    let mut reader = directive::Reader::new(path, options, problems);
+    let mut reader = directive::Reader::new(path, options, files, problems);
     reader.read_main(path)?;
     assemble::assemble(reader)
 }

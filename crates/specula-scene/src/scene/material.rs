@@ -1,7 +1,7 @@
 //! Surfaces.
 
-use specula_bsdf::Rgb;
 use specula_bsdf::ndf::Masking;
+use specula_bsdf::{Alpha, Rgb};
 
 use super::coat::CoatMedium;
 use super::texture::{ColourParam, FloatParam};
@@ -94,6 +94,26 @@ pub enum RoughnessMapping {
     Sqrt,
     /// alpha = roughness^2: glTF, OpenPBR.
     Square,
+}
+
+impl RoughnessMapping {
+    /// What to say of a roughness that makes an alpha beyond those that are rendered, and the
+    /// roughness of the largest; `None` of others.
+    pub(crate) fn too_wide(self, name: &str, roughness: f32) -> Option<(String, f32)> {
+        let widest = Alpha::<f64>::MAX;
+        let most = crate::num::f32_of(match self {
+            Self::Alpha => widest,
+            Self::Sqrt => widest * widest,
+            Self::Square => widest.sqrt(),
+        });
+        (roughness > most).then(|| {
+            let message = format!(
+                "\"{name}\": {roughness} is beyond the widest distribution, alpha {widest}: \
+                 {most} is used"
+            );
+            (message, most)
+        })
+    }
 }
 
 /// A distribution of microfacet normals.

@@ -13,7 +13,7 @@ use std::path::Path;
 
 use crate::Limits;
 use crate::num::f32_of;
-use crate::read_file::plain_bytes;
+use crate::read_file::Files;
 use crate::scene::Mesh;
 
 /// A mesh, and whether its file wants the triangles' own normals.
@@ -35,9 +35,9 @@ const DOUBLE_PRECISION: u32 = 0x2000;
 /// # Errors
 ///
 /// A message without the file's name.
-pub(crate) fn read(path: &Path, index: u32, limits: &Limits) -> Result<Serialized, String> {
-    let bytes = plain_bytes(path, limits)?;
-    parse(&bytes, index, limits)
+pub(crate) fn read(path: &Path, index: u32, files: &Files) -> Result<Serialized, String> {
+    let bytes = files.plain(path)?;
+    parse(&bytes, index, files.limits())
 }
 
 /// Reads mesh `index` from the bytes of a file.

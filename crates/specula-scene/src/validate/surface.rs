@@ -299,7 +299,7 @@ fn index(what: &str, eta: f32) -> Result<(), Invalid> {
 }
 
 /// The textures that a texture refers to.
-fn inputs(texture: &Texture) -> [Option<TextureId>; 3] {
+pub(crate) fn inputs(texture: &Texture) -> [Option<TextureId>; 3] {
     match *texture {
         Texture::Constant(_)
         | Texture::Image { .. }

@@ -3,6 +3,7 @@
 use glam::{DMat4, DVec3};
 use specula_bsdf::Rgb;
 
+use crate::energy::Energy;
 use crate::image::Image;
 use crate::scene::*;
 use crate::summary::Summary;
@@ -45,12 +46,13 @@ fn scene() -> Scene {
             max_depth: 5,
             samples_per_pixel: 1,
             hide_emitters: false,
+            energy: Energy::None,
         },
         images: vec![Image {
             name: "i".into(),
             width: 1,
             height: 1,
-            pixels: vec![[1.0; 3]],
+            pixels: vec![[1.0; 3]].into(),
         }],
         textures: vec![
             Texture::Constant(Rgb::WHITE),
@@ -79,6 +81,7 @@ fn scene() -> Scene {
             to_light: [0.0, 0.0, 1.0],
             half_angle_deg: 0.0,
         }],
+        floor: None,
     }
 }
 
@@ -106,7 +109,7 @@ type Fault = fn(&mut Scene);
 
 #[test]
 fn every_broken_invariant_is_found() {
-    let faults: [(&str, Fault); 19] = [
+    let faults: [(&str, Fault); 20] = [
         ("film", |s| s.film.crop = [0, 5, 0, 4]),
         ("film", |s| s.film.exposure = 0.0),
         ("filter", |s| {
@@ -120,7 +123,9 @@ fn every_broken_invariant_is_found() {
         }),
         ("camera", |s| s.camera.to_world = DMat4::ZERO),
         ("settings", |s| s.settings.samples_per_pixel = 0),
-        ("image 0 (i)", |s| s.images[0].pixels[0][1] = f32::NAN),
+        ("image 0 (i)", |s| {
+            s.images[0].pixels = vec![[1.0, f32::NAN, 1.0]].into()
+        }),
         ("image 0 (i)", |s| s.images[0].width = 2),
         ("texture 1", |s| {
             s.textures[1] = Texture::Scale {
@@ -160,6 +165,7 @@ fn every_broken_invariant_is_found() {
                 half_angle_deg: 0.0,
             };
         }),
+        ("scene", |s| s.floor = Some(MaterialId(1))),
         ("scene", |s| {
             s.shapes[0].to_world = DMat4::from_translation(DVec3::splat(1e19))
         }),

@@ -60,6 +60,36 @@ impl Writer<'_> {
         Ok(name)
     }
 
+    /// Writes a channel of a picture times a colour; returns its name.
+    pub(super) fn tinted_image(
+        &mut self,
+        id: ImageId,
+        channel: Channel,
+        inverted: bool,
+        tint: Rgb<f32>,
+    ) -> Result<String, WriteError> {
+        let pick = move |c: Rgb<f32>| {
+            let c = match channel {
+                Channel::Rgb => c,
+                Channel::Mean => Rgb::splat(c.mean()),
+                Channel::Luminance => Rgb::splat(c.luminance()),
+                Channel::Red => Rgb::splat(c.r),
+                Channel::Green => Rgb::splat(c.g),
+                Channel::Blue => Rgb::splat(c.b),
+            };
+            let c = if inverted {
+                c.map(|v| (1.0 - v).max(0.0))
+            } else {
+                c
+            };
+            c * tint
+        };
+        // The number of textures so far is no other file's.
+        let name = format!("picture-{}-tinted-{}.exr", id.0, self.textures.len());
+        let image = &self.scene.images[id.0];
+        self.picture(&name, image, pick)
+    }
+
     /// Writes a picture; returns its name.
     pub(super) fn picture(
         &mut self,
@@ -91,18 +121,22 @@ fn exr_bytes(
     use exr::prelude::{SpecificChannels, Text};
     let (width, height) = (image.width as usize, image.height as usize);
     let at = |p: exr::math::Vec2<usize>| {
-        pick(Rgb::from(
-            image
-                .pixels
-                .get(p.1 * width + p.0)
-                .copied()
-                .unwrap_or_default(),
-        ))
+        let index = p.1 * width + p.0;
+        let inside = index < image.pixels.len();
+        pick(if inside {
+            Rgb::from(image.pixels.rgb(index))
+        } else {
+            Rgb::BLACK
+        })
     };
     let mut bytes = Cursor::new(Vec::new());
     let attributes = LayerAttributes::named(Text::from("rgb"));
     let size = (width, height);
-    let fits = image.pixels.iter().flatten().all(|x| *x <= LARGEST_HALF);
+    let largest = |p: [f32; 3]| {
+        let [r, g, b] = pick(Rgb::from(p)).to_array();
+        r.max(g).max(b)
+    };
+    let fits = image.pixels.iter().all(|p| largest(p) <= LARGEST_HALF);
     if fits {
         let half = SpecificChannels::rgb(|p| {
             let c = at(p);

@@ -108,7 +108,7 @@ impl Writer<'_> {
             width: picture.width,
             height: picture.height,
             pixels: (picture.pixels.iter())
-                .map(|p| (Rgb::from(*p) * radiance).to_array())
+                .map(|p| (Rgb::from(p) * radiance).to_array())
                 .collect(),
         };
         let file = self.picture(&name, &scaled, |c| c)?;
@@ -146,7 +146,11 @@ fn equal_area(source: &Image, mapping: EnvironmentMapping) -> Image {
         name: source.name.clone(),
         width: side,
         height: side,
-        pixels: (0..side * side).into_par_iter().map(pixel).collect(),
+        pixels: (0..side * side)
+            .into_par_iter()
+            .map(pixel)
+            .collect::<Vec<_>>()
+            .into(),
     }
 }
 
@@ -188,7 +192,7 @@ fn lookup(image: &Image, mapping: EnvironmentMapping, w: DVec3) -> [f64; 3] {
         let column = (x0 + dx).rem_euclid(i64::from(image.width));
         let row = (y0 + dy).clamp(0, i64::from(image.height) - 1);
         let index = usize::try_from(row * i64::from(image.width) + column).unwrap_or(0);
-        image.pixels[index].map(f64::from)
+        image.pixels.rgb(index).map(f64::from)
     };
     let [a, b, c, d] = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
     [0, 1, 2].map(|i| {
@@ -220,7 +224,7 @@ mod tests {
         let square = equal_area(&source, EnvironmentMapping::LatitudeLongitude);
         let mean = |image: &Image, weight: &dyn Fn(u32) -> f64| {
             let (mut sum, mut total) = (0.0, 0.0);
-            for (i, p) in (0_u32..).zip(&image.pixels) {
+            for (i, p) in (0_u32..).zip(image.pixels.iter()) {
                 let w = weight(i / image.width);
                 sum += w * f64::from(p[0]);
                 total += w;
@@ -233,7 +237,7 @@ mod tests {
         let found = mean(&square, &|_| 1.0);
         assert!((found / whole - 1.0).abs() < 5e-3, "{found} {whole}");
         let brightest = (0_u32..)
-            .zip(&square.pixels)
+            .zip(square.pixels.iter())
             .filter(|(_, p)| p[0] > 8.9)
             .map(|(i, _)| {
                 let at = |k: u32| (f64::from(k) + 0.5) / f64::from(square.width);

@@ -1,4 +1,4 @@
-//! Materials, each under its number and name.
+//! Materials, each under its name.
 
 use specula_bsdf::Rgb;
 use specula_bsdf::ndf::Masking;
@@ -10,19 +10,14 @@ use crate::scene::{
 };
 
 impl Writer<'_> {
-    /// The name under which a material is written.
-    pub(super) fn material_name(&self, id: MaterialId) -> String {
-        match &self.scene.materials[id.0].name {
-            Some(name) => format!("{}-{name}", id.0),
-            None => format!("{}", id.0),
-        }
-    }
-
     pub(super) fn materials(&mut self) -> Result<(), WriteError> {
         let scene = self.scene;
         for (i, material) in scene.materials.iter().enumerate() {
+            if self.names.is_alias(MaterialId(i)) {
+                continue;
+            }
             let params = self.material(i, material)?;
-            let name = quoted(&self.material_name(MaterialId(i)));
+            let name = quoted(self.names.of(MaterialId(i)));
             self.line(&format!("MakeNamedMaterial {name}{params}"));
         }
         Ok(())
@@ -31,9 +26,6 @@ impl Writer<'_> {
     fn material(&mut self, index: usize, material: &Material) -> Result<String, WriteError> {
         if material.one_sided {
             self.note("materials with a black back are written with two equal sides");
-        }
-        if !material.absorption.is_black() {
-            self.note("absorption within bodies is left out");
         }
         let mut params = self.kind(index, &material.kind)?;
         match material.relief {
@@ -50,7 +42,10 @@ impl Writer<'_> {
                 }
             }
         }
-        if let Some(energy) = material.energy {
+        // A pbrt scene scatters singly unless its materials say otherwise.
+        let of_scene = self.scene.settings.energy;
+        let asks = of_scene != crate::Energy::None && scatters_between_facets(&material.kind);
+        if let Some(energy) = material.energy.or(asks.then_some(of_scene)) {
             params += &format!(" \"string specula:energy\" [ \"{energy}\" ]");
         }
         Ok(params)
@@ -126,7 +121,7 @@ impl Writer<'_> {
             MaterialKind::Principled(p) => return self.principled(index, p),
             MaterialKind::Gltf(g) => return self.gltf(index, g),
             MaterialKind::Mix { materials, amount } => {
-                let [a, b] = materials.map(|m| quoted(&self.material_name(m)));
+                let [a, b] = materials.map(|m| quoted(self.names.of(m)));
                 params += &format!(" \"string materials\" [ {a} {b} ]");
                 params += &self.float_param("amount", *amount)?;
                 "mix"
@@ -309,7 +304,7 @@ impl Writer<'_> {
         part: &str,
         kind: &MaterialKind,
     ) -> Result<String, WriteError> {
-        let name = format!("{}/{part}", self.material_name(MaterialId(index)));
+        let name = self.names.part(MaterialId(index), part);
         let params = self.kind(index, kind)?;
         self.line(&format!("MakeNamedMaterial {}{params}", quoted(&name)));
         Ok(name)
@@ -422,4 +417,16 @@ enum Width {
 
 fn typed(name: &str, params: &str) -> String {
     format!(" \"string type\" [ \"{name}\" ]{params}")
+}
+
+/// Whether a treatment of multiple scattering changes it, in the form that pbrt knows.
+fn scatters_between_facets(kind: &MaterialKind) -> bool {
+    matches!(
+        kind,
+        MaterialKind::Conductor { .. }
+            | MaterialKind::Dielectric { .. }
+            | MaterialKind::CoatedDiffuse { .. }
+            | MaterialKind::CoatedConductor { .. }
+            | MaterialKind::Gltf(_)
+    )
 }

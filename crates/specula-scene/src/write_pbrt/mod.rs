@@ -6,6 +6,9 @@
 mod asset;
 mod light;
 mod material;
+mod medium;
+mod name;
+mod product;
 mod shape;
 mod texture;
 mod thrown;
@@ -21,6 +24,8 @@ use specula_bsdf::Rgb;
 use crate::scene::{
     Camera, Channel, EnvironmentMapping, Film, Filter, ImageId, Projection, Scene, TextureId,
 };
+
+use name::Names;
 
 /// A file that could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -50,10 +55,15 @@ struct Writer<'a> {
     text: String,
     /// What could not be said, each once.
     notes: Vec<String>,
-    textures: HashMap<(TextureId, Wanted), String>,
+    /// Textures by what is wanted of them, and the bits of the colour that they are multiplied by.
+    textures: HashMap<(TextureId, Wanted, [u32; 3]), String>,
+    /// Whether a texture has no colours, by its number.
+    greys: Vec<bool>,
     /// Products of textures and themselves.
     squared: HashMap<TextureId, String>,
     images: HashMap<(ImageId, Channel), String>,
+    /// What every material is called in the file.
+    names: Names,
 }
 
 /// Writes a scene to a pbrt-v4 file, with its meshes and pictures in the folder `NAME-files` beside
@@ -65,18 +75,17 @@ struct Writer<'a> {
 ///
 /// What the system says about the file that could not be written.
 pub fn write_pbrt(scene: &Scene, path: &Path) -> Result<Vec<String>, WriteError> {
-    let stem = path.file_stem().unwrap_or(path.as_os_str());
-    let mut folder = stem.to_owned();
-    folder.push("-files");
     let mut writer = Writer {
         scene,
         path,
-        folder: path.with_file_name(folder),
+        folder: assets_folder(path),
         text: String::new(),
         notes: Vec::new(),
         textures: HashMap::new(),
+        greys: product::greys(scene),
         squared: HashMap::new(),
         images: HashMap::new(),
+        names: Names::new(&scene.materials),
     };
     writer.view();
     writer.line("\nWorldBegin");
@@ -84,9 +93,18 @@ pub fn write_pbrt(scene: &Scene, path: &Path) -> Result<Vec<String>, WriteError>
         writer.light(i, light)?;
     }
     writer.materials()?;
+    writer.media();
     writer.shapes()?;
     asset::replace(path, writer.text.as_bytes())?;
     Ok(writer.notes)
+}
+
+/// The folder that [`write_pbrt`] writes meshes and pictures to: `NAME-files` beside the scene file.
+#[must_use]
+pub fn assets_folder(path: &Path) -> PathBuf {
+    let mut folder = path.file_stem().unwrap_or(path.as_os_str()).to_owned();
+    folder.push("-files");
+    path.with_file_name(folder)
 }
 
 impl Writer<'_> {
@@ -109,6 +127,9 @@ impl Writer<'_> {
         let settings = &self.scene.settings;
         if settings.hide_emitters {
             self.note("lights that are hidden from the camera are seen");
+        }
+        if film.balance != Film::NO_BALANCE {
+            self.note("white balance is left out");
         }
         let text = format!(
             "{}\n{}\n{}\nSampler \"zsobol\" \"integer pixelsamples\" [ {} ]\n\
@@ -154,9 +175,12 @@ fn film_text(film: &Film, path: &Path) -> String {
         let stem = path.file_stem().unwrap_or(path.as_os_str());
         format!("{}.exr", stem.to_string_lossy())
     });
+    let bound = film.max_component.map_or_else(String::new, |most| {
+        format!(" \"float maxcomponentvalue\" [ {most} ]")
+    });
     format!(
         "Film \"rgb\" \"integer xresolution\" [ {width} ] \"integer yresolution\" [ {height} ] \
-         \"integer pixelbounds\" [ {} ] \"float iso\" [ {} ] \"string filename\" [ {} ]",
+         \"integer pixelbounds\" [ {} ] \"float iso\" [ {} ]{bound} \"string filename\" [ {} ]",
         list(&film.crop),
         f64::from(film.exposure) * 100.0,
         quoted(&name),

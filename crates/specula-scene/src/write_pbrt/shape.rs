@@ -66,10 +66,10 @@ impl Writer<'_> {
             ""
         };
         let place = transform(&shape.to_world);
-        let material = self.material_name(shape.material);
+        let material = quoted(self.names.of(shape.material));
+        let media = self.sides(shape.material);
         self.line(&format!(
-            "AttributeBegin\n{place}\n{reverse}{emission}NamedMaterial {}\nShape {kind}\nAttributeEnd",
-            quoted(&material)
+            "AttributeBegin\n{place}\n{reverse}{emission}{media}NamedMaterial {material}\nShape {kind}\nAttributeEnd"
         ));
         Ok(())
     }

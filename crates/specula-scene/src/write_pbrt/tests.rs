@@ -25,7 +25,16 @@ fn the_built_in_scene_survives() {
     let (back, notes) = round_trip(&scene);
     assert!(notes.is_empty(), "{notes:?}");
     assert_eq!(back.film.resolution, scene.film.resolution);
-    assert_eq!(back.settings, scene.settings);
+    // pbrt's scenes scatter singly: here every metal asks for compensation itself.
+    let single = crate::scene::Settings {
+        energy: crate::Energy::None,
+        ..scene.settings.clone()
+    };
+    assert_eq!(back.settings, single);
+    let is_metal = |m: &&Material| matches!(m.kind, MaterialKind::Conductor { .. });
+    let mut metals = back.materials.iter().filter(is_metal).peekable();
+    assert!(metals.peek().is_some());
+    assert!(metals.all(|m| m.energy == Some(scene.settings.energy)));
     assert_eq!(back.camera.projection, scene.camera.projection);
     assert!(
         back.camera
@@ -123,7 +132,7 @@ fn skies(scene: &Scene) -> Vec<Vec<Rgb<f32>>> {
             ..
         } => {
             let pixels = scene.images[id.0].pixels.iter();
-            pixels.map(|p| Rgb::from(*p) * *radiance).collect()
+            pixels.map(|p| Rgb::from(p) * *radiance).collect()
         }
         other => panic!("{other:?}"),
     };
@@ -196,7 +205,7 @@ fn thrown_pictures_keep_their_places() {
         name: "p".into(),
         width: 2,
         height: 2,
-        pixels,
+        pixels: pixels.into(),
     });
     let image = crate::scene::ImageId(scene.images.len() - 1);
     let window = Throw::Window {
@@ -270,7 +279,7 @@ fn first_pixel(scene: &Scene, p: ColourParam) -> [f32; 3] {
             channel,
             ..
         } => {
-            let pixel = Rgb::from(scene.images[image.0].pixels[0]);
+            let pixel = Rgb::from(scene.images[image.0].pixels.rgb(0));
             let pixel = match channel {
                 Channel::Mean => Rgb::splat(pixel.mean()),
                 _ => pixel,

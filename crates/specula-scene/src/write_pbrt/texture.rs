@@ -1,5 +1,7 @@
 //! Texture nodes, each written where it is first used.
 
+use std::collections::HashMap;
+
 use glam::DMat4;
 use specula_bsdf::Rgb;
 
@@ -8,16 +10,20 @@ use crate::scene::{
     Channel, ColourParam, FloatParam, Interpolation, NoiseKind, Texture, TextureId, TextureMapping,
     UvMapping, Wrap,
 };
+use crate::validate::surface::inputs;
+
+/// Most textures behind one that are written on the way to it: others are written one after the other.
+const DEEPEST: usize = 500;
 
 /// A texture's class and parameters, and the space that it lives in.
-struct Node {
+pub(super) struct Node {
     class: &'static str,
     params: String,
     space: DMat4,
 }
 
 impl Node {
-    fn new(class: &'static str, params: String) -> Self {
+    pub(super) fn new(class: &'static str, params: String) -> Self {
         Self {
             class,
             params,
@@ -55,15 +61,51 @@ impl Writer<'_> {
 
     /// Writes a texture and those that it refers to, once; returns its name.
     pub(super) fn texture(&mut self, id: TextureId, wanted: Wanted) -> Result<String, WriteError> {
-        if let Some(name) = self.textures.get(&(id, wanted)) {
+        let needed = self.needed(id);
+        if needed.len() > DEEPEST {
+            // What is written is not gone into again.
+            for input in needed {
+                self.tinted(input, wanted, Rgb::WHITE)?;
+            }
+        }
+        self.tinted(id, wanted, Rgb::WHITE)
+    }
+
+    /// A texture and all that it depends on, inputs first.
+    fn needed(&self, id: TextureId) -> Vec<TextureId> {
+        let mut is_needed = vec![false; id.0 + 1];
+        is_needed[id.0] = true;
+        for i in (0..=id.0).rev() {
+            if is_needed[i] {
+                for input in inputs(&self.scene.textures[i]).into_iter().flatten() {
+                    is_needed[input.0] = true;
+                }
+            }
+        }
+        let numbers = (0..=id.0).filter(|i| is_needed[*i]);
+        numbers.map(TextureId).collect()
+    }
+
+    /// Writes a texture times a colour.
+    pub(super) fn tinted(
+        &mut self,
+        id: TextureId,
+        wanted: Wanted,
+        tint: Rgb<f32>,
+    ) -> Result<String, WriteError> {
+        let key = (id, wanted, tint.to_array().map(f32::to_bits));
+        if let Some(name) = self.textures.get(&key) {
             return Ok(name.clone());
         }
-        let node = self.node(id, wanted)?;
+        let node = self.node(id, wanted, tint)?;
         let kind = match wanted {
             Wanted::Float => "float",
             Wanted::Spectrum => "spectrum",
         };
-        let name = format!("texture-{}-{kind}", id.0);
+        let mut name = format!("texture-{}-{kind}", id.0);
+        if tint != Rgb::WHITE {
+            name += &format!("-{}", self.textures.len());
+        }
         let directive = format!(
             "Texture {} \"{kind}\" \"{}\"{}",
             quoted(&name),
@@ -79,16 +121,23 @@ impl Writer<'_> {
                 "AttributeBegin\n{place}\n{directive}\nAttributeEnd"
             ));
         }
-        self.textures.insert((id, wanted), name.clone());
+        self.textures.insert(key, name.clone());
         Ok(name)
     }
 
-    fn input(&mut self, name: &str, id: TextureId, wanted: Wanted) -> Result<String, WriteError> {
-        let texture = self.texture(id, wanted)?;
+    /// ` "texture NAME" [ "..." ]`.
+    pub(super) fn input(
+        &mut self,
+        name: &str,
+        id: TextureId,
+        wanted: Wanted,
+        tint: Rgb<f32>,
+    ) -> Result<String, WriteError> {
+        let texture = self.tinted(id, wanted, tint)?;
         Ok(format!(" \"texture {name}\" [ {} ]", quoted(&texture)))
     }
 
-    fn value(name: &str, c: Rgb<f32>, wanted: Wanted) -> String {
+    pub(super) fn value(name: &str, c: Rgb<f32>, wanted: Wanted) -> String {
         match wanted {
             Wanted::Float => format!(" \"float {name}\" [ {} ]", c.r),
             Wanted::Spectrum => format!(" \"rgb {name}\" [ {} ]", rgb_list(c)),
@@ -100,32 +149,37 @@ impl Writer<'_> {
         class: &'static str,
         names: [&str; 2],
         ids: [TextureId; 2],
-        wanted: Wanted,
+        (wanted, tint): (Wanted, Rgb<f32>),
     ) -> Result<Node, WriteError> {
-        let mut params = self.input(names[0], ids[0], wanted)?;
-        params += &self.input(names[1], ids[1], wanted)?;
+        let mut params = self.input(names[0], ids[0], wanted, tint)?;
+        params += &self.input(names[1], ids[1], wanted, tint)?;
         Ok(Node::new(class, params))
     }
 
-    fn node(&mut self, id: TextureId, wanted: Wanted) -> Result<Node, WriteError> {
-        let scene = self.scene;
+    /// The node of a texture times a colour.
+    pub(super) fn node(
+        &mut self,
+        id: TextureId,
+        wanted: Wanted,
+        tint: Rgb<f32>,
+    ) -> Result<Node, WriteError> {
+        let (scene, kind) = (self.scene, (wanted, tint));
         Ok(match &scene.textures[id.0] {
-            Texture::Constant(c) => Node::new("constant", Self::value("value", *c, wanted)),
-            image @ Texture::Image { .. } => self.image_map(image)?,
-            Texture::Scale { a, b } => self.pair("scale", ["tex", "scale"], [*a, *b], wanted)?,
+            Texture::Constant(c) => Node::new("constant", Self::value("value", *c * tint, wanted)),
+            image @ Texture::Image { .. } => self.image_map(image, tint)?,
+            Texture::Scale { a, b } => return self.product([*a, *b], wanted, tint),
             Texture::Mix { a, b, amount } => {
-                let mut node = self.pair("mix", ["tex1", "tex2"], [*a, *b], wanted)?;
+                let mut node = self.pair("mix", ["tex1", "tex2"], [*a, *b], kind)?;
                 node.params += &self.float_param("amount", *amount)?;
                 node
             }
             Texture::DirectionMix { a, b, axis } => {
-                let mut node = self.pair("directionmix", ["tex1", "tex2"], [*a, *b], wanted)?;
+                let mut node = self.pair("directionmix", ["tex1", "tex2"], [*a, *b], kind)?;
                 node.params += &format!(" \"vector3 dir\" [ {} ]", list(axis));
                 node
             }
             Texture::Checkerboard { even, odd, mapping } => {
-                let mut node =
-                    self.pair("checkerboard", ["tex1", "tex2"], [*even, *odd], wanted)?;
+                let mut node = self.pair("checkerboard", ["tex1", "tex2"], [*even, *odd], kind)?;
                 self.mapping(&mut node, mapping);
                 node
             }
@@ -134,8 +188,7 @@ impl Writer<'_> {
                 odd,
                 to_texture,
             } => {
-                let mut node =
-                    self.pair("checkerboard", ["tex1", "tex2"], [*even, *odd], wanted)?;
+                let mut node = self.pair("checkerboard", ["tex1", "tex2"], [*even, *odd], kind)?;
                 node.params += " \"integer dimension\" [ 3 ]";
                 node.space = *to_texture;
                 node
@@ -146,14 +199,14 @@ impl Writer<'_> {
                 mapping,
             } => {
                 let ids = [*inside, *outside];
-                let mut node = self.pair("dots", ["inside", "outside"], ids, wanted)?;
+                let mut node = self.pair("dots", ["inside", "outside"], ids, kind)?;
                 self.mapping(&mut node, mapping);
                 node
             }
             Texture::Bilinear { corners, mapping } => {
                 let mut params = String::new();
                 for (name, c) in ["v00", "v01", "v10", "v11"].into_iter().zip(corners) {
-                    params += &Self::value(name, *c, wanted);
+                    params += &Self::value(name, *c * tint, wanted);
                 }
                 let mut node = Node::new("bilerp", params);
                 self.mapping(&mut node, mapping);
@@ -164,23 +217,26 @@ impl Writer<'_> {
                 octaves,
                 roughness,
                 to_texture,
-            } => noise(*kind, *octaves, *roughness, to_texture),
+            } => {
+                let node = noise(*kind, *octaves, *roughness, to_texture);
+                return self.noise(id, node, wanted, tint);
+            }
             Texture::Sum { a, b: _ } => {
                 self.note("sums of textures cannot be said: the first term is written");
-                return self.node(*a, wanted);
+                return self.node(*a, wanted, tint);
             }
             Texture::Threshold { texture, .. } => {
                 self.note("thresholds of textures cannot be said: the texture itself is written");
-                return self.node(*texture, wanted);
+                return self.node(*texture, wanted, tint);
             }
             Texture::VertexColour => {
                 self.note("colours of vertices cannot be said: white is written");
-                Node::new("constant", Self::value("value", Rgb::WHITE, wanted))
+                Node::new("constant", Self::value("value", tint, wanted))
             }
         })
     }
 
-    fn image_map(&mut self, texture: &Texture) -> Result<Node, WriteError> {
+    fn image_map(&mut self, texture: &Texture, tint: Rgb<f32>) -> Result<Node, WriteError> {
         let Texture::Image {
             image,
             mapping,
@@ -193,7 +249,18 @@ impl Writer<'_> {
         else {
             return Ok(Node::new("constant", String::new()));
         };
-        let file = self.image(*image, *channel)?;
+        let (mut invert, mut scale) = (*invert, *scale);
+        let file = match tint {
+            // A file has one factor for all channels.
+            Rgb { r, g, b } if r == g && g == b => {
+                scale *= r;
+                self.image(*image, *channel)?
+            }
+            _ => {
+                let inverted = std::mem::replace(&mut invert, false);
+                self.tinted_image(*image, *channel, inverted, tint)?
+            }
+        };
         if wrap[0] != wrap[1] {
             self.note("pictures that wrap differently along u and v wrap along both as along u");
         }
@@ -280,12 +347,17 @@ impl Writer<'_> {
                 ..
             } if *mapping == TextureMapping::default() => Some((*image, Rgb::splat(*scale))),
             Texture::Scale { a, b } => {
-                let texture = |id: &TextureId| self.plain_picture(ColourParam::Texture(*id));
-                let (picture, other) = texture(a).map(|p| (p, b)).or(texture(b).map(|p| (p, a)))?;
-                match self.scene.textures[other.0] {
-                    Texture::Constant(c) => Some((picture.0, picture.1 * c)),
+                let constant = |id: &TextureId| match self.scene.textures[id.0] {
+                    Texture::Constant(c) => Some(c),
                     _ => None,
-                }
+                };
+                let (inner, factor) = match (constant(a), constant(b)) {
+                    (_, Some(c)) => (*a, c),
+                    (Some(c), None) => (*b, c),
+                    (None, None) => return None,
+                };
+                let (image, scale) = self.plain_picture(ColourParam::Texture(inner))?;
+                Some((image, scale * factor))
             }
             _ => None,
         }
@@ -297,15 +369,26 @@ impl Writer<'_> {
             ColourParam::Value(c) => return c,
             ColourParam::Texture(id) => id,
         };
-        let of = |id: TextureId| self.mean(ColourParam::Texture(id));
-        match &self.scene.textures[id.0] {
+        // Once for each that it depends on, however often others refer to it.
+        let mut means = HashMap::new();
+        for input in self.needed(id) {
+            let of = |id: TextureId| means.get(&id).copied().unwrap_or(Rgb::BLACK);
+            let mean = self.mean_of(&self.scene.textures[input.0], of);
+            means.insert(input, mean);
+        }
+        means.get(&id).copied().unwrap_or(Rgb::BLACK)
+    }
+
+    /// * `of`: the means of its inputs.
+    fn mean_of(&self, texture: &Texture, of: impl Fn(TextureId) -> Rgb<f32>) -> Rgb<f32> {
+        match texture {
             Texture::Constant(c) => *c,
             Texture::Image { image, scale, .. } => {
                 let pixels = &self.scene.images[image.0].pixels;
                 let mut sum = [0.0_f64; 3];
-                for pixel in pixels {
+                for pixel in pixels.iter() {
                     for (s, x) in sum.iter_mut().zip(pixel) {
-                        *s += f64::from(*x);
+                        *s += f64::from(x);
                     }
                 }
                 let count = f64::from(u32::try_from(pixels.len()).unwrap_or(u32::MAX)).max(1.0);

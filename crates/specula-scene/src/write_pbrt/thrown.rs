@@ -53,7 +53,7 @@ impl Writer<'_> {
             width: image.width,
             height: image.height,
             pixels: (image.pixels.iter())
-                .map(|p| (Rgb::from(*p) * factor).to_array())
+                .map(|p| (Rgb::from(p) * factor).to_array())
                 .collect(),
         };
         let file = self.picture(&format!("projection-{index}.exr"), &scaled, |c| c)?;

@@ -372,10 +372,10 @@ fn the_sky_is_as_bright_as_mitsubas() {
     // Irradiance of the ground, from the picture: rows run from the zenith.
     let image = &scene.images[0];
     let mut sum = Vec3::ZERO;
-    for (y, row) in image.pixels.chunks(image.width as usize).enumerate() {
+    for (y, row) in image.pixels.rows(image.width).enumerate() {
         let theta = std::f32::consts::PI * (y as f32 + 0.5) / image.height as f32;
         let weight = theta.sin() * theta.cos().max(0.0);
-        sum += row.iter().map(|p| Vec3::from(*p)).sum::<Vec3>() * weight;
+        sum += row.map(Vec3::from).sum::<Vec3>() * weight;
     }
     let cell = 2.0 * std::f32::consts::PI.powi(2) / (image.width * image.height) as f32;
     let found = sum * cell;
@@ -385,7 +385,7 @@ fn the_sky_is_as_bright_as_mitsubas() {
         "{found}"
     );
     assert!(
-        image.pixels[image.pixels.len() - 1] == [0.0; 3],
+        image.pixels.rgb(image.pixels.len() - 1) == [0.0; 3],
         "nothing below the horizon"
     );
 }

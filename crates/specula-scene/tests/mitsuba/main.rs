@@ -6,6 +6,7 @@
 )]
 
 mod broken;
+mod budget;
 mod check;
 mod common;
 mod conventions;
@@ -14,6 +15,7 @@ mod document;
 mod features;
 mod media;
 mod mutations;
+mod range;
 #[path = "../common/report.rs"]
 mod report;
 mod shared_scenes;

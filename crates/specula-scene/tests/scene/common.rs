@@ -52,8 +52,9 @@ pub(crate) fn load_world(world: &str) -> Result<Loaded, SceneError> {
     load(format!("WorldBegin\n{world}\nShape \"sphere\"\n"))
 }
 
-/// Messages of the warnings, without the one about darkness.
+/// Messages of the warnings, without those about darkness and about the default camera.
 pub(crate) fn warnings(loaded: &Loaded) -> Vec<String> {
     let all = loaded.warnings.iter().map(|w| w.message().to_owned());
-    all.filter(|w| !w.contains("no light")).collect()
+    all.filter(|w| !w.contains("no light") && !w.contains("no `Camera`"))
+        .collect()
 }

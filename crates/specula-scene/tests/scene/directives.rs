@@ -257,9 +257,9 @@ fn textures() {
         2,
         "the same file, read as number and as colour"
     );
-    assert_eq!(scene.images[0].pixels[3], [2.0 / 3.0; 3]);
+    assert_eq!(scene.images[0].pixels.rgb(3), [2.0 / 3.0; 3]);
     assert_eq!(
-        scene.images[1].pixels[2],
+        scene.images[1].pixels.rgb(2),
         [0.0, 1.0, 0.0],
         "rows from the top"
     );

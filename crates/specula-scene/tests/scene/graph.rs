@@ -100,7 +100,7 @@ fn relief_comes_from_normal_maps_before_displacements() {
         panic!()
     };
     // Without a transfer curve: 255 is 1, 0 is 0, and bytes between would be linear.
-    assert_eq!(loaded.scene.images[image.0].pixels[1], [1.0, 0.0, 1.0]);
+    assert_eq!(loaded.scene.images[image.0].pixels.rgb(1), [1.0, 0.0, 1.0]);
     assert_eq!(relief(2), None, "the same height everywhere");
 }
 
@@ -123,7 +123,7 @@ fn area_lights_show_their_picture_and_have_their_power() {
         panic!()
     };
     let pixels = &scene.images[image.0].pixels;
-    let luminance = |p: &[f32; 3]| 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2];
+    let luminance = |p: [f32; 3]| 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2];
     let mean = pixels.iter().map(luminance).sum::<f32>() / pixels.len() as f32;
     let power = mean * scale * std::f32::consts::PI * (4.0 * std::f32::consts::PI);
     assert!((power - 10.0).abs() < 0.01, "{power}");
@@ -180,7 +180,7 @@ fn projections_keep_their_power() {
             at(i / width, height, half[1]),
         );
         let area = 4.0 * half[0] * half[1] / (width * height) as f64;
-        let colour = Rgb::from(*p) * *factor;
+        let colour = Rgb::from(p) * *factor;
         power += f64::from(colour.luminance()) * area * (1.0 + x * x + y * y).powf(-1.5);
     }
     assert!((power - 5.0).abs() < 1e-3, "{power}");

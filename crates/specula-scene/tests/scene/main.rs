@@ -6,17 +6,23 @@
 )]
 
 mod broken;
+mod budget;
 mod check;
 mod check_files;
 mod check_gltf;
 mod common;
 mod directives;
 mod features;
+mod files;
 mod film;
+mod formats;
 mod graph;
 mod materials;
 mod media;
 mod mutations;
+mod range;
 #[path = "../common/report.rs"]
 mod report;
 mod shared_scenes;
+mod staged;
+mod written;

@@ -24,21 +24,21 @@ struct BsdfSample {
     weight: vec3f,
     /// Index of refraction of the medium that `wi` runs in over that of `wo`; 1 for reflection.
     eta: f32,
-    /// A sum of `BSDF_VALID`, `BSDF_TRANSMISSION` and `BSDF_SPECULAR`.
+    /// A sum of `BSDF_SAMPLE_VALID`, `BSDF_SAMPLE_TRANSMISSION` and `BSDF_SAMPLE_SPECULAR`.
     flags: u32,
 }
 
 /// The draw led to a direction.
-const BSDF_VALID: u32 = 1u;
+const BSDF_SAMPLE_VALID: u32 = 1u;
 /// `wi` lies on the other side than `wo`.
-const BSDF_TRANSMISSION: u32 = 2u;
+const BSDF_SAMPLE_TRANSMISSION: u32 = 2u;
 /// The direction is one of a countable set: `eval` and `pdf` are 0 there.
-const BSDF_SPECULAR: u32 = 4u;
+const BSDF_SAMPLE_SPECULAR: u32 = 4u;
 
 /// `wo` leads to the camera: radiance is scaled by `1 / eta^2` on refraction.
-const TRANSPORT_RADIANCE: u32 = 0u;
+const BSDF_SAMPLE_RADIANCE: u32 = 0u;
 /// `wo` leads to a light: importance is not scaled.
-const TRANSPORT_IMPORTANCE: u32 = 1u;
+const BSDF_SAMPLE_IMPORTANCE: u32 = 1u;
 
 /// Largest density of a draw that exists.
 const BSDF_SAMPLE_LARGEST: f32 = 3.4e38;
@@ -57,7 +57,7 @@ fn bsdf_sample_none() -> BsdfSample {
 /// Twin: specula-bsdf/src/bsdf/lambert.rs, BsdfSample::reflected.
 fn bsdf_sample_reflected(wi: vec3f, weight: vec3f, pdf: f32) -> BsdfSample {
     if wi.z > 0.0 && pdf > 0.0 && pdf <= BSDF_SAMPLE_LARGEST {
-        return BsdfSample(wi, pdf, weight, 1.0, BSDF_VALID);
+        return BsdfSample(wi, pdf, weight, 1.0, BSDF_SAMPLE_VALID);
     }
     return bsdf_sample_none();
 }
@@ -67,18 +67,18 @@ fn bsdf_sample_reflected(wi: vec3f, weight: vec3f, pdf: f32) -> BsdfSample {
 /// Twin: specula-bsdf/src/bsdf/lambert.rs, BsdfSample::transmitted.
 fn bsdf_sample_transmitted(wi: vec3f, weight: vec3f, pdf: f32, eta: f32) -> BsdfSample {
     if wi.z < 0.0 && pdf > 0.0 && pdf <= BSDF_SAMPLE_LARGEST {
-        return BsdfSample(wi, pdf, weight, eta, BSDF_VALID | BSDF_TRANSMISSION);
+        return BsdfSample(wi, pdf, weight, eta, BSDF_SAMPLE_VALID | BSDF_SAMPLE_TRANSMISSION);
     }
     return bsdf_sample_none();
 }
 
 /// A mirrored or refracted sample of the probability `pdf`.
 ///
-/// * `event`: 0 or `BSDF_TRANSMISSION`.
+/// * `event`: 0 or `BSDF_SAMPLE_TRANSMISSION`.
 ///
 /// Twin: specula-bsdf/src/bsdf/lambert.rs, BsdfSample::delta.
 fn bsdf_sample_delta(wi: vec3f, weight: vec3f, pdf: f32, event: u32, eta: f32) -> BsdfSample {
-    return BsdfSample(wi, pdf, weight, eta, BSDF_VALID | BSDF_SPECULAR | event);
+    return BsdfSample(wi, pdf, weight, eta, BSDF_SAMPLE_VALID | BSDF_SAMPLE_SPECULAR | event);
 }
 
 /// A reflected sample of the value and density `value`; none as of `bsdf_sample_reflected`.
@@ -99,5 +99,5 @@ fn bsdf_sample_of_transmission(wi: vec3f, value: vec4f, eta: f32) -> BsdfSample 
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated_dielectric.rs, radiance_scale.
 fn bsdf_sample_radiance_scale(eta: f32, transport: u32) -> f32 {
-    return select(1.0, 1.0 / (eta * eta), transport == TRANSPORT_RADIANCE);
+    return select(1.0, 1.0 / (eta * eta), transport == BSDF_SAMPLE_RADIANCE);
 }

@@ -14,11 +14,11 @@
 // Known limits: specula-bsdf/src/bsdf/coated_conductor.rs.
 
 import package::alpha::{ALPHA_SPECULAR_BELOW, alpha_clamped};
-import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TINY, BsdfSample, TRANSPORT_RADIANCE, bsdf_sample_delta, bsdf_sample_none, bsdf_sample_of_reflection};
-import package::bsdf::microfacets::{Microfacets, microfacets_g_over_cos, microfacets_norm, microfacets_sample_reflection};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TINY, BsdfSample, BSDF_SAMPLE_RADIANCE, bsdf_sample_delta, bsdf_sample_none, bsdf_sample_of_reflection};
+import package::bsdf::microfacets::{MicrofacetsModel, microfacets_g_over_cos, microfacets_norm, microfacets_sample_reflection};
 import package::bsdf::rough_conductor::{rough_conductor_facet};
-import package::fresnel::dielectric::{Refraction, dielectric};
-import package::fresnel::reflectance::{Reflectance, reflectance_eval, reflectance_under};
+import package::fresnel::dielectric::{DielectricRefraction, dielectric};
+import package::fresnel::reflectance::{ReflectanceModel, reflectance_eval, reflectance_under};
 import package::math::rgb::{rgb_max_channel};
 
 /// A floor of the sum of bounces.
@@ -29,9 +29,9 @@ const COATED_CONDUCTOR_EPSILON: f32 = 1.1920929e-7;
 /// Twin: specula-bsdf/src/bsdf/coated_conductor.rs, CoatedConductor.
 struct CoatedConductor {
     /// The coat's facets, of account where `coat_rough` is 1; height-correlated GGX.
-    coat: Microfacets,
+    coat: MicrofacetsModel,
     /// The metal's facets, blurred, of account where `metal_rough` is 1; height-correlated GGX.
-    metal_facets: Microfacets,
+    metal_facets: MicrofacetsModel,
     /// 1 where the coat has facets.
     coat_rough: u32,
     /// 1 where the metal has facets.
@@ -39,13 +39,13 @@ struct CoatedConductor {
     /// Index of the coat over that outside, in [1, 3].
     eta: f32,
     /// Of the metal under the coat.
-    reflectance: Reflectance,
+    reflectance: ReflectanceModel,
 }
 
 /// The metal's facets as blurred by a rough coat.
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_conductor.rs, blurred.
-fn coated_conductor_blurred(metal_facets: Microfacets, metal_rough: bool, coat: Microfacets, eta: f32) -> Microfacets {
+fn coated_conductor_blurred(metal_facets: MicrofacetsModel, metal_rough: bool, coat: MicrofacetsModel, eta: f32) -> MicrofacetsModel {
     let bend = 1.0 - 1.0 / eta;
     let own = select(vec2f(0.0), metal_facets.alpha, metal_rough);
     let width = sqrt(own * own + 0.5 * bend * bend * coat.alpha * coat.alpha);
@@ -61,7 +61,7 @@ fn coated_conductor_blurred(metal_facets: Microfacets, metal_rough: bool, coat: 
 /// * `reflectance`: of the metal against vacuum; an index is made relative to the coat's.
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_conductor.rs, CoatedConductor::new.
-fn coated_conductor_new(coat: Microfacets, coat_rough: bool, eta: f32, metal_facets: Microfacets, metal_rough: bool, reflectance: Reflectance) -> CoatedConductor {
+fn coated_conductor_new(coat: MicrofacetsModel, coat_rough: bool, eta: f32, metal_facets: MicrofacetsModel, metal_rough: bool, reflectance: ReflectanceModel) -> CoatedConductor {
     var lobe: CoatedConductor;
     lobe.eta = clamp(eta, 1.0, 3.0);
     lobe.coat = coat;
@@ -99,14 +99,14 @@ fn coated_conductor_above(lobe: CoatedConductor, w: vec3f) -> vec3f {
 /// What the coat's mean surface reflects and lets through from `w`.
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_conductor.rs, CoatedConductor::at_coat.
-fn coated_conductor_at_coat(lobe: CoatedConductor, w: vec3f) -> Refraction {
+fn coated_conductor_at_coat(lobe: CoatedConductor, w: vec3f) -> DielectricRefraction {
     return dielectric(abs(w.z), lobe.eta);
 }
 
 /// Probability of drawing the coat's reflection; 0 for a mirror that faces away.
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_conductor.rs, CoatedConductor::coat_probability.
-fn coated_conductor_coat_probability(lobe: CoatedConductor, coat: Refraction, wo: vec3f) -> f32 {
+fn coated_conductor_coat_probability(lobe: CoatedConductor, coat: DielectricRefraction, wo: vec3f) -> f32 {
     let metal_part = rgb_max_channel(reflectance_eval(lobe.reflectance, coated_conductor_below(lobe, wo).z));
     let visible = lobe.coat_rough == 1u || wo.z > 0.0;
     let below = coat.transmittance * metal_part;
@@ -117,7 +117,7 @@ fn coated_conductor_coat_probability(lobe: CoatedConductor, coat: Refraction, wo
 /// Transmission both ways with the series of bounces, times the metal's reflectance.
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_conductor.rs, CoatedConductor::through.
-fn coated_conductor_through(coat_o: Refraction, coat_i: Refraction, metal_part: vec3f) -> vec3f {
+fn coated_conductor_through(coat_o: DielectricRefraction, coat_i: DielectricRefraction, metal_part: vec3f) -> vec3f {
     let passed = coat_o.transmittance * coat_i.transmittance;
     let back = 0.5 * (coat_o.reflectance + coat_i.reflectance);
     return passed * metal_part / max(vec3f(1.0) - metal_part * back, vec3f(COATED_CONDUCTOR_EPSILON));
@@ -165,7 +165,7 @@ fn coated_conductor_eval(lobe: CoatedConductor, wo: vec3f, wi: vec3f, transport:
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_conductor.rs, CoatedConductor::pdf.
 fn coated_conductor_pdf(lobe: CoatedConductor, wo: vec3f, wi: vec3f) -> f32 {
-    return coated_conductor_eval_pdf(lobe, wo, wi, TRANSPORT_RADIANCE).a;
+    return coated_conductor_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE).a;
 }
 
 /// The mirrored direction, where the view is above the horizon.

@@ -13,10 +13,10 @@
 // `T` and `R` are exact for a smooth coat without absorption, and tables made by quadrature otherwise
 // (`interface`, `interface_single`, `interface_layer`).
 
-import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TINY, BsdfSample, TRANSPORT_RADIANCE, bsdf_sample_delta, bsdf_sample_of_reflection};
-import package::bsdf::microfacets::{Microfacets, microfacets_d, microfacets_g_over_cos, microfacets_norm, microfacets_sample_reflection};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TINY, BsdfSample, BSDF_SAMPLE_RADIANCE, bsdf_sample_delta, bsdf_sample_of_reflection};
+import package::bsdf::microfacets::{MicrofacetsModel, microfacets_d, microfacets_g_over_cos, microfacets_norm, microfacets_sample_reflection};
 import package::energy::interface::{interface_internal_reflectance, interface_transmittance, interface_width};
-import package::energy::interface_layer::{AbsorbingLayer, interface_layer_crossing, interface_layer_new, interface_layer_there_and_back};
+import package::energy::interface_layer::{InterfaceLayer, interface_layer_crossing, interface_layer_new, interface_layer_there_and_back};
 import package::energy::interface_single::{interface_single_internal_reflectance, interface_single_reflectance_estimate, interface_single_transmittance};
 import package::fresnel::dielectric::{dielectric};
 import package::math::rgb::{rgb_max_channel};
@@ -38,7 +38,7 @@ const COATED_DIFFUSE_UNLIMITED: u32 = 0xffffffffu;
 /// Twin: specula-bsdf/src/bsdf/coated_diffuse.rs, CoatedDiffuse.
 struct CoatedDiffuse {
     /// The coat's facets, of account where `width` is above 0; height-correlated GGX.
-    facets: Microfacets,
+    facets: MicrofacetsModel,
     /// Width that stands for the coat's two; 0 for a smooth coat.
     width: f32,
     /// Index of the coat over that outside, in [1, 3].
@@ -46,7 +46,7 @@ struct CoatedDiffuse {
     /// Of the base, in [0, 1].
     albedo: vec3f,
     /// Between coat and base.
-    layer: AbsorbingLayer,
+    layer: InterfaceLayer,
     /// `COATED_DIFFUSE_SINGLE` or `COATED_DIFFUSE_LOSSLESS`.
     scattering: u32,
     /// `rho / eta^2 (1 - q^n) / (1 - q)`: the base with all bounces, before `T(wo) T(wi) / pi`.
@@ -56,7 +56,7 @@ struct CoatedDiffuse {
 /// Light from one direction.
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_diffuse.rs, Incident.
-struct CoatIncident {
+struct CoatedDiffuseIncident {
     /// Share that the coat reflects; an estimate where its facets scatter singly.
     reflected: f32,
     /// Share that reaches the base.
@@ -95,7 +95,7 @@ fn coated_diffuse_followed(q: vec3f, max_depth: u32) -> vec3f {
 /// * `scattering`: `COATED_DIFFUSE_SINGLE` or `COATED_DIFFUSE_LOSSLESS`.
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_diffuse.rs, CoatedDiffuse::over_layer.
-fn coated_diffuse_new(facets: Microfacets, rough: bool, eta: f32, albedo: vec3f, thickness: f32, max_depth: u32, scattering: u32) -> CoatedDiffuse {
+fn coated_diffuse_new(facets: MicrofacetsModel, rough: bool, eta: f32, albedo: vec3f, thickness: f32, max_depth: u32, scattering: u32) -> CoatedDiffuse {
     var lobe: CoatedDiffuse;
     lobe.facets = facets;
     lobe.width = select(0.0, interface_width(facets.alpha), rough);
@@ -118,21 +118,21 @@ fn coated_diffuse_new(facets: Microfacets, rough: bool, eta: f32, albedo: vec3f,
 /// What becomes of light from `w`.
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_diffuse.rs, CoatedDiffuse::incident.
-fn coated_diffuse_incident(lobe: CoatedDiffuse, w: vec3f) -> CoatIncident {
+fn coated_diffuse_incident(lobe: CoatedDiffuse, w: vec3f) -> CoatedDiffuseIncident {
     let mu = abs(w.z);
     let crossing = interface_layer_crossing(lobe.layer, lobe.width, lobe.eta, mu);
     if lobe.scattering == COATED_DIFFUSE_LOSSLESS {
         let entering = interface_transmittance(lobe.width, lobe.eta, mu);
-        return CoatIncident(1.0 - entering, entering * crossing);
+        return CoatedDiffuseIncident(1.0 - entering, entering * crossing);
     }
     let reflected = interface_single_reflectance_estimate(lobe.width, lobe.eta, mu);
-    return CoatIncident(reflected, interface_single_transmittance(lobe.width, lobe.eta, mu) * crossing);
+    return CoatedDiffuseIncident(reflected, interface_single_transmittance(lobe.width, lobe.eta, mu) * crossing);
 }
 
 /// Probability of drawing the coat's reflection; 0 for a mirror that faces away.
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_diffuse.rs, CoatedDiffuse::coat_probability.
-fn coated_diffuse_coat_probability(lobe: CoatedDiffuse, view: CoatIncident, wo: vec3f) -> f32 {
+fn coated_diffuse_coat_probability(lobe: CoatedDiffuse, view: CoatedDiffuseIncident, wo: vec3f) -> f32 {
     let diffuse = view.arriving * rgb_max_channel(lobe.albedo);
     let visible = lobe.width > 0.0 || wo.z > 0.0;
     let share = view.reflected / max(view.reflected + diffuse, BSDF_SAMPLE_TINY);
@@ -176,7 +176,7 @@ fn coated_diffuse_eval(lobe: CoatedDiffuse, wo: vec3f, wi: vec3f, transport: u32
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_diffuse.rs, CoatedDiffuse::pdf.
 fn coated_diffuse_pdf(lobe: CoatedDiffuse, wo: vec3f, wi: vec3f) -> f32 {
-    return coated_diffuse_eval_pdf(lobe, wo, wi, TRANSPORT_RADIANCE).a;
+    return coated_diffuse_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE).a;
 }
 
 /// Draws `wi`.

@@ -15,23 +15,23 @@
 // Kulla and Conty's lobe is reciprocal above the horizon; Turquin's is not.
 
 import package::bsdf::bsdf_sample::{BsdfSample, bsdf_sample_of_reflection};
-import package::bsdf::microfacets::{Microfacets};
+import package::bsdf::microfacets::{MicrofacetsModel};
 import package::bsdf::rough_conductor::{RoughConductor, rough_conductor_draw, rough_conductor_eval_pdf, rough_conductor_pdf};
-import package::energy::albedo::{Loss, albedo_directional_loss, albedo_loss};
+import package::energy::albedo::{AlbedoLoss, albedo_directional_loss, albedo_loss};
 import package::energy::fresnel_average::{fresnel_average_of};
 import package::energy::model::{MODEL_KULLA_CONTY, MODEL_TURQUIN, model_further_bounces};
-import package::fresnel::reflectance::{Reflectance, reflectance_eval};
+import package::fresnel::reflectance::{ReflectanceModel, reflectance_eval};
 import package::math::rgb::{rgb_max_channel};
 import package::math::warp::{warp_cosine_hemisphere, warp_cosine_hemisphere_pdf};
 
 /// Single scattering off a rough metal, and what replaces the further bounces (`model`).
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated.rs, Compensated.
-struct Compensated {
+struct CompensatedConductor {
     /// What is scattered once.
     single: RoughConductor,
     /// What is lost.
-    loss: Loss,
+    loss: AlbedoLoss,
     /// `MODEL_TURQUIN`, `MODEL_TURQUIN_SERIES` or `MODEL_KULLA_CONTY`.
     model: u32,
     /// Average reflectance of a facet.
@@ -45,8 +45,8 @@ struct Compensated {
 /// * `model`: `MODEL_TURQUIN`, `MODEL_TURQUIN_SERIES` or `MODEL_KULLA_CONTY`.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated.rs, Compensated::new.
-fn compensated_new(facets: Microfacets, reflectance: Reflectance, model: u32) -> Compensated {
-    var lobe: Compensated;
+fn compensated_new(facets: MicrofacetsModel, reflectance: ReflectanceModel, model: u32) -> CompensatedConductor {
+    var lobe: CompensatedConductor;
     lobe.single = RoughConductor(facets, reflectance);
     lobe.loss = albedo_loss(facets.distribution, facets.masking, facets.alpha);
     lobe.model = model;
@@ -64,7 +64,7 @@ fn compensated_new(facets: Microfacets, reflectance: Reflectance, model: u32) ->
 /// `1 + F_ms L / E`.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated.rs, Compensated::turquin_factor.
-fn compensated_turquin_factor(lobe: Compensated, wo: vec3f) -> vec3f {
+fn compensated_turquin_factor(lobe: CompensatedConductor, wo: vec3f) -> vec3f {
     let loss = albedo_directional_loss(lobe.loss, wo);
     return vec3f(1.0) + lobe.colour * (loss / max(1.0 - loss, 1e-5));
 }
@@ -72,7 +72,7 @@ fn compensated_turquin_factor(lobe: Compensated, wo: vec3f) -> vec3f {
 /// Probability of drawing Kulla and Conty's second lobe.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated.rs, Compensated::second_share.
-fn compensated_second_share(lobe: Compensated, loss: f32) -> f32 {
+fn compensated_second_share(lobe: CompensatedConductor, loss: f32) -> f32 {
     let second = rgb_max_channel(lobe.colour) * loss;
     let first = rgb_max_channel(lobe.average) * (1.0 - loss);
     if second > 0.0 {
@@ -84,7 +84,7 @@ fn compensated_second_share(lobe: Compensated, loss: f32) -> f32 {
 /// Kulla and Conty's sum and its density, given the loss at `wo`.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated.rs, Compensated::both_lobes.
-fn compensated_both_lobes(lobe: Compensated, wo: vec3f, wi: vec3f, loss: f32, transport: u32) -> vec4f {
+fn compensated_both_lobes(lobe: CompensatedConductor, wo: vec3f, wi: vec3f, loss: f32, transport: u32) -> vec4f {
     if wi.z <= 0.0 {
         return vec4f(0.0);
     }
@@ -101,7 +101,7 @@ fn compensated_both_lobes(lobe: Compensated, wo: vec3f, wi: vec3f, loss: f32, tr
 /// * Returns: (red, green, blue, density in 1/sr).
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated.rs, Compensated::eval_pdf.
-fn compensated_eval_pdf(lobe: Compensated, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
+fn compensated_eval_pdf(lobe: CompensatedConductor, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
     if lobe.model == MODEL_KULLA_CONTY {
         let loss = albedo_directional_loss(lobe.loss, wo);
         return compensated_both_lobes(lobe, wo, wi, loss, transport);
@@ -113,14 +113,14 @@ fn compensated_eval_pdf(lobe: Compensated, wo: vec3f, wi: vec3f, transport: u32)
 /// `f |cos|`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated.rs, Compensated::eval.
-fn compensated_eval(lobe: Compensated, wo: vec3f, wi: vec3f, transport: u32) -> vec3f {
+fn compensated_eval(lobe: CompensatedConductor, wo: vec3f, wi: vec3f, transport: u32) -> vec3f {
     return compensated_eval_pdf(lobe, wo, wi, transport).rgb;
 }
 
 /// Density of `compensated_draw`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated.rs, Compensated::pdf.
-fn compensated_pdf(lobe: Compensated, wo: vec3f, wi: vec3f) -> f32 {
+fn compensated_pdf(lobe: CompensatedConductor, wo: vec3f, wi: vec3f) -> f32 {
     let first = rough_conductor_pdf(lobe.single, wo, wi);
     if lobe.model == MODEL_KULLA_CONTY {
         let p = compensated_second_share(lobe, albedo_directional_loss(lobe.loss, wo));
@@ -134,7 +134,7 @@ fn compensated_pdf(lobe: Compensated, wo: vec3f, wi: vec3f) -> f32 {
 /// * `u`: uniform in [0, 1)^3.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated.rs, Compensated::sample.
-fn compensated_draw(lobe: Compensated, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn compensated_draw(lobe: CompensatedConductor, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     if lobe.model != MODEL_KULLA_CONTY {
         var drawn = rough_conductor_draw(lobe.single, wo, u, transport);
         drawn.weight *= compensated_turquin_factor(lobe, wo);

@@ -18,11 +18,11 @@
 // Departure: Kulla and Conty ask for the two conditions; this closed form of the split is ours. Losses are
 // tabulated (`dielectric_albedo`).
 
-import package::bsdf::bsdf_sample::{BSDF_SAMPLE_LARGEST, BSDF_SPECULAR, BSDF_TRANSMISSION, BSDF_VALID, BsdfSample, TRANSPORT_RADIANCE, bsdf_sample_none, bsdf_sample_radiance_scale};
-import package::bsdf::microfacets::{Microfacets};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_LARGEST, BSDF_SAMPLE_SPECULAR, BSDF_SAMPLE_TRANSMISSION, BSDF_SAMPLE_VALID, BsdfSample, BSDF_SAMPLE_RADIANCE, bsdf_sample_none, bsdf_sample_radiance_scale};
+import package::bsdf::microfacets::{MicrofacetsModel};
 import package::bsdf::rough_dielectric::{RoughDielectric, rough_dielectric_draw, rough_dielectric_eval_pdf, rough_dielectric_is_specular};
-import package::bsdf::tints::{Tints, tints_on_side};
-import package::energy::dielectric_albedo::{DielectricLoss, dielectric_albedo_directional_loss, dielectric_albedo_loss};
+import package::bsdf::tints::{TintsPair, tints_on_side};
+import package::energy::dielectric_albedo::{DielectricAlbedoLoss, dielectric_albedo_directional_loss, dielectric_albedo_loss};
 import package::fresnel::dielectric::{dielectric_average};
 import package::math::warp::{warp_cosine_hemisphere};
 
@@ -38,9 +38,9 @@ struct CompensatedDielectric {
     /// What is scattered once.
     single: RoughDielectric,
     /// What is lost, seen from above.
-    above: DielectricLoss,
+    above: DielectricAlbedoLoss,
     /// What is lost, seen from below with the inverse index.
-    below: DielectricLoss,
+    below: DielectricAlbedoLoss,
     /// Transmitted shares, from above and from below.
     transmitted: vec2f,
 }
@@ -48,7 +48,7 @@ struct CompensatedDielectric {
 /// What a view meets.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated_dielectric.rs, Side.
-struct CompensatedSide {
+struct CompensatedDielectricSide {
     /// Factor of z that brings the view above.
     turn: f32,
     /// Index beyond over the index on the side of the view.
@@ -64,7 +64,7 @@ struct CompensatedSide {
 /// * `eta`, `two_sided`, `tints`: see `RoughDielectric`; losses are tabulated for indices in [1/3, 3].
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated_dielectric.rs, CompensatedDielectric::with_single.
-fn compensated_dielectric_new(facets: Microfacets, eta: f32, two_sided: u32, tints: Tints) -> CompensatedDielectric {
+fn compensated_dielectric_new(facets: MicrofacetsModel, eta: f32, two_sided: u32, tints: TintsPair) -> CompensatedDielectric {
     var lobe: CompensatedDielectric;
     let inverse = 1.0 / eta;
     lobe.single = RoughDielectric(facets, eta, two_sided, tints);
@@ -86,12 +86,12 @@ fn compensated_dielectric_is_inside(lobe: CompensatedDielectric, wo: vec3f) -> b
 /// The interface as `wo` meets it.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated_dielectric.rs, CompensatedDielectric::side.
-fn compensated_dielectric_side(lobe: CompensatedDielectric, wo: vec3f) -> CompensatedSide {
+fn compensated_dielectric_side(lobe: CompensatedDielectric, wo: vec3f) -> CompensatedDielectricSide {
     var near = lobe.above;
-    var side = CompensatedSide(1.0, lobe.single.eta, lobe.transmitted.x, 0.0);
+    var side = CompensatedDielectricSide(1.0, lobe.single.eta, lobe.transmitted.x, 0.0);
     if compensated_dielectric_is_inside(lobe, wo) {
         near = lobe.below;
-        side = CompensatedSide(-1.0, 1.0 / lobe.single.eta, lobe.transmitted.y, 0.0);
+        side = CompensatedDielectricSide(-1.0, 1.0 / lobe.single.eta, lobe.transmitted.y, 0.0);
     }
     // Light passes straight through matched indices: nothing is lost.
     if !rough_dielectric_is_specular(lobe.single) {
@@ -103,7 +103,7 @@ fn compensated_dielectric_side(lobe: CompensatedDielectric, wo: vec3f) -> Compen
 /// Both lobes' value and density, given the side.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated_dielectric.rs, CompensatedDielectric::both_lobes.
-fn compensated_dielectric_both_lobes(lobe: CompensatedDielectric, side: CompensatedSide, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
+fn compensated_dielectric_both_lobes(lobe: CompensatedDielectric, side: CompensatedDielectricSide, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
     let first = rough_dielectric_eval_pdf(lobe.single, wo, wi, transport);
     let cosine = abs(wi.z) * COMPENSATED_DIELECTRIC_PER_PI;
     let reflects = wi.z * side.turn > 0.0;
@@ -143,7 +143,7 @@ fn compensated_dielectric_eval(lobe: CompensatedDielectric, wo: vec3f, wi: vec3f
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated_dielectric.rs, CompensatedDielectric::pdf.
 fn compensated_dielectric_pdf(lobe: CompensatedDielectric, wo: vec3f, wi: vec3f) -> f32 {
-    return compensated_dielectric_eval_pdf(lobe, wo, wi, TRANSPORT_RADIANCE).a;
+    return compensated_dielectric_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE).a;
 }
 
 /// Draws `wi`.
@@ -158,13 +158,13 @@ fn compensated_dielectric_draw(lobe: CompensatedDielectric, wo: vec3f, u: vec3f,
         let up = warp_cosine_hemisphere(u.yz);
         let transmits = u.x < side.loss * side.transmitted;
         drawn.wi = vec3f(up.xy, select(up.z, -up.z, transmits) * side.turn);
-        drawn.flags = BSDF_VALID | select(0u, BSDF_TRANSMISSION, transmits);
+        drawn.flags = BSDF_SAMPLE_VALID | select(0u, BSDF_SAMPLE_TRANSMISSION, transmits);
         drawn.eta = select(1.0, side.eta, transmits);
     } else {
         // Rounding must not bring 1 about.
         let rest = min((u.x - side.loss) / (1.0 - side.loss), COMPENSATED_DIELECTRIC_BELOW_ONE);
         drawn = rough_dielectric_draw(lobe.single, wo, vec3f(rest, u.yz), transport);
-        if drawn.flags == 0u || (drawn.flags & BSDF_SPECULAR) != 0u {
+        if drawn.flags == 0u || (drawn.flags & BSDF_SAMPLE_SPECULAR) != 0u {
             return drawn;
         }
     }

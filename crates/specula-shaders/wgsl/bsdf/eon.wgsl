@@ -31,7 +31,7 @@ const EON_EPSILON: f32 = 1.1920929e-7;
 /// Rough diffuse reflection; roughness 0 is Lambert.
 ///
 /// Twin: specula-bsdf/src/bsdf/eon.rs, Eon.
-struct Eon {
+struct EonLobe {
     /// In [0, 1], the `rho` of the formulas.
     albedo: vec3f,
     /// In [0, 1].
@@ -61,7 +61,7 @@ fn eon_single_scatter_albedo(roughness: f32, cosine: f32) -> f32 {
 /// `f(wo, wi)` in 1/sr; both above the horizon.
 ///
 /// Twin: specula-bsdf/src/bsdf/eon.rs, Eon::f.
-fn eon_f(lobe: Eon, wo: vec3f, wi: vec3f) -> vec3f {
+fn eon_f(lobe: EonLobe, wo: vec3f, wi: vec3f) -> vec3f {
     // A backfacing shading normal is treated as grazing.
     let mu_o = clamp(wo.z, 0.0, 1.0);
     let mu_i = min(wi.z, 1.0);
@@ -86,7 +86,7 @@ fn eon_f(lobe: Eon, wo: vec3f, wi: vec3f) -> vec3f {
 /// `f |cos|`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/eon.rs, Eon::eval.
-fn eon_eval(lobe: Eon, wo: vec3f, wi: vec3f, transport: u32) -> vec3f {
+fn eon_eval(lobe: EonLobe, wo: vec3f, wi: vec3f, transport: u32) -> vec3f {
     if wi.z <= 0.0 {
         return vec3f(0.0);
     }
@@ -96,21 +96,21 @@ fn eon_eval(lobe: Eon, wo: vec3f, wi: vec3f, transport: u32) -> vec3f {
 /// Density of `eon_draw`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/eon.rs, Eon::pdf.
-fn eon_pdf(lobe: Eon, wo: vec3f, wi: vec3f) -> f32 {
+fn eon_pdf(lobe: EonLobe, wo: vec3f, wi: vec3f) -> f32 {
     return warp_cosine_hemisphere_pdf(wi);
 }
 
 /// `f |cos|` and its density: (red, green, blue, density).
 ///
 /// Twin: specula-bsdf/src/bsdf/eon.rs, Eon::eval_pdf.
-fn eon_eval_pdf(lobe: Eon, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
+fn eon_eval_pdf(lobe: EonLobe, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
     return vec4f(eon_eval(lobe, wo, wi, transport), warp_cosine_hemisphere_pdf(wi));
 }
 
 /// Draws `wi` by the cosine.
 ///
 /// Twin: specula-bsdf/src/bsdf/eon.rs, Eon::sample.
-fn eon_draw(lobe: Eon, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn eon_draw(lobe: EonLobe, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     let wi = warp_cosine_hemisphere(u.yz);
     return bsdf_sample_reflected(wi, eon_f(lobe, wo, wi) * EON_PI, warp_cosine_hemisphere_pdf(wi));
 }

@@ -11,7 +11,8 @@
 // `G2` is height-correlated; that of `btdf`, a reflection mirrored through the sheet, is separable, as the
 // extension says. With `volume`, `btdf` is Walter's refraction, and the Fresnel terms from inside take the
 // refracted cosine. `g = min(1, (1 - E) / B)` of both directions (`gltf_albedo`) is ours: no direction
-// reflects more than it receives.
+// reflects more than it receives. Where `compensated`, the metal is multiplied by Turquin's factor
+// `1 + b L(wo) / (1 - L(wo))`, with the loss `L` of a white metal.
 //
 // Sampled by a mixture of visible normals of base and coat, the cosine, and for sheen the uniform hemisphere,
 // by the light that each carries from `wo`. Known limitations of the model:
@@ -21,11 +22,12 @@
 // Estevez and Kulla 2017.
 
 import package::alpha::{ALPHA_SPECULAR_BELOW, alpha_clamped};
-import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TINY, BsdfSample, TRANSPORT_RADIANCE, bsdf_sample_none, bsdf_sample_of_reflection, bsdf_sample_of_transmission, bsdf_sample_radiance_scale};
-import package::bsdf::gltf_albedo::{LayerAlbedo, gltf_albedo_layer, gltf_albedo_limit};
-import package::bsdf::gltf_sheen::{Sheen, gltf_sheen_charlie_f_cos, gltf_sheen_left, gltf_sheen_new, gltf_sheen_strength};
-import package::bsdf::microfacets::{Microfacets, microfacets_d, microfacets_g_over_cos, microfacets_norm, microfacets_projected_area, microfacets_sample_reflection, microfacets_sample_wm};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TINY, BsdfSample, BSDF_SAMPLE_RADIANCE, bsdf_sample_none, bsdf_sample_of_reflection, bsdf_sample_of_transmission, bsdf_sample_radiance_scale};
+import package::bsdf::gltf_albedo::{GltfAlbedoLayer, gltf_albedo_layer, gltf_albedo_limit};
+import package::bsdf::gltf_sheen::{GltfSheen, gltf_sheen_charlie_f_cos, gltf_sheen_left, gltf_sheen_new, gltf_sheen_strength};
+import package::bsdf::microfacets::{MicrofacetsModel, microfacets_d, microfacets_g_over_cos, microfacets_norm, microfacets_projected_area, microfacets_sample_reflection, microfacets_sample_wm};
 import package::bsdf::principled_terms::{principled_terms_schlick_weight};
+import package::energy::albedo::{AlbedoLoss, albedo_directional_loss, albedo_loss};
 import package::fresnel::dielectric::{dielectric, dielectric_refract};
 import package::math::frame::{frame_from_normal, frame_to_local, frame_to_world};
 import package::math::rgb::{rgb_is_black, rgb_max_channel};
@@ -39,7 +41,7 @@ const GLTF_PER_PI: f32 = 0.31830988618379;
 /// `1 / (2 pi)`.
 const GLTF_PER_TURN: f32 = 0.15915494309190;
 
-/// What a `Gltf` is made of, by the names of the specification; shares are in [0, 1].
+/// What a `GltfLobe` is made of, by the names of the specification; shares are in [0, 1].
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, GltfParameters.
 struct GltfParameters {
@@ -71,26 +73,32 @@ struct GltfParameters {
     sheen_colour: vec3f,
     /// `sheenRoughness`.
     sheen_roughness: f32,
+    /// 1 where the metal's facets give back what they lose by scattering once.
+    compensated: u32,
 }
 
 /// The material.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf.
-struct Gltf {
+struct GltfLobe {
     /// Base colour.
     base: vec3f,
     /// Facets of reflection; height-correlated.
-    facets: Microfacets,
+    facets: MicrofacetsModel,
     /// Facets of transmission, without blur where nothing bends; separable.
-    passing: Microfacets,
+    passing: MicrofacetsModel,
     /// What the layer leaves to the diffuse base.
-    albedo: LayerAlbedo,
+    albedo: GltfAlbedoLayer,
     /// `f0` of the formulas.
     normal: vec3f,
     /// Weight of the dielectric layer.
     specular: f32,
     /// Share of the metal.
     metallic: f32,
+    /// 1 where the metal gives back `loss`.
+    compensated: u32,
+    /// What facets lose by scattering once.
+    loss: AlbedoLoss,
     /// Weight of the diffuse base.
     diffuse: f32,
     /// Weight of transmission.
@@ -102,19 +110,21 @@ struct Gltf {
     /// Weight of the clear coat.
     clearcoat: f32,
     /// Facets of the coat; height-correlated.
-    coat: Microfacets,
+    coat: MicrofacetsModel,
     /// The coat's normal, unit, local frame.
     coat_normal: vec3f,
     /// 1 where there is sheen.
     has_sheen: u32,
     /// Fibres.
-    sheen: Sheen,
+    sheen: GltfSheen,
 }
 
-/// Probabilities of the sampler's parts.
+/// Probabilities of the sampler's parts, and what else depends on the view alone.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Shares.
 struct GltfShares {
+    /// Factor of the metal's reflectance.
+    gain: vec3f,
     /// Visible normals of the coat.
     coat: f32,
     /// The uniform hemisphere.
@@ -153,8 +163,8 @@ fn gltf_width(roughness: f32) -> f32 {
 /// Facets of GGX for the bounded cap.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::new.
-fn gltf_facets(alpha: vec2f, masking: u32) -> Microfacets {
-    return Microfacets(alpha_clamped(alpha), DISTRIBUTION_GGX, masking, SAMPLER_BOUNDED);
+fn gltf_facets(alpha: vec2f, masking: u32) -> MicrofacetsModel {
+    return MicrofacetsModel(alpha_clamped(alpha), DISTRIBUTION_GGX, masking, SAMPLER_BOUNDED);
 }
 
 /// The material of these parameters; shares outside [0, 1] are clamped.
@@ -163,7 +173,7 @@ fn gltf_facets(alpha: vec2f, masking: u32) -> Microfacets {
 ///   of its own.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::new and Gltf::with_coat_normal.
-fn gltf_new(p: GltfParameters, coat_normal: vec3f) -> Gltf {
+fn gltf_new(p: GltfParameters, coat_normal: vec3f) -> GltfLobe {
     let ior = clamp(p.ior, 0.0, 1e3);
     let r = (ior - 1.0) / (ior + 1.0);
     let bends = p.volume == 1u && abs(ior - 1.0) >= 1e-3 && ior >= 0.1;
@@ -173,8 +183,9 @@ fn gltf_new(p: GltfParameters, coat_normal: vec3f) -> Gltf {
     let strength = clamp(p.anisotropy, 0.0, 1.0);
     let widths = vec2f(alpha + (1.0 - alpha) * strength * strength, alpha);
     let metallic = clamp(p.metallic, 0.0, 1.0);
+    let compensated = p.compensated == 1u && metallic > 0.0;
     let transmission = clamp(p.transmission, 0.0, 1.0);
-    var lobe: Gltf;
+    var lobe: GltfLobe;
     lobe.base = clamp(p.base_colour, vec3f(0.0), vec3f(1.0));
     lobe.facets = gltf_facets(widths, MASKING_HEIGHT_CORRELATED);
     lobe.passing = gltf_facets(widths, MASKING_SEPARABLE);
@@ -185,6 +196,10 @@ fn gltf_new(p: GltfParameters, coat_normal: vec3f) -> Gltf {
     lobe.specular = clamp(p.specular, 0.0, 1.0);
     lobe.albedo = gltf_albedo_layer(lobe.facets.alpha, lobe.specular * rgb_max_channel(lobe.normal), lobe.specular);
     lobe.metallic = metallic;
+    lobe.compensated = select(0u, 1u, compensated);
+    if compensated {
+        lobe.loss = albedo_loss(DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, lobe.facets.alpha);
+    }
     lobe.diffuse = front * (1.0 - metallic) * (1.0 - transmission);
     lobe.through = (1.0 - metallic) * transmission;
     lobe.bends = select(0u, 1u, bends);
@@ -204,16 +219,29 @@ fn gltf_new(p: GltfParameters, coat_normal: vec3f) -> Gltf {
 /// The share of the coat, seen from `wo`.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::coat_share.
-fn gltf_coat_share(lobe: Gltf, wo: vec3f) -> f32 {
+fn gltf_coat_share(lobe: GltfLobe, wo: vec3f) -> f32 {
     let cosine = min(abs(dot(lobe.coat_normal, wo)), 1.0);
     return lobe.clearcoat * (0.04 + 0.96 * principled_terms_schlick_weight(cosine));
+}
+
+/// Factor of the metal's reflectance, seen from `wo`.
+///
+/// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::gain.
+fn gltf_gain(lobe: GltfLobe, wo: vec3f) -> vec3f {
+    if lobe.compensated == 0u {
+        return vec3f(1.0);
+    }
+    let lost = albedo_directional_loss(lobe.loss, wo);
+    return vec3f(1.0) + lobe.base * (lost / max(1.0 - lost, 1e-5));
 }
 
 /// Reflectance of the facets, metal and dielectric, and what the layer leaves to its base:
 /// (red, green, blue, left). Schlick's weight is of the refracted angle where light leaves the denser body.
 ///
+/// * `gain`: factor of the metal's.
+///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::fresnel.
-fn gltf_fresnel(lobe: Gltf, cosine: f32) -> vec4f {
+fn gltf_fresnel(lobe: GltfLobe, cosine: f32, gain: vec3f) -> vec4f {
     var angle = cosine;
     if lobe.bends == 1u && lobe.eta < 1.0 {
         angle = dielectric(cosine, lobe.eta).cos_t;
@@ -221,14 +249,15 @@ fn gltf_fresnel(lobe: Gltf, cosine: f32) -> vec4f {
     let s = principled_terms_schlick_weight(angle);
     let layer = lobe.specular * (lobe.normal + (vec3f(1.0) - lobe.normal) * s);
     let metal_part = lobe.base + (vec3f(1.0) - lobe.base) * s;
-    return vec4f(metal_part * lobe.metallic + layer * (1.0 - lobe.metallic), 1.0 - rgb_max_channel(layer));
+    return vec4f(metal_part * gain * lobe.metallic + layer * (1.0 - lobe.metallic), 1.0 - rgb_max_channel(layer));
 }
 
 /// Probabilities of the sampler's parts for a view.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::shares.
-fn gltf_shares(lobe: Gltf, wo: vec3f) -> GltfShares {
-    let fresnel = gltf_fresnel(lobe, abs(wo.z));
+fn gltf_shares(lobe: GltfLobe, wo: vec3f) -> GltfShares {
+    let gain = gltf_gain(lobe, wo);
+    let fresnel = gltf_fresnel(lobe, abs(wo.z), gain);
     // Facets pass light where the mean surface reflects all of it.
     let left = max(fresnel.a, 0.1) * rgb_max_channel(lobe.base);
     let coat = gltf_coat_share(lobe, wo);
@@ -241,13 +270,13 @@ fn gltf_shares(lobe: Gltf, wo: vec3f) -> GltfShares {
     let specular = under * rgb_max_channel(fresnel.rgb);
     let transmission = under * left * lobe.through;
     let scale = 1.0 / max(coat + sheen + diffuse + specular + transmission, BSDF_SAMPLE_TINY);
-    return GltfShares(coat * scale, sheen * scale, diffuse * scale, specular * scale, transmission * scale);
+    return GltfShares(gain, coat * scale, sheen * scale, diffuse * scale, specular * scale, transmission * scale);
 }
 
 /// What sheen and coat leave of the base.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::covers.
-fn gltf_covers(lobe: Gltf, wo: vec3f, wi: vec3f) -> f32 {
+fn gltf_covers(lobe: GltfLobe, wo: vec3f, wi: vec3f) -> f32 {
     let under = 1.0 - gltf_coat_share(lobe, wo);
     if lobe.has_sheen == 1u {
         return under * gltf_sheen_left(lobe.sheen, wo, wi);
@@ -258,9 +287,9 @@ fn gltf_covers(lobe: Gltf, wo: vec3f, wi: vec3f) -> f32 {
 /// Value and density of reflection by all but the coat, at facets that are seen.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::base_reflection.
-fn gltf_base_reflection(lobe: Gltf, shares: GltfShares, wo: vec3f, wi: vec3f) -> vec4f {
+fn gltf_base_reflection(lobe: GltfLobe, shares: GltfShares, wo: vec3f, wi: vec3f) -> vec4f {
     let wm = normalize(wo + wi);
-    let fresnel = gltf_fresnel(lobe, dot(wo, wm));
+    let fresnel = gltf_fresnel(lobe, dot(wo, wm), shares.gain);
     let cosine = wi.z * GLTF_PER_PI;
     let quarter = 0.25 * microfacets_d(lobe.facets, wm);
     var pdf = shares.specular * quarter / microfacets_norm(lobe.facets, wo) + shares.diffuse * cosine;
@@ -282,7 +311,7 @@ fn gltf_base_reflection(lobe: Gltf, shares: GltfShares, wo: vec3f, wi: vec3f) ->
 /// Value and density of reflection.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::reflection.
-fn gltf_reflection(lobe: Gltf, shares: GltfShares, wo: vec3f, wi: vec3f) -> vec4f {
+fn gltf_reflection(lobe: GltfLobe, shares: GltfShares, wo: vec3f, wi: vec3f) -> vec4f {
     var value = vec4f(0.0);
     if wo.z + wi.z > 0.0 {
         value = gltf_base_reflection(lobe, shares, wo, wi);
@@ -305,7 +334,7 @@ fn gltf_reflection(lobe: Gltf, shares: GltfShares, wo: vec3f, wi: vec3f) -> vec4
 /// Value and density of Walter's refraction.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::refraction.
-fn gltf_refraction(lobe: Gltf, shares: GltfShares, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
+fn gltf_refraction(lobe: GltfLobe, shares: GltfShares, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
     let generalised = wo + wi * lobe.eta;
     let squared = dot(generalised, generalised);
     let towards = select(generalised, -generalised, generalised.z < 0.0);
@@ -316,7 +345,7 @@ fn gltf_refraction(lobe: Gltf, shares: GltfShares, wo: vec3f, wi: vec3f, transpo
     if squared <= 1e-30 || cos_o <= 0.0 || cos_i >= 0.0 {
         return vec4f(0.0);
     }
-    let left = gltf_fresnel(lobe, cos_o).a;
+    let left = gltf_fresnel(lobe, cos_o, shares.gain).a;
     let sum = cos_o + lobe.eta * cos_i;
     let jacobian = lobe.eta * lobe.eta * -cos_i / max(sum * sum, BSDF_SAMPLE_TINY);
     let visible = microfacets_d(lobe.facets, wm) * cos_o * jacobian;
@@ -330,7 +359,7 @@ fn gltf_refraction(lobe: Gltf, shares: GltfShares, wo: vec3f, wi: vec3f, transpo
 /// Value and density of transmission.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::transmission.
-fn gltf_transmission(lobe: Gltf, shares: GltfShares, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
+fn gltf_transmission(lobe: GltfLobe, shares: GltfShares, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
     if lobe.bends == 1u {
         return gltf_refraction(lobe, shares, wo, wi, transport);
     }
@@ -339,7 +368,7 @@ fn gltf_transmission(lobe: Gltf, shares: GltfShares, wo: vec3f, wi: vec3f, trans
         return vec4f(0.0);
     }
     let wm = normalize(wo + up);
-    let left = gltf_fresnel(lobe, dot(wo, wm)).a;
+    let left = gltf_fresnel(lobe, dot(wo, wm), shares.gain).a;
     let quarter = 0.25 * microfacets_d(lobe.passing, wm);
     let shadowed = microfacets_g_over_cos(lobe.passing, wo, up);
     let weight = lobe.through * left * gltf_covers(lobe, wo, wi);
@@ -353,7 +382,7 @@ fn gltf_transmission(lobe: Gltf, shares: GltfShares, wo: vec3f, wi: vec3f, trans
 /// * Returns: (red, green, blue, density in 1/sr).
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::eval_pdf.
-fn gltf_eval_pdf(lobe: Gltf, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
+fn gltf_eval_pdf(lobe: GltfLobe, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
     let shares = gltf_shares(lobe, wo);
     if wi.z > 0.0 {
         return gltf_reflection(lobe, shares, wo, wi);
@@ -367,21 +396,21 @@ fn gltf_eval_pdf(lobe: Gltf, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
 /// `f |cos|`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::eval.
-fn gltf_eval(lobe: Gltf, wo: vec3f, wi: vec3f, transport: u32) -> vec3f {
+fn gltf_eval(lobe: GltfLobe, wo: vec3f, wi: vec3f, transport: u32) -> vec3f {
     return gltf_eval_pdf(lobe, wo, wi, transport).rgb;
 }
 
 /// Density of `gltf_draw`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::pdf.
-fn gltf_pdf(lobe: Gltf, wo: vec3f, wi: vec3f) -> f32 {
-    return gltf_eval_pdf(lobe, wo, wi, TRANSPORT_RADIANCE).a;
+fn gltf_pdf(lobe: GltfLobe, wo: vec3f, wi: vec3f) -> f32 {
+    return gltf_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE).a;
 }
 
 /// A direction through the surface; upwards, to be rejected, where light is totally reflected.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::draw_through.
-fn gltf_draw_through(lobe: Gltf, wo: vec3f, u: vec2f) -> vec3f {
+fn gltf_draw_through(lobe: GltfLobe, wo: vec3f, u: vec2f) -> vec3f {
     if lobe.bends == 0u {
         let up = microfacets_sample_reflection(lobe.passing, wo, u);
         return vec3f(up.xy, -up.z);
@@ -400,7 +429,7 @@ fn gltf_draw_through(lobe: Gltf, wo: vec3f, u: vec2f) -> vec3f {
 /// * `u`: uniform in [0, 1)^3.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::sample.
-fn gltf_draw(lobe: Gltf, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn gltf_draw(lobe: GltfLobe, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     let shares = gltf_shares(lobe, wo);
     if u.x < shares.transmission {
         let below = gltf_draw_through(lobe, wo, u.yz);

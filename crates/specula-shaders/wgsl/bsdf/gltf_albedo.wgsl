@@ -10,9 +10,9 @@
 // so that errors cost light rather than make it. `q` of an anisotropic surface is taken at the width along
 // the view.
 
-import package::energy::albedo::{Loss, albedo_directional_loss, albedo_loss};
+import package::energy::albedo::{AlbedoLoss, albedo_directional_loss, albedo_loss};
 import package::energy::energy_table::{energy_table};
-import package::energy::stencil::{Stencil, stencil_at};
+import package::energy::stencil::{StencilWeights, stencil_at};
 import package::ndf::distribution::{DISTRIBUTION_GGX};
 import package::ndf::masking::{MASKING_HEIGHT_CORRELATED};
 
@@ -34,11 +34,11 @@ const GLTF_ALBEDO_LEAST_ROUGHNESS: f32 = 0.07;
 /// The albedo of a dielectric layer, as far as it concerns the diffuse base.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/albedo.rs, LayerAlbedo.
-struct LayerAlbedo {
+struct GltfAlbedoLayer {
     /// Widths of the layer's facets.
     alpha: vec2f,
     /// `1 - A`.
-    loss: Loss,
+    loss: AlbedoLoss,
     /// `w f0` of the brightest channel.
     normal: f32,
     /// `w (1 - f0)` of the brightest channel.
@@ -50,15 +50,15 @@ struct LayerAlbedo {
 /// * `normal`, `grazing`: largest reflectances at normal and at grazing incidence.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/albedo.rs, LayerAlbedo::new.
-fn gltf_albedo_layer(alpha: vec2f, normal: f32, grazing: f32) -> LayerAlbedo {
+fn gltf_albedo_layer(alpha: vec2f, normal: f32, grazing: f32) -> GltfAlbedoLayer {
     let loss = albedo_loss(DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, alpha);
-    return LayerAlbedo(alpha, loss, normal, grazing - normal);
+    return GltfAlbedoLayer(alpha, loss, normal, grazing - normal);
 }
 
 /// The sum of a table of rows by knots of a place and of cosines.
 ///
 /// Twin: specula-bsdf/src/energy/stencil.rs, Stencil::sum, twice.
-fn gltf_albedo_sum(start: u32, place: Stencil, mu: f32) -> f32 {
+fn gltf_albedo_sum(start: u32, place: StencilWeights, mu: f32) -> f32 {
     let m = stencil_at(sqrt(mu), GLTF_ALBEDO_MUS);
     var sum = 0.0;
     for (var i = 0u; i < 4u; i++) {
@@ -96,7 +96,7 @@ fn gltf_albedo_width(alpha: vec2f, w: vec3f) -> f32 {
 /// `min(1, (1 - E) / B)`: what of the diffuse base is not too much.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/albedo.rs, LayerAlbedo::limit.
-fn gltf_albedo_limit(layer: LayerAlbedo, w: vec3f) -> f32 {
+fn gltf_albedo_limit(layer: GltfAlbedoLayer, w: vec3f) -> f32 {
     let mu = min(abs(w.z), 1.0);
     let whole = 1.0 - albedo_directional_loss(layer.loss, w);
     let q = gltf_albedo_schlick(gltf_albedo_width(layer.alpha, w), mu) + GLTF_ALBEDO_MARGIN * (1.0 - mu);
@@ -111,7 +111,7 @@ fn gltf_albedo_limit(layer: LayerAlbedo, w: vec3f) -> f32 {
 /// Where a roughness of sheen, at least 0.07, lies in its table.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/albedo.rs, sheen_stencil.
-fn gltf_albedo_sheen_stencil(roughness: f32) -> Stencil {
+fn gltf_albedo_sheen_stencil(roughness: f32) -> StencilWeights {
     let share = (roughness - GLTF_ALBEDO_LEAST_ROUGHNESS) / (1.0 - GLTF_ALBEDO_LEAST_ROUGHNESS);
     return stencil_at(sqrt(max(share, 0.0)), GLTF_ALBEDO_ROUGHNESSES);
 }
@@ -119,7 +119,7 @@ fn gltf_albedo_sheen_stencil(roughness: f32) -> Stencil {
 /// Albedo of white sheen at the cosine `mu`, with the margin.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/albedo.rs, sheen.
-fn gltf_albedo_sheen(roughness: Stencil, mu: f32) -> f32 {
+fn gltf_albedo_sheen(roughness: StencilWeights, mu: f32) -> f32 {
     let sum = gltf_albedo_sum(GLTF_ALBEDO_SHEEN_START, roughness, mu);
     return clamp(sum + GLTF_ALBEDO_MARGIN * (1.0 - mu), 0.0, 1.0);
 }

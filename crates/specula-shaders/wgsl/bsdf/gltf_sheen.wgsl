@@ -6,7 +6,7 @@
 // Source: Estevez and Kulla 2017, eqs. 2 to 4.
 
 import package::bsdf::gltf_albedo::{GLTF_ALBEDO_LEAST_ROUGHNESS, gltf_albedo_sheen, gltf_albedo_sheen_stencil};
-import package::energy::stencil::{Stencil};
+import package::energy::stencil::{StencilWeights};
 import package::math::rgb::{rgb_max_channel};
 
 /// `1 / (2 pi)`.
@@ -15,21 +15,21 @@ const GLTF_SHEEN_PER_TURN: f32 = 0.15915494309190;
 /// Fibres that stand on a surface.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/sheen.rs, Sheen.
-struct Sheen {
+struct GltfSheen {
     /// In [0, 1].
     colour: vec3f,
     /// At least 0.07.
     roughness: f32,
     /// The albedo's table at this roughness.
-    stencil: Stencil,
+    stencil: StencilWeights,
 }
 
 /// The sheen of a colour and roughness.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/sheen.rs, Sheen::new.
-fn gltf_sheen_new(colour: vec3f, roughness: f32) -> Sheen {
+fn gltf_sheen_new(colour: vec3f, roughness: f32) -> GltfSheen {
     let held = max(roughness, GLTF_ALBEDO_LEAST_ROUGHNESS);
-    return Sheen(colour, held, gltf_albedo_sheen_stencil(held));
+    return GltfSheen(colour, held, gltf_albedo_sheen_stencil(held));
 }
 
 /// The fit `a / (1 + b x^c) + d x + e` of the paper's table 1.
@@ -75,7 +75,7 @@ fn gltf_sheen_charlie_f_cos(roughness: f32, wo: vec3f, wi: vec3f, wm: vec3f) -> 
 /// The share of light that reaches the base from `wo` and leaves to `wi`.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/sheen.rs, Sheen::left.
-fn gltf_sheen_left(sheen: Sheen, wo: vec3f, wi: vec3f) -> f32 {
+fn gltf_sheen_left(sheen: GltfSheen, wo: vec3f, wi: vec3f) -> f32 {
     let most = max(gltf_albedo_sheen(sheen.stencil, abs(wo.z)), gltf_albedo_sheen(sheen.stencil, abs(wi.z)));
     return max(1.0 - rgb_max_channel(sheen.colour) * most, 0.0);
 }
@@ -83,6 +83,6 @@ fn gltf_sheen_left(sheen: Sheen, wo: vec3f, wi: vec3f) -> f32 {
 /// The largest channel of the albedo from `wo`.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/sheen.rs, Sheen::strength.
-fn gltf_sheen_strength(sheen: Sheen, wo: vec3f) -> f32 {
+fn gltf_sheen_strength(sheen: GltfSheen, wo: vec3f) -> f32 {
     return rgb_max_channel(sheen.colour) * gltf_albedo_sheen(sheen.stencil, abs(wo.z));
 }

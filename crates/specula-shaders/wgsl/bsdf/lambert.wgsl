@@ -6,7 +6,7 @@ import package::math::warp::{warp_cosine_hemisphere, warp_cosine_hemisphere_pdf}
 /// `f = albedo / pi`.
 ///
 /// Twin: specula-bsdf/src/bsdf/lambert.rs, Lambert.
-struct Lambert {
+struct LambertLobe {
     /// In [0, 1].
     albedo: vec3f,
 }
@@ -14,21 +14,21 @@ struct Lambert {
 /// `f |cos|`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/lambert.rs, Lambert::eval.
-fn lambert_eval(lobe: Lambert, wo: vec3f, wi: vec3f, transport: u32) -> vec3f {
+fn lambert_eval(lobe: LambertLobe, wo: vec3f, wi: vec3f, transport: u32) -> vec3f {
     return lobe.albedo * warp_cosine_hemisphere_pdf(wi);
 }
 
 /// Density of `lambert_draw`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/lambert.rs, Lambert::pdf.
-fn lambert_pdf(lobe: Lambert, wo: vec3f, wi: vec3f) -> f32 {
+fn lambert_pdf(lobe: LambertLobe, wo: vec3f, wi: vec3f) -> f32 {
     return warp_cosine_hemisphere_pdf(wi);
 }
 
 /// `f |cos|` and its density: (red, green, blue, density).
 ///
 /// Twin: specula-bsdf/src/bsdf/lambert.rs, Lambert::eval_pdf.
-fn lambert_eval_pdf(lobe: Lambert, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
+fn lambert_eval_pdf(lobe: LambertLobe, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
     let pdf = warp_cosine_hemisphere_pdf(wi);
     return vec4f(lobe.albedo * pdf, pdf);
 }
@@ -36,7 +36,7 @@ fn lambert_eval_pdf(lobe: Lambert, wo: vec3f, wi: vec3f, transport: u32) -> vec4
 /// Draws `wi` by the cosine.
 ///
 /// Twin: specula-bsdf/src/bsdf/lambert.rs, Lambert::sample.
-fn lambert_draw(lobe: Lambert, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn lambert_draw(lobe: LambertLobe, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     let wi = warp_cosine_hemisphere(u.yz);
     return bsdf_sample_reflected(wi, lobe.albedo, warp_cosine_hemisphere_pdf(wi));
 }

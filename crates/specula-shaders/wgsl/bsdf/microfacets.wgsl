@@ -12,7 +12,7 @@ import package::vndf::reflection::{reflection_mirrored, reflection_norm_quotient
 /// Microfacets of a surface and how they are drawn.
 ///
 /// Twin: specula-bsdf/src/bsdf/conductor.rs, RoughConductor and its `ndf`, `masking` and `sampler`.
-struct Microfacets {
+struct MicrofacetsModel {
     /// Widths along the local x and y, each in [1e-4, 10].
     alpha: vec2f,
     /// `DISTRIBUTION_GGX` or `DISTRIBUTION_BECKMANN`.
@@ -28,7 +28,7 @@ struct Microfacets {
 /// 0 where `m.z <= 0`.
 ///
 /// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::d_along.
-fn microfacets_d_along(facets: Microfacets, m: vec3f, length_squared: f32) -> f32 {
+fn microfacets_d_along(facets: MicrofacetsModel, m: vec3f, length_squared: f32) -> f32 {
     if facets.distribution == DISTRIBUTION_BECKMANN {
         return beckmann_d(facets.alpha, m * (1.0 / sqrt(length_squared)));
     }
@@ -38,14 +38,14 @@ fn microfacets_d_along(facets: Microfacets, m: vec3f, length_squared: f32) -> f3
 /// Density of microfacet normals `D(wm)` in 1/sr; 0 where `wm.z <= 0`.
 ///
 /// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::d.
-fn microfacets_d(facets: Microfacets, wm: vec3f) -> f32 {
+fn microfacets_d(facets: MicrofacetsModel, wm: vec3f) -> f32 {
     return microfacets_d_along(facets, wm, 1.0);
 }
 
 /// Area of the visible microfacets seen from `w`, per unit of the surface's; above 0.
 ///
 /// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::projected_area.
-fn microfacets_projected_area(facets: Microfacets, w: vec3f) -> f32 {
+fn microfacets_projected_area(facets: MicrofacetsModel, w: vec3f) -> f32 {
     if facets.distribution == DISTRIBUTION_BECKMANN {
         return beckmann_projected_area(facets.alpha, w);
     }
@@ -55,7 +55,7 @@ fn microfacets_projected_area(facets: Microfacets, w: vec3f) -> f32 {
 /// `G2(wo, wi) / |wo.z|` as numerator and denominator; see `microfacets_g_over_cos`.
 ///
 /// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::g2_over_cos_quotient.
-fn microfacets_g_over_cos_quotient(facets: Microfacets, wo: vec3f, wi: vec3f) -> vec2f {
+fn microfacets_g_over_cos_quotient(facets: MicrofacetsModel, wo: vec3f, wi: vec3f) -> vec2f {
     if facets.distribution == DISTRIBUTION_BECKMANN {
         return beckmann_g2_over_cos_quotient(facets.masking, facets.alpha, wo, wi);
     }
@@ -66,7 +66,7 @@ fn microfacets_g_over_cos_quotient(facets: Microfacets, wo: vec3f, wi: vec3f) ->
 /// through the horizon for backfacing shading normals.
 ///
 /// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::g2_over_cos.
-fn microfacets_g_over_cos(facets: Microfacets, wo: vec3f, wi: vec3f) -> f32 {
+fn microfacets_g_over_cos(facets: MicrofacetsModel, wo: vec3f, wi: vec3f) -> f32 {
     return masking_divided(microfacets_g_over_cos_quotient(facets, wo, wi));
 }
 
@@ -75,7 +75,7 @@ fn microfacets_g_over_cos(facets: Microfacets, wo: vec3f, wi: vec3f) -> f32 {
 /// * `u`: uniform in [0, 1)^2.
 ///
 /// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::sample_wm.
-fn microfacets_sample_wm(facets: Microfacets, wo: vec3f, u: vec2f) -> vec3f {
+fn microfacets_sample_wm(facets: MicrofacetsModel, wo: vec3f, u: vec2f) -> vec3f {
     if facets.distribution == DISTRIBUTION_BECKMANN {
         return beckmann_visible_sample_wm(facets.alpha, wo, u);
     }
@@ -87,7 +87,7 @@ fn microfacets_sample_wm(facets: Microfacets, wo: vec3f, u: vec2f) -> vec3f {
 /// * `u`: uniform in [0, 1)^2.
 ///
 /// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::sample_reflection.
-fn microfacets_sample_reflection(facets: Microfacets, wo: vec3f, u: vec2f) -> vec3f {
+fn microfacets_sample_reflection(facets: MicrofacetsModel, wo: vec3f, u: vec2f) -> vec3f {
     if facets.distribution == DISTRIBUTION_BECKMANN {
         return reflection_mirrored(wo, beckmann_visible_sample_wm(facets.alpha, wo, u));
     }
@@ -98,7 +98,7 @@ fn microfacets_sample_reflection(facets: Microfacets, wo: vec3f, u: vec2f) -> ve
 /// denominator.
 ///
 /// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::reflection_norm_quotient.
-fn microfacets_norm_quotient(facets: Microfacets, wo: vec3f) -> vec2f {
+fn microfacets_norm_quotient(facets: MicrofacetsModel, wo: vec3f) -> vec2f {
     if facets.distribution == DISTRIBUTION_BECKMANN {
         return vec2f(beckmann_projected_area(facets.alpha, wo), 1.0);
     }
@@ -108,7 +108,7 @@ fn microfacets_norm_quotient(facets: Microfacets, wo: vec3f) -> vec2f {
 /// The constant `N` of `pdf(wi) = D(wm) / (4 N)` of reflections above the horizon.
 ///
 /// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::reflection_norm.
-fn microfacets_norm(facets: Microfacets, wo: vec3f) -> f32 {
+fn microfacets_norm(facets: MicrofacetsModel, wo: vec3f) -> f32 {
     let quotient = microfacets_norm_quotient(facets, wo);
     return quotient.x / quotient.y;
 }

@@ -11,8 +11,8 @@
 //
 // Source: Mitsuba 3's documentation of the two plugins.
 
-import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TINY, BsdfSample, TRANSPORT_RADIANCE, bsdf_sample_delta, bsdf_sample_of_reflection};
-import package::bsdf::microfacets::{Microfacets, microfacets_d, microfacets_g_over_cos, microfacets_norm, microfacets_sample_reflection};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TINY, BsdfSample, BSDF_SAMPLE_RADIANCE, bsdf_sample_delta, bsdf_sample_of_reflection};
+import package::bsdf::microfacets::{MicrofacetsModel, microfacets_d, microfacets_g_over_cos, microfacets_norm, microfacets_sample_reflection};
 import package::bsdf::plastic_interface::{PlasticInterface, plastic_interface_internal_reflectance, plastic_interface_new, plastic_interface_smooth_internal_reflectance, plastic_interface_transmittance};
 import package::fresnel::dielectric::{dielectric};
 import package::math::rgb::{rgb_max_channel};
@@ -21,9 +21,9 @@ import package::math::warp::{warp_cosine_hemisphere, warp_cosine_hemisphere_pdf}
 /// Lambert under a dielectric coat, as Mitsuba 3 has it.
 ///
 /// Twin: specula-bsdf/src/bsdf/plastic/mod.rs, Plastic.
-struct Plastic {
+struct PlasticLobe {
     /// The coat's facets, of account where `rough` is 1; Mitsuba's masking is separable.
-    facets: Microfacets,
+    facets: MicrofacetsModel,
     /// 1 where the coat has facets.
     rough: u32,
     /// Index of the coat over that outside.
@@ -54,8 +54,8 @@ fn plastic_base(diffuse: vec3f, eta: f32, internal: f32, nonlinear: bool) -> vec
 /// * `nonlinear`: whether light between coat and base takes the base's colour at every bounce.
 ///
 /// Twin: specula-bsdf/src/bsdf/plastic/mod.rs, Plastic::smooth.
-fn plastic_smooth(eta: f32, diffuse: vec3f, specular: vec3f, nonlinear: bool) -> Plastic {
-    var lobe: Plastic;
+fn plastic_smooth(eta: f32, diffuse: vec3f, specular: vec3f, nonlinear: bool) -> PlasticLobe {
+    var lobe: PlasticLobe;
     lobe.eta = clamp(eta, 1.0 / 3.0, 3.0);
     lobe.specular = specular;
     lobe.diffuse = diffuse;
@@ -70,8 +70,8 @@ fn plastic_smooth(eta: f32, diffuse: vec3f, specular: vec3f, nonlinear: bool) ->
 /// * `diffuse`, `specular`, `nonlinear`: see `plastic_smooth`.
 ///
 /// Twin: specula-bsdf/src/bsdf/plastic/mod.rs, Plastic::rough.
-fn plastic_rough(facets: Microfacets, eta: f32, diffuse: vec3f, specular: vec3f, nonlinear: bool) -> Plastic {
-    var lobe: Plastic;
+fn plastic_rough(facets: MicrofacetsModel, eta: f32, diffuse: vec3f, specular: vec3f, nonlinear: bool) -> PlasticLobe {
+    var lobe: PlasticLobe;
     lobe.facets = facets;
     lobe.rough = 1u;
     lobe.eta = clamp(eta, 1.0, 3.0);
@@ -86,7 +86,7 @@ fn plastic_rough(facets: Microfacets, eta: f32, diffuse: vec3f, specular: vec3f,
 /// Share of light from `w` that enters the coat.
 ///
 /// Twin: specula-bsdf/src/bsdf/plastic/mod.rs, Plastic::transmittance.
-fn plastic_transmittance(lobe: Plastic, w: vec3f) -> f32 {
+fn plastic_transmittance(lobe: PlasticLobe, w: vec3f) -> f32 {
     if lobe.rough == 1u {
         return plastic_interface_transmittance(lobe.interior, abs(w.z));
     }
@@ -96,7 +96,7 @@ fn plastic_transmittance(lobe: Plastic, w: vec3f) -> f32 {
 /// Probability of drawing the coat's reflection; 0 for a mirror that faces away.
 ///
 /// Twin: specula-bsdf/src/bsdf/plastic/mod.rs, Plastic::coat_probability.
-fn plastic_coat_probability(lobe: Plastic, entering: f32, wo: vec3f) -> f32 {
+fn plastic_coat_probability(lobe: PlasticLobe, entering: f32, wo: vec3f) -> f32 {
     let reflected = dielectric(abs(wo.z), lobe.eta).reflectance * rgb_max_channel(lobe.specular);
     let diffuse = entering * rgb_max_channel(lobe.diffuse);
     let visible = lobe.rough == 1u || wo.z > 0.0;
@@ -109,7 +109,7 @@ fn plastic_coat_probability(lobe: Plastic, entering: f32, wo: vec3f) -> f32 {
 /// * Returns: (red, green, blue, density in 1/sr).
 ///
 /// Twin: specula-bsdf/src/bsdf/plastic/mod.rs, Plastic::eval_pdf.
-fn plastic_eval_pdf(lobe: Plastic, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
+fn plastic_eval_pdf(lobe: PlasticLobe, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
     if wi.z <= 0.0 {
         return vec4f(0.0);
     }
@@ -131,15 +131,15 @@ fn plastic_eval_pdf(lobe: Plastic, wo: vec3f, wi: vec3f, transport: u32) -> vec4
 /// `f |cos|`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/plastic/mod.rs, Plastic::eval.
-fn plastic_eval(lobe: Plastic, wo: vec3f, wi: vec3f, transport: u32) -> vec3f {
+fn plastic_eval(lobe: PlasticLobe, wo: vec3f, wi: vec3f, transport: u32) -> vec3f {
     return plastic_eval_pdf(lobe, wo, wi, transport).rgb;
 }
 
 /// Density of `plastic_draw`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/plastic/mod.rs, Plastic::pdf.
-fn plastic_pdf(lobe: Plastic, wo: vec3f, wi: vec3f) -> f32 {
-    return plastic_eval_pdf(lobe, wo, wi, TRANSPORT_RADIANCE).a;
+fn plastic_pdf(lobe: PlasticLobe, wo: vec3f, wi: vec3f) -> f32 {
+    return plastic_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE).a;
 }
 
 /// Draws `wi`.
@@ -147,7 +147,7 @@ fn plastic_pdf(lobe: Plastic, wo: vec3f, wi: vec3f) -> f32 {
 /// * `u`: uniform in [0, 1)^3.
 ///
 /// Twin: specula-bsdf/src/bsdf/plastic/mod.rs, Plastic::sample.
-fn plastic_draw(lobe: Plastic, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn plastic_draw(lobe: PlasticLobe, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     let entering = plastic_transmittance(lobe, wo);
     let p = plastic_coat_probability(lobe, entering, wo);
     var wi = warp_cosine_hemisphere(u.yz);

@@ -14,7 +14,7 @@
 // row of a width and an index.
 
 import package::energy::energy_table::{energy_table};
-import package::energy::stencil::{Stencil, stencil_at};
+import package::energy::stencil::{StencilWeights, stencil_at};
 import package::ndf::distribution::{DISTRIBUTION_BECKMANN};
 
 /// Knots along the index.
@@ -35,9 +35,9 @@ struct PlasticInterface {
     /// First row of the distribution, of rows by index and width.
     first: u32,
     /// Neighbours of the index.
-    eta: Stencil,
+    eta: StencilWeights,
     /// Neighbours of the width.
-    alpha: Stencil,
+    alpha: StencilWeights,
 }
 
 /// The tables at a width and an index in [1, 3].

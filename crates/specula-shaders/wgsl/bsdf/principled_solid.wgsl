@@ -11,12 +11,12 @@
 // Source: Burley 2012, Physically-Based Shading at Disney; Burley 2015, Extending the Disney BRDF to a BSDF;
 // Mitsuba 3's documentation. Known limitations of the model: specula-bsdf/src/bsdf/principled/mod.rs.
 
-import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TINY, BsdfSample, TRANSPORT_RADIANCE, bsdf_sample_none, bsdf_sample_of_reflection, bsdf_sample_radiance_scale, bsdf_sample_transmitted};
-import package::bsdf::microfacets::{Microfacets, microfacets_d, microfacets_g_over_cos, microfacets_norm, microfacets_projected_area, microfacets_sample_reflection, microfacets_sample_wm};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TINY, BsdfSample, BSDF_SAMPLE_RADIANCE, bsdf_sample_none, bsdf_sample_of_reflection, bsdf_sample_radiance_scale, bsdf_sample_transmitted};
+import package::bsdf::microfacets::{MicrofacetsModel, microfacets_d, microfacets_g_over_cos, microfacets_norm, microfacets_projected_area, microfacets_sample_reflection, microfacets_sample_wm};
 import package::bsdf::principled_coat::{principled_coat_d, principled_coat_masking, principled_coat_of_gloss, principled_coat_sample_wm};
 import package::bsdf::principled_parameters::{PrincipledParameters};
 import package::bsdf::principled_terms::{principled_terms_diffuse, principled_terms_facets, principled_terms_hue, principled_terms_normal_reflectance, principled_terms_schlick, principled_terms_schlick_weight, principled_terms_schlick_weight_across, principled_terms_sheen_colour};
-import package::fresnel::dielectric::{Refraction, dielectric, dielectric_refract};
+import package::fresnel::dielectric::{DielectricRefraction, dielectric, dielectric_refract};
 import package::math::rgb::{rgb_max_channel};
 import package::math::warp::{warp_cosine_hemisphere};
 import package::ndf::masking::{MASKING_SEPARABLE};
@@ -31,7 +31,7 @@ const PRINCIPLED_SOLID_PER_PI: f32 = 0.31830988618379;
 /// Twin: specula-bsdf/src/bsdf/principled/solid.rs, Solid.
 struct PrincipledSolid {
     /// Refraction draws all visible normals; without it the bounded cap does.
-    facets: Microfacets,
+    facets: MicrofacetsModel,
     /// Base colour.
     base: vec3f,
     /// `F0` of the tinted part of the dielectric reflection.
@@ -104,7 +104,7 @@ fn principled_solid_new(p: PrincipledParameters) -> PrincipledSolid {
 /// The Fresnel term of the main reflection.
 ///
 /// Twin: specula-bsdf/src/bsdf/principled/solid.rs, Solid::fresnel.
-fn principled_solid_fresnel(lobe: PrincipledSolid, cosine: f32, bent: Refraction) -> vec3f {
+fn principled_solid_fresnel(lobe: PrincipledSolid, cosine: f32, bent: DielectricRefraction) -> vec3f {
     let s = principled_terms_schlick_weight_across(cosine, bent, lobe.eta);
     return vec3f(lobe.dielectric_weight * bent.reflectance)
         + principled_terms_schlick(lobe.base, s) * lobe.metallic_weight
@@ -114,7 +114,7 @@ fn principled_solid_fresnel(lobe: PrincipledSolid, cosine: f32, bent: Refraction
 /// The clear coat's Fresnel term times its weight.
 ///
 /// Twin: specula-bsdf/src/bsdf/principled/solid.rs, Solid::coat_fresnel.
-fn principled_solid_coat_fresnel(lobe: PrincipledSolid, cosine: f32, bent: Refraction) -> f32 {
+fn principled_solid_coat_fresnel(lobe: PrincipledSolid, cosine: f32, bent: DielectricRefraction) -> f32 {
     let s = principled_terms_schlick_weight_across(cosine, bent, lobe.eta);
     return lobe.clearcoat * (0.04 + 0.96 * s);
 }
@@ -144,7 +144,7 @@ fn principled_solid_shares(lobe: PrincipledSolid, wo: vec3f) -> PrincipledSolidS
 /// Probability of reflection at a facet.
 ///
 /// Twin: specula-bsdf/src/bsdf/principled/solid.rs, Solid::reflection_share.
-fn principled_solid_reflection_share(lobe: PrincipledSolid, cosine: f32, bent: Refraction) -> f32 {
+fn principled_solid_reflection_share(lobe: PrincipledSolid, cosine: f32, bent: DielectricRefraction) -> f32 {
     if lobe.through <= 0.0 {
         return 1.0;
     }
@@ -236,7 +236,7 @@ fn principled_solid_eval(lobe: PrincipledSolid, wo: vec3f, wi: vec3f, transport:
 ///
 /// Twin: specula-bsdf/src/bsdf/principled/mod.rs, Principled::pdf.
 fn principled_solid_pdf(lobe: PrincipledSolid, wo: vec3f, wi: vec3f) -> f32 {
-    return principled_solid_eval_pdf(lobe, wo, wi, TRANSPORT_RADIANCE).a;
+    return principled_solid_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE).a;
 }
 
 /// Refraction at the facet `wm`, its weight in the cancelled form.

@@ -1,8 +1,8 @@
 // Terms that both principled materials share, by the formulas of Mitsuba 3.
 
 import package::alpha::{alpha_clamped};
-import package::bsdf::microfacets::{Microfacets};
-import package::fresnel::dielectric::{Refraction};
+import package::bsdf::microfacets::{MicrofacetsModel};
+import package::fresnel::dielectric::{DielectricRefraction};
 import package::math::rgb::{rgb_luminance};
 import package::ndf::distribution::{DISTRIBUTION_GGX};
 
@@ -19,7 +19,7 @@ fn principled_terms_schlick_weight(cosine: f32) -> f32 {
 /// medium.
 ///
 /// Twin: specula-bsdf/src/bsdf/principled/terms.rs, schlick_weight_across.
-fn principled_terms_schlick_weight_across(cosine: f32, bent: Refraction, eta: f32) -> f32 {
+fn principled_terms_schlick_weight_across(cosine: f32, bent: DielectricRefraction, eta: f32) -> f32 {
     return principled_terms_schlick_weight(select(bent.cos_t, cosine, eta > 1.0));
 }
 
@@ -61,11 +61,11 @@ fn principled_terms_sheen_colour(base: vec3f, tint: f32) -> vec3f {
 /// Source: Burley 2012, section 5.4; the floor of 1e-3 is Mitsuba's.
 ///
 /// Twin: specula-bsdf/src/bsdf/principled/terms.rs, distribution.
-fn principled_terms_facets(roughness: f32, anisotropic: f32, masking: u32, strategy: u32) -> Microfacets {
+fn principled_terms_facets(roughness: f32, anisotropic: f32, masking: u32, strategy: u32) -> MicrofacetsModel {
     let alpha = roughness * roughness;
     let aspect = sqrt(1.0 - 0.9 * anisotropic);
     let widths = max(vec2f(alpha / aspect, alpha * aspect), vec2f(1e-3));
-    return Microfacets(alpha_clamped(widths), DISTRIBUTION_GGX, masking, strategy);
+    return MicrofacetsModel(alpha_clamped(widths), DISTRIBUTION_GGX, masking, strategy);
 }
 
 /// Diffuse reflection with retro-reflection and fake subsurface scattering, as a factor on `base / pi`.

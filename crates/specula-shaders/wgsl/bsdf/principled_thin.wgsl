@@ -8,8 +8,8 @@
 // Source: Burley 2015, Extending the Disney BRDF to a BSDF; Mitsuba 3's documentation. Known limitations of
 // the model: specula-bsdf/src/bsdf/principled/mod.rs.
 
-import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TINY, BsdfSample, TRANSPORT_RADIANCE, bsdf_sample_of_reflection, bsdf_sample_of_transmission};
-import package::bsdf::microfacets::{Microfacets, microfacets_d, microfacets_g_over_cos, microfacets_norm, microfacets_sample_reflection};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TINY, BsdfSample, BSDF_SAMPLE_RADIANCE, bsdf_sample_of_reflection, bsdf_sample_of_transmission};
+import package::bsdf::microfacets::{MicrofacetsModel, microfacets_d, microfacets_g_over_cos, microfacets_norm, microfacets_sample_reflection};
 import package::bsdf::principled_parameters::{PrincipledParameters};
 import package::bsdf::principled_terms::{principled_terms_diffuse, principled_terms_facets, principled_terms_hue, principled_terms_normal_reflectance, principled_terms_schlick, principled_terms_schlick_weight, principled_terms_schlick_weight_across, principled_terms_sheen_colour};
 import package::fresnel::dielectric::{dielectric};
@@ -26,9 +26,9 @@ const PRINCIPLED_THIN_PER_PI: f32 = 0.31830988618379;
 /// Twin: specula-bsdf/src/bsdf/principled/thin.rs, Thin.
 struct PrincipledThin {
     /// Facets of reflection.
-    reflecting: Microfacets,
+    reflecting: MicrofacetsModel,
     /// Facets of transmission: widths scaled by the index.
-    passing: Microfacets,
+    passing: MicrofacetsModel,
     /// Base colour.
     base: vec3f,
     /// `F0` of the tinted part of the reflection.
@@ -176,7 +176,7 @@ fn principled_thin_eval(lobe: PrincipledThin, wo: vec3f, wi: vec3f, transport: u
 ///
 /// Twin: specula-bsdf/src/bsdf/principled/mod.rs, Principled::pdf.
 fn principled_thin_pdf(lobe: PrincipledThin, wo: vec3f, wi: vec3f) -> f32 {
-    return principled_thin_eval_pdf(lobe, wo, wi, TRANSPORT_RADIANCE).a;
+    return principled_thin_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE).a;
 }
 
 /// Draws `wi`.

@@ -1,8 +1,8 @@
 // Rough metals.
 
 import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TINY, BsdfSample, bsdf_sample_reflected};
-import package::bsdf::microfacets::{Microfacets, microfacets_d_along, microfacets_g_over_cos, microfacets_g_over_cos_quotient, microfacets_norm, microfacets_norm_quotient, microfacets_sample_reflection};
-import package::fresnel::reflectance::{Reflectance, reflectance_eval};
+import package::bsdf::microfacets::{MicrofacetsModel, microfacets_d_along, microfacets_g_over_cos, microfacets_g_over_cos_quotient, microfacets_norm, microfacets_norm_quotient, microfacets_sample_reflection};
+import package::fresnel::reflectance::{ReflectanceModel, reflectance_eval};
 
 /// Single scattering off a rough metal (Cook and Torrance 1982, with Smith masking):
 ///
@@ -14,16 +14,16 @@ import package::fresnel::reflectance::{Reflectance, reflectance_eval};
 /// Twin: specula-bsdf/src/bsdf/conductor.rs, RoughConductor.
 struct RoughConductor {
     /// Its facets.
-    facets: Microfacets,
+    facets: MicrofacetsModel,
     /// What a facet reflects.
-    reflectance: Reflectance,
+    reflectance: ReflectanceModel,
 }
 
 /// `D` of the facet that reflects `wo` into `wi`, and the cosine between either and its normal: the
 /// normal is `h / |h|` with `h = wo + wi`, and `wo . wm = |h| / 2`.
 ///
 /// Twin: specula-bsdf/src/bsdf/conductor.rs, RoughConductor::facet.
-fn rough_conductor_facet(facets: Microfacets, wo: vec3f, wi: vec3f) -> vec2f {
+fn rough_conductor_facet(facets: MicrofacetsModel, wo: vec3f, wi: vec3f) -> vec2f {
     let half_vector = wo + wi;
     let squared = dot(half_vector, half_vector);
     return vec2f(microfacets_d_along(facets, half_vector, squared), 0.5 * sqrt(squared));

@@ -20,9 +20,9 @@
 //
 // Indices within 1e-3 of each other are taken as equal: light passes straight on.
 
-import package::bsdf::bsdf_sample::{BSDF_SAMPLE_LARGEST, BSDF_SAMPLE_TINY, BSDF_TRANSMISSION, BSDF_VALID, BsdfSample, TRANSPORT_RADIANCE, bsdf_sample_delta, bsdf_sample_none};
-import package::bsdf::microfacets::{Microfacets, microfacets_d_along, microfacets_g_over_cos_quotient, microfacets_norm, microfacets_projected_area, microfacets_sample_reflection, microfacets_sample_wm};
-import package::bsdf::tints::{Tints, tints_on_side};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_LARGEST, BSDF_SAMPLE_TINY, BSDF_SAMPLE_TRANSMISSION, BSDF_SAMPLE_VALID, BsdfSample, BSDF_SAMPLE_RADIANCE, bsdf_sample_delta, bsdf_sample_none};
+import package::bsdf::microfacets::{MicrofacetsModel, microfacets_d_along, microfacets_g_over_cos_quotient, microfacets_norm, microfacets_projected_area, microfacets_sample_reflection, microfacets_sample_wm};
+import package::bsdf::tints::{TintsPair, tints_on_side};
 import package::fresnel::dielectric::{dielectric, dielectric_refract, dielectric_refraction};
 import package::vndf::reflection::{reflection_mirrored};
 import package::vndf::sampler::{SAMPLER_BOUNDED, SAMPLER_EXACT};
@@ -32,7 +32,7 @@ import package::vndf::sampler::{SAMPLER_BOUNDED, SAMPLER_EXACT};
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric.
 struct RoughDielectric {
     /// Its facets; the strategy should be `SAMPLER_CAP`.
-    facets: Microfacets,
+    facets: MicrofacetsModel,
     /// Index inside over index outside where it has both sides, else index beyond the interface over the
     /// index on the side of `wo`; above 0.
     eta: f32,
@@ -40,13 +40,13 @@ struct RoughDielectric {
     /// density.
     two_sided: u32,
     /// Factors on its two branches.
-    tints: Tints,
+    tints: TintsPair,
 }
 
 /// The interface as a view meets it.
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, Side.
-struct InterfaceSide {
+struct RoughDielectricSide {
     /// Whether the view is from inside an interface with both sides.
     inside: bool,
     /// Factor of z that brings the view above.
@@ -60,7 +60,7 @@ struct InterfaceSide {
 /// What happens between two directions.
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, Scatter.
-struct InterfaceScatter {
+struct RoughDielectricScatter {
     /// `F G2 / |wo.z|`, or `(1 - F) G2 / |wo.z|`.
     value: f32,
     /// Probability of the branch.
@@ -83,12 +83,12 @@ fn rough_dielectric_is_specular(lobe: RoughDielectric) -> bool {
 /// The interface as `wo` meets it.
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::side.
-fn rough_dielectric_side(lobe: RoughDielectric, wo: vec3f) -> InterfaceSide {
+fn rough_dielectric_side(lobe: RoughDielectric, wo: vec3f) -> RoughDielectricSide {
     let inverse = 1.0 / lobe.eta;
     if lobe.two_sided == 1u && wo.z < 0.0 {
-        return InterfaceSide(true, -1.0, inverse, lobe.eta);
+        return RoughDielectricSide(true, -1.0, inverse, lobe.eta);
     }
-    return InterfaceSide(false, 1.0, lobe.eta, inverse);
+    return RoughDielectricSide(false, 1.0, lobe.eta, inverse);
 }
 
 /// `far^2` of the Jacobian of refraction, and the same for what the path carries (`near^2` for radiance,
@@ -103,11 +103,11 @@ fn rough_dielectric_side(lobe: RoughDielectric, wo: vec3f) -> InterfaceSide {
 /// Source: Walter et al. 2007, eq. 17.
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::stretches.
-fn rough_dielectric_stretches(lobe: RoughDielectric, side: InterfaceSide, transport: u32) -> vec2f {
+fn rough_dielectric_stretches(lobe: RoughDielectric, side: RoughDielectricSide, transport: u32) -> vec2f {
     let squared = lobe.eta * lobe.eta;
     let near = select(1.0, squared, side.inside);
     let far = select(squared, 1.0, side.inside);
-    return vec2f(far, select(far, near, transport == TRANSPORT_RADIANCE));
+    return vec2f(far, select(far, near, transport == BSDF_SAMPLE_RADIANCE));
 }
 
 /// `other factor + one` with the product as it is: factors are split in halves of 12 bits, whose products
@@ -131,7 +131,7 @@ fn rough_dielectric_sum(other: vec3f, factor: f32, one: vec3f) -> vec3f {
 /// rounded, `eta wo + wi` takes the place of `wo + e wi`.
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::half.
-fn rough_dielectric_half(lobe: RoughDielectric, side: InterfaceSide, wo: vec3f, wi: vec3f, reflects: bool) -> vec3f {
+fn rough_dielectric_half(lobe: RoughDielectric, side: RoughDielectricSide, wo: vec3f, wi: vec3f, reflects: bool) -> vec3f {
     let factor = select(lobe.eta, 1.0, reflects);
     let one = select(wo, wi, side.inside);
     let other = select(wi, wo, side.inside);
@@ -192,7 +192,7 @@ fn rough_dielectric_share(one: vec2f, other: vec2f) -> f32 {
 /// What happens between `wo`, on its own side, and `wi`.
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::scatter.
-fn rough_dielectric_scatter(lobe: RoughDielectric, wo: vec3f, wi: vec3f, side: InterfaceSide, transport: u32) -> InterfaceScatter {
+fn rough_dielectric_scatter(lobe: RoughDielectric, wo: vec3f, wi: vec3f, side: RoughDielectricSide, transport: u32) -> RoughDielectricScatter {
     let reflects = wi.z > 0.0;
     let half_vector = rough_dielectric_half(lobe, side, wo, wi, reflects);
     let squared = dot(half_vector, half_vector);
@@ -203,7 +203,7 @@ fn rough_dielectric_scatter(lobe: RoughDielectric, wo: vec3f, wi: vec3f, side: I
     let cos_i = dot(wi, wm);
     let seen = squared > 1e-30 && cos_o > 0.0 && select(-cos_i, cos_i, reflects) > 0.0;
     if !seen || wi.z == 0.0 {
-        return InterfaceScatter(0.0, 0.0, 1.0, 0.0, 0.0);
+        return RoughDielectricScatter(0.0, 0.0, 1.0, 0.0, 0.0);
     }
     // The refracted cosine of Snell's law cancels at the critical angle; here it is known.
     let sine_squared = (1.0 - cos_o) * (1.0 + cos_o);
@@ -232,19 +232,19 @@ fn rough_dielectric_scatter(lobe: RoughDielectric, wo: vec3f, wi: vec3f, side: I
     let bend = cos_o * abs(cos_i) * inverse_squared;
     let density = d * select(stretches.x * bend, 0.25, reflects);
     let carried = d * select(stretches.y * bend, 0.25, reflects);
-    return InterfaceScatter(rough_dielectric_value(here), chosen, norm, density, carried);
+    return RoughDielectricScatter(rough_dielectric_value(here), chosen, norm, density, carried);
 }
 
 /// The sample of one of the branches, on the side where `wo` is; none on the wrong side, or where the
 /// density is no positive number.
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::scattered.
-fn rough_dielectric_scattered(lobe: RoughDielectric, wi: vec3f, weight: f32, pdf: f32, reflects: bool, side: InterfaceSide) -> BsdfSample {
+fn rough_dielectric_scattered(lobe: RoughDielectric, wi: vec3f, weight: f32, pdf: f32, reflects: bool, side: RoughDielectricSide) -> BsdfSample {
     let height = select(-wi.z, wi.z, reflects);
     if height > 0.0 && pdf > 0.0 && pdf <= BSDF_SAMPLE_LARGEST {
         let turned = vec3f(wi.xy, wi.z * side.turn);
         let tinted = tints_on_side(lobe.tints, reflects) * weight;
-        let flags = BSDF_VALID | select(BSDF_TRANSMISSION, 0u, reflects);
+        let flags = BSDF_SAMPLE_VALID | select(BSDF_SAMPLE_TRANSMISSION, 0u, reflects);
         return BsdfSample(turned, pdf, tinted, select(side.eta, 1.0, reflects), flags);
     }
     return bsdf_sample_none();
@@ -253,7 +253,7 @@ fn rough_dielectric_scattered(lobe: RoughDielectric, wi: vec3f, weight: f32, pdf
 /// A draw for `wo` on its own side: the normal, then the branch.
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::draw.
-fn rough_dielectric_draw_normal_first(lobe: RoughDielectric, wo: vec3f, u: vec3f, side: InterfaceSide, transport: u32) -> BsdfSample {
+fn rough_dielectric_draw_normal_first(lobe: RoughDielectric, wo: vec3f, u: vec3f, side: RoughDielectricSide, transport: u32) -> BsdfSample {
     let wm = microfacets_sample_wm(lobe.facets, wo, u.yz);
     let cos_o = max(dot(wo, wm), 0.0);
     let sine_squared = (1.0 - cos_o) * (1.0 + cos_o);
@@ -282,7 +282,7 @@ fn rough_dielectric_draw_normal_first(lobe: RoughDielectric, wo: vec3f, u: vec3f
         let stretches = rough_dielectric_stretches(lobe, side, transport);
         top = transmission * stretches.x * dot(wo, half_vector) * abs(dot(wt, half_vector));
         bottom = squared * squared;
-        scale = select(1.0, side.inverse_eta * side.inverse_eta, transport == TRANSPORT_RADIANCE);
+        scale = select(1.0, side.inverse_eta * side.inverse_eta, transport == BSDF_SAMPLE_RADIANCE);
     }
     let sigma = microfacets_projected_area(lobe.facets, wo);
     let d = microfacets_d_along(lobe.facets, half_vector, squared);
@@ -294,7 +294,7 @@ fn rough_dielectric_draw_normal_first(lobe: RoughDielectric, wo: vec3f, u: vec3f
 /// A draw for `wo` on its own side: the branch, then the normal.
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::draw_branch_first.
-fn rough_dielectric_draw_branch_first(lobe: RoughDielectric, wo: vec3f, u: vec3f, side: InterfaceSide, transport: u32) -> BsdfSample {
+fn rough_dielectric_draw_branch_first(lobe: RoughDielectric, wo: vec3f, u: vec3f, side: RoughDielectricSide, transport: u32) -> BsdfSample {
     let reflects = u.x < rough_dielectric_branch_probability(wo, side.eta);
     var wi: vec3f;
     if reflects {
@@ -322,7 +322,7 @@ fn rough_dielectric_draw_branch_first(lobe: RoughDielectric, wo: vec3f, u: vec3f
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::sample.
 fn rough_dielectric_draw(lobe: RoughDielectric, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     if rough_dielectric_is_specular(lobe) {
-        return bsdf_sample_delta(-wo, lobe.tints.transmission, 1.0, BSDF_TRANSMISSION, 1.0);
+        return bsdf_sample_delta(-wo, lobe.tints.transmission, 1.0, BSDF_SAMPLE_TRANSMISSION, 1.0);
     }
     let side = rough_dielectric_side(lobe, wo);
     let upright = vec3f(wo.xy, wo.z * side.turn);
@@ -360,7 +360,7 @@ fn rough_dielectric_eval(lobe: RoughDielectric, wo: vec3f, wi: vec3f, transport:
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::pdf.
 fn rough_dielectric_pdf(lobe: RoughDielectric, wo: vec3f, wi: vec3f) -> f32 {
-    return rough_dielectric_eval_pdf(lobe, wo, wi, TRANSPORT_RADIANCE).a;
+    return rough_dielectric_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE).a;
 }
 
 /// A draw of one branch alone, by all visible normals. The weight is of that branch: for walks that

@@ -1,14 +1,14 @@
 // Mirrors.
 
 import package::bsdf::bsdf_sample::{BsdfSample, bsdf_sample_delta, bsdf_sample_none};
-import package::fresnel::reflectance::{Reflectance, reflectance_eval};
+import package::fresnel::reflectance::{ReflectanceModel, reflectance_eval};
 
 /// A mirror.
 ///
 /// Twin: specula-bsdf/src/bsdf/conductor.rs, SmoothConductor.
 struct SmoothConductor {
     /// What it reflects.
-    reflectance: Reflectance,
+    reflectance: ReflectanceModel,
 }
 
 /// `f |cos|` without its Dirac delta: 0.

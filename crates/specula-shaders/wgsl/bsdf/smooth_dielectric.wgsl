@@ -1,7 +1,7 @@
 // A smooth interface between two dielectrics.
 
-import package::bsdf::bsdf_sample::{BSDF_TRANSMISSION, BsdfSample, bsdf_sample_delta, bsdf_sample_none, bsdf_sample_radiance_scale};
-import package::bsdf::tints::{Tints};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TRANSMISSION, BsdfSample, bsdf_sample_delta, bsdf_sample_none, bsdf_sample_radiance_scale};
+import package::bsdf::tints::{TintsPair};
 import package::fresnel::dielectric::{dielectric, dielectric_refract};
 
 /// A smooth interface.
@@ -15,7 +15,7 @@ struct SmoothDielectric {
     /// sample.
     two_sided: u32,
     /// Factors on its two branches.
-    tints: Tints,
+    tints: TintsPair,
 }
 
 /// `f |cos|` without its Dirac deltas: 0.
@@ -56,5 +56,5 @@ fn smooth_dielectric_draw(lobe: SmoothDielectric, wo: vec3f, u: vec3f, transport
     let normal = vec3f(0.0, 0.0, select(1.0, -1.0, inside));
     let wi = dielectric_refract(wo, normal, abs(wo.z), bent.cos_t, eta);
     let weight = lobe.tints.transmission * bsdf_sample_radiance_scale(eta, transport);
-    return bsdf_sample_delta(wi, weight, bent.transmittance, BSDF_TRANSMISSION, eta);
+    return bsdf_sample_delta(wi, weight, bent.transmittance, BSDF_SAMPLE_TRANSMISSION, eta);
 }

@@ -3,8 +3,8 @@
 //
 // Source: Stokes 1862 (the pile of plates), as in pbrt-v4's `thindielectric`.
 
-import package::bsdf::bsdf_sample::{BSDF_TRANSMISSION, BsdfSample, bsdf_sample_delta};
-import package::bsdf::tints::{Tints};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TRANSMISSION, BsdfSample, bsdf_sample_delta};
+import package::bsdf::tints::{TintsPair};
 import package::fresnel::dielectric::{dielectric};
 
 /// A thin pane.
@@ -14,7 +14,7 @@ struct ThinDielectric {
     /// Index of the pane over that around it, above 0.
     eta: f32,
     /// Factors on its two branches.
-    tints: Tints,
+    tints: TintsPair,
 }
 
 /// `f |cos|` without its Dirac deltas: 0.
@@ -48,5 +48,5 @@ fn thin_dielectric_draw(lobe: ThinDielectric, wo: vec3f, u: vec3f, transport: u3
         let mirrored = vec3f(-wo.x, -wo.y, wo.z);
         return bsdf_sample_delta(mirrored, lobe.tints.reflection, reflectance, 0u, 1.0);
     }
-    return bsdf_sample_delta(-wo, lobe.tints.transmission, 1.0 - reflectance, BSDF_TRANSMISSION, 1.0);
+    return bsdf_sample_delta(-wo, lobe.tints.transmission, 1.0 - reflectance, BSDF_SAMPLE_TRANSMISSION, 1.0);
 }

@@ -13,10 +13,10 @@
 // Errors of the tables: specula-bsdf/src/energy/albedo.rs. Departure from the Rust source: coefficients
 // are decoded beforehand, where Rust decodes their sum.
 
-import package::energy::coordinates::{Widths, coordinates_alpha, coordinates_average_scale, coordinates_azimuth, coordinates_cosine, coordinates_widths};
+import package::energy::coordinates::{CoordinatesWidths, coordinates_alpha, coordinates_average_scale, coordinates_azimuth, coordinates_cosine, coordinates_widths};
 import package::energy::energy_table::{energy_table};
 import package::energy::pairs::{pairs_pair, pairs_row};
-import package::energy::spline::{Cubic, spline_cubic};
+import package::energy::spline::{SplineCubic, spline_cubic};
 import package::ndf::masking::{MASKING_SEPARABLE};
 import package::ndf::distribution::{DISTRIBUTION_BECKMANN};
 
@@ -45,17 +45,17 @@ const ALBEDO_ANISOTROPIC_AVERAGE_START: u32 = 81168u;
 /// The energy that single scattering off one surface loses: the tables at its widths.
 ///
 /// Twin: specula-bsdf/src/energy/albedo.rs, Loss.
-struct Loss {
+struct AlbedoLoss {
     /// Where the tables of the distribution and masking begin.
     table: u32,
     /// 1 where the widths differ.
     stretched: u32,
     /// The widths.
-    widths: Widths,
+    widths: CoordinatesWidths,
     /// Coefficients about the smaller width.
-    low: Cubic,
+    low: SplineCubic,
     /// Coefficients about the larger width.
-    high: Cubic,
+    high: SplineCubic,
     /// `1 - E_avg`, in (0, 1].
     average: f32,
 }
@@ -74,7 +74,7 @@ fn albedo_table_start(distribution: u32, masking: u32) -> u32 {
 /// * `alpha`: widths in [1e-4, 10].
 ///
 /// Twin: specula-bsdf/src/energy/albedo.rs, Loss::new.
-fn albedo_loss(distribution: u32, masking: u32, alpha: vec2f) -> Loss {
+fn albedo_loss(distribution: u32, masking: u32, alpha: vec2f) -> AlbedoLoss {
     let table = albedo_table_start(distribution, masking);
     let stretched = alpha.x != alpha.y;
     let widths = coordinates_widths(alpha.x, alpha.y);
@@ -97,13 +97,13 @@ fn albedo_loss(distribution: u32, masking: u32, alpha: vec2f) -> Loss {
     }
     let scaled = root * coordinates_average_scale(alpha.x, alpha.y);
     let average = clamp(scaled * scaled, 1e-18, 1.0);
-    return Loss(table, select(0u, 1u, stretched), widths, low, high, average);
+    return AlbedoLoss(table, select(0u, 1u, stretched), widths, low, high, average);
 }
 
 /// The sum of a row of coefficients that begins at `start`.
 ///
 /// Twin: specula-bsdf/src/energy/rows.rs, Rows::sum.
-fn albedo_row(start: u32, cosine: Cubic) -> f32 {
+fn albedo_row(start: u32, cosine: SplineCubic) -> f32 {
     let place = start + cosine.first;
     return cosine.weights.x * energy_table(place)
         + cosine.weights.y * energy_table(place + 1u)
@@ -114,7 +114,7 @@ fn albedo_row(start: u32, cosine: Cubic) -> f32 {
 /// `sqrt(1 - E)` of an isotropic table at the coordinate of a cosine.
 ///
 /// Twin: specula-bsdf/src/energy/albedo.rs, isotropic.
-fn albedo_isotropic(table: u32, alpha: Cubic, m: f32) -> f32 {
+fn albedo_isotropic(table: u32, alpha: SplineCubic, m: f32) -> f32 {
     let cosine = spline_cubic(m, ALBEDO_ISOTROPIC_COSINES);
     let start = table + ALBEDO_ISOTROPIC_START;
     var root = 0.0;
@@ -128,7 +128,7 @@ fn albedo_isotropic(table: u32, alpha: Cubic, m: f32) -> f32 {
 /// `sqrt(1 - E)` of an anisotropic table at the coordinates of an azimuth and a cosine.
 ///
 /// Twin: specula-bsdf/src/energy/albedo.rs, anisotropic.
-fn albedo_anisotropic(table: u32, low: Cubic, high: Cubic, v: f32, m: f32) -> f32 {
+fn albedo_anisotropic(table: u32, low: SplineCubic, high: SplineCubic, v: f32, m: f32) -> f32 {
     let azimuth = spline_cubic(v, ALBEDO_ANISOTROPIC_AZIMUTHS);
     let cosine = spline_cubic(m, ALBEDO_ANISOTROPIC_COSINES);
     let start = table + ALBEDO_ANISOTROPIC_START;
@@ -150,7 +150,7 @@ fn albedo_anisotropic(table: u32, low: Cubic, high: Cubic, v: f32, m: f32) -> f3
 /// * `wo`: unit, local frame.
 ///
 /// Twin: specula-bsdf/src/energy/albedo.rs, Loss::directional.
-fn albedo_directional_loss(loss: Loss, wo: vec3f) -> f32 {
+fn albedo_directional_loss(loss: AlbedoLoss, wo: vec3f) -> f32 {
     let cosine = min(abs(wo.z), 1.0);
     var root: f32;
     if loss.stretched == 1u {

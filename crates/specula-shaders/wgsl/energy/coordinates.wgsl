@@ -34,7 +34,7 @@ const COORDINATES_EPSILON: f32 = 1.1920929e-7;
 /// Two widths, in ascending order, and which axis is the wider.
 ///
 /// Twin: specula-bsdf/src/energy/coordinates.rs, Widths.
-struct Widths {
+struct CoordinatesWidths {
     /// The smaller, `l`.
     low: f32,
     /// The larger, `h`.
@@ -50,7 +50,7 @@ struct Widths {
 /// A view as the tables see it.
 ///
 /// Twin: specula-bsdf/src/energy/coordinates.rs, Azimuth.
-struct Azimuth {
+struct CoordinatesAzimuth {
     /// Width along the view.
     width: f32,
     /// Coordinate of the azimuth.
@@ -97,19 +97,19 @@ fn coordinates_interface_cosine(cosine: f32, width: f32, edge: f32) -> f32 {
 /// The widths along x and y, in any order.
 ///
 /// Twin: specula-bsdf/src/energy/coordinates.rs, Widths::new.
-fn coordinates_widths(x: f32, y: f32) -> Widths {
+fn coordinates_widths(x: f32, y: f32) -> CoordinatesWidths {
     let low = min(x, y);
     let high = max(x, y);
     let excess = (high - low) * (high + low) / (low * low);
     // Equal widths have no azimuth; the floor keeps 0 / 0 away.
     let per_logarithm = 1.0 / max(log(1.0 + excess), COORDINATES_EPSILON);
-    return Widths(low, high, excess, per_logarithm, select(0u, 1u, x > y));
+    return CoordinatesWidths(low, high, excess, per_logarithm, select(0u, 1u, x > y));
 }
 
 /// Where a view with the tangential part `(x, y)` lies.
 ///
 /// Twin: specula-bsdf/src/energy/coordinates.rs, Widths::azimuth.
-fn coordinates_azimuth(widths: Widths, x: f32, y: f32) -> Azimuth {
+fn coordinates_azimuth(widths: CoordinatesWidths, x: f32, y: f32) -> CoordinatesAzimuth {
     let along_x = x * x;
     let along_y = y * y;
     let length_squared = along_x + along_y;
@@ -118,13 +118,13 @@ fn coordinates_azimuth(widths: Widths, x: f32, y: f32) -> Azimuth {
     let share = along / max(length_squared, COORDINATES_TINY);
     let narrow = select(0.5, share, length_squared > COORDINATES_TINY);
     let square = 1.0 + widths.excess * (1.0 - narrow);
-    return Azimuth(widths.low * sqrt(square), log(square) * widths.per_logarithm, narrow);
+    return CoordinatesAzimuth(widths.low * sqrt(square), log(square) * widths.per_logarithm, narrow);
 }
 
 /// Coordinate of the azimuth for an interface.
 ///
 /// Twin: specula-bsdf/src/energy/coordinates.rs, Azimuth::interface.
-fn coordinates_interface_azimuth(azimuth: Azimuth, edge: f32) -> f32 {
+fn coordinates_interface_azimuth(azimuth: CoordinatesAzimuth, edge: f32) -> f32 {
     return 0.5 * (azimuth.v + (1.0 - coordinates_bend(azimuth.narrow, edge)));
 }
 

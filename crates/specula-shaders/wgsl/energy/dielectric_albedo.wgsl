@@ -12,10 +12,10 @@
 // reflection has its edges. Errors: specula-bsdf/src/energy/dielectric_albedo.rs.
 
 import package::energy::albedo::{albedo_row, albedo_table_start};
-import package::energy::coordinates::{Widths, coordinates_alpha, coordinates_average_scale, coordinates_azimuth, coordinates_edge, coordinates_interface_azimuth, coordinates_interface_cosine, coordinates_widths};
+import package::energy::coordinates::{CoordinatesWidths, coordinates_alpha, coordinates_average_scale, coordinates_azimuth, coordinates_edge, coordinates_interface_azimuth, coordinates_interface_cosine, coordinates_widths};
 import package::energy::energy_table::{energy_table};
 import package::energy::pairs::{pairs_pair, pairs_row};
-import package::energy::spline::{Cubic, Quadratic, spline_cubic, spline_quadratic};
+import package::energy::spline::{SplineCubic, SplineQuadratic, spline_cubic, spline_quadratic};
 
 /// Indices of the isotropic tables.
 const DIELECTRIC_ALBEDO_ETAS: u32 = 20u;
@@ -51,7 +51,7 @@ const DIELECTRIC_ALBEDO_ROOT_SCALE: f32 = 1.7677669529664;
 /// The energy that single scattering loses on one side of an interface.
 ///
 /// Twin: specula-bsdf/src/energy/dielectric_albedo.rs, DielectricLoss.
-struct DielectricLoss {
+struct DielectricAlbedoLoss {
     /// Where the tables of the distribution and masking begin.
     table: u32,
     /// First index of the half of the tables: losses differ too much across 1 to be interpolated.
@@ -61,17 +61,17 @@ struct DielectricLoss {
     /// Where total reflection has its edge.
     edge: f32,
     /// The widths.
-    widths: Widths,
+    widths: CoordinatesWidths,
     /// Coefficients about the index, isotropic.
-    eta: Cubic,
+    eta: SplineCubic,
     /// Coefficients about the width, isotropic.
-    alpha: Cubic,
+    alpha: SplineCubic,
     /// Coefficients about the index, anisotropic.
-    stretched_eta: Quadratic,
+    stretched_eta: SplineQuadratic,
     /// Coefficients about the smaller width, anisotropic.
-    low: Quadratic,
+    low: SplineQuadratic,
     /// Coefficients about the larger width, anisotropic.
-    high: Quadratic,
+    high: SplineQuadratic,
     /// `1 - E_avg`, in (0, 1].
     average: f32,
 }
@@ -94,7 +94,7 @@ fn dielectric_albedo_eta_coordinate(eta: f32) -> f32 {
 /// `sqrt(1 - E_avg)` over its scale, isotropic: by the first row of the half, index and width.
 ///
 /// Twin: specula-bsdf/src/energy/dielectric_albedo.rs, DielectricLoss::new.
-fn dielectric_albedo_isotropic_average(table: u32, start: u32, eta: Cubic, alpha: Cubic) -> f32 {
+fn dielectric_albedo_isotropic_average(table: u32, start: u32, eta: SplineCubic, alpha: SplineCubic) -> f32 {
     let first = table + DIELECTRIC_ALBEDO_AVERAGE_START;
     var root = 0.0;
     for (var e = 0u; e < 4u; e++) {
@@ -107,7 +107,7 @@ fn dielectric_albedo_isotropic_average(table: u32, start: u32, eta: Cubic, alpha
 /// `sqrt(1 - E_avg)` over its scale, anisotropic: by the first row of the half, index and widths.
 ///
 /// Twin: specula-bsdf/src/energy/dielectric_albedo.rs, DielectricLoss::new.
-fn dielectric_albedo_stretched_average(table: u32, start: u32, eta: Quadratic, low: Quadratic, high: Quadratic) -> f32 {
+fn dielectric_albedo_stretched_average(table: u32, start: u32, eta: SplineQuadratic, low: SplineQuadratic, high: SplineQuadratic) -> f32 {
     let first = table + DIELECTRIC_ALBEDO_STRETCHED_AVERAGE_START;
     var root = 0.0;
     for (var n = 0u; n < 27u; n++) {
@@ -126,8 +126,8 @@ fn dielectric_albedo_stretched_average(table: u32, start: u32, eta: Quadratic, l
 /// * `alpha`: widths in [1e-4, 10].
 ///
 /// Twin: specula-bsdf/src/energy/dielectric_albedo.rs, DielectricLoss::new.
-fn dielectric_albedo_loss(distribution: u32, masking: u32, alpha: vec2f, eta: f32) -> DielectricLoss {
-    var loss: DielectricLoss;
+fn dielectric_albedo_loss(distribution: u32, masking: u32, alpha: vec2f, eta: f32) -> DielectricAlbedoLoss {
+    var loss: DielectricAlbedoLoss;
     loss.table = albedo_table_start(distribution, masking);
     loss.edge = coordinates_edge(clamp(eta, 1.0 / 3.0, 3.0));
     loss.widths = coordinates_widths(alpha.x, alpha.y);
@@ -157,7 +157,7 @@ fn dielectric_albedo_loss(distribution: u32, masking: u32, alpha: vec2f, eta: f3
 /// `sqrt(1 - E)` of an isotropic table at the coordinate of a cosine.
 ///
 /// Twin: specula-bsdf/src/energy/dielectric_albedo.rs, isotropic.
-fn dielectric_albedo_isotropic(loss: DielectricLoss, m: f32) -> f32 {
+fn dielectric_albedo_isotropic(loss: DielectricAlbedoLoss, m: f32) -> f32 {
     let cosine = spline_cubic(m, DIELECTRIC_ALBEDO_COSINES);
     let first = loss.table + DIELECTRIC_ALBEDO_START;
     var root = 0.0;
@@ -174,7 +174,7 @@ fn dielectric_albedo_isotropic(loss: DielectricLoss, m: f32) -> f32 {
 /// The sum of a row of coefficients that begins at `start`.
 ///
 /// Twin: specula-bsdf/src/energy/rows.rs, Rows::sum.
-fn dielectric_albedo_row(start: u32, cosine: Quadratic) -> f32 {
+fn dielectric_albedo_row(start: u32, cosine: SplineQuadratic) -> f32 {
     let place = start + cosine.first;
     return cosine.weights.x * energy_table(place)
         + cosine.weights.y * energy_table(place + 1u)
@@ -184,7 +184,7 @@ fn dielectric_albedo_row(start: u32, cosine: Quadratic) -> f32 {
 /// `sqrt(1 - E)` of an anisotropic table at the coordinates of an azimuth and a cosine.
 ///
 /// Twin: specula-bsdf/src/energy/dielectric_albedo.rs, stretched.
-fn dielectric_albedo_stretched(loss: DielectricLoss, v: f32, m: f32) -> f32 {
+fn dielectric_albedo_stretched(loss: DielectricAlbedoLoss, v: f32, m: f32) -> f32 {
     let azimuth = spline_quadratic(v, DIELECTRIC_ALBEDO_STRETCHED_AZIMUTHS);
     let cosine = spline_quadratic(m, DIELECTRIC_ALBEDO_STRETCHED_COSINES);
     let each = DIELECTRIC_ALBEDO_STRETCHED_PAIRS * DIELECTRIC_ALBEDO_STRETCHED_AZIMUTHS;
@@ -209,7 +209,7 @@ fn dielectric_albedo_stretched(loss: DielectricLoss, v: f32, m: f32) -> f32 {
 /// * `wo`: unit, local frame.
 ///
 /// Twin: specula-bsdf/src/energy/dielectric_albedo.rs, DielectricLoss::directional.
-fn dielectric_albedo_directional_loss(loss: DielectricLoss, wo: vec3f) -> f32 {
+fn dielectric_albedo_directional_loss(loss: DielectricAlbedoLoss, wo: vec3f) -> f32 {
     let cosine = min(abs(wo.z), 1.0);
     var root: f32;
     if loss.stretched == 1u {

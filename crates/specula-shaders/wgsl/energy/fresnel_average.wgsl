@@ -1,6 +1,6 @@
 // Cosine-averaged reflectance, the `F_avg` of multiple scattering.
 
-import package::fresnel::reflectance::{REFLECTANCE_CONSTANT, REFLECTANCE_SCHLICK, Reflectance, reflectance_eval};
+import package::fresnel::reflectance::{REFLECTANCE_CONSTANT, REFLECTANCE_SCHLICK, ReflectanceModel, reflectance_eval};
 
 /// `2 int_0^1 F(mu) mu dmu` per channel.
 ///
@@ -11,7 +11,7 @@ import package::fresnel::reflectance::{REFLECTANCE_CONSTANT, REFLECTANCE_SCHLICK
 /// The rule's error is below 1e-3 for measured metals and F82.
 ///
 /// Twin: specula-bsdf/src/energy/fresnel_average.rs, reflectance_average.
-fn fresnel_average_of(reflectance: Reflectance) -> vec3f {
+fn fresnel_average_of(reflectance: ReflectanceModel) -> vec3f {
     if reflectance.kind == REFLECTANCE_CONSTANT {
         return reflectance.first * reflectance.tint;
     }

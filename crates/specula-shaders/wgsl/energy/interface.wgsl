@@ -31,7 +31,7 @@ const INTERFACE_INTERNAL_START: u32 = 896201u;
 /// A place between two knots of a uniform axis.
 ///
 /// Twin: specula-bsdf/src/energy/interface.rs, Knot.
-struct Knot {
+struct InterfaceKnot {
     /// Index of the lower knot.
     low: u32,
     /// Share of the upper one.
@@ -41,38 +41,38 @@ struct Knot {
 /// `x` on the axis [0, 1] of `count` knots, clamped.
 ///
 /// Twin: specula-bsdf/src/energy/interface.rs, Knot::new.
-fn interface_knot(x: f32, count: u32) -> Knot {
+fn interface_knot(x: f32, count: u32) -> InterfaceKnot {
     let end = f32(count - 1u);
     let place = clamp(x * end, 0.0, end);
     let low = min(floor(place), end - 1.0);
-    return Knot(u32(low), place - low);
+    return InterfaceKnot(u32(low), place - low);
 }
 
 /// The place of an index in [1, 3], along `(eta - 1) / (eta + 1)` up to 1/2.
 ///
 /// Twin: specula-bsdf/src/energy/interface.rs, eta_knot.
-fn interface_eta_knot(eta: f32, count: u32) -> Knot {
+fn interface_eta_knot(eta: f32, count: u32) -> InterfaceKnot {
     return interface_knot(2.0 * ((eta - 1.0) / (eta + 1.0)), count);
 }
 
 /// The place of a width in [0, 10], along `sqrt(1.1 alpha / (1 + alpha))`.
 ///
 /// Twin: specula-bsdf/src/energy/interface.rs, alpha_knot.
-fn interface_alpha_knot(width: f32, count: u32) -> Knot {
+fn interface_alpha_knot(width: f32, count: u32) -> InterfaceKnot {
     return interface_knot(sqrt(width / ((1.0 + width) * (10.0 / 11.0))), count);
 }
 
 /// The place of a cosine, along `sqrt(mu)`.
 ///
 /// Twin: specula-bsdf/src/energy/interface.rs, cosine_knot.
-fn interface_cosine_knot(mu: f32, count: u32) -> Knot {
+fn interface_cosine_knot(mu: f32, count: u32) -> InterfaceKnot {
     return interface_knot(sqrt(clamp(mu, 0.0, 1.0)), count);
 }
 
 /// The number at `start` and the next one, weighed.
 ///
 /// Twin: specula-bsdf/src/energy/interface.rs, Knot::lerp.
-fn interface_along(start: u32, knot: Knot) -> f32 {
+fn interface_along(start: u32, knot: InterfaceKnot) -> f32 {
     let below = energy_table(start + knot.low);
     let above = energy_table(start + knot.low + 1u);
     return below + (above - below) * knot.fraction;
@@ -81,7 +81,7 @@ fn interface_along(start: u32, knot: Knot) -> f32 {
 /// A table of rows of `count` numbers, along two axes.
 ///
 /// Twin: specula-bsdf/src/energy/interface.rs, Knot::lerp, twice.
-fn interface_plane(start: u32, rows: Knot, columns: Knot, count: u32) -> f32 {
+fn interface_plane(start: u32, rows: InterfaceKnot, columns: InterfaceKnot, count: u32) -> f32 {
     let below = interface_along(start + rows.low * count, columns);
     let above = interface_along(start + (rows.low + 1u) * count, columns);
     return below + (above - below) * rows.fraction;

@@ -13,7 +13,7 @@
 // means are over single scattering; light that facets pass on to each other is given the same. Errors:
 // specula-bsdf/src/energy/interface_layer.rs.
 
-import package::energy::interface::{Knot, interface_alpha_knot, interface_cosine_knot, interface_effective_cosine, interface_eta_knot, interface_knot, interface_plane};
+import package::energy::interface::{InterfaceKnot, interface_alpha_knot, interface_cosine_knot, interface_effective_cosine, interface_eta_knot, interface_knot, interface_plane};
 import package::fresnel::dielectric::{dielectric};
 
 /// Knots along the index.
@@ -32,26 +32,26 @@ const INTERFACE_LAYER_THERE_AND_BACK_START: u32 = 913123u;
 /// A layer that absorbs and does not scatter.
 ///
 /// Twin: specula-bsdf/src/energy/interface_layer.rs, Layer.
-struct AbsorbingLayer {
+struct InterfaceLayer {
     /// Optical thickness, from 0 up.
     thickness: f32,
     /// Its place among the knots.
-    place: Knot,
+    place: InterfaceKnot,
 }
 
 /// The layer of an optical thickness, from 0 up.
 ///
 /// Twin: specula-bsdf/src/energy/interface_layer.rs, Layer::new.
-fn interface_layer_new(thickness: f32) -> AbsorbingLayer {
+fn interface_layer_new(thickness: f32) -> InterfaceLayer {
     let held = clamp(thickness, 0.0, 1e6);
     let share = held / (1.0 + held);
-    return AbsorbingLayer(held, interface_knot(sqrt(sqrt(share)), INTERFACE_LAYER_THICKNESSES));
+    return InterfaceLayer(held, interface_knot(sqrt(sqrt(share)), INTERFACE_LAYER_THICKNESSES));
 }
 
 /// `exp(-t / cos)`.
 ///
 /// Twin: specula-bsdf/src/energy/interface_layer.rs, Layer::left.
-fn interface_layer_left(layer: AbsorbingLayer, cosine: f32) -> f32 {
+fn interface_layer_left(layer: InterfaceLayer, cosine: f32) -> f32 {
     // Beyond 100 nothing is left in f32.
     return exp(-min(layer.thickness / max(cosine, 1e-20), 100.0));
 }
@@ -62,7 +62,7 @@ fn interface_layer_left(layer: AbsorbingLayer, cosine: f32) -> f32 {
 /// * `eta`: index inside over outside, in [1, 3].
 ///
 /// Twin: specula-bsdf/src/energy/interface_layer.rs, Layer::crossing.
-fn interface_layer_crossing(layer: AbsorbingLayer, width: f32, eta: f32, mu: f32) -> f32 {
+fn interface_layer_crossing(layer: InterfaceLayer, width: f32, eta: f32, mu: f32) -> f32 {
     if layer.thickness <= 0.0 {
         return 1.0;
     }
@@ -92,7 +92,7 @@ fn interface_layer_crossing(layer: AbsorbingLayer, width: f32, eta: f32, mu: f32
 /// * `eta`: index inside over outside, in [1, 3].
 ///
 /// Twin: specula-bsdf/src/energy/interface_layer.rs, Layer::there_and_back.
-fn interface_layer_there_and_back(layer: AbsorbingLayer, width: f32, eta: f32) -> f32 {
+fn interface_layer_there_and_back(layer: InterfaceLayer, width: f32, eta: f32) -> f32 {
     if layer.thickness <= 0.0 {
         return 1.0;
     }

@@ -6,7 +6,7 @@
 /// Four coefficients: error of the fourth order, two continuous derivatives.
 ///
 /// Twin: specula-bsdf/src/energy/spline.rs, Cubic.
-struct Cubic {
+struct SplineCubic {
     /// Index of the first coefficient.
     first: u32,
     /// Weights of the coefficients from the first on.
@@ -16,7 +16,7 @@ struct Cubic {
 /// Three coefficients: error of the third order, one continuous derivative.
 ///
 /// Twin: specula-bsdf/src/energy/spline.rs, Quadratic.
-struct Quadratic {
+struct SplineQuadratic {
     /// Index of the first coefficient.
     first: u32,
     /// Weights of the coefficients from the first on.
@@ -38,7 +38,7 @@ fn spline_cell(x: f32, cells: u32) -> vec2f {
 /// The coefficients about `x`, clamped to `[0, 1]`, among `count >= 4` coefficients.
 ///
 /// Twin: specula-bsdf/src/energy/spline.rs, Spline::cubic.
-fn spline_cubic(x: f32, count: u32) -> Cubic {
+fn spline_cubic(x: f32, count: u32) -> SplineCubic {
     let cell = spline_cell(x, count - 3u);
     let t = cell.y;
     let u = 1.0 - t;
@@ -52,15 +52,15 @@ fn spline_cubic(x: f32, count: u32) -> Cubic {
         two_thirds - u_squared * (1.0 - 0.5 * u),
         t_squared * t * sixth,
     );
-    return Cubic(u32(cell.x), weights);
+    return SplineCubic(u32(cell.x), weights);
 }
 
 /// The coefficients about `x`, clamped to `[0, 1]`, among `count >= 3` coefficients.
 ///
 /// Twin: specula-bsdf/src/energy/spline.rs, Spline::quadratic.
-fn spline_quadratic(x: f32, count: u32) -> Quadratic {
+fn spline_quadratic(x: f32, count: u32) -> SplineQuadratic {
     let cell = spline_cell(x, count - 2u);
     let t = cell.y;
     let u = 1.0 - t;
-    return Quadratic(u32(cell.x), vec3f(0.5 * u * u, 0.5 + t * u, 0.5 * t * t));
+    return SplineQuadratic(u32(cell.x), vec3f(0.5 * u * u, 0.5 + t * u, 0.5 * t * t));
 }

@@ -6,7 +6,7 @@
 /// the knots' distance.
 ///
 /// Twin: specula-bsdf/src/energy/stencil.rs, Stencil.
-struct Stencil {
+struct StencilWeights {
     /// Index of the first knot.
     first: u32,
     /// Weights of the four knots from the first on.
@@ -16,7 +16,7 @@ struct Stencil {
 /// The stencil of `x`, clamped to `[0, 1]`, among `count >= 4` knots.
 ///
 /// Twin: specula-bsdf/src/energy/stencil.rs, Stencil::new.
-fn stencil_at(x: f32, count: u32) -> Stencil {
+fn stencil_at(x: f32, count: u32) -> StencilWeights {
     let end = f32(count - 1u);
     let place = clamp(x * end, 0.0, end);
     let first = min(max(floor(place) - 1.0, 0.0), f32(count - 4u));
@@ -26,5 +26,5 @@ fn stencil_at(x: f32, count: u32) -> Stencil {
     let d = a - 3.0;
     let sixth = 1.0 / 6.0;
     let weights = vec4f(-b * c * d * sixth, a * c * d * 0.5, -a * b * d * 0.5, a * b * c * sixth);
-    return Stencil(u32(first), weights);
+    return StencilWeights(u32(first), weights);
 }

@@ -4,7 +4,7 @@
 /// A complex index of refraction per channel, relative to the outer medium.
 ///
 /// Twin: specula-bsdf/src/fresnel/conductor.rs, Conductor.
-struct Conductor {
+struct ConductorIor {
     /// Real part.
     eta: vec3f,
     /// Imaginary part, at least 0.
@@ -26,7 +26,7 @@ struct Conductor {
 /// grazes, and `a^2` where absorption is strong, in forms that do not.
 ///
 /// Twin: specula-bsdf/src/fresnel/conductor.rs, Conductor::eval.
-fn conductor_eval(conductor: Conductor, cosine: f32) -> vec3f {
+fn conductor_eval(conductor: ConductorIor, cosine: f32) -> vec3f {
     let inside = clamp(cosine, 0.0, 1.0);
     // Beyond 1000 everything reflects alike; the limit keeps products in range.
     let eta = min(conductor.eta, vec3f(1e3));
@@ -50,7 +50,7 @@ fn conductor_eval(conductor: Conductor, cosine: f32) -> vec3f {
 /// The same metal under a medium of index `eta` instead of vacuum.
 ///
 /// Twin: specula-bsdf/src/fresnel/conductor.rs, Conductor::under.
-fn conductor_under(conductor: Conductor, eta: f32) -> Conductor {
+fn conductor_under(conductor: ConductorIor, eta: f32) -> ConductorIor {
     let inverse = 1.0 / eta;
-    return Conductor(conductor.eta * inverse, conductor.k * inverse);
+    return ConductorIor(conductor.eta * inverse, conductor.k * inverse);
 }

@@ -3,7 +3,7 @@
 /// What becomes of light at a dielectric interface.
 ///
 /// Twin: specula-bsdf/src/fresnel/dielectric.rs, Refraction.
-struct Refraction {
+struct DielectricRefraction {
     /// Share that is reflected, in [0, 1]; 1 beyond the critical angle.
     reflectance: f32,
     /// Share that passes, `1 - reflectance` without its cancellation at grazing angles.
@@ -26,7 +26,7 @@ struct Refraction {
 /// grazes.
 ///
 /// Twin: specula-bsdf/src/fresnel/dielectric.rs, dielectric.
-fn dielectric(cosine: f32, eta: f32) -> Refraction {
+fn dielectric(cosine: f32, eta: f32) -> DielectricRefraction {
     let inside = clamp(cosine, 0.0, 1.0);
     let refracted = (eta - 1.0) * (eta + 1.0) + inside * inside;
     return dielectric_refraction(inside, refracted / (eta * eta), eta);
@@ -35,9 +35,9 @@ fn dielectric(cosine: f32, eta: f32) -> Refraction {
 /// `dielectric` where the square of the refracted cosine is known, 0 or less beyond the critical angle.
 ///
 /// Twin: specula-bsdf/src/fresnel/dielectric.rs, refraction.
-fn dielectric_refraction(cosine: f32, cos_t_squared: f32, eta: f32) -> Refraction {
+fn dielectric_refraction(cosine: f32, cos_t_squared: f32, eta: f32) -> DielectricRefraction {
     if cos_t_squared <= 0.0 {
-        return Refraction(1.0, 0.0, 0.0);
+        return DielectricRefraction(1.0, 0.0, 0.0);
     }
     let cos_t = sqrt(cos_t_squared);
     let inverse_s = 1.0 / max(cosine + eta * cos_t, 1.1754944e-38);
@@ -47,7 +47,7 @@ fn dielectric_refraction(cosine: f32, cos_t_squared: f32, eta: f32) -> Refractio
     let reflectance = min(0.5 * (rs * rs + rp * rp), 1.0);
     let fluxes = inverse_s * inverse_s + inverse_p * inverse_p;
     let transmittance = min(2.0 * eta * cosine * cos_t * fluxes, 1.0);
-    return Refraction(reflectance, transmittance, cos_t);
+    return DielectricRefraction(reflectance, transmittance, cos_t);
 }
 
 /// The direction `wo` refracted at a facet.

@@ -7,7 +7,7 @@
 /// period is 2^64.
 ///
 /// Twin: specula-bsdf/src/math/stream.rs, Stream.
-struct Stream {
+struct StreamState {
     /// The counter, `(low, high)`.
     state: vec2u,
 }
@@ -17,21 +17,21 @@ struct Stream {
 /// * `seed`: `(low, high)`.
 ///
 /// Twin: specula-bsdf/src/math/stream.rs, Stream::new.
-fn stream_new(seed: vec2u) -> Stream {
-    return Stream(seed);
+fn stream_new(seed: vec2u) -> StreamState {
+    return StreamState(seed);
 }
 
 /// The next number, uniform in `[0, 1)`, in steps of 2^-24.
 ///
 /// Twin: specula-bsdf/src/math/stream.rs, Stream::next.
-fn stream_next(stream: ptr<function, Stream>) -> f32 {
+fn stream_next(stream: ptr<function, StreamState>) -> f32 {
     return f32(stream_next_bits(stream).y >> 8u) * 5.9604644775390625e-8;
 }
 
 /// The next 64 bits, `(low, high)`.
 ///
 /// Twin: specula-bsdf/src/math/stream.rs, Stream::next_bits.
-fn stream_next_bits(stream: ptr<function, Stream>) -> vec2u {
+fn stream_next_bits(stream: ptr<function, StreamState>) -> vec2u {
     let counter = stream_add((*stream).state, vec2u(0x7f4a7c15u, 0x9e3779b9u));
     (*stream).state = counter;
     let first = stream_multiply(stream_fold(counter, 30u), vec2u(0x1ce4e5b9u, 0xbf58476du));

@@ -19,17 +19,17 @@
 //
 // Known limitation, the model's: as for Heitz 2016, the variance diverges for `wi` along the normal.
 
-import package::math::stream::{Stream, stream_next};
+import package::math::stream::{StreamState, stream_next};
 import package::multibounce::state::{state_down, state_exit, state_mass, state_new, state_scale, state_up};
-import package::multibounce::walk::{Facets, WALK_MAX_BOUNCES, walk_arriving, walk_bounce, walk_connection, walk_flight, walk_is_upward, walk_pair};
+import package::multibounce::walk::{WalkFacets, WALK_MAX_BOUNCES, walk_arriving, walk_bounce, walk_connection, walk_flight, walk_is_upward, walk_pair};
 
 /// Terms that the density can hold.
-const BITTERLI_TERMS: u32 = 16u;
+const BITTERLI2022_TERMS: u32 = 16u;
 
 /// An estimate of `f cos`; `wi.z > 0`.
 ///
 /// Twin: specula-bsdf/src/multibounce/bitterli2022.rs, eval.
-fn bitterli_eval(facets: Facets, wo: vec3f, wi: vec3f, stream: ptr<function, Stream>) -> vec3f {
+fn bitterli2022_eval(facets: WalkFacets, wo: vec3f, wi: vec3f, stream: ptr<function, StreamState>) -> vec3f {
     var flight = walk_arriving(facets, wo);
     let leaving = walk_flight(facets.normals, wi);
     var heights = state_new(flight.rate);
@@ -50,7 +50,7 @@ fn bitterli_eval(facets: Facets, wo: vec3f, wi: vec3f, stream: ptr<function, Str
             }
             state_scale(&heights, 1.0 / staying);
         } else {
-            if heights.layers >= BITTERLI_TERMS {
+            if heights.layers >= BITTERLI2022_TERMS {
                 break;
             }
             state_down(&heights, flight.rate);

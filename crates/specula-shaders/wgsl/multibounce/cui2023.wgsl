@@ -21,28 +21,28 @@
 // * the released bidirectional code drops pairs whose densities are below 1e-4 (-4 % of energy) and
 //   clamps cosines above 0.9999; neither is needed with the densities in closed form.
 
-import package::bsdf::bsdf_sample::{BSDF_VALID, BsdfSample, bsdf_sample_none};
-import package::math::stream::{Stream, stream_next};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_VALID, BsdfSample, bsdf_sample_none};
+import package::math::stream::{StreamState, stream_next};
 import package::multibounce::normals::{normals_d};
-import package::multibounce::state::{DepthState, state_down, state_exit, state_new, state_scale, state_up};
-import package::multibounce::walk::{Facets, Flight, WALK_MAX_BOUNCES, walk_arriving, walk_bounce, walk_connection, walk_flight, walk_is_upward, walk_pair, walk_reversed, walk_single};
+import package::multibounce::state::{StateDepth, state_down, state_exit, state_new, state_scale, state_up};
+import package::multibounce::walk::{WalkFacets, WalkFlight, WALK_MAX_BOUNCES, walk_arriving, walk_bounce, walk_connection, walk_flight, walk_is_upward, walk_pair, walk_reversed, walk_single};
 
 /// Downward flights that the tables hold.
-const CUI_LAYERS: u32 = 16u;
+const CUI2023_LAYERS: u32 = 16u;
 /// Bounces without roulette.
-const CUI_SURE: u32 = 2u;
+const CUI2023_SURE: u32 = 2u;
 /// Probability of each bounce beyond.
-const CUI_GOES_ON: f32 = 0.7;
+const CUI2023_GOES_ON: f32 = 0.7;
 /// Flights that a subpath can hold. Roulette leaves 0.7^10 of the walks that get there, and each end
 /// covers for the other.
-const CUI_SUBPATH: u32 = 12u;
+const CUI2023_SUBPATH: u32 = 12u;
 /// A finite cap: an infinite quotient times the roulette's 0 would be no number.
-const CUI_CAP: f32 = 1e30;
+const CUI2023_CAP: f32 = 1e30;
 
 /// An estimate of `f cos` from one end; `wi.z > 0`.
 ///
 /// Twin: specula-bsdf/src/multibounce/cui2023.rs, eval.
-fn cui_eval(facets: Facets, wo: vec3f, wi: vec3f, stream: ptr<function, Stream>) -> vec3f {
+fn cui2023_eval(facets: WalkFacets, wo: vec3f, wi: vec3f, stream: ptr<function, StreamState>) -> vec3f {
     var flight = walk_arriving(facets, wo);
     let leaving = walk_flight(facets.normals, wi);
     var state = state_new(flight.rate);
@@ -53,11 +53,11 @@ fn cui_eval(facets: Facets, wo: vec3f, wi: vec3f, stream: ptr<function, Stream>)
         let end = walk_connection(facets, flight.d, leaving.d);
         let segment = state_exit(&state, leaving.rate);
         sum += weight * end.fresnel * (end.quarter_d / flight.facing * segment);
-        if bounce >= CUI_SURE {
-            if stream_next(stream) >= CUI_GOES_ON {
+        if bounce >= CUI2023_SURE {
+            if stream_next(stream) >= CUI2023_GOES_ON {
                 break;
             }
-            weight *= 1.0 / CUI_GOES_ON;
+            weight *= 1.0 / CUI2023_GOES_ON;
         }
         let met = walk_bounce(facets, flight.d, walk_pair(stream));
         weight *= met.fresnel;
@@ -65,7 +65,7 @@ fn cui_eval(facets: Facets, wo: vec3f, wi: vec3f, stream: ptr<function, Stream>)
         if walk_is_upward(flight) {
             state_up(&state, flight.rate);
         } else {
-            if state.layers >= CUI_LAYERS {
+            if state.layers >= CUI2023_LAYERS {
                 break;
             }
             state_down(&state, flight.rate);
@@ -80,7 +80,7 @@ fn cui_eval(facets: Facets, wo: vec3f, wi: vec3f, stream: ptr<function, Stream>)
 /// * `u`: draws the first facet.
 ///
 /// Twin: specula-bsdf/src/multibounce/cui2023.rs, sample.
-fn cui_draw(facets: Facets, wo: vec3f, u: vec2f, stream: ptr<function, Stream>) -> BsdfSample {
+fn cui2023_draw(facets: WalkFacets, wo: vec3f, u: vec2f, stream: ptr<function, StreamState>) -> BsdfSample {
     var flight = walk_arriving(facets, wo);
     var state = state_new(flight.rate);
     var weight = vec3f(1.0);
@@ -94,7 +94,7 @@ fn cui_draw(facets: Facets, wo: vec3f, u: vec2f, stream: ptr<function, Stream>) 
             let masking = 1.0 / (1.0 + flight.rate);
             let leaving = state_up(&state, flight.rate);
             if stream_next(stream) < masking {
-                return BsdfSample(flight.d, 0.0, weight * (leaving / masking), 1.0, BSDF_VALID);
+                return BsdfSample(flight.d, 0.0, weight * (leaving / masking), 1.0, BSDF_SAMPLE_VALID);
             }
             state_scale(&state, 1.0 / (1.0 - masking));
         } else if !state_down(&state, flight.rate) {
@@ -108,13 +108,13 @@ fn cui_draw(facets: Facets, wo: vec3f, u: vec2f, stream: ptr<function, Stream>) 
 /// Flights of one end's walk.
 ///
 /// Twin: specula-bsdf/src/multibounce/cui2023.rs, Subpath.
-struct Subpath {
+struct Cui2023Subpath {
     /// The first is the given one.
-    flights: array<Flight, CUI_SUBPATH>,
+    flights: array<WalkFlight, CUI2023_SUBPATH>,
     /// Fresnel terms and roulette up to each flight.
-    weights: array<vec3f, CUI_SUBPATH>,
+    weights: array<vec3f, CUI2023_SUBPATH>,
     /// `D / 4` of the facet that each flight left.
-    quarter_d: array<f32, CUI_SUBPATH>,
+    quarter_d: array<f32, CUI2023_SUBPATH>,
     /// How many flights, at least 1.
     count: u32,
 }
@@ -122,19 +122,19 @@ struct Subpath {
 /// A walk from one end.
 ///
 /// Twin: specula-bsdf/src/multibounce/cui2023.rs, Subpath::draw.
-fn cui_subpath(facets: Facets, start: Flight, stream: ptr<function, Stream>) -> Subpath {
-    var path: Subpath;
+fn cui2023_subpath(facets: WalkFacets, start: WalkFlight, stream: ptr<function, StreamState>) -> Cui2023Subpath {
+    var path: Cui2023Subpath;
     path.flights[0] = start;
     path.weights[0] = vec3f(1.0);
     path.count = 1u;
-    while path.count < CUI_SUBPATH {
+    while path.count < CUI2023_SUBPATH {
         let count = path.count;
         var weight = path.weights[count - 1u];
-        if count > CUI_SURE {
-            if stream_next(stream) >= CUI_GOES_ON {
+        if count > CUI2023_SURE {
+            if stream_next(stream) >= CUI2023_GOES_ON {
                 break;
             }
-            weight *= 1.0 / CUI_GOES_ON;
+            weight *= 1.0 / CUI2023_GOES_ON;
         }
         let met = walk_bounce(facets, path.flights[count - 1u].d, walk_pair(stream));
         path.flights[count] = met.next;
@@ -151,16 +151,16 @@ fn cui_subpath(facets: Facets, start: Flight, stream: ptr<function, Stream>) -> 
 /// path of `s + t + 1` bounces. Balance heuristic over all ways of splitting it.
 ///
 /// Twin: specula-bsdf/src/multibounce/cui2023.rs, eval_bidirectional.
-fn cui_eval_bidirectional(
-    facets: Facets,
+fn cui2023_eval_bidirectional(
+    facets: WalkFacets,
     wo: vec3f,
     wi: vec3f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> vec3f {
     let arriving = walk_arriving(facets, wo);
     let leaving = walk_flight(facets.normals, wi);
-    var eye = cui_subpath(facets, arriving, stream);
-    var light = cui_subpath(facets, walk_reversed(leaving), stream);
+    var eye = cui2023_subpath(facets, arriving, stream);
+    var light = cui2023_subpath(facets, walk_reversed(leaving), stream);
     var sum = walk_single(facets, arriving, leaving);
     for (var s = 0u; s < eye.count; s++) {
         for (var t = select(0u, 1u, s == 0u); t < light.count; t++) {
@@ -169,8 +169,8 @@ fn cui_eval_bidirectional(
                 continue;
             }
             let throughput = eye.weights[s] * light.weights[t] * end.fresnel;
-            let rivals = cui_rivals(&eye, &light, s, t, end.quarter_d);
-            let density = cui_path_over_density(&eye, &light, s, t, leaving.rate);
+            let rivals = cui2023_rivals(&eye, &light, s, t, end.quarter_d);
+            let density = cui2023_path_over_density(&eye, &light, s, t, leaving.rate);
             sum += throughput * (end.quarter_d * density / rivals);
         }
     }
@@ -180,9 +180,9 @@ fn cui_eval_bidirectional(
 /// `prod D / (4 |d_z|) S` over the density of both subpaths, without the connecting `D / 4`.
 ///
 /// Twin: specula-bsdf/src/multibounce/cui2023.rs, path_over_density.
-fn cui_path_over_density(
-    eye: ptr<function, Subpath>,
-    light: ptr<function, Subpath>,
+fn cui2023_path_over_density(
+    eye: ptr<function, Cui2023Subpath>,
+    light: ptr<function, Cui2023Subpath>,
     s: u32,
     t: u32,
     exit_rate: f32,
@@ -192,11 +192,11 @@ fn cui_path_over_density(
     var factor = 1.0 / (*eye).flights[s].facing;
     // It has room for the flights of both subpaths: state_down does not fail.
     for (var j = 1u; j <= s; j++) {
-        cui_fly(&state, (*eye).flights[j]);
+        cui2023_fly(&state, (*eye).flights[j]);
     }
     for (var j = t; j >= 1u; j--) {
         let flight = (*light).flights[j];
-        cui_fly(&state, walk_reversed(flight));
+        cui2023_fly(&state, walk_reversed(flight));
         factor *= 1.0 / flight.backing;
     }
     for (var j = 0u; j < t; j++) {
@@ -208,7 +208,7 @@ fn cui_path_over_density(
 /// The state after a flight.
 ///
 /// Twin: specula-bsdf/src/multibounce/cui2023.rs, path_over_density.
-fn cui_fly(state: ptr<function, DepthState>, flight: Flight) {
+fn cui2023_fly(state: ptr<function, StateDepth>, flight: WalkFlight) {
     if walk_is_upward(flight) {
         state_up(state, flight.rate);
     } else {
@@ -222,26 +222,26 @@ fn cui_fly(state: ptr<function, DepthState>, flight: Flight) {
 /// to `h_{i+1}` multiplies the density by `D(h_i) / sigma(-d_i)  sigma(d_{i+2}) / D(h_{i+1})`.
 ///
 /// Twin: specula-bsdf/src/multibounce/cui2023.rs, rivals.
-fn cui_rivals(
-    eye: ptr<function, Subpath>,
-    light: ptr<function, Subpath>,
+fn cui2023_rivals(
+    eye: ptr<function, Cui2023Subpath>,
+    light: ptr<function, Cui2023Subpath>,
     s: u32,
     t: u32,
     quarter_d: f32,
 ) -> f32 {
     // Towards wi: the facets that the light's walk drew, from its last. Then towards wo.
-    let towards_wi = cui_rivals_along(light, t, (*eye).flights[s].facing, s + t, quarter_d);
-    let towards_wo = cui_rivals_along(eye, s, (*light).flights[t].facing, s + t, quarter_d);
+    let towards_wi = cui2023_rivals_along(light, t, (*eye).flights[s].facing, s + t, quarter_d);
+    let towards_wo = cui2023_rivals_along(eye, s, (*light).flights[t].facing, s + t, quarter_d);
     return 1.0 + towards_wi + towards_wo;
 }
 
-/// The part of `cui_rivals` whose connections lie on one of the subpaths.
+/// The part of `cui2023_rivals` whose connections lie on one of the subpaths.
 ///
 /// * `last`: its last flight in use; `facing` of the other's last; `bounces` of both.
 ///
 /// Twin: specula-bsdf/src/multibounce/cui2023.rs, rivals.
-fn cui_rivals_along(
-    path: ptr<function, Subpath>,
+fn cui2023_rivals_along(
+    path: ptr<function, Cui2023Subpath>,
     last: u32,
     facing: f32,
     bounces: u32,
@@ -254,8 +254,8 @@ fn cui_rivals_along(
     for (var j = last; j >= 1u; j--) {
         let next = (*path).quarter_d[j];
         quotient *= here / area * (*path).flights[j - 1u].facing / next;
-        quotient = min(quotient, CUI_CAP) * cui_roulette(bounces - j + 1u);
-        quotient /= cui_roulette(j);
+        quotient = min(quotient, CUI2023_CAP) * cui2023_roulette(bounces - j + 1u);
+        quotient /= cui2023_roulette(j);
         sum += quotient;
         here = next;
         area = (*path).flights[j].backing;
@@ -266,9 +266,9 @@ fn cui_rivals_along(
 /// Probability that a subpath makes its `bounce`-th bounce once it has come so far.
 ///
 /// Twin: specula-bsdf/src/multibounce/cui2023.rs, roulette.
-fn cui_roulette(bounce: u32) -> f32 {
-    if bounce <= CUI_SURE {
+fn cui2023_roulette(bounce: u32) -> f32 {
+    if bounce <= CUI2023_SURE {
         return 1.0;
     }
-    return select(CUI_GOES_ON, 0.0, bounce >= CUI_SUBPATH);
+    return select(CUI2023_GOES_ON, 0.0, bounce >= CUI2023_SUBPATH);
 }

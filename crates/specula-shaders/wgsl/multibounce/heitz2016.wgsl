@@ -18,22 +18,22 @@
 // Known limitation, the model's: the variance of a connection diverges (as a logarithm) for `wi` along
 // the normal.
 
-import package::bsdf::bsdf_sample::{BSDF_VALID, BsdfSample, bsdf_sample_none};
-import package::math::stream::{Stream, stream_next};
-import package::multibounce::walk::{Facets, Flight, WALK_MAX_BOUNCES, walk_arriving, walk_bounce, walk_connection, walk_flight, walk_is_upward, walk_pair, walk_single};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_VALID, BsdfSample, bsdf_sample_none};
+import package::math::stream::{StreamState, stream_next};
+import package::multibounce::walk::{WalkFacets, WalkFlight, WALK_MAX_BOUNCES, walk_arriving, walk_bounce, walk_connection, walk_flight, walk_is_upward, walk_pair, walk_single};
 
 /// `-ln U / rate`.
 ///
 /// Twin: specula-bsdf/src/multibounce/heitz2016.rs, step.
-fn heitz_walk_step(rate: f32, stream: ptr<function, Stream>) -> f32 {
+fn heitz2016_step(rate: f32, stream: ptr<function, StreamState>) -> f32 {
     return -log(1.0 - stream_next(stream)) / rate;
 }
 
 /// The depth after a flight from the depth `tau`; below 0 where it leaves.
 ///
 /// Twin: specula-bsdf/src/multibounce/heitz2016.rs, eval.
-fn heitz_walk_depth(tau: f32, flight: Flight, stream: ptr<function, Stream>) -> f32 {
-    let s = heitz_walk_step(flight.rate, stream);
+fn heitz2016_depth(tau: f32, flight: WalkFlight, stream: ptr<function, StreamState>) -> f32 {
+    let s = heitz2016_step(flight.rate, stream);
     return tau + select(s, -s, walk_is_upward(flight));
 }
 
@@ -42,12 +42,12 @@ fn heitz_walk_depth(tau: f32, flight: Flight, stream: ptr<function, Stream>) -> 
 /// * `separate`: one bounce in closed form; else as published.
 ///
 /// Twin: specula-bsdf/src/multibounce/heitz2016.rs, eval.
-fn heitz_walk_eval(
-    facets: Facets,
+fn heitz2016_eval(
+    facets: WalkFacets,
     separate: bool,
     wo: vec3f,
     wi: vec3f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> vec3f {
     var flight = walk_arriving(facets, wo);
     let leaving = walk_flight(facets.normals, wi);
@@ -56,7 +56,7 @@ fn heitz_walk_eval(
         sum = walk_single(facets, flight, leaving);
     }
     var weight = vec3f(1.0);
-    var tau = heitz_walk_step(flight.rate, stream);
+    var tau = heitz2016_step(flight.rate, stream);
     for (var bounce = 0u; bounce < WALK_MAX_BOUNCES; bounce++) {
         if bounce > 0u || !separate {
             let met = walk_connection(facets, flight.d, leaving.d);
@@ -66,7 +66,7 @@ fn heitz_walk_eval(
         let met = walk_bounce(facets, flight.d, walk_pair(stream));
         weight *= met.fresnel;
         flight = met.next;
-        tau = heitz_walk_depth(tau, flight, stream);
+        tau = heitz2016_depth(tau, flight, stream);
         if tau < 0.0 {
             break;
         }
@@ -80,23 +80,23 @@ fn heitz_walk_eval(
 /// * `u`: draws the first facet.
 ///
 /// Twin: specula-bsdf/src/multibounce/heitz2016.rs, sample.
-fn heitz_walk_draw(
-    facets: Facets,
+fn heitz2016_draw(
+    facets: WalkFacets,
     wo: vec3f,
     u: vec2f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> BsdfSample {
     var flight = walk_arriving(facets, wo);
     var weight = vec3f(1.0);
-    var tau = heitz_walk_step(flight.rate, stream);
+    var tau = heitz2016_step(flight.rate, stream);
     var next = u;
     for (var bounce = 0u; bounce < WALK_MAX_BOUNCES; bounce++) {
         let met = walk_bounce(facets, flight.d, next);
         weight *= met.fresnel;
         flight = met.next;
-        tau = heitz_walk_depth(tau, flight, stream);
+        tau = heitz2016_depth(tau, flight, stream);
         if tau < 0.0 {
-            return BsdfSample(flight.d, 0.0, weight, 1.0, BSDF_VALID);
+            return BsdfSample(flight.d, 0.0, weight, 1.0, BSDF_SAMPLE_VALID);
         }
         next = walk_pair(stream);
     }

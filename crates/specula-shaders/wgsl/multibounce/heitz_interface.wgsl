@@ -1,20 +1,20 @@
 // The walk of Heitz et al. 2016 at dielectric facets, which reflect with probability F or refract into
 // the other side.
 
-import package::bsdf::bsdf_sample::{BSDF_VALID, BsdfSample, bsdf_sample_none};
-import package::math::stream::{Stream, stream_next};
-import package::multibounce::heitz2016::{heitz_walk_depth, heitz_walk_step};
-import package::multibounce::multibounce_interface::{Collision, Interface, multibounce_interface_beyond, multibounce_interface_bounce, multibounce_interface_connection, multibounce_interface_depth_beyond, multibounce_interface_turned};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_VALID, BsdfSample, bsdf_sample_none};
+import package::math::stream::{StreamState, stream_next};
+import package::multibounce::heitz2016::{heitz2016_depth, heitz2016_step};
+import package::multibounce::multibounce_interface::{MultibounceInterfaceCollision, MultibounceInterface, multibounce_interface_beyond, multibounce_interface_bounce, multibounce_interface_connection, multibounce_interface_depth_beyond, multibounce_interface_turned};
 import package::multibounce::walk::{WALK_MAX_BOUNCES, walk_flight};
 
 /// What a walk does after a bounce, or after all of them.
 ///
 /// Twin: specula-bsdf/src/multibounce/interface.rs, Next.
-struct InterfaceWalk {
+struct HeitzInterfaceWalk {
     /// The facets on the side that it is on.
-    side: Interface,
+    side: MultibounceInterface,
     /// Where it meets one of them; of meaning where it has not left.
-    at: Collision,
+    at: MultibounceInterfaceCollision,
     /// Whether that is another side than the one it started on.
     is_beyond: bool,
     /// Whether it has left, along `at.flight.d` in the frame of its side.
@@ -27,14 +27,14 @@ struct InterfaceWalk {
 ///
 /// Twin: specula-bsdf/src/multibounce/heitz2016.rs, eval_interface.
 fn heitz_interface_eval(
-    facets: Interface,
+    facets: MultibounceInterface,
     wo: vec3f,
     wi: vec3f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> f32 {
     let flight = walk_flight(facets.normals, -wo);
-    let tau = heitz_walk_step(flight.rate, stream);
-    let start = InterfaceWalk(facets, Collision(flight, tau), false, false, 0.0);
+    let tau = heitz2016_step(flight.rate, stream);
+    let start = HeitzInterfaceWalk(facets, MultibounceInterfaceCollision(flight, tau), false, false, 0.0);
     return heitz_interface_collisions(start, true, wi, stream).sum;
 }
 
@@ -45,14 +45,14 @@ fn heitz_interface_eval(
 ///
 /// Twin: specula-bsdf/src/multibounce/heitz2016.rs, sample_interface.
 fn heitz_interface_draw(
-    facets: Interface,
+    facets: MultibounceInterface,
     wo: vec3f,
     u: vec3f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> BsdfSample {
     let flight = walk_flight(facets.normals, -wo);
-    let tau = heitz_walk_step(flight.rate, stream);
-    let start = InterfaceWalk(facets, Collision(flight, tau), false, false, 0.0);
+    let tau = heitz2016_step(flight.rate, stream);
+    let start = HeitzInterfaceWalk(facets, MultibounceInterfaceCollision(flight, tau), false, false, 0.0);
     var walk = heitz_interface_after(start, u, stream);
     if !walk.has_left {
         walk = heitz_interface_collisions(walk, false, vec3f(0.0, 0.0, 1.0), stream);
@@ -63,13 +63,13 @@ fn heitz_interface_draw(
 /// The direction of a walk that has left, in the frame in which it started; none of one that has not.
 ///
 /// Twin: specula-bsdf/src/multibounce/heitz2016.rs, sample_interface.
-fn heitz_interface_left(walk: InterfaceWalk) -> BsdfSample {
+fn heitz_interface_left(walk: HeitzInterfaceWalk) -> BsdfSample {
     if !walk.has_left {
         return bsdf_sample_none();
     }
     let d = walk.at.flight.d;
     let wi = select(d, multibounce_interface_turned(d), walk.is_beyond);
-    return BsdfSample(wi, 0.0, vec3f(1.0), 1.0, BSDF_VALID);
+    return BsdfSample(wi, 0.0, vec3f(1.0), 1.0, BSDF_SAMPLE_VALID);
 }
 
 /// Walks through all collisions from one on.
@@ -78,11 +78,11 @@ fn heitz_interface_left(walk: InterfaceWalk) -> BsdfSample {
 ///
 /// Twin: specula-bsdf/src/multibounce/heitz2016.rs, collisions.
 fn heitz_interface_collisions(
-    start: InterfaceWalk,
+    start: HeitzInterfaceWalk,
     connects: bool,
     wi: vec3f,
-    stream: ptr<function, Stream>,
-) -> InterfaceWalk {
+    stream: ptr<function, StreamState>,
+) -> HeitzInterfaceWalk {
     var walk = start;
     for (var bounce = 0u; bounce < WALK_MAX_BOUNCES; bounce++) {
         if connects {
@@ -106,10 +106,10 @@ fn heitz_interface_collisions(
 ///
 /// Twin: specula-bsdf/src/multibounce/heitz2016.rs, after.
 fn heitz_interface_after(
-    walk: InterfaceWalk,
+    walk: HeitzInterfaceWalk,
     u: vec3f,
-    stream: ptr<function, Stream>,
-) -> InterfaceWalk {
+    stream: ptr<function, StreamState>,
+) -> HeitzInterfaceWalk {
     let bent = multibounce_interface_bounce(walk.side, walk.at.flight.d, u);
     return heitz_interface_flown(walk, bent.d, bent.crosses, stream);
 }
@@ -120,11 +120,11 @@ fn heitz_interface_after(
 ///
 /// Twin: specula-bsdf/src/multibounce/heitz2016.rs, after.
 fn heitz_interface_flown(
-    walk: InterfaceWalk,
+    walk: HeitzInterfaceWalk,
     d: vec3f,
     crosses: bool,
-    stream: ptr<function, Stream>,
-) -> InterfaceWalk {
+    stream: ptr<function, StreamState>,
+) -> HeitzInterfaceWalk {
     var next = walk;
     if crosses {
         next.side = multibounce_interface_beyond(walk.side);
@@ -132,7 +132,7 @@ fn heitz_interface_flown(
         next.at.tau = multibounce_interface_depth_beyond(walk.at.tau);
     }
     next.at.flight = walk_flight(walk.side.normals, d);
-    next.at.tau = heitz_walk_depth(next.at.tau, next.at.flight, stream);
+    next.at.tau = heitz2016_depth(next.at.tau, next.at.flight, stream);
     next.has_left = next.at.tau < 0.0;
     return next;
 }

@@ -1,8 +1,8 @@
 // Densities for multiple importance sampling: close to that of a walk's directions, in closed form.
 
-import package::multibounce::multibounce_interface::{Interface, multibounce_interface_phase};
+import package::multibounce::multibounce_interface::{MultibounceInterface, multibounce_interface_phase};
 import package::multibounce::normalised::{normalised_pdf};
-import package::multibounce::normals::{Normals, normals_d, normals_projected_area};
+import package::multibounce::normals::{NormalsModel, normals_d, normals_projected_area};
 import package::multibounce::walk::{walk_flight};
 
 /// Visible normals plus a Lambertian term (Heitz et al. 2016). Integrates to more than 1: a weight, not a
@@ -20,7 +20,7 @@ const MIS_PDF_NORMALISED: u32 = 2u;
 /// The density `mis` of a reflected `wi`, in 1/sr; 0 where `wi.z <= 0`, above 0 elsewhere.
 ///
 /// Twin: specula-bsdf/src/multibounce/mis_pdf.rs, reflection.
-fn mis_pdf_reflection(mis: u32, normals: Normals, wo: vec3f, wi: vec3f) -> f32 {
+fn mis_pdf_reflection(mis: u32, normals: NormalsModel, wo: vec3f, wi: vec3f) -> f32 {
     if wi.z <= 0.0 {
         return 0.0;
     }
@@ -38,7 +38,7 @@ fn mis_pdf_reflection(mis: u32, normals: Normals, wo: vec3f, wi: vec3f) -> f32 {
 /// Density of directions after the first facet, over the whole sphere: `D(wm) / (4 sigma(wo))`.
 ///
 /// Twin: specula-bsdf/src/multibounce/mis_pdf.rs, first_facet.
-fn mis_pdf_first_facet(normals: Normals, wo: vec3f, wi: vec3f) -> f32 {
+fn mis_pdf_first_facet(normals: NormalsModel, wo: vec3f, wi: vec3f) -> f32 {
     let between = wo + wi;
     let size = length(between);
     if between.z > 0.0 && size > 1e-6 {
@@ -68,7 +68,7 @@ fn mis_pdf_hapke(a: f32, mu_o: f32, mu_i: f32) -> f32 {
 /// The share `s` of all but the first flight at a dielectric, in `mis_pdf_interface`.
 ///
 /// Twin: specula-bsdf/src/multibounce/mis_pdf.rs, lambert_share.
-fn mis_pdf_lambert_share(normals: Normals) -> f32 {
+fn mis_pdf_lambert_share(normals: NormalsModel) -> f32 {
     let area = normals.alpha.x * normals.alpha.y;
     let fourth = area * area;
     return max(0.8 * fourth / (fourth + 0.15), 0.002);
@@ -83,7 +83,7 @@ fn mis_pdf_lambert_share(normals: Normals) -> f32 {
 /// `MIS_PDF_HAPKE` is defined for metals only; here it is `MIS_PDF_LAMBERT`.
 ///
 /// Twin: specula-bsdf/src/multibounce/mis_pdf.rs, interface.
-fn mis_pdf_interface(mis: u32, facets: Interface, wo: vec3f, wi: vec3f) -> f32 {
+fn mis_pdf_interface(mis: u32, facets: MultibounceInterface, wo: vec3f, wi: vec3f) -> f32 {
     let flight = walk_flight(facets.normals, -wo);
     let reflected = multibounce_interface_phase(facets, flight, wi, true);
     let first = reflected + multibounce_interface_phase(facets, flight, wi, false);

@@ -7,15 +7,15 @@
 // Departure from the Rust source: a caller always brings a stream.
 
 import package::bsdf::bsdf_sample::{BsdfSample, bsdf_sample_reflected};
-import package::math::stream::{Stream};
-import package::multibounce::bitterli2022::{bitterli_eval};
-import package::multibounce::cui2023::{cui_draw, cui_eval, cui_eval_bidirectional};
-import package::multibounce::heitz2016::{heitz_walk_draw, heitz_walk_eval};
+import package::math::stream::{StreamState};
+import package::multibounce::bitterli2022::{bitterli2022_eval};
+import package::multibounce::cui2023::{cui2023_draw, cui2023_eval, cui2023_eval_bidirectional};
+import package::multibounce::heitz2016::{heitz2016_draw, heitz2016_eval};
 import package::multibounce::mis_pdf::{mis_pdf_reflection};
 import package::multibounce::multibounce_model::{MULTIBOUNCE_MODEL_BITTERLI, MULTIBOUNCE_MODEL_CUI, MULTIBOUNCE_MODEL_CUI_BIDIRECTIONAL, MULTIBOUNCE_MODEL_HEITZ, MULTIBOUNCE_MODEL_WANG, MULTIBOUNCE_MODEL_WANG_UNCORRELATED};
 import package::multibounce::ours::{ours_draw, ours_eval};
-import package::multibounce::walk::{Facets};
-import package::multibounce::wang2022::{wang_draw, wang_eval};
+import package::multibounce::walk::{WalkFacets};
+import package::multibounce::wang2022::{wang2022_draw, wang2022_eval};
 
 /// Reflection off a rough metal with every bounce between its facets.
 ///
@@ -24,7 +24,7 @@ import package::multibounce::wang2022::{wang_draw, wang_eval};
 /// Twin: specula-bsdf/src/multibounce/conductor.rs, Conductor.
 struct MultibounceConductor {
     /// Its facets.
-    facets: Facets,
+    facets: WalkFacets,
     /// One of the `MULTIBOUNCE_MODEL` constants.
     model: u32,
     /// One of the `MIS_PDF` constants.
@@ -39,27 +39,27 @@ fn multibounce_conductor_eval(
     lobe: MultibounceConductor,
     wo: vec3f,
     wi: vec3f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> vec3f {
     if wi.z <= 0.0 {
         return vec3f(0.0);
     }
     switch lobe.model {
         case MULTIBOUNCE_MODEL_HEITZ: {
-            return heitz_walk_eval(lobe.facets, true, wo, wi, stream);
+            return heitz2016_eval(lobe.facets, true, wo, wi, stream);
         }
         case MULTIBOUNCE_MODEL_BITTERLI: {
-            return bitterli_eval(lobe.facets, wo, wi, stream);
+            return bitterli2022_eval(lobe.facets, wo, wi, stream);
         }
         case MULTIBOUNCE_MODEL_WANG, MULTIBOUNCE_MODEL_WANG_UNCORRELATED: {
             let correlated = lobe.model == MULTIBOUNCE_MODEL_WANG;
-            return wang_eval(lobe.facets, correlated, wo, wi, stream);
+            return wang2022_eval(lobe.facets, correlated, wo, wi, stream);
         }
         case MULTIBOUNCE_MODEL_CUI, MULTIBOUNCE_MODEL_CUI_BIDIRECTIONAL: {
             if lobe.model == MULTIBOUNCE_MODEL_CUI_BIDIRECTIONAL && wo.z > 0.0 {
-                return cui_eval_bidirectional(lobe.facets, wo, wi, stream);
+                return cui2023_eval_bidirectional(lobe.facets, wo, wi, stream);
             }
-            return cui_eval(lobe.facets, wo, wi, stream);
+            return cui2023_eval(lobe.facets, wo, wi, stream);
         }
         default: {
             return ours_eval(lobe.facets, wo, wi, stream);
@@ -81,7 +81,7 @@ fn multibounce_conductor_eval_pdf(
     lobe: MultibounceConductor,
     wo: vec3f,
     wi: vec3f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> vec4f {
     let value = multibounce_conductor_eval(lobe, wo, wi, stream);
     return vec4f(value, multibounce_conductor_pdf(lobe, wo, wi));
@@ -97,18 +97,18 @@ fn multibounce_conductor_walk(
     lobe: MultibounceConductor,
     wo: vec3f,
     u: vec2f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> BsdfSample {
     switch lobe.model {
         case MULTIBOUNCE_MODEL_HEITZ, MULTIBOUNCE_MODEL_BITTERLI: {
-            return heitz_walk_draw(lobe.facets, wo, u, stream);
+            return heitz2016_draw(lobe.facets, wo, u, stream);
         }
         case MULTIBOUNCE_MODEL_WANG, MULTIBOUNCE_MODEL_WANG_UNCORRELATED: {
             let correlated = lobe.model == MULTIBOUNCE_MODEL_WANG;
-            return wang_draw(lobe.facets, correlated, wo, u, stream);
+            return wang2022_draw(lobe.facets, correlated, wo, u, stream);
         }
         case MULTIBOUNCE_MODEL_CUI, MULTIBOUNCE_MODEL_CUI_BIDIRECTIONAL: {
-            return cui_draw(lobe.facets, wo, u, stream);
+            return cui2023_draw(lobe.facets, wo, u, stream);
         }
         default: {
             return ours_draw(lobe.facets, wo, u, stream);
@@ -125,7 +125,7 @@ fn multibounce_conductor_draw(
     lobe: MultibounceConductor,
     wo: vec3f,
     u: vec3f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> BsdfSample {
     let left = multibounce_conductor_walk(lobe, wo, u.yz, stream);
     if left.flags == 0u {

@@ -2,14 +2,14 @@
 //
 // Departure from the Rust source: a caller always brings a stream.
 
-import package::bsdf::bsdf_sample::{BSDF_SPECULAR, BSDF_TRANSMISSION, BSDF_VALID, BsdfSample, bsdf_sample_none, bsdf_sample_radiance_scale, bsdf_sample_reflected, bsdf_sample_transmitted};
-import package::bsdf::tints::{Tints};
-import package::math::stream::{Stream};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_SPECULAR, BSDF_SAMPLE_TRANSMISSION, BSDF_SAMPLE_VALID, BsdfSample, bsdf_sample_none, bsdf_sample_radiance_scale, bsdf_sample_reflected, bsdf_sample_transmitted};
+import package::bsdf::tints::{TintsPair};
+import package::math::stream::{StreamState};
 import package::multibounce::heitz_interface::{heitz_interface_draw, heitz_interface_eval};
 import package::multibounce::mis_pdf::{mis_pdf_interface};
-import package::multibounce::multibounce_interface::{Interface, multibounce_interface_beyond, multibounce_interface_turned};
+import package::multibounce::multibounce_interface::{MultibounceInterface, multibounce_interface_beyond, multibounce_interface_turned};
 import package::multibounce::multibounce_model::{MULTIBOUNCE_MODEL_HEITZ};
-import package::multibounce::normals::{Normals};
+import package::multibounce::normals::{NormalsModel};
 import package::multibounce::ours_interface::{ours_interface_draw, ours_interface_eval};
 
 /// Reflection and refraction at a rough interface with every bounce between its facets, on both sides
@@ -22,7 +22,7 @@ import package::multibounce::ours_interface::{ours_interface_draw, ours_interfac
 /// Twin: specula-bsdf/src/multibounce/dielectric.rs, Dielectric.
 struct MultibounceDielectric {
     /// Distribution of its facets.
-    normals: Normals,
+    normals: NormalsModel,
     /// Index inside (where two-sided) or beyond over that outside or on the side of `wo`, above 0.
     eta: f32,
     /// 1: `wo.z < 0` views it from inside. 0: `wo.z < 0` is a backfacing shading normal.
@@ -32,7 +32,7 @@ struct MultibounceDielectric {
     /// One of the `MIS_PDF` constants.
     mis: u32,
     /// Factors on what leaves it on either side, however many bounces.
-    tints: Tints,
+    tints: TintsPair,
 }
 
 /// Whether light passes straight on.
@@ -54,8 +54,8 @@ fn multibounce_dielectric_is_turned(lobe: MultibounceDielectric, wo: vec3f) -> b
 /// * `is_turned`: whether that is inside.
 ///
 /// Twin: specula-bsdf/src/multibounce/dielectric.rs, Dielectric::side.
-fn multibounce_dielectric_side(lobe: MultibounceDielectric, is_turned: bool) -> Interface {
-    let outside = Interface(lobe.normals, lobe.eta);
+fn multibounce_dielectric_side(lobe: MultibounceDielectric, is_turned: bool) -> MultibounceInterface {
+    let outside = MultibounceInterface(lobe.normals, lobe.eta);
     if is_turned {
         return multibounce_interface_beyond(outside);
     }
@@ -84,7 +84,7 @@ fn multibounce_dielectric_pdf(lobe: MultibounceDielectric, wo: vec3f, wi: vec3f)
 
 /// An estimate of `f |cos|`.
 ///
-/// * `transport`: `TRANSPORT_RADIANCE` or `TRANSPORT_IMPORTANCE`.
+/// * `transport`: `BSDF_SAMPLE_RADIANCE` or `BSDF_SAMPLE_IMPORTANCE`.
 ///
 /// Twin: specula-bsdf/src/multibounce/dielectric.rs, Dielectric::eval_pdf_random.
 fn multibounce_dielectric_eval(
@@ -92,7 +92,7 @@ fn multibounce_dielectric_eval(
     wo: vec3f,
     wi: vec3f,
     transport: u32,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> vec3f {
     if multibounce_dielectric_is_index_matched(lobe) || wi.z == 0.0 {
         return vec3f(0.0);
@@ -121,7 +121,7 @@ fn multibounce_dielectric_eval_pdf(
     wo: vec3f,
     wi: vec3f,
     transport: u32,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> vec4f {
     let value = multibounce_dielectric_eval(lobe, wo, wi, transport, stream);
     return vec4f(value, multibounce_dielectric_pdf(lobe, wo, wi));
@@ -137,10 +137,10 @@ fn multibounce_dielectric_draw(
     wo: vec3f,
     u: vec3f,
     transport: u32,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> BsdfSample {
     if multibounce_dielectric_is_index_matched(lobe) {
-        let flags = BSDF_VALID | BSDF_TRANSMISSION | BSDF_SPECULAR;
+        let flags = BSDF_SAMPLE_VALID | BSDF_SAMPLE_TRANSMISSION | BSDF_SAMPLE_SPECULAR;
         return BsdfSample(-wo, 1.0, lobe.tints.transmission, 1.0, flags);
     }
     let is_turned = multibounce_dielectric_is_turned(lobe, wo);

@@ -4,10 +4,10 @@
 
 import package::bsdf::bsdf_sample::{BsdfSample, bsdf_sample_none, bsdf_sample_reflected};
 import package::math::frame::{frame_from_normal, frame_to_world};
-import package::math::stream::{Stream};
+import package::math::stream::{StreamState};
 import package::math::warp::{warp_cosine_hemisphere, warp_cosine_hemisphere_pdf};
-import package::multibounce::heitz2016::{heitz_walk_depth, heitz_walk_step};
-import package::multibounce::normals::{Normals, normals_sample_wm};
+import package::multibounce::heitz2016::{heitz2016_depth, heitz2016_step};
+import package::multibounce::normals::{NormalsModel, normals_sample_wm};
 import package::multibounce::walk::{WALK_MAX_BOUNCES, walk_flight, walk_pair};
 
 /// Reflection off Lambertian facets with every bounce between them. Values are estimates.
@@ -18,7 +18,7 @@ import package::multibounce::walk::{WALK_MAX_BOUNCES, walk_flight, walk_pair};
 /// Twin: specula-bsdf/src/multibounce/diffuse.rs, Diffuse.
 struct MultibounceDiffuse {
     /// Distribution of its facets.
-    normals: Normals,
+    normals: NormalsModel,
     /// Of each facet, in [0, 1].
     albedo: vec3f,
 }
@@ -31,14 +31,14 @@ fn multibounce_diffuse_eval(
     lobe: MultibounceDiffuse,
     wo: vec3f,
     wi: vec3f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> vec3f {
     if wi.z <= 0.0 {
         return vec3f(0.0);
     }
     let leaving = walk_flight(lobe.normals, wi);
     var flight = walk_flight(lobe.normals, -wo);
-    var tau = heitz_walk_step(flight.rate, stream);
+    var tau = heitz2016_step(flight.rate, stream);
     var weight = vec3f(1.0);
     var sum = vec3f(0.0);
     var u = walk_pair(stream);
@@ -48,7 +48,7 @@ fn multibounce_diffuse_eval(
         let cos_i = max(dot(wm, wi), 0.0);
         sum += weight * (cos_i * 0.31830987 * exp(-(tau * leaving.rate)));
         flight = walk_flight(lobe.normals, multibounce_diffuse_scatter(wm, walk_pair(stream)));
-        tau = heitz_walk_depth(tau, flight, stream);
+        tau = heitz2016_depth(tau, flight, stream);
         if tau < 0.0 {
             break;
         }
@@ -80,7 +80,7 @@ fn multibounce_diffuse_eval_pdf(
     lobe: MultibounceDiffuse,
     wo: vec3f,
     wi: vec3f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> vec4f {
     let value = multibounce_diffuse_eval(lobe, wo, wi, stream);
     return vec4f(value, multibounce_diffuse_pdf(lobe, wo, wi));
@@ -95,17 +95,17 @@ fn multibounce_diffuse_draw(
     lobe: MultibounceDiffuse,
     wo: vec3f,
     u: vec3f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> BsdfSample {
     var flight = walk_flight(lobe.normals, -wo);
-    var tau = heitz_walk_step(flight.rate, stream);
+    var tau = heitz2016_step(flight.rate, stream);
     var weight = vec3f(1.0);
     var next = u.yz;
     for (var bounce = 0u; bounce < WALK_MAX_BOUNCES; bounce++) {
         let wm = normals_sample_wm(lobe.normals, -flight.d, next);
         weight *= lobe.albedo;
         flight = walk_flight(lobe.normals, multibounce_diffuse_scatter(wm, walk_pair(stream)));
-        tau = heitz_walk_depth(tau, flight, stream);
+        tau = heitz2016_depth(tau, flight, stream);
         if tau < 0.0 {
             let pdf = multibounce_diffuse_pdf(lobe, wo, flight.d);
             return bsdf_sample_reflected(flight.d, weight, pdf);

@@ -8,8 +8,8 @@
 // (Heitz et al. 2016). Refraction turns z, exchanges the depths and inverts `eta`.
 
 import package::fresnel::dielectric::{dielectric, dielectric_refract};
-import package::multibounce::normals::{Normals, normals_d, normals_lambda_cos, normals_sample_wm};
-import package::multibounce::walk::{Flight};
+import package::multibounce::normals::{NormalsModel, normals_d, normals_lambda_cos, normals_sample_wm};
+import package::multibounce::walk::{WalkFlight};
 
 /// `ln(2 pi) / 2 - 1`.
 const MULTIBOUNCE_INTERFACE_STIRLING: f32 = -0.08106146679532726;
@@ -19,9 +19,9 @@ const MULTIBOUNCE_INTERFACE_TINY: f32 = 1.1754944e-38;
 /// Facets of a dielectric from one side.
 ///
 /// Twin: specula-bsdf/src/multibounce/interface.rs, Interface.
-struct Interface {
+struct MultibounceInterface {
     /// Their distribution.
-    normals: Normals,
+    normals: NormalsModel,
     /// Index beyond over index on this side.
     eta: f32,
 }
@@ -29,9 +29,9 @@ struct Interface {
 /// A walk with heights: a flight that meets a facet at `tau`.
 ///
 /// Twin: specula-bsdf/src/multibounce/interface.rs, Collision.
-struct Collision {
+struct MultibounceInterfaceCollision {
     /// The flight.
-    flight: Flight,
+    flight: WalkFlight,
     /// Depth on its side.
     tau: f32,
 }
@@ -39,7 +39,7 @@ struct Collision {
 /// A direction after a facet.
 ///
 /// Twin: specula-bsdf/src/multibounce/interface.rs, Interface::bounce.
-struct Bent {
+struct MultibounceInterfaceBent {
     /// In the frame of the side that it runs on.
     d: vec3f,
     /// Whether it has changed sides.
@@ -65,8 +65,8 @@ fn multibounce_interface_depth_beyond(tau: f32) -> f32 {
 /// The same facets from the other side.
 ///
 /// Twin: specula-bsdf/src/multibounce/interface.rs, Interface::beyond.
-fn multibounce_interface_beyond(facets: Interface) -> Interface {
-    return Interface(facets.normals, 1.0 / facets.eta);
+fn multibounce_interface_beyond(facets: MultibounceInterface) -> MultibounceInterface {
+    return MultibounceInterface(facets.normals, 1.0 / facets.eta);
 }
 
 /// The next direction, and whether it has changed sides.
@@ -74,15 +74,15 @@ fn multibounce_interface_beyond(facets: Interface) -> Interface {
 /// * `u`: draws reflection or refraction (x), and the facet.
 ///
 /// Twin: specula-bsdf/src/multibounce/interface.rs, Interface::bounce.
-fn multibounce_interface_bounce(facets: Interface, d: vec3f, u: vec3f) -> Bent {
+fn multibounce_interface_bounce(facets: MultibounceInterface, d: vec3f, u: vec3f) -> MultibounceInterfaceBent {
     let wm = normals_sample_wm(facets.normals, -d, u.yz);
     let cos_m = -dot(d, wm);
     let bent = dielectric(cos_m, facets.eta);
     if u.x < bent.reflectance {
-        return Bent(d + wm * (2.0 * cos_m), false);
+        return MultibounceInterfaceBent(d + wm * (2.0 * cos_m), false);
     }
     let refracted = dielectric_refract(-d, wm, cos_m, bent.cos_t, facets.eta);
-    return Bent(multibounce_interface_turned(refracted), true);
+    return MultibounceInterfaceBent(multibounce_interface_turned(refracted), true);
 }
 
 /// Phase function towards `wi` in this frame, in 1/sr, for light (no `1/eta^2`).
@@ -93,8 +93,8 @@ fn multibounce_interface_bounce(facets: Interface, d: vec3f, u: vec3f) -> Bent {
 ///
 /// Twin: specula-bsdf/src/multibounce/interface.rs, Interface::phase.
 fn multibounce_interface_phase(
-    facets: Interface,
-    flight: Flight,
+    facets: MultibounceInterface,
+    flight: WalkFlight,
     wi: vec3f,
     reflects: bool,
 ) -> f32 {
@@ -125,7 +125,7 @@ fn multibounce_interface_phase(
 /// Phase function times the probability of leaving along `wi`, from a known depth.
 ///
 /// Twin: specula-bsdf/src/multibounce/interface.rs, Interface::connection.
-fn multibounce_interface_connection(facets: Interface, at: Collision, wi: vec3f) -> f32 {
+fn multibounce_interface_connection(facets: MultibounceInterface, at: MultibounceInterfaceCollision, wi: vec3f) -> f32 {
     let phase = multibounce_interface_phase(facets, at.flight, wi, wi.z > 0.0);
     if phase <= 0.0 {
         return 0.0;
@@ -136,7 +136,7 @@ fn multibounce_interface_connection(facets: Interface, at: Collision, wi: vec3f)
 /// Probability of leaving along `wi`, on either side, from the depth `tau`.
 ///
 /// Twin: specula-bsdf/src/multibounce/interface.rs, Interface::leaves.
-fn multibounce_interface_leaves(facets: Interface, tau: f32, wi: vec3f) -> f32 {
+fn multibounce_interface_leaves(facets: MultibounceInterface, tau: f32, wi: vec3f) -> f32 {
     var depth = tau;
     if wi.z <= 0.0 {
         depth = multibounce_interface_depth_beyond(tau);
@@ -147,7 +147,7 @@ fn multibounce_interface_leaves(facets: Interface, tau: f32, wi: vec3f) -> f32 {
 /// Smith's `Lambda` of the upper of `wi` and its mirror image.
 ///
 /// Twin: specula-bsdf/src/multibounce/interface.rs, Interface::leaves.
-fn multibounce_interface_lambda(facets: Interface, wi: vec3f) -> f32 {
+fn multibounce_interface_lambda(facets: MultibounceInterface, wi: vec3f) -> f32 {
     return normals_lambda_cos(facets.normals, wi) / max(abs(wi.z), 1e-12);
 }
 

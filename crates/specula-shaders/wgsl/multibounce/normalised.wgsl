@@ -27,7 +27,7 @@
 // widths and directions.
 
 import package::math::warp::{warp_cosine_hemisphere};
-import package::multibounce::normals::{Normals, normals_d, normals_lambda_cos, normals_sample_wm};
+import package::multibounce::normals::{NormalsModel, normals_d, normals_lambda_cos, normals_sample_wm};
 import package::multibounce::walk::{walk_flight};
 
 /// A cosine lobe's share: keeps the density above 0 where D underflows.
@@ -100,7 +100,7 @@ struct NormalisedChoice {
 /// Invariant: integrates to 1; is that of `normalised_draw_direction`.
 ///
 /// Twin: specula-bsdf/src/multibounce/normalised.rs, pdf.
-fn normalised_pdf(normals: Normals, wo: vec3f, wi: vec3f) -> f32 {
+fn normalised_pdf(normals: NormalsModel, wo: vec3f, wi: vec3f) -> f32 {
     if wi.z <= 0.0 {
         return 0.0;
     }
@@ -137,7 +137,7 @@ fn normalised_pdf(normals: Normals, wo: vec3f, wi: vec3f) -> f32 {
 /// * Returns: unit, above the horizon; with `z <= 0` in the rare case that rounding leaves it there.
 ///
 /// Twin: specula-bsdf/src/multibounce/normalised.rs, sample.
-fn normalised_draw_direction(normals: Normals, wo: vec3f, u: vec3f) -> vec3f {
+fn normalised_draw_direction(normals: NormalsModel, wo: vec3f, u: vec3f) -> vec3f {
     let maps = normalised_maps(normals, wo);
     var choice = normalised_takes(u.z, NORMALISED_FLOOR);
     if choice.is_taken {
@@ -183,7 +183,7 @@ fn normalised_takes(choice: f32, share: f32) -> NormalisedChoice {
 /// Twin: specula-bsdf/src/multibounce/normalised.rs, pdf.
 fn normalised_sent(
     maps: NormalisedMaps,
-    normals: Normals,
+    normals: NormalsModel,
     wo: vec3f,
     source: NormalisedSource,
 ) -> f32 {
@@ -197,7 +197,7 @@ fn normalised_sent(
 /// `D` of the facet that turns `wo` to `w`.
 ///
 /// Twin: specula-bsdf/src/multibounce/normalised.rs, met.
-fn normalised_met(normals: Normals, wo: vec3f, w: vec3f) -> f32 {
+fn normalised_met(normals: NormalsModel, wo: vec3f, w: vec3f) -> f32 {
     let between = wo + w;
     let size = length(between);
     if between.z > 0.0 && size > 1e-6 {
@@ -234,7 +234,7 @@ fn normalised_at(towards: vec2f, z: f32) -> vec3f {
 /// The maps of a view.
 ///
 /// Twin: specula-bsdf/src/multibounce/normalised.rs, Maps::new.
-fn normalised_maps(normals: Normals, wo: vec3f) -> NormalisedMaps {
+fn normalised_maps(normals: NormalsModel, wo: vec3f) -> NormalisedMaps {
     let view = walk_flight(normals, -wo);
     let x = normals.alpha.x;
     let y = normals.alpha.y;
@@ -260,7 +260,7 @@ fn normalised_maps(normals: Normals, wo: vec3f) -> NormalisedMaps {
 /// Share of an upward flight that meets a facet.
 ///
 /// Twin: specula-bsdf/src/multibounce/normalised.rs, Maps::stays.
-fn normalised_stays(maps: NormalisedMaps, normals: Normals, w: vec3f) -> f32 {
+fn normalised_stays(maps: NormalisedMaps, normals: NormalsModel, w: vec3f) -> f32 {
     let lambda_cos = normals_lambda_cos(normals, w);
     return lambda_cos / max(lambda_cos + maps.rate * w.z, NORMALISED_TINY);
 }

@@ -11,7 +11,7 @@ import package::vndf::cap::{cap_sample_wm};
 /// A distribution of microfacet normals.
 ///
 /// Twin: specula-bsdf/src/ndf/mod.rs, Ndf.
-struct Normals {
+struct NormalsModel {
     /// Widths along the local x and y, each in [1e-4, 10].
     alpha: vec2f,
     /// `DISTRIBUTION_GGX` or `DISTRIBUTION_BECKMANN`.
@@ -21,7 +21,7 @@ struct Normals {
 /// Density of microfacet normals `D(wm)` in 1/sr; 0 where `wm.z <= 0`.
 ///
 /// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::d.
-fn normals_d(normals: Normals, wm: vec3f) -> f32 {
+fn normals_d(normals: NormalsModel, wm: vec3f) -> f32 {
     if normals.distribution == DISTRIBUTION_BECKMANN {
         return beckmann_d(normals.alpha, wm);
     }
@@ -31,7 +31,7 @@ fn normals_d(normals: Normals, wm: vec3f) -> f32 {
 /// `|w.z| Lambda(|w.z|)`: finite at grazing angles, where `Lambda` is not.
 ///
 /// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::lambda_cos.
-fn normals_lambda_cos(normals: Normals, w: vec3f) -> f32 {
+fn normals_lambda_cos(normals: NormalsModel, w: vec3f) -> f32 {
     if normals.distribution == DISTRIBUTION_BECKMANN {
         return beckmann_lambda_cos(normals.alpha, w);
     }
@@ -41,7 +41,7 @@ fn normals_lambda_cos(normals: Normals, w: vec3f) -> f32 {
 /// Area of the visible microfacets seen from `w`, per unit of the surface's; above 0.
 ///
 /// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::projected_area.
-fn normals_projected_area(normals: Normals, w: vec3f) -> f32 {
+fn normals_projected_area(normals: NormalsModel, w: vec3f) -> f32 {
     if normals.distribution == DISTRIBUTION_BECKMANN {
         return beckmann_projected_area(normals.alpha, w);
     }
@@ -53,7 +53,7 @@ fn normals_projected_area(normals: Normals, w: vec3f) -> f32 {
 /// * `u`: uniform in [0, 1)^2.
 ///
 /// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::sample_wm.
-fn normals_sample_wm(normals: Normals, wo: vec3f, u: vec2f) -> vec3f {
+fn normals_sample_wm(normals: NormalsModel, wo: vec3f, u: vec2f) -> vec3f {
     if normals.distribution == DISTRIBUTION_BECKMANN {
         return beckmann_visible_sample_wm(normals.alpha, wo, u);
     }

@@ -5,7 +5,7 @@
 //
 //     C_k = W  F D(h) / (4 sigma(-d))  exit(Lambda_i)            W: product of F and 1 / roulette
 //
-// with the mass that leaves, `state_exit`, of `DepthState`. As it holds the factor
+// with the mass that leaves, `state_exit`, of `StateDepth`. As it holds the factor
 // `|Lambda(d)| = sigma(-d) / |d_z|` of an upward `d` exactly, this is `D / (4 |d_z|) S` of Cui et al.
 // 2023, bounded for every `d`; the variance of walks that leave first and connect then (Heitz 2016,
 // Bitterli and d'Eon 2022) diverges for `wi` along the normal.
@@ -21,12 +21,12 @@
 //
 // Samples leave with exactly the mass that leaves: their weight is the product of Fresnel terms.
 
-import package::bsdf::bsdf_sample::{BSDF_VALID, BsdfSample, bsdf_sample_none};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_VALID, BsdfSample, bsdf_sample_none};
 import package::math::rgb::{rgb_max_channel};
-import package::math::stream::{Stream, stream_next};
+import package::math::stream::{StreamState, stream_next};
 import package::multibounce::normals::{normals_d};
 import package::multibounce::state::{state_down, state_exit, state_mass, state_new, state_scale, state_up};
-import package::multibounce::walk::{Facets, Flight, WALK_MAX_BOUNCES, walk_arriving, walk_bounce, walk_connection, walk_flight, walk_is_upward, walk_pair, walk_reversed, walk_single};
+import package::multibounce::walk::{WalkFacets, WalkFlight, WALK_MAX_BOUNCES, walk_arriving, walk_bounce, walk_connection, walk_flight, walk_is_upward, walk_pair, walk_reversed, walk_single};
 
 /// First bounces from each end.
 const OURS_SPLIT: u32 = 2u;
@@ -38,7 +38,7 @@ const OURS_TINY: f32 = 1e-36;
 /// An estimate of `f cos`; `wi.z > 0`.
 ///
 /// Twin: specula-bsdf/src/multibounce/ours.rs, eval.
-fn ours_eval(facets: Facets, wo: vec3f, wi: vec3f, stream: ptr<function, Stream>) -> vec3f {
+fn ours_eval(facets: WalkFacets, wo: vec3f, wi: vec3f, stream: ptr<function, StreamState>) -> vec3f {
     let arriving = walk_arriving(facets, wo);
     let leaving = walk_flight(facets.normals, wi);
     var sum = walk_single(facets, arriving, leaving);
@@ -79,12 +79,12 @@ fn ours_goes_on(weight: vec3f, mass: f32) -> f32 {
 ///
 /// Twin: specula-bsdf/src/multibounce/ours.rs, Walk::finish.
 fn ours_walk(
-    facets: Facets,
+    facets: WalkFacets,
     both: bool,
-    arriving: Flight,
-    leaving: Flight,
+    arriving: WalkFlight,
+    leaving: WalkFlight,
     u: vec2f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> vec3f {
     var state = state_new(arriving.rate);
     var flight = arriving;
@@ -134,7 +134,7 @@ fn ours_walk(
 /// * `u`: draws the first facet.
 ///
 /// Twin: specula-bsdf/src/multibounce/ours.rs, sample.
-fn ours_draw(facets: Facets, wo: vec3f, u: vec2f, stream: ptr<function, Stream>) -> BsdfSample {
+fn ours_draw(facets: WalkFacets, wo: vec3f, u: vec2f, stream: ptr<function, StreamState>) -> BsdfSample {
     var flight = walk_arriving(facets, wo);
     var state = state_new(flight.rate);
     var weight = vec3f(1.0);
@@ -147,7 +147,7 @@ fn ours_draw(facets: Facets, wo: vec3f, u: vec2f, stream: ptr<function, Stream>)
             let leaving = state_up(&state, flight.rate);
             let staying = state_mass(&state);
             if stream_next(stream) * (leaving + staying) < leaving {
-                return BsdfSample(flight.d, 0.0, weight, 1.0, BSDF_VALID);
+                return BsdfSample(flight.d, 0.0, weight, 1.0, BSDF_SAMPLE_VALID);
             }
             state_scale(&state, 1.0 / staying);
         } else if !state_down(&state, flight.rate) {

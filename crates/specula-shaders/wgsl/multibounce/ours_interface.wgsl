@@ -6,22 +6,22 @@
 // have no common exponential form. Walks start at one end, chosen by the angles: those from the other end
 // connect to it at grazing angles, which is rare and pays much.
 
-import package::bsdf::bsdf_sample::{BSDF_VALID, BsdfSample, bsdf_sample_none};
-import package::math::stream::{Stream, stream_next};
-import package::multibounce::heitz_interface::{InterfaceWalk, heitz_interface_collisions, heitz_interface_flown, heitz_interface_left};
-import package::multibounce::multibounce_interface::{Collision, Interface, multibounce_interface_beyond, multibounce_interface_bounce, multibounce_interface_depth_beyond, multibounce_interface_lambda, multibounce_interface_leaves_beyond, multibounce_interface_phase, multibounce_interface_turned};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_VALID, BsdfSample, bsdf_sample_none};
+import package::math::stream::{StreamState, stream_next};
+import package::multibounce::heitz_interface::{HeitzInterfaceWalk, heitz_interface_collisions, heitz_interface_flown, heitz_interface_left};
+import package::multibounce::multibounce_interface::{MultibounceInterfaceCollision, MultibounceInterface, multibounce_interface_beyond, multibounce_interface_bounce, multibounce_interface_depth_beyond, multibounce_interface_lambda, multibounce_interface_leaves_beyond, multibounce_interface_phase, multibounce_interface_turned};
 import package::multibounce::ours::{OURS_CARRIED, OURS_SPLIT, ours_stratum};
 import package::multibounce::state::{state_down, state_exit, state_mass, state_new, state_sample_depth, state_scale, state_up};
-import package::multibounce::walk::{Flight, WALK_MAX_BOUNCES, walk_flight, walk_is_upward, walk_pair};
+import package::multibounce::walk::{WalkFlight, WALK_MAX_BOUNCES, walk_flight, walk_is_upward, walk_pair};
 
 /// An estimate of `f |cos|` of a dielectric, for light (no `1/eta^2`), from the better end.
 ///
 /// Twin: specula-bsdf/src/multibounce/ours.rs, eval_interface.
 fn ours_interface_eval(
-    facets: Interface,
+    facets: MultibounceInterface,
     wo: vec3f,
     wi: vec3f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> f32 {
     // Backfacing shading normals have no other end.
     if wo.z <= 0.0 || ours_interface_is_better_end(facets, wo, wi) {
@@ -42,7 +42,7 @@ fn ours_interface_eval(
 /// inside on smooth surfaces and outside on rough ones.
 ///
 /// Twin: specula-bsdf/src/multibounce/ours.rs, is_better_end.
-fn ours_interface_is_better_end(facets: Interface, wo: vec3f, wi: vec3f) -> bool {
+fn ours_interface_is_better_end(facets: MultibounceInterface, wo: vec3f, wi: vec3f) -> bool {
     let cos_o = wo.z;
     let cos_i = abs(wi.z);
     if wi.z > 0.0 {
@@ -60,10 +60,10 @@ fn ours_interface_is_better_end(facets: Interface, wo: vec3f, wi: vec3f) -> bool
 ///
 /// Twin: specula-bsdf/src/multibounce/ours.rs, eval_interface_from.
 fn ours_interface_eval_end(
-    facets: Interface,
+    facets: MultibounceInterface,
     wo: vec3f,
     wi: vec3f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> f32 {
     let arriving = walk_flight(facets.normals, -wo);
     let reflects = wi.z > 0.0;
@@ -90,12 +90,12 @@ fn ours_interface_eval_end(
 ///
 /// Twin: specula-bsdf/src/multibounce/ours.rs, interface_walk.
 fn ours_interface_walk(
-    facets: Interface,
-    arriving: Flight,
+    facets: MultibounceInterface,
+    arriving: WalkFlight,
     wi: vec3f,
     lambda: f32,
     u: vec2f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> f32 {
     var state = state_new(arriving.rate);
     var flight = arriving;
@@ -108,7 +108,7 @@ fn ours_interface_walk(
         let bent = multibounce_interface_bounce(facets, flight.d, vec3f(way, next));
         if bent.crosses {
             let tau = state_sample_depth(&state, stream_next(stream), stream);
-            let start = InterfaceWalk(facets, Collision(flight, tau), false, false, 0.0);
+            let start = HeitzInterfaceWalk(facets, MultibounceInterfaceCollision(flight, tau), false, false, 0.0);
             var moved = heitz_interface_flown(start, bent.d, true, stream);
             if !moved.has_left {
                 moved = heitz_interface_collisions(moved, true, wi, stream);
@@ -153,10 +153,10 @@ fn ours_interface_walk(
 ///
 /// Twin: specula-bsdf/src/multibounce/ours.rs, sample_interface.
 fn ours_interface_draw(
-    facets: Interface,
+    facets: MultibounceInterface,
     wo: vec3f,
     u: vec3f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> BsdfSample {
     var flight = walk_flight(facets.normals, -wo);
     var state = state_new(flight.rate);
@@ -165,7 +165,7 @@ fn ours_interface_draw(
         let bent = multibounce_interface_bounce(facets, flight.d, next);
         if bent.crosses {
             let tau = state_sample_depth(&state, stream_next(stream), stream);
-            let start = InterfaceWalk(facets, Collision(flight, tau), false, false, 0.0);
+            let start = HeitzInterfaceWalk(facets, MultibounceInterfaceCollision(flight, tau), false, false, 0.0);
             var moved = heitz_interface_flown(start, bent.d, true, stream);
             if !moved.has_left {
                 moved = heitz_interface_collisions(moved, false, wo, stream);
@@ -177,7 +177,7 @@ fn ours_interface_draw(
             let leaving = state_up(&state, flight.rate);
             let staying = state_mass(&state);
             if stream_next(stream) * (leaving + staying) < leaving {
-                return BsdfSample(flight.d, 0.0, vec3f(1.0), 1.0, BSDF_VALID);
+                return BsdfSample(flight.d, 0.0, vec3f(1.0), 1.0, BSDF_SAMPLE_VALID);
             }
             state_scale(&state, 1.0 / staying);
         } else if !state_down(&state, flight.rate) {

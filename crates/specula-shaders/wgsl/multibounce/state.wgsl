@@ -18,7 +18,7 @@
 // All terms are positive: nothing cancels, and equal rates are no special case. That is why f32 is
 // enough for it.
 
-import package::math::stream::{Stream, stream_next};
+import package::math::stream::{StreamState, stream_next};
 
 /// Layers that the state can hold: one for each downward flight.
 const STATE_LAYERS: u32 = 48u;
@@ -26,7 +26,7 @@ const STATE_LAYERS: u32 = 48u;
 /// The mixture of the module's text.
 ///
 /// Twin: specula-bsdf/src/multibounce/state.rs, DepthState.
-struct DepthState {
+struct StateDepth {
     /// `l_j`.
     rates: array<f32, STATE_LAYERS>,
     /// `c_j`.
@@ -38,8 +38,8 @@ struct DepthState {
 /// The first collision of a ray that enters at the rate `rate`: `Exp(rate)`, mass 1.
 ///
 /// Twin: specula-bsdf/src/multibounce/state.rs, DepthState::new.
-fn state_new(rate: f32) -> DepthState {
-    var state: DepthState;
+fn state_new(rate: f32) -> StateDepth {
+    var state: StateDepth;
     state.rates[0] = rate;
     state.masses[0] = 1.0;
     state.layers = 1u;
@@ -49,7 +49,7 @@ fn state_new(rate: f32) -> DepthState {
 /// A downward flight to the next collision. Returns `false` where there is no room for it.
 ///
 /// Twin: specula-bsdf/src/multibounce/state.rs, DepthState::down.
-fn state_down(state: ptr<function, DepthState>, rate: f32) -> bool {
+fn state_down(state: ptr<function, StateDepth>, rate: f32) -> bool {
     let layers = (*state).layers;
     if layers >= STATE_LAYERS {
         return false;
@@ -63,7 +63,7 @@ fn state_down(state: ptr<function, DepthState>, rate: f32) -> bool {
 /// An upward flight to the next collision, if there is one. Returns the mass that leaves.
 ///
 /// Twin: specula-bsdf/src/multibounce/state.rs, DepthState::up.
-fn state_up(state: ptr<function, DepthState>, rate: f32) -> f32 {
+fn state_up(state: ptr<function, StateDepth>, rate: f32) -> f32 {
     let layers = (*state).layers;
     var carry = 0.0;
     for (var j = 0u; j < layers; j++) {
@@ -78,7 +78,7 @@ fn state_up(state: ptr<function, DepthState>, rate: f32) -> f32 {
 /// The mass that an upward flight would lead out.
 ///
 /// Twin: specula-bsdf/src/multibounce/state.rs, DepthState::exit.
-fn state_exit(state: ptr<function, DepthState>, rate: f32) -> f32 {
+fn state_exit(state: ptr<function, StateDepth>, rate: f32) -> f32 {
     let layers = (*state).layers;
     var leaving = 0.0;
     for (var j = 0u; j < layers; j++) {
@@ -91,7 +91,7 @@ fn state_exit(state: ptr<function, DepthState>, rate: f32) -> f32 {
 /// Scales all masses.
 ///
 /// Twin: specula-bsdf/src/multibounce/state.rs, DepthState::scale.
-fn state_scale(state: ptr<function, DepthState>, factor: f32) {
+fn state_scale(state: ptr<function, StateDepth>, factor: f32) {
     let layers = (*state).layers;
     for (var j = 0u; j < layers; j++) {
         (*state).masses[j] *= factor;
@@ -101,7 +101,7 @@ fn state_scale(state: ptr<function, DepthState>, factor: f32) {
 /// The mass that has not left.
 ///
 /// Twin: specula-bsdf/src/multibounce/state.rs, DepthState::mass.
-fn state_mass(state: ptr<function, DepthState>) -> f32 {
+fn state_mass(state: ptr<function, StateDepth>) -> f32 {
     let layers = (*state).layers;
     var sum = 0.0;
     for (var j = 0u; j < layers; j++) {
@@ -117,9 +117,9 @@ fn state_mass(state: ptr<function, DepthState>) -> f32 {
 ///
 /// Twin: specula-bsdf/src/multibounce/state.rs, DepthState::sample_depth.
 fn state_sample_depth(
-    state: ptr<function, DepthState>,
+    state: ptr<function, StateDepth>,
     choice: f32,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> f32 {
     let layers = (*state).layers;
     var left = choice * state_mass(state);

@@ -18,19 +18,19 @@
 // Departures: the released code draws visible normals below the horizon with a routine that is wrong
 // there; ours is not. Its constant roulette starts at the third bounce here too.
 
-import package::bsdf::bsdf_sample::{BSDF_VALID, BsdfSample, bsdf_sample_none};
-import package::math::stream::{Stream, stream_next};
-import package::multibounce::walk::{Facets, WALK_MAX_BOUNCES, walk_arriving, walk_bounce, walk_connection, walk_flight, walk_is_upward, walk_pair};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_VALID, BsdfSample, bsdf_sample_none};
+import package::math::stream::{StreamState, stream_next};
+import package::multibounce::walk::{WalkFacets, WALK_MAX_BOUNCES, walk_arriving, walk_bounce, walk_connection, walk_flight, walk_is_upward, walk_pair};
 
 /// Bounces without roulette.
-const WANG_SURE: u32 = 2u;
+const WANG2022_SURE: u32 = 2u;
 /// Probability of each bounce beyond.
-const WANG_GOES_ON: f32 = 0.7;
+const WANG2022_GOES_ON: f32 = 0.7;
 
 /// Probability of leaving along a flight of rate `outgoing`.
 ///
 /// Twin: specula-bsdf/src/multibounce/wang2022.rs, exit.
-fn wang_leaves(correlated: bool, incoming: f32, outgoing: f32) -> f32 {
+fn wang2022_leaves(correlated: bool, incoming: f32, outgoing: f32) -> f32 {
     let against = select(1.0, incoming, correlated);
     return against / (against + outgoing);
 }
@@ -40,12 +40,12 @@ fn wang_leaves(correlated: bool, incoming: f32, outgoing: f32) -> f32 {
 /// * `correlated`: masking and shadowing of each bounce are correlated by its height.
 ///
 /// Twin: specula-bsdf/src/multibounce/wang2022.rs, eval.
-fn wang_eval(
-    facets: Facets,
+fn wang2022_eval(
+    facets: WalkFacets,
     correlated: bool,
     wo: vec3f,
     wi: vec3f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> vec3f {
     var flight = walk_arriving(facets, wo);
     let leaving = walk_flight(facets.normals, wi);
@@ -53,13 +53,13 @@ fn wang_eval(
     var sum = vec3f(0.0);
     for (var bounce = 0u; bounce < WALK_MAX_BOUNCES; bounce++) {
         let end = walk_connection(facets, flight.d, leaving.d);
-        let leaves = wang_leaves(correlated, flight.rate, leaving.rate);
+        let leaves = wang2022_leaves(correlated, flight.rate, leaving.rate);
         sum += weight * end.fresnel * (end.quarter_d / flight.facing * leaves);
-        if bounce >= WANG_SURE {
-            if stream_next(stream) >= WANG_GOES_ON {
+        if bounce >= WANG2022_SURE {
+            if stream_next(stream) >= WANG2022_GOES_ON {
                 break;
             }
-            weight *= 1.0 / WANG_GOES_ON;
+            weight *= 1.0 / WANG2022_GOES_ON;
         }
         let met = walk_bounce(facets, flight.d, walk_pair(stream));
         weight *= met.fresnel;
@@ -79,12 +79,12 @@ fn wang_eval(
 /// * `u`: draws the first facet.
 ///
 /// Twin: specula-bsdf/src/multibounce/wang2022.rs, sample.
-fn wang_draw(
-    facets: Facets,
+fn wang2022_draw(
+    facets: WalkFacets,
     correlated: bool,
     wo: vec3f,
     u: vec2f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> BsdfSample {
     var flight = walk_arriving(facets, wo);
     var weight = vec3f(1.0);
@@ -93,9 +93,9 @@ fn wang_draw(
         let met = walk_bounce(facets, flight.d, next);
         weight *= met.fresnel;
         if walk_is_upward(met.next) {
-            let leaves = wang_leaves(correlated, flight.rate, met.next.rate);
+            let leaves = wang2022_leaves(correlated, flight.rate, met.next.rate);
             if stream_next(stream) < leaves {
-                return BsdfSample(met.next.d, 0.0, weight, 1.0, BSDF_VALID);
+                return BsdfSample(met.next.d, 0.0, weight, 1.0, BSDF_SAMPLE_VALID);
             }
         }
         flight = met.next;

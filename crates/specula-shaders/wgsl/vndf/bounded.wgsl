@@ -13,14 +13,14 @@
 import package::alpha::{alpha_stretch};
 import package::vndf::cap::{cap_half_vector_towards};
 import package::vndf::half_vector::{half_vector_density, half_vector_mirrored};
-import package::vndf::stretched::{Stretched, stretched_squared_radius};
+import package::vndf::stretched::{StretchedDirection, stretched_squared_radius};
 
 /// The stretched view with its cap.
 ///
 /// Twin: specula-bsdf/src/vndf/bounded.rs, stretched_with_height.
 struct BoundedCap {
     /// The view.
-    view: Stretched,
+    view: StretchedDirection,
     /// The cap's height, `1 + k z` (`1 + z` below the horizon).
     height: f32,
 }
@@ -82,7 +82,7 @@ fn bounded_cap(alpha: vec2f, wo: vec3f) -> BoundedCap {
     let up = h.z > 0.0;
     let factor = select(long, bound.y, up);
     let inverse = 1.0 / (length * factor);
-    let view = Stretched(h * (factor * inverse), select(radius, long * bound.y, up) * inverse);
+    let view = StretchedDirection(h * (factor * inverse), select(radius, long * bound.y, up) * inverse);
     return BoundedCap(view, select(radius, length * bound.y + bound.x * h.z, up) * inverse);
 }
 

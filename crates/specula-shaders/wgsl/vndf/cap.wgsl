@@ -15,7 +15,7 @@ import package::alpha::{alpha_stretch};
 import package::math::turns::{turns_sin_cos};
 import package::ndf::ggx::{ggx_d_visible, ggx_projected_area_quotient};
 import package::vndf::half_vector::{half_vector_density, half_vector_mirrored};
-import package::vndf::stretched::{Stretched, stretched_new};
+import package::vndf::stretched::{StretchedDirection, stretched_new};
 
 /// A visible normal, unit, with `wm.z >= 0` and `wo . wm >= 0`.
 ///
@@ -62,7 +62,7 @@ fn cap_half_vector(alpha: vec2f, wo: vec3f, u: vec2f) -> vec3f {
 /// surface's space, of any length.
 ///
 /// Twin: specula-bsdf/src/vndf/cap.rs, half_vector_on_cap.
-fn cap_half_vector_towards(alpha: vec2f, i: Stretched, v: f32, turn: f32) -> vec3f {
+fn cap_half_vector_towards(alpha: vec2f, i: StretchedDirection, v: f32, turn: f32) -> vec3f {
     let phi = turns_sin_cos(turn);
     let sine = sqrt(v * (2.0 - v));
     let m = vec3f(sine * phi.yx + i.direction.xy, i.one_plus_z - v);

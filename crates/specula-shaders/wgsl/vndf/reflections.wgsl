@@ -14,7 +14,7 @@ import package::vndf::sampler::{SAMPLER_EXACT};
 /// The reflections of one view off visible GGX normals.
 ///
 /// Twin: specula-bsdf/src/vndf/reflections.rs, Reflections.
-struct Reflections {
+struct ReflectionsSampler {
     /// The widths.
     alpha: vec2f,
     /// One of the samplers of `sampler`.
@@ -34,8 +34,8 @@ struct Reflections {
 /// * `wo`: unit, any hemisphere; below the horizon all samplers draw by the whole cap.
 ///
 /// Twin: specula-bsdf/src/vndf/reflections.rs, Reflections::new.
-fn reflections_new(alpha: vec2f, wo: vec3f, strategy: u32) -> Reflections {
-    var reflections: Reflections;
+fn reflections_new(alpha: vec2f, wo: vec3f, strategy: u32) -> ReflectionsSampler {
+    var reflections: ReflectionsSampler;
     reflections.alpha = alpha;
     reflections.strategy = strategy;
     reflections.wo = wo;
@@ -56,7 +56,7 @@ fn reflections_new(alpha: vec2f, wo: vec3f, strategy: u32) -> Reflections {
 /// * `u`: uniform in [0, 1)^2, as the sampler's own function takes it.
 ///
 /// Twin: specula-bsdf/src/vndf/reflections.rs, Reflections::sample_direction.
-fn reflections_sample_direction(reflections: Reflections, u: vec2f) -> vec3f {
+fn reflections_sample_direction(reflections: ReflectionsSampler, u: vec2f) -> vec3f {
     if reflections.has_cone {
         let m = exact_chords_half_vector(reflections.alpha, reflections.cone, u);
         return half_vector_mirrored(reflections.wo, m);
@@ -67,6 +67,6 @@ fn reflections_sample_direction(reflections: Reflections, u: vec2f) -> vec3f {
 /// Density of `reflections_sample_direction` in 1/sr: `D(wm) / (4 N)`; 0 where `wi.z <= 0`.
 ///
 /// Twin: specula-bsdf/src/vndf/reflections.rs, Reflections::pdf.
-fn reflections_pdf(reflections: Reflections, wi: vec3f) -> f32 {
+fn reflections_pdf(reflections: ReflectionsSampler, wi: vec3f) -> f32 {
     return half_vector_density(reflections.alpha, reflections.wo, wi, vec2f(reflections.norm, 1.0));
 }

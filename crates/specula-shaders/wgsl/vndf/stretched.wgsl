@@ -5,7 +5,7 @@ import package::alpha::{alpha_stretch};
 /// A direction stretched to unit roughness.
 ///
 /// Twin: specula-bsdf/src/vndf/mod.rs, Stretched.
-struct Stretched {
+struct StretchedDirection {
     /// Unit.
     direction: vec3f,
     /// `1 + direction.z`, without cancellation below the horizon.
@@ -17,7 +17,7 @@ struct Stretched {
 /// For `z < 0`, `1 + z = (x^2 + y^2) / (1 - z)`. One division serves both signs.
 ///
 /// Twin: specula-bsdf/src/vndf/mod.rs, Stretched::new.
-fn stretched_new(alpha: vec2f, wo: vec3f) -> Stretched {
+fn stretched_new(alpha: vec2f, wo: vec3f) -> StretchedDirection {
     let h = alpha_stretch(alpha, wo);
     let radius = stretched_squared_radius(h);
     let length = sqrt(radius + h.z * h.z);
@@ -25,7 +25,7 @@ fn stretched_new(alpha: vec2f, wo: vec3f) -> Stretched {
     let up = h.z >= 0.0;
     let factor = select(long, 1.0, up);
     let inverse = 1.0 / (length * factor);
-    return Stretched(h * (factor * inverse), select(radius, long, up) * inverse);
+    return StretchedDirection(h * (factor * inverse), select(radius, long, up) * inverse);
 }
 
 /// `x^2 + y^2` with a floor that keeps the straight view from below finite: it sees only facets at the

@@ -9,14 +9,13 @@ use specula::gpu::{Rays, Schedule};
 use specula::render::RenderOptions;
 use specula::render::picture::{Display, ToneMap};
 use specula::scene::Energy;
-use specula::scene::material_text::parse_material;
-use specula::scene::scene::MaterialKind;
 use specula::shaders::Language;
 
 use super::device::Device;
 use super::lab_arguments::LabArguments;
 use super::loading::LoadingArguments;
 use super::machine::MachineArguments;
+use super::material::MaterialOverride;
 use super::{live_view, values};
 
 /// Render rough metal right: a path tracer whose microfacet mathematics can be trusted.
@@ -38,7 +37,8 @@ Examples:
   specula lab compare scene.pbrt              which sampler suits a scene
 
 Exit codes: 0 done; 1 failed (or `compare` found too large a difference); 2 the arguments or
-the scene are wrong; 130 stopped by Ctrl-C, what was rendered is written.";
+the scene are wrong; 130, 143, 129 stopped by Ctrl-C, SIGTERM, SIGHUP: what was rendered is
+written.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -77,7 +77,11 @@ Examples:
   specula render scene.pbrt --resolution 480x270 --spp 4 -o preview.png
       a quick look
   specula render bunny.ply --material \"conductor Au alpha 0.3\"
-      a mesh alone, staged in the built-in studio
+      a mesh alone, on a floor in the built-in studio
+  specula render robot.glb --material \"Arm*=conductor Cu alpha 0.2\" --watch
+      other metal on all surfaces whose material is named Arm..., again whenever the file changes
+  make-scene | specula render - -o picture.exr
+      a scene from another program
   specula render scene.pbrt --crop 100,200,50,150 --spp 1024 -o detail.exr
       columns 100 to 199 and rows 50 to 149 only
   specula render scene.pbrt --samples 512..1024 -o b.film
@@ -85,17 +89,20 @@ Examples:
   specula render scene.pbrt --threads -1 --nice --max-memory 8GiB --display-server localhost
       next to other work, shown in tev meanwhile
 
-Ctrl-C finishes the pass, writes and ends with code 130; a second Ctrl-C stops between tiles and writes
-what there is; a third ends the program at once.
+Ctrl-C finishes the pass, writes and ends with code 130; a second Ctrl-C stops within the pass and writes
+what there is; a third ends the program at once. SIGTERM and SIGHUP stop within the pass and write, with
+codes 143 and 129. No file that the scene reads is written over, and no second render writes to an output
+while the first runs.
 Every half minute the picture so far is written, and a checkpoint beside it (scene.film for
 scene.exr) from which --resume goes on after Ctrl-C, a crash or a power cut, to the same picture
-bit for bit; it is removed when the render is done. Files are replaced whole or not at all.";
+bit for bit; it is removed when the render is done. Files are replaced whole or not at all. Where a
+picture cannot be written in the end, the samples are kept in a film, which is named.";
 
 #[derive(Args, Debug)]
 #[command(after_help = RENDER_EXAMPLES)]
 pub(crate) struct RenderArguments {
-    /// A scene (pbrt-v4, Mitsuba 3 .xml, .gltf, .glb) or a mesh (.obj, .ply); without one, the
-    /// built-in scene of rough-metal orbs
+    /// A scene (pbrt-v4, Mitsuba 3, glTF) or a mesh (OBJ, PLY), whatever its name ends in; - is standard
+    /// input; without one, the built-in scene of rough-metal orbs
     pub(crate) scene: Option<PathBuf>,
 
     /// File to write: .exr (all layers, linear), .png (what a screen shows) or .film (sums, for
@@ -124,14 +131,27 @@ pub(crate) struct RenderArguments {
     #[arg(long, conflicts_with = "samples")]
     pub(crate) adaptive: bool,
 
+    /// Bias: scale what indirect light (scattered twice or more) brings at once down to V in every channel, where
+    /// 1 is white: fireflies go, and the light that they stand for with them. The picture gets darker; 10 takes
+    /// little, 1 much
+    #[arg(long, value_name = "V", value_parser = values::positive)]
+    pub(crate) clamp: Option<f32>,
+
+    /// Bias: make shiny surfaces rougher where paths come to them from rough ones, as pbrt's `regularize`: less
+    /// noise of light that gets onto rough surfaces by way of glass and mirrors; such caustics get blurred
+    #[arg(long)]
+    pub(crate) regularize: bool,
+
     /// Render these samples of every pixel only, such as 512..1024, for `specula merge`
     /// [default output: the scene's name, the range and .film]
     #[arg(long, value_name = "A..B", group = "effort", value_parser = values::samples)]
     pub(crate) samples: Option<[u32; 2]>,
 
-    /// Go on with the checkpoint beside the output, or begin where there is none
-    #[arg(long, conflicts_with = "restart")]
-    pub(crate) resume: bool,
+    /// Go on with the checkpoint beside the output, or begin where there is none; --resume=FILM: with
+    /// that film
+    #[arg(long, value_name = "FILM", num_args = 0..=1, require_equals = true,
+          conflicts_with = "restart")]
+    pub(crate) resume: Option<Option<PathBuf>>,
 
     /// Begin anew and replace the checkpoint beside the output
     #[arg(long)]
@@ -149,18 +169,27 @@ pub(crate) struct RenderArguments {
     /// What rough metal and glass do about light that they scatter more than once, where a material
     /// does not say it itself: none (they darken), turquin, turquin-series, kulla-conty (formulas),
     /// multibounce (simulated) or multibounce=MODEL with heitz, bitterli, wang, wang-uncorrelated,
-    /// cui, cui-bidirectional or specula
-    #[arg(long, value_name = "NAME", default_value_t = Energy::None)]
-    pub(crate) energy: Energy,
+    /// cui, cui-bidirectional or specula [default: none for pbrt's and Mitsuba's scenes, as in these
+    /// renderers; turquin for glTF, meshes and the built-in scene]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) energy: Option<Energy>,
 
     /// Value of a `$name` in a Mitsuba scene, over its `<default>`. May be repeated.
     #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = values::parameter)]
     pub(crate) parameters: Vec<(String, String)>,
 
     /// Give every surface this material, such as "conductor Au alpha 0.3", "dielectric 1.5",
-    /// "coateddiffuse 0.1 0.3 0.8 alpha 0.05", "diffuse 0.5"; lamps keep theirs
-    #[arg(long, value_name = "TEXT", value_parser = parse_material)]
-    pub(crate) material: Option<MaterialKind>,
+    /// "coateddiffuse 0.1 0.3 0.8 alpha 0.05", "diffuse 0.5"; lamps keep theirs, and so does the floor
+    /// under a file without light. With NAME= before it, those surfaces only whose material has this name
+    /// in the file (that of the floor: floor); NAME may be a pattern such as "Chrome*". May be repeated:
+    /// the last one counts
+    #[arg(long, value_name = "[NAME=]TEXT")]
+    pub(crate) material: Vec<MaterialOverride>,
+
+    /// Render again whenever the scene or a file that it reads changes, until Ctrl-C. The picture is
+    /// written every two seconds; trees over shapes that did not change are kept
+    #[arg(long, conflicts_with_all = ["samples", "resume", "restart"])]
+    pub(crate) watch: bool,
 
     /// Denoise the finished picture with Open Image Denoise, guided by albedo and normals; .film keeps
     /// the samples. In programs built with it only

@@ -21,9 +21,9 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<ExitCode, Failure> {
         bad |= report.count(Severity::Error) > 0
             || arguments.strict && report.count(Severity::Warning) > 0;
         if arguments.json {
-            print(&as_json(path, &report));
+            print(&as_json(path, &report))?;
         } else {
-            print(&as_text(path, &report));
+            print(&as_text(path, &report))?;
         }
     }
     Ok(ExitCode::from(if bad { BAD_INPUT } else { 0 }))

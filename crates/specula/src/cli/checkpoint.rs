@@ -7,17 +7,20 @@ use std::time::{Duration, Instant};
 use specula::render::{FilmBuffer, FilmFile, FilmFileError, Label};
 
 use super::Failure;
+use super::console::say;
 
 /// Writing takes at most this share of the time.
 const LARGEST_SHARE: f64 = 0.05;
 
 /// What to do about a film that is there already.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Start {
     /// Refuse: it holds somebody's work.
     New,
     /// Go on with it.
     Resume,
+    /// Go on with a film that was kept elsewhere.
+    ResumeFrom(PathBuf),
     /// Replace it.
     Restart,
 }
@@ -61,12 +64,18 @@ impl Checkpoint {
     ///
     /// Fails where the file holds another render, or an unfinished one and `start` does not say what
     /// to do with it.
-    pub(crate) fn open(&mut self, start: Start) -> Result<Option<FilmBuffer>, Failure> {
-        let name = self.path.display();
-        let FilmFile { label, film } = match FilmFile::read(&self.path) {
+    pub(crate) fn open(&mut self, start: &Start) -> Result<Option<FilmBuffer>, Failure> {
+        let (path, must_be_there) = match start {
+            Start::ResumeFrom(path) => (path.clone(), true),
+            _ => (self.path.clone(), false),
+        };
+        let name = path.display();
+        let FilmFile { label, film } = match FilmFile::read(&path) {
             Ok(file) => file,
-            Err(FilmFileError::Io(e)) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
-            Err(FilmFileError::Damaged | FilmFileError::Format(_)) if start == Start::Restart => {
+            Err(FilmFileError::Io(e)) if e.kind() == io::ErrorKind::NotFound && !must_be_there => {
+                return Ok(None);
+            }
+            Err(FilmFileError::Damaged | FilmFileError::Format(_)) if *start == Start::Restart => {
                 return Ok(None);
             }
             Err(e) => {
@@ -76,24 +85,46 @@ impl Checkpoint {
             }
         };
         match start {
-            Start::Restart => Ok(None),
-            Start::New => Err(Failure::bad_input(format_args!(
-                "'{name}' holds a render of {}: {} samples per pixel.\n\
-                 --resume goes on with it, --restart begins anew and replaces it",
-                label.scene,
-                film.complete_samples()
-            ))),
-            Start::Resume => {
-                if let Some(difference) = self.label.difference(&label) {
-                    return Err(Failure::bad_input(format_args!(
-                        "cannot go on with the checkpoint '{name}': {difference}.\n\
-                         --restart begins anew and replaces it"
-                    )));
-                }
-                self.label.seconds = label.seconds;
-                Ok(Some(film))
+            Start::Restart => return Ok(None),
+            Start::New => {
+                return Err(Failure::bad_input(format_args!(
+                    "'{name}' holds a render of {}: {} samples per pixel.\n\
+                     --resume goes on with it, --restart begins anew and replaces it",
+                    label.scene,
+                    film.complete_samples()
+                )));
             }
+            Start::Resume => {}
+            Start::ResumeFrom(_) => self.refuse_other_work(film.complete_samples())?,
         }
+        if let Some(difference) = self.label.difference(&label) {
+            return Err(Failure::bad_input(format_args!(
+                "cannot go on with the checkpoint '{name}': {difference}.\n\
+                 --restart begins anew and replaces it"
+            )));
+        }
+        self.label.seconds = label.seconds;
+        Ok(Some(film))
+    }
+
+    /// Fails where the film beside the output is of another render, or is farther than one that has so many
+    /// samples per pixel: it would be replaced.
+    fn refuse_other_work(&self, samples: u32) -> Result<(), Failure> {
+        let beside = match FilmFile::read(&self.path) {
+            Err(FilmFileError::Io(e)) if e.kind() == io::ErrorKind::NotFound => return Ok(()),
+            other => other,
+        };
+        let is_older = beside.is_ok_and(|file| {
+            let same = self.label.difference(&file.label).is_none();
+            same && file.film.complete_samples() <= samples
+        });
+        if is_older {
+            return Ok(());
+        }
+        Err(Failure::bad_input(format_args!(
+            "'{}' holds another render, which this one would replace: move it, or name another output",
+            self.path.display()
+        )))
     }
 
     /// Whether it is time to write.
@@ -120,7 +151,7 @@ impl Checkpoint {
             Err(e) => {
                 if !self.failed {
                     let name = self.path.display();
-                    eprintln!("warning: cannot write the checkpoint '{name}': {e}");
+                    say!("warning: cannot write the checkpoint '{name}': {e}");
                 }
                 self.failed = true;
             }
@@ -128,6 +159,10 @@ impl Checkpoint {
     }
 
     /// The render is done: the film goes, unless it was asked for.
+    ///
+    /// # Errors
+    ///
+    /// Where a film that was asked for cannot be written.
     pub(crate) fn finish(&mut self, film: &FilmBuffer, seconds: f64) -> Result<(), Failure> {
         if self.asked_for {
             self.save(film, seconds);
@@ -140,11 +175,44 @@ impl Checkpoint {
         match std::fs::remove_file(&self.path) {
             Err(e) if e.kind() != io::ErrorKind::NotFound => {
                 let name = self.path.display();
-                eprintln!("warning: cannot remove the checkpoint '{name}': {e}");
+                say!("warning: cannot remove the checkpoint '{name}': {e}");
             }
             _ => {}
         }
         Ok(())
+    }
+
+    /// Writes the film where there is room, as its pictures cannot be written: in its place, else into the
+    /// folder for temporary files. Returns what to say about it.
+    ///
+    /// * `seconds`: of this run.
+    pub(crate) fn keep(&self, film: &FilmBuffer, seconds: f64) -> String {
+        let label = self.label(seconds);
+        let Err(first) = FilmFile::write(&self.path, &label, film) else {
+            return format!(
+                "the samples are kept in '{}': --resume goes on from there",
+                self.path.display()
+            );
+        };
+        let elsewhere = tempfile::Builder::new()
+            .prefix("specula-")
+            .suffix(".film")
+            .tempfile()
+            .and_then(|file| Ok(file.keep()?.1));
+        let path = match elsewhere {
+            Ok(path) => path,
+            Err(second) => return format!("the samples are lost: {first}; {second}"),
+        };
+        let name = path.display();
+        match FilmFile::write(&path, &label, film) {
+            Ok(()) => {
+                format!("the samples are kept in '{name}': --resume={name} goes on from there")
+            }
+            Err(second) => {
+                let _ = std::fs::remove_file(&path);
+                format!("the samples are lost: {first}; {second}")
+            }
+        }
     }
 
     /// What the film belongs to, with the time of earlier runs and `seconds` of this one.

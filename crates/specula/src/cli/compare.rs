@@ -6,14 +6,20 @@ use std::process::ExitCode;
 use specula::render::picture::{self, Comparison, Picture, PictureError};
 
 use super::arguments::{CompareArguments, MetricName};
+use super::console::say;
+use super::file_id::Inputs;
+use super::outputs::refuse_input;
 use super::{Failure, print};
 
 /// Prints the distances; code 1 where the chosen one is above the limit.
 pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
+    if let Some(path) = &arguments.diff {
+        refuse_input(path, &Inputs::new([&arguments.reference, &arguments.test]))?;
+    }
     let reference = read(&arguments.reference)?;
     let test = read(&arguments.test)?;
     let comparison = picture::compare(&reference, &test).map_err(Failure::bad_input)?;
-    print(&describe(&comparison));
+    print(&describe(&comparison))?;
     if let Some(path) = &arguments.diff {
         let pixels = picture::difference_rgb8(&comparison.flip_map);
         picture::write_rgb8(path, reference.width, reference.height, &pixels)
@@ -24,7 +30,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     };
     let value = metric(&comparison, arguments.metric);
     if value > limit || value.is_nan() {
-        eprintln!("{} is {value:.6}, above {limit}", arguments.metric);
+        say!("{} is {value:.6}, above {limit}", arguments.metric);
         return Ok(ExitCode::from(1));
     }
     Ok(ExitCode::SUCCESS)

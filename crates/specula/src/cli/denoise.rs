@@ -9,12 +9,18 @@ use specula::render::picture::{Metadata, Picture, read_exr};
 
 use super::Failure;
 use super::arguments::DenoiseArguments;
+use super::console::say;
+use super::file_id::Inputs;
 use super::outputs::Outputs;
 
 /// Denoises an EXR; code 2 where the program was built without the filter.
 pub(crate) fn run(arguments: &DenoiseArguments) -> Result<ExitCode, Failure> {
     ensure_available()?;
-    let outputs = Outputs::new(arguments.output.clone(), arguments.display.display())?;
+    let outputs = Outputs::new(
+        arguments.output.clone(),
+        arguments.display.display(),
+        &Inputs::new([&arguments.picture]),
+    )?;
     let mut picture = read_exr(&arguments.picture)
         .map_err(|e| Failure::bad_input(format_args!("cannot read the picture: {e}")))?;
     denoise(&mut picture)?;
@@ -24,7 +30,7 @@ pub(crate) fn run(arguments: &DenoiseArguments) -> Result<ExitCode, Failure> {
     };
     outputs.write(&picture, &metadata)?;
     if !arguments.quiet {
-        eprintln!("wrote {}", outputs.names());
+        say!("wrote {}", outputs.names());
     }
     Ok(ExitCode::SUCCESS)
 }

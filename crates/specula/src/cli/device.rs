@@ -10,6 +10,7 @@ use specula::gpu::{
 };
 use specula::render::{PassReport, PreparedScene, RenderOptions, Renderer};
 
+use super::console::say;
 use super::{Failure, print};
 
 /// What renders.
@@ -57,16 +58,16 @@ impl fmt::Display for Device {
 }
 
 /// Lists what `--device gpu:INDEX` can be given.
-pub(crate) fn list() -> ExitCode {
+pub(crate) fn list() -> Result<ExitCode, Failure> {
     let found = adapters();
     let lines: Vec<String> = found.iter().map(|a| format!("gpu:{a}\n")).collect();
-    print(&format!("cpu: {} threads\n", rayon::current_num_threads()));
-    print(&lines.concat());
+    print(&format!("cpu: {} threads\n", rayon::current_num_threads()))?;
+    print(&lines.concat())?;
     if found.is_empty() {
         let none = GpuError::NoAdapter;
-        print(&format!("{none}\n"));
+        print(&format!("{none}\n"))?;
     }
-    ExitCode::SUCCESS
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Opens the GPU that is asked for; `None`: the processor renders.
@@ -128,7 +129,7 @@ pub(crate) fn failed(error: &GpuError, kept: &str) -> Failure {
 }
 
 fn note(error: &dyn fmt::Display) {
-    eprintln!("note: {error}; the processor renders");
+    say!("note: {error}; the processor renders");
 }
 
 /// What takes the samples of a render.
@@ -160,7 +161,7 @@ impl<'a> Samples<'a> {
                         true => "by its ray queries",
                         false => "through Specula's tree",
                     };
-                    eprintln!("rendering on {}, rays {way}", gpu.adapter);
+                    say!("rendering on {}, rays {way}", gpu.adapter);
                 }
                 Some(tracer)
             }

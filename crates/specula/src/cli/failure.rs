@@ -4,6 +4,8 @@ use std::process::ExitCode;
 
 use miette::{Diagnostic, Report};
 
+use super::console::say;
+
 /// Exit code for arguments and scenes that are wrong.
 pub(crate) const BAD_INPUT: u8 = 2;
 /// Exit code for everything else that fails.
@@ -40,6 +42,27 @@ impl Failure {
         }
     }
 
+    /// The same with another sentence on a line of its own.
+    pub(crate) fn and(self, more: &str) -> Self {
+        Self {
+            report: miette::miette!("{}\n{more}", self.report),
+            code: self.code,
+        }
+    }
+
+    /// Both: the first one's exit code.
+    pub(crate) fn join(first: Result<(), Self>, second: Result<(), Self>) -> Result<(), Self> {
+        match (first, second) {
+            (Err(a), Err(b)) => Err(a.and(&b.report.to_string())),
+            (a, b) => a.and(b),
+        }
+    }
+
+    /// The words.
+    pub(crate) fn message(&self) -> String {
+        self.report.to_string()
+    }
+
     /// The exit code and the words.
     #[cfg(test)]
     pub(crate) fn told(&self) -> (u8, String) {
@@ -48,7 +71,7 @@ impl Failure {
 
     /// Prints the report to standard error; returns the exit code.
     pub(crate) fn print(&self) -> ExitCode {
-        eprintln!("{:?}", self.report);
+        say!("{:?}", self.report);
         ExitCode::from(self.code)
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::process::ExitCode;
 
-use specula::render::{MemoryEstimate, RenderOptions};
+use specula::render::RenderOptions;
 use specula::scene::scene::Projection;
 use specula::scene::{Scene, Summary};
 
@@ -16,7 +16,7 @@ use super::{Failure, machine, memory, print};
 pub(crate) fn run(arguments: &InfoArguments) -> Result<ExitCode, Failure> {
     let options = arguments.loading.options(&arguments.parameters);
     let named = load::scene(arguments.scene.as_deref(), &options)?;
-    print(&describe(&named));
+    print(&describe(&named))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -105,7 +105,7 @@ fn describe(named: &Named) -> String {
 /// What a render with the scene's own settings would take.
 fn memory_line(scene: &Scene) -> String {
     let options = RenderOptions::from_scene(scene);
-    memory::line(&MemoryEstimate::new(scene, &options, machine::count(None)))
+    memory::line(&memory::estimate(scene, &options, machine::count(None)))
 }
 
 /// The name of an enum's variant: what stands before its fields.

@@ -4,36 +4,57 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use serde_json::json;
 use specula::lab::report::{LARGE, Page};
 use specula::lab::{Experiment, LabError, Outcome, Record, Source, experiments, publish, report};
 
+use super::console::say;
+use super::file_id::FileId;
 use super::lab_arguments::{EffortArguments, LabArguments, LabCommand, ListArguments};
 use super::progress::Progress;
-use super::{Failure, lab_compare, lab_material, lab_run, machine, print, stop};
+use super::stop::StopFlag;
+use super::{Failure, lab_compare, lab_material, lab_run, machine, print};
 
 /// Runs the command that was asked for.
 pub(crate) fn run(arguments: &LabArguments) -> Result<ExitCode, Failure> {
     match &arguments.command {
         LabCommand::List(a) => {
-            print(&list(a));
+            print(&list(a))?;
             Ok(ExitCode::SUCCESS)
         }
         LabCommand::Run(a) => lab_run::run(a),
         LabCommand::Report(a) => {
+            if let Some(to) = &a.markdown {
+                refuse_results(to, &a.folder)?;
+            }
             write_page(&a.folder)?;
             if let Some(to) = &a.markdown {
                 folder(to)?;
                 publish(&a.folder, to).map_err(failure)?;
-                eprintln!("wrote {}", to.join("README.md").display());
+                say!("wrote {}", to.join("README.md").display());
             }
             Ok(ExitCode::SUCCESS)
         }
         LabCommand::Compare(a) => lab_compare::run(a),
         LabCommand::Material(a) => lab_material::run(a),
     }
+}
+
+/// Fails where Markdown would take the place of the results that it is about.
+fn refuse_results(markdown: &Path, results: &Path) -> Result<(), Failure> {
+    let target = FileId::of(markdown);
+    let above = results.join("..");
+    let is_same =
+        |folder: &Path| matches!((FileId::of(folder), &target), (Ok(a), Ok(b)) if a == *b);
+    if is_same(results) || is_same(&above) {
+        return Err(Failure::bad_input(format_args!(
+            "--markdown {}: the pages would take the place of the results; expected another folder",
+            markdown.display()
+        )));
+    }
+    Ok(())
 }
 
 /// Every experiment on a line.
@@ -89,9 +110,9 @@ pub(crate) fn write_page(folder: &Path) -> Result<(), Failure> {
 
 /// Names a page that was written.
 pub(crate) fn announce(page: &Page) {
-    eprintln!("wrote {}", page.path.display());
+    say!("wrote {}", page.path.display());
     if page.bytes > LARGE {
-        eprintln!(
+        say!(
             "note: the page has {} MB and opens slowly; pictures of draft quality are smaller",
             page.bytes >> 20
         );
@@ -122,7 +143,7 @@ pub(crate) fn line(record: &Record) -> String {
 
 /// What the machine does for a command, and how it is stopped.
 pub(crate) struct Desk {
-    pub(crate) stop: Arc<AtomicBool>,
+    stop: StopFlag,
     progress: Mutex<Progress>,
     pool: rayon::ThreadPool,
 }
@@ -132,9 +153,21 @@ impl Desk {
     pub(crate) fn new(effort: &EffortArguments) -> Result<Self, Failure> {
         Ok(Self {
             pool: machine::pool(machine::count(effort.threads), false)?,
-            stop: stop::listen_for_one()?,
+            stop: StopFlag::listen()?,
             progress: Mutex::new(Progress::new(effort.quiet)),
         })
+    }
+
+    /// The flag that the first signal sets.
+    pub(crate) fn stop(&self) -> &AtomicBool {
+        &self.stop.asked
+    }
+
+    /// Names the signal that ended the work, and `what` of it there is; returns the exit code.
+    pub(crate) fn stopped(&self, what: &str) -> ExitCode {
+        let signal = self.stop.signal();
+        say!("stopped by {}: {what}", signal.name());
+        ExitCode::from(signal.exit_code())
     }
 
     /// Works with its threads.
@@ -148,8 +181,8 @@ impl Desk {
     }
 
     /// Prints a result.
-    pub(crate) fn print(&self, text: &str) {
-        self.locked().aside(|| print(text));
+    pub(crate) fn print(&self, text: &str) -> Result<(), Failure> {
+        self.locked().aside(|| print(text))
     }
 
     /// Takes the bar away.
@@ -160,11 +193,6 @@ impl Desk {
     fn locked(&self) -> std::sync::MutexGuard<'_, Progress> {
         self.progress.lock().unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-/// The exit code after Ctrl-C.
-pub(crate) fn interrupted() -> ExitCode {
-    ExitCode::from(stop::INTERRUPTED)
 }
 
 /// The command as it was typed, to be typed again.

@@ -9,7 +9,8 @@ use specula::render::RenderOptions;
 use specula::render::picture::{PictureError, read_exr};
 use specula::scene::Energy;
 
-use super::lab::{Desk, command_line, failure, folder, interrupted, line, write_page};
+use super::file_id::Inputs;
+use super::lab::{Desk, command_line, failure, folder, line, write_page};
 use super::lab_arguments::LabCompareArguments;
 use super::{Failure, load};
 
@@ -35,6 +36,16 @@ pub(crate) fn run(arguments: &LabCompareArguments) -> Result<ExitCode, Failure> 
     if let Some(kind) = arguments.material {
         named.scene.replace_materials(kind);
     }
+    let inputs = Inputs::new(named.files.iter().chain(&arguments.reference));
+    let result = arguments.output.join(compare::id(&named.name));
+    if let Some(input) = inputs.inside(&result) {
+        return Err(Failure::bad_input(format_args!(
+            "the result would take the place of '{}', where the scene reads '{}'. Name another folder \
+             with -o",
+            result.display(),
+            input.display()
+        )));
+    }
     folder(&arguments.output)?;
     let desk = Desk::new(&arguments.effort)?;
     let mut render = RenderOptions {
@@ -58,18 +69,16 @@ pub(crate) fn run(arguments: &LabCompareArguments) -> Result<ExitCode, Failure> 
         command: command_line(),
     };
     let progress = |p: Progress| desk.tell(p.share, &p.what);
-    let result = desk.work(|| compare::run(&options, &arguments.output, &desk.stop, &progress));
+    let result = desk.work(|| compare::run(&options, &arguments.output, desk.stop(), &progress));
     desk.finish();
     match result {
         Ok(record) => {
-            desk.print(&line(&record));
+            let printed = desk.print(&line(&record));
             write_page(&arguments.output)?;
+            printed?;
             Ok(ExitCode::SUCCESS)
         }
-        Err(LabError::Stopped) => {
-            eprintln!("stopped by Ctrl-C: nothing is written");
-            Ok(interrupted())
-        }
+        Err(LabError::Stopped) => Ok(desk.stopped("nothing is written")),
         Err(LabError::Picture(error)) if arguments.reference.is_some() => {
             Err(Failure::bad_input(format_args!("--reference: {error}")))
         }

@@ -8,9 +8,7 @@ use specula::lab::{LabError, Progress, report};
 use specula::scene::material_text::parse_material;
 
 use super::Failure;
-use super::lab::{
-    Desk, announce, failure, folder, interrupted, is_page, line, scratch, write_page,
-};
+use super::lab::{Desk, announce, failure, folder, is_page, line, scratch, write_page};
 use super::lab_arguments::MaterialArguments;
 
 /// Measures a material, and writes its page or its files.
@@ -43,19 +41,18 @@ pub(crate) fn run(arguments: &MaterialArguments) -> Result<ExitCode, Failure> {
     if done {
         Ok(ExitCode::SUCCESS)
     } else {
-        eprintln!("stopped by Ctrl-C: nothing is written");
-        Ok(interrupted())
+        Ok(desk.stopped("nothing is written"))
     }
 }
 
 /// Whether it was finished.
 fn measure(options: &MaterialOptions<'_>, place: &Path, desk: &Desk) -> Result<bool, Failure> {
     let progress = |p: Progress| desk.tell(p.share, &p.what);
-    let result = desk.work(|| material::run(options, place, &desk.stop, &progress));
+    let result = desk.work(|| material::run(options, place, desk.stop(), &progress));
     desk.finish();
     match result {
         Ok(record) => {
-            desk.print(&line(&record));
+            desk.print(&line(&record))?;
             Ok(true)
         }
         Err(LabError::Stopped) => Ok(false),

@@ -2,12 +2,13 @@
 
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use specula::lab::report::read;
 use specula::lab::{Event, LabError, RunOptions, experiments};
 
 use super::Failure;
-use super::lab::{Desk, failure, folder, interrupted, line, write_page};
+use super::lab::{Desk, failure, folder, line, write_page};
 use super::lab_arguments::RunArguments;
 
 /// Runs experiments; the page is written in the end, after Ctrl-C too.
@@ -24,30 +25,42 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
         let before = done.load(Ordering::Relaxed) as f64;
         desk.tell((before + share) / all, what);
     };
+    let unprinted = Mutex::new(None);
     let events = |event: Event<'_>| match event {
         Event::Began(e, ..) => show(0.0, e.id),
         Event::Step(e, p) => show(p.share.clamp(0.0, 1.0), &format!("{}: {}", e.id, p.what)),
         Event::Done(_, record) => {
             done.fetch_add(1, Ordering::Relaxed);
-            desk.print(&line(record));
+            if let Err(failure) = desk.print(&line(record)) {
+                unprinted
+                    .lock()
+                    .unwrap_or_else(PoisonError::into_inner)
+                    .get_or_insert(failure);
+            }
         }
     };
     let output = &arguments.output;
-    let result = desk.work(|| specula::lab::run(&chosen, options, output, &desk.stop, &events));
+    let result = desk.work(|| specula::lab::run(&chosen, options, output, desk.stop(), &events));
     desk.finish();
     match result {
         Ok(_) => write_page(output)?,
         Err(LabError::Stopped) => {
             let finished = done.load(Ordering::Relaxed);
-            eprintln!("stopped by Ctrl-C: {finished} of {all} experiments are finished");
             // Earlier results may be there.
             match read(output) {
                 Err(LabError::NoResults(_)) => {}
                 _ => write_page(output)?,
             }
-            return Ok(interrupted());
+            let what = format!("{finished} of {all} experiments are finished");
+            return Ok(desk.stopped(&what));
         }
         Err(error) => return Err(failure(error)),
     }
-    Ok(ExitCode::SUCCESS)
+    match unprinted
+        .into_inner()
+        .unwrap_or_else(PoisonError::into_inner)
+    {
+        Some(failure) => Err(failure),
+        None => Ok(ExitCode::SUCCESS),
+    }
 }

@@ -1,33 +1,60 @@
-//! A live view: the picture so far, sent to the viewer tev.
+//! A live view: the picture so far, sent to the viewer tev by a thread of its own, so that a viewer that
+//! does not read never holds up the render.
 
 use std::net::{TcpStream, ToSocketAddrs};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use specula::bsdf::Rgb;
 use specula::render::FilmBuffer;
 use tev_client::{PacketCreateImage, PacketUpdateImage, TevClient};
 
 use super::Failure;
+use super::console::say;
 
 /// The port that tev listens on.
 const PORT: u16 = 14158;
 /// Between two updates.
 const EVERY: Duration = Duration::from_secs(1);
-/// Sending takes at most this share of the time.
+/// Copying the picture takes at most this share of the time.
 const LARGEST_SHARE: f64 = 0.05;
 /// A viewer that takes nothing for so long is lost.
 const PATIENCE: Duration = Duration::from_secs(5);
+/// How long the finished picture may take to be sent.
+const LAST_PATIENCE: Duration = Duration::from_secs(2);
 /// Pixels of an update: packets stay small.
 const MOST_PIXELS: usize = 1 << 20;
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
 /// A viewer that shows the render.
 pub(crate) struct LiveView {
-    /// `None`: lost.
-    client: Option<TevClient>,
-    image: String,
-    created: bool,
+    queue: Arc<Queue>,
     sent: Option<Instant>,
+    /// Of copying a picture.
     cost: Duration,
+}
+
+/// At most one picture on its way to the thread that sends.
+#[derive(Default)]
+struct Queue {
+    state: Mutex<State>,
+    changed: Condvar,
+}
+
+#[derive(Default)]
+struct State {
+    next: Option<Frame>,
+    /// Whether `next` is the last.
+    closed: bool,
+    /// Whether the thread has ended: all is sent, or the viewer is lost.
+    ended: bool,
+}
+
+/// A picture to be shown.
+struct Frame {
+    full_resolution: [u32; 2],
+    crop: [u32; 4],
+    colour: Vec<Rgb<f32>>,
 }
 
 impl LiveView {
@@ -46,14 +73,7 @@ impl LiveView {
                     stream
                         .set_write_timeout(Some(PATIENCE))
                         .map_err(|e| fail(&e))?;
-                    return Ok(Self {
-                        client: Some(TevClient::wrap(stream)),
-                        // The protocol ends names with a zero byte.
-                        image: image.replace('\0', " "),
-                        created: false,
-                        sent: None,
-                        cost: Duration::ZERO,
-                    });
+                    return Ok(Self::start(stream, image));
                 }
                 Err(e) => last = Some(e),
             }
@@ -61,55 +81,137 @@ impl LiveView {
         Err(last.map_or_else(|| fail(&"it has no address"), |e| fail(&e)))
     }
 
-    /// Shows a film that is being rendered, now and then.
+    /// Starts the thread that sends.
+    fn start(stream: TcpStream, image: &str) -> Self {
+        let queue = Arc::new(Queue::default());
+        let mut sender = Sender {
+            client: TevClient::wrap(stream),
+            // The protocol ends names with a zero byte.
+            image: image.replace('\0', " "),
+            created: None,
+        };
+        let shared = queue.clone();
+        std::thread::spawn(move || {
+            while let Some(frame) = shared.take() {
+                if let Err(e) = sender.send(&frame) {
+                    say!("warning: the viewer is lost, and the render goes on: {e}");
+                    break;
+                }
+            }
+            shared.lock().ended = true;
+            shared.changed.notify_all();
+        });
+        Self {
+            queue,
+            sent: None,
+            cost: Duration::ZERO,
+        }
+    }
+
+    /// Shows a film that is being rendered, now and then, unless the viewer has not taken the last
+    /// picture yet.
     pub(crate) fn update(&mut self, film: &FilmBuffer) {
         let rest = self.cost.mul_f64(1.0 / LARGEST_SHARE);
-        if self
-            .sent
-            .is_none_or(|sent| sent.elapsed() >= EVERY.max(rest))
-        {
+        let is_due = (self.sent).is_none_or(|sent| sent.elapsed() >= EVERY.max(rest));
+        let is_free = {
+            let state = self.queue.lock();
+            state.next.is_none() && !state.ended
+        };
+        if is_due && is_free {
             self.show(film);
         }
     }
 
-    /// Shows a film. A render goes on without a viewer that is lost.
+    /// Shows a film in place of one that waits to be sent.
     pub(crate) fn show(&mut self, film: &FilmBuffer) {
-        let Some(mut client) = self.client.take() else {
-            return;
-        };
         let start = Instant::now();
-        match self.send(&mut client, film) {
-            Ok(()) => self.client = Some(client),
-            Err(e) => eprintln!("warning: the viewer is lost, and the render goes on: {e}"),
-        }
+        let frame = Frame::of(film);
         self.cost = start.elapsed();
-        self.sent = Some(Instant::now());
+        self.sent = Some(start);
+        self.queue.lock().next = Some(frame);
+        self.queue.changed.notify_all();
     }
 
-    fn send(&mut self, client: &mut TevClient, film: &FilmBuffer) -> std::io::Result<()> {
-        let [width, height] = film.full_resolution();
-        if !self.created {
-            client.send(PacketCreateImage {
+    /// Shows the finished film, and waits a little until it is sent.
+    pub(crate) fn finish(&mut self, film: &FilmBuffer) {
+        if self.queue.lock().ended {
+            return;
+        }
+        self.show(film);
+        let mut state = self.queue.lock();
+        state.closed = true;
+        self.queue.changed.notify_all();
+        let waited = (self.queue.changed)
+            .wait_timeout_while(state, LAST_PATIENCE, |s| !s.ended)
+            .unwrap_or_else(PoisonError::into_inner);
+        if waited.1.timed_out() {
+            say!("warning: the viewer does not read, and may not show the finished picture");
+        }
+    }
+}
+
+impl Drop for LiveView {
+    fn drop(&mut self) {
+        self.queue.lock().closed = true;
+        self.queue.changed.notify_all();
+    }
+}
+
+impl Queue {
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The next picture, when there is one; `None`: there will be none.
+    fn take(&self) -> Option<Frame> {
+        let waiting = |s: &mut State| s.next.is_none() && !s.closed;
+        let state = self.changed.wait_while(self.lock(), waiting);
+        state.unwrap_or_else(PoisonError::into_inner).next.take()
+    }
+}
+
+impl Frame {
+    fn of(film: &FilmBuffer) -> Self {
+        Self {
+            full_resolution: film.full_resolution(),
+            crop: film.crop(),
+            colour: film.colour(),
+        }
+    }
+}
+
+/// The connection to a viewer.
+struct Sender {
+    client: TevClient,
+    image: String,
+    /// The size of the viewer's image.
+    created: Option<[u32; 2]>,
+}
+
+impl Sender {
+    fn send(&mut self, frame: &Frame) -> std::io::Result<()> {
+        let [width, height] = frame.full_resolution;
+        if self.created != Some(frame.full_resolution) {
+            self.client.send(PacketCreateImage {
                 image_name: &self.image,
                 grab_focus: true,
                 width,
                 height,
                 channel_names: &CHANNELS,
             })?;
-            self.created = true;
+            self.created = Some(frame.full_resolution);
         }
-        let [x0, x1, y0, y1] = film.crop();
+        let [x0, x1, y0, y1] = frame.crop;
         let columns = x1 - x0;
-        let colour = film.colour();
         let rows = u32::try_from(MOST_PIXELS / columns as usize).map_or(1, |rows| rows.max(1));
         let mut data = Vec::new();
         for (y, pixels) in (y0..y1)
             .step_by(rows as usize)
-            .zip(colour.chunks((rows * columns) as usize))
+            .zip(frame.colour.chunks((rows * columns) as usize))
         {
             data.clear();
             data.extend(pixels.iter().flat_map(|c| c.to_array()));
-            client.send(PacketUpdateImage {
+            self.client.send(PacketUpdateImage {
                 image_name: &self.image,
                 grab_focus: false,
                 channel_names: &CHANNELS,

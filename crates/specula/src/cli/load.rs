@@ -1,12 +1,16 @@
 //! Scenes by name, and the warnings that go with them.
 
 use std::collections::HashMap;
-use std::path::Path;
+use std::io::Read;
+use std::path::{Path, PathBuf};
 
-use specula::scene::{LoadOptions, Scene, Warning, builtin, load_with_options};
+use specula::scene::{Format, LoadOptions, Scene, Warning, builtin, load_bytes, load_with_options};
 
 use super::Failure;
+use super::console::say;
 
+/// What messages call a scene from standard input.
+const STDIN: &str = "<stdin>";
 /// Most warnings that are printed by a render; `specula check` prints all.
 const MOST_WARNINGS: usize = 12;
 
@@ -16,6 +20,8 @@ pub(crate) struct Named {
     pub(crate) name: String,
     pub(crate) scene: Scene,
     pub(crate) warnings: Vec<Warning>,
+    /// All files that were read.
+    pub(crate) files: Vec<PathBuf>,
 }
 
 /// The scene of a file, or the built-in one.
@@ -25,23 +31,49 @@ pub(crate) fn scene(path: Option<&Path>, options: &LoadOptions) -> Result<Named,
             name: "orbs".to_owned(),
             scene: builtin::orbs(),
             warnings: Vec::new(),
+            files: Vec::new(),
         });
     };
-    let is_mitsuba = path
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("xml"));
-    if !is_mitsuba && !options.parameters.is_empty() {
+    let loaded = match path.as_os_str() == "-" {
+        true => load_bytes(STDIN.as_ref(), stdin(options)?, options),
+        false => load_with_options(path, options),
+    }
+    .map_err(Failure::input)?;
+    if loaded.format != Format::Mitsuba && !options.parameters.is_empty() {
         return Err(Failure::bad_input(format_args!(
-            "-D is for Mitsuba scenes (.xml); {} is none",
+            "-D is for Mitsuba scenes; {} is none",
             path.display()
         )));
     }
-    let loaded = load_with_options(path, options).map_err(Failure::input)?;
+    // A pipe has no name of its own.
+    let is_named = path.is_file();
     Ok(Named {
-        name: stem(path),
+        name: if is_named {
+            stem(path)
+        } else {
+            "scene".to_owned()
+        },
         scene: loaded.scene,
         warnings: loaded.warnings,
+        files: loaded.files,
     })
+}
+
+/// All of standard input.
+fn stdin(options: &LoadOptions) -> Result<Vec<u8>, Failure> {
+    let most = options.limits.max_bytes;
+    let mut bytes = Vec::new();
+    let read = std::io::stdin()
+        .lock()
+        .take(most.saturating_add(1))
+        .read_to_end(&mut bytes);
+    read.map_err(|e| Failure::bad_input(format_args!("cannot read standard input: {e}")))?;
+    if bytes.len() as u64 > most {
+        return Err(Failure::bad_input(format_args!(
+            "standard input has more than {most} bytes (--limit-bytes)"
+        )));
+    }
+    Ok(bytes)
 }
 
 /// `a/scene.pbrt.gz` is called `scene`.
@@ -90,10 +122,10 @@ pub(crate) fn warning_lines(warnings: &[Warning]) -> Vec<String> {
 pub(crate) fn print_warnings(warnings: &[Warning]) {
     let lines = warning_lines(warnings);
     for line in lines.iter().take(MOST_WARNINGS) {
-        eprintln!("warning: {line}");
+        say!("warning: {line}");
     }
     if let Some(rest) = lines.len().checked_sub(MOST_WARNINGS).filter(|n| *n > 0) {
-        eprintln!("warning: {rest} more; `specula check` lists all");
+        say!("warning: {rest} more; `specula check` lists all");
     }
 }
 

@@ -44,6 +44,7 @@ impl LoadingArguments {
                 max_bytes: self.limit_bytes.unwrap_or(plain.max_bytes),
                 max_pixels: self.limit_pixels.unwrap_or(plain.max_pixels),
                 max_vertices: self.limit_vertices.unwrap_or(plain.max_vertices),
+                ..plain
             },
             parameters: parameters.to_vec(),
             folders: self.search.clone(),
@@ -81,6 +82,7 @@ mod tests {
             max_bytes: 2048,
             max_pixels: 5,
             max_vertices: 7,
+            ..Limits::default()
         };
         assert_eq!(options.limits, limits);
         assert_eq!(options.folders, [PathBuf::from("a"), PathBuf::from("b")]);

@@ -4,6 +4,7 @@ use specula::render::{MemoryEstimate, RenderOptions};
 use specula::scene::Scene;
 
 use super::Failure;
+use super::console::say;
 
 /// Says what the render will take. Fails where that is more than `limit`; warns where it is more than
 /// the machine has left.
@@ -14,7 +15,7 @@ pub(crate) fn check(
     limit: Option<u64>,
     quiet: bool,
 ) -> Result<(), Failure> {
-    let estimate = MemoryEstimate::new(scene, options, threads);
+    let estimate = estimate(scene, options, threads);
     let peak = estimate.peak();
     if let Some(limit) = limit.filter(|limit| peak > *limit) {
         return Err(Failure::bad_input(format_args!(
@@ -25,12 +26,12 @@ pub(crate) fn check(
         )));
     }
     if !quiet {
-        eprintln!("memory: {}", line(&estimate));
+        say!("memory: {}", line(&estimate));
     }
     // What is held of the scene already is no longer available.
     let needed = peak.saturating_sub(estimate.scene + estimate.program);
     if let Some(available) = available().filter(|available| needed > *available) {
-        eprintln!(
+        say!(
             "warning: {} of memory are available, and the render would take {} more than it has now",
             bytes(available),
             bytes(needed)
@@ -39,13 +40,19 @@ pub(crate) fn check(
     Ok(())
 }
 
+/// The estimate for a scene that was just read.
+pub(crate) fn estimate(scene: &Scene, options: &RenderOptions, threads: usize) -> MemoryEstimate {
+    let estimate = MemoryEstimate::new(scene, options, threads);
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    match (field(&status, "VmRSS:"), field(&status, "VmHWM:")) {
+        (Some(now), Some(most)) => estimate.after_reading(now, most),
+        _ => estimate,
+    }
+}
+
 /// The peak and its parts in a line.
 pub(crate) fn line(estimate: &MemoryEstimate) -> String {
-    format!(
-        "about {} at most ({})",
-        bytes(estimate.peak()),
-        parts(estimate)
-    )
+    format!("at most {} ({})", bytes(estimate.peak()), parts(estimate))
 }
 
 fn parts(estimate: &MemoryEstimate) -> String {
@@ -65,14 +72,15 @@ fn parts(estimate: &MemoryEstimate) -> String {
         .collect();
     text.push(format!("program {}", bytes(estimate.program)));
     let phases = format!(
-        "; {} while it is prepared, {} while it is rendered",
+        "; {} while it is read, {} while it is prepared, {} while it is rendered",
+        bytes(estimate.reading),
         bytes(estimate.preparing()),
         bytes(estimate.rendering())
     );
     text.join(", ") + &phases
 }
 
-/// Bytes with three digits: `1.25 GiB`, `340 MiB`.
+/// Bytes with three digits, rounded up: `1.25 GiB`, `340 MiB`.
 fn bytes(size: u64) -> String {
     let mebibytes = size as f64 / f64::from(1 << 20);
     let (value, unit) = if mebibytes < 1000.0 {
@@ -85,6 +93,9 @@ fn bytes(size: u64) -> String {
         v if v < 100.0 => 1,
         _ => 0,
     };
+    let scale = [1.0, 10.0, 100.0][digits];
+    // A size that the digits hold stays as it is.
+    let value = (value * scale - 1e-6).ceil() / scale;
     format!("{value:.digits$} {unit}")
 }
 
@@ -93,7 +104,7 @@ fn bytes(size: u64) -> String {
 fn available() -> Option<u64> {
     let of_system = std::fs::read_to_string("/proc/meminfo")
         .ok()
-        .and_then(|text| of_meminfo(&text));
+        .and_then(|text| field(&text, "MemAvailable:"));
     let number = |name: &str| {
         let text = std::fs::read_to_string(name).ok()?;
         text.trim().parse::<u64>().ok()
@@ -114,9 +125,9 @@ fn available() -> Option<u64> {
     }
 }
 
-/// `MemAvailable`, in bytes.
-fn of_meminfo(text: &str) -> Option<u64> {
-    let line = text.lines().find_map(|l| l.strip_prefix("MemAvailable:"))?;
+/// A field in kB of a file of the system such as `/proc/meminfo`, in bytes.
+fn field(text: &str, name: &str) -> Option<u64> {
+    let line = text.lines().find_map(|l| l.strip_prefix(name))?;
     let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     kibibytes.checked_mul(1024)
 }
@@ -131,13 +142,14 @@ mod tests {
         assert_eq!(bytes(345 << 20), "345 MiB");
         assert_eq!(bytes(5 << 30), "5.00 GiB");
         assert_eq!(bytes(1010 << 20), "0.99 GiB");
+        assert_eq!(bytes((44 << 20) + 1), "44.1 MiB");
     }
 
     #[test]
     fn available_memory_is_read() {
         let text = "MemTotal:  100 kB\nMemAvailable:   24000 kB\nSwap: 1 kB\n";
-        assert_eq!(of_meminfo(text), Some(24_000 * 1024));
-        assert_eq!(of_meminfo("MemTotal: 5 kB"), None);
-        assert_eq!(of_meminfo("MemAvailable: many kB"), None);
+        assert_eq!(field(text, "MemAvailable:"), Some(24_000 * 1024));
+        assert_eq!(field("MemTotal: 5 kB", "MemAvailable:"), None);
+        assert_eq!(field("VmRSS: many kB", "VmRSS:"), None);
     }
 }

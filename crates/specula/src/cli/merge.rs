@@ -7,11 +7,18 @@ use specula::render::FilmFile;
 
 use super::Failure;
 use super::arguments::MergeArguments;
-use super::outputs::Outputs;
+use super::console::say;
+use super::file_id::Inputs;
+use super::outputs::{self, Outputs};
 
 /// Adds films of distinct samples; code 2 where they overlap or are of different renders.
 pub(crate) fn run(arguments: &MergeArguments) -> Result<ExitCode, Failure> {
-    let outputs = Outputs::new(arguments.output.clone(), arguments.display.display())?;
+    let inputs = Inputs::new(&arguments.films);
+    let outputs = Outputs::new(
+        arguments.output.clone(),
+        arguments.display.display(),
+        &inputs,
+    )?;
     let mut files = arguments
         .films
         .iter()
@@ -42,10 +49,11 @@ pub(crate) fn run(arguments: &MergeArguments) -> Result<ExitCode, Failure> {
         })?;
         label.seconds += other.label.seconds;
     }
-    outputs.write_film(&film, &label)?;
-    outputs.write_pictures(&film, &label, None, false)?;
+    let written = outputs.write_film(&film, &label);
+    let metadata = outputs::metadata(&film, &label, None);
+    Failure::join(written, outputs.write_pictures(&film, &metadata, false))?;
     if !arguments.quiet {
-        eprintln!(
+        say!(
             "wrote {}: {} spp of {} (samples {})",
             outputs.names(),
             film.complete_samples(),

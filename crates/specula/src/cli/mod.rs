@@ -4,11 +4,14 @@ mod arguments;
 mod check;
 mod checkpoint;
 mod compare;
+mod console;
 mod convert;
 mod denoise;
 mod device;
 mod failure;
+mod file_id;
 mod info;
+mod job;
 mod lab;
 mod lab_arguments;
 mod lab_compare;
@@ -17,9 +20,12 @@ mod lab_run;
 mod live_view;
 mod load;
 mod loading;
+mod lock;
 mod machine;
+mod material;
 mod memory;
 mod merge;
+mod noise_report;
 mod outputs;
 mod progress;
 mod render;
@@ -27,12 +33,14 @@ mod schedule;
 mod shaders;
 mod stop;
 mod values;
+mod watch;
 
 use std::process::ExitCode;
 
 pub(crate) use arguments::Arguments;
 use arguments::Command;
-use failure::Failure;
+pub(crate) use console::print;
+pub(crate) use failure::Failure;
 
 /// Runs the command that was asked for; returns the process's exit code.
 pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
@@ -46,13 +54,16 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
         Command::Denoise(a) => denoise::run(&a),
         Command::Shaders(a) => shaders::run(&a),
         Command::Lab(a) => lab::run(&a),
-        Command::Devices => Ok(device::list()),
+        Command::Devices => device::list(),
     }
 }
 
-/// Prints to standard output; a reader that has gone away (`specula info x | head`) is no error.
-fn print(text: &str) {
-    use std::io::Write;
-    let mut out = std::io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+/// Prints help, the version, or what is wrong with the arguments; returns the exit code.
+pub(crate) fn usage(told: &clap::Error) -> ExitCode {
+    use std::io::ErrorKind;
+    let is_result = !told.use_stderr();
+    match told.print() {
+        Err(e) if is_result && e.kind() != ErrorKind::BrokenPipe => ExitCode::FAILURE,
+        _ => ExitCode::from(u8::try_from(told.exit_code()).unwrap_or(failure::BAD_INPUT)),
+    }
 }

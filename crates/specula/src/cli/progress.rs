@@ -5,6 +5,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::console::say;
+
 /// Between two lines where there is no terminal.
 const LINE_EVERY: Duration = Duration::from_secs(10);
 /// Ticks of the bar.
@@ -69,12 +71,12 @@ impl Progress {
             bar.set_message(message);
         } else if self.lines && self.last_line.elapsed() >= LINE_EVERY {
             self.last_line = Instant::now();
-            eprintln!("{:3.0} %  {message}", 100.0 * share_done);
+            say!("{:3.0} %  {message}", 100.0 * share_done);
         }
     }
 
     /// Does what writes lines, beside the bar.
-    pub(crate) fn aside(&self, write: impl FnOnce()) {
+    pub(crate) fn aside<T>(&self, write: impl FnOnce() -> T) -> T {
         match &self.bar {
             Some(bar) => bar.suspend(write),
             None => write(),

@@ -2,25 +2,27 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use specula::gpu::{GpuError, TracerOptions};
+use specula::gpu::{Gpu, TracerOptions};
 use specula::render::{
-    FilmBuffer, InvalidSample, Label, MOST_SAMPLES, PrepareError, PreparedScene, RenderOptions,
-    Renderer,
+    FilmBuffer, Label, MOST_SAMPLES, PrepareError, PreparedScene, RenderOptions, Renderer,
 };
 use specula::scene::Scene;
 
 use super::arguments::RenderArguments;
 use super::checkpoint::{Checkpoint, Start};
+use super::console::say;
 use super::device::{self, Samples};
+use super::file_id::Inputs;
+use super::job::Job;
 use super::live_view::LiveView;
 use super::load::{self, Named};
-use super::outputs::Outputs;
-use super::progress::{Progress, State, short};
+use super::outputs::{self, Outputs};
+use super::progress::short;
 use super::schedule::Goal;
-use super::stop::{INTERRUPTED, Stop};
-use super::{Failure, denoise, machine, memory};
+use super::stop::Stop;
+use super::{Failure, denoise, machine, memory, watch};
 
 /// Renders and writes; code 130 where Ctrl-C ended it early.
 pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
@@ -28,54 +30,145 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
         denoise::ensure_available()?;
     }
     let stop = Stop::listen()?;
-    let Named {
-        name,
-        mut scene,
-        warnings,
-    } = load::scene(
-        arguments.scene.as_deref(),
-        &arguments.loading.options(&arguments.parameters),
-    )?;
-    if let Some(material) = arguments.material {
-        scene.replace_materials(material);
+    let threads = arguments.machine.thread_count();
+    let context = Context {
+        arguments,
+        stop: &stop,
+        threads,
+        gpu: device::open(&arguments.device, arguments.gpu_rays)?,
+    };
+    let pool = machine::pool(threads, arguments.machine.nice)?;
+    if arguments.watch {
+        return pool.install(|| watch::run(&context));
+    }
+    let loaded = load(arguments)?;
+    let mut live_view = connect(arguments, &loaded.name)?;
+    let ready = context.ready(loaded)?;
+    pool.install(|| {
+        let prepared = context.prepare(&ready.name, ready.scene, &ready.options, None)?;
+        context.render(&prepared, ready.rest, live_view.as_mut())
+    })
+}
+
+/// What all renders of a command have in common.
+pub(crate) struct Context<'a> {
+    pub(crate) arguments: &'a RenderArguments,
+    pub(crate) stop: &'a Stop,
+    threads: usize,
+    gpu: Option<Gpu>,
+}
+
+/// A scene that was checked, and what its render needs.
+pub(crate) struct Ready {
+    pub(crate) name: String,
+    pub(crate) scene: Scene,
+    pub(crate) options: RenderOptions,
+    pub(crate) rest: Rest,
+}
+
+/// What a render needs beside the scene.
+pub(crate) struct Rest {
+    options: RenderOptions,
+    outputs: Outputs,
+    checkpoint: Checkpoint,
+    /// The film that it goes on with.
+    begun: Option<FilmBuffer>,
+}
+
+/// Reads the scene, and gives it the materials that were asked for.
+pub(crate) fn load(arguments: &RenderArguments) -> Result<Named, Failure> {
+    let options = arguments.loading.options(&arguments.parameters);
+    let mut named = load::scene(arguments.scene.as_deref(), &options)?;
+    for material in &arguments.material {
+        material.apply(&mut named.scene)?;
     }
     if !arguments.quiet {
-        load::print_warnings(&warnings);
+        load::print_warnings(&named.warnings);
     }
-    let options = options(arguments, &scene)?;
-    let gpu = device::open(&arguments.device, arguments.gpu_rays)?;
-    let threads = arguments.machine.thread_count();
-    let most = arguments.machine.max_memory;
-    memory::check(&scene, &options, threads, most, arguments.quiet)?;
-    let outputs = Outputs::new(paths(arguments, &name), arguments.display.display())?;
-    let mut checkpoint = checkpoint(arguments, &outputs, &name, &scene, &options);
-    let begun = match start(arguments) {
-        Start::New if checkpoint.path().is_none() => None,
-        start => checkpoint.open(start)?,
-    };
-    outputs.sweep();
-    let live_view = match &arguments.display_server {
-        Some(address) => Some(LiveView::connect(address, &name)?),
-        None => None,
-    };
-    machine::pool(threads, arguments.machine.nice)?.install(|| {
+    Ok(named)
+}
+
+/// The viewer that was asked for.
+pub(crate) fn connect(
+    arguments: &RenderArguments,
+    name: &str,
+) -> Result<Option<LiveView>, Failure> {
+    let address = arguments.display_server.as_ref();
+    address.map(|a| LiveView::connect(a, name)).transpose()
+}
+
+impl Context<'_> {
+    /// Checks all that could stop the render later: memory, outputs, a film that is there already.
+    pub(crate) fn ready(&self, loaded: Named) -> Result<Ready, Failure> {
+        let arguments = self.arguments;
+        let Named {
+            name, scene, files, ..
+        } = loaded;
+        let options = options(arguments, &scene)?;
+        let most = arguments.machine.max_memory;
+        memory::check(&scene, &options, self.threads, most, arguments.quiet)?;
+        let inputs = Inputs::new(files);
+        let paths = paths(arguments, &name, &inputs);
+        let mut outputs = Outputs::new(paths, arguments.display.display(), &inputs)?;
+        outputs.claim_checkpoint(&inputs)?;
+        let mut checkpoint = checkpoint(arguments, &outputs, &name, &scene, &options);
+        let begun = match start(arguments) {
+            Start::New if checkpoint.path().is_none() => None,
+            start => checkpoint.open(&start)?,
+        };
+        outputs.sweep();
+        let rest = Rest {
+            options: options.clone(),
+            outputs,
+            checkpoint,
+            begun,
+        };
+        Ok(Ready {
+            name,
+            scene,
+            options,
+            rest,
+        })
+    }
+
+    /// Prepares the scene; of an earlier one, what has not changed is taken over.
+    pub(crate) fn prepare(
+        &self,
+        name: &str,
+        scene: Scene,
+        options: &RenderOptions,
+        earlier: Option<PreparedScene>,
+    ) -> Result<PreparedScene, Failure> {
         let start = Instant::now();
-        let prepared = PreparedScene::consume(scene, &options)
+        let prepared = PreparedScene::consume_after(scene, options, earlier)
             .map_err(|e: PrepareError| Failure::bad_input(format_args!("{name}: {e}")))?;
-        if !arguments.quiet {
+        if !self.arguments.quiet {
             let [width, height] = prepared.resolution();
             let ready = short(start.elapsed().as_secs_f64());
-            eprintln!("{name}: {width}x{height}, ready after {ready}");
+            say!("{name}: {width}x{height}, ready after {ready}");
         }
+        Ok(prepared)
+    }
+
+    /// Renders and writes.
+    pub(crate) fn render(
+        &self,
+        prepared: &PreparedScene,
+        rest: Rest,
+        live_view: Option<&mut LiveView>,
+    ) -> Result<ExitCode, Failure> {
+        let arguments = self.arguments;
+        let options = rest.options;
         let on_gpu = TracerOptions {
             rays: arguments.gpu_rays,
             schedule: arguments.gpu_schedule,
         };
         let chosen = (&arguments.device, on_gpu);
-        let source = Samples::new(chosen, gpu.as_ref(), &prepared, &options, arguments.quiet)?;
-        let renderer = match begun {
-            None => Renderer::new(&prepared, options.clone()),
-            Some(film) => Renderer::resume(&prepared, options.clone(), film).map_err(|e| {
+        let gpu = self.gpu.as_ref();
+        let source = Samples::new(chosen, gpu, prepared, &options, arguments.quiet)?;
+        let renderer = match rest.begun {
+            None => Renderer::new(prepared, options.clone()),
+            Some(film) => Renderer::resume(prepared, options.clone(), film).map_err(|e| {
                 Failure::bad_input(format_args!("cannot go on with the checkpoint: {e}"))
             })?,
         };
@@ -83,15 +176,16 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
             goal: goal(arguments, &options),
             renderer,
             source,
-            outputs: &outputs,
-            checkpoint,
-            stop: &stop,
+            outputs: &rest.outputs,
+            checkpoint: rest.checkpoint,
+            stop: self.stop,
             live_view,
             denoised: arguments.denoise,
             quiet: arguments.quiet,
+            is_watched: arguments.watch,
         }
         .run()
-    })
+    }
 }
 
 fn options(arguments: &RenderArguments, scene: &Scene) -> Result<RenderOptions, Failure> {
@@ -115,11 +209,13 @@ fn options(arguments: &RenderArguments, scene: &Scene) -> Result<RenderOptions, 
         seed: arguments.seed,
         share_paths: arguments.share_paths,
         vndf_sampler: arguments.sampler.into(),
-        energy: arguments.energy,
+        energy: arguments.energy.unwrap_or(from_scene.energy),
         resolution: arguments.resolution,
         crop: arguments.crop,
         first_sample: arguments.samples.map_or(0, |[from, _]| from),
         noise: arguments.noise.or(arguments.adaptive.then_some(0.0)),
+        clamp: arguments.clamp,
+        regularize: arguments.regularize,
         ..from_scene
     })
 }
@@ -135,24 +231,22 @@ fn goal(arguments: &RenderArguments, options: &RenderOptions) -> Goal {
 }
 
 /// The files asked for; else names after the scene, in the current folder.
-fn paths(arguments: &RenderArguments, scene_name: &str) -> Vec<PathBuf> {
+fn paths(arguments: &RenderArguments, scene: &str, inputs: &Inputs) -> Vec<PathBuf> {
     if !arguments.output.is_empty() {
         return arguments.output.clone();
     }
-    // Appended: with_extension would cut `a.b` down to `a`.
     match arguments.samples {
-        Some([from, to]) => vec![PathBuf::from(format!("{scene_name}.{from}-{to}.film"))],
-        None => ["exr", "png"]
-            .map(|e| PathBuf::from(format!("{scene_name}.{e}")))
-            .to_vec(),
+        Some([from, to]) => outputs::default_names(scene, &[&format!("{from}-{to}.film")], inputs),
+        None => outputs::default_names(scene, &["exr", "png"], inputs),
     }
 }
 
 fn start(arguments: &RenderArguments) -> Start {
-    match (arguments.resume, arguments.restart) {
-        (true, _) => Start::Resume,
-        (_, true) => Start::Restart,
-        _ => Start::New,
+    match (&arguments.resume, arguments.restart) {
+        (Some(Some(film)), _) => Start::ResumeFrom(film.clone()),
+        (Some(None), _) => Start::Resume,
+        (None, true) => Start::Restart,
+        (None, false) => Start::New,
     }
 }
 
@@ -163,167 +257,14 @@ fn checkpoint(
     scene: &Scene,
     options: &RenderOptions,
 ) -> Checkpoint {
-    // Pictures do not hold the fingerprint, and it takes a second for each gigabyte of the scene.
-    let every = arguments.checkpoint.0;
-    let has_film = every.is_some() || outputs.film().is_some() || start(arguments) != Start::New;
+    // What is watched changes: there is nothing to go on with.
+    let every = arguments.checkpoint.0.filter(|_| !arguments.watch);
     let label = Label {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         scene: name.to_owned(),
-        fingerprint: if has_film { scene.fingerprint() } else { 0 },
+        fingerprint: scene.fingerprint(),
         settings: options.settings(),
         seconds: 0.0,
     };
     Checkpoint::new(outputs.checkpoint(), label, every, outputs.film().is_some())
-}
-
-/// A render on its way.
-struct Job<'a> {
-    goal: Goal,
-    renderer: Renderer<'a>,
-    source: Samples<'a>,
-    outputs: &'a Outputs,
-    checkpoint: Checkpoint,
-    stop: &'a Stop,
-    live_view: Option<LiveView>,
-    denoised: bool,
-    quiet: bool,
-}
-
-impl Job<'_> {
-    fn run(mut self) -> Result<ExitCode, Failure> {
-        let start = Instant::now();
-        let mut progress = Progress::new(self.quiet);
-        let mut invalid = self.renderer.film().invalid_samples();
-        let (mut rays, mut last, mut one_invalid) = (0_u64, None, None);
-        while !self.stop.asked() {
-            let next = self
-                .renderer
-                .samples_done()
-                .and_then(|done| self.goal.next_pass(done, last, start.elapsed()));
-            let Some(next) = next else { break };
-            let pass_start = Instant::now();
-            self.stop.pass_begins(expected(next, last));
-            let taken = self
-                .source
-                .pass(&mut self.renderer, next, self.stop.at_once());
-            self.stop.pass_ends();
-            let report = taken.or_else(|error| self.give_up(&error, start.elapsed()))?;
-            last = Some((next, pass_start.elapsed()));
-            rays += report.rays;
-            invalid = report.invalid_samples;
-            one_invalid = one_invalid.or(report.invalid);
-            let film = self.renderer.film();
-            let of_samples = self.renderer.share_done(self.goal.most_samples);
-            progress.show(&State {
-                share_done: self.goal.share_done(of_samples, start.elapsed()),
-                samples: samples(film),
-                rays_per_second: rays as f64 / start.elapsed().as_secs_f64(),
-                noise: film.noise(),
-            });
-            if let Some(view) = &mut self.live_view {
-                view.update(self.renderer.film());
-            }
-            if report.complete && self.checkpoint.is_due() {
-                let seconds = start.elapsed().as_secs_f64();
-                self.checkpoint.save(self.renderer.film(), seconds);
-                self.write_pictures(seconds, false)?;
-            }
-        }
-        progress.finish();
-        if let Some(view) = &mut self.live_view {
-            view.show(self.renderer.film());
-        }
-        let seconds = start.elapsed().as_secs_f64();
-        let interrupted = self.stop.asked();
-        if interrupted {
-            // First: nothing is lost if a picture cannot be written.
-            self.checkpoint.save(self.renderer.film(), seconds);
-        }
-        self.write_pictures(seconds, self.denoised)?;
-        if !interrupted {
-            self.checkpoint.finish(self.renderer.film(), seconds)?;
-        }
-        if invalid > 0 {
-            let one = one_invalid.map_or_else(String::new, |s| self.describe(&s));
-            eprintln!("warning: {invalid} samples were not finite and count as black{one}");
-        }
-        if !self.quiet || interrupted {
-            self.print_summary(rays, seconds, interrupted);
-        }
-        Ok(ExitCode::from(if interrupted { INTERRUPTED } else { 0 }))
-    }
-
-    /// Keeps what there is where the device failed.
-    fn give_up<T>(&mut self, error: &GpuError, elapsed: Duration) -> Result<T, Failure> {
-        let seconds = elapsed.as_secs_f64();
-        self.checkpoint.save(self.renderer.film(), seconds);
-        let kept = self.checkpoint.path().map_or_else(String::new, |path| {
-            format!("; --resume goes on with {}", path.display())
-        });
-        Err(device::failed(error, &kept))
-    }
-
-    /// Where a sample went wrong, after a colon.
-    fn describe(&self, sample: &InvalidSample) -> String {
-        let [x, y] = sample.pixel;
-        let at = match sample.material {
-            None => "beyond all surfaces".to_owned(),
-            Some(m) => match self.renderer.scene().material_name(m) {
-                Some(name) => format!("at a surface of material {m} (\"{name}\")"),
-                None => format!("at a surface of material {m}"),
-            },
-        };
-        format!(
-            ": one is sample {} of pixel ({x}, {y}), {at}",
-            sample.number
-        )
-    }
-
-    /// * `seconds`: of this run.
-    fn write_pictures(&self, seconds: f64, denoised: bool) -> Result<(), Failure> {
-        let seed = self.renderer.options().seed;
-        let label = self.checkpoint.label(seconds);
-        self.outputs
-            .write_pictures(self.renderer.film(), &label, Some(seed), denoised)
-    }
-
-    fn print_summary(&self, rays: u64, seconds: f64, interrupted: bool) {
-        let names = self.outputs.names();
-        let noise = self.renderer.film().noise();
-        let noise = if noise.is_finite() {
-            format!(", noise {:.2} %", 100.0 * noise)
-        } else {
-            String::new()
-        };
-        let (lead, end) = match (interrupted, self.checkpoint.path()) {
-            (true, Some(path)) => (
-                "stopped by Ctrl-C; wrote what there is to",
-                format!("; --resume goes on with {}", path.display()),
-            ),
-            (true, None) => ("stopped by Ctrl-C; wrote what there is to", String::new()),
-            _ => ("wrote", String::new()),
-        };
-        eprintln!(
-            "{lead} {names}: {}{noise}, {} ({:.2} Mrays/s){end}",
-            samples(self.renderer.film()),
-            short(seconds),
-            rays as f64 * 1e-6 / seconds.max(1e-9),
-        );
-    }
-}
-
-/// How long a pass of `samples` will take, from the samples and the duration of the last.
-fn expected(samples: u32, last: Option<(u32, Duration)>) -> Option<Duration> {
-    last.map(|(taken, duration)| duration.mul_f64(f64::from(samples) / f64::from(taken.max(1))))
-}
-
-/// `64 spp`; where pixels differ, `32 to 512 spp, 77 on average`.
-fn samples(film: &FilmBuffer) -> String {
-    let least = film.complete_samples();
-    let (most, mean) = film.most_and_mean_samples();
-    if least == most {
-        format!("{least} spp")
-    } else {
-        format!("{least} to {most} spp, {mean:.0} on average")
-    }
 }

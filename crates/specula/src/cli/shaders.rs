@@ -8,12 +8,13 @@ use specula::scene::atomic;
 use specula::shaders::{EXAMPLE_MODULES, ExportError, File, Language, MODULES, export};
 
 use super::arguments::ShadersArguments;
+use super::console::say;
 use super::{Failure, print};
 
 /// Writes the library in shading languages, or lists its modules.
 pub(crate) fn run(arguments: &ShadersArguments) -> Result<ExitCode, Failure> {
     let Some(folder) = &arguments.output else {
-        print(&list());
+        print(&list())?;
         return Ok(ExitCode::SUCCESS);
     };
     let modules: Vec<&str> = arguments.modules.iter().map(String::as_str).collect();
@@ -35,11 +36,11 @@ pub(crate) fn run(arguments: &ShadersArguments) -> Result<ExitCode, Failure> {
         let path = folder.join(file.name);
         atomic::replace(&path, |out| out.write_all(&file.bytes))
             .map_err(|e: io::Error| cannot_write(&path, &e))?;
-        eprintln!("wrote {}", path.display());
+        say!("wrote {}", path.display());
     }
     if !files.iter().any(|f| f.name == languages[0].example_file()) {
         let calls = EXAMPLE_MODULES.join(" and ");
-        eprintln!("note: no worked example, as it calls {calls}");
+        say!("note: no worked example, as it calls {calls}");
     }
     Ok(ExitCode::SUCCESS)
 }

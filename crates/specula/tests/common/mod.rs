@@ -38,3 +38,42 @@ pub(crate) fn small_scene() -> (tempfile::TempDir, PathBuf) {
 pub(crate) fn stderr(output: &std::process::Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
+
+/// Runs the program; returns its exit code and what it said.
+pub(crate) fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
+    let output = specula(folder)
+        .args(arguments)
+        .output()
+        .expect("the program runs");
+    (output.status.code(), stderr(&output))
+}
+
+/// Runs the program, which must succeed.
+pub(crate) fn succeed(folder: &Path, arguments: &[&str]) {
+    let (code, said) = run(folder, arguments);
+    assert_eq!(code, Some(0), "{arguments:?}: {said}");
+}
+
+/// The files of a folder, sorted.
+pub(crate) fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> = std::fs::read_dir(folder)
+        .expect("a folder")
+        .map(|e| {
+            e.expect("a file")
+                .file_name()
+                .to_string_lossy()
+                .into_owned()
+        })
+        .collect();
+    names.sort();
+    names
+}
+
+/// Sends a signal, such as `INT`, to a process.
+#[cfg(unix)]
+pub(crate) fn send(signal: &str, process: u32) {
+    let sent = std::process::Command::new("kill")
+        .args([&format!("-{signal}"), &process.to_string()])
+        .status();
+    assert!(sent.expect("there is `kill`").success());
+}

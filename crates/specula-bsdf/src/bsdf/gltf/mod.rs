@@ -7,6 +7,7 @@ mod sheen;
 use super::principled::terms::schlick_weight;
 use super::{Bsdf, BsdfSample, Transport};
 use crate::alpha::Alpha;
+use crate::energy::Loss;
 use crate::fresnel::{dielectric, refract};
 use crate::math::{Frame, Real, Rgb, Vec3, vec3, warp};
 use crate::ndf::{Ggx, Masking, Ndf};
@@ -46,6 +47,9 @@ pub struct GltfParameters<T> {
     pub sheen_colour: Rgb<T>,
     /// `KHR_materials_sheen`: `sheenRoughness`.
     pub sheen_roughness: T,
+    /// Whether the metal's facets give back what they lose by scattering once. Not the specification's,
+    /// which leaves it open.
+    pub compensated: bool,
 }
 
 impl<T: Real> Default for GltfParameters<T> {
@@ -66,6 +70,7 @@ impl<T: Real> Default for GltfParameters<T> {
             clearcoat_roughness: T::ZERO,
             sheen_colour: Rgb::BLACK,
             sheen_roughness: T::ZERO,
+            compensated: false,
         }
     }
 }
@@ -94,7 +99,12 @@ impl<T: Real> Default for GltfParameters<T> {
 /// ([`albedo`]), takes what is too much and nothing else: above 45 degrees of elevation it is over
 /// 0.96. So no direction reflects more than it receives (test `gltf_makes_no_light`).
 ///
-/// Reciprocal where `clearcoat` is 0: the extension weighs the coat by the viewer's angle.
+/// Where `compensated`, the metal is multiplied by Turquin's factor `1 + b L(wo) / (1 - L(wo))`, with the loss
+/// `L` of a white metal (`energy`, as in [`Compensated`](super::Compensated)): a white metal then reflects
+/// all light at any roughness.
+///
+/// Reciprocal where `clearcoat` is 0 and nothing is compensated: the extension weighs the coat by the
+/// viewer's angle, Turquin the metal.
 ///
 /// Sampled by a mixture of visible normals of base and coat, the cosine, and for sheen the uniform
 /// hemisphere, by the light that each carries from `wo`.
@@ -129,11 +139,15 @@ pub struct Gltf<T> {
     coat: Ggx<T>,
     coat_normal: Vec3<T>,
     sheen: Option<Sheen<T>>,
+    /// What facets lose by scattering once, where the metal gives it back.
+    loss: Option<Loss<T>>,
 }
 
-/// Probabilities of the sampler's parts.
+/// Probabilities of the sampler's parts, and what else depends on the view alone.
 #[derive(Clone, Copy)]
 struct Shares<T> {
+    /// Factor of the metal's reflectance.
+    gain: Rgb<T>,
     coat: T,
     sheen: T,
     diffuse: T,
@@ -178,6 +192,8 @@ impl<T: Real> Gltf<T> {
             coat: Ggx::new(Alpha::isotropic(width(share(p.clearcoat_roughness)))),
             coat_normal: Vec3::Z,
             sheen: (!sheen.is_black()).then(|| Sheen::new(sheen, share(p.sheen_roughness))),
+            loss: (p.compensated && metallic > T::ZERO)
+                .then(|| Loss::new(ggx, Masking::HeightCorrelated)),
         }
     }
 
@@ -216,21 +232,35 @@ impl<T: Real> Gltf<T> {
         self.clearcoat * (T::of(0.04) + T::of(0.96) * schlick_weight(cos))
     }
 
+    /// Factor of the metal's reflectance, seen from `wo`.
+    #[inline]
+    fn gain(&self, wo: Vec3<T>) -> Rgb<T> {
+        let Some(loss) = &self.loss else {
+            return Rgb::WHITE;
+        };
+        let lost = loss.directional(wo);
+        let ratio = lost / Real::max(T::ONE - lost, T::of(1e-5));
+        self.base.map(|b| T::ONE + b * ratio)
+    }
+
     /// Reflectance of the facets, metal and dielectric, and what the layer leaves to its base.
+    ///
+    /// * `gain`: factor of the metal's.
     #[inline(always)]
-    fn fresnel(&self, cos: T) -> (Rgb<T>, T) {
+    fn fresnel(&self, cos: T, gain: Rgb<T>) -> (Rgb<T>, T) {
         let s = self.schlick(cos);
         let layer = self.layer(s);
         let metal = self.base.map(|b| b + (T::ONE - b) * s);
         (
-            metal * self.metallic + layer * (T::ONE - self.metallic),
+            metal * gain * self.metallic + layer * (T::ONE - self.metallic),
             T::ONE - layer.max_channel(),
         )
     }
 
     #[inline]
     fn shares(&self, wo: Vec3<T>) -> Shares<T> {
-        let (reflectance, left) = self.fresnel(wo.z.abs());
+        let gain = self.gain(wo);
+        let (reflectance, left) = self.fresnel(wo.z.abs(), gain);
         // Facets pass light where the mean surface reflects all of it.
         let left = Real::max(left, T::of(0.1)) * self.base.max_channel();
         let under = T::ONE - self.coat_share(wo);
@@ -242,6 +272,7 @@ impl<T: Real> Gltf<T> {
         let sum = coat + sheen + diffuse + specular + transmission;
         let scale = T::ONE / Real::max(sum, T::TINY);
         Shares {
+            gain,
             coat: coat * scale,
             sheen: sheen * scale,
             diffuse: diffuse * scale,
@@ -292,7 +323,7 @@ impl<T: Real> Gltf<T> {
     ) -> (Rgb<T>, T) {
         let cos = wo.dot(wm);
         let cosine = wi.z * T::INV_PI;
-        let (reflectance, left) = self.fresnel(cos);
+        let (reflectance, left) = self.fresnel(cos, shares.gain);
         let quarter = T::of(0.25) * self.ggx.d(wm);
         let norm = self.ggx.reflection_norm(Sampler::Bounded, wo);
         let mut pdf = shares.specular * quarter / norm + shares.diffuse * cosine;
@@ -327,7 +358,7 @@ impl<T: Real> Gltf<T> {
         if !facing {
             return (Rgb::BLACK, T::ZERO);
         }
-        let (_, left) = self.fresnel(wo.dot(wm));
+        let (_, left) = self.fresnel(wo.dot(wm), shares.gain);
         let quarter = T::of(0.25) * self.passing.d(wm);
         let shadowed = self.passing.g2_over_cos(Masking::Separable, wo, up);
         let norm = self.passing.reflection_norm(Sampler::Bounded, wo);
@@ -355,7 +386,7 @@ impl<T: Real> Gltf<T> {
         if !lit {
             return (Rgb::BLACK, T::ZERO);
         }
-        let (_, left) = self.fresnel(cos_o);
+        let (_, left) = self.fresnel(cos_o, shares.gain);
         let sum = cos_o + self.eta * cos_i;
         let jacobian = self.eta * self.eta * -cos_i / Real::max(sum * sum, T::TINY);
         let visible = self.ggx.d(wm) * cos_o * jacobian;

@@ -113,7 +113,7 @@ pub(super) fn cases() -> Vec<Case> {
         lobe_cases!(
             "coated_diffuse",
             "coated_diffuse",
-            "let facets = Microfacets(vec2f(x[7], x[8]), DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, SAMPLER_EXACT);
+            "let facets = MicrofacetsModel(vec2f(x[7], x[8]), DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, SAMPLER_EXACT);
              let depth = select(u32(x[12]), COATED_DIFFUSE_UNLIMITED, x[12] == 0.0);
              let lobe = coated_diffuse_new(facets, x[9] > 0.0, x[10], vec3f(0.9, 0.6, 0.3), x[11], depth, u32(x[13]));\n",
             coated_diffuse,
@@ -124,8 +124,8 @@ pub(super) fn cases() -> Vec<Case> {
         lobe_cases!(
             "coated_conductor",
             "coated_conductor",
-            "let coat = Microfacets(vec2f(x[7], x[8]), DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, u32(x[14]));
-             let metal = Microfacets(vec2f(x[9], x[10]), DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, u32(x[14]));
+            "let coat = MicrofacetsModel(vec2f(x[7], x[8]), DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, u32(x[14]));
+             let metal = MicrofacetsModel(vec2f(x[9], x[10]), DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, u32(x[14]));
              let gold = reflectance_conductor(vec3f(0.14, 0.37, 1.44), vec3f(3.98, 2.38, 1.6));
              let lobe = coated_conductor_new(coat, x[11] > 0.0, x[13], metal, x[12] > 0.0, gold);\n",
             coated_conductor,
@@ -136,7 +136,7 @@ pub(super) fn cases() -> Vec<Case> {
         lobe_cases!(
             "plastic",
             "plastic",
-            "let facets = Microfacets(vec2f(x[7], x[8]), u32(x[9]), MASKING_SEPARABLE, SAMPLER_EXACT);
+            "let facets = MicrofacetsModel(vec2f(x[7], x[8]), u32(x[9]), MASKING_SEPARABLE, SAMPLER_EXACT);
              let diffuse = vec3f(0.9, 0.6, 0.3);
              let specular = vec3f(1.0, 0.8, 0.5);
              var lobe = plastic_smooth(x[11], diffuse, specular, x[12] > 0.0);

@@ -13,7 +13,7 @@ use crate::harness::{ALPHAS, Case, alpha};
 /// The tints of all cases.
 macro_rules! tints {
     () => {
-        "let tints = Tints(vec3f(0.9, 0.8, 1.0), vec3f(0.7, 1.0, 0.5));
+        "let tints = TintsPair(vec3f(0.9, 0.8, 1.0), vec3f(0.7, 1.0, 0.5));
          "
     };
 }
@@ -118,7 +118,7 @@ fn branch_values<T: Real>(x: &[T]) -> Vec<T> {
 fn branch_cases() -> Vec<Case> {
     let body = arguments!(
         facets!(),
-        "let white = Tints(vec3f(1.0), vec3f(1.0));
+        "let white = TintsPair(vec3f(1.0), vec3f(1.0));
          let lobe = RoughDielectric(facets, x[12], u32(x[13]), white);
          y[0] = rough_dielectric_eval_branch(lobe, wo, wi, transport).x;
          for (var k = 0u; k < 2u; k++) {

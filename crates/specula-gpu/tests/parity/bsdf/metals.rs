@@ -15,7 +15,7 @@ use crate::harness::{ALPHAS, Case, alpha};
 /// Statements that declare the facets of `x[7]` to `x[11]`.
 macro_rules! facets {
     () => {
-        "let facets = Microfacets(vec2f(x[7], x[8]), u32(x[9]), u32(x[10]), u32(x[11]));
+        "let facets = MicrofacetsModel(vec2f(x[7], x[8]), u32(x[9]), u32(x[10]), u32(x[11]));
          "
     };
 }
@@ -173,7 +173,7 @@ pub(super) fn cases() -> Vec<Case> {
         lobe_cases!(
             "lambert",
             "lambert",
-            "let lobe = Lambert(vec3f(0.9, 0.6, 0.3) * x[7]);\n",
+            "let lobe = LambertLobe(vec3f(0.9, 0.6, 0.3) * x[7]);\n",
             lambert,
             rows(&[[1.0], [0.5]], smooth, |_| false),
             [2.0, 8.0],
@@ -182,7 +182,7 @@ pub(super) fn cases() -> Vec<Case> {
         lobe_cases!(
             "eon",
             "eon",
-            "let lobe = Eon(vec3f(0.9, 0.6, 0.3), x[7]);\n",
+            "let lobe = EonLobe(vec3f(0.9, 0.6, 0.3), x[7]);\n",
             eon,
             rows(&[[0.0], [0.1], [0.5], [1.0]], smooth, |_| false),
             [16.0, 16.0],

@@ -76,7 +76,7 @@ fn densities() -> Vec<Case> {
         Case::new(
             "normalised_of_beckmann",
             modules,
-            "let normals = Normals(vec2f(x[0], x[1]), DISTRIBUTION_BECKMANN);
+            "let normals = NormalsModel(vec2f(x[0], x[1]), DISTRIBUTION_BECKMANN);
              y[0] = normalised_pdf(normals, vec3f(x[2], x[3], x[4]), vec3f(x[5], x[6], x[7]));",
             pairs(),
             twins!(|x| {
@@ -199,7 +199,7 @@ fn normals(modules: &'static [&'static str]) -> Case {
         "normals_of_both",
         modules,
         metal!(
-            "let other = Normals(normals.alpha, DISTRIBUTION_BECKMANN);
+            "let other = NormalsModel(normals.alpha, DISTRIBUTION_BECKMANN);
              let wm = normalize(vec3f(wo.x, wo.y, 0.3 + abs(wo.z)));
              y[0] = normals_projected_area(normals, wo);
              y[1] = normals_d(other, wm) * min(normals.alpha.x, 1.0) * min(normals.alpha.y, 1.0);
@@ -381,8 +381,8 @@ fn sides() -> Vec<Case> {
         Case::new(
             "interface_bounces",
             interface,
-            "let normals = Normals(vec2f(x[0], x[1]), DISTRIBUTION_GGX);
-             let facets = multibounce_interface_beyond(Interface(normals, 1.0 / x[9]));
+            "let normals = NormalsModel(vec2f(x[0], x[1]), DISTRIBUTION_GGX);
+             let facets = multibounce_interface_beyond(MultibounceInterface(normals, 1.0 / x[9]));
              let bent = multibounce_interface_bounce(facets, -vec3f(x[2], x[3], x[4]), vec3f(x[5], x[6], x[7]));
              y[0] = bent.d.x; y[1] = bent.d.y; y[2] = bent.d.z; y[3] = f32(bent.crosses);
              let turned = multibounce_interface_turned(bent.d);

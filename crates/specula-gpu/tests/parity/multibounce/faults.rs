@@ -6,11 +6,12 @@ use crate::harness::{Fault, fault};
 pub(super) const ELSEWHERE: &[(&str, &str)] = &[
     (
         "cui_bidirectional_value",
-        "cui_subpath cui_path_over_density cui_fly cui_rivals cui_rivals_along cui_roulette",
+        "cui2023_subpath cui2023_path_over_density cui2023_fly cui2023_rivals cui2023_rivals_along
+         cui2023_roulette",
     ),
     (
         "heitz_value and heitz_draw",
-        "heitz_walk_step heitz_walk_depth",
+        "heitz2016_step heitz2016_depth",
     ),
     (
         "heitz_interface_value and heitz_interface_draw",
@@ -56,7 +57,7 @@ pub(super) const ELSEWHERE: &[(&str, &str)] = &[
          normalised_of_axis normalised_roll_back normalised_roll normalised_horizontal",
     ),
     ("ours_value", "ours_stratum ours_goes_on ours_walk"),
-    ("wang_value and wang_draw", "wang_leaves"),
+    ("wang_value and wang_draw", "wang2022_leaves"),
 ];
 
 /// One at least for every module.
@@ -100,8 +101,8 @@ pub(super) const FAULTS: &[Fault] = &[
     fault(
         "cui_value",
         "multibounce/cui2023",
-        "CUI_GOES_ON: f32 = 0.7;",
-        "CUI_GOES_ON: f32 = 0.71;",
+        "CUI2023_GOES_ON: f32 = 0.7;",
+        "CUI2023_GOES_ON: f32 = 0.71;",
     ),
     fault(
         "cui_bidirectional_value",
@@ -155,8 +156,8 @@ pub(super) const FAULTS: &[Fault] = &[
     fault(
         "conductor_value",
         "multibounce/multibounce_conductor",
-        "heitz_walk_eval(lobe.facets, true",
-        "heitz_walk_eval(lobe.facets, false",
+        "heitz2016_eval(lobe.facets, true",
+        "heitz2016_eval(lobe.facets, false",
     ),
     fault(
         "diffuse_value",

@@ -6,7 +6,7 @@ use specula_bsdf::math::rgb;
 use super::super::block::{Block, Queue, index};
 use super::super::lanes::{Column, LANES, Vectors, ZERO};
 use super::super::passing::TO_LIGHT;
-use super::super::{PathTracer, lobes, power_heuristic};
+use super::super::{PathTracer, bias, lobes, power_heuristic};
 use super::{Shared, connect};
 use crate::accel::Ray;
 use crate::convert::id;
@@ -257,7 +257,8 @@ impl PathTracer<'_> {
             } else {
                 block.paths.radiance.colour(path)
             };
-            let got = shared.throughput.colour(path) * *sum;
+            // Light at a `y` was scattered there and at `x` at least.
+            let got = bias::bounded(shared.throughput.colour(path) * *sum, 2, self.bound);
             let sum = if shared.has_x[path] { own + got } else { own };
             block.paths.radiance.set_colour(path, sum);
         }

@@ -307,7 +307,7 @@ fn pixel(image: &Image, mapping: EnvironmentMapping, [x, y]: [i32; 2]) -> Rgb<f3
         }
     }
     let at = |v: i32, n: i32| v.clamp(0, n - 1).cast_unsigned() as usize;
-    let [r, g, b] = image.pixels[at(y, h) * image.width as usize + at(x, w)];
+    let [r, g, b] = image.pixels.rgb(at(y, h) * image.width as usize + at(x, w));
     rgb(r, g, b).map(|v| if v.is_finite() { v.max(0.0) } else { 0.0 })
 }
 

@@ -3,7 +3,6 @@
 use crate::error::{ErrorKind, Place, SceneError};
 use crate::num::f32_of;
 use crate::pbrt::context::{Context, Entity};
-use crate::read_file::plain_bytes;
 use crate::scene::{Camera, Film, Projection};
 
 /// Reads the camera.
@@ -28,7 +27,7 @@ pub(super) fn read(
     };
     let wrong = |message: String| SceneError::new(ErrorKind::Parameter, place, message);
     let path = context.resolve(name);
-    let bytes = plain_bytes(&path, &context.limits).map_err(|e| {
+    let bytes = context.files.plain(&path).map_err(|e| {
         wrong(format!("lens file {name} {e}")).with_hint(context.search.hint(&path))
     })?;
     let elements = elements(&String::from_utf8_lossy(&bytes), place)?;

@@ -1,6 +1,7 @@
 //! `Integrator`, `Sampler` and `Accelerator`.
 
 use super::Options;
+use crate::energy::Energy;
 use crate::error::{ErrorKind, SceneError};
 use crate::pbrt::context::{Context, Entity};
 use crate::pbrt::token::shorten;
@@ -40,6 +41,7 @@ pub(super) fn read(context: &mut Context, options: &Options) -> Result<Settings,
         max_depth: 5,
         samples_per_pixel: 16,
         hide_emitters: false,
+        energy: Energy::None,
     };
     if let Some(entity) = options.get("Integrator") {
         let depth = integrator(context, entity);

@@ -84,9 +84,9 @@ fn estimated_illuminance(image: &Image, mapping: EnvironmentMapping) -> f64 {
 fn upper_illuminance(image: &Image, mapping: EnvironmentMapping) -> f64 {
     let (width, height) = (f64::from(image.width), f64::from(image.height));
     let mut sum = 0.0;
-    for (y, row) in image.pixels.chunks(image.width as usize).enumerate() {
+    for (y, row) in image.pixels.rows(image.width).enumerate() {
         let v = (y as f64 + 0.5) / height;
-        for (x, &[r, g, b]) in row.iter().enumerate() {
+        for (x, [r, g, b]) in row.enumerate() {
             let u = (x as f64 + 0.5) / width;
             let (z, solid_angle) = match mapping {
                 EnvironmentMapping::EqualAreaOctahedral => {
@@ -117,7 +117,7 @@ mod tests {
             name: String::new(),
             width,
             height,
-            pixels: vec![[1.0; 3]; (width * height) as usize],
+            pixels: vec![[1.0; 3]; (width * height) as usize].into(),
         };
         let square = upper_illuminance(&sky(256, 256), EnvironmentMapping::EqualAreaOctahedral);
         let oblong = upper_illuminance(&sky(512, 256), EnvironmentMapping::LatitudeLongitude);

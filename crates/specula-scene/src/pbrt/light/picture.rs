@@ -90,12 +90,11 @@ fn power(image: &Image, [tan_x, tan_y]: [f64; 2]) -> f64 {
         (1.0 + x * x + y * y).powf(-1.5)
     };
     let (width, height) = (f64::from(image.width), f64::from(image.height));
-    let pixels = image.width as usize;
-    let sum: f64 = (image.pixels.chunks(pixels).enumerate())
-        .flat_map(|(y, row)| row.iter().enumerate().map(move |(x, p)| (x, y, p)))
+    let sum: f64 = (image.pixels.rows(image.width).enumerate())
+        .flat_map(|(y, row)| row.enumerate().map(move |(x, p)| (x, y, p)))
         .map(|(x, y, p)| {
             let weight = cos3((x as f64 + 0.5) / width, (y as f64 + 0.5) / height);
-            weight * f64::from(Rgb::from(*p).luminance())
+            weight * f64::from(Rgb::from(p).luminance())
         })
         .sum();
     4.0 * tan_x * tan_y * sum / (width * height)
@@ -128,8 +127,8 @@ fn thrown(
 pub(super) fn mean(image: &Image, weight: impl Fn(f64, f64) -> f64) -> Rgb<f32> {
     let (width, height) = (f64::from(image.width), f64::from(image.height));
     let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
-    for (y, row) in image.pixels.chunks(image.width as usize).enumerate() {
-        for (x, pixel) in row.iter().enumerate() {
+    for (y, row) in image.pixels.rows(image.width).enumerate() {
+        for (x, pixel) in row.enumerate() {
             let w = weight((x as f64 + 0.5) / width, (y as f64 + 0.5) / height);
             sum += w * DVec3::from(pixel.map(f64::from));
             weights += w;
@@ -148,7 +147,7 @@ mod tests {
             name: String::new(),
             width,
             height: u32::try_from(pixels.len()).unwrap() / width,
-            pixels,
+            pixels: pixels.into(),
         }
     }
 

@@ -47,7 +47,15 @@ impl Control {
         } = self;
         // Faces that use a vertex twice have no area, and no neighbours to speak of.
         faces.retain(|[a, b, c]| a != b && b != c && c != a);
-        bounded((), faces.len().saturating_mul(1 << (2 * levels)), limits)?;
+        let size = faces.len().saturating_mul(1 << (2 * levels));
+        bounded((), size, limits)?;
+        if size as u64 > limits.max_subdivided {
+            let most = limits.max_subdivided;
+            return Err(format!(
+                "{levels} levels would make {size} triangles of it; at most {most} are made \
+                 (`max_subdivided`)"
+            ));
+        }
         for _ in 0..levels {
             (points, faces) = refine(&points, &faces);
         }

@@ -101,7 +101,7 @@ fn encoding(context: &mut Context, params: &ParamList, file: &str) -> Result<Enc
         );
         return Err(SceneError::new(ErrorKind::Parameter, place, message));
     };
-    let format = Format::of(&context.resolve(file));
+    let format = Format::of_name(&context.resolve(file));
     if matches!(format, Some(Format::Tga | Format::Jpeg)) && encoding != Encoding::Srgb {
         context.warn(
             place,

@@ -9,17 +9,17 @@
 //
 // Values are unbiased estimates. Departure from the Rust source: a caller always brings a stream.
 
-import package::bsdf::bsdf_sample::{BSDF_SPECULAR, BsdfSample, bsdf_sample_delta, bsdf_sample_none, bsdf_sample_reflected};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_SPECULAR, BsdfSample, bsdf_sample_delta, bsdf_sample_none, bsdf_sample_reflected};
 import package::bsdf::coated_conductor::{coated_conductor_blurred};
 import package::bsdf::layered::layered_base::{LAYERED_BASE_DIFFUSE, LAYERED_BASE_METAL, LayeredBase, layered_base_reflectance};
 import package::bsdf::layered::layered_coat::{LayeredCoat, layered_coat_reflection};
 import package::bsdf::layered::layered_density::{layered_density_pdf};
-import package::bsdf::layered::layered_lobe::{LAYERED_LOBE_MOST_EVENTS, Layered, layered_lobe_is_mirror, layered_lobe_mirrored};
+import package::bsdf::layered::layered_lobe::{LAYERED_LOBE_MOST_EVENTS, LayeredLobe, layered_lobe_is_mirror, layered_lobe_mirrored};
 import package::bsdf::layered::layered_medium::{LayeredMedium};
 import package::bsdf::layered::layered_walk::{layered_walk_draw, layered_walk_eval};
-import package::bsdf::microfacets::{Microfacets};
+import package::bsdf::microfacets::{MicrofacetsModel};
 import package::fresnel::reflectance::{reflectance_under};
-import package::math::stream::{Stream};
+import package::math::stream::{StreamState};
 import package::ndf::distribution::{DISTRIBUTION_GGX};
 import package::ndf::masking::{MASKING_HEIGHT_CORRELATED};
 import package::vndf::sampler::{SAMPLER_CAP};
@@ -42,12 +42,12 @@ fn layered_new(
     base: LayeredBase,
     medium: LayeredMedium,
     strategy: u32,
-) -> Layered {
-    var lobe: Layered;
+) -> LayeredLobe {
+    var lobe: LayeredLobe;
     let index = clamp(eta, 1.0, 3.0);
     // With equal indices nothing is bent, however rough.
     let is_rough = rough && index > 1.001;
-    let facets = Microfacets(coat, DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, SAMPLER_CAP);
+    let facets = MicrofacetsModel(coat, DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, SAMPLER_CAP);
     lobe.coat = LayeredCoat(facets, select(0u, 1u, is_rough), index);
     lobe.base = base;
     lobe.base.reflectance = reflectance_under(base.reflectance, index);
@@ -73,7 +73,7 @@ fn layered_new(
 /// An estimate of `f |cos|`, without Dirac deltas.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/mod.rs, Layered::eval_pdf_random.
-fn layered_eval(lobe: Layered, wo: vec3f, wi: vec3f, stream: ptr<function, Stream>) -> vec3f {
+fn layered_eval(lobe: LayeredLobe, wo: vec3f, wi: vec3f, stream: ptr<function, StreamState>) -> vec3f {
     if wi.z <= 0.0 || layered_lobe_is_mirror(lobe) {
         return vec3f(0.0);
     }
@@ -88,14 +88,14 @@ fn layered_eval(lobe: Layered, wo: vec3f, wi: vec3f, stream: ptr<function, Strea
 /// The density for multiple importance sampling, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/mod.rs, Layered::pdf.
-fn layered_pdf(lobe: Layered, wo: vec3f, wi: vec3f) -> f32 {
+fn layered_pdf(lobe: LayeredLobe, wo: vec3f, wi: vec3f) -> f32 {
     return layered_density_pdf(lobe, wo, wi);
 }
 
 /// An estimate of `f |cos|` and the density: (red, green, blue, density).
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/mod.rs, Layered::eval_pdf_random.
-fn layered_eval_pdf(lobe: Layered, wo: vec3f, wi: vec3f, stream: ptr<function, Stream>) -> vec4f {
+fn layered_eval_pdf(lobe: LayeredLobe, wo: vec3f, wi: vec3f, stream: ptr<function, StreamState>) -> vec4f {
     let value = layered_eval(lobe, wo, wi, stream);
     return vec4f(value, layered_density_pdf(lobe, wo, wi));
 }
@@ -105,7 +105,7 @@ fn layered_eval_pdf(lobe: Layered, wo: vec3f, wi: vec3f, stream: ptr<function, S
 /// * `u`: draws what happens at the coat first.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/mod.rs, Layered::sample_random.
-fn layered_draw(lobe: Layered, wo: vec3f, u: vec3f, stream: ptr<function, Stream>) -> BsdfSample {
+fn layered_draw(lobe: LayeredLobe, wo: vec3f, u: vec3f, stream: ptr<function, StreamState>) -> BsdfSample {
     if layered_lobe_is_mirror(lobe) {
         if wo.z <= 0.0 {
             return bsdf_sample_none();
@@ -117,7 +117,7 @@ fn layered_draw(lobe: Layered, wo: vec3f, u: vec3f, stream: ptr<function, Stream
     if left.flags == 0u || left.wi.z <= 0.0 {
         return bsdf_sample_none();
     }
-    if (left.flags & BSDF_SPECULAR) != 0u {
+    if (left.flags & BSDF_SAMPLE_SPECULAR) != 0u {
         return bsdf_sample_delta(left.wi, left.weight, 1.0, 0u, 1.0);
     }
     return bsdf_sample_reflected(left.wi, left.weight, layered_density_pdf(lobe, wo, left.wi));
@@ -126,6 +126,6 @@ fn layered_draw(lobe: Layered, wo: vec3f, u: vec3f, stream: ptr<function, Stream
 /// Hemispherical colour, in [0, 1]; an approximation.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/mod.rs, Layered::albedo.
-fn layered_albedo(lobe: Layered) -> vec3f {
+fn layered_albedo(lobe: LayeredLobe) -> vec3f {
     return layered_base_reflectance(lobe.base, 2.0 / 3.0);
 }

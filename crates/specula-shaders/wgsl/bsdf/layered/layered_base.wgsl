@@ -1,12 +1,12 @@
 // What lies under a coat.
 
-import package::bsdf::bsdf_sample::{BsdfSample, TRANSPORT_RADIANCE};
-import package::bsdf::lambert::{Lambert, lambert_draw, lambert_eval_pdf};
-import package::bsdf::microfacets::{Microfacets};
+import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
+import package::bsdf::lambert::{LambertLobe, lambert_draw, lambert_eval_pdf};
+import package::bsdf::microfacets::{MicrofacetsModel};
 import package::bsdf::rough_conductor::{RoughConductor, rough_conductor_draw, rough_conductor_eval_pdf};
 import package::bsdf::smooth_conductor::{SmoothConductor, smooth_conductor_draw};
-import package::fresnel::reflectance::{Reflectance, reflectance_eval};
-import package::math::stream::{Stream, stream_next};
+import package::fresnel::reflectance::{ReflectanceModel, reflectance_eval};
+import package::math::stream::{StreamState, stream_next};
 
 /// A mirror. Twin: specula-bsdf/src/bsdf/layered/base.rs, Base::Mirror.
 const LAYERED_BASE_MIRROR: u32 = 0u;
@@ -22,9 +22,9 @@ struct LayeredBase {
     /// One of the `LAYERED_BASE` constants.
     kind: u32,
     /// Of a rough metal: its facets.
-    facets: Microfacets,
+    facets: MicrofacetsModel,
     /// Of a metal: what a facet reflects, under the coat.
-    reflectance: Reflectance,
+    reflectance: ReflectanceModel,
     /// Of a diffuse one, in [0, 1].
     albedo: vec3f,
 }
@@ -42,10 +42,10 @@ fn layered_base_is_mirror(base: LayeredBase) -> bool {
 fn layered_base_eval_pdf(base: LayeredBase, wo: vec3f, wi: vec3f) -> vec4f {
     if base.kind == LAYERED_BASE_METAL {
         let lobe = RoughConductor(base.facets, base.reflectance);
-        return rough_conductor_eval_pdf(lobe, wo, wi, TRANSPORT_RADIANCE);
+        return rough_conductor_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE);
     }
     if base.kind == LAYERED_BASE_DIFFUSE {
-        return lambert_eval_pdf(Lambert(base.albedo), wo, wi, TRANSPORT_RADIANCE);
+        return lambert_eval_pdf(LambertLobe(base.albedo), wo, wi, BSDF_SAMPLE_RADIANCE);
     }
     return vec4f(0.0);
 }
@@ -53,18 +53,18 @@ fn layered_base_eval_pdf(base: LayeredBase, wo: vec3f, wi: vec3f) -> vec4f {
 /// A direction, its weight and its density.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/base.rs, Base::sample.
-fn layered_base_draw(base: LayeredBase, wo: vec3f, stream: ptr<function, Stream>) -> BsdfSample {
+fn layered_base_draw(base: LayeredBase, wo: vec3f, stream: ptr<function, StreamState>) -> BsdfSample {
     if base.kind == LAYERED_BASE_MIRROR {
         let mirror = SmoothConductor(base.reflectance);
-        return smooth_conductor_draw(mirror, wo, vec3f(0.0), TRANSPORT_RADIANCE);
+        return smooth_conductor_draw(mirror, wo, vec3f(0.0), BSDF_SAMPLE_RADIANCE);
     }
     let first = stream_next(stream);
     let u = vec3f(0.0, first, stream_next(stream));
     if base.kind == LAYERED_BASE_METAL {
         let lobe = RoughConductor(base.facets, base.reflectance);
-        return rough_conductor_draw(lobe, wo, u, TRANSPORT_RADIANCE);
+        return rough_conductor_draw(lobe, wo, u, BSDF_SAMPLE_RADIANCE);
     }
-    return lambert_draw(Lambert(base.albedo), wo, u, TRANSPORT_RADIANCE);
+    return lambert_draw(LambertLobe(base.albedo), wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
 /// Reflectance of a facet; of the whole where diffuse.

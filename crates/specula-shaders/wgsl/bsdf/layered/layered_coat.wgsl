@@ -1,19 +1,19 @@
 // The dielectric on top: what passes it, and what it throws back from either side.
 
-import package::bsdf::bsdf_sample::{BSDF_TRANSMISSION, BsdfSample, TRANSPORT_IMPORTANCE, bsdf_sample_delta, bsdf_sample_radiance_scale};
-import package::bsdf::microfacets::{Microfacets, microfacets_d_along, microfacets_g_over_cos};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TRANSMISSION, BsdfSample, BSDF_SAMPLE_IMPORTANCE, bsdf_sample_delta, bsdf_sample_radiance_scale};
+import package::bsdf::microfacets::{MicrofacetsModel, microfacets_d_along, microfacets_g_over_cos};
 import package::bsdf::rough_dielectric::{RoughDielectric, rough_dielectric_draw, rough_dielectric_draw_branch, rough_dielectric_eval_branch};
 import package::bsdf::smooth_dielectric::{SmoothDielectric, smooth_dielectric_draw};
-import package::bsdf::tints::{Tints};
+import package::bsdf::tints::{TintsPair};
 import package::fresnel::dielectric::{dielectric};
-import package::math::stream::{Stream, stream_next};
+import package::math::stream::{StreamState, stream_next};
 
 /// An interface. Directions under it point down when they enter and up when they leave.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/coat.rs, Coat.
 struct LayeredCoat {
     /// Its facets where it is rough: height-correlated GGX, drawn by caps.
-    facets: Microfacets,
+    facets: MicrofacetsModel,
     /// 1 where it is rough.
     rough: u32,
     /// Index under it over the index above.
@@ -23,7 +23,7 @@ struct LayeredCoat {
 /// A direction that was drawn.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/coat.rs, Drawn.
-struct LayeredDrawn {
+struct LayeredCoatSample {
     /// Of travel.
     w: vec3f,
     /// `f |cos| / pdf`.
@@ -40,7 +40,7 @@ struct LayeredDrawn {
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::new and RoughDielectric::facing.
 fn layered_coat_rough(coat: LayeredCoat, two_sided: u32) -> RoughDielectric {
-    return RoughDielectric(coat.facets, coat.eta, two_sided, Tints(vec3f(1.0), vec3f(1.0)));
+    return RoughDielectric(coat.facets, coat.eta, two_sided, TintsPair(vec3f(1.0), vec3f(1.0)));
 }
 
 /// `f |cos|` of light that is thrown back from above, in 1/sr, without Dirac deltas.
@@ -75,33 +75,33 @@ fn layered_coat_enter(
     coat: LayeredCoat,
     wo: vec3f,
     transport: u32,
-    stream: ptr<function, Stream>,
-) -> LayeredDrawn {
+    stream: ptr<function, StreamState>,
+) -> LayeredCoatSample {
     if coat.rough == 0u {
         let b = layered_coat_below(coat, wo);
         let passed = dielectric(abs(wo.z), coat.eta).transmittance;
         let scale = bsdf_sample_radiance_scale(coat.eta, transport);
-        return LayeredDrawn(vec3f(b.x, b.y, -b.z), passed * scale, 1.0, true);
+        return LayeredCoatSample(vec3f(b.x, b.y, -b.z), passed * scale, 1.0, true);
     }
     let first = stream_next(stream);
     let u = vec2f(first, stream_next(stream));
     let drawn = rough_dielectric_draw_branch(layered_coat_rough(coat, 0u), wo, u, false, transport);
-    return LayeredDrawn(drawn.wi, drawn.weight.r, drawn.pdf, drawn.flags != 0u);
+    return LayeredCoatSample(drawn.wi, drawn.weight.r, drawn.pdf, drawn.flags != 0u);
 }
 
 /// Light that travels up along `w`, thrown back down.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/coat.rs, Coat::bounce.
-fn layered_coat_bounce(coat: LayeredCoat, w: vec3f, stream: ptr<function, Stream>) -> LayeredDrawn {
+fn layered_coat_bounce(coat: LayeredCoat, w: vec3f, stream: ptr<function, StreamState>) -> LayeredCoatSample {
     if coat.rough == 0u {
         let reflectance = dielectric(w.z, 1.0 / coat.eta).reflectance;
-        return LayeredDrawn(vec3f(w.x, w.y, -w.z), reflectance, 1.0, true);
+        return LayeredCoatSample(vec3f(w.x, w.y, -w.z), reflectance, 1.0, true);
     }
     let first = stream_next(stream);
     let u = vec2f(first, stream_next(stream));
     let lobe = layered_coat_rough(coat, 1u);
-    let drawn = rough_dielectric_draw_branch(lobe, -w, u, true, TRANSPORT_IMPORTANCE);
-    return LayeredDrawn(drawn.wi, drawn.weight.r, drawn.pdf, drawn.flags != 0u);
+    let drawn = rough_dielectric_draw_branch(lobe, -w, u, true, BSDF_SAMPLE_IMPORTANCE);
+    return LayeredCoatSample(drawn.wi, drawn.weight.r, drawn.pdf, drawn.flags != 0u);
 }
 
 /// `f(wo, -w)` of light along `wo` that enters, or of light that travels up along `w` and leaves, by the
@@ -121,7 +121,7 @@ fn layered_coat_passes(coat: LayeredCoat, wo: vec3f, w: vec3f, transport: u32) -
 /// Twin: specula-bsdf/src/bsdf/layered/coat.rs, Coat::scatter_above.
 fn layered_coat_scatter_above(coat: LayeredCoat, wo: vec3f, u: vec3f) -> BsdfSample {
     if coat.rough == 1u {
-        return rough_dielectric_draw(layered_coat_rough(coat, 0u), wo, u, TRANSPORT_IMPORTANCE);
+        return rough_dielectric_draw(layered_coat_rough(coat, 0u), wo, u, BSDF_SAMPLE_IMPORTANCE);
     }
     let bent = dielectric(abs(wo.z), coat.eta);
     let b = layered_coat_below(coat, wo);
@@ -130,12 +130,12 @@ fn layered_coat_scatter_above(coat: LayeredCoat, wo: vec3f, u: vec3f) -> BsdfSam
     if wo.z <= 0.0 {
         // A mirror that faces away is not seen.
         let passed = vec3f(bent.transmittance);
-        return bsdf_sample_delta(down, passed, 1.0, BSDF_TRANSMISSION, 1.0);
+        return bsdf_sample_delta(down, passed, 1.0, BSDF_SAMPLE_TRANSMISSION, 1.0);
     }
     if u.x < bent.reflectance {
         return bsdf_sample_delta(up, vec3f(1.0), bent.reflectance, 0u, 1.0);
     }
-    return bsdf_sample_delta(down, vec3f(1.0), bent.transmittance, BSDF_TRANSMISSION, 1.0);
+    return bsdf_sample_delta(down, vec3f(1.0), bent.transmittance, BSDF_SAMPLE_TRANSMISSION, 1.0);
 }
 
 /// What becomes of light that travels up along `w`.
@@ -144,14 +144,14 @@ fn layered_coat_scatter_above(coat: LayeredCoat, wo: vec3f, u: vec3f) -> BsdfSam
 fn layered_coat_scatter_below(
     coat: LayeredCoat,
     w: vec3f,
-    stream: ptr<function, Stream>,
+    stream: ptr<function, StreamState>,
 ) -> BsdfSample {
     let first = stream_next(stream);
     let second = stream_next(stream);
     let u = vec3f(first, second, stream_next(stream));
     if coat.rough == 1u {
-        return rough_dielectric_draw(layered_coat_rough(coat, 1u), -w, u, TRANSPORT_IMPORTANCE);
+        return rough_dielectric_draw(layered_coat_rough(coat, 1u), -w, u, BSDF_SAMPLE_IMPORTANCE);
     }
-    let smooth_coat = SmoothDielectric(coat.eta, 1u, Tints(vec3f(1.0), vec3f(1.0)));
-    return smooth_dielectric_draw(smooth_coat, -w, u, TRANSPORT_IMPORTANCE);
+    let smooth_coat = SmoothDielectric(coat.eta, 1u, TintsPair(vec3f(1.0), vec3f(1.0)));
+    return smooth_dielectric_draw(smooth_coat, -w, u, BSDF_SAMPLE_IMPORTANCE);
 }

@@ -12,13 +12,13 @@
 // vertices have A and B. A smooth coat leaves A, which then is no draw: the first bounce is a closed
 // form. Over a mirror B and C remain.
 
-import package::bsdf::bsdf_sample::{TRANSPORT_IMPORTANCE, TRANSPORT_RADIANCE};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_IMPORTANCE, BSDF_SAMPLE_RADIANCE};
 import package::bsdf::layered::layered_base::{layered_base_draw, layered_base_eval_pdf, layered_base_is_mirror};
-import package::bsdf::layered::layered_coat::{LayeredDrawn, layered_coat_passes};
-import package::bsdf::layered::layered_lobe::{Layered, layered_lobe_echoes};
+import package::bsdf::layered::layered_coat::{LayeredCoatSample, layered_coat_passes};
+import package::bsdf::layered::layered_lobe::{LayeredLobe, layered_lobe_echoes};
 import package::bsdf::layered::layered_medium::{layered_medium_phase, layered_medium_transmittance, layered_medium_turned};
 import package::math::rgb::{rgb_max_channel};
-import package::math::stream::{Stream};
+import package::math::stream::{StreamState};
 
 /// A floor of divisors.
 const LAYERED_CONNECT_TINY: f32 = 1.1754944e-38;
@@ -26,13 +26,13 @@ const LAYERED_CONNECT_TINY: f32 = 1.1754944e-38;
 /// Both ends of the paths whose value is asked.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/connect.rs, Ends.
-struct LayeredEnds {
+struct LayeredConnectEnds {
     /// Towards the viewer.
     wo: vec3f,
     /// Towards the light.
     wi: vec3f,
     /// How light of `wi` comes in: for radiance, the way back from it.
-    entry: LayeredDrawn,
+    entry: LayeredCoatSample,
     /// `p(u | wo)` of how light of `wo` came in, at a first vertex that C may draw.
     first: f32,
     /// Whether this is such a vertex.
@@ -42,7 +42,7 @@ struct LayeredEnds {
 /// Densities of the three ways to draw one path.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/connect.rs, Ways.
-struct LayeredWays {
+struct LayeredConnectWays {
     /// Both ends from outside.
     a: f32,
     /// From `wo`.
@@ -54,7 +54,7 @@ struct LayeredWays {
 /// What light a vertex sends, and how the walk goes on.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/connect.rs, Ends::at_base.
-struct LayeredVertex {
+struct LayeredConnectVertex {
     /// `f |cos|` of the light.
     light: vec3f,
     /// The next direction of travel.
@@ -73,25 +73,25 @@ struct LayeredVertex {
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/connect.rs, Ways::new.
 fn layered_connect_ways(
-    lobe: Layered,
+    lobe: LayeredLobe,
     from_wo: f32,
     has_third: bool,
     from_wi: f32,
     on: f32,
     back: f32,
-) -> LayeredWays {
+) -> LayeredConnectWays {
     let first = select(1.0, from_wo, has_third);
     let mirror = layered_base_is_mirror(lobe.base);
     let onward = select(on, 1.0, mirror);
     let backward = select(back, 1.0, mirror);
     let a = select(first * from_wi, 0.0, mirror);
-    return LayeredWays(a, first * onward, select(0.0, from_wi * backward, has_third));
+    return LayeredConnectWays(a, first * onward, select(0.0, from_wi * backward, has_third));
 }
 
 /// The weight of the way with the density `own`.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/connect.rs, Ways::share.
-fn layered_connect_share(ways: LayeredWays, own: f32) -> f32 {
+fn layered_connect_share(ways: LayeredConnectWays, own: f32) -> f32 {
     let scale = 1.0 / max(ways.a + ways.b + ways.c, LAYERED_CONNECT_TINY);
     let shares = vec3f(ways.a, ways.b, ways.c) * scale;
     let mine = own * scale;
@@ -102,11 +102,11 @@ fn layered_connect_share(ways: LayeredWays, own: f32) -> f32 {
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/connect.rs, Ends::at_base.
 fn layered_connect_at_base(
-    ends: LayeredEnds,
-    lobe: Layered,
+    ends: LayeredConnectEnds,
+    lobe: LayeredLobe,
     down: vec3f,
-    stream: ptr<function, Stream>,
-) -> LayeredVertex {
+    stream: ptr<function, StreamState>,
+) -> LayeredConnectVertex {
     let u = -down;
     let is_rough = lobe.coat.rough == 1u;
     let depth = lobe.medium.thickness;
@@ -127,22 +127,22 @@ fn layered_connect_at_base(
     }
     let next = layered_base_draw(lobe.base, u, stream);
     if next.flags != 0u && is_rough {
-        let passed = layered_coat_passes(lobe.coat, ends.wi, next.wi, TRANSPORT_RADIANCE);
+        let passed = layered_coat_passes(lobe.coat, ends.wi, next.wi, BSDF_SAMPLE_RADIANCE);
         let back = layered_connect_back(ends, lobe, u, next.wi);
         let ways = layered_connect_ways(lobe, ends.first, ends.is_first, passed.y, next.pdf, back);
         let left = layered_medium_transmittance(depth, next.wi) * layered_connect_share(ways, ways.b);
         sum += next.weight * (passed.x * ends.wi.z * left);
     }
-    return LayeredVertex(sum, next.wi, next.weight, next.flags != 0u);
+    return LayeredConnectVertex(sum, next.wi, next.weight, next.flags != 0u);
 }
 
 /// C: light by way of the base, drawn from the light.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/connect.rs, Ends::drawn_from_light.
 fn layered_connect_drawn_from_light(
-    ends: LayeredEnds,
-    lobe: Layered,
-    stream: ptr<function, Stream>,
+    ends: LayeredConnectEnds,
+    lobe: LayeredLobe,
+    stream: ptr<function, StreamState>,
 ) -> vec3f {
     if !ends.entry.exists {
         return vec3f(0.0);
@@ -153,7 +153,7 @@ fn layered_connect_drawn_from_light(
         return vec3f(0.0);
     }
     let u = drawn.wi;
-    let passed = layered_coat_passes(lobe.coat, ends.wo, u, TRANSPORT_IMPORTANCE);
+    let passed = layered_coat_passes(lobe.coat, ends.wo, u, BSDF_SAMPLE_IMPORTANCE);
     let on = layered_base_eval_pdf(lobe.base, u, v).a;
     let ways = layered_connect_ways(lobe, passed.y, true, ends.entry.pdf, on, drawn.pdf);
     let depth = lobe.medium.thickness;
@@ -169,13 +169,13 @@ fn layered_connect_drawn_from_light(
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/connect.rs, Ends::at_particle.
 fn layered_connect_at_particle(
-    ends: LayeredEnds,
-    lobe: Layered,
+    ends: LayeredConnectEnds,
+    lobe: LayeredLobe,
     down: vec3f,
     ways_out: vec2f,
     events: u32,
-    stream: ptr<function, Stream>,
-) -> LayeredVertex {
+    stream: ptr<function, StreamState>,
+) -> LayeredConnectVertex {
     let is_rough = lobe.coat.rough == 1u;
     var sum = vec3f(0.0);
     if ends.entry.exists {
@@ -195,13 +195,13 @@ fn layered_connect_at_particle(
     }
     let w = layered_medium_turned(lobe.medium, down, stream);
     if is_rough && w.z > 0.0 {
-        let passed = layered_coat_passes(lobe.coat, ends.wi, w, TRANSPORT_RADIANCE);
+        let passed = layered_coat_passes(lobe.coat, ends.wi, w, BSDF_SAMPLE_RADIANCE);
         let phase = layered_medium_phase(lobe.medium, dot(down, w));
         let share = layered_connect_balance(is_rough, phase, passed.y);
         let left = layered_medium_transmittance(ways_out.y, w) * share;
         sum += vec3f(passed.x * ends.wi.z * left);
     }
-    return LayeredVertex(sum, w, vec3f(1.0), true);
+    return LayeredConnectVertex(sum, w, vec3f(1.0), true);
 }
 
 /// The weight of the way with the density `own` beside another, where the coat is rough.
@@ -214,14 +214,14 @@ fn layered_connect_balance(is_rough: bool, own: f32, other: f32) -> f32 {
 /// What of `f |cos|` at a vertex reaches the light along `v`: reciprocity changes the cosines.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/connect.rs, Ends::arriving.
-fn layered_connect_arriving(ends: LayeredEnds, v: vec3f) -> f32 {
+fn layered_connect_arriving(ends: LayeredConnectEnds, v: vec3f) -> f32 {
     return ends.entry.weight * ends.wi.z / max(v.z, LAYERED_CONNECT_TINY);
 }
 
 /// `p(u | v)` at the base, where it matters.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/connect.rs, Ends::back.
-fn layered_connect_back(ends: LayeredEnds, lobe: Layered, u: vec3f, v: vec3f) -> f32 {
+fn layered_connect_back(ends: LayeredConnectEnds, lobe: LayeredLobe, u: vec3f, v: vec3f) -> f32 {
     if ends.is_first {
         return layered_base_eval_pdf(lobe.base, v, u).a;
     }

@@ -14,9 +14,9 @@
 
 import package::bsdf::layered::layered_base::{LAYERED_BASE_DIFFUSE};
 import package::bsdf::layered::layered_coat::{layered_coat_below};
-import package::bsdf::layered::layered_lobe::{Layered, layered_lobe_is_mirror};
+import package::bsdf::layered::layered_lobe::{LayeredLobe, layered_lobe_is_mirror};
 import package::bsdf::layered::layered_medium::{layered_medium_scatters};
-import package::bsdf::microfacets::{Microfacets, microfacets_d_along, microfacets_norm};
+import package::bsdf::microfacets::{MicrofacetsModel, microfacets_d_along, microfacets_norm};
 import package::fresnel::dielectric::{dielectric};
 import package::math::warp::{warp_cosine_hemisphere_pdf};
 
@@ -26,7 +26,7 @@ const LAYERED_DENSITY_TINY: f32 = 1.1754944e-38;
 /// The density (see the module's text), in 1/sr; 0 where `wi.z <= 0`.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/density.rs, pdf.
-fn layered_density_pdf(lobe: Layered, wo: vec3f, wi: vec3f) -> f32 {
+fn layered_density_pdf(lobe: LayeredLobe, wo: vec3f, wi: vec3f) -> f32 {
     if wi.z <= 0.0 || layered_lobe_is_mirror(lobe) {
         return 0.0;
     }
@@ -65,7 +65,7 @@ fn layered_density_pdf(lobe: Layered, wo: vec3f, wi: vec3f) -> f32 {
 /// Share of light that the medium scatters on its way down and up.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/density.rs, scattered.
-fn layered_density_scattered(lobe: Layered) -> f32 {
+fn layered_density_scattered(lobe: LayeredLobe) -> f32 {
     if layered_medium_scatters(lobe.medium) {
         return 1.0 - exp(-2.0 * lobe.medium.thickness);
     }
@@ -77,7 +77,7 @@ fn layered_density_scattered(lobe: Layered) -> f32 {
 /// * `p`: its share.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/density.rs, coat_pdf.
-fn layered_density_coat(lobe: Layered, p: f32, wo: vec3f, wi: vec3f) -> f32 {
+fn layered_density_coat(lobe: LayeredLobe, p: f32, wo: vec3f, wi: vec3f) -> f32 {
     if lobe.coat.rough == 0u {
         return 0.0;
     }
@@ -89,7 +89,7 @@ fn layered_density_coat(lobe: Layered, p: f32, wo: vec3f, wi: vec3f) -> f32 {
 /// `D / 4` of the facet that turns `wo` to `wi`.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/density.rs, quarter_d.
-fn layered_density_quarter(facets: Microfacets, wo: vec3f, wi: vec3f) -> f32 {
+fn layered_density_quarter(facets: MicrofacetsModel, wo: vec3f, wi: vec3f) -> f32 {
     let half_vector = wo + wi;
     return 0.25 * microfacets_d_along(facets, half_vector, dot(half_vector, half_vector));
 }

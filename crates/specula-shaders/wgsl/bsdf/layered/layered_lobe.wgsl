@@ -3,7 +3,7 @@
 import package::bsdf::layered::layered_base::{LAYERED_BASE_DIFFUSE, LAYERED_BASE_METAL, LayeredBase, layered_base_is_mirror, layered_base_reflectance};
 import package::bsdf::layered::layered_coat::{LayeredCoat, layered_coat_below};
 import package::bsdf::layered::layered_medium::{LayeredMedium, layered_medium_scatters, layered_medium_transmittance};
-import package::bsdf::microfacets::{Microfacets};
+import package::bsdf::microfacets::{MicrofacetsModel};
 import package::fresnel::dielectric::{dielectric};
 
 /// Events below the coat after which a walk ends whatever it carries.
@@ -21,7 +21,7 @@ const LAYERED_LOBE_LARGEST: f32 = 0.99999988;
 ///     R + T^2 sum_(k = 1)^(n / 2) F^k R^(k - 1) exp(-2 k t / |cos'|),   n = max_depth
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/mod.rs, Layered.
-struct Layered {
+struct LayeredLobe {
     /// On top.
     coat: LayeredCoat,
     /// Below.
@@ -29,7 +29,7 @@ struct Layered {
     /// Between them.
     medium: LayeredMedium,
     /// The base's normals as the density sees them, drawn by the sampler of choice.
-    blurred: Microfacets,
+    blurred: MicrofacetsModel,
     /// 1 where they are a lobe.
     has_lobe: u32,
     /// Walks end after so many events below the coat's surface: bounces off coat and base, collisions in
@@ -45,7 +45,7 @@ struct Layered {
 /// Whether all that leaves is mirrored.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/mod.rs, Layered::is_mirror.
-fn layered_lobe_is_mirror(lobe: Layered) -> bool {
+fn layered_lobe_is_mirror(lobe: LayeredLobe) -> bool {
     let is_clear = lobe.coat.rough == 0u && !layered_medium_scatters(lobe.medium);
     return layered_base_is_mirror(lobe.base) && is_clear;
 }
@@ -54,7 +54,7 @@ fn layered_lobe_is_mirror(lobe: Layered) -> bool {
 /// from the light, too.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/mod.rs, Layered::is_base_narrow.
-fn layered_lobe_is_base_narrow(lobe: Layered) -> bool {
+fn layered_lobe_is_base_narrow(lobe: LayeredLobe) -> bool {
     if lobe.base.kind == LAYERED_BASE_DIFFUSE {
         return false;
     }
@@ -71,7 +71,7 @@ fn layered_lobe_is_base_narrow(lobe: Layered) -> bool {
 /// * `events`: how many are allowed, leaving included.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/mod.rs, Layered::echoes.
-fn layered_lobe_echoes(lobe: Layered, v: vec3f, up: f32, down: f32, events: u32) -> vec3f {
+fn layered_lobe_echoes(lobe: LayeredLobe, v: vec3f, up: f32, down: f32, events: u32) -> vec3f {
     let back = dielectric(v.z, 1.0 / lobe.coat.eta).reflectance;
     let through = layered_medium_transmittance(lobe.medium.thickness, v);
     let fresnel = layered_base_reflectance(lobe.base, v.z);
@@ -83,7 +83,7 @@ fn layered_lobe_echoes(lobe: Layered, v: vec3f, up: f32, down: f32, events: u32)
 /// Reflectance of smooth on smooth.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/mod.rs, Layered::mirrored.
-fn layered_lobe_mirrored(lobe: Layered, wo: vec3f) -> vec3f {
+fn layered_lobe_mirrored(lobe: LayeredLobe, wo: vec3f) -> vec3f {
     let coat = dielectric(abs(wo.z), lobe.coat.eta);
     let below = layered_coat_below(lobe.coat, wo);
     let through = layered_medium_transmittance(lobe.medium.thickness, below);

@@ -1,7 +1,7 @@
 // What fills a coat: a slab that absorbs and scatters.
 
 import package::math::frame::{frame_from_normal};
-import package::math::stream::{Stream, stream_next};
+import package::math::stream::{StreamState, stream_next};
 import package::math::turns::{turns_sin_cos};
 
 /// A floor of divisors.
@@ -37,7 +37,7 @@ fn layered_medium_transmittance(depth: f32, w: vec3f) -> f32 {
 /// Depth along the normal of the next collision, `Exp(1 / |cos|)`.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/medium.rs, Medium::depth_of_collision.
-fn layered_medium_depth_of_collision(w: vec3f, stream: ptr<function, Stream>) -> f32 {
+fn layered_medium_depth_of_collision(w: vec3f, stream: ptr<function, StreamState>) -> f32 {
     return -log(1.0 - stream_next(stream)) * abs(w.z);
 }
 
@@ -60,7 +60,7 @@ fn layered_medium_phase(medium: LayeredMedium, cosine: f32) -> f32 {
 /// A direction of travel after a collision, of density `layered_medium_phase`.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/medium.rs, Medium::turned.
-fn layered_medium_turned(medium: LayeredMedium, w: vec3f, stream: ptr<function, Stream>) -> vec3f {
+fn layered_medium_turned(medium: LayeredMedium, w: vec3f, stream: ptr<function, StreamState>) -> vec3f {
     let g = medium.g;
     let xi = 1.0 - 2.0 * stream_next(stream);
     // 1 - g xi > 0; its series near g = 0 is the isotropic xi.

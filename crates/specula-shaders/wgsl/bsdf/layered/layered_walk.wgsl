@@ -4,14 +4,14 @@
 // coat throws back is followed with its reflectance as a factor, never chosen against leaving. A walk's
 // draws take what the surfaces draw, by what they carry, until one leaves.
 
-import package::bsdf::bsdf_sample::{BSDF_SPECULAR, BSDF_TRANSMISSION, BSDF_VALID, BsdfSample, TRANSPORT_IMPORTANCE, TRANSPORT_RADIANCE, bsdf_sample_none};
+import package::bsdf::bsdf_sample::{BSDF_SAMPLE_SPECULAR, BSDF_SAMPLE_TRANSMISSION, BSDF_SAMPLE_VALID, BsdfSample, BSDF_SAMPLE_IMPORTANCE, BSDF_SAMPLE_RADIANCE, bsdf_sample_none};
 import package::bsdf::layered::layered_base::{layered_base_draw, layered_base_is_mirror};
 import package::bsdf::layered::layered_coat::{layered_coat_bounce, layered_coat_enter, layered_coat_scatter_above, layered_coat_scatter_below};
-import package::bsdf::layered::layered_connect::{LayeredEnds, LayeredVertex, layered_connect_at_base, layered_connect_at_particle, layered_connect_drawn_from_light};
-import package::bsdf::layered::layered_lobe::{LAYERED_LOBE_MOST_EVENTS, Layered, layered_lobe_is_base_narrow};
+import package::bsdf::layered::layered_connect::{LayeredConnectEnds, LayeredConnectVertex, layered_connect_at_base, layered_connect_at_particle, layered_connect_drawn_from_light};
+import package::bsdf::layered::layered_lobe::{LAYERED_LOBE_MOST_EVENTS, LayeredLobe, layered_lobe_is_base_narrow};
 import package::bsdf::layered::layered_medium::{layered_medium_depth_of_collision, layered_medium_scatters, layered_medium_transmittance, layered_medium_turned};
 import package::math::rgb::{rgb_max_channel};
-import package::math::stream::{Stream, stream_next};
+import package::math::stream::{StreamState, stream_next};
 
 /// Walks whose throughput is below this may end, so that those which go on carry as much.
 const LAYERED_WALK_ROULETTE_BELOW: f32 = 0.25;
@@ -27,7 +27,7 @@ const LAYERED_WALK_PARTICLE: u32 = 2u;
 /// A walk below the coat.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/walk.rs, State.
-struct LayeredState {
+struct LayeredWalkState {
     /// Direction of travel.
     w: vec3f,
     /// What it carries.
@@ -42,9 +42,9 @@ struct LayeredState {
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/walk.rs, State::land.
 fn layered_walk_land(
-    state: ptr<function, LayeredState>,
-    lobe: Layered,
-    stream: ptr<function, Stream>,
+    state: ptr<function, LayeredWalkState>,
+    lobe: LayeredLobe,
+    stream: ptr<function, StreamState>,
 ) -> u32 {
     let thickness = lobe.medium.thickness;
     let w = (*state).w;
@@ -67,7 +67,7 @@ fn layered_walk_land(
 /// Whether the walk goes on, by Russian roulette.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/walk.rs, State::survives.
-fn layered_walk_survives(state: ptr<function, LayeredState>, stream: ptr<function, Stream>) -> bool {
+fn layered_walk_survives(state: ptr<function, LayeredWalkState>, stream: ptr<function, StreamState>) -> bool {
     let carried = rgb_max_channel((*state).throughput);
     if carried >= LAYERED_WALK_ROULETTE_BELOW {
         return true;
@@ -80,12 +80,12 @@ fn layered_walk_survives(state: ptr<function, LayeredState>, stream: ptr<functio
 /// An estimate of `f |cos|` without the coat's own reflection.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/walk.rs, eval.
-fn layered_walk_eval(lobe: Layered, wo: vec3f, wi: vec3f, stream: ptr<function, Stream>) -> vec3f {
-    let start = layered_coat_enter(lobe.coat, wo, TRANSPORT_IMPORTANCE, stream);
+fn layered_walk_eval(lobe: LayeredLobe, wo: vec3f, wi: vec3f, stream: ptr<function, StreamState>) -> vec3f {
+    let start = layered_coat_enter(lobe.coat, wo, BSDF_SAMPLE_IMPORTANCE, stream);
     let is_clear = !layered_medium_scatters(lobe.medium) && lobe.max_depth >= 2u;
     let is_drawn_from_light = layered_lobe_is_base_narrow(lobe) && is_clear;
-    let entry = layered_coat_enter(lobe.coat, wi, TRANSPORT_RADIANCE, stream);
-    var ends = LayeredEnds(wo, wi, entry, start.pdf, is_drawn_from_light && start.exists);
+    let entry = layered_coat_enter(lobe.coat, wi, BSDF_SAMPLE_RADIANCE, stream);
+    var ends = LayeredConnectEnds(wo, wi, entry, start.pdf, is_drawn_from_light && start.exists);
     var sum = vec3f(0.0);
     if is_drawn_from_light {
         sum = layered_connect_drawn_from_light(ends, lobe, stream);
@@ -94,7 +94,7 @@ fn layered_walk_eval(lobe: Layered, wo: vec3f, wi: vec3f, stream: ptr<function, 
         return sum;
     }
     let thickness = lobe.medium.thickness;
-    var state = LayeredState(start.w, vec3f(start.weight), thickness, 0u);
+    var state = LayeredWalkState(start.w, vec3f(start.weight), thickness, 0u);
     for (var event = 0u; event < LAYERED_LOBE_MOST_EVENTS; event++) {
         // Leaving is an event too.
         if state.events + 1u >= lobe.max_depth {
@@ -110,7 +110,7 @@ fn layered_walk_eval(lobe: Layered, wo: vec3f, wi: vec3f, stream: ptr<function, 
             state.w = next.w;
             state.throughput *= next.weight;
         } else {
-            var found: LayeredVertex;
+            var found: LayeredConnectVertex;
             if end == LAYERED_WALK_BASE {
                 found = layered_connect_at_base(ends, lobe, state.w, stream);
             } else {
@@ -139,16 +139,16 @@ fn layered_walk_eval(lobe: Layered, wo: vec3f, wi: vec3f, stream: ptr<function, 
 /// * `u`: draws what happens at the coat first.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/walk.rs, sample.
-fn layered_walk_draw(lobe: Layered, wo: vec3f, u: vec3f, stream: ptr<function, Stream>) -> BsdfSample {
+fn layered_walk_draw(lobe: LayeredLobe, wo: vec3f, u: vec3f, stream: ptr<function, StreamState>) -> BsdfSample {
     let first = layered_coat_scatter_above(lobe.coat, wo, u);
-    var specular = first.flags & BSDF_SPECULAR;
+    var specular = first.flags & BSDF_SAMPLE_SPECULAR;
     if first.flags == 0u {
         return bsdf_sample_none();
     }
-    if (first.flags & BSDF_TRANSMISSION) == 0u {
-        return BsdfSample(first.wi, 0.0, first.weight, 1.0, BSDF_VALID | specular);
+    if (first.flags & BSDF_SAMPLE_TRANSMISSION) == 0u {
+        return BsdfSample(first.wi, 0.0, first.weight, 1.0, BSDF_SAMPLE_VALID | specular);
     }
-    var state = LayeredState(first.wi, first.weight, lobe.medium.thickness, 0u);
+    var state = LayeredWalkState(first.wi, first.weight, lobe.medium.thickness, 0u);
     for (var event = 0u; event < LAYERED_LOBE_MOST_EVENTS; event++) {
         // Leaving is the last event.
         if state.events >= lobe.max_depth {
@@ -174,8 +174,8 @@ fn layered_walk_draw(lobe: Layered, wo: vec3f, u: vec3f, stream: ptr<function, S
             }
             state.throughput *= next.weight;
             state.w = next.wi;
-            if (next.flags & BSDF_TRANSMISSION) != 0u {
-                return BsdfSample(state.w, 0.0, state.throughput, 1.0, BSDF_VALID | specular);
+            if (next.flags & BSDF_SAMPLE_TRANSMISSION) != 0u {
+                return BsdfSample(state.w, 0.0, state.throughput, 1.0, BSDF_SAMPLE_VALID | specular);
             }
         }
         if state.w.z == 0.0 || !layered_walk_survives(&state, stream) {
