@@ -255,7 +255,7 @@ fn one_output_that_cannot_be_written_costs_neither_the_other_nor_the_samples() {
     let line = [
         "small.pbrt",
         "--spp",
-        "300",
+        "3000",
         "--resolution",
         "96x64",
         "--threads",
@@ -278,7 +278,7 @@ fn one_output_that_cannot_be_written_costs_neither_the_other_nor_the_samples() {
     let said = stderr(&output);
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.contains("cannot write the picture"), "{said}");
-    assert_eq!(picture(folder, "b.exr").sample_count[0], 300.0);
+    assert_eq!(picture(folder, "b.exr").sample_count[0], 3000.0);
     // Beside the output there is no folder: elsewhere, and told.
     let kept = names(&folder.join("temporary"));
     assert_eq!(kept.len(), 1, "{kept:?}\n{said}");

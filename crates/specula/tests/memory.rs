@@ -65,7 +65,9 @@ fn measured(folder: &Path, scene: &str, arguments: &[&str]) -> (String, Option<f
 }
 
 /// That a render took what it said at most, and not much less.
-fn assert_bound(what: &str, messages: &str, peak: Option<f64>) {
+///
+/// * `loose`: how many times what is taken may be told, beside 16 MiB.
+fn assert_bound(what: &str, messages: &str, peak: Option<f64>, loose: f64) {
     let Some(peak) = peak else {
         eprintln!("skipped: {what}: the system does not say what memory was used");
         return;
@@ -73,7 +75,7 @@ fn assert_bound(what: &str, messages: &str, peak: Option<f64>) {
     let told = estimate(messages);
     eprintln!("{what}: {peak:.0} MiB of {told:.0}");
     assert!(
-        peak <= told && told <= 1.35 * peak + 16.0,
+        peak <= told && told <= loose * peak + 16.0,
         "{what}: {peak} MiB: {messages}"
     );
 }
@@ -114,13 +116,13 @@ fn estimates_are_bounds_near_what_is_used() {
     let (folder, _) = small_scene();
     let path = folder.path();
     let (messages, peak) = measured(path, "small.pbrt", &["--resolution", "2048x1536"]);
-    assert_bound("a film of 3 million pixels", &messages, peak);
+    assert_bound("a film of 3 million pixels", &messages, peak, 1.35);
 
     std::fs::write(path.join("sheet.ply"), sheet(800)).unwrap();
     let mesh = format!("{SMALL}\nShape \"plymesh\" \"string filename\" \"sheet.ply\"\n");
     std::fs::write(path.join("mesh.pbrt"), &mesh).unwrap();
     let (messages, peak) = measured(path, "mesh.pbrt", &[]);
-    assert_bound("1.3 million triangles", &messages, peak);
+    assert_bound("1.3 million triangles", &messages, peak, 1.35);
 
     let info = specula(path).args(["info", "mesh.pbrt"]).output().unwrap();
     let info = String::from_utf8(info.stdout).unwrap();
@@ -166,7 +168,7 @@ fn pictures_take_the_memory_of_their_own_depth() {
     ] {
         std::fs::write(path.join("textured.pbrt"), textured(file)).unwrap();
         let (messages, peak) = measured(path, "textured.pbrt", &["--resolution", "64x64"]);
-        assert_bound(file, &messages, peak);
+        assert_bound(file, &messages, peak, 1.35);
         assert!(
             estimate(&messages) < 40.0 + 1.35 * pixels,
             "{file}: {messages}"
@@ -193,9 +195,10 @@ fn many_small_meshes_are_bounded_too() {
         );
     }
     std::fs::write(path.join("meshes.pbrt"), scene).unwrap();
-    for threads in ["1", "3"] {
+    // Threads that each build a tree at once take the most; how often they do is chance.
+    for (threads, loose) in [("1", 1.35), ("3", 1.8)] {
         let (messages, peak) = measured(path, "meshes.pbrt", &["--threads", threads]);
-        assert_bound("150 meshes", &messages, peak);
+        assert_bound("150 meshes", &messages, peak, loose);
     }
 }
 

@@ -7,7 +7,7 @@ use specula_scene::scene::{
     Channel, FloatParam, ImageId, Interpolation, MaterialId, NoiseKind, Scene, Texture, TextureId,
     TextureMapping, UvMapping, Wrap,
 };
-use specula_scene::{Image, builtin};
+use specula_scene::{Image, Pixels, builtin};
 use specula_stat::Rng;
 
 use crate::device::Fault;
@@ -134,7 +134,8 @@ pub(crate) fn images() -> Vec<Image> {
                     }
                 })
             })
-            .collect(),
+            .collect::<Pixels>()
+            .compacted(),
     };
     vec![image(13, 7, 200.0), image(24, 17, 0.0)]
 }

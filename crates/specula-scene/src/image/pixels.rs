@@ -197,7 +197,8 @@ impl Pixels {
     }
 
     /// The same pixels in less memory, where they are grey or have at most 256 different values.
-    pub(super) fn compacted(self) -> Self {
+    #[must_use]
+    pub fn compacted(self) -> Self {
         let Self {
             mut samples,
             mut is_colour,
