@@ -177,6 +177,22 @@ pub enum Channel {
     Blue,
 }
 
+impl Channel {
+    /// The channel of a pixel, in all three where it is a number.
+    #[must_use]
+    #[inline]
+    pub fn of(self, pixel: Rgb<f32>) -> Rgb<f32> {
+        match self {
+            Self::Rgb => pixel,
+            Self::Mean => Rgb::splat(pixel.mean()),
+            Self::Luminance => Rgb::splat(pixel.luminance()),
+            Self::Red => Rgb::splat(pixel.r),
+            Self::Green => Rgb::splat(pixel.g),
+            Self::Blue => Rgb::splat(pixel.b),
+        }
+    }
+}
+
 /// What lies between the pixel centres of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {

@@ -14,9 +14,6 @@ use crate::scene::{Channel, ImageId, Mesh, MeshId};
 /// Largest number of EXR's half floats.
 const LARGEST_HALF: f32 = 65_504.0;
 
-/// What of a pixel is written.
-type Pick = fn(Rgb<f32>) -> Rgb<f32>;
-
 /// Puts bytes at a path: the old file stays untouched unless all of them are on disk.
 pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     atomic::replace(path, |out| out.write_all(bytes)).map_err(|source| WriteError {
@@ -46,16 +43,16 @@ impl Writer<'_> {
             return Ok(name.clone());
         }
         let image = &self.scene.images[id.0];
-        let (suffix, pick): (&str, Pick) = match channel {
+        let (suffix, written) = match channel {
             // pbrt takes the mean of the channels where it wants a number.
-            Channel::Rgb | Channel::Mean => ("", |c| c),
-            Channel::Luminance => ("-luminance", |c| Rgb::splat(c.luminance())),
-            Channel::Red => ("-red", |c| Rgb::splat(c.r)),
-            Channel::Green => ("-green", |c| Rgb::splat(c.g)),
-            Channel::Blue => ("-blue", |c| Rgb::splat(c.b)),
+            Channel::Rgb | Channel::Mean => ("", Channel::Rgb),
+            Channel::Luminance => ("-luminance", channel),
+            Channel::Red => ("-red", channel),
+            Channel::Green => ("-green", channel),
+            Channel::Blue => ("-blue", channel),
         };
         let name = format!("picture-{}{suffix}.exr", id.0);
-        let name = self.picture(&name, image, pick)?;
+        let name = self.picture(&name, image, |c| written.of(c))?;
         self.images.insert((id, channel), name.clone());
         Ok(name)
     }
@@ -69,14 +66,7 @@ impl Writer<'_> {
         tint: Rgb<f32>,
     ) -> Result<String, WriteError> {
         let pick = move |c: Rgb<f32>| {
-            let c = match channel {
-                Channel::Rgb => c,
-                Channel::Mean => Rgb::splat(c.mean()),
-                Channel::Luminance => Rgb::splat(c.luminance()),
-                Channel::Red => Rgb::splat(c.r),
-                Channel::Green => Rgb::splat(c.g),
-                Channel::Blue => Rgb::splat(c.b),
-            };
+            let c = channel.of(c);
             let c = if inverted {
                 c.map(|v| (1.0 - v).max(0.0))
             } else {
