@@ -4,6 +4,7 @@
 mod common;
 
 use std::io::{BufRead, BufReader};
+use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Child, ChildStderr, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
@@ -217,7 +218,12 @@ fn before_the_first_sample_a_signal_ends_the_program() {
         .unwrap();
     std::thread::sleep(Duration::from_millis(300));
     send("TERM", child.id());
-    assert_eq!(child.wait().unwrap().code(), Some(143));
+    // By the program, or on a busy machine by the system before the program has begun: a shell calls both 143.
+    let status = child.wait().unwrap();
+    assert!(
+        status.code() == Some(143) || status.signal() == Some(15),
+        "{status}"
+    );
 }
 
 /// `nohup`, and jobs that a script starts in the background, are not to be stopped by what they ignore.
