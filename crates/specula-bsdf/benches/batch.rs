@@ -10,12 +10,12 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use specula_bsdf::batch::{Colours, Directions, Kind, Level, Lobes, Samples, Widths};
+use specula_bsdf::batch::{Alphas, Colours, Directions, Level, Lobes, SampleOutcome, Samples};
 use specula_bsdf::bsdf::{
     CoatedConductor, CoatedDiffuse, Compensated, Eon, Lambert, RoughConductor, RoughDielectric,
     SmoothConductor,
 };
-use specula_bsdf::energy::{FmsVariant, Model};
+use specula_bsdf::energy::{EnergyModel, FmsVariant};
 use specula_bsdf::fresnel::{Conductor, Reflectance};
 use specula_bsdf::math::{Stream, rgb, warp};
 use specula_bsdf::ndf::Ggx;
@@ -78,25 +78,25 @@ fn samplers<'a>(input: &'a Input, level: Option<Level>, alpha: Alpha<f32>) -> Ve
     let mut kernels: Vec<Kernel> = Vec::new();
     let (wo, wi) = (input.wo.as_slices(), input.wi.as_slices());
     let [_, u1, u2] = input.u();
-    let widths = Widths::Same(alpha);
+    let alphas = Alphas::Same(alpha);
     for sampler in [
         Sampler::Heitz,
         Sampler::Cap,
         Sampler::Bounded,
         Sampler::Exact,
     ] {
-        let mut drawn = Directions::<Vec<f32>>::zeroed(N);
+        let mut sampled = Directions::<Vec<f32>>::zeroed(N);
         let mut pdf = vec![0.0; N];
         match level {
             Some(level) => {
                 let draw = move || {
-                    let out = drawn.as_mut_slices();
-                    let done = level.sample_reflection(sampler, widths, wo, [u1, u2], out);
-                    black_box((done, &mut drawn)).0.expect("equal lengths");
+                    let out = sampled.as_mut_slices();
+                    let done = level.sample_reflection(sampler, alphas, wo, [u1, u2], out);
+                    black_box((done, &mut sampled)).0.expect("equal lengths");
                 };
                 kernels.push((format!("{sampler} sample"), Box::new(draw)));
                 let density = move || {
-                    let done = level.reflection_pdf(sampler, widths, wo, wi, &mut pdf);
+                    let done = level.reflection_pdf(sampler, alphas, wo, wi, &mut pdf);
                     black_box((done, &mut pdf)).0.expect("equal lengths");
                 };
                 kernels.push((format!("{sampler} pdf"), Box::new(density)));
@@ -143,7 +143,7 @@ where
     let lobe = std::rc::Rc::new(lobe);
     let mut f_cos = Colours::<Vec<f32>>::zeroed(N);
     let mut pdf = vec![0.0; N];
-    let mut samples = Samples::<Vec<f32>, Vec<Kind>>::rejected(N);
+    let mut samples = Samples::<Vec<f32>, Vec<SampleOutcome>>::rejected(N);
     let own = lobe.clone();
     let eval = move || match level {
         Some(level) => {
@@ -213,7 +213,7 @@ fn lobes(input: &Input, level: Option<Level>, ggx: Ggx<f32>) -> Vec<Kernel<'_>> 
         ),
         lobe(
             "gold after Turquin",
-            Compensated::new(ggx, gold(), Model::Turquin(FmsVariant::AverageSeries)),
+            Compensated::new(ggx, gold(), EnergyModel::Turquin(FmsVariant::AverageSeries)),
             input,
             level,
         ),

@@ -8,12 +8,12 @@
 use std::hint::black_box;
 use std::process::ExitCode;
 
-use specula_bsdf::batch::{Colours, Directions, Kind, Level, Lobes, Samples, Widths};
+use specula_bsdf::batch::{Alphas, Colours, Directions, Level, Lobes, SampleOutcome, Samples};
 use specula_bsdf::bsdf::{
     CoatedConductor, CoatedDiffuse, Compensated, Eon, RoughConductor, RoughDielectric,
     SmoothConductor,
 };
-use specula_bsdf::energy::{FmsVariant, Model};
+use specula_bsdf::energy::{EnergyModel, FmsVariant};
 use specula_bsdf::fresnel::{Conductor, Reflectance};
 use specula_bsdf::math::{Stream, rgb, warp};
 use specula_bsdf::ndf::Ggx;
@@ -27,10 +27,10 @@ struct Data {
     wo: Directions<Vec<f32>>,
     wi: Directions<Vec<f32>>,
     u: [Vec<f32>; 3],
-    drawn: Directions<Vec<f32>>,
+    sampled: Directions<Vec<f32>>,
     f_cos: Colours<Vec<f32>>,
     pdf: Vec<f32>,
-    samples: Samples<Vec<f32>, Vec<Kind>>,
+    samples: Samples<Vec<f32>, Vec<SampleOutcome>>,
     alpha: Alpha<f32>,
     gold: RoughConductor<f32>,
     exact: RoughConductor<f32>,
@@ -61,7 +61,7 @@ impl Data {
             wo,
             wi,
             u: core::array::from_fn(|_| (0..N).map(|_| stream.next()).collect()),
-            drawn: Directions::zeroed(N),
+            sampled: Directions::zeroed(N),
             f_cos: Colours::zeroed(N),
             pdf: vec![0.0; N],
             samples: Samples::rejected(N),
@@ -74,7 +74,7 @@ impl Data {
             eon: Eon::new(Rgb::splat(0.5), 0.5),
             coated_diffuse: CoatedDiffuse::new(Some(ggx), 1.5, Rgb::splat(0.5)),
             coated_gold: CoatedConductor::new(Some(ggx), 1.5, Some(ggx), gold),
-            turquin: Compensated::new(ggx, gold, Model::Turquin(FmsVariant::AverageSeries)),
+            turquin: Compensated::new(ggx, gold, EnergyModel::Turquin(FmsVariant::AverageSeries)),
         }
     }
 }
@@ -150,14 +150,14 @@ fn eval_each(data: &Data, lobe: &impl Bsdf<f32>) {
 fn batch(data: &mut Data, kernel: &str, level: Level) -> Option<()> {
     let (wo, wi) = (data.wo.as_slices(), data.wi.as_slices());
     let u = [&data.u[1][..], &data.u[2]];
-    let widths = Widths::Same(data.alpha);
-    let drawn = data.drawn.as_mut_slices();
-    let reflect = |sampler| level.sample_reflection(sampler, widths, wo, u, drawn);
+    let alphas = Alphas::Same(data.alpha);
+    let sampled = data.sampled.as_mut_slices();
+    let reflect = |sampler| level.sample_reflection(sampler, alphas, wo, u, sampled);
     let outcome = match kernel {
         "heitz" => reflect(Sampler::Heitz),
         "cap" => reflect(Sampler::Cap),
         "bounded" => reflect(Sampler::Bounded),
-        "pdf" => level.reflection_pdf(Sampler::Bounded, widths, wo, wi, &mut data.pdf),
+        "pdf" => level.reflection_pdf(Sampler::Bounded, alphas, wo, wi, &mut data.pdf),
         _ => return batch_lobe(data, kernel, level),
     };
     outcome.ok()

@@ -17,10 +17,12 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use specula_bsdf::batch::{Colours, Directions, Kind, Level, Samples};
+use specula_bsdf::batch::{Colours, Directions, Level, SampleOutcome, Samples};
 use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::math::{Stream, rgb, vec3, warp};
-use specula_bsdf::multibounce::{Conductor, Dielectric, MisPdf, Model};
+use specula_bsdf::multibounce::{
+    MisPdf, MultibounceConductor, MultibounceDielectric, MultibounceModel,
+};
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, Vec3};
 
@@ -103,12 +105,12 @@ fn main() {
         return count_lanes(of, level, alpha, n);
     }
     for alpha in [0.5_f32, 1.0] {
-        let lobes = Model::ALL.map(|model| {
+        let lobes = MultibounceModel::ALL.map(|model| {
             let white = Reflectance::Constant(Rgb::splat(1.0));
-            Conductor::new(Ggx::new(Alpha::isotropic(alpha)), white, model)
+            MultibounceConductor::new(Ggx::new(Alpha::isotropic(alpha)), white, model)
         });
         let mut published = [Measured::NONE; 4];
-        let mut evals = [[Measured::NONE; 4]; Model::ALL.len()];
+        let mut evals = [[Measured::NONE; 4]; MultibounceModel::ALL.len()];
         let mut draws = evals;
         let mut stream = Stream::new(1);
         for _ in 0..SLICES {
@@ -148,7 +150,7 @@ fn main() {
             );
         };
         print("heitz, as published", &published, &draws[0]);
-        for (model, (eval, draw)) in Model::ALL.iter().zip(evals.iter().zip(&draws)) {
+        for (model, (eval, draw)) in MultibounceModel::ALL.iter().zip(evals.iter().zip(&draws)) {
             print(model.name(), eval, draw);
         }
     }
@@ -161,12 +163,12 @@ fn count(model: &str, alpha: &str, n: &str) {
     let n: u32 = n.parse().expect("N is a count");
     let published = model == "published";
     let model = if published {
-        Model::Heitz2016
+        MultibounceModel::Heitz2016
     } else {
         model.parse().expect("MODEL is a model's name")
     };
     let white = Reflectance::Constant(Rgb::splat(1.0));
-    let lobe = Conductor::new(Ggx::new(Alpha::isotropic(alpha)), white, model);
+    let lobe = MultibounceConductor::new(Ggx::new(Alpha::isotropic(alpha)), white, model);
     let mut stream = Stream::new(1);
     for (i, o) in PAIRS {
         let (wo, wi) = (at(i, 1.0), at(o, -1.0));
@@ -208,8 +210,8 @@ const SIDES: [(&str, [f32; 2], [f32; 2]); 4] = [
     ("inside to inside", [150.0, 120.0], [150.0, 120.0]),
 ];
 
-fn glass(alpha: f32, model: Model) -> Dielectric<f32> {
-    Dielectric::new(Ggx::new(Alpha::isotropic(alpha)), 1.5_f32, model)
+fn glass(alpha: f32, model: MultibounceModel) -> MultibounceDielectric<f32> {
+    MultibounceDielectric::new(Ggx::new(Alpha::isotropic(alpha)), 1.5_f32, model)
 }
 
 fn pairs(from: [f32; 2], to: [f32; 2]) -> [(f32, f32); 4] {
@@ -219,14 +221,17 @@ fn pairs(from: [f32; 2], to: [f32; 2]) -> [(f32, f32); 4] {
 }
 
 /// Glass, index 1.5: geometric means over 30 and 60 degrees from the normal at both ends.
-/// Models of metals only are ours here and not shown; neither is the density of Hapke, which is the
+/// Models of metals only are Specula's here and not shown; neither is the density of Hapke, which is the
 /// Lambertian one.
 fn dielectrics() {
     for alpha in [0.1_f32, 0.5, 1.0] {
         println!("glass, alpha {alpha}: variance, ns, variance x time relative to heitz");
         for (name, from, to) in SIDES {
             let pairs = pairs(from, to);
-            let models = [Model::Heitz2016, Model::Ours];
+            let models = [
+                MultibounceModel::Heitz2016,
+                MultibounceModel::StratifiedBidirectional,
+            ];
             let mut both = [[Measured::NONE; 4]; 2];
             let mut stream = Stream::new(2);
             for _ in 0..SLICES {
@@ -261,14 +266,14 @@ fn dielectrics() {
 
 /// Elements of gold, with streams of their own.
 struct Batch {
-    metal: Conductor<f32>,
+    metal: MultibounceConductor<f32>,
     wo: Directions<Vec<f32>>,
     wi: Directions<Vec<f32>>,
     u: [Vec<f32>; 3],
     streams: Vec<Stream>,
     f_cos: Colours<Vec<f32>>,
     pdf: Vec<f32>,
-    samples: Samples<Vec<f32>, Vec<Kind>>,
+    samples: Samples<Vec<f32>, Vec<SampleOutcome>>,
 }
 
 impl Batch {
@@ -285,7 +290,11 @@ impl Batch {
             k: rgb(3.98, 2.38, 1.6),
         });
         Self {
-            metal: Conductor::new(Ggx::new(Alpha::isotropic(alpha)), gold, Model::Ours),
+            metal: MultibounceConductor::new(
+                Ggx::new(Alpha::isotropic(alpha)),
+                gold,
+                MultibounceModel::StratifiedBidirectional,
+            ),
             wo,
             wi,
             u: core::array::from_fn(|_| (0..n).map(|_| stream.next()).collect()),
@@ -385,7 +394,9 @@ fn densities() {
         let times = [(0.5, 0.5), (0.2, 0.8)].map(|(x, y)| {
             let white = Reflectance::Constant(Rgb::splat(1.0));
             let ndf = Ggx::new(Alpha::clamped(x, y));
-            let lobe = Conductor::new(ndf, white, Model::Ours).with_mis_pdf(mis);
+            let lobe =
+                MultibounceConductor::new(ndf, white, MultibounceModel::StratifiedBidirectional)
+                    .with_mis_pdf(mis);
             let mut measured = Measured::NONE;
             let (wo, wi) = (at(30.0, 1.0), at(60.0, -0.9));
             for _ in 0..SLICES {

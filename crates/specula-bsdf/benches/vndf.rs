@@ -37,7 +37,7 @@ impl Point {
     }
 }
 
-/// Points over the hemisphere of views with widths in [0.05, 1], from the R2 sequence.
+/// Points over the hemisphere of views with alphas in [0.05, 1], from the R2 sequence.
 fn points() -> Vec<Point> {
     let fraction = |i: usize, step: f64| {
         #[allow(

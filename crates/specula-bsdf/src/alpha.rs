@@ -1,11 +1,11 @@
-//! Widths of a distribution of microfacet normals.
+//! Alphas of a distribution of microfacet normals.
 
 use crate::math::{Real, Vec3, vec3};
 
-/// Widths `(alpha_x, alpha_y)` along the tangents, each in `[1e-4, 10]`.
+/// Alphas `(alpha_x, alpha_y)` along the tangents, each in `[1e-4, 10]`.
 ///
 /// This is the alpha of the formulas, not an artist's roughness. Renderers treat a surface whose
-/// both widths lie below [`Alpha::SPECULAR_BELOW`] as a smooth one.
+/// both alphas lie below [`Alpha::SPECULAR_BELOW`] as a smooth one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Alpha<T> {
     /// Along the local x.
@@ -33,7 +33,7 @@ impl<T: Real> Alpha<T> {
     /// Largest width.
     pub const MAX: f64 = 10.0;
 
-    /// Both widths, checked.
+    /// Both alphas, checked.
     ///
     /// # Errors
     /// Where a width is outside `[1e-4, 10]` or NaN.
@@ -50,7 +50,7 @@ impl<T: Real> Alpha<T> {
         }
     }
 
-    /// The nearest widths in `[1e-4, 10]`; NaN becomes 1e-4.
+    /// The nearest alphas in `[1e-4, 10]`; NaN becomes 1e-4.
     #[inline(always)]
     pub fn clamped(x: T, y: T) -> Self {
         let fit = |a: T| Real::min(Real::max(a, T::of(Self::MIN)), T::of(Self::MAX));

@@ -8,8 +8,8 @@ mod batch_common;
 
 use batch_common::Elements;
 use specula_bsdf::batch::{
-    Any, Colours, Directions, Kind, LengthMismatch, Level, Lobes, PerElement, PerElementMetal,
-    Samples, Widths,
+    Alphas, Any, Colours, Directions, LengthMismatch, Level, Lobes, PerElement, PerElementMetal,
+    SampleOutcome, Samples,
 };
 use specula_bsdf::fresnel::{Reflectance, Schlick};
 use specula_bsdf::vndf::{self, Sampler};
@@ -24,7 +24,7 @@ struct Outcome<T> {
     f_cos: Colours<Vec<T>>,
     pdf: Vec<T>,
     both: (Colours<Vec<T>>, Vec<T>),
-    samples: Samples<Vec<T>, Vec<Kind>>,
+    samples: Samples<Vec<T>, Vec<SampleOutcome>>,
     wi: Directions<Vec<T>>,
 }
 
@@ -58,12 +58,12 @@ fn batch<T: Real, L: Lobes<T>>(level: Level, lobes: &L, e: &Elements<T>) -> Outc
     out
 }
 
-fn kind<T: Real>(sample: &BsdfSample<T>) -> Kind {
+fn kind<T: Real>(sample: &BsdfSample<T>) -> SampleOutcome {
     match (sample.event, sample.specular) {
-        (Event::Reflection, false) => Kind::Reflection,
-        (Event::Transmission, false) => Kind::Transmission,
-        (Event::Reflection, true) => Kind::SpecularReflection,
-        (Event::Transmission, true) => Kind::SpecularTransmission,
+        (Event::Reflection, false) => SampleOutcome::Reflection,
+        (Event::Transmission, false) => SampleOutcome::Transmission,
+        (Event::Reflection, true) => SampleOutcome::SpecularReflection,
+        (Event::Transmission, true) => SampleOutcome::SpecularTransmission,
     }
 }
 
@@ -101,13 +101,13 @@ fn scalar<T: Real, L: Bsdf<T>>(lobe: &L, e: &Elements<T>) -> Outcome<T> {
             sample.map_or(Rgb::BLACK, |s| s.weight),
         );
         out.samples.pdf.push(sample.map_or(T::ZERO, |s| s.pdf));
-        let kind = sample.as_ref().map_or(Kind::Rejected, kind);
+        let kind = sample.as_ref().map_or(SampleOutcome::Rejected, kind);
         out.samples.kind.push(kind);
     }
     out
 }
 
-const WIDTHS: [[f32; 2]; 4] = [[0.3, 0.3], [0.1, 0.8], [1e-3, 1e-3], [4.0, 0.5]];
+const ALPHAS: [[f32; 2]; 4] = [[0.3, 0.3], [0.1, 0.8], [1e-3, 1e-3], [4.0, 0.5]];
 
 /// The levels that this machine has; says which it lacks.
 fn levels() -> Vec<Level> {
@@ -121,7 +121,7 @@ fn levels() -> Vec<Level> {
 #[test]
 fn the_baseline_is_the_scalar_code_bit_for_bit() {
     let elements = Elements::<f32>::new(N, 1);
-    for alpha in WIDTHS {
+    for alpha in ALPHAS {
         macro_rules! each {
             ($name:literal, $lobe:expr) => {{
                 let lobe = $lobe;
@@ -141,7 +141,7 @@ fn the_baseline_is_the_scalar_code_bit_for_bit() {
 #[test]
 fn so_it_is_in_f64() {
     let elements = Elements::<f64>::new(N, 2);
-    for alpha in WIDTHS {
+    for alpha in ALPHAS {
         for sampler in batch_common::SAMPLERS {
             let lobe = batch_common::metal(alpha, batch_common::gold()).with_sampler(sampler);
             let got = batch(Level::Baseline, &lobe, &elements);
@@ -156,7 +156,7 @@ fn so_it_is_in_f64() {
 /// Lobes that look up tables are plain loops: exact at every level.
 fn plain_loops_are_exact<T: Real>(seed: u64) {
     let elements = Elements::<T>::new(N, seed);
-    for alpha in WIDTHS {
+    for alpha in ALPHAS {
         let lobes = batch_common::MODELS.map(|model| batch_common::compensated::<T>(alpha, model));
         let glass = batch_common::compensated_glass::<T>(alpha);
         let coat = batch_common::lossy_coat::<T>(Some(alpha));
@@ -200,7 +200,7 @@ fn vector_levels_agree_with_each_other_bit_for_bit() {
         return;
     }
     let elements = Elements::<f32>::new(N, 3);
-    for alpha in WIDTHS {
+    for alpha in ALPHAS {
         macro_rules! each {
             ($name:literal, $lobe:expr) => {{
                 let lobe = $lobe;
@@ -251,12 +251,12 @@ fn an_element_does_not_depend_on_its_place_or_its_neighbours() {
 }
 
 #[test]
-fn per_element_widths_are_one_lobe_each() {
+fn per_element_alphas_are_one_lobe_each() {
     let elements = Elements::<f32>::new(N, 5);
     #[allow(clippy::cast_precision_loss, reason = "a small index")]
-    let widths = |scale: f32| (0..N).map(move |i| scale * (1.0 + i as f32));
-    let alpha_x: Vec<f32> = widths(1e-3).collect();
-    let alpha_y: Vec<f32> = widths(2e-3).collect();
+    let alphas = |scale: f32| (0..N).map(move |i| scale * (1.0 + i as f32));
+    let alpha_x: Vec<f32> = alphas(1e-3).collect();
+    let alpha_y: Vec<f32> = alphas(2e-3).collect();
     for sampler in batch_common::SAMPLERS {
         let metal =
             batch_common::metal::<f32>([0.5, 0.5], batch_common::gold()).with_sampler(sampler);
@@ -349,21 +349,21 @@ fn bare_samplers_are_the_scalar_ones() {
     let elements = Elements::<f32>::new(N, 6);
     let alpha = Alpha::clamped(0.2_f32, 0.7);
     let (alpha_x, alpha_y) = (vec![0.2_f32; N], vec![0.7_f32; N]);
-    let textured = Widths::PerElement {
+    let textured = Alphas::PerElement {
         alpha_x: &alpha_x,
         alpha_y: &alpha_y,
     };
     let (wo, wi) = (elements.wo.as_slices(), elements.wi.as_slices());
     let u = [&elements.u[1][..], &elements.u[2]];
     for sampler in batch_common::SAMPLERS {
-        for widths in [Widths::from(alpha), textured] {
-            let mut drawn = Directions::zeroed(N);
+        for alphas in [Alphas::from(alpha), textured] {
+            let mut sampled = Directions::zeroed(N);
             let mut pdf = vec![0.0; N];
             Level::Baseline
-                .sample_reflection(sampler, widths, wo, u, drawn.as_mut_slices())
+                .sample_reflection(sampler, alphas, wo, u, sampled.as_mut_slices())
                 .unwrap();
             Level::Baseline
-                .reflection_pdf(sampler, widths, wo, wi, &mut pdf)
+                .reflection_pdf(sampler, alphas, wo, wi, &mut pdf)
                 .unwrap();
             for i in 0..N {
                 let u = [u[0][i], u[1][i]];
@@ -387,7 +387,7 @@ fn bare_samplers_are_the_scalar_ones() {
                     ),
                 };
                 let expected = expected.unwrap_or(Vec3::ZERO);
-                assert_eq!(drawn.as_slices().get(i), expected, "{sampler} {i}");
+                assert_eq!(sampled.as_slices().get(i), expected, "{sampler} {i}");
                 assert_eq!(pdf[i], density, "{sampler} {i}");
             }
         }
@@ -415,7 +415,7 @@ fn rejected_draws_are_zero_throughout() {
                 s.weight.b[i],
                 s.pdf[i],
             ];
-            if s.kind[i] == Kind::Rejected {
+            if s.kind[i] == SampleOutcome::Rejected {
                 rejected += 1;
                 assert_eq!(numbers, [0.0; 7]);
             } else {
@@ -458,7 +458,7 @@ fn slices_that_differ_in_length_are_named() {
     let error = Level::best().pdf(&textured, wo, wi, &mut out).unwrap_err();
     assert_eq!((error.name, error.found), ("alpha_y", 3));
 
-    let mut samples = Samples::<Vec<f32>, Vec<Kind>>::rejected(8);
+    let mut samples = Samples::<Vec<f32>, Vec<SampleOutcome>>::rejected(8);
     samples.kind.pop();
     let u = e.u();
     let error = Level::best()

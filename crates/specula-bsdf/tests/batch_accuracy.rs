@@ -12,13 +12,13 @@
 mod batch_common;
 
 use batch_common::Elements;
-use specula_bsdf::batch::{Colours, Directions, Kind, Level, Lobes, Samples, Widths};
+use specula_bsdf::batch::{Alphas, Colours, Directions, Level, Lobes, SampleOutcome, Samples};
 use specula_bsdf::{Alpha, Bsdf, Transport, Vec3};
 
 const N: usize = 20_000;
 
-/// Extreme and ordinary widths.
-const WIDTHS: [[f32; 2]; 8] = [
+/// Extreme and ordinary alphas.
+const ALPHAS: [[f32; 2]; 8] = [
     [1e-3, 1e-3],
     [1e-3, 1.0],
     [0.03, 0.03],
@@ -51,7 +51,7 @@ where
     let transport = Transport::Radiance;
     let mut f_cos = Colours::<Vec<f32>>::zeroed(N);
     let mut pdf = vec![0.0_f32; N];
-    let mut samples = Samples::<Vec<f32>, Vec<Kind>>::rejected(N);
+    let mut samples = Samples::<Vec<f32>, Vec<SampleOutcome>>::rejected(N);
     level
         .eval_pdf(lobe, wo, wi, transport, f_cos.as_mut_slices(), &mut pdf)
         .expect("equal lengths");
@@ -64,7 +64,10 @@ where
         let (f, p) = twin.eval_pdf(wo, wi, transport);
         worst.see(0, f_cos.g[i], f.g);
         worst.see(1, density, p);
-        if matches!(samples.kind[i], Kind::Reflection | Kind::Transmission) {
+        if matches!(
+            samples.kind[i],
+            SampleOutcome::Reflection | SampleOutcome::Transmission
+        ) {
             let wi = samples.wi.get(i).cast();
             let (f, p) = twin.eval_pdf(wo, wi, transport);
             worst.see(2, samples.weight.g[i], f.g / p);
@@ -88,7 +91,7 @@ fn errors_stay_within_the_table() {
     let mut coated = Worst::default();
     let mut diffuse = [Worst::default(); 3];
     for level in levels() {
-        for alpha in WIDTHS {
+        for alpha in ALPHAS {
             for (sampler, worst) in batch_common::SAMPLERS.into_iter().zip(&mut metal) {
                 let lobe = batch_common::metal(alpha, batch_common::gold()).with_sampler(sampler);
                 let twin = batch_common::metal(alpha, batch_common::gold()).with_sampler(sampler);
@@ -139,12 +142,12 @@ fn directions_stay_within_their_bound() {
     let u = [double(&e.u[1]), double(&e.u[2])];
     for sampler in batch_common::SAMPLERS {
         let mut worst = 0.0_f64;
-        for [x, y] in WIDTHS {
+        for [x, y] in ALPHAS {
             let alpha = Alpha::clamped(f64::from(x), f64::from(y));
             let mut expected = Directions::<Vec<f64>>::zeroed(N);
             let draw = Level::Baseline.sample_reflection(
                 sampler,
-                Widths::Same(alpha),
+                Alphas::Same(alpha),
                 twins.as_slices(),
                 [&u[0], &u[1]],
                 expected.as_mut_slices(),
@@ -152,9 +155,9 @@ fn directions_stay_within_their_bound() {
             draw.unwrap();
             for level in levels() {
                 let mut got = Directions::<Vec<f32>>::zeroed(N);
-                let (widths, u) = (Widths::Same(Alpha { x, y }), [&e.u[1][..], &e.u[2]]);
+                let (alphas, u) = (Alphas::Same(Alpha { x, y }), [&e.u[1][..], &e.u[2]]);
                 level
-                    .sample_reflection(sampler, widths, wo, u, got.as_mut_slices())
+                    .sample_reflection(sampler, alphas, wo, u, got.as_mut_slices())
                     .unwrap();
                 for i in 0..N {
                     let got: Vec3<f64> = got.as_slices().get(i).cast();

@@ -4,10 +4,10 @@
 mod batch_common;
 
 use batch_common::{Elements, colour, ggx, gold, reflectances};
-use specula_bsdf::batch::{Colours, Directions, Kind, Level, Samples};
+use specula_bsdf::batch::{Colours, Directions, Level, SampleOutcome, Samples};
 use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::math::Stream;
-use specula_bsdf::multibounce::{Conductor, MisPdf, Model};
+use specula_bsdf::multibounce::{MisPdf, MultibounceConductor, MultibounceModel};
 use specula_bsdf::{Bsdf, Real, Transport, Vec3};
 
 /// More than two chunks, and not a multiple of a vector.
@@ -34,14 +34,18 @@ fn streams(n: usize) -> Vec<Stream> {
     (0..n).map(|i| Stream::new(977 * i as u64)).collect()
 }
 
-fn metal<T: Real>(alpha: [f32; 2], reflectance: Reflectance<T>) -> Conductor<T> {
-    Conductor::new(ggx(alpha), reflectance, Model::Ours)
+fn metal<T: Real>(alpha: [f32; 2], reflectance: Reflectance<T>) -> MultibounceConductor<T> {
+    MultibounceConductor::new(
+        ggx(alpha),
+        reflectance,
+        MultibounceModel::StratifiedBidirectional,
+    )
 }
 
 /// What both sides return of an element, and the stream's next number.
 type Row = [f64; 8];
 
-fn eval<T: Real>(level: Level, metal: &Conductor<T>, of: &Elements<T>) -> Vec<Row> {
+fn eval<T: Real>(level: Level, metal: &MultibounceConductor<T>, of: &Elements<T>) -> Vec<Row> {
     let n = of.wo.x.len();
     let (mut f_cos, mut pdf) = (Colours::zeroed(n), vec![T::ZERO; n]);
     let mut streams = streams(n);
@@ -56,7 +60,7 @@ fn eval<T: Real>(level: Level, metal: &Conductor<T>, of: &Elements<T>) -> Vec<Ro
     rows.collect()
 }
 
-fn eval_scalar<T: Real>(metal: &Conductor<T>, of: &Elements<T>) -> Vec<Row> {
+fn eval_scalar<T: Real>(metal: &MultibounceConductor<T>, of: &Elements<T>) -> Vec<Row> {
     let mut streams = streams(of.wo.x.len());
     let rows = streams.iter_mut().enumerate().map(|(i, stream)| {
         let (wo, wi) = (of.wo.as_slices().get(i), of.wi.as_slices().get(i));
@@ -66,7 +70,7 @@ fn eval_scalar<T: Real>(metal: &Conductor<T>, of: &Elements<T>) -> Vec<Row> {
     rows.collect()
 }
 
-fn sample<T: Real>(level: Level, metal: &Conductor<T>, of: &Elements<T>) -> Vec<Row> {
+fn sample<T: Real>(level: Level, metal: &MultibounceConductor<T>, of: &Elements<T>) -> Vec<Row> {
     let n = of.wo.x.len();
     let mut samples = Samples::rejected(n);
     let mut streams = streams(n);
@@ -82,14 +86,14 @@ fn sample<T: Real>(level: Level, metal: &Conductor<T>, of: &Elements<T>) -> Vec<
     let samples = samples.as_slices();
     let rows = streams.iter_mut().enumerate().map(|(i, stream)| {
         let (wi, f) = (samples.wi.get(i), samples.weight.get(i));
-        let is_reflection = samples.kind[i] == Kind::Reflection;
+        let is_reflection = samples.kind[i] == SampleOutcome::Reflection;
         assert_eq!(is_reflection, samples.pdf[i] > T::ZERO);
         row([f.r, f.g, f.b, samples.pdf[i], wi.x, wi.y, wi.z], stream)
     });
     rows.collect()
 }
 
-fn sample_scalar<T: Real>(metal: &Conductor<T>, of: &Elements<T>) -> Vec<Row> {
+fn sample_scalar<T: Real>(metal: &MultibounceConductor<T>, of: &Elements<T>) -> Vec<Row> {
     let mut streams = streams(of.wo.x.len());
     let rows = streams.iter_mut().enumerate().map(|(i, stream)| {
         let u = of.u().map(|u| u[i]);
@@ -201,7 +205,7 @@ fn means_are_those_of_heitz() {
             z,
         };
         let (wo, wi) = (at(cos_o, 1.0), at(cos_i, -1.0));
-        let heitz = Conductor::new(ggx(alpha), white, Model::Heitz2016);
+        let heitz = MultibounceConductor::new(ggx(alpha), white, MultibounceModel::Heitz2016);
         let mut stream = Stream::new(3);
         let estimates = (0..REPEATS).map(|_| f64::from(heitz.estimate(wo, wi, &mut stream).g));
         let (expected, sigma) = moments(estimates);
@@ -249,9 +253,9 @@ fn moments(values: impl Iterator<Item = f64>) -> (f64, f64) {
 #[test]
 fn the_other_models_and_densities_are_the_scalar_ones() {
     let elements = Elements::<f32>::new(70, 7);
-    for model in Model::ALL {
+    for model in MultibounceModel::ALL {
         for mis in MisPdf::ALL {
-            let metal = Conductor::new(ggx([0.3, 0.6]), gold(), model).with_mis_pdf(mis);
+            let metal = MultibounceConductor::new(ggx([0.3, 0.6]), gold(), model).with_mis_pdf(mis);
             let (evals, samples) = (
                 eval_scalar(&metal, &elements),
                 sample_scalar(&metal, &elements),

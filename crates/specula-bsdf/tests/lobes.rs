@@ -315,7 +315,7 @@ fn variance(lobe: &impl Bsdf<f64>, wo: Vec3<f64>) -> f64 {
     squares / f64::from(n) - mean * mean
 }
 
-/// Why caps are the default of rough dielectrics: with the branch drawn before the normal the
+/// Why caps are the default of rough dielectrics: with the branch sampled before the normal the
 /// bounded cap rejects less, but the weights vary with the Fresnel term.
 #[test]
 fn drawing_the_branch_before_the_normal_costs_variance() {

@@ -57,7 +57,7 @@ fn the_bound_unclamped_saves_rejections_above_one() {
 
 #[test]
 fn the_bounded_cap_holds_every_reflection_above_the_surface() {
-    // Conservative: whatever the whole cap draws above the horizon has the bounded density, and
+    // Conservative: whatever the whole cap samples above the horizon has the bounded density, and
     // the share it keeps is N_bounded / N_cap at the most.
     for &(ax, ay) in &[
         (0.05, 0.05),
@@ -81,10 +81,10 @@ fn the_bounded_cap_holds_every_reflection_above_the_surface() {
     }
 }
 
-/// Hashed numbers in `[0, 1)` of 24 bits.
-struct Numbers(u64);
+/// Hashed random in `[0, 1)` of 24 bits.
+struct Random(u64);
 
-impl Numbers {
+impl Random {
     fn next(&mut self) -> f32 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -112,27 +112,27 @@ impl Numbers {
     }
 }
 
-/// Ten million draws in f32 with widths in [1e-3, 8]; the chore `exact --fuzz` makes 10^9.
+/// Ten million samples in f32 with alphas in [1e-3, 8]; the chore `exact --fuzz` makes 10^9.
 #[test]
 fn exact_reflections_are_above_the_surface() {
-    let mut numbers = Numbers(3);
+    let mut random = Random(3);
     let mut rejected = 0;
-    let mut drawn = 0;
-    while drawn < 10_000_000 {
-        let a = numbers.log_uniform(1e-3, 8.0);
-        let b = numbers.log_uniform(1e-3, 8.0);
-        let alpha = Alpha::clamped(a, if drawn % 40 == 0 { a } else { b });
-        let wo = numbers.view();
+    let mut sampled = 0;
+    while sampled < 10_000_000 {
+        let a = random.log_uniform(1e-3, 8.0);
+        let b = random.log_uniform(1e-3, 8.0);
+        let alpha = Alpha::clamped(a, if sampled % 40 == 0 { a } else { b });
+        let wo = random.view();
         for _ in 0..20 {
-            let u = [numbers.next(), numbers.next()];
+            let u = [random.next(), random.next()];
             let wi = vndf::exact::sample_direction(alpha, wo, u);
             let unit = (wi.length() - 1.0).abs() < 1e-5;
             assert!(unit, "{alpha:?} {wo:?} {u:?}: {wi:?}");
             rejected += u32::from(wi.z <= 0.0);
-            drawn += 1;
+            sampled += 1;
         }
     }
-    println!("{rejected} of {drawn} reflections rejected by rounding");
+    println!("{rejected} of {sampled} reflections rejected by rounding");
     assert!(rejected <= 10, "{rejected}");
 }
 
@@ -181,12 +181,12 @@ fn the_exact_norm_is_an_integral() {
 /// The root, as a bisection finds it.
 #[test]
 fn the_exact_norm_has_its_root() {
-    let mut numbers = Numbers(4);
+    let mut random = Random(4);
     let mut worst = [0.0_f64; 2];
     for _ in 0..20_000 {
-        let mut width = || f64::from(numbers.log_uniform(1e-3, 8.0));
+        let mut width = || f64::from(random.log_uniform(1e-3, 8.0));
         let alpha = Alpha::clamped(width(), width());
-        let wo: Vec3<f64> = numbers.view().cast();
+        let wo: Vec3<f64> = random.view().cast();
         let wo = wo.normalize();
         let h = alpha.stretch(wo);
         let offsets = [wo.z * alpha.x * alpha.x, wo.z * alpha.y * alpha.y];

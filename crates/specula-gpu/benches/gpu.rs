@@ -191,7 +191,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// The middle of numbers.
+/// The middle of values.
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     match values.len() {
@@ -201,7 +201,7 @@ fn median(mut values: Vec<f64>) -> f64 {
     }
 }
 
-/// The least and the greatest of numbers.
+/// The least and the greatest of values.
 fn range(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     let wider = |[low, high]: [f64; 2], v: f64| [low.min(v), high.max(v)];
     let none = [f64::INFINITY, f64::NEG_INFINITY];

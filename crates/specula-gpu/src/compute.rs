@@ -13,13 +13,13 @@ use crate::stage::{Slot, Stage, filled, layout};
 /// (`var<storage, read>`), and the binding `inputs` is the one that it writes
 /// (`var<storage, read_write>`). It need not use all of them.
 #[derive(Debug)]
-pub struct Kernel {
+pub struct ComputeKernel {
     label: String,
     inputs: usize,
     stage: Stage,
 }
 
-/// The arrays of a [`Kernel`], on the device.
+/// The arrays of a [`ComputeKernel`], on the device.
 #[derive(Debug)]
 pub struct Arrays {
     group: wgpu::BindGroup,
@@ -81,7 +81,7 @@ impl Gpu {
     }
 }
 
-impl Kernel {
+impl ComputeKernel {
     /// Compiles the entry point `entry` of a shader module that reads so many arrays.
     ///
     /// # Errors
@@ -223,7 +223,7 @@ mod tests {
     fn a_kernel_reads_and_writes_arrays() {
         let Some(gpu) = gpu() else { return };
         let module = gpu.shader("doubling", DOUBLING).unwrap();
-        let kernel = Kernel::new(&gpu, &module, "main", 1).unwrap();
+        let kernel = ComputeKernel::new(&gpu, &module, "main", 1).unwrap();
         let numbers = [1.0_f32, -2.5, 3.0, 1e30];
         let bytes = bytemuck::bytes_of(&numbers);
         let arrays = kernel.upload(&gpu, &[bytes], 16).unwrap();
@@ -245,9 +245,9 @@ mod tests {
             "{wrong}"
         );
         let module = gpu.shader("doubling", DOUBLING).unwrap();
-        let missing = Kernel::new(&gpu, &module, "absent", 1);
+        let missing = ComputeKernel::new(&gpu, &module, "absent", 1);
         assert!(matches!(missing, Err(GpuError::Shader { .. })));
-        let kernel = Kernel::new(&gpu, &module, "main", 1).unwrap();
+        let kernel = ComputeKernel::new(&gpu, &module, "main", 1).unwrap();
         let too_few = kernel.upload(&gpu, &[], 16);
         assert!(matches!(too_few, Err(GpuError::Refused(_))));
         let too_large = kernel.upload(&gpu, &[&[0; 16]], 1 << 50);

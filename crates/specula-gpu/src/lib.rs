@@ -3,16 +3,16 @@
 pub mod adapter;
 pub mod compute;
 mod experimental;
+mod path_kernels;
 mod program;
 mod queries;
+mod sample_batch;
 mod schedule;
 mod stage;
-mod taker;
 mod tracer;
-mod wave;
 
 pub use adapter::{AdapterChoice, AdapterDescription, AdapterKind, Gpu, GpuError, adapters};
-pub use compute::{Arrays, Kernel};
+pub use compute::{Arrays, ComputeKernel};
 pub use queries::{Rays, Structures};
 pub use schedule::{Schedule, UnknownSchedule};
 pub use tracer::{Tracer, TracerError, TracerOptions, missing};

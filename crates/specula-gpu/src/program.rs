@@ -11,7 +11,7 @@ pub(crate) const SUMS: &str = include_str!("../wgsl/sums.wgsl");
 /// Its entry point.
 pub(crate) const SUMS_ENTRY: &str = "sums_main";
 /// The kernel between two vertices of paths in queues, complete in itself.
-pub(crate) const TURN: &str = include_str!("../wgsl/turn.wgsl");
+pub(crate) const QUEUE_ADVANCE: &str = include_str!("../wgsl/queue_advance.wgsl");
 
 /// A module of the tracer.
 struct Module {
@@ -34,7 +34,7 @@ const BEFORE: &[Module] = modules![
     "ray",
     "quadric",
     "surface",
-    "texture_place",
+    "texture_coordinates",
     "texture_mapping",
     "texture_noise",
     "texture_raster",
@@ -46,7 +46,7 @@ const BEFORE: &[Module] = modules![
     "piecewise",
     "textured",
     "spot",
-    "thrown",
+    "projected",
     "sun",
     "delta",
     "environment",
@@ -54,9 +54,9 @@ const BEFORE: &[Module] = modules![
     "light_tree",
     "lights",
     "partials",
-    "relief",
-    "bodies",
-    "passing",
+    "bump",
+    "medium_stack",
+    "visibility",
     "bound",
 ];
 
@@ -276,7 +276,7 @@ fn dispatch(flat: &FlatScene<'_>) -> String {
 /// The material of a surface at a point of it; mixes choose by chance.
 ///
 /// Twin: specula-render/src/material/mod.rs, Materials::at.
-fn material_bind(material: u32, place: Place, outside: bool, s: Sequence, depth: u32) -> Bound {{
+fn material_bind(material: u32, place: TextureCoordinates, outside: bool, s: Sequence, depth: u32) -> Bound {{
     var chosen = material;
     var record = word(MATERIALS + chosen);
     var one_sided = word(record + MATERIAL_ONE_SIDED) != 0u;

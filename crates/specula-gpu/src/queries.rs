@@ -55,7 +55,7 @@ pub struct Structures {
     pub(crate) group: wgpu::BindGroup,
 }
 
-/// Numbers of instances have 24 bits.
+/// Values of instances have 24 bits.
 const MOST_INSTANCES: usize = 1 << 24;
 /// Primitives that are built from at once, unless one structure has more: each needs memory to work in.
 const BATCH: usize = 1 << 22;

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::taker::QUEUE_ARRAYS;
+use crate::path_kernels::QUEUE_ARRAYS;
 
 /// How threads follow paths. The samples are the same by either.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

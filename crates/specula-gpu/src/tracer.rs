@@ -8,12 +8,12 @@ use specula_render::{
 };
 
 use crate::adapter::{Gpu, GpuError};
+use crate::path_kernels::PathKernels;
 use crate::program;
 use crate::queries::{Rays, Structures};
+use crate::sample_batch::{Kernels, SampleBatch};
 use crate::schedule::Schedule;
 use crate::stage::{WORKGROUP, filled};
-use crate::taker::Taker;
-use crate::wave::{Kernels, Wave};
 
 /// How long a dispatch should take: systems take devices away from work of seconds.
 const WAVE_TIME: Duration = Duration::from_millis(100);
@@ -65,7 +65,7 @@ pub struct Tracer<'a> {
     /// Tables, nodes, packets, words.
     scene: [wgpu::Buffer; 4],
     uses_ray_queries: bool,
-    wave: Option<Wave>,
+    wave: Option<SampleBatch>,
     /// Samples of the next wave.
     samples: usize,
     largest: usize,
@@ -134,7 +134,7 @@ impl<'a> Tracer<'a> {
         let module = gpu.shader("path tracer", path_tracer)?;
         let is_queues = schedule.is_queues(limits.max_storage_buffers_per_shader_stage);
         let structures = structures.as_ref();
-        let taker = Taker::new(gpu, &module, is_queues, structures, options.max_depth)?;
+        let taker = PathKernels::new(gpu, &module, is_queues, structures, options.max_depth)?;
         let kernels = Kernels::new(gpu, taker, adder)?;
         let [tables, nodes, packets, words] = arrays(flat);
         let scene = [
@@ -240,7 +240,7 @@ impl<'a> Tracer<'a> {
                 // What there is goes before more is asked for.
                 drop(smaller);
                 let room = needed.map(|n| n.next_power_of_two().min(self.largest).max(n));
-                Wave::new(self.gpu, &self.kernels, &self.scene, room)?
+                SampleBatch::new(self.gpu, &self.kernels, &self.scene, room)?
             }
         };
         let sums = wave.take(self.gpu, &self.kernels, runs, longest)?;

@@ -25,8 +25,8 @@ use specula_render::picture::Picture;
 use specula_render::{PreparedScene, RenderOptions, Renderer, Strategy};
 use specula_scene::Scene;
 use specula_scene::scene::{
-    ColourParam, EnvironmentMapping, Filter, FloatParam, Gltf, Light, MaterialKind, Principled,
-    Profile, Projection, Texture, TextureId, TextureMapping, Throw,
+    ColourParam, EnvironmentMapping, Filter, FloatParam, Gltf, ImageProjection, Light,
+    MaterialKind, Principled, Profile, Projection, Texture, TextureId, TextureMapping,
 };
 use specula_stat::image::{NoisyImage, compare};
 
@@ -62,7 +62,7 @@ type Device<'a> = (&'a Gpu, Rays);
 
 /// What software renders by ray queries too: it compiles such a shader for half a minute. All with
 /// `SPECULA_RAY_QUERIES=all`.
-const ON_SOFTWARE: [&str; 3] = ["lights, instances", "bodies", "other seeds"];
+const ON_SOFTWARE: [&str; 3] = ["lights, instances", "media", "other seeds"];
 
 /// The GPU through the tree, and by ray queries where it offers them.
 fn devices(what: &str) -> Vec<Device<'static>> {
@@ -360,7 +360,7 @@ AttributeBegin Translate 0.8 0 0.3 Scale 0.8 0.8 1.2 ObjectInstance \"thing\" At
 }
 
 #[test]
-fn lights_that_vary_and_thrown_pictures() {
+fn lights_that_vary_and_projected_pictures() {
     let room = "
 Texture \"holes\" \"float\" \"checkerboard\" \"float uscale\" 6 \"float vscale\" 6 \"float tex1\" 1 \"float tex2\" 0.2
 Material \"diffuse\"
@@ -389,18 +389,18 @@ AttributeEnd
         emission.radiance = radiance;
     }
     check("lights that vary", &vary, |o| o);
-    let mut thrown = scene("Material \"diffuse\" Shape \"disk\" \"float radius\" 4");
-    let intensity = painted(&mut thrown);
-    thrown.lights.push(Light::Picture {
+    let mut projected = scene("Material \"diffuse\" Shape \"disk\" \"float radius\" 4");
+    let intensity = painted(&mut projected);
+    projected.lights.push(Light::Picture {
         to_world: DMat4::from_translation([0.0, 0.0, 1.5].into())
             * DMat4::from_rotation_x(std::f64::consts::PI),
         intensity,
-        throw: Throw::Window {
+        image_projection: ImageProjection::Window {
             half: [0.9, 0.6],
             profile: Profile::Intensity,
         },
     });
-    check("thrown pictures", &thrown, |o| o);
+    check("projected pictures", &projected, |o| o);
 }
 
 #[test]
@@ -434,7 +434,7 @@ fn films_that_expose_bound_and_balance() {
 }
 
 #[test]
-fn textures_reliefs_and_cut_outs() {
+fn textures_bumps_and_cut_outs() {
     let textures = "
 Texture \"squares\" \"spectrum\" \"checkerboard\" \"float uscale\" 8 \"float vscale\" 8 \"rgb tex1\" [0.1 0.3 0.7] \"rgb tex2\" [0.8 0.7 0.2]
 Texture \"spots\" \"float\" \"fbm\" \"integer octaves\" 4
@@ -446,7 +446,7 @@ Texture \"holes\" \"float\" \"checkerboard\" \"float uscale\" 6 \"float vscale\"
     let worn =
         "Material \"conductor\" \"rgb reflectance\" [0.9 0.8 0.7] \"texture roughness\" \"rough\"";
     let text = format!("{ROOM}{SKY}{textures}{}", orbs([painted, worn]));
-    check("textures, reliefs", &scene(&text), |o| o);
+    check("textures, bumps", &scene(&text), |o| o);
     let veil = "Material \"diffuse\" Shape \"disk\" \"float radius\" 1 \"float height\" 1.4 \"texture alpha\" \"holes\"\n";
     check(
         "cut-outs",
@@ -456,7 +456,7 @@ Texture \"holes\" \"float\" \"checkerboard\" \"float uscale\" 6 \"float vscale\"
 }
 
 #[test]
-fn bodies_that_absorb_and_hidden_lights() {
+fn medium_stack_that_absorb_and_hidden_lights() {
     let media = "
 MakeNamedMedium \"dark\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [0.4 1.2 2] \"rgb sigma_s\" [0 0 0]
 MakeNamedMedium \"light\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [1.5 0.2 0.3] \"rgb sigma_s\" [0 0 0]
@@ -479,7 +479,7 @@ Shape \"sphere\" \"float radius\" 0.25
 AttributeEnd
 ";
     let mut scene = scene(&format!("{ROOM}{SKY}{media}"));
-    check("bodies", &scene, |o| o);
+    check("media", &scene, |o| o);
     scene.settings.hide_emitters = true;
     check("hidden lights", &scene, |o| o);
 }
@@ -551,7 +551,7 @@ fn gltf_materials() {
         volume: false,
         clearcoat: value(0.7),
         clearcoat_roughness: value(0.2),
-        clearcoat_relief: None,
+        clearcoat_bump: None,
         sheen_colour: colour(0.3, 0.2, 0.4),
         sheen_roughness: value(0.5),
     };

@@ -1,14 +1,14 @@
-//! The kernel that adds samples, beside whole numbers of the processor: equal to the last bit.
+//! The kernel that adds samples, beside whole random of the processor: equal to the last bit.
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail loudly")]
 #![allow(
     clippy::cast_possible_truncation,
-    reason = "numbers of a test, known to be small"
+    reason = "random of a test, known to be small"
 )]
 
 mod common;
 
 use common::gpu;
-use specula_gpu::{Gpu, Kernel};
+use specula_gpu::{ComputeKernel, Gpu};
 use specula_render::RunSums;
 
 const TEXT: &str = include_str!("../wgsl/sums.wgsl");
@@ -18,10 +18,10 @@ const PLACES: usize = 64;
 /// A sample as the path tracer leaves it: values and depth; albedo and rays; normal and weight.
 type Sample = [[f32; 4]; 3];
 
-/// Numbers by a fixed recurrence.
-struct Numbers(u64);
+/// Random by a fixed recurrence.
+struct Random(u64);
 
-impl Numbers {
+impl Random {
     fn next(&mut self) -> u64 {
         self.0 = self
             .0
@@ -102,9 +102,9 @@ fn expected(samples: &[Sample]) -> RunSums {
     sums
 }
 
-/// Runs of different lengths and ranges of numbers.
+/// Runs of different lengths and ranges of random.
 fn runs() -> Vec<Vec<Sample>> {
-    let mut numbers = Numbers(7);
+    let mut random = Random(7);
     let odd = [0.0, -0.0, 1e-40, -3e-39, f32::MAX, f32::MIN_POSITIVE];
     let broken = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0];
     let ordinary: &[f32] = &[];
@@ -112,9 +112,9 @@ fn runs() -> Vec<Vec<Sample>> {
         let sample = |_| {
             let mut sample = [[0.0; 4]; 3];
             for x in sample.as_flattened_mut() {
-                *x = numbers.float(range, others);
+                *x = random.float(range, others);
             }
-            sample[1][3] = (numbers.next() % 1000) as f32;
+            sample[1][3] = (random.next() % 1000) as f32;
             sample
         };
         (0..count).map(sample).collect()
@@ -152,7 +152,7 @@ fn on_device(gpu: &Gpu, text: &str, runs: &[Vec<Sample>]) -> Vec<RunSums> {
         found.resize(found.len().next_multiple_of(PLACES), [[1e30; 4]; 3]);
     }
     let module = gpu.shader("sums", text).unwrap();
-    let kernel = Kernel::new(gpu, &module, "sums_main", 2).unwrap();
+    let kernel = ComputeKernel::new(gpu, &module, "sums_main", 2).unwrap();
     let inputs: [&[u8]; 2] = [bytemuck::cast_slice(&wanted), bytemuck::cast_slice(&found)];
     let size = size_of::<RunSums>() * runs.len();
     let arrays = kernel.upload(gpu, &inputs, size as u64).unwrap();

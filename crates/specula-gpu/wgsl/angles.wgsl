@@ -2,7 +2,7 @@
 //
 // The coefficients are Chebyshev fits in the square of the argument, computed in 40 digits. WGSL's own
 // functions have errors of up to 2^-11 (sin, cos) and 4096 ulps (atan2, acos): too large for what is
-// drawn to be the renderer's on the CPU.
+// sampled to be the renderer's on the CPU.
 
 /// `size` with the sign of another number, that of zero included: `f32::copysign`.
 fn angles_with_sign(size: f32, signed: f32) -> f32 {

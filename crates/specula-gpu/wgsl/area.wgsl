@@ -98,7 +98,7 @@ fn area_draw(at: u32, p: vec3f, u: vec2f) -> AreaSample {
     }
 }
 
-/// Density in 1/sr with which `area_draw` draws the direction from `p` to the point `q` of the shape at
+/// Density in 1/sr with which `area_draw` samples the direction from `p` to the point `q` of the shape at
 /// `at`.
 ///
 /// * `normal`: of the shape at `q`.
@@ -191,7 +191,7 @@ fn area_draw_sphere(at: u32, p: vec3f, u: vec2f) -> AreaSample {
     );
 }
 
-/// A point that was drawn by area, as seen from `p`.
+/// A point that was sampled by area, as seen from `p`.
 ///
 /// * `per_area`: density over the area.
 ///

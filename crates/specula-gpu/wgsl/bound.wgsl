@@ -7,7 +7,7 @@
 // Twin of specula-render/src/material/{mod,bind,flat}.rs.
 
 import tracer::world::{word, number};
-import tracer::texture_place::{Place};
+import tracer::texture_coordinates::{TextureCoordinates};
 import tracer::texture_graph::{parameter_colour, texture_colour};
 
 /// A material's parameters at a point; what `first`, `second` and `third` are is its kind's matter.
@@ -93,7 +93,7 @@ struct Parameters {
 }
 
 /// Looks up the parameters of a record. One call in a loop: textures are long.
-fn bound_parameters(record: u32, place: Place) -> Parameters {
+fn bound_parameters(record: u32, place: TextureCoordinates) -> Parameters {
     var p: Parameters;
     let count = word(record + MATERIAL_PARAMETERS);
     var at = record + MATERIAL_PARAMETERS + 1u;
@@ -109,7 +109,7 @@ fn bound_parameters(record: u32, place: Place) -> Parameters {
 /// The turn of tangents that a texture of directions says, in radians.
 ///
 /// Twin: specula-render/src/material/mod.rs, azimuth.
-fn bound_direction(record: u32, place: Place) -> f32 {
+fn bound_direction(record: u32, place: TextureCoordinates) -> f32 {
     let texture = word(record + MATERIAL_DIRECTION);
     if texture == NONE {
         return 0.0;
@@ -141,7 +141,7 @@ fn bound_albedo(colour: vec3f) -> vec3f {
     return clamp(colour, vec3f(0.0), vec3f(1.0));
 }
 
-/// Widths of facets behind a rough surface.
+/// AlphaPair of facets behind a rough surface.
 ///
 /// Twin: specula-render/src/integrator/bias.rs, regularized.
 fn bound_regularized(alpha: vec2f) -> vec2f {
@@ -159,10 +159,10 @@ fn bound_unit_roughness(x: vec3f, is_regularized: bool) -> f32 {
     return r;
 }
 
-/// Widths of facets from two numbers and what these are; 0 where the surface is smooth.
+/// AlphaPair of facets from two values and what these are; 0 where the surface is smooth.
 ///
 /// Twin: specula-render/src/material/metal.rs, alpha.
-fn bound_widths(across: f32, along: f32, mapping: u32) -> vec2f {
+fn bound_alphas(across: f32, along: f32, mapping: u32) -> vec2f {
     var r = max(vec2f(across, along), vec2f(0.0));
     if (mapping & 3u) == 1u {
         r = sqrt(r);
@@ -176,10 +176,10 @@ fn bound_widths(across: f32, along: f32, mapping: u32) -> vec2f {
     return select(vec2f(0.0), clamp(r, vec2f(BOUND_SMOOTH_BELOW), vec2f(10.0)), is_rough);
 }
 
-/// Widths, distribution and masking from the first two parameters and the first three words.
+/// AlphaPair, distribution and masking from the first two parameters and the first three words.
 fn bound_roughness(b: Bound, p: Parameters) -> Bound {
     var rough = b;
-    rough.alpha = bound_widths(p.values[0].x, p.values[1].x, word(p.plain));
+    rough.alpha = bound_alphas(p.values[0].x, p.values[1].x, word(p.plain));
     rough.distribution = word(p.plain + 1u);
     rough.masking = word(p.plain + 2u);
     return rough;

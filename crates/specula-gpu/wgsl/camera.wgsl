@@ -13,7 +13,7 @@ struct CameraRay {
     weight: f32,
 }
 
-/// A position about the pixel's middle drawn by one axis of the filter, and its weight.
+/// A position about the pixel's middle sampled by one axis of the filter, and its weight.
 ///
 /// * `at`: the axis.
 ///

@@ -1,22 +1,22 @@
-// Lights without extent: parallel, point, spot, and pictures thrown from a point.
+// Lights without extent: parallel, point, spot, and pictures projected from a point.
 //
 // Words of one: kind, then of
 // - a parallel light: irradiance, direction to it (3 each);
 // - a point: position, axis, intensity (3 each), cosine of the cone and of where its edge begins (-2: a
 //   whole sphere of directions), falloff;
-// - a picture: see thrown.wgsl.
+// - a picture: see projected.wgsl.
 //
 // Twin of specula-render/src/light/delta.rs.
 
 import tracer::parallelogram::{parallelogram_ratio};
 import tracer::spot::{spot_share};
-import tracer::thrown::{thrown_intensity};
+import tracer::projected::{projected_intensity};
 import tracer::world::{number, vector, word};
 
 /// Kinds: the first word of each.
 const DELTA_DISTANT: u32 = 0u;
 const DELTA_POINT: u32 = 1u;
-const DELTA_THROWN: u32 = 2u;
+const DELTA_PROJECTED: u32 = 2u;
 /// What arrives from a light without extent.
 struct DeltaArrival {
     /// On a surface that faces the light; black: nothing arrives.
@@ -42,8 +42,8 @@ fn delta_illuminate(at: u32, p: vec3f) -> DeltaArrival {
         return DeltaArrival(vec3f(0.0), vec3f(0.0), position, false);
     }
     let wi = d * (1.0 / sqrt(distance_squared));
-    if LIGHT_HAS_THROWN != 0u && word(at) == DELTA_THROWN {
-        let sent = thrown_intensity(at + 1u, -wi) * (1.0 / distance_squared);
+    if LIGHT_HAS_PROJECTED != 0u && word(at) == DELTA_PROJECTED {
+        let sent = projected_intensity(at + 1u, -wi) * (1.0 / distance_squared);
         return DeltaArrival(sent, wi, position, false);
     }
     let share = spot_share(

@@ -4,7 +4,7 @@
 // Words of one: factor (3), maps of light space to the world and back (12 each), whether there is a
 // picture; then its mapping (0: equal areas, else latitude and longitude), its two axes (cells, whole
 // cells that fit, where the first begins, where in the first cell the picture begins and in the last
-// ends), and the places of: pixels at the corners of the cells (red, green, blue, what is drawn by),
+// ends), and the places of: pixels at the corners of the cells (red, green, blue, what is sampled by),
 // densities by row of cells, cumulated shares in the rows, cumulated shares of the rows.
 //
 // Twin of specula-render/src/light/environment.rs, environment/{axis,picture}.rs.
@@ -29,7 +29,7 @@ const ENVIRONMENT_DENSITY: u32 = 40u;
 const ENVIRONMENT_ROWS: u32 = 41u;
 const ENVIRONMENT_COLUMNS: u32 = 42u;
 
-/// A drawn direction.
+/// A sampled direction.
 struct EnvironmentSample {
     /// Unit, world.
     wi: vec3f,
@@ -60,7 +60,7 @@ struct EnvironmentCorners {
 }
 
 /// Radiance from the direction `wi` (unit, world), and the density in 1/sr with which
-/// `environment_draw` draws it.
+/// `environment_draw` samples it.
 /// Twin: specula-render/src/light/environment.rs, Environment::arriving.
 fn environment_arriving(at: u32, wi: vec3f) -> vec4f {
     if word(at + ENVIRONMENT_IS_PICTURE) == 0u {
@@ -83,7 +83,7 @@ fn environment_arriving(at: u32, wi: vec3f) -> vec4f {
     return vec4f(colour.rgb * vector(at), pdf);
 }
 
-/// A direction drawn by what arrives.
+/// A direction sampled by what arrives.
 ///
 /// * `u`: uniform in `[0, 1)^2`.
 ///
@@ -125,9 +125,9 @@ fn environment_direction(mapping: u32, uv: vec2f) -> EnvironmentDirection {
     return EnvironmentDirection(vec3f(theta.x * phi.yx, theta.y), theta.x);
 }
 
-/// Density per solid angle with which a point in a row of cells is drawn.
+/// Density per solid angle with which a point in a row of cells is sampled.
 ///
-/// * `strength`: what is drawn by, there.
+/// * `strength`: what is sampled by, there.
 /// * `sine`: of the polar angle; 1 where equal areas are equal solid angles.
 ///
 /// Twin: specula-render/src/light/environment/picture.rs, Picture::pdf.
@@ -152,7 +152,7 @@ fn environment_corners(at: u32, x: u32, y: u32) -> EnvironmentCorners {
     );
 }
 
-/// Red, green, blue, and what is drawn by.
+/// Red, green, blue, and what is sampled by.
 fn environment_pixel(at: u32) -> vec4f {
     return vec4f(vector(at), number(at + 3u));
 }
@@ -173,7 +173,7 @@ fn environment_bilinear(corners: vec4f, x: f32, y: f32) -> f32 {
     return upper * (1.0 - y) + lower * y;
 }
 
-/// Where in a cell a point lies that is drawn by the corners' strengths.
+/// Where in a cell a point lies that is sampled by the corners' strengths.
 ///
 /// * `xs`, `ys`: the part of the cell that lies within the picture.
 /// * `u`: uniform in `[0, 1)^2`.

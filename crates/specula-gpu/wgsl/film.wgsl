@@ -8,7 +8,7 @@ import tracer::world::{number, vector};
 ///
 /// Twin: specula-render/src/film/develop.rs, Develop::of.
 fn film_developed(radiance: vec3f) -> vec3f {
-    // By its bits: compilers may take numbers for finite.
+    // By its bits: compilers may take values for finite.
     let exponents = bitcast<vec3u>(radiance) & vec3u(0x7f800000u);
     if any(exponents == vec3u(0x7f800000u)) {
         return radiance;

@@ -1,4 +1,4 @@
-// Indices, tints and widths of glass from a material's parameters.
+// Indices, tints and alphas of glass from a material's parameters.
 //
 // Twin of specula-render/src/material/bind.rs, MaterialKind::Dielectric.
 

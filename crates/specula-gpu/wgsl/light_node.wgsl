@@ -1,7 +1,7 @@
 // A set of lights as a point sees it: the bound on what could arrive.
 //
 // Words of a node: centre and radius of a sphere around the lights, axis (3), cosines of the angles that
-// bound their normals and what they send beyond those, sum of the peak intensities, whether they shine
+// bound their normals and what they send beyond those, sum of the peak intensities, whether they emit
 // to both sides (bit 0) and whether it is a leaf (bit 1), link: a leaf's light, otherwise the distance
 // in nodes to the right child. The left child follows.
 //
@@ -79,7 +79,7 @@ fn light_node_minus(cosine_a: f32, sine_b: f32, cosine_b: f32) -> f32 {
     return cosine_a * cosine_b + sqrt(max(1.0 - cosine_a * cosine_a, 0.0)) * sine_b;
 }
 
-/// A quotient of two numbers that are not negative, at most `LIGHT_NODE_MOST`.
+/// A quotient of two values that are not negative, at most `LIGHT_NODE_MOST`.
 fn light_node_ratio(a: f32, b: f32) -> f32 {
     if a >= LIGHT_NODE_MOST * min(b, 1.0) {
         return LIGHT_NODE_MOST;

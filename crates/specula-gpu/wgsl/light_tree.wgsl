@@ -30,7 +30,7 @@ struct LightChoice {
 
 /// A number in `[0, 1)` with more digits than a word holds: `coarse + spacing * digits`.
 ///
-/// `digits` are drawn once and count what `coarse` leaves open: decisions consume digits of `coarse`,
+/// `digits` are sampled once and count what `coarse` leaves open: decisions consume digits of `coarse`,
 /// and as its part is stretched, `spacing` grows with it. The twins have `f64` for it; against these, a
 /// decision errs where the number is within a rounding of `f32` (2^-24) of its threshold.
 struct LightNumber {
@@ -131,7 +131,7 @@ fn light_tree_draw(position: vec3f, normal: vec3f, u: LightNumber) -> LightChoic
     return LightChoice(light_tree_link(node), probability);
 }
 
-/// Probability with which `light_tree_draw` draws a light.
+/// Probability with which `light_tree_draw` samples a light.
 /// Twin: specula-render/src/light/tree.rs, LightTree::probability.
 fn light_tree_probability(position: vec3f, normal: vec3f, light: u32) -> f32 {
     let at = LIGHT_TRAILS + 2u * light;

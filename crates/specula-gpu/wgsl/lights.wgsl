@@ -1,9 +1,9 @@
-// The lights of a scene: one is chosen at a point and a point on it drawn; what is met by chance is
+// The lights of a scene: one is chosen at a point and a point on it sampled; what is met by chance is
 // looked up with the density of just that.
 //
 // LIGHT_PLACES has the place of each of LIGHT_COUNT lights: its kind, then of
-// - a shape: whether it shines to both sides, radiance (3), the shape (area.wgsl);
-// - a shape whose emission varies: whether it shines to both sides, itself (textured.wgsl);
+// - a shape: whether it emits to both sides, radiance (3), the shape (area.wgsl);
+// - a shape whose emission varies: whether it emits to both sides, itself (textured.wgsl);
 // - a light with extent at infinity: its number among those;
 // - a light without extent: itself (delta.wgsl).
 //
@@ -11,9 +11,9 @@
 // then itself (environment.wgsl, sun.wgsl). LIGHT_ALIAS has LIGHT_ALIAS_COUNT bins of an alias table over
 // all lights, of which only those at infinity have weights: share of the bin that is its own, whom the
 // rest belongs to, probability of the entry. LIGHT_FAR_IRRADIANCE is the place of their irradiance,
-// LIGHT_ONLY the light that is always drawn, or NONE.
+// LIGHT_ONLY the light that is always sampled, or NONE.
 //
-// What a scene lacks is not compiled: LIGHT_HAS_TEXTURED, LIGHT_HAS_THROWN.
+// What a scene lacks is not compiled: LIGHT_HAS_TEXTURED, LIGHT_HAS_PROJECTED.
 //
 // Twin of specula-render/src/light/{mod,select,alias}.rs.
 
@@ -56,7 +56,7 @@ struct LightSample {
     pdf: f32,
     /// Radiance; of a light without extent, irradiance on a surface that faces it.
     radiance: vec3f,
-    /// Whether no direction drawn otherwise can find it.
+    /// Whether no direction sampled otherwise can find it.
     delta: u32,
     /// Where it comes from.
     target_position: vec3f,
@@ -77,33 +77,33 @@ struct LightSample {
 /// Twin: specula-render/src/light/mod.rs, Lights::sample.
 fn lights_draw(receiver: Receiver, u: vec4f) -> LightSample {
     let choice = lights_choose(receiver, u.x, u.w);
-    var drawn: LightSample;
+    var sampled: LightSample;
     if choice.probability <= 0.0 {
-        return drawn;
+        return sampled;
     }
     let at = word(LIGHT_PLACES + choice.light);
     switch word(at) {
         case LIGHTS_AREA: {
-            drawn = lights_draw_area(at + 1u, receiver.position, u.yz);
+            sampled = lights_draw_area(at + 1u, receiver.position, u.yz);
         }
         case LIGHTS_FAR: {
-            drawn = lights_draw_far(word(LIGHT_FAR + 2u * word(at + 1u)), u.yz);
+            sampled = lights_draw_far(word(LIGHT_FAR + 2u * word(at + 1u)), u.yz);
         }
         case LIGHTS_DELTA: {
-            drawn = lights_draw_delta(at + 1u, receiver.position);
+            sampled = lights_draw_delta(at + 1u, receiver.position);
         }
         case LIGHTS_TEXTURED: {
             if LIGHT_HAS_TEXTURED != 0u {
-                drawn = lights_draw_textured(at + 1u, receiver.position, u.yz);
+                sampled = lights_draw_textured(at + 1u, receiver.position, u.yz);
             }
         }
         default: {}
     }
-    drawn.pdf *= choice.probability;
-    return drawn;
+    sampled.pdf *= choice.probability;
+    return sampled;
 }
 
-/// A point of the shape that shines at `at`, seen from `p`.
+/// A point of the shape that emits at `at`, seen from `p`.
 /// Twin: specula-render/src/light/mod.rs, Lights::sample_one.
 fn lights_draw_area(at: u32, p: vec3f, u: vec2f) -> LightSample {
     return lights_from_area(area_draw(at + 4u, p, u), vector(at + 1u), word(at) != 0u);
@@ -119,58 +119,58 @@ fn lights_draw_textured(at: u32, p: vec3f, u: vec2f) -> LightSample {
 /// A sampled point of a shape.
 /// Twin: specula-render/src/light/mod.rs, from_area.
 fn lights_from_area(s: AreaSample, radiance: vec3f, two_sided: bool) -> LightSample {
-    var drawn: LightSample;
-    drawn.wi = s.wi;
-    drawn.pdf = s.pdf;
-    drawn.radiance = radiance;
-    drawn.target_position = s.position;
-    drawn.target_error = s.error;
-    drawn.target_normal = s.normal;
-    let shines = two_sided || dot(s.normal, s.wi) < 0.0;
-    drawn.valid = u32(s.pdf > 0.0 && shines);
-    return drawn;
+    var sampled: LightSample;
+    sampled.wi = s.wi;
+    sampled.pdf = s.pdf;
+    sampled.radiance = radiance;
+    sampled.target_position = s.position;
+    sampled.target_error = s.error;
+    sampled.target_normal = s.normal;
+    let emits = two_sided || dot(s.normal, s.wi) < 0.0;
+    sampled.valid = u32(s.pdf > 0.0 && emits);
+    return sampled;
 }
 
 /// A direction to the light at infinity at `at`.
 /// Twin: specula-render/src/light/mod.rs, Far::sample.
 fn lights_draw_far(at: u32, u: vec2f) -> LightSample {
-    var drawn: LightSample;
-    drawn.from_infinity = 1u;
+    var sampled: LightSample;
+    sampled.from_infinity = 1u;
     if word(at) == LIGHTS_SUN {
-        drawn.wi = sun_draw(at + 1u, u);
-        drawn.radiance = vector(at + 10u);
-        drawn.pdf = sun_density(at + 1u);
-        drawn.valid = 1u;
-        return drawn;
+        sampled.wi = sun_draw(at + 1u, u);
+        sampled.radiance = vector(at + 10u);
+        sampled.pdf = sun_density(at + 1u);
+        sampled.valid = 1u;
+        return sampled;
     }
     let s = environment_draw(at + 1u, u);
-    drawn.wi = s.wi;
-    drawn.radiance = s.radiance;
-    drawn.pdf = s.pdf;
-    drawn.valid = u32(s.pdf > 0.0);
-    return drawn;
+    sampled.wi = s.wi;
+    sampled.radiance = s.radiance;
+    sampled.pdf = s.pdf;
+    sampled.valid = u32(s.pdf > 0.0);
+    return sampled;
 }
 
 /// What the light without extent at `at` sends to `p`.
 /// Twin: specula-render/src/light/mod.rs, Lights::sample_one.
 fn lights_draw_delta(at: u32, p: vec3f) -> LightSample {
     let arrival = delta_illuminate(at, p);
-    var drawn: LightSample;
-    drawn.wi = arrival.wi;
-    drawn.pdf = 1.0;
-    drawn.radiance = arrival.irradiance;
-    drawn.delta = 1u;
-    drawn.target_position = arrival.position;
-    drawn.target_normal = arrival.wi;
-    drawn.from_infinity = u32(arrival.distant);
-    drawn.valid = u32(any(arrival.irradiance != vec3f(0.0)));
-    return drawn;
+    var sampled: LightSample;
+    sampled.wi = arrival.wi;
+    sampled.pdf = 1.0;
+    sampled.radiance = arrival.irradiance;
+    sampled.delta = 1u;
+    sampled.target_position = arrival.position;
+    sampled.target_normal = arrival.wi;
+    sampled.from_infinity = u32(arrival.distant);
+    sampled.valid = u32(any(arrival.irradiance != vec3f(0.0)));
+    return sampled;
 }
 
-/// Density in 1/sr, times the probability of the light, with which `lights_draw` draws the direction to
+/// Density in 1/sr, times the probability of the light, with which `lights_draw` samples the direction to
 /// the point `position` of the surface of a light.
 ///
-/// * `light`: its number; NONE of a surface that does not shine.
+/// * `light`: its number; NONE of a surface that does not emit.
 /// * `normal`: of the surface there.
 /// * `weights`: of its primitive's second and third corner there.
 ///
@@ -204,7 +204,7 @@ fn lights_arriving_count() -> u32 {
 }
 
 /// Radiance from the direction `wi` of light `i` at infinity, and the density in 1/sr, times its
-/// probability among those: `lights_draw` draws it with that density times `lights_share_from_infinity`.
+/// probability among those: `lights_draw` samples it with that density times `lights_share_from_infinity`.
 /// Twin: specula-render/src/light/mod.rs, Lights::arriving_from_infinity.
 fn lights_arriving(i: u32, wi: vec3f) -> vec4f {
     let at = word(LIGHT_FAR + 2u * i);

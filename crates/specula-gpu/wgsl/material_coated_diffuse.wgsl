@@ -24,7 +24,7 @@ fn material_coated_diffuse_bind(head: Bound, p: Parameters, outside: bool) -> Bo
     return b;
 }
 
-/// The lobe. Coats know GGX only, with height-correlated masking: Beckmann's widths are taken for its.
+/// The lobe. Coats know GGX only, with height-correlated masking: Beckmann's alphas are taken for its.
 fn material_coated_diffuse_lobe(b: Bound) -> CoatedDiffuse {
     let facets = MicrofacetsModel(b.alpha, DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, SAMPLER);
     let rough = b.alpha.x > 0.0;

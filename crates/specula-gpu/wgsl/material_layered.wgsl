@@ -21,7 +21,7 @@ import package::bsdf::bsdf_sample::{BsdfSample};
 /// Words of one over metal behind those of one over Lambert.
 const MATERIAL_LAYERED_METAL: u32 = 6u;
 
-/// The parameters at a place: `kept` (widths of the coat, thickness, albedo and asymmetry of the medium, then
+/// The parameters at a place: `kept` (alphas of the coat, thickness, albedo and asymmetry of the medium, then
 /// those of the base), `alpha` of the coat, `eta` its index, `energy` and `masking` the most events and the
 /// walks, `variant` 8 where the base is Lambert, else as of `metal_indices`.
 fn material_layered_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
@@ -39,8 +39,8 @@ fn material_layered_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
         b.second = base.second;
         b.third = base.third;
         b.variant = base.variant;
-        // Widths of the base in place of its parameters.
-        b.kept[5] = vec3f(bound_widths(p.values[5].x, p.values[6].x, word(at)), 0.0);
+        // Alphas of the base in place of its parameters.
+        b.kept[5] = vec3f(bound_alphas(p.values[5].x, p.values[6].x, word(at)), 0.0);
     }
     b.masking = word(p.plain + 5u);
     b.specular = layered_lobe_is_mirror(material_layered_lobe(b));
@@ -49,13 +49,13 @@ fn material_layered_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
 
 /// The lobe. Coats know GGX only, with height-correlated masking.
 fn material_layered_lobe(b: Bound) -> LayeredLobe {
-    let widths = b.kept[5].xy;
-    let facets = MicrofacetsModel(widths, DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, SAMPLER);
+    let alphas = b.kept[5].xy;
+    let facets = MicrofacetsModel(alphas, DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, SAMPLER);
     var base = LayeredBase(LAYERED_BASE_DIFFUSE, facets, reflectance_constant(vec3f(0.0)), vec3f(0.0));
     if b.variant == 8u {
         base.albedo = bound_albedo(b.kept[5]);
     } else {
-        base.kind = select(LAYERED_BASE_MIRROR, LAYERED_BASE_METAL, widths.x > 0.0);
+        base.kind = select(LAYERED_BASE_MIRROR, LAYERED_BASE_METAL, alphas.x > 0.0);
         base.reflectance = metal_reflectance(b);
     }
     let medium = LayeredMedium(b.kept[2].x, bound_albedo(b.kept[3]), b.kept[4].x);

@@ -26,7 +26,7 @@ fn metal_indices(b: Bound, kind: u32, one: vec3f, other: vec3f) -> Bound {
     return m;
 }
 
-/// Widths and reflectance of a metal, as of `metal_indices`; `variant` is 4 more where it is rough; `third` the
+/// Alphas and reflectance of a metal, as of `metal_indices`; `variant` is 4 more where it is rough; `third` the
 /// tint.
 fn metal_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     let kind = word(p.plain + 3u);

@@ -69,7 +69,7 @@ fn parallelogram_draw(at: u32, p: vec3f, u: vec2f) -> ParallelogramSeen {
 }
 
 /// Density in 1/sr with which the direction from `p` to the point `q` of the parallelogram at `at` is
-/// drawn.
+/// sampled.
 /// Twin: specula-render/src/light/parallelogram.rs, Parallelogram::pdf.
 fn parallelogram_pdf(at: u32, p: vec3f, q: vec3f) -> f32 {
     let solid_angle = 6.2831855 * parallelogram_spread(at, p).solid_angle;
@@ -85,7 +85,7 @@ fn parallelogram_pdf(at: u32, p: vec3f, q: vec3f) -> f32 {
     return parallelogram_ratio(distance_squared, number(at + 12u) * cosine);
 }
 
-/// A quotient of two numbers that are not negative; 0 where it is not finite.
+/// A quotient of two values that are not negative; 0 where it is not finite.
 fn parallelogram_ratio(a: f32, b: f32) -> f32 {
     if a >= PARALLELOGRAM_MOST * min(b, 1.0) {
         return 0.0;
@@ -121,7 +121,7 @@ fn parallelogram_excess(sine: f32) -> f32 {
     return angles_turns(sine, sqrt(max((1.0 - sine) * (1.0 + sine), 0.0)));
 }
 
-/// Weights of the two edges of a point drawn uniformly by solid angle.
+/// Weights of the two edges of a point sampled uniformly by solid angle.
 /// Twin: specula-render/src/light/parallelogram.rs, Spread::sample.
 fn parallelogram_weights(spread: ParallelogramSpread, u: vec2f, sides: vec2f) -> vec2f {
     let h = spread.h;

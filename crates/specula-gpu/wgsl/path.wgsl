@@ -1,7 +1,7 @@
 // Unidirectional path tracing with next-event estimation, vertex by vertex. Here one thread follows one
 // sample to its end; queue.wgsl takes all paths from one vertex to the next.
 //
-// Twin of specula-render/src/integrator.rs: the same numbers decide the same things, so that a sample
+// Twin of specula-render/src/integrator.rs: the same values decide the same things, so that a sample
 // follows the same path up to rounding. SEED, MAX_DEPTH and STRATEGY are constants of the render.
 
 import tracer::world::{NONE, word, number, offset_leave};
@@ -11,12 +11,12 @@ import tracer::camera::{camera_ray};
 import tracer::film::{film_developed};
 import tracer::ray::{Ray};
 import tracer::surface::{Surface, SHAPE_SIZE};
-import tracer::bodies::{Bodies};
-import tracer::passing::{passing_nearest, passing_shine, passing_cross, passing_place};
-import tracer::passing::{passing_radiance};
+import tracer::medium_stack::{MediumStack};
+import tracer::visibility::{visibility_nearest, visibility_transmittance, visibility_cross, visibility_place};
+import tracer::visibility::{visibility_radiance};
 import tracer::partials::{partials_of};
-import tracer::relief::{Softness, relief_of_material, relief_is_there, relief_bend, relief_softened};
-import tracer::relief::{relief_softness, relief_coat_differs, relief_of_coat};
+import tracer::bump::{Softness, bump_of_material, bump_is_there, bump_bend, bump_softened};
+import tracer::bump::{bump_softness, bump_coat_differs, bump_of_coat};
 import tracer::lights::{Receiver, LightSample, lights_draw, lights_pdf_of_surface};
 import tracer::lights::{lights_arriving_count, lights_arriving, lights_share_from_infinity};
 import tracer::material::{Bound, material_bind, material_eval, material_draw, material_albedo};
@@ -56,8 +56,8 @@ struct PathState {
     // The one that it goes on with.
     ray: Ray,
     // What the path is in.
-    bodies: Bodies,
-    // Where the last direction was drawn, and its density; 0 where lights could not have found it.
+    media: MediumStack,
+    // Where the last direction was sampled, and its density; 0 where lights could not have found it.
     previous: Receiver,
     previous_pdf: f32,
     // PATH_STRAIGHT and PATH_ROUGH.
@@ -69,7 +69,7 @@ struct PathVertex {
     surface: Surface,
     bound: Bound,
     frame: FrameBasis,
-    // How light fades where a relief by Mitsuba's rules bends the normal.
+    // How light fades where a bump map by Mitsuba's rules bends the normal.
     softness: Softness,
     // Geometric normal on the viewer's side.
     facing: vec3f,
@@ -118,7 +118,7 @@ fn path_background(state: PathState, direction: vec3f) -> vec3f {
 
 /// Light that a surface sends out itself.
 fn path_emission(state: PathState, surface: Surface, direction: vec3f) -> vec3f {
-    let radiance = passing_radiance(surface, direction);
+    let radiance = visibility_radiance(surface, direction);
     if all(radiance == vec3f(0.0)) {
         return radiance;
     }
@@ -132,7 +132,7 @@ fn path_emission(state: PathState, surface: Surface, direction: vec3f) -> vec3f 
 
 /// Tangent of a surface, turned as its material asks.
 ///
-/// * `normal`, `tangent`: bent by its relief.
+/// * `normal`, `tangent`: bent by its bump.
 ///
 /// Twin: specula-render/src/integrator.rs, PathTracer::shading.
 fn path_tangent(surface: Surface, bound: Bound, normal: vec3f, tangent: vec3f) -> vec3f {
@@ -164,19 +164,19 @@ fn path_vertex(
     if REGULARIZES != 0u && rough {
         material = word(BEHIND_ROUGH + material);
     }
-    var bound = material_bind(material, passing_place(surface), outside, s, depth);
-    let relief = relief_of_material(bound.material);
-    let bent = relief_bend(relief, surface);
+    var bound = material_bind(material, visibility_place(surface), outside, s, depth);
+    let bump = bump_of_material(bound.material);
+    let bent = bump_bend(bump, surface);
     let tangent = path_tangent(surface, bound, bent.normal, bent.tangent);
     let upright = select(bent.normal, -bent.normal, dot(bent.normal, facing) < 0.0);
     let unbent = select(surface.ns, -surface.ns, dot(surface.ns, facing) < 0.0);
-    let softened = relief_softened(relief, unbent, upright, wo);
+    let softened = bump_softened(bump, unbent, upright, wo);
     let ns = softened.normal;
     let n = select(ns, facing, dot(ns, wo) <= 0.0 && bound.specular);
     let frame = frame_from_normal_tangent(n, tangent);
     let local = frame_to_local(frame, normalize(wo));
-    if bound.kind == KIND_GLTF && relief_coat_differs(bound.material) {
-        let coat = relief_bend(relief_of_coat(bound.material), surface).normal;
+    if bound.kind == KIND_GLTF && bump_coat_differs(bound.material) {
+        let coat = bump_bend(bump_of_coat(bound.material), surface).normal;
         bound.first = frame_to_local(frame, select(coat, -coat, dot(coat, facing) < 0.0));
     }
     return PathVertex(surface, bound, frame, softened.softness, facing, local);
@@ -188,7 +188,7 @@ fn path_receiver(vertex: PathVertex) -> Receiver {
     return Receiver(vertex.surface.position, normal);
 }
 
-/// How many lights are drawn at a vertex.
+/// How many lights are sampled at a vertex.
 ///
 /// Twin: specula-render/src/integrator/candidates.rs, PathTracer::lights_at.
 fn path_lights_at(bound: Bound, depth: u32) -> u32 {
@@ -198,9 +198,9 @@ fn path_lights_at(bound: Bound, depth: u32) -> u32 {
     return select(1u, 2u, two);
 }
 
-/// The numbers of one of several lights.
+/// The values of one of several lights.
 ///
-/// Twin: specula-render/src/integrator/candidates.rs, numbers.
+/// Twin: specula-render/src/integrator/candidates.rs, random_numbers.
 fn path_light_numbers(u: vec4f, which: u32, count: u32) -> vec4f {
     if count == 1u {
         return u;
@@ -214,10 +214,10 @@ fn path_light_numbers(u: vec4f, which: u32, count: u32) -> vec4f {
 /// A light, and what it would bring to the path; black: nothing.
 struct PathLight {
     light: LightSample,
-    brought: vec3f,
+    contribution: vec3f,
 }
 
-/// Draws a light, one of so many.
+/// Samples a light, one of so many.
 ///
 /// Twin: specula-render/src/integrator.rs, PathTracer::consider_light.
 fn path_consider(
@@ -250,9 +250,9 @@ fn path_consider(
     if weight <= 0.0 {
         return found;
     }
-    let fading = relief_softness(vertex.softness, light.wi);
+    let fading = bump_softness(vertex.softness, light.wi);
     found.light = light;
-    found.brought = throughput * f.xyz * (light.radiance * (weight * fading / pdf));
+    found.contribution = throughput * f.xyz * (light.radiance * (weight * fading / pdf));
     return found;
 }
 
@@ -280,12 +280,12 @@ fn path_direct(state: ptr<function, PathState>, vertex: PathVertex, s: Sequence,
     }
     let count = path_lights_at(vertex.bound, depth);
     var kept: PathLight;
-    // What all would bring that have been drawn. Twin: candidates.rs, keeps_second.
+    // What all would bring that have been sampled. Twin: candidates.rs, keeps_second.
     var all_bring = 0.0;
     var kept_brings = 0.0;
     for (var which = 0u; which < count; which += 1u) {
         let found = path_consider((*state).throughput, vertex, s, depth, which, count);
-        let brings = path_mean(found.brought);
+        let brings = path_mean(found.contribution);
         let before = all_bring;
         all_bring += brings;
         let u = sequence_hashed(s, vec3u(depth, 0u, 3u));
@@ -298,14 +298,14 @@ fn path_direct(state: ptr<function, PathState>, vertex: PathVertex, s: Sequence,
         return;
     }
     let light = kept.light;
-    var bodies = (*state).bodies;
+    var media = (*state).media;
     if dot(vertex.frame.n, light.wi) < 0.0 {
-        passing_cross(&bodies, vertex.surface, light.wi);
+        visibility_cross(&media, vertex.surface, light.wi);
     }
     var rays = 0u;
-    let left = passing_shine(vertex.surface, light, bodies, s, depth, &rays);
+    let left = visibility_transmittance(vertex.surface, light, media, s, depth, &rays);
     (*state).rays += rays;
-    path_add(state, kept.brought * (all_bring / kept_brings) * left, depth + 1u);
+    path_add(state, kept.contribution * (all_bring / kept_brings) * left, depth + 1u);
 }
 
 /// Mean of the channels.
@@ -313,7 +313,7 @@ fn path_mean(c: vec3f) -> f32 {
     return (c.x + c.y + c.z) * (1.0 / 3.0);
 }
 
-/// Draws the next direction; returns whether the path goes on, along its ray.
+/// Samples the next direction; returns whether the path goes on, along its ray.
 ///
 /// Twin: specula-render/src/integrator.rs, PathTracer::scatter.
 fn path_scatter(
@@ -323,27 +323,27 @@ fn path_scatter(
     depth: u32,
 ) -> bool {
     let u = sequence_scatter(s, depth);
-    let drawn = material_draw(vertex.bound, vertex.wo, u.xyz, sequence_stream(s, depth, 1u));
-    if drawn.flags == 0u {
+    let sampled = material_draw(vertex.bound, vertex.wo, u.xyz, sequence_stream(s, depth, 1u));
+    if sampled.flags == 0u {
         return false;
     }
-    let direction = normalize(frame_to_world(vertex.frame, drawn.wi));
-    if drawn.wi.z * dot(vertex.facing, direction) <= 0.0 {
+    let direction = normalize(frame_to_world(vertex.frame, sampled.wi));
+    if sampled.wi.z * dot(vertex.facing, direction) <= 0.0 {
         return false;
     }
-    (*state).throughput *= drawn.weight * relief_softness(vertex.softness, direction);
-    (*state).eta_scale *= drawn.eta * drawn.eta;
-    let passes = (drawn.flags & BSDF_SAMPLE_TRANSMISSION) != 0u;
+    (*state).throughput *= sampled.weight * bump_softness(vertex.softness, direction);
+    (*state).eta_scale *= sampled.eta * sampled.eta;
+    let passes = (sampled.flags & BSDF_SAMPLE_TRANSMISSION) != 0u;
     if !(passes && vertex.bound.kind == KIND_THIN_PANE) {
         (*state).flags &= PATH_ROUGH;
     }
-    if (drawn.flags & BSDF_SAMPLE_SPECULAR) == 0u {
+    if (sampled.flags & BSDF_SAMPLE_SPECULAR) == 0u {
         (*state).flags |= PATH_ROUGH;
     }
     if passes {
-        var bodies = (*state).bodies;
-        passing_cross(&bodies, vertex.surface, direction);
-        (*state).bodies = bodies;
+        var media = (*state).media;
+        visibility_cross(&media, vertex.surface, direction);
+        (*state).media = media;
     }
     let t = (*state).throughput;
     let largest = max(t.x, max(t.y, t.z)) * (*state).eta_scale;
@@ -358,7 +358,7 @@ fn path_scatter(
         (*state).throughput *= 1.0 / probability;
     }
     let lights = f32(path_lights_at(vertex.bound, depth));
-    (*state).previous_pdf = select(drawn.pdf / lights, 0.0, (drawn.flags & BSDF_SAMPLE_SPECULAR) != 0u);
+    (*state).previous_pdf = select(sampled.pdf / lights, 0.0, (sampled.flags & BSDF_SAMPLE_SPECULAR) != 0u);
     (*state).previous = path_receiver(vertex);
     let surface = vertex.surface;
     let origin = offset_leave(surface.position, surface.error, surface.ng, direction);
@@ -373,7 +373,7 @@ fn path_is_wanted(slot: u32) -> bool {
     return run < wave.y && slot % wave.x < path_wanted[run + 1u].w;
 }
 
-/// The numbers of a sample.
+/// The values of a sample.
 fn path_sequence(slot: u32) -> Sequence {
     let places = path_wanted[0].x;
     let run = path_wanted[slot / places + 1u];
@@ -409,9 +409,9 @@ fn path_shows(slot: u32, vertex: PathVertex, distance: f32) {
 fn path_step(slot: u32, state: ptr<function, PathState>, s: Sequence, depth: u32) -> bool {
     let begin = (*state).ray.origin;
     var ray = (*state).ray;
-    var bodies = (*state).bodies;
-    let met = passing_nearest(&ray, &bodies, s, depth);
-    (*state).bodies = bodies;
+    var media = (*state).media;
+    let met = visibility_nearest(&ray, &media, s, depth);
+    (*state).media = media;
     (*state).rays += met.rays;
     (*state).throughput *= met.left;
     if !met.found {
@@ -439,7 +439,7 @@ fn path_step(slot: u32, state: ptr<function, PathState>, s: Sequence, depth: u32
     return path_scatter(state, vertex, s, depth);
 }
 
-/// Notes what a path has brought.
+/// Notes what a path has contributed.
 fn path_end(slot: u32, state: PathState) {
     let weight = path_found[3u * slot + 2u].w;
     let value = film_developed(state.radiance) * weight;

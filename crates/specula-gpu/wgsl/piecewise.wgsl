@@ -37,7 +37,7 @@ fn piecewise_invert(cdf: u32, count: u32, u: f32) -> PiecewiseCell {
     return PiecewiseCell(cell, 0.5);
 }
 
-/// A point drawn by the shares of a grid of `cells` x `cells`.
+/// A point sampled by the shares of a grid of `cells` x `cells`.
 ///
 /// * `rows`, `columns`: places of the cumulated shares.
 /// * `u`: uniform in `[0, 1)^2`.
@@ -50,7 +50,7 @@ fn piecewise_draw(rows: u32, columns: u32, cells: u32, u: vec2f) -> vec2f {
     return at / f32(cells);
 }
 
-/// Density per area of the square with which `piecewise_draw` draws a point.
+/// Density per area of the square with which `piecewise_draw` samples a point.
 ///
 /// Twin: specula-render/src/light/piecewise.rs, Piecewise::density.
 fn piecewise_density(rows: u32, columns: u32, cells: u32, uv: vec2f) -> f32 {

@@ -1,10 +1,10 @@
-// Sample sequences: Owen-scrambled Sobol, one per pixel and set (Burley 2020), and hashed numbers.
+// Sample sequences: Owen-scrambled Sobol, one per pixel and set (Burley 2020), and hashed values.
 //
-// Twin of specula-render/src/sampler.rs, bit for bit; its table of numbers holds here too.
+// Twin of specula-render/src/sampler.rs, bit for bit; its table of values holds here too.
 
 import tracer::world::{word};
 
-/// The numbers of one sample of one pixel.
+/// The values of one sample of one pixel.
 struct Sequence {
     index: u32,
     seed: u32,
@@ -22,7 +22,7 @@ fn sequence_hash(bits: u32) -> u32 {
     return x ^ (x >> 16u);
 }
 
-/// The numbers of sample `number` of a pixel.
+/// The values of sample `number` of a pixel.
 ///
 /// Twin: specula-render/src/sampler.rs, Sampler::new.
 fn sequence_of(pixel: vec2u, number: u32, seed: u32) -> Sequence {
@@ -64,7 +64,7 @@ fn sequence_turned(rest: u32) -> u32 {
     return bits;
 }
 
-/// Four numbers in `[0, 1)`.
+/// Four values in `[0, 1)`.
 ///
 /// Twin: specula-render/src/sampler.rs, Sampler::set.
 fn sequence_set(s: Sequence, purpose: u32) -> vec4f {
@@ -100,7 +100,7 @@ fn sequence_camera(s: Sequence) -> vec4f {
     return sequence_set(s, 0u);
 }
 
-/// Three numbers for the lobe, one for Russian roulette.
+/// Three values for the lobe, one for Russian roulette.
 fn sequence_scatter(s: Sequence, depth: u32) -> vec4f {
     return sequence_set(s, 1u + 2u * depth);
 }

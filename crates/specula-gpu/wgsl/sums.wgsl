@@ -1,6 +1,6 @@
 // Adds the samples of each run, exactly: one thread a run.
 //
-// Every value is a whole number of units, and whole numbers are added in words: nothing depends on the
+// Every value is a whole number of units, and integers are added in words: nothing depends on the
 // order, on how runs are cut, or on what a compiler does with f32. Of the values that the
 // largest of the run exceeds by 2^96 and more, and of squares that it exceeds by 2^72, bits below the unit are left
 // out; a film's sums end before these.
@@ -70,7 +70,7 @@ fn sums_up(x: vec2u, places: u32) -> vec4u {
     }
 }
 
-/// The sum of two whole numbers of 128 bits, the lowest word first.
+/// The sum of two integers of 128 bits, the lowest word first.
 fn sums_plus(a: vec4u, b: vec4u) -> vec4u {
     var sum = a + b;
     // A word that a carry overflows is 0 afterwards, and did not overflow before.

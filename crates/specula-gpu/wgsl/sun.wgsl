@@ -7,12 +7,12 @@
 import tracer::angles::{angles_sin_cos_turns};
 import tracer::world::{number, vector};
 
-/// Density in 1/sr with which `sun_draw` draws a direction of the sun at `at`.
+/// Density in 1/sr with which `sun_draw` samples a direction of the sun at `at`.
 fn sun_density(at: u32) -> f32 {
     return 0.15915494 / number(at + 12u);
 }
 
-/// Radiance from the direction `wi` (unit), and the density in 1/sr with which `sun_draw` draws it.
+/// Radiance from the direction `wi` (unit), and the density in 1/sr with which `sun_draw` samples it.
 ///
 /// By the chord, `|wi - axis|^2 = 2 (1 - cos)`, which keeps the digits that the cosine of a small angle
 /// lacks.

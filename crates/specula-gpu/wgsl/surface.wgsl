@@ -61,7 +61,7 @@ const SHAPE_SIZE: u32 = 10u;
 /// Words of a quadric.
 const QUADRIC_SIZE: u32 = 40u;
 
-/// A pair of numbers.
+/// A pair of values.
 fn surface_pair(at: u32) -> vec2f {
     return vec2f(number(at), number(at + 1u));
 }

@@ -8,11 +8,11 @@
 import tracer::texture_mapping::{texture_mapping_at};
 import tracer::texture_noise::{texture_noise_fbm, texture_noise_turbulence, texture_noise_windy};
 import tracer::texture_noise::{texture_noise_marble, texture_noise_in_dot};
-import tracer::texture_place::{Place};
+import tracer::texture_coordinates::{TextureCoordinates};
 import tracer::texture_raster::{texture_raster_at};
 import tracer::world::{NONE, word, number, vector, affine_point};
 
-// Kinds of nodes, as `Node::kind` in specula-render/src/texture/flat.rs numbers them: first those
+// Kinds of nodes, as `Node::kind` in specula-render/src/texture/flat.rs values them: first those
 // without inputs (a vertex's colour is 4), then those that show one of two (5 to 7, a checkerboard
 // 5), then those that wait for their inputs.
 
@@ -43,7 +43,7 @@ const TEXTURE_DIRECTION_MIX: u32 = 12u;
 
 /// A node that waits for the value of an input.
 struct TextureWaiting {
-    /// Place of the node.
+    /// Offset of the node.
     at: u32,
     /// Which input comes next: `TEXTURE_AMOUNT`, `TEXTURE_FIRST` or `TEXTURE_SECOND`.
     stage: u32,
@@ -63,7 +63,7 @@ const TEXTURE_SECOND: u32 = 2u;
 /// A colour parameter of 4 words: a texture's number, or NONE and the value.
 ///
 /// Twin: specula-render/src/texture/mod.rs, Textures::colour.
-fn parameter_colour(at: u32, place: Place) -> vec3f {
+fn parameter_colour(at: u32, place: TextureCoordinates) -> vec3f {
     if TEXTURE_COUNT == 0u || word(at) == NONE {
         return vector(at + 1u);
     }
@@ -73,7 +73,7 @@ fn parameter_colour(at: u32, place: Place) -> vec3f {
 /// A number parameter of 2 words: a texture's number, or NONE and the value.
 ///
 /// Twin: specula-render/src/texture/mod.rs, Textures::float.
-fn parameter_float(at: u32, place: Place) -> f32 {
+fn parameter_float(at: u32, place: TextureCoordinates) -> f32 {
     if TEXTURE_COUNT == 0u || word(at) == NONE {
         return number(at + 1u);
     }
@@ -83,7 +83,7 @@ fn parameter_float(at: u32, place: Place) -> f32 {
 /// The colour of a texture; 0 where it is no number.
 ///
 /// Twin: specula-render/src/texture/mod.rs, Textures::colour.
-fn texture_colour(id: u32, place: Place) -> vec3f {
+fn texture_colour(id: u32, place: TextureCoordinates) -> vec3f {
     if TEXTURE_COUNT == 0u {
         return vec3f(0.0);
     }
@@ -98,11 +98,11 @@ fn texture_colour(id: u32, place: Place) -> vec3f {
 /// The number that a texture gives; 0 where it is none.
 ///
 /// Twin: specula-render/src/texture/mod.rs, Textures::float.
-fn texture_float(id: u32, place: Place) -> f32 {
+fn texture_float(id: u32, place: TextureCoordinates) -> f32 {
     return texture_colour(id, place).x;
 }
 
-/// The number, or 0 where its bits are none: comparisons may be compiled as if all numbers were finite.
+/// The number, or 0 where its bits are none: comparisons may be compiled as if all values were finite.
 ///
 /// Twin: specula-render/src/texture/mod.rs, finite.
 fn texture_graph_finite(v: f32) -> f32 {
@@ -112,7 +112,7 @@ fn texture_graph_finite(v: f32) -> f32 {
 /// The value of the node whose record begins at `root`.
 ///
 /// Twin: specula-render/src/texture/graph.rs, Textures::node.
-fn texture_graph_value(root: u32, place: Place) -> vec3f {
+fn texture_graph_value(root: u32, place: TextureCoordinates) -> vec3f {
     if TEXTURE_HAS_INPUTS == 0u {
         return texture_graph_leaf(root, place);
     }
@@ -165,7 +165,7 @@ fn texture_graph_value(root: u32, place: Place) -> vec3f {
 }
 
 /// A node that waits for its inputs, none of which has been evaluated.
-fn texture_graph_begun(at: u32, place: Place) -> TextureWaiting {
+fn texture_graph_begun(at: u32, place: TextureCoordinates) -> TextureWaiting {
     let kind = word(at);
     if kind == TEXTURE_MIX {
         if word(at + 3u) != NONE {
@@ -183,7 +183,7 @@ fn texture_graph_begun(at: u32, place: Place) -> TextureWaiting {
     return TextureWaiting(at, TEXTURE_FIRST, amount, vec3f(0.0));
 }
 
-/// Place of the input that a waiting node needs next.
+/// Offset of the input that a waiting node needs next.
 fn texture_graph_next(node: TextureWaiting) -> u32 {
     if node.stage == TEXTURE_AMOUNT {
         return word(node.at + 3u);
@@ -210,7 +210,7 @@ fn texture_graph_done(node: TextureWaiting, last: vec3f) -> vec3f {
 }
 
 /// Whether a node that shows one of two shows the first.
-fn texture_graph_shows_first(at: u32, place: Place) -> bool {
+fn texture_graph_shows_first(at: u32, place: TextureCoordinates) -> bool {
     let kind = word(at);
     if kind == TEXTURE_CHECKERBOARD_SOLID {
         return texture_graph_is_even(affine_point(at + 3u, place.position));
@@ -223,7 +223,7 @@ fn texture_graph_shows_first(at: u32, place: Place) -> bool {
 }
 
 /// The value of a node without inputs.
-fn texture_graph_leaf(at: u32, place: Place) -> vec3f {
+fn texture_graph_leaf(at: u32, place: TextureCoordinates) -> vec3f {
     switch word(at) {
         case TEXTURE_CONSTANT: {
             return vector(at + 1u);
@@ -253,8 +253,8 @@ fn texture_graph_leaf(at: u32, place: Place) -> vec3f {
 
 /// The value of a node of noise.
 ///
-/// * `at`: the kind of noise, behind which its numbers are.
-fn texture_graph_noise(at: u32, place: Place) -> vec3f {
+/// * `at`: the kind of noise, behind which its values are.
+fn texture_graph_noise(at: u32, place: TextureCoordinates) -> vec3f {
     let p = affine_point(at + 5u, place.position);
     let octaves = word(at + 1u);
     let roughness = number(at + 2u);
@@ -279,7 +279,7 @@ fn texture_graph_noise(at: u32, place: Place) -> vec3f {
 /// * `at`: the picture's place within its node.
 ///
 /// Twin: specula-render/src/texture/graph.rs, Textures::picture.
-fn texture_graph_picture(at: u32, place: Place) -> vec3f {
+fn texture_graph_picture(at: u32, place: TextureCoordinates) -> vec3f {
     let wrap = vec2u(word(at + 4u), word(at + 5u));
     let coordinates = texture_mapping_at(at + 7u, place);
     var c = texture_raster_at(word(at), coordinates, wrap, word(at + 6u) != 0u);
@@ -309,7 +309,7 @@ fn texture_graph_picture(at: u32, place: Place) -> vec3f {
 
 /// Whether the floors of the coordinates have an even sum.
 ///
-/// Twin: specula-render/src/texture/graph.rs, is_even; beyond 2^30 all numbers are even.
+/// Twin: specula-render/src/texture/graph.rs, is_even; beyond 2^30 all values are even.
 fn texture_graph_is_even(coordinates: vec3f) -> bool {
     let farthest = vec3f(1073741824.0);
     let cell = vec3i(clamp(floor(coordinates), -farthest, farthest));

@@ -3,7 +3,7 @@
 // Twin of specula-render/src/texture/mapping.rs.
 
 import tracer::angles::{angles_turns};
-import tracer::texture_place::{Place};
+import tracer::texture_coordinates::{TextureCoordinates};
 import tracer::world::{word, number, vector, affine_point};
 
 // Kinds of mappings, as `Mapping::flatten` writes them: 0 from the surface coordinates; cylindrical is
@@ -18,11 +18,11 @@ const TEXTURE_MAPPING_SPHERICAL: u32 = 3u;
 
 /// `(s, t)`, with its origin at the lower left of pictures.
 ///
-/// * `at`: the mapping's kind, behind which its numbers are.
+/// * `at`: the mapping's kind, behind which its values are.
 ///
 /// Twin: specula-render/src/texture/mapping.rs, Mapping::at. Departure: angles by `angles_turns`,
 /// within 1e-7 of a turn; the CPU's are those of its `atan2`.
-fn texture_mapping_at(at: u32, place: Place) -> vec2f {
+fn texture_mapping_at(at: u32, place: TextureCoordinates) -> vec2f {
     let kind = word(at);
     let first = at + 1u;
     if kind <= TEXTURE_MAPPING_SECOND_UV {

@@ -15,7 +15,7 @@ const TEXTURE_RASTER_CLAMP: u32 = 2u;
 /// They repeat, every other copy mirrored.
 const TEXTURE_RASTER_MIRROR: u32 = 3u;
 
-/// Pixel numbers stay within this: conversions of larger numbers differ between devices.
+/// Pixel values stay within this: conversions of larger values differ between devices.
 const TEXTURE_RASTER_FARTHEST: f32 = 1073741824.0;
 
 /// The value at `(s, t)`; t = 0 is the lower edge of the picture.
@@ -47,7 +47,7 @@ fn texture_raster_at(at: u32, coordinates: vec2f, wrap: vec2u, nearest: bool) ->
     return sum;
 }
 
-/// Numbers of the pixel around a point.
+/// Values of the pixel around a point.
 ///
 /// Twin: specula-render/src/convert.rs, floor_i32; far outside it saturates earlier.
 fn texture_raster_floor(place: vec2f) -> vec2i {
@@ -77,7 +77,7 @@ fn texture_raster_pixel(at: u32, size: vec2i, pixel: vec2i, wrap: vec2u) -> vec3
     );
 }
 
-/// Coordinates that repeat are reduced first: pixel numbers stay small and exact.
+/// Coordinates that repeat are reduced first: pixel values stay small and exact.
 ///
 /// Twin: specula-render/src/texture/raster.rs, reduced.
 fn texture_raster_reduced(s: f32, wrap: u32) -> f32 {

@@ -1,7 +1,7 @@
 // Shapes whose emission varies over them, by textures or by opacity.
 //
 // Words of one: instance, primitive, whether the area's second and third corner are the primitive's third
-// and second, cells along the sides of the table by which points are drawn (0: uniformly), the table's
+// and second, cells along the sides of the table by which points are sampled (0: uniformly), the table's
 // rows and columns (piecewise.wgsl), the shape (area.wgsl). Radiance and opacity are those of the
 // surface's shape.
 //
@@ -12,10 +12,10 @@ import tracer::piecewise::{piecewise_density, piecewise_draw};
 import tracer::ray::{Hit, Ray};
 import tracer::surface::{Surface, surface_at, SHAPE_SIZE};
 import tracer::texture_graph::{parameter_colour, parameter_float};
-import tracer::texture_place::{Place};
+import tracer::texture_coordinates::{TextureCoordinates};
 import tracer::world::{word};
 
-/// Place of the shape.
+/// Offset of the shape.
 const TEXTURED_AREA: u32 = 6u;
 
 /// A point of a light, and the radiance that it sends to either side.
@@ -39,20 +39,20 @@ fn textured_draw(at: u32, p: vec3f, u: vec2f) -> TexturedSample {
         uv = piecewise_draw(word(at + 4u), word(at + 5u), cells, u);
         density = piecewise_density(word(at + 4u), word(at + 5u), cells, uv);
     }
-    var drawn = TexturedSample(area_draw(at + TEXTURED_AREA, p, uv), vec3f(0.0));
-    drawn.area.pdf *= density;
+    var sampled = TexturedSample(area_draw(at + TEXTURED_AREA, p, uv), vec3f(0.0));
+    sampled.area.pdf *= density;
     let weights = textured_swapped(at, area_triangle(uv));
     // Quadrics project the ray's end, triangles take the weights.
-    let ray = Ray(drawn.area.position, vec3f(0.0), 0.0);
+    let ray = Ray(sampled.area.position, vec3f(0.0), 0.0);
     let hit = Hit(0.0, weights.x, weights.y, word(at + 1u), word(at));
-    drawn.radiance = textured_radiance(surface_at(ray, hit));
-    if all(drawn.radiance == vec3f(0.0)) {
-        drawn.area.pdf = 0.0;
+    sampled.radiance = textured_radiance(surface_at(ray, hit));
+    if all(sampled.radiance == vec3f(0.0)) {
+        sampled.area.pdf = 0.0;
     }
-    return drawn;
+    return sampled;
 }
 
-/// Density in 1/sr with which `textured_draw` draws the direction from `p` to the point `position` of the
+/// Density in 1/sr with which `textured_draw` samples the direction from `p` to the point `position` of the
 /// light at `at`.
 ///
 /// * `normal`: of the surface there.
@@ -74,7 +74,7 @@ fn textured_pdf(at: u32, p: vec3f, position: vec3f, normal: vec3f, weights: vec2
 /// Twin: specula-render/src/light/textured.rs, Varying::radiance.
 fn textured_radiance(s: Surface) -> vec3f {
     let shape = SHAPES + s.shape * SHAPE_SIZE;
-    let place = Place(s.uv, s.second_uv, s.position, s.ng, s.colour);
+    let place = TextureCoordinates(s.uv, s.second_uv, s.position, s.ng, s.colour);
     let radiance = max(parameter_colour(shape + 3u, place), vec3f(0.0));
     return radiance * clamp(parameter_float(shape + 7u, place), 0.0, 1.0);
 }

@@ -31,7 +31,7 @@ fn number(at: u32) -> f32 {
     return bitcast<f32>(world_words[at]);
 }
 
-/// Three numbers from a place on.
+/// Three values from a place on.
 fn vector(at: u32) -> vec3f {
     return vec3f(number(at), number(at + 1u), number(at + 2u));
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Lab, Result};
 
-/// One table or figure of a paper, or of ours.
+/// One table or figure of a paper, or of Specula's.
 #[derive(Clone, Copy, Debug)]
 pub struct Experiment {
     /// What the command line calls it: source and item, such as `tokuyoshi24-fig7`. Also the name of
@@ -177,9 +177,9 @@ pub struct Claim {
     pub statement: String,
     /// The source's figure, or what it says in words.
     pub stated: String,
-    /// Ours.
+    /// StratifiedBidirectional.
     pub measured: String,
-    /// Whether ours says the same.
+    /// Whether Specula's says the same.
     pub holds: Answer,
     /// Whether that may be relied upon.
     pub kind: Kind,

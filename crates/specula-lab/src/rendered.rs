@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 use specula_render::picture::{Picture, compare};
-use specula_render::{PreparedScene, RenderOptions, Renderer, Scattered};
+use specula_render::{PreparedScene, RenderOptions, Renderer, ScatterCounts};
 use specula_scene::Scene;
 
 use crate::{LabError, Result};
@@ -22,8 +22,8 @@ pub struct Rendered {
     pub seconds: f64,
     /// Rays that were traced.
     pub rays: u64,
-    /// Directions drawn from lobes, and those of them that were rejected.
-    pub scattered: Scattered,
+    /// Directions sampled from lobes, and those of them that were rejected.
+    pub scattered: ScatterCounts,
 }
 
 /// Renders a scene with all threads.

@@ -136,7 +136,7 @@ pub(crate) fn carry_out(
     Ok(record)
 }
 
-/// Removes a folder of ours, where it is there.
+/// Removes a folder of Specula's, where it is there.
 fn remove(folder: &Path) -> Result<()> {
     match fs::remove_dir_all(folder) {
         Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(LabError::io(folder)(e)),

@@ -1,4 +1,4 @@
-//! Rays per second, one thread: ours (AVX2 and portable) beside obvhs's own traversals.
+//! Rays per second, one thread: Specula's (AVX2 and portable) beside obvhs's own traversals.
 //!
 //! `cargo bench -p specula-render --bench rays`. Medians of alternating runs; about 30 s.
 #![allow(clippy::print_stdout, reason = "a bench reports on standard output")]
@@ -23,9 +23,9 @@ const RUNS: usize = 5;
 fn main() {
     let mesh = Mesh::scene();
     let start = Instant::now();
-    let ours = mesh.accel();
+    let specula = mesh.accel();
     let built = start.elapsed();
-    let stats = ours.stats();
+    let stats = specula.stats();
     println!(
         "{} triangles; built in {:.2} s; {} nodes, {} packets, depth {}, {:.0} bytes per triangle",
         stats.triangles,
@@ -36,18 +36,18 @@ fn main() {
         f64::from(u32::try_from(stats.bytes).unwrap_or(u32::MAX))
             / f64::from(u32::try_from(stats.triangles).unwrap_or(u32::MAX)),
     );
-    let rays = RaySets::new(&ours);
-    let portable = ours.clone().portable();
+    let rays = RaySets::new(&specula);
+    let portable = specula.clone().portable();
     let (bvh2, bvh2_triangles) = mesh.bvh2();
     let (cwbvh, cwbvh_triangles) = mesh.cwbvh();
     let tracers: Vec<Tracer<'_>> = vec![
         Tracer {
-            name: "ours, AVX2 where there is",
-            closest: Box::new(|rays| count(rays, |ray| ours.intersect(ray).is_some())),
-            any: Box::new(|rays| count(rays, |ray| ours.occluded(ray))),
+            name: "specula, AVX2 where there is",
+            closest: Box::new(|rays| count(rays, |ray| specula.intersect(ray).is_some())),
+            any: Box::new(|rays| count(rays, |ray| specula.occluded(ray))),
         },
         Tracer {
-            name: "ours, portable",
+            name: "specula, portable",
             closest: Box::new(|rays| count(rays, |ray| portable.intersect(ray).is_some())),
             any: Box::new(|rays| count(rays, |ray| portable.occluded(ray))),
         },
@@ -129,7 +129,7 @@ pub(crate) fn report(tracers: &[Tracer<'_>], rays: &RaySets) {
         print!("{:28}", tracer.name);
         for (k, hits) in hits[t].iter().enumerate() {
             let ratio = speed(0, k) / speed(t, k);
-            print!("{:8.2} (ours x {ratio:4.2}, {hits:6})", speed(t, k));
+            print!("{:8.2} (specula x {ratio:4.2}, {hits:6})", speed(t, k));
         }
         println!();
     }

@@ -38,14 +38,14 @@ fn main() -> Outcome<()> {
     );
     println!("  scene                     sampler     RMSE rays/path ns/path samples  rays  time");
     for (width_x, width_y) in [(0.1, 0.8), (0.3, 0.3), (0.6, 0.6)] {
-        let widths = format!("({width_x}, {width_y})");
+        let alphas = format!("({width_x}, {width_y})");
         let mut scene = ball(width_x, width_y);
         sky(&mut scene);
-        compare(&format!("ball {widths}, sky"), &scene)?;
+        compare(&format!("ball {alphas}, sky"), &scene)?;
         let mut scene = ball(width_x, width_y);
         studio(&mut scene);
-        compare(&format!("ball {widths}, studio"), &scene)?;
-        compare(&format!("hall {widths}, lamp"), &hall(width_x, width_y))?;
+        compare(&format!("ball {alphas}, studio"), &scene)?;
+        compare(&format!("hall {alphas}, lamp"), &hall(width_x, width_y))?;
     }
     Ok(())
 }

@@ -98,7 +98,7 @@ impl Camera {
 }
 
 impl Camera {
-    /// [`Camera::ray`] for many points, as many as numbers for the lens.
+    /// [`Camera::ray`] for many points, as many as random random_numbers for the lens.
     ///
     /// * `keep`: takes each ray with the point's index.
     pub(crate) fn rays(
@@ -144,9 +144,9 @@ impl Camera {
         words.constant("CAMERA_VIEW", view);
         words.begin("CAMERA");
         words.affine(&self.to_world);
-        words.numbers(self.origin);
-        words.numbers(self.step);
-        words.numbers([self.lens_radius, self.focal_distance]);
+        words.floats(self.origin);
+        words.floats(self.step);
+        words.floats([self.lens_radius, self.focal_distance]);
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::film::{LONGEST_RUN, RunSums};
-use crate::integrator::{Block, PathTracer};
+use crate::integrator::{PathTracer, Wavefront};
 use crate::renderer::{Done, InvalidSample, PassReport, Renderer};
 use crate::sampler::Sampler;
 
@@ -127,7 +127,7 @@ impl Renderer<'_> {
         wanted
     }
 
-    /// Adds what a device brought.
+    /// Adds what a device contributed.
     fn add(&mut self, wanted: &[Wanted], sums: &[RunSums]) -> Done {
         let (mut done, mut invalid) = (Done::default(), None);
         let mut sums = sums.iter();
@@ -152,7 +152,7 @@ impl Renderer<'_> {
     fn invalid(&self, pixel: [u32; 2], number: u32) -> InvalidSample {
         let tracer = PathTracer::new(self.scene, &self.options);
         let sampler = Sampler::new(pixel, number, self.options.seed);
-        let material = tracer.blame(&mut Block::new(), pixel, sampler);
+        let material = tracer.blame(&mut Wavefront::new(), pixel, sampler);
         InvalidSample {
             pixel,
             number,

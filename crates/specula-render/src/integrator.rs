@@ -13,36 +13,36 @@
 //! leak. A view below the shading horizon is left to the lobes, which know it; only perfect mirrors
 //! and panes, which have no answer there, take the geometric normal instead.
 //!
-//! Bodies absorb between the surface where a path enters them and the one where it leaves
-//! (`bodies`); a path begins in none.
+//! MediumStack absorb between the surface where a path enters them and the one where it leaves
+//! (`media`); a path begins in none.
 
 pub(crate) mod bias;
-mod block;
 mod candidates;
-mod lanes;
 pub(crate) mod lobes;
-mod passing;
-mod paths;
+mod path_states;
+mod shade;
 mod sharing;
-mod vertices;
+mod vertex_batch;
+mod visibility;
+mod wavefront;
 
-pub(crate) use block::Block;
+pub(crate) use wavefront::Wavefront;
 
 use specula_bsdf::bsdf::{Event, Lobe};
 use specula_bsdf::{Bsdf, BsdfSample, Frame, Rgb, Transport, Vec3};
-use specula_scene::scene::{ColourParam, ReliefRules};
+use specula_scene::scene::{BumpRules, ColourParam};
 
 use crate::accel::Ray;
-use crate::bodies::Bodies;
+use crate::bump::{self, Softness};
 use crate::film::PixelSample;
 use crate::geometry::{NONE, Surface};
 use crate::light::{LightSample, Receiver};
 use crate::material::{Coat, Material};
+use crate::medium_stack::MediumStack;
 use crate::offset::leave;
 use crate::options::{RenderOptions, Strategy};
 use crate::prepared::PreparedScene;
-use crate::relief::{self, Softness};
-use crate::renderer::Scattered;
+use crate::renderer::ScatterCounts;
 use crate::sampler::Sampler;
 
 /// Vertices before roulette begins.
@@ -74,7 +74,7 @@ pub(crate) struct PathTracer<'a> {
     bound: f32,
 }
 
-/// Where the last direction was drawn, if lights could have found it too.
+/// Where the last direction was sampled, if lights could have found it too.
 #[derive(Clone, Copy)]
 struct Previous {
     receiver: Receiver,
@@ -88,7 +88,7 @@ struct Vertex {
     /// Whether the lobe is black where `wi.z <= 0`.
     opaque: bool,
     frame: Frame<f32>,
-    /// How light fades where a relief by Mitsuba's rules bends the normal.
+    /// How light fades where a bump map by Mitsuba's rules bends the normal.
     softness: Option<Softness>,
     /// Geometric normal on the viewer's side.
     facing: Vec3<f32>,
@@ -113,7 +113,7 @@ struct State {
     /// Product of the squared relative indices so far.
     eta_scale: f32,
     /// What the path is in.
-    bodies: Bodies,
+    media: MediumStack,
     /// Whether the path has only passed through thin panes: lights that are hidden stay so.
     straight: bool,
     /// Whether it was scattered by a lobe that is not perfectly smooth.
@@ -136,7 +136,7 @@ impl State {
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Tally {
     pub(crate) rays: u64,
-    pub(crate) scattered: Scattered,
+    pub(crate) scattered: ScatterCounts,
 }
 
 impl Tally {
@@ -172,10 +172,10 @@ impl<'a> PathTracer<'a> {
         }
     }
 
-    /// What a path of a block that has ended brings to its pixel, and the weight of its sample.
+    /// What a path of a wavefront that has ended brings to its pixel, and the weight of its sample.
     #[inline(always)]
-    pub(crate) fn brought(&self, block: &Block, path: usize) -> (PixelSample, f32) {
-        let (seen, weight) = block.seen(path);
+    pub(crate) fn contribution(&self, wavefront: &Wavefront, path: usize) -> (PixelSample, f32) {
+        let (seen, weight) = wavefront.seen(path);
         let colour = self.scene.develop.of(seen.colour);
         (PixelSample { colour, ..seen }, weight)
     }
@@ -194,12 +194,12 @@ impl<'a> PathTracer<'a> {
     #[cold]
     pub(crate) fn blame(
         &self,
-        block: &mut Block,
+        wavefront: &mut Wavefront,
         pixel: [u32; 2],
         sampler: Sampler,
     ) -> Option<u32> {
-        self.begin(block, std::iter::once((pixel, sampler)));
-        let mut path = block.first();
+        self.begin(wavefront, std::iter::once((pixel, sampler)));
+        let mut path = wavefront.first();
         let mut depth = 0;
         loop {
             let found = self.nearest(&path.ray, &path.sampler, depth, &mut path.state);
@@ -271,7 +271,7 @@ impl<'a> PathTracer<'a> {
 
     /// Light from infinity on a ray that meets nothing.
     ///
-    /// * `previous`: where it was drawn, if lights could have found it too.
+    /// * `previous`: where it was sampled, if lights could have found it too.
     #[inline]
     fn background(&self, previous: Option<Previous>, direction: Vec3<f32>) -> Rgb<f32> {
         let lights = &self.scene.lights;
@@ -296,8 +296,8 @@ impl<'a> PathTracer<'a> {
         direction: Vec3<f32>,
     ) -> Rgb<f32> {
         let shape = &self.scene.geometry.shapes[surface.shape as usize];
-        let shines = shape.two_sided || surface.ng.dot(direction) < 0.0;
-        if surface.light == NONE || !shines {
+        let emits = shape.two_sided || surface.ng.dot(direction) < 0.0;
+        if surface.light == NONE || !emits {
             return Rgb::BLACK;
         }
         let weight = self.lobe_weight(previous, |receiver| {
@@ -368,8 +368,8 @@ impl<'a> PathTracer<'a> {
             tangent
         };
         let ns = if ns.dot(facing) < 0.0 { -ns } else { ns };
-        let (ns, softness) = match material.relief_rules {
-            ReliefRules::Mitsuba { fades } if material.relief.is_some() => {
+        let (ns, softness) = match material.bump_rules {
+            BumpRules::Mitsuba { fades } if material.bump.is_some() => {
                 let unbent = surface.ns;
                 let sign = if unbent.dot(facing) < 0.0 { -1.0 } else { 1.0 };
                 Softness::new(unbent * sign, ns, wo, fades)
@@ -400,13 +400,13 @@ impl<'a> PathTracer<'a> {
     /// Shading normal and tangent, bent and turned as the material asks.
     #[inline]
     fn shading(&self, surface: &Surface, material: &Material) -> (Vec3<f32>, Vec3<f32>) {
-        let (ns, tangent) = match &material.relief {
+        let (ns, tangent) = match &material.bump {
             None => (surface.ns, surface.tangent),
             Some(r) => {
                 let PreparedScene {
                     textures, geometry, ..
                 } = self.scene;
-                relief::bend(r, material.relief_rules, textures, geometry, surface)
+                bump::bend(r, material.bump_rules, textures, geometry, surface)
             }
         };
         let rotation_rad = material.rotation_rad(&self.scene.textures, || surface.place());
@@ -430,8 +430,8 @@ impl<'a> PathTracer<'a> {
         let normal = match &coat.0 {
             None => surface.ns,
             Some(r) => {
-                let rules = ReliefRules::Plain;
-                relief::bend(r, rules, &scene.textures, &scene.geometry, surface).0
+                let rules = BumpRules::Plain;
+                bump::bend(r, rules, &scene.textures, &scene.geometry, surface).0
             }
         };
         let side = if normal.dot(facing) < 0.0 { -1.0 } else { 1.0 };
@@ -452,26 +452,26 @@ impl<'a> PathTracer<'a> {
         } else {
             candidates::keep_one([first, consider(1)], || candidates::choice(sampler, depth))
         };
-        let Some((light, brought)) = kept else {
+        let Some((light, contribution)) = kept else {
             return;
         };
         let mut beyond;
-        let bodies = if vertex.frame.n.dot(light.wi) < 0.0 {
-            beyond = state.bodies;
+        let media = if vertex.frame.n.dot(light.wi) < 0.0 {
+            beyond = state.media;
             self.cross(&mut beyond, &vertex.surface, light.wi);
             &beyond
         } else {
-            &state.bodies
+            &state.media
         };
         let s = &vertex.surface;
         let place = (s.position, s.error, s.ng);
-        let left = self.shine(place, &light, bodies, sampler, depth, &mut state.tally.rays);
+        let left = self.transmittance(place, &light, media, sampler, depth, &mut state.tally.rays);
         if let Some(left) = left {
-            state.add(brought * left, depth + 1);
+            state.add(contribution * left, depth + 1);
         }
     }
 
-    /// Draws a light, and says what it would bring to the path; `None`: nothing.
+    /// Samples a light, and says what it would bring to the path; `None`: nothing.
     ///
     /// * `which`, `count`: of how many.
     #[inline]
@@ -486,7 +486,7 @@ impl<'a> PathTracer<'a> {
         let receiver = vertex.receiver();
         let scene = self.scene;
         let world = (&scene.geometry, &scene.textures);
-        let u = candidates::numbers(sampler.light(depth), which, count);
+        let u = candidates::random_numbers(sampler.light(depth), which, count);
         let mut light = scene.lights.sample(&receiver, world, u)?;
         if self.strategy == Strategy::BsdfOnly && !light.delta {
             return None;
@@ -513,11 +513,11 @@ impl<'a> PathTracer<'a> {
         } else {
             self.heuristic(light.pdf, pdf)
         };
-        let brought = state.throughput * f_cos * (light.radiance * (weight / light.pdf));
-        (weight > 0.0).then_some((light, brought))
+        let contribution = state.throughput * f_cos * (light.radiance * (weight / light.pdf));
+        (weight > 0.0).then_some((light, contribution))
     }
 
-    /// Draws the next direction; `None` where the path ends.
+    /// Samples the next direction; `None` where the path ends.
     #[inline]
     fn scatter(
         &self,
@@ -533,7 +533,7 @@ impl<'a> PathTracer<'a> {
             (vertex.lobe).sample_random(wo, [u0, u1, u2], Transport::Radiance, &mut stream);
         if !matches!(vertex.lobe, Lobe::Black(_)) {
             let scattered = &mut state.tally.scattered;
-            scattered.drawn += 1;
+            scattered.sampled += 1;
             scattered.rejected += u64::from(sample.is_none());
         }
         let BsdfSample {
@@ -557,7 +557,7 @@ impl<'a> PathTracer<'a> {
         state.straight &=
             matches!(vertex.lobe, Lobe::ThinDielectric(_)) && event == Event::Transmission;
         if event == Event::Transmission {
-            self.cross(&mut state.bodies, &vertex.surface, direction);
+            self.cross(&mut state.media, &vertex.surface, direction);
         }
         let largest = state.throughput.max_channel() * state.eta_scale;
         if largest.is_nan() || largest <= 0.0 {

@@ -1,7 +1,7 @@
 //! A deterministic path tracer on the CPU.
 
 pub mod accel;
-mod bodies;
+mod bump;
 mod camera;
 mod convert;
 mod device;
@@ -11,12 +11,12 @@ mod geometry;
 mod integrator;
 mod light;
 mod material;
+mod medium_stack;
 mod memory;
 mod offset;
 mod options;
 pub mod picture;
 mod prepared;
-mod relief;
 mod renderer;
 mod sampler;
 mod texture;
@@ -30,4 +30,4 @@ pub use flat::{FlatGroup, FlatInstance, FlatScene, LobeKind};
 pub use memory::MemoryEstimate;
 pub use options::{RenderOptions, Strategy};
 pub use prepared::{PrepareError, PreparedScene};
-pub use renderer::{InvalidSample, PassReport, Renderer, ResumeError, Scattered};
+pub use renderer::{InvalidSample, PassReport, Renderer, ResumeError, ScatterCounts};

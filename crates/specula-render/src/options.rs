@@ -34,7 +34,7 @@ pub struct RenderOptions {
     pub max_depth: u32,
     /// Renders with different seeds are independent.
     pub seed: u32,
-    /// Which sampler draws reflections off rough surfaces.
+    /// Which sampler samples reflections off rough surfaces.
     pub vndf_sampler: vndf::Sampler,
     /// What is done about multiple scattering where a material does not say it itself.
     pub energy: Energy,
@@ -47,7 +47,7 @@ pub struct RenderOptions {
     pub crop: Option<[u32; 4]>,
     /// How direct light is found.
     pub strategy: Strategy,
-    /// Whether, with both strategies, lights are drawn by what lobes find less well: skies by what
+    /// Whether, with both strategies, lights are sampled by what lobes find less well: skies by what
     /// exceeds their mean (Karlik et al. 2019). Otherwise by luminance.
     pub mis_compensation: bool,
     /// Paths of how many neighbouring pixels share what lies behind their first rough vertices (Bekaert et
@@ -66,7 +66,7 @@ pub struct RenderOptions {
     /// and with them the light that they stand for: the picture gets darker. Finite and above 0; `None`: unbounded.
     pub clamp: Option<f32>,
     /// Bias: whether surfaces that a path meets behind a surface that is not perfectly smooth are made rougher, as
-    /// by pbrt-v4's `regularize`: widths `alpha` below 0.3 become `clamp(2 alpha, 0.1, 0.3)`, so that mirrors and
+    /// by pbrt-v4's `regularize`: alphas `alpha` below 0.3 become `clamp(2 alpha, 0.1, 0.3)`, so that mirrors and
     /// clear glass have `alpha` 0.1. Caustics become blurred, and lights are found through glass.
     pub regularize: bool,
 }
@@ -98,7 +98,7 @@ impl RenderOptions {
         } = self;
         // Not which noise: a film goes on to a smaller one as if that had been asked for at first.
         let spread = if noise.is_some() { ", adaptive" } else { "" };
-        let drawn = if *mis_compensation {
+        let sampled = if *mis_compensation {
             ""
         } else {
             ", lights by luminance"
@@ -111,7 +111,7 @@ impl RenderOptions {
         let biased = biased.unwrap_or_default();
         format!(
             "depth {max_depth}, seed {seed}, sampler {vndf_sampler}, energy {energy}, {mis_pdf:?}, \
-             {strategy:?}{drawn}{shared}{spread}{biased}"
+             {strategy:?}{sampled}{shared}{spread}{biased}"
         )
     }
 

@@ -30,7 +30,7 @@ pub struct PreparedScene {
     pub(crate) textures: Textures,
     pub(crate) materials: Materials,
     pub(crate) lights: Lights,
-    /// Material of each shape that is dealt with in lanes, and whether its sides differ.
+    /// Material of each shape that is dealt with in batches, and whether its sides differ.
     lanes_of: Vec<Option<(u32, bool)>>,
     /// The same behind rough surfaces; empty where that makes no difference.
     lanes_behind_rough: Vec<Option<(u32, bool)>>,
@@ -172,7 +172,7 @@ impl PreparedScene {
         })
     }
 
-    /// Material of a shape that is dealt with in lanes, and whether its sides differ.
+    /// Material of a shape that is dealt with in batches, and whether its sides differ.
     ///
     /// * `rough`: whether the path was scattered by a lobe that is not perfectly smooth.
     #[inline(always)]

@@ -7,7 +7,7 @@ use multiversion::multiversion;
 use rayon::prelude::*;
 
 use crate::film::{Aim, FilmBuffer, PixelSums, Tile};
-use crate::integrator::{Block, PathTracer, Tally};
+use crate::integrator::{PathTracer, Tally, Wavefront};
 use crate::options::RenderOptions;
 use crate::prepared::PreparedScene;
 use crate::sampler::Sampler;
@@ -15,7 +15,7 @@ use crate::sampler::Sampler;
 /// A render in progress.
 ///
 /// A sample is determined by its pixel, its number in the pixel and the seed, and a pixel adds its
-/// samples in the order of their numbers: the picture does not depend, by a single bit, on the
+/// samples in the order of their random random_numbers: the picture does not depend, by a single bit, on the
 /// number of threads or on how the samples are split into passes. Adaptive sampling allots work when
 /// all tiles have what was allotted before, so that this holds there too.
 pub struct Renderer<'a> {
@@ -23,7 +23,7 @@ pub struct Renderer<'a> {
     pub(crate) options: RenderOptions,
     pub(crate) film: FilmBuffer,
     /// Those that no thread uses.
-    blocks: Mutex<Vec<Block>>,
+    wavefronts: Mutex<Vec<Wavefront>>,
 }
 
 /// What a pass did.
@@ -34,7 +34,7 @@ pub struct PassReport {
     /// Rays of this pass: camera, bounces and shadows.
     pub rays: u64,
     /// Directions that this pass drew from lobes; `None` where a device drew them.
-    pub scattered: Option<Scattered>,
+    pub scattered: Option<ScatterCounts>,
     /// Whether the pass was finished, not stopped.
     pub complete: bool,
     /// Samples of the film so far that were not finite: 0 in a correct render.
@@ -43,19 +43,19 @@ pub struct PassReport {
     pub invalid: Option<InvalidSample>,
 }
 
-/// Directions drawn at surfaces, black ones apart.
+/// Directions sampled at surfaces, black ones apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Scattered {
+pub struct ScatterCounts {
     /// How many.
-    pub drawn: u64,
+    pub sampled: u64,
     /// Those of them at which a lobe gave none, so that the path ended: a sampler's waste.
     pub rejected: u64,
 }
 
-impl Scattered {
-    /// Share of the draws that were rejected, in `[0, 1]`; 0 where there was none.
+impl ScatterCounts {
+    /// Share of the samples that were rejected, in `[0, 1]`; 0 where there was none.
     pub fn rejected_share(&self) -> f64 {
-        self.rejected as f64 / self.drawn.max(1) as f64
+        self.rejected as f64 / self.sampled.max(1) as f64
     }
 
     /// Of both.
@@ -63,7 +63,7 @@ impl Scattered {
     #[inline(always)]
     pub fn and(self, other: Self) -> Self {
         Self {
-            drawn: self.drawn + other.drawn,
+            sampled: self.sampled + other.sampled,
             rejected: self.rejected + other.rejected,
         }
     }
@@ -114,7 +114,7 @@ impl<'a> Renderer<'a> {
             scene,
             film: FilmBuffer::new(scene.resolution, scene.crop, options.first_sample),
             options,
-            blocks: Mutex::default(),
+            wavefronts: Mutex::default(),
         };
         renderer.plan();
         renderer
@@ -152,7 +152,7 @@ impl<'a> Renderer<'a> {
             scene,
             options,
             film,
-            blocks: Mutex::default(),
+            wavefronts: Mutex::default(),
         };
         renderer.plan();
         Ok(renderer)
@@ -193,7 +193,7 @@ impl<'a> Renderer<'a> {
         let goals = self.goals(samples);
         let options = &self.options;
         let tracer = PathTracer::new(self.scene, options);
-        let blocks = &self.blocks;
+        let wavefronts = &self.wavefronts;
         let (done, complete) = self
             .film
             .tiles
@@ -207,14 +207,14 @@ impl<'a> Renderer<'a> {
                 if stop.load(Ordering::Relaxed) {
                     return (Done::default(), false);
                 }
-                let mut block = free(blocks).pop().unwrap_or_else(Block::new);
+                let mut wavefront = free(wavefronts).pop().unwrap_or_else(Wavefront::new);
                 let before = tile.clone();
-                let done = render_tile(&tracer, &mut block, (options, stop), tile, goal);
+                let done = render_tile(&tracer, &mut wavefront, (options, stop), tile, goal);
                 let Some(done) = done else {
                     *tile = before;
                     return (Done::default(), false);
                 };
-                free(blocks).push(block);
+                free(wavefronts).push(wavefront);
                 (done, true)
             })
             .reduce(
@@ -228,7 +228,7 @@ impl<'a> Renderer<'a> {
     pub(crate) fn report(
         &self,
         done: Done,
-        scattered: Option<Scattered>,
+        scattered: Option<ScatterCounts>,
         complete: bool,
     ) -> PassReport {
         PassReport {
@@ -275,9 +275,9 @@ impl<'a> Renderer<'a> {
     }
 }
 
-/// The blocks that no thread uses.
-fn free(blocks: &Mutex<Vec<Block>>) -> MutexGuard<'_, Vec<Block>> {
-    blocks.lock().unwrap_or_else(PoisonError::into_inner)
+/// The wavefronts that no thread uses.
+fn free(wavefronts: &Mutex<Vec<Wavefront>>) -> MutexGuard<'_, Vec<Wavefront>> {
+    wavefronts.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// What was done for a tile, or for several.
@@ -297,11 +297,11 @@ impl Done {
     }
 }
 
-/// Takes every pixel of a tile to `target` samples. `None`: stopped, with the tile and the block in a state
+/// Takes every pixel of a tile to `target` samples. `None`: stopped, with the tile and the wavefront in a state
 /// that is of no use.
 fn render_tile(
     tracer: &PathTracer<'_>,
-    block: &mut Block,
+    wavefront: &mut Wavefront,
     (options, stop): (&RenderOptions, &AtomicBool),
     tile: &mut Tile,
     target: u32,
@@ -318,31 +318,31 @@ fn render_tile(
     let bounds = tile.bounds;
     let mut done = Done::default();
     let mut add = |places: &[(u32, u32)], sizes: &[usize]| {
-        tracer.begin(block, places.iter().copied().map(sample));
-        if !tracer.follow_until(block, stop) {
+        tracer.begin(wavefront, places.iter().copied().map(sample));
+        if !tracer.follow_until(wavefront, stop) {
             return false;
         }
-        tracer.share(block, sizes);
-        let tally = block.take_tally();
+        tracer.share(wavefront, sizes);
+        let tally = wavefront.take_tally();
         tile.rays += tally.rays;
         done.tally = done.tally.and(tally);
-        for place in add_samples(tracer, block, places, &mut tile.pixels) {
+        for place in add_samples(tracer, wavefront, places, &mut tile.pixels) {
             tile.invalid += 1;
             let (pixel, sampler) = sample(place);
             done.invalid = Some(InvalidSample {
                 pixel,
                 number: first.wrapping_add(place.1),
-                material: tracer.blame(block, pixel, sampler).map(|m| m as usize),
+                material: tracer.blame(wavefront, pixel, sampler).map(|m| m as usize),
             });
         }
         true
     };
-    let mut places = Vec::with_capacity(Block::SIZE);
+    let mut places = Vec::with_capacity(Wavefront::SIZE);
     if options.share_paths > 1 {
         let mut sizes = Vec::new();
         for nth in count..target {
             for group in groups(bounds, options.share_paths, |i| sample((i, nth)).1) {
-                if places.len() + group.len() > Block::SIZE {
+                if places.len() + group.len() > Wavefront::SIZE {
                     if !add(&places, &sizes) {
                         return None;
                     }
@@ -358,7 +358,7 @@ fn render_tile(
     let mut samples = (0..pixels).flat_map(|i| (count..target).map(move |nth| (i, nth)));
     loop {
         places.clear();
-        places.extend(samples.by_ref().take(Block::SIZE));
+        places.extend(samples.by_ref().take(Wavefront::SIZE));
         if places.is_empty() {
             return Some(done);
         }
@@ -396,7 +396,7 @@ fn groups(
     groups
 }
 
-/// Adds the samples of a block to their pixels; returns those that are not finite.
+/// Adds the samples of a wavefront to their pixels; returns those that are not finite.
 ///
 /// * `places`: of each path the pixel, and the number of the sample there.
 #[multiversion(targets(
@@ -405,13 +405,13 @@ fn groups(
 ))]
 fn add_samples(
     tracer: &PathTracer<'_>,
-    block: &Block,
+    wavefront: &Wavefront,
     places: &[(u32, u32)],
     pixels: &mut [PixelSums],
 ) -> Vec<(u32, u32)> {
     let mut invalid = Vec::new();
     for (i, &place) in places.iter().enumerate() {
-        let (sample, weight) = tracer.brought(block, i);
+        let (sample, weight) = tracer.contribution(wavefront, i);
         if !pixels[place.0 as usize].add(&sample, weight) {
             invalid.push(place);
         }

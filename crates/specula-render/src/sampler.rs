@@ -1,6 +1,6 @@
 //! Sample sequences: which dimension of which sequence every decision of a path uses.
 //!
-//! Numbers come in sets of four, one for each purpose at each vertex:
+//! RandomNumbers come in sets of four, one for each purpose at each vertex:
 //!
 //! | set | 0 | 1 and 2 | 3 |
 //! |---|---|---|---|
@@ -11,7 +11,7 @@
 //! Each set is the first four dimensions of an Owen-scrambled Sobol sequence, shuffled and
 //! scrambled by itself (Burley 2020, "padding"; by the crate `sobol_burley`), under a hash of the set, the
 //! pixel, the render's seed and the block of 2^16 samples: pixels and sets are decorrelated, and a
-//! sequence never runs past its length. Numbers 1 and 2 are Sobol's first two dimensions: any 2^k samples
+//! sequence never runs past its length. RandomNumbers 1 and 2 are Sobol's first two dimensions: any 2^k samples
 //! from a multiple of 2^k on have one in each elementary rectangle of area 2^-k.
 //!
 //! Higher dimensions for the other sets, under one shuffle, were here before: some pairs of them are
@@ -20,12 +20,12 @@
 //!
 //! The sets of the first vertex go with the camera's, though: what a pixel sees of a finely cut or bumpy
 //! surface, and what light it reflects from where, belong together. Their sequences take the sample's number
-//! as the camera's set has shuffled it, turned by a matrix of bits ([`TURN`]) that makes the numbers of both
+//! as the camera's set has shuffled it, turned by a matrix of bits ([`TURN`]) that makes the random random_numbers of both
 //! sets even together. Squared error over that of sets by themselves at 16 and 64 samples: 0.93 and 0.89 on
 //! two million triangles, 0.93 and 1.05 under the sun, 0.98 and 1.00 for glass, 1.00 in the metal room.
 //!
 //! Lobes that walk between microfacets draw from a hashed stream per vertex. Opacity and the choice
-//! within mixed materials take hashed numbers, since their count along a path is not bounded.
+//! within mixed materials take hashed random random_numbers, since their count along a path is not bounded.
 
 use std::sync::LazyLock;
 
@@ -36,7 +36,7 @@ use specula_bsdf::math::Stream;
 
 use crate::flat::Words;
 
-/// The numbers of one sample of one pixel.
+/// The random random_numbers of one sample of one pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sampler {
     index: u32,
@@ -44,7 +44,7 @@ pub(crate) struct Sampler {
 }
 
 impl Sampler {
-    /// The numbers of sample `sample` of a pixel.
+    /// The random random_numbers of sample `sample` of a pixel.
     #[inline]
     pub(crate) fn new(pixel: [u32; 2], sample: u32, seed: u32) -> Self {
         let block = sample >> 16;
@@ -54,13 +54,13 @@ impl Sampler {
         }
     }
 
-    /// Numbers 1 and 2 for the filter, 0 and 3 for the lens.
+    /// Random random_numbers 1 and 2 for the filter, 0 and 3 for the lens.
     #[cfg(test)]
     pub(crate) fn camera(&self) -> [f32; 4] {
         self.set(Purpose::Camera.set(0))
     }
 
-    /// Three numbers for the lobe, one for Russian roulette.
+    /// Three random random_numbers for the lobe, one for Russian roulette.
     #[inline]
     pub(crate) fn scatter(&self, vertex: u32) -> [f32; 4] {
         self.set(Purpose::Scatter.set(vertex))
@@ -81,7 +81,7 @@ impl Sampler {
         (bits >> 8) as f32 * (1.0 / 16_777_216.0)
     }
 
-    /// Numbers without end for a lobe whose values are estimates, at one vertex; `purpose` tells
+    /// Random random_numbers without end for a lobe whose values are estimates, at one vertex; `purpose` tells
     /// its evaluation from its sampling.
     #[inline]
     pub(crate) fn stream(&self, vertex: u32, purpose: u32) -> Stream {
@@ -102,7 +102,7 @@ impl Sampler {
     }
 }
 
-/// What the numbers at a vertex are for.
+/// What the random random_numbers at a vertex are for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Purpose {
     /// The filter and the lens, whatever the vertex.
@@ -180,9 +180,9 @@ fn seed_of_set(seed: u32, set: u32) -> u32 {
     hash(seed.wrapping_add(set.wrapping_mul(0x9e37_79b9)))
 }
 
-/// Numbers of many samples at once: those that a [`Sampler`] draws, bit for bit.
+/// Random random_numbers of many samples at once: those that a [`Sampler`] draws, bit for bit.
 #[derive(Clone, Debug)]
-pub(crate) struct Numbers<const N: usize> {
+pub(crate) struct RandomNumbers<const N: usize> {
     indices: [u32; N],
     seeds: [u32; N],
     /// What the sets are shuffled and scrambled by.
@@ -195,7 +195,7 @@ pub(crate) struct Numbers<const N: usize> {
     pub(crate) values: [[f32; N]; 4],
 }
 
-impl<const N: usize> Numbers<N> {
+impl<const N: usize> RandomNumbers<N> {
     pub(crate) const ZERO: Self = Self {
         indices: [0; N],
         seeds: [0; N],
@@ -212,7 +212,7 @@ impl<const N: usize> Numbers<N> {
         self.seeds[i] = sampler.seed;
     }
 
-    /// Draws for the first `n` samples.
+    /// Samples for the first `n` samples.
     pub(crate) fn draw(&mut self, n: usize, purpose: Purpose, vertex: u32) {
         draw(n, purpose.set(vertex), self);
     }
@@ -230,7 +230,7 @@ static COLUMNS: LazyLock<[[u32; 4]; 16]> = LazyLock::new(|| {
 /// Sobol's dimensions by number of the set.
 const ORDER: [u32; 4] = [2, 0, 1, 3];
 
-/// What distinguishes the scrambling of the numbers, as in the crate's `sample_4d`.
+/// What distinguishes the scrambling of the random random_numbers, as in the crate's `sample_4d`.
 const KEYS: [u32; 4] = [0x691e_72ca, 0x912f_69ba, 0x174f_18ab, 0xb40c_c1b8];
 
 /// The generator matrices for shaders, by bit and number.
@@ -250,16 +250,16 @@ pub(crate) fn flatten(to: &mut Words) {
     "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
     "x86_64+avx2+fma+bmi1+bmi2"
 ))]
-fn draw<const N: usize>(n: usize, set: u32, numbers: &mut Numbers<N>) {
+fn draw<const N: usize>(n: usize, set: u32, random_numbers: &mut RandomNumbers<N>) {
     let n = n.min(N);
-    let Numbers {
+    let RandomNumbers {
         indices,
         seeds,
         keys,
         rest,
         bits,
         values,
-    } = numbers;
+    } = random_numbers;
     for i in 0..n {
         keys[i] = seed_of_set(seeds[i], set);
     }
@@ -343,39 +343,41 @@ mod tests {
 
     #[test]
     fn many_at_once_are_those_of_each() {
-        let mut numbers = Numbers::<48>::ZERO;
+        let mut random_numbers = RandomNumbers::<48>::ZERO;
         let sampler = |i: usize| {
             let k = u32::try_from(i).unwrap();
             Sampler::new([7 * k, k], k.wrapping_mul(2_654_435_761), 5)
         };
         for i in 0..33 {
-            numbers.place(i, &sampler(i));
+            random_numbers.place(i, &sampler(i));
         }
-        let found = |numbers: &Numbers<48>, i: usize| [0, 1, 2, 3].map(|d| numbers.values[d][i]);
+        let found = |random_numbers: &RandomNumbers<48>, i: usize| {
+            [0, 1, 2, 3].map(|d| random_numbers.values[d][i])
+        };
         for vertex in [0, 1, 30, 31, 32, 99] {
-            numbers.draw(33, Purpose::Scatter, vertex);
+            random_numbers.draw(33, Purpose::Scatter, vertex);
             for i in 0..33 {
-                assert_eq!(found(&numbers, i), sampler(i).scatter(vertex));
+                assert_eq!(found(&random_numbers, i), sampler(i).scatter(vertex));
             }
-            numbers.draw(33, Purpose::Light, vertex);
+            random_numbers.draw(33, Purpose::Light, vertex);
             for i in 0..33 {
-                assert_eq!(found(&numbers, i), sampler(i).light(vertex));
+                assert_eq!(found(&random_numbers, i), sampler(i).light(vertex));
             }
         }
-        numbers.draw(33, Purpose::Camera, 7);
+        random_numbers.draw(33, Purpose::Camera, 7);
         for i in 0..33 {
-            assert_eq!(found(&numbers, i), sampler(i).camera());
+            assert_eq!(found(&random_numbers, i), sampler(i).camera());
         }
     }
 
     /// How uneven the first samples of two sets are together, but for a factor: Owen's gain coefficients, the
-    /// variance over that of random numbers (Owen 1997, "Monte Carlo variance of scrambled net quadrature",
-    /// 4), summed over what involves numbers of both.
+    /// variance over that of random random_numbers (Owen 1997, "Monte Carlo variance of scrambled net quadrature",
+    /// 4), summed over what involves random random_numbers of both.
     ///
-    /// * `samples`: their numbers, and those numbers turned.
+    /// * `samples`: their random random_numbers, and those random random_numbers turned.
     ///
     /// The terms of a number's first `k` digits have half the weight of those before. Of the first set the
-    /// numbers 1 and 2 count (the filter's), of the second 0, 1 and 2. Terms of three numbers weigh 0.7,
+    /// random random_numbers 1 and 2 count (the filter's), of the second 0, 1 and 2. Terms of three random random_numbers weigh 0.7,
     /// of four 0.5.
     fn unevenness(samples: impl Iterator<Item = (u32, u32)>) -> f64 {
         // By the number of digits that are zero: those terms, and less the next one.
@@ -421,7 +423,7 @@ mod tests {
         }
     }
 
-    /// Variance of what depends on numbers of both sets, over that with sets by themselves.
+    /// Variance of what depends on random random_numbers of both sets, over that with sets by themselves.
     #[test]
     fn camera_and_first_vertex_are_even_together() {
         let alone = unevenness(core::iter::once((0, 0)));

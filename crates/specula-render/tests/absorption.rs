@@ -1,4 +1,4 @@
-//! Bodies of pbrt and Mitsuba: boundaries that name what absorbs on either side.
+//! MediumStack of pbrt and Mitsuba: boundaries that name what absorbs on either side.
 #![allow(
     clippy::cast_possible_truncation,
     reason = "scenes are in single precision"

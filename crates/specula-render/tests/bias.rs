@@ -25,7 +25,7 @@ fn caustic() -> Scene {
     scene
 }
 
-/// Surfaces of every kind that has widths, none below 0.3.
+/// Surfaces of every kind that has alphas, none below 0.3.
 fn rough() -> Scene {
     let mut scene = empty(look([0.0, -4.0, 2.0], [0.0; 3], 50.0), 40);
     let kinds = [

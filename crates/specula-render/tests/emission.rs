@@ -80,7 +80,7 @@ fn patch(x: [f64; 2], y: [f64; 2], h: f64) -> f64 {
     sum * (x[1] - x[0]) * (y[1] - y[0]) / f64::from(n * n)
 }
 
-/// One pixel in 64 shines, at a place that tells every mirror and every order of the axes apart.
+/// One pixel in 64 emits, at a place that tells every mirror and every order of the axes apart.
 #[test]
 fn one_bright_pixel_lights_from_where_it_is() {
     let mut values = [0.0_f32; 64];
@@ -179,7 +179,7 @@ fn spheres_and_disks_shine_by_the_place_too() {
     check("half a sphere", &scene, half, &BY_LOBES);
 }
 
-/// A veil of opacity 1/4 that shines: a quarter of its light, whoever finds it, and what is behind
+/// A veil of opacity 1/4 that emits: a quarter of its light, whoever finds it, and what is behind
 /// it for the rest.
 #[test]
 fn partly_transparent_lamps_shine_as_much_as_they_are_there() {

@@ -42,8 +42,8 @@ fn treatments() -> Vec<Energy> {
     let compensations = ["turquin", "turquin-series", "kulla-conty"];
     compensations
         .iter()
-        .map(|name| Energy::Compensated(name.parse::<energy::Model>().expect("a known name")))
-        .chain(multibounce::Model::ALL.map(Energy::Multibounce))
+        .map(|name| Energy::Compensated(name.parse::<energy::EnergyModel>().expect("a known name")))
+        .chain(multibounce::MultibounceModel::ALL.map(Energy::Multibounce))
         .collect()
 }
 

@@ -32,7 +32,7 @@ fn gltf() -> Gltf {
         volume: false,
         clearcoat: float(0.0),
         clearcoat_roughness: float(0.0),
-        clearcoat_relief: None,
+        clearcoat_bump: None,
         sheen_colour: grey(0.0),
         sheen_roughness: float(0.0),
     }
@@ -195,13 +195,13 @@ const TILTED: [f32; 3] = [0.66, 0.42, 0.94];
 /// A coat over black is a rough mirror of 0.04 in the coat's own frame, whatever bends the base.
 #[test]
 fn coats_have_their_own_normals() {
-    let coat = |relief| Gltf {
+    let coat = |bump| Gltf {
         base_colour: grey(0.0),
         specular: FloatParam::Value(0.0),
         metallic: FloatParam::Value(0.0),
         clearcoat: FloatParam::Value(0.8),
         clearcoat_roughness: FloatParam::Value(0.6),
-        clearcoat_relief: relief,
+        clearcoat_bump: bump,
         ..gltf()
     };
     let by_formula = |n: Vec3<f64>| {
@@ -221,19 +221,19 @@ fn coats_have_their_own_normals() {
         by_formula(Vec3::from(tilted).normalize()),
     );
     assert!((bent / plain - 1.0).abs() > 0.2, "{bent} {plain}");
-    let relief = Some(Relief::Normal {
+    let bump = Some(Bump::Normal {
         map: TextureId(0),
         scale: 1.0,
     });
     let with_map = |s: &mut Scene| _ = picture(s, TILTED, TextureMapping::default());
     assert_near("plain", floor(coat(None), |_| ()), plain);
-    assert_near("bent", floor(coat(relief), with_map), bent);
+    assert_near("bent", floor(coat(bump), with_map), bent);
     let base_bent = |s: &mut Scene| {
         with_map(s);
-        s.materials[0].relief = relief;
+        s.materials[0].bump = bump;
     };
     assert_near("base bent", floor(coat(None), base_bent), plain);
-    assert_near("both bent", floor(coat(relief), base_bent), bent);
+    assert_near("both bent", floor(coat(bump), base_bent), bent);
 }
 
 #[test]
@@ -246,7 +246,7 @@ fn bent_coats_agree_by_all_strategies() {
     scene.materials[0].kind = MaterialKind::Gltf(Gltf {
         clearcoat: FloatParam::Value(1.0),
         clearcoat_roughness: FloatParam::Value(0.5),
-        clearcoat_relief: Some(Relief::Normal {
+        clearcoat_bump: Some(Bump::Normal {
             map: TextureId(0),
             scale: 1.0,
         }),
@@ -331,7 +331,7 @@ fn slabs_absorb_by_their_thickness() {
 
 /// A body within a body, and a clear one within an absorbing one: each absorbs where it is.
 #[test]
-fn bodies_within_bodies_absorb_where_they_are() {
+fn medium_stack_within_medium_stack_absorb_where_they_are() {
     for (inner, expected) in [(0.5_f64, -0.2 * 3.0 - 0.5), (0.0, -0.2 * 3.0)] {
         let mut scene = empty(look([0.0, 0.0, 9.0], [0.0; 3], 0.05), 8);
         let clear = MaterialKind::Gltf(clear_body());

@@ -65,7 +65,7 @@ fn strategies_agree_where_the_normal_decides_among_lights() {
     }
 }
 
-/// Light is a sum over lights: of one light alone one is drawn, of several two where metal is rough.
+/// Light is a sum over lights: of one light alone one is sampled, of several two where metal is rough.
 #[test]
 fn lights_of_rough_metal_add_up() {
     let seen = |lights: &[usize], energy: &str, hides: bool| {

@@ -233,7 +233,7 @@ fn gltf() -> Gltf {
         volume: false,
         clearcoat: FloatParam::Value(0.0),
         clearcoat_roughness: FloatParam::Value(0.0),
-        clearcoat_relief: None,
+        clearcoat_bump: None,
         sheen_colour: grey(0.0),
         sheen_roughness: FloatParam::Value(0.0),
     }

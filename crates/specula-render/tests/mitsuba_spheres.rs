@@ -20,7 +20,7 @@ use specula_stat::image::{NoisyImage, compare};
 const REFERENCE_SAMPLES: f64 = 16_384.0;
 /// Chance of a false alarm over the whole test.
 const SIGNIFICANCE: f64 = 0.01;
-/// A reference whose white is not ours: the background, an emitter of radiance 1 by default, has
+/// A reference whose white is not Specula's: the background, an emitter of radiance 1 by default, has
 /// these values there. Mitsuba 3.9.1 renders it as (1, 1, 1), too, and is as far from it.
 const OLD_WHITE: (&str, [f32; 3]) = ("test_constant", [1.001_084, 0.999_708, 0.999_703]);
 
@@ -112,7 +112,7 @@ fn against_reference(root: &Path, name: &str, picture: &Picture, samples: f64) -
             let value = |c: &Rgb<f32>| f64::from(c.to_array()[channel]) * factor;
             layer.iter().map(value).collect()
         };
-        let ours = of(&picture.colour, f64::from(white[channel]));
+        let specula = of(&picture.colour, f64::from(white[channel]));
         let theirs = of(&mean.colour, 1.0);
         // Few samples may miss what is rare, and then know nothing of its noise; the reference does.
         let our_noise: Vec<f64> = of(&picture.variance, 1.0)
@@ -122,7 +122,7 @@ fn against_reference(root: &Path, name: &str, picture: &Picture, samples: f64) -
             .collect();
         let a = NoisyImage {
             width: picture.width as usize,
-            mean: &ours,
+            mean: &specula,
             variance: &our_noise,
         };
         let b = NoisyImage {

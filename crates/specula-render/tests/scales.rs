@@ -20,12 +20,12 @@ const SIGNIFICANCE: f64 = 1e-4;
 
 /// Where a scene of about 4 units is put, and in which unit.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct TextureCoordinates {
     scale: f64,
     shift: [f64; 3],
 }
 
-impl Place {
+impl TextureCoordinates {
     const HERE: Self = Self {
         scale: 1.0,
         shift: [0.0; 3],
@@ -127,7 +127,7 @@ fn add_mesh(scene: &mut Scene, mesh: Mesh) -> Geometry {
 
 /// Spheres, a disk and meshes, one of them instanced; glass that absorbs, a rough metal; a lamp, a
 /// point light and a little sky, seen through a lens.
-fn still_life(at: Place, size: u32) -> Scene {
+fn still_life(at: TextureCoordinates, size: u32) -> Scene {
     let mut camera = at.camera([0.3, 1.6, 4.0], [0.0, 0.4, 0.0], 40.0);
     camera.lens_radius = 0.01 * at.scale;
     camera.focal_distance = 4.0 * at.scale;
@@ -214,10 +214,20 @@ fn assert_same(what: &str, picture: &Picture, reference: &Picture) {
 /// the scene does not have.
 #[test]
 fn pictures_in_other_units_are_equal_bit_for_bit() {
-    let reference = render(&still_life(Place::HERE, 32), 16, 8, Strategy::Mis);
+    let reference = render(
+        &still_life(TextureCoordinates::HERE, 32),
+        16,
+        8,
+        Strategy::Mis,
+    );
     for exponent in [-40, -20, -1, 7, 20, 40, 48] {
         let scale = 2.0_f64.powi(exponent);
-        let picture = render(&still_life(Place::scaled(scale), 32), 16, 8, Strategy::Mis);
+        let picture = render(
+            &still_life(TextureCoordinates::scaled(scale), 32),
+            16,
+            8,
+            Strategy::Mis,
+        );
         let differing = picture
             .colour
             .iter()
@@ -236,15 +246,25 @@ fn pictures_in_other_units_are_equal_bit_for_bit() {
 /// Units that round: a millionth and a million.
 #[test]
 fn a_millionth_and_a_million_look_like_one() {
-    let reference = render(&still_life(Place::HERE, 32), 256, 8, Strategy::Mis);
+    let reference = render(
+        &still_life(TextureCoordinates::HERE, 32),
+        256,
+        8,
+        Strategy::Mis,
+    );
     for scale in [1e-6, 1e6] {
-        let picture = render(&still_life(Place::scaled(scale), 32), 256, 8, Strategy::Mis);
+        let picture = render(
+            &still_life(TextureCoordinates::scaled(scale), 32),
+            256,
+            8,
+            Strategy::Mis,
+        );
         assert_same(&format!("in units of {scale:e}"), &picture, &reference);
     }
 }
 
 /// A body in a uniform sky, however small or far: acne would darken it.
-fn furnace(at: Place, of_triangles: bool) -> Scene {
+fn furnace(at: TextureCoordinates, of_triangles: bool) -> Scene {
     let mut scene = empty(at.camera([0.0, 0.0, 4.0], [0.0; 3], 8.0), 16);
     let white = material(&mut scene, diffuse(0.8));
     let place = at.rigid(DMat4::IDENTITY);
@@ -264,9 +284,9 @@ fn furnace(at: Place, of_triangles: bool) -> Scene {
 fn no_surface_shadows_itself() {
     let mut worst = Vec::new();
     let places = [1e-6, 1e-3, 1.0, 1e3, 1e6]
-        .map(Place::scaled)
+        .map(TextureCoordinates::scaled)
         .into_iter()
-        .chain([1e2, 1e3, 1e4, 1e5].map(Place::moved));
+        .chain([1e2, 1e3, 1e4, 1e5].map(TextureCoordinates::moved));
     for at in places {
         for of_triangles in [false, true] {
             let picture = render(&furnace(at, of_triangles), 64, 8, Strategy::Mis);
@@ -285,9 +305,9 @@ fn no_surface_shadows_itself() {
 #[test]
 fn no_light_leaks_into_a_closed_box() {
     let places = [1e-6, 1.0, 1e6]
-        .map(Place::scaled)
+        .map(TextureCoordinates::scaled)
         .into_iter()
-        .chain([1e2, 1e3, 1e4].map(Place::moved));
+        .chain([1e2, 1e3, 1e4].map(TextureCoordinates::moved));
     for at in places {
         let mut scene = empty(at.camera([0.1, 0.2, 0.7], [-0.9, -1.0, -1.0], 100.0), 24);
         let grey = material(&mut scene, diffuse(0.8));
@@ -337,11 +357,16 @@ fn no_light_leaks_into_a_closed_box() {
 /// Far from the origin coordinates are coarse: shapes and the camera move by a step, pictures stay.
 #[test]
 fn far_places_degrade_gracefully() {
-    let reference = render(&still_life(Place::HERE, 32), 256, 8, Strategy::Mis);
+    let reference = render(
+        &still_life(TextureCoordinates::HERE, 32),
+        256,
+        8,
+        Strategy::Mis,
+    );
     let (expected, _) = mean(&reference);
     for (distance, tolerance) in [(4e1, 0.01), (4e2, 0.01), (4e3, 0.015), (4e4, 0.05)] {
         let picture = render(
-            &still_life(Place::moved(distance), 32),
+            &still_life(TextureCoordinates::moved(distance), 32),
             256,
             8,
             Strategy::Mis,

@@ -1,15 +1,15 @@
-//! Directions that are drawn and rejected, as passes count them.
+//! Directions that are sampled and rejected, as passes count them.
 
 mod common;
 
 use common::*;
 use glam::DMat4;
 use specula_bsdf::vndf::Sampler;
-use specula_render::{PreparedScene, RenderOptions, Renderer, Scattered, Strategy};
+use specula_render::{PreparedScene, RenderOptions, Renderer, ScatterCounts, Strategy};
 use specula_scene::scene::*;
 use std::sync::atomic::AtomicBool;
 
-/// Metal of alpha 1 seen along its normal under a constant sky, where each path draws once.
+/// Metal of alpha 1 seen along its normal under a constant sky, where each path samples once.
 fn furnace() -> Scene {
     let mut scene = empty(look([0.0, 0.0, 3.0], [0.0; 3], 0.05), 32);
     let metal = material(&mut scene, mirror_metal(1.0));
@@ -19,13 +19,13 @@ fn furnace() -> Scene {
     scene
 }
 
-fn scattered(scene: &Scene, options: &RenderOptions, passes: u32) -> Scattered {
+fn scattered(scene: &Scene, options: &RenderOptions, passes: u32) -> ScatterCounts {
     let prepared = PreparedScene::new(scene, options).expect("the scene is sound");
     let mut renderer = Renderer::new(&prepared, options.clone());
     (0..passes)
         .map(|_| renderer.render_pass(16, &AtomicBool::new(false)))
         .map(|report| report.scattered.expect("the processor counts"))
-        .fold(Scattered::default(), Scattered::and)
+        .fold(ScatterCounts::default(), ScatterCounts::and)
 }
 
 /// Half of the spherical cap's reflections lie below the horizon, none of the bounded cap's and of the
@@ -47,8 +47,8 @@ fn a_sampler_rejects_what_lies_below_the_horizon() {
                 ..RenderOptions::default()
             };
             let found = scattered(&scene, &options, 2);
-            assert_eq!(found.drawn, 32 * 32 * 32);
-            let n = found.drawn as f64;
+            assert_eq!(found.sampled, 32 * 32 * 32);
+            let n = found.sampled as f64;
             // The view is along the normal but for the camera's field of view.
             let slack = 4.5 * (expected * (1.0 - expected) / n).sqrt() + 2e-4;
             let share = found.rejected_share();
@@ -77,9 +77,9 @@ fn lanes_count_as_single_vertices_do() {
     let lanes = scattered(&scene, &options(Strategy::Mis), 1);
     let single = scattered(&scene, &options(Strategy::Balance), 1);
     assert!(lanes.rejected > 3000, "{lanes:?}");
-    let drawn = lanes.drawn as f64 / single.drawn as f64;
+    let sampled = lanes.sampled as f64 / single.sampled as f64;
     let rejected = lanes.rejected as f64 / single.rejected as f64;
-    assert!((drawn - 1.0).abs() < 0.02, "{lanes:?}, {single:?}");
+    assert!((sampled - 1.0).abs() < 0.02, "{lanes:?}, {single:?}");
     assert!((rejected - 1.0).abs() < 0.05, "{lanes:?}, {single:?}");
 }
 

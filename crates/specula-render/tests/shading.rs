@@ -11,9 +11,9 @@ use specula_render::picture::Picture;
 use specula_scene::Image;
 use specula_scene::scene::*;
 
-/// A white floor under parallel light from `to_light`, bent by `relief`: its coordinates are
+/// A white floor under parallel light from `to_light`, bent by `bump`: its coordinates are
 /// `(x, y) scale`. Returns the mean over the albedo and pi: the cosine at the bent normal.
-fn cosine(relief: Option<Relief>, set: impl FnOnce(&mut Scene), to_light: [f64; 3]) -> f64 {
+fn cosine(bump: Option<Bump>, set: impl FnOnce(&mut Scene), to_light: [f64; 3]) -> f64 {
     let mut scene = lit_floor();
     let mesh = &mut scene.meshes[0];
     mesh.uvs = mesh
@@ -22,7 +22,7 @@ fn cosine(relief: Option<Relief>, set: impl FnOnce(&mut Scene), to_light: [f64; 
         .map(|p| [p[0] + 3.0, 2.0 * p[1] - 1.0])
         .collect();
     set(&mut scene);
-    scene.materials[0].relief = relief;
+    scene.materials[0].bump = bump;
     scene.lights.push(Light::Distant {
         irradiance: Rgb::splat(1.0),
         to_light,
@@ -32,12 +32,12 @@ fn cosine(relief: Option<Relief>, set: impl FnOnce(&mut Scene), to_light: [f64; 
 }
 
 /// Heights linear in u and v: `h = a u + b v`, by a bilinear patch.
-fn slope(scene: &mut Scene, a: f32, b: f32) -> Relief {
+fn slope(scene: &mut Scene, a: f32, b: f32) -> Bump {
     scene.textures.push(Texture::Bilinear {
         corners: [0.0, b, a, a + b].map(Rgb::splat),
         mapping: TextureMapping::default(),
     });
-    Relief::Height(FloatParam::Texture(TextureId(scene.textures.len() - 1)))
+    Bump::Height(FloatParam::Texture(TextureId(scene.textures.len() - 1)))
 }
 
 const LIGHT: [f64; 3] = [0.48, 0.36, 0.8];
@@ -53,11 +53,11 @@ fn assert_near(found: f64, expected: f64) {
 #[test]
 fn heights_turn_the_normal_by_their_slope_in_the_scenes_unit() {
     for (a, b) in [(0.0, 0.0), (0.3, 0.0), (0.0, 0.2), (-0.25, 0.15)] {
-        let relief = slope(&mut lit_floor(), a, b);
+        let bump = slope(&mut lit_floor(), a, b);
         let sloped = |s: &mut Scene| {
             slope(s, a, b);
         };
-        let found = cosine(Some(relief), sloped, LIGHT);
+        let found = cosine(Some(bump), sloped, LIGHT);
         let n = DVec3::new(-f64::from(a), -2.0 * f64::from(b), 1.0).normalize();
         assert_near(found, n.dot(LIGHT.into()));
     }
@@ -66,9 +66,9 @@ fn heights_turn_the_normal_by_their_slope_in_the_scenes_unit() {
 /// The same through a mirrored and scaled transform, an instance, and a reversed orientation seen
 /// from below: what is bent is the surface in the world.
 #[test]
-fn transforms_carry_reliefs_along() {
+fn transforms_carry_bumps_along() {
     let (a, b) = (0.3, 0.2);
-    let relief = slope(&mut lit_floor(), a, b);
+    let bump = slope(&mut lit_floor(), a, b);
     // x' = -2 x, z' = z: the slope along x' is -a / 2; heights are in world units.
     let m = DMat4::from_scale(DVec3::new(-2.0, 1.0, 1.0));
     let n = DVec3::new(0.15, -0.4, 1.0).normalize();
@@ -76,7 +76,7 @@ fn transforms_carry_reliefs_along() {
         slope(s, a, b);
         s.shapes[0].to_world = m;
     };
-    assert_near(cosine(Some(relief), on_shape, LIGHT), n.dot(LIGHT.into()));
+    assert_near(cosine(Some(bump), on_shape, LIGHT), n.dot(LIGHT.into()));
     let in_object = |s: &mut Scene| {
         slope(s, a, b);
         s.objects.push(Object {
@@ -88,20 +88,20 @@ fn transforms_carry_reliefs_along() {
             to_world: m,
         });
     };
-    assert_near(cosine(Some(relief), in_object, LIGHT), n.dot(LIGHT.into()));
+    assert_near(cosine(Some(bump), in_object, LIGHT), n.dot(LIGHT.into()));
     // Reversed, the outside is below, and heights go down.
     let reversed = |s: &mut Scene| {
         slope(s, a, b);
         s.shapes[0].reverse_orientation = true;
     };
     let n = DVec3::new(0.3, 0.4, 1.0).normalize();
-    assert_near(cosine(Some(relief), reversed, LIGHT), n.dot(LIGHT.into()));
+    assert_near(cosine(Some(bump), reversed, LIGHT), n.dot(LIGHT.into()));
 }
 
 /// Normals interpolated over the floor, tilted along x: heights bend the tilted ones.
 #[test]
 fn heights_bend_interpolated_normals() {
-    let relief = slope(&mut lit_floor(), 0.0, 0.2);
+    let bump = slope(&mut lit_floor(), 0.0, 0.2);
     let tilted = |s: &mut Scene| {
         slope(s, 0.0, 0.2);
         s.meshes[0].normals = vec![[0.6, 0.0, 0.8]; 4];
@@ -111,7 +111,7 @@ fn heights_bend_interpolated_normals() {
     let n = DVec3::new(0.6, 0.0, 0.8);
     let dv = DVec3::new(0.0, 0.5, 0.0) + n * 0.2;
     let bent = DVec3::new(0.8, 0.0, -0.6).cross(dv).normalize();
-    assert_near(cosine(Some(relief), tilted, LIGHT), bent.dot(LIGHT.into()));
+    assert_near(cosine(Some(bump), tilted, LIGHT), bent.dot(LIGHT.into()));
 }
 
 /// A height that does not vary over a sphere leaves its normals alone; one that rises with v tilts
@@ -124,8 +124,8 @@ fn spheres_take_heights_by_their_own_coordinates() {
         let mut scene = empty(look([5.0, 0.002, 0.0], [2.0, 0.002, 0.0], 0.05), 2);
         let m = material(&mut scene, diffuse(1.0));
         scene.shapes.push(sphere(radius, [0.0; 3], m));
-        let relief = slope(&mut scene, a, b);
-        scene.materials[0].relief = Some(relief);
+        let bump = slope(&mut scene, a, b);
+        scene.materials[0].bump = Some(bump);
         let to_light = DVec3::new(0.64, 0.48, 0.6);
         scene.lights.push(Light::Distant {
             irradiance: Rgb::splat(1.0),
@@ -148,16 +148,16 @@ fn normal_maps_tilt_along_the_coordinates() {
         s.textures
             .push(Texture::Constant(Rgb::from(tilt.map(|v| 0.5 * (v + 1.0)))));
     };
-    let relief = |scale| {
-        Some(Relief::Normal {
+    let bump = |scale| {
+        Some(Bump::Normal {
             map: TextureId(0),
             scale,
         })
     };
     let n = DVec3::from(tilt.map(f64::from));
-    assert_near(cosine(relief(1.0), map, LIGHT), n.dot(LIGHT.into()));
+    assert_near(cosine(bump(1.0), map, LIGHT), n.dot(LIGHT.into()));
     let flat = DVec3::new(0.5 * n.x, 0.5 * n.y, n.z).normalize();
-    assert_near(cosine(relief(0.5), map, LIGHT), flat.dot(LIGHT.into()));
+    assert_near(cosine(bump(0.5), map, LIGHT), flat.dot(LIGHT.into()));
     // Coordinates that run the other way along x: the map follows.
     let mirrored = |s: &mut Scene| {
         map(s);
@@ -166,10 +166,7 @@ fn normal_maps_tilt_along_the_coordinates() {
         }
     };
     let across = DVec3::new(-n.x, n.y, n.z);
-    assert_near(
-        cosine(relief(1.0), mirrored, LIGHT),
-        across.dot(LIGHT.into()),
-    );
+    assert_near(cosine(bump(1.0), mirrored, LIGHT), across.dot(LIGHT.into()));
     // Coordinates turned by 90 degrees.
     let turned = |s: &mut Scene| {
         map(s);
@@ -178,10 +175,7 @@ fn normal_maps_tilt_along_the_coordinates() {
         }
     };
     let quarter = DVec3::new(-n.y, n.x, n.z);
-    assert_near(
-        cosine(relief(1.0), turned, LIGHT),
-        quarter.dot(LIGHT.into()),
-    );
+    assert_near(cosine(bump(1.0), turned, LIGHT), quarter.dot(LIGHT.into()));
 }
 
 /// A white sphere of rough metal with waves on it in a uniform sky: never brighter than the sky,
@@ -201,7 +195,7 @@ fn wavy_metal_neither_shines_nor_blackens() {
         a: TextureId(0),
         b: TextureId(1),
     });
-    scene.materials[0].relief = Some(Relief::Height(FloatParam::Texture(TextureId(2))));
+    scene.materials[0].bump = Some(Bump::Height(FloatParam::Texture(TextureId(2))));
     scene.shapes.push(sphere(1.0, [0.0; 3], m));
     scene.lights.push(constant_sky(1.0));
     let picture = render(&scene, 64, 1, Strategy::Mis);
@@ -210,7 +204,7 @@ fn wavy_metal_neither_shines_nor_blackens() {
         assert!(c.g > 0.02, "pixel {i}: {}", c.g);
         assert!(f64::from(c.g) < 1.002 + 5.0 * error, "pixel {i}: {}", c.g);
     }
-    scene.materials[0].relief = None;
+    scene.materials[0].bump = None;
     let round = render(&scene, 64, 1, Strategy::Mis);
     let differs = |(a, b): (&Vec3<f32>, &Vec3<f32>)| (*a - *b).length() > 0.1;
     let bent = picture
@@ -222,10 +216,10 @@ fn wavy_metal_neither_shines_nor_blackens() {
 }
 
 /// Anisotropic metal: its highlight is as wide along one tangent as it is narrow along the other. A
-/// rotation by 90 degrees is the exchange of the widths, whichever way the coordinates run, and one
+/// rotation by 90 degrees is the exchange of the alphas, whichever way the coordinates run, and one
 /// by an angle is the turn of the whole floor.
 #[test]
-fn rotation_turns_the_widths() {
+fn rotation_turns_the_alphas() {
     let seen = |u: f32, v: f32, rotation: f32, turn: f64, flip: f32| {
         let mut scene = lit_floor();
         scene.camera = look([0.0, -3.0, 3.0], [0.0; 3], 0.05);

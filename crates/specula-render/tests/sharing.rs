@@ -36,7 +36,7 @@ fn versus(name: &str) -> Scene {
     let file = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../../data/versus")
         .join(name);
-    specula_scene::load(&file).expect("it is ours").scene
+    specula_scene::load(&file).expect("it is specula").scene
 }
 
 /// Rough and smooth glass, brushed metal, coloured walls without some channels, a lamp and a sky.

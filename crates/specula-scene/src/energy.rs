@@ -12,9 +12,9 @@ pub enum Energy {
     #[default]
     None,
     /// The lost energy is given back by a formula.
-    Compensated(energy::Model),
+    Compensated(energy::EnergyModel),
     /// The bounces are simulated.
-    Multibounce(multibounce::Model),
+    Multibounce(multibounce::MultibounceModel),
 }
 
 impl Energy {
@@ -22,8 +22,9 @@ impl Energy {
     /// scattering. Against simulated bounces the albedo of gold and copper is off by at most 2.0 % at alpha 0.3
     /// and 0.5 (3.4 % at grazing angles), of aluminium by 2.0 %; at alpha 1 it is up to 16 % too bright, where
     /// `turquin-series` and `kulla-conty` are up to 9 % too dark (`docs/decisions/energy-by-default.md`).
-    pub const DEFAULT: Self =
-        Self::Compensated(energy::Model::Turquin(energy::FmsVariant::NormalIncidence));
+    pub const DEFAULT: Self = Self::Compensated(energy::EnergyModel::Turquin(
+        energy::FmsVariant::NormalIncidence,
+    ));
 }
 
 /// A name that is no treatment's.
@@ -57,7 +58,9 @@ impl FromStr for Energy {
             }
             Some(_) => Err(unknown()),
             None if name == "none" => Ok(Self::None),
-            None if name == "multibounce" => Ok(Self::Multibounce(multibounce::Model::default())),
+            None if name == "multibounce" => {
+                Ok(Self::Multibounce(multibounce::MultibounceModel::default()))
+            }
             None => name.parse().map(Self::Compensated).map_err(|_| unknown()),
         }
     }
@@ -82,7 +85,10 @@ mod tests {
             assert_eq!(energy.to_string(), name);
         }
         let default: Energy = "multibounce".parse().unwrap();
-        assert_eq!(default, Energy::Multibounce(multibounce::Model::Ours));
+        assert_eq!(
+            default,
+            Energy::Multibounce(multibounce::MultibounceModel::StratifiedBidirectional)
+        );
         for name in ["", "all", "multibounce=", "turquin=heitz"] {
             assert!(name.parse::<Energy>().is_err(), "{name}");
         }

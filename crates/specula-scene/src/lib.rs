@@ -148,7 +148,7 @@ pub fn check(path: &Path, options: &LoadOptions) -> Report {
     Report::new(loaded, problems.take(), files.list())
 }
 
-/// Reads a scene from memory: what a pipe brought, say.
+/// Reads a scene from memory: what a pipe contributed, say.
 ///
 /// * `name`: what messages call it; files that it names are looked for beside this path.
 ///

@@ -170,7 +170,7 @@ impl Scene {
             let is_surface = material.kind != MaterialKind::Interface && !shining.contains(&i);
             if is_surface && chosen(i, material) {
                 material.kind = kind;
-                material.relief = None;
+                material.bump = None;
                 material.one_sided = false;
             }
         }

@@ -12,9 +12,9 @@ mod texture;
 
 pub use camera::{Camera, Film, Filter, Projection};
 pub use coat::CoatMedium;
-pub use light::{EnvironmentMapping, Light, Profile, SpotFalloff, Throw};
+pub use light::{EnvironmentMapping, ImageProjection, Light, Profile, SpotFalloff};
 pub use material::{
-    ConductorFresnel, Distribution, Gltf, Material, MaterialKind, Principled, Relief, ReliefRules,
+    Bump, BumpRules, ConductorFresnel, Distribution, Gltf, Material, MaterialKind, Principled,
     Roughness, RoughnessMapping,
 };
 pub use shape::{Emission, Geometry, Instance, Mesh, Object, Shape};

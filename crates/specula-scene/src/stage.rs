@@ -90,7 +90,7 @@ const Z_UP: DMat4 = DMat4::from_cols(
 pub(crate) enum Lit {
     /// The studio's light alone.
     Alone,
-    /// Light, and a floor on which the object throws a shadow.
+    /// Light, and a floor on which the object projects a shadow.
     OverFloor,
 }
 

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::bounds::{self, Bounds};
 use crate::scene::{
-    Camera, EnvironmentMapping, Film, Geometry, Light, MaterialKind, NoiseKind, Scene, Settings,
-    Shape, Texture, Throw,
+    Camera, EnvironmentMapping, Film, Geometry, ImageProjection, Light, MaterialKind, NoiseKind,
+    Scene, Settings, Shape, Texture,
 };
 
 /// A picture's name and size.
@@ -182,11 +182,11 @@ fn light_kind(light: &Light) -> &'static str {
         Light::Point { .. } => "point",
         Light::Spot { .. } => "spot",
         Light::Picture {
-            throw: Throw::Sphere,
+            image_projection: ImageProjection::Sphere,
             ..
         } => "goniometric",
         Light::Picture {
-            throw: Throw::Window { .. },
+            image_projection: ImageProjection::Window { .. },
             ..
         } => "projection",
     }

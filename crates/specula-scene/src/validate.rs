@@ -9,7 +9,7 @@ use crate::bounds::{self, FARTHEST};
 use crate::image::Image;
 use crate::mesh::first;
 use crate::scene::{
-    Filter, Geometry, Instance, Light, Mesh, Profile, Projection, Scene, Shape, Throw,
+    Filter, Geometry, ImageProjection, Instance, Light, Mesh, Profile, Projection, Scene, Shape,
 };
 
 /// Which invariant a scene breaks.
@@ -305,19 +305,23 @@ impl Scene {
             Light::Picture {
                 to_world,
                 intensity,
-                throw,
+                image_projection,
             } => {
                 self.colour(what, *intensity)?;
                 check_transform(what, to_world)?;
                 point(&to_world.w_axis.truncate().to_array())?;
-                ensure(is_throw(throw), what, "its window is out of range")
+                ensure(
+                    is_throw(image_projection),
+                    what,
+                    "its window is out of range",
+                )
             }
         }
     }
 }
 
-fn is_throw(throw: &Throw) -> bool {
-    let Throw::Window { half, profile } = throw else {
+fn is_throw(image_projection: &ImageProjection) -> bool {
+    let ImageProjection::Window { half, profile } = image_projection else {
         return true;
     };
     let cone = match profile {

@@ -2,7 +2,7 @@
 //
 // Put `specula.wgsl` in front of this text: WGSL has no include.
 
-/// For each draw two vectors: the view (unit, local, z up) with alpha, two uniform numbers in [0, 1).
+/// For each draw two vectors: the view (unit, local, z up) with alpha, two uniform random numbers in [0, 1).
 @group(0) @binding(1) var<storage, read> requests: array<vec4f>;
 /// For each draw the direction of the light, and `f cos / pdf`; 0 where it went below the surface.
 @group(0) @binding(2) var<storage, read_write> results: array<vec4f>;

@@ -120,8 +120,8 @@ pub const MODULES: &[Module] = modules![
     "multibounce/multibounce_model",
     "multibounce/normalised",
     "multibounce/normals",
-    "multibounce/ours",
-    "multibounce/ours_interface",
+    "multibounce/stratified_bidirectional",
+    "multibounce/stratified_bidirectional_interface",
     "multibounce/state",
     "multibounce/walk",
     "multibounce/wang2022",
@@ -279,11 +279,11 @@ mod tests {
         assert_eq!(SAMPLE.summary(), "Walks (Guo et al. 2018) between layers.");
         let root = Module {
             path: "alpha",
-            text: "// Widths\n// of lobes\n",
+            text: "// Alphas\n// of lobes\n",
         };
         assert_eq!(
             (root.name(), root.folder(), root.summary().as_str()),
-            ("alpha", "", "Widths of lobes")
+            ("alpha", "", "Alphas of lobes")
         );
     }
 

@@ -1,4 +1,4 @@
-//! The numbers that the modules of `energy` and some lobes read, as one array.
+//! The values that the modules of `energy` and some lobes read, as one array.
 //!
 //! A shader's `energy_table(index)` gives the number at a place of this array; the modules hold the
 //! offsets of their tables as constants, which a test compares with [`offset`].
@@ -6,7 +6,7 @@
 use std::sync::LazyLock;
 
 use specula_bsdf::bsdf::{gltf_albedo, plastic_interface};
-use specula_bsdf::energy::numbers::{interfaces, losses};
+use specula_bsdf::energy::raw_tables::{interfaces, losses};
 
 /// All tables, one after the other.
 struct Tables {
@@ -32,8 +32,8 @@ static TABLES: LazyLock<Tables> = LazyLock::new(|| {
     }
     let plastic = ["PLASTIC_TRANSMITTANCE", "PLASTIC_INTERNAL"];
     let gltf = ["GLTF_SCHLICK", "GLTF_SHEEN"];
-    let pairs = plastic.into_iter().zip(plastic_interface::numbers());
-    for (name, numbers) in pairs.chain(gltf.into_iter().zip(gltf_albedo::numbers())) {
+    let pairs = plastic.into_iter().zip(plastic_interface::raw_tables());
+    for (name, numbers) in pairs.chain(gltf.into_iter().zip(gltf_albedo::raw_tables())) {
         tables.push(name.to_owned(), &numbers);
     }
     tables
@@ -53,10 +53,10 @@ pub fn tables() -> &'static [u8] {
     &TABLES.bytes
 }
 
-/// Where a table begins, in numbers.
+/// Where a table begins, in values.
 ///
 /// Names: `GGX`, `GGX_SEPARABLE`, `BECKMANN` or `BECKMANN_SEPARABLE`, `_`, and a name of
-/// `specula_bsdf::energy::numbers::losses`; `COAT_` and a name of `interfaces` there;
+/// `specula_bsdf::energy::raw_tables::losses`; `COAT_` and a name of `interfaces` there;
 /// `PLASTIC_TRANSMITTANCE`, `PLASTIC_INTERNAL`, `GLTF_SCHLICK`, `GLTF_SHEEN`.
 #[must_use]
 pub fn offset(name: &str) -> Option<usize> {

@@ -207,8 +207,8 @@ fn every_module_has_its_twin() {
             findings.push(format!("{}: nothing has a twin", module.path));
         }
         // Others are functions of Rust's libraries, or none for a reason that is given.
-        let ours = twins.iter().filter(|t| t.starts_with("specula-"));
-        let wrong = ours.filter_map(|twin| missing_twin(twin));
+        let specula = twins.iter().filter(|t| t.starts_with("specula-"));
+        let wrong = specula.filter_map(|twin| missing_twin(twin));
         findings.extend(wrong.map(|w| format!("{}: {w}", module.path)));
     }
     none(&findings);

@@ -1,4 +1,4 @@
-// Widths `(alpha_x, alpha_y)` of a distribution of microfacet normals, each in [1e-4, 10], as `vec2f`.
+// Alphas `(alpha_x, alpha_y)` of a distribution of microfacet normals, each in [1e-4, 10], as `vec2f`.
 //
 // This is the alpha of the formulas, not an artist's roughness.
 
@@ -16,7 +16,7 @@ const ALPHA_MIN: f32 = 1e-4;
 /// Twin: specula-bsdf/src/alpha.rs, Alpha::MAX.
 const ALPHA_MAX: f32 = 10.0;
 
-/// The nearest widths in [1e-4, 10].
+/// The nearest alphas in [1e-4, 10].
 ///
 /// Twin: specula-bsdf/src/alpha.rs, Alpha::clamped. Departure: what becomes of NaN is not said.
 fn alpha_clamped(alpha: vec2f) -> vec2f {

@@ -2,7 +2,7 @@
 //!
 //! First against the reference means (isotropic GGX, F = 1, forward in the plane): mean, standard
 //! error, and standard errors from the reference, whose own error is counted. Then all unbiased
-//! models against each other, over five widths, GGX and Beckmann, F = 1 and gold: largest distance
+//! models against each other, over five alphas, GGX and Beckmann, F = 1 and gold: largest distance
 //! of a model from the weighted mean of all, in standard errors of the difference; Wang's models,
 //! which differ by design, as a ratio.
 //!
@@ -12,7 +12,7 @@
 use rayon::prelude::*;
 use specula_bsdf::fresnel::{Conductor as Index, Reflectance};
 use specula_bsdf::math::{Stream, vec3};
-use specula_bsdf::multibounce::{Conductor, Model};
+use specula_bsdf::multibounce::{MultibounceConductor, MultibounceModel};
 use specula_bsdf::ndf::{Beckmann, Ggx, Ndf};
 use specula_bsdf::{Alpha, Rgb, Vec3, metals};
 use specula_stat::z_test::Moments;
@@ -29,7 +29,7 @@ const REFERENCE: [Row; 6] = [
     (60.0, 60.0, (0.563_73, 8e-5), (0.165_43, 4e-5)),
 ];
 
-const WIDTHS: [(f64, f64); 5] = [(0.1, 0.1), (0.3, 0.3), (0.5, 0.5), (1.0, 1.0), (0.2, 0.8)];
+const ALPHAS: [(f64, f64); 5] = [(0.1, 0.1), (0.3, 0.3), (0.5, 0.5), (1.0, 1.0), (0.2, 0.8)];
 
 fn at(degrees: f64, forward: f64) -> Vec3<f64> {
     let (s, c) = degrees.to_radians().sin_cos();
@@ -37,7 +37,11 @@ fn at(degrees: f64, forward: f64) -> Vec3<f64> {
 }
 
 /// A million estimates of the blue channel, where gold's Fresnel term matters.
-fn mean<N: Ndf<f64> + Sync>(lobe: &Conductor<f64, N>, wo: Vec3<f64>, wi: Vec3<f64>) -> Moments {
+fn mean<N: Ndf<f64> + Sync>(
+    lobe: &MultibounceConductor<f64, N>,
+    wo: Vec3<f64>,
+    wi: Vec3<f64>,
+) -> Moments {
     (0..100_u64)
         .into_par_iter()
         .map(|chunk| {
@@ -72,10 +76,11 @@ fn main() {
 }
 
 fn against_the_reference() {
-    for model in Model::ALL {
+    for model in MultibounceModel::ALL {
         for (i, o, half, one) in REFERENCE {
             for (width, (reference, error)) in [(0.5, half), (1.0, one)] {
-                let lobe = Conductor::new(Ggx::new(Alpha::isotropic(width)), white(), model);
+                let lobe =
+                    MultibounceConductor::new(Ggx::new(Alpha::isotropic(width)), white(), model);
                 let m = mean(&lobe, at(i, 1.0), at(o, -1.0));
                 let z = (m.mean() - reference) / (m.variance_of_mean() + error * error).sqrt();
                 println!(
@@ -92,14 +97,16 @@ fn against_the_reference() {
 fn against_each_other<N: Ndf<f64> + Sync>(name: &str, ndf: impl Fn(Alpha<f64>) -> N) {
     let (wo, wi) = (at(30.0, 1.0), at(60.0, -1.0));
     let wi = vec3(wi.x * 0.8, wi.x * -0.6, wi.z);
-    for (x, y) in WIDTHS {
+    for (x, y) in ALPHAS {
         for (metal, reflectance) in [("F = 1", white()), ("gold", gold())] {
             let of = |model| {
-                let lobe = Conductor::new(ndf(Alpha::clamped(x, y)), reflectance, model);
+                let lobe = MultibounceConductor::new(ndf(Alpha::clamped(x, y)), reflectance, model);
                 mean(&lobe, wo, wi)
             };
-            let (unbiased, biased): (Vec<Model>, Vec<Model>) =
-                Model::ALL.into_iter().partition(|m| m.is_unbiased());
+            let (unbiased, biased): (Vec<MultibounceModel>, Vec<MultibounceModel>) =
+                MultibounceModel::ALL
+                    .into_iter()
+                    .partition(|m| m.is_unbiased());
             let all: Vec<Moments> = unbiased.into_iter().map(of).collect();
             // Where no walk goes on, estimates are all the same: closed forms, equal to rounding.
             let variance = |m: &Moments| m.variance_of_mean().max(1e-24);

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use specula_bsdf::math::vec3;
 use specula_bsdf::{Frame, Rgb, Vec3};
 use specula_stat::quadrature::direction;
-use specula_stat::{Drawn, Plan, Report, Subject, prove};
+use specula_stat::{DirectionSample, Plan, Report, Subject, prove};
 
 const EXPONENT: f64 = 30.0;
 const ALBEDO: f64 = 0.8;
@@ -44,7 +44,7 @@ fn mistyped_pdf(wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {
     (EXPONENT + 2.0) / (2.0 * PI) * lobe_cosine(wo, wi).powf(EXPONENT)
 }
 
-fn sample(wo: Vec3<f64>, u: [f64; 3]) -> Option<Drawn> {
+fn sample(wo: Vec3<f64>, u: [f64; 3]) -> Option<DirectionSample> {
     let cosine = (1.0 - u[1]).powf(1.0 / (EXPONENT + 1.0));
     let local = direction(cosine, 2.0 * PI * u[2]);
     let wi = Frame::from_normal(mirrored(wo)).to_world(local);
@@ -52,7 +52,7 @@ fn sample(wo: Vec3<f64>, u: [f64; 3]) -> Option<Drawn> {
         return None;
     }
     let weight = ALBEDO * (EXPONENT + 2.0) / (EXPONENT + 1.0) * wi.z;
-    Some(Drawn::new(wi, Rgb::splat(weight)))
+    Some(DirectionSample::new(wi, Rgb::splat(weight)))
 }
 
 /// Checks from five views; plots of what fails go to the folder for temporary files.

@@ -21,7 +21,7 @@ use crate::rng::Rng;
 /// How to test.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// How many samples to draw.
+    /// How many samples to sample.
     pub samples: u32,
     /// About how many cells hold the samples.
     pub cells: u32,
@@ -77,7 +77,7 @@ pub struct ChiSquare {
     pub p_value: f64,
     /// The significance it is held against.
     pub significance: f64,
-    /// Samples drawn.
+    /// Samples sampled.
     pub samples: u32,
     /// The integral of the density.
     pub integral: f64,
@@ -87,13 +87,13 @@ pub struct ChiSquare {
     pub invalid: u32,
     /// All cells, before pooling.
     pub cells: Vec<Cell>,
-    /// Whether the expected counts are known well enough for the samples drawn.
+    /// Whether the expected counts are known well enough for the samples sampled.
     pub is_converged: bool,
 }
 
-/// Draws samples and holds them against a density.
+/// Samples samples and holds them against a density.
 ///
-/// * `sample`: of three uniform numbers: a unit direction, or `None` where the draw is rejected.
+/// * `sample`: of three uniform random numbers: a unit direction, or `None` where the draw is rejected.
 /// * `pdf`: 1/sr; its integral may fall short of 1 by the share of `None`.
 ///
 /// The fit is tested twice, on the grid and on about thirty groups of neighbouring cells: a fine
@@ -243,7 +243,7 @@ impl fmt::Display for ChiSquare {
 /// Cells of the coarse grid, about.
 const COARSE: f64 = 30.0;
 
-/// Neighbouring cells thrown together until each group expects `least`.
+/// Neighbouring cells projected together until each group expects `least`.
 fn grouped(cells: &[Cell], least: f64) -> Vec<Cell> {
     let mut groups: Vec<Cell> = Vec::new();
     for cell in cells {
@@ -501,7 +501,7 @@ mod tests {
     }
 
     #[test]
-    fn rejections_that_the_pdf_does_not_know_fail_and_are_drawn() {
+    fn rejections_that_the_pdf_does_not_know_fail_and_are_sampled() {
         let found = test(
             |u| if u[0] < 0.01 { None } else { cosine_sample(u) },
             |w| w.z.max(0.0) / PI,

@@ -6,12 +6,12 @@ use specula_bsdf::{Rgb, Vec3};
 use crate::quadrature::direction;
 use crate::report::Check;
 use crate::rng::Rng;
-use crate::subject::{Drawn, Subject};
+use crate::subject::{DirectionSample, Subject};
 
 /// How strictly to look.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// How many samples to draw, and how many directions to probe.
+    /// How many samples to sample, and how many directions to probe.
     pub samples: u32,
     /// Largest relative difference between `weight` and `eval / pdf`: 1e-9 suits `f64`, 1e-3
     /// `f32` (both quotients lose digits where the half vector does).
@@ -39,20 +39,20 @@ pub fn samples(
 ) -> Check {
     let mut worst = 0.0_f64;
     let mut failure = None;
-    let (mut drawn_count, mut failures) = (0_u32, 0_u32);
+    let (mut sampled_count, mut failures) = (0_u32, 0_u32);
     for _ in 0..options.samples {
         let u = rng.triple();
-        let Some(drawn) = subject.sample(wo, u) else {
+        let Some(sampled) = subject.sample(wo, u) else {
             continue;
         };
-        drawn_count += 1;
-        let (off, fault) = at_sample(subject, wo, &drawn);
+        sampled_count += 1;
+        let (off, fault) = at_sample(subject, wo, &sampled);
         worst = worst.max(off);
         let fault =
             fault.or((off > options.relative_tolerance).then_some("weight is not eval / pdf"));
         if let Some(fault) = fault {
             failures += 1;
-            failure.get_or_insert_with(|| describe(fault, subject, wo, &drawn, u));
+            failure.get_or_insert_with(|| describe(fault, subject, wo, &sampled, u));
         }
     }
     Check {
@@ -60,8 +60,8 @@ pub fn samples(
         is_pass: failure.is_none(),
         p_value: None,
         detail: match failure {
-            None => format!("{drawn_count} samples, within {worst:.1e}"),
-            Some(text) => format!("{failures} of {drawn_count} samples; first: {text}"),
+            None => format!("{sampled_count} samples, within {worst:.1e}"),
+            Some(text) => format!("{failures} of {sampled_count} samples; first: {text}"),
         },
     }
 }
@@ -117,27 +117,31 @@ fn is_sane(colour: Rgb<f64>) -> bool {
 }
 
 /// Relative difference of the weight, and what else is wrong.
-fn at_sample(subject: &Subject, wo: Vec3<f64>, drawn: &Drawn) -> (f64, Option<&'static str>) {
-    if (drawn.wi.length_squared() - 1.0).abs() > 1e-5 || !drawn.wi.is_finite() {
+fn at_sample(
+    subject: &Subject,
+    wo: Vec3<f64>,
+    sampled: &DirectionSample,
+) -> (f64, Option<&'static str>) {
+    if (sampled.wi.length_squared() - 1.0).abs() > 1e-5 || !sampled.wi.is_finite() {
         return (0.0, Some("wi is no unit vector"));
     }
-    if !is_sane(drawn.weight) {
+    if !is_sane(sampled.weight) {
         return (0.0, Some("weight is negative or not finite"));
     }
-    if drawn.is_specular {
+    if sampled.is_specular {
         return (0.0, None);
     }
-    let (value, pdf) = (subject.eval(wo, drawn.wi), subject.pdf(wo, drawn.wi));
+    let (value, pdf) = (subject.eval(wo, sampled.wi), subject.pdf(wo, sampled.wi));
     if !is_sane(value) {
         return (0.0, Some("eval is negative or not finite"));
     }
     if !(pdf > 0.0 && pdf.is_finite()) {
         return (0.0, Some("pdf is not positive at a sample"));
     }
-    let mut off = drawn
+    let mut off = sampled
         .pdf
         .map_or(0.0, |reported| (reported - pdf).abs() / pdf);
-    for (weight, value) in drawn.weight.to_array().into_iter().zip(value.to_array()) {
+    for (weight, value) in sampled.weight.to_array().into_iter().zip(value.to_array()) {
         let quotient = value / pdf;
         // Absolute below 1e-3: a weight of 1e-12 need not have as many digits.
         let scale = weight.max(quotient).max(1e-3);
@@ -146,10 +150,16 @@ fn at_sample(subject: &Subject, wo: Vec3<f64>, drawn: &Drawn) -> (f64, Option<&'
     (off, None)
 }
 
-fn describe(fault: &str, subject: &Subject, wo: Vec3<f64>, drawn: &Drawn, u: [f64; 3]) -> String {
+fn describe(
+    fault: &str,
+    subject: &Subject,
+    wo: Vec3<f64>,
+    sampled: &DirectionSample,
+    u: [f64; 3],
+) -> String {
     format!(
-        "{fault}: wo {wo:?}, u {u:?}, {drawn:?}, eval {:?}, pdf {}",
-        subject.eval(wo, drawn.wi),
-        subject.pdf(wo, drawn.wi)
+        "{fault}: wo {wo:?}, u {u:?}, {sampled:?}, eval {:?}, pdf {}",
+        subject.eval(wo, sampled.wi),
+        subject.pdf(wo, sampled.wi)
     )
 }

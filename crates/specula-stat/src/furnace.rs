@@ -30,7 +30,7 @@ pub fn albedo(
     })
 }
 
-/// Directional albedo by sampling, without Dirac deltas; rejected draws count as zero.
+/// Directional albedo by sampling, without Dirac deltas; rejected samples count as zero.
 ///
 /// * Returns: moments of the weights, red, green, blue.
 #[must_use]
@@ -44,7 +44,7 @@ pub fn sampled_albedo(
     for _ in 0..samples {
         let weight = subject
             .sample_density(wo, rng.triple())
-            .map_or([0.0; 3], |drawn| drawn.weight.to_array());
+            .map_or([0.0; 3], |sampled| sampled.weight.to_array());
         for (channel, w) in moments.iter_mut().zip(weight) {
             channel.push(w);
         }
@@ -55,7 +55,7 @@ pub fn sampled_albedo(
 /// Checks that the mean weight of the samples is the albedo by quadrature.
 ///
 /// A difference counts only where neither the samples' variance nor chance events that no draw met
-/// explain it (`n` draws miss an event of probability `q` with probability `exp(-n q)`).
+/// explain it (`n` samples miss an event of probability `q` with probability `exp(-n q)`).
 ///
 /// * `expected`: by [`albedo`].
 #[must_use]

@@ -22,7 +22,7 @@
 //!
 //! ```
 //! use specula_bsdf::Rgb;
-//! use specula_stat::{Drawn, Plan, Subject, prove, quadrature::direction};
+//! use specula_stat::{DirectionSample, Plan, Subject, prove, quadrature::direction};
 //! use std::f64::consts::PI;
 //!
 //! let wrong = Subject::new(
@@ -30,7 +30,7 @@
 //!     |_wo, wi| wi.z.max(0.0) / PI,
 //!     |_wo, u| {
 //!         let wi = direction(u[1], 2.0 * PI * u[2]);
-//!         Some(Drawn::new(wi, Rgb::splat(1.0)))
+//!         Some(DirectionSample::new(wi, Rgb::splat(1.0)))
 //!     },
 //! );
 //! let report = prove("cosine", &wrong, &[direction(0.7, 0.3)], &Plan::default());
@@ -56,4 +56,4 @@ pub mod z_test;
 pub use proof::{Plan, prove};
 pub use report::{Check, Report};
 pub use rng::Rng;
-pub use subject::{Drawn, Subject};
+pub use subject::{DirectionSample, Subject};

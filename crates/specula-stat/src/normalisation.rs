@@ -53,10 +53,10 @@ pub fn integrate_bands<const N: usize>(
     total
 }
 
-/// Checks that the share of draws that lead to a direction is the integral of the pdf.
+/// Checks that the share of samples that lead to a direction is the integral of the pdf.
 ///
 /// * `integral`: of the pdf, by [`integrate_pdf`].
-/// * `samples`: how many draws.
+/// * `samples`: how many samples.
 #[must_use]
 pub fn test(
     name: &str,

@@ -9,7 +9,7 @@ use crate::chi_square::Cell;
 const PANEL: [f64; 2] = [480.0, 240.0];
 const GAP: f64 = 30.0;
 
-/// Draws the three panels, one above the other.
+/// Samples the three panels, one above the other.
 pub(crate) fn svg(title: &str, cells: &[Cell]) -> String {
     let brightest = cells
         .iter()

@@ -23,7 +23,7 @@ pub struct Plan {
     pub significance: f64,
     /// How many tests with chance share `significance`; `None`: those of this report.
     pub tests: Option<usize>,
-    /// Largest relative difference where numbers should be equal: 1e-9 suits `f64`.
+    /// Largest relative difference where values should be equal: 1e-9 suits `f64`.
     pub relative_tolerance: f64,
     /// Index of refraction below the surface (z < 0) over that above it; 1 where nothing refracts.
     pub eta: f64,
@@ -115,7 +115,7 @@ fn prove_view(
         ..Quadrature::default()
     };
     let fit = chi_square::test(
-        |u| subject.sample_density(wo, u).map(|drawn| drawn.wi),
+        |u| subject.sample_density(wo, u).map(|sampled| sampled.wi),
         |wi| subject.pdf(wo, wi),
         &mut rng,
         &chi_square::Options {

@@ -81,8 +81,8 @@ pub fn test(name: &str, subject: &Subject, options: &Options, rng: &mut Rng) -> 
         }
         let wi = if k % 2 == 0 {
             probe(rng)
-        } else if let Some(drawn) = subject.sample_density(wo, rng.triple()) {
-            drawn.wi
+        } else if let Some(sampled) = subject.sample_density(wo, rng.triple()) {
+            sampled.wi
         } else {
             continue;
         };

@@ -4,18 +4,18 @@ use specula_bsdf::{Bsdf, Real, Rgb, Transport, Vec3};
 
 /// One sampled direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Drawn {
+pub struct DirectionSample {
     /// Towards the light, unit, local frame.
     pub wi: Vec3<f64>,
     /// `f |cos theta_i| / pdf`.
     pub weight: Rgb<f64>,
     /// The density that the sampler itself reports, where it does.
     pub pdf: Option<f64>,
-    /// Whether drawn from a Dirac delta, which `eval` and `pdf` leave out.
+    /// Whether sampled from a Dirac delta, which `eval` and `pdf` leave out.
     pub is_specular: bool,
 }
 
-impl Drawn {
+impl DirectionSample {
     /// A direction that is not specular, from a sampler that reports no pdf.
     #[must_use]
     pub fn new(wi: Vec3<f64>, weight: Rgb<f64>) -> Self {
@@ -30,7 +30,7 @@ impl Drawn {
 
 type Eval<'a> = Box<dyn Fn(Vec3<f64>, Vec3<f64>) -> Rgb<f64> + Sync + 'a>;
 type Pdf<'a> = Box<dyn Fn(Vec3<f64>, Vec3<f64>) -> f64 + Sync + 'a>;
-type Sample<'a> = Box<dyn Fn(Vec3<f64>, [f64; 3]) -> Option<Drawn> + Sync + 'a>;
+type Sample<'a> = Box<dyn Fn(Vec3<f64>, [f64; 3]) -> Option<DirectionSample> + Sync + 'a>;
 
 /// A BSDF under test, in double precision on the outside.
 pub struct Subject<'a> {
@@ -43,13 +43,13 @@ impl<'a> Subject<'a> {
     /// A BSDF from three closures.
     ///
     /// * `eval(wo, wi)`: `f |cos theta_i|`, 1/sr.
-    /// * `pdf(wo, wi)`: density of `sample`, 1/sr; it integrates to the share of draws that lead
+    /// * `pdf(wo, wi)`: density of `sample`, 1/sr; it integrates to the share of samples that lead
     ///   to a direction.
-    /// * `sample(wo, u)`: a direction from three uniform numbers in `[0, 1)`, or `None`.
+    /// * `sample(wo, u)`: a direction from three uniform random numbers in `[0, 1)`, or `None`.
     pub fn new(
         eval: impl Fn(Vec3<f64>, Vec3<f64>) -> Rgb<f64> + Sync + 'a,
         pdf: impl Fn(Vec3<f64>, Vec3<f64>) -> f64 + Sync + 'a,
-        sample: impl Fn(Vec3<f64>, [f64; 3]) -> Option<Drawn> + Sync + 'a,
+        sample: impl Fn(Vec3<f64>, [f64; 3]) -> Option<DirectionSample> + Sync + 'a,
     ) -> Self {
         Self {
             eval: Box::new(eval),
@@ -65,7 +65,7 @@ impl<'a> Subject<'a> {
             move |wo, wi| bsdf.pdf(wo.cast(), wi.cast()).to_f64(),
             move |wo, u| {
                 let sample = bsdf.sample(wo.cast(), u.map(T::of), transport)?;
-                Some(Drawn {
+                Some(DirectionSample {
                     wi: sample.wi.cast(),
                     weight: sample.weight.cast(),
                     pdf: Some(sample.pdf.to_f64()),
@@ -87,15 +87,15 @@ impl<'a> Subject<'a> {
         (self.pdf)(wo, wi)
     }
 
-    /// Draws a direction.
+    /// Samples a direction.
     #[must_use]
-    pub fn sample(&self, wo: Vec3<f64>, u: [f64; 3]) -> Option<Drawn> {
+    pub fn sample(&self, wo: Vec3<f64>, u: [f64; 3]) -> Option<DirectionSample> {
         (self.sample)(wo, u)
     }
 
-    /// Draws a direction that is not specular: what `pdf` describes.
+    /// Samples a direction that is not specular: what `pdf` describes.
     #[must_use]
-    pub fn sample_density(&self, wo: Vec3<f64>, u: [f64; 3]) -> Option<Drawn> {
-        self.sample(wo, u).filter(|drawn| !drawn.is_specular)
+    pub fn sample_density(&self, wo: Vec3<f64>, u: [f64; 3]) -> Option<DirectionSample> {
+        self.sample(wo, u).filter(|sampled| !sampled.is_specular)
     }
 }

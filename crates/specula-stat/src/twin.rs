@@ -61,8 +61,8 @@ pub fn test(
         }
         let wi = if k % 2 == 0 {
             probe(rng)
-        } else if let Some(drawn) = double.sample_density(wo, rng.triple()) {
-            drawn.wi
+        } else if let Some(sampled) = double.sample_density(wo, rng.triple()) {
+            sampled.wi
         } else {
             continue;
         };
@@ -97,13 +97,13 @@ pub fn test(
     }
 }
 
-/// Checks that samples of an `f32` lobe are where its `f64` twin puts them for the same numbers.
+/// Checks that samples of an `f32` lobe are where its `f64` twin puts them for the same values.
 ///
 /// A draw within rounding of a decision (reflect or refract, accept or reject) may fall the other
 /// way in `f32`.
 ///
 /// * `distance`: largest distance between the two directions.
-/// * `share`: of the draws that may lie farther apart, such as 1e-3.
+/// * `share`: of the samples that may lie farther apart, such as 1e-3.
 #[must_use]
 pub fn samples(
     name: &str,

@@ -2,7 +2,7 @@
 
 use statrs::function::erf::erfc;
 
-/// Count, mean and variance of a stream of numbers, in one pass.
+/// Count, mean and variance of a stream of values, in one pass.
 ///
 /// Source: Welford 1962; merging after Chan, Golub and `LeVeque` 1979.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -38,7 +38,7 @@ impl Moments {
         }
     }
 
-    /// How many numbers were taken in.
+    /// How many values were taken in.
     #[must_use]
     pub fn count(&self) -> f64 {
         self.count

@@ -13,7 +13,7 @@ fn r3(i: u32) -> [f64; 3] {
     [at(0.819_172_513), at(0.671_043_607), at(0.549_700_478)]
 }
 
-/// Numbers in `[0, 1]`, half of them at an end.
+/// Values in `[0, 1]`, half of them at an end.
 fn share<T: Real>(i: u32, k: u32) -> T {
     let x = r3(7 * i + 31 * k)[(k % 3) as usize];
     T::of((2.0 * x - 0.5).clamp(0.0, 1.0))
@@ -107,7 +107,7 @@ fn nothing_breaks<T: Real>() {
     lobes.extend((0..60).map(gltf));
     let directions = directions::<T>();
     let good = |c: Rgb<T>| c.is_finite() && c.r >= T::ZERO && c.g >= T::ZERO && c.b >= T::ZERO;
-    let mut drawn = 0;
+    let mut sampled = 0;
     for lobe in &lobes {
         for &wo in &directions {
             for &wi in &directions {
@@ -126,7 +126,7 @@ fn nothing_breaks<T: Real>() {
                 let Some(s) = lobe.sample(wo, u, Transport::Radiance) else {
                     continue;
                 };
-                drawn += 1;
+                sampled += 1;
                 let unit = (s.wi.length() - T::ONE).abs() < T::of(1e-3);
                 assert!(s.wi.is_finite() && unit, "{lobe:?} {wo:?} {u:?}: {s:?}");
                 assert!(good(s.weight), "{lobe:?} {wo:?} {u:?}: {s:?}");
@@ -135,7 +135,7 @@ fn nothing_breaks<T: Real>() {
             }
         }
     }
-    assert!(drawn > 20_000, "{drawn}");
+    assert!(sampled > 20_000, "{sampled}");
 }
 
 #[test]

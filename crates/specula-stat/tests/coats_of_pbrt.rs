@@ -34,8 +34,8 @@ fn furnace(lobe: &CoatedDiffuse<f64>, mu: f64) -> f64 {
         let at = |step: f64| (0.5 + f64::from(i) * step).fract();
         [at(0.819_172_513), at(0.671_043_607), at(0.549_700_478)]
     };
-    let drawn = (0..N).filter_map(|i| lobe.sample(wo, point(i), Transport::Radiance));
-    drawn.map(|s| s.weight.g).sum::<f64>() / f64::from(N)
+    let sampled = (0..N).filter_map(|i| lobe.sample(wo, point(i), Transport::Radiance));
+    sampled.map(|s| s.weight.g).sum::<f64>() / f64::from(N)
 }
 
 /// Holds shares against pbrt's: within `relative`, and three standard errors.

@@ -21,14 +21,14 @@ fn gold<T: Real>() -> Reflectance<T> {
     })
 }
 
-fn proof(name: &str, lobe: &(impl Bsdf<f64> + Sync), widths: (f64, f64), few: bool) -> Report {
+fn proof(name: &str, lobe: &(impl Bsdf<f64> + Sync), alphas: (f64, f64), few: bool) -> Report {
     let subject = Subject::from_bsdf(lobe, Transport::Radiance);
     let views = if few {
         few_views(&both_sides())
     } else {
         views(&both_sides())
     };
-    prove(name, &subject, &views, &plan(widths))
+    prove(name, &subject, &views, &plan(alphas))
 }
 
 #[test]
@@ -42,12 +42,12 @@ fn ggx_with_every_sampler() {
     prove_all(
         "rough conductor",
         &with_alphas(&samplers),
-        |&(sampler, widths)| {
-            let lobe = RoughConductor::new(Ggx::new(alpha(widths)), gold()).with_sampler(sampler);
+        |&(sampler, alphas)| {
+            let lobe = RoughConductor::new(Ggx::new(alpha(alphas)), gold()).with_sampler(sampler);
             proof(
-                &format!("conductor {sampler} {widths:?}"),
+                &format!("conductor {sampler} {alphas:?}"),
                 &lobe,
-                widths,
+                alphas,
                 false,
             )
         },
@@ -56,22 +56,22 @@ fn ggx_with_every_sampler() {
 
 #[test]
 fn separable_masking() {
-    prove_all("separable", &with_alphas(&[()]), |&((), widths)| {
+    prove_all("separable", &with_alphas(&[()]), |&((), alphas)| {
         let lobe =
-            RoughConductor::new(Ggx::new(alpha(widths)), gold()).with_masking(Masking::Separable);
-        proof(&format!("separable {widths:?}"), &lobe, widths, true)
+            RoughConductor::new(Ggx::new(alpha(alphas)), gold()).with_masking(Masking::Separable);
+        proof(&format!("separable {alphas:?}"), &lobe, alphas, true)
     });
 }
 
 #[test]
 fn beckmann() {
     let maskings = [Masking::HeightCorrelated, Masking::Separable];
-    prove_all("beckmann", &with_alphas(&maskings), |&(masking, widths)| {
-        let lobe = RoughConductor::new(Beckmann::new(alpha(widths)), gold()).with_masking(masking);
+    prove_all("beckmann", &with_alphas(&maskings), |&(masking, alphas)| {
+        let lobe = RoughConductor::new(Beckmann::new(alpha(alphas)), gold()).with_masking(masking);
         proof(
-            &format!("Beckmann {masking:?} {widths:?}"),
+            &format!("Beckmann {masking:?} {alphas:?}"),
             &lobe,
-            widths,
+            alphas,
             true,
         )
     });
@@ -88,13 +88,13 @@ fn f32_is_f64() {
     prove_all(
         "conductor twins",
         &with_alphas(&samplers),
-        |&(sampler, widths)| {
-            let single = RoughConductor::new(Ggx::new(alpha_f32(widths)), gold::<f32>())
+        |&(sampler, alphas)| {
+            let single = RoughConductor::new(Ggx::new(alpha_f32(alphas)), gold::<f32>())
                 .with_sampler(sampler);
             let double =
-                RoughConductor::new(Ggx::new(alpha(widths)), gold::<f64>()).with_sampler(sampler);
+                RoughConductor::new(Ggx::new(alpha(alphas)), gold::<f64>()).with_sampler(sampler);
             common::twins(
-                &format!("{sampler} {widths:?}"),
+                &format!("{sampler} {alphas:?}"),
                 &single,
                 &double,
                 Transport::Radiance,
@@ -110,10 +110,10 @@ fn a_mirror_is_a_mirror() {
     let mut rng = Rng::new(5);
     for cos_theta in common::ABOVE {
         let wo = direction(cos_theta, 2.1);
-        let drawn = subject.sample(wo, rng.triple()).unwrap();
-        assert!(drawn.is_specular);
-        assert_eq!(drawn.wi.to_array(), [-wo.x, -wo.y, wo.z]);
-        assert_eq!(drawn.weight, Rgb::splat(0.8));
-        assert!(subject.eval(wo, drawn.wi).is_black() && subject.pdf(wo, drawn.wi) == 0.0);
+        let sampled = subject.sample(wo, rng.triple()).unwrap();
+        assert!(sampled.is_specular);
+        assert_eq!(sampled.wi.to_array(), [-wo.x, -wo.y, wo.z]);
+        assert_eq!(sampled.weight, Rgb::splat(0.8));
+        assert!(subject.eval(wo, sampled.wi).is_black() && subject.pdf(wo, sampled.wi) == 0.0);
     }
 }

@@ -19,11 +19,11 @@ fn outside_and_inside() -> Vec<Vec3<f64>> {
 
 fn cases() -> Vec<(f64, (f64, f64))> {
     ETAS.iter()
-        .flat_map(|&eta| ALPHAS.map(|widths| (eta, widths)))
+        .flat_map(|&eta| ALPHAS.map(|alphas| (eta, alphas)))
         .collect()
 }
 
-fn two_sided(eta: f64, widths: (f64, f64), transport: Transport) -> Plan {
+fn two_sided(eta: f64, alphas: (f64, f64), transport: Transport) -> Plan {
     Plan {
         eta,
         transport,
@@ -32,17 +32,17 @@ fn two_sided(eta: f64, widths: (f64, f64), transport: Transport) -> Plan {
         relative_tolerance: 1e-8,
         samples: 50_000,
         cells: 200,
-        ..plan(widths)
+        ..plan(alphas)
     }
 }
 
 #[test]
 fn two_sided_ggx_carrying_radiance() {
-    prove_all("dielectric", &cases(), |&(eta, widths)| {
-        let lobe = RoughDielectric::new(Ggx::new(alpha(widths)), eta);
+    prove_all("dielectric", &cases(), |&(eta, alphas)| {
+        let lobe = RoughDielectric::new(Ggx::new(alpha(alphas)), eta);
         let subject = Subject::from_bsdf(&lobe, Transport::Radiance);
-        let plan = two_sided(eta, widths, Transport::Radiance);
-        let name = format!("dielectric {eta:.3} {widths:?}");
+        let plan = two_sided(eta, alphas, Transport::Radiance);
+        let name = format!("dielectric {eta:.3} {alphas:?}");
         prove(&name, &subject, &outside_and_inside(), &plan)
     });
 }
@@ -50,11 +50,11 @@ fn two_sided_ggx_carrying_radiance() {
 #[test]
 fn two_sided_ggx_carrying_importance() {
     let some: Vec<_> = cases().into_iter().step_by(4).collect();
-    prove_all("adjoint dielectric", &some, |&(eta, widths)| {
-        let lobe = RoughDielectric::new(Ggx::new(alpha(widths)), eta);
+    prove_all("adjoint dielectric", &some, |&(eta, alphas)| {
+        let lobe = RoughDielectric::new(Ggx::new(alpha(alphas)), eta);
         let subject = Subject::from_bsdf(&lobe, Transport::Importance);
-        let plan = two_sided(eta, widths, Transport::Importance);
-        let name = format!("adjoint dielectric {eta:.3} {widths:?}");
+        let plan = two_sided(eta, alphas, Transport::Importance);
+        let name = format!("adjoint dielectric {eta:.3} {alphas:?}");
         prove(&name, &subject, &outside_and_inside(), &plan)
     });
 }
@@ -63,11 +63,11 @@ fn two_sided_ggx_carrying_importance() {
 fn two_sided_with_the_branch_first() {
     let some: Vec<_> = cases().into_iter().step_by(4).collect();
     for (sampler, cases) in [(Sampler::Bounded, &some[..]), (Sampler::Exact, &some[..4])] {
-        prove_all("branch first", cases, |&(eta, widths)| {
-            let lobe = RoughDielectric::new(Ggx::new(alpha(widths)), eta).with_sampler(sampler);
+        prove_all("branch first", cases, |&(eta, alphas)| {
+            let lobe = RoughDielectric::new(Ggx::new(alpha(alphas)), eta).with_sampler(sampler);
             let subject = Subject::from_bsdf(&lobe, Transport::Radiance);
-            let plan = two_sided(eta, widths, Transport::Radiance);
-            let name = format!("{sampler} dielectric {eta:.3} {widths:?}");
+            let plan = two_sided(eta, alphas, Transport::Radiance);
+            let name = format!("{sampler} dielectric {eta:.3} {alphas:?}");
             prove(&name, &subject, &outside_and_inside(), &plan)
         });
     }
@@ -76,12 +76,12 @@ fn two_sided_with_the_branch_first() {
 #[test]
 fn two_sided_beckmann_and_separable() {
     let some: Vec<_> = cases().into_iter().step_by(5).collect();
-    prove_all("Beckmann dielectric", &some, |&(eta, widths)| {
-        let lobe = RoughDielectric::new(Beckmann::new(alpha(widths)), eta)
+    prove_all("Beckmann dielectric", &some, |&(eta, alphas)| {
+        let lobe = RoughDielectric::new(Beckmann::new(alpha(alphas)), eta)
             .with_masking(Masking::Separable);
         let subject = Subject::from_bsdf(&lobe, Transport::Radiance);
-        let plan = two_sided(eta, widths, Transport::Radiance);
-        let name = format!("Beckmann dielectric {eta:.3} {widths:?}");
+        let plan = two_sided(eta, alphas, Transport::Radiance);
+        let name = format!("Beckmann dielectric {eta:.3} {alphas:?}");
         prove(&name, &subject, &outside_and_inside(), &plan)
     });
 }
@@ -89,15 +89,15 @@ fn two_sided_beckmann_and_separable() {
 #[test]
 fn facing_with_backfacing_views() {
     let cosines: Vec<f64> = [0.7, 0.05].into_iter().chain(BELOW).collect();
-    prove_all("facing dielectric", &cases(), |&(eta, widths)| {
-        let lobe = RoughDielectric::facing(Ggx::new(alpha(widths)), eta);
+    prove_all("facing dielectric", &cases(), |&(eta, alphas)| {
+        let lobe = RoughDielectric::facing(Ggx::new(alpha(alphas)), eta);
         let subject = Subject::from_bsdf(&lobe, Transport::Radiance);
         let plan = Plan {
             // It knows one side: the other side's adjoint is another lobe.
             reciprocity: Domain::Above,
-            ..two_sided(eta, widths, Transport::Radiance)
+            ..two_sided(eta, alphas, Transport::Radiance)
         };
-        let name = format!("facing dielectric {eta:.3} {widths:?}");
+        let name = format!("facing dielectric {eta:.3} {alphas:?}");
         prove(&name, &subject, &few_views(&cosines), &plan)
     });
 }
@@ -128,8 +128,8 @@ fn importance_is_the_adjoint_of_radiance() {
 
 #[test]
 fn no_side_of_an_interface_makes_light() {
-    for &(eta, widths) in &cases() {
-        let lobe = RoughDielectric::new(Ggx::new(alpha(widths)), eta);
+    for &(eta, alphas) in &cases() {
+        let lobe = RoughDielectric::new(Ggx::new(alpha(alphas)), eta);
         let mut rng = Rng::new(12);
         for wo in outside_and_inside() {
             for _ in 0..500 {
@@ -146,12 +146,12 @@ fn no_side_of_an_interface_makes_light() {
 
 #[test]
 fn f32_is_f64() {
-    prove_all("dielectric twins", &cases(), |&(eta, widths)| {
+    prove_all("dielectric twins", &cases(), |&(eta, alphas)| {
         #[expect(clippy::cast_possible_truncation, reason = "rounding is meant")]
-        let single = RoughDielectric::new(Ggx::new(alpha_f32(widths)), eta as f32);
-        let double = RoughDielectric::new(Ggx::new(alpha(widths)), eta);
+        let single = RoughDielectric::new(Ggx::new(alpha_f32(alphas)), eta as f32);
+        let double = RoughDielectric::new(Ggx::new(alpha(alphas)), eta);
         common::twins(
-            &format!("{eta:.3} {widths:?}"),
+            &format!("{eta:.3} {alphas:?}"),
             &single,
             &double,
             Transport::Radiance,

@@ -20,12 +20,12 @@ fn colour<T: Real>() -> Rgb<T> {
     rgb(T::of(0.8), T::of(0.4), T::of(0.1))
 }
 
-fn proof(name: &str, lobe: &(impl Bsdf<f64> + Sync), widths: (f64, f64)) -> Report {
+fn proof(name: &str, lobe: &(impl Bsdf<f64> + Sync), alphas: (f64, f64)) -> Report {
     let subject = Subject::from_bsdf(lobe, Transport::Radiance);
-    prove(name, &subject, &few_views(&ABOVE), &plan(widths))
+    prove(name, &subject, &few_views(&ABOVE), &plan(alphas))
 }
 
-/// Widths of a coat; `None` is a smooth one.
+/// Alphas of a coat; `None` is a smooth one.
 fn coats() -> Vec<Option<(f64, f64)>> {
     ALPHAS.into_iter().map(Some).chain([None]).collect()
 }
@@ -80,7 +80,7 @@ fn coats_over_diffuse() {
         .flat_map(|&eta| coats().into_iter().map(move |coat| (eta, coat)))
         .collect();
     prove_all("coated diffuse", &cases, |&(eta, coat)| {
-        let ggx = coat.map(|widths| Ggx::new(alpha(widths)));
+        let ggx = coat.map(|alphas| Ggx::new(alpha(alphas)));
         let name = format!("coated diffuse {eta} {coat:?}");
         proof(
             &name,
@@ -118,7 +118,7 @@ fn coats_over_layers() {
         .flat_map(|layer| coats.map(|coat| (layer, coat)))
         .collect();
     prove_all("coats over layers", &cases, |&(layer, coat)| {
-        let ggx = coat.map(|widths| Ggx::new(alpha(widths)));
+        let ggx = coat.map(|alphas| Ggx::new(alpha(alphas)));
         let name = format!("coated diffuse {layer:?} {coat:?}");
         let lobe = CoatedDiffuse::over_layer(ggx, 1.5, colour(), layer);
         proof(&name, &lobe, coat.unwrap_or((1.0, 1.0)))
@@ -181,7 +181,7 @@ fn coats_over_metal() {
         .filter(|(metal, coat)| metal.is_some() || coat.is_some())
         .collect();
     prove_all("coated metal", &cases, |&(metal, coat)| {
-        let ggx = |widths: Option<(f64, f64)>| widths.map(|w| Ggx::new(alpha(w)));
+        let ggx = |alphas: Option<(f64, f64)>| alphas.map(|w| Ggx::new(alpha(w)));
         let reflectance = Reflectance::Constant(colour());
         let lobe = CoatedConductor::new(ggx(coat), 1.5, ggx(metal), reflectance)
             .with_sampler(Sampler::Cap);

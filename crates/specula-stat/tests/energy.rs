@@ -6,7 +6,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use common::{alpha, alpha_f32, both_sides, few_views, plan, prove_all};
 use specula_bsdf::bsdf::{Compensated, CompensatedDielectric, RoughConductor};
-use specula_bsdf::energy::{DielectricLoss, FmsVariant, Loss, Model, Tabulated};
+use specula_bsdf::energy::{DielectricLoss, EnergyModel, FmsVariant, Loss, Tabulated};
 use specula_bsdf::fresnel::{
     Conductor, Reflectance, Schlick, dielectric, dielectric_average, refract,
 };
@@ -19,22 +19,22 @@ use specula_stat::quadrature::{direction, gauss_legendre};
 use specula_stat::reciprocity::Domain;
 use specula_stat::{Plan, Rng, Subject, prove};
 
-const SERIES: Model = Model::Turquin(FmsVariant::AverageSeries);
-const MODELS: [Model; 3] = [
-    Model::Turquin(FmsVariant::NormalIncidence),
+const SERIES: EnergyModel = EnergyModel::Turquin(FmsVariant::AverageSeries);
+const MODELS: [EnergyModel; 3] = [
+    EnergyModel::Turquin(FmsVariant::NormalIncidence),
     SERIES,
-    Model::KullaConty,
+    EnergyModel::KullaConty,
 ];
 
-/// Widths of the furnace: all pairs of them, and either axis the wider.
-const WIDTHS: [f64; 9] = [0.02, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0];
+/// Alphas of the furnace: all pairs of them, and either axis the wider.
+const ALPHAS: [f64; 9] = [0.02, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0];
 const COSINES: [f64; 4] = [0.8, 0.4, 0.08, 0.005];
 
-/// Every pair of widths, the wider axis x in every other.
-fn pairs(widths: &[f64]) -> Vec<(f64, f64)> {
+/// Every pair of alphas, the wider axis x in every other.
+fn pairs(alphas: &[f64]) -> Vec<(f64, f64)> {
     let mut pairs = Vec::new();
-    for (i, &a) in widths.iter().enumerate() {
-        for (j, &b) in widths[..=i].iter().enumerate() {
+    for (i, &a) in alphas.iter().enumerate() {
+        for (j, &b) in alphas[..=i].iter().enumerate() {
             pairs.push(if (i + j) % 2 == 0 { (a, b) } else { (b, a) });
         }
     }
@@ -170,11 +170,11 @@ fn furnace<N: Tabulated<f64>>(
 #[test]
 fn nothing_is_lost_off_white_metals() {
     let mut worst = [0.0_f64; 2];
-    for widths in pairs(&WIDTHS) {
-        let views = furnace_views(widths, &COSINES);
-        let found = furnace(Ggx::new(alpha(widths)), &views, |l, a| (l, a));
+    for alphas in pairs(&ALPHAS) {
+        let views = furnace_views(alphas, &COSINES);
+        let found = furnace(Ggx::new(alpha(alphas)), &views, |l, a| (l, a));
         println!(
-            "GGX {widths:?}: Kulla-Conty {:.1e}, Turquin {:.1e}",
+            "GGX {alphas:?}: Kulla-Conty {:.1e}, Turquin {:.1e}",
             found[0], found[1]
         );
         worst = [worst[0].max(found[0]), worst[1].max(found[1])];
@@ -187,10 +187,10 @@ fn nothing_is_lost_off_white_metals() {
 #[test]
 fn beckmann_loses_nothing_either() {
     let mut worst = [0.0_f64; 2];
-    for widths in pairs(&[0.05, 0.2, 0.7, 2.0]) {
-        let views = furnace_views(widths, &[0.5, 0.08]);
-        let found = furnace(Beckmann::new(alpha(widths)), &views, |l, a| (l, a));
-        println!("Beckmann {widths:?}: {found:?}");
+    for alphas in pairs(&[0.05, 0.2, 0.7, 2.0]) {
+        let views = furnace_views(alphas, &[0.5, 0.08]);
+        let found = furnace(Beckmann::new(alpha(alphas)), &views, |l, a| (l, a));
+        println!("Beckmann {alphas:?}: {found:?}");
         worst = [worst[0].max(found[0]), worst[1].max(found[1])];
     }
     assert!(worst[0] < 1e-3 && worst[1] < 3e-3, "{worst:?}");
@@ -220,11 +220,11 @@ fn interface_furnace<N: Tabulated<f64>>(ndf: N, eta: f64, views: &[Vec3<f64>]) -
 #[test]
 fn stretched_interfaces_keep_their_light() {
     let mut worst = 0.0_f64;
-    for widths in pairs(&[0.05, 0.15, 0.5, 1.5]) {
-        let views = furnace_views(widths, &[0.6, 0.15]);
+    for alphas in pairs(&[0.05, 0.15, 0.5, 1.5]) {
+        let views = furnace_views(alphas, &[0.6, 0.15]);
         for eta in [1.5, 1.0 / 1.5, 1.0 / 1.15, 2.4, 1.0 / 2.4] {
-            let found = interface_furnace(Ggx::new(alpha(widths)), eta, &views);
-            println!("interface {eta:.3} {widths:?}: {found:.1e}");
+            let found = interface_furnace(Ggx::new(alpha(alphas)), eta, &views);
+            println!("interface {eta:.3} {alphas:?}: {found:.1e}");
             worst = worst.max(found);
         }
     }
@@ -242,7 +242,7 @@ fn stretched_interfaces_keep_their_light() {
 
 /// The furnace by the lobes' own samples: largest `|albedo - 1|` beyond five standard errors.
 fn furnace_coarse<N: Tabulated<f64> + Sync>(ndf: N, masking: Masking) -> [f64; 2] {
-    [Model::KullaConty, SERIES].map(|model| {
+    [EnergyModel::KullaConty, SERIES].map(|model| {
         let lobe = Compensated::new(ndf, white(), model).with_masking(masking);
         beyond_noise(&lobe, Transport::Radiance, &[1.0, 0.6, 0.2, 0.03])
     })
@@ -265,9 +265,9 @@ fn beyond_noise(lobe: &(impl Bsdf<f64> + Sync), transport: Transport, cosines: &
 
 #[test]
 fn samples_of_white_metals_carry_all_light() {
-    for widths in [(0.3, 0.3), (1.0, 1.0), (0.2, 0.8), (1.5, 0.4)] {
-        let found = furnace_coarse(Ggx::new(alpha(widths)), Masking::HeightCorrelated);
-        assert!(found[0] < 1e-3 && found[1] < 2e-3, "{widths:?}: {found:?}");
+    for alphas in [(0.3, 0.3), (1.0, 1.0), (0.2, 0.8), (1.5, 0.4)] {
+        let found = furnace_coarse(Ggx::new(alpha(alphas)), Masking::HeightCorrelated);
+        assert!(found[0] < 1e-3 && found[1] < 2e-3, "{alphas:?}: {found:?}");
     }
 }
 
@@ -293,15 +293,15 @@ fn half_of_the_lost_energy_is_caught() {
     assert!((single + loss(stretched) - 1.0).abs() < 1e-3);
 }
 
-fn proof_plan(widths: (f64, f64), model: Model) -> Plan {
+fn proof_plan(alphas: (f64, f64), model: EnergyModel) -> Plan {
     Plan {
         samples: 30_000,
         cells: 200,
         reciprocity: match model {
-            Model::Turquin(_) => Domain::Nowhere,
-            Model::KullaConty => Domain::Above,
+            EnergyModel::Turquin(_) => Domain::Nowhere,
+            EnergyModel::KullaConty => Domain::Above,
         },
-        ..plan(widths)
+        ..plan(alphas)
     }
 }
 
@@ -309,36 +309,36 @@ fn proof_plan(widths: (f64, f64), model: Model) -> Plan {
 fn compensated_metals_are_proven() {
     let mut cases = Vec::new();
     for model in MODELS {
-        for widths in [(0.05, 0.05), (0.3, 0.3), (1.0, 1.0), (0.2, 0.8), (1.5, 0.5)] {
-            cases.push((model, widths));
+        for alphas in [(0.05, 0.05), (0.3, 0.3), (1.0, 1.0), (0.2, 0.8), (1.5, 0.5)] {
+            cases.push((model, alphas));
         }
     }
-    prove_all("compensated", &cases, |&(model, widths)| {
-        let ggx = Ggx::new(alpha(widths));
+    prove_all("compensated", &cases, |&(model, alphas)| {
+        let ggx = Ggx::new(alpha(alphas));
         let lobe = Compensated::new(ggx, gold(), model).with_sampler(Sampler::Bounded);
         let subject = Subject::from_bsdf(&lobe, Transport::Radiance);
         let views = few_views(&both_sides());
-        let name = format!("compensated {model} {widths:?}");
-        prove(&name, &subject, &views, &proof_plan(widths, model))
+        let name = format!("compensated {model} {alphas:?}");
+        prove(&name, &subject, &views, &proof_plan(alphas, model))
     });
 }
 
 #[test]
 fn other_distributions_maskings_and_samplers_are_proven() {
-    let widths = (0.3, 0.7);
+    let alphas = (0.3, 0.7);
     let views = few_views(&[0.9, 0.3, 0.05]);
     prove_all("compensated Beckmann", &MODELS, |&model| {
-        let lobe = Compensated::new(Beckmann::new(alpha(widths)), gold(), model)
+        let lobe = Compensated::new(Beckmann::new(alpha(alphas)), gold(), model)
             .with_masking(Masking::Separable);
         let subject = Subject::from_bsdf(&lobe, Transport::Radiance);
         let name = format!("compensated Beckmann {model}");
-        prove(&name, &subject, &views, &proof_plan(widths, model))
+        prove(&name, &subject, &views, &proof_plan(alphas, model))
     });
     prove_all(
         "compensated caps",
         &[Sampler::Heitz, Sampler::Cap],
         |&sampler| {
-            let lobe = Compensated::new(Ggx::new(alpha(widths)), gold(), Model::KullaConty)
+            let lobe = Compensated::new(Ggx::new(alpha(alphas)), gold(), EnergyModel::KullaConty)
                 .with_sampler(sampler);
             let subject = Subject::from_bsdf(&lobe, Transport::Radiance);
             let name = format!("compensated {sampler}");
@@ -346,13 +346,13 @@ fn other_distributions_maskings_and_samplers_are_proven() {
                 &name,
                 &subject,
                 &views,
-                &proof_plan(widths, Model::KullaConty),
+                &proof_plan(alphas, EnergyModel::KullaConty),
             )
         },
     );
 }
 
-/// Index, widths, and whether it is two-sided.
+/// Index, alphas, and whether it is two-sided.
 const INTERFACES: [(f64, (f64, f64), bool); 6] = [
     (1.5, (0.1, 0.1), true),
     (1.5, (0.5, 0.5), true),
@@ -367,8 +367,8 @@ fn compensated_interfaces_are_proven() {
     prove_all(
         "compensated dielectric",
         &INTERFACES,
-        |&(eta, widths, two_sided)| {
-            let ggx = Ggx::new(alpha(widths));
+        |&(eta, alphas, two_sided)| {
+            let ggx = Ggx::new(alpha(alphas));
             let (lobe, domain) = if two_sided {
                 (CompensatedDielectric::new(ggx, eta), Domain::Everywhere)
             } else {
@@ -381,9 +381,9 @@ fn compensated_interfaces_are_proven() {
                 relative_tolerance: 1e-8,
                 samples: 30_000,
                 cells: 200,
-                ..plan(widths)
+                ..plan(alphas)
             };
-            let name = format!("compensated dielectric {eta:.3} {widths:?} {two_sided}");
+            let name = format!("compensated dielectric {eta:.3} {alphas:?} {two_sided}");
             let views = few_views(&[0.9, 0.3, 0.05, -0.05, -0.6]);
             prove(&name, &subject, &views, &plan)
         },
@@ -412,16 +412,16 @@ fn interfaces_keep_their_light() {
 #[test]
 fn f32_is_f64() {
     prove_all("compensated twins", &MODELS, |&model| {
-        let widths = (0.3, 0.7);
-        let single = Compensated::new(Ggx::new(alpha_f32(widths)), gold::<f32>(), model);
-        let double = Compensated::new(Ggx::new(alpha(widths)), gold::<f64>(), model);
+        let alphas = (0.3, 0.7);
+        let single = Compensated::new(Ggx::new(alpha_f32(alphas)), gold::<f32>(), model);
+        let double = Compensated::new(Ggx::new(alpha(alphas)), gold::<f64>(), model);
         common::twins(&model.to_string(), &single, &double, Transport::Radiance)
     });
     prove_all("interface twins", &[1.5_f64, 1.0 / 1.5], |&eta| {
-        let widths = (0.4, 0.4);
+        let alphas = (0.4, 0.4);
         #[expect(clippy::cast_possible_truncation, reason = "rounding is meant")]
-        let single = CompensatedDielectric::new(Ggx::new(alpha_f32(widths)), eta as f32);
-        let double = CompensatedDielectric::new(Ggx::new(alpha(widths)), eta);
+        let single = CompensatedDielectric::new(Ggx::new(alpha_f32(alphas)), eta as f32);
+        let double = CompensatedDielectric::new(Ggx::new(alpha(alphas)), eta);
         common::twins(&format!("{eta:.3}"), &single, &double, Transport::Radiance)
     });
 }
@@ -464,7 +464,11 @@ fn colours_follow_the_number_of_bounces() {
             .g;
         assert!(got > plain && got < 1.5 * plain, "{model}: {got} {plain}");
     }
-    let black = Compensated::new(ggx, Reflectance::Constant(Rgb::BLACK), Model::KullaConty);
+    let black = Compensated::new(
+        ggx,
+        Reflectance::Constant(Rgb::BLACK),
+        EnergyModel::KullaConty,
+    );
     assert!(black.eval(wo, wi, Transport::Radiance).is_black());
     assert!(
         black

@@ -8,7 +8,7 @@ use specula_bsdf::math::{Real, rgb, vec3};
 use specula_bsdf::{Bsdf, Rgb, Transport, Vec3};
 use specula_stat::quadrature::Quadrature;
 use specula_stat::reciprocity::{self, Domain};
-use specula_stat::{Drawn, Plan, Rng, Subject, furnace, prove};
+use specula_stat::{DirectionSample, Plan, Rng, Subject, furnace, prove};
 
 type Case<T> = (&'static str, GltfParameters<T>);
 
@@ -204,7 +204,7 @@ fn both_sides(p: GltfParameters<f64>) -> Subject<'static> {
         move |wo, u| {
             let (lobe, upright) = seen(wo, wo);
             let sample = lobe.sample(upright, u, t)?;
-            Some(Drawn::new(seen(wo, sample.wi).1, sample.weight))
+            Some(DirectionSample::new(seen(wo, sample.wi).1, sample.weight))
         },
     )
 }

@@ -40,11 +40,11 @@ fn single_scattering_albedo_is_one_minus_ln_two() {
 }
 
 /// Rejected share by quadrature, in per cent; samples must agree within four deviations.
-fn rejected((sample, pdf): (Sample, Density), widths: (f64, f64), wo: Vec3<f64>) -> f64 {
-    let alpha = alpha(widths);
+fn rejected((sample, pdf): (Sample, Density), alphas: (f64, f64), wo: Vec3<f64>) -> f64 {
+    let alpha = alpha(alphas);
     let accepted = Quadrature::default().integrate(Patch::UPPER, |wi| [pdf(alpha, wo, wi)]);
     assert!(accepted.converged, "{accepted:?}");
-    let mut rng = Rng::from_name(&format!("{widths:?} {wo:?}"));
+    let mut rng = Rng::from_name(&format!("{alphas:?} {wo:?}"));
     let mut share = Moments::default();
     for _ in 0..20_000 {
         let [_, u, v] = rng.triple();
@@ -77,7 +77,7 @@ fn rejections_at_alpha_six_tenths_and_45_degrees() {
 ///
 /// (The published "about 18.0 % and 16.3 %" does not say how it averages. Theta uniform up to 85
 /// degrees gives 19.6 % and 17.7 %, uniform solid angle up to 90 degrees 16.5 % and 15.1 %.)
-fn mean_rejected(sampler: (Sample, Density), widths: (f64, f64)) -> f64 {
+fn mean_rejected(sampler: (Sample, Density), alphas: (f64, f64)) -> f64 {
     let lowest = 85.0_f64.to_radians().cos();
     let mut mean = 0.0;
     for [x, weight] in gauss_legendre(8) {
@@ -86,7 +86,7 @@ fn mean_rejected(sampler: (Sample, Density), widths: (f64, f64)) -> f64 {
         for k in 0..8 {
             let phi = (f64::from(k) + 0.5) * std::f64::consts::FRAC_PI_2 / 8.0;
             let wo = direction(cos_theta, phi);
-            mean += 0.5 * weight / 8.0 * rejected(sampler, widths, wo);
+            mean += 0.5 * weight / 8.0 * rejected(sampler, alphas, wo);
         }
     }
     mean

@@ -18,10 +18,10 @@ use specula_stat::z_test::{Moments, sidak, two_sided_p};
 const SIGMAS: f64 = 4.5;
 const RADIANCE: Transport = Transport::Radiance;
 
-type Widths = Option<(f64, f64)>;
+type Alphas = Option<(f64, f64)>;
 
-fn ggx<T: Real>(widths: Widths) -> Option<Ggx<T>> {
-    widths.map(|(x, y)| Ggx::new(Alpha::clamped(T::of(x), T::of(y))))
+fn ggx<T: Real>(alphas: Alphas) -> Option<Ggx<T>> {
+    alphas.map(|(x, y)| Ggx::new(Alpha::clamped(T::of(x), T::of(y))))
 }
 
 fn gold<T: Real>() -> Reflectance<T> {
@@ -51,7 +51,7 @@ fn at(degrees: f64, azimuth: f64) -> Vec3<f64> {
     vec3(s * cos, s * sin, c)
 }
 
-/// Moments of each of `cells` numbers, drawn in parallel by streams of fixed seeds.
+/// Moments of each of `cells` values, sampled in parallel by streams of fixed seeds.
 fn moments<const N: usize>(
     seed: u64,
     n: u64,
@@ -76,7 +76,7 @@ fn moments<const N: usize>(
         })
 }
 
-fn drawn(
+fn sampled(
     lobe: &Layered<f64>,
     wo: Vec3<f64>,
     s: &mut Stream,
@@ -87,7 +87,7 @@ fn drawn(
 
 fn albedo(lobe: &Layered<f64>, wo: Vec3<f64>, n: u64) -> [Moments; 3] {
     moments(5, n, |s| {
-        drawn(lobe, wo, s).map_or([0.0; 3], |x| x.weight.to_array())
+        sampled(lobe, wo, s).map_or([0.0; 3], |x| x.weight.to_array())
     })
 }
 
@@ -108,7 +108,7 @@ fn against(m: &Moments, truth: f64) -> f64 {
 
 /// Materials of every kind: coat, index, base, medium, events.
 fn materials() -> Vec<(String, Layered<f64>)> {
-    let metal = |w: Widths| Base::metal(ggx(w), gold());
+    let metal = |w: Alphas| Base::metal(ggx(w), gold());
     let isotropic = |a: f64| Some((a, a));
     let diffuse = Base::diffuse(rgb(0.8, 0.4, 0.1));
     let none = Medium::NONE;
@@ -166,8 +166,8 @@ fn sorted(placed: Option<(Vec3<f64>, f64)>) -> [f64; CELLS] {
     cells
 }
 
-/// The walk's draws, weighed, and its values put the same light into every cell of the hemisphere;
-/// values are asked at draws of the walk and at cosines, weighed by the density.
+/// The walk's samples, weighed, and its values put the same light into every cell of the hemisphere;
+/// values are asked at samples of the walk and at cosines, weighed by the density.
 #[test]
 fn draws_follow_values() {
     let views = [at(15.0, 20.0), at(62.0, 200.0), at(84.0, 70.0)];
@@ -177,18 +177,18 @@ fn draws_follow_values() {
         for wo in views {
             let density = |wi: Vec3<f64>| wi.z / core::f64::consts::PI;
             let draws = moments(31, 60_000, |s| {
-                let x = drawn(lobe, wo, s).filter(|x| !x.specular);
+                let x = sampled(lobe, wo, s).filter(|x| !x.specular);
                 sorted(x.map(|x| (x.wi, x.weight.r)))
             });
             let values = moments(32, 60_000, |s| {
-                // Draws of the walk are common where the density is high: both together are seen
-                // by the balance heuristic, with the density for the draws.
+                // samples of the walk are common where the density is high: both together are seen
+                // by the balance heuristic, with the density for the samples.
                 let placed = if s.next::<f64>() < 0.5 {
                     let wi = warp::cosine_hemisphere([s.next(), s.next()]);
                     let (f, pdf) = lobe.eval_pdf_random(wo, wi, RADIANCE, s);
                     Some((wi, 2.0 * f.r / (pdf + density(wi))))
                 } else {
-                    let x = drawn(lobe, wo, s).filter(|x| !x.specular);
+                    let x = sampled(lobe, wo, s).filter(|x| !x.specular);
                     x.map(|x| (x.wi, 2.0 * x.weight.r * x.pdf / (x.pdf + density(x.wi))))
                 };
                 sorted(placed)
@@ -257,9 +257,9 @@ fn smooth_on_smooth_is_its_series() {
 #[test]
 fn a_coat_of_no_index_leaves_the_metal() {
     let (wo, wi) = (at(50.0, 10.0), at(35.0, 160.0));
-    for widths in [(0.3, 0.3), (0.1, 0.6)] {
-        let plain = RoughConductor::new(Ggx::new(alpha(widths)), gold());
-        let base = Base::metal(ggx(Some(widths)), gold());
+    for alphas in [(0.3, 0.3), (0.1, 0.6)] {
+        let plain = RoughConductor::new(Ggx::new(alpha(alphas)), gold());
+        let base = Base::metal(ggx(Some(alphas)), gold());
         for coat in [None, Some((0.4, 0.4))] {
             let lobe = Layered::new(ggx(coat), 1.0, base).with_max_depth(2);
             let (found, truth) = (lobe.eval(wo, wi, RADIANCE), plain.eval(wo, wi, RADIANCE));
@@ -378,8 +378,8 @@ fn furnaces_of_pbrt() {
             eta: Rgb::splat(1.2),
             k: Rgb::splat(7.0),
         };
-        let widths = (w > 0.0).then_some((w, w));
-        Base::metal(ggx(widths), Reflectance::Conductor(index))
+        let alphas = (w > 0.0).then_some((w, w));
+        Base::metal(ggx(alphas), Reflectance::Conductor(index))
     };
     let cloud = |thickness, albedo, g| Medium {
         thickness,

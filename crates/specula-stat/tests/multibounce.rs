@@ -6,12 +6,14 @@ use common::alpha;
 use rayon::prelude::*;
 use specula_bsdf::fresnel::{Conductor as Metal, Reflectance};
 use specula_bsdf::math::{Real, Stream, rgb, vec3};
-use specula_bsdf::multibounce::{Conductor, DepthState, Dielectric, Diffuse, Model};
+use specula_bsdf::multibounce::{
+    DepthState, MultibounceConductor, MultibounceDielectric, MultibounceDiffuse, MultibounceModel,
+};
 use specula_bsdf::ndf::{Beckmann, Ggx, Ndf};
 use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, Vec3};
 use specula_stat::z_test::Moments;
 
-const WIDTHS: [(f64, f64); 5] = [(0.1, 0.1), (0.3, 0.3), (0.5, 0.5), (1.0, 1.0), (0.2, 0.8)];
+const ALPHAS: [(f64, f64); 5] = [(0.1, 0.1), (0.3, 0.3), (0.5, 0.5), (1.0, 1.0), (0.2, 0.8)];
 /// Largest departure of one comparison, in standard errors.
 const SIGMAS: f64 = 4.5;
 
@@ -33,7 +35,7 @@ fn at(degrees: f64, azimuth: f64) -> Vec3<f64> {
     vec3(s * cos, s * sin, c)
 }
 
-/// Moments of `n` numbers, drawn in parallel by streams of fixed seeds.
+/// Moments of `n` values, sampled in parallel by streams of fixed seeds.
 fn moments(seed: u64, n: u64, draw: impl Fn(&mut Stream) -> f64 + Sync) -> Moments {
     (0..16_u64)
         .into_par_iter()
@@ -71,7 +73,7 @@ fn sigmas(a: &Moments, b: &Moments) -> f64 {
 #[test]
 fn reference_means() {
     // Isotropic GGX, F = 1, forward in the plane: (theta_i, theta_o, alpha 0.5, alpha 1), with the
-    // errors of those numbers; from 2e5 to 1e6 evaluations of independent code.
+    // errors of those values; from 2e5 to 1e6 evaluations of independent code.
     let table = [
         (0.0, 0.0, (0.428_72, 9e-5), (0.366_38, 2e-4)),
         (0.0, 30.0, (0.310_09, 7e-5), (0.303_06, 1e-4)),
@@ -82,8 +84,12 @@ fn reference_means() {
     ];
     for (row, (i, o, half, one)) in (0_u64..).zip(table) {
         for (width, (mean, error)) in [(0.5, half), (1.0, one)] {
-            for model in Model::ALL.into_iter().filter(|m| m.is_unbiased()) {
-                let lobe = Conductor::new(Ggx::new(alpha((width, width))), white(), model);
+            for model in MultibounceModel::ALL
+                .into_iter()
+                .filter(|m| m.is_unbiased())
+            {
+                let lobe =
+                    MultibounceConductor::new(Ggx::new(alpha((width, width))), white(), model);
                 let m = f_cos(&lobe, at(i, 0.0), at(o, 180.0), 60_000, row);
                 let z = (m.mean() - mean) / (m.variance_of_mean() + error * error).sqrt();
                 assert!(
@@ -103,9 +109,12 @@ fn single_precision_has_the_same_means() {
         (at(60.0, 0.0), at(60.0, 180.0), 0.165_43, 4e-5),
     ];
     for (wo, wi, mean, error) in pairs {
-        for model in Model::ALL.into_iter().filter(|m| m.is_unbiased()) {
+        for model in MultibounceModel::ALL
+            .into_iter()
+            .filter(|m| m.is_unbiased())
+        {
             let ndf = Ggx::new(Alpha::isotropic(1.0_f32));
-            let lobe = Conductor::new(ndf, white(), model);
+            let lobe = MultibounceConductor::new(ndf, white(), model);
             let m = moments(91, 60_000, |s| {
                 f64::from(lobe.estimate(wo.cast(), wi.cast(), s).r)
             });
@@ -121,23 +130,23 @@ fn models_agree<N: Ndf<f64> + Sync>(ndf: impl Fn(Alpha<f64>) -> N, n: u64) {
         (at(65.0, 40.0), at(35.0, 100.0)),
     ];
     let mut seed = 100;
-    for widths in WIDTHS {
+    for alphas in ALPHAS {
         for reflectance in [white(), gold()] {
             for (wo, wi) in views {
                 let mean_of = |model| {
-                    let lobe = Conductor::new(ndf(alpha(widths)), reflectance, model);
+                    let lobe = MultibounceConductor::new(ndf(alpha(alphas)), reflectance, model);
                     f_cos(&lobe, wo, wi, n, seed)
                 };
-                let truth = mean_of(Model::Heitz2016);
-                for model in Model::ALL {
-                    if model == Model::Heitz2016 || !model.is_unbiased() {
+                let truth = mean_of(MultibounceModel::Heitz2016);
+                for model in MultibounceModel::ALL {
+                    if model == MultibounceModel::Heitz2016 || !model.is_unbiased() {
                         continue;
                     }
                     let m = mean_of(model);
                     let z = sigmas(&m, &truth);
                     assert!(
                         z.abs() < SIGMAS,
-                        "{model} {widths:?} {wo:?}: {m:?} {truth:?}"
+                        "{model} {alphas:?} {wo:?}: {m:?} {truth:?}"
                     );
                 }
                 seed += 1;
@@ -156,9 +165,14 @@ fn models_agree_on_beckmann() {
     models_agree(Beckmann::new, 8_000);
 }
 
-/// Albedo for F = 1 by uniform directions and by the model's own draws.
-fn furnace<N: Ndf<f64> + Sync>(ndf: N, model: Model, wo: Vec3<f64>, n: u64) -> [Moments; 2] {
-    let lobe = Conductor::new(ndf, white(), model);
+/// Albedo for F = 1 by uniform directions and by the model's own samples.
+fn furnace<N: Ndf<f64> + Sync>(
+    ndf: N,
+    model: MultibounceModel,
+    wo: Vec3<f64>,
+    n: u64,
+) -> [Moments; 2] {
+    let lobe = MultibounceConductor::new(ndf, white(), model);
     let evaluated = moments(7, n, |s| {
         // Half by the single-scattering lobe's normals, half by cosine: the balance heuristic.
         let u = [s.next(), s.next()];
@@ -176,29 +190,29 @@ fn furnace<N: Ndf<f64> + Sync>(ndf: N, model: Model, wo: Vec3<f64>, n: u64) -> [
         let density = 0.5 * (first + wi.z / std::f64::consts::PI);
         lobe.eval_pdf_random(wo, wi, Transport::Radiance, s).0.r / density
     });
-    let drawn = moments(8, n, |s| {
+    let sampled = moments(8, n, |s| {
         let u = [s.next(), s.next(), s.next()];
         lobe.sample_random(wo, u, Transport::Radiance, s)
             .map_or(0.0, |sample| sample.weight.r)
     });
-    [evaluated, drawn]
+    [evaluated, sampled]
 }
 
 #[test]
 fn white_furnaces_are_invisible() {
-    for widths in WIDTHS {
-        for model in Model::ALL {
+    for alphas in ALPHAS {
+        for model in MultibounceModel::ALL {
             for wo in [at(0.0, 0.0), at(60.0, 30.0), at(85.0, 70.0)] {
-                for [evaluated, drawn] in [
-                    furnace(Ggx::new(alpha(widths)), model, wo, 20_000),
-                    furnace(Beckmann::new(alpha(widths)), model, wo, 4_000),
+                for [evaluated, sampled] in [
+                    furnace(Ggx::new(alpha(alphas)), model, wo, 20_000),
+                    furnace(Beckmann::new(alpha(alphas)), model, wo, 4_000),
                 ] {
                     let z = (evaluated.mean() - 1.0) / evaluated.variance_of_mean().sqrt();
-                    assert!(z.abs() < SIGMAS, "{model} {widths:?} {wo:?} {evaluated:?}");
-                    let slack = SIGMAS * drawn.variance_of_mean().sqrt() + 1e-4;
+                    assert!(z.abs() < SIGMAS, "{model} {alphas:?} {wo:?} {evaluated:?}");
+                    let slack = SIGMAS * sampled.variance_of_mean().sqrt() + 1e-4;
                     assert!(
-                        (drawn.mean() - 1.0).abs() < slack,
-                        "{model} {widths:?} {wo:?} {drawn:?}"
+                        (sampled.mean() - 1.0).abs() < slack,
+                        "{model} {alphas:?} {wo:?} {sampled:?}"
                     );
                 }
             }
@@ -208,8 +222,11 @@ fn white_furnaces_are_invisible() {
 
 #[test]
 fn samples_weigh_exactly_the_fresnel_terms() {
-    for model in [Model::Ours, Model::Heitz2016] {
-        let lobe = Conductor::new(Ggx::new(alpha((0.7, 0.7))), white(), model);
+    for model in [
+        MultibounceModel::StratifiedBidirectional,
+        MultibounceModel::Heitz2016,
+    ] {
+        let lobe = MultibounceConductor::new(Ggx::new(alpha((0.7, 0.7))), white(), model);
         let m = moments(3, 16_000, |s| {
             let u = [s.next(), s.next(), s.next()];
             let sample = lobe.sample_random(at(70.0, 0.0), u, Transport::Radiance, s);
@@ -219,15 +236,15 @@ fn samples_weigh_exactly_the_fresnel_terms() {
     }
 }
 
-/// Draws and evaluations must put the same energy into the same half of the hemisphere.
+/// Samples and evaluations must put the same energy into the same half of the hemisphere.
 #[test]
 fn draws_follow_what_is_evaluated() {
     let wo = at(50.0, 20.0);
     let wo_part = |wi: Vec3<f64>| (wi.x * 0.3 + wi.y + 0.5 * wi.z).max(0.0);
-    for model in Model::ALL {
-        for widths in [(0.5, 0.5), (0.2, 0.8), (1.0, 1.0)] {
-            let lobe = Conductor::new(Ggx::new(alpha(widths)), gold(), model);
-            let drawn = moments(21, 60_000, |s| {
+    for model in MultibounceModel::ALL {
+        for alphas in [(0.5, 0.5), (0.2, 0.8), (1.0, 1.0)] {
+            let lobe = MultibounceConductor::new(Ggx::new(alpha(alphas)), gold(), model);
+            let sampled = moments(21, 60_000, |s| {
                 let u = [s.next(), s.next(), s.next()];
                 lobe.sample_random(wo, u, Transport::Radiance, s)
                     .map_or(0.0, |x| x.weight.r * wo_part(x.wi))
@@ -237,10 +254,10 @@ fn draws_follow_what_is_evaluated() {
                 let f = lobe.eval_pdf_random(wo, wi, Transport::Radiance, s).0.r;
                 f * wo_part(wi) * std::f64::consts::PI / wi.z
             });
-            let z = sigmas(&drawn, &evaluated);
+            let z = sigmas(&sampled, &evaluated);
             assert!(
                 z.abs() < SIGMAS,
-                "{model} {widths:?}: {drawn:?} {evaluated:?}"
+                "{model} {alphas:?}: {sampled:?} {evaluated:?}"
             );
         }
     }
@@ -249,9 +266,9 @@ fn draws_follow_what_is_evaluated() {
 #[test]
 fn means_are_reciprocal() {
     let (a, b) = (at(25.0, 15.0), at(70.0, 250.0));
-    for model in Model::ALL {
-        for widths in [(0.5, 0.5), (0.2, 0.8), (1.0, 1.0)] {
-            let lobe = Conductor::new(Ggx::new(alpha(widths)), gold(), model);
+    for model in MultibounceModel::ALL {
+        for alphas in [(0.5, 0.5), (0.2, 0.8), (1.0, 1.0)] {
+            let lobe = MultibounceConductor::new(Ggx::new(alpha(alphas)), gold(), model);
             let there = moments(31, 40_000, |s| {
                 lobe.eval_pdf_random(a, b, Transport::Radiance, s).0.g / b.z
             });
@@ -260,11 +277,11 @@ fn means_are_reciprocal() {
             });
             let z = sigmas(&there, &back);
             // Of the published models one is not reciprocal.
-            let is_reciprocal = model != Model::Wang2022 { correlated: true };
+            let is_reciprocal = model != MultibounceModel::Wang2022 { correlated: true };
             assert_eq!(
                 z.abs() < SIGMAS,
                 is_reciprocal,
-                "{model} {widths:?}: {there:?} {back:?}"
+                "{model} {alphas:?}: {there:?} {back:?}"
             );
         }
     }
@@ -275,11 +292,11 @@ fn wang_is_biased_as_its_model_says() {
     let bias = |correlated, i, o| {
         let ndf = Ggx::new(alpha((1.0, 1.0)));
         let mean_of = |model, seed| {
-            let lobe = Conductor::new(ndf, white(), model);
+            let lobe = MultibounceConductor::new(ndf, white(), model);
             f_cos(&lobe, at(i, 0.0), at(o, 180.0), 100_000, seed)
         };
-        let truth = mean_of(Model::Ours, 41);
-        let wang = mean_of(Model::Wang2022 { correlated }, 42);
+        let truth = mean_of(MultibounceModel::StratifiedBidirectional, 41);
+        let wang = mean_of(MultibounceModel::Wang2022 { correlated }, 42);
         (wang.mean() / truth.mean() - 1.0, sigmas(&wang, &truth))
     };
     // Measured; the signs are the model's.
@@ -296,12 +313,12 @@ fn wang_is_biased_as_its_model_says() {
     }
 }
 
-/// The connection of ours is bounded for `wi` along the normal, where those that leave first and
+/// The connection of Specula's is bounded for `wi` along the normal, where those that leave first and
 /// connect then have rare, huge values.
 #[test]
 fn values_along_the_normal_are_bounded() {
     let largest = |model| {
-        let lobe = Conductor::new(Ggx::new(alpha((0.5, 0.5))), white(), model);
+        let lobe = MultibounceConductor::new(Ggx::new(alpha((0.5, 0.5))), white(), model);
         let mut stream = Stream::new(81);
         let draws = (0..200_000).map(|_| {
             let f = lobe.eval_pdf_random(at(60.0, 0.0), Vec3::Z, Transport::Radiance, &mut stream);
@@ -309,8 +326,11 @@ fn values_along_the_normal_are_bounded() {
         });
         draws.fold(0.0, f64::max)
     };
-    let (ours, heitz) = (largest(Model::Ours), largest(Model::Heitz2016));
-    assert!(ours < 2.0 && heitz > 8.0, "{ours} {heitz}");
+    let (specula, heitz) = (
+        largest(MultibounceModel::StratifiedBidirectional),
+        largest(MultibounceModel::Heitz2016),
+    );
+    assert!(specula < 2.0 && heitz > 8.0, "{specula} {heitz}");
 }
 
 #[test]
@@ -323,23 +343,42 @@ fn dielectrics_agree_from_both_sides() {
         (at(150.0, 10.0), at(55.0, 170.0)),
     ];
     let mut seed = 300;
-    for widths in WIDTHS {
+    for alphas in ALPHAS {
         for (wo, wi) in pairs {
-            let ggx = |model| Dielectric::new(Ggx::new(alpha(widths)), 1.5, model);
-            let beckmann = |model| Dielectric::new(Beckmann::new(alpha(widths)), 1.5, model);
-            let ours = f_cos(&ggx(Model::Ours), wo, wi, 40_000, seed);
-            let truth = f_cos(&ggx(Model::Heitz2016), wo, wi, 40_000, seed + 1);
-            let z = sigmas(&ours, &truth);
-            assert!(
-                z.abs() < SIGMAS,
-                "{widths:?} {wo:?} {wi:?}: {ours:?} {truth:?}"
+            let ggx = |model| MultibounceDielectric::new(Ggx::new(alpha(alphas)), 1.5, model);
+            let beckmann =
+                |model| MultibounceDielectric::new(Beckmann::new(alpha(alphas)), 1.5, model);
+            let specula = f_cos(
+                &ggx(MultibounceModel::StratifiedBidirectional),
+                wo,
+                wi,
+                40_000,
+                seed,
             );
-            let ours = f_cos(&beckmann(Model::Ours), wo, wi, 8_000, seed);
-            let truth = f_cos(&beckmann(Model::Heitz2016), wo, wi, 8_000, seed + 1);
-            let z = sigmas(&ours, &truth);
+            let truth = f_cos(&ggx(MultibounceModel::Heitz2016), wo, wi, 40_000, seed + 1);
+            let z = sigmas(&specula, &truth);
             assert!(
                 z.abs() < SIGMAS,
-                "{widths:?} {wo:?} {wi:?}: {ours:?} {truth:?}"
+                "{alphas:?} {wo:?} {wi:?}: {specula:?} {truth:?}"
+            );
+            let specula = f_cos(
+                &beckmann(MultibounceModel::StratifiedBidirectional),
+                wo,
+                wi,
+                8_000,
+                seed,
+            );
+            let truth = f_cos(
+                &beckmann(MultibounceModel::Heitz2016),
+                wo,
+                wi,
+                8_000,
+                seed + 1,
+            );
+            let z = sigmas(&specula, &truth);
+            assert!(
+                z.abs() < SIGMAS,
+                "{alphas:?} {wo:?} {wi:?}: {specula:?} {truth:?}"
             );
             seed += 2;
         }
@@ -355,8 +394,12 @@ fn glass_is_estimated_from_one_end() {
         (at(75.0, 10.0), at(150.0, 200.0)),
         (at(110.0, 10.0), at(140.0, 80.0)),
     ];
-    for widths in WIDTHS {
-        let lobe = Dielectric::new(Ggx::new(alpha(widths)), 1.5, Model::Ours);
+    for alphas in ALPHAS {
+        let lobe = MultibounceDielectric::new(
+            Ggx::new(alpha(alphas)),
+            1.5,
+            MultibounceModel::StratifiedBidirectional,
+        );
         for (a, b) in pairs {
             for seed in 0..50 {
                 // f / eta^2 of the side that is reached.
@@ -368,25 +411,31 @@ fn glass_is_estimated_from_one_end() {
                 };
                 let (there, back) = (f(a, b), f(b, a));
                 let alike = (there - back).abs() <= 1e-9 * there;
-                assert!(alike, "{widths:?} {a:?} {b:?}: {there} {back}");
+                assert!(alike, "{alphas:?} {a:?} {b:?}: {there} {back}");
             }
         }
     }
     // And it is the better one.
     let variance = |model| {
-        let lobe = Dielectric::new(Ggx::new(alpha((1.0, 1.0))), 1.5, model);
+        let lobe = MultibounceDielectric::new(Ggx::new(alpha((1.0, 1.0))), 1.5, model);
         f_cos(&lobe, at(10.0, 0.0), at(80.0, 180.0), 20_000, 7).variance()
     };
-    let (ours, heitz) = (variance(Model::Ours), variance(Model::Heitz2016));
-    assert!(ours < 0.03 * heitz, "{ours} {heitz}");
+    let (specula, heitz) = (
+        variance(MultibounceModel::StratifiedBidirectional),
+        variance(MultibounceModel::Heitz2016),
+    );
+    assert!(specula < 0.03 * heitz, "{specula} {heitz}");
 }
 
 #[test]
 fn dielectrics_are_reciprocal_and_lose_nothing() {
     let mut stream = Stream::new(77);
-    for model in [Model::Ours, Model::Heitz2016] {
-        for widths in WIDTHS {
-            let lobe = Dielectric::new(Ggx::new(alpha(widths)), 1.5, model);
+    for model in [
+        MultibounceModel::StratifiedBidirectional,
+        MultibounceModel::Heitz2016,
+    ] {
+        for alphas in ALPHAS {
+            let lobe = MultibounceDielectric::new(Ggx::new(alpha(alphas)), 1.5, model);
             for wo in [
                 at(30.0, 20.0),
                 at(80.0, 20.0),
@@ -396,11 +445,11 @@ fn dielectrics_are_reciprocal_and_lose_nothing() {
                 for _ in 0..200 {
                     let u = [stream.next(), stream.next(), stream.next()];
                     let sample = lobe.sample_random(wo, u, Transport::Importance, &mut stream);
-                    assert_eq!(sample.map(|s| s.weight.g), Some(1.0), "{model} {widths:?}");
+                    assert_eq!(sample.map(|s| s.weight.g), Some(1.0), "{model} {alphas:?}");
                 }
-                let all = moments(51, 20_000, |s| sphere_integral(&lobe, widths, wo, s));
+                let all = moments(51, 20_000, |s| sphere_integral(&lobe, alphas, wo, s));
                 let z = (all.mean() - 1.0) / all.variance_of_mean().sqrt();
-                assert!(z.abs() < SIGMAS, "{model} {widths:?} {wo:?}: {all:?}");
+                assert!(z.abs() < SIGMAS, "{model} {alphas:?} {wo:?}: {all:?}");
             }
             // f(a, b) / eta_b^2 is symmetric: light from the denser side is spread.
             let (a, b) = (at(35.0, 10.0), at(130.0, 150.0));
@@ -410,20 +459,20 @@ fn dielectrics_are_reciprocal_and_lose_nothing() {
                 f / a.z * b.z.abs() * 1.5 * 1.5
             });
             let z = sigmas(&there, &back);
-            assert!(z.abs() < SIGMAS, "{model} {widths:?}: {there:?} {back:?}");
+            assert!(z.abs() < SIGMAS, "{model} {alphas:?}: {there:?} {back:?}");
         }
     }
 }
 
 /// One-sample estimate of the integral of `f |cos|` over the sphere, for light, half the
-/// directions drawn as of one bounce.
+/// directions sampled as of one bounce.
 fn sphere_integral(
-    lobe: &Dielectric<f64>,
-    widths: (f64, f64),
+    lobe: &MultibounceDielectric<f64>,
+    alphas: (f64, f64),
     wo: Vec3<f64>,
     s: &mut Stream,
 ) -> f64 {
-    let single = specula_bsdf::bsdf::RoughDielectric::new(Ggx::new(alpha(widths)), 1.5);
+    let single = specula_bsdf::bsdf::RoughDielectric::new(Ggx::new(alpha(alphas)), 1.5);
     let u = [s.next(), s.next(), s.next()];
     let uniform = 0.5 / (4.0 * std::f64::consts::PI);
     let wi = if s.next::<f64>() < 0.5 {
@@ -441,8 +490,8 @@ fn sphere_integral(
 #[test]
 fn diffuse_facets_keep_energy_and_are_reciprocal() {
     let (a, b) = (at(25.0, 15.0), at(70.0, 250.0));
-    for widths in WIDTHS {
-        let lobe = Diffuse::new(Ggx::new(alpha(widths)), Rgb::splat(1.0));
+    for alphas in ALPHAS {
+        let lobe = MultibounceDiffuse::new(Ggx::new(alpha(alphas)), Rgb::splat(1.0));
         for wo in [at(0.0, 0.0), at(60.0, 40.0), at(85.0, 40.0)] {
             let evaluated = moments(61, 40_000, |s| {
                 let wi = specula_bsdf::math::warp::cosine_hemisphere([s.next(), s.next()]);
@@ -450,9 +499,9 @@ fn diffuse_facets_keep_energy_and_are_reciprocal() {
                 f * std::f64::consts::PI / wi.z
             });
             let z = (evaluated.mean() - 1.0) / evaluated.variance_of_mean().sqrt();
-            assert!(z.abs() < SIGMAS, "{widths:?} {wo:?}: {evaluated:?}");
+            assert!(z.abs() < SIGMAS, "{alphas:?} {wo:?}: {evaluated:?}");
         }
-        let grey = Diffuse::new(Ggx::new(alpha(widths)), Rgb::splat(0.6));
+        let grey = MultibounceDiffuse::new(Ggx::new(alpha(alphas)), Rgb::splat(0.6));
         let there = moments(62, 40_000, |s| {
             grey.eval_pdf_random(a, b, Transport::Radiance, s).0.g / b.z
         });
@@ -460,10 +509,10 @@ fn diffuse_facets_keep_energy_and_are_reciprocal() {
             grey.eval_pdf_random(b, a, Transport::Radiance, s).0.g / a.z
         });
         let z = sigmas(&there, &back);
-        assert!(z.abs() < SIGMAS, "{widths:?}: {there:?} {back:?}");
+        assert!(z.abs() < SIGMAS, "{alphas:?}: {there:?} {back:?}");
     }
     // Flat facets are a Lambertian surface.
-    let flat = Diffuse::new(Ggx::new(alpha((1e-3, 1e-3))), Rgb::splat(0.6));
+    let flat = MultibounceDiffuse::new(Ggx::new(alpha((1e-3, 1e-3))), Rgb::splat(0.6));
     let m = f_cos(&flat, a, b, 16_000, 64);
     let lambert = 0.6 / std::f64::consts::PI * b.z;
     assert!((m.mean() / lambert - 1.0).abs() < 0.01, "{m:?} {lambert}");
@@ -479,7 +528,7 @@ enum Fault {
     WrongSign,
     /// What climbs past a layer is dropped: only the first layer's mass leaves.
     LastLayerOnly,
-    /// Facets are drawn among all, not the visible ones: `sigma(d)` for `sigma(-d)`.
+    /// Facets are sampled among all, not the visible ones: `sigma(d)` for `sigma(-d)`.
     WrongSide,
 }
 
@@ -518,7 +567,11 @@ fn by_state(fault: Fault, wo: Vec3<f64>, wi: Vec3<f64>, s: &mut Stream) -> f64 {
 #[test]
 fn planted_faults_are_caught() {
     let (wo, wi) = (at(30.0, 0.0), at(60.0, 180.0));
-    let lobe = Conductor::new(Ggx::new(alpha((1.0, 1.0))), white(), Model::Heitz2016);
+    let lobe = MultibounceConductor::new(
+        Ggx::new(alpha((1.0, 1.0))),
+        white(),
+        MultibounceModel::Heitz2016,
+    );
     let truth = f_cos(&lobe, wo, wi, 100_000, 71);
     for fault in [
         Fault::None,
@@ -541,7 +594,7 @@ fn planted_faults_are_caught() {
 #[test]
 fn single_precision_stays_finite_everywhere() {
     let mut stream = Stream::new(5);
-    let widths = [1e-4_f32, 1e-3, 0.03, 0.5, 1.0, 10.0];
+    let alphas = [1e-4_f32, 1e-3, 0.03, 0.5, 1.0, 10.0];
     let cosines = [
         1.0_f32, 0.9, 0.3, 1e-2, 1e-4, 1e-7, 0.0, -1e-7, -1e-3, -0.4, -1.0,
     ];
@@ -550,15 +603,15 @@ fn single_precision_stays_finite_everywhere() {
         let r = (1.0 - z * z).max(0.0).sqrt();
         vec3(r * cos, r * sin, z)
     };
-    for model in Model::ALL {
-        for ax in widths {
-            for ay in widths {
+    for model in MultibounceModel::ALL {
+        for ax in alphas {
+            for ay in alphas {
                 let alpha = Alpha::clamped(ax, ay);
-                let ggx = Conductor::new(Ggx::new(alpha), white(), model);
-                let beckmann = Conductor::new(Beckmann::new(alpha), white(), model);
-                let glass = Dielectric::new(Ggx::new(alpha), 1.5, model);
-                let facing = Dielectric::facing(Beckmann::new(alpha), 0.7, model);
-                let diffuse = Diffuse::new(Ggx::new(alpha), Rgb::splat(0.8));
+                let ggx = MultibounceConductor::new(Ggx::new(alpha), white(), model);
+                let beckmann = MultibounceConductor::new(Beckmann::new(alpha), white(), model);
+                let glass = MultibounceDielectric::new(Ggx::new(alpha), 1.5, model);
+                let facing = MultibounceDielectric::facing(Beckmann::new(alpha), 0.7, model);
+                let diffuse = MultibounceDiffuse::new(Ggx::new(alpha), Rgb::splat(0.8));
                 for zo in cosines {
                     for zi in cosines {
                         let (wo, wi) = (direction(&mut stream, zo), direction(&mut stream, zi));

@@ -9,13 +9,14 @@ use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::math::warp::uniform_sphere;
 use specula_bsdf::math::{Stream, vec3};
 use specula_bsdf::multibounce::{
-    Conductor, Dielectric, MisPdf, Model, normalised_pdf, sample_normalised,
+    MisPdf, MultibounceConductor, MultibounceDielectric, MultibounceModel, normalised_pdf,
+    sample_normalised,
 };
 use specula_bsdf::ndf::{Beckmann, Ggx, Ndf};
 use specula_bsdf::{Alpha, Bsdf, Rgb, Vec3};
 use specula_stat::quadrature::{Patch, Peak, Quadrature};
 
-const WIDTHS: [(f64, f64); 9] = [
+const ALPHAS: [(f64, f64); 9] = [
     (0.1, 0.1),
     (0.15, 0.15),
     (0.2, 0.2),
@@ -34,9 +35,10 @@ fn at(degrees: f64, azimuth: f64) -> Vec3<f64> {
     vec3(s * cos, s * sin, c)
 }
 
-fn metal<N: Ndf<f64>>(ndf: N, mis: MisPdf) -> Conductor<f64, N> {
+fn metal<N: Ndf<f64>>(ndf: N, mis: MisPdf) -> MultibounceConductor<f64, N> {
     let white = Reflectance::Constant(Rgb::splat(1.0));
-    Conductor::new(ndf, white, Model::Ours).with_mis_pdf(mis)
+    MultibounceConductor::new(ndf, white, MultibounceModel::StratifiedBidirectional)
+        .with_mis_pdf(mis)
 }
 
 const CELLS: (usize, usize) = (16, 32);
@@ -48,8 +50,8 @@ fn cell_direction(mu: f64, turn: f64) -> Vec3<f64> {
     vec3(r * cos, r * sin, mu)
 }
 
-/// Share of draws in each cell.
-fn drawn(n: u32, mut draw: impl FnMut(&mut Stream) -> Option<Vec3<f64>>) -> Vec<f64> {
+/// Share of samples in each cell.
+fn sampled(n: u32, mut draw: impl FnMut(&mut Stream) -> Option<Vec3<f64>>) -> Vec<f64> {
     let mut stream = Stream::new(9);
     let mut cells = vec![0.0; CELLS.0 * CELLS.1];
     for _ in 0..n {
@@ -82,14 +84,14 @@ fn integrated(pdf: impl Fn(Vec3<f64>) -> f64) -> Vec<f64> {
 /// Every view of every width: along and across the grain.
 fn cases() -> Vec<((f64, f64), f64, f64)> {
     let mut cases = Vec::new();
-    for widths in WIDTHS {
+    for alphas in ALPHAS {
         for view in VIEWS {
-            let azimuths: &[f64] = if widths.0 == widths.1 || view == 0.0 {
+            let azimuths: &[f64] = if alphas.0 == alphas.1 || view == 0.0 {
                 &[25.0]
             } else {
                 &[0.0, 90.0]
             };
-            cases.extend(azimuths.iter().map(|azimuth| (widths, view, *azimuth)));
+            cases.extend(azimuths.iter().map(|azimuth| (alphas, view, *azimuth)));
         }
     }
     cases
@@ -100,7 +102,7 @@ fn distances<N: Ndf<f64>>(ndf: N, wo: Vec3<f64>) -> [f64; 3] {
     // Smooth surfaces leave little to tell apart: less noise is needed there, and walks are short.
     let Alpha { x, y } = ndf.alpha();
     let draws = if x * y < 0.03 { 400_000 } else { 50_000 };
-    let walk = drawn(draws, |stream| {
+    let walk = sampled(draws, |stream| {
         let u = [stream.next(), stream.next()];
         walker.draw(wo, u, stream).map(|(wi, _)| wi)
     });
@@ -112,23 +114,23 @@ fn distances<N: Ndf<f64>>(ndf: N, wo: Vec3<f64>) -> [f64; 3] {
 }
 
 /// As fig. 8 of Cui et al. 2023: distance (L1, over cells of equal solid angle) of each density from
-/// that of the walk's draws, whose noise is in all three. Ours is the closest everywhere.
+/// that of the walk's samples, whose noise is in all three. StratifiedBidirectional is the closest everywhere.
 #[test]
 fn normalised_density_is_closest_to_the_walks() {
-    let of = |(widths, view, azimuth): ((f64, f64), f64, f64)| {
+    let of = |(alphas, view, azimuth): ((f64, f64), f64, f64)| {
         let wo = at(view, azimuth);
-        let ggx = distances(Ggx::new(alpha(widths)), wo);
-        [ggx, distances(Beckmann::new(alpha(widths)), wo)]
+        let ggx = distances(Ggx::new(alpha(alphas)), wo);
+        [ggx, distances(Beckmann::new(alpha(alphas)), wo)]
     };
     let cases = cases();
     let all: Vec<_> = cases.par_iter().map(|case| of(*case)).collect();
     let mut sums = [0.0; 3];
     for (case, two) in cases.iter().zip(&all) {
         for (name, distance) in ["GGX", "Beckmann"].iter().zip(two) {
-            let [lambert, hapke, ours] = *distance;
-            println!("{name} {case:?}: lambert {lambert:.4} hapke {hapke:.4} ours {ours:.4}");
+            let [lambert, hapke, specula] = *distance;
+            println!("{name} {case:?}: lambert {lambert:.4} hapke {hapke:.4} specula {specula:.4}");
             assert!(
-                ours < lambert && ours < hapke,
+                specula < lambert && specula < hapke,
                 "{name} {case:?}: {distance:?}"
             );
             for (sum, d) in sums.iter_mut().zip(distance) {
@@ -144,10 +146,10 @@ fn normalised_density_is_closest_to_the_walks() {
 #[test]
 fn the_normalised_density_is_its_samplers() {
     const N: u32 = 100_000;
-    let check = |((widths, view, azimuth), is_ggx): ((_, f64, f64), bool)| {
+    let check = |((alphas, view, azimuth), is_ggx): ((_, f64, f64), bool)| {
         let wo = at(view, azimuth);
-        let (ggx, beckmann) = (Ggx::new(alpha(widths)), Beckmann::new(alpha(widths)));
-        let cells = drawn(N, |stream| {
+        let (ggx, beckmann) = (Ggx::new(alpha(alphas)), Beckmann::new(alpha(alphas)));
+        let cells = sampled(N, |stream| {
             let u = [stream.next(), stream.next(), stream.next()];
             if is_ggx {
                 sample_normalised(&ggx, wo, u)
@@ -163,17 +165,17 @@ fn the_normalised_density_is_its_samplers() {
             }
         });
         // Cells are integrated to 2 %; a seventh standard error of the largest of 500 cells passes.
-        let far = cells.iter().zip(&density).map(|(drawn, p)| {
+        let far = cells.iter().zip(&density).map(|(sampled, p)| {
             let sigma = (p / f64::from(N)).sqrt() + 1e-5;
-            ((drawn - p).abs() - 0.02 * p) / sigma
+            ((sampled - p).abs() - 0.02 * p) / sigma
         });
         let worst = far.fold(0.0, f64::max);
         assert!(
             worst < 7.0,
-            "GGX {is_ggx} {widths:?} {view} {azimuth}: {worst}"
+            "GGX {is_ggx} {alphas:?} {view} {azimuth}: {worst}"
         );
     };
-    for widths in [
+    for alphas in [
         (0.3, 0.3),
         (1.0, 1.0),
         (0.2, 0.8),
@@ -181,23 +183,23 @@ fn the_normalised_density_is_its_samplers() {
         (2.0, 0.5_f64),
     ] {
         for (view, azimuth) in [(0.0, 0.0), (40.0, 25.0), (75.0, 100.0), (100.0, 25.0)] {
-            if view > 90.0 && (widths.0 < 0.5 || widths.1 < 0.5) {
+            if view > 90.0 && (alphas.0 < 0.5 || alphas.1 < 0.5) {
                 // From behind, light goes on nearly straight: too narrow for cells.
                 continue;
             }
-            check(((widths, view, azimuth), true));
-            check(((widths, view, azimuth), false));
+            check(((alphas, view, azimuth), true));
+            check(((alphas, view, azimuth), false));
         }
     }
 }
 
-/// Textures vary the widths: no step where a constant would change.
+/// Textures vary the alphas: no step where a constant would change.
 #[test]
-fn normalised_density_is_continuous_in_the_widths() {
+fn normalised_density_is_continuous_in_the_alphas() {
     let mut stream = Stream::new(3);
     for _ in 0..2000 {
         let (x, ratio) = (0.05 * 40.0_f64.powf(stream.next()), stream.next::<f64>());
-        // Half of the widths are close to equal, where the smooth axis changes.
+        // Half of the alphas are close to equal, where the smooth axis changes.
         let y = if ratio < 0.5 {
             x
         } else {
@@ -248,20 +250,20 @@ fn total<N: Ndf<f64>>(ndf: N, mis: MisPdf, wo: Vec3<f64>) -> f64 {
 
 #[test]
 fn normalised_density_integrates_to_one() {
-    WIDTHS.par_iter().for_each(|widths| {
+    ALPHAS.par_iter().for_each(|alphas| {
         for view in [0.0, 60.0, 80.0, 89.0, 100.0, 150.0] {
             let wo = at(view, 25.0);
-            if wo.z < 0.0 && widths.0 < 0.2 {
+            if wo.z < 0.0 && alphas.0 < 0.2 {
                 // What smooth facets show to a view from behind is narrower than any grid, for
                 // Beckmann's, whose tails are thin, sooner.
                 continue;
             }
-            let ggx = total(Ggx::new(alpha(*widths)), MisPdf::Normalised, wo);
-            assert!((ggx - 1.0).abs() < 1e-3, "GGX {widths:?} {view}: {ggx}");
-            if wo.z > 0.0 || widths.0 >= 0.3 {
-                let beckmann = total(Beckmann::new(alpha(*widths)), MisPdf::Normalised, wo);
+            let ggx = total(Ggx::new(alpha(*alphas)), MisPdf::Normalised, wo);
+            assert!((ggx - 1.0).abs() < 1e-3, "GGX {alphas:?} {view}: {ggx}");
+            if wo.z > 0.0 || alphas.0 >= 0.3 {
+                let beckmann = total(Beckmann::new(alpha(*alphas)), MisPdf::Normalised, wo);
                 let off = (beckmann - 1.0).abs();
-                assert!(off < 1e-3, "Beckmann {widths:?} {view}: {beckmann}");
+                assert!(off < 1e-3, "Beckmann {alphas:?} {view}: {beckmann}");
             }
         }
     });
@@ -281,10 +283,14 @@ fn sums_of_the_papers_are_no_densities() {
 
 #[test]
 fn dielectric_density_integrates_to_one() {
-    for widths in [(0.3, 0.3), (1.0, 1.0), (0.2, 0.8)] {
+    for alphas in [(0.3, 0.3), (1.0, 1.0), (0.2, 0.8)] {
         for view in [10.0, 70.0, 120.0, 175.0] {
             let wo = at(view, 25.0);
-            let lobe = Dielectric::new(Ggx::new(alpha(widths)), 1.5, Model::Ours);
+            let lobe = MultibounceDielectric::new(
+                Ggx::new(alpha(alphas)),
+                1.5,
+                MultibounceModel::StratifiedBidirectional,
+            );
             let quadrature = Quadrature {
                 relative_tolerance: 1e-4,
                 ..Quadrature::default()
@@ -293,7 +299,7 @@ fn dielectric_density_integrates_to_one() {
             let value = integral.value[0];
             assert!(
                 (value - 1.0).abs() < 1e-3,
-                "{widths:?} {view}: {integral:?}"
+                "{alphas:?} {view}: {integral:?}"
             );
         }
     }
@@ -307,7 +313,12 @@ fn densities_are_positive_and_finite_in_single_precision() {
             for ay in [1e-4_f32, 0.1, 1.0] {
                 let white = Reflectance::Constant(Rgb::splat(1.0_f32));
                 let alpha = Alpha::clamped(ax, ay);
-                let lobe = Conductor::new(Ggx::new(alpha), white, Model::Ours).with_mis_pdf(mis);
+                let lobe = MultibounceConductor::new(
+                    Ggx::new(alpha),
+                    white,
+                    MultibounceModel::StratifiedBidirectional,
+                )
+                .with_mis_pdf(mis);
                 for _ in 0..2000 {
                     let sphere = |s: &mut Stream| uniform_sphere([s.next(), s.next()]);
                     let (wo, wi) = (sphere(&mut stream), sphere(&mut stream));

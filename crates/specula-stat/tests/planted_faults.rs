@@ -14,13 +14,13 @@ use specula_bsdf::{Bsdf, Rgb, Transport, Vec3};
 use specula_stat::image::{NoisyImage, compare};
 use specula_stat::quadrature::direction;
 use specula_stat::reciprocity::Domain;
-use specula_stat::{Drawn, Plan, Report, Rng, Subject, prove, twin};
+use specula_stat::{DirectionSample, Plan, Report, Rng, Subject, prove, twin};
 
-const WIDTHS: (f64, f64) = (0.3, 0.6);
+const ALPHAS: (f64, f64) = (0.3, 0.6);
 
 fn metal() -> RoughConductor<f64> {
     RoughConductor::new(
-        Ggx::new(alpha(WIDTHS)),
+        Ggx::new(alpha(ALPHAS)),
         Reflectance::Constant(Rgb::splat(0.9)),
     )
     .with_sampler(Sampler::Cap)
@@ -43,9 +43,9 @@ fn pdf(wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {
     metal().pdf(wo, wi)
 }
 
-fn sample(wo: Vec3<f64>, u: [f64; 3]) -> Option<Drawn> {
+fn sample(wo: Vec3<f64>, u: [f64; 3]) -> Option<DirectionSample> {
     let sample = metal().sample(wo, u, Transport::Radiance)?;
-    Some(Drawn::new(sample.wi, sample.weight))
+    Some(DirectionSample::new(sample.wi, sample.weight))
 }
 
 fn check(subject: &Subject) -> Report {
@@ -78,14 +78,14 @@ fn dropped_jacobian() {
 
 #[test]
 fn g1_in_place_of_g2() {
-    let ggx = Ggx::new(alpha(WIDTHS));
+    let ggx = Ggx::new(alpha(ALPHAS));
     let wrong = |wo, u| {
-        let drawn = sample(wo, u)?;
+        let sampled = sample(wo, u)?;
         // G2/G1 is right.
-        let ratio = ggx.g1(drawn.wi) * ggx.g1(wo) / ggx.g2_correlated(wo, drawn.wi);
-        Some(Drawn {
-            weight: drawn.weight * ratio,
-            ..drawn
+        let ratio = ggx.g1(sampled.wi) * ggx.g1(wo) / ggx.g2_correlated(wo, sampled.wi);
+        Some(DirectionSample {
+            weight: sampled.weight * ratio,
+            ..sampled
         })
     };
     let report = check(&Subject::new(eval, pdf, wrong));
@@ -94,7 +94,7 @@ fn g1_in_place_of_g2() {
 
 #[test]
 fn pdf_without_its_g1() {
-    let ggx = Ggx::new(alpha(WIDTHS));
+    let ggx = Ggx::new(alpha(ALPHAS));
     let wrong = |wo, wi| pdf(wo, wi) / ggx.g1(wo);
     let report = check(&Subject::new(eval, wrong, sample));
     assert_fails(&report, &["chi-square", "integral of pdf", "weight"]);
@@ -102,7 +102,7 @@ fn pdf_without_its_g1() {
 
 #[test]
 fn eta_upside_down() {
-    let ggx = Ggx::new(alpha(WIDTHS));
+    let ggx = Ggx::new(alpha(ALPHAS));
     let right = RoughDielectric::new(ggx, 1.5);
     let flipped = RoughDielectric::new(ggx, 1.0 / 1.5);
     let radiance = Transport::Radiance;
@@ -121,7 +121,7 @@ fn eta_upside_down() {
         |wo, wi| right.pdf(wo, wi),
         |wo, u| {
             let sample = flipped.sample(wo, u, radiance)?;
-            Some(Drawn::new(sample.wi, sample.weight))
+            Some(DirectionSample::new(sample.wi, sample.weight))
         },
     );
     let report = prove("sampler", &subject, &[view()], &plan);
@@ -140,7 +140,7 @@ fn a_sampler_that_draws_one_in_a_hundred_from_elsewhere() {
         } else {
             sample(wo, u)?.wi
         };
-        Some(Drawn::new(wi, eval(wo, wi) / pdf(wo, wi)))
+        Some(DirectionSample::new(wi, eval(wo, wi) / pdf(wo, wi)))
     };
     let plan = Plan {
         samples: 1_000_000,
@@ -161,10 +161,10 @@ fn a_sampler_whose_numbers_stop_one_per_cent_short() {
 #[test]
 fn weights_one_per_cent_too_large() {
     let wrong = |wo, u| {
-        let drawn = sample(wo, u)?;
-        Some(Drawn {
-            weight: drawn.weight * 1.01,
-            ..drawn
+        let sampled = sample(wo, u)?;
+        Some(DirectionSample {
+            weight: sampled.weight * 1.01,
+            ..sampled
         })
     };
     let report = check(&Subject::new(eval, pdf, wrong));
@@ -185,13 +185,13 @@ fn a_nan_in_eval() {
 #[test]
 fn a_nan_in_a_sample() {
     let wrong = |wo, u: [f64; 3]| {
-        let drawn = sample(wo, u)?;
+        let sampled = sample(wo, u)?;
         let wi = if u[1] < 1e-3 {
-            drawn.wi * f64::NAN
+            sampled.wi * f64::NAN
         } else {
-            drawn.wi
+            sampled.wi
         };
-        Some(Drawn { wi, ..drawn })
+        Some(DirectionSample { wi, ..sampled })
     };
     let report = check(&Subject::new(eval, pdf, wrong));
     assert_fails(&report, &["chi-square", "weight"]);
@@ -200,8 +200,8 @@ fn a_nan_in_a_sample() {
 #[test]
 fn no_test_of_the_horizon_in_the_sampler() {
     let wrong = |wo: Vec3<f64>, u: [f64; 3]| {
-        let wm = vndf::cap::sample_wm(alpha(WIDTHS), wo, [u[1], u[2]]);
-        Some(Drawn::new(vndf::reflect(wo, wm), Rgb::splat(0.5)))
+        let wm = vndf::cap::sample_wm(alpha(ALPHAS), wo, [u[1], u[2]]);
+        Some(DirectionSample::new(vndf::reflect(wo, wm), Rgb::splat(0.5)))
     };
     let report = check(&Subject::new(eval, pdf, wrong));
     assert_fails(
@@ -212,7 +212,7 @@ fn no_test_of_the_horizon_in_the_sampler() {
 
 #[test]
 fn no_test_of_the_horizon_in_the_pdf() {
-    let ggx = Ggx::new(alpha(WIDTHS));
+    let ggx = Ggx::new(alpha(ALPHAS));
     let wrong = |wo: Vec3<f64>, wi| {
         let wm = half(wo, wi);
         ggx.d_visible(wo, wm) / (4.0 * wo.dot(wm))
@@ -226,7 +226,7 @@ fn bounded_samples_with_the_pdf_of_caps() {
     let bounded = metal().with_sampler(Sampler::Bounded);
     let wrong = |wo, u| {
         let sample = bounded.sample(wo, u, Transport::Radiance)?;
-        Some(Drawn::new(sample.wi, sample.weight))
+        Some(DirectionSample::new(sample.wi, sample.weight))
     };
     let report = check(&Subject::new(eval, pdf, wrong));
     assert_fails(&report, &["chi-square", "integral of pdf", "weight"]);
@@ -234,13 +234,13 @@ fn bounded_samples_with_the_pdf_of_caps() {
 
 #[test]
 fn exact_samples_with_the_norm_of_bounded_caps() {
-    let ggx = Ggx::new(alpha(WIDTHS));
+    let ggx = Ggx::new(alpha(ALPHAS));
     let right = metal().with_sampler(Sampler::Exact);
     let ratio =
         |wo| ggx.reflection_norm(Sampler::Exact, wo) / ggx.reflection_norm(Sampler::Bounded, wo);
     let draw = |wo, u| {
         let sample = right.sample(wo, u, Transport::Radiance)?;
-        Some(Drawn::new(sample.wi, sample.weight))
+        Some(DirectionSample::new(sample.wi, sample.weight))
     };
     let density = |wo, wi| right.pdf(wo, wi);
     let report = check(&Subject::new(eval, density, draw));
@@ -260,7 +260,8 @@ fn exact_samples_that_stop_at_the_end_of_their_chord() {
         let opposite = right.sample(wo, [u[0], u[1], 1.0 - u[2]], Transport::Radiance)?;
         // The same point of two opposite azimuths: one of them has changed sides.
         let side = |w: Vec3<f64>| (wo.x * w.y - wo.y * w.x) > 0.0;
-        (side(sample.wi) != side(opposite.wi)).then(|| Drawn::new(sample.wi, sample.weight))
+        (side(sample.wi) != side(opposite.wi))
+            .then(|| DirectionSample::new(sample.wi, sample.weight))
     };
     let report = check(&Subject::new(eval, |wo, wi| right.pdf(wo, wi), wrong));
     assert_fails(&report, &["chi-square"]);
@@ -268,7 +269,7 @@ fn exact_samples_that_stop_at_the_end_of_their_chord() {
 
 #[test]
 fn masking_of_one_direction_only() {
-    let ggx = Ggx::new(alpha(WIDTHS));
+    let ggx = Ggx::new(alpha(ALPHAS));
     let lobe = metal().with_masking(Masking::Separable);
     let wrong = |wo, wi: Vec3<f64>| {
         let value = lobe.eval(wo, wi, Transport::Radiance);
@@ -288,7 +289,7 @@ fn cancellation_in_f32() {
     let density = |d: f64| Rgb::splat(d);
     let draw = |wo: Vec3<f64>, u: [f64; 3]| {
         let wm = vndf::cap::sample_wm(alpha((0.01, 0.01)), wo, [u[1], u[2]]);
-        Some(Drawn::new(wm, Rgb::splat(1.0)))
+        Some(DirectionSample::new(wm, Rgb::splat(1.0)))
     };
     let double = Subject::new(
         |wo, wm| density(ggx.d_visible(wo, wm)),
@@ -327,7 +328,7 @@ fn picture(seed: u64) -> (Vec<f64>, Vec<f64>) {
     (0..64 * 64)
         .map(|i| {
             let value = 0.2 + f64::from(i) / 4096.0;
-            // Twelve uniform numbers make a normal one.
+            // Twelve uniform random numbers make a normal one.
             let normal = (0..12).map(|_| rng.uniform()).sum::<f64>() - 6.0;
             let deviation = 0.2 * value;
             (value + deviation * normal, deviation * deviation)

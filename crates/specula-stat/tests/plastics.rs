@@ -10,7 +10,7 @@ use specula_bsdf::{Bsdf, Rgb, Transport};
 use specula_stat::quadrature::Quadrature;
 use specula_stat::{Report, Subject, furnace, prove};
 
-const WIDTHS: [(f64, f64); 4] = [(0.05, 0.05), (0.3, 0.3), (1.0, 1.0), (0.1, 0.4)];
+const ALPHAS: [(f64, f64); 4] = [(0.05, 0.05), (0.3, 0.3), (1.0, 1.0), (0.1, 0.4)];
 
 fn diffuse<T: Real>() -> Rgb<T> {
     rgb(T::of(0.8), T::of(0.4), T::of(0.1))
@@ -20,14 +20,14 @@ fn specular<T: Real>() -> Rgb<T> {
     rgb(T::ONE, T::of(0.7), T::ZERO)
 }
 
-fn proof(name: &str, lobe: &(impl Bsdf<f64> + Sync), widths: (f64, f64)) -> Report {
+fn proof(name: &str, lobe: &(impl Bsdf<f64> + Sync), alphas: (f64, f64)) -> Report {
     let subject = Subject::from_bsdf(lobe, Transport::Radiance);
-    prove(name, &subject, &few_views(&ABOVE), &plan(widths))
+    prove(name, &subject, &few_views(&ABOVE), &plan(alphas))
 }
 
 #[test]
 fn rough_coats_of_either_distribution_and_masking() {
-    prove_all("plastics", &WIDTHS, |&w| {
+    prove_all("plastics", &ALPHAS, |&w| {
         let (eta, nonlinear) = (1.5, w.0 > 0.2);
         let ggx = Ggx::new(alpha(w));
         let separable = Masking::Separable;
@@ -51,7 +51,7 @@ fn smooth_coats() {
 
 #[test]
 fn backfacing_views_follow_the_density() {
-    prove_all("plastics from below", &WIDTHS, |&w| {
+    prove_all("plastics from below", &ALPHAS, |&w| {
         let ggx = Ggx::new(alpha(w));
         let lobe = Plastic::rough(ggx, Masking::Separable, 1.5, diffuse(), specular(), true);
         let subject = Subject::from_bsdf(&lobe, Transport::Radiance);
@@ -97,7 +97,7 @@ fn no_plastic_makes_light() {
 
 #[test]
 fn f32_is_f64() {
-    prove_all("plastic twins", &WIDTHS, |&w| {
+    prove_all("plastic twins", &ALPHAS, |&w| {
         let masking = Masking::Separable;
         let mut report = common::twins(
             &format!("GGX {w:?}"),

@@ -200,7 +200,7 @@ fn albedo(p: PrincipledParameters<f64>, wo: Vec3<f64>) -> f64 {
     furnace::albedo(&subject, wo, &[], &Quadrature::default()).value[1]
 }
 
-/// The documentation of the lobe states these numbers.
+/// The documentation of the lobe states these values.
 #[test]
 fn the_energy_that_principled_makes_is_as_stated() {
     let white = PrincipledParameters {

@@ -27,22 +27,22 @@ fn visible_normals_follow_their_density() {
     prove_all(
         "visible normals",
         &with_alphas(&samplers),
-        |&((name, pdf, sample), widths)| {
-            let alpha = alpha(widths);
+        |&((name, pdf, sample), alphas)| {
+            let alpha = alpha(alphas);
             let subject = sampler(
                 move |wo, wm| pdf(alpha, wo, wm),
                 move |wo, u| Some(sample(alpha, wo, u)),
             );
             let plan = Plan {
                 reciprocity: Domain::Nowhere,
-                ..plan(widths)
+                ..plan(alphas)
             };
             let mut views = few_views(&both_sides());
             if name == "beckmann" {
-                views.retain(|wo| beckmann_is_visible(widths, wo));
+                views.retain(|wo| beckmann_is_visible(alphas, wo));
             }
             prove(
-                &format!("{name} normals {widths:?}"),
+                &format!("{name} normals {alphas:?}"),
                 &subject,
                 &views,
                 &plan,
@@ -83,22 +83,22 @@ fn reflections_follow_their_density_and_are_rejected_as_it_says() {
     prove_all(
         "reflections",
         &with_alphas(&samplers),
-        |&((name, pdf, sample), widths)| {
-            let alpha = alpha(widths);
+        |&((name, pdf, sample), alphas)| {
+            let alpha = alpha(alphas);
             let subject = sampler(
                 move |wo, wi| pdf(alpha, wo, wi),
                 move |wo, u| sample(alpha, wo, u),
             );
             let plan = Plan {
                 reciprocity: Domain::Nowhere,
-                ..plan(widths)
+                ..plan(alphas)
             };
             let mut views = views(&both_sides());
             if name == "beckmann" {
-                views.retain(|wo| beckmann_is_visible(widths, wo));
+                views.retain(|wo| beckmann_is_visible(alphas, wo));
             }
             prove(
-                &format!("{name} reflections {widths:?}"),
+                &format!("{name} reflections {alphas:?}"),
                 &subject,
                 &views,
                 &plan,

@@ -73,7 +73,7 @@ fn tints_are_factors_on_either_branch() {
             Ggx::new(alpha((0.3, 0.5))),
             Beckmann::new(alpha((0.3, 0.5))),
         );
-        let model = multibounce::Model::default();
+        let model = multibounce::MultibounceModel::default();
         vec![
             (
                 "smooth",
@@ -112,13 +112,13 @@ fn tints_are_factors_on_either_branch() {
             ),
             (
                 "bounces",
-                multibounce::Dielectric::facing(ggx, 1.5, model)
+                multibounce::MultibounceDielectric::facing(ggx, 1.5, model)
                     .with_tints(tints)
                     .into(),
             ),
             (
                 "Beckmann's bounces",
-                multibounce::Dielectric::facing(beckmann, 1.5, model)
+                multibounce::MultibounceDielectric::facing(beckmann, 1.5, model)
                     .with_tints(tints)
                     .into(),
             ),
@@ -210,13 +210,18 @@ fn lobes_of_beckmann_are_what_they_hold() {
     same(&conductor, &conductor.into());
     let dielectric = RoughDielectric::new(ndf, 1.5);
     same(&dielectric, &dielectric.into());
-    let compensated = Compensated::new(ndf, copper(), energy::Model::KullaConty);
+    let compensated = Compensated::new(ndf, copper(), energy::EnergyModel::KullaConty);
     same(&compensated, &compensated.into());
     let compensated = CompensatedDielectric::new(ndf, 1.5);
     same(&compensated, &compensated.into());
-    let bounces = multibounce::Conductor::new(ndf, copper(), multibounce::Model::default());
+    let bounces = multibounce::MultibounceConductor::new(
+        ndf,
+        copper(),
+        multibounce::MultibounceModel::default(),
+    );
     same(&bounces, &bounces.into());
-    let bounces = multibounce::Dielectric::new(ndf, 1.5, multibounce::Model::default());
+    let bounces =
+        multibounce::MultibounceDielectric::new(ndf, 1.5, multibounce::MultibounceModel::default());
     same(&bounces, &bounces.into());
     let white = Rgb::WHITE;
     let plastic = Plastic::rough(ndf, Masking::Separable, 1.5, white, white, true);

@@ -1,5 +1,5 @@
 //! Generator of `specula-bsdf/src/energy/interface_single_table.rs`: what a rough dielectric
-//! interface lets through and throws back where its facets scatter once, and what an absorbing
+//! interface lets through and reflects where its facets scatter once, and what an absorbing
 //! layer under it takes; by quadrature in f64.
 //!
 //! The visible normals' own warp serves as the quadrature's change of variables, as in
@@ -20,7 +20,7 @@ use crate::generated::Generated;
 const ETAS: u32 = 9;
 const ALPHAS: u32 = 25;
 const MUS: u32 = 25;
-/// What is thrown back bends more along the index.
+/// What is reflected bends more along the index.
 const INTERNAL_ETAS: u32 = 17;
 /// Absorption varies slowly: fewer knots.
 const ABSORPTION_ALPHAS: u32 = 13;
@@ -196,7 +196,7 @@ fn quotient(eta: f64, alpha: f64, mu: f64) -> f64 {
         return 1.0;
     }
     let smooth = dielectric(effective_cosine(mu, alpha), eta).transmittance;
-    Scattered::from(eta, alpha, mu, &[], [64, 32]).transmitted[0] / smooth
+    ScatterCounts::from(eta, alpha, mu, &[], [64, 32]).transmitted[0] / smooth
 }
 
 /// Cosines of `crossing` as shares of the smooth one, by thickness.
@@ -206,7 +206,7 @@ fn crossing_cosines(eta: f64, alpha: f64, mu: f64) -> [f64; THICKNESSES] {
     }
     let refracted = dielectric(effective_cosine(mu, alpha), eta).cos_t;
     let thicknesses = thicknesses();
-    let scattered = Scattered::from(eta, alpha, mu, &thicknesses, [64, 32]);
+    let scattered = ScatterCounts::from(eta, alpha, mu, &thicknesses, [64, 32]);
     let mut l = 0;
     thicknesses.map(|_| {
         l += 1;
@@ -218,12 +218,12 @@ fn crossing_cosines(eta: f64, alpha: f64, mu: f64) -> [f64; THICKNESSES] {
 ///
 /// `[0]` of each: the share; `[1]`: that times the inverse cosine; from `[2]` on: the share that
 /// crosses each thickness.
-struct Scattered {
+struct ScatterCounts {
     reflected: Vec<f64>,
     transmitted: Vec<f64>,
 }
 
-impl Scattered {
+impl ScatterCounts {
     /// * `eta`: index beyond the interface over that on the side of `mu`.
     /// * `points`: over the cap's height and over half its azimuths (it is symmetric).
     fn from(eta: f64, alpha: f64, mu: f64, thicknesses: &[f64], points: [u32; 2]) -> Self {
@@ -287,19 +287,19 @@ fn mean_cosine(sums: &[f64], l: usize, thicknesses: &[f64]) -> f64 {
 
 /// What becomes inside of diffuse light from inside.
 struct Internal {
-    /// As [`Scattered`]'s, the inverse cosines of both crossings added.
+    /// As [`ScatterCounts`]'s, the inverse cosines of both crossings added.
     reflected: Vec<f64>,
     thicknesses: Vec<f64>,
 }
 
 impl Internal {
-    /// The cosine `c` of which `exp(-t / c)` is the mean over light that is thrown back.
+    /// The cosine `c` of which `exp(-t / c)` is the mean over light that is reflected.
     fn cosine(&self, l: usize) -> f64 {
         mean_cosine(&self.reflected, l, &self.thicknesses)
     }
 }
 
-/// * `points`: cosines on either side of the critical angle, and as [`Scattered::from`].
+/// * `points`: cosines on either side of the critical angle, and as [`ScatterCounts::from`].
 fn internal(eta: f64, alpha: f64, thicknesses: &[f64], points: [u32; 3]) -> Internal {
     let critical = (1.0 - 1.0 / (eta * eta)).sqrt();
     let mut sums = vec![0.0; 2 + thicknesses.len()];
@@ -310,7 +310,7 @@ fn internal(eta: f64, alpha: f64, thicknesses: &[f64], points: [u32; 3]) -> Inte
             let mu = low + (high - low) * y * y * y * (10.0 - 15.0 * y + 6.0 * y * y);
             let slope = 30.0 * y * y * (1.0 - y) * (1.0 - y);
             let weight = 2.0 * mu * slope * (high - low) / f64::from(points[0]);
-            let mut once = Scattered {
+            let mut once = ScatterCounts {
                 reflected: vec![0.0; 2 + thicknesses.len()],
                 transmitted: vec![],
             };
@@ -319,7 +319,7 @@ fn internal(eta: f64, alpha: f64, thicknesses: &[f64], points: [u32; 3]) -> Inte
                 add(&mut once.reflected, share, mu, thicknesses);
             } else {
                 let points = [points[1], points[2]];
-                once = Scattered::from(1.0 / eta, alpha, mu, thicknesses, points);
+                once = ScatterCounts::from(1.0 / eta, alpha, mu, thicknesses, points);
             }
             sums[0] += weight * once.reflected[0];
             sums[1] += weight * (once.reflected[1] + once.reflected[0] / mu);
@@ -369,22 +369,22 @@ mod tests {
 
     #[test]
     fn single_scattering_holds_its_bounds() {
-        let (mut entering, mut thrown_back) = (Worst::default(), Worst::default());
+        let (mut entering, mut projected_back) = (Worst::default(), Worst::default());
         for eta in ETAS {
             for alpha in ALPHAS {
                 for mu in MUS {
                     let got = interface_single::transmittance(ggx(alpha), eta, mu);
-                    let exact = Scattered::from(eta, alpha, mu, &[], [64, 32]).transmitted[0];
+                    let exact = ScatterCounts::from(eta, alpha, mu, &[], [64, 32]).transmitted[0];
                     entering.push(got - exact, || format!("{eta} {alpha} {mu}: {got} {exact}"));
                 }
                 let got = interface_single::internal_reflectance(ggx(alpha), eta);
                 let exact = internal(eta, alpha, &[], [24, 64, 32]).reflected[0];
-                thrown_back.push(got - exact, || format!("{eta} {alpha}: {got} {exact}"));
+                projected_back.push(got - exact, || format!("{eta} {alpha}: {got} {exact}"));
             }
         }
         // The bounds that the module `interface_single` of specula-bsdf states.
         entering.hold("T", 8e-3);
-        thrown_back.hold("R_int", 2e-3);
+        projected_back.hold("R_int", 2e-3);
     }
 
     #[test]
@@ -398,7 +398,7 @@ mod tests {
                 for alpha in ALPHAS {
                     for mu in MUS {
                         let got = layer.crossing(ggx(alpha), eta, mu);
-                        let once = Scattered::from(eta, alpha, mu, &[t], [64, 32]).transmitted;
+                        let once = ScatterCounts::from(eta, alpha, mu, &[t], [64, 32]).transmitted;
                         let exact = once[2] / once[0];
                         crossing.push(got - exact, || format!("{eta} {alpha} {mu}: {got} {exact}"));
                     }
@@ -422,8 +422,9 @@ mod tests {
             for i in 0..STEPS {
                 let y = (f64::from(i) + 0.5) / f64::from(STEPS);
                 let (mu, weight) = (y * y, 4.0 * y * y * y / f64::from(STEPS));
-                enters += weight * Scattered::from(eta, alpha, mu, &[], [64, 32]).transmitted[0];
-                let inside = Scattered::from(1.0 / eta, alpha, mu, &[], [64, 32]);
+                enters +=
+                    weight * ScatterCounts::from(eta, alpha, mu, &[], [64, 32]).transmitted[0];
+                let inside = ScatterCounts::from(1.0 / eta, alpha, mu, &[], [64, 32]);
                 leaves += weight * inside.transmitted[0];
                 assert!(inside.transmitted[0] + inside.reflected[0] < 1.0);
             }

@@ -1,5 +1,5 @@
 //! Generator of `specula-bsdf/src/bsdf/plastic/interface_table.rs`: what the coat of Mitsuba 3's
-//! `roughplastic` lets through and throws back, by quadrature in f64.
+//! `roughplastic` lets through and reflects, by quadrature in f64.
 //!
 //! The visible normals' own warp serves as the change of variables, as in Mitsuba.
 

@@ -51,7 +51,7 @@ struct Point {
     cost: f64,
 }
 
-/// Measures, prints and draws.
+/// Measures, prints and samples.
 pub(crate) fn run(root: &Path, scaling: &Scaling) -> Result<()> {
     let program = workspace::program(root, scaling.specula.as_deref())?;
     fs::create_dir_all(&scaling.out)?;

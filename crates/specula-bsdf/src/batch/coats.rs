@@ -1,10 +1,10 @@
-//! Coats over metal. Where both surfaces are rough, values and weights are vectors; a coat's draws
+//! Coats over metal. Where both surfaces are rough, values and weights are vectors; a coat's samples
 //! choose a surface each, and are not.
 
 use super::level::Arithmetic;
 use super::lobes::{Any, InStages, Kernel, Lobes, Same};
 use super::recast::{Recast, number};
-use super::rough::{equal_widths, made_isotropic};
+use super::rough::{is_isotropic, made_isotropic};
 use crate::bsdf::{Bsdf, BsdfSample, CoatedConductor, Transport};
 use crate::fresnel::Reflectance;
 use crate::math::{Real, Rgb, Vec3};
@@ -61,11 +61,11 @@ impl<U: Real> Bsdf<U> for RoughCoat<U> {
 impl<U: Real> InStages<U> for RoughCoat<U> {
     const STAGED: bool = true;
     const TWO_NUMBERS: bool = true;
-    const DRAWN_BY_REFLECTANCE: bool = true;
+    const SAMPLED_BY_REFLECTANCE: bool = true;
 
     #[inline(always)]
     fn is_isotropic(&self) -> bool {
-        equal_widths(&self.coat) && equal_widths(&self.metal)
+        is_isotropic(&self.coat) && is_isotropic(&self.metal)
     }
 
     #[inline(always)]

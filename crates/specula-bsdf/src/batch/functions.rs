@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use super::kernels::{Eval, EvalPdf, Pdf, Sample, SampleWi};
 use super::level::{Arithmetic, Level, Task};
 use super::lobes::{Kernel, Lobes};
-use super::slices::{Colours, Directions, Kind, LengthMismatch, Samples, check};
+use super::slices::{Colours, Directions, LengthMismatch, SampleOutcome, Samples, check};
 #[cfg(doc)]
 use crate::bsdf::Bsdf;
 use crate::bsdf::Transport;
@@ -98,7 +98,7 @@ impl Level {
     }
 
     /// [`Bsdf::sample`] of every element: directions, densities and weights. A rejected draw is
-    /// [`Kind::Rejected`] with `wi`, `weight` and `pdf` all zero.
+    /// [`SampleOutcome::Rejected`] with `wi`, `weight` and `pdf` all zero.
     ///
     /// * `wo: (n, 3) T`, `u: (n, 3) T` in `[0, 1)` `-> wi: (n, 3) T`, `weight: (n, 3) T`,
     ///   `pdf: (n,) T`, `kind: (n,) u8`
@@ -111,7 +111,7 @@ impl Level {
         wo: Directions<&[T]>,
         u: [&[T]; 3],
         transport: Transport,
-        samples: Samples<&mut [T], &mut [Kind]>,
+        samples: Samples<&mut [T], &mut [SampleOutcome]>,
     ) -> Result<(), LengthMismatch> {
         let n = samples.pdf.len();
         check(n, samples.lengths())?;

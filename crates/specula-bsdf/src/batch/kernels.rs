@@ -7,7 +7,7 @@
 
 use super::lobes::{Family, InStages, Isotropic, Kernel};
 use super::recast::number;
-use super::slices::{Colours, Directions, Kind, Samples};
+use super::slices::{Colours, Directions, SampleOutcome, Samples};
 use crate::bsdf::{Bsdf, Transport};
 use crate::fresnel::Reflectance;
 use crate::math::{Real, Vec3, vec3};
@@ -206,7 +206,7 @@ pub(super) struct Sample<'a, T> {
     pub(super) wo: Directions<&'a [T]>,
     pub(super) u: [&'a [T]; 3],
     pub(super) transport: Transport,
-    pub(super) samples: Samples<&'a mut [T], &'a mut [Kind]>,
+    pub(super) samples: Samples<&'a mut [T], &'a mut [SampleOutcome]>,
 }
 
 impl<T: Real> Kernel for Sample<'_, T> {
@@ -284,7 +284,7 @@ impl<T: Real> Kernel for SampleWi<'_, T> {
     fn run<U: Real, F: Family<U>>(self, family: F) {
         // The weight is not asked for: any reflectance will do, but where it steers the draw.
         let black = Reflectance::Constant(crate::Rgb::BLACK);
-        let family = if F::Lobe::DRAWN_BY_REFLECTANCE {
+        let family = if F::Lobe::SAMPLED_BY_REFLECTANCE {
             family
         } else {
             family.with(|lobe| lobe.choose_reflectance(black))
@@ -307,7 +307,7 @@ impl<T: Real> SampleWi<'_, T> {
     }
 }
 
-/// The three numbers at `i`.
+/// The three values at `i`.
 #[inline(always)]
 fn numbers<T: Real, U: Real>([a, b, c]: [&[T]; 3], i: usize) -> [U; 3] {
     [number(a[i]), number(b[i]), number(c[i])]

@@ -15,9 +15,9 @@ use crate::math::Real;
 pub enum Level {
     /// What the crate is compiled for: by default SSE2 on x86-64, NEON on aarch64.
     Baseline,
-    /// AVX2 with fused multiply-add (x86-64-v3): 8 lanes of `f32`, 4 of `f64`.
+    /// AVX2 with fused multiply-add (x86-64-v3): 8 walks of `f32`, 4 of `f64`.
     Avx2,
-    /// AVX-512 (x86-64-v4, Ice Lake and later): 16 lanes of `f32`, 8 of `f64`.
+    /// AVX-512 (x86-64-v4, Ice Lake and later): 16 walks of `f32`, 8 of `f64`.
     Avx512,
 }
 

@@ -12,7 +12,7 @@ use crate::math::{Real, Rgb, Vec3};
 use crate::vndf::Sampler;
 
 /// The lobes of a batch: one lobe for all elements (every single-scattering lobe of this crate), or
-/// [`PerElement`](super::PerElement) widths, or [`Any`] lobe that implements [`Bsdf`].
+/// [`PerElement`](super::PerElement) alphas, or [`Any`] lobe that implements [`Bsdf`].
 pub trait Lobes<T: Real> {
     /// Fails where an array of per-element parameters is not `n` long.
     #[doc(hidden)]
@@ -64,19 +64,19 @@ pub trait InStages<U: Real>: Bsdf<U> + Copy {
     /// reflectance in the second one only.
     const STAGED: bool = false;
 
-    /// Whether the first stage of a sample yields two numbers; else the second one counts for nothing.
+    /// Whether the first stage of a sample yields two values; else the second one counts for nothing.
     const TWO_NUMBERS: bool = false;
 
     /// Whether the direction of a sample depends on the reflectance.
-    const DRAWN_BY_REFLECTANCE: bool = false;
+    const SAMPLED_BY_REFLECTANCE: bool = false;
 
-    /// Whether the widths are equal, and the sampler has a shorter way for such.
+    /// Whether the alphas are equal, and the sampler has a shorter way for such.
     #[inline(always)]
     fn is_isotropic(&self) -> bool {
         false
     }
 
-    /// With widths that the compiler sees to be equal.
+    /// With alphas that the compiler sees to be equal.
     #[inline(always)]
     #[must_use]
     fn isotropic(self) -> Self {
@@ -109,7 +109,7 @@ pub trait InStages<U: Real>: Bsdf<U> + Copy {
         self
     }
 
-    /// First stage of a sample: a direction and two numbers.
+    /// First stage of a sample: a direction and two values.
     #[inline(always)]
     fn draw_first(&self, _wo: Vec3<U>, _u: [U; 3]) -> (Vec3<U>, [U; 2]) {
         (Vec3::ZERO, [U::ZERO; 2])
@@ -121,7 +121,7 @@ pub trait InStages<U: Real>: Bsdf<U> + Copy {
         None
     }
 
-    /// First stage of eval and pdf together: two numbers.
+    /// First stage of eval and pdf together: two values.
     #[inline(always)]
     fn eval_first(&self, _wo: Vec3<U>) -> [U; 2] {
         [U::ZERO; 2]
@@ -167,7 +167,7 @@ impl<U: Real, L: InStages<U>> Family<U> for Same<L> {
     }
 }
 
-/// A family whose lobes all have equal widths: made equal at every use, so that the compiler drops
+/// A family whose lobes all have isotropic alpha: made equal at every use, so that the compiler drops
 /// what serves unequal ones.
 #[derive(Clone, Copy)]
 pub(super) struct Isotropic<F>(pub(super) F);

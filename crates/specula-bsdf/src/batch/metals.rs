@@ -1,19 +1,19 @@
-//! Rough metals with widths and colours of their own, as from textures.
+//! Rough metals with alphas and colours of their own, as from textures.
 
+use super::alphas::{AlphaAt, AlphaSlices, Alphas};
 use super::level::Arithmetic;
 use super::lobes::{Family, Kernel, Lobes};
 use super::recast::Recast;
 use super::slices::{Colours, LengthMismatch, check};
-use super::widths::{Alphas, Widths, WidthsAt};
 use crate::bsdf::RoughConductor;
 use crate::fresnel::{Reflectance, Schlick};
 use crate::math::{Real, Rgb};
 use crate::ndf::Ggx;
 
-/// Rough metals whose widths and colours differ from element to element, by Schlick's approximation:
+/// Rough metals whose alphas and colours differ from element to element, by Schlick's approximation:
 /// the metallic base of texture-driven renderers.
 ///
-/// * `lobe`: sampler and masking; its own widths and reflectance are not used.
+/// * `lobe`: sampler and masking; its own alphas and reflectance are not used.
 /// * `alpha_x`, `alpha_y`: `(n,)`, as of [`PerElement`](super::PerElement).
 /// * `f0`: `(n, 3)`, linear sRGB reflectances at normal incidence, clamped to `[0, 1]`, NaN to 0.
 ///
@@ -22,9 +22,9 @@ use crate::ndf::Ggx;
 pub struct PerElementMetal<'a, T> {
     /// What the elements have in common.
     pub lobe: RoughConductor<T>,
-    /// Widths along the local x.
+    /// Alphas along the local x.
     pub alpha_x: &'a [T],
-    /// Widths along the local y; the same slice again where isotropic.
+    /// Alphas along the local y; the same slice again where isotropic.
     pub alpha_y: &'a [T],
     /// Reflectances at normal incidence.
     pub f0: Colours<&'a [T]>,
@@ -34,7 +34,7 @@ pub struct PerElementMetal<'a, T> {
 #[derive(Clone, Copy)]
 struct Coloured<'a, T, U> {
     lobe: RoughConductor<U>,
-    widths: Alphas<'a, T>,
+    alpha_values: AlphaSlices<'a, T>,
     f0: Colours<&'a [T]>,
 }
 
@@ -46,7 +46,7 @@ impl<T: Real, U: Real> Family<U> for Coloured<'_, T, U> {
         let f0: Rgb<U> = self.f0.get(i).cast();
         let f0 = f0.map(|x| Real::clamp(x, U::ZERO, U::ONE));
         RoughConductor {
-            ndf: Ggx::new(self.widths.at(i)),
+            ndf: Ggx::new(self.alpha_values.at(i)),
             reflectance: Reflectance::Schlick(Schlick { f0 }),
             ..self.lobe
         }
@@ -56,7 +56,7 @@ impl<T: Real, U: Real> Family<U> for Coloured<'_, T, U> {
     fn range(&self, start: usize, end: usize) -> Self {
         Self {
             lobe: self.lobe,
-            widths: self.widths.range(start, end),
+            alpha_values: self.alpha_values.range(start, end),
             f0: self.f0.range(start, end).first(end - start),
         }
     }
@@ -83,7 +83,7 @@ impl<T: Real, U: Real> Family<U> for Coloured<'_, T, U> {
 impl<T: Real> Lobes<T> for PerElementMetal<'_, T> {
     fn check(&self, n: usize) -> Result<(), LengthMismatch> {
         let (alpha_x, alpha_y) = (self.alpha_x, self.alpha_y);
-        Widths::PerElement { alpha_x, alpha_y }.check(n)?;
+        Alphas::PerElement { alpha_x, alpha_y }.check(n)?;
         check(n, self.f0.lengths(["f0.r", "f0.g", "f0.b"]))
     }
 
@@ -97,7 +97,7 @@ impl<T: Real> Lobes<T> for PerElementMetal<'_, T> {
         };
         kernel.run::<A::Of<T>, _>(Coloured {
             lobe: lobe.recast(),
-            widths: Alphas::first(self.alpha_x, self.alpha_y, n),
+            alpha_values: AlphaSlices::first(self.alpha_x, self.alpha_y, n),
             f0: self.f0.first(n),
         });
     }

@@ -29,15 +29,15 @@
 //!
 //! # What goes in
 //!
-//! * One lobe for all elements, or [`PerElement`] widths for rough metal and rough glass, or
-//!   [`PerElementMetal`] widths and colours, or [`Any`] lobe of the caller's own. Or no lobe:
+//! * One lobe for all elements, or [`PerElement`] alphas for rough metal and rough glass, or
+//!   [`PerElementMetal`] alphas and colours, or [`Any`] lobe of the caller's own. Or no lobe:
 //!   [`Level::sample_reflection`], [`Level::reflection_pdf`]. Rough metal with all bounces:
-//!   [`Level::eval_pdf_random`], [`Level::sample_random`], walks in lanes.
+//!   [`Level::eval_pdf_random`], [`Level::sample_random`], walks in batches.
 //! * Slices of any one length, tails of no special length needed. Slices that differ in length are an
 //!   error ([`LengthMismatch`]) that names the slice, and nothing is written.
 //! * Directions are unit, and local as everywhere in this crate; `u` lies in `[0, 1)`.
 //!
-//! A draw that was rejected has `wi`, `weight` and `pdf` zero, and is [`Kind::Rejected`].
+//! A draw that was rejected has `wi`, `weight` and `pdf` zero, and is [`SampleOutcome::Rejected`].
 //!
 //! # What comes out
 //!
@@ -47,7 +47,7 @@
 //!
 //! Which loops are vectors (instructions an element at AVX2, `f32`, in `benches/instructions.txt`):
 //! * All of Lambert, EON, the diffuse sheet, metals, rough glass and smooth dielectrics at both
-//!   vector levels, but for the draws of rough glass by [`Sampler::Bounded`](crate::vndf::Sampler) or
+//!   vector levels, but for the samples of rough glass by [`Sampler::Bounded`](crate::vndf::Sampler) or
 //!   `Exact`, which choose a branch first.
 //! * Rough coats over rough metal: values, densities and weights are; the draw of a direction, from
 //!   one of two surfaces, is not.
@@ -55,7 +55,7 @@
 //!   exact at every level. Of the 820 instructions of a coated diffuse value 390 are its two
 //!   look-ups, and of the 3900 of a compensated metal's 3500 are those of its loss.
 //!
-//! Largest relative errors against `f64`, at every level, for widths in `[1e-3, 8]` and cosines down
+//! Largest relative errors against `f64`, at every level, for alphas in `[1e-3, 8]` and cosines down
 //! to 1e-3 on both sides of the horizon (values below 1e-6 by absolute error; densities and weights
 //! of samples at the direction that was returned; test `errors_stay_within_the_table`):
 //!
@@ -66,10 +66,11 @@
 //! | rough glass | 5e-5 | 5e-5 | 3e-3 | 3e-3 |
 //! | rough coat over rough metal | 5e-6 | 1e-4 | 5e-6 | 5e-6 |
 //!
-//! Directions that are drawn lie within 2e-3 of their twins' at the most extreme (test
-//! `directions_stay_within_their_bound`). Samples of rough glass weigh the facet that was drawn, not
+//! Directions that are sampled lie within 2e-3 of their twins' at the most extreme (test
+//! `directions_stay_within_their_bound`). Samples of rough glass weigh the facet that was sampled, not
 //! that of the direction as it was rounded: at the critical angle the two differ.
 
+mod alphas;
 mod coats;
 mod functions;
 mod kernels;
@@ -81,11 +82,10 @@ mod recast;
 mod rough;
 mod slices;
 mod visible;
-mod widths;
 
+pub use alphas::Alphas;
 pub use level::Level;
 pub use lobes::{Any, Lobes};
 pub use metals::PerElementMetal;
 pub use rough::PerElement;
-pub use slices::{Colours, Directions, Kind, LengthMismatch, Samples};
-pub use widths::Widths;
+pub use slices::{Colours, Directions, LengthMismatch, SampleOutcome, Samples};

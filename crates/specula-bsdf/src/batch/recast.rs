@@ -1,4 +1,4 @@
-//! Parameters and lobes in another scalar: the same numbers in `f32` and in its fused twin, rounded
+//! Parameters and lobes in another scalar: the same values in `f32` and in its fused twin, rounded
 //! from `f64` to `f32`.
 
 use crate::alpha::Alpha;
@@ -15,7 +15,7 @@ pub(super) trait Recast {
     /// The same in the scalar `U`.
     type In<U: Real>;
 
-    /// The same numbers, rounded.
+    /// The same values, rounded.
     fn recast<U: Real>(&self) -> Self::In<U>;
 }
 

@@ -1,10 +1,10 @@
-//! Rough metals and rough glass: one lobe for all, or widths per element.
+//! Rough metals and rough glass: one lobe for all, or alphas per element.
 
+use super::alphas::{AlphaAt, AlphaSlices, Alphas};
 use super::level::Arithmetic;
 use super::lobes::{Family, InStages, Kernel, Lobes, Same};
 use super::recast::Recast;
 use super::slices::LengthMismatch;
-use super::widths::{Alphas, Widths, WidthsAt};
 use crate::alpha::Alpha;
 use crate::bsdf::{BsdfSample, RoughConductor, RoughDielectric};
 use crate::fresnel::Reflectance;
@@ -12,58 +12,58 @@ use crate::math::{Real, Rgb, Vec3};
 use crate::ndf::{Ggx, Ndf};
 use crate::vndf::Sampler;
 
-/// A rough lobe whose widths differ from element to element, as from a texture.
+/// A rough lobe whose alphas differ from element to element, as from a texture.
 ///
-/// * `lobe`: everything else of it; its own widths are not used.
+/// * `lobe`: everything else of it; its own alphas are not used.
 /// * `alpha_x`, `alpha_y`: `(n,)`, along the local x and y; the same slice twice where isotropic.
 ///   Clamped to the range of [`Alpha`](crate::Alpha), NaN to its lower end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PerElement<'a, T, L> {
     /// What the elements have in common.
     pub lobe: L,
-    /// Widths along the local x.
+    /// Alphas along the local x.
     pub alpha_x: &'a [T],
-    /// Widths along the local y.
+    /// Alphas along the local y.
     pub alpha_y: &'a [T],
 }
 
 impl<'a, T: Real, L> PerElement<'a, T, L> {
     fn check(&self, n: usize) -> Result<(), LengthMismatch> {
         let (alpha_x, alpha_y) = (self.alpha_x, self.alpha_y);
-        Widths::PerElement { alpha_x, alpha_y }.check(n)
+        Alphas::PerElement { alpha_x, alpha_y }.check(n)
     }
 
     #[inline(always)]
-    fn widths(&self, n: usize) -> Alphas<'a, T> {
-        Alphas::first(self.alpha_x, self.alpha_y, n)
+    fn alpha_slices(&self, n: usize) -> AlphaSlices<'a, T> {
+        AlphaSlices::first(self.alpha_x, self.alpha_y, n)
     }
 }
 
-/// A lobe that can be given other widths.
+/// A lobe that can be given other alphas.
 trait Rough<U: Real>: InStages<U> {
-    fn with_widths(self, ggx: Ggx<U>) -> Self;
+    fn with_ndf(self, ggx: Ggx<U>) -> Self;
 }
 
 impl<U: Real> Rough<U> for RoughConductor<U> {
     #[inline(always)]
-    fn with_widths(self, ggx: Ggx<U>) -> Self {
+    fn with_ndf(self, ggx: Ggx<U>) -> Self {
         Self { ndf: ggx, ..self }
     }
 }
 
 impl<U: Real> Rough<U> for RoughDielectric<U> {
     #[inline(always)]
-    fn with_widths(self, ggx: Ggx<U>) -> Self {
+    fn with_ndf(self, ggx: Ggx<U>) -> Self {
         Self { ndf: ggx, ..self }
     }
 }
 
 #[inline(always)]
-pub(super) fn equal_widths<U: Real>(ggx: &Ggx<U>) -> bool {
+pub(super) fn is_isotropic<U: Real>(ggx: &Ggx<U>) -> bool {
     ggx.alpha().x == ggx.alpha().y
 }
 
-/// Clamped anew, so that the compiler sees two equal widths that are no NaN.
+/// Clamped anew, so that the compiler sees two equal alphas, neither of them NaN.
 #[inline(always)]
 pub(super) fn made_isotropic<U: Real>(ggx: &Ggx<U>) -> Ggx<U> {
     Ggx::new(Alpha::isotropic(ggx.alpha().x))
@@ -74,13 +74,13 @@ impl<U: Real> InStages<U> for RoughConductor<U> {
 
     #[inline(always)]
     fn is_isotropic(&self) -> bool {
-        equal_widths(&self.ndf)
+        is_isotropic(&self.ndf)
     }
 
     #[inline(always)]
     fn isotropic(self) -> Self {
         let ggx = made_isotropic(&self.ndf);
-        self.with_widths(ggx)
+        self.with_ndf(ggx)
     }
 
     #[inline(always)]
@@ -135,13 +135,13 @@ impl<U: Real> InStages<U> for RoughConductor<U> {
 impl<U: Real> InStages<U> for RoughDielectric<U> {
     #[inline(always)]
     fn is_isotropic(&self) -> bool {
-        equal_widths(&self.ndf)
+        is_isotropic(&self.ndf)
     }
 
     #[inline(always)]
     fn isotropic(self) -> Self {
         let ggx = made_isotropic(&self.ndf);
-        self.with_widths(ggx)
+        self.with_ndf(ggx)
     }
 
     #[inline(always)]
@@ -158,7 +158,7 @@ impl<U: Real> InStages<U> for RoughDielectric<U> {
 #[derive(Clone, Copy)]
 struct Textured<'a, T, L> {
     lobe: L,
-    widths: Alphas<'a, T>,
+    alpha_values: AlphaSlices<'a, T>,
 }
 
 impl<T: Real, U: Real, L: Rough<U>> Family<U> for Textured<'_, T, L> {
@@ -166,14 +166,14 @@ impl<T: Real, U: Real, L: Rough<U>> Family<U> for Textured<'_, T, L> {
 
     #[inline(always)]
     fn at(&self, i: usize) -> L {
-        self.lobe.with_widths(Ggx::new(self.widths.at(i)))
+        self.lobe.with_ndf(Ggx::new(self.alpha_values.at(i)))
     }
 
     #[inline(always)]
     fn range(&self, start: usize, end: usize) -> Self {
         Self {
             lobe: self.lobe,
-            widths: self.widths.range(start, end),
+            alpha_values: self.alpha_values.range(start, end),
         }
     }
 
@@ -212,8 +212,8 @@ macro_rules! rough_lobes {
 
             #[inline(always)]
             fn run<A: Arithmetic, K: Kernel>(&self, n: usize, kernel: K) {
-                let (lobe, widths) = (self.lobe.recast(), self.widths(n));
-                kernel.run::<A::Of<T>, _>(Textured { lobe, widths });
+                let (lobe, alpha_values) = (self.lobe.recast(), self.alpha_slices(n));
+                kernel.run::<A::Of<T>, _>(Textured { lobe, alpha_values });
             }
         })*
     };

@@ -27,10 +27,10 @@ pub struct Colours<S> {
     pub b: S,
 }
 
-/// What became of a draw.
+/// What became of a sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
-pub enum Kind {
+pub enum SampleOutcome {
     /// No direction: `wi`, `weight` and `pdf` are zero.
     #[default]
     Rejected,
@@ -44,7 +44,7 @@ pub enum Kind {
     SpecularTransmission,
 }
 
-/// Samples, one array per component. `S` as for [`Directions`]; `K` likewise for [`Kind`].
+/// Samples, one array per component. `S` as for [`Directions`]; `K` likewise for [`SampleOutcome`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Samples<S, K> {
     /// Towards the light, unit; `(0, 0, 0)` where rejected.
@@ -298,19 +298,19 @@ impl<T: Real> Colours<&mut [T]> {
     }
 }
 
-impl<T: Real> Samples<Vec<T>, Vec<Kind>> {
+impl<T: Real> Samples<Vec<T>, Vec<SampleOutcome>> {
     /// `n` times nothing.
     pub fn rejected(n: usize) -> Self {
         Self {
             wi: Directions::zeroed(n),
             weight: Colours::zeroed(n),
             pdf: vec![T::ZERO; n],
-            kind: vec![Kind::Rejected; n],
+            kind: vec![SampleOutcome::Rejected; n],
         }
     }
 
     /// To read.
-    pub fn as_slices(&self) -> Samples<&[T], &[Kind]> {
+    pub fn as_slices(&self) -> Samples<&[T], &[SampleOutcome]> {
         Samples {
             wi: self.wi.as_slices(),
             weight: self.weight.as_slices(),
@@ -320,7 +320,7 @@ impl<T: Real> Samples<Vec<T>, Vec<Kind>> {
     }
 
     /// To write.
-    pub fn as_mut_slices(&mut self) -> Samples<&mut [T], &mut [Kind]> {
+    pub fn as_mut_slices(&mut self) -> Samples<&mut [T], &mut [SampleOutcome]> {
         Samples {
             wi: self.wi.as_mut_slices(),
             weight: self.weight.as_mut_slices(),
@@ -330,7 +330,7 @@ impl<T: Real> Samples<Vec<T>, Vec<Kind>> {
     }
 }
 
-impl<T: Real> Samples<&mut [T], &mut [Kind]> {
+impl<T: Real> Samples<&mut [T], &mut [SampleOutcome]> {
     pub(super) fn lengths(&self) -> [(&'static str, usize); 8] {
         let [x, y, z] = self.wi.lengths(["wi.x", "wi.y", "wi.z"]);
         let [r, g, b] = self.weight.lengths(["weight.r", "weight.g", "weight.b"]);
@@ -349,7 +349,11 @@ impl<T: Real> Samples<&mut [T], &mut [Kind]> {
     }
 
     #[inline(always)]
-    pub(super) fn range(&mut self, start: usize, end: usize) -> Samples<&mut [T], &mut [Kind]> {
+    pub(super) fn range(
+        &mut self,
+        start: usize,
+        end: usize,
+    ) -> Samples<&mut [T], &mut [SampleOutcome]> {
         Samples {
             wi: self.wi.range(start, end),
             weight: self.weight.range(start, end),
@@ -362,8 +366,8 @@ impl<T: Real> Samples<&mut [T], &mut [Kind]> {
     pub(super) fn set_from<U: Real>(&mut self, i: usize, sample: Option<BsdfSample<U>>) {
         // As a whole, so that the loop stays free of branches.
         let (wi, weight, pdf, kind) = match sample {
-            Some(s) => (s.wi, s.weight, s.pdf, Kind::of(&s)),
-            None => (Vec3::ZERO, Rgb::BLACK, U::ZERO, Kind::Rejected),
+            Some(s) => (s.wi, s.weight, s.pdf, SampleOutcome::of(&s)),
+            None => (Vec3::ZERO, Rgb::BLACK, U::ZERO, SampleOutcome::Rejected),
         };
         self.wi.set_from(i, wi);
         self.weight.set_from(i, weight);
@@ -372,7 +376,7 @@ impl<T: Real> Samples<&mut [T], &mut [Kind]> {
     }
 }
 
-impl Kind {
+impl SampleOutcome {
     #[inline(always)]
     fn of<T: Real>(sample: &BsdfSample<T>) -> Self {
         match (sample.event, sample.specular) {

@@ -1,9 +1,9 @@
 //! Reflections off visible GGX normals, and their densities, without a lobe.
 
+use super::alphas::{AlphaAt, AlphaSlices, Alphas, IsotropicAlpha, OneAlpha};
 use super::level::{Arithmetic, Level, Task};
 use super::recast::{Recast, number};
 use super::slices::{Directions, LengthMismatch, check};
-use super::widths::{Alphas, OneAlpha, OneWidth, Widths, WidthsAt};
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3, vec3};
 use crate::ndf::{Ggx, Ndf};
@@ -16,14 +16,14 @@ impl Level {
     /// Directions reflected off visible GGX normals; `(0, 0, 0)` where the draw is rejected.
     ///
     /// * `wo: (n, 3) T`, `u: (n, 2) T` in `[0, 1)` `-> wi: (n, 3) T`
-    /// * `widths`: one alpha, or `(n,) T` twice.
+    /// * `alphas`: one alpha, or `(n,) T` twice.
     ///
     /// # Errors
     /// Where a slice is not as long as `wi.x`; nothing is written then.
     pub fn sample_reflection<T: Real>(
         self,
         sampler: Sampler,
-        widths: Widths<T>,
+        alpha_values: Alphas<T>,
         wo: Directions<&[T]>,
         u: [&[T]; 2],
         wi: Directions<&mut [T]>,
@@ -32,10 +32,10 @@ impl Level {
         check(n, wi.lengths(WI))?;
         check(n, wo.lengths(WO))?;
         check(n, ["u[0]", "u[1]"].into_iter().zip(u.map(<[T]>::len)))?;
-        widths.check(n)?;
+        alpha_values.check(n)?;
         self.run(Reflections {
             sampler,
-            widths,
+            alpha_values,
             wo,
             u,
             wi,
@@ -46,24 +46,24 @@ impl Level {
     /// Densities of [`sample_reflection`](Level::sample_reflection) in 1/sr; 0 where `wi.z <= 0`.
     ///
     /// * `wo: (n, 3) T`, `wi: (n, 3) T -> pdf: (n,) T`
-    /// * `widths`: one alpha, or `(n,) T` twice.
+    /// * `alphas`: one alpha, or `(n,) T` twice.
     ///
     /// # Errors
     /// Where a slice is not as long as `pdf`; nothing is written then.
     pub fn reflection_pdf<T: Real>(
         self,
         sampler: Sampler,
-        widths: Widths<T>,
+        alpha_values: Alphas<T>,
         wo: Directions<&[T]>,
         wi: Directions<&[T]>,
         pdf: &mut [T],
     ) -> Result<(), LengthMismatch> {
         let n = pdf.len();
         check(n, wo.lengths(WO).into_iter().chain(wi.lengths(WI)))?;
-        widths.check(n)?;
+        alpha_values.check(n)?;
         self.run(Densities {
             sampler,
-            widths,
+            alpha_values,
             wo,
             wi,
             pdf,
@@ -74,7 +74,7 @@ impl Level {
 
 struct Reflections<'a, T> {
     sampler: Sampler,
-    widths: Widths<'a, T>,
+    alpha_values: Alphas<'a, T>,
     wo: Directions<&'a [T]>,
     u: [&'a [T]; 2],
     wi: Directions<&'a mut [T]>,
@@ -84,13 +84,13 @@ impl<T: Real> Task for Reflections<'_, T> {
     #[inline(always)]
     fn run<A: Arithmetic>(self) {
         let n = self.wi.x.len();
-        match self.widths {
-            Widths::Same(Alpha { x, y }) if x == y && self.sampler == Sampler::Exact => {
-                self.exact::<A::Of<T>>(OneWidth(number(x)));
+        match self.alpha_values {
+            Alphas::Same(Alpha { x, y }) if x == y && self.sampler == Sampler::Exact => {
+                self.exact::<A::Of<T>>(IsotropicAlpha(number(x)));
             }
-            Widths::Same(alpha) => self.with::<A::Of<T>>(OneAlpha(alpha.recast())),
-            Widths::PerElement { alpha_x, alpha_y } => {
-                self.with::<A::Of<T>>(Alphas::first(alpha_x, alpha_y, n));
+            Alphas::Same(alpha) => self.with::<A::Of<T>>(OneAlpha(alpha.recast())),
+            Alphas::PerElement { alpha_x, alpha_y } => {
+                self.with::<A::Of<T>>(AlphaSlices::first(alpha_x, alpha_y, n));
             }
         }
     }
@@ -98,59 +98,59 @@ impl<T: Real> Task for Reflections<'_, T> {
 
 impl<T: Real> Reflections<'_, T> {
     #[inline(always)]
-    fn with<U: Real>(self, widths: impl WidthsAt<U>) {
+    fn with<U: Real>(self, alpha_values: impl AlphaAt<U>) {
         // A constant sampler in each arm, so that the loop does not branch on it.
         match self.sampler {
-            Sampler::Heitz => self.drawn_by(Sampler::Heitz, widths),
-            Sampler::Cap => self.drawn_by(Sampler::Cap, widths),
-            Sampler::Bounded => self.drawn_by(Sampler::Bounded, widths),
-            Sampler::Exact => self.drawn_by(Sampler::Exact, widths),
+            Sampler::Heitz => self.sampled_by(Sampler::Heitz, alpha_values),
+            Sampler::Cap => self.sampled_by(Sampler::Cap, alpha_values),
+            Sampler::Bounded => self.sampled_by(Sampler::Bounded, alpha_values),
+            Sampler::Exact => self.sampled_by(Sampler::Exact, alpha_values),
         }
     }
 
-    /// Exact reflections of equal widths. Where all views lie above the horizon, the loop is spared
+    /// Exact reflections of isotropic alpha. Where all views lie above the horizon, the loop is spared
     /// the sampler that serves views below.
     #[inline(always)]
-    fn exact<U: Real>(self, widths: OneWidth<U>) {
+    fn exact<U: Real>(self, alpha_values: IsotropicAlpha<U>) {
         let below = self.wo.z.iter().fold(false, |any, &z| any | (z <= T::TINY));
         if below {
-            return self.drawn_by(Sampler::Exact, widths);
+            return self.sampled_by(Sampler::Exact, alpha_values);
         }
         let n = self.wi.x.len();
         let [u0, u1] = self.u;
         let (wo, u0, u1) = (self.wo.first(n), &u0[..n], &u1[..n]);
         let mut wi = self.wi.first(n);
         for i in 0..n {
-            let ndf = Ggx::new(widths.at(i));
+            let ndf = Ggx::new(alpha_values.at(i));
             let u = [number(u0[i]), number(u1[i])];
             let wo: Vec3<U> = wo.get_as(i);
             // Known to be above.
             let wo = vec3(wo.x, wo.y, Real::max(wo.z, U::TINY));
-            let drawn = ndf.sample_reflection(Sampler::Exact, wo, u);
-            let above = drawn.z > U::ZERO;
-            wi.set_from(i, if above { drawn } else { Vec3::ZERO });
+            let sampled = ndf.sample_reflection(Sampler::Exact, wo, u);
+            let above = sampled.z > U::ZERO;
+            wi.set_from(i, if above { sampled } else { Vec3::ZERO });
         }
     }
 
     #[inline(always)]
-    fn drawn_by<U: Real>(self, sampler: Sampler, widths: impl WidthsAt<U>) {
+    fn sampled_by<U: Real>(self, sampler: Sampler, alpha_values: impl AlphaAt<U>) {
         let n = self.wi.x.len();
         let [u0, u1] = self.u;
         let (wo, u0, u1) = (self.wo.first(n), &u0[..n], &u1[..n]);
         let mut wi = self.wi.first(n);
         for i in 0..n {
-            let ndf = Ggx::new(widths.at(i));
+            let ndf = Ggx::new(alpha_values.at(i));
             let u = [number(u0[i]), number(u1[i])];
-            let drawn = ndf.sample_reflection(sampler, wo.get_as(i), u);
-            let above = drawn.z > U::ZERO;
-            wi.set_from(i, if above { drawn } else { Vec3::ZERO });
+            let sampled = ndf.sample_reflection(sampler, wo.get_as(i), u);
+            let above = sampled.z > U::ZERO;
+            wi.set_from(i, if above { sampled } else { Vec3::ZERO });
         }
     }
 }
 
 struct Densities<'a, T> {
     sampler: Sampler,
-    widths: Widths<'a, T>,
+    alpha_values: Alphas<'a, T>,
     wo: Directions<&'a [T]>,
     wi: Directions<&'a [T]>,
     pdf: &'a mut [T],
@@ -160,13 +160,13 @@ impl<T: Real> Task for Densities<'_, T> {
     #[inline(always)]
     fn run<A: Arithmetic>(self) {
         let n = self.pdf.len();
-        match self.widths {
-            Widths::Same(Alpha { x, y }) if x == y && self.sampler == Sampler::Exact => {
-                self.drawn_by::<A::Of<T>>(Sampler::Exact, OneWidth(number(x)));
+        match self.alpha_values {
+            Alphas::Same(Alpha { x, y }) if x == y && self.sampler == Sampler::Exact => {
+                self.sampled_by::<A::Of<T>>(Sampler::Exact, IsotropicAlpha(number(x)));
             }
-            Widths::Same(alpha) => self.with::<A::Of<T>>(OneAlpha(alpha.recast())),
-            Widths::PerElement { alpha_x, alpha_y } => {
-                self.with::<A::Of<T>>(Alphas::first(alpha_x, alpha_y, n));
+            Alphas::Same(alpha) => self.with::<A::Of<T>>(OneAlpha(alpha.recast())),
+            Alphas::PerElement { alpha_x, alpha_y } => {
+                self.with::<A::Of<T>>(AlphaSlices::first(alpha_x, alpha_y, n));
             }
         }
     }
@@ -174,21 +174,21 @@ impl<T: Real> Task for Densities<'_, T> {
 
 impl<T: Real> Densities<'_, T> {
     #[inline(always)]
-    fn with<U: Real>(self, widths: impl WidthsAt<U>) {
+    fn with<U: Real>(self, alpha_values: impl AlphaAt<U>) {
         match self.sampler {
-            Sampler::Heitz | Sampler::Cap => self.drawn_by(Sampler::Cap, widths),
-            Sampler::Bounded => self.drawn_by(Sampler::Bounded, widths),
-            Sampler::Exact => self.drawn_by(Sampler::Exact, widths),
+            Sampler::Heitz | Sampler::Cap => self.sampled_by(Sampler::Cap, alpha_values),
+            Sampler::Bounded => self.sampled_by(Sampler::Bounded, alpha_values),
+            Sampler::Exact => self.sampled_by(Sampler::Exact, alpha_values),
         }
     }
 
     #[inline(always)]
-    fn drawn_by<U: Real>(self, sampler: Sampler, widths: impl WidthsAt<U>) {
+    fn sampled_by<U: Real>(self, sampler: Sampler, alpha_values: impl AlphaAt<U>) {
         let n = self.pdf.len();
         let (wo, wi) = (self.wo.first(n), self.wi.first(n));
         let pdf = &mut self.pdf[..n];
         for (i, pdf) in pdf.iter_mut().enumerate() {
-            let (alpha, wo, wi) = (widths.at(i), wo.get_as(i), wi.get_as(i));
+            let (alpha, wo, wi) = (alpha_values.at(i), wo.get_as(i), wi.get_as(i));
             let density: U = match sampler {
                 Sampler::Heitz | Sampler::Cap => vndf::cap::reflection_pdf(alpha, wo, wi),
                 Sampler::Bounded => vndf::bounded::reflection_pdf(alpha, wo, wi),

@@ -3,7 +3,7 @@
 use super::{Bsdf, BsdfSample, Transport};
 use crate::math::{Real, Rgb, Vec3};
 
-/// `f = 0`. It takes light and gives none; no direction is ever drawn.
+/// `f = 0`. It takes light and gives none; no direction is ever sampled.
 ///
 /// Formats whose opaque materials have one side (Mitsuba's without `twosided`) are black from
 /// behind: a renderer binds this lobe there.

@@ -57,7 +57,7 @@ impl<T: Real> CoatedConductor<T> {
         }
     }
 
-    /// The same material, drawn by another sampler.
+    /// The same material, sampled by another sampler.
     #[inline(always)]
     #[must_use]
     pub fn with_sampler(self, sampler: Sampler) -> Self {
@@ -105,7 +105,7 @@ impl<T: Real> CoatedConductor<T> {
         metal.map(|f| passed * f / Real::max(T::ONE - f * back, T::EPSILON))
     }
 
-    /// A drawn direction, `(0, 0, 0)` where there is none, where both surfaces are rough.
+    /// A sampled direction, `(0, 0, 0)` where there is none, where both surfaces are rough.
     #[inline(always)]
     pub(crate) fn draw(&self, coat: Ggx<T>, metal: Ggx<T>, wo: Vec3<T>, u: [T; 3]) -> Vec3<T> {
         let direction = [u[1], u[2]];
@@ -128,7 +128,7 @@ impl<T: Real> CoatedConductor<T> {
         [norm(self.coat, wo), norm(self.metal, self.below(wo))]
     }
 
-    /// What a drawn direction weighs, given [`norms`](Self::norms).
+    /// What a sampled direction weighs, given [`norms`](Self::norms).
     #[inline(always)]
     pub(crate) fn weigh(
         &self,

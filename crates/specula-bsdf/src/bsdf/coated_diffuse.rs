@@ -1,9 +1,9 @@
 //! A rough or smooth dielectric coat over Lambert: paint, plastic, polished wood, glazed tiles.
 //!
 //! The model is closed form. A Lambertian base forgets where its light came from, so the coat acts
-//! on it only through two numbers of the interface: the share `T(w)` of light from direction `w`
+//! on it only through two values of the interface: the share `T(w)` of light from direction `w`
 //! that enters and reaches the base, and the share `R` of diffuse light from the base that the coat
-//! throws back to it. With `n` bounces off the base at most:
+//! reflects to it. With `n` bounces off the base at most:
 //!
 //! ```text
 //! f = f_interface(wo, wi) + T(wo) T(wi) / eta^2  rho/pi  (1 - q^n) / (1 - q),   q = rho R
@@ -33,7 +33,7 @@ use crate::vndf::Sampler;
 pub enum CoatScattering {
     /// Is lost: each facet scatters once. Rough coats darken the base.
     Single,
-    /// Goes on: what does not pass is thrown back.
+    /// Goes on: what does not pass is reflected.
     #[default]
     Lossless,
 }
@@ -128,7 +128,7 @@ impl<T: Real> CoatedDiffuse<T> {
         }
     }
 
-    /// The same material, its coat drawn by another sampler.
+    /// The same material, its coat sampled by another sampler.
     #[inline(always)]
     #[must_use]
     pub fn with_sampler(self, sampler: Sampler) -> Self {

@@ -3,7 +3,7 @@
 use super::{Bsdf, BsdfSample, RoughConductor, Transport};
 use crate::energy::fresnel_average::reflectance_average;
 use crate::energy::model::further_bounces;
-use crate::energy::{FmsVariant, Loss, Model, Tabulated};
+use crate::energy::{EnergyModel, FmsVariant, Loss, Tabulated};
 use crate::fresnel::Reflectance;
 use crate::math::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use crate::math::{Real, Rgb, Vec3};
@@ -21,7 +21,7 @@ use crate::vndf::Sampler;
 /// their energy too. For views below the horizon (`wo.z < 0`) `L` is that of the mirror image:
 /// finite and continuous.
 ///
-/// Turquin's lobe is drawn as the single-scattering lobe is. Kulla and Conty's second lobe is drawn
+/// Turquin's lobe is sampled as the single-scattering lobe is. Kulla and Conty's second lobe is sampled
 /// by the cosine with the probability of its share of the light:
 ///
 /// ```text
@@ -38,20 +38,20 @@ pub struct Compensated<T, N = Ggx<T>> {
     single: RoughConductor<T, N>,
     ndf: N,
     loss: Loss<T>,
-    model: Model,
+    model: EnergyModel,
     /// Average reflectance of a facet.
     average: Rgb<T>,
-    /// Factor of the light brought back: `F_ms` (Turquin), `F_avg F_ms` (Kulla and Conty).
+    /// Factor of the light contributed back: `F_ms` (Turquin), `F_avg F_ms` (Kulla and Conty).
     colour: Rgb<T>,
     normal_incidence: Rgb<T>,
 }
 
 impl<T: Real, N: Tabulated<T>> Compensated<T, N> {
-    /// A metal with height-correlated masking, drawn by the default sampler.
+    /// A metal with height-correlated masking, sampled by the default sampler.
     #[inline]
-    pub fn new(ndf: N, reflectance: Reflectance<T>, model: Model) -> Self {
+    pub fn new(ndf: N, reflectance: Reflectance<T>, model: EnergyModel) -> Self {
         let average = match model {
-            Model::Turquin(FmsVariant::NormalIncidence) => Rgb::BLACK,
+            EnergyModel::Turquin(FmsVariant::NormalIncidence) => Rgb::BLACK,
             _ => reflectance_average(&reflectance),
         };
         Self {
@@ -66,7 +66,7 @@ impl<T: Real, N: Tabulated<T>> Compensated<T, N> {
         .coloured()
     }
 
-    /// The same metal, drawn by another sampler (GGX only; Beckmann has one).
+    /// The same metal, sampled by another sampler (GGX only; Beckmann has one).
     #[inline(always)]
     #[must_use]
     pub fn with_sampler(self, sampler: Sampler) -> Self {
@@ -92,9 +92,9 @@ impl<T: Real, N: Tabulated<T>> Compensated<T, N> {
     fn coloured(self) -> Self {
         let series = further_bounces(self.average, self.loss.average());
         let colour = match self.model {
-            Model::Turquin(FmsVariant::NormalIncidence) => self.normal_incidence,
-            Model::Turquin(FmsVariant::AverageSeries) => series,
-            Model::KullaConty => self.average * series,
+            EnergyModel::Turquin(FmsVariant::NormalIncidence) => self.normal_incidence,
+            EnergyModel::Turquin(FmsVariant::AverageSeries) => series,
+            EnergyModel::KullaConty => self.average * series,
         };
         Self { colour, ..self }
     }
@@ -142,8 +142,8 @@ impl<T: Real, N: Tabulated<T>> Bsdf<T> for Compensated<T, N> {
     fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
         let first = self.single.pdf(wo, wi);
         match self.model {
-            Model::Turquin(_) => first,
-            Model::KullaConty => {
+            EnergyModel::Turquin(_) => first,
+            EnergyModel::KullaConty => {
                 let p = self.second_share(self.loss.directional(wo));
                 first + p * (cosine_hemisphere_pdf(wi) - first)
             }
@@ -152,7 +152,7 @@ impl<T: Real, N: Tabulated<T>> Bsdf<T> for Compensated<T, N> {
 
     #[inline]
     fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
-        if let Model::Turquin(_) = self.model {
+        if let EnergyModel::Turquin(_) = self.model {
             let sample = self.single.sample(wo, u, transport)?;
             return Some(BsdfSample {
                 weight: sample.weight * self.turquin_factor(wo),
@@ -176,11 +176,11 @@ impl<T: Real, N: Tabulated<T>> Bsdf<T> for Compensated<T, N> {
     #[inline]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> (Rgb<T>, T) {
         match self.model {
-            Model::Turquin(_) => {
+            EnergyModel::Turquin(_) => {
                 let (f_cos, pdf) = self.single.eval_pdf(wo, wi, transport);
                 (f_cos * self.turquin_factor(wo), pdf)
             }
-            Model::KullaConty => {
+            EnergyModel::KullaConty => {
                 let loss = self.loss.directional(wo);
                 self.both_lobes(wo, wi, loss, transport)
             }

@@ -23,12 +23,12 @@ use crate::vndf::Sampler;
 /// because `1 - F_avg(eta) = eta^2 (1 - F_avg(1/eta))`, it holds for the `t` above, which stays in
 /// `[0, 1]` and is the averaged Fresnel transmittance on the side that loses less.
 ///
-/// Drawn by the single-scattering sampler with probability `1 - L_n(wo)`, else by the cosine on
+/// CoatSample by the single-scattering sampler with probability `1 - L_n(wo)`, else by the cosine on
 /// either side, with its exact pdf.
 ///
-/// Departure: Kulla and Conty ask for the two conditions; this closed form of the split is ours.
+/// Departure: Kulla and Conty ask for the two conditions; this closed form of the split is Specula's.
 /// Losses are tabulated (`energy::dielectric_albedo` states the errors): over the grid of the test
-/// `stretched_interfaces_keep_their_light`, widths in [0.05, 1.5], at most 2e-2 is lost or gained.
+/// `stretched_interfaces_keep_their_light`, alphas in [0.05, 1.5], at most 2e-2 is lost or gained.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CompensatedDielectric<T, N = Ggx<T>> {
     single: RoughDielectric<T, N>,
@@ -97,7 +97,7 @@ impl<T: Real, N: Tabulated<T>> CompensatedDielectric<T, N> {
         }
     }
 
-    /// The same interface, single scattering drawn by another sampler.
+    /// The same interface, single scattering sampled by another sampler.
     #[inline(always)]
     #[must_use]
     pub fn with_sampler(self, sampler: Sampler) -> Self {

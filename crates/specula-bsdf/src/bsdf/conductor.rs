@@ -23,7 +23,7 @@ pub struct RoughConductor<T, N = Ggx<T>> {
 }
 
 impl<T: Real, N: Ndf<T>> RoughConductor<T, N> {
-    /// A metal with height-correlated masking, drawn by the default sampler.
+    /// A metal with height-correlated masking, sampled by the default sampler.
     #[inline(always)]
     pub fn new(ndf: N, reflectance: Reflectance<T>) -> Self {
         Self {
@@ -34,7 +34,7 @@ impl<T: Real, N: Ndf<T>> RoughConductor<T, N> {
         }
     }
 
-    /// The same metal, drawn by another sampler (GGX only; Beckmann has one).
+    /// The same metal, sampled by another sampler (GGX only; Beckmann has one).
     #[inline(always)]
     #[must_use]
     pub fn with_sampler(self, sampler: Sampler) -> Self {
@@ -62,7 +62,7 @@ impl<T: Real, N: Ndf<T>> RoughConductor<T, N> {
         self.ndf.reflection_norm_quotient(self.sampler, wo).into()
     }
 
-    /// The second half: what a direction drawn with `pdf = D / (4 N)` weighs.
+    /// The second half: what a direction sampled with `pdf = D / (4 N)` weighs.
     #[inline(always)]
     pub(crate) fn weigh(&self, wo: Vec3<T>, wi: Vec3<T>, norm: T) -> Option<BsdfSample<T>> {
         let (d, fresnel) = self.facet(wo, wi);
@@ -112,7 +112,7 @@ impl<T: Real> RoughConductor<T> {
     }
 }
 
-/// A rough metal and a view, from [`RoughConductor::seen_along`]. Functions and numbers are those of
+/// A rough metal and a view, from [`RoughConductor::seen_along`]. Functions and values are those of
 /// [`Bsdf`], `wo` apart.
 #[derive(Clone, Copy, Debug)]
 pub struct SeenConductor<T> {

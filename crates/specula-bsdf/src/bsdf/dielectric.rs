@@ -16,14 +16,14 @@ use crate::vndf::{Sampler, reflect};
 ///
 /// with `e` the index beyond the interface over that on the side of `wo`.
 ///
-/// A visible normal is drawn first (by caps; refraction needs all of them), then the branch by what
+/// A visible normal is sampled first (by caps; refraction needs all of them), then the branch by what
 /// it carries: with `r = F G2(wo, wr)` and `t = (1 - F) G2(wo, wt)` at the two directions of the
 /// facet, 0 where one lies on the wrong side of the surface, reflection has the probability
 /// `r / (r + t)` and both weigh `(r + t) / G1(wo)`. Where only one direction is valid it is taken:
 /// nothing is rejected for light that enters the denser medium, and from inside only what is totally
 /// reflected downwards (`docs/exact-reflection-sampling.md`).
 ///
-/// With [`Sampler::Bounded`] and [`Sampler::Exact`] the branch is drawn before the normal, with the
+/// With [`Sampler::Bounded`] and [`Sampler::Exact`] the branch is sampled before the normal, with the
 /// macroscopic reflectance as its probability, so that they can serve the reflections; the weights
 /// then carry `F(wm)` over that probability, which costs more variance than it saves (test
 /// `drawing_the_branch_before_the_normal_costs_variance`): caps are the default.
@@ -70,7 +70,7 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         }
     }
 
-    /// The same interface, drawn by another sampler.
+    /// The same interface, sampled by another sampler.
     #[inline(always)]
     #[must_use]
     pub fn with_sampler(self, sampler: Sampler) -> Self {
@@ -151,14 +151,14 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         half * T::ONE.copysign(half.z)
     }
 
-    /// Probability of reflection where the branch is drawn before the normal.
+    /// Probability of reflection where the branch is sampled before the normal.
     #[inline(always)]
     fn branch_probability(&self, wo: Vec3<T>, eta: T) -> T {
         let macroscopic = dielectric(wo.z.abs(), eta).reflectance;
         Real::clamp(macroscopic, T::of(0.1), T::of(0.9))
     }
 
-    /// Whether the branch is drawn before the normal.
+    /// Whether the branch is sampled before the normal.
     #[inline(always)]
     fn is_branch_first(&self) -> bool {
         matches!(self.sampler, Sampler::Bounded | Sampler::Exact)
@@ -181,7 +181,7 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         let snell = T::ONE - sin2_o * (side.inverse * side.inverse);
         let bent = refraction(cos_o, T::select(reflects, snell, cos_i * cos_i), side.eta);
 
-        // The facet's other direction, which shares its draws.
+        // The facet's other direction, which shares its samples.
         let along = T::select(reflects, side.inverse * cos_o - bent.cos_t, T::TWO * cos_o);
         let back = T::select(reflects, side.inverse, T::ONE);
         let other = wm * along - wo * back;

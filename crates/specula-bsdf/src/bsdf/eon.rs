@@ -13,7 +13,7 @@
 //! rho_ms = rho^2 Eavg / (1 - rho (1 - Eavg))
 //! ```
 //!
-//! Departure: directions are drawn with density `cos / pi`, not from the paper's fitted clipped
+//! Departure: directions are sampled with density `cos / pi`, not from the paper's fitted clipped
 //! transform; weights stay below 2.
 
 use super::{Bsdf, BsdfSample, Transport};

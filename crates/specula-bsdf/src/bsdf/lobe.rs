@@ -38,10 +38,10 @@ pub enum Lobe<T> {
     Compensated(Compensated<T>),
     /// See [`CompensatedDielectric`].
     CompensatedDielectric(CompensatedDielectric<T>),
-    /// See [`multibounce::Conductor`].
-    MultibounceConductor(multibounce::Conductor<T>),
-    /// See [`multibounce::Dielectric`].
-    MultibounceDielectric(multibounce::Dielectric<T>),
+    /// See [`multibounce::MultibounceConductor`].
+    MultibounceConductor(multibounce::MultibounceConductor<T>),
+    /// See [`multibounce::MultibounceDielectric`].
+    MultibounceDielectric(multibounce::MultibounceDielectric<T>),
     /// See [`Black`].
     Black(Black),
     /// See [`RoughConductor`], with Beckmann's normals.
@@ -52,10 +52,10 @@ pub enum Lobe<T> {
     CompensatedBeckmann(Compensated<T, Beckmann<T>>),
     /// See [`CompensatedDielectric`], with Beckmann's normals.
     CompensatedDielectricBeckmann(CompensatedDielectric<T, Beckmann<T>>),
-    /// See [`multibounce::Conductor`], with Beckmann's normals.
-    MultibounceConductorBeckmann(multibounce::Conductor<T, Beckmann<T>>),
-    /// See [`multibounce::Dielectric`], with Beckmann's normals.
-    MultibounceDielectricBeckmann(multibounce::Dielectric<T, Beckmann<T>>),
+    /// See [`multibounce::MultibounceConductor`], with Beckmann's normals.
+    MultibounceConductorBeckmann(multibounce::MultibounceConductor<T, Beckmann<T>>),
+    /// See [`multibounce::MultibounceDielectric`], with Beckmann's normals.
+    MultibounceDielectricBeckmann(multibounce::MultibounceDielectric<T, Beckmann<T>>),
     /// See [`Plastic`].
     Plastic(Plastic<T>),
     /// See [`Plastic`], with Beckmann's normals.
@@ -183,15 +183,15 @@ from_lobe!(
     Layered: Layered<T>,
     Compensated: Compensated<T>,
     CompensatedDielectric: CompensatedDielectric<T>,
-    MultibounceConductor: multibounce::Conductor<T>,
-    MultibounceDielectric: multibounce::Dielectric<T>,
+    MultibounceConductor: multibounce::MultibounceConductor<T>,
+    MultibounceDielectric: multibounce::MultibounceDielectric<T>,
     Black: Black,
     RoughConductorBeckmann: RoughConductor<T, Beckmann<T>>,
     RoughDielectricBeckmann: RoughDielectric<T, Beckmann<T>>,
     CompensatedBeckmann: Compensated<T, Beckmann<T>>,
     CompensatedDielectricBeckmann: CompensatedDielectric<T, Beckmann<T>>,
-    MultibounceConductorBeckmann: multibounce::Conductor<T, Beckmann<T>>,
-    MultibounceDielectricBeckmann: multibounce::Dielectric<T, Beckmann<T>>,
+    MultibounceConductorBeckmann: multibounce::MultibounceConductor<T, Beckmann<T>>,
+    MultibounceDielectricBeckmann: multibounce::MultibounceDielectric<T, Beckmann<T>>,
     Plastic: Plastic<T>,
     PlasticBeckmann: Plastic<T, Beckmann<T>>,
     Principled: Principled<T>,

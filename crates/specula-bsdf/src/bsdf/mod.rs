@@ -79,7 +79,7 @@ pub struct BsdfSample<T> {
 /// A bidirectional scattering distribution in the local frame.
 ///
 /// Invariants, held by the crate `specula-stat` on every lobe here:
-/// * `sample` draws `wi` with density `pdf(wo, wi)`; its missing mass is the share of `None`;
+/// * `sample` samples `wi` with density `pdf(wo, wi)`; its missing mass is the share of `None`;
 /// * `weight = eval / pdf` at the sampled direction;
 /// * every value is finite and none is negative for every unit `wo`, `wi`.
 pub trait Bsdf<T: Real> {
@@ -88,10 +88,10 @@ pub trait Bsdf<T: Real> {
     /// * `wo`, `wi`: unit, local frame.
     fn eval(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> Rgb<T>;
 
-    /// Density with which `sample` draws `wi`, in 1/sr, without Dirac deltas.
+    /// Density with which `sample` samples `wi`, in 1/sr, without Dirac deltas.
     fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T;
 
-    /// Draws `wi`.
+    /// Samples `wi`.
     ///
     /// * `u`: independent and uniform in `[0, 1)`; `u[0]` chooses among lobes, `u[1]` and `u[2]`
     ///   the direction.
@@ -104,7 +104,7 @@ pub trait Bsdf<T: Real> {
         (self.eval(wo, wi, transport), self.pdf(wo, wi))
     }
 
-    /// Whether values are estimates: then `eval` and `sample` are one draw of a random walk, taken
+    /// Whether values are estimates: then `eval` and `sample` are one sample of a random walk, taken
     /// from a stream seeded by the arguments, and callers who integrate should pass a stream of
     /// their own to [`eval_pdf_random`](Bsdf::eval_pdf_random) and
     /// [`sample_random`](Bsdf::sample_random).

@@ -9,11 +9,11 @@
 //! smooth where `1 - E` vanishes (narrow lobes, the horizon), and cannot turn negative, as
 //! coefficients of cubic splines (`spline`) along the coordinates of `coordinates`:
 //!
-//! * isotropic: 48 widths x 40 cosines;
-//! * anisotropic: 24 x 25 / 2 pairs of widths x 12 azimuths x 22 cosines.
+//! * isotropic: 48 alphas x 40 cosines;
+//! * anisotropic: 24 x 25 / 2 pairs of alphas x 12 azimuths x 22 cosines.
 //!
 //! Made by `cargo xtask tables`; its tests compare with quadrature at random points, a third of them
-//! with the widths at both ends of the range and a third near the narrow axis:
+//! with the alphas at both ends of the range and a third near the narrow axis:
 //!
 //! | largest (rms) error of E | GGX | Beckmann |
 //! |---|---|---|
@@ -27,7 +27,7 @@
 //! The last row is what others use: the table by azimuth is 4000 and 3000 times closer.
 
 use super::albedo_tables::TABLES;
-use super::coordinates::{Widths, alpha_coordinate, average_scale, cosine_coordinate};
+use super::coordinates::{AlphaPair, alpha_coordinate, average_scale, cosine_coordinate};
 use super::pairs::{pair, row};
 use super::rows::Rows;
 use super::spline::Cubic;
@@ -35,17 +35,17 @@ use crate::alpha::Alpha;
 use crate::math::{Real, Vec3};
 use crate::ndf::{Beckmann, Ggx, Masking, Ndf};
 
-/// Widths of the isotropic tables.
+/// AlphaPair of the isotropic tables.
 pub const ISOTROPIC_ALPHAS: usize = 48;
 /// Cosines of the isotropic tables.
 pub const ISOTROPIC_COSINES: usize = 40;
-/// Widths of the anisotropic tables.
+/// AlphaPair of the anisotropic tables.
 pub const ANISOTROPIC_ALPHAS: usize = 24;
 /// Azimuths of the anisotropic tables.
 pub const ANISOTROPIC_AZIMUTHS: usize = 12;
 /// Cosines of the anisotropic tables.
 pub const ANISOTROPIC_COSINES: usize = 22;
-/// Pairs of widths of the anisotropic tables.
+/// Pairs of alphas of the anisotropic tables.
 pub const ANISOTROPIC_PAIRS: usize = ANISOTROPIC_ALPHAS * (ANISOTROPIC_ALPHAS + 1) / 2;
 /// Lines of the anisotropic tables.
 pub const ANISOTROPIC_ROWS: usize = ANISOTROPIC_PAIRS * ANISOTROPIC_AZIMUTHS;
@@ -84,7 +84,7 @@ pub(super) fn table_index(distribution: Distribution, masking: Masking) -> usize
     }
 }
 
-/// The energy that single scattering off one surface loses: the tables at its widths.
+/// The energy that single scattering off one surface loses: the tables at its alphas.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loss<T> {
     table: u8,
@@ -99,7 +99,7 @@ enum Kind<T> {
         stencil: Cubic<T>,
     },
     Anisotropic {
-        widths: Widths<T>,
+        alpha_values: AlphaPair<T>,
         low: Cubic<T>,
         high: Cubic<T>,
     },
@@ -119,13 +119,20 @@ impl<T: Real> Loss<T> {
             let root = stencil.sum(|i| T::of(f64::from(tables.isotropic_average[i])));
             (Kind::Isotropic { width: x, stencil }, root)
         } else {
-            let widths = Widths::new(x, y);
-            let (low, high) = widths.ordered();
+            let alpha_values = AlphaPair::new(x, y);
+            let (low, high) = alpha_values.ordered();
             let low = stencil(low, ANISOTROPIC_ALPHAS);
             let high = stencil(high, ANISOTROPIC_ALPHAS);
             let averages = &tables.anisotropic_average;
             let root = low.sum(|i| high.sum(|j| T::of(f64::from(averages[pair(i, j).0]))));
-            (Kind::Anisotropic { widths, low, high }, root)
+            (
+                Kind::Anisotropic {
+                    alpha_values,
+                    low,
+                    high,
+                },
+                root,
+            )
         };
         let scaled = root * average_scale(x, y);
         Self {
@@ -147,8 +154,12 @@ impl<T: Real> Loss<T> {
                 let m = cosine_coordinate(cosine, *width);
                 isotropic(&tables.isotropic, stencil, m)
             }
-            Kind::Anisotropic { widths, low, high } => {
-                let azimuth = widths.azimuth(wo.x, wo.y);
+            Kind::Anisotropic {
+                alpha_values,
+                low,
+                high,
+            } => {
+                let azimuth = alpha_values.azimuth(wo.x, wo.y);
                 let m = cosine_coordinate(cosine, azimuth.width);
                 anisotropic(tables.anisotropic, [low, high], azimuth.v, m)
             }

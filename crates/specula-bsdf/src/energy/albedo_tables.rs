@@ -1,6 +1,6 @@
 //! The tables of lost energy.
 //!
-//! `tables/*.txt` are made by `cargo xtask tables`: numbers in base 94, most significant digit
+//! `tables/*.txt` are made by `cargo xtask tables`: values in base 94, most significant digit
 //! first, digits the characters from `!` to `~`. A number says how far a spline's coefficient
 //! (`spline`) lies between two limits.
 //!
@@ -22,17 +22,17 @@ pub(super) struct Tables {
     pub(super) isotropic: [[f32; ISOTROPIC_COSINES]; ISOTROPIC_ALPHAS],
     /// `sqrt(1 - E_avg)` over its scale, by width.
     pub(super) isotropic_average: [f32; ISOTROPIC_ALPHAS],
-    /// `sqrt(1 - E)` by pair of widths, azimuth and cosine.
+    /// `sqrt(1 - E)` by pair of alphas, azimuth and cosine.
     pub(super) anisotropic: Rows<'static, ANISOTROPIC_COSINES>,
-    /// `sqrt(1 - E_avg)` over its scale, by pair of widths.
+    /// `sqrt(1 - E_avg)` over its scale, by pair of alphas.
     pub(super) anisotropic_average: [f32; ANISOTROPIC_PAIRS],
     /// `sqrt(1 - E)` of interfaces by index, width and cosine.
     pub(super) interface: Rows<'static, COSINES>,
     /// `sqrt(1 - E_avg)` of interfaces over its scale, by index and width.
     pub(super) interface_average: [[f32; ALPHAS]; ETAS],
-    /// `sqrt(1 - E)` of anisotropic interfaces by index, pair of widths, azimuth and cosine.
+    /// `sqrt(1 - E)` of anisotropic interfaces by index, pair of alphas, azimuth and cosine.
     pub(super) stretched: Rows<'static, STRETCHED_COSINES>,
-    /// `sqrt(1 - E_avg)` of anisotropic interfaces over its scale, by index and pair of widths.
+    /// `sqrt(1 - E_avg)` of anisotropic interfaces over its scale, by index and pair of alphas.
     pub(super) stretched_average: [[f32; STRETCHED_PAIRS]; STRETCHED_ETAS],
 }
 

@@ -7,7 +7,7 @@
 //! cosine     m = 1 - sqrt(1 - sqrt(mu (1 + a) / (mu + a)))
 //! ```
 //!
-//! `a` is the width along the view, between the widths `l < h` along x and y. Off a stretched
+//! `a` is the width along the view, between the alphas `l < h` along x and y. Off a stretched
 //! surface the loss changes where `tan phi ~ l / h`: the logarithm has room there at every ratio.
 //! For narrow lobes everything happens at `mu ~ a`, for which `m` has room at every width, and the
 //! inner root makes room for Beckmann's steep loss about normal incidence.
@@ -65,9 +65,9 @@ pub fn interface_cosine_coordinate<T: Real>(cosine: T, width: T, edge: T) -> T {
         + T::of(0.3) * bend(cosine * cosine, T::ONE - edge)
 }
 
-/// Two widths, in ascending order, and which axis is the wider.
+/// Two alphas, in ascending order, and which axis is the wider.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Widths<T> {
+pub struct AlphaPair<T> {
     low: T,
     high: T,
     /// `(h / l)^2 - 1`.
@@ -89,8 +89,8 @@ pub struct Azimuth<T> {
     pub narrow: T,
 }
 
-impl<T: Real> Widths<T> {
-    /// The widths along x and y, in any order.
+impl<T: Real> AlphaPair<T> {
+    /// The alphas along x and y, in any order.
     #[inline]
     pub fn new(x: T, y: T) -> Self {
         let (low, high) = (Real::min(x, y), Real::max(x, y));
@@ -99,7 +99,7 @@ impl<T: Real> Widths<T> {
             low,
             high,
             excess,
-            // Equal widths have no azimuth; the floor keeps 0 / 0 away.
+            // isotropic alpha have no azimuth; the floor keeps 0 / 0 away.
             per_logarithm: T::ONE / Real::max((T::ONE + excess).ln(), T::EPSILON),
             swapped: x > y,
         }
@@ -170,13 +170,13 @@ mod tests {
         }
         for (x, y) in [(0.02, 2.0), (0.3, 0.3001), (1.5, 0.05)] {
             for edge in [0.5, 0.1, 0.9_f64] {
-                let widths = Widths::new(x, y);
+                let alphas = AlphaPair::new(x, y);
                 let mut before = [-1e-9; 3];
                 for i in 0..=200 {
                     let u = f64::from(i) / 200.0;
                     let turn = if x < y { u } else { 1.0 - u };
                     let (sine, cosine) = (turn * core::f64::consts::FRAC_PI_2).sin_cos();
-                    let azimuth = widths.azimuth(cosine, sine);
+                    let azimuth = alphas.azimuth(cosine, sine);
                     let now = [
                         azimuth.v,
                         azimuth.interface(edge),
@@ -197,9 +197,9 @@ mod tests {
     }
 
     #[test]
-    fn equal_widths_and_the_pole_are_finite() {
-        let azimuth = Widths::new(0.3_f32, 0.3).azimuth(0.2, 0.1);
+    fn equal_alphas_and_the_pole_are_finite() {
+        let azimuth = AlphaPair::new(0.3_f32, 0.3).azimuth(0.2, 0.1);
         assert!(azimuth.v.is_finite() && azimuth.interface(0.4).is_finite());
-        assert!(Widths::new(0.1_f32, 0.3).azimuth(0.0, 0.0).v.is_finite());
+        assert!(AlphaPair::new(0.1_f32, 0.3).azimuth(0.0, 0.0).v.is_finite());
     }
 }

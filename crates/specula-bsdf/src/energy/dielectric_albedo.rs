@@ -6,8 +6,8 @@
 //!
 //! As in `albedo`, tables hold `sqrt(1 - E)` as coefficients of splines:
 //!
-//! * isotropic: 2 x 10 indices x 20 widths x 22 cosines, cubic;
-//! * anisotropic: 2 x 6 indices x 12 x 13 / 2 pairs of widths x 10 azimuths x 14 cosines, quadratic,
+//! * isotropic: 2 x 10 indices x 20 alphas x 22 cosines, cubic;
+//! * anisotropic: 2 x 6 indices x 12 x 13 / 2 pairs of alphas x 10 azimuths x 14 cosines, quadratic,
 //!   so that five dimensions ask for 243 coefficients, as many as the four of `albedo`.
 //!
 //! The coordinate of an index is `sqrt(|eta - 1| / (eta + 1))`, of indices in `[1.041, 3]` and of
@@ -29,7 +29,7 @@
 use super::albedo::{Tabulated, table_index};
 use super::albedo_tables::TABLES;
 use super::coordinates::{
-    Widths, alpha_coordinate, average_scale, edge, interface_cosine_coordinate,
+    AlphaPair, alpha_coordinate, average_scale, edge, interface_cosine_coordinate,
 };
 use super::pairs::{pair, row};
 use super::rows::Rows;
@@ -40,19 +40,19 @@ use crate::ndf::Masking;
 
 /// Indices of the isotropic tables.
 pub const ETAS: usize = 20;
-/// Widths of the isotropic tables.
+/// AlphaPair of the isotropic tables.
 pub const ALPHAS: usize = 20;
 /// Cosines of the isotropic tables.
 pub const COSINES: usize = 22;
 /// Indices of the anisotropic tables.
 pub const STRETCHED_ETAS: usize = 12;
-/// Widths of the anisotropic tables.
+/// AlphaPair of the anisotropic tables.
 pub const STRETCHED_ALPHAS: usize = 12;
 /// Azimuths of the anisotropic tables.
 pub const STRETCHED_AZIMUTHS: usize = 10;
 /// Cosines of the anisotropic tables.
 pub const STRETCHED_COSINES: usize = 14;
-/// Pairs of widths of the anisotropic tables.
+/// Pairs of alphas of the anisotropic tables.
 pub const STRETCHED_PAIRS: usize = STRETCHED_ALPHAS * (STRETCHED_ALPHAS + 1) / 2;
 /// Lines of the anisotropic tables.
 pub const STRETCHED_ROWS: usize = STRETCHED_ETAS * STRETCHED_PAIRS * STRETCHED_AZIMUTHS;
@@ -76,7 +76,7 @@ enum Kind<T> {
         alpha: Cubic<T>,
     },
     Anisotropic {
-        widths: Widths<T>,
+        alpha_values: AlphaPair<T>,
         eta: Quadratic<T>,
         low: Quadratic<T>,
         high: Quadratic<T>,
@@ -103,15 +103,15 @@ impl<T: Real> DielectricLoss<T> {
         } else {
             let start = half(eta, STRETCHED_ETAS);
             let eta = Quadratic::quadratic(eta_coordinate(eta), STRETCHED_ETAS / 2);
-            let widths = Widths::new(x, y);
-            let (low, high) = widths.ordered();
+            let alpha_values = AlphaPair::new(x, y);
+            let (low, high) = alpha_values.ordered();
             let low = Quadratic::quadratic(alpha_coordinate(low), STRETCHED_ALPHAS);
             let high = Quadratic::quadratic(alpha_coordinate(high), STRETCHED_ALPHAS);
             let averages = &tables.stretched_average;
             let root =
                 eta.sum(|e| low.sum(|i| high.sum(|j| number(averages[start + e][pair(i, j).0]))));
             let kind = Kind::Anisotropic {
-                widths,
+                alpha_values,
                 eta,
                 low,
                 high,
@@ -144,12 +144,12 @@ impl<T: Real> DielectricLoss<T> {
                 isotropic(tables.interface, start, [eta, alpha], m)
             }
             Kind::Anisotropic {
-                widths,
+                alpha_values,
                 eta,
                 low,
                 high,
             } => {
-                let azimuth = widths.azimuth(wo.x, wo.y);
+                let azimuth = alpha_values.azimuth(wo.x, wo.y);
                 let m = interface_cosine_coordinate(cosine, azimuth.width, self.edge);
                 let v = azimuth.interface(self.edge);
                 stretched(tables.stretched, start, [eta, low, high], [v, m])

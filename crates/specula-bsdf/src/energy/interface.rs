@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! T(mu) = int (1 - F(wo.wm)) D_visible(wo, wm) dwm              light from outside that enters
-//! R_int = 1 - int_0^1 T(mu) 2 mu dmu / eta^2                    diffuse light thrown back inside
+//! R_int = 1 - int_0^1 T(mu) 2 mu dmu / eta^2                    diffuse light reflected inside
 //! ```
 //!
 //! `T` is what the facets seen from `wo` let through. Light refracted downwards stays below: what
@@ -15,7 +15,7 @@
 //! `(eta - 1)/(eta + 1)`, `sqrt(1.1 alpha / (1 + alpha))` and `sqrt(mu)`, where `mu_e` is a cosine raised by
 //! the roughness so that the quotient is smooth. Made by `cargo xtask tables`; largest absolute
 //! error of `T` against quadrature, over alpha in [0.02, 1.4], eta in [1.33, 2.4], mu in [0.01, 1]:
-//! 6e-3 (test `the_tables_hold_their_bound`). Anisotropic widths are taken as
+//! 6e-3 (test `the_tables_hold_their_bound`). Anisotropic alphas are taken as
 //! `sqrt(alpha_x alpha_y)`.
 
 use super::interface_table::{ALPHAS, ETAS, INTERNAL_REFLECTANCE, MUS, TRANSMITTANCE};
@@ -53,7 +53,7 @@ pub fn transmittance<T: Real>(coat: Option<Ggx<T>>, eta: T, mu: T) -> T {
     Real::clamp(smooth * quotient, T::ZERO, T::ONE)
 }
 
-/// Share of diffuse light from inside that is thrown back.
+/// Share of diffuse light from inside that is reflected.
 ///
 /// * `coat`: `None` for a smooth interface.
 /// * `eta`: index inside over outside, in `[1, 3]`.

@@ -2,7 +2,7 @@
 //!
 //! Light that crosses a layer of optical thickness `t` at the cosine `mu` keeps `exp(-t / mu)`. Of
 //! light that entered at the cosine `mu`, with `<>` the mean over where the interface sends it, and
-//! of diffuse light that the interface throws back inside, up at `mu_i` and down at `mu_r`:
+//! of diffuse light that the interface reflects inside, up at `mu_i` and down at `mu_r`:
 //!
 //! ```text
 //! crossing(mu) = <exp(-t / mu')>
@@ -76,7 +76,7 @@ impl<T: Real> Layer<T> {
         self.left(refracted * share)
     }
 
-    /// Share that is left of diffuse light which crossed upwards, was thrown back, and crossed again.
+    /// Share that is left of diffuse light which crossed upwards, was reflected, and crossed again.
     ///
     /// * `coat`: `None` for a smooth interface.
     /// * `eta`: index inside over outside, in `[1, 3]`.

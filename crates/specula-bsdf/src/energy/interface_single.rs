@@ -14,7 +14,7 @@
 //! Tables of `T / (1 - F(mu_e))` and of `R_int / (1 - 1/eta^2)` on the coordinates of
 //! `interface.rs`. Made by `cargo xtask tables`; largest absolute errors against quadrature, over
 //! alpha in [0.02, 1.4], eta in [1.2, 2.4], mu in [0.01, 1] (test
-//! `single_scattering_holds_its_bounds`): 8e-3 of `T`, 2e-3 of `R_int`. Anisotropic widths are taken
+//! `single_scattering_holds_its_bounds`): 8e-3 of `T`, 2e-3 of `R_int`. Anisotropic alphas are taken
 //! as `sqrt(alpha_x alpha_y)`.
 
 use super::interface::{alpha_knot, cosine_knot, effective_cosine, eta_knot, table, width};
@@ -53,7 +53,7 @@ pub fn reflectance_estimate<T: Real>(coat: Option<Ggx<T>>, eta: T, mu: T) -> T {
     dielectric(mu, eta).reflectance
 }
 
-/// Share of diffuse light from inside that is thrown back by one scattering.
+/// Share of diffuse light from inside that is reflected by one scattering.
 ///
 /// * `coat`: `None` for a smooth interface.
 /// * `eta`: index inside over outside, in `[1, 3]`.

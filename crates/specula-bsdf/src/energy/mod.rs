@@ -7,7 +7,7 @@
 //! | `coordinates` | where the tables have their knots |
 //! | `spline`, `rows`, `pairs` | splines, and how their coefficients are stored |
 //! | `stencil` | neighbouring knots of a table of values |
-//! | `numbers` | all tables as plain numbers, for shaders |
+//! | `values` | all tables as plain values, for shaders |
 //! | `fit` | the directional loss as a short formula, for shaders |
 //! | `model` | Turquin's and Kulla and Conty's factors |
 //! | `fresnel_average` | cosine-averaged reflectance |
@@ -27,12 +27,12 @@ pub mod interface_single;
 mod interface_single_table;
 mod interface_table;
 pub mod model;
-pub mod numbers;
 pub mod pairs;
+pub mod raw_tables;
 pub mod rows;
 pub mod spline;
 pub mod stencil;
 
 pub use albedo::{Loss, Tabulated};
 pub use dielectric_albedo::DielectricLoss;
-pub use model::{FmsVariant, Model};
+pub use model::{EnergyModel, FmsVariant};

@@ -34,7 +34,7 @@ pub enum FmsVariant {
 
 /// How a rough metal regains what single scattering loses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Model {
+pub enum EnergyModel {
     /// The single-scattering lobe scaled by view. Turquin 2019, Practical multiple scattering
     /// compensation for microfacet models.
     Turquin(FmsVariant),
@@ -43,7 +43,7 @@ pub enum Model {
     KullaConty,
 }
 
-impl fmt::Display for Model {
+impl fmt::Display for EnergyModel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Turquin(FmsVariant::NormalIncidence) => "turquin",
@@ -56,17 +56,17 @@ impl fmt::Display for Model {
 /// A name that is no compensation's.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no such energy compensation: '{0}' (expected turquin, turquin-series or kulla-conty)")]
-pub struct UnknownModel(pub String);
+pub struct UnknownEnergyModel(pub String);
 
-impl FromStr for Model {
-    type Err = UnknownModel;
+impl FromStr for EnergyModel {
+    type Err = UnknownEnergyModel;
 
     fn from_str(name: &str) -> Result<Self, Self::Err> {
         match name {
             "turquin" => Ok(Self::Turquin(FmsVariant::NormalIncidence)),
             "turquin-series" => Ok(Self::Turquin(FmsVariant::AverageSeries)),
             "kulla-conty" => Ok(Self::KullaConty),
-            _ => Err(UnknownModel(name.to_owned())),
+            _ => Err(UnknownEnergyModel(name.to_owned())),
         }
     }
 }
@@ -92,9 +92,9 @@ mod tests {
     #[test]
     fn names_are_read_back() {
         for name in ["turquin", "turquin-series", "kulla-conty"] {
-            assert_eq!(name.parse::<Model>().unwrap().to_string(), name);
+            assert_eq!(name.parse::<EnergyModel>().unwrap().to_string(), name);
         }
-        assert!("kulla".parse::<Model>().is_err());
+        assert!("kulla".parse::<EnergyModel>().is_err());
     }
 
     #[test]

@@ -36,7 +36,7 @@ impl<'a, const N: usize> Rows<'a, N> {
         Self { text }
     }
 
-    /// A row's sum, as numbers from which [`Self::coefficient`] makes a value.
+    /// A row's sum, as values from which [`Self::coefficient`] makes a value.
     #[inline(always)]
     pub fn sum<T: Real, const K: usize>(&self, row: usize, stencil: &Spline<T, K>) -> T {
         let start = row * (2 * N + 1) + 2 * stencil.first();
@@ -50,7 +50,7 @@ impl<'a, const N: usize> Rows<'a, N> {
     }
 
     /// All coefficients, row by row.
-    pub fn numbers(&self) -> impl Iterator<Item = f32> + use<'a, N> {
+    pub fn values(&self) -> impl Iterator<Item = f32> + use<'a, N> {
         self.text.chunks(2 * N + 1).flat_map(|line| {
             line[..2 * N].as_chunks::<2>().0.iter().map(|digits| {
                 let [first, second] = digits.map(f64::from);
@@ -61,7 +61,7 @@ impl<'a, const N: usize> Rows<'a, N> {
         })
     }
 
-    /// The value of a sum of numbers whose weights sum to 1.
+    /// The value of a sum of values whose weights sum to 1.
     #[inline(always)]
     pub fn coefficient<T: Real>(sum: T) -> T {
         const SCALE: f64 = (HIGH - LOW) / LARGEST;

@@ -1,7 +1,7 @@
 //! Neighbouring coefficients of a uniform B-spline, and their weights.
 //!
 //! A B-spline through the knots' values has a ninth of the error of Lagrange's cubic through the
-//! nearest four, at the same cost and from as many numbers: its coefficients know all knots. Weights
+//! nearest four, at the same cost and from as many values: its coefficients know all knots. Weights
 //! are positive and sum to 1, so that rounded coefficients leave no larger error than one of them.
 
 use crate::math::Real;

@@ -131,7 +131,7 @@ mod tests {
 
     #[test]
     fn complex_arithmetic_gives_the_same() {
-        // Rs = |(cos - w)/(cos + w)|^2, w = sqrt(n^2 - sin^2), by hand in complex numbers.
+        // Rs = |(cos - w)/(cos + w)|^2, w = sqrt(n^2 - sin^2), by hand in complex values.
         for &(eta, k, cos) in &[(0.2, 3.0, 0.3), (2.5, 1.0, 0.7), (0.05, 6.0, 0.01)] {
             let sin2: f64 = 1.0 - cos * cos;
             let n2: (f64, f64) = (eta * eta - k * k, 2.0 * eta * k);

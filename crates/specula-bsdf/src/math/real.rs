@@ -56,7 +56,7 @@ pub trait Real:
     const TINY: Self;
     /// Largest finite number.
     const MAX: Self;
-    /// The same numbers with fused [`mul_add`](Real::mul_add).
+    /// The same values with fused [`mul_add`](Real::mul_add).
     #[doc(hidden)]
     type Fused: Real;
 

@@ -1,7 +1,10 @@
 //! A rough metal with all its bounces, by one of the models.
 
 use super::walk::Facets;
-use super::{MisPdf, Model, bitterli2022, cui2023, heitz2016, mis_pdf, ours, seed, wang2022};
+use super::{
+    MisPdf, MultibounceModel, bitterli2022, cui2023, heitz2016, mis_pdf, seed,
+    stratified_bidirectional, wang2022,
+};
 use crate::bsdf::{Bsdf, BsdfSample, Event, Transport};
 use crate::fresnel::Reflectance;
 use crate::math::{Real, Rgb, Stream, Vec3};
@@ -12,17 +15,17 @@ use crate::ndf::{Ggx, Ndf};
 /// Backfacing views (`wo.z < 0`) are continued as in [`Ndf::g2_over_cos`]: the first collision is
 /// `Exp(sigma(wo) / |wo.z|)` deep.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Conductor<T, N = Ggx<T>> {
+pub struct MultibounceConductor<T, N = Ggx<T>> {
     ndf: N,
     reflectance: Reflectance<T>,
-    model: Model,
+    model: MultibounceModel,
     mis: MisPdf,
 }
 
-impl<T: Real, N: Ndf<T>> Conductor<T, N> {
+impl<T: Real, N: Ndf<T>> MultibounceConductor<T, N> {
     /// A metal evaluated by `model`.
     #[inline(always)]
-    pub fn new(ndf: N, reflectance: Reflectance<T>, model: Model) -> Self {
+    pub fn new(ndf: N, reflectance: Reflectance<T>, model: MultibounceModel) -> Self {
         Self {
             ndf,
             reflectance,
@@ -48,7 +51,7 @@ impl<T: Real, N: Ndf<T>> Conductor<T, N> {
 
     /// The model.
     #[inline(always)]
-    pub(crate) fn model(&self) -> Model {
+    pub(crate) fn model(&self) -> MultibounceModel {
         self.model
     }
 
@@ -66,19 +69,23 @@ impl<T: Real, N: Ndf<T>> Conductor<T, N> {
     pub fn estimate(&self, wo: Vec3<T>, wi: Vec3<T>, stream: &mut Stream) -> Rgb<T> {
         let facets = &self.facets();
         match self.model {
-            Model::Heitz2016 => heitz2016::eval::<T, N, true>(facets, wo, wi, stream),
-            Model::BitterliDeon2022 => bitterli2022::eval(facets, wo, wi, stream),
-            Model::Wang2022 { correlated } => wang2022::eval(facets, correlated, wo, wi, stream),
-            Model::Cui2023 { bidirectional } if bidirectional && wo.z > T::ZERO => {
+            MultibounceModel::Heitz2016 => heitz2016::eval::<T, N, true>(facets, wo, wi, stream),
+            MultibounceModel::BitterliDeon2022 => bitterli2022::eval(facets, wo, wi, stream),
+            MultibounceModel::Wang2022 { correlated } => {
+                wang2022::eval(facets, correlated, wo, wi, stream)
+            }
+            MultibounceModel::Cui2023 { bidirectional } if bidirectional && wo.z > T::ZERO => {
                 cui2023::eval_bidirectional(facets, wo, wi, stream)
             }
-            Model::Cui2023 { .. } => cui2023::eval(facets, wo, wi, stream),
-            Model::Ours => ours::eval(facets, wo, wi, stream),
+            MultibounceModel::Cui2023 { .. } => cui2023::eval(facets, wo, wi, stream),
+            MultibounceModel::StratifiedBidirectional => {
+                stratified_bidirectional::eval(facets, wo, wi, stream)
+            }
         }
     }
 
     /// An estimate of `f cos` by Heitz 2016 as published: one bounce is estimated like the others,
-    /// where [`Model::Heitz2016`] has it in closed form. The yardstick of the bench.
+    /// where [`MultibounceModel::Heitz2016`] has it in closed form. The yardstick of the bench.
     ///
     /// * `wi`: above the horizon.
     #[inline]
@@ -94,15 +101,21 @@ impl<T: Real, N: Ndf<T>> Conductor<T, N> {
     pub fn draw(&self, wo: Vec3<T>, u: [T; 2], stream: &mut Stream) -> Option<(Vec3<T>, Rgb<T>)> {
         let facets = &self.facets();
         match self.model {
-            Model::Heitz2016 | Model::BitterliDeon2022 => heitz2016::sample(facets, wo, u, stream),
-            Model::Wang2022 { correlated } => wang2022::sample(facets, correlated, wo, u, stream),
-            Model::Cui2023 { .. } => cui2023::sample(facets, wo, u, stream),
-            Model::Ours => ours::sample(facets, wo, u, stream),
+            MultibounceModel::Heitz2016 | MultibounceModel::BitterliDeon2022 => {
+                heitz2016::sample(facets, wo, u, stream)
+            }
+            MultibounceModel::Wang2022 { correlated } => {
+                wang2022::sample(facets, correlated, wo, u, stream)
+            }
+            MultibounceModel::Cui2023 { .. } => cui2023::sample(facets, wo, u, stream),
+            MultibounceModel::StratifiedBidirectional => {
+                stratified_bidirectional::sample(facets, wo, u, stream)
+            }
         }
     }
 }
 
-impl<T: Real, N: Ndf<T>> Bsdf<T> for Conductor<T, N> {
+impl<T: Real, N: Ndf<T>> Bsdf<T> for MultibounceConductor<T, N> {
     #[inline]
     fn eval(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> Rgb<T> {
         self.eval_pdf(wo, wi, transport).0

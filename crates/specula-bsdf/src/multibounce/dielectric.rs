@@ -1,7 +1,7 @@
 //! A rough dielectric interface with all its bounces.
 
 use super::interface::{Interface, turned};
-use super::{MisPdf, Model, heitz2016, mis_pdf, ours, seed};
+use super::{MisPdf, MultibounceModel, heitz2016, mis_pdf, seed, stratified_bidirectional};
 use crate::bsdf::{Bsdf, BsdfSample, Event, Tints, Transport};
 use crate::math::{Real, Rgb, Stream, Vec3};
 use crate::ndf::{Ggx, Ndf};
@@ -9,10 +9,10 @@ use crate::ndf::{Ggx, Ndf};
 /// Reflection and refraction at a rough interface with every bounce between its facets, on both
 /// sides of them. Values are estimates; no energy is lost.
 ///
-/// [`Model::Heitz2016`] walks with heights; every other model here is [`Model::Ours`], as the
+/// [`MultibounceModel::Heitz2016`] walks with heights; every other model here is [`MultibounceModel::StratifiedBidirectional`], as the
 /// papers of the others treat metals only.
 ///
-/// Ours estimates `f` from the end whose walks vary less, whichever of the two is asked for:
+/// StratifiedBidirectional estimates `f` from the end whose walks vary less, whichever of the two is asked for:
 /// `f / eta^2` is symmetric. Variance times time over that of walks from `wo`, geometric means over
 /// 5, 20, 40, 60 and 80 degrees at both ends, index 1.5:
 ///
@@ -28,21 +28,21 @@ use crate::ndf::{Ggx, Ndf};
 ///
 /// Indices within 1e-3 of each other are taken as equal: light passes straight on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dielectric<T, N = Ggx<T>> {
+pub struct MultibounceDielectric<T, N = Ggx<T>> {
     ndf: N,
     eta: T,
     two_sided: bool,
-    model: Model,
+    model: MultibounceModel,
     mis: MisPdf,
     tints: Tints<T>,
 }
 
-impl<T: Real, N: Ndf<T>> Dielectric<T, N> {
+impl<T: Real, N: Ndf<T>> MultibounceDielectric<T, N> {
     /// An interface with both sides: `wo.z < 0` views it from inside.
     ///
     /// * `eta`: index inside over index outside, above 0.
     #[inline(always)]
-    pub fn new(ndf: N, eta: T, model: Model) -> Self {
+    pub fn new(ndf: N, eta: T, model: MultibounceModel) -> Self {
         Self {
             two_sided: true,
             ..Self::facing(ndf, eta, model)
@@ -54,7 +54,7 @@ impl<T: Real, N: Ndf<T>> Dielectric<T, N> {
     ///
     /// * `eta`: index beyond the interface over the index on the side of `wo`.
     #[inline(always)]
-    pub fn facing(ndf: N, eta: T, model: Model) -> Self {
+    pub fn facing(ndf: N, eta: T, model: MultibounceModel) -> Self {
         Self {
             ndf,
             eta,
@@ -109,7 +109,7 @@ impl<T: Real, N: Ndf<T>> Dielectric<T, N> {
     }
 }
 
-impl<T: Real, N: Ndf<T>> Bsdf<T> for Dielectric<T, N> {
+impl<T: Real, N: Ndf<T>> Bsdf<T> for MultibounceDielectric<T, N> {
     #[inline]
     fn eval(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> Rgb<T> {
         self.eval_pdf(wo, wi, transport).0
@@ -156,8 +156,8 @@ impl<T: Real, N: Ndf<T>> Bsdf<T> for Dielectric<T, N> {
         let upright = |w| if is_turned { turned(w) } else { w };
         let (wo, wi) = (upright(wo), upright(wi));
         let f_cos = match self.model {
-            Model::Heitz2016 => heitz2016::eval_interface(&interface, wo, wi, stream),
-            _ => ours::eval_interface(&interface, wo, wi, stream),
+            MultibounceModel::Heitz2016 => heitz2016::eval_interface(&interface, wo, wi, stream),
+            _ => stratified_bidirectional::eval_interface(&interface, wo, wi, stream),
         };
         let scale = if wi.z < T::ZERO {
             Self::scale(interface.eta, transport)
@@ -190,8 +190,8 @@ impl<T: Real, N: Ndf<T>> Bsdf<T> for Dielectric<T, N> {
         let upright = |w| if is_turned { turned(w) } else { w };
         let view = upright(wo);
         let wi = match self.model {
-            Model::Heitz2016 => heitz2016::sample_interface(&interface, view, u, stream),
-            _ => ours::sample_interface(&interface, view, u, stream),
+            MultibounceModel::Heitz2016 => heitz2016::sample_interface(&interface, view, u, stream),
+            _ => stratified_bidirectional::sample_interface(&interface, view, u, stream),
         }?;
         let pdf = mis_pdf::interface(self.mis, &interface, view, wi);
         let reflects = wi.z > T::ZERO;

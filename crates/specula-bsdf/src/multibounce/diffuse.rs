@@ -10,12 +10,12 @@ use crate::ndf::{Ggx, Ndf};
 /// The density for multiple importance sampling is the cosine's: the walk's is close to it at
 /// every roughness.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Diffuse<T, N = Ggx<T>> {
+pub struct MultibounceDiffuse<T, N = Ggx<T>> {
     ndf: N,
     albedo: Rgb<T>,
 }
 
-impl<T: Real, N: Ndf<T>> Diffuse<T, N> {
+impl<T: Real, N: Ndf<T>> MultibounceDiffuse<T, N> {
     /// * `albedo`: of each facet, in `[0, 1]`.
     #[inline(always)]
     pub fn new(ndf: N, albedo: Rgb<T>) -> Self {
@@ -23,7 +23,7 @@ impl<T: Real, N: Ndf<T>> Diffuse<T, N> {
     }
 }
 
-impl<T: Real, N: Ndf<T>> Bsdf<T> for Diffuse<T, N> {
+impl<T: Real, N: Ndf<T>> Bsdf<T> for MultibounceDiffuse<T, N> {
     #[inline]
     fn eval(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> Rgb<T> {
         self.eval_pdf(wo, wi, transport).0

@@ -1,7 +1,7 @@
 //! Heitz, Hanika, d'Eon and Dachsbacher 2016, Multiple-Scattering Microfacet BSDFs with the Smith
 //! Model: a random walk over directions and heights. The ground truth of the other models.
 //!
-//! The paper draws the next height from the distribution `C1` (uniform or Gaussian). In the depth `tau = -ln C1(h)` that reads, whatever `C1` is,
+//! The paper samples the next height from the distribution `C1` (uniform or Gaussian). In the depth `tau = -ln C1(h)` that reads, whatever `C1` is,
 //!
 //! ```text
 //! down:  tau += E / (1 + Lambda(-d)),     E = -ln U
@@ -116,7 +116,7 @@ pub(super) fn eval_interface<T: Real, N: Ndf<T>>(
     sum
 }
 
-/// A direction drawn at a dielectric; its weight is 1 (for light).
+/// A direction sampled at a dielectric; its weight is 1 (for light).
 ///
 /// * `u`: draws the first facet.
 #[inline]
@@ -208,7 +208,7 @@ pub(super) fn eval_diffuse<T: Real, N: Ndf<T>>(
     sum
 }
 
-/// A direction drawn at facets that reflect diffusely, and its weight.
+/// A direction sampled at facets that reflect diffusely, and its weight.
 ///
 /// * `u`: draws the first facet.
 #[inline]

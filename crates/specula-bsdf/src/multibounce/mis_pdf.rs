@@ -10,7 +10,7 @@ use super::walk::Flight;
 use crate::math::{Real, Vec3};
 use crate::ndf::Ndf;
 
-/// Which density. Metals know all; at a [`Dielectric`](super::Dielectric) `Lambert` and `Normalised`
+/// Which density. Metals know all; at a [`Dielectric`](super::MultibounceDielectric) `Lambert` and `Normalised`
 /// have forms of their own, over the sphere, and `Hapke` is `Lambert`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MisPdf {
@@ -21,7 +21,7 @@ pub enum MisPdf {
     /// and 16, with `H(mu) = (1 + 2 mu) / (1 + 2 mu sqrt(1 - a))`). Integrates to 0.97 to 1.71: a
     /// weight, not a density. Of reflection alone: at a dielectric it is `Lambert`.
     Hapke,
-    /// Ours: see [`normalised_pdf`](super::normalised_pdf). Integrates to 1.
+    /// StratifiedBidirectional: see [`normalised_pdf`](super::normalised_pdf). Integrates to 1.
     #[default]
     Normalised,
 }

@@ -6,7 +6,7 @@
 //! | `bitterli2022` | heights integrated, hyperexponential | the truth | metal |
 //! | `wang2022` | independent bounces | a model of its own | metal |
 //! | `cui2023` | invariance principle, from one or both ends | the truth | metal |
-//! | `ours` | state without cancellation, both ends, stratified | the truth | metal, dielectric |
+//! | `Specula's` | state without cancellation, both ends, stratified | the truth | metal, dielectric |
 //!
 //! All evaluate by Monte Carlo: [`Bsdf::eval_pdf_random`](crate::Bsdf::eval_pdf_random) is an
 //! unbiased estimate of the model's `f cos`, and
@@ -27,16 +27,16 @@ mod interface;
 pub(crate) mod mis_pdf;
 mod model;
 mod normalised;
-pub(crate) mod ours;
 pub(crate) mod state;
+pub(crate) mod stratified_bidirectional;
 pub(crate) mod walk;
 mod wang2022;
 
-pub use conductor::Conductor;
-pub use dielectric::Dielectric;
-pub use diffuse::Diffuse;
+pub use conductor::MultibounceConductor;
+pub use dielectric::MultibounceDielectric;
+pub use diffuse::MultibounceDiffuse;
 pub use mis_pdf::{MisPdf, UnknownMisPdf};
-pub use model::{Model, UnknownModel};
+pub use model::{MultibounceModel, UnknownMultibounceModel};
 pub use normalised::{pdf as normalised_pdf, sample as sample_normalised};
 pub use state::DepthState;
 

@@ -4,9 +4,9 @@ use core::fmt;
 use core::str::FromStr;
 
 /// Which estimator computes multiple bounces. `Metals only` means that a
-/// [`Dielectric`](super::Dielectric) takes `Ours` instead.
+/// [`Dielectric`](super::MultibounceDielectric) takes `StratifiedBidirectional` instead.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Model {
+pub enum MultibounceModel {
     /// Heitz et al. 2016.
     Heitz2016,
     /// Bitterli and d'Eon 2022, unidirectional. Metals only.
@@ -23,10 +23,10 @@ pub enum Model {
     },
     /// This project's.
     #[default]
-    Ours,
+    StratifiedBidirectional,
 }
 
-impl Model {
+impl MultibounceModel {
     /// Every model.
     pub const ALL: [Self; 7] = [
         Self::Heitz2016,
@@ -39,7 +39,7 @@ impl Model {
         Self::Cui2023 {
             bidirectional: true,
         },
-        Self::Ours,
+        Self::StratifiedBidirectional,
     ];
 
     /// Whether its mean is that of Heitz 2016.
@@ -62,12 +62,12 @@ impl Model {
             Self::Cui2023 {
                 bidirectional: true,
             } => "cui-bidirectional",
-            Self::Ours => "specula",
+            Self::StratifiedBidirectional => "specula",
         }
     }
 }
 
-impl fmt::Display for Model {
+impl fmt::Display for MultibounceModel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }
@@ -79,16 +79,16 @@ impl fmt::Display for Model {
     "no such model of multiple bounces: '{0}' (expected heitz, bitterli, wang, wang-uncorrelated, \
      cui, cui-bidirectional or specula)"
 )]
-pub struct UnknownModel(pub String);
+pub struct UnknownMultibounceModel(pub String);
 
-impl FromStr for Model {
-    type Err = UnknownModel;
+impl FromStr for MultibounceModel {
+    type Err = UnknownMultibounceModel;
 
     fn from_str(name: &str) -> Result<Self, Self::Err> {
         Self::ALL
             .into_iter()
             .find(|model| model.name() == name)
-            .ok_or_else(|| UnknownModel(name.to_owned()))
+            .ok_or_else(|| UnknownMultibounceModel(name.to_owned()))
     }
 }
 
@@ -98,12 +98,12 @@ mod tests {
 
     #[test]
     fn names_are_read_back() {
-        for model in Model::ALL {
+        for model in MultibounceModel::ALL {
             assert_eq!(model.to_string().parse(), Ok(model));
         }
-        let error = "smith".parse::<Model>().unwrap_err().to_string();
+        let error = "smith".parse::<MultibounceModel>().unwrap_err().to_string();
         assert!(error.contains("'smith'"));
-        for model in Model::ALL {
+        for model in MultibounceModel::ALL {
             assert!(error.contains(model.name()));
         }
     }

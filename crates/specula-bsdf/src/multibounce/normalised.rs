@@ -28,10 +28,10 @@
 //! `r` is the ratio of the smaller width to the larger, `a^2` their product. The azimuth spreads
 //! about the forward direction: `tan(phi / 2) = kappa tan(phi' / 2)` (a wrapped Cauchy
 //! distribution, where all light goes forward), `kappa = 1 / (1 + 2 (1 - a^2) sin^2 theta_o)`. All
-//! depends continuously on widths and directions.
+//! depends continuously on alphas and directions.
 //!
 //! The forms and the constants were chosen by distance (L1) to walks with F = 1, GGX and Beckmann,
-//! nine pairs of widths, views from 0 to 85 degrees along and across the grain: test
+//! nine pairs of alphas, views from 0 to 85 degrees along and across the grain: test
 //! `normalised_density_is_closest_to_the_walks`.
 
 use super::walk::Flight;

@@ -122,7 +122,7 @@ impl<T: Real> DepthState<T> {
     /// A depth `tau` of the mixture (its mass taken as 1).
     ///
     /// * `choice`: uniform in `[0, 1)`, chooses the component.
-    /// * `next`: uniform numbers in `[0, 1)`, one for each layer.
+    /// * `next`: uniform random numbers in `[0, 1)`, one for each layer.
     #[inline]
     pub fn sample_depth(&self, choice: T, mut next: impl FnMut() -> T) -> T {
         let mut left = choice * self.mass();
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn exit_probabilities_are_those_of_drawn_heights() {
+    fn exit_probabilities_are_those_of_sampled_heights() {
         const N: u32 = 200_000;
         let mut stream = Stream::new(11);
         for pattern in 0..64_u32 {
@@ -190,11 +190,11 @@ mod tests {
             }
             flights.push((false, 0.5));
             let exact = by_state(&flights);
-            let drawn = brute_force(&flights, N, &mut stream);
+            let sampled = brute_force(&flights, N, &mut stream);
             let sigma = (exact * (1.0 - exact) / f64::from(N)).sqrt();
             assert!(
-                (drawn - exact).abs() < 4.5 * sigma + 1e-9,
-                "{flights:?}: {drawn} {exact} +- {sigma}"
+                (sampled - exact).abs() < 4.5 * sigma + 1e-9,
+                "{flights:?}: {sampled} {exact} +- {sigma}"
             );
         }
     }
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn drawn_depths_leave_as_the_state_says() {
+    fn sampled_depths_leave_as_the_state_says() {
         let mut state = DepthState::new(1.3_f64);
         assert!(state.down(1.1));
         state.up(0.6);

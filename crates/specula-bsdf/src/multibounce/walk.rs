@@ -77,7 +77,7 @@ impl<T: Real, N: Ndf<T>> Facets<T, N> {
         Flight::new(&self.ndf, -wo)
     }
 
-    /// The facet that is met (drawn among those that `-d` sees), its reflectance, and the flight
+    /// The facet that is met (sampled among those that `-d` sees), its reflectance, and the flight
     /// after it.
     #[inline(always)]
     pub(crate) fn bounce(&self, d: Vec3<T>, u: [T; 2]) -> (Vec3<T>, Rgb<T>, Flight<T>) {
@@ -104,7 +104,7 @@ impl<T: Real, N: Ndf<T>> Facets<T, N> {
     }
 }
 
-/// The facet that is met, drawn among those that `-d` sees, the cosine of incidence, and the flight
+/// The facet that is met, sampled among those that `-d` sees, the cosine of incidence, and the flight
 /// after it.
 #[inline(always)]
 pub(crate) fn meet<T: Real, N: Ndf<T>>(ndf: &N, d: Vec3<T>, u: [T; 2]) -> (Vec3<T>, T, Flight<T>) {

@@ -18,8 +18,8 @@
 //! separable `G2` when not. The uncorrelated model is reciprocal; the correlated one, as released,
 //! is not (test `means_are_reciprocal`): the reversed flight has another rate.
 //!
-//! Departures: the released code draws visible normals below the horizon with a routine that is
-//! wrong there; ours is not. Its constant roulette starts at the third bounce here too.
+//! Departures: the released code samples visible normals below the horizon with a routine that is
+//! wrong there; Specula's is not. Its constant roulette starts at the third bounce here too.
 
 use super::walk::{Facets, Flight, MAX_BOUNCES};
 use crate::math::{Real, Rgb, Stream, Vec3};

@@ -12,7 +12,7 @@ pub struct Beckmann<T> {
 }
 
 impl<T: Real> Beckmann<T> {
-    /// The distribution of these widths.
+    /// The distribution of these alphas.
     #[inline(always)]
     pub fn new(alpha: Alpha<T>) -> Self {
         Self { alpha }

@@ -12,7 +12,7 @@ pub struct Ggx<T> {
 }
 
 impl<T: Real> Ggx<T> {
-    /// The distribution of these widths.
+    /// The distribution of these alphas.
     #[inline(always)]
     pub fn new(alpha: Alpha<T>) -> Self {
         Self { alpha }

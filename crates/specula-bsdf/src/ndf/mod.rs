@@ -27,7 +27,7 @@ pub enum Masking {
 ///
 /// Directions are unit and local; the surface normal is z.
 pub trait Ndf<T: Real>: Copy {
-    /// The widths.
+    /// The alphas.
     fn alpha(&self) -> Alpha<T>;
 
     /// Density of microfacet normals `D(wm)` in 1/sr; 0 where `wm.z <= 0`.
@@ -59,7 +59,7 @@ pub trait Ndf<T: Real>: Copy {
     /// * `u`: uniform in `[0, 1)^2`.
     fn sample_wm(&self, wo: Vec3<T>, u: [T; 2]) -> Vec3<T>;
 
-    /// A reflected direction `wi`, perhaps below the horizon (to be rejected), drawn by `sampler`
+    /// A reflected direction `wi`, perhaps below the horizon (to be rejected), sampled by `sampler`
     /// where the distribution knows several.
     fn sample_reflection(&self, sampler: Sampler, wo: Vec3<T>, u: [T; 2]) -> Vec3<T>;
 

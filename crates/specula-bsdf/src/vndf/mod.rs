@@ -26,7 +26,7 @@ use crate::alpha::Alpha;
 use crate::math::{Real, Vec3};
 use crate::ndf::Ggx;
 
-/// Which sampler draws reflections off GGX.
+/// Which sampler samples reflections off GGX.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sampler {
     /// Heitz 2018.
@@ -37,7 +37,7 @@ pub enum Sampler {
     Bounded,
     /// Exactly the reflections above the surface: none rejected. The default at every roughness: the
     /// lowest variance of the four, at the price of some ten nanoseconds, or of seventy where the
-    /// widths differ (`docs/exact-reflection-sampling.md`).
+    /// alphas differ (`docs/exact-reflection-sampling.md`).
     #[default]
     Exact,
 }

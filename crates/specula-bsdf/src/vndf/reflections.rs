@@ -1,8 +1,8 @@
 //! Many reflections of one view: what does not depend on the draw is computed once.
 //!
 //! All samplers share the density `D(wm) / (4 N(wo))`. With `N` kept, a density costs `D` alone: no
-//! square root and one division. Unequal widths keep the cone of `exact` as well, which is
-//! most of a draw's cost. Worth it from the second use of a view on: several light samples at a
+//! square root and one division. anisotropic alpha keep the cone of `exact` as well, which is
+//! most of a sample's cost. Worth it from the second use of a view on: several light samples at a
 //! shading point, resampling, mixtures with guided distributions.
 
 use super::exact::Cone;
@@ -29,7 +29,7 @@ pub struct Reflections<T> {
     sampler: Sampler,
     /// `N`, in which the samplers differ.
     pub(crate) norm: T,
-    /// The valid half vectors, where a draw needs them.
+    /// The valid half vectors, where a sample needs them.
     cone: Option<Cone<T>>,
 }
 

@@ -7,7 +7,7 @@ use specula_bsdf::bsdf::{
     DiffuseTransmission, Eon, Lambert, RoughConductor, RoughDielectric, SmoothConductor,
     SmoothDielectric, ThinDielectric,
 };
-use specula_bsdf::energy::{FmsVariant, Model};
+use specula_bsdf::energy::{EnergyModel, FmsVariant};
 use specula_bsdf::fresnel::{Conductor, F82Tint, Reflectance, Schlick};
 use specula_bsdf::math::{Stream, rgb, warp};
 use specula_bsdf::ndf::{Ggx, Masking};
@@ -108,7 +108,7 @@ pub(crate) fn reflectances<T: Real>() -> [Reflectance<T>; 5] {
     ]
 }
 
-/// Calls the macro `$each` with every lobe: a name, and the lobe for widths `$alpha` in the scalar
+/// Calls the macro `$each` with every lobe: a name, and the lobe for alphas `$alpha` in the scalar
 /// `$t`.
 #[macro_export]
 macro_rules! for_every_lobe {
@@ -192,13 +192,13 @@ pub(crate) fn coated_conductor<T: Real>(
 }
 
 /// Every model of energy compensation.
-pub(crate) const MODELS: [Model; 3] = [
-    Model::Turquin(FmsVariant::NormalIncidence),
-    Model::Turquin(FmsVariant::AverageSeries),
-    Model::KullaConty,
+pub(crate) const MODELS: [EnergyModel; 3] = [
+    EnergyModel::Turquin(FmsVariant::NormalIncidence),
+    EnergyModel::Turquin(FmsVariant::AverageSeries),
+    EnergyModel::KullaConty,
 ];
 
-pub(crate) fn compensated<T: Real>(alpha: [f32; 2], model: Model) -> Compensated<T> {
+pub(crate) fn compensated<T: Real>(alpha: [f32; 2], model: EnergyModel) -> Compensated<T> {
     Compensated::new(ggx(alpha), gold(), model)
 }
 

@@ -1,17 +1,17 @@
-//! Samplers on the GPU: cost of a draw, alone and with its density and weight.
+//! Samplers on the GPU: cost of a sample, alone and with its density and weight.
 
 use std::time::{Duration, Instant};
 
 use specula_bsdf::math::warp::uniform_sphere;
-use specula_gpu::{Arrays, Gpu, Kernel};
+use specula_gpu::{Arrays, ComputeKernel, Gpu};
 
 use crate::{Effort, Result, figure, median, range, row, table};
 
-/// Draws of a lane, as in Dupuy and Benyoub 2023, section 4.
+/// samples of a lane, as in Dupuy and Benyoub 2023, section 4.
 const DRAWS: usize = 64;
 /// Threads of a workgroup, as the shader says.
 const WORKGROUP: usize = 64;
-/// Different views with their widths.
+/// Different views with their alphas.
 const POINTS: u16 = 4096;
 /// Lanes of the first run.
 const FIRST: usize = 1 << 14;
@@ -22,7 +22,7 @@ const SECONDS: f64 = 0.1;
 /// Most by which two estimates of the same mean may differ.
 const DIFFERENCE: f64 = 0.01;
 
-/// What a lane does in a draw: WGSL that reads `alpha`, `wo` and `u`, and adds to `sum`.
+/// What a lane does in a sample: WGSL that reads `alpha`, `wo` and `u`, and adds to `sum`.
 struct Work {
     name: &'static str,
     modules: &'static [&'static str],
@@ -83,8 +83,8 @@ macro_rules! reflection {
             $strategy,
             ");
         let lobe = RoughConductor(facets, reflectance_constant(vec3f(1.0)));
-        let drawn = rough_conductor_draw(lobe, wo, vec3f(0.5, u), BSDF_SAMPLE_RADIANCE);
-        sum += vec4f(drawn.wi.xy, drawn.pdf, drawn.weight.x);"
+        let sampled = rough_conductor_draw(lobe, wo, vec3f(0.5, u), BSDF_SAMPLE_RADIANCE);
+        sum += vec4f(sampled.wi.xy, sampled.pdf, sampled.weight.x);"
         )
     };
 }
@@ -153,8 +153,8 @@ fn draws_main(
     ))
 }
 
-/// Views over the hemisphere with widths in [0.05, 1], from the R2 sequence: two vectors each, of the
-/// view, the widths and the first random numbers.
+/// Views over the hemisphere with alphas in [0.05, 1], from the R2 sequence: two vectors each, of the
+/// view, the alphas and the first random numbers.
 fn points(is_isotropic: bool) -> Vec<[f32; 4]> {
     let at = |i: u16, step: f64| {
         #[allow(clippy::cast_possible_truncation, reason = "a number in [0, 1)")]
@@ -177,11 +177,11 @@ fn points(is_isotropic: bool) -> Vec<[f32; 4]> {
 
 /// A kernel with its arrays, sized to last long enough.
 struct Measured {
-    kernel: Kernel,
+    kernel: ComputeKernel,
     arrays: Arrays,
     lanes: usize,
     runs: usize,
-    /// Mean over the draws of what they added last.
+    /// Mean over the samples of what they added last.
     mean: f64,
 }
 
@@ -189,7 +189,7 @@ impl Measured {
     fn new(gpu: &Gpu, work: &Work, points: &[[f32; 4]]) -> Result<(Self, Duration)> {
         let start = Instant::now();
         let module = gpu.shader(work.name, &shader(work)?)?;
-        let kernel = Kernel::new(gpu, &module, "draws_main", 1)?;
+        let kernel = ComputeKernel::new(gpu, &module, "draws_main", 1)?;
         let arrays = upload(gpu, &kernel, points, WORKGROUP)?;
         kernel.run(gpu, &arrays, workgroups(WORKGROUP))?;
         let compiled = start.elapsed();
@@ -227,7 +227,7 @@ impl Measured {
         Ok(start.elapsed().as_secs_f64())
     }
 
-    /// Nanoseconds of a draw.
+    /// Nanoseconds of a sample.
     fn nanoseconds(&self, gpu: &Gpu) -> Result<f64> {
         Ok(1e9 * self.seconds(gpu)? / (self.lanes * self.runs * DRAWS) as f64)
     }
@@ -241,7 +241,7 @@ impl Measured {
     }
 }
 
-fn upload(gpu: &Gpu, kernel: &Kernel, points: &[[f32; 4]], lanes: usize) -> Result<Arrays> {
+fn upload(gpu: &Gpu, kernel: &ComputeKernel, points: &[[f32; 4]], lanes: usize) -> Result<Arrays> {
     Ok(kernel.upload(gpu, &[bytemuck::cast_slice(points)], 16 * lanes as u64)?)
 }
 
@@ -252,9 +252,9 @@ fn workgroups(lanes: usize) -> [u32; 3] {
     [across, groups / across, 1]
 }
 
-/// What was measured of a list of works with equal and with different widths.
+/// What was measured of a list of works with equal and with different alphas.
 struct Outcome {
-    /// Of every round: nanoseconds of a draw.
+    /// Of every round: nanoseconds of a sample.
     times: [Vec<Vec<f64>>; 2],
     means: [Vec<f64>; 2],
     compilation: f64,
@@ -264,12 +264,12 @@ impl Outcome {
     fn new(gpu: &Gpu, works: &[Work], rounds: usize) -> Result<Self> {
         let mut compilation = 0.0;
         let mut measured = [Vec::new(), Vec::new()];
-        for (of_widths, is_isotropic) in measured.iter_mut().zip([true, false]) {
+        for (of_alphas, is_isotropic) in measured.iter_mut().zip([true, false]) {
             let points = points(is_isotropic);
             for work in works {
                 let (kernel, compiled) = Measured::new(gpu, work, &points)?;
                 compilation += compiled.as_secs_f64();
-                of_widths.push(kernel);
+                of_alphas.push(kernel);
             }
         }
         let mut times = [(); 2].map(|()| vec![Vec::new(); works.len()]);
@@ -288,19 +288,19 @@ impl Outcome {
     }
 
     /// Median nanoseconds of the work at a place.
-    fn nanoseconds(&self, widths: usize, place: usize) -> f64 {
-        median(self.times[widths][place].clone())
+    fn nanoseconds(&self, alphas: usize, place: usize) -> f64 {
+        median(self.times[alphas][place].clone())
     }
 
     /// Of every round: the ratio of two works' times.
-    fn ratios(&self, widths: usize, place: usize, to: usize) -> Vec<f64> {
-        let [a, b] = [place, to].map(|i| &self.times[widths][i]);
+    fn ratios(&self, alphas: usize, place: usize, to: usize) -> Vec<f64> {
+        let [a, b] = [place, to].map(|i| &self.times[alphas][i]);
         a.iter().zip(b).map(|(a, b)| a / b).collect()
     }
 
     /// Median of the rounds' ratios of two works' times.
-    fn ratio(&self, widths: usize, place: usize, to: usize) -> f64 {
-        median(self.ratios(widths, place, to))
+    fn ratio(&self, alphas: usize, place: usize, to: usize) -> f64 {
+        median(self.ratios(alphas, place, to))
     }
 
     /// How far single rounds stray from the medians of ratios, as a sentence.
@@ -309,9 +309,9 @@ impl Outcome {
     fn strays(&self, to: usize) -> String {
         let places = 0..self.times[0].len();
         let all = places.flat_map(|place| {
-            (0..2).flat_map(move |widths| {
-                let middle = self.ratio(widths, place, to);
-                let ratios = self.ratios(widths, place, to);
+            (0..2).flat_map(move |alphas| {
+                let middle = self.ratio(alphas, place, to);
+                let ratios = self.ratios(alphas, place, to);
                 ratios.into_iter().map(move |r| r / middle)
             })
         });
@@ -340,7 +340,7 @@ pub(crate) fn normals(gpu: &Gpu, effort: &Effort) -> Result<String> {
     outcome.agree(&DIRECTIONS, [1, 2])?;
     outcome.agree(&DIRECTIONS, [3, 4])?;
     let mut rows = vec![row([
-        "drawn",
+        "sampled",
         "sampler",
         "ax = ay: ns",
         "Heitz / this",
@@ -356,9 +356,9 @@ pub(crate) fn normals(gpu: &Gpu, effort: &Effort) -> Result<String> {
         };
         let paper = if place == 2 { "1.39, 1.53" } else { "" };
         let mut cells = row([what, work.name]);
-        for widths in 0..2 {
-            let ratio = heitz.map(|to| figure(outcome.ratio(widths, to, place)));
-            cells.push(figure(outcome.nanoseconds(widths, place)));
+        for alphas in 0..2 {
+            let ratio = heitz.map(|to| figure(outcome.ratio(alphas, to, place)));
+            cells.push(figure(outcome.nanoseconds(alphas, place)));
             cells.push(ratio.unwrap_or_default());
         }
         cells.push(paper.to_owned());
@@ -366,7 +366,7 @@ pub(crate) fn normals(gpu: &Gpu, effort: &Effort) -> Result<String> {
     }
     Ok(format!(
         "## Cost of a draw (Dupuy and Benyoub 2023, section 4)\n\n\
-         Every lane draws {DRAWS} times and sums. Widths in [0.05, 1], views over the hemisphere; the view \
+         Every lane draws {DRAWS} times and sums. Alphas in [0.05, 1], views over the hemisphere; the view \
          turns before each draw.\n\
          The paper: caps 39.25 % (RTX 2080) and 52.96 % (Arc A770) faster than Heitz 2018, read as \
          quotients of 1.39 and 1.53.\n\
@@ -396,10 +396,10 @@ pub(crate) fn furnace(gpu: &Gpu, effort: &Effort) -> Result<String> {
     ])];
     for (place, work) in REFLECTIONS.iter().enumerate() {
         let mut cells = row([work.name]);
-        for widths in 0..2 {
-            cells.push(figure(outcome.nanoseconds(widths, place)));
-            cells.push(figure(outcome.ratio(widths, place, 1)));
-            cells.push(format!("{:.4}", outcome.means[widths][place]));
+        for alphas in 0..2 {
+            cells.push(figure(outcome.nanoseconds(alphas, place)));
+            cells.push(figure(outcome.ratio(alphas, place, 1)));
+            cells.push(format!("{:.4}", outcome.means[alphas][place]));
         }
         rows.push(cells);
     }

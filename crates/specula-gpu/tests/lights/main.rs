@@ -18,7 +18,7 @@ use std::fmt::Write as _;
 use common::gpu;
 use scenes::scenes;
 use specula_bsdf::math::{Stream, warp};
-use specula_gpu::{Gpu, Kernel};
+use specula_gpu::{ComputeKernel, Gpu};
 use specula_render::{FlatScene, PreparedScene, RenderOptions};
 use specula_scene::Scene;
 
@@ -26,7 +26,7 @@ use specula_scene::Scene;
 const CASES: u32 = 16_384;
 /// Share of answers that may differ where rounding decides between two lights, or at edges.
 const STRAYS: f64 = 3e-4;
-/// Words of a case: point, normal (zero: none), four numbers, a light, a target and its normal, a
+/// Words of a case: point, normal (zero: none), four values, a light, a target and its normal, a
 /// direction, weights of the target's corners.
 const CASE: usize = 22;
 /// Words of an answer: the sample (20), the density of the target, the share of lights at infinity, and
@@ -43,8 +43,8 @@ const MODULES: &[(&str, &str)] = &[
     ("angles", include_str!("../../wgsl/angles.wgsl")),
     ("surface", include_str!("../../wgsl/surface.wgsl")),
     (
-        "texture_place",
-        include_str!("../../wgsl/texture_place.wgsl"),
+        "texture_coordinates",
+        include_str!("../../wgsl/texture_coordinates.wgsl"),
     ),
     (
         "texture_mapping",
@@ -71,7 +71,7 @@ const MODULES: &[(&str, &str)] = &[
     ("piecewise", include_str!("../../wgsl/piecewise.wgsl")),
     ("textured", include_str!("../../wgsl/textured.wgsl")),
     ("spot", include_str!("../../wgsl/spot.wgsl")),
-    ("thrown", include_str!("../../wgsl/thrown.wgsl")),
+    ("projected", include_str!("../../wgsl/projected.wgsl")),
     ("sun", include_str!("../../wgsl/sun.wgsl")),
     ("delta", include_str!("../../wgsl/delta.wgsl")),
     ("environment", include_str!("../../wgsl/environment.wgsl")),
@@ -100,16 +100,16 @@ fn answer_all(@builtin(global_invocation_id) id: vec3u) {
     let to = 34u * id.x;
     let receiver = Receiver(case_vector(at), case_vector(at + 3u));
     let u = vec4f(cases[at + 6u], cases[at + 7u], cases[at + 8u], cases[at + 9u]);
-    let drawn = lights_draw(receiver, u);
-    answers[to] = f32(drawn.valid);
-    answer_vector(to + 1u, drawn.wi);
-    answers[to + 4u] = drawn.pdf;
-    answer_vector(to + 5u, drawn.radiance);
-    answers[to + 8u] = f32(drawn.delta);
-    answer_vector(to + 9u, drawn.target_position);
-    answer_vector(to + 12u, drawn.target_error);
-    answer_vector(to + 15u, drawn.target_normal);
-    answers[to + 18u] = f32(drawn.from_infinity);
+    let sampled = lights_draw(receiver, u);
+    answers[to] = f32(sampled.valid);
+    answer_vector(to + 1u, sampled.wi);
+    answers[to + 4u] = sampled.pdf;
+    answer_vector(to + 5u, sampled.radiance);
+    answers[to + 8u] = f32(sampled.delta);
+    answer_vector(to + 9u, sampled.target_position);
+    answer_vector(to + 12u, sampled.target_error);
+    answer_vector(to + 15u, sampled.target_normal);
+    answers[to + 18u] = f32(sampled.from_infinity);
     let light = bitcast<u32>(cases[at + 10u]);
     let weights = vec2f(cases[at + 20u], cases[at + 21u]);
     answers[to + 20u] = lights_pdf_of_surface(
@@ -127,7 +127,7 @@ fn prepared(scene: &Scene) -> PreparedScene {
     PreparedScene::new(scene, &RenderOptions::default()).unwrap()
 }
 
-/// A receiver, its numbers, and what the CPU says to them.
+/// A receiver, its values, and what the CPU says to them.
 struct Question {
     words: [f32; CASE],
     answer: [f32; ANSWER],
@@ -166,14 +166,14 @@ fn question(
     words[14..17].copy_from_slice(&[0.0, 0.6, 0.8]);
     words[17..20].copy_from_slice(&warp::uniform_sphere([u[1], u[2]]).to_array());
     words[20..22].copy_from_slice(&[0.5 * u[1], 0.5 * u[2]]);
-    if let Some(drawn) = scene.probe_light(lit, u) {
+    if let Some(sampled) = scene.probe_light(lit, u) {
         answer[0] = 1.0;
-        answer[1..19].copy_from_slice(&drawn);
-        words[17..20].copy_from_slice(&drawn[..3]);
-        let is_surface = drawn[7] == 0.0 && drawn[17] == 0.0;
+        answer[1..19].copy_from_slice(&sampled);
+        words[17..20].copy_from_slice(&sampled[..3]);
+        let is_surface = sampled[7] == 0.0 && sampled[17] == 0.0;
         if is_surface {
-            words[11..14].copy_from_slice(&drawn[8..11]);
-            words[14..17].copy_from_slice(&drawn[14..17]);
+            words[11..14].copy_from_slice(&sampled[8..11]);
+            words[14..17].copy_from_slice(&sampled[14..17]);
         }
     }
     let triple = |at: usize| [words[at], words[at + 1], words[at + 2]];
@@ -220,7 +220,7 @@ fn answers(
 ) -> Vec<[f32; ANSWER]> {
     let flat = scene.flatten();
     let module = gpu.shader("lights", &source(&flat, fault)).unwrap();
-    let kernel = Kernel::new(gpu, &module, "answer_all", 4).unwrap();
+    let kernel = ComputeKernel::new(gpu, &module, "answer_all", 4).unwrap();
     let bytes = |words: &mut dyn Iterator<Item = u32>| -> Vec<u8> {
         words.flat_map(u32::to_le_bytes).collect()
     };
@@ -248,7 +248,7 @@ fn answers(
     rows.to_vec()
 }
 
-/// Whether two numbers are the same up to a share of the greater, or of `scale`.
+/// Whether two values are the same up to a share of the greater, or of `scale`.
 fn near(a: f32, b: f32, tolerance: f32, scale: f32) -> bool {
     (a - b).abs() <= tolerance * a.abs().max(b.abs()).max(scale)
 }
@@ -293,7 +293,7 @@ fn shares(questions: &[Question], answers: &[[f32; ANSWER]]) -> [f64; 4] {
 }
 
 #[test]
-fn lights_are_drawn_and_looked_up_as_on_the_cpu() {
+fn lights_are_sampled_and_looked_up_as_on_the_cpu() {
     let Some(gpu) = gpu("the comparison of lights") else {
         return;
     };
@@ -310,7 +310,7 @@ fn lights_are_drawn_and_looked_up_as_on_the_cpu() {
              shares {infinite:.1e}, from infinity {arriving:.1e}"
         );
         assert!(lit > 10_000 || name == "a dark scene", "{name}: {lit} lit");
-        let shines = [
+        let emits = [
             "one rectangle",
             "shapes",
             "shapes that vary",
@@ -319,7 +319,7 @@ fn lights_are_drawn_and_looked_up_as_on_the_cpu() {
             "falling distances",
         ];
         assert!(
-            dense > 4000 || !shines.contains(&name),
+            dense > 4000 || !emits.contains(&name),
             "{name}: {dense} densities"
         );
         assert!(shares.iter().all(|&s| s <= STRAYS), "{name}: {shares:?}");
@@ -351,7 +351,7 @@ fn planted_faults_are_noticed() {
     ];
     let falling = [("light_tree", "trail.y << 31u", "trail.y << 30u")];
     let varying = [
-        ("textured", "drawn.area.pdf *= density;", ""),
+        ("textured", "sampled.area.pdf *= density;", ""),
         (
             "textured",
             "weights.yx, word(at + 2u) != 0u",
@@ -360,16 +360,16 @@ fn planted_faults_are_noticed() {
         ("textured", "2.0 * weights.x, sum", "weights.x, sum"),
         ("piecewise", "(cells + 1u) + x", "cells + x"),
     ];
-    let thrown = [
-        ("thrown", "1.0 - square.y", "square.y"),
-        ("thrown", "cosine * cosine * cosine", "cosine * cosine"),
+    let projected = [
+        ("projected", "1.0 - square.y", "square.y"),
+        ("projected", "cosine * cosine * cosine", "cosine * cosine"),
         ("spot", "(last - spot_angle(x))", "spot_angle(x)"),
     ];
     for (name, faults) in [
         ("everything", &everything[..]),
         ("falling distances", &falling),
         ("shapes that vary", &varying),
-        ("thrown pictures", &thrown),
+        ("projected pictures", &projected),
     ] {
         let found = scenes().into_iter().find(|(n, _)| *n == name);
         let scene = prepared(&found.expect("the scene is in the list").1);

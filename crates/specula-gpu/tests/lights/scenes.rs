@@ -7,8 +7,8 @@ use glam::DMat4;
 use specula_bsdf::Rgb;
 use specula_bsdf::math::{Stream, rgb};
 use specula_scene::scene::{
-    Channel, ColourParam, EnvironmentMapping, ImageId, Instance, Interpolation, Light, Object,
-    ObjectId, Profile, SpotFalloff, Texture, TextureId, TextureMapping, Throw, Wrap,
+    Channel, ColourParam, EnvironmentMapping, ImageId, ImageProjection, Instance, Interpolation,
+    Light, Object, ObjectId, Profile, SpotFalloff, Texture, TextureId, TextureMapping, Wrap,
 };
 use specula_scene::{Image, Scene};
 
@@ -58,7 +58,7 @@ AttributeBegin
 AttributeEnd
 "#;
 
-/// Shapes that do not shine.
+/// Shapes that do not emit.
 const FLOOR: &str = r#"Shape "disk" "float radius" 1"#;
 
 /// Small triangles of very different strengths all over the place.
@@ -196,7 +196,7 @@ fn with_deltas(mut scene: Scene) -> Scene {
     scene
 }
 
-/// Gives all shapes that shine a radiance that varies, but the last, and adds mirrored copies of the first.
+/// Gives all shapes that emit a radiance that varies, but the last, and adds mirrored copies of the first.
 fn with_varying(mut scene: Scene) -> Scene {
     let texture = TextureId(scene.textures.len());
     scene.textures.push(Texture::Bilinear {
@@ -223,8 +223,8 @@ fn with_varying(mut scene: Scene) -> Scene {
     scene
 }
 
-/// Pictures thrown from a point: to all sides, and through windows of every profile.
-fn with_thrown(mut scene: Scene) -> Scene {
+/// Pictures projected from a point: to all sides, and through windows of every profile.
+fn with_projected(mut scene: Scene) -> Scene {
     let image = ImageId(scene.images.len());
     scene.images.push(picture(12, 12));
     let texture = TextureId(scene.textures.len());
@@ -237,7 +237,7 @@ fn with_thrown(mut scene: Scene) -> Scene {
         scale: 2.0,
         channel: Channel::Rgb,
     });
-    let window = |profile| Throw::Window {
+    let window = |profile| ImageProjection::Window {
         half: [0.7, 0.5],
         profile,
     };
@@ -245,18 +245,18 @@ fn with_thrown(mut scene: Scene) -> Scene {
         cone_angle_deg: 30.0,
         falloff_start_deg: 10.0,
     };
-    let throws = [
-        Throw::Sphere,
+    let image_projections = [
+        ImageProjection::Sphere,
         window(Profile::Intensity),
         window(Profile::Irradiance),
         window(spot),
     ];
-    for (x, throw) in (0_u8..).zip(throws) {
+    for (x, image_projection) in (0_u8..).zip(image_projections) {
         let turned = DMat4::from_rotation_x(0.9 * f64::from(x));
         scene.lights.push(Light::Picture {
             to_world: DMat4::from_translation([f64::from(x) - 1.5, 0.3, 1.0].into()) * turned,
             intensity: ColourParam::Texture(texture),
-            throw,
+            image_projection,
         });
     }
     scene
@@ -282,7 +282,10 @@ pub(crate) fn scenes() -> Vec<(&'static str, Scene)> {
         ("a sky with poles", sky(LatitudeLongitudePoles)),
         ("lights without extent", with_deltas(scene("deltas", FLOOR))),
         ("shapes that vary", with_varying(scene("varying", VARYING))),
-        ("thrown pictures", with_thrown(scene("thrown", FLOOR))),
+        (
+            "projected pictures",
+            with_projected(scene("projected", FLOOR)),
+        ),
         ("everything", with_picture(all, LatitudeLongitude)),
         ("falling distances", scene("falling", &falling())),
         (

@@ -1,9 +1,9 @@
-//! Lobes: values, densities and draws.
+//! Lobes: values, densities and samples.
 //!
 //! Every lobe has two cases. One holds `eval`, `pdf` and `eval_pdf` at directions about the mirrored and
 //! the refracted one, where narrow lobes have their light, and away from them. The other holds its
 //! draws: flags, direction, weight and index against the twin, and, on the GPU alone, that density and
-//! weight are those of `eval_pdf` at the direction drawn.
+//! weight are those of `eval_pdf` at the direction sampled.
 
 mod coats;
 mod formats;
@@ -42,7 +42,7 @@ pub(crate) use arguments;
 /// The two cases of a lobe.
 ///
 /// * `make`: statements that declare `lobe`, from `x[7]` on; `twin`: `fn(&[T]) -> Lobe<T>` of the same
-///   numbers from 0 on; `inputs`: those of values and of draws; `bounds`, in ulps; `floor`, the
+///   values from 0 on; `inputs`: those of values and of samples; `bounds`, in ulps; `floor`, the
 ///   least value whose ulps are counted.
 macro_rules! lobe_cases {
     ($name:literal, $module:literal, $make:expr, $twin:ident, $inputs:expr, $bounds:expr, $floor:expr) => {{
@@ -61,22 +61,22 @@ macro_rules! lobe_cases {
         );
         let draws = $crate::bsdf::arguments!(
             $make,
-            "let drawn = ",
+            "let sampled = ",
             $module,
             "_draw(lobe, wo, u, transport);
-             y[0] = f32(drawn.flags);
-             if drawn.flags != 0u {
-                 y[1] = drawn.wi.x; y[2] = drawn.wi.y; y[3] = drawn.wi.z;
-                 y[4] = drawn.weight.r; y[5] = drawn.weight.g; y[6] = drawn.weight.b;
-                 y[7] = drawn.eta; y[8] = drawn.pdf;
+             y[0] = f32(sampled.flags);
+             if sampled.flags != 0u {
+                 y[1] = sampled.wi.x; y[2] = sampled.wi.y; y[3] = sampled.wi.z;
+                 y[4] = sampled.weight.r; y[5] = sampled.weight.g; y[6] = sampled.weight.b;
+                 y[7] = sampled.eta; y[8] = sampled.pdf;
              }
-             if drawn.flags != 0u && (drawn.flags & BSDF_SAMPLE_SPECULAR) == 0u {
+             if sampled.flags != 0u && (sampled.flags & BSDF_SAMPLE_SPECULAR) == 0u {
                  let value = ",
             $module,
-            "_eval_pdf(lobe, wo, drawn.wi, transport);
+            "_eval_pdf(lobe, wo, sampled.wi, transport);
                  let largest = max(max(value.r, value.g), max(value.b, 1e-30));
-                 let missing = abs(drawn.weight * value.a - value.rgb) / largest;
-                 y[8] = drawn.pdf / value.a - 1.0;
+                 let missing = abs(sampled.weight * value.a - value.rgb) / largest;
+                 y[8] = sampled.pdf / value.a - 1.0;
                  y[9] = max(max(missing.r, missing.g), missing.b);
              }"
         );
@@ -86,7 +86,7 @@ macro_rules! lobe_cases {
             [values, draws],
             [
                 $crate::harness::twins!(|x| $crate::bsdf::values(&$twin(&x[7..]), x)),
-                $crate::harness::twins!(|x| $crate::bsdf::drawn(&$twin(&x[7..]), x)),
+                $crate::harness::twins!(|x| $crate::bsdf::sampled(&$twin(&x[7..]), x)),
             ],
             $inputs,
             $bounds,
@@ -100,7 +100,7 @@ pub(crate) use lobe_cases;
 pub(crate) fn pair(
     names: [&'static str; 2],
     modules: &'static [&'static str],
-    bodies: [&'static str; 2],
+    media: [&'static str; 2],
     twins: [(Twin<f32>, Twin<f64>); 2],
     inputs: [Vec<Vec<f32>>; 2],
     bounds: [f64; 2],
@@ -110,7 +110,7 @@ pub(crate) fn pair(
     let one = |k: usize, inputs: &[Vec<f32>], scale| Case {
         name: names[k],
         modules,
-        body: bodies[k],
+        body: media[k],
         arguments: inputs[0].len(),
         inputs: inputs.concat(),
         single: twins[k].0,
@@ -133,7 +133,7 @@ pub(crate) fn values<T: Real>(lobe: &Lobe<T>, x: &[T]) -> Vec<T> {
 
 /// Flags, direction, weight, index, and the probability where it is specular; zeros where the draw
 /// failed.
-pub(crate) fn drawn<T: Real>(lobe: &Lobe<T>, x: &[T]) -> Vec<T> {
+pub(crate) fn sampled<T: Real>(lobe: &Lobe<T>, x: &[T]) -> Vec<T> {
     let u = [x[3], x[4], x[5]];
     let Some(s) = lobe.sample(vector(x, 0), u, transport(x[6])) else {
         return vec![T::ZERO; 10];
@@ -216,9 +216,9 @@ fn lights(alpha: [f32; 2], eta: Option<f32>, wo: [f32; 3]) -> Vec<[f32; 3]> {
     all
 }
 
-/// Rows of arguments for values and for draws.
+/// Rows of arguments for values and for samples.
 ///
-/// * `parameters`: of the lobe; `facets`: widths and, where light is refracted, the index of a row of them.
+/// * `parameters`: of the lobe; `facets`: alphas and, where light is refracted, the index of a row of them.
 pub(crate) fn rows<const N: usize>(
     parameters: &[[f32; N]],
     facets: impl Fn(&[f32; N]) -> ([f32; 2], Option<f32>),
@@ -369,10 +369,10 @@ fn faults() -> Vec<Fault> {
     FAULTS.into_iter().map(fault).collect()
 }
 
-/// Draws of each view of a furnace.
+/// Samples of each view of a furnace.
 const DRAWS: u16 = 8192;
 
-/// Arguments of the draws of one view: `wo`, `u`, widths and model.
+/// Arguments of the samples of one view: `wo`, `u`, alphas and model.
 fn furnace_draws(cosine: f64, [x, y]: [f32; 2], model: f32) -> impl Iterator<Item = [f32; 9]> {
     let [a, b, c] = direction(cosine, 0.4);
     (0..usize::from(DRAWS)).map(move |i| {
@@ -405,8 +405,8 @@ fn white_metal_keeps_all_light() {
     let inputs: Vec<[f32; 9]> = views.iter().flat_map(draws).collect();
     let body = "let facets = MicrofacetsModel(vec2f(x[6], x[7]), DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, SAMPLER_EXACT);
          let lobe = compensated_new(facets, reflectance_constant(vec3f(1.0)), u32(x[8]));
-         let drawn = compensated_draw(lobe, vec3f(x[0], x[1], x[2]), vec3f(x[3], x[4], x[5]), 0u);
-         y[0] = select(0.0, drawn.weight.g, drawn.flags != 0u);";
+         let sampled = compensated_draw(lobe, vec3f(x[0], x[1], x[2]), vec3f(x[3], x[4], x[5]), 0u);
+         y[0] = select(0.0, sampled.weight.g, sampled.flags != 0u);";
     let weights = evaluate(gpu, &["compensated"], body, &inputs, 1);
     let mut worst = 0.0_f64;
     for (view, weights) in views.iter().zip(weights.chunks(usize::from(DRAWS))) {

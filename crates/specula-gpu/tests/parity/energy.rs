@@ -1,7 +1,8 @@
 //! Energy tables, compensation and interfaces.
 
 use specula_bsdf::energy::coordinates::{
-    Widths, alpha_coordinate, average_scale, cosine_coordinate, edge, interface_cosine_coordinate,
+    AlphaPair, alpha_coordinate, average_scale, cosine_coordinate, edge,
+    interface_cosine_coordinate,
 };
 use specula_bsdf::energy::dielectric_albedo::{eta_coordinate, half};
 use specula_bsdf::energy::fit::ggx_loss;
@@ -21,7 +22,7 @@ use crate::harness::{
     ALPHAS, Case, Fault, alpha, assert_covered, both_sides, catch, product, prove, twins, vector,
 };
 
-/// Numbers of three channels.
+/// Values of three channels.
 fn channels<T>(colour: Rgb<T>) -> Vec<T> {
     vec![colour.r, colour.g, colour.b]
 }
@@ -46,7 +47,7 @@ fn places() -> Vec<[f32; 1]> {
     (-8..=136_i16).map(|i| [f32::from(i) / 128.0]).collect()
 }
 
-/// Triples of small whole numbers.
+/// Triples of small integers.
 fn indices() -> Vec<[f32; 3]> {
     let each = |i: u8, j: u8| (0..12_u8).map(move |k| [i, j, k].map(f32::from));
     let pairs = (0..24_u8).flat_map(|i| (0..24_u8).map(move |j| (i, j)));
@@ -72,7 +73,7 @@ const INDICES: [[f32; 1]; 8] = [
     [0.25],
 ];
 
-/// Widths, views and tables.
+/// AlphaPair, views and tables.
 fn losses() -> Vec<[f32; 6]> {
     product(&product::<2, 3, 5>(&ALPHAS, &both_sides()), &TABLES)
 }
@@ -86,7 +87,7 @@ fn masking<T: Real>(table: T) -> Masking {
     }
 }
 
-/// The loss of arguments: widths, view, table.
+/// The loss of arguments: alphas, view, table.
 fn loss<T: Real>(x: &[T]) -> Loss<T> {
     if index(x[5]) < 2 {
         Loss::new(Ggx::new(alpha(x, 0)), masking(x[5]))
@@ -95,7 +96,7 @@ fn loss<T: Real>(x: &[T]) -> Loss<T> {
     }
 }
 
-/// The loss of an interface of arguments: widths, view, table, index.
+/// The loss of an interface of arguments: alphas, view, table, index.
 fn dielectric_loss<T: Real>(x: &[T]) -> DielectricLoss<T> {
     if index(x[5]) < 2 {
         DielectricLoss::new(Ggx::new(alpha(x, 0)), masking(x[5]), x[6])
@@ -104,17 +105,17 @@ fn dielectric_loss<T: Real>(x: &[T]) -> DielectricLoss<T> {
     }
 }
 
-/// The coat of two widths; none where the first is 0.
+/// The coat of two alphas; none where the first is 0.
 fn coat<T: Real>(x: &[T]) -> Option<Ggx<T>> {
     (x[0] > T::ZERO).then(|| Ggx::new(alpha(x, 0)))
 }
 
 /// Coats, smooth and rough, with an index and a cosine.
 fn coats() -> Vec<[f32; 4]> {
-    let mut widths = vec![[0.0, 0.0]];
-    widths.extend(ALPHAS);
+    let mut alphas = vec![[0.0, 0.0]];
+    alphas.extend(ALPHAS);
     let etas = [[1.05], [1.1], [1.5], [2.4], [3.0]];
-    product(&product::<2, 1, 3>(&widths, &etas), &cosines())
+    product(&product::<2, 1, 3>(&alphas, &etas), &cosines())
 }
 
 /// Reflectances by number: a constant, gold, Schlick, F82.
@@ -199,19 +200,19 @@ fn coordinate_cases() -> Vec<Case> {
         Case::new(
             "coordinates_of_a_view",
             &["coordinates"],
-            "let widths = coordinates_widths(x[0], x[1]);
+            "let alphas = coordinates_alpha_pair(x[0], x[1]);
              let edge = coordinates_edge(x[5]);
-             let azimuth = coordinates_azimuth(widths, x[2], x[3]);
-             y[0] = widths.low; y[1] = widths.high; y[2] = edge;
+             let azimuth = coordinates_azimuth(alphas, x[2], x[3]);
+             y[0] = alphas.low; y[1] = alphas.high; y[2] = edge;
              y[3] = azimuth.width; y[4] = azimuth.v; y[5] = azimuth.narrow;
              y[6] = coordinates_interface_azimuth(azimuth, edge);
              y[7] = coordinates_cosine(abs(x[4]), azimuth.width);
              y[8] = coordinates_interface_cosine(abs(x[4]), azimuth.width, edge);",
             stretched_views(),
             twins!(|x| {
-                let widths = Widths::new(x[0], x[1]);
-                let (low, high) = widths.ordered();
-                let azimuth = widths.azimuth(x[2], x[3]);
+                let alphas = AlphaPair::new(x[0], x[1]);
+                let (low, high) = alphas.ordered();
+                let azimuth = alphas.azimuth(x[2], x[3]);
                 let (edge, cosine) = (edge(x[5]), x[4].abs());
                 vec![
                     low,
@@ -229,7 +230,7 @@ fn coordinate_cases() -> Vec<Case> {
         )
         .at_scale(&[0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 1.0]),
         Case::new(
-            "coordinates_of_widths",
+            "coordinates_of_alpha_pair",
             &["coordinates"],
             "y[0] = coordinates_alpha(x[0]);
              y[1] = coordinates_average_scale(x[0], x[1]);",
@@ -241,14 +242,14 @@ fn coordinate_cases() -> Vec<Case> {
     ]
 }
 
-/// Unequal widths, views and indices.
+/// anisotropic alpha, views and indices.
 fn stretched_views() -> Vec<[f32; 6]> {
-    let widths: Vec<[f32; 2]> = ALPHAS.into_iter().filter(|[x, y]| x != y).collect();
+    let alphas: Vec<[f32; 2]> = ALPHAS.into_iter().filter(|[x, y]| x != y).collect();
     let views: Vec<[f32; 3]> = both_sides()
         .into_iter()
         .filter(|w| w[2].abs() < 1.0)
         .collect();
-    product(&product::<2, 3, 5>(&widths, &views), &INDICES)
+    product(&product::<2, 3, 5>(&alphas, &views), &INDICES)
 }
 
 fn loss_cases() -> Vec<Case> {
@@ -476,7 +477,7 @@ fn wrong_constants_are_caught() {
                 "let c = a - 2.0001",
             ),
             fault(
-                "coordinates_of_widths",
+                "coordinates_of_alpha_pair",
                 "energy/coordinates",
                 "= 0.007070891041799",
                 "= 0.00708",

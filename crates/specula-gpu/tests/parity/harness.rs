@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 pub(crate) use crate::common::gpu;
 use specula_bsdf::{Alpha, Real, Vec3};
-use specula_gpu::{Gpu, GpuError, Kernel};
+use specula_gpu::{ComputeKernel, Gpu, GpuError};
 use specula_shaders::{Declaration, Kind, MODULES, Module, declarations, ordered};
 
 /// Invocations of a workgroup.
@@ -37,7 +37,7 @@ pub(crate) struct Case {
     pub(crate) modules: &'static [&'static str],
     /// WGSL statements that read `x: array<f32, N>` and write `y: array<f32, M>`.
     pub(crate) body: &'static str,
-    /// How many numbers an evaluation takes, `N`.
+    /// How many values an evaluation takes, `N`.
     pub(crate) arguments: usize,
     /// The evaluations' arguments, one after the other.
     pub(crate) inputs: Vec<f32>,
@@ -167,8 +167,8 @@ fn text(modules: &[&str], fault: Option<&Fault>) -> String {
     parts.join("\n")
 }
 
-/// WGSL with one entry point for each of the bodies, `(name, arguments, results, body)`.
-fn source(text: &str, bodies: &[(&str, usize, usize, &str)]) -> String {
+/// WGSL with one entry point for each of the media, `(name, arguments, results, body)`.
+fn source(text: &str, media: &[(&str, usize, usize, &str)]) -> String {
     let mut source = text.to_owned();
     if !source.contains(TABLES) {
         source.push_str("@group(0) @binding(0) var<storage, read> unused: array<f32>;\n");
@@ -177,7 +177,7 @@ fn source(text: &str, bodies: &[(&str, usize, usize, &str)]) -> String {
         "@group(0) @binding(1) var<storage, read> parity_x: array<f32>;\n\
          @group(0) @binding(2) var<storage, read_write> parity_y: array<f32>;\n",
     );
-    for (name, arguments, results, body) in bodies {
+    for (name, arguments, results, body) in media {
         let _ = write!(
             source,
             "@compute @workgroup_size({GROUP})\n\
@@ -196,10 +196,10 @@ fn source(text: &str, bodies: &[(&str, usize, usize, &str)]) -> String {
     source
 }
 
-/// Runs an entry point over `inputs`, `results` numbers for every `arguments`.
+/// Runs an entry point over `inputs`, `results` values for every `arguments`.
 fn run(
     gpu: &Gpu,
-    kernel: &Kernel,
+    kernel: &ComputeKernel,
     tables: &[u8],
     inputs: &[f32],
     [arguments, results]: [usize; 2],
@@ -238,7 +238,7 @@ pub(crate) fn evaluate<const N: usize>(
     let text = text(modules, None);
     let source = source(&text, &[("evaluate", N, results, body)]);
     let done = gpu.shader("evaluate", &source).and_then(|module| {
-        let kernel = Kernel::new(gpu, &module, &format!("{PREFIX}evaluate"), 2)?;
+        let kernel = ComputeKernel::new(gpu, &module, &format!("{PREFIX}evaluate"), 2)?;
         let tables = tables_for(&text);
         run(gpu, &kernel, tables, inputs.as_flattened(), [N, results])
     });
@@ -328,17 +328,17 @@ fn outcomes(gpu: &Gpu, cases: &[Case], fault: Option<&Fault>) -> Result<Vec<Outc
             let first: Vec<f64> = wide(&case.inputs[..case.arguments]);
             (case.double)(&first).len()
         };
-        let bodies: Vec<_> = cases
+        let media: Vec<_> = cases
             .iter()
             .map(|c| (c.name, c.arguments, results(c), c.body))
             .collect();
         let label = modules.join(" ");
         let text = text(modules, fault);
-        let module = gpu.shader(&label, &source(&text, &bodies))?;
+        let module = gpu.shader(&label, &source(&text, &media))?;
         let tables = tables_for(&text);
-        for (case, (_, arguments, results, _)) in cases.into_iter().zip(bodies) {
+        for (case, (_, arguments, results, _)) in cases.into_iter().zip(media) {
             let start = Instant::now();
-            let kernel = Kernel::new(gpu, &module, &format!("{PREFIX}{}", case.name), 2)?;
+            let kernel = ComputeKernel::new(gpu, &module, &format!("{PREFIX}{}", case.name), 2)?;
             let compiled = start.elapsed();
             let values = run(gpu, &kernel, tables, &case.inputs, [arguments, results])?;
             let time = [compiled, start.elapsed().saturating_sub(compiled)];
@@ -396,7 +396,7 @@ pub(crate) fn error_in_ulps(got: f64, expected: f64, scale: f64) -> f64 {
     if error == 0.0 {
         return 0.0;
     }
-    // Below the normal numbers digits are lost, and a GPU may take them for 0.
+    // Below the normal values digits are lost, and a GPU may take them for 0.
     let magnitude = expected.abs().max(scale).max(f64::from(f32::MIN_POSITIVE));
     let ulps = error / (magnitude.log2().floor() - 23.0).exp2();
     if ulps.is_nan() { f64::INFINITY } else { ulps }
@@ -446,7 +446,7 @@ pub(crate) const ABOVE: [f64; 5] = [1.0, 0.7, 0.3, 0.05, 0.005];
 pub(crate) const BELOW: [f64; 3] = [-0.05, -0.3, -0.9];
 /// Azimuths, radians.
 pub(crate) const AZIMUTHS: [f64; 2] = [0.3, 2.1];
-/// Widths along x and y: those of the statistical proof, and the ends of the range.
+/// Alphas along x and y: those of the statistical proof, and the ends of the range.
 pub(crate) const ALPHAS: [[f32; 2]; 14] = [
     [1e-4, 1e-4],
     [1e-3, 1e-3],
@@ -512,7 +512,7 @@ pub(crate) fn vector<T: Real>(x: &[T], at: usize) -> Vec3<T> {
     }
 }
 
-/// Arguments `x[at..at + 2]` as widths.
+/// Arguments `x[at..at + 2]` as alphas.
 pub(crate) fn alpha<T: Real>(x: &[T], at: usize) -> Alpha<T> {
     Alpha {
         x: x[at],

@@ -1,4 +1,4 @@
-//! Coats over metal and Lambert by random walks: values and draws beside the twin in `f32` with the same
+//! Coats over metal and Lambert by random walks: values and samples beside the twin in `f32` with the same
 //! stream, densities and mirrors beside that in `f64`, and means against the twin in `f64`.
 
 use specula_bsdf::bsdf::{Base, Layered, Medium};
@@ -12,9 +12,9 @@ use crate::harness::{
     vector,
 };
 use crate::multibounce::means::{compare, held, summed};
-use crate::multibounce::{drawn, ggx, stored, stream, walks};
+use crate::multibounce::{ggx, sampled, stored, stream, walks};
 
-/// Modules of the bodies.
+/// Modules of the media.
 const MODULES: &[&str] = &[
     "layered",
     "reflectance",
@@ -29,7 +29,7 @@ const EVENTS: u32 = 12;
 /// Bound of the walks in ulps of 0.01 or more: 2.4e-4 of larger values.
 const BOUND: f64 = 2000.0;
 
-/// Statements that make the arguments: widths of the coat, view, light (or three numbers), seed, kind of
+/// Statements that make the arguments: alphas of the coat, view, light (or three values), seed, kind of
 /// base, whether the coat is rough, thickness and brightness of the medium.
 macro_rules! coat {
     ($($body:tt)*) => {
@@ -83,7 +83,7 @@ fn configurations() -> Vec<[f32; 4]> {
     product(&kinds, &[[0.0, 0.0], [0.3, 0.0], [0.5, 1.0]])
 }
 
-/// Everything with everything; `last` are lights and seeds, or numbers and seeds.
+/// Everything with everything; `last` are lights and seeds, or values and seeds.
 fn rows(last: &[[f32; 4]]) -> Vec<[f32; 13]> {
     let views = [0.9, 0.3, -0.3].map(|cosine| direction(cosine, 0.4));
     let views: Vec<[f32; 5]> = product(&[[0.1, 0.1], [0.4, 0.8]], &views);
@@ -161,7 +161,7 @@ fn cases() -> Vec<Case> {
             numbers(),
             walks!(|x| {
                 let (wo, u, transport) = (vector(x, 2), [x[5], x[6], x[7]], Transport::Radiance);
-                drawn(lobe(x).sample_random(wo, u, transport, &mut stream(x, 8)))
+                sampled(lobe(x).sample_random(wo, u, transport, &mut stream(x, 8)))
             }),
         ),
         Case::new(
@@ -203,7 +203,7 @@ const ELSEWHERE: &[(&str, &str)] = &[
         "layered_base_is_mirror layered_base_eval_pdf layered_base_draw layered_base_reflectance
          layered_coat_rough layered_coat_reflection layered_coat_below layered_coat_enter
          layered_coat_bounce layered_coat_passes layered_connect_ways layered_connect_share
-         layered_connect_at_base layered_connect_drawn_from_light layered_connect_at_particle
+         layered_connect_at_base layered_connect_sampled_from_light layered_connect_at_particle
          layered_connect_balance layered_connect_arriving layered_connect_back
          layered_lobe_is_mirror layered_lobe_is_base_narrow layered_lobe_echoes
          layered_lobe_series layered_lobe_log layered_medium_scatters
@@ -304,9 +304,9 @@ fn values_and_draws_have_the_means_of_the_twins() {
         summed!(
             "let number = stream_next(&stream);
          let other = stream_next(&stream);
-         let drawn = layered_draw(lobe, wo, vec3f(number, other, stream_next(&stream)), &stream);
+         let sampled = layered_draw(lobe, wo, vec3f(number, other, stream_next(&stream)), &stream);
          var value = vec3f(0.0);
-         if drawn.flags != 0u { value = drawn.weight.r * vec3f(1.0, drawn.wi.x, drawn.wi.z); }"
+         if sampled.flags != 0u { value = sampled.weight.r * vec3f(1.0, sampled.wi.x, sampled.wi.z); }"
         )
     );
     // Some of each configuration; a mirror has no values.
@@ -334,13 +334,13 @@ fn values_and_draws_have_the_means_of_the_twins() {
         &some,
         |x, stream| {
             let u = [stream.next(), stream.next(), stream.next()];
-            let drawn = lobe(x).with_max_depth(40).sample_random(
+            let sampled = lobe(x).with_max_depth(40).sample_random(
                 vector(x, 2),
                 u,
                 Transport::Radiance,
                 stream,
             );
-            drawn.map_or([0.0; 3], |s| {
+            sampled.map_or([0.0; 3], |s| {
                 [s.weight.r, s.weight.r * s.wi.x, s.weight.r * s.wi.z]
             })
         },

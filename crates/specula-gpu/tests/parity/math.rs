@@ -1,4 +1,4 @@
-//! Scalars, colours, frames, warps, random numbers and widths.
+//! Scalars, colours, frames, warps, random numbers and alphas.
 
 use specula_bsdf::math::{Stream, rgb, warp};
 use specula_bsdf::{Alpha, Frame, Real, Vec3};
@@ -18,8 +18,8 @@ fn seeds() -> Vec<[f32; 4]> {
     let mut stream = Stream::new(1);
     let mut half = |_| f32::floor(stream.next::<f32>() * 65536.0);
     let ends = [[0.0; 4], [65535.0; 4], [65535.0, 65535.0, 0.0, 0.0]];
-    let drawn = (0..1000).map(|_| std::array::from_fn(&mut half));
-    ends.into_iter().chain(drawn).collect()
+    let sampled = (0..1000).map(|_| std::array::from_fn(&mut half));
+    ends.into_iter().chain(sampled).collect()
 }
 
 /// The inverse error function by bisection.
@@ -178,7 +178,7 @@ fn streams_and_colours() -> Vec<Case> {
             4.0,
         ),
         Case::new(
-            "widths",
+            "alphas",
             &["alpha"],
             "let clamped = alpha_clamped(vec2f(x[0], x[1]));
              let stretched = alpha_stretch(clamped, vec3f(x[2], x[3], x[4]));
@@ -308,7 +308,7 @@ const FAULTS: [Fault; 6] = [
         to: "1.0 + n.y * n.y * a",
     },
     Fault {
-        case: "widths",
+        case: "alphas",
         module: "alpha",
         from: "const ALPHA_MIN: f32 = 1e-4",
         to: "const ALPHA_MIN: f32 = 1e-3",

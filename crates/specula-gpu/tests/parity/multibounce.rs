@@ -1,6 +1,6 @@
 //! Multiple bounces between microfacets.
 //!
-//! Values and draws of the walks are estimates from a stream of random numbers. Two proofs: element by
+//! Values and samples of the walks are estimates from a stream of random numbers. Two proofs: element by
 //! element against the Rust twin in `f32` with the same stream, which takes the same walk but where
 //! rounding turns a decision; and means over many streams against the twin in `f64`, by z-tests
 //! (`means.rs`).
@@ -8,7 +8,9 @@
 use specula_bsdf::bsdf::Tints;
 use specula_bsdf::fresnel::{Reflectance, Schlick};
 use specula_bsdf::math::{Stream, rgb};
-use specula_bsdf::multibounce::{Conductor, Dielectric, Diffuse, MisPdf, Model};
+use specula_bsdf::multibounce::{
+    MisPdf, MultibounceConductor, MultibounceDielectric, MultibounceDiffuse, MultibounceModel,
+};
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Bsdf, BsdfSample, Event, Real, Rgb, Transport, Vec3};
 
@@ -24,7 +26,7 @@ pub(crate) mod means;
 use closed::closed;
 use faults::{ELSEWHERE, FAULTS};
 
-/// Widths of the walks.
+/// Alphas of the walks.
 const ALPHAS: [[f32; 2]; 6] = [
     [1e-4, 1e-4],
     [0.05, 0.05],
@@ -44,7 +46,7 @@ const SCALE: f64 = 0.01;
 /// The high word of all seeds.
 const SEED: u64 = 0x5eed;
 
-/// Statements that make a metal's arguments: widths, view, light (or three numbers), seed.
+/// Statements that make a metal's arguments: alphas, view, light (or three values), seed.
 macro_rules! metal {
     ($($body:tt)*) => {
         concat!(
@@ -78,15 +80,15 @@ macro_rules! glass {
 }
 use glass;
 
-/// Statements that store a draw.
+/// Statements that store a sample.
 macro_rules! stored {
     ($($draw:literal),*) => {
         concat!(
-            "let drawn = ", $($draw),*, ";
-             y[0] = f32(drawn.flags);
-             if drawn.flags != 0u {
-                 y[1] = drawn.wi.x; y[2] = drawn.wi.y; y[3] = drawn.wi.z;
-                 y[4] = drawn.weight.r; y[5] = drawn.weight.b; y[6] = drawn.eta;
+            "let sampled = ", $($draw),*, ";
+             y[0] = f32(sampled.flags);
+             if sampled.flags != 0u {
+                 y[1] = sampled.wi.x; y[2] = sampled.wi.y; y[3] = sampled.wi.z;
+                 y[4] = sampled.weight.r; y[5] = sampled.weight.b; y[6] = sampled.eta;
              }"
         )
     };
@@ -130,8 +132,8 @@ pub(crate) fn stream<T: Real>(x: &[T], at: usize) -> Stream {
     Stream::new((SEED << 32) | x[at].to_f64() as u64)
 }
 
-fn conductor<T: Real>(x: &[T], model: Model) -> Conductor<T> {
-    Conductor::new(ggx(x), reflectance(), model)
+fn conductor<T: Real>(x: &[T], model: MultibounceModel) -> MultibounceConductor<T> {
+    MultibounceConductor::new(ggx(x), reflectance(), model)
 }
 
 fn colour<T: Real>(value: Rgb<T>) -> Vec<T> {
@@ -139,7 +141,7 @@ fn colour<T: Real>(value: Rgb<T>) -> Vec<T> {
 }
 
 /// What [`stored`] stores.
-pub(crate) fn drawn<T: Real>(sample: Option<BsdfSample<T>>) -> Vec<T> {
+pub(crate) fn sampled<T: Real>(sample: Option<BsdfSample<T>>) -> Vec<T> {
     let Some(s) = sample else {
         return vec![T::ZERO; 7];
     };
@@ -154,7 +156,7 @@ pub(crate) fn drawn<T: Real>(sample: Option<BsdfSample<T>>) -> Vec<T> {
     vec![flags, x, y, z, s.weight.r, s.weight.b, s.eta]
 }
 
-/// Widths, views, lights, seeds.
+/// Alphas, views, lights, seeds.
 fn pairs() -> Vec<[f32; 9]> {
     let views: Vec<[f32; 5]> = product(&ALPHAS, &both_sides());
     let pairs: Vec<[f32; 8]> = product(&views, &self::views(&ABOVE));
@@ -175,7 +177,7 @@ fn of_all_models() -> Vec<[f32; 9]> {
         .collect()
 }
 
-/// Widths, views, three numbers, seeds.
+/// Alphas, views, three values, seeds.
 fn numbers() -> Vec<[f32; 9]> {
     let views: Vec<[f32; 5]> = product(&ALPHAS, &both_sides());
     let points: Vec<[f32; 4]> = (0..32_u16)
@@ -192,7 +194,7 @@ fn with_index<const N: usize, const M: usize>(rows: &[[f32; N]]) -> Vec<[f32; M]
     product(rows, &ETAS.map(|eta| [eta]))
 }
 
-/// Widths, views, lights on both sides, seeds, indices.
+/// Alphas, views, lights on both sides, seeds, indices.
 fn glass_pairs() -> Vec<[f32; 10]> {
     let views: Vec<[f32; 5]> = product(&ALPHAS, &both_sides());
     let lights = self::views(&[0.9, 0.2, -0.1, -0.6]);
@@ -233,39 +235,39 @@ fn values() -> Vec<Case> {
             "heitz_value",
             "heitz2016",
             "heitz2016_eval(facets, true, wo, wi, &stream)",
-            Model::Heitz2016
+            MultibounceModel::Heitz2016
         ),
         value!(
             "bitterli_value",
             "bitterli2022",
             "bitterli2022_eval(facets, wo, wi, &stream)",
-            Model::BitterliDeon2022
+            MultibounceModel::BitterliDeon2022
         ),
         value!(
             "wang_value",
             "wang2022",
             "wang2022_eval(facets, true, wo, wi, &stream)",
-            Model::Wang2022 { correlated: true }
+            MultibounceModel::Wang2022 { correlated: true }
         ),
         value!(
             "wang_uncorrelated_value",
             "wang2022",
             "wang2022_eval(facets, false, wo, wi, &stream)",
-            Model::Wang2022 { correlated: false }
+            MultibounceModel::Wang2022 { correlated: false }
         ),
         value!(
             "cui_value",
             "cui2023",
             "cui2023_eval(facets, wo, wi, &stream)",
-            Model::Cui2023 {
+            MultibounceModel::Cui2023 {
                 bidirectional: false
             }
         ),
         value!(
-            "ours_value",
-            "ours",
-            "ours_eval(facets, wo, wi, &stream)",
-            Model::Ours
+            "stratified_bidirectional_value",
+            "stratified_bidirectional",
+            "stratified_bidirectional_eval(facets, wo, wi, &stream)",
+            MultibounceModel::StratifiedBidirectional
         ),
     ]
 }
@@ -281,7 +283,7 @@ fn other_values() -> Vec<Case> {
                  y[0] = f.r; y[1] = f.g; y[2] = f.b;"
             ),
             walks!(|x| {
-                let lobe = conductor(x, Model::Heitz2016);
+                let lobe = conductor(x, MultibounceModel::Heitz2016);
                 let mut stream = stream(x, 8);
                 colour(lobe.estimate_as_heitz(vector(x, 2), vector(x, 5), &mut stream))
             }),
@@ -298,7 +300,7 @@ fn other_values() -> Vec<Case> {
                 if x[4] <= 0.0 {
                     return vec![0.0; 3];
                 }
-                let model = Model::Cui2023 {
+                let model = MultibounceModel::Cui2023 {
                     bidirectional: true,
                 };
                 let mut stream = stream(x, 8);
@@ -324,7 +326,7 @@ fn draws() -> Vec<Case> {
                 walks!(|x| {
                     let mut stream = stream(x, 8);
                     let walk = conductor(x, $model).draw(vector(x, 2), [x[6], x[7]], &mut stream);
-                    drawn(walk.map(|(wi, weight)| BsdfSample {
+                    sampled(walk.map(|(wi, weight)| BsdfSample {
                         wi,
                         weight,
                         pdf: 0.0,
@@ -341,38 +343,38 @@ fn draws() -> Vec<Case> {
             "heitz_draw",
             "heitz2016",
             "heitz2016_draw(facets, wo, wi.yz, &stream)",
-            Model::Heitz2016
+            MultibounceModel::Heitz2016
         ),
         draw!(
             "wang_draw",
             "wang2022",
             "wang2022_draw(facets, true, wo, wi.yz, &stream)",
-            Model::Wang2022 { correlated: true }
+            MultibounceModel::Wang2022 { correlated: true }
         ),
         draw!(
             "wang_uncorrelated_draw",
             "wang2022",
             "wang2022_draw(facets, false, wo, wi.yz, &stream)",
-            Model::Wang2022 { correlated: false }
+            MultibounceModel::Wang2022 { correlated: false }
         ),
         draw!(
             "cui_draw",
             "cui2023",
             "cui2023_draw(facets, wo, wi.yz, &stream)",
-            Model::Cui2023 {
+            MultibounceModel::Cui2023 {
                 bidirectional: false
             }
         ),
         draw!(
-            "ours_draw",
-            "ours",
-            "ours_draw(facets, wo, wi.yz, &stream)",
-            Model::Ours
+            "stratified_bidirectional_draw",
+            "stratified_bidirectional",
+            "stratified_bidirectional_draw(facets, wo, wi.yz, &stream)",
+            MultibounceModel::StratifiedBidirectional
         ),
     ]
 }
 
-/// The lobes' values and draws with their densities.
+/// The lobes' values and samples with their densities.
 fn lobes() -> Vec<Case> {
     let walks_of = |name, modules, body, inputs: Vec<[f32; 9]>, twin| {
         let case = Case::new(name, modules, body, inputs, twin, BOUND);
@@ -415,7 +417,7 @@ fn lobes() -> Vec<Case> {
                 let lobe = conductor(x, of_seed(x[8]));
                 let u = [x[5], x[6], x[7]];
                 let transport = Transport::Radiance;
-                drawn(lobe.sample_random(vector(x, 2), u, transport, &mut stream(x, 8)))
+                sampled(lobe.sample_random(vector(x, 2), u, transport, &mut stream(x, 8)))
             }),
         ),
         walks_of(
@@ -428,7 +430,7 @@ fn lobes() -> Vec<Case> {
             ),
             pairs(),
             walks!(|x| {
-                let lobe = Diffuse::new(ggx(x), rgb(0.9, 0.5, 0.1));
+                let lobe = MultibounceDiffuse::new(ggx(x), rgb(0.9, 0.5, 0.1));
                 let (wo, wi, transport) = (vector(x, 2), vector(x, 5), Transport::Radiance);
                 let (f, pdf) = lobe.eval_pdf_random(wo, wi, transport, &mut stream(x, 8));
                 vec![f.r, f.g, f.b, pdf]
@@ -443,10 +445,10 @@ fn lobes() -> Vec<Case> {
             ),
             numbers(),
             walks!(|x| {
-                let lobe = Diffuse::new(ggx(x), rgb(0.9, 0.5, 0.1));
+                let lobe = MultibounceDiffuse::new(ggx(x), rgb(0.9, 0.5, 0.1));
                 let u = [x[5], x[6], x[7]];
                 let transport = Transport::Radiance;
-                drawn(lobe.sample_random(vector(x, 2), u, transport, &mut stream(x, 8)))
+                sampled(lobe.sample_random(vector(x, 2), u, transport, &mut stream(x, 8)))
             }),
         ),
     ]
@@ -458,8 +460,8 @@ fn lobes() -> Vec<Case> {
     clippy::cast_sign_loss,
     reason = "seeds are whole numbers"
 )]
-fn of_seed(seed: f32) -> Model {
-    Model::ALL[seed as usize % 7]
+fn of_seed(seed: f32) -> MultibounceModel {
+    MultibounceModel::ALL[seed as usize % 7]
 }
 
 const GLASS: &[&str] = &[
@@ -470,8 +472,12 @@ const GLASS: &[&str] = &[
     "tints",
 ];
 
-fn dielectric_lobe<T: Real>(x: &[T], model: Model, mis: MisPdf) -> Dielectric<T> {
-    let lobe = Dielectric::new(ggx(x), x[9], model);
+fn dielectric_lobe<T: Real>(
+    x: &[T],
+    model: MultibounceModel,
+    mis: MisPdf,
+) -> MultibounceDielectric<T> {
+    let lobe = MultibounceDielectric::new(ggx(x), x[9], model);
     lobe.with_mis_pdf(mis).with_tints(tints())
 }
 
@@ -521,7 +527,7 @@ fn interfaces() -> Vec<Case> {
                         let lobe = dielectric_lobe(x, $model, MisPdf::Normalised);
                         let u = [x[5], x[6], x[7]];
                         let transport = Transport::Importance;
-                        drawn(lobe.sample_random(vector(x, 2), u, transport, &mut stream(x, 8)))
+                        sampled(lobe.sample_random(vector(x, 2), u, transport, &mut stream(x, 8)))
                     }),
                 ),
             ]
@@ -531,14 +537,14 @@ fn interfaces() -> Vec<Case> {
         "heitz_interface_value",
         "heitz_interface_draw",
         "MULTIBOUNCE_MODEL_HEITZ",
-        Model::Heitz2016
+        MultibounceModel::Heitz2016
     )
     .to_vec();
     cases.extend(interface!(
-        "ours_interface_value",
-        "ours_interface_draw",
-        "MULTIBOUNCE_MODEL_OURS",
-        Model::Ours
+        "stratified_bidirectional_interface_value",
+        "stratified_bidirectional_interface_draw",
+        "MULTIBOUNCE_MODEL_STRATIFIED_BIDIRECTIONAL",
+        MultibounceModel::StratifiedBidirectional
     ));
     cases
 }

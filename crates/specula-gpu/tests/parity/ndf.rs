@@ -18,8 +18,8 @@ fn all_views() -> Vec<[f32; 3]> {
     [both_sides(), edges.to_vec()].concat()
 }
 
-/// Widths, then normals: of the grid, and of slopes about as large as the widths.
-fn widths_and_normals() -> Vec<[f32; 5]> {
+/// Alphas, then normals: of the grid, and of slopes about as large as the alphas.
+fn alphas_and_normals() -> Vec<[f32; 5]> {
     let mut rows = Vec::new();
     for [ax, ay] in ALPHAS {
         for wm in [views(&ABOVE), views(&BELOW)].concat() {
@@ -38,8 +38,8 @@ fn widths_and_normals() -> Vec<[f32; 5]> {
     rows
 }
 
-/// Widths and a view.
-fn widths_and_views() -> Vec<[f32; 5]> {
+/// Alphas and a view.
+fn alphas_and_views() -> Vec<[f32; 5]> {
     let of = |[ax, ay]: [f32; 2]| {
         all_views()
             .into_iter()
@@ -48,13 +48,13 @@ fn widths_and_views() -> Vec<[f32; 5]> {
     ALPHAS.into_iter().flat_map(of).collect()
 }
 
-/// Widths and two directions; of `wo` straight from below only the masking is asked.
-fn widths_and_pairs() -> Vec<[f32; 8]> {
+/// Alphas and two directions; of `wo` straight from below only the masking is asked.
+fn alphas_and_pairs() -> Vec<[f32; 8]> {
     let pair = |[ax, ay, x, y, z]: [f32; 5]| {
         let lights = all_views().into_iter();
         lights.map(move |wi| [ax, ay, x, y, z, wi[0], wi[1], wi[2]])
     };
-    widths_and_views().into_iter().flat_map(pair).collect()
+    alphas_and_views().into_iter().flat_map(pair).collect()
 }
 
 /// Statements of a case about masking, for `ggx` or `beckmann`.
@@ -116,7 +116,7 @@ fn ggx() -> Vec<Case> {
              let wm = vec3f(x[2], x[3], x[4]);
              y[0] = ggx_d(alpha, wm);
              y[1] = ggx_d_along(alpha, 3.0 * wm, 9.0);",
-            widths_and_normals(),
+            alphas_and_normals(),
             twins!(|x| {
                 let d = Ggx::new(alpha(x, 0)).d(vector(x, 2));
                 vec![d, d]
@@ -132,7 +132,7 @@ fn ggx() -> Vec<Case> {
              y[0] = ggx_projected_area(alpha, w);
              y[1] = quotient.x / quotient.y;
              y[2] = ggx_lambda_cos(alpha, w);",
-            widths_and_views(),
+            alphas_and_views(),
             twins!(|x| {
                 let (ggx, w) = (Ggx::new(alpha(x, 0)), vector(x, 2));
                 vec![
@@ -152,7 +152,7 @@ fn ggx() -> Vec<Case> {
              y[1] = ggx_d_visible(alpha, w, vec3f(0.36, 0.48, 0.8));
              let length = ggx_stretched_length(alpha, w);
              y[2] = length.x / (length.y * length.y);",
-            widths_and_views()
+            alphas_and_views()
                 .into_iter()
                 .filter(|x| x[4] != 0.0)
                 .collect(),
@@ -171,7 +171,7 @@ fn ggx() -> Vec<Case> {
             "ggx_masking",
             &["ggx"],
             masking_body!("ggx"),
-            widths_and_pairs(),
+            alphas_and_pairs(),
             masking_twins!(Ggx),
             12.0,
         )
@@ -180,13 +180,13 @@ fn ggx() -> Vec<Case> {
 }
 
 fn beckmann() -> Vec<Case> {
-    let seen: Vec<[f32; 8]> = widths_and_pairs();
+    let seen: Vec<[f32; 8]> = alphas_and_pairs();
     vec![
         Case::new(
             "beckmann_density",
             &["beckmann"],
             "y[0] = beckmann_d(vec2f(x[0], x[1]), vec3f(x[2], x[3], x[4]));",
-            widths_and_normals(),
+            alphas_and_normals(),
             twins!(|x| vec![Beckmann::new(alpha(x, 0)).d(vector(x, 2))]),
             // The exponent, up to 80, times half an ulp.
             200.0,
@@ -199,7 +199,7 @@ fn beckmann() -> Vec<Case> {
              let w = vec3f(x[2], x[3], x[4]);
              y[0] = beckmann_projected_area(alpha, w);
              y[1] = beckmann_lambda_cos(alpha, w);",
-            widths_and_views(),
+            alphas_and_views(),
             twins!(|x| {
                 let (ndf, w) = (Beckmann::new(alpha(x, 0)), vector(x, 2));
                 vec![ndf.projected_area(w), ndf.lambda_cos(w)]
@@ -214,7 +214,7 @@ fn beckmann() -> Vec<Case> {
              let w = vec3f(x[2], x[3], x[4]);
              y[0] = beckmann_lambda(alpha, w);
              y[1] = beckmann_d_visible(alpha, w, vec3f(0.36, 0.48, 0.8));",
-            widths_and_views()
+            alphas_and_views()
                 .into_iter()
                 .filter(|x| x[4] > 0.0)
                 .collect(),
@@ -240,7 +240,7 @@ fn beckmann() -> Vec<Case> {
     ]
 }
 
-/// Whether a Beckmann surface shows any facet to `w`, to the precision of numbers.
+/// Whether a Beckmann surface shows any facet to `w`, to the precision of values.
 pub(crate) fn is_visible(ax: f32, ay: f32, w: [f32; 3]) -> bool {
     let a = w[2] / (ax * w[0]).hypot(ay * w[1]);
     w[2] >= 0.0 || a * a < 40.0

@@ -10,10 +10,10 @@ use crate::harness::{
 };
 use crate::ndf::is_visible;
 
-/// Points of the unit square for each pair of widths and view.
+/// Points of the unit square for each pair of alphas and view.
 const DRAWS: usize = 24;
 
-/// Widths, a view and a point of the unit square.
+/// Alphas, a view and a point of the unit square.
 fn draws() -> Vec<[f32; 7]> {
     let edges = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.6, -0.8, 1e-6]];
     let views = [both_sides(), edges.to_vec()].concat();
@@ -29,7 +29,7 @@ fn draws() -> Vec<[f32; 7]> {
     rows
 }
 
-/// Widths, a view and what a sampler reflects it to: where the density is large.
+/// Alphas, a view and what a sampler reflects it to: where the density is large.
 fn pairs() -> Vec<[f32; 8]> {
     let pair = |x: [f32; 7]| {
         let wo = vector(&x, 2);
@@ -46,7 +46,7 @@ fn pairs() -> Vec<[f32; 8]> {
     rows
 }
 
-/// Statements before those of a draw.
+/// Statements before those of a sample.
 macro_rules! drawing {
     ($($body:literal)*) => {
         concat!(
@@ -86,8 +86,8 @@ macro_rules! density {
     };
 }
 
-/// Twins of a draw: a function of widths, view and point.
-macro_rules! drawn {
+/// Twins of a sample: a function of alphas, view and point.
+macro_rules! sampled {
     ($sample:path) => {
         twins!(|x| $sample(alpha(x, 0), vector(x, 2), [x[5], x[6]])
             .to_array()
@@ -102,7 +102,7 @@ fn samplers() -> Vec<Case> {
             &["heitz"],
             direction_of!("heitz_sample_wm(alpha, wo, u)"),
             draws(),
-            drawn!(heitz::sample_wm),
+            sampled!(heitz::sample_wm),
             // Along the surface and alpha 1e-3: the last point of the ellipse is a root of a difference.
             3000.0,
         )
@@ -112,7 +112,7 @@ fn samplers() -> Vec<Case> {
             &["cap"],
             direction_of!("cap_sample_wm(alpha, wo, u)"),
             draws(),
-            drawn!(cap::sample_wm),
+            sampled!(cap::sample_wm),
             256.0,
         )
         .at_scale(&[1.0]),
@@ -121,7 +121,7 @@ fn samplers() -> Vec<Case> {
             &["cap"],
             direction_of!("cap_sample_direction(alpha, wo, u)"),
             draws(),
-            drawn!(cap::sample_direction),
+            sampled!(cap::sample_direction),
             256.0,
         )
         .at_scale(&[1.0]),
@@ -130,8 +130,8 @@ fn samplers() -> Vec<Case> {
             &["bounded"],
             direction_of!("bounded_sample_direction(alpha, wo, u)"),
             draws(),
-            drawn!(bounded::sample_direction),
-            // Reflections of widths (8, 0.01) turn fast with the half vector.
+            sampled!(bounded::sample_direction),
+            // Reflections of alphas (8, 0.01) turn fast with the half vector.
             512.0,
         )
         .at_scale(&[1.0]),
@@ -140,8 +140,8 @@ fn samplers() -> Vec<Case> {
             &["exact"],
             direction_of!("exact_sample_direction(alpha, wo, u)"),
             draws(),
-            drawn!(exact::sample_direction),
-            // The same of widths (1e-4, 10).
+            sampled!(exact::sample_direction),
+            // The same of alphas (1e-4, 10).
             2000.0,
         )
         .at_scale(&[1.0]),
@@ -150,7 +150,7 @@ fn samplers() -> Vec<Case> {
             &["beckmann_visible"],
             direction_of!("beckmann_visible_sample_wm(alpha, wo, u)"),
             draws(),
-            drawn!(beckmann::sample_wm),
+            sampled!(beckmann::sample_wm),
             // The twin finds its roots in f64.
             256.0,
         )

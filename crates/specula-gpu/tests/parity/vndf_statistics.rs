@@ -1,4 +1,4 @@
-//! Draws of the samplers on the GPU against the densities of their `f64` twins, by chi-square tests,
+//! samples of the samplers on the GPU against the densities of their `f64` twins, by chi-square tests,
 //! and integrals of the shaders' densities.
 
 use specula_bsdf::math::Vec3;
@@ -21,7 +21,7 @@ struct Sampler {
     /// An expression of `alpha`, `wo` and `u`.
     draw: &'static str,
     density: Density,
-    /// Whether draws below the horizon are rejected.
+    /// Whether samples below the horizon are rejected.
     is_reflection: bool,
 }
 
@@ -84,20 +84,20 @@ const SAMPLERS: [Sampler; 8] = [
     },
 ];
 
-/// Widths of the tests.
-const WIDTHS: [[f32; 2]; 4] = [[0.05, 0.05], [0.3, 0.3], [0.2, 0.8], [1.2, 3.0]];
+/// Alphas of the tests.
+const ALPHAS: [[f32; 2]; 4] = [[0.05, 0.05], [0.3, 0.3], [0.2, 0.8], [1.2, 3.0]];
 /// Views of the tests: above, grazing and below.
 const VIEWS: [(f64, f64); 3] = [(0.7, 0.3), (0.05, 2.1), (-0.3, 0.3)];
-/// Draws of each test.
+/// Samples of each test.
 const DRAWS: u32 = 30_000;
 
-/// One pair of widths and a view.
-type Place = ([f32; 2], [f32; 3]);
+/// One pair of alphas and a view.
+type TextureCoordinates = ([f32; 2], [f32; 3]);
 
-fn places() -> Vec<Place> {
+fn places() -> Vec<TextureCoordinates> {
     let views = VIEWS.map(|(cosine, azimuth)| direction(cosine, azimuth));
-    let at = |widths| views.map(|wo| (widths, wo));
-    WIDTHS.into_iter().flat_map(at).collect()
+    let at = |alphas| views.map(|wo| (alphas, wo));
+    ALPHAS.into_iter().flat_map(at).collect()
 }
 
 fn widened([x, y]: [f32; 2], wo: [f32; 3]) -> (Alpha<f64>, Vec3<f64>) {
@@ -117,8 +117,12 @@ fn peaks(alpha: Alpha<f64>, wo: Vec3<f64>) -> Vec<Peak> {
         .to_vec()
 }
 
-/// Directions drawn on the GPU, `DRAWS` for each place.
-fn drawn(device: &specula_gpu::Gpu, sampler: &Sampler, places: &[Place]) -> Vec<f32> {
+/// Directions sampled on the GPU, `DRAWS` for each place.
+fn sampled(
+    device: &specula_gpu::Gpu,
+    sampler: &Sampler,
+    places: &[TextureCoordinates],
+) -> Vec<f32> {
     let mut rng = Rng::from_name(sampler.name);
     let mut inputs = Vec::new();
     for &([ax, ay], [x, y, z]) in places {
@@ -138,16 +142,16 @@ fn drawn(device: &specula_gpu::Gpu, sampler: &Sampler, places: &[Place]) -> Vec<
     evaluate(device, sampler.modules, &body, &inputs, 3)
 }
 
-/// Holds draws against a density.
+/// Holds samples against a density.
 fn fit(
     name: &str,
     draws: &[f32],
     is_reflection: bool,
-    (widths, wo): Place,
+    (alphas, wo): TextureCoordinates,
     density: Density,
     tests: usize,
 ) -> ChiSquare {
-    let (alpha, wo) = widened(widths, wo);
+    let (alpha, wo) = widened(alphas, wo);
     let mut draws = draws.as_chunks::<3>().0.iter();
     let options = Options {
         samples: DRAWS,
@@ -176,9 +180,9 @@ fn prove_draws(samplers: &[Sampler]) {
     let mut failures = Vec::new();
     for sampler in samplers {
         let is_beckmann = sampler.name.starts_with("beckmann");
-        let is_seen = |&([x, y], wo): &Place| !is_beckmann || is_visible(x, y, wo);
-        let places: Vec<Place> = places.iter().copied().filter(is_seen).collect();
-        let draws = drawn(device, sampler, &places);
+        let is_seen = |&([x, y], wo): &TextureCoordinates| !is_beckmann || is_visible(x, y, wo);
+        let places: Vec<TextureCoordinates> = places.iter().copied().filter(is_seen).collect();
+        let draws = sampled(device, sampler, &places);
         let mut least = 1.0_f64;
         for (place, draws) in places.iter().zip(draws.chunks(3 * DRAWS as usize)) {
             let name = format!("{} {place:?}", sampler.name);
@@ -221,7 +225,7 @@ fn draws_of_another_sampler_are_noticed() {
     };
     let place = places()[3];
     let sampler = &SAMPLERS[5];
-    let draws = drawn(device, sampler, &[place]);
+    let draws = sampled(device, sampler, &[place]);
     let density: Density = cap::reflection_pdf;
     let wrong = fit("bounded for cap", &draws, true, place, density, 1);
     assert!(!wrong.is_pass(), "{wrong}");
@@ -254,7 +258,7 @@ fn densities_integrate_as_their_twins() {
          y[4] = exact_reflection_pdf(alpha, wo, w);
          y[5] = beckmann_visible_reflection_pdf(alpha, wo, w);";
     let modules = ["beckmann_visible", "reflection"];
-    for widths in &WIDTHS[1..] {
+    for alphas in &ALPHAS[1..] {
         for (cosine, azimuth) in [(0.7, 0.3), (0.3, 2.1)] {
             let wo = direction(cosine, azimuth);
             let (mut inputs, mut weights) = (Vec::new(), Vec::new());
@@ -264,13 +268,13 @@ fn densities_integrate_as_their_twins() {
                 let (z, dz) = (s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s));
                 for j in 0..GRID {
                     let w = direction(z, std::f64::consts::TAU * f64::from(j) / f64::from(GRID));
-                    let [ax, ay] = *widths;
+                    let [ax, ay] = *alphas;
                     inputs.push([ax, ay, wo[0], wo[1], wo[2], w[0], w[1], w[2]]);
                     weights.push(dz * std::f64::consts::TAU / f64::from(GRID * GRID));
                 }
             }
             let values = evaluate(device, &modules, body, &inputs, DENSITIES.len());
-            let (alpha, view) = widened(*widths, wo);
+            let (alpha, view) = widened(*alphas, wo);
             for (k, density) in DENSITIES.iter().enumerate() {
                 let rows = values.chunks(DENSITIES.len()).zip(&weights);
                 let sum: f64 = rows.map(|(row, weight)| f64::from(row[k]) * weight).sum();
@@ -283,7 +287,7 @@ fn densities_integrate_as_their_twins() {
                 let expected = expected.value[0];
                 assert!(
                     (sum - expected).abs() < 1e-3 && expected < 1.0 + 1e-4,
-                    "density {k}, {widths:?} {wo:?}: {sum} {expected}"
+                    "density {k}, {alphas:?} {wo:?}: {sum} {expected}"
                 );
             }
         }

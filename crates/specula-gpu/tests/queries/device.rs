@@ -1,6 +1,6 @@
 //! Casts rays on a GPU, through the tree or by queries.
 
-use specula_gpu::{Gpu, Kernel, Structures};
+use specula_gpu::{ComputeKernel, Gpu, Structures};
 use specula_render::PreparedScene;
 
 use crate::rays::Ray;
@@ -77,8 +77,8 @@ pub(crate) fn hits(gpu: &Gpu, scene: &PreparedScene, rays: &[Ray], way: Way) -> 
     let structures = matches!(way, Way::Query(_)).then(|| Structures::new(gpu, scene).unwrap());
     let module = gpu.shader("rays", &source(&flat.constants, way)).unwrap();
     let kernel = match &structures {
-        None => Kernel::new(gpu, &module, "cast_all", 4),
-        Some(structures) => Kernel::with_structures(gpu, &module, "cast_all", 4, structures),
+        None => ComputeKernel::new(gpu, &module, "cast_all", 4),
+        Some(structures) => ComputeKernel::with_structures(gpu, &module, "cast_all", 4, structures),
     };
     let kernel = kernel.unwrap();
     let words: Vec<[f32; 8]> = rays.iter().map(Ray::words).collect();

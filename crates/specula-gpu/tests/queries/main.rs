@@ -180,7 +180,7 @@ fn faults_are_noticed() {
         ("t > 0.0 && t < best.t", "t > 0.0 && t < 0.0"),
         ("t > 0.0 && t < best.t", "t > 0.0 && t < ray.t_max"),
         ("t > 0.0 && t < best.t", "t < best.t"),
-        // Their numbers begin anew.
+        // Their values begin anew.
         (
             "triangles + candidate.primitive_index",
             "candidate.primitive_index",

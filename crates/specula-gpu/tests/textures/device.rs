@@ -1,6 +1,6 @@
 //! Shaders of textures on a GPU.
 
-use specula_gpu::{Gpu, Kernel};
+use specula_gpu::{ComputeKernel, Gpu};
 use specula_render::PreparedScene;
 
 /// A file of `wgsl/`, by its name.
@@ -9,8 +9,8 @@ pub(crate) type Module = (&'static str, &'static str);
 const WORLD: Module = ("world", include_str!("../../wgsl/world.wgsl"));
 const ANGLES: Module = ("angles", include_str!("../../wgsl/angles.wgsl"));
 const PLACE: Module = (
-    "texture_place",
-    include_str!("../../wgsl/texture_place.wgsl"),
+    "texture_coordinates",
+    include_str!("../../wgsl/texture_coordinates.wgsl"),
 );
 const MAPPING: Module = (
     "texture_mapping",
@@ -32,8 +32,8 @@ const GRAPH: Module = (
 /// Modules of textures.
 pub(crate) const TEXTURES: [Module; 7] = [WORLD, ANGLES, PLACE, MAPPING, RASTER, NOISE, GRAPH];
 
-/// Modules of reliefs, besides the library's `frame`.
-pub(crate) const RELIEFS: [Module; 11] = [
+/// Modules of bump maps, besides the library's `frame`.
+pub(crate) const BUMPS: [Module; 11] = [
     WORLD,
     ANGLES,
     PLACE,
@@ -44,7 +44,7 @@ pub(crate) const RELIEFS: [Module; 11] = [
     ("ray", include_str!("../../wgsl/ray.wgsl")),
     ("surface", include_str!("../../wgsl/surface.wgsl")),
     ("partials", include_str!("../../wgsl/partials.wgsl")),
-    ("relief", include_str!("../../wgsl/relief.wgsl")),
+    ("bump", include_str!("../../wgsl/bump.wgsl")),
 ];
 
 /// A text of a module that is replaced by a wrong one.
@@ -74,8 +74,8 @@ impl Device {
 
     /// Runs a shader over a scene.
     ///
-    /// * `numbers`: what it reads.
-    /// * `count`: how many numbers it writes.
+    /// * `values`: what it reads.
+    /// * `count`: how many values it writes.
     pub(crate) fn run(
         &self,
         scene: &PreparedScene,
@@ -103,7 +103,7 @@ impl Device {
         }
         source += shader.kernel;
         let module = gpu.shader("textures", &source).unwrap();
-        let kernel = Kernel::new(gpu, &module, "main", 4).unwrap();
+        let kernel = ComputeKernel::new(gpu, &module, "main", 4).unwrap();
         let or_one = |bytes: &[u8]| {
             if bytes.is_empty() {
                 vec![0; 4]

@@ -1,4 +1,4 @@
-//! Textures and reliefs on the GPU against those of the CPU.
+//! Textures and bump maps on the GPU against those of the CPU.
 //!
 //! Errors are in ulps of the texture's largest value, divided by the largest coordinate of the place
 //! where that is above 1: rounding of coordinates grows with them. Where a texture jumps (checks, dots,
@@ -13,11 +13,11 @@
     reason = "tests say what they found, and stop where something is missing"
 )]
 
+mod bumps;
 #[path = "../common/mod.rs"]
 mod common;
 mod device;
 mod nodes;
-mod reliefs;
 
 use specula_render::{PreparedScene, RenderOptions};
 use specula_stat::Rng;
@@ -45,7 +45,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     let at = 13u * id.x;
     let uv = vec2f(places[at], places[at + 1u]);
     let second_uv = vec2f(places[at + 2u], places[at + 3u]);
-    let place = Place(uv, second_uv, three(at + 4u), three(at + 7u), three(at + 10u));
+    let place = TextureCoordinates(uv, second_uv, three(at + 4u), three(at + 7u), three(at + 10u));
     let c = texture_colour(id.y, place);
     let to = 3u * (id.x + id.y * arrayLength(&places) / 13u);
     found[to] = c.x;
@@ -55,7 +55,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
 ";
 
 /// Coordinates, second coordinates, position, normal, colour.
-type Place = [f32; 13];
+type TextureCoordinates = [f32; 13];
 
 /// A number in `[0, 1)`.
 #[expect(
@@ -67,12 +67,13 @@ fn uniform(rng: &mut Rng) -> f32 {
 }
 
 /// Places: near the origin, then farther away, then some where everything is a whole number.
-fn places() -> Vec<Place> {
+fn places() -> Vec<TextureCoordinates> {
     let mut rng = Rng::from_name("textures");
     (0..PLACES)
         .map(|i| {
             let reach = if i % 4 == 3 { 40.0 } else { 3.0 };
-            let mut place: Place = std::array::from_fn(|_| reach * (2.0 * uniform(&mut rng) - 1.0));
+            let mut place: TextureCoordinates =
+                std::array::from_fn(|_| reach * (2.0 * uniform(&mut rng) - 1.0));
             if i % 32 == 31 {
                 place = place.map(f32::round);
             }
@@ -99,7 +100,7 @@ struct Difference {
     /// How many values are the CPU's at coordinates a few ulps away only.
     moved: usize,
     /// A place with a value that the CPU has nowhere near.
-    wrong: Option<(Place, [f32; 3], [f32; 3])>,
+    wrong: Option<(TextureCoordinates, [f32; 3], [f32; 3])>,
 }
 
 fn compare(scene: &PreparedScene, texture: usize, bound: f64, found: &[f32]) -> Difference {
@@ -110,7 +111,7 @@ fn compare(scene: &PreparedScene, texture: usize, bound: f64, found: &[f32]) -> 
         .collect();
     let largest = cpu.iter().flatten().fold(0.0_f32, |m, v| m.max(v.abs()));
     let ulp = f64::from(largest * f32::EPSILON).max(f64::MIN_POSITIVE);
-    let error = |place: &Place, gpu: &[f32], cpu: &[f32; 3]| {
+    let error = |place: &TextureCoordinates, gpu: &[f32], cpu: &[f32; 3]| {
         let apart = gpu.iter().zip(cpu).map(|(g, c)| (g - c).abs());
         let error = f64::from(apart.fold(0.0, f32::max)) / ulp;
         // What is no number is no small error.
@@ -128,7 +129,9 @@ fn compare(scene: &PreparedScene, texture: usize, bound: f64, found: &[f32]) -> 
             continue;
         }
         difference.moved += 1;
-        let near = |there: Place| error(place, gpu, &scene.probe_texture(texture, there)) <= bound;
+        let near = |there: TextureCoordinates| {
+            error(place, gpu, &scene.probe_texture(texture, there)) <= bound
+        };
         if !moved(place).any(near) && difference.wrong.is_none() {
             difference.wrong = Some((*place, [gpu[0], gpu[1], gpu[2]], *cpu));
         }
@@ -137,12 +140,12 @@ fn compare(scene: &PreparedScene, texture: usize, bound: f64, found: &[f32]) -> 
 }
 
 /// The largest coordinate, at least 1.
-fn reach(place: &Place) -> f32 {
+fn reach(place: &TextureCoordinates) -> f32 {
     place[..7].iter().fold(1.0_f32, |m, x| m.max(x.abs()))
 }
 
 /// Places a few ulps of the coordinates away.
-fn moved(place: &Place) -> impl Iterator<Item = Place> {
+fn moved(place: &TextureCoordinates) -> impl Iterator<Item = TextureCoordinates> {
     let mut rng = Rng::from_name("moved");
     let place = *place;
     let reach = reach(&place);

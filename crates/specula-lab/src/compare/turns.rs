@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use specula_bsdf::vndf::Sampler;
 use specula_render::picture::Picture;
-use specula_render::{FilmBuffer, PreparedScene, RenderOptions, Renderer, Scattered};
+use specula_render::{FilmBuffer, PreparedScene, RenderOptions, Renderer, ScatterCounts};
 use specula_scene::Energy;
 
 use super::reference::Reference;
@@ -44,7 +44,7 @@ pub(super) struct Render {
     options: RenderOptions,
     film: Option<FilmBuffer>,
     pub(super) seconds: f64,
-    pub(super) scattered: Scattered,
+    pub(super) scattered: ScatterCounts,
     pub(super) samples: u32,
 }
 
@@ -87,8 +87,8 @@ impl Entry {
         self.rounds.push((taken > 0).then(|| {
             Round {
                 pace: (render.seconds - seconds) / f64::from(taken),
-                rejected_share: Scattered {
-                    drawn: render.scattered.drawn - scattered.drawn,
+                rejected_share: ScatterCounts {
+                    sampled: render.scattered.sampled - scattered.sampled,
                     rejected: render.scattered.rejected - scattered.rejected,
                 }
                 .rejected_share(),
@@ -127,7 +127,7 @@ impl Render {
             },
             film: None,
             seconds: 0.0,
-            scattered: Scattered::default(),
+            scattered: ScatterCounts::default(),
             samples: 0,
         }
     }

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 use specula_bsdf::Rgb;
-use specula_bsdf::energy::{FmsVariant, Model};
+use specula_bsdf::energy::{EnergyModel, FmsVariant};
 use specula_bsdf::vndf::Sampler;
 use specula_render::picture::Picture;
 use specula_scene::scene::Geometry;
@@ -14,14 +14,15 @@ use crate::scenes::orbs::{self, Tessellation};
 use crate::{Lab, Result};
 
 /// The compensation of the paper's section 6.
-pub(super) const ENERGY: Energy = Energy::Compensated(Model::Turquin(FmsVariant::NormalIncidence));
+pub(super) const ENERGY: Energy =
+    Energy::Compensated(EnergyModel::Turquin(FmsVariant::NormalIncidence));
 
 /// Samples per pixel of fig. 6.
 pub(super) const SPP: u32 = 16;
 
 /// The orb.
-pub(super) fn scene(widths: (f64, f64), side: u32) -> Scene {
-    orbs::single(widths, Tessellation::COARSE, side)
+pub(super) fn scene(alphas: (f64, f64), side: u32) -> Scene {
+    orbs::single(alphas, Tessellation::COARSE, side)
 }
 
 /// So many renders of a scene.

@@ -9,7 +9,9 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::math::{Stream, vec3, warp};
-use specula_bsdf::multibounce::{Conductor, MisPdf, Model, normalised_pdf, sample_normalised};
+use specula_bsdf::multibounce::{
+    MisPdf, MultibounceConductor, MultibounceModel, normalised_pdf, sample_normalised,
+};
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Alpha, Bsdf as _, Rgb, Vec3};
 
@@ -27,7 +29,7 @@ pub(super) const LAMBERT: usize = 0;
 pub(super) const HAPKE: usize = 1;
 pub(super) const NORMALISED: usize = 2;
 
-/// Panels in a row: widths of one angle.
+/// Panels in a row: alphas of one angle.
 const COLUMNS: usize = 4;
 /// Estimates of each distance, for its standard error.
 const REPLICATES: usize = 8;
@@ -35,14 +37,14 @@ const REPLICATES: usize = 8;
 /// A metal and a view.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Case {
-    /// Widths along and across the plane of incidence.
+    /// Alphas along and across the plane of incidence.
     pub(super) alpha: [f64; 2],
     /// Of the view.
     pub(super) theta_deg: f64,
 }
 
 impl Case {
-    /// Whether both widths are the same.
+    /// Whether both alphas are the same.
     pub(super) fn is_isotropic(self) -> bool {
         self.alpha[0] == self.alpha[1]
     }
@@ -51,9 +53,10 @@ impl Case {
         Ggx::new(Alpha::clamped(self.alpha[0], self.alpha[1]))
     }
 
-    fn lobe(self, mis: MisPdf) -> Conductor<f64> {
+    fn lobe(self, mis: MisPdf) -> MultibounceConductor<f64> {
         let white = Reflectance::Constant(Rgb::splat(1.0));
-        Conductor::new(self.ndf(), white, Model::Ours).with_mis_pdf(mis)
+        MultibounceConductor::new(self.ndf(), white, MultibounceModel::StratifiedBidirectional)
+            .with_mis_pdf(mis)
     }
 
     fn wo(self) -> Vec3<f64> {
@@ -123,8 +126,8 @@ pub(super) struct Judged {
     pub(super) distances: [Distance; 3],
 }
 
-/// One direction: `(1 / density it was drawn with, f cos, densities)`.
-type Drawn = (f64, f64, [f64; 3]);
+/// One direction: `(1 / density it was sampled with, f cos, densities)`.
+type DirectionSample = (f64, f64, [f64; 3]);
 
 /// Judges every case, writes table and plot.
 ///
@@ -152,7 +155,7 @@ pub(super) fn judge(
 fn distances(lab: &Lab<'_>, case: Case) -> Judged {
     let points: u32 = lab.pick(200, 1500);
     let evaluations = lab.pick(60, 400);
-    let replicates: Vec<Vec<Drawn>> = (0..REPLICATES)
+    let replicates: Vec<Vec<DirectionSample>> = (0..REPLICATES)
         .into_par_iter()
         .map(|r| {
             let mut stream = Stream::new(lab.seed().wrapping_mul(1013) + r as u64);
@@ -169,10 +172,10 @@ fn distances(lab: &Lab<'_>, case: Case) -> Judged {
             (0..2 * points).map(draw).collect()
         })
         .collect();
-    let over = |term: &dyn Fn(&Drawn) -> f64| {
-        let means = replicates.iter().map(|drawn| {
-            let sum: f64 = drawn.iter().map(|d| d.0 * term(d)).sum();
-            sum / drawn.len() as f64
+    let over = |term: &dyn Fn(&DirectionSample) -> f64| {
+        let means = replicates.iter().map(|sampled| {
+            let sum: f64 = sampled.iter().map(|d| d.0 * term(d)).sum();
+            sum / sampled.len() as f64
         });
         Estimate::of(&means.collect::<Vec<f64>>())
     };
@@ -201,14 +204,20 @@ fn lattice(shift: [f64; 3], i: u32) -> [f64; 3] {
 }
 
 /// A direction, by our density or by a cosine in turns.
-fn draw(case: Case, evaluations: u32, u: [f64; 3], by_cosine: bool, stream: &mut Stream) -> Drawn {
+fn draw(
+    case: Case,
+    evaluations: u32,
+    u: [f64; 3],
+    by_cosine: bool,
+    stream: &mut Stream,
+) -> DirectionSample {
     let (ndf, wo) = (case.ndf(), case.wo());
-    let drawn = if by_cosine {
+    let sampled = if by_cosine {
         Some(warp::cosine_hemisphere([u[0], u[1]]))
     } else {
         sample_normalised(&ndf, wo, u)
     };
-    let Some(wi) = drawn.filter(|wi| wi.z > 0.0) else {
+    let Some(wi) = sampled.filter(|wi| wi.z > 0.0) else {
         return (0.0, 1.0, [1.0; 3]);
     };
     let density = 0.5 * normalised_pdf(&ndf, wo, wi) + 0.5 * wi.z / PI;

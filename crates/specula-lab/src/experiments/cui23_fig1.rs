@@ -47,8 +47,8 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
 }
 
 fn verdict(judged: &Judged<4>) -> Verdict {
-    let [cui, heitz, bitterli, ours] = &judged.equal_time;
-    let [cui_same, heitz_same, bitterli_same, ours_same] = &judged.equal_samples;
+    let [cui, heitz, bitterli, specula] = &judged.equal_time;
+    let [cui_same, heitz_same, bitterli_same, specula_same] = &judged.equal_samples;
     let over = |trial: &Trial| trial.error() / heitz.error();
     let same = |trial: &Trial| trial.error() / heitz_same.error();
     let samples = |trial: &Trial| trial.samples_per_pixel;
@@ -58,7 +58,7 @@ fn verdict(judged: &Judged<4>) -> Verdict {
              {:.2}.",
             over(cui),
             over(bitterli),
-            over(ours)
+            over(specula)
         ),
         claims: vec![
             Claim::measured(
@@ -109,13 +109,13 @@ fn verdict(judged: &Judged<4>) -> Verdict {
                 "no statement",
                 format!(
                     "{:.2} of Heitz's MSE at {} spp (at equal samples {:.2})",
-                    over(ours),
-                    samples(ours),
-                    same(ours_same)
+                    over(specula),
+                    samples(specula),
+                    same(specula_same)
                 ),
                 Answer::all(
                     [cui, heitz, bitterli]
-                        .map(|other| Answer::beyond(ours.deviations_below(other))),
+                        .map(|other| Answer::beyond(specula.deviations_below(other))),
                 ),
             ),
         ],

@@ -27,7 +27,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 };
 
 /// Of the metals, each in a third of the paths.
-const WIDTHS: [f64; 3] = [0.1, 0.5, 1.0];
+const ALPHAS: [f64; 3] = [0.1, 0.5, 1.0];
 /// Most bounces.
 const BOUNCES: usize = 16;
 /// Up to where the recursion of eq. 14 is followed: its cost doubles with every bounce.
@@ -74,7 +74,7 @@ fn paths(lab: &Lab<'_>) -> Vec<Path> {
     let each = lab.pick(300, 2000);
     let mut stream = Stream::new(lab.seed());
     let mut all = Vec::new();
-    for alpha in WIDTHS {
+    for alpha in ALPHAS {
         let ndf = Ggx::new(Alpha::isotropic(alpha));
         for _ in 0..each {
             let mut towards = || {
@@ -246,8 +246,8 @@ fn verdict(rows: &[Row]) -> Verdict {
     let ten = &rows[TEN - 1];
     let error = |i: usize| rows.iter().map(|r| r.errors[i]).fold(0.0, f64::max);
     let [segment, exponentials, depths] = [0, 1, 2].map(error);
-    let [ops, ops_bitterli, ops_ours] = ten.operations;
-    let [ns, ns_bitterli, ns_ours] = ten.ns;
+    let [ops, ops_bitterli, ops_specula] = ten.operations;
+    let [ns, ns_bitterli, ns_specula] = ten.ns;
     Verdict {
         summary: format!(
             "Operations grow as bounces^{operations:.2} (quadratic case: {worst:.2}); at ten bounces \
@@ -275,7 +275,7 @@ fn verdict(rows: &[Row]) -> Verdict {
                 "The segment term takes fewer operations than Bitterli and d'Eon's form",
                 "simpler, more efficient",
                 format!(
-                    "{ops:.1} against {ops_bitterli:.1} at ten bounces (Specula {ops_ours:.1}; the product \
+                    "{ops:.1} against {ops_bitterli:.1} at ten bounces (Specula {ops_specula:.1}; the product \
                      of rates, which the other two include, would be ten more)"
                 ),
                 ops < ops_bitterli,
@@ -284,7 +284,7 @@ fn verdict(rows: &[Row]) -> Verdict {
                 "And less time",
                 "less time",
                 format!(
-                    "{ns:.0} against {ns_bitterli:.0} ns at ten bounces (Specula {ns_ours:.0})"
+                    "{ns:.0} against {ns_bitterli:.0} ns at ten bounces (Specula {ns_specula:.0})"
                 ),
                 ns < ns_bitterli,
             ),
@@ -299,7 +299,7 @@ fn verdict(rows: &[Row]) -> Verdict {
             ),
         ],
         caveat:
-            "The forms alone, in double precision, on walks that were drawn before; Bitterli and \
+            "The forms alone, in double precision, on walks that were sampled before; Bitterli and \
                  d'Eon's with its signs, which the supplement's algorithm 5 lost. The segment term's operations \
                  are counted without the product of rates, its time with it."
                 .to_owned(),

@@ -65,7 +65,7 @@ fn count(
 ) -> Result<Counted> {
     let each = lab.pick(20, 60);
     let mut stream = Stream::new(lab.seed());
-    let (mut drawn, mut connected) = ([0.0; MOST], [0.0; MOST]);
+    let (mut sampled, mut connected) = ([0.0; MOST], [0.0; MOST]);
     let add = |to: &mut Shares, downward: usize| to[downward.clamp(1, MOST) - 1] += 1.0;
     // The floor is the first shape.
     for (i, metal) in metals.iter().enumerate() {
@@ -76,7 +76,7 @@ fn count(
                     Distribution::Ggx => paths(&Ggx::new(alpha), wo, &mut stream),
                     Distribution::Beckmann => paths(&Beckmann::new(alpha), wo, &mut stream),
                 };
-                add(&mut drawn, one);
+                add(&mut sampled, one);
                 for downward in many {
                     add(&mut connected, downward);
                 }
@@ -90,7 +90,7 @@ fn count(
     Ok(Counted {
         name,
         style,
-        sampled: shares(drawn),
+        sampled: shares(sampled),
         evaluated: shares(connected),
     })
 }

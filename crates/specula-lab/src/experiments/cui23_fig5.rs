@@ -6,7 +6,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::math::{Stream, vec3};
-use specula_bsdf::multibounce::Conductor;
+use specula_bsdf::multibounce::MultibounceConductor;
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Alpha, Rgb, Vec3};
 use specula_stat::z_test::{Moments, equal_means, sidak};
@@ -57,7 +57,7 @@ const UNBIASED: [usize; 4] = [AT_BITTERLI, AT_CUI, AT_BIDIRECTIONAL, AT_SPECULA]
 /// Probability that a true "all agree" is denied.
 const SIGNIFICANCE: f64 = 1e-4;
 
-type Lobe = Conductor<f32, Ggx<f32>>;
+type Lobe = MultibounceConductor<f32, Ggx<f32>>;
 
 /// What was found in one pair of directions.
 struct Point {
@@ -122,7 +122,7 @@ fn directions(theta_i_deg: f32, theta_o_deg: f32) -> (Vec3<f32>, Vec3<f32>) {
 fn lobes(alpha: f32) -> [Lobe; MODELS.len()] {
     let white = Reflectance::Constant(Rgb::splat(1.0));
     let ndf = Ggx::new(Alpha::isotropic(alpha));
-    MODELS.map(|shown| Conductor::new(ndf, white, shown.model))
+    MODELS.map(|shown| MultibounceConductor::new(ndf, white, shown.model))
 }
 
 fn estimate(lab: &Lab<'_>, column: usize, theta_o_deg: f32) -> Point {
@@ -257,7 +257,7 @@ fn figure(points: &[Point]) -> Figure {
                 here.map(|p| [f64::from(p.theta_o_deg), value(p, i)])
                     .collect()
             };
-            // The truth first, so that the others are drawn over it.
+            // The truth first, so that the others are sampled over it.
             let series = (0..MODELS.len())
                 .map(|i| Series::new(MODELS[i].label, MODELS[i].style, line(i)))
                 .collect();
@@ -304,14 +304,14 @@ fn efficiency_ratio(points: &[Point], model: usize, over: usize) -> f64 {
 
 fn verdict(points: &[Point]) -> Verdict {
     let [low, high] = wang_range(points, 90.0);
-    let [cui, ours] = [AT_CUI, AT_SPECULA].map(|i| efficiency_ratio(points, i, AT_HEITZ));
+    let [cui, specula] = [AT_CUI, AT_SPECULA].map(|i| efficiency_ratio(points, i, AT_HEITZ));
     let mut claims = claims_of_means(points);
     claims.extend(claims_of_efficiency(points));
     claims.extend(claims_of_variance(points));
     Verdict {
         summary: format!(
             "Wang 2022 differs by {low:.0} to {high:+.0} %; variance x time over that of Heitz 2016: \
-             Cui 2023 {cui:.2}, Specula {ours:.2}."
+             Cui 2023 {cui:.2}, Specula {specula:.2}."
         ),
         claims,
         caveat: format!(
@@ -385,7 +385,7 @@ fn claims_of_efficiency(points: &[Point]) -> Vec<Claim> {
 fn claims_of_variance(points: &[Point]) -> Vec<Claim> {
     let ratio = |a: usize, b: usize| mean_ratio(points, None, |p| p.variance_ratio(a, b));
     let (heitz, bitterli) = (ratio(AT_CUI, AT_HEITZ), ratio(AT_CUI, AT_BITTERLI));
-    let ours = ratio(AT_SPECULA, AT_CUI);
+    let specula = ratio(AT_SPECULA, AT_CUI);
     vec![
         Claim::law(
             "At equal samples Cui has less variance than Heitz",
@@ -402,8 +402,8 @@ fn claims_of_variance(points: &[Point]) -> Vec<Claim> {
         Claim::law(
             "Specula has less variance than Cui at equal samples",
             "no statement",
-            format!("mean ratio {ours:.2}"),
-            ours < 1.0,
+            format!("mean ratio {specula:.2}"),
+            specula < 1.0,
         ),
     ]
 }

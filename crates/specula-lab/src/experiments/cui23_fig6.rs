@@ -65,7 +65,7 @@ fn table(trials: &[Trial]) -> Table {
 }
 
 fn verdict(trials: &[Trial; 6], truth: &Reference) -> Verdict {
-    let [cui, both, wang, bitterli, heitz, ours] = trials;
+    let [cui, both, wang, bitterli, heitz, specula] = trials;
     let ratio = |a: &Trial, b: &Trial| a.error() / b.error();
     let times = |a: &Trial, b: &Trial| a.time() / b.time();
     let published = [cui, wang, bitterli, heitz];
@@ -82,7 +82,7 @@ fn verdict(trials: &[Trial; 6], truth: &Reference) -> Verdict {
             ratio(both, heitz),
             ratio(wang, heitz),
             ratio(bitterli, heitz),
-            ratio(ours, heitz)
+            ratio(specula, heitz)
         ),
         claims: vec![
             Claim::law(
@@ -131,8 +131,8 @@ fn verdict(trials: &[Trial; 6], truth: &Reference) -> Verdict {
             Claim::law(
                 "Specula has less error than the unidirectional one at equal samples",
                 "no statement",
-                format!("{:.2}", ratio(ours, cui)),
-                ours.deviations_below(cui) > 4.0,
+                format!("{:.2}", ratio(specula, cui)),
+                specula.deviations_below(cui) > 4.0,
             ),
         ],
         caveat: format!(

@@ -98,9 +98,9 @@ fn verdict(trials: &[Trial; 9], truth: &Reference) -> Verdict {
         lambert,
         hapke,
         normalised,
-        ours_lambert,
-        ours_hapke,
-        ours,
+        specula_lambert,
+        specula_hapke,
+        specula,
     ] = trials;
     let ratio = |a: &Trial, b: &Trial| a.error() / b.error();
     let compared = |a: &Trial, b: &Trial| {
@@ -116,7 +116,7 @@ fn verdict(trials: &[Trial; 9], truth: &Reference) -> Verdict {
              estimator, {:.2} with the unidirectional one, {:.2} with Specula's.",
             ratio(hapke, lambert),
             ratio(one_hapke, one_lambert),
-            ratio(ours_hapke, ours_lambert)
+            ratio(specula_hapke, specula_lambert)
         ),
         claims: vec![
             Claim::law(
@@ -137,14 +137,14 @@ fn verdict(trials: &[Trial; 9], truth: &Reference) -> Verdict {
                 format!(
                     "{} with Cui's bidirectional estimator, {:.3} with Specula's",
                     compared(normalised, lambert),
-                    ratio(ours, ours_lambert)
+                    ratio(specula, specula_lambert)
                 ),
                 normalised.deviations_below(lambert) > 4.0,
             ),
         ],
         caveat: format!(
             "Pots and environment of our own, on a floor so dark that noise is of the metal; direct \
-             light only, the environment drawn by luminance. (Drawn by what exceeds \
+             light only, the environment sampled by luminance. (DirectionSample by what exceeds \
              the environment's mean, as Specula does, it leaves Cui's bidirectional estimator the same noise \
              with each density.) The paper does not say which of its estimators it shows. A smaller density \
              gives samples of the light more weight, whose evaluation is noisy: that pays only with a \

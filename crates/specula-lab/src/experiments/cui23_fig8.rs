@@ -16,8 +16,8 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
-/// Isotropic widths; the first two are low.
-const WIDTHS: [f64; 4] = [0.1, 0.2, 0.5, 1.0];
+/// Isotropic alphas; the first two are low.
+const ALPHAS: [f64; 4] = [0.1, 0.2, 0.5, 1.0];
 const ANGLES: [f64; 2] = [30.0, 60.0];
 /// Up to where a width is low.
 const LOW: f64 = 0.2;
@@ -26,7 +26,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     let cases: Vec<Case> = ANGLES
         .into_iter()
         .flat_map(|theta_deg| {
-            WIDTHS.map(|width| Case {
+            ALPHAS.map(|width| Case {
                 alpha: [width; 2],
                 theta_deg,
             })
@@ -39,8 +39,8 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
 }
 
 fn verdict(judged: &[Judged]) -> Verdict {
-    let [lambert, hapke, ours] = means(judged, |d| d.absolute);
-    let [_, shape_hapke, shape_ours] = means(judged, |d| d.of_shape);
+    let [lambert, hapke, specula] = means(judged, |d| d.absolute);
+    let [_, shape_hapke, shape_specula] = means(judged, |d| d.of_shape);
     let [[low_l, high_l], [low_h, high_h], [low, high]] =
         [LAMBERT, HAPKE, NORMALISED].map(|k| range(judged, k, |d| d.integral));
     let off = (1.0 - low).max(high - 1.0);
@@ -57,13 +57,13 @@ fn verdict(judged: &[Judged]) -> Verdict {
     claims.push(Claim::law(
         "Specula's density integrates to 1 and is closest",
         "no statement",
-        format!("integral off by {off:.1e} at most; {ours:.3}, in shape {shape_ours:.3}"),
-        off < 0.05 && ours < hapke.min(lambert) && shape_ours < shape_hapke,
+        format!("integral off by {off:.1e} at most; {specula:.3}, in shape {shape_specula:.3}"),
+        off < 0.05 && specula < hapke.min(lambert) && shape_specula < shape_hapke,
     ));
     Verdict {
         summary: format!(
             "Integral of |pdf - f cos|, mean over cases: Lambert {lambert:.2}, Hapke {hapke:.2}, \
-             Specula's {ours:.2}."
+             Specula's {specula:.2}."
         ),
         claims,
         caveat: "The paper's H is misprinted in its released code, where the density is negative over \

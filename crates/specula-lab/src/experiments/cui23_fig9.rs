@@ -49,8 +49,8 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
 }
 
 fn verdict(judged: &Judged<4>) -> Verdict {
-    let [cui, heitz, wang, ours] = &judged.equal_time;
-    let [cui_same, heitz_same, wang_same, ours_same] = &judged.equal_samples;
+    let [cui, heitz, wang, specula] = &judged.equal_time;
+    let [cui_same, heitz_same, wang_same, specula_same] = &judged.equal_samples;
     let over = |trial: &Trial| trial.error() / heitz.error();
     let same = |trial: &Trial| trial.error() / heitz_same.error();
     Verdict {
@@ -59,7 +59,7 @@ fn verdict(judged: &Judged<4>) -> Verdict {
              Specula {:.2}.",
             over(cui),
             over(wang),
-            over(ours)
+            over(specula)
         ),
         claims: vec![
             Claim::measured(
@@ -100,12 +100,12 @@ fn verdict(judged: &Judged<4>) -> Verdict {
                 "no statement",
                 format!(
                     "{:.2} of Heitz's MSE at {} spp (at equal samples {:.2})",
-                    over(ours),
-                    ours.samples_per_pixel,
-                    same(ours_same)
+                    over(specula),
+                    specula.samples_per_pixel,
+                    same(specula_same)
                 ),
                 Answer::all(
-                    [cui, heitz, wang].map(|other| Answer::beyond(ours.deviations_below(other))),
+                    [cui, heitz, wang].map(|other| Answer::beyond(specula.deviations_below(other))),
                 ),
             ),
         ],

@@ -1,12 +1,12 @@
 //! The models of multiple bounces as the experiments on Cui et al. 2023 name and draw them.
 
-use specula_bsdf::multibounce::Model;
+use specula_bsdf::multibounce::MultibounceModel;
 
 /// A model with its looks.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shown {
     /// The model.
-    pub(super) model: Model,
+    pub(super) model: MultibounceModel,
     /// In legends and tables.
     pub(super) label: &'static str,
     /// Its style in plots.
@@ -14,20 +14,28 @@ pub(super) struct Shown {
 }
 
 /// Heitz et al. 2016: what all others are held against.
-pub(super) const HEITZ: Shown = shown(Model::Heitz2016, "Heitz 2016", 3);
+pub(super) const HEITZ: Shown = shown(MultibounceModel::Heitz2016, "Heitz 2016", 3);
 /// Bitterli and d'Eon 2022.
-pub(super) const BITTERLI: Shown = shown(Model::BitterliDeon2022, "Bitterli, d'Eon 2022", 5);
+pub(super) const BITTERLI: Shown = shown(
+    MultibounceModel::BitterliDeon2022,
+    "Bitterli, d'Eon 2022",
+    5,
+);
 /// Wang et al. 2022, height-correlated: the version that Cui et al. compare with.
-pub(super) const WANG: Shown = shown(Model::Wang2022 { correlated: true }, "Wang 2022", 4);
+pub(super) const WANG: Shown = shown(
+    MultibounceModel::Wang2022 { correlated: true },
+    "Wang 2022",
+    4,
+);
 /// Wang et al. 2022, uncorrelated.
 pub(super) const WANG_UNCORRELATED: Shown = shown(
-    Model::Wang2022 { correlated: false },
+    MultibounceModel::Wang2022 { correlated: false },
     "Wang 2022, uncorrelated",
     7,
 );
 /// Cui et al. 2023, from one end ("PT").
 pub(super) const CUI: Shown = shown(
-    Model::Cui2023 {
+    MultibounceModel::Cui2023 {
         bidirectional: false,
     },
     "Cui 2023",
@@ -35,14 +43,14 @@ pub(super) const CUI: Shown = shown(
 );
 /// Cui et al. 2023, from both ends ("BDPT").
 pub(super) const CUI_BIDIRECTIONAL: Shown = shown(
-    Model::Cui2023 {
+    MultibounceModel::Cui2023 {
         bidirectional: true,
     },
     "Cui 2023, bidirectional",
     6,
 );
 /// This project's.
-pub(super) const SPECULA: Shown = shown(Model::Ours, "Specula", 1);
+pub(super) const SPECULA: Shown = shown(MultibounceModel::StratifiedBidirectional, "Specula", 1);
 
 /// What the experiments say of the implementations.
 pub(super) const IMPLEMENTATIONS: &str = "All models are this project's implementations, tidied and several times faster than the \
@@ -50,7 +58,7 @@ pub(super) const IMPLEMENTATIONS: &str = "All models are this project's implemen
      code; the bidirectional estimator of Cui et al. is without the thresholds that bias the \
      released one, and its roulette is 0.7 a bounce where the paper's is clamp(S_k, 0.3, 0.95).";
 
-const fn shown(model: Model, label: &'static str, style: usize) -> Shown {
+const fn shown(model: MultibounceModel, label: &'static str, style: usize) -> Shown {
     Shown {
         model,
         label,

@@ -1,6 +1,6 @@
 //! Renders of one scene by several models in turns: errors against a reference, and times.
 
-use specula_bsdf::multibounce::Model;
+use specula_bsdf::multibounce::MultibounceModel;
 use specula_render::picture::Picture;
 use specula_render::{PreparedScene, RenderOptions};
 use specula_scene::{Energy, Scene};
@@ -74,7 +74,7 @@ impl Reference {
 pub(super) fn reference(
     lab: &Lab<'_>,
     scene: &Scene,
-    model: Model,
+    model: MultibounceModel,
     samples_per_pixel: u32,
     max_depth: u32,
 ) -> Result<Reference> {

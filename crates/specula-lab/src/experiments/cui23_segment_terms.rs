@@ -179,7 +179,7 @@ impl Term for Depths {
         match &mut self.state {
             None => self.state = Some(specula_bsdf::multibounce::DepthState::new(rate)),
             Some(state) if down => {
-                // It has room for more than are drawn here.
+                // It has room for more than are sampled here.
                 if !state.down(rate) {
                     return;
                 }

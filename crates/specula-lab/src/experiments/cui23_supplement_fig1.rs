@@ -10,19 +10,19 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     item: "supplement, fig. 1",
     title: "densities of multiple importance sampling on anisotropic metals",
     statement: "For anisotropic metals the density is less accurate than for isotropic ones, as its \
-                albedo is the mean of both widths, but still better than single bounce and a \
+                albedo is the mean of both alphas, but still better than single bounce and a \
                 Lambertian term.",
     run,
 };
 
 /// Along and across the plane of incidence.
-const WIDTHS: [[f64; 2]; 4] = [[0.1, 0.4], [0.4, 0.1], [0.2, 1.0], [1.0, 0.2]];
-/// Isotropic metals of the same mean widths, for comparison.
+const ALPHAS: [[f64; 2]; 4] = [[0.1, 0.4], [0.4, 0.1], [0.2, 1.0], [1.0, 0.2]];
+/// Isotropic metals of the same mean alphas, for comparison.
 const ISOTROPIC: [f64; 2] = [0.25, 0.6];
 const ANGLES: [f64; 2] = [30.0, 60.0];
 
 fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
-    let all = WIDTHS.into_iter().chain(ISOTROPIC.map(|width| [width; 2]));
+    let all = ALPHAS.into_iter().chain(ISOTROPIC.map(|width| [width; 2]));
     let cases: Vec<Case> = ANGLES
         .into_iter()
         .flat_map(|theta_deg| all.clone().map(move |alpha| Case { alpha, theta_deg }))
@@ -44,15 +44,15 @@ fn verdict(judged: Vec<Judged>) -> Verdict {
                 .is_below(j.distances[LAMBERT].absolute)
         })
         .count();
-    let [lambert, hapke, ours] = means(&anisotropic, |d| d.absolute);
+    let [lambert, hapke, specula] = means(&anisotropic, |d| d.absolute);
     let [_, hapke_isotropic, _] = means(&isotropic, |d| d.absolute);
-    let [shape_lambert, shape_hapke, shape_ours] = means(&anisotropic, |d| d.of_shape);
+    let [shape_lambert, shape_hapke, shape_specula] = means(&anisotropic, |d| d.of_shape);
     let [low, high] = range(&anisotropic, HAPKE, |d| d.integral);
-    let [ours_low, ours_high] = range(&anisotropic, NORMALISED, |d| d.integral);
+    let [specula_low, specula_high] = range(&anisotropic, NORMALISED, |d| d.integral);
     Verdict {
         summary: format!(
             "Integral of |pdf - f cos|, mean over cases: Lambert {lambert:.2}, Hapke {hapke:.2}, \
-             Specula's {ours:.2}."
+             Specula's {specula:.2}."
         ),
         claims: vec![
             Claim::law(
@@ -80,10 +80,10 @@ fn verdict(judged: Vec<Judged>) -> Verdict {
                 "Specula's density integrates to 1 and is closest",
                 "no statement",
                 format!(
-                    "integrates to {ours_low:.3} to {ours_high:.3} (Cui's {low:.2} to {high:.2}); \
-                     {ours:.3}, in shape {shape_ours:.3}"
+                    "integrates to {specula_low:.3} to {specula_high:.3} (Cui's {low:.2} to {high:.2}); \
+                     {specula:.3}, in shape {shape_specula:.3}"
                 ),
-                ours_low > 0.95 && ours_high < 1.05 && ours < hapke && shape_ours < shape_hapke,
+                specula_low > 0.95 && specula_high < 1.05 && specula < hapke && shape_specula < shape_hapke,
             ),
         ],
         caveat:

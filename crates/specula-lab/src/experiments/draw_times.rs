@@ -3,7 +3,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use specula_bsdf::batch::{Directions, Level, Widths};
+use specula_bsdf::batch::{Alphas, Directions, Level};
 use specula_bsdf::math::{Stream, warp};
 use specula_bsdf::vndf::{self, Sampler};
 use specula_bsdf::{Alpha, Vec3};
@@ -13,7 +13,7 @@ use super::stopwatch::median;
 /// Elements of a run.
 const COUNT: usize = 2048;
 
-/// What is drawn from.
+/// What is sampled from.
 pub(super) struct Inputs {
     alpha: Alpha<f32>,
     wo: Directions<Vec<f32>>,
@@ -100,14 +100,14 @@ pub(super) fn densities(inputs: &Inputs, sampler: Sampler) -> Run<'_> {
 
 /// Reflections, all at once with the machine's vectors.
 pub(super) fn batch_reflections(inputs: &Inputs, sampler: Sampler) -> Run<'_> {
-    let mut drawn = Directions::<Vec<f32>>::zeroed(COUNT);
+    let mut sampled = Directions::<Vec<f32>>::zeroed(COUNT);
     let (wo, u) = (inputs.wo.as_slices(), [&inputs.u[0][..], &inputs.u[1][..]]);
     Box::new(move || {
-        let widths = Widths::Same(black_box(inputs.alpha));
-        let out = drawn.as_mut_slices();
+        let alphas = Alphas::Same(black_box(inputs.alpha));
+        let out = sampled.as_mut_slices();
         // The lengths agree.
-        let _ = black_box(Level::best().sample_reflection(sampler, widths, wo, u, out));
-        black_box(&mut drawn);
+        let _ = black_box(Level::best().sample_reflection(sampler, alphas, wo, u, out));
+        black_box(&mut sampled);
     })
 }
 
@@ -116,9 +116,9 @@ pub(super) fn batch_densities(inputs: &Inputs, sampler: Sampler) -> Run<'_> {
     let mut pdf = vec![0.0; COUNT];
     let (wo, wi) = (inputs.wo.as_slices(), inputs.wi.as_slices());
     Box::new(move || {
-        let widths = Widths::Same(black_box(inputs.alpha));
+        let alphas = Alphas::Same(black_box(inputs.alpha));
         // The lengths agree.
-        let _ = black_box(Level::best().reflection_pdf(sampler, widths, wo, wi, &mut pdf));
+        let _ = black_box(Level::best().reflection_pdf(sampler, alphas, wo, wi, &mut pdf));
         black_box(&mut pdf);
     })
 }

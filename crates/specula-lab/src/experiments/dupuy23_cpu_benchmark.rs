@@ -24,7 +24,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 const THETAS_DEG: [f32; 3] = [0.0, 45.0, 80.0];
 
 fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
-    let widths: &[f32] = lab.pick(
+    let alphas: &[f32] = lab.pick(
         &[0.1, 0.4, 0.7, 1.0],
         &[0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0],
     );
@@ -42,7 +42,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
             "quotient in batches",
         ],
     );
-    // By view: quotients over the widths, scalar and in batches.
+    // By view: quotients over the alphas, scalar and in batches.
     let mut lines: [Vec<Series>; 2] = Default::default();
     let mut quotients: [Vec<f64>; 2] = Default::default();
     let mut farthest: f64 = 0.0;
@@ -50,8 +50,8 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         for lines in &mut lines {
             lines.push(Series::new(&format!("theta = {theta} deg"), i, Vec::new()));
         }
-        for (j, &alpha) in widths.iter().enumerate() {
-            let share = (i * widths.len() + j) as f64 / (3 * widths.len()) as f64;
+        for (j, &alpha) in alphas.iter().enumerate() {
+            let share = (i * alphas.len() + j) as f64 / (3 * alphas.len()) as f64;
             lab.step(share, "timing draws")?;
             farthest = farthest.max(difference(alpha, theta, lab.seed()));
             let inputs = Inputs::one_view(Alpha::isotropic(alpha), theta, lab.seed());
@@ -194,7 +194,7 @@ fn verdict(scalar: &Spread, batch: &Spread, farthest: f64) -> Verdict {
         caveat: "Another processor. The paper does not say whether 37.67 % is a quotient of times or a \
                  share of time saved; it is read as a quotient. The scalar gain depends on whether \
                  square roots, minima and sines compile to instructions without branches and calls; \
-                 ours do, in both samplers."
+                 specula do, in both samplers."
             .to_owned(),
     }
 }

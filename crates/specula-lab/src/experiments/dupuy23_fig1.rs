@@ -226,7 +226,7 @@ fn glass(lab: &mut Lab<'_>) -> Result<Glass> {
     let draws = lab.pick(10_000, 400_000);
     let mut table = Table::new(
         "glass",
-        "Means over facets drawn by each sampler, weighed by what they reflect or let pass; \
+        "Means over facets sampled by each sampler, weighed by what they reflect or let pass; \
          directions beyond the surface count 0.",
         &[
             "alpha",

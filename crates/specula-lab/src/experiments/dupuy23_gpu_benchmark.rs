@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use specula_gpu::{AdapterChoice, AdapterKind, Arrays, Gpu, GpuError, Kernel};
+use specula_gpu::{AdapterChoice, AdapterKind, Arrays, ComputeKernel, Gpu, GpuError};
 
 use super::stopwatch::median;
 use crate::output::Table;
@@ -30,7 +30,7 @@ const FIRST: usize = 1 << 12;
 /// Most lanes of a run; where that is too short, it is repeated.
 const MOST: usize = 1 << 22;
 
-const WIDTHS: [f32; 3] = [0.1, 0.5, 1.0];
+const ALPHAS: [f32; 3] = [0.1, 0.5, 1.0];
 const THETAS_DEG: [f32; 3] = [0.0, 45.0, 80.0];
 
 /// Samplers as modules of the shader library, with the functions that draw a normal.
@@ -65,7 +65,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     let mut farthest: f64 = 0.0;
     for (i, theta) in THETAS_DEG.into_iter().enumerate() {
         let mut points = Vec::new();
-        for (j, alpha) in WIDTHS.into_iter().enumerate() {
+        for (j, alpha) in ALPHAS.into_iter().enumerate() {
             lab.step((3 * i + j) as f64 / 9.0, "timing draws")?;
             let mut works = Vec::new();
             for kernel in &kernels {
@@ -120,7 +120,7 @@ fn plot(lab: &mut Lab<'_>, mut lines: Vec<Series>) -> Result<()> {
 
 /// A sampler's kernel. The view turns before each draw, so that nothing is left to be computed once for
 /// all of them.
-fn kernel(gpu: &Gpu, module: &str, function: &str) -> Result<Kernel> {
+fn kernel(gpu: &Gpu, module: &str, function: &str) -> Result<ComputeKernel> {
     let library = specula_shaders::compose(&[module])
         .map_err(|e| LabError::Output(format!("the shader of '{module}': {e}")))?;
     let text = format!(
@@ -152,12 +152,12 @@ fn draws_main(
 "
     );
     let shader = gpu.shader(module, &text)?;
-    Ok(Kernel::new(gpu, &shader, "draws_main", 1)?)
+    Ok(ComputeKernel::new(gpu, &shader, "draws_main", 1)?)
 }
 
 /// A kernel with its arrays, sized to last long enough.
 struct Work<'a> {
-    kernel: &'a Kernel,
+    kernel: &'a ComputeKernel,
     arrays: Arrays,
     lanes: usize,
     runs: usize,
@@ -166,7 +166,13 @@ struct Work<'a> {
 }
 
 impl<'a> Work<'a> {
-    fn new(gpu: &Gpu, kernel: &'a Kernel, alpha: f32, theta: f32, least: f64) -> Result<Self> {
+    fn new(
+        gpu: &Gpu,
+        kernel: &'a ComputeKernel,
+        alpha: f32,
+        theta: f32,
+        least: f64,
+    ) -> Result<Self> {
         let (sine, cosine) = theta.to_radians().sin_cos();
         let view = [sine, 0.0, cosine, alpha];
         let bytes: Vec<u8> = view.iter().flat_map(|x: &f32| x.to_le_bytes()).collect();

@@ -71,13 +71,13 @@ fn scenes() -> [(&'static str, Scene, [u32; 2]); 4] {
 }
 
 fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
-    let widths: &[f32] = lab.pick(&[0.2, 0.8], &[0.1, 0.3, 0.5, 0.7, 1.0]);
+    let alphas: &[f32] = lab.pick(&[0.2, 0.8], &[0.1, 0.3, 0.5, 0.7, 1.0]);
     let mut rows = Vec::new();
     let scenes = scenes();
     for (i, (name, scene, aspect)) in scenes.iter().enumerate() {
-        for (j, &alpha) in widths.iter().enumerate() {
-            let at = |n: usize| n as f64 / (4 * widths.len()) as f64;
-            let n = i * widths.len() + j;
+        for (j, &alpha) in alphas.iter().enumerate() {
+            let at = |n: usize| n as f64 / (4 * alphas.len()) as f64;
+            let n = i * alphas.len() + j;
             rows.push(measure(
                 lab,
                 (name, scene, *aspect),

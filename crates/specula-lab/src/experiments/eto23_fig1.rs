@@ -17,14 +17,14 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     item: "fig. 1",
     title: "bounds of the spherical cap over the azimuth of the reflection",
     statement: "The bounded cap bounds the projected horizon of reflections more tightly than the cap; \
-                where both widths exceed 1 the published bound is limited to 0.",
+                where both alphas exceed 1 the published bound is limited to 0.",
     run,
 };
 
 /// Two numbers along x and y.
 type Pair = (f64, f64);
 
-/// Panels: name, widths, x and y of the view.
+/// Panels: name, alphas, x and y of the view.
 const CASES: [(&str, Pair, Pair); 4] = [
     ("a", (0.7, 0.4), (0.3, 0.0)),
     ("b", (0.7, 0.8), (0.3, 0.6)),
@@ -48,9 +48,9 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     );
     let mut panels = Vec::new();
     let mut found = Found::default();
-    for (i, (name, widths, xy)) in CASES.into_iter().enumerate() {
+    for (i, (name, alphas, xy)) in CASES.into_iter().enumerate() {
         lab.step(0.25 * i as f64, "projecting horizons")?;
-        let view = View::of_xy(widths, xy);
+        let view = View::of_xy(alphas, xy);
         let bottoms = Bottoms::of(&view);
         let (mut curve, mut lowest) = (Vec::new(), f64::INFINITY);
         for step in 0..=steps {
@@ -68,8 +68,8 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
                 bottoms.unclamped.into(),
             ]);
         }
-        found.add(&bottoms, lowest, widths.0.min(widths.1) > 1.0);
-        panels.push(panel(name, widths, xy, curve, &bottoms));
+        found.add(&bottoms, lowest, alphas.0.min(alphas.1) > 1.0);
+        panels.push(panel(name, alphas, xy, curve, &bottoms));
     }
     lab.table(table)?;
     let caption = "The horizon of reflections in the space of unit roughness over the azimuth of the \
@@ -111,7 +111,7 @@ fn panel(
         level("bounded, as published", 2, bottoms.published),
     ];
     if ax.min(ay) > 1.0 {
-        series.push(level("bounded, unclamped (ours)", 6, bottoms.unclamped));
+        series.push(level("bounded, unclamped (specula)", 6, bottoms.unclamped));
     }
     Panel {
         title: format!("({name}) alpha = ({ax}, {ay}), i = ({x}, {y})"),
@@ -129,7 +129,7 @@ struct Found {
     above: [f64; 2],
     /// Smallest gain of the bounded cap over the cap.
     gain: f64,
-    /// Where both widths exceed 1: the published bound, ours, the horizon's lowest.
+    /// Where both alphas exceed 1: the published bound, Specula's, the horizon's lowest.
     wide: [f64; 3],
 }
 
@@ -171,7 +171,7 @@ impl Found {
         Verdict {
             summary: format!(
                 "The bounded cap lies between the cap and the horizon in all four panels; in (d) the \
-                 published bound is {published:.2} where the horizon's lowest is {lowest:.3}, and ours \
+                 published bound is {published:.2} where the horizon's lowest is {lowest:.3}, and specula \
                  without the clamp {unclamped:.3}."
             ),
             claims: vec![
@@ -197,13 +197,13 @@ impl Found {
                     self.gain > 0.0,
                 ),
                 Claim::law(
-                    "Where both widths exceed 1 the bound is limited to 0, looser than the infimum",
+                    "Where both alphas exceed 1 the bound is limited to 0, looser than the infimum",
                     "-k i^_z = 0 (2024, section 3.2.2)",
                     format!("panel (d): bound {published:.3}, infimum {lowest:.3}"),
                     published.abs() < 1e-12 && lowest > 0.05,
                 ),
                 Claim::law(
-                    "Ours without the clamp stays below the horizon and is tighter there",
+                    "StratifiedBidirectional without the clamp stays below the horizon and is tighter there",
                     "not in the paper",
                     format!(
                         "at least {:.1e} below it; {unclamped:.3} in (d)",

@@ -54,8 +54,8 @@ pub(super) fn bathroom_room() -> Room {
 
 /// Three orbs, 3:1: in the place of the paper's orb, where there are no rooms.
 pub(super) fn rough_orbs() -> Scene {
-    let widths = [(0.4, 0.4), (0.7, 0.7), (1.0, 1.0)];
-    orbs::row(&widths, Tessellation::FINE, 96)
+    let alphas = [(0.4, 0.4), (0.7, 0.7), (1.0, 1.0)];
+    orbs::row(&alphas, Tessellation::FINE, 96)
 }
 
 /// Work for a room.

@@ -1,7 +1,7 @@
 //! Renders of one scene by several samplers of visible normals, in turns: errors, times and rays.
 
 use specula_bsdf::Rgb;
-use specula_bsdf::energy::{FmsVariant, Model};
+use specula_bsdf::energy::{EnergyModel, FmsVariant};
 use specula_bsdf::vndf::Sampler;
 use specula_render::picture::Picture;
 use specula_render::{PreparedScene, RenderOptions};
@@ -13,7 +13,8 @@ use crate::rendered::render_prepared;
 use crate::{Lab, Result};
 
 /// Turquin's compensation with the reflectance along the normal, as Tokuyoshi and Eto 2024 render.
-pub(super) const TURQUIN: Energy = Energy::Compensated(Model::Turquin(FmsVariant::NormalIncidence));
+pub(super) const TURQUIN: Energy =
+    Energy::Compensated(EnergyModel::Turquin(FmsVariant::NormalIncidence));
 
 /// A sampler as tables and plots show it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,7 +69,7 @@ pub(super) struct Trial {
     pub(super) seconds: Vec<f64>,
     /// Rays of a sample, a value per round.
     pub(super) rays: Vec<f64>,
-    /// Directions drawn for a sample, a value per round.
+    /// Directions sampled for a sample, a value per round.
     pub(super) draws: Vec<f64>,
     /// Share of them that was rejected, a value per round.
     pub(super) rejected: Vec<f64>,
@@ -232,8 +233,8 @@ pub(super) fn trials(
             trial.add(picture, plan.rounds);
             trial.seconds.push(seconds);
             trial.rays.push(rendered.rays as f64 / samples);
-            let drawn = rendered.scattered.drawn as f64;
-            trial.draws.push(drawn / samples);
+            let sampled = rendered.scattered.sampled as f64;
+            trial.draws.push(sampled / samples);
             trial.rejected.push(rendered.scattered.rejected_share());
         }
     }

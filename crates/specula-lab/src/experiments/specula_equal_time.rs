@@ -1,4 +1,4 @@
-//! Ours: variance times processor time of all samplers, in rooms and on orbs, with and without
+//! StratifiedBidirectional: variance times processor time of all samplers, in rooms and on orbs, with and without
 //! compensation.
 
 use specula_render::RenderOptions;

@@ -1,4 +1,4 @@
-//! Ours: directional albedo of every treatment of multiple scattering, over widths and views.
+//! StratifiedBidirectional: directional albedo of every treatment of multiple scattering, over alphas and views.
 
 use std::sync::atomic::Ordering;
 
@@ -7,7 +7,9 @@ use specula_bsdf::bsdf::{Compensated, RoughConductor};
 use specula_bsdf::energy::{self, FmsVariant};
 use specula_bsdf::fresnel::{Conductor, Reflectance};
 use specula_bsdf::math::Stream;
-use specula_bsdf::multibounce::{self, Conductor as Walked, normalised_pdf, sample_normalised};
+use specula_bsdf::multibounce::{
+    self, MultibounceConductor as Walked, normalised_pdf, sample_normalised,
+};
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, metals};
 
@@ -31,41 +33,41 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 #[derive(Clone, Copy)]
 enum Treatment {
     None,
-    Compensated(energy::Model),
+    Compensated(energy::EnergyModel),
     /// By the model's own draws.
-    Walked(multibounce::Model),
+    Walked(multibounce::MultibounceModel),
     /// By the model's values at directions of a normalised density: where draws follow another law than
     /// values do.
-    Evaluated(multibounce::Model),
+    Evaluated(multibounce::MultibounceModel),
 }
 
 const TREATMENTS: [(&str, Treatment); 6] = [
     ("none", Treatment::None),
     (
         "turquin",
-        Treatment::Compensated(energy::Model::Turquin(FmsVariant::NormalIncidence)),
+        Treatment::Compensated(energy::EnergyModel::Turquin(FmsVariant::NormalIncidence)),
     ),
     (
         "turquin-series",
-        Treatment::Compensated(energy::Model::Turquin(FmsVariant::AverageSeries)),
+        Treatment::Compensated(energy::EnergyModel::Turquin(FmsVariant::AverageSeries)),
     ),
     (
         "kulla-conty",
-        Treatment::Compensated(energy::Model::KullaConty),
+        Treatment::Compensated(energy::EnergyModel::KullaConty),
     ),
     (
         "multibounce=wang",
-        Treatment::Evaluated(multibounce::Model::Wang2022 { correlated: true }),
+        Treatment::Evaluated(multibounce::MultibounceModel::Wang2022 { correlated: true }),
     ),
     (
         "multibounce=specula",
-        Treatment::Walked(multibounce::Model::Ours),
+        Treatment::Walked(multibounce::MultibounceModel::StratifiedBidirectional),
     ),
 ];
 /// Places in [`TREATMENTS`].
 const NONE: usize = 0;
 const WANG: usize = 4;
-const OURS: usize = 5;
+const SPECULA: usize = 5;
 
 /// Directional albedos of a cell in the order of [`TREATMENTS`].
 type Albedos = [Rgb<f64>; 6];
@@ -101,7 +103,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     Ok(verdict(&white, &gold, loss.g))
 }
 
-/// Every treatment over widths and views, row by row.
+/// Every treatment over alphas and views, row by row.
 fn cells(lab: &Lab<'_>, reflectance: Reflectance<f64>, side: u32, samples: u32) -> Result<Cells> {
     let (seed, stop) = (lab.seed(), lab.stop());
     view_grid::middles(side, 90.0)
@@ -147,7 +149,7 @@ fn albedo(
     let mut sum = Rgb::BLACK;
     for i in 0..samples {
         let [first, u, v] = r3(i);
-        let drawn = match treatment {
+        let sampled = match treatment {
             Treatment::None => RoughConductor::new(ggx, reflectance)
                 .sample(wo, [first, u, v], Transport::Radiance)
                 .map(|s| s.weight),
@@ -163,7 +165,7 @@ fn albedo(
                 f_cos * (1.0 / normalised_pdf(&ggx, wo, wi))
             }),
         };
-        if let Some(weight) = drawn {
+        if let Some(weight) = sampled {
             sum += weight;
         }
     }
@@ -186,7 +188,7 @@ fn write(
             })
         })
         .collect();
-    let caption = format!("Directional albedo over widths and views, {title}.");
+    let caption = format!("Directional albedo over alpha_values and views, {title}.");
     lab.plot(name, &caption, &Figure::grid(3, panels))
 }
 
@@ -240,7 +242,7 @@ fn farthest(cells: &Cells, treatment: usize, truth: impl Fn(&Albedos) -> Rgb<f64
 /// Root mean square over cells and channels of a treatment's distance from simulated bounces.
 fn typical(cells: &Cells, treatment: usize) -> f64 {
     let squares = cells.iter().flatten().map(|c| {
-        let d = (c[treatment] - c[OURS]).map(|d| d * d);
+        let d = (c[treatment] - c[SPECULA]).map(|d| d * d);
         (d.r + d.g + d.b) / 3.0
     });
     let count = cells.iter().flatten().count().max(1);
@@ -249,7 +251,7 @@ fn typical(cells: &Cells, treatment: usize) -> f64 {
 
 fn verdict(white: &Cells, gold: &Cells, loss: f64) -> Verdict {
     let from_one = |i: usize| farthest(white, i, |_| Rgb::splat(1.0));
-    let from_ours = |i: usize| farthest(gold, i, |c| c[OURS]);
+    let from_specula = |i: usize| farthest(gold, i, |c| c[SPECULA]);
     let compensated = [1, 2, 3].map(from_one);
     let worst = compensated.into_iter().fold(0.0, f64::max);
     let expected = 1.0 - f64::ln(2.0);
@@ -280,10 +282,10 @@ fn verdict(white: &Cells, gold: &Cells, loss: f64) -> Verdict {
                 worst < 0.03,
             ),
             Claim::law(
-                "Simulated bounces by ours lose nothing of a white metal",
+                "Simulated bounces by specula lose nothing of a white metal",
                 "weight 1, every walk",
-                format!("{:.0e} away at most", from_one(OURS)),
-                from_one(OURS) < 1e-6,
+                format!("{:.0e} away at most", from_one(SPECULA)),
+                from_one(SPECULA) < 1e-6,
             ),
             Claim::measured(
                 "Where Wang's lobe departs from simulated bounces, its albedo hardly does",
@@ -294,8 +296,8 @@ fn verdict(white: &Cells, gold: &Cells, loss: f64) -> Verdict {
             Claim::law(
                 "Of gold, every compensation is nearer to simulated bounces than single scattering is",
                 "their purpose",
-                list(&from_ours, &[NONE, 1, 2, 3]),
-                [1, 2, 3].into_iter().all(|i| from_ours(i) < 0.6 * from_ours(NONE)),
+                list(&from_specula, &[NONE, 1, 2, 3]),
+                [1, 2, 3].into_iter().all(|i| from_specula(i) < 0.6 * from_specula(NONE)),
             ),
         ],
         caveat: "Means of draws: the maps carry their noise, largest for Kulla and Conty's and the walks."

@@ -1,4 +1,4 @@
-//! Ours: the share of reflections that each sampler rejects, over widths and views.
+//! StratifiedBidirectional: the share of reflections that each sampler rejects, over alphas and views.
 
 use specula_bsdf::math::Stream;
 use specula_bsdf::ndf::{Ggx, Ndf};
@@ -15,7 +15,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     id: "specula-rejection",
     source: Source::Specula,
     item: "rejection maps",
-    title: "share of rejected reflections over widths and views",
+    title: "share of rejected reflections over alphas and views",
     statement: "A cap rejects 1 - N_exact / N of its reflections; the exact sampler none.",
     run,
 };
@@ -40,17 +40,17 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     let views = view_grid::hemisphere(lab.pick(200, 2000));
     let isotropic = view_grid::over_angles(side, |a, theta| shares(a, view(theta, 0.0)));
     lab.step(0.2, "averaging over views")?;
-    let anisotropic = view_grid::over_widths(side, |a| mean(a, &views));
+    let anisotropic = view_grid::over_alphas(side, |a| mean(a, &views));
     write(lab, "isotropic", Axes::Angles, &isotropic)?;
-    write(lab, "anisotropic", Axes::Widths, &anisotropic)?;
+    write(lab, "anisotropic", Axes::Alphas, &anisotropic)?;
 
     lab.step(0.5, "drawing reflections")?;
     let draws = lab.pick(20_000, 500_000);
-    let drawn = drawn(lab.seed(), draws);
+    let sampled = sampled(lab.seed(), draws);
     let below = exact_below(lab.seed(), 20 * draws);
     lab.step(0.9, "comparing means")?;
     let many = view_grid::hemisphere(4096);
-    let means = STATED.map(|(widths, stated)| (widths, stated, mean(of(widths), &many)));
+    let means = STATED.map(|(alphas, stated)| (alphas, stated, mean(of(alphas), &many)));
     let mut table = Table::new(
         "means",
         "Rejected shares, means over the hemisphere of views.",
@@ -78,7 +78,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         .iter()
         .flat_map(|(_, stated, mean)| [mean[0] - stated[0], mean[1] - stated[1]])
         .fold(0.0, |m: f64, d| m.max(d.abs()));
-    Ok(verdict(&isotropic, &anisotropic, &drawn, below, farthest))
+    Ok(verdict(&isotropic, &anisotropic, &sampled, below, farthest))
 }
 
 fn of((x, y): (f64, f64)) -> Alpha<f64> {
@@ -106,9 +106,9 @@ fn write(lab: &mut Lab<'_>, name: &str, axes: Axes, cells: &[Vec<Shares>]) -> Re
     let (second, caption) = match axes {
         Axes::Angles => (
             "theta_o [deg]",
-            "Rejected shares for equal widths, by view.",
+            "Rejected shares for equal alphas, by view.",
         ),
-        Axes::Widths => (
+        Axes::Alphas => (
             "alpha_y",
             "Rejected shares, means over the hemisphere of views.",
         ),
@@ -118,7 +118,7 @@ fn write(lab: &mut Lab<'_>, name: &str, axes: Axes, cells: &[Vec<Shares>]) -> Re
     let side = u32::try_from(cells.len()).unwrap_or(0);
     let ys = match axes {
         Axes::Angles => view_grid::middles(side, 90.0),
-        Axes::Widths => view_grid::middles(side, 1.0),
+        Axes::Alphas => view_grid::middles(side, 1.0),
     };
     let xs = view_grid::middles(side, 1.0);
     for (row, y) in cells.iter().zip(ys) {
@@ -143,13 +143,13 @@ fn write(lab: &mut Lab<'_>, name: &str, axes: Axes, cells: &[Vec<Shares>]) -> Re
     lab.plot(name, caption, &Figure::grid(2, panels))
 }
 
-/// Largest distance of drawn shares from the closed form in standard errors, and how many were compared.
-fn drawn(seed: u64, draws: u32) -> (f64, usize) {
+/// Largest distance of sampled shares from the closed form in standard errors, and how many were compared.
+fn sampled(seed: u64, draws: u32) -> (f64, usize) {
     let mut stream = Stream::new(seed);
     let mut scores = Vec::new();
-    for widths in [(0.4, 0.4), (0.9, 0.9), (0.2, 0.8), (1.0, 0.5)] {
+    for alphas in [(0.4, 0.4), (0.9, 0.9), (0.2, 0.8), (1.0, 0.5)] {
         for theta in [0.0, 45.0, 75.0] {
-            let (alpha, wo) = (of(widths), view(theta, 40.0));
+            let (alpha, wo) = (of(alphas), view(theta, 40.0));
             let [cap, bounded, _] = shares(alpha, wo);
             for (sampler, share) in [(Sampler::Cap, cap), (Sampler::Bounded, bounded)] {
                 let below = (0..draws).filter(|_| {
@@ -198,7 +198,7 @@ fn verdict(
     let most = |i: usize| all().map(|s| s[i]).fold(0.0, f64::max);
     Verdict {
         summary: format!(
-            "Mean over widths up to 1 and views: the cap rejects {cap:.1} % (up to {:.0}), the bounded \
+            "Mean over alphas up to 1 and views: the cap rejects {cap:.1} % (up to {:.0}), the bounded \
              cap {bounded:.1} % (up to {:.0}), the exact sampler {below_ppm:.1} per million by rounding.",
             most(0),
             most(1)
@@ -207,7 +207,7 @@ fn verdict(
             Claim::law(
                 "Rejected shares are 1 - N_exact / N",
                 "closed form",
-                format!("{compared} drawn shares within {score:.1} standard errors"),
+                format!("{compared} sampled shares within {score:.1} standard errors"),
                 score < 5.0,
             ),
             Claim::law(

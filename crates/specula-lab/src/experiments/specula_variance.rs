@@ -1,4 +1,4 @@
-//! Ours: variance of one reflection's weight times the light, relative to the cap's.
+//! StratifiedBidirectional: variance of one reflection's weight times the light, relative to the cap's.
 
 use rayon::prelude::*;
 use specula_bsdf::math::Stream;
@@ -16,7 +16,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     id: "specula-variance",
     source: Source::Specula,
     item: "variance maps",
-    title: "variance of a reflection's weight over widths and views",
+    title: "variance of a reflection's weight over alphas and views",
     statement: "The second moment of weight times light is proportional to N under any light, so that \
                 the smaller a sampler's N the smaller its variance.",
     run,
@@ -48,9 +48,9 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     let views = view_grid::hemisphere(lab.pick(24, 96));
     let anisotropic = over(side, |y, x| mean(Alpha::clamped(x, y), &views, points));
     write(lab, "isotropic", Axes::Angles, &isotropic)?;
-    write(lab, "anisotropic", Axes::Widths, &anisotropic)?;
+    write(lab, "anisotropic", Axes::Alphas, &anisotropic)?;
     lab.step(0.8, "drawing weights")?;
-    let score = drawn(lab.seed(), lab.pick(40_000, 1_000_000));
+    let score = sampled(lab.seed(), lab.pick(40_000, 1_000_000));
     Ok(verdict(&isotropic, &anisotropic, score))
 }
 
@@ -107,11 +107,11 @@ fn mean(alpha: Alpha<f64>, views: &[Vec3<f64>], points: u32) -> Ratios {
 fn write(lab: &mut Lab<'_>, name: &str, axes: Axes, cells: &[Vec<Ratios>]) -> Result<()> {
     let (first, second, end) = match axes {
         Axes::Angles => ("alpha", "theta_o [deg]", 90.0),
-        Axes::Widths => ("alpha_x", "alpha_y", 1.0),
+        Axes::Alphas => ("alpha_x", "alpha_y", 1.0),
     };
     let caption = match axes {
-        Axes::Angles => "Variance of one sample relative to the cap's, equal widths, by view.",
-        Axes::Widths => {
+        Axes::Angles => "Variance of one sample relative to the cap's, equal alphas, by view.",
+        Axes::Alphas => {
             "Variance of one sample relative to the cap's, geometric mean over the hemisphere of views."
         }
     };
@@ -158,9 +158,9 @@ fn write(lab: &mut Lab<'_>, name: &str, axes: Axes, cells: &[Vec<Ratios>]) -> Re
     lab.plot(name, caption, &Figure::grid(3, panels))
 }
 
-/// Largest distance of drawn second moments from `N / N_exact` times the exact sampler's, in standard
+/// Largest distance of sampled second moments from `N / N_exact` times the exact sampler's, in standard
 /// errors.
-fn drawn(seed: u64, draws: u32) -> f64 {
+fn sampled(seed: u64, draws: u32) -> f64 {
     let mut stream = Stream::new(seed);
     let mut farthest: f64 = 0.0;
     for (alpha, theta) in [
@@ -216,7 +216,7 @@ fn verdict(isotropic: &[Vec<Ratios>], anisotropic: &[Vec<Ratios>], score: f64) -
     Verdict {
         summary: format!(
             "Variance under uniform, cosine and linear light, geometric means: bounded / cap {} (equal \
-             widths) and {} (all widths); exact / bounded {} and {}.",
+             alphas) and {} (all alphas); exact / bounded {} and {}.",
             text(equal, 0),
             text(unequal, 0),
             text(equal, 1),
@@ -226,7 +226,7 @@ fn verdict(isotropic: &[Vec<Ratios>], anisotropic: &[Vec<Ratios>], score: f64) -
             Claim::law(
                 "Second moments are proportional to N",
                 "closed form",
-                format!("nine drawn moments within {score:.1} standard errors"),
+                format!("nine sampled moments within {score:.1} standard errors"),
                 score < 5.0,
             ),
             Claim::law(
@@ -237,7 +237,7 @@ fn verdict(isotropic: &[Vec<Ratios>], anisotropic: &[Vec<Ratios>], score: f64) -
             ),
             Claim::law(
                 "It gains most under uniform light",
-                "0.40 and 0.25 of the bounded cap (docs/exact-reflection-sampling.md, its widths)",
+                "0.40 and 0.25 of the bounded cap (docs/exact-reflection-sampling.md, its alphas)",
                 format!("{:.2} and {:.2}", equal[0][1], unequal[0][1]),
                 equal[0][1] < 0.7 && unequal[0][1] < 0.7 && equal[0][1] < equal[1][1],
             ),

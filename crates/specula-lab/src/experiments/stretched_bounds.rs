@@ -12,7 +12,7 @@ use specula_bsdf::{Alpha, Vec3};
 /// A view of a rough surface, and the azimuths at which it is asked about.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
-    /// Widths.
+    /// Alphas.
     pub(super) alpha: Alpha<f64>,
     /// Towards the viewer; `z > 0`.
     pub(super) wo: Vec3<f64>,
@@ -31,10 +31,10 @@ impl View {
     }
 
     /// The view at a polar angle and an azimuth.
-    pub(super) fn of_angles(widths: (f64, f64), theta_deg: f64, phi_deg: f64) -> Self {
+    pub(super) fn of_angles(alphas: (f64, f64), theta_deg: f64, phi_deg: f64) -> Self {
         let sine = theta_deg.to_radians().sin();
         let (y, x) = phi_deg.to_radians().sin_cos();
-        Self::of_xy(widths, (sine * x, sine * y))
+        Self::of_xy(alphas, (sine * x, sine * y))
     }
 
     /// `|(ax x, ay y, z)|`.

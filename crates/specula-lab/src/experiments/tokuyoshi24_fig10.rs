@@ -1,14 +1,14 @@
-//! Tokuyoshi and Eto 2024, fig. 10: orbs of growing roughness with energy compensation, drawn by the
+//! Tokuyoshi and Eto 2024, fig. 10: orbs of growing roughness with energy compensation, sampled by the
 //! cap, the bounded cap and the exact sampler.
 
-use specula_bsdf::energy::{FmsVariant, Model};
+use specula_bsdf::energy::{EnergyModel, FmsVariant};
 use specula_render::picture::Picture;
 use specula_scene::{Energy, Scene};
 
 use super::orb_render::{
     EXPOSURE_STOPS, SAMPLERS, by_sampler, errors_by_orb, mean_and_error, own_error, reference,
 };
-use super::tokuyoshi24_fig4::{WIDTHS, insets};
+use super::tokuyoshi24_fig4::{ALPHAS, insets};
 use crate::output::comparison::file_name;
 use crate::output::{Comparison, Shot, Table};
 use crate::plot::{Axis, Content, Figure, Panel, Series};
@@ -26,9 +26,9 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
-const MODELS: [(&str, Model); 2] = [
-    ("Kulla-Conty", Model::KullaConty),
-    ("Turquin", Model::Turquin(FmsVariant::NormalIncidence)),
+const MODELS: [(&str, EnergyModel); 2] = [
+    ("Kulla-Conty", EnergyModel::KullaConty),
+    ("Turquin", EnergyModel::Turquin(FmsVariant::NormalIncidence)),
 ];
 const CAP: usize = 0;
 const BOUNDED: usize = 1;
@@ -38,9 +38,9 @@ const EXACT: usize = 2;
 #[derive(Default)]
 struct Found {
     /// Mean squared errors.
-    squares: [Vec<f64>; WIDTHS.len()],
+    squares: [Vec<f64>; ALPHAS.len()],
     /// Fireflies per million pixels.
-    fireflies: [Vec<f64>; WIDTHS.len()],
+    fireflies: [Vec<f64>; ALPHAS.len()],
 }
 
 impl Found {
@@ -60,8 +60,8 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     let side = lab.pick(56, 128);
     let (spp, reference_spp) = lab.pick((4, 40), (48, 320));
     let renders = lab.pick(4, 2);
-    let widths = WIDTHS.map(|a| (a, a));
-    let scene = orbs::row(&widths, Tessellation::FINE, side);
+    let alphas = ALPHAS.map(|a| (a, a));
+    let scene = orbs::row(&alphas, Tessellation::FINE, side);
     let mut table = Table::new(
         "orbs",
         "Errors of each orb.",
@@ -82,7 +82,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         let truth = reference(lab, &scene, energy, reference_spp)?;
         let of_model = measure(lab, &scene, (name, energy), &truth, (spp, renders))?;
         for (of, (_, sampler, _)) in of_model.iter().zip(SAMPLERS) {
-            for (orb, alpha) in WIDTHS.into_iter().enumerate() {
+            for (orb, alpha) in ALPHAS.into_iter().enumerate() {
                 table.push([
                     name.into(),
                     sampler.into(),
@@ -146,7 +146,7 @@ fn plot(lab: &mut Lab<'_>, found: &[Vec<Found>]) -> Result<()> {
     type Pick = fn(&Found, usize) -> f64;
     let all = || {
         let found = found.iter().flatten();
-        found.flat_map(|f| (0..WIDTHS.len()).map(move |orb| (f, orb)))
+        found.flat_map(|f| (0..ALPHAS.len()).map(move |orb| (f, orb)))
     };
     let fireflies: Pick = |f, orb| mean_and_error(&f.fireflies[orb]).0;
     let least = all()
@@ -168,7 +168,7 @@ fn plot(lab: &mut Lab<'_>, found: &[Vec<Found>]) -> Result<()> {
     for (y, pick) in kinds {
         for (of_model, (model, _)) in found.iter().zip(MODELS) {
             let series = of_model.iter().zip(SAMPLERS).map(|(of, (_, name, style))| {
-                let points = WIDTHS.into_iter().enumerate();
+                let points = ALPHAS.into_iter().enumerate();
                 let points = points.map(|(orb, alpha)| [alpha, pick(of, orb)]);
                 Series::new(name, style, points.collect())
             });
@@ -185,13 +185,13 @@ fn plot(lab: &mut Lab<'_>, found: &[Vec<Found>]) -> Result<()> {
 }
 
 fn verdict(found: &[Vec<Found>], spp: u32) -> Verdict {
-    let last = WIDTHS.len() - 1;
+    let last = ALPHAS.len() - 1;
     let ratio = |model: usize, sampler: usize, orb: usize| {
         found[model][sampler].rmse(orb) / found[model][CAP].rmse(orb)
     };
     // Of the orbs of alpha 0.6 and more: geometric mean over the cap's.
     let gain = |model: usize, sampler: usize| {
-        let rough = 2..WIDTHS.len();
+        let rough = 2..ALPHAS.len();
         let logs = rough.clone().map(|orb| ratio(model, sampler, orb).ln());
         (logs.sum::<f64>() / rough.len() as f64).exp()
     };
@@ -250,7 +250,7 @@ fn verdict(found: &[Vec<Found>], spp: u32) -> Verdict {
         ],
         caveat: format!(
             "Orbs, light and metal of our own, {spp} samples per pixel for the paper's 16384: more \
-             fireflies in fewer pixels. Directions are drawn by the sampler alone, and of Kulla and \
+             fireflies in fewer pixels. Directions are sampled by the sampler alone, and of Kulla and \
              Conty's second lobe by the cosine, which the paper does not say that it does."
         ),
     }

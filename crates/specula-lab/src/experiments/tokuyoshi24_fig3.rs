@@ -22,7 +22,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
-/// Widths, polar angle and azimuth of the view in degrees.
+/// Alphas, polar angle and azimuth of the view in degrees.
 const CASES: [((f64, f64), f64, f64); 6] = [
     ((0.3, 0.3), 60.0, 0.0),
     ((0.8, 0.8), 30.0, 0.0),
@@ -53,16 +53,16 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     );
     let mut panels = Vec::new();
     let mut found = Found::default();
-    for (i, (widths, theta, phi)) in CASES.into_iter().enumerate() {
+    for (i, (alphas, theta, phi)) in CASES.into_iter().enumerate() {
         lab.step(i as f64 / CASES.len() as f64, "tracing boundaries")?;
-        let view = View::of_angles(widths, theta, phi);
+        let view = View::of_angles(alphas, theta, phi);
         let boundary = boundary(&view, steps);
         let angles = Angles::of(&view, &boundary);
-        found.add(&angles, &boundary, &view, widths.0 == widths.1);
+        found.add(&angles, &boundary, &view, alphas.0 == alphas.1);
         let rejected = |cap: f64| 100.0 * (1.0 - angles.exact / cap);
         table.push([
-            widths.0.into(),
-            widths.1.into(),
+            alphas.0.into(),
+            alphas.1.into(),
             theta.into(),
             phi.into(),
             angles.cap.into(),
@@ -73,7 +73,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
             rejected(angles.cap).into(),
             rejected(angles.published).into(),
         ]);
-        panels.push(panel(widths, theta, phi, &view, thinned(&boundary)));
+        panels.push(panel(alphas, theta, phi, &view, thinned(&boundary)));
     }
     lab.table(table)?;
     let caption = "The sphere of reflections in the space of unit roughness, unrolled so that areas are \
@@ -84,7 +84,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
 }
 
 /// The horizon in the space of unit roughness as azimuth in `[-pi, pi)` and height, by azimuth: a
-/// function of it in all [`CASES`], though not where widths are narrow and very unequal.
+/// function of it in all [`CASES`], though not where alphas are narrow and very unequal.
 fn boundary(view: &View, steps: u32) -> Vec<[f64; 2]> {
     let mut points: Vec<[f64; 2]> = (0..steps)
         .map(|step| {
@@ -168,7 +168,7 @@ fn panel(
     ];
     if ax.min(ay) > 1.0 {
         let bottom = view.cap_bottom(Sampler::Bounded);
-        series.push(level("bounded, unclamped (ours)", 6, bottom));
+        series.push(level("bounded, unclamped (specula)", 6, bottom));
     }
     Panel {
         title: format!("alpha = ({ax}, {ay}), theta = {theta} deg, phi = {phi} deg"),
@@ -242,7 +242,7 @@ impl Found {
                     self.not_smaller == 0,
                 ),
                 Claim::law(
-                    "For equal widths up to 1 its lower end is the infimum",
+                    "For equal alphas up to 1 its lower end is the infimum",
                     "the infimum (eq. 6)",
                     format!("within {:.0e}", self.loose),
                     self.loose < 1e-4,
@@ -254,7 +254,7 @@ impl Found {
                     self.difference < 1e-3,
                 ),
             ],
-            caveat: "The paper does not give the widths and views of its figure.".to_owned(),
+            caveat: "The paper does not give the alphas and views of its figure.".to_owned(),
         }
     }
 }

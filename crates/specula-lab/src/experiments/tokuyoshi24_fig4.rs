@@ -1,7 +1,7 @@
-//! Tokuyoshi and Eto 2024, fig. 4: orbs of growing roughness without and with energy compensation, drawn
+//! Tokuyoshi and Eto 2024, fig. 4: orbs of growing roughness without and with energy compensation, sampled
 //! by the cap.
 
-use specula_bsdf::energy::{FmsVariant, Model};
+use specula_bsdf::energy::{EnergyModel, FmsVariant};
 use specula_bsdf::multibounce;
 use specula_bsdf::vndf::Sampler;
 use specula_render::picture::Picture;
@@ -20,30 +20,34 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     item: "fig. 4",
     title: "orbs of growing roughness, without and with energy compensation",
     statement: "Single scattering loses energy on rough surfaces; Kulla and Conty's and Turquin's \
-                compensation bring it back, but drawn by the cap they leave fireflies there even at \
+                compensation bring it back, but sampled by the cap they leave fireflies there even at \
                 16384 samples per pixel.",
     run,
 };
 
-/// Widths of the orbs, from left to right.
-pub(super) const WIDTHS: [f64; 5] = [0.2, 0.4, 0.6, 0.8, 1.0];
+/// Alphas of the orbs, from left to right.
+pub(super) const ALPHAS: [f64; 5] = [0.2, 0.4, 0.6, 0.8, 1.0];
 
 const TREATMENTS: [(&str, Energy, usize); 4] = [
     ("none", Energy::None, 4),
-    ("Kulla-Conty", Energy::Compensated(Model::KullaConty), 5),
+    (
+        "Kulla-Conty",
+        Energy::Compensated(EnergyModel::KullaConty),
+        5,
+    ),
     (
         "Turquin",
-        Energy::Compensated(Model::Turquin(FmsVariant::NormalIncidence)),
+        Energy::Compensated(EnergyModel::Turquin(FmsVariant::NormalIncidence)),
         0,
     ),
     (
-        "simulated bounces (ours)",
-        Energy::Multibounce(multibounce::Model::Ours),
+        "simulated bounces (specula)",
+        Energy::Multibounce(multibounce::MultibounceModel::StratifiedBidirectional),
         1,
     ),
 ];
 const NONE: usize = 0;
-const OURS: usize = 3;
+const SPECULA: usize = 3;
 
 /// What was found of a treatment, by orb.
 struct Found {
@@ -58,11 +62,11 @@ struct Found {
 fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     let side = lab.pick(64, 128);
     let (spp, reference_spp) = lab.pick((16, 32), (48, 192));
-    let widths = WIDTHS.map(|a| (a, a));
-    let scene = orbs::row(&widths, Tessellation::FINE, side);
+    let alphas = ALPHAS.map(|a| (a, a));
+    let scene = orbs::row(&alphas, Tessellation::FINE, side);
     let mut table = Table::new(
         "orbs",
-        "Orbs drawn by the cap: mean brightness of the reference, error of the picture.",
+        "Orbs sampled by the cap: mean brightness of the reference, error of the picture.",
         &[
             "treatment",
             "alpha",
@@ -80,11 +84,11 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         lab.step(0.25 * i as f64 + 0.2, &format!("cap, {name}"))?;
         let mut of = Found {
             brightness: (0..)
-                .zip(WIDTHS)
+                .zip(ALPHAS)
                 .map(|(orb, _)| brightness(&truth, orb))
                 .collect(),
-            rmse: vec![0.0; WIDTHS.len()],
-            fireflies: vec![0.0; WIDTHS.len()],
+            rmse: vec![0.0; ALPHAS.len()],
+            fireflies: vec![0.0; ALPHAS.len()],
         };
         let is_compensated = matches!(energy, Energy::Compensated(_));
         let renders = if is_compensated { 2 } else { 1 };
@@ -100,7 +104,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         of.rmse
             .iter_mut()
             .for_each(|square| *square = square.sqrt());
-        for (k, alpha) in WIDTHS.into_iter().enumerate() {
+        for (k, alpha) in ALPHAS.into_iter().enumerate() {
             table.push([
                 name.into(),
                 alpha.into(),
@@ -169,9 +173,9 @@ fn plot(lab: &mut Lab<'_>, found: &[Found]) -> Result<()> {
         ("brightness of the reference", "mean luminance", |f| {
             &f.brightness
         }),
-        ("error, drawn by the cap", "RMSE", |f| &f.rmse),
+        ("error, sampled by the cap", "RMSE", |f| &f.rmse),
         (
-            "fireflies, drawn by the cap",
+            "fireflies, sampled by the cap",
             "fireflies [1/million pixels]",
             |f| &f.fireflies,
         ),
@@ -181,7 +185,7 @@ fn plot(lab: &mut Lab<'_>, found: &[Found]) -> Result<()> {
         .map(|(title, y, pick)| {
             let highest = found.iter().flat_map(pick).copied().fold(0.0, f64::max);
             let series = found.iter().zip(TREATMENTS).map(|(f, (name, _, style))| {
-                let points = WIDTHS.into_iter().zip(pick(f)).map(|(a, &v)| [a, v]);
+                let points = ALPHAS.into_iter().zip(pick(f)).map(|(a, &v)| [a, v]);
                 Series::new(name, style, points.collect())
             });
             Panel {
@@ -192,14 +196,14 @@ fn plot(lab: &mut Lab<'_>, found: &[Found]) -> Result<()> {
             }
         })
         .collect();
-    let caption = "Orbs over their widths: energy, error and fireflies of each treatment.";
+    let caption = "Orbs over their alphas: energy, error and fireflies of each treatment.";
     lab.plot("over-alpha", caption, &Figure::grid(3, panels))
 }
 
 fn verdict(found: &[Found]) -> Verdict {
-    let last = WIDTHS.len() - 1;
-    let kept = |i: usize| found[i].brightness[last] / found[OURS].brightness[last];
-    let of_first = found[NONE].brightness[0] / found[OURS].brightness[0];
+    let last = ALPHAS.len() - 1;
+    let kept = |i: usize| found[i].brightness[last] / found[SPECULA].brightness[last];
+    let of_first = found[NONE].brightness[0] / found[SPECULA].brightness[0];
     let growth = |i: usize| found[i].rmse[last] / found[i].rmse[0];
     let fireflies = |i: usize, orbs: std::ops::Range<usize>| -> f64 {
         let part = &found[i].fireflies[orbs];
@@ -262,7 +266,7 @@ fn verdict(found: &[Found]) -> Verdict {
             ),
         ],
         caveat: "Orbs, light and metal of our own; far fewer samples and pixels than the paper's. Each \
-                 treatment is compared with its own reference; directions are drawn by the sampler alone, and \
+                 treatment is compared with its own reference; directions are sampled by the sampler alone, and \
                  of Kulla and Conty's second lobe by the cosine, which bounds its weights."
             .to_owned(),
     }

@@ -4,7 +4,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use specula_bsdf::bsdf::{Compensated, RoughConductor};
-use specula_bsdf::energy::{FmsVariant, Model};
+use specula_bsdf::energy::{EnergyModel, FmsVariant};
 use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::vndf::{Reflections, Sampler};
@@ -26,8 +26,8 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
-/// Widths, a panel each.
-const WIDTHS: [f64; 3] = [0.4, 0.7, 1.0];
+/// Alphas, a panel each.
+const ALPHAS: [f64; 3] = [0.4, 0.7, 1.0];
 
 /// Values at one angle, in the order of [`NAMES`].
 type Values = [f64; 6];
@@ -59,7 +59,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     );
     let mut panels = Vec::new();
     let mut found = Found::default();
-    for alpha in WIDTHS {
+    for alpha in ALPHAS {
         lab.step(0.3 * alpha, "evaluating lobes")?;
         let mut lines: [Vec<[f64; 2]>; 6] = Default::default();
         for i in 0..=2 * steps {
@@ -118,15 +118,15 @@ fn values(alpha: f64, theta: f64) -> Values {
         |model| f_cos(Compensated::new(ggx, white, model).eval(wo, wi, Transport::Radiance));
     [
         f_cos(RoughConductor::new(ggx, white).eval(wo, wi, Transport::Radiance)),
-        compensated(Model::Turquin(FmsVariant::NormalIncidence)),
-        compensated(Model::KullaConty),
+        compensated(EnergyModel::Turquin(FmsVariant::NormalIncidence)),
+        compensated(EnergyModel::KullaConty),
         pdf(Sampler::Cap),
         pdf(Sampler::Bounded),
         pdf(Sampler::Exact),
     ]
 }
 
-/// What the values say, over all widths and angles.
+/// What the values say, over all alphas and angles.
 #[derive(Default)]
 struct Found {
     /// Largest excess of the single-scattering lobe over the cap's density, relative.

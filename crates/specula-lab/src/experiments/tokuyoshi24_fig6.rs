@@ -1,5 +1,5 @@
 //! Tokuyoshi and Eto 2024, fig. 6: an orb with backfacing shading normals, 16 samples per pixel, by
-//! sampler over equal and unequal widths.
+//! sampler over equal and anisotropic alpha.
 
 use specula_render::picture::Picture;
 
@@ -20,8 +20,8 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
-/// Equal widths, then unequal ones.
-const WIDTHS: [(f64, f64); 7] = [
+/// isotropic alpha, then unequal ones.
+const ALPHAS: [(f64, f64); 7] = [
     (0.2, 0.2),
     (0.4, 0.4),
     (0.6, 0.6),
@@ -33,7 +33,7 @@ const WIDTHS: [(f64, f64); 7] = [
 /// Those that are shown as pictures.
 const SHOWN: [(f64, f64); 4] = [(0.2, 0.2), (0.8, 0.8), (0.8, 0.4), (0.8, 0.1)];
 
-/// What was found of a pair of widths.
+/// What was found of a pair of alphas.
 struct Found {
     /// Cap, bounded, exact.
     rmse: [f64; 3],
@@ -60,12 +60,12 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     let mut found = Vec::new();
     // Of single renders by cap, bounded, exact; of references.
     let mut black = [0; 4];
-    for (i, widths) in WIDTHS.into_iter().enumerate() {
-        let share = i as f64 / WIDTHS.len() as f64;
-        let scene = coarse_orb::scene(widths, side);
+    for (i, alphas) in ALPHAS.into_iter().enumerate() {
+        let share = i as f64 / ALPHAS.len() as f64;
+        let scene = coarse_orb::scene(alphas, side);
         let mut renders = Vec::new();
         for (sampler, name, _) in SAMPLERS {
-            lab.step(share, &format!("{name}, alpha {widths:?}"))?;
+            lab.step(share, &format!("{name}, alpha {alphas:?}"))?;
             renders.push(coarse_orb::renders(lab, &scene, sampler, count)?);
         }
         for (sum, pictures) in black.iter_mut().zip(&renders) {
@@ -75,25 +75,25 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         for (k, (_, name, _)) in SAMPLERS.into_iter().enumerate() {
             let (ratio, error) = if k == 0 { (1.0, 0.0) } else { of.ratios[k - 1] };
             table.push([
-                widths.0.into(),
-                widths.1.into(),
+                alphas.0.into(),
+                alphas.1.into(),
                 name.into(),
                 of.rmse[k].into(),
                 ratio.into(),
                 error.into(),
             ]);
         }
-        if SHOWN.contains(&widths) {
-            lab.step(share, &format!("reference, alpha {widths:?}"))?;
+        if SHOWN.contains(&alphas) {
+            lab.step(share, &format!("reference, alpha {alphas:?}"))?;
             let truth = reference(lab, &scene, ENERGY, reference_spp)?;
             black[3] += black_pixels(&truth);
-            compare(lab, widths, &renders, &truth)?;
+            compare(lab, alphas, &renders, &truth)?;
         }
         found.push(of);
     }
     lab.table(table)?;
     plot(lab, &found)?;
-    let backfacing = backfacing_share(&coarse_orb::scene(WIDTHS[0], side));
+    let backfacing = backfacing_share(&coarse_orb::scene(ALPHAS[0], side));
     Ok(verdict(&found, backfacing, black))
 }
 
@@ -155,7 +155,7 @@ fn compare(
 fn plot(lab: &mut Lab<'_>, found: &[Found]) -> Result<()> {
     let panel = |title: &str, x: &str, pick: fn((f64, f64)) -> Option<f64>| {
         let series = SAMPLERS.iter().enumerate().map(|(k, &(_, name, style))| {
-            let points = WIDTHS.iter().zip(found);
+            let points = ALPHAS.iter().zip(found);
             let points = points.filter_map(|(&w, f)| Some([pick(w)?, f.rmse[k]]));
             Series::new(name, style, points.collect())
         });
@@ -168,16 +168,16 @@ fn plot(lab: &mut Lab<'_>, found: &[Found]) -> Result<()> {
         }
     };
     let panels = vec![
-        panel("equal widths", "alpha", |(x, y)| (x == y).then_some(x)),
+        panel("equal alphas", "alpha", |(x, y)| (x == y).then_some(x)),
         panel("alpha_x = 0.8", "alpha_y", |(x, y)| (x == 0.8).then_some(y)),
     ];
-    let caption = "Error over the widths, Turquin's compensation, 16 samples per pixel.";
+    let caption = "Error over the alphas, Turquin's compensation, 16 samples per pixel.";
     lab.plot("errors", caption, &Figure::grid(2, panels))
 }
 
 fn verdict(found: &[Found], backfacing: f64, [cap, bounded, exact, truth]: [u32; 4]) -> Verdict {
-    let at = |widths: (f64, f64), k: usize| {
-        let place = WIDTHS.iter().position(|&w| w == widths);
+    let at = |alphas: (f64, f64), k: usize| {
+        let place = ALPHAS.iter().position(|&w| w == alphas);
         place.map_or((f64::NAN, f64::NAN), |i| found[i].ratios[k])
     };
     let text = |(ratio, error): (f64, f64)| format!("{ratio:.2} +- {error:.2}");
@@ -204,7 +204,7 @@ fn verdict(found: &[Found], backfacing: f64, [cap, bounded, exact, truth]: [u32;
                 (0.9..1.1).contains(&equal[0].0),
             ),
             Claim::law(
-                "Of unequal widths it reduces the error most at low anisotropy",
+                "Of unequal alphas it reduces the error most at low anisotropy",
                 "especially lower anisotropy",
                 format!(
                     "alpha_x 0.8, alpha_y 0.8, 0.4, 0.2, 0.1: {}, {}",
@@ -235,7 +235,7 @@ fn verdict(found: &[Found], backfacing: f64, [cap, bounded, exact, truth]: [u32;
             ),
         ],
         caveat: "An orb and light of our own. Errors in the table are those of renders that are \
-                 independent of each other; directions are drawn by the sampler alone."
+                 independent of each other; directions are sampled by the sampler alone."
             .to_owned(),
     }
 }

@@ -1,4 +1,4 @@
-//! Tokuyoshi and Eto 2024, fig. 7: error over unequal widths on the orb of fig. 6.
+//! Tokuyoshi and Eto 2024, fig. 7: error over anisotropic alpha on the orb of fig. 6.
 
 use super::coarse_orb::{renders, rmse, scene, squares_by_stripe};
 use super::orb_render::{SAMPLERS, mean_and_error};
@@ -11,8 +11,8 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     id: "tokuyoshi24-fig7",
     source: Source::Tokuyoshi24,
     item: "fig. 7",
-    title: "error over unequal widths on an orb with backfacing shading normals",
-    statement: "The bounded cap reduces the error most where both widths are large and nearly equal, and \
+    title: "error over unequal alphas on an orb with backfacing shading normals",
+    statement: "The bounded cap reduces the error most where both alphas are large and nearly equal, and \
                 little where they are very unequal.",
     run,
 };
@@ -177,7 +177,7 @@ fn verdict(points: &[Point]) -> Verdict {
         ],
         caveat:
             "An orb and light of our own. Errors are those of renders that are independent of each \
-                 other, without a reference; directions are drawn by the sampler alone."
+                 other, without a reference; directions are sampled by the sampler alone."
                 .to_owned(),
     }
 }

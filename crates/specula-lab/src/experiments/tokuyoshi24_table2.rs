@@ -44,7 +44,7 @@ const HEADS: [&str; 4] = [
 
 fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     let rounds = lab.pick(31, 301);
-    let widths: &[f32] = lab.pick(
+    let alphas: &[f32] = lab.pick(
         &[0.1, 0.4, 0.7, 1.0],
         &[0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0],
     );
@@ -63,8 +63,8 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
             .collect();
     }
     let mut all: Vec<Times> = Vec::new();
-    for (i, &alpha) in widths.iter().enumerate() {
-        lab.step(i as f64 / (widths.len() + 1) as f64, "timing equal widths")?;
+    for (i, &alpha) in alphas.iter().enumerate() {
+        lab.step(i as f64 / (alphas.len() + 1) as f64, "timing equal alphas")?;
         let times = measure(lab, Alpha::isotropic(alpha), rounds);
         for (lines, times) in lines.iter_mut().zip(&times) {
             for (line, &time) in lines.iter_mut().zip(times) {
@@ -74,7 +74,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         add(&mut table, (alpha, alpha), &times);
         all.push(times);
     }
-    lab.step(0.9, "timing unequal widths")?;
+    lab.step(0.9, "timing unequal alphas")?;
     let unequal = measure(lab, Alpha::clamped(0.6, 0.3), rounds);
     add(&mut table, (0.6, 0.3), &unequal);
     lab.table(table)?;
@@ -91,7 +91,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
             }
         })
         .collect();
-    let caption = "Time per element over equal widths, f32, one thread.";
+    let caption = "Time per element over equal alphas, f32, one thread.";
     lab.plot("times", caption, &Figure::grid(2, panels))?;
     Ok(verdict(&all, &unequal))
 }
@@ -120,7 +120,7 @@ fn add(table: &mut Table, (ax, ay): (f32, f32), times: &Times) {
     }
 }
 
-/// Median over the widths of a sampler's time.
+/// Median over the alphas of a sampler's time.
 fn typical(all: &[Times], kind: usize, sampler: usize) -> f64 {
     median(all.iter().map(|times| times[kind][sampler]))
 }
@@ -177,7 +177,7 @@ fn verdict(all: &[Times], unequal: &Times) -> Verdict {
                 "The exact draw costs less than 100 ns",
                 "not in the paper",
                 format!(
-                    "equal widths {:.1} ns, density {:.1} ns; unequal {:.1} and {:.1} ns",
+                    "equal alphas {:.1} ns, density {:.1} ns; unequal {:.1} and {:.1} ns",
                     of(0, 3),
                     of(1, 3),
                     unequal[0][3],
@@ -186,7 +186,7 @@ fn verdict(all: &[Times], unequal: &Times) -> Verdict {
                 unequal[0][3] < 100.0,
             ),
         ],
-        caveat: "Another processor; medians over widths of medians over rounds, one thread. Our \
+        caveat: "Another processor; medians over alphas of medians over rounds, one thread. Our \
                  samplers keep sines, square roots and minima free of branches and calls."
             .to_owned(),
     }

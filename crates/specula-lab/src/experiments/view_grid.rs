@@ -1,4 +1,4 @@
-//! Grids of widths and views that maps are made on.
+//! Grids of alphas and views that maps are made on.
 
 use specula_bsdf::{Alpha, Vec3};
 
@@ -38,7 +38,7 @@ pub(super) fn middles(count: u32, end: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Equal widths over polar angles: values of a map, rows by angle, each over widths up to 1.
+/// isotropic alpha over polar angles: values of a map, rows by angle, each over alphas up to 1.
 pub(super) fn over_angles<T>(side: u32, value: impl Fn(Alpha<f64>, f64) -> T) -> Vec<Vec<T>> {
     middles(side, 90.0)
         .into_iter()
@@ -49,8 +49,8 @@ pub(super) fn over_angles<T>(side: u32, value: impl Fn(Alpha<f64>, f64) -> T) ->
         .collect()
 }
 
-/// Pairs of widths up to 1: values of a map, rows by `alpha_y`, each over `alpha_x`.
-pub(super) fn over_widths<T>(side: u32, value: impl Fn(Alpha<f64>) -> T) -> Vec<Vec<T>> {
+/// Pairs of alphas up to 1: values of a map, rows by `alpha_y`, each over `alpha_x`.
+pub(super) fn over_alphas<T>(side: u32, value: impl Fn(Alpha<f64>) -> T) -> Vec<Vec<T>> {
     middles(side, 1.0)
         .into_iter()
         .map(|y| {
@@ -65,8 +65,8 @@ pub(super) fn over_widths<T>(side: u32, value: impl Fn(Alpha<f64>) -> T) -> Vec<
 pub(super) enum Axes {
     /// [`over_angles`].
     Angles,
-    /// [`over_widths`].
-    Widths,
+    /// [`over_alphas`].
+    Alphas,
 }
 
 /// One number of each cell as a panel.
@@ -79,7 +79,7 @@ pub(super) fn panel<T>(
 ) -> Panel {
     let (x, y, end) = match axes {
         Axes::Angles => ("alpha", "theta_o [deg]", 90.0),
-        Axes::Widths => ("alpha_x", "alpha_y", 1.0),
+        Axes::Alphas => ("alpha_x", "alpha_y", 1.0),
     };
     Panel {
         title: title.to_owned(),

@@ -2,7 +2,7 @@
 //! sampler.
 
 use specula_bsdf::bsdf::Lobe;
-use specula_bsdf::energy::{FmsVariant, Model};
+use specula_bsdf::energy::{EnergyModel, FmsVariant};
 use specula_bsdf::math::Stream;
 use specula_bsdf::vndf::Sampler;
 use specula_bsdf::{Bsdf, Rgb, Transport, Vec3, multibounce};
@@ -18,11 +18,14 @@ use crate::{LabError, Result};
 const ENERGIES: [(Energy, usize); 4] = [
     (Energy::None, 4),
     (
-        Energy::Compensated(Model::Turquin(FmsVariant::NormalIncidence)),
+        Energy::Compensated(EnergyModel::Turquin(FmsVariant::NormalIncidence)),
         0,
     ),
-    (Energy::Compensated(Model::KullaConty), 5),
-    (Energy::Multibounce(multibounce::Model::Ours), 1),
+    (Energy::Compensated(EnergyModel::KullaConty), 5),
+    (
+        Energy::Multibounce(multibounce::MultibounceModel::StratifiedBidirectional),
+        1,
+    ),
 ];
 /// In the order of their years.
 const SAMPLERS: [Sampler; 4] = [
@@ -49,9 +52,9 @@ pub(super) struct Variants {
     pub(super) samplers: Vec<Named>,
     /// Index below the surface over the one above it.
     pub(super) eta: f64,
-    /// The narrower of the widths of its microfacets.
+    /// The narrower of the alphas of its microfacets.
     pub(super) sharpness: f64,
-    /// Whether the widths differ.
+    /// Whether the alphas differ.
     pub(super) is_anisotropic: bool,
 }
 
@@ -86,7 +89,7 @@ impl Variants {
         if let [only] = &mut samplers[..] {
             "its own".clone_into(&mut only.name);
         }
-        let widths = widths(kind);
+        let alphas = alphas(kind);
         Ok(Self {
             energies,
             samplers,
@@ -94,8 +97,8 @@ impl Variants {
                 MaterialKind::Dielectric { eta, .. } => f64::from(*eta),
                 _ => 1.0,
             },
-            sharpness: widths.map_or(0.5, |[a, b]| a.min(b)),
-            is_anisotropic: widths.is_some_and(|[a, b]| a != b),
+            sharpness: alphas.map_or(0.5, |[a, b]| a.min(b)),
+            is_anisotropic: alphas.is_some_and(|[a, b]| a != b),
         })
     }
 
@@ -167,8 +170,8 @@ fn white(kind: &MaterialKind) -> MaterialKind {
     kind
 }
 
-/// Widths of the microfacets, where there are any.
-fn widths(kind: &MaterialKind) -> Option<[f64; 2]> {
+/// Alphas of the microfacets, where there are any.
+fn alphas(kind: &MaterialKind) -> Option<[f64; 2]> {
     let roughness: &Roughness = match kind {
         MaterialKind::Conductor { roughness, .. }
         | MaterialKind::Dielectric { roughness, .. }

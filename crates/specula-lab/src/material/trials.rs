@@ -117,7 +117,7 @@ pub(super) fn reflected(variants: &Variants, lab: &Lab<'_>) -> Result<Vec<Reflec
     Ok(all)
 }
 
-/// What every sampler does over the angle of view, where single scattering is drawn.
+/// What every sampler does over the angle of view, where single scattering is sampled.
 pub(super) fn samplers(variants: &Variants, lab: &Lab<'_>) -> Result<Vec<Trial>> {
     let side = lab.pick(128, 512);
     let mut rng = Rng::new(lab.seed().wrapping_add(1));
@@ -172,7 +172,7 @@ fn fit(named: &Named, theta_deg: f64, variants: &Variants, samples: u32, seed: u
         .collect();
     let peaks = peaks(wo, variants);
     let chi_square = chi_square::test(
-        |u| subject.sample_density(wo, u).map(|drawn| drawn.wi),
+        |u| subject.sample_density(wo, u).map(|sampled| sampled.wi),
         |wi| subject.pdf(wo, wi),
         &mut rng,
         &chi_square::Options {

@@ -10,8 +10,8 @@ pub(super) const INK: &str = "#222222";
 pub(super) const PALE: &str = "#dddddd";
 /// Size of text that stands above or below the line, over that on it.
 const SMALL: f64 = 0.72;
-/// Advance widths of DejaVu Sans from the space to the tilde, in thousandths of the size.
-const WIDTHS: [u16; 95] = [
+/// Advances of DejaVu Sans from the space to the tilde, in thousandths of the size.
+const ADVANCES: [u16; 95] = [
     318, 401, 460, 838, 636, 950, 780, 275, 390, 390, 500, 838, 318, 361, 318, 337, 636, 636, 636,
     636, 636, 636, 636, 636, 636, 636, 337, 337, 838, 838, 838, 531, 1000, 684, 686, 698, 770, 632,
     575, 775, 752, 295, 295, 656, 557, 863, 748, 787, 603, 787, 695, 635, 611, 732, 684, 989, 685,
@@ -138,7 +138,7 @@ fn escaped(text: &str) -> String {
 pub(super) fn width(spans: &[Span], size: f64) -> f64 {
     let of = |c: char| {
         let place = (u32::from(c)).checked_sub(32).map(|i| i as usize);
-        f64::from(place.and_then(|i| WIDTHS.get(i)).copied().unwrap_or(640))
+        f64::from(place.and_then(|i| ADVANCES.get(i)).copied().unwrap_or(640))
     };
     let run = |s: &Span| {
         let scale = if s.place == Place::Line { 1.0 } else { SMALL };

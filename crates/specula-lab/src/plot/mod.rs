@@ -47,11 +47,11 @@ pub struct Panel {
     pub x: Axis,
     /// Vertical.
     pub y: Axis,
-    /// What is drawn.
+    /// What is plotted.
     pub content: Content,
 }
 
-/// What is drawn.
+/// What is plotted.
 #[derive(Clone, Debug)]
 pub enum Content {
     /// Lines over each other.

@@ -123,7 +123,7 @@ impl<'a> Prepared<'a> {
     }
 
     fn widest_tick(&self) -> f64 {
-        let widths: Vec<f64> = match &self.panel.content {
+        let advances: Vec<f64> = match &self.panel.content {
             Content::Intervals(all) => all
                 .rows
                 .iter()
@@ -136,7 +136,7 @@ impl<'a> Prepared<'a> {
                 .map(|t| width(&t.1, TICK_SIZE))
                 .collect(),
         };
-        widths.into_iter().fold(0.0, f64::max)
+        advances.into_iter().fold(0.0, f64::max)
     }
 
     /// * `number`: of the panel in its figure.

@@ -80,7 +80,7 @@ fn overview(records: &[Record], missing: &[&str]) -> String {
             let _ = writeln!(text, ", {undecided} undecided.\n");
         }
     }
-    text += "| table or figure | the paper's statement | ours | verdict | command |\n";
+    text += "| table or figure | the paper's statement | specula | verdict | command |\n";
     text += "| --- | --- | --- | --- | --- |\n";
     for record in records {
         let _ = writeln!(

@@ -39,11 +39,11 @@ impl Tessellation {
     };
 }
 
-/// Orbs side by side on a grey floor, each with its widths, a square of `side` pixels each.
+/// Orbs side by side on a grey floor, each with its alphas, a square of `side` pixels each.
 #[must_use]
-pub fn row(widths: &[(f64, f64)], tessellation: Tessellation, side: u32) -> Scene {
-    let mut scene = empty(widths.len(), side);
-    orbs(&mut scene, widths, tessellation);
+pub fn row(alphas: &[(f64, f64)], tessellation: Tessellation, side: u32) -> Scene {
+    let mut scene = empty(alphas.len(), side);
+    orbs(&mut scene, alphas, tessellation);
     let floor = MaterialKind::Diffuse {
         reflectance: ColourParam::Value(Rgb::splat(0.3)),
         roughness: FloatParam::Value(0.0),
@@ -57,9 +57,9 @@ pub fn row(widths: &[(f64, f64)], tessellation: Tessellation, side: u32) -> Scen
 
 /// One orb in the open.
 #[must_use]
-pub fn single(widths: (f64, f64), tessellation: Tessellation, side: u32) -> Scene {
+pub fn single(alphas: (f64, f64), tessellation: Tessellation, side: u32) -> Scene {
     let mut scene = empty(1, side);
-    orbs(&mut scene, &[widths], tessellation);
+    orbs(&mut scene, &[alphas], tessellation);
     scene
 }
 
@@ -111,12 +111,12 @@ fn camera(count: f64) -> Camera {
     }
 }
 
-fn orbs(scene: &mut Scene, widths: &[(f64, f64)], tessellation: Tessellation) {
+fn orbs(scene: &mut Scene, alphas: &[(f64, f64)], tessellation: Tessellation) {
     let Tessellation { rows, segments } = tessellation;
     scene.meshes.push(revolved(&shell_profile(rows), segments));
-    let middle = 0.5 * (widths.len() as f64 - 1.0);
-    for (i, &widths) in widths.iter().enumerate() {
-        scene.materials.push(Material::new(silver(widths)));
+    let middle = 0.5 * (alphas.len() as f64 - 1.0);
+    for (i, &alphas) in alphas.iter().enumerate() {
+        scene.materials.push(Material::new(silver(alphas)));
         // The opening leans towards the viewer.
         let place = DMat4::from_translation(DVec3::new(SPACING * (i as f64 - middle), 0.0, 1.0))
             * DMat4::from_rotation_z(-0.35)

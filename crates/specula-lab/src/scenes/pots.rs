@@ -6,8 +6,8 @@ use specula_scene::Scene;
 use super::builder::Builder;
 use super::lighting::Lighting;
 
-/// Widths of the pots, from left to right.
-pub(crate) const WIDTHS: [f32; 3] = [0.15, 0.2, 0.1];
+/// Alphas of the pots, from left to right.
+pub(crate) const ALPHAS: [f32; 3] = [0.15, 0.2, 0.1];
 
 /// The scene.
 pub(crate) fn pots(resolution: [u32; 2]) -> Scene {
@@ -20,7 +20,7 @@ pub(crate) fn pots(resolution: [u32; 2]) -> Scene {
         dvec3(0.0, 60.0, 0.0),
         floor,
     );
-    for (i, alpha) in WIDTHS.into_iter().enumerate() {
+    for (i, alpha) in ALPHAS.into_iter().enumerate() {
         let metal = build.metal("Al", alpha);
         let x = 1.5 * (i as f64 - 1.0);
         build.lathe(dvec3(x, 0.0, 0.0), &POT, metal);

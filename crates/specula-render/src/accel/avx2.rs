@@ -14,7 +14,7 @@ use super::frame::RayFrame;
 use super::kernel::{EntryStack, Kernel, PacketHits, STACK};
 use super::node::{Child, Kind, Lanes, Node8, Packet8};
 use super::traverse::{self, Scene};
-use super::{Hit, Ray, in_step};
+use super::{Hit, Ray, interleaved};
 
 /// Proof that the machine has the instructions: only [`Avx2::detect`] makes one.
 #[derive(Clone, Copy, Debug)]
@@ -64,12 +64,12 @@ fn occluded(kernel: Avx2, scene: &Scene, ray: &Ray) -> bool {
 
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
 fn intersect_in_step(kernel: Avx2, scene: &Scene, rays: &[Ray], hits: &mut [Option<Hit>]) {
-    in_step::intersect(kernel, scene, rays, hits);
+    interleaved::intersect(kernel, scene, rays, hits);
 }
 
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
 fn occluded_in_step(kernel: Avx2, scene: &Scene, rays: &[Ray], found: &mut [bool]) {
-    in_step::occluded(kernel, scene, rays, found);
+    interleaved::occluded(kernel, scene, rays, found);
 }
 
 /// A stack whose entries are not initialised until they are written.

@@ -75,7 +75,7 @@ impl Binary {
 
     fn from_obvhs(tree: &Bvh2, items: &[Bounds], runs: &Runs) -> Self {
         let mut nodes = Vec::with_capacity(2 * items.len());
-        // The node in obvhs's tree, and ours whose right child it becomes.
+        // The node in obvhs's tree, and Specula's whose right child it becomes.
         let mut pending = vec![(0, None)];
         let mut run = Vec::new();
         while let Some((at, right_of)) = pending.pop() {

@@ -39,7 +39,7 @@ fn flatten_quadric(quadric: &quadric::Placed, to: &mut Words) {
         QuadricShape::Disk { radius, height } => (1, radius, height),
     };
     to.id(kind);
-    to.numbers([radius, height].map(crate::convert::narrow));
+    to.floats([radius, height].map(crate::convert::narrow));
     to.id(quadric.primitive);
     affine(quadric.own_space(), to);
 }

@@ -33,7 +33,7 @@ pub(super) trait Kernel: Copy {
     type Stack: EntryStack;
     /// An empty stack.
     fn stack(self) -> Self::Stack;
-    /// Has what a child refers to brought into the cache.
+    /// Has what a child refers to contributed into the cache.
     fn prefetch(self, scene: &Scene, child: Child);
     /// Which children's boxes the ray meets in `[0, t_cull]`, as bits, and where it enters.
     fn boxes(self, node: &Node8, frame: &RayFrame, t_cull: f32, entry: &mut Lanes) -> u32;

@@ -15,24 +15,24 @@
 //!   of traversal.
 //! - **No leaks.** A ray from inside a closed mesh hits it: `triangle.rs` has the argument.
 //! - **Batches are rays one by one.** Small scenes (`small.rs`) and rays that part in large trees
-//!   (`in_step.rs`) go other ways in batches, to the same answers bit for bit.
+//!   (`interleaved.rs`) go other ways in batches, to the same answers bit for bit.
 //! - **It cannot fail.** Rays that are not finite hit nothing; indices are checked at build.
 
 mod binary;
 mod bounds;
+mod brute_force;
 mod chunks;
 mod collapse;
 mod flat;
 mod frame;
 mod group;
-mod in_step;
 mod input;
 mod instances;
+mod interleaved;
 mod kernel;
 mod node;
 mod predicted;
 mod quadric;
-mod small;
 mod traverse;
 mod triangle;
 
@@ -49,12 +49,12 @@ pub(crate) use triangle::has_area;
 
 #[cfg(target_arch = "x86_64")]
 use avx2::Avx2;
+use brute_force::Small;
 use collapse::Tree;
 use group::GroupTree;
 use instances::Placement;
 use kernel::Portable;
 use rayon::prelude::*;
-use small::Small;
 use specula_bsdf::Vec3;
 use traverse::Scene;
 
@@ -236,12 +236,12 @@ impl Accel {
         if let Some(small) = &self.small {
             return small.intersect(rays, hits);
         }
-        if !in_step::gains(&self.scene, rays) {
+        if !interleaved::gains(&self.scene, rays) {
             return hits.extend(rays.iter().map(|ray| self.intersect(ray)));
         }
         hits.resize(rays.len(), None);
         match self.kernel {
-            Choice::Portable => in_step::intersect(Portable, &self.scene, rays, hits),
+            Choice::Portable => interleaved::intersect(Portable, &self.scene, rays, hits),
             #[cfg(target_arch = "x86_64")]
             Choice::Avx2(kernel) => kernel.intersect_in_step(&self.scene, rays, hits),
         }
@@ -253,12 +253,12 @@ impl Accel {
         if let Some(small) = &self.small {
             return small.occluded(rays, found);
         }
-        if !in_step::gains(&self.scene, rays) {
+        if !interleaved::gains(&self.scene, rays) {
             return found.extend(rays.iter().map(|ray| self.occluded(ray)));
         }
         found.resize(rays.len(), false);
         match self.kernel {
-            Choice::Portable => in_step::occluded(Portable, &self.scene, rays, found),
+            Choice::Portable => interleaved::occluded(Portable, &self.scene, rays, found),
             #[cfg(target_arch = "x86_64")]
             Choice::Avx2(kernel) => kernel.occluded_in_step(&self.scene, rays, found),
         }

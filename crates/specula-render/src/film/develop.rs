@@ -33,8 +33,8 @@ impl Develop {
         to.constant("FILM_BOUNDED", u32::from(self.max_component.is_finite()));
         to.constant("FILM_BALANCED", u32::from(self.balance.is_some()));
         to.begin("FILM");
-        to.numbers([self.exposure, self.max_component.min(f32::MAX)]);
-        to.numbers(self.balance.iter().flatten().flatten().copied());
+        to.floats([self.exposure, self.max_component.min(f32::MAX)]);
+        to.floats(self.balance.iter().flatten().flatten().copied());
     }
 
     /// Picture values of a radiance.

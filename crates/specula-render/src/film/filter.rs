@@ -1,6 +1,6 @@
 //! Reconstruction filters, by sampling them: positions follow the filter, weights are constant.
 //!
-//! A sample's position about its pixel is drawn in proportion to the filter's absolute value
+//! A sample's position about its pixel is sampled in proportion to the filter's absolute value
 //! (Ernst et al. 2006), so that a pixel depends on its own samples only: tiles need no borders and
 //! the picture no order of summation. Where the filter is negative (Mitchell, Lanczos), the weight
 //! is; its magnitude is `int |f| / int f`, and the pixel is the mean of weighted samples, without
@@ -75,7 +75,7 @@ impl FilterSampler {
             to.number(axis.radius);
             to.flag(axis.is_box);
             to.number(axis.magnitude);
-            to.numbers(axis.cdf.iter().copied());
+            to.floats(axis.cdf.iter().copied());
             to.ids(axis.negative.iter().map(|&n| u32::from(n)));
         }
     }

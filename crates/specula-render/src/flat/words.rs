@@ -44,16 +44,16 @@ impl Words {
         self.words.push(x.to_bits());
     }
 
-    pub(crate) fn numbers(&mut self, numbers: impl IntoIterator<Item = f32>) {
+    pub(crate) fn floats(&mut self, numbers: impl IntoIterator<Item = f32>) {
         self.words.extend(numbers.into_iter().map(f32::to_bits));
     }
 
     pub(crate) fn vector(&mut self, v: Vec3<f32>) {
-        self.numbers(v.to_array());
+        self.floats(v.to_array());
     }
 
     pub(crate) fn colour(&mut self, c: Rgb<f32>) {
-        self.numbers(c.to_array());
+        self.floats(c.to_array());
     }
 
     /// 12 words: three columns, then the translation.

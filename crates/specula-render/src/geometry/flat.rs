@@ -45,7 +45,7 @@ impl ShapeRecord {
 }
 
 impl Placement {
-    /// Place of the group's record, whether it moves nothing, the group's first light, then the world
+    /// Offset of the group's record, whether it moves nothing, the group's first light, then the world
     /// from the group, its normals, and the group from the world.
     fn flatten(&self, groups: &[u32], to: &mut Words) {
         to.id(groups[self.group as usize]);
@@ -64,17 +64,17 @@ impl GroupData {
         // As for the CPU: those of meshes without any are behind the array's end.
         let begin = |to: &mut Words, there: usize| (to.place(), id(there.min(vertices)));
         let positions = begin(to, vertices).0;
-        to.numbers(self.positions.iter().flatten().copied());
+        to.floats(self.positions.iter().flatten().copied());
         let normals = begin(to, self.normals.len());
-        to.numbers(self.normals.iter().flatten().copied());
+        to.floats(self.normals.iter().flatten().copied());
         let uvs = begin(to, self.uvs.len());
-        to.numbers(self.uvs.iter().flatten().copied());
+        to.floats(self.uvs.iter().flatten().copied());
         let second_uvs = begin(to, self.second_uvs.len());
-        to.numbers(self.second_uvs.iter().flatten().copied());
+        to.floats(self.second_uvs.iter().flatten().copied());
         let tangents = begin(to, self.tangents.len());
-        to.numbers(self.tangents.iter().flatten().copied());
+        to.floats(self.tangents.iter().flatten().copied());
         let colours = begin(to, self.colours.len());
-        to.numbers(self.colours.iter().flatten().copied());
+        to.floats(self.colours.iter().flatten().copied());
         let triangles = to.place();
         to.ids(self.triangles.iter().flatten().copied());
         let shape_of = to.place();
@@ -104,7 +104,7 @@ impl PlacedQuadric {
             QuadricShape::Disk { radius, height } => (1, radius, height),
         };
         to.id(kind);
-        to.numbers([narrow(radius), narrow(height)]);
+        to.floats([narrow(radius), narrow(height)]);
         to.flag(self.flipped);
         to.affine(&self.forward);
         to.affine(&self.backward);

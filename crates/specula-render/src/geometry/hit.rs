@@ -7,7 +7,7 @@ use super::{Geometry, GroupData, NONE, PlacedQuadric, normal_of, unit_or};
 use crate::accel::{Hit, QuadricShape, Ray};
 use crate::convert::{abs, narrow};
 use crate::offset::{RELATIVE_ERROR, coupled};
-use crate::texture::Place;
+use crate::texture::TextureCoordinates;
 
 /// A triangle of a mesh.
 pub(crate) struct Facet<'a> {
@@ -54,8 +54,8 @@ pub(crate) struct At {
 impl Surface {
     /// Where textures are evaluated for it.
     #[inline(always)]
-    pub(crate) fn place(&self) -> Place {
-        Place {
+    pub(crate) fn place(&self) -> TextureCoordinates {
+        TextureCoordinates {
             uv: self.uv,
             second_uv: self.second_uv,
             position: self.position,

@@ -1,4 +1,4 @@
-//! Derivatives of a surface by its coordinates: for reliefs, and where a rotation needs a side.
+//! Derivatives of a surface by its coordinates: for bump maps, and where a rotation needs a side.
 
 use specula_bsdf::Vec3;
 use specula_bsdf::math::vec3;

@@ -57,7 +57,7 @@ mod tests {
     }
 
     #[test]
-    fn widths_are_those_of_pbrt() {
+    fn alphas_are_those_of_pbrt() {
         for (alpha, expected) in [
             (0.0, 0.1),
             (0.04, 0.1),

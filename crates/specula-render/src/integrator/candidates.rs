@@ -1,11 +1,11 @@
-//! Two lights drawn where a path first meets rough metal, one of which is looked at.
+//! Two lights sampled where a path first meets rough metal, one of which is looked at.
 //!
 //! Lights are chosen without regard to the lobe: sky or lamp, whichever is brighter at the point. What a metal
-//! makes of them differs by orders of magnitude. So two are drawn, `c_1` and `c_2` is what they would bring,
+//! makes of them differs by orders of magnitude. So two are sampled, `c_1` and `c_2` is what they would bring,
 //! each over twice its density and weighed with that, and one is kept by chance, in proportion to these;
 //! it then brings as much as both unless something is in its way (resampled importance sampling: Talbot et al.
-//! 2005, "Importance resampling for global illumination", eq. 6). The choice of light is drawn in the lower half of its
-//! numbers for one and the upper half for the other, and the points on them half a period apart, so that both together are
+//! 2005, "Importance resampling for global illumination", eq. 6). The choice of light is sampled in the lower half of its
+//! random random_numbers for one and the upper half for the other, and the points on them half a period apart, so that both together are
 //! as even as one was.
 //!
 //! Squared error and time over those of one light: 0.90 and 1.02 on two million triangles, 0.97 and 1.04 for glass and metal
@@ -22,7 +22,7 @@ use crate::sampler::Sampler;
 const CHOICE: u32 = 3;
 
 impl PathTracer<'_> {
-    /// How many lights are drawn at a vertex.
+    /// How many lights are sampled at a vertex.
     #[inline(always)]
     pub(super) fn lights_at(&self, lobe: &Lobe<f32>, depth: u32) -> u32 {
         let two = depth == 0 && is_rough_metal(lobe) && self.scene.lights.are_chosen();
@@ -42,12 +42,12 @@ fn is_rough_metal(lobe: &Lobe<f32>) -> bool {
     }
 }
 
-/// The numbers of one of several lights.
+/// The random random_numbers of one of several lights.
 ///
 /// * `u`: as of [`Sampler::light`].
 /// * `k`: which one, of `count`.
 #[inline(always)]
-pub(super) fn numbers(u: [f32; 4], k: u32, count: u32) -> [f32; 4] {
+pub(super) fn random_numbers(u: [f32; 4], k: u32, count: u32) -> [f32; 4] {
     if count == 1 {
         return u;
     }
@@ -65,7 +65,7 @@ fn opposite(u: f32) -> f32 {
     if u < 0.5 { u + 0.5 } else { u - 0.5 }
 }
 
-/// The density with which a lobe drew a direction, per light that was drawn beside it: what it is weighed
+/// The density with which a lobe drew a direction, per light that was sampled beside it: what it is weighed
 /// by against lights.
 #[inline(always)]
 pub(super) fn density(pdf: f32, lights: u32) -> f32 {
@@ -163,12 +163,12 @@ mod tests {
         for i in 0..n {
             let u = Sampler::new([3, 4], i, 5).light(0);
             for which in [0, 1] {
-                let v = numbers(u, which, 2);
+                let v = random_numbers(u, which, 2);
                 assert!(v.iter().all(|x| (0.0..1.0).contains(x)), "{v:?}");
                 choices[taken(v[0], 2 * n)] += 1;
                 cells[which as usize][8 * taken(v[1], 8) + taken(v[2], 8)] += 1;
             }
-            assert_eq!(numbers(u, 0, 1), u);
+            assert_eq!(random_numbers(u, 0, 1), u);
         }
         assert!(choices.iter().all(|c| *c == 1), "{choices:?}");
         assert!(cells.iter().flatten().all(|c| *c == 1), "{cells:?}");

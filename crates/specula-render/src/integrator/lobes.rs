@@ -1,6 +1,6 @@
-//! Lobes that are evaluated and drawn many at once.
+//! Lobes that are evaluated and sampled many at once.
 
-use specula_bsdf::batch::{Colours, Directions, Kind, Level, Samples};
+use specula_bsdf::batch::{Colours, Directions, Level, SampleOutcome, Samples};
 use specula_bsdf::bsdf::Lobe;
 use specula_bsdf::math::Stream;
 use specula_bsdf::{Bsdf, Transport};
@@ -59,7 +59,7 @@ pub(super) fn sample(
     wo: Directions<&[f32]>,
     u: [&[f32]; 3],
     streams: &mut [Stream],
-    samples: Samples<&mut [f32], &mut [Kind]>,
+    samples: Samples<&mut [f32], &mut [SampleOutcome]>,
 ) {
     let (level, radiance) = (Level::best(), Transport::Radiance);
     let done = match lobe {

@@ -1,15 +1,15 @@
-//! Paths of a group that share what lies behind their first rough vertices.
+//! PathStates of a group that share what lies behind their first rough vertices.
 //!
 //! Bekaert, Sbert and Halton 2002, "Accelerating path tracing by re-using paths". A group is of
 //! neighbouring pixels, one sample of each. Let `x_i` be the first vertex of path `i` whose lobe is not
 //! perfectly smooth, and `y_i` the next. Every `x_i` that sees `y_j` takes the light that path `j` found
-//! there, as if it had drawn `y_j` itself. With `p_k` the density of `y_j` among the points that path `k`
+//! there, as if it had sampled `y_j` itself. With `p_k` the density of `y_j` among the points that path `k`
 //! draws from `x_k` (area measure, 0 where something stands between) and `q_k` that of the direction
-//! drawn at `y_j` seen from `x_k`, the estimates are combined by the balance heuristic (Veach 1997,
+//! sampled at `y_j` seen from `x_k`, the estimates are combined by the balance heuristic (Veach 1997,
 //! 9.2.2):
 //!
-//! * the light drawn at `y_j`: `f_i g_i f(y_j, light) L w_L / (pdf sum_k p_k)`
-//! * what the drawn direction found: `f_i g_i f(y_j, direction) L w_B / (sum_k p_k q_k)`
+//! * the light sampled at `y_j`: `f_i g_i f(y_j, light) L w_L / (pdf sum_k p_k)`
+//! * what the sampled direction found: `f_i g_i f(y_j, direction) L w_B / (sum_k p_k q_k)`
 //!
 //! As `k = i` is in both sums, what is found is scaled no higher than path `i` would have scaled it, the
 //! weight of light at `y_j` aside: sharing makes no fireflies of far-fetched connections. Light that both strategies find at `y_j` is weighed with the mean density of the
@@ -25,8 +25,8 @@ mod pairs;
 
 pub(super) use pairs::Work;
 
-use super::block::{Block, index};
-use super::lanes::{Column, LANES, Lanes, Vectors, ZERO};
+use super::vertex_batch::{Column, Vectors, VertexBatch, WAVEFRONT_SIZE, ZERO};
+use super::wavefront::{Wavefront, index};
 use super::{PathTracer, lobes};
 use crate::material::Plain;
 use crate::offset::leave;
@@ -51,28 +51,28 @@ enum Stage {
     Apart,
 }
 
-/// Vertices by the numbers of their paths.
+/// Vertices by the random random_numbers of their paths.
 struct Vertices {
     position: Vectors,
     error: Column,
     /// Geometric normals on the viewers' sides.
     facing: Vectors,
     axes: [Vectors; 3],
-    key: [u32; LANES],
+    key: [u32; WAVEFRONT_SIZE],
 }
 
-/// Light from infinity or of a surface that a direction drawn at a `y` met.
+/// Light from infinity or of a surface that a direction sampled at a `y` met.
 struct Met {
     path: usize,
     radiance: Rgb<f32>,
-    /// Density with which lights would have drawn it.
+    /// Density with which lights would have sampled it.
     light_pdf: f32,
 }
 
-/// What paths of groups leave for each other, by the numbers of the paths.
+/// What paths of groups leave for each other, by the random random_numbers of the paths.
 pub(super) struct Shared {
-    stage: [Stage; LANES],
-    has_x: [bool; LANES],
+    stage: [Stage; WAVEFRONT_SIZE],
+    has_x: [bool; WAVEFRONT_SIZE],
     x: Vertices,
     y: Vertices,
     /// Towards the viewers of the `x`, local.
@@ -81,13 +81,13 @@ pub(super) struct Shared {
     throughput: Vectors,
     /// What the path had found before its `y`.
     before: Vectors,
-    /// The light drawn at `y`, over its density; that density, 0 where nothing arrives.
+    /// The light sampled at `y`, over its density; that density, 0 where nothing arrives.
     light: Vectors,
     towards: Vectors,
     light_pdf: Column,
-    light_delta: [bool; LANES],
-    /// The direction drawn at `y`; 0 where the path ends there.
-    onward: Vectors,
+    light_delta: [bool; WAVEFRONT_SIZE],
+    /// The direction sampled at `y`; 0 where the path ends there.
+    scatter_samples: Vectors,
     /// Throughput behind `y` before roulette, and what roulette made of it.
     carried: Vectors,
     roulette: Column,
@@ -100,11 +100,11 @@ impl Vertices {
         error: ZERO,
         facing: Vectors::ZERO,
         axes: [Vectors::ZERO; 3],
-        key: [0; LANES],
+        key: [0; WAVEFRONT_SIZE],
     };
 
-    fn set(&mut self, path: usize, lanes: &Lanes, lane: usize, key: u32) {
-        let s = &lanes.surfaces;
+    fn set(&mut self, path: usize, batch: &VertexBatch, lane: usize, key: u32) {
+        let s = &batch.surfaces;
         self.position.set(path, s.position.get(lane));
         self.error[path] = s.error[lane];
         self.facing.set(path, s.ng.get(lane) * s.side[lane]);
@@ -147,8 +147,8 @@ impl Vertices {
 impl Shared {
     pub(super) fn new() -> Box<Self> {
         Box::new(Self {
-            stage: [Stage::Apart; LANES],
-            has_x: [false; LANES],
+            stage: [Stage::Apart; WAVEFRONT_SIZE],
+            has_x: [false; WAVEFRONT_SIZE],
             x: Vertices::NONE,
             y: Vertices::NONE,
             wo: Vectors::ZERO,
@@ -157,8 +157,8 @@ impl Shared {
             light: Vectors::ZERO,
             towards: Vectors::ZERO,
             light_pdf: ZERO,
-            light_delta: [false; LANES],
-            onward: Vectors::ZERO,
+            light_delta: [false; WAVEFRONT_SIZE],
+            scatter_samples: Vectors::ZERO,
             carried: Vectors::ZERO,
             roulette: ZERO,
             met: Vec::new(),
@@ -178,7 +178,7 @@ impl Shared {
         self.stage[path] == Stage::Arrived
     }
 
-    /// Keeps what a direction that was drawn at a `y` met.
+    /// Keeps what a direction that was sampled at a `y` met.
     pub(super) fn meet(&mut self, path: usize, radiance: Rgb<f32>, light_pdf: f32) {
         if !radiance.is_black() {
             self.met.push(Met {
@@ -198,15 +198,15 @@ impl Shared {
         };
     }
 
-    /// Whether the vertex in a lane is far enough from the `x` of its path.
-    fn is_far(&self, path: usize, lanes: &Lanes, lane: usize) -> bool {
-        let s = &lanes.surfaces;
+    /// Whether the vertex in an element is far enough from the `x` of its path.
+    fn is_far(&self, path: usize, batch: &VertexBatch, lane: usize) -> bool {
+        let s = &batch.surfaces;
         self.x.is_far(path, s.position.get(lane), s.error[lane])
     }
 
-    /// Keeps the light drawn at a `y`, which nothing is in the way of.
-    pub(super) fn keep_light(&mut self, path: usize, lanes: &Lanes, lane: usize) {
-        let a = &lanes.arriving;
+    /// Keeps the light sampled at a `y`, which nothing is in the way of.
+    pub(super) fn keep_light(&mut self, path: usize, batch: &VertexBatch, lane: usize) {
+        let a = &batch.light_samples;
         let scale = 1.0 / a.pdf[lane];
         self.light.set_colour(path, a.radiance.colour(lane) * scale);
         self.towards.set(path, a.towards.get(lane));
@@ -214,13 +214,13 @@ impl Shared {
         self.light_delta[path] = a.delta[lane];
     }
 
-    /// Keeps the direction drawn at a `y`, in which the path goes on.
-    pub(super) fn keep_direction(&mut self, path: usize, lanes: &Lanes, lane: usize) {
-        let o = &lanes.onward;
+    /// Keeps the direction sampled at a `y`, in which the path goes on.
+    pub(super) fn keep_direction(&mut self, path: usize, batch: &VertexBatch, lane: usize) {
+        let o = &batch.scatter_samples;
         // Until now the throughput without colour with which the path met its `y`.
         let carried = o.weight.colour(lane) * self.roulette[path];
         let throughput = o.throughput.colour(lane).max_channel();
-        self.onward.set(path, o.direction.get(lane));
+        self.scatter_samples.set(path, o.direction.get(lane));
         self.carried.set_colour(path, carried);
         self.roulette[path] = throughput / carried.max_channel();
     }
@@ -234,7 +234,7 @@ impl Shared {
 
     /// Sees to it that no path ends at its `x` by roulette.
     ///
-    /// * `survival`: the numbers that decide, by lane.
+    /// * `survival`: the random random_numbers that decide, by element.
     pub(super) fn let_pass(&self, owners: &[u32], survival: &mut [f32]) {
         for (owner, survival) in owners.iter().zip(survival) {
             if self.stage[index(*owner)] == Stage::Left {
@@ -254,45 +254,45 @@ fn is_shared(plain: &Plain) -> bool {
 }
 
 impl PathTracer<'_> {
-    /// Notes which of the vertices in lanes are the `x` and `y` of their paths.
-    pub(super) fn note_shared(&self, block: &mut Block) {
-        let Block {
+    /// Notes which of the vertices in batch are the `x` and `y` of their paths.
+    pub(super) fn note_shared(&self, wavefront: &mut Wavefront) {
+        let Wavefront {
             paths,
-            stretches,
-            lanes,
+            runs,
+            batch,
             shared: Some(shared),
             ..
-        } = block
+        } = wavefront
         else {
             return;
         };
-        let sides = stretches.iter().filter_map(|s| {
+        let sides = runs.iter().filter_map(|s| {
             let sides = self.scene.materials.plain(s.key / 2)?;
             Some((&sides[(s.key % 2) as usize], s))
         });
-        for (plain, stretch) in sides {
-            for lane in stretch.from..stretch.to.min(LANES) {
-                let path = index(lanes.owners[lane]);
-                let black = plain.black_inside && lanes.surfaces.side[lane] < 0.0;
+        for (plain, run) in sides {
+            for lane in run.from..run.to.min(WAVEFRONT_SIZE) {
+                let path = index(batch.owners[lane]);
+                let black = plain.black_inside && batch.surfaces.side[lane] < 0.0;
                 let usable = is_shared(plain) && !black;
                 let after = match (shared.stage[path], usable) {
                     (Stage::Begins, true) => {
-                        shared.x.set(path, lanes, lane, stretch.key);
-                        shared.wo.set(path, lanes.surfaces.wo.get(lane));
-                        let throughput = lanes.onward.throughput.colour(lane);
+                        shared.x.set(path, batch, lane, run.key);
+                        shared.wo.set(path, batch.surfaces.wo.get(lane));
+                        let throughput = batch.scatter_samples.throughput.colour(lane);
                         shared.throughput.set_colour(path, throughput);
                         shared.has_x[path] = true;
                         Stage::Left
                     }
-                    (Stage::Left, true) if shared.is_far(path, lanes, lane) => {
-                        shared.y.set(path, lanes, lane, stretch.key);
+                    (Stage::Left, true) if shared.is_far(path, batch, lane) => {
+                        shared.y.set(path, batch, lane, run.key);
                         shared.before.set_colour(path, paths.radiance.colour(path));
                         paths.radiance.set_colour(path, Rgb::BLACK);
                         // What others take is bounded when they take it.
                         paths.bound[path] = f32::INFINITY;
                         shared.light_pdf[path] = 0.0;
-                        shared.onward.set(path, Vec3::ZERO);
-                        let o = &mut lanes.onward;
+                        shared.scatter_samples.set(path, Vec3::ZERO);
+                        let o = &mut batch.scatter_samples;
                         // Without colour: others may have another.
                         let scale = o.throughput.colour(lane).max_channel();
                         shared.roulette[path] = scale;
@@ -338,23 +338,23 @@ mod tests {
         };
         let prepared = PreparedScene::new(&scene, &options(1)).unwrap();
         let [alone, shares] = [1, 2].map(|n| PathTracer::new(&prepared, &options(n)));
-        let [mut a, mut b] = [Block::new(), Block::new()];
+        let [mut a, mut b] = [Wavefront::new(), Wavefront::new()];
         let (mut arrived, mut off) = (0, 0);
-        for first in (0..64 * 48).step_by(Block::SIZE) {
+        for first in (0..64 * 48).step_by(Wavefront::SIZE) {
             let sample = |i| {
                 let pixel = [i % 64, i / 64];
                 (pixel, Sampler::new(pixel, 3, 5))
             };
-            let numbers = first..first + id(Block::SIZE);
-            alone.begin(&mut a, numbers.clone().map(sample));
+            let random_numbers = first..first + id(Wavefront::SIZE);
+            alone.begin(&mut a, random_numbers.clone().map(sample));
             alone.follow_all(&mut a);
-            shares.begin(&mut b, numbers.map(sample));
+            shares.begin(&mut b, random_numbers.map(sample));
             shares.follow_all(&mut b);
-            shares.share(&mut b, &[1; Block::SIZE]);
+            shares.share(&mut b, &[1; Wavefront::SIZE]);
             let shared = b.shared.as_ref().unwrap();
-            arrived += (0..LANES).filter(|&i| shared.has_y(i)).count();
-            for i in 0..LANES {
-                let [own, other] = [alone.brought(&a, i).0, shares.brought(&b, i).0];
+            arrived += (0..WAVEFRONT_SIZE).filter(|&i| shared.has_y(i)).count();
+            for i in 0..WAVEFRONT_SIZE {
+                let [own, other] = [alone.contribution(&a, i).0, shares.contribution(&b, i).0];
                 let scale = own.colour.max_channel().max(1e-2);
                 let difference = (own.colour - other.colour).map(f32::abs).max_channel();
                 off += usize::from(difference > 3e-3 * scale);
@@ -365,7 +365,7 @@ mod tests {
         assert!(off < 8, "{off} of {}", 64 * 48);
     }
 
-    /// In a lane of its own, as where nothing is shared.
+    /// In an element of its own, as where nothing is shared.
     #[test]
     fn mirrors_are_no_vertices_to_share() {
         let mut scene = specula_scene::builtin::orbs();
@@ -380,17 +380,17 @@ mod tests {
         };
         let prepared = PreparedScene::new(&scene, &options).unwrap();
         let tracer = PathTracer::new(&prepared, &options);
-        let mut block = Block::new();
+        let mut wavefront = Wavefront::new();
         let sample = |i| ([i % 64, i / 64], Sampler::new([i % 64, i / 64], 0, 0));
-        tracer.begin(&mut block, (0..id(Block::SIZE)).map(sample));
-        tracer.follow_all(&mut block);
-        let before: Vec<_> = (0..LANES).map(|i| block.seen(i).0).collect();
-        tracer.share(&mut block, &[4; Block::SIZE / 4]);
-        let after: Vec<_> = (0..LANES).map(|i| block.seen(i).0).collect();
+        tracer.begin(&mut wavefront, (0..id(Wavefront::SIZE)).map(sample));
+        tracer.follow_all(&mut wavefront);
+        let before: Vec<_> = (0..WAVEFRONT_SIZE).map(|i| wavefront.seen(i).0).collect();
+        tracer.share(&mut wavefront, &[4; Wavefront::SIZE / 4]);
+        let after: Vec<_> = (0..WAVEFRONT_SIZE).map(|i| wavefront.seen(i).0).collect();
         let colours = |samples: &[crate::film::PixelSample]| -> Vec<_> {
             samples.iter().map(|s| s.colour).collect()
         };
         assert_eq!(colours(&before), colours(&after));
-        assert!((0..LANES).all(|i| !block.shared.as_ref().unwrap().has_x[i]));
+        assert!((0..WAVEFRONT_SIZE).all(|i| !wavefront.shared.as_ref().unwrap().has_x[i]));
     }
 }

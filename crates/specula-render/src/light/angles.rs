@@ -1,4 +1,4 @@
-//! Sines of angles and angles of points, as polynomials without branches: loops over lanes become vectors
+//! Sines of angles and angles of points, as polynomials without branches: loops over batches become vectors
 //! of them.
 //!
 //! The coefficients are Chebyshev fits in the square of the argument, computed in 40 digits.

@@ -195,7 +195,7 @@ impl Area {
     pub(crate) fn projected_area(&self) -> f32 {
         match self {
             Self::Triangle { .. } | Self::Parallelogram(_) | Self::Disk { .. } => self.area(),
-            // Cauchy's formula for convex bodies.
+            // Cauchy's formula for convex media.
             Self::Sphere { .. } | Self::Ellipsoid { .. } => 0.25 * self.area(),
         }
     }

@@ -6,7 +6,7 @@ use specula_bsdf::Vec3;
 /// axis, and sends light up to `theta_e` away from it.
 ///
 /// Source: Conty Estevez and Kulla 2018, Importance Sampling of Many Lights with Adaptive Tree
-/// Splitting, section 4.1. Departure: lights that shine to both sides are bounded by a double cone,
+/// Splitting, section 4.1. Departure: lights that emit to both sides are bounded by a double cone,
 /// as in pbrt-v4. In `f64`, since the angle of nearly parallel directions loses half of the digits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EmissionCone {
@@ -31,7 +31,7 @@ impl EmissionCone {
 
     /// Of a flat light.
     ///
-    /// * `normal`: unit, on the side that shines.
+    /// * `normal`: unit, on the side that emits.
     pub(crate) fn flat(normal: Vec3<f32>, two_sided: bool) -> Self {
         Self {
             axis: normal.cast(),

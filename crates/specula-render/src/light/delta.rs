@@ -1,10 +1,10 @@
-//! Lights without extent: parallel, point, spot, and those that throw pictures.
+//! Lights without extent: parallel, point, spot, and those that project images.
 
 use specula_bsdf::{Rgb, Vec3};
 use specula_scene::scene::{Light, SpotFalloff};
 
 use super::cone::EmissionCone;
-use super::thrown::Thrown;
+use super::projected::ProjectedImage;
 use crate::convert::{narrow, narrow3};
 use crate::flat::Words;
 use crate::texture::Textures;
@@ -25,7 +25,7 @@ pub(crate) enum Delta {
         cos_start: f32,
         falloff: SpotFalloff,
     },
-    Thrown(Box<Thrown>),
+    ProjectedImage(Box<ProjectedImage>),
 }
 
 /// Below every cosine: no cone.
@@ -74,10 +74,11 @@ impl Delta {
             Light::Picture {
                 ref to_world,
                 intensity,
-                ref throw,
+                ref image_projection,
             } => {
-                let thrown = Thrown::new(to_world, intensity, throw, textures);
-                Some(Self::Thrown(Box::new(thrown)))
+                let projected =
+                    ProjectedImage::new(to_world, intensity, image_projection, textures);
+                Some(Self::ProjectedImage(Box::new(projected)))
             }
         }
     }
@@ -108,13 +109,13 @@ impl Delta {
                 let falloff = share(falloff, [cos_cone, cos_start], -axis.dot(wi));
                 (intensity * (falloff / distance_squared), wi, Some(position))
             }
-            Self::Thrown(ref thrown) => {
-                let d = thrown.position - p;
+            Self::ProjectedImage(ref projected) => {
+                let d = projected.position - p;
                 let distance_squared = d.length_squared();
                 let wi = d * (1.0 / distance_squared.sqrt());
-                let intensity = thrown.intensity(-wi, textures);
+                let intensity = projected.intensity(-wi, textures);
                 let irradiance = intensity * (1.0 / distance_squared);
-                (irradiance, wi, Some(thrown.position))
+                (irradiance, wi, Some(projected.position))
             }
         }
     }
@@ -142,16 +143,16 @@ impl Delta {
                 to.vector(position);
                 to.vector(axis);
                 to.colour(intensity);
-                to.numbers([cos_cone, cos_start]);
+                to.floats([cos_cone, cos_start]);
                 to.id(match falloff {
                     SpotFalloff::SmoothCosine => 0,
                     SpotFalloff::LinearAngle => 1,
                     SpotFalloff::SquaredCosine => 2,
                 });
             }
-            Self::Thrown(ref thrown) => {
+            Self::ProjectedImage(ref projected) => {
                 to.id(2);
-                thrown.flatten(to);
+                projected.flatten(to);
             }
         }
     }
@@ -161,16 +162,16 @@ impl Delta {
         let colour = match self {
             Self::Distant { irradiance, .. } => irradiance,
             Self::Point { intensity, .. } => intensity,
-            Self::Thrown(thrown) => return thrown.mean,
+            Self::ProjectedImage(projected) => return projected.mean,
         };
         f64::from(colour.luminance().max(colour.mean()))
     }
 
-    /// Place, and bound on the directions; `None` at infinity.
+    /// TextureCoordinates, and bound on the directions; `None` at infinity.
     pub(super) fn bounds(&self) -> Option<(Vec3<f32>, EmissionCone)> {
         match *self {
             Self::Distant { .. } => None,
-            Self::Thrown(ref thrown) => Some((thrown.position, thrown.cone())),
+            Self::ProjectedImage(ref projected) => Some((projected.position, projected.cone())),
             Self::Point {
                 position,
                 cos_cone: NO_CONE,

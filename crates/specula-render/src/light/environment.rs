@@ -1,8 +1,8 @@
 //! Light from infinity: a constant, or a picture of the sphere of directions.
 //!
 //! Pictures are interpolated bilinearly, and sampled by just that: a cell between four pixels' centres
-//! is drawn by its luminance, and a point in it by the bilinear density (Pharr, Jakob and Humphreys,
-//! Physically Based Rendering, 4th edition, A.5). What is drawn divided by its density is the same
+//! is sampled by its luminance, and a point in it by the bilinear density (Pharr, Jakob and Humphreys,
+//! Physically Based Rendering, 4th edition, A.5). What is sampled divided by its density is the same
 //! everywhere, but for colour and the sine of the polar angle within a cell: a sun of a pixel or two
 //! adds no noise of its own. (Densities constant over pixels did: a lone bright pixel had a variance
 //! of 1.09 of its square.)
@@ -11,7 +11,7 @@
 //! up to rounding, which moves their borders by 2^-25 of all light at most.
 
 mod axis;
-mod lanes;
+mod batch;
 mod picture;
 
 use glam::DMat3;
@@ -22,10 +22,10 @@ use specula_scene::scene::EnvironmentMapping;
 
 use crate::convert::Affine;
 use crate::flat::Words;
-pub(super) use lanes::{Bundle, LANES};
+pub(super) use batch::{Bundle, LANES};
 use picture::{LEAST_KEPT, Picture, Pixel, direction_and_sine, uv_and_sine};
 
-/// A pixel of the picture: itself with what it is drawn by, and its place in the table.
+/// A pixel of the picture: itself with what it is sampled by, and its place in the table.
 pub(super) const BYTES_PER_PIXEL: u64 = (size_of::<Pixel>() + size_of::<f32>()) as u64;
 
 /// The direction of light space at a point of the picture, from its upper left corner.
@@ -47,7 +47,7 @@ pub(crate) struct Environment {
 
 impl Environment {
     /// * `to_world`: light space to world space; lengths in it do not matter.
-    /// * `beside_lobes`: whether lobes are drawn from as well, weighted against this.
+    /// * `beside_lobes`: whether lobes are sampled from as well, weighted against this.
     pub(crate) fn new(
         radiance: Rgb<f32>,
         image: Option<(&Image, EnvironmentMapping)>,
@@ -118,8 +118,8 @@ impl Environment {
         }
     }
 
-    /// Integral over the sphere of directions of what is drawn by, for the choice between lights.
-    pub(crate) fn drawn_integral(&self) -> f64 {
+    /// Integral over the sphere of directions of what is sampled by, for the choice between lights.
+    pub(crate) fn sampled_integral(&self) -> f64 {
         let factor = f64::from(self.radiance.luminance().max(self.radiance.mean()));
         factor
             * match &self.picture {
@@ -222,7 +222,7 @@ mod tests {
         })
     }
 
-    /// A lone bright pixel, a sun, is drawn in proportion to its light.
+    /// A lone bright pixel, a sun, is sampled in proportion to its light.
     #[test]
     fn a_sun_of_one_pixel_adds_no_noise() {
         for mapping in MAPPINGS {
@@ -238,7 +238,7 @@ mod tests {
             };
             let identity = glam::DMat4::IDENTITY;
             let sky = Environment::new(Rgb::WHITE, Some((&image, mapping)), &identity, false);
-            let all = sky.drawn_integral();
+            let all = sky.sampled_integral();
             for i in 0..2000 {
                 let u = Sampler::new([i, 1], 0, 5).camera();
                 let (_, radiance, pdf) = sky.sample([u[0], u[1]]).unwrap();

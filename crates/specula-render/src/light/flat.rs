@@ -22,8 +22,8 @@ impl Lights {
         let has = |test: fn(&Source) -> bool| u32::from(self.sources.iter().any(test));
         let textured = has(|s| matches!(s, Source::Textured(_)));
         to.constant("LIGHT_HAS_TEXTURED", textured);
-        let thrown = has(|s| matches!(s, Source::Delta(Delta::Thrown(_))));
-        to.constant("LIGHT_HAS_THROWN", thrown);
+        let projected = has(|s| matches!(s, Source::Delta(Delta::ProjectedImage(_))));
+        to.constant("LIGHT_HAS_PROJECTED", projected);
         to.begin("LIGHT_PLACES");
         to.ids(places);
         let far = self.far.iter();

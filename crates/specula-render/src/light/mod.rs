@@ -3,21 +3,21 @@
 mod alias;
 mod angles;
 mod area;
+mod batch;
 mod build;
 mod cone;
 mod delta;
 mod environment;
 mod flat;
-mod lanes;
 mod node;
 mod octahedral;
 mod parallelogram;
 mod piecewise;
 mod probe;
+mod projected;
 mod select;
 mod sun;
 mod textured;
-mod thrown;
 mod tree;
 
 #[cfg(test)]
@@ -38,8 +38,8 @@ use select::Selection;
 use sun::Sun;
 use textured::{Textured, Varying};
 
+pub(crate) use batch::Waiting;
 pub(crate) use environment::direction as direction_of_sphere;
-pub(crate) use lanes::Waiting;
 pub(crate) use node::Receiver;
 pub(crate) use parallelogram::{Parallelogram, Seen};
 
@@ -70,7 +70,7 @@ pub(crate) struct Lights {
     sources: Vec<Source>,
     /// With their places in `sources`.
     far: Vec<(Far, u32)>,
-    /// Place in `far` of the light that is drawn in lanes, if any.
+    /// TextureCoordinates in `far` of the light that is sampled in batches, if any.
     sky: Option<usize>,
     selection: Selection,
 }
@@ -84,7 +84,7 @@ pub(crate) struct LightSample {
     pub(crate) radiance: Rgb<f32>,
     /// Density in 1/sr, times the probability of the light; the probability alone where `delta`.
     pub(crate) pdf: f32,
-    /// Whether no direction drawn otherwise can find it.
+    /// Whether no direction sampled otherwise can find it.
     pub(crate) delta: bool,
     /// Where it comes from; `None`: from infinity.
     pub(crate) from: Option<Target>,
@@ -108,7 +108,7 @@ pub(crate) const BYTES_PER_FAR_PIXEL: u64 = environment::BYTES_PER_PIXEL;
 impl Lights {
     /// Gathers the lights of a scene.
     ///
-    /// * `beside_lobes`: whether lobes are drawn from as well, weighted against lights.
+    /// * `beside_lobes`: whether lobes are sampled from as well, weighted against lights.
     pub(crate) fn new(
         scene: &Scene,
         geometry: &Geometry,
@@ -141,7 +141,7 @@ impl Lights {
                 }
                 lights.sources.push(Source::Delta(delta));
             } else if let Some(light) = Far::new(light, scene, beside_lobes) {
-                far.push((index, light.drawn_integral()));
+                far.push((index, light.sampled_integral()));
                 lights.sources.push(Source::Far(lights.far.len()));
                 lights.far.push((light, index));
             }
@@ -246,7 +246,7 @@ impl Lights {
         self.sample_one(chosen, receiver.point, world, [u[1], u[2]])
     }
 
-    /// Light at a point `p` from a light that was drawn with a probability.
+    /// Light at a point `p` from a light that was sampled with a probability.
     #[inline]
     fn sample_one(
         &self,
@@ -299,7 +299,7 @@ impl Lights {
         }
     }
 
-    /// The one light of the scene, where that is a parallelogram; its radiance; whether it shines to
+    /// The one light of the scene, where that is a parallelogram; its radiance; whether it emits to
     /// both sides.
     #[inline]
     pub(crate) fn lone_parallelogram(&self) -> Option<(&Parallelogram, Rgb<f32>, bool)> {
@@ -322,7 +322,7 @@ impl Lights {
     }
 
     /// Density in 1/sr, times the probability of the light, with which [`Lights::sample`] at the
-    /// receiver draws the direction to the emitting surface `s`.
+    /// receiver samples the direction to the emitting surface `s`.
     #[inline]
     pub(crate) fn pdf_of_surface(&self, receiver: &Receiver, s: &Surface) -> f32 {
         match self.sources.get(s.light as usize) {
@@ -407,15 +407,15 @@ impl Far {
         matches!(self, Self::Environment(light) if light.is_picture())
     }
 
-    fn drawn_integral(&self) -> f64 {
+    fn sampled_integral(&self) -> f64 {
         match self {
-            Self::Environment(light) => light.drawn_integral(),
-            Self::Sun(light) => light.drawn_integral(),
+            Self::Environment(light) => light.sampled_integral(),
+            Self::Sun(light) => light.sampled_integral(),
         }
     }
 }
 
-/// A sampled point of a shape, drawn from a light of this probability.
+/// A sampled point of a shape, sampled from a light of this probability.
 #[inline]
 fn from_area(s: &AreaSample, radiance: Rgb<f32>, probability: f32) -> LightSample {
     LightSample {

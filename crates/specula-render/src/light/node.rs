@@ -65,7 +65,7 @@ impl Node {
         to.vector(self.centre);
         to.number(self.radius);
         to.vector(self.axis);
-        to.numbers([self.cos_o, self.cos_e, self.intensity]);
+        to.floats([self.cos_o, self.cos_e, self.intensity]);
         to.id(u32::from(self.two_sided) | u32::from(self.leaf) << 1);
         to.id(self.link);
     }

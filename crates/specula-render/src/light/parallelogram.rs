@@ -89,7 +89,7 @@ impl Parallelogram {
         for axis in self.axes {
             to.vector(axis);
         }
-        to.numbers(self.sides);
+        to.floats(self.sides);
         to.number(self.least.min(f32::MAX));
         to.vector(self.error);
     }
@@ -122,7 +122,7 @@ impl Parallelogram {
         }
     }
 
-    /// Density in 1/sr with which the direction from `p` to the point `q` is drawn.
+    /// Density in 1/sr with which the direction from `p` to the point `q` is sampled.
     #[inline(always)]
     pub(super) fn pdf(&self, p: Vec3<f32>, q: Vec3<f32>) -> f32 {
         let solid_angle = core::f32::consts::TAU * self.spread(p).solid_angle;
@@ -160,7 +160,7 @@ impl Parallelogram {
 }
 
 impl Spread {
-    /// Weights of the two edges of a point drawn uniformly by solid angle.
+    /// Weights of the two edges of a point sampled uniformly by solid angle.
     #[inline(always)]
     fn sample(&self, u: [f32; 2], sides: [f32; 2]) -> [f32; 2] {
         let h = self.h;
@@ -228,7 +228,7 @@ mod tests {
 
     /// From within its outline, from beside it, from behind, from far away and next to its plane.
     #[test]
-    fn rectangles_are_drawn_uniformly_by_solid_angle() {
+    fn rectangles_are_sampled_uniformly_by_solid_angle() {
         let (light, place) = rectangle();
         for p in [
             vec3(0.2, 0.9, 0.3),
@@ -269,7 +269,7 @@ mod tests {
 
     /// `E[1 / pdf]` is the solid angle either way of sampling.
     #[test]
-    fn densities_are_of_what_is_drawn() {
+    fn densities_are_of_what_is_sampled() {
         let skewed = [Vec3::ZERO, vec3(1.0, 0.0, 0.0), vec3(0.4, 0.8, 0.0)];
         let square = [Vec3::ZERO, vec3(0.02, 0.0, 0.0), vec3(0.0, 0.02, 0.0)];
         for (corners, p) in [(skewed, vec3(0.3, 0.2, 0.9)), (square, vec3(0.1, 0.3, 0.7))] {

@@ -51,7 +51,7 @@ impl Piecewise {
         self.share([x, y]) * self.width as f32 * self.height as f32
     }
 
-    /// A point drawn with that density.
+    /// A point sampled with that density.
     ///
     /// * `u`: uniform in `[0, 1)^2`.
     #[inline]
@@ -63,7 +63,7 @@ impl Piecewise {
         ]
     }
 
-    /// A cell drawn by its weight, and where in it the point lies, uniform in `[0, 1)^2`.
+    /// A cell sampled by its weight, and where in it the point lies, uniform in `[0, 1)^2`.
     ///
     /// * `u`: uniform in `[0, 1)^2`.
     #[inline]
@@ -74,9 +74,9 @@ impl Piecewise {
         ([x, y], [s, t])
     }
 
-    /// [`Piecewise::sample_cell`] for each of the first `n` lanes.
+    /// [`Piecewise::sample_cell`] for each of the first `n` batches.
     ///
-    /// * `u`: numbers to draw by; then where in its cell each point lies.
+    /// * `u`: random random_numbers to sample by; then where in its cell each point lies.
     #[inline(always)]
     pub(super) fn sample_cells<const N: usize>(
         &self,
@@ -112,7 +112,7 @@ impl Piecewise {
     pub(super) fn flatten(&self, to: &mut Words) -> [u32; 2] {
         [&self.rows, &self.columns].map(|shares| {
             let place = to.place();
-            to.numbers(shares.iter().copied());
+            to.floats(shares.iter().copied());
             place
         })
     }

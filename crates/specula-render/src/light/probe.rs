@@ -22,14 +22,14 @@ impl PreparedScene {
     #[doc(hidden)]
     pub fn probe_light(&self, lit: Lit, u: [f32; 4]) -> Option<[f32; 18]> {
         let world = (&self.geometry, &self.textures);
-        let drawn = self.lights.sample(&receiver(lit), world, u)?;
+        let sampled = self.lights.sample(&receiver(lit), world, u)?;
         let LightSample {
             wi,
             radiance,
             pdf,
             delta,
             from,
-        } = drawn;
+        } = sampled;
         let mut answer = [0.0; 18];
         answer[..3].copy_from_slice(&wi.to_array());
         answer[3] = pdf;
@@ -49,7 +49,7 @@ impl PreparedScene {
         Some(answer)
     }
 
-    /// Density with which a point of a light's surface is drawn.
+    /// Density with which a point of a light's surface is sampled.
     ///
     /// * `weights`: of its primitive's second and third corner.
     #[doc(hidden)]
@@ -87,7 +87,7 @@ impl PreparedScene {
         arriving.map(|(c, pdf)| [c.r, c.g, c.b, pdf]).collect()
     }
 
-    /// Probability with which a light from infinity is drawn.
+    /// Probability with which a light from infinity is sampled.
     #[doc(hidden)]
     pub fn probe_share_from_infinity(&self, lit: Lit) -> f32 {
         self.lights.share_from_infinity(&receiver(lit))

@@ -35,7 +35,7 @@ pub(super) struct Selection {
     far: AliasTable,
     /// Relative to the intensities in the tree.
     far_irradiance: f32,
-    /// The light that is always drawn, where there is but one.
+    /// The light that is always sampled, where there is but one.
     only: Option<u32>,
 }
 
@@ -44,15 +44,15 @@ impl Selection {
     /// * `far`: lights with their irradiances at normal incidence, or integrals of luminance.
     /// * `lights`: how many there are in all.
     pub(super) fn new(mut near: Vec<Emitter>, far: &[(u32, f64)], lights: usize) -> Self {
-        let shines = |x: f64| x > 0.0 && x.is_finite();
-        near.retain(|e| shines(e.intensity));
+        let emits = |x: f64| x > 0.0 && x.is_finite();
+        near.retain(|e| emits(e.intensity));
         // Within the range of f32, whatever the units.
         let scale = near.iter().map(|e| e.intensity).fold(0.0, f64::max);
         let scale = if scale > 0.0 { scale } else { 1.0 };
         for e in &mut near {
             e.intensity /= scale;
         }
-        let far = || far.iter().filter(|f| shines(f.1));
+        let far = || far.iter().filter(|f| emits(f.1));
         let only = match (near.as_slice(), far().count()) {
             ([], 1) => far().next().map(|f| f.0),
             ([one], 0) => Some(one.light),

@@ -81,7 +81,7 @@ impl Sun {
     }
 
     /// Integral of luminance over the sphere of directions.
-    pub(super) fn drawn_integral(&self) -> f64 {
+    pub(super) fn sampled_integral(&self) -> f64 {
         let colour = self.radiance.luminance().max(self.radiance.mean());
         f64::from(colour) * core::f64::consts::TAU * f64::from(self.one_minus_cos)
     }

@@ -1,4 +1,4 @@
-//! The choice among lights: what is drawn, what is looked up, what could contribute.
+//! The choice among lights: what is sampled, what is looked up, what could contribute.
 
 use specula_bsdf::Vec3;
 use specula_bsdf::math::{vec3, warp::uniform_sphere};
@@ -11,8 +11,8 @@ use super::select::Selection;
 use crate::accel::{Bounds, QuadricShape};
 use crate::sampler::Sampler;
 
-/// Numbers in `[0, 1)`.
-fn numbers(key: u32) -> impl FnMut() -> f32 {
+/// Random random_numbers in `[0, 1)`.
+fn random_numbers(key: u32) -> impl FnMut() -> f32 {
     let sampler = Sampler::new([7, 11], 0, 5);
     let mut count = 0;
     move || {
@@ -27,7 +27,7 @@ fn point(next: &mut impl FnMut() -> f32, size: f32) -> Vec3<f32> {
 
 /// Triangles, disks, spheres and ellipsoids, one- and two-sided, of very different strengths.
 fn areas(count: u32) -> Vec<(Area, bool)> {
-    let mut next = numbers(1);
+    let mut next = random_numbers(1);
     (0..count)
         .map(|i| {
             let at = point(&mut next, 10.0);
@@ -56,7 +56,7 @@ fn areas(count: u32) -> Vec<(Area, bool)> {
 }
 
 fn emitters(areas: &[(Area, bool)]) -> Vec<Emitter> {
-    let mut next = numbers(2);
+    let mut next = random_numbers(2);
     let emitter = |(i, (area, two_sided)): (usize, &(Area, bool))| Emitter {
         light: crate::convert::id(i),
         bounds: area.bounds(),
@@ -68,7 +68,7 @@ fn emitters(areas: &[(Area, bool)]) -> Vec<Emitter> {
 
 /// Anywhere, next to lights, behind them and within their bounds, with a normal and without.
 fn receivers(areas: &[(Area, bool)]) -> Vec<Receiver> {
-    let mut next = numbers(3);
+    let mut next = random_numbers(3);
     (0..300)
         .map(|i| {
             let point = match i % 3 {
@@ -95,7 +95,7 @@ fn probabilities_sum_to_one_and_miss_no_light_that_contributes() {
     let areas = areas(150);
     for far in [&[][..], &[(150, 3.0), (151, 1.0)]] {
         let selection = Selection::new(emitters(&areas), far, 152);
-        let mut next = numbers(4);
+        let mut next = random_numbers(4);
         let mut left_out = 0;
         for r in receivers(&areas) {
             let p: Vec<f32> = (0..150)
@@ -109,8 +109,8 @@ fn probabilities_sum_to_one_and_miss_no_light_that_contributes() {
                     let Some(s) = area.sample(r.point, [next(), next()]) else {
                         continue;
                     };
-                    let shines = *two_sided || s.normal.dot(s.wi) < 0.0;
-                    let lit = shines && r.normal.is_none_or(|n| n.dot(s.wi) > 0.0);
+                    let emits = *two_sided || s.normal.dot(s.wi) < 0.0;
+                    let lit = emits && r.normal.is_none_or(|n| n.dot(s.wi) > 0.0);
                     assert!(!lit || p[i] > 0.0, "{r:?} {area:?}");
                 }
             }
@@ -123,17 +123,17 @@ fn probabilities_sum_to_one_and_miss_no_light_that_contributes() {
 }
 
 #[test]
-fn what_is_looked_up_is_what_is_drawn() {
+fn what_is_looked_up_is_what_is_sampled() {
     let areas = areas(20);
     let selection = Selection::new(emitters(&areas), &[(20, 3.0), (21, 1.0)], 22);
-    let mut next = numbers(5);
-    let (mut without_normal, mut drawn) = (0, 0);
+    let mut next = random_numbers(5);
+    let (mut without_normal, mut sampled) = (0, 0);
     for r in receivers(&areas) {
         for _ in 0..32 {
             let Some((light, p)) = selection.sample(&r, [next(), next()]) else {
                 continue;
             };
-            drawn += 1;
+            sampled += 1;
             if light >= 20 {
                 let far = selection.share_far(&r) * selection.probability_far(light);
                 assert_eq!(p, far);
@@ -146,13 +146,13 @@ fn what_is_looked_up_is_what_is_drawn() {
     }
     // A lookup that forgets the normal is another function: the equality above would show it.
     assert!(
-        without_normal > drawn / 4 && drawn > 9000,
-        "{without_normal} {drawn}"
+        without_normal > sampled / 4 && sampled > 9000,
+        "{without_normal} {sampled}"
     );
 }
 
 #[test]
-fn lights_are_drawn_as_often_as_their_probabilities_say() {
+fn lights_are_sampled_as_often_as_their_probabilities_say() {
     let areas = areas(20);
     let selection = Selection::new(emitters(&areas), &[(20, 3.0)], 21);
     for r in receivers(&areas).iter().step_by(37) {
@@ -210,7 +210,7 @@ fn lights_on_a_heap_keep_their_chance() {
 }
 
 #[test]
-fn black_and_broken_lights_are_never_drawn() {
+fn black_and_broken_lights_are_never_sampled() {
     let mut heap: Vec<Emitter> = (0..4).map(|i| dot(i, 1.0)).collect();
     for (e, intensity) in heap.iter_mut().zip([0.0, f64::NAN, f64::INFINITY, 1e-200]) {
         e.intensity = intensity;

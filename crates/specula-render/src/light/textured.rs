@@ -7,13 +7,13 @@ use super::area::{Area, AreaSample};
 use super::piecewise::Piecewise;
 use crate::flat::Words;
 use crate::geometry::{At, Geometry, Surface};
-use crate::texture::{Place, Textures};
+use crate::texture::{TextureCoordinates, Textures};
 
 /// Cells along the sides of a triangle's table.
 const MOST_CELLS: usize = 32;
-/// With fewer, no table is made: points are drawn uniformly.
+/// With fewer, no table is made: points are sampled uniformly.
 const LEAST_CELLS: usize = 4;
-/// Share of points of a table that are drawn uniformly: what the table missed is still found.
+/// Share of points of a table that are sampled uniformly: what the table missed is still found.
 const UNIFORM_SHARE: f64 = 0.1;
 /// A table pays where its largest density is this much above the uniform one.
 const WORTH_IT: f64 = 1.5;
@@ -50,7 +50,7 @@ pub(super) struct Varying {
 }
 
 impl Varying {
-    pub(super) fn radiance(&self, textures: &Textures, place: &Place) -> Rgb<f32> {
+    pub(super) fn radiance(&self, textures: &Textures, place: &TextureCoordinates) -> Rgb<f32> {
         let radiance = textures.colour(self.radiance, place).map(|v| v.max(0.0));
         match self.alpha {
             None => radiance,

@@ -17,7 +17,7 @@ use super::Models;
 use super::metal::{alpha, reflectance};
 use super::rough::{conductor, dielectric};
 use crate::integrator::bias;
-use crate::texture::{Place, Textures};
+use crate::texture::{TextureCoordinates, Textures};
 
 /// What takes all light and gives none.
 pub(super) fn black() -> Lobe<f32> {
@@ -70,7 +70,7 @@ pub(super) fn is_isotropic(kind: &MaterialKind) -> bool {
 pub(super) fn lobe(
     kind: &MaterialKind,
     textures: &Textures,
-    place: &Place,
+    place: &TextureCoordinates,
     outside: bool,
     models: Models,
 ) -> Lobe<f32> {
@@ -159,13 +159,13 @@ pub(super) fn lobe(
 #[derive(Clone, Copy)]
 struct At<'a> {
     textures: &'a Textures,
-    place: &'a Place,
+    place: &'a TextureCoordinates,
     /// Whether it is behind a rough surface that makes it rougher.
     regularized: bool,
 }
 
 impl<'a> At<'a> {
-    fn new(textures: &'a Textures, place: &'a Place, models: Models) -> Self {
+    fn new(textures: &'a Textures, place: &'a TextureCoordinates, models: Models) -> Self {
         Self {
             textures,
             place,
@@ -214,7 +214,7 @@ impl<'a> At<'a> {
         }
     }
 
-    /// Coats know GGX only, with height-correlated masking: Beckmann's widths are taken for its.
+    /// Coats know GGX only, with height-correlated masking: Beckmann's alphas are taken for its.
     fn ggx(&self, roughness: &Roughness) -> Option<Ggx<f32>> {
         self.alpha(roughness).map(Ggx::new)
     }
@@ -327,7 +327,7 @@ impl<'a> At<'a> {
             sheen: self.unit(p.sheen),
             sheen_tint: self.unit(p.sheen_tint),
             clearcoat: self.unit(p.clearcoat),
-            // Its widths end at 0.1, that of gloss 0.
+            // Its alphas end at 0.1, that of gloss 0.
             clearcoat_gloss: match self.regularized {
                 true => 0.0,
                 false => self.unit(p.clearcoat_gloss),

@@ -6,14 +6,14 @@ use specula_bsdf::Rgb;
 use specula_bsdf::ndf::Masking;
 use specula_scene::Energy;
 use specula_scene::scene::{
-    CoatMedium, ColourParam, ConductorFresnel, Distribution, FloatParam, Gltf, MaterialKind,
-    Principled, ReliefRules, Roughness, RoughnessMapping,
+    BumpRules, CoatMedium, ColourParam, ConductorFresnel, Distribution, FloatParam, Gltf,
+    MaterialKind, Principled, Roughness, RoughnessMapping,
 };
 
 use super::{Material, Materials};
+use crate::bump;
 use crate::convert::id;
 use crate::flat::{Flattening, LobeKind, Words};
-use crate::relief;
 use crate::texture::colour_parameter;
 
 impl Materials {
@@ -30,9 +30,9 @@ impl Materials {
         to.words.ids(self.behind_rough.iter().copied());
         to.words
             .constant("REGULARIZES", u32::from(self.are_regularized()));
-        to.words.begin("RELIEFS");
+        to.words.begin("BUMPS");
         for material in &self.materials {
-            material.flatten_reliefs(&mut to.words);
+            material.flatten_bumps(&mut to.words);
         }
         to.words.begin("BOUNDARIES");
         for material in &self.materials {
@@ -46,7 +46,7 @@ impl Materials {
             u32::from(self.materials.iter().any(turns)),
         );
         let bent = self.materials.iter().filter(|m| m.is_bent()).count();
-        to.words.constant("RELIEF_COUNT", id(bent));
+        to.words.constant("BUMP_COUNT", id(bent));
         // A render has one sampler and one density for simulated bounces.
         let models = self.materials.first().map(|m| m.models);
         to.words
@@ -86,16 +86,16 @@ impl Material {
         to.colour(colour(self.boundary.and_then(|b| b.around)));
     }
 
-    /// 9 words: the relief, whether the clear coat is bent otherwise, its relief.
-    fn flatten_reliefs(&self, to: &mut Words) {
-        relief::flatten(self.relief.as_ref(), self.relief_rules, to);
+    /// 9 words: the bump map, whether the clear coat is bent otherwise, its bump.
+    fn flatten_bumps(&self, to: &mut Words) {
+        bump::flatten(self.bump.as_ref(), self.bump_rules, to);
         to.flag(self.coat.is_some());
         let coat = self.coat.and_then(|c| c.0);
-        relief::flatten(coat.as_ref(), ReliefRules::Plain, to);
+        bump::flatten(coat.as_ref(), BumpRules::Plain, to);
     }
 
     fn is_bent(&self) -> bool {
-        self.relief.is_some() || self.coat.is_some()
+        self.bump.is_some() || self.coat.is_some()
     }
 
     fn lobe_kind(&self) -> LobeKind {
@@ -216,7 +216,7 @@ impl Material {
 struct Parameters {
     textured: Vec<ColourParam>,
     plain: Vec<u32>,
-    /// Whether widths are made larger, as behind a rough surface.
+    /// Whether alphas are made larger, as behind a rough surface.
     regularized: bool,
 }
 
@@ -247,7 +247,7 @@ impl Parameters {
         self.id(x.to_bits())
     }
 
-    /// Two widths; what they are (4 more where they are made larger), distribution, masking.
+    /// Two alphas; what they are (4 more where they are made larger), distribution, masking.
     fn roughness(&mut self, roughness: &Roughness) -> &mut Self {
         let mapping = match roughness.mapping {
             RoughnessMapping::Alpha => 0,
@@ -337,21 +337,21 @@ impl Parameters {
 
 /// The number of a kind's model, as the shader library counts them.
 fn energy_code(energy: Energy) -> u32 {
-    use specula_bsdf::energy::{FmsVariant, Model as Formula};
-    use specula_bsdf::multibounce::Model;
+    use specula_bsdf::energy::{EnergyModel, FmsVariant};
+    use specula_bsdf::multibounce::MultibounceModel;
     match energy {
-        Energy::None | Energy::Compensated(Formula::Turquin(FmsVariant::NormalIncidence)) => 0,
-        Energy::Compensated(Formula::Turquin(FmsVariant::AverageSeries)) => 1,
-        Energy::Compensated(Formula::KullaConty) => 2,
+        Energy::None | Energy::Compensated(EnergyModel::Turquin(FmsVariant::NormalIncidence)) => 0,
+        Energy::Compensated(EnergyModel::Turquin(FmsVariant::AverageSeries)) => 1,
+        Energy::Compensated(EnergyModel::KullaConty) => 2,
         Energy::Multibounce(model) => match model {
-            Model::Heitz2016 => 0,
-            Model::BitterliDeon2022 => 1,
-            Model::Wang2022 { correlated: true } => 2,
-            Model::Wang2022 { correlated: false } => 3,
-            Model::Cui2023 {
+            MultibounceModel::Heitz2016 => 0,
+            MultibounceModel::BitterliDeon2022 => 1,
+            MultibounceModel::Wang2022 { correlated: true } => 2,
+            MultibounceModel::Wang2022 { correlated: false } => 3,
+            MultibounceModel::Cui2023 {
                 bidirectional: false,
             } => 4,
-            Model::Cui2023 {
+            MultibounceModel::Cui2023 {
                 bidirectional: true,
             } => 5,
             _ => 6,

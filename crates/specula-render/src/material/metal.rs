@@ -6,16 +6,16 @@ use specula_scene::scene::{ConductorFresnel, Roughness, RoughnessMapping};
 
 use crate::convert::narrow;
 use crate::integrator::bias;
-use crate::texture::{Place, Textures};
+use crate::texture::{TextureCoordinates, Textures};
 
-/// The widths; `None` where the surface is smooth: both are below [`Alpha::SPECULAR_BELOW`]. With
+/// The alphas; `None` where the surface is smooth: both are below [`Alpha::SPECULAR_BELOW`]. With
 /// one above, the other is raised to that bound.
 ///
 /// * `regularized`: whether it is the material behind a rough surface; it is never smooth then.
 pub(super) fn alpha(
     roughness: &Roughness,
     textures: &Textures,
-    place: &Place,
+    place: &TextureCoordinates,
     regularized: bool,
 ) -> Option<Alpha<f32>> {
     let bound = narrow(Alpha::<f32>::SPECULAR_BELOW);
@@ -38,7 +38,7 @@ pub(super) fn alpha(
 pub(super) fn reflectance(
     fresnel: &ConductorFresnel,
     textures: &Textures,
-    place: &Place,
+    place: &TextureCoordinates,
 ) -> Reflectance<f32> {
     let unit = |colour| textures.colour(colour, place).map(|r| r.clamp(0.0, 1.0));
     match *fresnel {
@@ -72,7 +72,7 @@ mod tests {
                 v: FloatParam::Value(v),
                 ..Roughness::isotropic(FloatParam::Value(u), mapping)
             };
-            alpha(&roughness, &textures, &Place::default(), false)
+            alpha(&roughness, &textures, &TextureCoordinates::default(), false)
         };
         let expected = |x, y| Some(Alpha::clamped(x, y));
         assert_eq!(of(9e-4, 0.0, RoughnessMapping::Alpha), None);
@@ -91,7 +91,12 @@ mod tests {
             (ConductorFresnel::Schlick(colour), given),
             (ConductorFresnel::Mirror, [1.0; 3]),
         ] {
-            let found = reflectance(&fresnel, &Textures::default(), &Place::default()).eval(1.0);
+            let found = reflectance(
+                &fresnel,
+                &Textures::default(),
+                &TextureCoordinates::default(),
+            )
+            .eval(1.0);
             for (found, expected) in found.to_array().into_iter().zip(expected) {
                 assert!((found - expected).abs() < 1e-4, "{found} {expected}");
             }

@@ -13,13 +13,13 @@ use specula_bsdf::vndf;
 use specula_bsdf::{Bsdf, Rgb};
 use specula_scene::Energy;
 use specula_scene::scene::{
-    ColourParam, FloatParam, MaterialKind, Relief, ReliefRules, Scene, TextureId,
+    Bump, BumpRules, ColourParam, FloatParam, MaterialKind, Scene, TextureId,
 };
 
-use crate::bodies::Boundary;
 use crate::integrator::lobes;
+use crate::medium_stack::Boundary;
 use crate::options::RenderOptions;
-use crate::texture::{Place, Textures};
+use crate::texture::{TextureCoordinates, Textures};
 
 /// All materials of a scene.
 #[derive(Clone, Debug)]
@@ -43,9 +43,9 @@ pub(crate) struct Material {
     /// Whether its layers let nothing through.
     opaque_layers: bool,
     /// What bends its normal, unless it bends nothing.
-    pub(crate) relief: Option<Relief>,
+    pub(crate) bump: Option<Bump>,
     /// By whose rules it bends.
-    pub(crate) relief_rules: ReliefRules,
+    pub(crate) bump_rules: BumpRules,
     /// What turns the lobes' x axis from dp/du towards dp/dv, unless nothing does.
     turn: Option<Turn>,
     /// What bends its clear coat, where that is bent otherwise than the rest.
@@ -82,7 +82,7 @@ struct Turn {
 
 /// What bends a clear coat; `None`: it keeps the normals of the mesh.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Coat(pub(crate) Option<Relief>);
+pub(crate) struct Coat(pub(crate) Option<Bump>);
 
 /// A material at a hit, mixes resolved.
 #[derive(Clone, Copy)]
@@ -91,7 +91,7 @@ pub(crate) struct Chosen<'a> {
     one_sided: bool,
 }
 
-/// How rough surfaces scatter and are drawn.
+/// How rough surfaces scatter and are sampled.
 #[derive(Clone, Copy, Debug)]
 struct Models {
     sampler: vndf::Sampler,
@@ -121,7 +121,7 @@ impl Materials {
                 regularized,
             };
             let (kind, varies) = fold::folded(&material.kind, textures);
-            let nowhere = Place::default();
+            let nowhere = TextureCoordinates::default();
             let is_mix = matches!(kind, MaterialKind::Mix { .. });
             let mut material = Material {
                 plain: None,
@@ -130,19 +130,19 @@ impl Materials {
                         .map(|outside| bind::lobe(&kind, textures, &nowhere, outside, models))
                 }),
                 turn: turn(&kind, textures),
-                coat: coat(&kind, material.relief.is_some()),
+                coat: coat(&kind, material.bump.is_some()),
                 boundary: absorbs.then(|| boundary(material)).flatten(),
                 opaque_layers: bind::is_opaque(&kind),
                 kind,
                 models,
                 one_sided: material.one_sided,
-                relief_rules: material.relief_rules,
-                relief: material.relief.filter(|relief| match relief {
+                bump_rules: material.bump_rules,
+                bump: material.bump.filter(|bump| match bump {
                     // A surface moved along its normals by the same distance keeps them.
-                    Relief::Height(h) => {
+                    Bump::Height(h) => {
                         matches!(textures.fold_float(*h), FloatParam::Texture(_))
                     }
-                    Relief::Normal { .. } => true,
+                    Bump::Normal { .. } => true,
                 }),
             };
             material.plain = material.as_plain();
@@ -183,7 +183,7 @@ impl Materials {
         self.has_boundaries
     }
 
-    /// A material without textures, reliefs and transmission.
+    /// A material without textures, bump maps and transmission.
     #[inline]
     pub(crate) fn plain(&self, material: u32) -> Option<&[Plain; 2]> {
         self.materials[material as usize].plain.as_ref()
@@ -203,7 +203,7 @@ impl Materials {
         &self,
         material: u32,
         textures: &Textures,
-        place: &Place,
+        place: &TextureCoordinates,
         random: impl Fn(u32) -> f32,
     ) -> Chosen<'_> {
         let mut material = &self.materials[material as usize];
@@ -269,11 +269,11 @@ fn coat(kind: &MaterialKind, bent: bool) -> Option<Coat> {
         return None;
     };
     let there = g.clearcoat != FloatParam::Value(0.0);
-    (there && (bent || g.clearcoat_relief.is_some())).then_some(Coat(g.clearcoat_relief))
+    (there && (bent || g.clearcoat_bump.is_some())).then_some(Coat(g.clearcoat_bump))
 }
 
 impl Material {
-    /// Whether it is dealt with in lanes, and takes any tangent.
+    /// Whether it is dealt with in batches, and takes any tangent.
     #[inline]
     pub(crate) fn is_plain_and_isotropic(&self) -> bool {
         self.plain.as_ref().is_some_and(|[p, _]| p.isotropic)
@@ -282,7 +282,7 @@ impl Material {
     fn as_plain(&self) -> Option<[Plain; 2]> {
         let [inside, outside] = self.constant?;
         let black_inside = self.one_sided || matches!(inside, Lobe::Black(_));
-        let is_bent = self.relief.is_some() || self.turn.is_some() || self.coat.is_some();
+        let is_bent = self.bump.is_some() || self.turn.is_some() || self.coat.is_some();
         if is_bent || !lobes::is_known(&outside) {
             return None;
         }
@@ -304,7 +304,11 @@ impl Material {
 
     /// Angle of the lobes' x axis from dp/du towards dp/dv.
     #[inline]
-    pub(crate) fn rotation_rad(&self, textures: &Textures, place: impl Fn() -> Place) -> f32 {
+    pub(crate) fn rotation_rad(
+        &self,
+        textures: &Textures,
+        place: impl Fn() -> TextureCoordinates,
+    ) -> f32 {
         match self.turn {
             None => 0.0,
             Some(Turn {
@@ -322,7 +326,12 @@ impl Material {
 impl Chosen<'_> {
     /// The lobe as seen from one side.
     #[inline]
-    pub(crate) fn lobe(&self, textures: &Textures, place: &Place, outside: bool) -> Lobe<f32> {
+    pub(crate) fn lobe(
+        &self,
+        textures: &Textures,
+        place: &TextureCoordinates,
+        outside: bool,
+    ) -> Lobe<f32> {
         if self.one_sided && !outside {
             return bind::black();
         }

@@ -35,7 +35,7 @@ fn conductor_of<N: Tabulated<f32>>(
 where
     RoughConductor<f32, N>: Into<Lobe<f32>>,
     Compensated<f32, N>: Into<Lobe<f32>>,
-    multibounce::Conductor<f32, N>: Into<Lobe<f32>>,
+    multibounce::MultibounceConductor<f32, N>: Into<Lobe<f32>>,
 {
     match models.energy {
         Energy::None => RoughConductor::new(ndf, metal)
@@ -46,7 +46,7 @@ where
             .with_masking(roughness.masking)
             .with_sampler(models.sampler)
             .into(),
-        Energy::Multibounce(model) => multibounce::Conductor::new(ndf, metal, model)
+        Energy::Multibounce(model) => multibounce::MultibounceConductor::new(ndf, metal, model)
             .with_mis_pdf(models.mis_pdf)
             .into(),
     }
@@ -81,7 +81,7 @@ fn dielectric_of<N: Tabulated<f32>>(
 where
     RoughDielectric<f32, N>: Into<Lobe<f32>>,
     CompensatedDielectric<f32, N>: Into<Lobe<f32>>,
-    multibounce::Dielectric<f32, N>: Into<Lobe<f32>>,
+    multibounce::MultibounceDielectric<f32, N>: Into<Lobe<f32>>,
 {
     match models.energy {
         // Caps whatever is chosen for metals: refraction needs all visible normals.
@@ -93,9 +93,11 @@ where
             .with_masking(roughness.masking)
             .with_tints(tints)
             .into(),
-        Energy::Multibounce(model) => multibounce::Dielectric::facing(ndf, relative, model)
-            .with_mis_pdf(models.mis_pdf)
-            .with_tints(tints)
-            .into(),
+        Energy::Multibounce(model) => {
+            multibounce::MultibounceDielectric::facing(ndf, relative, model)
+                .with_mis_pdf(models.mis_pdf)
+                .with_tints(tints)
+                .into()
+        }
     }
 }

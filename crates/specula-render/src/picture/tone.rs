@@ -4,7 +4,7 @@ use specula_bsdf::Rgb;
 
 use super::srgb;
 
-/// How values above 1 are brought onto a screen.
+/// How values above 1 are contributed onto a screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ToneMap {
     /// They are cut off: what lies in `[0, 1]` is shown exactly.

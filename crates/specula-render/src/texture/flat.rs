@@ -9,7 +9,7 @@ use specula_scene::scene::{
 };
 
 use super::graph::{Node, Picture};
-use super::{Place, Textures, finite, noise};
+use super::{TextureCoordinates, Textures, finite, noise};
 use crate::convert::id;
 use crate::flat::{Flattening, Words};
 use crate::prepared::PreparedScene;
@@ -50,7 +50,7 @@ impl PreparedScene {
     #[doc(hidden)]
     pub fn probe_texture(&self, texture: usize, place: [f32; 13]) -> [f32; 3] {
         let three = |i: usize| [place[i], place[i + 1], place[i + 2]];
-        let place = Place {
+        let place = TextureCoordinates {
             uv: [place[0], place[1]],
             second_uv: [place[2], place[3]],
             position: Vec3::from(three(4)),
@@ -160,7 +160,7 @@ impl Records {
                     NoiseKind::Marble { scale, variation } => (3, [scale, variation]),
                 };
                 to.ids([kind, *octaves]);
-                to.numbers([*roughness, scale, variation]);
+                to.floats([*roughness, scale, variation]);
                 to.affine(to_texture);
             }
             Node::Threshold { cutoff, .. } => to.number(*cutoff),

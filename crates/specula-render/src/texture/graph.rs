@@ -5,7 +5,7 @@ use specula_scene::scene::{Channel, FloatParam, NoiseKind, Texture, TextureId};
 
 use super::mapping::Mapping;
 use super::raster::Lookup;
-use super::{Place, Textures, finite, noise};
+use super::{TextureCoordinates, Textures, finite, noise};
 use crate::convert::{Affine, floor_i32};
 
 /// A texture node, its transforms in single precision.
@@ -189,7 +189,7 @@ impl Textures {
     }
 
     /// The value of a node at a place.
-    pub(super) fn node(&self, index: usize, place: &Place) -> Rgb<f32> {
+    pub(super) fn node(&self, index: usize, place: &TextureCoordinates) -> Rgb<f32> {
         self.value(index, place, |id| self.node(id.0, place))
     }
 
@@ -198,7 +198,7 @@ impl Textures {
     fn value(
         &self,
         index: usize,
-        place: &Place,
+        place: &TextureCoordinates,
         input: impl Fn(TextureId) -> Rgb<f32>,
     ) -> Rgb<f32> {
         match &self.nodes[index] {
@@ -278,7 +278,12 @@ impl Textures {
     /// longer than what one does.
     ///
     /// * `first`: the first of the nodes that it depends on.
-    pub(super) fn in_order(&self, first: usize, last: usize, place: &Place) -> Rgb<f32> {
+    pub(super) fn in_order(
+        &self,
+        first: usize,
+        last: usize,
+        place: &TextureCoordinates,
+    ) -> Rgb<f32> {
         let nodes = &self.nodes[first..=last];
         let mut needed = vec![false; nodes.len()];
         needed[last - first] = true;
@@ -298,7 +303,7 @@ impl Textures {
         values[last - first]
     }
 
-    fn picture(&self, p: &Picture, place: &Place) -> Rgb<f32> {
+    fn picture(&self, p: &Picture, place: &TextureCoordinates) -> Rgb<f32> {
         let pixel = self.rasters[p.image].at(p.mapping.at(place), p.lookup);
         let c = p.channel.of(pixel);
         let c = if p.invert {

@@ -4,7 +4,7 @@ use specula_bsdf::Vec3;
 use specula_bsdf::math::vec3;
 use specula_scene::scene::{TextureMapping, UvMapping};
 
-use super::Place;
+use super::TextureCoordinates;
 use crate::convert::Affine;
 use crate::flat::Words;
 
@@ -43,7 +43,7 @@ impl Mapping {
 
     /// `(s, t)`, with its origin at the lower left of pictures.
     #[inline]
-    pub(super) fn at(&self, place: &Place) -> [f32; 2] {
+    pub(super) fn at(&self, place: &TextureCoordinates) -> [f32; 2] {
         use core::f32::consts::{PI, TAU};
         match self {
             Self::Uv(m) => affine(m, place.uv),
@@ -71,11 +71,11 @@ impl Mapping {
         match self {
             Self::Uv(m) => {
                 to.id(0);
-                to.numbers(m.iter().flatten().copied());
+                to.floats(m.iter().flatten().copied());
             }
             Self::SecondUv(m) => {
                 to.id(1);
-                to.numbers(m.iter().flatten().copied());
+                to.floats(m.iter().flatten().copied());
             }
             Self::Planar(axes) => {
                 to.id(2);
@@ -107,11 +107,11 @@ mod tests {
     use glam::{DMat4, DVec3};
 
     fn at(mapping: &TextureMapping, p: [f32; 3]) -> [f32; 2] {
-        let place = Place {
+        let place = TextureCoordinates {
             position: Vec3::from(p),
             uv: [0.25, 0.5],
             second_uv: [4.0, 1.0],
-            ..Place::default()
+            ..TextureCoordinates::default()
         };
         Mapping::new(mapping).at(&place)
     }

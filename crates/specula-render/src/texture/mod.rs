@@ -18,7 +18,7 @@ pub(crate) use flat::{colour_parameter, float_parameter};
 
 /// Where a texture is evaluated.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
+pub(crate) struct TextureCoordinates {
     pub(crate) uv: [f32; 2],
     /// Of the second set; 0 where the mesh has none.
     pub(crate) second_uv: [f32; 2],
@@ -30,7 +30,7 @@ pub(crate) struct Place {
     pub(crate) colour: Rgb<f32>,
 }
 
-impl Default for Place {
+impl Default for TextureCoordinates {
     fn default() -> Self {
         Self {
             uv: [0.0; 2],
@@ -125,7 +125,7 @@ impl Textures {
     /// The value of a texture: of small graphs as a tree, which leaves out what is not shown, of large
     /// ones in order.
     #[inline]
-    fn at(&self, id: TextureId, place: &Place) -> Rgb<f32> {
+    fn at(&self, id: TextureId, place: &TextureCoordinates) -> Rgb<f32> {
         let Extent { visits, first } = self.extents[id.0];
         if visits <= LARGEST_TREE {
             self.node(id.0, place)
@@ -136,7 +136,7 @@ impl Textures {
 
     /// A colour at a place; 0 where it is no number.
     #[inline]
-    pub(crate) fn colour(&self, parameter: ColourParam, place: &Place) -> Rgb<f32> {
+    pub(crate) fn colour(&self, parameter: ColourParam, place: &TextureCoordinates) -> Rgb<f32> {
         let value = match parameter {
             ColourParam::Value(c) => c,
             ColourParam::Texture(id) => self.at(id, place),
@@ -146,7 +146,7 @@ impl Textures {
 
     /// A number at a place; 0 where it is none.
     #[inline]
-    pub(crate) fn float(&self, parameter: FloatParam, place: &Place) -> f32 {
+    pub(crate) fn float(&self, parameter: FloatParam, place: &TextureCoordinates) -> f32 {
         finite(match parameter {
             FloatParam::Value(v) => v,
             FloatParam::Texture(id) => self.at(id, place).r,

@@ -117,7 +117,7 @@ pub(super) fn flatten(to: &mut Words) {
     to.begin("NOISE_PERMUTATION");
     to.ids(PERMUTATION.map(u32::from));
     to.begin("NOISE_MARBLE");
-    to.numbers(MARBLE.into_iter().flatten());
+    to.floats(MARBLE.into_iter().flatten());
 }
 
 /// Names for the tables where no texture reads them.

@@ -85,11 +85,11 @@ impl Raster {
         to.ids([self.width, self.height].map(i32::unsigned_abs));
         let Some(indexed) = self.pixels.indexed() else {
             to.flag(false);
-            to.numbers(self.pixels.iter().flatten());
+            to.floats(self.pixels.iter().flatten());
             return here;
         };
         to.flag(true);
-        to.numbers(indexed.table.iter().copied());
+        to.floats(indexed.table.iter().copied());
         if indexed.is_colour {
             let words = indexed.indices.as_chunks().0.iter();
             to.ids(words.map(|&[r, g, b]| u32::from_le_bytes([r, g, b, 0])));

@@ -238,7 +238,7 @@ pub(crate) fn body(scene: &mut Scene, half: f64, [low, high]: [f64; 2], material
     }
 }
 
-/// A material whose bodies absorb.
+/// A material whose media absorb.
 pub(crate) fn absorbing(scene: &mut Scene, kind: MaterialKind, absorption: f32) -> MaterialId {
     let id = material(scene, kind);
     scene.materials[id.0].absorption = Rgb::splat(absorption);

@@ -24,9 +24,9 @@ use crate::scene::{
 
 /// Symbols of the metals, from left to right.
 const METALS: [&str; 5] = ["Ag", "Au", "Cu", "Ti", "Fe"];
-/// Widths of the back row.
+/// Alphas of the back row.
 const ISOTROPIC: [f64; 5] = [0.02, 0.1, 0.25, 0.5, 1.0];
-/// Widths of the front row, `(alpha_x, alpha_y)`.
+/// Alphas of the front row, `(alpha_x, alpha_y)`.
 const ANISOTROPIC: [(f64, f64); 5] = [
     (0.05, 0.4),
     (0.4, 0.05),

@@ -49,7 +49,7 @@ const STRIPS: [Strip; 4] = [
     },
 ];
 
-/// What throws the shadow on a floor: as large as soft shadows need, high and to the left.
+/// What projects the shadow on a floor: as large as soft shadows need, high and to the left.
 const KEY: Strip = Strip {
     azimuth_deg: 222.0,
     elevation_deg: 58.0,

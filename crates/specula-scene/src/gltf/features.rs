@@ -44,7 +44,7 @@ pub const FEATURES: &[Feature] = &[
     Feature::approximated(
         "material",
         "KHR_materials_unlit",
-        "shines with its base colour",
+        "emits with its base colour",
     ),
     Feature::approximated(
         "material",

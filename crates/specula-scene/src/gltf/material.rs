@@ -11,7 +11,7 @@ use super::texture::{MOST_SETS, Meaning};
 use super::texture_ref::{TextureRef, number, numbers};
 use crate::error::SceneError;
 use crate::scene::{
-    Channel, ColourParam, Emission, FloatParam, Gltf, Material, MaterialId, MaterialKind, Relief,
+    Bump, Channel, ColourParam, Emission, FloatParam, Gltf, Material, MaterialId, MaterialKind,
     Texture,
 };
 
@@ -72,7 +72,7 @@ impl Reader<'_> {
         let emission = self.emission(material, base)?;
         let alpha = self.alpha(material, factor, picture)?;
         let kind = if material.unlit() {
-            self.warn("unlit materials shine with their base colour");
+            self.warn("unlit materials emit with their base colour");
             MaterialKind::Diffuse {
                 reflectance: ColourParam::Value(Rgb::BLACK),
                 roughness: FloatParam::Value(0.0),
@@ -80,8 +80,8 @@ impl Reader<'_> {
         } else {
             MaterialKind::Gltf(self.metallic_roughness(material, base)?)
         };
-        let relief = match (normal_map(material), material.normal_texture()) {
-            (Some(reference), Some(normal)) => Some(Relief::Normal {
+        let bump = match (normal_map(material), material.normal_texture()) {
+            (Some(reference), Some(normal)) => Some(Bump::Normal {
                 map: self.texture(reference, Meaning::Data(Channel::Rgb))?,
                 scale: normal.scale(),
             }),
@@ -89,7 +89,7 @@ impl Reader<'_> {
         };
         self.materials.push(Material {
             name: material.name().map(str::to_owned),
-            relief,
+            bump,
             absorption: absorption(material),
             ..Material::new(kind)
         });
@@ -246,7 +246,7 @@ impl Reader<'_> {
                 TextureRef::in_json(clearcoat, "clearcoatRoughnessTexture"),
                 green,
             )?,
-            clearcoat_relief: self.coat_relief(clearcoat)?,
+            clearcoat_bump: self.coat_bump(clearcoat)?,
             sheen_colour: self.colour(
                 Rgb::from(sheen_colour.map(unit)),
                 TextureRef::in_json(sheen, "sheenColorTexture").filter(|_| has_sheen),
@@ -278,14 +278,14 @@ impl Reader<'_> {
     }
 
     /// What bends the clear coat.
-    fn coat_relief(&mut self, clearcoat: &Value) -> Result<Option<Relief>, SceneError> {
+    fn coat_bump(&mut self, clearcoat: &Value) -> Result<Option<Bump>, SceneError> {
         let Some(reference) = TextureRef::in_json(clearcoat, COAT_NORMALS)
             .filter(|_| factor(clearcoat, "clearcoatFactor") > 0.0)
         else {
             return Ok(None);
         };
         let scale = clearcoat.get(COAT_NORMALS).and_then(|t| number(t, "scale"));
-        Ok(Some(Relief::Normal {
+        Ok(Some(Bump::Normal {
             map: self.texture(reference, Meaning::Data(Channel::Rgb))?,
             scale: scale.unwrap_or(1.0),
         }))

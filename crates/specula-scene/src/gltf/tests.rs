@@ -7,7 +7,7 @@ use specula_bsdf::Rgb;
 
 use super::*;
 use crate::Scene;
-use crate::scene::{Channel, ColourParam, FloatParam, Geometry, MaterialKind, Projection, Relief};
+use crate::scene::{Bump, Channel, ColourParam, FloatParam, Geometry, MaterialKind, Projection};
 
 /// A triangle with positions, coordinates, indices and tangents, in one embedded buffer.
 fn triangle(more: &str) -> String {
@@ -134,8 +134,8 @@ fn check_surface(scene: &Scene) {
         (FloatParam::Value(0.5), 1.5)
     );
     assert!(matches!(
-        material.relief,
-        Some(Relief::Normal { scale: 0.5, .. })
+        material.bump,
+        Some(Bump::Normal { scale: 0.5, .. })
     ));
     let FloatParam::Texture(roughness) = g.roughness else {
         panic!("{g:?}")
@@ -261,7 +261,7 @@ fn directions_coats_and_volumes_are_read() {
     let MaterialKind::Gltf(g) = material.kind else {
         panic!("{material:?}")
     };
-    let Some(Relief::Normal { map, scale: 0.5 }) = g.clearcoat_relief else {
+    let Some(Bump::Normal { map, scale: 0.5 }) = g.clearcoat_bump else {
         panic!("{g:?}")
     };
     // Directions decide which coordinates come first.

@@ -84,14 +84,14 @@ pub(super) fn assemble(document: Document, files: &Files) -> Result<Loaded, Scen
             problems.keep(SceneError::new(ErrorKind::Limit, &root.place, message))
         })?;
     }
-    let shines = |objects: &[Object]| {
+    let emits = |objects: &[Object]| {
         let mut shapes = scene
             .shapes
             .iter()
             .chain(objects.iter().flat_map(|o| &o.shapes));
         shapes.any(|s| s.emission.is_some())
     };
-    if scene.lights.is_empty() && !shines(&scene.objects) {
+    if scene.lights.is_empty() && !emits(&scene.objects) {
         context.warn(&root.place, NO_LIGHT);
     }
     Ok(Loaded::new(Format::Mitsuba, scene, context.warnings, files))

@@ -67,21 +67,21 @@ impl Context<'_> {
         kind: MaterialKind,
         wraps: Wraps,
     ) -> Surface {
-        let mut relief = wraps.relief.filter(|_| kind != MaterialKind::Interface);
+        let mut bump = wraps.bump.filter(|_| kind != MaterialKind::Interface);
         if let MaterialKind::Mix { materials, .. } = kind {
-            // A relief belongs to the parts of a mix.
-            let relief = relief.take();
+            // A bump map belongs to the parts of a mix.
+            let bump = bump.take();
             for part in materials {
                 let part = &mut self.materials[part.0];
-                part.relief = part.relief.or(relief);
-                part.relief_rules = wraps.relief_rules;
+                part.bump = part.bump.or(bump);
+                part.bump_rules = wraps.bump_rules;
                 part.one_sided &= !wraps.two_sided;
             }
         }
         let material = Material {
             name: element.id.clone(),
-            relief,
-            relief_rules: wraps.relief_rules,
+            bump,
+            bump_rules: wraps.bump_rules,
             one_sided: !wraps.two_sided && is_opaque(&kind),
             ..Material::new(kind)
         };

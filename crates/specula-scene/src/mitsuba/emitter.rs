@@ -12,7 +12,8 @@ use crate::error::SceneError;
 use crate::image::Encoding;
 use crate::num::f32_of;
 use crate::scene::{
-    ColourParam, Emission, EnvironmentMapping, Light, Profile, SpotFalloff, Texture, Throw,
+    ColourParam, Emission, EnvironmentMapping, ImageProjection, Light, Profile, SpotFalloff,
+    Texture,
 };
 
 impl Context<'_> {
@@ -121,7 +122,7 @@ impl Context<'_> {
                 return Ok(Light::Picture {
                     to_world,
                     intensity: ColourParam::Texture(self.times(texture, intensity)),
-                    throw: Throw::Window {
+                    image_projection: ImageProjection::Window {
                         half: [cone_angle_deg.to_radians().tan(); 2],
                         profile: Profile::Spot {
                             cone_angle_deg,
@@ -158,7 +159,7 @@ impl Context<'_> {
         })
     }
 
-    /// A camera turned round: what it throws on the plane z = 1 is pi times its texture.
+    /// A camera turned round: what it projects on the plane z = 1 is pi times its texture.
     fn projector(&mut self, element: &Element) -> Result<Light, SceneError> {
         element.ignore(&["near_clip", "far_clip"]);
         let to_world = element.transform("to_world")?;
@@ -175,7 +176,7 @@ impl Context<'_> {
                 ColourParam::Value(c) => ColourParam::Value(c * factor),
                 ColourParam::Texture(id) => ColourParam::Texture(self.times(id, factor)),
             },
-            throw: Throw::Window {
+            image_projection: ImageProjection::Window {
                 half: [half_width, half_width / aspect],
                 profile: Profile::Irradiance,
             },

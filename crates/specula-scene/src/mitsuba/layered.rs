@@ -13,14 +13,14 @@ use super::spectrum::Use;
 use super::texture::Role;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
-use crate::scene::{CoatMedium, FloatParam, Material, MaterialKind, Relief, ReliefRules, Texture};
+use crate::scene::{Bump, BumpRules, CoatMedium, FloatParam, Material, MaterialKind, Texture};
 
 /// What the plugins around a material make of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wraps {
     pub(super) two_sided: bool,
-    pub(super) relief: Option<Relief>,
-    pub(super) relief_rules: ReliefRules,
+    pub(super) bump: Option<Bump>,
+    pub(super) bump_rules: BumpRules,
     pub(super) alpha: FloatParam,
 }
 
@@ -28,8 +28,8 @@ impl Default for Wraps {
     fn default() -> Self {
         Self {
             two_sided: false,
-            relief: None,
-            relief_rules: ReliefRules::Plain,
+            bump: None,
+            bump_rules: BumpRules::Plain,
             alpha: FloatParam::Value(1.0),
         }
     }
@@ -63,7 +63,7 @@ impl Context<'_> {
                 let inner = self.one_nested(element)?;
                 self.wrapped(&inner, Wraps { alpha, ..wraps }).map(Some)
             }
-            "bumpmap" | "normalmap" => self.relief(element, wraps).map(Some),
+            "bumpmap" | "normalmap" => self.bump(element, wraps).map(Some),
             "blendbsdf" => self.blend(element, wraps).map(Some),
             "mixturebsdf" => self.mixture(element, wraps).map(Some),
             "coating" | "roughcoating" => self.coating(element, wraps).map(Some),
@@ -97,9 +97,9 @@ impl Context<'_> {
         Ok(found.swap_remove(0))
     }
 
-    fn relief(&mut self, element: &Rc<Element>, wraps: Wraps) -> Result<Surface, SceneError> {
-        if wraps.relief.is_some() {
-            let message = format!("{} within another relief is left out", element.title());
+    fn bump(&mut self, element: &Rc<Element>, wraps: Wraps) -> Result<Surface, SceneError> {
+        if wraps.bump.is_some() {
+            let message = format!("{} within another bump is left out", element.title());
             self.warn(&element.place, message);
             let inner = self.one_nested(element)?;
             return self.wrapped(&inner, wraps);
@@ -125,22 +125,22 @@ impl Context<'_> {
             }
         };
         let node = self.node(texture);
-        let relief = if element.plugin == "bumpmap" {
+        let bump = if element.plugin == "bumpmap" {
             let scale = f32_of(element.number("scale", 1.0)?);
-            Relief::Height(FloatParam::Texture(self.times(node, Rgb::splat(scale))))
+            Bump::Height(FloatParam::Texture(self.times(node, Rgb::splat(scale))))
         } else {
-            Relief::Normal {
+            Bump::Normal {
                 map: node,
                 scale: 1.0,
             }
         };
         element.ignore(&["flip_invalid_normals"]);
         let fades = element.boolean("use_shadowing_function", !element.legacy)?;
-        let relief_rules = ReliefRules::Mitsuba { fades };
+        let bump_rules = BumpRules::Mitsuba { fades };
         let inner = self.one_nested(element)?;
         let within = Wraps {
-            relief: Some(relief),
-            relief_rules,
+            bump: Some(bump),
+            bump_rules,
             ..wraps
         };
         self.wrapped(&inner, within)
@@ -188,7 +188,7 @@ impl Context<'_> {
         amount: FloatParam,
         wraps: Wraps,
     ) -> Result<Surface, SceneError> {
-        // A relief belongs to the parts.
+        // A bump map belongs to the parts.
         let bare = Wraps {
             alpha: FloatParam::Value(1.0),
             ..wraps

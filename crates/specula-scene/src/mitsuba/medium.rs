@@ -1,4 +1,4 @@
-//! `<medium>`: what absorbs within bodies. Scattering is not simulated.
+//! `<medium>`: what absorbs within media. Scattering is not simulated.
 
 use std::rc::Rc;
 
@@ -150,7 +150,7 @@ impl Context<'_> {
             }
             other => return Err(unknown("medium", other, &element.place)),
         }
-        // How free paths are drawn.
+        // How free paths are sampled.
         element.ignore(&["sample_emitters", "has_spectral_extinction", "strategy"]);
         let g = self.mean_cosine(element)?;
         let scale = f32_of(element.not_negative("scale", 1.0)?);

@@ -17,7 +17,7 @@ use crate::scene::{
 impl Context<'_> {
     /// `distribution`, and `alpha` or `alpha_u` and `alpha_v`.
     pub(super) fn roughness(&mut self, element: &Element) -> Result<Roughness, SceneError> {
-        // How directions are drawn changes no picture.
+        // How directions are sampled changes no picture.
         element.ignore(&["sample_visible"]);
         let distribution = match element.text("distribution")? {
             None | Some("beckmann") => Distribution::Beckmann,

@@ -18,8 +18,8 @@ use crate::error::{ErrorKind, Place, SceneError, Warning};
 use crate::mesh;
 use crate::problems::{NoteKind, is_dark};
 use crate::scene::{
-    ColourParam, Emission, FloatParam, Geometry, Instance, Light, Material, MaterialId,
-    MaterialKind, Mesh, Object, ObjectId, Relief, Scene, Shape, TextureId,
+    Bump, ColourParam, Emission, FloatParam, Geometry, Instance, Light, Material, MaterialId,
+    MaterialKind, Mesh, Object, ObjectId, Scene, Shape, TextureId,
 };
 use crate::{Format, Loaded};
 
@@ -279,13 +279,13 @@ fn note_unused_names(context: &Context, entities: &[MaterialEntity], shapes: &[&
 }
 
 impl Materials {
-    /// A copy of a material that is bumpy; one that has its own relief keeps it.
+    /// A copy of a material that is bumpy; one that has its own bump map keeps it.
     fn displaced(&mut self, material: MaterialId, height: FloatParam) -> MaterialId {
         let FloatParam::Texture(texture) = height else {
             return material;
         };
         let plain = &self.list[material.0];
-        if plain.relief.is_some() || plain.kind == MaterialKind::Interface {
+        if plain.bump.is_some() || plain.kind == MaterialKind::Interface {
             return material;
         }
         *self
@@ -293,7 +293,7 @@ impl Materials {
             .entry((material, texture))
             .or_insert_with(|| {
                 let bumpy = Material {
-                    relief: Some(Relief::Height(height)),
+                    bump: Some(Bump::Height(height)),
                     ..self.list[material.0].clone()
                 };
                 self.list.push(bumpy);

@@ -14,8 +14,8 @@ use crate::energy::{Energy, UnknownEnergy};
 use crate::error::{ErrorKind, Place, SceneError};
 use crate::image::{Content, Encoding};
 use crate::scene::{
-    Channel, CoatMedium, ColourParam, ConductorFresnel, FloatParam, Interpolation, Material,
-    MaterialId, MaterialKind, Relief, Roughness, RoughnessMapping, Texture, TextureMapping, Wrap,
+    Bump, Channel, CoatMedium, ColourParam, ConductorFresnel, FloatParam, Interpolation, Material,
+    MaterialId, MaterialKind, Roughness, RoughnessMapping, Texture, TextureMapping, Wrap,
 };
 use crate::spectrum;
 
@@ -38,7 +38,7 @@ pub(super) fn read(
     let params = &entity.params;
     params.ignore(&["type"]);
     let energy = energy(params)?;
-    let relief = relief(context, params)?;
+    let bump = bump(context, params)?;
     let kind = match entity.name.as_str() {
         "diffuse" => MaterialKind::Diffuse {
             reflectance: colour::albedo(context, params, "reflectance", 0.5)?,
@@ -104,13 +104,13 @@ pub(super) fn read(
     context.warn_unused(params);
     Ok(Material {
         energy,
-        relief,
+        bump,
         ..Material::new(kind)
     })
 }
 
 /// What bends the shading normal: a normal map wins over a displacement, as in pbrt-v4.
-fn relief(context: &mut Context, params: &ParamList) -> Result<Option<Relief>, SceneError> {
+fn bump(context: &mut Context, params: &ParamList) -> Result<Option<Bump>, SceneError> {
     let height = context.float_or_none(params, "displacement")?;
     if let Some((name, place)) = params.string("normalmap")? {
         let image = context.image(name, place, Encoding::Linear, Content::Colour);
@@ -123,12 +123,12 @@ fn relief(context: &mut Context, params: &ParamList) -> Result<Option<Relief>, S
             scale: 1.0,
             channel: Channel::Rgb,
         });
-        return Ok(Some(Relief::Normal { map, scale: 1.0 }));
+        return Ok(Some(Bump::Normal { map, scale: 1.0 }));
     }
     // The same height everywhere bends nothing.
     Ok(height
         .filter(|h| matches!(h, FloatParam::Texture(_)))
-        .map(Relief::Height))
+        .map(Bump::Height))
 }
 
 /// Our own parameter `"string specula:energy"`: treatment of multiple scattering. Renderers that do

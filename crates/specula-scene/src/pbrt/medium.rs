@@ -1,4 +1,4 @@
-//! `MakeNamedMedium`: what absorbs within bodies. Scattering is not simulated.
+//! `MakeNamedMedium`: what absorbs within media. Scattering is not simulated.
 
 use specula_bsdf::Rgb;
 

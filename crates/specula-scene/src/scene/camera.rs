@@ -67,24 +67,24 @@ impl Film {
 pub enum Filter {
     /// Constant.
     Box {
-        /// Half widths.
+        /// Half alphas.
         radius: [f32; 2],
     },
     /// Linear.
     Triangle {
-        /// Half widths.
+        /// Half alphas.
         radius: [f32; 2],
     },
     /// Gaussian, zero at its radius.
     Gaussian {
-        /// Half widths.
+        /// Half alphas.
         radius: [f32; 2],
         /// Standard deviation in pixels.
         sigma: f32,
     },
     /// Mitchell and Netravali 1988.
     Mitchell {
-        /// Half widths.
+        /// Half alphas.
         radius: [f32; 2],
         /// Their B.
         b: f32,
@@ -93,7 +93,7 @@ pub enum Filter {
     },
     /// Sinc windowed by a sinc.
     LanczosSinc {
-        /// Half widths.
+        /// Half alphas.
         radius: [f32; 2],
         /// Cycles of the sinc before it is zero.
         tau: f32,

@@ -64,21 +64,21 @@ pub enum Light {
         /// How it falls to 0 between the two.
         falloff: SpotFalloff,
     },
-    /// Light from a point that throws a picture.
+    /// Light from a point that projects an image.
     Picture {
         /// Light space to world space: the light is at its origin. Lengths do not matter.
         to_world: DMat4,
-        /// Intensity: a texture at the coordinates that `throw` gives.
+        /// Intensity: a texture at the coordinates that `image_projection` gives.
         intensity: ColourParam,
         /// Where the picture goes.
-        throw: Throw,
+        image_projection: ImageProjection,
     },
 }
 
-/// Where a light throws its picture, as `(s, t)` with the origin at the lower left, by the
+/// Where a light projects its picture, as `(s, t)` with the origin at the lower left, by the
 /// direction `(x, y, z)` in light space.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Throw {
+pub enum ImageProjection {
     /// In all directions: [`EnvironmentMapping::EqualAreaOctahedral`], so that s is its x and t
     /// its 1 - y (pbrt's `goniometric`).
     Sphere,

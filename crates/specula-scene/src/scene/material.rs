@@ -18,9 +18,9 @@ pub struct Material {
     /// Treatment of multiple scattering, where the file chooses one; else the render's.
     pub energy: Option<Energy>,
     /// What bends its shading normal.
-    pub relief: Option<Relief>,
+    pub bump: Option<Bump>,
     /// By whose rules it bends.
-    pub relief_rules: ReliefRules,
+    pub bump_rules: BumpRules,
     /// Whether its back is black (Mitsuba's opaque materials without `twosided`).
     pub one_sided: bool,
     /// Absorption within the closed shapes that it bounds, per scene unit: light that entered
@@ -32,15 +32,15 @@ pub struct Material {
 }
 
 impl Material {
-    /// A material without name, relief or wishes, that looks the same from both sides.
+    /// A material without name, bump map or wishes, that looks the same from both sides.
     #[must_use]
     pub fn new(kind: MaterialKind) -> Self {
         Self {
             name: None,
             kind,
             energy: None,
-            relief: None,
-            relief_rules: ReliefRules::Plain,
+            bump: None,
+            bump_rules: BumpRules::Plain,
             one_sided: false,
             absorption: Rgb::BLACK,
             around: None,
@@ -56,7 +56,7 @@ impl Material {
 
 /// What bends a shading normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Relief {
+pub enum Bump {
     /// Heights along the normal, in scene units.
     Height(FloatParam),
     /// Normals `2 c - 1` in the frame of dp/du, dp/dv and the shading normal; x and y are scaled
@@ -69,10 +69,10 @@ pub enum Relief {
     },
 }
 
-/// By whose rules a relief bends normals.
+/// By whose rules a bump map bends normals.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ReliefRules {
-    /// As [`Relief`] says, and nothing more.
+pub enum BumpRules {
+    /// As [`Bump`] says, and nothing more.
     #[default]
     Plain,
     /// Mitsuba's: the y axis of a normal map is that of the shading normal times dp/du, whichever
@@ -345,8 +345,8 @@ pub struct Gltf {
     pub clearcoat: FloatParam,
     /// `clearcoatRoughnessFactor`.
     pub clearcoat_roughness: FloatParam,
-    /// `clearcoatNormalTexture`: what bends the coat; the material's own relief does not.
-    pub clearcoat_relief: Option<Relief>,
+    /// `clearcoatNormalTexture`: what bends the coat; the material's own bump map does not.
+    pub clearcoat_bump: Option<Bump>,
     /// `sheenColorFactor`.
     pub sheen_colour: ColourParam,
     /// `sheenRoughnessFactor`.

@@ -196,7 +196,7 @@ mod tests {
         }
     }
 
-    /// IEC 61966-2-1:1999, equation for linear sRGB; ours has the white unrounded.
+    /// IEC 61966-2-1:1999, equation for linear sRGB; Specula's has the white unrounded.
     #[test]
     fn matrix_is_that_of_srgb() {
         let iec = DMat3::from_cols_array_2d(&[

@@ -171,11 +171,11 @@ mod tests {
         ] {
             let spectrum = |part: &str| named(&format!("metal-{metal}-{part}")).unwrap();
             let (eta, k) = conductor_index_to_rgb(&spectrum("eta"), &spectrum("k"));
-            let ours = Conductor { eta, k }.eval(1.0).to_array();
-            for (o, t) in ours.iter().zip(theirs) {
+            let specula = Conductor { eta, k }.eval(1.0).to_array();
+            for (o, t) in specula.iter().zip(theirs) {
                 assert!(
                     (o / t - 1.0).abs() < 0.01,
-                    "{metal}: {ours:?}, pbrt {theirs:?}"
+                    "{metal}: {specula:?}, pbrt {theirs:?}"
                 );
             }
         }

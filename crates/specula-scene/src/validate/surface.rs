@@ -5,8 +5,8 @@ use specula_bsdf::Rgb;
 
 use super::{Invalid, ensure, is_light};
 use crate::scene::{
-    CoatMedium, ColourParam, ConductorFresnel, FloatParam, Gltf, Material, MaterialKind, NoiseKind,
-    Principled, Relief, Roughness, Scene, Texture, TextureId, TextureMapping,
+    Bump, CoatMedium, ColourParam, ConductorFresnel, FloatParam, Gltf, Material, MaterialKind,
+    NoiseKind, Principled, Roughness, Scene, Texture, TextureId, TextureMapping,
 };
 
 impl Scene {
@@ -77,7 +77,7 @@ impl Scene {
         ensure(rotation.is_finite(), what, "its rotation is not finite")?;
         let direction = g.anisotropy_direction.map(ColourParam::Texture);
         self.colours(what, direction.as_slice())?;
-        self.relief(what, g.clearcoat_relief)
+        self.bump(what, g.clearcoat_bump)
     }
 
     fn coat_medium(&self, what: &str, medium: &CoatMedium) -> Result<(), Invalid> {
@@ -92,23 +92,23 @@ impl Scene {
         }
     }
 
-    fn relief(&self, what: &str, relief: Option<Relief>) -> Result<(), Invalid> {
-        match relief {
+    fn bump(&self, what: &str, bump: Option<Bump>) -> Result<(), Invalid> {
+        match bump {
             None => Ok(()),
-            Some(Relief::Normal { map, scale }) => {
+            Some(Bump::Normal { map, scale }) => {
                 ensure(
                     map.0 < self.textures.len(),
                     what,
                     "a texture is out of range",
                 )?;
-                ensure(scale.is_finite(), what, "its relief is not finite")
+                ensure(scale.is_finite(), what, "its bump is not finite")
             }
-            Some(Relief::Height(FloatParam::Texture(map))) => ensure(
+            Some(Bump::Height(FloatParam::Texture(map))) => ensure(
                 map.0 < self.textures.len(),
                 what,
                 "a texture is out of range",
             ),
-            Some(Relief::Height(FloatParam::Value(x))) => {
+            Some(Bump::Height(FloatParam::Value(x))) => {
                 ensure(x.is_finite(), what, "its height is not finite")
             }
         }
@@ -172,7 +172,7 @@ impl Scene {
 
     pub(super) fn check_material(&self, i: usize, material: &Material) -> Result<(), Invalid> {
         let what = &format!("material {i}");
-        self.relief(what, material.relief)?;
+        self.bump(what, material.bump)?;
         ensure(
             is_light(material.absorption) && material.around.is_none_or(is_light),
             what,

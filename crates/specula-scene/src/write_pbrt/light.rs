@@ -73,8 +73,8 @@ impl Writer<'_> {
             Light::Picture {
                 to_world,
                 intensity,
-                throw,
-            } => self.thrown(index, to_world, *intensity, throw)?,
+                image_projection,
+            } => self.projected(index, to_world, *intensity, image_projection)?,
         };
         let place = transform(&place);
         self.line(&format!(

@@ -5,8 +5,8 @@ use specula_bsdf::ndf::Masking;
 
 use super::{Wanted, WriteError, Writer, quoted};
 use crate::scene::{
-    CoatMedium, ColourParam, ConductorFresnel, Distribution, FloatParam, Gltf, Material,
-    MaterialId, MaterialKind, Principled, Relief, Roughness, RoughnessMapping, TextureId,
+    Bump, CoatMedium, ColourParam, ConductorFresnel, Distribution, FloatParam, Gltf, Material,
+    MaterialId, MaterialKind, Principled, Roughness, RoughnessMapping, TextureId,
 };
 
 impl Writer<'_> {
@@ -28,10 +28,10 @@ impl Writer<'_> {
             self.note("materials with a black back are written with two equal sides");
         }
         let mut params = self.kind(index, &material.kind)?;
-        match material.relief {
+        match material.bump {
             None => {}
-            Some(Relief::Height(height)) => params += &self.float_param("displacement", height)?,
-            Some(Relief::Normal { map, scale }) => {
+            Some(Bump::Height(height)) => params += &self.float_param("displacement", height)?,
+            Some(Bump::Normal { map, scale }) => {
                 let picture = self.plain_picture(ColourParam::Texture(map));
                 match picture {
                     Some((image, factor)) if scale == 1.0 && factor == Rgb::WHITE => {

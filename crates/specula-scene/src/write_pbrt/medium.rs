@@ -1,4 +1,4 @@
-//! What absorbs within and around bodies, as homogeneous media.
+//! What absorbs within and around media, as homogeneous media.
 
 use std::fmt::Write;
 
@@ -37,7 +37,7 @@ impl Writer<'_> {
         let is_relative =
             |m: &&crate::scene::Material| m.around.is_none() && !m.absorption.is_black();
         if materials.iter().filter(is_relative).nth(1).is_some() {
-            self.note("around absorbing bodies there is empty space, also within other bodies");
+            self.note("around absorbing media there is empty space, also within other media");
         }
     }
 

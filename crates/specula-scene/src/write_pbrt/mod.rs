@@ -9,9 +9,9 @@ mod material;
 mod medium;
 mod name;
 mod product;
+mod projected;
 mod shape;
 mod texture;
-mod thrown;
 
 use std::collections::HashMap;
 use std::fmt::Write;

@@ -3,8 +3,8 @@
 use super::*;
 use crate::image::Image;
 use crate::scene::{
-    CoatMedium, ColourParam, ConductorFresnel, FloatParam, Interpolation, Light, Material,
-    MaterialKind, Profile, Relief, Roughness, RoughnessMapping, Texture, TextureMapping, Throw,
+    Bump, CoatMedium, ColourParam, ConductorFresnel, FloatParam, ImageProjection, Interpolation,
+    Light, Material, MaterialKind, Profile, Roughness, RoughnessMapping, Texture, TextureMapping,
     Wrap,
 };
 
@@ -95,7 +95,7 @@ fn squared_roughness_displacement_and_energy_survive() {
         },
         lossless: false,
     });
-    material.relief = Some(Relief::Height(FloatParam::Texture(texture)));
+    material.bump = Some(Bump::Height(FloatParam::Texture(texture)));
     material.energy = Some(crate::Energy::Multibounce(Default::default()));
     scene.materials.push(material);
     let last = crate::scene::MaterialId(scene.materials.len() - 1);
@@ -119,7 +119,7 @@ fn squared_roughness_displacement_and_energy_survive() {
         panic!("{roughness:?}")
     };
     assert!(matches!(back.textures[v.0], Texture::Scale { a, b } if a == b));
-    assert!(matches!(found.relief, Some(Relief::Height(_))));
+    assert!(matches!(found.bump, Some(Bump::Height(_))));
     assert_eq!(found.energy, scene.materials[last.0].energy);
 }
 
@@ -195,9 +195,9 @@ fn strings_are_escaped() {
     assert_eq!(quoted("a\"b\\c\n"), "\"a\\\"b\\\\c_\"");
 }
 
-/// The same throw, place and colours by pixel.
+/// The same project, place and colours by pixel.
 #[test]
-fn thrown_pictures_keep_their_places() {
+fn projected_pictures_keep_their_places() {
     let mut scene = crate::builtin::orbs();
     scene.lights.clear();
     let pixels = [[1.0, 0.5, 0.25], [0.0, 0.5, 2.0]].repeat(2);
@@ -208,7 +208,7 @@ fn thrown_pictures_keep_their_places() {
         pixels: pixels.into(),
     });
     let image = crate::scene::ImageId(scene.images.len() - 1);
-    let window = Throw::Window {
+    let window = ImageProjection::Window {
         half: [0.5, 0.5],
         profile: Profile::Intensity,
     };
@@ -216,7 +216,10 @@ fn thrown_pictures_keep_their_places() {
         glam::DQuat::from_rotation_x(0.5),
         glam::DVec3::new(1.0, 2.0, 3.0),
     );
-    for (throw, channel) in [(Throw::Sphere, Channel::Mean), (window, Channel::Rgb)] {
+    for (image_projection, channel) in [
+        (ImageProjection::Sphere, Channel::Mean),
+        (window, Channel::Rgb),
+    ] {
         scene.textures.push(Texture::Image {
             image,
             mapping: TextureMapping::default(),
@@ -230,7 +233,7 @@ fn thrown_pictures_keep_their_places() {
         scene.lights.push(Light::Picture {
             to_world,
             intensity: ColourParam::Texture(texture),
-            throw,
+            image_projection,
         });
     }
     let (back, notes) = round_trip(&scene);
@@ -239,12 +242,12 @@ fn thrown_pictures_keep_their_places() {
         let (
             Light::Picture {
                 to_world: a,
-                throw: t,
+                image_projection: t,
                 intensity: i,
             },
             Light::Picture {
                 to_world: b,
-                throw: u,
+                image_projection: u,
                 intensity: j,
             },
         ) = (before, after)
@@ -253,7 +256,7 @@ fn thrown_pictures_keep_their_places() {
         };
         assert!(a.abs_diff_eq(*b, 1e-6), "{a} {b}");
         match (t, u) {
-            (Throw::Window { half: a, .. }, Throw::Window { half: b, .. }) => {
+            (ImageProjection::Window { half: a, .. }, ImageProjection::Window { half: b, .. }) => {
                 assert!((a[0] - b[0]).abs() < 1e-9 && (a[1] - b[1]).abs() < 1e-9);
             }
             _ => assert_eq!(t, u),

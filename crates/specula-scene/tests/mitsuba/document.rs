@@ -82,11 +82,11 @@ fn included_files_find_theirs_beside_them() {
 
 #[test]
 fn what_nobody_uses_is_reported_with_its_place() {
-    let loaded = load_shape(r#"<bsdf type="diffuse"><float name="shine" value="1"/></bsdf>"#);
+    let loaded = load_shape(r#"<bsdf type="diffuse"><float name="emit" value="1"/></bsdf>"#);
     let loaded = loaded.unwrap();
     assert_eq!(
         warnings(&loaded),
-        ["\"shine\" of bsdf \"diffuse\" is unused"]
+        ["\"emit\" of bsdf \"diffuse\" is unused"]
     );
     assert_eq!(
         (loaded.warnings[0].line(), loaded.warnings[0].column()),

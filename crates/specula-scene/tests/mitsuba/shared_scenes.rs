@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use specula_scene::mitsuba::{Options, read};
-use specula_scene::scene::{EnvironmentMapping, Light, MaterialKind, Relief, ReliefRules};
+use specula_scene::scene::{Bump, BumpRules, EnvironmentMapping, Light, MaterialKind};
 use specula_scene::{Limits, Loaded};
 
 /// Scene, shapes, materials, lights that are no shapes, textures.
@@ -82,8 +82,8 @@ fn what_the_scenes_are_about_is_there() {
         assert!(loaded.scene.lights.iter().all(map));
     }
     if let Some(m) = load("test_bumpmap").map(|l| l.scene.materials[0].clone()) {
-        assert_eq!(m.relief_rules, ReliefRules::Mitsuba { fades: true });
-        assert!(matches!(m.relief, Some(Relief::Height(_))) && m.one_sided);
+        assert_eq!(m.bump_rules, BumpRules::Mitsuba { fades: true });
+        assert!(matches!(m.bump, Some(Bump::Height(_))) && m.one_sided);
     }
     if let Some(loaded) = load("test_roughplastic_nonlinear") {
         let nonlinear = |m: &specula_scene::scene::Material| {

@@ -68,8 +68,8 @@ fn scene(class: &str, name: &str) -> (String, String) {
             "Texture \"x\" \"float\" \"dots\" \"string mapping\" \"{name}\""
         )),
         "light" => {
-            let throws = ["goniometric", "projection"].contains(&name);
-            let file = if throws { png } else { "" };
+            let image_projections = ["goniometric", "projection"].contains(&name);
+            let file = if image_projections { png } else { "" };
             world(format!("LightSource \"{name}\" {file}"))
         }
         "area light" => {

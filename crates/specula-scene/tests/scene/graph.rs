@@ -1,10 +1,10 @@
-//! Textures, relief and lights with pictures.
+//! Textures, bump map and lights with pictures.
 
 use glam::DVec3;
 use specula_bsdf::Rgb;
 use specula_scene::scene::{
-    ColourParam, FloatParam, Interpolation, Light, MaterialKind, NoiseKind, Profile, Relief,
-    Texture, TextureMapping, Throw,
+    Bump, ColourParam, FloatParam, ImageProjection, Interpolation, Light, MaterialKind, NoiseKind,
+    Profile, Texture, TextureMapping,
 };
 
 use super::common::{Folder, load_world, warnings};
@@ -77,7 +77,7 @@ fn procedural_textures_carry_their_space() {
 }
 
 #[test]
-fn relief_comes_from_normal_maps_before_displacements() {
+fn bump_comes_from_normal_maps_before_displacements() {
     let folder = with_picture();
     let loaded = folder
         .load(
@@ -88,12 +88,12 @@ fn relief_comes_from_normal_maps_before_displacements() {
         )
         .unwrap();
     assert_eq!(warnings(&loaded), [""; 0]);
-    let relief = |i: usize| loaded.scene.materials[loaded.scene.shapes[i].material.0].relief;
+    let bump = |i: usize| loaded.scene.materials[loaded.scene.shapes[i].material.0].bump;
     assert!(matches!(
-        relief(0),
-        Some(Relief::Height(FloatParam::Texture(_)))
+        bump(0),
+        Some(Bump::Height(FloatParam::Texture(_)))
     ));
-    let Some(Relief::Normal { map, .. }) = relief(1) else {
+    let Some(Bump::Normal { map, .. }) = bump(1) else {
         panic!()
     };
     let Texture::Image { image, .. } = loaded.scene.textures[map.0] else {
@@ -101,7 +101,7 @@ fn relief_comes_from_normal_maps_before_displacements() {
     };
     // Without a transfer curve: 255 is 1, 0 is 0, and bytes between would be linear.
     assert_eq!(loaded.scene.images[image.0].pixels.rgb(1), [1.0, 0.0, 1.0]);
-    assert_eq!(relief(2), None, "the same height everywhere");
+    assert_eq!(bump(2), None, "the same height everywhere");
 }
 
 #[test]
@@ -146,10 +146,11 @@ fn projections_keep_their_power() {
     let scene = &loaded.scene;
     let Light::Picture {
         intensity: ColourParam::Texture(intensity),
-        throw: Throw::Window {
-            half,
-            profile: Profile::Intensity,
-        },
+        image_projection:
+            ImageProjection::Window {
+                half,
+                profile: Profile::Intensity,
+            },
         ..
     } = scene.lights[0]
     else {
@@ -207,7 +208,7 @@ fn meshes_with_displacement_are_bumpy() {
     assert_eq!(material(0), material(1));
     assert_ne!(material(0), material(2));
     let bumpy = &scene.materials[material(0).0];
-    assert!(matches!(bumpy.relief, Some(Relief::Height(_))));
+    assert!(matches!(bumpy.bump, Some(Bump::Height(_))));
     assert!(matches!(bumpy.kind, MaterialKind::Conductor { .. }));
     assert_eq!(warnings(&loaded).len(), 2);
 }

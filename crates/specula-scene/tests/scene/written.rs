@@ -120,7 +120,7 @@ fn expect_shapes(what: &str, before: (&Scene, &[Shape]), after: (&Scene, &[Shape
         let [a, b] = [(before.0, a), (after.0, b)].map(|(s, shape)| &s.materials[shape.material.0]);
         assert_eq!(kind(before.0, a), kind(after.0, b), "{what}");
         assert_eq!((a.absorption, a.around), (b.absorption, b.around), "{what}");
-        assert_eq!(a.relief.is_some(), b.relief.is_some(), "{what}");
+        assert_eq!(a.bump.is_some(), b.bump.is_some(), "{what}");
         if a.name.is_some() {
             assert_eq!(a.name, b.name, "{what}");
         }

@@ -25,7 +25,7 @@ fn black_eval_pdf(wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
     return vec4f(0.0);
 }
 
-/// No direction is ever drawn.
+/// No direction is ever sampled.
 ///
 /// Twin: specula-bsdf/src/bsdf/black.rs, Black::sample.
 fn black_draw(wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {

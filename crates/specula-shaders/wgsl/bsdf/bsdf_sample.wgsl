@@ -1,18 +1,18 @@
-// What every lobe draws and returns.
+// What every lobe samples and returns.
 //
 // Directions point away from the surface in the local frame (z up): `wo` towards the viewer, given;
-// `wi` towards the light, drawn. A lobe is a structure with four functions:
+// `wi` towards the light, sampled. A lobe is a structure with four functions:
 //
 //     <lobe>_eval(lobe, wo, wi, transport)      f(wo, wi) |cos theta_i| in 1/sr, without Dirac deltas
-//     <lobe>_pdf(lobe, wo, wi)                  density with which a draw gives `wi`, in 1/sr
+//     <lobe>_pdf(lobe, wo, wi)                  density with which a sample gives `wi`, in 1/sr
 //     <lobe>_eval_pdf(lobe, wo, wi, transport)  both: (red, green, blue, density)
 //     <lobe>_draw(lobe, wo, u, transport)       a direction; `u` independent and uniform in [0, 1):
 //                                               `u.x` chooses among lobes, `u.y`, `u.z` the direction
 //
-// Departure from the Rust source: a draw that leads to no direction has no flags, where Rust returns
+// Departure from the Rust source: a sample that leads to no direction has no flags, where Rust returns
 // `None`; event and specular are flags.
 
-/// A drawn direction; it does not exist where `flags` is 0.
+/// A sampled direction; it does not exist where `flags` is 0.
 ///
 /// Twin: specula-bsdf/src/bsdf/mod.rs, BsdfSample.
 struct BsdfSample {
@@ -40,7 +40,7 @@ const BSDF_SAMPLE_RADIANCE: u32 = 0u;
 /// `wo` leads to a light: importance is not scaled.
 const BSDF_SAMPLE_IMPORTANCE: u32 = 1u;
 
-/// Largest density of a draw that exists.
+/// Largest density of a sample that exists.
 const BSDF_SAMPLE_LARGEST: f32 = 3.4e38;
 /// A floor of divisors.
 const BSDF_SAMPLE_TINY: f32 = 1.1754944e-38;

@@ -178,7 +178,7 @@ fn coated_conductor_mirrored(wo: vec3f, weight: vec3f, p: f32) -> BsdfSample {
     return bsdf_sample_none();
 }
 
-/// Draws `wi`.
+/// Samples `wi`.
 ///
 /// * `u`: uniform in [0, 1)^3.
 ///

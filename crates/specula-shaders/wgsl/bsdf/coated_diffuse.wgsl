@@ -1,8 +1,8 @@
 // A rough or smooth dielectric coat over Lambert: paint, plastic, polished wood, glazed tiles.
 //
 // The model is closed form. A Lambertian base forgets where its light came from, so the coat acts on it
-// only through two numbers of the interface: the share `T(w)` of light from direction `w` that enters and
-// reaches the base, and the share `R` of diffuse light from the base that the coat throws back to it. With
+// only through two values of the interface: the share `T(w)` of light from direction `w` that enters and
+// reaches the base, and the share `R` of diffuse light from the base that the coat reflects to it. With
 // `n` bounces off the base at most:
 //
 //     f = f_interface(wo, wi) + T(wo) T(wi) / eta^2  rho/pi  (1 - q^n) / (1 - q),   q = rho R
@@ -26,7 +26,7 @@ import package::math::warp::{warp_cosine_hemisphere, warp_cosine_hemisphere_pdf}
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_diffuse.rs, CoatScattering::Single.
 const COATED_DIFFUSE_SINGLE: u32 = 0u;
-/// It goes on: what does not pass is thrown back.
+/// It goes on: what does not pass is reflected.
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_diffuse.rs, CoatScattering::Lossless.
 const COATED_DIFFUSE_LOSSLESS: u32 = 1u;
@@ -179,7 +179,7 @@ fn coated_diffuse_pdf(lobe: CoatedDiffuse, wo: vec3f, wi: vec3f) -> f32 {
     return coated_diffuse_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE).a;
 }
 
-/// Draws `wi`.
+/// Samples `wi`.
 ///
 /// * `u`: uniform in [0, 1)^3.
 ///

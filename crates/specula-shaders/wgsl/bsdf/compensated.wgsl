@@ -7,7 +7,7 @@
 // energy too. For views below the horizon (`wo.z < 0`) `L` is that of the mirror image: finite and
 // continuous.
 //
-// Turquin's lobe is drawn as the single-scattering lobe is. Kulla and Conty's second lobe is drawn by the
+// Turquin's lobe is sampled as the single-scattering lobe is. Kulla and Conty's second lobe is sampled by the
 // cosine with the probability of its share of the light:
 //
 //     p = F_avg F_ms L / (F_avg F_ms L + F_avg E),   pdf = (1 - p) pdf_ss + p cos / pi
@@ -36,7 +36,7 @@ struct CompensatedConductor {
     model: u32,
     /// Average reflectance of a facet.
     average: vec3f,
-    /// Factor of the light brought back: `F_ms` (Turquin), `F_avg F_ms` (Kulla and Conty).
+    /// Factor of the light contributed back: `F_ms` (Turquin), `F_avg F_ms` (Kulla and Conty).
     colour: vec3f,
 }
 
@@ -129,16 +129,16 @@ fn compensated_pdf(lobe: CompensatedConductor, wo: vec3f, wi: vec3f) -> f32 {
     return first;
 }
 
-/// Draws `wi`.
+/// Samples `wi`.
 ///
 /// * `u`: uniform in [0, 1)^3.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated.rs, Compensated::sample.
 fn compensated_draw(lobe: CompensatedConductor, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     if lobe.model != MODEL_KULLA_CONTY {
-        var drawn = rough_conductor_draw(lobe.single, wo, u, transport);
-        drawn.weight *= compensated_turquin_factor(lobe, wo);
-        return drawn;
+        var sampled = rough_conductor_draw(lobe.single, wo, u, transport);
+        sampled.weight *= compensated_turquin_factor(lobe, wo);
+        return sampled;
     }
     let loss = albedo_directional_loss(lobe.loss, wo);
     var wi = warp_cosine_hemisphere(u.yz);

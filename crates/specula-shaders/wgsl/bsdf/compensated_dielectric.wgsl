@@ -12,10 +12,10 @@
 // `1 - F_avg(eta) = eta^2 (1 - F_avg(1/eta))`, it holds for the `t` above, which stays in [0, 1] and is the
 // averaged Fresnel transmittance on the side that loses less.
 //
-// Drawn by the single-scattering sampler with probability `1 - L_n(wo)`, else by the cosine on either side,
+// Sampled by the single-scattering sampler with probability `1 - L_n(wo)`, else by the cosine on either side,
 // with its exact pdf.
 //
-// Departure: Kulla and Conty ask for the two conditions; this closed form of the split is ours. Losses are
+// Departure: Kulla and Conty ask for the two conditions; this closed form of the split is Specula's. Losses are
 // tabulated (`dielectric_albedo`).
 
 import package::bsdf::bsdf_sample::{BSDF_SAMPLE_LARGEST, BSDF_SAMPLE_SPECULAR, BSDF_SAMPLE_TRANSMISSION, BSDF_SAMPLE_VALID, BsdfSample, BSDF_SAMPLE_RADIANCE, bsdf_sample_none, bsdf_sample_radiance_scale};
@@ -146,33 +146,33 @@ fn compensated_dielectric_pdf(lobe: CompensatedDielectric, wo: vec3f, wi: vec3f)
     return compensated_dielectric_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE).a;
 }
 
-/// Draws `wi`.
+/// Samples `wi`.
 ///
 /// * `u`: uniform in [0, 1)^3.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated_dielectric.rs, CompensatedDielectric::sample.
 fn compensated_dielectric_draw(lobe: CompensatedDielectric, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     let side = compensated_dielectric_side(lobe, wo);
-    var drawn: BsdfSample;
+    var sampled: BsdfSample;
     if u.x < side.loss {
         let up = warp_cosine_hemisphere(u.yz);
         let transmits = u.x < side.loss * side.transmitted;
-        drawn.wi = vec3f(up.xy, select(up.z, -up.z, transmits) * side.turn);
-        drawn.flags = BSDF_SAMPLE_VALID | select(0u, BSDF_SAMPLE_TRANSMISSION, transmits);
-        drawn.eta = select(1.0, side.eta, transmits);
+        sampled.wi = vec3f(up.xy, select(up.z, -up.z, transmits) * side.turn);
+        sampled.flags = BSDF_SAMPLE_VALID | select(0u, BSDF_SAMPLE_TRANSMISSION, transmits);
+        sampled.eta = select(1.0, side.eta, transmits);
     } else {
         // Rounding must not bring 1 about.
         let rest = min((u.x - side.loss) / (1.0 - side.loss), COMPENSATED_DIELECTRIC_BELOW_ONE);
-        drawn = rough_dielectric_draw(lobe.single, wo, vec3f(rest, u.yz), transport);
-        if drawn.flags == 0u || (drawn.flags & BSDF_SAMPLE_SPECULAR) != 0u {
-            return drawn;
+        sampled = rough_dielectric_draw(lobe.single, wo, vec3f(rest, u.yz), transport);
+        if sampled.flags == 0u || (sampled.flags & BSDF_SAMPLE_SPECULAR) != 0u {
+            return sampled;
         }
     }
-    let value = compensated_dielectric_both_lobes(lobe, side, wo, drawn.wi, transport);
+    let value = compensated_dielectric_both_lobes(lobe, side, wo, sampled.wi, transport);
     if value.a > 0.0 && value.a <= BSDF_SAMPLE_LARGEST {
-        drawn.weight = value.rgb / value.a;
-        drawn.pdf = value.a;
-        return drawn;
+        sampled.weight = value.rgb / value.a;
+        sampled.pdf = value.a;
+        return sampled;
     }
     return bsdf_sample_none();
 }

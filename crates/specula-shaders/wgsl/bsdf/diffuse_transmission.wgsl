@@ -51,7 +51,7 @@ fn diffuse_transmission_eval_pdf(lobe: DiffuseTransmission, wo: vec3f, wi: vec3f
     return vec4f(diffuse_transmission_eval(lobe, wo, wi, transport), diffuse_transmission_pdf(lobe, wo, wi));
 }
 
-/// Draws `wi` by the cosine on either side.
+/// Samples `wi` by the cosine on either side.
 ///
 /// Twin: specula-bsdf/src/bsdf/lambert.rs, DiffuseTransmission::sample.
 fn diffuse_transmission_draw(lobe: DiffuseTransmission, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {

@@ -10,7 +10,7 @@
 //     Eavg = A (1 + (2/3 - 28/(15 pi)) r)
 //     rho_ms = rho^2 Eavg / (1 - rho (1 - Eavg))
 //
-// Departure: directions are drawn with density `cos / pi`, not from the paper's fitted clipped
+// Departure: directions are sampled with density `cos / pi`, not from the paper's fitted clipped
 // transform; weights stay below 2.
 
 import package::bsdf::bsdf_sample::{BsdfSample, bsdf_sample_reflected};
@@ -107,7 +107,7 @@ fn eon_eval_pdf(lobe: EonLobe, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
     return vec4f(eon_eval(lobe, wo, wi, transport), warp_cosine_hemisphere_pdf(wi));
 }
 
-/// Draws `wi` by the cosine.
+/// Samples `wi` by the cosine.
 ///
 /// Twin: specula-bsdf/src/bsdf/eon.rs, Eon::sample.
 fn eon_draw(lobe: EonLobe, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {

@@ -10,7 +10,7 @@
 //
 // `G2` is height-correlated; that of `btdf`, a reflection mirrored through the sheet, is separable, as the
 // extension says. With `volume`, `btdf` is Walter's refraction, and the Fresnel terms from inside take the
-// refracted cosine. `g = min(1, (1 - E) / B)` of both directions (`gltf_albedo`) is ours: no direction
+// refracted cosine. `g = min(1, (1 - E) / B)` of both directions (`gltf_albedo`) is Specula's: no direction
 // reflects more than it receives. Where `compensated`, the metal is multiplied by Turquin's factor
 // `1 + b L(wo) / (1 - L(wo))`, with the loss `L` of a white metal.
 //
@@ -181,14 +181,14 @@ fn gltf_new(p: GltfParameters, coat_normal: vec3f) -> GltfLobe {
     let front = select(1.0, 0.0, inside);
     let alpha = gltf_width(p.roughness);
     let strength = clamp(p.anisotropy, 0.0, 1.0);
-    let widths = vec2f(alpha + (1.0 - alpha) * strength * strength, alpha);
+    let alphas = vec2f(alpha + (1.0 - alpha) * strength * strength, alpha);
     let metallic = clamp(p.metallic, 0.0, 1.0);
     let compensated = p.compensated == 1u && metallic > 0.0;
     let transmission = clamp(p.transmission, 0.0, 1.0);
     var lobe: GltfLobe;
     lobe.base = clamp(p.base_colour, vec3f(0.0), vec3f(1.0));
-    lobe.facets = gltf_facets(widths, MASKING_HEIGHT_CORRELATED);
-    lobe.passing = gltf_facets(widths, MASKING_SEPARABLE);
+    lobe.facets = gltf_facets(alphas, MASKING_HEIGHT_CORRELATED);
+    lobe.passing = gltf_facets(alphas, MASKING_SEPARABLE);
     if p.volume == 1u && !bends {
         lobe.passing = gltf_facets(vec2f(ALPHA_SPECULAR_BELOW), MASKING_SEPARABLE);
     }
@@ -424,7 +424,7 @@ fn gltf_draw_through(lobe: GltfLobe, wo: vec3f, u: vec2f) -> vec3f {
     return dielectric_refract(wo, wm, cosine, bent.cos_t, lobe.eta);
 }
 
-/// Draws `wi`.
+/// Samples `wi`.
 ///
 /// * `u`: uniform in [0, 1)^3.
 ///

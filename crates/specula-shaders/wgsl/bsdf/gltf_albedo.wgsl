@@ -35,7 +35,7 @@ const GLTF_ALBEDO_LEAST_ROUGHNESS: f32 = 0.07;
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/albedo.rs, LayerAlbedo.
 struct GltfAlbedoLayer {
-    /// Widths of the layer's facets.
+    /// Alphas of the layer's facets.
     alpha: vec2f,
     /// `1 - A`.
     loss: AlbedoLoss,
@@ -45,7 +45,7 @@ struct GltfAlbedoLayer {
     rise: f32,
 }
 
-/// The layer of these widths.
+/// The layer of these alphas.
 ///
 /// * `normal`, `grazing`: largest reflectances at normal and at grazing incidence.
 ///

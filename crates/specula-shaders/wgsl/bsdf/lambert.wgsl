@@ -33,7 +33,7 @@ fn lambert_eval_pdf(lobe: LambertLobe, wo: vec3f, wi: vec3f, transport: u32) -> 
     return vec4f(lobe.albedo * pdf, pdf);
 }
 
-/// Draws `wi` by the cosine.
+/// Samples `wi` by the cosine.
 ///
 /// Twin: specula-bsdf/src/bsdf/lambert.rs, Lambert::sample.
 fn lambert_draw(lobe: LambertLobe, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {

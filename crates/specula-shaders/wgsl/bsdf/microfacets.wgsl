@@ -9,11 +9,11 @@ import package::vndf::beckmann_visible::{beckmann_visible_sample_wm};
 import package::vndf::cap::{cap_sample_wm};
 import package::vndf::reflection::{reflection_mirrored, reflection_norm_quotient, reflection_sample_direction};
 
-/// Microfacets of a surface and how they are drawn.
+/// Microfacets of a surface and how they are sampled.
 ///
 /// Twin: specula-bsdf/src/bsdf/conductor.rs, RoughConductor and its `ndf`, `masking` and `sampler`.
 struct MicrofacetsModel {
-    /// Widths along the local x and y, each in [1e-4, 10].
+    /// Alphas along the local x and y, each in [1e-4, 10].
     alpha: vec2f,
     /// `DISTRIBUTION_GGX` or `DISTRIBUTION_BECKMANN`.
     distribution: u32,

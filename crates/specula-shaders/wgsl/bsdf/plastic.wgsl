@@ -142,7 +142,7 @@ fn plastic_pdf(lobe: PlasticLobe, wo: vec3f, wi: vec3f) -> f32 {
     return plastic_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE).a;
 }
 
-/// Draws `wi`.
+/// Samples `wi`.
 ///
 /// * `u`: uniform in [0, 1)^3.
 ///

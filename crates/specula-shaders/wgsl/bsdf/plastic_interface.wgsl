@@ -1,4 +1,4 @@
-// What Mitsuba 3's plastics let through their coat and throw back below it.
+// What Mitsuba 3's plastics let through their coat and reflect below it.
 //
 //     T(mu) = int (1 - F(wo.wm)) G1(wt) D_visible(wo, wm) dwm                rough: single refraction
 //     R_int = 2/64 sum_k mu_k int F(wo.wm) G1(wr) D_visible(wo, wm) dwm      mu_k = k/63, from inside
@@ -8,7 +8,7 @@
 // `plastic` has.
 //
 // Rough: tables, cubic in `(eta - 1)/(eta + 1)`, `sqrt(1.1 alpha / (1 + alpha))` and `sqrt(mu)`. Errors:
-// specula-bsdf/src/bsdf/plastic/interface.rs. Anisotropic widths are taken as `sqrt(alpha_x alpha_y)`.
+// specula-bsdf/src/bsdf/plastic/interface.rs. Anisotropic alphas are taken as `sqrt(alpha_x alpha_y)`.
 //
 // Departure from the Rust source: the table is read at the cosine for each direction, where Rust keeps the
 // row of a width and an index.

@@ -30,7 +30,7 @@ const PRINCIPLED_SOLID_PER_PI: f32 = 0.31830988618379;
 ///
 /// Twin: specula-bsdf/src/bsdf/principled/solid.rs, Solid.
 struct PrincipledSolid {
-    /// Refraction draws all visible normals; without it the bounded cap does.
+    /// Refraction samples all visible normals; without it the bounded cap does.
     facets: MicrofacetsModel,
     /// Base colour.
     base: vec3f,
@@ -260,7 +260,7 @@ fn principled_solid_transmitted(lobe: PrincipledSolid, shares: PrincipledSolidSh
     return bsdf_sample_transmitted(wi, weight, pdf, lobe.eta);
 }
 
-/// Draws `wi`.
+/// Samples `wi`.
 ///
 /// * `u`: uniform in [0, 1)^3.
 ///

@@ -56,7 +56,7 @@ fn principled_terms_sheen_colour(base: vec3f, tint: f32) -> vec3f {
     return vec3f(1.0) + (principled_terms_hue(base) - vec3f(1.0)) * tint;
 }
 
-/// Facets of the specular lobe: `alpha = roughness^2`, drawn out by `sqrt(1 - 0.9 anisotropic)`.
+/// Facets of the specular lobe: `alpha = roughness^2`, stretched by `sqrt(1 - 0.9 anisotropic)`.
 ///
 /// Source: Burley 2012, section 5.4; the floor of 1e-3 is Mitsuba's.
 ///
@@ -64,8 +64,8 @@ fn principled_terms_sheen_colour(base: vec3f, tint: f32) -> vec3f {
 fn principled_terms_facets(roughness: f32, anisotropic: f32, masking: u32, strategy: u32) -> MicrofacetsModel {
     let alpha = roughness * roughness;
     let aspect = sqrt(1.0 - 0.9 * anisotropic);
-    let widths = max(vec2f(alpha / aspect, alpha * aspect), vec2f(1e-3));
-    return MicrofacetsModel(alpha_clamped(widths), DISTRIBUTION_GGX, masking, strategy);
+    let alphas = max(vec2f(alpha / aspect, alpha * aspect), vec2f(1e-3));
+    return MicrofacetsModel(alpha_clamped(alphas), DISTRIBUTION_GGX, masking, strategy);
 }
 
 /// Diffuse reflection with retro-reflection and fake subsurface scattering, as a factor on `base / pi`.

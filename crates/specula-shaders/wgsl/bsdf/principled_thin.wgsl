@@ -27,7 +27,7 @@ const PRINCIPLED_THIN_PER_PI: f32 = 0.31830988618379;
 struct PrincipledThin {
     /// Facets of reflection.
     reflecting: MicrofacetsModel,
-    /// Facets of transmission: widths scaled by the index.
+    /// Facets of transmission: alphas scaled by the index.
     passing: MicrofacetsModel,
     /// Base colour.
     base: vec3f,
@@ -179,7 +179,7 @@ fn principled_thin_pdf(lobe: PrincipledThin, wo: vec3f, wi: vec3f) -> f32 {
     return principled_thin_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE).a;
 }
 
-/// Draws `wi`.
+/// Samples `wi`.
 ///
 /// * `u`: uniform in [0, 1)^3.
 ///

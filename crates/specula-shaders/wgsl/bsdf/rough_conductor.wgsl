@@ -65,7 +65,7 @@ fn rough_conductor_pdf(lobe: RoughConductor, wo: vec3f, wi: vec3f) -> f32 {
     return rough_conductor_facet(lobe.facets, wo, wi).x * norm.y / (4.0 * norm.x);
 }
 
-/// Draws `wi`.
+/// Samples `wi`.
 ///
 /// * `u`: uniform in [0, 1)^3.
 ///

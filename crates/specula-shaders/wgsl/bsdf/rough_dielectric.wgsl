@@ -6,12 +6,12 @@
 //
 // with `e` the index beyond the interface over that on the side of `wo`.
 //
-// A visible normal is drawn first (by caps; refraction needs all of them), then the branch by what it
+// A visible normal is sampled first (by caps; refraction needs all of them), then the branch by what it
 // carries: with `r = F G2(wo, wr)` and `t = (1 - F) G2(wo, wt)` at the two directions of the facet, 0
 // where one lies on the wrong side of the surface, reflection has the probability `r / (r + t)` and both
 // weigh `(r + t) / G1(wo)`. Where only one direction is valid it is taken.
 //
-// With bounded caps and the exact sampler the branch is drawn before the normal, with the macroscopic
+// With bounded caps and the exact sampler the branch is sampled before the normal, with the macroscopic
 // reflectance as its probability; the weights then carry `F(wm)` over that probability, which costs more
 // variance than it saves: caps are the default.
 //
@@ -139,14 +139,14 @@ fn rough_dielectric_half(lobe: RoughDielectric, side: RoughDielectricSide, wo: v
     return select(half_vector, -half_vector, half_vector.z < 0.0);
 }
 
-/// Probability of reflection where the branch is drawn before the normal.
+/// Probability of reflection where the branch is sampled before the normal.
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::branch_probability.
 fn rough_dielectric_branch_probability(wo: vec3f, eta: f32) -> f32 {
     return clamp(dielectric(abs(wo.z), eta).reflectance, 0.1, 0.9);
 }
 
-/// Whether the branch is drawn before the normal.
+/// Whether the branch is sampled before the normal.
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::is_branch_first.
 fn rough_dielectric_is_branch_first(lobe: RoughDielectric) -> bool {
@@ -210,7 +210,7 @@ fn rough_dielectric_scatter(lobe: RoughDielectric, wo: vec3f, wi: vec3f, side: R
     let snell = 1.0 - sine_squared * (side.inverse_eta * side.inverse_eta);
     let bent = dielectric_refraction(cos_o, select(cos_i * cos_i, snell, reflects), side.eta);
 
-    // The facet's other direction, which shares its draws.
+    // The facet's other direction, which shares its samples.
     let along = select(2.0 * cos_o, side.inverse_eta * cos_o - bent.cos_t, reflects);
     let back = select(1.0, side.inverse_eta, reflects);
     let other = wm * along - wo * back;
@@ -315,7 +315,7 @@ fn rough_dielectric_draw_branch_first(lobe: RoughDielectric, wo: vec3f, u: vec3f
     return rough_dielectric_scattered(lobe, wi, weight, pdf, reflects, side);
 }
 
-/// Draws `wi`.
+/// Samples `wi`.
 ///
 /// * `u`: uniform in [0, 1)^3.
 ///

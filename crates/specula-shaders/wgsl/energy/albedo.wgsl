@@ -7,51 +7,51 @@
 // where `1 - E` vanishes (narrow lobes, the horizon), and cannot turn negative, as coefficients of
 // cubic splines (`spline`) along the coordinates of `coordinates`:
 //
-// * isotropic: 48 widths x 40 cosines;
-// * anisotropic: 24 x 25 / 2 pairs of widths x 12 azimuths x 22 cosines.
+// * isotropic: 48 alphas x 40 cosines;
+// * anisotropic: 24 x 25 / 2 pairs of alphas x 12 azimuths x 22 cosines.
 //
 // Errors of the tables: specula-bsdf/src/energy/albedo.rs. Departure from the Rust source: coefficients
 // are decoded beforehand, where Rust decodes their sum.
 
-import package::energy::coordinates::{CoordinatesWidths, coordinates_alpha, coordinates_average_scale, coordinates_azimuth, coordinates_cosine, coordinates_widths};
+import package::energy::coordinates::{CoordinatesAlphaPair, coordinates_alpha, coordinates_average_scale, coordinates_azimuth, coordinates_cosine, coordinates_alpha_pair};
 import package::energy::energy_table::{energy_table};
 import package::energy::pairs::{pairs_pair, pairs_row};
 import package::energy::spline::{SplineCubic, spline_cubic};
 import package::ndf::masking::{MASKING_SEPARABLE};
 import package::ndf::distribution::{DISTRIBUTION_BECKMANN};
 
-/// Widths of the isotropic tables.
+/// AlphaPair of the isotropic tables.
 const ALBEDO_ISOTROPIC_ALPHAS: u32 = 48u;
 /// Cosines of the isotropic tables.
 const ALBEDO_ISOTROPIC_COSINES: u32 = 40u;
-/// Widths of the anisotropic tables.
+/// AlphaPair of the anisotropic tables.
 const ALBEDO_ANISOTROPIC_ALPHAS: u32 = 24u;
 /// Azimuths of the anisotropic tables.
 const ALBEDO_ANISOTROPIC_AZIMUTHS: u32 = 12u;
 /// Cosines of the anisotropic tables.
 const ALBEDO_ANISOTROPIC_COSINES: u32 = 22u;
 
-/// Numbers of one distribution and masking.
+/// Values of one distribution and masking.
 const ALBEDO_TABLES_STRIDE: u32 = 222644u;
 /// Where `sqrt(1 - E)` by width and cosine begins.
 const ALBEDO_ISOTROPIC_START: u32 = 0u;
 /// Where `sqrt(1 - E_avg)` over its scale, by width, begins.
 const ALBEDO_ISOTROPIC_AVERAGE_START: u32 = 1920u;
-/// Where `sqrt(1 - E)` by pair of widths, azimuth and cosine begins.
+/// Where `sqrt(1 - E)` by pair of alphas, azimuth and cosine begins.
 const ALBEDO_ANISOTROPIC_START: u32 = 1968u;
-/// Where `sqrt(1 - E_avg)` over its scale, by pair of widths, begins.
+/// Where `sqrt(1 - E_avg)` over its scale, by pair of alphas, begins.
 const ALBEDO_ANISOTROPIC_AVERAGE_START: u32 = 81168u;
 
-/// The energy that single scattering off one surface loses: the tables at its widths.
+/// The energy that single scattering off one surface loses: the tables at its alphas.
 ///
 /// Twin: specula-bsdf/src/energy/albedo.rs, Loss.
 struct AlbedoLoss {
     /// Where the tables of the distribution and masking begin.
     table: u32,
-    /// 1 where the widths differ.
+    /// 1 where the alphas differ.
     stretched: u32,
-    /// The widths.
-    widths: CoordinatesWidths,
+    /// The alphas.
+    alphas: CoordinatesAlphaPair,
     /// Coefficients about the smaller width.
     low: SplineCubic,
     /// Coefficients about the larger width.
@@ -71,16 +71,16 @@ fn albedo_table_start(distribution: u32, masking: u32) -> u32 {
 /// The loss of a distribution of normals.
 ///
 /// * `distribution`: `DISTRIBUTION_GGX` or `DISTRIBUTION_BECKMANN`.
-/// * `alpha`: widths in [1e-4, 10].
+/// * `alpha`: alphas in [1e-4, 10].
 ///
 /// Twin: specula-bsdf/src/energy/albedo.rs, Loss::new.
 fn albedo_loss(distribution: u32, masking: u32, alpha: vec2f) -> AlbedoLoss {
     let table = albedo_table_start(distribution, masking);
     let stretched = alpha.x != alpha.y;
-    let widths = coordinates_widths(alpha.x, alpha.y);
+    let alphas = coordinates_alpha_pair(alpha.x, alpha.y);
     let count = select(ALBEDO_ISOTROPIC_ALPHAS, ALBEDO_ANISOTROPIC_ALPHAS, stretched);
-    let low = spline_cubic(coordinates_alpha(widths.low), count);
-    let high = spline_cubic(coordinates_alpha(widths.high), count);
+    let low = spline_cubic(coordinates_alpha(alphas.low), count);
+    let high = spline_cubic(coordinates_alpha(alphas.high), count);
     var root = 0.0;
     for (var i = 0u; i < 4u; i++) {
         if stretched {
@@ -97,7 +97,7 @@ fn albedo_loss(distribution: u32, masking: u32, alpha: vec2f) -> AlbedoLoss {
     }
     let scaled = root * coordinates_average_scale(alpha.x, alpha.y);
     let average = clamp(scaled * scaled, 1e-18, 1.0);
-    return AlbedoLoss(table, select(0u, 1u, stretched), widths, low, high, average);
+    return AlbedoLoss(table, select(0u, 1u, stretched), alphas, low, high, average);
 }
 
 /// The sum of a row of coefficients that begins at `start`.
@@ -154,11 +154,11 @@ fn albedo_directional_loss(loss: AlbedoLoss, wo: vec3f) -> f32 {
     let cosine = min(abs(wo.z), 1.0);
     var root: f32;
     if loss.stretched == 1u {
-        let azimuth = coordinates_azimuth(loss.widths, wo.x, wo.y);
+        let azimuth = coordinates_azimuth(loss.alphas, wo.x, wo.y);
         let m = coordinates_cosine(cosine, azimuth.width);
         root = albedo_anisotropic(loss.table, loss.low, loss.high, azimuth.v, m);
     } else {
-        let m = coordinates_cosine(cosine, loss.widths.low);
+        let m = coordinates_cosine(cosine, loss.alphas.low);
         root = albedo_isotropic(loss.table, loss.low, m);
     }
     return min(root * root, 1.0);

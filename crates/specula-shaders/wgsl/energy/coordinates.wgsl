@@ -5,7 +5,7 @@
 //     azimuth    v = ln(a / l) / ln(h / l),   a^2 = (l^2 x^2 + h^2 y^2) / (x^2 + y^2)
 //     cosine     m = 1 - sqrt(1 - sqrt(mu (1 + a) / (mu + a)))
 //
-// `a` is the width along the view, between the widths `l < h` along x and y. Off a stretched surface
+// `a` is the width along the view, between the alphas `l < h` along x and y. Off a stretched surface
 // the loss changes where `tan phi ~ l / h`: the logarithm has room there at every ratio. For narrow
 // lobes everything happens at `mu ~ a`, for which `m` has room at every width, and the inner root
 // makes room for Beckmann's steep loss about normal incidence.
@@ -31,10 +31,10 @@ const COORDINATES_TINY: f32 = 1.1754944e-38;
 /// A floor of logarithms.
 const COORDINATES_EPSILON: f32 = 1.1920929e-7;
 
-/// Two widths, in ascending order, and which axis is the wider.
+/// Two alphas, in ascending order, and which axis is the wider.
 ///
-/// Twin: specula-bsdf/src/energy/coordinates.rs, Widths.
-struct CoordinatesWidths {
+/// Twin: specula-bsdf/src/energy/coordinates.rs, AlphaPair.
+struct CoordinatesAlphaPair {
     /// The smaller, `l`.
     low: f32,
     /// The larger, `h`.
@@ -94,31 +94,31 @@ fn coordinates_interface_cosine(cosine: f32, width: f32, edge: f32) -> f32 {
     return 0.7 * coordinates_cosine(cosine, width) + 0.3 * bent;
 }
 
-/// The widths along x and y, in any order.
+/// The alphas along x and y, in any order.
 ///
-/// Twin: specula-bsdf/src/energy/coordinates.rs, Widths::new.
-fn coordinates_widths(x: f32, y: f32) -> CoordinatesWidths {
+/// Twin: specula-bsdf/src/energy/coordinates.rs, AlphaPair::new.
+fn coordinates_alpha_pair(x: f32, y: f32) -> CoordinatesAlphaPair {
     let low = min(x, y);
     let high = max(x, y);
     let excess = (high - low) * (high + low) / (low * low);
-    // Equal widths have no azimuth; the floor keeps 0 / 0 away.
+    // isotropic alpha have no azimuth; the floor keeps 0 / 0 away.
     let per_logarithm = 1.0 / max(log(1.0 + excess), COORDINATES_EPSILON);
-    return CoordinatesWidths(low, high, excess, per_logarithm, select(0u, 1u, x > y));
+    return CoordinatesAlphaPair(low, high, excess, per_logarithm, select(0u, 1u, x > y));
 }
 
 /// Where a view with the tangential part `(x, y)` lies.
 ///
-/// Twin: specula-bsdf/src/energy/coordinates.rs, Widths::azimuth.
-fn coordinates_azimuth(widths: CoordinatesWidths, x: f32, y: f32) -> CoordinatesAzimuth {
+/// Twin: specula-bsdf/src/energy/coordinates.rs, AlphaPair::azimuth.
+fn coordinates_azimuth(alphas: CoordinatesAlphaPair, x: f32, y: f32) -> CoordinatesAzimuth {
     let along_x = x * x;
     let along_y = y * y;
     let length_squared = along_x + along_y;
-    let along = select(along_x, along_y, widths.swapped == 1u);
+    let along = select(along_x, along_y, alphas.swapped == 1u);
     // Straight from above, every azimuth has the same value.
     let share = along / max(length_squared, COORDINATES_TINY);
     let narrow = select(0.5, share, length_squared > COORDINATES_TINY);
-    let square = 1.0 + widths.excess * (1.0 - narrow);
-    return CoordinatesAzimuth(widths.low * sqrt(square), log(square) * widths.per_logarithm, narrow);
+    let square = 1.0 + alphas.excess * (1.0 - narrow);
+    return CoordinatesAzimuth(alphas.low * sqrt(square), log(square) * alphas.per_logarithm, narrow);
 }
 
 /// Coordinate of the azimuth for an interface.

@@ -4,43 +4,43 @@
 //
 // As in `albedo`, tables hold `sqrt(1 - E)` as coefficients of splines:
 //
-// * isotropic: 2 x 10 indices x 20 widths x 22 cosines, cubic;
-// * anisotropic: 2 x 6 indices x 12 x 13 / 2 pairs of widths x 10 azimuths x 14 cosines, quadratic.
+// * isotropic: 2 x 10 indices x 20 alphas x 22 cosines, cubic;
+// * anisotropic: 2 x 6 indices x 12 x 13 / 2 pairs of alphas x 10 azimuths x 14 cosines, quadratic.
 //
 // The coordinate of an index is `sqrt(|eta - 1| / (eta + 1))`, of indices in [1.041, 3] and of their
 // inverses; beyond, the nearest is taken. The others are those of `coordinates`, where total
 // reflection has its edges. Errors: specula-bsdf/src/energy/dielectric_albedo.rs.
 
 import package::energy::albedo::{albedo_row, albedo_table_start};
-import package::energy::coordinates::{CoordinatesWidths, coordinates_alpha, coordinates_average_scale, coordinates_azimuth, coordinates_edge, coordinates_interface_azimuth, coordinates_interface_cosine, coordinates_widths};
+import package::energy::coordinates::{CoordinatesAlphaPair, coordinates_alpha, coordinates_average_scale, coordinates_azimuth, coordinates_edge, coordinates_interface_azimuth, coordinates_interface_cosine, coordinates_alpha_pair};
 import package::energy::energy_table::{energy_table};
 import package::energy::pairs::{pairs_pair, pairs_row};
 import package::energy::spline::{SplineCubic, SplineQuadratic, spline_cubic, spline_quadratic};
 
 /// Indices of the isotropic tables.
 const DIELECTRIC_ALBEDO_ETAS: u32 = 20u;
-/// Widths of the isotropic tables.
+/// AlphaPair of the isotropic tables.
 const DIELECTRIC_ALBEDO_ALPHAS: u32 = 20u;
 /// Cosines of the isotropic tables.
 const DIELECTRIC_ALBEDO_COSINES: u32 = 22u;
 /// Indices of the anisotropic tables.
 const DIELECTRIC_ALBEDO_STRETCHED_ETAS: u32 = 12u;
-/// Widths of the anisotropic tables.
+/// AlphaPair of the anisotropic tables.
 const DIELECTRIC_ALBEDO_STRETCHED_ALPHAS: u32 = 12u;
 /// Azimuths of the anisotropic tables.
 const DIELECTRIC_ALBEDO_STRETCHED_AZIMUTHS: u32 = 10u;
 /// Cosines of the anisotropic tables.
 const DIELECTRIC_ALBEDO_STRETCHED_COSINES: u32 = 14u;
-/// Pairs of widths of the anisotropic tables.
+/// Pairs of alphas of the anisotropic tables.
 const DIELECTRIC_ALBEDO_STRETCHED_PAIRS: u32 = 78u;
 
 /// Where `sqrt(1 - E)` by index, width and cosine begins.
 const DIELECTRIC_ALBEDO_START: u32 = 81468u;
 /// Where `sqrt(1 - E_avg)` over its scale, by index and width, begins.
 const DIELECTRIC_ALBEDO_AVERAGE_START: u32 = 90268u;
-/// Where `sqrt(1 - E)` by index, pair of widths, azimuth and cosine begins.
+/// Where `sqrt(1 - E)` by index, pair of alphas, azimuth and cosine begins.
 const DIELECTRIC_ALBEDO_STRETCHED_START: u32 = 90668u;
-/// Where `sqrt(1 - E_avg)` over its scale, by index and pair of widths, begins.
+/// Where `sqrt(1 - E_avg)` over its scale, by index and pair of alphas, begins.
 const DIELECTRIC_ALBEDO_STRETCHED_AVERAGE_START: u32 = 221708u;
 
 /// `sqrt(0.02)`: an index of 1.0408.
@@ -56,12 +56,12 @@ struct DielectricAlbedoLoss {
     table: u32,
     /// First index of the half of the tables: losses differ too much across 1 to be interpolated.
     start: u32,
-    /// 1 where the widths differ: then only the quadratic coefficients count, else only the cubic.
+    /// 1 where the alphas differ: then only the quadratic coefficients count, else only the cubic.
     stretched: u32,
     /// Where total reflection has its edge.
     edge: f32,
-    /// The widths.
-    widths: CoordinatesWidths,
+    /// The alphas.
+    alphas: CoordinatesAlphaPair,
     /// Coefficients about the index, isotropic.
     eta: SplineCubic,
     /// Coefficients about the width, isotropic.
@@ -104,7 +104,7 @@ fn dielectric_albedo_isotropic_average(table: u32, start: u32, eta: SplineCubic,
     return root;
 }
 
-/// `sqrt(1 - E_avg)` over its scale, anisotropic: by the first row of the half, index and widths.
+/// `sqrt(1 - E_avg)` over its scale, anisotropic: by the first row of the half, index and alphas.
 ///
 /// Twin: specula-bsdf/src/energy/dielectric_albedo.rs, DielectricLoss::new.
 fn dielectric_albedo_stretched_average(table: u32, start: u32, eta: SplineQuadratic, low: SplineQuadratic, high: SplineQuadratic) -> f32 {
@@ -123,17 +123,17 @@ fn dielectric_albedo_stretched_average(table: u32, start: u32, eta: SplineQuadra
 /// The loss seen from the side where the index is 1, with `eta` beyond.
 ///
 /// * `distribution`: `DISTRIBUTION_GGX` or `DISTRIBUTION_BECKMANN`.
-/// * `alpha`: widths in [1e-4, 10].
+/// * `alpha`: alphas in [1e-4, 10].
 ///
 /// Twin: specula-bsdf/src/energy/dielectric_albedo.rs, DielectricLoss::new.
 fn dielectric_albedo_loss(distribution: u32, masking: u32, alpha: vec2f, eta: f32) -> DielectricAlbedoLoss {
     var loss: DielectricAlbedoLoss;
     loss.table = albedo_table_start(distribution, masking);
     loss.edge = coordinates_edge(clamp(eta, 1.0 / 3.0, 3.0));
-    loss.widths = coordinates_widths(alpha.x, alpha.y);
+    loss.alphas = coordinates_alpha_pair(alpha.x, alpha.y);
     let place = dielectric_albedo_eta_coordinate(eta);
-    let low = coordinates_alpha(loss.widths.low);
-    let high = coordinates_alpha(loss.widths.high);
+    let low = coordinates_alpha(loss.alphas.low);
+    let high = coordinates_alpha(loss.alphas.high);
     var root: f32;
     if alpha.x == alpha.y {
         loss.stretched = 0u;
@@ -213,11 +213,11 @@ fn dielectric_albedo_directional_loss(loss: DielectricAlbedoLoss, wo: vec3f) -> 
     let cosine = min(abs(wo.z), 1.0);
     var root: f32;
     if loss.stretched == 1u {
-        let azimuth = coordinates_azimuth(loss.widths, wo.x, wo.y);
+        let azimuth = coordinates_azimuth(loss.alphas, wo.x, wo.y);
         let m = coordinates_interface_cosine(cosine, azimuth.width, loss.edge);
         root = dielectric_albedo_stretched(loss, coordinates_interface_azimuth(azimuth, loss.edge), m);
     } else {
-        let m = coordinates_interface_cosine(cosine, loss.widths.low, loss.edge);
+        let m = coordinates_interface_cosine(cosine, loss.alphas.low, loss.edge);
         root = dielectric_albedo_isotropic(loss, m);
     }
     return min(root * root, 1.0);

@@ -1,4 +1,4 @@
-// The numbers of all energy tables, as a storage buffer.
+// The values of all energy tables, as a storage buffer.
 //
 // The only module with a binding. Who keeps the tables elsewhere (a texture, a constant buffer of the
 // part that is used) leaves this module out and writes `energy_table` himself.

@@ -1,7 +1,7 @@
 // Directional transmittance and internal reflectance of a dielectric interface, for coats.
 //
 //     T(mu) = int (1 - F(wo.wm)) D_visible(wo, wm) dwm              light from outside that enters
-//     R_int = 1 - int_0^1 T(mu) 2 mu dmu / eta^2                    diffuse light thrown back inside
+//     R_int = 1 - int_0^1 T(mu) 2 mu dmu / eta^2                    diffuse light reflected inside
 //
 // `T` is what the facets seen from `wo` let through. Light refracted downwards stays below: what
 // masking takes from the single-scattering transmission lobe is not lost but refracted again, so that
@@ -78,7 +78,7 @@ fn interface_along(start: u32, knot: InterfaceKnot) -> f32 {
     return below + (above - below) * knot.fraction;
 }
 
-/// A table of rows of `count` numbers, along two axes.
+/// A table of rows of `count` values, along two axes.
 ///
 /// Twin: specula-bsdf/src/energy/interface.rs, Knot::lerp, twice.
 fn interface_plane(start: u32, rows: InterfaceKnot, columns: InterfaceKnot, count: u32) -> f32 {
@@ -130,7 +130,7 @@ fn interface_transmittance(width: f32, eta: f32, mu: f32) -> f32 {
     return clamp(unhindered * quotient, 0.0, 1.0);
 }
 
-/// Share of diffuse light from inside that is thrown back.
+/// Share of diffuse light from inside that is reflected.
 ///
 /// * `width`: of the coat, 0 for a smooth interface.
 /// * `eta`: index inside over outside, in [1, 3].

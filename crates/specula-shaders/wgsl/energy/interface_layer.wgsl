@@ -2,7 +2,7 @@
 //
 // Light that crosses a layer of optical thickness `t` at the cosine `mu` keeps `exp(-t / mu)`. Of light
 // that entered at the cosine `mu`, with `<>` the mean over where the interface sends it, and of diffuse
-// light that the interface throws back inside, up at `mu_i` and down at `mu_r`:
+// light that the interface reflects inside, up at `mu_i` and down at `mu_r`:
 //
 //     crossing(mu) = <exp(-t / mu')>
 //     there_and_back = <exp(-t / mu_i - t / mu_r)>
@@ -86,7 +86,7 @@ fn interface_layer_crossing(layer: InterfaceLayer, width: f32, eta: f32, mu: f32
     return interface_layer_left(layer, refracted * (below + (above - below) * e.fraction));
 }
 
-/// Share that is left of diffuse light which crossed upwards, was thrown back, and crossed again.
+/// Share that is left of diffuse light which crossed upwards, was reflected, and crossed again.
 ///
 /// * `width`: of the coat, 0 for a smooth interface.
 /// * `eta`: index inside over outside, in [1, 3].

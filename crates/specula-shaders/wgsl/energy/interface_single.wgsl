@@ -50,7 +50,7 @@ fn interface_single_reflectance_estimate(width: f32, eta: f32, mu: f32) -> f32 {
     return dielectric(select(mu, raised, width > 0.0), eta).reflectance;
 }
 
-/// Share of diffuse light from inside that is thrown back by one scattering.
+/// Share of diffuse light from inside that is reflected by one scattering.
 ///
 /// * `width`: of the coat, 0 for a smooth interface.
 /// * `eta`: index inside over outside, in [1, 3].

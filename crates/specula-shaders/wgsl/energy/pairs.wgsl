@@ -1,4 +1,4 @@
-// Pairs of widths: exchanging the axes changes nothing but the direction in which azimuths count, so
+// Pairs of alphas: exchanging the axes changes nothing but the direction in which azimuths count, so
 // that half the pairs are stored.
 
 /// Row of a pair of indices, in any order.

@@ -1,7 +1,7 @@
 // A stream of random numbers, for lobes whose values are themselves estimates.
 //
 // SplitMix64 (Steele, Lea and Flood 2014): a 64-bit counter through a strong mix. Departure: WGSL has
-// no 64-bit integers, so that the words are pairs `(low, high)`; the numbers are the same.
+// no 64-bit integers, so that the words are pairs `(low, high)`; the values are the same.
 
 /// A small pseudo-random stream. Streams of different seeds are independent for every purpose here; the
 /// period is 2^64.

@@ -1,7 +1,7 @@
 // Heitz, Hanika, d'Eon and Dachsbacher 2016, Multiple-Scattering Microfacet BSDFs with the Smith
 // Model: a random walk over directions and heights. The ground truth of the other models.
 //
-// The paper draws the next height from the distribution `C1` (uniform or Gaussian). In the depth
+// The paper samples the next height from the distribution `C1` (uniform or Gaussian). In the depth
 // `tau = -ln C1(h)` that reads, whatever `C1` is,
 //
 //     down:  tau += E / (1 + Lambda(-d)),     E = -ln U

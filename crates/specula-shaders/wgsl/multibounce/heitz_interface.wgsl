@@ -38,7 +38,7 @@ fn heitz_interface_eval(
     return heitz_interface_collisions(start, true, wi, stream).sum;
 }
 
-/// A direction drawn at a dielectric; its weight is 1 (for light). Its own density is not known: `pdf`
+/// A direction sampled at a dielectric; its weight is 1 (for light). Its own density is not known: `pdf`
 /// is 0. Transmitted where `wi.z < 0`, whatever the flags.
 ///
 /// * `u`: draws reflection or refraction (x), and the first facet.

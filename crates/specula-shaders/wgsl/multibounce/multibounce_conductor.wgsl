@@ -13,7 +13,7 @@ import package::multibounce::cui2023::{cui2023_draw, cui2023_eval, cui2023_eval_
 import package::multibounce::heitz2016::{heitz2016_draw, heitz2016_eval};
 import package::multibounce::mis_pdf::{mis_pdf_reflection};
 import package::multibounce::multibounce_model::{MULTIBOUNCE_MODEL_BITTERLI, MULTIBOUNCE_MODEL_CUI, MULTIBOUNCE_MODEL_CUI_BIDIRECTIONAL, MULTIBOUNCE_MODEL_HEITZ, MULTIBOUNCE_MODEL_WANG, MULTIBOUNCE_MODEL_WANG_UNCORRELATED};
-import package::multibounce::ours::{ours_draw, ours_eval};
+import package::multibounce::stratified_bidirectional::{stratified_bidirectional_draw, stratified_bidirectional_eval};
 import package::multibounce::walk::{WalkFacets};
 import package::multibounce::wang2022::{wang2022_draw, wang2022_eval};
 
@@ -62,7 +62,7 @@ fn multibounce_conductor_eval(
             return cui2023_eval(lobe.facets, wo, wi, stream);
         }
         default: {
-            return ours_eval(lobe.facets, wo, wi, stream);
+            return stratified_bidirectional_eval(lobe.facets, wo, wi, stream);
         }
     }
 }
@@ -111,14 +111,14 @@ fn multibounce_conductor_walk(
             return cui2023_draw(lobe.facets, wo, u, stream);
         }
         default: {
-            return ours_draw(lobe.facets, wo, u, stream);
+            return stratified_bidirectional_draw(lobe.facets, wo, u, stream);
         }
     }
 }
 
 /// A direction of the model's walk with the density of multiple importance sampling.
 ///
-/// * `u`: `u.yz` draws the first facet.
+/// * `u`: `u.yz` samples the first facet.
 ///
 /// Twin: specula-bsdf/src/multibounce/conductor.rs, Conductor::sample_random.
 fn multibounce_conductor_draw(

@@ -10,12 +10,12 @@ import package::multibounce::mis_pdf::{mis_pdf_interface};
 import package::multibounce::multibounce_interface::{MultibounceInterface, multibounce_interface_beyond, multibounce_interface_turned};
 import package::multibounce::multibounce_model::{MULTIBOUNCE_MODEL_HEITZ};
 import package::multibounce::normals::{NormalsModel};
-import package::multibounce::ours_interface::{ours_interface_draw, ours_interface_eval};
+import package::multibounce::stratified_bidirectional_interface::{stratified_bidirectional_interface_draw, stratified_bidirectional_interface_eval};
 
 /// Reflection and refraction at a rough interface with every bounce between its facets, on both sides
 /// of them. Values are estimates; no energy is lost.
 ///
-/// `MULTIBOUNCE_MODEL_HEITZ` walks with heights; every other model here is `MULTIBOUNCE_MODEL_OURS`, as
+/// `MULTIBOUNCE_MODEL_HEITZ` walks with heights; every other model here is `MULTIBOUNCE_MODEL_STRATIFIED_BIDIRECTIONAL`, as
 /// the papers of the others treat metals only. Indices within 1e-3 of each other are taken as equal:
 /// light passes straight on.
 ///
@@ -105,7 +105,7 @@ fn multibounce_dielectric_eval(
     if lobe.model == MULTIBOUNCE_MODEL_HEITZ {
         f_cos = heitz_interface_eval(side, view, light, stream);
     } else {
-        f_cos = ours_interface_eval(side, view, light, stream);
+        f_cos = stratified_bidirectional_interface_eval(side, view, light, stream);
     }
     if light.z < 0.0 {
         return lobe.tints.transmission * (f_cos * bsdf_sample_radiance_scale(side.eta, transport));
@@ -150,7 +150,7 @@ fn multibounce_dielectric_draw(
     if lobe.model == MULTIBOUNCE_MODEL_HEITZ {
         left = heitz_interface_draw(side, view, u, stream);
     } else {
-        left = ours_interface_draw(side, view, u, stream);
+        left = stratified_bidirectional_interface_draw(side, view, u, stream);
     }
     if left.flags == 0u {
         return bsdf_sample_none();

@@ -88,7 +88,7 @@ fn multibounce_diffuse_eval_pdf(
 
 /// A direction of the walk with the density of multiple importance sampling.
 ///
-/// * `u`: `u.yz` draws the first facet.
+/// * `u`: `u.yz` samples the first facet.
 ///
 /// Twin: specula-bsdf/src/multibounce/diffuse.rs, Diffuse::sample_random.
 fn multibounce_diffuse_draw(

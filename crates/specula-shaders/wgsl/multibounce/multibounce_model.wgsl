@@ -17,5 +17,5 @@ const MULTIBOUNCE_MODEL_CUI: u32 = 4u;
 /// Cui et al. 2023, paths connected from both ends. Metals only.
 /// Twin: specula-bsdf/src/multibounce/model.rs, Model::Cui2023.
 const MULTIBOUNCE_MODEL_CUI_BIDIRECTIONAL: u32 = 5u;
-/// This project's. Twin: specula-bsdf/src/multibounce/model.rs, Model::Ours.
-const MULTIBOUNCE_MODEL_OURS: u32 = 6u;
+/// This project's. Twin: specula-bsdf/src/multibounce/model.rs, Model::StratifiedBidirectional.
+const MULTIBOUNCE_MODEL_STRATIFIED_BIDIRECTIONAL: u32 = 6u;

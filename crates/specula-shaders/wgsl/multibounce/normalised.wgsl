@@ -24,7 +24,7 @@
 // `r` is the ratio of the smaller width to the larger, `a^2` their product. The azimuth spreads about
 // the forward direction: `tan(phi / 2) = kappa tan(phi' / 2)` (a wrapped Cauchy distribution, where
 // all light goes forward), `kappa = 1 / (1 + 2 (1 - a^2) sin^2 theta_o)`. All depends continuously on
-// widths and directions.
+// alphas and directions.
 
 import package::math::warp::{warp_cosine_hemisphere};
 import package::multibounce::normals::{NormalsModel, normals_d, normals_lambda_cos, normals_sample_wm};

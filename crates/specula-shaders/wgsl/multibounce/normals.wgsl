@@ -12,7 +12,7 @@ import package::vndf::cap::{cap_sample_wm};
 ///
 /// Twin: specula-bsdf/src/ndf/mod.rs, Ndf.
 struct NormalsModel {
-    /// Widths along the local x and y, each in [1e-4, 10].
+    /// Alphas along the local x and y, each in [1e-4, 10].
     alpha: vec2f,
     /// `DISTRIBUTION_GGX` or `DISTRIBUTION_BECKMANN`.
     distribution: u32,

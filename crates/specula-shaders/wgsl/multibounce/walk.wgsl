@@ -120,7 +120,7 @@ fn walk_arriving(facets: WalkFacets, wo: vec3f) -> WalkFlight {
     return walk_flight(facets.normals, -wo);
 }
 
-/// The facet that is met, drawn among those that `-d` sees.
+/// The facet that is met, sampled among those that `-d` sees.
 ///
 /// * `u`: uniform in `[0, 1)^2`.
 ///
@@ -132,7 +132,7 @@ fn walk_meet(normals: NormalsModel, d: vec3f, u: vec2f) -> WalkMeeting {
     return WalkMeeting(wm, -along, walk_flight(normals, after));
 }
 
-/// The facet that is met (drawn among those that `-d` sees), its reflectance, and the flight after it.
+/// The facet that is met (sampled among those that `-d` sees), its reflectance, and the flight after it.
 ///
 /// * `u`: uniform in `[0, 1)^2`.
 ///
@@ -176,7 +176,7 @@ fn walk_single(facets: WalkFacets, arriving: WalkFlight, leaving: WalkFlight) ->
     return met.fresnel * (met.quarter_d / arriving.facing * share);
 }
 
-/// Two uniform numbers of the stream, in its order.
+/// Two uniform random numbers of the stream, in its order.
 ///
 /// Twin: specula-bsdf/src/math/stream.rs, Stream::next, twice.
 fn walk_pair(stream: ptr<function, StreamState>) -> vec2f {

@@ -15,8 +15,8 @@
 // alpha 1 up to 60 degrees, and by +180 % at 85. One bounce is exact when correlated, and has the separable `G2` when not. The uncorrelated
 // model is reciprocal; the correlated one, as released, is not: the reversed flight has another rate.
 //
-// Departures: the released code draws visible normals below the horizon with a routine that is wrong
-// there; ours is not. Its constant roulette starts at the third bounce here too.
+// Departures: the released code samples visible normals below the horizon with a routine that is wrong
+// there; Specula's is not. Its constant roulette starts at the third bounce here too.
 
 import package::bsdf::bsdf_sample::{BSDF_SAMPLE_VALID, BsdfSample, bsdf_sample_none};
 import package::math::stream::{StreamState, stream_next};

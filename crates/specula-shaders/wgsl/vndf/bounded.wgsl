@@ -6,7 +6,7 @@
 // Departures from the paper:
 // * eq. 4 must read `r / alpha^2`; the step functions of eqs. 10 and 25 take the stretched view;
 // * eq. 7 clamps alpha at 1. Without the clamp, and with `s = 1 + sgn(1 - alpha) sqrt(x^2 + y^2)` of
-//   eq. 5, the bound stays conservative where both widths exceed 1, and rejects up to 38 percentage
+//   eq. 5, the bound stays conservative where both alphas exceed 1, and rejects up to 38 percentage
 //   points less;
 // * listing 2 is a density only above the horizon and divides by zero at `(0, 0, -1)`.
 

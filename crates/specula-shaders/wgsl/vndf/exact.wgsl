@@ -1,8 +1,8 @@
 // Reflections off visible GGX normals, none of them below the surface.
 //
 // The half vectors whose reflection lies above the surface form a quadratic cone (`exact_cone`), whose
-// projection along the view has an area in closed form. That area is drawn from uniformly: in closed
-// form where the widths are equal (`exact_isotropic`), by a walk along chords where they are not
+// projection along the view has an area in closed form. That area is sampled from uniformly: in closed
+// form where the alphas are equal (`exact_isotropic`), by a walk along chords where they are not
 // (`exact_chords`). The density is the visible normals' over the cone:
 //
 //     pdf(wi) = D(wm) / (4 N),   N = int D(wm) max(wo . wm, 0) [wi.z > 0] dwm
@@ -20,7 +20,7 @@ import package::vndf::half_vector::{half_vector_density, half_vector_mirrored};
 
 /// The reflection of `wo`, above the horizon but for rounding (less than one in 10^6).
 ///
-/// * `wo`: unit, any hemisphere; below the horizon all visible normals reflect upwards, and `cap` draws
+/// * `wo`: unit, any hemisphere; below the horizon all visible normals reflect upwards, and `cap` samples
 ///   them.
 /// * `u`: uniform in [0, 1)^2, a point of the disk: `u.x` the squared radius, `u.y` the azimuth.
 ///
@@ -46,7 +46,7 @@ fn exact_reflection_pdf(alpha: vec2f, wo: vec3f, wi: vec3f) -> f32 {
 ///
 ///     N = lambda^2 / (|v|^2 sqrt(Dx Dy))   for z > 0,   sigma(wo) else
 ///
-/// (`lambda^2 / Delta` for equal widths.)
+/// (`lambda^2 / Delta` for isotropic alpha.)
 ///
 /// Twin: specula-bsdf/src/vndf/exact/mod.rs, norm.
 fn exact_norm(alpha: vec2f, wo: vec3f) -> f32 {

@@ -1,4 +1,4 @@
-// Exact reflections of unequal widths: a walk along the chords of the cone's projection.
+// Exact reflections of anisotropic alpha: a walk along the chords of the cone's projection.
 //
 // Seen along its axis `v`, the cone's section is an ellipse, uniform under the cosine to the axis; the
 // cosine to the view is wanted. Chords across `k = h x v` are chords in both projections. The one at `Y`
@@ -10,7 +10,7 @@
 // `Y` longer by as much as that at `-Y` is shorter, so the disk's density of `Y` is right for the pair.
 // A point `(X, Y)` of the disk therefore walks the length `(c + X) s2` from one end of its chord; if the
 // chord ends before, the point lies as far from the end of the opposite chord as it had left to go. Both
-// chords are covered uniformly: two numbers, no rejection, no root.
+// chords are covered uniformly: two values, no rejection, no root.
 //
 // Source: derived in docs/exact-reflection-sampling.md of Specula.
 

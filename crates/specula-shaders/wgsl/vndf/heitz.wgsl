@@ -1,10 +1,10 @@
 // Visible GGX normals by the hemisphere's cross section (Heitz 2018).
 //
 // In the space of unit roughness, the hemisphere seen from `wo` covers a half disk and half an ellipse;
-// a point is drawn there and lifted. The paper's V is our `wo`.
+// a point is sampled there and lifted. The paper's V is our `wo`.
 //
 // Departure from the listing: for views below the horizon it takes the difference of nearly equal
-// numbers (in f32 up to 70 % of its normals face away at 179.9 degrees). With `q` half the chord at
+// values (in f32 up to 70 % of its normals face away at 179.9 degrees). With `q` half the chord at
 // `t1`, `s = (1 + z) / 2` free of cancellation and `d = s (q - t2)`:
 //
 //     t2' = q - d,   t3^2 = 1 - t1^2 - t2'^2 = d (2 q - d)

@@ -1,7 +1,7 @@
 // Many reflections of one view: what does not depend on the draw is computed once.
 //
 // All samplers share the density `D(wm) / (4 N(wo))`. With `N` kept, a density costs `D` alone: no square
-// root and one division. Unequal widths keep the cone of `exact` as well, which is most of a draw's
+// root and one division. anisotropic alpha keep the cone of `exact` as well, which is most of a sample's
 // cost. Worth it from the second use of a view on: several light samples at a shading point,
 // resampling, mixtures with guided distributions.
 
@@ -15,7 +15,7 @@ import package::vndf::sampler::{SAMPLER_EXACT};
 ///
 /// Twin: specula-bsdf/src/vndf/reflections.rs, Reflections.
 struct ReflectionsSampler {
-    /// The widths.
+    /// The alphas.
     alpha: vec2f,
     /// One of the samplers of `sampler`.
     strategy: u32,
@@ -23,9 +23,9 @@ struct ReflectionsSampler {
     norm: f32,
     /// The view, unit.
     wo: vec3f,
-    /// Whether draws use the cone.
+    /// Whether samples use the cone.
     has_cone: bool,
-    /// The valid half vectors, where a draw needs them.
+    /// The valid half vectors, where a sample needs them.
     cone: ExactCone,
 }
 

@@ -1,4 +1,4 @@
-// Which sampler draws reflections off GGX; `reflection` draws by it.
+// Which sampler samples reflections off GGX; `reflection` samples by it.
 
 /// Heitz 2018.
 ///

@@ -1,4 +1,4 @@
-//! What the suites share: views, widths, and a runner that gathers every failure.
+//! What the suites share: views, alphas, and a runner that gathers every failure.
 #![allow(dead_code, reason = "each suite uses a part")]
 #![allow(clippy::print_stdout, reason = "a suite says how much it checked")]
 
@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use specula_bsdf::math::{Rgb, Vec3};
 use specula_bsdf::{Alpha, Bsdf, Transport};
 use specula_stat::quadrature::direction;
-use specula_stat::{Drawn, Plan, Report, Rng, Subject, consistency, twin};
+use specula_stat::{DirectionSample, Plan, Report, Rng, Subject, consistency, twin};
 
 /// Tests with chance in all suites together, rounded up: they share one significance.
 pub(crate) const SUITE_TESTS: usize = 16_000;
@@ -21,7 +21,7 @@ pub(crate) const BELOW: [f64; 3] = [-0.05, -0.3, -0.9];
 /// Azimuths, radians.
 pub(crate) const AZIMUTHS: [f64; 2] = [0.3, 2.1];
 
-/// Widths along x and y.
+/// Alphas along x and y.
 pub(crate) const ALPHAS: [(f64, f64); 9] = [
     (0.05, 0.05),
     (0.3, 0.3),
@@ -67,7 +67,7 @@ pub(crate) fn both_sides() -> Vec<f64> {
     ABOVE.into_iter().chain(BELOW).collect()
 }
 
-/// Whether a Beckmann surface shows any facet to `wo`, to the precision of numbers.
+/// Whether a Beckmann surface shows any facet to `wo`, to the precision of values.
 ///
 /// From below, the visible area falls as `exp(-a^2)`, `a = |cot theta| / alpha` along the view:
 /// beyond `a^2 = 60` it is less than 1e-26 of the surface.
@@ -95,7 +95,7 @@ pub(crate) fn sampler<'a>(
     Subject::new(
         move |wo, wi| Rgb::splat(pdf(wo, wi)),
         pdf,
-        move |wo, u| sample(wo, [u[1], u[2]]).map(|wi| Drawn::new(wi, Rgb::splat(1.0))),
+        move |wo, u| sample(wo, [u[1], u[2]]).map(|wi| DirectionSample::new(wi, Rgb::splat(1.0))),
     )
 }
 
@@ -136,7 +136,7 @@ pub(crate) fn prove_all<C: Sync>(
 pub(crate) fn with_alphas<C: Copy>(items: &[C]) -> Vec<(C, (f64, f64))> {
     items
         .iter()
-        .flat_map(|&item| ALPHAS.map(|widths| (item, widths)))
+        .flat_map(|&item| ALPHAS.map(|alphas| (item, alphas)))
         .collect()
 }
 

@@ -68,7 +68,7 @@ fn cosine(stream: &mut Stream, width: f64) -> f64 {
     cosine.clamp(1e-6, 1.0)
 }
 
-/// Two widths and a view: a third of the widths at the ends of the range, a third of the azimuths
+/// Two alphas and a view: a third of the alphas at the ends of the range, a third of the azimuths
 /// near the narrow axis.
 fn stretched_view(stream: &mut Stream, range: [f64; 2]) -> (Alpha<f64>, Vec3<f64>) {
     let (kind, turn, u): (f64, f64, f64) = (stream.next(), stream.next(), stream.next());
@@ -115,11 +115,11 @@ fn isotropic_errors<N: Tabulated<f64>>(ndf: impl Fn(Alpha<f64>) -> N, range: [f6
 fn isotropic_tables_hold_their_bounds() {
     let (usual, whole) = ([1e-4, 2.0], [1e-4, 10.0]);
     let ggx = |range| isotropic_errors(Ggx::new, range);
-    ggx(usual).hold("GGX, usual widths", 1e-4, 4e-6);
-    ggx(whole).hold("GGX, all widths", 5e-4, 2e-5);
+    ggx(usual).hold("GGX, usual alphas", 1e-4, 4e-6);
+    ggx(whole).hold("GGX, all alphas", 5e-4, 2e-5);
     let beckmann = |range| isotropic_errors(Beckmann::new, range);
-    beckmann(usual).hold("Beckmann, usual widths", 2e-5, 4e-6);
-    beckmann(whole).hold("Beckmann, all widths", 1e-4, 5e-6);
+    beckmann(usual).hold("Beckmann, usual alphas", 2e-5, 4e-6);
+    beckmann(whole).hold("Beckmann, all alphas", 1e-4, 5e-6);
 }
 
 /// Errors of the anisotropic tables, and of the isotropic ones at `sqrt(ax ay)`.
@@ -148,22 +148,22 @@ fn anisotropic_errors<N: Tabulated<f64>>(
 #[test]
 fn anisotropic_tables_hold_their_bounds() {
     let (usual, wide, whole) = ([0.02, 2.0], [1e-3, 2.0], [1e-4, 10.0]);
-    let [ours, mean] = anisotropic_errors(Ggx::new, usual);
-    ours.hold("GGX, [0.02, 2]", 1e-3, 1e-4);
+    let [specula, mean] = anisotropic_errors(Ggx::new, usual);
+    specula.hold("GGX, [0.02, 2]", 1e-3, 1e-4);
     mean.hold("GGX, [0.02, 2], isotropic table", 1.0, 1.0);
-    assert!(mean.rms() > 1000.0 * ours.rms());
-    let [ours, _] = anisotropic_errors(Ggx::new, wide);
-    ours.hold("GGX, [1e-3, 2]", 1e-3, 1e-4);
-    let [ours, _] = anisotropic_errors(Ggx::new, whole);
-    ours.hold("GGX, all widths", 2e-2, 1e-3);
-    let [ours, mean] = anisotropic_errors(Beckmann::new, usual);
-    ours.hold("Beckmann, [0.02, 2]", 1e-3, 1e-4);
+    assert!(mean.rms() > 1000.0 * specula.rms());
+    let [specula, _] = anisotropic_errors(Ggx::new, wide);
+    specula.hold("GGX, [1e-3, 2]", 1e-3, 1e-4);
+    let [specula, _] = anisotropic_errors(Ggx::new, whole);
+    specula.hold("GGX, all alphas", 2e-2, 1e-3);
+    let [specula, mean] = anisotropic_errors(Beckmann::new, usual);
+    specula.hold("Beckmann, [0.02, 2]", 1e-3, 1e-4);
     mean.hold("Beckmann, [0.02, 2], isotropic table", 1.0, 1.0);
-    assert!(mean.rms() > 1000.0 * ours.rms());
-    let [ours, _] = anisotropic_errors(Beckmann::new, wide);
-    ours.hold("Beckmann, [1e-3, 2]", 2e-3, 2e-4);
-    let [ours, _] = anisotropic_errors(Beckmann::new, whole);
-    ours.hold("Beckmann, all widths", 2e-2, 1e-3);
+    assert!(mean.rms() > 1000.0 * specula.rms());
+    let [specula, _] = anisotropic_errors(Beckmann::new, wide);
+    specula.hold("Beckmann, [1e-3, 2]", 2e-3, 2e-4);
+    let [specula, _] = anisotropic_errors(Beckmann::new, whole);
+    specula.hold("Beckmann, all alphas", 2e-2, 1e-3);
 }
 
 fn interface_errors<N: Tabulated<f64>>(

@@ -4,7 +4,7 @@ use specula_bsdf::Alpha;
 use specula_bsdf::energy::DielectricLoss;
 use specula_bsdf::energy::albedo::Tabulated;
 use specula_bsdf::energy::coordinates::{
-    Widths, alpha_at, alpha_coordinate, average_scale, edge, interface_cosine_coordinate,
+    AlphaPair, alpha_at, alpha_coordinate, average_scale, edge, interface_cosine_coordinate,
 };
 use specula_bsdf::energy::dielectric_albedo::{
     self, ALPHAS, COSINES, ETAS, STRETCHED_ALPHAS, STRETCHED_AZIMUTHS, STRETCHED_COSINES,
@@ -101,9 +101,9 @@ const STRETCHED_AXES: [Axis; 5] = [
 
 /// The view at coordinates of the anisotropic table.
 fn stretched_view(eta: f64, low: f64, high: f64, v: f64, m: f64) -> Vec3<f64> {
-    let (widths, edge) = (Widths::new(low, high), edge(eta));
-    let at = |share: f64| widths.azimuth((1.0 - share).sqrt(), share.sqrt());
-    // Equal widths have the same value at every azimuth.
+    let (alpha_values, edge) = (AlphaPair::new(low, high), edge(eta));
+    let at = |share: f64| alpha_values.azimuth((1.0 - share).sqrt(), share.sqrt());
+    // isotropic alpha have the same value at every azimuth.
     let share = match low < high {
         true => solve(v, |share| at(share).interface(edge)),
         false => 0.5,
@@ -175,9 +175,9 @@ pub(super) fn with_stretched_averages(table: &[f64]) -> (Digits, Digits) {
         let knots = Quadratic::quadratic(x, STRETCHED_ETAS / 2);
         let [first, second] = [low, high]
             .map(|width| Quadratic::quadratic(alpha_coordinate(width), STRETCHED_ALPHAS));
-        let (widths, edge) = (Widths::new(low, high), edge(eta));
+        let (alpha_values, edge) = (AlphaPair::new(low, high), edge(eta));
         let loss = azimuthal_average(|[x, y]| {
-            let azimuth = widths.azimuth(x, y);
+            let azimuth = alpha_values.azimuth(x, y);
             let v = azimuth.interface(edge);
             average(|cosine| {
                 let m = interface_cosine_coordinate(cosine, azimuth.width, edge);
@@ -203,7 +203,7 @@ pub(super) fn with_stretched_averages(table: &[f64]) -> (Digits, Digits) {
 
 /// Largest difference of the root of a loss between the crate's tables and every so manieth knot.
 ///
-/// Coefficients at the limits are rounded down to them: only widths up to 2 are compared.
+/// Coefficients at the limits are rounded down to them: only alphas up to 2 are compared.
 pub(super) fn largest_difference<N: Tabulated<f64>>(
     ndf: &(impl Fn(Alpha<f64>) -> N + Sync),
     step: usize,

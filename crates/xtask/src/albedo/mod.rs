@@ -106,9 +106,9 @@ pub(crate) fn check(_root: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Largest difference that rounding to two digits makes, and limits beside the narrowest widths.
+/// Largest difference that rounding to two digits makes, and limits beside the narrowest alphas.
 const ROUNDING: f64 = 1e-3;
-/// The same of interfaces, whose edges are sharp for the narrowest widths.
+/// The same of interfaces, whose edges are sharp for the narrowest alphas.
 const INTERFACE_ROUNDING: f64 = 1e-2;
 
 /// The larger difference of the root of a loss, of both maskings.

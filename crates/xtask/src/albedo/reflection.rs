@@ -7,7 +7,7 @@ use specula_bsdf::energy::albedo::{
     ANISOTROPIC_ROWS, ISOTROPIC_ALPHAS, ISOTROPIC_COSINES, Tabulated,
 };
 use specula_bsdf::energy::coordinates::{
-    Widths, alpha_at, alpha_coordinate, average_scale, cosine_coordinate,
+    AlphaPair, alpha_at, alpha_coordinate, average_scale, cosine_coordinate,
 };
 use specula_bsdf::energy::rows::{AVERAGE_HIGH, AVERAGE_LOW, HIGH, LOW, Rows};
 use specula_bsdf::energy::spline::Cubic;
@@ -95,7 +95,7 @@ pub(super) fn pairs(count: usize) -> Vec<[usize; 2]> {
 /// The view at coordinates of the anisotropic table.
 fn anisotropic_view(low: f64, high: f64, v: f64, m: f64) -> Vec3<f64> {
     let along = low.powf(1.0 - v) * high.powf(v);
-    // Equal widths have the same value at every azimuth.
+    // isotropic alpha have the same value at every azimuth.
     let share = match low < high {
         true => (along - low) * (along + low) / ((high - low) * (high + low)),
         false => 0.5,
@@ -137,7 +137,7 @@ fn anisotropic_rule() -> Rule {
 
 /// Largest difference of the root of a loss between the crate's tables and every so manieth knot.
 ///
-/// Coefficients at the limits are rounded down to them: only widths up to 2 are compared.
+/// Coefficients at the limits are rounded down to them: only alphas up to 2 are compared.
 pub(super) fn largest_difference<N: Tabulated<f64>>(
     ndf: &(impl Fn(Alpha<f64>) -> N + Sync),
     step: usize,
@@ -162,7 +162,7 @@ pub(super) fn largest_difference<N: Tabulated<f64>>(
     differences.into_iter().fold(0.0, f64::max)
 }
 
-/// A table by both widths of one by pairs.
+/// A table by both alphas of one by pairs.
 pub(super) fn unfold(rows: &[f64], alphas: usize, azimuths: usize) -> Vec<f64> {
     let line = rows.len() / (alphas * (alphas + 1) / 2 * azimuths);
     let mut table = Vec::with_capacity(alphas * alphas * azimuths * line);
@@ -195,9 +195,9 @@ pub(super) fn with_averages(table: &[f64]) -> (Digits, Digits) {
         let [low, high] = pairs[p].map(|i| alpha_at(places[i]));
         let stencils =
             [low, high].map(|width| Cubic::cubic(alpha_coordinate(width), ANISOTROPIC_ALPHAS));
-        let widths = Widths::new(low, high);
+        let alpha_values = AlphaPair::new(low, high);
         let loss = azimuthal_average(|[x, y]| {
-            let azimuth = widths.azimuth(x, y);
+            let azimuth = alpha_values.azimuth(x, y);
             average(|cosine| {
                 let m = cosine_coordinate(cosine, azimuth.width);
                 albedo::anisotropic(rows, [&stencils[0], &stencils[1]], azimuth.v, m).powi(2)
@@ -213,7 +213,7 @@ pub(super) fn with_averages(table: &[f64]) -> (Digits, Digits) {
     (digits, text)
 }
 
-/// The values by pairs of a table by both widths.
+/// The values by pairs of a table by both alphas.
 pub(super) fn fold(table: &[f64], alphas: usize) -> Vec<f64> {
     pairs(alphas)
         .iter()

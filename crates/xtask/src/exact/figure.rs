@@ -32,7 +32,7 @@ impl Axes {
     }
 }
 
-/// Three pictures of one view of widths (0.5, 1.5).
+/// Three pictures of one view of alphas (0.5, 1.5).
 pub(super) fn draw() -> String {
     let alpha = Alpha::clamped(0.5, 1.5);
     let wo = view(60.0, 40.0);
@@ -55,7 +55,7 @@ pub(super) fn draw() -> String {
         chords(&mut svg, centre, axes, &cone);
     }
     uniform_along_the_axis(&mut svg, 480.0, &along_axis, &cone);
-    drawn(&mut svg, 800.0, &across, alpha, wo, k);
+    plotted(&mut svg, 800.0, &across, alpha, wo, k);
     let captions = [
         [
             "Seen along the view: visible normals (grey),",
@@ -208,7 +208,7 @@ fn uniform_along_the_axis(svg: &mut String, centre: f64, axes: &Axes, cone: &Con
 }
 
 /// The exact sampler's normals, those that changed their chord in orange.
-fn drawn(
+fn plotted(
     svg: &mut String,
     centre: f64,
     axes: &Axes,

@@ -7,19 +7,19 @@ use specula_bsdf::{Alpha, vndf};
 
 use crate::Result;
 
-/// Draws per width and view.
+/// Samples per width and view.
 const PER_VIEW: u64 = 50;
 
-/// What was drawn.
+/// What was sampled.
 #[derive(Clone, Copy, Default)]
 struct Count {
-    drawn: u64,
+    sampled: u64,
     rejected: u64,
     /// No unit vector, or of no positive finite density.
     broken: u64,
 }
 
-/// Draws `count` reflections in f32, widths log-uniform in `[1e-3, 8]`, views over the hemisphere,
+/// Samples `count` reflections in f32, alphas log-uniform in `[1e-3, 8]`, views over the hemisphere,
 /// near grazing and near the normal.
 pub(super) fn run(count: u64) -> Result<()> {
     let threads = thread::available_parallelism().map_or(1, |n| n.get() as u64);
@@ -30,13 +30,13 @@ pub(super) fn run(count: u64) -> Result<()> {
         workers.into_iter().filter_map(|w| w.join().ok()).collect()
     });
     let mut failed = counts.len() as u64 != threads;
-    for (i, name) in ["equal widths", "unequal widths"].into_iter().enumerate() {
+    for (i, name) in ["equal alphas", "unequal alphas"].into_iter().enumerate() {
         let sum = |f: fn(&Count) -> u64| counts.iter().map(|c| f(&c[i])).sum::<u64>();
-        let (drawn, rejected) = (sum(|c| c.drawn), sum(|c| c.rejected));
+        let (sampled, rejected) = (sum(|c| c.sampled), sum(|c| c.rejected));
         let broken = sum(|c| c.broken);
-        let rate = rejected as f64 / drawn as f64;
+        let rate = rejected as f64 / sampled as f64;
         println!(
-            "{name:<15} {drawn:>11} drawn, {rejected} below the surface ({rate:.1e}), {broken} broken"
+            "{name:<15} {sampled:>11} sampled, {rejected} below the surface ({rate:.1e}), {broken} broken"
         );
         failed |= rate > 1e-6 || broken > 0;
     }
@@ -46,7 +46,7 @@ pub(super) fn run(count: u64) -> Result<()> {
     Ok(())
 }
 
-/// A fifth of the draws with equal widths, the rest with unequal ones.
+/// A fifth of the samples with isotropic alpha, the rest with unequal ones.
 fn draw(seed: u64, count: u64) -> [Count; 2] {
     let mut stream = Stream::new(0x5eed ^ (seed << 32));
     let mut counts = [Count::default(); 2];
@@ -64,7 +64,7 @@ fn draw(seed: u64, count: u64) -> [Count; 2] {
         let counted = &mut counts[usize::from(unequal)];
         for _ in 0..PER_VIEW {
             let wi = vndf::exact::sample_direction(alpha, wo, [stream.next(), stream.next()]);
-            counted.drawn += 1;
+            counted.sampled += 1;
             if wi.z > 0.0 {
                 let pdf = vndf::exact::reflection_pdf(alpha, wo, wi);
                 let sound = (wi.length() - 1.0).abs() < 1e-5 && pdf > 0.0 && pdf.is_finite();

@@ -12,7 +12,7 @@ use specula_bsdf::math::{Vec3, vec3};
 use crate::Result;
 use crate::generated::Generated;
 
-/// Prints the tables of `docs/exact-reflection-sampling.md`, or with `fuzz` draws that many
+/// Prints the tables of `docs/exact-reflection-sampling.md`, or with `fuzz` samples that many
 /// reflections in f32 and counts those below the surface.
 pub(crate) fn run(fuzz: Option<u64>) -> Result<()> {
     if let Some(count) = fuzz {

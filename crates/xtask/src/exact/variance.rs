@@ -43,9 +43,9 @@ fn norms(alpha: Alpha<f64>, wo: Vec3<f64>) -> [f64; 3] {
     SAMPLERS.map(|sampler| Ggx::new(alpha).reflection_norm(sampler, wo))
 }
 
-/// Polar angles 0 to 85 degrees; azimuths over a quarter where the widths differ.
-fn views(widths: (f64, f64)) -> Vec<Vec3<f64>> {
-    let azimuths: &[f64] = if widths.0 == widths.1 {
+/// Polar angles 0 to 85 degrees; azimuths over a quarter where the alphas differ.
+fn views(alphas: (f64, f64)) -> Vec<Vec3<f64>> {
+    let azimuths: &[f64] = if alphas.0 == alphas.1 {
         &[0.0]
     } else {
         &[0.0, 30.0, 60.0, 90.0]
@@ -59,7 +59,7 @@ fn views(widths: (f64, f64)) -> Vec<Vec3<f64>> {
 /// Shares of rejected reflections: means over the hemisphere of views, `1 - N_exact / N`.
 pub(super) fn rejected() {
     println!("reflections rejected, %, mean over views     cap  bounded    exact");
-    for widths in [
+    for alphas in [
         (0.2, 0.8),
         (0.05, 1.0),
         (0.6, 1.0),
@@ -71,19 +71,19 @@ pub(super) fn rejected() {
         for i in 0..POINTS {
             let [height, turn] = r2(i);
             let wo = view(height.acos().to_degrees(), 360.0 * turn);
-            let n = norms(alpha(widths), wo);
-            let drawn = vndf::exact::sample_reflection(alpha(widths), wo, r2(i + POINTS));
+            let n = norms(alpha(alphas), wo);
+            let sampled = vndf::exact::sample_reflection(alpha(alphas), wo, r2(i + POINTS));
             sums[0] += 1.0 - n[2] / n[0];
             sums[1] += 1.0 - n[2] / n[1];
-            sums[2] += f64::from(u8::from(drawn.is_none()));
+            sums[2] += f64::from(u8::from(sampled.is_none()));
         }
         let [cap, bounded, exact] = sums.map(|s| 100.0 * s / f64::from(POINTS));
-        let name = format!("{widths:?}");
+        let name = format!("{alphas:?}");
         println!("  {name:<38} {cap:>8.1} {bounded:>8.1} {exact:>8.2}");
     }
 }
 
-/// Variances of one sample, exact over the others': geometric means over views and widths.
+/// Variances of one sample, exact over the others': geometric means over views and alphas.
 ///
 /// The second moment is `N` times an integral that all samplers share.
 pub(super) fn independent() {
@@ -91,9 +91,9 @@ pub(super) fn independent() {
     for (name, list) in [("isotropic", ISOTROPIC), ("anisotropic", ANISOTROPIC)] {
         for (other, compared) in ["cap", "bounded"].into_iter().enumerate() {
             let ratios = ENVIRONMENTS.map(|(_, radiance)| {
-                geometric_mean(list, |widths, wo| {
-                    let n = norms(alpha(widths), wo);
-                    let (mean, square) = moments(alpha(widths), wo, radiance);
+                geometric_mean(list, |alphas, wo| {
+                    let n = norms(alpha(alphas), wo);
+                    let (mean, square) = moments(alpha(alphas), wo, radiance);
                     let mine = square - mean * mean;
                     mine / (square * n[other] / n[2] - mean * mean)
                 })
@@ -123,19 +123,22 @@ fn lit(alpha: Alpha<f64>, wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {
 }
 
 /// Errors of 64 Owen-scrambled Sobol points, relative to bounded caps: the exact sampler, and the
-/// same density drawn by mirroring with a third number.
+/// same density sampled by mirroring with a third number.
 pub(super) fn stratified() {
     println!("mean square error of 64 Sobol points / bounded   uniform   cosine   linear");
     for (name, list) in [("isotropic", ISOTROPIC), ("anisotropic", ANISOTROPIC)] {
         let mut table = [[0.0; 3]; 2];
         for (column, (_, radiance)) in ENVIRONMENTS.into_iter().enumerate() {
-            for (row, which) in [Drawn::Exact, Drawn::Mirrored].into_iter().enumerate() {
-                table[row][column] = geometric_mean(list, |widths, wo| {
-                    let a = alpha(widths);
+            for (row, which) in [SampledBy::Exact, SampledBy::Mirrored]
+                .into_iter()
+                .enumerate()
+            {
+                table[row][column] = geometric_mean(list, |alphas, wo| {
+                    let a = alpha(alphas);
                     let cone = Cone::new(a, wo);
                     let truth = moments(a, wo, radiance).0;
                     let error = |which| error(which, a, wo, &cone, radiance, truth);
-                    error(which) / error(Drawn::Bounded)
+                    error(which) / error(SampledBy::Bounded)
                 });
             }
         }
@@ -147,14 +150,14 @@ pub(super) fn stratified() {
 }
 
 #[derive(Clone, Copy)]
-enum Drawn {
+enum SampledBy {
     Exact,
     Mirrored,
     Bounded,
 }
 
 fn error(
-    which: Drawn,
+    which: SampledBy,
     alpha: Alpha<f64>,
     wo: Vec3<f64>,
     cone: &Cone,
@@ -163,8 +166,8 @@ fn error(
 ) -> f64 {
     let (points, scrambles) = (64, 24);
     let sampler = match which {
-        Drawn::Bounded => Sampler::Bounded,
-        Drawn::Exact | Drawn::Mirrored => Sampler::Exact,
+        SampledBy::Bounded => Sampler::Bounded,
+        SampledBy::Exact | SampledBy::Mirrored => Sampler::Exact,
     };
     let n = Ggx::new(alpha).reflection_norm(sampler, wo);
     let mut squares = 0.0;
@@ -173,9 +176,9 @@ fn error(
         for i in 0..points {
             let u = sample_4d(i, 0, seed * 7919 + 1).map(f64::from);
             let wi = match which {
-                Drawn::Bounded => vndf::bounded::sample_reflection(alpha, wo, [u[0], u[1]]),
-                Drawn::Exact => vndf::exact::sample_reflection(alpha, wo, [u[0], u[1]]),
-                Drawn::Mirrored => Some(cone.sample([u[0], u[1], u[2]])),
+                SampledBy::Bounded => vndf::bounded::sample_reflection(alpha, wo, [u[0], u[1]]),
+                SampledBy::Exact => vndf::exact::sample_reflection(alpha, wo, [u[0], u[1]]),
+                SampledBy::Mirrored => Some(cone.sample([u[0], u[1], u[2]])),
             };
             if let Some(wi) = wi.filter(|w| w.z > 0.0) {
                 sum += n * lit(alpha, wo, wi) * radiance(wi);
@@ -189,9 +192,9 @@ fn error(
 fn geometric_mean(list: &[(f64, f64)], ratio: impl Fn((f64, f64), Vec3<f64>) -> f64) -> f64 {
     let mut sum = 0.0;
     let mut count = 0.0;
-    for &widths in list {
-        for wo in views(widths) {
-            sum += ratio(widths, wo).ln();
+    for &alphas in list {
+        for wo in views(alphas) {
+            sum += ratio(alphas, wo).ln();
             count += 1.0;
         }
     }

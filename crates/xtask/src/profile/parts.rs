@@ -153,7 +153,7 @@ fn origin(symbol: &str, file: &str, function: &str) -> Origin {
         });
     }
     if starts(&[
-        "geometry", "relief", "offset", "texture", "material", "bodies",
+        "geometry", "bump", "offset", "texture", "material", "bodies",
     ]) {
         return Origin::Of(Part::Surfaces);
     }

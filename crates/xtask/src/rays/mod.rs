@@ -56,7 +56,7 @@ struct Row {
 /// What was found of one set of rays; nanoseconds of processor per ray.
 struct Cell {
     what: &'static str,
-    ours: f64,
+    specula: f64,
     /// As measured, and of the same rays where there is nothing to hit.
     peer: Option<[f64; 2]>,
 }
@@ -123,10 +123,10 @@ fn measure(root: &Path, rays: &Rays, count: f64, folder: &Path) -> Result<Row> {
 }
 
 fn cell(accel: &Accel, set: &Set, mut peer: Option<&mut Peer>, runs: usize) -> Result<Cell> {
-    let (mut ours, mut theirs, mut away) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut specula, mut theirs, mut away) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..runs {
         let (seconds, hits) = trace(accel, set);
-        ours.push(seconds);
+        specula.push(seconds);
         if let Some(peer) = &mut peer {
             let (seconds, found) = peer.trace(set)?;
             theirs.push(seconds);
@@ -140,7 +140,7 @@ fn cell(accel: &Accel, set: &Set, mut peer: Option<&mut Peer>, runs: usize) -> R
     let per_ray = |seconds: &[f64]| median(seconds) * 1e9 / set.rays.len() as f64;
     Ok(Cell {
         what: set.what,
-        ours: per_ray(&ours),
+        specula: per_ray(&specula),
         peer: peer.map(|_| [per_ray(&theirs), per_ray(&away)]),
     })
 }

@@ -14,13 +14,13 @@ const COLOURS: [RGBColor; 4] = [
     RGBColor(70, 140, 60),
 ];
 
-/// Lines: ours. Crosses: the peer without its layer.
+/// Lines: Specula's. Crosses: the peer without its layer.
 pub(super) fn draw(path: &Path, rows: &[Row]) -> Result<()> {
     let sizes = || rows.iter().map(|row| row.triangles as f64);
     let least = sizes().fold(f64::INFINITY, f64::min) / 1.5;
     let most = sizes().fold(0.0, f64::max) * 1.5;
     let costs = rows.iter().flat_map(|row| &row.cells);
-    let highest = costs.map(|c| c.ours.max(c.peer.map_or(0.0, |[p, l]| p - l)));
+    let highest = costs.map(|c| c.specula.max(c.peer.map_or(0.0, |[p, l]| p - l)));
     let highest = highest.fold(0.0, f64::max) * 1.1;
     let root = SVGBackend::new(path, (860, 480)).into_drawing_area();
     root.fill(&WHITE)?;
@@ -39,10 +39,10 @@ pub(super) fn draw(path: &Path, rows: &[Row]) -> Result<()> {
         .draw()?;
     let kinds = rows.first().map_or(0, |row| row.cells.len());
     for (kind, colour) in (0..kinds).zip(COLOURS.into_iter().cycle()) {
-        let ours = rows
+        let specula = rows
             .iter()
-            .map(|r| (r.triangles as f64, r.cells[kind].ours));
-        let line = LineSeries::new(ours, colour.stroke_width(2)).point_size(3);
+            .map(|r| (r.triangles as f64, r.cells[kind].specula));
+        let line = LineSeries::new(specula, colour.stroke_width(2)).point_size(3);
         chart
             .draw_series(line)?
             .label(rows[0].cells[kind].what)

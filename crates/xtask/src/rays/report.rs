@@ -13,7 +13,7 @@ const END: &str = "<!-- end of figures -->\n";
 pub(super) fn row(row: &Row) -> String {
     let mut text = format!("{} triangles\n", row.triangles);
     for cell in &row.cells {
-        let _ = write!(text, "  {:34}{:7.0} ns", cell.what, cell.ours);
+        let _ = write!(text, "  {:34}{:7.0} ns", cell.what, cell.specula);
         if let Some([peer, layer]) = cell.peer {
             let _ = write!(text, "; Embree {peer:.0} ns, of which layer {layer:.0} ns");
         }
@@ -25,8 +25,8 @@ pub(super) fn row(row: &Row) -> String {
 /// All of it, as Markdown.
 pub(super) fn tables(rows: &[Row]) -> String {
     let mut text = String::from(
-        "Millions of rays a second, one thread, and ours over Embree's:\n\n\
-         | triangles | rays | ours | Embree | with its layer | ratio | ratio with layer |\n\
+        "Millions of rays a second, one thread, and specula over Embree's:\n\n\
+         | triangles | rays | specula | Embree | with its layer | ratio | ratio with layer |\n\
          |---|---|---|---|---|---|---|\n",
     );
     for row in rows {
@@ -36,7 +36,7 @@ pub(super) fn tables(rows: &[Row]) -> String {
                 "| {} | {} | {:.2} |",
                 row.triangles,
                 cell.what,
-                1e3 / cell.ours
+                1e3 / cell.specula
             );
             match cell.peer {
                 Some([peer, layer]) => {
@@ -46,8 +46,8 @@ pub(super) fn tables(rows: &[Row]) -> String {
                         " {:.2} | {:.2} | {:.2} | {:.2} |",
                         1e3 / own,
                         1e3 / peer,
-                        own / cell.ours,
-                        peer / cell.ours
+                        own / cell.specula,
+                        peer / cell.specula
                     );
                 }
                 None => text.push_str(" | | | |\n"),
@@ -56,7 +56,7 @@ pub(super) fn tables(rows: &[Row]) -> String {
     }
     text.push_str(
         "\nSeconds to build, by the clock, and bytes a triangle:\n\n\
-         | triangles | ours, 1 thread | 2 threads | Embree, 1 thread | 2 threads | ours, bytes | Embree, bytes |\n\
+         | triangles | specula, 1 thread | 2 threads | Embree, 1 thread | 2 threads | specula, bytes | Embree, bytes |\n\
          |---|---|---|---|---|---|---|\n",
     );
     for row in rows {

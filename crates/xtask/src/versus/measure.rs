@@ -50,7 +50,7 @@ pub(crate) struct Contestant {
 /// Whom a renderer is compared with.
 #[derive(Clone, Copy)]
 pub(crate) struct Pair {
-    pub(crate) ours: &'static str,
+    pub(crate) specula: &'static str,
     /// Most that the means of the references may differ by, as a share.
     pub(crate) tolerance: f64,
 }
@@ -70,9 +70,9 @@ impl Contestant {
     }
 
     /// Names the one of us that it is compared with.
-    pub(crate) fn against(self, ours: &'static str, tolerance: f64) -> Self {
+    pub(crate) fn against(self, specula: &'static str, tolerance: f64) -> Self {
         Self {
-            against: Some(Pair { ours, tolerance }),
+            against: Some(Pair { specula, tolerance }),
             ..self
         }
     }
@@ -220,13 +220,13 @@ fn mean_of(row: &Row, of: impl Fn(&Errors) -> f64) -> f64 {
 /// Notes where the means of a pair's references differ too much: one of the two renders another scene.
 fn compare_means(rows: &mut [Row]) {
     for i in 0..rows.len() {
-        let Some(Pair { ours, tolerance }) = rows[i].against else {
+        let Some(Pair { specula, tolerance }) = rows[i].against else {
             continue;
         };
-        let Some(ours) = rows.iter().find(|r| r.name == ours) else {
+        let Some(specula) = rows.iter().find(|r| r.name == specula) else {
             continue;
         };
-        let apart = rows[i].reference_mean / ours.reference_mean - 1.0;
+        let apart = rows[i].reference_mean / specula.reference_mean - 1.0;
         // A mean that is not a number is off, too.
         let close = apart.abs() <= tolerance;
         if !close {
@@ -234,7 +234,7 @@ fn compare_means(rows: &mut [Row]) {
                 "{} has {:+.2} % of the light of {}, more than {:.1} % apart",
                 rows[i].name,
                 100.0 * apart,
-                ours.name,
+                specula.name,
                 100.0 * tolerance
             ));
         }
@@ -248,10 +248,10 @@ fn compare_with_others(
     first: &[Vec<Rgb<f32>>],
 ) -> Result<()> {
     for i in 0..rows.len() {
-        let Some(Pair { ours, .. }) = rows[i].against else {
+        let Some(Pair { specula, .. }) = rows[i].against else {
             continue;
         };
-        let Some(j) = rows.iter().position(|r| r.name == ours) else {
+        let Some(j) = rows.iter().position(|r| r.name == specula) else {
             continue;
         };
         rows[i].rmse_of_other = Some(references[j].errors(&first[i])?.mse.sqrt());
@@ -514,8 +514,8 @@ mod tests {
             clock: Clock::Wall,
         };
         let contestants = vec![
-            Contestant::new("ours", &["sobol"], Painter { radiance: 10.0 }),
-            Contestant::new("theirs", samplers, Painter { radiance }).against("ours", 0.005),
+            Contestant::new("specula", &["sobol"], Painter { radiance: 10.0 }),
+            Contestant::new("theirs", samplers, Painter { radiance }).against("specula", 0.005),
         ];
         let outcome = run(&SCENES[0], &plan, contestants, &folder, 1).unwrap();
         fs::remove_dir_all(folder).unwrap();

@@ -21,7 +21,7 @@ pub(crate) fn write_displaced_sphere(path: &Path, segments: u32, rings: u32) -> 
     )?;
     let mut vertex = |azimuth: f64, polar: f64| -> Result<()> {
         let d = direction(azimuth, polar);
-        let radius = 0.9 * (1.0 + relief(d));
+        let radius = 0.9 * (1.0 + bump(d));
         for (axis, centre) in d.iter().zip([0.0, 0.98, 0.0]) {
             #[allow(
                 clippy::cast_possible_truncation,
@@ -64,7 +64,7 @@ pub(crate) fn write_displaced_sphere(path: &Path, segments: u32, rings: u32) -> 
 }
 
 /// Waves of five scales, together at most 0.08 of the radius.
-fn relief(d: [f64; 3]) -> f64 {
+fn bump(d: [f64; 3]) -> f64 {
     let mut sum = 0.0;
     let (mut frequency, mut height) = (5.0, 0.04);
     for _ in 0..5 {

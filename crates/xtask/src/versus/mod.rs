@@ -183,7 +183,7 @@ impl Versus {
         let folder = out.join("scenes");
         let file = scene.prepare(root, &folder)?;
         let twin = file.with_extension("pbrt");
-        let ours = |scene: &Path| Specula {
+        let specula = |scene: &Path| Specula {
             program: specula.to_owned(),
             scene: scene.to_owned(),
             threads: self.threads,
@@ -200,7 +200,7 @@ impl Versus {
             contestants.push(Contestant::new(
                 "specula-xml",
                 &Specula::SAMPLERS,
-                ours(&file),
+                specula(&file),
             ));
             contestants.push(
                 Contestant::new("mitsuba", &MITSUBA_SAMPLERS, engine).against("specula-xml", CLOSE),
@@ -210,7 +210,7 @@ impl Versus {
             contestants.push(Contestant::new(
                 "specula-pbrt",
                 &Specula::SAMPLERS,
-                ours(&twin),
+                specula(&twin),
             ));
         }
         if let Some(python) = &self.cycles {

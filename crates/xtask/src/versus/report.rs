@@ -43,12 +43,12 @@ pub(crate) fn scene(outcome: &Outcome) -> String {
         );
     }
     text.push('\n');
-    for (ours, theirs) in pairs(outcome) {
+    for (specula, theirs) in pairs(outcome) {
         if let Some(fault) = &theirs.fault {
             let _ = writeln!(text, "- error: {fault}.");
             continue;
         }
-        let spread = ratios(ours, theirs, 0);
+        let spread = ratios(specula, theirs, 0);
         let (least, most) = spread
             .iter()
             .fold((f64::INFINITY, 0.0_f64), |(a, b), &r| (a.min(r), b.max(r)));
@@ -56,12 +56,12 @@ pub(crate) fn scene(outcome: &Outcome) -> String {
             text,
             "- {} against {}: time to equal RMSE {:.3} ({least:.3} to {most:.3}), to equal trimmed \
              RMSE {:.3}, to equal relMSE {:.3}; means {:+.2} %.",
-            ours.name,
+            specula.name,
             theirs.name,
             median(&spread),
-            median(&ratios(ours, theirs, 1)),
-            median(&ratios(ours, theirs, 2)),
-            100.0 * (ours.reference_mean / theirs.reference_mean - 1.0),
+            median(&ratios(specula, theirs, 1)),
+            median(&ratios(specula, theirs, 2)),
+            100.0 * (specula.reference_mean / theirs.reference_mean - 1.0),
         );
     }
     text
@@ -73,14 +73,14 @@ pub(crate) fn summary(outcomes: &[Outcome]) -> String {
         "| scene | peer | time to equal RMSE | trimmed | relMSE | goal 0.5 |\n|---|---|---|---|---|---|\n",
     );
     for outcome in outcomes {
-        for (ours, theirs) in pairs(outcome) {
+        for (specula, theirs) in pairs(outcome) {
             if let Some(fault) = &theirs.fault {
                 let name = outcome.scene.name;
                 let _ = writeln!(text, "| {name} | {} | error: {fault} | | | |", theirs.name);
                 continue;
             }
             let [plain, trimmed, relative] =
-                [0, 1, 2].map(|metric| median(&ratios(ours, theirs, metric)));
+                [0, 1, 2].map(|metric| median(&ratios(specula, theirs, metric)));
             let _ = writeln!(
                 text,
                 "| {} | {} | {plain:.3} | {trimmed:.3} | {relative:.3} | {} |",
@@ -94,8 +94,8 @@ pub(crate) fn summary(outcomes: &[Outcome]) -> String {
 }
 
 /// Our time over theirs to an equal error, round by round; `metric` as in `Errors::to_array`.
-fn ratios(ours: &Row, theirs: &Row, metric: usize) -> Vec<f64> {
-    let rounds = ours.renders.iter().zip(&theirs.renders);
+fn ratios(specula: &Row, theirs: &Row, metric: usize) -> Vec<f64> {
+    let rounds = specula.renders.iter().zip(&theirs.renders);
     let point = |r: &super::measure::Render| (r.seconds, r.errors.to_array()[metric]);
     rounds
         .map(|(a, b)| equal_error_ratio(point(a), point(b)))
@@ -106,8 +106,8 @@ fn pairs(outcome: &Outcome) -> impl Iterator<Item = (&Row, &Row)> {
     let rows = &outcome.rows;
     rows.iter().filter_map(move |theirs| {
         let pair = theirs.against?;
-        let ours = rows.iter().find(|r| r.name == pair.ours)?;
-        Some((ours, theirs))
+        let specula = rows.iter().find(|r| r.name == pair.specula)?;
+        Some((specula, theirs))
     })
 }
 
@@ -134,7 +134,9 @@ pub(crate) fn document(versus: &Versus, outcomes: &[Outcome], minutes: f64) -> S
         plan.reference,
         format!("{:?}", plan.clock).to_lowercase(),
     );
-    text.push_str("## Result\n\nTime to equal error, ours over theirs, median of the rounds:\n\n");
+    text.push_str(
+        "## Result\n\nTime to equal error, specula over theirs, median of the rounds:\n\n",
+    );
     text.push_str(&summary(outcomes));
     for outcome in outcomes {
         let (name, title) = (outcome.scene.name, outcome.scene.title);
@@ -192,7 +194,7 @@ Written by the chore below, on a machine that does nothing else; the scenes are 
   what is measured. The column beside gives the error against the other's reference. RMSE over
   pixels and channels; trimmed: without the largest 0.1 % of squares; relMSE with 0.01 added to the
   squared reference.
-- **Time to equal error**, ours over theirs: t mse / (t' mse'), as squared errors fall with time. The
+- **Time to equal error**, specula over theirs: t mse / (t' mse'), as squared errors fall with time. The
   column `rate` checks that: the exponent of the trimmed RMSE's fall from the rounds to a render of four
   times the samples: 0.5 for independent samples.
 - **The means** of a pair's references must agree within 0.5 %, pbrt's, which is spectral, within 2 %;
@@ -221,8 +223,8 @@ mod tests {
         Row {
             name,
             version: format!("{name} 1"),
-            against: against.map(|ours| Pair {
-                ours,
+            against: against.map(|specula| Pair {
+                specula,
                 tolerance: 0.005,
             }),
             sampler: "s",
@@ -243,8 +245,8 @@ mod tests {
         let mut outcome = Outcome {
             scene: &SCENES[0],
             rows: vec![
-                row("ours", None, &[1.0, 2.0, 9.0], 0.01),
-                row("theirs", Some("ours"), &[2.0, 2.0, 2.0], 0.02),
+                row("specula", None, &[1.0, 2.0, 9.0], 0.01),
+                row("theirs", Some("specula"), &[2.0, 2.0, 2.0], 0.02),
                 row("slow", Some("nobody"), &[2.0], 0.02),
             ],
             width: 2,
@@ -256,7 +258,7 @@ mod tests {
             "{text}"
         );
         assert!(scene(&outcome).contains("0.500 (0.250 to 2.250)"));
-        outcome.rows[0] = row("ours", None, &[3.0], 0.01);
+        outcome.rows[0] = row("specula", None, &[3.0], 0.01);
         let one = std::slice::from_ref(&outcome);
         assert!(summary(one).contains("| 0.750 | 0.750 | 0.750 | missed |"));
         outcome.rows[1].fault = Some("dark".to_owned());

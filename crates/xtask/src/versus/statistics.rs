@@ -123,8 +123,8 @@ pub(crate) fn median(values: &[f64]) -> f64 {
 /// ```text
 /// t mse / (t' mse') = t (rmse / rmse')^2 / t'
 /// ```
-pub(crate) fn equal_error_ratio(ours: (f64, f64), theirs: (f64, f64)) -> f64 {
-    ours.0 * ours.1 / (theirs.0 * theirs.1)
+pub(crate) fn equal_error_ratio(specula: (f64, f64), theirs: (f64, f64)) -> f64 {
+    specula.0 * specula.1 / (theirs.0 * theirs.1)
 }
 
 /// The exponent `a` of `rmse = c samples^-a` through two renders `(samples, mse)`: 1/2 for

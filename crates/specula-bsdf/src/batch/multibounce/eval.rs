@@ -1,18 +1,18 @@
-//! Estimates of `f cos` by walks in lanes.
+//! Estimates of `f cos` by walks in batches.
 //!
-//! Each element takes its numbers in the order of the scalar function, one walk after another: what
-//! stands in lanes together is the same walk of different elements.
+//! Each element takes its values in the order of the scalar function, one walk after another: what
+//! stands in batches together is the same walk of different elements.
 
-use super::lanes::{
+use super::walk_states::{
     BOUNCES, FEW, Index, LANES, Lane, Metal, NO_STREAMS, Walks, next_if, reflect, whole,
 };
 use crate::batch::slices::{Colours, Directions};
 use crate::math::{Real, Stream, Vec3};
-use crate::multibounce::ours::{SPLIT, Walk, goes_on, share, stratum};
+use crate::multibounce::stratified_bidirectional::{SPLIT, Walk, goes_on, share, stratum};
 use crate::multibounce::walk::{Flight, meet, turn};
 use crate::ndf::{Ggx, Ndf};
 
-/// Some elements, one in each lane, and their walks.
+/// Some elements, one in each walk, and their walks.
 pub(super) struct Evals<T> {
     wo: Directions<Lane<T>>,
     wi: Directions<Lane<T>>,
@@ -247,7 +247,7 @@ impl<T: Real> Evals<T> {
         }
     }
 
-    /// The walk in lane `i` goes on alone.
+    /// The walk in walk `i` goes on alone.
     #[inline(always)]
     fn finish(&mut self, facets: &Metal<T>, bounces: usize, i: usize) {
         let walks = &mut self.walks;
@@ -269,7 +269,7 @@ impl<T: Real> Evals<T> {
     }
 }
 
-/// [`turn`] as numbers: 0 where no facet turns `d` to `wi`.
+/// [`turn`] as values: 0 where no facet turns `d` to `wi`.
 #[inline(always)]
 fn turned<T: Real>(ndf: &Ggx<T>, d: Vec3<T>, wi: Vec3<T>) -> (T, T) {
     turn(ndf, d, wi).unwrap_or((T::ZERO, T::ZERO))

@@ -1,8 +1,8 @@
-//! Rough metal with all bounces, for a batch of elements: walks in lanes.
+//! Rough metal with all bounces, for a batch of elements: walks in batches.
 //!
 //! The walk of one element is a chain that no vector shortens; the walks of different elements are
-//! independent. Their states stand in lanes, all at the same bounce, and what ends makes room (see
-//! `lanes`). Over the loop of scalar calls, f32, gold, isotropic GGX, cosine-distributed directions,
+//! independent. Their states stand in batches, all at the same bounce, and what ends makes room (see
+//! `walks`). Over the loop of scalar calls, f32, gold, isotropic GGX, cosine-distributed directions,
 //! one thread:
 //!
 //! | | alpha | instructions: scalar | baseline | AVX2 | time, 4096 elements: AVX2 | AVX-512 | 64: AVX2 |
@@ -15,26 +15,26 @@
 //! | | 1 | 1490 | 1031 | 400 | 4.7 | 4.6 | 2.6 |
 //!
 //! Instructions are for an element of 1024; times are how many times faster (`cargo bench --bench
-//! multibounce -- lanes`). `f64` gains 2.1 to 2.5 times with AVX2, 2.6 to 2.8 with AVX-512. A call
+//! multibounce -- walks`). `f64` gains 2.1 to 2.5 times with AVX2, 2.6 to 2.8 with AVX-512. A call
 //! takes one or two microseconds to make room: below ten elements (eval) or twenty (sample) the
 //! scalar functions are faster.
 //! AVX-512 gains little over AVX2: what is left is moving walks and taking random numbers.
 
 mod eval;
-mod lanes;
 mod sample;
+mod walk_states;
 
 use self::eval::Evals;
-use self::lanes::{LANES, Metal};
 use self::sample::Draws;
+use self::walk_states::{LANES, Metal};
 use super::level::{Arithmetic, Level, Task};
 use super::recast::{Recast, number};
-use super::slices::{Colours, Directions, Kind, LengthMismatch, Samples, check};
+use super::slices::{Colours, Directions, LengthMismatch, SampleOutcome, Samples, check};
 use crate::bsdf::{Bsdf, BsdfSample, Event, Transport};
 use crate::math::{Real, Stream};
 use crate::multibounce::mis_pdf::reflection;
 use crate::multibounce::walk::Facets;
-use crate::multibounce::{Conductor, MisPdf, Model};
+use crate::multibounce::{MisPdf, MultibounceConductor, MultibounceModel};
 
 const WO: [&str; 3] = ["wo.x", "wo.y", "wo.z"];
 
@@ -46,7 +46,7 @@ impl Level {
     /// * `wo: (n, 3) T`, `wi: (n, 3) T`, `streams: (n,) Stream` `-> f_cos: (n, 3) T`, `pdf: (n,) T`
     /// * `streams`: one for each element, left where the scalar function leaves it.
     ///
-    /// [`Model::Ours`] walks in lanes: faster than the scalar function from some twenty elements
+    /// [`MultibounceModel::StratifiedBidirectional`] walks in batches: faster than the scalar function from some twenty elements
     /// on, four times and more for thousands (`f32`, AVX2). The other models are loops over their
     /// scalar functions.
     ///
@@ -54,7 +54,7 @@ impl Level {
     /// Where a slice is not as long as `f_cos.r`; nothing is written then.
     pub fn eval_pdf_random<T: Real>(
         self,
-        metal: &Conductor<T>,
+        metal: &MultibounceConductor<T>,
         wo: Directions<&[T]>,
         wi: Directions<&[T]>,
         streams: &mut [Stream],
@@ -76,29 +76,29 @@ impl Level {
             pdf,
         };
         match metal.model() {
-            Model::Ours => self.run(task),
+            MultibounceModel::StratifiedBidirectional => self.run(task),
             _ => task.one_by_one(),
         }
         Ok(())
     }
 
-    /// [`Bsdf::sample_random`] of every element. A walk that was given up is [`Kind::Rejected`] with
+    /// [`Bsdf::sample_random`] of every element. A walk that was given up is [`SampleOutcome::Rejected`] with
     /// `wi`, `weight` and `pdf` all zero.
     ///
     /// * `wo: (n, 3) T`, `u: (n, 3) T` in `[0, 1)`, `streams: (n,) Stream` `-> wi: (n, 3) T`,
     ///   `weight: (n, 3) T`, `pdf: (n,) T`, `kind: (n,) u8`
-    /// * `u`: the last two draw the first facet; all else is drawn from the streams, as for
+    /// * `u`: the last two draw the first facet; all else is sampled from the streams, as for
     ///   [`eval_pdf_random`](Level::eval_pdf_random).
     ///
     /// # Errors
     /// Where a slice is not as long as `wi.x`; nothing is written then.
     pub fn sample_random<T: Real>(
         self,
-        metal: &Conductor<T>,
+        metal: &MultibounceConductor<T>,
         wo: Directions<&[T]>,
         u: [&[T]; 3],
         streams: &mut [Stream],
-        samples: Samples<&mut [T], &mut [Kind]>,
+        samples: Samples<&mut [T], &mut [SampleOutcome]>,
     ) -> Result<(), LengthMismatch> {
         let n = samples.pdf.len();
         check(n, samples.lengths())?;
@@ -116,7 +116,7 @@ impl Level {
             samples,
         };
         match metal.model() {
-            Model::Ours => self.run(task),
+            MultibounceModel::StratifiedBidirectional => self.run(task),
             _ => task.one_by_one(),
         }
         Ok(())
@@ -145,7 +145,7 @@ macro_rules! per_density {
 
 /// The facets in the scalar of a kernel.
 #[inline(always)]
-fn recast<T: Real, U: Real>(metal: &Conductor<T>) -> Metal<U> {
+fn recast<T: Real, U: Real>(metal: &MultibounceConductor<T>) -> Metal<U> {
     let Facets { ndf, reflectance } = metal.facets();
     Facets {
         ndf: ndf.recast(),
@@ -154,7 +154,7 @@ fn recast<T: Real, U: Real>(metal: &Conductor<T>) -> Metal<U> {
 }
 
 struct EvalPdf<'a, T> {
-    metal: &'a Conductor<T>,
+    metal: &'a MultibounceConductor<T>,
     wo: Directions<&'a [T]>,
     wi: Directions<&'a [T]>,
     streams: &'a mut [Stream],
@@ -199,11 +199,11 @@ impl<T: Real> Task for EvalPdf<'_, T> {
 }
 
 struct Sample<'a, T> {
-    metal: &'a Conductor<T>,
+    metal: &'a MultibounceConductor<T>,
     wo: Directions<&'a [T]>,
     u: [&'a [T]; 3],
     streams: &'a mut [Stream],
-    samples: Samples<&'a mut [T], &'a mut [Kind]>,
+    samples: Samples<&'a mut [T], &'a mut [SampleOutcome]>,
 }
 
 impl<T: Real> Sample<'_, T> {
@@ -249,8 +249,8 @@ fn with_density<U: Real>(
 ) -> Option<BsdfSample<U>> {
     let (wi, weight) = (draws.wi.at(i), draws.weight.at(i));
     let pdf = reflection(mis, &facets.ndf, draws.wo.at(i), wi);
-    let is_drawn = (wi.z > U::ZERO) & (pdf > U::ZERO) & pdf.is_finite();
-    is_drawn.then_some(BsdfSample {
+    let is_sampled = (wi.z > U::ZERO) & (pdf > U::ZERO) & pdf.is_finite();
+    is_sampled.then_some(BsdfSample {
         wi,
         weight,
         pdf,

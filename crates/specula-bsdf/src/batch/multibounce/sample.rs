@@ -1,13 +1,13 @@
-//! Directions drawn by walks in lanes.
+//! Directions sampled by walks in batches.
 
-use super::lanes::{
+use super::walk_states::{
     BOUNCES, FEW, Index, LANES, Lane, Metal, NO_STREAMS, Walks, index, next_if, whole,
 };
 use crate::batch::slices::{Colours, Directions};
 use crate::math::{Real, Rgb, Stream, Vec3};
-use crate::multibounce::ours::Draw;
+use crate::multibounce::stratified_bidirectional::Draw;
 
-/// Some elements, one in each lane, and their walks.
+/// Some elements, one in each walk, and their walks.
 pub(super) struct Draws<T> {
     pub(super) wo: Directions<Lane<T>>,
     /// `(0, 0, 0)` of a walk that was given up.
@@ -30,7 +30,7 @@ impl<T: Real> Draws<T> {
         scale: [T::ONE; LANES],
     };
 
-    /// Draws for [`LANES`] elements at most.
+    /// Samples for [`LANES`] elements at most.
     ///
     /// * `u`: draws the first facets.
     #[inline(always)]
@@ -113,7 +113,7 @@ impl<T: Real> Draws<T> {
         going
     }
 
-    /// The walk in lane `i` goes on alone.
+    /// The walk in walk `i` goes on alone.
     #[inline(always)]
     fn finish(&mut self, facets: &Metal<T>, bounces: usize, i: usize) {
         let walks = &mut self.walks;
@@ -126,8 +126,8 @@ impl<T: Real> Draws<T> {
             weight: walks.weight.at(i),
         };
         let u = [walks.u[0][i], walks.u[1][i]];
-        let drawn = walk.finish(facets, u, &mut walks.streams[i]);
-        let (wi, weight) = drawn.unwrap_or((Vec3::ZERO, Rgb::BLACK));
+        let sampled = walk.finish(facets, u, &mut walks.streams[i]);
+        let (wi, weight) = sampled.unwrap_or((Vec3::ZERO, Rgb::BLACK));
         self.wi.put(e, wi);
         self.weight.put(e, weight);
         self.streams[e] = walks.streams[i].clone();

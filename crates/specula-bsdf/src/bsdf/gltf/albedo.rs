@@ -105,9 +105,9 @@ pub fn sheen<T: Real>(roughness: &Stencil<T>, mu: T) -> T {
     Real::clamp(sum + margin, T::ZERO, T::ONE)
 }
 
-/// The tables as plain numbers, for shaders: `q` by width and cosine, and the sheen's albedo by roughness
+/// The tables as plain values, for shaders: `q` by width and cosine, and the sheen's albedo by roughness
 /// and cosine.
-pub fn numbers() -> [Vec<f32>; 2] {
+pub fn raw_tables() -> [Vec<f32>; 2] {
     let share = |&x: &u16| f32::from(x) / 65535.0;
     [SCHLICK.as_flattened(), SHEEN.as_flattened()].map(|table| table.iter().map(share).collect())
 }

@@ -93,7 +93,7 @@ impl<T: Real> Default for GltfParameters<T> {
 /// the local z unless [`Gltf::with_coat_normal`] says otherwise. With `volume`, `btdf` is Walter's refraction, and the Fresnel
 /// terms from inside take the refracted cosine.
 ///
-/// `g(wo) g(wi)` is ours: the appendix weighs the diffuse base by the Fresnel term at the half
+/// `g(wo) g(wi)` is Specula's: the appendix weighs the diffuse base by the Fresnel term at the half
 /// vector, with which a smooth white surface reflects up to 1.9 times the light at grazing angles.
 /// `g = min(1, (1 - E) / B)`, with the layer's directional albedo `E` and the base's `B`
 /// ([`albedo`]), takes what is too much and nothing else: above 45 degrees of elevation it is over
@@ -111,7 +111,7 @@ impl<T: Real> Default for GltfParameters<T> {
 ///
 /// # Known limitations of the model
 ///
-/// * Widths below 1e-3 (roughness below 0.03) are taken as 1e-3: a mirror is not a Dirac delta.
+/// * Alphas below 1e-3 (roughness below 0.03) are taken as 1e-3: a mirror is not a Dirac delta.
 /// * Sheen's roughness is at least 0.07: below, its fitted masking reflects more than arrives.
 /// * From inside a body there is neither diffuse reflection nor sheen nor clearcoat: what a mixed
 ///   material (`0 < transmission < 1`) does not transmit is lost.

@@ -51,7 +51,7 @@ impl<T: Real> Base<T> {
         }
     }
 
-    /// The same surface, drawn by another sampler.
+    /// The same surface, sampled by another sampler.
     pub(super) fn with_sampler(self, sampler: Sampler) -> Self {
         match self {
             Self::Metal(m) => Self::Metal(m.with_sampler(sampler)),

@@ -1,4 +1,4 @@
-//! The dielectric on top: what passes it, and what it throws back from either side.
+//! The dielectric on top: what passes it, and what it reflects from either side.
 
 use crate::bsdf::{Bsdf, BsdfSample, Event, RoughDielectric, SmoothDielectric, Transport};
 use crate::fresnel::dielectric;
@@ -14,9 +14,9 @@ pub(super) struct Coat<T> {
     pub(super) eta: T,
 }
 
-/// A direction that was drawn.
+/// A direction that was sampled.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Drawn<T> {
+pub(super) struct CoatSample<T> {
     /// Of travel.
     pub(super) w: Vec3<T>,
     /// `f |cos| / pdf`.
@@ -37,7 +37,7 @@ impl<T: Real> Coat<T> {
         self.ndf.is_some()
     }
 
-    /// `f |cos|` of light that is thrown back from above, in 1/sr, without Dirac deltas.
+    /// `f |cos|` of light that is reflected from above, in 1/sr, without Dirac deltas.
     #[inline]
     pub(super) fn reflection(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
         let Some(ggx) = self.ndf else { return T::ZERO };
@@ -64,11 +64,11 @@ impl<T: Real> Coat<T> {
         wo: Vec3<T>,
         transport: Transport,
         stream: &mut Stream,
-    ) -> Option<Drawn<T>> {
+    ) -> Option<CoatSample<T>> {
         let Some(ggx) = self.ndf else {
             let b = self.below(wo);
             let passed = dielectric(wo.z.abs(), self.eta).transmittance;
-            return Some(Drawn {
+            return Some(CoatSample {
                 w: vec3(b.x, b.y, -b.z),
                 weight: match transport {
                     Transport::Radiance => passed / (self.eta * self.eta),
@@ -80,14 +80,14 @@ impl<T: Real> Coat<T> {
         let u = [stream.next(), stream.next()];
         let sample =
             RoughDielectric::facing(ggx, self.eta).sample_branch(wo, u, false, transport)?;
-        Some(Drawn {
+        Some(CoatSample {
             w: sample.wi,
             weight: sample.weight.r,
             pdf: sample.pdf,
         })
     }
 
-    /// Light that travels up along `w`, thrown back down.
+    /// Light that travels up along `w`, reflected down.
     #[inline]
     pub(super) fn bounce(&self, w: Vec3<T>, stream: &mut Stream) -> Option<Onward<T>> {
         let Some(ggx) = self.ndf else {
@@ -122,7 +122,7 @@ impl<T: Real> Coat<T> {
         (f_cos / w.z, pdf)
     }
 
-    /// What becomes of light from above: a reflection or a way in, drawn by what they carry.
+    /// What becomes of light from above: a reflection or a way in, sampled by what they carry.
     #[inline]
     pub(super) fn scatter_above(&self, wo: Vec3<T>, u: [T; 3]) -> Option<BsdfSample<T>> {
         if let Some(ggx) = self.ndf {
@@ -160,7 +160,7 @@ mod tests {
     use super::*;
     use crate::alpha::Alpha;
 
-    /// What is drawn weighs its value over its density, on the way in and on the way back.
+    /// What is sampled weighs its value over its density, on the way in and on the way back.
     #[test]
     fn draws_weigh_values_over_densities() {
         let mut stream = Stream::new(5);
@@ -174,13 +174,16 @@ mod tests {
             for wo in [vec3(0.0, 0.6, 0.8), vec3(-0.99, 0.0, 0.141_067_36)] {
                 for transport in [Transport::Radiance, Transport::Importance] {
                     for _ in 0..300 {
-                        let Some(drawn) = coat.enter(wo, transport, &mut stream) else {
+                        let Some(sampled) = coat.enter(wo, transport, &mut stream) else {
                             continue;
                         };
-                        let (f, pdf) = coat.passes(wo, -drawn.w, transport);
-                        assert!((pdf / drawn.pdf - 1.0).abs() < 1e-6, "{pdf} {drawn:?}");
-                        let weight = f * drawn.w.z.abs() / pdf;
-                        assert!((weight / drawn.weight - 1.0).abs() < 1e-6, "{f} {drawn:?}");
+                        let (f, pdf) = coat.passes(wo, -sampled.w, transport);
+                        assert!((pdf / sampled.pdf - 1.0).abs() < 1e-6, "{pdf} {sampled:?}");
+                        let weight = f * sampled.w.z.abs() / pdf;
+                        assert!(
+                            (weight / sampled.weight - 1.0).abs() < 1e-6,
+                            "{f} {sampled:?}"
+                        );
                     }
                 }
                 for _ in 0..300 {

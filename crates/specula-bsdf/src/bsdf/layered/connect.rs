@@ -1,7 +1,7 @@
 //! What a vertex below the coat sends to the light.
 //!
 //! A first bounce off the base runs `wo`, `-u`, `v`, `wi`, with `u` and `v` the directions up from the
-//! base. Where the coat is rough there are three ways to draw it, weighed by the power heuristic
+//! base. Where the coat is rough there are three ways to sample it, weighed by the power heuristic
 //! (Veach and Guibas 1995):
 //!
 //! ```text
@@ -15,7 +15,7 @@
 //! bounce is a closed form. Over a mirror B and C remain.
 
 use super::Layered;
-use super::coat::{Drawn, Onward};
+use super::coat::{CoatSample, Onward};
 use super::medium::Medium;
 use crate::bsdf::Transport;
 use crate::math::{Real, Rgb, Stream, Vec3, vec3};
@@ -26,12 +26,12 @@ pub(super) struct Ends<T> {
     pub(super) wo: Vec3<T>,
     pub(super) wi: Vec3<T>,
     /// How light of `wi` comes in: for `Transport::Radiance`, the way back from it.
-    pub(super) entry: Option<Drawn<T>>,
+    pub(super) entry: Option<CoatSample<T>>,
     /// `p(u | wo)` of how light of `wo` came in, at a first vertex that C may draw.
     pub(super) first: Option<T>,
 }
 
-/// Densities of the three ways to draw one path.
+/// Densities of the three ways to sample one path.
 struct Ways<T> {
     a: T,
     b: T,
@@ -101,9 +101,9 @@ impl<T: Real> Ends<T> {
         (sum, next.map(|(w, weight, _)| Onward { w, weight }))
     }
 
-    /// C: light by way of the base, drawn from the light.
+    /// C: light by way of the base, sampled from the light.
     #[inline]
-    pub(super) fn drawn_from_light(&self, lobe: &Layered<T>, stream: &mut Stream) -> Rgb<T> {
+    pub(super) fn sampled_from_light(&self, lobe: &Layered<T>, stream: &mut Stream) -> Rgb<T> {
         let Some(entry) = self.entry else {
             return Rgb::BLACK;
         };
@@ -163,7 +163,7 @@ impl<T: Real> Ends<T> {
 
     /// What of `f |cos|` at a vertex reaches the light along `v`: reciprocity changes the cosines.
     #[inline(always)]
-    fn arriving(&self, entry: Drawn<T>, v: Vec3<T>) -> T {
+    fn arriving(&self, entry: CoatSample<T>, v: Vec3<T>) -> T {
         entry.weight * self.wi.z / Real::max(v.z, T::TINY)
     }
 

@@ -61,8 +61,8 @@ pub(super) fn pdf<T: Real>(lobe: &Layered<T>, wo: Vec3<T>, wi: Vec3<T>) -> T {
     let ring = T::ONE - inverse2;
     let sin2 = T::ONE - wi.z * wi.z;
     let stretch = ((inverse2 + ring * sin2) / Real::max(sin2, T::TINY)).sqrt();
-    let thrown = vec3(wi.x * stretch, wi.y * stretch, ring.safe_sqrt() * wi.z);
-    let round = quarter_d(base, view, thrown) * ring.safe_sqrt();
+    let projected = vec3(wi.x * stretch, wi.y * stretch, ring.safe_sqrt() * wi.z);
+    let round = quarter_d(base, view, projected) * ring.safe_sqrt();
     let metal = (through + round) / base.reflection_norm(lobe.sampler, view);
     below * ((T::ONE - share) * metal + share * broad) + coat_pdf(lobe, reflected, wo, wi)
 }

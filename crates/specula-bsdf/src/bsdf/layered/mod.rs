@@ -2,14 +2,14 @@
 //! with a cloudy varnish.
 //!
 //! Position-free transport between parallel interfaces (Guo, Hasan and Zhao 2018), as in pbrt-v4's
-//! `LayeredBxDF` (Pharr, Jakob and Humphreys 2023, 14.3): light passes the coat or is thrown back;
+//! `LayeredBxDF` (Pharr, Jakob and Humphreys 2023, 14.3): light passes the coat or is reflected;
 //! below, it crosses a slab of optical thickness `t`, keeping `exp(-t / |cos|)` or scattering in it, meets
 //! base and coat in turn, and ends after a number of events. Each surface scatters singly
 //! (Cook and Torrance), so what a rough one scatters twice is lost.
 //!
 //! Values are unbiased estimates. pbrt's value is not where its coat is rough: it weighs two ways of
 //! connecting by densities of which one is taken the wrong way round. The walk here is that by which
-//! pbrt draws directions.
+//! pbrt samples directions.
 
 mod base;
 mod coat;
@@ -106,7 +106,7 @@ impl<T: Real> Layered<T> {
         }
     }
 
-    /// The same material, its metal drawn by another sampler.
+    /// The same material, its metal sampled by another sampler.
     #[inline]
     #[must_use]
     pub fn with_sampler(self, sampler: Sampler) -> Self {
@@ -124,7 +124,7 @@ impl<T: Real> Layered<T> {
     }
 
     /// Whether the base's lobe is less than half as wide as a rough coat's: then first bounces are
-    /// drawn from the light, too.
+    /// sampled from the light, too.
     #[inline]
     fn is_base_narrow(&self) -> bool {
         let width = |ggx: Ggx<T>| Real::max(ggx.alpha().x, ggx.alpha().y);

@@ -1,9 +1,9 @@
-//! The random walk between coat and base: its value for two directions, and its draws.
+//! The random walk between coat and base: its value for two directions, and its samples.
 //!
 //! A value adds up what every vertex below the coat sends to the light (`connect`). Light that the
-//! coat throws back is followed with its reflectance as a factor, never chosen against leaving.
+//! coat reflects is followed with its reflectance as a factor, never chosen against leaving.
 //!
-//! A walk's draws take what the surfaces draw, by what they carry, until one leaves.
+//! A walk's samples take what the surfaces draw, by what they carry, until one leaves.
 
 use super::coat::Onward;
 use super::connect::Ends;
@@ -86,16 +86,16 @@ pub(super) fn eval<T: Real>(
     stream: &mut Stream,
 ) -> Rgb<T> {
     let start = lobe.coat.enter(wo, Transport::Importance, stream);
-    let is_drawn_from_light =
+    let is_sampled_from_light =
         lobe.is_base_narrow() && !lobe.medium.scatters() && lobe.max_depth >= 2;
     let mut ends = Ends {
         wo,
         wi,
         entry: lobe.coat.enter(wi, Transport::Radiance, stream),
-        first: (start.filter(|_| is_drawn_from_light)).map(|start| start.pdf),
+        first: (start.filter(|_| is_sampled_from_light)).map(|start| start.pdf),
     };
-    let mut sum = if is_drawn_from_light {
-        ends.drawn_from_light(lobe, stream)
+    let mut sum = if is_sampled_from_light {
+        ends.sampled_from_light(lobe, stream)
     } else {
         Rgb::BLACK
     };

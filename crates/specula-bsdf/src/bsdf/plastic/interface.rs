@@ -1,4 +1,4 @@
-//! What Mitsuba 3's plastics let through their coat and throw back below it.
+//! What Mitsuba 3's plastics let through their coat and reflect below it.
 //!
 //! ```text
 //! T(mu) = int (1 - F(wo.wm)) G1(wt) D_visible(wo, wm) dwm                rough: single refraction
@@ -15,7 +15,7 @@
 //! made by `cargo xtask tables`. Largest absolute error of `T` against quadrature over alpha in
 //! [0.01, 1.4], eta in [1.33, 2.4], mu in [0.05, 1]: 3e-3 (test `the_plastic_tables_hold_their_bound`).
 //! Mitsuba's own table is linear in 63 steps of mu: it is above the integral by up to 0.02 below
-//! mu = 0.02. Anisotropic widths are taken as `sqrt(alpha_x alpha_y)`.
+//! mu = 0.02. Anisotropic alphas are taken as `sqrt(alpha_x alpha_y)`.
 
 use super::interface_table::{ALPHAS, ETAS, INTERNAL_REFLECTANCE, MUS, TRANSMITTANCE};
 use crate::energy::Tabulated;
@@ -73,9 +73,9 @@ pub fn transmittance<T: Real, N: Tabulated<T>>(ndf: N, eta: T, mu: T) -> T {
     Interface::rough(ndf, eta).0.transmittance(mu)
 }
 
-/// The tables as plain numbers, for shaders: `T` by distribution, index, width and cosine, and `R_int`
+/// The tables as plain values, for shaders: `T` by distribution, index, width and cosine, and `R_int`
 /// by distribution, index and width.
-pub fn numbers() -> [Vec<f32>; 2] {
+pub fn raw_tables() -> [Vec<f32>; 2] {
     let share = |&x: &u16| f32::from(x) / 65535.0;
     let rows = TRANSMITTANCE.as_flattened().as_flattened().as_flattened();
     let internal = INTERNAL_REFLECTANCE.as_flattened().as_flattened();

@@ -124,7 +124,7 @@ impl<T: Real, N: Ndf<T>> Plastic<T, N> {
         Self { base, ..self }
     }
 
-    /// The same material, its coat drawn by another sampler.
+    /// The same material, its coat sampled by another sampler.
     #[inline(always)]
     #[must_use]
     pub fn with_sampler(self, sampler: Sampler) -> Self {

@@ -63,7 +63,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn normals_are_normalised_and_drawn_by_their_density() {
+    fn normals_are_normalised_and_sampled_by_their_density() {
         for gloss in [0.0_f64, 0.5, 1.0] {
             let gtr1 = Gtr1::of_gloss(gloss);
             // Over the sampler's own map the density must be constant: D cos dw = du.

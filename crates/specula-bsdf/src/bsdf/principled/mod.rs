@@ -104,7 +104,7 @@ impl<T: Real> Default for PrincipledParameters<T> {
 /// * From inside a material that does not transmit is black, and so is its refraction.
 /// * Sheen does not fade with `spec_trans` (as in Mitsuba's vectorised variants; the scalar ones
 ///   drop it where the diffuse part vanishes).
-/// * A thin sheet reflects and transmits by two different widths, as no surface does, and passes
+/// * A thin sheet reflects and transmits by two different alphas, as no surface does, and passes
 ///   nothing where the light's direction sees the front of the mirrored facet.
 ///
 /// Departures: a backfacing shading normal (`wo.z < 0`) is continued as

@@ -75,7 +75,7 @@ impl<T: Real> Solid<T> {
         self.base
     }
 
-    /// Refraction draws all visible normals; without it the bounded cap does.
+    /// Refraction samples all visible normals; without it the bounded cap does.
     #[inline(always)]
     fn sampler(&self) -> Sampler {
         if self.through > T::ZERO {

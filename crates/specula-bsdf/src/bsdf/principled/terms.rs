@@ -50,7 +50,7 @@ pub(super) fn sheen_colour<T: Real>(base: Rgb<T>, tint: T) -> Rgb<T> {
     hue(base).map(|c| T::ONE + (c - T::ONE) * tint)
 }
 
-/// Widths of the specular lobe: `alpha = roughness^2`, drawn out by `sqrt(1 - 0.9 anisotropic)`.
+/// Alphas of the specular lobe: `alpha = roughness^2`, stretched by `sqrt(1 - 0.9 anisotropic)`.
 ///
 /// Source: Burley 2012, section 5.4; the floor of 1e-3 is Mitsuba's.
 #[inline(always)]

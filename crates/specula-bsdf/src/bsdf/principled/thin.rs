@@ -14,7 +14,7 @@ use crate::vndf::Sampler;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Thin<T> {
     reflecting: Ggx<T>,
-    /// Normals of transmission: widths scaled by the index.
+    /// Normals of transmission: alphas scaled by the index.
     passing: Ggx<T>,
     base: Rgb<T>,
     tinted_f0: Rgb<T>,

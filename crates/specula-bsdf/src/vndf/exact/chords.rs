@@ -1,4 +1,4 @@
-//! Unequal widths: a walk along the chords of the cone's projection.
+//! anisotropic alpha: a walk along the chords of the cone's projection.
 //!
 //! Seen along its axis `v`, the cone's section is an ellipse, uniform under the cosine to the axis;
 //! the cosine to the view is wanted. Chords across `k = h x v` are chords in both projections. The
@@ -12,7 +12,7 @@
 //! at `Y` longer by as much as that at `-Y` is shorter, so the disk's density of `Y` is right for
 //! the pair. A point `(X, Y)` of the disk therefore walks the length `(c + X) s2` from one end of
 //! its chord; if the chord ends before, the point lies as far from the end of the opposite chord as
-//! it had left to go. Both chords are covered uniformly: two numbers, no rejection, no root.
+//! it had left to go. Both chords are covered uniformly: two values, no rejection, no root.
 //!
 //! Source: our own derivation, `docs/exact-reflection-sampling.md`.
 

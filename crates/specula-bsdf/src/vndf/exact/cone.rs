@@ -92,7 +92,7 @@ impl<T: Real> Cone<T> {
 /// The two poles lie close to each other or far from the root: one pole in their place, with their
 /// value and slope at the `guess`, leads to a quadratic equation whose root is near. A step of
 /// Halley's method follows, multiplied through by the poles, so that each step takes one division.
-/// With Newton's step in [`Cone::new`] the relative error of `N` is at most 1e-12 for widths in
+/// With Newton's step in [`Cone::new`] the relative error of `N` is at most 1e-12 for alphas in
 /// `[1e-3, 2]` and 1e-7 up to 8 (test `the_exact_norm_has_its_root`).
 #[inline(always)]
 fn root<T: Real>(p: [T; 2], z: T, tilt: [T; 2], guess: T) -> T {

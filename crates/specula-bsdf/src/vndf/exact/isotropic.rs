@@ -1,4 +1,4 @@
-//! Equal widths: a map from the disk in closed form.
+//! isotropic alpha: a map from the disk in closed form.
 //!
 //! Planes across the plane of incidence cut the cone's projection along the view in chords whose
 //! lengths are a disk's, so that a uniform point `(X, Y)` of the disk needs a scale across and

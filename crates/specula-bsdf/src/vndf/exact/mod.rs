@@ -1,8 +1,8 @@
 //! Reflections off visible GGX normals, none of them below the surface.
 //!
 //! The half vectors whose reflection lies above the surface form a quadratic cone (`cone`), whose
-//! projection along the view has an area in closed form. That area is drawn from uniformly: in
-//! closed form where the widths are equal (`isotropic`), by a walk along chords where they are not
+//! projection along the view has an area in closed form. That area is sampled from uniformly: in
+//! closed form where the alphas are equal (`isotropic`), by a walk along chords where they are not
 //! (`chords`). The density is the visible normals' over the cone:
 //!
 //! ```text
@@ -61,7 +61,7 @@ pub fn reflection_pdf<T: Real>(alpha: Alpha<T>, wo: Vec3<T>, wi: Vec3<T>) -> T {
 /// N = lambda^2 / (|v|^2 sqrt(Dx Dy))   for z > 0,   sigma(wo) else
 /// ```
 ///
-/// (`cone` of this module; `lambda^2 / Delta` for equal widths.)
+/// (`cone` of this module; `lambda^2 / Delta` for isotropic alpha.)
 #[inline(always)]
 pub fn norm<T: Real>(alpha: Alpha<T>, wo: Vec3<T>) -> T {
     let (top, bottom) = norm_quotient(alpha, wo);

@@ -51,8 +51,8 @@ fn plastic<T: Real>(p: &[T]) -> Lobe<T> {
     }
 }
 
-/// Widths of coats.
-const WIDTHS: [[f32; 2]; 5] = [
+/// Alphas of coats.
+const ALPHAS: [[f32; 2]; 5] = [
     [1e-3, 1e-3],
     [0.05, 0.05],
     [0.3, 0.3],
@@ -60,10 +60,10 @@ const WIDTHS: [[f32; 2]; 5] = [
     [1.5, 1.5],
 ];
 
-/// Widths, whether rough, index, thickness, depth and what the coat's facets do.
+/// Alphas, whether rough, index, thickness, depth and what the coat's facets do.
 fn coated() -> Vec<[f32; 7]> {
     let mut all = Vec::new();
-    for [x, y] in WIDTHS {
+    for [x, y] in ALPHAS {
         for lossless in [0.0, 1.0] {
             all.push([x, y, 1.0, 1.5, 0.0, 0.0, lossless]);
             all.push([x, y, 1.0, 1.3, 0.2, 4.0, lossless]);
@@ -78,10 +78,10 @@ fn coated() -> Vec<[f32; 7]> {
     all
 }
 
-/// Widths of coat and metal, whether they are rough, index and strategy.
+/// Alphas of coat and metal, whether they are rough, index and strategy.
 fn lacquered() -> Vec<[f32; 8]> {
     let mut all = Vec::new();
-    for [x, y] in WIDTHS {
+    for [x, y] in ALPHAS {
         all.push([x, y, 0.3, 0.3, 1.0, 1.0, 1.5, 3.0]);
         all.push([0.1, 0.1, x, y, 1.0, 1.0, 1.5, 2.0]);
         all.push([0.1, 0.1, x, y, 0.0, 1.0, 1.5, 3.0]);
@@ -91,14 +91,14 @@ fn lacquered() -> Vec<[f32; 8]> {
     all
 }
 
-/// Widths, distribution, whether rough, index and whether the series takes the base's colour.
+/// Alphas, distribution, whether rough, index and whether the series takes the base's colour.
 fn plastics() -> Vec<[f32; 6]> {
     let mut all = vec![
         [0.3, 0.3, 0.0, 0.0, 1.5, 0.0],
         [0.3, 0.3, 0.0, 0.0, 1.9, 1.0],
         [0.3, 0.3, 0.0, 0.0, 0.75, 1.0],
     ];
-    for [x, y] in WIDTHS {
+    for [x, y] in ALPHAS {
         all.push([x, y, 0.0, 1.0, 1.5, 0.0]);
         all.push([x, y, 0.0, 1.0, 1.9, 1.0]);
         if x > 1e-2 {

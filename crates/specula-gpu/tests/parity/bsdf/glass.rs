@@ -82,7 +82,7 @@ fn thin_dielectric<T: Real>(p: &[T]) -> Lobe<T> {
     ThinDielectric::new(p[0]).with_tints(tints()).into()
 }
 
-/// Widths, distribution, masking, strategy, index and whether it has both sides.
+/// Alphas, distribution, masking, strategy, index and whether it has both sides.
 fn interfaces() -> Vec<[f32; 7]> {
     let mut all = vec![[0.3, 0.3, 0.0, 0.0, 1.0, 1.0005, 1.0]];
     for [x, y] in ALPHAS {
@@ -101,7 +101,7 @@ fn interfaces() -> Vec<[f32; 7]> {
     all
 }
 
-/// The value of the untinted interface, and two numbers that vanish.
+/// The value of the untinted interface, and two values that vanish.
 fn branch_values<T: Real>(x: &[T]) -> Vec<T> {
     let p = &x[7..];
     let ndf = Ggx::new(alpha(p, 0));
@@ -114,7 +114,7 @@ fn branch_values<T: Real>(x: &[T]) -> Vec<T> {
     vec![values(&lobe, x)[0], T::ZERO, T::ZERO]
 }
 
-/// Draws of one branch, for walks: on the GPU, weight and density are those of `eval_branch`.
+/// Samples of one branch, for walks: on the GPU, weight and density are those of `eval_branch`.
 fn branch_cases() -> Vec<Case> {
     let body = arguments!(
         facets!(),
@@ -122,13 +122,13 @@ fn branch_cases() -> Vec<Case> {
          let lobe = RoughDielectric(facets, x[12], u32(x[13]), white);
          y[0] = rough_dielectric_eval_branch(lobe, wo, wi, transport).x;
          for (var k = 0u; k < 2u; k++) {
-             let drawn = rough_dielectric_draw_branch(lobe, wo, fract(abs(wi.xy)), k == 0u, transport);
-             if drawn.flags != 0u {
-                 let value = rough_dielectric_eval_branch(lobe, wo, drawn.wi, transport);
+             let sampled = rough_dielectric_draw_branch(lobe, wo, fract(abs(wi.xy)), k == 0u, transport);
+             if sampled.flags != 0u {
+                 let value = rough_dielectric_eval_branch(lobe, wo, sampled.wi, transport);
                  // Nothing passes where all is reflected.
-                 if drawn.weight.g > 0.0 {
-                     y[1] += abs(drawn.pdf / value.y - 1.0);
-                     y[2] += abs(drawn.weight.g * value.y / value.x - 1.0);
+                 if sampled.weight.g > 0.0 {
+                     y[1] += abs(sampled.pdf / value.y - 1.0);
+                     y[2] += abs(sampled.weight.g * value.y / value.x - 1.0);
                  }
              }
          }"

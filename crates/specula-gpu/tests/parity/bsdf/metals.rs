@@ -4,7 +4,7 @@ use specula_bsdf::Real;
 use specula_bsdf::bsdf::{
     Compensated, DiffuseTransmission, Eon, Lambert, Lobe, RoughConductor, SmoothConductor,
 };
-use specula_bsdf::energy::{FmsVariant, Model};
+use specula_bsdf::energy::{EnergyModel, FmsVariant};
 use specula_bsdf::fresnel::{Conductor, Reflectance};
 use specula_bsdf::math::Rgb;
 use specula_bsdf::ndf::{Beckmann, Ggx, Masking};
@@ -72,11 +72,11 @@ fn rough_conductor<T: Real>(p: &[T]) -> Lobe<T> {
 fn compensated<T: Real>(p: &[T]) -> Lobe<T> {
     let (alpha, masking) = (alpha(p, 0), masking(p[3]));
     let model = if p[6] == T::ZERO {
-        Model::Turquin(FmsVariant::NormalIncidence)
+        EnergyModel::Turquin(FmsVariant::NormalIncidence)
     } else if p[6] == T::ONE {
-        Model::Turquin(FmsVariant::AverageSeries)
+        EnergyModel::Turquin(FmsVariant::AverageSeries)
     } else {
-        Model::KullaConty
+        EnergyModel::KullaConty
     };
     if p[2] > T::ZERO {
         Compensated::new(Beckmann::new(alpha), metal(p[5]), model)
@@ -107,7 +107,7 @@ fn diffuse_transmission<T: Real>(p: &[T]) -> Lobe<T> {
     DiffuseTransmission::new(base * p[0], base * p[1]).into()
 }
 
-/// Widths, distribution, masking, strategy and reflectance.
+/// Alphas, distribution, masking, strategy and reflectance.
 fn metals() -> Vec<[f32; 6]> {
     let mut all = Vec::new();
     for (i, [x, y]) in ALPHAS.into_iter().enumerate() {
@@ -126,7 +126,7 @@ fn metals() -> Vec<[f32; 6]> {
 
 /// The same and a model of compensation.
 fn kept() -> Vec<[f32; 7]> {
-    // At widths of 10 single scattering keeps a thousandth: Turquin's quotient has few digits in f32.
+    // At alphas of 10 single scattering keeps a thousandth: Turquin's quotient has few digits in f32.
     let some = metals()
         .into_iter()
         .filter(|p| p[0].min(p[1]) < 5.0 && (p[4] == 3.0 || p[2] > 0.0));

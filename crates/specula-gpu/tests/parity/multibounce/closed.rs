@@ -1,8 +1,10 @@
-//! Closed forms of the walks: no numbers are drawn, and the reference is the twin in `f64`.
+//! Closed forms of the walks: no values are sampled, and the reference is the twin in `f64`.
 
 use specula_bsdf::fresnel::{dielectric, refract};
 use specula_bsdf::math::Stream;
-use specula_bsdf::multibounce::{DepthState, MisPdf, Model, normalised_pdf, sample_normalised};
+use specula_bsdf::multibounce::{
+    DepthState, MisPdf, MultibounceModel, normalised_pdf, sample_normalised,
+};
 use specula_bsdf::ndf::{Beckmann, Ggx, Ndf};
 use specula_bsdf::{Bsdf, Real, Vec3};
 
@@ -36,7 +38,8 @@ fn densities() -> Vec<Case> {
                 ),
                 pairs(),
                 twins!(|x| {
-                    let lobe = conductor(x, Model::Ours).with_mis_pdf($mis);
+                    let lobe =
+                        conductor(x, MultibounceModel::StratifiedBidirectional).with_mis_pdf($mis);
                     vec![lobe.pdf(vector(x, 2), vector(x, 5))]
                 }),
                 256.0,
@@ -50,13 +53,13 @@ fn densities() -> Vec<Case> {
                 $name,
                 interface,
                 glass!(
-                    "MULTIBOUNCE_MODEL_OURS",
+                    "MULTIBOUNCE_MODEL_STRATIFIED_BIDIRECTIONAL",
                     $constant,
                     "y[0] = multibounce_dielectric_pdf(lobe, wo, wi);"
                 ),
                 glass_pairs(),
                 twins!(|x| {
-                    let lobe = dielectric_lobe(x, Model::Ours, $mis);
+                    let lobe = dielectric_lobe(x, MultibounceModel::StratifiedBidirectional, $mis);
                     vec![lobe.pdf(vector(x, 2), vector(x, 5))]
                 }),
                 128.0,
@@ -89,13 +92,13 @@ fn densities() -> Vec<Case> {
             "normalised_directions",
             modules,
             metal!(
-                "let drawn = normalised_draw_direction(normals, wo, wi.yzx);
-                 if drawn.z > 0.0 { y[0] = drawn.x; y[1] = drawn.y; y[2] = drawn.z; }"
+                "let sampled = normalised_draw_direction(normals, wo, wi.yzx);
+                 if sampled.z > 0.0 { y[0] = sampled.x; y[1] = sampled.y; y[2] = sampled.z; }"
             ),
             numbers(),
             twins!(|x| {
-                let drawn = sample_normalised(&ggx(x), vector(x, 2), [x[6], x[7], x[5]]);
-                drawn.map_or(vec![T::ZERO; 3], |w| w.to_array().to_vec())
+                let sampled = sample_normalised(&ggx(x), vector(x, 2), [x[6], x[7], x[5]]);
+                sampled.map_or(vec![T::ZERO; 3], |w| w.to_array().to_vec())
             }),
             256.0,
         )
@@ -204,8 +207,8 @@ fn normals(modules: &'static [&'static str]) -> Case {
              y[0] = normals_projected_area(normals, wo);
              y[1] = normals_d(other, wm) * min(normals.alpha.x, 1.0) * min(normals.alpha.y, 1.0);
              y[2] = normals_lambda_cos(other, wo); y[3] = normals_projected_area(other, wo);
-             let drawn = normals_sample_wm(other, wo, wi.yz);
-             y[4] = drawn.x; y[5] = drawn.y; y[6] = drawn.z;
+             let sampled = normals_sample_wm(other, wo, wi.yz);
+             y[4] = sampled.x; y[5] = sampled.y; y[6] = sampled.z;
              let first = walk_pair(&stream); y[7] = first.x; y[8] = first.y;"
         ),
         numbers(),
@@ -216,7 +219,7 @@ fn normals(modules: &'static [&'static str]) -> Case {
                 ..wo
             };
             let narrow = Real::min(x[0], T::ONE) * Real::min(x[1], T::ONE);
-            let drawn = other.sample_wm(wo, [x[6], x[7]]);
+            let sampled = other.sample_wm(wo, [x[6], x[7]]);
             let mut stream = stream(x, 8);
             let mut next = || T::of(f64::from(stream.next::<f32>()));
             let (first, second) = (next(), next());
@@ -225,9 +228,9 @@ fn normals(modules: &'static [&'static str]) -> Case {
                 other.d(wm.normalize()) * narrow,
                 other.lambda_cos(wo),
                 other.projected_area(wo),
-                drawn.x,
-                drawn.y,
-                drawn.z,
+                sampled.x,
+                sampled.y,
+                sampled.z,
                 first,
                 second,
             ]

@@ -22,9 +22,9 @@ pub(super) const ELSEWHERE: &[(&str, &str)] = &[
          multibounce_dielectric_side multibounce_dielectric_upright",
     ),
     (
-        "ours_interface_value and ours_interface_draw",
-        "ours_interface_eval ours_interface_is_better_end ours_interface_eval_end
-         ours_interface_walk ours_interface_draw",
+        "stratified_bidirectional_interface_value and stratified_bidirectional_interface_draw",
+        "stratified_bidirectional_interface_eval stratified_bidirectional_interface_is_better_end stratified_bidirectional_interface_eval_end
+         stratified_bidirectional_interface_walk stratified_bidirectional_interface_draw",
     ),
     (
         "mis_lambert and mis_hapke",
@@ -56,7 +56,7 @@ pub(super) const ELSEWHERE: &[(&str, &str)] = &[
          normalised_at normalised_maps normalised_stays normalised_turn normalised_to_axis
          normalised_of_axis normalised_roll_back normalised_roll normalised_horizontal",
     ),
-    ("ours_value", "ours_stratum ours_goes_on ours_walk"),
+    ("stratified_bidirectional_value", "stratified_bidirectional_stratum stratified_bidirectional_goes_on stratified_bidirectional_walk"),
     ("wang_value and wang_draw", "wang2022_leaves"),
 ];
 
@@ -111,10 +111,10 @@ pub(super) const FAULTS: &[Fault] = &[
         "0.26 * normals_d",
     ),
     fault(
-        "ours_value",
-        "multibounce/ours",
-        "OURS_CARRIED: f32 = 0.5;",
-        "OURS_CARRIED: f32 = 0.51;",
+        "stratified_bidirectional_value",
+        "multibounce/stratified_bidirectional",
+        "STRATIFIED_BIDIRECTIONAL_CARRIED: f32 = 0.5;",
+        "STRATIFIED_BIDIRECTIONAL_CARRIED: f32 = 0.51;",
     ),
     fault(
         "mis_normalised",
@@ -142,8 +142,8 @@ pub(super) const FAULTS: &[Fault] = &[
         "next.is_beyond = true;",
     ),
     fault(
-        "ours_interface_value",
-        "multibounce/ours_interface",
+        "stratified_bidirectional_interface_value",
+        "multibounce/stratified_bidirectional_interface",
         "1.02 - 0.22",
         "1.2 - 0.22",
     ),

@@ -1,8 +1,10 @@
-//! Multiple bounces between microfacets: means of values and draws over many streams, against those of
+//! Multiple bounces between microfacets: means of values and samples over many streams, against those of
 //! the twins in `f64` with other streams, by z-tests.
 
 use specula_bsdf::math::{Stream, rgb};
-use specula_bsdf::multibounce::{Conductor, Dielectric, Diffuse, MisPdf, Model};
+use specula_bsdf::multibounce::{
+    MisPdf, MultibounceConductor, MultibounceDielectric, MultibounceDiffuse, MultibounceModel,
+};
 use specula_bsdf::{Bsdf, Rgb, Transport, Vec3};
 
 use super::{ggx, glass, metal, reflectance, tints};
@@ -63,18 +65,18 @@ macro_rules! summed {
 }
 pub(crate) use summed;
 
-/// The statistics of a draw: energy, and where it goes.
+/// The statistics of a sample: energy, and where it goes.
 macro_rules! moments {
     ($draw:literal) => {
         summed!(
             "let number = stream_next(&stream);
              let u = vec3f(number, walk_pair(&stream));
-             let drawn = ",
+             let sampled = ",
             $draw,
             ";
              var value = vec3f(0.0);
-             if drawn.flags != 0u {
-                 value = drawn.weight.r * vec3f(1.0, drawn.wi.x, drawn.wi.z);
+             if sampled.flags != 0u {
+                 value = sampled.weight.r * vec3f(1.0, sampled.wi.x, sampled.wi.z);
              }"
         )
     };
@@ -154,7 +156,7 @@ fn seed(number: usize) -> f32 {
     u32::try_from(number).map_or(0.0, |n| round(f64::from(n)))
 }
 
-/// Widths, views and lights at some distance from each other, with a place for the seed.
+/// Alphas, views and lights at some distance from each other, with a place for the seed.
 fn cells(lights: &[[f32; 3]]) -> Vec<[f32; 9]> {
     let alphas = [[0.1, 0.1], [0.5, 0.5], [1.0, 1.0], [0.2, 0.8]];
     let wos = [0.9, 0.3, -0.3].map(|cosine| direction(cosine, 0.4));
@@ -168,8 +170,8 @@ fn views() -> Vec<[f32; 9]> {
     cells(&[[0.0, 0.0, 1.0]])
 }
 
-fn conductor(x: &[f64], model: Model) -> Conductor<f64> {
-    Conductor::new(ggx(x), reflectance(), model)
+fn conductor(x: &[f64], model: MultibounceModel) -> MultibounceConductor<f64> {
+    MultibounceConductor::new(ggx(x), reflectance(), model)
 }
 
 /// The statistics of an estimate.
@@ -177,9 +179,9 @@ fn of_value(f: Rgb<f64>) -> [f64; 3] {
     f.to_array()
 }
 
-/// The statistics of a draw.
-fn of_draw(drawn: Option<(Vec3<f64>, Rgb<f64>)>) -> [f64; 3] {
-    drawn.map_or([0.0; 3], |(wi, weight)| {
+/// The statistics of a sample.
+fn of_draw(sampled: Option<(Vec3<f64>, Rgb<f64>)>) -> [f64; 3] {
+    sampled.map_or([0.0; 3], |(wi, weight)| {
         [weight.r, weight.r * wi.x, weight.r * wi.z]
     })
 }
@@ -210,7 +212,7 @@ fn metals_have_the_means_of_the_twins() {
     let mut report = String::new();
     for (number, model) in [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]
         .into_iter()
-        .zip(Model::ALL)
+        .zip(MultibounceModel::ALL)
     {
         let of_model = |cells: Vec<[f32; 9]>| product::<9, 1, 10>(&cells, &[[number]]);
         report += &held(compare(
@@ -238,7 +240,7 @@ fn metals_have_the_means_of_the_twins() {
 fn means_of_another_model_are_told_apart() {
     let light = [direction(0.7, 2.0)];
     let wang: Vec<[f32; 10]> = product(&cells(&light), &[[2.0]]);
-    let model = Model::Heitz2016;
+    let model = MultibounceModel::Heitz2016;
     let compared = compare("wang for heitz", METALS, METAL_VALUE, &wang, |x, stream| {
         of_value(conductor(x, model).estimate(vector(x, 2), vector(x, 5), stream))
     });
@@ -270,10 +272,13 @@ fn dielectrics_have_the_means_of_the_twins() {
     );
     let lights = [direction(0.7, 2.0), direction(-0.5, 3.5)];
     let mut report = String::new();
-    for (number, model) in [(0.0, Model::Heitz2016), (6.0, Model::Ours)] {
+    for (number, model) in [
+        (0.0, MultibounceModel::Heitz2016),
+        (6.0, MultibounceModel::StratifiedBidirectional),
+    ] {
         let of_model = |cells: Vec<[f32; 9]>| product::<9, 2, 11>(&cells, &[[1.5, number]]);
         let lobe = |x: &[f64]| {
-            Dielectric::new(ggx(x), x[9], model)
+            MultibounceDielectric::new(ggx(x), x[9], model)
                 .with_mis_pdf(MisPdf::Lambert)
                 .with_tints(tints())
         };
@@ -298,8 +303,8 @@ fn dielectrics_have_the_means_of_the_twins() {
             &of_model(views()),
             |x, stream| {
                 let u = [stream.next(), stream.next(), stream.next()];
-                let drawn = lobe(x).sample_random(vector(x, 2), u, Transport::Radiance, stream);
-                of_draw(drawn.map(|s| (s.wi, s.weight)))
+                let sampled = lobe(x).sample_random(vector(x, 2), u, Transport::Radiance, stream);
+                of_draw(sampled.map(|s| (s.wi, s.weight)))
             },
         ));
     }
@@ -319,7 +324,7 @@ fn diffuse_facets_have_the_means_of_the_twins() {
          ",
         moments!("multibounce_diffuse_draw(lobe, wo, u, &stream)")
     );
-    let lobe = |x: &[f64]| Diffuse::new(ggx(x), rgb(0.9, 0.5, 0.1));
+    let lobe = |x: &[f64]| MultibounceDiffuse::new(ggx(x), rgb(0.9, 0.5, 0.1));
     let above = [direction(0.7, 2.0), direction(0.1, 0.4)];
     let mut report = held(compare(
         "diffuse values",
@@ -342,8 +347,8 @@ fn diffuse_facets_have_the_means_of_the_twins() {
         &views(),
         |x, stream| {
             let u = [stream.next(), stream.next(), stream.next()];
-            let drawn = lobe(x).sample_random(vector(x, 2), u, Transport::Radiance, stream);
-            of_draw(drawn.map(|s| (s.wi, s.weight)))
+            let sampled = lobe(x).sample_random(vector(x, 2), u, Transport::Radiance, stream);
+            of_draw(sampled.map(|s| (s.wi, s.weight)))
         },
     ));
     println!("means of diffuse facets\n{report}");

@@ -4,7 +4,7 @@ use glam::{DMat4, DQuat, DVec3};
 
 #[cfg(target_arch = "x86_64")]
 use super::super::avx2::Avx2;
-use super::super::in_step;
+use super::super::interleaved;
 use super::super::kernel::Portable;
 use super::*;
 
@@ -291,8 +291,8 @@ fn rays_in_step_are_rays_one_by_one() {
         // Fewer than go in step, too.
         for batch in [&rays[..], &rays[..2], &rays[..0]] {
             let (mut hits, mut found) = (vec![None; batch.len()], vec![false; batch.len()]);
-            in_step::intersect(Portable, scene, batch, &mut hits);
-            in_step::occluded(Portable, scene, batch, &mut found);
+            interleaved::intersect(Portable, scene, batch, &mut hits);
+            interleaved::occluded(Portable, scene, batch, &mut found);
             #[cfg(target_arch = "x86_64")]
             if let Some(kernel) = Avx2::detect() {
                 let (mut other, mut others) = (vec![None; batch.len()], vec![false; batch.len()]);
@@ -323,9 +323,9 @@ fn rays_gain_in_step_where_they_part_in_a_large_tree() {
     for ray in &mut narrow {
         ray.direction = ray.direction * 0.1 + Vec3::Z * 3.0;
     }
-    assert!(in_step::gains(&large.scene, &parting));
-    assert!(!in_step::gains(&large.scene, &narrow));
-    assert!(!in_step::gains(&small.scene, &parting));
+    assert!(interleaved::gains(&large.scene, &parting));
+    assert!(!interleaved::gains(&large.scene, &narrow));
+    assert!(!interleaved::gains(&small.scene, &parting));
     assert!(compare(&large, &parting) > 100);
     assert_eq!(compare(&large.portable(), &narrow), 256);
 }

@@ -57,10 +57,10 @@ fn instances_are_flattened_geometry() {
     let (mut hits, mut other) = (0, 0);
     for _ in 0..50_000 {
         let ray = ray(random.vector() * 4.0, random.direction());
-        let (ours, theirs) = (accel.intersect(&ray), reference.intersect(&ray));
-        assert_eq!(accel.occluded(&ray), ours.is_some());
-        assert_eq!(exact(ours), exact(portable.intersect(&ray)), "{ray:?}");
-        match (ours, theirs) {
+        let (specula, theirs) = (accel.intersect(&ray), reference.intersect(&ray));
+        assert_eq!(accel.occluded(&ray), specula.is_some());
+        assert_eq!(exact(specula), exact(portable.intersect(&ray)), "{ray:?}");
+        match (specula, theirs) {
             (Some(a), Some(b)) if (a.t - b.t).abs() <= 2e-5 * (1.0 + b.t) => {
                 hits += 1;
                 let named = (a.instance as usize, a.primitive as usize);

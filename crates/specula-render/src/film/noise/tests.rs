@@ -6,10 +6,10 @@ use super::super::PixelSample;
 use super::super::adaptive::PATIENCE;
 use super::*;
 
-/// Uniform numbers in `(0, 1)` (Steele et al. 2014, SplitMix64).
-struct Numbers(u64);
+/// Uniform random in `(0, 1)` (Steele et al. 2014, SplitMix64).
+struct Random(u64);
 
-impl Numbers {
+impl Random {
     fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -73,13 +73,13 @@ fn all_but_worst(film: &FilmBuffer, count: usize) -> f64 {
 
 #[test]
 fn estimates_are_true_where_tails_are_light() {
-    let mut numbers = Numbers(1);
+    let mut random = Random(1);
     for samples in [8, 32, 256] {
         let mut film = film(64);
         // Noise that differs from pixel to pixel by factors of up to 16.
         fill(&mut film, samples, |i| {
             let spread = [1.0, 0.25, 0.0625][i % 3];
-            1.0 + spread * (numbers.exponential() - 1.0)
+            1.0 + spread * (random.exponential() - 1.0)
         });
         let (found, expected) = (f64::from(film.noise()), root_mean(&true_errors(&film)));
         assert!(
@@ -98,9 +98,9 @@ fn estimates_are_true_where_tails_are_light() {
 /// However large a sample is, it moves the estimate neither up nor, by the picture's brightness, down.
 #[test]
 fn one_sample_does_not_move_the_estimate() {
-    let mut numbers = Numbers(2);
+    let mut random = Random(2);
     let mut quiet = film(48);
-    fill(&mut quiet, 64, |_| numbers.exponential());
+    fill(&mut quiet, 64, |_| random.exponential());
     let before = quiet.noise_estimate();
     for value in [10.0, 1e2, 1e4, 1e6, 1e9, 1e18] {
         let mut film = quiet.clone();
@@ -120,16 +120,16 @@ fn one_sample_does_not_move_the_estimate() {
 /// A few pixels in a thousand are met by rare light without variance, as caustics have.
 #[test]
 fn estimates_fall_where_some_pixels_have_heavy_tails() {
-    let mut numbers = Numbers(3);
+    let mut random = Random(3);
     let mut film = film(96);
     let (mut last, mut largest_jump, mut largest_rise) = ([f64::INFINITY; 2], 1.0, 1.0_f64);
     let mut count = 0;
     for total in [16, 32, 64, 128, 256, 512, 1024, 2048] {
         fill(&mut film, total - count, |i| {
-            if i % 333 == 7 && numbers.next() < 2e-4 {
-                1e5 * numbers.pareto(1.2)
+            if i % 333 == 7 && random.next() < 2e-4 {
+                1e5 * random.pareto(1.2)
             } else {
-                numbers.exponential()
+                random.exponential()
             }
         });
         count = total;
@@ -151,12 +151,12 @@ fn estimates_fall_where_some_pixels_have_heavy_tails() {
 /// better than it is.
 #[test]
 fn pictures_that_are_noisy_all_over_are_said_to_be() {
-    let mut numbers = Numbers(4);
+    let mut random = Random(4);
     for tail in [1.3, 1.6] {
         let mut film = film(96);
         let mut count = 0;
         for total in [16, 64, 256, 1024] {
-            fill(&mut film, total - count, |_| numbers.pareto(tail));
+            fill(&mut film, total - count, |_| random.pareto(tail));
             count = total;
             let estimate = film.noise_estimate();
             assert!(estimate.left_out <= 96 * 96 / ONE_IN, "{estimate:?}");
@@ -169,7 +169,7 @@ fn pictures_that_are_noisy_all_over_are_said_to_be() {
     // A light that one sample in a hundred finds: every pixel is carried by too few samples.
     let mut film = film(96);
     fill(&mut film, 64, |_| {
-        if numbers.next() < 0.01 { 100.0 } else { 0.0 }
+        if random.next() < 0.01 { 100.0 } else { 0.0 }
     });
     let estimate = film.noise_estimate();
     assert_eq!(estimate.left_out, 96 * 96 / ONE_IN);
@@ -181,11 +181,11 @@ fn pictures_that_are_noisy_all_over_are_said_to_be() {
 
 #[test]
 fn what_is_left_out_is_told() {
-    let mut numbers = Numbers(5);
+    let mut random = Random(5);
     let mut film = film(64);
     fill(&mut film, 64, |i| {
         if i < 300 {
-            numbers.pareto(1.02) * 10.0
+            random.pareto(1.02) * 10.0
         } else {
             1.0
         }
@@ -234,9 +234,9 @@ fn films_without_light_or_samples_have_their_limits() {
 #[test]
 fn fireflies_do_not_attract_all_samples() {
     let wish = |samples: u32, value: Option<f64>| -> f64 {
-        let mut numbers = Numbers(6);
+        let mut random = Random(6);
         let mut film = film(48);
-        fill(&mut film, samples, |_| numbers.exponential());
+        fill(&mut film, samples, |_| random.exponential());
         for tile in &mut film.tiles {
             tile.rays = 3 * 256 * u64::from(samples);
         }

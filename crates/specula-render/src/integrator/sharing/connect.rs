@@ -8,8 +8,8 @@
 use multiversion::multiversion;
 use specula_bsdf::Vec3;
 
-use super::super::block::index;
-use super::super::lanes::{Column, LANES, Vectors};
+use super::super::vertex_batch::{Column, Vectors, WAVEFRONT_SIZE};
+use super::super::wavefront::index;
 use super::Vertices;
 use super::pairs::{Found, Pairs};
 
@@ -21,7 +21,7 @@ use super::pairs::{Found, Pairs};
     "x86_64+avx2+fma+bmi1+bmi2"
 ))]
 pub(super) fn turn(n: usize, vertices: &Vertices, w: &Vectors, local: &mut Vectors) {
-    for i in 0..n.min(LANES) {
+    for i in 0..n.min(WAVEFRONT_SIZE) {
         local.set(i, vertices.local(i, w.get(i)));
     }
 }
@@ -34,7 +34,7 @@ pub(super) fn turn(n: usize, vertices: &Vertices, w: &Vectors, local: &mut Vecto
     "x86_64+avx2+fma+bmi1+bmi2"
 ))]
 pub(super) fn connect(x: &Vertices, y: &Vertices, wo: &Vectors, pairs: &mut Pairs) {
-    for k in 0..pairs.count.min(LANES) {
+    for k in 0..pairs.count.min(WAVEFRONT_SIZE) {
         let (i, j) = (index(pairs.x[k]), index(pairs.y[k]));
         let (from, to) = (x.position.get(i), y.position.get(j));
         let own = (to - x.position.get(j)).length();
@@ -61,7 +61,7 @@ pub(super) fn connect(x: &Vertices, y: &Vertices, wo: &Vectors, pairs: &mut Pair
     "x86_64+avx2+fma+bmi1+bmi2"
 ))]
 pub(super) fn bring(order: &[u32], from: &Vectors, to: &mut Vectors) {
-    for l in 0..order.len().min(LANES) {
+    for l in 0..order.len().min(WAVEFRONT_SIZE) {
         to.set(l, from.get(index(order[l])));
     }
 }
@@ -71,8 +71,13 @@ pub(super) fn bring(order: &[u32], from: &Vectors, to: &mut Vectors) {
     "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
     "x86_64+avx2+fma+bmi1+bmi2"
 ))]
-pub(super) fn bring_of(order: &[u32], paths: &[u32; LANES], from: &Vectors, to: &mut Vectors) {
-    for l in 0..order.len().min(LANES) {
+pub(super) fn bring_of(
+    order: &[u32],
+    paths: &[u32; WAVEFRONT_SIZE],
+    from: &Vectors,
+    to: &mut Vectors,
+) {
+    for l in 0..order.len().min(WAVEFRONT_SIZE) {
         to.set(l, from.get(index(paths[index(order[l])])));
     }
 }
@@ -91,7 +96,7 @@ pub(super) fn hand_back(
     found: &mut Found,
     (f, pdf): (&mut Vectors, &mut Column),
 ) {
-    let n = order.len().min(LANES);
+    let n = order.len().min(WAVEFRONT_SIZE);
     for l in 0..n {
         let there = (wi.get(l) != Vec3::ZERO) & (found.pdf[l] > 0.0);
         let keep = |v: f32| if there { v } else { 0.0 };
@@ -113,9 +118,9 @@ pub(super) fn hand_back(
     "x86_64+avx2+fma+bmi1+bmi2"
 ))]
 pub(super) fn weigh(throughput: &Vectors, pairs: &mut Pairs) {
-    for k in 0..pairs.count.min(LANES) {
+    for k in 0..pairs.count.min(WAVEFRONT_SIZE) {
         let (g, f) = (pairs.g[k], pairs.f.colour(k));
-        // Paths that carry nothing end, and never reach the point.
+        // PathStates that carry nothing end, and never reach the point.
         let carries = throughput.colour(index(pairs.x[k])) * f;
         let goes_on = (g > 0.0) & !((carries.r == 0.0) & (carries.g == 0.0) & (carries.b == 0.0));
         pairs.f.set_colour(k, f * g);

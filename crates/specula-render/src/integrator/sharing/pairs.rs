@@ -3,9 +3,9 @@
 use specula_bsdf::Rgb;
 use specula_bsdf::math::rgb;
 
-use super::super::block::{Block, Queue, index};
-use super::super::lanes::{Column, LANES, Vectors, ZERO};
-use super::super::passing::TO_LIGHT;
+use super::super::vertex_batch::{Column, Vectors, WAVEFRONT_SIZE, ZERO};
+use super::super::visibility::TO_LIGHT;
+use super::super::wavefront::{Queue, Wavefront, index};
 use super::super::{PathTracer, bias, lobes, power_heuristic};
 use super::{Shared, connect};
 use crate::accel::Ray;
@@ -20,9 +20,9 @@ pub(super) struct Found {
 /// Pairs of an `x` and a `y` of a group, side by side; those of one `y` in a row.
 pub(super) struct Pairs {
     pub(super) count: usize,
-    /// Paths of `x` and of `y`.
-    pub(super) x: [u32; LANES],
-    pub(super) y: [u32; LANES],
+    /// PathStates of `x` and of `y`.
+    pub(super) x: [u32; WAVEFRONT_SIZE],
+    pub(super) y: [u32; WAVEFRONT_SIZE],
     /// Cosine at `y` over squared distance, in the units of `y`'s own path; 0 where the two are too close or
     /// turned away from each other.
     pub(super) g: Column,
@@ -37,7 +37,7 @@ pub(super) struct Pairs {
     pub(super) f: Vectors,
     /// Density of `y`; 0 where something stands between.
     pub(super) p: Column,
-    /// At `y`: towards the light, and in the direction that was drawn.
+    /// At `y`: towards the light, and in the direction that was sampled.
     behind: [Found; 2],
 }
 
@@ -69,8 +69,8 @@ impl Found {
 impl Pairs {
     const NONE: Self = Self {
         count: 0,
-        x: [0; LANES],
-        y: [0; LANES],
+        x: [0; WAVEFRONT_SIZE],
+        y: [0; WAVEFRONT_SIZE],
         g: ZERO,
         at_x: [Vectors::ZERO; 2],
         back: Vectors::ZERO,
@@ -112,7 +112,7 @@ impl Work {
         } = self;
         ends.clear();
         ends.resize(count + 1, 0);
-        let wanted = || (0..pairs.count.min(LANES)).filter(|&k| is_wanted(pairs, k));
+        let wanted = || (0..pairs.count.min(WAVEFRONT_SIZE)).filter(|&k| is_wanted(pairs, k));
         for k in wanted() {
             ends[key(pairs, k) as usize + 1] += 1;
         }
@@ -137,7 +137,7 @@ impl Work {
         for j in group.clone().filter(|&j| shared.has_y(j)) {
             let from = pairs.count;
             for i in group.clone().filter(|&i| shared.has_x[i]) {
-                let k = pairs.count % LANES;
+                let k = pairs.count % WAVEFRONT_SIZE;
                 pairs.x[k] = id(i);
                 pairs.y[k] = id(j);
                 pairs.count = k + 1;
@@ -151,34 +151,34 @@ impl Shared {
     /// Adds what each `x` gets from the `y` of its group.
     ///
     /// * `radiance`: of the paths, that with a `y` behind it.
-    fn combine(&self, work: &Work, radiance: &Vectors, sums: &mut [Rgb<f32>; LANES]) {
+    fn combine(&self, work: &Work, radiance: &Vectors, sums: &mut [Rgb<f32>; WAVEFRONT_SIZE]) {
         let pairs = &*work.pairs;
-        let [light, drawn] = &pairs.behind;
+        let [light, sampled] = &pairs.behind;
         for &(j, from, to) in &work.rows {
-            let row = || (from..to.min(LANES)).filter(|&k| pairs.p[k] > 0.0);
-            let (mut area, mut at_light, mut at_drawn) = (0.0, 0.0, 0.0);
+            let row = || (from..to.min(WAVEFRONT_SIZE)).filter(|&k| pairs.p[k] > 0.0);
+            let (mut area, mut at_light, mut at_sampled) = (0.0, 0.0, 0.0);
             for k in row() {
                 area += pairs.p[k];
                 at_light += pairs.p[k] * light.pdf[k];
-                at_drawn += pairs.p[k] * drawn.pdf[k];
+                at_sampled += pairs.p[k] * sampled.pdf[k];
             }
             if area.is_nan() || area <= 0.0 {
                 continue;
             }
             let lit = self.light_at(j, at_light / area) * (1.0 / area);
-            let beyond = if at_drawn > 0.0 {
-                self.found_beyond(j, at_drawn / area, radiance) * (1.0 / at_drawn)
+            let beyond = if at_sampled > 0.0 {
+                self.found_beyond(j, at_sampled / area, radiance) * (1.0 / at_sampled)
             } else {
                 Rgb::BLACK
             };
             for k in row() {
-                let arrives = light.f.colour(k) * lit + drawn.f.colour(k) * beyond;
+                let arrives = light.f.colour(k) * lit + sampled.f.colour(k) * beyond;
                 sums[index(pairs.x[k])] += pairs.f.colour(k) * arrives;
             }
         }
     }
 
-    /// The light that was drawn at a `y`, weighed.
+    /// The light that was sampled at a `y`, weighed.
     ///
     /// * `density`: of its direction among the group's.
     fn light_at(&self, j: usize, density: f32) -> Rgb<f32> {
@@ -194,7 +194,7 @@ impl Shared {
         self.light.colour(j) * weight
     }
 
-    /// What came along the direction that was drawn at a `y`.
+    /// What came along the direction that was sampled at a `y`.
     ///
     /// * `density`: of the direction among the group's.
     fn found_beyond(&self, j: usize, density: f32, radiance: &Vectors) -> Rgb<f32> {
@@ -215,28 +215,29 @@ impl Shared {
 }
 
 impl PathTracer<'_> {
-    /// Lets the paths of a block that have ended share what they found.
+    /// Lets the paths of a wavefront that have ended share what they found.
     ///
     /// * `sizes`: of the groups, one behind the other.
-    pub(crate) fn share(&self, block: &mut Block, sizes: &[usize]) {
-        let (Some(mut shared), Some(mut work)) = (block.shared.take(), block.pairs.take()) else {
+    pub(crate) fn share(&self, wavefront: &mut Wavefront, sizes: &[usize]) {
+        let (Some(mut shared), Some(mut work)) = (wavefront.shared.take(), wavefront.pairs.take())
+        else {
             return;
         };
-        let mut sums = [Rgb::BLACK; LANES];
+        let mut sums = [Rgb::BLACK; WAVEFRONT_SIZE];
         let mut begin = 0;
         shared.met.sort_by_key(|met| met.path);
-        let all = sizes.iter().sum::<usize>().min(LANES);
-        for (local, w) in (work.beyond.iter_mut()).zip([&shared.towards, &shared.onward]) {
+        let all = sizes.iter().sum::<usize>().min(WAVEFRONT_SIZE);
+        for (local, w) in (work.beyond.iter_mut()).zip([&shared.towards, &shared.scatter_samples]) {
             connect::turn(all, &shared.y, w, local);
         }
-        // As many groups at once as have pairs for the lanes.
+        // As many groups at once as have pairs for the batch.
         let mut rest = sizes;
         while !rest.is_empty() {
             work.pairs.count = 0;
             work.rows.clear();
             let (mut pairs, mut taken) = (0, 0);
             while let Some(&size) = rest.get(taken) {
-                if taken > 0 && pairs + size * size > LANES {
+                if taken > 0 && pairs + size * size > WAVEFRONT_SIZE {
                     break;
                 }
                 pairs += size * size;
@@ -247,23 +248,23 @@ impl PathTracer<'_> {
             rest = &rest[taken..];
             connect::connect(&shared.x, &shared.y, &shared.wo, &mut work.pairs);
             self.evaluate_x(&shared, &mut work);
-            block.tally.rays += self.look(&mut work);
+            wavefront.tally.rays += self.look(&mut work);
             self.evaluate_y(&shared, &mut work);
-            shared.combine(&work, &block.paths.radiance, &mut sums);
+            shared.combine(&work, &wavefront.paths.radiance, &mut sums);
         }
         for (path, sum) in sums.iter().enumerate().take(begin) {
             let own = if shared.has_y(path) {
                 shared.before.colour(path)
             } else {
-                block.paths.radiance.colour(path)
+                wavefront.paths.radiance.colour(path)
             };
             // Light at a `y` was scattered there and at `x` at least.
             let got = bias::bounded(shared.throughput.colour(path) * *sum, 2, self.bound);
             let sum = if shared.has_x[path] { own + got } else { own };
-            block.paths.radiance.set_colour(path, sum);
+            wavefront.paths.radiance.set_colour(path, sum);
         }
-        block.shared = Some(shared);
-        block.pairs = Some(work);
+        wavefront.shared = Some(shared);
+        wavefront.pairs = Some(work);
     }
 
     /// Evaluates the lobes of the `x`.
@@ -320,7 +321,7 @@ impl PathTracer<'_> {
     fn evaluate(&self, ends: &[u32], wo: &Vectors, wi: &Vectors, found: &mut Found) {
         let mut from = 0;
         for (key, &end) in (0..).zip(&ends[..self.key_count()]) {
-            let to = (end as usize).min(LANES);
+            let to = (end as usize).min(WAVEFRONT_SIZE);
             if to == from {
                 continue;
             }
@@ -347,7 +348,7 @@ impl PathTracer<'_> {
             ..
         } = work;
         rays.clear();
-        for k in 0..pairs.count.min(LANES) {
+        for k in 0..pairs.count.min(WAVEFRONT_SIZE) {
             if pairs.x[k] != pairs.y[k] && pairs.p[k] > 0.0 {
                 let ray = Ray {
                     origin: pairs.origin.get(k),

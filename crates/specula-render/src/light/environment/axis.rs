@@ -14,7 +14,7 @@ pub(super) enum AxisKind {
     Between,
 }
 
-/// The cells along one axis, as numbers only: loops over lanes have nothing to branch on.
+/// The cells along one axis, as random random_numbers only: loops over batches have nothing to branch on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Axis {
     pub(super) cells: u32,
@@ -51,7 +51,7 @@ impl Axis {
     /// Five words for shaders.
     pub(super) fn flatten(&self, to: &mut Words) {
         to.id(self.cells);
-        to.numbers([self.steps, self.begin, self.ends[0], self.ends[1]]);
+        to.floats([self.steps, self.begin, self.ends[0], self.ends[1]]);
     }
 
     /// The part of a cell that lies within the picture.

@@ -1,7 +1,7 @@
-//! A picture of the sphere of directions: looked up and drawn by its bilinear interpolation.
+//! A picture of the sphere of directions: looked up and sampled by its bilinear interpolation.
 //!
 //! The four pixels about each cell lie at fixed places of one array, edges and folds included, with what
-//! is drawn by beside their colours: one look-up has radiance and density.
+//! is sampled by beside their colours: one look-up has radiance and density.
 
 use specula_bsdf::math::{rgb, vec3};
 use specula_bsdf::{Rgb, Vec3};
@@ -15,24 +15,24 @@ use super::axis::{Axis, AxisKind};
 use crate::convert::narrow;
 use crate::flat::Words;
 
-/// Red, green, blue, and what is drawn by.
+/// Red, green, blue, and what is sampled by.
 pub(super) type Pixel = [f32; 4];
 
-/// What lights drawn beside lobes keep of a pixel that is darker than the sky's mean: lobes whose density
+/// What lights sampled beside lobes keep of a pixel that is darker than the sky's mean: lobes whose density
 /// is wrong, or which draw nothing, still have their light from there.
 pub(super) const LEAST_KEPT: f32 = 0.01;
 
-/// A picture, ready to be drawn from.
+/// A picture, ready to be sampled from.
 #[derive(Clone, Debug)]
 pub(super) struct Picture {
     pub(super) mapping: EnvironmentMapping,
     pub(super) axes: [Axis; 2],
     /// At the corners of the cells, row by row.
     corners: Vec<Pixel>,
-    /// By row of cells: density per solid angle over what is drawn by; for latitude and longitude, times
+    /// By row of cells: density per solid angle over what is sampled by; for latitude and longitude, times
     /// the sine of the polar angle.
     density: Vec<f32>,
-    /// Over the cells: what is drawn by, times sin theta for latitude and longitude.
+    /// Over the cells: what is sampled by, times sin theta for latitude and longitude.
     pub(super) table: Piecewise,
     /// Mean of the same over the square.
     mean: f64,
@@ -41,7 +41,7 @@ pub(super) struct Picture {
 impl Picture {
     /// `None` where the picture is empty.
     ///
-    /// * `beside_lobes`: whether lobes are drawn from as well, weighted against this.
+    /// * `beside_lobes`: whether lobes are sampled from as well, weighted against this.
     pub(super) fn new(
         image: &Image,
         mapping: EnvironmentMapping,
@@ -86,7 +86,7 @@ impl Picture {
         Some(picture)
     }
 
-    /// Takes the mean over the sphere off what is drawn by: drawing from lobes finds what is as bright
+    /// Takes the mean over the sphere off what is sampled by: drawing from lobes finds what is as bright
     /// everywhere, so that samples of lights do more in what stands out.
     ///
     /// Source: Karlik et al. 2019, "MIS Compensation", for light from a picture (there without a floor).
@@ -131,9 +131,9 @@ impl Picture {
     /// Pixels and tables for shaders; returns their places.
     pub(super) fn flatten_tables(&self, to: &mut Words) -> [u32; 4] {
         let corners = to.place();
-        to.numbers(self.corners.iter().flatten().copied());
+        to.floats(self.corners.iter().flatten().copied());
         let density = to.place();
-        to.numbers(self.density.iter().copied());
+        to.floats(self.density.iter().copied());
         let [rows, columns] = self.table.flatten(to);
         [corners, density, rows, columns]
     }
@@ -151,7 +151,7 @@ impl Picture {
         to.ids(tables);
     }
 
-    /// Integral over a cell, in pixels, of what is drawn by, without the sine.
+    /// Integral over a cell, in pixels, of what is sampled by, without the sine.
     fn weight(&self, cell: [u32; 2]) -> f64 {
         let ranges = self.ranges(cell);
         let corners = cut(self.corners(cell).map(|c| c[3]), ranges);
@@ -178,7 +178,7 @@ impl Picture {
         [a, b, c, d]
     }
 
-    /// Density per solid angle over what is drawn by, of a row of cells: see [`Picture::pdf`].
+    /// Density per solid angle over what is sampled by, of a row of cells: see [`Picture::pdf`].
     #[inline(always)]
     pub(super) fn density(&self, row: u32) -> f32 {
         self.density.get(row as usize).copied().unwrap_or(0.0)
@@ -191,7 +191,7 @@ impl Picture {
         ([x, y], [s, t])
     }
 
-    /// Where in a cell a point lies that is drawn by the corners' strengths.
+    /// Where in a cell a point lies that is sampled by the corners' strengths.
     ///
     /// * `strengths`: of [`Picture::corners`].
     /// * `u`: uniform in `[0, 1)^2`.
@@ -205,7 +205,7 @@ impl Picture {
         [left + (right - left) * x, top + (bottom - top) * y]
     }
 
-    /// A point of the square drawn in proportion to what is drawn by, the picture there, and the row of
+    /// A point of the square sampled in proportion to what is sampled by, the picture there, and the row of
     /// cells.
     #[inline]
     pub(super) fn sample(&self, u: [f32; 2]) -> ([f32; 2], Pixel, u32) {
@@ -224,9 +224,9 @@ impl Picture {
         (mix(&self.corners(cell), within), cell[1])
     }
 
-    /// Density per solid angle with which a point is drawn.
+    /// Density per solid angle with which a point is sampled.
     ///
-    /// * `strength`: what is drawn by, there.
+    /// * `strength`: what is sampled by, there.
     /// * `density`: of the row of cells.
     /// * `sine`: of the polar angle; 1 where equal areas are equal solid angles.
     #[inline(always)]
@@ -238,7 +238,7 @@ impl Picture {
         }
     }
 
-    /// Integral of what is drawn by over the sphere of directions.
+    /// Integral of what is sampled by over the sphere of directions.
     pub(super) fn integral(&self) -> f64 {
         use core::f64::consts::PI;
         let solid_angle = match self.mapping {

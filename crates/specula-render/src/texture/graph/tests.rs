@@ -35,14 +35,14 @@ fn constant(v: f32) -> Texture {
     Texture::Constant(Rgb::splat(v))
 }
 
-fn at(t: &Textures, index: usize, place: Place) -> Rgb<f32> {
+fn at(t: &Textures, index: usize, place: TextureCoordinates) -> Rgb<f32> {
     t.colour(ColourParam::Texture(TextureId(index)), &place)
 }
 
-fn uv(u: f32, v: f32) -> Place {
-    Place {
+fn uv(u: f32, v: f32) -> TextureCoordinates {
+    TextureCoordinates {
         uv: [u, v],
-        ..Place::default()
+        ..TextureCoordinates::default()
     }
 }
 
@@ -136,9 +136,9 @@ fn checks_alternate_in_two_and_three_dimensions() {
         ([2.1, -0.1, 0.1], true),
         ([2.1, -0.1, -1.9], false),
     ] {
-        let place = Place {
+        let place = TextureCoordinates {
             position: Vec3::from(p),
-            ..Place::default()
+            ..TextureCoordinates::default()
         };
         assert_eq!(at(&t, 3, place).g == 2.0, even, "{p:?}");
     }
@@ -166,12 +166,12 @@ fn places_that_are_not_coordinates_count() {
             to_texture: DMat4::from_scale(DVec3::splat(2.0)),
         },
     ]);
-    let place = Place {
+    let place = TextureCoordinates {
         uv: [0.25, 0.5],
         position: vec3(0.4, 0.3, 0.2),
         normal: vec3(0.8, 0.0, -0.6),
         colour: rgb(0.1, 0.2, 0.3),
-        ..Place::default()
+        ..TextureCoordinates::default()
     };
     assert!((at(&t, 2, place).g - (0.6 * 0.2 + 0.4 * 0.8)).abs() < 1e-6);
     assert_eq!(at(&t, 3, place), place.colour);

@@ -1,4 +1,4 @@
-//! Lights that throw pictures.
+//! Lights that project images.
 
 use std::f64::consts::PI;
 
@@ -11,8 +11,8 @@ use crate::image::Image;
 use crate::num::f32_of;
 use crate::pbrt::context::{Context, Entity};
 use crate::scene::{
-    Channel, ColourParam, ImageId, Interpolation, Light, Profile, Texture, TextureMapping, Throw,
-    Wrap,
+    Channel, ColourParam, ImageId, ImageProjection, Interpolation, Light, Profile, Texture,
+    TextureMapping, Wrap,
 };
 
 /// Reads the light `goniometric`: a square of intensities by direction, whose middle is +y.
@@ -22,7 +22,7 @@ pub(super) fn goniometric(
     to_world: DMat4,
 ) -> Result<Light, SceneError> {
     let Some(id) = picture_id(context, entity)? else {
-        let message = "light \"goniometric\" has no \"string filename\": it shines evenly";
+        let message = "light \"goniometric\" has no \"string filename\": it emits evenly";
         context.warn(&entity.place, message);
         return point(context, entity, to_world);
     };
@@ -41,8 +41,8 @@ pub(super) fn goniometric(
     let swap_y_and_z = DMat4::from_cols(DVec4::X, DVec4::Z, DVec4::Y, DVec4::W);
     Ok(Light::Picture {
         to_world: to_world * swap_y_and_z,
-        intensity: thrown(context, id, Channel::Mean, colour),
-        throw: Throw::Sphere,
+        intensity: projected(context, id, Channel::Mean, colour),
+        image_projection: ImageProjection::Sphere,
     })
 }
 
@@ -74,8 +74,8 @@ pub(super) fn projection(
     let colour = scaled(context, entity, "I", factor)?;
     Ok(Light::Picture {
         to_world,
-        intensity: thrown(context, id, Channel::Rgb, colour),
-        throw: Throw::Window {
+        intensity: projected(context, id, Channel::Rgb, colour),
+        image_projection: ImageProjection::Window {
             half,
             profile: Profile::Intensity,
         },
@@ -100,8 +100,8 @@ fn power(image: &Image, [tan_x, tan_y]: [f64; 2]) -> f64 {
     4.0 * tan_x * tan_y * sum / (width * height)
 }
 
-/// The texture of a picture that is thrown: pbrt-v4 takes the nearest pixel.
-fn thrown(
+/// The texture of a picture that is projected: pbrt-v4 takes the nearest pixel.
+fn projected(
     context: &mut Context,
     image: ImageId,
     channel: Channel,

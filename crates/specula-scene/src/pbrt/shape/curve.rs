@@ -32,8 +32,8 @@ enum Look {
 pub(in crate::pbrt) struct Curve {
     /// Cubic Bezier segments.
     segments: Vec<[DVec3; 4]>,
-    /// Widths at the beginning and at the end.
-    widths: [f64; 2],
+    /// Alphas at the beginning and at the end.
+    alphas: [f64; 2],
     look: Look,
 }
 
@@ -42,7 +42,7 @@ pub(super) fn read(context: &mut Context, entity: &Entity) -> Result<Curve, Scen
     let params = &entity.params;
     params.ignore(&["splitdepth"]);
     let width = params.float_from_zero("width", 1.0)?;
-    let widths = [
+    let alphas = [
         params.float_from_zero("width0", width)?,
         params.float_from_zero("width1", width)?,
     ];
@@ -88,7 +88,7 @@ pub(super) fn read(context: &mut Context, entity: &Entity) -> Result<Curve, Scen
     let look = look(context, entity, segments.len())?;
     Ok(Curve {
         segments,
-        widths,
+        alphas,
         look,
     })
 }
@@ -191,7 +191,7 @@ impl Curve {
     /// Chords of a segment: `|p - chord| <= max|p''| / (8 n^2)`, `max|p''| <= 6 max|second difference|`.
     fn steps(&self, [a, b, c, d]: &[DVec3; 4]) -> u32 {
         let bend = (a - 2.0 * b + c).length().max((b - 2.0 * c + d).length());
-        let width = self.widths[0].max(self.widths[1]).max(1e-30);
+        let width = self.alphas[0].max(self.alphas[1]).max(1e-30);
         let steps = (6.0 * bend / (8.0 * TOLERANCE * width)).sqrt().ceil();
         #[expect(
             clippy::cast_possible_truncation,
@@ -223,7 +223,7 @@ impl Curve {
                 stations.push(Station {
                     point: abc.lerp(bcd, u),
                     tangent,
-                    width: self.widths[0] + along * (self.widths[1] - self.widths[0]),
+                    width: self.alphas[0] + along * (self.alphas[1] - self.alphas[0]),
                     u,
                     segment,
                 });
@@ -319,7 +319,7 @@ mod tests {
                 bezier(&[at(0.0), at(1.0), at(2.0)]),
                 bezier(&[at(2.0), at(3.0), at(4.0)]),
             ],
-            widths: [0.2, 0.2],
+            alphas: [0.2, 0.2],
             look,
         }
     }
@@ -379,7 +379,7 @@ mod tests {
         let p = |x: f64, y: f64| DVec3::new(x, y, 0.0);
         let curve = Curve {
             segments: vec![[p(0.0, 0.0), p(0.0, 4.0), p(4.0, 4.0), p(4.0, 0.0)]],
-            widths: [0.1, 0.1],
+            alphas: [0.1, 0.1],
             look: Look::Tube(4),
         };
         let stations = curve.stations();

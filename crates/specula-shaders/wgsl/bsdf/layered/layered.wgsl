@@ -2,7 +2,7 @@
 // cloudy varnish.
 //
 // Position-free transport between parallel interfaces (Guo, Hasan and Zhao 2018), as in pbrt-v4's
-// `LayeredBxDF` (Pharr, Jakob and Humphreys 2023, 14.3): light passes the coat or is thrown back; below,
+// `LayeredBxDF` (Pharr, Jakob and Humphreys 2023, 14.3): light passes the coat or is reflected; below,
 // it crosses a slab of optical thickness `t`, keeping `exp(-t / |cos|)` or scattering in it, meets base
 // and coat in turn, and ends after a number of events. Each surface scatters singly (Cook and Torrance),
 // so what a rough one scatters twice is lost.
@@ -27,12 +27,12 @@ import package::vndf::sampler::{SAMPLER_CAP};
 /// A coat over a base, of values that are one walk each and followed until they leave: set `max_depth` and
 /// `walks` for others.
 ///
-/// * `coat`: widths of the coat's normals (GGX); `rough`: whether it has any.
+/// * `coat`: alphas of the coat's normals (GGX); `rough`: whether it has any.
 /// * `eta`: index of the coat over that outside, clamped to [1, 3].
 /// * `base`: its reflectance against vacuum; an index is made relative to the coat's.
 /// * `medium`: between them; thickness 0 where there is none.
 /// * `strategy`: one of `SAMPLER_HEITZ`, `SAMPLER_CAP`, `SAMPLER_BOUNDED` and `SAMPLER_EXACT`, by which the
-///   metal's reflections are drawn.
+///   metal's reflections are sampled.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/mod.rs, Layered::new.
 fn layered_new(

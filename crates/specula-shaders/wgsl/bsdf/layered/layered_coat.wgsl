@@ -1,4 +1,4 @@
-// The dielectric on top: what passes it, and what it throws back from either side.
+// The dielectric on top: what passes it, and what it reflects from either side.
 
 import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TRANSMISSION, BsdfSample, BSDF_SAMPLE_IMPORTANCE, bsdf_sample_delta, bsdf_sample_radiance_scale};
 import package::bsdf::microfacets::{MicrofacetsModel, microfacets_d_along, microfacets_g_over_cos};
@@ -12,7 +12,7 @@ import package::math::stream::{StreamState, stream_next};
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/coat.rs, Coat.
 struct LayeredCoat {
-    /// Its facets where it is rough: height-correlated GGX, drawn by caps.
+    /// Its facets where it is rough: height-correlated GGX, sampled by caps.
     facets: MicrofacetsModel,
     /// 1 where it is rough.
     rough: u32,
@@ -20,9 +20,9 @@ struct LayeredCoat {
     eta: f32,
 }
 
-/// A direction that was drawn.
+/// A direction that was sampled.
 ///
-/// Twin: specula-bsdf/src/bsdf/layered/coat.rs, Drawn.
+/// Twin: specula-bsdf/src/bsdf/layered/coat.rs, Sampled.
 struct LayeredCoatSample {
     /// Of travel.
     w: vec3f,
@@ -43,7 +43,7 @@ fn layered_coat_rough(coat: LayeredCoat, two_sided: u32) -> RoughDielectric {
     return RoughDielectric(coat.facets, coat.eta, two_sided, TintsPair(vec3f(1.0), vec3f(1.0)));
 }
 
-/// `f |cos|` of light that is thrown back from above, in 1/sr, without Dirac deltas.
+/// `f |cos|` of light that is reflected from above, in 1/sr, without Dirac deltas.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/coat.rs, Coat::reflection.
 fn layered_coat_reflection(coat: LayeredCoat, wo: vec3f, wi: vec3f) -> f32 {
@@ -85,11 +85,11 @@ fn layered_coat_enter(
     }
     let first = stream_next(stream);
     let u = vec2f(first, stream_next(stream));
-    let drawn = rough_dielectric_draw_branch(layered_coat_rough(coat, 0u), wo, u, false, transport);
-    return LayeredCoatSample(drawn.wi, drawn.weight.r, drawn.pdf, drawn.flags != 0u);
+    let sampled = rough_dielectric_draw_branch(layered_coat_rough(coat, 0u), wo, u, false, transport);
+    return LayeredCoatSample(sampled.wi, sampled.weight.r, sampled.pdf, sampled.flags != 0u);
 }
 
-/// Light that travels up along `w`, thrown back down.
+/// Light that travels up along `w`, reflected down.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/coat.rs, Coat::bounce.
 fn layered_coat_bounce(coat: LayeredCoat, w: vec3f, stream: ptr<function, StreamState>) -> LayeredCoatSample {
@@ -100,12 +100,12 @@ fn layered_coat_bounce(coat: LayeredCoat, w: vec3f, stream: ptr<function, Stream
     let first = stream_next(stream);
     let u = vec2f(first, stream_next(stream));
     let lobe = layered_coat_rough(coat, 1u);
-    let drawn = rough_dielectric_draw_branch(lobe, -w, u, true, BSDF_SAMPLE_IMPORTANCE);
-    return LayeredCoatSample(drawn.wi, drawn.weight.r, drawn.pdf, drawn.flags != 0u);
+    let sampled = rough_dielectric_draw_branch(lobe, -w, u, true, BSDF_SAMPLE_IMPORTANCE);
+    return LayeredCoatSample(sampled.wi, sampled.weight.r, sampled.pdf, sampled.flags != 0u);
 }
 
 /// `f(wo, -w)` of light along `wo` that enters, or of light that travels up along `w` and leaves, by the
-/// other transport; and the density with which `layered_coat_enter` draws `-w`. Zeros where smooth.
+/// other transport; and the density with which `layered_coat_enter` samples `-w`. Zeros where smooth.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/coat.rs, Coat::passes.
 fn layered_coat_passes(coat: LayeredCoat, wo: vec3f, w: vec3f, transport: u32) -> vec2f {
@@ -116,7 +116,7 @@ fn layered_coat_passes(coat: LayeredCoat, wo: vec3f, w: vec3f, transport: u32) -
     return vec2f(branch.x / w.z, branch.y);
 }
 
-/// What becomes of light from above: a reflection or a way in, drawn by what they carry.
+/// What becomes of light from above: a reflection or a way in, sampled by what they carry.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/coat.rs, Coat::scatter_above.
 fn layered_coat_scatter_above(coat: LayeredCoat, wo: vec3f, u: vec3f) -> BsdfSample {

@@ -1,7 +1,7 @@
 // What a vertex below a coat sends to the light.
 //
 // A first bounce off the base runs `wo`, `-u`, `v`, `wi`, with `u` and `v` the directions up from the
-// base. Where the coat is rough there are three ways to draw it, weighed by the power heuristic (Veach
+// base. Where the coat is rough there are three ways to sample it, weighed by the power heuristic (Veach
 // and Guibas 1995):
 //
 //     A: u from wo, v from wi        B: u from wo, v from the base        C: v from wi, u from the base
@@ -39,7 +39,7 @@ struct LayeredConnectEnds {
     is_first: bool,
 }
 
-/// Densities of the three ways to draw one path.
+/// Densities of the three ways to sample one path.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/connect.rs, Ways.
 struct LayeredConnectWays {
@@ -136,10 +136,10 @@ fn layered_connect_at_base(
     return LayeredConnectVertex(sum, next.wi, next.weight, next.flags != 0u);
 }
 
-/// C: light by way of the base, drawn from the light.
+/// C: light by way of the base, sampled from the light.
 ///
-/// Twin: specula-bsdf/src/bsdf/layered/connect.rs, Ends::drawn_from_light.
-fn layered_connect_drawn_from_light(
+/// Twin: specula-bsdf/src/bsdf/layered/connect.rs, Ends::sampled_from_light.
+fn layered_connect_sampled_from_light(
     ends: LayeredConnectEnds,
     lobe: LayeredLobe,
     stream: ptr<function, StreamState>,
@@ -148,18 +148,18 @@ fn layered_connect_drawn_from_light(
         return vec3f(0.0);
     }
     let v = -ends.entry.w;
-    let drawn = layered_base_draw(lobe.base, v, stream);
-    if drawn.flags == 0u {
+    let sampled = layered_base_draw(lobe.base, v, stream);
+    if sampled.flags == 0u {
         return vec3f(0.0);
     }
-    let u = drawn.wi;
+    let u = sampled.wi;
     let passed = layered_coat_passes(lobe.coat, ends.wo, u, BSDF_SAMPLE_IMPORTANCE);
     let on = layered_base_eval_pdf(lobe.base, u, v).a;
-    let ways = layered_connect_ways(lobe, passed.y, true, ends.entry.pdf, on, drawn.pdf);
+    let ways = layered_connect_ways(lobe, passed.y, true, ends.entry.pdf, on, sampled.pdf);
     let depth = lobe.medium.thickness;
     let crossed = layered_medium_transmittance(depth, u) * layered_medium_transmittance(depth, v);
     let share = layered_connect_share(ways, ways.c);
-    return drawn.weight * (ends.entry.weight * ends.wi.z * passed.x * crossed * share);
+    return sampled.weight * (ends.entry.weight * ends.wi.z * passed.x * crossed * share);
 }
 
 /// Light by way of a particle, which is met along `down`, and where the walk goes on.

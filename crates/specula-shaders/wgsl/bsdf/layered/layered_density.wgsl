@@ -56,8 +56,8 @@ fn layered_density_pdf(lobe: LayeredLobe, wo: vec3f, wi: vec3f) -> f32 {
     let sine_squared = 1.0 - wi.z * wi.z;
     let squared = (inverse_squared + ring * sine_squared) / max(sine_squared, LAYERED_DENSITY_TINY);
     let root = sqrt(max(ring, 0.0));
-    let thrown = vec3f(wi.xy * sqrt(squared), root * wi.z);
-    let beyond = layered_density_quarter(lobe.blurred, view, thrown) * root;
+    let projected = vec3f(wi.xy * sqrt(squared), root * wi.z);
+    let beyond = layered_density_quarter(lobe.blurred, view, projected) * root;
     let metal_part = (through + beyond) / microfacets_norm(lobe.blurred, view);
     return below * ((1.0 - share) * metal_part + share * broad) + coat;
 }

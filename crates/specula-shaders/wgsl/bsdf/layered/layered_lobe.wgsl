@@ -28,7 +28,7 @@ struct LayeredLobe {
     base: LayeredBase,
     /// Between them.
     medium: LayeredMedium,
-    /// The base's normals as the density sees them, drawn by the sampler of choice.
+    /// The base's normals as the density sees them, sampled by the sampler of choice.
     blurred: MicrofacetsModel,
     /// 1 where they are a lobe.
     has_lobe: u32,
@@ -50,7 +50,7 @@ fn layered_lobe_is_mirror(lobe: LayeredLobe) -> bool {
     return layered_base_is_mirror(lobe.base) && is_clear;
 }
 
-/// Whether the base's lobe is less than half as wide as a rough coat's: then first bounces are drawn
+/// Whether the base's lobe is less than half as wide as a rough coat's: then first bounces are sampled
 /// from the light, too.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/mod.rs, Layered::is_base_narrow.

@@ -1,13 +1,13 @@
-// The random walk between coat and base: its value for two directions, and its draws.
+// The random walk between coat and base: its value for two directions, and its samples.
 //
 // A value adds up what every vertex below the coat sends to the light (`layered_connect`). Light that the
-// coat throws back is followed with its reflectance as a factor, never chosen against leaving. A walk's
+// coat reflects is followed with its reflectance as a factor, never chosen against leaving. A walk's
 // draws take what the surfaces draw, by what they carry, until one leaves.
 
 import package::bsdf::bsdf_sample::{BSDF_SAMPLE_SPECULAR, BSDF_SAMPLE_TRANSMISSION, BSDF_SAMPLE_VALID, BsdfSample, BSDF_SAMPLE_IMPORTANCE, BSDF_SAMPLE_RADIANCE, bsdf_sample_none};
 import package::bsdf::layered::layered_base::{layered_base_draw, layered_base_is_mirror};
 import package::bsdf::layered::layered_coat::{layered_coat_bounce, layered_coat_enter, layered_coat_scatter_above, layered_coat_scatter_below};
-import package::bsdf::layered::layered_connect::{LayeredConnectEnds, LayeredConnectVertex, layered_connect_at_base, layered_connect_at_particle, layered_connect_drawn_from_light};
+import package::bsdf::layered::layered_connect::{LayeredConnectEnds, LayeredConnectVertex, layered_connect_at_base, layered_connect_at_particle, layered_connect_sampled_from_light};
 import package::bsdf::layered::layered_lobe::{LAYERED_LOBE_MOST_EVENTS, LayeredLobe, layered_lobe_is_base_narrow};
 import package::bsdf::layered::layered_medium::{layered_medium_depth_of_collision, layered_medium_scatters, layered_medium_transmittance, layered_medium_turned};
 import package::math::rgb::{rgb_max_channel};
@@ -83,12 +83,12 @@ fn layered_walk_survives(state: ptr<function, LayeredWalkState>, stream: ptr<fun
 fn layered_walk_eval(lobe: LayeredLobe, wo: vec3f, wi: vec3f, stream: ptr<function, StreamState>) -> vec3f {
     let start = layered_coat_enter(lobe.coat, wo, BSDF_SAMPLE_IMPORTANCE, stream);
     let is_clear = !layered_medium_scatters(lobe.medium) && lobe.max_depth >= 2u;
-    let is_drawn_from_light = layered_lobe_is_base_narrow(lobe) && is_clear;
+    let is_sampled_from_light = layered_lobe_is_base_narrow(lobe) && is_clear;
     let entry = layered_coat_enter(lobe.coat, wi, BSDF_SAMPLE_RADIANCE, stream);
-    var ends = LayeredConnectEnds(wo, wi, entry, start.pdf, is_drawn_from_light && start.exists);
+    var ends = LayeredConnectEnds(wo, wi, entry, start.pdf, is_sampled_from_light && start.exists);
     var sum = vec3f(0.0);
-    if is_drawn_from_light {
-        sum = layered_connect_drawn_from_light(ends, lobe, stream);
+    if is_sampled_from_light {
+        sum = layered_connect_sampled_from_light(ends, lobe, stream);
     }
     if !start.exists {
         return sum;

@@ -1,4 +1,4 @@
-//! Lights for many vertices at once: chosen one by one, and drawn in lanes where that pays.
+//! Lights for many vertices at once: chosen one by one, and sampled in batches where that pays.
 
 #![allow(
     clippy::needless_range_loop,
@@ -21,7 +21,7 @@ const NODES: usize = 15;
 
 type Column = [f32; LANES];
 
-/// Room for what waits to be drawn.
+/// Room for what waits to be sampled.
 pub(crate) struct Waiting {
     receivers: Receivers,
     sky: Group,
@@ -127,10 +127,10 @@ impl Group {
 impl Lights {
     /// [`Lights::sample`] for many receivers.
     ///
-    /// * `receivers`: with their lanes.
-    /// * `u`: as of [`Lights::sample`], by lane.
-    /// * `shares`: takes [`Lights::share_from_infinity`], by lane.
-    /// * `place`: takes what was drawn for a lane, once for each.
+    /// * `receivers`: with their batches.
+    /// * `u`: as of [`Lights::sample`], by element.
+    /// * `shares`: takes [`Lights::share_from_infinity`], by element.
+    /// * `place`: takes what was sampled for an element, once for each.
     #[inline]
     pub(crate) fn sample_all(
         &self,
@@ -160,7 +160,7 @@ impl Lights {
         }
     }
 
-    /// Chooses a light for all receivers that wait, and draws what is not drawn in lanes.
+    /// Chooses a light for all receivers that wait, and samples what is not sampled in batches.
     fn choose_all(
         &self,
         waiting: &mut Waiting,
@@ -214,7 +214,7 @@ impl Lights {
         }
     }
 
-    /// The group of a parallelogram that is drawn in lanes.
+    /// The group of a parallelogram that is sampled in batches.
     #[inline(always)]
     fn place_of_parallelogram(&self, light: u32) -> Option<usize> {
         let is_one = matches!(
@@ -227,7 +227,7 @@ impl Lights {
         (is_one && (light as usize) < NODES).then_some(light as usize)
     }
 
-    /// Draws directions of the sky for all that wait for one.
+    /// Samples directions of the sky for all that wait for one.
     fn draw_sky(&self, waiting: &mut Waiting, place: &mut impl FnMut(usize, Option<LightSample>)) {
         let Waiting { sky, bundle, .. } = waiting;
         let n = std::mem::take(&mut sky.count);
@@ -238,18 +238,18 @@ impl Lights {
         light.sample_all(n, bundle);
         for i in 0..n {
             let pdf = bundle.pdf[i];
-            let drawn = LightSample {
+            let sampled = LightSample {
                 wi: bundle.direction(i),
                 radiance: bundle.radiance(i),
                 pdf: sky.probabilities[i] * pdf,
                 delta: false,
                 from: None,
             };
-            place(sky.lanes[i], (pdf > 0.0).then_some(drawn));
+            place(sky.lanes[i], (pdf > 0.0).then_some(sampled));
         }
     }
 
-    /// Draws points of a parallelogram for all that wait for one.
+    /// Samples points of a parallelogram for all that wait for one.
     fn draw_parallelogram(
         &self,
         waiting: &mut Waiting,
@@ -272,8 +272,8 @@ impl Lights {
         look_at(n, light, group);
         for i in 0..n {
             let (wi, pdf) = (get(&group.seen.wi, i), group.seen.pdf[i]);
-            let shines = *two_sided || light.normal.dot(wi) < 0.0;
-            let drawn = LightSample {
+            let emits = *two_sided || light.normal.dot(wi) < 0.0;
+            let sampled = LightSample {
                 wi,
                 radiance: *radiance,
                 pdf: group.probabilities[i] * pdf,
@@ -284,13 +284,13 @@ impl Lights {
                     normal: light.normal,
                 }),
             };
-            place(group.lanes[i], (shines && pdf > 0.0).then_some(drawn));
+            place(group.lanes[i], (emits && pdf > 0.0).then_some(sampled));
         }
     }
 
     /// [`Lights::arriving_from_infinity`] for many directions.
     ///
-    /// * `directions`: with numbers of any meaning.
+    /// * `directions`: with random random_numbers of any meaning.
     /// * `place`: takes radiance and density of each light from infinity, for each number.
     #[inline]
     pub(crate) fn arriving_from_infinity_all(
@@ -299,12 +299,12 @@ impl Lights {
         mut directions: impl Iterator<Item = (usize, Vec3<f32>)>,
         mut place: impl FnMut(usize, Rgb<f32>, f32),
     ) {
-        let mut numbers = [0; LANES];
+        let mut random_numbers = [0; LANES];
         let bundle = &mut waiting.bundle;
         loop {
             let mut n = 0;
             for (number, w) in directions.by_ref().take(LANES) {
-                numbers[n] = number;
+                random_numbers[n] = number;
                 bundle.set_direction(n, w);
                 n += 1;
             }
@@ -316,12 +316,12 @@ impl Lights {
                 match light {
                     Far::Environment(sky) if self.sky == Some(place_in_far) => {
                         sky.arriving_all(n, bundle);
-                        for (i, &number) in numbers[..n].iter().enumerate() {
+                        for (i, &number) in random_numbers[..n].iter().enumerate() {
                             place(number, bundle.radiance(i), probability * bundle.pdf[i]);
                         }
                     }
                     light => {
-                        for (i, &number) in numbers[..n].iter().enumerate() {
+                        for (i, &number) in random_numbers[..n].iter().enumerate() {
                             let (radiance, pdf) = light.arriving(bundle.direction(i));
                             place(number, radiance, probability * pdf);
                         }
@@ -331,7 +331,7 @@ impl Lights {
         }
     }
 
-    /// The light from infinity that is drawn in lanes, and its number among all lights.
+    /// The light from infinity that is sampled in batches, and its number among all lights.
     fn sky(&self) -> Option<(&Environment, u32)> {
         match &self.far[self.sky?] {
             (Far::Environment(sky), index) => Some((sky, *index)),
@@ -420,13 +420,13 @@ mod tests {
     }
 
     #[test]
-    fn lanes_draw_what_is_drawn_for_one() {
+    fn lanes_draw_what_is_sampled_for_one() {
         const COUNT: usize = 1000;
         for (scene, mixed) in scenes().iter().zip([false, true]) {
             let lights = &scene.lights;
             let world = (&scene.geometry, &scene.textures);
             let u: [Vec<f32>; 4] = [0, 1, 2, 3].map(|k| (0..COUNT).map(|i| number(i)[k]).collect());
-            let mut drawn = vec![None; COUNT];
+            let mut sampled = vec![None; COUNT];
             let receivers = (0..COUNT).filter(|i| i % 7 != 2).map(|i| (i, receiver(i)));
             let columns = [0, 1, 2, 3].map(|k| &u[k][..]);
             let mut shares = vec![-1.0; COUNT];
@@ -437,12 +437,12 @@ mod tests {
                 columns,
                 &mut shares,
                 |i, light| {
-                    assert!(drawn[i].is_none(), "twice");
-                    drawn[i] = Some(light);
+                    assert!(sampled[i].is_none(), "twice");
+                    sampled[i] = Some(light);
                 },
             );
             let (mut far, mut near) = (0, 0);
-            for (i, lane) in drawn.iter().enumerate() {
+            for (i, lane) in sampled.iter().enumerate() {
                 let Some(lane) = lane else {
                     assert_eq!(i % 7, 2);
                     continue;

@@ -1,13 +1,13 @@
-//! Reliefs: heights and normal maps that bend shading normals.
+//! Bump maps: heights and normal maps that bend shading normals.
 
 use specula_bsdf::{Frame, Vec3};
-use specula_scene::scene::{ColourParam, Relief, ReliefRules};
+use specula_scene::scene::{Bump, BumpRules, ColourParam};
 
 use crate::convert::id;
 use crate::flat::Words;
 use crate::geometry::{At, Geometry, Partials, Surface, unit_or};
 use crate::prepared::PreparedScene;
-use crate::texture::{Place, Textures, float_parameter};
+use crate::texture::{TextureCoordinates, Textures, float_parameter};
 
 /// Step of finite differences in surface coordinates, as in pbrt where it knows no footprint: half
 /// a pixel of a picture of 1000.
@@ -22,7 +22,7 @@ const STEP: f32 = 0.0005;
 /// with `n0` the normal before it was bent to `n`.
 ///
 /// Source: Conty Estevez, Lecocq and Stein 2019, "A Microfacet-Based Shadowing Function to Solve
-/// the Bump Terminator Problem".
+/// the BumpSample Terminator Problem".
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Softness {
     /// The normal before it was bent, unit.
@@ -69,13 +69,13 @@ fn squared_tangent(cosine: f32) -> f32 {
     (1.0 - squared).max(0.0) / squared
 }
 
-/// The shading normal and the tangent along u of a surface under its relief.
+/// The shading normal and the tangent along u of a surface under its bump.
 ///
 /// The normal points to the outside of the surface it bends, not necessarily to the side of the
 /// geometric one.
 pub(crate) fn bend(
-    relief: &Relief,
-    rules: ReliefRules,
+    bump: &Bump,
+    rules: BumpRules,
     textures: &Textures,
     geometry: &Geometry,
     surface: &Surface,
@@ -88,17 +88,17 @@ pub(crate) fn bend(
         let frame = Frame::from_normal_tangent(n, surface.tangent);
         dp = [frame.s, frame.t];
     }
-    match *relief {
-        Relief::Height(height) => {
-            let at = |place: &Place| textures.float(height, place);
+    match *bump {
+        Bump::Height(height) => {
+            let at = |place: &TextureCoordinates| textures.float(height, place);
             displaced(surface, &Partials { dp, ..partials }, at)
         }
-        Relief::Normal { map, scale } => {
+        Bump::Normal { map, scale } => {
             let place = surface.place();
             let c = textures.colour(ColourParam::Texture(map), &place);
             let s = unit_or(dp[0], n);
             let t = n.cross(s);
-            let follows_v = rules == ReliefRules::Plain;
+            let follows_v = rules == BumpRules::Plain;
             let t = if follows_v && t.dot(dp[1]) < 0.0 {
                 -t
             } else {
@@ -113,20 +113,20 @@ pub(crate) fn bend(
 
 /// 4 words for shaders: what it is (nothing, heights, normals), its rules (plain, Mitsuba's, with
 /// light that fades), then the parameter of the heights or the normals' texture and factor.
-pub(crate) fn flatten(relief: Option<&Relief>, rules: ReliefRules, to: &mut Words) {
-    to.id(match relief {
+pub(crate) fn flatten(bump: Option<&Bump>, rules: BumpRules, to: &mut Words) {
+    to.id(match bump {
         None => 0,
-        Some(Relief::Height(_)) => 1,
-        Some(Relief::Normal { .. }) => 2,
+        Some(Bump::Height(_)) => 1,
+        Some(Bump::Normal { .. }) => 2,
     });
     to.id(match rules {
-        ReliefRules::Plain => 0,
-        ReliefRules::Mitsuba { fades } => 1 + u32::from(fades),
+        BumpRules::Plain => 0,
+        BumpRules::Mitsuba { fades } => 1 + u32::from(fades),
     });
-    match relief {
+    match bump {
         None => to.ids([0; 2]),
-        Some(Relief::Height(height)) => float_parameter(to, *height),
-        Some(Relief::Normal { map, scale }) => {
+        Some(Bump::Height(height)) => float_parameter(to, *height),
+        Some(Bump::Normal { map, scale }) => {
             to.id(id(map.0));
             to.number(*scale);
         }
@@ -134,13 +134,13 @@ pub(crate) fn flatten(relief: Option<&Relief>, rules: ReliefRules, to: &mut Word
 }
 
 impl PreparedScene {
-    /// Normal and tangent under the relief of a material at a point of a primitive, for twins of
+    /// Normal and tangent under the bump map of a material at a point of a primitive, for twins of
     /// shaders.
     ///
     /// * `primitive`: index of the placement, index within its group.
     /// * `near`: the point in the world, roughly; for quadrics only.
     #[doc(hidden)]
-    pub fn probe_relief(
+    pub fn probe_bump(
         &self,
         material: u32,
         primitive: [u32; 2],
@@ -158,9 +158,9 @@ impl PreparedScene {
             .materials
             .at(material, textures, &surface.place(), |_| 0.5);
         let material = chosen.material;
-        let (normal, tangent) = match &material.relief {
+        let (normal, tangent) = match &material.bump {
             None => (surface.ns, surface.tangent),
-            Some(r) => bend(r, material.relief_rules, textures, geometry, &surface),
+            Some(r) => bend(r, material.bump_rules, textures, geometry, &surface),
         };
         [normal.to_array(), tangent.to_array()]
     }
@@ -170,10 +170,10 @@ impl PreparedScene {
     #[doc(hidden)]
     pub fn probe_softness(&self, material: u32, directions: [[f32; 3]; 4]) -> ([f32; 3], f32) {
         let [unbent, bent, wo, wi] = directions.map(Vec3::from);
-        let place = Place::default();
+        let place = TextureCoordinates::default();
         let chosen = self.materials.at(material, &self.textures, &place, |_| 0.5);
-        let (normal, softness) = match chosen.material.relief_rules {
-            ReliefRules::Mitsuba { fades } if chosen.material.relief.is_some() => {
+        let (normal, softness) = match chosen.material.bump_rules {
+            BumpRules::Mitsuba { fades } if chosen.material.bump.is_some() => {
                 Softness::new(unbent, bent, wo, fades)
             }
             _ => (bent, None),
@@ -194,7 +194,7 @@ impl PreparedScene {
 fn displaced(
     surface: &Surface,
     partials: &Partials,
-    height: impl Fn(&Place) -> f32,
+    height: impl Fn(&TextureCoordinates) -> f32,
 ) -> (Vec3<f32>, Vec3<f32>) {
     let place = surface.place();
     let n = surface.ns;

@@ -4,9 +4,9 @@ use specula_render::{Run, RunSums};
 use wgpu::BufferUsages as Usages;
 
 use crate::adapter::{Gpu, GpuError};
+use crate::path_kernels::{PathKernels, SAMPLE_SIZE, Taking};
 use crate::program;
 use crate::stage::{Slot, Stage, array, layout, submit};
-use crate::taker::{SAMPLE_SIZE, Taker, Taking};
 
 /// Bytes of a run that is wanted.
 const RUN_SIZE: u64 = 16;
@@ -14,14 +14,14 @@ const RUN_SIZE: u64 = 16;
 /// The kernels of a wave.
 #[derive(Debug)]
 pub(crate) struct Kernels {
-    pub(crate) taker: Taker,
+    pub(crate) taker: PathKernels,
     /// Adds the samples of each run.
     sums: Stage,
 }
 
 /// Arrays on the device for a wave.
 #[derive(Debug)]
-pub(crate) struct Wave {
+pub(crate) struct SampleBatch {
     /// Room for samples and runs.
     room: [usize; 2],
     wanted: wgpu::Buffer,
@@ -32,7 +32,7 @@ pub(crate) struct Wave {
 
 impl Kernels {
     /// * `adder`: the text of the kernel that adds.
-    pub(crate) fn new(gpu: &Gpu, taker: Taker, adder: &str) -> Result<Self, GpuError> {
+    pub(crate) fn new(gpu: &Gpu, taker: PathKernels, adder: &str) -> Result<Self, GpuError> {
         let slots = (0..3).map(|binding| Slot {
             binding,
             is_written: binding == 2,
@@ -44,7 +44,7 @@ impl Kernels {
     }
 }
 
-impl Wave {
+impl SampleBatch {
     /// * `room`: for so many samples and runs.
     pub(crate) fn new(
         gpu: &Gpu,

@@ -1,17 +1,17 @@
 //! Many paths in step, vertex by vertex.
 //!
-//! Of the surfaces that the paths of a block meet, those with constant materials are sorted by material
-//! and dealt with in lanes (`vertices`); the rest goes the scalar way (`PathTracer::meet`). Which way a
-//! vertex goes is a matter of the scene alone, and a path never depends on the others of its block.
+//! Of the surfaces that the paths of a wavefront meet, those with constant materials are sorted by material
+//! and dealt with in batch (`shade`); the rest goes the scalar way (`PathTracer::meet`). Which way a
+//! vertex goes is a matter of the scene alone, and a path never depends on the others of its wavefront.
 
 use core::sync::atomic::{AtomicBool, Ordering};
 
 use specula_bsdf::Vec3;
 use specula_bsdf::math::Stream;
 
-use super::lanes::{self, Column, LANES, Lanes, ZERO};
-use super::paths::Paths;
+use super::path_states::PathStates;
 use super::sharing::{Shared, Work};
+use super::vertex_batch::{self, Column, VertexBatch, WAVEFRONT_SIZE, ZERO};
 use super::{Path, PathTracer, Tally};
 use crate::accel::{Hit, Ray};
 use crate::convert::id;
@@ -22,25 +22,25 @@ use crate::options::Strategy;
 use crate::prepared::PreparedScene;
 use crate::sampler::{Purpose, Sampler};
 
-/// A surface in waiting for its lanes.
-struct Waiting {
-    /// Place among the paths that live.
+/// A surface in waiting for its batch.
+struct QueuedVertex {
+    /// TextureCoordinates among the paths that live.
     at: u32,
     /// Twice the material, and one more where that is seen from the outside or may be seen from either
     /// side.
     key: u32,
 }
 
-/// A stretch of lanes of one key.
-pub(super) struct Stretch {
+/// A run of batch of one key.
+pub(super) struct MaterialRun {
     pub(super) from: usize,
     pub(super) to: usize,
     pub(super) key: u32,
 }
 
-/// Paths in step, and the room that they need.
-pub(crate) struct Block {
-    pub(super) paths: Box<Paths>,
+/// PathStates in step, and the room that they need.
+pub(crate) struct Wavefront {
+    pub(super) paths: Box<PathStates>,
     /// Filter weights of the samples.
     weights: Column,
     /// What was counted since it was taken last.
@@ -52,13 +52,13 @@ pub(crate) struct Block {
     pub(super) next: Box<Queue>,
     /// Places among those that live, of rays that meet nothing.
     escaped: Vec<u32>,
-    waiting: Vec<Waiting>,
+    waiting: Vec<QueuedVertex>,
     /// How many wait of each key, then where they begin.
     starts: Vec<u32>,
-    pub(super) stretches: Vec<Stretch>,
-    pub(super) lanes: Box<Lanes>,
+    pub(super) runs: Vec<MaterialRun>,
+    pub(super) batch: Box<VertexBatch>,
     pub(super) streams: Vec<Stream>,
-    /// Rays towards lights, with the lanes that they are of.
+    /// Rays towards lights, with the batch that they are of.
     pub(super) shadows: Box<Queue>,
     /// Whether anything is in their way.
     pub(super) blocked: Vec<bool>,
@@ -68,10 +68,10 @@ pub(crate) struct Block {
     pub(super) pairs: Option<Box<Work>>,
 }
 
-/// Numbers of paths or lanes, each with a ray.
+/// Random random_numbers of paths or batch, each with a ray.
 pub(super) struct Queue {
-    numbers: [u32; LANES],
-    rays: [Ray; LANES],
+    random_numbers: [u32; WAVEFRONT_SIZE],
+    rays: [Ray; WAVEFRONT_SIZE],
     len: usize,
 }
 
@@ -83,8 +83,8 @@ impl Queue {
             t_max: 0.0,
         };
         Box::new(Self {
-            numbers: [0; LANES],
-            rays: [nowhere; LANES],
+            random_numbers: [0; WAVEFRONT_SIZE],
+            rays: [nowhere; WAVEFRONT_SIZE],
             len: 0,
         })
     }
@@ -95,25 +95,25 @@ impl Queue {
 
     #[inline(always)]
     pub(super) fn push(&mut self, number: u32, ray: Ray) {
-        let at = self.len % LANES;
-        self.numbers[at] = number;
+        let at = self.len % WAVEFRONT_SIZE;
+        self.random_numbers[at] = number;
         self.rays[at] = ray;
         self.len = at + 1;
     }
 
     pub(super) fn len(&self) -> usize {
-        self.len.min(LANES)
+        self.len.min(WAVEFRONT_SIZE)
     }
 
     /// The number at a place, as an index.
     #[inline(always)]
     pub(super) fn number(&self, k: usize) -> usize {
-        index(self.numbers[k % LANES])
+        index(self.random_numbers[k % WAVEFRONT_SIZE])
     }
 
     #[inline(always)]
     pub(super) fn ray(&self, k: usize) -> &Ray {
-        &self.rays[k % LANES]
+        &self.rays[k % WAVEFRONT_SIZE]
     }
 
     pub(super) fn rays(&self) -> &[Ray] {
@@ -124,27 +124,27 @@ impl Queue {
 /// A path's number as an index that needs no check.
 #[inline(always)]
 pub(super) fn index(number: u32) -> usize {
-    number as usize % LANES
+    number as usize % WAVEFRONT_SIZE
 }
 
-impl Block {
-    /// Most paths of a block.
-    pub(crate) const SIZE: usize = LANES;
+impl Wavefront {
+    /// Most paths of a wavefront.
+    pub(crate) const SIZE: usize = WAVEFRONT_SIZE;
 
     /// An empty one.
     pub(crate) fn new() -> Self {
         Self {
-            paths: Paths::new(),
+            paths: PathStates::new(),
             weights: ZERO,
             tally: Tally::default(),
             live: Queue::new(),
-            hits: Vec::with_capacity(LANES),
+            hits: Vec::with_capacity(WAVEFRONT_SIZE),
             next: Queue::new(),
             escaped: Vec::new(),
             waiting: Vec::new(),
             starts: Vec::new(),
-            stretches: Vec::new(),
-            lanes: Lanes::new(),
+            runs: Vec::new(),
+            batch: VertexBatch::new(),
             streams: Vec::new(),
             shadows: Queue::new(),
             blocked: Vec::new(),
@@ -154,7 +154,7 @@ impl Block {
         }
     }
 
-    /// What the path of a sample brought, and the sample's weight, before the film has developed it.
+    /// What the path of a sample contributed, and the sample's weight, before the film has developed it.
     #[inline(always)]
     pub(crate) fn seen(&self, i: usize) -> (PixelSample, f32) {
         (self.paths.seen(i), self.weights[i])
@@ -178,10 +178,10 @@ impl Block {
 }
 
 impl PathTracer<'_> {
-    /// Begins a path for each sample, at most [`Block::SIZE`]: its pixel and its sampler.
+    /// Begins a path for each sample, at most [`Wavefront::SIZE`]: its pixel and its sampler.
     pub(crate) fn begin(
         &self,
-        block: &mut Block,
+        wavefront: &mut Wavefront,
         samples: impl Iterator<Item = ([u32; 2], Sampler)>,
     ) {
         let PreparedScene {
@@ -190,33 +190,35 @@ impl PathTracer<'_> {
             materials,
             ..
         } = self.scene;
-        let Block {
+        let Wavefront {
             paths,
             weights,
             live,
-            lanes,
+            batch,
             shared,
             pairs,
             ..
-        } = block;
+        } = wavefront;
         if self.shares {
             shared.get_or_insert_with(Shared::new).begin();
             pairs.get_or_insert_with(|| Box::new(Work::new()));
         }
-        let Lanes {
-            numbers, raster, ..
-        } = &mut **lanes;
+        let VertexBatch {
+            random_numbers,
+            raster,
+            ..
+        } = &mut **batch;
         let mut n = 0;
-        for (i, (pixel, sampler)) in samples.take(LANES).enumerate() {
+        for (i, (pixel, sampler)) in samples.take(WAVEFRONT_SIZE).enumerate() {
             paths.samplers[i] = sampler;
-            numbers.place(i, &sampler);
+            random_numbers.place(i, &sampler);
             raster[0][i] = pixel[0] as f32 + 0.5;
             raster[1][i] = pixel[1] as f32 + 0.5;
             n = i + 1;
         }
         paths.begin(n, materials.has_boundaries(), self.bound);
-        numbers.draw(n, Purpose::Camera, 0);
-        let [lens_x, filter_x, filter_y, lens_y] = &numbers.values;
+        random_numbers.draw(n, Purpose::Camera, 0);
+        let [lens_x, filter_x, filter_y, lens_y] = &random_numbers.values;
         let [x, y] = raster;
         filter.sample_all(
             [&filter_x[..n], &filter_y[..n]],
@@ -231,37 +233,37 @@ impl PathTracer<'_> {
         );
     }
 
-    /// Follows all paths of a block to their ends.
+    /// Follows all paths of a wavefront to their ends.
     #[cfg(test)]
-    pub(crate) fn follow_all(&self, block: &mut Block) {
-        self.follow_until(block, &AtomicBool::new(false));
+    pub(crate) fn follow_all(&self, wavefront: &mut Wavefront) {
+        self.follow_until(wavefront, &AtomicBool::new(false));
     }
 
-    /// Follows all paths of a block to their ends; returns whether it came to that.
+    /// Follows all paths of a wavefront to their ends; returns whether it came to that.
     ///
     /// * `stop`: looked at before every vertex.
-    pub(crate) fn follow_until(&self, block: &mut Block, stop: &AtomicBool) -> bool {
+    pub(crate) fn follow_until(&self, wavefront: &mut Wavefront, stop: &AtomicBool) -> bool {
         let mut depth = 0;
-        while block.live.len() > 0 {
+        while wavefront.live.len() > 0 {
             if stop.load(Ordering::Relaxed) {
                 return false;
             }
-            block.next.clear();
-            if self.goes_in_lanes(depth) {
-                self.meet_all(block, depth);
+            wavefront.next.clear();
+            if self.uses_batches(depth) {
+                self.meet_all(wavefront, depth);
             } else {
-                for k in 0..block.live.len() {
-                    self.alone(block, k, |path| self.step(path, depth));
+                for k in 0..wavefront.live.len() {
+                    self.alone(wavefront, k, |path| self.step(path, depth));
                 }
             }
-            std::mem::swap(&mut block.live, &mut block.next);
+            std::mem::swap(&mut wavefront.live, &mut wavefront.next);
             depth += 1;
         }
         true
     }
 
     /// Whether rays stop at what they meet.
-    fn goes_in_lanes(&self, depth: u32) -> bool {
+    fn uses_batches(&self, depth: u32) -> bool {
         let hides = self.scene.hide_emitters && depth == 0;
         let straight = !self.scene.geometry.has_passable && !hides;
         straight
@@ -273,69 +275,69 @@ impl PathTracer<'_> {
     /// Takes one path a step by itself.
     ///
     /// * `step`: whether it goes on.
-    fn alone(&self, block: &mut Block, k: usize, step: impl FnOnce(&mut Path) -> bool) {
-        let number = block.live.number(k);
-        let mut path = block.paths.take(number, *block.live.ray(k));
+    fn alone(&self, wavefront: &mut Wavefront, k: usize, step: impl FnOnce(&mut Path) -> bool) {
+        let number = wavefront.live.number(k);
+        let mut path = wavefront.paths.take(number, *wavefront.live.ray(k));
         if step(&mut path) {
-            block.next.push(id(number), path.ray);
+            wavefront.next.push(id(number), path.ray);
         }
-        block.tally = block.tally.and(block.paths.put(number, &path));
-        if let Some(shared) = &mut block.shared {
+        wavefront.tally = wavefront.tally.and(wavefront.paths.put(number, &path));
+        if let Some(shared) = &mut wavefront.shared {
             shared.pass_alone(number);
         }
     }
 
     /// Takes all paths from one vertex to the next.
-    fn meet_all(&self, block: &mut Block, depth: u32) {
+    fn meet_all(&self, wavefront: &mut Wavefront, depth: u32) {
         let geometry = &self.scene.geometry;
         geometry
             .accel
-            .intersect_all(block.live.rays(), &mut block.hits);
-        block.tally.rays += block.live.len() as u64;
-        block.waiting.clear();
-        block.escaped.clear();
-        for k in 0..block.live.len() {
-            let Some(hit) = block.hits[k] else {
-                block.escaped.push(id(k));
+            .intersect_all(wavefront.live.rays(), &mut wavefront.hits);
+        wavefront.tally.rays += wavefront.live.len() as u64;
+        wavefront.waiting.clear();
+        wavefront.escaped.clear();
+        for k in 0..wavefront.live.len() {
+            let Some(hit) = wavefront.hits[k] else {
+                wavefront.escaped.push(id(k));
                 continue;
             };
-            let ray = block.live.ray(k);
-            let rough = block.paths.rough[block.live.number(k)];
+            let ray = wavefront.live.ray(k);
+            let rough = wavefront.paths.rough[wavefront.live.number(k)];
             match self.key(ray, &hit, rough) {
                 Some((key, sends_light)) => {
                     if sends_light {
-                        self.add_emission_of(block, k, &hit, depth);
+                        self.add_emission_of(wavefront, k, &hit, depth);
                     }
                     if depth < self.max_depth {
-                        block.waiting.push(Waiting { at: id(k), key });
+                        wavefront.waiting.push(QueuedVertex { at: id(k), key });
                     }
                 }
                 None => {
                     let surface = geometry.surface(ray, &hit);
-                    if block.is_at_y(k) {
-                        self.add_emission_of(block, k, &hit, depth);
-                        self.alone(block, k, |path| self.pass_on(path, surface, depth));
+                    if wavefront.is_at_y(k) {
+                        self.add_emission_of(wavefront, k, &hit, depth);
+                        self.alone(wavefront, k, |path| self.pass_on(path, surface, depth));
                     } else {
-                        self.alone(block, k, |path| self.meet(path, Some(surface), depth));
+                        self.alone(wavefront, k, |path| self.meet(path, Some(surface), depth));
                     }
                 }
             }
         }
-        self.add_background_of(block, depth);
-        if !block.waiting.is_empty() {
-            self.sort(block);
-            self.step_lanes(block, depth);
+        self.add_background_of(wavefront, depth);
+        if !wavefront.waiting.is_empty() {
+            self.sort(wavefront);
+            self.shade_batch(wavefront, depth);
         }
     }
 
     /// Light that a surface sends out along the ray of a path that lives.
     #[inline(never)]
-    fn add_emission_of(&self, block: &mut Block, k: usize, hit: &Hit, depth: u32) {
-        let ray = block.live.ray(k);
+    fn add_emission_of(&self, wavefront: &mut Wavefront, k: usize, hit: &Hit, depth: u32) {
+        let ray = wavefront.live.ray(k);
         let surface = self.scene.geometry.surface(ray, hit);
-        let number = block.live.number(k);
-        let previous = block.paths.previous(number);
-        if let (Some(shared), Some(previous)) = (&mut block.shared, previous)
+        let number = wavefront.live.number(k);
+        let previous = wavefront.paths.previous(number);
+        if let (Some(shared), Some(previous)) = (&mut wavefront.shared, previous)
             && shared.is_at_y(number)
         {
             let radiance = self.emission(None, &surface, ray.direction);
@@ -345,23 +347,23 @@ impl PathTracer<'_> {
             return;
         }
         let radiance = self.emission(previous, &surface, ray.direction);
-        let throughput = block.paths.throughput.colour(number);
-        block.paths.add(number, throughput * radiance, depth);
+        let throughput = wavefront.paths.throughput.colour(number);
+        wavefront.paths.add(number, throughput * radiance, depth);
     }
 
     /// Light from infinity on the rays that meet nothing.
-    fn add_background_of(&self, block: &mut Block, depth: u32) {
-        if block.escaped.is_empty() {
+    fn add_background_of(&self, wavefront: &mut Wavefront, depth: u32) {
+        if wavefront.escaped.is_empty() {
             return;
         }
-        let Block {
+        let Wavefront {
             paths,
             live,
             escaped,
             lights: waiting,
             shared,
             ..
-        } = block;
+        } = wavefront;
         let lights = &self.scene.lights;
         let directions = escaped
             .iter()
@@ -387,7 +389,7 @@ impl PathTracer<'_> {
         });
     }
 
-    /// The key of a surface for lanes, and whether it sends out light.
+    /// The key of a surface for batch, and whether it sends out light.
     ///
     /// * `rough`: as of `State`.
     #[inline(always)]
@@ -404,7 +406,7 @@ impl PathTracer<'_> {
     fn meets_outside(&self, ray: &Ray, hit: &Hit) -> bool {
         let geometry = &self.scene.geometry;
         let normal = if let Some(facet) = geometry.facet(hit) {
-            lanes::normal(facet.corners.map(|&c| Vec3::from(c)))
+            vertex_batch::normal(facet.corners.map(|&c| Vec3::from(c)))
         } else if let Some([_, _, normal, _]) = geometry.quadric(ray, hit) {
             normal
         } else {
@@ -413,36 +415,36 @@ impl PathTracer<'_> {
         normal.dot(ray.direction) < 0.0
     }
 
-    /// Sorts what waits by key into stretches of lanes.
+    /// Sorts what waits by key into runs of batch.
     ///
-    /// Even a lone vertex has a stretch: its numbers must not depend on what else there is.
-    fn sort(&self, block: &mut Block) {
-        let Block {
+    /// Even a lone vertex has a run: its random random_numbers must not depend on what else there is.
+    fn sort(&self, wavefront: &mut Wavefront) {
+        let Wavefront {
             waiting,
             starts,
-            stretches,
-            lanes,
+            runs,
+            batch,
             ..
-        } = block;
+        } = wavefront;
         starts.clear();
         starts.resize(2 * self.scene.materials.count(), 0);
         for w in waiting.iter() {
             starts[w.key as usize] += 1;
         }
-        stretches.clear();
+        runs.clear();
         let mut at = 0;
         for (key, count) in (0..).zip(starts.iter_mut()) {
             let to = at + *count as usize;
             if *count > 0 {
-                stretches.push(Stretch { from: at, to, key });
+                runs.push(MaterialRun { from: at, to, key });
             }
             *count = id(at);
             at = to;
         }
-        lanes.count = at;
+        batch.count = at;
         for w in waiting.iter() {
             let place = &mut starts[w.key as usize];
-            lanes.places[index(*place)] = w.at;
+            batch.places[index(*place)] = w.at;
             *place += 1;
         }
     }
@@ -453,7 +455,7 @@ mod tests {
     use super::*;
     use crate::options::RenderOptions;
 
-    /// What paths bring in blocks and one by one.
+    /// What paths bring in wavefronts and one by one.
     fn both_ways(
         scene: &specula_scene::Scene,
         biased: bool,
@@ -471,25 +473,28 @@ mod tests {
             let pixel = [i % 64, i / 64];
             (pixel, Sampler::new(pixel, 3, 5))
         };
-        let (mut block, mut lone) = (Block::new(), Block::new());
+        let (mut wavefront, mut lone) = (Wavefront::new(), Wavefront::new());
         let mut found = Vec::new();
-        for first in (0..64 * 48).step_by(Block::SIZE) {
-            let numbers = first..first + id(Block::SIZE);
-            tracer.begin(&mut block, numbers.clone().map(sample));
-            tracer.follow_all(&mut block);
-            assert!(block.take_tally().rays > 0);
-            for (k, i) in numbers.enumerate() {
+        for first in (0..64 * 48).step_by(Wavefront::SIZE) {
+            let random_numbers = first..first + id(Wavefront::SIZE);
+            tracer.begin(&mut wavefront, random_numbers.clone().map(sample));
+            tracer.follow_all(&mut wavefront);
+            assert!(wavefront.take_tally().rays > 0);
+            for (k, i) in random_numbers.enumerate() {
                 tracer.begin(&mut lone, std::iter::once(sample(i)));
                 let mut path = lone.first();
                 tracer.follow(&mut path);
                 lone.paths.put(0, &path);
-                found.push([tracer.brought(&block, k).0, tracer.brought(&lone, 0).0]);
+                found.push([
+                    tracer.contribution(&wavefront, k).0,
+                    tracer.contribution(&lone, 0).0,
+                ]);
             }
         }
         (prepared, found)
     }
 
-    /// Paths in step are the paths one by one, up to rounding, which now and then sends one elsewhere.
+    /// PathStates in step are the paths one by one, up to rounding, which now and then sends one elsewhere.
     #[test]
     fn paths_in_blocks_are_paths_alone() {
         let metal = "conductor Au alpha 0.3";

@@ -1,12 +1,12 @@
-//! Widths of roughness for a batch.
+//! Alphas of roughness for a batch.
 
 use super::slices::{LengthMismatch, check};
 use crate::alpha::Alpha;
 use crate::math::Real;
 
-/// Widths of the microfacets' distribution for a batch of elements.
+/// Alphas of the microfacets' distribution for a batch of elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Widths<'a, T> {
+pub enum Alphas<'a, T> {
     /// The same for all.
     Same(Alpha<T>),
     /// Each its own, as from a texture: `alpha_x: (n,)`, `alpha_y: (n,)`. They are clamped to the
@@ -19,13 +19,13 @@ pub enum Widths<'a, T> {
     },
 }
 
-impl<T> From<Alpha<T>> for Widths<'_, T> {
+impl<T> From<Alpha<T>> for Alphas<'_, T> {
     fn from(alpha: Alpha<T>) -> Self {
         Self::Same(alpha)
     }
 }
 
-impl<T: Real> Widths<'_, T> {
+impl<T: Real> Alphas<'_, T> {
     pub(super) fn check(&self, n: usize) -> Result<(), LengthMismatch> {
         match self {
             Self::Same(_) => Ok(()),
@@ -36,8 +36,8 @@ impl<T: Real> Widths<'_, T> {
     }
 }
 
-/// Widths by index, in the scalar of a kernel.
-pub(super) trait WidthsAt<U: Real> {
+/// Alphas by index, in the scalar of a kernel.
+pub(super) trait AlphaAt<U: Real> {
     fn at(&self, i: usize) -> Alpha<U>;
 }
 
@@ -45,19 +45,19 @@ pub(super) trait WidthsAt<U: Real> {
 #[derive(Clone, Copy)]
 pub(super) struct OneAlpha<U>(pub(super) Alpha<U>);
 
-impl<U: Real> WidthsAt<U> for OneAlpha<U> {
+impl<U: Real> AlphaAt<U> for OneAlpha<U> {
     #[inline(always)]
     fn at(&self, _i: usize) -> Alpha<U> {
         self.0
     }
 }
 
-/// One for all, in both directions. Clamped at every use, so that the compiler sees two equal widths
+/// One for all, in both directions. Clamped at every use, so that the compiler sees two isotropic alpha
 /// that are no NaN, and drops what serves unequal ones.
 #[derive(Clone, Copy)]
-pub(super) struct OneWidth<U>(pub(super) U);
+pub(super) struct IsotropicAlpha<U>(pub(super) U);
 
-impl<U: Real> WidthsAt<U> for OneWidth<U> {
+impl<U: Real> AlphaAt<U> for IsotropicAlpha<U> {
     #[inline(always)]
     fn at(&self, _i: usize) -> Alpha<U> {
         Alpha::isotropic(self.0)
@@ -66,12 +66,12 @@ impl<U: Real> WidthsAt<U> for OneWidth<U> {
 
 /// Two slices of the same length.
 #[derive(Clone, Copy)]
-pub(super) struct Alphas<'a, T> {
+pub(super) struct AlphaSlices<'a, T> {
     x: &'a [T],
     y: &'a [T],
 }
 
-impl<'a, T: Real> Alphas<'a, T> {
+impl<'a, T: Real> AlphaSlices<'a, T> {
     /// The first `n` of both.
     #[inline(always)]
     pub(super) fn first(x: &'a [T], y: &'a [T], n: usize) -> Self {
@@ -82,7 +82,7 @@ impl<'a, T: Real> Alphas<'a, T> {
     }
 }
 
-impl<T: Real> Alphas<'_, T> {
+impl<T: Real> AlphaSlices<'_, T> {
     #[inline(always)]
     pub(super) fn range(&self, start: usize, end: usize) -> Self {
         let count = end - start;
@@ -93,7 +93,7 @@ impl<T: Real> Alphas<'_, T> {
     }
 }
 
-impl<T: Real, U: Real> WidthsAt<U> for Alphas<'_, T> {
+impl<T: Real, U: Real> AlphaAt<U> for AlphaSlices<'_, T> {
     #[inline(always)]
     fn at(&self, i: usize) -> Alpha<U> {
         Alpha::clamped(U::of(self.x[i].to_f64()), U::of(self.y[i].to_f64()))

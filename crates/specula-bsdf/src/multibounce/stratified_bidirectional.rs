@@ -1,4 +1,4 @@
-//! Ours: walks from both ends over the depth state without cancellation.
+//! StratifiedBidirectional: walks from both ends over the depth state without cancellation.
 //!
 //! Light that met one facet is in closed form. All that met `k >= 2` is estimated by walks of
 //! directions, from `wo` and, `f` being reciprocal, from `wi`. After each bounce a walk connects
@@ -37,10 +37,10 @@
 //!
 //! Dielectrics: on the side of `wo` a walk needs no height. Light that met one facet is in closed
 //! form (refraction too, by the Beta function of its masking). Once a walk refracts, its depth is
-//! drawn from the state, and it goes on with heights as in Heitz et al. 2016: the depths of the two
+//! sampled from the state, and it goes on with heights as in Heitz et al. 2016: the depths of the two
 //! sides, `-ln C` and `-ln(1 - C)`, have no common exponential form. Walks start at one end, chosen
 //! by the angles (`is_better_end`): those from the other end connect to it at grazing angles, which
-//! is rare and pays much. What it gains is in the text of [`Dielectric`](super::Dielectric).
+//! is rare and pays much. What it gains is in the text of [`Dielectric`](super::MultibounceDielectric).
 //!
 //! Samples leave with exactly the mass that leaves: their weight is the product of Fresnel terms.
 
@@ -403,7 +403,7 @@ fn interface_walk<T: Real, N: Ndf<T>>(
     sum
 }
 
-/// A direction drawn at a dielectric; its weight is 1 (for light).
+/// A direction sampled at a dielectric; its weight is 1 (for light).
 ///
 /// * `u`: draws the first facet.
 #[inline]

@@ -1,4 +1,4 @@
-//! Bent normals: every kind of relief on every kind of primitive.
+//! Bent normals: every kind of bump map on every kind of primitive.
 //!
 //! Errors are lengths of differences of vectors. A height's slope divides the difference of two texture
 //! values by a step of 0.0005, which multiplies their rounding by 2000.
@@ -8,19 +8,19 @@ use specula_bsdf::Rgb;
 use specula_render::{PreparedScene, RenderOptions};
 use specula_scene::builtin;
 use specula_scene::scene::{
-    Channel, FloatParam, Geometry, ImageId, Instance, Interpolation, Material, MaterialId, Mesh,
-    MeshId, NoiseKind, Object, ObjectId, Relief, ReliefRules, Scene, Shape, Texture, TextureId,
+    Bump, BumpRules, Channel, FloatParam, Geometry, ImageId, Instance, Interpolation, Material,
+    MaterialId, Mesh, MeshId, NoiseKind, Object, ObjectId, Scene, Shape, Texture, TextureId,
     TextureMapping, UvMapping, Wrap,
 };
 use specula_stat::Rng;
 
-use crate::device::{Device, Fault, RELIEFS, Shader};
+use crate::device::{BUMPS, Device, Fault, Shader};
 use crate::{nodes, uniform, unit};
 
 /// Points on each primitive.
 const POINTS: usize = 32;
 
-/// The kernel: every material's relief at every point.
+/// The kernel: every material's bump map at every point.
 const KERNEL: &str = "
 @group(0) @binding(0) var<storage, read> points: array<f32>;
 @group(0) @binding(4) var<storage, read_write> found: array<f32>;
@@ -36,19 +36,19 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     let instance = bitcast<u32>(points[at + 5u]);
     let primitive = bitcast<u32>(points[at + 6u]);
     let s = surface_at(ray, Hit(0.0, points[at + 3u], points[at + 4u], primitive, instance));
-    let relief = relief_of_material(id.y);
-    let bent = relief_bend(relief, s);
+    let bump = bump_of_material(id.y);
+    let bent = bump_bend(bump, s);
     let wo = three(at + 7u);
     let wi = three(at + 10u);
     let turned = unit_or(three(at + 13u), wo);
-    let softened = relief_softened(relief, wo, turned, -wi);
+    let softened = bump_softened(bump, wo, turned, -wi);
     let to = 10u * (id.x + id.y * arrayLength(&points) / 16u);
     for (var axis = 0u; axis < 3u; axis++) {
         found[to + axis] = bent.normal[axis];
         found[to + 3u + axis] = bent.tangent[axis];
         found[to + 6u + axis] = softened.normal[axis];
     }
-    found[to + 9u] = relief_softness(softened.softness, wi);
+    found[to + 9u] = bump_softness(softened.softness, wi);
 }
 ";
 
@@ -69,20 +69,20 @@ const PRIMITIVES: [(&str, u32, u32, Option<[f32; 3]>); 12] = [
     ("disk, placed", 1, 3, Some([0.4, 5.0, 0.3])),
 ];
 
-/// Name, relief, rules, and the largest error of normals and tangents.
-fn materials() -> Vec<(&'static str, Option<Relief>, ReliefRules, f32)> {
-    let height = |texture| Some(Relief::Height(FloatParam::Texture(TextureId(texture))));
-    let normal = |scale| Relief::Normal {
+/// Name, bump map, rules, and the largest error of normals and tangents.
+fn materials() -> Vec<(&'static str, Option<Bump>, BumpRules, f32)> {
+    let height = |texture| Some(Bump::Height(FloatParam::Texture(TextureId(texture))));
+    let normal = |scale| Bump::Normal {
         map: TextureId(3),
         scale,
     };
-    let mitsuba = |fades| ReliefRules::Mitsuba { fades };
+    let mitsuba = |fades| BumpRules::Mitsuba { fades };
     vec![
-        ("none", None, ReliefRules::Plain, 2e-6),
-        ("ramp", height(0), ReliefRules::Plain, 2e-3),
-        ("noise", height(1), ReliefRules::Plain, 2e-3),
+        ("none", None, BumpRules::Plain, 2e-6),
+        ("ramp", height(0), BumpRules::Plain, 2e-3),
+        ("noise", height(1), BumpRules::Plain, 2e-3),
         ("picture", height(2), mitsuba(true), 4e-3),
-        ("normal map", Some(normal(1.0)), ReliefRules::Plain, 2e-5),
+        ("normal map", Some(normal(1.0)), BumpRules::Plain, 2e-5),
         (
             "normal map, Mitsuba's",
             Some(normal(0.7)),
@@ -148,9 +148,9 @@ fn scene() -> Scene {
     let kind = scene.materials.pop().unwrap().kind;
     scene.materials = materials()
         .into_iter()
-        .map(|(_, relief, relief_rules, _)| Material {
-            relief,
-            relief_rules,
+        .map(|(_, bump, bump_rules, _)| Material {
+            bump,
+            bump_rules,
             ..Material::new(kind)
         })
         .collect();
@@ -233,7 +233,7 @@ struct Point {
 }
 
 fn points() -> Vec<Point> {
-    let mut rng = Rng::from_name("reliefs");
+    let mut rng = Rng::from_name("bumps");
     let mut points = Vec::new();
     for (name, instance, primitive, middle) in PRIMITIVES {
         for _ in 0..POINTS {
@@ -270,8 +270,7 @@ impl Point {
 
     /// What the CPU has: normal, tangent, softened normal, factor.
     fn cpu(&self, scene: &PreparedScene, material: u32) -> [f32; 10] {
-        let [normal, tangent] =
-            scene.probe_relief(material, self.primitive, self.weights, self.near);
+        let [normal, tangent] = scene.probe_bump(material, self.primitive, self.weights, self.near);
         let [unbent, wi, bent] = self.directions;
         let (softened, factor) = scene.probe_softness(material, [unbent, bent, wi.map(|x| -x), wi]);
         let mut all = [0.0; 10];
@@ -289,7 +288,7 @@ fn errors(device: &Device, fault: Option<Fault>) -> Vec<(String, f32, [f32; 4])>
     let numbers: Vec<f32> = points.iter().flat_map(Point::numbers).collect();
     let shader = Shader {
         kernel: KERNEL,
-        modules: &RELIEFS,
+        modules: &BUMPS,
         fault,
     };
     let groups = [points.len(), materials.len(), 1].map(|n| u32::try_from(n).unwrap());
@@ -330,8 +329,8 @@ fn is_wrong((_, bound, [normal, tangent, softened, factor]): &(String, f32, [f32
 }
 
 #[test]
-fn every_relief_is_the_cpus() {
-    let Some(device) = Device::open("every_relief_is_the_cpus") else {
+fn every_bump_is_the_cpus() {
+    let Some(device) = Device::open("every_bump_is_the_cpus") else {
         return;
     };
     let errors = errors(&device, None);
@@ -346,26 +345,26 @@ fn every_relief_is_the_cpus() {
 }
 
 #[test]
-fn planted_faults_of_reliefs_are_found() {
-    let Some(device) = Device::open("planted_faults_of_reliefs_are_found") else {
+fn planted_faults_of_bumps_are_found() {
+    let Some(device) = Device::open("planted_faults_of_bumps_are_found") else {
         return;
     };
     let fault = |module, from, to| Fault { module, from, to };
     for (fault, shown_by) in [
         (
             fault(
-                "relief",
-                "partials.along_u * RELIEF_STEP",
-                "partials.along_v * RELIEF_STEP",
+                "bump",
+                "partials.along_u * BUMP_STEP",
+                "partials.along_v * BUMP_STEP",
             ),
             "noise on sphere",
         ),
         (
-            fault("relief", "2.0 * texture_colour", "1.9 * texture_colour"),
+            fault("bump", "2.0 * texture_colour", "1.9 * texture_colour"),
             "normal map on disk",
         ),
         (
-            fault("relief", "0.125 *", "0.12 *"),
+            fault("bump", "0.125 *", "0.12 *"),
             "normal map, faded on bare mesh",
         ),
         (

@@ -1,35 +1,35 @@
-// Reliefs: heights and normal maps that bend shading normals.
+// Bump maps: heights and normal maps that bend shading normals.
 //
-// Twin of specula-render/src/relief.rs. A relief is 4 words, as `flatten` writes them there: what it
+// Twin of specula-render/src/bump.rs. A bump map is 4 words, as `flatten` writes them there: what it
 // is, its rules, then the parameter of its heights or a texture and a factor.
 
 import tracer::partials::{Partials, partials_of};
 import tracer::surface::{Surface};
 import tracer::texture_graph::{parameter_float, texture_colour};
-import tracer::texture_place::{Place};
+import tracer::texture_coordinates::{TextureCoordinates};
 import tracer::world::{word, number, unit_or};
 import package::math::frame::{FrameBasis, frame_from_normal_tangent};
 
-/// No relief.
-const RELIEF_NONE: u32 = 0u;
+/// No bump.
+const BUMP_NONE: u32 = 0u;
 /// Heights.
-const RELIEF_HEIGHT: u32 = 1u;
-/// Normals are bent as the relief says, and nothing more.
-const RELIEF_PLAIN: u32 = 0u;
+const BUMP_HEIGHT: u32 = 1u;
+/// Normals are bent as the bump map says, and nothing more.
+const BUMP_PLAIN: u32 = 0u;
 /// By Mitsuba's rules, and light fades towards the horizon.
-const RELIEF_FADES: u32 = 2u;
+const BUMP_FADES: u32 = 2u;
 
 /// Step of finite differences in surface coordinates, as in pbrt where it knows no footprint: half
 /// a pixel of a picture of 1000.
 ///
-/// Twin: specula-render/src/relief.rs, STEP.
-const RELIEF_STEP: f32 = 0.0005;
+/// Twin: specula-render/src/bump.rs, STEP.
+const BUMP_STEP: f32 = 0.0005;
 
-/// Words of a material's reliefs: its own, whether its clear coat is bent otherwise, the coat's.
-const RELIEF_SIZE: u32 = 9u;
+/// Words of a material's bump maps: its own, whether its clear coat is bent otherwise, the coat's.
+const BUMP_SIZE: u32 = 9u;
 
 /// A shading normal with the tangent along u.
-struct ReliefBent {
+struct BumpedFrame {
     normal: vec3f,
     tangent: vec3f,
 }
@@ -43,9 +43,9 @@ struct ReliefBent {
 /// with `n0` the normal before it was bent to `n`. It does not fade where `a` is 0.
 ///
 /// Source: Conty Estevez, Lecocq and Stein 2019, "A Microfacet-Based Shadowing Function to Solve
-/// the Bump Terminator Problem".
+/// the BumpSample Terminator Problem".
 ///
-/// Twin: specula-render/src/relief.rs, Softness.
+/// Twin: specula-render/src/bump.rs, Softness.
 struct Softness {
     /// The normal before it was bent, unit.
     normal: vec3f,
@@ -58,36 +58,36 @@ struct Softened {
     softness: Softness,
 }
 
-/// Place of a material's relief.
-fn relief_of_material(material: u32) -> u32 {
-    return RELIEFS + RELIEF_SIZE * material;
+/// Offset of a material's bump.
+fn bump_of_material(material: u32) -> u32 {
+    return BUMPS + BUMP_SIZE * material;
 }
 
 /// Whether a clear coat is bent otherwise than the rest of its material.
-fn relief_coat_differs(material: u32) -> bool {
-    return RELIEF_COUNT != 0u && word(relief_of_material(material) + 4u) != 0u;
+fn bump_coat_differs(material: u32) -> bool {
+    return BUMP_COUNT != 0u && word(bump_of_material(material) + 4u) != 0u;
 }
 
-/// Place of the relief of such a coat.
-fn relief_of_coat(material: u32) -> u32 {
-    return relief_of_material(material) + 5u;
+/// Offset of the bump map of such a coat.
+fn bump_of_coat(material: u32) -> u32 {
+    return bump_of_material(material) + 5u;
 }
 
-/// Whether there is a relief at a place.
-fn relief_is_there(at: u32) -> bool {
-    return RELIEF_COUNT != 0u && word(at) != RELIEF_NONE;
+/// Whether there is a bump map at a place.
+fn bump_is_there(at: u32) -> bool {
+    return BUMP_COUNT != 0u && word(at) != BUMP_NONE;
 }
 
 /// The bent normal, turned back where it faces away from `wo` though the unbent one does not
 /// (or the other way round), and how light fades on it; nothing of this by plain rules.
 ///
-/// * `at`: the relief.
+/// * `at`: the bump.
 /// * `unbent`, `bent`: unit, on the same side of the surface.
 ///
-/// Twin: specula-render/src/relief.rs, Softness::new, with the choice around its call in
+/// Twin: specula-render/src/bump.rs, Softness::new, with the choice around its call in
 /// integrator.rs.
-fn relief_softened(at: u32, unbent: vec3f, bent: vec3f, wo: vec3f) -> Softened {
-    if !relief_is_there(at) || word(at + 1u) == RELIEF_PLAIN {
+fn bump_softened(at: u32, unbent: vec3f, bent: vec3f, wo: vec3f) -> Softened {
+    if !bump_is_there(at) || word(at + 1u) == BUMP_PLAIN {
         return Softened(bent, Softness(unbent, 0.0));
     }
     let along = dot(unbent, bent);
@@ -96,38 +96,38 @@ fn relief_softened(at: u32, unbent: vec3f, bent: vec3f, wo: vec3f) -> Softened {
         normal = unbent * (2.0 * along) - bent;
     }
     var softness = Softness(unbent, 0.0);
-    if word(at + 1u) == RELIEF_FADES {
-        softness.a = min(0.125 * relief_squared_tangent(along), 1.0);
+    if word(at + 1u) == BUMP_FADES {
+        softness.a = min(0.125 * bump_squared_tangent(along), 1.0);
     }
     return Softened(normal, softness);
 }
 
 /// Factor on what the surface does with light from `wi`, in `(0, 1]`.
 ///
-/// Twin: specula-render/src/relief.rs, Softness::factor.
-fn relief_softness(softness: Softness, wi: vec3f) -> f32 {
-    let grown = softness.a * relief_squared_tangent(dot(softness.normal, wi));
+/// Twin: specula-render/src/bump.rs, Softness::factor.
+fn bump_softness(softness: Softness, wi: vec3f) -> f32 {
+    let grown = softness.a * bump_squared_tangent(dot(softness.normal, wi));
     return 2.0 / (1.0 + sqrt(1.0 + min(grown, 1.0e12)));
 }
 
 /// `tan^2` of the angle with this cosine.
 ///
-/// Twin: specula-render/src/relief.rs, squared_tangent.
-fn relief_squared_tangent(cosine: f32) -> f32 {
+/// Twin: specula-render/src/bump.rs, squared_tangent.
+fn bump_squared_tangent(cosine: f32) -> f32 {
     let squared = max(cosine * cosine, 1.0e-12);
     return max(1.0 - squared, 0.0) / squared;
 }
 
-/// The shading normal and the tangent along u of a surface under its relief; those of the surface where
+/// The shading normal and the tangent along u of a surface under its bump map; those of the surface where
 /// there is none.
 ///
 /// The normal points to the outside of the surface it bends, not necessarily to the side of the
 /// geometric one.
 ///
-/// Twin: specula-render/src/relief.rs, bend.
-fn relief_bend(at: u32, s: Surface) -> ReliefBent {
-    if !relief_is_there(at) {
-        return ReliefBent(s.ns, s.tangent);
+/// Twin: specula-render/src/bump.rs, bend.
+fn bump_bend(at: u32, s: Surface) -> BumpedFrame {
+    if !bump_is_there(at) {
+        return BumpedFrame(s.ns, s.tangent);
     }
     var partials = partials_of(s);
     let n = s.ns;
@@ -140,18 +140,18 @@ fn relief_bend(at: u32, s: Surface) -> ReliefBent {
         partials.along_u = frame.s;
         partials.along_v = frame.t;
     }
-    let place = Place(s.uv, s.second_uv, s.position, s.ng, s.colour);
-    if word(at) == RELIEF_HEIGHT {
-        return relief_displaced(at + 2u, n, place, partials);
+    let place = TextureCoordinates(s.uv, s.second_uv, s.position, s.ng, s.colour);
+    if word(at) == BUMP_HEIGHT {
+        return bump_displaced(at + 2u, n, place, partials);
     }
     let c = 2.0 * texture_colour(word(at + 2u), place) - 1.0;
     let scale = number(at + 3u);
     let along_u = unit_or(partials.along_u, n);
     let across = cross(n, along_u);
-    let backwards = word(at + 1u) == RELIEF_PLAIN && dot(across, partials.along_v) < 0.0;
+    let backwards = word(at + 1u) == BUMP_PLAIN && dot(across, partials.along_v) < 0.0;
     let along_v = select(across, -across, backwards);
     let bent = along_u * (c.x * scale) + along_v * (c.y * scale) + n * c.z;
-    return ReliefBent(unit_or(bent, n), partials.along_u);
+    return BumpedFrame(unit_or(bent, n), partials.along_u);
 }
 
 /// Normal and tangent of the surface moved along its normal by a height:
@@ -166,10 +166,10 @@ fn relief_bend(at: u32, s: Surface) -> ReliefBent {
 ///
 /// * `height`: the parameter.
 ///
-/// Twin: specula-render/src/relief.rs, displaced.
-fn relief_displaced(height: u32, n: vec3f, place: Place, partials: Partials) -> ReliefBent {
+/// Twin: specula-render/src/bump.rs, displaced.
+fn bump_displaced(height: u32, n: vec3f, place: TextureCoordinates, partials: Partials) -> BumpedFrame {
     // The step that rounding left: coordinates of large tiled planes have few digits.
-    let moved = place.uv + RELIEF_STEP;
+    let moved = place.uv + BUMP_STEP;
     let steps = moved - place.uv;
     // One call in a loop: textures are long. Here, along u, along v.
     var heights = vec3f(0.0);
@@ -177,10 +177,10 @@ fn relief_displaced(height: u32, n: vec3f, place: Place, partials: Partials) -> 
         var there = place;
         if i == 1u {
             there.uv.x = moved.x;
-            there.position += partials.along_u * RELIEF_STEP;
+            there.position += partials.along_u * BUMP_STEP;
         } else if i == 2u {
             there.uv.y = moved.y;
-            there.position += partials.along_v * RELIEF_STEP;
+            there.position += partials.along_v * BUMP_STEP;
         }
         heights[i] = parameter_float(height, there);
     }
@@ -190,5 +190,5 @@ fn relief_displaced(height: u32, n: vec3f, place: Place, partials: Partials) -> 
     let along_v = partials.along_v + n * slopes.y + partials.normal_along_v * heights.x;
     let normal = unit_or(cross(along_u, along_v), n);
     let side = dot(cross(partials.along_u, partials.along_v), n);
-    return ReliefBent(select(normal, -normal, side < 0.0), along_u);
+    return BumpedFrame(select(normal, -normal, side < 0.0), along_u);
 }

@@ -1,25 +1,25 @@
-//! Pictures that a light throws from a point.
+//! Pictures that a light projects from a point.
 
 use core::f64::consts::PI;
 
 use glam::{DMat3, DMat4, DVec3};
 use specula_bsdf::math::vec3;
 use specula_bsdf::{Rgb, Vec3};
-use specula_scene::scene::{ColourParam, Profile, SpotFalloff, Throw};
+use specula_scene::scene::{ColourParam, ImageProjection, Profile, SpotFalloff};
 
 use super::cone::EmissionCone;
 use super::delta::share;
 use super::octahedral::{direction_of, square_of};
 use crate::convert::{Affine, narrow, narrow3};
 use crate::flat::Words;
-use crate::texture::{Place, Textures, colour_parameter};
+use crate::texture::{TextureCoordinates, Textures, colour_parameter};
 
 /// Cells along each side of a picture over which its brightness is averaged.
 const CELLS: u32 = 256;
 
-/// A picture and where it goes: see [`Throw`].
+/// A picture and where it goes: see [`ImageProjection`].
 #[derive(Clone, Debug)]
-pub(super) struct Thrown {
+pub(super) struct ProjectedImage {
     pub(super) position: Vec3<f32>,
     /// +z of the light in the world.
     axis: Vec3<f32>,
@@ -46,17 +46,17 @@ enum Beside {
     Spot([f32; 2]),
 }
 
-impl Thrown {
+impl ProjectedImage {
     pub(super) fn new(
         to_world: &DMat4,
         intensity: ColourParam,
-        throw: &Throw,
+        image_projection: &ImageProjection,
         textures: &Textures,
     ) -> Self {
         let linear = DMat3::from_mat4(*to_world);
-        let (window, reach_rad) = match throw {
-            Throw::Sphere => (None, PI),
-            Throw::Window { half, profile } => {
+        let (window, reach_rad) = match image_projection {
+            ImageProjection::Sphere => (None, PI),
+            ImageProjection::Window { half, profile } => {
                 (Some(Window::new(*half, profile)), reach(&linear, *half))
             }
         };
@@ -89,9 +89,9 @@ impl Thrown {
         let Some((uv, factor)) = self.coordinates(w) else {
             return Rgb::BLACK;
         };
-        let place = Place {
+        let place = TextureCoordinates {
             uv,
-            ..Place::default()
+            ..TextureCoordinates::default()
         };
         let colour = textures.colour(self.intensity, &place);
         colour.map(|v| v.max(0.0)) * factor
@@ -130,8 +130,8 @@ impl Thrown {
             },
         };
         to.id(through);
-        to.numbers(half);
-        to.numbers(cosines);
+        to.floats(half);
+        to.floats(cosines);
         colour_parameter(to, self.intensity);
     }
 

@@ -1,15 +1,15 @@
-//! The vertices of a block that are dealt with in lanes: from hits to lanes, light, and onwards.
+//! The vertices of a wavefront that are dealt with in batch: from hits to batch, light, and onwards.
 
 use core::ops::Range;
 
-use specula_bsdf::batch::Kind;
+use specula_bsdf::batch::SampleOutcome;
 use specula_bsdf::math::Stream;
 use specula_bsdf::{Bsdf, Vec3};
 
-use super::block::{Block, Stretch, index};
-use super::lanes::{self, LANES, Lanes};
-use super::passing::TO_LIGHT;
-use super::paths::Paths;
+use super::path_states::PathStates;
+use super::vertex_batch::{self, VertexBatch, WAVEFRONT_SIZE};
+use super::visibility::TO_LIGHT;
+use super::wavefront::{MaterialRun, Wavefront, index};
 use super::{PathTracer, candidates, lobes};
 use crate::accel::{Hit, Ray};
 use crate::convert::id;
@@ -17,42 +17,42 @@ use crate::material::Plain;
 use crate::sampler::Purpose;
 
 impl PathTracer<'_> {
-    /// Takes the paths in lanes from this vertex to the next.
-    pub(super) fn step_lanes(&self, block: &mut Block, depth: u32) {
-        self.load(block);
-        let lanes = &mut *block.lanes;
-        let n = lanes.count;
-        lanes::make_surfaces(n, &lanes.triangles, &mut lanes.surfaces);
-        lanes::turn(n, &mut lanes.surfaces);
-        for (plain, range) in self.each(&block.stretches) {
+    /// Takes the paths in batch from this vertex to the next.
+    pub(super) fn shade_batch(&self, wavefront: &mut Wavefront, depth: u32) {
+        self.load(wavefront);
+        let batch = &mut *wavefront.batch;
+        let n = batch.count;
+        vertex_batch::make_surfaces(n, &batch.triangles, &mut batch.surfaces);
+        vertex_batch::turn(n, &mut batch.surfaces);
+        for (plain, range) in self.each(&wavefront.runs) {
             if plain.specular {
-                lanes::straighten(range.start, range.end, &mut lanes.surfaces);
+                vertex_batch::straighten(range.start, range.end, &mut batch.surfaces);
             }
         }
         if depth == 0 {
-            self.show(block);
+            self.show(wavefront);
         }
-        self.note_shared(block);
-        self.light_lanes(block, depth);
-        self.scatter_lanes(block, depth);
+        self.note_shared(wavefront);
+        self.light_batch(wavefront, depth);
+        self.scatter_batch(wavefront, depth);
     }
 
     /// Keeps what the first vertices show.
-    fn show(&self, block: &mut Block) {
-        let Block {
+    fn show(&self, wavefront: &mut Wavefront) {
+        let Wavefront {
             paths,
             live,
-            stretches,
-            lanes,
+            runs,
+            batch,
             ..
-        } = block;
-        let Lanes {
+        } = wavefront;
+        let VertexBatch {
             surfaces: s,
             owners,
             places,
             ..
-        } = &**lanes;
-        for (plain, range) in self.each(stretches) {
+        } = &**batch;
+        for (plain, range) in self.each(runs) {
             let albedo = plain.lobe.albedo();
             for i in range {
                 let path = index(owners[i]);
@@ -66,66 +66,69 @@ impl PathTracer<'_> {
         }
     }
 
-    /// Stretches of lanes with their materials.
+    /// MaterialRuns of batch with their materials.
     fn each<'s>(
         &'s self,
-        stretches: &'s [Stretch],
+        runs: &'s [MaterialRun],
     ) -> impl Iterator<Item = (&'s Plain, Range<usize>)> {
-        stretches.iter().filter_map(|s| {
+        runs.iter().filter_map(|s| {
             let sides = self.scene.materials.plain(s.key / 2)?;
-            Some((&sides[(s.key % 2) as usize], s.from..s.to.min(LANES)))
+            Some((
+                &sides[(s.key % 2) as usize],
+                s.from..s.to.min(WAVEFRONT_SIZE),
+            ))
         })
     }
 
-    /// Brings what is sorted into the lanes.
-    fn load(&self, block: &mut Block) {
-        let Block {
+    /// Brings what is sorted into the batch.
+    fn load(&self, wavefront: &mut Wavefront) {
+        let Wavefront {
             paths,
             live,
             hits,
-            stretches,
-            lanes,
+            runs,
+            batch,
             ..
-        } = block;
-        let Lanes {
+        } = wavefront;
+        let VertexBatch {
             surfaces: s,
-            onward: o,
-            numbers,
+            scatter_samples: o,
+            random_numbers,
             owners,
             places,
             count,
             ..
-        } = &mut **lanes;
-        for i in 0..LANES.min(*count) {
+        } = &mut **batch;
+        for i in 0..WAVEFRONT_SIZE.min(*count) {
             let k = places[i] as usize;
             let (path, ray) = (live.number(k), live.ray(k));
             owners[i] = id(path);
-            numbers.place(i, &paths.samplers[path]);
+            random_numbers.place(i, &paths.samplers[path]);
             s.towards.set(i, -ray.direction);
             o.throughput.set_colour(i, paths.throughput.colour(path));
             o.eta_scale[i] = paths.eta_scale[path];
         }
-        for (plain, range) in self.each(stretches) {
+        for (plain, range) in self.each(runs) {
             for i in range {
-                let k = lanes.places[i] as usize;
+                let k = batch.places[i] as usize;
                 if let Some(hit) = &hits[k] {
-                    self.load_surface(lanes, i, (live.ray(k), hit), !plain.isotropic);
+                    self.load_surface(batch, i, (live.ray(k), hit), !plain.isotropic);
                 }
             }
         }
     }
 
-    /// Brings a surface into its lane.
+    /// Brings a surface into its element.
     #[inline(always)]
     fn load_surface(
         &self,
-        lanes: &mut Lanes,
+        batch: &mut VertexBatch,
         i: usize,
         (ray, hit): (&Ray, &Hit),
         needs_tangent: bool,
     ) {
         let geometry = &self.scene.geometry;
-        let (t, s) = (&mut lanes.triangles, &mut lanes.surfaces);
+        let (t, s) = (&mut batch.triangles, &mut batch.surfaces);
         let mut tangent = Vec3::ZERO;
         if let Some(facet) = geometry.facet(hit) {
             for (c, v) in t.corners.iter_mut().zip(facet.corners) {
@@ -161,51 +164,51 @@ impl PathTracer<'_> {
     }
 
     /// Adds light from one sampled light to each path.
-    fn light_lanes(&self, block: &mut Block, depth: u32) {
-        block
-            .lanes
-            .numbers
-            .draw(block.lanes.count, Purpose::Light, depth);
+    fn light_batch(&self, wavefront: &mut Wavefront, depth: u32) {
+        wavefront
+            .batch
+            .random_numbers
+            .draw(wavefront.batch.count, Purpose::Light, depth);
         let twice = self
-            .with_two_lights(&block.stretches, depth)
+            .with_two_lights(&wavefront.runs, depth)
             .next()
             .is_some();
         if twice {
-            self.part_numbers(block, depth);
+            self.part_numbers(wavefront, depth);
         }
-        self.consider(block, depth, 0);
+        self.consider(wavefront, depth, 0);
         if twice {
-            self.consider(block, depth, 1);
-            self.keep_one(block, depth);
+            self.consider(wavefront, depth, 1);
+            self.keep_one(wavefront, depth);
         }
-        let lanes = &mut *block.lanes;
-        lanes::aim(lanes.count, &lanes.surfaces, &mut lanes.arriving);
-        self.add_unblocked(block, depth);
+        let batch = &mut *wavefront.batch;
+        vertex_batch::aim(batch.count, &batch.surfaces, &mut batch.light_samples);
+        self.add_unblocked(wavefront, depth);
     }
 
-    /// Stretches where two lights are drawn.
+    /// MaterialRuns where two lights are sampled.
     fn with_two_lights<'s>(
         &'s self,
-        stretches: &'s [Stretch],
+        runs: &'s [MaterialRun],
         depth: u32,
     ) -> impl Iterator<Item = (&'s Plain, Range<usize>)> {
         let two = move |plain: &Plain| self.lights_at(&plain.lobe, depth) == 2;
-        self.each(stretches).filter(move |(plain, _)| two(plain))
+        self.each(runs).filter(move |(plain, _)| two(plain))
     }
 
-    /// Makes the numbers of one light those of two where as many are drawn.
-    fn part_numbers(&self, block: &mut Block, depth: u32) {
-        let Lanes {
-            numbers,
-            second_numbers,
+    /// Makes the random random_numbers of one light those of two where as many are sampled.
+    fn part_numbers(&self, wavefront: &mut Wavefront, depth: u32) {
+        let VertexBatch {
+            random_numbers,
+            second_random_numbers,
             ..
-        } = &mut *block.lanes;
-        let first_numbers = &mut numbers.values;
-        for (_, range) in self.with_two_lights(&block.stretches, depth) {
+        } = &mut *wavefront.batch;
+        let first_random_numbers = &mut random_numbers.values;
+        for (_, range) in self.with_two_lights(&wavefront.runs, depth) {
             for i in range {
-                let u = [0, 1, 2, 3].map(|k| first_numbers[k][i]);
-                for (to, which) in [(&mut *first_numbers, 0), (second_numbers, 1)] {
-                    let parted = candidates::numbers(u, which, 2);
+                let u = [0, 1, 2, 3].map(|k| first_random_numbers[k][i]);
+                for (to, which) in [(&mut *first_random_numbers, 0), (second_random_numbers, 1)] {
+                    let parted = candidates::random_numbers(u, which, 2);
                     for k in 0..4 {
                         to[k][i] = parted[k];
                     }
@@ -215,66 +218,63 @@ impl PathTracer<'_> {
     }
 
     /// Keeps one of two lights.
-    fn keep_one(&self, block: &mut Block, depth: u32) {
-        let Block {
-            paths,
-            stretches,
-            lanes,
-            ..
-        } = block;
-        let Lanes {
-            arriving,
+    fn keep_one(&self, wavefront: &mut Wavefront, depth: u32) {
+        let Wavefront {
+            paths, runs, batch, ..
+        } = wavefront;
+        let VertexBatch {
+            light_samples,
             second,
-            second_numbers: [choices, ..],
+            second_random_numbers: [choices, ..],
             owners,
             ..
-        } = &mut **lanes;
-        for (_, range) in self.with_two_lights(stretches, depth) {
+        } = &mut **batch;
+        for (_, range) in self.with_two_lights(runs, depth) {
             for i in range.clone() {
                 choices[i] = candidates::choice(&paths.samplers[index(owners[i])], depth);
             }
-            lanes::keep_one(range.start, range.end, choices, arriving, second);
+            vertex_batch::keep_one(range.start, range.end, choices, light_samples, second);
         }
     }
 
-    /// Draws a light for each vertex, and weighs what it would bring.
+    /// Samples a light for each vertex, and weighs what it would bring.
     ///
-    /// * `which`: 1 for the second where two are drawn; else 0.
-    fn consider(&self, block: &mut Block, depth: u32, which: u32) {
-        self.draw_lights(block, depth, which);
-        let Block {
+    /// * `which`: 1 for the second where two are sampled; else 0.
+    fn consider(&self, wavefront: &mut Wavefront, depth: u32, which: u32) {
+        self.draw_lights(wavefront, depth, which);
+        let Wavefront {
             paths,
-            stretches,
-            lanes,
+            runs,
+            batch,
             streams,
             ..
-        } = block;
-        let Lanes {
+        } = wavefront;
+        let VertexBatch {
             surfaces: s,
-            arriving,
+            light_samples,
             second,
-            onward: o,
+            scatter_samples: o,
             owners,
             ..
-        } = &mut **lanes;
-        let a = if which == 0 { arriving } else { second };
-        for (plain, range) in self.each(stretches) {
+        } = &mut **batch;
+        let a = if which == 0 { light_samples } else { second };
+        for (plain, range) in self.each(runs) {
             let (from, to) = (range.start, range.end);
             let count = self.lights_at(&plain.lobe, depth);
             if which >= count {
                 continue;
             }
             if plain.specular {
-                a.brought.x[range.clone()].fill(0.0);
-                a.brought.y[range.clone()].fill(0.0);
-                a.brought.z[range].fill(0.0);
+                a.contribution.x[range.clone()].fill(0.0);
+                a.contribution.y[range.clone()].fill(0.0);
+                a.contribution.z[range].fill(0.0);
                 continue;
             }
             for i in range {
                 let black = plain.black_inside && s.side[i] < 0.0;
                 a.pdf[i] *= if black { 0.0 } else { count as f32 };
             }
-            lanes::to_frames(from, to, s, a);
+            vertex_batch::to_frames(from, to, s, a);
             let purpose = candidates::stream(which);
             fill_streams(paths, &owners[from..to], plain, (depth, purpose), streams);
             lobes::eval_pdf(
@@ -285,65 +285,65 @@ impl PathTracer<'_> {
                 a.f_cos.colours_mut(from, to),
                 &mut a.lobe_pdf[from..to],
             );
-            lanes::weigh(from, to, &o.throughput, a);
+            vertex_batch::weigh(from, to, &o.throughput, a);
         }
     }
 
-    /// Draws a light for each vertex.
-    fn draw_lights(&self, block: &mut Block, depth: u32, which: u32) {
-        let Block {
-            stretches,
-            lanes,
+    /// Samples a light for each vertex.
+    fn draw_lights(&self, wavefront: &mut Wavefront, depth: u32, which: u32) {
+        let Wavefront {
+            runs,
+            batch,
             lights,
             ..
-        } = block;
-        let n = lanes.count;
+        } = wavefront;
+        let n = batch.count;
         let scene = self.scene;
-        let Lanes {
+        let VertexBatch {
             surfaces: s,
-            arriving,
+            light_samples,
             second,
             share_far,
-            numbers,
-            second_numbers,
+            random_numbers,
+            second_random_numbers,
             ..
-        } = &mut **lanes;
-        let (numbers, a) = match which {
-            0 => (&numbers.values, arriving),
-            _ => (&*second_numbers, second),
+        } = &mut **batch;
+        let (random_numbers, a) = match which {
+            0 => (&random_numbers.values, light_samples),
+            _ => (&*second_random_numbers, second),
         };
         if let Some(light) = scene.lights.lone_parallelogram() {
-            let [_, u, v, _] = numbers;
-            lanes::draw_light(n, light, [u, v], s, a);
+            let [_, u, v, _] = random_numbers;
+            vertex_batch::draw_light(n, light, [u, v], s, a);
             return;
         }
         let world = (&scene.geometry, &scene.textures);
         let wanted = |plain: &Plain| !plain.specular && self.lights_at(&plain.lobe, depth) > which;
         let receivers = self
-            .each(stretches)
+            .each(runs)
             .filter(|(plain, _)| wanted(plain))
             .flat_map(|(plain, range)| range.map(move |i| (i, plain)))
             .map(|(i, plain)| (i, s.receiver(i, plain)));
-        let u = [0, 1, 2, 3].map(|k| &numbers[k][..]);
+        let u = [0, 1, 2, 3].map(|k| &random_numbers[k][..]);
         let place = |i, light| a.set(i, light);
         (scene.lights).sample_all(lights, receivers, world, u, share_far, place);
     }
 
     /// Adds the light that nothing is in the way of.
-    fn add_unblocked(&self, block: &mut Block, depth: u32) {
-        let Block {
+    fn add_unblocked(&self, wavefront: &mut Wavefront, depth: u32) {
+        let Wavefront {
             paths,
-            lanes,
+            batch,
             shadows,
             blocked,
             tally,
             shared,
             ..
-        } = block;
-        let a = &lanes.arriving;
+        } = wavefront;
+        let a = &batch.light_samples;
         shadows.clear();
-        for i in 0..LANES.min(lanes.count) {
-            if a.brought.colour(i).is_black() {
+        for i in 0..WAVEFRONT_SIZE.min(batch.count) {
+            if a.contribution.colour(i).is_black() {
                 continue;
             }
             let ray = Ray {
@@ -359,39 +359,39 @@ impl PathTracer<'_> {
         for (k, &blocked) in blocked.iter().enumerate() {
             if !blocked {
                 let lane = shadows.number(k);
-                let path = index(lanes.owners[lane]);
+                let path = index(batch.owners[lane]);
                 match shared {
-                    Some(shared) if shared.is_at_y(path) => shared.keep_light(path, lanes, lane),
-                    _ => paths.add(path, a.brought.colour(lane), depth + 1),
+                    Some(shared) if shared.is_at_y(path) => shared.keep_light(path, batch, lane),
+                    _ => paths.add(path, a.contribution.colour(lane), depth + 1),
                 }
             }
         }
     }
 
-    /// Draws the next direction of each path.
-    fn scatter_lanes(&self, block: &mut Block, depth: u32) {
-        let Block {
+    /// Samples the next direction of each path.
+    fn scatter_batch(&self, wavefront: &mut Wavefront, depth: u32) {
+        let Wavefront {
             paths,
-            stretches,
-            lanes,
+            runs,
+            batch,
             streams,
             tally,
             shared,
             ..
-        } = block;
-        let n = lanes.count;
-        lanes.numbers.draw(n, Purpose::Scatter, depth);
-        let Lanes {
+        } = wavefront;
+        let n = batch.count;
+        batch.random_numbers.draw(n, Purpose::Scatter, depth);
+        let VertexBatch {
             surfaces: s,
-            onward: o,
-            numbers,
+            scatter_samples: o,
+            random_numbers,
             owners,
             ..
-        } = &mut **lanes;
-        for (plain, range) in self.each(stretches) {
+        } = &mut **batch;
+        for (plain, range) in self.each(runs) {
             let (from, to) = (range.start, range.end);
             fill_streams(paths, &owners[from..to], plain, (depth, 1), streams);
-            let u = [0, 1, 2].map(|k| &numbers.values[k][from..to]);
+            let u = [0, 1, 2].map(|k| &random_numbers.values[k][from..to]);
             let samples = specula_bsdf::batch::Samples {
                 wi: o.wi.directions_mut(from, to),
                 weight: o.weight.colours_mut(from, to),
@@ -400,39 +400,42 @@ impl PathTracer<'_> {
             };
             lobes::sample(&plain.lobe, s.wo.directions(from, to), u, streams, samples);
             let sides = plain.black_inside.then(|| &s.side[from..to]);
-            let scattered = lanes::count_scattered(&o.kind[from..to], sides);
+            let scattered = vertex_batch::count_scattered(&o.kind[from..to], sides);
             tally.scattered = tally.scattered.and(scattered);
             for i in range.filter(|_| !plain.opaque) {
-                if matches!(o.kind[i], Kind::Transmission | Kind::SpecularTransmission) {
+                if matches!(
+                    o.kind[i],
+                    SampleOutcome::Transmission | SampleOutcome::SpecularTransmission
+                ) {
                     o.eta_scale[i] *= plain.eta * plain.eta;
                 }
             }
         }
         if let Some(shared) = shared {
-            let n = n.min(LANES);
-            shared.let_pass(&owners[..n], &mut numbers.values[3][..n]);
+            let n = n.min(WAVEFRONT_SIZE);
+            shared.let_pass(&owners[..n], &mut random_numbers.values[3][..n]);
         }
-        lanes::go_on(n, depth, s, &numbers.values[3], o);
-        self.keep(block, depth);
+        vertex_batch::go_on(n, depth, s, &random_numbers.values[3], o);
+        self.keep(wavefront, depth);
     }
 
-    /// Brings the paths that go on back from the lanes.
-    fn keep(&self, block: &mut Block, depth: u32) {
-        let Block {
+    /// Brings the paths that go on back from the batch.
+    fn keep(&self, wavefront: &mut Wavefront, depth: u32) {
+        let Wavefront {
             paths,
             next,
-            stretches,
-            lanes,
+            runs,
+            batch,
             shared,
             ..
-        } = block;
-        let (s, o) = (&lanes.surfaces, &lanes.onward);
-        for (plain, range) in self.each(stretches) {
+        } = wavefront;
+        let (s, o) = (&batch.surfaces, &batch.scatter_samples);
+        for (plain, range) in self.each(runs) {
             for i in range {
                 if !o.alive[i] || (plain.black_inside && s.side[i] < 0.0) {
                     continue;
                 }
-                let number = lanes.owners[i];
+                let number = batch.owners[i];
                 let path = index(number);
                 let ray = Ray {
                     origin: o.origin.get(i),
@@ -443,7 +446,7 @@ impl PathTracer<'_> {
                 let mut throughput = o.throughput.colour(i);
                 if let Some(shared) = shared {
                     if shared.is_at_y(path) {
-                        shared.keep_direction(path, lanes, i);
+                        shared.keep_direction(path, batch, i);
                     }
                     let from_x = shared.carried_from_x(path, o.weight.colour(i));
                     throughput = from_x.unwrap_or(throughput);
@@ -451,13 +454,16 @@ impl PathTracer<'_> {
                 paths.throughput.set_colour(path, throughput);
                 paths.eta_scale[path] = o.eta_scale[i];
                 paths.straight[path] = false;
-                paths.rough[path] |= matches!(o.kind[i], Kind::Reflection | Kind::Transmission);
+                paths.rough[path] |= matches!(
+                    o.kind[i],
+                    SampleOutcome::Reflection | SampleOutcome::Transmission
+                );
                 if plain.specular {
                     paths.previous_pdf[path] = 0.0;
                 } else {
                     let lights = self.lights_at(&plain.lobe, depth);
                     paths.previous_pdf[path] = candidates::density(o.pdf[i], lights);
-                    paths.previous_share[path] = lanes.share_far[i];
+                    paths.previous_share[path] = batch.share_far[i];
                     paths.previous.set(path, &s.receiver(i, plain));
                 }
             }
@@ -467,7 +473,7 @@ impl PathTracer<'_> {
 
 /// Streams for lobes whose values are estimates.
 fn fill_streams(
-    paths: &Paths,
+    paths: &PathStates,
     owners: &[u32],
     plain: &Plain,
     (depth, purpose): (u32, u32),

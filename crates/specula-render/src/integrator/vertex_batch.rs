@@ -9,7 +9,7 @@
 )]
 
 use multiversion::multiversion;
-use specula_bsdf::batch::{Colours, Directions, Kind};
+use specula_bsdf::batch::{Colours, Directions, SampleOutcome};
 use specula_bsdf::math::{rgb, vec3};
 use specula_bsdf::{Frame, Rgb, Vec3};
 
@@ -18,14 +18,14 @@ use crate::geometry::unit_or;
 use crate::light::{LightSample, Parallelogram, Receiver, Seen};
 use crate::material::Plain;
 use crate::offset::{coupled, leave};
-use crate::renderer::Scattered;
-use crate::sampler::Numbers;
+use crate::renderer::ScatterCounts;
+use crate::sampler::RandomNumbers;
 
 /// Most vertices at once.
-pub(super) const LANES: usize = 512;
+pub(super) const WAVEFRONT_SIZE: usize = 512;
 
 /// A number of each vertex.
-pub(super) type Column = [f32; LANES];
+pub(super) type Column = [f32; WAVEFRONT_SIZE];
 
 /// A vector of each vertex.
 pub(super) struct Vectors {
@@ -36,9 +36,9 @@ pub(super) struct Vectors {
 
 impl Vectors {
     pub(super) const ZERO: Self = Self {
-        x: [0.0; LANES],
-        y: [0.0; LANES],
-        z: [0.0; LANES],
+        x: [0.0; WAVEFRONT_SIZE],
+        y: [0.0; WAVEFRONT_SIZE],
+        z: [0.0; WAVEFRONT_SIZE],
     };
 
     #[inline(always)]
@@ -103,7 +103,7 @@ pub(super) struct Triangles {
     /// Weights of the second and third corner.
     pub(super) weights: [Column; 2],
     /// Whether the surface is still to be made from it.
-    pub(super) wanted: [bool; LANES],
+    pub(super) wanted: [bool; WAVEFRONT_SIZE],
 }
 
 /// Surfaces, turned to their viewers.
@@ -127,15 +127,15 @@ pub(super) struct Surfaces {
 }
 
 /// Light that could arrive.
-pub(super) struct Arriving {
+pub(super) struct LightSamples {
     /// Towards the light.
     pub(super) towards: Vectors,
     pub(super) radiance: Vectors,
     /// As of `LightSample`; 0 where there is none.
     pub(super) pdf: Column,
-    pub(super) delta: [bool; LANES],
+    pub(super) delta: [bool; WAVEFRONT_SIZE],
     /// Whether it comes from infinity; else from the target.
-    pub(super) far: [bool; LANES],
+    pub(super) far: [bool; WAVEFRONT_SIZE],
     pub(super) target: Vectors,
     /// Bound on the error of each component of the target.
     pub(super) target_error: Column,
@@ -146,64 +146,64 @@ pub(super) struct Arriving {
     pub(super) f_cos: Vectors,
     pub(super) lobe_pdf: Column,
     /// Weighed, with the path's throughput, if nothing is in the way; black where nothing arrives.
-    pub(super) brought: Vectors,
+    pub(super) contribution: Vectors,
     /// The ray to look along.
     pub(super) origin: Vectors,
     pub(super) direction: Vectors,
 }
 
-/// Directions drawn, and what they carry.
-pub(super) struct Onward {
+/// Directions sampled, and what they carry.
+pub(super) struct ScatterSamples {
     pub(super) wi: Vectors,
     pub(super) weight: Vectors,
     pub(super) pdf: Column,
-    pub(super) kind: [Kind; LANES],
+    pub(super) kind: [SampleOutcome; WAVEFRONT_SIZE],
     /// Throughput, before and after.
     pub(super) throughput: Vectors,
     /// Product of the squared relative indices.
     pub(super) eta_scale: Column,
     pub(super) direction: Vectors,
     pub(super) origin: Vectors,
-    pub(super) alive: [bool; LANES],
+    pub(super) alive: [bool; WAVEFRONT_SIZE],
 }
 
-/// Everything about the vertices of a block.
-pub(super) struct Lanes {
+/// Everything about the vertices of a wavefront.
+pub(super) struct VertexBatch {
     /// How many there are.
     pub(super) count: usize,
     /// Of each vertex the number of its path, and its place among those that live.
-    pub(super) owners: [u32; LANES],
-    pub(super) places: [u32; LANES],
+    pub(super) owners: [u32; WAVEFRONT_SIZE],
+    pub(super) places: [u32; WAVEFRONT_SIZE],
     pub(super) triangles: Triangles,
     pub(super) surfaces: Surfaces,
-    pub(super) arriving: Arriving,
-    /// The second, where two are drawn.
-    pub(super) second: Arriving,
-    /// Probability with which the light to be drawn is one from infinity.
+    pub(super) light_samples: LightSamples,
+    /// The second, where two are sampled.
+    pub(super) second: LightSamples,
+    /// Probability with which the light to be sampled is one from infinity.
     pub(super) share_far: Column,
-    pub(super) onward: Onward,
+    pub(super) scatter_samples: ScatterSamples,
     /// Of the sequences.
-    pub(super) numbers: Numbers<LANES>,
+    pub(super) random_numbers: RandomNumbers<WAVEFRONT_SIZE>,
     /// Those of second lights.
-    pub(super) second_numbers: [Column; 4],
+    pub(super) second_random_numbers: [Column; 4],
     /// Where camera rays pass the raster.
     pub(super) raster: [Column; 2],
 }
 
 /// Of zeros.
-pub(super) const ZERO: Column = [0.0; LANES];
+pub(super) const ZERO: Column = [0.0; WAVEFRONT_SIZE];
 
-impl Lanes {
+impl VertexBatch {
     pub(super) fn new() -> Box<Self> {
         Box::new(Self {
             count: 0,
-            owners: [0; LANES],
-            places: [0; LANES],
+            owners: [0; WAVEFRONT_SIZE],
+            places: [0; WAVEFRONT_SIZE],
             triangles: Triangles {
                 corners: [Vectors::ZERO; 3],
                 normals: [Vectors::ZERO; 3],
                 weights: [ZERO; 2],
-                wanted: [false; LANES],
+                wanted: [false; WAVEFRONT_SIZE],
             },
             surfaces: Surfaces {
                 position: Vectors::ZERO,
@@ -216,46 +216,46 @@ impl Lanes {
                 axes: [Vectors::ZERO; 2],
                 wo: Vectors::ZERO,
             },
-            arriving: Arriving::ZERO,
-            second: Arriving::ZERO,
+            light_samples: LightSamples::ZERO,
+            second: LightSamples::ZERO,
             share_far: ZERO,
-            onward: Onward {
+            scatter_samples: ScatterSamples {
                 wi: Vectors::ZERO,
                 weight: Vectors::ZERO,
                 pdf: ZERO,
-                kind: [Kind::Rejected; LANES],
+                kind: [SampleOutcome::Rejected; WAVEFRONT_SIZE],
                 throughput: Vectors::ZERO,
                 eta_scale: ZERO,
                 direction: Vectors::ZERO,
                 origin: Vectors::ZERO,
-                alive: [false; LANES],
+                alive: [false; WAVEFRONT_SIZE],
             },
-            numbers: Numbers::ZERO,
-            second_numbers: [ZERO; 4],
+            random_numbers: RandomNumbers::ZERO,
+            second_random_numbers: [ZERO; 4],
             raster: [ZERO; 2],
         })
     }
 }
 
-impl Arriving {
+impl LightSamples {
     const ZERO: Self = Self {
         towards: Vectors::ZERO,
         radiance: Vectors::ZERO,
         pdf: ZERO,
-        delta: [false; LANES],
-        far: [false; LANES],
+        delta: [false; WAVEFRONT_SIZE],
+        far: [false; WAVEFRONT_SIZE],
         target: Vectors::ZERO,
         target_error: ZERO,
         target_normal: Vectors::ZERO,
         wi: Vectors::ZERO,
         f_cos: Vectors::ZERO,
         lobe_pdf: ZERO,
-        brought: Vectors::ZERO,
+        contribution: Vectors::ZERO,
         origin: Vectors::ZERO,
         direction: Vectors::ZERO,
     };
 
-    /// Places light that was drawn.
+    /// Places light that was sampled.
     #[inline]
     pub(super) fn set(&mut self, i: usize, light: Option<LightSample>) {
         let Some(light) = light else {
@@ -307,7 +307,7 @@ impl Surfaces {
     "x86_64+avx2+fma+bmi1+bmi2"
 ))]
 pub(super) fn make_surfaces(n: usize, t: &Triangles, s: &mut Surfaces) {
-    for i in 0..n.min(LANES) {
+    for i in 0..n.min(WAVEFRONT_SIZE) {
         let [a, b, c] = [&t.corners[0], &t.corners[1], &t.corners[2]].map(|v| v.get(i));
         let [na, nb, nc] = [&t.normals[0], &t.normals[1], &t.normals[2]].map(|v| v.get(i));
         let (u, v) = (t.weights[0][i], t.weights[1][i]);
@@ -354,7 +354,7 @@ fn largest(a: Vec3<f32>, b: Vec3<f32>) -> Vec3<f32> {
     "x86_64+avx2+fma+bmi1+bmi2"
 ))]
 pub(super) fn turn(n: usize, s: &mut Surfaces) {
-    for i in 0..n.min(LANES) {
+    for i in 0..n.min(WAVEFRONT_SIZE) {
         let wo = s.towards.get(i).normalize();
         s.towards.set(i, wo);
         let ng = s.ng.get(i);
@@ -387,7 +387,7 @@ pub(super) fn straighten(from: usize, to: usize, s: &mut Surfaces) {
     }
 }
 
-/// Draws points of the one light of a scene for the first `n` vertices, as `Area::sample` does.
+/// Samples points of the one light of a scene for the first `n` vertices, as `Area::sample` does.
 ///
 /// * `u`: of the points.
 #[multiversion(targets(
@@ -399,13 +399,13 @@ pub(super) fn draw_light(
     (light, radiance, two_sided): (&Parallelogram, Rgb<f32>, bool),
     u: [&Column; 2],
     s: &Surfaces,
-    a: &mut Arriving,
+    a: &mut LightSamples,
 ) {
     let (normal, error) = (light.normal, light.error.x);
-    for i in 0..n.min(LANES) {
+    for i in 0..n.min(WAVEFRONT_SIZE) {
         let Seen { point, wi, pdf } = light.sample(s.position.get(i), [u[0][i], u[1][i]]);
-        let shines = two_sided | (normal.dot(wi) < 0.0);
-        a.pdf[i] = if shines { pdf } else { 0.0 };
+        let emits = two_sided | (normal.dot(wi) < 0.0);
+        a.pdf[i] = if emits { pdf } else { 0.0 };
         a.towards.set(i, wi);
         a.radiance.set_colour(i, radiance);
         a.delta[i] = false;
@@ -423,8 +423,8 @@ pub(super) fn draw_light(
     "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
     "x86_64+avx2+fma+bmi1+bmi2"
 ))]
-pub(super) fn to_frames(from: usize, to: usize, s: &Surfaces, a: &mut Arriving) {
-    for i in from..to.min(LANES) {
+pub(super) fn to_frames(from: usize, to: usize, s: &Surfaces, a: &mut LightSamples) {
+    for i in from..to.min(WAVEFRONT_SIZE) {
         let towards = a.towards.get(i);
         let wi = s.frame(i).to_local(towards);
         let through = wi.z * s.facing(i, towards);
@@ -433,46 +433,47 @@ pub(super) fn to_frames(from: usize, to: usize, s: &Surfaces, a: &mut Arriving) 
     }
 }
 
-/// Weighs light that was drawn against the lobe's directions, by the power heuristic.
+/// Weighs light that was sampled against the lobe's directions, by the power heuristic.
 ///
 /// * `from`, `to`: at which vertices.
 #[multiversion(targets(
     "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
     "x86_64+avx2+fma+bmi1+bmi2"
 ))]
-pub(super) fn weigh(from: usize, to: usize, throughput: &Vectors, a: &mut Arriving) {
-    for i in from..to.min(LANES) {
+pub(super) fn weigh(from: usize, to: usize, throughput: &Vectors, a: &mut LightSamples) {
+    for i in from..to.min(WAVEFRONT_SIZE) {
         let pdf = a.pdf[i];
         let ratio = a.lobe_pdf[i] / pdf;
         let both = power_heuristic(ratio);
         let weight = if a.delta[i] { 1.0 } else { both };
         let arrives = pdf > 0.0;
         let scale = if arrives { weight / pdf } else { 0.0 };
-        let brought = throughput.colour(i) * a.f_cos.colour(i) * (a.radiance.colour(i) * scale);
+        let contribution =
+            throughput.colour(i) * a.f_cos.colour(i) * (a.radiance.colour(i) * scale);
         let pick = |c: f32| if arrives { c } else { 0.0 };
-        a.brought.set_colour(i, brought.map(pick));
+        a.contribution.set_colour(i, contribution.map(pick));
     }
 }
 
 /// Keeps one of two lights, which brings as much as both; see `candidates`.
 ///
-/// * `u`: decides, by lane.
+/// * `u`: decides, by element.
 /// * `a`, `b`: the first, which the kept one takes the place of, and the second.
 #[multiversion(targets(
     "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
     "x86_64+avx2+fma+bmi1+bmi2"
 ))]
-pub(super) fn keep_one(from: usize, to: usize, u: &Column, a: &mut Arriving, b: &Arriving) {
-    for i in from..to.min(LANES) {
-        let [x, y] = [a.brought.colour(i), b.brought.colour(i)];
+pub(super) fn keep_one(from: usize, to: usize, u: &Column, a: &mut LightSamples, b: &LightSamples) {
+    for i in from..to.min(WAVEFRONT_SIZE) {
+        let [x, y] = [a.contribution.colour(i), b.contribution.colour(i)];
         let (keeps_b, scale) = candidates::keeps_second(x, y, u[i]);
         let pick = |a: f32, b: f32| if keeps_b { b } else { a };
         let [of_a, of_b] =
             [&*a, b].map(|a| (a.towards.get(i), a.target.get(i), a.target_normal.get(i)));
         let pick_vector =
             |a: Vec3<f32>, b: Vec3<f32>| vec3(pick(a.x, b.x), pick(a.y, b.y), pick(a.z, b.z));
-        let brought = rgb(pick(x.r, y.r), pick(x.g, y.g), pick(x.b, y.b));
-        a.brought.set_colour(i, brought * scale);
+        let contribution = rgb(pick(x.r, y.r), pick(x.g, y.g), pick(x.b, y.b));
+        a.contribution.set_colour(i, contribution * scale);
         a.towards.set(i, pick_vector(of_a.0, of_b.0));
         a.target.set(i, pick_vector(of_a.1, of_b.1));
         a.target_normal.set(i, pick_vector(of_a.2, of_b.2));
@@ -481,13 +482,13 @@ pub(super) fn keep_one(from: usize, to: usize, u: &Column, a: &mut Arriving, b: 
     }
 }
 
-/// Aims the rays that look for the light that was drawn.
+/// Aims the rays that look for the light that was sampled.
 #[multiversion(targets(
     "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
     "x86_64+avx2+fma+bmi1+bmi2"
 ))]
-pub(super) fn aim(n: usize, s: &Surfaces, a: &mut Arriving) {
-    for i in 0..n.min(LANES) {
+pub(super) fn aim(n: usize, s: &Surfaces, a: &mut LightSamples) {
+    for i in 0..n.min(WAVEFRONT_SIZE) {
         let towards = a.towards.get(i);
         let error = Vec3::splat(s.error[i]);
         let origin = leave(s.position.get(i), error, s.ng.get(i), towards);
@@ -502,33 +503,33 @@ pub(super) fn aim(n: usize, s: &Surfaces, a: &mut Arriving) {
     }
 }
 
-/// How many directions were drawn, and how many of them rejected.
+/// How many directions were sampled, and how many of them rejected.
 ///
-/// * `sides`: 1 or -1 where lobes are black from the inside, from which none is drawn.
-pub(super) fn count_scattered(kinds: &[Kind], sides: Option<&[f32]>) -> Scattered {
-    let is_rejected = |k: &Kind| *k == Kind::Rejected;
+/// * `sides`: 1 or -1 where lobes are black from the inside, from which none is sampled.
+pub(super) fn count_scattered(kinds: &[SampleOutcome], sides: Option<&[f32]>) -> ScatterCounts {
+    let is_rejected = |k: &SampleOutcome| *k == SampleOutcome::Rejected;
     match sides {
-        None => Scattered {
-            drawn: kinds.len() as u64,
+        None => ScatterCounts {
+            sampled: kinds.len() as u64,
             rejected: kinds.iter().filter(|k| is_rejected(k)).count() as u64,
         },
         Some(sides) => (kinds.iter().zip(sides))
             .filter(|(_, side)| **side >= 0.0)
-            .fold(Scattered::default(), |sum, (kind, _)| Scattered {
-                drawn: sum.drawn + 1,
+            .fold(ScatterCounts::default(), |sum, (kind, _)| ScatterCounts {
+                sampled: sum.sampled + 1,
                 rejected: sum.rejected + u64::from(is_rejected(kind)),
             }),
     }
 }
 
-/// Goes on in the directions that were drawn, by the rules of `PathTracer::scatter`.
+/// Goes on in the directions that were sampled, by the rules of `PathTracer::scatter`.
 #[multiversion(targets(
     "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
     "x86_64+avx2+fma+bmi1+bmi2"
 ))]
-pub(super) fn go_on(n: usize, depth: u32, s: &Surfaces, survival: &Column, o: &mut Onward) {
+pub(super) fn go_on(n: usize, depth: u32, s: &Surfaces, survival: &Column, o: &mut ScatterSamples) {
     let plays = depth >= ROULETTE_FROM;
-    for i in 0..n.min(LANES) {
+    for i in 0..n.min(WAVEFRONT_SIZE) {
         let wi = o.wi.get(i);
         let direction = s.frame(i).to_world(wi).normalize();
         let throughput = o.throughput.colour(i) * o.weight.colour(i);

@@ -1,4 +1,4 @@
-// Ours: walks from both ends over the depth state without cancellation.
+// StratifiedBidirectional: walks from both ends over the depth state without cancellation.
 //
 // Light that met one facet is in closed form. All that met `k >= 2` is estimated by walks of directions,
 // from `wo` and, `f` being reciprocal, from `wi`. After each bounce a walk connects to the other end:
@@ -16,8 +16,8 @@
 //     R_k = D(h_{k-1}) / D(h_0)  prod_{i=0}^{k-2} sigma(-d_i) / prod_{i=2}^{k} sigma(d_i)
 //
 // so that the balance heuristic costs one multiplication a bounce: `C_k / (1 + R_k)` from each end.
-// The first bounces of both ends are stratified over `OURS_SPLIT` points each. Walks go on with
-// probability `min(1, W mass / OURS_CARRIED)`: what they can still contribute.
+// The first bounces of both ends are stratified over `STRATIFIED_BIDIRECTIONAL_SPLIT` points each. Walks go on with
+// probability `min(1, W mass / STRATIFIED_BIDIRECTIONAL_CARRIED)`: what they can still contribute.
 //
 // Samples leave with exactly the mass that leaves: their weight is the product of Fresnel terms.
 
@@ -29,29 +29,29 @@ import package::multibounce::state::{state_down, state_exit, state_mass, state_n
 import package::multibounce::walk::{WalkFacets, WalkFlight, WALK_MAX_BOUNCES, walk_arriving, walk_bounce, walk_connection, walk_flight, walk_is_upward, walk_pair, walk_reversed, walk_single};
 
 /// First bounces from each end.
-const OURS_SPLIT: u32 = 2u;
-/// Carried energy below which roulette begins; each walk starts with `1 / OURS_SPLIT`.
-const OURS_CARRIED: f32 = 0.5;
+const STRATIFIED_BIDIRECTIONAL_SPLIT: u32 = 2u;
+/// Carried energy below which roulette begins; each walk starts with `1 / STRATIFIED_BIDIRECTIONAL_SPLIT`.
+const STRATIFIED_BIDIRECTIONAL_CARRIED: f32 = 0.5;
 /// A floor of divisors.
-const OURS_TINY: f32 = 1e-36;
+const STRATIFIED_BIDIRECTIONAL_TINY: f32 = 1e-36;
 
 /// An estimate of `f cos`; `wi.z > 0`.
 ///
-/// Twin: specula-bsdf/src/multibounce/ours.rs, eval.
-fn ours_eval(facets: WalkFacets, wo: vec3f, wi: vec3f, stream: ptr<function, StreamState>) -> vec3f {
+/// Twin: specula-bsdf/src/multibounce/stratified_bidirectional.rs, eval.
+fn stratified_bidirectional_eval(facets: WalkFacets, wo: vec3f, wi: vec3f, stream: ptr<function, StreamState>) -> vec3f {
     let arriving = walk_arriving(facets, wo);
     let leaving = walk_flight(facets.normals, wi);
     var sum = walk_single(facets, arriving, leaving);
     let shift = walk_pair(stream);
     // Backfacing shading normals have no other end.
     let both = wo.z > 0.0;
-    for (var k = 0u; k < OURS_SPLIT; k++) {
-        let u = ours_stratum(shift, k);
-        sum += ours_walk(facets, both, arriving, leaving, u, stream);
+    for (var k = 0u; k < STRATIFIED_BIDIRECTIONAL_SPLIT; k++) {
+        let u = stratified_bidirectional_stratum(shift, k);
+        sum += stratified_bidirectional_walk(facets, both, arriving, leaving, u, stream);
         if both {
             let from_wi = walk_reversed(leaving);
             let to_wo = walk_reversed(arriving);
-            sum += ours_walk(facets, both, from_wi, to_wo, u, stream) * (wi.z / wo.z);
+            sum += stratified_bidirectional_walk(facets, both, from_wi, to_wo, u, stream) * (wi.z / wo.z);
         }
     }
     return sum;
@@ -59,17 +59,17 @@ fn ours_eval(facets: WalkFacets, wo: vec3f, wi: vec3f, stream: ptr<function, Str
 
 /// The k-th point of a shifted lattice.
 ///
-/// Twin: specula-bsdf/src/multibounce/ours.rs, stratum.
-fn ours_stratum(shift: vec2f, k: u32) -> vec2f {
-    let x = shift + f32(k) / f32(OURS_SPLIT);
+/// Twin: specula-bsdf/src/multibounce/stratified_bidirectional.rs, stratum.
+fn stratified_bidirectional_stratum(shift: vec2f, k: u32) -> vec2f {
+    let x = shift + f32(k) / f32(STRATIFIED_BIDIRECTIONAL_SPLIT);
     return select(x, x - 1.0, x >= vec2f(1.0));
 }
 
 /// The probability of going on, where below 1.
 ///
-/// Twin: specula-bsdf/src/multibounce/ours.rs, goes_on.
-fn ours_goes_on(weight: vec3f, mass: f32) -> f32 {
-    return rgb_max_channel(weight) * mass * (1.0 / OURS_CARRIED);
+/// Twin: specula-bsdf/src/multibounce/stratified_bidirectional.rs, goes_on.
+fn stratified_bidirectional_goes_on(weight: vec3f, mass: f32) -> f32 {
+    return rgb_max_channel(weight) * mass * (1.0 / STRATIFIED_BIDIRECTIONAL_CARRIED);
 }
 
 /// One walk's estimate of two bounces and more.
@@ -77,8 +77,8 @@ fn ours_goes_on(weight: vec3f, mass: f32) -> f32 {
 /// * `both`: weighs with the walks from the other end.
 /// * `u`: draws the first facet.
 ///
-/// Twin: specula-bsdf/src/multibounce/ours.rs, Walk::finish.
-fn ours_walk(
+/// Twin: specula-bsdf/src/multibounce/stratified_bidirectional.rs, Walk::finish.
+fn stratified_bidirectional_walk(
     facets: WalkFacets,
     both: bool,
     arriving: WalkFlight,
@@ -88,7 +88,7 @@ fn ours_walk(
 ) -> vec3f {
     var state = state_new(arriving.rate);
     var flight = arriving;
-    var weight = vec3f(1.0 / f32(OURS_SPLIT));
+    var weight = vec3f(1.0 / f32(STRATIFIED_BIDIRECTIONAL_SPLIT));
     // 4 R_k without the last D.
     var quotient = 0.0;
     var sum = vec3f(0.0);
@@ -98,7 +98,7 @@ fn ours_walk(
         if both {
             if bounce == 1u {
                 let density = normals_d(facets.normals, met.wm) * leaving.backing;
-                quotient = flight.facing * (4.0 / max(density, OURS_TINY));
+                quotient = flight.facing * (4.0 / max(density, STRATIFIED_BIDIRECTIONAL_TINY));
             } else {
                 quotient = flight.facing * (quotient / met.next.backing);
             }
@@ -116,7 +116,7 @@ fn ours_walk(
         if end.quarter_d > 0.0 {
             sum += weight * end.fresnel * (end.quarter_d * leaves / (flight.facing * rivals));
         }
-        let goes_on = ours_goes_on(weight, state_mass(&state));
+        let goes_on = stratified_bidirectional_goes_on(weight, state_mass(&state));
         if goes_on < 1.0 {
             if stream_next(stream) >= goes_on {
                 break;
@@ -133,8 +133,8 @@ fn ours_walk(
 ///
 /// * `u`: draws the first facet.
 ///
-/// Twin: specula-bsdf/src/multibounce/ours.rs, sample.
-fn ours_draw(facets: WalkFacets, wo: vec3f, u: vec2f, stream: ptr<function, StreamState>) -> BsdfSample {
+/// Twin: specula-bsdf/src/multibounce/stratified_bidirectional.rs, sample.
+fn stratified_bidirectional_draw(facets: WalkFacets, wo: vec3f, u: vec2f, stream: ptr<function, StreamState>) -> BsdfSample {
     var flight = walk_arriving(facets, wo);
     var state = state_new(flight.rate);
     var weight = vec3f(1.0);

@@ -23,7 +23,7 @@ const VERTICES_AT_ONCE: u32 = 16;
 
 /// The kernels that take samples.
 #[derive(Clone, Debug)]
-pub(crate) enum Taker {
+pub(crate) enum PathKernels {
     /// One for a whole path.
     Paths(Stage),
     /// One for each part of a path.
@@ -56,7 +56,7 @@ pub(crate) struct QueueArrays {
     workgroups: wgpu::Buffer,
 }
 
-impl Taker {
+impl PathKernels {
     /// * `module`: the scene's shader.
     /// * `structures`: what its rays are cast by; `None`: the tree.
     pub(crate) fn new(
@@ -80,11 +80,11 @@ impl Taker {
             binding,
             is_written: true,
         });
-        let turn = gpu.shader("turn", program::TURN)?;
+        let turn = gpu.shader("turn", program::QUEUE_ADVANCE)?;
         Ok(Self::Queues(Queues {
             begin: Stage::new(gpu, &arrays, module, "queue_begin", None)?,
             bounce: Stage::new(gpu, &arrays, module, "queue_bounce", structures)?,
-            turn: Stage::new(gpu, &layout(gpu, both)?, &turn, "turn_main", None)?,
+            turn: Stage::new(gpu, &layout(gpu, both)?, &turn, "queue_advance_main", None)?,
             most: max_depth.saturating_add(1),
         }))
     }

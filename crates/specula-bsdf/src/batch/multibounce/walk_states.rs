@@ -1,4 +1,4 @@
-//! Walks in lanes: their states in structures of arrays, and the loops of one bounce.
+//! Walks in batches: their states in structures of arrays, and the loops of one bounce.
 //!
 //! All walks are at the same bounce. Layers of [`DepthState`] are rows, one for each bounce: that of
 //! a flight up is void, of rate 0. After a bounce the walks that go on are moved to the front, so
@@ -14,19 +14,19 @@ use crate::ndf::Ggx;
 /// Walks at a time: few enough that their states stay in the second nearest cache. As many as an
 /// [`Index`] tells apart, so that none is out of bounds.
 pub(super) const LANES: usize = 256;
-/// The number of a lane.
+/// The number of a walk.
 pub(super) type Index = u8;
-/// A number of every lane.
+/// A number of every walk.
 pub(super) type Lane<T> = [T; LANES];
 
-/// Bounces in lanes, at most; survivors go on one by one.
+/// Bounces in batches, at most; survivors go on one by one.
 pub(super) const BOUNCES: usize = 8;
 /// So few walks go on one by one.
 pub(super) const FEW: usize = 6;
 /// Lanes of the widest vector: loops run over multiples of it.
 const WIDTH: usize = 16;
 
-/// The number of a lane, `i < LANES`.
+/// The number of a walk, `i < LANES`.
 #[inline(always)]
 pub(super) fn index(i: usize) -> Index {
     #[allow(clippy::cast_possible_truncation, reason = "below LANES")]
@@ -35,7 +35,7 @@ pub(super) fn index(i: usize) -> Index {
     }
 }
 
-/// The reflectance at the cosine of every lane. Its kind is known in each loop, so that none
+/// The reflectance at the cosine of every walk. Its kind is known in each loop, so that none
 /// branches.
 #[inline(always)]
 pub(super) fn reflect<T: Real>(
@@ -65,7 +65,7 @@ pub(super) fn reflect<T: Real>(
     }
 }
 
-/// Facets in lanes.
+/// Facets in batches.
 pub(super) type Metal<T> = Facets<T, Ggx<T>>;
 
 impl<T: Real> Directions<Lane<T>> {
@@ -104,7 +104,7 @@ impl<T: Real> Colours<Lane<T>> {
     }
 }
 
-/// The number of lanes that a loop over `count` of them runs over: whole vectors.
+/// The number of walks that a loop over `count` of them runs over: whole vectors.
 #[inline(always)]
 pub(super) fn whole(count: usize) -> usize {
     (count.min(LANES) + WIDTH - 1) & !(WIDTH - 1)
@@ -139,7 +139,7 @@ pub(super) fn next_if<T: Real>(stream: &mut Stream, is_needed: bool) -> T {
     u
 }
 
-/// One stream for every lane.
+/// One stream for every walk.
 pub(super) const NO_STREAMS: [Stream; LANES] = [const { Stream::new(0) }; LANES];
 
 /// The states of walks.
@@ -299,7 +299,7 @@ impl<T: Real> Walks<T> {
         }
     }
 
-    /// The numbers that draw the next facets.
+    /// The values that sample the next facets.
     #[inline(always)]
     pub(super) fn draw_facets(&mut self, count: usize) {
         let streams = &mut self.streams[..whole(count)];
@@ -310,7 +310,7 @@ impl<T: Real> Walks<T> {
         }
     }
 
-    /// The walk in lane `i` as the scalar functions have it.
+    /// The walk in walk `i` as the scalar functions have it.
     #[inline(always)]
     pub(super) fn state(
         &self,

@@ -1,4 +1,4 @@
-//! Lights that throw pictures, against the formats' own renderers and closed forms.
+//! Lights that project images, against the formats' own renderers and closed forms.
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail loudly")]
 
 mod common;
@@ -139,9 +139,9 @@ LightSource \"projection\" \"string filename\" \"p.png\" \"float fov\" 50 \"floa
     assert_same("projection", &projection, &PROJECTION, 0.03);
 }
 
-/// A light over the floor at the height 2 that throws `throw` downwards, its picture one row of
+/// A light over the floor at the height 2 that projects `image_projection` downwards, its picture one row of
 /// numbers.
-fn over_floor(numbers: &[f32], throw: Throw, turn: DMat4) -> Scene {
+fn over_floor(numbers: &[f32], image_projection: ImageProjection, turn: DMat4) -> Scene {
     let mut scene = lit_floor();
     scene.images.push(Image {
         name: "row".into(),
@@ -163,7 +163,7 @@ fn over_floor(numbers: &[f32], throw: Throw, turn: DMat4) -> Scene {
             * DMat4::from_rotation_x(PI)
             * turn,
         intensity: ColourParam::Texture(TextureId(0)),
-        throw,
+        image_projection,
     });
     scene
 }
@@ -172,7 +172,7 @@ fn over_floor(numbers: &[f32], throw: Throw, turn: DMat4) -> Scene {
 /// the choice between the two must not leave any of it out.
 #[test]
 fn windows_throw_intensities_and_irradiances() {
-    let throw = |profile| Throw::Window {
+    let image_projection = |profile| ImageProjection::Window {
         half: [0.5, 0.25],
         profile,
     };
@@ -190,7 +190,7 @@ fn windows_throw_intensities_and_irradiances() {
         // Turned about y, the floor's middle is at x = tan(turn) in the window.
         for (turn, number) in [(tilt, 5.0), (-tilt, 1.0), (0.6, 0.0), (PI, 0.0)] {
             let turned = DMat4::from_rotation_y(-turn);
-            let mut scene = over_floor(&[1.0, 5.0], throw(profile), turned);
+            let mut scene = over_floor(&[1.0, 5.0], image_projection(profile), turned);
             scene.lights.push(Light::Point {
                 position: [0.0, 0.0, 3.0],
                 intensity: Rgb::splat(0.9),
@@ -209,15 +209,15 @@ fn windows_throw_intensities_and_irradiances() {
 
 /// One bright pixel of many, next to a point light: its light must not be forgotten.
 #[test]
-fn a_lone_bright_pixel_is_thrown() {
+fn a_lone_bright_pixel_is_projected() {
     let mut numbers = [0.0; 1024];
     numbers[513] = 7.0;
-    let throw = Throw::Window {
+    let image_projection = ImageProjection::Window {
         half: [5.0, 0.25],
         profile: Profile::Intensity,
     };
     let turn = (5.0 * (2.0 * 513.5 / 1024.0 - 1.0_f64)).atan();
-    let mut scene = over_floor(&numbers, throw, DMat4::from_rotation_y(-turn));
+    let mut scene = over_floor(&numbers, image_projection, DMat4::from_rotation_y(-turn));
     scene.lights.push(Light::Point {
         position: [0.0, 0.0, 3.0],
         intensity: Rgb::splat(0.9),
@@ -230,7 +230,11 @@ fn a_lone_bright_pixel_is_thrown() {
 fn pictures_of_all_directions_reach_all_directions() {
     // s < 1/2 has x < 0 in light space.
     for (turn, number) in [(0.4, 5.0), (-0.4, 1.0), (2.0, 5.0), (-3.0, 1.0)] {
-        let scene = over_floor(&[1.0, 5.0], Throw::Sphere, DMat4::from_rotation_y(-turn));
+        let scene = over_floor(
+            &[1.0, 5.0],
+            ImageProjection::Sphere,
+            DMat4::from_rotation_y(-turn),
+        );
         let picture = render(&scene, 16, 1, Strategy::Mis);
         assert_mean("sphere", &picture, number / 4.0 * 0.5 / PI, 1e-3);
     }

@@ -1,23 +1,23 @@
-//! Lights that throw pictures.
+//! Lights that project images.
 
 use glam::{DMat4, DVec4};
 use specula_bsdf::Rgb;
 
 use super::{WriteError, Writer, list, quoted, rgb_list};
 use crate::image::Image;
-use crate::scene::{Channel, ColourParam, ImageId, Profile, Texture, Throw};
+use crate::scene::{Channel, ColourParam, ImageId, ImageProjection, Profile, Texture};
 
 impl Writer<'_> {
-    /// The place and the directive of a light that throws a picture.
-    pub(super) fn thrown(
+    /// The place and the directive of a light that projects an image.
+    pub(super) fn projected(
         &mut self,
         index: usize,
         to_world: &DMat4,
         intensity: ColourParam,
-        throw: &Throw,
+        image_projection: &ImageProjection,
     ) -> Result<(DMat4, String), WriteError> {
         let Some((id, channel, factor)) = self.picture_of(intensity) else {
-            self.note("lights that throw what is no picture are written as points of their mean");
+            self.note("lights that image_projection what is no picture are written as points of their mean");
             let position = to_world.w_axis.truncate().to_array();
             let directive = format!(
                 "\"point\" \"point3 from\" [ {} ] \"rgb I\" [ {} ]",
@@ -26,7 +26,7 @@ impl Writer<'_> {
             );
             return Ok((DMat4::IDENTITY, directive));
         };
-        let Throw::Window { half, profile } = throw else {
+        let ImageProjection::Window { half, profile } = image_projection else {
             if channel == Channel::Rgb {
                 self.note("goniometric lights lose the colours of their pictures");
             }

@@ -1,13 +1,13 @@
-//! The absorbing bodies that a path is in.
+//! The absorbing media that a path is in.
 //!
 //! pbrt and Mitsuba name what is on either side of a boundary, so that crossing it tells what the
 //! path is in. glTF names the inside alone: around a body is whatever the path was in before, so the
-//! bodies that it entered are remembered until it leaves them, in any order. Neither has priorities:
-//! where bodies overlap, the one entered last counts.
+//! media that it entered are remembered until it leaves them, in any order. Neither has priorities:
+//! where media overlap, the one entered last counts.
 
 use specula_bsdf::Rgb;
 
-/// How many bodies are remembered; those entered first are forgotten.
+/// How many media are remembered; those entered first are forgotten.
 const DEEPEST: usize = 4;
 
 /// What absorbs on the two sides of a surface, per scene unit.
@@ -21,14 +21,14 @@ pub(crate) struct Boundary {
 
 /// What a path is in.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Bodies {
+pub(crate) struct MediumStack {
     absorption: Option<Rgb<f32>>,
-    /// Materials of the bodies entered, with their absorption; the first `count` are meant.
+    /// Materials of the media entered, with their absorption; the first `count` are meant.
     entered: [(u32, Rgb<f32>); DEEPEST],
     count: usize,
 }
 
-impl Bodies {
+impl MediumStack {
     /// Empty space.
     pub(crate) const NONE: Self = Self {
         absorption: None,
@@ -97,22 +97,22 @@ mod tests {
         }
     }
 
-    fn absorption(bodies: &Bodies) -> f32 {
-        bodies.absorption().map_or(0.0, |a| a.r)
+    fn absorption(media: &MediumStack) -> f32 {
+        media.absorption().map_or(0.0, |a| a.r)
     }
 
     /// Crosses `(material, inwards)`, each body absorbing as much as its number says.
     fn along(steps: &[(u32, bool)]) -> Vec<f32> {
-        let mut bodies = Bodies::NONE;
+        let mut media = MediumStack::NONE;
         let each = steps.iter().map(|&(material, inwards)| {
-            bodies.cross(material, &body(material as f32), inwards);
-            absorption(&bodies)
+            media.cross(material, &body(material as f32), inwards);
+            absorption(&media)
         });
         each.collect()
     }
 
     #[test]
-    fn bodies_within_bodies_give_back_what_is_around_them() {
+    fn medium_stack_within_medium_stack_give_back_what_is_around_them() {
         let steps = [
             (3, true),
             (5, true),
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn bodies_that_overlap_may_be_left_in_any_order() {
+    fn medium_stack_that_overlap_may_be_left_in_any_order() {
         let steps = [(3, true), (5, true), (3, false), (5, false)];
         assert_eq!(along(&steps), [3.0, 5.0, 5.0, 0.0]);
     }
@@ -151,10 +151,10 @@ mod tests {
             inside: Rgb::BLACK,
             around: Some(Rgb::splat(7.0)),
         };
-        let mut bodies = Bodies::NONE;
-        bodies.cross(1, &fog, false);
-        assert_eq!(absorption(&bodies), 7.0);
-        bodies.cross(1, &fog, true);
-        assert_eq!(bodies.absorption(), None);
+        let mut media = MediumStack::NONE;
+        media.cross(1, &fog, false);
+        assert_eq!(absorption(&media), 7.0);
+        media.cross(1, &fog, true);
+        assert_eq!(media.absorption(), None);
     }
 }

@@ -1,11 +1,11 @@
 // Where a texture is evaluated.
 //
-// Twin of specula-render/src/texture/mod.rs, Place.
+// Twin of specula-render/src/texture/mod.rs, TextureCoordinates.
 
 /// Where a texture is evaluated.
 ///
-/// Twin: specula-render/src/texture/mod.rs, Place.
-struct Place {
+/// Twin: specula-render/src/texture/mod.rs, TextureCoordinates.
+struct TextureCoordinates {
     /// Surface coordinates.
     uv: vec2f,
     /// Of the second set; 0 where the mesh has none.

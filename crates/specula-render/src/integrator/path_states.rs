@@ -1,32 +1,32 @@
-//! What the paths of a block carry, in columns by the number of the path.
+//! What the paths of a wavefront carry, in columns by the number of the path.
 
 use specula_bsdf::{Rgb, Vec3};
 
-use super::lanes::{Column, LANES, Vectors, ZERO};
+use super::vertex_batch::{Column, Vectors, WAVEFRONT_SIZE, ZERO};
 use super::{Path, Previous, State, Tally, bias};
 use crate::accel::Ray;
-use crate::bodies::Bodies;
 use crate::film::PixelSample;
 use crate::light::{Lights, Receiver};
+use crate::medium_stack::MediumStack;
 use crate::sampler::Sampler;
 
 /// The columns.
-pub(super) struct Paths {
-    pub(super) samplers: [Sampler; LANES],
+pub(super) struct PathStates {
+    pub(super) samplers: [Sampler; WAVEFRONT_SIZE],
     pub(super) radiance: Vectors,
     pub(super) throughput: Vectors,
     /// Product of the squared relative indices so far.
     pub(super) eta_scale: Column,
     /// What they are in.
-    bodies: [Bodies; LANES],
+    media: [MediumStack; WAVEFRONT_SIZE],
     /// As of `State`.
-    pub(super) straight: [bool; LANES],
-    pub(super) rough: [bool; LANES],
+    pub(super) straight: [bool; WAVEFRONT_SIZE],
+    pub(super) rough: [bool; WAVEFRONT_SIZE],
     pub(super) bound: Column,
     pub(super) previous: Receivers,
     /// Density of the last direction there; 0 where no light could have found it.
     pub(super) previous_pdf: Column,
-    /// Probability with which the light drawn there was to be one from infinity; negative where it was not
+    /// Probability with which the light sampled there was to be one from infinity; negative where it was not
     /// kept.
     pub(super) previous_share: Column,
     pub(super) first: FirstSeen,
@@ -64,17 +64,17 @@ impl Receivers {
     }
 }
 
-impl Paths {
+impl PathStates {
     pub(super) fn new() -> Box<Self> {
         Box::new(Self {
-            samplers: [Sampler::new([0; 2], 0, 0); LANES],
+            samplers: [Sampler::new([0; 2], 0, 0); WAVEFRONT_SIZE],
             radiance: Vectors::ZERO,
             throughput: Vectors::ZERO,
             eta_scale: ZERO,
-            bodies: [Bodies::NONE; LANES],
-            straight: [true; LANES],
-            rough: [false; LANES],
-            bound: [f32::INFINITY; LANES],
+            media: [MediumStack::NONE; WAVEFRONT_SIZE],
+            straight: [true; WAVEFRONT_SIZE],
+            rough: [false; WAVEFRONT_SIZE],
+            bound: [f32::INFINITY; WAVEFRONT_SIZE],
             previous: Receivers {
                 point: Vectors::ZERO,
                 normal: Vectors::ZERO,
@@ -91,9 +91,9 @@ impl Paths {
 
     /// Makes the first `n` paths new ones, but for their samplers.
     ///
-    /// * `has_bodies`: whether paths may have entered any.
+    /// * `has_media`: whether paths may have entered any.
     /// * `bound`: as of `PathTracer`.
-    pub(super) fn begin(&mut self, n: usize, has_bodies: bool, bound: f32) {
+    pub(super) fn begin(&mut self, n: usize, has_media: bool, bound: f32) {
         let columns = |v: &mut Vectors, value: f32| {
             v.x[..n].fill(value);
             v.y[..n].fill(value);
@@ -109,8 +109,8 @@ impl Paths {
         self.straight[..n].fill(true);
         self.rough[..n].fill(false);
         self.bound[..n].fill(bound);
-        if has_bodies {
-            self.bodies[..n].fill(Bodies::NONE);
+        if has_media {
+            self.media[..n].fill(MediumStack::NONE);
         }
     }
 
@@ -123,7 +123,7 @@ impl Paths {
         self.radiance.z[i] += radiance.b;
     }
 
-    /// Where the last direction was drawn, if lights could have found it too.
+    /// Where the last direction was sampled, if lights could have found it too.
     #[inline(always)]
     pub(super) fn previous(&self, i: usize) -> Option<Previous> {
         let pdf = self.previous_pdf[i];
@@ -133,7 +133,7 @@ impl Paths {
         })
     }
 
-    /// [`Lights::share_from_infinity`] where the last direction was drawn, at `receiver`.
+    /// [`Lights::share_from_infinity`] where the last direction was sampled, at `receiver`.
     #[inline(always)]
     pub(super) fn share_from_infinity(
         &self,
@@ -170,7 +170,7 @@ impl Paths {
                 radiance: self.radiance.colour(i),
                 throughput: self.throughput.colour(i),
                 eta_scale: self.eta_scale[i],
-                bodies: self.bodies[i],
+                media: self.media[i],
                 straight: self.straight[i],
                 rough: self.rough[i],
                 bound: self.bound[i],
@@ -187,7 +187,7 @@ impl Paths {
             radiance,
             throughput,
             eta_scale,
-            bodies,
+            media,
             straight,
             rough,
             bound: _,
@@ -197,7 +197,7 @@ impl Paths {
         self.radiance.set_colour(i, *radiance);
         self.throughput.set_colour(i, *throughput);
         self.eta_scale[i] = *eta_scale;
-        self.bodies[i] = *bodies;
+        self.media[i] = *media;
         self.straight[i] = *straight;
         self.rough[i] = *rough;
         self.previous_pdf[i] = previous.map_or(0.0, |p| p.pdf);

@@ -1,7 +1,7 @@
 // Our walk at dielectric facets.
 //
 // On the side of `wo` a walk needs no height. Light that met one facet is in closed form (refraction
-// too, by the Beta function of its masking). Once a walk refracts, its depth is drawn from the state, and
+// too, by the Beta function of its masking). Once a walk refracts, its depth is sampled from the state, and
 // it goes on with heights as in Heitz et al. 2016: the depths of the two sides, `-ln C` and `-ln(1 - C)`,
 // have no common exponential form. Walks start at one end, chosen by the angles: those from the other end
 // connect to it at grazing angles, which is rare and pays much.
@@ -10,39 +10,39 @@ import package::bsdf::bsdf_sample::{BSDF_SAMPLE_VALID, BsdfSample, bsdf_sample_n
 import package::math::stream::{StreamState, stream_next};
 import package::multibounce::heitz_interface::{HeitzInterfaceWalk, heitz_interface_collisions, heitz_interface_flown, heitz_interface_left};
 import package::multibounce::multibounce_interface::{MultibounceInterfaceCollision, MultibounceInterface, multibounce_interface_beyond, multibounce_interface_bounce, multibounce_interface_depth_beyond, multibounce_interface_lambda, multibounce_interface_leaves_beyond, multibounce_interface_phase, multibounce_interface_turned};
-import package::multibounce::ours::{OURS_CARRIED, OURS_SPLIT, ours_stratum};
+import package::multibounce::stratified_bidirectional::{STRATIFIED_BIDIRECTIONAL_CARRIED, STRATIFIED_BIDIRECTIONAL_SPLIT, stratified_bidirectional_stratum};
 import package::multibounce::state::{state_down, state_exit, state_mass, state_new, state_sample_depth, state_scale, state_up};
 import package::multibounce::walk::{WalkFlight, WALK_MAX_BOUNCES, walk_flight, walk_is_upward, walk_pair};
 
 /// An estimate of `f |cos|` of a dielectric, for light (no `1/eta^2`), from the better end.
 ///
-/// Twin: specula-bsdf/src/multibounce/ours.rs, eval_interface.
-fn ours_interface_eval(
+/// Twin: specula-bsdf/src/multibounce/stratified_bidirectional.rs, eval_interface.
+fn stratified_bidirectional_interface_eval(
     facets: MultibounceInterface,
     wo: vec3f,
     wi: vec3f,
     stream: ptr<function, StreamState>,
 ) -> f32 {
     // Backfacing shading normals have no other end.
-    if wo.z <= 0.0 || ours_interface_is_better_end(facets, wo, wi) {
-        return ours_interface_eval_end(facets, wo, wi, stream);
+    if wo.z <= 0.0 || stratified_bidirectional_interface_is_better_end(facets, wo, wi) {
+        return stratified_bidirectional_interface_eval_end(facets, wo, wi, stream);
     }
     let cosines = abs(wi.z) / wo.z;
     if wi.z > 0.0 {
-        return cosines * ours_interface_eval_end(facets, wi, wo, stream);
+        return cosines * stratified_bidirectional_interface_eval_end(facets, wi, wo, stream);
     }
     let there = multibounce_interface_turned(wi);
     let back = multibounce_interface_turned(wo);
     let beyond = multibounce_interface_beyond(facets);
     let squared = facets.eta * facets.eta;
-    return cosines * squared * ours_interface_eval_end(beyond, there, back, stream);
+    return cosines * squared * stratified_bidirectional_interface_eval_end(beyond, there, back, stream);
 }
 
 /// Whether walks that start at `wo` are the better ones: at the more grazing end; of two that are alike,
 /// inside on smooth surfaces and outside on rough ones.
 ///
-/// Twin: specula-bsdf/src/multibounce/ours.rs, is_better_end.
-fn ours_interface_is_better_end(facets: MultibounceInterface, wo: vec3f, wi: vec3f) -> bool {
+/// Twin: specula-bsdf/src/multibounce/stratified_bidirectional.rs, is_better_end.
+fn stratified_bidirectional_interface_is_better_end(facets: MultibounceInterface, wo: vec3f, wi: vec3f) -> bool {
     let cos_o = wo.z;
     let cos_i = abs(wi.z);
     if wi.z > 0.0 {
@@ -58,8 +58,8 @@ fn ours_interface_is_better_end(facets: MultibounceInterface, wo: vec3f, wi: vec
 
 /// An estimate of `f |cos|` of a dielectric, for light, by walks from `wo`.
 ///
-/// Twin: specula-bsdf/src/multibounce/ours.rs, eval_interface_from.
-fn ours_interface_eval_end(
+/// Twin: specula-bsdf/src/multibounce/stratified_bidirectional.rs, eval_interface_from.
+fn stratified_bidirectional_interface_eval_end(
     facets: MultibounceInterface,
     wo: vec3f,
     wi: vec3f,
@@ -77,19 +77,19 @@ fn ours_interface_eval_end(
     }
     var sum = 0.0;
     let shift = walk_pair(stream);
-    for (var k = 0u; k < OURS_SPLIT; k++) {
-        let u = ours_stratum(shift, k);
-        sum += ours_interface_walk(facets, arriving, wi, lambda, u, stream);
+    for (var k = 0u; k < STRATIFIED_BIDIRECTIONAL_SPLIT; k++) {
+        let u = stratified_bidirectional_stratum(shift, k);
+        sum += stratified_bidirectional_interface_walk(facets, arriving, wi, lambda, u, stream);
     }
-    return single * leaves + sum * (1.0 / f32(OURS_SPLIT));
+    return single * leaves + sum * (1.0 / f32(STRATIFIED_BIDIRECTIONAL_SPLIT));
 }
 
 /// One walk's estimate of two facets and more.
 ///
 /// * `lambda`: of `wi`; `u`: draws the first facet.
 ///
-/// Twin: specula-bsdf/src/multibounce/ours.rs, interface_walk.
-fn ours_interface_walk(
+/// Twin: specula-bsdf/src/multibounce/stratified_bidirectional.rs, interface_walk.
+fn stratified_bidirectional_interface_walk(
     facets: MultibounceInterface,
     arriving: WalkFlight,
     wi: vec3f,
@@ -134,7 +134,7 @@ fn ours_interface_walk(
             }
             sum += weight * phase * leaving;
         }
-        let goes_on = weight * state_mass(&state) * (1.0 / OURS_CARRIED);
+        let goes_on = weight * state_mass(&state) * (1.0 / STRATIFIED_BIDIRECTIONAL_CARRIED);
         if goes_on < 1.0 {
             if stream_next(stream) >= goes_on {
                 break;
@@ -146,13 +146,13 @@ fn ours_interface_walk(
     return sum;
 }
 
-/// A direction drawn at a dielectric; its weight is 1 (for light). Its own density is not known: `pdf`
+/// A direction sampled at a dielectric; its weight is 1 (for light). Its own density is not known: `pdf`
 /// is 0. Transmitted where `wi.z < 0`, whatever the flags.
 ///
 /// * `u`: draws reflection or refraction (x), and the first facet.
 ///
-/// Twin: specula-bsdf/src/multibounce/ours.rs, sample_interface.
-fn ours_interface_draw(
+/// Twin: specula-bsdf/src/multibounce/stratified_bidirectional.rs, sample_interface.
+fn stratified_bidirectional_interface_draw(
     facets: MultibounceInterface,
     wo: vec3f,
     u: vec3f,

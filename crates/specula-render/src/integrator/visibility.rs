@@ -1,13 +1,13 @@
 //! What rays pass on their way: cut-outs, hidden lights, and boundaries without surface, between
-//! which bodies absorb.
+//! which media absorb.
 
 use specula_bsdf::{Rgb, Vec3};
 
 use super::{PathTracer, State};
 use crate::accel::Ray;
-use crate::bodies::{Bodies, transmittance};
 use crate::geometry::{NONE, Surface};
 use crate::light::LightSample;
+use crate::medium_stack::{MediumStack, transmittance};
 use crate::offset::leave;
 use crate::sampler::Sampler;
 
@@ -51,7 +51,7 @@ impl PathTracer<'_> {
                 (false, false) => Meeting::Stops,
             };
             if let (Some(absorption), Meeting::Stops | Meeting::Crosses) =
-                (state.bodies.absorption(), &meeting)
+                (state.media.absorption(), &meeting)
             {
                 let distance = (surface.position - begin).length();
                 state.throughput *= transmittance(absorption, distance);
@@ -60,7 +60,7 @@ impl PathTracer<'_> {
                 Meeting::Stops => return Some(surface),
                 Meeting::Passes => {}
                 Meeting::Crosses => {
-                    self.cross(&mut state.bodies, &surface, ray.direction);
+                    self.cross(&mut state.media, &surface, ray.direction);
                     begin = surface.position;
                 }
             }
@@ -73,13 +73,13 @@ impl PathTracer<'_> {
     /// between them.
     ///
     /// * `position`, `error`, `ng`: of the vertex' surface.
-    /// * `bodies`: what the vertex is in, on the light's side.
+    /// * `media`: what the vertex is in, on the light's side.
     #[inline]
-    pub(super) fn shine(
+    pub(super) fn transmittance(
         &self,
         (position, error, ng): (Vec3<f32>, Vec3<f32>, Vec3<f32>),
         light: &LightSample,
-        bodies: &Bodies,
+        media: &MediumStack,
         sampler: &Sampler,
         depth: u32,
         rays: &mut u64,
@@ -98,20 +98,27 @@ impl PathTracer<'_> {
             },
         };
         if self.scene.geometry.has_passable {
-            return self.shine_through(ray, position, light, *bodies, (sampler, depth), rays);
+            return self.transmittance_through(
+                ray,
+                position,
+                light,
+                *media,
+                (sampler, depth),
+                rays,
+            );
         }
         *rays += 1;
         let visible = !self.scene.geometry.accel.occluded(&ray);
-        visible.then(|| last_stretch(position, light, bodies))
+        visible.then(|| last_stretch(position, light, media))
     }
 
-    /// [`PathTracer::shine`] where some surfaces let rays pass.
-    fn shine_through(
+    /// [`PathTracer::transmittance`] where some surfaces let rays pass.
+    fn transmittance_through(
         &self,
         mut ray: Ray,
         mut begin: Vec3<f32>,
         light: &LightSample,
-        mut bodies: Bodies,
+        mut media: MediumStack,
         (sampler, depth): (&Sampler, u32),
         rays: &mut u64,
     ) -> Option<Rgb<f32>> {
@@ -120,25 +127,25 @@ impl PathTracer<'_> {
         for pass in 0..MOST_PASSES {
             *rays += 1;
             let Some(hit) = geometry.accel.intersect(&ray) else {
-                return Some(left * last_stretch(begin, light, &bodies));
+                return Some(left * last_stretch(begin, light, &media));
             };
             let surface = geometry.surface(&ray, &hit);
             match self.meeting(&surface, sampler, [depth, pass, 2]) {
                 Meeting::Stops => return None,
                 Meeting::Passes => {}
                 Meeting::Crosses => {
-                    if let Some(absorption) = bodies.absorption() {
+                    if let Some(absorption) = media.absorption() {
                         let distance = (surface.position - begin).length();
                         left *= transmittance(absorption, distance);
                     }
-                    self.cross(&mut bodies, &surface, ray.direction);
+                    self.cross(&mut media, &surface, ray.direction);
                     begin = surface.position;
                 }
             }
             ray.origin = leave(surface.position, surface.error, surface.ng, ray.direction);
             ray.t_max -= hit.t;
             if ray.t_max <= 0.0 {
-                return Some(left * last_stretch(begin, light, &bodies));
+                return Some(left * last_stretch(begin, light, &media));
             }
         }
         None
@@ -160,17 +167,17 @@ impl PathTracer<'_> {
 
     /// Passes a surface: what the path is in changes where that bounds a body.
     #[inline]
-    pub(super) fn cross(&self, bodies: &mut Bodies, surface: &Surface, direction: Vec3<f32>) {
+    pub(super) fn cross(&self, media: &mut MediumStack, surface: &Surface, direction: Vec3<f32>) {
         let material = self.scene.geometry.shapes[surface.shape as usize].material;
         if let Some(boundary) = self.scene.materials.boundary(material) {
-            bodies.cross(material, boundary, surface.ng.dot(direction) < 0.0);
+            media.cross(material, boundary, surface.ng.dot(direction) < 0.0);
         }
     }
 }
 
 /// What the last body leaves of a light. What sees one at infinity is in none that is closed.
-fn last_stretch(begin: Vec3<f32>, light: &LightSample, bodies: &Bodies) -> Rgb<f32> {
-    match (bodies.absorption(), &light.from) {
+fn last_stretch(begin: Vec3<f32>, light: &LightSample, media: &MediumStack) -> Rgb<f32> {
+    match (media.absorption(), &light.from) {
         (Some(absorption), Some(target)) => {
             transmittance(absorption, (target.point - begin).length())
         }

@@ -1,7 +1,7 @@
-//! Many directions of an infinite light at once: what `Environment` does for one, in loops over lanes.
+//! Many directions of an infinite light at once: what `Environment` does for one, in loops over batches.
 //!
-//! Loops without look-ups become vectors; pixels are gathered four numbers at a time. The table is
-//! searched level by level for all lanes, so that their misses of the cache overlap.
+//! Loops without look-ups become vectors; pixels are gathered four random random_numbers at a time. The table is
+//! searched level by level for all batches, so that their misses of the cache overlap.
 
 #![allow(
     clippy::needless_range_loop,
@@ -24,16 +24,16 @@ type Column = [f32; LANES];
 
 /// Directions side by side, with all that is known of them on the way.
 pub(in super::super) struct Bundle {
-    /// Numbers to draw by; then where in its cell a point lies.
+    /// Random random_numbers to sample by; then where in its cell a point lies.
     pub(in super::super) u: [Column; 2],
     cell: [[u32; LANES]; 2],
-    /// What is drawn by at the corners of the cell.
+    /// What is sampled by at the corners of the cell.
     strengths: [Column; 4],
     uv: [Column; 2],
     direction: [Column; 3],
     sine: Column,
     radiance: [Column; 3],
-    /// What is drawn by.
+    /// What is sampled by.
     strength: Column,
     /// What that becomes a density with; then the density in 1/sr.
     pub(in super::super) pdf: Column,
@@ -197,7 +197,7 @@ mod tests {
         (a - b).abs() <= 1e-5 * a.abs().max(b.abs())
     }
 
-    /// Lanes and one by one, drawn and looked up, with numbers at the ends of their range too.
+    /// Lanes and one by one, sampled and looked up, with random random_numbers at the ends of their range too.
     #[test]
     fn lanes_do_what_is_done_for_one() {
         for mapping in MAPPINGS {

@@ -1,10 +1,10 @@
-//! The tables as plain numbers, for shaders, which cannot read the text that they are stored in.
+//! The tables as plain values, for shaders, which cannot read the text that they are stored in.
 
 use super::albedo_tables::TABLES;
 use super::{interface_single_table, interface_table};
 
 /// A table and what it is called.
-pub type Named = (&'static str, Vec<f32>);
+pub type NamedTable = (&'static str, Vec<f32>);
 
 /// The tables of lost energy, coefficients of splines, of one distribution and masking.
 ///
@@ -12,19 +12,19 @@ pub type Named = (&'static str, Vec<f32>);
 ///
 /// # Panics
 /// Where `table` is above 3.
-pub fn losses(table: usize) -> [Named; 8] {
+pub fn losses(table: usize) -> [NamedTable; 8] {
     let t = &TABLES[table];
     [
         ("ISOTROPIC", t.isotropic.as_flattened().to_vec()),
         ("ISOTROPIC_AVERAGE", t.isotropic_average.to_vec()),
-        ("ANISOTROPIC", t.anisotropic.numbers().collect()),
+        ("ANISOTROPIC", t.anisotropic.values().collect()),
         ("ANISOTROPIC_AVERAGE", t.anisotropic_average.to_vec()),
-        ("INTERFACE", t.interface.numbers().collect()),
+        ("INTERFACE", t.interface.values().collect()),
         (
             "INTERFACE_AVERAGE",
             t.interface_average.as_flattened().to_vec(),
         ),
-        ("STRETCHED", t.stretched.numbers().collect()),
+        ("STRETCHED", t.stretched.values().collect()),
         (
             "STRETCHED_AVERAGE",
             t.stretched_average.as_flattened().to_vec(),
@@ -32,9 +32,9 @@ pub fn losses(table: usize) -> [Named; 8] {
     ]
 }
 
-/// The tables of what interfaces let through and throw back (`interface`, `interface_single`,
+/// The tables of what interfaces let through and reflect (`interface`, `interface_single`,
 /// `interface_layer`).
-pub fn interfaces() -> [Named; 6] {
+pub fn interfaces() -> [NamedTable; 6] {
     use interface_single_table as single;
     let cubes = |table: &[[[f32; 25]; 25]]| table.as_flattened().as_flattened().to_vec();
     [

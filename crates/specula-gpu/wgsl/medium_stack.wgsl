@@ -1,0 +1,86 @@
+// The absorbing media that a path is in.
+//
+// Twin of specula-render/src/medium_stack.rs.
+
+import tracer::world::{word, vector};
+
+/// How many media are remembered; those entered first are forgotten.
+const MEDIUM_STACK_DEEPEST: u32 = 4u;
+/// Words of a material's boundary.
+const BOUNDARY_SIZE: u32 = 7u;
+
+/// What a path is in.
+struct MediumStack {
+    // What absorbs where the path is, per scene unit; zero where nothing does.
+    absorption: vec3f,
+    count: u32,
+    // Materials of the media entered, the first `count` of these.
+    materials: vec4u,
+}
+
+/// What a body's material absorbs inside.
+fn medium_stack_inside(material: u32) -> vec3f {
+    return vector(BOUNDARIES + material * BOUNDARY_SIZE + 1u);
+}
+
+/// Passes a surface: what the path is in changes where that bounds a body.
+///
+/// * `inwards`: whether from its outside to its inside.
+///
+/// Twin: specula-render/src/medium_stack.rs, MediumStack::cross.
+fn medium_stack_cross(media: ptr<function, MediumStack>, material: u32, inwards: bool) {
+    if HAS_BOUNDARIES == 0u {
+        return;
+    }
+    let at = BOUNDARIES + material * BOUNDARY_SIZE;
+    let known = word(at);
+    if known == 0u {
+        return;
+    }
+    if inwards {
+        (*media).absorption = vector(at + 1u);
+        if known == 1u {
+            if (*media).count == MEDIUM_STACK_DEEPEST {
+                let m = (*media).materials;
+                (*media).materials = vec4u(m.y, m.z, m.w, 0u);
+                (*media).count -= 1u;
+            }
+            (*media).materials[(*media).count] = material;
+            (*media).count += 1u;
+        }
+    } else if known == 2u {
+        (*media).absorption = vector(at + 4u);
+    } else {
+        medium_stack_leave(media, material);
+    }
+}
+
+/// Forgets the body of that material that was entered last.
+///
+/// Twin: specula-render/src/medium_stack.rs, MediumStack::leave.
+fn medium_stack_leave(media: ptr<function, MediumStack>, material: u32) {
+    let count = (*media).count;
+    var found = count;
+    for (var i = 0u; i < count; i += 1u) {
+        if (*media).materials[i] == material {
+            found = i;
+        }
+    }
+    if found < count {
+        for (var i = found; i + 1u < count; i += 1u) {
+            (*media).materials[i] = (*media).materials[i + 1u];
+        }
+        (*media).count = count - 1u;
+    }
+    (*media).absorption = vec3f(0.0);
+    if (*media).count > 0u {
+        (*media).absorption = medium_stack_inside((*media).materials[(*media).count - 1u]);
+    }
+}
+
+/// What absorption leaves over a distance (Beer and Lambert).
+///
+/// Twin: specula-render/src/medium_stack.rs, transmittance.
+fn medium_stack_transmittance(absorption: vec3f, distance: f32) -> vec3f {
+    return exp(-absorption * distance);
+}

@@ -1,0 +1,60 @@
+// Pictures that a light projects from a point.
+//
+// Words of one: position (3), the map to light space (affine), what it goes through (0: all directions, 1
+// to 3: a window), the window's half sides (2), cosines at the end of a spot and at its start, intensity
+// (a colour parameter).
+//
+// Twin of specula-render/src/light/projected.rs.
+
+import tracer::octahedral::{octahedral_square};
+import tracer::spot::{SPOT_LINEAR_ANGLE, spot_share};
+import tracer::texture_graph::{parameter_colour};
+import tracer::texture_coordinates::{TextureCoordinates};
+import tracer::world::{affine_vector, number, word};
+
+/// Places within the words.
+const PROJECTED_TO_LIGHT: u32 = 3u;
+const PROJECTED_THROUGH: u32 = 15u;
+const PROJECTED_HALF: u32 = 16u;
+const PROJECTED_COSINES: u32 = 18u;
+const PROJECTED_INTENSITY: u32 = 20u;
+/// What it goes through.
+const PROJECTED_SPHERE: u32 = 0u;
+const PROJECTED_IRRADIANCE: u32 = 2u;
+const PROJECTED_SPOT: u32 = 3u;
+
+/// Radiant intensity of the light at `at` towards `w` (unit, world).
+/// Twin: specula-render/src/light/projected.rs, ProjectedImage::intensity.
+fn projected_intensity(at: u32, w: vec3f) -> vec3f {
+    let within = projected_coordinates(at, affine_vector(at + PROJECTED_TO_LIGHT, w));
+    if within.z <= 0.0 {
+        return vec3f(0.0);
+    }
+    let place = TextureCoordinates(within.xy, vec2f(0.0), vec3f(0.0), vec3f(0.0, 0.0, 1.0), vec3f(1.0));
+    return max(parameter_colour(at + PROJECTED_INTENSITY, place), vec3f(0.0)) * within.z;
+}
+
+/// The picture's coordinates towards `w` (light space, of any length), and the factor on it; 0 where it is
+/// dark.
+/// Twin: specula-render/src/light/projected.rs, ProjectedImage::coordinates.
+fn projected_coordinates(at: u32, w: vec3f) -> vec3f {
+    let through = word(at + PROJECTED_THROUGH);
+    if through == PROJECTED_SPHERE {
+        let square = octahedral_square(normalize(w));
+        return vec3f(square.x, 1.0 - square.y, 1.0);
+    }
+    let half = vec2f(number(at + PROJECTED_HALF), number(at + PROJECTED_HALF + 1u));
+    let uv = 0.5 * (w.xy / half / w.z + vec2f(1.0));
+    if !(w.z > 0.0 && all(uv >= vec2f(0.0)) && all(uv <= vec2f(1.0))) {
+        return vec3f(0.0);
+    }
+    let cosine = w.z / length(w);
+    var factor = 1.0;
+    if through == PROJECTED_IRRADIANCE {
+        factor = 1.0 / (cosine * cosine * cosine);
+    } else if through == PROJECTED_SPOT {
+        let low = number(at + PROJECTED_COSINES);
+        factor = spot_share(SPOT_LINEAR_ANGLE, low, number(at + PROJECTED_COSINES + 1u), cosine);
+    }
+    return vec3f(uv, factor);
+}
