@@ -7,12 +7,14 @@ use rayon::prelude::*;
 use specula_bsdf::fresnel::{Conductor as Metal, Reflectance};
 use specula_bsdf::math::{Real, Stream, rgb, vec3};
 use specula_bsdf::multibounce::{
-    DepthState, MultibounceConductor, MultibounceDielectric, MultibounceDiffuse, MultibounceModel,
+    DepthState, MultibounceConductor as Conductor, MultibounceDielectric as Dielectric,
+    MultibounceDiffuse as Diffuse, MultibounceModel as Model,
 };
 use specula_bsdf::ndf::{Beckmann, Ggx, Ndf};
 use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, Vec3};
 use specula_stat::z_test::Moments;
 
+const STRATIFIED: Model = Model::StratifiedBidirectional;
 const ALPHAS: [(f64, f64); 5] = [(0.1, 0.1), (0.3, 0.3), (0.5, 0.5), (1.0, 1.0), (0.2, 0.8)];
 /// Largest departure of one comparison, in standard errors.
 const SIGMAS: f64 = 4.5;
@@ -84,12 +86,8 @@ fn reference_means() {
     ];
     for (row, (i, o, half, one)) in (0_u64..).zip(table) {
         for (width, (mean, error)) in [(0.5, half), (1.0, one)] {
-            for model in MultibounceModel::ALL
-                .into_iter()
-                .filter(|m| m.is_unbiased())
-            {
-                let lobe =
-                    MultibounceConductor::new(Ggx::new(alpha((width, width))), white(), model);
+            for model in Model::ALL.into_iter().filter(|m| m.is_unbiased()) {
+                let lobe = Conductor::new(Ggx::new(alpha((width, width))), white(), model);
                 let m = f_cos(&lobe, at(i, 0.0), at(o, 180.0), 60_000, row);
                 let z = (m.mean() - mean) / (m.variance_of_mean() + error * error).sqrt();
                 assert!(
@@ -109,12 +107,9 @@ fn single_precision_has_the_same_means() {
         (at(60.0, 0.0), at(60.0, 180.0), 0.165_43, 4e-5),
     ];
     for (wo, wi, mean, error) in pairs {
-        for model in MultibounceModel::ALL
-            .into_iter()
-            .filter(|m| m.is_unbiased())
-        {
+        for model in Model::ALL.into_iter().filter(|m| m.is_unbiased()) {
             let ndf = Ggx::new(Alpha::isotropic(1.0_f32));
-            let lobe = MultibounceConductor::new(ndf, white(), model);
+            let lobe = Conductor::new(ndf, white(), model);
             let m = moments(91, 60_000, |s| {
                 f64::from(lobe.estimate(wo.cast(), wi.cast(), s).r)
             });
@@ -134,12 +129,12 @@ fn models_agree<N: Ndf<f64> + Sync>(ndf: impl Fn(Alpha<f64>) -> N, n: u64) {
         for reflectance in [white(), gold()] {
             for (wo, wi) in views {
                 let mean_of = |model| {
-                    let lobe = MultibounceConductor::new(ndf(alpha(alphas)), reflectance, model);
+                    let lobe = Conductor::new(ndf(alpha(alphas)), reflectance, model);
                     f_cos(&lobe, wo, wi, n, seed)
                 };
-                let truth = mean_of(MultibounceModel::Heitz2016);
-                for model in MultibounceModel::ALL {
-                    if model == MultibounceModel::Heitz2016 || !model.is_unbiased() {
+                let truth = mean_of(Model::Heitz2016);
+                for model in Model::ALL {
+                    if model == Model::Heitz2016 || !model.is_unbiased() {
                         continue;
                     }
                     let m = mean_of(model);
@@ -166,13 +161,8 @@ fn models_agree_on_beckmann() {
 }
 
 /// Albedo for F = 1 by uniform directions and by the model's own samples.
-fn furnace<N: Ndf<f64> + Sync>(
-    ndf: N,
-    model: MultibounceModel,
-    wo: Vec3<f64>,
-    n: u64,
-) -> [Moments; 2] {
-    let lobe = MultibounceConductor::new(ndf, white(), model);
+fn furnace<N: Ndf<f64> + Sync>(ndf: N, model: Model, wo: Vec3<f64>, n: u64) -> [Moments; 2] {
+    let lobe = Conductor::new(ndf, white(), model);
     let evaluated = moments(7, n, |s| {
         // Half by the single-scattering lobe's normals, half by cosine: the balance heuristic.
         let u = [s.next(), s.next()];
@@ -201,7 +191,7 @@ fn furnace<N: Ndf<f64> + Sync>(
 #[test]
 fn white_furnaces_are_invisible() {
     for alphas in ALPHAS {
-        for model in MultibounceModel::ALL {
+        for model in Model::ALL {
             for wo in [at(0.0, 0.0), at(60.0, 30.0), at(85.0, 70.0)] {
                 for [evaluated, sampled] in [
                     furnace(Ggx::new(alpha(alphas)), model, wo, 20_000),
@@ -222,11 +212,8 @@ fn white_furnaces_are_invisible() {
 
 #[test]
 fn samples_weigh_exactly_the_fresnel_terms() {
-    for model in [
-        MultibounceModel::StratifiedBidirectional,
-        MultibounceModel::Heitz2016,
-    ] {
-        let lobe = MultibounceConductor::new(Ggx::new(alpha((0.7, 0.7))), white(), model);
+    for model in [STRATIFIED, Model::Heitz2016] {
+        let lobe = Conductor::new(Ggx::new(alpha((0.7, 0.7))), white(), model);
         let m = moments(3, 16_000, |s| {
             let u = [s.next(), s.next(), s.next()];
             let sample = lobe.sample_random(at(70.0, 0.0), u, Transport::Radiance, s);
@@ -241,9 +228,9 @@ fn samples_weigh_exactly_the_fresnel_terms() {
 fn draws_follow_what_is_evaluated() {
     let wo = at(50.0, 20.0);
     let wo_part = |wi: Vec3<f64>| (wi.x * 0.3 + wi.y + 0.5 * wi.z).max(0.0);
-    for model in MultibounceModel::ALL {
+    for model in Model::ALL {
         for alphas in [(0.5, 0.5), (0.2, 0.8), (1.0, 1.0)] {
-            let lobe = MultibounceConductor::new(Ggx::new(alpha(alphas)), gold(), model);
+            let lobe = Conductor::new(Ggx::new(alpha(alphas)), gold(), model);
             let sampled = moments(21, 60_000, |s| {
                 let u = [s.next(), s.next(), s.next()];
                 lobe.sample_random(wo, u, Transport::Radiance, s)
@@ -266,9 +253,9 @@ fn draws_follow_what_is_evaluated() {
 #[test]
 fn means_are_reciprocal() {
     let (a, b) = (at(25.0, 15.0), at(70.0, 250.0));
-    for model in MultibounceModel::ALL {
+    for model in Model::ALL {
         for alphas in [(0.5, 0.5), (0.2, 0.8), (1.0, 1.0)] {
-            let lobe = MultibounceConductor::new(Ggx::new(alpha(alphas)), gold(), model);
+            let lobe = Conductor::new(Ggx::new(alpha(alphas)), gold(), model);
             let there = moments(31, 40_000, |s| {
                 lobe.eval_pdf_random(a, b, Transport::Radiance, s).0.g / b.z
             });
@@ -277,7 +264,7 @@ fn means_are_reciprocal() {
             });
             let z = sigmas(&there, &back);
             // Of the published models one is not reciprocal.
-            let is_reciprocal = model != MultibounceModel::Wang2022 { correlated: true };
+            let is_reciprocal = model != Model::Wang2022 { correlated: true };
             assert_eq!(
                 z.abs() < SIGMAS,
                 is_reciprocal,
@@ -292,11 +279,11 @@ fn wang_is_biased_as_its_model_says() {
     let bias = |correlated, i, o| {
         let ndf = Ggx::new(alpha((1.0, 1.0)));
         let mean_of = |model, seed| {
-            let lobe = MultibounceConductor::new(ndf, white(), model);
+            let lobe = Conductor::new(ndf, white(), model);
             f_cos(&lobe, at(i, 0.0), at(o, 180.0), 100_000, seed)
         };
-        let truth = mean_of(MultibounceModel::StratifiedBidirectional, 41);
-        let wang = mean_of(MultibounceModel::Wang2022 { correlated }, 42);
+        let truth = mean_of(STRATIFIED, 41);
+        let wang = mean_of(Model::Wang2022 { correlated }, 42);
         (wang.mean() / truth.mean() - 1.0, sigmas(&wang, &truth))
     };
     // Measured; the signs are the model's.
@@ -318,7 +305,7 @@ fn wang_is_biased_as_its_model_says() {
 #[test]
 fn values_along_the_normal_are_bounded() {
     let largest = |model| {
-        let lobe = MultibounceConductor::new(Ggx::new(alpha((0.5, 0.5))), white(), model);
+        let lobe = Conductor::new(Ggx::new(alpha((0.5, 0.5))), white(), model);
         let mut stream = Stream::new(81);
         let draws = (0..200_000).map(|_| {
             let f = lobe.eval_pdf_random(at(60.0, 0.0), Vec3::Z, Transport::Radiance, &mut stream);
@@ -326,10 +313,7 @@ fn values_along_the_normal_are_bounded() {
         });
         draws.fold(0.0, f64::max)
     };
-    let (specula, heitz) = (
-        largest(MultibounceModel::StratifiedBidirectional),
-        largest(MultibounceModel::Heitz2016),
-    );
+    let (specula, heitz) = (largest(STRATIFIED), largest(Model::Heitz2016));
     assert!(specula < 2.0 && heitz > 8.0, "{specula} {heitz}");
 }
 
@@ -345,36 +329,17 @@ fn dielectrics_agree_from_both_sides() {
     let mut seed = 300;
     for alphas in ALPHAS {
         for (wo, wi) in pairs {
-            let ggx = |model| MultibounceDielectric::new(Ggx::new(alpha(alphas)), 1.5, model);
-            let beckmann =
-                |model| MultibounceDielectric::new(Beckmann::new(alpha(alphas)), 1.5, model);
-            let specula = f_cos(
-                &ggx(MultibounceModel::StratifiedBidirectional),
-                wo,
-                wi,
-                40_000,
-                seed,
-            );
-            let truth = f_cos(&ggx(MultibounceModel::Heitz2016), wo, wi, 40_000, seed + 1);
+            let ggx = |model| Dielectric::new(Ggx::new(alpha(alphas)), 1.5, model);
+            let beckmann = |model| Dielectric::new(Beckmann::new(alpha(alphas)), 1.5, model);
+            let specula = f_cos(&ggx(STRATIFIED), wo, wi, 40_000, seed);
+            let truth = f_cos(&ggx(Model::Heitz2016), wo, wi, 40_000, seed + 1);
             let z = sigmas(&specula, &truth);
             assert!(
                 z.abs() < SIGMAS,
                 "{alphas:?} {wo:?} {wi:?}: {specula:?} {truth:?}"
             );
-            let specula = f_cos(
-                &beckmann(MultibounceModel::StratifiedBidirectional),
-                wo,
-                wi,
-                8_000,
-                seed,
-            );
-            let truth = f_cos(
-                &beckmann(MultibounceModel::Heitz2016),
-                wo,
-                wi,
-                8_000,
-                seed + 1,
-            );
+            let specula = f_cos(&beckmann(STRATIFIED), wo, wi, 8_000, seed);
+            let truth = f_cos(&beckmann(Model::Heitz2016), wo, wi, 8_000, seed + 1);
             let z = sigmas(&specula, &truth);
             assert!(
                 z.abs() < SIGMAS,
@@ -395,11 +360,7 @@ fn glass_is_estimated_from_one_end() {
         (at(110.0, 10.0), at(140.0, 80.0)),
     ];
     for alphas in ALPHAS {
-        let lobe = MultibounceDielectric::new(
-            Ggx::new(alpha(alphas)),
-            1.5,
-            MultibounceModel::StratifiedBidirectional,
-        );
+        let lobe = Dielectric::new(Ggx::new(alpha(alphas)), 1.5, STRATIFIED);
         for (a, b) in pairs {
             for seed in 0..50 {
                 // f / eta^2 of the side that is reached.
@@ -417,25 +378,19 @@ fn glass_is_estimated_from_one_end() {
     }
     // And it is the better one.
     let variance = |model| {
-        let lobe = MultibounceDielectric::new(Ggx::new(alpha((1.0, 1.0))), 1.5, model);
+        let lobe = Dielectric::new(Ggx::new(alpha((1.0, 1.0))), 1.5, model);
         f_cos(&lobe, at(10.0, 0.0), at(80.0, 180.0), 20_000, 7).variance()
     };
-    let (specula, heitz) = (
-        variance(MultibounceModel::StratifiedBidirectional),
-        variance(MultibounceModel::Heitz2016),
-    );
+    let (specula, heitz) = (variance(STRATIFIED), variance(Model::Heitz2016));
     assert!(specula < 0.03 * heitz, "{specula} {heitz}");
 }
 
 #[test]
 fn dielectrics_are_reciprocal_and_lose_nothing() {
     let mut stream = Stream::new(77);
-    for model in [
-        MultibounceModel::StratifiedBidirectional,
-        MultibounceModel::Heitz2016,
-    ] {
+    for model in [STRATIFIED, Model::Heitz2016] {
         for alphas in ALPHAS {
-            let lobe = MultibounceDielectric::new(Ggx::new(alpha(alphas)), 1.5, model);
+            let lobe = Dielectric::new(Ggx::new(alpha(alphas)), 1.5, model);
             for wo in [
                 at(30.0, 20.0),
                 at(80.0, 20.0),
@@ -467,7 +422,7 @@ fn dielectrics_are_reciprocal_and_lose_nothing() {
 /// One-sample estimate of the integral of `f |cos|` over the sphere, for light, half the
 /// directions sampled as of one bounce.
 fn sphere_integral(
-    lobe: &MultibounceDielectric<f64>,
+    lobe: &Dielectric<f64>,
     alphas: (f64, f64),
     wo: Vec3<f64>,
     s: &mut Stream,
@@ -491,7 +446,7 @@ fn sphere_integral(
 fn diffuse_facets_keep_energy_and_are_reciprocal() {
     let (a, b) = (at(25.0, 15.0), at(70.0, 250.0));
     for alphas in ALPHAS {
-        let lobe = MultibounceDiffuse::new(Ggx::new(alpha(alphas)), Rgb::splat(1.0));
+        let lobe = Diffuse::new(Ggx::new(alpha(alphas)), Rgb::splat(1.0));
         for wo in [at(0.0, 0.0), at(60.0, 40.0), at(85.0, 40.0)] {
             let evaluated = moments(61, 40_000, |s| {
                 let wi = specula_bsdf::math::warp::cosine_hemisphere([s.next(), s.next()]);
@@ -501,7 +456,7 @@ fn diffuse_facets_keep_energy_and_are_reciprocal() {
             let z = (evaluated.mean() - 1.0) / evaluated.variance_of_mean().sqrt();
             assert!(z.abs() < SIGMAS, "{alphas:?} {wo:?}: {evaluated:?}");
         }
-        let grey = MultibounceDiffuse::new(Ggx::new(alpha(alphas)), Rgb::splat(0.6));
+        let grey = Diffuse::new(Ggx::new(alpha(alphas)), Rgb::splat(0.6));
         let there = moments(62, 40_000, |s| {
             grey.eval_pdf_random(a, b, Transport::Radiance, s).0.g / b.z
         });
@@ -512,7 +467,7 @@ fn diffuse_facets_keep_energy_and_are_reciprocal() {
         assert!(z.abs() < SIGMAS, "{alphas:?}: {there:?} {back:?}");
     }
     // Flat facets are a Lambertian surface.
-    let flat = MultibounceDiffuse::new(Ggx::new(alpha((1e-3, 1e-3))), Rgb::splat(0.6));
+    let flat = Diffuse::new(Ggx::new(alpha((1e-3, 1e-3))), Rgb::splat(0.6));
     let m = f_cos(&flat, a, b, 16_000, 64);
     let lambert = 0.6 / std::f64::consts::PI * b.z;
     assert!((m.mean() / lambert - 1.0).abs() < 0.01, "{m:?} {lambert}");
@@ -567,11 +522,7 @@ fn by_state(fault: Fault, wo: Vec3<f64>, wi: Vec3<f64>, s: &mut Stream) -> f64 {
 #[test]
 fn planted_faults_are_caught() {
     let (wo, wi) = (at(30.0, 0.0), at(60.0, 180.0));
-    let lobe = MultibounceConductor::new(
-        Ggx::new(alpha((1.0, 1.0))),
-        white(),
-        MultibounceModel::Heitz2016,
-    );
+    let lobe = Conductor::new(Ggx::new(alpha((1.0, 1.0))), white(), Model::Heitz2016);
     let truth = f_cos(&lobe, wo, wi, 100_000, 71);
     for fault in [
         Fault::None,
@@ -603,15 +554,15 @@ fn single_precision_stays_finite_everywhere() {
         let r = (1.0 - z * z).max(0.0).sqrt();
         vec3(r * cos, r * sin, z)
     };
-    for model in MultibounceModel::ALL {
+    for model in Model::ALL {
         for ax in alphas {
             for ay in alphas {
                 let alpha = Alpha::clamped(ax, ay);
-                let ggx = MultibounceConductor::new(Ggx::new(alpha), white(), model);
-                let beckmann = MultibounceConductor::new(Beckmann::new(alpha), white(), model);
-                let glass = MultibounceDielectric::new(Ggx::new(alpha), 1.5, model);
-                let facing = MultibounceDielectric::facing(Beckmann::new(alpha), 0.7, model);
-                let diffuse = MultibounceDiffuse::new(Ggx::new(alpha), Rgb::splat(0.8));
+                let ggx = Conductor::new(Ggx::new(alpha), white(), model);
+                let beckmann = Conductor::new(Beckmann::new(alpha), white(), model);
+                let glass = Dielectric::new(Ggx::new(alpha), 1.5, model);
+                let facing = Dielectric::facing(Beckmann::new(alpha), 0.7, model);
+                let diffuse = Diffuse::new(Ggx::new(alpha), Rgb::splat(0.8));
                 for zo in cosines {
                     for zi in cosines {
                         let (wo, wi) = (direction(&mut stream, zo), direction(&mut stream, zi));

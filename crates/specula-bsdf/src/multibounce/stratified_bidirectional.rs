@@ -1,4 +1,4 @@
-//! StratifiedBidirectional: walks from both ends over the depth state without cancellation.
+//! Stratified bidirectional walks: from both ends over the depth state without cancellation.
 //!
 //! Light that met one facet is in closed form. All that met `k >= 2` is estimated by walks of
 //! directions, from `wo` and, `f` being reciprocal, from `wi`. After each bounce a walk connects

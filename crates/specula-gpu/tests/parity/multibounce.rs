@@ -9,7 +9,8 @@ use specula_bsdf::bsdf::Tints;
 use specula_bsdf::fresnel::{Reflectance, Schlick};
 use specula_bsdf::math::{Stream, rgb};
 use specula_bsdf::multibounce::{
-    MisPdf, MultibounceConductor, MultibounceDielectric, MultibounceDiffuse, MultibounceModel,
+    MisPdf, MultibounceConductor, MultibounceDielectric, MultibounceDiffuse,
+    MultibounceModel as Model,
 };
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Bsdf, BsdfSample, Event, Real, Rgb, Transport, Vec3};
@@ -132,7 +133,7 @@ pub(crate) fn stream<T: Real>(x: &[T], at: usize) -> Stream {
     Stream::new((SEED << 32) | x[at].to_f64() as u64)
 }
 
-fn conductor<T: Real>(x: &[T], model: MultibounceModel) -> MultibounceConductor<T> {
+fn conductor<T: Real>(x: &[T], model: Model) -> MultibounceConductor<T> {
     MultibounceConductor::new(ggx(x), reflectance(), model)
 }
 
@@ -235,31 +236,31 @@ fn values() -> Vec<Case> {
             "heitz_value",
             "heitz2016",
             "heitz2016_eval(facets, true, wo, wi, &stream)",
-            MultibounceModel::Heitz2016
+            Model::Heitz2016
         ),
         value!(
             "bitterli_value",
             "bitterli2022",
             "bitterli2022_eval(facets, wo, wi, &stream)",
-            MultibounceModel::BitterliDeon2022
+            Model::BitterliDeon2022
         ),
         value!(
             "wang_value",
             "wang2022",
             "wang2022_eval(facets, true, wo, wi, &stream)",
-            MultibounceModel::Wang2022 { correlated: true }
+            Model::Wang2022 { correlated: true }
         ),
         value!(
             "wang_uncorrelated_value",
             "wang2022",
             "wang2022_eval(facets, false, wo, wi, &stream)",
-            MultibounceModel::Wang2022 { correlated: false }
+            Model::Wang2022 { correlated: false }
         ),
         value!(
             "cui_value",
             "cui2023",
             "cui2023_eval(facets, wo, wi, &stream)",
-            MultibounceModel::Cui2023 {
+            Model::Cui2023 {
                 bidirectional: false
             }
         ),
@@ -267,7 +268,7 @@ fn values() -> Vec<Case> {
             "stratified_bidirectional_value",
             "stratified_bidirectional",
             "stratified_bidirectional_eval(facets, wo, wi, &stream)",
-            MultibounceModel::StratifiedBidirectional
+            Model::StratifiedBidirectional
         ),
     ]
 }
@@ -283,7 +284,7 @@ fn other_values() -> Vec<Case> {
                  y[0] = f.r; y[1] = f.g; y[2] = f.b;"
             ),
             walks!(|x| {
-                let lobe = conductor(x, MultibounceModel::Heitz2016);
+                let lobe = conductor(x, Model::Heitz2016);
                 let mut stream = stream(x, 8);
                 colour(lobe.estimate_as_heitz(vector(x, 2), vector(x, 5), &mut stream))
             }),
@@ -300,7 +301,7 @@ fn other_values() -> Vec<Case> {
                 if x[4] <= 0.0 {
                     return vec![0.0; 3];
                 }
-                let model = MultibounceModel::Cui2023 {
+                let model = Model::Cui2023 {
                     bidirectional: true,
                 };
                 let mut stream = stream(x, 8);
@@ -343,25 +344,25 @@ fn draws() -> Vec<Case> {
             "heitz_draw",
             "heitz2016",
             "heitz2016_draw(facets, wo, wi.yz, &stream)",
-            MultibounceModel::Heitz2016
+            Model::Heitz2016
         ),
         draw!(
             "wang_draw",
             "wang2022",
             "wang2022_draw(facets, true, wo, wi.yz, &stream)",
-            MultibounceModel::Wang2022 { correlated: true }
+            Model::Wang2022 { correlated: true }
         ),
         draw!(
             "wang_uncorrelated_draw",
             "wang2022",
             "wang2022_draw(facets, false, wo, wi.yz, &stream)",
-            MultibounceModel::Wang2022 { correlated: false }
+            Model::Wang2022 { correlated: false }
         ),
         draw!(
             "cui_draw",
             "cui2023",
             "cui2023_draw(facets, wo, wi.yz, &stream)",
-            MultibounceModel::Cui2023 {
+            Model::Cui2023 {
                 bidirectional: false
             }
         ),
@@ -369,7 +370,7 @@ fn draws() -> Vec<Case> {
             "stratified_bidirectional_draw",
             "stratified_bidirectional",
             "stratified_bidirectional_draw(facets, wo, wi.yz, &stream)",
-            MultibounceModel::StratifiedBidirectional
+            Model::StratifiedBidirectional
         ),
     ]
 }
@@ -460,8 +461,8 @@ fn lobes() -> Vec<Case> {
     clippy::cast_sign_loss,
     reason = "seeds are whole numbers"
 )]
-fn of_seed(seed: f32) -> MultibounceModel {
-    MultibounceModel::ALL[seed as usize % 7]
+fn of_seed(seed: f32) -> Model {
+    Model::ALL[seed as usize % 7]
 }
 
 const GLASS: &[&str] = &[
@@ -472,11 +473,7 @@ const GLASS: &[&str] = &[
     "tints",
 ];
 
-fn dielectric_lobe<T: Real>(
-    x: &[T],
-    model: MultibounceModel,
-    mis: MisPdf,
-) -> MultibounceDielectric<T> {
+fn dielectric_lobe<T: Real>(x: &[T], model: Model, mis: MisPdf) -> MultibounceDielectric<T> {
     let lobe = MultibounceDielectric::new(ggx(x), x[9], model);
     lobe.with_mis_pdf(mis).with_tints(tints())
 }
@@ -537,14 +534,14 @@ fn interfaces() -> Vec<Case> {
         "heitz_interface_value",
         "heitz_interface_draw",
         "MULTIBOUNCE_MODEL_HEITZ",
-        MultibounceModel::Heitz2016
+        Model::Heitz2016
     )
     .to_vec();
     cases.extend(interface!(
         "stratified_bidirectional_interface_value",
         "stratified_bidirectional_interface_draw",
         "MULTIBOUNCE_MODEL_STRATIFIED_BIDIRECTIONAL",
-        MultibounceModel::StratifiedBidirectional
+        Model::StratifiedBidirectional
     ));
     cases
 }

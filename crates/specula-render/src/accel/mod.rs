@@ -14,7 +14,7 @@
 //! - **Ties.** Of hits with equal `t` the smallest `(instance, primitive)` wins, whatever the order
 //!   of traversal.
 //! - **No leaks.** A ray from inside a closed mesh hits it: `triangle.rs` has the argument.
-//! - **Batches are rays one by one.** Small scenes (`small.rs`) and rays that part in large trees
+//! - **Batches are rays one by one.** Small scenes (`brute_force.rs`) and rays that part in large trees
 //!   (`interleaved.rs`) go other ways in batches, to the same answers bit for bit.
 //! - **It cannot fail.** Rays that are not finite hit nothing; indices are checked at build.
 

@@ -1,4 +1,4 @@
-// Our walk at dielectric facets.
+// Stratified bidirectional walks at dielectric facets.
 //
 // On the side of `wo` a walk needs no height. Light that met one facet is in closed form (refraction
 // too, by the Beta function of its masking). Once a walk refracts, its depth is sampled from the state, and

@@ -3,7 +3,7 @@
 use specula_bsdf::fresnel::{dielectric, refract};
 use specula_bsdf::math::Stream;
 use specula_bsdf::multibounce::{
-    DepthState, MisPdf, MultibounceModel, normalised_pdf, sample_normalised,
+    DepthState, MisPdf, MultibounceModel as Model, normalised_pdf, sample_normalised,
 };
 use specula_bsdf::ndf::{Beckmann, Ggx, Ndf};
 use specula_bsdf::{Bsdf, Real, Vec3};
@@ -38,8 +38,7 @@ fn densities() -> Vec<Case> {
                 ),
                 pairs(),
                 twins!(|x| {
-                    let lobe =
-                        conductor(x, MultibounceModel::StratifiedBidirectional).with_mis_pdf($mis);
+                    let lobe = conductor(x, Model::StratifiedBidirectional).with_mis_pdf($mis);
                     vec![lobe.pdf(vector(x, 2), vector(x, 5))]
                 }),
                 256.0,
@@ -59,7 +58,7 @@ fn densities() -> Vec<Case> {
                 ),
                 glass_pairs(),
                 twins!(|x| {
-                    let lobe = dielectric_lobe(x, MultibounceModel::StratifiedBidirectional, $mis);
+                    let lobe = dielectric_lobe(x, Model::StratifiedBidirectional, $mis);
                     vec![lobe.pdf(vector(x, 2), vector(x, 5))]
                 }),
                 128.0,

@@ -22,7 +22,7 @@ struct LayeredCoat {
 
 /// A direction that was sampled.
 ///
-/// Twin: specula-bsdf/src/bsdf/layered/coat.rs, Sampled.
+/// Twin: specula-bsdf/src/bsdf/layered/coat.rs, CoatSample.
 struct LayeredCoatSample {
     /// Of travel.
     w: vec3f,
