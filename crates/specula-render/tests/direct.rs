@@ -104,7 +104,7 @@ fn triangles_light_by_the_side_that_a_mirror_leaves_to_them() {
 }
 
 #[test]
-fn instanced_and_mirrored_lights_shine_like_others() {
+fn instanced_and_mirrored_lights_emit_like_others() {
     let mirror = DMat4::from_scale(DVec3::new(1.0, -1.0, 1.0));
     for turn in [DMat4::IDENTITY, mirror] {
         let mut scene = lit_floor();
@@ -122,7 +122,7 @@ fn instanced_and_mirrored_lights_shine_like_others() {
 }
 
 #[test]
-fn vertex_normals_decide_which_side_shines() {
+fn vertex_normals_decide_which_side_emits() {
     let mut scene = lit_floor();
     let light = square(&mut scene, 1.0, facing_down(2.0), MaterialId(0));
     // The winding says up, the normals say down.

@@ -140,7 +140,7 @@ fn bright_parts_are_sampled_more() {
 
 /// Emission by the position in the world: spheres and disks have no table.
 #[test]
-fn spheres_and_disks_shine_by_the_place_too() {
+fn spheres_and_disks_emit_by_the_place_too() {
     // Halves: shining where x > 0 only, of a disk above the origin: half of the whole.
     let mut scene = lit_floor();
     let m = material(&mut scene, diffuse(0.0));
@@ -182,7 +182,7 @@ fn spheres_and_disks_shine_by_the_place_too() {
 /// A veil of opacity 1/4 that emits: a quarter of its light, whoever finds it, and what is behind
 /// it for the rest.
 #[test]
-fn partly_transparent_lamps_shine_as_much_as_they_are_there() {
+fn partly_transparent_lamps_emit_as_much_as_they_are_there() {
     for textured in [false, true] {
         let mut scene = lit_floor();
         let m = material(&mut scene, diffuse(0.0));

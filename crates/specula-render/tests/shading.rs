@@ -181,7 +181,7 @@ fn normal_maps_tilt_along_the_coordinates() {
 /// A white sphere of rough metal with waves on it in a uniform sky: never brighter than the sky,
 /// never black.
 #[test]
-fn wavy_metal_neither_shines_nor_blackens() {
+fn wavy_metal_neither_emits_nor_blackens() {
     let mut scene = empty(look([0.0, 0.0, -4.0], [0.0; 3], 26.0), 24);
     let m = material(&mut scene, mirror_metal(0.3));
     scene.textures.push(Texture::Noise {

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use crate::{Result, suite};
+use crate::{Result, workspace};
 
 /// Runs every bench of the workspace.
 pub(crate) fn run(root: &Path, arguments: &[String]) -> Result<()> {
-    let mut command = suite::cargo(root);
+    let mut command = workspace::cargo(root);
     command.args(["bench", "--workspace"]).args(arguments);
     match command.status()?.success() {
         true => Ok(()),

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::{Result, suite};
+use crate::{Result, workspace};
 
 /// The kept counts, from the workspace's root.
 const KEPT: &str = "crates/specula-bsdf/benches/instructions.txt";
@@ -86,7 +86,7 @@ fn compiler() -> Result<String> {
 
 /// Builds the program that runs the kernels, and returns its path.
 fn build(root: &Path) -> Result<PathBuf> {
-    let mut command = suite::cargo(root);
+    let mut command = workspace::cargo(root);
     command.args([
         "bench",
         "--package",

@@ -1,10 +1,9 @@
 //! `cargo xtask test`: everything that must pass before a change is kept.
 
 use std::path::Path;
-use std::process::Command;
 use std::time::Instant;
 
-use crate::{Result, instructions, tables, tidy};
+use crate::{Result, instructions, tables, tidy, workspace};
 
 /// A cargo command.
 struct Step {
@@ -51,7 +50,7 @@ pub(crate) fn run(root: &Path) -> Result<()> {
     let mut report = Report::default();
     for step in CARGO_STEPS {
         report.step(step.name, || {
-            let mut command = cargo(root);
+            let mut command = workspace::cargo(root);
             command.args(step.arguments).envs(step.environment);
             match command.status()?.success() {
                 true => Ok(()),
@@ -63,14 +62,6 @@ pub(crate) fn run(root: &Path) -> Result<()> {
     report.step("instructions", || instructions::run(root, true));
     report.step("tidy", || tidy::run(root));
     report.finish()
-}
-
-/// A `cargo` to be run in the workspace: the one that runs this chore.
-pub(crate) fn cargo(root: &Path) -> Command {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let mut command = Command::new(cargo);
-    command.current_dir(root);
-    command
 }
 
 /// What ran, how long, and what failed.

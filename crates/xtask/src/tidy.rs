@@ -1,5 +1,8 @@
 //! `cargo xtask tidy`: what no compiler checks.
 
+mod circles;
+mod words;
+
 use std::fs;
 use std::path::Path;
 
@@ -17,6 +20,8 @@ pub(crate) fn run(root: &Path) -> Result<()> {
         let text = fs::read_to_string(path).map_err(|e| format!("{name}: {e}"))?;
         findings.extend(untidy(&text).iter().map(|f| format!("{name}:{f}")));
     }
+    findings.extend(circles::find(root)?);
+    findings.extend(words::find(root)?);
     if findings.is_empty() {
         println!("{} files are tidy", files.len());
         return Ok(());

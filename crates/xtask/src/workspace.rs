@@ -1,8 +1,9 @@
 //! Where the workspace is, and what source files it has.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
-use crate::{Result, suite};
+use crate::Result;
 
 /// The workspace's root folder.
 pub(crate) fn root() -> PathBuf {
@@ -15,7 +16,7 @@ pub(crate) fn program(root: &Path, given: Option<&Path>) -> Result<PathBuf> {
     if let Some(program) = given {
         return Ok(program.to_owned());
     }
-    let mut build = suite::cargo(root);
+    let mut build = cargo(root);
     build.args(["build", "--release", "--quiet", "--package", "specula"]);
     if !build.status()?.success() {
         return Err("Specula does not build".into());
@@ -23,6 +24,14 @@ pub(crate) fn program(root: &Path, given: Option<&Path>) -> Result<PathBuf> {
     let name = format!("specula{}", std::env::consts::EXE_SUFFIX);
     // Cargo puts it beside this chore's.
     Ok(std::env::current_exe()?.with_file_name(name))
+}
+
+/// A `cargo` to be run in the workspace: the one that runs this chore.
+pub(crate) fn cargo(root: &Path) -> Command {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = Command::new(cargo);
+    command.current_dir(root);
+    command
 }
 
 /// Every `.rs` file under `crates`, sorted; folders named `target` are left out.

@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn widths_are_the_fonts() {
+    fn advances_are_the_fonts() {
         let found = width(&spans("Wi_0"), 100.0);
         assert!((found - 98.9 - 27.8 - 50.0 - 63.6).abs() < 0.1, "{found}");
         assert!(width(&spans("theta_o"), 10.0) < width(&spans("theory"), 10.0));

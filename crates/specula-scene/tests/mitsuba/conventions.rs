@@ -122,7 +122,7 @@ fn environment_maps_have_y_up_and_begin_behind() {
 }
 
 #[test]
-fn lights_shine_along_z() {
+fn lights_emit_along_z() {
     let loaded = load(
         r#"<shape type="cube"/>
         <emitter type="spot"><transform name="to_world"><rotate x="1" angle="90"/>
