@@ -141,7 +141,7 @@ fn bound_albedo(colour: vec3f) -> vec3f {
     return clamp(colour, vec3f(0.0), vec3f(1.0));
 }
 
-/// AlphaPair of facets behind a rough surface.
+/// Alphas of facets behind a rough surface.
 ///
 /// Twin: specula-render/src/integrator/bias.rs, regularized.
 fn bound_regularized(alpha: vec2f) -> vec2f {
@@ -159,7 +159,7 @@ fn bound_unit_roughness(x: vec3f, is_regularized: bool) -> f32 {
     return r;
 }
 
-/// AlphaPair of facets from two values and what these are; 0 where the surface is smooth.
+/// Alphas of facets from two values and what these are; 0 where the surface is smooth.
 ///
 /// Twin: specula-render/src/material/metal.rs, alpha.
 fn bound_alphas(across: f32, along: f32, mapping: u32) -> vec2f {

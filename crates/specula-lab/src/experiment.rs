@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Lab, Result};
 
-/// One table or figure of a paper, or of Specula's.
+/// One table or figure of a paper, or of Specula.
 #[derive(Clone, Copy, Debug)]
 pub struct Experiment {
     /// What the command line calls it: source and item, such as `tokuyoshi24-fig7`. Also the name of
@@ -179,7 +179,7 @@ pub struct Claim {
     pub stated: String,
     /// StratifiedBidirectional.
     pub measured: String,
-    /// Whether Specula's says the same.
+    /// Whether Specula's figure says the same.
     pub holds: Answer,
     /// Whether that may be relied upon.
     pub kind: Kind,

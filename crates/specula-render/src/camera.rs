@@ -98,7 +98,7 @@ impl Camera {
 }
 
 impl Camera {
-    /// [`Camera::ray`] for many points, as many as random random_numbers for the lens.
+    /// [`Camera::ray`] for many points, as many as random numbers for the lens.
     ///
     /// * `keep`: takes each ray with the point's index.
     pub(crate) fn rays(

@@ -4,17 +4,15 @@
 //! direction; what both can find is weighted by the
 //! power heuristic (Veach 1997, 9.2.4) with exponent 3/2. From the fourth vertex on, paths survive with
 //! twice their throughput's largest channel as probability, corrected for the squeezing of radiance by
-//! refraction (pbrt's eta scale), at least 5 %; above 95 % roulette is not played. Once the channel
-//! itself costs a quarter more time to the same noise in a room of rough metal, and 6 % less in the
-//! Cornell box.
+//! refraction (pbrt's eta scale), at least 5 %; above 95 % roulette is not played.
 //!
 //! The shading frame is turned such that both normals face the viewer; a direction whose side of
 //! the shading normal differs from its side of the surface carries nothing, so that light does not
 //! leak. A view below the shading horizon is left to the lobes, which know it; only perfect mirrors
 //! and panes, which have no answer there, take the geometric normal instead.
 //!
-//! MediumStack absorb between the surface where a path enters them and the one where it leaves
-//! (`media`); a path begins in none.
+//! Media absorb between the surface where a path enters them and the one where it leaves
+//! (`medium_stack`); a path begins in none.
 
 pub(crate) mod bias;
 mod candidates;

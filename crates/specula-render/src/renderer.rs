@@ -15,7 +15,7 @@ use crate::sampler::Sampler;
 /// A render in progress.
 ///
 /// A sample is determined by its pixel, its number in the pixel and the seed, and a pixel adds its
-/// samples in the order of their random random_numbers: the picture does not depend, by a single bit, on the
+/// samples in the order of their indices: the picture does not depend, by a single bit, on the
 /// number of threads or on how the samples are split into passes. Adaptive sampling allots work when
 /// all tiles have what was allotted before, so that this holds there too.
 pub struct Renderer<'a> {

@@ -20,12 +20,12 @@
 //!
 //! The sets of the first vertex go with the camera's, though: what a pixel sees of a finely cut or bumpy
 //! surface, and what light it reflects from where, belong together. Their sequences take the sample's number
-//! as the camera's set has shuffled it, turned by a matrix of bits ([`TURN`]) that makes the random random_numbers of both
+//! as the camera's set has shuffled it, turned by a matrix of bits ([`TURN`]) that makes the random numbers of both
 //! sets even together. Squared error over that of sets by themselves at 16 and 64 samples: 0.93 and 0.89 on
 //! two million triangles, 0.93 and 1.05 under the sun, 0.98 and 1.00 for glass, 1.00 in the metal room.
 //!
 //! Lobes that walk between microfacets draw from a hashed stream per vertex. Opacity and the choice
-//! within mixed materials take hashed random random_numbers, since their count along a path is not bounded.
+//! within mixed materials take hashed random numbers, since their count along a path is not bounded.
 
 use std::sync::LazyLock;
 
@@ -36,7 +36,7 @@ use specula_bsdf::math::Stream;
 
 use crate::flat::Words;
 
-/// The random random_numbers of one sample of one pixel.
+/// The random numbers of one sample of one pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sampler {
     index: u32,
@@ -44,7 +44,7 @@ pub(crate) struct Sampler {
 }
 
 impl Sampler {
-    /// The random random_numbers of sample `sample` of a pixel.
+    /// The random numbers of sample `sample` of a pixel.
     #[inline]
     pub(crate) fn new(pixel: [u32; 2], sample: u32, seed: u32) -> Self {
         let block = sample >> 16;
@@ -54,13 +54,13 @@ impl Sampler {
         }
     }
 
-    /// Random random_numbers 1 and 2 for the filter, 0 and 3 for the lens.
+    /// Random numbers 1 and 2 for the filter, 0 and 3 for the lens.
     #[cfg(test)]
     pub(crate) fn camera(&self) -> [f32; 4] {
         self.set(Purpose::Camera.set(0))
     }
 
-    /// Three random random_numbers for the lobe, one for Russian roulette.
+    /// Three random numbers for the lobe, one for Russian roulette.
     #[inline]
     pub(crate) fn scatter(&self, vertex: u32) -> [f32; 4] {
         self.set(Purpose::Scatter.set(vertex))
@@ -81,7 +81,7 @@ impl Sampler {
         (bits >> 8) as f32 * (1.0 / 16_777_216.0)
     }
 
-    /// Random random_numbers without end for a lobe whose values are estimates, at one vertex; `purpose` tells
+    /// Random numbers without end for a lobe whose values are estimates, at one vertex; `purpose` tells
     /// its evaluation from its sampling.
     #[inline]
     pub(crate) fn stream(&self, vertex: u32, purpose: u32) -> Stream {
@@ -102,7 +102,7 @@ impl Sampler {
     }
 }
 
-/// What the random random_numbers at a vertex are for.
+/// What the random numbers at a vertex are for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Purpose {
     /// The filter and the lens, whatever the vertex.
@@ -180,7 +180,7 @@ fn seed_of_set(seed: u32, set: u32) -> u32 {
     hash(seed.wrapping_add(set.wrapping_mul(0x9e37_79b9)))
 }
 
-/// Random random_numbers of many samples at once: those that a [`Sampler`] draws, bit for bit.
+/// Random numbers of many samples at once: those that a [`Sampler`] draws, bit for bit.
 #[derive(Clone, Debug)]
 pub(crate) struct RandomNumbers<const N: usize> {
     indices: [u32; N],
@@ -230,7 +230,7 @@ static COLUMNS: LazyLock<[[u32; 4]; 16]> = LazyLock::new(|| {
 /// Sobol's dimensions by number of the set.
 const ORDER: [u32; 4] = [2, 0, 1, 3];
 
-/// What distinguishes the scrambling of the random random_numbers, as in the crate's `sample_4d`.
+/// What distinguishes the scrambling of the random numbers, as in the crate's `sample_4d`.
 const KEYS: [u32; 4] = [0x691e_72ca, 0x912f_69ba, 0x174f_18ab, 0xb40c_c1b8];
 
 /// The generator matrices for shaders, by bit and number.
@@ -371,13 +371,13 @@ mod tests {
     }
 
     /// How uneven the first samples of two sets are together, but for a factor: Owen's gain coefficients, the
-    /// variance over that of random random_numbers (Owen 1997, "Monte Carlo variance of scrambled net quadrature",
-    /// 4), summed over what involves random random_numbers of both.
+    /// variance over that of random numbers (Owen 1997, "Monte Carlo variance of scrambled net quadrature",
+    /// 4), summed over what involves random numbers of both.
     ///
-    /// * `samples`: their random random_numbers, and those random random_numbers turned.
+    /// * `samples`: their random numbers, and those random numbers turned.
     ///
     /// The terms of a number's first `k` digits have half the weight of those before. Of the first set the
-    /// random random_numbers 1 and 2 count (the filter's), of the second 0, 1 and 2. Terms of three random random_numbers weigh 0.7,
+    /// random numbers 1 and 2 count (the filter's), of the second 0, 1 and 2. Terms of three random numbers weigh 0.7,
     /// of four 0.5.
     fn unevenness(samples: impl Iterator<Item = (u32, u32)>) -> f64 {
         // By the number of digits that are zero: those terms, and less the next one.
@@ -423,7 +423,7 @@ mod tests {
         }
     }
 
-    /// Variance of what depends on random random_numbers of both sets, over that with sets by themselves.
+    /// Variance of what depends on random numbers of both sets, over that with sets by themselves.
     #[test]
     fn camera_and_first_vertex_are_even_together() {
         let alone = unevenness(core::iter::once((0, 0)));

@@ -1,4 +1,4 @@
-//! MediumStack of pbrt and Mitsuba: boundaries that name what absorbs on either side.
+//! Media of pbrt and Mitsuba: boundaries that name what absorbs on either side.
 #![allow(
     clippy::cast_possible_truncation,
     reason = "scenes are in single precision"

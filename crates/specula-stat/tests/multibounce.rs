@@ -300,7 +300,7 @@ fn wang_is_biased_as_its_model_says() {
     }
 }
 
-/// The connection of Specula's is bounded for `wi` along the normal, where those that leave first and
+/// That of stratified bidirectional walks is bounded for `wi` along the normal, where those that leave first and
 /// connect then have rare, huge values.
 #[test]
 fn values_along_the_normal_are_bounded() {

@@ -35,11 +35,11 @@ use crate::alpha::Alpha;
 use crate::math::{Real, Vec3};
 use crate::ndf::{Beckmann, Ggx, Masking, Ndf};
 
-/// AlphaPair of the isotropic tables.
+/// Alphas of the isotropic tables.
 pub const ISOTROPIC_ALPHAS: usize = 48;
 /// Cosines of the isotropic tables.
 pub const ISOTROPIC_COSINES: usize = 40;
-/// AlphaPair of the anisotropic tables.
+/// Alphas of the anisotropic tables.
 pub const ANISOTROPIC_ALPHAS: usize = 24;
 /// Azimuths of the anisotropic tables.
 pub const ANISOTROPIC_AZIMUTHS: usize = 12;

@@ -40,13 +40,13 @@ use crate::ndf::Masking;
 
 /// Indices of the isotropic tables.
 pub const ETAS: usize = 20;
-/// AlphaPair of the isotropic tables.
+/// Alphas of the isotropic tables.
 pub const ALPHAS: usize = 20;
 /// Cosines of the isotropic tables.
 pub const COSINES: usize = 22;
 /// Indices of the anisotropic tables.
 pub const STRETCHED_ETAS: usize = 12;
-/// AlphaPair of the anisotropic tables.
+/// Alphas of the anisotropic tables.
 pub const STRETCHED_ALPHAS: usize = 12;
 /// Azimuths of the anisotropic tables.
 pub const STRETCHED_AZIMUTHS: usize = 10;

@@ -6,7 +6,7 @@
 //! | `bitterli2022` | heights integrated, hyperexponential | the truth | metal |
 //! | `wang2022` | independent bounces | a model of its own | metal |
 //! | `cui2023` | invariance principle, from one or both ends | the truth | metal |
-//! | `Specula's` | state without cancellation, both ends, stratified | the truth | metal, dielectric |
+//! | `stratified_bidirectional` | state without cancellation, both ends, stratified | the truth | metal, dielectric |
 //!
 //! All evaluate by Monte Carlo: [`Bsdf::eval_pdf_random`](crate::Bsdf::eval_pdf_random) is an
 //! unbiased estimate of the model's `f cos`, and

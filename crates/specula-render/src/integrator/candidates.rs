@@ -5,7 +5,7 @@
 //! each over twice its density and weighed with that, and one is kept by chance, in proportion to these;
 //! it then brings as much as both unless something is in its way (resampled importance sampling: Talbot et al.
 //! 2005, "Importance resampling for global illumination", eq. 6). The choice of light is sampled in the lower half of its
-//! random random_numbers for one and the upper half for the other, and the points on them half a period apart, so that both together are
+//! random numbers for one and the upper half for the other, and the points on them half a period apart, so that both together are
 //! as even as one was.
 //!
 //! Squared error and time over those of one light: 0.90 and 1.02 on two million triangles, 0.97 and 1.04 for glass and metal
@@ -42,7 +42,7 @@ fn is_rough_metal(lobe: &Lobe<f32>) -> bool {
     }
 }
 
-/// The random random_numbers of one of several lights.
+/// The random numbers of one of several lights.
 ///
 /// * `u`: as of [`Sampler::light`].
 /// * `k`: which one, of `count`.

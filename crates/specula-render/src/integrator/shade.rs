@@ -66,7 +66,7 @@ impl PathTracer<'_> {
         }
     }
 
-    /// MaterialRuns of batch with their materials.
+    /// Runs of the batch with their materials.
     fn each<'s>(
         &'s self,
         runs: &'s [MaterialRun],
@@ -196,7 +196,7 @@ impl PathTracer<'_> {
         self.each(runs).filter(move |(plain, _)| two(plain))
     }
 
-    /// Makes the random random_numbers of one light those of two where as many are sampled.
+    /// Makes the random numbers of one light those of two where as many are sampled.
     fn part_numbers(&self, wavefront: &mut Wavefront, depth: u32) {
         let VertexBatch {
             random_numbers,

@@ -1,4 +1,4 @@
-//! PathStates of a group that share what lies behind their first rough vertices.
+//! Paths of a group that share what lies behind their first rough vertices.
 //!
 //! Bekaert, Sbert and Halton 2002, "Accelerating path tracing by re-using paths". A group is of
 //! neighbouring pixels, one sample of each. Let `x_i` be the first vertex of path `i` whose lobe is not
@@ -51,7 +51,7 @@ enum Stage {
     Apart,
 }
 
-/// Vertices by the random random_numbers of their paths.
+/// Vertices by the index of their path.
 struct Vertices {
     position: Vectors,
     error: Column,
@@ -69,7 +69,7 @@ struct Met {
     light_pdf: f32,
 }
 
-/// What paths of groups leave for each other, by the random random_numbers of the paths.
+/// What paths of groups leave for each other, by path index.
 pub(super) struct Shared {
     stage: [Stage; WAVEFRONT_SIZE],
     has_x: [bool; WAVEFRONT_SIZE],
@@ -234,7 +234,7 @@ impl Shared {
 
     /// Sees to it that no path ends at its `x` by roulette.
     ///
-    /// * `survival`: the random random_numbers that decide, by element.
+    /// * `survival`: the random numbers that decide, by element.
     pub(super) fn let_pass(&self, owners: &[u32], survival: &mut [f32]) {
         for (owner, survival) in owners.iter().zip(survival) {
             if self.stage[index(*owner)] == Stage::Left {
@@ -345,10 +345,10 @@ mod tests {
                 let pixel = [i % 64, i / 64];
                 (pixel, Sampler::new(pixel, 3, 5))
             };
-            let random_numbers = first..first + id(Wavefront::SIZE);
-            alone.begin(&mut a, random_numbers.clone().map(sample));
+            let indices = first..first + id(Wavefront::SIZE);
+            alone.begin(&mut a, indices.clone().map(sample));
             alone.follow_all(&mut a);
-            shares.begin(&mut b, random_numbers.map(sample));
+            shares.begin(&mut b, indices.map(sample));
             shares.follow_all(&mut b);
             shares.share(&mut b, &[1; Wavefront::SIZE]);
             let shared = b.shared.as_ref().unwrap();

@@ -22,35 +22,35 @@ use crate::options::Strategy;
 use crate::prepared::PreparedScene;
 use crate::sampler::{Purpose, Sampler};
 
-/// A surface in waiting for its batch.
+/// A hit that is shaded in a batch.
 struct QueuedVertex {
-    /// TextureCoordinates among the paths that live.
+    /// Index among the live paths.
     at: u32,
     /// Twice the material, and one more where that is seen from the outside or may be seen from either
     /// side.
     key: u32,
 }
 
-/// A run of batch of one key.
+/// Consecutive vertices of a batch with the same key.
 pub(super) struct MaterialRun {
     pub(super) from: usize,
     pub(super) to: usize,
     pub(super) key: u32,
 }
 
-/// PathStates in step, and the room that they need.
+/// The paths of a wavefront, and their buffers.
 pub(crate) struct Wavefront {
     pub(super) paths: Box<PathStates>,
     /// Filter weights of the samples.
     weights: Column,
     /// What was counted since it was taken last.
     pub(super) tally: Tally,
-    /// The paths that go on, and what their rays meet.
+    /// The live paths, and the hits of their rays.
     pub(super) live: Box<Queue>,
     pub(super) hits: Vec<Option<Hit>>,
-    /// Those that go on from there.
+    /// Those that continue from there.
     pub(super) next: Box<Queue>,
-    /// Places among those that live, of rays that meet nothing.
+    /// Indices among the live paths, of rays without a hit.
     escaped: Vec<u32>,
     waiting: Vec<QueuedVertex>,
     /// How many wait of each key, then where they begin.
@@ -58,9 +58,9 @@ pub(crate) struct Wavefront {
     pub(super) runs: Vec<MaterialRun>,
     pub(super) batch: Box<VertexBatch>,
     pub(super) streams: Vec<Stream>,
-    /// Rays towards lights, with the batch that they are of.
+    /// Shadow rays, with the indices of their vertices.
     pub(super) shadows: Box<Queue>,
-    /// Whether anything is in their way.
+    /// Whether they are occluded.
     pub(super) blocked: Vec<bool>,
     pub(super) lights: Box<light::Waiting>,
     /// Where paths share.
@@ -68,9 +68,9 @@ pub(crate) struct Wavefront {
     pub(super) pairs: Option<Box<Work>>,
 }
 
-/// Random random_numbers of paths or batch, each with a ray.
+/// Indices of paths or vertices, each with a ray.
 pub(super) struct Queue {
-    random_numbers: [u32; WAVEFRONT_SIZE],
+    indices: [u32; WAVEFRONT_SIZE],
     rays: [Ray; WAVEFRONT_SIZE],
     len: usize,
 }
@@ -83,7 +83,7 @@ impl Queue {
             t_max: 0.0,
         };
         Box::new(Self {
-            random_numbers: [0; WAVEFRONT_SIZE],
+            indices: [0; WAVEFRONT_SIZE],
             rays: [nowhere; WAVEFRONT_SIZE],
             len: 0,
         })
@@ -96,7 +96,7 @@ impl Queue {
     #[inline(always)]
     pub(super) fn push(&mut self, number: u32, ray: Ray) {
         let at = self.len % WAVEFRONT_SIZE;
-        self.random_numbers[at] = number;
+        self.indices[at] = number;
         self.rays[at] = ray;
         self.len = at + 1;
     }
@@ -108,7 +108,7 @@ impl Queue {
     /// The number at a place, as an index.
     #[inline(always)]
     pub(super) fn number(&self, k: usize) -> usize {
-        index(self.random_numbers[k % WAVEFRONT_SIZE])
+        index(self.indices[k % WAVEFRONT_SIZE])
     }
 
     #[inline(always)]
@@ -389,7 +389,7 @@ impl PathTracer<'_> {
         });
     }
 
-    /// The key of a surface for batch, and whether it sends out light.
+    /// The key of a surface for batches, and whether it sends out light.
     ///
     /// * `rough`: as of `State`.
     #[inline(always)]
@@ -417,7 +417,7 @@ impl PathTracer<'_> {
 
     /// Sorts what waits by key into runs of batch.
     ///
-    /// Even a lone vertex has a run: its random random_numbers must not depend on what else there is.
+    /// Even a lone vertex is a run: its values must not depend on other vertices.
     fn sort(&self, wavefront: &mut Wavefront) {
         let Wavefront {
             waiting,
@@ -476,11 +476,11 @@ mod tests {
         let (mut wavefront, mut lone) = (Wavefront::new(), Wavefront::new());
         let mut found = Vec::new();
         for first in (0..64 * 48).step_by(Wavefront::SIZE) {
-            let random_numbers = first..first + id(Wavefront::SIZE);
-            tracer.begin(&mut wavefront, random_numbers.clone().map(sample));
+            let indices = first..first + id(Wavefront::SIZE);
+            tracer.begin(&mut wavefront, indices.clone().map(sample));
             tracer.follow_all(&mut wavefront);
             assert!(wavefront.take_tally().rays > 0);
-            for (k, i) in random_numbers.enumerate() {
+            for (k, i) in indices.enumerate() {
                 tracer.begin(&mut lone, std::iter::once(sample(i)));
                 let mut path = lone.first();
                 tracer.follow(&mut path);
@@ -494,7 +494,7 @@ mod tests {
         (prepared, found)
     }
 
-    /// PathStates in step are the paths one by one, up to rounding, which now and then sends one elsewhere.
+    /// Paths in a wavefront are those traced one by one, up to rounding, which now and then sends one elsewhere.
     #[test]
     fn paths_in_blocks_are_paths_alone() {
         let metal = "conductor Au alpha 0.3";

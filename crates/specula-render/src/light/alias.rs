@@ -5,7 +5,7 @@ use crate::flat::Words;
 
 /// A discrete distribution.
 ///
-/// Source: Vose 1991, A linear algorithm for generating random random_numbers with a given distribution.
+/// Source: Vose 1991, A linear algorithm for generating random numbers with a given distribution.
 #[derive(Clone, Debug, Default)]
 pub(super) struct AliasTable {
     bins: Vec<Bin>,

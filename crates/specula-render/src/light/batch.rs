@@ -290,7 +290,7 @@ impl Lights {
 
     /// [`Lights::arriving_from_infinity`] for many directions.
     ///
-    /// * `directions`: with random random_numbers of any meaning.
+    /// * `directions`: with indices of any meaning.
     /// * `place`: takes radiance and density of each light from infinity, for each number.
     #[inline]
     pub(crate) fn arriving_from_infinity_all(
@@ -299,12 +299,12 @@ impl Lights {
         mut directions: impl Iterator<Item = (usize, Vec3<f32>)>,
         mut place: impl FnMut(usize, Rgb<f32>, f32),
     ) {
-        let mut random_numbers = [0; LANES];
+        let mut indices = [0; LANES];
         let bundle = &mut waiting.bundle;
         loop {
             let mut n = 0;
             for (number, w) in directions.by_ref().take(LANES) {
-                random_numbers[n] = number;
+                indices[n] = number;
                 bundle.set_direction(n, w);
                 n += 1;
             }
@@ -316,12 +316,12 @@ impl Lights {
                 match light {
                     Far::Environment(sky) if self.sky == Some(place_in_far) => {
                         sky.arriving_all(n, bundle);
-                        for (i, &number) in random_numbers[..n].iter().enumerate() {
+                        for (i, &number) in indices[..n].iter().enumerate() {
                             place(number, bundle.radiance(i), probability * bundle.pdf[i]);
                         }
                     }
                     light => {
-                        for (i, &number) in random_numbers[..n].iter().enumerate() {
+                        for (i, &number) in indices[..n].iter().enumerate() {
                             let (radiance, pdf) = light.arriving(bundle.direction(i));
                             place(number, radiance, probability * pdf);
                         }

@@ -70,7 +70,7 @@ pub(crate) struct Lights {
     sources: Vec<Source>,
     /// With their places in `sources`.
     far: Vec<(Far, u32)>,
-    /// TextureCoordinates in `far` of the light that is sampled in batches, if any.
+    /// Index in `far` of the light that is sampled in batches, if any.
     sky: Option<usize>,
     selection: Selection,
 }

@@ -76,7 +76,7 @@ impl Piecewise {
 
     /// [`Piecewise::sample_cell`] for each of the first `n` batches.
     ///
-    /// * `u`: random random_numbers to sample by; then where in its cell each point lies.
+    /// * `u`: random numbers to sample by; then where in its cell each point lies.
     #[inline(always)]
     pub(super) fn sample_cells<const N: usize>(
         &self,

@@ -11,7 +11,7 @@ use super::select::Selection;
 use crate::accel::{Bounds, QuadricShape};
 use crate::sampler::Sampler;
 
-/// Random random_numbers in `[0, 1)`.
+/// Random numbers in `[0, 1)`.
 fn random_numbers(key: u32) -> impl FnMut() -> f32 {
     let sampler = Sampler::new([7, 11], 0, 5);
     let mut count = 0;

@@ -20,11 +20,11 @@ import package::energy::spline::{SplineCubic, spline_cubic};
 import package::ndf::masking::{MASKING_SEPARABLE};
 import package::ndf::distribution::{DISTRIBUTION_BECKMANN};
 
-/// AlphaPair of the isotropic tables.
+/// Alphas of the isotropic tables.
 const ALBEDO_ISOTROPIC_ALPHAS: u32 = 48u;
 /// Cosines of the isotropic tables.
 const ALBEDO_ISOTROPIC_COSINES: u32 = 40u;
-/// AlphaPair of the anisotropic tables.
+/// Alphas of the anisotropic tables.
 const ALBEDO_ANISOTROPIC_ALPHAS: u32 = 24u;
 /// Azimuths of the anisotropic tables.
 const ALBEDO_ANISOTROPIC_AZIMUTHS: u32 = 12u;

@@ -19,13 +19,13 @@ import package::energy::spline::{SplineCubic, SplineQuadratic, spline_cubic, spl
 
 /// Indices of the isotropic tables.
 const DIELECTRIC_ALBEDO_ETAS: u32 = 20u;
-/// AlphaPair of the isotropic tables.
+/// Alphas of the isotropic tables.
 const DIELECTRIC_ALBEDO_ALPHAS: u32 = 20u;
 /// Cosines of the isotropic tables.
 const DIELECTRIC_ALBEDO_COSINES: u32 = 22u;
 /// Indices of the anisotropic tables.
 const DIELECTRIC_ALBEDO_STRETCHED_ETAS: u32 = 12u;
-/// AlphaPair of the anisotropic tables.
+/// Alphas of the anisotropic tables.
 const DIELECTRIC_ALBEDO_STRETCHED_ALPHAS: u32 = 12u;
 /// Azimuths of the anisotropic tables.
 const DIELECTRIC_ALBEDO_STRETCHED_AZIMUTHS: u32 = 10u;

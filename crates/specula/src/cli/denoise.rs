@@ -43,7 +43,7 @@ pub(crate) fn ensure_available() -> Result<(), Failure> {
     Err(Failure::bad_input(
         "this program was built without Open Image Denoise.\n\
          `cargo build --release -p specula --features oidn` builds it in, where the library is \
-         installed (README.md says how)",
+         installed (docs/guide/denoising.md says how)",
     ))
 }
 

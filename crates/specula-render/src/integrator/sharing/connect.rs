@@ -120,7 +120,7 @@ pub(super) fn hand_back(
 pub(super) fn weigh(throughput: &Vectors, pairs: &mut Pairs) {
     for k in 0..pairs.count.min(WAVEFRONT_SIZE) {
         let (g, f) = (pairs.g[k], pairs.f.colour(k));
-        // PathStates that carry nothing end, and never reach the point.
+        // Paths that carry nothing end, and never reach the point.
         let carries = throughput.colour(index(pairs.x[k])) * f;
         let goes_on = (g > 0.0) & !((carries.r == 0.0) & (carries.g == 0.0) & (carries.b == 0.0));
         pairs.f.set_colour(k, f * g);

@@ -20,7 +20,7 @@ pub(super) struct Found {
 /// Pairs of an `x` and a `y` of a group, side by side; those of one `y` in a row.
 pub(super) struct Pairs {
     pub(super) count: usize,
-    /// PathStates of `x` and of `y`.
+    /// Paths of `x` and of `y`.
     pub(super) x: [u32; WAVEFRONT_SIZE],
     pub(super) y: [u32; WAVEFRONT_SIZE],
     /// Cosine at `y` over squared distance, in the units of `y`'s own path; 0 where the two are too close or

@@ -14,7 +14,7 @@ pub(super) enum AxisKind {
     Between,
 }
 
-/// The cells along one axis, as random random_numbers only: loops over batches have nothing to branch on.
+/// The cells along one axis, as plain values: loops over batches have no branches.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Axis {
     pub(super) cells: u32,

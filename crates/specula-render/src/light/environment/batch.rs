@@ -1,6 +1,6 @@
 //! Many directions of an infinite light at once: what `Environment` does for one, in loops over batches.
 //!
-//! Loops without look-ups become vectors; pixels are gathered four random random_numbers at a time. The table is
+//! Loops without look-ups become vectors; pixels are gathered four values at a time. The table is
 //! searched level by level for all batches, so that their misses of the cache overlap.
 
 #![allow(
@@ -24,7 +24,7 @@ type Column = [f32; LANES];
 
 /// Directions side by side, with all that is known of them on the way.
 pub(in super::super) struct Bundle {
-    /// Random random_numbers to sample by; then where in its cell a point lies.
+    /// Random numbers to sample by; then where in its cell a point lies.
     pub(in super::super) u: [Column; 2],
     cell: [[u32; LANES]; 2],
     /// What is sampled by at the corners of the cell.
@@ -197,7 +197,7 @@ mod tests {
         (a - b).abs() <= 1e-5 * a.abs().max(b.abs())
     }
 
-    /// Lanes and one by one, sampled and looked up, with random random_numbers at the ends of their range too.
+    /// Batches and single directions, sampled and evaluated, with random numbers at the ends of their range too.
     #[test]
     fn lanes_do_what_is_done_for_one() {
         for mapping in MAPPINGS {
