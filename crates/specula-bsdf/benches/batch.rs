@@ -12,15 +12,14 @@ use std::time::Instant;
 
 use specula_bsdf::batch::{Alphas, Colours, Directions, Level, Lobes, SampleOutcome, Samples};
 use specula_bsdf::bsdf::{
-    CoatedConductor, CoatedDiffuse, Compensated, Eon, Lambert, RoughConductor, RoughDielectric,
-    SmoothConductor,
+    CoatedDiffuse, Compensated, Eon, Lambert, RoughConductor, RoughDielectric, SmoothConductor,
 };
 use specula_bsdf::energy::{EnergyModel, FmsVariant};
 use specula_bsdf::fresnel::{Conductor, Reflectance};
-use specula_bsdf::math::{Stream, rgb, warp};
+use specula_bsdf::math::{Stream, rgb, vec3, warp};
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::vndf::{self, Sampler};
-use specula_bsdf::{Alpha, Bsdf, Rgb, Transport};
+use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, Vec3};
 
 const N: usize = 1024;
 const ROUNDS: usize = 1500;
@@ -104,7 +103,7 @@ fn samplers<'a>(input: &'a Input, level: Option<Level>, alpha: Alpha<f32>) -> Ve
             None => {
                 let draw = move || {
                     for i in 0..N {
-                        let (wo, u) = (wo.get(i), [u1[i], u2[i]]);
+                        let (wo, u) = (element(&wo, i), [u1[i], u2[i]]);
                         black_box(match sampler {
                             Sampler::Heitz => vndf::heitz::sample_reflection(alpha, wo, u),
                             Sampler::Cap => vndf::cap::sample_reflection(alpha, wo, u),
@@ -116,7 +115,7 @@ fn samplers<'a>(input: &'a Input, level: Option<Level>, alpha: Alpha<f32>) -> Ve
                 kernels.push((format!("{sampler} sample"), Box::new(draw)));
                 let density = move || {
                     for i in 0..N {
-                        let (wo, wi) = (wo.get(i), wi.get(i));
+                        let (wo, wi) = (element(&wo, i), element(&wi, i));
                         black_box(match sampler {
                             Sampler::Heitz | Sampler::Cap => {
                                 vndf::cap::reflection_pdf(alpha, wo, wi)
@@ -155,7 +154,7 @@ where
         }
         None => {
             for i in 0..N {
-                black_box(own.eval_pdf(wo.get(i), wi.get(i), transport));
+                black_box(own.eval_pdf(element(&wo, i), element(&wi, i), transport));
             }
         }
     };
@@ -166,7 +165,7 @@ where
         }
         None => {
             for i in 0..N {
-                black_box(lobe.sample(wo.get(i), u.map(|u| u[i]), transport));
+                black_box(lobe.sample(element(&wo, i), u.map(|u| u[i]), transport));
             }
         }
     };
@@ -202,12 +201,6 @@ fn lobes(input: &Input, level: Option<Level>, ggx: Ggx<f32>) -> Vec<Kernel<'_>> 
         lobe(
             "coated diffuse",
             CoatedDiffuse::new(Some(ggx), 1.5, colour),
-            input,
-            level,
-        ),
-        lobe(
-            "coated gold",
-            CoatedConductor::new(Some(ggx), 1.5, Some(ggx), gold()),
             input,
             level,
         ),
@@ -267,4 +260,10 @@ fn main() {
             );
         }
     }
+}
+
+/// The vector at `i`.
+#[inline(always)]
+fn element(vectors: &Directions<&[f32]>, i: usize) -> Vec3<f32> {
+    vec3(vectors.x[i], vectors.y[i], vectors.z[i])
 }

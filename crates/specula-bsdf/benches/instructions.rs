@@ -10,15 +10,14 @@ use std::process::ExitCode;
 
 use specula_bsdf::batch::{Alphas, Colours, Directions, Level, Lobes, SampleOutcome, Samples};
 use specula_bsdf::bsdf::{
-    CoatedConductor, CoatedDiffuse, Compensated, Eon, RoughConductor, RoughDielectric,
-    SmoothConductor,
+    CoatedDiffuse, Compensated, Eon, RoughConductor, RoughDielectric, SmoothConductor,
 };
 use specula_bsdf::energy::{EnergyModel, FmsVariant};
 use specula_bsdf::fresnel::{Conductor, Reflectance};
-use specula_bsdf::math::{Stream, rgb, warp};
+use specula_bsdf::math::{Stream, rgb, vec3, warp};
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::vndf::{self, Sampler};
-use specula_bsdf::{Alpha, Bsdf, Rgb, Transport};
+use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, Vec3};
 
 const N: usize = 1024;
 
@@ -38,7 +37,6 @@ struct Data {
     mirror: SmoothConductor<f32>,
     eon: Eon<f32>,
     coated_diffuse: CoatedDiffuse<f32>,
-    coated_gold: CoatedConductor<f32>,
     turquin: Compensated<f32>,
 }
 
@@ -73,7 +71,6 @@ impl Data {
             mirror: SmoothConductor::new(gold),
             eon: Eon::new(Rgb::splat(0.5), 0.5),
             coated_diffuse: CoatedDiffuse::new(Some(ggx), 1.5, Rgb::splat(0.5)),
-            coated_gold: CoatedConductor::new(Some(ggx), 1.5, Some(ggx), gold),
             turquin: Compensated::new(ggx, gold, EnergyModel::Turquin(FmsVariant::AverageSeries)),
         }
     }
@@ -94,16 +91,24 @@ fn scalar(data: &mut Data, kernel: &str) -> Option<()> {
     let all = |one: &dyn Fn(usize)| (0..N).for_each(|i| one(black_box(i)));
     match kernel {
         "heitz" => all(&|i| {
-            black_box(vndf::heitz::sample_reflection(alpha, wo.get(i), u(i)));
+            black_box(vndf::heitz::sample_reflection(alpha, element(&wo, i), u(i)));
         }),
         "cap" => all(&|i| {
-            black_box(vndf::cap::sample_reflection(alpha, wo.get(i), u(i)));
+            black_box(vndf::cap::sample_reflection(alpha, element(&wo, i), u(i)));
         }),
         "bounded" => all(&|i| {
-            black_box(vndf::bounded::sample_reflection(alpha, wo.get(i), u(i)));
+            black_box(vndf::bounded::sample_reflection(
+                alpha,
+                element(&wo, i),
+                u(i),
+            ));
         }),
         "pdf" => all(&|i| {
-            black_box(vndf::bounded::reflection_pdf(alpha, wo.get(i), wi.get(i)));
+            black_box(vndf::bounded::reflection_pdf(
+                alpha,
+                element(&wo, i),
+                element(&wi, i),
+            ));
         }),
         _ => return scalar_lobe(data, kernel),
     }
@@ -123,8 +128,6 @@ fn scalar_lobe(data: &Data, kernel: &str) -> Option<()> {
         "eon-eval" => eval_each(data, &data.eon),
         "coated-diffuse" => draw_each(data, &data.coated_diffuse),
         "coated-diffuse-eval" => eval_each(data, &data.coated_diffuse),
-        "coated-gold" => draw_each(data, &data.coated_gold),
-        "coated-gold-eval" => eval_each(data, &data.coated_gold),
         "turquin" => draw_each(data, &data.turquin),
         "turquin-eval" => eval_each(data, &data.turquin),
         _ => return None,
@@ -136,14 +139,14 @@ fn draw_each(data: &Data, lobe: &impl Bsdf<f32>) {
     let wo = data.wo.as_slices();
     for i in 0..N {
         let u = [data.u[0][i], data.u[1][i], data.u[2][i]];
-        black_box(lobe.sample(wo.get(i), u, Transport::Radiance));
+        black_box(lobe.sample(element(&wo, i), u, Transport::Radiance));
     }
 }
 
 fn eval_each(data: &Data, lobe: &impl Bsdf<f32>) {
     let (wo, wi) = (data.wo.as_slices(), data.wi.as_slices());
     for i in 0..N {
-        black_box(lobe.eval_pdf(wo.get(i), wi.get(i), Transport::Radiance));
+        black_box(lobe.eval_pdf(element(&wo, i), element(&wi, i), Transport::Radiance));
     }
 }
 
@@ -176,8 +179,6 @@ fn batch_lobe(data: &mut Data, kernel: &str, level: Level) -> Option<()> {
         "eon-eval" => eval_all(data, |d| d.eon, level),
         "coated-diffuse" => draw_all(data, |d| d.coated_diffuse, level),
         "coated-diffuse-eval" => eval_all(data, |d| d.coated_diffuse, level),
-        "coated-gold" => draw_all(data, |d| d.coated_gold, level),
-        "coated-gold-eval" => eval_all(data, |d| d.coated_gold, level),
         "turquin" => draw_all(data, |d| d.turquin, level),
         "turquin-eval" => eval_all(data, |d| d.turquin, level),
         "glass-pdf" => {
@@ -226,4 +227,10 @@ fn main() -> ExitCode {
         }
         None => ExitCode::FAILURE,
     }
+}
+
+/// The vector at `i`.
+#[inline(always)]
+fn element(vectors: &Directions<&[f32]>, i: usize) -> Vec3<f32> {
+    vec3(vectors.x[i], vectors.y[i], vectors.z[i])
 }

@@ -18,11 +18,10 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use specula_bsdf::batch::{Colours, Directions, Level, SampleOutcome, Samples};
+use specula_bsdf::bsdf::{MultibounceConductor, MultibounceDielectric};
 use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::math::{Stream, rgb, vec3, warp};
-use specula_bsdf::multibounce::{
-    MisPdf, MultibounceConductor, MultibounceDielectric, MultibounceModel,
-};
+use specula_bsdf::multibounce::{MisPdf, MultibounceModel};
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, Vec3};
 
@@ -127,7 +126,7 @@ fn main() {
                     });
                     draw[k].slice(|| {
                         let u = [stream.next(), stream.next()];
-                        lobe.draw(black_box(wo), u, &mut stream)
+                        lobe.sample_walk(black_box(wo), u, &mut stream)
                             .map_or(0.0, |(_, weight)| weight.r)
                     });
                 }
@@ -310,12 +309,15 @@ impl Batch {
         let (wo, wi) = (self.wo.as_slices(), self.wi.as_slices());
         let transport = Transport::Radiance;
         for (i, stream) in self.streams.iter_mut().enumerate() {
-            let wo = black_box(wo.get(i));
+            let wo = black_box(element(&wo, i));
             if samples {
                 let u = [self.u[0][i], self.u[1][i], self.u[2][i]];
                 black_box(self.metal.sample_random(wo, u, transport, stream));
             } else {
-                black_box(self.metal.eval_pdf_random(wo, wi.get(i), transport, stream));
+                black_box(
+                    self.metal
+                        .eval_pdf_random(wo, element(&wi, i), transport, stream),
+                );
             }
         }
     }
@@ -409,4 +411,10 @@ fn densities() {
         });
         println!("  {:<11} {:>6.1} {:>6.1}", mis.name(), times[0], times[1]);
     }
+}
+
+/// The vector at `i`.
+#[inline(always)]
+fn element(vectors: &Directions<&[f32]>, i: usize) -> Vec3<f32> {
+    vec3(vectors.x[i], vectors.y[i], vectors.z[i])
 }

@@ -83,7 +83,7 @@ fn scalar<T: Real, L: Bsdf<T>>(lobe: &L, e: &Elements<T>) -> Outcome<T> {
     };
     let (wo, wi) = (e.wo.as_slices(), e.wi.as_slices());
     for i in 0..n {
-        let (wo, wi) = (wo.get(i), wi.get(i));
+        let (wo, wi) = (wo.get(i).unwrap(), wi.get(i).unwrap());
         push(&mut out.f_cos, lobe.eval(wo, wi, Transport::Radiance));
         out.pdf.push(lobe.pdf(wo, wi));
         let (f_cos, pdf) = lobe.eval_pdf(wo, wi, Transport::Radiance);
@@ -317,7 +317,7 @@ fn per_element_colours_are_one_lobe_each() {
         for level in levels() {
             let many = batch(level, &textured, &elements);
             for i in (0..N).step_by(7) {
-                let colour = f0.as_slices().get(i).map(|x| Real::clamp(x, 0.0, 1.0));
+                let colour = f0.as_slices().get(i).unwrap().map(|x| x.within(0.0, 1.0));
                 let reflectance = Reflectance::Schlick(Schlick { f0: colour });
                 let one = batch_common::metal([alpha_x[i], alpha_y[i]], reflectance);
                 let one = batch(level, &one.with_sampler(sampler), &elements);
@@ -367,7 +367,7 @@ fn bare_samplers_are_the_scalar_ones() {
                 .unwrap();
             for i in 0..N {
                 let u = [u[0][i], u[1][i]];
-                let (wo, wi) = (wo.get(i), wi.get(i));
+                let (wo, wi) = (wo.get(i).unwrap(), wi.get(i).unwrap());
                 let (expected, density) = match sampler {
                     Sampler::Heitz => (
                         vndf::heitz::sample_reflection(alpha, wo, u),
@@ -387,7 +387,11 @@ fn bare_samplers_are_the_scalar_ones() {
                     ),
                 };
                 let expected = expected.unwrap_or(Vec3::ZERO);
-                assert_eq!(sampled.as_slices().get(i), expected, "{sampler} {i}");
+                assert_eq!(
+                    sampled.as_slices().get(i).unwrap(),
+                    expected,
+                    "{sampler} {i}"
+                );
                 assert_eq!(pdf[i], density, "{sampler} {i}");
             }
         }
@@ -437,12 +441,13 @@ fn slices_that_differ_in_length_are_named() {
     };
     let mut pdf = vec![0.5; 8];
     let error = Level::best().pdf(&lobe, wo, short, &mut pdf).unwrap_err();
-    let expected = LengthMismatch {
-        name: "wi.y",
-        found: 7,
-        expected: 8,
-    };
-    assert_eq!(error, expected);
+    let LengthMismatch {
+        name,
+        found,
+        expected,
+        ..
+    } = error;
+    assert_eq!((name, found, expected), ("wi.y", 7, 8));
     assert_eq!(
         error.to_string(),
         "`wi.y` holds 7 elements, but the first slice written holds 8"

@@ -60,7 +60,8 @@ where
         .expect("equal lengths");
     let samples = samples.as_slices();
     for (i, &density) in pdf.iter().enumerate() {
-        let (wo, wi): (Vec3<f64>, Vec3<f64>) = (wo.get(i).cast(), wi.get(i).cast());
+        let (wo, wi): (Vec3<f64>, Vec3<f64>) =
+            (wo.get(i).unwrap().cast(), wi.get(i).unwrap().cast());
         let (f, p) = twin.eval_pdf(wo, wi, transport);
         worst.see(0, f_cos.g[i], f.g);
         worst.see(1, density, p);
@@ -68,7 +69,7 @@ where
             samples.kind[i],
             SampleOutcome::Reflection | SampleOutcome::Transmission
         ) {
-            let wi = samples.wi.get(i).cast();
+            let wi = samples.wi.get(i).unwrap().cast();
             let (f, p) = twin.eval_pdf(wo, wi, transport);
             worst.see(2, samples.weight.g[i], f.g / p);
             worst.see(3, samples.pdf[i], p);
@@ -88,7 +89,6 @@ fn errors_stay_within_the_table() {
     let elements = Elements::<f32>::new(N, 11);
     let mut metal = [Worst::default(); 4];
     let mut glass = Worst::default();
-    let mut coated = Worst::default();
     let mut diffuse = [Worst::default(); 3];
     for level in levels() {
         for alpha in ALPHAS {
@@ -102,9 +102,6 @@ fn errors_stay_within_the_table() {
                 batch_common::glass(alpha, 1.5),
             );
             measure(&mut glass, level, &lobe, &twin, &elements);
-            let lobe = batch_common::coated_conductor(Some(alpha), Some([0.3, 0.3]));
-            let twin = batch_common::coated_conductor(Some(alpha), Some([0.3, 0.3]));
-            measure(&mut coated, level, &lobe, &twin, &elements);
         }
         let (lambert, eon) = (batch_common::lambert(), batch_common::eon());
         let [a, b, c] = &mut diffuse;
@@ -113,7 +110,7 @@ fn errors_stay_within_the_table() {
         let sheet = batch_common::sheet();
         measure(c, level, &sheet, &batch_common::sheet(), &elements);
     }
-    println!("metals {metal:?}\nglass {glass:?}\ncoated {coated:?}\ndiffuse {diffuse:?}");
+    println!("metals {metal:?}\nglass {glass:?}\ndiffuse {diffuse:?}");
     let within = |worst: Worst, bounds: [f64; 4]| {
         let all = worst.0.into_iter().zip(bounds);
         assert!(
@@ -123,7 +120,6 @@ fn errors_stay_within_the_table() {
     };
     metal.into_iter().for_each(|worst| within(worst, [2e-6; 4]));
     within(glass, [5e-5, 5e-5, 3e-3, 3e-3]);
-    within(coated, [5e-6, 1e-4, 5e-6, 5e-6]);
     diffuse
         .into_iter()
         .for_each(|worst| within(worst, [1e-6; 4]));
@@ -160,8 +156,8 @@ fn directions_stay_within_their_bound() {
                     .sample_reflection(sampler, alphas, wo, u, got.as_mut_slices())
                     .unwrap();
                 for i in 0..N {
-                    let got: Vec3<f64> = got.as_slices().get(i).cast();
-                    let expected = expected.as_slices().get(i);
+                    let got: Vec3<f64> = got.as_slices().get(i).unwrap().cast();
+                    let expected = expected.as_slices().get(i).unwrap();
                     // At the horizon one may be rejected and the other not.
                     if got.z.min(expected.z) > 1e-5 {
                         worst = worst.max((got - expected).length());

@@ -5,9 +5,10 @@ mod batch_common;
 
 use batch_common::{Elements, colour, ggx, gold, reflectances};
 use specula_bsdf::batch::{Colours, Directions, Level, SampleOutcome, Samples};
+use specula_bsdf::bsdf::MultibounceConductor;
 use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::math::Stream;
-use specula_bsdf::multibounce::{MisPdf, MultibounceConductor, MultibounceModel};
+use specula_bsdf::multibounce::{MisPdf, MultibounceModel};
 use specula_bsdf::{Bsdf, Real, Transport, Vec3};
 
 /// More than two chunks, and not a multiple of a vector.
@@ -54,7 +55,7 @@ fn eval<T: Real>(level: Level, metal: &MultibounceConductor<T>, of: &Elements<T>
         .eval_pdf_random(metal, wo, wi, &mut streams, f_cos.as_mut_slices(), &mut pdf)
         .expect("equal lengths");
     let rows = streams.iter_mut().enumerate().map(|(i, stream)| {
-        let f = f_cos.as_slices().get(i);
+        let f = f_cos.as_slices().get(i).unwrap();
         row([f.r, f.g, f.b, pdf[i], T::ZERO, T::ZERO, T::ZERO], stream)
     });
     rows.collect()
@@ -63,7 +64,10 @@ fn eval<T: Real>(level: Level, metal: &MultibounceConductor<T>, of: &Elements<T>
 fn eval_scalar<T: Real>(metal: &MultibounceConductor<T>, of: &Elements<T>) -> Vec<Row> {
     let mut streams = streams(of.wo.x.len());
     let rows = streams.iter_mut().enumerate().map(|(i, stream)| {
-        let (wo, wi) = (of.wo.as_slices().get(i), of.wi.as_slices().get(i));
+        let (wo, wi) = (
+            of.wo.as_slices().get(i).unwrap(),
+            of.wi.as_slices().get(i).unwrap(),
+        );
         let (f, pdf) = metal.eval_pdf_random(wo, wi, Transport::Radiance, stream);
         row([f.r, f.g, f.b, pdf, T::ZERO, T::ZERO, T::ZERO], stream)
     });
@@ -85,7 +89,7 @@ fn sample<T: Real>(level: Level, metal: &MultibounceConductor<T>, of: &Elements<
         .expect("equal lengths");
     let samples = samples.as_slices();
     let rows = streams.iter_mut().enumerate().map(|(i, stream)| {
-        let (wi, f) = (samples.wi.get(i), samples.weight.get(i));
+        let (wi, f) = (samples.wi.get(i).unwrap(), samples.weight.get(i).unwrap());
         let is_reflection = samples.kind[i] == SampleOutcome::Reflection;
         assert_eq!(is_reflection, samples.pdf[i] > T::ZERO);
         row([f.r, f.g, f.b, samples.pdf[i], wi.x, wi.y, wi.z], stream)
@@ -97,7 +101,7 @@ fn sample_scalar<T: Real>(metal: &MultibounceConductor<T>, of: &Elements<T>) -> 
     let mut streams = streams(of.wo.x.len());
     let rows = streams.iter_mut().enumerate().map(|(i, stream)| {
         let u = of.u().map(|u| u[i]);
-        let wo = of.wo.as_slices().get(i);
+        let wo = of.wo.as_slices().get(i).unwrap();
         let sample = metal.sample_random(wo, u, Transport::Radiance, stream);
         let values = sample.map_or([T::ZERO; 7], |s| {
             let (f, wi) = (s.weight, s.wi);
@@ -182,8 +186,8 @@ fn the_vector_levels_agree_bit_for_bit_and_elements_are_their_own() {
     // The first elements alone: few walks at a time, down to one, take another way.
     for n in [0, 1, 2, 5, 6, 7, 15, 16, 17, 255, 256, 257] {
         let first = Elements {
-            wo: (0..n).map(|i| all.wo.as_slices().get(i)).collect(),
-            wi: (0..n).map(|i| all.wi.as_slices().get(i)).collect(),
+            wo: (0..n).map(|i| all.wo.as_slices().get(i).unwrap()).collect(),
+            wi: (0..n).map(|i| all.wi.as_slices().get(i).unwrap()).collect(),
             u: core::array::from_fn(|k| all.u[k][..n].to_vec()),
         };
         for (level, (evals, samples)) in vector.iter().zip(&whole) {
@@ -228,7 +232,7 @@ fn means_are_those_of_heitz() {
             let cosine = moments(rows.iter().map(|row| row[6]));
             let walks = (0..REPEATS).filter_map(|_| {
                 let u = [stream.next(), stream.next()];
-                let (wi, _) = heitz.draw(wo, u, &mut stream)?;
+                let (wi, _) = heitz.sample_walk(wo, u, &mut stream)?;
                 Some(f64::from(wi.z))
             });
             let (expected, sigma) = moments(walks);

@@ -1,7 +1,7 @@
 //! Facts about lobes that need no statistics: limits, energy in closed form, robustness.
 
 use specula_bsdf::bsdf::{
-    CoatLayer, CoatScattering, CoatedConductor, CoatedDiffuse, DiffuseTransmission, Eon, Lambert,
+    Base, CoatLayer, CoatScattering, CoatedDiffuse, DiffuseTransmission, Eon, Lambert, Layered,
     Lobe, RoughConductor, RoughDielectric, SmoothConductor, SmoothDielectric, ThinDielectric,
 };
 use specula_bsdf::fresnel::{Conductor, Reflectance, dielectric};
@@ -79,7 +79,8 @@ fn a_smooth_coat_over_a_smooth_metal_is_the_plates_series() {
         eta: rgb(0.2, 0.9, 1.1),
         k: rgb(3.9, 2.4, 2.1),
     };
-    let lobe = CoatedConductor::new(None, 1.5, None, Reflectance::Conductor(metal));
+    let base = Base::metal(None, Reflectance::Conductor(metal));
+    let lobe = Layered::new(None, 1.5, base);
     let wo = vec3(0.6, 0.0, 0.8);
     let s = lobe.sample(wo, [0.5; 3], Transport::Radiance).unwrap();
     let outer = dielectric(0.8, 1.5);
@@ -191,7 +192,7 @@ fn every_lobe<T: Real>() -> Vec<Lobe<T>> {
         SmoothDielectric::facing(T::of(0.6)).into(),
         ThinDielectric::new(T::of(1.5)).into(),
         CoatedDiffuse::new(None, T::of(1.5), colour).into(),
-        CoatedConductor::new(None, T::of(1.5), None, metal).into(),
+        Layered::new(None, T::of(1.5), Base::metal(None, metal)).into(),
     ];
     for &(x, y) in &[(1e-4, 1e-4), (0.05, 0.5), (1.0, 1.0), (10.0, 0.3)] {
         let d = ggx(x, y);
@@ -220,8 +221,9 @@ fn every_lobe<T: Real>() -> Vec<Lobe<T>> {
             lobes.push(CoatedDiffuse::over_layer(Some(d), T::ONE, colour, layer).into());
             lobes.push(CoatedDiffuse::over_layer(None, T::of(1.5), colour, layer).into());
         }
-        lobes.push(CoatedConductor::new(None, T::of(1.5), Some(d), metal).into());
-        lobes.push(CoatedConductor::new(Some(d), T::of(1.5), Some(d), metal).into());
+        let base = Base::metal(Some(d), metal);
+        lobes.push(Layered::new(None, T::of(1.5), base).into());
+        lobes.push(Layered::new(Some(d), T::of(1.5), base).into());
     }
     lobes
 }
@@ -266,7 +268,7 @@ fn nothing_breaks<T: Real>() {
             .chain((0..20).map(r3))
             {
                 let below_one = T::ONE - T::EPSILON;
-                let u = u.map(|x| Real::min(T::of(x), below_one));
+                let u = u.map(|x| T::of(x).at_most(below_one));
                 if let Some(s) = lobe.sample(wo, u, Transport::Radiance) {
                     let unit = (s.wi.length() - T::ONE).abs() < T::of(1e-3);
                     assert!(

@@ -207,7 +207,7 @@ fn the_exact_norm_has_its_root() {
         let axis2 = 1.0 + (h.x / d[0]).powi(2) + (h.y / d[1]).powi(2);
         let expected = low * low / (axis2 * (d[0] * d[1]).sqrt());
         let error = (vndf::exact::norm(alpha, wo) / expected - 1.0).abs();
-        let rough = usize::from(Real::max(alpha.x, alpha.y) > 2.0);
+        let rough = usize::from(alpha.x.at_least(alpha.y) > 2.0);
         worst[rough] = worst[rough].max(error);
     }
     println!("largest relative errors of N: {worst:?}");
@@ -289,7 +289,7 @@ fn masking_is_consistent<N: Ndf<f64>>(ndf: N) {
         let (g1o, g1i) = (ndf.g1(wo), ndf.g1(wi));
         let correlated = ndf.g2_correlated(wo, wi);
         let separable = ndf.g2_separable(wo, wi);
-        assert!(separable <= correlated + 1e-15 && correlated <= Real::min(g1o, g1i) + 1e-15);
+        assert!(separable <= correlated + 1e-15 && correlated <= g1o.at_most(g1i) + 1e-15);
         let expected = 1.0 / (1.0 + ndf.lambda(wo) + ndf.lambda(wi));
         assert!((correlated - expected).abs() < 1e-12);
         assert!((ndf.projected_area(wo) - wo.z * (1.0 + ndf.lambda(wo))).abs() < 1e-12);

@@ -75,7 +75,6 @@ pub const MODULES: &[Module] = modules![
     // bsdf
     "bsdf/black",
     "bsdf/bsdf_sample",
-    "bsdf/coated_conductor",
     "bsdf/coated_diffuse",
     "bsdf/compensated",
     "bsdf/compensated_dielectric",

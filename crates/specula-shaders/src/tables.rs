@@ -5,8 +5,8 @@
 
 use std::sync::LazyLock;
 
-use specula_bsdf::bsdf::{gltf_albedo, plastic_interface};
-use specula_bsdf::energy::raw_tables::{interfaces, losses};
+use specula_bsdf::internal::raw_tables::{interfaces, losses};
+use specula_bsdf::internal::{gltf_albedo, plastic_interface};
 
 /// All tables, one after the other.
 struct Tables {
@@ -56,7 +56,7 @@ pub fn tables() -> &'static [u8] {
 /// Where a table begins, in values.
 ///
 /// Names: `GGX`, `GGX_SEPARABLE`, `BECKMANN` or `BECKMANN_SEPARABLE`, `_`, and a name of
-/// `specula_bsdf::energy::raw_tables::losses`; `COAT_` and a name of `interfaces` there;
+/// `specula_bsdf::internal::raw_tables::losses`; `COAT_` and a name of `interfaces` there;
 /// `PLASTIC_TRANSMITTANCE`, `PLASTIC_INTERNAL`, `GLTF_SCHLICK`, `GLTF_SHEEN`.
 #[must_use]
 pub fn offset(name: &str) -> Option<usize> {
@@ -81,10 +81,13 @@ mod tests {
         ("ALBEDO_TABLES_STRIDE", "GGX_SEPARABLE_ISOTROPIC"),
         ("DIELECTRIC_ALBEDO_START", "GGX_INTERFACE"),
         ("DIELECTRIC_ALBEDO_AVERAGE_START", "GGX_INTERFACE_AVERAGE"),
-        ("DIELECTRIC_ALBEDO_STRETCHED_START", "GGX_STRETCHED"),
         (
-            "DIELECTRIC_ALBEDO_STRETCHED_AVERAGE_START",
-            "GGX_STRETCHED_AVERAGE",
+            "DIELECTRIC_ALBEDO_ANISOTROPIC_START",
+            "GGX_INTERFACE_ANISOTROPIC",
+        ),
+        (
+            "DIELECTRIC_ALBEDO_ANISOTROPIC_AVERAGE_START",
+            "GGX_INTERFACE_ANISOTROPIC_AVERAGE",
         ),
         ("INTERFACE_TRANSMITTANCE_START", "COAT_TRANSMITTANCE"),
         ("INTERFACE_INTERNAL_START", "COAT_INTERNAL"),
@@ -130,7 +133,7 @@ mod tests {
             .into_iter()
             .enumerate()
         {
-            for part in ["ISOTROPIC", "STRETCHED_AVERAGE"] {
+            for part in ["ISOTROPIC", "INTERFACE_ANISOTROPIC_AVERAGE"] {
                 let there = offset(&format!("{distribution}_{part}")).unwrap();
                 assert_eq!(
                     there,

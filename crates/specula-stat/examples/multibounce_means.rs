@@ -10,10 +10,12 @@
 #![allow(clippy::print_stdout, reason = "an example reports on stdout")]
 
 use rayon::prelude::*;
+use specula_bsdf::bsdf::MultibounceConductor;
 use specula_bsdf::fresnel::{Conductor as Index, Reflectance};
 use specula_bsdf::math::{Stream, vec3};
-use specula_bsdf::multibounce::{MultibounceConductor, MultibounceModel};
-use specula_bsdf::ndf::{Beckmann, Ggx, Ndf};
+use specula_bsdf::multibounce::MultibounceModel;
+use specula_bsdf::ndf::{Beckmann, Ggx};
+use specula_bsdf::vndf::VisibleNormals;
 use specula_bsdf::{Alpha, Rgb, Vec3, metals};
 use specula_stat::z_test::Moments;
 
@@ -37,7 +39,7 @@ fn at(degrees: f64, forward: f64) -> Vec3<f64> {
 }
 
 /// A million estimates of the blue channel, where gold's Fresnel term matters.
-fn mean<N: Ndf<f64> + Sync>(
+fn mean<N: VisibleNormals<f64> + Sync>(
     lobe: &MultibounceConductor<f64, N>,
     wo: Vec3<f64>,
     wi: Vec3<f64>,
@@ -94,7 +96,7 @@ fn against_the_reference() {
     }
 }
 
-fn against_each_other<N: Ndf<f64> + Sync>(name: &str, ndf: impl Fn(Alpha<f64>) -> N) {
+fn against_each_other<N: VisibleNormals<f64> + Sync>(name: &str, ndf: impl Fn(Alpha<f64>) -> N) {
     let (wo, wi) = (at(30.0, 1.0), at(60.0, -1.0));
     let wi = vec3(wi.x * 0.8, wi.x * -0.6, wi.z);
     for (x, y) in ALPHAS {

@@ -122,7 +122,7 @@ fn nothing_breaks<T: Real>() {
             }
             let ends = [[0.0; 3], [1.0, 0.0, 0.5], [0.3, 1.0, 1.0]];
             for u in ends.into_iter().chain((0..10).map(r3)) {
-                let u = u.map(|x| Real::min(T::of(x), T::ONE - T::EPSILON));
+                let u = u.map(|x| T::of(x).at_most(T::ONE - T::EPSILON));
                 let Some(s) = lobe.sample(wo, u, Transport::Radiance) else {
                     continue;
                 };

@@ -4,13 +4,10 @@ mod common;
 
 use common::{ABOVE, ALPHAS, alpha, alpha_f32, few_views, plan, prove_all, views};
 use specula_bsdf::bsdf::{
-    CoatLayer, CoatScattering, CoatedConductor, CoatedDiffuse, DiffuseTransmission, Eon, Lambert,
-    Lobe,
+    CoatLayer, CoatScattering, CoatedDiffuse, DiffuseTransmission, Eon, Lambert, Lobe,
 };
-use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::math::{Real, rgb};
 use specula_bsdf::ndf::Ggx;
-use specula_bsdf::vndf::Sampler;
 use specula_bsdf::{Bsdf, Rgb, Transport};
 use specula_stat::quadrature::Quadrature;
 use specula_stat::reciprocity::Domain;
@@ -172,34 +169,6 @@ fn more_events_return_more_light_and_thicker_layers_less() {
 }
 
 #[test]
-fn coats_over_metal() {
-    let metals = [None, Some((0.3, 0.3)), Some((0.05, 0.5)), Some((1.0, 1.0))];
-    let cases: Vec<_> = metals
-        .into_iter()
-        .flat_map(|metal| coats().into_iter().map(move |coat| (metal, coat)))
-        // Smooth on smooth is a mirror: nothing to integrate.
-        .filter(|(metal, coat)| metal.is_some() || coat.is_some())
-        .collect();
-    prove_all("coated metal", &cases, |&(metal, coat)| {
-        let ggx = |alphas: Option<(f64, f64)>| alphas.map(|w| Ggx::new(alpha(w)));
-        let reflectance = Reflectance::Constant(colour());
-        let lobe = CoatedConductor::new(ggx(coat), 1.5, ggx(metal), reflectance)
-            .with_sampler(Sampler::Cap);
-        let name = format!("coat {coat:?} over metal {metal:?}");
-        let narrow = |a: (f64, f64)| a.0.min(a.1);
-        let sharp = [metal, coat]
-            .into_iter()
-            .flatten()
-            .map(narrow)
-            .fold(1.0, f64::min);
-        // A smooth metal under a coat is blurred by it: a third of the width, over the square
-        // root of two.
-        let sharp = if metal.is_none() { 0.2 * sharp } else { sharp };
-        proof(&name, &lobe, (sharp, sharp))
-    });
-}
-
-#[test]
 fn f32_is_f64() {
     prove_all("coat twins", &coats(), |&coat| {
         let single_ggx = coat.map(|w| Ggx::new(alpha_f32(w)));
@@ -220,23 +189,6 @@ fn f32_is_f64() {
                 radiance,
             ));
         }
-        let metal = (0.3, 0.6);
-        report.absorb(common::twins(
-            &name,
-            &CoatedConductor::new(
-                single_ggx,
-                1.5,
-                Some(Ggx::new(alpha_f32(metal))),
-                Reflectance::Constant(colour::<f32>()),
-            ),
-            &CoatedConductor::new(
-                double_ggx,
-                1.5,
-                Some(Ggx::new(alpha(metal))),
-                Reflectance::Constant(colour::<f64>()),
-            ),
-            radiance,
-        ));
         report.absorb(common::twins(
             &name,
             &Eon::new(colour::<f32>(), 0.7),

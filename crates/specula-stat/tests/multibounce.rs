@@ -4,13 +4,16 @@ mod common;
 
 use common::alpha;
 use rayon::prelude::*;
-use specula_bsdf::fresnel::{Conductor as Metal, Reflectance};
-use specula_bsdf::math::{Real, Stream, rgb, vec3};
-use specula_bsdf::multibounce::{
-    DepthState, MultibounceConductor as Conductor, MultibounceDielectric as Dielectric,
-    MultibounceDiffuse as Diffuse, MultibounceModel as Model,
+use specula_bsdf::bsdf::{
+    MultibounceConductor as Conductor, MultibounceDielectric as Dielectric,
+    MultibounceDiffuse as Diffuse,
 };
+use specula_bsdf::fresnel::{Conductor as Metal, Reflectance};
+use specula_bsdf::internal::DepthState;
+use specula_bsdf::math::{Real, Stream, rgb, vec3};
+use specula_bsdf::multibounce::MultibounceModel as Model;
 use specula_bsdf::ndf::{Beckmann, Ggx, Ndf};
+use specula_bsdf::vndf::VisibleNormals;
 use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, Vec3};
 use specula_stat::z_test::Moments;
 
@@ -119,7 +122,7 @@ fn single_precision_has_the_same_means() {
     }
 }
 
-fn models_agree<N: Ndf<f64> + Sync>(ndf: impl Fn(Alpha<f64>) -> N, n: u64) {
+fn models_agree<N: VisibleNormals<f64> + Sync>(ndf: impl Fn(Alpha<f64>) -> N, n: u64) {
     let views = [
         (at(20.0, 10.0), at(50.0, 200.0)),
         (at(65.0, 40.0), at(35.0, 100.0)),
@@ -161,7 +164,12 @@ fn models_agree_on_beckmann() {
 }
 
 /// Albedo for F = 1 by uniform directions and by the model's own samples.
-fn furnace<N: Ndf<f64> + Sync>(ndf: N, model: Model, wo: Vec3<f64>, n: u64) -> [Moments; 2] {
+fn furnace<N: VisibleNormals<f64> + Sync>(
+    ndf: N,
+    model: Model,
+    wo: Vec3<f64>,
+    n: u64,
+) -> [Moments; 2] {
     let lobe = Conductor::new(ndf, white(), model);
     let evaluated = moments(7, n, |s| {
         // Half by the single-scattering lobe's normals, half by cosine: the balance heuristic.

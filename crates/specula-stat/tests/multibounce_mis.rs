@@ -5,14 +5,14 @@ mod common;
 
 use common::alpha;
 use rayon::prelude::*;
+use specula_bsdf::bsdf::{MultibounceConductor, MultibounceDielectric};
 use specula_bsdf::fresnel::Reflectance;
+use specula_bsdf::internal::{normalised_pdf, sample_normalised};
 use specula_bsdf::math::warp::uniform_sphere;
 use specula_bsdf::math::{Stream, vec3};
-use specula_bsdf::multibounce::{
-    MisPdf, MultibounceConductor, MultibounceDielectric, MultibounceModel, normalised_pdf,
-    sample_normalised,
-};
-use specula_bsdf::ndf::{Beckmann, Ggx, Ndf};
+use specula_bsdf::multibounce::{MisPdf, MultibounceModel};
+use specula_bsdf::ndf::{Beckmann, Ggx};
+use specula_bsdf::vndf::VisibleNormals;
 use specula_bsdf::{Alpha, Bsdf, Rgb, Vec3};
 use specula_stat::quadrature::{Patch, Peak, Quadrature};
 
@@ -35,7 +35,7 @@ fn at(degrees: f64, azimuth: f64) -> Vec3<f64> {
     vec3(s * cos, s * sin, c)
 }
 
-fn metal<N: Ndf<f64>>(ndf: N, mis: MisPdf) -> MultibounceConductor<f64, N> {
+fn metal<N: VisibleNormals<f64>>(ndf: N, mis: MisPdf) -> MultibounceConductor<f64, N> {
     let white = Reflectance::Constant(Rgb::splat(1.0));
     MultibounceConductor::new(ndf, white, MultibounceModel::StratifiedBidirectional)
         .with_mis_pdf(mis)
@@ -97,14 +97,14 @@ fn cases() -> Vec<((f64, f64), f64, f64)> {
     cases
 }
 
-fn distances<N: Ndf<f64>>(ndf: N, wo: Vec3<f64>) -> [f64; 3] {
+fn distances<N: VisibleNormals<f64>>(ndf: N, wo: Vec3<f64>) -> [f64; 3] {
     let walker = metal(ndf, MisPdf::Normalised);
     // Smooth surfaces leave little to tell apart: less noise is needed there, and walks are short.
     let Alpha { x, y } = ndf.alpha();
     let draws = if x * y < 0.03 { 400_000 } else { 50_000 };
     let walk = sampled(draws, |stream| {
         let u = [stream.next(), stream.next()];
-        walker.draw(wo, u, stream).map(|(wi, _)| wi)
+        walker.sample_walk(wo, u, stream).map(|(wi, _)| wi)
     });
     MisPdf::ALL.map(|mis| {
         let lobe = metal(ndf, mis);
@@ -219,7 +219,7 @@ fn normalised_density_is_continuous_in_the_alphas() {
 
 /// The integral over the hemisphere of a metal's density, by the midpoint rule in `(theta, phi)`:
 /// what is folded about the normal is a narrow wedge there, which adaptive patches miss.
-fn total<N: Ndf<f64>>(ndf: N, mis: MisPdf, wo: Vec3<f64>) -> f64 {
+fn total<N: VisibleNormals<f64>>(ndf: N, mis: MisPdf, wo: Vec3<f64>) -> f64 {
     let lobe = metal(ndf, mis);
     if wo.z < 0.0 {
         // From behind, facets are seen at grazing angles only: light goes on nearly straight.

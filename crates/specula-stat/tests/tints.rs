@@ -4,8 +4,9 @@ mod common;
 
 use common::{ABOVE, alpha, few_views, plan, prove_all, views};
 use specula_bsdf::bsdf::{
-    Black, Compensated, CompensatedDielectric, Lobe, Plastic, RoughConductor, RoughDielectric,
-    SmoothConductor, SmoothDielectric, ThinDielectric, Tints,
+    Black, Compensated, CompensatedDielectric, Lobe, MultibounceConductor, MultibounceDielectric,
+    Plastic, RoughConductor, RoughDielectric, SmoothConductor, SmoothDielectric, ThinDielectric,
+    Tints,
 };
 use specula_bsdf::energy;
 use specula_bsdf::fresnel::{Conductor, Reflectance};
@@ -112,13 +113,13 @@ fn tints_are_factors_on_either_branch() {
             ),
             (
                 "bounces",
-                multibounce::MultibounceDielectric::facing(ggx, 1.5, model)
+                MultibounceDielectric::facing(ggx, 1.5, model)
                     .with_tints(tints)
                     .into(),
             ),
             (
                 "Beckmann's bounces",
-                multibounce::MultibounceDielectric::facing(beckmann, 1.5, model)
+                MultibounceDielectric::facing(beckmann, 1.5, model)
                     .with_tints(tints)
                     .into(),
             ),
@@ -214,14 +215,10 @@ fn lobes_of_beckmann_are_what_they_hold() {
     same(&compensated, &compensated.into());
     let compensated = CompensatedDielectric::new(ndf, 1.5);
     same(&compensated, &compensated.into());
-    let bounces = multibounce::MultibounceConductor::new(
-        ndf,
-        copper(),
-        multibounce::MultibounceModel::default(),
-    );
-    same(&bounces, &bounces.into());
     let bounces =
-        multibounce::MultibounceDielectric::new(ndf, 1.5, multibounce::MultibounceModel::default());
+        MultibounceConductor::new(ndf, copper(), multibounce::MultibounceModel::default());
+    same(&bounces, &bounces.into());
+    let bounces = MultibounceDielectric::new(ndf, 1.5, multibounce::MultibounceModel::default());
     same(&bounces, &bounces.into());
     let white = Rgb::WHITE;
     let plastic = Plastic::rough(ndf, Masking::Separable, 1.5, white, white, true);

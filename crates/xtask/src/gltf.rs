@@ -5,10 +5,10 @@ use std::f64::consts::PI;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use specula_bsdf::bsdf::gltf_albedo::{LEAST_ROUGHNESS, SCALE, charlie_f_cos};
+use specula_bsdf::internal::gltf_albedo::{LEAST_ROUGHNESS, SCALE, charlie_f_cos};
 use specula_bsdf::math::vec3;
 use specula_bsdf::ndf::{Ggx, Masking, Ndf};
-use specula_bsdf::vndf::reflect;
+use specula_bsdf::vndf::{VisibleNormals, reflect};
 use specula_bsdf::{Alpha, Vec3};
 
 use crate::Result;
@@ -129,7 +129,7 @@ fn sheen(roughness: f64, mu: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use specula_bsdf::bsdf::gltf_albedo::{self, MARGIN};
+    use specula_bsdf::internal::gltf_albedo::{self, MARGIN};
 
     /// A low-discrepancy place.
     fn place(i: u32) -> [f64; 2] {

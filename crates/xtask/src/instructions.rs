@@ -32,8 +32,6 @@ const KERNELS: &[(&str, &[&str])] = &[
     ("eon-eval", &["scalar", "baseline", "avx2"]),
     ("coated-diffuse", &["scalar", "avx2"]),
     ("coated-diffuse-eval", &["avx2"]),
-    ("coated-gold", &["scalar", "avx2"]),
-    ("coated-gold-eval", &["scalar", "avx2"]),
     ("turquin", &["avx2"]),
     ("turquin-eval", &["scalar", "avx2"]),
 ];

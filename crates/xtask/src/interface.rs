@@ -7,8 +7,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use specula_bsdf::energy::interface::{ALPHA_END, ETA_END, effective_cosine};
 use specula_bsdf::fresnel::dielectric;
+use specula_bsdf::internal::interface::{ALPHA_END, ETA_END, effective_cosine};
 use specula_bsdf::math::vec3;
 use specula_bsdf::{Alpha, vndf};
 
@@ -136,7 +136,7 @@ fn transmittance(eta: f64, alpha: f64, mu: f64, points: [u32; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use specula_bsdf::energy::interface;
+    use specula_bsdf::internal::interface;
     use specula_bsdf::ndf::Ggx;
 
     #[test]

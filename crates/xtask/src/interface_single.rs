@@ -8,8 +8,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use specula_bsdf::energy::interface::{ALPHA_END, ETA_END, effective_cosine};
 use specula_bsdf::fresnel::{dielectric, refract};
+use specula_bsdf::internal::interface::{ALPHA_END, ETA_END, effective_cosine};
 use specula_bsdf::math::{Vec3, vec3};
 use specula_bsdf::ndf::{Ggx, Ndf};
 use specula_bsdf::{Alpha, vndf};
@@ -337,8 +337,8 @@ fn internal(eta: f64, alpha: f64, thicknesses: &[f64], points: [u32; 3]) -> Inte
 #[cfg(test)]
 mod tests {
     use super::*;
-    use specula_bsdf::energy::interface_layer::Layer;
-    use specula_bsdf::energy::interface_single;
+    use specula_bsdf::internal::interface_layer::Layer;
+    use specula_bsdf::internal::interface_single;
 
     const ETAS: [f64; 4] = [1.2, 1.33, 1.5, 2.4];
     const ALPHAS: [f64; 7] = [0.02, 0.07, 0.15, 0.32, 0.5, 0.9, 1.4];

@@ -13,6 +13,8 @@ mod interface;
 mod interface_single;
 mod memory;
 mod metals;
+mod msrv;
+mod no_std;
 mod plastic;
 mod profile;
 mod rays;
@@ -82,6 +84,10 @@ enum Chore {
         #[arg(long)]
         check: bool,
     },
+    /// Check `specula-bsdf` with the oldest compiler that its manifest names
+    Msrv,
+    /// Check `specula-bsdf` for a machine without a standard library
+    NoStd,
     /// Compare with other renderers: time to equal error
     Versus(versus::Versus),
     /// Count where the instructions of a render go, under valgrind
@@ -125,6 +131,8 @@ fn run(chore: &Chore) -> Result<()> {
         }
         Chore::Exact { fuzz, .. } => exact::run(*fuzz),
         Chore::Instructions { check } => instructions::run(&root, *check),
+        Chore::Msrv => msrv::run(&root),
+        Chore::NoStd => no_std::run(&root),
         Chore::Versus(versus) => versus::run(&root, versus),
         Chore::Profile(profile) => profile::run(&root, profile),
         Chore::Scaling(scaling) => scaling::run(&root, scaling),

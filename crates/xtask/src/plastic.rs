@@ -8,11 +8,11 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use specula_bsdf::bsdf::plastic_interface::SCALE;
 use specula_bsdf::fresnel::{dielectric, refract};
+use specula_bsdf::internal::plastic_interface::SCALE;
 use specula_bsdf::math::vec3;
-use specula_bsdf::ndf::{Beckmann, Ggx, Ndf};
-use specula_bsdf::vndf::reflect;
+use specula_bsdf::ndf::{Beckmann, Ggx};
+use specula_bsdf::vndf::{VisibleNormals, reflect};
 use specula_bsdf::{Alpha, Vec3};
 
 use crate::Result;
@@ -113,7 +113,7 @@ fn mu(k: u32) -> f64 {
 }
 
 /// A distribution by its width.
-trait Width: Ndf<f64> {
+trait Width: VisibleNormals<f64> {
     fn of(alpha: f64) -> Self;
 }
 
@@ -196,7 +196,7 @@ fn internal_reflectance<N: Width>(eta: f64, alpha: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use specula_bsdf::bsdf::plastic_interface;
+    use specula_bsdf::internal::plastic_interface;
 
     #[test]
     fn the_plastic_tables_hold_their_bound() {

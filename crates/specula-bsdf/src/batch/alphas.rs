@@ -1,4 +1,4 @@
-//! Alphas of roughness for a batch.
+//! Alphas for a batch.
 
 use super::slices::{LengthMismatch, check};
 use crate::alpha::Alpha;
@@ -52,8 +52,8 @@ impl<U: Real> AlphaAt<U> for OneAlpha<U> {
     }
 }
 
-/// One for all, in both directions. Clamped at every use, so that the compiler sees two isotropic alpha
-/// that are no NaN, and drops what serves unequal ones.
+/// One for all, in both directions. Clamped at every use, so that the compiler sees two equal alphas
+/// that are not NaN, and drops what serves unequal ones.
 #[derive(Clone, Copy)]
 pub(super) struct IsotropicAlpha<U>(pub(super) U);
 

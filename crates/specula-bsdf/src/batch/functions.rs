@@ -97,7 +97,7 @@ impl Level {
         Ok(())
     }
 
-    /// [`Bsdf::sample`] of every element: directions, densities and weights. A rejected draw is
+    /// [`Bsdf::sample`] of every element: directions, densities and weights. A rejected sample is
     /// [`SampleOutcome::Rejected`] with `wi`, `weight` and `pdf` all zero.
     ///
     /// * `wo: (n, 3) T`, `u: (n, 3) T` in `[0, 1)` `-> wi: (n, 3) T`, `weight: (n, 3) T`,

@@ -6,7 +6,7 @@
 //! instead of their product. Short loops are faster, too: the machine overlaps more iterations.
 
 use super::lobes::{Family, InStages, Isotropic, Kernel};
-use super::recast::number;
+use super::recast::convert;
 use super::slices::{Colours, Directions, SampleOutcome, Samples};
 use crate::bsdf::{Bsdf, Transport};
 use crate::fresnel::Reflectance;
@@ -134,7 +134,7 @@ impl<T: Real> Pdf<'_, T> {
         let (wo, wi) = (self.wo.first(n), self.wi.first(n));
         for i in 0..n {
             let value = family.at(i).pdf(wo.get_as(i), wi.get_as(i));
-            self.pdf[i] = number(value);
+            self.pdf[i] = convert(value);
         }
     }
 }
@@ -168,7 +168,7 @@ impl<T: Real> EvalPdf<'_, T> {
             let lobe = family.at(i);
             let (value, pdf) = lobe.eval_pdf(wo.get_as(i), wi.get_as(i), self.transport);
             f_cos.set_from(i, value);
-            self.pdf[i] = number(pdf);
+            self.pdf[i] = convert(pdf);
         }
     }
 
@@ -195,7 +195,7 @@ impl<T: Real> EvalPdf<'_, T> {
                 let first = [first[i], second[i]];
                 let (value, density) = f.at(i).eval_second(wo.get_as(i), wi.get_as(i), first);
                 f_cos.set_from(i, value);
-                pdf[i] = number(density);
+                pdf[i] = convert(density);
             });
             start = end;
         }
@@ -228,7 +228,7 @@ impl<T: Real> Sample<'_, T> {
         let mut samples = self.samples.first(n);
         for i in 0..n {
             let lobe = family.at(i);
-            let sample = lobe.sample(wo.get_as(i), numbers(u, i), self.transport);
+            let sample = lobe.sample(wo.get_as(i), triple(u, i), self.transport);
             samples.set_from(i, sample);
         }
     }
@@ -244,28 +244,20 @@ impl<T: Real> Sample<'_, T> {
             let u = range(self.u, start, end);
             let mut samples = self.samples.range(start, end).first(count);
             let family = family.range(start, end);
-            // What the first stage finds waits where the second will put its answers.
+            // The first stage leaves its results where the second puts its own.
             per_sampler!(family, f => for i in 0..count {
-                let (wi, norms) = f.at(i).draw_first(wo.get_as(i), numbers(u, i));
+                let (wi, norm) = f.at(i).sample_first(wo.get_as(i), triple(u, i));
                 samples.wi.set_from(i, wi);
-                samples.weight.r[i] = number(norms[0]);
-                if F::Lobe::TWO_NUMBERS {
-                    samples.weight.g[i] = number(norms[1]);
-                }
+                samples.weight.r[i] = convert(norm);
             });
             per_reflectance!(family, f => for i in 0..count {
-                let other = if F::Lobe::TWO_NUMBERS {
-                    number(samples.weight.g[i])
-                } else {
-                    U::ONE
-                };
                 let wi = vec3(
-                    number(samples.wi.x[i]),
-                    number(samples.wi.y[i]),
-                    number(samples.wi.z[i]),
+                    convert(samples.wi.x[i]),
+                    convert(samples.wi.y[i]),
+                    convert(samples.wi.z[i]),
                 );
-                let first = (wi, [number(samples.weight.r[i]), other]);
-                samples.set_from(i, f.at(i).draw_second(wo.get_as(i), first));
+                let first = (wi, convert(samples.weight.r[i]));
+                samples.set_from(i, f.at(i).sample_second(wo.get_as(i), first));
             });
             start = end;
         }
@@ -282,13 +274,9 @@ pub(super) struct SampleWi<'a, T> {
 impl<T: Real> Kernel for SampleWi<'_, T> {
     #[inline(always)]
     fn run<U: Real, F: Family<U>>(self, family: F) {
-        // The weight is not asked for: any reflectance will do, but where it steers the draw.
+        // No direction depends on the reflectance, and the weight is not asked for.
         let black = Reflectance::Constant(crate::Rgb::BLACK);
-        let family = if F::Lobe::SAMPLED_BY_REFLECTANCE {
-            family
-        } else {
-            family.with(|lobe| lobe.choose_reflectance(black))
-        };
+        let family = family.with(|lobe| lobe.choose_reflectance(black));
         per_sampler!(family, f => self.each(f));
     }
 }
@@ -301,7 +289,7 @@ impl<T: Real> SampleWi<'_, T> {
         let mut wi = self.wi.first(n);
         for i in 0..n {
             let lobe = family.at(i);
-            let sample = lobe.sample(wo.get_as(i), numbers(u, i), self.transport);
+            let sample = lobe.sample(wo.get_as(i), triple(u, i), self.transport);
             wi.set_from(i, sample.map_or(Vec3::ZERO, |s| s.wi));
         }
     }
@@ -309,8 +297,8 @@ impl<T: Real> SampleWi<'_, T> {
 
 /// The three values at `i`.
 #[inline(always)]
-fn numbers<T: Real, U: Real>([a, b, c]: [&[T]; 3], i: usize) -> [U; 3] {
-    [number(a[i]), number(b[i]), number(c[i])]
+fn triple<T: Real, U: Real>([a, b, c]: [&[T]; 3], i: usize) -> [U; 3] {
+    [convert(a[i]), convert(b[i]), convert(c[i])]
 }
 
 #[inline(always)]

@@ -2,7 +2,9 @@
 
 use core::fmt;
 
+#[cfg(feature = "std")]
 use multiversion::multiversion;
+#[cfg(feature = "std")]
 use multiversion::target::match_target;
 
 use crate::math::Real;
@@ -10,14 +12,16 @@ use crate::math::Real;
 /// A set of vector instructions that the batch kernels are compiled for.
 ///
 /// The two upper levels multiply and add in one rounding, and agree with each other bit for bit;
-/// [`Level::Baseline`] agrees bit for bit with the scalar functions.
+/// [`Level::Baseline`] agrees bit for bit with the scalar functions. Without the feature `std` there
+/// is the baseline alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Level {
     /// What the crate is compiled for: by default SSE2 on x86-64, NEON on aarch64.
     Baseline,
-    /// AVX2 with fused multiply-add (x86-64-v3): 8 walks of `f32`, 4 of `f64`.
+    /// AVX2 with fused multiply-add (x86-64-v3): 8 lanes of `f32`, 4 of `f64`.
     Avx2,
-    /// AVX-512 (x86-64-v4, Ice Lake and later): 16 walks of `f32`, 8 of `f64`.
+    /// AVX-512 (x86-64-v4, Ice Lake and later): 16 lanes of `f32`, 8 of `f64`.
     Avx512,
 }
 
@@ -39,11 +43,14 @@ impl Level {
     /// Runs a task compiled for this level.
     #[inline]
     pub(super) fn run(self, task: impl Task) {
+        #[cfg(feature = "std")]
         match self {
             Self::Baseline => baseline(task),
             Self::Avx2 => avx2(task),
             Self::Avx512 => avx512(task),
         }
+        #[cfg(not(feature = "std"))]
+        baseline(task);
     }
 }
 
@@ -67,12 +74,14 @@ pub trait Arithmetic {
 pub(super) struct Plain;
 
 /// Fused multiply-add.
+#[cfg(feature = "std")]
 pub(super) struct Fusing;
 
 impl Arithmetic for Plain {
     type Of<T: Real> = T;
 }
 
+#[cfg(feature = "std")]
 impl Arithmetic for Fusing {
     type Of<T: Real> = T::Fused;
 }
@@ -83,23 +92,59 @@ pub(super) trait Task {
     fn run<A: Arithmetic>(self);
 }
 
-// Each level falls back to the one below by a call, so that every task is compiled three times in all.
-// Left to itself, LLVM uses 512-bit registers with these features: the preference for 256 bits
-// belongs to named processors only.
+/// Compiles a function once for each of the named instruction sets, and once for the baseline. It
+/// chooses among them where it runs.
+///
+/// Left to itself, LLVM uses 512-bit registers with the features of `avx512`: the preference for 256
+/// bits belongs to named processors only.
+#[cfg(feature = "std")]
+macro_rules! compiled_for {
+    ([$($level:ident)*] $($function:tt)*) => {
+        compiled_for!(@targets [] [$($level)*] $($function)*);
+    };
+    (@targets [$($target:literal)*] [avx512 $($rest:ident)*] $($function:tt)*) => {
+        compiled_for!(
+            @targets
+            [$($target)* "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2"]
+            [$($rest)*]
+            $($function)*
+        );
+    };
+    (@targets [$($target:literal)*] [avx2 $($rest:ident)*] $($function:tt)*) => {
+        compiled_for!(
+            @targets
+            [$($target)* "x86_64+avx2+fma+bmi1+bmi2"]
+            [$($rest)*]
+            $($function)*
+        );
+    };
+    (@targets [$($target:literal)*] [] $($function:tt)*) => {
+        #[multiversion(targets($($target),*))]
+        $($function)*
+    };
+}
 
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2"))]
-fn avx512<K: Task>(task: K) {
-    match_target! {
-        "x86_64+avx512f" => task.run::<Fusing>(),
-        _ => avx2(task),
+// Each level falls back to the one below by a call, so that every task is compiled three times in all.
+
+#[cfg(feature = "std")]
+compiled_for! {
+    [avx512]
+    fn avx512<K: Task>(task: K) {
+        match_target! {
+            "x86_64+avx512f" => task.run::<Fusing>(),
+            _ => avx2(task),
+        }
     }
 }
 
-#[multiversion(targets("x86_64+avx2+fma+bmi1+bmi2"))]
-fn avx2<K: Task>(task: K) {
-    match_target! {
-        "x86_64+fma" => task.run::<Fusing>(),
-        _ => baseline(task),
+#[cfg(feature = "std")]
+compiled_for! {
+    [avx2]
+    fn avx2<K: Task>(task: K) {
+        match_target! {
+            "x86_64+fma" => task.run::<Fusing>(),
+            _ => baseline(task),
+        }
     }
 }
 
@@ -108,14 +153,20 @@ fn baseline<K: Task>(task: K) {
     task.run::<Plain>();
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2",
-))]
-fn highest() -> Level {
-    match_target! {
-        "x86_64+avx512f" => Level::Avx512,
-        "x86_64+avx2" => Level::Avx2,
-        _ => Level::Baseline,
+#[cfg(feature = "std")]
+compiled_for! {
+    [avx512 avx2]
+    fn highest() -> Level {
+        match_target! {
+            "x86_64+avx512f" => Level::Avx512,
+            "x86_64+avx2" => Level::Avx2,
+            _ => Level::Baseline,
+        }
     }
+}
+
+/// Without the standard library nobody knows what the machine runs.
+#[cfg(not(feature = "std"))]
+fn highest() -> Level {
+    Level::Baseline
 }

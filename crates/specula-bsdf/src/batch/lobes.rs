@@ -64,12 +64,6 @@ pub trait InStages<U: Real>: Bsdf<U> + Copy {
     /// reflectance in the second one only.
     const STAGED: bool = false;
 
-    /// Whether the first stage of a sample yields two values; else the second one counts for nothing.
-    const TWO_NUMBERS: bool = false;
-
-    /// Whether the direction of a sample depends on the reflectance.
-    const SAMPLED_BY_REFLECTANCE: bool = false;
-
     /// Whether the alphas are equal, and the sampler has a shorter way for such.
     #[inline(always)]
     fn is_isotropic(&self) -> bool {
@@ -109,19 +103,19 @@ pub trait InStages<U: Real>: Bsdf<U> + Copy {
         self
     }
 
-    /// First stage of a sample: a direction and two values.
+    /// First stage of a sample: the direction, and the `N` of its density `D / (4 N)`.
     #[inline(always)]
-    fn draw_first(&self, _wo: Vec3<U>, _u: [U; 3]) -> (Vec3<U>, [U; 2]) {
-        (Vec3::ZERO, [U::ZERO; 2])
+    fn sample_first(&self, _wo: Vec3<U>, _u: [U; 3]) -> (Vec3<U>, U) {
+        (Vec3::ZERO, U::ZERO)
     }
 
-    /// Second stage of a sample.
+    /// Second stage of a sample: its weight and density, from what the first one returned.
     #[inline(always)]
-    fn draw_second(&self, _wo: Vec3<U>, _first: (Vec3<U>, [U; 2])) -> Option<BsdfSample<U>> {
+    fn sample_second(&self, _wo: Vec3<U>, _first: (Vec3<U>, U)) -> Option<BsdfSample<U>> {
         None
     }
 
-    /// First stage of eval and pdf together: two values.
+    /// First stage of eval and pdf together: `N` as numerator and denominator.
     #[inline(always)]
     fn eval_first(&self, _wo: Vec3<U>) -> [U; 2] {
         [U::ZERO; 2]
@@ -167,7 +161,7 @@ impl<U: Real, L: InStages<U>> Family<U> for Same<L> {
     }
 }
 
-/// A family whose lobes all have isotropic alpha: made equal at every use, so that the compiler drops
+/// A family whose lobes are all isotropic: alphas are made equal at every use, so that the compiler drops
 /// what serves unequal ones.
 #[derive(Clone, Copy)]
 pub(super) struct Isotropic<F>(pub(super) F);

@@ -43,8 +43,8 @@ impl<T: Real, U: Real> Family<U> for Coloured<'_, T, U> {
 
     #[inline(always)]
     fn at(&self, i: usize) -> RoughConductor<U> {
-        let f0: Rgb<U> = self.f0.get(i).cast();
-        let f0 = f0.map(|x| Real::clamp(x, U::ZERO, U::ONE));
+        let f0: Rgb<U> = self.f0.at(i).cast();
+        let f0 = f0.map(|x| x.within(U::ZERO, U::ONE));
         RoughConductor {
             ndf: Ggx::new(self.alpha_values.at(i)),
             reflectance: Reflectance::Schlick(Schlick { f0 }),
@@ -89,7 +89,7 @@ impl<T: Real> Lobes<T> for PerElementMetal<'_, T> {
 
     #[inline(always)]
     fn run<A: Arithmetic, K: Kernel>(&self, n: usize, kernel: K) {
-        // One kind of reflectance: kernels have one loop.
+        // One model of reflectance: kernels have one loop.
         let any = Reflectance::Constant(Rgb::BLACK);
         let lobe = RoughConductor {
             reflectance: any,

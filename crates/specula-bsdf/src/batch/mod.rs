@@ -37,20 +37,18 @@
 //!   error ([`LengthMismatch`]) that names the slice, and nothing is written.
 //! * Directions are unit, and local as everywhere in this crate; `u` lies in `[0, 1)`.
 //!
-//! A draw that was rejected has `wi`, `weight` and `pdf` zero, and is [`SampleOutcome::Rejected`].
+//! A rejected sample has `wi`, `weight` and `pdf` zero, and is [`SampleOutcome::Rejected`].
 //!
 //! # What comes out
 //!
 //! At [`Level::Baseline`], bit for bit what the scalar functions return. At the vector levels
-//! products and sums are fused in places ([`Real::mul_add`](crate::Real::mul_add)); the levels agree
+//! products and sums are fused in places ([`Real::mad`](crate::Real::mad)); the levels agree
 //! with each other bit for bit. An element never depends on its place or its neighbours.
 //!
 //! Which loops are vectors (instructions an element at AVX2, `f32`, in `benches/instructions.txt`):
 //! * All of Lambert, EON, the diffuse sheet, metals, rough glass and smooth dielectrics at both
 //!   vector levels, but for the samples of rough glass by [`Sampler::Bounded`](crate::vndf::Sampler) or
 //!   `Exact`, which choose a branch first.
-//! * Rough coats over rough metal: values, densities and weights are; the draw of a direction, from
-//!   one of two surfaces, is not.
 //! * Coats over diffuse bases and compensated lobes look up tables: plain loops of the scalar code,
 //!   exact at every level. Of the 820 instructions of a coated diffuse value 390 are its two
 //!   look-ups, and of the 3900 of a compensated metal's 3500 are those of its loss.
@@ -64,14 +62,12 @@
 //! | rough metal, every sampler | 2e-6 | 2e-6 | 2e-6 | 2e-6 |
 //! | Lambert, EON, diffuse sheet | 1e-6 | 1e-6 | 1e-6 | 1e-6 |
 //! | rough glass | 5e-5 | 5e-5 | 3e-3 | 3e-3 |
-//! | rough coat over rough metal | 5e-6 | 1e-4 | 5e-6 | 5e-6 |
 //!
 //! Directions that are sampled lie within 2e-3 of their twins' at the most extreme (test
 //! `directions_stay_within_their_bound`). Samples of rough glass weigh the facet that was sampled, not
 //! that of the direction as it was rounded: at the critical angle the two differ.
 
 mod alphas;
-mod coats;
 mod functions;
 mod kernels;
 mod level;

@@ -10,7 +10,7 @@ use crate::fresnel::{Conductor, F82Tint, Reflectance, Schlick, Tinted, Untinted}
 use crate::math::Real;
 use crate::ndf::{Ggx, Ndf};
 
-/// What can be written in another scalar.
+/// A type with a scalar parameter, convertible to another scalar.
 pub(super) trait Recast {
     /// The same in the scalar `U`.
     type In<U: Real>;
@@ -19,9 +19,9 @@ pub(super) trait Recast {
     fn recast<U: Real>(&self) -> Self::In<U>;
 }
 
-/// The number `x` in another scalar.
+/// `x` in another scalar.
 #[inline(always)]
-pub(super) fn number<T: Real, U: Real>(x: T) -> U {
+pub(super) fn convert<T: Real, U: Real>(x: T) -> U {
     U::of(x.to_f64())
 }
 
@@ -39,7 +39,7 @@ macro_rules! recast {
     };
 }
 
-recast!(Alpha, self, U => Alpha { x: number(self.x), y: number(self.y) });
+recast!(Alpha, self, U => Alpha { x: convert(self.x), y: convert(self.y) });
 recast!(Ggx, self, U => Ggx::new(self.alpha().recast()));
 recast!(Conductor, self, U => Conductor {
     eta: self.eta.cast(),
@@ -69,7 +69,7 @@ recast!(Reflectance, self, U => match self {
 recast!(Lambert, self, U => Lambert::new(self.albedo().cast()));
 recast!(Eon, self, U => Eon {
     albedo: self.albedo.cast(),
-    roughness: number(self.roughness),
+    roughness: convert(self.roughness),
 });
 recast!(DiffuseTransmission, self, U => DiffuseTransmission {
     reflectance: self.reflectance.cast(),
@@ -82,14 +82,14 @@ recast!(RoughConductor, self, U => RoughConductor::new(self.ndf.recast(), self.r
     .with_sampler(self.sampler)
     .with_masking(self.masking));
 recast!(SmoothDielectric, self, U => SmoothDielectric {
-    eta: number(self.eta),
+    eta: convert(self.eta),
     two_sided: self.two_sided,
     tints: self.tints.cast(),
 });
-recast!(ThinDielectric, self, U => ThinDielectric::new(number(self.eta))
+recast!(ThinDielectric, self, U => ThinDielectric::new(convert(self.eta))
     .with_tints(self.tints.cast()));
 recast!(RoughDielectric, self, U => {
-    let (ndf, eta) = (self.ndf.recast(), number(self.eta));
+    let (ndf, eta) = (self.ndf.recast(), convert(self.eta));
     let lobe = if self.two_sided {
         RoughDielectric::new(ndf, eta)
     } else {

@@ -59,13 +59,13 @@ impl<U: Real> Rough<U> for RoughDielectric<U> {
 }
 
 #[inline(always)]
-pub(super) fn is_isotropic<U: Real>(ggx: &Ggx<U>) -> bool {
+fn is_isotropic<U: Real>(ggx: &Ggx<U>) -> bool {
     ggx.alpha().x == ggx.alpha().y
 }
 
 /// Clamped anew, so that the compiler sees two equal alphas, neither of them NaN.
 #[inline(always)]
-pub(super) fn made_isotropic<U: Real>(ggx: &Ggx<U>) -> Ggx<U> {
+fn made_isotropic<U: Real>(ggx: &Ggx<U>) -> Ggx<U> {
     Ggx::new(Alpha::isotropic(ggx.alpha().x))
 }
 
@@ -107,17 +107,12 @@ impl<U: Real> InStages<U> for RoughConductor<U> {
     }
 
     #[inline(always)]
-    fn draw_first(&self, wo: Vec3<U>, u: [U; 3]) -> (Vec3<U>, [U; 2]) {
-        let (wi, norm) = self.draw(wo, u);
-        (wi, [norm, U::ONE])
+    fn sample_first(&self, wo: Vec3<U>, u: [U; 3]) -> (Vec3<U>, U) {
+        self.sample_wi(wo, u)
     }
 
     #[inline(always)]
-    fn draw_second(
-        &self,
-        wo: Vec3<U>,
-        (wi, [norm, _]): (Vec3<U>, [U; 2]),
-    ) -> Option<BsdfSample<U>> {
+    fn sample_second(&self, wo: Vec3<U>, (wi, norm): (Vec3<U>, U)) -> Option<BsdfSample<U>> {
         self.weigh(wo, wi, norm)
     }
 

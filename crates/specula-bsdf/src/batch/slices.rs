@@ -1,5 +1,8 @@
 //! Structures of arrays: what the batch functions read and write.
 
+use alloc::vec;
+use alloc::vec::Vec;
+
 use crate::bsdf::{BsdfSample, Event};
 use crate::math::{Real, Rgb, Vec3, rgb, vec3};
 
@@ -53,13 +56,14 @@ pub struct Samples<S, K> {
     pub weight: Colours<S>,
     /// Density in 1/sr, or probability where specular; 0 where rejected.
     pub pdf: S,
-    /// What became of the draw.
+    /// What became of the sample.
     pub kind: K,
 }
 
 /// Slices of one call that differ in length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{name}` holds {found} elements, but the first slice written holds {expected}")]
+#[non_exhaustive]
 pub struct LengthMismatch {
     /// The slice that differs.
     pub name: &'static str,
@@ -127,12 +131,15 @@ impl<T: Real> FromIterator<Vec3<T>> for Directions<Vec<T>> {
 }
 
 impl<T: Real> Directions<&[T]> {
-    /// The vector at `i`.
-    ///
-    /// # Panics
-    /// Where a slice has no element `i`.
+    /// The vector at `i`; `None` where a slice has no element `i`.
     #[inline(always)]
-    pub fn get(&self, i: usize) -> Vec3<T> {
+    pub fn get(&self, i: usize) -> Option<Vec3<T>> {
+        Some(vec3(*self.x.get(i)?, *self.y.get(i)?, *self.z.get(i)?))
+    }
+
+    /// The vector at `i`, which is known to exist.
+    #[inline(always)]
+    pub(super) fn at(&self, i: usize) -> Vec3<T> {
         vec3(self.x[i], self.y[i], self.z[i])
     }
 
@@ -164,7 +171,7 @@ impl<T: Real> Directions<&[T]> {
     /// The vector at `i` in another scalar.
     #[inline(always)]
     pub(super) fn get_as<U: Real>(&self, i: usize) -> Vec3<U> {
-        self.get(i).cast()
+        self.at(i).cast()
     }
 }
 
@@ -232,12 +239,15 @@ impl<T: Real> Colours<Vec<T>> {
 }
 
 impl<T: Real> Colours<&[T]> {
-    /// The colour at `i`.
-    ///
-    /// # Panics
-    /// Where a slice has no element `i`.
+    /// The colour at `i`; `None` where a slice has no element `i`.
     #[inline(always)]
-    pub fn get(&self, i: usize) -> Rgb<T> {
+    pub fn get(&self, i: usize) -> Option<Rgb<T>> {
+        Some(rgb(*self.r.get(i)?, *self.g.get(i)?, *self.b.get(i)?))
+    }
+
+    /// The colour at `i`, which is known to exist.
+    #[inline(always)]
+    pub(super) fn at(&self, i: usize) -> Rgb<T> {
         rgb(self.r[i], self.g[i], self.b[i])
     }
 
@@ -299,7 +309,7 @@ impl<T: Real> Colours<&mut [T]> {
 }
 
 impl<T: Real> Samples<Vec<T>, Vec<SampleOutcome>> {
-    /// `n` times nothing.
+    /// `n` rejected samples.
     pub fn rejected(n: usize) -> Self {
         Self {
             wi: Directions::zeroed(n),
@@ -385,5 +395,27 @@ impl SampleOutcome {
             (Event::Reflection, true) => Self::SpecularReflection,
             (Event::Transmission, true) => Self::SpecularTransmission,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn elements_beyond_the_shortest_slice_do_not_exist() {
+        let directions = Directions {
+            x: &[1.0_f32, 4.0][..],
+            y: &[2.0][..],
+            z: &[3.0, 6.0, 9.0][..],
+        };
+        assert_eq!(directions.get(0), Some(vec3(1.0, 2.0, 3.0)));
+        assert_eq!(directions.get(1), None);
+        let colours = Colours {
+            r: &[1.0_f64][..],
+            g: &[][..],
+            b: &[3.0][..],
+        };
+        assert_eq!(colours.get(0), None);
     }
 }

@@ -2,18 +2,18 @@
 
 use super::alphas::{AlphaAt, AlphaSlices, Alphas, IsotropicAlpha, OneAlpha};
 use super::level::{Arithmetic, Level, Task};
-use super::recast::{Recast, number};
+use super::recast::{Recast, convert};
 use super::slices::{Directions, LengthMismatch, check};
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3, vec3};
-use crate::ndf::{Ggx, Ndf};
+use crate::ndf::Ggx;
 use crate::vndf::{self, Sampler};
 
 const WO: [&str; 3] = ["wo.x", "wo.y", "wo.z"];
 const WI: [&str; 3] = ["wi.x", "wi.y", "wi.z"];
 
 impl Level {
-    /// Directions reflected off visible GGX normals; `(0, 0, 0)` where the draw is rejected.
+    /// Directions reflected off visible GGX normals; `(0, 0, 0)` where rejected.
     ///
     /// * `wo: (n, 3) T`, `u: (n, 2) T` in `[0, 1)` `-> wi: (n, 3) T`
     /// * `alphas`: one alpha, or `(n,) T` twice.
@@ -86,7 +86,7 @@ impl<T: Real> Task for Reflections<'_, T> {
         let n = self.wi.x.len();
         match self.alpha_values {
             Alphas::Same(Alpha { x, y }) if x == y && self.sampler == Sampler::Exact => {
-                self.exact::<A::Of<T>>(IsotropicAlpha(number(x)));
+                self.exact::<A::Of<T>>(IsotropicAlpha(convert(x)));
             }
             Alphas::Same(alpha) => self.with::<A::Of<T>>(OneAlpha(alpha.recast())),
             Alphas::PerElement { alpha_x, alpha_y } => {
@@ -122,10 +122,10 @@ impl<T: Real> Reflections<'_, T> {
         let mut wi = self.wi.first(n);
         for i in 0..n {
             let ndf = Ggx::new(alpha_values.at(i));
-            let u = [number(u0[i]), number(u1[i])];
+            let u = [convert(u0[i]), convert(u1[i])];
             let wo: Vec3<U> = wo.get_as(i);
             // Known to be above.
-            let wo = vec3(wo.x, wo.y, Real::max(wo.z, U::TINY));
+            let wo = vec3(wo.x, wo.y, wo.z.at_least(U::TINY));
             let sampled = ndf.sample_reflection(Sampler::Exact, wo, u);
             let above = sampled.z > U::ZERO;
             wi.set_from(i, if above { sampled } else { Vec3::ZERO });
@@ -140,7 +140,7 @@ impl<T: Real> Reflections<'_, T> {
         let mut wi = self.wi.first(n);
         for i in 0..n {
             let ndf = Ggx::new(alpha_values.at(i));
-            let u = [number(u0[i]), number(u1[i])];
+            let u = [convert(u0[i]), convert(u1[i])];
             let sampled = ndf.sample_reflection(sampler, wo.get_as(i), u);
             let above = sampled.z > U::ZERO;
             wi.set_from(i, if above { sampled } else { Vec3::ZERO });
@@ -162,7 +162,7 @@ impl<T: Real> Task for Densities<'_, T> {
         let n = self.pdf.len();
         match self.alpha_values {
             Alphas::Same(Alpha { x, y }) if x == y && self.sampler == Sampler::Exact => {
-                self.sampled_by::<A::Of<T>>(Sampler::Exact, IsotropicAlpha(number(x)));
+                self.sampled_by::<A::Of<T>>(Sampler::Exact, IsotropicAlpha(convert(x)));
             }
             Alphas::Same(alpha) => self.with::<A::Of<T>>(OneAlpha(alpha.recast())),
             Alphas::PerElement { alpha_x, alpha_y } => {
@@ -194,7 +194,7 @@ impl<T: Real> Densities<'_, T> {
                 Sampler::Bounded => vndf::bounded::reflection_pdf(alpha, wo, wi),
                 Sampler::Exact => vndf::exact::reflection_pdf(alpha, wo, wi),
             };
-            *pdf = number(density);
+            *pdf = convert(density);
         }
     }
 }

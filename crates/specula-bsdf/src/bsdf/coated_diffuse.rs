@@ -28,23 +28,25 @@ use crate::math::{Real, Rgb, Vec3, vec3, warp};
 use crate::ndf::{Ggx, Masking, Ndf};
 use crate::vndf::Sampler;
 
-/// Light within a coat that one facet sends to another.
+/// What becomes of light that one of a coat's facets sends to another.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum CoatScattering {
-    /// Is lost: each facet scatters once. Rough coats darken the base.
+    /// It is lost: each facet scatters once. Rough coats darken the base.
     Single,
-    /// Goes on: what does not pass is reflected.
+    /// It is followed: what is not transmitted is reflected.
     #[default]
     Lossless,
 }
 
-/// What light meets between a coat and its base.
+/// The medium between a coat and its base, and the light paths that count.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CoatLayer<T> {
-    /// Optical thickness of an absorbing medium, from 0 up: light that crosses it once at the cosine
-    /// `mu` keeps `exp(-thickness / mu)`.
+    /// Optical thickness of an absorbing medium, from 0 up: its transmittance at the cosine `mu` is
+    /// `exp(-thickness / mu)`.
     pub thickness: T,
-    /// Events after which light is lost: bounces off the base and off the coat from within. `None`:
+    /// Events after which light is lost: bounces off the base and off the coat from inside. `None`:
     /// no limit.
     pub max_depth: Option<u32>,
     /// What the coat's facets do.
@@ -107,7 +109,7 @@ impl<T: Real> CoatedDiffuse<T> {
             scattering,
         }: CoatLayer<T>,
     ) -> Self {
-        let eta = Real::clamp(eta, T::ONE, T::of(3.0));
+        let eta = eta.within(T::ONE, T::of(3.0));
         let layer = Layer::new(thickness);
         let internal = match scattering {
             CoatScattering::Lossless => interface::internal_reflectance(coat, eta),
@@ -155,12 +157,12 @@ impl<T: Real> CoatedDiffuse<T> {
         }
     }
 
-    /// Probability of drawing the coat's reflection; 0 for a mirror that faces away.
+    /// Probability of sampling the coat's reflection; 0 for a mirror that faces away.
     #[inline(always)]
     fn coat_probability(&self, from: Incident<T>, wo: Vec3<T>) -> T {
         let diffuse = from.arriving * self.albedo.max_channel();
         let visible = self.coat.is_some() || wo.z > T::ZERO;
-        let share = from.reflected / Real::max(from.reflected + diffuse, T::TINY);
+        let share = from.reflected / (from.reflected + diffuse).at_least(T::TINY);
         T::select(visible, share, T::ZERO)
     }
 

@@ -1,4 +1,4 @@
-//! Rough metals that keep their energy.
+//! Rough metals with compensated energy.
 
 use super::{Bsdf, BsdfSample, RoughConductor, Transport};
 use crate::energy::fresnel_average::reflectance_average;
@@ -10,15 +10,15 @@ use crate::math::{Real, Rgb, Vec3};
 use crate::ndf::{Ggx, Masking};
 use crate::vndf::Sampler;
 
-/// Single scattering off a rough metal, and what replaces the further bounces (`energy::model`):
+/// Single scattering off a rough metal, and what stands for the further bounces (`energy::model`):
 ///
 /// ```text
 /// Turquin            f = f_ss (1 + F_ms L(wo) / E(wo)),     E = 1 - L
 /// Kulla and Conty    f = f_ss + F_avg F_ms L(wo) L(wi) / (pi L_avg)
 /// ```
 ///
-/// `L` is the loss of the white surface by azimuth and elevation, so that anisotropic surfaces keep
-/// their energy too. For views below the horizon (`wo.z < 0`) `L` is that of the mirror image:
+/// `L` is the loss of the white surface by azimuth and elevation, so that anisotropic surfaces are
+/// compensated too. For views below the horizon (`wo.z < 0`) `L` is that of the mirror image:
 /// finite and continuous.
 ///
 /// Turquin's lobe is sampled as the single-scattering lobe is. Kulla and Conty's second lobe is sampled
@@ -28,7 +28,7 @@ use crate::vndf::Sampler;
 /// p = F_avg F_ms L / (F_avg F_ms L + F_avg E),   pdf = (1 - p) pdf_ss + p cos / pi
 /// ```
 ///
-/// Drawing the second lobe by `L(wi) cos` instead would lower the variance of a white metal's weights
+/// Sampling the second lobe by `L(wi) cos` instead would lower the variance of a white metal's weights
 /// by less than a tenth up to alpha 0.5 but at normal incidence (0.033 for 0.041), and by half at
 /// alpha 1 there (0.037 for 0.070), at the price of a table of its inverse distribution.
 ///
@@ -41,7 +41,7 @@ pub struct Compensated<T, N = Ggx<T>> {
     model: EnergyModel,
     /// Average reflectance of a facet.
     average: Rgb<T>,
-    /// Factor of the light contributed back: `F_ms` (Turquin), `F_avg F_ms` (Kulla and Conty).
+    /// Factor of the compensating light: `F_ms` (Turquin), `F_avg F_ms` (Kulla and Conty).
     colour: Rgb<T>,
     normal_incidence: Rgb<T>,
 }
@@ -64,16 +64,6 @@ impl<T: Real, N: Tabulated<T>> Compensated<T, N> {
             normal_incidence: reflectance.eval(T::ONE),
         }
         .coloured()
-    }
-
-    /// The same metal, sampled by another sampler (GGX only; Beckmann has one).
-    #[inline(always)]
-    #[must_use]
-    pub fn with_sampler(self, sampler: Sampler) -> Self {
-        Self {
-            single: self.single.with_sampler(sampler),
-            ..self
-        }
     }
 
     /// The same metal with another masking.
@@ -103,11 +93,11 @@ impl<T: Real, N: Tabulated<T>> Compensated<T, N> {
     #[inline(always)]
     fn turquin_factor(&self, wo: Vec3<T>) -> Rgb<T> {
         let loss = self.loss.directional(wo);
-        let ratio = loss / Real::max(T::ONE - loss, T::of(1e-5));
+        let ratio = loss / (T::ONE - loss).at_least(T::of(1e-5));
         self.colour.map(|f| T::ONE + f * ratio)
     }
 
-    /// Probability of drawing Kulla and Conty's second lobe.
+    /// Probability of sampling Kulla and Conty's second lobe.
     #[inline(always)]
     fn second_share(&self, loss: T) -> T {
         let second = self.colour.max_channel() * loss;
@@ -129,6 +119,18 @@ impl<T: Real, N: Tabulated<T>> Compensated<T, N> {
             first + self.colour * shape,
             first_pdf + p * (cosine - first_pdf),
         )
+    }
+}
+
+impl<T: Real> Compensated<T> {
+    /// The same metal, sampled by another sampler. For GGX alone: Beckmann has one sampler.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_sampler(self, sampler: Sampler) -> Self {
+        Self {
+            single: self.single.with_sampler(sampler),
+            ..self
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Rough dielectric interfaces that keep their energy (Kulla and Conty 2017).
+//! Rough dielectric interfaces with compensated energy (Kulla and Conty 2017).
 
 use super::{Bsdf, BsdfSample, Event, RoughDielectric, Tints, Transport};
 use crate::energy::{DielectricLoss, Tabulated};
@@ -23,7 +23,7 @@ use crate::vndf::Sampler;
 /// because `1 - F_avg(eta) = eta^2 (1 - F_avg(1/eta))`, it holds for the `t` above, which stays in
 /// `[0, 1]` and is the averaged Fresnel transmittance on the side that loses less.
 ///
-/// CoatSample by the single-scattering sampler with probability `1 - L_n(wo)`, else by the cosine on
+/// Sampled by the single-scattering sampler with probability `1 - L_n(wo)`, else by the cosine on
 /// either side, with its exact pdf.
 ///
 /// Departure: Kulla and Conty ask for the two conditions; this closed form of the split is Specula's.
@@ -41,9 +41,9 @@ pub struct CompensatedDielectric<T, N = Ggx<T>> {
     transmitted: [T; 2],
 }
 
-/// What a view meets.
+/// The interface as a view sees it.
 struct Side<T> {
-    /// Factor of z that brings the view above.
+    /// Factor of z that turns the view above the horizon.
     turn: T,
     /// Index beyond over the index on the side of the view.
     eta: T,
@@ -85,7 +85,7 @@ impl<T: Real, N: Tabulated<T>> CompensatedDielectric<T, N> {
         let inverse = T::ONE / eta;
         let above = DielectricLoss::new(ndf, masking, eta);
         let below = DielectricLoss::new(ndf, masking, inverse);
-        let common = Real::min(above.average(), below.average());
+        let common = above.average().at_most(below.average());
         let share = |eta, loss: T| (T::ONE - dielectric_average(eta)) * (common / loss);
         Self {
             single,
@@ -94,16 +94,6 @@ impl<T: Real, N: Tabulated<T>> CompensatedDielectric<T, N> {
             two_sided,
             losses: [above, below],
             transmitted: [share(eta, above.average()), share(inverse, below.average())],
-        }
-    }
-
-    /// The same interface, single scattering sampled by another sampler.
-    #[inline(always)]
-    #[must_use]
-    pub fn with_sampler(self, sampler: Sampler) -> Self {
-        Self {
-            single: self.single.with_sampler(sampler),
-            ..self
         }
     }
 
@@ -178,6 +168,18 @@ impl<T: Real, N: Tabulated<T>> CompensatedDielectric<T, N> {
     }
 }
 
+impl<T: Real> CompensatedDielectric<T> {
+    /// The same interface, single scattering sampled by another sampler.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_sampler(self, sampler: Sampler) -> Self {
+        Self {
+            single: self.single.with_sampler(sampler),
+            ..self
+        }
+    }
+}
+
 #[inline(always)]
 fn radiance_scale<T: Real>(eta: T, transport: Transport) -> T {
     match transport {
@@ -210,9 +212,9 @@ impl<T: Real, N: Tabulated<T>> Bsdf<T> for CompensatedDielectric<T, N> {
                 (wi, Event::Reflection, T::ONE)
             }
         } else {
-            // Rounding must not bring 1 about.
+            // Rounding must not reach 1.
             let rest = (u[0] - side.loss) / (T::ONE - side.loss);
-            let rest = Real::min(rest, T::ONE - T::EPSILON);
+            let rest = rest.at_most(T::ONE - T::EPSILON);
             let sample = self.single.sample(wo, [rest, u[1], u[2]], transport)?;
             if sample.specular {
                 return Some(sample);

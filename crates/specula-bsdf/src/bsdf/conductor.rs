@@ -4,7 +4,7 @@ use super::{Bsdf, BsdfSample, Event, Transport};
 use crate::fresnel::Reflectance;
 use crate::math::{Real, Rgb, Vec3, vec3};
 use crate::ndf::{Ggx, Masking, Ndf};
-use crate::vndf::{Reflections, Sampler};
+use crate::vndf::{Reflections, Sampler, VisibleNormals};
 
 /// Single scattering off a rough metal (Cook and Torrance 1982, with Smith masking):
 ///
@@ -22,7 +22,7 @@ pub struct RoughConductor<T, N = Ggx<T>> {
     pub(crate) masking: Masking,
 }
 
-impl<T: Real, N: Ndf<T>> RoughConductor<T, N> {
+impl<T: Real, N: VisibleNormals<T>> RoughConductor<T, N> {
     /// A metal with height-correlated masking, sampled by the default sampler.
     #[inline(always)]
     pub fn new(ndf: N, reflectance: Reflectance<T>) -> Self {
@@ -34,13 +34,6 @@ impl<T: Real, N: Ndf<T>> RoughConductor<T, N> {
         }
     }
 
-    /// The same metal, sampled by another sampler (GGX only; Beckmann has one).
-    #[inline(always)]
-    #[must_use]
-    pub fn with_sampler(self, sampler: Sampler) -> Self {
-        Self { sampler, ..self }
-    }
-
     /// The same metal with another masking.
     #[inline(always)]
     #[must_use]
@@ -49,11 +42,13 @@ impl<T: Real, N: Ndf<T>> RoughConductor<T, N> {
     }
 
     /// The first half of a sample: the direction, perhaps below the horizon, and its `N`. Batches
-    /// draw many before they weigh them: two short loops keep more of the machine busy than a long one.
+    /// sample many before they weigh them: two short loops overlap more iterations than a long one.
     #[inline(always)]
-    pub(crate) fn draw(&self, wo: Vec3<T>, u: [T; 3]) -> (Vec3<T>, T) {
-        let wi = self.ndf.sample_reflection(self.sampler, wo, [u[1], u[2]]);
-        (wi, self.ndf.reflection_norm(self.sampler, wo))
+    pub(crate) fn sample_wi(&self, wo: Vec3<T>, u: [T; 3]) -> (Vec3<T>, T) {
+        let wi = self
+            .ndf
+            .sample_reflection_by(self.sampler, wo, [u[1], u[2]]);
+        (wi, self.ndf.reflection_norm_by(self.sampler, wo))
     }
 
     /// `N` of `pdf = D / (4 N)` as numerator and denominator.
@@ -62,13 +57,13 @@ impl<T: Real, N: Ndf<T>> RoughConductor<T, N> {
         self.ndf.reflection_norm_quotient(self.sampler, wo).into()
     }
 
-    /// The second half: what a direction sampled with `pdf = D / (4 N)` weighs.
+    /// The second half: the weight of a direction sampled with `pdf = D / (4 N)`.
     #[inline(always)]
     pub(crate) fn weigh(&self, wo: Vec3<T>, wi: Vec3<T>, norm: T) -> Option<BsdfSample<T>> {
         let (d, fresnel) = self.facet(wo, wi);
         // weight = F N G2 / |cos_o| and pdf = D / (4 N) with one division.
         let (top, bottom) = self.ndf.g2_over_cos_quotient(self.masking, wo, wi);
-        let inverse = T::ONE / Real::max(norm * bottom, T::TINY);
+        let inverse = T::ONE / (norm * bottom).at_least(T::TINY);
         let weight = fresnel * (norm * norm * top * inverse);
         let pdf = T::of(0.25) * d * bottom * inverse;
         BsdfSample::reflected(wi, weight, pdf)
@@ -101,7 +96,29 @@ impl<T: Real, N: Ndf<T>> RoughConductor<T, N> {
 }
 
 impl<T: Real> RoughConductor<T> {
-    /// The metal seen along `wo`, with what does not depend on the light kept: for several
+    /// The same metal, sampled by another sampler. For GGX alone: Beckmann has one sampler.
+    ///
+    /// ```compile_fail
+    /// use specula_bsdf::Alpha;
+    /// use specula_bsdf::bsdf::RoughConductor;
+    /// use specula_bsdf::fresnel::Reflectance;
+    /// use specula_bsdf::math::Rgb;
+    /// use specula_bsdf::ndf::Beckmann;
+    /// use specula_bsdf::vndf::Sampler;
+    ///
+    /// let beckmann = Beckmann::new(Alpha::isotropic(0.3_f32));
+    /// let metal = RoughConductor::new(beckmann, Reflectance::Constant(Rgb::WHITE));
+    /// let _ = metal.with_sampler(Sampler::Cap);
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn with_sampler(self, sampler: Sampler) -> Self {
+        Self { sampler, ..self }
+    }
+}
+
+impl<T: Real> RoughConductor<T> {
+    /// The metal seen along `wo`, with what depends on `wo` alone computed once: for several
     /// evaluations or samples of one view.
     #[inline(always)]
     pub fn seen_along(&self, wo: Vec3<T>) -> SeenConductor<T> {
@@ -143,7 +160,7 @@ impl<T: Real> SeenConductor<T> {
     }
 }
 
-impl<T: Real, N: Ndf<T>> Bsdf<T> for RoughConductor<T, N> {
+impl<T: Real, N: VisibleNormals<T>> Bsdf<T> for RoughConductor<T, N> {
     #[inline(always)]
     fn eval(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> Rgb<T> {
         self.eval_pdf(wo, wi, transport).0
@@ -160,7 +177,7 @@ impl<T: Real, N: Ndf<T>> Bsdf<T> for RoughConductor<T, N> {
 
     #[inline(always)]
     fn sample(&self, wo: Vec3<T>, u: [T; 3], _transport: Transport) -> Option<BsdfSample<T>> {
-        let (wi, norm) = self.draw(wo, u);
+        let (wi, norm) = self.sample_wi(wo, u);
         self.weigh(wo, wi, norm)
     }
 

@@ -3,8 +3,8 @@
 use super::{Bsdf, BsdfSample, Event, Tints, Transport};
 use crate::fresnel::{dielectric, refract, refraction};
 use crate::math::{Real, Rgb, Vec3, vec3};
-use crate::ndf::{Ggx, Masking, Ndf};
-use crate::vndf::{Sampler, reflect};
+use crate::ndf::{Ggx, Masking};
+use crate::vndf::{Sampler, VisibleNormals, reflect};
 
 /// Single scattering at a rough interface between two dielectrics.
 ///
@@ -29,7 +29,7 @@ use crate::vndf::{Sampler, reflect};
 /// `drawing_the_branch_before_the_normal_costs_variance`): caps are the default.
 ///
 /// Departure: transmission uses the `G2` of reflection, as pbrt-v4 does, not the Beta function of
-/// Smith's model for opposite sides (Heitz et al. 2016), which an energy compensation brings back.
+/// Smith's model for opposite sides (Heitz et al. 2016), which an energy compensation makes up for.
 ///
 /// Indices within 1e-3 of each other are taken as equal: light passes straight on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +42,7 @@ pub struct RoughDielectric<T, N = Ggx<T>> {
     pub(crate) tints: Tints<T>,
 }
 
-impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
+impl<T: Real, N: VisibleNormals<T>> RoughDielectric<T, N> {
     /// An interface with both sides: `wo.z < 0` views it from inside.
     ///
     /// * `eta`: index inside over index outside, above 0.
@@ -68,13 +68,6 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
             masking: Masking::default(),
             tints: Tints::WHITE,
         }
-    }
-
-    /// The same interface, sampled by another sampler.
-    #[inline(always)]
-    #[must_use]
-    pub fn with_sampler(self, sampler: Sampler) -> Self {
-        Self { sampler, ..self }
     }
 
     /// The same interface with another masking.
@@ -145,7 +138,7 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         let factor = T::select(reflects, T::ONE, self.eta);
         let sum = |o, i| {
             let (one, other) = (T::select(side.inside, i, o), T::select(side.inside, o, i));
-            other.mul_add_once(factor, one)
+            other.mad_exact_product(factor, one)
         };
         let half = vec3(sum(wo.x, wi.x), sum(wo.y, wi.y), sum(wo.z, wi.z));
         half * T::ONE.copysign(half.z)
@@ -155,7 +148,7 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
     #[inline(always)]
     fn branch_probability(&self, wo: Vec3<T>, eta: T) -> T {
         let macroscopic = dielectric(wo.z.abs(), eta).reflectance;
-        Real::clamp(macroscopic, T::of(0.1), T::of(0.9))
+        macroscopic.within(T::of(0.1), T::of(0.9))
     }
 
     /// Whether the branch is sampled before the normal.
@@ -194,7 +187,7 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         let sigma = self.ndf.projected_area(wo);
         let (chosen, norm) = if self.is_branch_first() {
             let p = self.branch_probability(wo, side.eta);
-            let reflected = self.ndf.reflection_norm(self.sampler, wo);
+            let reflected = self.ndf.reflection_norm_by(self.sampler, wo);
             (
                 T::select(reflects, p, T::ONE - p),
                 T::select(reflects, reflected, sigma),
@@ -216,9 +209,9 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         }
     }
 
-    /// A draw for `wo` on its own side: the normal, then the branch.
+    /// Samples for `wo` on its own side: the normal, then the branch.
     #[inline(always)]
-    fn draw(
+    fn sample_normal_first(
         &self,
         wo: Vec3<T>,
         u: [T; 3],
@@ -226,7 +219,7 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         transport: Transport,
     ) -> Option<BsdfSample<T>> {
         let wm = self.ndf.sample_wm(wo, [u[1], u[2]]);
-        let cos_o = Real::max(wo.dot(wm), T::ZERO);
+        let cos_o = wo.dot(wm).at_least(T::ZERO);
         let sin2_o = (T::ONE - cos_o) * (T::ONE + cos_o);
         let cos2_t = T::ONE - sin2_o * (side.inverse * side.inverse);
         let bent = refraction(cos_o, cos2_t, side.eta);
@@ -238,7 +231,7 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         let transmitted = Carried::new(self, down, wo, wt);
 
         let (all_top, all_bottom) = reflected.plus(transmitted);
-        let shares = T::ONE / Real::max(all_top, T::TINY);
+        let shares = T::ONE / all_top.at_least(T::TINY);
         let reflection = reflected.top * transmitted.bottom * shares;
         let reflects = u[0] < reflection;
         let transmission = transmitted.top * reflected.bottom * shares;
@@ -261,14 +254,14 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         let sigma = self.ndf.projected_area(wo);
         let (top, bottom) = jacobian;
         let d = self.ndf.d_along(half, squared);
-        let pdf = d * top / Real::max(sigma * bottom, T::TINY);
-        let weight = sigma * all_top / Real::max(all_bottom, T::TINY);
+        let pdf = d * top / (sigma * bottom).at_least(T::TINY);
+        let weight = sigma * all_top / all_bottom.at_least(T::TINY);
         self.scattered(wi, weight * scale, pdf, reflects, side)
     }
 
-    /// A draw for `wo` on its own side: the branch, then the normal.
+    /// Samples for `wo` on its own side: the branch, then the normal.
     #[inline(always)]
-    fn draw_branch_first(
+    fn sample_branch_first(
         &self,
         wo: Vec3<T>,
         u: [T; 3],
@@ -278,7 +271,7 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         let direction = [u[1], u[2]];
         let reflects = u[0] < self.branch_probability(wo, side.eta);
         let wi = if reflects {
-            self.ndf.sample_reflection(self.sampler, wo, direction)
+            self.ndf.sample_reflection_by(self.sampler, wo, direction)
         } else {
             let wm = self.ndf.sample_wm(wo, direction);
             let bent = dielectric(wo.dot(wm), side.eta);
@@ -292,7 +285,7 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         self.scattered(wi, weight, s.pdf(), reflects, side)
     }
 
-    /// A draw of one branch alone, by all visible normals. The weight is of that branch: for walks
+    /// Samples one branch alone, by all visible normals. The weight is of that branch: for walks
     /// that follow reflection and refraction one by one.
     #[inline(always)]
     pub(crate) fn sample_branch(
@@ -305,7 +298,7 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
         let side = self.side(wo);
         let wo = vec3(wo.x, wo.y, wo.z * side.turn);
         let wm = self.ndf.sample_wm(wo, u);
-        let cos_o = Real::max(wo.dot(wm), T::ZERO);
+        let cos_o = wo.dot(wm).at_least(T::ZERO);
         let bent = dielectric(cos_o, side.eta);
         let (wi, fresnel) = if reflects {
             (reflect(wo, wm), bent.reflectance)
@@ -336,7 +329,7 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
     }
 
     /// The sample of one of the branches, on the side where `wo` is; `None` on the wrong side, or
-    /// where the density is no positive number.
+    /// where the density is not positive and finite.
     #[inline(always)]
     fn scattered(
         &self,
@@ -362,12 +355,21 @@ impl<T: Real, N: Ndf<T>> RoughDielectric<T, N> {
     }
 }
 
+impl<T: Real> RoughDielectric<T> {
+    /// The same interface, sampled by another sampler.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_sampler(self, sampler: Sampler) -> Self {
+        Self { sampler, ..self }
+    }
+}
+
 /// The interface as a view meets it.
 #[derive(Clone, Copy)]
 struct Side<T> {
     /// Whether the view is from inside an interface with both sides.
     inside: bool,
-    /// Factor of z that brings the view above.
+    /// Factor of z that turns the view above the horizon.
     turn: T,
     /// Index beyond over the index on the side of the view.
     eta: T,
@@ -385,7 +387,12 @@ struct Carried<T> {
 
 impl<T: Real> Carried<T> {
     #[inline(always)]
-    fn new<N: Ndf<T>>(lobe: &RoughDielectric<T, N>, fresnel: T, wo: Vec3<T>, wi: Vec3<T>) -> Self {
+    fn new<N: VisibleNormals<T>>(
+        lobe: &RoughDielectric<T, N>,
+        fresnel: T,
+        wo: Vec3<T>,
+        wi: Vec3<T>,
+    ) -> Self {
         let (top, bottom) = lobe.ndf.g2_over_cos_quotient(lobe.masking, wo, wi);
         Self {
             top: fresnel * top,
@@ -442,7 +449,7 @@ impl<T: Real> Scatter<T> {
     }
 }
 
-impl<T: Real, N: Ndf<T>> Bsdf<T> for RoughDielectric<T, N> {
+impl<T: Real, N: VisibleNormals<T>> Bsdf<T> for RoughDielectric<T, N> {
     #[inline(always)]
     fn eval(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> Rgb<T> {
         self.eval_pdf(wo, wi, transport).0
@@ -467,9 +474,9 @@ impl<T: Real, N: Ndf<T>> Bsdf<T> for RoughDielectric<T, N> {
         let side = self.side(wo);
         let upright = vec3(wo.x, wo.y, wo.z * side.turn);
         if self.is_branch_first() {
-            self.draw_branch_first(upright, u, side, transport)
+            self.sample_branch_first(upright, u, side, transport)
         } else {
-            self.draw(upright, u, side, transport)
+            self.sample_normal_first(upright, u, side, transport)
         }
     }
 

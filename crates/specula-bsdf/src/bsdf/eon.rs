@@ -33,7 +33,7 @@ impl<T: Real> Eon<T> {
     pub fn new(albedo: Rgb<T>, roughness: T) -> Self {
         Self {
             albedo,
-            roughness: Real::clamp(roughness, T::ZERO, T::ONE),
+            roughness: roughness.within(T::ZERO, T::ONE),
         }
     }
 
@@ -46,7 +46,7 @@ impl<T: Real> Eon<T> {
     /// Directional albedo `E(mu)` of the single-scattering part for a white surface.
     #[inline(always)]
     fn single_scatter_albedo(&self, mu: T) -> T {
-        let mu = Real::clamp(mu, T::ZERO, T::ONE);
+        let mu = mu.within(T::ZERO, T::ONE);
         let sine = ((T::ONE - mu) * (T::ONE + mu)).safe_sqrt();
         let theta = acos(mu);
         // tan (1 - sin^3) without its division by a vanishing cosine.
@@ -59,22 +59,22 @@ impl<T: Real> Eon<T> {
     #[inline(always)]
     fn f(&self, wo: Vec3<T>, wi: Vec3<T>) -> Rgb<T> {
         // A backfacing shading normal is treated as grazing.
-        let mu_o = Real::clamp(wo.z, T::ZERO, T::ONE);
-        let mu_i = Real::min(wi.z, T::ONE);
+        let mu_o = wo.z.within(T::ZERO, T::ONE);
+        let mu_i = wi.z.at_most(T::ONE);
         let s = wo.dot(wi) - wo.z * wi.z;
-        let s_over_t = T::select(s > T::ZERO, s / Real::max(mu_i, mu_o), s);
+        let s_over_t = T::select(s > T::ZERO, s / mu_i.at_least(mu_o), s);
         let single = self.scale() * (T::ONE + self.roughness * s_over_t);
 
         let average = self.scale()
             * (T::ONE + T::of(2.0 / 3.0 - 28.0 / (15.0 * core::f64::consts::PI)) * self.roughness);
         let loss = T::ONE - average;
         // The inverse is the same for all directions: batches divide once.
-        let multiple = Real::max(T::ONE - self.single_scatter_albedo(mu_o), T::ZERO)
-            * Real::max(T::ONE - self.single_scatter_albedo(mu_i), T::ZERO)
-            * (T::ONE / Real::max(loss, T::EPSILON));
+        let multiple = (T::ONE - self.single_scatter_albedo(mu_o)).at_least(T::ZERO)
+            * (T::ONE - self.single_scatter_albedo(mu_i)).at_least(T::ZERO)
+            * (T::ONE / loss.at_least(T::EPSILON));
         self.albedo.map(|rho| {
             let rho_multiple = rho * rho * average / (T::ONE - rho * loss);
-            Real::max(rho * single + rho_multiple * multiple, T::ZERO) * T::INV_PI
+            (rho * single + rho_multiple * multiple).at_least(T::ZERO) * T::INV_PI
         })
     }
 }

@@ -107,7 +107,7 @@ impl<T: Real> Bsdf<T> for DiffuseTransmission<T> {
 }
 
 impl<T: Real> BsdfSample<T> {
-    /// A reflected sample; `None` below the horizon or where its density is no positive number.
+    /// A reflected sample; `None` below the horizon or where its density is not positive and finite.
     #[inline(always)]
     pub(super) fn reflected(wi: Vec3<T>, weight: Rgb<T>, pdf: T) -> Option<Self> {
         (wi.z > T::ZERO && pdf > T::ZERO && pdf <= T::MAX).then_some(Self {
@@ -120,7 +120,7 @@ impl<T: Real> BsdfSample<T> {
         })
     }
 
-    /// A transmitted sample; `None` above the horizon or where its density is no positive number.
+    /// A transmitted sample; `None` above the horizon or where its density is not positive and finite.
     #[inline(always)]
     pub(super) fn transmitted(wi: Vec3<T>, weight: Rgb<T>, pdf: T, eta: T) -> Option<Self> {
         (wi.z < T::ZERO && pdf > T::ZERO && pdf <= T::MAX).then_some(Self {

@@ -1,15 +1,18 @@
 //! Any lobe, without allocation or dynamic dispatch: what a renderer holds at a hit.
 
 use super::{
-    Black, Bsdf, BsdfSample, CoatedConductor, CoatedDiffuse, Compensated, CompensatedDielectric,
-    DiffuseTransmission, Eon, Gltf, Lambert, Layered, Plastic, Principled, RoughConductor,
-    RoughDielectric, SmoothConductor, SmoothDielectric, ThinDielectric, Transport,
+    Black, Bsdf, BsdfSample, CoatedDiffuse, Compensated, CompensatedDielectric,
+    DiffuseTransmission, Eon, Gltf, Lambert, Layered, MultibounceConductor, MultibounceDielectric,
+    Plastic, Principled, RoughConductor, RoughDielectric, SmoothConductor, SmoothDielectric,
+    ThinDielectric, Transport,
 };
 use crate::math::{Real, Rgb, Stream, Vec3};
-use crate::multibounce;
 use crate::ndf::Beckmann;
 
 /// One of the lobes of this crate, with GGX where it is rough unless its name says otherwise.
+///
+/// Exhaustive on purpose: renderers match it in full, so that a new lobe is a compile error at each
+/// place that has to treat it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lobe<T> {
     /// See [`Lambert`].
@@ -30,18 +33,16 @@ pub enum Lobe<T> {
     ThinDielectric(ThinDielectric<T>),
     /// See [`CoatedDiffuse`].
     CoatedDiffuse(CoatedDiffuse<T>),
-    /// See [`CoatedConductor`].
-    CoatedConductor(CoatedConductor<T>),
     /// See [`Layered`].
     Layered(Layered<T>),
     /// See [`Compensated`].
     Compensated(Compensated<T>),
     /// See [`CompensatedDielectric`].
     CompensatedDielectric(CompensatedDielectric<T>),
-    /// See [`multibounce::MultibounceConductor`].
-    MultibounceConductor(multibounce::MultibounceConductor<T>),
-    /// See [`multibounce::MultibounceDielectric`].
-    MultibounceDielectric(multibounce::MultibounceDielectric<T>),
+    /// See [`MultibounceConductor`].
+    MultibounceConductor(MultibounceConductor<T>),
+    /// See [`MultibounceDielectric`].
+    MultibounceDielectric(MultibounceDielectric<T>),
     /// See [`Black`].
     Black(Black),
     /// See [`RoughConductor`], with Beckmann's normals.
@@ -52,10 +53,10 @@ pub enum Lobe<T> {
     CompensatedBeckmann(Compensated<T, Beckmann<T>>),
     /// See [`CompensatedDielectric`], with Beckmann's normals.
     CompensatedDielectricBeckmann(CompensatedDielectric<T, Beckmann<T>>),
-    /// See [`multibounce::MultibounceConductor`], with Beckmann's normals.
-    MultibounceConductorBeckmann(multibounce::MultibounceConductor<T, Beckmann<T>>),
-    /// See [`multibounce::MultibounceDielectric`], with Beckmann's normals.
-    MultibounceDielectricBeckmann(multibounce::MultibounceDielectric<T, Beckmann<T>>),
+    /// See [`MultibounceConductor`], with Beckmann's normals.
+    MultibounceConductorBeckmann(MultibounceConductor<T, Beckmann<T>>),
+    /// See [`MultibounceDielectric`], with Beckmann's normals.
+    MultibounceDielectricBeckmann(MultibounceDielectric<T, Beckmann<T>>),
     /// See [`Plastic`].
     Plastic(Plastic<T>),
     /// See [`Plastic`], with Beckmann's normals.
@@ -78,7 +79,6 @@ macro_rules! each_lobe {
             Lobe::RoughDielectric($l) => $call,
             Lobe::ThinDielectric($l) => $call,
             Lobe::CoatedDiffuse($l) => $call,
-            Lobe::CoatedConductor($l) => $call,
             Lobe::Layered($l) => $call,
             Lobe::Compensated($l) => $call,
             Lobe::CompensatedDielectric($l) => $call,
@@ -179,19 +179,18 @@ from_lobe!(
     RoughDielectric: RoughDielectric<T>,
     ThinDielectric: ThinDielectric<T>,
     CoatedDiffuse: CoatedDiffuse<T>,
-    CoatedConductor: CoatedConductor<T>,
     Layered: Layered<T>,
     Compensated: Compensated<T>,
     CompensatedDielectric: CompensatedDielectric<T>,
-    MultibounceConductor: multibounce::MultibounceConductor<T>,
-    MultibounceDielectric: multibounce::MultibounceDielectric<T>,
+    MultibounceConductor: MultibounceConductor<T>,
+    MultibounceDielectric: MultibounceDielectric<T>,
     Black: Black,
     RoughConductorBeckmann: RoughConductor<T, Beckmann<T>>,
     RoughDielectricBeckmann: RoughDielectric<T, Beckmann<T>>,
     CompensatedBeckmann: Compensated<T, Beckmann<T>>,
     CompensatedDielectricBeckmann: CompensatedDielectric<T, Beckmann<T>>,
-    MultibounceConductorBeckmann: multibounce::MultibounceConductor<T, Beckmann<T>>,
-    MultibounceDielectricBeckmann: multibounce::MultibounceDielectric<T, Beckmann<T>>,
+    MultibounceConductorBeckmann: MultibounceConductor<T, Beckmann<T>>,
+    MultibounceDielectricBeckmann: MultibounceDielectric<T, Beckmann<T>>,
     Plastic: Plastic<T>,
     PlasticBeckmann: Plastic<T, Beckmann<T>>,
     Principled: Principled<T>,

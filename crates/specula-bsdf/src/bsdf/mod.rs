@@ -1,38 +1,42 @@
-//! Lobes: one file each, all behind one interface.
+//! Lobes: one file each, all behind the trait [`Bsdf`].
 //!
 //! Directions point away from the surface in the local frame (z up): `wo` towards the viewer,
 //! given; `wi` towards the light, sampled. The papers' i is our `wo`, their o is our `wi`.
 
 mod black;
-mod coated_conductor;
 mod coated_diffuse;
 mod compensated;
 mod compensated_dielectric;
 mod conductor;
 mod dielectric;
 mod eon;
-mod gltf;
+pub(crate) mod gltf;
 mod lambert;
 mod layered;
 mod lobe;
-mod plastic;
+mod multibounce_conductor;
+mod multibounce_dielectric;
+mod multibounce_diffuse;
+pub(crate) mod plastic;
 mod principled;
 mod smooth_dielectric;
 mod tints;
 
 pub use black::Black;
-pub use coated_conductor::CoatedConductor;
 pub use coated_diffuse::{CoatLayer, CoatScattering, CoatedDiffuse};
 pub use compensated::Compensated;
 pub use compensated_dielectric::CompensatedDielectric;
 pub use conductor::{RoughConductor, SeenConductor, SmoothConductor};
 pub use dielectric::RoughDielectric;
 pub use eon::Eon;
-pub use gltf::{Gltf, GltfParameters, albedo as gltf_albedo};
+pub use gltf::{Gltf, GltfParameters};
 pub use lambert::{DiffuseTransmission, Lambert};
 pub use layered::{Base, Layered, Medium};
 pub use lobe::Lobe;
-pub use plastic::{Plastic, interface as plastic_interface};
+pub use multibounce_conductor::MultibounceConductor;
+pub use multibounce_dielectric::MultibounceDielectric;
+pub use multibounce_diffuse::MultibounceDiffuse;
+pub use plastic::Plastic;
 pub use principled::{Principled, PrincipledParameters};
 pub use smooth_dielectric::{SmoothDielectric, ThinDielectric};
 pub use tints::Tints;
@@ -41,6 +45,7 @@ use crate::math::{Real, Rgb, Stream, Vec3};
 
 /// What a path carries, for lobes whose two adjoints differ (refraction compresses radiance).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Transport {
     /// `wo` leads to the camera: radiance is scaled by `1/eta^2` on refraction.
     #[default]
@@ -51,6 +56,7 @@ pub enum Transport {
 
 /// Which side a sample left on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Event {
     /// `wi` on the side of `wo`.
     Reflection,
@@ -95,7 +101,7 @@ pub trait Bsdf<T: Real> {
     ///
     /// * `u`: independent and uniform in `[0, 1)`; `u[0]` chooses among lobes, `u[1]` and `u[2]`
     ///   the direction.
-    /// * Returns `None` where the draw leads to no direction (rejected).
+    /// * Returns `None` where the sample is rejected.
     fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>>;
 
     /// `eval` and `pdf` together, for multiple importance sampling.
@@ -144,6 +150,10 @@ pub trait Bsdf<T: Real> {
         false
     }
 
-    /// Hemispherical colour for denoisers and previews, in `[0, 1]`; an approximation.
+    /// A representative colour, for denoisers and previews: what the lobe was given as its base
+    /// colour, the reflectance of its facets at a cosine of 2/3, or white for dielectrics.
+    ///
+    /// It is no integral. It is in `[0, 1]` wherever the lobe's own parameters are, and where those
+    /// of a sheet sum to at most 1.
     fn albedo(&self) -> Rgb<T>;
 }

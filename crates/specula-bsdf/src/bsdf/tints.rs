@@ -1,10 +1,11 @@
-//! Colours of a dielectric's two branches, which nature leaves white.
+//! Factors on a dielectric's reflection and transmission, for artists: white in nature.
 
 use super::Event;
 use crate::math::{Real, Rgb};
 
 /// Factors on what a surface reflects and on what it lets through; white by default.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tints<T> {
     /// Factor on reflection, in `[0, 1]`.
     pub reflection: Rgb<T>,

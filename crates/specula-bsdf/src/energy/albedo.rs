@@ -33,7 +33,8 @@ use super::rows::Rows;
 use super::spline::Cubic;
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3};
-use crate::ndf::{Beckmann, Ggx, Masking, Ndf};
+use crate::ndf::{Beckmann, Ggx, Masking};
+use crate::vndf::VisibleNormals;
 
 /// Alphas of the isotropic tables.
 pub const ISOTROPIC_ALPHAS: usize = 48;
@@ -50,37 +51,45 @@ pub const ANISOTROPIC_PAIRS: usize = ANISOTROPIC_ALPHAS * (ANISOTROPIC_ALPHAS + 
 /// Lines of the anisotropic tables.
 pub const ANISOTROPIC_ROWS: usize = ANISOTROPIC_PAIRS * ANISOTROPIC_AZIMUTHS;
 
-/// A distribution that has tables.
+/// Which tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Distribution {
+pub enum TabulatedNdf {
     /// See [`Ggx`].
     Ggx,
     /// See [`Beckmann`].
     Beckmann,
 }
 
-/// A distribution of normals whose lost energy is tabulated.
-pub trait Tabulated<T: Real>: Ndf<T> {
+mod sealed {
+    pub trait Sealed {}
+    impl<T> Sealed for crate::ndf::Ggx<T> {}
+    impl<T> Sealed for crate::ndf::Beckmann<T> {}
+}
+
+/// A distribution of normals whose lost energy is tabulated: [`Ggx`] and [`Beckmann`]. Sealed: the
+/// tables are of this crate.
+pub trait Tabulated<T: Real>: VisibleNormals<T> + sealed::Sealed {
     /// Which tables are this distribution's.
-    const DISTRIBUTION: Distribution;
+    #[doc(hidden)]
+    const TABLES: TabulatedNdf;
 }
 
 impl<T: Real> Tabulated<T> for Ggx<T> {
-    const DISTRIBUTION: Distribution = Distribution::Ggx;
+    const TABLES: TabulatedNdf = TabulatedNdf::Ggx;
 }
 
 impl<T: Real> Tabulated<T> for Beckmann<T> {
-    const DISTRIBUTION: Distribution = Distribution::Beckmann;
+    const TABLES: TabulatedNdf = TabulatedNdf::Beckmann;
 }
 
 /// Index of a distribution and masking among the tables.
 #[inline(always)]
-pub(super) fn table_index(distribution: Distribution, masking: Masking) -> usize {
+pub(super) fn table_index(distribution: TabulatedNdf, masking: Masking) -> usize {
     match (distribution, masking) {
-        (Distribution::Ggx, Masking::HeightCorrelated) => 0,
-        (Distribution::Ggx, Masking::Separable) => 1,
-        (Distribution::Beckmann, Masking::HeightCorrelated) => 2,
-        (Distribution::Beckmann, Masking::Separable) => 3,
+        (TabulatedNdf::Ggx, Masking::HeightCorrelated) => 0,
+        (TabulatedNdf::Ggx, Masking::Separable) => 1,
+        (TabulatedNdf::Beckmann, Masking::HeightCorrelated) => 2,
+        (TabulatedNdf::Beckmann, Masking::Separable) => 3,
     }
 }
 
@@ -88,14 +97,15 @@ pub(super) fn table_index(distribution: Distribution, masking: Masking) -> usize
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loss<T> {
     table: u8,
-    kind: Kind<T>,
+    interpolation: Interpolation<T>,
     average: T,
 }
 
+/// Splines at the alphas of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind<T> {
+enum Interpolation<T> {
     Isotropic {
-        width: T,
+        alpha: T,
         stencil: Cubic<T>,
     },
     Anisotropic {
@@ -110,14 +120,14 @@ impl<T: Real> Loss<T> {
     #[inline]
     pub fn new<N: Tabulated<T>>(ndf: N, masking: Masking) -> Self {
         #[allow(clippy::cast_possible_truncation, reason = "an index below 4")]
-        let table = table_index(N::DISTRIBUTION, masking) as u8;
+        let table = table_index(N::TABLES, masking) as u8;
         let tables = &TABLES[usize::from(table)];
         let Alpha { x, y } = ndf.alpha();
-        let stencil = |width, count| Cubic::cubic(alpha_coordinate(width), count);
-        let (kind, root) = if x == y {
+        let stencil = |alpha, count| Cubic::cubic(alpha_coordinate(alpha), count);
+        let (interpolation, root) = if x == y {
             let stencil = stencil(x, ISOTROPIC_ALPHAS);
             let root = stencil.sum(|i| T::of(f64::from(tables.isotropic_average[i])));
-            (Kind::Isotropic { width: x, stencil }, root)
+            (Interpolation::Isotropic { alpha: x, stencil }, root)
         } else {
             let alpha_values = AlphaPair::new(x, y);
             let (low, high) = alpha_values.ordered();
@@ -126,7 +136,7 @@ impl<T: Real> Loss<T> {
             let averages = &tables.anisotropic_average;
             let root = low.sum(|i| high.sum(|j| T::of(f64::from(averages[pair(i, j).0]))));
             (
-                Kind::Anisotropic {
+                Interpolation::Anisotropic {
                     alpha_values,
                     low,
                     high,
@@ -137,8 +147,8 @@ impl<T: Real> Loss<T> {
         let scaled = root * average_scale(x, y);
         Self {
             table,
-            kind,
-            average: Real::clamp(scaled * scaled, T::of(1e-18), T::ONE),
+            interpolation,
+            average: (scaled * scaled).within(T::of(1e-18), T::ONE),
         }
     }
 
@@ -147,24 +157,24 @@ impl<T: Real> Loss<T> {
     /// * `wo`: unit, local frame.
     #[inline]
     pub fn directional(&self, wo: Vec3<T>) -> T {
-        let cosine = Real::min(wo.z.abs(), T::ONE);
+        let cosine = wo.z.abs().at_most(T::ONE);
         let tables = &TABLES[usize::from(self.table)];
-        let root = match &self.kind {
-            Kind::Isotropic { width, stencil } => {
-                let m = cosine_coordinate(cosine, *width);
+        let root = match &self.interpolation {
+            Interpolation::Isotropic { alpha, stencil } => {
+                let m = cosine_coordinate(cosine, *alpha);
                 isotropic(&tables.isotropic, stencil, m)
             }
-            Kind::Anisotropic {
+            Interpolation::Anisotropic {
                 alpha_values,
                 low,
                 high,
             } => {
                 let azimuth = alpha_values.azimuth(wo.x, wo.y);
-                let m = cosine_coordinate(cosine, azimuth.width);
+                let m = cosine_coordinate(cosine, azimuth.alpha);
                 anisotropic(tables.anisotropic, [low, high], azimuth.v, m)
             }
         };
-        Real::min(root * root, T::ONE)
+        (root * root).at_most(T::ONE)
     }
 
     /// `1 - E_avg`, in `(0, 1]`.

@@ -1,7 +1,7 @@
 //! The tables of lost energy.
 //!
 //! `tables/*.txt` are made by `cargo xtask tables`: values in base 94, most significant digit
-//! first, digits the characters from `!` to `~`. A number says how far a spline's coefficient
+//! first, digits the characters from `!` to `~`. An integer says how far a spline's coefficient
 //! (`spline`) lies between two limits.
 //!
 //! Large tables have two digits and are read as text (`rows`). Small ones are decoded when the crate
@@ -11,29 +11,28 @@
 use super::albedo::{
     ANISOTROPIC_COSINES, ANISOTROPIC_PAIRS, ANISOTROPIC_ROWS, ISOTROPIC_ALPHAS, ISOTROPIC_COSINES,
 };
-use super::dielectric_albedo::{
-    ALPHAS, COSINES, ETAS, STRETCHED_COSINES, STRETCHED_ETAS, STRETCHED_PAIRS, STRETCHED_ROWS,
-};
+use super::dielectric_albedo as interface;
 use super::rows::{AVERAGE_HIGH, AVERAGE_LOW, HIGH, LOW, Rows};
 
 /// Everything about one distribution and masking.
 pub(super) struct Tables {
-    /// `sqrt(1 - E)` by width and cosine.
+    /// `sqrt(1 - E)` by alpha and cosine.
     pub(super) isotropic: [[f32; ISOTROPIC_COSINES]; ISOTROPIC_ALPHAS],
-    /// `sqrt(1 - E_avg)` over its scale, by width.
+    /// `sqrt(1 - E_avg)` over its scale, by alpha.
     pub(super) isotropic_average: [f32; ISOTROPIC_ALPHAS],
     /// `sqrt(1 - E)` by pair of alphas, azimuth and cosine.
     pub(super) anisotropic: Rows<'static, ANISOTROPIC_COSINES>,
     /// `sqrt(1 - E_avg)` over its scale, by pair of alphas.
     pub(super) anisotropic_average: [f32; ANISOTROPIC_PAIRS],
-    /// `sqrt(1 - E)` of interfaces by index, width and cosine.
-    pub(super) interface: Rows<'static, COSINES>,
-    /// `sqrt(1 - E_avg)` of interfaces over its scale, by index and width.
-    pub(super) interface_average: [[f32; ALPHAS]; ETAS],
+    /// `sqrt(1 - E)` of interfaces by index, alpha and cosine.
+    pub(super) interface: Rows<'static, { interface::COSINES }>,
+    /// `sqrt(1 - E_avg)` of interfaces over its scale, by index and alpha.
+    pub(super) interface_average: [[f32; interface::ALPHAS]; interface::ETAS],
     /// `sqrt(1 - E)` of anisotropic interfaces by index, pair of alphas, azimuth and cosine.
-    pub(super) stretched: Rows<'static, STRETCHED_COSINES>,
+    pub(super) anisotropic_interface: Rows<'static, { interface::ANISOTROPIC_COSINES }>,
     /// `sqrt(1 - E_avg)` of anisotropic interfaces over its scale, by index and pair of alphas.
-    pub(super) stretched_average: [[f32; STRETCHED_PAIRS]; STRETCHED_ETAS],
+    pub(super) anisotropic_interface_average:
+        [[f32; interface::ANISOTROPIC_PAIRS]; interface::ANISOTROPIC_ETAS],
 }
 
 /// By distribution and masking.
@@ -43,33 +42,33 @@ pub(super) static TABLES: [Tables; 4] = [
         include_bytes!("tables/ggx_correlated.txt"),
         include_bytes!("tables/ggx_correlated_anisotropic.txt"),
         include_bytes!("tables/ggx_correlated_interface.txt"),
-        include_bytes!("tables/ggx_correlated_stretched.txt"),
+        include_bytes!("tables/ggx_correlated_interface_anisotropic.txt"),
     ),
     decode(
         include_bytes!("tables/ggx_separable.txt"),
         include_bytes!("tables/ggx_separable_anisotropic.txt"),
         include_bytes!("tables/ggx_separable_interface.txt"),
-        include_bytes!("tables/ggx_separable_stretched.txt"),
+        include_bytes!("tables/ggx_separable_interface_anisotropic.txt"),
     ),
     decode(
         include_bytes!("tables/beckmann_correlated.txt"),
         include_bytes!("tables/beckmann_correlated_anisotropic.txt"),
         include_bytes!("tables/beckmann_correlated_interface.txt"),
-        include_bytes!("tables/beckmann_correlated_stretched.txt"),
+        include_bytes!("tables/beckmann_correlated_interface_anisotropic.txt"),
     ),
     decode(
         include_bytes!("tables/beckmann_separable.txt"),
         include_bytes!("tables/beckmann_separable_anisotropic.txt"),
         include_bytes!("tables/beckmann_separable_interface.txt"),
-        include_bytes!("tables/beckmann_separable_stretched.txt"),
+        include_bytes!("tables/beckmann_separable_interface_anisotropic.txt"),
     ),
 ];
 
 const fn decode(
     small: &'static [u8],
     anisotropic: &'static [u8],
-    interface: &'static [u8],
-    stretched: &'static [u8],
+    isotropic_interface: &'static [u8],
+    anisotropic_interface: &'static [u8],
 ) -> Tables {
     let mut digits = Digits { text: small, at: 0 };
     let mut isotropic = [[0.0; ISOTROPIC_COSINES]; ISOTROPIC_ALPHAS];
@@ -80,16 +79,17 @@ const fn decode(
     }
     let isotropic_average = digits.row(4, AVERAGE_LOW, AVERAGE_HIGH);
     let anisotropic_average = digits.row(4, AVERAGE_LOW, AVERAGE_HIGH);
-    let mut interface_average = [[0.0; ALPHAS]; ETAS];
+    let mut interface_average = [[0.0; interface::ALPHAS]; interface::ETAS];
     i = 0;
-    while i < ETAS {
+    while i < interface::ETAS {
         interface_average[i] = digits.row(4, AVERAGE_LOW, AVERAGE_HIGH);
         i += 1;
     }
-    let mut stretched_average = [[0.0; STRETCHED_PAIRS]; STRETCHED_ETAS];
+    let mut anisotropic_interface_average =
+        [[0.0; interface::ANISOTROPIC_PAIRS]; interface::ANISOTROPIC_ETAS];
     i = 0;
-    while i < STRETCHED_ETAS {
-        stretched_average[i] = digits.row(4, AVERAGE_LOW, AVERAGE_HIGH);
+    while i < interface::ANISOTROPIC_ETAS {
+        anisotropic_interface_average[i] = digits.row(4, AVERAGE_LOW, AVERAGE_HIGH);
         i += 1;
     }
     Tables {
@@ -97,10 +97,10 @@ const fn decode(
         isotropic_average,
         anisotropic: Rows::new(anisotropic, ANISOTROPIC_ROWS),
         anisotropic_average,
-        interface: Rows::new(interface, ETAS * ALPHAS),
+        interface: Rows::new(isotropic_interface, interface::ETAS * interface::ALPHAS),
         interface_average,
-        stretched: Rows::new(stretched, STRETCHED_ROWS),
-        stretched_average,
+        anisotropic_interface: Rows::new(anisotropic_interface, interface::ANISOTROPIC_ROWS),
+        anisotropic_interface_average,
     }
 }
 
@@ -111,8 +111,8 @@ struct Digits {
 }
 
 impl Digits {
-    /// The next number of so many digits.
-    const fn number(&mut self, digits: u32) -> u32 {
+    /// The next integer of so many digits.
+    const fn integer(&mut self, digits: u32) -> u32 {
         let mut value = 0;
         let mut read = 0;
         while read < digits {
@@ -132,7 +132,7 @@ impl Digits {
         let mut values = [0.0; N];
         let mut i = 0;
         while i < N {
-            let value = low + step * self.number(digits) as f64;
+            let value = low + step * self.integer(digits) as f64;
             #[allow(clippy::cast_possible_truncation, reason = "rounding is meant")]
             let value = value as f32;
             values[i] = value;

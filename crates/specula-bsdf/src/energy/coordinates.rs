@@ -2,18 +2,18 @@
 //! root of a loss is smooth.
 //!
 //! ```text
-//! width      t(alpha), affine in sqrt(alpha / (alpha + 2)), alpha in [1e-4, 10]
+//! alpha      t(alpha), affine in sqrt(alpha / (alpha + 2)), alpha in [1e-4, 10]
 //! azimuth    v = ln(a / l) / ln(h / l),   a^2 = (l^2 x^2 + h^2 y^2) / (x^2 + y^2)
 //! cosine     m = 1 - sqrt(1 - sqrt(mu (1 + a) / (mu + a)))
 //! ```
 //!
-//! `a` is the width along the view, between the alphas `l < h` along x and y. Off a stretched
+//! `a` is the alpha along the view, between the alphas `l < h` along x and y. Off an anisotropic
 //! surface the loss changes where `tan phi ~ l / h`: the logarithm has room there at every ratio.
-//! For narrow lobes everything happens at `mu ~ a`, for which `m` has room at every width, and the
+//! For narrow lobes everything happens at `mu ~ a`, for which `m` has room at every alpha, and the
 //! inner root makes room for Beckmann's steep loss about normal incidence.
 //!
 //! Interfaces seen from the denser side have edges besides, along which light begins to pass: where
-//! the sine of the view is `eta`, and for a narrow width the view's part along it. With the bend
+//! the sine of the view is `eta`, and for a small alpha the view's part along it. With the bend
 //!
 //! ```text
 //! w = y (1 - e) / (y (1 - 2e) + e),   x = 2w - 1,   bend(y, e) = (1 + x sqrt(3 / (2 x^2 + 1))) / 2
@@ -30,14 +30,14 @@
 
 use crate::math::Real;
 
-/// The coordinate of a width.
+/// The coordinate of an alpha.
 #[inline(always)]
 pub fn alpha_coordinate<T: Real>(alpha: T) -> T {
     let root = (alpha / (alpha + T::TWO)).sqrt();
     (root - T::of(ROOT_START)) * T::of(1.0 / (ROOT_END - ROOT_START))
 }
 
-/// The width of a coordinate.
+/// The alpha of a coordinate.
 pub fn alpha_at(t: f64) -> f64 {
     let root = ROOT_START + t * (ROOT_END - ROOT_START);
     let share = root * root;
@@ -49,10 +49,10 @@ const ROOT_START: f64 = 0.007_070_891_041_799;
 /// `sqrt(10 / 12)`.
 const ROOT_END: f64 = 0.912_870_929_175_276_9;
 
-/// The coordinate of a cosine at a width along the view.
+/// The coordinate of a cosine at an alpha along the view.
 #[inline(always)]
-pub fn cosine_coordinate<T: Real>(cosine: T, width: T) -> T {
-    let share = cosine * (T::ONE + width) / (cosine + width);
+pub fn cosine_coordinate<T: Real>(cosine: T, alpha: T) -> T {
+    let share = cosine * (T::ONE + alpha) / (cosine + alpha);
     T::ONE - (T::ONE - share.sqrt()).safe_sqrt()
 }
 
@@ -60,8 +60,8 @@ pub fn cosine_coordinate<T: Real>(cosine: T, width: T) -> T {
 ///
 /// * `edge`: see [`edge`].
 #[inline(always)]
-pub fn interface_cosine_coordinate<T: Real>(cosine: T, width: T, edge: T) -> T {
-    T::of(0.7) * cosine_coordinate(cosine, width)
+pub fn interface_cosine_coordinate<T: Real>(cosine: T, alpha: T, edge: T) -> T {
+    T::of(0.7) * cosine_coordinate(cosine, alpha)
         + T::of(0.3) * bend(cosine * cosine, T::ONE - edge)
 }
 
@@ -81,8 +81,8 @@ pub struct AlphaPair<T> {
 /// A view as the tables see it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Azimuth<T> {
-    /// Width along the view.
-    pub width: T,
+    /// Alpha along the view.
+    pub alpha: T,
     /// Coordinate of the azimuth.
     pub v: T,
     /// Share of the squared sine along the narrow axis.
@@ -93,14 +93,14 @@ impl<T: Real> AlphaPair<T> {
     /// The alphas along x and y, in any order.
     #[inline]
     pub fn new(x: T, y: T) -> Self {
-        let (low, high) = (Real::min(x, y), Real::max(x, y));
+        let (low, high) = (x.at_most(y), x.at_least(y));
         let excess = (high - low) * (high + low) / (low * low);
         Self {
             low,
             high,
             excess,
-            // isotropic alpha have no azimuth; the floor keeps 0 / 0 away.
-            per_logarithm: T::ONE / Real::max((T::ONE + excess).ln(), T::EPSILON),
+            // Equal alphas have no azimuth; the floor prevents 0 / 0.
+            per_logarithm: T::ONE / ((T::ONE + excess).ln()).at_least(T::EPSILON),
             swapped: x > y,
         }
     }
@@ -121,7 +121,7 @@ impl<T: Real> AlphaPair<T> {
         let narrow = T::select(length2 > T::TINY, along / length2, T::HALF);
         let square = T::ONE + self.excess * (T::ONE - narrow);
         Azimuth {
-            width: self.low * square.sqrt(),
+            alpha: self.low * square.sqrt(),
             v: square.ln() * self.per_logarithm,
             narrow,
         }
@@ -153,8 +153,8 @@ fn bend<T: Real>(y: T, edge: T) -> T {
 /// What the tables of averages are scaled with: smooth, and the quotient varies slowly.
 #[inline(always)]
 pub fn average_scale<T: Real>(x: T, y: T) -> T {
-    let width = ((x * x + y * y) * T::HALF).sqrt();
-    width / (T::ONE + width)
+    let alpha = ((x * x + y * y) * T::HALF).sqrt();
+    alpha / (T::ONE + alpha)
 }
 
 #[cfg(test)]
@@ -180,7 +180,7 @@ mod tests {
                     let now = [
                         azimuth.v,
                         azimuth.interface(edge),
-                        interface_cosine_coordinate(u, azimuth.width, edge),
+                        interface_cosine_coordinate(u, azimuth.alpha, edge),
                     ];
                     for (now, before) in now.into_iter().zip(before) {
                         assert!(now >= before - 1e-9 && now < 1.0 + 1e-9, "{u} {edge}");

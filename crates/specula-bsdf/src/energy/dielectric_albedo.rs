@@ -24,7 +24,7 @@
 //! | anisotropic, alphas in [0.05, 1.5] | 2e-2 (1.2e-3) | 2e-2 (2.6e-3) |
 //! | anisotropic, alphas in [0.02, 2] | 3.1e-2 (1.8e-3) | 2e-2 (2.8e-3) |
 //!
-//! The isotropic table at the width along the view instead was wrong by 0.6 (rms 0.075).
+//! The isotropic table at the alpha along the view instead was wrong by 0.6 (rms 0.075).
 
 use super::albedo::{Tabulated, table_index};
 use super::albedo_tables::TABLES;
@@ -45,17 +45,17 @@ pub const ALPHAS: usize = 20;
 /// Cosines of the isotropic tables.
 pub const COSINES: usize = 22;
 /// Indices of the anisotropic tables.
-pub const STRETCHED_ETAS: usize = 12;
+pub const ANISOTROPIC_ETAS: usize = 12;
 /// Alphas of the anisotropic tables.
-pub const STRETCHED_ALPHAS: usize = 12;
+pub const ANISOTROPIC_ALPHAS: usize = 12;
 /// Azimuths of the anisotropic tables.
-pub const STRETCHED_AZIMUTHS: usize = 10;
+pub const ANISOTROPIC_AZIMUTHS: usize = 10;
 /// Cosines of the anisotropic tables.
-pub const STRETCHED_COSINES: usize = 14;
+pub const ANISOTROPIC_COSINES: usize = 14;
 /// Pairs of alphas of the anisotropic tables.
-pub const STRETCHED_PAIRS: usize = STRETCHED_ALPHAS * (STRETCHED_ALPHAS + 1) / 2;
+pub const ANISOTROPIC_PAIRS: usize = ANISOTROPIC_ALPHAS * (ANISOTROPIC_ALPHAS + 1) / 2;
 /// Lines of the anisotropic tables.
-pub const STRETCHED_ROWS: usize = STRETCHED_ETAS * STRETCHED_PAIRS * STRETCHED_AZIMUTHS;
+pub const ANISOTROPIC_ROWS: usize = ANISOTROPIC_ETAS * ANISOTROPIC_PAIRS * ANISOTROPIC_AZIMUTHS;
 
 /// The energy that single scattering loses on one side of an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,16 +64,17 @@ pub struct DielectricLoss<T> {
     /// First index of the half of the tables: losses differ too much across 1 to be interpolated.
     start: u8,
     edge: T,
-    kind: Kind<T>,
+    interpolation: Interpolation<T>,
     average: T,
 }
 
+/// Splines at the alphas and the index of an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind<T> {
+enum Interpolation<T> {
     Isotropic {
-        width: T,
+        alpha: T,
         eta: Cubic<T>,
-        alpha: Cubic<T>,
+        stencil: Cubic<T>,
     },
     Anisotropic {
         alpha_values: AlphaPair<T>,
@@ -88,35 +89,43 @@ impl<T: Real> DielectricLoss<T> {
     #[inline]
     pub fn new<N: Tabulated<T>>(ndf: N, masking: Masking, eta: T) -> Self {
         #[allow(clippy::cast_possible_truncation, reason = "an index below 4")]
-        let table = table_index(N::DISTRIBUTION, masking) as u8;
+        let table = table_index(N::TABLES, masking) as u8;
         let tables = &TABLES[usize::from(table)];
         let Alpha { x, y } = ndf.alpha();
-        let number = |value: f32| T::of(f64::from(value));
-        let (kind, start, root) = if x == y {
+        let entry = |value: f32| T::of(f64::from(value));
+        let (interpolation, start, root) = if x == y {
             let start = half(eta, ETAS);
             let eta = Cubic::cubic(eta_coordinate(eta), ETAS / 2);
-            let alpha = Cubic::cubic(alpha_coordinate(x), ALPHAS);
+            let stencil = Cubic::cubic(alpha_coordinate(x), ALPHAS);
             let averages = &tables.interface_average;
-            let root = eta.sum(|e| alpha.sum(|i| number(averages[start + e][i])));
-            let width = x;
-            (Kind::Isotropic { width, eta, alpha }, start, root)
+            let root = eta.sum(|e| stencil.sum(|i| entry(averages[start + e][i])));
+            let alpha = x;
+            (
+                Interpolation::Isotropic {
+                    alpha,
+                    eta,
+                    stencil,
+                },
+                start,
+                root,
+            )
         } else {
-            let start = half(eta, STRETCHED_ETAS);
-            let eta = Quadratic::quadratic(eta_coordinate(eta), STRETCHED_ETAS / 2);
+            let start = half(eta, ANISOTROPIC_ETAS);
+            let eta = Quadratic::quadratic(eta_coordinate(eta), ANISOTROPIC_ETAS / 2);
             let alpha_values = AlphaPair::new(x, y);
             let (low, high) = alpha_values.ordered();
-            let low = Quadratic::quadratic(alpha_coordinate(low), STRETCHED_ALPHAS);
-            let high = Quadratic::quadratic(alpha_coordinate(high), STRETCHED_ALPHAS);
-            let averages = &tables.stretched_average;
+            let low = Quadratic::quadratic(alpha_coordinate(low), ANISOTROPIC_ALPHAS);
+            let high = Quadratic::quadratic(alpha_coordinate(high), ANISOTROPIC_ALPHAS);
+            let averages = &tables.anisotropic_interface_average;
             let root =
-                eta.sum(|e| low.sum(|i| high.sum(|j| number(averages[start + e][pair(i, j).0]))));
-            let kind = Kind::Anisotropic {
+                eta.sum(|e| low.sum(|i| high.sum(|j| entry(averages[start + e][pair(i, j).0]))));
+            let interpolation = Interpolation::Anisotropic {
                 alpha_values,
                 eta,
                 low,
                 high,
             };
-            (kind, start, root)
+            (interpolation, start, root)
         };
         let scaled = root * average_scale(x, y);
         #[allow(clippy::cast_possible_truncation, reason = "some dozen indices")]
@@ -124,9 +133,9 @@ impl<T: Real> DielectricLoss<T> {
         Self {
             table,
             start,
-            edge: edge(Real::clamp(eta, T::of(1.0 / 3.0), T::of(3.0))),
-            kind,
-            average: Real::clamp(scaled * scaled, T::of(1e-18), T::ONE),
+            edge: edge(eta.within(T::of(1.0 / 3.0), T::of(3.0))),
+            interpolation,
+            average: (scaled * scaled).within(T::of(1e-18), T::ONE),
         }
     }
 
@@ -135,27 +144,36 @@ impl<T: Real> DielectricLoss<T> {
     /// * `wo`: unit, local frame.
     #[inline]
     pub fn directional(&self, wo: Vec3<T>) -> T {
-        let cosine = Real::min(wo.z.abs(), T::ONE);
+        let cosine = wo.z.abs().at_most(T::ONE);
         let tables = &TABLES[usize::from(self.table)];
         let start = usize::from(self.start);
-        let root = match &self.kind {
-            Kind::Isotropic { width, eta, alpha } => {
-                let m = interface_cosine_coordinate(cosine, *width, self.edge);
-                isotropic(tables.interface, start, [eta, alpha], m)
+        let root = match &self.interpolation {
+            Interpolation::Isotropic {
+                alpha,
+                eta,
+                stencil,
+            } => {
+                let m = interface_cosine_coordinate(cosine, *alpha, self.edge);
+                isotropic(tables.interface, start, [eta, stencil], m)
             }
-            Kind::Anisotropic {
+            Interpolation::Anisotropic {
                 alpha_values,
                 eta,
                 low,
                 high,
             } => {
                 let azimuth = alpha_values.azimuth(wo.x, wo.y);
-                let m = interface_cosine_coordinate(cosine, azimuth.width, self.edge);
+                let m = interface_cosine_coordinate(cosine, azimuth.alpha, self.edge);
                 let v = azimuth.interface(self.edge);
-                stretched(tables.stretched, start, [eta, low, high], [v, m])
+                anisotropic(
+                    tables.anisotropic_interface,
+                    start,
+                    [eta, low, high],
+                    [v, m],
+                )
             }
         };
-        Real::min(root * root, T::ONE)
+        (root * root).at_most(T::ONE)
     }
 
     /// `1 - E_avg`, in `(0, 1]`.
@@ -207,20 +225,20 @@ pub fn isotropic<T: Real>(
 /// `sqrt(1 - E)` of an anisotropic table at the coordinates of an azimuth and a cosine, from the
 /// first row of the half on.
 #[inline(always)]
-pub fn stretched<T: Real>(
-    table: Rows<STRETCHED_COSINES>,
+pub fn anisotropic<T: Real>(
+    table: Rows<ANISOTROPIC_COSINES>,
     start: usize,
     [eta, low, high]: [&Quadratic<T>; 3],
     [v, m]: [T; 2],
 ) -> T {
-    const EACH: usize = STRETCHED_PAIRS * STRETCHED_AZIMUTHS;
-    let azimuth = Quadratic::quadratic(v, STRETCHED_AZIMUTHS);
-    let cosine = Quadratic::quadratic(m, STRETCHED_COSINES);
-    Rows::<STRETCHED_COSINES>::coefficient(eta.sum(|e| {
+    const EACH: usize = ANISOTROPIC_PAIRS * ANISOTROPIC_AZIMUTHS;
+    let azimuth = Quadratic::quadratic(v, ANISOTROPIC_AZIMUTHS);
+    let cosine = Quadratic::quadratic(m, ANISOTROPIC_COSINES);
+    Rows::<ANISOTROPIC_COSINES>::coefficient(eta.sum(|e| {
         low.sum(|i| {
             high.sum(|j| {
                 azimuth.sum(|v| {
-                    let row = row(i, j, v, STRETCHED_AZIMUTHS);
+                    let row = row(i, j, v, ANISOTROPIC_AZIMUTHS);
                     table.sum((start + e) * EACH + row, &cosine)
                 })
             })

@@ -45,12 +45,12 @@ pub fn transmittance<T: Real>(coat: Option<Ggx<T>>, eta: T, mu: T) -> T {
     let Some(ggx) = coat else {
         return dielectric(mu, eta).transmittance;
     };
-    let alpha = width(ggx);
+    let alpha = mean_alpha(ggx);
     let smooth = dielectric(effective_cosine(mu, alpha), eta).transmittance;
     let (e, a) = (eta_knot(eta, ETAS), alpha_knot(alpha, ALPHAS));
     let m = cosine_knot(mu, MUS);
     let quotient = e.lerp(|i| a.lerp(|j| m.lerp(|k| table(TRANSMITTANCE[i][j][k]))));
-    Real::clamp(smooth * quotient, T::ZERO, T::ONE)
+    (smooth * quotient).within(T::ZERO, T::ONE)
 }
 
 /// Share of diffuse light from inside that is reflected.
@@ -62,7 +62,7 @@ pub fn internal_reflectance<T: Real>(coat: Option<Ggx<T>>, eta: T) -> T {
     let Some(ggx) = coat else {
         return dielectric_average(T::ONE / eta);
     };
-    let (e, a) = (eta_knot(eta, ETAS), alpha_knot(width(ggx), ALPHAS));
+    let (e, a) = (eta_knot(eta, ETAS), alpha_knot(mean_alpha(ggx), ALPHAS));
     e.lerp(|i| a.lerp(|j| table(INTERNAL_REFLECTANCE[i][j])))
 }
 
@@ -76,10 +76,11 @@ pub(super) fn alpha_knot<T: Real>(alpha: T, count: usize) -> Knot<T> {
 }
 
 pub(super) fn cosine_knot<T: Real>(mu: T, count: usize) -> Knot<T> {
-    Knot::new(Real::clamp(mu, T::ZERO, T::ONE).sqrt(), 1.0, count)
+    Knot::new(mu.within(T::ZERO, T::ONE).sqrt(), 1.0, count)
 }
 
-pub(super) fn width<T: Real>(ggx: Ggx<T>) -> T {
+/// The alpha that stands for both: `sqrt(alpha_x alpha_y)`.
+pub(super) fn mean_alpha<T: Real>(ggx: Ggx<T>) -> T {
     (ggx.alpha().x * ggx.alpha().y).sqrt()
 }
 
@@ -100,7 +101,7 @@ impl<T: Real> Knot<T> {
     pub(super) fn new(x: T, end: f64, count: usize) -> Self {
         #[allow(clippy::cast_precision_loss, reason = "a dozen knots")]
         let last = (count - 1) as f64;
-        let place = Real::clamp(x * T::of(last / end), T::ZERO, T::of(last));
+        let place = (x * T::of(last / end)).within(T::ZERO, T::of(last));
         #[allow(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,

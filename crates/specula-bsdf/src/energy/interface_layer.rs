@@ -1,8 +1,9 @@
 //! What an absorbing layer under a dielectric interface takes, for coats.
 //!
-//! Light that crosses a layer of optical thickness `t` at the cosine `mu` keeps `exp(-t / mu)`. Of
-//! light that entered at the cosine `mu`, with `<>` the mean over where the interface sends it, and
-//! of diffuse light that the interface reflects inside, up at `mu_i` and down at `mu_r`:
+//! The transmittance of a layer of optical thickness `t` at the cosine `mu` is `exp(-t / mu)`. Its
+//! mean `<>` over the directions that a rough interface refracts to, of light from outside at the
+//! cosine `mu`, and over those of diffuse light that the interface reflects inside, up at `mu_i` and
+//! down at `mu_r`:
 //!
 //! ```text
 //! crossing(mu) = <exp(-t / mu')>
@@ -22,7 +23,9 @@
 //! | 0.01 | 4e-3 | 2e-3 |
 //! | 0.1, 1 | 1.5e-2 | 6e-3 |
 
-use super::interface::{Knot, alpha_knot, cosine_knot, effective_cosine, eta_knot, table, width};
+use super::interface::{
+    Knot, alpha_knot, cosine_knot, effective_cosine, eta_knot, mean_alpha, table,
+};
 use super::interface_single_table::{
     ABSORPTION_ALPHAS, ABSORPTION_MUS, CROSSING, ETAS, THERE_AND_BACK, THICKNESSES,
 };
@@ -41,7 +44,7 @@ impl<T: Real> Layer<T> {
     /// * `thickness`: optical, from 0 up.
     #[inline]
     pub fn new(thickness: T) -> Self {
-        let thickness = Real::clamp(thickness, T::ZERO, T::of(1e6));
+        let thickness = thickness.within(T::ZERO, T::of(1e6));
         let share = thickness / (T::ONE + thickness);
         Self {
             thickness,
@@ -67,7 +70,7 @@ impl<T: Real> Layer<T> {
         let Some(ggx) = coat else {
             return self.left(dielectric(mu, eta).cos_t);
         };
-        let alpha = width(ggx);
+        let alpha = mean_alpha(ggx);
         let refracted = dielectric(effective_cosine(mu, alpha), eta).cos_t;
         let (e, a) = (eta_knot(eta, ETAS), alpha_knot(alpha, ABSORPTION_ALPHAS));
         let m = cosine_knot(mu, ABSORPTION_MUS);
@@ -86,7 +89,7 @@ impl<T: Real> Layer<T> {
             return T::ONE;
         }
         let e = eta_knot(eta, ETAS);
-        let a = alpha_knot(coat.map_or(T::ZERO, width), ABSORPTION_ALPHAS);
+        let a = alpha_knot(coat.map_or(T::ZERO, mean_alpha), ABSORPTION_ALPHAS);
         let row = |i: usize, j: usize| self.place.lerp(|l| table(THERE_AND_BACK[i][j][l]));
         self.left(e.lerp(|i| a.lerp(|j| row(i, j))))
     }
@@ -94,6 +97,6 @@ impl<T: Real> Layer<T> {
     /// `exp(-t / cos)`.
     #[inline(always)]
     fn left(&self, cos: T) -> T {
-        (-self.thickness / Real::max(cos, T::TINY)).exp()
+        (-self.thickness / cos.at_least(T::TINY)).exp()
     }
 }

@@ -17,7 +17,7 @@
 //! `single_scattering_holds_its_bounds`): 8e-3 of `T`, 2e-3 of `R_int`. Anisotropic alphas are taken
 //! as `sqrt(alpha_x alpha_y)`.
 
-use super::interface::{alpha_knot, cosine_knot, effective_cosine, eta_knot, table, width};
+use super::interface::{alpha_knot, cosine_knot, effective_cosine, eta_knot, mean_alpha, table};
 use super::interface_single_table::{
     ALPHAS, ETAS, INTERNAL_ETAS, INTERNAL_REFLECTANCE, MUS, TRANSMITTANCE,
 };
@@ -34,12 +34,12 @@ pub fn transmittance<T: Real>(coat: Option<Ggx<T>>, eta: T, mu: T) -> T {
     let Some(ggx) = coat else {
         return dielectric(mu, eta).transmittance;
     };
-    let alpha = width(ggx);
+    let alpha = mean_alpha(ggx);
     let smooth = dielectric(effective_cosine(mu, alpha), eta).transmittance;
     let (e, a) = (eta_knot(eta, ETAS), alpha_knot(alpha, ALPHAS));
     let m = cosine_knot(mu, MUS);
     let quotient = e.lerp(|i| a.lerp(|j| m.lerp(|k| table(TRANSMITTANCE[i][j][k]))));
-    Real::clamp(smooth * quotient, T::ZERO, T::ONE)
+    (smooth * quotient).within(T::ZERO, T::ONE)
 }
 
 /// Share of the light from outside at the cosine `mu` that the interface reflects, roughly: Fresnel's
@@ -47,7 +47,7 @@ pub fn transmittance<T: Real>(coat: Option<Ggx<T>>, eta: T, mu: T) -> T {
 #[inline]
 pub fn reflectance_estimate<T: Real>(coat: Option<Ggx<T>>, eta: T, mu: T) -> T {
     let mu = match coat {
-        Some(ggx) => effective_cosine(mu, width(ggx)),
+        Some(ggx) => effective_cosine(mu, mean_alpha(ggx)),
         None => mu,
     };
     dielectric(mu, eta).reflectance
@@ -63,7 +63,7 @@ pub fn internal_reflectance<T: Real>(coat: Option<Ggx<T>>, eta: T) -> T {
         return dielectric_average(T::ONE / eta);
     };
     let e = eta_knot(eta, INTERNAL_ETAS);
-    let a = alpha_knot(width(ggx), ALPHAS);
+    let a = alpha_knot(mean_alpha(ggx), ALPHAS);
     let quotient = e.lerp(|i| a.lerp(|j| table(INTERNAL_REFLECTANCE[i][j])));
     quotient * (T::ONE - T::ONE / (eta * eta))
 }

@@ -1,4 +1,4 @@
-//! Energy: what single scattering loses, what brings it back, and what an interface passes on.
+//! Energy: what single scattering loses, what compensates for it, and what an interface transmits.
 //!
 //! | file | what |
 //! |---|---|
@@ -7,7 +7,7 @@
 //! | `coordinates` | where the tables have their knots |
 //! | `spline`, `rows`, `pairs` | splines, and how their coefficients are stored |
 //! | `stencil` | neighbouring knots of a table of values |
-//! | `values` | all tables as plain values, for shaders |
+//! | `raw_tables` | all tables as plain values, for shaders |
 //! | `fit` | the directional loss as a short formula, for shaders |
 //! | `model` | Turquin's and Kulla and Conty's factors |
 //! | `fresnel_average` | cosine-averaged reflectance |
@@ -15,24 +15,25 @@
 //! | `interface_single` | the same where facets scatter once |
 //! | `interface_layer` | what an absorbing layer under the interface takes |
 
-pub mod albedo;
+pub(crate) mod albedo;
 mod albedo_tables;
-pub mod coordinates;
-pub mod dielectric_albedo;
-pub mod fit;
-pub mod fresnel_average;
-pub mod interface;
-pub mod interface_layer;
-pub mod interface_single;
+pub(crate) mod coordinates;
+pub(crate) mod dielectric_albedo;
+mod fit;
+pub(crate) mod fresnel_average;
+pub(crate) mod interface;
+pub(crate) mod interface_layer;
+pub(crate) mod interface_single;
 mod interface_single_table;
 mod interface_table;
-pub mod model;
-pub mod pairs;
-pub mod raw_tables;
-pub mod rows;
-pub mod spline;
-pub mod stencil;
+pub(crate) mod model;
+pub(crate) mod pairs;
+pub(crate) mod raw_tables;
+pub(crate) mod rows;
+pub(crate) mod spline;
+pub(crate) mod stencil;
 
 pub use albedo::{Loss, Tabulated};
 pub use dielectric_albedo::DielectricLoss;
-pub use model::{EnergyModel, FmsVariant};
+pub use fit::ggx_loss;
+pub use model::{EnergyModel, FmsVariant, UnknownEnergyModel};

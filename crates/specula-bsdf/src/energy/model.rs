@@ -8,16 +8,19 @@
 //! Kulla and Conty 2017:          f = f_ss + F_ms L(wo) L(wi) / (pi L_avg)
 //! ```
 //!
-//! Both reflect all light where `F = 1`. Kulla and Conty's is reciprocal; Turquin's is not, but it
-//! keeps the shape and the sampler of the single-scattering lobe.
+//! Both reflect all light where `F = 1`. Kulla and Conty's is reciprocal; Turquin's is not, but its
+//! lobe has the shape and the sampler of the single-scattering one.
 
+use alloc::borrow::ToOwned;
+use alloc::string::String;
 use core::fmt;
 use core::str::FromStr;
 
 use crate::math::{Real, Rgb};
 
-/// The colour of the light that Turquin's factor brings back.
+/// The colour of the light that Turquin's factor adds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum FmsVariant {
     /// `F_ms = F0`, the reflectance at normal incidence: one more bounce. Turquin 2019.
     #[default]
@@ -32,8 +35,9 @@ pub enum FmsVariant {
     AverageSeries,
 }
 
-/// How a rough metal regains what single scattering loses.
+/// How a rough metal compensates for the energy that single scattering loses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum EnergyModel {
     /// The single-scattering lobe scaled by view. Turquin 2019, Practical multiple scattering
     /// compensation for microfacet models.
@@ -53,7 +57,7 @@ impl fmt::Display for EnergyModel {
     }
 }
 
-/// A name that is no compensation's.
+/// A name of no energy compensation.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no such energy compensation: '{0}' (expected turquin, turquin-series or kulla-conty)")]
 pub struct UnknownEnergyModel(pub String);
@@ -82,7 +86,7 @@ impl FromStr for EnergyModel {
 /// Source: Kulla and Conty 2017.
 #[inline(always)]
 pub fn further_bounces<T: Real>(average: Rgb<T>, loss: T) -> Rgb<T> {
-    average.map(|f| f * (T::ONE - loss) / Real::max(T::ONE - f * loss, T::TINY))
+    average.map(|f| f * (T::ONE - loss) / (T::ONE - f * loss).at_least(T::TINY))
 }
 
 #[cfg(test)]

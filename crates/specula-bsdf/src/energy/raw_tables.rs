@@ -1,5 +1,7 @@
 //! The tables as plain values, for shaders, which cannot read the text that they are stored in.
 
+use alloc::vec::Vec;
+
 use super::albedo_tables::TABLES;
 use super::{interface_single_table, interface_table};
 
@@ -24,10 +26,13 @@ pub fn losses(table: usize) -> [NamedTable; 8] {
             "INTERFACE_AVERAGE",
             t.interface_average.as_flattened().to_vec(),
         ),
-        ("STRETCHED", t.stretched.values().collect()),
         (
-            "STRETCHED_AVERAGE",
-            t.stretched_average.as_flattened().to_vec(),
+            "INTERFACE_ANISOTROPIC",
+            t.anisotropic_interface.values().collect(),
+        ),
+        (
+            "INTERFACE_ANISOTROPIC_AVERAGE",
+            t.anisotropic_interface_average.as_flattened().to_vec(),
         ),
     ]
 }

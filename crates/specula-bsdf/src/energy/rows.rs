@@ -20,7 +20,7 @@ pub const HIGH: f64 = 3.0;
 pub const AVERAGE_LOW: f64 = -4.0;
 /// Largest coefficient of the averages' tables.
 pub const AVERAGE_HIGH: f64 = 12.0;
-/// Largest number of two digits.
+/// Largest code of two digits.
 const LARGEST: f64 = 8835.0;
 /// The digits of 0, `!!`, as they are read.
 const ZERO: f64 = 33.0 * 95.0;
@@ -43,8 +43,8 @@ impl<'a, const N: usize> Rows<'a, N> {
         let (digits, _) = self.text[start..start + 2 * K].as_chunks::<2>();
         let mut sum = T::ZERO;
         for (&[first, second], &weight) in digits.iter().zip(stencil.weights()) {
-            let number = u16::from(first) * 94 + u16::from(second);
-            sum += weight * T::of(f64::from(number));
+            let code = u16::from(first) * 94 + u16::from(second);
+            sum += weight * T::of(f64::from(code));
         }
         sum
     }
@@ -55,8 +55,8 @@ impl<'a, const N: usize> Rows<'a, N> {
             line[..2 * N].as_chunks::<2>().0.iter().map(|digits| {
                 let [first, second] = digits.map(f64::from);
                 #[allow(clippy::cast_possible_truncation, reason = "rounding is meant")]
-                let number = Self::coefficient(first * 94.0 + second) as f32;
-                number
+                let code = Self::coefficient(first * 94.0 + second) as f32;
+                code
             })
         })
     }

@@ -53,7 +53,7 @@ impl<T: Real> Spline<T, 3> {
 fn cell<T: Real>(x: T, cells: usize) -> (u16, T) {
     #[allow(clippy::cast_precision_loss, reason = "some dozen cells")]
     let end = T::of(cells as f64);
-    let place = Real::clamp(x * end, T::ZERO, end);
+    let place = (x * end).within(T::ZERO, end);
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

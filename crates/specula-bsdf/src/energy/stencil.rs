@@ -18,7 +18,7 @@ impl<T: Real> Stencil<T> {
     pub fn new(x: T, count: usize) -> Self {
         #[allow(clippy::cast_precision_loss, reason = "some dozen knots")]
         let last = T::of((count - 1) as f64);
-        let place = Real::clamp(x * last, T::ZERO, last);
+        let place = (x * last).within(T::ZERO, last);
         #[allow(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,

@@ -4,6 +4,7 @@ use crate::math::{Real, Rgb, rgb};
 
 /// Unpolarised reflectance of an interface with a complex index of refraction, per channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Conductor<T> {
     /// Real part of the index relative to the outer medium.
     pub eta: Rgb<T>,
@@ -27,7 +28,7 @@ impl<T: Real> Conductor<T> {
     /// Source: Born and Wolf, Principles of Optics, 14.2; Fresnel's equations for a complex index.
     #[inline(always)]
     pub fn eval(&self, cos: T) -> Rgb<T> {
-        let cos = Real::clamp(cos, T::ZERO, T::ONE);
+        let cos = cos.within(T::ZERO, T::ONE);
         let quotient = |eta, k| quotient(cos, eta, k);
         let (r, g, b) = (
             quotient(self.eta.r, self.k.r),
@@ -38,7 +39,7 @@ impl<T: Real> Conductor<T> {
         let green_blue = g.1 * b.1;
         let inverse = T::ONE / (r.1 * green_blue);
         let red = r.1 * inverse;
-        let f = |x| Real::clamp(x, T::ZERO, T::ONE);
+        let f = |x: T| x.within(T::ZERO, T::ONE);
         rgb(
             f(r.0 * (green_blue * inverse)),
             f(g.0 * (b.1 * red)),
@@ -60,21 +61,21 @@ impl<T: Real> Conductor<T> {
 /// Numerator and denominator of `(Rs + Rp) / 2`.
 #[inline(always)]
 fn quotient<T: Real>(cos: T, eta: T, k: T) -> (T, T) {
-    // Beyond 1000 everything reflects alike; the limit keeps products of denominators in range.
+    // Beyond 1000 everything reflects alike; the limit bounds products of denominators.
     let limit = T::of(1e3);
-    let (eta, k) = (Real::min(eta, limit), Real::min(k, limit));
+    let (eta, k) = (eta.at_most(limit), k.at_most(limit));
     let (eta2, k2) = (eta * eta, k * k);
     let cos2 = cos * cos;
     let sin2 = T::ONE - cos2;
     // eta^2 - k^2 - sin^2, added up so that at an index of 1 nothing cancels at grazing angles.
     let t = (eta2 - T::ONE - k2) + cos2;
-    let a2_plus_b2 = t.mul_add(t, T::of(4.0) * eta2 * k2).sqrt();
+    let a2_plus_b2 = t.mad(t, T::of(4.0) * eta2 * k2).sqrt();
     let s = a2_plus_b2 + cos2;
     let s2 = cos * (T::TWO * (a2_plus_b2 + t)).safe_sqrt();
-    let p = cos2.mul_add(a2_plus_b2, sin2 * sin2);
-    let p2 = s2.mul_add(sin2, p);
+    let p = cos2.mad(a2_plus_b2, sin2 * sin2);
+    let p2 = s2.mad(sin2, p);
     // An index of exactly 1 reflects nothing, and at grazing angles leaves 0/0.
-    ((s - s2) * p, Real::max((s + s2) * p2, T::of(1e-12)))
+    ((s - s2) * p, ((s + s2) * p2).at_least(T::of(1e-12)))
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use crate::math::{Real, Vec3};
 
 /// What becomes of light at a dielectric interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Refraction<T> {
     /// Share that is reflected, in `[0, 1]`; 1 beyond the critical angle.
     pub reflectance: T,
@@ -29,7 +30,7 @@ pub struct Refraction<T> {
 /// grazing.
 #[inline(always)]
 pub fn dielectric<T: Real>(cos: T, eta: T) -> Refraction<T> {
-    let cos = Real::clamp(cos, T::ZERO, T::ONE);
+    let cos = cos.within(T::ZERO, T::ONE);
     let refracted = (eta - T::ONE) * (eta + T::ONE) + cos * cos;
     refraction(cos, refracted / (eta * eta), eta)
 }
@@ -40,13 +41,13 @@ pub fn dielectric<T: Real>(cos: T, eta: T) -> Refraction<T> {
 pub(crate) fn refraction<T: Real>(cos: T, cos2_t: T, eta: T) -> Refraction<T> {
     let passes = cos2_t > T::ZERO;
     let cos_t = cos2_t.safe_sqrt();
-    let inverse_s = T::ONE / Real::max(cos + eta * cos_t, T::TINY);
-    let inverse_p = T::ONE / Real::max(eta * cos + cos_t, T::TINY);
+    let inverse_s = T::ONE / (cos + eta * cos_t).at_least(T::TINY);
+    let inverse_p = T::ONE / (eta * cos + cos_t).at_least(T::TINY);
     let rs = (cos - eta * cos_t) * inverse_s;
     let rp = (eta * cos - cos_t) * inverse_p;
-    let reflectance = Real::min(T::HALF * (rs * rs + rp * rp), T::ONE);
+    let reflectance = (T::HALF * (rs * rs + rp * rp)).at_most(T::ONE);
     let fluxes = inverse_s * inverse_s + inverse_p * inverse_p;
-    let transmittance = Real::min(T::TWO * eta * cos * cos_t * fluxes, T::ONE);
+    let transmittance = (T::TWO * eta * cos * cos_t * fluxes).at_most(T::ONE);
     Refraction {
         reflectance: T::select(passes, reflectance, T::ONE),
         transmittance: T::select(passes, transmittance, T::ZERO),

@@ -40,12 +40,12 @@ impl<T: Real> F82Tint<T> {
     /// Reflectance at `cos`, in `[0, 1]`.
     #[inline(always)]
     pub fn eval(&self, cos: T) -> Rgb<T> {
-        let m = Real::clamp(T::ONE - cos, T::ZERO, T::ONE);
+        let m = (T::ONE - cos).within(T::ZERO, T::ONE);
         let m3 = m * m * m;
-        let hump = Real::clamp(cos, T::ZERO, T::ONE) * m3 * m3;
+        let hump = cos.within(T::ZERO, T::ONE) * m3 * m3;
         self.schlick
             .eval(cos)
-            .zip(self.hump, |f, b| Real::clamp(f - b * hump, T::ZERO, T::ONE))
+            .zip(self.hump, |f, b| (f - b * hump).within(T::ZERO, T::ONE))
     }
 }
 

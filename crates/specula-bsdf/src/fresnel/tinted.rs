@@ -1,4 +1,4 @@
-//! A reflectance with a colour that nature does not know.
+//! A reflectance times a colour.
 
 use super::{Conductor, F82Tint, Reflectance, Schlick};
 use crate::math::{Real, Rgb};
@@ -12,7 +12,7 @@ pub struct Tinted<T> {
     pub(crate) of: Untinted<T>,
 }
 
-/// What is tinted.
+/// The reflectance under a tint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Untinted<T> {
     Conductor(Conductor<T>),

@@ -4,6 +4,7 @@ use super::{Real, Vec3, vec3};
 
 /// A right-handed orthonormal frame; `n` is the local z.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Frame<T> {
     /// Local x (along `alpha_x`).
     pub s: Vec3<T>,

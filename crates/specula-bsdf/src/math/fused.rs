@@ -1,10 +1,11 @@
-//! Floats whose multiplication and addition round once.
+//! Floats whose [`mad`](Real::mad) rounds once.
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
+use super::platform::platform;
 use super::{Real, turns};
 
-/// A float that differs in one operation: [`mul_add`](Real::mul_add) is fused.
+/// A float that differs in one operation: [`mad`](Real::mad) is fused.
 ///
 /// The batch kernels compute in it where the machine has the instruction; elsewhere each fused
 /// operation is a call of the platform's library, right and slow.
@@ -40,7 +41,7 @@ macro_rules! forward {
 }
 
 macro_rules! impl_fused {
-    ($t:ident, $turns:path) => {
+    ($t:ident, $fma:ident, $turns:path) => {
         operator!($t: Add add AddAssign add_assign, Sub sub SubAssign sub_assign,
             Mul mul MulAssign mul_assign, Div div DivAssign div_assign);
 
@@ -75,16 +76,16 @@ macro_rules! impl_fused {
                 self.0.to_f64()
             }
             #[inline(always)]
-            fn mul_add(self, factor: Self, term: Self) -> Self {
-                Self($t::mul_add(self.0, factor.0, term.0))
+            fn mad(self, factor: Self, term: Self) -> Self {
+                Self(platform!($t::mul_add or $fma(self.0, factor.0, term.0)))
             }
             #[inline(always)]
-            fn mul_add_once(self, factor: Self, term: Self) -> Self {
-                self.mul_add(factor, term)
+            fn mad_exact_product(self, factor: Self, term: Self) -> Self {
+                self.mad(factor, term)
             }
             #[inline(always)]
             fn atan2(self, x: Self) -> Self {
-                Self(self.0.atan2(x.0))
+                Self(Real::atan2(self.0, x.0))
             }
             #[inline(always)]
             fn sin_cos_turns(self) -> (Self, Self) {
@@ -96,7 +97,7 @@ macro_rules! impl_fused {
             }
             #[inline(always)]
             fn copysign(self, sign: Self) -> Self {
-                Self(self.0.copysign(sign.0))
+                Self(Real::copysign(self.0, sign.0))
             }
             #[inline(always)]
             fn unit_from_bits(bits: u64) -> Self {
@@ -106,8 +107,8 @@ macro_rules! impl_fused {
     };
 }
 
-impl_fused!(f32, turns::sin_cos_f32);
-impl_fused!(f64, turns::sin_cos_f64);
+impl_fused!(f32, fmaf, turns::sin_cos_f32);
+impl_fused!(f64, fma, turns::sin_cos_f64);
 
 #[cfg(test)]
 mod tests {
@@ -116,8 +117,8 @@ mod tests {
     #[test]
     fn only_the_fused_operation_rounds_once() {
         let x = 1.0_f32 + 3.0 * f32::EPSILON;
-        let plain = Real::mul_add(x, x, -1.0);
-        let fused = Fused(x).mul_add(Fused(x), Fused(-1.0));
+        let plain = x.mad(x, -1.0);
+        let fused = Fused(x).mad(Fused(x), Fused(-1.0));
         assert_eq!(plain, x * x - 1.0);
         assert_eq!(fused.0, x.mul_add(x, -1.0));
         assert_ne!(plain, fused.0);

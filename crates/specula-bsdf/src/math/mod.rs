@@ -3,12 +3,17 @@
 mod arccosine;
 mod frame;
 mod fused;
+mod platform;
 mod real;
 mod rgb;
 mod stream;
 mod turns;
 mod vec3;
 pub mod warp;
+#[cfg(feature = "glam")]
+mod with_glam;
+#[cfg(feature = "mint")]
+mod with_mint;
 
 pub(crate) use arccosine::acos;
 pub use frame::Frame;

@@ -3,6 +3,7 @@
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
+use super::platform::platform;
 use super::{Fused, turns};
 
 mod sealed {
@@ -13,12 +14,16 @@ mod sealed {
     impl Sealed for crate::math::Fused<f64> {}
 }
 
-/// A floating-point scalar. Sealed: `f32` and `f64` are all there are.
+/// A floating-point scalar: `f32` or `f64`. Sealed.
 ///
 /// Formulas are written once over `Real`, in the branch-free form that compilers vectorise:
-/// [`min`](Real::min), [`max`](Real::max) and [`select`](Real::select) compile to one instruction
-/// each (they do not honour NaN as `f32::min` does: where an operand is NaN, the other is returned
-/// only if it stands second).
+/// [`at_least`](Real::at_least), [`at_most`](Real::at_most) and [`select`](Real::select) compile to
+/// one instruction each.
+///
+/// Methods that share a name with one of `f32` and `f64` return what that returns. What differs from
+/// the standard library has a name of its own: [`mad`](Real::mad) is not `mul_add`, which is fused;
+/// [`at_least`](Real::at_least), [`at_most`](Real::at_most) and [`within`](Real::within) turn NaN
+/// into a bound, where `max` and `min` ignore it and `clamp` returns it.
 pub trait Real:
     sealed::Sealed
     + Copy
@@ -56,7 +61,7 @@ pub trait Real:
     const TINY: Self;
     /// Largest finite number.
     const MAX: Self;
-    /// The same values with fused [`mul_add`](Real::mul_add).
+    /// The same values with a fused [`mad`](Real::mad).
     #[doc(hidden)]
     type Fused: Real;
 
@@ -64,14 +69,15 @@ pub trait Real:
     fn of(x: f64) -> Self;
     /// This number as `f64`, exactly.
     fn to_f64(self) -> f64;
-    /// `self * factor + term`: rounded twice by `f32` and `f64`, so that scalar results are the same
-    /// on every machine; once inside the batch kernels, where the machine has the instruction.
-    fn mul_add(self, factor: Self, term: Self) -> Self;
-    /// `self * factor + term` with the product as it is: rounded once where
-    /// [`mul_add`](Real::mul_add) is fused, within a thousandth of that for `f32` otherwise (through
-    /// `f64`), and twice for `f64`. For sums that cancel.
+    /// `self * factor + term`, as HLSL's `mad`: two roundings on `f32` and `f64`, so that scalar
+    /// results are the same on every machine; one inside the batch kernels at the levels that have
+    /// the instruction.
+    fn mad(self, factor: Self, term: Self) -> Self;
+    /// `self * factor + term` with an unrounded product, for sums that cancel: one rounding where
+    /// [`mad`](Real::mad) is fused; otherwise through `f64`, which is within a thousandth of an ulp
+    /// of that for `f32`, and two roundings for `f64`.
     #[inline(always)]
-    fn mul_add_once(self, factor: Self, term: Self) -> Self {
+    fn mad_exact_product(self, factor: Self, term: Self) -> Self {
         Self::of(self.to_f64() * factor.to_f64() + term.to_f64())
     }
     /// Square root; NaN below zero.
@@ -84,9 +90,11 @@ pub trait Real:
     fn exp(self) -> Self;
     /// Natural logarithm.
     fn ln(self) -> Self;
-    /// The sine, in radians, by the platform's library: for code that is not a kernel.
+    /// The sine, in radians, by the platform's library. Kernels take
+    /// [`sin_cos_turns`](Real::sin_cos_turns).
     fn sin(self) -> Self;
-    /// The cosine, in radians, by the platform's library: for code that is not a kernel.
+    /// The cosine, in radians, by the platform's library. Kernels take
+    /// [`sin_cos_turns`](Real::sin_cos_turns).
     fn cos(self) -> Self;
     /// The angle in radians, in `(-pi, pi]`, of the point `(x, self)`.
     fn atan2(self, x: Self) -> Self;
@@ -107,16 +115,16 @@ pub trait Real:
     /// The leading bits of a random word as a number in `[0, 1)`.
     fn unit_from_bits(bits: u64) -> Self;
 
-    /// The smaller; `other` where `self` is NaN.
+    /// `self`, or `bound` where `self` is smaller or NaN.
     #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        if self < other { self } else { other }
+    fn at_least(self, bound: Self) -> Self {
+        if self > bound { self } else { bound }
     }
 
-    /// The larger; `other` where `self` is NaN.
+    /// `self`, or `bound` where `self` is larger or NaN.
     #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        if self > other { self } else { other }
+    fn at_most(self, bound: Self) -> Self {
+        if self < bound { self } else { bound }
     }
 
     /// `if_true` or `if_false`, both already computed.
@@ -125,10 +133,10 @@ pub trait Real:
         if condition { if_true } else { if_false }
     }
 
-    /// `self` limited to `[low, high]`.
+    /// `self` limited to `[low, high]`; `low` where `self` is NaN.
     #[inline(always)]
-    fn clamp(self, low: Self, high: Self) -> Self {
-        Real::min(Real::max(self, low), high)
+    fn within(self, low: Self, high: Self) -> Self {
+        self.at_least(low).at_most(high)
     }
 
     /// `self * self`.
@@ -137,15 +145,19 @@ pub trait Real:
         self * self
     }
 
-    /// `sqrt(max(self, 0))`.
+    /// Square root; 0 below zero and of NaN.
     #[inline(always)]
     fn safe_sqrt(self) -> Self {
-        Real::max(self, Self::ZERO).sqrt()
+        self.at_least(Self::ZERO).sqrt()
     }
 }
 
 macro_rules! impl_real {
-    ($t:ident, $erf:path, $erfc:path, $turns:path, $digits:literal) => {
+    (
+        $t:ident, $turns:path, $digits:literal,
+        $sqrt:ident $floor:ident $exp:ident $ln:ident $sin:ident $cos:ident $atan2:ident
+        $erf:ident $erfc:ident
+    ) => {
         impl Real for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -171,48 +183,48 @@ macro_rules! impl_real {
                 f64::from(self)
             }
             #[inline(always)]
-            fn mul_add(self, factor: Self, term: Self) -> Self {
+            fn mad(self, factor: Self, term: Self) -> Self {
                 self * factor + term
-            }
-            #[inline(always)]
-            fn sqrt(self) -> Self {
-                $t::sqrt(self)
             }
             #[inline(always)]
             fn abs(self) -> Self {
                 $t::abs(self)
             }
             #[inline(always)]
+            fn sqrt(self) -> Self {
+                platform!($t::sqrt or $sqrt(self))
+            }
+            #[inline(always)]
             fn floor(self) -> Self {
-                $t::floor(self)
+                platform!($t::floor or $floor(self))
             }
             #[inline(always)]
             fn exp(self) -> Self {
-                $t::exp(self)
+                platform!($t::exp or $exp(self))
             }
             #[inline(always)]
             fn ln(self) -> Self {
-                $t::ln(self)
+                platform!($t::ln or $ln(self))
             }
             #[inline(always)]
             fn sin(self) -> Self {
-                $t::sin(self)
+                platform!($t::sin or $sin(self))
             }
             #[inline(always)]
             fn cos(self) -> Self {
-                $t::cos(self)
+                platform!($t::cos or $cos(self))
             }
             #[inline(always)]
             fn atan2(self, x: Self) -> Self {
-                $t::atan2(self, x)
+                platform!($t::atan2 or $atan2(self, x))
             }
             #[inline(always)]
             fn erf(self) -> Self {
-                $erf(self)
+                libm::$erf(self)
             }
             #[inline(always)]
             fn erfc(self) -> Self {
-                $erfc(self)
+                libm::$erfc(self)
             }
             #[inline(always)]
             fn sin_cos_turns(self) -> (Self, Self) {
@@ -239,5 +251,21 @@ macro_rules! impl_real {
     };
 }
 
-impl_real!(f32, libm::erff, libm::erfcf, turns::sin_cos_f32, 24);
-impl_real!(f64, libm::erf, libm::erfc, turns::sin_cos_f64, 53);
+impl_real!(f32, turns::sin_cos_f32, 24, sqrtf floorf expf logf sinf cosf atan2f erff erfcf);
+impl_real!(f64, turns::sin_cos_f64, 53, sqrt floor exp log sin cos atan2 erf erfc);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bounds_take_the_place_of_nan() {
+        assert_eq!(f32::NAN.at_least(2.0), 2.0);
+        assert_eq!(f64::NAN.at_most(2.0), 2.0);
+        assert_eq!(f64::NAN.within(-1.0, 1.0), -1.0);
+        assert_eq!(f64::NAN.safe_sqrt(), 0.0);
+        assert_eq!([1.0_f64, 3.0].map(|x| x.at_least(2.0)), [2.0, 3.0]);
+        assert_eq!([1.0_f64, 3.0].map(|x| x.at_most(2.0)), [1.0, 2.0]);
+        assert!(1.0_f64.at_least(f64::NAN).is_nan());
+    }
+}

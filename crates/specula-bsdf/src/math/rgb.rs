@@ -7,6 +7,7 @@ use super::Real;
 /// A linear RGB triple with sRGB primaries and a D65 white.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Rgb<T> {
     /// Red.
     pub r: T,
@@ -61,7 +62,7 @@ impl<T: Real> Rgb<T> {
     /// The largest channel.
     #[inline(always)]
     pub fn max_channel(self) -> T {
-        Real::max(Real::max(self.r, self.g), self.b)
+        self.r.at_least(self.g).at_least(self.b)
     }
 
     /// Whether every channel is exactly zero.

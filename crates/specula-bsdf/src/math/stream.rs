@@ -16,7 +16,7 @@ impl Stream {
         Self(seed)
     }
 
-    /// The next number, uniform in `[0, 1)`, in steps of 2^-24 (`f32`) or 2^-53 (`f64`).
+    /// The next random number, uniform in `[0, 1)`, in steps of 2^-24 (`f32`) or 2^-53 (`f64`).
     #[inline(always)]
     #[allow(clippy::should_implement_trait, reason = "a stream without an end")]
     pub fn next<T: Real>(&mut self) -> T {

@@ -63,7 +63,7 @@ pub(crate) fn sin_cos_f64<T: Real>(u: T) -> (T, T) {
 fn double_angle<T: Real>(twice_sine: T, cosine: T) -> (T, T) {
     (
         twice_sine * cosine,
-        twice_sine.mul_add(T::HALF * twice_sine, -T::ONE),
+        twice_sine.mad(T::HALF * twice_sine, -T::ONE),
     )
 }
 
@@ -79,7 +79,7 @@ pub(super) fn horner<T: Real, C: Copy + Into<f64>, const N: usize>(
     let mut sum = T::of(scale * coefficients[i].into());
     while i > 0 {
         i -= 1;
-        sum = x.mul_add(sum, T::of(scale * coefficients[i].into()));
+        sum = x.mad(sum, T::of(scale * coefficients[i].into()));
     }
     sum
 }

@@ -7,6 +7,7 @@ use super::Real;
 /// A vector, `(x, y, z)`. In the local frame of a surface, z is along the shading normal.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Vec3<T> {
     /// First component.
     pub x: T,
@@ -41,8 +42,8 @@ impl<T: Real> Vec3<T> {
     /// Dot product.
     #[inline(always)]
     pub fn dot(self, o: Self) -> T {
-        let plane = self.x.mul_add(o.x, self.y * o.y);
-        self.z.mul_add(o.z, plane)
+        let plane = self.x.mad(o.x, self.y * o.y);
+        self.z.mad(o.z, plane)
     }
 
     /// Cross product, right-handed.

@@ -18,7 +18,7 @@ pub fn cosine_hemisphere<T: Real>(u: [T; 2]) -> Vec3<T> {
 /// Density of [`cosine_hemisphere`] in 1/sr; 0 below the horizon.
 #[inline(always)]
 pub fn cosine_hemisphere_pdf<T: Real>(w: Vec3<T>) -> T {
-    Real::max(w.z, T::ZERO) * T::INV_PI
+    w.z.at_least(T::ZERO) * T::INV_PI
 }
 
 /// A direction of the whole sphere with density `1 / (4 pi)`.

@@ -11,6 +11,7 @@ pub use table::METALS;
 
 /// A metal's complex index of refraction in linear sRGB.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Metal {
     /// Chemical symbol; of an alloy its symbols in pbrt's manner (`CuZn`).
     pub symbol: &'static str,

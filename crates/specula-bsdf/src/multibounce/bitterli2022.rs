@@ -23,7 +23,7 @@
 
 use super::walk::{Facets, Flight, MAX_BOUNCES};
 use crate::math::{Real, Rgb, Stream, Vec3};
-use crate::ndf::Ndf;
+use crate::vndf::VisibleNormals;
 
 /// Terms that the density can hold.
 const TERMS: usize = 16;
@@ -93,7 +93,7 @@ impl HeightDistribution {
 
 /// An estimate of `f cos`; `wi.z > 0`.
 #[inline]
-pub(super) fn eval<T: Real, N: Ndf<T>>(
+pub(crate) fn eval<T: Real, N: VisibleNormals<T>>(
     facets: &Facets<T, N>,
     wo: Vec3<T>,
     wi: Vec3<T>,

@@ -25,7 +25,7 @@
 use super::state::DepthState;
 use super::walk::{Facets, Flight, MAX_BOUNCES};
 use crate::math::{Real, Rgb, Stream, Vec3};
-use crate::ndf::Ndf;
+use crate::vndf::VisibleNormals;
 
 /// Downward flights that the tables hold.
 const LAYERS: usize = 16;
@@ -104,7 +104,7 @@ impl SegmentTerm {
 
 /// An estimate of `f cos` from one end; `wi.z > 0`.
 #[inline]
-pub(super) fn eval<T: Real, N: Ndf<T>>(
+pub(crate) fn eval<T: Real, N: VisibleNormals<T>>(
     facets: &Facets<T, N>,
     wo: Vec3<T>,
     wi: Vec3<T>,
@@ -140,9 +140,9 @@ pub(super) fn eval<T: Real, N: Ndf<T>>(
 /// A direction and its weight: leaves with probability `G1`, whatever came before, and makes up
 /// for it (algorithm 2).
 ///
-/// * `u`: draws the first facet.
+/// * `u`: samples the first facet.
 #[inline]
-pub(super) fn sample<T: Real, N: Ndf<T>>(
+pub(crate) fn sample<T: Real, N: VisibleNormals<T>>(
     facets: &Facets<T, N>,
     wo: Vec3<T>,
     mut u: [T; 2],
@@ -186,7 +186,11 @@ struct Subpath<T> {
 const SUBPATH: usize = 12;
 
 impl<T: Real> Subpath<T> {
-    fn draw<N: Ndf<T>>(facets: &Facets<T, N>, start: Flight<T>, stream: &mut Stream) -> Self {
+    fn sample<N: VisibleNormals<T>>(
+        facets: &Facets<T, N>,
+        start: Flight<T>,
+        stream: &mut Stream,
+    ) -> Self {
         let mut path = Self {
             flights: [start; SUBPATH],
             weights: [Rgb::WHITE; SUBPATH],
@@ -218,7 +222,7 @@ impl<T: Real> Subpath<T> {
 /// Flights `e_0 .. e_s` of the walk from `wo` and `r_t .. r_0` of that from `wi` meet at one facet:
 /// a path of `s + t + 1` bounces. Balance heuristic over all ways of splitting it.
 #[inline]
-pub(super) fn eval_bidirectional<T: Real, N: Ndf<T>>(
+pub(crate) fn eval_bidirectional<T: Real, N: VisibleNormals<T>>(
     facets: &Facets<T, N>,
     wo: Vec3<T>,
     wi: Vec3<T>,
@@ -226,8 +230,8 @@ pub(super) fn eval_bidirectional<T: Real, N: Ndf<T>>(
 ) -> Rgb<T> {
     let arriving = facets.arriving(wo);
     let leaving = Flight::new(&facets.ndf, wi);
-    let eye = Subpath::draw(facets, arriving, stream);
-    let light = Subpath::draw(facets, leaving.reversed(), stream);
+    let eye = Subpath::sample(facets, arriving, stream);
+    let light = Subpath::sample(facets, leaving.reversed(), stream);
     let mut sum = facets.single(&arriving, &leaving);
     for s in 0..eye.length {
         for t in usize::from(s == 0)..light.length {
@@ -254,7 +258,7 @@ fn path_over_density<T: Real>(
     exit_rate: T,
 ) -> T {
     let mut state = DepthState::new(eye.flights[0].rate);
-    // The state brings prod |Lambda(d_i)|, i < k. The walk from wi drew with sigma(d_i), i > s + 1.
+    // The state holds the factor prod |Lambda(d_i)|, i < k. The walk from wi sampled with sigma(d_i), i > s + 1.
     let mut factor = T::ONE / eye.flights[s].facing;
     let mut step = |up: bool, rate: T| {
         if up {
@@ -289,15 +293,15 @@ fn path_over_density<T: Real>(
 /// `D(h_i) / sigma(-d_i)  sigma(d_{i+2}) / D(h_{i+1})`.
 fn rivals<T: Real>(eye: &Subpath<T>, light: &Subpath<T>, s: usize, t: usize, quarter_d: T) -> T {
     let mut sum = T::ONE;
-    // Towards wi: the facets that the light's walk drew, from its last.
+    // Towards wi: the facets of the light's walk, from its last.
     let mut quotient = T::ONE;
     let mut here = quarter_d;
     let mut facing = eye.flights[s].facing;
     for j in (1..=t).rev() {
         let next = light.quarter_d[j];
         quotient *= here / facing * light.flights[j - 1].facing / next;
-        // A finite cap: an infinite quotient times the roulette's 0 would be no number.
-        quotient = Real::min(quotient, T::of(1e30)) * roulette::<T>(s + t - j + 1);
+        // A finite cap: an infinite quotient times the roulette's 0 would be NaN.
+        quotient = quotient.at_most(T::of(1e30)) * roulette::<T>(s + t - j + 1);
         quotient /= roulette::<T>(j);
         sum += quotient;
         here = next;
@@ -310,8 +314,8 @@ fn rivals<T: Real>(eye: &Subpath<T>, light: &Subpath<T>, s: usize, t: usize, qua
     for j in (1..=s).rev() {
         let next = eye.quarter_d[j];
         quotient *= here / facing * eye.flights[j - 1].facing / next;
-        // A finite cap: an infinite quotient times the roulette's 0 would be no number.
-        quotient = Real::min(quotient, T::of(1e30)) * roulette::<T>(s + t - j + 1);
+        // A finite cap: an infinite quotient times the roulette's 0 would be NaN.
+        quotient = quotient.at_most(T::of(1e30)) * roulette::<T>(s + t - j + 1);
         quotient /= roulette::<T>(j);
         sum += quotient;
         here = next;

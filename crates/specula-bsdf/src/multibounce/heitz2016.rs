@@ -25,11 +25,11 @@
 use super::interface::{Collision, Interface, Next, depth_beyond, turned};
 use super::walk::{Facets, Flight, MAX_BOUNCES};
 use crate::math::{Frame, Real, Rgb, Stream, Vec3, warp};
-use crate::ndf::Ndf;
+use crate::vndf::VisibleNormals;
 
 /// `-ln U / rate`.
 #[inline(always)]
-pub(super) fn step<T: Real>(rate: T, stream: &mut Stream) -> T {
+pub(crate) fn step<T: Real>(rate: T, stream: &mut Stream) -> T {
     -(T::ONE - stream.next::<T>()).ln() / rate
 }
 
@@ -37,7 +37,7 @@ pub(super) fn step<T: Real>(rate: T, stream: &mut Stream) -> T {
 ///
 /// * `SEPARATE`: one bounce in closed form; else as published.
 #[inline]
-pub(super) fn eval<T: Real, N: Ndf<T>, const SEPARATE: bool>(
+pub(crate) fn eval<T: Real, N: VisibleNormals<T>, const SEPARATE: bool>(
     facets: &Facets<T, N>,
     wo: Vec3<T>,
     wi: Vec3<T>,
@@ -73,9 +73,9 @@ pub(super) fn eval<T: Real, N: Ndf<T>, const SEPARATE: bool>(
 /// A direction and its weight, the product of Fresnel terms; `None` for the walk that did not
 /// leave within [`MAX_BOUNCES`].
 ///
-/// * `u`: draws the first facet.
+/// * `u`: samples the first facet.
 #[inline]
-pub(super) fn sample<T: Real, N: Ndf<T>>(
+pub(crate) fn sample<T: Real, N: VisibleNormals<T>>(
     facets: &Facets<T, N>,
     wo: Vec3<T>,
     mut u: [T; 2],
@@ -100,7 +100,7 @@ pub(super) fn sample<T: Real, N: Ndf<T>>(
 
 /// An estimate of `f |cos|` of a dielectric, for light (no `1/eta^2`).
 #[inline]
-pub(super) fn eval_interface<T: Real, N: Ndf<T>>(
+pub(crate) fn eval_interface<T: Real, N: VisibleNormals<T>>(
     interface: &Interface<T, N>,
     wo: Vec3<T>,
     wi: Vec3<T>,
@@ -118,9 +118,9 @@ pub(super) fn eval_interface<T: Real, N: Ndf<T>>(
 
 /// A direction sampled at a dielectric; its weight is 1 (for light).
 ///
-/// * `u`: draws the first facet.
+/// * `u`: samples the first facet.
 #[inline]
-pub(super) fn sample_interface<T: Real, N: Ndf<T>>(
+pub(crate) fn sample_interface<T: Real, N: VisibleNormals<T>>(
     interface: &Interface<T, N>,
     wo: Vec3<T>,
     u: [T; 3],
@@ -141,7 +141,7 @@ pub(super) fn sample_interface<T: Real, N: Ndf<T>>(
 /// is beyond the first one's. Returns the direction of leaving in the frame of its side, and
 /// whether that is beyond.
 #[inline]
-pub(super) fn collisions<T: Real, N: Ndf<T>>(
+pub(crate) fn collisions<T: Real, N: VisibleNormals<T>>(
     interface: Interface<T, N>,
     start: Collision<T>,
     stream: &mut Stream,
@@ -163,7 +163,7 @@ pub(super) fn collisions<T: Real, N: Ndf<T>>(
 
 /// The next collision, or the direction of leaving.
 #[inline]
-pub(super) fn after<T: Real, N: Ndf<T>>(
+pub(crate) fn after<T: Real, N: VisibleNormals<T>>(
     side: &Interface<T, N>,
     at: &Collision<T>,
     next: Vec3<T>,
@@ -192,7 +192,7 @@ pub(super) fn after<T: Real, N: Ndf<T>>(
 /// An estimate of `f cos` of facets that reflect diffusely:
 /// `p(d, d') = albedo int D_visible(wm) max(wm . d', 0) / pi dwm`, one normal for each collision.
 #[inline]
-pub(super) fn eval_diffuse<T: Real, N: Ndf<T>>(
+pub(crate) fn eval_diffuse<T: Real, N: VisibleNormals<T>>(
     ndf: &N,
     albedo: Rgb<T>,
     wo: Vec3<T>,
@@ -202,7 +202,7 @@ pub(super) fn eval_diffuse<T: Real, N: Ndf<T>>(
     let leaving = Flight::new(ndf, wi);
     let mut sum = Rgb::BLACK;
     diffuse_walk(ndf, albedo, wo, None, stream, |weight, wm, tau| {
-        let cos = Real::max(wm.dot(wi), T::ZERO);
+        let cos = wm.dot(wi).at_least(T::ZERO);
         sum += weight * (cos * T::INV_PI * (-(tau * leaving.rate)).exp());
     });
     sum
@@ -210,9 +210,9 @@ pub(super) fn eval_diffuse<T: Real, N: Ndf<T>>(
 
 /// A direction sampled at facets that reflect diffusely, and its weight.
 ///
-/// * `u`: draws the first facet.
+/// * `u`: samples the first facet.
 #[inline]
-pub(super) fn sample_diffuse<T: Real, N: Ndf<T>>(
+pub(crate) fn sample_diffuse<T: Real, N: VisibleNormals<T>>(
     ndf: &N,
     albedo: Rgb<T>,
     wo: Vec3<T>,
@@ -223,7 +223,7 @@ pub(super) fn sample_diffuse<T: Real, N: Ndf<T>>(
 }
 
 #[inline]
-fn diffuse_walk<T: Real, N: Ndf<T>>(
+fn diffuse_walk<T: Real, N: VisibleNormals<T>>(
     ndf: &N,
     albedo: Rgb<T>,
     wo: Vec3<T>,

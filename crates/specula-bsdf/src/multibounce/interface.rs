@@ -12,48 +12,48 @@
 use super::walk::Flight;
 use crate::fresnel::{dielectric, refract};
 use crate::math::{Real, Vec3};
-use crate::ndf::Ndf;
+use crate::vndf::VisibleNormals;
 
 /// Facets of a dielectric from one side.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Interface<T, N> {
-    pub(super) ndf: N,
+pub(crate) struct Interface<T, N> {
+    pub(crate) ndf: N,
     /// Index beyond over index on this side.
-    pub(super) eta: T,
+    pub(crate) eta: T,
 }
 
 /// The vector in the frame of the other side.
 #[inline(always)]
-pub(super) fn turned<T: Real>(w: Vec3<T>) -> Vec3<T> {
+pub(crate) fn turned<T: Real>(w: Vec3<T>) -> Vec3<T> {
     Vec3 { z: -w.z, ..w }
 }
 
 /// The depth as seen from the other side.
 #[inline(always)]
-pub(super) fn depth_beyond<T: Real>(tau: T) -> T {
+pub(crate) fn depth_beyond<T: Real>(tau: T) -> T {
     // Near 0, 1 - exp(-tau) is tau; a ray that touches the top is infinitely deep inside.
     let share = T::select(tau > T::of(1e-3), T::ONE - (-tau).exp(), tau);
-    Real::max(-Real::max(share, T::TINY).ln(), T::ZERO)
+    (-share.at_least(T::TINY).ln()).at_least(T::ZERO)
 }
 
 /// A walk with heights: a flight that meets a facet at `tau`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Collision<T> {
-    pub(super) flight: Flight<T>,
-    pub(super) tau: T,
+pub(crate) struct Collision<T> {
+    pub(crate) flight: Flight<T>,
+    pub(crate) tau: T,
 }
 
 /// What follows a bounce.
-pub(super) enum Next<T, N> {
+pub(crate) enum Next<T, N> {
     /// A collision, on this side.
     Meets(Interface<T, N>, Collision<T>),
     /// The ray leaves, in the frame of its side.
     Leaves(Vec3<T>),
 }
 
-impl<T: Real, N: Ndf<T>> Interface<T, N> {
+impl<T: Real, N: VisibleNormals<T>> Interface<T, N> {
     #[inline(always)]
-    pub(super) fn beyond(&self) -> Self {
+    pub(crate) fn beyond(&self) -> Self {
         Self {
             ndf: self.ndf,
             eta: T::ONE / self.eta,
@@ -62,9 +62,9 @@ impl<T: Real, N: Ndf<T>> Interface<T, N> {
 
     /// The next direction, and whether it has changed sides (it is then in the frame beyond).
     ///
-    /// * `u`: draws the facet, and reflection or refraction.
+    /// * `u`: samples reflection or refraction, and the facet.
     #[inline(always)]
-    pub(super) fn bounce(&self, d: Vec3<T>, u: [T; 3]) -> (Vec3<T>, bool) {
+    pub(crate) fn bounce(&self, d: Vec3<T>, u: [T; 3]) -> (Vec3<T>, bool) {
         let wm = self.ndf.sample_wm(-d, [u[1], u[2]]);
         let cos = -d.dot(wm);
         let bent = dielectric(cos, self.eta);
@@ -83,7 +83,7 @@ impl<T: Real, N: Ndf<T>> Interface<T, N> {
     /// F D / (4 sigma(-d))    and    (1 - F) D |d.wm| e^2 |wi.wm| / (sigma(-d) (|d.wm| + e wi.wm)^2)
     /// ```
     #[inline]
-    pub(super) fn phase(&self, flight: &Flight<T>, wi: Vec3<T>, reflects: bool) -> T {
+    pub(crate) fn phase(&self, flight: &Flight<T>, wi: Vec3<T>, reflects: bool) -> T {
         let wo = -flight.d;
         let generalised = if reflects {
             wo + wi
@@ -107,14 +107,14 @@ impl<T: Real, N: Ndf<T>> Interface<T, N> {
             T::of(0.25) * bent.reflectance * d
         } else {
             let sum = cos_o + self.eta * cos_i;
-            let jacobian = self.eta * self.eta * cos_i.abs() / Real::max(sum * sum, T::of(1e-12));
+            let jacobian = self.eta * self.eta * cos_i.abs() / (sum * sum).at_least(T::of(1e-12));
             bent.transmittance * d * cos_o * jacobian
         }
     }
 
     /// Phase function times the probability of leaving along `wi`, from a known depth.
     #[inline]
-    pub(super) fn connection(&self, at: &Collision<T>, wi: Vec3<T>) -> T {
+    pub(crate) fn connection(&self, at: &Collision<T>, wi: Vec3<T>) -> T {
         let reflects = wi.z > T::ZERO;
         let phase = self.phase(&at.flight, wi, reflects);
         if phase <= T::ZERO {
@@ -125,13 +125,13 @@ impl<T: Real, N: Ndf<T>> Interface<T, N> {
 
     /// Probability of leaving along `wi`, on either side, from the depth `tau`.
     #[inline]
-    pub(super) fn leaves(&self, tau: T, wi: Vec3<T>) -> T {
+    pub(crate) fn leaves(&self, tau: T, wi: Vec3<T>) -> T {
         let depth = if wi.z > T::ZERO {
             tau
         } else {
             depth_beyond(tau)
         };
-        let lambda = self.ndf.lambda_cos(wi) / Real::max(wi.z.abs(), T::of(1e-12));
+        let lambda = self.ndf.lambda_cos(wi) / wi.z.abs().at_least(T::of(1e-12));
         (-(depth * lambda)).exp()
     }
 
@@ -142,7 +142,7 @@ impl<T: Real, N: Ndf<T>> Interface<T, N> {
     /// ```
     ///
     /// Source: Walter's refraction with Smith's heights, as in Heitz et al. 2016.
-    pub(super) fn leaves_beyond(l: T, lambda: T) -> T {
+    pub(crate) fn leaves_beyond(l: T, lambda: T) -> T {
         let (l, lambda) = (l.to_f64(), lambda.to_f64());
         // Beyond 1e8 the differences of logarithms lose their digits: one factor is a power then.
         let (small, large) = if l < lambda { (l, lambda) } else { (lambda, l) };

@@ -1,6 +1,8 @@
 //! Densities for multiple importance sampling: close to that of a walk's directions, in closed
 //! form.
 
+use alloc::borrow::ToOwned;
+use alloc::string::String;
 use core::fmt;
 use core::str::FromStr;
 
@@ -9,10 +11,12 @@ use super::normalised;
 use super::walk::Flight;
 use crate::math::{Real, Vec3};
 use crate::ndf::Ndf;
+use crate::vndf::VisibleNormals;
 
-/// Which density. Metals know all; at a [`Dielectric`](super::MultibounceDielectric) `Lambert` and `Normalised`
+/// Which density. Metals know all; at a [`Dielectric`](crate::bsdf::MultibounceDielectric) `Lambert` and `Normalised`
 /// have forms of their own, over the sphere, and `Hapke` is `Lambert`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum MisPdf {
     /// Visible normals plus a Lambertian term (Heitz et al. 2016). Integrates to more than 1: a
     /// weight, not a density.
@@ -21,7 +25,8 @@ pub enum MisPdf {
     /// and 16, with `H(mu) = (1 + 2 mu) / (1 + 2 mu sqrt(1 - a))`). Integrates to 0.97 to 1.71: a
     /// weight, not a density. Of reflection alone: at a dielectric it is `Lambert`.
     Hapke,
-    /// StratifiedBidirectional: see [`normalised_pdf`](super::normalised_pdf). Integrates to 1.
+    /// Specula's: the first flight exactly, the others by maps of the sphere to the upper hemisphere.
+    /// Integrates to 1.
     #[default]
     Normalised,
 }
@@ -47,7 +52,7 @@ impl fmt::Display for MisPdf {
     }
 }
 
-/// A name that is no density's.
+/// A name of no density.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no such density: '{0}' (expected lambert, hapke or normalised)")]
 pub struct UnknownMisPdf(pub String);
@@ -99,12 +104,12 @@ fn first_facet<T: Real, N: Ndf<T>>(ndf: &N, wo: Vec3<T>, wi: Vec3<T>) -> T {
 #[inline(always)]
 fn hapke<T: Real>(a: T, mu_o: T, mu_i: T) -> T {
     // The released code's cap; at 1 the term alone integrates to 1.6.
-    let a = Real::min(a, T::of(0.975));
+    let a = a.at_most(T::of(0.975));
     let root = (T::ONE - a).sqrt();
     let h = |mu: T| (T::ONE + T::TWO * mu) / (T::ONE + T::TWO * mu * root);
     // H(0) = 1: two grazing directions leave 0/0, whose limit is finite.
-    let sum = Real::max(mu_o + mu_i, T::of(1e-6));
-    let excess = Real::max(h(mu_o) * h(mu_i) - T::ONE, T::ZERO);
+    let sum = (mu_o + mu_i).at_least(T::of(1e-6));
+    let excess = (h(mu_o) * h(mu_i) - T::ONE).at_least(T::ZERO);
     a * T::of(0.25) * T::INV_PI * excess / sum
 }
 
@@ -114,7 +119,7 @@ fn lambert_share<T: Real, N: Ndf<T>>(ndf: &N) -> T {
     let alpha = ndf.alpha();
     let a2 = alpha.x * alpha.y;
     let a4 = a2 * a2;
-    Real::max(T::of(0.8) * a4 / (a4 + T::of(0.15)), T::of(0.002))
+    (T::of(0.8) * a4 / (a4 + T::of(0.15))).at_least(T::of(0.002))
 }
 
 /// The density `mis` at a dielectric, over the sphere: the walk's first flight, which may leave on
@@ -127,7 +132,7 @@ fn lambert_share<T: Real, N: Ndf<T>>(ndf: &N) -> T {
 ///
 /// [`MisPdf::Hapke`] is defined for metals only; here it is `Lambert`.
 #[inline]
-pub(super) fn interface<T: Real, N: Ndf<T>>(
+pub(crate) fn interface<T: Real, N: VisibleNormals<T>>(
     mis: MisPdf,
     interface: &Interface<T, N>,
     wo: Vec3<T>,

@@ -10,42 +10,34 @@
 //!
 //! All evaluate by Monte Carlo: [`Bsdf::eval_pdf_random`](crate::Bsdf::eval_pdf_random) is an
 //! unbiased estimate of the model's `f cos`, and
-//! [`Bsdf::sample_random`](crate::Bsdf::sample_random) draws by the walk, whose true density is not
+//! [`Bsdf::sample_random`](crate::Bsdf::sample_random) samples by the walk, whose true density is not
 //! known: `pdf` is that of [`MisPdf`], for the weights of multiple importance sampling. (Any
 //! positive function serves there: the weights of two strategies sum to 1 whatever it is.)
 //!
 //! Many elements at once: [`Level::eval_pdf_random`](crate::batch::Level::eval_pdf_random) and
 //! [`Level::sample_random`](crate::batch::Level::sample_random).
 
-mod bitterli2022;
-mod conductor;
-mod cui2023;
-mod dielectric;
-mod diffuse;
-mod heitz2016;
-mod interface;
+pub(crate) mod bitterli2022;
+pub(crate) mod cui2023;
+pub(crate) mod heitz2016;
+pub(crate) mod interface;
 pub(crate) mod mis_pdf;
 mod model;
-mod normalised;
+pub(crate) mod normalised;
 pub(crate) mod state;
 pub(crate) mod stratified_bidirectional;
 pub(crate) mod walk;
-mod wang2022;
+pub(crate) mod wang2022;
 
-pub use conductor::MultibounceConductor;
-pub use dielectric::MultibounceDielectric;
-pub use diffuse::MultibounceDiffuse;
 pub use mis_pdf::{MisPdf, UnknownMisPdf};
 pub use model::{MultibounceModel, UnknownMultibounceModel};
-pub use normalised::{pdf as normalised_pdf, sample as sample_normalised};
-pub use state::DepthState;
 
 use crate::math::{Real, Stream, Vec3};
 
-/// A stream for callers who bring none, seeded by the arguments.
+/// A stream for callers without one, seeded by the arguments.
 pub(crate) fn seed<T: Real>(a: Vec3<T>, b: Vec3<T>) -> Stream {
-    let numbers = [a.x, a.y, a.z, b.x, b.y, b.z];
-    Stream::new(numbers.iter().fold(0xcbf2_9ce4_8422_2325, |hash, x| {
+    let words = [a.x, a.y, a.z, b.x, b.y, b.z];
+    Stream::new(words.iter().fold(0xcbf2_9ce4_8422_2325, |hash, x| {
         (hash ^ x.to_f64().to_bits())
             .wrapping_mul(0x9e37_79b9_7f4a_7c15)
             .rotate_left(29)

@@ -1,11 +1,14 @@
 //! The models by name.
 
+use alloc::borrow::ToOwned;
+use alloc::string::String;
 use core::fmt;
 use core::str::FromStr;
 
 /// Which estimator computes multiple bounces. `Metals only` means that a
-/// [`Dielectric`](super::MultibounceDielectric) takes `StratifiedBidirectional` instead.
+/// [`Dielectric`](crate::bsdf::MultibounceDielectric) takes `StratifiedBidirectional` instead.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum MultibounceModel {
     /// Heitz et al. 2016.
     Heitz2016,
@@ -21,7 +24,7 @@ pub enum MultibounceModel {
         /// Paths are connected from both ends.
         bidirectional: bool,
     },
-    /// This project's.
+    /// Stratified bidirectional walks, Specula's own.
     #[default]
     StratifiedBidirectional,
 }
@@ -73,7 +76,7 @@ impl fmt::Display for MultibounceModel {
     }
 }
 
-/// A name that is no model's.
+/// A name of no model.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "no such model of multiple bounces: '{0}' (expected heitz, bitterli, wang, wang-uncorrelated, \

@@ -1,4 +1,4 @@
-//! Our density for multiple importance sampling: normalised, with its own sampler.
+//! Specula's density for multiple importance sampling: normalised, with its own sampler.
 //!
 //! Light that meets one facet is distributed exactly: it flies along `w` with the density
 //!
@@ -25,7 +25,7 @@
 //! | down | turned up: as before, with `1 - u` for `u` | `0.8 a^4 / (a^4 + 0.15)` of it |
 //! | down | rolled on, to the other side of the axis | `0.45 (1 - r^2)` |
 //!
-//! `r` is the ratio of the smaller width to the larger, `a^2` their product. The azimuth spreads
+//! `r` is the ratio of the smaller alpha to the larger, `a^2` their product. The azimuth spreads
 //! about the forward direction: `tan(phi / 2) = kappa tan(phi' / 2)` (a wrapped Cauchy
 //! distribution, where all light goes forward), `kappa = 1 / (1 + 2 (1 - a^2) sin^2 theta_o)`. All
 //! depends continuously on alphas and directions.
@@ -38,8 +38,9 @@ use super::walk::Flight;
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3, warp};
 use crate::ndf::Ndf;
+use crate::vndf::VisibleNormals;
 
-/// A cosine lobe's share: keeps the density above 0 where D underflows.
+/// A cosine lobe's share, so that the density is above 0 where D underflows.
 const FLOOR: f64 = 1e-4;
 /// `e` of upward flights; of downward ones, times `wo.z`.
 const RISE: f64 = 0.25;
@@ -90,10 +91,10 @@ pub fn pdf<T: Real, N: Ndf<T>>(ndf: &N, wo: Vec3<T>, wi: Vec3<T>) -> T {
 
 /// A direction of the density [`pdf`].
 ///
-/// * `u`: uniform in `[0, 1)`; two draw a facet, the third what follows.
+/// * `u`: uniform in `[0, 1)`; two sample a facet, the third what follows.
 /// * Returns: unit, above the horizon; `None` in the rare case that rounding leaves it on it.
 #[inline]
-pub fn sample<T: Real, N: Ndf<T>>(ndf: &N, wo: Vec3<T>, u: [T; 3]) -> Option<Vec3<T>> {
+pub fn sample<T: Real, N: VisibleNormals<T>>(ndf: &N, wo: Vec3<T>, u: [T; 3]) -> Option<Vec3<T>> {
     let maps = Maps::new(ndf, wo);
     let mut choice = u[2];
     // Takes a part of [0, 1), and stretches what it falls in to [0, 1).
@@ -122,7 +123,7 @@ pub fn sample<T: Real, N: Ndf<T>>(ndf: &N, wo: Vec3<T>, u: [T; 3]) -> Option<Vec
         } else if takes(maps.rolled_down) {
             maps.roll(w)
         } else {
-            let u = T::clamp(-w.z / maps.mu, T::ZERO, T::ONE);
+            let u = (-w.z / maps.mu).within(T::ZERO, T::ONE);
             let u = if takes(maps.below_turned) {
                 T::ONE - u
             } else {
@@ -150,7 +151,7 @@ fn met<T: Real, N: Ndf<T>>(ndf: &N, wo: Vec3<T>, w: Vec3<T>) -> T {
 #[inline(always)]
 fn slow<T: Real>(z: T, e: T, m: T) -> (T, T) {
     let up = e * z * z;
-    let sum = Real::max(up + m * (T::ONE - z * z), T::TINY);
+    let sum = (up + m * (T::ONE - z * z)).at_least(T::TINY);
     (up / sum, T::TWO * z * (e / sum) * (m / sum))
 }
 
@@ -158,10 +159,7 @@ fn slow<T: Real>(z: T, e: T, m: T) -> (T, T) {
 #[inline(always)]
 fn fast<T: Real>(u: T, e: T, m: T) -> T {
     let up = m * u;
-    Real::min(
-        (up / Real::max(up + e * (T::ONE - u), T::TINY)).safe_sqrt(),
-        T::ONE,
-    )
+    ((up / (up + e * (T::ONE - u)).at_least(T::TINY)).safe_sqrt()).at_most(T::ONE)
 }
 
 /// The direction of height `z` towards a horizontal unit vector.
@@ -201,12 +199,12 @@ impl<T: Real> Maps<T> {
         let Alpha { x, y } = ndf.alpha();
         let a2 = x * y;
         let a4 = a2 * a2;
-        let ratio = Real::min(x, y) / Real::max(x, y);
+        let ratio = x.at_most(y) / x.at_least(y);
         let rolled = T::ONE - ratio * ratio;
         let sin2 = wo.x * wo.x + wo.y * wo.y;
-        let smooth = Real::max(T::ONE - a2, T::ZERO);
+        let smooth = (T::ONE - a2).at_least(T::ZERO);
         Self {
-            mu: Real::max(wo.z, T::of(1e-6)),
+            mu: wo.z.at_least(T::of(1e-6)),
             sigma: view.facing,
             rate: view.rate,
             forward: horizontal(-wo, [T::ONE, T::ZERO]),
@@ -222,7 +220,7 @@ impl<T: Real> Maps<T> {
     #[inline(always)]
     fn stays<N: Ndf<T>>(&self, ndf: &N, w: Vec3<T>) -> T {
         let lambda_cos = ndf.lambda_cos(w);
-        lambda_cos / Real::max(lambda_cos + self.rate * w.z, T::TINY)
+        lambda_cos / (lambda_cos + self.rate * w.z).at_least(T::TINY)
     }
 
     /// The horizontal direction that [`scatter`](Self::scatter) sends to that of `wi`, and
@@ -280,20 +278,20 @@ impl<T: Real> Maps<T> {
     #[inline(always)]
     fn roll_back(&self, wi: Vec3<T>) -> [(Vec3<T>, T); 2] {
         let (along, across) = self.to_axis(wi);
-        let radius = Real::max((across * across + wi.z * wi.z).sqrt(), T::of(1e-12));
+        let radius = ((across * across + wi.z * wi.z).sqrt()).at_least(T::of(1e-12));
         let (cos, sin) = (across / radius, wi.z / radius);
         // The sine of the flight's elevation.
         let t = cos * cos;
         let side = (wi.z * (T::ONE + t).sqrt()).copysign(across);
         let up = self.of_axis(along, side, radius * t);
         let up_jacobian = T::TWO * (t / (T::ONE + t)).sqrt();
-        let top = Real::min(self.mu / radius, T::ONE);
+        let top = (self.mu / radius).at_most(T::ONE);
         let low = top * t;
         // 1 - low, without cancellation.
         let rest = (T::ONE - top + top * sin * sin) * (T::ONE + low);
         let side = -(radius * rest.safe_sqrt()).copysign(across);
         let down = self.of_axis(along, side, -radius * low);
-        let down_jacobian = T::TWO * top * sin * (t / Real::max(rest, T::TINY)).sqrt();
+        let down_jacobian = T::TWO * top * sin * (t / rest.at_least(T::TINY)).sqrt();
         [(up, up_jacobian), (down, down_jacobian)]
     }
 
@@ -302,14 +300,14 @@ impl<T: Real> Maps<T> {
     #[inline(always)]
     fn roll(&self, w: Vec3<T>) -> Vec3<T> {
         let (along, across) = self.to_axis(w);
-        let radius = Real::max((across * across + w.z * w.z).sqrt(), T::of(1e-12));
+        let radius = ((across * across + w.z * w.z).sqrt()).at_least(T::of(1e-12));
         let (t, side) = if w.z > T::ZERO {
             (w.z / radius, across)
         } else {
-            let top = Real::min(self.mu / radius, T::ONE);
+            let top = (self.mu / radius).at_most(T::ONE);
             (-w.z / (radius * top), -across)
         };
-        let t = T::clamp(t, T::ZERO, T::ONE);
+        let t = t.within(T::ZERO, T::ONE);
         let z = radius * (T::ONE - t).safe_sqrt();
         self.of_axis(along, (radius * t.sqrt()).copysign(side), z)
     }

@@ -26,7 +26,7 @@
 use crate::math::Real;
 
 /// Layers that the state can hold: one for each downward flight.
-pub(super) const LAYERS: usize = 48;
+pub(crate) const LAYERS: usize = 48;
 
 /// The mixture of the module's text.
 #[derive(Clone, Debug)]
@@ -145,7 +145,7 @@ mod tests {
     use crate::math::Stream;
 
     /// Share of walks with given rates (`true`: down) that are met by facets at every flight and
-    /// leave along the last one, by drawing heights.
+    /// leave along the last one, by sampled heights.
     fn brute_force(flights: &[(bool, f64)], n: u32, stream: &mut Stream) -> f64 {
         let mut left = 0_u32;
         for _ in 0..n {

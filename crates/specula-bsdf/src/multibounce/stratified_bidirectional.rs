@@ -8,12 +8,12 @@
 //! C_k = W  F D(h) / (4 sigma(-d))  exit(Lambda_i)            W: product of F and 1 / roulette
 //! ```
 //!
-//! with the mass that leaves, `exit`, of [`DepthState`](super::DepthState). As `exit` holds the
+//! with the mass that leaves, `exit`, of [`DepthState`]. As `exit` holds the
 //! factor `|Lambda(d)| = sigma(-d) / |d_z|` of an upward `d` exactly, this is `D / (4 |d_z|) S` of
 //! Cui et al. 2023, bounded for every `d`; the variance of walks that leave first and connect then
 //! (Heitz 2016, Bitterli and d'Eon 2022) diverges for `wi` along the normal.
 //!
-//! The same path `d_0 .. d_k` is found from the other end with a density whose quotient by this
+//! The same path `d_0 .. d_k` is sampled from the other end with a density whose quotient by this
 //! one is (all facets but the ends' are shared)
 //!
 //! ```text
@@ -40,7 +40,7 @@
 //! sampled from the state, and it goes on with heights as in Heitz et al. 2016: the depths of the two
 //! sides, `-ln C` and `-ln(1 - C)`, have no common exponential form. Walks start at one end, chosen
 //! by the angles (`is_better_end`): those from the other end connect to it at grazing angles, which
-//! is rare and pays much. What it gains is in the text of [`Dielectric`](super::MultibounceDielectric).
+//! is rare and pays much. What it gains is in the text of [`Dielectric`](crate::bsdf::MultibounceDielectric).
 //!
 //! Samples leave with exactly the mass that leaves: their weight is the product of Fresnel terms.
 
@@ -49,7 +49,7 @@ use super::interface::{Collision, Interface, Next, depth_beyond, turned};
 use super::state::DepthState;
 use super::walk::{Facets, Flight, MAX_BOUNCES};
 use crate::math::{Real, Rgb, Stream, Vec3};
-use crate::ndf::Ndf;
+use crate::vndf::VisibleNormals;
 
 /// First bounces from each end.
 pub(crate) const SPLIT: usize = 2;
@@ -58,7 +58,7 @@ const CARRIED: f64 = 0.5;
 
 /// An estimate of `f cos`; `wi.z > 0`.
 #[inline]
-pub(super) fn eval<T: Real, N: Ndf<T>>(
+pub(crate) fn eval<T: Real, N: VisibleNormals<T>>(
     facets: &Facets<T, N>,
     wo: Vec3<T>,
     wi: Vec3<T>,
@@ -113,16 +113,16 @@ pub(crate) fn goes_on<T: Real>(weight: Rgb<T>, mass: T) -> T {
 /// One walk's estimate of two bounces and more.
 ///
 /// * `BOTH`: weighs with the walks from the other end.
-/// * `u`: draws the first facet.
+/// * `u`: samples the first facet.
 #[inline(always)]
-fn walk<T: Real, N: Ndf<T>, const BOTH: bool>(
+fn walk<T: Real, N: VisibleNormals<T>, const BOTH: bool>(
     facets: &Facets<T, N>,
     arriving: &Flight<T>,
     leaving: &Flight<T>,
     u: [T; 2],
     stream: &mut Stream,
 ) -> Rgb<T> {
-    let start = Walk {
+    let start = EvalWalk {
         bounces: 0,
         state: DepthState::new(arriving.rate),
         flight: *arriving,
@@ -133,8 +133,8 @@ fn walk<T: Real, N: Ndf<T>, const BOTH: bool>(
     start.finish::<N, BOTH>(facets, leaving, u, stream)
 }
 
-/// A walk under way.
-pub(crate) struct Walk<T> {
+/// The state of a walk that evaluates: it connects at every bounce.
+pub(crate) struct EvalWalk<T> {
     pub(crate) bounces: usize,
     pub(crate) state: DepthState<T>,
     pub(crate) flight: Flight<T>,
@@ -145,13 +145,13 @@ pub(crate) struct Walk<T> {
     pub(crate) sum: Rgb<T>,
 }
 
-impl<T: Real> Walk<T> {
+impl<T: Real> EvalWalk<T> {
     /// Walks to the end; returns the sum.
     ///
     /// * `BOTH`: weighs with the walks from the other end.
-    /// * `u`: draws the next facet.
+    /// * `u`: samples the next facet.
     #[inline(always)]
-    pub(crate) fn finish<N: Ndf<T>, const BOTH: bool>(
+    pub(crate) fn finish<N: VisibleNormals<T>, const BOTH: bool>(
         self,
         facets: &Facets<T, N>,
         leaving: &Flight<T>,
@@ -207,16 +207,16 @@ impl<T: Real> Walk<T> {
 /// A direction and its weight; `None` for the walk that did not leave within
 /// [`MAX_BOUNCES`].
 ///
-/// * `u`: draws the first facet.
+/// * `u`: samples the first facet.
 #[inline]
-pub(super) fn sample<T: Real, N: Ndf<T>>(
+pub(crate) fn sample<T: Real, N: VisibleNormals<T>>(
     facets: &Facets<T, N>,
     wo: Vec3<T>,
     u: [T; 2],
     stream: &mut Stream,
 ) -> Option<(Vec3<T>, Rgb<T>)> {
     let flight = facets.arriving(wo);
-    let start = Draw {
+    let start = SampleWalk {
         bounces: 0,
         state: DepthState::new(flight.rate),
         flight,
@@ -225,20 +225,20 @@ pub(super) fn sample<T: Real, N: Ndf<T>>(
     start.finish(facets, u, stream)
 }
 
-/// A walk under way that will leave.
-pub(crate) struct Draw<T> {
+/// The state of a walk that samples: it leaves.
+pub(crate) struct SampleWalk<T> {
     pub(crate) bounces: usize,
     pub(crate) state: DepthState<T>,
     pub(crate) flight: Flight<T>,
     pub(crate) weight: Rgb<T>,
 }
 
-impl<T: Real> Draw<T> {
+impl<T: Real> SampleWalk<T> {
     /// Walks to the end.
     ///
-    /// * `u`: draws the next facet.
+    /// * `u`: samples the next facet.
     #[inline(always)]
-    pub(crate) fn finish<N: Ndf<T>>(
+    pub(crate) fn finish<N: VisibleNormals<T>>(
         self,
         facets: &Facets<T, N>,
         mut u: [T; 2],
@@ -272,7 +272,7 @@ impl<T: Real> Draw<T> {
 
 /// An estimate of `f |cos|` of a dielectric, for light (no `1/eta^2`), from the better end.
 #[inline]
-pub(super) fn eval_interface<T: Real, N: Ndf<T>>(
+pub(crate) fn eval_interface<T: Real, N: VisibleNormals<T>>(
     interface: &Interface<T, N>,
     wo: Vec3<T>,
     wi: Vec3<T>,
@@ -295,7 +295,7 @@ pub(super) fn eval_interface<T: Real, N: Ndf<T>>(
 /// Whether walks that start at `wo` are the better ones: at the more grazing end; of two that are
 /// alike, inside on smooth surfaces and outside on rough ones.
 #[inline(always)]
-fn is_better_end<T: Real, N: Ndf<T>>(
+fn is_better_end<T: Real, N: VisibleNormals<T>>(
     interface: &Interface<T, N>,
     wo: Vec3<T>,
     wi: Vec3<T>,
@@ -306,7 +306,7 @@ fn is_better_end<T: Real, N: Ndf<T>>(
     }
     let alpha = interface.ndf.alpha();
     let a2 = alpha.x * alpha.y;
-    let outside = T::of(1.02) - T::of(0.22) * Real::min(a2 * a2, T::ONE);
+    let outside = T::of(1.02) - T::of(0.22) * (a2 * a2).at_most(T::ONE);
     if interface.eta > T::ONE {
         cos_i >= outside * cos_o
     } else {
@@ -316,7 +316,7 @@ fn is_better_end<T: Real, N: Ndf<T>>(
 
 /// An estimate of `f |cos|` of a dielectric, for light, by walks from `wo`.
 #[inline]
-fn eval_interface_from<T: Real, N: Ndf<T>>(
+fn eval_interface_from<T: Real, N: VisibleNormals<T>>(
     interface: &Interface<T, N>,
     wo: Vec3<T>,
     wi: Vec3<T>,
@@ -324,7 +324,7 @@ fn eval_interface_from<T: Real, N: Ndf<T>>(
 ) -> T {
     let arriving = Flight::new(&interface.ndf, -wo);
     let reflects = wi.z > T::ZERO;
-    let lambda = interface.ndf.lambda_cos(wi) / Real::max(wi.z.abs(), T::of(1e-12));
+    let lambda = interface.ndf.lambda_cos(wi) / wi.z.abs().at_least(T::of(1e-12));
     let single = interface.phase(&arriving, wi, reflects);
     let leaves = if single <= T::ZERO {
         T::ZERO
@@ -345,7 +345,7 @@ fn eval_interface_from<T: Real, N: Ndf<T>>(
 
 /// One walk's estimate of two facets and more.
 #[inline]
-fn interface_walk<T: Real, N: Ndf<T>>(
+fn interface_walk<T: Real, N: VisibleNormals<T>>(
     interface: &Interface<T, N>,
     arriving: &Flight<T>,
     wi: Vec3<T>,
@@ -405,9 +405,9 @@ fn interface_walk<T: Real, N: Ndf<T>>(
 
 /// A direction sampled at a dielectric; its weight is 1 (for light).
 ///
-/// * `u`: draws the first facet.
+/// * `u`: samples the first facet.
 #[inline]
-pub(super) fn sample_interface<T: Real, N: Ndf<T>>(
+pub(crate) fn sample_interface<T: Real, N: VisibleNormals<T>>(
     interface: &Interface<T, N>,
     wo: Vec3<T>,
     mut u: [T; 3],

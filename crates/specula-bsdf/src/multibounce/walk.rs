@@ -15,6 +15,7 @@
 use crate::fresnel::Reflectance;
 use crate::math::{Real, Rgb, Vec3};
 use crate::ndf::Ndf;
+use crate::vndf::VisibleNormals;
 
 /// Bounces after which a walk ends whatever it carries. Survivors of so many are below 1e-6 of the
 /// energy but for views within 1e-3 of the horizon.
@@ -36,13 +37,13 @@ pub(crate) struct Flight<T> {
 impl<T: Real> Flight<T> {
     #[inline(always)]
     pub(crate) fn new<N: Ndf<T>>(ndf: &N, d: Vec3<T>) -> Self {
-        let below = Real::max(ndf.lambda_cos(d), T::of(1e-24));
-        let facing = below + Real::max(-d.z, T::ZERO);
+        let below = ndf.lambda_cos(d).at_least(T::of(1e-24));
+        let facing = below + (-d.z).at_least(T::ZERO);
         Self {
             d,
             facing,
-            backing: below + Real::max(d.z, T::ZERO),
-            rate: facing / Real::max(d.z.abs(), T::of(1e-12)),
+            backing: below + d.z.at_least(T::ZERO),
+            rate: facing / d.z.abs().at_least(T::of(1e-12)),
         }
     }
 
@@ -53,7 +54,7 @@ impl<T: Real> Flight<T> {
             d: -self.d,
             facing: self.backing,
             backing: self.facing,
-            rate: self.backing / Real::max(self.d.z.abs(), T::of(1e-12)),
+            rate: self.backing / self.d.z.abs().at_least(T::of(1e-12)),
         }
     }
 
@@ -70,7 +71,7 @@ pub(crate) struct Facets<T, N> {
     pub(crate) reflectance: Reflectance<T>,
 }
 
-impl<T: Real, N: Ndf<T>> Facets<T, N> {
+impl<T: Real, N: VisibleNormals<T>> Facets<T, N> {
     /// The flight that leaves for `wo`, reversed.
     #[inline(always)]
     pub(crate) fn arriving(&self, wo: Vec3<T>) -> Flight<T> {
@@ -107,7 +108,11 @@ impl<T: Real, N: Ndf<T>> Facets<T, N> {
 /// The facet that is met, sampled among those that `-d` sees, the cosine of incidence, and the flight
 /// after it.
 #[inline(always)]
-pub(crate) fn meet<T: Real, N: Ndf<T>>(ndf: &N, d: Vec3<T>, u: [T; 2]) -> (Vec3<T>, T, Flight<T>) {
+pub(crate) fn meet<T: Real, N: VisibleNormals<T>>(
+    ndf: &N,
+    d: Vec3<T>,
+    u: [T; 2],
+) -> (Vec3<T>, T, Flight<T>) {
     let wm = ndf.sample_wm(-d, u);
     let along = d.dot(wm);
     let after = d - wm * (T::TWO * along);

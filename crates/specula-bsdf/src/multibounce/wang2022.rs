@@ -12,7 +12,7 @@
 //! and 0 for a downward one. A path weighs `prod v_i s_i`, `v = F D / (4 |d_z|)`, where the segment
 //! terms `s` are these probabilities (the last) or their complements, over `l`.
 //!
-//! The model's bias is its own: it keeps the energy (its furnace is exact) but not its directions,
+//! The model's bias is its own: it conserves energy (its furnace is exact) but not the directions,
 //! as depths of later collisions are not exponential. Against Heitz 2016 it errs by -20 % to +11 %
 //! at alpha 1 up to 60 degrees, and by +180 % at 85 (test `wang_is_biased_as_its_model_says`; example `multibounce_means`). One bounce is exact when correlated, and has the
 //! separable `G2` when not. The uncorrelated model is reciprocal; the correlated one, as released,
@@ -23,7 +23,7 @@
 
 use super::walk::{Facets, Flight, MAX_BOUNCES};
 use crate::math::{Real, Rgb, Stream, Vec3};
-use crate::ndf::Ndf;
+use crate::vndf::VisibleNormals;
 
 /// Bounces without roulette.
 const SURE: usize = 2;
@@ -39,7 +39,7 @@ fn exit<T: Real>(correlated: bool, incoming: T, outgoing: T) -> T {
 
 /// An estimate of the model's `f cos`; `wi.z > 0`.
 #[inline]
-pub(super) fn eval<T: Real, N: Ndf<T>>(
+pub(crate) fn eval<T: Real, N: VisibleNormals<T>>(
     facets: &Facets<T, N>,
     correlated: bool,
     wo: Vec3<T>,
@@ -74,9 +74,9 @@ pub(super) fn eval<T: Real, N: Ndf<T>>(
 
 /// A direction and its weight, the product of Fresnel terms.
 ///
-/// * `u`: draws the first facet.
+/// * `u`: samples the first facet.
 #[inline]
-pub(super) fn sample<T: Real, N: Ndf<T>>(
+pub(crate) fn sample<T: Real, N: VisibleNormals<T>>(
     facets: &Facets<T, N>,
     correlated: bool,
     wo: Vec3<T>,

@@ -3,7 +3,6 @@
 use super::Ndf;
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3};
-use crate::vndf::{self, Sampler};
 
 /// The Beckmann distribution; `alpha` is `sqrt(2)` times the slopes' standard deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +21,7 @@ impl<T: Real> Beckmann<T> {
     #[inline(always)]
     fn slope(&self, w: Vec3<T>) -> (T, T) {
         let s = self.alpha.stretch(w);
-        let h = Real::max((s.x * s.x + s.y * s.y).sqrt(), T::of(1e-18));
+        let h = ((s.x * s.x + s.y * s.y).sqrt()).at_least(T::of(1e-18));
         (h, w.z.abs() / h)
     }
 }
@@ -61,10 +60,7 @@ impl<T: Real> Ndf<T> for Beckmann<T> {
     #[inline(always)]
     fn projected_area(&self, w: Vec3<T>) -> T {
         let lambda_cos = self.lambda_cos(w);
-        Real::max(
-            lambda_cos + T::select(w.z >= T::ZERO, w.z, T::ZERO),
-            T::of(1e-24),
-        )
+        (lambda_cos + T::select(w.z >= T::ZERO, w.z, T::ZERO)).at_least(T::of(1e-24))
     }
 
     /// ```text
@@ -76,21 +72,6 @@ impl<T: Real> Ndf<T> for Beckmann<T> {
     fn lambda_cos(&self, w: Vec3<T>) -> T {
         let (h, a) = self.slope(w);
         let rise = h * (-(a * a)).exp() * T::of(0.282_094_791_773_878_14);
-        Real::max(rise - T::HALF * w.z.abs() * a.erfc(), T::ZERO)
-    }
-
-    #[inline(always)]
-    fn sample_wm(&self, wo: Vec3<T>, u: [T; 2]) -> Vec3<T> {
-        vndf::beckmann::sample_wm(self.alpha, wo, u)
-    }
-
-    #[inline(always)]
-    fn sample_reflection(&self, _sampler: Sampler, wo: Vec3<T>, u: [T; 2]) -> Vec3<T> {
-        vndf::reflect(wo, self.sample_wm(wo, u))
-    }
-
-    #[inline(always)]
-    fn reflection_norm(&self, _sampler: Sampler, wo: Vec3<T>) -> T {
-        self.projected_area(wo)
+        (rise - T::HALF * w.z.abs() * a.erfc()).at_least(T::ZERO)
     }
 }

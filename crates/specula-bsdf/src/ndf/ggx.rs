@@ -3,7 +3,6 @@
 use super::{Masking, Ndf};
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3};
-use crate::vndf::{self, Sampler};
 
 /// The GGX distribution: normals of an ellipsoid with axes `(1/alpha_x, 1/alpha_y, 1)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +26,7 @@ impl<T: Real> Ggx<T> {
         let y = m.y * ax;
         let area = ax * ay;
         let z = m.z * area;
-        let e = z.mul_add(z, x.mul_add(x, y * y));
+        let e = z.mad(z, x.mad(x, y * y));
         let root = area * area * length_squared / e;
         T::select(m.z > T::ZERO, root * root * (T::INV_PI / area), T::ZERO)
     }
@@ -44,12 +43,12 @@ impl<T: Real> Ggx<T> {
 
     /// `(h2, t)`: `h2 = (alpha_x x)^2 + (alpha_y y)^2` and `t = sqrt(h2 + z^2)`.
     ///
-    /// A view straight from below sees nothing; a floor of `h2` keeps quotients by sigma finite.
+    /// Seen straight from below the projected area is 0; a floor of `h2` makes quotients by it finite.
     #[inline(always)]
     fn stretched_length(&self, w: Vec3<T>) -> (T, T) {
         let s = self.alpha.stretch(w);
         // Written as the samplers write it, so that a kernel computes it once.
-        let h2 = Real::max(s.x * s.x + s.y * s.y, T::of(1e-24));
+        let h2 = (s.x * s.x + s.y * s.y).at_least(T::of(1e-24));
         (h2, (h2 + s.z * s.z).sqrt())
     }
 }
@@ -107,39 +106,9 @@ impl<T: Real> Ndf<T> for Ggx<T> {
         let l = T::TWO * (t + cos_i);
         let seen = l * cos_i;
         let denominator = match masking {
-            Masking::HeightCorrelated => s.mul_add(seen, wo.z.abs() * (h2 * b)),
+            Masking::HeightCorrelated => s.mad(seen, wo.z.abs() * (h2 * b)),
             Masking::Separable => s * (seen + h2),
         };
         (seen * b, denominator)
-    }
-
-    #[inline(always)]
-    fn sample_wm(&self, wo: Vec3<T>, u: [T; 2]) -> Vec3<T> {
-        vndf::cap::sample_wm(self.alpha, wo, u)
-    }
-
-    #[inline(always)]
-    fn sample_reflection(&self, sampler: Sampler, wo: Vec3<T>, u: [T; 2]) -> Vec3<T> {
-        match sampler {
-            Sampler::Heitz => vndf::reflect(wo, vndf::heitz::sample_wm(self.alpha, wo, u)),
-            Sampler::Cap => vndf::cap::sample_direction(self.alpha, wo, u),
-            Sampler::Bounded => vndf::bounded::sample_direction(self.alpha, wo, u),
-            Sampler::Exact => vndf::exact::sample_direction(self.alpha, wo, u),
-        }
-    }
-
-    #[inline(always)]
-    fn reflection_norm(&self, sampler: Sampler, wo: Vec3<T>) -> T {
-        let (top, bottom) = self.reflection_norm_quotient(sampler, wo);
-        top / bottom
-    }
-
-    #[inline(always)]
-    fn reflection_norm_quotient(&self, sampler: Sampler, wo: Vec3<T>) -> (T, T) {
-        match sampler {
-            Sampler::Heitz | Sampler::Cap => self.projected_area_quotient(wo),
-            Sampler::Bounded => vndf::bounded::norm_quotient(self.alpha, wo),
-            Sampler::Exact => vndf::exact::norm_quotient(self.alpha, wo),
-        }
     }
 }

@@ -11,10 +11,10 @@ pub use ggx::Ggx;
 
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3};
-use crate::vndf::Sampler;
 
 /// How masking of the viewer and shadowing of the light go together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Masking {
     /// `G2 = 1 / (1 + Lambda(wo) + Lambda(wi))` (Heitz 2014, eq. 99): pbrt-v4, Cycles.
     #[default]
@@ -23,9 +23,10 @@ pub enum Masking {
     Separable,
 }
 
-/// A distribution of microfacet normals with Smith masking.
+/// A distribution of microfacet normals with Smith masking: what a lobe evaluates.
 ///
-/// Directions are unit and local; the surface normal is z.
+/// Directions are unit and local; the surface normal is z. Sampling is
+/// [`VisibleNormals`](crate::vndf::VisibleNormals).
 pub trait Ndf<T: Real>: Copy {
     /// The alphas.
     fn alpha(&self) -> Alpha<T>;
@@ -42,7 +43,7 @@ pub trait Ndf<T: Real>: Copy {
     /// ```
     ///
     /// * `w`: any unit direction, below the horizon too.
-    /// * Returns a number above 0 (to the precision of the type).
+    /// * Returns: above 0, to the precision of the type.
     fn projected_area(&self, w: Vec3<T>) -> T;
 
     /// `D` of the normal along `m`, of the squared length given: saves normalising a half vector.
@@ -53,26 +54,6 @@ pub trait Ndf<T: Real>: Copy {
 
     /// `|w.z| Lambda(|w.z|)`: finite at grazing angles, where `Lambda` is not.
     fn lambda_cos(&self, w: Vec3<T>) -> T;
-
-    /// A visible normal: density [`d_visible`](Ndf::d_visible).
-    ///
-    /// * `u`: uniform in `[0, 1)^2`.
-    fn sample_wm(&self, wo: Vec3<T>, u: [T; 2]) -> Vec3<T>;
-
-    /// A reflected direction `wi`, perhaps below the horizon (to be rejected), sampled by `sampler`
-    /// where the distribution knows several.
-    fn sample_reflection(&self, sampler: Sampler, wo: Vec3<T>, u: [T; 2]) -> Vec3<T>;
-
-    /// The constant `N` of `pdf(wi) = D(wm) / (4 N)`, in 1/sr, of
-    /// [`sample_reflection`](Ndf::sample_reflection) above the horizon. `N = sigma(wo)` where all
-    /// visible normals are sampled.
-    fn reflection_norm(&self, sampler: Sampler, wo: Vec3<T>) -> T;
-
-    /// [`reflection_norm`](Ndf::reflection_norm) as numerator and denominator.
-    #[inline(always)]
-    fn reflection_norm_quotient(&self, sampler: Sampler, wo: Vec3<T>) -> (T, T) {
-        (self.reflection_norm(sampler, wo), T::ONE)
-    }
 
     /// Smith's `Lambda`, of the upper of the directions `w` and its mirror image.
     #[inline(always)]
@@ -143,6 +124,6 @@ pub trait Ndf<T: Real>: Copy {
     /// Source: Heitz and d'Eon 2014, eq. 2; for backfacing views Tokuyoshi 2021.
     #[inline(always)]
     fn d_visible(&self, wo: Vec3<T>, wm: Vec3<T>) -> T {
-        self.d(wm) * Real::max(wo.dot(wm), T::ZERO) / self.projected_area(wo)
+        self.d(wm) * wo.dot(wm).at_least(T::ZERO) / self.projected_area(wo)
     }
 }

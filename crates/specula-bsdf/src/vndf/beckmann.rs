@@ -7,7 +7,7 @@
 //! p(y) = exp(-y^2) / sqrt(pi),      p(x) ~ (a - x) exp(-x^2)   for x < a
 //! ```
 //!
-//! `y` is an inverse error function. `x` is the root of its distribution function, found by
+//! `y` is an inverse error function. `x` is the root of its distribution function, by
 //! Newton's method inside a bracket: the map from `u` is monotone, so stratified points stay
 //! stratified (Jakob's improvement over the fitted table of 2014). For `a < 0` (views below the
 //! horizon) the excess `y' = a - x >= 0` is solved for instead, with the scaled complementary
@@ -15,7 +15,7 @@
 //! is dropped (it changes the density by less than 1e-3, where the visible area itself is below
 //! exp(-625)).
 //!
-//! The roots are found in f64 whatever the type: they are no kernel, and f32 cannot hold the tails.
+//! The roots are computed in f64 whatever the type: f32 cannot hold the tails.
 
 use super::{above, reflect};
 use crate::alpha::Alpha;

@@ -92,11 +92,11 @@ fn stretched_with_height<T: Real>(alpha: Alpha<T>, wo: Vec3<T>) -> (Stretched<T>
 /// ```
 #[inline(always)]
 fn bound<T: Real>(alpha: Alpha<T>, wo: Vec3<T>) -> (T, T) {
-    let a = Real::min(alpha.x, alpha.y);
+    let a = alpha.x.at_most(alpha.y);
     let sine = (wo.x * wo.x + wo.y * wo.y).sqrt();
     let s = T::ONE + sine.copysign(T::ONE - a);
     let (a2, s2) = (a * a, s * s);
     // At grazing views with a > 1 both terms of the denominator vanish; k is then 0 or less.
-    let bottom = Real::max(s2 + a2 * wo.z * wo.z, T::of(1e-24));
+    let bottom = (s2 + a2 * wo.z * wo.z).at_least(T::of(1e-24));
     ((T::ONE - a2) * s2, bottom)
 }

@@ -73,8 +73,8 @@ pub(super) fn half_vector_on_cap<T: Real>(
     let (sin_phi, cos_phi) = turn.sin_cos_turns();
     let sin_theta = (v * (T::TWO - v)).sqrt();
     alpha.stretch(vec3(
-        sin_theta.mul_add(cos_phi, i.direction.x),
-        sin_theta.mul_add(sin_phi, i.direction.y),
+        sin_theta.mad(cos_phi, i.direction.x),
+        sin_theta.mad(sin_phi, i.direction.y),
         i.one_plus_z - v,
     ))
 }

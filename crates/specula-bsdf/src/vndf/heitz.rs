@@ -26,7 +26,7 @@ pub fn sample_wm<T: Real>(alpha: Alpha<T>, wo: Vec3<T>, u: [T; 2]) -> Vec3<T> {
     let v = i.direction;
     let sine2 = v.x * v.x + v.y * v.y;
     let across = sine2 > T::ZERO;
-    let inverse_sine = T::ONE / Real::max(sine2, T::TINY).sqrt();
+    let inverse_sine = T::ONE / sine2.at_least(T::TINY).sqrt();
     let t1_axis = vec3(
         T::select(across, -v.y * inverse_sine, T::ONE),
         T::select(across, v.x * inverse_sine, T::ZERO),
@@ -44,7 +44,7 @@ pub fn sample_wm<T: Real>(alpha: Alpha<T>, wo: Vec3<T>, u: [T; 2]) -> Vec3<T> {
 
     let m = t1_axis * t1 + t2_axis * t2 + v * t3;
     alpha
-        .stretch(vec3(m.x, m.y, Real::max(m.z, T::ZERO)))
+        .stretch(vec3(m.x, m.y, m.z.at_least(T::ZERO)))
         .normalize()
 }
 

@@ -1,6 +1,6 @@
 //! Samplers of visible microfacet normals, one file each with its own pdf.
 //!
-//! | file | distribution | of | draws rejected (reflections below the horizon) |
+//! | file | distribution | of | rejected (reflections below the horizon) |
 //! |---|---|---|---|
 //! | `heitz` | GGX | normals | 50 % at alpha 1, normal incidence |
 //! | `cap` | GGX | normals | the same: another map to the same density |
@@ -16,9 +16,13 @@ pub mod cap;
 pub mod exact;
 pub mod heitz;
 mod reflections;
+mod visible_normals;
 
 pub use reflections::Reflections;
+pub use visible_normals::VisibleNormals;
 
+use alloc::borrow::ToOwned;
+use alloc::string::String;
 use core::fmt;
 use core::str::FromStr;
 
@@ -28,6 +32,7 @@ use crate::ndf::Ggx;
 
 /// Which sampler samples reflections off GGX.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Sampler {
     /// Heitz 2018.
     Heitz,
@@ -53,7 +58,7 @@ impl fmt::Display for Sampler {
     }
 }
 
-/// A name that is no sampler's.
+/// A name of no sampler.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no such sampler: '{0}' (expected heitz, cap, bounded or exact)")]
 pub struct UnknownSampler(pub String);
@@ -83,9 +88,9 @@ pub fn reflect<T: Real>(wo: Vec3<T>, wm: Vec3<T>) -> Vec3<T> {
 pub(crate) fn reflect_unnormalised<T: Real>(wo: Vec3<T>, m: Vec3<T>) -> Vec3<T> {
     let scale = T::TWO * wo.dot(m) / m.length_squared();
     Vec3 {
-        x: m.x.mul_add(scale, -wo.x),
-        y: m.y.mul_add(scale, -wo.y),
-        z: m.z.mul_add(scale, -wo.z),
+        x: m.x.mad(scale, -wo.x),
+        y: m.y.mad(scale, -wo.y),
+        z: m.z.mad(scale, -wo.z),
     }
 }
 
@@ -142,9 +147,9 @@ impl<T: Real> Stretched<T> {
     }
 }
 
-/// `x^2 + y^2` with a floor that keeps the straight view from below finite: it sees only facets at
-/// the horizon.
+/// `x^2 + y^2` with a floor, so that the view straight from below, which sees only facets at the
+/// horizon, stays finite.
 #[inline(always)]
 fn squared_radius<T: Real>(h: Vec3<T>) -> T {
-    Real::max(h.x * h.x + h.y * h.y, T::of(1e-24))
+    (h.x * h.x + h.y * h.y).at_least(T::of(1e-24))
 }

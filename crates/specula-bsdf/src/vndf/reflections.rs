@@ -1,15 +1,15 @@
-//! Many reflections of one view: what does not depend on the draw is computed once.
+//! Many reflections of one view: what depends on the view alone is computed once.
 //!
-//! All samplers share the density `D(wm) / (4 N(wo))`. With `N` kept, a density costs `D` alone: no
-//! square root and one division. anisotropic alpha keep the cone of `exact` as well, which is
-//! most of a sample's cost. Worth it from the second use of a view on: several light samples at a
-//! shading point, resampling, mixtures with guided distributions.
+//! All samplers share the density `D(wm) / (4 N(wo))`. With `N` stored, a density costs `D` alone:
+//! no square root and one division. For anisotropic alphas the cone of `exact` is stored as well,
+//! which is most of a sample's cost. Worth it from the second use of a view on: several light samples
+//! at a shading point, resampling, mixtures with guided distributions.
 
 use super::exact::Cone;
 use super::{Sampler, above, exact, reflect_unnormalised, reflection_density};
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3};
-use crate::ndf::{Ggx, Ndf};
+use crate::ndf::Ggx;
 
 /// The reflections of one view off visible GGX normals.
 ///
@@ -36,7 +36,7 @@ pub struct Reflections<T> {
 impl<T: Real> Reflections<T> {
     /// The reflections of `wo`.
     ///
-    /// * `wo`: unit, any hemisphere; below the horizon all samplers draw by the whole cap.
+    /// * `wo`: unit, any hemisphere; below the horizon all samplers use the whole cap.
     #[inline(always)]
     pub fn new(alpha: Alpha<T>, wo: Vec3<T>, sampler: Sampler) -> Self {
         let cone = (sampler == Sampler::Exact && wo.z > T::ZERO && alpha.x != alpha.y)
@@ -110,16 +110,20 @@ mod tests {
                 let ggx = Ggx::new(alpha);
                 for _ in 0..200 {
                     let wo: Vec3<f64> = warp::uniform_sphere([stream.next(), stream.next()]);
-                    let kept = Reflections::new(alpha, wo, sampler);
+                    let reflections = Reflections::new(alpha, wo, sampler);
                     let u = [stream.next(), stream.next()];
                     let wi = ggx.sample_reflection(sampler, wo, u);
-                    assert_eq!(kept.sample_direction(u), wi, "{sampler} {ax} {ay} {wo:?}");
-                    assert_eq!(kept.sample(u).is_some(), wi.z > 0.0);
+                    assert_eq!(
+                        reflections.sample_direction(u),
+                        wi,
+                        "{sampler} {ax} {ay} {wo:?}"
+                    );
+                    assert_eq!(reflections.sample(u).is_some(), wi.z > 0.0);
                     let half = wo + wi;
                     let d = ggx.d_along(half, half.length_squared());
                     let pdf = d / (4.0 * ggx.reflection_norm(sampler, wo));
                     let expected = if wi.z > 0.0 && half.z > 0.0 { pdf } else { 0.0 };
-                    let pdf = kept.pdf(wi);
+                    let pdf = reflections.pdf(wi);
                     assert!(
                         (pdf - expected).abs() <= 1e-12 * expected,
                         "{sampler} {ax} {ay} {wo:?}: {pdf} {expected}"

@@ -3,7 +3,7 @@
 
 use specula_bsdf::batch::Directions;
 use specula_bsdf::bsdf::{
-    CoatLayer, CoatScattering, CoatedConductor, CoatedDiffuse, Compensated, CompensatedDielectric,
+    CoatLayer, CoatScattering, CoatedDiffuse, Compensated, CompensatedDielectric,
     DiffuseTransmission, Eon, Lambert, RoughConductor, RoughDielectric, SmoothConductor,
     SmoothDielectric, ThinDielectric,
 };
@@ -131,16 +131,9 @@ macro_rules! for_every_lobe {
             $each!("coated diffuse", coat);
             let coat = make::lossy_coat::<$t>(Some($alpha)).with_sampler(sampler);
             $each!("coated diffuse", coat);
-            let coat = make::coated_conductor::<$t>(Some($alpha), Some($alpha));
-            $each!("coated conductor", coat.with_sampler(sampler));
         }
         $each!("coated diffuse", make::coated_diffuse::<$t>(None));
         $each!("coated diffuse", make::lossy_coat::<$t>(None));
-        $each!(
-            "coated conductor",
-            make::coated_conductor::<$t>(None, Some($alpha))
-        );
-        $each!("coated conductor", make::coated_conductor::<$t>(None, None));
         $each!("lambert", make::lambert::<$t>());
         $each!("eon", make::eon::<$t>());
         $each!("diffuse transmission", make::sheet::<$t>());
@@ -182,13 +175,6 @@ pub(crate) fn lossy_coat<T: Real>(alpha: Option<[f32; 2]>) -> CoatedDiffuse<T> {
         scattering: CoatScattering::Single,
     };
     CoatedDiffuse::over_layer(alpha.map(ggx), single(1.5), colour(0.8, 0.5, 0.2), layer)
-}
-
-pub(crate) fn coated_conductor<T: Real>(
-    coat: Option<[f32; 2]>,
-    metal: Option<[f32; 2]>,
-) -> CoatedConductor<T> {
-    CoatedConductor::new(coat.map(ggx), single(1.5), metal.map(ggx), gold())
 }
 
 /// Every model of energy compensation.

@@ -1,19 +1,20 @@
 //! Energy tables, compensation and interfaces.
 
-use specula_bsdf::energy::coordinates::{
+use specula_bsdf::energy::ggx_loss;
+use specula_bsdf::energy::{DielectricLoss, Loss};
+use specula_bsdf::fresnel::{Conductor, F82Tint, Reflectance, Schlick};
+use specula_bsdf::internal::coordinates::{
     AlphaPair, alpha_coordinate, average_scale, cosine_coordinate, edge,
     interface_cosine_coordinate,
 };
-use specula_bsdf::energy::dielectric_albedo::{eta_coordinate, half};
-use specula_bsdf::energy::fit::ggx_loss;
-use specula_bsdf::energy::fresnel_average::reflectance_average;
-use specula_bsdf::energy::interface_layer::Layer;
-use specula_bsdf::energy::model::further_bounces;
-use specula_bsdf::energy::pairs::{pair, row};
-use specula_bsdf::energy::spline::Spline;
-use specula_bsdf::energy::stencil::Stencil;
-use specula_bsdf::energy::{DielectricLoss, Loss, interface, interface_single};
-use specula_bsdf::fresnel::{Conductor, F82Tint, Reflectance, Schlick};
+use specula_bsdf::internal::dielectric_albedo::{eta_coordinate, half};
+use specula_bsdf::internal::fresnel_average::reflectance_average;
+use specula_bsdf::internal::interface_layer::Layer;
+use specula_bsdf::internal::model::further_bounces;
+use specula_bsdf::internal::pairs::{pair, row};
+use specula_bsdf::internal::spline::Spline;
+use specula_bsdf::internal::stencil::Stencil;
+use specula_bsdf::internal::{interface, interface_single};
 use specula_bsdf::math::rgb;
 use specula_bsdf::ndf::{Beckmann, Ggx, Masking};
 use specula_bsdf::{Real, Rgb};
@@ -152,7 +153,7 @@ fn axis_cases() -> Vec<Case> {
             twins!(|x| {
                 let (cubic, quadratic) = (Spline::cubic(x[0], 10), Spline::quadratic(x[0], 9));
                 let first = number(cubic.first());
-                let place = Real::clamp(x[0], T::ZERO, T::ONE) * T::of(7.0) - first;
+                let place = x[0].within(T::ZERO, T::ONE) * T::of(7.0) - first;
                 let mut y = vec![first, place, first, number(quadratic.first())];
                 y.extend(cubic.weights());
                 y.extend(quadratic.weights());
@@ -218,12 +219,12 @@ fn coordinate_cases() -> Vec<Case> {
                     low,
                     high,
                     edge,
-                    azimuth.width,
+                    azimuth.alpha,
                     azimuth.v,
                     azimuth.narrow,
                     azimuth.interface(edge),
-                    cosine_coordinate(cosine, azimuth.width),
-                    interface_cosine_coordinate(cosine, azimuth.width, edge),
+                    cosine_coordinate(cosine, azimuth.alpha),
+                    interface_cosine_coordinate(cosine, azimuth.alpha, edge),
                 ]
             }),
             4.0,

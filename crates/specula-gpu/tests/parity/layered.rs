@@ -217,7 +217,7 @@ const ELSEWHERE: &[(&str, &str)] = &[
     ),
     (
         "layered_density",
-        "layered_density_pdf layered_density_scattered layered_density_coat
+        "layered_density_pdf layered_density_blurred layered_density_scattered layered_density_coat
          layered_density_quarter",
     ),
 ];
@@ -253,6 +253,12 @@ const FAULTS: &[Fault] = &[
         "bsdf/layered/layered_density",
         "clamp(rough * 0.5, 0.02, 0.3)",
         "clamp(rough * 0.501, 0.02, 0.3)",
+    ),
+    fault(
+        "layered_density",
+        "bsdf/layered/layered_density",
+        "0.5 * bend * bend",
+        "0.51 * bend * bend",
     ),
     fault(
         "layered_value",

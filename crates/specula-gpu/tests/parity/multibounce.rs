@@ -6,12 +6,10 @@
 //! (`means.rs`).
 
 use specula_bsdf::bsdf::Tints;
+use specula_bsdf::bsdf::{MultibounceConductor, MultibounceDielectric, MultibounceDiffuse};
 use specula_bsdf::fresnel::{Reflectance, Schlick};
 use specula_bsdf::math::{Stream, rgb};
-use specula_bsdf::multibounce::{
-    MisPdf, MultibounceConductor, MultibounceDielectric, MultibounceDiffuse,
-    MultibounceModel as Model,
-};
+use specula_bsdf::multibounce::{MisPdf, MultibounceModel as Model};
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Bsdf, BsdfSample, Event, Real, Rgb, Transport, Vec3};
 
@@ -326,7 +324,8 @@ fn draws() -> Vec<Case> {
                 metal!(stored!($call)),
                 walks!(|x| {
                     let mut stream = stream(x, 8);
-                    let walk = conductor(x, $model).draw(vector(x, 2), [x[6], x[7]], &mut stream);
+                    let walk =
+                        conductor(x, $model).sample_walk(vector(x, 2), [x[6], x[7]], &mut stream);
                     sampled(walk.map(|(wi, weight)| BsdfSample {
                         wi,
                         weight,

@@ -160,7 +160,7 @@ fn ggx() -> Vec<Case> {
                 let (ggx, w) = (Ggx::new(alpha(x, 0)), vector(x, 2));
                 let wm = [0.36_f32, 0.48, 0.8].map(|c| T::of(c.into()));
                 let s = ggx.alpha().stretch(w);
-                let radius = T::max(s.x * s.x + s.y * s.y, T::of(1e-24));
+                let radius = (s.x * s.x + s.y * s.y).at_least(T::of(1e-24));
                 let share = radius / (radius + s.z * s.z);
                 vec![ggx.lambda(w), ggx.d_visible(w, wm.into()), share]
             }),

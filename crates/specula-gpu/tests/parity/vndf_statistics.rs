@@ -111,7 +111,7 @@ fn widened([x, y]: [f32; 2], wo: [f32; 3]) -> (Alpha<f64>, Vec3<f64>) {
 
 /// Where a density of this place is large: half a turn about the normal, and the normal.
 fn peaks(alpha: Alpha<f64>, wo: Vec3<f64>) -> Vec<Peak> {
-    let width = Real::min(Real::min(alpha.x, alpha.y), 0.3);
+    let width = alpha.x.at_most(alpha.y).at_most(0.3);
     [reflect(wo, Vec3::Z), Vec3::Z]
         .map(|direction| Peak { direction, width })
         .to_vec()

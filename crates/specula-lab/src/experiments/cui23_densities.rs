@@ -7,11 +7,11 @@
 use std::f64::consts::PI;
 
 use rayon::prelude::*;
+use specula_bsdf::bsdf::MultibounceConductor;
 use specula_bsdf::fresnel::Reflectance;
+use specula_bsdf::internal::{normalised_pdf, sample_normalised};
 use specula_bsdf::math::{Stream, vec3, warp};
-use specula_bsdf::multibounce::{
-    MisPdf, MultibounceConductor, MultibounceModel, normalised_pdf, sample_normalised,
-};
+use specula_bsdf::multibounce::{MisPdf, MultibounceModel};
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Alpha, Bsdf as _, Rgb, Vec3};
 

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 use specula_bsdf::math::{Stream, vec3};
-use specula_bsdf::ndf::{Beckmann, Ggx, Ndf};
+use specula_bsdf::ndf::{Beckmann, Ggx};
+use specula_bsdf::vndf::VisibleNormals;
 use specula_bsdf::{Alpha, Vec3};
 use specula_render::RenderOptions;
 use specula_scene::Scene;
@@ -95,7 +96,11 @@ fn count(
     })
 }
 
-fn paths<N: Ndf<f64>>(ndf: &N, wo: Vec3<f64>, stream: &mut Stream) -> (usize, Vec<usize>) {
+fn paths<N: VisibleNormals<f64>>(
+    ndf: &N,
+    wo: Vec3<f64>,
+    stream: &mut Stream,
+) -> (usize, Vec<usize>) {
     (sampled(ndf, wo, stream), evaluated(ndf, wo, stream))
 }
 

@@ -4,9 +4,9 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use rayon::prelude::*;
+use specula_bsdf::bsdf::MultibounceConductor;
 use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::math::{Stream, vec3};
-use specula_bsdf::multibounce::MultibounceConductor;
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Alpha, Rgb, Vec3};
 use specula_stat::z_test::{Moments, equal_means, sidak};

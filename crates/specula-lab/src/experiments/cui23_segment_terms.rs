@@ -161,7 +161,7 @@ impl Term for Exponentials {
 /// The depth state of Specula.
 pub(super) struct Depths {
     out: f64,
-    state: Option<specula_bsdf::multibounce::DepthState<f64>>,
+    state: Option<specula_bsdf::internal::DepthState<f64>>,
     n: usize,
 }
 
@@ -177,7 +177,7 @@ impl Term for Depths {
     #[inline(always)]
     fn add(&mut self, Step { rate, down }: Step) {
         match &mut self.state {
-            None => self.state = Some(specula_bsdf::multibounce::DepthState::new(rate)),
+            None => self.state = Some(specula_bsdf::internal::DepthState::new(rate)),
             Some(state) if down => {
                 // It has room for more than are sampled here.
                 if !state.down(rate) {

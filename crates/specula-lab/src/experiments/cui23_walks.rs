@@ -2,7 +2,7 @@
 
 use specula_bsdf::Vec3;
 use specula_bsdf::math::Stream;
-use specula_bsdf::ndf::Ndf;
+use specula_bsdf::vndf::VisibleNormals;
 
 use super::cui23_segment_terms::Step;
 
@@ -13,7 +13,7 @@ const GOES_ON: f64 = 0.7;
 const LONGEST: usize = 64;
 
 /// The first flights of a walk that never leaves.
-pub(super) fn walk<N: Ndf<f64>>(
+pub(super) fn walk<N: VisibleNormals<f64>>(
     ndf: &N,
     wo: Vec3<f64>,
     flights: usize,
@@ -30,7 +30,11 @@ pub(super) fn walk<N: Ndf<f64>>(
 
 /// Downward flights of a path as it is sampled: it leaves with probability `G1` once it goes up
 /// (algorithm 2 of the supplement).
-pub(super) fn sampled<N: Ndf<f64>>(ndf: &N, wo: Vec3<f64>, stream: &mut Stream) -> usize {
+pub(super) fn sampled<N: VisibleNormals<f64>>(
+    ndf: &N,
+    wo: Vec3<f64>,
+    stream: &mut Stream,
+) -> usize {
     let mut d = -wo;
     let mut downward = 0;
     for _ in 0..LONGEST {
@@ -48,7 +52,11 @@ pub(super) fn sampled<N: Ndf<f64>>(ndf: &N, wo: Vec3<f64>, stream: &mut Stream) 
 }
 
 /// Downward flights of each path that one evaluation connects (algorithm 3).
-pub(super) fn evaluated<N: Ndf<f64>>(ndf: &N, wo: Vec3<f64>, stream: &mut Stream) -> Vec<usize> {
+pub(super) fn evaluated<N: VisibleNormals<f64>>(
+    ndf: &N,
+    wo: Vec3<f64>,
+    stream: &mut Stream,
+) -> Vec<usize> {
     let mut d = -wo;
     let mut downward = 0;
     let mut all = Vec::new();
@@ -63,12 +71,12 @@ pub(super) fn evaluated<N: Ndf<f64>>(ndf: &N, wo: Vec3<f64>, stream: &mut Stream
     all
 }
 
-fn bounce<N: Ndf<f64>>(ndf: &N, d: Vec3<f64>, stream: &mut Stream) -> Vec3<f64> {
+fn bounce<N: VisibleNormals<f64>>(ndf: &N, d: Vec3<f64>, stream: &mut Stream) -> Vec3<f64> {
     let wm = ndf.sample_wm(-d, [stream.next(), stream.next()]);
     d - wm * (2.0 * d.dot(wm))
 }
 
-fn step<N: Ndf<f64>>(ndf: &N, d: Vec3<f64>) -> Step {
+fn step<N: VisibleNormals<f64>>(ndf: &N, d: Vec3<f64>) -> Step {
     let facing = ndf.lambda_cos(d) + (-d.z).max(0.0);
     Step {
         rate: facing.max(1e-24) / d.z.abs().max(1e-12),

@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use specula_bsdf::batch::{Alphas, Directions, Level};
-use specula_bsdf::math::{Stream, warp};
+use specula_bsdf::math::{Stream, vec3, warp};
 use specula_bsdf::vndf::{self, Sampler};
 use specula_bsdf::{Alpha, Vec3};
 
@@ -62,8 +62,10 @@ pub(super) type Run<'a> = Box<dyn FnMut() + 'a>;
 pub(super) fn normals(inputs: &Inputs, sampler: Sampler) -> Run<'_> {
     let (alpha, wo) = (inputs.alpha, inputs.wo.as_slices());
     match sampler {
-        Sampler::Heitz => each(move |i| vndf::heitz::sample_wm(alpha, wo.get(i), inputs.u(i))),
-        _ => each(move |i| vndf::cap::sample_wm(alpha, wo.get(i), inputs.u(i))),
+        Sampler::Heitz => {
+            each(move |i| vndf::heitz::sample_wm(alpha, element(&wo, i), inputs.u(i)))
+        }
+        _ => each(move |i| vndf::cap::sample_wm(alpha, element(&wo, i), inputs.u(i))),
     }
 }
 
@@ -72,14 +74,16 @@ pub(super) fn reflections(inputs: &Inputs, sampler: Sampler) -> Run<'_> {
     let (alpha, wo) = (inputs.alpha, inputs.wo.as_slices());
     match sampler {
         Sampler::Heitz => {
-            each(move |i| vndf::heitz::sample_reflection(alpha, wo.get(i), inputs.u(i)))
+            each(move |i| vndf::heitz::sample_reflection(alpha, element(&wo, i), inputs.u(i)))
         }
-        Sampler::Cap => each(move |i| vndf::cap::sample_reflection(alpha, wo.get(i), inputs.u(i))),
+        Sampler::Cap => {
+            each(move |i| vndf::cap::sample_reflection(alpha, element(&wo, i), inputs.u(i)))
+        }
         Sampler::Bounded => {
-            each(move |i| vndf::bounded::sample_reflection(alpha, wo.get(i), inputs.u(i)))
+            each(move |i| vndf::bounded::sample_reflection(alpha, element(&wo, i), inputs.u(i)))
         }
         Sampler::Exact => {
-            each(move |i| vndf::exact::sample_reflection(alpha, wo.get(i), inputs.u(i)))
+            each(move |i| vndf::exact::sample_reflection(alpha, element(&wo, i), inputs.u(i)))
         }
     }
 }
@@ -89,12 +93,14 @@ pub(super) fn densities(inputs: &Inputs, sampler: Sampler) -> Run<'_> {
     let (alpha, wo, wi) = (inputs.alpha, inputs.wo.as_slices(), inputs.wi.as_slices());
     match sampler {
         Sampler::Heitz | Sampler::Cap => {
-            each(move |i| vndf::cap::reflection_pdf(alpha, wo.get(i), wi.get(i)))
+            each(move |i| vndf::cap::reflection_pdf(alpha, element(&wo, i), element(&wi, i)))
         }
         Sampler::Bounded => {
-            each(move |i| vndf::bounded::reflection_pdf(alpha, wo.get(i), wi.get(i)))
+            each(move |i| vndf::bounded::reflection_pdf(alpha, element(&wo, i), element(&wi, i)))
         }
-        Sampler::Exact => each(move |i| vndf::exact::reflection_pdf(alpha, wo.get(i), wi.get(i))),
+        Sampler::Exact => {
+            each(move |i| vndf::exact::reflection_pdf(alpha, element(&wo, i), element(&wi, i)))
+        }
     }
 }
 
@@ -145,4 +151,10 @@ pub(super) fn medians(runs: &mut [Run<'_>], rounds: usize) -> Vec<f64> {
         .into_iter()
         .map(|times| 1e9 * median(times) / COUNT as f64)
         .collect()
+}
+
+/// The vector at `i`.
+#[inline(always)]
+fn element(vectors: &Directions<&[f32]>, i: usize) -> Vec3<f32> {
+    vec3(vectors.x[i], vectors.y[i], vectors.z[i])
 }

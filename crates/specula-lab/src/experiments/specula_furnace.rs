@@ -3,13 +3,13 @@
 use std::sync::atomic::Ordering;
 
 use rayon::prelude::*;
+use specula_bsdf::bsdf::MultibounceConductor as Walked;
 use specula_bsdf::bsdf::{Compensated, RoughConductor};
 use specula_bsdf::energy::{self, FmsVariant};
 use specula_bsdf::fresnel::{Conductor, Reflectance};
+use specula_bsdf::internal::{normalised_pdf, sample_normalised};
 use specula_bsdf::math::Stream;
-use specula_bsdf::multibounce::{
-    self, MultibounceConductor as Walked, normalised_pdf, sample_normalised,
-};
+use specula_bsdf::multibounce;
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, metals};
 
@@ -157,7 +157,7 @@ fn albedo(
                 .sample(wo, [first, u, v], Transport::Radiance)
                 .map(|s| s.weight),
             Treatment::Walked(model) => Walked::new(ggx, reflectance, model)
-                .draw(wo, [u, v], &mut stream)
+                .sample_walk(wo, [u, v], &mut stream)
                 .map(|(_, weight)| weight),
             Treatment::Evaluated(model) => sample_normalised(&ggx, wo, [first, u, v]).map(|wi| {
                 let metal = Walked::new(ggx, reflectance, model);

@@ -1,7 +1,7 @@
 //! StratifiedBidirectional: the share of reflections that each sampler rejects, over alphas and views.
 
 use specula_bsdf::math::Stream;
-use specula_bsdf::ndf::{Ggx, Ndf};
+use specula_bsdf::ndf::Ggx;
 use specula_bsdf::vndf::{self, Sampler};
 use specula_bsdf::{Alpha, Vec3};
 

@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use specula_bsdf::ndf::{Ggx, Ndf};
+use specula_bsdf::ndf::Ggx;
 use specula_bsdf::vndf::Sampler;
 use specula_bsdf::{Alpha, Vec3};
 

@@ -351,7 +351,6 @@ impl Chosen<'_> {
             | Lobe::SmoothConductor(_)
             | Lobe::RoughConductor(_)
             | Lobe::CoatedDiffuse(_)
-            | Lobe::CoatedConductor(_)
             | Lobe::Layered(_)
             | Lobe::Compensated(_)
             | Lobe::MultibounceConductor(_)

@@ -2,11 +2,11 @@
 
 use specula_bsdf::Alpha;
 use specula_bsdf::bsdf::{
-    Compensated, CompensatedDielectric, Lobe, RoughConductor, RoughDielectric, Tints,
+    Compensated, CompensatedDielectric, Lobe, MultibounceConductor, MultibounceDielectric,
+    RoughConductor, RoughDielectric, Tints,
 };
 use specula_bsdf::energy::Tabulated;
 use specula_bsdf::fresnel::Reflectance;
-use specula_bsdf::multibounce;
 use specula_bsdf::ndf::{Beckmann, Ggx};
 use specula_scene::Energy;
 use specula_scene::scene::{Distribution, Roughness};
@@ -21,7 +21,11 @@ pub(super) fn conductor(
     models: Models,
 ) -> Lobe<f32> {
     match roughness.distribution {
-        Distribution::Ggx => conductor_of(Ggx::new(alpha), roughness, metal, models),
+        Distribution::Ggx => match conductor_of(Ggx::new(alpha), roughness, metal, models) {
+            Lobe::RoughConductor(lobe) => lobe.with_sampler(models.sampler).into(),
+            Lobe::Compensated(lobe) => lobe.with_sampler(models.sampler).into(),
+            other => other,
+        },
         Distribution::Beckmann => conductor_of(Beckmann::new(alpha), roughness, metal, models),
     }
 }
@@ -35,18 +39,16 @@ fn conductor_of<N: Tabulated<f32>>(
 where
     RoughConductor<f32, N>: Into<Lobe<f32>>,
     Compensated<f32, N>: Into<Lobe<f32>>,
-    multibounce::MultibounceConductor<f32, N>: Into<Lobe<f32>>,
+    MultibounceConductor<f32, N>: Into<Lobe<f32>>,
 {
     match models.energy {
         Energy::None => RoughConductor::new(ndf, metal)
             .with_masking(roughness.masking)
-            .with_sampler(models.sampler)
             .into(),
         Energy::Compensated(model) => Compensated::new(ndf, metal, model)
             .with_masking(roughness.masking)
-            .with_sampler(models.sampler)
             .into(),
-        Energy::Multibounce(model) => multibounce::MultibounceConductor::new(ndf, metal, model)
+        Energy::Multibounce(model) => MultibounceConductor::new(ndf, metal, model)
             .with_mis_pdf(models.mis_pdf)
             .into(),
     }
@@ -81,7 +83,7 @@ fn dielectric_of<N: Tabulated<f32>>(
 where
     RoughDielectric<f32, N>: Into<Lobe<f32>>,
     CompensatedDielectric<f32, N>: Into<Lobe<f32>>,
-    multibounce::MultibounceDielectric<f32, N>: Into<Lobe<f32>>,
+    MultibounceDielectric<f32, N>: Into<Lobe<f32>>,
 {
     match models.energy {
         // Caps whatever is chosen for metals: refraction needs all visible normals.
@@ -93,11 +95,9 @@ where
             .with_masking(roughness.masking)
             .with_tints(tints)
             .into(),
-        Energy::Multibounce(model) => {
-            multibounce::MultibounceDielectric::facing(ndf, relative, model)
-                .with_mis_pdf(models.mis_pdf)
-                .with_tints(tints)
-                .into()
-        }
+        Energy::Multibounce(model) => MultibounceDielectric::facing(ndf, relative, model)
+            .with_mis_pdf(models.mis_pdf)
+            .with_tints(tints)
+            .into(),
     }
 }

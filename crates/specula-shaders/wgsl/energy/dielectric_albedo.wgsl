@@ -24,24 +24,24 @@ const DIELECTRIC_ALBEDO_ALPHAS: u32 = 20u;
 /// Cosines of the isotropic tables.
 const DIELECTRIC_ALBEDO_COSINES: u32 = 22u;
 /// Indices of the anisotropic tables.
-const DIELECTRIC_ALBEDO_STRETCHED_ETAS: u32 = 12u;
+const DIELECTRIC_ALBEDO_ANISOTROPIC_ETAS: u32 = 12u;
 /// Alphas of the anisotropic tables.
-const DIELECTRIC_ALBEDO_STRETCHED_ALPHAS: u32 = 12u;
+const DIELECTRIC_ALBEDO_ANISOTROPIC_ALPHAS: u32 = 12u;
 /// Azimuths of the anisotropic tables.
-const DIELECTRIC_ALBEDO_STRETCHED_AZIMUTHS: u32 = 10u;
+const DIELECTRIC_ALBEDO_ANISOTROPIC_AZIMUTHS: u32 = 10u;
 /// Cosines of the anisotropic tables.
-const DIELECTRIC_ALBEDO_STRETCHED_COSINES: u32 = 14u;
+const DIELECTRIC_ALBEDO_ANISOTROPIC_COSINES: u32 = 14u;
 /// Pairs of alphas of the anisotropic tables.
-const DIELECTRIC_ALBEDO_STRETCHED_PAIRS: u32 = 78u;
+const DIELECTRIC_ALBEDO_ANISOTROPIC_PAIRS: u32 = 78u;
 
 /// Where `sqrt(1 - E)` by index, width and cosine begins.
 const DIELECTRIC_ALBEDO_START: u32 = 81468u;
 /// Where `sqrt(1 - E_avg)` over its scale, by index and width, begins.
 const DIELECTRIC_ALBEDO_AVERAGE_START: u32 = 90268u;
 /// Where `sqrt(1 - E)` by index, pair of alphas, azimuth and cosine begins.
-const DIELECTRIC_ALBEDO_STRETCHED_START: u32 = 90668u;
+const DIELECTRIC_ALBEDO_ANISOTROPIC_START: u32 = 90668u;
 /// Where `sqrt(1 - E_avg)` over its scale, by index and pair of alphas, begins.
-const DIELECTRIC_ALBEDO_STRETCHED_AVERAGE_START: u32 = 221708u;
+const DIELECTRIC_ALBEDO_ANISOTROPIC_AVERAGE_START: u32 = 221708u;
 
 /// `sqrt(0.02)`: an index of 1.0408.
 const DIELECTRIC_ALBEDO_ROOT_START: f32 = 0.1414213562373;
@@ -67,7 +67,7 @@ struct DielectricAlbedoLoss {
     /// Coefficients about the width, isotropic.
     alpha: SplineCubic,
     /// Coefficients about the index, anisotropic.
-    stretched_eta: SplineQuadratic,
+    anisotropic_eta: SplineQuadratic,
     /// Coefficients about the smaller width, anisotropic.
     low: SplineQuadratic,
     /// Coefficients about the larger width, anisotropic.
@@ -108,13 +108,13 @@ fn dielectric_albedo_isotropic_average(table: u32, start: u32, eta: SplineCubic,
 ///
 /// Twin: specula-bsdf/src/energy/dielectric_albedo.rs, DielectricLoss::new.
 fn dielectric_albedo_stretched_average(table: u32, start: u32, eta: SplineQuadratic, low: SplineQuadratic, high: SplineQuadratic) -> f32 {
-    let first = table + DIELECTRIC_ALBEDO_STRETCHED_AVERAGE_START;
+    let first = table + DIELECTRIC_ALBEDO_ANISOTROPIC_AVERAGE_START;
     var root = 0.0;
     for (var n = 0u; n < 27u; n++) {
         let e = n / 9u;
         let i = (n / 3u) % 3u;
         let j = n % 3u;
-        let row = (start + eta.first + e) * DIELECTRIC_ALBEDO_STRETCHED_PAIRS + pairs_pair(low.first + i, high.first + j);
+        let row = (start + eta.first + e) * DIELECTRIC_ALBEDO_ANISOTROPIC_PAIRS + pairs_pair(low.first + i, high.first + j);
         root += eta.weights[e] * low.weights[i] * high.weights[j] * energy_table(first + row);
     }
     return root;
@@ -143,11 +143,11 @@ fn dielectric_albedo_loss(distribution: u32, masking: u32, alpha: vec2f, eta: f3
         root = dielectric_albedo_isotropic_average(loss.table, loss.start, loss.eta, loss.alpha);
     } else {
         loss.stretched = 1u;
-        loss.start = dielectric_albedo_half_start(eta, DIELECTRIC_ALBEDO_STRETCHED_ETAS);
-        loss.stretched_eta = spline_quadratic(place, DIELECTRIC_ALBEDO_STRETCHED_ETAS / 2u);
-        loss.low = spline_quadratic(low, DIELECTRIC_ALBEDO_STRETCHED_ALPHAS);
-        loss.high = spline_quadratic(high, DIELECTRIC_ALBEDO_STRETCHED_ALPHAS);
-        root = dielectric_albedo_stretched_average(loss.table, loss.start, loss.stretched_eta, loss.low, loss.high);
+        loss.start = dielectric_albedo_half_start(eta, DIELECTRIC_ALBEDO_ANISOTROPIC_ETAS);
+        loss.anisotropic_eta = spline_quadratic(place, DIELECTRIC_ALBEDO_ANISOTROPIC_ETAS / 2u);
+        loss.low = spline_quadratic(low, DIELECTRIC_ALBEDO_ANISOTROPIC_ALPHAS);
+        loss.high = spline_quadratic(high, DIELECTRIC_ALBEDO_ANISOTROPIC_ALPHAS);
+        root = dielectric_albedo_stretched_average(loss.table, loss.start, loss.anisotropic_eta, loss.low, loss.high);
     }
     let scaled = root * coordinates_average_scale(alpha.x, alpha.y);
     loss.average = clamp(scaled * scaled, 1e-18, 1.0);
@@ -185,10 +185,10 @@ fn dielectric_albedo_row(start: u32, cosine: SplineQuadratic) -> f32 {
 ///
 /// Twin: specula-bsdf/src/energy/dielectric_albedo.rs, stretched.
 fn dielectric_albedo_stretched(loss: DielectricAlbedoLoss, v: f32, m: f32) -> f32 {
-    let azimuth = spline_quadratic(v, DIELECTRIC_ALBEDO_STRETCHED_AZIMUTHS);
-    let cosine = spline_quadratic(m, DIELECTRIC_ALBEDO_STRETCHED_COSINES);
-    let each = DIELECTRIC_ALBEDO_STRETCHED_PAIRS * DIELECTRIC_ALBEDO_STRETCHED_AZIMUTHS;
-    let first = loss.table + DIELECTRIC_ALBEDO_STRETCHED_START;
+    let azimuth = spline_quadratic(v, DIELECTRIC_ALBEDO_ANISOTROPIC_AZIMUTHS);
+    let cosine = spline_quadratic(m, DIELECTRIC_ALBEDO_ANISOTROPIC_COSINES);
+    let each = DIELECTRIC_ALBEDO_ANISOTROPIC_PAIRS * DIELECTRIC_ALBEDO_ANISOTROPIC_AZIMUTHS;
+    let first = loss.table + DIELECTRIC_ALBEDO_ANISOTROPIC_START;
     var root = 0.0;
     // One loop, so that compilers do not write it out 81 times.
     for (var n = 0u; n < 81u; n++) {
@@ -196,10 +196,10 @@ fn dielectric_albedo_stretched(loss: DielectricAlbedoLoss, v: f32, m: f32) -> f3
         let i = (n / 9u) % 3u;
         let j = (n / 3u) % 3u;
         let k = n % 3u;
-        let of_pair = pairs_row(loss.low.first + i, loss.high.first + j, azimuth.first + k, DIELECTRIC_ALBEDO_STRETCHED_AZIMUTHS);
-        let row = (loss.start + loss.stretched_eta.first + e) * each + of_pair;
-        let weight = loss.stretched_eta.weights[e] * loss.low.weights[i] * loss.high.weights[j] * azimuth.weights[k];
-        root += weight * dielectric_albedo_row(first + row * DIELECTRIC_ALBEDO_STRETCHED_COSINES, cosine);
+        let of_pair = pairs_row(loss.low.first + i, loss.high.first + j, azimuth.first + k, DIELECTRIC_ALBEDO_ANISOTROPIC_AZIMUTHS);
+        let row = (loss.start + loss.anisotropic_eta.first + e) * each + of_pair;
+        let weight = loss.anisotropic_eta.weights[e] * loss.low.weights[i] * loss.high.weights[j] * azimuth.weights[k];
+        root += weight * dielectric_albedo_row(first + row * DIELECTRIC_ALBEDO_ANISOTROPIC_COSINES, cosine);
     }
     return root;
 }

@@ -21,7 +21,7 @@ import package::multibounce::wang2022::{wang2022_draw, wang2022_eval};
 ///
 /// Backfacing views (`wo.z < 0`) are continued: the first collision is `Exp(sigma(wo) / |wo.z|)` deep.
 ///
-/// Twin: specula-bsdf/src/multibounce/conductor.rs, Conductor.
+/// Twin: specula-bsdf/src/bsdf/multibounce_conductor.rs, Conductor.
 struct MultibounceConductor {
     /// Its facets.
     facets: WalkFacets,
@@ -34,7 +34,7 @@ struct MultibounceConductor {
 /// An estimate of the model's `f cos` alone, without the density of multiple importance sampling; black
 /// where `wi.z <= 0`.
 ///
-/// Twin: specula-bsdf/src/multibounce/conductor.rs, Conductor::estimate.
+/// Twin: specula-bsdf/src/bsdf/multibounce_conductor.rs, Conductor::estimate.
 fn multibounce_conductor_eval(
     lobe: MultibounceConductor,
     wo: vec3f,
@@ -69,14 +69,14 @@ fn multibounce_conductor_eval(
 
 /// The density for multiple importance sampling, in 1/sr; 0 where `wi.z <= 0`.
 ///
-/// Twin: specula-bsdf/src/multibounce/conductor.rs, Conductor::pdf.
+/// Twin: specula-bsdf/src/bsdf/multibounce_conductor.rs, Conductor::pdf.
 fn multibounce_conductor_pdf(lobe: MultibounceConductor, wo: vec3f, wi: vec3f) -> f32 {
     return mis_pdf_reflection(lobe.mis, lobe.facets.normals, wo, wi);
 }
 
 /// An estimate of `f cos` and the density: (red, green, blue, density).
 ///
-/// Twin: specula-bsdf/src/multibounce/conductor.rs, Conductor::eval_pdf_random.
+/// Twin: specula-bsdf/src/bsdf/multibounce_conductor.rs, Conductor::eval_pdf_random.
 fn multibounce_conductor_eval_pdf(
     lobe: MultibounceConductor,
     wo: vec3f,
@@ -92,7 +92,7 @@ fn multibounce_conductor_eval_pdf(
 ///
 /// * `u`: draws the first facet.
 ///
-/// Twin: specula-bsdf/src/multibounce/conductor.rs, Conductor::draw.
+/// Twin: specula-bsdf/src/bsdf/multibounce_conductor.rs, Conductor::draw.
 fn multibounce_conductor_walk(
     lobe: MultibounceConductor,
     wo: vec3f,
@@ -120,7 +120,7 @@ fn multibounce_conductor_walk(
 ///
 /// * `u`: `u.yz` samples the first facet.
 ///
-/// Twin: specula-bsdf/src/multibounce/conductor.rs, Conductor::sample_random.
+/// Twin: specula-bsdf/src/bsdf/multibounce_conductor.rs, Conductor::sample_random.
 fn multibounce_conductor_draw(
     lobe: MultibounceConductor,
     wo: vec3f,

@@ -3,8 +3,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use specula_bsdf::Alpha;
-use specula_bsdf::energy::albedo::Tabulated;
 use specula_bsdf::energy::{DielectricLoss, Loss};
+use specula_bsdf::internal::albedo::Tabulated;
 use specula_bsdf::math::{Stream, Vec3};
 use specula_bsdf::ndf::{Beckmann, Ggx};
 

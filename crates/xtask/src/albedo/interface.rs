@@ -2,16 +2,16 @@
 
 use specula_bsdf::Alpha;
 use specula_bsdf::energy::DielectricLoss;
-use specula_bsdf::energy::albedo::Tabulated;
-use specula_bsdf::energy::coordinates::{
+use specula_bsdf::internal::albedo::Tabulated;
+use specula_bsdf::internal::coordinates::{
     AlphaPair, alpha_at, alpha_coordinate, average_scale, edge, interface_cosine_coordinate,
 };
-use specula_bsdf::energy::dielectric_albedo::{
-    self, ALPHAS, COSINES, ETAS, STRETCHED_ALPHAS, STRETCHED_AZIMUTHS, STRETCHED_COSINES,
-    STRETCHED_ETAS, STRETCHED_PAIRS, STRETCHED_ROWS, eta_at,
+use specula_bsdf::internal::dielectric_albedo::{
+    self, ALPHAS, ANISOTROPIC_ALPHAS, ANISOTROPIC_AZIMUTHS, ANISOTROPIC_COSINES, ANISOTROPIC_ETAS,
+    ANISOTROPIC_PAIRS, ANISOTROPIC_ROWS, COSINES, ETAS, eta_at,
 };
-use specula_bsdf::energy::rows::{HIGH, LOW, Rows};
-use specula_bsdf::energy::spline::{Cubic, Quadratic};
+use specula_bsdf::internal::rows::{HIGH, LOW, Rows};
+use specula_bsdf::internal::spline::{Cubic, Quadratic};
 use specula_bsdf::math::Vec3;
 
 use super::digits::Digits;
@@ -91,12 +91,12 @@ pub(super) fn with_averages(table: &[f64]) -> (Digits, Digits) {
     (digits, text)
 }
 
-const STRETCHED_AXES: [Axis; 5] = [
-    Axis::Quadratic(STRETCHED_ETAS / 2),
-    Axis::Quadratic(STRETCHED_ALPHAS),
-    Axis::Quadratic(STRETCHED_ALPHAS),
-    Axis::Quadratic(STRETCHED_AZIMUTHS),
-    Axis::Quadratic(STRETCHED_COSINES),
+const ANISOTROPIC_AXES: [Axis; 5] = [
+    Axis::Quadratic(ANISOTROPIC_ETAS / 2),
+    Axis::Quadratic(ANISOTROPIC_ALPHAS),
+    Axis::Quadratic(ANISOTROPIC_ALPHAS),
+    Axis::Quadratic(ANISOTROPIC_AZIMUTHS),
+    Axis::Quadratic(ANISOTROPIC_COSINES),
 ];
 
 /// The view at coordinates of the anisotropic table.
@@ -108,7 +108,7 @@ fn stretched_view(eta: f64, low: f64, high: f64, v: f64, m: f64) -> Vec3<f64> {
         true => solve(v, |share| at(share).interface(edge)),
         false => 0.5,
     };
-    let along = at(share).width;
+    let along = at(share).alpha;
     let cosine = solve(m, |cosine| interface_cosine_coordinate(cosine, along, edge));
     view(cosine, share)
 }
@@ -121,13 +121,13 @@ fn stretched_rule() -> Rule {
 pub(super) fn stretched<N: Tabulated<f64>>(
     ndf: &(impl Fn(Alpha<f64>) -> N + Sync),
 ) -> [Vec<f64>; 2] {
-    let [_, alphas, _, azimuths, cosines] = STRETCHED_AXES.map(Axis::places);
-    let etas = etas(STRETCHED_AXES[0]);
+    let [_, alphas, _, azimuths, cosines] = ANISOTROPIC_AXES.map(Axis::places);
+    let etas = etas(ANISOTROPIC_AXES[0]);
     let rule = stretched_rule();
-    let pairs = pairs(STRETCHED_ALPHAS);
-    let rows = parallel(STRETCHED_ETAS * STRETCHED_PAIRS, |row| {
-        let (_, eta) = etas[row / STRETCHED_PAIRS];
-        let [low, high] = pairs[row % STRETCHED_PAIRS].map(|i| alpha_at(alphas[i]));
+    let pairs = pairs(ANISOTROPIC_ALPHAS);
+    let rows = parallel(ANISOTROPIC_ETAS * ANISOTROPIC_PAIRS, |row| {
+        let (_, eta) = etas[row / ANISOTROPIC_PAIRS];
+        let [low, high] = pairs[row % ANISOTROPIC_PAIRS].map(|i| alpha_at(alphas[i]));
         let ndf = ndf(Alpha { x: low, y: high });
         let mut values = Vec::with_capacity(azimuths.len() * cosines.len());
         for &v in &azimuths {
@@ -140,14 +140,14 @@ pub(super) fn stretched<N: Tabulated<f64>>(
     });
     [0, 1].map(|masking| {
         let rows: Vec<f64> = rows.iter().flatten().map(|roots| roots[masking]).collect();
-        let each = rows.len() / STRETCHED_ETAS;
+        let each = rows.len() / ANISOTROPIC_ETAS;
         let mut table: Vec<f64> = rows
             .chunks(each)
-            .flat_map(|rows| unfold(rows, STRETCHED_ALPHAS, STRETCHED_AZIMUTHS))
+            .flat_map(|rows| unfold(rows, ANISOTROPIC_ALPHAS, ANISOTROPIC_AZIMUTHS))
             .collect();
         let half = table.len() / 2;
         for half in table.chunks_mut(half) {
-            coefficients(&STRETCHED_AXES, half);
+            coefficients(&ANISOTROPIC_AXES, half);
         }
         table
     })
@@ -155,47 +155,47 @@ pub(super) fn stretched<N: Tabulated<f64>>(
 
 /// The texts of the anisotropic table and of its averages.
 pub(super) fn with_stretched_averages(table: &[f64]) -> (Digits, Digits) {
-    const BLOCK: usize = STRETCHED_AZIMUTHS * STRETCHED_COSINES;
+    const BLOCK: usize = ANISOTROPIC_AZIMUTHS * ANISOTROPIC_COSINES;
     let mut digits = Digits::default();
-    let pairs = pairs(STRETCHED_ALPHAS);
-    for table in table.chunks(table.len() / STRETCHED_ETAS) {
+    let pairs = pairs(ANISOTROPIC_ALPHAS);
+    for table in table.chunks(table.len() / ANISOTROPIC_ETAS) {
         for &[i, j] in &pairs {
-            let block = &table[(i * STRETCHED_ALPHAS + j) * BLOCK..][..BLOCK];
-            for row in block.chunks(STRETCHED_COSINES) {
+            let block = &table[(i * ANISOTROPIC_ALPHAS + j) * BLOCK..][..BLOCK];
+            for row in block.chunks(ANISOTROPIC_COSINES) {
                 digits.line(row, 2, LIMITS);
             }
         }
     }
-    let rows = Rows::new(digits.text.as_bytes(), STRETCHED_ROWS);
-    let (etas, alphas) = (etas(STRETCHED_AXES[0]), STRETCHED_AXES[1].places());
-    let quotients = parallel(STRETCHED_ETAS * STRETCHED_PAIRS, |row| {
-        let (x, eta) = etas[row / STRETCHED_PAIRS];
-        let [low, high] = pairs[row % STRETCHED_PAIRS].map(|i| alpha_at(alphas[i]));
-        let start = dielectric_albedo::half(eta, STRETCHED_ETAS);
-        let knots = Quadratic::quadratic(x, STRETCHED_ETAS / 2);
+    let rows = Rows::new(digits.text.as_bytes(), ANISOTROPIC_ROWS);
+    let (etas, alphas) = (etas(ANISOTROPIC_AXES[0]), ANISOTROPIC_AXES[1].places());
+    let quotients = parallel(ANISOTROPIC_ETAS * ANISOTROPIC_PAIRS, |row| {
+        let (x, eta) = etas[row / ANISOTROPIC_PAIRS];
+        let [low, high] = pairs[row % ANISOTROPIC_PAIRS].map(|i| alpha_at(alphas[i]));
+        let start = dielectric_albedo::half(eta, ANISOTROPIC_ETAS);
+        let knots = Quadratic::quadratic(x, ANISOTROPIC_ETAS / 2);
         let [first, second] = [low, high]
-            .map(|width| Quadratic::quadratic(alpha_coordinate(width), STRETCHED_ALPHAS));
+            .map(|width| Quadratic::quadratic(alpha_coordinate(width), ANISOTROPIC_ALPHAS));
         let (alpha_values, edge) = (AlphaPair::new(low, high), edge(eta));
         let loss = azimuthal_average(|[x, y]| {
             let azimuth = alpha_values.azimuth(x, y);
             let v = azimuth.interface(edge);
             average(|cosine| {
-                let m = interface_cosine_coordinate(cosine, azimuth.width, edge);
+                let m = interface_cosine_coordinate(cosine, azimuth.alpha, edge);
                 let stencils = [&knots, &first, &second];
-                dielectric_albedo::stretched(rows, start, stencils, [v, m]).powi(2)
+                dielectric_albedo::anisotropic(rows, start, stencils, [v, m]).powi(2)
             })
         });
         loss.sqrt() / average_scale(low, high)
     });
     let mut text = Digits::default();
-    for half in quotients.chunks(STRETCHED_ETAS / 2 * STRETCHED_PAIRS) {
+    for half in quotients.chunks(ANISOTROPIC_ETAS / 2 * ANISOTROPIC_PAIRS) {
         let mut averages: Vec<f64> = half
-            .chunks(STRETCHED_PAIRS)
-            .flat_map(|rows| unfold(rows, STRETCHED_ALPHAS, 1))
+            .chunks(ANISOTROPIC_PAIRS)
+            .flat_map(|rows| unfold(rows, ANISOTROPIC_ALPHAS, 1))
             .collect();
-        coefficients(&STRETCHED_AXES[..3], &mut averages);
-        for table in averages.chunks(STRETCHED_ALPHAS * STRETCHED_ALPHAS) {
-            text.line(&fold(table, STRETCHED_ALPHAS), 4, AVERAGE_LIMITS);
+        coefficients(&ANISOTROPIC_AXES[..3], &mut averages);
+        for table in averages.chunks(ANISOTROPIC_ALPHAS * ANISOTROPIC_ALPHAS) {
+            text.line(&fold(table, ANISOTROPIC_ALPHAS), 4, AVERAGE_LIMITS);
         }
     }
     (digits, text)
@@ -208,15 +208,15 @@ pub(super) fn largest_difference<N: Tabulated<f64>>(
     ndf: &(impl Fn(Alpha<f64>) -> N + Sync),
     step: usize,
 ) -> f64 {
-    let [_, alphas, _, azimuths, cosines] = STRETCHED_AXES.map(Axis::places);
-    let etas = etas(STRETCHED_AXES[0]);
+    let [_, alphas, _, azimuths, cosines] = ANISOTROPIC_AXES.map(Axis::places);
+    let etas = etas(ANISOTROPIC_AXES[0]);
     let rule = stretched_rule();
-    let pairs = pairs(STRETCHED_ALPHAS);
+    let pairs = pairs(ANISOTROPIC_ALPHAS);
     let block = azimuths.len() * cosines.len();
-    let differences = parallel(STRETCHED_ETAS * STRETCHED_PAIRS * block / step, |n| {
+    let differences = parallel(ANISOTROPIC_ETAS * ANISOTROPIC_PAIRS * block / step, |n| {
         let (row, knot) = (n * step / block, n * step % block);
-        let (_, eta) = etas[row / STRETCHED_PAIRS];
-        let [low, high] = pairs[row % STRETCHED_PAIRS].map(|i| alpha_at(alphas[i]));
+        let (_, eta) = etas[row / ANISOTROPIC_PAIRS];
+        let [low, high] = pairs[row % ANISOTROPIC_PAIRS].map(|i| alpha_at(alphas[i]));
         if low == high || high > 2.0 {
             return 0.0;
         }

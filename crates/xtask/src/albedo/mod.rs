@@ -13,7 +13,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use specula_bsdf::Alpha;
-use specula_bsdf::energy::albedo::Tabulated;
+use specula_bsdf::internal::albedo::Tabulated;
 use specula_bsdf::ndf::{Beckmann, Ggx, Masking};
 
 use crate::Result;
@@ -27,25 +27,25 @@ const PATHS: [[&str; 4]; 4] = [
         "crates/specula-bsdf/src/energy/tables/ggx_correlated.txt",
         "crates/specula-bsdf/src/energy/tables/ggx_correlated_anisotropic.txt",
         "crates/specula-bsdf/src/energy/tables/ggx_correlated_interface.txt",
-        "crates/specula-bsdf/src/energy/tables/ggx_correlated_stretched.txt",
+        "crates/specula-bsdf/src/energy/tables/ggx_correlated_interface_anisotropic.txt",
     ],
     [
         "crates/specula-bsdf/src/energy/tables/ggx_separable.txt",
         "crates/specula-bsdf/src/energy/tables/ggx_separable_anisotropic.txt",
         "crates/specula-bsdf/src/energy/tables/ggx_separable_interface.txt",
-        "crates/specula-bsdf/src/energy/tables/ggx_separable_stretched.txt",
+        "crates/specula-bsdf/src/energy/tables/ggx_separable_interface_anisotropic.txt",
     ],
     [
         "crates/specula-bsdf/src/energy/tables/beckmann_correlated.txt",
         "crates/specula-bsdf/src/energy/tables/beckmann_correlated_anisotropic.txt",
         "crates/specula-bsdf/src/energy/tables/beckmann_correlated_interface.txt",
-        "crates/specula-bsdf/src/energy/tables/beckmann_correlated_stretched.txt",
+        "crates/specula-bsdf/src/energy/tables/beckmann_correlated_interface_anisotropic.txt",
     ],
     [
         "crates/specula-bsdf/src/energy/tables/beckmann_separable.txt",
         "crates/specula-bsdf/src/energy/tables/beckmann_separable_anisotropic.txt",
         "crates/specula-bsdf/src/energy/tables/beckmann_separable_interface.txt",
-        "crates/specula-bsdf/src/energy/tables/beckmann_separable_stretched.txt",
+        "crates/specula-bsdf/src/energy/tables/beckmann_separable_interface_anisotropic.txt",
     ],
 ];
 

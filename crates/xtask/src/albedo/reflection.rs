@@ -2,15 +2,15 @@
 
 use specula_bsdf::Alpha;
 use specula_bsdf::energy::Loss;
-use specula_bsdf::energy::albedo::{
+use specula_bsdf::internal::albedo::{
     self, ANISOTROPIC_ALPHAS, ANISOTROPIC_AZIMUTHS, ANISOTROPIC_COSINES, ANISOTROPIC_PAIRS,
     ANISOTROPIC_ROWS, ISOTROPIC_ALPHAS, ISOTROPIC_COSINES, Tabulated,
 };
-use specula_bsdf::energy::coordinates::{
+use specula_bsdf::internal::coordinates::{
     AlphaPair, alpha_at, alpha_coordinate, average_scale, cosine_coordinate,
 };
-use specula_bsdf::energy::rows::{AVERAGE_HIGH, AVERAGE_LOW, HIGH, LOW, Rows};
-use specula_bsdf::energy::spline::Cubic;
+use specula_bsdf::internal::rows::{AVERAGE_HIGH, AVERAGE_LOW, HIGH, LOW, Rows};
+use specula_bsdf::internal::spline::Cubic;
 use specula_bsdf::math::Vec3;
 
 use super::digits::Digits;
@@ -169,7 +169,7 @@ pub(super) fn unfold(rows: &[f64], alphas: usize, azimuths: usize) -> Vec<f64> {
     for i in 0..alphas {
         for j in 0..alphas {
             for v in 0..azimuths {
-                let row = specula_bsdf::energy::pairs::row(i, j, v, azimuths);
+                let row = specula_bsdf::internal::pairs::row(i, j, v, azimuths);
                 table.extend_from_slice(&rows[row * line..][..line]);
             }
         }
@@ -199,7 +199,7 @@ pub(super) fn with_averages(table: &[f64]) -> (Digits, Digits) {
         let loss = azimuthal_average(|[x, y]| {
             let azimuth = alpha_values.azimuth(x, y);
             average(|cosine| {
-                let m = cosine_coordinate(cosine, azimuth.width);
+                let m = cosine_coordinate(cosine, azimuth.alpha);
                 albedo::anisotropic(rows, [&stencils[0], &stencils[1]], azimuth.v, m).powi(2)
             })
         });

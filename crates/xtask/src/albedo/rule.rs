@@ -9,8 +9,8 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use specula_bsdf::Alpha;
-use specula_bsdf::energy::albedo::{Distribution, Tabulated};
 use specula_bsdf::fresnel::{dielectric, refract};
+use specula_bsdf::internal::albedo::{Tabulated, TabulatedNdf};
 use specula_bsdf::math::{Vec3, vec3};
 use specula_bsdf::ndf::Masking;
 use specula_bsdf::vndf::reflect;
@@ -123,10 +123,10 @@ impl Rule {
             let angle = first + (last - first) * u * u * (3.0 - 2.0 * u);
             let measure = (last - first) * 6.0 * u * (1.0 - u) * weight / PI;
             let r = angle.tan();
-            let density = match N::DISTRIBUTION {
+            let density = match N::TABLES {
                 // p(r) r dr = r dr / (pi (1 + r^2)^2), r = tan(angle).
-                Distribution::Ggx => r / (1.0 + r * r),
-                Distribution::Beckmann => (-r * r).exp() * r * (1.0 + r * r),
+                TabulatedNdf::Ggx => r / (1.0 + r * r),
+                TabulatedNdf::Beckmann => (-r * r).exp() * r * (1.0 + r * r),
             };
             let m = vec3(r * slope[0], r * slope[1], 1.0);
             let length = m.length();

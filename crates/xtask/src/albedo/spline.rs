@@ -1,6 +1,6 @@
 //! Coefficients of tensor products of B-splines from their values.
 
-use specula_bsdf::energy::spline::{Cubic, Quadratic};
+use specula_bsdf::internal::spline::{Cubic, Quadratic};
 
 /// An axis of a table: how many coefficients, and of which degree.
 #[derive(Clone, Copy)]

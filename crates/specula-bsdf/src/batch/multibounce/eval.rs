@@ -4,48 +4,48 @@
 //! stands in batches together is the same walk of different elements.
 
 use super::walk_states::{
-    BOUNCES, FEW, Index, LANES, Lane, Metal, NO_STREAMS, Walks, next_if, reflect, whole,
+    BOUNCES, FEW, Index, Metal, NO_STREAMS, PerWalk, WALKS, Walks, next_if, reflect, whole,
 };
 use crate::batch::slices::{Colours, Directions};
 use crate::math::{Real, Stream, Vec3};
-use crate::multibounce::stratified_bidirectional::{SPLIT, Walk, goes_on, share, stratum};
+use crate::multibounce::stratified_bidirectional::{EvalWalk, SPLIT, goes_on, share, stratum};
 use crate::multibounce::walk::{Flight, meet, turn};
 use crate::ndf::{Ggx, Ndf};
 
-/// Some elements, one in each walk, and their walks.
-pub(super) struct Evals<T> {
-    wo: Directions<Lane<T>>,
-    wi: Directions<Lane<T>>,
-    streams: [Stream; LANES],
-    f_cos: Colours<Lane<T>>,
+/// Some elements, one a walk, and their walks.
+pub(super) struct EvalWalks<T> {
+    wo: Directions<PerWalk<T>>,
+    wi: Directions<PerWalk<T>>,
+    streams: [Stream; WALKS],
+    f_cos: Colours<PerWalk<T>>,
     /// Shift of the strata.
-    shift: [Lane<T>; 2],
+    shift: [PerWalk<T>; 2],
     /// What the walk under way, or the last one, has contributed.
-    sum: Colours<Lane<T>>,
+    sum: Colours<PerWalk<T>>,
     walks: Walks<T>,
-    contribution: Colours<Lane<T>>,
+    contribution: Colours<PerWalk<T>>,
     /// What the reflectance of a connection is multiplied by.
-    scale: Lane<T>,
+    scale: PerWalk<T>,
     /// Probability of going on; negative where there is no walk.
-    chance: Lane<T>,
+    chance: PerWalk<T>,
 }
 
-impl<T: Real> Evals<T> {
+impl<T: Real> EvalWalks<T> {
     /// No elements.
     pub(super) const NONE: Self = Self {
-        wo: Directions::<Lane<T>>::NONE,
-        wi: Directions::<Lane<T>>::NONE,
+        wo: Directions::<PerWalk<T>>::NONE,
+        wi: Directions::<PerWalk<T>>::NONE,
         streams: NO_STREAMS,
-        f_cos: Colours::<Lane<T>>::NONE,
-        shift: [[T::ZERO; LANES]; 2],
-        sum: Colours::<Lane<T>>::NONE,
+        f_cos: Colours::<PerWalk<T>>::NONE,
+        shift: [[T::ZERO; WALKS]; 2],
+        sum: Colours::<PerWalk<T>>::NONE,
         walks: Walks::NONE,
-        contribution: Colours::<Lane<T>>::NONE,
-        scale: [T::ZERO; LANES],
-        chance: [T::ZERO; LANES],
+        contribution: Colours::<PerWalk<T>>::NONE,
+        scale: [T::ZERO; WALKS],
+        chance: [T::ZERO; WALKS],
     };
 
-    /// Estimates for [`LANES`] elements at most; black where `wi.z <= 0`.
+    /// Estimates for [`WALKS`] elements at most; black where `wi.z <= 0`.
     #[inline(always)]
     pub(super) fn eval<S: Real>(
         &mut self,
@@ -55,7 +55,7 @@ impl<T: Real> Evals<T> {
         streams: &mut [Stream],
         mut f_cos: Colours<&mut [S]>,
     ) {
-        let count = streams.len().min(LANES);
+        let count = streams.len().min(WALKS);
         for i in 0..count {
             self.wo.put(i, wo.get_as(i));
             self.wi.put(i, wi.get_as(i));
@@ -124,7 +124,7 @@ impl<T: Real> Evals<T> {
             self.walks.streams[j] = self.streams[usize::from(i)].clone();
         }
         self.walks.move_up::<true>(2, going);
-        self.walks.draw_facets(going);
+        self.walks.sample_facets(going);
         let mut bounces = 1;
         while going > FEW && bounces < BOUNCES {
             bounces += 1;
@@ -196,7 +196,7 @@ impl<T: Real> Evals<T> {
     /// A later bounce. Returns the number of walks that go on.
     #[inline(always)]
     fn bounce(&mut self, facets: &Metal<T>, bounces: usize, count: usize) -> usize {
-        let count = count.min(LANES);
+        let count = count.min(WALKS);
         self.walks.bounce::<true>(facets, bounces, count);
         self.walks.fly::<true>(bounces + 1, count);
         self.connect(facets, count);
@@ -221,7 +221,7 @@ impl<T: Real> Evals<T> {
             self.walks.streams[j] = self.streams[usize::from(e)].clone();
         }
         self.walks.move_up::<true>(bounces + 1, going);
-        self.walks.draw_facets(going);
+        self.walks.sample_facets(going);
         going
     }
 
@@ -242,18 +242,18 @@ impl<T: Real> Evals<T> {
             self.contribution.put(i, contribution);
             let chance = goes_on(weight, walks.mass[i]);
             self.chance[i] = chance;
-            let kept = T::select(chance < T::ONE, T::ONE / chance, T::ONE);
-            walks.weight.put(i, weight * kept);
+            let factor = T::select(chance < T::ONE, T::ONE / chance, T::ONE);
+            walks.weight.put(i, weight * factor);
         }
     }
 
-    /// The walk in walk `i` goes on alone.
+    /// The walk `i` goes on alone.
     #[inline(always)]
     fn finish(&mut self, facets: &Metal<T>, bounces: usize, i: usize) {
         let walks = &mut self.walks;
         let e = usize::from(walks.element[i]);
         let (state, flight) = walks.state(facets, bounces + 1, i);
-        let walk = Walk {
+        let walk = EvalWalk {
             bounces,
             state,
             flight,
@@ -278,10 +278,10 @@ fn turned<T: Real>(ndf: &Ggx<T>, d: Vec3<T>, wi: Vec3<T>) -> (T, T) {
 /// Roulette, where it is played.
 #[inline(always)]
 fn play<T: Real>(
-    chance: &Lane<T>,
-    streams: &mut [Stream; LANES],
-    u: &mut Lane<T>,
-    goes_on: &mut Lane<Index>,
+    chance: &PerWalk<T>,
+    streams: &mut [Stream; WALKS],
+    u: &mut PerWalk<T>,
+    goes_on: &mut PerWalk<Index>,
     count: usize,
 ) {
     for i in 0..whole(count) {

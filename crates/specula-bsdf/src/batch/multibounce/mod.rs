@@ -24,17 +24,17 @@ mod eval;
 mod sample;
 mod walk_states;
 
-use self::eval::Evals;
-use self::sample::Draws;
-use self::walk_states::{LANES, Metal};
+use self::eval::EvalWalks;
+use self::sample::SampleWalks;
+use self::walk_states::{Metal, WALKS};
 use super::level::{Arithmetic, Level, Task};
-use super::recast::{Recast, number};
+use super::recast::{Recast, convert};
 use super::slices::{Colours, Directions, LengthMismatch, SampleOutcome, Samples, check};
-use crate::bsdf::{Bsdf, BsdfSample, Event, Transport};
+use crate::bsdf::{Bsdf, BsdfSample, Event, MultibounceConductor, Transport};
 use crate::math::{Real, Stream};
 use crate::multibounce::mis_pdf::reflection;
 use crate::multibounce::walk::Facets;
-use crate::multibounce::{MisPdf, MultibounceConductor, MultibounceModel};
+use crate::multibounce::{MisPdf, MultibounceModel};
 
 const WO: [&str; 3] = ["wo.x", "wo.y", "wo.z"];
 
@@ -82,12 +82,12 @@ impl Level {
         Ok(())
     }
 
-    /// [`Bsdf::sample_random`] of every element. A walk that was given up is [`SampleOutcome::Rejected`] with
+    /// [`Bsdf::sample_random`] of every element. A walk that did not leave is [`SampleOutcome::Rejected`] with
     /// `wi`, `weight` and `pdf` all zero.
     ///
     /// * `wo: (n, 3) T`, `u: (n, 3) T` in `[0, 1)`, `streams: (n,) Stream` `-> wi: (n, 3) T`,
     ///   `weight: (n, 3) T`, `pdf: (n,) T`, `kind: (n,) u8`
-    /// * `u`: the last two draw the first facet; all else is sampled from the streams, as for
+    /// * `u`: the last two sample the first facet; all else is sampled from the streams, as for
     ///   [`eval_pdf_random`](Level::eval_pdf_random).
     ///
     /// # Errors
@@ -166,7 +166,7 @@ impl<T: Real> EvalPdf<'_, T> {
     fn one_by_one(mut self) {
         let transport = Transport::Radiance;
         for (i, stream) in self.streams.iter_mut().enumerate() {
-            let (wo, wi) = (self.wo.get(i), self.wi.get(i));
+            let (wo, wi) = (self.wo.at(i), self.wi.at(i));
             let (value, density) = self.metal.eval_pdf_random(wo, wi, transport, stream);
             self.f_cos.set_from(i, value);
             self.pdf[i] = density;
@@ -179,10 +179,10 @@ impl<T: Real> Task for EvalPdf<'_, T> {
     fn run<A: Arithmetic>(mut self) {
         let n = self.pdf.len();
         let facets: Metal<A::Of<T>> = recast(self.metal);
-        let mut evals = Evals::<A::Of<T>>::NONE;
+        let mut evals = EvalWalks::<A::Of<T>>::NONE;
         let mut start = 0;
         while start < n {
-            let end = n.min(start + LANES);
+            let end = n.min(start + WALKS);
             let count = end - start;
             let wo = self.wo.range(start, end).first(count);
             let wi = self.wi.range(start, end).first(count);
@@ -191,7 +191,7 @@ impl<T: Real> Task for EvalPdf<'_, T> {
             evals.eval(&facets, wo, wi, streams, f_cos);
             let pdf = &mut self.pdf[start..end][..count];
             per_density!(self.metal.mis_pdf(), mis => for (i, pdf) in pdf.iter_mut().enumerate() {
-                *pdf = number(reflection(mis, &facets.ndf, wo.get_as(i), wi.get_as(i)));
+                *pdf = convert(reflection(mis, &facets.ndf, wo.get_as(i), wi.get_as(i)));
             });
             start = end;
         }
@@ -210,7 +210,7 @@ impl<T: Real> Sample<'_, T> {
     fn one_by_one(mut self) {
         let transport = Transport::Radiance;
         for (i, stream) in self.streams.iter_mut().enumerate() {
-            let (wo, u) = (self.wo.get(i), self.u.map(|u| u[i]));
+            let (wo, u) = (self.wo.at(i), self.u.map(|u| u[i]));
             let sample = self.metal.sample_random(wo, u, transport, stream);
             self.samples.set_from(i, sample);
         }
@@ -222,33 +222,33 @@ impl<T: Real> Task for Sample<'_, T> {
     fn run<A: Arithmetic>(mut self) {
         let n = self.samples.pdf.len();
         let facets: Metal<A::Of<T>> = recast(self.metal);
-        let mut draws = Draws::<A::Of<T>>::NONE;
+        let mut walks = SampleWalks::<A::Of<T>>::NONE;
         let mut start = 0;
         while start < n {
-            let end = n.min(start + LANES);
+            let end = n.min(start + WALKS);
             let count = end - start;
             let wo = self.wo.range(start, end).first(count);
             let u = [&self.u[1][start..end], &self.u[2][start..end]];
-            draws.draw(&facets, wo, u, &mut self.streams[start..end]);
+            walks.sample(&facets, wo, u, &mut self.streams[start..end]);
             let mut samples = self.samples.range(start, end).first(count);
             per_density!(self.metal.mis_pdf(), mis => for i in 0..count {
-                samples.set_from(i, with_density(mis, &facets, &draws, i));
+                samples.set_from(i, with_density(mis, &facets, &walks, i));
             });
             start = end;
         }
     }
 }
 
-/// The draw of element `i` with its density; `None` of a walk that was given up.
+/// The sample of element `i` with its density; `None` where the walk did not leave.
 #[inline(always)]
 fn with_density<U: Real>(
     mis: MisPdf,
     facets: &Metal<U>,
-    draws: &Draws<U>,
+    walks: &SampleWalks<U>,
     i: usize,
 ) -> Option<BsdfSample<U>> {
-    let (wi, weight) = (draws.wi.at(i), draws.weight.at(i));
-    let pdf = reflection(mis, &facets.ndf, draws.wo.at(i), wi);
+    let (wi, weight) = (walks.wi.at(i), walks.weight.at(i));
+    let pdf = reflection(mis, &facets.ndf, walks.wo.at(i), wi);
     let is_sampled = (wi.z > U::ZERO) & (pdf > U::ZERO) & pdf.is_finite();
     is_sampled.then_some(BsdfSample {
         wi,

@@ -1,47 +1,47 @@
 //! Directions sampled by walks in batches.
 
 use super::walk_states::{
-    BOUNCES, FEW, Index, LANES, Lane, Metal, NO_STREAMS, Walks, index, next_if, whole,
+    BOUNCES, FEW, Index, Metal, NO_STREAMS, PerWalk, WALKS, Walks, index, next_if, whole,
 };
 use crate::batch::slices::{Colours, Directions};
 use crate::math::{Real, Rgb, Stream, Vec3};
-use crate::multibounce::stratified_bidirectional::Draw;
+use crate::multibounce::stratified_bidirectional::SampleWalk;
 
-/// Some elements, one in each walk, and their walks.
-pub(super) struct Draws<T> {
-    pub(super) wo: Directions<Lane<T>>,
+/// Some elements, one a walk, and their walks.
+pub(super) struct SampleWalks<T> {
+    pub(super) wo: Directions<PerWalk<T>>,
     /// `(0, 0, 0)` of a walk that was given up.
-    pub(super) wi: Directions<Lane<T>>,
-    pub(super) weight: Colours<Lane<T>>,
-    streams: [Stream; LANES],
+    pub(super) wi: Directions<PerWalk<T>>,
+    pub(super) weight: Colours<PerWalk<T>>,
+    streams: [Stream; WALKS],
     walks: Walks<T>,
     /// What masses are scaled by.
-    scale: Lane<T>,
+    scale: PerWalk<T>,
 }
 
-impl<T: Real> Draws<T> {
+impl<T: Real> SampleWalks<T> {
     /// No elements.
     pub(super) const NONE: Self = Self {
-        wo: Directions::<Lane<T>>::NONE,
-        wi: Directions::<Lane<T>>::NONE,
-        weight: Colours::<Lane<T>>::NONE,
+        wo: Directions::<PerWalk<T>>::NONE,
+        wi: Directions::<PerWalk<T>>::NONE,
+        weight: Colours::<PerWalk<T>>::NONE,
         streams: NO_STREAMS,
         walks: Walks::NONE,
-        scale: [T::ONE; LANES],
+        scale: [T::ONE; WALKS],
     };
 
-    /// Samples for [`LANES`] elements at most.
+    /// Samples for [`WALKS`] elements at most.
     ///
-    /// * `u`: draws the first facets.
+    /// * `u`: samples the first facets.
     #[inline(always)]
-    pub(super) fn draw<S: Real>(
+    pub(super) fn sample<S: Real>(
         &mut self,
         facets: &Metal<T>,
         wo: Directions<&[S]>,
         u: [&[S]; 2],
         streams: &mut [Stream],
     ) {
-        let mut going = streams.len().min(LANES);
+        let mut going = streams.len().min(WALKS);
         let count = going;
         for i in 0..count {
             self.wo.put(i, wo.get_as(i));
@@ -74,7 +74,7 @@ impl<T: Real> Draws<T> {
     /// Returns the number of walks that go on.
     #[inline(always)]
     fn bounce(&mut self, facets: &Metal<T>, bounces: usize, count: usize) -> usize {
-        let count = count.min(LANES);
+        let count = count.min(WALKS);
         self.walks.bounce::<false>(facets, bounces, count);
         self.walks.fly::<false>(bounces + 1, count);
         let walks = &mut self.walks;
@@ -98,7 +98,7 @@ impl<T: Real> Draws<T> {
         }
         let going = walks.sort::<true>(count);
         for ended in 0..count.saturating_sub(going) {
-            let i = usize::from(walks.order[LANES - 1 - ended]);
+            let i = usize::from(walks.order[WALKS - 1 - ended]);
             let e = usize::from(walks.element[i]);
             self.wi.put(e, walks.d.at(i));
             self.weight.put(e, walks.weight.at(i));
@@ -109,17 +109,17 @@ impl<T: Real> Draws<T> {
             walks.streams[j] = self.streams[usize::from(e)].clone();
         }
         walks.move_up::<false>(bounces + 1, going);
-        walks.draw_facets(going);
+        walks.sample_facets(going);
         going
     }
 
-    /// The walk in walk `i` goes on alone.
+    /// The walk `i` goes on alone.
     #[inline(always)]
     fn finish(&mut self, facets: &Metal<T>, bounces: usize, i: usize) {
         let walks = &mut self.walks;
         let e = usize::from(walks.element[i]);
         let (state, flight) = walks.state(facets, bounces + 1, i);
-        let walk = Draw {
+        let walk = SampleWalk {
             bounces,
             state,
             flight,

@@ -13,11 +13,11 @@ use crate::ndf::Ggx;
 
 /// Walks at a time: few enough that their states stay in the second nearest cache. As many as an
 /// [`Index`] tells apart, so that none is out of bounds.
-pub(super) const LANES: usize = 256;
-/// The number of a walk.
+pub(super) const WALKS: usize = 256;
+/// The index of a walk.
 pub(super) type Index = u8;
-/// A number of every walk.
-pub(super) type Lane<T> = [T; LANES];
+/// One value for every walk.
+pub(super) type PerWalk<T> = [T; WALKS];
 
 /// Bounces in batches, at most; survivors go on one by one.
 pub(super) const BOUNCES: usize = 8;
@@ -26,25 +26,24 @@ pub(super) const FEW: usize = 6;
 /// Lanes of the widest vector: loops run over multiples of it.
 const WIDTH: usize = 16;
 
-/// The number of a walk, `i < LANES`.
+/// The index of a walk, `i < WALKS`.
 #[inline(always)]
 pub(super) fn index(i: usize) -> Index {
-    #[allow(clippy::cast_possible_truncation, reason = "below LANES")]
+    #[allow(clippy::cast_possible_truncation, reason = "below WALKS")]
     {
         i as Index
     }
 }
 
-/// The reflectance at the cosine of every walk. Its kind is known in each loop, so that none
-/// branches.
+/// The reflectance at the cosine of every walk. Each loop knows the model, so that none branches.
 #[inline(always)]
 pub(super) fn reflect<T: Real>(
     reflectance: &Reflectance<T>,
-    cos: &Lane<T>,
-    fresnel: &mut Colours<Lane<T>>,
+    cos: &PerWalk<T>,
+    fresnel: &mut Colours<PerWalk<T>>,
     count: usize,
 ) {
-    /// The loop of one kind.
+    /// The loop of one model.
     macro_rules! each {
         ($f:ident) => {
             for (i, cos) in cos[..whole(count)].iter().enumerate() {
@@ -68,11 +67,11 @@ pub(super) fn reflect<T: Real>(
 /// Facets in batches.
 pub(super) type Metal<T> = Facets<T, Ggx<T>>;
 
-impl<T: Real> Directions<Lane<T>> {
+impl<T: Real> Directions<PerWalk<T>> {
     pub(super) const NONE: Self = Self {
-        x: [T::ZERO; LANES],
-        y: [T::ZERO; LANES],
-        z: [T::ZERO; LANES],
+        x: [T::ZERO; WALKS],
+        y: [T::ZERO; WALKS],
+        z: [T::ZERO; WALKS],
     };
 
     #[inline(always)]
@@ -86,11 +85,11 @@ impl<T: Real> Directions<Lane<T>> {
     }
 }
 
-impl<T: Real> Colours<Lane<T>> {
+impl<T: Real> Colours<PerWalk<T>> {
     pub(super) const NONE: Self = Self {
-        r: [T::ZERO; LANES],
-        g: [T::ZERO; LANES],
-        b: [T::ZERO; LANES],
+        r: [T::ZERO; WALKS],
+        g: [T::ZERO; WALKS],
+        b: [T::ZERO; WALKS],
     };
 
     #[inline(always)]
@@ -107,7 +106,7 @@ impl<T: Real> Colours<Lane<T>> {
 /// The number of walks that a loop over `count` of them runs over: whole vectors.
 #[inline(always)]
 pub(super) fn whole(count: usize) -> usize {
-    (count.min(LANES) + WIDTH - 1) & !(WIDTH - 1)
+    (count.min(WALKS) + WIDTH - 1) & !(WIDTH - 1)
 }
 
 /// [`Stream::next`] in a form that vectorises: machines without AVX-512 convert no 64-bit integers.
@@ -140,66 +139,66 @@ pub(super) fn next_if<T: Real>(stream: &mut Stream, is_needed: bool) -> T {
 }
 
 /// One stream for every walk.
-pub(super) const NO_STREAMS: [Stream; LANES] = [const { Stream::new(0) }; LANES];
+pub(super) const NO_STREAMS: [Stream; WALKS] = [const { Stream::new(0) }; WALKS];
 
 /// The states of walks.
 pub(super) struct Walks<T> {
     /// Which element's walk this is.
-    pub(super) element: Lane<Index>,
-    pub(super) streams: [Stream; LANES],
+    pub(super) element: PerWalk<Index>,
+    pub(super) streams: [Stream; WALKS],
     /// Random numbers of the next bounce.
-    pub(super) u: [Lane<T>; 2],
-    pub(super) d: Directions<Lane<T>>,
+    pub(super) u: [PerWalk<T>; 2],
+    pub(super) d: Directions<PerWalk<T>>,
     /// `sigma(-d)`.
-    pub(super) facing: Lane<T>,
-    pub(super) weight: Colours<Lane<T>>,
+    pub(super) facing: PerWalk<T>,
+    pub(super) weight: Colours<PerWalk<T>>,
     /// Cosine of incidence on a facet.
-    pub(super) cos: Lane<T>,
+    pub(super) cos: PerWalk<T>,
     /// Its reflectance.
-    pub(super) fresnel: Colours<Lane<T>>,
+    pub(super) fresnel: Colours<PerWalk<T>>,
     /// Rate of a flight up; 0 of a flight down.
-    pub(super) climb: Lane<T>,
+    pub(super) climb: PerWalk<T>,
     /// Layers of the depths' states.
-    pub(super) rates: [Lane<T>; BOUNCES + 1],
-    pub(super) masses: [Lane<T>; BOUNCES + 1],
+    pub(super) rates: [PerWalk<T>; BOUNCES + 1],
+    pub(super) masses: [PerWalk<T>; BOUNCES + 1],
     /// Mass that left by the last flight up.
-    pub(super) left: Lane<T>,
+    pub(super) left: PerWalk<T>,
     /// Mass that has not left.
-    pub(super) mass: Lane<T>,
+    pub(super) mass: PerWalk<T>,
     /// Direction of the other end of the path, and its rate.
-    pub(super) target: Directions<Lane<T>>,
-    pub(super) target_rate: Lane<T>,
+    pub(super) target: Directions<PerWalk<T>>,
+    pub(super) target_rate: PerWalk<T>,
     /// Mass that would leave for the target.
-    pub(super) exit: Lane<T>,
-    pub(super) quotient: Lane<T>,
+    pub(super) exit: PerWalk<T>,
+    pub(super) quotient: PerWalk<T>,
     /// 1 where the walk goes on, else 0.
-    pub(super) goes_on: Lane<Index>,
+    pub(super) goes_on: PerWalk<Index>,
     /// The walks that go on, in order; behind them, those that do not, reversed.
-    pub(super) order: Lane<Index>,
+    pub(super) order: PerWalk<Index>,
 }
 
 impl<T: Real> Walks<T> {
     /// No walks: a constant, so that it is not built in one place and moved to another.
     pub(super) const NONE: Self = Self {
-        element: [0; LANES],
+        element: [0; WALKS],
         streams: NO_STREAMS,
-        u: [[T::ZERO; LANES]; 2],
-        d: Directions::<Lane<T>>::NONE,
-        facing: [T::ZERO; LANES],
-        weight: Colours::<Lane<T>>::NONE,
-        cos: [T::ZERO; LANES],
-        fresnel: Colours::<Lane<T>>::NONE,
-        climb: [T::ZERO; LANES],
-        rates: [[T::ZERO; LANES]; BOUNCES + 1],
-        masses: [[T::ZERO; LANES]; BOUNCES + 1],
-        left: [T::ZERO; LANES],
-        mass: [T::ZERO; LANES],
-        target: Directions::<Lane<T>>::NONE,
-        target_rate: [T::ZERO; LANES],
-        exit: [T::ZERO; LANES],
-        quotient: [T::ZERO; LANES],
-        goes_on: [0; LANES],
-        order: [0; LANES],
+        u: [[T::ZERO; WALKS]; 2],
+        d: Directions::<PerWalk<T>>::NONE,
+        facing: [T::ZERO; WALKS],
+        weight: Colours::<PerWalk<T>>::NONE,
+        cos: [T::ZERO; WALKS],
+        fresnel: Colours::<PerWalk<T>>::NONE,
+        climb: [T::ZERO; WALKS],
+        rates: [[T::ZERO; WALKS]; BOUNCES + 1],
+        masses: [[T::ZERO; WALKS]; BOUNCES + 1],
+        left: [T::ZERO; WALKS],
+        mass: [T::ZERO; WALKS],
+        target: Directions::<PerWalk<T>>::NONE,
+        target_rate: [T::ZERO; WALKS],
+        exit: [T::ZERO; WALKS],
+        quotient: [T::ZERO; WALKS],
+        goes_on: [0; WALKS],
+        order: [0; WALKS],
     };
 
     /// A bounce: directions, weights, quotients, and a row of layers.
@@ -265,21 +264,21 @@ impl<T: Real> Walks<T> {
     #[inline(always)]
     pub(super) fn sort<const ENDED: bool>(&mut self, count: usize) -> usize {
         let mut going = 0;
-        for i in 0..count.min(LANES) {
+        for i in 0..count.min(WALKS) {
             // Written to both places; the wrong one is free, and written again or not read.
-            self.order[going % LANES] = index(i);
+            self.order[going % WALKS] = index(i);
             if ENDED {
-                self.order[(LANES - 1 + going - i) % LANES] = index(i);
+                self.order[(WALKS - 1 + going - i) % WALKS] = index(i);
             }
             going += usize::from(self.goes_on[i]);
         }
-        going.min(LANES)
+        going.min(WALKS)
     }
 
     /// Moves the first `count` in `order` to the front, but for their elements and streams.
     #[inline(always)]
     pub(super) fn move_up<const TARGETED: bool>(&mut self, rows: usize, count: usize) {
-        let count = count.min(LANES);
+        let count = count.min(WALKS);
         for j in 0..count {
             let i = usize::from(self.order[j]);
             self.d.put(j, self.d.at(i));
@@ -299,9 +298,9 @@ impl<T: Real> Walks<T> {
         }
     }
 
-    /// The values that sample the next facets.
+    /// Random numbers for the next facets.
     #[inline(always)]
-    pub(super) fn draw_facets(&mut self, count: usize) {
+    pub(super) fn sample_facets(&mut self, count: usize) {
         let streams = &mut self.streams[..whole(count)];
         for u in &mut self.u {
             for (u, stream) in u.iter_mut().zip(&mut *streams) {
@@ -310,7 +309,7 @@ impl<T: Real> Walks<T> {
         }
     }
 
-    /// The walk in walk `i` as the scalar functions have it.
+    /// The walk `i` as the scalar functions have it.
     #[inline(always)]
     pub(super) fn state(
         &self,

@@ -1,4 +1,4 @@
-//! Directional albedos of glTF's layers, so that what lies below gets no more than they leave.
+//! Directional albedos of glTF's layers, which bound the light that reaches what lies below.
 //!
 //! ```text
 //! A(wo) = int D G2 / (4 |wo.z|) dwi                        what white facets reflect at once
@@ -7,12 +7,14 @@
 //! E = A (w f0 + w (1 - f0) q),    B = 1 - w f0 - w (1 - f0) H
 //! ```
 //!
-//! `A` is that of [`energy::albedo`](crate::energy::albedo). `q` and the sheen's albedo are tables,
+//! `A` is that of [`Loss`]. `q` and the sheen's albedo are tables,
 //! cubic in `sqrt(mu)` and in `sqrt(alpha)` or the sheen's roughness, made by `cargo xtask tables`;
 //! largest absolute errors at random places with mu above 0.02: 4e-3 (test
 //! `the_gltf_tables_hold_their_bounds`). They are read with a margin of that size, less towards
 //! normal incidence, so that errors cost light rather than make it. `q` of an anisotropic surface is
-//! taken at the width along the view.
+//! taken at the alpha along the view.
+
+use alloc::vec::Vec;
 
 use super::albedo_table::{ALPHAS, MUS, ROUGHNESSES, SCHLICK, SHEEN};
 pub use super::sheen::{LEAST_ROUGHNESS, charlie_f_cos};
@@ -52,18 +54,18 @@ impl<T: Real> LayerAlbedo<T> {
     /// `min(1, (1 - E) / B)`: what of the diffuse base is not too much.
     #[inline]
     pub(super) fn limit(&self, w: Vec3<T>) -> T {
-        let mu = Real::min(w.z.abs(), T::ONE);
+        let mu = w.z.abs().at_most(T::ONE);
         let whole = T::ONE - self.loss.directional(w);
-        let q = schlick(self.width(w), mu) + T::of(MARGIN) * (T::ONE - mu);
+        let q = schlick(self.alpha_along(w), mu) + T::of(MARGIN) * (T::ONE - mu);
         let above = whole * (self.normal + self.rise * q);
-        let leaves = Real::max(T::ONE - above, T::ZERO);
+        let leaves = (T::ONE - above).at_least(T::ZERO);
         let wanted = T::ONE - self.normal - self.rise * half_vectors(mu);
         T::select(leaves < wanted, leaves / wanted, T::ONE)
     }
 
-    /// The width along the view.
+    /// The alpha along the view.
     #[inline(always)]
-    fn width(&self, w: Vec3<T>) -> T {
+    fn alpha_along(&self, w: Vec3<T>) -> T {
         let alpha = self.ggx.alpha();
         let (x2, y2) = (w.x * w.x, w.y * w.y);
         let spread = alpha.x * alpha.x * x2 + alpha.y * alpha.y * y2;
@@ -77,7 +79,7 @@ impl<T: Real> LayerAlbedo<T> {
 pub fn schlick<T: Real>(alpha: T, mu: T) -> T {
     let a = Stencil::new(alpha.sqrt(), ALPHAS);
     let m = Stencil::new(mu.sqrt(), MUS);
-    a.sum(|i| m.sum(|k| number(SCHLICK[i][k])))
+    a.sum(|i| m.sum(|k| entry(SCHLICK[i][k])))
 }
 
 /// `H` of the cosine `mu`: a least-squares fit, absolute error 9e-6.
@@ -100,12 +102,12 @@ pub fn sheen_stencil<T: Real>(roughness: T) -> Stencil<T> {
 #[inline]
 pub fn sheen<T: Real>(roughness: &Stencil<T>, mu: T) -> T {
     let m = Stencil::new(mu.sqrt(), MUS);
-    let sum = roughness.sum(|i| m.sum(|k| number(SHEEN[i][k])));
+    let sum = roughness.sum(|i| m.sum(|k| entry(SHEEN[i][k])));
     let margin = T::of(MARGIN) * (T::ONE - mu);
-    Real::clamp(sum + margin, T::ZERO, T::ONE)
+    (sum + margin).within(T::ZERO, T::ONE)
 }
 
-/// The tables as plain values, for shaders: `q` by width and cosine, and the sheen's albedo by roughness
+/// The tables as plain values, for shaders: `q` by alpha and cosine, and the sheen's albedo by roughness
 /// and cosine.
 pub fn raw_tables() -> [Vec<f32>; 2] {
     let share = |&x: &u16| f32::from(x) / 65535.0;
@@ -113,7 +115,7 @@ pub fn raw_tables() -> [Vec<f32>; 2] {
 }
 
 #[inline(always)]
-fn number<T: Real>(x: u16) -> T {
+fn entry<T: Real>(x: u16) -> T {
     T::of(f64::from(x) / SCALE)
 }
 

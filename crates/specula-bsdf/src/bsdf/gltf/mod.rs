@@ -1,6 +1,6 @@
 //! glTF 2.0's metallic-roughness material with its `KHR_materials_*` extensions.
 
-pub mod albedo;
+pub(crate) mod albedo;
 mod albedo_table;
 mod sheen;
 
@@ -11,12 +11,13 @@ use crate::energy::Loss;
 use crate::fresnel::{dielectric, refract};
 use crate::math::{Frame, Real, Rgb, Vec3, vec3, warp};
 use crate::ndf::{Ggx, Masking, Ndf};
-use crate::vndf::Sampler;
+use crate::vndf::{Sampler, VisibleNormals};
 use albedo::LayerAlbedo;
 use sheen::Sheen;
 
 /// What a [`Gltf`] is made of, by the names of the specification; shares are in `[0, 1]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GltfParameters<T> {
     /// `baseColor`.
     pub base_colour: Rgb<T>,
@@ -96,7 +97,7 @@ impl<T: Real> Default for GltfParameters<T> {
 /// `g(wo) g(wi)` is Specula's: the appendix weighs the diffuse base by the Fresnel term at the half
 /// vector, with which a smooth white surface reflects up to 1.9 times the light at grazing angles.
 /// `g = min(1, (1 - E) / B)`, with the layer's directional albedo `E` and the base's `B`
-/// ([`albedo`]), takes what is too much and nothing else: above 45 degrees of elevation it is over
+/// (`albedo` of this module), takes what is too much and nothing else: above 45 degrees of elevation it is over
 /// 0.96. So no direction reflects more than it receives (test `gltf_makes_no_light`).
 ///
 /// Where `compensated`, the metal is multiplied by Turquin's factor `1 + b L(wo) / (1 - L(wo))`, with the loss
@@ -160,15 +161,15 @@ impl<T: Real> Gltf<T> {
     #[inline]
     pub fn new(parameters: GltfParameters<T>) -> Self {
         let p = parameters;
-        let share = |x: T| Real::clamp(x, T::ZERO, T::ONE);
-        let ior = Real::clamp(p.ior, T::ZERO, T::of(1e3));
+        let share = |x: T| x.within(T::ZERO, T::ONE);
+        let ior = p.ior.within(T::ZERO, T::of(1e3));
         let r = (ior - T::ONE) / (ior + T::ONE);
         let f0 = p.specular_colour.map(|c| share(c * r * r));
         let specular = share(p.specular);
         let bends = p.volume && (ior - T::ONE).abs() >= T::of(1e-3) && ior >= T::of(0.1);
         let inside = p.volume && !p.outside;
         let front = |x: T| T::select(inside, T::ZERO, x);
-        let alpha = width(share(p.roughness));
+        let alpha = alpha_of(share(p.roughness));
         let strength = share(p.anisotropy);
         let along = alpha + (T::ONE - alpha) * strength * strength;
         let ggx = Ggx::new(Alpha::clamped(along, alpha));
@@ -189,7 +190,7 @@ impl<T: Real> Gltf<T> {
             bends,
             eta: T::select(inside, T::ONE / ior, ior),
             clearcoat: front(share(p.clearcoat)),
-            coat: Ggx::new(Alpha::isotropic(width(share(p.clearcoat_roughness)))),
+            coat: Ggx::new(Alpha::isotropic(alpha_of(share(p.clearcoat_roughness)))),
             coat_normal: Vec3::Z,
             sheen: (!sheen.is_black()).then(|| Sheen::new(sheen, share(p.sheen_roughness))),
             loss: (p.compensated && metallic > T::ZERO)
@@ -228,7 +229,7 @@ impl<T: Real> Gltf<T> {
     /// The share of the coat, seen from `wo`.
     #[inline(always)]
     fn coat_share(&self, wo: Vec3<T>) -> T {
-        let cos = Real::min(self.coat_normal.dot(wo).abs(), T::ONE);
+        let cos = self.coat_normal.dot(wo).abs().at_most(T::ONE);
         self.clearcoat * (T::of(0.04) + T::of(0.96) * schlick_weight(cos))
     }
 
@@ -239,7 +240,7 @@ impl<T: Real> Gltf<T> {
             return Rgb::WHITE;
         };
         let lost = loss.directional(wo);
-        let ratio = lost / Real::max(T::ONE - lost, T::of(1e-5));
+        let ratio = lost / (T::ONE - lost).at_least(T::of(1e-5));
         self.base.map(|b| T::ONE + b * ratio)
     }
 
@@ -262,7 +263,7 @@ impl<T: Real> Gltf<T> {
         let gain = self.gain(wo);
         let (reflectance, left) = self.fresnel(wo.z.abs(), gain);
         // Facets pass light where the mean surface reflects all of it.
-        let left = Real::max(left, T::of(0.1)) * self.base.max_channel();
+        let left = left.at_least(T::of(0.1)) * self.base.max_channel();
         let under = T::ONE - self.coat_share(wo);
         let coat = self.coat_share(wo);
         let sheen = under * self.sheen.map_or(T::ZERO, |sheen| sheen.strength(wo));
@@ -270,7 +271,7 @@ impl<T: Real> Gltf<T> {
         let specular = under * reflectance.max_channel();
         let transmission = under * left * self.through;
         let sum = coat + sheen + diffuse + specular + transmission;
-        let scale = T::ONE / Real::max(sum, T::TINY);
+        let scale = T::ONE / sum.at_least(T::TINY);
         Shares {
             gain,
             coat: coat * scale,
@@ -388,7 +389,7 @@ impl<T: Real> Gltf<T> {
         }
         let (_, left) = self.fresnel(cos_o, shares.gain);
         let sum = cos_o + self.eta * cos_i;
-        let jacobian = self.eta * self.eta * -cos_i / Real::max(sum * sum, T::TINY);
+        let jacobian = self.eta * self.eta * -cos_i / (sum * sum).at_least(T::TINY);
         let visible = self.ggx.d(wm) * cos_o * jacobian;
         let shadowed = self.ggx.g2_over_cos(Masking::HeightCorrelated, wo, wi);
         let scale = match transport {
@@ -404,7 +405,7 @@ impl<T: Real> Gltf<T> {
 
     /// A direction from the coat's facets, in the frame of the base.
     #[inline]
-    fn draw_from_coat(&self, wo: Vec3<T>, direction: [T; 2]) -> Option<Vec3<T>> {
+    fn sample_coat(&self, wo: Vec3<T>, direction: [T; 2]) -> Option<Vec3<T>> {
         let frame = Frame::from_normal(self.coat_normal);
         let wo = frame.to_local(wo);
         let wi = self.coat.sample_reflection(Sampler::Bounded, wo, direction);
@@ -413,7 +414,7 @@ impl<T: Real> Gltf<T> {
 
     /// A direction through the surface.
     #[inline]
-    fn draw_through(&self, wo: Vec3<T>, direction: [T; 2]) -> Option<Vec3<T>> {
+    fn sample_transmission(&self, wo: Vec3<T>, direction: [T; 2]) -> Option<Vec3<T>> {
         if self.bends {
             let wm = self.ggx.sample_wm(wo, direction);
             let cos = wo.dot(wm);
@@ -429,10 +430,10 @@ impl<T: Real> Gltf<T> {
     }
 }
 
-/// The width of a roughness, at least what f32 directions resolve.
+/// The alpha of a roughness, at least what f32 directions resolve.
 #[inline(always)]
-fn width<T: Real>(roughness: T) -> T {
-    Real::max(roughness * roughness, T::of(Alpha::<T>::SPECULAR_BELOW))
+fn alpha_of<T: Real>(roughness: T) -> T {
+    (roughness * roughness).at_least(T::of(Alpha::<T>::SPECULAR_BELOW))
 }
 
 impl<T: Real> Bsdf<T> for Gltf<T> {
@@ -452,7 +453,7 @@ impl<T: Real> Bsdf<T> for Gltf<T> {
         let direction = [u[1], u[2]];
         let transmission = shares.transmission;
         if u[0] < transmission {
-            let wi = self.draw_through(wo, direction)?;
+            let wi = self.sample_transmission(wo, direction)?;
             let (f_cos, pdf) = self.transmission(&shares, wo, wi, transport);
             let eta = T::select(self.bends, self.eta, T::ONE);
             return BsdfSample::transmitted(wi, f_cos / pdf, pdf, eta);
@@ -463,7 +464,7 @@ impl<T: Real> Bsdf<T> for Gltf<T> {
         let wi = if u[0] < specular {
             self.ggx.sample_reflection(Sampler::Bounded, wo, direction)
         } else if u[0] < coat {
-            self.draw_from_coat(wo, direction)?
+            self.sample_coat(wo, direction)?
         } else if u[0] < sheen {
             uniform_hemisphere(direction)
         } else {

@@ -26,7 +26,7 @@ pub const LEAST_ROUGHNESS: f64 = 0.07;
 impl<T: Real> Sheen<T> {
     #[inline]
     pub(super) fn new(colour: Rgb<T>, roughness: T) -> Self {
-        let roughness = Real::max(roughness, T::of(LEAST_ROUGHNESS));
+        let roughness = roughness.at_least(T::of(LEAST_ROUGHNESS));
         Self {
             colour,
             roughness,
@@ -44,8 +44,8 @@ impl<T: Real> Sheen<T> {
     #[inline]
     pub(super) fn left(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
         let at = |w: Vec3<T>| albedo::sheen(&self.stencil, w.z.abs());
-        let most = Real::max(at(wo), at(wi));
-        Real::max(T::ONE - self.colour.max_channel() * most, T::ZERO)
+        let most = at(wo).at_least(at(wi));
+        (T::ONE - self.colour.max_channel() * most).at_least(T::ZERO)
     }
 
     /// The largest channel of the albedo from `wo`.
@@ -59,12 +59,12 @@ impl<T: Real> Sheen<T> {
 #[inline]
 pub fn charlie_f_cos<T: Real>(roughness: T, wo: Vec3<T>, wi: Vec3<T>, wm: Vec3<T>) -> T {
     let inverse = T::ONE / roughness;
-    let sin2 = Real::min(wm.x * wm.x + wm.y * wm.y, T::ONE);
+    let sin2 = (wm.x * wm.x + wm.y * wm.y).at_most(T::ONE);
     // sin^(1/r); exp and ln of a floor that is 0 for every roughness here.
-    let power = (Real::max(sin2, T::of(1e-30)).ln() * (T::HALF * inverse)).exp();
+    let power = (sin2.at_least(T::of(1e-30)).ln() * (T::HALF * inverse)).exp();
     let d = (T::TWO + inverse) * power * (T::HALF * T::INV_PI);
     // Finite at grazing angles, the same way for both directions.
-    let [cos_o, cos_i] = [wo, wi].map(|w| Real::max(w.z.abs(), T::of(1e-4)));
+    let [cos_o, cos_i] = [wo, wi].map(|w| w.z.abs().at_least(T::of(1e-4)));
     let masking = T::ONE + lambda(cos_o, roughness) + lambda(cos_i, roughness);
     d * wi.z.abs() / (masking * T::of(4.0) * cos_o * cos_i)
 }
@@ -90,6 +90,6 @@ fn fitted<T: Real>(x: T, roughness: T) -> T {
     let c = mix(0.19823, 0.16801);
     let d = mix(-1.97760, -1.27393);
     let e = mix(-4.32054, -4.85967);
-    let power = (Real::max(x, T::of(1e-30)).ln() * c).exp();
+    let power = (x.at_least(T::of(1e-30)).ln() * c).exp();
     a / (T::ONE + b * power) + d * x + e
 }

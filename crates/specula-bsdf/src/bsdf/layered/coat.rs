@@ -1,4 +1,4 @@
-//! The dielectric on top: what passes it, and what it reflects from either side.
+//! The dielectric on top: transmission, and reflection from either side.
 
 use crate::bsdf::{Bsdf, BsdfSample, Event, RoughDielectric, SmoothDielectric, Transport};
 use crate::fresnel::dielectric;
@@ -25,7 +25,7 @@ pub(super) struct CoatSample<T> {
     pub(super) pdf: T,
 }
 
-/// How a walk goes on after a surface.
+/// The direction and weight with which a walk continues after a surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Onward<T> {
     pub(super) w: Vec3<T>,
@@ -107,7 +107,7 @@ impl<T: Real> Coat<T> {
     }
 
     /// `f(wo, -w)` of light along `wo` that enters, or of light that travels up along `w` and leaves, by
-    /// the other transport; and the density with which [`enter`](Self::enter) draws `-w`. Zeros
+    /// the other transport; and the density with which [`enter`](Self::enter) samples `-w`. Zeros
     /// where smooth.
     #[inline]
     pub(super) fn passes(&self, wo: Vec3<T>, w: Vec3<T>, transport: Transport) -> (T, T) {
@@ -162,7 +162,7 @@ mod tests {
 
     /// What is sampled weighs its value over its density, on the way in and on the way back.
     #[test]
-    fn draws_weigh_values_over_densities() {
+    fn weights_are_values_over_densities() {
         let mut stream = Stream::new(5);
         for (x, y) in [(0.3, 0.3), (0.05, 0.4), (0.9, 0.9)] {
             let ggx = Ggx::new(Alpha::clamped(x, y));

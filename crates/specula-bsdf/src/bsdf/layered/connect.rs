@@ -1,4 +1,4 @@
-//! What a vertex below the coat sends to the light.
+//! The contribution of a vertex below the coat: connections to the light.
 //!
 //! A first bounce off the base runs `wo`, `-u`, `v`, `wi`, with `u` and `v` the directions up from the
 //! base. Where the coat is rough there are three ways to sample it, weighed by the power heuristic
@@ -11,8 +11,8 @@
 //!
 //! Over a narrow base the tails are rare and bright without C: a light off the mirror's direction is
 //! seen by a rare `u` and a common `v` as much as the other way round. Over a wide one C is left
-//! out, and later vertices have A and B. A smooth coat leaves A, which then is no draw: the first
-//! bounce is a closed form. Over a mirror B and C remain.
+//! out, and later vertices have A and B. A smooth coat leaves A, which then takes no random number: the
+//! first bounce is a closed form. Over a mirror B and C remain.
 
 use super::Layered;
 use super::coat::{CoatSample, Onward};
@@ -20,14 +20,14 @@ use super::medium::Medium;
 use crate::bsdf::Transport;
 use crate::math::{Real, Rgb, Stream, Vec3, vec3};
 
-/// Both ends of the paths whose value is asked.
+/// Both ends of the paths that are evaluated.
 #[derive(Clone, Copy)]
 pub(super) struct Ends<T> {
     pub(super) wo: Vec3<T>,
     pub(super) wi: Vec3<T>,
     /// How light of `wi` comes in: for `Transport::Radiance`, the way back from it.
     pub(super) entry: Option<CoatSample<T>>,
-    /// `p(u | wo)` of how light of `wo` came in, at a first vertex that C may draw.
+    /// `p(u | wo)` of how light of `wo` came in, at a first vertex that C may sample.
     pub(super) first: Option<T>,
 }
 
@@ -56,9 +56,9 @@ impl<T: Real> Ways<T> {
 
     #[inline(always)]
     fn share(&self, own: T) -> T {
-        let scale = T::ONE / Real::max(self.a + self.b + self.c, T::TINY);
+        let scale = T::ONE / (self.a + self.b + self.c).at_least(T::TINY);
         let [own, a, b, c] = [own, self.a, self.b, self.c].map(|p| (p * scale).squared());
-        own / Real::max(a + b + c, T::TINY)
+        own / (a + b + c).at_least(T::TINY)
     }
 }
 
@@ -133,7 +133,7 @@ impl<T: Real> Ends<T> {
     ) -> (Rgb<T>, Vec3<T>) {
         let is_rough = lobe.coat.is_rough();
         let share = |own: T, other: T| {
-            let share = own / Real::max(own + other, T::TINY);
+            let share = own / (own + other).at_least(T::TINY);
             T::select(is_rough, share, T::ONE)
         };
         let mut sum = Rgb::BLACK;
@@ -164,7 +164,7 @@ impl<T: Real> Ends<T> {
     /// What of `f |cos|` at a vertex reaches the light along `v`: reciprocity changes the cosines.
     #[inline(always)]
     fn arriving(&self, entry: CoatSample<T>, v: Vec3<T>) -> T {
-        entry.weight * self.wi.z / Real::max(v.z, T::TINY)
+        entry.weight * self.wi.z / v.z.at_least(T::TINY)
     }
 
     /// `p(u | v)` at the base, where it matters.

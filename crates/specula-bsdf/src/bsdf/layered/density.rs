@@ -15,7 +15,7 @@
 //! whole integrates to 1 where `q` does.
 
 use super::{Base, Layered};
-use crate::bsdf::coated_conductor;
+use crate::alpha::Alpha;
 use crate::fresnel::dielectric;
 use crate::math::{Real, Vec3, vec3, warp};
 use crate::ndf::{Ggx, Ndf};
@@ -23,10 +23,22 @@ use crate::ndf::{Ggx, Ndf};
 /// The base's normals as blurred by the coat; `None` where they are no lobe.
 pub(super) fn blurred<T: Real>(base: &Base<T>, coat: Option<Ggx<T>>, eta: T) -> Option<Ggx<T>> {
     match base {
-        Base::Mirror(_) => coated_conductor::blurred(None, coat, eta),
-        Base::Metal(m) => coated_conductor::blurred(Some(m.ndf), coat, eta),
+        Base::Mirror(_) => blurred_metal(None, coat, eta),
+        Base::Metal(m) => blurred_metal(Some(m.ndf), coat, eta),
         Base::Diffuse(_) => None,
     }
+}
+
+/// The metal's normals as blurred by a rough coat.
+fn blurred_metal<T: Real>(metal: Option<Ggx<T>>, coat: Option<Ggx<T>>, eta: T) -> Option<Ggx<T>> {
+    let Some(coat) = coat else { return metal };
+    let bend = T::ONE - T::ONE / eta;
+    let alpha = |metal: T, coat: T| (metal * metal + T::HALF * bend * bend * coat * coat).sqrt();
+    let own = metal.map_or((T::ZERO, T::ZERO), |m| (m.alpha().x, m.alpha().y));
+    let least = T::of(Alpha::<T>::SPECULAR_BELOW);
+    let x = alpha(own.0, coat.alpha().x).at_least(least);
+    let y = alpha(own.1, coat.alpha().y).at_least(least);
+    Some(Ggx::new(Alpha::clamped(x, y)))
 }
 
 /// The density (see the module's text), in 1/sr; 0 where `wi.z <= 0`.
@@ -48,8 +60,8 @@ pub(super) fn pdf<T: Real>(lobe: &Layered<T>, wo: Vec3<T>, wi: Vec3<T>) -> T {
     };
     let alpha = base.alpha();
     // Of light that meets the metal twice and more.
-    let rough = Real::max(alpha.x, alpha.y);
-    let twice = Real::clamp(rough * T::HALF, T::of(0.02), T::of(0.3));
+    let rough = alpha.x.at_least(alpha.y);
+    let twice = (rough * T::HALF).within(T::of(0.02), T::of(0.3));
     let share = T::ONE - (T::ONE - twice) * (T::ONE - scattered(lobe));
 
     let view = coat.below(wo);
@@ -60,7 +72,7 @@ pub(super) fn pdf<T: Real>(lobe: &Layered<T>, wo: Vec3<T>, wi: Vec3<T>) -> T {
     let through = quarter_d(base, view, bent) * wi.z * inverse2 / bent.z;
     let ring = T::ONE - inverse2;
     let sin2 = T::ONE - wi.z * wi.z;
-    let stretch = ((inverse2 + ring * sin2) / Real::max(sin2, T::TINY)).sqrt();
+    let stretch = ((inverse2 + ring * sin2) / sin2.at_least(T::TINY)).sqrt();
     let projected = vec3(wi.x * stretch, wi.y * stretch, ring.safe_sqrt() * wi.z);
     let round = quarter_d(base, view, projected) * ring.safe_sqrt();
     let metal = (through + round) / base.reflection_norm(lobe.sampler, view);

@@ -4,6 +4,7 @@ use crate::math::{Real, Rgb, Stream, Vec3};
 
 /// A homogeneous medium of unit extinction: lengths are optical.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Medium<T> {
     /// Optical thickness along the normal.
     pub thickness: T,
@@ -26,12 +27,12 @@ impl<T: Real> Medium<T> {
         g: T::ZERO,
     };
 
-    /// Values within their ranges; what is no number becomes the lower end.
+    /// Values within their ranges; NaN becomes the lower end.
     pub(super) fn clamped(self) -> Self {
         Self {
-            thickness: Real::clamp(self.thickness, T::ZERO, T::of(1e6)),
-            albedo: self.albedo.map(|a| Real::clamp(a, T::ZERO, T::ONE)),
-            g: Real::clamp(self.g, T::of(-0.99), T::of(0.99)),
+            thickness: self.thickness.within(T::ZERO, T::of(1e6)),
+            albedo: self.albedo.map(|a| a.within(T::ZERO, T::ONE)),
+            g: self.g.within(T::of(-0.99), T::of(0.99)),
         }
     }
 
@@ -42,7 +43,7 @@ impl<T: Real> Medium<T> {
     /// `exp(-depth / |cos|)`: what is left after a way through a slab of that depth.
     #[inline(always)]
     pub(super) fn transmittance(depth: T, w: Vec3<T>) -> T {
-        (-depth / Real::max(w.z.abs(), T::TINY)).exp()
+        (-depth / w.z.abs().at_least(T::TINY)).exp()
     }
 
     /// Depth along the normal of the next collision, `Exp(1 / |cos|)`.
@@ -80,7 +81,7 @@ impl<T: Real> Medium<T> {
             let s = (T::ONE - g * g) / (T::ONE + g * xi);
             (T::ONE + g * g - s * s) / (T::TWO * g)
         };
-        let cos = Real::clamp(cos, -T::ONE, T::ONE);
+        let cos = cos.within(-T::ONE, T::ONE);
         let sin = ((T::ONE - cos) * (T::ONE + cos)).safe_sqrt();
         let (sin_phi, cos_phi) = stream.next::<T>().sin_cos_turns();
         let frame = crate::math::Frame::from_normal(w);

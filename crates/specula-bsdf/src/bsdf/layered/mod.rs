@@ -3,8 +3,8 @@
 //!
 //! Position-free transport between parallel interfaces (Guo, Hasan and Zhao 2018), as in pbrt-v4's
 //! `LayeredBxDF` (Pharr, Jakob and Humphreys 2023, 14.3): light passes the coat or is reflected;
-//! below, it crosses a slab of optical thickness `t`, keeping `exp(-t / |cos|)` or scattering in it, meets
-//! base and coat in turn, and ends after a number of events. Each surface scatters singly
+//! below, it crosses a slab of optical thickness `t` with the transmittance `exp(-t / |cos|)` or scatters in
+//! it, meets base and coat in turn, and ends after a number of events. Each surface scatters singly
 //! (Cook and Torrance), so what a rough one scatters twice is lost.
 //!
 //! Values are unbiased estimates. pbrt's value is not where its coat is rough: it weighs two ways of
@@ -60,7 +60,7 @@ impl<T: Real> Layered<T> {
     /// * `eta`: index of the coat over that outside, clamped to `[1, 3]`.
     #[inline]
     pub fn new(coat: Option<Ggx<T>>, eta: T, base: Base<T>) -> Self {
-        let eta = Real::clamp(eta, T::ONE, T::of(3.0));
+        let eta = eta.within(T::ONE, T::of(3.0));
         // With equal indices nothing is bent, however rough.
         let coat = coat.filter(|_| eta > T::of(1.001));
         let base = base.under(eta);
@@ -127,11 +127,11 @@ impl<T: Real> Layered<T> {
     /// sampled from the light, too.
     #[inline]
     fn is_base_narrow(&self) -> bool {
-        let width = |ggx: Ggx<T>| Real::max(ggx.alpha().x, ggx.alpha().y);
-        let coat = self.coat.ndf.map_or(T::ZERO, width);
+        let alpha = |ggx: Ggx<T>| ggx.alpha().x.at_least(ggx.alpha().y);
+        let coat = self.coat.ndf.map_or(T::ZERO, alpha);
         let base = match self.base {
             Base::Mirror(_) => T::ZERO,
-            Base::Metal(m) => width(m.ndf),
+            Base::Metal(m) => alpha(m.ndf),
             Base::Diffuse(_) => return false,
         };
         T::TWO * base < coat
@@ -172,7 +172,7 @@ impl<T: Real> Layered<T> {
 /// * `x`: in `[0, 1]`.
 #[inline]
 fn series<T: Real>(x: T, terms: u32) -> T {
-    let x = Real::clamp(x, T::TINY, T::ONE - T::EPSILON);
+    let x = x.within(T::TINY, T::ONE - T::EPSILON);
     let cut = T::ONE - (T::of(f64::from(terms)) * x.ln()).exp();
     cut / (T::ONE - x)
 }

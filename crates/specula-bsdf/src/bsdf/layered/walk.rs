@@ -1,9 +1,9 @@
 //! The random walk between coat and base: its value for two directions, and its samples.
 //!
-//! A value adds up what every vertex below the coat sends to the light (`connect`). Light that the
-//! coat reflects is followed with its reflectance as a factor, never chosen against leaving.
+//! A value is the sum of the connections of every vertex below the coat (`connect`). Such a walk
+//! never leaves: at the coat it is always reflected, with the reflectance as a factor.
 //!
-//! A walk's samples take what the surfaces draw, by what they carry, until one leaves.
+//! A walk that samples follows the samples of the surfaces until it leaves.
 
 use super::coat::Onward;
 use super::connect::Ends;
@@ -73,7 +73,7 @@ impl<T: Real> State<T> {
             return true;
         }
         let is_alive = stream.next::<T>() * least < carried;
-        self.throughput *= least / Real::max(carried, T::TINY);
+        self.throughput *= least / carried.at_least(T::TINY);
         is_alive
     }
 }
@@ -139,26 +139,26 @@ pub(super) fn eval<T: Real>(
 }
 
 /// A direction that left.
-pub(super) struct Left<T> {
+pub(super) struct Exit<T> {
     pub(super) wi: Vec3<T>,
     pub(super) weight: Rgb<T>,
     /// Whether every surface on the way was smooth.
     pub(super) specular: bool,
 }
 
-/// A draw of the walk; `None` where nothing leaves.
+/// Samples a direction by the walk; `None` where nothing leaves.
 ///
-/// * `u`: draws what happens at the coat first.
+/// * `u`: samples the first event at the coat.
 pub(super) fn sample<T: Real>(
     lobe: &Layered<T>,
     wo: Vec3<T>,
     u: [T; 3],
     stream: &mut Stream,
-) -> Option<Left<T>> {
+) -> Option<Exit<T>> {
     let first = lobe.coat.scatter_above(wo, u)?;
     let mut specular = first.specular;
     if first.event == Event::Reflection {
-        return Some(Left {
+        return Some(Exit {
             wi: first.wi,
             weight: first.weight,
             specular,
@@ -192,7 +192,7 @@ pub(super) fn sample<T: Real>(
                 state.throughput *= next.weight;
                 state.w = next.wi;
                 if next.event == Event::Transmission {
-                    return Some(Left {
+                    return Some(Exit {
                         wi: state.w,
                         weight: state.throughput,
                         specular,

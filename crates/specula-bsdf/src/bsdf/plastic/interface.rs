@@ -1,4 +1,4 @@
-//! What Mitsuba 3's plastics let through their coat and reflect below it.
+//! Transmittance and internal reflectance of the coats of Mitsuba 3's plastics.
 //!
 //! ```text
 //! T(mu) = int (1 - F(wo.wm)) G1(wt) D_visible(wo, wm) dwm                rough: single refraction
@@ -6,8 +6,8 @@
 //! ```
 //!
 //! with `wt`, `wr` the refracted and the reflected direction. `R_int` is the sum that `roughplastic`
-//! takes, a rectangle rule with both its ends (1.5 % below the integral for a narrow lobe): pictures
-//! by the owner's renderer have it.
+//! takes, a rectangle rule with both its ends (1.5 % below the integral for a narrow lobe), so that
+//! pictures agree with Mitsuba's.
 //!
 //! A smooth coat has `T = 1 - F` and a published fit of `R_int`, as `plastic` has.
 //!
@@ -17,9 +17,11 @@
 //! Mitsuba's own table is linear in 63 steps of mu: it is above the integral by up to 0.02 below
 //! mu = 0.02. Anisotropic alphas are taken as `sqrt(alpha_x alpha_y)`.
 
+use alloc::vec::Vec;
+
 use super::interface_table::{ALPHAS, ETAS, INTERNAL_REFLECTANCE, MUS, TRANSMITTANCE};
 use crate::energy::Tabulated;
-use crate::energy::albedo::Distribution;
+use crate::energy::albedo::TabulatedNdf;
 use crate::energy::stencil::Stencil;
 use crate::math::Real;
 
@@ -33,7 +35,7 @@ pub(super) struct Interface<T> {
 }
 
 impl<T: Real> Interface<T> {
-    /// A place holder: smooth coats have closed forms.
+    /// Of no account: smooth coats have closed forms.
     #[inline(always)]
     pub(super) fn smooth() -> Self {
         Self {
@@ -41,28 +43,28 @@ impl<T: Real> Interface<T> {
         }
     }
 
-    /// The table at a width and an index in `[1, 3]`, and the internal reflectance there.
+    /// The table at an alpha and an index in `[1, 3]`, and the internal reflectance there.
     #[inline]
     pub(super) fn rough<N: Tabulated<T>>(ndf: N, eta: T) -> (Self, T) {
-        let which = match N::DISTRIBUTION {
-            Distribution::Ggx => 0,
-            Distribution::Beckmann => 1,
+        let which = match N::TABLES {
+            TabulatedNdf::Ggx => 0,
+            TabulatedNdf::Beckmann => 1,
         };
-        let width = (ndf.alpha().x * ndf.alpha().y).sqrt();
+        let alpha = (ndf.alpha().x * ndf.alpha().y).sqrt();
         let e = Stencil::new(eta_coordinate(eta), ETAS);
-        let a = Stencil::new(alpha_coordinate(width), ALPHAS);
-        let number = |x: u16| T::of(f64::from(x) / SCALE);
+        let a = Stencil::new(alpha_coordinate(alpha), ALPHAS);
+        let entry = |x: u16| T::of(f64::from(x) / SCALE);
         let knots =
-            core::array::from_fn(|k| e.sum(|i| a.sum(|j| number(TRANSMITTANCE[which][i][j][k]))));
-        let internal = e.sum(|i| a.sum(|j| number(INTERNAL_REFLECTANCE[which][i][j])));
+            core::array::from_fn(|k| e.sum(|i| a.sum(|j| entry(TRANSMITTANCE[which][i][j][k]))));
+        let internal = e.sum(|i| a.sum(|j| entry(INTERNAL_REFLECTANCE[which][i][j])));
         (Self { knots }, internal)
     }
 
     /// `T(mu)`, in `[0, 1]`.
     #[inline(always)]
     pub(super) fn transmittance(&self, mu: T) -> T {
-        let at = Stencil::new(Real::max(mu, T::ZERO).sqrt(), MUS);
-        Real::clamp(at.sum(|k| self.knots[k]), T::ZERO, T::ONE)
+        let at = Stencil::new(mu.at_least(T::ZERO).sqrt(), MUS);
+        at.sum(|k| self.knots[k]).within(T::ZERO, T::ONE)
     }
 }
 
@@ -73,8 +75,8 @@ pub fn transmittance<T: Real, N: Tabulated<T>>(ndf: N, eta: T, mu: T) -> T {
     Interface::rough(ndf, eta).0.transmittance(mu)
 }
 
-/// The tables as plain values, for shaders: `T` by distribution, index, width and cosine, and `R_int`
-/// by distribution, index and width.
+/// The tables as plain values, for shaders: `T` by distribution, index, alpha and cosine, and `R_int`
+/// by distribution, index and alpha.
 pub fn raw_tables() -> [Vec<f32>; 2] {
     let share = |&x: &u16| f32::from(x) / 65535.0;
     let rows = TRANSMITTANCE.as_flattened().as_flattened().as_flattened();
@@ -88,7 +90,7 @@ fn eta_coordinate<T: Real>(eta: T) -> T {
     T::TWO * (eta - T::ONE) / (eta + T::ONE)
 }
 
-/// The tables' coordinate of a width: 0 to 1 for alpha from 0 to 10.
+/// The tables' coordinate of an alpha: 0 to 1 for alpha from 0 to 10.
 #[inline(always)]
 fn alpha_coordinate<T: Real>(alpha: T) -> T {
     (T::of(1.1) * alpha / (T::ONE + alpha)).sqrt()

@@ -1,14 +1,14 @@
 //! Mitsuba 3's `plastic` and `roughplastic`: a dielectric coat over Lambert.
 
-pub mod interface;
+pub(crate) mod interface;
 mod interface_table;
 
 use super::{Bsdf, BsdfSample, Event, Transport};
 use crate::energy::Tabulated;
 use crate::fresnel::dielectric;
 use crate::math::{Real, Rgb, Vec3, vec3, warp};
-use crate::ndf::{Ggx, Masking, Ndf};
-use crate::vndf::Sampler;
+use crate::ndf::{Ggx, Masking};
+use crate::vndf::{Sampler, VisibleNormals};
 use interface::Interface;
 
 /// Lambert under a dielectric coat, by Mitsuba 3's formulas:
@@ -19,10 +19,10 @@ use interface::Interface;
 /// ```
 ///
 /// A smooth coat has a Dirac delta of strength `specular F` for its first part. `T` and `R_int` are
-/// those of [`interface`].
+/// those of `interface` in this module.
 ///
 /// Reciprocal above the horizon; a backfacing view (`wo.z < 0`) is continued as
-/// [`Ndf::g2_over_cos`] says, with `T` of its mirror image.
+/// [`Ndf::g2_over_cos`](crate::ndf::Ndf::g2_over_cos) says, with `T` of its mirror image.
 ///
 /// # Known limitations of the model
 ///
@@ -59,7 +59,7 @@ impl<T: Real> Plastic<T> {
     /// * `nonlinear`: whether light between coat and base takes the base's colour at every bounce.
     #[inline]
     pub fn smooth(eta: T, diffuse: Rgb<T>, specular: Rgb<T>, nonlinear: bool) -> Self {
-        let eta = Real::clamp(eta, T::of(1.0 / 3.0), T::of(3.0));
+        let eta = eta.within(T::of(1.0 / 3.0), T::of(3.0));
         let interface = Interface::smooth();
         let internal = interface::smooth_internal_reflectance(eta);
         Self::of(None, Masking::default(), eta, diffuse, specular, interface)
@@ -84,14 +84,14 @@ impl<T: Real, N: Tabulated<T>> Plastic<T, N> {
         specular: Rgb<T>,
         nonlinear: bool,
     ) -> Self {
-        let eta = Real::clamp(eta, T::ONE, T::of(3.0));
+        let eta = eta.within(T::ONE, T::of(3.0));
         let (interface, internal) = Interface::rough(ndf, eta);
         Self::of(Some(ndf), masking, eta, diffuse, specular, interface)
             .with_series(internal, nonlinear)
     }
 }
 
-impl<T: Real, N: Ndf<T>> Plastic<T, N> {
+impl<T: Real, N: VisibleNormals<T>> Plastic<T, N> {
     #[inline]
     fn of(
         coat: Option<N>,
@@ -124,13 +124,6 @@ impl<T: Real, N: Ndf<T>> Plastic<T, N> {
         Self { base, ..self }
     }
 
-    /// The same material, its coat sampled by another sampler.
-    #[inline(always)]
-    #[must_use]
-    pub fn with_sampler(self, sampler: Sampler) -> Self {
-        Self { sampler, ..self }
-    }
-
     /// Share of light from `w` that enters the coat.
     #[inline(always)]
     fn transmittance(&self, w: Vec3<T>) -> T {
@@ -141,18 +134,27 @@ impl<T: Real, N: Ndf<T>> Plastic<T, N> {
         }
     }
 
-    /// Probability of drawing the coat's reflection; 0 for a mirror that faces away.
+    /// Probability of sampling the coat's reflection; 0 for a mirror that faces away.
     #[inline(always)]
     fn coat_probability(&self, entering: T, wo: Vec3<T>) -> T {
         let reflected = dielectric(wo.z.abs(), self.eta).reflectance * self.specular.max_channel();
         let diffuse = entering * self.diffuse.max_channel();
         let visible = self.coat.is_some() || wo.z > T::ZERO;
-        let share = reflected / Real::max(reflected + diffuse, T::TINY);
+        let share = reflected / (reflected + diffuse).at_least(T::TINY);
         T::select(visible, share, T::ZERO)
     }
 }
 
-impl<T: Real, N: Ndf<T>> Bsdf<T> for Plastic<T, N> {
+impl<T: Real> Plastic<T> {
+    /// The same material, its coat sampled by another sampler.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_sampler(self, sampler: Sampler) -> Self {
+        Self { sampler, ..self }
+    }
+}
+
+impl<T: Real, N: VisibleNormals<T>> Bsdf<T> for Plastic<T, N> {
     #[inline(always)]
     fn eval(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> Rgb<T> {
         self.eval_pdf(wo, wi, transport).0
@@ -170,7 +172,7 @@ impl<T: Real, N: Ndf<T>> Bsdf<T> for Plastic<T, N> {
         let direction = [u[1], u[2]];
         let wi = if u[0] < p {
             match self.coat {
-                Some(ndf) => ndf.sample_reflection(self.sampler, wo, direction),
+                Some(ndf) => ndf.sample_reflection_by(self.sampler, wo, direction),
                 None => {
                     let reflected = dielectric(wo.z.abs(), self.eta).reflectance;
                     let weight = self.specular * (reflected / p);
@@ -202,7 +204,7 @@ impl<T: Real, N: Ndf<T>> Bsdf<T> for Plastic<T, N> {
                 let fresnel = dielectric(wo.dot(wm), self.eta).reflectance;
                 let shadowed = ndf.g2_over_cos(self.masking, wo, wi);
                 f_cos += self.specular * (fresnel * quarter * shadowed);
-                pdf += p * quarter / ndf.reflection_norm(self.sampler, wo);
+                pdf += p * quarter / ndf.reflection_norm_by(self.sampler, wo);
             }
         }
         (f_cos, pdf)

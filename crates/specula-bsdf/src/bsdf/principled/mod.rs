@@ -12,6 +12,7 @@ use thin::Thin;
 
 /// What a [`Principled`] is made of, by the names of Mitsuba 3; shares are in `[0, 1]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PrincipledParameters<T> {
     /// `base_color`.
     pub base_colour: Rgb<T>,
@@ -94,7 +95,7 @@ impl<T: Real> Default for PrincipledParameters<T> {
 ///
 /// # Known limitations of the model
 ///
-/// * Energy is not kept: the diffuse part takes no account of what the specular one reflects, and
+/// * Energy is not conserved: the diffuse part takes no account of what the specular one reflects, and
 ///   sheen and clear coat come on top, so that the albedo of a white base passes 1 towards grazing
 ///   views (to 1.19, and 1.27 with both; test `the_energy_that_principled_makes_is_as_stated`).
 /// * Reflection is reciprocal; refraction is not: seen from inside, reflection is `spec_trans F`,
@@ -114,10 +115,11 @@ impl<T: Real> Default for PrincipledParameters<T> {
 /// Source: Burley 2012, Physically-Based Shading at Disney; Burley 2015, Extending the Disney BRDF
 /// to a BSDF; Mitsuba 3's documentation of the two plugins. A test holds values of Mitsuba 3.9.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Principled<T>(Kind<T>);
+pub struct Principled<T>(Surface<T>);
 
+/// A closed surface or a sheet.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind<T> {
+enum Surface<T> {
     Solid(Solid<T>),
     Thin(Thin<T>),
 }
@@ -126,7 +128,7 @@ impl<T: Real> Principled<T> {
     /// The material of these parameters; shares outside `[0, 1]` are clamped.
     #[inline]
     pub fn new(parameters: PrincipledParameters<T>) -> Self {
-        let share = |x: T| Real::clamp(x, T::ZERO, T::ONE);
+        let share = |x: T| x.within(T::ZERO, T::ONE);
         let p = PrincipledParameters {
             base_colour: parameters.base_colour.map(share),
             roughness: share(parameters.roughness),
@@ -140,20 +142,20 @@ impl<T: Real> Principled<T> {
             clearcoat: share(parameters.clearcoat),
             clearcoat_gloss: share(parameters.clearcoat_gloss),
             flatness: share(parameters.flatness),
-            diff_trans: Real::clamp(parameters.diff_trans, T::ZERO, T::TWO),
+            diff_trans: parameters.diff_trans.within(T::ZERO, T::TWO),
             ..parameters
         };
         Self(if p.thin {
-            Kind::Thin(Thin::new(&p))
+            Surface::Thin(Thin::new(&p))
         } else {
-            Kind::Solid(Solid::new(&p))
+            Surface::Solid(Solid::new(&p))
         })
     }
 }
 
 /// An index that bends: refraction has no density where nothing is bent.
 fn proper_index<T: Real>(eta: T) -> T {
-    let eta = Real::clamp(eta, T::of(0.1), T::of(10.0));
+    let eta = eta.within(T::of(0.1), T::of(10.0));
     let least = T::of(1e-3);
     let bend = eta - T::ONE;
     T::select(bend.abs() < least, T::ONE + least, eta)
@@ -173,24 +175,24 @@ impl<T: Real> Bsdf<T> for Principled<T> {
     #[inline]
     fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
         match &self.0 {
-            Kind::Solid(solid) => solid.sample(wo, u, transport),
-            Kind::Thin(thin) => thin.sample(wo, u),
+            Surface::Solid(solid) => solid.sample(wo, u, transport),
+            Surface::Thin(thin) => thin.sample(wo, u),
         }
     }
 
     #[inline]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> (Rgb<T>, T) {
         match &self.0 {
-            Kind::Solid(solid) => solid.eval_pdf(wo, wi, transport),
-            Kind::Thin(thin) => thin.eval_pdf(wo, wi),
+            Surface::Solid(solid) => solid.eval_pdf(wo, wi, transport),
+            Surface::Thin(thin) => thin.eval_pdf(wo, wi),
         }
     }
 
     #[inline(always)]
     fn albedo(&self) -> Rgb<T> {
         match &self.0 {
-            Kind::Solid(solid) => solid.base(),
-            Kind::Thin(thin) => thin.base(),
+            Surface::Solid(solid) => solid.base(),
+            Surface::Thin(thin) => thin.base(),
         }
     }
 }

@@ -8,7 +8,7 @@ use super::{BsdfSample, PrincipledParameters, Transport};
 use crate::fresnel::{Refraction, dielectric, refract};
 use crate::math::{Real, Rgb, Vec3, warp};
 use crate::ndf::{Ggx, Masking, Ndf};
-use crate::vndf::{Sampler, reflect};
+use crate::vndf::{Sampler, VisibleNormals, reflect};
 
 /// Seen from one side; from inside only refraction and its reflection are left.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,7 +118,7 @@ impl<T: Real> Solid<T> {
             self.diffuse * self.base.max_channel() + T::of(0.1) * self.sheen.max_channel();
         // Without the factor 1 / (4 cos cos) the coat's light falls with the square of the cosine.
         let clearcoat = T::of(4.0) * self.coat_fresnel(cos, &bent) * cos * cos;
-        let scale = T::ONE / Real::max(specular + diffuse + clearcoat, T::TINY);
+        let scale = T::ONE / (specular + diffuse + clearcoat).at_least(T::TINY);
         Shares {
             diffuse: diffuse * scale,
             clearcoat: clearcoat * scale,
@@ -132,7 +132,7 @@ impl<T: Real> Solid<T> {
         if self.through > T::ZERO {
             let reflecting = self.fresnel(cos, bent).max_channel();
             let passing = self.passing().max_channel() * bent.transmittance;
-            reflecting / Real::max(reflecting + passing, T::TINY)
+            reflecting / (reflecting + passing).at_least(T::TINY)
         } else {
             T::ONE
         }
@@ -186,7 +186,7 @@ impl<T: Real> Solid<T> {
         }
         let bent = dielectric(cos_o, self.eta);
         let sum = cos_o + self.eta * cos_i;
-        let jacobian = self.eta * self.eta * -cos_i / Real::max(sum * sum, T::TINY);
+        let jacobian = self.eta * self.eta * -cos_i / (sum * sum).at_least(T::TINY);
         let visible = self.ggx.d(wm) * cos_o * jacobian;
         let shadowed = self.ggx.g2_over_cos(Masking::Separable, wo, wi);
         let scale = radiance_scale(self.eta, transport) * bent.transmittance;
@@ -227,7 +227,7 @@ impl<T: Real> Solid<T> {
             let wm = self.ggx.sample_wm(wo, direction);
             let cos = wo.dot(wm);
             let bent = dielectric(cos, self.eta);
-            let rest = (u[0] - before) / Real::max(shares.specular, T::TINY);
+            let rest = (u[0] - before) / shares.specular.at_least(T::TINY);
             if rest < self.reflection_share(cos, &bent) {
                 reflect(wo, wm)
             } else {
@@ -256,7 +256,7 @@ impl<T: Real> Solid<T> {
         let wi = refract(wo, wm, cos_o, bent.cos_t, self.eta);
         let p = shares.specular * (T::ONE - self.reflection_share(cos_o, bent));
         let sum = cos_o - self.eta * bent.cos_t;
-        let jacobian = self.eta * self.eta * bent.cos_t / Real::max(sum * sum, T::TINY);
+        let jacobian = self.eta * self.eta * bent.cos_t / (sum * sum).at_least(T::TINY);
         let sigma = self.ggx.projected_area(wo);
         let pdf = p * self.ggx.d(wm) * cos_o * jacobian / sigma;
         let shadowed = sigma * self.ggx.g2_over_cos(Masking::Separable, wo, wi);

@@ -8,7 +8,7 @@ use crate::ndf::Ggx;
 /// `(1 - cos)^5`, Schlick's weight of the reflectance at grazing angles.
 #[inline(always)]
 pub(crate) fn schlick_weight<T: Real>(cos: T) -> T {
-    let m = Real::clamp(T::ONE - cos, T::ZERO, T::ONE);
+    let m = (T::ONE - cos).within(T::ZERO, T::ONE);
     let m2 = m * m;
     m2 * m2 * m
 }
@@ -50,7 +50,7 @@ pub(super) fn sheen_colour<T: Real>(base: Rgb<T>, tint: T) -> Rgb<T> {
     hue(base).map(|c| T::ONE + (c - T::ONE) * tint)
 }
 
-/// Alphas of the specular lobe: `alpha = roughness^2`, stretched by `sqrt(1 - 0.9 anisotropic)`.
+/// Alphas of the specular lobe: `alpha = roughness^2`, divided and multiplied by `sqrt(1 - 0.9 anisotropic)`.
 ///
 /// Source: Burley 2012, section 5.4; the floor of 1e-3 is Mitsuba's.
 #[inline(always)]
@@ -58,8 +58,8 @@ pub(super) fn distribution<T: Real>(roughness: T, anisotropic: T) -> Ggx<T> {
     let alpha = roughness * roughness;
     let aspect = (T::ONE - T::of(0.9) * anisotropic).sqrt();
     let floor = T::of(1e-3);
-    let x = Real::max(alpha / aspect, floor);
-    let y = Real::max(alpha * aspect, floor);
+    let x = (alpha / aspect).at_least(floor);
+    let y = (alpha * aspect).at_least(floor);
     Ggx::new(Alpha::clamped(x, y))
 }
 
@@ -85,7 +85,7 @@ pub(super) fn diffuse<T: Real>(cos_o: T, cos_i: T, cos_d: T, roughness: T, flatn
         + retro * (fo + fi + fo * fi * (retro - T::ONE));
     let grazing = T::HALF * retro - T::ONE;
     let through = (T::ONE + grazing * fo) * (T::ONE + grazing * fi);
-    let inverse = T::ONE / Real::max(cos_o + cos_i, T::of(1e-6));
+    let inverse = T::ONE / (cos_o + cos_i).at_least(T::of(1e-6));
     let flat = T::of(1.25) * (through * (inverse - T::HALF) + T::HALF);
     burley + (flat - burley) * flatness
 }

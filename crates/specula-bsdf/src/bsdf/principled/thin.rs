@@ -95,7 +95,7 @@ impl<T: Real> Thin<T> {
         let transmission = self.spec_trans * transmittance * base;
         let back = self.diffuse_reflection * base + T::of(0.1) * self.sheen.max_channel();
         let beyond = self.diffuse_transmission * base;
-        let scale = T::ONE / Real::max(reflection + transmission + back + beyond, T::TINY);
+        let scale = T::ONE / (reflection + transmission + back + beyond).at_least(T::TINY);
         Shares {
             reflection: reflection * scale,
             transmission: transmission * scale,

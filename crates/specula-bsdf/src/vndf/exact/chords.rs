@@ -1,4 +1,4 @@
-//! anisotropic alpha: a walk along the chords of the cone's projection.
+//! Anisotropic alphas: a walk along the chords of the cone's projection.
 //!
 //! Seen along its axis `v`, the cone's section is an ellipse, uniform under the cosine to the axis;
 //! the cosine to the view is wanted. Chords across `k = h x v` are chords in both projections. The

@@ -29,8 +29,8 @@ use crate::math::{Real, Vec3};
 /// The cone of one view above the horizon.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::vndf) struct Cone<T> {
-    /// The stretched view, of any length; kept off the normal by a hair, so that the plane of
-    /// incidence is defined.
+    /// The stretched view, of any length; never along the normal, so that the plane of incidence is
+    /// defined.
     pub(super) h: Vec3<T>,
     /// `|h|^2`.
     pub(super) h2: T,

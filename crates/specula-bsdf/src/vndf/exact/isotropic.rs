@@ -1,4 +1,4 @@
-//! isotropic alpha: a map from the disk in closed form.
+//! Isotropic alpha: a map from the disk in closed form.
 //!
 //! Planes across the plane of incidence cut the cone's projection along the view in chords whose
 //! lengths are a disk's, so that a uniform point `(X, Y)` of the disk needs a scale across and
@@ -18,7 +18,7 @@
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3, vec3};
 
-/// `(Delta, lambda, kappa)` for the width `a` and a view at height `z > 0`.
+/// `(Delta, lambda, kappa)` for the alpha `a` and a view at height `z > 0`.
 #[inline(always)]
 fn roots<T: Real>(a: T, z: T) -> (T, T, T) {
     let p = a * a;
@@ -43,7 +43,7 @@ pub(super) fn norm<T: Real>(a: T, z: T) -> (T, T) {
 
 /// A half vector back in the surface's space, of any length.
 ///
-/// * `wo`: `wo.z > 0`; `alpha.x` is the width.
+/// * `wo`: `wo.z > 0`; `alpha.x` is the alpha.
 #[inline(always)]
 pub(super) fn half_vector<T: Real>(alpha: Alpha<T>, wo: Vec3<T>, u: [T; 2]) -> Vec3<T> {
     let a = alpha.x;
@@ -54,10 +54,10 @@ pub(super) fn half_vector<T: Real>(alpha: Alpha<T>, wo: Vec3<T>, u: [T; 2]) -> V
     let scale = T::ONE / (delta * b);
     let root = (lambda * b).sqrt();
 
-    // The plane of incidence, kept defined at the normal.
+    // The plane of incidence, defined at the normal too.
     let sine2 = wo.x * wo.x + wo.y * wo.y;
     let across = sine2 > T::of(1e-24);
-    let sine = Real::max(sine2, T::of(1e-24)).sqrt();
+    let sine = sine2.at_least(T::of(1e-24)).sqrt();
     let (x, y) = (
         T::select(across, wo.x, sine),
         T::select(across, wo.y, T::ZERO),

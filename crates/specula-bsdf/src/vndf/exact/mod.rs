@@ -26,8 +26,8 @@ pub(super) use cone::Cone;
 
 /// The reflection of `wo`, above the horizon but for rounding (less than one in 10^6 in `f32`).
 ///
-/// * `wo`: unit, any hemisphere; below the horizon all visible normals reflect upwards, and `cap`
-///   draws them.
+/// * `wo`: unit, any hemisphere; below the horizon all visible normals reflect upwards, and are
+///   sampled by `cap`.
 /// * `u`: uniform in `[0, 1)^2`, a point of the disk: `u[0]` the squared radius, `u[1]` the azimuth.
 #[inline(always)]
 pub fn sample_direction<T: Real>(alpha: Alpha<T>, wo: Vec3<T>, u: [T; 2]) -> Vec3<T> {

@@ -1,13 +1,10 @@
-//! Coats over Lambert and metal.
+//! Coats over Lambert.
 
 use specula_bsdf::Real;
-use specula_bsdf::bsdf::{
-    CoatLayer, CoatScattering, CoatedConductor, CoatedDiffuse, Lobe, Plastic,
-};
+use specula_bsdf::bsdf::{CoatLayer, CoatScattering, CoatedDiffuse, Lobe, Plastic};
 use specula_bsdf::ndf::{Beckmann, Ggx, Masking};
 
-use super::metals::metal;
-use super::{colour, lobe_cases, rows, sampler};
+use super::{colour, lobe_cases, rows};
 use crate::harness::{Case, alpha};
 
 fn coated_diffuse<T: Real>(p: &[T]) -> Lobe<T> {
@@ -25,14 +22,6 @@ fn coated_diffuse<T: Real>(p: &[T]) -> Lobe<T> {
         },
     };
     CoatedDiffuse::over_layer(coat, p[3], colour([0.9, 0.6, 0.3]), layer).into()
-}
-
-fn coated_conductor<T: Real>(p: &[T]) -> Lobe<T> {
-    let coat = (p[4] > T::ZERO).then(|| Ggx::new(alpha(p, 0)));
-    let base = (p[5] > T::ZERO).then(|| Ggx::new(alpha(p, 2)));
-    CoatedConductor::new(coat, p[6], base, metal(T::ZERO))
-        .with_sampler(sampler(p[7]))
-        .into()
 }
 
 fn plastic<T: Real>(p: &[T]) -> Lobe<T> {
@@ -78,19 +67,6 @@ fn coated() -> Vec<[f32; 7]> {
     all
 }
 
-/// Alphas of coat and metal, whether they are rough, index and strategy.
-fn lacquered() -> Vec<[f32; 8]> {
-    let mut all = Vec::new();
-    for [x, y] in ALPHAS {
-        all.push([x, y, 0.3, 0.3, 1.0, 1.0, 1.5, 3.0]);
-        all.push([0.1, 0.1, x, y, 1.0, 1.0, 1.5, 2.0]);
-        all.push([0.1, 0.1, x, y, 0.0, 1.0, 1.5, 3.0]);
-        all.push([x, y, 0.2, 0.2, 1.0, 0.0, 1.3, 1.0]);
-    }
-    all.push([0.1, 0.1, 0.2, 0.2, 0.0, 0.0, 1.5, 3.0]);
-    all
-}
-
 /// Alphas, distribution, whether rough, index and whether the series takes the base's colour.
 fn plastics() -> Vec<[f32; 6]> {
     let mut all = vec![
@@ -119,18 +95,6 @@ pub(super) fn cases() -> Vec<Case> {
             coated_diffuse,
             rows(&coated(), |p| ([p[0], p[1]], None), |_| false),
             [64.0, 1024.0],
-            &[1e-20]
-        ),
-        lobe_cases!(
-            "coated_conductor",
-            "coated_conductor",
-            "let coat = MicrofacetsModel(vec2f(x[7], x[8]), DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, u32(x[14]));
-             let metal = MicrofacetsModel(vec2f(x[9], x[10]), DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, u32(x[14]));
-             let gold = reflectance_conductor(vec3f(0.14, 0.37, 1.44), vec3f(3.98, 2.38, 1.6));
-             let lobe = coated_conductor_new(coat, x[11] > 0.0, x[13], metal, x[12] > 0.0, gold);\n",
-            coated_conductor,
-            rows(&lacquered(), |p| ([p[0], p[1]], None), |_| false),
-            [64.0, 4096.0],
             &[1e-20]
         ),
         lobe_cases!(

@@ -1,11 +1,11 @@
 //! Closed forms of the walks: no values are sampled, and the reference is the twin in `f64`.
 
 use specula_bsdf::fresnel::{dielectric, refract};
+use specula_bsdf::internal::{DepthState, normalised_pdf, sample_normalised};
 use specula_bsdf::math::Stream;
-use specula_bsdf::multibounce::{
-    DepthState, MisPdf, MultibounceModel as Model, normalised_pdf, sample_normalised,
-};
+use specula_bsdf::multibounce::{MisPdf, MultibounceModel as Model};
 use specula_bsdf::ndf::{Beckmann, Ggx, Ndf};
+use specula_bsdf::vndf::VisibleNormals;
 use specula_bsdf::{Bsdf, Real, Vec3};
 
 use super::{
@@ -108,10 +108,10 @@ fn densities() -> Vec<Case> {
 
 /// `sigma(-d)`, `sigma(d)` and `|Lambda(d)|`: what a flight knows.
 fn flight<T: Real>(ndf: &Ggx<T>, d: Vec3<T>) -> [T; 3] {
-    let below = Real::max(ndf.lambda_cos(d), T::of(1e-24));
-    let facing = below + Real::max(-d.z, T::ZERO);
-    let backing = below + Real::max(d.z, T::ZERO);
-    [facing, backing, facing / Real::max(d.z.abs(), T::of(1e-12))]
+    let below = ndf.lambda_cos(d).at_least(T::of(1e-24));
+    let facing = below + (-d.z).at_least(T::ZERO);
+    let backing = below + d.z.at_least(T::ZERO);
+    [facing, backing, facing / d.z.abs().at_least(T::of(1e-12))]
 }
 
 /// `D / 4` of the facet that turns `d` to `wi`, and the cosine on it.
@@ -217,7 +217,7 @@ fn normals(modules: &'static [&'static str]) -> Case {
                 z: T::of(f64::from(0.3_f32)) + wo.z.abs(),
                 ..wo
             };
-            let narrow = Real::min(x[0], T::ONE) * Real::min(x[1], T::ONE);
+            let narrow = x[0].at_most(T::ONE) * x[1].at_most(T::ONE);
             let sampled = other.sample_wm(wo, [x[6], x[7]]);
             let mut stream = stream(x, 8);
             let mut next = || T::of(f64::from(stream.next::<f32>()));

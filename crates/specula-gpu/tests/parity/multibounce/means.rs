@@ -1,10 +1,9 @@
 //! Multiple bounces between microfacets: means of values and samples over many streams, against those of
 //! the twins in `f64` with other streams, by z-tests.
 
+use specula_bsdf::bsdf::{MultibounceConductor, MultibounceDielectric, MultibounceDiffuse};
 use specula_bsdf::math::{Stream, rgb};
-use specula_bsdf::multibounce::{
-    MisPdf, MultibounceConductor, MultibounceDielectric, MultibounceDiffuse, MultibounceModel,
-};
+use specula_bsdf::multibounce::{MisPdf, MultibounceModel};
 use specula_bsdf::{Bsdf, Rgb, Transport, Vec3};
 
 use super::{ggx, glass, metal, reflectance, tints};
@@ -229,7 +228,7 @@ fn metals_have_the_means_of_the_twins() {
             &of_model(views()),
             |x, stream| {
                 let u = [stream.next(), stream.next()];
-                of_draw(conductor(x, model).draw(vector(x, 2), u, stream))
+                of_draw(conductor(x, model).sample_walk(vector(x, 2), u, stream))
             },
         ));
     }

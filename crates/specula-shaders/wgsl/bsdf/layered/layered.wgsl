@@ -10,10 +10,9 @@
 // Values are unbiased estimates. Departure from the Rust source: a caller always brings a stream.
 
 import package::bsdf::bsdf_sample::{BSDF_SAMPLE_SPECULAR, BsdfSample, bsdf_sample_delta, bsdf_sample_none, bsdf_sample_reflected};
-import package::bsdf::coated_conductor::{coated_conductor_blurred};
 import package::bsdf::layered::layered_base::{LAYERED_BASE_DIFFUSE, LAYERED_BASE_METAL, LayeredBase, layered_base_reflectance};
 import package::bsdf::layered::layered_coat::{LayeredCoat, layered_coat_reflection};
-import package::bsdf::layered::layered_density::{layered_density_pdf};
+import package::bsdf::layered::layered_density::{layered_density_blurred, layered_density_pdf};
 import package::bsdf::layered::layered_lobe::{LAYERED_LOBE_MOST_EVENTS, LayeredLobe, layered_lobe_is_mirror, layered_lobe_mirrored};
 import package::bsdf::layered::layered_medium::{LayeredMedium};
 import package::bsdf::layered::layered_walk::{layered_walk_draw, layered_walk_eval};
@@ -60,7 +59,7 @@ fn layered_new(
     let is_metal = base.kind == LAYERED_BASE_METAL;
     lobe.blurred = lobe.base.facets;
     if is_rough {
-        lobe.blurred = coated_conductor_blurred(lobe.base.facets, is_metal, facets, index);
+        lobe.blurred = layered_density_blurred(lobe.base.facets, is_metal, facets, index);
     }
     lobe.blurred.strategy = strategy;
     lobe.has_lobe = select(0u, 1u, base.kind != LAYERED_BASE_DIFFUSE && (is_metal || is_rough));

@@ -12,6 +12,7 @@
 // `sin^2 = 1/eta^2 + (1 - 1/eta^2) sin^2 theta_i`, whose Jacobian is the root above. So the whole
 // integrates to 1 where `q` does.
 
+import package::alpha::{ALPHA_SPECULAR_BELOW, alpha_clamped};
 import package::bsdf::layered::layered_base::{LAYERED_BASE_DIFFUSE};
 import package::bsdf::layered::layered_coat::{layered_coat_below};
 import package::bsdf::layered::layered_lobe::{LayeredLobe, layered_lobe_is_mirror};
@@ -22,6 +23,18 @@ import package::math::warp::{warp_cosine_hemisphere_pdf};
 
 /// A floor of divisors.
 const LAYERED_DENSITY_TINY: f32 = 1.1754944e-38;
+
+/// The metal's facets as blurred by a rough coat.
+///
+/// Twin: specula-bsdf/src/bsdf/layered/density.rs, blurred_metal.
+fn layered_density_blurred(metal: MicrofacetsModel, metal_rough: bool, coat: MicrofacetsModel, eta: f32) -> MicrofacetsModel {
+    let bend = 1.0 - 1.0 / eta;
+    let own = select(vec2f(0.0), metal.alpha, metal_rough);
+    let alpha = sqrt(own * own + 0.5 * bend * bend * coat.alpha * coat.alpha);
+    var blurred = metal;
+    blurred.alpha = alpha_clamped(max(alpha, vec2f(ALPHA_SPECULAR_BELOW)));
+    return blurred;
+}
 
 /// The density (see the module's text), in 1/sr; 0 where `wi.z <= 0`.
 ///

@@ -1,9 +1,10 @@
 //! A rough surface of Lambertian facets with all its bounces (Heitz et al. 2016).
 
-use super::{heitz2016, seed};
-use crate::bsdf::{Bsdf, BsdfSample, Event, Transport};
+use super::{Bsdf, BsdfSample, Event, Transport};
 use crate::math::{Real, Rgb, Stream, Vec3, warp};
-use crate::ndf::{Ggx, Ndf};
+use crate::multibounce::{heitz2016, seed};
+use crate::ndf::Ggx;
+use crate::vndf::VisibleNormals;
 
 /// Reflection off Lambertian facets with every bounce between them. Values are estimates.
 ///
@@ -15,7 +16,7 @@ pub struct MultibounceDiffuse<T, N = Ggx<T>> {
     albedo: Rgb<T>,
 }
 
-impl<T: Real, N: Ndf<T>> MultibounceDiffuse<T, N> {
+impl<T: Real, N: VisibleNormals<T>> MultibounceDiffuse<T, N> {
     /// * `albedo`: of each facet, in `[0, 1]`.
     #[inline(always)]
     pub fn new(ndf: N, albedo: Rgb<T>) -> Self {
@@ -23,7 +24,7 @@ impl<T: Real, N: Ndf<T>> MultibounceDiffuse<T, N> {
     }
 }
 
-impl<T: Real, N: Ndf<T>> Bsdf<T> for MultibounceDiffuse<T, N> {
+impl<T: Real, N: VisibleNormals<T>> Bsdf<T> for MultibounceDiffuse<T, N> {
     #[inline]
     fn eval(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> Rgb<T> {
         self.eval_pdf(wo, wi, transport).0

@@ -1,18 +1,19 @@
 //! A rough metal with all its bounces, by one of the models.
 
-use super::walk::Facets;
-use super::{
+use super::{Bsdf, BsdfSample, Event, Transport};
+use crate::fresnel::Reflectance;
+use crate::math::{Real, Rgb, Stream, Vec3};
+use crate::multibounce::walk::Facets;
+use crate::multibounce::{
     MisPdf, MultibounceModel, bitterli2022, cui2023, heitz2016, mis_pdf, seed,
     stratified_bidirectional, wang2022,
 };
-use crate::bsdf::{Bsdf, BsdfSample, Event, Transport};
-use crate::fresnel::Reflectance;
-use crate::math::{Real, Rgb, Stream, Vec3};
-use crate::ndf::{Ggx, Ndf};
+use crate::ndf::Ggx;
+use crate::vndf::VisibleNormals;
 
 /// Reflection off a rough metal with every bounce between its facets. Values are estimates.
 ///
-/// Backfacing views (`wo.z < 0`) are continued as in [`Ndf::g2_over_cos`]: the first collision is
+/// Backfacing views (`wo.z < 0`) are continued as in [`Ndf::g2_over_cos`](crate::ndf::Ndf::g2_over_cos): the first collision is
 /// `Exp(sigma(wo) / |wo.z|)` deep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MultibounceConductor<T, N = Ggx<T>> {
@@ -22,7 +23,7 @@ pub struct MultibounceConductor<T, N = Ggx<T>> {
     mis: MisPdf,
 }
 
-impl<T: Real, N: Ndf<T>> MultibounceConductor<T, N> {
+impl<T: Real, N: VisibleNormals<T>> MultibounceConductor<T, N> {
     /// A metal evaluated by `model`.
     #[inline(always)]
     pub fn new(ndf: N, reflectance: Reflectance<T>, model: MultibounceModel) -> Self {
@@ -85,7 +86,7 @@ impl<T: Real, N: Ndf<T>> MultibounceConductor<T, N> {
     }
 
     /// An estimate of `f cos` by Heitz 2016 as published: one bounce is estimated like the others,
-    /// where [`MultibounceModel::Heitz2016`] has it in closed form. The yardstick of the bench.
+    /// where [`MultibounceModel::Heitz2016`] has it in closed form. For comparisons.
     ///
     /// * `wi`: above the horizon.
     #[inline]
@@ -93,12 +94,17 @@ impl<T: Real, N: Ndf<T>> MultibounceConductor<T, N> {
         heitz2016::eval::<T, N, false>(&self.facets(), wo, wi, stream)
     }
 
-    /// A direction of the model's walk and its weight, without the density of multiple importance
-    /// sampling; `None` for a walk that was given up.
+    /// Samples a direction by the model's walk, with its weight, without the density for multiple
+    /// importance sampling; `None` where the walk did not leave.
     ///
-    /// * `u`: draws the first facet.
+    /// * `u`: samples the first facet.
     #[inline]
-    pub fn draw(&self, wo: Vec3<T>, u: [T; 2], stream: &mut Stream) -> Option<(Vec3<T>, Rgb<T>)> {
+    pub fn sample_walk(
+        &self,
+        wo: Vec3<T>,
+        u: [T; 2],
+        stream: &mut Stream,
+    ) -> Option<(Vec3<T>, Rgb<T>)> {
         let facets = &self.facets();
         match self.model {
             MultibounceModel::Heitz2016 | MultibounceModel::BitterliDeon2022 => {
@@ -115,7 +121,7 @@ impl<T: Real, N: Ndf<T>> MultibounceConductor<T, N> {
     }
 }
 
-impl<T: Real, N: Ndf<T>> Bsdf<T> for MultibounceConductor<T, N> {
+impl<T: Real, N: VisibleNormals<T>> Bsdf<T> for MultibounceConductor<T, N> {
     #[inline]
     fn eval(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> Rgb<T> {
         self.eval_pdf(wo, wi, transport).0
@@ -172,7 +178,7 @@ impl<T: Real, N: Ndf<T>> Bsdf<T> for MultibounceConductor<T, N> {
         _transport: Transport,
         stream: &mut Stream,
     ) -> Option<BsdfSample<T>> {
-        let (wi, weight) = self.draw(wo, [u[1], u[2]], stream)?;
+        let (wi, weight) = self.sample_walk(wo, [u[1], u[2]], stream)?;
         let pdf = self.pdf(wo, wi);
         (wi.z > T::ZERO && pdf > T::ZERO && pdf.is_finite()).then_some(BsdfSample {
             wi,

@@ -1,10 +1,13 @@
 //! A rough dielectric interface with all its bounces.
 
-use super::interface::{Interface, turned};
-use super::{MisPdf, MultibounceModel, heitz2016, mis_pdf, seed, stratified_bidirectional};
-use crate::bsdf::{Bsdf, BsdfSample, Event, Tints, Transport};
+use super::{Bsdf, BsdfSample, Event, Tints, Transport};
 use crate::math::{Real, Rgb, Stream, Vec3};
-use crate::ndf::{Ggx, Ndf};
+use crate::multibounce::interface::{Interface, turned};
+use crate::multibounce::{
+    MisPdf, MultibounceModel, heitz2016, mis_pdf, seed, stratified_bidirectional,
+};
+use crate::ndf::Ggx;
+use crate::vndf::VisibleNormals;
 
 /// Reflection and refraction at a rough interface with every bounce between its facets, on both
 /// sides of them. Values are estimates; no energy is lost.
@@ -37,7 +40,7 @@ pub struct MultibounceDielectric<T, N = Ggx<T>> {
     tints: Tints<T>,
 }
 
-impl<T: Real, N: Ndf<T>> MultibounceDielectric<T, N> {
+impl<T: Real, N: VisibleNormals<T>> MultibounceDielectric<T, N> {
     /// An interface with both sides: `wo.z < 0` views it from inside.
     ///
     /// * `eta`: index inside over index outside, above 0.
@@ -109,7 +112,7 @@ impl<T: Real, N: Ndf<T>> MultibounceDielectric<T, N> {
     }
 }
 
-impl<T: Real, N: Ndf<T>> Bsdf<T> for MultibounceDielectric<T, N> {
+impl<T: Real, N: VisibleNormals<T>> Bsdf<T> for MultibounceDielectric<T, N> {
     #[inline]
     fn eval(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> Rgb<T> {
         self.eval_pdf(wo, wi, transport).0
