@@ -25,8 +25,8 @@ use specula_render::picture::Picture;
 use specula_render::{PreparedScene, RenderOptions, Renderer, Strategy};
 use specula_scene::Scene;
 use specula_scene::scene::{
-    ColourParam, EnvironmentMapping, Filter, FloatParam, Gltf, ImageProjection, Light,
-    MaterialKind, Principled, Profile, Projection, Texture, TextureId, TextureMapping,
+    ColourParam, EnvironmentMapping, Filter, FloatParam, GltfMaterial, ImageProjection, Light,
+    MaterialKind, PrincipledMaterial, Profile, Projection, Texture, TextureId, TextureMapping,
 };
 use specula_stat::image::{NoisyImage, compare};
 
@@ -509,7 +509,7 @@ fn colour(r: f32, g: f32, b: f32) -> ColourParam {
 #[test]
 fn principled_materials() {
     let value = FloatParam::Value;
-    let solid = Principled {
+    let solid = PrincipledMaterial {
         base_colour: ORANGE,
         roughness: value(0.4),
         anisotropic: value(0.5),
@@ -525,7 +525,7 @@ fn principled_materials() {
         diff_trans: value(0.7),
         thin: false,
     };
-    let thin = Principled {
+    let thin = PrincipledMaterial {
         thin: true,
         ..solid
     };
@@ -537,7 +537,7 @@ fn principled_materials() {
 #[test]
 fn gltf_materials() {
     let value = FloatParam::Value;
-    let coated = Gltf {
+    let coated = GltfMaterial {
         base_colour: ORANGE,
         metallic: value(0.4),
         roughness: value(0.5),
@@ -555,7 +555,7 @@ fn gltf_materials() {
         sheen_colour: colour(0.3, 0.2, 0.4),
         sheen_roughness: value(0.5),
     };
-    let clear = Gltf {
+    let clear = GltfMaterial {
         transmission: value(0.8),
         volume: true,
         metallic: value(0.0),

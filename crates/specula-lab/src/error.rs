@@ -1,4 +1,4 @@
-//! What can go wrong in the laboratory.
+//! Errors of the laboratory.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -37,10 +37,10 @@ pub enum LabError {
     /// A folder holds no results.
     #[error("{}: no results of the laboratory here; `specula lab run` makes some", .0.display())]
     NoResults(PathBuf),
-    /// A material cannot be looked at by itself.
+    /// A material cannot be measured by itself.
     #[error("{0}")]
     Material(String),
-    /// A scene could not be made ready.
+    /// A scene could not be prepared.
     #[error(transparent)]
     Prepare(#[from] specula_render::PrepareError),
     /// A picture could not be written or compared.

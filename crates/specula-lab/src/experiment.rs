@@ -1,4 +1,4 @@
-//! What an experiment is, and what it answers.
+//! Experiments and their verdicts.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,22 +7,22 @@ use crate::{Lab, Result};
 /// One table or figure of a paper, or of Specula.
 #[derive(Clone, Copy, Debug)]
 pub struct Experiment {
-    /// What the command line calls it: source and item, such as `tokuyoshi24-fig7`. Also the name of
+    /// Its name on the command line: source and item, such as `tokuyoshi24-fig7`. Also the name of
     /// its file here, with `_` for `-`.
     pub id: &'static str,
-    /// Whose it is.
+    /// The source.
     pub source: Source,
-    /// Which of the source's, such as `fig. 7`.
+    /// Which table or figure, such as `fig. 7`.
     pub item: &'static str,
     /// What it shows, in a few words.
     pub title: &'static str,
     /// What the source states.
     pub statement: &'static str,
-    /// Measures.
+    /// Measures and writes its results.
     pub run: fn(&mut Lab<'_>) -> Result<Verdict>,
 }
 
-/// Whose table or figure.
+/// The source of a table or figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Source {
@@ -52,32 +52,10 @@ impl Source {
     }
 }
 
-/// How much work an experiment takes upon itself.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Quality {
-    /// Enough for the direction of every claim: seconds.
-    #[default]
-    Draft,
-    /// Enough for print: minutes.
-    Paper,
-}
-
-impl Quality {
-    /// The name on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Draft => "draft",
-            Self::Paper => "paper",
-        }
-    }
-}
-
-/// Whether a claim's result may be relied upon to come out again.
+/// Whether a claim's result is the same on every machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Kind {
+pub enum ClaimKind {
     /// Holds on every machine at every quality, by a test.
     Law,
     /// Does not hold, on every machine at every quality, by a test: the source errs, or shows a special
@@ -87,7 +65,7 @@ pub enum Kind {
     Measured,
 }
 
-/// What the figures say of a claim.
+/// Whether a claim holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Answer {
@@ -100,7 +78,7 @@ pub enum Answer {
 }
 
 impl Answer {
-    /// The word, also in records.
+    /// Its name, also in records.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -110,7 +88,7 @@ impl Answer {
         }
     }
 
-    /// Of a figure that is so many standard errors on the claim's side: yes or no beyond
+    /// The answer for a figure that is this many standard errors on the claim's side: yes or no beyond
     /// [`DECIDED`](Self::DECIDED).
     #[must_use]
     pub fn beyond(deviations: f64) -> Self {
@@ -126,7 +104,7 @@ impl Answer {
     /// Standard errors that decide: 95 % confidence with half a dozen rounds and a few comparisons.
     pub const DECIDED: f64 = 3.0;
 
-    /// Of a claim that is made of several: no where one is refuted, yes where all hold.
+    /// The answer for a claim with several parts: no where one is refuted, yes where all hold.
     #[must_use]
     pub fn all(parts: impl IntoIterator<Item = Self>) -> Self {
         parts
@@ -170,19 +148,19 @@ impl<'de> Deserialize<'de> for Answer {
     }
 }
 
-/// One thing that a source states, and what came out here.
+/// A claim of a source, and the result here.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Claim {
     /// What is claimed, as a sentence.
     pub statement: String,
     /// The source's figure, or what it says in words.
     pub stated: String,
-    /// StratifiedBidirectional.
+    /// Specula's figure.
     pub measured: String,
     /// Whether Specula's figure says the same.
     pub holds: Answer,
-    /// Whether that may be relied upon.
-    pub kind: Kind,
+    /// Whether that is the same on every machine.
+    pub kind: ClaimKind,
 }
 
 impl Claim {
@@ -193,11 +171,11 @@ impl Claim {
             stated: stated.to_owned(),
             measured,
             holds: holds.into(),
-            kind: Kind::Law,
+            kind: ClaimKind::Law,
         }
     }
 
-    /// A claim that is found not to hold, on every machine.
+    /// A claim that does not hold, on every machine.
     pub fn refuted(
         statement: &str,
         stated: &str,
@@ -205,12 +183,12 @@ impl Claim {
         holds: impl Into<Answer>,
     ) -> Self {
         Self {
-            kind: Kind::Refuted,
+            kind: ClaimKind::Refuted,
             ..Self::law(statement, stated, measured, holds)
         }
     }
 
-    /// A claim about times, or one that takes much work to see.
+    /// A claim about times, or one that takes much work to measure.
     pub fn measured(
         statement: &str,
         stated: &str,
@@ -218,13 +196,13 @@ impl Claim {
         holds: impl Into<Answer>,
     ) -> Self {
         Self {
-            kind: Kind::Measured,
+            kind: ClaimKind::Measured,
             ..Self::law(statement, stated, measured, holds)
         }
     }
 }
 
-/// How an experiment came out.
+/// The outcome of an experiment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
@@ -234,7 +212,7 @@ pub enum Outcome {
     Partly,
     /// None does.
     NotReproduced,
-    /// None is refuted, but of some the figures are too uncertain to tell.
+    /// None is refuted, but some figures are too uncertain.
     Undecided,
 }
 
@@ -251,20 +229,19 @@ impl Outcome {
     }
 }
 
-/// What an experiment answers.
+/// The result of an experiment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
     /// One sentence with the figures that matter.
     pub summary: String,
     /// What was claimed, one by one; at least one.
     pub claims: Vec<Claim>,
-    /// What was done otherwise than by the source (another scene, no GPU), and what limits the
-    /// result; empty where nothing.
+    /// Differences from the source (another scene, no GPU), and limits of the result; may be empty.
     pub caveat: String,
 }
 
 impl Verdict {
-    /// How it came out over all claims.
+    /// The outcome over all claims.
     #[must_use]
     pub fn outcome(&self) -> Outcome {
         let is_there = |answer| self.claims.iter().any(|c| c.holds == answer);

@@ -1,17 +1,17 @@
-//! What an experiment is given: its quality and seed, and where to put what it finds.
+//! The interface of an experiment to its run: quality, seed, and output of results.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::output::comparison::WrittenComparison;
-use crate::output::record::WrittenPlot;
-use crate::output::{Comparison, Table};
+use crate::output::{PictureComparison, Table};
 use crate::plot::Figure;
+use crate::plot::WrittenPlot;
 use crate::{LabError, Quality, Rendered, Result};
 use specula_render::RenderOptions;
 use specula_scene::Scene;
 
-/// Where an experiment is.
+/// The progress of an experiment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Progress {
     /// Share done, in `[0, 1]`.
@@ -20,7 +20,7 @@ pub struct Progress {
     pub what: String,
 }
 
-/// An experiment's desk.
+/// Quality, seed and output of a running experiment.
 pub struct Lab<'a> {
     quality: Quality,
     seed: u64,
@@ -33,7 +33,7 @@ pub struct Lab<'a> {
 }
 
 impl<'a> Lab<'a> {
-    /// A desk whose files go to `folder`, which must be there.
+    /// A run that writes to `folder`, which must exist.
     pub fn new(
         quality: Quality,
         seed: u64,
@@ -53,13 +53,13 @@ impl<'a> Lab<'a> {
         }
     }
 
-    /// How much work is asked for.
+    /// How much work to do.
     #[must_use]
     pub fn quality(&self) -> Quality {
         self.quality
     }
 
-    /// The one of the two that the quality asks for.
+    /// The value for the quality of this run.
     #[must_use]
     pub fn pick<T>(&self, draft: T, paper: T) -> T {
         match self.quality {
@@ -68,7 +68,7 @@ impl<'a> Lab<'a> {
         }
     }
 
-    /// Of all random numbers.
+    /// The seed of all random numbers.
     #[must_use]
     pub fn seed(&self) -> u64 {
         self.seed
@@ -81,7 +81,7 @@ impl<'a> Lab<'a> {
         self.seed as u32
     }
 
-    /// Says how far it is, and ends the experiment where the caller asks to stop. Call it often.
+    /// Reports progress, and ends the experiment where the caller asks to stop. Call it often.
     ///
     /// # Errors
     ///
@@ -97,7 +97,7 @@ impl<'a> Lab<'a> {
         Ok(())
     }
 
-    /// What says that the caller asks to stop.
+    /// Whether the caller asks to stop.
     #[must_use]
     pub fn stop(&self) -> &'a AtomicBool {
         self.stop
@@ -112,7 +112,7 @@ impl<'a> Lab<'a> {
         crate::render(scene, options, self.stop)
     }
 
-    /// Writes a table as CSV, and keeps it for the record.
+    /// Writes a table as CSV, and stores it for the record.
     ///
     /// # Errors
     ///
@@ -134,12 +134,12 @@ impl<'a> Lab<'a> {
         Ok(())
     }
 
-    /// Writes pictures beside each other; returns what was found of them.
+    /// Writes pictures beside each other; returns their files and errors.
     ///
     /// # Errors
     ///
     /// Where a file cannot be written.
-    pub fn comparison(&mut self, comparison: &Comparison<'_>) -> Result<WrittenComparison> {
+    pub fn comparison(&mut self, comparison: &PictureComparison<'_>) -> Result<WrittenComparison> {
         let written = comparison.write(&self.folder)?;
         self.comparisons.push(written.clone());
         Ok(written)

@@ -1,9 +1,15 @@
 //! The laboratory: every table and figure of the papers, one file each, from one command.
 //!
 //! An [`Experiment`] measures what a paper states, writes its data, plots and pictures through a
-//! [`Lab`], and answers with a [`Verdict`] made of [`Claim`]s. [`experiments::ALL`] lists them;
+//! [`Lab`], and returns a [`Verdict`] made of [`Claim`]s. [`experiments::ALL`] lists them;
 //! [`run`] runs them, each into a folder of its own, with a [`Record`] (`result.json`) that says what
-//! was measured, when the quality, seed, version and machine.
+//! was measured, at which quality, with which seed, by which version, on which machine.
+//!
+//! ```
+//! let experiments = specula_lab::experiments::named(&["tokuyoshi24-fig7".to_owned()])?;
+//! assert_eq!(experiments[0].source.cite(), "Tokuyoshi and Eto 2024");
+//! # Ok::<(), specula_lab::LabError>(())
+//! ```
 #![forbid(unsafe_code)]
 
 pub mod compare;
@@ -16,20 +22,23 @@ pub mod material;
 pub mod output;
 pub mod plot;
 mod publish;
+mod quality;
+pub mod record;
 mod rendered;
 pub mod report;
 mod runner;
-pub mod scenes;
+mod scenes;
 mod typeset;
 
 pub use error::LabError;
-pub use experiment::{Answer, Claim, Experiment, Kind, Outcome, Quality, Source, Verdict};
+pub use experiment::{Answer, Claim, ClaimKind, Experiment, Outcome, Source, Verdict};
 pub use lab::{Lab, Progress};
 pub use machine::Machine;
-pub use output::record::Record;
 pub use publish::publish;
+pub use quality::Quality;
+pub use record::Record;
 pub use rendered::{Errors, Rendered, errors, render};
-pub use runner::{Event, RunOptions, run};
+pub use runner::{RunEvent, RunOptions, run};
 
-/// What a step of the laboratory returns.
+/// Result of the laboratory's functions.
 pub type Result<T, E = LabError> = std::result::Result<T, E>;

@@ -1,4 +1,4 @@
-//! What ran an experiment.
+//! The machine that ran an experiment.
 
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +25,7 @@ impl Machine {
     }
 }
 
-/// From what Linux says; elsewhere unknown.
+/// As Linux reports it; elsewhere unknown.
 fn processor() -> Option<String> {
     let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = text.lines().find(|l| l.starts_with("model name"))?;

@@ -1,4 +1,4 @@
-//! Renders of an experiment, and how far they are from their reference.
+//! Renders of an experiment, and their errors.
 
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -14,11 +14,11 @@ use crate::{LabError, Result};
 /// brightness about it.
 const FIREFLY: f32 = 4.0;
 
-/// What a render left.
+/// The result of a render.
 pub struct Rendered {
     /// The picture.
     pub picture: Picture,
-    /// From the first sample to the last, without reading and preparing.
+    /// Time from the first sample to the last, in seconds, without preparation.
     pub seconds: f64,
     /// Rays that were traced.
     pub rays: u64,
@@ -30,13 +30,13 @@ pub struct Rendered {
 ///
 /// # Errors
 ///
-/// Where the scene cannot be made ready, or the caller asks to stop.
+/// Where the scene cannot be prepared, or the caller asks to stop.
 pub fn render(scene: &Scene, options: &RenderOptions, stop: &AtomicBool) -> Result<Rendered> {
     let prepared = PreparedScene::new(scene, options)?;
     render_prepared(&prepared, options, stop)
 }
 
-/// [`render()`] of a scene that has been made ready with the same options.
+/// [`render()`] of a scene that was prepared with the same options.
 ///
 /// # Errors
 ///
@@ -61,7 +61,7 @@ pub(crate) fn render_prepared(
     })
 }
 
-/// How far a picture is from its reference.
+/// Errors of a picture against its reference.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Errors {
     /// Root of the mean squared difference over pixels and channels.

@@ -9,18 +9,18 @@ use crate::{
     Experiment, Lab, LabError, Machine, Progress, Quality, Record, Result, Source, Verdict,
 };
 
-/// What [`run`] may be asked for.
+/// Options of [`run`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RunOptions {
     /// How much work.
     pub quality: Quality,
-    /// Of all random numbers.
+    /// Seed of all random numbers.
     pub seed: u64,
 }
 
-/// What happens during [`run`].
+/// An event during [`run`].
 #[derive(Clone, Debug)]
-pub enum Event<'a> {
+pub enum RunEvent<'a> {
     /// An experiment begins: the so-many-th of so many.
     Began(&'a Experiment, usize, usize),
     /// It goes on.
@@ -40,14 +40,14 @@ pub fn run(
     options: RunOptions,
     folder: &Path,
     stop: &AtomicBool,
-    events: &(dyn Fn(Event<'_>) + Sync),
+    events: &(dyn Fn(RunEvent<'_>) + Sync),
 ) -> Result<Vec<Record>> {
     fs::create_dir_all(folder).map_err(LabError::io(folder))?;
     let mut records = Vec::new();
     for (i, experiment) in experiments.iter().enumerate() {
-        events(Event::Began(experiment, i, experiments.len()));
+        events(RunEvent::Began(experiment, i, experiments.len()));
         let record = run_one(experiment, options, folder, stop, events)?;
-        events(Event::Done(experiment, &record));
+        events(RunEvent::Done(experiment, &record));
         records.push(record);
     }
     Ok(records)
@@ -58,7 +58,7 @@ fn run_one(
     options: RunOptions,
     folder: &Path,
     stop: &AtomicBool,
-    events: &(dyn Fn(Event<'_>) + Sync),
+    events: &(dyn Fn(RunEvent<'_>) + Sync),
 ) -> Result<Record> {
     let subject = Subject {
         id: experiment.id.to_owned(),
@@ -72,11 +72,11 @@ fn run_one(
             options.quality.name()
         ),
     };
-    let progress = |p| events(Event::Step(experiment, p));
+    let progress = |p| events(RunEvent::Step(experiment, p));
     carry_out(subject, options, folder, stop, &progress, experiment.run)
 }
 
-/// What a record is about.
+/// The subject of a record.
 pub(crate) struct Subject {
     pub(crate) id: String,
     pub(crate) source: Source,
@@ -86,7 +86,7 @@ pub(crate) struct Subject {
     pub(crate) command: String,
 }
 
-/// Measures, and puts what is found into `folder/ID`, whole or not at all.
+/// Measures, and writes the results to `folder/ID`, whole or not at all.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! Texts of plots and pages as they are set: Greek letters for their names, subscripts, exponents, minus and
+//! Typesetting of texts of plots and pages: Greek letters for their names, subscripts, exponents, minus and
 //! multiplication signs.
 //!
 //! Sources and records say `theta_o [deg]`, `1.2e-5` and `+-`, which every terminal shows and every search

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use specula_lab::{Answer, Kind, Quality, Record, RunOptions, experiments, run};
+use specula_lab::{Answer, ClaimKind, Quality, Record, RunOptions, experiments, run};
 
 /// Runs all of them; the records are read back from their files.
 #[test]
@@ -34,9 +34,9 @@ fn claims_come_out_as_they_are_known_to() {
         );
         for claim in &record.verdict.claims {
             let expected = match claim.kind {
-                Kind::Law => Answer::Yes,
-                Kind::Refuted => Answer::No,
-                Kind::Measured => continue,
+                ClaimKind::Law => Answer::Yes,
+                ClaimKind::Refuted => Answer::No,
+                ClaimKind::Measured => continue,
             };
             if claim.holds != expected {
                 wrong.push(format!(

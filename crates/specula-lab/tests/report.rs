@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 use specula_bsdf::Rgb;
-use specula_lab::output::{Comparison, Shot, Table};
+use specula_lab::output::{PictureComparison, Shot, Table};
 use specula_lab::plot::{Axis, Content, Figure, Panel, Series};
 use specula_lab::{Claim, LabError, Machine, Outcome, Quality, Record, Source, Verdict, report};
 use specula_render::picture::Picture;
@@ -28,7 +28,7 @@ fn result(folder: &Path, id: &str, source: Source) -> Record {
         picture,
         note: note.to_owned(),
     };
-    let pictures = Comparison {
+    let pictures = PictureComparison {
         name: "stripes",
         caption: "Stripes & <b>more</b>.",
         shots: vec![shot("cap", &a, "16 spp"), shot("bounded", &b, "")],

@@ -7,7 +7,7 @@
 //! ([`MemoryEstimate::after_reading`]).
 
 use specula_scene::Scene;
-use specula_scene::scene::{Geometry, Instance, Light, Mesh, Shape, Texture};
+use specula_scene::scene::{Geometry, Light, Mesh, ObjectInstance, Shape, Texture};
 
 use crate::accel::predicted;
 use crate::film::BYTES_PER_PIXEL;
@@ -65,7 +65,8 @@ impl MemoryEstimate {
         let pictures: u64 = scene.images.iter().map(|i| i.pixels.size()).sum();
         let objects = scene.objects.iter().map(|o| o.shapes.len());
         let shapes = scene.shapes.len() + objects.sum::<usize>();
-        let places = shapes * size_of::<Shape>() + scene.instances.len() * size_of::<Instance>();
+        let places =
+            shapes * size_of::<Shape>() + scene.instances.len() * size_of::<ObjectInstance>();
         estimate.scene = meshes + pictures + places as u64;
         estimate.loose = meshes + places as u64;
         let mut held = Held {

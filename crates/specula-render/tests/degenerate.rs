@@ -104,7 +104,7 @@ fn meshes_without_area_are_nothing() {
         name: "lines".to_owned(),
         shapes: vec![line],
     });
-    scene.instances.push(Instance {
+    scene.instances.push(ObjectInstance {
         object: ObjectId(0),
         to_world: DMat4::from_scale(DVec3::splat(0.5)),
     });
@@ -185,7 +185,7 @@ fn huge_shapes_are_right_or_refused() {
             name: "floor".to_owned(),
             shapes,
         });
-        scene.instances.push(Instance {
+        scene.instances.push(ObjectInstance {
             object: ObjectId(0),
             to_world,
         });

@@ -113,7 +113,7 @@ fn instanced_and_mirrored_lights_emit_like_others() {
             name: "lamp".into(),
             shapes: vec![emitting(light, 1.0)],
         });
-        scene.instances.push(Instance {
+        scene.instances.push(ObjectInstance {
             object: ObjectId(0),
             to_world: facing_down(2.0) * turn,
         });

@@ -111,7 +111,7 @@ fn one_bright_pixel_lights_from_where_it_is() {
             name: "lamp".into(),
             shapes: vec![shape],
         });
-        scene.instances.push(Instance {
+        scene.instances.push(ObjectInstance {
             object: ObjectId(0),
             to_world: facing_down(2.0) * turn,
         });

@@ -175,7 +175,7 @@ fn mirrored_and_instanced_glass_conserves_energy() {
             name: "gem".into(),
             shapes: vec![shape(Geometry::Mesh(MeshId(0)), shape_m, m)],
         });
-        scene.instances.push(Instance {
+        scene.instances.push(ObjectInstance {
             object: ObjectId(0),
             to_world: instance_m,
         });

@@ -16,9 +16,9 @@ use specula_render::Strategy;
 use specula_scene::Image;
 use specula_scene::scene::*;
 
-fn gltf() -> Gltf {
+fn gltf() -> GltfMaterial {
     let float = FloatParam::Value;
-    Gltf {
+    GltfMaterial {
         base_colour: grey(0.5),
         metallic: float(1.0),
         roughness: float(0.5),
@@ -42,7 +42,7 @@ const TO_LIGHT: [f64; 3] = [0.36, 0.48, 0.8];
 
 /// What a floor of a material sends to the camera under parallel light, its `(u, v)` being
 /// `(x, y)`; `set` adds textures.
-fn floor(material: Gltf, set: impl FnOnce(&mut Scene)) -> f64 {
+fn floor(material: GltfMaterial, set: impl FnOnce(&mut Scene)) -> f64 {
     let mut scene = lit_floor();
     let mesh = &mut scene.meshes[0];
     mesh.uvs = mesh.positions.iter().map(|p| [p[0], p[1]]).collect();
@@ -96,8 +96,8 @@ fn direction(angle: f64) -> [f32; 3] {
     [angle.cos(), angle.sin(), 0.0].map(|x| (0.5 * (x + 1.0)) as f32)
 }
 
-fn brushed(rotation: f64, direction: Option<TextureId>) -> Gltf {
-    Gltf {
+fn brushed(rotation: f64, direction: Option<TextureId>) -> GltfMaterial {
+    GltfMaterial {
         roughness: FloatParam::Value(0.3),
         anisotropy: FloatParam::Value(0.8),
         anisotropy_rotation_rad: rotation as f32,
@@ -181,7 +181,7 @@ fn directions_follow_the_coordinates() {
             name: "floor".into(),
             shapes: std::mem::take(&mut s.shapes),
         });
-        s.instances.push(Instance {
+        s.instances.push(ObjectInstance {
             object: ObjectId(0),
             to_world: mirror,
         });
@@ -195,7 +195,7 @@ const TILTED: [f32; 3] = [0.66, 0.42, 0.94];
 /// A coat over black is a rough mirror of 0.04 in the coat's own frame, whatever bends the base.
 #[test]
 fn coats_have_their_own_normals() {
-    let coat = |bump| Gltf {
+    let coat = |bump| GltfMaterial {
         base_colour: grey(0.0),
         specular: FloatParam::Value(0.0),
         metallic: FloatParam::Value(0.0),
@@ -243,7 +243,7 @@ fn bent_coats_agree_by_all_strategies() {
     picture(&mut scene, TILTED, TextureMapping::default());
     let mesh = &mut scene.meshes[0];
     mesh.uvs = mesh.positions.iter().map(|p| [p[0], p[1]]).collect();
-    scene.materials[0].kind = MaterialKind::Gltf(Gltf {
+    scene.materials[0].kind = MaterialKind::Gltf(GltfMaterial {
         clearcoat: FloatParam::Value(1.0),
         clearcoat_roughness: FloatParam::Value(0.5),
         clearcoat_bump: Some(Bump::Normal {
@@ -266,7 +266,7 @@ fn bent_coats_agree_by_all_strategies() {
 
 #[test]
 fn textures_take_the_set_of_coordinates_that_they_ask_for() {
-    let lambert = Gltf {
+    let lambert = GltfMaterial {
         metallic: FloatParam::Value(0.0),
         specular: FloatParam::Value(0.0),
         base_colour: ColourParam::Texture(TextureId(0)),
@@ -295,8 +295,8 @@ fn textures_take_the_set_of_coordinates_that_they_ask_for() {
 }
 
 /// What passes a body without an index of its own: nothing bends, nothing is reflected.
-fn clear_body() -> Gltf {
-    Gltf {
+fn clear_body() -> GltfMaterial {
+    GltfMaterial {
         base_colour: grey(1.0),
         metallic: FloatParam::Value(0.0),
         roughness: FloatParam::Value(0.0),

@@ -90,16 +90,23 @@ fn lambda_ggx(alpha: f64, cot: f64) -> f64 {
 }
 
 /// White rough metal at one bounce: the integral of `D G2 / (4 cos_o)` over the hemisphere.
-fn single_scattering(alpha: f64, distribution: Distribution, masking: Masking, cos_o: f64) -> f64 {
+fn single_scattering(
+    alpha: f64,
+    distribution: MicrofacetDistribution,
+    masking: Masking,
+    cos_o: f64,
+) -> f64 {
     let lambda = |cot| match distribution {
-        Distribution::Beckmann => lambda_beckmann(alpha, cot),
-        Distribution::Ggx => lambda_ggx(alpha, cot),
+        MicrofacetDistribution::Beckmann => lambda_beckmann(alpha, cot),
+        MicrofacetDistribution::Ggx => lambda_ggx(alpha, cot),
     };
     let d = |z: f64| {
         let (z2, tan2) = (z * z, 1.0 / (z * z) - 1.0);
         let p22 = match distribution {
-            Distribution::Beckmann => (-tan2 / (alpha * alpha)).exp() / (PI * alpha * alpha),
-            Distribution::Ggx => {
+            MicrofacetDistribution::Beckmann => {
+                (-tan2 / (alpha * alpha)).exp() / (PI * alpha * alpha)
+            }
+            MicrofacetDistribution::Ggx => {
                 1.0 / (PI * alpha * alpha * (1.0 + tan2 / (alpha * alpha)).powi(2))
             }
         };
@@ -132,7 +139,10 @@ fn single_scattering(alpha: f64, distribution: Distribution, masking: Masking, c
 fn distributions_and_maskings_are_the_ones_asked_for() {
     let cos = 0.3;
     let mut found = Vec::new();
-    for distribution in [Distribution::Ggx, Distribution::Beckmann] {
+    for distribution in [
+        MicrofacetDistribution::Ggx,
+        MicrofacetDistribution::Beckmann,
+    ] {
         for masking in [Masking::HeightCorrelated, Masking::Separable] {
             let kind = MaterialKind::Conductor {
                 fresnel: ConductorFresnel::Mirror,
@@ -159,7 +169,10 @@ fn distributions_and_maskings_are_the_ones_asked_for() {
 #[test]
 fn compensated_surfaces_of_every_distribution_lose_nothing() {
     let energy = Energy::Compensated("kulla-conty".parse().expect("it is known"));
-    for distribution in [Distribution::Ggx, Distribution::Beckmann] {
+    for distribution in [
+        MicrofacetDistribution::Ggx,
+        MicrofacetDistribution::Beckmann,
+    ] {
         for masking in [Masking::HeightCorrelated, Masking::Separable] {
             let roughness = Roughness {
                 distribution,
@@ -218,8 +231,8 @@ fn plastic_is_its_closed_form_and_black_from_behind() {
     }
 }
 
-fn gltf() -> Gltf {
-    Gltf {
+fn gltf() -> GltfMaterial {
+    GltfMaterial {
         base_colour: grey(0.5),
         metallic: FloatParam::Value(0.0),
         roughness: FloatParam::Value(0.5),
@@ -239,8 +252,8 @@ fn gltf() -> Gltf {
     }
 }
 
-fn principled() -> Principled {
-    Principled {
+fn principled() -> PrincipledMaterial {
+    PrincipledMaterial {
         base_colour: grey(0.5),
         roughness: FloatParam::Value(0.5),
         anisotropic: FloatParam::Value(0.0),
@@ -261,26 +274,26 @@ fn principled() -> Principled {
 /// Limits in which the layered materials are simple: Lambert, and a nearly perfect mirror.
 #[test]
 fn layered_materials_have_their_limits() {
-    let lambert = Gltf {
+    let lambert = GltfMaterial {
         specular: FloatParam::Value(0.0),
         ..gltf()
     };
     assert_albedo("glTF, no specular", MaterialKind::Gltf(lambert), 0.8, 0.5);
-    let metal = Gltf {
+    let metal = GltfMaterial {
         metallic: FloatParam::Value(1.0),
         roughness: FloatParam::Value(0.1),
         ..gltf()
     };
     let schlick = 0.5 + 0.5 * 0.2_f64.powi(5);
     assert_albedo("glTF metal", MaterialKind::Gltf(metal), 0.8, schlick);
-    let sheet = Gltf {
+    let sheet = GltfMaterial {
         specular: FloatParam::Value(0.0),
         transmission: FloatParam::Value(1.0),
         roughness: FloatParam::Value(0.1),
         ..gltf()
     };
     assert_albedo("glTF sheet", MaterialKind::Gltf(sheet), 0.8, 0.5);
-    let metal = Principled {
+    let metal = PrincipledMaterial {
         metallic: FloatParam::Value(1.0),
         roughness: FloatParam::Value(0.1),
         ..principled()
@@ -298,26 +311,26 @@ fn layered_materials_have_their_limits() {
 #[test]
 fn layered_materials_agree_by_all_strategies() {
     let kinds = [
-        MaterialKind::Gltf(Gltf {
+        MaterialKind::Gltf(GltfMaterial {
             transmission: FloatParam::Value(0.7),
             clearcoat: FloatParam::Value(0.5),
             ..gltf()
         }),
-        MaterialKind::Gltf(Gltf {
+        MaterialKind::Gltf(GltfMaterial {
             sheen_colour: grey(0.4),
             sheen_roughness: FloatParam::Value(0.5),
             ..gltf()
         }),
-        MaterialKind::Principled(Principled {
+        MaterialKind::Principled(PrincipledMaterial {
             spec_trans: FloatParam::Value(0.5),
             ..principled()
         }),
-        MaterialKind::Principled(Principled {
+        MaterialKind::Principled(PrincipledMaterial {
             thin: true,
             diff_trans: FloatParam::Value(1.0),
             ..principled()
         }),
-        MaterialKind::Principled(Principled {
+        MaterialKind::Principled(PrincipledMaterial {
             clearcoat: FloatParam::Value(1.0),
             sheen: FloatParam::Value(0.5),
             ..principled()
@@ -451,7 +464,7 @@ fn layered_kinds(f: Float, c: Grey) -> Vec<MaterialKind> {
             roughness: rough(f, 0.4),
             nonlinear: true,
         },
-        MaterialKind::Principled(Principled {
+        MaterialKind::Principled(PrincipledMaterial {
             base_colour: c(0.6),
             roughness: f(0.4),
             anisotropic: f(0.3),
@@ -466,7 +479,7 @@ fn layered_kinds(f: Float, c: Grey) -> Vec<MaterialKind> {
             diff_trans: f(1.2),
             ..principled()
         }),
-        MaterialKind::Gltf(Gltf {
+        MaterialKind::Gltf(GltfMaterial {
             base_colour: c(0.7),
             metallic: f(0.3),
             roughness: f(0.5),

@@ -11,7 +11,7 @@ use std::sync::atomic::AtomicBool;
 use specula_bsdf::Rgb;
 use specula_render::picture::{Picture, read_exr};
 use specula_render::{PreparedScene, RenderOptions, Renderer};
-use specula_scene::{Limits, Scene, mitsuba};
+use specula_scene::{Format, LoadOptions, Scene, load_as};
 use specula_stat::Report;
 use specula_stat::image::{NoisyImage, compare};
 
@@ -136,11 +136,9 @@ fn against_reference(root: &Path, name: &str, picture: &Picture, samples: f64) -
 }
 
 fn load(root: &Path, path: &Path) -> Scene {
-    let options = mitsuba::Options {
-        folders: vec![root.join("common")],
-        ..mitsuba::Options::default()
-    };
-    let loaded = mitsuba::read(path, &Limits::default(), &options);
+    let mut options = LoadOptions::default();
+    options.folders = vec![root.join("common")];
+    let loaded = load_as(path, Format::Mitsuba, &options);
     let loaded = loaded.unwrap_or_else(|e| panic!("{}: {e}", e.place()));
     loaded.scene
 }

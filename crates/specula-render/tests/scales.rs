@@ -169,7 +169,7 @@ fn still_life(at: TextureCoordinates, size: u32) -> Scene {
     for (x, turn) in [(0.0, 0.3), (0.35, 1.1)] {
         let place =
             DMat4::from_translation(DVec3::new(x, 0.25, 0.9)) * DMat4::from_rotation_y(turn);
-        scene.instances.push(Instance {
+        scene.instances.push(ObjectInstance {
             object: ObjectId(0),
             to_world: at.rigid(place),
         });

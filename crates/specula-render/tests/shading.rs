@@ -83,7 +83,7 @@ fn transforms_carry_bumps_along() {
             name: "floor".into(),
             shapes: std::mem::take(&mut s.shapes),
         });
-        s.instances.push(Instance {
+        s.instances.push(ObjectInstance {
             object: ObjectId(0),
             to_world: m,
         });
@@ -322,7 +322,7 @@ fn masks_by_threshold_let_their_share_through() {
         name: "leaf".into(),
         shapes: vec![leaf],
     });
-    scene.instances.push(Instance {
+    scene.instances.push(ObjectInstance {
         object: ObjectId(0),
         to_world: DMat4::from_translation(DVec3::new(0.0, 0.0, 1.0)),
     });

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-/// Puts what `write` produces at `path`; the old file stays untouched unless all of it is on disk.
+/// Writes a file so that a failure leaves the old one untouched: it is replaced when all of the new one is on disk.
 ///
 /// The temporary file lies in the same folder, so that the final rename cannot cross file systems,
 /// and is removed when anything fails.
@@ -47,7 +47,7 @@ pub fn temporary_beside(path: &Path) -> io::Result<tempfile::NamedTempFile> {
     builder.tempfile_in(folder)
 }
 
-/// Removes what a program that was killed while it wrote `path` has left beside it. Nobody else may be
+/// Removes temporary files that a killed program left beside `path`. Nobody else may be
 /// writing that file.
 ///
 /// # Errors
@@ -74,7 +74,7 @@ pub fn sweep(path: &Path) -> io::Result<()> {
 
 const TEMPORARY_SUFFIX: &str = ".part";
 
-/// `.NAME.`: hidden, and told from other files' leftovers.
+/// `.NAME.`: hidden, and distinct from temporary files of other names.
 fn temporary_prefix(path: &Path) -> OsString {
     let mut prefix = OsString::from(".");
     prefix.push(path.file_name().unwrap_or_default());

@@ -1,4 +1,4 @@
-//! Axis-aligned boxes around what a scene holds.
+//! Axis-aligned bounding boxes.
 
 use glam::{DMat4, DVec3, Vec3};
 use rayon::prelude::*;
@@ -10,15 +10,15 @@ pub(crate) const FARTHEST: f64 = 1e18;
 
 /// An axis-aligned box; empty where `min > max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
+pub struct BoundingBox {
     /// Least coordinates.
     pub min: DVec3,
     /// Greatest coordinates.
     pub max: DVec3,
 }
 
-impl Bounds {
-    /// A box around nothing.
+impl BoundingBox {
+    /// The empty box.
     pub const EMPTY: Self = Self {
         min: DVec3::INFINITY,
         max: DVec3::NEG_INFINITY,
@@ -42,13 +42,13 @@ impl Bounds {
         }
     }
 
-    /// Whether there is nothing in it.
+    /// Whether it is empty.
     #[must_use]
     pub fn is_empty(self) -> bool {
         self.min.x > self.max.x
     }
 
-    /// The middle; of a box that is not empty.
+    /// The centre of a box that is not empty.
     #[must_use]
     pub fn centre(self) -> DVec3 {
         0.5 * (self.min + self.max)
@@ -92,8 +92,8 @@ impl Bounds {
     }
 }
 
-/// Bounds of a geometry in its own space.
-pub(crate) fn of_geometry(meshes: &[Mesh], geometry: &Geometry) -> Bounds {
+/// The box around a geometry in its own space.
+pub(crate) fn of_geometry(meshes: &[Mesh], geometry: &Geometry) -> BoundingBox {
     match *geometry {
         Geometry::Mesh(id) => {
             let mesh = &meshes[id.0];
@@ -105,21 +105,21 @@ pub(crate) fn of_geometry(meshes: &[Mesh], geometry: &Geometry) -> Bounds {
                     .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), p| {
                         (low.min(p), high.max(p))
                     });
-                Bounds {
+                BoundingBox {
                     min: low.as_dvec3(),
                     max: high.as_dvec3(),
                 }
             };
             let chunks = mesh.triangles.par_chunks(1 << 16).map(of_chunk);
-            chunks.reduce(|| Bounds::EMPTY, Bounds::union)
+            chunks.reduce(|| BoundingBox::EMPTY, BoundingBox::union)
         }
         Geometry::Sphere { radius } => {
             let r = DVec3::splat(f64::from(radius));
-            Bounds { min: -r, max: r }
+            BoundingBox { min: -r, max: r }
         }
         Geometry::Disk { radius, height } => {
             let (r, z) = (f64::from(radius), f64::from(height));
-            Bounds {
+            BoundingBox {
                 min: DVec3::new(-r, -r, z),
                 max: DVec3::new(r, r, z),
             }
@@ -127,28 +127,28 @@ pub(crate) fn of_geometry(meshes: &[Mesh], geometry: &Geometry) -> Bounds {
     }
 }
 
-/// Bounds of a scene in world space.
-pub(crate) fn of_scene(scene: &Scene) -> Bounds {
+/// The box around a scene in world space.
+pub(crate) fn of_scene(scene: &Scene) -> BoundingBox {
     of_shapes_where(scene, |_| true)
 }
 
-/// Bounds of what a scene's file shows: those of the scene without a floor that was put under it.
-pub(crate) fn of_file(scene: &Scene) -> Bounds {
+/// The box around what a scene's file shows: without a floor that was added under it.
+pub(crate) fn of_file(scene: &Scene) -> BoundingBox {
     of_shapes_where(scene, |shape| Some(shape.material) != scene.floor)
 }
 
-fn of_shapes_where(scene: &Scene, counts: impl Fn(&Shape) -> bool) -> Bounds {
+fn of_shapes_where(scene: &Scene, counts: impl Fn(&Shape) -> bool) -> BoundingBox {
     let of_shapes = |shapes: &[Shape]| {
         let boxes = (shapes.iter().filter(|s| counts(s)))
             .map(|s| of_geometry(&scene.meshes, &s.geometry).transformed(&s.to_world));
-        boxes.fold(Bounds::EMPTY, Bounds::union)
+        boxes.fold(BoundingBox::EMPTY, BoundingBox::union)
     };
-    let objects: Vec<Bounds> = scene.objects.iter().map(|o| of_shapes(&o.shapes)).collect();
+    let objects: Vec<BoundingBox> = scene.objects.iter().map(|o| of_shapes(&o.shapes)).collect();
     let copies = scene
         .instances
         .iter()
         .map(|i| objects[i.object.0].transformed(&i.to_world));
-    copies.fold(of_shapes(&scene.shapes), Bounds::union)
+    copies.fold(of_shapes(&scene.shapes), BoundingBox::union)
 }
 
 #[cfg(test)]
@@ -157,14 +157,14 @@ mod tests {
 
     #[test]
     fn a_turned_box_is_wrapped() {
-        let unit = Bounds {
+        let unit = BoundingBox {
             min: DVec3::splat(-1.0),
             max: DVec3::ONE,
         };
         let turned = unit.transformed(&DMat4::from_rotation_z(std::f64::consts::FRAC_PI_4));
         assert!((turned.max.x - 2f64.sqrt()).abs() < 1e-12);
         assert_eq!(turned.max.z, 1.0);
-        assert!(Bounds::EMPTY.transformed(&DMat4::IDENTITY).is_empty());
-        assert_eq!(Bounds::EMPTY.farthest(), 0.0);
+        assert!(BoundingBox::EMPTY.transformed(&DMat4::IDENTITY).is_empty());
+        assert_eq!(BoundingBox::EMPTY.farthest(), 0.0);
     }
 }

@@ -7,16 +7,16 @@ use miette::{
     SpanContents,
 };
 
-use crate::error::{Place, SceneError, Source, Warning};
+use crate::error::{Place, SceneError, SourceText, Warning};
 use crate::report::{self, Problem};
 
-/// Longest stretch of a file that is shown, in bytes.
+/// Longest excerpt of a file that is shown, in bytes.
 const LONGEST_EXCERPT: usize = 2000;
 
 /// Bytes that are shown before and after a place in a longer one.
 const AROUND: usize = 60;
 
-impl SourceCode for Source {
+impl SourceCode for SourceText {
     fn read_span<'a>(
         &'a self,
         span: &SourceSpan,
@@ -29,7 +29,7 @@ impl SourceCode for Source {
             (contents.span().offset(), contents.line(), contents.column());
         let mut end = start + contents.data().len();
         if end - start > LONGEST_EXCERPT {
-            // A line that a machine wrote: what is around.
+            // A line that a machine wrote is long: only what is around the place is shown.
             let at = span.offset().clamp(start, end);
             let row = text[..at].rfind('\n').map_or(0, |i| i + 1).max(start);
             let from = text.floor_char_boundary(at.saturating_sub(AROUND)).max(row);
@@ -131,7 +131,7 @@ mod tests {
 
     #[test]
     fn an_error_shows_its_line() {
-        let source = Source::new("a.pbrt", "Identity\nScael 1 1 1\n");
+        let source = SourceText::new("a.pbrt", "Identity\nScael 1 1 1\n");
         let place = Place::new(&source, 9, 5);
         let error = SceneError::new(ErrorKind::UnknownDirective, &place, "unknown directive");
         let code = error.source_code().expect("the text is known");
@@ -158,7 +158,7 @@ mod tests {
             "b".repeat(9000)
         );
         let at = text.find("7").expect("it is there");
-        let source = Source::new("a.gltf", text);
+        let source = SourceText::new("a.gltf", text);
         let contents = source.read_span(&(at, 1).into(), 1, 1).expect("inside");
         let data = std::str::from_utf8(contents.data()).expect("whole characters");
         assert!(data.contains("\"here\": 7,") && data.len() < 200, "{data}");

@@ -1,4 +1,4 @@
-//! What a material does about light that rough metal or glass scatters more than once.
+//! Treatment of light that microfacets scatter more than once.
 
 use core::fmt;
 use core::str::FromStr;
@@ -11,23 +11,23 @@ pub enum Energy {
     /// Single scattering only: rough surfaces darken, as in most renderers.
     #[default]
     None,
-    /// The lost energy is given back by a formula.
+    /// A formula compensates for the lost energy.
     Compensated(energy::EnergyModel),
     /// The bounces are simulated.
     Multibounce(multibounce::MultibounceModel),
 }
 
 impl Energy {
-    /// For scenes of formats that leave it open: Turquin's formula, whose samples are those of single
+    /// For formats that do not specify it: Turquin's formula, whose samples are those of single
     /// scattering. Against simulated bounces the albedo of gold and copper is off by at most 2.0 % at alpha 0.3
     /// and 0.5 (3.4 % at grazing angles), of aluminium by 2.0 %; at alpha 1 it is up to 16 % too bright, where
-    /// `turquin-series` and `kulla-conty` are up to 9 % too dark (`docs/decisions/energy-by-default.md`).
+    /// `turquin-series` and `kulla-conty` are up to 9 % too dark.
     pub const DEFAULT: Self = Self::Compensated(energy::EnergyModel::Turquin(
         energy::FmsVariant::NormalIncidence,
     ));
 }
 
-/// A name that is no treatment's.
+/// The name of no treatment.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "no such energy treatment: '{0}' (expected none, turquin, turquin-series, kulla-conty, \

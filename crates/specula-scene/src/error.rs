@@ -6,20 +6,20 @@ use std::sync::Arc;
 
 use crate::limits;
 
-/// A text that was read, kept for excerpts.
-pub struct Source {
+/// The text of a file, stored to show excerpts.
+pub struct SourceText {
     name: String,
     text: String,
 }
 
-impl fmt::Debug for Source {
+impl fmt::Debug for SourceText {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // The text may be megabytes long; a debug print is no place for it.
-        write!(f, "Source({:?}, {} bytes)", self.name, self.text.len())
+        write!(f, "SourceText({:?}, {} bytes)", self.name, self.text.len())
     }
 }
 
-impl Source {
+impl SourceText {
     pub(crate) fn new(name: impl Into<String>, text: impl Into<String>) -> Arc<Self> {
         Arc::new(Self {
             name: name.into(),
@@ -43,16 +43,16 @@ impl Source {
     }
 }
 
-/// A stretch of a file. It displays as `file:line:column`.
+/// A range of bytes in a file. It displays as `file:line:column`.
 #[derive(Clone, Debug)]
 pub struct Place {
-    source: Arc<Source>,
+    source: Arc<SourceText>,
     offset: usize,
     length: usize,
 }
 
 impl Place {
-    pub(crate) fn new(source: &Arc<Source>, offset: usize, length: usize) -> Self {
+    pub(crate) fn new(source: &Arc<SourceText>, offset: usize, length: usize) -> Self {
         Self {
             source: Arc::clone(source),
             offset,
@@ -61,7 +61,7 @@ impl Place {
     }
 
     /// A line, from 1, of a file; the text's end where it has fewer.
-    pub(crate) fn of_line(source: &Arc<Source>, line: usize) -> Self {
+    pub(crate) fn of_line(source: &Arc<SourceText>, line: usize) -> Self {
         let mut lines = source.text().split_inclusive('\n');
         let before = lines.by_ref().take(line.saturating_sub(1));
         let offset = before.map(str::len).sum();
@@ -70,16 +70,16 @@ impl Place {
     }
 
     /// The beginning of a file.
-    pub(crate) fn start(source: &Arc<Source>) -> Self {
+    pub(crate) fn start(source: &Arc<SourceText>) -> Self {
         Self::new(source, 0, 0)
     }
 
-    pub(crate) fn shared_source(&self) -> &Arc<Source> {
+    pub(crate) fn shared_source(&self) -> &Arc<SourceText> {
         &self.source
     }
 
     /// The file.
-    pub fn source(&self) -> &Source {
+    pub fn source(&self) -> &SourceText {
         &self.source
     }
 
@@ -131,7 +131,7 @@ pub enum ErrorKind {
     Io,
     /// A file is not UTF-8 text.
     Encoding,
-    /// Tokens that form no directive.
+    /// Text that does not follow the format's grammar.
     Syntax,
     /// A directive that pbrt-v4 does not have.
     UnknownDirective,
@@ -153,11 +153,11 @@ pub enum ErrorKind {
     Image,
     /// A spectrum.
     Spectrum,
-    /// Nothing is left to render.
+    /// There is nothing to render.
     EmptyScene,
     /// A picture without this feature would be meaningless.
     Unsupported,
-    /// Beyond what this crate is willing to read.
+    /// A limit of [`Limits`](crate::Limits) is exceeded.
     Limit,
 }
 
@@ -236,7 +236,7 @@ impl SceneError {
     }
 }
 
-/// Something that is rendered otherwise than the file says, and where.
+/// A difference between the file and what is rendered, and where it is.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{message}")]
 pub struct Warning {
@@ -252,7 +252,7 @@ impl Warning {
         }
     }
 
-    /// What is done instead.
+    /// What differs, and what is rendered instead.
     pub fn message(&self) -> &str {
         &self.message
     }
@@ -284,7 +284,7 @@ mod tests {
 
     #[test]
     fn places_count_lines_and_characters_from_one() {
-        let source = Source::new("a.pbrt", "über\nScale x");
+        let source = SourceText::new("a.pbrt", "über\nScale x");
         let place = Place::new(&source, "über\nScale ".len(), 1);
         assert_eq!((place.line(), place.column()), (2, 7));
         assert_eq!(place.to_string(), "a.pbrt:2:7");

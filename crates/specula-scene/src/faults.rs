@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::scene::Mesh;
 
-/// Most mistakes of a file that are named: one broken file must not crowd out the others of a scene.
+/// Most mistakes of a file that are listed: one broken file must not crowd out the others of a scene.
 pub(crate) const MOST: usize = 20;
 
 /// One mistake. It displays with its line, where it has one.
@@ -48,16 +48,16 @@ impl fmt::Display for Fault {
 /// follows still makes sense.
 #[derive(Debug, Default)]
 pub(crate) struct Faults {
-    keeps: bool,
+    collects: bool,
     list: Vec<Fault>,
     more: usize,
 }
 
 impl Faults {
-    /// * `keeps`: whether mistakes are kept, as a check does.
-    pub(crate) fn new(keeps: bool) -> Self {
+    /// * `collects`: whether to go on after a mistake, as a check does.
+    pub(crate) fn new(collects: bool) -> Self {
         Self {
-            keeps,
+            collects,
             ..Self::default()
         }
     }
@@ -67,14 +67,14 @@ impl Faults {
         self.list.is_empty()
     }
 
-    /// Keeps a mistake.
+    /// Records a mistake.
     ///
     /// # Errors
     ///
     /// The mistake itself, in an ordinary load.
-    pub(crate) fn keep(&mut self, fault: impl Into<Fault>) -> Result<(), Fault> {
+    pub(crate) fn record(&mut self, fault: impl Into<Fault>) -> Result<(), Fault> {
         let fault = fault.into();
-        if !self.keeps {
+        if !self.collects {
             return Err(fault);
         }
         if self.list.len() < MOST {
@@ -85,14 +85,14 @@ impl Faults {
         Ok(())
     }
 
-    /// Takes in the mistakes that another has kept.
+    /// Adds the mistakes that another has recorded.
     ///
     /// # Errors
     ///
     /// The first of them, in an ordinary load.
     pub(crate) fn append(&mut self, other: Self) -> Result<(), Fault> {
         for fault in other.list {
-            self.keep(fault)?;
+            self.record(fault)?;
         }
         self.more += other.more;
         Ok(())
@@ -102,7 +102,7 @@ impl Faults {
     ///
     /// # Errors
     ///
-    /// All that was kept, and the error that ended the reading: one at least.
+    /// All that was recorded, and the error that ended the reading: one at least.
     pub(crate) fn end<T>(mut self, read: Result<T, Fault>) -> Result<T, Vec<Fault>> {
         match read {
             Ok(value) if self.list.is_empty() => return Ok(value),
@@ -121,17 +121,17 @@ impl Faults {
 ///
 /// # Errors
 ///
-/// Those of [`Faults::keep`].
+/// Those of [`Faults::record`].
 pub(crate) fn of_mesh(mesh: &Mesh, faults: &mut Faults) -> Result<(), Fault> {
     for (i, p) in mesh.positions.iter().enumerate() {
         if p.iter().any(|x| !x.is_finite()) {
-            faults.keep(format!("vertex {i} is not finite: {p:?}"))?;
+            faults.record(format!("vertex {i} is not finite: {p:?}"))?;
         }
     }
     let count = mesh.positions.len();
     for (i, [a, b, c]) in mesh.triangles.iter().enumerate() {
         if [a, b, c].into_iter().any(|v| *v as usize >= count) {
-            faults.keep(format!(
+            faults.record(format!(
                 "triangle {i} refers to vertices {a}, {b}, {c}, but there are {count} vertices"
             ))?;
         }
@@ -146,10 +146,10 @@ mod tests {
     #[test]
     fn a_load_ends_with_the_first_and_a_check_names_some_and_counts_the_rest() {
         let mut load = Faults::new(false);
-        assert_eq!(load.keep("a"), Err(Fault::from("a")));
+        assert_eq!(load.record("a"), Err(Fault::from("a")));
         let mut check = Faults::new(true);
         for i in 0..MOST + 3 {
-            check.keep(Fault::at_line(i, "x")).unwrap();
+            check.record(Fault::at_line(i, "x")).unwrap();
         }
         let found = check.end(Err::<(), _>("last".into())).unwrap_err();
         assert_eq!(found.len(), MOST + 2);

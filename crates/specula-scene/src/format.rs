@@ -1,4 +1,4 @@
-//! The format of a scene, told by what is in it; a name's end decides only where the content does not.
+//! Detection of a scene's format by content; the file's extension decides only where the content does not.
 
 use std::path::Path;
 
@@ -18,13 +18,13 @@ pub enum Format {
     Ply,
 }
 
-/// First bytes of a file that gzip made.
+/// First bytes of a gzip file.
 pub(crate) const GZIP: [u8; 2] = [0x1f, 0x8b];
 /// First words of lines in OBJ files.
 const OBJ_WORDS: [&str; 13] = [
     "v", "vt", "vn", "vp", "f", "l", "p", "o", "g", "s", "mtllib", "usemtl", "usemap",
 ];
-/// Text in which the first word is looked for, behind comments.
+/// Bytes in which the first word after comments is searched.
 const LONGEST_HEAD: usize = 1 << 16;
 
 impl Format {
@@ -37,7 +37,7 @@ impl Format {
             .unwrap_or(Self::Pbrt)
     }
 
-    /// By the name's end, before one of `.gz`.
+    /// By the extension, before one of `.gz`.
     pub(crate) fn of_name(path: &Path) -> Option<Self> {
         let end = |path: &Path| Some(path.extension()?.to_str()?.to_ascii_lowercase());
         let end = match end(path)? {

@@ -1,9 +1,25 @@
-//! Scenes that people have, read into one model with located errors.
+//! Readers of scenes: pbrt-v4, Mitsuba 3 and glTF 2.0 into one model, with located errors.
 //!
-//! ```no_run
-//! let loaded = specula_scene::load(std::path::Path::new("scene.pbrt"))?;
+//! [`load`] reads a scene, in the format that its content tells. [`check`] lists all problems of one.
+//! [`write_pbrt`](write_pbrt::write_pbrt) writes one. The model is [`Scene`], of the types in [`scene`].
+//!
+//! ```
+//! use specula_scene::{LoadOptions, load_bytes};
+//!
+//! let text = b"Camera \"perspective\"
+//!     WorldBegin
+//!     LightSource \"infinite\"
+//!     Material \"metal\"
+//!     Shape \"sphere\"";
+//! let error = load_bytes("a.pbrt".as_ref(), text.to_vec(), &LoadOptions::default()).unwrap_err();
+//! assert_eq!(error.place().to_string(), "a.pbrt:4:14");
+//! assert!(error.message().contains("metal"), "{error}");
+//!
+//! let text = String::from_utf8_lossy(text).replace("metal", "conductor");
+//! let loaded = load_bytes("a.pbrt".as_ref(), text.into(), &LoadOptions::default())?;
+//! assert_eq!(loaded.scene.shapes.len(), 1);
 //! for warning in &loaded.warnings {
-//!     eprintln!("{}: {warning}", warning.place());
+//!     println!("{}: {warning}", warning.place());
 //! }
 //! # Ok::<(), specula_scene::SceneError>(())
 //! ```
@@ -17,16 +33,17 @@ mod diagnostic;
 pub mod energy;
 pub mod error;
 mod faults;
+mod feature;
 pub mod features;
 mod fingerprint;
 mod format;
-pub mod gltf;
+mod gltf;
 pub mod image;
 mod limits;
 pub mod material_text;
 mod media;
 mod mesh;
-pub mod mitsuba;
+mod mitsuba;
 mod num;
 mod obj;
 mod pbrt;
@@ -41,18 +58,19 @@ mod single;
 pub mod spectrum;
 mod stage;
 pub mod summary;
+mod transform;
 pub mod validate;
 pub mod write_pbrt;
 
 use std::path::{Path, PathBuf};
 
 pub use energy::{Energy, UnknownEnergy};
-pub use error::{ErrorKind, Place, SceneError, Source, Warning};
-pub use features::{Feature, Support};
+pub use error::{ErrorKind, Place, SceneError, SourceText, Warning};
+pub use feature::{Feature, Support};
 pub use format::Format;
 pub use image::{Image, Indexed, Pixels};
 pub use limits::Limits;
-pub use report::{Problem, Report, Severity};
+pub use report::{CheckReport, Problem, Severity};
 pub use scene::Scene;
 pub use summary::Summary;
 pub use validate::Invalid;
@@ -60,23 +78,40 @@ pub use validate::Invalid;
 use problems::Problems;
 use read_file::Files;
 
-/// What a caller may say about how a scene is read.
+/// How a scene is read.
+///
+/// ```
+/// use specula_scene::{Limits, LoadOptions};
+///
+/// let mut options = LoadOptions::from(Limits::strict());
+/// options.folders.push("textures".into());
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct LoadOptions {
     /// Bounds on what is read.
     pub limits: Limits,
-    /// Values of `$name` in a Mitsuba scene, which win over its `<default>`.
+    /// Values of `$name` in a Mitsuba scene; they override its `<default>`.
     pub parameters: Vec<(String, String)>,
-    /// Folders in which files that the scene names are looked for where they are not beside it.
+    /// Folders that are searched for files that the scene names and that are not beside it.
     pub folders: Vec<PathBuf>,
 }
 
-/// A scene with what was read otherwise than its file says.
+impl From<Limits> for LoadOptions {
+    fn from(limits: Limits) -> Self {
+        Self {
+            limits,
+            ..Self::default()
+        }
+    }
+}
+
+/// A scene that was read, with warnings.
 #[derive(Clone, Debug)]
 pub struct Loaded {
     /// The scene; it satisfies [`Scene::validate`].
     pub scene: Scene,
-    /// Stand-ins, unused parameters and dropped geometry, in the order in which they were met.
+    /// Stand-ins, unused parameters and dropped geometry, in the order of reading.
     pub warnings: Vec<Warning>,
     /// The format that it was read as.
     pub format: Format,
@@ -96,43 +131,42 @@ impl Loaded {
     }
 }
 
-/// Reads a scene within the default [`Limits`], in the format that its content tells, packed by gzip or not:
-/// pbrt-v4, Mitsuba's XML, glTF 2.0 (JSON or binary), or a mesh alone (OBJ, PLY), which is staged. The end of
-/// the name decides only where the content does not, as in an empty file.
+/// Reads a scene with default options.
+///
+/// The content tells the format: pbrt-v4, Mitsuba's XML, glTF 2.0 (JSON or binary), or a single mesh
+/// (OBJ, PLY), which gets a camera, light and a floor. Files may be packed by gzip. The file's extension
+/// decides only where the content does not, as in an empty file.
 ///
 /// # Errors
 ///
 /// Where a file cannot be read or is damaged, and where a picture would be meaningless. The error
 /// says what was expected and where.
 pub fn load(path: &Path) -> Result<Loaded, SceneError> {
-    load_with(path, &Limits::default())
+    load_with(path, &LoadOptions::default())
 }
 
-/// Reads a scene, as [`load`] does, within limits of the caller's choice.
+/// Reads a scene as [`load`] does, with options.
 ///
 /// # Errors
 ///
 /// Those of [`load`].
-pub fn load_with(path: &Path, limits: &Limits) -> Result<Loaded, SceneError> {
-    let options = LoadOptions {
-        limits: *limits,
-        ..LoadOptions::default()
-    };
-    load_with_options(path, &options)
-}
-
-/// Reads a scene, as [`load`] does, with all that a caller may say about it.
-///
-/// # Errors
-///
-/// Those of [`load`].
-pub fn load_with_options(path: &Path, options: &LoadOptions) -> Result<Loaded, SceneError> {
+pub fn load_with(path: &Path, options: &LoadOptions) -> Result<Loaded, SceneError> {
     let files = Files::new(options.limits);
     read(path, options, &files, &Problems::default())
 }
 
-/// Reads a scene for its problems: all errors that reading meets, with a stand-in for what has one,
-/// and all that would be rendered otherwise than the file says. A scene without errors here loads.
+/// Reads a scene of a known format, whatever its content looks like.
+///
+/// # Errors
+///
+/// Those of [`load`].
+pub fn load_as(path: &Path, format: Format, options: &LoadOptions) -> Result<Loaded, SceneError> {
+    let files = Files::new(options.limits);
+    read_as(format, path, options, &files, &Problems::default())
+}
+
+/// Reads a scene and lists all its problems: every error, and everything that would be rendered otherwise
+/// than the file says. A scene without errors here loads.
 ///
 /// ```no_run
 /// let report = specula_scene::check("scene.pbrt".as_ref(), &Default::default());
@@ -141,16 +175,16 @@ pub fn load_with_options(path: &Path, options: &LoadOptions) -> Result<Loaded, S
 /// }
 /// ```
 #[must_use]
-pub fn check(path: &Path, options: &LoadOptions) -> Report {
+pub fn check(path: &Path, options: &LoadOptions) -> CheckReport {
     let problems = Problems::collecting();
     let files = Files::new(options.limits);
     let loaded = read(path, options, &files, &problems);
-    Report::new(loaded, problems.take(), files.list())
+    CheckReport::new(loaded, problems.take(), files.list())
 }
 
-/// Reads a scene from memory: what a pipe contributed, say.
+/// Reads a scene from memory.
 ///
-/// * `name`: what messages call it; files that it names are looked for beside this path.
+/// * `name`: its path in messages; files that the scene names are searched for beside it.
 ///
 /// # Errors
 ///
@@ -181,11 +215,11 @@ fn read(
     let is_file = std::fs::metadata(path).is_ok_and(|m| m.is_file());
     let (format, name) = match files.scene(path) {
         Ok(bytes) => {
-            // A pipe is no place for the files that a scene names: those are looked for here.
+            // A pipe has no folder: files that the scene names are searched for in the working folder.
             let name = if is_file { path } else { Path::new("<pipe>") };
             (files.give(name, bytes), name)
         }
-        // The reader meets the same fault, and knows where to say it.
+        // The reader will meet the same error, and reports where.
         Err(_) => (Format::of_name(path).unwrap_or(Format::Pbrt), path),
     };
     read_as(format, name, options, files, problems)
@@ -199,7 +233,7 @@ fn read_as(
     problems: &Problems,
 ) -> Result<Loaded, SceneError> {
     match format {
-        Format::Mitsuba => mitsuba::read_into(path, options, files, problems),
+        Format::Mitsuba => mitsuba::read(path, options, files, problems),
         Format::Gltf => gltf::read(path, options, files, problems),
         Format::Obj => single::read(path, files, problems, (format, obj::read)),
         Format::Ply => single::read(path, files, problems, (format, ply::read)),

@@ -1,8 +1,9 @@
-//! How much a file may ask for before it is taken for damage.
+//! Limits on what is read.
 
-/// Bounds on what is read. What exceeds one is an error of kind
-/// [`ErrorKind::Limit`](crate::ErrorKind::Limit), or of the thing's own kind, that names the bound.
+/// Limits on what is read. What exceeds one is an error of kind
+/// [`ErrorKind::Limit`](crate::ErrorKind::Limit), or of the thing's own kind, that names the limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Limits {
     /// Deepest nesting of files and of references; blocks within a file nest 16 times as deep.
     pub max_depth: usize,
@@ -33,7 +34,7 @@ impl Default for Limits {
 }
 
 impl Limits {
-    /// Bounds for hostile files: small enough that no file can take a second or a gibibyte.
+    /// Limits for hostile files: small enough that no file takes a second or a gibibyte.
     #[must_use]
     pub const fn strict() -> Self {
         Self {
@@ -47,7 +48,7 @@ impl Limits {
     }
 }
 
-/// What messages about a crossed limit end with, and the option of the command line that raises it.
+/// The end of messages about an exceeded limit, and the option of the command line that raises it.
 const OPTIONS: [(&str, &str); 4] = [
     ("(`max_depth`)", "--limit-nesting N"),
     ("(`max_bytes`)", "--limit-bytes SIZE"),
@@ -55,7 +56,7 @@ const OPTIONS: [(&str, &str); 4] = [
     ("(`max_vertices`)", "--limit-vertices N"),
 ];
 
-/// What helps where `message` says that a limit is crossed: such messages end with the name of the
+/// Help for a message that a limit is exceeded: such messages end with the name of the
 /// limit, whatever readers wrap them in.
 pub(crate) fn help(message: &str) -> Option<String> {
     let (_, option) = OPTIONS.iter().find(|(name, _)| message.contains(name))?;

@@ -1,4 +1,4 @@
-//! Materials in a line of words: `conductor Au alpha 0.3`.
+//! Materials as a line of text: `conductor Au alpha 0.3`.
 
 use specula_bsdf::Rgb;
 use specula_bsdf::metals;
@@ -9,7 +9,7 @@ use crate::scene::{
     RoughnessMapping, Scene,
 };
 
-/// A line that is no material.
+/// A line that does not describe a material.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("material '{text}': {problem}; expected {EXPECTED}")]
 pub struct UnknownMaterial {
@@ -29,7 +29,7 @@ const EXPECTED: &str = "diffuse R G B, conductor METAL|R G B, dielectric ETA, co
 /// coateddiffuse   R G B
 /// coatedconductor METAL | R G B
 ///
-/// alpha A | alpha AX AY                the microfacets' width; 0 is smooth
+/// alpha A | alpha AX AY                alpha of the microfacets; 0 is smooth
 /// roughness R                          alpha = R^2
 /// eta ETA                              index of the coat or the glass
 /// ```
@@ -140,15 +140,15 @@ fn kind(
 }
 
 impl Scene {
-    /// Gives every surface this material, but those that are no surface at all or emit light, and a
+    /// Gives every shape this material, except for interfaces, shapes that emit light, and a
     /// floor that is not the file's ([`Scene::floor`]).
     pub fn replace_materials(&mut self, kind: MaterialKind) {
         let floor = self.floor.map(|id| id.0);
         self.replace_where(|i, _| Some(i) != floor, kind);
     }
 
-    /// Gives this material to every surface whose material's name in the file `matches`, but those that
-    /// are no surface at all or emit light. Returns how many materials have such a name.
+    /// Gives this material to every shape whose material's name in the file `matches`, except for those that
+    /// are interfaces or emit light. Returns how many materials have such a name.
     pub fn replace_materials_named(
         &mut self,
         matches: impl Fn(&str) -> bool,

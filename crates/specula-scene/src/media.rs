@@ -1,4 +1,4 @@
-//! Measured scattering media by name, and what is said of media that are not simulated.
+//! Measured scattering media by name, and the warning about media that are not simulated.
 
 use specula_bsdf::Rgb;
 

@@ -1,4 +1,4 @@
-//! What a mesh must be before it enters a scene.
+//! Cleaning and checking of meshes.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -19,7 +19,7 @@ pub(crate) struct Cleaning {
 }
 
 impl Cleaning {
-    /// What to tell of a mesh of which something is left.
+    /// Warnings about a mesh that was changed.
     pub(crate) fn messages(&self) -> Vec<String> {
         let mut messages = Vec::new();
         if self.dropped_triangles > 0 {
@@ -39,7 +39,7 @@ impl Cleaning {
     }
 }
 
-/// Makes `mesh` fit for a scene: indices in range, vertices finite, every triangle with area,
+/// Makes `mesh` valid: indices in range, vertices finite, every triangle with area,
 /// normals finite and not zero.
 ///
 /// # Errors
@@ -83,16 +83,16 @@ pub(crate) fn clean(mesh: &mut Mesh) -> Result<Cleaning, String> {
     Ok(cleaning)
 }
 
-/// [`clean`], which names all that is wrong where mistakes are kept.
+/// [`clean`], which names all that is wrong in a check.
 ///
-/// * `keeps`: whether they are, as in a check.
+/// * `collects`: whether to go on after a mistake, as in a check.
 ///
 /// # Errors
 ///
 /// Those of [`clean`]: one at least.
-pub(crate) fn clean_or_name(mesh: &mut Mesh, keeps: bool) -> Result<Cleaning, Vec<Fault>> {
+pub(crate) fn clean_or_name(mesh: &mut Mesh, collects: bool) -> Result<Cleaning, Vec<Fault>> {
     clean(mesh).or_else(|first| {
-        let mut faults = Faults::new(keeps);
+        let mut faults = Faults::new(collects);
         let named = faults::of_mesh(mesh, &mut faults);
         faults
             .end(named.and(Ok(Cleaning::default())))

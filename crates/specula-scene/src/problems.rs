@@ -1,4 +1,4 @@
-//! Where the errors of a scene go while it is read: back to the caller, or into a report.
+//! Errors while a scene is read: they go back to the caller, or into a report.
 
 use std::cell::RefCell;
 use std::collections::HashSet;
@@ -17,25 +17,25 @@ pub(crate) const MOST: usize = 100;
 /// The sink of a scene's errors, shared by all that reads the scene.
 ///
 /// In an ordinary load, which is the default, the first error goes back to the caller. In a check
-/// errors are kept, and reading goes on with a neutral stand-in.
+/// errors are recorded, and reading goes on with a neutral stand-in.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Problems(Option<Rc<RefCell<Kept>>>);
+pub(crate) struct Problems(Option<Rc<RefCell<CollectedProblems>>>);
 
 /// What a check has found.
 #[derive(Debug, Default)]
-pub(crate) struct Kept {
+pub(crate) struct CollectedProblems {
     pub(crate) errors: Vec<SceneError>,
     /// Errors beyond the first [`MOST`].
     pub(crate) more_errors: usize,
     pub(crate) notes: Vec<Note>,
     /// Warnings of a scene that could not be put together.
     pub(crate) warnings: Vec<Warning>,
-    /// Errors that are known by their place and message: names that many things refer to are
-    /// missing once.
+    /// Hashes of place and message of the errors so far: a name that many things refer to is
+    /// reported missing once.
     seen: HashSet<u64>,
 }
 
-/// Something that is no mistake but may surprise.
+/// Something that is not a mistake but may surprise.
 #[derive(Clone, Debug)]
 pub(crate) struct Note {
     pub(crate) kind: NoteKind,
@@ -48,22 +48,22 @@ pub(crate) struct Note {
 pub(crate) enum NoteKind {
     /// A definition that nothing refers to.
     Unused,
-    /// A light that sends out nothing.
+    /// A light that emits nothing.
     Dark,
 }
 
 impl Problems {
-    /// A sink that keeps errors.
+    /// A sink that records errors.
     pub(crate) fn collecting() -> Self {
         Self(Some(Rc::default()))
     }
 
-    /// Whether errors are kept.
+    /// Whether errors are recorded.
     pub(crate) fn is_check(&self) -> bool {
         self.0.is_some()
     }
 
-    /// Whether an error was kept.
+    /// Whether an error was recorded.
     pub(crate) fn has_errors(&self) -> bool {
         self.0
             .as_ref()
@@ -77,30 +77,30 @@ impl Problems {
             .is_some_and(|k| k.borrow().errors.len() >= MOST)
     }
 
-    /// Keeps an error.
+    /// Records an error.
     ///
     /// # Errors
     ///
     /// The error itself, in an ordinary load.
-    pub(crate) fn keep(&self, error: SceneError) -> Result<(), SceneError> {
-        let Some(kept) = &self.0 else {
+    pub(crate) fn record(&self, error: SceneError) -> Result<(), SceneError> {
+        let Some(collected) = &self.0 else {
             return Err(error);
         };
-        let mut kept = kept.borrow_mut();
+        let mut collected = collected.borrow_mut();
         let mut hasher = DefaultHasher::new();
         (error.file(), error.place().offset(), error.message()).hash(&mut hasher);
-        if !kept.seen.insert(hasher.finish()) {
+        if !collected.seen.insert(hasher.finish()) {
             return Ok(());
         }
-        if kept.errors.len() < MOST {
-            kept.errors.push(error);
+        if collected.errors.len() < MOST {
+            collected.errors.push(error);
         } else {
-            kept.more_errors += 1;
+            collected.more_errors += 1;
         }
         Ok(())
     }
 
-    /// What was read, or a stand-in where its error is kept.
+    /// What was read, or a stand-in where its error is recorded.
     ///
     /// # Errors
     ///
@@ -113,46 +113,46 @@ impl Problems {
         match read {
             Ok(value) => Ok(value),
             Err(error) => {
-                self.keep(error)?;
+                self.record(error)?;
                 Ok(stand_in())
             }
         }
     }
 
-    /// Keeps a note, of which an ordinary load has no use.
+    /// Records a note; an ordinary load ignores it.
     pub(crate) fn note(&self, kind: NoteKind, place: &Place, message: impl FnOnce() -> String) {
-        if let Some(kept) = &self.0 {
+        if let Some(collected) = &self.0 {
             let note = Note {
                 kind,
                 message: message(),
                 place: place.clone(),
             };
-            kept.borrow_mut().notes.push(note);
+            collected.borrow_mut().notes.push(note);
         }
     }
 
-    /// Keeps the warnings of a reader that ends in an error, of which an ordinary load has no use.
-    pub(crate) fn keep_warnings(&self, warnings: &mut Vec<Warning>) {
-        if let Some(kept) = &self.0 {
-            kept.borrow_mut().warnings.append(warnings);
+    /// Records the warnings of a reader that ends in an error; an ordinary load ignores them.
+    pub(crate) fn record_warnings(&self, warnings: &mut Vec<Warning>) {
+        if let Some(collected) = &self.0 {
+            collected.borrow_mut().warnings.append(warnings);
         }
     }
 
-    /// All that was kept; the sink is empty after it.
-    pub(crate) fn take(&self) -> Kept {
+    /// All that was recorded; the sink is empty after it.
+    pub(crate) fn take(&self) -> CollectedProblems {
         self.0
             .as_ref()
-            .map_or_else(Kept::default, |k| k.borrow_mut().take())
+            .map_or_else(CollectedProblems::default, |k| k.borrow_mut().take())
     }
 }
 
-impl Kept {
+impl CollectedProblems {
     fn take(&mut self) -> Self {
         std::mem::take(self)
     }
 }
 
-/// Whether a light sends out nothing.
+/// Whether a light emits nothing.
 pub(crate) fn is_dark(light: &Light, images: &[Image]) -> bool {
     let (colour, picture) = match light {
         Light::Infinite {
@@ -175,10 +175,10 @@ pub(crate) fn is_dark(light: &Light, images: &[Image]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::{ErrorKind, Source};
+    use crate::error::{ErrorKind, SourceText};
 
     fn error(offset: usize) -> SceneError {
-        let place = Place::new(&Source::new("a", "text"), offset, 1);
+        let place = Place::new(&SourceText::new("a", "text"), offset, 1);
         SceneError::new(ErrorKind::Syntax, &place, "wrong")
     }
 
@@ -193,10 +193,10 @@ mod tests {
         }
         assert!(check.has_errors());
         for offset in 2..MOST + 5 {
-            check.keep(error(offset)).unwrap();
+            check.record(error(offset)).unwrap();
         }
-        let kept = check.take();
-        assert_eq!((kept.errors.len(), kept.more_errors), (MOST, 5));
+        let collected = check.take();
+        assert_eq!((collected.errors.len(), collected.more_errors), (MOST, 5));
         assert!(!check.has_errors());
     }
 }

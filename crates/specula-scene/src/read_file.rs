@@ -1,6 +1,6 @@
 //! Whole files, decompressed where their name ends in `.gz`, and the list of those that were read.
 //!
-//! What a scene names must be an ordinary file: opening a pipe would wait for another program, and
+//! Files that a scene names must be ordinary files: opening a pipe would wait for another program, and
 //! opening a device may do anything. The scene itself, which the caller names, may be a pipe.
 
 use std::collections::HashMap;
@@ -147,7 +147,7 @@ impl Files {
     /// Hands the content of the scene's own file to the reader that will ask for `path`; returns its format.
     pub(crate) fn give(&self, path: &Path, bytes: Vec<u8>) -> Format {
         let bytes = match bytes.starts_with(&GZIP) {
-            // What cannot be unpacked is for the reader to refuse.
+            // The reader will report that it cannot be unpacked.
             true => unpack(&bytes, &self.limits).unwrap_or(bytes),
             false => bytes,
         };
@@ -162,7 +162,7 @@ impl Files {
     }
 
     fn locked<T>(&self, f: impl FnOnce(&mut List) -> T) -> T {
-        // A list is whole whatever a thread does that holds it.
+        // The list stays valid even if a thread panics while it holds the lock.
         f(&mut self.list.lock().unwrap_or_else(PoisonError::into_inner))
     }
 }
@@ -182,13 +182,13 @@ fn open_ordinary(path: &Path) -> Result<File, String> {
         kind if kind.is_dir() => Err("is a folder; expected a file".to_owned()),
         _ => Err("is a pipe, a socket or a device; expected an ordinary file".to_owned()),
     };
-    // Opening a device may do something: it is looked at first.
+    // Opening a device may do something: its type is checked first.
     std::fs::metadata(path)
         .map_err(|e| unreadable(&e))
         .and_then(is_ordinary)?;
     let mut options = OpenOptions::new();
     options.read(true);
-    // A pipe that took its place since then must not be waited for.
+    // If a pipe took its place since then, opening must not wait for it.
     #[cfg(unix)]
     std::os::unix::fs::OpenOptionsExt::custom_flags(&mut options, libc::O_NONBLOCK);
     let file = options.open(path).map_err(|e| unreadable(&e))?;
@@ -206,7 +206,7 @@ fn bytes_of(file: File, limits: &Limits) -> Result<Vec<u8>, String> {
         return Err(too_long());
     }
     let mut bytes = Vec::with_capacity(usize::try_from(promised).unwrap_or(0));
-    // A pipe or a device promises nothing.
+    // The length of a pipe or a device is unknown.
     file.take(most.saturating_add(1))
         .read_to_end(&mut bytes)
         .map_err(|e| unreadable(&e))?;

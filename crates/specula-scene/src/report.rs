@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use crate::Loaded;
 use crate::error::{ErrorKind, Place, SceneError, Warning};
-use crate::problems::{Kept, MOST, Note, NoteKind};
+use crate::problems::{CollectedProblems, MOST, Note, NoteKind};
 
 /// How much a problem matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -14,7 +14,7 @@ pub enum Severity {
     Error,
     /// It is rendered otherwise than the file says.
     Warning,
-    /// No mistake, but it may surprise.
+    /// Not a mistake, but it may surprise.
     Note,
 }
 
@@ -119,29 +119,33 @@ impl From<Note> for Problem {
 
 /// What [`check`](crate::check) found.
 #[derive(Clone, Debug, Default)]
-pub struct Report {
+pub struct CheckReport {
     problems: Vec<Problem>,
     counts: [usize; 3],
     files: Vec<PathBuf>,
 }
 
-impl Report {
-    pub(crate) fn new(loaded: Result<Loaded, SceneError>, kept: Kept, files: Vec<PathBuf>) -> Self {
-        let mut found: Vec<Problem> = kept.errors.into_iter().map(Problem::from).collect();
-        let mut warnings = kept.warnings;
+impl CheckReport {
+    pub(crate) fn new(
+        loaded: Result<Loaded, SceneError>,
+        collected: CollectedProblems,
+        files: Vec<PathBuf>,
+    ) -> Self {
+        let mut found: Vec<Problem> = collected.errors.into_iter().map(Problem::from).collect();
+        let mut warnings = collected.warnings;
         match loaded {
             Ok(loaded) => warnings.extend(loaded.warnings),
-            // One that nothing could stand in for.
+            // An error that ended the reading.
             Err(error) => found.push(error.into()),
         }
         let mut report = Self {
             files,
             ..Self::default()
         };
-        report.counts[Severity::Error as usize] = found.len() + kept.more_errors;
+        report.counts[Severity::Error as usize] = found.len() + collected.more_errors;
         for group in [
             warnings.into_iter().map(Problem::from).collect(),
-            kept.notes.into_iter().map(Problem::from).collect(),
+            collected.notes.into_iter().map(Problem::from).collect(),
         ] {
             let mut group = grouped(group);
             if let Some(first) = group.first() {
@@ -239,17 +243,17 @@ impl ErrorKind {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::Source;
+    use crate::error::SourceText;
     use crate::problems::Problems;
 
     #[test]
     fn errors_come_first_and_equal_warnings_are_counted() {
-        let source = Source::new("a.pbrt", "one\ntwo\nthree\n");
+        let source = SourceText::new("a.pbrt", "one\ntwo\nthree\n");
         let at = |offset| Place::new(&source, offset, 1);
         let problems = Problems::collecting();
         for offset in [8, 0] {
             let error = SceneError::new(ErrorKind::Syntax, &at(offset), "wrong");
-            problems.keep(error).unwrap();
+            problems.record(error).unwrap();
         }
         problems.note(NoteKind::Dark, &at(4), || "dark".to_owned());
         let mut warnings = vec![
@@ -257,9 +261,9 @@ mod tests {
             Warning::new(&at(8), "odd"),
             Warning::new(&at(0), "other"),
         ];
-        problems.keep_warnings(&mut warnings);
+        problems.record_warnings(&mut warnings);
         let last = SceneError::new(ErrorKind::EmptyScene, &at(4), "nothing");
-        let report = Report::new(Err(last), problems.take(), Vec::new());
+        let report = CheckReport::new(Err(last), problems.take(), Vec::new());
         let lines: Vec<_> = (report.problems().iter())
             .map(|p| (p.severity().name(), p.place().line(), p.count()))
             .collect();
@@ -280,15 +284,15 @@ mod tests {
 
     #[test]
     fn what_is_beyond_the_list_is_counted() {
-        let source = Source::new("a.pbrt", "");
+        let source = SourceText::new("a.pbrt", "");
         let place = Place::start(&source);
         let problems = Problems::collecting();
         for i in 0..MOST + 3 {
             let error = SceneError::new(ErrorKind::Syntax, &place, format!("{i}"));
-            problems.keep(error).unwrap();
+            problems.record(error).unwrap();
             problems.note(NoteKind::Dark, &place, || format!("{i}"));
         }
-        let report = Report::new(
+        let report = CheckReport::new(
             Err(SceneError::new(ErrorKind::Io, &place, "last")),
             problems.take(),
             Vec::new(),

@@ -1,4 +1,4 @@
-//! The scene as the artist wrote it: one model for every format, plain data.
+//! The scene model: plain data, the same for every format.
 //!
 //! Lengths are in scene units, colours linear RGB (sRGB primaries), angles in degrees where the
 //! name says so. Transforms are row-times-column matrices `p_world = M * p_local`.
@@ -14,10 +14,10 @@ pub use camera::{Camera, Film, Filter, Projection};
 pub use coat::CoatMedium;
 pub use light::{EnvironmentMapping, ImageProjection, Light, Profile, SpotFalloff};
 pub use material::{
-    Bump, BumpRules, ConductorFresnel, Distribution, Gltf, Material, MaterialKind, Principled,
-    Roughness, RoughnessMapping,
+    Bump, BumpRules, ConductorFresnel, GltfMaterial, Material, MaterialKind,
+    MicrofacetDistribution, PrincipledMaterial, Roughness, RoughnessMapping,
 };
-pub use shape::{Emission, Geometry, Instance, Mesh, Object, Shape};
+pub use shape::{Emission, Geometry, Mesh, Object, ObjectInstance, Shape};
 pub use texture::{
     Channel, ColourParam, FloatParam, Interpolation, NoiseKind, Texture, TextureMapping, UvMapping,
     Wrap,
@@ -48,11 +48,11 @@ pub struct ObjectId(pub usize);
 /// textures refer only to textures before them.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// Where pictures are taken from.
+    /// The camera.
     pub camera: Camera,
     /// Size, crop and reconstruction filter of the picture.
     pub film: Film,
-    /// What the file asks of the renderer.
+    /// Settings that the file asks for.
     pub settings: Settings,
     /// Decoded pictures, each stored once.
     pub images: Vec<Image>,
@@ -67,14 +67,46 @@ pub struct Scene {
     /// Groups of shapes that instances refer to.
     pub objects: Vec<Object>,
     /// Copies of objects.
-    pub instances: Vec<Instance>,
+    pub instances: Vec<ObjectInstance>,
     /// Lights that are not shapes.
     pub lights: Vec<Light>,
-    /// Material of the floor that is not the file's: it was put under an object without light.
+    /// Material of a floor that was added under an object whose file has no lights.
     pub floor: Option<MaterialId>,
 }
 
-/// What the file asks of the renderer; the command line may override each.
+impl Scene {
+    /// A scene without shapes and lights: what a scene made in code starts from.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use specula_scene::Scene;
+    /// use specula_scene::scene::{Camera, Film, Filter, Settings};
+    ///
+    /// let film = Film::new([320, 200], Filter::Box { radius: [0.5; 2] });
+    /// let camera = Camera::look_at(DVec3::new(0.0, -5.0, 1.0), DVec3::ZERO, DVec3::Z, 40.0, &film);
+    /// let scene = Scene::empty(camera, film, Settings::default());
+    /// assert!(scene.validate().is_ok());
+    /// ```
+    #[must_use]
+    pub fn empty(camera: Camera, film: Film, settings: Settings) -> Self {
+        Self {
+            camera,
+            film,
+            settings,
+            images: Vec::new(),
+            textures: Vec::new(),
+            materials: Vec::new(),
+            meshes: Vec::new(),
+            shapes: Vec::new(),
+            objects: Vec::new(),
+            instances: Vec::new(),
+            lights: Vec::new(),
+            floor: None,
+        }
+    }
+}
+
+/// Settings of the renderer that the file asks for; a caller may override each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// Longest path, in scattering events counted as pbrt counts `maxdepth`
@@ -85,7 +117,20 @@ pub struct Settings {
     /// Whether lights are hidden from the camera: its rays pass shapes that emit until they meet
     /// one that does not, and see no light from infinity (Mitsuba's `hide_emitters`).
     pub hide_emitters: bool,
-    /// Treatment of multiple scattering where a material does not say it itself: none for the scenes of
+    /// Treatment of multiple scattering for materials that do not specify one: none for the scenes of
     /// renderers that scatter singly (pbrt-v4, Mitsuba 3), [`Energy::DEFAULT`] for all others.
     pub energy: Energy,
+}
+
+impl Default for Settings {
+    /// The settings of a scene that asks for nothing: 128 samples per pixel, paths of at most 16
+    /// scattering events, [`Energy::DEFAULT`].
+    fn default() -> Self {
+        Self {
+            max_depth: 16,
+            samples_per_pixel: 128,
+            hide_emitters: false,
+            energy: Energy::DEFAULT,
+        }
+    }
 }

@@ -5,22 +5,22 @@ use std::path::Path;
 use glam::DMat4;
 use specula_bsdf::Rgb;
 
-use crate::bounds::{self, Bounds};
-use crate::error::{ErrorKind, Place, SceneError, Source, Warning};
+use crate::bounds::{self, BoundingBox};
+use crate::error::{ErrorKind, Place, SceneError, SourceText, Warning};
 use crate::faults::Fault;
 use crate::format::Format;
 use crate::problems::Problems;
 use crate::read_file::Files;
 use crate::scene::{
     ColourParam, FloatParam, Geometry, Material, MaterialId, MaterialKind, Mesh, MeshId, Scene,
-    Shape,
+    Settings, Shape,
 };
 use crate::{Limits, Loaded, mesh, stage};
 
 /// Size of the picture.
 const RESOLUTION: [u32; 2] = [960, 960];
 
-/// Longest file that is kept for excerpts of its mistakes.
+/// Longest file whose text is stored to show excerpts in messages.
 const LONGEST_TEXT: u64 = 16 << 20;
 
 /// Reads a mesh with `parse`, and gives it grey paint, a camera that frames it, the built-in studio's
@@ -38,10 +38,10 @@ pub(crate) fn read(
         impl FnOnce(&Path, &Files, bool) -> Result<Mesh, Vec<Fault>>,
     ),
 ) -> Result<Loaded, SceneError> {
-    let place = Place::start(&Source::unread(path));
-    let keeps = problems.is_check();
-    let read = parse(path, files, keeps).and_then(|mut mesh| {
-        let cleaning = mesh::clean_or_name(&mut mesh, keeps)?;
+    let place = Place::start(&SourceText::unread(path));
+    let collects = problems.is_check();
+    let read = parse(path, files, collects).and_then(|mut mesh| {
+        let cleaning = mesh::clean_or_name(&mut mesh, collects)?;
         Ok((mesh, cleaning))
     });
     let (mesh, cleaning) = match read {
@@ -52,32 +52,18 @@ pub(crate) fn read(
         reflectance: ColourParam::Value(Rgb::splat(0.5)),
         roughness: FloatParam::Value(0.0),
     });
-    let mut scene = Scene {
-        camera: stage::camera(Bounds::EMPTY, RESOLUTION),
-        film: stage::film(RESOLUTION),
-        settings: stage::SETTINGS,
-        images: Vec::new(),
-        textures: Vec::new(),
-        materials: vec![material],
-        meshes: vec![mesh],
-        shapes: vec![Shape {
-            geometry: Geometry::Mesh(MeshId(0)),
-            to_world: DMat4::IDENTITY,
-            material: MaterialId(0),
-            emission: None,
-            reverse_orientation: false,
-            alpha: FloatParam::Value(1.0),
-        }],
-        objects: Vec::new(),
-        instances: Vec::new(),
-        lights: Vec::new(),
-        floor: None,
-    };
+    let camera = stage::camera(BoundingBox::EMPTY, RESOLUTION);
+    let mut scene = Scene::empty(camera, stage::film(RESOLUTION), Settings::default());
+    scene.materials.push(material);
+    scene.meshes.push(mesh);
+    let geometry = Geometry::Mesh(MeshId(0));
+    let shape = Shape::new(geometry, DMat4::IDENTITY, MaterialId(0));
+    scene.shapes.push(shape);
     let bounds = bounds::of_scene(&scene);
     scene.camera = stage::camera(bounds, RESOLUTION);
     stage::light(&mut scene, bounds);
     scene.each_fault(|fault| {
-        problems.keep(SceneError::new(
+        problems.record(SceneError::new(
             ErrorKind::Structure,
             &place,
             fault.to_string(),
@@ -96,7 +82,7 @@ pub(crate) fn read(
     })
 }
 
-/// Keeps all mistakes of a file but the last, which it returns: nothing stands in for the mesh.
+/// Records all mistakes of a file but the last, which it returns: nothing stands in for the mesh.
 ///
 /// # Errors
 ///
@@ -113,7 +99,7 @@ fn refuse(
     };
     let text = Files::new(limits).unpacked(path).ok();
     let text = text.and_then(|bytes| String::from_utf8(bytes).ok());
-    let source = Source::new(path.display().to_string(), text.unwrap_or_default());
+    let source = SourceText::new(path.display().to_string(), text.unwrap_or_default());
     let error = |fault: &Fault| match fault.line {
         Some(line) if !source.text().is_empty() => {
             let place = Place::of_line(&source, line);
@@ -126,7 +112,7 @@ fn refuse(
         return Ok(SceneError::new(ErrorKind::Mesh, &place, "it holds no mesh"));
     };
     for fault in others {
-        problems.keep(error(fault))?;
+        problems.record(error(fault))?;
     }
     Ok(error(last))
 }

@@ -5,43 +5,24 @@ mod floor;
 use glam::{DMat4, DVec3, DVec4};
 use specula_bsdf::Rgb;
 
-use crate::bounds::Bounds;
+use crate::bounds::BoundingBox;
 use crate::builtin;
-use crate::energy::Energy;
-use crate::scene::{
-    Camera, EnvironmentMapping, Film, Filter, ImageId, Light, Projection, Scene, Settings,
-};
-
-/// What a file without wishes gets.
-pub(crate) const SETTINGS: Settings = Settings {
-    max_depth: 16,
-    samples_per_pixel: 128,
-    hide_emitters: false,
-    energy: Energy::DEFAULT,
-};
+use crate::scene::{Camera, EnvironmentMapping, Film, Filter, ImageId, Light, Projection, Scene};
 
 /// Field of view of the framing camera, over the shorter side.
 const FOV_DEG: f64 = 30.0;
 
-/// A film of a size, with a filter that keeps edges.
+/// A film of a size, with a narrow filter.
 pub(crate) fn film(resolution: [u32; 2]) -> Film {
-    let [width, height] = resolution;
-    Film {
-        resolution,
-        crop: [0, width, 0, height],
-        filter: Filter::Gaussian {
-            radius: [1.5; 2],
-            sigma: 0.5,
-        },
-        exposure: 1.0,
-        max_component: None,
-        balance: Film::NO_BALANCE,
-        file_name: None,
-    }
+    let filter = Filter::Gaussian {
+        radius: [1.5; 2],
+        sigma: 0.5,
+    };
+    Film::new(resolution, filter)
 }
 
 /// A camera that sees all of `bounds` from the front, a little from the right and from above.
-pub(crate) fn camera(bounds: Bounds, resolution: [u32; 2]) -> Camera {
+pub(crate) fn camera(bounds: BoundingBox, resolution: [u32; 2]) -> Camera {
     let (centre, radius) = if bounds.is_empty() {
         (DVec3::ZERO, 1.0)
     } else {
@@ -85,22 +66,22 @@ const Z_UP: DMat4 = DMat4::from_cols(
     DVec4::W,
 );
 
-/// What [`light`] has added.
+/// What [`light`] added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Lit {
-    /// The studio's light alone.
+pub(crate) enum AddedLight {
+    /// The environment light alone.
     Alone,
-    /// Light, and a floor on which the object projects a shadow.
+    /// The environment light, and a floor that receives the object's shadow.
     OverFloor,
 }
 
-/// Adds the built-in studio's light, its front towards the framing camera, and a floor under what the
+/// Adds the built-in studio's environment light, its front towards the framing camera, and a floor under what the
 /// scene shows, unless its camera looks from below.
 ///
-/// The floor reflects as much as comes from the horizon behind it and from all that is below, so that
-/// it has no visible rim. It is so much wider than the object that the object's size is left to
-/// `bounds`, which the caller has taken before.
-pub(crate) fn light(scene: &mut Scene, bounds: Bounds) -> Lit {
+/// The floor's radiance equals that of the horizon behind it, and of all directions below, so that
+/// it has no visible rim. It is much wider than the object: the size of the scene is that of
+/// `bounds`, which the caller computes before.
+pub(crate) fn light(scene: &mut Scene, bounds: BoundingBox) -> AddedLight {
     scene
         .images
         .push(builtin::studio_above_floor(f64::from(floor::ALBEDO)));
@@ -118,9 +99,9 @@ pub(crate) fn light(scene: &mut Scene, bounds: Bounds) -> Lit {
             scene.floor = Some(shape.material);
             scene.materials.push(material);
             scene.shapes.push(shape);
-            Lit::OverFloor
+            AddedLight::OverFloor
         }
-        _ => Lit::Alone,
+        _ => AddedLight::Alone,
     }
 }
 
@@ -130,7 +111,7 @@ mod tests {
 
     #[test]
     fn the_framing_camera_sees_every_corner() {
-        let bounds = Bounds {
+        let bounds = BoundingBox {
             min: DVec3::new(-3.0, 0.0, 2.0),
             max: DVec3::new(5.0, 1.0, 9.0),
         };

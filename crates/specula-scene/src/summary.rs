@@ -1,8 +1,8 @@
-//! What is in a scene, counted.
+//! Counts and sizes of a scene.
 
 use std::collections::BTreeMap;
 
-use crate::bounds::{self, Bounds};
+use crate::bounds::{self, BoundingBox};
 use crate::scene::{
     Camera, EnvironmentMapping, Film, Geometry, ImageProjection, Light, MaterialKind, NoiseKind,
     Scene, Settings, Shape, Texture,
@@ -24,7 +24,7 @@ pub struct ImageSummary {
 pub struct Summary {
     /// Triangles that are stored: each mesh once.
     pub triangles: u64,
-    /// Triangles that are seen: meshes as often as shapes and instances show them.
+    /// Triangles with repetition: each mesh as often as shapes and instances refer to it.
     pub triangles_shown: u64,
     /// Meshes that are stored.
     pub meshes: usize,
@@ -43,12 +43,12 @@ pub struct Summary {
     /// Lights by kind; `area` counts shapes that emit.
     pub lights: BTreeMap<&'static str, usize>,
     /// Bounds of all shapes in world space, but of a floor that is not the file's ([`Scene::floor`]).
-    pub bounds: Bounds,
+    pub bounds: BoundingBox,
     /// The camera.
     pub camera: Camera,
     /// The film.
     pub film: Film,
-    /// What the file asks of the renderer.
+    /// Settings that the file asks for.
     pub settings: Settings,
 }
 

@@ -1,4 +1,4 @@
-//! The invariants of a scene, checked.
+//! Checks of a scene's invariants.
 
 use std::cell::Cell;
 
@@ -9,10 +9,11 @@ use crate::bounds::{self, FARTHEST};
 use crate::image::Image;
 use crate::mesh::first;
 use crate::scene::{
-    Filter, Geometry, ImageProjection, Instance, Light, Mesh, Profile, Projection, Scene, Shape,
+    Filter, Geometry, ImageProjection, Light, Mesh, ObjectInstance, Profile, Projection, Scene,
+    Shape,
 };
 
-/// Which invariant a scene breaks.
+/// A broken invariant of a scene.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{what}: {problem}")]
 pub struct Invalid {
@@ -43,7 +44,7 @@ fn ensure(holds: bool, what: &str, problem: &str) -> Result<(), Invalid> {
 }
 
 impl Scene {
-    /// Checks that renderers may rely on the scene:
+    /// Checks the invariants that renderers rely on:
     ///
     /// * every index is in range; textures refer only to textures before them, mixed materials
     ///   only to materials before them;
@@ -53,7 +54,7 @@ impl Scene {
     /// * meshes have triangles; attributes are empty or one per vertex; shading normals are not 0;
     /// * the picture has pixels, the crop lies in it and is not empty;
     /// * nothing reaches beyond 1e18 from the origin;
-    /// * there is something to see: a shape, or an instance of an object that has one.
+    /// * there is a shape, or an instance of an object that has one.
     ///
     /// # Errors
     ///
@@ -62,7 +63,7 @@ impl Scene {
         self.each_fault(Err)
     }
 
-    /// Gives `take` every part that breaks an invariant, with the first that it breaks, until `take`
+    /// Calls `take` for every part that breaks an invariant, with the first that it breaks, until `take`
     /// itself fails.
     ///
     /// # Errors
@@ -127,7 +128,7 @@ impl Scene {
         ))
     }
 
-    fn check_instance(&self, what: &str, instance: &Instance) -> Result<(), Invalid> {
+    fn check_instance(&self, what: &str, instance: &ObjectInstance) -> Result<(), Invalid> {
         let object = self.objects.get(instance.object.0);
         ensure(
             object.is_some_and(|o| !o.shapes.is_empty()),
@@ -344,7 +345,7 @@ fn check_transform(what: &str, m: &DMat4) -> Result<(), Invalid> {
         what,
         "its transform is not affine",
     )?;
-    crate::pbrt::check_transform(m).map_err(|problem| Invalid {
+    crate::transform::check_transform(m).map_err(|problem| Invalid {
         what: what.to_owned(),
         problem: problem.to_owned(),
     })

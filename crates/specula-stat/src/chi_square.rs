@@ -2,7 +2,9 @@
 //!
 //! The sphere is cut at the horizon, at edges that the caller names, and into a grid in theta and
 //! phi; then cells are halved until none expects more than its share of the samples, so that a
-//! narrow lobe is looked at as closely as a wide one. Expected counts are adaptive quadratures.
+//! narrow lobe is resolved as well as a wide one. Expected counts are adaptive quadratures.
+
+mod plot;
 
 use std::f64::consts::PI;
 use std::fmt;
@@ -13,15 +15,14 @@ use std::path::{Path, PathBuf};
 use specula_bsdf::Vec3;
 use statrs::function::gamma::{gamma_lr, gamma_ur};
 
-use crate::plot;
 use crate::quadrature::{Patch, Peak, Quadrature, angles};
 use crate::report::Check;
 use crate::rng::Rng;
 
-/// How to test.
+/// Options of a chi-square test.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Options {
-    /// How many samples to sample.
+pub struct ChiSquareOptions {
+    /// How many samples to take.
     pub samples: u32,
     /// About how many cells hold the samples.
     pub cells: u32,
@@ -33,7 +34,7 @@ pub struct Options {
     pub significance: f64,
 }
 
-impl Default for Options {
+impl Default for ChiSquareOptions {
     fn default() -> Self {
         Self {
             samples: 100_000,
@@ -47,8 +48,8 @@ impl Default for Options {
 
 /// One cell of the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cell {
-    /// Where it lies.
+pub struct ChiSquareCell {
+    /// Its part of the sphere.
     pub patch: Patch,
     /// Count expected from the density.
     pub expected: f64,
@@ -58,7 +59,7 @@ pub struct Cell {
     pub observed: f64,
 }
 
-impl Cell {
+impl ChiSquareCell {
     /// `(observed - expected) / sqrt(expected)`; one count is the least that is divided by.
     #[must_use]
     pub fn residual(&self) -> f64 {
@@ -75,25 +76,25 @@ pub struct ChiSquare {
     pub degrees_of_freedom: u32,
     /// Chance of a result at least this bad were the samples right.
     pub p_value: f64,
-    /// The significance it is held against.
+    /// The significance that `p_value` is compared with.
     pub significance: f64,
-    /// Samples sampled.
+    /// How many samples were taken.
     pub samples: u32,
     /// The integral of the density.
     pub integral: f64,
-    /// Samples that led to no direction.
+    /// Samples that were rejected.
     pub rejected: u32,
-    /// Samples that were no unit vectors.
+    /// Samples that were not unit vectors.
     pub invalid: u32,
     /// All cells, before pooling.
-    pub cells: Vec<Cell>,
-    /// Whether the expected counts are known well enough for the samples sampled.
+    pub cells: Vec<ChiSquareCell>,
+    /// Whether the expected counts are known well enough for this many samples.
     pub is_converged: bool,
 }
 
-/// Samples samples and holds them against a density.
+/// Takes samples and compares them with a density.
 ///
-/// * `sample`: of three uniform random numbers: a unit direction, or `None` where the draw is rejected.
+/// * `sample`: of three uniform random numbers: a unit direction, or `None` where the sample is rejected.
 /// * `pdf`: 1/sr; its integral may fall short of 1 by the share of `None`.
 ///
 /// The fit is tested twice, on the grid and on about thirty groups of neighbouring cells: a fine
@@ -105,7 +106,7 @@ pub fn test(
     mut sample: impl FnMut([f64; 3]) -> Option<Vec3<f64>>,
     pdf: impl Fn(Vec3<f64>) -> f64,
     rng: &mut Rng,
-    options: &Options,
+    options: &ChiSquareOptions,
 ) -> ChiSquare {
     let mut grid = Grid::new(&pdf, options);
     let (mut rejected, mut invalid) = (0, 0);
@@ -118,7 +119,7 @@ pub fn test(
     }
     let cells = grid.cells;
     let mass: f64 = cells.iter().map(|c| c.expected).sum();
-    let missing = Cell {
+    let missing = ChiSquareCell {
         patch: Patch::SPHERE,
         expected: (f64::from(options.samples) - mass).max(0.0),
         error: cells.iter().map(|c| c.error).sum(),
@@ -151,7 +152,7 @@ pub fn test(
 }
 
 impl ChiSquare {
-    /// Whether the samples may well be of this density.
+    /// Whether the samples agree with the density.
     #[must_use]
     pub fn is_pass(&self) -> bool {
         self.is_converged && self.p_value >= self.significance
@@ -169,7 +170,7 @@ impl ChiSquare {
     ///
     /// # Errors
     ///
-    /// What the file system answers.
+    /// The error of the file system.
     pub fn plot_failure(&self, folder: &Path, name: &str) -> io::Result<Option<PathBuf>> {
         if self.is_pass() {
             return Ok(None);
@@ -221,7 +222,7 @@ impl fmt::Display for ChiSquare {
             write!(f, ", quadrature of the pdf did not converge")?;
         }
         if !self.is_pass() {
-            let mut worst: Vec<&Cell> = self.cells.iter().collect();
+            let mut worst: Vec<&ChiSquareCell> = self.cells.iter().collect();
             worst.sort_by(|a, b| b.residual().abs().total_cmp(&a.residual().abs()));
             for cell in worst.into_iter().take(3) {
                 let degrees = |range: [f64; 2]| 0.5 * (range[0] + range[1]) * 180.0 / PI;
@@ -240,12 +241,12 @@ impl fmt::Display for ChiSquare {
     }
 }
 
-/// Cells of the coarse grid, about.
+/// About how many cells the coarse grid has.
 const COARSE: f64 = 30.0;
 
-/// Neighbouring cells projected together until each group expects `least`.
-fn grouped(cells: &[Cell], least: f64) -> Vec<Cell> {
-    let mut groups: Vec<Cell> = Vec::new();
+/// Neighbouring cells pooled until each group expects `least`.
+fn grouped(cells: &[ChiSquareCell], least: f64) -> Vec<ChiSquareCell> {
+    let mut groups: Vec<ChiSquareCell> = Vec::new();
     for cell in cells {
         match groups.last_mut() {
             Some(group) if group.expected < least => {
@@ -261,7 +262,7 @@ fn grouped(cells: &[Cell], least: f64) -> Vec<Cell> {
 
 /// Statistic, degrees of freedom, p-value of the fit, and p-value of the cells that expect
 /// nearly nothing.
-fn pearson(cells: &[Cell], missing: Cell) -> (f64, u32, f64, f64) {
+fn pearson(cells: &[ChiSquareCell], missing: ChiSquareCell) -> (f64, u32, f64, f64) {
     let (mut statistic, mut terms) = (0.0, 0_u32);
     let (mut pool_expected, mut pool_observed, mut pool_error) = (0.0, 0.0, 0.0);
     let mut add = |expected: f64, observed: f64| {
@@ -313,13 +314,13 @@ pub(crate) fn poisson_tail(observed: f64, expected: f64, error: f64) -> f64 {
     at_least.min(at_most)
 }
 
-/// The cells, and the way from a direction to its cell.
+/// The cells, and a tree that maps a direction to its cell.
 struct Grid {
     /// Edges of the rows, in theta.
     rows: Vec<f64>,
     /// Nodes; the first `rows x COLUMNS` are the roots.
     nodes: Vec<Node>,
-    cells: Vec<Cell>,
+    cells: Vec<ChiSquareCell>,
 }
 
 enum Node {
@@ -334,7 +335,7 @@ enum Node {
 impl Grid {
     const COLUMNS: u32 = 16;
 
-    fn new(pdf: &impl Fn(Vec3<f64>) -> f64, options: &Options) -> Self {
+    fn new(pdf: &impl Fn(Vec3<f64>) -> f64, options: &ChiSquareOptions) -> Self {
         let samples = f64::from(options.samples);
         let quadrature = Quadrature {
             relative_tolerance: 1e-4,
@@ -380,7 +381,7 @@ impl Grid {
                 };
             } else {
                 grid.nodes[node] = Node::Leaf(grid.cells.len());
-                grid.cells.push(Cell {
+                grid.cells.push(ChiSquareCell {
                     patch,
                     expected,
                     error: integral.error * samples,
@@ -445,10 +446,10 @@ mod tests {
     fn right_samples_pass_and_p_is_uniform() {
         let mut low = 0;
         for seed in 100..220 {
-            let options = Options {
+            let options = ChiSquareOptions {
                 samples: 20_000,
                 cells: 100,
-                ..Options::default()
+                ..ChiSquareOptions::default()
             };
             let found = test(
                 cosine_sample,
@@ -475,7 +476,7 @@ mod tests {
             },
             |w| w.z.max(0.0) / PI,
             &mut Rng::new(3),
-            &Options::default(),
+            &ChiSquareOptions::default(),
         );
         assert!(!found.is_pass(), "{found}");
     }
@@ -495,18 +496,18 @@ mod tests {
             },
             |w| w.z.max(0.0) / PI,
             &mut Rng::new(3),
-            &Options::default(),
+            &ChiSquareOptions::default(),
         );
         assert!(!found.is_pass(), "{found}");
     }
 
     #[test]
-    fn rejections_that_the_pdf_does_not_know_fail_and_are_sampled() {
+    fn rejections_that_the_pdf_omits_fail_and_are_plotted() {
         let found = test(
             |u| if u[0] < 0.01 { None } else { cosine_sample(u) },
             |w| w.z.max(0.0) / PI,
             &mut Rng::new(4),
-            &Options::default(),
+            &ChiSquareOptions::default(),
         );
         assert!(!found.is_pass(), "{found}");
         let svg = found.svg("a < b");

@@ -1,4 +1,4 @@
-//! What must hold at each single sample and direction: `weight = f cos / pdf`; finite;
+//! Checks at each single sample and direction: `weight = f cos / pdf`, and values are finite and
 //! non-negative.
 
 use specula_bsdf::{Rgb, Vec3};
@@ -8,17 +8,17 @@ use crate::report::Check;
 use crate::rng::Rng;
 use crate::subject::{DirectionSample, Subject};
 
-/// How strictly to look.
+/// Options of a consistency test.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
-    /// How many samples to sample, and how many directions to probe.
+pub struct ConsistencyOptions {
+    /// How many samples to take, and how many directions to test.
     pub samples: u32,
     /// Largest relative difference between `weight` and `eval / pdf`: 1e-9 suits `f64`, 1e-3
     /// `f32` (both quotients lose digits where the half vector does).
     pub relative_tolerance: f64,
 }
 
-impl Default for Options {
+impl Default for ConsistencyOptions {
     fn default() -> Self {
         Self {
             samples: 10_000,
@@ -34,7 +34,7 @@ pub fn samples(
     name: &str,
     subject: &Subject,
     wo: Vec3<f64>,
-    options: &Options,
+    options: &ConsistencyOptions,
     rng: &mut Rng,
 ) -> Check {
     let mut worst = 0.0_f64;
@@ -73,7 +73,7 @@ pub fn directions(
     name: &str,
     subject: &Subject,
     wo: Vec3<f64>,
-    options: &Options,
+    options: &ConsistencyOptions,
     rng: &mut Rng,
 ) -> Check {
     let mut failure = None;
@@ -123,7 +123,7 @@ fn at_sample(
     sampled: &DirectionSample,
 ) -> (f64, Option<&'static str>) {
     if (sampled.wi.length_squared() - 1.0).abs() > 1e-5 || !sampled.wi.is_finite() {
-        return (0.0, Some("wi is no unit vector"));
+        return (0.0, Some("wi is not a unit vector"));
     }
     if !is_sane(sampled.weight) {
         return (0.0, Some("weight is negative or not finite"));

@@ -1,4 +1,4 @@
-//! The white furnace: what the samples reflect against the quadrature of `f cos`.
+//! The white furnace: the mean weight of samples against the quadrature of `f cos`.
 //!
 //! Single scattering loses light, so the expectation is the directional albedo `E(wo)`, not 1.
 
@@ -54,7 +54,7 @@ pub fn sampled_albedo(
 
 /// Checks that the mean weight of the samples is the albedo by quadrature.
 ///
-/// A difference counts only where neither the samples' variance nor chance events that no draw met
+/// A difference counts only where neither the samples' variance nor rare events that no sample met
 /// explain it (`n` samples miss an event of probability `q` with probability `exp(-n q)`).
 ///
 /// * `expected`: by [`albedo`].

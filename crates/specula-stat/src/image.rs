@@ -24,23 +24,26 @@ pub struct NoisyImage<'a> {
 ///
 /// * `tile`: side of the tiles in pixels, such as 8.
 /// * `significance`: chance of a false alarm over all three scales.
-///
-/// # Panics
-///
-/// Where the two images differ in size, or `mean` and `variance` differ in length: there is
-/// nothing to compare then.
+/// * Returns: a report of one failed check where the images differ in size, or `mean` and
+///   `variance` differ in length.
 #[must_use]
 pub fn compare(a: &NoisyImage, b: &NoisyImage, tile: usize, significance: f64) -> Report {
     let pixels = a.mean.len();
-    assert!(
-        a.width == b.width
-            && [b.mean.len(), a.variance.len(), b.variance.len()] == [pixels; 3]
-            && a.width > 0
-            && pixels.is_multiple_of(a.width),
-        "images of one size"
-    );
+    let is_same_size = a.width == b.width
+        && [b.mean.len(), a.variance.len(), b.variance.len()] == [pixels; 3]
+        && a.width > 0
+        && pixels.is_multiple_of(a.width);
     let each = sidak(significance, 3);
     let mut report = Report::new("equality of two images");
+    if !is_same_size {
+        report.checks.push(Check {
+            name: "image size".to_owned(),
+            is_pass: false,
+            p_value: None,
+            detail: "the images differ in size, or in the lengths of their lists".to_owned(),
+        });
+        return report;
+    }
     let all = region(a, b, 0..a.width, 0..pixels / a.width);
     report
         .checks
@@ -143,5 +146,22 @@ mod tests {
         let report = compare(&image(&a, &va), &image(&b, &vb), 8, 0.01);
         assert!(report.is_pass(), "{report}");
         assert_eq!(report.checks.len(), 3);
+    }
+    #[test]
+    fn images_of_other_sizes_fail() {
+        let mean = [0.5; 12];
+        let image = |width, count| NoisyImage {
+            width,
+            mean: &mean[..count],
+            variance: &mean[..count],
+        };
+        for (a, b) in [
+            (image(3, 12), image(4, 12)),
+            (image(3, 12), image(3, 9)),
+            (image(5, 12), image(5, 12)),
+            (image(0, 0), image(0, 0)),
+        ] {
+            assert!(!compare(&a, &b, 8, 0.01).is_pass());
+        }
     }
 }

@@ -1,24 +1,24 @@
-//! Statistical proof for samplers and BSDFs: of this project's lobes, and of anybody's own.
+//! Statistical tests of samplers and BSDFs.
 //!
-//! Describe a BSDF as a [`Subject`] (three closures, or anything that implements
-//! [`specula_bsdf::Bsdf`]) and hand it to [`prove`]: it answers with a [`Report`]. Each check can
-//! be called alone too:
+//! Describe a BSDF as a [`Subject`]: three closures, or anything that implements
+//! [`specula_bsdf::Bsdf`]. [`prove`] runs every check and returns a [`Report`]. Each check can
+//! also be called alone:
 //!
 //! * [`chi_square`]: do samples follow the pdf, missing mass included?
 //! * [`normalisation`]: does the pdf integrate to the rate at which samples are accepted?
 //! * [`consistency`]: is `weight = f cos / pdf`, and everything finite and non-negative?
-//! * [`reciprocity`]: are the two directions exchangeable?
-//! * [`furnace`]: do samples reflect as much light as the quadrature of `f cos` says?
+//! * [`reciprocity`]: is `f` the same where the two directions are exchanged?
+//! * [`furnace`]: is the mean weight of samples the quadrature of `f cos`?
 //! * [`twin`]: does the `f32` code compute what the `f64` code does?
 //! * [`z_test`] and [`image`]: are two noisy means, or two noisy images, the same?
 //!
 //! Directions point away from the surface in the local frame, z up: `wo` towards the viewer,
-//! given; `wi` towards the light, sampled. Every check has a fixed seed: a result is the same
-//! today and tomorrow, on any machine.
+//! given; `wi` towards the light, sampled. Every check has a fixed seed: results are the same on
+//! every machine.
 //!
 //! # Examples
 //!
-//! A sampler whose pdf is wrong (uniform directions, said to be cosine-weighted) is caught:
+//! A sampler with a wrong pdf (uniform directions, claimed to be cosine-weighted) fails:
 //!
 //! ```
 //! use specula_bsdf::Rgb;
@@ -43,7 +43,6 @@ pub mod consistency;
 pub mod furnace;
 pub mod image;
 pub mod normalisation;
-mod plot;
 mod proof;
 pub mod quadrature;
 pub mod reciprocity;

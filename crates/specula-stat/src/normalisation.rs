@@ -1,4 +1,4 @@
-//! The integral of a pdf against the rate at which its sampler accepts.
+//! The integral of a pdf against the rate at which its sampler accepts samples.
 
 use specula_bsdf::Vec3;
 
@@ -20,7 +20,7 @@ pub fn integrate_pdf(
     integrate_bands(cos_theta_edges, quadrature, |wi| [subject.pdf(wo, wi)])
 }
 
-/// Integrates over the sphere in bands, so that steps at the edges cost nothing.
+/// Integrates over the sphere in bands, so that steps at the edges cause no error.
 #[must_use]
 pub fn integrate_bands<const N: usize>(
     cos_theta_edges: &[f64],

@@ -1,18 +1,21 @@
-//! Everything at once: all checks of one BSDF over a list of views.
+//! All checks of one BSDF over a list of views.
 
 use std::path::PathBuf;
 
 use specula_bsdf::math::vec3;
 use specula_bsdf::{Rgb, Transport, Vec3};
 
+use crate::chi_square::ChiSquareOptions;
+use crate::consistency::ConsistencyOptions;
 use crate::quadrature::{Peak, Quadrature};
+use crate::reciprocity::ReciprocityOptions;
 use crate::report::Report;
 use crate::rng::Rng;
 use crate::subject::Subject;
 use crate::z_test::sidak;
 use crate::{chi_square, consistency, furnace, normalisation, reciprocity};
 
-/// What to check and how closely.
+/// Options of [`prove`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// Samples for each check of each view.
@@ -21,22 +24,22 @@ pub struct Plan {
     pub cells: u32,
     /// Chance of a false alarm over the whole report, or over all of `tests`.
     pub significance: f64,
-    /// How many tests with chance share `significance`; `None`: those of this report.
+    /// How many statistical tests share `significance`; `None`: those of this report.
     pub tests: Option<usize>,
     /// Largest relative difference where values should be equal: 1e-9 suits `f64`.
     pub relative_tolerance: f64,
     /// Index of refraction below the surface (z < 0) over that above it; 1 where nothing refracts.
     pub eta: f64,
-    /// What `eval` carries.
+    /// Whether `eval` transports radiance or importance.
     pub transport: Transport,
-    /// Where to demand reciprocity.
+    /// For which directions reciprocity is required.
     pub reciprocity: reciprocity::Domain,
-    /// Angular width of the sharpest lobe, radians, such as alpha: where quadrature looks closely
-    /// about the mirror direction and the straight and the bent way through.
+    /// Angular width of the sharpest lobe, radians, such as alpha: quadrature starts this fine about
+    /// the mirror direction and about the directions of straight and refracted transmission.
     pub sharpness: f64,
-    /// Where the pdf has steps besides those of half vectors at the horizon.
+    /// Where the pdf has steps, besides those of half vectors at the horizon: cosines of polar angles.
     pub cos_theta_edges: Vec<f64>,
-    /// Where plots of failed chi-square tests go; `None`: nowhere.
+    /// Folder for plots of failed chi-square tests, if they are to be written.
     pub plot_folder: Option<PathBuf>,
 }
 
@@ -59,14 +62,14 @@ impl Default for Plan {
 }
 
 impl Plan {
-    /// Tests with chance for each view: chi-square, normalisation, furnace.
+    /// Statistical tests for each view: chi-square, normalisation, furnace.
     pub const TESTS_PER_VIEW: usize = 3;
 }
 
-/// Puts `subject` through every check from each of the views `wo`.
+/// Runs every check of `subject` for each of the views `wo`.
 ///
-/// * `views`: unit directions, local frame; below the horizon too, where the subject claims it.
-/// * Returns: one line for each check and view; plots of failed chi-square tests lie in
+/// * `views`: unit directions, local frame; below the horizon too, where the subject supports it.
+/// * Returns: one line for each check and view; plots of failed chi-square tests are in
 ///   `plan.plot_folder`.
 #[must_use]
 pub fn prove(name: &str, subject: &Subject, views: &[Vec3<f64>], plan: &Plan) -> Report {
@@ -78,12 +81,12 @@ pub fn prove(name: &str, subject: &Subject, views: &[Vec3<f64>], plan: &Plan) ->
         prove_view(&mut report, &view, subject, wo, significance, plan);
     }
     if plan.reciprocity != reciprocity::Domain::Nowhere {
-        let options = reciprocity::Options {
+        let options = ReciprocityOptions {
             relative_tolerance: plan.relative_tolerance,
             domain: plan.reciprocity,
             eta: plan.eta,
             transport: plan.transport,
-            ..reciprocity::Options::default()
+            ..ReciprocityOptions::default()
         };
         let mut rng = Rng::from_name(&format!("{name} reciprocity"));
         report
@@ -118,7 +121,7 @@ fn prove_view(
         |u| subject.sample_density(wo, u).map(|sampled| sampled.wi),
         |wi| subject.pdf(wo, wi),
         &mut rng,
-        &chi_square::Options {
+        &ChiSquareOptions {
             samples: plan.samples,
             cells: plan.cells,
             cos_theta_edges: edges.clone(),
@@ -135,7 +138,7 @@ fn prove_view(
         }
     }
     report.checks.push(check);
-    // The pdf and the three channels of f cos in one pass over the sphere.
+    // The pdf and the three channels of f cos are integrated together.
     let all = normalisation::integrate_bands(&edges, &quadrature, |wi| {
         let Rgb { r, g, b } = subject.eval(wo, wi);
         [subject.pdf(wo, wi), r, g, b]
@@ -152,7 +155,7 @@ fn prove_view(
         significance,
         &mut rng,
     ));
-    let at = consistency::Options {
+    let at = ConsistencyOptions {
         samples: plan.samples / 10,
         relative_tolerance: plan.relative_tolerance,
     };
@@ -173,8 +176,8 @@ fn prove_view(
     ));
 }
 
-/// Where microfacet lobes are sharp: about the mirror direction, about the way straight through
-/// and about the refracted ray.
+/// Where microfacet lobes are sharp: about the mirror direction, the direction of straight transmission
+/// and the refracted direction.
 fn peaks(wo: Vec3<f64>, plan: &Plan) -> Vec<Peak> {
     let width = plan.sharpness;
     let mut peaks = vec![Peak {

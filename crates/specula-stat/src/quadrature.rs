@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use specula_bsdf::Vec3;
 use specula_bsdf::math::vec3;
 
-/// The value of an integral and how far off it may be.
+/// The value of an integral, with an estimate of its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Integral<const N: usize> {
     /// One value for each component of the integrand.
@@ -23,7 +23,7 @@ pub struct Integral<const N: usize> {
 }
 
 impl<const N: usize> Integral<N> {
-    /// The same integral, some of its components.
+    /// The same integral with other components.
     pub(crate) fn with_value<const M: usize>(&self, value: [f64; M]) -> Integral<M> {
         Integral {
             value,
@@ -121,6 +121,11 @@ pub struct Peak {
     /// Angular width in radians; patches near the peak start no larger than this.
     pub width: f64,
 }
+
+/// Smallest width of a peak that is taken into account, in radians.
+const NARROWEST: f64 = 1e-9;
+/// Smallest extent of the patches of the start, in radians.
+const SMALLEST_START: f64 = 1e-3;
 
 /// Adaptive quadrature over the sphere.
 ///
@@ -225,15 +230,16 @@ impl Quadrature {
             .iter()
             .map(|p| {
                 let (theta, phi) = angles(p.direction);
-                (theta, phi, p.width)
+                (theta, phi, p.width.max(NARROWEST))
             })
             .collect();
+        let start_extent = self.start_extent.max(SMALLEST_START);
         let mut pending = vec![whole];
         let mut ready = Vec::new();
         while let Some(patch) = pending.pop() {
             let [height, width] = patch.extent();
             let extent = height.max(width);
-            let too_large = extent > 1.001 * self.start_extent
+            let too_large = extent > 1.001 * start_extent
                 || peaks
                     .iter()
                     .any(|&(theta, phi, w)| extent > 1.001 * w && patch.is_near(theta, phi, w));
@@ -250,7 +256,7 @@ impl Quadrature {
 /// Polar angle and azimuth of `w`, radians, in `[0, pi]` and `[0, 2 pi)`.
 #[must_use]
 pub fn angles(w: Vec3<f64>) -> (f64, f64) {
-    // By atan2, which keeps small angles from the poles that acos would lose.
+    // By atan2, which is accurate for small angles from the poles, unlike acos.
     let theta = w.x.hypot(w.y).atan2(w.z);
     let phi = w.y.atan2(w.x);
     let phi = if phi < 0.0 { phi + 2.0 * PI } else { phi };

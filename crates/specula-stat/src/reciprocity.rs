@@ -11,24 +11,24 @@ use crate::subject::Subject;
 /// For which pairs of directions a BSDF promises reciprocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Domain {
-    /// None: some BSDFs in good use have no reciprocity.
+    /// None: some BSDFs in use are not reciprocal.
     Nowhere,
-    /// Both directions above the surface: what reflects on one side only.
+    /// Both directions above the surface: BSDFs that reflect on one side only.
     #[default]
     Above,
-    /// Any two directions: what reflects or refracts on both sides.
+    /// Any two directions: BSDFs that reflect or refract on both sides.
     Everywhere,
 }
 
-/// How strictly to look.
+/// Options of a reciprocity test.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
+pub struct ReciprocityOptions {
     /// How many pairs of directions.
     pub pairs: u32,
     /// Largest relative difference: 1e-9 suits `f64`. Differences below 1e-13 per steradian pass
     /// too: near-zero values of f keep few digits.
     pub relative_tolerance: f64,
-    /// Which pairs are looked at.
+    /// Which pairs are tested.
     pub domain: Domain,
     /// Index of refraction below the surface (z < 0) over that above it.
     pub eta: f64,
@@ -37,7 +37,7 @@ pub struct Options {
     pub transport: Transport,
 }
 
-impl Default for Options {
+impl Default for ReciprocityOptions {
     fn default() -> Self {
         Self {
             pairs: 10_000,
@@ -56,14 +56,14 @@ impl Default for Options {
 /// f(wo, wi) / n(wi)^2 = f(wi, wo) / n(wo)^2        importance
 /// ```
 ///
-/// where `n(w)` is the index of the medium that `w` runs in.
+/// where `n(w)` is the index of the medium that `w` is in.
 ///
 /// Pairs with a direction within 1e-6 of the horizon are left out: f is `eval` over the cosine,
-/// which has no digits there.
+/// which has no accurate digits there.
 ///
 /// Source: Veach 1997, eq. 5.14.
 #[must_use]
-pub fn test(name: &str, subject: &Subject, options: &Options, rng: &mut Rng) -> Check {
+pub fn test(name: &str, subject: &Subject, options: &ReciprocityOptions, rng: &mut Rng) -> Check {
     let index_squared = |w: Vec3<f64>| {
         if w.z < 0.0 {
             options.eta * options.eta

@@ -1,17 +1,18 @@
-//! What the checks found: one line for each, and whether all hold.
+//! The results of checks: one line for each, and whether all hold.
 
 use std::fmt;
 
 /// The outcome of one check.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Check {
-    /// Which check, and in which configuration.
+    /// The check and its configuration.
     pub name: String,
     /// Whether it holds.
     pub is_pass: bool,
-    /// The chance of a result at least this bad were all right; `None` for checks without chance.
+    /// The probability of a result at least this bad if the subject is right; `None` for checks without
+    /// random error.
     pub p_value: Option<f64>,
-    /// What was measured, for a reader.
+    /// What was measured, in words.
     pub detail: String,
 }
 
@@ -53,7 +54,7 @@ impl Report {
         self.checks.extend(other.checks);
     }
 
-    /// How many checks involved chance: the number to hand to [`sidak`](crate::z_test::sidak).
+    /// How many checks are statistical: the number of tests for [`sidak`](crate::z_test::sidak).
     #[must_use]
     pub fn chance_checks(&self) -> usize {
         self.checks.iter().filter(|c| c.p_value.is_some()).count()

@@ -2,8 +2,7 @@
 
 /// A stream of random numbers, fixed by its seed.
 ///
-/// Kept here, at forty lines, so that no release of another crate can change which samples a
-/// proof saw.
+/// A generator of our own, so that no release of another crate changes the samples of a test.
 ///
 /// Source: Blackman and Vigna 2021, Scrambled Linear Pseudorandom Number Generators; seeded by
 /// `SplitMix64`, as they advise.

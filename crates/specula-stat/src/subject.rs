@@ -1,4 +1,4 @@
-//! What is put to the test: a BSDF as three closures, or an adaptor of the lobes' trait.
+//! A BSDF under test: three closures, or an implementor of the trait [`Bsdf`].
 
 use specula_bsdf::{Bsdf, Real, Rgb, Transport, Vec3};
 
@@ -11,7 +11,7 @@ pub struct DirectionSample {
     pub weight: Rgb<f64>,
     /// The density that the sampler itself reports, where it does.
     pub pdf: Option<f64>,
-    /// Whether sampled from a Dirac delta, which `eval` and `pdf` leave out.
+    /// Whether it was sampled from a Dirac delta, which `eval` and `pdf` do not include.
     pub is_specular: bool,
 }
 
@@ -32,7 +32,7 @@ type Eval<'a> = Box<dyn Fn(Vec3<f64>, Vec3<f64>) -> Rgb<f64> + Sync + 'a>;
 type Pdf<'a> = Box<dyn Fn(Vec3<f64>, Vec3<f64>) -> f64 + Sync + 'a>;
 type Sample<'a> = Box<dyn Fn(Vec3<f64>, [f64; 3]) -> Option<DirectionSample> + Sync + 'a>;
 
-/// A BSDF under test, in double precision on the outside.
+/// A BSDF under test. Its interface is in double precision.
 pub struct Subject<'a> {
     eval: Eval<'a>,
     pdf: Pdf<'a>,
@@ -43,8 +43,8 @@ impl<'a> Subject<'a> {
     /// A BSDF from three closures.
     ///
     /// * `eval(wo, wi)`: `f |cos theta_i|`, 1/sr.
-    /// * `pdf(wo, wi)`: density of `sample`, 1/sr; it integrates to the share of samples that lead
-    ///   to a direction.
+    /// * `pdf(wo, wi)`: density of `sample`, 1/sr; it integrates to the share of samples that are
+    ///   accepted.
     /// * `sample(wo, u)`: a direction from three uniform random numbers in `[0, 1)`, or `None`.
     pub fn new(
         eval: impl Fn(Vec3<f64>, Vec3<f64>) -> Rgb<f64> + Sync + 'a,
@@ -58,7 +58,7 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// A lobe of `specula-bsdf`, or any other implementor of its trait, in either precision.
+    /// A BSDF from an implementor of [`Bsdf`], in either precision.
     pub fn from_bsdf<T: Real, B: Bsdf<T> + Sync>(bsdf: &'a B, transport: Transport) -> Self {
         Self::new(
             move |wo, wi| bsdf.eval(wo.cast(), wi.cast(), transport).cast(),
@@ -93,7 +93,7 @@ impl<'a> Subject<'a> {
         (self.sample)(wo, u)
     }
 
-    /// Samples a direction that is not specular: what `pdf` describes.
+    /// Samples a direction; `None` also where it is specular, as `pdf` does not include those.
     #[must_use]
     pub fn sample_density(&self, wo: Vec3<f64>, u: [f64; 3]) -> Option<DirectionSample> {
         self.sample(wo, u).filter(|sampled| !sampled.is_specular)

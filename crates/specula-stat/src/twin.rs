@@ -1,4 +1,4 @@
-//! Twins: the same formula in two precisions, held against each other.
+//! Twins: the same formula in two precisions, compared with each other.
 
 use specula_bsdf::Vec3;
 
@@ -7,21 +7,21 @@ use crate::report::Check;
 use crate::rng::Rng;
 use crate::subject::Subject;
 
-/// How far twins may differ.
+/// Tolerances between twins.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
+pub struct TwinOptions {
     /// How many pairs of directions.
     pub pairs: u32,
     /// Largest relative difference: `|a - b| <= relative max(|a|, |b|) + absolute`.
     pub relative_tolerance: f64,
-    /// Added to it: what is too small to matter, in 1/sr.
+    /// Added to it: differences too small to matter, in 1/sr.
     pub absolute_tolerance: f64,
     /// Random views with a lower cosine of the polar angle are left out: near the nadir only
-    /// facets at the horizon are seen, and `f32` has no digits for them.
+    /// facets at the horizon are visible, and `f32` has no digits for them.
     pub lowest_cos_theta: f64,
 }
 
-impl Default for Options {
+impl Default for TwinOptions {
     fn default() -> Self {
         Self {
             pairs: 10_000,
@@ -38,14 +38,14 @@ impl Default for Options {
 /// horizon and up to the poles, and half of the `wi` are samples of the `f64` twin, where lobes
 /// are sharp.
 ///
-/// * `views`: the `wo` to look from; half of the pairs have them, half a random one.
+/// * `views`: values of `wo`; half of the pairs have one of them, half a random one.
 #[must_use]
 pub fn test(
     name: &str,
     single: &Subject,
     double: &Subject,
     views: &[Vec3<f64>],
-    options: &Options,
+    options: &TwinOptions,
     rng: &mut Rng,
 ) -> Check {
     let mut worst = 0.0_f64;
@@ -97,10 +97,10 @@ pub fn test(
     }
 }
 
-/// Checks that samples of an `f32` lobe are where its `f64` twin puts them for the same values.
+/// Checks that samples of an `f32` lobe are those of its `f64` twin for the same random numbers.
 ///
-/// A draw within rounding of a decision (reflect or refract, accept or reject) may fall the other
-/// way in `f32`.
+/// Within rounding of a decision (reflect or refract, accept or reject), the two may decide
+/// differently.
 ///
 /// * `distance`: largest distance between the two directions.
 /// * `share`: of the samples that may lie farther apart, such as 1e-3.
@@ -111,12 +111,12 @@ pub fn samples(
     double: &Subject,
     wo: Vec3<f64>,
     [distance, share]: [f64; 2],
-    draws: u32,
+    sample_count: u32,
     rng: &mut Rng,
 ) -> Check {
     let wo = rounded(wo);
     let mut apart = 0_u32;
-    for _ in 0..draws {
+    for _ in 0..sample_count {
         let u = rng.triple();
         let is_near = match (single.sample(wo, u), double.sample(wo, u)) {
             (None, None) => true,
@@ -127,9 +127,9 @@ pub fn samples(
     }
     Check {
         name: format!("f32 samples = f64 samples {name}"),
-        is_pass: f64::from(apart) <= share * f64::from(draws),
+        is_pass: f64::from(apart) <= share * f64::from(sample_count),
         p_value: None,
-        detail: format!("{apart} of {draws} farther apart than {distance:.0e}"),
+        detail: format!("{apart} of {sample_count} farther apart than {distance:.0e}"),
     }
 }
 

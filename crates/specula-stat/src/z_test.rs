@@ -13,7 +13,7 @@ pub struct Moments {
 }
 
 impl Moments {
-    /// Takes in one number.
+    /// Adds one value.
     pub fn push(&mut self, x: f64) {
         self.count += 1.0;
         let before = x - self.mean;
@@ -21,7 +21,7 @@ impl Moments {
         self.sum_of_squares += before * (x - self.mean);
     }
 
-    /// Takes in all that `other` took in.
+    /// Adds all values of `other`.
     #[must_use]
     pub fn merge(self, other: Self) -> Self {
         let count = self.count + other.count;
@@ -38,7 +38,7 @@ impl Moments {
         }
     }
 
-    /// How many values were taken in.
+    /// How many values were added.
     #[must_use]
     pub fn count(&self) -> f64 {
         self.count
@@ -50,7 +50,7 @@ impl Moments {
         self.mean
     }
 
-    /// Unbiased variance of one number; infinite below two.
+    /// Unbiased variance of one value; infinite for fewer than two.
     #[must_use]
     pub fn variance(&self) -> f64 {
         if self.count < 2.0 {
@@ -75,8 +75,8 @@ impl Moments {
 }
 
 impl Extend<f64> for Moments {
-    fn extend<I: IntoIterator<Item = f64>>(&mut self, numbers: I) {
-        for x in numbers {
+    fn extend<I: IntoIterator<Item = f64>>(&mut self, values: I) {
+        for x in values {
             self.push(x);
         }
     }

@@ -182,9 +182,9 @@ fn smooth_interfaces_split_light_as_fresnel_says() {
             let seen = if wo.z < 0.0 { 1.0 / eta } else { eta };
             let reflectance = textbook_reflectance(wo.z.abs(), seen);
             let mut reflected = 0.0;
-            let draws = 1000;
-            for k in 0..draws {
-                let u = [(f64::from(k) + 0.5) / f64::from(draws), 0.5, 0.5];
+            let sample_count = 1000;
+            for k in 0..sample_count {
+                let u = [(f64::from(k) + 0.5) / f64::from(sample_count), 0.5, 0.5];
                 let Some(sample) = lobe.sample(wo, u, Transport::Importance) else {
                     panic!("a smooth interface rejects nothing: {wo:?}")
                 };
@@ -196,7 +196,7 @@ fn smooth_interfaces_split_light_as_fresnel_says() {
                 assert_eq!(sample.event == Event::Reflection, side > 0.0);
                 reflected += f64::from(u8::from(sample.event == Event::Reflection));
             }
-            let share = reflected / f64::from(draws);
+            let share = reflected / f64::from(sample_count);
             assert!(
                 (share - reflectance).abs() < 1.1e-3,
                 "{wo:?} {eta}: {share}"
@@ -212,10 +212,10 @@ fn thin_panes_reflect_as_a_pile_of_two() {
         for wo in outside_and_inside() {
             let f = textbook_reflectance(wo.z.abs(), eta);
             let expected = if f >= 1.0 { 1.0 } else { 2.0 * f / (1.0 + f) };
-            let draws = 1000;
+            let sample_count = 1000;
             let mut reflected = 0.0;
-            for k in 0..draws {
-                let u = [(f64::from(k) + 0.5) / f64::from(draws), 0.5, 0.5];
+            for k in 0..sample_count {
+                let u = [(f64::from(k) + 0.5) / f64::from(sample_count), 0.5, 0.5];
                 let sample = lobe.sample(wo, u, Transport::Radiance).unwrap();
                 assert!((sample.weight.r - 1.0).abs() < 1e-9);
                 let through = sample.event == Event::Transmission;
@@ -223,7 +223,7 @@ fn thin_panes_reflect_as_a_pile_of_two() {
                 reflected += f64::from(u8::from(!through));
             }
             assert!(
-                (reflected / f64::from(draws) - expected).abs() < 1.1e-3,
+                (reflected / f64::from(sample_count) - expected).abs() < 1.1e-3,
                 "{wo:?} {eta}"
             );
         }

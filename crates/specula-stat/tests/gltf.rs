@@ -7,7 +7,7 @@ use specula_bsdf::bsdf::{Gltf, GltfParameters};
 use specula_bsdf::math::{Real, rgb, vec3};
 use specula_bsdf::{Bsdf, Rgb, Transport, Vec3};
 use specula_stat::quadrature::Quadrature;
-use specula_stat::reciprocity::{self, Domain};
+use specula_stat::reciprocity::{self, Domain, ReciprocityOptions};
 use specula_stat::{DirectionSample, Plan, Rng, Subject, furnace, prove};
 
 type Case<T> = (&'static str, GltfParameters<T>);
@@ -212,11 +212,11 @@ fn both_sides(p: GltfParameters<f64>) -> Subject<'static> {
 #[test]
 fn bodies_are_reciprocal_across_their_surface() {
     let (name, p) = passing::<f64>()[1];
-    let options = reciprocity::Options {
+    let options = ReciprocityOptions {
         domain: Domain::Everywhere,
         eta: p.ior,
         relative_tolerance: 1e-8,
-        ..reciprocity::Options::default()
+        ..ReciprocityOptions::default()
     };
     let check = reciprocity::test(name, &both_sides(p), &options, &mut Rng::new(8));
     assert!(check.is_pass, "{check}");

@@ -1,4 +1,4 @@
-//! Walks between a coat and its base: draws against values, closed forms, furnaces, reciprocity, the
+//! Walks between a coat and its base: samples against values, closed forms, furnaces, reciprocity, the
 //! density of multiple importance sampling.
 
 mod common;
@@ -55,7 +55,7 @@ fn at(degrees: f64, azimuth: f64) -> Vec3<f64> {
 fn moments<const N: usize>(
     seed: u64,
     n: u64,
-    draw: impl Fn(&mut Stream) -> [f64; N] + Sync,
+    sample: impl Fn(&mut Stream) -> [f64; N] + Sync,
 ) -> [Moments; N] {
     (0..8_u64)
         .into_par_iter()
@@ -63,7 +63,7 @@ fn moments<const N: usize>(
             let mut stream = Stream::new((seed << 8 | chunk).wrapping_mul(0x2545_f491_4f6c_dd1d));
             let mut sums = [Moments::default(); N];
             for _ in 0..n / 8 {
-                for (m, x) in sums.iter_mut().zip(draw(&mut stream)) {
+                for (m, x) in sums.iter_mut().zip(sample(&mut stream)) {
                     m.push(x);
                 }
             }
@@ -169,14 +169,14 @@ fn sorted(placed: Option<(Vec3<f64>, f64)>) -> [f64; CELLS] {
 /// The walk's samples, weighed, and its values put the same light into every cell of the hemisphere;
 /// values are asked at samples of the walk and at cosines, weighed by the density.
 #[test]
-fn draws_follow_values() {
+fn samples_follow_values() {
     let views = [at(15.0, 20.0), at(62.0, 200.0), at(84.0, 70.0)];
     let materials = materials();
     let significance = sidak(0.01, materials.len() * views.len() * CELLS);
     for (name, lobe) in &materials {
         for wo in views {
             let density = |wi: Vec3<f64>| wi.z / core::f64::consts::PI;
-            let draws = moments(31, 60_000, |s| {
+            let samples = moments(31, 60_000, |s| {
                 let x = sampled(lobe, wo, s).filter(|x| !x.specular);
                 sorted(x.map(|x| (x.wi, x.weight.r)))
             });
@@ -193,7 +193,7 @@ fn draws_follow_values() {
                 };
                 sorted(placed)
             });
-            for (i, (a, b)) in draws.iter().zip(&values).enumerate() {
+            for (i, (a, b)) in samples.iter().zip(&values).enumerate() {
                 let p = two_sided_p(sigmas(a, b));
                 assert!(p > significance, "{name} {wo:?} cell {i}: {a:?} {b:?}");
             }
@@ -484,12 +484,12 @@ fn single_precision_has_the_same_means() {
         }
         let (p, q) = (single.pdf(wo.cast(), wi.cast()), double.pdf(wo, wi));
         assert!((f64::from(p) / q - 1.0).abs() < 1e-3, "{p} {q}");
-        let draws = moments(63, 60_000, |s| {
+        let samples = moments(63, 60_000, |s| {
             let u = [s.next(), s.next(), s.next()];
             let x = single.sample_random(wo.cast(), u, RADIANCE, s);
             x.map_or([0.0; 3], |x| x.weight.cast::<f64>().to_array())
         });
-        for (a, b) in draws.iter().zip(&albedo(&double, wo, 60_000)) {
+        for (a, b) in samples.iter().zip(&albedo(&double, wo, 60_000)) {
             assert!(
                 sigmas(a, b).abs() < SIGMAS,
                 "{coat:?} {base:?}: {a:?} {b:?}"

@@ -41,14 +41,14 @@ fn at(degrees: f64, azimuth: f64) -> Vec3<f64> {
 }
 
 /// Moments of `n` values, sampled in parallel by streams of fixed seeds.
-fn moments(seed: u64, n: u64, draw: impl Fn(&mut Stream) -> f64 + Sync) -> Moments {
+fn moments(seed: u64, n: u64, sample: impl Fn(&mut Stream) -> f64 + Sync) -> Moments {
     (0..16_u64)
         .into_par_iter()
         .map(|chunk| {
             let mut stream = Stream::new((seed << 8 | chunk).wrapping_mul(0x2545_f491_4f6c_dd1d));
             let mut m = Moments::default();
             for _ in 0..n / 16 {
-                m.push(draw(&mut stream));
+                m.push(sample(&mut stream));
             }
             m
         })
@@ -233,7 +233,7 @@ fn samples_weigh_exactly_the_fresnel_terms() {
 
 /// Samples and evaluations must put the same energy into the same half of the hemisphere.
 #[test]
-fn draws_follow_what_is_evaluated() {
+fn samples_follow_what_is_evaluated() {
     let wo = at(50.0, 20.0);
     let wo_part = |wi: Vec3<f64>| (wi.x * 0.3 + wi.y + 0.5 * wi.z).max(0.0);
     for model in Model::ALL {
@@ -315,11 +315,11 @@ fn values_along_the_normal_are_bounded() {
     let largest = |model| {
         let lobe = Conductor::new(Ggx::new(alpha((0.5, 0.5))), white(), model);
         let mut stream = Stream::new(81);
-        let draws = (0..200_000).map(|_| {
+        let samples = (0..200_000).map(|_| {
             let f = lobe.eval_pdf_random(at(60.0, 0.0), Vec3::Z, Transport::Radiance, &mut stream);
             f.0.r
         });
-        draws.fold(0.0, f64::max)
+        samples.fold(0.0, f64::max)
     };
     let (specula, heitz) = (largest(STRATIFIED), largest(Model::Heitz2016));
     assert!(specula < 2.0 && heitz > 8.0, "{specula} {heitz}");

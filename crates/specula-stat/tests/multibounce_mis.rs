@@ -51,11 +51,11 @@ fn cell_direction(mu: f64, turn: f64) -> Vec3<f64> {
 }
 
 /// Share of samples in each cell.
-fn sampled(n: u32, mut draw: impl FnMut(&mut Stream) -> Option<Vec3<f64>>) -> Vec<f64> {
+fn sampled(n: u32, mut sample: impl FnMut(&mut Stream) -> Option<Vec3<f64>>) -> Vec<f64> {
     let mut stream = Stream::new(9);
     let mut cells = vec![0.0; CELLS.0 * CELLS.1];
     for _ in 0..n {
-        if let Some(wi) = draw(&mut stream) {
+        if let Some(wi) = sample(&mut stream) {
             let turn = wi.y.atan2(wi.x) / std::f64::consts::TAU;
             let pick = |x: f64, n: usize| (0..n).rfind(|i| x * n as f64 >= *i as f64).unwrap_or(0);
             let cell = pick(wi.z, CELLS.0) * CELLS.1 + pick(turn.rem_euclid(1.0), CELLS.1);
@@ -101,8 +101,8 @@ fn distances<N: VisibleNormals<f64>>(ndf: N, wo: Vec3<f64>) -> [f64; 3] {
     let walker = metal(ndf, MisPdf::Normalised);
     // Smooth surfaces leave little to tell apart: less noise is needed there, and walks are short.
     let Alpha { x, y } = ndf.alpha();
-    let draws = if x * y < 0.03 { 400_000 } else { 50_000 };
-    let walk = sampled(draws, |stream| {
+    let sample_count = if x * y < 0.03 { 400_000 } else { 50_000 };
+    let walk = sampled(sample_count, |stream| {
         let u = [stream.next(), stream.next()];
         walker.sample_walk(wo, u, stream).map(|(wi, _)| wi)
     });

@@ -14,6 +14,7 @@ use specula_bsdf::{Bsdf, Rgb, Transport, Vec3};
 use specula_stat::image::{NoisyImage, compare};
 use specula_stat::quadrature::direction;
 use specula_stat::reciprocity::Domain;
+use specula_stat::twin::TwinOptions;
 use specula_stat::{DirectionSample, Plan, Report, Rng, Subject, prove, twin};
 
 const ALPHAS: (f64, f64) = (0.3, 0.6);
@@ -133,7 +134,7 @@ fn eta_upside_down() {
 }
 
 #[test]
-fn a_sampler_that_draws_one_in_a_hundred_from_elsewhere() {
+fn a_sampler_that_takes_one_in_a_hundred_from_elsewhere() {
     let wrong = |wo, u: [f64; 3]| {
         let wi = if u[0] < 0.01 {
             direction(u[1], 2.0 * PI * u[2])
@@ -238,15 +239,15 @@ fn exact_samples_with_the_norm_of_bounded_caps() {
     let right = metal().with_sampler(Sampler::Exact);
     let ratio =
         |wo| ggx.reflection_norm(Sampler::Exact, wo) / ggx.reflection_norm(Sampler::Bounded, wo);
-    let draw = |wo, u| {
+    let sample = |wo, u| {
         let sample = right.sample(wo, u, Transport::Radiance)?;
         Some(DirectionSample::new(sample.wi, sample.weight))
     };
     let density = |wo, wi| right.pdf(wo, wi);
-    let report = check(&Subject::new(eval, density, draw));
+    let report = check(&Subject::new(eval, density, sample));
     assert!(report.is_pass(), "{report}");
     let wrong = |wo, wi| density(wo, wi) * ratio(wo);
-    let report = check(&Subject::new(eval, wrong, draw));
+    let report = check(&Subject::new(eval, wrong, sample));
     assert_fails(&report, &["chi-square", "integral of pdf", "weight"]);
 }
 
@@ -287,14 +288,14 @@ fn cancellation_in_f32() {
     let ggx32 = Ggx::new(common::alpha_f32((0.01, 0.01)));
     let ggx = Ggx::new(alpha((0.01, 0.01)));
     let density = |d: f64| Rgb::splat(d);
-    let draw = |wo: Vec3<f64>, u: [f64; 3]| {
+    let sample = |wo: Vec3<f64>, u: [f64; 3]| {
         let wm = vndf::cap::sample_wm(alpha((0.01, 0.01)), wo, [u[1], u[2]]);
         Some(DirectionSample::new(wm, Rgb::splat(1.0)))
     };
     let double = Subject::new(
         |wo, wm| density(ggx.d_visible(wo, wm)),
         |wo, wm| ggx.d_visible(wo, wm),
-        draw,
+        sample,
     );
     let single = |wo: Vec3<f64>, wm: Vec3<f64>| -> f64 {
         ggx32.d_visible(wo.cast::<f32>(), wm.cast::<f32>()).into()
@@ -309,15 +310,15 @@ fn cancellation_in_f32() {
     };
     let views: Vec<_> = [0.7, -0.3, -0.9].map(|c| direction(c, 0.3)).to_vec();
     let run = |subject: &Subject| {
-        let options = twin::Options::default();
+        let options = TwinOptions::default();
         twin::test("", subject, &double, &views, &options, &mut Rng::new(1))
     };
-    let right = run(&Subject::new(|a, b| density(single(a, b)), single, draw));
+    let right = run(&Subject::new(|a, b| density(single(a, b)), single, sample));
     assert!(right.is_pass, "{right}");
     let wrong = run(&Subject::new(
         |a, b| density(cancelling(a, b)),
         cancelling,
-        draw,
+        sample,
     ));
     assert!(!wrong.is_pass, "{wrong}");
 }

@@ -7,8 +7,9 @@ use glam::DMat4;
 use specula_bsdf::Rgb;
 use specula_bsdf::math::{Stream, rgb};
 use specula_scene::scene::{
-    Channel, ColourParam, EnvironmentMapping, ImageId, ImageProjection, Instance, Interpolation,
-    Light, Object, ObjectId, Profile, SpotFalloff, Texture, TextureId, TextureMapping, Wrap,
+    Channel, ColourParam, EnvironmentMapping, ImageId, ImageProjection, Interpolation, Light,
+    Object, ObjectId, ObjectInstance, Profile, SpotFalloff, Texture, TextureId, TextureMapping,
+    Wrap,
 };
 use specula_scene::{Image, Scene};
 
@@ -215,7 +216,7 @@ fn with_varying(mut scene: Scene) -> Scene {
         name: "copied".into(),
         shapes: scene.shapes[..1].to_vec(),
     });
-    scene.instances.push(Instance {
+    scene.instances.push(ObjectInstance {
         object,
         to_world: DMat4::from_translation([0.0, 0.0, -6.0].into())
             * DMat4::from_scale([-1.0, 1.0, 1.0].into()),

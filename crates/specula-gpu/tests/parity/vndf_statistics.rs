@@ -5,7 +5,7 @@ use specula_bsdf::math::Vec3;
 use specula_bsdf::vndf::{beckmann, bounded, cap, exact, heitz, reflect};
 use specula_bsdf::{Alpha, Real};
 use specula_stat::Rng;
-use specula_stat::chi_square::{self, ChiSquare, Options};
+use specula_stat::chi_square::{self, ChiSquare, ChiSquareOptions};
 use specula_stat::quadrature::{Patch, Peak, Quadrature};
 use specula_stat::z_test::sidak;
 
@@ -153,7 +153,7 @@ fn fit(
 ) -> ChiSquare {
     let (alpha, wo) = widened(alphas, wo);
     let mut draws = draws.as_chunks::<3>().0.iter();
-    let options = Options {
+    let options = ChiSquareOptions {
         samples: DRAWS,
         cells: 150,
         cos_theta_edges: vec![wo.z, -wo.z],

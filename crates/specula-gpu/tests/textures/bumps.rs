@@ -8,8 +8,8 @@ use specula_bsdf::Rgb;
 use specula_render::{PreparedScene, RenderOptions};
 use specula_scene::builtin;
 use specula_scene::scene::{
-    Bump, BumpRules, Channel, FloatParam, Geometry, ImageId, Instance, Interpolation, Material,
-    MaterialId, Mesh, MeshId, NoiseKind, Object, ObjectId, Scene, Shape, Texture, TextureId,
+    Bump, BumpRules, Channel, FloatParam, Geometry, ImageId, Interpolation, Material, MaterialId,
+    Mesh, MeshId, NoiseKind, Object, ObjectId, ObjectInstance, Scene, Shape, Texture, TextureId,
     TextureMapping, UvMapping, Wrap,
 };
 use specula_stat::Rng;
@@ -213,7 +213,7 @@ fn scene() -> Scene {
         name: "placed".to_owned(),
         shapes: vec![mesh(0), sphere, disk],
     }];
-    scene.instances = vec![Instance {
+    scene.instances = vec![ObjectInstance {
         object: ObjectId(0),
         to_world: DMat4::from_translation(DVec3::new(0.4, 5.0, 0.3))
             * DMat4::from_rotation_x(0.4)

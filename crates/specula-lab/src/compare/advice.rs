@@ -1,11 +1,11 @@
-//! Which sampler to take, in plain words, with figures.
+//! Advice which sampler to use, in plain words, with figures.
 
 use specula_bsdf::vndf::Sampler;
 
 use super::estimate::Field;
 use super::interval::Interval;
 
-/// Of those that cannot be told apart, the default is taken where its measured efficiency is at least this
+/// Of samplers that cannot be told apart, the default is recommended where its efficiency is at least this
 /// share of the largest.
 const NEARLY: f64 = 0.98;
 
@@ -14,13 +14,13 @@ const NEARLY: f64 = 0.98;
 pub(super) struct Choice {
     /// Index of the sampler.
     pub(super) taken: usize,
-    /// All that cannot be told apart from it, itself among them: none is shown to be more efficient.
+    /// All samplers that cannot be told apart from it, itself included: none is shown to be more efficient.
     pub(super) tied: Vec<usize>,
-    /// Why it is that one.
+    /// Why it is recommended.
     pub(super) by: Reason,
 }
 
-/// Why a sampler is taken.
+/// Why a sampler is recommended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Reason {
     /// All others are shown to be less efficient.
@@ -58,7 +58,7 @@ pub(super) fn choice(field: &Field) -> Option<Choice> {
     Some(Choice { taken, tied, by })
 }
 
-/// What to take, in words.
+/// The recommendation, in words.
 pub(super) fn recommendation(field: &Field) -> String {
     let energy = field.energy;
     if let [only] = field.samplers[..] {
@@ -119,7 +119,7 @@ fn listed(all: impl Iterator<Item = String>) -> String {
     }
 }
 
-/// What a pair's interval says of the first one.
+/// The efficiency of the first of a pair, in words.
 pub(super) fn decided(ratio: Interval) -> &'static str {
     if ratio.low > 1.0 {
         "more efficient"

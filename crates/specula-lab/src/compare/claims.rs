@@ -1,4 +1,4 @@
-//! What must hold of a comparison: yes, no, or undecided, as the intervals say.
+//! Claims about a comparison: yes, no, or undecided, by intervals of confidence.
 
 use specula_bsdf::vndf::Sampler;
 
@@ -83,7 +83,7 @@ pub(super) fn fewer_rejected(judged: &[Judged]) -> Option<Claim> {
     })
 }
 
-/// Whether all that a figure may be is at most `bound`.
+/// Whether the whole interval of a figure is at most `bound`.
 fn is_at_most(figure: Interval, bound: f64) -> Answer {
     if figure.high <= bound {
         Answer::Yes

@@ -1,10 +1,10 @@
-//! Errors of renders, how well they are known, and what follows for the time that they need.
+//! Errors of renders with their uncertainty, and efficiencies.
 //!
 //! With two references `r1`, `r2` whose errors are independent, the mean of `(p - r1) (p - r2)` is the
-//! mean squared error of `p`, without the references' own. The variance of what follows from it is
-//! found by leaving out one group of pixels after the other (the jackknife): pixels are independent. Times
-//! are uncertain by what they differ between rounds; those of one round are compared, so that what else
-//! the machine does drops out.
+//! mean squared error of `p`, without that of the references. Its variance is
+//! estimated by leaving out one group of pixels after the other (the jackknife): pixels are independent. Times
+//! are uncertain by their differences between rounds; those of one round are compared, so that other load of
+//! the machine cancels.
 
 use specula_bsdf::vndf::Sampler;
 use specula_render::picture::Picture;
@@ -18,7 +18,7 @@ use crate::{Errors, Result, errors};
 /// Groups of pixels.
 const GROUPS: usize = 32;
 
-/// What is known of a combination in the end.
+/// The result of a combination.
 pub(super) struct Judged {
     pub(super) sampler: Sampler,
     pub(super) energy: Energy,

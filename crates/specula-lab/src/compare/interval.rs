@@ -6,7 +6,7 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 /// Chance that some interval of a comparison misses its truth: all of them hold together at 95 %.
 const SIGNIFICANCE: f64 = 0.05;
 
-/// A figure and between what it lies.
+/// A figure with its interval of confidence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Interval {
     pub(super) middle: f64,

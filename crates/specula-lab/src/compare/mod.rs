@@ -1,5 +1,5 @@
 //! Samplers and treatments of energy against each other on a scene of the user's: every combination
-//! renders for the same time, in turns, and is held against a reference of its treatment. What is said of
+//! renders for the same time, in turns, and is compared with a reference of its treatment. Statements about
 //! them follows from intervals: yes, no, or undecided.
 
 mod advice;
@@ -26,11 +26,11 @@ use reference::Reference;
 pub(crate) use results::style;
 use turns::Entry;
 
-/// What is to be compared.
+/// Options of a comparison.
 pub struct CompareOptions<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// What to call it: part of the name of the folder.
+    /// Its name: part of the name of the folder.
     pub name: &'a str,
     /// Samplers, each once.
     pub samplers: Vec<Sampler>,
@@ -38,7 +38,7 @@ pub struct CompareOptions<'a> {
     pub energies: Vec<Energy>,
     /// Seconds that each combination renders for; each reference renders for four times as long.
     pub seconds: f64,
-    /// What each converges to; `None`: rendered. With one treatment of energy only, as each converges
+    /// The reference; `None`: it is rendered. With one treatment of energy only, as each converges
     /// to a picture of its own.
     pub reference: Option<Picture>,
     /// Depth, size and strategy; sampler, energy and seed are replaced.

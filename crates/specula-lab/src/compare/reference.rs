@@ -1,4 +1,4 @@
-//! What renders are held against.
+//! References of a comparison.
 
 use specula_bsdf::Rgb;
 use specula_bsdf::vndf::Sampler;
@@ -20,7 +20,7 @@ pub(super) struct Reference {
     /// All that is known.
     pub(super) picture: Picture,
     /// Two independent halves of it, where it was rendered: with them, its own error drops out of the
-    /// error of what is held against it.
+    /// error of what is compared with it.
     pub(super) halves: Option<[Picture; 2]>,
     /// What it took.
     pub(super) seconds: f64,

@@ -1,4 +1,4 @@
-//! What a comparison leaves: tables, the course of the errors as a plot, pictures with error maps.
+//! Output of a comparison: tables, a plot of errors over time, pictures with error maps.
 
 use specula_bsdf::vndf::Sampler;
 
@@ -8,7 +8,7 @@ use super::estimate::{Field, Judged};
 use super::interval::Interval;
 use super::reference::Reference;
 use crate::output::table::significant;
-use crate::output::{Comparison, Shot, Table};
+use crate::output::{PictureComparison, Shot, Table};
 use crate::plot::{Axis, Content, Figure, Intervals, Panel, Series};
 use crate::{Lab, Result};
 
@@ -51,7 +51,7 @@ pub(super) fn write(
         } else {
             "as given".to_owned()
         };
-        lab.comparison(&Comparison {
+        lab.comparison(&PictureComparison {
             name: &format!("energy-{energy}").replace('=', "-"),
             caption: &format!(
                 "Energy {energy}: the same time for each sampler. The reference is {origin}; errors under \

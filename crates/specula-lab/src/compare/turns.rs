@@ -1,4 +1,4 @@
-//! Renders of all combinations in turns, so that what else the machine does meets all of them alike.
+//! Renders of all combinations in turns, so that other load of the machine affects all of them alike.
 
 use std::time::Instant;
 
@@ -26,11 +26,11 @@ pub(super) struct Entry {
     pub(super) render: Render,
     /// Time and root of the mean squared error after each turn.
     pub(super) course: Vec<[f64; 2]>,
-    /// What each round gave; `None` where the one before had used up its time.
+    /// The result of each round; `None` where the one before had used up its time.
     pub(super) rounds: Vec<Option<Round>>,
 }
 
-/// What a combination did in a round.
+/// The result of a combination in a round.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Round {
     /// Seconds per sample of all pixels.
@@ -163,7 +163,7 @@ impl Render {
         Ok(())
     }
 
-    /// Samples that fit into what is left.
+    /// Samples that fit into the time that is left.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

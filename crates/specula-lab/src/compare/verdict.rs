@@ -1,4 +1,4 @@
-//! What a comparison answers: advice, what treatments of energy change, claims.
+//! The verdict of a comparison: advice, effects of the treatments of energy, claims.
 
 use super::CompareOptions;
 use super::advice::recommendation;
@@ -9,7 +9,7 @@ use super::reference::Reference;
 use super::results::gain;
 use crate::Verdict;
 
-/// What is recommended and why, and what must hold.
+/// The recommendation with its reason, and the claims.
 pub(super) fn verdict(
     options: &CompareOptions<'_>,
     judged: &[Judged],
@@ -38,7 +38,7 @@ pub(super) fn verdict(
     }
 }
 
-/// What treatments of energy change.
+/// Effects of the treatments of energy.
 fn treatments(options: &CompareOptions<'_>, references: &[Reference]) -> Option<String> {
     let first = options.energies.first()?;
     let others = references.len().saturating_sub(1);

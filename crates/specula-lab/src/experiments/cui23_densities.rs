@@ -1,5 +1,5 @@
-//! Densities of multiple importance sampling against the lobe that they stand for: what fig. 8 of
-//! Cui et al. 2023 and fig. 1 of its supplement share.
+//! Densities of multiple importance sampling against the lobe that they approximate: shared by fig. 8 of
+//! Cui et al. 2023 and fig. 1 of its supplement.
 //!
 //! The lobe is `f cos` of a metal that reflects all light: it integrates to 1, and directions that
 //! are sampled follow it exactly.
@@ -105,7 +105,7 @@ impl Estimate {
     }
 }
 
-/// How far a density is from the lobe.
+/// Distances of a density from the lobe.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Distance {
     /// Of the density over the hemisphere.
@@ -203,7 +203,7 @@ fn lattice(shift: [f64; 3], i: u32) -> [f64; 3] {
     [0, 1, 2].map(|k| (shift[k] + STEPS[k] * f64::from(i)).fract())
 }
 
-/// A direction, by our density or by a cosine in turns.
+/// A direction, by Specula's density or by a cosine in turns.
 fn draw(
     case: Case,
     evaluations: u32,
@@ -304,7 +304,7 @@ fn table(judged: &[Judged]) -> Table {
     table
 }
 
-/// Lowest and highest of what `of` says of the density `k`.
+/// Lowest and highest value of `of` for the density `k`.
 pub(super) fn range(judged: &[Judged], k: usize, of: impl Fn(&Distance) -> Estimate) -> [f64; 2] {
     let values = judged.iter().map(|j| of(&j.distances[k]).value);
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
@@ -312,7 +312,7 @@ pub(super) fn range(judged: &[Judged], k: usize, of: impl Fn(&Distance) -> Estim
     })
 }
 
-/// Mean over the cases of what `of` says of each density.
+/// Mean over the cases of `of`, for each density.
 pub(super) fn means(judged: &[Judged], of: impl Fn(&Distance) -> Estimate) -> [f64; 3] {
     [LAMBERT, HAPKE, NORMALISED].map(|k| {
         let sum: f64 = judged.iter().map(|j| of(&j.distances[k]).value).sum();

@@ -1,6 +1,6 @@
-//! Renders of statues in equal time: what figs. 1 and 9 of Cui et al. 2023 share.
+//! Renders of statues in equal time: shared by figs. 1 and 9 of Cui et al. 2023.
 //!
-//! As there, light of an environment is rendered with samples of its own, so that what differs in
+//! As there, light of an environment is rendered with samples of its own, so that the difference in
 //! the rest is the evaluation of the metals; the pictures are sums of both.
 
 use specula_render::picture::Picture;
@@ -8,7 +8,7 @@ use specula_scene::Scene;
 
 use super::cui23_models::{SPECULA, Shown};
 use super::cui23_renders::{Trial, Way, at_equal_time, insets, reference, sum, trials};
-use crate::output::{Comparison, Shot, Table};
+use crate::output::{PictureComparison, Shot, Table};
 use crate::{Lab, Result};
 
 /// A scene in two lights.
@@ -35,7 +35,7 @@ pub(super) struct Lit {
     pub(super) places: [[f64; 2]; 3],
 }
 
-/// What came out, by model.
+/// Results, by model.
 pub(super) struct Judged<const N: usize> {
     /// In the timed lights, with as many samples for all.
     pub(super) equal_samples: [Trial; N],
@@ -79,7 +79,7 @@ pub(super) fn judge<const N: usize>(
                 trial.error()
             ),
         });
-    lab.comparison(&Comparison {
+    lab.comparison(&PictureComparison {
         name: lit.name,
         caption: lit.caption,
         shots: shots.collect(),

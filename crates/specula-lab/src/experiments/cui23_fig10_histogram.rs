@@ -7,7 +7,7 @@ use specula_bsdf::vndf::VisibleNormals;
 use specula_bsdf::{Alpha, Vec3};
 use specula_render::RenderOptions;
 use specula_scene::Scene;
-use specula_scene::scene::{Distribution, Projection};
+use specula_scene::scene::{MicrofacetDistribution, Projection};
 
 use super::cui23_walks::{evaluated, sampled};
 use crate::output::Table;
@@ -74,8 +74,10 @@ fn count(
             for _ in 0..each {
                 let alpha = Alpha::isotropic(f64::from(metal.alpha));
                 let (one, many) = match metal.distribution {
-                    Distribution::Ggx => paths(&Ggx::new(alpha), wo, &mut stream),
-                    Distribution::Beckmann => paths(&Beckmann::new(alpha), wo, &mut stream),
+                    MicrofacetDistribution::Ggx => paths(&Ggx::new(alpha), wo, &mut stream),
+                    MicrofacetDistribution::Beckmann => {
+                        paths(&Beckmann::new(alpha), wo, &mut stream)
+                    }
                 };
                 add(&mut sampled, one);
                 for downward in many {

@@ -32,7 +32,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
-/// Width and angle of incidence of each column.
+/// Alpha and angle of incidence of each column.
 const COLUMNS: [(f32, f32); 4] = [(0.5, 0.0), (0.5, 60.0), (1.0, 0.0), (1.0, 60.0)];
 
 /// Index of each model within a [`Point`].
@@ -59,7 +59,7 @@ const SIGNIFICANCE: f64 = 1e-4;
 
 type Lobe = MultibounceConductor<f32, Ggx<f32>>;
 
-/// What was found in one pair of directions.
+/// The result for one pair of directions.
 struct Point {
     column: usize,
     theta_o_deg: f32,

@@ -4,7 +4,7 @@ use super::cui23_models::{
     BITTERLI, CUI, CUI_BIDIRECTIONAL, HEITZ, IMPLEMENTATIONS, SPECULA, WANG,
 };
 use super::cui23_renders::{Reference, Trial, Way, insets, mean, reference, trials};
-use crate::output::{Comparison, Table};
+use crate::output::{PictureComparison, Table};
 use crate::scenes::testball::testball;
 use crate::{Answer, Claim, Experiment, Lab, Result, Source, Verdict};
 
@@ -34,7 +34,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     let rounds = lab.pick(16, 32);
     let done = trials(lab, &scene, &ways, rounds, &truth, [0.4, 0.9])?;
     lab.table(table(&done))?;
-    lab.comparison(&Comparison {
+    lab.comparison(&PictureComparison {
         name: "ball",
         caption: "Copper, alpha = 1, directional light, 4 samples per pixel.",
         shots: done.iter().map(Trial::shot).collect(),

@@ -5,7 +5,7 @@ use specula_render::RenderOptions;
 
 use super::cui23_models::{CUI, CUI_BIDIRECTIONAL, SPECULA, Shown};
 use super::cui23_renders::{Reference, Trial, Way, insets, reference, trials};
-use crate::output::{Comparison, Table};
+use crate::output::{PictureComparison, Table};
 use crate::scenes::pots::pots;
 use crate::{Answer, Claim, Experiment, Lab, Result, Source, Verdict};
 
@@ -61,7 +61,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     let rounds = lab.pick(10, 12);
     let done = trials(lab, &scene, &ways, rounds, &truth, [0.4, 0.95])?;
     lab.table(table(&done))?;
-    lab.comparison(&Comparison {
+    lab.comparison(&PictureComparison {
         name: "pots",
         caption: "Aluminium, alpha 0.15, 0.2 and 0.1, environment, 16 samples per pixel: estimator and \
                   density.",

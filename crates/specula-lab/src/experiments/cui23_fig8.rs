@@ -19,7 +19,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 /// Isotropic alphas; the first two are low.
 const ALPHAS: [f64; 4] = [0.1, 0.2, 0.5, 1.0];
 const ANGLES: [f64; 2] = [30.0, 60.0];
-/// Up to where a width is low.
+/// The largest alpha that counts as low.
 const LOW: f64 = 0.2;
 
 fn run(lab: &mut Lab<'_>) -> Result<Verdict> {

@@ -1,8 +1,8 @@
-//! The models of multiple bounces as the experiments on Cui et al. 2023 name and draw them.
+//! Names and line styles of the models of multiple bounces in the experiments on Cui et al. 2023.
 
 use specula_bsdf::multibounce::MultibounceModel;
 
-/// A model with its looks.
+/// A model with its name and style.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shown {
     /// The model.
@@ -13,7 +13,7 @@ pub(super) struct Shown {
     pub(super) style: usize,
 }
 
-/// Heitz et al. 2016: what all others are held against.
+/// Heitz et al. 2016: all others are compared with it.
 pub(super) const HEITZ: Shown = shown(MultibounceModel::Heitz2016, "Heitz 2016", 3);
 /// Bitterli and d'Eon 2022.
 pub(super) const BITTERLI: Shown = shown(
@@ -49,10 +49,10 @@ pub(super) const CUI_BIDIRECTIONAL: Shown = shown(
     "Cui 2023, bidirectional",
     6,
 );
-/// This project's.
+/// Specula's.
 pub(super) const SPECULA: Shown = shown(MultibounceModel::StratifiedBidirectional, "Specula", 1);
 
-/// What the experiments say of the implementations.
+/// A note on the implementations.
 pub(super) const IMPLEMENTATIONS: &str = "All models are this project's implementations, tidied and several times faster than the \
      published code (Heitz 2016: about six times), so that efficiencies compare methods and not \
      code; the bidirectional estimator of Cui et al. is without the thresholds that bias the \

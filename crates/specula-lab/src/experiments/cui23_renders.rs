@@ -12,10 +12,10 @@ use crate::output::{Inset, Shot};
 use crate::rendered::render_prepared;
 use crate::{Lab, Result};
 
-/// Seed of references over that of what is compared with them.
+/// Offset of the seeds of references.
 const OTHER_SEED: u32 = 0x5eed;
 
-/// How a scene is rendered.
+/// A way to render a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Way {
     /// In tables.
@@ -69,8 +69,8 @@ impl Reference {
     }
 }
 
-/// Renders what others are compared with: the mean of two pictures of other seeds, whose difference
-/// tells its variance. (The films' own estimates take samples for independent, and are too large.)
+/// Renders a reference: the mean of two pictures of other seeds, whose difference
+/// gives its variance. (The films' own estimates take samples for independent, and are too large.)
 pub(super) fn reference(
     lab: &Lab<'_>,
     scene: &Scene,
@@ -107,7 +107,7 @@ fn mean_square(a: &Picture, b: &Picture) -> f64 {
     squares.sum::<f64>() / a.colour.len() as f64
 }
 
-/// What a way left.
+/// The result of a way to render.
 pub(super) struct Trial {
     /// The way's.
     pub(super) label: &'static str,

@@ -1,4 +1,4 @@
-//! The three ways to the probability of leaving along a path, with a count of their arithmetic: Cui
+//! Three algorithms for the probability of leaving along a path, with a count of their arithmetic: Cui
 //! et al. 2023, algorithm 1, Bitterli and d'Eon 2022 (with its signs), and Specula's depth state.
 //!
 //! A path is given by the rates `|Lambda(d_i)|` of its flights. All three compute the same number,

@@ -28,7 +28,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         .flat_map(|theta_deg| all.clone().map(move |alpha| Case { alpha, theta_deg }))
         .collect();
     let caption = "Densities of multiple importance sampling and the lobe, F = 1, in the plane of \
-                   incidence, along which the first width is measured; forward is to the right.";
+                   incidence, to which the first alpha belongs; forward is to the right.";
     let judged = judge(lab, &cases, |case| !case.is_isotropic(), caption)?;
     Ok(verdict(judged))
 }
@@ -71,7 +71,7 @@ fn verdict(judged: Vec<Judged>) -> Verdict {
                 shape_hapke < shape_lambert,
             ),
             Claim::measured(
-                "It is less accurate than on isotropic metals of the same mean width",
+                "It is less accurate than on isotropic metals of the same mean alpha",
                 "less accurate",
                 format!("{hapke:.3} against {hapke_isotropic:.3}"),
                 hapke > hapke_isotropic,

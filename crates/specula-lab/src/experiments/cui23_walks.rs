@@ -1,4 +1,4 @@
-//! Walks over rough metal, as their directions alone: what fig. 10 of Cui et al. 2023 counts.
+//! Walks over rough metal, as their directions alone: counted by fig. 10 of Cui et al. 2023.
 
 use specula_bsdf::Vec3;
 use specula_bsdf::math::Stream;

@@ -4,7 +4,7 @@ use specula_bsdf::math::Stream;
 use specula_bsdf::vndf::{self, Sampler};
 use specula_bsdf::{Alpha, Vec3};
 
-use super::draw_times::{self, Inputs};
+use super::sample_times::{self, Inputs};
 use super::stopwatch::median;
 use crate::output::Table;
 use crate::plot::{Axis, Content, Figure, Panel, Series};
@@ -30,7 +30,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     );
     let mut table = Table::new(
         "times",
-        "Medians over 100 invocations per draw, f32, one thread.",
+        "Medians over 100 invocations per sample, f32, one thread.",
         &[
             "alpha",
             "theta [deg]",
@@ -52,16 +52,16 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         }
         for (j, &alpha) in alphas.iter().enumerate() {
             let share = (i * alphas.len() + j) as f64 / (3 * alphas.len()) as f64;
-            lab.step(share, "timing draws")?;
+            lab.step(share, "timing samples")?;
             farthest = farthest.max(difference(alpha, theta, lab.seed()));
             let inputs = Inputs::one_view(Alpha::isotropic(alpha), theta, lab.seed());
             let mut runs = [
-                draw_times::normals(&inputs, Sampler::Heitz),
-                draw_times::normals(&inputs, Sampler::Cap),
-                draw_times::batch_reflections(&inputs, Sampler::Heitz),
-                draw_times::batch_reflections(&inputs, Sampler::Cap),
+                sample_times::normals(&inputs, Sampler::Heitz),
+                sample_times::normals(&inputs, Sampler::Cap),
+                sample_times::batch_reflections(&inputs, Sampler::Heitz),
+                sample_times::batch_reflections(&inputs, Sampler::Cap),
             ];
-            let times = draw_times::medians(&mut runs, 100);
+            let times = sample_times::medians(&mut runs, 100);
             let ratios = [times[0] / times[1], times[2] / times[3]];
             for (k, ratio) in ratios.into_iter().enumerate() {
                 lines[k][i].points.push([f64::from(alpha), ratio]);
@@ -96,7 +96,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
             }
         })
         .collect();
-    let caption = "How many times faster the cap draws than Heitz 2018.";
+    let caption = "How many times faster the cap samples than Heitz 2018.";
     lab.plot("speed-up", caption, &Figure::grid(2, panels))?;
     let scalar = Spread::of(&quotients[0]);
     let batch = Spread::of(&quotients[1]);
@@ -114,10 +114,10 @@ fn difference(alpha: f32, theta_deg: f32, seed: u64) -> f64 {
         z: cosine,
     };
     let mut stream = Stream::new(seed);
-    let mut mean = |draw: fn(Alpha<f64>, Vec3<f64>, [f64; 2]) -> Vec3<f64>| {
+    let mut mean = |sample: fn(Alpha<f64>, Vec3<f64>, [f64; 2]) -> Vec3<f64>| {
         let (mut sums, mut squares) = ([0.0; 3], [0.0; 3]);
         for _ in 0..COUNT {
-            let wm = draw(alpha, wo, [stream.next(), stream.next()]);
+            let wm = sample(alpha, wo, [stream.next(), stream.next()]);
             for (k, value) in [wm.x, wm.y, wm.z].into_iter().enumerate() {
                 sums[k] += value;
                 squares[k] += value * value;
@@ -167,7 +167,7 @@ fn verdict(scalar: &Spread, batch: &Spread, farthest: f64) -> Verdict {
         ),
         claims: vec![
             Claim::measured(
-                "The cap draws a visible normal faster than Heitz 2018",
+                "The cap samples a visible normal faster than Heitz 2018",
                 "37.67 % (read as 1.38 times)",
                 format!("{} times", scalar.text()),
                 scalar.middle > 1.1,
@@ -185,7 +185,7 @@ fn verdict(scalar: &Spread, batch: &Spread, farthest: f64) -> Verdict {
                 batch.middle > 1.1,
             ),
             Claim::law(
-                "Both draw from the same distribution",
+                "Both sample the same distribution",
                 "the same quality",
                 format!("mean normals differ by at most {farthest:.1} standard errors"),
                 farthest < 5.0,
@@ -194,7 +194,7 @@ fn verdict(scalar: &Spread, batch: &Spread, farthest: f64) -> Verdict {
         caveat: "Another processor. The paper does not say whether 37.67 % is a quotient of times or a \
                  share of time saved; it is read as a quotient. The scalar gain depends on whether \
                  square roots, minima and sines compile to instructions without branches and calls; \
-                 specula do, in both samplers."
+                 those of Specula do, in both samplers."
             .to_owned(),
     }
 }

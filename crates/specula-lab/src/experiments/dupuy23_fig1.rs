@@ -11,7 +11,7 @@ use specula_stat::image::{NoisyImage, compare};
 use specula_stat::z_test::{Moments, equal_means, sidak};
 
 use super::sampler_trials::{ALL_WAYS, Plan, Prepared, Trial, trials};
-use crate::output::{Comparison, Inset, Shot, Table};
+use crate::output::{Inset, PictureComparison, Shot, Table};
 use crate::scenes::two_urns::{GLASS_ALPHA, two_urns};
 use crate::{Claim, Experiment, Lab, Result, Source, Verdict};
 
@@ -58,7 +58,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     Ok(verdict(&pictures, &glass, heitz.time_ratio(cap)))
 }
 
-/// How two pictures compare.
+/// Statistics of two pictures.
 struct Pictures {
     /// Difference of the means over the mean, and its standard error.
     apart: [f64; 2],
@@ -192,7 +192,7 @@ fn show(lab: &mut Lab<'_>, plan: &Plan, trials: [&Trial; 2]) -> Result<()> {
             t.seconds.iter().sum::<f64>()
         ),
     });
-    lab.comparison(&Comparison {
+    lab.comparison(&PictureComparison {
         name: "two-urns",
         caption: "Rough metal (alpha 0.4) and rough glass (alpha 0.25).",
         shots: shots.into(),
@@ -203,7 +203,7 @@ fn show(lab: &mut Lab<'_>, plan: &Plan, trials: [&Trial; 2]) -> Result<()> {
     Ok(())
 }
 
-/// What is summed over draws through glass.
+/// What is summed over samples through glass.
 const QUANTITIES: [&str; 7] = [
     "reflected",
     "reflected x",
@@ -214,7 +214,7 @@ const QUANTITIES: [&str; 7] = [
     "passed z",
 ];
 
-/// How directions through rough glass compare.
+/// Statistics of directions through rough glass.
 struct Glass {
     tests: usize,
     smallest_p: f64,
@@ -223,7 +223,7 @@ struct Glass {
 /// Compares directions reflected and refracted by normals of both samplers: each facet reflects
 /// its Fresnel share and lets the rest pass.
 fn glass(lab: &mut Lab<'_>) -> Result<Glass> {
-    let draws = lab.pick(10_000, 400_000);
+    let samples = lab.pick(10_000, 400_000);
     let mut table = Table::new(
         "glass",
         "Means over facets sampled by each sampler, weighed by what they reflect or let pass; \
@@ -248,7 +248,7 @@ fn glass(lab: &mut Lab<'_>) -> Result<Glass> {
             for eta in [1.5, 1.0 / 1.5] {
                 seed = seed.wrapping_add(2);
                 let [heitz, cap] = [(Sampler::Heitz, 0), (Sampler::Cap, 1)].map(|(sampler, i)| {
-                    through_glass(sampler, alpha, theta_deg, eta, draws, seed + i)
+                    through_glass(sampler, alpha, theta_deg, eta, samples, seed + i)
                 });
                 for ((name, a), b) in QUANTITIES.into_iter().zip(heitz).zip(cap) {
                     let estimate = |m: Moments| (m.mean(), m.variance_of_mean());
@@ -277,7 +277,7 @@ fn through_glass(
     alpha: f64,
     theta_deg: f64,
     eta: f64,
-    draws: u32,
+    samples: u32,
     seed: u64,
 ) -> [Moments; 7] {
     let (sine, cosine) = theta_deg.to_radians().sin_cos();
@@ -289,7 +289,7 @@ fn through_glass(
     let alpha = Alpha::isotropic(alpha);
     let mut stream = Stream::new(seed);
     let mut sums = [Moments::default(); 7];
-    for _ in 0..draws {
+    for _ in 0..samples {
         let u = [stream.next(), stream.next()];
         let wm = match sampler {
             Sampler::Heitz => vndf::heitz::sample_wm(alpha, wo, u),
@@ -365,7 +365,7 @@ fn verdict(pictures: &Pictures, glass: &Glass, time: f64) -> Verdict {
                 time > 1.0,
             ),
         ],
-        caveat: "A scene of our own. The renderer draws normals of glass by caps always; the picture \
+        caveat: "A scene of our own. The renderer samples normals of glass by caps always; the picture \
                  compares the samplers on metal, also as seen through glass, and the table of directions \
                  compares them on glass."
             .to_owned(),

@@ -15,25 +15,25 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     source: Source::Dupuy23,
     item: "section 4, GPU",
     title: "time of a visible normal by the cap and by Heitz 2018, GPU",
-    statement: "In a shader that draws 64 normals per lane the cap is 52.96 % (Intel Arc A770) and \
+    statement: "In a shader that samples 64 normals per thread the cap is 52.96 % (Intel Arc A770) and \
                 39.25 % (NVIDIA RTX 2080) faster than Heitz 2018, consistently across roughness values \
                 and incident directions.",
     run,
 };
 
-/// Draws of a lane.
-const DRAWS: usize = 64;
+/// Samples of a thread.
+const SAMPLES: usize = 64;
 /// Threads of a workgroup, as the shader says.
 const WORKGROUP: usize = 64;
-/// Lanes of the first run.
+/// Threads of the first run.
 const FIRST: usize = 1 << 12;
-/// Most lanes of a run; where that is too short, it is repeated.
+/// Most threads of a run; where that is too short, it is repeated.
 const MOST: usize = 1 << 22;
 
 const ALPHAS: [f32; 3] = [0.1, 0.5, 1.0];
 const THETAS_DEG: [f32; 3] = [0.0, 45.0, 80.0];
 
-/// Samplers as modules of the shader library, with the functions that draw a normal.
+/// Samplers as modules of the shader library, with the functions that sample a normal.
 const SAMPLERS: [(&str, &str); 2] = [("heitz", "heitz_sample_wm"), ("cap", "cap_sample_wm")];
 
 const HEADS: [&str; 7] = [
@@ -45,7 +45,7 @@ const HEADS: [&str; 7] = [
     "cap [ns]",
     "quotient",
 ];
-const CAPTION: &str = "Median times per draw, 64 draws per lane.";
+const CAPTION: &str = "Median times per sample, 64 samples per thread.";
 
 fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     lab.step(0.0, "opening the GPU")?;
@@ -66,7 +66,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     for (i, theta) in THETAS_DEG.into_iter().enumerate() {
         let mut points = Vec::new();
         for (j, alpha) in ALPHAS.into_iter().enumerate() {
-            lab.step((3 * i + j) as f64 / 9.0, "timing draws")?;
+            lab.step((3 * i + j) as f64 / 9.0, "timing samples")?;
             let mut works = Vec::new();
             for kernel in &kernels {
                 works.push(Work::new(&gpu, kernel, alpha, theta, seconds)?);
@@ -109,59 +109,59 @@ fn plot(lab: &mut Lab<'_>, mut lines: Vec<Series>) -> Result<()> {
     let points = lines.iter().flat_map(|line| &line.points);
     let highest = points.map(|p| p[1]).fold(0.0, f64::max);
     let panel = Panel {
-        title: "64 normals per lane".to_owned(),
+        title: "64 normals per thread".to_owned(),
         x: Axis::linear("alpha").from_to(0.0, 1.0),
         y: Axis::linear("time of Heitz 2018 / time of the cap").from_to(0.0, 1.1 * highest),
         content: Content::Lines(lines),
     };
-    let caption = "How many times faster the cap draws than Heitz 2018.";
+    let caption = "How many times faster the cap samples than Heitz 2018.";
     lab.plot("speed-up", caption, &Figure::single(panel))
 }
 
-/// A sampler's kernel. The view turns before each draw, so that nothing is left to be computed once for
+/// A sampler's kernel. The view turns before each sample, so that nothing is left to be computed once for
 /// all of them.
 fn kernel(gpu: &Gpu, module: &str, function: &str) -> Result<ComputeKernel> {
     let library = specula_shaders::compose(&[module])
         .map_err(|e| LabError::Output(format!("the shader of '{module}': {e}")))?;
     let text = format!(
         "{library}
-@group(0) @binding(0) var<storage, read> draws_view: array<f32>;
-@group(0) @binding(1) var<storage, read_write> draws_sums: array<f32>;
+@group(0) @binding(0) var<storage, read> samples_view: array<f32>;
+@group(0) @binding(1) var<storage, read_write> samples_sums: array<f32>;
 
 @compute @workgroup_size({WORKGROUP})
-fn draws_main(
+fn samples_main(
     @builtin(global_invocation_id) place: vec3u,
     @builtin(num_workgroups) groups: vec3u,
 ) {{
-    let lane = place.y * groups.x * {WORKGROUP}u + place.x;
-    if lane >= arrayLength(&draws_sums) {{
+    let thread = place.y * groups.x * {WORKGROUP}u + place.x;
+    if thread >= arrayLength(&samples_sums) {{
         return;
     }}
-    let alpha = vec2f(draws_view[3]);
-    var wo = vec3f(draws_view[0], draws_view[1], draws_view[2]);
-    var u = fract(vec2f(0.5) + f32(lane % 8191u) * vec2f(0.8191725, 0.6710436));
+    let alpha = vec2f(samples_view[3]);
+    var wo = vec3f(samples_view[0], samples_view[1], samples_view[2]);
+    var u = fract(vec2f(0.5) + f32(thread % 8191u) * vec2f(0.8191725, 0.6710436));
     var sum = 0.0;
-    for (var draw = 0u; draw < {DRAWS}u; draw += 1u) {{
+    for (var sample = 0u; sample < {SAMPLES}u; sample += 1u) {{
         wo = vec3f(0.8 * wo.x - 0.6 * wo.y, 0.6 * wo.x + 0.8 * wo.y, wo.z);
         u = fract(u + vec2f(0.7548777, 0.5698403));
         let wm = {function}(alpha, wo, u);
         sum += wm.z + 0.25 * dot(wm, wo);
     }}
-    draws_sums[lane] = sum;
+    samples_sums[thread] = sum;
 }}
 "
     );
     let shader = gpu.shader(module, &text)?;
-    Ok(ComputeKernel::new(gpu, &shader, "draws_main", 1)?)
+    Ok(ComputeKernel::new(gpu, &shader, "samples_main", 1)?)
 }
 
 /// A kernel with its arrays, sized to last long enough.
 struct Work<'a> {
     kernel: &'a ComputeKernel,
     arrays: Arrays,
-    lanes: usize,
+    threads: usize,
     runs: usize,
-    /// Mean over the draws of what they added.
+    /// Mean over the samples of what they added.
     mean: f64,
 }
 
@@ -176,20 +176,20 @@ impl<'a> Work<'a> {
         let (sine, cosine) = theta.to_radians().sin_cos();
         let view = [sine, 0.0, cosine, alpha];
         let bytes: Vec<u8> = view.iter().flat_map(|x: &f32| x.to_le_bytes()).collect();
-        let upload = |lanes: usize| kernel.upload(gpu, &[&bytes], 4 * lanes as u64);
+        let upload = |threads: usize| kernel.upload(gpu, &[&bytes], 4 * threads as u64);
         let mut work = Self {
             kernel,
             arrays: upload(FIRST)?,
-            lanes: FIRST,
+            threads: FIRST,
             runs: 1,
             mean: 0.0,
         };
         // The first run may still compile.
         work.seconds(gpu)?;
         while work.seconds(gpu)? < least {
-            if 2 * work.lanes <= MOST {
-                work.lanes *= 2;
-                work.arrays = upload(work.lanes)?;
+            if 2 * work.threads <= MOST {
+                work.threads *= 2;
+                work.arrays = upload(work.threads)?;
             } else {
                 work.runs *= 2;
             }
@@ -197,13 +197,13 @@ impl<'a> Work<'a> {
         let bytes = work.arrays.output(gpu)?;
         let sums = bytes.chunks_exact(4).map(|b| [b[0], b[1], b[2], b[3]]);
         let total: f64 = sums.map(|b| f64::from(f32::from_le_bytes(b))).sum();
-        work.mean = total / (work.lanes * DRAWS) as f64;
+        work.mean = total / (work.threads * SAMPLES) as f64;
         Ok(work)
     }
 
     /// Of all runs.
     fn seconds(&self, gpu: &Gpu) -> Result<f64> {
-        let groups = u32::try_from(self.lanes / WORKGROUP).unwrap_or(u32::MAX);
+        let groups = u32::try_from(self.threads / WORKGROUP).unwrap_or(u32::MAX);
         // Powers of two.
         let across = groups.min(1 << 15);
         let begin = Instant::now();
@@ -214,13 +214,13 @@ impl<'a> Work<'a> {
         Ok(begin.elapsed().as_secs_f64())
     }
 
-    /// Of a draw.
+    /// Of a sample.
     fn nanoseconds(&self, gpu: &Gpu) -> Result<f64> {
-        Ok(1e9 * self.seconds(gpu)? / (self.lanes * self.runs * DRAWS) as f64)
+        Ok(1e9 * self.seconds(gpu)? / (self.threads * self.runs * SAMPLES) as f64)
     }
 }
 
-/// What is left where there is no adapter.
+/// The verdict where there is no adapter.
 fn without_gpu(lab: &mut Lab<'_>) -> Result<Verdict> {
     let mut table = Table::new("times", CAPTION, &HEADS);
     let nothing = || f64::NAN.into();
@@ -247,7 +247,7 @@ fn without_gpu(lab: &mut Lab<'_>) -> Result<Verdict> {
 
 fn faster(measured: String, holds: Answer) -> Claim {
     Claim::measured(
-        "The cap draws a visible normal faster than Heitz 2018",
+        "The cap samples a visible normal faster than Heitz 2018",
         "52.96 % and 39.25 % (read as 1.53 and 1.39 times)",
         measured,
         holds,
@@ -264,7 +264,7 @@ fn verdict(gpu: &Gpu, quotients: &[f64], farthest: f64) -> Verdict {
     } else {
         gpu.adapter.name.clone()
     };
-    // What software does says nothing of a GPU.
+    // Times of a software adapter are not those of a GPU.
     let of_gpu = |holds: bool| {
         if is_software {
             Answer::Undecided
@@ -284,7 +284,7 @@ fn verdict(gpu: &Gpu, quotients: &[f64], farthest: f64) -> Verdict {
                 of_gpu(low > 1.0 && high < 1.5 * low),
             ),
             Claim::law(
-                "Both draw from the same distribution",
+                "Both sample the same distribution",
                 "the same quality",
                 format!("means differ by at most {:.2} %", 100.0 * farthest),
                 farthest < 0.01,

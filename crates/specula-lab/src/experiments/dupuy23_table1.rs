@@ -1,4 +1,4 @@
-//! Dupuy and Benyoub 2023, table 1: the share of a render's time that goes into drawing directions.
+//! Dupuy and Benyoub 2023, table 1: the share of a render's time that goes into sampling directions.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -11,8 +11,8 @@ use specula_scene::scene::{
     ColourParam, ConductorFresnel, FloatParam, MaterialKind, Roughness, RoughnessMapping,
 };
 
-use super::draw_times::{self, Inputs};
 use super::room_pictures::{bathroom_room, fireplace_room, kitchen_room};
+use super::sample_times::{self, Inputs};
 use super::sampler_trials::{ALL_WAYS, Plan, Prepared, deviations_above, mean, trials};
 use super::stopwatch::median;
 use crate::output::Table;
@@ -25,39 +25,39 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     source: Source::Dupuy23,
     item: "table 1",
     title: "share of rendering time in the sampling of visible normals",
-    statement: "With all surfaces rough metal or rough glass, drawing directions takes 0.48 to 3.71 % of a \
+    statement: "With all surfaces rough metal or rough glass, sampling directions takes 0.48 to 3.71 % of a \
                 render's time with Heitz 2018 and 0.20 to 1.49 % with caps, a factor of 2.4 to 2.55; so \
                 rendering as a whole does not become much faster.",
     run,
 };
 
-/// What all surfaces of a scene are made of.
+/// The material of all surfaces of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Stuff {
     Metal,
     Glass,
 }
 
-/// One scene of one stuff and width; pairs are of Heitz 2018 and caps.
+/// One scene of one material and alpha; pairs are of Heitz 2018 and caps.
 struct Row {
     scene: &'static str,
     stuff: Stuff,
     alpha: f32,
-    draws: [f64; 2],
+    directions: [f64; 2],
     rejected: [f64; 2],
     /// Of a sample, nanoseconds.
     time: [f64; 2],
-    /// Nanoseconds of a draw, one by one.
+    /// Nanoseconds of a direction, one by one.
     scalar: [f64; 2],
-    /// Nanoseconds of a draw in batches.
+    /// Nanoseconds of a direction in batches.
     batch: [f64; 2],
-    /// By how many standard errors the shares of rejected draws differ.
+    /// By how many standard errors the shares of rejected directions differ.
     apart: f64,
 }
 
 impl Row {
-    fn share(&self, draw: [f64; 2]) -> [f64; 2] {
-        [0, 1].map(|i| self.draws[i] * draw[i] / self.time[i])
+    fn share(&self, cost: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|i| self.directions[i] * cost[i] / self.time[i])
     }
 }
 
@@ -93,8 +93,8 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         }
     }
     lab.table(table(&rows))?;
-    let caption = "Share of a render's processor time that goes into drawing directions, all surfaces rough \
-                   metal: by the cost of single draws (above) and of draws in batches (below).";
+    let caption = "Share of a render's processor time that goes into sampling directions, all surfaces rough \
+                   metal: by the cost of single directions (above) and of directions in batches (below).";
     lab.plot("shares", caption, &Figure::grid(4, panels(&rows)))?;
     Ok(verdict(&rows))
 }
@@ -121,13 +121,13 @@ fn measure(
     let prepared = Prepared::new(&scene, &ways, &plan.options)?;
     let trials = trials(lab, &prepared, &plan, shares)?;
     let samples = f64::from(plan.options.samples_per_pixel) * trials[0].picture.colour.len() as f64;
-    let [scalar, batch] = draw_costs(lab, stuff, alpha);
+    let [scalar, batch] = direction_costs(lab, stuff, alpha);
     let both = |value: &dyn Fn(usize) -> f64| [value(0), value(1)];
     Ok(Row {
         scene: name,
         stuff,
         alpha,
-        draws: both(&|i| mean(&trials[i].draws)),
+        directions: both(&|i| mean(&trials[i].directions)),
         rejected: both(&|i| mean(&trials[i].rejected)),
         time: both(&|i| 1e9 * median(trials[i].seconds.iter().copied()) / samples),
         scalar,
@@ -136,7 +136,7 @@ fn measure(
     })
 }
 
-/// The scene with all of its surfaces of one stuff.
+/// The scene with all of its surfaces of one material.
 fn made_of(scene: &Scene, stuff: Stuff, alpha: f32) -> Scene {
     let roughness = Roughness::isotropic(FloatParam::Value(alpha), RoughnessMapping::Alpha);
     let kind = match stuff {
@@ -159,40 +159,40 @@ fn made_of(scene: &Scene, stuff: Stuff, alpha: f32) -> Scene {
     scene
 }
 
-/// Nanoseconds of a draw: one by one and in batches, each by Heitz 2018 and by caps. Views are
-/// cosine-distributed. Glass draws normals, for which there are no batches: reflections stand in.
-fn draw_costs(lab: &Lab<'_>, stuff: Stuff, alpha: f32) -> [[f64; 2]; 2] {
+/// Nanoseconds of a direction: one by one and in batches, each by Heitz 2018 and by caps. Views are
+/// cosine-distributed. Glass samples normals, for which there are no batches: reflections stand in.
+fn direction_costs(lab: &Lab<'_>, stuff: Stuff, alpha: f32) -> [[f64; 2]; 2] {
     let inputs = Inputs::all_views(Alpha::isotropic(alpha), lab.seed());
     let one = |sampler| match stuff {
-        Stuff::Metal => draw_times::reflections(&inputs, sampler),
-        Stuff::Glass => draw_times::normals(&inputs, sampler),
+        Stuff::Metal => sample_times::reflections(&inputs, sampler),
+        Stuff::Glass => sample_times::normals(&inputs, sampler),
     };
     let mut runs = [
         one(Sampler::Heitz),
         one(Sampler::Cap),
-        draw_times::batch_reflections(&inputs, Sampler::Heitz),
-        draw_times::batch_reflections(&inputs, Sampler::Cap),
+        sample_times::batch_reflections(&inputs, Sampler::Heitz),
+        sample_times::batch_reflections(&inputs, Sampler::Cap),
     ];
-    let times = draw_times::medians(&mut runs, lab.pick(30, 400));
+    let times = sample_times::medians(&mut runs, lab.pick(30, 400));
     [[times[0], times[1]], [times[2], times[3]]]
 }
 
 fn table(rows: &[Row]) -> Table {
     let mut table = Table::new(
         "shares",
-        "Draws are counted in the render and timed by themselves, f32, one thread, 2048 a reading; times of \
+        "Directions are counted in the render and timed by themselves, f32, one thread, 2048 a reading; times of \
          renders: of the processor, medians, multiple importance sampling, paths of up to 8 bounces.",
         &[
             "scene",
             "all surfaces",
             "alpha",
             "sampler",
-            "draws per sample",
+            "directions per sample",
             "rejected [%]",
             "time of a sample [ns]",
-            "single draw [ns]",
-            "draw in batches [ns]",
-            "share by single draws [%]",
+            "single direction [ns]",
+            "direction in batches [ns]",
+            "share by single directions [%]",
             "share by batches [%]",
         ],
     );
@@ -207,7 +207,7 @@ fn table(rows: &[Row]) -> Table {
                 },
                 row.alpha.into(),
                 name.into(),
-                row.draws[i].into(),
+                row.directions[i].into(),
                 (100.0 * row.rejected[i]).into(),
                 row.time[i].into(),
                 row.scalar[i].into(),
@@ -267,8 +267,8 @@ fn verdict(rows: &[Row]) -> Verdict {
     let text = |[low, high]: [f64; 2]| format!("{low:.2} to {high:.2}");
     Verdict {
         summary: format!(
-            "Share of time in batches, as the renderer draws: Heitz 2018 {} %, caps {} %, a factor of {}; by \
-             the cost of single draws {} %, {} %, {}.",
+            "Share of time in batches, as the renderer samples: Heitz 2018 {} %, caps {} %, a factor of {}; by \
+             the cost of single directions {} %, {} %, {}.",
             text(heitz_batch),
             text(cap_batch),
             text(factor_batch),
@@ -278,7 +278,7 @@ fn verdict(rows: &[Row]) -> Verdict {
         ),
         claims: vec![
             Claim::law(
-                "Both samplers reject the same share of draws",
+                "Both samplers reject the same share of directions",
                 "the same distribution",
                 format!(
                     "shares apart by {:.2} percentage points and {:.1} standard errors at most",
@@ -287,10 +287,10 @@ fn verdict(rows: &[Row]) -> Verdict {
                 apart[1] < 0.5,
             ),
             Claim::measured(
-                "Drawing directions takes less than 4 % of the time",
+                "Sampling directions takes less than 4 % of the time",
                 "Heitz 2018 0.48 to 3.71 %, caps 0.20 to 1.49 %",
                 format!(
-                    "in batches {} %, {} %; single draws {} %, {} %",
+                    "in batches {} %, {} %; single directions {} %, {} %",
                     text(heitz_batch),
                     text(cap_batch),
                     text(heitz),
@@ -302,7 +302,7 @@ fn verdict(rows: &[Row]) -> Verdict {
                 "Caps take less of the time in every scene, by a factor of two at least",
                 "2.40 to 2.55",
                 format!(
-                    "in batches {}; single draws {}",
+                    "in batches {}; single directions {}",
                     text(factor_batch),
                     text(factor)
                 ),
@@ -316,9 +316,9 @@ fn verdict(rows: &[Row]) -> Verdict {
             ),
         ],
         caveat: format!(
-            "Scenes of our own. Not a sampling profiler: draws are counted in the render and timed apart, \
-             2048 at a time; a reading of the clock takes {:.0} ns, {:.3} ns of a draw. Glass draws by caps \
-             in this renderer: its row for Heitz 2018 has the caps' render and the other's cost of a draw.",
+            "Scenes of our own. Not a sampling profiler: directions are counted in the render and timed apart, \
+             2048 at a time; a reading of the clock takes {:.0} ns, {:.3} ns of a direction. Glass samples by caps \
+             in this renderer: its row for Heitz 2018 has the caps' render and the other's cost of a direction.",
             clock_cost(),
             clock_cost() / 2048.0
         ),

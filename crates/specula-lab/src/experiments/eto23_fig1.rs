@@ -47,7 +47,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         ],
     );
     let mut panels = Vec::new();
-    let mut found = Found::default();
+    let mut found = BoundExtremes::default();
     for (i, (name, alphas, xy)) in CASES.into_iter().enumerate() {
         lab.step(0.25 * i as f64, "projecting horizons")?;
         let view = View::of_xy(alphas, xy);
@@ -111,7 +111,7 @@ fn panel(
         level("bounded, as published", 2, bottoms.published),
     ];
     if ax.min(ay) > 1.0 {
-        series.push(level("bounded, unclamped (specula)", 6, bottoms.unclamped));
+        series.push(level("bounded, unclamped (Specula)", 6, bottoms.unclamped));
     }
     Panel {
         title: format!("({name}) alpha = ({ax}, {ay}), i = ({x}, {y})"),
@@ -121,8 +121,8 @@ fn panel(
     }
 }
 
-/// What the bounds say, over all panels.
-struct Found {
+/// Extremes of the bounds, over all panels.
+struct BoundExtremes {
     /// Largest difference of eq. 1 from its definition at pi/2 and at the printed 2/pi.
     differences: [f64; 2],
     /// Smallest distance of the horizon above the bounded cap, as published and unclamped.
@@ -133,7 +133,7 @@ struct Found {
     wide: [f64; 3],
 }
 
-impl Default for Found {
+impl Default for BoundExtremes {
     fn default() -> Self {
         Self {
             differences: [0.0; 2],
@@ -144,7 +144,7 @@ impl Default for Found {
     }
 }
 
-impl Found {
+impl BoundExtremes {
     fn compare_definition(&mut self, view: &View, phi: f64, height: f64) {
         for (largest, theta) in self.differences.iter_mut().zip([FRAC_PI_2, FRAC_2_PI]) {
             *largest = largest.max((view.projected_height(theta, phi) - height).abs());
@@ -171,7 +171,7 @@ impl Found {
         Verdict {
             summary: format!(
                 "The bounded cap lies between the cap and the horizon in all four panels; in (d) the \
-                 published bound is {published:.2} where the horizon's lowest is {lowest:.3}, and specula \
+                 published bound is {published:.2} where the horizon's lowest is {lowest:.3}, and that of Specula \
                  without the clamp {unclamped:.3}."
             ),
             claims: vec![
@@ -203,7 +203,7 @@ impl Found {
                     published.abs() < 1e-12 && lowest > 0.05,
                 ),
                 Claim::law(
-                    "StratifiedBidirectional without the clamp stays below the horizon and is tighter there",
+                    "Specula's bound without the clamp stays below the horizon and is tighter there",
                     "not in the paper",
                     format!(
                         "at least {:.1e} below it; {unclamped:.3} in (d)",

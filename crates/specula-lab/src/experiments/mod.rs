@@ -17,7 +17,6 @@ mod cui23_renders;
 mod cui23_segment_terms;
 mod cui23_supplement_fig1;
 mod cui23_walks;
-mod draw_times;
 mod dupuy23_cpu_benchmark;
 mod dupuy23_fig1;
 mod dupuy23_gpu_benchmark;
@@ -25,6 +24,7 @@ mod dupuy23_table1;
 mod eto23_fig1;
 mod orb_render;
 mod room_pictures;
+mod sample_times;
 mod sampler_trials;
 mod specula_equal_time;
 mod specula_furnace;
@@ -81,12 +81,12 @@ pub const ALL: &[Experiment] = &[
     specula_equal_time::EXPERIMENT,
 ];
 
-/// Those that are named, in the order of [`ALL`]; all where none is. A name ending in `*` stands for all
+/// The experiments of these names, in the order of [`ALL`]; all where none is given. A name ending in `*` stands for all
 /// that begin with what is before.
 ///
 /// # Errors
 ///
-/// Where a name is nobody's.
+/// Where no experiment has a name.
 pub fn named(names: &[String]) -> Result<Vec<&'static Experiment>> {
     for name in names {
         if !ALL.iter().any(|e| is_named(e, name)) {

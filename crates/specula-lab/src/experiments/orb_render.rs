@@ -15,14 +15,14 @@ pub(super) const SAMPLERS: [(Sampler, &str, usize); 3] = [
     (Sampler::Exact, "exact", 1),
 ];
 
-/// Longest paths: as good as endless within an orb.
+/// Longest paths: practically unlimited within an orb.
 const DEPTH: u32 = 32;
 /// Side of a square within an orb's outline, in sides of the orb's own square.
 const WITHIN: f64 = 0.6;
 /// Exposure of pictures in stops: silver in bright light.
 pub(super) const EXPOSURE_STOPS: f32 = -0.7;
 
-/// A render by the sampler's directions alone, without those of the light, so that its weights show.
+/// A render that samples lobes only, not lights, so that the weights of the sampler show.
 pub(super) fn by_sampler(
     lab: &Lab<'_>,
     scene: &Scene,
@@ -43,7 +43,7 @@ pub(super) fn by_sampler(
     lab.render(scene, &options)
 }
 
-/// What all samplers converge to: the exact sampler with the light's directions too, other numbers.
+/// The reference: the exact sampler and light sampling, with another seed.
 pub(super) fn reference(lab: &Lab<'_>, scene: &Scene, energy: Energy, spp: u32) -> Result<Picture> {
     let options = RenderOptions {
         samples_per_pixel: spp,

@@ -1,5 +1,5 @@
 //! Rooms rendered by cap, bounded and exact sampler with the same number of samples: pictures with
-//! insets, rows of a table, and what the figures of Tokuyoshi and Eto 2024 say of them.
+//! insets, rows of a table, for the figures of Tokuyoshi and Eto 2024.
 
 use specula_render::picture::Picture;
 use specula_render::{RenderOptions, Strategy};
@@ -8,12 +8,12 @@ use specula_scene::Scene;
 use super::sampler_trials::{
     CAP_BOUNDED_EXACT, Plan, Prepared, Reference, TURQUIN, Trial, deviations_above, mean, trials,
 };
-use crate::output::{Comparison, Inset, Shot, Table};
+use crate::output::{Inset, PictureComparison, Shot, Table};
 use crate::scenes::orbs::{self, Tessellation};
 use crate::scenes::{bathroom, interior, kitchen};
 use crate::{Errors, Lab, Result, errors};
 
-/// A room and what to look at in it.
+/// A room and its insets.
 pub(super) struct Room {
     pub(super) name: &'static str,
     pub(super) scene: Scene,
@@ -89,8 +89,8 @@ impl Budget {
     }
 }
 
-/// What a sampler did in a room.
-pub(super) struct Found {
+/// The result of a sampler in a room.
+pub(super) struct RoomResult {
     pub(super) trial: Trial,
     /// See [`Trial::rmse`].
     pub(super) rmse: f64,
@@ -128,7 +128,7 @@ pub(super) fn render_room(
     strategy: Strategy,
     reference: &Reference,
     shares: [f64; 2],
-) -> Result<Vec<Found>> {
+) -> Result<Vec<RoomResult>> {
     let plan = Plan {
         options: budget.options(strategy),
         rounds: budget.rounds,
@@ -141,7 +141,7 @@ pub(super) fn render_room(
             let errors = errors(&reference.picture, &trial.picture)?;
             let rmse = trial.rmse(reference);
             let outlier = outlier(&reference.picture, &trial.picture);
-            Ok(Found {
+            Ok(RoomResult {
                 trial,
                 rmse,
                 outlier,
@@ -157,7 +157,7 @@ pub(super) fn show(
     room: &Room,
     budget: &Budget,
     caption: &str,
-    found: &[Found],
+    found: &[RoomResult],
     reference: &Reference,
 ) -> Result<()> {
     let inset = |[x, y, width, height]: [u32; 4]| {
@@ -169,7 +169,7 @@ pub(super) fn show(
             height,
         }
     };
-    let shot = |f: &'_ Found| {
+    let shot = |f: &'_ RoomResult| {
         format!(
             "{} spp, RMSE {:.4}, {:.1} s of processor time",
             budget.all_samples(),
@@ -184,7 +184,7 @@ pub(super) fn show(
             note: shot(f),
         })
         .collect();
-    lab.comparison(&Comparison {
+    lab.comparison(&PictureComparison {
         name: &room.name.replace(' ', "-"),
         caption,
         shots,
@@ -229,14 +229,14 @@ pub(super) fn add_rows(
     room: &Room,
     budget: &Budget,
     strategy: Strategy,
-    found: &[Found],
+    found: &[RoomResult],
     reference: &Reference,
 ) {
     let Some(first) = found.first() else {
         return;
     };
     let cap = &first.trial;
-    for Found {
+    for RoomResult {
         trial,
         rmse,
         outlier,

@@ -47,7 +47,7 @@ pub(super) const ALL_WAYS: [Way; 4] = [
     way("heitz", Sampler::Heitz, 6),
 ];
 
-/// What is rendered by each sampler.
+/// Options of the renders by each sampler.
 pub(super) struct Plan {
     /// But for sampler and seed.
     pub(super) options: RenderOptions,
@@ -55,7 +55,7 @@ pub(super) struct Plan {
     pub(super) rounds: u32,
 }
 
-/// What a sampler left.
+/// The results of a sampler.
 pub(super) struct Trial {
     pub(super) way: Way,
     /// The mean of all rounds, with its estimated variance.
@@ -70,7 +70,7 @@ pub(super) struct Trial {
     /// Rays of a sample, a value per round.
     pub(super) rays: Vec<f64>,
     /// Directions sampled for a sample, a value per round.
-    pub(super) draws: Vec<f64>,
+    pub(super) directions: Vec<f64>,
     /// Share of them that was rejected, a value per round.
     pub(super) rejected: Vec<f64>,
     /// Of an even round, until that of the next.
@@ -110,7 +110,7 @@ impl Trial {
             squares: Vec::new(),
             seconds: Vec::new(),
             rays: Vec::new(),
-            draws: Vec::new(),
+            directions: Vec::new(),
             rejected: Vec::new(),
             waiting: None,
         }
@@ -182,7 +182,7 @@ pub(super) fn reference(
     Ok(Reference { picture, square })
 }
 
-/// A scene made ready for each of several samplers.
+/// A scene that is prepared for each of several samplers.
 pub(super) struct Prepared(Vec<(Way, PreparedScene)>);
 
 impl Prepared {
@@ -234,14 +234,14 @@ pub(super) fn trials(
             trial.seconds.push(seconds);
             trial.rays.push(rendered.rays as f64 / samples);
             let sampled = rendered.scattered.sampled as f64;
-            trial.draws.push(sampled / samples);
+            trial.directions.push(sampled / samples);
             trial.rejected.push(rendered.scattered.rejected_share());
         }
     }
     Ok(trials)
 }
 
-/// Mean over pixels and channels of what a render says of its own variance.
+/// Mean over pixels and channels of a render's estimate of its variance.
 fn mean_variance(picture: &Picture) -> f64 {
     let sum: f64 = (picture.variance.iter().flat_map(|c| c.to_array()))
         .map(f64::from)

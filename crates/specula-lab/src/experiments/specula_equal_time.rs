@@ -1,4 +1,4 @@
-//! StratifiedBidirectional: variance times processor time of all samplers, in rooms and on orbs, with and without
+//! Specula: variance times processor time of all samplers, in rooms and on orbs, with and without
 //! compensation.
 
 use specula_render::RenderOptions;
@@ -220,7 +220,7 @@ fn verdict(rows: &[Row]) -> Verdict {
                 plain.iter().all(|p| p.1 < 1.0),
             ),
             Claim::measured(
-                "Caps and Heitz 2018 take the same time, since draws are a small part of it",
+                "Caps and Heitz 2018 take the same time, since sampling directions is a small part of it",
                 "within 3 %: time of Heitz 2018 over the cap's",
                 text(&heitz),
                 heitz.iter().all(|h| (h.1 - 1.0).abs() < 0.03),

@@ -1,4 +1,4 @@
-//! StratifiedBidirectional: directional albedo of every treatment of multiple scattering, over alphas and views.
+//! Specula: directional albedo of every treatment of multiple scattering, over alphas and views.
 
 use std::sync::atomic::Ordering;
 
@@ -29,14 +29,14 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
-/// How multiple scattering is treated.
+/// Treatments of multiple scattering.
 #[derive(Clone, Copy)]
 enum Treatment {
     None,
     Compensated(energy::EnergyModel),
-    /// By the model's own draws.
+    /// By the model's own samples.
     Walked(multibounce::MultibounceModel),
-    /// By the model's values at directions of a normalised density: where draws follow another law than
+    /// By the model's values at directions of a normalised density, where samples follow another law than
     /// values do.
     Evaluated(multibounce::MultibounceModel),
 }
@@ -135,7 +135,7 @@ fn r3(i: u32) -> [f64; 3] {
     steps.map(|step| (0.5 + f64::from(i) * step).fract())
 }
 
-/// Mean weight of so many draws.
+/// Mean weight of so many samples.
 fn albedo(
     treatment: Treatment,
     reflectance: Reflectance<f64>,
@@ -282,7 +282,7 @@ fn verdict(white: &Cells, gold: &Cells, loss: f64) -> Verdict {
                 worst < 0.03,
             ),
             Claim::law(
-                "Simulated bounces by specula lose nothing of a white metal",
+                "Simulated bounces by Specula lose nothing of a white metal",
                 "weight 1, every walk",
                 format!("{:.0e} away at most", from_one(SPECULA)),
                 from_one(SPECULA) < 1e-6,
@@ -300,7 +300,7 @@ fn verdict(white: &Cells, gold: &Cells, loss: f64) -> Verdict {
                 [1, 2, 3].into_iter().all(|i| from_specula(i) < 0.6 * from_specula(NONE)),
             ),
         ],
-        caveat: "Means of draws: the maps carry their noise, largest for Kulla and Conty's and the walks."
+        caveat: "Means of samples: the maps carry their noise, largest for Kulla and Conty's and the walks."
             .to_owned(),
     }
 }

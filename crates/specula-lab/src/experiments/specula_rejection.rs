@@ -1,4 +1,4 @@
-//! StratifiedBidirectional: the share of reflections that each sampler rejects, over alphas and views.
+//! Specula: the share of reflections that each sampler rejects, over alphas and views.
 
 use specula_bsdf::math::Stream;
 use specula_bsdf::ndf::Ggx;
@@ -44,10 +44,10 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     write(lab, "isotropic", Axes::Angles, &isotropic)?;
     write(lab, "anisotropic", Axes::Alphas, &anisotropic)?;
 
-    lab.step(0.5, "drawing reflections")?;
-    let draws = lab.pick(20_000, 500_000);
-    let sampled = sampled(lab.seed(), draws);
-    let below = exact_below(lab.seed(), 20 * draws);
+    lab.step(0.5, "sampling reflections")?;
+    let samples = lab.pick(20_000, 500_000);
+    let sampled = sampled(lab.seed(), samples);
+    let below = exact_below(lab.seed(), 20 * samples);
     lab.step(0.9, "comparing means")?;
     let many = view_grid::hemisphere(4096);
     let means = STATED.map(|(alphas, stated)| (alphas, stated, mean(of(alphas), &many)));
@@ -144,7 +144,7 @@ fn write(lab: &mut Lab<'_>, name: &str, axes: Axes, cells: &[Vec<Shares>]) -> Re
 }
 
 /// Largest distance of sampled shares from the closed form in standard errors, and how many were compared.
-fn sampled(seed: u64, draws: u32) -> (f64, usize) {
+fn sampled(seed: u64, samples: u32) -> (f64, usize) {
     let mut stream = Stream::new(seed);
     let mut scores = Vec::new();
     for alphas in [(0.4, 0.4), (0.9, 0.9), (0.2, 0.8), (1.0, 0.5)] {
@@ -152,13 +152,13 @@ fn sampled(seed: u64, draws: u32) -> (f64, usize) {
             let (alpha, wo) = (of(alphas), view(theta, 40.0));
             let [cap, bounded, _] = shares(alpha, wo);
             for (sampler, share) in [(Sampler::Cap, cap), (Sampler::Bounded, bounded)] {
-                let below = (0..draws).filter(|_| {
+                let below = (0..samples).filter(|_| {
                     let u = [stream.next(), stream.next()];
                     Ggx::new(alpha).sample_reflection(sampler, wo, u).z <= 0.0
                 });
-                let (n, p) = (f64::from(draws), share / 100.0);
+                let (n, p) = (f64::from(samples), share / 100.0);
                 let counted = below.count() as f64;
-                // Half a draw more, where the share is nearly 0.
+                // Half a sample more, where the share is nearly 0.
                 let error = (n * p * (1.0 - p)).sqrt() + 0.5;
                 scores.push((counted - n * p).abs() / error);
             }
@@ -167,18 +167,18 @@ fn sampled(seed: u64, draws: u32) -> (f64, usize) {
     (scores.iter().copied().fold(0.0, f64::max), scores.len())
 }
 
-/// How many of `draws` reflections in `f32` the exact sampler leaves below the surface, per million.
-fn exact_below(seed: u64, draws: u32) -> f64 {
+/// How many of `samples` reflections in `f32` the exact sampler leaves below the surface, per million.
+fn exact_below(seed: u64, samples: u32) -> f64 {
     let mut stream = Stream::new(seed);
     let mut below = 0_u32;
-    for _ in 0..draws {
+    for _ in 0..samples {
         let alpha = Alpha::clamped(stream.next::<f32>(), stream.next());
         let wo = specula_bsdf::math::warp::cosine_hemisphere([stream.next(), stream.next()]);
         let u = [stream.next(), stream.next()];
         let wi = vndf::exact::sample_direction(alpha, wo, u);
         below += u32::from(wi.z <= 0.0);
     }
-    1e6 * f64::from(below) / f64::from(draws)
+    1e6 * f64::from(below) / f64::from(samples)
 }
 
 fn verdict(

@@ -1,4 +1,4 @@
-//! StratifiedBidirectional: variance of one reflection's weight times the light, relative to the cap's.
+//! Specula: variance of one reflection's weight times the light, relative to the cap's.
 
 use rayon::prelude::*;
 use specula_bsdf::math::Stream;
@@ -49,7 +49,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     let anisotropic = over(side, |y, x| mean(Alpha::clamped(x, y), &views, points));
     write(lab, "isotropic", Axes::Angles, &isotropic)?;
     write(lab, "anisotropic", Axes::Alphas, &anisotropic)?;
-    lab.step(0.8, "drawing weights")?;
+    lab.step(0.8, "sampling weights")?;
     let score = sampled(lab.seed(), lab.pick(40_000, 1_000_000));
     Ok(verdict(&isotropic, &anisotropic, score))
 }
@@ -160,7 +160,7 @@ fn write(lab: &mut Lab<'_>, name: &str, axes: Axes, cells: &[Vec<Ratios>]) -> Re
 
 /// Largest distance of sampled second moments from `N / N_exact` times the exact sampler's, in standard
 /// errors.
-fn sampled(seed: u64, draws: u32) -> f64 {
+fn sampled(seed: u64, samples: u32) -> f64 {
     let mut stream = Stream::new(seed);
     let mut farthest: f64 = 0.0;
     for (alpha, theta) in [
@@ -174,7 +174,7 @@ fn sampled(seed: u64, draws: u32) -> f64 {
         for sampler in SAMPLERS {
             let norm = ggx.reflection_norm(sampler, wo);
             let (mut sum, mut squares) = (0.0, 0.0);
-            for _ in 0..draws {
+            for _ in 0..samples {
                 let wi = ggx.sample_reflection(sampler, wo, [stream.next(), stream.next()]);
                 if wi.z > 0.0 {
                     let weight = norm * ggx.g2_over_cos(Masking::HeightCorrelated, wo, wi);
@@ -183,7 +183,7 @@ fn sampled(seed: u64, draws: u32) -> f64 {
                     squares += square * square;
                 }
             }
-            let n = f64::from(draws);
+            let n = f64::from(samples);
             let mean = sum / n;
             let error = ((squares / n - mean * mean) / n).sqrt();
             farthest = farthest.max((mean - expected * norm / exact).abs() / error);

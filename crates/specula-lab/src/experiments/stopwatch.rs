@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 use std::time::Instant;
 
-/// Processor time of all threads of the program so far, in seconds. Where the system does not tell
+/// Processor time of all threads of the program so far, in seconds. Where the system does not report it
 /// (elsewhere than on Linux): the time on the wall.
 pub(super) fn processor_seconds() -> f64 {
     static BEGIN: OnceLock<Instant> = OnceLock::new();

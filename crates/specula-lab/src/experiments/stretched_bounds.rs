@@ -9,7 +9,7 @@ use specula_bsdf::ndf::Ggx;
 use specula_bsdf::vndf::Sampler;
 use specula_bsdf::{Alpha, Vec3};
 
-/// A view of a rough surface, and the azimuths at which it is asked about.
+/// A view of a rough surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
     /// Alphas.
@@ -54,7 +54,7 @@ impl View {
         1.0 - 2.0 * Ggx::new(self.alpha).reflection_norm(sampler, self.wo) / self.length()
     }
 
-    /// The same of the bounded cap as published, with eq. 7's clamp of the width at 1.
+    /// The same of the bounded cap as published, with eq. 7's clamp of alpha at 1.
     ///
     /// Source: Tokuyoshi and Eto 2024, eqs. 6 and 7.
     pub(super) fn published_bottom(&self) -> f64 {

@@ -3,7 +3,7 @@
 use specula_render::Strategy;
 
 use super::room_pictures::{
-    Budget, Found, add_rows, fireplace_room, kitchen_room, render_room, show, table,
+    Budget, RoomResult, add_rows, fireplace_room, kitchen_room, render_room, show, table,
 };
 use super::sampler_trials::{deviations_above, mean, reference};
 use crate::{Answer, Claim, Experiment, Lab, Result, Source, Verdict};
@@ -52,8 +52,8 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     Ok(verdict(&all))
 }
 
-fn verdict(all: &[(&str, Vec<Found>)]) -> Verdict {
-    let each = |value: &dyn Fn(&[Found]) -> String| -> String {
+fn verdict(all: &[(&str, Vec<RoomResult>)]) -> Verdict {
+    let each = |value: &dyn Fn(&[RoomResult]) -> String| -> String {
         (all.iter())
             .map(|(name, found)| format!("{name}: {}", value(found)))
             .collect::<Vec<_>>()
@@ -63,16 +63,18 @@ fn verdict(all: &[(&str, Vec<Found>)]) -> Verdict {
         let [cap, bounded, exact] = [0, 1, 2].map(|i| f[i].rmse);
         format!("cap {cap:.4}, bounded {bounded:.4}, exact {exact:.4}")
     });
-    let below = |f: &[Found], i: usize, j: usize| {
+    let below = |f: &[RoomResult], i: usize, j: usize| {
         deviations_above(&f[i].trial.variance, &f[j].trial.variance)
     };
     let rays = each(&|f| {
         let [cap, bounded, exact] = [0, 1, 2].map(|i| mean(&f[i].trial.rays));
         format!("cap {cap:.3}, bounded {bounded:.3}, exact {exact:.3}")
     });
-    let longer = |f: &[Found], i: usize, j: usize| mean(&f[i].trial.rays) > mean(&f[j].trial.rays);
-    let less =
-        |f: &[Found], i: usize, j: usize| mean(&f[i].trial.variance) > mean(&f[j].trial.variance);
+    let longer =
+        |f: &[RoomResult], i: usize, j: usize| mean(&f[i].trial.rays) > mean(&f[j].trial.rays);
+    let less = |f: &[RoomResult], i: usize, j: usize| {
+        mean(&f[i].trial.variance) > mean(&f[j].trial.variance)
+    };
     Verdict {
         summary: format!("RMSE at equal samples: {rmse}."),
         claims: vec![

@@ -10,7 +10,7 @@ use super::orb_render::{
 };
 use super::tokuyoshi24_fig4::{ALPHAS, insets};
 use crate::output::comparison::file_name;
-use crate::output::{Comparison, Shot, Table};
+use crate::output::{PictureComparison, Shot, Table};
 use crate::plot::{Axis, Content, Figure, Panel, Series};
 use crate::scenes::orbs::{self, Tessellation};
 use crate::{Claim, Experiment, Lab, Result, Source, Verdict};
@@ -34,16 +34,16 @@ const CAP: usize = 0;
 const BOUNDED: usize = 1;
 const EXACT: usize = 2;
 
-/// What was found of a sampler, by orb and render.
+/// Errors of a sampler, by orb and render.
 #[derive(Default)]
-struct Found {
+struct SamplerErrors {
     /// Mean squared errors.
     squares: [Vec<f64>; ALPHAS.len()],
     /// Fireflies per million pixels.
     fireflies: [Vec<f64>; ALPHAS.len()],
 }
 
-impl Found {
+impl SamplerErrors {
     fn rmse(&self, orb: usize) -> f64 {
         mean_and_error(&self.squares[orb]).0.sqrt()
     }
@@ -108,11 +108,11 @@ fn measure(
     (name, energy): (&str, Energy),
     truth: &Picture,
     (spp, renders): (u32, u32),
-) -> Result<Vec<Found>> {
+) -> Result<Vec<SamplerErrors>> {
     let mut found = Vec::new();
     let mut first = Vec::new();
     for (sampler, sampler_name, _) in SAMPLERS {
-        let mut of = Found::default();
+        let mut of = SamplerErrors::default();
         for number in 0..renders {
             lab.step(0.5, &format!("{sampler_name}, {name}"))?;
             let shot = by_sampler(lab, scene, sampler, energy, spp, number)?;
@@ -131,7 +131,7 @@ fn measure(
         picture: &shot.picture,
         note: format!("{spp} spp, {:.1} s", shot.seconds),
     });
-    lab.comparison(&Comparison {
+    lab.comparison(&PictureComparison {
         name: &format!("orbs-{}", file_name(name)),
         caption: &format!("Orbs of silver, alpha 0.2 to 1 from left to right; {name}."),
         shots: shots.collect(),
@@ -142,8 +142,8 @@ fn measure(
     Ok(found)
 }
 
-fn plot(lab: &mut Lab<'_>, found: &[Vec<Found>]) -> Result<()> {
-    type Pick = fn(&Found, usize) -> f64;
+fn plot(lab: &mut Lab<'_>, found: &[Vec<SamplerErrors>]) -> Result<()> {
+    type Pick = fn(&SamplerErrors, usize) -> f64;
     let all = || {
         let found = found.iter().flatten();
         found.flat_map(|f| (0..ALPHAS.len()).map(move |orb| (f, orb)))
@@ -157,7 +157,7 @@ fn plot(lab: &mut Lab<'_>, found: &[Vec<Found>]) -> Result<()> {
     let kinds: [(Axis, Pick); 2] = [
         (
             Axis::logarithmic("RMSE").from_to(0.8 * least, 1.25 * greatest),
-            Found::rmse,
+            SamplerErrors::rmse,
         ),
         (
             Axis::linear("fireflies [1/million pixels]").from_to(0.0, 1.1 * most),
@@ -180,11 +180,11 @@ fn plot(lab: &mut Lab<'_>, found: &[Vec<Found>]) -> Result<()> {
             });
         }
     }
-    let caption = "Error and fireflies over the width of the orb.";
+    let caption = "Error and fireflies over the alpha of the orbs.";
     lab.plot("over-alpha", caption, &Figure::grid(2, panels))
 }
 
-fn verdict(found: &[Vec<Found>], spp: u32) -> Verdict {
+fn verdict(found: &[Vec<SamplerErrors>], spp: u32) -> Verdict {
     let last = ALPHAS.len() - 1;
     let ratio = |model: usize, sampler: usize, orb: usize| {
         found[model][sampler].rmse(orb) / found[model][CAP].rmse(orb)

@@ -52,7 +52,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         ],
     );
     let mut panels = Vec::new();
-    let mut found = Found::default();
+    let mut found = BoundaryExtremes::default();
     for (i, (alphas, theta, phi)) in CASES.into_iter().enumerate() {
         lab.step(i as f64 / CASES.len() as f64, "tracing boundaries")?;
         let view = View::of_angles(alphas, theta, phi);
@@ -168,7 +168,7 @@ fn panel(
     ];
     if ax.min(ay) > 1.0 {
         let bottom = view.cap_bottom(Sampler::Bounded);
-        series.push(level("bounded, unclamped (specula)", 6, bottom));
+        series.push(level("bounded, unclamped (Specula)", 6, bottom));
     }
     Panel {
         title: format!("alpha = ({ax}, {ay}), theta = {theta} deg, phi = {phi} deg"),
@@ -178,14 +178,14 @@ fn panel(
     }
 }
 
-/// What the solid angles say, over all views.
+/// Extremes over all views.
 #[derive(Default)]
-struct Found {
+struct BoundaryExtremes {
     /// Largest relative difference of the closed form from the traced boundary.
     difference: f64,
     /// Largest part of the exact region below the published bound, in height.
     below: f64,
-    /// Largest distance of the lowest of an isotropic boundary from the bound, width at most 1.
+    /// Largest distance of the lowest of an isotropic boundary from the bound, alpha at most 1.
     loose: f64,
     /// Sums of cap, bounded, exact.
     sums: [f64; 3],
@@ -193,7 +193,7 @@ struct Found {
     not_smaller: u32,
 }
 
-impl Found {
+impl BoundaryExtremes {
     fn add(&mut self, angles: &Angles, boundary: &[[f64; 2]], view: &View, is_isotropic: bool) {
         let lowest = boundary.iter().map(|p| p[1]).fold(f64::INFINITY, f64::min);
         let bottom = view.published_bottom();

@@ -8,7 +8,7 @@ use specula_render::picture::Picture;
 use specula_scene::Energy;
 
 use super::orb_render::{EXPOSURE_STOPS, by_sampler, errors_by_orb, own_error, reference, square};
-use crate::output::{Comparison, Inset, Shot, Table};
+use crate::output::{Inset, PictureComparison, Shot, Table};
 use crate::plot::{Axis, Content, Figure, Panel, Series};
 use crate::scenes::orbs::{self, Tessellation};
 use crate::{Claim, Experiment, Lab, Result, Source, Verdict};
@@ -41,7 +41,7 @@ const TREATMENTS: [(&str, Energy, usize); 4] = [
         0,
     ),
     (
-        "simulated bounces (specula)",
+        "simulated bounces (Specula)",
         Energy::Multibounce(multibounce::MultibounceModel::StratifiedBidirectional),
         1,
     ),
@@ -49,8 +49,8 @@ const TREATMENTS: [(&str, Energy, usize); 4] = [
 const NONE: usize = 0;
 const SPECULA: usize = 3;
 
-/// What was found of a treatment, by orb.
-struct Found {
+/// The result of a treatment, by orb.
+struct TreatmentResult {
     /// Mean of the reference within the orb.
     brightness: Vec<f64>,
     /// Of the cap's picture.
@@ -82,7 +82,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         lab.step(0.25 * i as f64, &format!("reference, {name}"))?;
         let truth = reference(lab, &scene, energy, reference_spp)?;
         lab.step(0.25 * i as f64 + 0.2, &format!("cap, {name}"))?;
-        let mut of = Found {
+        let mut of = TreatmentResult {
             brightness: (0..)
                 .zip(ALPHAS)
                 .map(|(orb, _)| brightness(&truth, orb))
@@ -139,7 +139,7 @@ fn compare(
     picture: &Picture,
     note: String,
 ) -> Result<()> {
-    lab.comparison(&Comparison {
+    lab.comparison(&PictureComparison {
         name: &format!("orbs-{}", crate::output::comparison::file_name(name)),
         caption: &format!("Orbs of silver, alpha 0.2 to 1 from left to right; {name}."),
         shots: vec![Shot {
@@ -167,8 +167,8 @@ pub(super) fn insets(side: u32) -> Vec<Inset> {
         .collect()
 }
 
-fn plot(lab: &mut Lab<'_>, found: &[Found]) -> Result<()> {
-    type Pick = fn(&Found) -> &[f64];
+fn plot(lab: &mut Lab<'_>, found: &[TreatmentResult]) -> Result<()> {
+    type Pick = fn(&TreatmentResult) -> &[f64];
     let kinds: [(&str, &str, Pick); 3] = [
         ("brightness of the reference", "mean luminance", |f| {
             &f.brightness
@@ -200,7 +200,7 @@ fn plot(lab: &mut Lab<'_>, found: &[Found]) -> Result<()> {
     lab.plot("over-alpha", caption, &Figure::grid(3, panels))
 }
 
-fn verdict(found: &[Found]) -> Verdict {
+fn verdict(found: &[TreatmentResult]) -> Verdict {
     let last = ALPHAS.len() - 1;
     let kept = |i: usize| found[i].brightness[last] / found[SPECULA].brightness[last];
     let of_first = found[NONE].brightness[0] / found[SPECULA].brightness[0];

@@ -58,7 +58,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         ],
     );
     let mut panels = Vec::new();
-    let mut found = Found::default();
+    let mut found = DensityExtremes::default();
     for alpha in ALPHAS {
         lab.step(0.3 * alpha, "evaluating lobes")?;
         let mut lines: [Vec<[f64; 2]>; 6] = Default::default();
@@ -126,9 +126,9 @@ fn values(alpha: f64, theta: f64) -> Values {
     ]
 }
 
-/// What the values say, over all alphas and angles.
+/// Extremes over all alphas and angles.
 #[derive(Default)]
-struct Found {
+struct DensityExtremes {
     /// Largest excess of the single-scattering lobe over the cap's density, relative.
     over_cap: f64,
     /// Largest quotient of Turquin's lobe and each density: cap, bounded, exact.
@@ -139,7 +139,7 @@ struct Found {
     distances: [f64; 3],
 }
 
-impl Found {
+impl DensityExtremes {
     fn add(&mut self, values: &Values) {
         let [single, turquin, _, cap, bounded, exact] = *values;
         if cap <= 0.0 {

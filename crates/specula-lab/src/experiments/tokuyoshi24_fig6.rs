@@ -5,7 +5,7 @@ use specula_render::picture::Picture;
 
 use super::coarse_orb::{self, ENERGY, SPP, backfacing_share, black_pixels, squares_by_stripe};
 use super::orb_render::{EXPOSURE_STOPS, SAMPLERS, mean_and_error, own_error, reference};
-use crate::output::{Comparison, Inset, Shot, Table};
+use crate::output::{Inset, PictureComparison, Shot, Table};
 use crate::plot::{Axis, Content, Figure, Panel, Series};
 use crate::{Claim, Experiment, Lab, Result, Source, Verdict, errors};
 
@@ -20,7 +20,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
-/// isotropic alpha, then unequal ones.
+/// Equal alphas, then unequal ones.
 const ALPHAS: [(f64, f64); 7] = [
     (0.2, 0.2),
     (0.4, 0.4),
@@ -33,8 +33,8 @@ const ALPHAS: [(f64, f64); 7] = [
 /// Those that are shown as pictures.
 const SHOWN: [(f64, f64); 4] = [(0.2, 0.2), (0.8, 0.8), (0.8, 0.4), (0.8, 0.1)];
 
-/// What was found of a pair of alphas.
-struct Found {
+/// Errors for a pair of alphas.
+struct AlphaErrors {
     /// Cap, bounded, exact.
     rmse: [f64; 3],
     /// Over the cap's: bounded, exact, each with its standard error.
@@ -71,7 +71,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
         for (sum, pictures) in black.iter_mut().zip(&renders) {
             *sum += pictures.iter().map(black_pixels).sum::<u32>();
         }
-        let of = Found::of(&renders);
+        let of = AlphaErrors::of(&renders);
         for (k, (_, name, _)) in SAMPLERS.into_iter().enumerate() {
             let (ratio, error) = if k == 0 { (1.0, 0.0) } else { of.ratios[k - 1] };
             table.push([
@@ -97,7 +97,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     Ok(verdict(&found, backfacing, black))
 }
 
-impl Found {
+impl AlphaErrors {
     /// * `renders`: of cap, bounded, exact.
     fn of(renders: &[Vec<Picture>]) -> Self {
         let rmse = [0, 1, 2].map(|k| coarse_orb::rmse(&renders[k]));
@@ -137,7 +137,7 @@ fn compare(
         width: side / 5,
         height: side / 5,
     };
-    lab.comparison(&Comparison {
+    lab.comparison(&PictureComparison {
         name: &format!("orb-{ax}-{ay}"),
         caption: &format!(
             "An orb of silver, alpha ({ax}, {ay}), Turquin's compensation; the reference's own RMSE is \
@@ -152,7 +152,7 @@ fn compare(
     Ok(())
 }
 
-fn plot(lab: &mut Lab<'_>, found: &[Found]) -> Result<()> {
+fn plot(lab: &mut Lab<'_>, found: &[AlphaErrors]) -> Result<()> {
     let panel = |title: &str, x: &str, pick: fn((f64, f64)) -> Option<f64>| {
         let series = SAMPLERS.iter().enumerate().map(|(k, &(_, name, style))| {
             let points = ALPHAS.iter().zip(found);
@@ -175,7 +175,11 @@ fn plot(lab: &mut Lab<'_>, found: &[Found]) -> Result<()> {
     lab.plot("errors", caption, &Figure::grid(2, panels))
 }
 
-fn verdict(found: &[Found], backfacing: f64, [cap, bounded, exact, truth]: [u32; 4]) -> Verdict {
+fn verdict(
+    found: &[AlphaErrors],
+    backfacing: f64,
+    [cap, bounded, exact, truth]: [u32; 4],
+) -> Verdict {
     let at = |alphas: (f64, f64), k: usize| {
         let place = ALPHAS.iter().position(|&w| w == alphas);
         place.map_or((f64::NAN, f64::NAN), |i| found[i].ratios[k])

@@ -2,7 +2,9 @@
 
 use specula_render::Strategy;
 
-use super::room_pictures::{Budget, Found, add_rows, fireplace_room, render_room, show, table};
+use super::room_pictures::{
+    Budget, RoomResult, add_rows, fireplace_room, render_room, show, table,
+};
 use super::sampler_trials::{deviations_above, mean, reference};
 use crate::{Answer, Claim, Experiment, Lab, Result, Source, Verdict};
 
@@ -28,7 +30,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     let options = budget.options(Strategy::Mis);
     let reference = reference(lab, &room.scene, &options, budget.reference_samples, 0.0)?;
     let mut table = table();
-    let mut render = |strategy, shares| -> Result<Vec<Found>> {
+    let mut render = |strategy, shares| -> Result<Vec<RoomResult>> {
         let found = render_room(lab, &room, &budget, strategy, &reference, shares)?;
         add_rows(&mut table, &room, &budget, strategy, &found, &reference);
         Ok(found)
@@ -41,12 +43,13 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     Ok(verdict(&mis, &plain))
 }
 
-fn verdict(mis: &[Found], plain: &[Found]) -> Verdict {
-    let rmse = |found: &[Found]| [0, 1, 2].map(|i| found[i].rmse);
+fn verdict(mis: &[RoomResult], plain: &[RoomResult]) -> Verdict {
+    let rmse = |found: &[RoomResult]| [0, 1, 2].map(|i| found[i].rmse);
     let [cap, bounded, exact] = rmse(mis);
     let plain_rmse = rmse(plain);
-    let below = |a: &Found, b: &Found| deviations_above(&a.trial.variance, &b.trial.variance);
-    let less = |a: &Found, b: &Found| mean(&a.trial.variance) > mean(&b.trial.variance);
+    let below =
+        |a: &RoomResult, b: &RoomResult| deviations_above(&a.trial.variance, &b.trial.variance);
+    let less = |a: &RoomResult, b: &RoomResult| mean(&a.trial.variance) > mean(&b.trial.variance);
     let outliers = [0, 1, 2].map(|i| mis[i].outlier);
     Verdict {
         summary: format!(

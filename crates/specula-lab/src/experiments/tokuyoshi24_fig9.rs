@@ -2,7 +2,7 @@
 
 use specula_render::Strategy;
 
-use super::room_pictures::{Budget, Found, add_rows, bathroom_room, render_room, show, table};
+use super::room_pictures::{Budget, RoomResult, add_rows, bathroom_room, render_room, show, table};
 use super::sampler_trials::{deviations_above, reference};
 use crate::{Answer, Claim, Experiment, Lab, Result, Source, Verdict};
 
@@ -43,7 +43,7 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     Ok(verdict(&found))
 }
 
-fn verdict(found: &[Found]) -> Verdict {
+fn verdict(found: &[RoomResult]) -> Verdict {
     let trials = [0, 1, 2].map(|i| &found[i].trial);
     let [cap, bounded, exact] = trials;
     let less = |i: usize| 100.0 * (1.0 - found[i].rmse / found[0].rmse);

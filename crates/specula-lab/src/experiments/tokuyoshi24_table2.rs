@@ -1,9 +1,9 @@
-//! Tokuyoshi and Eto 2024, table 2: time of a draw and of a density.
+//! Tokuyoshi and Eto 2024, table 2: time of a sample and of a density.
 
 use specula_bsdf::Alpha;
 use specula_bsdf::vndf::Sampler;
 
-use super::draw_times::{self, Inputs, Run};
+use super::sample_times::{self, Inputs, Run};
 use super::stopwatch::median;
 use crate::output::Table;
 use crate::plot::{Axis, Content, Figure, Panel, Series};
@@ -14,8 +14,8 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     id: "tokuyoshi24-table2",
     source: Source::Tokuyoshi24,
     item: "table 2",
-    title: "time of a draw and of a density",
-    statement: "A draw takes 8.32 ns by the cap and 10.43 ns by the bounded cap, a density 5.00 and \
+    title: "time of a sample and of a density",
+    statement: "A sample takes 8.32 ns by the cap and 10.43 ns by the bounded cap, a density 5.00 and \
                 6.57 ns (AMD Ryzen 9 7950X): a negligible overhead.",
     run,
 };
@@ -29,16 +29,16 @@ const SAMPLERS: [(Sampler, &str, usize); 4] = [
 const CAP: usize = 1;
 const BOUNDED: usize = 2;
 
-/// What is timed of a sampler.
+/// Makes a timed run of a sampler.
 type Made = for<'a> fn(&'a Inputs, Sampler) -> Run<'a>;
 
-/// Nanoseconds of the samplers: draws, densities, both in batches.
+/// Nanoseconds of the samplers: samples, densities, both in batches.
 type Times = [Vec<f64>; 4];
 
 const HEADS: [&str; 4] = [
-    "draw, scalar [ns]",
+    "sample, scalar [ns]",
     "density, scalar [ns]",
-    "draw, batch [ns]",
+    "sample, batch [ns]",
     "density, batch [ns]",
 ];
 
@@ -99,16 +99,16 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
 fn measure(lab: &Lab<'_>, alpha: Alpha<f32>, rounds: usize) -> Times {
     let inputs = Inputs::all_views(alpha, lab.seed());
     let made: [Made; 4] = [
-        draw_times::reflections,
-        draw_times::densities,
-        draw_times::batch_reflections,
-        draw_times::batch_densities,
+        sample_times::reflections,
+        sample_times::densities,
+        sample_times::batch_reflections,
+        sample_times::batch_densities,
     ];
     let mut runs: Vec<Run<'_>> = made
         .iter()
         .flat_map(|make| SAMPLERS.map(|(sampler, ..)| make(&inputs, sampler)))
         .collect();
-    let times = draw_times::medians(&mut runs, rounds);
+    let times = sample_times::medians(&mut runs, rounds);
     let mut parts = times.chunks(SAMPLERS.len()).map(<[f64]>::to_vec);
     [(); 4].map(|()| parts.next().unwrap_or_default())
 }
@@ -145,14 +145,14 @@ fn verdict(all: &[Times], unequal: &Times) -> Verdict {
     let (cap_pdf, bounded_pdf) = pair(1);
     Verdict {
         summary: format!(
-            "Draw {cap:.1} ns by the cap, {bounded:.1} by the bounded cap ({:.2} times; paper 1.25); \
+            "Sample {cap:.1} ns by the cap, {bounded:.1} by the bounded cap ({:.2} times; paper 1.25); \
              density {cap_pdf:.1} and {bounded_pdf:.1} ns ({:.2} times; paper 1.31).",
             bounded / cap,
             bounded_pdf / cap_pdf
         ),
         claims: vec![
             compare(
-                "The bounded draw costs a few nanoseconds more than the cap's",
+                "The bounded sample costs a few nanoseconds more than the cap's",
                 "8.32 and 10.43 ns: +2.11 ns, 1.25 times",
                 0,
             ),
@@ -165,7 +165,7 @@ fn verdict(all: &[Times], unequal: &Times) -> Verdict {
                 "So it is in batches, with the machine's vectors",
                 "not in the paper",
                 format!(
-                    "draw {:.2} and {:.2} ns, density {:.2} and {:.2} ns",
+                    "sample {:.2} and {:.2} ns, density {:.2} and {:.2} ns",
                     of(2, CAP),
                     of(2, BOUNDED),
                     of(3, CAP),
@@ -174,7 +174,7 @@ fn verdict(all: &[Times], unequal: &Times) -> Verdict {
                 of(2, BOUNDED) - of(2, CAP) < 5.0,
             ),
             Claim::measured(
-                "The exact draw costs less than 100 ns",
+                "The exact sample costs less than 100 ns",
                 "not in the paper",
                 format!(
                     "equal alphas {:.1} ns, density {:.1} ns; unequal {:.1} and {:.1} ns",

@@ -64,7 +64,7 @@ fn cases() -> [Case; 4] {
     ]
 }
 
-/// What was found at one depth of one scene, in per cent: bounded, exact.
+/// Increase of time at one depth of one scene, in per cent: bounded, exact.
 struct Point {
     rays: [f64; 2],
     times: [f64; 2],

@@ -38,7 +38,7 @@ pub(super) fn middles(count: u32, end: f64) -> Vec<f64> {
         .collect()
 }
 
-/// isotropic alpha over polar angles: values of a map, rows by angle, each over alphas up to 1.
+/// Equal alphas over polar angles: values of a map, rows by angle, each over alphas up to 1.
 pub(super) fn over_angles<T>(side: u32, value: impl Fn(Alpha<f64>, f64) -> T) -> Vec<Vec<T>> {
     middles(side, 90.0)
         .into_iter()
@@ -60,7 +60,7 @@ pub(super) fn over_alphas<T>(side: u32, value: impl Fn(Alpha<f64>) -> T) -> Vec<
         .collect()
 }
 
-/// What the axes of a map are.
+/// The axes of a map.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Axes {
     /// [`over_angles`].
@@ -69,7 +69,7 @@ pub(super) enum Axes {
     Alphas,
 }
 
-/// One number of each cell as a panel.
+/// A panel that shows one value of each cell.
 pub(super) fn panel<T>(
     title: &str,
     axes: Axes,

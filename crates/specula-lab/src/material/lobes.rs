@@ -1,4 +1,4 @@
-//! A material as the lobes that renderers make of it: one for each treatment of energy, one for each
+//! The lobes of a material: one for each treatment of energy, one for each
 //! sampler.
 
 use specula_bsdf::bsdf::Lobe;
@@ -40,7 +40,7 @@ pub(super) struct Named {
     pub(super) name: String,
     pub(super) style: usize,
     pub(super) lobe: Lobe<f32>,
-    /// The same where all that is reflected is white.
+    /// The same with white in place of all colours.
     pub(super) white: Lobe<f32>,
 }
 
@@ -125,7 +125,7 @@ pub(super) fn is_stochastic(lobe: &Lobe<f32>) -> bool {
     Bsdf::<f32>::is_stochastic(lobe)
 }
 
-/// Adds what is not there under another name.
+/// Adds a lobe unless an equal one is there under another name.
 fn add(all: &mut Vec<Named>, name: String, style: usize, [lobe, white]: [Lobe<f32>; 2]) {
     if all.iter().all(|n| n.lobe != lobe) {
         all.push(Named {
@@ -148,7 +148,7 @@ fn bare() -> Scene {
     scene
 }
 
-/// What a renderer binds, seen from the outside.
+/// The lobe that the renderer binds, seen from the outside.
 fn lobe(scene: &mut Scene, kind: &MaterialKind, options: &RenderOptions) -> Result<Lobe<f32>> {
     scene.materials = vec![Material::new(*kind)];
     PreparedScene::new(scene, options)?

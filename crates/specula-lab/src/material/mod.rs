@@ -1,5 +1,5 @@
-//! One material, all that this laboratory knows of it: its lobe, what it reflects, whether its samplers
-//! are right, and what they waste.
+//! Measurements of one material: its lobe, its albedo, whether its samplers
+//! are right, and how many samples they reject.
 
 mod lobes;
 mod plots;
@@ -22,15 +22,15 @@ use trials::{Fit, Reflected, Trial};
 
 /// Chance of calling a right sampler wrong, over all tests of a page.
 const SIGNIFICANCE: f64 = 1e-3;
-/// Angles of the views that the tests look along, degrees.
+/// Angles of the views of the tests, degrees.
 const VIEWS_DEG: [f64; 4] = [0.0, 30.0, 60.0, 80.0];
 
-/// What is to be shown.
+/// Options of the measurement.
 #[derive(Clone, Copy, Debug)]
 pub struct MaterialOptions<'a> {
-    /// As it was written.
+    /// The material as text.
     pub text: &'a str,
-    /// What that means; without textures.
+    /// The material; without textures.
     pub kind: &'a MaterialKind,
     /// How much work.
     pub quality: Quality,
@@ -92,7 +92,7 @@ fn measure(options: &MaterialOptions<'_>, lab: &mut Lab<'_>) -> Result<Verdict> 
 fn table_of_fits(fits: &[Fit]) -> Table {
     let mut table = Table::new(
         "chi-square",
-        "Draws against densities (chi-square) and mean weights against the quadrature of f cos (furnace): \
+        "Samples against densities (chi-square) and mean weights against the quadrature of f cos (furnace): \
          the chance of a result at least as bad of a right sampler.",
         &[
             "sampler",
@@ -151,10 +151,10 @@ fn verdict(
         })
         .collect();
     let caveat = if variants.is_specular() {
-        "The lobe is a Dirac delta: there is no density to draw or to test.".to_owned()
+        "The lobe is a Dirac delta: there is no density to sample or to test.".to_owned()
     } else if fits.is_empty() {
         "The lobe is estimated by walks: curves are means over many, and its density is an approximation \
-         for multiple importance sampling that draws do not follow, so that it is not tested."
+         for multiple importance sampling that samples do not follow, so that it is not tested."
             .to_owned()
     } else if variants.is_stochastic() {
         "Simulated bounces are estimates: their curves are means over many walks.".to_owned()
@@ -163,7 +163,7 @@ fn verdict(
     };
     Verdict {
         summary: format!(
-            "{lost}Draws rejected along the normal: {}.",
+            "{lost}Samples rejected along the normal: {}.",
             waste.join(", ")
         ),
         claims,
@@ -171,7 +171,7 @@ fn verdict(
     }
 }
 
-/// What a furnace shows: at most what arrives.
+/// The claim of a white furnace: no more light leaves than arrives.
 fn no_energy_made(reflected: &[Reflected]) -> Claim {
     let excess = |r: &Reflected| r.white[1] - 1.0 - 4.0 * r.error;
     let worst = reflected
@@ -193,7 +193,7 @@ fn no_energy_made(reflected: &[Reflected]) -> Claim {
     )
 }
 
-/// All samplers draw what their densities say, and their weights have the right mean.
+/// All samplers sample their densities, and their weights have the right mean.
 fn right_densities(fits: &[Fit]) -> Option<Claim> {
     let all: Vec<f64> = fits
         .iter()
@@ -203,7 +203,7 @@ fn right_densities(fits: &[Fit]) -> Option<Claim> {
     let least = all.iter().copied().reduce(f64::min)?;
     let limit = sidak(SIGNIFICANCE, all.len());
     Some(Claim::measured(
-        "Samplers draw what their densities say, and weights have the mean that the lobe has",
+        "Samplers sample their densities, and weights have the mean that the lobe has",
         "all p-values above the limit",
         format!(
             "least of {}: {}; limit {}",

@@ -175,11 +175,11 @@ pub(super) fn reflected(all: &[Reflected], lab: &mut Lab<'_>) -> Result<()> {
     lab.plot("albedo", caption, &Figure::grid(2, panels))
 }
 
-/// What samplers waste.
+/// Rejected samples.
 pub(super) fn samplers(all: &[Trial], lab: &mut Lab<'_>) -> Result<()> {
     let mut table = Table::new(
         "samplers",
-        "What each sampler does with its draws: rejected ones weigh 0.",
+        "What each sampler does with its samples: rejected ones count as 0.",
         &[
             "sampler",
             "theta_o [deg]",
@@ -209,12 +209,12 @@ pub(super) fn samplers(all: &[Trial], lab: &mut Lab<'_>) -> Result<()> {
         )),
     };
     let panels = vec![
-        panel("rejected draws", "share of draws [%]", |t| {
+        panel("rejected samples", "share of samples [%]", |t| {
             100.0 * t.rejected
         }),
         panel("variance of the weight", "variance", |t| t.variance),
     ];
-    let caption = "Rejected draws and the variance of the weight's luminance, over the angle of view; single \
+    let caption = "Rejected samples and the variance of the weight's luminance, over the angle of view; single \
                    scattering.";
     lab.plot("samplers", caption, &Figure::grid(2, panels))
 }

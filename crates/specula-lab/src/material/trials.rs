@@ -1,10 +1,10 @@
-//! Draws from lobes: what they reflect, what samplers waste, and whether they are right.
+//! Measurements of lobes: albedo, rejected samples, and tests of the samplers.
 
 use rayon::prelude::*;
 use specula_bsdf::bsdf::Lobe;
 use specula_bsdf::math::{Stream, vec3};
 use specula_bsdf::{Bsdf, Rgb, Transport, Vec3};
-use specula_stat::chi_square::{self, ChiSquare};
+use specula_stat::chi_square::{self, ChiSquare, ChiSquareOptions};
 use specula_stat::furnace;
 use specula_stat::quadrature::{Peak, Quadrature};
 use specula_stat::z_test::Moments;
@@ -19,7 +19,7 @@ const STEP_DEG: f64 = 5.0;
 /// The last angle, which is nearly grazing.
 const LAST_DEG: f64 = 89.0;
 
-/// What a lobe sends back in all, by a treatment of energy, seen at an angle.
+/// Albedo of a lobe by a treatment of energy, at an angle of view.
 pub(super) struct Reflected {
     pub(super) energy: String,
     pub(super) style: usize,
@@ -32,14 +32,14 @@ pub(super) struct Reflected {
     pub(super) error: f64,
 }
 
-/// What a sampler does with its draws, seen at an angle.
+/// Rejection and variance of a sampler at an angle of view.
 pub(super) struct Trial {
     pub(super) sampler: String,
     pub(super) style: usize,
     pub(super) theta_deg: f64,
-    /// Share of draws.
+    /// Share of samples.
     pub(super) rejected: f64,
-    /// Of the luminance of the weight; a rejected draw weighs 0.
+    /// Of the luminance of the weight; a rejected sample counts as 0.
     pub(super) variance: f64,
     pub(super) mean: f64,
 }
@@ -59,11 +59,11 @@ fn angles() -> Vec<f64> {
     steps.chain([LAST_DEG]).collect()
 }
 
-/// Weights of draws in `side * side` strata; the moments per channel, of the luminance, and the share
+/// Weights of samples in `side * side` strata; the moments per channel, of the luminance, and the share
 /// that was rejected.
 ///
 /// * `transport`: importance counts energy; radiance is squeezed by refraction.
-fn draw(
+fn sample_strata(
     lobe: &Lobe<f32>,
     wo: Vec3<f32>,
     transport: Transport,
@@ -91,7 +91,7 @@ fn draw(
     (channels, luminance, share)
 }
 
-/// What every treatment of energy reflects over the angle of view.
+/// Albedo of every treatment of energy over the angle of view.
 pub(super) fn reflected(variants: &Variants, lab: &Lab<'_>) -> Result<Vec<Reflected>> {
     let side = lab.pick(128, 512);
     let mut rng = Rng::new(lab.seed());
@@ -101,7 +101,7 @@ pub(super) fn reflected(variants: &Variants, lab: &Lab<'_>) -> Result<Vec<Reflec
         for theta_deg in angles() {
             lab.step(0.2 + 0.2 * share, "albedo")?;
             let wo = direction(theta_deg, 0.0);
-            let mut of = |lobe| draw(lobe, wo, Transport::Importance, side, &mut rng).0;
+            let mut of = |lobe| sample_strata(lobe, wo, Transport::Importance, side, &mut rng).0;
             let [own, white] = [of(&named.lobe), of(&named.white)];
             let errors = white.map(|m| m.variance_of_mean().sqrt());
             all.push(Reflected {
@@ -117,7 +117,7 @@ pub(super) fn reflected(variants: &Variants, lab: &Lab<'_>) -> Result<Vec<Reflec
     Ok(all)
 }
 
-/// What every sampler does over the angle of view, where single scattering is sampled.
+/// Rejection and variance of every sampler over the angle of view, where single scattering is sampled.
 pub(super) fn samplers(variants: &Variants, lab: &Lab<'_>) -> Result<Vec<Trial>> {
     let side = lab.pick(128, 512);
     let mut rng = Rng::new(lab.seed().wrapping_add(1));
@@ -127,7 +127,7 @@ pub(super) fn samplers(variants: &Variants, lab: &Lab<'_>) -> Result<Vec<Trial>>
             lab.step(0.4, "samplers")?;
             let wo = direction(theta_deg, 0.0);
             let (_, luminance, rejected) =
-                draw(&named.lobe, wo, Transport::Radiance, side, &mut rng);
+                sample_strata(&named.lobe, wo, Transport::Radiance, side, &mut rng);
             all.push(Trial {
                 sampler: named.name.clone(),
                 style: named.style,
@@ -144,7 +144,7 @@ pub(super) fn samplers(variants: &Variants, lab: &Lab<'_>) -> Result<Vec<Trial>>
 /// Every sampler against its density.
 pub(super) fn fits(variants: &Variants, lab: &Lab<'_>) -> Result<Vec<Fit>> {
     let mut all = Vec::new();
-    // The density of a lobe that is estimated is not that of its draws.
+    // The density of a lobe that is estimated is not that of its samples.
     if variants.is_specular() || is_stochastic(&variants.samplers[0].lobe) {
         return Ok(all);
     }
@@ -175,11 +175,11 @@ fn fit(named: &Named, theta_deg: f64, variants: &Variants, samples: u32, seed: u
         |u| subject.sample_density(wo, u).map(|sampled| sampled.wi),
         |wi| subject.pdf(wo, wi),
         &mut rng,
-        &chi_square::Options {
+        &ChiSquareOptions {
             samples,
             cos_theta_edges: edges.clone(),
             peaks: peaks.clone(),
-            ..chi_square::Options::default()
+            ..ChiSquareOptions::default()
         },
     );
     let quadrature = Quadrature {

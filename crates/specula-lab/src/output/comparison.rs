@@ -10,21 +10,21 @@ use specula_render::picture::{
 use super::insets::{self, Inset, Sheet};
 use crate::{Errors, Result, errors};
 
-/// What a screen shows of linear values: cut off at white.
+/// The display of linear values: clamped at white.
 const PLAIN: Display = Display {
     tone_map: ToneMap::Clamp,
     exposure_stops: 0.0,
 };
 
 /// Pictures of the same size.
-pub struct Comparison<'a> {
+pub struct PictureComparison<'a> {
     /// Name of the files, without their ends.
     pub name: &'a str,
     /// What it shows.
     pub caption: &'a str,
     /// From left to right.
     pub shots: Vec<Shot<'a>>,
-    /// What they converge to, where it is known.
+    /// The picture that they converge to, where it is known.
     pub reference: Option<&'a Picture>,
     /// Parts to be enlarged.
     pub insets: Vec<Inset>,
@@ -38,11 +38,11 @@ pub struct Shot<'a> {
     pub label: &'a str,
     /// The picture.
     pub picture: &'a Picture,
-    /// What there is to say about it, such as `16 spp, 2.1 s`.
+    /// A note, such as `16 spp, 2.1 s`.
     pub note: String,
 }
 
-/// What was written of a [`Comparison`].
+/// The files of a [`PictureComparison`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WrittenComparison {
     /// Name of the files, without their ends.
@@ -57,12 +57,12 @@ pub struct WrittenComparison {
     pub shots: Vec<WrittenShot>,
 }
 
-/// What was written of a [`Shot`].
+/// The files of a [`Shot`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WrittenShot {
     /// What made it.
     pub label: String,
-    /// What there is to say about it.
+    /// A note.
     pub note: String,
     /// The file as a screen shows it.
     pub png: String,
@@ -74,7 +74,7 @@ pub struct WrittenShot {
     pub errors: Option<Errors>,
 }
 
-impl Comparison<'_> {
+impl PictureComparison<'_> {
     /// Writes a PNG and an EXR of each picture, the map of its error, and all of them on one sheet.
     ///
     /// # Errors
@@ -146,7 +146,7 @@ impl Comparison<'_> {
     }
 }
 
-/// The picture without what only denoisers need.
+/// The picture without the layers that only denoisers need.
 fn colours(picture: &Picture) -> Picture {
     Picture::from_colour(picture.width, picture.height, picture.colour.clone())
 }

@@ -65,7 +65,7 @@ impl Sheet {
         self.pixels.concat()
     }
 
-    /// Puts `other` into this one with its first pixel at column `x` and row `y`; what lies beyond is
+    /// Copies `other` into this one with its first pixel at column `x` and row `y`; what lies beyond is
     /// cut off.
     pub fn put(&mut self, other: &Self, x: usize, y: usize) {
         let width = other.width.min(self.width.saturating_sub(x));

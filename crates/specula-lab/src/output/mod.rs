@@ -1,10 +1,9 @@
-//! What experiments leave: tables, pictures side by side, and the record of all.
+//! Output of experiments: tables, and pictures side by side.
 
 pub mod comparison;
 pub mod insets;
-pub mod record;
 pub mod table;
 
-pub use comparison::{Comparison, Shot};
+pub use comparison::{PictureComparison, Shot};
 pub use insets::Inset;
 pub use table::{Cell, Table};

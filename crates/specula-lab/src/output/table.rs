@@ -20,7 +20,7 @@ pub struct Table {
     pub rows: Vec<Vec<Cell>>,
 }
 
-/// What stands in a cell.
+/// The value of a cell.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Cell {
@@ -61,7 +61,7 @@ impl From<String> for Cell {
 }
 
 impl Cell {
-    /// With so many significant digits, for people; whole numbers whole.
+    /// The value with so many significant digits; whole numbers have no decimals.
     #[must_use]
     pub fn show(&self, digits: usize) -> String {
         match self {

@@ -10,7 +10,7 @@ const ROW: f64 = 22.0;
 /// Between swatch and name, and between entries.
 const GAPS: [f64; 2] = [8.0, 26.0];
 
-/// What lines and bars are, once each, in rows that fit below the panels.
+/// Names of lines and bars, once each, in rows that fit below the panels.
 pub(super) struct Legend {
     rows: Vec<Vec<Entry>>,
     width: f64,

@@ -42,7 +42,7 @@ pub(super) fn draw(
     }
 }
 
-/// The stretches of points that can be shown: where an axis is logarithmic, nothing is at 0.
+/// Runs of points that can be shown: where an axis is logarithmic, nothing is at 0.
 fn parts(series: &Series, [x, y]: [&Scale; 2]) -> Vec<Vec<[f64; 2]>> {
     let is_shown = |p: &[f64; 2]| {
         p.iter().all(|v| v.is_finite())

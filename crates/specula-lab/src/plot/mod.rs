@@ -14,7 +14,8 @@ mod ticks;
 
 use std::path::Path;
 
-use crate::output::record::WrittenPlot;
+use serde::{Deserialize, Serialize};
+
 use crate::{LabError, Result};
 
 use canvas::Canvas;
@@ -70,14 +71,14 @@ pub struct Intervals {
     /// From the top: the name, which of the [`STYLES`], the point and from where to where it may be; bounds
     /// that are not finite end with the axis.
     pub rows: Vec<(String, usize, [f64; 3])>,
-    /// What all are held against: a line from top to bottom.
+    /// The value that all are compared with: a line from top to bottom.
     pub mark: f64,
 }
 
 /// Groups of bars.
 #[derive(Clone, Debug)]
 pub struct Bars {
-    /// What stands under each group.
+    /// The name under each group.
     pub groups: Vec<String>,
     /// Of each bar of a group, from left to right: its name in the legend, which of the [`STYLES`]
     /// colours it, and its height in each group.
@@ -117,7 +118,7 @@ pub struct Map {
     pub x: [f64; 2],
     /// Extent along y.
     pub y: [f64; 2],
-    /// What colours mean, with its unit; shown beside the bar of colours.
+    /// The quantity and unit; shown beside the bar of colours.
     pub label: String,
     /// Values of the darkest and the brightest colour; `None`: as the data are. What lies beyond is
     /// shown as the end.
@@ -165,6 +166,19 @@ impl Series {
             band: None,
         }
     }
+}
+
+/// The files of a plot.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct WrittenPlot {
+    /// Name of the files, without their ends.
+    pub name: String,
+    /// What it shows.
+    pub caption: String,
+    /// The SVG file.
+    pub svg: String,
+    /// The PNG file.
+    pub png: String,
 }
 
 impl Figure {

@@ -1,4 +1,4 @@
-//! SVG to PNG, the same on every machine: with the font that the crate `dejavu` brings.
+//! SVG to PNG, the same on every machine: with the font of the crate `dejavu`.
 
 use std::sync::{Arc, LazyLock};
 

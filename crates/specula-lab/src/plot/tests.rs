@@ -1,4 +1,4 @@
-//! What a reader of a plot needs, seen on the SVG.
+//! Tests of plots by their SVG.
 
 use super::style::SWATCH;
 use super::*;

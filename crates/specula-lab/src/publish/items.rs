@@ -1,12 +1,12 @@
-//! What is in the papers and is no result: diagrams, notations, listings; and what else answers for it.
+//! Items of the papers that are not results: diagrams, notations, listings; and what is nearest to them here.
 
 use crate::Source;
 
 /// A table or figure that no experiment reproduces.
 pub(super) struct Item {
-    /// Whose it is.
+    /// The source.
     pub(super) source: Source,
-    /// Which of the source's.
+    /// Which table or figure.
     pub(super) item: &'static str,
     /// What it shows or states.
     pub(super) shows: &'static str,
@@ -40,7 +40,7 @@ pub(super) const ITEMS: &[Item] = &[
         Source::Tokuyoshi24,
         "fig. 11",
         "The bound serves neither refraction nor random walks: a diagram of a limitation.",
-        "By construction here: `bsdf/dielectric.rs` and `multibounce/walk.rs` draw visible normals; \
+        "By construction here: `bsdf/dielectric.rs` and `multibounce/walk.rs` sample visible normals; \
          their chi-square tests include directions below the horizon.",
     ),
     item(
@@ -111,7 +111,7 @@ mod tests {
     use super::*;
     use crate::experiments;
 
-    /// Every table and figure of the papers, by source: what is an experiment's or an [`Item`]'s.
+    /// Every table and figure of the papers, by source: each is an experiment or an [`Item`].
     const CONTENTS: &[(Source, &[&str])] = &[
         (
             Source::Tokuyoshi24,

@@ -1,4 +1,4 @@
-//! Results as Markdown that a repository can keep: one table over all, a page per experiment with its
+//! Results as Markdown for a repository: one table over all, a page per experiment with its
 //! plots, small pictures and data.
 
 mod items;
@@ -11,8 +11,8 @@ use resvg::tiny_skia::Pixmap;
 
 use crate::output::comparison::{WrittenComparison, write_sheet};
 use crate::output::insets::Sheet;
-use crate::output::record;
 use crate::output::table::Table;
+use crate::record;
 use crate::typeset::prose;
 use crate::{Claim, LabError, Outcome, Record, Result, experiments};
 
@@ -20,7 +20,7 @@ use crate::{Claim, LabError, Outcome, Record, Result, experiments};
 const WIDEST: usize = 1100;
 /// Most rows of a table on a page; the CSV has all.
 const MOST_ROWS: usize = 40;
-/// Largest SVG and CSV file that is kept, in bytes: plots are PNG beyond, and data are made anew by the command.
+/// Largest SVG and CSV file that is published, in bytes: larger plots are PNG, and larger data are left out.
 const LARGEST: u64 = 250_000;
 
 /// Writes `to/README.md`, and per experiment a folder with its page, plots, small pictures and CSV files,
@@ -80,7 +80,7 @@ fn overview(records: &[Record], missing: &[&str]) -> String {
             let _ = writeln!(text, ", {undecided} undecided.\n");
         }
     }
-    text += "| table or figure | the paper's statement | specula | verdict | command |\n";
+    text += "| table or figure | the paper's statement | Specula | verdict | command |\n";
     text += "| --- | --- | --- | --- | --- |\n";
     for record in records {
         let _ = writeln!(

@@ -6,12 +6,12 @@ use std::path::Path;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-use crate::output::record::WrittenPlot;
+use crate::plot::WrittenPlot;
 use crate::{LabError, Result};
 
 /// An SVG with more bytes (a map with a rectangle per cell) is shown by its pixels.
 const LARGEST_SVG: u64 = 400 << 10;
-/// A table's file with more bytes is not held by the page.
+/// A table's file with more bytes is not embedded in the page.
 const LARGEST_CSV: u64 = 1 << 20;
 
 fn length(path: &Path) -> Result<u64> {

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, Value, context};
 
-use crate::output::record::FILE;
+use crate::record::FILE;
 use crate::{LabError, Record, Result, experiments};
 
 /// Name of the page in the folder of results.

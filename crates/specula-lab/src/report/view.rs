@@ -1,4 +1,4 @@
-//! Records as the templates take them.
+//! Records as the templates show them.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use crate::output::comparison::{WrittenComparison, WrittenShot};
 use crate::output::table::significant;
 use crate::output::{Cell, Table};
 use crate::typeset::prose;
-use crate::{Answer, Claim, Kind, Outcome, Record, Result, Source};
+use crate::{Answer, Claim, ClaimKind, Outcome, Record, Result, Source};
 
 /// Tables with more rows are folded.
 const FOLDED: usize = 12;
@@ -18,7 +18,7 @@ const MOST_ROWS: usize = 100;
 /// Digits of numbers in tables.
 const DIGITS: usize = 4;
 
-/// How many results came out how.
+/// How many results have which outcome.
 #[derive(Serialize)]
 pub(super) struct Counts {
     all: usize,
@@ -179,7 +179,7 @@ fn each<T, V>(all: &[T], view: impl Fn(&T) -> Result<V>) -> Result<Vec<V>> {
     all.iter().map(view).collect()
 }
 
-/// In words; of this project's own, nothing is reproduced.
+/// The outcome in words; results of this project itself are not reproductions.
 fn outcome(record: &Record) -> &'static str {
     match (record.source, record.outcome) {
         (Source::Specula, Outcome::Reproduced) => "holds",
@@ -200,9 +200,9 @@ fn claim(claim: &Claim) -> ClaimView {
             Answer::Undecided => "open",
         },
         kind: match claim.kind {
-            Kind::Law => "on every machine",
-            Kind::Refuted => "on no machine",
-            Kind::Measured => "measured here",
+            ClaimKind::Law => "on every machine",
+            ClaimKind::Refuted => "on no machine",
+            ClaimKind::Measured => "measured here",
         },
     }
 }

@@ -1,4 +1,4 @@
-//! A bathroom: white walls, a wide window, rough metal that reflects little of itself.
+//! A bathroom: white walls, a wide window, rough metal that hardly reflects other metal.
 //!
 //! In the place of the bathroom of Tokuyoshi and Eto 2024, fig. 9, where caps have no fireflies.
 
@@ -9,7 +9,7 @@ use super::builder::Builder;
 
 /// The room, 16:9.
 #[must_use]
-pub fn bathroom() -> Scene {
+pub(crate) fn bathroom() -> Scene {
     let eye = dvec3(1.25, -2.1, 1.5);
     let mut room = Builder::new([512, 288], eye, dvec3(-0.2, 1.0, 0.9), 50.0);
     shell(&mut room);

@@ -6,12 +6,11 @@ use glam::{DMat4, DVec3, dvec3};
 use specula_bsdf::{Rgb, metals};
 use specula_scene::scene::{
     Camera, ColourParam, ConductorFresnel, Emission, Film, Filter, FloatParam, Geometry, Material,
-    MaterialId, MaterialKind, Mesh, MeshId, Projection, Roughness, RoughnessMapping, Settings,
-    Shape,
+    MaterialId, MaterialKind, Mesh, MeshId, Roughness, RoughnessMapping, Settings, Shape,
 };
 use specula_scene::{Energy, Scene};
 
-/// A scene that grows.
+/// Adds parts to a scene.
 pub(super) struct Builder {
     scene: Scene,
 }
@@ -21,38 +20,20 @@ impl Builder {
     ///
     /// * `fov_deg`: over the shorter side of the picture.
     pub(super) fn new(resolution: [u32; 2], eye: DVec3, target: DVec3, fov_deg: f64) -> Self {
+        let film = Film::new(resolution, Filter::Box { radius: [0.5; 2] });
+        let camera = Camera::look_at(eye, target, DVec3::Z, fov_deg, &film);
+        let settings = Settings {
+            max_depth: 64,
+            samples_per_pixel: 64,
+            energy: Energy::None,
+            ..Settings::default()
+        };
         Self {
-            scene: Scene {
-                camera: camera(resolution, eye, target, fov_deg),
-                film: Film {
-                    resolution,
-                    crop: [0, resolution[0], 0, resolution[1]],
-                    filter: Filter::Box { radius: [0.5; 2] },
-                    exposure: 1.0,
-                    max_component: None,
-                    balance: Film::NO_BALANCE,
-                    file_name: None,
-                },
-                settings: Settings {
-                    max_depth: 64,
-                    samples_per_pixel: 64,
-                    hide_emitters: false,
-                    energy: Energy::None,
-                },
-                images: Vec::new(),
-                textures: Vec::new(),
-                materials: Vec::new(),
-                meshes: Vec::new(),
-                shapes: Vec::new(),
-                objects: Vec::new(),
-                instances: Vec::new(),
-                lights: Vec::new(),
-                floor: None,
-            },
+            scene: Scene::empty(camera, film, settings),
         }
     }
 
-    /// What has been built.
+    /// The scene.
     pub(super) fn finish(self) -> Scene {
         self.scene
     }
@@ -115,14 +96,9 @@ impl Builder {
     }
 
     fn shape(&mut self, geometry: Geometry, to_world: DMat4, material: MaterialId) {
-        self.scene.shapes.push(Shape {
-            geometry,
-            to_world,
-            material,
-            emission: None,
-            reverse_orientation: false,
-            alpha: FloatParam::Value(1.0),
-        });
+        self.scene
+            .shapes
+            .push(Shape::new(geometry, to_world, material));
     }
 
     fn mesh(&mut self, mesh: Mesh, to_world: DMat4, material: MaterialId) {
@@ -173,7 +149,7 @@ impl Builder {
         self.mesh(lathe(profile), DMat4::from_translation(foot), material);
     }
 
-    /// Lets the shape that was added last send out light, on the side of its normal.
+    /// Makes the shape that was added last emit light, on the side of its normal.
     pub(super) fn glow(&mut self, radiance: [f32; 3]) {
         if let Some(shape) = self.scene.shapes.last_mut() {
             shape.emission = Some(Emission {
@@ -181,27 +157,6 @@ impl Builder {
                 two_sided: false,
             });
         }
-    }
-}
-
-/// A pinhole that looks from `eye` to `target`.
-fn camera(resolution: [u32; 2], eye: DVec3, target: DVec3, fov_deg: f64) -> Camera {
-    let forward = (target - eye).normalize();
-    let right = forward.cross(DVec3::Z).normalize();
-    let up = right.cross(forward);
-    let aspect = f64::from(resolution[0]) / f64::from(resolution[1]);
-    let [width, height] = [aspect.max(1.0), (1.0 / aspect).max(1.0)];
-    Camera {
-        to_world: DMat4::from_cols(
-            right.extend(0.0),
-            up.extend(0.0),
-            forward.extend(0.0),
-            eye.extend(1.0),
-        ),
-        projection: Projection::Perspective { fov_deg },
-        lens_radius: 0.0,
-        focal_distance: (target - eye).length(),
-        screen_window: [-width, width, -height, height],
     }
 }
 

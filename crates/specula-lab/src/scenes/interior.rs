@@ -12,7 +12,7 @@ use super::builder::Builder;
 
 /// The room, 16:9.
 #[must_use]
-pub fn interior() -> Scene {
+pub(crate) fn interior() -> Scene {
     let eye = dvec3(1.75, -2.8, 1.45);
     let mut room = Builder::new([512, 288], eye, dvec3(-0.35, 1.2, 0.98), 50.0);
     shell(&mut room);

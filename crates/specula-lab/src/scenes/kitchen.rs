@@ -13,7 +13,7 @@ const TOP: f64 = 0.92;
 
 /// The room, 16:9.
 #[must_use]
-pub fn kitchen() -> Scene {
+pub(crate) fn kitchen() -> Scene {
     let eye = dvec3(1.35, -2.35, 1.5);
     let mut room = Builder::new([512, 288], eye, dvec3(-0.25, 1.0, 1.12), 50.0);
     shell(&mut room);

@@ -1,4 +1,4 @@
-//! Lights without extent and from all around, to be added to a scene.
+//! Point, distant and environment lights, to be added to a scene.
 
 use glam::{DMat4, DVec3};
 use specula_bsdf::Rgb;

@@ -15,25 +15,25 @@ use specula_scene::scene::{
 use specula_scene::{Image, Scene};
 
 /// From orb to orb, and the side of the square that each has in the picture.
-pub const SPACING: f64 = 2.3;
+pub(crate) const SPACING: f64 = 2.3;
 
 /// How finely orbs are turned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Tessellation {
+pub(crate) struct Tessellation {
     /// Rows of the profile.
-    pub rows: u32,
+    pub(crate) rows: u32,
     /// Segments about the axis.
-    pub segments: u32,
+    pub(crate) segments: u32,
 }
 
 impl Tessellation {
     /// Smooth to the eye.
-    pub const FINE: Self = Self {
+    pub(crate) const FINE: Self = Self {
         rows: 100,
         segments: 96,
     };
     /// Few faces with smooth normals: along their silhouettes, shading normals face away.
-    pub const COARSE: Self = Self {
+    pub(crate) const COARSE: Self = Self {
         rows: 14,
         segments: 10,
     };
@@ -41,7 +41,7 @@ impl Tessellation {
 
 /// Orbs side by side on a grey floor, each with its alphas, a square of `side` pixels each.
 #[must_use]
-pub fn row(alphas: &[(f64, f64)], tessellation: Tessellation, side: u32) -> Scene {
+pub(crate) fn row(alphas: &[(f64, f64)], tessellation: Tessellation, side: u32) -> Scene {
     let mut scene = empty(alphas.len(), side);
     orbs(&mut scene, alphas, tessellation);
     let floor = MaterialKind::Diffuse {
@@ -57,7 +57,7 @@ pub fn row(alphas: &[(f64, f64)], tessellation: Tessellation, side: u32) -> Scen
 
 /// One orb in the open.
 #[must_use]
-pub fn single(alphas: (f64, f64), tessellation: Tessellation, side: u32) -> Scene {
+pub(crate) fn single(alphas: (f64, f64), tessellation: Tessellation, side: u32) -> Scene {
     let mut scene = empty(1, side);
     orbs(&mut scene, &[alphas], tessellation);
     scene
@@ -65,7 +65,7 @@ pub fn single(alphas: (f64, f64), tessellation: Tessellation, side: u32) -> Scen
 
 /// Towards the viewer of both scenes.
 #[must_use]
-pub fn towards_viewer() -> DVec3 {
+pub(crate) fn towards_viewer() -> DVec3 {
     DVec3::new(0.0, -0.94, 0.34).normalize()
 }
 
@@ -126,14 +126,10 @@ fn orbs(scene: &mut Scene, alphas: &[(f64, f64)], tessellation: Tessellation) {
 }
 
 fn push_shape(scene: &mut Scene, mesh: usize, to_world: DMat4, material: usize) {
-    scene.shapes.push(Shape {
-        geometry: Geometry::Mesh(MeshId(mesh)),
-        to_world,
-        material: MaterialId(material),
-        emission: None,
-        reverse_orientation: false,
-        alpha: FloatParam::Value(1.0),
-    });
+    let geometry = Geometry::Mesh(MeshId(mesh));
+    scene
+        .shapes
+        .push(Shape::new(geometry, to_world, MaterialId(material)));
 }
 
 fn silver((alpha_x, alpha_y): (f64, f64)) -> MaterialKind {
@@ -202,7 +198,7 @@ fn shell_profile(rows: u32) -> Vec<[f64; 2]> {
     let arc = PI - OPENING;
     let lengths = [INNER * arc, PI * lip, arc];
     let total: f64 = lengths.iter().sum();
-    // The poles are left open by a hair: there, a tangent has no direction.
+    // The poles are left open by a hair: at a pole, no tangent is defined.
     let on = |radius: f64, theta: f64| {
         let theta = theta.min(PI - 1e-3);
         [radius * theta.sin(), radius * theta.cos()]
@@ -239,7 +235,7 @@ fn revolved(profile: &[[f64; 2]], segments: u32) -> Mesh {
         let length = (p[0] - q[0]).hypot(p[1] - q[1]);
         let [nr, nz] = [(p[1] - q[1]) / length, (q[0] - p[0]) / length];
         for segment in 0..=segments {
-            // The seam closes exactly.
+            // The last column equals the first exactly.
             let turn = 2.0 * PI * f64::from(segment % segments) / f64::from(segments);
             let (sin, cos) = turn.sin_cos();
             let uv = [

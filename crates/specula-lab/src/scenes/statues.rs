@@ -2,7 +2,7 @@
 
 use glam::{DVec3, dvec3};
 use specula_scene::Scene;
-use specula_scene::scene::{Distribution, MaterialKind};
+use specula_scene::scene::{MaterialKind, MicrofacetDistribution};
 
 use super::builder::Builder;
 use super::lighting::Lighting;
@@ -13,7 +13,7 @@ pub(crate) struct Metal {
     /// Chemical symbol.
     pub(crate) symbol: &'static str,
     /// Of its facets' normals.
-    pub(crate) distribution: Distribution,
+    pub(crate) distribution: MicrofacetDistribution,
     /// Isotropic.
     pub(crate) alpha: f32,
 }
@@ -23,7 +23,7 @@ pub(crate) const VASES: [Metal; 3] = [
     ggx("Cu", 0.1),
     Metal {
         symbol: "Al",
-        distribution: Distribution::Beckmann,
+        distribution: MicrofacetDistribution::Beckmann,
         alpha: 0.6,
     },
     ggx("Au", 0.5),
@@ -41,7 +41,7 @@ pub(crate) const SET: [Metal; 5] = [
 const fn ggx(symbol: &'static str, alpha: f32) -> Metal {
     Metal {
         symbol,
-        distribution: Distribution::Ggx,
+        distribution: MicrofacetDistribution::Ggx,
         alpha,
     }
 }

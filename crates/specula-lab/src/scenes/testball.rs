@@ -1,4 +1,4 @@
-//! A ball on a foot, of rough copper throughout, in parallel light: what previews of materials show.
+//! A ball on a foot, of rough copper throughout, in parallel light, as in previews of materials.
 
 use glam::dvec3;
 use specula_scene::Scene;

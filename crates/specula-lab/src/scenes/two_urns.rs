@@ -7,14 +7,14 @@ use specula_scene::Scene;
 
 use super::builder::Builder;
 
-/// Width of the metal's roughness.
-pub const METAL_ALPHA: f32 = 0.4;
-/// Width of the glass's roughness.
-pub const GLASS_ALPHA: f32 = 0.25;
+/// Alpha of the metal.
+pub(crate) const METAL_ALPHA: f32 = 0.4;
+/// Alpha of the glass.
+pub(crate) const GLASS_ALPHA: f32 = 0.25;
 
 /// The scene, 16:9.
 #[must_use]
-pub fn two_urns() -> Scene {
+pub(crate) fn two_urns() -> Scene {
     let mut scene = Builder::new(
         [512, 288],
         dvec3(0.0, -4.2, 1.75),

@@ -9,7 +9,7 @@ use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::ndf::{Beckmann, Ggx};
 use specula_bsdf::{Alpha, Rgb};
 use specula_scene::scene::{
-    CoatMedium, ColourParam, Distribution, FloatParam, MaterialKind, Roughness,
+    CoatMedium, ColourParam, FloatParam, MaterialKind, MicrofacetDistribution, Roughness,
 };
 use specula_scene::{Energy, scene};
 
@@ -302,20 +302,24 @@ impl<'a> At<'a> {
         let alpha = self.alpha(roughness);
         match (alpha, roughness.distribution) {
             (None, _) => Plastic::smooth(eta, diffuse, specular, nonlinear).into(),
-            (Some(alpha), Distribution::Ggx) => {
+            (Some(alpha), MicrofacetDistribution::Ggx) => {
                 let ndf = Ggx::new(alpha);
                 Plastic::rough(ndf, masking, eta, diffuse, specular, nonlinear)
                     .with_sampler(models.sampler)
                     .into()
             }
-            (Some(alpha), Distribution::Beckmann) => {
+            (Some(alpha), MicrofacetDistribution::Beckmann) => {
                 let ndf = Beckmann::new(alpha);
                 Plastic::rough(ndf, masking, eta, diffuse, specular, nonlinear).into()
             }
         }
     }
 
-    fn principled(&self, p: &scene::Principled, outside: bool) -> PrincipledParameters<f32> {
+    fn principled(
+        &self,
+        p: &scene::PrincipledMaterial,
+        outside: bool,
+    ) -> PrincipledParameters<f32> {
         PrincipledParameters {
             base_colour: self.albedo(p.base_colour),
             roughness: self.roughness(p.roughness),
@@ -342,7 +346,7 @@ impl<'a> At<'a> {
         }
     }
 
-    fn gltf(&self, g: &scene::Gltf, outside: bool, models: Models) -> GltfParameters<f32> {
+    fn gltf(&self, g: &scene::GltfMaterial, outside: bool, models: Models) -> GltfParameters<f32> {
         GltfParameters {
             base_colour: self.albedo(g.base_colour),
             metallic: self.unit(g.metallic),

@@ -6,8 +6,8 @@ use specula_bsdf::Rgb;
 use specula_bsdf::ndf::Masking;
 use specula_scene::Energy;
 use specula_scene::scene::{
-    BumpRules, CoatMedium, ColourParam, ConductorFresnel, Distribution, FloatParam, Gltf,
-    MaterialKind, Principled, Roughness, RoughnessMapping,
+    BumpRules, CoatMedium, ColourParam, ConductorFresnel, FloatParam, GltfMaterial, MaterialKind,
+    MicrofacetDistribution, PrincipledMaterial, Roughness, RoughnessMapping,
 };
 
 use super::{Material, Materials};
@@ -258,8 +258,8 @@ impl Parameters {
         self.floats([roughness.u, roughness.v])
             .id(mapping + larger)
             .id(match roughness.distribution {
-                Distribution::Ggx => 0,
-                Distribution::Beckmann => 1,
+                MicrofacetDistribution::Ggx => 0,
+                MicrofacetDistribution::Beckmann => 1,
             })
             .id(match roughness.masking {
                 Masking::HeightCorrelated => 0,
@@ -304,7 +304,7 @@ impl Parameters {
             .id(medium.max_depth.unwrap_or(u32::MAX))
     }
 
-    fn principled(&mut self, p: &Principled) -> &mut Self {
+    fn principled(&mut self, p: &PrincipledMaterial) -> &mut Self {
         let regularized = self.regularized;
         self.colours([p.base_colour])
             .floats([p.roughness, p.anisotropic, p.metallic, p.spec_trans])
@@ -315,7 +315,7 @@ impl Parameters {
             .flag(regularized)
     }
 
-    fn gltf(&mut self, g: &Gltf, compensated: bool) -> &mut Self {
+    fn gltf(&mut self, g: &GltfMaterial, compensated: bool) -> &mut Self {
         let regularized = self.regularized;
         self.colours([g.base_colour, g.specular_colour, g.sheen_colour])
             .floats([g.metallic, g.roughness, g.anisotropy, g.specular])

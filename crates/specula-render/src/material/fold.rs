@@ -1,8 +1,8 @@
 //! Materials whose textures are the same everywhere, as materials without textures.
 
 use specula_scene::scene::{
-    CoatMedium, ColourParam, ConductorFresnel, FloatParam, Gltf, MaterialKind, Principled,
-    Roughness,
+    CoatMedium, ColourParam, ConductorFresnel, FloatParam, GltfMaterial, MaterialKind,
+    PrincipledMaterial, Roughness,
 };
 
 use crate::texture::Textures;
@@ -137,7 +137,7 @@ impl Folder<'_> {
         }
     }
 
-    fn principled(&mut self, p: &mut Principled) {
+    fn principled(&mut self, p: &mut PrincipledMaterial) {
         self.colour(&mut p.base_colour);
         for value in [
             &mut p.roughness,
@@ -156,7 +156,7 @@ impl Folder<'_> {
         }
     }
 
-    fn gltf(&mut self, g: &mut Gltf) {
+    fn gltf(&mut self, g: &mut GltfMaterial) {
         for colour in [
             &mut g.base_colour,
             &mut g.specular_colour,

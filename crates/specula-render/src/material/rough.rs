@@ -9,7 +9,7 @@ use specula_bsdf::energy::Tabulated;
 use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::ndf::{Beckmann, Ggx};
 use specula_scene::Energy;
-use specula_scene::scene::{Distribution, Roughness};
+use specula_scene::scene::{MicrofacetDistribution, Roughness};
 
 use super::Models;
 
@@ -21,12 +21,16 @@ pub(super) fn conductor(
     models: Models,
 ) -> Lobe<f32> {
     match roughness.distribution {
-        Distribution::Ggx => match conductor_of(Ggx::new(alpha), roughness, metal, models) {
-            Lobe::RoughConductor(lobe) => lobe.with_sampler(models.sampler).into(),
-            Lobe::Compensated(lobe) => lobe.with_sampler(models.sampler).into(),
-            other => other,
-        },
-        Distribution::Beckmann => conductor_of(Beckmann::new(alpha), roughness, metal, models),
+        MicrofacetDistribution::Ggx => {
+            match conductor_of(Ggx::new(alpha), roughness, metal, models) {
+                Lobe::RoughConductor(lobe) => lobe.with_sampler(models.sampler).into(),
+                Lobe::Compensated(lobe) => lobe.with_sampler(models.sampler).into(),
+                other => other,
+            }
+        }
+        MicrofacetDistribution::Beckmann => {
+            conductor_of(Beckmann::new(alpha), roughness, metal, models)
+        }
     }
 }
 
@@ -66,8 +70,10 @@ pub(super) fn dielectric(
     models: Models,
 ) -> Lobe<f32> {
     match roughness.distribution {
-        Distribution::Ggx => dielectric_of(Ggx::new(alpha), roughness, relative, tints, models),
-        Distribution::Beckmann => {
+        MicrofacetDistribution::Ggx => {
+            dielectric_of(Ggx::new(alpha), roughness, relative, tints, models)
+        }
+        MicrofacetDistribution::Beckmann => {
             dielectric_of(Beckmann::new(alpha), roughness, relative, tints, models)
         }
     }

@@ -164,7 +164,7 @@ mod tests {
     /// Found by fuzzing; its first byte is the fuzzer's choice of a format.
     #[test]
     fn blocks_of_another_level_are_damage() {
-        let seed = include_bytes!("../../../specula-scene/fuzz/findings/image-levels.exr");
+        let seed = include_bytes!("../../tests/data/image-levels.exr");
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("levels.exr");
         std::fs::write(&path, &seed[1..]).unwrap();

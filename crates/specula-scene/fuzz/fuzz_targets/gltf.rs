@@ -8,7 +8,7 @@ fuzz_target!(|data: &[u8]| {
     let name = format!("specula-fuzz-{}.glb", std::process::id());
     let path = std::env::temp_dir().join(name);
     std::fs::write(&path, data).unwrap();
-    if let Ok(loaded) = load_with(&path, &Limits::strict()) {
+    if let Ok(loaded) = load_with(&path, &Limits::strict().into()) {
         loaded.scene.validate().unwrap();
     }
 });

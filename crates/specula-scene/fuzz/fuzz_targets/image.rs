@@ -33,7 +33,7 @@ fuzz_target!(init: let_guarded_panics_pass(), |data: &[u8]| {
          LightSource \"infinite\" \"string filename\" \"{picture}\" Shape \"sphere\" \"texture alpha\" \"t\""
     );
     std::fs::write(&path, scene).unwrap();
-    if let Ok(loaded) = load_with(&path, &Limits::strict()) {
+    if let Ok(loaded) = load_with(&path, &Limits::strict().into()) {
         loaded.scene.validate().unwrap();
     }
 });

@@ -2,7 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use specula_scene::{Limits, mitsuba};
+use specula_scene::{Format, Limits, load_as};
 
 const SCENE: &str = r#"<scene version="3.0.0"><sensor type="perspective"/><emitter type="constant"/>
 <shape type="obj"><string name="filename" value="mesh.obj"/></shape></scene>"#;
@@ -13,7 +13,7 @@ fuzz_target!(|data: &[u8]| {
     std::fs::write(folder.join("mesh.obj"), data).unwrap();
     let path = folder.join("scene.xml");
     std::fs::write(&path, SCENE).unwrap();
-    if let Ok(loaded) = mitsuba::read(&path, &Limits::strict(), &mitsuba::Options::default()) {
+    if let Ok(loaded) = load_as(&path, Format::Mitsuba, &Limits::strict().into()) {
         loaded.scene.validate().unwrap();
     }
 });

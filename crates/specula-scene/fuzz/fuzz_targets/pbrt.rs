@@ -9,7 +9,7 @@ fuzz_target!(|data: &[u8]| {
     std::fs::create_dir_all(&folder).unwrap();
     let path = folder.join("scene.pbrt");
     std::fs::write(&path, data).unwrap();
-    if let Ok(loaded) = load_with(&path, &Limits::strict()) {
+    if let Ok(loaded) = load_with(&path, &Limits::strict().into()) {
         loaded.scene.validate().unwrap();
     }
 });

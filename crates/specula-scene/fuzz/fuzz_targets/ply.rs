@@ -12,7 +12,7 @@ fuzz_target!(|data: &[u8]| {
     std::fs::write(folder.join("mesh.ply"), data).unwrap();
     let path = folder.join("scene.pbrt");
     std::fs::write(&path, SCENE).unwrap();
-    if let Ok(loaded) = load_with(&path, &Limits::strict()) {
+    if let Ok(loaded) = load_with(&path, &Limits::strict().into()) {
         loaded.scene.validate().unwrap();
     }
 });

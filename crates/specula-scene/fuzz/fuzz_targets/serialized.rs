@@ -8,7 +8,7 @@ use std::io::Write;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use libfuzzer_sys::fuzz_target;
-use specula_scene::{Limits, mitsuba};
+use specula_scene::{Format, Limits, load_as};
 
 const SCENE: &str = r#"<scene version="3.0.0"><sensor type="perspective"/><emitter type="constant"/>
 <shape type="serialized"><string name="filename" value="mesh.serialized"/></shape></scene>"#;
@@ -40,7 +40,7 @@ fuzz_target!(|data: &[u8]| {
     std::fs::write(folder.join("mesh.serialized"), file).unwrap();
     let path = folder.join("scene.xml");
     std::fs::write(&path, SCENE).unwrap();
-    if let Ok(loaded) = mitsuba::read(&path, &Limits::strict(), &mitsuba::Options::default()) {
+    if let Ok(loaded) = load_as(&path, Format::Mitsuba, &Limits::strict().into()) {
         loaded.scene.validate().unwrap();
     }
 });

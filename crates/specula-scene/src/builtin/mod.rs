@@ -1,4 +1,4 @@
-//! The scene that is built in: rough metal at a glance.
+//! The built-in scene: rough metal at a glance.
 //!
 //! Two rows of lathe-turned orbs, five metals. The back row is isotropic and grows rougher from
 //! left to right; the front row is anisotropic, alpha_x around the axis of each orb and alpha_y
@@ -14,12 +14,10 @@ use glam::{DMat4, DVec3};
 use specula_bsdf::math::rgb;
 use specula_bsdf::{Rgb, metals};
 
-use crate::energy::Energy;
 use crate::num::f32_of;
 use crate::scene::{
     Camera, CoatMedium, ColourParam, ConductorFresnel, Emission, Film, Filter, FloatParam,
-    Geometry, Material, MaterialId, MaterialKind, Mesh, MeshId, Projection, Roughness, Scene,
-    Settings, Shape,
+    Geometry, Material, MaterialId, MaterialKind, Mesh, MeshId, Roughness, Scene, Settings, Shape,
 };
 
 /// Symbols of the metals, from left to right.
@@ -34,7 +32,7 @@ const ANISOTROPIC: [(f64, f64); 5] = [
     (0.8, 0.1),
     (0.2, 0.8),
 ];
-/// From orb to orb, in radii.
+/// Distance between neighbouring orbs, in radii.
 const SPACING: f64 = 2.72;
 
 /// The built-in scene: 960 x 400 pixels, 64 samples per pixel. Lengths are in radii of an orb, z is
@@ -43,7 +41,7 @@ const SPACING: f64 = 2.72;
 /// The same value at every call; it satisfies [`Scene::validate`].
 #[must_use]
 pub fn orbs() -> Scene {
-    let mut build = Build::new();
+    let mut build = SceneBuilder::new();
     build.stage();
     let ball = build.mesh(revolve::orb());
     let foot = build.mesh(revolve::foot());
@@ -95,7 +93,7 @@ fn conductor(symbol: &str, alpha_x: f64, alpha_y: f64) -> MaterialKind {
             eta: index(metal.eta),
             k: index(metal.k),
         },
-        // Not reached: a test holds the symbols against the table.
+        // Not reached: a test looks every symbol up.
         None => ConductorFresnel::Reflectance(ColourParam::Value(Rgb::splat(0.9))),
     };
     MaterialKind::Conductor {
@@ -105,45 +103,28 @@ fn conductor(symbol: &str, alpha_x: f64, alpha_y: f64) -> MaterialKind {
     }
 }
 
-/// A scene that grows.
-struct Build {
+/// Adds parts to a scene.
+struct SceneBuilder {
     scene: Scene,
 }
 
-impl Build {
+impl SceneBuilder {
     fn new() -> Self {
-        let resolution = [960, 400];
+        let filter = Filter::Gaussian {
+            radius: [1.5; 2],
+            sigma: 0.5,
+        };
+        let film = Film::new([960, 400], filter);
+        let eye = DVec3::new(0.0, -19.0, 8.2);
+        let target = DVec3::new(0.0, 0.35, 1.86);
+        let camera = Camera::look_at(eye, target, DVec3::Z, 18.9, &film);
+        let settings = Settings {
+            max_depth: 8,
+            samples_per_pixel: 64,
+            ..Settings::default()
+        };
         Self {
-            scene: Scene {
-                camera: camera(resolution),
-                film: Film {
-                    resolution,
-                    crop: [0, resolution[0], 0, resolution[1]],
-                    filter: Filter::Gaussian {
-                        radius: [1.5; 2],
-                        sigma: 0.5,
-                    },
-                    exposure: 1.0,
-                    max_component: None,
-                    balance: Film::NO_BALANCE,
-                    file_name: None,
-                },
-                settings: Settings {
-                    max_depth: 8,
-                    samples_per_pixel: 64,
-                    hide_emitters: false,
-                    energy: Energy::DEFAULT,
-                },
-                images: Vec::new(),
-                textures: Vec::new(),
-                materials: Vec::new(),
-                meshes: Vec::new(),
-                shapes: Vec::new(),
-                objects: Vec::new(),
-                instances: Vec::new(),
-                lights: Vec::new(),
-                floor: None,
-            },
+            scene: Scene::empty(camera, film, settings),
         }
     }
 
@@ -161,14 +142,10 @@ impl Build {
     }
 
     fn shape(&mut self, mesh: MeshId, to_world: DMat4, material: MaterialId) {
-        self.scene.shapes.push(Shape {
-            geometry: Geometry::Mesh(mesh),
-            to_world,
-            material,
-            emission: None,
-            reverse_orientation: false,
-            alpha: FloatParam::Value(1.0),
-        });
+        let geometry = Geometry::Mesh(mesh);
+        self.scene
+            .shapes
+            .push(Shape::new(geometry, to_world, material));
     }
 
     fn emitter(&mut self, mesh: Mesh, material: MaterialId, radiance: Rgb<f32>) {
@@ -180,27 +157,6 @@ impl Build {
                 two_sided: false,
             });
         }
-    }
-}
-
-fn camera(resolution: [u32; 2]) -> Camera {
-    let eye = DVec3::new(0.0, -19.0, 8.2);
-    let target = DVec3::new(0.0, 0.35, 1.86);
-    let forward = (target - eye).normalize();
-    let right = forward.cross(DVec3::Z).normalize();
-    let up = right.cross(forward);
-    let aspect = f64::from(resolution[0]) / f64::from(resolution[1]);
-    Camera {
-        to_world: DMat4::from_cols(
-            right.extend(0.0),
-            up.extend(0.0),
-            forward.extend(0.0),
-            eye.extend(1.0),
-        ),
-        projection: Projection::Perspective { fov_deg: 18.9 },
-        lens_radius: 0.0,
-        focal_distance: (target - eye).length(),
-        screen_window: [-aspect, aspect, -1.0, 1.0],
     }
 }
 

@@ -15,7 +15,7 @@ pub(super) fn orb() -> Mesh {
     const ROWS: u32 = 168;
     let profile: Vec<[f64; 2]> = (0..=ROWS)
         .map(|i| {
-            // The poles are left open by a hair: there, a tangent has no direction.
+            // The poles are left open by a hair: at a pole, no tangent is defined.
             let theta = 1e-3 + (PI - 2e-3) * f64::from(i) / f64::from(ROWS);
             let radius = 1.0 - groove(theta, 0.62, 0.035, 0.035) - groove(theta, 2.2, 0.05, 0.03);
             [radius * theta.sin(), radius * theta.cos()]
@@ -59,7 +59,7 @@ fn revolved(profile: &[[f64; 2]], segments: u32) -> Mesh {
         let [nr, nz] = profile_normal(profile, row);
         for segment in 0..=segments {
             let u = f64::from(segment) / f64::from(segments);
-            // The seam closes exactly.
+            // The last column equals the first exactly.
             let (sin, cos) = (TAU * f64::from(segment % segments) / f64::from(segments)).sin_cos();
             let v = row as f64 / (rows - 1) as f64;
             mesh.positions.push([r * cos, r * sin, *z].map(f32_of));

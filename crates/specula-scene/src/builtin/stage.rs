@@ -3,7 +3,7 @@
 use glam::DVec3;
 use specula_bsdf::math::rgb;
 
-use super::{Build, studio};
+use super::{SceneBuilder, studio};
 use crate::num::f32_of;
 use crate::scene::{
     ColourParam, EnvironmentMapping, FloatParam, ImageId, Light, MaterialKind, Mesh, Texture,
@@ -20,7 +20,7 @@ pub(super) const STEP_HEIGHT: f64 = 1.6;
 /// Half the width of everything that stands on the floor.
 const HALF_WIDTH: f64 = 40.0;
 
-impl Build {
+impl SceneBuilder {
     /// Floor, backdrop, step and lights.
     pub(super) fn stage(&mut self) {
         let checks = self.checks();

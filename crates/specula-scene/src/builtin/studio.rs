@@ -17,7 +17,7 @@ struct Strip {
     radiance: [f64; 3],
 }
 
-/// Narrow strips: what anisotropy stretches and roughness blurs. The viewer stands at azimuth 270.
+/// Narrow strips, whose reflections show anisotropy and roughness. The viewer is at azimuth 270.
 const STRIPS: [Strip; 4] = [
     Strip {
         azimuth_deg: 225.0,
@@ -49,7 +49,7 @@ const STRIPS: [Strip; 4] = [
     },
 ];
 
-/// What projects the shadow on a floor: as large as soft shadows need, high and to the left.
+/// The key light, which casts the shadow on a floor: large enough for soft shadows, high and to the left.
 const KEY: Strip = Strip {
     azimuth_deg: 222.0,
     elevation_deg: 58.0,
@@ -61,10 +61,10 @@ const KEY: Strip = Strip {
 /// Factor on all light above a floor: white paint, whichever way it faces, stays below 1.
 const EXPOSURE: f64 = 0.75;
 
-/// Below this elevation, the gradient goes over into the floor's radiance.
+/// Below this elevation the gradient blends into the floor's radiance.
 const HORIZON_DEG: f64 = 24.0;
 
-/// Latitude and longitude, +z in the first row, azimuth along the columns.
+/// Size of the latitude-longitude map: +z in the first row, azimuth along the columns.
 pub(super) fn environment() -> Image {
     picture("studio", |azimuth, elevation| {
         with_strips(ambient(elevation), azimuth, elevation)
@@ -72,7 +72,7 @@ pub(super) fn environment() -> Image {
 }
 
 /// The studio above a floor that reflects `albedo` evenly: with a key light more, and with the
-/// radiance of the lit floor from below the horizon, so that the floor ends nowhere.
+/// radiance of the lit floor from below the horizon, so that the floor has no visible end.
 ///
 /// With `w` the gradient's share, `E_sky` the floor's irradiance by gradient, strips and key, and
 /// `E_1` that by a radiance of `1 - w`, the floor's radiance `F` solves `pi F = albedo (E_sky + F E_1)`.

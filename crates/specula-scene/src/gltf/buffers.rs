@@ -28,7 +28,7 @@ impl Reader<'_> {
                 Ok(bytes) => Ok(bytes),
                 Err(error) => {
                     let message = error.message().to_owned();
-                    self.problems.keep(error)?;
+                    self.problems.record(error)?;
                     Err(message)
                 }
             });
@@ -104,7 +104,7 @@ impl Reader<'_> {
         view: &gltf::buffer::View<'_>,
     ) -> Result<&[u8], SceneError> {
         let bytes = match self.buffers.get(view.buffer().index()) {
-            // Its error is kept already, and kept once.
+            // Its error is recorded already, once.
             Some(Err(message)) => return Err(self.error(ErrorKind::Io, message)),
             Some(Ok(bytes)) => Some(bytes),
             None => None,

@@ -5,7 +5,7 @@ const MAGIC: &[u8; 4] = b"glTF";
 
 /// What a file holds: the JSON document, and the binary chunk where there is one.
 #[derive(Debug, PartialEq)]
-pub(super) struct Parts<'a> {
+pub(super) struct ContainerParts<'a> {
     pub(super) json: &'a [u8],
     pub(super) binary: Option<&'a [u8]>,
 }
@@ -15,9 +15,9 @@ pub(super) struct Parts<'a> {
 /// # Errors
 ///
 /// Where a header, version, length or chunk type is not as glTF 2.0, section 4.4, asks.
-pub(super) fn split(bytes: &[u8]) -> Result<Parts<'_>, String> {
+pub(super) fn split(bytes: &[u8]) -> Result<ContainerParts<'_>, String> {
     if !bytes.starts_with(MAGIC) {
-        return Ok(Parts {
+        return Ok(ContainerParts {
             json: bytes,
             binary: None,
         });
@@ -41,7 +41,7 @@ pub(super) fn split(bytes: &[u8]) -> Result<Parts<'_>, String> {
         .ok_or_else(|| format!("its header tells of {length} bytes: expected at least 12"))?;
     let json = chunk(&mut rest, *b"JSON")?.ok_or("expected a JSON chunk first")?;
     let binary = chunk(&mut rest, *b"BIN\0")?;
-    Ok(Parts { json, binary })
+    Ok(ContainerParts { json, binary })
 }
 
 /// The next chunk if it is of the type asked for; later chunks of other types are for extensions.
@@ -96,7 +96,7 @@ mod tests {
 
     #[test]
     fn lengths_that_lie_are_errors() {
-        let found = include_bytes!("../../fuzz/findings/gltf-short-length.glb");
+        let found = include_bytes!("../../tests/findings/gltf-short-length.glb");
         assert!(split(found).is_err());
         let json: &[(&[u8; 4], u32, &[u8])] = &[(b"JSON", 4, b"{}  ")];
         for length in [0, 5, 11, 25, u32::MAX] {

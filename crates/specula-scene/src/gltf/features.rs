@@ -1,9 +1,9 @@
-//! What is done with each feature of glTF 2.0.
+//! Support of each feature of glTF 2.0.
 
-use crate::features::Feature;
+use crate::feature::Feature;
 
 /// Every feature that is known, by class.
-pub const FEATURES: &[Feature] = &[
+pub(crate) const FEATURES: &[Feature] = &[
     Feature::full("file", ".gltf with files or data URIs"),
     Feature::full("file", ".glb"),
     Feature::refused("file", "addresses of a network", "nothing is fetched"),
@@ -21,8 +21,12 @@ pub const FEATURES: &[Feature] = &[
         "any two for each material; the first stands in for a third",
     ),
     Feature::full("mesh", "KHR_mesh_quantization"),
-    Feature::refused("mesh", "KHR_draco_mesh_compression", "no kept decoder"),
-    Feature::refused("mesh", "EXT_meshopt_compression", "no kept decoder"),
+    Feature::refused(
+        "mesh",
+        "KHR_draco_mesh_compression",
+        "no maintained decoder",
+    ),
+    Feature::refused("mesh", "EXT_meshopt_compression", "no maintained decoder"),
     Feature::full("material", "metallic-roughness"),
     Feature::full("material", "normal map"),
     Feature::approximated(
@@ -54,7 +58,7 @@ pub const FEATURES: &[Feature] = &[
     Feature::approximated("material", "KHR_materials_variants", "the default variant"),
     Feature::full("texture", "PNG, JPEG"),
     Feature::full("texture", "EXT_texture_webp"),
-    Feature::refused("texture", "KHR_texture_basisu", "no kept decoder"),
+    Feature::refused("texture", "KHR_texture_basisu", "no maintained decoder"),
     Feature::full("texture", "KHR_texture_transform"),
     Feature::full("texture", "wrap modes"),
     Feature::approximated("texture", "filters", "nearest or bilinear, no mip maps"),

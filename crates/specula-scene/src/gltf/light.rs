@@ -1,4 +1,4 @@
-//! Lights of `KHR_lights_punctual`, which emit along -z of their node.
+//! Lights of `KHR_lights_punctual`, which point along -z of their node.
 
 use glam::{DMat4, DVec3};
 use gltf::khr_lights_punctual::Kind;

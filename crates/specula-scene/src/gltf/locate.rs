@@ -1,4 +1,4 @@
-//! Where in a JSON text the element stands that a message names by its path.
+//! Finds the element in a JSON text that a message names by its path.
 
 use std::ops::Range;
 
@@ -26,7 +26,7 @@ pub(super) fn written(path: &[Step]) -> String {
 }
 
 /// The bytes of the element that `message` begins with, such as `meshes[0].primitives[1]`; what it
-/// names beyond the text's own elements (`.POSITION` of an accessor) is not looked for.
+/// names beyond the text's own elements (`.POSITION` of an accessor) is ignored.
 pub(super) fn locate(text: &str, message: &str) -> Option<Range<usize>> {
     let end = message.find([':', ' ']).unwrap_or(message.len());
     if !message[..end].contains('[') {
@@ -44,7 +44,7 @@ pub(super) fn locate(text: &str, message: &str) -> Option<Range<usize>> {
     find(text, &path)
 }
 
-/// Longest stretch of a value that is pointed at.
+/// Longest excerpt of a value that is marked.
 const LONGEST_SPAN: usize = 80;
 
 /// The bytes of the value that a path leads to, or of the innermost on the way that is there: the
@@ -84,7 +84,7 @@ pub(super) fn find(text: &str, path: &[Step]) -> Option<Range<usize>> {
     Some(start..end.min(start + line))
 }
 
-/// A walk through a text that was parsed before: whatever it holds, the walk ends.
+/// A walk through a text that was parsed before; it ends for every text.
 struct Walk<'a> {
     text: &'a [u8],
     at: usize,

@@ -11,35 +11,35 @@ use super::texture::{MOST_SETS, Meaning};
 use super::texture_ref::{TextureRef, number, numbers};
 use crate::error::SceneError;
 use crate::scene::{
-    Bump, Channel, ColourParam, Emission, FloatParam, Gltf, Material, MaterialId, MaterialKind,
-    Texture,
+    Bump, Channel, ColourParam, Emission, FloatParam, GltfMaterial, Material, MaterialId,
+    MaterialKind, Texture,
 };
 
-/// How a primitive looks.
+/// A primitive's material, emission and opacity.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Look {
+pub(super) struct Appearance {
     pub(super) material: MaterialId,
     pub(super) emission: Option<Emission>,
     pub(super) alpha: FloatParam,
     /// The sets of coordinates that its textures use.
     pub(super) sets: [Option<u32>; MOST_SETS],
-    /// Whether the tangents of meshes matter to it.
+    /// Whether it uses the tangents of meshes.
     pub(super) tangents: bool,
 }
 
-/// Looks by material (none: the default one) and by whether the mesh has colours.
-pub(super) type Looks = HashMap<(Option<usize>, bool), Look>;
+/// Appearances by material (none: the default one) and by whether the mesh has colours.
+pub(super) type Appearances = HashMap<(Option<usize>, bool), Appearance>;
 
 /// Most indices of refraction that are taken for glass: `KHR_materials_ior` has 0 for infinity.
 const MAX_IOR: f32 = 100.0;
 
 impl Reader<'_> {
-    /// How a material looks on a mesh, with or without colours.
+    /// The appearance of a material on a mesh, with or without colours.
     pub(super) fn look(
         &mut self,
         material: &gltf::Material<'_>,
         coloured: bool,
-    ) -> Result<Look, SceneError> {
+    ) -> Result<Appearance, SceneError> {
         let key = (material.index(), coloured);
         if let Some(look) = self.looks.get(&key) {
             return Ok(*look);
@@ -53,12 +53,12 @@ impl Reader<'_> {
         &mut self,
         material: &gltf::Material<'_>,
         coloured: bool,
-    ) -> Result<Look, SceneError> {
+    ) -> Result<Appearance, SceneError> {
         let what = material.index().map_or_else(
             || "the default material".to_owned(),
             |i| format!("materials[{i}]"),
         );
-        // What has directions decides which coordinates tangents follow.
+        // Textures of directions decide which coordinates tangents follow.
         let tangents = tangent_set(material);
         self.sets = tangents.into_iter().collect();
         let (mut base, factor, picture) = self.base_colour(&what, material)?;
@@ -97,7 +97,7 @@ impl Reader<'_> {
             // Tangents without textures follow the first.
             self.sets.push(0);
         }
-        Ok(Look {
+        Ok(Appearance {
             material: MaterialId(self.materials.len() - 1),
             emission,
             alpha,
@@ -175,7 +175,7 @@ impl Reader<'_> {
         &mut self,
         material: &gltf::Material<'_>,
         base_colour: ColourParam,
-    ) -> Result<Gltf, SceneError> {
+    ) -> Result<GltfMaterial, SceneError> {
         let pbr = material.pbr_metallic_roughness();
         let map = pbr
             .metallic_roughness_texture()
@@ -200,7 +200,7 @@ impl Reader<'_> {
         let sheen_colour = numbers::<3>(sheen, "sheenColorFactor").unwrap_or([0.0; 3]);
         let has_sheen = sheen_colour.iter().any(|x| *x > 0.0);
         let ior = material.ior().unwrap_or(1.5);
-        Ok(Gltf {
+        Ok(GltfMaterial {
             base_colour,
             metallic: self.float(unit(metallic), map, blue)?,
             roughness: self.float(unit(roughness), map, green)?,
@@ -277,7 +277,7 @@ impl Reader<'_> {
         Ok((strength, self.colour(factor, map)?))
     }
 
-    /// What bends the clear coat.
+    /// The normal map of the clear coat.
     fn coat_bump(&mut self, clearcoat: &Value) -> Result<Option<Bump>, SceneError> {
         let Some(reference) = TextureRef::in_json(clearcoat, COAT_NORMALS)
             .filter(|_| factor(clearcoat, "clearcoatFactor") > 0.0)

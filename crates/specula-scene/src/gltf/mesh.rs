@@ -4,17 +4,17 @@ use gltf::Semantic;
 use gltf::mesh::Mode;
 
 use super::Reader;
-use super::material::Look;
+use super::material::Appearance;
 use crate::error::{ErrorKind, SceneError};
 use crate::mesh;
 use crate::scene::{Mesh, MeshId};
 
 impl Reader<'_> {
-    /// The meshes and looks of a mesh's primitives.
+    /// The meshes and appearances of a mesh's primitives.
     pub(super) fn primitives(
         &mut self,
         mesh: &gltf::Mesh<'_>,
-    ) -> Result<Vec<(MeshId, Look)>, SceneError> {
+    ) -> Result<Vec<(MeshId, Appearance)>, SceneError> {
         if mesh.weights().is_some_and(|w| w.iter().any(|w| *w != 0.0)) {
             self.warn("morph targets are left out: meshes have their undeformed shape");
         }
@@ -31,7 +31,7 @@ impl Reader<'_> {
         &mut self,
         what: &str,
         primitive: &gltf::Primitive<'_>,
-    ) -> Result<Option<(MeshId, Look)>, SceneError> {
+    ) -> Result<Option<(MeshId, Appearance)>, SceneError> {
         if matches!(
             primitive.mode(),
             Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip
@@ -100,7 +100,7 @@ impl Reader<'_> {
         Ok(Some((MeshId(self.meshes.len() - 1), look)))
     }
 
-    /// What was read, or nothing where its error is kept, which `is_damaged` then tells.
+    /// What was read, or nothing where its error is recorded; `is_damaged` says which.
     fn or_none<T: Default>(
         &self,
         read: Result<T, SceneError>,

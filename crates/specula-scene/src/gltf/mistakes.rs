@@ -1,6 +1,6 @@
 //! All mistakes of a document at once, and the document without them.
 //!
-//! The crate `gltf` ends with the first value of a wrong type. What it refuses is held here against the
+//! The crate `gltf` ends with the first value of a wrong type. What it refuses is compared here with the
 //! schema: each member with a mistake is named. For a check, it is then left out, and so is what cannot
 //! be without it, so that reading goes on with the rest.
 
@@ -10,14 +10,14 @@ use gltf::json::{Value, deserialize};
 
 use super::KNOWN_EXTENSIONS;
 use super::locate::Step;
-use super::schema::{Kind, LIGHTS, LISTS, Member, ROOT, RootList};
+use super::schema::{LIGHTS, LISTS, Member, ROOT, RootList, ValueKind};
 use super::version;
 use crate::error::ErrorKind;
 
 /// Something wrong in a document.
 #[derive(Debug)]
 pub(super) struct Mistake {
-    /// Where the member stands.
+    /// The member's place.
     pub(super) path: Vec<Step>,
     pub(super) kind: ErrorKind,
     pub(super) message: String,
@@ -39,7 +39,7 @@ pub(super) fn find(json: &[u8]) -> Option<(Vec<Mistake>, Option<Value>)> {
             message,
             help: Some("export as glTF 2.0"),
         });
-        // The rest would be held against the wrong schema.
+        // The rest would be compared with the wrong schema.
         return Some((search.found, None));
     }
     let count = lights(&mut root).and_then(|l| l.as_array().map(Vec::len));
@@ -54,7 +54,7 @@ pub(super) fn find(json: &[u8]) -> Option<(Vec<Mistake>, Option<Value>)> {
         return Some((search.found, None));
     }
     search.positions(&root);
-    search.value(&mut root, &Kind::Object(ROOT));
+    search.value(&mut root, &ValueKind::Object(ROOT));
     for list in &LISTS {
         search.path.push(Step::Name(list.name.to_owned()));
         search.list(root.get_mut(list.name), list);
@@ -72,7 +72,7 @@ fn lights(root: &mut Value) -> Option<&mut Value> {
     extensions.get_mut("KHR_lights_punctual")?.get_mut("lights")
 }
 
-/// Makes sure that what stand-ins refer to is there, and that the crate takes what is left.
+/// Makes sure that what stand-ins refer to exists, and that the crate accepts what is left.
 fn complete(root: &mut Value) {
     let Some(members) = root.as_object_mut() else {
         return;
@@ -135,7 +135,7 @@ impl Search {
         self.wrong(format!("expected {what}, found {}", name(value)))
     }
 
-    /// A list of the root, whose elements keep their numbers.
+    /// A list of the root; the indices of its elements do not change.
     fn list(&mut self, value: Option<&mut Value>, list: &RootList) {
         let Some(value) = value else {
             return;
@@ -161,14 +161,14 @@ impl Search {
         }
     }
 
-    /// Whether a value is what it must be. Members with mistakes that need not be there are taken
-    /// away; a value is not sound where they must.
-    fn value(&mut self, value: &mut Value, kind: &Kind) -> bool {
+    /// Whether a value follows the schema. Optional members with mistakes are taken
+    /// away; a value is wrong where a required one is.
+    fn value(&mut self, value: &mut Value, kind: &ValueKind) -> bool {
         match kind {
-            Kind::Boolean => value.is_boolean() || self.expected("true or false", value),
-            Kind::Number => value.is_number() || self.expected("a number", value),
-            Kind::Text => value.is_string() || self.expected("a text", value),
-            Kind::Integer(least, most) => {
+            ValueKind::Boolean => value.is_boolean() || self.expected("true or false", value),
+            ValueKind::Number => value.is_number() || self.expected("a number", value),
+            ValueKind::Text => value.is_string() || self.expected("a text", value),
+            ValueKind::Integer(least, most) => {
                 let within = value
                     .as_u64()
                     .is_some_and(|n| (*least..=*most).contains(&n));
@@ -181,7 +181,7 @@ impl Search {
                         }
                     }
             }
-            Kind::Numbers(count) => {
+            ValueKind::Numbers(count) => {
                 let list = value.as_array();
                 let is_sound = list.is_some_and(|l| {
                     (*count == 0 || l.len() == *count) && l.iter().all(Value::is_number)
@@ -192,28 +192,28 @@ impl Search {
                         n => self.expected(&format!("a list of {n} numbers"), value),
                     }
             }
-            Kind::Choice(numbers) => {
+            ValueKind::Choice(numbers) => {
                 let known = value.as_u64().is_some_and(|n| numbers.contains(&n));
                 known || {
                     let list: Vec<String> = numbers.iter().map(u64::to_string).collect();
                     self.expected(&format!("one of {}", list.join(", ")), value)
                 }
             }
-            Kind::Word(words) => {
+            ValueKind::Word(words) => {
                 let known = value.as_str().is_some_and(|w| words.contains(&w));
                 known || self.expected(&format!("one of {}", words.join(", ")), value)
             }
-            Kind::Index(list) => self.index(value, list),
-            Kind::List(kind) => self.elements(value, kind),
-            Kind::Object(members) => self.object(value, members),
-            Kind::Map(kind) => self.map(value, kind),
+            ValueKind::Index(list) => self.index(value, list),
+            ValueKind::List(kind) => self.elements(value, kind),
+            ValueKind::Object(members) => self.object(value, members),
+            ValueKind::Map(kind) => self.map(value, kind),
         }
     }
 
     fn index(&mut self, value: &Value, list: &'static str) -> bool {
         let count = self.counts.get(list).copied().unwrap_or(0);
         match index_of(value) {
-            // That the element has a mistake was said there.
+            // The element's mistake is recorded already.
             Some(i) if i < count => !self.damaged.contains(&(list, i)),
             Some(i) => {
                 let known = match count {
@@ -226,7 +226,7 @@ impl Search {
         }
     }
 
-    fn elements(&mut self, value: &mut Value, kind: &Kind) -> bool {
+    fn elements(&mut self, value: &mut Value, kind: &ValueKind) -> bool {
         let Some(elements) = value.as_array_mut() else {
             return self.expected("a list", value);
         };
@@ -265,7 +265,7 @@ impl Search {
         is_sound
     }
 
-    fn map(&mut self, value: &mut Value, kind: &Kind) -> bool {
+    fn map(&mut self, value: &mut Value, kind: &ValueKind) -> bool {
         let Some(object) = value.as_object_mut() else {
             return self.expected("an object", value);
         };

@@ -13,7 +13,7 @@
 //! | faces are culled from behind unless `doubleSided` | both sides are seen: light passes no wall |
 //!
 //! A file without lights gets the built-in studio's and a floor, a file without a camera one that
-//! frames everything; both are said in warnings.
+//! frames everything; warnings say so.
 
 mod accessor;
 mod buffers;
@@ -35,9 +35,9 @@ mod version;
 use std::path::Path;
 use std::sync::Arc;
 
-pub use features::FEATURES;
+pub(crate) use features::FEATURES;
 
-use crate::error::{ErrorKind, Place, SceneError, Source, Warning};
+use crate::error::{ErrorKind, Place, SceneError, SourceText, Warning};
 use crate::image::Image;
 use crate::problems::Problems;
 use crate::read_file::Files;
@@ -48,7 +48,7 @@ use crate::{Limits, LoadOptions, Loaded};
 /// Extensions that a file may require.
 const KNOWN_EXTENSIONS: [&str; 16] = [
     "EXT_texture_webp",
-    // Marks which triangles belong to one polygon: nothing that a picture shows.
+    // Marks which triangles belong to one polygon, which does not change the picture.
     "FB_ngon_encoding",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
@@ -66,7 +66,7 @@ const KNOWN_EXTENSIONS: [&str; 16] = [
     "KHR_texture_transform",
 ];
 
-/// What is being read.
+/// The state of the reader.
 struct Reader<'a> {
     document: &'a gltf::Document,
     limits: &'a Limits,
@@ -85,7 +85,7 @@ struct Reader<'a> {
     shapes: Vec<Shape>,
     lights: Vec<Light>,
     decoded: texture::Decoded,
-    looks: material::Looks,
+    looks: material::Appearances,
     /// Sets of coordinates that the material being read uses.
     sets: Vec<u32>,
 }
@@ -101,7 +101,7 @@ pub(crate) fn read(
     files: &Files,
     problems: &Problems,
 ) -> Result<Loaded, SceneError> {
-    let source = Source::unread(path);
+    let source = SourceText::unread(path);
     let start = Place::start(&source);
     let bytes = files
         .unpacked(path)
@@ -134,7 +134,7 @@ fn parse_into(
     problems: &Problems,
 ) -> Result<Loaded, SceneError> {
     let parts = container::split(bytes).map_err(|message| {
-        let start = Place::start(&Source::unread(path));
+        let start = Place::start(&SourceText::unread(path));
         let message = format!("not valid glTF 2.0: {message}");
         SceneError::new(ErrorKind::Structure, &start, message)
     })?;
@@ -160,7 +160,7 @@ fn parse_into(
         shapes: Vec::new(),
         lights: Vec::new(),
         decoded: texture::Decoded::default(),
-        looks: material::Looks::default(),
+        looks: material::Appearances::default(),
         sets: Vec::new(),
     };
     reader.warn_of_extensions();
@@ -170,21 +170,24 @@ fn parse_into(
 }
 
 /// The document's text, for excerpts; places in a binary file are those of its JSON chunk.
-fn source(path: &Path, bytes: &[u8], parts: &container::Parts<'_>) -> Arc<Source> {
+fn source(path: &Path, bytes: &[u8], parts: &container::ContainerParts<'_>) -> Arc<SourceText> {
     let is_binary = parts.json.len() < bytes.len();
     let chunk = if is_binary { " (JSON chunk)" } else { "" };
     let text = core::str::from_utf8(parts.json).unwrap_or_default();
-    Source::new(format!("{}{chunk}", path.display()), text)
+    SourceText::new(format!("{}{chunk}", path.display()), text)
 }
 
-/// The document, if the crate takes it.
-fn document(json: &[u8], source: &Arc<Source>) -> Result<gltf::Document, SceneError> {
+/// The document, if the crate accepts it.
+fn document(json: &[u8], source: &Arc<SourceText>) -> Result<gltf::Document, SceneError> {
     let root = gltf::json::Root::from_slice(json)
         .map_err(|e| damaged(gltf::Error::Deserialize(e), source))?;
     checked(root, source)
 }
 
-fn checked(mut root: gltf::json::Root, source: &Arc<Source>) -> Result<gltf::Document, SceneError> {
+fn checked(
+    mut root: gltf::json::Root,
+    source: &Arc<SourceText>,
+) -> Result<gltf::Document, SceneError> {
     precheck::precheck(&mut root).map_err(|message| {
         let message = format!("not valid glTF 2.0: {message}");
         SceneError::new(ErrorKind::Structure, &Place::start(source), message)
@@ -198,15 +201,15 @@ fn checked(mut root: gltf::json::Root, source: &Arc<Source>) -> Result<gltf::Doc
     gltf::Document::from_json(root).map_err(|e| damaged(e, source))
 }
 
-/// Most mistakes of a document whose places are looked for.
+/// Most mistakes of a document whose places are searched for.
 const MOST_PLACES: usize = 2 * crate::problems::MOST;
 
-/// Keeps all mistakes of a document that the crate refuses; returns what is left of it.
+/// Records all mistakes of a document that the crate refuses; returns what is left of it.
 ///
 /// * `error`: the crate's, for what the schema does not know.
 fn mend(
     json: &[u8],
-    source: &Arc<Source>,
+    source: &Arc<SourceText>,
     problems: &Problems,
     error: SceneError,
 ) -> Result<gltf::Document, SceneError> {
@@ -231,17 +234,17 @@ fn mend(
         return Err(error);
     };
     for error in errors {
-        problems.keep(error)?;
+        problems.record(error)?;
     }
     let left = rest.and_then(|rest| gltf::json::deserialize::from_value(rest).ok());
     match left.and_then(|root| checked(root, source).ok()) {
-        Some(document) => problems.keep(last).map(|()| document),
+        Some(document) => problems.record(last).map(|()| document),
         None => Err(last),
     }
 }
 
 /// The crate's error, at its line where it has one.
-fn damaged(error: gltf::Error, source: &Arc<Source>) -> SceneError {
+fn damaged(error: gltf::Error, source: &Arc<SourceText>) -> SceneError {
     let start = Place::start(source);
     match error {
         gltf::Error::Deserialize(e) => {
@@ -281,7 +284,7 @@ impl Reader<'_> {
         SceneError::new(kind, &self.place_of(&message), message)
     }
 
-    /// Where the element stands that a message begins with.
+    /// The place of the element that a message begins with.
     fn place_of(&self, message: &str) -> Place {
         let source = self.place.shared_source();
         if self.problems.is_full() {

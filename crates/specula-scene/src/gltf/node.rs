@@ -7,21 +7,21 @@ use gltf::camera::Projection as GltfProjection;
 use gltf::scene::Transform;
 
 use super::Reader;
-use super::material::Look;
+use super::material::Appearance;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
 use crate::scene::{
-    Camera, Geometry, Instance, MeshId, Object, ObjectId, Projection, Scene, Shape,
+    Camera, Geometry, MeshId, Object, ObjectId, ObjectInstance, Projection, Scene, Settings, Shape,
 };
-use crate::stage::{self, Lit};
+use crate::stage::{self, AddedLight};
 use crate::{Loaded, bounds};
 
 /// Width of pictures whose file gives no size.
 const WIDTH: u32 = 1280;
 
-/// What the tree has shown.
+/// The nodes that were visited.
 #[derive(Default)]
-struct Found {
+struct VisitedNodes {
     /// Places of every mesh, by its number.
     places: HashMap<usize, Vec<DMat4>>,
     camera: Option<(Camera, Option<f64>)>,
@@ -32,7 +32,7 @@ impl Reader<'_> {
     /// The scene of the file's default scene, else of its first, else of all its nodes.
     pub(super) fn assemble(mut self) -> Result<Loaded, SceneError> {
         let document = self.document;
-        let mut found = Found::default();
+        let mut found = VisitedNodes::default();
         let scene = document
             .default_scene()
             .or_else(|| document.scenes().next());
@@ -65,7 +65,7 @@ impl Reader<'_> {
                     };
                     self.objects.push(object);
                     let object = ObjectId(self.objects.len() - 1);
-                    instances.extend(places.iter().map(|to_world| Instance {
+                    instances.extend(places.iter().map(|to_world| ObjectInstance {
                         object,
                         to_world: *to_world,
                     }));
@@ -76,7 +76,7 @@ impl Reader<'_> {
         let is_empty = self.shapes.is_empty() && instances.is_empty();
         if is_empty && !self.problems.has_errors() {
             let mut warnings = std::mem::take(&mut self.warnings);
-            self.problems.keep_warnings(&mut warnings);
+            self.problems.record_warnings(&mut warnings);
             return Err(self.error(ErrorKind::EmptyScene, "there is nothing to render"));
         }
         self.finish(found.camera, instances)
@@ -85,7 +85,7 @@ impl Reader<'_> {
     fn finish(
         mut self,
         camera: Option<(Camera, Option<f64>)>,
-        instances: Vec<Instance>,
+        instances: Vec<ObjectInstance>,
     ) -> Result<Loaded, SceneError> {
         let aspect = camera.as_ref().and_then(|(_, aspect)| *aspect);
         let aspect = aspect.unwrap_or(16.0 / 9.0).clamp(0.05, 20.0);
@@ -95,10 +95,12 @@ impl Reader<'_> {
             reason = "between 64 and 25600"
         )]
         let height = (f64::from(WIDTH) / aspect).round() as u32;
+        let empty = Scene::empty(
+            stage::camera(bounds::BoundingBox::EMPTY, [WIDTH, height]),
+            stage::film([WIDTH, height]),
+            Settings::default(),
+        );
         let mut scene = Scene {
-            camera: stage::camera(bounds::Bounds::EMPTY, [WIDTH, height]),
-            film: stage::film([WIDTH, height]),
-            settings: stage::SETTINGS,
             images: core::mem::take(&mut self.images),
             textures: core::mem::take(&mut self.textures),
             materials: core::mem::take(&mut self.materials),
@@ -107,7 +109,7 @@ impl Reader<'_> {
             objects: core::mem::take(&mut self.objects),
             instances,
             lights: core::mem::take(&mut self.lights),
-            floor: None,
+            ..empty
         };
         let bounds = bounds::of_scene(&scene);
         match camera {
@@ -126,17 +128,17 @@ impl Reader<'_> {
             || scene.objects.iter().flat_map(|o| &o.shapes).any(emits);
         if !lit {
             self.warn(match stage::light(&mut scene, bounds) {
-                Lit::OverFloor => {
+                AddedLight::OverFloor => {
                     "the file has no lights: the built-in studio's and a floor are used"
                 }
-                Lit::Alone => "the file has no lights: the built-in studio's are used",
+                AddedLight::Alone => "the file has no lights: the built-in studio's are used",
             });
         }
         // What stands in for mistakes need not make a scene.
         if !self.problems.has_errors() {
             scene.each_fault(|fault| {
                 let error = self.error(ErrorKind::Structure, fault.to_string());
-                self.problems.keep(error)
+                self.problems.record(error)
             })?;
         }
         Ok(Loaded {
@@ -152,7 +154,7 @@ impl Reader<'_> {
         node: &gltf::Node<'_>,
         parent: DMat4,
         depth: usize,
-        found: &mut Found,
+        found: &mut VisitedNodes,
     ) -> Result<(), SceneError> {
         let what = format!("nodes[{}]", node.index());
         found.nodes += 1;
@@ -168,7 +170,7 @@ impl Reader<'_> {
             if node.skin().is_some() {
                 self.warn("skins are left out: meshes stand in their undeformed pose");
             }
-            match crate::pbrt::check_transform(&place) {
+            match crate::transform::check_transform(&place) {
                 Ok(()) => found.places.entry(mesh.index()).or_default().push(place),
                 Err(problem) => self.warn(format!("{what}: {problem}; its mesh is left out")),
             }
@@ -194,7 +196,7 @@ impl Reader<'_> {
         camera: &gltf::Camera<'_>,
         place: &DMat4,
     ) -> Result<Option<(Camera, Option<f64>)>, SceneError> {
-        // Scale along the axes of a camera means nothing.
+        // Scale along the axes of a camera has no effect.
         let axis = |v: DVec3| place.transform_vector3(v).try_normalize();
         let (Some(right), Some(up), Some(forward)) =
             (axis(DVec3::X), axis(DVec3::Y), axis(DVec3::NEG_Z))
@@ -261,7 +263,7 @@ impl Reader<'_> {
     /// A camera with a mistake: in a check the file is taken for one without.
     fn lost<T>(&self, message: String) -> Result<Option<T>, SceneError> {
         let error = self.error(ErrorKind::Parameter, message);
-        self.problems.keep(error).map(|()| None)
+        self.problems.record(error).map(|()| None)
     }
 
     /// The transform of a node, whose rotation has length 1.
@@ -306,13 +308,10 @@ impl Reader<'_> {
     }
 }
 
-fn shape((mesh, look): (MeshId, Look), to_world: DMat4) -> Shape {
+fn shape((mesh, look): (MeshId, Appearance), to_world: DMat4) -> Shape {
     Shape {
-        geometry: Geometry::Mesh(mesh),
-        to_world,
-        material: look.material,
         emission: look.emission,
-        reverse_orientation: false,
         alpha: look.alpha,
+        ..Shape::new(Geometry::Mesh(mesh), to_world, look.material)
     }
 }

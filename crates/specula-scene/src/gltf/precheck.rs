@@ -1,4 +1,4 @@
-//! What the crate `gltf` takes for granted, checked before it is asked.
+//! Checks what the crate `gltf` relies on.
 
 use gltf::json::camera::Type as CameraType;
 use gltf::json::extensions::scene::khr_lights_punctual::Type as LightType;
@@ -46,7 +46,7 @@ pub(super) fn precheck(root: &mut Root) -> Result<(), String> {
         if let Some(source) = webp {
             texture.source = Index::new(source);
         }
-        // What the crate takes where there is none.
+        // The crate's default.
         if texture.source.value() == u32::MAX as usize {
             return Err(format!("textures[{i}]: expected a source"));
         }

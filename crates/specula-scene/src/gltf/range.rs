@@ -1,4 +1,4 @@
-//! Numbers out of the specification's ranges: said in warnings, as readers clamp them.
+//! Warnings about numbers out of the specification's ranges, which readers clamp.
 //!
 //! Source: glTF 2.0, section 5, and the extensions' own schemas.
 
@@ -88,7 +88,7 @@ const OF_LIGHTS: [(&str, f64, f64); 4] = [
 ];
 
 impl Reader<'_> {
-    /// Warns of numbers that are taken for the nearest that the specification allows.
+    /// Warns of numbers that are clamped to the range of the specification.
     pub(super) fn warn_of_ranges(&mut self) {
         let root = self.document.as_json();
         for (i, material) in root.materials.iter().enumerate() {

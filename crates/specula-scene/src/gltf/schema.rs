@@ -1,10 +1,10 @@
-//! What the members of a glTF 2.0 document must be: those that the reader uses.
+//! The schema of a glTF 2.0 document: the members that the reader uses.
 //!
 //! Source: glTF 2.0, section 5, and the extensions' own schemas.
 
-/// What a value must be.
+/// The type that a value must have.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Kind {
+pub(super) enum ValueKind {
     Boolean,
     Number,
     Text,
@@ -18,10 +18,10 @@ pub(super) enum Kind {
     Word(&'static [&'static str]),
     /// The number of an element of a list of the root.
     Index(&'static str),
-    List(&'static Kind),
+    List(&'static ValueKind),
     Object(&'static [Member]),
     /// An object of any names with values of one kind.
-    Map(&'static Kind),
+    Map(&'static ValueKind),
 }
 
 /// A member of an object.
@@ -29,10 +29,10 @@ pub(super) enum Kind {
 pub(super) struct Member {
     pub(super) name: &'static str,
     pub(super) needed: bool,
-    pub(super) kind: Kind,
+    pub(super) kind: ValueKind,
 }
 
-const fn need(name: &'static str, kind: Kind) -> Member {
+const fn need(name: &'static str, kind: ValueKind) -> Member {
     Member {
         name,
         needed: true,
@@ -40,7 +40,7 @@ const fn need(name: &'static str, kind: Kind) -> Member {
     }
 }
 
-const fn may(name: &'static str, kind: Kind) -> Member {
+const fn may(name: &'static str, kind: ValueKind) -> Member {
     Member {
         name,
         needed: false,
@@ -53,13 +53,13 @@ const fn may(name: &'static str, kind: Kind) -> Member {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RootList {
     pub(super) name: &'static str,
-    pub(super) element: Kind,
+    pub(super) element: ValueKind,
     pub(super) stand_in: &'static str,
     /// Whether what refers to the stand-in is left out: it holds nothing.
     pub(super) is_data: bool,
 }
 
-const fn list(name: &'static str, element: Kind, stand_in: &'static str) -> RootList {
+const fn list(name: &'static str, element: ValueKind, stand_in: &'static str) -> RootList {
     RootList {
         name,
         element,
@@ -68,17 +68,17 @@ const fn list(name: &'static str, element: Kind, stand_in: &'static str) -> Root
     }
 }
 
-const fn data(name: &'static str, element: Kind, stand_in: &'static str) -> RootList {
+const fn data(name: &'static str, element: ValueKind, stand_in: &'static str) -> RootList {
     RootList {
         is_data: true,
         ..list(name, element, stand_in)
     }
 }
 
-use Kind::{Boolean, Choice, Index, Integer, List, Map, Number, Numbers, Object, Text, Word};
+use ValueKind::{Boolean, Choice, Index, Integer, List, Map, Number, Numbers, Object, Text, Word};
 
-const WHOLE: Kind = Integer(0, u64::MAX);
-const SMALL: Kind = Integer(0, u32::MAX as u64);
+const WHOLE: ValueKind = Integer(0, u64::MAX);
+const SMALL: ValueKind = Integer(0, u32::MAX as u64);
 
 pub(super) const ROOT: &[Member] = &[
     need("asset", Object(&[need("version", Text)])),
@@ -118,9 +118,9 @@ pub(super) const LISTS: [RootList; 13] = [
 /// The list of lights, within the root's extension.
 pub(super) const LIGHTS: RootList = list("lights", LIGHT, r#"{"type":"point"}"#);
 
-const BUFFER: Kind = Object(&[may("byteLength", WHOLE), may("uri", Text)]);
+const BUFFER: ValueKind = Object(&[may("byteLength", WHOLE), may("uri", Text)]);
 
-const VIEW: Kind = Object(&[
+const VIEW: ValueKind = Object(&[
     need("buffer", Index("buffers")),
     need("byteLength", WHOLE),
     may("byteOffset", WHOLE),
@@ -128,7 +128,7 @@ const VIEW: Kind = Object(&[
     may("target", Choice(&[34_962, 34_963])),
 ]);
 
-const ACCESSOR: Kind = Object(&[
+const ACCESSOR: ValueKind = Object(&[
     may("bufferView", Index("bufferViews")),
     may("byteOffset", WHOLE),
     need(
@@ -164,22 +164,22 @@ const ACCESSOR: Kind = Object(&[
     ),
 ]);
 
-const IMAGE: Kind = Object(&[
+const IMAGE: ValueKind = Object(&[
     may("uri", Text),
     may("mimeType", Text),
     may("bufferView", Index("bufferViews")),
 ]);
 
-const WRAPS: Kind = Choice(&[33_071, 33_648, 10_497]);
+const WRAPS: ValueKind = Choice(&[33_071, 33_648, 10_497]);
 
-const SAMPLER: Kind = Object(&[
+const SAMPLER: ValueKind = Object(&[
     may("magFilter", Choice(&[9728, 9729])),
     may("minFilter", Choice(&[9728, 9729, 9984, 9985, 9986, 9987])),
     may("wrapS", WRAPS),
     may("wrapT", WRAPS),
 ]);
 
-const TEXTURE: Kind = Object(&[
+const TEXTURE: ValueKind = Object(&[
     may("sampler", Index("samplers")),
     may("source", Index("images")),
     may(
@@ -214,9 +214,9 @@ const fn info(scale: &'static str) -> [Member; 4] {
     ]
 }
 
-const INFO: Kind = Object(&info("scale"));
+const INFO: ValueKind = Object(&info("scale"));
 
-const MATERIAL: Kind = Object(&[
+const MATERIAL: ValueKind = Object(&[
     may(
         "pbrMetallicRoughness",
         Object(&[
@@ -237,7 +237,7 @@ const MATERIAL: Kind = Object(&[
     may("extensions", MATERIAL_EXTENSIONS),
 ]);
 
-const MATERIAL_EXTENSIONS: Kind = Object(&[
+const MATERIAL_EXTENSIONS: ValueKind = Object(&[
     may(
         "KHR_materials_emissive_strength",
         Object(&[may("emissiveStrength", Number)]),
@@ -281,7 +281,7 @@ const MATERIAL_EXTENSIONS: Kind = Object(&[
     ),
 ]);
 
-const CAMERA: Kind = Object(&[
+const CAMERA: ValueKind = Object(&[
     need("type", Word(&["perspective", "orthographic"])),
     may(
         "perspective",
@@ -303,7 +303,7 @@ const CAMERA: Kind = Object(&[
     ),
 ]);
 
-const MESH: Kind = Object(&[
+const MESH: ValueKind = Object(&[
     need(
         "primitives",
         List(&Object(&[
@@ -317,13 +317,13 @@ const MESH: Kind = Object(&[
     may("weights", Numbers(0)),
 ]);
 
-const SKIN: Kind = Object(&[
+const SKIN: ValueKind = Object(&[
     may("inverseBindMatrices", Index("accessors")),
     need("joints", List(&Index("nodes"))),
     may("skeleton", Index("nodes")),
 ]);
 
-const NODE: Kind = Object(&[
+const NODE: ValueKind = Object(&[
     may("camera", Index("cameras")),
     may("children", List(&Index("nodes"))),
     may("matrix", Numbers(16)),
@@ -342,9 +342,9 @@ const NODE: Kind = Object(&[
     ),
 ]);
 
-const SCENE: Kind = Object(&[need("nodes", List(&Index("nodes")))]);
+const SCENE: ValueKind = Object(&[need("nodes", List(&Index("nodes")))]);
 
-const ANIMATION: Kind = Object(&[
+const ANIMATION: ValueKind = Object(&[
     need(
         "channels",
         List(&Object(&[
@@ -371,7 +371,7 @@ const ANIMATION: Kind = Object(&[
     ),
 ]);
 
-const LIGHT: Kind = Object(&[
+const LIGHT: ValueKind = Object(&[
     may("color", Numbers(3)),
     may("intensity", Number),
     may("range", Number),

@@ -21,7 +21,7 @@ pub(super) const MOST_SETS: usize = 2;
 /// Pictures that have been decoded: by number, whether as colours, and what of them.
 pub(super) type Decoded = HashMap<(usize, bool, Content), ImageId>;
 
-/// What of a picture is wanted.
+/// Which data of a picture are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Meaning {
     /// Colours with the sRGB curve.

@@ -2,7 +2,7 @@
 
 use gltf::json::Value;
 
-/// A texture with the set of coordinates and the transform that a material wants.
+/// A material's reference to a texture: index, set of coordinates and transform.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TextureRef {
     pub(super) index: usize,

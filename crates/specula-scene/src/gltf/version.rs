@@ -1,10 +1,10 @@
-//! The version of glTF that a document is of.
+//! The glTF version of a document.
 
 use gltf::json::Value;
 
 use super::locate::Step;
 
-/// Where a document says that it is of a version that is not read, and what to say of it.
+/// The path of an unsupported version in a document, and the message about it.
 ///
 /// * `asset`: the root's member of that name.
 pub(super) fn fault(asset: &Value) -> Option<(Vec<Step>, String)> {

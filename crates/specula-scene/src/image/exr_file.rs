@@ -163,7 +163,7 @@ fn not_a_picture(names: &[String]) -> String {
     )
 }
 
-/// What the crate `exr` reads. It asserts what a damaged file may break: that a block is of the level
+/// Runs a reader of the crate `exr`, whose panics become errors. The crate asserts what a damaged file may break: that a block is of the level
 /// that the table of blocks says.
 ///
 /// # Errors
@@ -224,7 +224,7 @@ mod tests {
     /// Its first byte is the fuzzer's choice of a format.
     #[test]
     fn blocks_of_another_level_are_damage() {
-        let seed = include_bytes!("../../fuzz/findings/image-levels.exr");
+        let seed = include_bytes!("../../tests/findings/image-levels.exr");
         let message = decode(
             std::io::Cursor::new(&seed[1..]),
             Content::Light,

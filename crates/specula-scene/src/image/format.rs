@@ -1,4 +1,4 @@
-//! The format of a picture, told by its first bytes; a name's end decides only where those do not.
+//! Detection of a picture's format by its first bytes; the extension decides only where those do not.
 
 use std::path::Path;
 
@@ -16,7 +16,7 @@ pub(crate) enum Format {
     WebP,
 }
 
-/// What [`Format`] has, for messages.
+/// The formats of [`Format`], for messages.
 pub(super) const EXPECTED: &str = "OpenEXR, PFM, HDR, PNG, TGA, JPEG, TIFF, BMP or WebP";
 
 impl Format {

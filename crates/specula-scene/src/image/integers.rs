@@ -11,7 +11,7 @@ use super::read::{Content, Decoded, Encoding, check_size};
 use crate::Limits;
 use crate::spectrum::ColourSpace;
 
-/// Decodes what the crate `image` reads.
+/// Decodes a picture through the crate `image`.
 ///
 /// # Errors
 ///

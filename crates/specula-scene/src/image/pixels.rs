@@ -1,11 +1,11 @@
-//! A picture's pixels in the depth of their file: linear values where they are looked up, stored as
+//! A picture's pixels in the depth of their file: linear values, stored as
 //! indices into a table of them where a file has 8 or 16 bits.
 
 use std::sync::Arc;
 
 /// Linear RGB values in order, in the depth in which they were stored.
 ///
-/// A pixel has one sample where all of the picture is grey, else three. A sample is an `f32`, or an
+/// A pixel has one value where all of the picture is grey, else three. A value is an `f32`, or an
 /// index of 8 or 16 bits into a table of linear values, which does not round.
 #[derive(Clone, Debug, Default)]
 pub struct Pixels {
@@ -171,9 +171,9 @@ impl Pixels {
         }
     }
 
-    /// Place of the first pixel with a sample for which `is` holds.
+    /// Index of the first pixel with a value for which `is` holds.
     pub(crate) fn position(&self, is: impl Fn(f32) -> bool) -> Option<usize> {
-        // What no value of the table is, no pixel is.
+        // If it holds for no value of the table, it holds for no pixel.
         let table: &[f32] = match &self.samples {
             Samples::Bytes { table, .. } => &table[..],
             Samples::Words { table, .. } => &table[..],
@@ -185,7 +185,7 @@ impl Pixels {
         self.iter().position(|p| p.into_iter().any(&is))
     }
 
-    /// Every sample with `change` applied.
+    /// Every value with `change` applied.
     pub(super) fn each(mut self, change: impl Fn(f32) -> f32) -> Self {
         let change = |values: &mut [f32]| values.iter_mut().for_each(|v| *v = change(*v));
         match &mut self.samples {
@@ -252,7 +252,7 @@ fn triple<T: Copy>(samples: &[T], index: usize) -> [T; 3] {
     samples.as_chunks().0[index]
 }
 
-/// Leaves the samples of the channels `keep` of `stride` for each pixel, and frees the rest.
+/// Leaves the values of the channels `keep` of `stride` for each pixel, and frees the rest.
 pub(super) fn take_channels<T: Copy>(
     samples: &mut Vec<T>,
     stride: usize,
@@ -267,7 +267,7 @@ pub(super) fn take_channels<T: Copy>(
     samples.shrink_to_fit();
 }
 
-/// Leaves one sample of each pixel where the three are the same; whether they were.
+/// Leaves one value of each pixel where the three are equal; returns whether they were.
 fn take_grey<T: Copy>(samples: &mut Vec<T>, is_same: impl Fn(T, T) -> bool) -> bool {
     let triples = samples.as_chunks::<3>().0;
     let is_grey = triples
@@ -305,7 +305,7 @@ fn palette(values: impl ExactSizeIterator<Item = f32>) -> Option<(Box<[f32; 256]
             }
         }
     };
-    // Pictures with more values show it soon: little is allocated for those.
+    // Pictures with more values exceed the table early: little is allocated for those.
     let (mut indices, count) = (Vec::new(), values.len());
     for (i, value) in values.enumerate() {
         let index = index_of(value)?;

@@ -39,7 +39,7 @@ impl Encoding {
     }
 }
 
-/// What is wanted of a picture.
+/// Which data of a picture are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Content {
     /// Its colours, as reflectances: the white of its colour space is white.
@@ -53,16 +53,16 @@ pub(crate) enum Content {
     Alpha,
 }
 
-/// The channels of a picture that are wanted.
+/// The decoded channels of a picture.
 pub(super) struct Decoded {
     pub(super) width: u32,
     pub(super) height: u32,
     pub(super) pixels: Pixels,
-    /// What its colours are meant in.
+    /// The colour space of its colours.
     pub(super) space: ColourSpace,
 }
 
-/// Holds a header's size against the limits, before anything is allocated for it.
+/// Checks a header's size against the limits, before anything is allocated for it.
 pub(super) fn check_size(width: u64, height: u64, limits: &Limits) -> Result<(), String> {
     if width.saturating_mul(height) <= limits.max_pixels {
         return Ok(());

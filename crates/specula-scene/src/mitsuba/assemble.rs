@@ -7,14 +7,14 @@ use super::document::Document;
 use super::element::Element;
 use super::shape::{self, Shapes};
 use super::texture::unknown;
-use crate::bounds::{self, Bounds, FARTHEST};
+use crate::bounds::{self, BoundingBox, FARTHEST};
 use crate::error::{ErrorKind, Place, SceneError};
 use crate::problems::{NoteKind, is_dark};
 use crate::read_file::Files;
-use crate::scene::{Camera, Film, Instance, Light, Object, Scene, Settings};
+use crate::scene::{Camera, Film, Light, Object, ObjectInstance, Scene, Settings};
 use crate::{Energy, Format, Loaded, stage};
 
-/// What a picture of such a scene is good for.
+/// Warning about a scene without light.
 const NO_LIGHT: &str = "the scene has no light: the picture will be black";
 
 /// Builds the scene.
@@ -22,7 +22,7 @@ pub(super) fn assemble(document: Document, files: &Files) -> Result<Loaded, Scen
     let (mut context, root) = Context::new(document, files);
     root.visited.set(true);
     context.look_for_media(&root)?;
-    let mut parts = Parts::default();
+    let mut parts = TopLevel::default();
     let problems = context.problems.clone();
     for property in &root.properties {
         if let Some(element) = context.plugin(property)? {
@@ -31,16 +31,16 @@ pub(super) fn assemble(document: Document, files: &Files) -> Result<Loaded, Scen
             problems.or(element.or(added, || ()), || ())?;
         }
     }
-    let Parts {
+    let TopLevel {
         shapes,
         lights,
         sensor,
         integrator,
     } = parts;
     let max_depth = context.integrator(integrator.as_ref());
-    let max_depth = problems.or(max_depth, || stage::SETTINGS.max_depth)?;
+    let max_depth = problems.or(max_depth, || Settings::default().max_depth)?;
     if sensor.is_none() {
-        // One with a mistake may have been meant.
+        // The one with a mistake may have been intended.
         problems.or(root.or(Err(no_sensor(&root)), || ()), || ())?;
     }
     let View {
@@ -52,21 +52,19 @@ pub(super) fn assemble(document: Document, files: &Files) -> Result<Loaded, Scen
     context.warn_unused(&root);
     if built.shapes.is_empty() && built.instances.is_empty() && !problems.has_errors() {
         let error = nothing_left(&context, &root.place);
-        problems.keep_warnings(&mut context.warnings);
+        problems.record_warnings(&mut context.warnings);
         return Err(error);
     }
     if !problems.has_errors() {
         context.note_unused(&root);
     }
+    let settings = Settings {
+        max_depth,
+        samples_per_pixel,
+        hide_emitters: context.hide_emitters,
+        energy: Energy::None,
+    };
     let scene = Scene {
-        camera,
-        film,
-        settings: Settings {
-            max_depth,
-            samples_per_pixel,
-            hide_emitters: context.hide_emitters,
-            energy: Energy::None,
-        },
         images: std::mem::take(&mut context.images),
         textures: std::mem::take(&mut context.textures),
         materials: std::mem::take(&mut context.materials),
@@ -75,13 +73,13 @@ pub(super) fn assemble(document: Document, files: &Files) -> Result<Loaded, Scen
         objects: built.objects,
         instances: built.instances,
         lights,
-        floor: None,
+        ..Scene::empty(camera, film, settings)
     };
     // What stands in for mistakes need not make a scene.
     if !problems.has_errors() {
         scene.each_fault(|fault| {
             let message = fault.to_string();
-            problems.keep(SceneError::new(ErrorKind::Limit, &root.place, message))
+            problems.record(SceneError::new(ErrorKind::Limit, &root.place, message))
         })?;
     }
     let emits = |objects: &[Object]| {
@@ -114,9 +112,9 @@ fn view(context: &mut Context, sensor: Option<&Rc<Element>>) -> Result<View, Sce
     let problems = context.problems.clone();
     let size = [768, 576];
     let Some(sensor) = sensor else {
-        // The mistake is kept already.
+        // The mistake is recorded already.
         return Ok(View {
-            camera: stage::camera(Bounds::EMPTY, size),
+            camera: stage::camera(BoundingBox::EMPTY, size),
             film: stage::film(size),
             samples_per_pixel: 1,
         });
@@ -129,21 +127,23 @@ fn view(context: &mut Context, sensor: Option<&Rc<Element>>) -> Result<View, Sce
     let camera = context.camera(sensor, film.resolution);
     Ok(View {
         samples_per_pixel: problems.or(samples_per_pixel, || 1)?,
-        camera: sensor.or(camera, || stage::camera(Bounds::EMPTY, film.resolution))?,
+        camera: sensor.or(camera, || {
+            stage::camera(BoundingBox::EMPTY, film.resolution)
+        })?,
         film,
     })
 }
 
-/// What the scene's own plugins describe.
+/// The plugins at the top level of a scene.
 #[derive(Default)]
-struct Parts {
+struct TopLevel {
     shapes: Shapes,
     lights: Vec<Light>,
     sensor: Option<Rc<Element>>,
     integrator: Option<Rc<Element>>,
 }
 
-impl Parts {
+impl TopLevel {
     fn add(&mut self, context: &mut Context, element: &Rc<Element>) -> Result<(), SceneError> {
         match element.class {
             "shape" => self.shapes.add(context, element)?,
@@ -183,7 +183,7 @@ struct BuiltShapes {
     meshes: Vec<crate::scene::Mesh>,
     shapes: Vec<crate::scene::Shape>,
     objects: Vec<Object>,
-    instances: Vec<Instance>,
+    instances: Vec<ObjectInstance>,
 }
 
 fn build(context: &mut Context, shapes: Shapes) -> Result<BuiltShapes, SceneError> {
@@ -192,7 +192,7 @@ fn build(context: &mut Context, shapes: Shapes) -> Result<BuiltShapes, SceneErro
     for (shape, place) in &finished {
         let reach = bounds::of_geometry(&meshes, &shape.geometry).transformed(&shape.to_world);
         if reach.farthest() > FARTHEST {
-            context.problems.keep(too_far(place))?;
+            context.problems.record(too_far(place))?;
         }
     }
     let objects: Vec<Object> = shapes

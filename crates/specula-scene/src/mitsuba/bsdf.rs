@@ -1,4 +1,4 @@
-//! `<bsdf>`: which plugin is read where, and the simple ones.
+//! `<bsdf>`: dispatch by plugin, and the simple plugins.
 
 use std::rc::Rc;
 
@@ -6,14 +6,14 @@ use specula_bsdf::Rgb;
 
 use super::context::Context;
 use super::element::Element;
-use super::layered::Wraps;
-use super::spectrum::Use;
+use super::layered::Wrappers;
+use super::spectrum::SpectrumUse;
 use super::texture::unknown;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
 use crate::scene::{
-    ColourParam, ConductorFresnel, Distribution, FloatParam, Material, MaterialId, MaterialKind,
-    Roughness, RoughnessMapping,
+    ColourParam, ConductorFresnel, FloatParam, Material, MaterialId, MaterialKind,
+    MicrofacetDistribution, Roughness, RoughnessMapping,
 };
 
 /// A blend of two references to one blend doubles what is within: a chain of them would never end.
@@ -37,14 +37,14 @@ pub(super) fn grey(reflectance: f32) -> MaterialKind {
 impl Context<'_> {
     /// The surface that a `<bsdf>` describes.
     pub(super) fn surface(&mut self, element: &Rc<Element>) -> Result<Surface, SceneError> {
-        self.wrapped(element, Wraps::default())
+        self.wrapped(element, Wrappers::default())
     }
 
-    /// The surface within what is around it.
+    /// The surface of a plugin within its wrappers.
     pub(super) fn wrapped(
         &mut self,
         element: &Rc<Element>,
-        wraps: Wraps,
+        wraps: Wrappers,
     ) -> Result<Surface, SceneError> {
         if self.materials.len() >= MOST_MATERIALS {
             let message = "the scene's bsdfs unfold into more than 131072 materials";
@@ -60,12 +60,12 @@ impl Context<'_> {
         element.or(read, || self.finish(element, grey(0.5), wraps))
     }
 
-    /// Adds a material as what is around it makes it.
+    /// Adds a material with its wrappers applied.
     pub(super) fn finish(
         &mut self,
         element: &Element,
         kind: MaterialKind,
-        wraps: Wraps,
+        wraps: Wrappers,
     ) -> Surface {
         let mut bump = wraps.bump.filter(|_| kind != MaterialKind::Interface);
         if let MaterialKind::Mix { materials, .. } = kind {
@@ -93,17 +93,23 @@ impl Context<'_> {
 
     /// A plugin that is one material.
     fn kind(&mut self, element: &Element) -> Result<MaterialKind, SceneError> {
-        let white =
-            |context: &mut Self, name: &str| context.colour(element, name, 1.0, Use::Reflectance);
+        let white = |context: &mut Self, name: &str| {
+            context.colour(element, name, 1.0, SpectrumUse::Reflectance)
+        };
         Ok(match element.plugin.as_str() {
             "diffuse" => MaterialKind::Diffuse {
-                reflectance: self.colour(element, "reflectance", 0.5, Use::Reflectance)?,
+                reflectance: self.colour(element, "reflectance", 0.5, SpectrumUse::Reflectance)?,
                 roughness: FloatParam::Value(0.0),
             },
             "roughdiffuse" => self.rough_diffuse(element)?,
             "difftrans" => MaterialKind::DiffuseTransmission {
                 reflectance: ColourParam::Value(Rgb::BLACK),
-                transmittance: self.colour(element, "transmittance", 0.5, Use::Reflectance)?,
+                transmittance: self.colour(
+                    element,
+                    "transmittance",
+                    0.5,
+                    SpectrumUse::Reflectance,
+                )?,
             },
             plugin @ ("conductor" | "roughconductor") => MaterialKind::Conductor {
                 fresnel: self.conductor(element)?,
@@ -158,7 +164,7 @@ impl Context<'_> {
         let message = "\"roughdiffuse\" is rendered as energy-preserving Oren-Nayar";
         self.warn(&element.place, message);
         Ok(MaterialKind::Diffuse {
-            reflectance: self.colour(element, "reflectance", 0.5, Use::Reflectance)?,
+            reflectance: self.colour(element, "reflectance", 0.5, SpectrumUse::Reflectance)?,
             roughness: match self.float(element, "alpha", 0.2)? {
                 FloatParam::Value(alpha) => FloatParam::Value(alpha.min(1.0)),
                 texture => texture,
@@ -174,8 +180,18 @@ impl Context<'_> {
             );
         }
         Ok(MaterialKind::Plastic {
-            diffuse: self.colour(element, "diffuse_reflectance", 0.5, Use::Reflectance)?,
-            specular: self.colour(element, "specular_reflectance", 1.0, Use::Reflectance)?,
+            diffuse: self.colour(
+                element,
+                "diffuse_reflectance",
+                0.5,
+                SpectrumUse::Reflectance,
+            )?,
+            specular: self.colour(
+                element,
+                "specular_reflectance",
+                1.0,
+                SpectrumUse::Reflectance,
+            )?,
             eta: self.relative_index(element, "polypropylene")?,
             roughness: if plugin == "plastic" {
                 smooth()
@@ -198,8 +214,18 @@ impl Context<'_> {
         );
         self.warn(&element.place, message);
         element.ignore(&["variant"]);
-        let diffuse = self.colour(element, "diffuse_reflectance", 0.5, Use::Reflectance)?;
-        let specular = self.colour(element, "specular_reflectance", 0.2, Use::Reflectance)?;
+        let diffuse = self.colour(
+            element,
+            "diffuse_reflectance",
+            0.5,
+            SpectrumUse::Reflectance,
+        )?;
+        let specular = self.colour(
+            element,
+            "specular_reflectance",
+            0.2,
+            SpectrumUse::Reflectance,
+        )?;
         let [u, v] = if element.plugin == "ward" {
             let alpha = if element.has("alpha") {
                 "alpha"
@@ -255,14 +281,14 @@ fn rough_mirror(u: FloatParam, v: FloatParam, tint: ColourParam) -> MaterialKind
         roughness: Roughness {
             u,
             v,
-            distribution: Distribution::Beckmann,
+            distribution: MicrofacetDistribution::Beckmann,
             ..smooth()
         },
         tint,
     }
 }
 
-/// No roughness, with Mitsuba's masking.
+/// A smooth surface, with Mitsuba's masking.
 pub(super) fn smooth() -> Roughness {
     Roughness {
         masking: specula_bsdf::ndf::Masking::Separable,

@@ -10,7 +10,7 @@ use super::document::{Document, hint, resolve};
 use super::element::{Element, Property};
 use super::medium::Sides;
 use super::number::shorten;
-use super::texture::{Built, Frame, Role};
+use super::texture::{Frame, Role, ValueOrTexture};
 use super::value::Value;
 use crate::Limits;
 use crate::error::{ErrorKind, Place, SceneError, Warning};
@@ -28,7 +28,7 @@ pub(super) struct Context<'a> {
     pub(super) images: Vec<Image>,
     pub(super) textures: Vec<Texture>,
     pub(super) materials: Vec<Material>,
-    /// Whether media do anything in the integrator.
+    /// Whether the integrator renders media.
     pub(super) sees_media: bool,
     /// The medium that the camera is in, by element.
     pub(super) camera_medium: Option<usize>,
@@ -41,7 +41,7 @@ pub(super) struct Context<'a> {
     /// Whose surface coordinates textures are read for.
     pub(super) frame: Frame,
     /// Textures by element, role and frame.
-    pub(super) built_textures: HashMap<(usize, Role, Frame), Built>,
+    pub(super) built_textures: HashMap<(usize, Role, Frame), ValueOrTexture>,
     image_ids: HashMap<(PathBuf, String), ImageId>,
     ids: HashMap<String, Rc<Element>>,
     folders: Vec<PathBuf>,
@@ -99,7 +99,7 @@ impl<'a> Context<'a> {
                     let error = SceneError::new(ErrorKind::UnknownName, &property.place, message);
                     property.damaged.set(true);
                     property.used.set(true);
-                    self.problems.keep(error).map(|()| None)
+                    self.problems.record(error).map(|()| None)
                 }
             },
             _ => Ok(None),
@@ -218,7 +218,7 @@ impl<'a> Context<'a> {
         MaterialId(self.materials.len() - 1)
     }
 
-    /// The error for a file that `place` asks for, with the folders where it was looked for.
+    /// The error for a file that `place` asks for, with the folders that were searched.
     pub(super) fn file_error(
         &self,
         kind: ErrorKind,
@@ -243,7 +243,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Warns of properties that nobody asked for, in `element` and all that it reached.
+    /// Warns of properties that were not used, in `element` and all that it contains.
     pub(super) fn warn_unused(&mut self, element: &Element) {
         if element.visited.get() {
             for property in element.properties.iter().filter(|p| !p.used.get()) {

@@ -14,17 +14,17 @@ use super::number::shorten;
 use super::plain_value::plain_value;
 use super::value::Value;
 use super::{spectrum, transform, upgrade};
-use crate::error::{ErrorKind, Place, SceneError, Source, Warning};
+use crate::error::{ErrorKind, Place, SceneError, SourceText, Warning};
 use crate::problems::Problems;
 use crate::read_file::Files;
 use crate::search;
 use crate::{Limits, LoadOptions};
 
-/// What a scene's files say.
+/// A scene's files as a tree of plugins.
 pub(super) struct Document {
     pub(super) root: Element,
     pub(super) ids: HashMap<String, Rc<Element>>,
-    /// Where files are looked for, in this order.
+    /// Folders that are searched for files, in this order.
     pub(super) folders: Vec<PathBuf>,
     pub(super) warnings: Vec<Warning>,
     pub(super) problems: Problems,
@@ -50,7 +50,7 @@ pub(super) fn read(
         opened: 0,
     };
     reader.folders.extend(options.folders.iter().cloned());
-    let source = Source::unread(path);
+    let source = SourceText::unread(path);
     let root = reader.file(path, &Place::start(&source))?;
     if root.class != "scene" {
         let message = format!("expected <scene>, found <{}>", root.class);
@@ -110,7 +110,7 @@ struct Reader<'a> {
 
 /// The file that a node belongs to.
 struct File {
-    source: Arc<Source>,
+    source: Arc<SourceText>,
     legacy: bool,
 }
 
@@ -168,7 +168,7 @@ impl Reader<'_> {
             let message = format!("{} {message}", path.display());
             let error = SceneError::new(ErrorKind::Io, asked, message);
             match self.files.is_empty() {
-                // The main file is looked for nowhere else.
+                // The main file is not searched for in other folders.
                 true => error,
                 false => error.with_hint(hint(&self.folders, asked, path)),
             }
@@ -203,15 +203,15 @@ impl Reader<'_> {
         element
     }
 
-    fn text(&self, path: &Path, bytes: Vec<u8>) -> Result<Arc<Source>, SceneError> {
+    fn text(&self, path: &Path, bytes: Vec<u8>) -> Result<Arc<SourceText>, SceneError> {
         let name = path.display().to_string();
         String::from_utf8(bytes)
-            .map(|text| Source::new(name, text.strip_prefix('\u{feff}').unwrap_or(&text)))
+            .map(|text| SourceText::new(name, text.strip_prefix('\u{feff}').unwrap_or(&text)))
             .map_err(|e| {
                 let valid = &e.as_bytes()[..e.utf8_error().valid_up_to()];
                 let start = String::from_utf8_lossy(valid).into_owned();
                 let offset = start.len();
-                let source = Source::new(path.display().to_string(), start);
+                let source = SourceText::new(path.display().to_string(), start);
                 let message = "the file is not UTF-8 text from here on";
                 SceneError::new(
                     ErrorKind::Encoding,
@@ -253,7 +253,7 @@ impl Reader<'_> {
         };
         for child in node.children().filter(Node::is_element) {
             if let Err(error) = self.child(file, child, &mut element, depth) {
-                element.keep(error)?;
+                element.record(error)?;
                 self.register_lost(file, child);
             }
         }
@@ -330,7 +330,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Makes the id of a plugin with a mistake known: what refers to it is not to blame.
+    /// Defines the id of a plugin with a mistake, so that references to it are not reported.
     fn register_lost(&mut self, file: &File, node: Node) {
         let Some(id) = node.attribute("id").filter(|_| !node.has_tag_name("ref")) else {
             return;
@@ -350,7 +350,7 @@ impl Reader<'_> {
         self.ids.entry(id.to_owned()).or_insert(Rc::new(element));
     }
 
-    /// Makes a plugin known by its id.
+    /// Defines a plugin's id.
     fn register(&mut self, element: Element) -> Result<Rc<Element>, SceneError> {
         let element = Rc::new(element);
         if let Some(id) = &element.id
@@ -362,7 +362,7 @@ impl Reader<'_> {
                 before.place
             );
             let error = SceneError::new(ErrorKind::Duplicate, &element.place, message);
-            self.problems.keep(error)?;
+            self.problems.record(error)?;
         }
         Ok(element)
     }
@@ -529,7 +529,7 @@ impl Reader<'_> {
     }
 }
 
-fn syntax(source: &Arc<Source>, error: &roxmltree::Error) -> SceneError {
+fn syntax(source: &Arc<SourceText>, error: &roxmltree::Error) -> SceneError {
     let position = error.pos();
     let line_start: usize = source
         .text()
@@ -550,7 +550,7 @@ fn syntax(source: &Arc<Source>, error: &roxmltree::Error) -> SceneError {
     SceneError::new(ErrorKind::Syntax, &place, message)
 }
 
-fn bad_version(source: &Arc<Source>, version: &str, root: Node) -> SceneError {
+fn bad_version(source: &Arc<SourceText>, version: &str, root: Node) -> SceneError {
     let place = Place::new(source, root.range().start, 1);
     let message = format!(
         "\"version\": expected numbers such as \"3.0.0\", found \"{}\"",
@@ -575,7 +575,7 @@ fn class_of(tag: &str) -> &'static str {
     }
 }
 
-/// What helps where a file that is named at `place` does not exist.
+/// Help where a file that is named at `place` does not exist.
 pub(super) fn hint(folders: &[PathBuf], place: &Place, path: &Path) -> Option<String> {
     let own = folder_of(Path::new(place.source().name()));
     let folders = folders.iter().map(PathBuf::as_path);

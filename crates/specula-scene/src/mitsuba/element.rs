@@ -22,12 +22,12 @@ pub(super) struct Element {
     /// Whether the file is of the 0.6 dialect.
     pub(super) legacy: bool,
     pub(super) properties: Vec<Property>,
-    /// Whether anything asked for its properties: what nobody used is reported only then.
+    /// Whether its properties were read: unused ones are reported only then.
     pub(super) visited: Cell<bool>,
     /// Whether something refers to its id.
     pub(super) referenced: Cell<bool>,
     pub(super) problems: Problems,
-    /// Whether a mistake was kept: others may follow from it.
+    /// Whether a mistake was recorded: others may follow from it.
     pub(super) damaged: Rc<Cell<bool>>,
 }
 
@@ -52,18 +52,18 @@ impl Element {
         SceneError::new(ErrorKind::Parameter, &self.place, message)
     }
 
-    /// Keeps a mistake in one of the properties.
+    /// Records a mistake in one of the properties.
     ///
     /// # Errors
     ///
     /// The mistake, in an ordinary load.
-    pub(super) fn keep(&self, error: SceneError) -> Result<(), SceneError> {
+    pub(super) fn record(&self, error: SceneError) -> Result<(), SceneError> {
         self.damaged.set(true);
-        self.problems.keep(error)
+        self.problems.record(error)
     }
 
-    /// What was read of the plugin, or a stand-in where its mistakes are kept; one that may follow
-    /// from another is not. What is nested too deeply may be so in more ways than can be told: that
+    /// What was read of the plugin, or a stand-in where its mistakes are recorded; one that may follow
+    /// from another is not. Nesting that is too deep may occur in many places: that
     /// mistake goes on to the outermost plugin.
     ///
     /// # Errors
@@ -77,7 +77,7 @@ impl Element {
         match read {
             Err(error) if error.kind() != ErrorKind::Limit => {
                 if !(self.damaged.get() && self.problems.is_check()) {
-                    self.keep(error)?;
+                    self.record(error)?;
                 }
                 Ok(stand_in())
             }
@@ -112,7 +112,7 @@ impl Element {
             Value::Number(x) => Ok(x),
             #[expect(clippy::cast_precision_loss, reason = "far beyond any sensible value")]
             Value::Integer(x) => Ok(x as f64),
-            _ => self.keep(property.wrong("a float")).map(|()| default),
+            _ => self.record(property.wrong("a float")).map(|()| default),
         }
     }
 
@@ -122,7 +122,7 @@ impl Element {
         if x >= 0.0 {
             return Ok(x);
         }
-        self.keep(self.out_of_range(name, "not negative", x))?;
+        self.record(self.out_of_range(name, "not negative", x))?;
         Ok(default)
     }
 
@@ -132,7 +132,7 @@ impl Element {
         if x > 0.0 {
             return Ok(x);
         }
-        self.keep(self.out_of_range(name, "above 0", x))?;
+        self.record(self.out_of_range(name, "above 0", x))?;
         Ok(default)
     }
 
@@ -149,7 +149,7 @@ impl Element {
             Value::Integer(x) => Ok(x),
             #[expect(clippy::cast_possible_truncation, reason = "whole, and bounded before")]
             Value::Number(x) if x.fract() == 0.0 && x.abs() < 9e15 => Ok(x as i64),
-            _ => self.keep(property.wrong("an integer")).map(|()| default),
+            _ => self.record(property.wrong("an integer")).map(|()| default),
         }
     }
 
@@ -169,7 +169,7 @@ impl Element {
                     "\"{name}\": expected an integer from {least} to {most}, found {found}"
                 );
                 let place = self.place_of(name);
-                self.keep(SceneError::new(ErrorKind::Parameter, &place, message))?;
+                self.record(SceneError::new(ErrorKind::Parameter, &place, message))?;
                 Ok(default)
             }
         }
@@ -180,7 +180,7 @@ impl Element {
             None => Ok(default),
             Some(property) => match property.value {
                 Value::Boolean(x) => Ok(x),
-                _ => self.keep(property.wrong("a boolean")).map(|()| default),
+                _ => self.record(property.wrong("a boolean")).map(|()| default),
             },
         }
     }
@@ -190,7 +190,7 @@ impl Element {
             None => Ok(None),
             Some(property) => match &property.value {
                 Value::Text(text) => Ok(Some(text)),
-                _ => self.keep(property.wrong("a string")).map(|()| None),
+                _ => self.record(property.wrong("a string")).map(|()| None),
             },
         }
     }
@@ -202,7 +202,7 @@ impl Element {
                 Value::Vector(v) => Ok(Some(v)),
                 _ => {
                     let error = property.wrong("a point or vector");
-                    self.keep(error).map(|()| None)
+                    self.record(error).map(|()| None)
                 }
             },
         }
@@ -215,13 +215,13 @@ impl Element {
                 Value::Transform(m) => Ok(m),
                 _ => {
                     let error = property.wrong("a transform");
-                    self.keep(error).map(|()| DMat4::IDENTITY)
+                    self.record(error).map(|()| DMat4::IDENTITY)
                 }
             },
         }
     }
 
-    /// Where a property stands, or else the plugin itself.
+    /// The place of a property, else of the plugin.
     pub(super) fn place_of(&self, name: &str) -> Place {
         let property = self.properties.iter().find(|p| p.name == name);
         property.map_or_else(|| self.place.clone(), |p| p.place.clone())

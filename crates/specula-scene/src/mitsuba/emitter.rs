@@ -6,7 +6,7 @@ use specula_bsdf::Rgb;
 use super::context::Context;
 use super::element::Element;
 use super::sensor::half_width;
-use super::spectrum::Use;
+use super::spectrum::SpectrumUse;
 use super::texture::unknown;
 use crate::error::SceneError;
 use crate::image::Encoding;
@@ -23,13 +23,13 @@ impl Context<'_> {
         Ok(match element.plugin.as_str() {
             "envmap" => vec![self.environment(element)?],
             "constant" => vec![Light::Infinite {
-                radiance: self.even_colour(element, "radiance", 1.0, Use::Emission)?,
+                radiance: self.even_colour(element, "radiance", 1.0, SpectrumUse::Emission)?,
                 image: None,
                 to_world: DMat4::IDENTITY,
             }],
             "point" => vec![Light::Point {
                 position: position(element)?.to_array(),
-                intensity: self.even_colour(element, "intensity", 1.0, Use::Emission)?,
+                intensity: self.even_colour(element, "intensity", 1.0, SpectrumUse::Emission)?,
             }],
             "spot" => vec![self.spot(element)?],
             "directional" => vec![self.directional(element)?],
@@ -55,7 +55,7 @@ impl Context<'_> {
         })
     }
 
-    /// The light that a shape sends out.
+    /// The emission of a shape.
     pub(super) fn emission(&mut self, element: &Element) -> Result<Emission, SceneError> {
         element.ignore(&["sampling_weight", "samples"]);
         match element.plugin.as_str() {
@@ -66,7 +66,7 @@ impl Context<'_> {
                 let message = "\"directionalarea\" lights nothing, as under Mitsuba's \"path\": only \
                                \"ptracer\" shows its beam";
                 self.warn(&element.place, message);
-                self.colour(element, "radiance", 1.0, Use::Emission)?;
+                self.colour(element, "radiance", 1.0, SpectrumUse::Emission)?;
                 return Ok(Emission {
                     radiance: ColourParam::Value(Rgb::BLACK),
                     two_sided: false,
@@ -75,7 +75,7 @@ impl Context<'_> {
             other => return Err(unknown("emitter", other, &element.place)),
         }
         Ok(Emission {
-            radiance: self.colour(element, "radiance", 1.0, Use::Emission)?,
+            radiance: self.colour(element, "radiance", 1.0, SpectrumUse::Emission)?,
             two_sided: false,
         })
     }
@@ -114,9 +114,9 @@ impl Context<'_> {
             );
             return Err(element.error(message));
         }
-        let intensity = self.even_colour(element, "intensity", 1.0, Use::Emission)?;
+        let intensity = self.even_colour(element, "intensity", 1.0, SpectrumUse::Emission)?;
         if let ColourParam::Texture(texture) =
-            self.colour(element, "texture", 1.0, Use::Emission)?
+            self.colour(element, "texture", 1.0, SpectrumUse::Emission)?
         {
             if cone_angle_deg < 90.0 {
                 return Ok(Light::Picture {
@@ -153,17 +153,17 @@ impl Context<'_> {
             None => element.transform("to_world")?.transform_vector3(DVec3::Z),
         };
         Ok(Light::Distant {
-            irradiance: self.even_colour(element, "irradiance", 1.0, Use::Emission)?,
+            irradiance: self.even_colour(element, "irradiance", 1.0, SpectrumUse::Emission)?,
             to_light: axis(element, &DMat4::IDENTITY, -along)?,
             half_angle_deg: 0.0,
         })
     }
 
-    /// A camera turned round: what it projects on the plane z = 1 is pi times its texture.
+    /// `projector`, an inverse camera: its irradiance on the plane z = 1 is pi times its texture.
     fn projector(&mut self, element: &Element) -> Result<Light, SceneError> {
         element.ignore(&["near_clip", "far_clip"]);
         let to_world = element.transform("to_world")?;
-        let irradiance = self.colour(element, "irradiance", 1.0, Use::Emission)?;
+        let irradiance = self.colour(element, "irradiance", 1.0, SpectrumUse::Emission)?;
         let scale = core::f64::consts::PI * element.not_negative("scale", 1.0)?;
         let factor = Rgb::splat(f32_of(scale));
         let aspect = self.aspect(irradiance);
@@ -183,7 +183,7 @@ impl Context<'_> {
         })
     }
 
-    /// Width over height of a texture's picture; 1 for what is none.
+    /// Width over height of a texture's picture; 1 for other textures.
     fn aspect(&self, texture: ColourParam) -> f64 {
         let ColourParam::Texture(id) = texture else {
             return 1.0;

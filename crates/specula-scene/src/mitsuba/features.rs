@@ -1,6 +1,6 @@
-//! What is done with each plugin, as data.
+//! Support of each of Mitsuba's plugins.
 
-use crate::Feature;
+use crate::feature::Feature;
 
 const fn full(class: &'static str, name: &'static str) -> Feature {
     Feature::full(class, name)
@@ -21,7 +21,7 @@ const LEFT_OUT: &str = "left out";
 const NO_LIGHT_FIELD: &str = "a picture by another camera would not be the one asked for";
 
 /// Mitsuba 3's plugins, then those that only the 0.6 dialect has.
-pub const FEATURES: &[Feature] = &[
+pub(crate) const FEATURES: &[Feature] = &[
     full("bsdf", "diffuse"),
     full("bsdf", "dielectric"),
     full("bsdf", "thindielectric"),

@@ -24,17 +24,9 @@ impl Context<'_> {
     /// The film of a sensor, or the default one.
     pub(super) fn film(&mut self, element: Option<&Rc<Element>>) -> Result<Film, SceneError> {
         let Some(element) = element else {
-            return Ok(Film {
-                resolution: [768, 576],
-                crop: [0, 768, 0, 576],
-                filter: DEFAULT_FILTER,
-                exposure: 1.0,
-                max_component: None,
-                balance: Film::NO_BALANCE,
-                file_name: None,
-            });
+            return Ok(Film::new([768, 576], DEFAULT_FILTER));
         };
-        // How files are written is the renderer's affair.
+        // Parameters of the output file are not used.
         element.ignore(&[
             "file_format",
             "pixel_format",
@@ -78,13 +70,8 @@ impl Context<'_> {
             return Err(SceneError::new(ErrorKind::Limit, &element.place, message));
         }
         Ok(Film {
-            resolution: [width, height],
             crop: [x, x + crop_width, y, y + crop_height],
-            filter,
-            exposure: 1.0,
-            max_component: None,
-            balance: Film::NO_BALANCE,
-            file_name: None,
+            ..Film::new([width, height], filter)
         })
     }
 
@@ -139,7 +126,7 @@ impl Context<'_> {
         let Some(element) = element else {
             return Ok(16);
         };
-        // Every sampler gives the same picture in the limit; seeds are the user's.
+        // Every sampler converges to the same picture; the seed is an option of the render.
         element.ignore(&["seed", "jitter", "dimension", "scramble"]);
         match element.plugin.as_str() {
             "independent" | "stratified" | "multijitter" | "orthogonal" | "ldsampler"
@@ -154,12 +141,12 @@ impl Context<'_> {
 
     /// Longest path, as pbrt counts it.
     pub(super) fn integrator(&mut self, element: Option<&Rc<Element>>) -> Result<u32, SceneError> {
-        /// As good as without end.
+        /// Stands for no limit.
         const ENDLESS: u32 = 1_000_000;
         let Some(element) = element else {
             return Ok(ENDLESS);
         };
-        // How paths end and samples are spread changes no expectation.
+        // Russian roulette and the distribution of samples do not change the expectation.
         element.ignore(&[
             "rr_depth",
             "strict_normals",

@@ -17,7 +17,7 @@ use crate::{obj, ply, serialized};
 
 /// A mesh that is to be read.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Source {
+pub(super) enum MeshSource {
     Rectangle,
     Cube,
     Cylinder,
@@ -38,25 +38,25 @@ pub(super) enum Format {
     Serialized(u32),
 }
 
-/// What a mesh became.
+/// The geometry of a mesh that was read.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ready {
+pub(super) struct BuiltGeometry {
     /// `None` where nothing is left of it.
     pub(super) geometry: Option<Geometry>,
     /// Whether its normals come from its triangles: then a mirroring transform turns them over.
     pub(super) own_normals: bool,
 }
 
-/// Meshes in the order in which they were asked for.
+/// Meshes to be read, in the order of first use.
 #[derive(Default)]
 pub(super) struct Meshes {
-    sources: Vec<(Source, Place)>,
-    ids: HashMap<Source, usize>,
+    sources: Vec<(MeshSource, Place)>,
+    ids: HashMap<MeshSource, usize>,
 }
 
 impl Meshes {
     /// The number of a mesh.
-    pub(super) fn ask(&mut self, source: Source, place: &Place) -> usize {
+    pub(super) fn ask(&mut self, source: MeshSource, place: &Place) -> usize {
         *self.ids.entry(source.clone()).or_insert_with(|| {
             self.sources.push((source, place.clone()));
             self.sources.len() - 1
@@ -64,24 +64,27 @@ impl Meshes {
     }
 
     /// Reads them all.
-    pub(super) fn read(self, context: &mut Context) -> Result<(Vec<Ready>, Vec<Mesh>), SceneError> {
+    pub(super) fn read(
+        self,
+        context: &mut Context,
+    ) -> Result<(Vec<BuiltGeometry>, Vec<Mesh>), SceneError> {
         let files = context.access;
         for (source, _) in &self.sources {
-            if let Source::File { path, .. } = source {
+            if let MeshSource::File { path, .. } = source {
                 files.announce(path);
             }
         }
-        let keeps = context.problems.is_check();
+        let collects = context.problems.is_check();
         // The order of results is that of the sources, whatever the threads do.
         let results: Vec<_> = self
             .sources
             .par_iter()
-            .map(|(source, _)| build(source, files, keeps))
+            .map(|(source, _)| build(source, files, collects))
             .collect();
         let mut ready = Vec::new();
         let mut meshes = Vec::new();
         for (result, (source, place)) in results.into_iter().zip(&self.sources) {
-            let Built {
+            let BuiltMesh {
                 mesh,
                 own_normals,
                 cleaning,
@@ -90,9 +93,9 @@ impl Meshes {
                 Err(faults) => {
                     for fault in faults {
                         let error = fault_error(context, source, place, &fault);
-                        context.problems.keep(error)?;
+                        context.problems.record(error)?;
                     }
-                    ready.push(Ready {
+                    ready.push(BuiltGeometry {
                         geometry: None,
                         own_normals: false,
                     });
@@ -104,7 +107,7 @@ impl Meshes {
                 meshes.push(mesh);
                 Geometry::Mesh(MeshId(meshes.len() - 1))
             });
-            ready.push(Ready {
+            ready.push(BuiltGeometry {
                 geometry,
                 own_normals,
             });
@@ -113,14 +116,14 @@ impl Meshes {
     }
 }
 
-struct Built {
+struct BuiltMesh {
     mesh: Mesh,
     own_normals: bool,
     cleaning: Cleaning,
 }
 
-fn fault_error(context: &Context, source: &Source, place: &Place, fault: &Fault) -> SceneError {
-    let Source::File { path, format, .. } = source else {
+fn fault_error(context: &Context, source: &MeshSource, place: &Place, fault: &Fault) -> SceneError {
+    let MeshSource::File { path, format, .. } = source else {
         return SceneError::new(ErrorKind::Mesh, place, fault.to_string());
     };
     let number = match format {
@@ -131,18 +134,18 @@ fn fault_error(context: &Context, source: &Source, place: &Place, fault: &Fault)
     context.file_error(ErrorKind::Mesh, place, path, message)
 }
 
-/// * `keeps`: whether mistakes are kept, as in a check.
-fn build(source: &Source, files: &Files, keeps: bool) -> Result<Built, Vec<Fault>> {
-    let plain = |mesh| Built {
+/// * `collects`: whether to go on after a mistake, as in a check.
+fn build(source: &MeshSource, files: &Files, collects: bool) -> Result<BuiltMesh, Vec<Fault>> {
+    let plain = |mesh| BuiltMesh {
         mesh,
         own_normals: false,
         cleaning: Cleaning::default(),
     };
     let (path, format, face_normals, flip_v) = match source {
-        Source::Rectangle => return Ok(plain(super::primitive::rectangle())),
-        Source::Cube => return Ok(plain(super::primitive::cube())),
-        Source::Cylinder => return Ok(plain(super::primitive::cylinder())),
-        Source::File {
+        MeshSource::Rectangle => return Ok(plain(super::primitive::rectangle())),
+        MeshSource::Cube => return Ok(plain(super::primitive::cube())),
+        MeshSource::Cylinder => return Ok(plain(super::primitive::cylinder())),
+        MeshSource::File {
             path,
             format,
             face_normals,
@@ -151,8 +154,8 @@ fn build(source: &Source, files: &Files, keeps: bool) -> Result<Built, Vec<Fault
     };
     let mut face_normals = face_normals;
     let mut mesh = match format {
-        Format::Obj => obj::read(path, files, keeps)?,
-        Format::Ply => ply::read(path, files, keeps)?,
+        Format::Obj => obj::read(path, files, collects)?,
+        Format::Ply => ply::read(path, files, collects)?,
         Format::Serialized(index) => {
             let read = serialized::read(path, index, files).map_err(|m| vec![m.into()])?;
             face_normals |= read.face_normals;
@@ -165,12 +168,12 @@ fn build(source: &Source, files: &Files, keeps: bool) -> Result<Built, Vec<Fault
     if flip_v {
         mesh.uvs.iter_mut().for_each(|uv| uv[1] = 1.0 - uv[1]);
     }
-    let cleaning = mesh::clean_or_name(&mut mesh, keeps)?;
+    let cleaning = mesh::clean_or_name(&mut mesh, collects)?;
     let own_normals = mesh.normals.is_empty();
     if own_normals && !face_normals {
         mesh.normals = smooth_normals(&mesh);
     }
-    Ok(Built {
+    Ok(BuiltMesh {
         mesh,
         own_normals,
         cleaning,

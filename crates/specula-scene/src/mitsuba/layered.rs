@@ -9,22 +9,22 @@ use super::bsdf::{Surface, smooth};
 use super::context::Context;
 use super::element::Element;
 use super::number::numbers;
-use super::spectrum::Use;
+use super::spectrum::SpectrumUse;
 use super::texture::Role;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
 use crate::scene::{Bump, BumpRules, CoatMedium, FloatParam, Material, MaterialKind, Texture};
 
-/// What the plugins around a material make of it.
+/// Properties that the plugins around a material give it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Wraps {
+pub(super) struct Wrappers {
     pub(super) two_sided: bool,
     pub(super) bump: Option<Bump>,
     pub(super) bump_rules: BumpRules,
     pub(super) alpha: FloatParam,
 }
 
-impl Default for Wraps {
+impl Default for Wrappers {
     fn default() -> Self {
         Self {
             two_sided: false,
@@ -36,11 +36,11 @@ impl Default for Wraps {
 }
 
 impl Context<'_> {
-    /// The surface of a plugin that is around others; `None` where it is none.
+    /// The surface of a plugin that contains others; `None` for other plugins.
     pub(super) fn layered(
         &mut self,
         element: &Rc<Element>,
-        wraps: Wraps,
+        wraps: Wrappers,
     ) -> Result<Option<Surface>, SceneError> {
         match element.plugin.as_str() {
             "twosided" => {
@@ -51,7 +51,7 @@ impl Context<'_> {
                     self.warn(&element.place, message);
                     sides.truncate(1);
                 }
-                let two_sided = Wraps {
+                let two_sided = Wrappers {
                     two_sided: true,
                     ..wraps
                 };
@@ -61,7 +61,7 @@ impl Context<'_> {
                 let opacity = self.float(element, "opacity", 0.5)?;
                 let alpha = self.product(wraps.alpha, opacity);
                 let inner = self.one_nested(element)?;
-                self.wrapped(&inner, Wraps { alpha, ..wraps }).map(Some)
+                self.wrapped(&inner, Wrappers { alpha, ..wraps }).map(Some)
             }
             "bumpmap" | "normalmap" => self.bump(element, wraps).map(Some),
             "blendbsdf" => self.blend(element, wraps).map(Some),
@@ -97,7 +97,7 @@ impl Context<'_> {
         Ok(found.swap_remove(0))
     }
 
-    fn bump(&mut self, element: &Rc<Element>, wraps: Wraps) -> Result<Surface, SceneError> {
+    fn bump(&mut self, element: &Rc<Element>, wraps: Wrappers) -> Result<Surface, SceneError> {
         if wraps.bump.is_some() {
             let message = format!("{} within another bump is left out", element.title());
             self.warn(&element.place, message);
@@ -107,7 +107,7 @@ impl Context<'_> {
         let role = if element.plugin == "bumpmap" {
             Role::Number
         } else {
-            Role::Colour(Use::Unbounded)
+            Role::Colour(SpectrumUse::Unbounded)
         };
         let texture = match element.find("normalmap") {
             Some(property) => self.value(element, property, role)?,
@@ -138,7 +138,7 @@ impl Context<'_> {
         let fades = element.boolean("use_shadowing_function", !element.legacy)?;
         let bump_rules = BumpRules::Mitsuba { fades };
         let inner = self.one_nested(element)?;
-        let within = Wraps {
+        let within = Wrappers {
             bump: Some(bump),
             bump_rules,
             ..wraps
@@ -147,7 +147,7 @@ impl Context<'_> {
     }
 
     /// `weight` is the share of the second. A part without a surface makes a mask of the other.
-    fn blend(&mut self, element: &Rc<Element>, wraps: Wraps) -> Result<Surface, SceneError> {
+    fn blend(&mut self, element: &Rc<Element>, wraps: Wrappers) -> Result<Surface, SceneError> {
         let parts = self.some_nested(element)?;
         let [first, second] = parts.as_slice() else {
             let message = format!(
@@ -169,12 +169,12 @@ impl Context<'_> {
         match (first.plugin.as_str(), second.plugin.as_str()) {
             ("null", _) => {
                 let alpha = self.product(wraps.alpha, amount);
-                self.wrapped(second, Wraps { alpha, ..wraps })
+                self.wrapped(second, Wrappers { alpha, ..wraps })
             }
             (_, "null") => {
                 let rest = self.complement(amount);
                 let alpha = self.product(wraps.alpha, rest);
-                self.wrapped(first, Wraps { alpha, ..wraps })
+                self.wrapped(first, Wrappers { alpha, ..wraps })
             }
             _ => self.mix(element, first, second, amount, wraps),
         }
@@ -186,10 +186,10 @@ impl Context<'_> {
         first: &Rc<Element>,
         second: &Rc<Element>,
         amount: FloatParam,
-        wraps: Wraps,
+        wraps: Wrappers,
     ) -> Result<Surface, SceneError> {
         // A bump map belongs to the parts.
-        let bare = Wraps {
+        let bare = Wrappers {
             alpha: FloatParam::Value(1.0),
             ..wraps
         };
@@ -204,7 +204,7 @@ impl Context<'_> {
         a: Surface,
         b: Surface,
         amount: FloatParam,
-        wraps: Wraps,
+        wraps: Wrappers,
     ) -> Result<Surface, SceneError> {
         let is_whole = |s: &Surface| s.alpha == FloatParam::Value(1.0);
         if !(is_whole(&a) && is_whole(&b)) {
@@ -238,8 +238,8 @@ impl Context<'_> {
         })
     }
 
-    /// Weighted bsdfs as a chain of mixes: each takes its share of what the ones before leave.
-    fn mixture(&mut self, element: &Rc<Element>, wraps: Wraps) -> Result<Surface, SceneError> {
+    /// Weighted bsdfs as a chain of mixes.
+    fn mixture(&mut self, element: &Rc<Element>, wraps: Wrappers) -> Result<Surface, SceneError> {
         let parts = self.some_nested(element)?;
         let place = element.place_of("weights");
         let weights = numbers(element.text("weights")?.unwrap_or(""))
@@ -256,7 +256,7 @@ impl Context<'_> {
         if (total - 1.0).abs() > 1e-3 {
             self.warn(&place, "the weights are scaled to a sum of 1");
         }
-        let bare = Wraps {
+        let bare = Wrappers {
             alpha: FloatParam::Value(1.0),
             ..wraps
         };
@@ -281,7 +281,7 @@ impl Context<'_> {
     }
 
     /// A coat over Lambert or over metal; over anything else it is left out.
-    fn coating(&mut self, element: &Rc<Element>, wraps: Wraps) -> Result<Surface, SceneError> {
+    fn coating(&mut self, element: &Rc<Element>, wraps: Wrappers) -> Result<Surface, SceneError> {
         element.ignore(&["thickness", "sigma_a", "specular_reflectance"]);
         let eta = self.relative_index(element, "bk7")?;
         let coat = if element.plugin == "coating" {
@@ -317,7 +317,7 @@ impl Context<'_> {
         let message = "a coat is rendered as pbrt-v4's coated materials are, without absorption";
         self.warn(&element.place, message);
         let two_sided = !self.materials[inside.material.0].one_sided;
-        let wraps = Wraps {
+        let wraps = Wrappers {
             two_sided,
             alpha: inside.alpha,
             ..wraps

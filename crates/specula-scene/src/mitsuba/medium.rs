@@ -1,4 +1,4 @@
-//! `<medium>`: what absorbs within media. Scattering is not simulated.
+//! `<medium>`: absorption by media. Scattering is not simulated.
 
 use std::rc::Rc;
 
@@ -8,14 +8,14 @@ use super::bsdf::Surface;
 use super::context::Context;
 use super::element::{Element, Property};
 use super::number::shorten;
-use super::spectrum::Use;
+use super::spectrum::SpectrumUse;
 use super::texture::{Role, unknown};
 use crate::error::SceneError;
 use crate::media::{self, Coefficients, Homogeneous};
 use crate::num::f32_of;
 use crate::scene::{Material, MaterialId};
 
-/// Integrators in which media do something; the last are those of the 0.6 dialect.
+/// Integrators that render media; the last are those of the 0.6 dialect.
 const SEE_MEDIA: [&str; 9] = [
     "volpath",
     "volpathmis",
@@ -32,7 +32,7 @@ const SEE_MEDIA: [&str; 9] = [
 pub(super) type Sides = [Option<usize>; 2];
 
 impl Context<'_> {
-    /// Finds what decides whether media are seen: the integrator's name, and the medium that the
+    /// Reads what decides whether media are rendered: the integrator's name, and the medium that the
     /// camera is in.
     pub(super) fn look_for_media(&mut self, root: &Element) -> Result<(), SceneError> {
         if let Some(sensor) = self.children(root, "sensor")?.first() {
@@ -69,14 +69,14 @@ impl Context<'_> {
                 "exterior" => 1,
                 _ => {
                     let message = "expected the name \"interior\" or \"exterior\" of a medium";
-                    element.keep(property.error(message))?;
+                    element.record(property.error(message))?;
                     continue;
                 }
             };
             sides[side] = Some(Rc::as_ptr(&medium) as usize);
             absorption[side] = self.absorption(&medium)?;
         }
-        // Where nothing absorbs, what bounds it need not be known.
+        // A medium that does not absorb has no effect.
         if sides == [None; 2] || absorption.iter().all(|a| a.is_black()) {
             return Ok(surface);
         }
@@ -150,7 +150,7 @@ impl Context<'_> {
             }
             other => return Err(unknown("medium", other, &element.place)),
         }
-        // How free paths are sampled.
+        // Parameters of free-path sampling.
         element.ignore(&["sample_emitters", "has_spectral_extinction", "strategy"]);
         let g = self.mean_cosine(element)?;
         let scale = f32_of(element.not_negative("scale", 1.0)?);
@@ -174,12 +174,12 @@ impl Context<'_> {
         }
         // The 0.6 dialect's other pair.
         if given("sigma_a") || given("sigma_s") {
-            let absorption = self.even(element, "sigma_a", 0.0, Use::Unbounded)?;
-            let scattering = self.even(element, "sigma_s", 0.0, Use::Unbounded)?;
+            let absorption = self.even(element, "sigma_a", 0.0, SpectrumUse::Unbounded)?;
+            let scattering = self.even(element, "sigma_s", 0.0, SpectrumUse::Unbounded)?;
             return Ok(absorption.zip(scattering));
         }
-        let extinction = self.even(element, "sigma_t", 1.0, Use::Unbounded)?;
-        let albedo = self.even(element, "albedo", 0.75, Use::Reflectance)?;
+        let extinction = self.even(element, "sigma_t", 1.0, SpectrumUse::Unbounded)?;
+        let albedo = self.even(element, "albedo", 0.75, SpectrumUse::Reflectance)?;
         Ok(extinction.zip(albedo).map(|(extinction, albedo)| {
             let albedo = albedo.map(|a| a.clamp(0.0, 1.0));
             (extinction * albedo.map(|a| 1.0 - a), extinction * albedo)
@@ -192,7 +192,7 @@ impl Context<'_> {
         element: &Element,
         name: &str,
         default: f32,
-        wanted: Use,
+        wanted: SpectrumUse,
     ) -> Result<Option<Rgb<f32>>, SceneError> {
         let Some(property) = element.find(name) else {
             return Ok(Some(Rgb::splat(default)));
@@ -215,11 +215,11 @@ impl Context<'_> {
         &mut self,
         element: &Element,
         property: &Property,
-        wanted: Use,
+        wanted: SpectrumUse,
     ) -> Result<Rgb<f32>, SceneError> {
         match self.value(element, property, Role::Colour(wanted))? {
-            super::texture::Built::Value(c) => Ok(c),
-            super::texture::Built::Texture(_) => {
+            super::texture::ValueOrTexture::Value(c) => Ok(c),
+            super::texture::ValueOrTexture::Texture(_) => {
                 Err(property.error("expected a colour, found a texture"))
             }
         }

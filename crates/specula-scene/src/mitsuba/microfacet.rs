@@ -7,25 +7,25 @@ use super::context::Context;
 use super::element::Element;
 use super::metal;
 use super::number::shorten;
-use super::spectrum::Use;
+use super::spectrum::SpectrumUse;
 use super::texture::bad_choice;
 use crate::error::{ErrorKind, SceneError};
 use crate::scene::{
-    ColourParam, ConductorFresnel, Distribution, FloatParam, Roughness, RoughnessMapping,
+    ColourParam, ConductorFresnel, FloatParam, MicrofacetDistribution, Roughness, RoughnessMapping,
 };
 
 impl Context<'_> {
     /// `distribution`, and `alpha` or `alpha_u` and `alpha_v`.
     pub(super) fn roughness(&mut self, element: &Element) -> Result<Roughness, SceneError> {
-        // How directions are sampled changes no picture.
+        // The sampling method does not change the picture.
         element.ignore(&["sample_visible"]);
         let distribution = match element.text("distribution")? {
-            None | Some("beckmann") => Distribution::Beckmann,
-            Some("ggx") => Distribution::Ggx,
+            None | Some("beckmann") => MicrofacetDistribution::Beckmann,
+            Some("ggx") => MicrofacetDistribution::Ggx,
             Some(other @ ("phong" | "as")) => {
                 let message = format!("distribution \"{other}\" is read as \"beckmann\"");
                 self.warn(&element.place_of("distribution"), message);
-                Distribution::Beckmann
+                MicrofacetDistribution::Beckmann
             }
             Some(other) => {
                 return Err(bad_choice(
@@ -77,7 +77,7 @@ impl Context<'_> {
         Ok(alpha)
     }
 
-    /// A number that is a share: what is above 1 is taken for 1.
+    /// A number in `[0, 1]`; larger ones are clamped.
     pub(super) fn share(
         &mut self,
         element: &Element,
@@ -108,8 +108,8 @@ impl Context<'_> {
                 return Err(SceneError::new(ErrorKind::Parameter, &place, message));
             }
             return Ok(ConductorFresnel::Index {
-                eta: self.colour(element, "eta", 0.0, Use::Unbounded)?,
-                k: self.colour(element, "k", 1.0, Use::Unbounded)?,
+                eta: self.colour(element, "eta", 0.0, SpectrumUse::Unbounded)?,
+                k: self.colour(element, "k", 1.0, SpectrumUse::Unbounded)?,
             });
         }
         let name = material.unwrap_or(default);
@@ -128,7 +128,7 @@ impl Context<'_> {
         })
     }
 
-    /// Largest channel or mean value of a parameter, for weights that need only be sensible.
+    /// Largest channel or mean value of a parameter, for weights that need not be exact.
     pub(super) fn brightness(&self, param: ColourParam) -> f32 {
         use crate::scene::Texture;
         let ColourParam::Texture(id) = param else {

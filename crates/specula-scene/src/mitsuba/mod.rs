@@ -43,41 +43,21 @@ mod transform;
 mod upgrade;
 mod value;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-pub use features::FEATURES;
+pub(crate) use features::FEATURES;
 
 use crate::error::SceneError;
 use crate::problems::Problems;
 use crate::read_file::Files;
-use crate::{Limits, LoadOptions, Loaded};
-
-/// What a caller may add to a scene's file.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Options {
-    /// Values of `$name`, which win over the file's `<default>`.
-    pub parameters: Vec<(String, String)>,
-    /// Folders in which files are looked for after those that the scene names.
-    pub folders: Vec<PathBuf>,
-}
+use crate::{LoadOptions, Loaded};
 
 /// Reads the scene in `path` and all that it refers to.
 ///
 /// # Errors
 ///
 /// Where the scene cannot be read, or a picture of it would be meaningless.
-pub fn read(path: &Path, limits: &Limits, options: &Options) -> Result<Loaded, SceneError> {
-    let options = LoadOptions {
-        limits: *limits,
-        parameters: options.parameters.clone(),
-        folders: options.folders.clone(),
-    };
-    let files = Files::new(*limits);
-    read_into(path, &options, &files, &Problems::default())
-}
-
-/// [`read`] with a sink for errors.
-pub(crate) fn read_into(
+pub(crate) fn read(
     path: &Path,
     options: &LoadOptions,
     files: &Files,

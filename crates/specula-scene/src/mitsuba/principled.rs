@@ -2,18 +2,18 @@
 
 use super::context::Context;
 use super::element::Element;
-use super::spectrum::Use;
+use super::spectrum::SpectrumUse;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
-use crate::scene::{FloatParam, Principled};
+use crate::scene::{FloatParam, PrincipledMaterial};
 
 impl Context<'_> {
     pub(super) fn principled(
         &mut self,
         element: &Element,
         thin: bool,
-    ) -> Result<Principled, SceneError> {
-        // How often each lobe is sampled changes no picture.
+    ) -> Result<PrincipledMaterial, SceneError> {
+        // The probabilities of lobes do not change the picture.
         element.ignore(&[
             "main_specular_sampling_rate",
             "clearcoat_sampling_rate",
@@ -30,8 +30,8 @@ impl Context<'_> {
                 context.share(element, name, 0.0)
             }
         };
-        Ok(Principled {
-            base_colour: self.colour(element, "base_color", 0.5, Use::Reflectance)?,
+        Ok(PrincipledMaterial {
+            base_colour: self.colour(element, "base_color", 0.5, SpectrumUse::Reflectance)?,
             roughness: self.share(element, "roughness", 0.5)?,
             anisotropic: self.share(element, "anisotropic", 0.0)?,
             metallic: thick(self, "metallic")?,
@@ -59,7 +59,7 @@ impl Context<'_> {
 
 /// `eta`, or the index that gives a reflectance of `0.08 specular` at the normal.
 fn eta(element: &Element) -> Result<f32, SceneError> {
-    // Mitsuba keeps light that is let through away from an index of exactly 1.
+    // Mitsuba avoids an index of exactly 1 for transmitted light.
     let lets_through = element.has("spec_trans");
     if !element.has("eta") {
         let mut specular = element.not_negative("specular", 0.5)?;

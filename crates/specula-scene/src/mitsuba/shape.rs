@@ -1,4 +1,4 @@
-//! `<shape>`: geometry with its material and its light, groups and their copies.
+//! `<shape>`: geometry with its material and emission, groups and instances.
 
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -9,19 +9,19 @@ use specula_bsdf::Rgb;
 use super::bsdf::{Surface, grey};
 use super::context::Context;
 use super::element::Element;
-use super::geometry::{Format, Meshes, Ready, Source};
+use super::geometry::{BuiltGeometry, Format, MeshSource, Meshes};
 use super::primitive;
 use super::texture::{Frame, unknown};
 use crate::error::{ErrorKind, Place, SceneError};
 use crate::num::f32_of;
 use crate::problems::NoteKind;
 use crate::scene::{
-    ColourParam, Emission, FloatParam, Geometry, Instance, Material, MaterialKind, Object,
-    ObjectId, Shape,
+    ColourParam, Emission, FloatParam, Geometry, Material, MaterialKind, Object, ObjectId,
+    ObjectInstance, Shape,
 };
 
 /// A shape before meshes are read.
-pub(super) struct Pending {
+pub(super) struct PendingShape {
     geometry: PendingGeometry,
     to_world: DMat4,
     surface: Surface,
@@ -37,7 +37,7 @@ enum PendingGeometry {
 }
 
 /// A shape's geometry and place.
-struct Placed {
+struct PlacedGeometry {
     geometry: PendingGeometry,
     to_world: DMat4,
     flip: bool,
@@ -48,9 +48,9 @@ struct Placed {
 #[derive(Default)]
 pub(super) struct Shapes {
     pub(super) meshes: Meshes,
-    pub(super) world: Vec<Pending>,
-    pub(super) objects: Vec<(String, Vec<Pending>)>,
-    pub(super) instances: Vec<(Instance, Place)>,
+    pub(super) world: Vec<PendingShape>,
+    pub(super) objects: Vec<(String, Vec<PendingShape>)>,
+    pub(super) instances: Vec<(ObjectInstance, Place)>,
     object_ids: HashMap<usize, ObjectId>,
     surfaces: HashMap<(usize, Frame), Surface>,
     /// Materials of shapes that have none: without light, and with light.
@@ -58,7 +58,7 @@ pub(super) struct Shapes {
 }
 
 impl Shapes {
-    /// Takes in a shape of the scene.
+    /// Adds a shape of the scene.
     pub(super) fn add(
         &mut self,
         context: &mut Context,
@@ -107,7 +107,7 @@ impl Shapes {
             element.properties.iter().for_each(|p| p.used.set(true));
             context.warn(&element.place, message);
         }
-        let instance = Instance {
+        let instance = ObjectInstance {
             object,
             to_world: transform(element)?,
         };
@@ -115,12 +115,12 @@ impl Shapes {
         Ok(())
     }
 
-    /// Takes in one shape, or those within `merge`.
+    /// Adds one shape, or those within `merge`.
     fn gather(
         &mut self,
         context: &mut Context,
         element: &Rc<Element>,
-        found: &mut Vec<Pending>,
+        found: &mut Vec<PendingShape>,
     ) -> Result<(), SceneError> {
         if element.plugin == "merge" {
             for child in context.children(element, "shape")? {
@@ -128,7 +128,7 @@ impl Shapes {
             }
             return Ok(());
         }
-        let Some(Placed {
+        let Some(PlacedGeometry {
             geometry,
             to_world,
             flip,
@@ -137,7 +137,7 @@ impl Shapes {
         else {
             return Ok(());
         };
-        crate::pbrt::check_transform(&to_world)
+        crate::transform::check_transform(&to_world)
             .map_err(|m| SceneError::new(ErrorKind::Transform, &element.place_of("to_world"), m))?;
         element.ignore(&["silhouette_sampling_weight", "collapse", "srgb"]);
         subsurface(context, element)?;
@@ -166,7 +166,7 @@ impl Shapes {
             let message = "a shape without surface emits nothing here";
             context.warn(&element.place, message);
         }
-        found.push(Pending {
+        found.push(PendingShape {
             geometry,
             to_world,
             surface,
@@ -182,7 +182,7 @@ impl Shapes {
         &mut self,
         context: &mut Context,
         element: &Rc<Element>,
-    ) -> Result<Option<Placed>, SceneError> {
+    ) -> Result<Option<PlacedGeometry>, SceneError> {
         let mut to_world = transform(element)?;
         let mirrored = to_world.determinant() < 0.0;
         let mut flip = element.boolean("flip_normals", false)?;
@@ -215,12 +215,12 @@ impl Shapes {
                 let place = primitive::cylinder_placement(p0, p1, radius)
                     .ok_or_else(|| element.error("\"p0\" and \"p1\" are the same point"))?;
                 to_world *= place;
-                PendingGeometry::Mesh(self.meshes.ask(Source::Cylinder, &element.place))
+                PendingGeometry::Mesh(self.meshes.ask(MeshSource::Cylinder, &element.place))
             }
             "rectangle" => {
-                PendingGeometry::Mesh(self.meshes.ask(Source::Rectangle, &element.place))
+                PendingGeometry::Mesh(self.meshes.ask(MeshSource::Rectangle, &element.place))
             }
-            "cube" => PendingGeometry::Mesh(self.meshes.ask(Source::Cube, &element.place)),
+            "cube" => PendingGeometry::Mesh(self.meshes.ask(MeshSource::Cube, &element.place)),
             "obj" | "ply" | "serialized" => {
                 let (source, place) = file(context, element)?;
                 PendingGeometry::Mesh(self.meshes.ask(source, &place))
@@ -242,7 +242,7 @@ impl Shapes {
             }
             other => return Err(unknown("shape", other, &element.place)),
         };
-        Ok(Some(Placed {
+        Ok(Some(PlacedGeometry {
             geometry,
             to_world,
             flip,
@@ -282,7 +282,7 @@ impl Shapes {
 }
 
 /// Shapes whose meshes are read.
-pub(super) fn finish(pending: Vec<Pending>, ready: &[Ready]) -> Vec<(Shape, Place)> {
+pub(super) fn finish(pending: Vec<PendingShape>, ready: &[BuiltGeometry]) -> Vec<(Shape, Place)> {
     pending
         .into_iter()
         .filter_map(|p| {
@@ -306,7 +306,7 @@ pub(super) fn finish(pending: Vec<Pending>, ready: &[Ready]) -> Vec<(Shape, Plac
 }
 
 /// Finished shapes of an object.
-pub(super) fn object(name: String, pending: Vec<Pending>, ready: &[Ready]) -> Object {
+pub(super) fn object(name: String, pending: Vec<PendingShape>, ready: &[BuiltGeometry]) -> Object {
     Object {
         name,
         shapes: finish(pending, ready).into_iter().map(|s| s.0).collect(),
@@ -315,7 +315,7 @@ pub(super) fn object(name: String, pending: Vec<Pending>, ready: &[Ready]) -> Ob
 
 fn transform(element: &Element) -> Result<DMat4, SceneError> {
     let m = element.transform("to_world")?;
-    crate::pbrt::check_transform(&m)
+    crate::transform::check_transform(&m)
         .map_err(|e| SceneError::new(ErrorKind::Transform, &element.place_of("to_world"), e))?;
     Ok(m)
 }
@@ -332,7 +332,7 @@ fn is_similarity(m: &DMat4) -> bool {
             .all(|d| close(d, 0.0))
 }
 
-fn file(context: &mut Context, element: &Element) -> Result<(Source, Place), SceneError> {
+fn file(context: &mut Context, element: &Element) -> Result<(MeshSource, Place), SceneError> {
     let (path, place) = context.needed_file(element, "filename")?;
     let is_obj = element.plugin == "obj";
     let format = match element.plugin.as_str() {
@@ -345,7 +345,7 @@ fn file(context: &mut Context, element: &Element) -> Result<(Source, Place), Sce
         element.ignore(&["max_smooth_angle"]);
         context.warn(&place, "normals are not split at sharp edges");
     }
-    let source = Source::File {
+    let source = MeshSource::File {
         path,
         format,
         face_normals: element.boolean("face_normals", false)?,

@@ -22,13 +22,13 @@ use crate::scene::{EnvironmentMapping, ImageId, Light};
 
 /// Size of the sky's picture. The horizon falls between two rows.
 const SIZE: [u32; 2] = [512, 256];
-/// Angle that the sun fills, in degrees.
+/// Angular diameter of the sun, in degrees.
 const APERTURE_DEG: f64 = 0.5338;
 
 impl Context<'_> {
     /// The lights of `sunsky`, of `sky` or of `sun`.
     pub(super) fn sunsky(&mut self, element: &Element) -> Result<Vec<Light>, SceneError> {
-        // Names of the 0.6 dialect, and what only steers its sampling.
+        // Names of the 0.6 dialect, and parameters of sampling.
         element.ignore(&["resolution", "stretch", "extend", "complex_sun", "albedo"]);
         let mut to_world = element.transform("to_world")?;
         let to_sun = sun::direction(element, &to_world)?;

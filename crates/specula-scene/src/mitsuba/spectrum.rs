@@ -21,7 +21,7 @@ use crate::spectrum::{Weight, observe};
 
 /// What a spectrum is used for, which decides how it becomes a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Use {
+pub(super) enum SpectrumUse {
     /// A share in `[0, 1]`, seen under D65.
     Reflectance,
     /// Radiance, irradiance or intensity.
@@ -33,15 +33,15 @@ pub(super) enum Use {
 /// Linear RGB of a spectrum.
 ///
 /// * `legacy`: the 0.6 dialect, in which a uniform spectrum is grey whatever its use.
-pub(super) fn to_rgb(samples: &Samples, wanted: Use, legacy: bool) -> Rgb<f32> {
+pub(super) fn to_rgb(samples: &Samples, wanted: SpectrumUse, legacy: bool) -> Rgb<f32> {
     let rgb = match samples {
-        Samples::Uniform(value) if wanted != Use::Emission || legacy => [*value; 3],
+        Samples::Uniform(value) if wanted != SpectrumUse::Emission || legacy => [*value; 3],
         Samples::Uniform(value) => rgb_from_xyz([*value; 3]),
         Samples::BlackBody(kelvin, scale) => {
             rgb_from_xyz(black_body(*kelvin)).map(|c| c.max(0.0) * scale)
         }
         Samples::List(list) => {
-            let weight = if wanted == Use::Emission {
+            let weight = if wanted == SpectrumUse::Emission {
                 Weight::Equal
             } else {
                 Weight::DaylightD65
@@ -49,7 +49,7 @@ pub(super) fn to_rgb(samples: &Samples, wanted: Use, legacy: bool) -> Rgb<f32> {
             rgb_from_xyz(sum(list, weight))
         }
     };
-    let most = if wanted == Use::Reflectance {
+    let most = if wanted == SpectrumUse::Reflectance {
         1.0
     } else {
         f64::from(f32::MAX)
@@ -204,9 +204,12 @@ mod tests {
     #[test]
     fn a_uniform_spectrum_is_grey_except_as_light() {
         let one = Samples::Uniform(0.5);
-        assert_eq!(to_rgb(&one, Use::Reflectance, false), Rgb::splat(0.5));
-        assert_eq!(to_rgb(&one, Use::Emission, true), Rgb::splat(0.5));
-        let light = to_rgb(&one, Use::Emission, false);
+        assert_eq!(
+            to_rgb(&one, SpectrumUse::Reflectance, false),
+            Rgb::splat(0.5)
+        );
+        assert_eq!(to_rgb(&one, SpectrumUse::Emission, true), Rgb::splat(0.5));
+        let light = to_rgb(&one, SpectrumUse::Emission, false);
         assert!(light.r > light.g && light.g > light.b, "{light:?}");
     }
 
@@ -225,20 +228,20 @@ mod tests {
         assert_eq!(parse("500:1"), Ok(Samples::List(vec![(500.0, 1.0)])));
     }
 
-    const SPECTRA: [(&str, Use, [f32; 3]); 3] = [
+    const SPECTRA: [(&str, SpectrumUse, [f32; 3]); 3] = [
         (
             "400:0, 500:8, 600:15.6, 700:18.4",
-            Use::Emission,
+            SpectrumUse::Emission,
             [20.7108, 10.8546, 2.771_15],
         ),
         (
             "400:0.78, 500:0.78, 600:0.78, 700:0.78",
-            Use::Reflectance,
+            SpectrumUse::Reflectance,
             [0.776_367, 0.779_81, 0.776_029],
         ),
         (
             "400:1.5, 550:0.7, 700:0.2",
-            Use::Unbounded,
+            SpectrumUse::Unbounded,
             [0.370_591, 0.744_611, 1.270_49],
         ),
     ];

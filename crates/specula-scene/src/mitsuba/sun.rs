@@ -1,4 +1,4 @@
-//! Where the sun stands.
+//! The direction of the sun.
 
 use glam::{DMat4, DVec3};
 

@@ -9,7 +9,7 @@ use super::context::Context;
 use super::element::{Element, Property};
 use super::number;
 use super::number::shorten;
-use super::spectrum::{self, Use};
+use super::spectrum::{self, SpectrumUse};
 use super::value::{Samples, Value};
 use crate::error::{ErrorKind, SceneError};
 use crate::image::Encoding;
@@ -19,10 +19,10 @@ use crate::scene::{
     Wrap,
 };
 
-/// What a texture is asked for.
+/// The use of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Role {
-    Colour(Use),
+    Colour(SpectrumUse),
     Number,
 }
 
@@ -64,7 +64,7 @@ fn compose(after: &Rows, first: &Rows) -> Rows {
 
 /// A texture, or the one value that it has everywhere.
 #[derive(Clone, Copy)]
-pub(super) enum Built {
+pub(super) enum ValueOrTexture {
     Value(Rgb<f32>),
     Texture(TextureId),
 }
@@ -76,16 +76,16 @@ impl Context<'_> {
         element: &Element,
         name: &str,
         default: f32,
-        wanted: Use,
+        wanted: SpectrumUse,
     ) -> Result<ColourParam, SceneError> {
         let Some(property) = element.find(name) else {
             return Ok(ColourParam::Value(Rgb::splat(default)));
         };
         let read = self.value(element, property, Role::Colour(wanted));
         Ok(
-            match element.or(read, || Built::Value(Rgb::splat(default)))? {
-                Built::Value(c) => ColourParam::Value(c),
-                Built::Texture(id) => ColourParam::Texture(id),
+            match element.or(read, || ValueOrTexture::Value(Rgb::splat(default)))? {
+                ValueOrTexture::Value(c) => ColourParam::Value(c),
+                ValueOrTexture::Texture(id) => ColourParam::Texture(id),
             },
         )
     }
@@ -101,10 +101,10 @@ impl Context<'_> {
             return Ok(FloatParam::Value(default));
         };
         let read = self.value(element, property, Role::Number);
-        let built = element.or(read, || Built::Value(Rgb::splat(default)))?;
+        let built = element.or(read, || ValueOrTexture::Value(Rgb::splat(default)))?;
         Ok(match built {
-            Built::Value(c) => FloatParam::Value(c.r),
-            Built::Texture(id) => FloatParam::Texture(id),
+            ValueOrTexture::Value(c) => FloatParam::Value(c.r),
+            ValueOrTexture::Texture(id) => FloatParam::Texture(id),
         })
     }
 
@@ -114,7 +114,7 @@ impl Context<'_> {
         element: &Element,
         name: &str,
         default: f32,
-        wanted: Use,
+        wanted: SpectrumUse,
     ) -> Result<Rgb<f32>, SceneError> {
         match self.colour(element, name, default, wanted)? {
             ColourParam::Value(c) => Ok(c),
@@ -132,16 +132,16 @@ impl Context<'_> {
         }
     }
 
-    /// What a property means in a role.
+    /// The value of a property in a role.
     pub(super) fn value(
         &mut self,
         element: &Element,
         property: &Property,
         role: Role,
-    ) -> Result<Built, SceneError> {
+    ) -> Result<ValueOrTexture, SceneError> {
         let wanted = match role {
             Role::Colour(wanted) => wanted,
-            Role::Number => Use::Unbounded,
+            Role::Number => SpectrumUse::Unbounded,
         };
         let mut colour = match &property.value {
             Value::Number(x) => Rgb::splat(f32_of(*x)),
@@ -176,19 +176,19 @@ impl Context<'_> {
                 property.name
             )));
         }
-        if role == Role::Colour(Use::Reflectance) && r.max(g).max(b) > 1.0 {
+        if role == Role::Colour(SpectrumUse::Reflectance) && r.max(g).max(b) > 1.0 {
             let message = format!("\"{}\": a share above 1 is taken for 1", property.name);
             self.warn(&property.place, message);
             colour = colour.map(|c| c.min(1.0));
         }
-        Ok(Built::Value(colour))
+        Ok(ValueOrTexture::Value(colour))
     }
 
     /// A texture as a node, even where it is one value.
-    pub(super) fn node(&mut self, built: Built) -> TextureId {
+    pub(super) fn node(&mut self, built: ValueOrTexture) -> TextureId {
         match built {
-            Built::Value(c) => self.add_texture(Texture::Constant(c)),
-            Built::Texture(id) => id,
+            ValueOrTexture::Value(c) => self.add_texture(Texture::Constant(c)),
+            ValueOrTexture::Texture(id) => id,
         }
     }
 
@@ -197,31 +197,33 @@ impl Context<'_> {
         &mut self,
         element: &Rc<Element>,
         role: Role,
-    ) -> Result<Built, SceneError> {
+    ) -> Result<ValueOrTexture, SceneError> {
         let key = (Rc::as_ptr(element) as usize, role, self.frame);
         if let Some(&built) = self.built_textures.get(&key) {
             return Ok(built);
         }
         let read = self.new_texture(element, role);
-        let built = element.or(read, || Built::Value(Rgb::splat(0.5)))?;
+        let built = element.or(read, || ValueOrTexture::Value(Rgb::splat(0.5)))?;
         self.built_textures.insert(key, built);
         Ok(built)
     }
 
-    fn new_texture(&mut self, element: &Element, role: Role) -> Result<Built, SceneError> {
+    fn new_texture(&mut self, element: &Element, role: Role) -> Result<ValueOrTexture, SceneError> {
         let inner = |context: &mut Self, name: &str, default: f32| match element.find(name) {
             Some(property) => context.value(element, property, role),
-            None => Ok(Built::Value(Rgb::splat(default))),
+            None => Ok(ValueOrTexture::Value(Rgb::splat(default))),
         };
         match element.plugin.as_str() {
-            "bitmap" => self.bitmap(element, role).map(Built::Texture),
+            "bitmap" => self.bitmap(element, role).map(ValueOrTexture::Texture),
             "checkerboard" => {
                 let first = inner(self, "color0", 0.4)?;
                 let second = inner(self, "color1", 0.2)?;
                 self.checkerboard(element, role, [first, second])
-                    .map(Built::Texture)
+                    .map(ValueOrTexture::Texture)
             }
-            "mesh_attribute" | "vertexcolors" => self.mesh_attribute(element).map(Built::Texture),
+            "mesh_attribute" | "vertexcolors" => {
+                self.mesh_attribute(element).map(ValueOrTexture::Texture)
+            }
             "uniform" | "rawconstant" => {
                 element.ignore(&["wavelength_min", "wavelength_max"]);
                 inner(self, "value", 1.0)
@@ -235,10 +237,10 @@ impl Context<'_> {
                 let samples = samples(element)?;
                 let wanted = match role {
                     Role::Colour(wanted) => wanted,
-                    Role::Number => Use::Unbounded,
+                    Role::Number => SpectrumUse::Unbounded,
                 };
                 let colour = spectrum::to_rgb(&samples, wanted, element.legacy);
-                Ok(Built::Value(colour))
+                Ok(ValueOrTexture::Value(colour))
             }
             "gridtexture" => {
                 element.ignore(&["color1", "line_width", "to_uv"]);
@@ -249,7 +251,7 @@ impl Context<'_> {
                 let message = format!("texture \"{other}\" is not supported: 0.5 stands in");
                 element.properties.iter().for_each(|p| p.used.set(true));
                 self.warn(&element.place, message);
-                Ok(Built::Value(Rgb::splat(0.5)))
+                Ok(ValueOrTexture::Value(Rgb::splat(0.5)))
             }
             other => Err(unknown("texture", other, &element.place)),
         }
@@ -262,7 +264,7 @@ impl Context<'_> {
     }
 
     fn bitmap(&mut self, element: &Element, role: Role) -> Result<TextureId, SceneError> {
-        // Storage formats are the renderer's affair.
+        // Storage formats do not matter here.
         element.ignore(&["format", "accel", "cache", "max_anisotropy"]);
         let (path, place) = self.needed_file(element, "filename")?;
         let encoding = encoding(element)?;
@@ -326,7 +328,7 @@ impl Context<'_> {
         &mut self,
         element: &Element,
         role: Role,
-        [first, second]: [Built; 2],
+        [first, second]: [ValueOrTexture; 2],
     ) -> Result<TextureId, SceneError> {
         element.ignore(&["line_width"]);
         let double = [[2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
@@ -348,7 +350,7 @@ impl Context<'_> {
         let name = element.text("name")?.unwrap_or("vertex_color").to_owned();
         if name != "vertex_color" {
             let message = format!(
-                "mesh attribute \"{}\" is not kept: \"vertex_color\" stands in",
+                "mesh attribute \"{}\" is not read: \"vertex_color\" stands in",
                 shorten(&name)
             );
             self.warn(&element.place, message);
@@ -371,24 +373,26 @@ impl Context<'_> {
     }
 
     /// `d65`, and the 0.6 dialect's `scale`: a factor on a colour or on a nested texture.
-    fn scaled(&mut self, element: &Element, role: Role) -> Result<Built, SceneError> {
+    fn scaled(&mut self, element: &Element, role: Role) -> Result<ValueOrTexture, SceneError> {
         let factor = match element.find("scale") {
             None => Rgb::WHITE,
-            Some(property) => match self.value(element, property, Role::Colour(Use::Unbounded))? {
-                Built::Value(c) => c,
-                Built::Texture(_) => return Err(property.wrong("a float")),
-            },
+            Some(property) => {
+                match self.value(element, property, Role::Colour(SpectrumUse::Unbounded))? {
+                    ValueOrTexture::Value(c) => c,
+                    ValueOrTexture::Texture(_) => return Err(property.wrong("a float")),
+                }
+            }
         };
         let inner = match self.child(element, "texture")? {
             Some(nested) => self.deeper(element, |context| context.texture(&nested, role))?,
             None => match element.find("color").or_else(|| element.find("value")) {
                 Some(property) => self.value(element, property, role)?,
-                None => Built::Value(Rgb::WHITE),
+                None => ValueOrTexture::Value(Rgb::WHITE),
             },
         };
         Ok(match inner {
-            Built::Value(c) => Built::Value(c.zip(factor, |a, b| a * b)),
-            Built::Texture(id) => Built::Texture(self.times(id, factor)),
+            ValueOrTexture::Value(c) => ValueOrTexture::Value(c.zip(factor, |a, b| a * b)),
+            ValueOrTexture::Texture(id) => ValueOrTexture::Texture(self.times(id, factor)),
         })
     }
 }
@@ -484,7 +488,7 @@ pub(super) fn unknown(class: &'static str, name: &str, place: &crate::Place) -> 
     let message = format!("unknown {class} \"{}\"", shorten(name));
     let known: Vec<&str> = super::FEATURES
         .iter()
-        .filter(|f| f.class == class && !matches!(f.support, crate::Support::Refused(_)))
+        .filter(|f| f.class == class && !matches!(f.support, crate::feature::Support::Refused(_)))
         .map(|f| f.name)
         .collect();
     SceneError::new(ErrorKind::Unsupported, place, message)

@@ -1,8 +1,8 @@
 //! Meshes in Wavefront's OBJ files, plain or gzipped.
 //!
-//! All of a file's faces become one mesh: groups, smoothing and materials are read past. Polygons
+//! All of a file's faces become one mesh: groups, smoothing and materials are skipped. Polygons
 //! fan out from their first vertex. Indices count from 1, or back from the last where negative.
-//! Vertices may carry a colour (`v x y z r g b`). Coordinates are kept as they are: v runs upwards.
+//! Vertices may carry a colour (`v x y z r g b`). Texture coordinates are not changed: v runs upwards.
 //!
 //! In a check a line with a mistake does not end the reading. One that defines a vertex, a coordinate
 //! or a normal defines zeros then, so that the indices of later faces stay what they are.
@@ -16,14 +16,14 @@ use crate::scene::Mesh;
 
 /// Reads a mesh.
 ///
-/// * `keeps`: whether mistakes are kept, as in a check.
+/// * `collects`: whether to go on after a mistake, as in a check.
 ///
 /// # Errors
 ///
 /// What is wrong with the file.
-pub(crate) fn read(path: &Path, files: &Files, keeps: bool) -> Result<Mesh, Vec<Fault>> {
+pub(crate) fn read(path: &Path, files: &Files, collects: bool) -> Result<Mesh, Vec<Fault>> {
     let bytes = files.unpacked(path).map_err(|m| vec![m.into()])?;
-    parse(&bytes, files.limits(), keeps)
+    parse(&bytes, files.limits(), collects)
 }
 
 /// Reads a mesh from the bytes of an OBJ file.
@@ -31,8 +31,8 @@ pub(crate) fn read(path: &Path, files: &Files, keeps: bool) -> Result<Mesh, Vec<
 /// # Errors
 ///
 /// What was expected, with its line.
-fn parse(bytes: &[u8], limits: &Limits, keeps: bool) -> Result<Mesh, Vec<Fault>> {
-    let mut faults = Faults::new(keeps);
+fn parse(bytes: &[u8], limits: &Limits, collects: bool) -> Result<Mesh, Vec<Fault>> {
+    let mut faults = Faults::new(collects);
     let read = parse_into(bytes, limits, &mut faults);
     faults.end(read)
 }
@@ -56,29 +56,29 @@ fn parse_into(bytes: &[u8], limits: &Limits, faults: &mut Faults) -> Result<Mesh
         };
         match reader.line(whole) {
             Ok(()) => {}
-            Err(Wrong::Line(message)) => {
-                faults.keep(Fault::at_line(number + 1, message))?;
+            Err(LineError::Line(message)) => {
+                faults.record(Fault::at_line(number + 1, message))?;
                 reader.stand_in(whole);
             }
-            Err(Wrong::Limit(message)) => return Err(Fault::at_line(number + 1, message)),
+            Err(LineError::Limit(message)) => return Err(Fault::at_line(number + 1, message)),
         }
         joined.clear();
     }
     match reader.finish() {
-        // A file of mistakes alone need not make a mesh.
+        // A file with mistakes need not yield a mesh.
         Err(_) if !faults.is_empty() => Ok(Mesh::default()),
         mesh => mesh.map_err(Fault::from),
     }
 }
 
 /// What is wrong with a line.
-enum Wrong {
+enum LineError {
     Line(String),
     /// Reading cannot go on.
     Limit(String),
 }
 
-impl<T: Into<String>> From<T> for Wrong {
+impl<T: Into<String>> From<T> for LineError {
     fn from(message: T) -> Self {
         Self::Line(message.into())
     }
@@ -120,7 +120,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn line(&mut self, line: &[u8]) -> Result<(), Wrong> {
+    fn line(&mut self, line: &[u8]) -> Result<(), LineError> {
         let line = line.trim_ascii_start();
         let Some(end) = line.iter().position(u8::is_ascii_whitespace) else {
             return Ok(());
@@ -150,7 +150,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// What a line with a mistake defines.
+    /// Defines a stand-in for what a line with a mistake defines.
     fn stand_in(&mut self, line: &[u8]) {
         match line.split(u8::is_ascii_whitespace).find(|w| !w.is_empty()) {
             Some(b"v") => {
@@ -163,7 +163,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn vertex(&mut self, rest: &[u8]) -> Result<(), Wrong> {
+    fn vertex(&mut self, rest: &[u8]) -> Result<(), LineError> {
         let mut values = [0.0; 7];
         let found = numbers(rest, &mut values)?;
         let [x, y, z, ..] = values;
@@ -185,12 +185,12 @@ impl<'a> Reader<'a> {
         if self.positions.len() as u64 > self.limits.max_vertices {
             let most = self.limits.max_vertices;
             let message = format!("more than {most} vertices (`max_vertices`)");
-            return Err(Wrong::Limit(message));
+            return Err(LineError::Limit(message));
         }
         Ok(())
     }
 
-    fn face(&mut self, rest: &[u8]) -> Result<(), Wrong> {
+    fn face(&mut self, rest: &[u8]) -> Result<(), LineError> {
         let words = rest
             .split(u8::is_ascii_whitespace)
             .filter(|w| !w.is_empty());
@@ -210,7 +210,7 @@ impl<'a> Reader<'a> {
         }
         let most = self.limits.max_vertices;
         if self.mesh.triangles.len() as u64 > most || self.keys.len() as u64 > most {
-            return Err(Wrong::Limit(format!(
+            return Err(LineError::Limit(format!(
                 "more than {most} triangles or vertices (`max_vertices`)"
             )));
         }
@@ -393,9 +393,9 @@ mod tests {
             max_vertices: 2,
             ..Limits::default()
         };
-        for keeps in [false, true] {
+        for collects in [false, true] {
             let text = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv x\n";
-            let errors = parse(text, &limits, keeps).unwrap_err();
+            let errors = parse(text, &limits, collects).unwrap_err();
             assert_eq!(errors.len(), 1, "{errors:?}");
             assert!(errors[0].message.contains("more than 2 vertices"));
         }
@@ -406,7 +406,7 @@ mod tests {
         // The third vertex is damaged: faces that use it, and the fourth, are no mistakes.
         let text = "v 0 0 0\nv 1 0 0\nv 1 x 0\nv 0 1 0\nvt a\nvn 0 0\nf 1 2 3\nf 1//1 2/1 -1\n\
                     f 1 2\nf 1 2 5\nf 2 4 zwei\nfoo bar\n";
-        let read = |keeps| parse(text.as_bytes(), &Limits::default(), keeps).unwrap_err();
+        let read = |collects| parse(text.as_bytes(), &Limits::default(), collects).unwrap_err();
         let lines: Vec<_> = read(true).iter().map(|f| f.line).collect();
         assert_eq!(lines, [3, 5, 6, 9, 10, 11].map(Some), "{:?}", read(true));
         assert_eq!(read(false), read(true)[..1]);

@@ -1,4 +1,4 @@
-//! From what the directives said to a scene: materials, meshes, shapes, objects.
+//! From directives to a scene: materials, meshes, shapes, objects.
 
 use std::collections::{HashMap, HashSet};
 
@@ -7,7 +7,7 @@ use specula_bsdf::Rgb;
 
 use super::context::{Context, Entity};
 use super::directive::{InstanceEntity, MaterialEntity, Reader};
-use super::geometry::{self, Kept};
+use super::geometry::{self, ShapeGeometry};
 use super::medium::{self, Sides};
 use super::shape::{self, ShapeEntity};
 use super::state::MaterialUse;
@@ -18,8 +18,8 @@ use crate::error::{ErrorKind, Place, SceneError, Warning};
 use crate::mesh;
 use crate::problems::{NoteKind, is_dark};
 use crate::scene::{
-    Bump, ColourParam, Emission, FloatParam, Geometry, Instance, Light, Material, MaterialId,
-    MaterialKind, Mesh, Object, ObjectId, Scene, Shape, TextureId,
+    Bump, ColourParam, Emission, FloatParam, Geometry, Light, Material, MaterialId, MaterialKind,
+    Mesh, Object, ObjectId, ObjectInstance, Scene, Shape, TextureId,
 };
 use crate::{Format, Loaded};
 
@@ -72,16 +72,13 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
     let problems = context.problems.clone();
     if shapes.is_empty() && instances.is_empty() && !problems.has_errors() {
         let error = nothing_left(&context, &end);
-        problems.keep_warnings(&mut context.warnings);
+        problems.record_warnings(&mut context.warnings);
         return Err(error);
     }
     if !problems.has_errors() {
         context.note_unused_textures();
     }
     let scene = Scene {
-        camera,
-        film,
-        settings,
         images: std::mem::take(&mut context.images),
         textures: std::mem::take(&mut context.textures),
         materials: materials.list,
@@ -90,12 +87,12 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         objects,
         instances,
         lights,
-        floor: None,
+        ..Scene::empty(camera, film, settings)
     };
     // What stands in for mistakes need not make a scene.
     if !problems.has_errors() {
         scene.each_fault(|fault| {
-            problems.keep(SceneError::new(ErrorKind::Limit, &end, fault.to_string()))
+            problems.record(SceneError::new(ErrorKind::Limit, &end, fault.to_string()))
         })?;
     }
     if scene.lights.is_empty() && scene.shapes.iter().all(|s| s.emission.is_none()) {
@@ -136,7 +133,7 @@ fn place_instances(
     context: &mut Context,
     entities: &[InstanceEntity],
     objects: &[Object],
-) -> Result<Vec<Instance>, SceneError> {
+) -> Result<Vec<ObjectInstance>, SceneError> {
     let ids: HashMap<&str, usize> = objects
         .iter()
         .enumerate()
@@ -147,7 +144,7 @@ fn place_instances(
         let Some(&i) = ids.get(instance.name.as_str()) else {
             let message = format!("no object \"{}\" is defined", shorten(&instance.name));
             let error = SceneError::new(ErrorKind::UnknownName, &instance.place, message);
-            context.problems.keep(error)?;
+            context.problems.record(error)?;
             continue;
         };
         if objects[i].shapes.is_empty() && context.problems.has_errors() {
@@ -156,7 +153,7 @@ fn place_instances(
             let message = "the object has no shapes: the instance is left out";
             context.warn(&instance.place, message);
         } else {
-            instances.push(Instance {
+            instances.push(ObjectInstance {
                 object: ObjectId(i),
                 to_world: instance.to_world,
             });
@@ -231,7 +228,7 @@ fn read_materials(
         {
             let message = "an \"interface\" cannot be part of a \"mix\"";
             let error = SceneError::new(ErrorKind::Unsupported, &entity.place, message);
-            context.problems.keep(error)?;
+            context.problems.record(error)?;
         }
         let id = MaterialId(list.len());
         if let Some(name) = name {
@@ -279,7 +276,7 @@ fn note_unused_names(context: &Context, entities: &[MaterialEntity], shapes: &[&
 }
 
 impl Materials {
-    /// A copy of a material that is bumpy; one that has its own bump map keeps it.
+    /// A copy of a material that is bumpy; its own bump map, if it has one, takes precedence.
     fn displaced(&mut self, material: MaterialId, height: FloatParam) -> MaterialId {
         let FloatParam::Texture(texture) = height else {
             return material;
@@ -305,7 +302,7 @@ impl Materials {
     fn bounding(&mut self, material: MaterialId, sides: Sides) -> MaterialId {
         let absorbs = self.media.iter().any(|a| !a.is_black());
         let passes = medium::lets_pass(&self.list[material.0].kind);
-        // As in pbrt-v4, the same on both sides says nothing.
+        // As in pbrt-v4, the same medium on both sides is no boundary.
         if sides[0] == sides[1] || !absorbs || !passes {
             return material;
         }
@@ -355,17 +352,21 @@ impl Builder<'_> {
     fn shapes(
         &mut self,
         entities: &[ShapeEntity],
-        geometries: &mut impl Iterator<Item = Kept>,
+        geometries: &mut impl Iterator<Item = ShapeGeometry>,
     ) -> Result<Vec<Shape>, SceneError> {
         let mut shapes = Vec::with_capacity(entities.len());
-        for (shape, kept) in entities.iter().zip(geometries) {
-            let built = self.shape(shape, &kept);
+        for (shape, geometry) in entities.iter().zip(geometries) {
+            let built = self.shape(shape, &geometry);
             shapes.extend(shape.entity.or(built, || None)?);
         }
         Ok(shapes)
     }
 
-    fn shape(&mut self, shape: &ShapeEntity, kept: &Kept) -> Result<Option<Shape>, SceneError> {
+    fn shape(
+        &mut self,
+        shape: &ShapeEntity,
+        read: &ShapeGeometry,
+    ) -> Result<Option<Shape>, SceneError> {
         // Its other faults count even where it is left out.
         let found = self.materials.id(&shape.material).map(Some);
         let mut material = match self.context.problems.or(found, || None)? {
@@ -380,7 +381,7 @@ impl Builder<'_> {
             .context
             .float_from_zero_or_none(&shape.entity.params, "alpha")?
             .unwrap_or(FloatParam::Value(1.0));
-        let Some(geometry) = kept.geometry else {
+        let Some(geometry) = read.geometry else {
             return Ok(None);
         };
         self.context.warn_unused(&shape.entity.params);
@@ -396,7 +397,7 @@ impl Builder<'_> {
                 let message = "an \"interface\" emits nothing, as in pbrt-v4";
                 self.context.warn(place, message);
             } else {
-                emission = self.emission(entity, shape, kept, &geometry)?;
+                emission = self.emission(entity, shape, read, &geometry)?;
             }
         }
         Ok(Some(Shape {
@@ -414,12 +415,12 @@ impl Builder<'_> {
         &mut self,
         entity: &Entity,
         shape: &ShapeEntity,
-        kept: &Kept,
+        read: &ShapeGeometry,
         geometry: &Geometry,
     ) -> Result<Option<Emission>, SceneError> {
-        let area = self.area(kept, geometry, shape);
+        let area = self.area(read, geometry, shape);
         let pieces = match *geometry {
-            Geometry::Mesh(id) => kept.pieces.unwrap_or(self.meshes[id.0].triangles.len()),
+            Geometry::Mesh(id) => read.pieces.unwrap_or(self.meshes[id.0].triangles.len()),
             Geometry::Sphere { .. } | Geometry::Disk { .. } => 1,
         };
         let read = light::area(&mut self.context, entity, area, pieces).map(Some);
@@ -430,9 +431,9 @@ impl Builder<'_> {
     }
 
     /// Area of a shape; quadrics before their transform, as pbrt-v4 takes it.
-    fn area(&self, kept: &Kept, geometry: &Geometry, shape: &ShapeEntity) -> f64 {
+    fn area(&self, read: &ShapeGeometry, geometry: &Geometry, shape: &ShapeEntity) -> f64 {
         use std::f64::consts::PI;
-        if let Some(area) = kept.own_area {
+        if let Some(area) = read.own_area {
             return area;
         }
         match *geometry {

@@ -1,4 +1,4 @@
-//! `Camera`, and what else stands before `WorldBegin`.
+//! `Camera` and the other directives before `WorldBegin`.
 
 mod film;
 mod realistic;
@@ -11,31 +11,31 @@ use glam::{DMat4, DVec4};
 use super::context::{Context, Entity};
 use super::param::ParamList;
 use super::token::shorten;
-use crate::bounds::Bounds;
+use crate::bounds::BoundingBox;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
 use crate::scene::{Camera, EnvironmentMapping, Film, Projection, Settings};
 use crate::stage;
 
 /// Entities by directive.
-pub(super) type Options = HashMap<&'static str, Entity>;
+pub(super) type OptionEntities = HashMap<&'static str, Entity>;
 
 /// Reads camera, film and settings.
 pub(super) fn read(
     context: &mut Context,
-    options: &Options,
+    options: &OptionEntities,
     camera_to_world: DMat4,
 ) -> Result<(Camera, Film, Settings), SceneError> {
     let film = film::read(context, options);
     let mut film = or(options.get("Film"), film, || stage::film([1280, 720]))?;
     let camera = lens(context, options, camera_to_world, &mut film);
     let camera = or(options.get("Camera"), camera, || {
-        stage::camera(Bounds::EMPTY, film.resolution)
+        stage::camera(BoundingBox::EMPTY, film.resolution)
     })?;
     Ok((camera, film, settings::read(context, options)?))
 }
 
-/// What was read of a directive, if there is one, or a stand-in where its mistakes are kept.
+/// What was read of a directive, if there is one, or a stand-in where its mistakes are recorded.
 fn or<T>(
     entity: Option<&Entity>,
     read: Result<T, SceneError>,
@@ -50,7 +50,7 @@ fn or<T>(
 /// Reads the camera; its shutter becomes part of the film's exposure.
 fn lens(
     context: &mut Context,
-    options: &Options,
+    options: &OptionEntities,
     camera_to_world: DMat4,
     film: &mut Film,
 ) -> Result<Camera, SceneError> {

@@ -7,7 +7,7 @@ use specula_bsdf::Rgb;
 use super::context::Context;
 use super::param::{Param, ParamList, Values};
 use super::token::shorten;
-use crate::error::{ErrorKind, Place, SceneError, Source};
+use crate::error::{ErrorKind, Place, SceneError, SourceText};
 use crate::num::f32_of;
 use crate::scene::{ColourParam, TextureId};
 use crate::spectrum::{self, ColourSpace, Spectrum};
@@ -20,22 +20,22 @@ const KINDS: [&str; 4] = ["rgb", "spectrum", "blackbody", "texture"];
 pub(super) enum Colour {
     /// As given, in its space.
     Rgb(Rgb<f32>, ColourSpace),
-    Spectrum(Spectrum, Ends),
+    Spectrum(Spectrum, OutsideRange),
     /// Temperature in kelvin.
     Blackbody(f32),
     Texture(TextureId),
 }
 
-/// What a spectrum is outside of its samples.
+/// Values of a spectrum outside of its samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Ends {
+pub(super) enum OutsideRange {
     /// Its end values: pbrt-v4's built-in spectra, and every index of refraction.
     Held,
     /// 0: spectra of the scene as colours.
     Zero,
 }
 
-impl Ends {
+impl OutsideRange {
     fn applied(self, spectrum: &Spectrum) -> Cow<'_, Spectrum> {
         match self {
             Self::Held => Cow::Borrowed(spectrum),
@@ -45,10 +45,10 @@ impl Ends {
 }
 
 impl Colour {
-    /// As a reflectance (or anything else that white light shows).
+    /// As a reflectance, or another ratio.
     pub(super) fn under_white(&self) -> ColourParam {
         ColourParam::Value(match self {
-            // Colours outside of sRGB's gamut go to its border.
+            // Colours outside of sRGB's gamut are clamped.
             Self::Rgb(c, space) => space.surface(*c).map(|x| x.max(0.0)),
             Self::Spectrum(s, ends) => spectrum::reflectance_to_rgb(&ends.applied(s)),
             Self::Blackbody(kelvin) => spectrum::blackbody_to_rgb(*kelvin),
@@ -67,7 +67,7 @@ pub(super) fn colour(
         return Ok(None);
     };
     let read = read(context, param, name);
-    read.or_else(|error| params.keep(error).map(|()| None))
+    read.or_else(|error| params.record(error).map(|()| None))
 }
 
 fn read(context: &Context, param: &Param, name: &str) -> Result<Option<Colour>, SceneError> {
@@ -136,7 +136,7 @@ pub(super) fn albedo_or_none(
         let message = format!("\"{name}\" is above 1; it is cut to 1");
         context.warn(&params.place_of(name), message);
     }
-    // A spectrum may lie outside of sRGB's triangle: its nearest reflectance is meant.
+    // A spectrum may lie outside of sRGB's triangle: the nearest reflectance is used.
     Ok(Some(ColourParam::Value(c.map(|x| x.clamp(0.0, 1.0)))))
 }
 
@@ -220,7 +220,7 @@ fn not_negative(c: Rgb<f32>, name: &str, place: &Place) -> Result<Rgb<f32>, Scen
     Err(SceneError::new(ErrorKind::Parameter, place, message))
 }
 
-fn read_spectrum(context: &Context, param: &Param) -> Result<(Spectrum, Ends), SceneError> {
+fn read_spectrum(context: &Context, param: &Param) -> Result<(Spectrum, OutsideRange), SceneError> {
     match &param.values {
         Values::Numbers(numbers) => {
             let wrong =
@@ -235,15 +235,15 @@ fn read_spectrum(context: &Context, param: &Param) -> Result<(Spectrum, Ends), S
             let samples = pairs.iter().map(|[nm, v]| (*nm, *v)).collect();
             let spectrum =
                 Spectrum::new(samples).map_err(|e| wrong(format!("\"{}\": {e}", param.name)))?;
-            Ok((spectrum, Ends::Zero))
+            Ok((spectrum, OutsideRange::Zero))
         }
         Values::Texts(texts) => {
             let [(name, place)] = texts.as_slice() else {
                 return Err(param.wrong_type(&["spectrum"]));
             };
             match spectrum::named(name) {
-                Some(spectrum) => Ok((spectrum, Ends::Held)),
-                None => Ok((spectrum_file(context, name, place)?, Ends::Zero)),
+                Some(spectrum) => Ok((spectrum, OutsideRange::Held)),
+                None => Ok((spectrum_file(context, name, place)?, OutsideRange::Zero)),
             }
         }
         Values::Bools(_) => Err(param.wrong_type(&["spectrum"])),
@@ -273,7 +273,7 @@ fn spectrum_file(context: &Context, name: &str, place: &Place) -> Result<Spectru
             .sum();
         let length = text[start..].lines().next().map_or(0, str::len);
         let file = Place::new(
-            &Source::new(path.display().to_string(), text.as_str()),
+            &SourceText::new(path.display().to_string(), text.as_str()),
             start,
             length,
         );

@@ -21,13 +21,13 @@ use crate::search::Search;
 #[derive(Clone, Debug)]
 pub(super) struct Entity {
     pub(super) name: String,
-    /// Where the name stands.
+    /// The place of the name.
     pub(super) place: Place,
     pub(super) params: ParamList,
 }
 
 impl Entity {
-    /// What was read of it, or a stand-in where its mistakes are kept.
+    /// What was read of it, or a stand-in where its mistakes are recorded.
     ///
     /// # Errors
     ///
@@ -63,7 +63,7 @@ impl ImageJob {
 }
 
 /// A name of a file that is defined once and may be referred to.
-pub(super) struct Named {
+pub(super) struct NamedTexture {
     id: TextureId,
     place: Place,
     used: Cell<bool>,
@@ -71,13 +71,15 @@ pub(super) struct Named {
 
 /// Textures of a kind by name.
 #[derive(Default)]
-pub(super) struct Textures(HashMap<String, Named>);
+pub(super) struct Textures(HashMap<String, NamedTexture>);
 
 impl Textures {
-    /// Makes a texture known; `false` where its name was taken.
+    /// Defines a texture; `false` where its name was taken.
     pub(super) fn define(&mut self, name: String, id: TextureId, place: Place) -> bool {
         let used = Cell::new(false);
-        self.0.insert(name, Named { id, place, used }).is_none()
+        self.0
+            .insert(name, NamedTexture { id, place, used })
+            .is_none()
     }
 
     /// The texture of a name, which then counts as used.
@@ -87,7 +89,7 @@ impl Textures {
         Some(named.id)
     }
 
-    /// Notes what nothing refers to.
+    /// Notes textures that nothing refers to.
     fn note_unused(&self, kind: &str, problems: &Problems) {
         for (name, named) in self.0.iter().filter(|(_, n)| !n.used.get()) {
             problems.note(NoteKind::Unused, &named.place, || {
@@ -204,13 +206,13 @@ impl Context {
         if param.kind == "texture" {
             let id = match self.texture_named(param, &self.float_textures, "float") {
                 Ok(id) => id,
-                Err(error) => return params.keep(error).map(|()| None),
+                Err(error) => return params.record(error).map(|()| None),
             };
             return Ok(Some(FloatParam::Texture(id)));
         }
         if param.kind != "float" {
             let error = param.wrong_type(&["float", "texture"]);
-            return params.keep(error).map(|()| None);
+            return params.record(error).map(|()| None);
         }
         Ok(Some(FloatParam::Value(f32_of(params.float(name, 0.0)?))))
     }

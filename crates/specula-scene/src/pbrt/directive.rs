@@ -14,12 +14,12 @@ use super::state::{ATTRIBUTE_TARGETS, State};
 use super::token::{TokenKind, Tokens, describe, shorten};
 use super::unknown;
 use crate::LoadOptions;
-use crate::error::{ErrorKind, Place, SceneError, Source};
+use crate::error::{ErrorKind, Place, SceneError, SourceText};
 use crate::problems::Problems;
 use crate::read_file::Files;
 use crate::spectrum::{COLOUR_SPACES, ColourSpace};
 
-/// Most parameters that `Attribute` may set at a time: every later directive looks through them.
+/// Most parameters that `Attribute` may set at a time: every later directive searches them.
 const MAX_ATTRIBUTES: usize = 1000;
 
 /// A material of the file, read once all textures are known.
@@ -41,7 +41,7 @@ pub(super) struct InstanceEntity {
     pub(super) to_world: DMat4,
 }
 
-/// What comes before `WorldBegin`, by directive.
+/// Directives before `WorldBegin`.
 pub(super) const OPTIONS: [&str; 6] = [
     "Camera",
     "Film",
@@ -51,7 +51,7 @@ pub(super) const OPTIONS: [&str; 6] = [
     "Accelerator",
 ];
 
-/// What `Option` may set. They steer pbrt's sampling, statistics and coordinates, and change no
+/// Options that `Option` may set. They control pbrt's sampling, statistics and coordinates, and change no
 /// picture here; `forcediffuse` alone would.
 pub(super) const PBRT_OPTIONS: [&str; 11] = [
     "disablepixeljitter",
@@ -67,7 +67,7 @@ pub(super) const PBRT_OPTIONS: [&str; 11] = [
     "wavefront",
 ];
 
-/// Reads directives and keeps what they describe.
+/// Reads directives and stores what they describe.
 pub(super) struct Reader {
     pub(super) context: Context,
     pub(super) options: HashMap<&'static str, Entity>,
@@ -117,7 +117,7 @@ impl Reader {
             objects: Vec::new(),
             instances: Vec::new(),
             lights: Vec::new(),
-            end: Place::start(&Source::unread(main)),
+            end: Place::start(&SourceText::unread(main)),
             state: State::new(),
             stack: Vec::new(),
             in_world: false,
@@ -142,20 +142,20 @@ impl Reader {
         let problems = &self.context.problems;
         for (directive, place, _) in self.stack.iter().rev() {
             let message = format!("`{directive}` is never closed");
-            problems.keep(SceneError::new(ErrorKind::Structure, place, message))?;
+            problems.record(SceneError::new(ErrorKind::Structure, place, message))?;
         }
         if !self.in_world && !self.is_early {
             let message = "the file ends without `WorldBegin`";
             let error = SceneError::new(ErrorKind::Structure, &self.end, message)
                 .with_help("lights, materials and shapes stand after `WorldBegin`");
-            problems.keep(error)?;
+            problems.record(error)?;
         }
         Ok(())
     }
 
     /// Reads a file; `from` is where another includes it. Returns the place of its end.
     fn read_file(&mut self, path: &Path, from: Option<&Place>) -> Result<Place, SceneError> {
-        let unread = Place::start(&Source::unread(path));
+        let unread = Place::start(&SourceText::unread(path));
         let place = from.unwrap_or(&unread);
         let unreadable = |message: String| {
             SceneError::new(
@@ -213,7 +213,7 @@ impl Reader {
                     let mistake = error.place().clone();
                     // What is too large for a render is too large for a check.
                     let is_limit = error.kind() == ErrorKind::Limit;
-                    self.context.problems.keep(error)?;
+                    self.context.problems.record(error)?;
                     self.stopped |= is_limit;
                     tokens.recover(
                         &mistake,
@@ -242,7 +242,7 @@ impl Reader {
                 let Some(meant) = unknown::meant(word) else {
                     return Err(error);
                 };
-                self.context.problems.keep(error)?;
+                self.context.problems.record(error)?;
                 self.directive(meant, &place, tokens)?;
             }
             other => other?,
@@ -309,7 +309,7 @@ impl Reader {
         Ok(())
     }
 
-    /// `Option`, which steers pbrt itself.
+    /// `Option`, which controls pbrt itself.
     fn pbrt_option(&mut self, tokens: &mut Tokens<'_>) -> Result<(), SceneError> {
         let (name, place) = tokens.expect_text("the name of an option")?;
         let value = tokens.expect("the value of an option")?;
@@ -321,9 +321,10 @@ impl Reader {
         // pbrt-v4 compares names without their case and separators.
         let plain: String = name.chars().filter(|c| !"_-".contains(*c)).collect();
         match plain.to_ascii_lowercase().as_str() {
-            "forcediffuse" if on => self
-                .context
-                .warn(&place, "\"forcediffuse\" is ignored: materials are kept"),
+            "forcediffuse" if on => self.context.warn(
+                &place,
+                "\"forcediffuse\" is ignored: materials are not replaced",
+            ),
             other if PBRT_OPTIONS.contains(&other) => {}
             _ => {
                 let message = format!("unknown option \"{}\" is ignored", shorten(&name));
@@ -370,11 +371,11 @@ impl Reader {
                 let problems = &self.context.problems;
                 if self.in_object {
                     let message = "`ObjectBegin` within an object";
-                    problems.keep(SceneError::new(ErrorKind::Structure, &place, message))?;
+                    problems.record(SceneError::new(ErrorKind::Structure, &place, message))?;
                 }
                 if self.objects.iter().any(|o| o.name == name) {
                     let message = format!("object \"{}\" is defined twice", shorten(&name));
-                    problems.keep(SceneError::new(ErrorKind::Duplicate, &place, message))?;
+                    problems.record(SceneError::new(ErrorKind::Duplicate, &place, message))?;
                 }
                 self.push("ObjectBegin", &place)?;
                 self.in_object = true;
@@ -411,7 +412,7 @@ impl Reader {
         };
         if let Some(message) = message {
             let error = SceneError::new(ErrorKind::Structure, place, message);
-            self.context.problems.keep(error)?;
+            self.context.problems.record(error)?;
         }
         // Blocks within that are still open end here; where nothing was opened, nothing ends.
         if let Some(i) = self.stack.iter().rposition(|(d, ..)| *d == begin) {
@@ -463,7 +464,7 @@ impl Reader {
         }
         let message = format!("`{word}` before `WorldBegin`; expected it after");
         let error = SceneError::new(ErrorKind::Structure, place, message);
-        self.context.problems.keep(error)?;
+        self.context.problems.record(error)?;
         // Once is enough for all that follows.
         self.is_early = true;
         Ok(())
@@ -471,30 +472,30 @@ impl Reader {
 }
 
 /// Text of a file, which must be UTF-8.
-fn decode(path: &Path, bytes: Vec<u8>) -> Result<Arc<Source>, SceneError> {
+fn decode(path: &Path, bytes: Vec<u8>) -> Result<Arc<SourceText>, SceneError> {
     let name = path.display().to_string();
     match String::from_utf8(bytes) {
         Ok(text) if text.contains('\0') => {
             let at = text.find('\0').unwrap_or(0);
-            let place = Place::new(&Source::new(name, printable(&text)), at, 1);
+            let place = Place::new(&SourceText::new(name, printable(&text)), at, 1);
             Err(SceneError::new(
                 ErrorKind::Encoding,
                 &place,
                 "the file holds binary data; expected UTF-8 text",
             ))
         }
-        Ok(text) => Ok(Source::new(name, text)),
+        Ok(text) => Ok(SourceText::new(name, text)),
         Err(error) => {
             let at = error.utf8_error().valid_up_to();
             let text = printable(&String::from_utf8_lossy(error.as_bytes()));
-            let place = Place::new(&Source::new(name, text), at, 1);
+            let place = Place::new(&SourceText::new(name, text), at, 1);
             let message = "the file is not UTF-8 text; expected a pbrt-v4 scene";
             Err(SceneError::new(ErrorKind::Encoding, &place, message))
         }
     }
 }
 
-/// Text without control characters, byte for byte as long: an excerpt of binary data must not steer
+/// Text without control characters, byte for byte as long: an excerpt of binary data must not control
 /// the terminal that shows it.
 fn printable(text: &str) -> String {
     let visible = |c: char| {

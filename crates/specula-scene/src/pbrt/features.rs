@@ -1,6 +1,6 @@
-//! What is done with each feature of pbrt-v4.
+//! Support of each feature of pbrt-v4.
 
-use crate::features::Feature;
+use crate::feature::Feature;
 
 const fn full(class: &'static str, name: &'static str) -> Feature {
     Feature::full(class, name)

@@ -17,7 +17,7 @@ use crate::scene::{Geometry, Mesh, MeshId};
 
 /// Geometry of a shape, with what its light needs to know.
 #[derive(Clone, Copy)]
-pub(super) struct Kept {
+pub(super) struct ShapeGeometry {
     /// `None` where the shape is left out.
     pub(super) geometry: Option<Geometry>,
     /// Area in its own space, for quadrics that became meshes.
@@ -27,13 +27,13 @@ pub(super) struct Kept {
 }
 
 /// Where a mesh comes from.
-enum Source {
+enum MeshSource {
     Mesh(Mesh),
     File(PathBuf),
     Recipe(Recipe),
 }
 
-impl Source {
+impl MeshSource {
     fn path(&self) -> Option<PathBuf> {
         match self {
             Self::File(path) => Some(path.clone()),
@@ -44,11 +44,11 @@ impl Source {
 
 /// A mesh to be read, made or checked, and the first place that asks for it.
 struct Job {
-    source: Source,
+    source: MeshSource,
     place: Place,
 }
 
-/// What a shape's geometry will be.
+/// A shape's geometry before meshes are read.
 enum Slot {
     Job(usize),
     Ready(Geometry),
@@ -56,7 +56,7 @@ enum Slot {
     Nothing,
 }
 
-/// What is to be done, without repetition.
+/// Meshes to be read, without repetition.
 #[derive(Default)]
 struct Jobs {
     list: Vec<Job>,
@@ -65,7 +65,7 @@ struct Jobs {
 }
 
 impl Jobs {
-    fn add(&mut self, source: Source, place: &Place) -> usize {
+    fn add(&mut self, source: MeshSource, place: &Place) -> usize {
         self.list.push(Job {
             source,
             place: place.clone(),
@@ -77,7 +77,7 @@ impl Jobs {
         if let Some(&job) = self.files.get(&path) {
             return job;
         }
-        let job = self.add(Source::File(path.clone()), place);
+        let job = self.add(MeshSource::File(path.clone()), place);
         self.files.insert(path, job);
         job
     }
@@ -87,7 +87,7 @@ impl Jobs {
         if let Some(&job) = key.and_then(|k| self.recipes.get(&k)) {
             return job;
         }
-        let job = self.add(Source::Recipe(recipe), place);
+        let job = self.add(MeshSource::Recipe(recipe), place);
         if let Some(key) = key {
             self.recipes.insert(key, job);
         }
@@ -99,7 +99,7 @@ impl Jobs {
 pub(super) fn read(
     context: &mut Context,
     shapes: &[&ShapeEntity],
-) -> Result<(Vec<Kept>, Vec<Mesh>), SceneError> {
+) -> Result<(Vec<ShapeGeometry>, Vec<Mesh>), SceneError> {
     let mut jobs = Jobs::default();
     let mut slots = Vec::with_capacity(shapes.len());
     for shape in shapes {
@@ -113,7 +113,7 @@ pub(super) fn read(
         let slot = match prepared {
             Prepared::Sphere { radius } => Slot::Ready(Geometry::Sphere { radius }),
             Prepared::Disk { radius, height } => Slot::Ready(Geometry::Disk { radius, height }),
-            Prepared::Mesh(mesh) => Slot::Job(jobs.add(Source::Mesh(mesh), &entity.place)),
+            Prepared::Mesh(mesh) => Slot::Job(jobs.add(MeshSource::Mesh(mesh), &entity.place)),
             Prepared::File(path) => {
                 context.files.announce(&path);
                 let name = entity.params.string("filename").ok().flatten();
@@ -128,7 +128,7 @@ pub(super) fn read(
         slots.push((slot, own_area, pieces));
     }
     let files = context.files.clone();
-    let keeps = context.problems.is_check();
+    let collects = context.problems.is_check();
     let pictures = context.take_image_jobs();
     let search = context.search.clone();
     let places: Vec<(Place, Option<PathBuf>)> = jobs
@@ -140,7 +140,7 @@ pub(super) fn read(
     let (results, images) = rayon::join(
         || -> Vec<_> {
             let list = jobs.list.into_par_iter();
-            list.map(|j| make(j.source, &files, keeps)).collect()
+            list.map(|j| make(j.source, &files, collects)).collect()
         },
         || -> Vec<_> {
             let pictures = pictures.par_iter();
@@ -159,7 +159,7 @@ pub(super) fn read(
             Err(faults) => {
                 for fault in faults {
                     let error = broken(context, place, path.as_deref(), &fault);
-                    context.problems.keep(error)?;
+                    context.problems.record(error)?;
                 }
                 ids.push(None);
                 continue;
@@ -171,19 +171,21 @@ pub(super) fn read(
             meshes.push(mesh);
         }
     }
-    let kept = slots.into_iter().map(|(slot, own_area, pieces)| Kept {
-        geometry: match slot {
-            Slot::Job(i) => ids[i],
-            Slot::Ready(geometry) => Some(geometry),
-            Slot::Nothing => None,
-        },
-        own_area,
-        pieces,
-    });
-    Ok((kept.collect(), meshes))
+    let geometries = slots
+        .into_iter()
+        .map(|(slot, own_area, pieces)| ShapeGeometry {
+            geometry: match slot {
+                Slot::Job(i) => ids[i],
+                Slot::Ready(geometry) => Some(geometry),
+                Slot::Nothing => None,
+            },
+            own_area,
+            pieces,
+        });
+    Ok((geometries.collect(), meshes))
 }
 
-/// A mistake of a mesh as one of the scene.
+/// The error of the scene for a mistake in a mesh.
 fn broken(context: &Context, place: &Place, path: Option<&Path>, fault: &Fault) -> SceneError {
     let Some(path) = path else {
         return SceneError::new(ErrorKind::Mesh, place, fault.to_string());
@@ -192,19 +194,19 @@ fn broken(context: &Context, place: &Place, path: Option<&Path>, fault: &Fault) 
     SceneError::new(ErrorKind::Mesh, place, message).with_hint(context.search.hint(path))
 }
 
-/// * `keeps`: whether mistakes are kept, as in a check.
-fn make(source: Source, files: &Files, keeps: bool) -> Result<(Mesh, Cleaning), Vec<Fault>> {
+/// * `collects`: whether to go on after a mistake, as in a check.
+fn make(source: MeshSource, files: &Files, collects: bool) -> Result<(Mesh, Cleaning), Vec<Fault>> {
     let mut mesh = match source {
-        Source::Mesh(mesh) => mesh,
-        Source::Recipe(recipe) => recipe.build(files.limits()).map_err(|m| vec![m.into()])?,
-        Source::File(path) => {
-            let mut mesh = ply::read(&path, files, keeps)?;
-            // pbrt-v4 has no use for colours of vertices.
+        MeshSource::Mesh(mesh) => mesh,
+        MeshSource::Recipe(recipe) => recipe.build(files.limits()).map_err(|m| vec![m.into()])?,
+        MeshSource::File(path) => {
+            let mut mesh = ply::read(&path, files, collects)?;
+            // pbrt-v4 ignores colours of vertices.
             mesh.colours = Vec::new();
             mesh
         }
     };
-    let cleaning = mesh::clean_or_name(&mut mesh, keeps)?;
+    let cleaning = mesh::clean_or_name(&mut mesh, collects)?;
     Ok((mesh, cleaning))
 }
 

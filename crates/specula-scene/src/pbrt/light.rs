@@ -77,7 +77,7 @@ fn scaled(
     Ok(colour.map(limit))
 }
 
-/// A photometric wish of the file: pbrt-v4 heeds it where it is positive.
+/// A photometric parameter; pbrt-v4 uses it where it is positive.
 fn wish(entity: &Entity, name: &str) -> Result<Option<f64>, SceneError> {
     Ok(Some(entity.params.float(name, -1.0)?).filter(|x| *x > 0.0))
 }

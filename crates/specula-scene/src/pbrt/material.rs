@@ -6,7 +6,7 @@ use std::collections::HashMap;
 
 use specula_bsdf::Rgb;
 
-use super::colour::{self, Colour, Ends};
+use super::colour::{self, Colour, OutsideRange};
 use super::context::{Context, Entity};
 use super::param::ParamList;
 use super::token::shorten;
@@ -109,7 +109,7 @@ pub(super) fn read(
     })
 }
 
-/// What bends the shading normal: a normal map wins over a displacement, as in pbrt-v4.
+/// The bump or normal map: a normal map overrides a displacement, as in pbrt-v4.
 fn bump(context: &mut Context, params: &ParamList) -> Result<Option<Bump>, SceneError> {
     let height = context.float_or_none(params, "displacement")?;
     if let Some((name, place)) = params.string("normalmap")? {
@@ -125,13 +125,13 @@ fn bump(context: &mut Context, params: &ParamList) -> Result<Option<Bump>, Scene
         });
         return Ok(Some(Bump::Normal { map, scale: 1.0 }));
     }
-    // The same height everywhere bends nothing.
+    // A constant height has no effect.
     Ok(height
         .filter(|h| matches!(h, FloatParam::Texture(_)))
         .map(Bump::Height))
 }
 
-/// Our own parameter `"string specula:energy"`: treatment of multiple scattering. Renderers that do
+/// The parameter `"string specula:energy"`, an extension: treatment of multiple scattering. Renderers that do
 /// not know it leave it unused.
 fn energy(params: &ParamList) -> Result<Option<Energy>, SceneError> {
     let Some((name, place)) = params.string("specula:energy")? else {
@@ -212,7 +212,7 @@ fn conductor(
     }
     let or_copper = |colour: Option<Colour>, name: &str| {
         colour
-            .or_else(|| spectrum::named(name).map(|s| Colour::Spectrum(s, Ends::Held)))
+            .or_else(|| spectrum::named(name).map(|s| Colour::Spectrum(s, OutsideRange::Held)))
             .ok_or_else(|| {
                 let message = format!("the spectrum {name} is missing from the library");
                 SceneError::new(ErrorKind::Spectrum, place, message)
@@ -232,7 +232,7 @@ fn conductor(
     Ok(ConductorFresnel::Index { eta, k })
 }
 
-/// What lies between coat and base.
+/// The medium between coat and base.
 fn coat_medium(context: &mut Context, params: &ParamList) -> Result<CoatMedium, SceneError> {
     let thickness = context.float_from_zero_or_none(params, "thickness")?;
     Ok(CoatMedium {
@@ -252,7 +252,7 @@ fn asymmetry(context: &Context, params: &ParamList) -> Result<FloatParam, SceneE
     {
         let message = format!("\"g\": expected a number from -1 to 1, found {x}");
         let error = SceneError::new(ErrorKind::Parameter, &params.place_of("g"), message);
-        return params.keep(error).map(|()| FloatParam::Value(0.0));
+        return params.record(error).map(|()| FloatParam::Value(0.0));
     }
     Ok(g)
 }

@@ -1,4 +1,4 @@
-//! `MakeNamedMedium`: what absorbs within media. Scattering is not simulated.
+//! `MakeNamedMedium`: absorption by media. Scattering is not simulated.
 
 use specula_bsdf::Rgb;
 
@@ -11,13 +11,13 @@ use crate::media::{self, Coefficients, Homogeneous};
 use crate::num::f32_of;
 use crate::scene::{ColourParam, MaterialKind};
 
-/// pbrt's integrators in which media do something.
+/// pbrt's integrators that render media.
 const SEE_MEDIA: [&str; 4] = ["volpath", "bdpt", "mlt", "simplevolpath"];
 
 /// Media that vary in space.
 const VARYING: [&str; 4] = ["uniformgrid", "rgbgrid", "cloud", "nanovdb"];
 
-/// What such media are made of.
+/// Parameters of such media.
 const OF_GRIDS: [&str; 20] = [
     "density",
     "filename",
@@ -101,7 +101,7 @@ pub(super) fn read_all(
     Ok(all)
 }
 
-/// Whether light may pass a material, so that it matters what is beyond.
+/// Whether light may pass through a material.
 pub(super) fn lets_pass(kind: &MaterialKind) -> bool {
     matches!(
         kind,

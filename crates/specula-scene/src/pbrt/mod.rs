@@ -1,9 +1,5 @@
 //! Reader of pbrt-v4 scenes: tokens, parameters, directives and the attribute stack, then one file
 //! for each kind of thing that a directive describes.
-//!
-//! The crate `pbrt4` (0.2.0) was tried first: its errors carry no file, line or column, it ends in
-//! a panic (parts left unwritten) on `Import`, gzipped includes and names that it does not
-//! know, and it reads a file that includes itself without end. Hence a parser of our own.
 
 mod assemble;
 mod camera;
@@ -27,7 +23,6 @@ mod world;
 use std::path::Path;
 
 pub(crate) use features::FEATURES;
-pub(crate) use state::check as check_transform;
 
 use crate::error::SceneError;
 use crate::problems::Problems;

@@ -25,7 +25,7 @@ pub(super) struct Param {
     pub(super) name: String,
     pub(super) values: Values,
     pub(super) place: Place,
-    /// What its RGB values mean: `ColorSpace` where it was read.
+    /// The colour space of its RGB values: `ColorSpace` where it was read.
     pub(super) space: ColourSpace,
     used: Cell<bool>,
 }
@@ -59,12 +59,12 @@ pub(super) struct ParamList {
     /// From `Attribute`: looked up after `own`, and never reported as unused.
     inherited: Vec<Rc<Param>>,
     problems: Problems,
-    /// Whether a mistake was kept: others may follow from it.
+    /// Whether a mistake was recorded: others may follow from it.
     damaged: Cell<bool>,
 }
 
 impl ParamList {
-    /// Reads parameters up to the next directive; RGB values are meant in `space`.
+    /// Reads parameters up to the next directive; RGB values are in `space`.
     pub(super) fn read(tokens: &mut Tokens<'_>, space: ColourSpace) -> Result<Self, SceneError> {
         let mut list = Self {
             problems: tokens.problems.clone(),
@@ -80,12 +80,12 @@ impl ParamList {
             match param {
                 Ok(param) if list.own.iter().any(|p| p.name == param.name) => {
                     let message = format!("parameter \"{}\" is given twice", param.name);
-                    list.keep(SceneError::new(ErrorKind::Duplicate, &param.place, message))?;
+                    list.record(SceneError::new(ErrorKind::Duplicate, &param.place, message))?;
                 }
                 Ok(param) => list.own.push(Rc::new(param)),
                 Err(error) => {
                     let mistake = error.place().clone();
-                    list.keep(error)?;
+                    list.record(error)?;
                     tokens.recover(&mistake, &start, |kind| match kind {
                         TokenKind::Text(text) => is_declaration(text),
                         TokenKind::Word(word) => unknown::is_directive(word),
@@ -96,17 +96,17 @@ impl ParamList {
         }
     }
 
-    /// Keeps a mistake in one of the parameters.
+    /// Records a mistake in one of the parameters.
     ///
     /// # Errors
     ///
     /// The mistake, in an ordinary load.
-    pub(super) fn keep(&self, error: SceneError) -> Result<(), SceneError> {
+    pub(super) fn record(&self, error: SceneError) -> Result<(), SceneError> {
         self.damaged.set(true);
-        self.problems.keep(error)
+        self.problems.record(error)
     }
 
-    /// Keeps a mistake in what the parameters describe, unless it may follow from one that is kept.
+    /// Records a mistake in what the parameters describe, unless it may follow from one before.
     ///
     /// # Errors
     ///
@@ -115,7 +115,7 @@ impl ParamList {
         if self.damaged.get() && self.problems.is_check() {
             return Ok(());
         }
-        self.keep(error)
+        self.record(error)
     }
 
     pub(super) fn with_inherited(mut self, inherited: &[Rc<Param>]) -> Self {
@@ -146,7 +146,7 @@ impl ParamList {
         }
     }
 
-    /// Warnings about what nobody looked up; each is given once.
+    /// Warnings about parameters that were not used; each is given once.
     pub(super) fn unused(&self) -> impl Iterator<Item = Warning> {
         self.own.iter().filter(|p| !p.used.replace(true)).map(|p| {
             Warning::new(
@@ -163,7 +163,7 @@ impl ParamList {
         };
         match &param.values {
             Values::Numbers(numbers) if kinds.contains(&param.kind) => Ok(Some(numbers)),
-            _ => self.keep(param.wrong_type(kinds)).map(|()| None),
+            _ => self.record(param.wrong_type(kinds)).map(|()| None),
         }
     }
 
@@ -182,7 +182,7 @@ impl ParamList {
                 let place = self.place_of(name);
                 let message = format!("\"{name}\": expected {N} numbers, found {}", numbers.len());
                 let error = SceneError::new(ErrorKind::Parameter, &place, message);
-                self.keep(error).map(|()| None)
+                self.record(error).map(|()| None)
             }
         }
     }
@@ -214,7 +214,7 @@ impl ParamList {
             return Ok(x);
         }
         let message = format!("\"{name}\": expected a number above {limit}, found {x}");
-        self.keep(self.wrong(name, message))?;
+        self.record(self.wrong(name, message))?;
         Ok(default)
     }
 
@@ -225,7 +225,7 @@ impl ParamList {
             return Ok(x);
         }
         let message = format!("\"{name}\": expected a number that is not negative, found {x}");
-        self.keep(self.wrong(name, message))?;
+        self.record(self.wrong(name, message))?;
         Ok(default)
     }
 
@@ -243,7 +243,7 @@ impl ParamList {
                 let (low, high) = (range.start(), range.end());
                 let message =
                     format!("\"{name}\": expected an integer from {low} to {high}, found {x}");
-                self.keep(self.wrong(name, message))?;
+                self.record(self.wrong(name, message))?;
                 Ok(default)
             }
         }
@@ -255,7 +255,7 @@ impl ParamList {
         };
         match &param.values {
             Values::Bools(values) if values.len() == 1 => Ok(values[0]),
-            _ => self.keep(param.wrong_type(&["bool"])).map(|()| default),
+            _ => self.record(param.wrong_type(&["bool"])).map(|()| default),
         }
     }
 
@@ -267,7 +267,7 @@ impl ParamList {
         match &param.values {
             Values::Texts(texts) if param.kind == kind => Ok(texts),
             _ => {
-                self.keep(param.wrong_type(&[kind]))?;
+                self.record(param.wrong_type(&[kind]))?;
                 Ok(&[])
             }
         }
@@ -280,7 +280,7 @@ impl ParamList {
             [_, (_, place), ..] => {
                 let message = format!("\"{name}\": expected one string");
                 let error = SceneError::new(ErrorKind::Parameter, place, message);
-                self.keep(error).map(|()| None)
+                self.record(error).map(|()| None)
             }
         }
     }
@@ -290,11 +290,11 @@ impl ParamList {
         SceneError::new(ErrorKind::Parameter, &self.place_of(name), message)
     }
 
-    /// Where the parameter stands; call it only for one that exists.
+    /// The parameter's place; call it only for one that exists.
     pub(super) fn place_of(&self, name: &str) -> Place {
         match self.find(name) {
             Some(param) => param.place.clone(),
-            None => Place::start(&crate::error::Source::new("", "")),
+            None => Place::start(&crate::error::SourceText::new("", "")),
         }
     }
 }
@@ -362,7 +362,7 @@ fn read_values(tokens: &mut Tokens<'_>, kind: &str, name: &str) -> Result<Values
     }
     let open = tokens.place(&first);
     if !matches!(kind, "string" | "texture" | "bool" | "spectrum" | "integer") {
-        // The bulk of a file: no detour for what is not a number.
+        // Most of a file: this path is fast for numbers.
         let mut numbers = Vec::new();
         while let Some(number) = tokens.bare_number()? {
             numbers.push(number);
@@ -449,10 +449,10 @@ fn add_value(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::Source;
+    use crate::error::SourceText;
 
     fn read(text: &str) -> Result<ParamList, SceneError> {
-        let source = Source::new("t", text);
+        let source = SourceText::new("t", text);
         let mut tokens = Tokens::new(&source, Problems::default());
         ParamList::read(&mut tokens, ColourSpace::Srgb)
     }

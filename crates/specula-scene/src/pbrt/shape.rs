@@ -20,7 +20,7 @@ use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
 use crate::scene::{FloatParam, Mesh};
 
-/// A shape with the graphics state that it was met in.
+/// A shape with its graphics state.
 pub(super) struct ShapeEntity {
     pub(super) entity: Entity,
     pub(super) to_world: DMat4,
@@ -58,7 +58,7 @@ impl Recipe {
         }
     }
 
-    /// What is the same for shapes that may share their mesh.
+    /// A key that is equal for shapes that may share their mesh.
     pub(super) fn key(&self) -> Option<[u64; 5]> {
         match self {
             Self::Quadric(quadric) => Some(quadric.key()),
@@ -66,7 +66,7 @@ impl Recipe {
         }
     }
 
-    /// Area in the shape's own space, which pbrt-v4 takes for the power of quadrics.
+    /// Area in the shape's own space, from which pbrt-v4 computes the power of quadrics.
     pub(super) fn own_area(&self) -> Option<f64> {
         match self {
             Self::Quadric(quadric) => Some(quadric.area()),

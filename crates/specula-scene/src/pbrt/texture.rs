@@ -16,22 +16,22 @@ use crate::num::f32_of;
 use crate::scene::{ColourParam, FloatParam, NoiseKind, Texture, TextureId};
 use mapping::mapping;
 
-/// Whether a texture gives numbers or colours; pbrt-v4 keeps their names apart.
+/// Whether a texture gives numbers or colours; each type has names of its own.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum TextureType {
     Float,
     Colour,
 }
 
-/// What a texture's parameters are read with.
-struct Node<'a> {
+/// A texture node that is being read.
+struct TextureNode<'a> {
     entity: &'a Entity,
-    kind: Kind,
+    kind: TextureType,
     /// Texture space to world space.
     to_world: DMat4,
 }
 
-impl Node<'_> {
+impl TextureNode<'_> {
     fn params(&self) -> &ParamList {
         &self.entity.params
     }
@@ -46,14 +46,14 @@ pub(super) fn read(
     let (name, name_place) = tokens.expect_text("the name of the texture")?;
     let (kind, kind_place) = tokens.expect_text("the texture's type")?;
     let kind = match kind.as_str() {
-        "float" => Kind::Float,
-        "spectrum" | "color" => Kind::Colour,
+        "float" => TextureType::Float,
+        "spectrum" | "color" => TextureType::Colour,
         other => {
             let message = format!(
                 "expected \"float\" or \"spectrum\", found \"{}\"",
                 shorten(other)
             );
-            // What refers to it is not to blame.
+            // Nothing that refers to it is reported again.
             let id = context.constant(0.5);
             for names in [&mut context.float_textures, &mut context.colour_textures] {
                 names.define(name.clone(), id, name_place.clone());
@@ -68,7 +68,7 @@ pub(super) fn read(
         place,
         params,
     };
-    let node = Node {
+    let node = TextureNode {
         entity: &entity,
         kind,
         to_world: state.transforms[0],
@@ -77,25 +77,25 @@ pub(super) fn read(
     let id = entity.or(read, || context.constant(0.5))?;
     context.warn_unused(&entity.params);
     let names = match kind {
-        Kind::Float => &mut context.float_textures,
-        Kind::Colour => &mut context.colour_textures,
+        TextureType::Float => &mut context.float_textures,
+        TextureType::Colour => &mut context.colour_textures,
     };
     let message = format!("texture \"{}\" is defined twice", shorten(&name));
     if names.define(name, id, name_place.clone()) {
         return Ok(());
     }
     let error = SceneError::new(ErrorKind::Duplicate, &name_place, message);
-    context.problems.keep(error)
+    context.problems.record(error)
 }
 
-fn texture(context: &mut Context, node: &Node<'_>) -> Result<TextureId, SceneError> {
+fn texture(context: &mut Context, node: &TextureNode<'_>) -> Result<TextureId, SceneError> {
     let (params, kind) = (node.params(), node.kind);
     let texture = match (node.entity.name.as_str(), kind) {
         ("constant", _) => return input(context, params, "value", 1.0, kind),
         ("imagemap", _) => return imagemap::read(context, node),
         ("scale", _) => Texture::Scale {
             a: input(context, params, "tex", 1.0, kind)?,
-            b: input(context, params, "scale", 1.0, Kind::Float)?,
+            b: input(context, params, "scale", 1.0, TextureType::Float)?,
         },
         ("mix", _) => Texture::Mix {
             a: input(context, params, "tex1", 0.0, kind)?,
@@ -118,15 +118,15 @@ fn texture(context: &mut Context, node: &Node<'_>) -> Result<TextureId, SceneErr
             outside: input(context, params, "outside", 0.0, kind)?,
             mapping: mapping(node)?,
         },
-        ("fbm", Kind::Float) => noise(node, NoiseKind::Fbm)?,
-        ("wrinkled", Kind::Float) => noise(node, NoiseKind::Turbulence)?,
-        ("windy", Kind::Float) => Texture::Noise {
+        ("fbm", TextureType::Float) => noise(node, NoiseKind::Fbm)?,
+        ("wrinkled", TextureType::Float) => noise(node, NoiseKind::Turbulence)?,
+        ("windy", TextureType::Float) => Texture::Noise {
             kind: NoiseKind::Windy,
             octaves: 0,
             roughness: 0.0,
             to_texture: node.to_world.inverse(),
         },
-        ("marble", Kind::Colour) => {
+        ("marble", TextureType::Colour) => {
             let scale = f32_of(params.float("scale", 1.0)?);
             let variation = f32_of(params.float("variation", 0.2)?);
             noise(node, NoiseKind::Marble { scale, variation })?
@@ -142,11 +142,11 @@ fn texture(context: &mut Context, node: &Node<'_>) -> Result<TextureId, SceneErr
     Ok(context.add_texture(texture))
 }
 
-fn unknown(node: &Node<'_>, class: &str) -> SceneError {
+fn unknown(node: &TextureNode<'_>, class: &str) -> SceneError {
     let both = "constant, imagemap, scale, mix, directionmix, checkerboard, bilerp, dots, ptex";
     let (kind, own) = match node.kind {
-        Kind::Float => ("float", "fbm, wrinkled or windy"),
-        Kind::Colour => ("spectrum", "marble"),
+        TextureType::Float => ("float", "fbm, wrinkled or windy"),
+        TextureType::Colour => ("spectrum", "marble"),
     };
     let message = format!("unknown class \"{}\" of {kind} textures", shorten(class));
     SceneError::new(ErrorKind::Parameter, &node.entity.place, message)
@@ -159,9 +159,9 @@ fn input(
     params: &ParamList,
     name: &str,
     default: f32,
-    kind: Kind,
+    kind: TextureType,
 ) -> Result<TextureId, SceneError> {
-    if kind == Kind::Float {
+    if kind == TextureType::Float {
         return Ok(match context.float(params, name, default)? {
             FloatParam::Texture(id) => id,
             FloatParam::Value(v) => context.constant(v),
@@ -180,12 +180,12 @@ fn input(
 /// A value at a corner: pbrt-v4 takes no textures there.
 fn corner(
     context: &Context,
-    node: &Node<'_>,
+    node: &TextureNode<'_>,
     name: &str,
     default: f32,
 ) -> Result<Rgb<f32>, SceneError> {
     let params = node.params();
-    if node.kind == Kind::Float {
+    if node.kind == TextureType::Float {
         let value = params.float(name, f64::from(default))?;
         return Ok(Rgb::splat(f32_of(value)));
     }
@@ -202,7 +202,7 @@ fn corner(
     }
 }
 
-fn checkerboard(context: &mut Context, node: &Node<'_>) -> Result<Texture, SceneError> {
+fn checkerboard(context: &mut Context, node: &TextureNode<'_>) -> Result<Texture, SceneError> {
     let params = node.params();
     let even = input(context, params, "tex1", 1.0, node.kind)?;
     let odd = input(context, params, "tex2", 0.0, node.kind)?;
@@ -220,7 +220,7 @@ fn checkerboard(context: &mut Context, node: &Node<'_>) -> Result<Texture, Scene
     }
 }
 
-fn direction_mix(context: &mut Context, node: &Node<'_>) -> Result<Texture, SceneError> {
+fn direction_mix(context: &mut Context, node: &TextureNode<'_>) -> Result<Texture, SceneError> {
     let params = node.params();
     let given = params
         .array("dir", &["vector3"])?
@@ -237,7 +237,7 @@ fn direction_mix(context: &mut Context, node: &Node<'_>) -> Result<Texture, Scen
     })
 }
 
-fn noise(node: &Node<'_>, kind: NoiseKind) -> Result<Texture, SceneError> {
+fn noise(node: &TextureNode<'_>, kind: NoiseKind) -> Result<Texture, SceneError> {
     let params = node.params();
     Ok(Texture::Noise {
         kind,

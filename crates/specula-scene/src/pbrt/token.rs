@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use crate::error::{ErrorKind, Place, SceneError, Source};
+use crate::error::{ErrorKind, Place, SceneError, SourceText};
 use crate::problems::Problems;
 
-/// What a token is.
+/// Kinds of tokens.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum TokenKind<'a> {
     /// A directive, a number, `true` or `false`.
@@ -29,7 +29,7 @@ pub(super) struct Token<'a> {
 
 /// Reads the tokens of one file, with one token of lookahead.
 pub(super) struct Tokens<'a> {
-    source: &'a Arc<Source>,
+    source: &'a Arc<SourceText>,
     position: usize,
     peeked: Option<Token<'a>>,
     /// Where mistakes go.
@@ -37,8 +37,8 @@ pub(super) struct Tokens<'a> {
 }
 
 impl<'a> Tokens<'a> {
-    pub(super) fn new(source: &'a Arc<Source>, problems: Problems) -> Self {
-        // A byte-order mark is no token.
+    pub(super) fn new(source: &'a Arc<SourceText>, problems: Problems) -> Self {
+        // A byte-order mark is skipped.
         let position = if source.text().starts_with('\u{feff}') {
             3
         } else {
@@ -91,7 +91,7 @@ impl<'a> Tokens<'a> {
         Place::new(self.source, token.offset, token.length)
     }
 
-    /// The token that was looked at last, or else the place where the next begins or its mistake is.
+    /// The place of the token that was peeked, else where the next begins or its mistake is.
     fn here(&self) -> Place {
         match &self.peeked {
             Some(token) => self.place(token),
@@ -318,7 +318,7 @@ mod tests {
     use super::*;
 
     fn kinds(text: &str) -> Vec<String> {
-        let source = Source::new("t", text);
+        let source = SourceText::new("t", text);
         let mut tokens = Tokens::new(&source, Problems::default());
         std::iter::from_fn(|| tokens.next().unwrap())
             .map(|t| describe(&t.kind))
@@ -344,7 +344,7 @@ mod tests {
     #[test]
     fn numbers_must_be_finite_and_fit_f32() {
         for bad in ["nan", "inf", "-infinity", "1e39", "1x", "\"1\"", "["] {
-            let source = Source::new("t", bad);
+            let source = SourceText::new("t", bad);
             assert!(
                 Tokens::new(&source, Problems::default())
                     .expect_number("a number")
@@ -352,7 +352,7 @@ mod tests {
                 "{bad}"
             );
         }
-        let source = Source::new("t", "-1.5e-3");
+        let source = SourceText::new("t", "-1.5e-3");
         assert_eq!(
             Tokens::new(&source, Problems::default())
                 .expect_number("a number")
@@ -363,7 +363,7 @@ mod tests {
 
     #[test]
     fn open_strings_are_located() {
-        let source = Source::new("t", "Film \"rgb\n\"");
+        let source = SourceText::new("t", "Film \"rgb\n\"");
         let mut tokens = Tokens::new(&source, Problems::default());
         tokens.next().unwrap();
         let error = tokens.next().unwrap_err();

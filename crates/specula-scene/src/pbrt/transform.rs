@@ -51,9 +51,9 @@ impl Reader {
                         "expected an affine transform: numbers 4, 8, 12 are 0 and number 16 is 1";
                     return Err(SceneError::new(ErrorKind::Transform, place, message));
                 }
-                let keeps = word == "ConcatTransform";
+                let concatenates = word == "ConcatTransform";
                 self.state
-                    .transform(place, |m| if keeps { m * by } else { by })?;
+                    .transform(place, |m| if concatenates { m * by } else { by })?;
             }
             "CoordinateSystem" => {
                 let (name, _) = tokens.expect_text("the name of a coordinate system")?;

@@ -1,4 +1,4 @@
-//! Suggestions for words that are no directives.
+//! Suggestions for unknown directives.
 
 use super::token::shorten;
 use crate::error::{ErrorKind, Place, SceneError};
@@ -53,7 +53,7 @@ pub(super) fn is_directive(word: &str) -> bool {
     DIRECTIVES.contains(&word)
 }
 
-/// The directive that a word is surely meant to be: a check goes on as if it were.
+/// The directive that a word is a clear misspelling of: a check goes on as if it were that.
 pub(super) fn meant(word: &str) -> Option<&'static str> {
     let (edits, directive) = nearest(word)?;
     let letters = |word: &str| {

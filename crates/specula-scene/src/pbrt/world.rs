@@ -102,7 +102,7 @@ impl Reader {
         let Some(i) = self.media.iter().rposition(|m| m.entity.name == name) else {
             let message = format!("no medium \"{}\" is defined before this", shorten(&name));
             let error = SceneError::new(ErrorKind::UnknownName, &place, message);
-            return self.context.problems.keep(error).map(|()| None);
+            return self.context.problems.record(error).map(|()| None);
         };
         self.media[i].used.get_or_insert(place);
         Ok(Some(i))
@@ -137,7 +137,7 @@ impl Reader {
         if self.named_materials.insert(name.clone(), index).is_some() {
             let message = format!("material \"{}\" is defined twice", shorten(&name));
             let error = SceneError::new(ErrorKind::Duplicate, &named_at, message);
-            self.context.problems.keep(error)?;
+            self.context.problems.record(error)?;
         }
         self.materials.push(MaterialEntity {
             name: Some(name),

@@ -16,7 +16,7 @@ pub(super) fn has_indices(element: &Element) -> bool {
     properties.any(|p| is_indices(p) && p.value.is_integer())
 }
 
-/// Reads polygons as triangles that fan out from their first vertex. Indices are not yet held
+/// Reads polygons as triangles that fan out from their first vertex. Indices are not yet checked
 /// against the number of vertices.
 ///
 /// # Errors
@@ -48,11 +48,11 @@ pub(super) fn read(
             for _ in 0..count {
                 match index(values.next(property.value)?, face) {
                     Ok(corner) => corners.push(corner),
-                    Err(message) => faults.keep(message)?,
+                    Err(message) => faults.record(message)?,
                 }
             }
             if count < 3 {
-                faults.keep(format!(
+                faults.record(format!(
                     "face {face} has {count} vertices; expected at least 3"
                 ))?;
             }

@@ -63,7 +63,7 @@ pub(super) struct Property {
     pub(super) value: Scalar,
 }
 
-/// A kind of thing that the file holds.
+/// An element: a kind of record in the file.
 #[derive(Clone, Debug)]
 pub(super) struct Element {
     pub(super) name: String,
@@ -109,13 +109,13 @@ pub(super) fn read<'a>(bytes: &'a [u8], faults: &mut Faults) -> Result<(Header, 
         let words: Vec<&str> = text.split_ascii_whitespace().collect();
         if words.as_slice() == ["end_header"] {
             if encoding.is_none() {
-                faults.keep(wrong(number, text, "a line `format` before the end"))?;
+                faults.record(wrong(number, text, "a line `format` before the end"))?;
             }
             let encoding = encoding.unwrap_or(Encoding::Text);
             return Ok((Header { encoding, elements }, rest));
         }
         if let Err(expected) = read_line(&words, &mut encoding, &mut elements) {
-            faults.keep(wrong(number, text, expected))?;
+            faults.record(wrong(number, text, expected))?;
         }
     }
     Err("its header does not end".into())
@@ -127,7 +127,7 @@ fn wrong(number: usize, text: &str, expected: &str) -> Fault {
     Fault::at_line(number, message)
 }
 
-/// Takes in a line of the header; else what was expected.
+/// Adds a line of the header; the error says what was expected.
 fn read_line(
     words: &[&str],
     encoding: &mut Option<Encoding>,
@@ -196,21 +196,21 @@ fn line<'a>(rest: &mut &'a [u8]) -> Result<&'a str, String> {
 }
 
 impl Header {
-    /// Holds what is promised against what is wanted, against the limits, and against the file's
-    /// length: no count is believed that the data cannot bear.
+    /// Checks the header against the required properties, the limits, and the file's
+    /// length: a count that exceeds the data is an error.
     ///
     /// * `length`: of the data, in bytes.
     ///
     /// # Errors
     ///
-    /// Those of [`Faults::keep`].
+    /// Those of [`Faults::record`].
     pub(super) fn check(
         &self,
         length: usize,
         limits: &Limits,
         faults: &mut Faults,
     ) -> Result<(), Fault> {
-        // What lacks may stand on a line with a mistake.
+        // What is missing may be on a line with a mistake.
         let is_whole = faults.is_empty();
         let most = limits.max_vertices;
         let mut least: u128 = 0;
@@ -218,17 +218,17 @@ impl Header {
         for element in &self.elements {
             let (name, count) = (&element.name, element.count);
             if count > 0 && element.properties.is_empty() && is_whole {
-                faults.keep(format!("element `{name}` has no properties"))?;
+                faults.record(format!("element `{name}` has no properties"))?;
             }
             match name.as_str() {
                 "vertex" => {
                     has_vertices = true;
                     if is_whole && !vertices::has_positions(element) {
-                        faults.keep("expected the properties x, y and z of `vertex`")?;
+                        faults.record("expected the properties x, y and z of `vertex`")?;
                     }
                 }
                 "face" if is_whole && !faces::has_indices(element) => {
-                    faults.keep("expected a list of integers `vertex_indices` of `face`")?;
+                    faults.record("expected a list of integers `vertex_indices` of `face`")?;
                 }
                 _ => {}
             }
@@ -238,18 +238,18 @@ impl Header {
             let most_bytes = length as u128 + 1;
             if least > most_bytes {
                 if least - needed <= most_bytes {
-                    faults.keep(format!(
+                    faults.record(format!(
                         "its header promises {count} of `{name}`, but only {length} bytes follow"
                     ))?;
                 }
             } else if count as u64 > most {
-                faults.keep(format!(
+                faults.record(format!(
                     "it has {count} of `{name}`; at most {most} are read (`max_vertices`)"
                 ))?;
             }
         }
         if !has_vertices && is_whole {
-            faults.keep("it has no element `vertex`")?;
+            faults.record("it has no element `vertex`")?;
         }
         Ok(())
     }

@@ -3,9 +3,6 @@
 //! Strict: a header that promises more than the file holds is an error before anything is read. A
 //! check names all mistakes of the header, or all bad rows of a text, or what is wrong in binary data up
 //! to where they cannot be followed any more.
-//!
-//! The crate `ply-rs-bw` was used before; ten million triangles took it longer than the rest of
-//! the loading together, and it refused `.5` in texts.
 
 mod faces;
 mod header;
@@ -23,14 +20,14 @@ use header::{Encoding, Header};
 
 /// Reads a mesh. Triangles of polygons fan out from their first vertex.
 ///
-/// * `keeps`: whether mistakes are kept, as in a check.
+/// * `collects`: whether to go on after a mistake, as in a check.
 ///
 /// # Errors
 ///
 /// What is wrong with the file.
-pub(crate) fn read(path: &Path, files: &Files, keeps: bool) -> Result<Mesh, Vec<Fault>> {
+pub(crate) fn read(path: &Path, files: &Files, collects: bool) -> Result<Mesh, Vec<Fault>> {
     let bytes = files.unpacked(path).map_err(|m| vec![m.into()])?;
-    parse(&bytes, files.limits(), keeps)
+    parse(&bytes, files.limits(), collects)
 }
 
 /// Reads a mesh from the bytes of a PLY file.
@@ -38,8 +35,8 @@ pub(crate) fn read(path: &Path, files: &Files, keeps: bool) -> Result<Mesh, Vec<
 /// # Errors
 ///
 /// What was expected, with its line in headers and texts.
-fn parse(bytes: &[u8], limits: &Limits, keeps: bool) -> Result<Mesh, Vec<Fault>> {
-    let mut faults = Faults::new(keeps);
+fn parse(bytes: &[u8], limits: &Limits, collects: bool) -> Result<Mesh, Vec<Fault>> {
+    let mut faults = Faults::new(collects);
     let read = parse_into(bytes, limits, &mut faults);
     faults.end(read)
 }
@@ -48,7 +45,7 @@ fn parse_into(bytes: &[u8], limits: &Limits, faults: &mut Faults) -> Result<Mesh
     let (header, rest) = header::read(bytes, faults)?;
     header.check(rest.len(), limits, faults)?;
     if !faults.is_empty() {
-        // Data of a damaged header cannot be told apart.
+        // Data behind a damaged header cannot be interpreted.
         return Ok(Mesh::default());
     }
     if header.encoding == Encoding::Text {

@@ -1,4 +1,4 @@
-//! Names the rows of a text that are wrong, once it is known that something is.
+//! Lists the wrong rows of a text file, after reading it failed.
 
 use super::faces::is_indices;
 use super::header::{Element, Header};
@@ -6,7 +6,7 @@ use super::values::number;
 use crate::faults::{Fault, Faults};
 use crate::num::f32_of;
 
-/// Holds each line against the row that it should be. Nothing is named of texts that do not have a row
+/// Checks each line against its row. Nothing is listed for texts that do not have a row
 /// on each line, which the format does not ask for.
 ///
 /// * `text`: what follows the header.
@@ -32,7 +32,7 @@ pub(super) fn name(
         for index in 0..element.count {
             let Some((line, text)) = lines.next() else {
                 let (name, count) = (&element.name, element.count);
-                found.keep(format!("it ends after {index} of {count} of `{name}`"))?;
+                found.record(format!("it ends after {index} of {count} of `{name}`"))?;
                 break 'elements;
             };
             match row(element, text, vertices) {
@@ -40,7 +40,7 @@ pub(super) fn name(
                 Err(message) => {
                     bad += 1;
                     let name = &element.name;
-                    found.keep(Fault::at_line(line, format!("{name} {index} {message}")))?;
+                    found.record(Fault::at_line(line, format!("{name} {index} {message}")))?;
                 }
             }
         }

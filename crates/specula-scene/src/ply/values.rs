@@ -1,4 +1,4 @@
-//! The numbers after the header, one after the other.
+//! The values after the header, in order.
 
 use super::header::{Element, Encoding, Scalar};
 
@@ -50,7 +50,7 @@ impl<'a> Values<'a> {
         Ok(count as usize)
     }
 
-    /// Reads past one property.
+    /// Skips one property.
     pub(super) fn skip(&mut self, element: &Element) -> Result<(), String> {
         for _ in 0..element.count {
             for property in &element.properties {

@@ -17,7 +17,7 @@ const UV_NAMES: [[&str; 2]; 4] = [
 /// Names of vertex colours in use.
 const COLOUR_NAMES: [[&str; 3]; 2] = [["red", "green", "blue"], ["r", "g", "b"]];
 
-/// A number that every vertex has, and where.
+/// A scalar property of vertices, and its place in a record.
 #[derive(Clone, Copy)]
 struct Column {
     /// Index among the properties.

@@ -1,6 +1,6 @@
-//! Where pictures are taken from, and how they are collected.
+//! Camera and film.
 
-use glam::DMat4;
+use glam::{DMat4, DVec3};
 
 use super::light::EnvironmentMapping;
 
@@ -11,7 +11,7 @@ use super::light::EnvironmentMapping;
 pub struct Camera {
     /// Camera space to world space.
     pub to_world: DMat4,
-    /// How points become places in the picture.
+    /// The projection onto the picture.
     pub projection: Projection,
     /// Radius of the lens, in scene units; 0 for a pinhole. Spherical pictures have none.
     pub lens_radius: f64,
@@ -22,7 +22,35 @@ pub struct Camera {
     pub screen_window: [f64; 4],
 }
 
-/// How points of camera space become places in the picture.
+impl Camera {
+    /// A pinhole camera, in focus at `target`.
+    ///
+    /// * `up`: upwards in the picture; not along the view direction.
+    /// * `fov_deg`: field of view over the shorter side of the picture, in degrees, in (0, 180).
+    #[must_use]
+    pub fn look_at(eye: DVec3, target: DVec3, up: DVec3, fov_deg: f64, film: &Film) -> Self {
+        let [width, height] = film.resolution.map(f64::from);
+        let forward = (target - eye).normalize();
+        let right = forward.cross(up).normalize();
+        let to_world = DMat4::from_cols(
+            right.extend(0.0),
+            right.cross(forward).extend(0.0),
+            forward.extend(0.0),
+            eye.extend(1.0),
+        );
+        let aspect = width / height;
+        let [x, y] = [aspect.max(1.0), (1.0 / aspect).max(1.0)];
+        Self {
+            to_world,
+            projection: Projection::Perspective { fov_deg },
+            lens_radius: 0.0,
+            focal_distance: (target - eye).length(),
+            screen_window: [-x, x, -y, y],
+        }
+    }
+}
+
+/// A projection of camera space onto the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
     /// Rays leave from one point.
@@ -60,6 +88,21 @@ pub struct Film {
 impl Film {
     /// The identity: no white balance.
     pub const NO_BALANCE: [[f32; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+    /// A film of linear radiance: no crop, exposure 1, no white balance.
+    #[must_use]
+    pub fn new(resolution: [u32; 2], filter: Filter) -> Self {
+        let [width, height] = resolution;
+        Self {
+            resolution,
+            crop: [0, width, 0, height],
+            filter,
+            exposure: 1.0,
+            max_component: None,
+            balance: Self::NO_BALANCE,
+            file_name: None,
+        }
+    }
 }
 
 /// A separable reconstruction filter; radii in pixels.
@@ -67,24 +110,24 @@ impl Film {
 pub enum Filter {
     /// Constant.
     Box {
-        /// Half alphas.
+        /// Half width and half height.
         radius: [f32; 2],
     },
     /// Linear.
     Triangle {
-        /// Half alphas.
+        /// Half width and half height.
         radius: [f32; 2],
     },
     /// Gaussian, zero at its radius.
     Gaussian {
-        /// Half alphas.
+        /// Half width and half height.
         radius: [f32; 2],
         /// Standard deviation in pixels.
         sigma: f32,
     },
     /// Mitchell and Netravali 1988.
     Mitchell {
-        /// Half alphas.
+        /// Half width and half height.
         radius: [f32; 2],
         /// Their B.
         b: f32,
@@ -93,7 +136,7 @@ pub enum Filter {
     },
     /// Sinc windowed by a sinc.
     LanczosSinc {
-        /// Half alphas.
+        /// Half width and half height.
         radius: [f32; 2],
         /// Cycles of the sinc before it is zero.
         tau: f32,

@@ -1,4 +1,4 @@
-//! What lies between a coat and its base.
+//! The medium between a coat and its base.
 
 use specula_bsdf::Rgb;
 
@@ -10,8 +10,8 @@ use super::texture::{ColourParam, FloatParam};
 /// The default is no medium, and light that is followed until it leaves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoatMedium {
-    /// Optical thickness, from 0 up: light that crosses the medium at the cosine `mu` keeps
-    /// `exp(-thickness / mu)`, or is scattered by it where `albedo` is not black.
+    /// Optical thickness, from 0 up: of light that crosses the medium at the cosine `mu`, the share
+    /// `exp(-thickness / mu)` passes; the rest is absorbed or, where `albedo` is not black, scattered.
     pub thickness: FloatParam,
     /// Events after which light that has not left is lost: an event is the base, the coat from
     /// within, or a scattering by the medium. `None`: no limit.
@@ -19,7 +19,7 @@ pub struct CoatMedium {
     /// Walks that are averaged where a renderer estimates the material's value (pbrt's `nsamples`):
     /// noise only.
     pub samples: u32,
-    /// Share that a scattering by the medium keeps; black for a medium that only absorbs.
+    /// Single-scattering albedo of the medium; black for a medium that only absorbs.
     pub albedo: ColourParam,
     /// Asymmetry of the medium's scattering (Henyey and Greenstein's), in `[-1, 1]`.
     pub g: FloatParam,

@@ -24,7 +24,7 @@ pub enum EnvironmentMapping {
 /// A light that is not a shape. Powers, scales and filters of the file are folded in.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Light {
-    /// Radiance from every direction.
+    /// An environment light: radiance from every direction.
     Infinite {
         /// Radiance, or factor on the picture.
         radiance: Rgb<f32>,
@@ -42,16 +42,16 @@ pub enum Light {
         /// Half the angle that it fills, in degrees, in `[0, 90)`; 0 for parallel light.
         half_angle_deg: f64,
     },
-    /// Light from a point.
+    /// A point light.
     Point {
-        /// Where.
+        /// Its position.
         position: [f64; 3],
         /// Radiant intensity, per steradian.
         intensity: Rgb<f32>,
     },
-    /// Light from a point within a cone.
+    /// A spot light.
     Spot {
-        /// Where.
+        /// Its position.
         position: [f64; 3],
         /// Unit vector along the axis of the cone.
         axis: [f64; 3],
@@ -64,18 +64,18 @@ pub enum Light {
         /// How it falls to 0 between the two.
         falloff: SpotFalloff,
     },
-    /// Light from a point that projects an image.
+    /// A projector: a point light whose intensity is an image by direction.
     Picture {
         /// Light space to world space: the light is at its origin. Lengths do not matter.
         to_world: DMat4,
         /// Intensity: a texture at the coordinates that `image_projection` gives.
         intensity: ColourParam,
-        /// Where the picture goes.
+        /// The projection of the picture.
         image_projection: ImageProjection,
     },
 }
 
-/// Where a light projects its picture, as `(s, t)` with the origin at the lower left, by the
+/// The projection of a light's picture, as `(s, t)` with the origin at the lower left, by the
 /// direction `(x, y, z)` in light space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ImageProjection {
@@ -87,12 +87,12 @@ pub enum ImageProjection {
     Window {
         /// Half width and half height at the distance 1.
         half: [f64; 2],
-        /// What the picture is multiplied by.
+        /// The factor on the picture.
         profile: Profile,
     },
 }
 
-/// How a picture through a window varies beside itself.
+/// The factor on a picture that is projected through a window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Profile {
     /// It is the radiant intensity (pbrt's `projection`).

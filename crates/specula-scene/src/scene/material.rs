@@ -17,9 +17,9 @@ pub struct Material {
     pub kind: MaterialKind,
     /// Treatment of multiple scattering, where the file chooses one; else the render's.
     pub energy: Option<Energy>,
-    /// What bends its shading normal.
+    /// Its bump or normal map.
     pub bump: Option<Bump>,
-    /// By whose rules it bends.
+    /// Which renderer's rules its bump map follows.
     pub bump_rules: BumpRules,
     /// Whether its back is black (Mitsuba's opaque materials without `twosided`).
     pub one_sided: bool,
@@ -32,7 +32,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// A material without name, bump map or wishes, that looks the same from both sides.
+    /// A two-sided material without name, bump map and absorption.
     #[must_use]
     pub fn new(kind: MaterialKind) -> Self {
         Self {
@@ -47,14 +47,14 @@ impl Material {
         }
     }
 
-    /// Whether passing it may change what absorbs.
+    /// Whether light that passes it may enter or leave an absorbing medium.
     #[must_use]
     pub fn bounds_absorption(&self) -> bool {
         self.around.is_some() || !self.absorption.is_black()
     }
 }
 
-/// What bends a shading normal.
+/// A bump or normal map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bump {
     /// Heights along the normal, in scene units.
@@ -69,7 +69,7 @@ pub enum Bump {
     },
 }
 
-/// By whose rules a bump map bends normals.
+/// Whose rules a bump map follows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BumpRules {
     /// As [`Bump`] says, and nothing more.
@@ -97,7 +97,7 @@ pub enum RoughnessMapping {
 }
 
 impl RoughnessMapping {
-    /// What to say of a roughness that makes an alpha beyond those that are rendered, and the
+    /// A warning about a roughness that makes alpha larger than what is rendered, and the
     /// roughness of the largest; `None` of others.
     pub(crate) fn too_wide(self, name: &str, roughness: f32) -> Option<(String, f32)> {
         let widest = Alpha::<f64>::MAX;
@@ -118,7 +118,7 @@ impl RoughnessMapping {
 
 /// A distribution of microfacet normals.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Distribution {
+pub enum MicrofacetDistribution {
     /// Trowbridge and Reitz.
     #[default]
     Ggx,
@@ -135,29 +135,29 @@ pub struct Roughness {
     pub v: FloatParam,
     /// How it becomes alpha.
     pub mapping: RoughnessMapping,
-    /// Which normals.
-    pub distribution: Distribution,
-    /// Which masking and shadowing.
+    /// The distribution of microfacet normals.
+    pub distribution: MicrofacetDistribution,
+    /// How masking and shadowing are combined.
     pub masking: Masking,
-    /// Angle of the first width's axis from dp/du towards the other tangent, in radians.
+    /// Angle of the axis of `u` from dp/du towards the other tangent, in radians.
     pub rotation_rad: f32,
 }
 
 impl Roughness {
-    /// The same width along both tangents, of GGX with height-correlated masking.
+    /// The same roughness along both tangents, of GGX with height-correlated masking.
     #[must_use]
     pub fn isotropic(width: FloatParam, mapping: RoughnessMapping) -> Self {
         Self {
             u: width,
             v: width,
             mapping,
-            distribution: Distribution::Ggx,
+            distribution: MicrofacetDistribution::Ggx,
             masking: Masking::HeightCorrelated,
             rotation_rad: 0.0,
         }
     }
 
-    /// No roughness at all.
+    /// A smooth surface.
     #[must_use]
     pub fn smooth() -> Self {
         Self::isotropic(FloatParam::Value(0.0), RoughnessMapping::Alpha)
@@ -182,7 +182,7 @@ pub enum ConductorFresnel {
     Mirror,
 }
 
-/// What a material is.
+/// The kinds of materials.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MaterialKind {
     /// Lambert, or energy-preserving Oren-Nayar where roughness is not 0.
@@ -238,7 +238,7 @@ pub enum MaterialKind {
         roughness: Roughness,
         /// What lies between the two.
         medium: CoatMedium,
-        /// Whether the coat keeps the light that its facets scatter more than once, whatever the
+        /// Whether the coat loses no light that its facets scatter more than once, whatever the
         /// treatment of energy; else it does under any treatment but none.
         lossless: bool,
     },
@@ -269,9 +269,9 @@ pub enum MaterialKind {
         nonlinear: bool,
     },
     /// Mitsuba's `principled` and `principledthin` (Burley 2012 and 2015), by their formulas.
-    Principled(Principled),
+    Principled(PrincipledMaterial),
     /// glTF's metallic-roughness material with its extensions.
-    Gltf(Gltf),
+    Gltf(GltfMaterial),
     /// One of two materials, chosen at random at every hit.
     Mix {
         /// Chosen with probability 1 - amount, and with probability amount.
@@ -279,13 +279,13 @@ pub enum MaterialKind {
         /// Share of the second.
         amount: FloatParam,
     },
-    /// No surface at all: rays pass straight through.
+    /// An interface between media: rays pass straight through.
     Interface,
 }
 
 /// Parameters of Mitsuba's `principled` and `principledthin`, as they name them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Principled {
+pub struct PrincipledMaterial {
     /// `base_color`.
     pub base_colour: ColourParam,
     /// `roughness`; alpha is its square.
@@ -318,7 +318,7 @@ pub struct Principled {
 
 /// glTF 2.0's metallic-roughness material and its `KHR_materials_*` extensions.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gltf {
+pub struct GltfMaterial {
     /// `baseColorFactor` times `baseColorTexture`.
     pub base_colour: ColourParam,
     /// `metallicFactor` times the blue channel.

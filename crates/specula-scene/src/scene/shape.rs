@@ -1,4 +1,4 @@
-//! Geometry and its places.
+//! Shapes and instances.
 
 use glam::DMat4;
 
@@ -44,12 +44,12 @@ pub enum Geometry {
     },
 }
 
-/// Light that a shape sends out.
+/// Emission of a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
     /// Radiance.
     pub radiance: ColourParam,
-    /// Whether both sides send it; else the side of the surface normal.
+    /// Whether both sides emit; else the side of the surface normal.
     pub two_sided: bool,
 }
 
@@ -62,13 +62,28 @@ pub struct Shape {
     pub to_world: DMat4,
     /// Its surface.
     pub material: MaterialId,
-    /// Light that it sends out.
+    /// Its emission.
     pub emission: Option<Emission>,
     /// Whether the file reverses the surface normal (the flip of a mirroring transform is *not*
     /// in it: the renderer adds it, as pbrt does).
     pub reverse_orientation: bool,
     /// Opacity: 0 lets rays pass.
     pub alpha: FloatParam,
+}
+
+impl Shape {
+    /// An opaque shape that emits no light.
+    #[must_use]
+    pub fn new(geometry: Geometry, to_world: DMat4, material: MaterialId) -> Self {
+        Self {
+            geometry,
+            to_world,
+            material,
+            emission: None,
+            reverse_orientation: false,
+            alpha: FloatParam::Value(1.0),
+        }
+    }
 }
 
 /// A named group of shapes.
@@ -80,10 +95,10 @@ pub struct Object {
     pub shapes: Vec<Shape>,
 }
 
-/// A copy of an object.
+/// An instance of an object.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Instance {
-    /// What is copied.
+pub struct ObjectInstance {
+    /// The object.
     pub object: ObjectId,
     /// The object's space to the world's.
     pub to_world: DMat4,

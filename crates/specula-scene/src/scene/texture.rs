@@ -1,4 +1,4 @@
-//! Parameters that vary over surfaces.
+//! Parameters that may vary over surfaces, and textures.
 
 use glam::DMat4;
 use specula_bsdf::Rgb;
@@ -43,15 +43,15 @@ pub enum Texture {
         image: ImageId,
         /// How surface coordinates become picture coordinates.
         mapping: TextureMapping,
-        /// What lies outside `[0, 1]^2`, along s and t.
+        /// Values outside `[0, 1]^2`, along s and t.
         wrap: [Wrap; 2],
-        /// Between pixel centres.
+        /// Interpolation between pixel centres.
         filter: Interpolation,
-        /// Whether 1 - value is meant.
+        /// Whether the value is replaced by 1 - value.
         invert: bool,
         /// Factor on the value.
         scale: f32,
-        /// Which channels are meant.
+        /// The channels that are read.
         channel: Channel,
     },
     /// The product of two textures.
@@ -142,7 +142,7 @@ pub enum Texture {
     VertexColour,
 }
 
-/// Which sum of octaves a noise is.
+/// Kinds of noise, by how octaves are summed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoiseKind {
     /// Fractional Brownian motion.
@@ -160,7 +160,7 @@ pub enum NoiseKind {
     },
 }
 
-/// Which channels of a picture a texture means.
+/// The channels of a picture that a texture reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Channel {
     /// All three.
@@ -193,7 +193,7 @@ impl Channel {
     }
 }
 
-/// What lies between the pixel centres of a picture.
+/// Interpolation between the pixel centres of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
     /// Bilinear interpolation.
@@ -202,7 +202,7 @@ pub enum Interpolation {
     Nearest,
 }
 
-/// How a place on a surface becomes texture coordinates `(s, t)`.
+/// A mapping from a point on a surface to texture coordinates `(s, t)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TextureMapping {
     /// From the surface coordinates.
@@ -259,7 +259,7 @@ impl Default for UvMapping {
     }
 }
 
-/// What a picture is outside `[0, 1]^2`.
+/// Values of a picture outside `[0, 1]^2`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wrap {
     /// It repeats.

@@ -164,7 +164,7 @@ impl<R: Read> Stream<R> {
         self.array().map(u64::from_le_bytes)
     }
 
-    /// Grows with what is there: no count of a header is believed.
+    /// Allocates as data are read: a header's count is not trusted.
     fn floats<const N: usize>(
         &mut self,
         count: u64,

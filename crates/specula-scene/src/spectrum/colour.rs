@@ -117,7 +117,7 @@ pub(super) fn to_f32([r, g, b]: [f64; 3]) -> Rgb<f32> {
     rgb(r as f32, g as f32, b as f32)
 }
 
-/// What the sums need, computed once.
+/// Matrices and weights of the sums, computed once.
 struct Space {
     rgb_from_xyz: DMat3,
     xyz_from_rgb: DMat3,

@@ -12,7 +12,7 @@ pub(crate) enum ColourSpace {
     /// IEC 61966-2-1.
     #[default]
     Srgb,
-    /// Another one.
+    /// Another space.
     Other(Primaries),
 }
 
@@ -145,6 +145,9 @@ fn adaptation(from: DVec3, to: DVec3) -> DMat3 {
     lms.inverse() * DMat3::from_diagonal((lms * to) / (lms * from)) * lms
 }
 
+/// The matrix that changes nothing.
+const IDENTITY: [[f32; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
 /// White balance: the light of a colour temperature becomes white.
 ///
 /// * `kelvin`: above 0. Daylight from 4000 K up, a black body below (pbrt-v4's rule); 6500 is D65.
@@ -153,7 +156,7 @@ fn adaptation(from: DVec3, to: DVec3) -> DMat3 {
 /// Source: CIE 015:2018, equations 4.6 and 4.7 (daylight). Departure: none.
 pub(crate) fn white_balance(kelvin: f64) -> [[f32; 3]; 3] {
     if kelvin == 6500.0 {
-        return crate::scene::Film::NO_BALANCE;
+        return IDENTITY;
     }
     // c2 was revised after the daylight series was named.
     let t = kelvin * 1.4388 / 1.4380;

@@ -21,7 +21,7 @@ const K_RANGE: (f64, f64) = (1e-6, 100.0);
 /// 0.0004, gold's red excepted.
 const PULL: f64 = 1e-5;
 
-/// One complex index per channel, and how well it does.
+/// One complex index per channel, with its errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConductorFit {
     /// Real parts `n_c`.

@@ -12,7 +12,7 @@ pub struct Spectrum {
     samples: Vec<(f64, f64)>,
 }
 
-/// Why samples make no spectrum.
+/// Why samples are not a spectrum.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SpectrumError {

@@ -33,7 +33,7 @@ pub enum SpdErrorKind {
         /// The wavelength, in nm.
         nm: f64,
     },
-    /// The numbers make no spectrum.
+    /// The pairs are not a spectrum.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),
 }

@@ -4,13 +4,13 @@ use glam::{DMat4, DVec3, Vec3};
 use rayon::prelude::*;
 use specula_bsdf::Rgb;
 
-use crate::bounds::{self, Bounds, FARTHEST};
+use crate::bounds::{self, BoundingBox, FARTHEST};
 use crate::num::f32_of;
 use crate::scene::{
     ColourParam, FloatParam, Geometry, Material, MaterialId, MaterialKind, Mesh, Scene, Shape,
 };
 
-/// What the floor reflects: neutral, and darker than most objects.
+/// Albedo of the floor: neutral, and darker than most objects.
 pub(super) const ALBEDO: f32 = 0.2;
 
 /// Radius of the floor over that of the object: seen from where the object fills the picture, its
@@ -24,7 +24,7 @@ const GAP: f64 = 1e-3;
 /// The floor under what a scene shows, with a material of its own; `None` where nothing is shown.
 ///
 /// * `bounds`: of the scene.
-pub(super) fn under(scene: &Scene, bounds: Bounds) -> Option<(Material, Shape)> {
+pub(super) fn under(scene: &Scene, bounds: BoundingBox) -> Option<(Material, Shape)> {
     let lowest = lowest(scene)?;
     let radius = bounds.radius();
     let farthest = bounds.farthest();
@@ -42,17 +42,12 @@ pub(super) fn under(scene: &Scene, bounds: Bounds) -> Option<(Material, Shape)> 
             roughness: FloatParam::Value(0.0),
         })
     };
-    let shape = Shape {
-        geometry: Geometry::Disk {
-            radius: f32_of(reach),
-            height: 0.0,
-        },
-        to_world: DMat4::from_translation(centre) * super::Z_UP,
-        material: MaterialId(scene.materials.len()),
-        emission: None,
-        reverse_orientation: false,
-        alpha: FloatParam::Value(1.0),
+    let disk = Geometry::Disk {
+        radius: f32_of(reach),
+        height: 0.0,
     };
+    let to_world = DMat4::from_translation(centre) * super::Z_UP;
+    let shape = Shape::new(disk, to_world, MaterialId(scene.materials.len()));
     Some((material, shape))
 }
 
@@ -77,7 +72,7 @@ fn lowest(scene: &Scene) -> Option<f64> {
         let low = of(shape).transformed(&shape.to_world).min.y;
         placed.push((low, shape.geometry, shape.to_world));
     }
-    let boxes: Vec<Vec<Bounds>> = (scene.objects.iter())
+    let boxes: Vec<Vec<BoundingBox>> = (scene.objects.iter())
         .map(|object| object.shapes.iter().map(of).collect())
         .collect();
     for instance in &scene.instances {

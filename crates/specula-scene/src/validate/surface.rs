@@ -5,8 +5,9 @@ use specula_bsdf::Rgb;
 
 use super::{Invalid, ensure, is_light};
 use crate::scene::{
-    Bump, CoatMedium, ColourParam, ConductorFresnel, FloatParam, Gltf, Material, MaterialKind,
-    NoiseKind, Principled, Roughness, Scene, Texture, TextureId, TextureMapping,
+    Bump, CoatMedium, ColourParam, ConductorFresnel, FloatParam, GltfMaterial, Material,
+    MaterialKind, NoiseKind, PrincipledMaterial, Roughness, Scene, Texture, TextureId,
+    TextureMapping,
 };
 
 impl Scene {
@@ -38,7 +39,7 @@ impl Scene {
         }
     }
 
-    fn principled(&self, what: &str, p: &Principled) -> Result<(), Invalid> {
+    fn principled(&self, what: &str, p: &PrincipledMaterial) -> Result<(), Invalid> {
         self.colour(what, p.base_colour)?;
         self.floats(
             what,
@@ -58,7 +59,7 @@ impl Scene {
         )
     }
 
-    fn gltf(&self, what: &str, g: &Gltf) -> Result<(), Invalid> {
+    fn gltf(&self, what: &str, g: &GltfMaterial) -> Result<(), Invalid> {
         self.colours(what, &[g.base_colour, g.specular_colour, g.sheen_colour])?;
         self.floats(
             what,
@@ -289,7 +290,7 @@ impl Scene {
     }
 }
 
-/// Holds an index of refraction against its range.
+/// Checks an index of refraction against its range.
 fn index(what: &str, eta: f32) -> Result<(), Invalid> {
     ensure(
         eta > 0.0 && eta.is_finite(),

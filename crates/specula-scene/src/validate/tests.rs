@@ -3,7 +3,6 @@
 use glam::{DMat4, DVec3};
 use specula_bsdf::Rgb;
 
-use crate::energy::Energy;
 use crate::image::Image;
 use crate::scene::*;
 use crate::summary::Summary;
@@ -15,39 +14,23 @@ fn scene() -> Scene {
         roughness: FloatParam::Value(0.0),
     };
     let shape = Shape {
-        geometry: Geometry::Mesh(MeshId(0)),
-        to_world: DMat4::from_translation(DVec3::X),
-        material: MaterialId(0),
         emission: Some(Emission {
             radiance: ColourParam::WHITE,
             two_sided: false,
         }),
-        reverse_orientation: false,
-        alpha: FloatParam::Value(1.0),
+        ..Shape::new(
+            Geometry::Mesh(MeshId(0)),
+            DMat4::from_translation(DVec3::X),
+            MaterialId(0),
+        )
+    };
+    let film = Film::new([4, 4], Filter::Box { radius: [0.5; 2] });
+    let camera = Camera::look_at(DVec3::ZERO, DVec3::Z, DVec3::Y, 90.0, &film);
+    let settings = Settings {
+        samples_per_pixel: 1,
+        ..Settings::default()
     };
     Scene {
-        camera: Camera {
-            to_world: DMat4::IDENTITY,
-            projection: Projection::Perspective { fov_deg: 90.0 },
-            lens_radius: 0.0,
-            focal_distance: 1.0,
-            screen_window: [-1.0, 1.0, -1.0, 1.0],
-        },
-        film: Film {
-            resolution: [4, 4],
-            crop: [0, 4, 0, 4],
-            filter: Filter::Box { radius: [0.5; 2] },
-            exposure: 1.0,
-            max_component: None,
-            balance: Film::NO_BALANCE,
-            file_name: None,
-        },
-        settings: Settings {
-            max_depth: 5,
-            samples_per_pixel: 1,
-            hide_emitters: false,
-            energy: Energy::None,
-        },
         images: vec![Image {
             name: "i".into(),
             width: 1,
@@ -72,7 +55,7 @@ fn scene() -> Scene {
             name: "o".into(),
             shapes: vec![shape.clone(), shape],
         }],
-        instances: vec![Instance {
+        instances: vec![ObjectInstance {
             object: ObjectId(0),
             to_world: DMat4::IDENTITY,
         }],
@@ -81,7 +64,7 @@ fn scene() -> Scene {
             to_light: [0.0, 0.0, 1.0],
             half_angle_deg: 0.0,
         }],
-        floor: None,
+        ..Scene::empty(camera, film, settings)
     }
 }
 

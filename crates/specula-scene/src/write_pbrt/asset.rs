@@ -14,7 +14,7 @@ use crate::scene::{Channel, ImageId, Mesh, MeshId};
 /// Largest number of EXR's half floats.
 const LARGEST_HALF: f32 = 65_504.0;
 
-/// Puts bytes at a path: the old file stays untouched unless all of them are on disk.
+/// Writes a file; a failure leaves the old one untouched.
 pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     atomic::replace(path, |out| out.write_all(bytes)).map_err(|source| WriteError {
         path: path.to_owned(),

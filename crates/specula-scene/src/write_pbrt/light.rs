@@ -101,7 +101,7 @@ impl Writer<'_> {
                 &square
             }
         };
-        // pbrt has no colour beside a picture: it is multiplied in.
+        // pbrt has no factor on a picture's colour: it is multiplied into the pixels.
         let name = format!("environment-{index}.exr");
         let scaled = Image {
             name: String::new(),

@@ -3,10 +3,11 @@
 use specula_bsdf::Rgb;
 use specula_bsdf::ndf::Masking;
 
-use super::{Wanted, WriteError, Writer, quoted};
+use super::{TextureType, WriteError, Writer, quoted};
 use crate::scene::{
-    Bump, CoatMedium, ColourParam, ConductorFresnel, Distribution, FloatParam, Gltf, Material,
-    MaterialId, MaterialKind, Principled, Roughness, RoughnessMapping, TextureId,
+    Bump, CoatMedium, ColourParam, ConductorFresnel, FloatParam, GltfMaterial, Material,
+    MaterialId, MaterialKind, MicrofacetDistribution, PrincipledMaterial, Roughness,
+    RoughnessMapping, TextureId,
 };
 
 impl Writer<'_> {
@@ -244,7 +245,7 @@ impl Writer<'_> {
     }
 
     fn roughness(&mut self, prefix: &str, r: &Roughness) -> Result<String, WriteError> {
-        if r.distribution == Distribution::Beckmann {
+        if r.distribution == MicrofacetDistribution::Beckmann {
             self.note("Beckmann's distribution is written as GGX");
         }
         if r.masking == Masking::Separable {
@@ -255,7 +256,7 @@ impl Writer<'_> {
         }
         let remap = r.mapping == RoughnessMapping::Sqrt;
         let [u, v] = match r.mapping {
-            RoughnessMapping::Alpha | RoughnessMapping::Sqrt => [r.u, r.v].map(Width::Plain),
+            RoughnessMapping::Alpha | RoughnessMapping::Sqrt => [r.u, r.v].map(AlphaParam::Plain),
             RoughnessMapping::Square => [self.squared(r.u)?, self.squared(r.v)?],
         };
         // One flag serves both layers of a coated conductor.
@@ -268,17 +269,19 @@ impl Writer<'_> {
         Ok(params)
     }
 
-    fn width(&mut self, name: &str, width: Width) -> Result<String, WriteError> {
+    fn width(&mut self, name: &str, width: AlphaParam) -> Result<String, WriteError> {
         match width {
-            Width::Plain(p) => self.float_param(name, p),
-            Width::Named(texture) => Ok(format!(" \"texture {name}\" [ {} ]", quoted(&texture))),
+            AlphaParam::Plain(p) => self.float_param(name, p),
+            AlphaParam::Named(texture) => {
+                Ok(format!(" \"texture {name}\" [ {} ]", quoted(&texture)))
+            }
         }
     }
 
-    fn squared(&mut self, p: FloatParam) -> Result<Width, WriteError> {
+    fn squared(&mut self, p: FloatParam) -> Result<AlphaParam, WriteError> {
         Ok(match p {
-            FloatParam::Value(x) => Width::Plain(FloatParam::Value(x * x)),
-            FloatParam::Texture(id) => Width::Named(self.squared_texture(id)?),
+            FloatParam::Value(x) => AlphaParam::Plain(FloatParam::Value(x * x)),
+            FloatParam::Texture(id) => AlphaParam::Named(self.squared_texture(id)?),
         })
     }
 
@@ -287,7 +290,7 @@ impl Writer<'_> {
         if let Some(name) = self.squared.get(&id) {
             return Ok(name.clone());
         }
-        let plain = quoted(&self.texture(id, Wanted::Float)?);
+        let plain = quoted(&self.texture(id, TextureType::Float)?);
         let name = format!("texture-{}-squared", id.0);
         self.line(&format!(
             "Texture {} \"float\" \"scale\" \"texture tex\" [ {plain} ] \"texture scale\" [ {plain} ]",
@@ -331,7 +334,7 @@ impl Writer<'_> {
         }
     }
 
-    fn gltf(&mut self, index: usize, g: &Gltf) -> Result<String, WriteError> {
+    fn gltf(&mut self, index: usize, g: &GltfMaterial) -> Result<String, WriteError> {
         let absent = |p: FloatParam| p == FloatParam::Value(0.0);
         self.note(
             "metallic-roughness materials are written as a mix of conductor and coateddiffuse",
@@ -352,7 +355,7 @@ impl Writer<'_> {
         self.between(index, g.metallic, ("base", base), ("metal", metal))
     }
 
-    fn principled(&mut self, index: usize, p: &Principled) -> Result<String, WriteError> {
+    fn principled(&mut self, index: usize, p: &PrincipledMaterial) -> Result<String, WriteError> {
         let absent = |p: FloatParam| p == FloatParam::Value(0.0);
         self.note("principled materials are written as a mix of conductor and coateddiffuse");
         if !(absent(p.sheen)
@@ -409,8 +412,8 @@ fn glass(eta: f32, roughness: FloatParam, volume: bool) -> MaterialKind {
     }
 }
 
-/// A width as the file has it, or a texture that was made for it.
-enum Width {
+/// The parameter of a roughness, or the name of a texture that was made for it.
+enum AlphaParam {
     Plain(FloatParam),
     Named(String),
 }

@@ -1,4 +1,4 @@
-//! What absorbs within and around media, as homogeneous media.
+//! Absorption inside and outside of shapes, as homogeneous media.
 
 use std::fmt::Write;
 

@@ -1,7 +1,7 @@
 //! Scenes written as pbrt-v4 files.
 //!
 //! One text file, and a folder beside it with meshes (binary PLY) and pictures (EXR). What pbrt-v4
-//! cannot say is written as the nearest that it can, and named in the notes that come back.
+//! cannot express is written as the nearest that it can, and listed in the notes that are returned.
 
 mod asset;
 mod light;
@@ -38,14 +38,14 @@ pub struct WriteError {
     pub source: io::Error,
 }
 
-/// Whether a texture is wanted as a number or as a colour: pbrt keeps the two apart.
+/// pbrt's two types of textures: of numbers and of colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-enum Wanted {
+enum TextureType {
     Float,
     Spectrum,
 }
 
-/// What is being written.
+/// The state of the writer.
 struct Writer<'a> {
     scene: &'a Scene,
     /// The file itself.
@@ -53,10 +53,10 @@ struct Writer<'a> {
     /// Folder of meshes and pictures, made when the first is written.
     folder: PathBuf,
     text: String,
-    /// What could not be said, each once.
+    /// Notes on what pbrt-v4 cannot express, each once.
     notes: Vec<String>,
-    /// Textures by what is wanted of them, and the bits of the colour that they are multiplied by.
-    textures: HashMap<(TextureId, Wanted, [u32; 3]), String>,
+    /// Names of written textures by type, and the bits of the colour that they are multiplied by.
+    textures: HashMap<(TextureId, TextureType, [u32; 3]), String>,
     /// Whether a texture has no colours, by its number.
     greys: Vec<bool>,
     /// Products of textures and themselves.
@@ -67,7 +67,7 @@ struct Writer<'a> {
 }
 
 /// Writes a scene to a pbrt-v4 file, with its meshes and pictures in the folder `NAME-files` beside
-/// it, and returns notes on what pbrt-v4 cannot say.
+/// it, and returns notes on what pbrt-v4 cannot express.
 ///
 /// Every file is replaced whole or not at all; the scene file comes last.
 ///
@@ -113,7 +113,7 @@ impl Writer<'_> {
         self.text.push('\n');
     }
 
-    /// Notes what pbrt-v4 cannot say.
+    /// Notes what pbrt-v4 cannot express.
     fn note(&mut self, note: impl Into<String>) {
         let note = note.into();
         if !self.notes.contains(&note) {
@@ -231,7 +231,7 @@ fn quoted(text: &str) -> String {
                 out.push('\\');
                 out.push(c);
             }
-            // Names with line ends in them cannot be said.
+            // Names cannot contain line ends.
             c if c.is_control() => out.push('_'),
             c => out.push(c),
         }

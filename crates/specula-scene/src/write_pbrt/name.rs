@@ -6,7 +6,7 @@ use specula_bsdf::Rgb;
 
 use crate::scene::{Material, MaterialId};
 
-/// What every material is called.
+/// The name of every material.
 pub(super) struct Names {
     names: Vec<String>,
     /// Whether a material is one before it but for what absorbs on its sides, which shapes say.
@@ -49,7 +49,7 @@ impl Names {
         &self.names[id.0]
     }
 
-    /// Whether the file says a material under the name of one before it.
+    /// Whether a material is written under the name of one before it.
     pub(super) fn is_alias(&self, id: MaterialId) -> bool {
         self.aliases[id.0]
     }
@@ -60,7 +60,7 @@ impl Names {
         self.unused(&wanted)
     }
 
-    /// A name that no other material has, like the one that is wanted.
+    /// A name that no other material has, derived from `wanted`.
     fn unused(&mut self, wanted: &str) -> String {
         let mut name = wanted.to_owned();
         let mut number = 2;

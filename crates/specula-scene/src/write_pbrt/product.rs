@@ -1,10 +1,10 @@
-//! Products of textures. pbrt-v4 multiplies a colour by a number only: colours go down to the leaves
-//! of what they are multiplied by.
+//! Products of textures. pbrt-v4 multiplies a colour by a number only: colours are multiplied into the leaves
+//! of the other factor.
 
 use specula_bsdf::Rgb;
 
-use super::texture::Node;
-use super::{Wanted, WriteError, Writer, quoted, rgb_list};
+use super::texture::TextureNode;
+use super::{TextureType, WriteError, Writer, quoted, rgb_list};
 use crate::scene::{Channel, NoiseKind, Scene, Texture, TextureId};
 use crate::validate::surface::inputs;
 
@@ -37,14 +37,14 @@ impl Writer<'_> {
     pub(super) fn product(
         &mut self,
         [a, b]: [TextureId; 2],
-        wanted: Wanted,
+        wanted: TextureType,
         tint: Rgb<f32>,
-    ) -> Result<Node, WriteError> {
+    ) -> Result<TextureNode, WriteError> {
         let constant = |id: TextureId| match self.scene.textures[id.0] {
             Texture::Constant(c) => Some(c),
             _ => None,
         };
-        if wanted == Wanted::Spectrum {
+        if wanted == TextureType::Spectrum {
             for (colour, other) in [(b, a), (a, b)] {
                 if let Some(c) = constant(colour).filter(|_| !self.greys[colour.0]) {
                     return self.node(other, wanted, tint * c);
@@ -54,55 +54,55 @@ impl Writer<'_> {
         // The second is a number.
         let (a, b) = match (self.greys[a.0], self.greys[b.0]) {
             (true, false) => (b, a),
-            (false, false) if wanted == Wanted::Spectrum => {
+            (false, false) if wanted == TextureType::Spectrum => {
                 self.note("of products of two coloured textures the second is written grey");
                 (a, b)
             }
             _ => (a, b),
         };
         let mut params = self.input("tex", a, wanted, tint)?;
-        params += &self.input("scale", b, Wanted::Float, Rgb::WHITE)?;
-        Ok(Node::new("scale", params))
+        params += &self.input("scale", b, TextureType::Float, Rgb::WHITE)?;
+        Ok(TextureNode::new("scale", params))
     }
 
     /// A noise times a colour: pbrt-v4 has marble in colours, and the others as numbers.
     pub(super) fn noise(
         &mut self,
         id: TextureId,
-        node: Node,
-        wanted: Wanted,
+        node: TextureNode,
+        wanted: TextureType,
         tint: Rgb<f32>,
-    ) -> Result<Node, WriteError> {
+    ) -> Result<TextureNode, WriteError> {
         let is_number = self.greys[id.0];
         match wanted {
-            Wanted::Float if is_number && tint == Rgb::WHITE => Ok(node),
-            Wanted::Spectrum if !is_number && tint == Rgb::WHITE => Ok(node),
-            Wanted::Float if !is_number => {
+            TextureType::Float if is_number && tint == Rgb::WHITE => Ok(node),
+            TextureType::Spectrum if !is_number && tint == Rgb::WHITE => Ok(node),
+            TextureType::Float if !is_number => {
                 self.note("marble cannot be a number: its mean is written");
                 let params = Self::value("value", Rgb::splat(0.5) * tint, wanted);
-                Ok(Node::new("constant", params))
+                Ok(TextureNode::new("constant", params))
             }
-            Wanted::Float => {
+            TextureType::Float => {
                 let mut params = format!(" \"float tex\" [ {} ]", tint.r);
-                params += &self.input("scale", id, Wanted::Float, Rgb::WHITE)?;
-                Ok(Node::new("scale", params))
+                params += &self.input("scale", id, TextureType::Float, Rgb::WHITE)?;
+                Ok(TextureNode::new("scale", params))
             }
-            Wanted::Spectrum if is_number => {
+            TextureType::Spectrum if is_number => {
                 let mut params = format!(" \"rgb tex\" [ {} ]", rgb_list(tint));
-                params += &self.input("scale", id, Wanted::Float, Rgb::WHITE)?;
-                Ok(Node::new("scale", params))
+                params += &self.input("scale", id, TextureType::Float, Rgb::WHITE)?;
+                Ok(TextureNode::new("scale", params))
             }
-            Wanted::Spectrum => {
+            TextureType::Spectrum => {
                 let factor = tint.mean();
                 if tint != Rgb::splat(factor) {
                     self.note("coloured factors on marble are written as their mean");
                 }
-                let marble = self.tinted(id, Wanted::Spectrum, Rgb::WHITE)?;
+                let marble = self.tinted(id, TextureType::Spectrum, Rgb::WHITE)?;
                 let params = format!(
                     " \"texture tex\" [ {} ] \"float scale\" [ {factor} ]",
                     quoted(&marble)
                 );
-                Ok(Node::new("scale", params))
+                Ok(TextureNode::new("scale", params))
             }
         }
     }

@@ -47,7 +47,7 @@ impl Writer<'_> {
         if (half[0] / half[1] / aspect - 1.0).abs() > 1e-3 {
             self.note("pictures are projected in their own proportions");
         }
-        // pbrt has no colour beside a picture: it is multiplied in.
+        // pbrt has no factor on a picture's colour: it is multiplied into the pixels.
         let scaled = Image {
             name: String::new(),
             width: image.width,

@@ -1,4 +1,4 @@
-//! Shapes, what they send out, and instances.
+//! Shapes, their emission, and instances.
 
 use std::collections::HashMap;
 

@@ -5,24 +5,24 @@ use std::collections::HashMap;
 use glam::DMat4;
 use specula_bsdf::Rgb;
 
-use super::{Wanted, WriteError, Writer, list, quoted, rgb_list, transform};
+use super::{TextureType, WriteError, Writer, list, quoted, rgb_list, transform};
 use crate::scene::{
     Channel, ColourParam, FloatParam, Interpolation, NoiseKind, Texture, TextureId, TextureMapping,
     UvMapping, Wrap,
 };
 use crate::validate::surface::inputs;
 
-/// Most textures behind one that are written on the way to it: others are written one after the other.
+/// Deepest recursion over a texture's inputs; deeper graphs are written node by node.
 const DEEPEST: usize = 500;
 
 /// A texture's class and parameters, and the space that it lives in.
-pub(super) struct Node {
+pub(super) struct TextureNode {
     class: &'static str,
     params: String,
     space: DMat4,
 }
 
-impl Node {
+impl TextureNode {
     pub(super) fn new(class: &'static str, params: String) -> Self {
         Self {
             class,
@@ -38,7 +38,7 @@ impl Writer<'_> {
         Ok(match p {
             FloatParam::Value(x) => format!(" \"float {name}\" [ {x} ]"),
             FloatParam::Texture(id) => {
-                let texture = self.texture(id, Wanted::Float)?;
+                let texture = self.texture(id, TextureType::Float)?;
                 format!(" \"texture {name}\" [ {} ]", quoted(&texture))
             }
         })
@@ -53,17 +53,21 @@ impl Writer<'_> {
         Ok(match p {
             ColourParam::Value(c) => format!(" \"rgb {name}\" [ {} ]", rgb_list(c)),
             ColourParam::Texture(id) => {
-                let texture = self.texture(id, Wanted::Spectrum)?;
+                let texture = self.texture(id, TextureType::Spectrum)?;
                 format!(" \"texture {name}\" [ {} ]", quoted(&texture))
             }
         })
     }
 
     /// Writes a texture and those that it refers to, once; returns its name.
-    pub(super) fn texture(&mut self, id: TextureId, wanted: Wanted) -> Result<String, WriteError> {
+    pub(super) fn texture(
+        &mut self,
+        id: TextureId,
+        wanted: TextureType,
+    ) -> Result<String, WriteError> {
         let needed = self.needed(id);
         if needed.len() > DEEPEST {
-            // What is written is not gone into again.
+            // Textures that are written are not visited again.
             for input in needed {
                 self.tinted(input, wanted, Rgb::WHITE)?;
             }
@@ -90,7 +94,7 @@ impl Writer<'_> {
     pub(super) fn tinted(
         &mut self,
         id: TextureId,
-        wanted: Wanted,
+        wanted: TextureType,
         tint: Rgb<f32>,
     ) -> Result<String, WriteError> {
         let key = (id, wanted, tint.to_array().map(f32::to_bits));
@@ -99,8 +103,8 @@ impl Writer<'_> {
         }
         let node = self.node(id, wanted, tint)?;
         let kind = match wanted {
-            Wanted::Float => "float",
-            Wanted::Spectrum => "spectrum",
+            TextureType::Float => "float",
+            TextureType::Spectrum => "spectrum",
         };
         let mut name = format!("texture-{}-{kind}", id.0);
         if tint != Rgb::WHITE {
@@ -130,17 +134,17 @@ impl Writer<'_> {
         &mut self,
         name: &str,
         id: TextureId,
-        wanted: Wanted,
+        wanted: TextureType,
         tint: Rgb<f32>,
     ) -> Result<String, WriteError> {
         let texture = self.tinted(id, wanted, tint)?;
         Ok(format!(" \"texture {name}\" [ {} ]", quoted(&texture)))
     }
 
-    pub(super) fn value(name: &str, c: Rgb<f32>, wanted: Wanted) -> String {
+    pub(super) fn value(name: &str, c: Rgb<f32>, wanted: TextureType) -> String {
         match wanted {
-            Wanted::Float => format!(" \"float {name}\" [ {} ]", c.r),
-            Wanted::Spectrum => format!(" \"rgb {name}\" [ {} ]", rgb_list(c)),
+            TextureType::Float => format!(" \"float {name}\" [ {} ]", c.r),
+            TextureType::Spectrum => format!(" \"rgb {name}\" [ {} ]", rgb_list(c)),
         }
     }
 
@@ -149,23 +153,25 @@ impl Writer<'_> {
         class: &'static str,
         names: [&str; 2],
         ids: [TextureId; 2],
-        (wanted, tint): (Wanted, Rgb<f32>),
-    ) -> Result<Node, WriteError> {
+        (wanted, tint): (TextureType, Rgb<f32>),
+    ) -> Result<TextureNode, WriteError> {
         let mut params = self.input(names[0], ids[0], wanted, tint)?;
         params += &self.input(names[1], ids[1], wanted, tint)?;
-        Ok(Node::new(class, params))
+        Ok(TextureNode::new(class, params))
     }
 
     /// The node of a texture times a colour.
     pub(super) fn node(
         &mut self,
         id: TextureId,
-        wanted: Wanted,
+        wanted: TextureType,
         tint: Rgb<f32>,
-    ) -> Result<Node, WriteError> {
+    ) -> Result<TextureNode, WriteError> {
         let (scene, kind) = (self.scene, (wanted, tint));
         Ok(match &scene.textures[id.0] {
-            Texture::Constant(c) => Node::new("constant", Self::value("value", *c * tint, wanted)),
+            Texture::Constant(c) => {
+                TextureNode::new("constant", Self::value("value", *c * tint, wanted))
+            }
             image @ Texture::Image { .. } => self.image_map(image, tint)?,
             Texture::Scale { a, b } => return self.product([*a, *b], wanted, tint),
             Texture::Mix { a, b, amount } => {
@@ -208,7 +214,7 @@ impl Writer<'_> {
                 for (name, c) in ["v00", "v01", "v10", "v11"].into_iter().zip(corners) {
                     params += &Self::value(name, *c * tint, wanted);
                 }
-                let mut node = Node::new("bilerp", params);
+                let mut node = TextureNode::new("bilerp", params);
                 self.mapping(&mut node, mapping);
                 node
             }
@@ -231,12 +237,12 @@ impl Writer<'_> {
             }
             Texture::VertexColour => {
                 self.note("colours of vertices cannot be said: white is written");
-                Node::new("constant", Self::value("value", tint, wanted))
+                TextureNode::new("constant", Self::value("value", tint, wanted))
             }
         })
     }
 
-    fn image_map(&mut self, texture: &Texture, tint: Rgb<f32>) -> Result<Node, WriteError> {
+    fn image_map(&mut self, texture: &Texture, tint: Rgb<f32>) -> Result<TextureNode, WriteError> {
         let Texture::Image {
             image,
             mapping,
@@ -247,7 +253,7 @@ impl Writer<'_> {
             channel,
         } = texture
         else {
-            return Ok(Node::new("constant", String::new()));
+            return Ok(TextureNode::new("constant", String::new()));
         };
         let (mut invert, mut scale) = (*invert, *scale);
         let file = match tint {
@@ -277,7 +283,7 @@ impl Writer<'_> {
             Interpolation::Bilinear => "bilinear",
             Interpolation::Nearest => "point",
         };
-        let mut node = Node::new(
+        let mut node = TextureNode::new(
             "imagemap",
             format!(
                 " \"string filename\" [ {} ] \"string wrap\" [ \"{wrap}\" ] \
@@ -290,7 +296,7 @@ impl Writer<'_> {
         Ok(node)
     }
 
-    fn mapping(&mut self, node: &mut Node, mapping: &TextureMapping) {
+    fn mapping(&mut self, node: &mut TextureNode, mapping: &TextureMapping) {
         match mapping {
             TextureMapping::Uv(m) | TextureMapping::SecondUv(m) => {
                 if matches!(mapping, TextureMapping::SecondUv(_)) {
@@ -363,7 +369,7 @@ impl Writer<'_> {
         }
     }
 
-    /// A texture's mean as far as its nodes tell it.
+    /// A texture's mean, as far as its nodes determine it.
     pub(super) fn mean(&self, p: ColourParam) -> Rgb<f32> {
         let id = match p {
             ColourParam::Value(c) => return c,
@@ -419,7 +425,7 @@ impl Writer<'_> {
     }
 }
 
-fn noise(kind: NoiseKind, octaves: u32, roughness: f32, to_texture: &DMat4) -> Node {
+fn noise(kind: NoiseKind, octaves: u32, roughness: f32, to_texture: &DMat4) -> TextureNode {
     let waves = format!(" \"integer octaves\" [ {octaves} ] \"float roughness\" [ {roughness} ]");
     let (class, params) = match kind {
         NoiseKind::Fbm => ("fbm", waves),
@@ -430,8 +436,8 @@ fn noise(kind: NoiseKind, octaves: u32, roughness: f32, to_texture: &DMat4) -> N
             format!("{waves} \"float scale\" [ {scale} ] \"float variation\" [ {variation} ]"),
         ),
     };
-    Node {
+    TextureNode {
         space: *to_texture,
-        ..Node::new(class, params)
+        ..TextureNode::new(class, params)
     }
 }

@@ -1,9 +1,9 @@
 //! What reports of checks hold.
 
-use specula_scene::{Report, SceneError, Severity};
+use specula_scene::{CheckReport, SceneError, Severity};
 
 /// Lines and messages of one severity.
-pub(crate) fn found(report: &Report, severity: Severity) -> Vec<(usize, String)> {
+pub(crate) fn found(report: &CheckReport, severity: Severity) -> Vec<(usize, String)> {
     let problems = report.problems().iter();
     problems
         .filter(|p| p.severity() == severity)
@@ -14,7 +14,7 @@ pub(crate) fn found(report: &Report, severity: Severity) -> Vec<(usize, String)>
 /// Holds the errors of a report against lines and words of their messages, and the error of an
 /// ordinary load against them.
 #[track_caller]
-pub(crate) fn expect_errors(report: &Report, load: &SceneError, expected: &[(usize, &str)]) {
+pub(crate) fn expect_errors(report: &CheckReport, load: &SceneError, expected: &[(usize, &str)]) {
     let errors = found(report, Severity::Error);
     let lines: Vec<usize> = errors.iter().map(|e| e.0).collect();
     let wanted: Vec<usize> = expected.iter().map(|e| e.0).collect();

@@ -1,7 +1,6 @@
 //! Broken scenes: the error says where and what was expected.
 
-use specula_scene::mitsuba::Options;
-use specula_scene::{ErrorKind, Limits, SceneError};
+use specula_scene::{ErrorKind, LoadOptions, SceneError};
 
 use super::common::{Folder, REST, load, load_shape};
 
@@ -276,29 +275,19 @@ fn rings_and_depths_end_in_errors() {
 }
 
 #[test]
-fn limits_are_kept() {
+fn limits_hold() {
     let folder = Folder::new();
     let text = format!("<scene version=\"3.0.0\"><shape type=\"cube\"/>{REST}</scene>");
-    let limits = Limits {
-        max_bytes: 16,
-        ..Limits::default()
-    };
-    let error = folder
-        .load_with(&text, &limits, &Options::default())
-        .unwrap_err();
+    let mut options = LoadOptions::default();
+    options.limits.max_bytes = 16;
+    let error = folder.load_with(&text, &options).unwrap_err();
     check(&error, ErrorKind::Io, 1, "more than 16 bytes");
-    let limits = Limits {
-        max_pixels: 16,
-        ..Limits::default()
-    };
+    let mut options = LoadOptions::default();
+    options.limits.max_pixels = 16;
     let film =
         "<sensor type=\"perspective\"><film type=\"hdrfilm\"/></sensor><shape type=\"cube\"/>";
     let error = folder
-        .load_with(
-            format!("<scene version=\"3.0.0\">{film}</scene>"),
-            &limits,
-            &Options::default(),
-        )
+        .load_with(format!("<scene version=\"3.0.0\">{film}</scene>"), &options)
         .unwrap_err();
     check(&error, ErrorKind::Limit, 1, "at most 16");
     assert!(folder.path().exists());

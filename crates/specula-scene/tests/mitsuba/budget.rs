@@ -2,8 +2,7 @@
 
 use std::fmt::Write;
 
-use specula_scene::mitsuba::Options;
-use specula_scene::{ErrorKind, Limits, LoadOptions, Severity, check};
+use specula_scene::{ErrorKind, LoadOptions, Severity, check};
 
 use super::common::{Folder, REST, load};
 
@@ -25,11 +24,9 @@ fn files_that_include_each_other_twice() {
         format!("<scene version=\"3.0.0\">{REST}\n<include filename=\"{file}\"/></scene>")
     };
     let load = |text: String, max_files: usize| {
-        let limits = Limits {
-            max_files,
-            ..Limits::default()
-        };
-        folder.load_with(text, &limits, &Options::default())
+        let mut options = LoadOptions::default();
+        options.limits.max_files = max_files;
+        folder.load_with(text, &options)
     };
     let error = load(scene("0.xml"), 100).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Limit);
@@ -37,13 +34,8 @@ fn files_that_include_each_other_twice() {
     assert!(load(scene("20.xml"), 1).is_ok());
     // The rest is left out in a check, not read to its end.
     let path = folder.write("scene.xml", scene("0.xml"));
-    let options = LoadOptions {
-        limits: Limits {
-            max_files: 100,
-            ..Limits::default()
-        },
-        ..LoadOptions::default()
-    };
+    let mut options = LoadOptions::default();
+    options.limits.max_files = 100;
     let report = check(&path, &options);
     assert!((1..50).contains(&report.count(Severity::Error)));
 }

@@ -4,8 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use specula_scene::mitsuba::{Options, read};
-use specula_scene::{Limits, Loaded, SceneError};
+use specula_scene::{Format, LoadOptions, Loaded, SceneError, load_as};
 
 static COUNT: AtomicUsize = AtomicUsize::new(0);
 
@@ -29,16 +28,15 @@ impl Folder {
     }
 
     pub(crate) fn load(&self, text: impl AsRef<[u8]>) -> Result<Loaded, SceneError> {
-        self.load_with(text, &Limits::default(), &Options::default())
+        self.load_with(text, &LoadOptions::default())
     }
 
     pub(crate) fn load_with(
         &self,
         text: impl AsRef<[u8]>,
-        limits: &Limits,
-        options: &Options,
+        options: &LoadOptions,
     ) -> Result<Loaded, SceneError> {
-        read(&self.write("scene.xml", text), limits, options)
+        load_as(&self.write("scene.xml", text), Format::Mitsuba, options)
     }
 
     pub(crate) fn path(&self) -> &Path {

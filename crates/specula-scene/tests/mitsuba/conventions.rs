@@ -193,10 +193,10 @@ fn opaque_materials_have_one_side_unless_they_are_told() {
 #[test]
 fn roughness_is_beckmanns_and_separable_unless_it_says_ggx() {
     for (inside, distribution) in [
-        ("", Distribution::Beckmann),
+        ("", MicrofacetDistribution::Beckmann),
         (
             r#"<string name="distribution" value="ggx"/>"#,
-            Distribution::Ggx,
+            MicrofacetDistribution::Ggx,
         ),
     ] {
         let loaded = load_shape(&format!(

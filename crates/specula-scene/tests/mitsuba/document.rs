@@ -1,8 +1,7 @@
 //! Parameters, includes, references and properties.
 
-use specula_scene::mitsuba::Options;
 use specula_scene::scene::{ColourParam, Light, MaterialKind};
-use specula_scene::{Limits, Loaded};
+use specula_scene::{LoadOptions, Loaded};
 
 use super::common::{Folder, REST, load, load_shape, warnings};
 
@@ -29,13 +28,9 @@ fn parameters_win_over_defaults_and_the_longest_name_wins() {
         reflectance(&folder.load(&text).unwrap(), 0),
         [0.25, 0.9, 0.0]
     );
-    let options = Options {
-        parameters: vec![("r".to_owned(), "0.5".to_owned())],
-        ..Options::default()
-    };
-    let loaded = folder
-        .load_with(&text, &Limits::default(), &options)
-        .unwrap();
+    let mut options = LoadOptions::default();
+    options.parameters = vec![("r".to_owned(), "0.5".to_owned())];
+    let loaded = folder.load_with(&text, &options).unwrap();
     assert_eq!(reflectance(&loaded, 0), [0.25, 0.5, 0.0]);
 }
 

@@ -1,9 +1,15 @@
 //! The list of features against what the reader does.
 
-use specula_scene::mitsuba::FEATURES;
+use specula_scene::features::FORMATS;
 use specula_scene::{ErrorKind, Feature, Support};
 
 use super::common::Folder;
+
+/// The features of Mitsuba's reader.
+fn features() -> &'static [Feature] {
+    let mitsuba = FORMATS.iter().find(|f| f.0 == "Mitsuba 3");
+    mitsuba.unwrap().1
+}
 
 /// A scene that asks for a feature, with what the feature needs.
 fn scene(feature: &Feature) -> String {
@@ -72,7 +78,7 @@ fn every_feature_is_treated_as_the_list_says() {
          property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\
          0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
     );
-    for feature in FEATURES.iter().filter(|f| f.name != "serialized") {
+    for feature in features().iter().filter(|f| f.name != "serialized") {
         let what = format!("{} {}", feature.class, feature.name);
         let found = folder.load(scene(feature));
         match (feature.support, found) {
@@ -116,9 +122,9 @@ fn what_is_not_in_the_list_is_an_error() {
 
 #[test]
 fn the_list_names_everything_once() {
-    for (i, a) in FEATURES.iter().enumerate() {
+    for (i, a) in features().iter().enumerate() {
         assert!(
-            FEATURES[..i]
+            features()[..i]
                 .iter()
                 .all(|b| (a.class, a.name) != (b.class, b.name)),
             "{} {}",

@@ -1,6 +1,5 @@
 //! Scenes with bytes changed or cut off: an error or a sound scene, never a panic.
 
-use specula_scene::mitsuba::Options;
 use specula_scene::{Limits, LoadOptions, Severity};
 
 use super::common::Folder;
@@ -38,11 +37,7 @@ fn changed_bytes_never_panic() {
     folder
         .load(good)
         .unwrap_or_else(|e| panic!("{}: {e}", e.place()));
-    let limits = Limits::strict();
-    let checked = LoadOptions {
-        limits,
-        ..LoadOptions::default()
-    };
+    let options = LoadOptions::from(Limits::strict());
     let mut lcg = Lcg(7);
     let palette = b"<>/\"=$ -0159.eab#:,\\\0\xc3";
     let mut sound = 0;
@@ -62,8 +57,8 @@ fn changed_bytes_never_panic() {
                 }
             }
         }
-        let loaded = folder.load_with(&bytes, &limits, &Options::default());
-        let report = specula_scene::check(&folder.path().join("scene.xml"), &checked);
+        let loaded = folder.load_with(&bytes, &options);
+        let report = specula_scene::check(&folder.path().join("scene.xml"), &options);
         let errors = report.count(Severity::Error);
         match loaded {
             Ok(loaded) => {

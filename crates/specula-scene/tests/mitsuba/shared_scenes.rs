@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use specula_scene::mitsuba::{Options, read};
 use specula_scene::scene::{Bump, BumpRules, EnvironmentMapping, Light, MaterialKind};
-use specula_scene::{Limits, Loaded};
+use specula_scene::{Format, LoadOptions, Loaded, load_as};
 
 /// Scene, shapes, materials, lights that are no shapes, textures.
 const EXPECTED: [(&str, usize, usize, usize, usize); 16] = [
@@ -33,11 +32,9 @@ fn load(name: &str) -> Option<Loaded> {
     if !path.exists() {
         return None;
     }
-    let options = Options {
-        folders: vec![root.join("common")],
-        ..Options::default()
-    };
-    let loaded = read(&path, &Limits::default(), &options);
+    let mut options = LoadOptions::default();
+    options.folders = vec![root.join("common")];
+    let loaded = load_as(&path, Format::Mitsuba, &options);
     Some(loaded.unwrap_or_else(|e| panic!("{}: {e}", e.place())))
 }
 

@@ -33,29 +33,23 @@ fn files_that_include_each_other_twice() {
     }
     folder.write("20.pbrt", "Shape \"sphere\"");
     let path = folder.write("scene.pbrt", "WorldBegin\nInclude \"0.pbrt\"");
-    let limits = Limits {
-        max_files: 100,
-        ..Limits::default()
-    };
-    let error = specula_scene::load_with(&path, &limits).unwrap_err();
+    let mut limits = Limits::default();
+    limits.max_files = 100;
+    let error = specula_scene::load_with(&path, &limits.into()).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Limit);
     assert!(error.message().contains("more than 100 files"), "{error}");
-    let one = Limits {
-        max_files: 1,
-        ..Limits::default()
-    };
+    let mut one = Limits::default();
+    one.max_files = 1;
     let path = folder.write("scene.pbrt", "WorldBegin\nInclude \"20.pbrt\"");
-    assert!(specula_scene::load_with(&path, &one).is_ok());
+    assert!(specula_scene::load_with(&path, &one.into()).is_ok());
     // Bytes count together.
     let path = folder.write(
         "scene.pbrt",
         "WorldBegin\nInclude \"20.pbrt\"\nInclude \"20.pbrt\"",
     );
-    let few = Limits {
-        max_bytes: 60,
-        ..Limits::default()
-    };
-    let error = specula_scene::load_with(&path, &few).unwrap_err();
+    let mut few = Limits::default();
+    few.max_bytes = 60;
+    let error = specula_scene::load_with(&path, &few.into()).unwrap_err();
     assert!(
         error.message().contains("together (`max_bytes`)"),
         "{error}"

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use specula_scene::{LoadOptions, Report, Severity};
+use specula_scene::{CheckReport, LoadOptions, Severity};
 
 use super::common::Folder;
 use super::report::{self, found};
 
-fn check(folder: &Folder, scene: &str) -> Report {
+fn check(folder: &Folder, scene: &str) -> CheckReport {
     let path = folder.write("scene.pbrt", scene);
     specula_scene::check(&path, &LoadOptions::default())
 }
@@ -223,11 +223,9 @@ fn files_are_looked_for_in_more_folders() {
     let error = specula_scene::load(&path).unwrap_err();
     let help = error.help().unwrap_or_default();
     assert!(help.contains("--search"), "{error}: {help}");
-    let options = LoadOptions {
-        folders: vec![folder.path().join("more")],
-        ..LoadOptions::default()
-    };
-    let loaded = specula_scene::load_with_options(&path, &options).unwrap();
+    let mut options = LoadOptions::default();
+    options.folders = vec![folder.path().join("more")];
+    let loaded = specula_scene::load_with(&path, &options).unwrap();
     assert_eq!(loaded.scene.shapes.len(), 2);
 }
 

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use specula_scene::{LoadOptions, Report, Severity};
+use specula_scene::{CheckReport, LoadOptions, Severity};
 
 use super::common::Folder;
 use super::report::{expect_errors, found};
 
-fn check(path: &Path) -> Report {
+fn check(path: &Path) -> CheckReport {
     specula_scene::check(path, &LoadOptions::default())
 }
 

@@ -2,16 +2,16 @@
 
 use std::path::Path;
 
-use specula_scene::{LoadOptions, Report, SceneError, Severity};
+use specula_scene::{CheckReport, LoadOptions, SceneError, Severity};
 
 use super::common::Folder;
 
-fn check(path: &Path) -> Report {
+fn check(path: &Path) -> CheckReport {
     specula_scene::check(path, &LoadOptions::default())
 }
 
 /// Lines, columns and messages of the errors.
-fn errors(report: &Report) -> Vec<(usize, usize, String)> {
+fn errors(report: &CheckReport) -> Vec<(usize, usize, String)> {
     let errors = report.problems().iter();
     errors
         .filter(|p| p.severity() == Severity::Error)
@@ -20,7 +20,7 @@ fn errors(report: &Report) -> Vec<(usize, usize, String)> {
 }
 
 #[track_caller]
-fn expect(report: &Report, load: &SceneError, expected: &[(usize, usize, &str)]) {
+fn expect(report: &CheckReport, load: &SceneError, expected: &[(usize, usize, &str)]) {
     let found = errors(report);
     let places: Vec<_> = found.iter().map(|e| (e.0, e.1)).collect();
     let wanted: Vec<_> = expected.iter().map(|e| (e.0, e.1)).collect();

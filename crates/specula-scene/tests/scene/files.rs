@@ -74,7 +74,7 @@ fn of_pbrt() {
 #[test]
 fn of_mitsuba() {
     let folder = Folder::new();
-    let seed = include_bytes!("../../fuzz/seeds/serialized/whole.serialized");
+    let seed = include_bytes!("../seeds/serialized/whole.serialized");
     folder.write("mesh.serialized", &seed[1..]);
     folder.write("mesh.obj", OBJ);
     folder.write("a.spd", "400 1\n700 1\n");

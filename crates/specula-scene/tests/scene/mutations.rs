@@ -8,11 +8,8 @@ use super::common::Folder;
 
 /// Loads a scene and checks it: the two must agree.
 fn load_and_check(path: &Path, limits: Limits) -> Result<Loaded, SceneError> {
-    let options = LoadOptions {
-        limits,
-        ..LoadOptions::default()
-    };
-    let loaded = specula_scene::load_with_options(path, &options);
+    let options = LoadOptions::from(limits);
+    let loaded = specula_scene::load_with(path, &options);
     let report = specula_scene::check(path, &options);
     let errors = report.count(Severity::Error);
     match &loaded {
@@ -178,7 +175,7 @@ fn damaged_meshes() {
 /// Files to begin with, which fuzzing uses as well.
 fn seeds(reader: &str) -> Vec<(String, Vec<u8>)> {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("fuzz/seeds")
+        .join("tests/seeds")
         .join(reader);
     let mut seeds: Vec<_> = std::fs::read_dir(&folder)
         .unwrap()
@@ -221,7 +218,7 @@ fn damage(
 }
 
 fn strict(folder: &Folder, scene: &str) -> Result<Loaded, SceneError> {
-    specula_scene::load_with(&folder.write("scene.pbrt", scene), &Limits::strict())
+    specula_scene::load_with(&folder.write("scene.pbrt", scene), &Limits::strict().into())
 }
 
 #[test]
@@ -280,9 +277,9 @@ fn limits_can_be_chosen() {
     let folder = Folder::new();
     let mut tight = Limits::strict();
     let path = folder.write("scene.pbrt", "WorldBegin Shape \"sphere\" \"float zmin\" 0");
-    assert!(specula_scene::load_with(&path, &tight).is_ok());
+    assert!(specula_scene::load_with(&path, &tight.into()).is_ok());
     tight.max_bytes = 10;
-    let error = specula_scene::load_with(&path, &tight).unwrap_err();
+    let error = specula_scene::load_with(&path, &tight.into()).unwrap_err();
     assert!(error.message().contains("more than 10 bytes"), "{error}");
     let mut tight = Limits::strict();
     tight.max_pixels = 3;
@@ -294,10 +291,10 @@ fn limits_can_be_chosen() {
     let scene =
         "WorldBegin Shape \"sphere\" LightSource \"infinite\" \"string filename\" \"a.pfm\"";
     let path = folder.write("scene.pbrt", scene);
-    let error = specula_scene::load_with(&path, &tight).unwrap_err();
+    let error = specula_scene::load_with(&path, &tight.into()).unwrap_err();
     assert!(error.message().contains("at most 3"), "{error}");
     tight.max_pixels = 4;
-    assert!(specula_scene::load_with(&path, &tight).is_ok());
+    assert!(specula_scene::load_with(&path, &tight.into()).is_ok());
     let blocks = "AttributeBegin ".repeat(3) + "Shape \"sphere\"" + &" AttributeEnd".repeat(3);
     assert!(strict(&folder, &format!("WorldBegin {blocks}")).is_ok());
     let blocks = "AttributeBegin ".repeat(300);

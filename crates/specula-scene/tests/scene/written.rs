@@ -224,11 +224,9 @@ fn scenes_of_other_formats_are_written_so_that_they_are_read() {
             let known = path
                 .extension()
                 .is_some_and(|e| e == "glb" || e == "gltf" || e == "xml");
-            let options = specula_scene::LoadOptions {
-                folders: vec![root.join("mitsuba-bsdf-spheres/common")],
-                ..Default::default()
-            };
-            let loaded = specula_scene::load_with_options(&path, &options);
+            let mut options = specula_scene::LoadOptions::default();
+            options.folders = vec![root.join("mitsuba-bsdf-spheres/common")];
+            let loaded = specula_scene::load_with(&path, &options);
             let Some(loaded) = loaded.ok().filter(|_| known) else {
                 continue;
             };

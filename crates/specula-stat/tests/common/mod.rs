@@ -8,7 +8,9 @@ use std::time::Instant;
 use rayon::prelude::*;
 use specula_bsdf::math::{Rgb, Vec3};
 use specula_bsdf::{Alpha, Bsdf, Transport};
+use specula_stat::consistency::ConsistencyOptions;
 use specula_stat::quadrature::direction;
+use specula_stat::twin::TwinOptions;
 use specula_stat::{DirectionSample, Plan, Report, Rng, Subject, consistency, twin};
 
 /// Tests with chance in all suites together, rounded up: they share one significance.
@@ -153,7 +155,7 @@ pub(crate) fn twins(
     let mut report = Report::new(name);
     let mut rng = Rng::from_name(name);
     let views = views(&both_sides());
-    let options = twin::Options::default();
+    let options = TwinOptions::default();
     report
         .checks
         .push(twin::test("", &single, &double, &views, &options, &mut rng));
@@ -163,7 +165,7 @@ pub(crate) fn twins(
         report.checks.push(twin::samples(
             &view, &single, &double, wo, near, 2000, &mut rng,
         ));
-        let at = consistency::Options {
+        let at = ConsistencyOptions {
             samples: 2000,
             relative_tolerance: 1e-2,
         };

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use miette::Report as Printed;
 use serde_json::json;
-use specula::scene::{Problem, Report, Severity, check};
+use specula::scene::{CheckReport, Problem, Severity, check};
 
 use super::arguments::CheckArguments;
 use super::failure::BAD_INPUT;
@@ -30,7 +30,7 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<ExitCode, Failure> {
 }
 
 /// One line of JSON.
-fn as_json(path: &Path, report: &Report) -> String {
+fn as_json(path: &Path, report: &CheckReport) -> String {
     let problem = |p: &Problem| {
         json!({
             "severity": p.severity().name(),
@@ -58,7 +58,7 @@ fn as_json(path: &Path, report: &Report) -> String {
 const SEVERITIES: [Severity; 3] = [Severity::Error, Severity::Warning, Severity::Note];
 
 /// Every problem with an excerpt, and how many there are.
-fn as_text(path: &Path, report: &Report) -> String {
+fn as_text(path: &Path, report: &CheckReport) -> String {
     let mut text = String::new();
     for severity in SEVERITIES {
         let listed = report.problems().iter();

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use specula::lab::report::read;
-use specula::lab::{Event, LabError, RunOptions, experiments};
+use specula::lab::{LabError, RunEvent, RunOptions, experiments};
 
 use super::Failure;
 use super::lab::{Desk, failure, folder, line, write_page};
@@ -26,10 +26,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
         desk.tell((before + share) / all, what);
     };
     let unprinted = Mutex::new(None);
-    let events = |event: Event<'_>| match event {
-        Event::Began(e, ..) => show(0.0, e.id),
-        Event::Step(e, p) => show(p.share.clamp(0.0, 1.0), &format!("{}: {}", e.id, p.what)),
-        Event::Done(_, record) => {
+    let events = |event: RunEvent<'_>| match event {
+        RunEvent::Began(e, ..) => show(0.0, e.id),
+        RunEvent::Step(e, p) => show(p.share.clamp(0.0, 1.0), &format!("{}: {}", e.id, p.what)),
+        RunEvent::Done(_, record) => {
             done.fetch_add(1, Ordering::Relaxed);
             if let Err(failure) = desk.print(&line(record)) {
                 unprinted

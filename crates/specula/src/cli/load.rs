@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use specula::scene::{Format, LoadOptions, Scene, Warning, builtin, load_bytes, load_with_options};
+use specula::scene::{Format, LoadOptions, Scene, Warning, builtin, load_bytes, load_with};
 
 use super::Failure;
 use super::console::say;
@@ -36,7 +36,7 @@ pub(crate) fn scene(path: Option<&Path>, options: &LoadOptions) -> Result<Named,
     };
     let loaded = match path.as_os_str() == "-" {
         true => load_bytes(STDIN.as_ref(), stdin(options)?, options),
-        false => load_with_options(path, options),
+        false => load_with(path, options),
     }
     .map_err(Failure::input)?;
     if loaded.format != Format::Mitsuba && !options.parameters.is_empty() {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use specula::scene::{Limits, LoadOptions};
+use specula::scene::LoadOptions;
 
 use super::values;
 
@@ -37,18 +37,15 @@ impl LoadingArguments {
     ///
     /// * `parameters`: values of names in Mitsuba scenes.
     pub(crate) fn options(&self, parameters: &[(String, String)]) -> LoadOptions {
-        let plain = Limits::default();
-        LoadOptions {
-            limits: Limits {
-                max_depth: self.limit_nesting.map_or(plain.max_depth, usize::from),
-                max_bytes: self.limit_bytes.unwrap_or(plain.max_bytes),
-                max_pixels: self.limit_pixels.unwrap_or(plain.max_pixels),
-                max_vertices: self.limit_vertices.unwrap_or(plain.max_vertices),
-                ..plain
-            },
-            parameters: parameters.to_vec(),
-            folders: self.search.clone(),
-        }
+        let mut options = LoadOptions::default();
+        let limits = &mut options.limits;
+        limits.max_depth = self.limit_nesting.map_or(limits.max_depth, usize::from);
+        limits.max_bytes = self.limit_bytes.unwrap_or(limits.max_bytes);
+        limits.max_pixels = self.limit_pixels.unwrap_or(limits.max_pixels);
+        limits.max_vertices = self.limit_vertices.unwrap_or(limits.max_vertices);
+        options.parameters = parameters.to_vec();
+        options.folders.clone_from(&self.search);
+        options
     }
 }
 
@@ -56,6 +53,7 @@ impl LoadingArguments {
 mod tests {
     use super::*;
     use clap::Parser;
+    use specula::scene::Limits;
 
     #[derive(Debug, Parser)]
     struct Line {
@@ -77,13 +75,11 @@ mod tests {
             "--search=b",
         ];
         let options = Line::parse_from(line).loading.options(&[]);
-        let limits = Limits {
-            max_depth: 3,
-            max_bytes: 2048,
-            max_pixels: 5,
-            max_vertices: 7,
-            ..Limits::default()
-        };
+        let mut limits = Limits::default();
+        limits.max_depth = 3;
+        limits.max_bytes = 2048;
+        limits.max_pixels = 5;
+        limits.max_vertices = 7;
         assert_eq!(options.limits, limits);
         assert_eq!(options.folders, [PathBuf::from("a"), PathBuf::from("b")]);
         assert!(Line::try_parse_from(["x", "--limit-pixels=0"]).is_err());

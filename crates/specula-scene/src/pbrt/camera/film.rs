@@ -1,6 +1,6 @@
 //! `Film` and `PixelFilter`.
 
-use super::Options;
+use super::OptionEntities;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
 use crate::pbrt::context::{Context, Entity};
@@ -40,7 +40,7 @@ pub(in crate::pbrt) const SENSORS: [&str; 17] = [
 ];
 
 /// Diagonal of the film, in millimetres.
-pub(super) fn diagonal_mm(options: &Options) -> Result<f64, SceneError> {
+pub(super) fn diagonal_mm(options: &OptionEntities) -> Result<f64, SceneError> {
     match options.get("Film") {
         Some(entity) => entity.params.float_above("diagonal", 35.0, 0.0),
         None => Ok(35.0),
@@ -48,7 +48,7 @@ pub(super) fn diagonal_mm(options: &Options) -> Result<f64, SceneError> {
 }
 
 /// Reads the film. Its exposure lacks the shutter's time.
-pub(super) fn read(context: &mut Context, options: &Options) -> Result<Film, SceneError> {
+pub(super) fn read(context: &mut Context, options: &OptionEntities) -> Result<Film, SceneError> {
     let none = ParamList::default();
     let entity = options.get("Film");
     let params = entity.map_or(&none, |e| &e.params);

@@ -116,11 +116,11 @@ fn focal_length_mm(elements: &[Element]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::Source;
+    use crate::error::SourceText;
 
     #[test]
     fn a_thin_lens_has_the_lensmaker_s_focal_length() {
-        let place = Place::start(&Source::new("lens", ""));
+        let place = Place::start(&SourceText::new("lens", ""));
         let lens = elements("# front\n100 0 1.5 20\n-100 50 1 20 # back\n", &place).unwrap();
         let focal = focal_length_mm(&lens).unwrap();
         assert!((focal - 100.0).abs() < 1e-9, "{focal}");

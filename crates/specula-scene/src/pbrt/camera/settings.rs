@@ -1,6 +1,6 @@
 //! `Integrator`, `Sampler` and `Accelerator`.
 
-use super::Options;
+use super::OptionEntities;
 use crate::energy::Energy;
 use crate::error::{ErrorKind, SceneError};
 use crate::pbrt::context::{Context, Entity};
@@ -36,7 +36,10 @@ const SAMPLERS: [&str; 7] = [
 const MOST: u32 = 1 << 24;
 
 /// Reads what the file asks of the renderer.
-pub(super) fn read(context: &mut Context, options: &Options) -> Result<Settings, SceneError> {
+pub(super) fn read(
+    context: &mut Context,
+    options: &OptionEntities,
+) -> Result<Settings, SceneError> {
     let mut settings = Settings {
         max_depth: 5,
         samples_per_pixel: 16,
@@ -79,7 +82,7 @@ fn integrator(context: &mut Context, entity: &Entity) -> Result<u32, SceneError>
     }
     let max_depth = params.integer_within("maxdepth", 5, 0..=1_000_000)?;
     if params.bool("regularize", false)? {
-        let message = "paths are not regularized: caustics keep their noise";
+        let message = "paths are not regularized: caustics stay noisy";
         context.warn(&params.place_of("regularize"), message);
     }
     // How lights are chosen, paths are ended and photons are counted is the renderer's affair.

@@ -21,7 +21,7 @@ const TOLERANCE: f64 = 0.05;
 const MOST_STEPS: u32 = 64;
 
 /// What a curve looks like.
-enum Look {
+enum CurveForm {
     /// A tube of so many sides.
     Tube(u32),
     /// A strip, its normals at the ends of the segments.
@@ -32,9 +32,9 @@ enum Look {
 pub(in crate::pbrt) struct Curve {
     /// Cubic Bezier segments.
     segments: Vec<[DVec3; 4]>,
-    /// Alphas at the beginning and at the end.
-    alphas: [f64; 2],
-    look: Look,
+    /// Width at the beginning and at the end.
+    width_at_ends: [f64; 2],
+    look: CurveForm,
 }
 
 /// Reads the shape `curve`.
@@ -42,7 +42,7 @@ pub(super) fn read(context: &mut Context, entity: &Entity) -> Result<Curve, Scen
     let params = &entity.params;
     params.ignore(&["splitdepth"]);
     let width = params.float_from_zero("width", 1.0)?;
-    let alphas = [
+    let width_at_ends = [
         params.float_from_zero("width0", width)?,
         params.float_from_zero("width1", width)?,
     ];
@@ -88,12 +88,12 @@ pub(super) fn read(context: &mut Context, entity: &Entity) -> Result<Curve, Scen
     let look = look(context, entity, segments.len())?;
     Ok(Curve {
         segments,
-        alphas,
+        width_at_ends,
         look,
     })
 }
 
-fn look(context: &mut Context, entity: &Entity, segments: usize) -> Result<Look, SceneError> {
+fn look(context: &mut Context, entity: &Entity, segments: usize) -> Result<CurveForm, SceneError> {
     let params = &entity.params;
     let normals = params.numbers("N", &["normal"])?;
     let kind = params.string("type")?;
@@ -116,7 +116,7 @@ fn look(context: &mut Context, entity: &Entity, segments: usize) -> Result<Look,
                 );
                 return Err(mesh_error(entity, "N", message));
             }
-            return Ok(Look::Ribbon(normals));
+            return Ok(CurveForm::Ribbon(normals));
         }
         Some((other, place)) => {
             let message = format!(
@@ -130,7 +130,7 @@ fn look(context: &mut Context, entity: &Entity, segments: usize) -> Result<Look,
         let message = "\"N\" has a meaning for curves of type \"ribbon\" alone";
         context.warn(&params.place_of("N"), message);
     }
-    Ok(Look::Tube(tube))
+    Ok(CurveForm::Tube(tube))
 }
 
 /// A Bezier segment of degree 2 or 3 as a cubic one.
@@ -156,7 +156,7 @@ fn spline(p: &[DVec3]) -> [DVec3; 4] {
 }
 
 /// A point of the centre line.
-struct Station {
+struct CurvePoint {
     point: DVec3,
     tangent: DVec3,
     width: f64,
@@ -174,16 +174,16 @@ impl Curve {
 
     pub(super) fn build(self, limits: &Limits) -> Result<Mesh, String> {
         let sides = match self.look {
-            Look::Tube(sides) => sides as usize,
-            Look::Ribbon(_) => 1,
+            CurveForm::Tube(sides) => sides as usize,
+            CurveForm::Ribbon(_) => 1,
         };
         let steps: usize = self.segments.iter().map(|s| self.steps(s) as usize).sum();
         bounded((), 2 * sides * (steps + self.segments.len()), limits)?;
         let stations = self.stations();
         let mut mesh = Mesh::default();
         match &self.look {
-            Look::Tube(sides) => tube(&stations, *sides, &mut mesh),
-            Look::Ribbon(normals) => ribbon(&stations, normals, &mut mesh),
+            CurveForm::Tube(sides) => tube(&stations, *sides, &mut mesh),
+            CurveForm::Ribbon(normals) => ribbon(&stations, normals, &mut mesh),
         }
         Ok(mesh)
     }
@@ -191,7 +191,7 @@ impl Curve {
     /// Chords of a segment: `|p - chord| <= max|p''| / (8 n^2)`, `max|p''| <= 6 max|second difference|`.
     fn steps(&self, [a, b, c, d]: &[DVec3; 4]) -> u32 {
         let bend = (a - 2.0 * b + c).length().max((b - 2.0 * c + d).length());
-        let width = self.alphas[0].max(self.alphas[1]).max(1e-30);
+        let width = self.width_at_ends[0].max(self.width_at_ends[1]).max(1e-30);
         let steps = (6.0 * bend / (8.0 * TOLERANCE * width)).sqrt().ceil();
         #[expect(
             clippy::cast_possible_truncation,
@@ -202,9 +202,9 @@ impl Curve {
         steps
     }
 
-    fn stations(&self) -> Vec<Station> {
+    fn stations(&self) -> Vec<CurvePoint> {
         let count = self.segments.len() as f64;
-        let mut stations: Vec<Station> = Vec::new();
+        let mut stations: Vec<CurvePoint> = Vec::new();
         let mut last = DVec3::X;
         for (segment, control) in self.segments.iter().enumerate() {
             let [a, b, c, d] = *control;
@@ -220,10 +220,11 @@ impl Curve {
                     .unwrap_or(last);
                 last = tangent;
                 let along = (segment as f64 + u) / count;
-                stations.push(Station {
+                stations.push(CurvePoint {
                     point: abc.lerp(bcd, u),
                     tangent,
-                    width: self.alphas[0] + along * (self.alphas[1] - self.alphas[0]),
+                    width: self.width_at_ends[0]
+                        + along * (self.width_at_ends[1] - self.width_at_ends[0]),
                     u,
                     segment,
                 });
@@ -234,7 +235,7 @@ impl Curve {
 }
 
 /// A tube around the stations; its frame turns no more than it must (Wang et al. 2008 by projection).
-fn tube(stations: &[Station], sides: u32, mesh: &mut Mesh) {
+fn tube(stations: &[CurvePoint], sides: u32, mesh: &mut Mesh) {
     use std::f64::consts::PI;
     // A polygon of n sides and circumradius R has the mean width 2 n R sin(pi / n) / pi.
     let n = f64::from(sides);
@@ -263,7 +264,7 @@ fn tube(stations: &[Station], sides: u32, mesh: &mut Mesh) {
 }
 
 /// A strip along the stations, across their normals.
-fn ribbon(stations: &[Station], normals: &[DVec3], mesh: &mut Mesh) {
+fn ribbon(stations: &[CurvePoint], normals: &[DVec3], mesh: &mut Mesh) {
     for (row, station) in stations.iter().enumerate() {
         let (from, to) = (normals[station.segment], normals[station.segment + 1]);
         let normal = from.lerp(to, station.u).normalize_or(DVec3::Z);
@@ -283,7 +284,7 @@ fn ribbon(stations: &[Station], normals: &[DVec3], mesh: &mut Mesh) {
 
 /// Triangles between a row of `columns + 1` vertices and the one before, where both belong to one
 /// segment.
-fn join(stations: &[Station], row: usize, columns: u32, mesh: &mut Mesh) {
+fn join(stations: &[CurvePoint], row: usize, columns: u32, mesh: &mut Mesh) {
     if row == 0 || stations[row].segment != stations[row - 1].segment {
         return;
     }
@@ -312,14 +313,14 @@ mod tests {
     use super::*;
     use crate::mesh::{area, clean};
 
-    fn straight(look: Look) -> Curve {
+    fn straight(look: CurveForm) -> Curve {
         let at = |x: f64| DVec3::new(x, 0.0, 0.0);
         Curve {
             segments: vec![
                 bezier(&[at(0.0), at(1.0), at(2.0)]),
                 bezier(&[at(2.0), at(3.0), at(4.0)]),
             ],
-            alphas: [0.2, 0.2],
+            width_at_ends: [0.2, 0.2],
             look,
         }
     }
@@ -327,7 +328,7 @@ mod tests {
     #[test]
     fn tubes_have_the_width_of_the_curve_and_point_outwards() {
         for sides in [4, 12] {
-            let mut mesh = straight(Look::Tube(sides))
+            let mut mesh = straight(CurveForm::Tube(sides))
                 .build(&Limits::default())
                 .unwrap();
             assert_eq!(clean(&mut mesh).unwrap(), Default::default());
@@ -345,7 +346,7 @@ mod tests {
 
     #[test]
     fn ribbons_lie_across_their_normals() {
-        let mut mesh = straight(Look::Ribbon(vec![DVec3::Z; 3]))
+        let mut mesh = straight(CurveForm::Ribbon(vec![DVec3::Z; 3]))
             .build(&Limits::default())
             .unwrap();
         assert_eq!(clean(&mut mesh).unwrap(), Default::default());
@@ -379,8 +380,8 @@ mod tests {
         let p = |x: f64, y: f64| DVec3::new(x, y, 0.0);
         let curve = Curve {
             segments: vec![[p(0.0, 0.0), p(0.0, 4.0), p(4.0, 4.0), p(4.0, 0.0)]],
-            alphas: [0.1, 0.1],
-            look: Look::Tube(4),
+            width_at_ends: [0.1, 0.1],
+            look: CurveForm::Tube(4),
         };
         let stations = curve.stations();
         let [a, b, c, d] = curve.segments[0];

@@ -1,7 +1,7 @@
 //! Textures from pictures.
 
 use super::mapping::mapping;
-use super::{Kind, Node};
+use super::{TextureNode, TextureType};
 use crate::error::{ErrorKind, SceneError};
 use crate::image::{Content, Encoding, Format};
 use crate::num::f32_of;
@@ -11,7 +11,7 @@ use crate::pbrt::token::shorten;
 use crate::scene::{Channel, Interpolation, Texture, TextureId, Wrap};
 
 /// Reads the class `imagemap`.
-pub(super) fn read(context: &mut Context, node: &Node<'_>) -> Result<TextureId, SceneError> {
+pub(super) fn read(context: &mut Context, node: &TextureNode<'_>) -> Result<TextureId, SceneError> {
     let params = node.params();
     let mapping = mapping(node)?;
     params.ignore(&["maxanisotropy"]);
@@ -22,8 +22,8 @@ pub(super) fn read(context: &mut Context, node: &Node<'_>) -> Result<TextureId, 
     };
     let encoding = encoding(context, params, name)?;
     let (content, channel) = match node.kind {
-        Kind::Float => (Content::Number, Channel::Mean),
-        Kind::Colour => (Content::Colour, Channel::Rgb),
+        TextureType::Float => (Content::Number, Channel::Mean),
+        TextureType::Colour => (Content::Colour, Channel::Rgb),
     };
     let wrap = wrap(context, params)?;
     let scale = f32_of(params.float("scale", 1.0)?);

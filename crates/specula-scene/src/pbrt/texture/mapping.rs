@@ -1,13 +1,13 @@
 //! How textures of two dimensions lie on surfaces.
 
-use super::Node;
+use super::TextureNode;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
 use crate::pbrt::token::shorten;
 use crate::scene::{TextureMapping, UvMapping};
 
 /// Reads the mapping of a texture.
-pub(super) fn mapping(node: &Node<'_>) -> Result<TextureMapping, SceneError> {
+pub(super) fn mapping(node: &TextureNode<'_>) -> Result<TextureMapping, SceneError> {
     let params = node.params();
     let number = |name: &str, default: f64| params.float(name, default).map(f32_of);
     let to_texture = node.to_world.inverse();

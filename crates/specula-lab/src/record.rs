@@ -1,24 +1,25 @@
-//! What was measured, by what and with what outcome: `result.json`.
+//! The record of an experiment, `result.json`: what was measured, on which machine, with which outcome.
 
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::comparison::WrittenComparison;
-use super::table::Table;
+use crate::output::Table;
+use crate::output::comparison::WrittenComparison;
+use crate::plot::WrittenPlot;
 use crate::{LabError, Machine, Outcome, Quality, Result, Source, Verdict};
 
 /// Name of the file in an experiment's folder.
 pub const FILE: &str = "result.json";
 
-/// All that an experiment left.
+/// The results of an experiment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// The experiment's name.
     pub id: String,
-    /// Whose table or figure.
+    /// The source of the table or figure.
     pub source: Source,
-    /// Which of the source's.
+    /// Which table or figure.
     pub item: String,
     /// What it shows.
     pub title: String,
@@ -26,19 +27,19 @@ pub struct Record {
     pub statement: String,
     /// The command that makes it.
     pub command: String,
-    /// Work taken.
+    /// How much work was done.
     pub quality: Quality,
-    /// Of all random numbers.
+    /// Seed of all random numbers.
     pub seed: u64,
     /// Version of the program.
     pub version: String,
-    /// What ran it.
+    /// The machine that ran it.
     pub machine: Machine,
     /// How long it took.
     pub seconds: f64,
-    /// How it came out.
+    /// The outcome.
     pub outcome: Outcome,
-    /// In detail.
+    /// Claims and summary.
     pub verdict: Verdict,
     /// Data; each also as CSV of its name.
     pub tables: Vec<Table>,
@@ -46,19 +47,6 @@ pub struct Record {
     pub plots: Vec<WrittenPlot>,
     /// Pictures.
     pub comparisons: Vec<WrittenComparison>,
-}
-
-/// What was written of a plot.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct WrittenPlot {
-    /// Name of the files, without their ends.
-    pub name: String,
-    /// What it shows.
-    pub caption: String,
-    /// As vectors.
-    pub svg: String,
-    /// As pixels.
-    pub png: String,
 }
 
 impl Record {

@@ -1,4 +1,4 @@
-//! Nanoseconds of draws and densities of the samplers, scalar and in batches, `f32`, one thread.
+//! Nanoseconds of samples and densities of the samplers, scalar and in batches, `f32`, one thread.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -13,7 +13,7 @@ use super::stopwatch::median;
 /// Elements of a run.
 const COUNT: usize = 2048;
 
-/// What is sampled from.
+/// Views and random numbers.
 pub(super) struct Inputs {
     alpha: Alpha<f32>,
     wo: Directions<Vec<f32>>,
@@ -55,10 +55,10 @@ impl Inputs {
     }
 }
 
-/// What is timed: once over all inputs.
+/// A timed run: once over all inputs.
 pub(super) type Run<'a> = Box<dyn FnMut() + 'a>;
 
-/// A draw of a microfacet's normal.
+/// Sampling of a microfacet normal.
 pub(super) fn normals(inputs: &Inputs, sampler: Sampler) -> Run<'_> {
     let (alpha, wo) = (inputs.alpha, inputs.wo.as_slices());
     match sampler {
@@ -69,7 +69,7 @@ pub(super) fn normals(inputs: &Inputs, sampler: Sampler) -> Run<'_> {
     }
 }
 
-/// A draw of a reflection.
+/// Sampling of a reflection.
 pub(super) fn reflections(inputs: &Inputs, sampler: Sampler) -> Run<'_> {
     let (alpha, wo) = (inputs.alpha, inputs.wo.as_slices());
     match sampler {

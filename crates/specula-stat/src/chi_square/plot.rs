@@ -1,21 +1,21 @@
-//! The picture of a chi-square test: observed, expected and their difference, as SVG.
+//! The plot of a chi-square test: observed and expected counts and their difference, as SVG.
 
 use std::f64::consts::PI;
 use std::fmt::Write as _;
 
-use crate::chi_square::Cell;
+use super::ChiSquareCell;
 
 /// Size of one panel in pixels: azimuth across, polar angle down.
 const PANEL: [f64; 2] = [480.0, 240.0];
 const GAP: f64 = 30.0;
 
-/// Samples the three panels, one above the other.
-pub(crate) fn svg(title: &str, cells: &[Cell]) -> String {
+/// The three panels, one above the other.
+pub(super) fn svg(title: &str, cells: &[ChiSquareCell]) -> String {
     let brightest = cells
         .iter()
         .map(|c| density(c.expected.max(c.observed), c))
         .fold(0.0, f64::max);
-    let logarithm = |count: f64, cell: &Cell| {
+    let logarithm = |count: f64, cell: &ChiSquareCell| {
         // Five decades of density, black to white.
         let relative = density(count, cell) / brightest.max(f64::MIN_POSITIVE);
         (1.0 + relative.max(1e-9).log10() / 5.0).clamp(0.0, 1.0)
@@ -52,7 +52,7 @@ pub(crate) fn svg(title: &str, cells: &[Cell]) -> String {
     out
 }
 
-fn density(count: f64, cell: &Cell) -> f64 {
+fn density(count: f64, cell: &ChiSquareCell) -> f64 {
     count / cell.patch.solid_angle()
 }
 
@@ -60,8 +60,8 @@ fn panel(
     out: &mut String,
     index: u8,
     caption: &str,
-    cells: &[Cell],
-    fill: impl Fn(&Cell) -> String,
+    cells: &[ChiSquareCell],
+    fill: impl Fn(&ChiSquareCell) -> String,
 ) {
     let top = GAP + f64::from(index) * (PANEL[1] + GAP) + 12.0;
     let _infallible = writeln!(
