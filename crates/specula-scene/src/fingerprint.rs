@@ -113,7 +113,7 @@ mod tests {
         assert!(changed(|s| s.meshes[0].triangles[0].swap(0, 1)));
         assert!(changed(|s| s.camera.lens_radius = 0.1));
         assert!(changed(|s| s.materials[0].one_sided = true));
-        assert!(changed(|s| s.shapes[0].emission = None));
+        assert!(changed(|s| s.shapes[0].reverse_orientation = true));
         assert!(!changed(|s| s.settings.samples_per_pixel += 1));
         assert!(!changed(|s| s.materials[0].name = None));
         assert!(!changed(|s| s.film.file_name = Some("a.exr".to_owned())));
