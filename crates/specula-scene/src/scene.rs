@@ -78,13 +78,18 @@ impl Scene {
     /// A scene without shapes and lights: what a scene made in code starts from.
     ///
     /// ```
-    /// use glam::DVec3;
+    /// use glam::{DMat4, DVec3};
     /// use specula_scene::Scene;
-    /// use specula_scene::scene::{Camera, Film, Filter, Settings};
+    /// use specula_scene::scene::{
+    ///     Camera, Film, Filter, Geometry, Material, MaterialId, MaterialKind, Settings, Shape,
+    /// };
     ///
     /// let film = Film::new([320, 200], Filter::Box { radius: [0.5; 2] });
     /// let camera = Camera::look_at(DVec3::new(0.0, -5.0, 1.0), DVec3::ZERO, DVec3::Z, 40.0, &film);
-    /// let scene = Scene::empty(camera, film, Settings::default());
+    /// let mut scene = Scene::empty(camera, film, Settings::default());
+    /// scene.materials.push(Material::new(MaterialKind::Interface));
+    /// let sphere = Geometry::Sphere { radius: 1.0 };
+    /// scene.shapes.push(Shape::new(sphere, DMat4::IDENTITY, MaterialId(0)));
     /// assert!(scene.validate().is_ok());
     /// ```
     #[must_use]

@@ -26,7 +26,7 @@ pub struct ReciprocityOptions {
     /// How many pairs of directions.
     pub pairs: u32,
     /// Largest relative difference: 1e-9 suits `f64`. Differences below 1e-13 per steradian pass
-    /// too: near-zero values of f keep few digits.
+    /// too: near-zero values of f have few accurate digits.
     pub relative_tolerance: f64,
     /// Which pairs are tested.
     pub domain: Domain,

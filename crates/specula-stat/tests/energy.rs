@@ -208,8 +208,8 @@ fn interface_furnace<N: Tabulated<f64>>(ndf: N, eta: f64, views: &[Vec3<f64>]) -
         for (([near, far], quotients), single) in sides.iter().zip(quotients).zip(single) {
             let common = near.average().min(far.average());
             let passed = (1.0 - dielectric_average(eta)) * common / near.average();
-            let kept = (1.0 - passed) * quotients[0] + passed * quotients[1];
-            let albedo = single + near.directional(wo) * kept;
+            let scale = (1.0 - passed) * quotients[0] + passed * quotients[1];
+            let albedo = single + near.directional(wo) * scale;
             assert!(albedo.is_finite());
             worst = worst.max((albedo - 1.0).abs());
         }

@@ -234,11 +234,11 @@ fn smooth_on_smooth_is_its_series() {
                 Reflectance::Conductor(m) => m.under(eta).eval(coat.cos_t).r,
                 _ => unreachable!("gold has an index"),
             };
-            let kept = (-thickness / coat.cos_t).exp();
+            let passing = (-thickness / coat.cos_t).exp();
             let mut expected = coat.reflectance;
             let mut carried = coat.transmittance;
             for _ in 0..depth / 2 {
-                carried *= kept * metal * kept;
+                carried *= passing * metal * passing;
                 expected += carried * coat.transmittance;
                 carried *= coat.reflectance;
             }
@@ -298,8 +298,8 @@ fn a_first_bounce_under_a_smooth_coat_is_no_estimate() {
     };
     let (bo, bi) = (below(wo), below(wi));
     let passed = dielectric(wo.z, eta).transmittance * dielectric(wi.z, eta).transmittance;
-    let kept = (-thickness / bo.z - thickness / bi.z).exp();
-    let truth = metal.eval(bo, bi, RADIANCE).r * passed * kept * wi.z / (eta * eta * bi.z);
+    let passing = (-thickness / bo.z - thickness / bi.z).exp();
+    let truth = metal.eval(bo, bi, RADIANCE).r * passed * passing * wi.z / (eta * eta * bi.z);
     let found = lobe.eval(wo, wi, RADIANCE).r;
     assert!((found / truth - 1.0).abs() < 1e-12, "{found} {truth}");
 }
@@ -425,15 +425,15 @@ fn the_density_is_normalised() {
     for (name, lobe) in &materials() {
         for wo in [at(20.0, 20.0), at(70.0, 200.0)] {
             let is_smooth = name.contains("smooth on") || name.contains("mirror");
-            let kept = if is_smooth {
+            let passing = if is_smooth {
                 dielectric(wo.z, 1.5).transmittance
             } else {
                 1.0
             };
             let expected = match name.as_str() {
-                "cloudy mirror" => kept * (1.0 - f64::exp(-0.8)),
+                "cloudy mirror" => passing * (1.0 - f64::exp(-0.8)),
                 "smooth on grained" => dielectric(wo.z, 1.3).transmittance,
-                _ => kept,
+                _ => passing,
             };
             let quadrature = Quadrature {
                 relative_tolerance: 1e-5,

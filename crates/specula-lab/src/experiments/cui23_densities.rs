@@ -160,8 +160,8 @@ fn distances(lab: &Lab<'_>, case: Case) -> Judged {
         .map(|r| {
             let mut stream = Stream::new(lab.seed().wrapping_mul(1013) + r as u64);
             let shift = [stream.next(), stream.next(), stream.next()];
-            let draw = |i| {
-                draw(
+            let sample = |i| {
+                sample_direction(
                     case,
                     evaluations,
                     lattice(shift, i / 2),
@@ -169,7 +169,7 @@ fn distances(lab: &Lab<'_>, case: Case) -> Judged {
                     &mut stream,
                 )
             };
-            (0..2 * points).map(draw).collect()
+            (0..2 * points).map(sample).collect()
         })
         .collect();
     let over = |term: &dyn Fn(&DirectionSample) -> f64| {
@@ -204,7 +204,7 @@ fn lattice(shift: [f64; 3], i: u32) -> [f64; 3] {
 }
 
 /// A direction, by Specula's density or by a cosine in turns.
-fn draw(
+fn sample_direction(
     case: Case,
     evaluations: u32,
     u: [f64; 3],

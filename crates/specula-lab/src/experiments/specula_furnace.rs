@@ -25,7 +25,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     item: "furnace maps",
     title: "directional albedo of every treatment of multiple scattering",
     statement: "A white rough metal reflects all light; single scattering loses up to 69 % of it, every \
-                compensation brings it back, and simulated bounces lose none.",
+                compensation restores it, and simulated bounces lose none.",
     run,
 };
 

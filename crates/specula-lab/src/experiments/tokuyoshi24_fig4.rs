@@ -202,7 +202,7 @@ fn plot(lab: &mut Lab<'_>, found: &[TreatmentResult]) -> Result<()> {
 
 fn verdict(found: &[TreatmentResult]) -> Verdict {
     let last = ALPHAS.len() - 1;
-    let kept = |i: usize| found[i].brightness[last] / found[SPECULA].brightness[last];
+    let brightness_share = |i: usize| found[i].brightness[last] / found[SPECULA].brightness[last];
     let of_first = found[NONE].brightness[0] / found[SPECULA].brightness[0];
     let growth = |i: usize| found[i].rmse[last] / found[i].rmse[0];
     let fireflies = |i: usize, orbs: std::ops::Range<usize>| -> f64 {
@@ -212,12 +212,12 @@ fn verdict(found: &[TreatmentResult]) -> Verdict {
     let rough = [0, 1, 2].map(|i| fireflies(i, 3..5));
     Verdict {
         summary: format!(
-            "At alpha 1 single scattering keeps {:.0} % of the light of simulated bounces, Kulla and \
+            "At alpha 1 single scattering has {:.0} % of the light of simulated bounces, Kulla and \
              Conty {:.0} %, Turquin {:.0} %; fireflies per million on the two roughest orbs, cap: none \
              {:.0}, Kulla and Conty {:.0}, Turquin {:.0}.",
-            100.0 * kept(0),
-            100.0 * kept(1),
-            100.0 * kept(2),
+            100.0 * brightness_share(0),
+            100.0 * brightness_share(1),
+            100.0 * brightness_share(2),
             rough[0],
             rough[1],
             rough[2]
@@ -228,20 +228,20 @@ fn verdict(found: &[TreatmentResult]) -> Verdict {
                 "darker",
                 format!(
                     "{:.0} % of simulated bounces at alpha 1, {:.0} % at 0.2",
-                    100.0 * kept(0),
+                    100.0 * brightness_share(0),
                     100.0 * of_first
                 ),
-                kept(0) < 0.6 * of_first,
+                brightness_share(0) < 0.6 * of_first,
             ),
             Claim::law(
-                "Compensation brings it back",
+                "Compensation restores it",
                 "compensated",
                 format!(
                     "Kulla and Conty {:.0} %, Turquin {:.0} % at alpha 1",
-                    100.0 * kept(1),
-                    100.0 * kept(2)
+                    100.0 * brightness_share(1),
+                    100.0 * brightness_share(2)
                 ),
-                [1, 2].into_iter().all(|i| (0.75..1.35).contains(&kept(i))),
+                [1, 2].into_iter().all(|i| (0.75..1.35).contains(&brightness_share(i))),
             ),
             Claim::law(
                 "With compensation, the cap's noise grows with roughness",

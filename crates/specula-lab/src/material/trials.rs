@@ -76,7 +76,7 @@ fn sample_strata(
     for i in 0..side * side {
         let [u0, u1, u2] = rng.triple();
         let stratum = |place: u32, u: f64| (f64::from(place) + u) / f64::from(side);
-        #[expect(clippy::cast_possible_truncation, reason = "kept below 1")]
+        #[expect(clippy::cast_possible_truncation, reason = "clamped below 1")]
         let u = [u0, stratum(i % side, u1), stratum(i / side, u2)]
             .map(|u| (u as f32).min(1.0 - f32::EPSILON / 2.0));
         let sample = lobe.sample_random(wo, u, transport, &mut stream);

@@ -134,7 +134,7 @@ fn page(record: &Record, from: &Path, to: &Path) -> Result<()> {
     fs::create_dir_all(to).map_err(LabError::io(to))?;
     let mut text = head(record);
     for plot in &record.plots {
-        let kept = if is_small(&from.join(&plot.svg))? {
+        let file = if is_small(&from.join(&plot.svg))? {
             copy(from, to, &plot.svg)?;
             &plot.svg
         } else {
@@ -142,7 +142,7 @@ fn page(record: &Record, from: &Path, to: &Path) -> Result<()> {
             &plot.png
         };
         let caption = prose(&plot.caption);
-        let _ = writeln!(text, "![{}]({kept})\n\n{caption}\n", cell(&caption));
+        let _ = writeln!(text, "![{}]({file})\n\n{caption}\n", cell(&caption));
     }
     for comparison in &record.comparisons {
         small(&from.join(&comparison.sheet), &to.join(&comparison.sheet))?;
