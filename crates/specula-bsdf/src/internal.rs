@@ -40,6 +40,8 @@ expose!(
     raw_tables = crate::energy::raw_tables,
     /// Rows of large tables.
     rows = crate::energy::rows,
+    /// Codes of choices in shaders.
+    shader_codes = crate::shader_codes,
     /// Splines.
     spline = crate::energy::spline,
     /// Lagrange's interpolation.

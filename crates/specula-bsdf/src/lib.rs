@@ -272,6 +272,7 @@ pub mod math;
 pub mod metals;
 pub mod multibounce;
 pub mod ndf;
+mod shader_codes;
 pub mod vndf;
 
 pub use alpha::{Alpha, AlphaError};

@@ -8,10 +8,10 @@
 #![allow(clippy::print_stdout, reason = "a bench reports on standard output")]
 #![allow(clippy::print_stderr, reason = "and says there what went wrong")]
 
-#[path = "gpu/draws.rs"]
-mod draws;
 #[path = "gpu/renders.rs"]
 mod renders;
+#[path = "gpu/samples.rs"]
+mod samples;
 #[path = "gpu/scenes.rs"]
 mod scenes;
 
@@ -44,8 +44,8 @@ fn run() -> Result<()> {
     let effort = options.effort();
     let mut report = Report::default();
     report.add(&machine(&gpu, &options));
-    report.add(&draws::normals(&gpu, &effort)?);
-    report.add(&draws::furnace(&gpu, &effort)?);
+    report.add(&samples::normals(&gpu, &effort)?);
+    report.add(&samples::furnace(&gpu, &effort)?);
     report.add(&renders::longest_paths(&gpu, &effort)?);
     report.add(&renders::speeds(&gpu, &effort)?);
     if options.publish {
@@ -102,14 +102,14 @@ impl Options {
         match self.quick {
             true => Effort {
                 quick: true,
-                draw_rounds: 7,
+                sample_rounds: 7,
                 render_rounds: 5,
                 side: 64,
                 seconds: 0.1,
             },
             false => Effort {
                 quick: false,
-                draw_rounds: 51,
+                sample_rounds: 51,
                 render_rounds: 11,
                 side: 256,
                 seconds: 0.5,
@@ -123,7 +123,7 @@ struct Effort {
     /// Without the largest scene.
     quick: bool,
     /// Rounds of the tables of samplers.
-    draw_rounds: usize,
+    sample_rounds: usize,
     /// Rounds of the tables of renders.
     render_rounds: usize,
     /// Side of the pictures in pixels.

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use crate::adapter::{Gpu, GpuError};
 use crate::queries::Structures;
-use crate::stage::{Slot, Stage, filled, layout};
+use crate::stage::{RayBindings, Slot, Stage, filled, layout};
 
 /// A compiled compute shader that reads arrays and writes one.
 ///
@@ -107,7 +107,7 @@ impl ComputeKernel {
         inputs: usize,
         structures: &Structures,
     ) -> Result<Self, GpuError> {
-        Self::build(gpu, module, entry, inputs, Some(structures))
+        Self::build(gpu, module, entry, inputs, Some(structures.bindings()))
     }
 
     fn build(
@@ -115,7 +115,7 @@ impl ComputeKernel {
         module: &wgpu::ShaderModule,
         entry: &str,
         inputs: usize,
-        structures: Option<&Structures>,
+        structures: Option<&RayBindings>,
     ) -> Result<Self, GpuError> {
         let slots = (0_u32..).zip(0..=inputs).map(|(binding, place)| Slot {
             binding,

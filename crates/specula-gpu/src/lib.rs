@@ -2,6 +2,7 @@
 
 pub mod adapter;
 pub mod compute;
+mod error;
 mod experimental;
 mod path_kernels;
 mod program;
@@ -13,6 +14,7 @@ mod tracer;
 
 pub use adapter::{AdapterChoice, AdapterDescription, AdapterKind, Gpu, GpuError, adapters};
 pub use compute::{Arrays, ComputeKernel};
+pub use error::TracerError;
 pub use queries::{Rays, Structures};
 pub use schedule::{Schedule, UnknownSchedule};
-pub use tracer::{Tracer, TracerError, TracerOptions, missing};
+pub use tracer::{Tracer, TracerOptions, missing};

@@ -4,8 +4,8 @@ use wgpu::BufferUsages as Usages;
 
 use crate::adapter::{Gpu, GpuError};
 use crate::program;
-use crate::queries::Structures;
-use crate::stage::{Slot, Stage, array, layout, submit};
+use crate::schedule::QUEUE_ARRAYS;
+use crate::stage::{RayBindings, Slot, Stage, array, layout, submit};
 
 /// Bytes of a sample on the device.
 pub(crate) const SAMPLE_SIZE: u64 = 48;
@@ -15,8 +15,6 @@ const STATE_SIZE: u64 = 144;
 const READ: u32 = 5;
 /// Arrays of a kernel that follows whole paths.
 const PATH_ARRAYS: u32 = 6;
-/// Arrays of a kernel of paths in queues.
-pub(crate) const QUEUE_ARRAYS: u32 = 9;
 /// Vertices of paths in queues that are handed in at once. Few paths are longer; whether one is, the
 /// device says before more are handed in.
 const VERTICES_AT_ONCE: u32 = 16;
@@ -63,7 +61,7 @@ impl PathKernels {
         gpu: &Gpu,
         module: &wgpu::ShaderModule,
         is_queues: bool,
-        structures: Option<&Structures>,
+        structures: Option<&RayBindings>,
         max_depth: u32,
     ) -> Result<Self, GpuError> {
         let slot = |binding| Slot {

@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use specula_render::{FlatScene, LobeKind, RenderOptions};
+use specula_render::{FlatScene, MaterialShader, RenderOptions};
 use specula_shaders::ComposeError;
 
 /// The kernel that adds samples, complete in itself.
@@ -17,6 +17,19 @@ pub(crate) const QUEUE_ADVANCE: &str = include_str!("../wgsl/queue_advance.wgsl"
 struct Module {
     name: &'static str,
     text: &'static str,
+}
+
+impl Module {
+    /// Whether it imports from another module of the tracer.
+    fn imports_from(&self, module: &str) -> bool {
+        let from = format!("import tracer::{module}::");
+        self.text.lines().any(|line| line.starts_with(&from))
+    }
+
+    /// Whether it stores all parameters of a material.
+    fn stores_parameters(&self) -> bool {
+        self.text.contains("bound_keep(")
+    }
 }
 
 macro_rules! modules {
@@ -63,71 +76,23 @@ const BEFORE: &[Module] = modules![
 /// Ways of rays to what they hit, one of which a shader has: through the tree, by ray queries.
 const RAYS: &[Module] = modules!["traverse", "query"];
 
+/// What modules of several kinds of material import.
+const MATERIAL_PARTS: &[Module] = modules!["metal", "glass"];
+
+macro_rules! material_modules {
+    ($($(#[$doc:meta])* $name:ident = $code:literal, [$($module:literal)?];)*) => {
+        &[$($(Module {
+            name: $module,
+            text: include_str!(concat!("../wgsl/", $module, ".wgsl")),
+        },)?)*]
+    };
+}
+
 /// Kinds of material; only those that a scene has are in its shader.
-const MATERIALS: &[Module] = modules![
-    "metal",
-    "glass",
-    "material_diffuse",
-    "material_sheet",
-    "material_conductor",
-    "material_compensated_conductor",
-    "material_multibounce_conductor",
-    "material_dielectric",
-    "material_compensated_dielectric",
-    "material_multibounce_dielectric",
-    "material_thin",
-    "material_coated_diffuse",
-    "material_plastic",
-    "material_principled",
-    "material_gltf",
-    "material_layered",
-];
+const MATERIALS: &[Module] = specula_render::material_shader_table!(material_modules);
 
 /// What comes behind the switch over materials.
 const AFTER: &[Module] = modules!["path", "queue"];
-
-/// What a kind's module imports of the others.
-fn base_of(module: &str) -> Option<&'static str> {
-    if module.ends_with("conductor") || module == "material_layered" {
-        Some("metal")
-    } else if module.ends_with("dielectric") {
-        Some("glass")
-    } else {
-        None
-    }
-}
-
-/// The module of a kind of material; `None` where shaders do not know it.
-fn module_of(kind: LobeKind) -> Option<&'static str> {
-    Some(match kind {
-        LobeKind::Diffuse => "material_diffuse",
-        LobeKind::DiffuseTransmission => "material_sheet",
-        LobeKind::Conductor => "material_conductor",
-        LobeKind::CompensatedConductor => "material_compensated_conductor",
-        LobeKind::MultibounceConductor => "material_multibounce_conductor",
-        LobeKind::Dielectric => "material_dielectric",
-        LobeKind::CompensatedDielectric => "material_compensated_dielectric",
-        LobeKind::MultibounceDielectric => "material_multibounce_dielectric",
-        LobeKind::Plastic => "material_plastic",
-        LobeKind::ThinDielectric => "material_thin",
-        LobeKind::CoatedDiffuse => "material_coated_diffuse",
-        LobeKind::Principled => "material_principled",
-        LobeKind::Gltf => "material_gltf",
-        LobeKind::Layered => "material_layered",
-        _ => return None,
-    })
-}
-
-/// Features of a scene that its shader would lack, in a person's words; none: it can be rendered.
-pub(crate) fn missing(flat: &FlatScene<'_>) -> Vec<String> {
-    let known = |kind: LobeKind| {
-        // The one is a choice among others, the other no surface.
-        matches!(kind, LobeKind::Mix | LobeKind::Interface) || module_of(kind).is_some()
-    };
-    let unknown = |kind: &&LobeKind| !known(**kind);
-    let materials = flat.lobes.iter().filter(unknown).map(LobeKind::to_string);
-    flat.missing.iter().cloned().chain(materials).collect()
-}
 
 /// The shader's text.
 ///
@@ -137,11 +102,13 @@ pub(crate) fn source(
     options: &RenderOptions,
     queries: bool,
 ) -> Result<String, ComposeError> {
-    let mut names: Vec<&str> = flat.lobes.iter().filter_map(|&k| module_of(k)).collect();
-    let bases: Vec<&str> = names.iter().filter_map(|name| base_of(name)).collect();
-    names.extend(bases);
-    let used = MATERIALS.iter().filter(|m| names.contains(&m.name));
+    let named = |m: &&Module| flat.shaders.iter().any(|s| s.module() == Some(m.name));
+    let kinds: Vec<&Module> = MATERIALS.iter().filter(named).collect();
+    let parts = MATERIAL_PARTS
+        .iter()
+        .filter(|part| kinds.iter().any(|kind| kind.imports_from(part.name)));
     let rays = &RAYS[usize::from(queries)];
+    let used = parts.chain(kinds.iter().copied());
     let tracer: Vec<&Module> = BEFORE.iter().chain([rays]).chain(used).collect();
     let imports = tracer
         .iter()
@@ -155,7 +122,7 @@ pub(crate) fn source(
     if queries {
         text += "enable wgpu_ray_query;\n";
     }
-    text += &constants(flat, options);
+    text += &constants(flat, options, &kinds);
     text += &specula_shaders::compose(&library)?;
     for module in &tracer {
         text += &code(module.text);
@@ -182,20 +149,14 @@ fn library_modules(text: &'static str) -> impl Iterator<Item = &'static str> {
     imports.filter_map(|path| path.split("::{").next()?.rsplit("::").next())
 }
 
-fn constants(flat: &FlatScene<'_>, options: &RenderOptions) -> String {
+/// * `kinds`: the modules of the scene's kinds of material.
+fn constants(flat: &FlatScene<'_>, options: &RenderOptions, kinds: &[&Module]) -> String {
     let find = |name: &str| flat.constants.iter().find(|c| c.0 == name).map(|c| c.1);
     // Eight children a level, of the trees over instances and within them.
     let levels = 2 * find("TREE_DEPTH").unwrap_or(0) + 1;
-    let has_many = |kind: &LobeKind| {
-        matches!(
-            kind,
-            LobeKind::Principled | LobeKind::Gltf | LobeKind::Layered
-        )
-    };
-    let kept = if flat.lobes.iter().any(has_many) {
-        12
-    } else {
-        1
+    let stored = match kinds.iter().any(|kind| kind.stores_parameters()) {
+        true => 12,
+        false => 1,
     };
     let own = [
         ("STACK_SIZE", 8 * levels),
@@ -204,29 +165,39 @@ fn constants(flat: &FlatScene<'_>, options: &RenderOptions) -> String {
         ("STRATEGY", options.strategy as u32),
         ("CLAMPS", u32::from(options.clamp.is_some())),
         ("CLAMP_BITS", options.clamp.unwrap_or(f32::MAX).to_bits()),
-        ("KIND_CONDUCTOR", LobeKind::Conductor as u32),
-        (
-            "KIND_COMPENSATED_CONDUCTOR",
-            LobeKind::CompensatedConductor as u32,
-        ),
-        (
-            "KIND_MULTIBOUNCE_CONDUCTOR",
-            LobeKind::MultibounceConductor as u32,
-        ),
-        ("KIND_THIN_PANE", LobeKind::ThinDielectric as u32),
-        ("KIND_GLTF", LobeKind::Gltf as u32),
-        ("BOUND_KEPT", kept),
+        ("BOUND_KEPT", stored),
     ];
     let mut text = String::from("// Constants of the scene and the render.\n");
-    for (name, value) in flat.constants.iter().copied().chain(own) {
+    text += &flat.declarations();
+    for (name, value) in own {
         let _ = writeln!(text, "const {name}: u32 = {value}u;");
+    }
+    for &shader in MaterialShader::ALL {
+        let _ = writeln!(
+            text,
+            "const {}: u32 = {}u;",
+            code_name(shader),
+            shader as u32
+        );
     }
     text
 }
 
+/// The constant that holds a material's code: `KIND_COATED_DIFFUSE`.
+fn code_name(shader: MaterialShader) -> String {
+    let mut name = String::from("KIND");
+    for c in format!("{shader:?}").chars() {
+        if c.is_ascii_uppercase() {
+            name.push('_');
+        }
+        name.push(c.to_ascii_uppercase());
+    }
+    name
+}
+
 /// The choice of a mix among its materials.
 const CHOICE: &str = "\
-    for (var level = 0u; level < 16u && word(record + MATERIAL_KIND) == MIXu; level += 1u) {
+    for (var level = 0u; level < 16u && word(record + MATERIAL_KIND) == KIND_MIX; level += 1u) {
         let at = record + MATERIAL_PARAMETERS + 1u;
         let amount = parameter_float(at, place);
         let second = sequence_hashed(s, vec3u(depth, level, 0u)) < amount;
@@ -239,32 +210,20 @@ const CHOICE: &str = "\
 /// The switch over the scene's kinds of material.
 fn dispatch(flat: &FlatScene<'_>) -> String {
     let kinds = || {
-        flat.lobes
-            .iter()
-            .filter_map(|&kind| Some((kind, module_of(kind)?)))
+        let shaders = flat.shaders.iter();
+        shaders.filter_map(|&shader| Some((code_name(shader), shader.module()?)))
     };
     let arms = |call: &str| -> String {
-        let arm = |(kind, module): (LobeKind, &str)| {
-            format!(
-                "        case {}u: {{ return {module}_{call}; }}\n",
-                kind as u32
-            )
-        };
-        kinds().map(arm).collect()
+        kinds()
+            .map(|(code, module)| format!("        case {code}: {{ return {module}_{call}; }}\n"))
+            .collect()
     };
-    let bind = |(kind, module): (LobeKind, &str)| {
-        let call = "bind(head, p, outside)";
-        format!(
-            "            case {}u: {{ b = {module}_{call}; }}\n",
-            kind as u32
-        )
+    let bind = |(code, module): (String, &str)| {
+        format!("            case {code}: {{ b = {module}_bind(head, p, outside); }}\n")
     };
     // Not where there is no mix: every look-up of a texture makes a shader larger.
-    let choice = if flat.lobes.contains(&LobeKind::Mix) {
-        CHOICE.replace("MIX", &(LobeKind::Mix as u32).to_string())
-    } else {
-        String::new()
-    };
+    let has_mix = flat.shaders.contains(&MaterialShader::Mix);
+    let choice = if has_mix { CHOICE } else { "" };
     let turns = flat.constants.contains(&("HAS_DIRECTIONS", 1));
     let turn = if turns {
         "        head.rotation += bound_direction(record, place);\n"
@@ -300,9 +259,9 @@ fn material_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {{
 }}
 
 /// A direction.
-fn material_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {{
+fn material_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {{
     switch b.kind {{
-{draw}        default: {{ return bsdf_sample_none(); }}
+{sample}        default: {{ return bsdf_sample_none(); }}
     }}
 }}
 
@@ -315,7 +274,7 @@ fn material_albedo(b: Bound) -> vec3f {{
 ",
         bind = kinds().map(bind).collect::<String>(),
         eval = arms("eval(b, wo, wi, stream)"),
-        draw = arms("draw(b, wo, u, stream)"),
+        sample = arms("sample(b, wo, u, stream)"),
         albedo = arms("albedo(b)"),
     )
 }
@@ -329,7 +288,8 @@ mod tests {
     #[test]
     fn names_are_unique_over_the_tracer_and_the_library() {
         for rays in RAYS {
-            let tracer = BEFORE.iter().chain([rays]).chain(MATERIALS).chain(AFTER);
+            let materials = MATERIAL_PARTS.iter().chain(MATERIALS);
+            let tracer = BEFORE.iter().chain([rays]).chain(materials).chain(AFTER);
             let own =
                 tracer.flat_map(|m| declarations(m.text).into_iter().map(|d| (d.name, m.name)));
             let library = MODULES
@@ -346,7 +306,8 @@ mod tests {
 
     #[test]
     fn modules_import_what_is_there() {
-        let every = BEFORE.iter().chain(RAYS).chain(MATERIALS).chain(AFTER);
+        let materials = MATERIAL_PARTS.iter().chain(MATERIALS);
+        let every = BEFORE.iter().chain(RAYS).chain(materials).chain(AFTER);
         let tracer: Vec<&Module> = every.collect();
         for module in &tracer {
             for line in module.text.lines() {
@@ -365,6 +326,37 @@ mod tests {
                     assert!(there, "{}: {line}: no {name}", module.name);
                 }
             }
+        }
+    }
+
+    /// The lobe that no material's module imports: `bound_black` stands for it.
+    const WITHOUT_MATERIAL: &str = "Black";
+
+    macro_rules! shaders_of_lobes {
+        ($($(#[$doc:meta])* $name:ident: $lobe:ty, $sides:ident, $batch:ident, $shader:literal;)*) => {
+            &[$((stringify!($name), $shader)),*]
+        };
+    }
+
+    #[test]
+    fn every_lobe_has_a_material_that_imports_it() {
+        let lobes: &[(&str, &str)] = specula_bsdf::lobe_table!(shaders_of_lobes);
+        for (lobe, shader) in lobes {
+            let import = format!("import package::{}::", shader.replace('/', "::"));
+            let mut materials = MATERIAL_PARTS.iter().chain(MATERIALS);
+            let is_there = materials.any(|m| m.text.contains(&import));
+            assert!(
+                is_there || *lobe == WITHOUT_MATERIAL,
+                "lobe {lobe}: no specula-gpu/wgsl/material_*.wgsl imports {shader}"
+            );
+        }
+    }
+
+    #[test]
+    fn only_mixes_and_interfaces_have_no_module() {
+        for &shader in MaterialShader::ALL {
+            let is_none = matches!(shader, MaterialShader::Mix | MaterialShader::Interface);
+            assert_eq!(shader.module().is_none(), is_none, "{shader:?}");
         }
     }
 }

@@ -10,8 +10,8 @@ use std::str::FromStr;
 use specula_render::{FlatGroup, FlatInstance, PreparedScene};
 
 use crate::adapter::{AdapterKind, Gpu, GpuError, RAY_QUERIES};
-use crate::stage::filled;
-use crate::tracer::TracerError;
+use crate::error::TracerError;
+use crate::stage::{RayBindings, filled};
 
 /// How rays find on a device what they hit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,8 +51,7 @@ impl fmt::Display for Rays {
 /// A scene as ray queries search it: the bind group 1 of shaders, with one acceleration structure.
 #[derive(Debug)]
 pub struct Structures {
-    pub(crate) layout: wgpu::BindGroupLayout,
-    pub(crate) group: wgpu::BindGroup,
+    bindings: RayBindings,
 }
 
 /// Values of instances have 24 bits.
@@ -86,6 +85,11 @@ impl Structures {
             return Err(TracerError::Queries(reason));
         }
         Ok(gpu.caught(|gpu| build(gpu, &groups, &instances))??)
+    }
+
+    /// As shaders bind them.
+    pub(crate) fn bindings(&self) -> &RayBindings {
+        &self.bindings
     }
 
     /// The structures where they are asked for, `None` where rays go through the tree.
@@ -342,7 +346,9 @@ fn bound(gpu: &Gpu, tlas: &wgpu::Tlas) -> Structures {
             resource: tlas.as_binding(),
         }],
     });
-    Structures { layout, group }
+    Structures {
+        bindings: RayBindings { layout, group },
+    }
 }
 
 #[cfg(test)]

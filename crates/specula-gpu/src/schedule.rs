@@ -3,7 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::path_kernels::QUEUE_ARRAYS;
+/// Arrays of a kernel of paths in queues.
+pub(crate) const QUEUE_ARRAYS: u32 = 9;
 
 /// How threads follow paths. The samples are the same by either.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,7 +1,6 @@
 //! A compiled kernel, and its arrays.
 
 use crate::adapter::{Gpu, GpuError};
-use crate::queries::Structures;
 
 /// Threads of a workgroup, as the shaders say.
 pub(crate) const WORKGROUP: usize = 64;
@@ -40,6 +39,13 @@ pub(crate) fn layout(
     })
 }
 
+/// The acceleration structure of ray queries: group 1 of shaders.
+#[derive(Clone, Debug)]
+pub(crate) struct RayBindings {
+    pub(crate) layout: wgpu::BindGroupLayout,
+    pub(crate) group: wgpu::BindGroup,
+}
+
 /// A compiled kernel.
 #[derive(Clone, Debug)]
 pub(crate) struct Stage {
@@ -58,7 +64,7 @@ impl Stage {
         layout: &wgpu::BindGroupLayout,
         module: &wgpu::ShaderModule,
         entry: &str,
-        structures: Option<&Structures>,
+        structures: Option<&RayBindings>,
     ) -> Result<Self, GpuError> {
         let made = gpu.caught(|gpu| {
             let device = &gpu.device;

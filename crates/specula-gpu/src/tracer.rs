@@ -8,6 +8,7 @@ use specula_render::{
 };
 
 use crate::adapter::{Gpu, GpuError};
+use crate::error::TracerError;
 use crate::path_kernels::PathKernels;
 use crate::program;
 use crate::queries::{Rays, Structures};
@@ -21,32 +22,6 @@ const WAVE_TIME: Duration = Duration::from_millis(100);
 const FIRST_WAVE: usize = 1 << 12;
 /// Most samples of a wave.
 const LARGEST_WAVE: usize = 1 << 21;
-
-/// Why a scene cannot be rendered on a device.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum TracerError {
-    /// The scene has what shaders do not know.
-    #[error("the GPU does not render {}", .0.join(", "))]
-    Missing(Vec<String>),
-    /// The scene's arrays are larger than the device takes.
-    #[error("the GPU does not hold the scene: its largest array has {needed} bytes, {limit} fit")]
-    TooLarge {
-        /// Bytes of the largest array.
-        needed: u64,
-        /// Bytes that the device takes.
-        limit: u64,
-    },
-    /// The library's modules do not fit together.
-    #[error(transparent)]
-    Program(#[from] specula_shaders::ComposeError),
-    /// Ray queries are asked for, and cannot be had.
-    #[error("no ray queries: {0}")]
-    Queries(String),
-    /// The device failed.
-    #[error(transparent)]
-    Gpu(#[from] GpuError),
-}
 
 /// How a device renders. The samples are the same, but for rays at edges and rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -75,7 +50,7 @@ pub struct Tracer<'a> {
 /// device.
 #[must_use]
 pub fn missing(scene: &PreparedScene) -> Vec<String> {
-    program::missing(&scene.flatten())
+    scene.flatten().missing
 }
 
 impl<'a> Tracer<'a> {
@@ -103,7 +78,7 @@ impl<'a> Tracer<'a> {
         on_gpu: TracerOptions,
     ) -> Result<Self, TracerError> {
         let flat = scene.flatten();
-        let mut missing = program::missing(&flat);
+        let mut missing = flat.missing.clone();
         if options.share_paths > 1 {
             missing.push("paths that share".to_owned());
         }
@@ -133,7 +108,7 @@ impl<'a> Tracer<'a> {
         let [path_tracer, adder] = texts;
         let module = gpu.shader("path tracer", path_tracer)?;
         let is_queues = schedule.is_queues(limits.max_storage_buffers_per_shader_stage);
-        let structures = structures.as_ref();
+        let structures = structures.as_ref().map(Structures::bindings);
         let taker = PathKernels::new(gpu, &module, is_queues, structures, options.max_depth)?;
         let kernels = Kernels::new(gpu, taker, adder)?;
         let [tables, nodes, packets, words] = arrays(flat);

@@ -12,15 +12,8 @@
 import package::math::frame::{frame_from_normal, frame_to_world};
 import package::math::warp::{warp_uniform_sphere};
 import tracer::angles::{angles_sin_cos_of_half, angles_sin_cos_turns};
-import tracer::parallelogram::{parallelogram_draw, parallelogram_pdf, parallelogram_ratio};
+import tracer::parallelogram::{parallelogram_sample, parallelogram_pdf, parallelogram_ratio};
 import tracer::world::{affine_magnitude, affine_point, affine_vector, number, offset_coupled, unit_or, vector, word};
-
-/// Kinds of shapes: the first word of each.
-const AREA_TRIANGLE: u32 = 0u;
-const AREA_PARALLELOGRAM: u32 = 1u;
-const AREA_SPHERE: u32 = 2u;
-const AREA_DISK: u32 = 3u;
-const AREA_ELLIPSOID: u32 = 4u;
 
 /// `1 / (4 pi)`.
 const AREA_PER_SPHERE: f32 = 0.07957747;
@@ -58,16 +51,16 @@ struct AreaCone {
 /// * `u`: uniform in `[0, 1)^2`.
 ///
 /// Twin: specula-render/src/light/area.rs, Area::sample.
-fn area_draw(at: u32, p: vec3f, u: vec2f) -> AreaSample {
+fn area_sample(at: u32, p: vec3f, u: vec2f) -> AreaSample {
     switch word(at) {
         case AREA_PARALLELOGRAM: {
-            let seen = parallelogram_draw(at + 1u, p, u);
+            let seen = parallelogram_sample(at + 1u, p, u);
             return AreaSample(
                 seen.position, vector(at + 23u), vector(at + 10u), seen.wi, seen.pdf,
             );
         }
         case AREA_SPHERE: {
-            return area_draw_sphere(at, p, u);
+            return area_sample_sphere(at, p, u);
         }
         case AREA_ELLIPSOID: {
             let d = warp_uniform_sphere(u);
@@ -98,7 +91,7 @@ fn area_draw(at: u32, p: vec3f, u: vec2f) -> AreaSample {
     }
 }
 
-/// Density in 1/sr with which `area_draw` samples the direction from `p` to the point `q` of the shape at
+/// Density in 1/sr with which `area_sample` samples the direction from `p` to the point `q` of the shape at
 /// `at`.
 ///
 /// * `normal`: of the shape at `q`.
@@ -162,7 +155,7 @@ fn area_cone(p: vec3f, centre: vec3f, radius: f32) -> AreaCone {
 /// Source: Pharr, Jakob and Humphreys, 4th edition, 6.2.4. Departure: `1 - cos theta` is sampled
 /// instead of `cos theta`, which keeps its digits for spheres far away and needs no second branch.
 /// Twin: specula-render/src/light/area.rs, sample_sphere.
-fn area_draw_sphere(at: u32, p: vec3f, u: vec2f) -> AreaSample {
+fn area_sample_sphere(at: u32, p: vec3f, u: vec2f) -> AreaSample {
     let centre = vector(at + 1u);
     let radius = number(at + 4u);
     let turn = area_sign(at + 5u);

@@ -1,7 +1,7 @@
 // A material at a point: its parameters there, textures looked up.
 //
 // Each kind of material has a module of its own (`material_diffuse`, `material_conductor`, ...) with
-// four functions: bind, eval, draw and albedo. The switch over the kinds that a scene has is written for
+// four functions: bind, eval, sample and albedo. The switch over the kinds that a scene has is written for
 // each scene (`specula-gpu/src/program.rs`).
 //
 // Twin of specula-render/src/material/{mod,bind,flat}.rs.
@@ -55,7 +55,7 @@ const MATERIAL_ENERGY: u32 = 5u;
 const MATERIAL_DIRECTION: u32 = 6u;
 /// How many parameters may have a texture; they follow.
 const MATERIAL_PARAMETERS: u32 = 7u;
-/// Least width of a rough surface.
+/// Least alpha of a rough surface.
 const BOUND_SMOOTH_BELOW: f32 = 1.0e-3;
 /// Most parameters that may have a texture.
 const MOST_PARAMETERS: u32 = 12u;
@@ -143,12 +143,12 @@ fn bound_albedo(colour: vec3f) -> vec3f {
 
 /// Alphas of facets behind a rough surface.
 ///
-/// Twin: specula-render/src/integrator/bias.rs, regularized.
+/// Twin: specula-render/src/material/metal.rs, regularized_alpha.
 fn bound_regularized(alpha: vec2f) -> vec2f {
     return select(alpha, clamp(2.0 * alpha, vec2f(0.1), vec2f(0.3)), alpha < vec2f(0.3));
 }
 
-/// A roughness whose square is the width of facets.
+/// A roughness whose square is alpha.
 ///
 /// Twin: specula-render/src/material/bind.rs, At::roughness.
 fn bound_unit_roughness(x: vec3f, is_regularized: bool) -> f32 {
@@ -164,12 +164,12 @@ fn bound_unit_roughness(x: vec3f, is_regularized: bool) -> f32 {
 /// Twin: specula-render/src/material/metal.rs, alpha.
 fn bound_alphas(across: f32, along: f32, mapping: u32) -> vec2f {
     var r = max(vec2f(across, along), vec2f(0.0));
-    if (mapping & 3u) == 1u {
+    if (mapping & ROUGHNESS_MAPPING) == ROUGHNESS_SQRT {
         r = sqrt(r);
-    } else if (mapping & 3u) == 2u {
+    } else if (mapping & ROUGHNESS_MAPPING) == ROUGHNESS_SQUARE {
         r = r * r;
     }
-    if (mapping & 4u) != 0u {
+    if (mapping & ROUGHNESS_REGULARIZED) != 0u {
         r = bound_regularized(r);
     }
     let is_rough = r.x >= BOUND_SMOOTH_BELOW || r.y >= BOUND_SMOOTH_BELOW;

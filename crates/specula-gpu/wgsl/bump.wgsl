@@ -10,21 +10,6 @@ import tracer::texture_coordinates::{TextureCoordinates};
 import tracer::world::{word, number, unit_or};
 import package::math::frame::{FrameBasis, frame_from_normal_tangent};
 
-/// No bump.
-const BUMP_NONE: u32 = 0u;
-/// Heights.
-const BUMP_HEIGHT: u32 = 1u;
-/// Normals are bent as the bump map says, and nothing more.
-const BUMP_PLAIN: u32 = 0u;
-/// By Mitsuba's rules, and light fades towards the horizon.
-const BUMP_FADES: u32 = 2u;
-
-/// Step of finite differences in surface coordinates, as in pbrt where it knows no footprint: half
-/// a pixel of a picture of 1000.
-///
-/// Twin: specula-render/src/bump.rs, STEP.
-const BUMP_STEP: f32 = 0.0005;
-
 /// Words of a material's bump maps: its own, whether its clear coat is bent otherwise, the coat's.
 const BUMP_SIZE: u32 = 9u;
 

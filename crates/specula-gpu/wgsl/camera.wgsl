@@ -57,7 +57,7 @@ fn camera_folded(x: f32) -> f32 {
 fn camera_within_sphere(mapping: u32, at: vec2f) -> vec2f {
     var u = at.x;
     var v = at.y;
-    let is_square = mapping == 0u;
+    let is_square = mapping == ENVIRONMENT_EQUAL_AREA;
     if is_square && (u < 0.0 || u > 1.0) {
         // Each edge of the square is folded about its middle.
         u = camera_folded(u);
@@ -86,11 +86,11 @@ fn camera_ray(pixel: vec2u, u: vec4f) -> CameraRay {
     let y = number(CAMERA + 13u) + raster.y * number(CAMERA + 15u);
     var begin = vec3f(0.0);
     var towards = vec3f(x, y, 1.0);
-    if CAMERA_VIEW == 1u {
+    if CAMERA_VIEW == CAMERA_ORTHOGRAPHIC {
         begin = vec3f(x, y, 0.0);
         towards = vec3f(0.0, 0.0, 1.0);
-    } else if CAMERA_VIEW > 1u {
-        let mapping = CAMERA_VIEW - 2u;
+    } else if CAMERA_VIEW >= CAMERA_SPHERICAL {
+        let mapping = CAMERA_VIEW - CAMERA_SPHERICAL;
         towards = environment_direction(mapping, camera_within_sphere(mapping, vec2f(x, y))).w;
     }
     let radius = number(CAMERA + 16u);

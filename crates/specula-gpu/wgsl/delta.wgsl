@@ -13,10 +13,6 @@ import tracer::spot::{spot_share};
 import tracer::projected::{projected_intensity};
 import tracer::world::{number, vector, word};
 
-/// Kinds: the first word of each.
-const DELTA_DISTANT: u32 = 0u;
-const DELTA_POINT: u32 = 1u;
-const DELTA_PROJECTED: u32 = 2u;
 /// What arrives from a light without extent.
 struct DeltaArrival {
     /// On a surface that faces the light; black: nothing arrives.

@@ -60,7 +60,7 @@ struct EnvironmentCorners {
 }
 
 /// Radiance from the direction `wi` (unit, world), and the density in 1/sr with which
-/// `environment_draw` samples it.
+/// `environment_sample` samples it.
 /// Twin: specula-render/src/light/environment.rs, Environment::arriving.
 fn environment_arriving(at: u32, wi: vec3f) -> vec4f {
     if word(at + ENVIRONMENT_IS_PICTURE) == 0u {
@@ -88,7 +88,7 @@ fn environment_arriving(at: u32, wi: vec3f) -> vec4f {
 /// * `u`: uniform in `[0, 1)^2`.
 ///
 /// Twin: specula-render/src/light/environment.rs, Environment::sample.
-fn environment_draw(at: u32, u: vec2f) -> EnvironmentSample {
+fn environment_sample(at: u32, u: vec2f) -> EnvironmentSample {
     if word(at + ENVIRONMENT_IS_PICTURE) == 0u {
         return EnvironmentSample(warp_uniform_sphere(u), vector(at), ENVIRONMENT_PER_SPHERE);
     }
@@ -117,7 +117,7 @@ fn environment_draw(at: u32, u: vec2f) -> EnvironmentSample {
 /// The direction of light space at a point of the square.
 /// Twin: specula-render/src/light/environment/picture.rs, direction_and_sine.
 fn environment_direction(mapping: u32, uv: vec2f) -> EnvironmentDirection {
-    if mapping == 0u {
+    if mapping == ENVIRONMENT_EQUAL_AREA {
         return EnvironmentDirection(octahedral_direction(uv), 1.0);
     }
     let phi = angles_sin_cos_turns(uv.x);

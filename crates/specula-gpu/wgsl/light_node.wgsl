@@ -11,11 +11,6 @@ import tracer::world::{number, vector, word};
 
 /// Words of a node.
 const LIGHT_NODE_WORDS: u32 = 12u;
-/// How far a cosine must be beyond its bound before a light is left out; also the least value of either
-/// cosine that is not left out.
-const LIGHT_NODE_SLACK: f32 = 1e-3;
-/// Above every importance: two of them add up to a finite number.
-const LIGHT_NODE_MOST: f32 = 1e37;
 
 /// An estimate of the irradiance by the lights of the node at `at`, 0 only where none can contribute.
 ///

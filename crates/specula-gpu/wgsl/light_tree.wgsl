@@ -109,7 +109,7 @@ fn light_tree_within(u: LightNumber, begin: f32, size: f32) -> LightNumber {
 /// * `u`: uniform in `[0, 1)`.
 ///
 /// Twin: specula-render/src/light/tree.rs, LightTree::sample.
-fn light_tree_draw(position: vec3f, normal: vec3f, u: LightNumber) -> LightChoice {
+fn light_tree_sample(position: vec3f, normal: vec3f, u: LightNumber) -> LightChoice {
     if LIGHT_NODE_COUNT == 0u {
         return LightChoice(0u, 0.0);
     }
@@ -131,7 +131,7 @@ fn light_tree_draw(position: vec3f, normal: vec3f, u: LightNumber) -> LightChoic
     return LightChoice(light_tree_link(node), probability);
 }
 
-/// Probability with which `light_tree_draw` samples a light.
+/// Probability with which `light_tree_sample` samples a light.
 /// Twin: specula-render/src/light/tree.rs, LightTree::probability.
 fn light_tree_probability(position: vec3f, normal: vec3f, light: u32) -> f32 {
     let at = LIGHT_TRAILS + 2u * light;

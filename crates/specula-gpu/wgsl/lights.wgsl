@@ -17,24 +17,14 @@
 //
 // Twin of specula-render/src/light/{mod,select,alias}.rs.
 
-import tracer::area::{AreaSample, area_draw, area_pdf};
+import tracer::area::{AreaSample, area_sample, area_pdf};
 import tracer::delta::{delta_illuminate};
-import tracer::environment::{environment_arriving, environment_draw};
-import tracer::light_tree::{LightChoice, LightNumber, light_tree_draw, light_tree_probability, light_tree_total, light_tree_value, light_tree_within};
-import tracer::sun::{sun_arriving, sun_density, sun_draw};
-import tracer::textured::{textured_draw, textured_pdf};
-import tracer::world::{NONE, number, vector, word};
+import tracer::environment::{environment_arriving, environment_sample};
+import tracer::light_tree::{LightChoice, LightNumber, light_tree_sample, light_tree_probability, light_tree_total, light_tree_value, light_tree_within};
+import tracer::sun::{sun_arriving, sun_density, sun_sample};
+import tracer::textured::{textured_sample, textured_pdf};
+import tracer::world::{number, vector, word};
 
-/// Kinds of lights.
-const LIGHTS_AREA: u32 = 0u;
-const LIGHTS_FAR: u32 = 1u;
-const LIGHTS_DELTA: u32 = 2u;
-const LIGHTS_TEXTURED: u32 = 3u;
-/// Kinds of lights with extent at infinity.
-const LIGHTS_ENVIRONMENT: u32 = 0u;
-const LIGHTS_SUN: u32 = 1u;
-/// Smallest share of either class of lights where there are both.
-const LIGHTS_LEAST_SHARE: f32 = 0.1;
 /// What the second number of a choice counts: the first is a multiple of it, 2^-23.
 const LIGHTS_FINER: f32 = 1.1920929e-7;
 
@@ -75,7 +65,7 @@ struct LightSample {
 /// * `u`: choice of light, two for the point on it, finer digits of the choice.
 ///
 /// Twin: specula-render/src/light/mod.rs, Lights::sample.
-fn lights_draw(receiver: Receiver, u: vec4f) -> LightSample {
+fn lights_sample(receiver: Receiver, u: vec4f) -> LightSample {
     let choice = lights_choose(receiver, u.x, u.w);
     var sampled: LightSample;
     if choice.probability <= 0.0 {
@@ -84,17 +74,17 @@ fn lights_draw(receiver: Receiver, u: vec4f) -> LightSample {
     let at = word(LIGHT_PLACES + choice.light);
     switch word(at) {
         case LIGHTS_AREA: {
-            sampled = lights_draw_area(at + 1u, receiver.position, u.yz);
+            sampled = lights_sample_area(at + 1u, receiver.position, u.yz);
         }
         case LIGHTS_FAR: {
-            sampled = lights_draw_far(word(LIGHT_FAR + 2u * word(at + 1u)), u.yz);
+            sampled = lights_sample_far(word(LIGHT_FAR + 2u * word(at + 1u)), u.yz);
         }
         case LIGHTS_DELTA: {
-            sampled = lights_draw_delta(at + 1u, receiver.position);
+            sampled = lights_sample_delta(at + 1u, receiver.position);
         }
         case LIGHTS_TEXTURED: {
             if LIGHT_HAS_TEXTURED != 0u {
-                sampled = lights_draw_textured(at + 1u, receiver.position, u.yz);
+                sampled = lights_sample_textured(at + 1u, receiver.position, u.yz);
             }
         }
         default: {}
@@ -105,14 +95,14 @@ fn lights_draw(receiver: Receiver, u: vec4f) -> LightSample {
 
 /// A point of the shape that emits at `at`, seen from `p`.
 /// Twin: specula-render/src/light/mod.rs, Lights::sample_one.
-fn lights_draw_area(at: u32, p: vec3f, u: vec2f) -> LightSample {
-    return lights_from_area(area_draw(at + 4u, p, u), vector(at + 1u), word(at) != 0u);
+fn lights_sample_area(at: u32, p: vec3f, u: vec2f) -> LightSample {
+    return lights_from_area(area_sample(at + 4u, p, u), vector(at + 1u), word(at) != 0u);
 }
 
 /// A point of the shape at `at` whose emission varies, seen from `p`.
 /// Twin: specula-render/src/light/mod.rs, Lights::sample_one.
-fn lights_draw_textured(at: u32, p: vec3f, u: vec2f) -> LightSample {
-    let s = textured_draw(at + 1u, p, u);
+fn lights_sample_textured(at: u32, p: vec3f, u: vec2f) -> LightSample {
+    let s = textured_sample(at + 1u, p, u);
     return lights_from_area(s.area, s.radiance, word(at) != 0u);
 }
 
@@ -133,17 +123,17 @@ fn lights_from_area(s: AreaSample, radiance: vec3f, two_sided: bool) -> LightSam
 
 /// A direction to the light at infinity at `at`.
 /// Twin: specula-render/src/light/mod.rs, Far::sample.
-fn lights_draw_far(at: u32, u: vec2f) -> LightSample {
+fn lights_sample_far(at: u32, u: vec2f) -> LightSample {
     var sampled: LightSample;
     sampled.from_infinity = 1u;
     if word(at) == LIGHTS_SUN {
-        sampled.wi = sun_draw(at + 1u, u);
+        sampled.wi = sun_sample(at + 1u, u);
         sampled.radiance = vector(at + 10u);
         sampled.pdf = sun_density(at + 1u);
         sampled.valid = 1u;
         return sampled;
     }
-    let s = environment_draw(at + 1u, u);
+    let s = environment_sample(at + 1u, u);
     sampled.wi = s.wi;
     sampled.radiance = s.radiance;
     sampled.pdf = s.pdf;
@@ -153,7 +143,7 @@ fn lights_draw_far(at: u32, u: vec2f) -> LightSample {
 
 /// What the light without extent at `at` sends to `p`.
 /// Twin: specula-render/src/light/mod.rs, Lights::sample_one.
-fn lights_draw_delta(at: u32, p: vec3f) -> LightSample {
+fn lights_sample_delta(at: u32, p: vec3f) -> LightSample {
     let arrival = delta_illuminate(at, p);
     var sampled: LightSample;
     sampled.wi = arrival.wi;
@@ -167,7 +157,7 @@ fn lights_draw_delta(at: u32, p: vec3f) -> LightSample {
     return sampled;
 }
 
-/// Density in 1/sr, times the probability of the light, with which `lights_draw` samples the direction to
+/// Density in 1/sr, times the probability of the light, with which `lights_sample` samples the direction to
 /// the point `position` of the surface of a light.
 ///
 /// * `light`: its number; NONE of a surface that does not emit.
@@ -204,7 +194,7 @@ fn lights_arriving_count() -> u32 {
 }
 
 /// Radiance from the direction `wi` of light `i` at infinity, and the density in 1/sr, times its
-/// probability among those: `lights_draw` samples it with that density times `lights_share_from_infinity`.
+/// probability among those: `lights_sample` samples it with that density times `lights_share_from_infinity`.
 /// Twin: specula-render/src/light/mod.rs, Lights::arriving_from_infinity.
 fn lights_arriving(i: u32, wi: vec3f) -> vec4f {
     let at = word(LIGHT_FAR + 2u * i);
@@ -222,7 +212,7 @@ fn lights_arriving(i: u32, wi: vec3f) -> vec4f {
     return vec4f(arriving.rgb, probability * arriving.w);
 }
 
-/// Probability with which `lights_draw` takes any light from infinity: the estimates of irradiance
+/// Probability with which `lights_sample` takes any light from infinity: the estimates of irradiance
 /// decide, within bounds, since neither knows what is in the way.
 /// Twin: specula-render/src/light/select.rs, Selection::share.
 fn lights_share_from_infinity(receiver: Receiver) -> f32 {
@@ -237,7 +227,7 @@ fn lights_share_from_infinity(receiver: Receiver) -> f32 {
     return clamp(far / (far + near), LIGHTS_LEAST_SHARE, 1.0 - LIGHTS_LEAST_SHARE);
 }
 
-/// Probability with which `lights_draw` takes a light in the scene.
+/// Probability with which `lights_sample` takes a light in the scene.
 /// Twin: specula-render/src/light/select.rs, Selection::probability_near.
 fn lights_probability_near(receiver: Receiver, light: u32) -> f32 {
     let share = 1.0 - lights_share_from_infinity(receiver);
@@ -260,7 +250,7 @@ fn lights_choose(receiver: Receiver, u: f32, finer: f32) -> LightChoice {
         return LightChoice(choice.light, share * choice.probability);
     }
     let rest = light_tree_within(choosing, share, 1.0 - share);
-    let choice = light_tree_draw(receiver.position, receiver.normal, rest);
+    let choice = light_tree_sample(receiver.position, receiver.normal, rest);
     return LightChoice(choice.light, (1.0 - share) * choice.probability);
 }
 

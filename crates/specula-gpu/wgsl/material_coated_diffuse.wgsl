@@ -8,7 +8,7 @@ import package::ndf::distribution::{DISTRIBUTION_GGX};
 import package::ndf::masking::{MASKING_HEIGHT_CORRELATED};
 import package::bsdf::microfacets::{MicrofacetsModel};
 import package::bsdf::coated_diffuse::{CoatedDiffuse, coated_diffuse_new};
-import package::bsdf::coated_diffuse::{coated_diffuse_eval_pdf, coated_diffuse_draw};
+import package::bsdf::coated_diffuse::{coated_diffuse_eval_pdf, coated_diffuse_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
 /// The parameters at a place: `first` the albedo, `eta` the coat's index, `second.x` the thickness of
@@ -37,8 +37,8 @@ fn material_coated_diffuse_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -
 }
 
 /// A direction.
-fn material_coated_diffuse_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
-    return coated_diffuse_draw(material_coated_diffuse_lobe(b), wo, u, BSDF_SAMPLE_RADIANCE);
+fn material_coated_diffuse_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
+    return coated_diffuse_sample(material_coated_diffuse_lobe(b), wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
 /// For denoisers.

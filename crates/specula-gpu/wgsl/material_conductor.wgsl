@@ -4,9 +4,9 @@
 
 import tracer::bound::{Bound, Parameters};
 import tracer::metal::{metal_bind, metal_reflectance, metal_facets, metal_albedo};
-import package::bsdf::smooth_conductor::{SmoothConductor, smooth_conductor_draw};
+import package::bsdf::smooth_conductor::{SmoothConductor, smooth_conductor_sample};
 import package::bsdf::rough_conductor::{RoughConductor, rough_conductor_eval_pdf};
-import package::bsdf::rough_conductor::{rough_conductor_draw};
+import package::bsdf::rough_conductor::{rough_conductor_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
 /// The parameters at a place: those of `metal_bind`.
@@ -24,13 +24,13 @@ fn material_conductor_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec
 }
 
 /// A direction.
-fn material_conductor_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
+fn material_conductor_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     if b.specular {
         let mirror = SmoothConductor(metal_reflectance(b));
-        return smooth_conductor_draw(mirror, wo, u, BSDF_SAMPLE_RADIANCE);
+        return smooth_conductor_sample(mirror, wo, u, BSDF_SAMPLE_RADIANCE);
     }
     let lobe = RoughConductor(metal_facets(b), metal_reflectance(b));
-    return rough_conductor_draw(lobe, wo, u, BSDF_SAMPLE_RADIANCE);
+    return rough_conductor_sample(lobe, wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
 /// For denoisers.

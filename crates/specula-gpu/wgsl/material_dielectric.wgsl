@@ -5,8 +5,8 @@
 import tracer::bound::{Bound, Parameters};
 import tracer::glass::{glass_bind, glass_tints, glass_facets, glass_smooth};
 import package::bsdf::rough_dielectric::{RoughDielectric, rough_dielectric_eval_pdf};
-import package::bsdf::rough_dielectric::{rough_dielectric_draw};
-import package::bsdf::smooth_dielectric::{smooth_dielectric_draw};
+import package::bsdf::rough_dielectric::{rough_dielectric_sample};
+import package::bsdf::smooth_dielectric::{smooth_dielectric_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
 /// The parameters at a place: those of `glass_bind`.
@@ -24,12 +24,12 @@ fn material_dielectric_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> ve
 }
 
 /// A direction.
-fn material_dielectric_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
+fn material_dielectric_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     if b.specular {
-        return smooth_dielectric_draw(glass_smooth(b), wo, u, BSDF_SAMPLE_RADIANCE);
+        return smooth_dielectric_sample(glass_smooth(b), wo, u, BSDF_SAMPLE_RADIANCE);
     }
     let lobe = RoughDielectric(glass_facets(b), b.eta, 0u, glass_tints(b));
-    return rough_dielectric_draw(lobe, wo, u, BSDF_SAMPLE_RADIANCE);
+    return rough_dielectric_sample(lobe, wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
 /// For denoisers.

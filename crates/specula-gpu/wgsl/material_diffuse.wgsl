@@ -3,8 +3,8 @@
 // Twin of specula-render/src/material/bind.rs, MaterialKind::Diffuse.
 
 import tracer::bound::{Bound, Parameters, bound_albedo};
-import package::bsdf::lambert::{LambertLobe, lambert_eval_pdf, lambert_draw};
-import package::bsdf::eon::{EonLobe, eon_eval_pdf, eon_draw};
+import package::bsdf::lambert::{LambertLobe, lambert_eval_pdf, lambert_sample};
+import package::bsdf::eon::{EonLobe, eon_eval_pdf, eon_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
 /// The parameters at a place: `first` the albedo, `eta` the roughness.
@@ -26,11 +26,11 @@ fn material_diffuse_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f
 }
 
 /// A direction.
-fn material_diffuse_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
+fn material_diffuse_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     if b.variant == 1u {
-        return eon_draw(EonLobe(b.first, b.eta), wo, u, BSDF_SAMPLE_RADIANCE);
+        return eon_sample(EonLobe(b.first, b.eta), wo, u, BSDF_SAMPLE_RADIANCE);
     }
-    return lambert_draw(LambertLobe(b.first), wo, u, BSDF_SAMPLE_RADIANCE);
+    return lambert_sample(LambertLobe(b.first), wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
 /// For denoisers.

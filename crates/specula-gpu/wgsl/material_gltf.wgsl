@@ -5,7 +5,7 @@
 import tracer::world::{word, number};
 import tracer::bound::{Bound, Parameters, bound_albedo, bound_keep, bound_unit};
 import tracer::bound::{bound_unit_roughness};
-import package::bsdf::gltf::{GltfLobe, GltfParameters, gltf_new, gltf_eval_pdf, gltf_draw};
+import package::bsdf::gltf::{GltfLobe, GltfParameters, gltf_new, gltf_eval_pdf, gltf_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
 /// The parameters at a place: `kept`, `eta`, and `variant`: 1 where it bounds a volume, 2 more where its metal
@@ -47,8 +47,8 @@ fn material_gltf_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
 }
 
 /// A direction.
-fn material_gltf_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
-    return gltf_draw(material_gltf_lobe(b), wo, u, BSDF_SAMPLE_RADIANCE);
+fn material_gltf_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
+    return gltf_sample(material_gltf_lobe(b), wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
 /// For denoisers.

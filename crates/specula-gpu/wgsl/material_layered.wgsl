@@ -10,7 +10,7 @@ import package::ndf::distribution::{DISTRIBUTION_GGX};
 import package::ndf::masking::{MASKING_HEIGHT_CORRELATED};
 import package::fresnel::reflectance::{reflectance_constant};
 import package::bsdf::microfacets::{MicrofacetsModel};
-import package::bsdf::layered::layered::{layered_new, layered_eval_pdf, layered_draw, layered_albedo};
+import package::bsdf::layered::layered::{layered_new, layered_eval_pdf, layered_sample, layered_albedo};
 import package::bsdf::layered::layered_base::{LayeredBase, LAYERED_BASE_DIFFUSE, LAYERED_BASE_METAL};
 import package::bsdf::layered::layered_base::{LAYERED_BASE_MIRROR};
 import package::bsdf::layered::layered_lobe::{LayeredLobe, LAYERED_LOBE_MOST_EVENTS};
@@ -72,9 +72,9 @@ fn material_layered_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f
 }
 
 /// A direction.
-fn material_layered_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
+fn material_layered_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     var random = StreamState(stream);
-    return layered_draw(material_layered_lobe(b), wo, u, &random);
+    return layered_sample(material_layered_lobe(b), wo, u, &random);
 }
 
 /// For denoisers.

@@ -4,13 +4,13 @@
 
 import tracer::bound::{Bound, Parameters};
 import tracer::metal::{metal_bind, metal_reflectance, metal_facets, metal_albedo};
-import package::bsdf::smooth_conductor::{SmoothConductor, smooth_conductor_draw};
+import package::bsdf::smooth_conductor::{SmoothConductor, smooth_conductor_sample};
 import package::math::stream::{StreamState};
 import package::multibounce::normals::{NormalsModel};
 import package::multibounce::walk::{WalkFacets};
 import package::multibounce::multibounce_conductor::{MultibounceConductor};
 import package::multibounce::multibounce_conductor::{multibounce_conductor_eval_pdf};
-import package::multibounce::multibounce_conductor::{multibounce_conductor_draw};
+import package::multibounce::multibounce_conductor::{multibounce_conductor_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
 /// The parameters at a place: those of `metal_bind`.
@@ -30,15 +30,15 @@ fn material_multibounce_conductor_eval(b: Bound, wo: vec3f, wi: vec3f, stream: v
 }
 
 /// A direction.
-fn material_multibounce_conductor_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
+fn material_multibounce_conductor_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     if b.specular {
         let mirror = SmoothConductor(metal_reflectance(b));
-        return smooth_conductor_draw(mirror, wo, u, BSDF_SAMPLE_RADIANCE);
+        return smooth_conductor_sample(mirror, wo, u, BSDF_SAMPLE_RADIANCE);
     }
     let facets = WalkFacets(NormalsModel(b.alpha, b.distribution), metal_reflectance(b));
     var random = StreamState(stream);
     let lobe = MultibounceConductor(facets, b.energy, BOUNCES_PDF);
-    return multibounce_conductor_draw(lobe, wo, u, &random);
+    return multibounce_conductor_sample(lobe, wo, u, &random);
 }
 
 /// For denoisers.

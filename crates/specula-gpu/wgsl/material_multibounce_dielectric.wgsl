@@ -8,8 +8,8 @@ import package::math::stream::{StreamState};
 import package::multibounce::normals::{NormalsModel};
 import package::multibounce::multibounce_dielectric::{MultibounceDielectric};
 import package::multibounce::multibounce_dielectric::{multibounce_dielectric_eval_pdf};
-import package::multibounce::multibounce_dielectric::{multibounce_dielectric_draw};
-import package::bsdf::smooth_dielectric::{smooth_dielectric_draw};
+import package::multibounce::multibounce_dielectric::{multibounce_dielectric_sample};
+import package::bsdf::smooth_dielectric::{smooth_dielectric_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
 /// The parameters at a place: those of `glass_bind`.
@@ -34,13 +34,13 @@ fn material_multibounce_dielectric_eval(b: Bound, wo: vec3f, wi: vec3f, stream: 
 }
 
 /// A direction.
-fn material_multibounce_dielectric_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
+fn material_multibounce_dielectric_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     if b.specular {
-        return smooth_dielectric_draw(glass_smooth(b), wo, u, BSDF_SAMPLE_RADIANCE);
+        return smooth_dielectric_sample(glass_smooth(b), wo, u, BSDF_SAMPLE_RADIANCE);
     }
     var random = StreamState(stream);
     let lobe = material_multibounce_dielectric_lobe(b);
-    return multibounce_dielectric_draw(lobe, wo, u, BSDF_SAMPLE_RADIANCE, &random);
+    return multibounce_dielectric_sample(lobe, wo, u, BSDF_SAMPLE_RADIANCE, &random);
 }
 
 /// For denoisers.

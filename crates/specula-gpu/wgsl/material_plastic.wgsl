@@ -5,7 +5,7 @@
 import tracer::world::{word, number};
 import tracer::bound::{Bound, Parameters, bound_albedo, bound_black, bound_roughness};
 import package::bsdf::microfacets::{MicrofacetsModel};
-import package::bsdf::plastic::{PlasticLobe, plastic_smooth, plastic_rough, plastic_eval_pdf, plastic_draw};
+import package::bsdf::plastic::{PlasticLobe, plastic_smooth, plastic_rough, plastic_eval_pdf, plastic_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
 /// The parameters at a place: `eta`, `first` and `second` the colours of base and coat, `variant` whether
@@ -39,8 +39,8 @@ fn material_plastic_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f
 }
 
 /// A direction.
-fn material_plastic_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
-    return plastic_draw(material_plastic_lobe(b), wo, u, BSDF_SAMPLE_RADIANCE);
+fn material_plastic_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
+    return plastic_sample(material_plastic_lobe(b), wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
 /// For denoisers.

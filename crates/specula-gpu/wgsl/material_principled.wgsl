@@ -6,9 +6,9 @@ import tracer::world::{word, number};
 import tracer::bound::{Bound, Parameters, bound_albedo, bound_keep, bound_unit_roughness};
 import package::bsdf::principled_parameters::{PrincipledParameters, principled_parameters_held};
 import package::bsdf::principled_solid::{principled_solid_new, principled_solid_eval_pdf};
-import package::bsdf::principled_solid::{principled_solid_draw};
+import package::bsdf::principled_solid::{principled_solid_sample};
 import package::bsdf::principled_thin::{principled_thin_new, principled_thin_eval_pdf};
-import package::bsdf::principled_thin::{principled_thin_draw};
+import package::bsdf::principled_thin::{principled_thin_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
 /// The parameters at a place: `kept`, `eta`, and `variant`: 1 where it is thin, 2 more where it is seen
@@ -51,12 +51,12 @@ fn material_principled_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> ve
 }
 
 /// A direction.
-fn material_principled_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
+fn material_principled_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     let p = material_principled_parameters(b);
     if (b.variant & 1u) != 0u {
-        return principled_thin_draw(principled_thin_new(p), wo, u, BSDF_SAMPLE_RADIANCE);
+        return principled_thin_sample(principled_thin_new(p), wo, u, BSDF_SAMPLE_RADIANCE);
     }
-    return principled_solid_draw(principled_solid_new(p), wo, u, BSDF_SAMPLE_RADIANCE);
+    return principled_solid_sample(principled_solid_new(p), wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
 /// For denoisers.

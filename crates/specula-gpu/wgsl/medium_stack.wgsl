@@ -34,12 +34,12 @@ fn medium_stack_cross(media: ptr<function, MediumStack>, material: u32, inwards:
     }
     let at = BOUNDARIES + material * BOUNDARY_SIZE;
     let known = word(at);
-    if known == 0u {
+    if known == BOUNDARY_NONE {
         return;
     }
     if inwards {
         (*media).absorption = vector(at + 1u);
-        if known == 1u {
+        if known == BOUNDARY_INSIDE {
             if (*media).count == MEDIUM_STACK_DEEPEST {
                 let m = (*media).materials;
                 (*media).materials = vec4u(m.y, m.z, m.w, 0u);
@@ -48,7 +48,7 @@ fn medium_stack_cross(media: ptr<function, MediumStack>, material: u32, inwards:
             (*media).materials[(*media).count] = material;
             (*media).count += 1u;
         }
-    } else if known == 2u {
+    } else if known == BOUNDARY_BOTH {
         (*media).absorption = vector(at + 4u);
     } else {
         medium_stack_leave(media, material);

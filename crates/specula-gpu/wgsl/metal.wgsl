@@ -11,10 +11,10 @@ import package::bsdf::microfacets::{MicrofacetsModel};
 /// normal incidence, or white; `variant` says which.
 fn metal_indices(b: Bound, kind: u32, one: vec3f, other: vec3f) -> Bound {
     var m = b;
-    if kind == 0u {
+    if kind == METAL_INDEX {
         m.first = max(one, vec3f(1.0e-4));
         m.second = max(other, vec3f(0.0));
-    } else if kind == 1u {
+    } else if kind == METAL_REFLECTANCE {
         // pbrt-v4: the k that gives this reflectance at normal incidence with eta = 1.
         let r = min(bound_albedo(one), vec3f(0.9999));
         m.first = vec3f(1.0);
@@ -41,10 +41,10 @@ fn metal_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
 /// The reflectance of what `metal_bind` made.
 fn metal_reflectance(b: Bound) -> ReflectanceModel {
     let kind = b.variant & 3u;
-    if kind < 2u {
+    if kind <= METAL_REFLECTANCE {
         return reflectance_tinted(reflectance_conductor(b.first, b.second), b.third);
     }
-    if kind == 2u {
+    if kind == METAL_SCHLICK {
         return reflectance_tinted(reflectance_schlick(b.first), b.third);
     }
     return reflectance_constant(b.third);

@@ -46,7 +46,7 @@ struct ParallelogramSpread {
 /// * `u`: uniform in `[0, 1)^2`.
 ///
 /// Twin: specula-render/src/light/parallelogram.rs, Parallelogram::sample.
-fn parallelogram_draw(at: u32, p: vec3f, u: vec2f) -> ParallelogramSeen {
+fn parallelogram_sample(at: u32, p: vec3f, u: vec2f) -> ParallelogramSeen {
     let spread = parallelogram_spread(at, p);
     let solid_angle = 6.2831855 * spread.solid_angle;
     let by_angle = solid_angle >= number(at + 21u);

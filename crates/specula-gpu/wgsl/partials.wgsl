@@ -166,7 +166,7 @@ fn partials_of_quadric(at: u32, near: vec3f) -> PartialsAndNormal {
     let around = vec3f(-outwards.y, outwards.x, 0.0);
     var normal = vec3f(0.0, 0.0, 1.0);
     var partials: Partials;
-    if word(at) == 0u {
+    if word(at) == QUADRIC_SPHERE {
         normal = unit_or(q, vec3f(0.0, 0.0, 1.0));
         let sine = sqrt(normal.x * normal.x + normal.y * normal.y);
         // v runs from -z to +z.

@@ -4,7 +4,7 @@
 // Twin of specula-render/src/integrator.rs: the same values decide the same things, so that a sample
 // follows the same path up to rounding. SEED, MAX_DEPTH and STRATEGY are constants of the render.
 
-import tracer::world::{NONE, word, number, offset_leave};
+import tracer::world::{word, number, offset_leave};
 import tracer::sequence::{Sequence, sequence_of, sequence_camera, sequence_scatter, sequence_light};
 import tracer::sequence::{sequence_stream, sequence_hashed};
 import tracer::camera::{camera_ray};
@@ -17,9 +17,9 @@ import tracer::visibility::{visibility_radiance};
 import tracer::partials::{partials_of};
 import tracer::bump::{Softness, bump_of_material, bump_is_there, bump_bend, bump_softened};
 import tracer::bump::{bump_softness, bump_coat_differs, bump_of_coat};
-import tracer::lights::{Receiver, LightSample, lights_draw, lights_pdf_of_surface};
+import tracer::lights::{Receiver, LightSample, lights_sample, lights_pdf_of_surface};
 import tracer::lights::{lights_arriving_count, lights_arriving, lights_share_from_infinity};
-import tracer::material::{Bound, material_bind, material_eval, material_draw, material_albedo};
+import tracer::material::{Bound, material_bind, material_eval, material_sample, material_albedo};
 import tracer::bound::{MATERIAL_ROTATION};
 import package::math::frame::{FrameBasis, frame_from_normal_tangent, frame_to_local, frame_to_world};
 import package::bsdf::bsdf_sample::{BsdfSample};
@@ -230,7 +230,7 @@ fn path_consider(
 ) -> PathLight {
     var found: PathLight;
     let u = path_light_numbers(sequence_light(s, depth), which, count);
-    let light = lights_draw(path_receiver(vertex), u);
+    let light = lights_sample(path_receiver(vertex), u);
     if light.valid == 0u || (STRATEGY == STRATEGY_BSDF_ONLY && light.delta == 0u) {
         return found;
     }
@@ -323,7 +323,7 @@ fn path_scatter(
     depth: u32,
 ) -> bool {
     let u = sequence_scatter(s, depth);
-    let sampled = material_draw(vertex.bound, vertex.wo, u.xyz, sequence_stream(s, depth, 1u));
+    let sampled = material_sample(vertex.bound, vertex.wo, u.xyz, sequence_stream(s, depth, 1u));
     if sampled.flags == 0u {
         return false;
     }
@@ -334,7 +334,7 @@ fn path_scatter(
     (*state).throughput *= sampled.weight * bump_softness(vertex.softness, direction);
     (*state).eta_scale *= sampled.eta * sampled.eta;
     let passes = (sampled.flags & BSDF_SAMPLE_TRANSMISSION) != 0u;
-    if !(passes && vertex.bound.kind == KIND_THIN_PANE) {
+    if !(passes && vertex.bound.kind == KIND_THIN_DIELECTRIC) {
         (*state).flags &= PATH_ROUGH;
     }
     if (sampled.flags & BSDF_SAMPLE_SPECULAR) == 0u {

@@ -43,14 +43,14 @@ fn piecewise_invert(cdf: u32, count: u32, u: f32) -> PiecewiseCell {
 /// * `u`: uniform in `[0, 1)^2`.
 ///
 /// Twin: specula-render/src/light/piecewise.rs, Piecewise::sample.
-fn piecewise_draw(rows: u32, columns: u32, cells: u32, u: vec2f) -> vec2f {
+fn piecewise_sample(rows: u32, columns: u32, cells: u32, u: vec2f) -> vec2f {
     let down = piecewise_invert(columns, cells, u.y);
     let across = piecewise_invert(rows + down.cell * (cells + 1u), cells, u.x);
     let at = vec2f(f32(across.cell) + across.within, f32(down.cell) + down.within);
     return at / f32(cells);
 }
 
-/// Density per area of the square with which `piecewise_draw` samples a point.
+/// Density per area of the square with which `piecewise_sample` samples a point.
 ///
 /// Twin: specula-render/src/light/piecewise.rs, Piecewise::density.
 fn piecewise_density(rows: u32, columns: u32, cells: u32, uv: vec2f) -> f32 {

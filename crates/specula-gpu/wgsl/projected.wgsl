@@ -7,7 +7,7 @@
 // Twin of specula-render/src/light/projected.rs.
 
 import tracer::octahedral::{octahedral_square};
-import tracer::spot::{SPOT_LINEAR_ANGLE, spot_share};
+import tracer::spot::{spot_share};
 import tracer::texture_graph::{parameter_colour};
 import tracer::texture_coordinates::{TextureCoordinates};
 import tracer::world::{affine_vector, number, word};
@@ -18,10 +18,6 @@ const PROJECTED_THROUGH: u32 = 15u;
 const PROJECTED_HALF: u32 = 16u;
 const PROJECTED_COSINES: u32 = 18u;
 const PROJECTED_INTENSITY: u32 = 20u;
-/// What it goes through.
-const PROJECTED_SPHERE: u32 = 0u;
-const PROJECTED_IRRADIANCE: u32 = 2u;
-const PROJECTED_SPOT: u32 = 3u;
 
 /// Radiant intensity of the light at `at` towards `w` (unit, world).
 /// Twin: specula-render/src/light/projected.rs, ProjectedImage::intensity.
@@ -39,7 +35,7 @@ fn projected_intensity(at: u32, w: vec3f) -> vec3f {
 /// Twin: specula-render/src/light/projected.rs, ProjectedImage::coordinates.
 fn projected_coordinates(at: u32, w: vec3f) -> vec3f {
     let through = word(at + PROJECTED_THROUGH);
-    if through == PROJECTED_SPHERE {
+    if through == WINDOW_NONE {
         let square = octahedral_square(normalize(w));
         return vec3f(square.x, 1.0 - square.y, 1.0);
     }
@@ -50,9 +46,9 @@ fn projected_coordinates(at: u32, w: vec3f) -> vec3f {
     }
     let cosine = w.z / length(w);
     var factor = 1.0;
-    if through == PROJECTED_IRRADIANCE {
+    if through == WINDOW_IRRADIANCE {
         factor = 1.0 / (cosine * cosine * cosine);
-    } else if through == PROJECTED_SPOT {
+    } else if through == WINDOW_SPOT {
         let low = number(at + PROJECTED_COSINES);
         factor = spot_share(SPOT_LINEAR_ANGLE, low, number(at + PROJECTED_COSINES + 1u), cosine);
     }

@@ -14,7 +14,7 @@ fn quadric_distance(at: u32, space: u32, origin: vec3f, direction: vec3f) -> f32
     let o = affine_point(space, origin);
     let d = affine_vector(space, direction);
     let radius = number(at + 1u);
-    if word(at) == 1u {
+    if word(at) == QUADRIC_DISK {
         let t = (number(at + 2u) - o.z) / d.z;
         let p = o.xy + t * d.xy;
         return select(-1.0, t, dot(p, p) <= radius * radius && d.z != 0.0);

@@ -4,10 +4,6 @@
 
 import tracer::angles::{angles_turns};
 
-/// Falloffs of a spot's edge; by the smooth step of the cosine where it is neither.
-const SPOT_LINEAR_ANGLE: u32 = 1u;
-const SPOT_SQUARED_COSINE: u32 = 2u;
-
 /// Share of a spot light's intensity at the cosine `x` from its axis: 0 up to `low`, 1 from `high` on.
 /// Twin: specula-render/src/light/delta.rs, share.
 fn spot_share(falloff: u32, low: f32, high: f32, x: f32) -> f32 {

@@ -7,12 +7,12 @@
 import tracer::angles::{angles_sin_cos_turns};
 import tracer::world::{number, vector};
 
-/// Density in 1/sr with which `sun_draw` samples a direction of the sun at `at`.
+/// Density in 1/sr with which `sun_sample` samples a direction of the sun at `at`.
 fn sun_density(at: u32) -> f32 {
     return 0.15915494 / number(at + 12u);
 }
 
-/// Radiance from the direction `wi` (unit), and the density in 1/sr with which `sun_draw` samples it.
+/// Radiance from the direction `wi` (unit), and the density in 1/sr with which `sun_sample` samples it.
 ///
 /// By the chord, `|wi - axis|^2 = 2 (1 - cos)`, which keeps the digits that the cosine of a small angle
 /// lacks.
@@ -30,7 +30,7 @@ fn sun_arriving(at: u32, wi: vec3f) -> vec4f {
 /// * `u`: uniform in `[0, 1)^2`.
 ///
 /// Twin: specula-render/src/light/sun.rs, Sun::sample.
-fn sun_draw(at: u32, u: vec2f) -> vec3f {
+fn sun_sample(at: u32, u: vec2f) -> vec3f {
     let t = u.x * number(at + 12u);
     let planar = sqrt(t * (2.0 - t)) * angles_sin_cos_turns(u.y).yx;
     return normalize(

@@ -147,7 +147,7 @@ fn surface_of_quadric(at: u32, near: vec3f) -> Surface {
     var q = affine_point(at + 16u, near);
     var normal = vec3f(0.0, 0.0, 1.0);
     var v = 0.0;
-    if word(at) == 0u {
+    if word(at) == QUADRIC_SPHERE {
         normal = unit_or(q, vec3f(0.0, 0.0, 1.0));
         q = normal * radius;
         // The polar angle by a tangent: WGSL's arccosine has few digits.

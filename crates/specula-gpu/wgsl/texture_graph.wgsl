@@ -10,36 +10,7 @@ import tracer::texture_noise::{texture_noise_fbm, texture_noise_turbulence, text
 import tracer::texture_noise::{texture_noise_marble, texture_noise_in_dot};
 import tracer::texture_coordinates::{TextureCoordinates};
 import tracer::texture_raster::{texture_raster_at};
-import tracer::world::{NONE, word, number, vector, affine_point};
-
-// Kinds of nodes, as `Node::kind` in specula-render/src/texture/flat.rs values them: first those
-// without inputs (a vertex's colour is 4), then those that show one of two (5 to 7, a checkerboard
-// 5), then those that wait for their inputs.
-
-/// A colour.
-const TEXTURE_CONSTANT: u32 = 0u;
-/// A picture.
-const TEXTURE_IMAGE: u32 = 1u;
-/// Between four colours.
-const TEXTURE_BILINEAR: u32 = 2u;
-/// A sum of octaves.
-const TEXTURE_NOISE: u32 = 3u;
-/// The first that shows one of two.
-const TEXTURE_CHECKERBOARD: u32 = 5u;
-/// Checks in three dimensions.
-const TEXTURE_CHECKERBOARD_SOLID: u32 = 6u;
-/// Dots of one on another.
-const TEXTURE_DOTS: u32 = 7u;
-/// A product, and the first that waits.
-const TEXTURE_SCALE: u32 = 8u;
-/// A sum.
-const TEXTURE_SUM: u32 = 9u;
-/// Interpolation by a number.
-const TEXTURE_MIX: u32 = 10u;
-/// 1 from a bound on.
-const TEXTURE_THRESHOLD: u32 = 11u;
-/// Interpolation by the normal.
-const TEXTURE_DIRECTION_MIX: u32 = 12u;
+import tracer::world::{word, number, vector, affine_point};
 
 /// A node that waits for the value of an input.
 struct TextureWaiting {
@@ -259,13 +230,13 @@ fn texture_graph_noise(at: u32, place: TextureCoordinates) -> vec3f {
     let octaves = word(at + 1u);
     let roughness = number(at + 2u);
     switch word(at) {
-        case 0u: {
+        case TEXTURE_NOISE_FBM: {
             return vec3f(texture_noise_fbm(p, roughness, octaves));
         }
-        case 1u: {
+        case TEXTURE_NOISE_TURBULENCE: {
             return vec3f(texture_noise_turbulence(p, roughness, octaves));
         }
-        case 2u: {
+        case TEXTURE_NOISE_WINDY: {
             return vec3f(texture_noise_windy(p));
         }
         default: {
@@ -284,17 +255,17 @@ fn texture_graph_picture(at: u32, place: TextureCoordinates) -> vec3f {
     let coordinates = texture_mapping_at(at + 7u, place);
     var c = texture_raster_at(word(at), coordinates, wrap, word(at + 6u) != 0u);
     switch word(at + 1u) {
-        case 0u: {}
-        case 1u: {
+        case TEXTURE_CHANNEL_RGB: {}
+        case TEXTURE_CHANNEL_MEAN: {
             c = vec3f((c.x + c.y + c.z) * (1.0 / 3.0));
         }
-        case 2u: {
+        case TEXTURE_CHANNEL_LUMINANCE: {
             c = vec3f(0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z);
         }
-        case 3u: {
+        case TEXTURE_CHANNEL_RED: {
             c = c.xxx;
         }
-        case 4u: {
+        case TEXTURE_CHANNEL_GREEN: {
             c = c.yyy;
         }
         default: {

@@ -6,16 +6,6 @@ import tracer::angles::{angles_turns};
 import tracer::texture_coordinates::{TextureCoordinates};
 import tracer::world::{word, number, vector, affine_point};
 
-// Kinds of mappings, as `Mapping::flatten` writes them: 0 from the surface coordinates; cylindrical is
-// any other number.
-
-/// From the second set of surface coordinates.
-const TEXTURE_MAPPING_SECOND_UV: u32 = 1u;
-/// Linear in the position.
-const TEXTURE_MAPPING_PLANAR: u32 = 2u;
-/// From the direction to the position.
-const TEXTURE_MAPPING_SPHERICAL: u32 = 3u;
-
 /// `(s, t)`, with its origin at the lower left of pictures.
 ///
 /// * `at`: the mapping's kind, behind which its values are.

@@ -7,11 +7,6 @@
 import tracer::angles::{angles_sin_cos_of_half};
 import tracer::world::{word, vector};
 
-/// Frequency of an octave over that of the one before: not 2, so that the lattices do not meet.
-///
-/// Twin: specula-render/src/texture/noise.rs, LACUNARITY.
-const TEXTURE_NOISE_LACUNARITY: f32 = 1.99;
-
 /// Beyond 2^22 the fraction has no digits left.
 const TEXTURE_NOISE_FARTHEST: f32 = 4194304.0;
 

@@ -5,16 +5,6 @@
 
 import tracer::world::{word, number, vector};
 
-// What pictures are outside, as `Picture::flatten` in specula-render/src/texture/flat.rs writes it;
-// black is any other number.
-
-/// They repeat.
-const TEXTURE_RASTER_REPEAT: u32 = 0u;
-/// Their border extends.
-const TEXTURE_RASTER_CLAMP: u32 = 2u;
-/// They repeat, every other copy mirrored.
-const TEXTURE_RASTER_MIRROR: u32 = 3u;
-
 /// Pixel values stay within this: conversions of larger values differ between devices.
 const TEXTURE_RASTER_FARTHEST: f32 = 1073741824.0;
 

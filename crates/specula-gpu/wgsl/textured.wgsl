@@ -7,8 +7,8 @@
 //
 // Twin of specula-render/src/light/textured.rs.
 
-import tracer::area::{AreaSample, area_draw, area_pdf, area_triangle};
-import tracer::piecewise::{piecewise_density, piecewise_draw};
+import tracer::area::{AreaSample, area_sample, area_pdf, area_triangle};
+import tracer::piecewise::{piecewise_density, piecewise_sample};
 import tracer::ray::{Hit, Ray};
 import tracer::surface::{Surface, surface_at, SHAPE_SIZE};
 import tracer::texture_graph::{parameter_colour, parameter_float};
@@ -31,15 +31,15 @@ struct TexturedSample {
 /// * `u`: uniform in `[0, 1)^2`.
 ///
 /// Twin: specula-render/src/light/textured.rs, Textured::sample.
-fn textured_draw(at: u32, p: vec3f, u: vec2f) -> TexturedSample {
+fn textured_sample(at: u32, p: vec3f, u: vec2f) -> TexturedSample {
     let cells = word(at + 3u);
     var uv = u;
     var density = 1.0;
     if cells > 0u {
-        uv = piecewise_draw(word(at + 4u), word(at + 5u), cells, u);
+        uv = piecewise_sample(word(at + 4u), word(at + 5u), cells, u);
         density = piecewise_density(word(at + 4u), word(at + 5u), cells, uv);
     }
-    var sampled = TexturedSample(area_draw(at + TEXTURED_AREA, p, uv), vec3f(0.0));
+    var sampled = TexturedSample(area_sample(at + TEXTURED_AREA, p, uv), vec3f(0.0));
     sampled.area.pdf *= density;
     let weights = textured_swapped(at, area_triangle(uv));
     // Quadrics project the ray's end, triangles take the weights.
@@ -52,7 +52,7 @@ fn textured_draw(at: u32, p: vec3f, u: vec2f) -> TexturedSample {
     return sampled;
 }
 
-/// Density in 1/sr with which `textured_draw` samples the direction from `p` to the point `position` of the
+/// Density in 1/sr with which `textured_sample` samples the direction from `p` to the point `position` of the
 /// light at `at`.
 ///
 /// * `normal`: of the surface there.

@@ -1,7 +1,8 @@
 // The scene on the device: nodes and packets of its trees, and all else as words.
 //
 // Places of the parts are constants made for each scene by `specula-render/src/flat` (SHAPES,
-// MATERIALS, LIGHTS, ...), written in front of the composed shader.
+// MATERIALS, LIGHTS, ...), written in front of the composed shader; so are the codes of
+// specula-render/src/codes.rs (NONE, LIGHTS_AREA, TEXTURE_MIX, ...).
 //
 // Twin of specula-render/src/flat/words.rs; also of small functions that many parts use.
 
@@ -12,12 +13,6 @@
 /// Everything else.
 @group(0) @binding(3) var<storage, read> world_words: array<u32>;
 
-/// No light, no texture, no hit.
-const NONE: u32 = 0xffffffffu;
-/// Rounding of a hit point, relative to the magnitudes behind it: 16 ulps.
-///
-/// Twin: specula-render/src/offset.rs, RELATIVE_ERROR.
-const RELATIVE_ERROR: f32 = 1.9073486328125e-6;
 /// Larger than any distance within reach, which is bounded by 1e15 along each axis.
 const FARTHEST: f32 = 3.0e38;
 

@@ -3,15 +3,15 @@
 use specula_bsdf::{Frame, Vec3};
 use specula_scene::scene::{Bump, BumpRules, ColourParam};
 
+use crate::codes;
 use crate::convert::id;
-use crate::flat::Words;
-use crate::geometry::{At, Geometry, Partials, Surface, unit_or};
-use crate::prepared::PreparedScene;
+use crate::geometry::{Geometry, Partials, Surface, unit_or};
 use crate::texture::{TextureCoordinates, Textures, float_parameter};
+use crate::words::Words;
 
 /// Step of finite differences in surface coordinates, as in pbrt where it knows no footprint: half
 /// a pixel of a picture of 1000.
-const STEP: f32 = 0.0005;
+pub(crate) const STEP: f32 = 0.0005;
 
 /// How light fades towards the horizon of a bent normal, by Mitsuba's rules.
 ///
@@ -115,13 +115,14 @@ pub(crate) fn bend(
 /// light that fades), then the parameter of the heights or the normals' texture and factor.
 pub(crate) fn flatten(bump: Option<&Bump>, rules: BumpRules, to: &mut Words) {
     to.id(match bump {
-        None => 0,
-        Some(Bump::Height(_)) => 1,
-        Some(Bump::Normal { .. }) => 2,
+        None => codes::BUMP_NONE,
+        Some(Bump::Height(_)) => codes::BUMP_HEIGHT,
+        Some(Bump::Normal { .. }) => codes::BUMP_NORMAL,
     });
     to.id(match rules {
-        BumpRules::Plain => 0,
-        BumpRules::Mitsuba { fades } => 1 + u32::from(fades),
+        BumpRules::Plain => codes::BUMP_PLAIN,
+        BumpRules::Mitsuba { fades: false } => codes::BUMP_MITSUBA,
+        BumpRules::Mitsuba { fades: true } => codes::BUMP_FADES,
     });
     match bump {
         None => to.ids([0; 2]),
@@ -130,55 +131,6 @@ pub(crate) fn flatten(bump: Option<&Bump>, rules: BumpRules, to: &mut Words) {
             to.id(id(map.0));
             to.number(*scale);
         }
-    }
-}
-
-impl PreparedScene {
-    /// Normal and tangent under the bump map of a material at a point of a primitive, for twins of
-    /// shaders.
-    ///
-    /// * `primitive`: index of the placement, index within its group.
-    /// * `near`: the point in the world, roughly; for quadrics only.
-    #[doc(hidden)]
-    pub fn probe_bump(
-        &self,
-        material: u32,
-        primitive: [u32; 2],
-        weights: [f32; 2],
-        near: [f32; 3],
-    ) -> [[f32; 3]; 2] {
-        let at = At {
-            instance: primitive[0],
-            primitive: primitive[1],
-            weights,
-        };
-        let surface = self.geometry.surface_at(&at, || Vec3::from(near));
-        let (textures, geometry) = (&self.textures, &self.geometry);
-        let chosen = self
-            .materials
-            .at(material, textures, &surface.place(), |_| 0.5);
-        let material = chosen.material;
-        let (normal, tangent) = match &material.bump {
-            None => (surface.ns, surface.tangent),
-            Some(r) => bend(r, material.bump_rules, textures, geometry, &surface),
-        };
-        [normal.to_array(), tangent.to_array()]
-    }
-
-    /// A bent normal turned back as the material asks, and the factor on light from `wi`, for twins of
-    /// shaders.
-    #[doc(hidden)]
-    pub fn probe_softness(&self, material: u32, directions: [[f32; 3]; 4]) -> ([f32; 3], f32) {
-        let [unbent, bent, wo, wi] = directions.map(Vec3::from);
-        let place = TextureCoordinates::default();
-        let chosen = self.materials.at(material, &self.textures, &place, |_| 0.5);
-        let (normal, softness) = match chosen.material.bump_rules {
-            BumpRules::Mitsuba { fades } if chosen.material.bump.is_some() => {
-                Softness::new(unbent, bent, wo, fades)
-            }
-            _ => (bent, None),
-        };
-        (normal.to_array(), softness.map_or(1.0, |s| s.factor(wi)))
     }
 }
 

@@ -6,9 +6,10 @@ use specula_bsdf::math::vec3;
 use specula_scene::scene::{self, EnvironmentMapping, Projection};
 
 use crate::accel::Ray;
+use crate::codes;
 use crate::convert::{Affine, narrow};
-use crate::flat::Words;
 use crate::light::direction_of_sphere;
+use crate::words::Words;
 
 /// A camera for a picture of a certain size.
 ///
@@ -137,9 +138,9 @@ impl Camera {
     /// The camera for shaders; views of the sphere are numbered as its mappings, from 2 on.
     pub(crate) fn flatten(&self, words: &mut Words) {
         let view = match self.view {
-            View::Perspective => 0,
-            View::Orthographic => 1,
-            View::Spherical(mapping) => 2 + mapping as u32,
+            View::Perspective => codes::CAMERA_PERSPECTIVE,
+            View::Orthographic => codes::CAMERA_ORTHOGRAPHIC,
+            View::Spherical(mapping) => codes::CAMERA_SPHERICAL + mapping as u32,
         };
         words.constant("CAMERA_VIEW", view);
         words.begin("CAMERA");

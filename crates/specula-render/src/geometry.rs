@@ -28,7 +28,7 @@ pub(crate) use hit::{At, Surface};
 pub(crate) use partials::Partials;
 
 /// No light.
-pub(crate) const NONE: u32 = u32::MAX;
+pub(crate) use crate::codes::NONE;
 
 /// Largest coordinate of a shape: squares of lengths, and their products with areas, are within
 /// `f32`.

@@ -16,7 +16,6 @@
 
 pub(crate) mod bias;
 mod candidates;
-pub(crate) mod lobes;
 mod path_states;
 mod shade;
 mod sharing;

@@ -34,7 +34,7 @@ use sobol_burley::parts::sobol_rev;
 use sobol_burley::sample_4d;
 use specula_bsdf::math::Stream;
 
-use crate::flat::Words;
+use crate::words::Words;
 
 /// The random numbers of one sample of one pixel.
 #[derive(Clone, Copy, Debug)]

@@ -1,10 +1,10 @@
-// A worked example of `specula shaders`: draws reflections off rough metal of reflectance 1.
+// A worked example of `specula shaders`: samples reflections off rough metal of reflectance 1.
 
 #include "specula.hlsl"
 
-/// For each draw two vectors: the view (unit, local, z up) with alpha, two uniform numbers in [0, 1).
+/// For each sample two vectors: the view (unit, local, z up) with alpha, two uniform numbers in [0, 1).
 StructuredBuffer<float4> requests : register(t1);
-/// For each draw the direction of the light, and `f cos / pdf`; 0 where it went below the surface.
+/// For each sample the direction of the light, and `f cos / pdf`; 0 where it went below the surface.
 RWStructuredBuffer<float4> results : register(u0);
 
 [numthreads(64, 1, 1)]

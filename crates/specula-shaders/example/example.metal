@@ -1,11 +1,11 @@
-// A worked example of `specula shaders`: draws reflections off rough metal of reflectance 1.
+// A worked example of `specula shaders`: samples reflections off rough metal of reflectance 1.
 
 #include "specula.metal"
 
-// requests: for each draw two vectors: the view (unit, local, z up) with alpha, two uniform numbers in
-// [0, 1). results: for each draw the direction of the light, and `f cos / pdf`; 0 where it went below
+// requests: for each sample two vectors: the view (unit, local, z up) with alpha, two uniform numbers in
+// [0, 1). results: for each sample the direction of the light, and `f cos / pdf`; 0 where it went below
 // the surface.
-kernel void draw_reflections(device const metal::float4* requests [[buffer(1)]],
+kernel void sample_reflections(device const metal::float4* requests [[buffer(1)]],
                              device metal::float4* results [[buffer(2)]],
                              constant uint& count [[buffer(3)]],
                              uint index [[thread_position_in_grid]])

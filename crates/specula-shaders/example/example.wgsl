@@ -1,14 +1,14 @@
-// A worked example of `specula shaders`: draws reflections off rough metal of reflectance 1.
+// A worked example of `specula shaders`: samples reflections off rough metal of reflectance 1.
 //
 // Put `specula.wgsl` in front of this text: WGSL has no include.
 
-/// For each draw two vectors: the view (unit, local, z up) with alpha, two uniform random numbers in [0, 1).
+/// For each sample two vectors: the view (unit, local, z up) with alpha, two uniform random numbers in [0, 1).
 @group(0) @binding(1) var<storage, read> requests: array<vec4f>;
-/// For each draw the direction of the light, and `f cos / pdf`; 0 where it went below the surface.
+/// For each sample the direction of the light, and `f cos / pdf`; 0 where it went below the surface.
 @group(0) @binding(2) var<storage, read_write> results: array<vec4f>;
 
 @compute @workgroup_size(64)
-fn draw_reflections(@builtin(global_invocation_id) invocation: vec3u) {
+fn sample_reflections(@builtin(global_invocation_id) invocation: vec3u) {
     let index = invocation.x;
     if index >= arrayLength(&results) {
         return;

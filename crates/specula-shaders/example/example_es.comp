@@ -3,18 +3,18 @@
 precision highp float;
 precision highp int;
 
-// A worked example of `specula shaders`: draws reflections off rough metal of reflectance 1.
+// A worked example of `specula shaders`: samples reflections off rough metal of reflectance 1.
 // Drivers know no include: put the library's text in its place, or let your compiler do so.
 
 #include "specula_es.glsl"
 
 layout(local_size_x = 64) in;
 
-/// For each draw two vectors: the view (unit, local, z up) with alpha, two uniform numbers in [0, 1).
+/// For each sample two vectors: the view (unit, local, z up) with alpha, two uniform numbers in [0, 1).
 layout(std430, binding = 1) readonly buffer Requests {
     vec4 requests[];
 };
-/// For each draw the direction of the light, and `f cos / pdf`; 0 where it went below the surface.
+/// For each sample the direction of the light, and `f cos / pdf`; 0 where it went below the surface.
 layout(std430, binding = 2) writeonly buffer Results {
     vec4 results[];
 };

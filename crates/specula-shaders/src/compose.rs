@@ -3,53 +3,9 @@
 //! Modules are concatenated as they are, so that comments and names survive. Nothing is renamed: names
 //! begin with their module's, and are unique.
 
-use thiserror::Error;
-
+use crate::error::ComposeError;
 use crate::modules::{MODULES, Module};
 use crate::names::nearest;
-
-/// What is wrong with a request, or with the modules themselves.
-#[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum ComposeError {
-    /// A module was asked for that there is none of.
-    #[error("there is no module `{name}`{}", did_you_mean(nearest))]
-    UnknownModule {
-        /// What was asked for.
-        name: String,
-        /// Names of modules that are spelt nearly so.
-        nearest: Vec<&'static str>,
-    },
-    /// A module imports from one that there is none of.
-    #[error("module `{module}` imports from `{path}`, which does not exist")]
-    UnknownImport {
-        /// The module with the import.
-        module: String,
-        /// What it imports from.
-        path: String,
-    },
-    /// Modules import each other.
-    #[error("modules import each other: {}", .0.join(" -> "))]
-    Cycle(Vec<String>),
-    /// An import that is not in the form that [`Module::imports`] reads.
-    #[error(
-        "module `{module}`: expected `import package::folder::module::{{name}};`, found `{statement}`"
-    )]
-    Syntax {
-        /// The module with the import.
-        module: String,
-        /// What it says.
-        statement: String,
-    },
-}
-
-fn did_you_mean(nearest: &[&str]) -> String {
-    if nearest.is_empty() {
-        return String::new();
-    }
-    let names: Vec<String> = nearest.iter().map(|n| format!("`{n}`")).collect();
-    format!("; did you mean {}?", names.join(" or "))
-}
 
 /// The wanted modules and all that they import, each behind what it imports; all modules where none
 /// is named.

@@ -2,8 +2,9 @@
 
 use thiserror::Error;
 
-use crate::compose::{ComposeError, compose, ordered};
+use crate::compose::{compose, ordered};
 use crate::document::documented;
+use crate::error::ComposeError;
 use crate::header::{TABLE_MODULE, header};
 use crate::language::Language;
 use crate::modules::Module;

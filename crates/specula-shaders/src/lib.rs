@@ -14,6 +14,7 @@
 mod compose;
 mod declarations;
 mod document;
+mod error;
 mod export;
 mod header;
 mod items;
@@ -26,8 +27,9 @@ mod spirv;
 mod tables;
 mod translate;
 
-pub use compose::{ComposeError, compose, ordered};
+pub use compose::{compose, ordered};
 pub use declarations::{Declaration, Field, Kind, declarations, fields};
+pub use error::ComposeError;
 pub use export::{EXAMPLE_MODULES, ExportError, File, export};
 pub use language::Language;
 pub use modules::{Import, MODULES, Module};

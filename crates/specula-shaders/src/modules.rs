@@ -1,6 +1,6 @@
 //! The modules: one row for each file of `wgsl/`.
 
-use crate::compose::ComposeError;
+use crate::error::ComposeError;
 
 /// A file of `wgsl/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

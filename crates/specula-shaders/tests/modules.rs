@@ -196,53 +196,149 @@ fn undocumented_fields(module: &Module) -> Vec<String> {
 }
 
 #[test]
-fn every_module_has_its_twin() {
+fn every_function_has_its_twin() {
     let mut findings = Vec::new();
     for module in MODULES {
-        let lines = module.text.lines();
-        let twins: Vec<&str> = lines
-            .filter_map(|l| l.trim_start().strip_prefix("/// Twin: "))
-            .collect();
-        if twins.is_empty() {
-            findings.push(format!("{}: nothing has a twin", module.path));
+        for declared in declarations(module.text) {
+            let has_twin = declared.docs.iter().any(|d| d.contains("Twin: "));
+            if declared.kind == Kind::Function && !has_twin {
+                findings.push(format!("{}: `{}` has no twin", module.path, declared.name));
+            }
         }
-        // Others are functions of Rust's libraries, or none for a reason that is given.
-        let specula = twins.iter().filter(|t| t.starts_with("specula-"));
-        let wrong = specula.filter_map(|twin| missing_twin(twin));
-        findings.extend(wrong.map(|w| format!("{}: {w}", module.path)));
+        findings.extend(wrong_twins(module.path, module.text));
     }
     none(&findings);
 }
 
-/// What is not there of `specula-bsdf/src/vndf/cap.rs, sample_wm`.
+#[test]
+fn twins_of_the_tracer_are_there() {
+    let folder = crate_folder().join("../specula-gpu/wgsl");
+    let mut names = BTreeSet::new();
+    files(&folder, "", &mut names);
+    let mut findings = Vec::new();
+    for name in names {
+        let text = std::fs::read_to_string(folder.join(format!("{name}.wgsl"))).unwrap();
+        findings.extend(wrong_twins(&name, &text));
+    }
+    none(&findings);
+}
+
+/// The twins of a WGSL text that Rust does not have.
+fn wrong_twins(module: &str, text: &str) -> Vec<String> {
+    let twins = text.lines().filter_map(|l| {
+        let doc = l.trim_start().strip_prefix("/// ")?;
+        Some(doc.split_once("Twin: ")?.1)
+    });
+    // Others are functions of Rust's libraries, or none for a reason that is given.
+    let specula = twins.filter(|twin| twin.starts_with("specula-"));
+    let wrong = specula.filter_map(missing_twin);
+    wrong.map(|w| format!("{module}: {w}")).collect()
+}
+
+/// What is not there of `specula-bsdf/src/vndf/cap.rs, Cap::sample_wm`: the file, the type in it (`struct`, `enum`,
+/// `trait` or `impl`), or the function, constant, type or variant of exactly that name.
 fn missing_twin(twin: &str) -> Option<String> {
-    let crates = crate_folder().join("..");
-    let (file, names) = match twin.split_once(".rs") {
-        Some((file, names)) => (format!("{file}.rs"), names),
-        None => return Some(format!("no file in `{twin}`")),
+    let Some((file, names)) = twin.split_once(".rs, ") else {
+        return Some(format!("`{twin}` is not `file.rs, name`"));
     };
-    // Several files: the first of `{heitz,cap}`.
-    let file = match (file.find('{'), file.find(','), file.find('}')) {
-        (Some(open), Some(comma), Some(close)) => {
-            format!(
-                "{}{}{}",
-                &file[..open],
-                &file[open + 1..comma],
-                &file[close + 1..]
-            )
-        }
-        _ => file,
-    };
-    let Ok(source) = std::fs::read_to_string(crates.join(&file)) else {
+    let file = format!("{file}.rs");
+    let Ok(source) = std::fs::read_to_string(crate_folder().join("..").join(&file)) else {
         return Some(format!("there is no {file}"));
     };
-    // What the trait gives to every lobe.
-    let lobes = std::fs::read_to_string(crates.join("specula-bsdf/src/bsdf/mod.rs")).unwrap();
-    let names = names.trim_start_matches(", ");
-    let name = names.split([' ', ',', ';', '.', '(']).next().unwrap_or("");
-    let last = name.rsplit("::").next().unwrap_or(name).trim_matches('`');
-    let is_there = source.contains(last) || lobes.contains(&format!("fn {last}("));
-    (!is_there).then(|| format!("{file} has no `{last}`"))
+    let end = names.find(|c: char| c != ':' && c != '_' && !c.is_ascii_alphanumeric());
+    let path: Vec<&str> = names[..end.unwrap_or(names.len())].split("::").collect();
+    let is_there = match path[..] {
+        [name] => declares(&source, name),
+        [owner, name] => {
+            holds(&source, owner) && (declares(&source, name) || has_variant(&source, name))
+        }
+        _ => false,
+    };
+    (!is_there).then(|| format!("{file} has no `{}`", path.join("::")))
+}
+
+/// The words of each line of code.
+fn lines_of_words(source: &str) -> impl Iterator<Item = Vec<&str>> {
+    let code = source.lines().map(|l| l.split("//").next().unwrap_or(l));
+    code.map(|l| {
+        l.split(|c: char| c != '_' && !c.is_ascii_alphanumeric())
+            .filter(|word| !word.is_empty())
+            .collect()
+    })
+}
+
+/// Whether Rust declares a function, constant or type of that name.
+fn declares(source: &str, name: &str) -> bool {
+    const KEYWORDS: [&str; 7] = ["fn", "const", "static", "struct", "enum", "trait", "type"];
+    lines_of_words(source).any(|words| {
+        words
+            .windows(2)
+            .any(|pair| KEYWORDS.contains(&pair[0]) && pair[1] == name)
+    })
+}
+
+/// Whether Rust declares a type of that name, or implements something for it.
+fn holds(source: &str, owner: &str) -> bool {
+    lines_of_words(source).any(|words| {
+        let is_impl = words.first() == Some(&"impl") && words.contains(&owner);
+        let declares = |pair: &[&str]| {
+            ["struct", "enum", "trait", "mod"].contains(&pair[0]) && pair[1] == owner
+        };
+        is_impl || words.windows(2).any(declares)
+    })
+}
+
+/// Whether an enumeration has a variant of that name.
+fn has_variant(source: &str, name: &str) -> bool {
+    source.lines().any(|line| {
+        let rest = line.trim_start().strip_prefix(name);
+        rest.is_some_and(|rest| matches!(rest.trim_start().chars().next(), Some(',' | '(' | '{')))
+    })
+}
+
+#[test]
+fn twins_are_compared_by_their_whole_names() {
+    for (twin, is_there) in [
+        ("specula-bsdf/src/vndf/cap.rs, sample_wm.", true),
+        ("specula-bsdf/src/vndf/cap.rs, sample_w.", false),
+        ("specula-bsdf/src/vndf/cap.rs, ample_wm.", false),
+        ("specula-bsdf/src/vndf/mod.rs, Sampler::Heitz.", true),
+        ("specula-bsdf/src/vndf/mod.rs, Sampler::Heit.", false),
+        ("specula-bsdf/src/vndf/mod.rs, Sample::Heitz.", false),
+        ("specula-bsdf/src/vndf/none.rs, sample_wm.", false),
+        ("specula-bsdf/src/vndf/cap.rs", false),
+    ] {
+        assert_eq!(missing_twin(twin).is_none(), is_there, "{twin}");
+    }
+}
+
+#[test]
+fn codes_are_those_of_rust() {
+    let codes = specula_bsdf::internal::shader_codes::ALL;
+    let stated: BTreeMap<&str, u32> = codes.iter().copied().collect();
+    let mut written = BTreeMap::new();
+    for module in MODULES {
+        for line in module.text.lines() {
+            let Some(constant) = line.strip_prefix("const ") else {
+                continue;
+            };
+            let Some((name, value)) = constant.split_once(": u32 = ") else {
+                continue;
+            };
+            if stated.contains_key(name) || is_module_of_codes(module.path) {
+                written.insert(name, value.trim_end_matches("u;").parse().unwrap());
+            }
+        }
+    }
+    assert_eq!(written, stated);
+}
+
+/// Whether all constants of a module are codes of a choice that Rust has, too.
+fn is_module_of_codes(path: &str) -> bool {
+    matches!(
+        path,
+        "ndf/distribution" | "vndf/sampler" | "energy/model" | "multibounce/multibounce_model"
+    )
 }
 
 #[test]
@@ -422,4 +518,23 @@ fn every_name_that_is_parsed_is_a_declaration() {
             assert!(found.contains(name), "{}: `{name}`", module.path);
         }
     }
+}
+
+macro_rules! shaders_of_lobes {
+    ($($(#[$doc:meta])* $name:ident: $lobe:ty, $sides:ident, $batch:ident, $shader:literal;)*) => {
+        &[$((stringify!($name), $shader)),*]
+    };
+}
+
+#[test]
+fn every_lobe_has_its_shader() {
+    let lobes: &[(&str, &str)] = specula_bsdf::lobe_table!(shaders_of_lobes);
+    let missing = lobes
+        .iter()
+        .filter(|(_, shader)| !MODULES.iter().any(|m| m.path == *shader));
+    none(
+        &missing
+            .map(|(lobe, shader)| format!("lobe {lobe}: there is no wgsl/{shader}.wgsl"))
+            .collect::<Vec<_>>(),
+    );
 }

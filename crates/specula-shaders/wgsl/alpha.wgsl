@@ -7,11 +7,11 @@
 ///
 /// Twin: specula-bsdf/src/alpha.rs, Alpha::SPECULAR_BELOW.
 const ALPHA_SPECULAR_BELOW: f32 = 1e-3;
-/// Smallest width.
+/// Smallest alpha.
 ///
 /// Twin: specula-bsdf/src/alpha.rs, Alpha::MIN.
 const ALPHA_MIN: f32 = 1e-4;
-/// Largest width.
+/// Largest alpha.
 ///
 /// Twin: specula-bsdf/src/alpha.rs, Alpha::MAX.
 const ALPHA_MAX: f32 = 10.0;

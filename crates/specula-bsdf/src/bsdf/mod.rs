@@ -14,6 +14,7 @@ pub(crate) mod gltf;
 mod lambert;
 mod layered;
 mod lobe;
+mod lobe_table;
 mod multibounce_conductor;
 mod multibounce_dielectric;
 mod multibounce_diffuse;

@@ -1,4 +1,4 @@
-//! Lights: what shaders draw and look up, beside the renderer on the CPU, at random points of scenes
+//! Lights: what shaders sample and look up, beside the renderer on the CPU, at random points of scenes
 //! with every kind of light. Faults planted in the shaders are noticed.
 //!
 //! Where no GPU is found, the tests say that they are skipped; `SPECULA_GPU=require` makes that a
@@ -13,13 +13,11 @@
 mod common;
 mod scenes;
 
-use std::fmt::Write as _;
-
 use common::gpu;
 use scenes::scenes;
 use specula_bsdf::math::{Stream, warp};
 use specula_gpu::{ComputeKernel, Gpu};
-use specula_render::{FlatScene, PreparedScene, RenderOptions};
+use specula_render::{FlatScene, LitPoint, PreparedScene, RenderOptions};
 use specula_scene::Scene;
 
 /// Receivers of each scene.
@@ -100,7 +98,7 @@ fn answer_all(@builtin(global_invocation_id) id: vec3u) {
     let to = 34u * id.x;
     let receiver = Receiver(case_vector(at), case_vector(at + 3u));
     let u = vec4f(cases[at + 6u], cases[at + 7u], cases[at + 8u], cases[at + 9u]);
-    let sampled = lights_draw(receiver, u);
+    let sampled = lights_sample(receiver, u);
     answers[to] = f32(sampled.valid);
     answer_vector(to + 1u, sampled.wi);
     answers[to + 4u] = sampled.pdf;
@@ -166,21 +164,27 @@ fn question(
     words[14..17].copy_from_slice(&[0.0, 0.6, 0.8]);
     words[17..20].copy_from_slice(&warp::uniform_sphere([u[1], u[2]]).to_array());
     words[20..22].copy_from_slice(&[0.5 * u[1], 0.5 * u[2]]);
-    if let Some(sampled) = scene.probe_light(lit, u) {
+    let (position, normal) = lit;
+    let lit = LitPoint { position, normal };
+    if let Some(sample) = scene.sample_light(&lit, u) {
         answer[0] = 1.0;
-        answer[1..19].copy_from_slice(&sampled);
-        words[17..20].copy_from_slice(&sampled[..3]);
-        let is_surface = sampled[7] == 0.0 && sampled[17] == 0.0;
-        if is_surface {
-            words[11..14].copy_from_slice(&sampled[8..11]);
-            words[14..17].copy_from_slice(&sampled[14..17]);
+        answer[1..4].copy_from_slice(&sample.wi);
+        answer[4] = sample.pdf;
+        answer[5..8].copy_from_slice(&sample.radiance);
+        answer[8] = f32::from(u8::from(sample.is_delta));
+        answer[18] = f32::from(u8::from(sample.target.is_none()));
+        answer[9..18].copy_from_slice(sample.target.unwrap_or_default().as_flattened());
+        words[17..20].copy_from_slice(&sample.wi);
+        if let (Some([point, _, normal]), false) = (sample.target, sample.is_delta) {
+            words[11..14].copy_from_slice(&point);
+            words[14..17].copy_from_slice(&normal);
         }
     }
     let triple = |at: usize| [words[at], words[at + 1], words[at + 2]];
     let weights = [words[20], words[21]];
-    answer[20] = scene.probe_light_pdf(lit, light, triple(11), triple(14), weights);
-    answer[21] = scene.probe_share_from_infinity(lit);
-    let arriving = scene.probe_infinity(triple(17));
+    answer[20] = scene.light_pdf(&lit, light, [triple(11), triple(14)], weights);
+    answer[21] = scene.probability_of_infinity(&lit);
+    let arriving = scene.radiance_from_infinity(triple(17));
     assert!(arriving.len() <= FAR);
     answer[22..22 + 4 * arriving.len()].copy_from_slice(arriving.as_flattened());
     Question { words, answer }
@@ -195,10 +199,7 @@ struct Fault {
 
 fn source(flat: &FlatScene<'_>, fault: Option<&Fault>) -> String {
     // No rays are traced: the stack is never used.
-    let mut text = String::new();
-    for (name, value) in &flat.constants {
-        let _ = writeln!(text, "const {name}: u32 = {value}u;");
-    }
+    let mut text = flat.declarations();
     text += &specula_shaders::compose(&["frame", "warp"]).unwrap();
     for (name, module) in MODULES {
         let lines = module.lines().filter(|l| !l.starts_with("import "));

@@ -2,7 +2,7 @@
 //!
 //! Every lobe has two cases. One holds `eval`, `pdf` and `eval_pdf` at directions about the mirrored and
 //! the refracted one, where narrow lobes have their light, and away from them. The other holds its
-//! draws: flags, direction, weight and index against the twin, and, on the GPU alone, that density and
+//! samples: flags, direction, weight and index against the twin, and, on the GPU alone, that density and
 //! weight are those of `eval_pdf` at the direction sampled.
 
 mod coats;
@@ -59,11 +59,11 @@ macro_rules! lobe_cases {
             $module,
             "_eval(lobe, wo, wi, transport).g;"
         );
-        let draws = $crate::bsdf::arguments!(
+        let samples = $crate::bsdf::arguments!(
             $make,
             "let sampled = ",
             $module,
-            "_draw(lobe, wo, u, transport);
+            "_sample(lobe, wo, u, transport);
              y[0] = f32(sampled.flags);
              if sampled.flags != 0u {
                  y[1] = sampled.wi.x; y[2] = sampled.wi.y; y[3] = sampled.wi.z;
@@ -81,9 +81,9 @@ macro_rules! lobe_cases {
              }"
         );
         $crate::bsdf::pair(
-            [concat!($name, "_values"), concat!($name, "_draws")],
+            [concat!($name, "_values"), concat!($name, "_samples")],
             &[$module, "bsdf_sample"],
-            [values, draws],
+            [values, samples],
             [
                 $crate::harness::twins!(|x| $crate::bsdf::values(&$twin(&x[7..]), x)),
                 $crate::harness::twins!(|x| $crate::bsdf::sampled(&$twin(&x[7..]), x)),
@@ -106,7 +106,7 @@ pub(crate) fn pair(
     bounds: [f64; 2],
     floor: &'static [f64],
 ) -> [Case; 2] {
-    let [values, draws] = inputs;
+    let [values, samples] = inputs;
     let one = |k: usize, inputs: &[Vec<f32>], scale| Case {
         name: names[k],
         modules,
@@ -119,7 +119,7 @@ pub(crate) fn pair(
         scale,
         strays: 0,
     };
-    [one(0, &values, floor), one(1, &draws, &[1.0])]
+    [one(0, &values, floor), one(1, &samples, &[1.0])]
 }
 
 /// `eval_pdf`, `pdf` and the green of `eval`.
@@ -131,7 +131,7 @@ pub(crate) fn values<T: Real>(lobe: &Lobe<T>, x: &[T]) -> Vec<T> {
     vec![f.r, f.g, f.b, pdf, lobe.pdf(wo, wi), other.g]
 }
 
-/// Flags, direction, weight, index, and the probability where it is specular; zeros where the draw
+/// Flags, direction, weight, index, and the probability where it is specular; zeros where the sample
 /// failed.
 pub(crate) fn sampled<T: Real>(lobe: &Lobe<T>, x: &[T]) -> Vec<T> {
     let u = [x[3], x[4], x[5]];
@@ -327,19 +327,19 @@ fn wrong_terms_are_caught() {
 #[rustfmt::skip]
 const FAULTS: [[&str; 4]; 27] = [
     ["rough_conductor_values", "rough_conductor", "let quarter = 0.25 * facet.x", "let quarter = 0.2501 * facet.x"],
-    ["rough_conductor_draws", "rough_conductor", "norm * norm * quotient.x", "norm * quotient.x"],
-    ["smooth_conductor_draws", "smooth_conductor", "vec3f(-wo.x, -wo.y", "vec3f(-wo.x, wo.y"],
+    ["rough_conductor_samples", "rough_conductor", "norm * norm * quotient.x", "norm * quotient.x"],
+    ["smooth_conductor_samples", "smooth_conductor", "vec3f(-wo.x, -wo.y", "vec3f(-wo.x, wo.y"],
     ["lambert_values", "lambert", "lobe.albedo * pdf, pdf", "lobe.albedo * pdf, 1.00001 * pdf"],
     ["eon_values", "eon", "0.28779340921080643", "0.2878"],
     ["diffuse_transmission_values", "diffuse_transmission", "select(1.0 - p, p", "select(p, p"],
     ["compensated_values", "compensated", "lobe.colour * shape", "lobe.average * shape"],
-    ["compensated_draws", "compensated", "max(1.0 - loss, 1e-5)", "max(1.01 - loss, 1e-5)"],
+    ["compensated_samples", "compensated", "max(1.0 - loss, 1e-5)", "max(1.01 - loss, 1e-5)"],
     ["rough_dielectric_values", "rough_dielectric", "cos_o * abs(cos_i) * inverse_squared", "cos_o * inverse_squared"],
-    ["rough_dielectric_draws", "rough_dielectric", "select(1.0, side.inverse_eta * side.inverse_eta", "select(1.0, side.inverse_eta"],
+    ["rough_dielectric_samples", "rough_dielectric", "select(1.0, side.inverse_eta * side.inverse_eta", "select(1.0, side.inverse_eta"],
     ["rough_dielectric_values", "tints", "tints.transmission, tints.reflection", "tints.reflection, tints.transmission"],
     ["rough_conductor_values", "microfacets", "return masking_divided(", "return 1.001 * masking_divided("],
-    ["smooth_dielectric_draws", "smooth_dielectric", "select(lobe.eta, 1.0 / lobe.eta", "select(lobe.eta, lobe.eta"],
-    ["thin_dielectric_draws", "thin_dielectric", "2.0 * single / (1.0 + single)", "2.0 * single / (1.001 + single)"],
+    ["smooth_dielectric_samples", "smooth_dielectric", "select(lobe.eta, 1.0 / lobe.eta", "select(lobe.eta, lobe.eta"],
+    ["thin_dielectric_samples", "thin_dielectric", "2.0 * single / (1.0 + single)", "2.0 * single / (1.001 + single)"],
     ["compensated_dielectric_values", "compensated_dielectric", "== reflects", "!= reflects"],
     ["coated_diffuse_values", "coated_diffuse", "power *= square", "power *= q"],
     ["plastic_values", "plastic", "back * internal", "internal"],
@@ -369,12 +369,12 @@ fn faults() -> Vec<Fault> {
 }
 
 /// Samples of each view of a furnace.
-const DRAWS: u16 = 8192;
+const SAMPLES: u16 = 8192;
 
 /// Arguments of the samples of one view: `wo`, `u`, alphas and model.
-fn furnace_draws(cosine: f64, [x, y]: [f32; 2], model: f32) -> impl Iterator<Item = [f32; 9]> {
+fn furnace_samples(cosine: f64, [x, y]: [f32; 2], model: f32) -> impl Iterator<Item = [f32; 9]> {
     let [a, b, c] = direction(cosine, 0.4);
-    (0..usize::from(DRAWS)).map(move |i| {
+    (0..usize::from(SAMPLES)).map(move |i| {
         let ([second, third], [first, _]) = (r2(i), r2(7 * i + 3));
         [a, b, c, first, second, third, x, y, model]
     })
@@ -383,7 +383,7 @@ fn furnace_draws(cosine: f64, [x, y]: [f32; 2], model: f32) -> impl Iterator<Ite
 /// The mean and its standard error.
 fn mean(weights: &[f32]) -> [f64; 2] {
     let sum = |of: fn(f64) -> f64| weights.iter().map(|&w| of(f64::from(w))).sum::<f64>();
-    let count = f64::from(DRAWS);
+    let count = f64::from(SAMPLES);
     let mean = sum(|w| w) / count;
     let variance = sum(|w| w * w) / count - mean * mean;
     [mean, (variance.max(0.0) / count).sqrt()]
@@ -400,15 +400,15 @@ fn white_metal_keeps_all_light() {
             views.extend([1.0, 0.7, 0.3, 0.05].map(|cosine| (cosine, alpha, model)));
         }
     }
-    let draws = |&(cosine, alpha, model): &_| furnace_draws(cosine, alpha, model);
-    let inputs: Vec<[f32; 9]> = views.iter().flat_map(draws).collect();
+    let samples = |&(cosine, alpha, model): &_| furnace_samples(cosine, alpha, model);
+    let inputs: Vec<[f32; 9]> = views.iter().flat_map(samples).collect();
     let body = "let facets = MicrofacetsModel(vec2f(x[6], x[7]), DISTRIBUTION_GGX, MASKING_HEIGHT_CORRELATED, SAMPLER_EXACT);
          let lobe = compensated_new(facets, reflectance_constant(vec3f(1.0)), u32(x[8]));
-         let sampled = compensated_draw(lobe, vec3f(x[0], x[1], x[2]), vec3f(x[3], x[4], x[5]), 0u);
+         let sampled = compensated_sample(lobe, vec3f(x[0], x[1], x[2]), vec3f(x[3], x[4], x[5]), 0u);
          y[0] = select(0.0, sampled.weight.g, sampled.flags != 0u);";
     let weights = evaluate(gpu, &["compensated"], body, &inputs, 1);
     let mut worst = 0.0_f64;
-    for (view, weights) in views.iter().zip(weights.chunks(usize::from(DRAWS))) {
+    for (view, weights) in views.iter().zip(weights.chunks(usize::from(SAMPLES))) {
         let [mean, error] = mean(weights);
         let missing = (mean - 1.0).abs();
         worst = worst.max(missing);

@@ -361,7 +361,7 @@ fn interface_cases() -> Vec<Case> {
         Case::new(
             "interface_shares",
             &["interface", "interface_single"],
-            "let width = interface_width(vec2f(x[0], x[1]));
+            "let width = interface_mean_alpha(vec2f(x[0], x[1]));
              y[0] = interface_transmittance(width, x[2], x[3]);
              y[1] = interface_internal_reflectance(width, x[2]);
              y[2] = interface_effective_cosine(x[3], width);
@@ -437,10 +437,10 @@ fn every_function_is_covered() {
             ("albedo_anisotropic", losses),
             ("coordinates_bend", "a step of coordinates_interface_cosine"),
             ("dielectric_albedo_isotropic_average", interfaces),
-            ("dielectric_albedo_stretched_average", interfaces),
+            ("dielectric_albedo_anisotropic_average", interfaces),
             ("dielectric_albedo_isotropic", interfaces),
             ("dielectric_albedo_row", interfaces),
-            ("dielectric_albedo_stretched", interfaces),
+            ("dielectric_albedo_anisotropic", interfaces),
             ("interface_knot", coats),
             ("interface_eta_knot", coats),
             ("interface_alpha_knot", coats),

@@ -156,8 +156,8 @@ fn cases() -> Vec<Case> {
         )
         .with_strays(3),
         walk(
-            "layered_draw",
-            coat!(stored!("layered_draw(lobe, wo, wi, &stream)")),
+            "layered_sample",
+            coat!(stored!("layered_sample(lobe, wo, wi, &stream)")),
             numbers(),
             walks!(|x| {
                 let (wo, u, transport) = (vector(x, 2), [x[5], x[6], x[7]], Transport::Radiance);
@@ -200,7 +200,7 @@ fn cases() -> Vec<Case> {
 const ELSEWHERE: &[(&str, &str)] = &[
     (
         "layered_value",
-        "layered_base_is_mirror layered_base_eval_pdf layered_base_draw layered_base_reflectance
+        "layered_base_is_mirror layered_base_eval_pdf layered_base_sample layered_base_reflectance
          layered_coat_rough layered_coat_reflection layered_coat_below layered_coat_enter
          layered_coat_bounce layered_coat_passes layered_connect_ways layered_connect_share
          layered_connect_at_base layered_connect_sampled_from_light layered_connect_at_particle
@@ -211,9 +211,9 @@ const ELSEWHERE: &[(&str, &str)] = &[
          layered_walk_survives layered_walk_eval",
     ),
     (
-        "layered_draw",
+        "layered_sample",
         "layered_coat_scatter_above layered_coat_scatter_below layered_lobe_mirrored
-         layered_walk_draw",
+         layered_walk_sample",
     ),
     (
         "layered_density",
@@ -237,7 +237,7 @@ const FAULTS: &[Fault] = &[
         "base.kind == LAYERED_BASE_DIFFUSE;",
     ),
     fault(
-        "layered_draw",
+        "layered_sample",
         "bsdf/layered/layered_coat",
         "u.x < bent.reflectance",
         "u.x < 2.0 * bent.reflectance",
@@ -300,17 +300,17 @@ fn planted_faults_are_caught() {
 }
 
 #[test]
-fn values_and_draws_have_the_means_of_the_twins() {
+fn values_and_samples_have_the_means_of_the_twins() {
     const VALUE: &str = coat!(
         "lobe.max_depth = 40u;",
         summed!("let value = layered_eval(lobe, wo, wi, &stream);")
     );
-    const DRAW: &str = coat!(
+    const SAMPLE: &str = coat!(
         "lobe.max_depth = 40u;",
         summed!(
             "let number = stream_next(&stream);
          let other = stream_next(&stream);
-         let sampled = layered_draw(lobe, wo, vec3f(number, other, stream_next(&stream)), &stream);
+         let sampled = layered_sample(lobe, wo, vec3f(number, other, stream_next(&stream)), &stream);
          var value = vec3f(0.0);
          if sampled.flags != 0u { value = sampled.weight.r * vec3f(1.0, sampled.wi.x, sampled.wi.z); }"
         )
@@ -334,9 +334,9 @@ fn values_and_draws_have_the_means_of_the_twins() {
         },
     ));
     report += &held(compare(
-        "layered draws",
+        "layered samples",
         MODULES,
-        DRAW,
+        SAMPLE,
         &some,
         |x, stream| {
             let u = [stream.next(), stream.next(), stream.next()];

@@ -81,9 +81,9 @@ use glass;
 
 /// Statements that store a sample.
 macro_rules! stored {
-    ($($draw:literal),*) => {
+    ($($sample:literal),*) => {
         concat!(
-            "let sampled = ", $($draw),*, ";
+            "let sampled = ", $($sample),*, ";
              y[0] = f32(sampled.flags);
              if sampled.flags != 0u {
                  y[1] = sampled.wi.x; y[2] = sampled.wi.y; y[3] = sampled.wi.z;
@@ -309,14 +309,14 @@ fn other_values() -> Vec<Case> {
     ]
 }
 
-/// The models' draws, one case each.
-fn draws() -> Vec<Case> {
+/// The models' samples, one case each.
+fn samples() -> Vec<Case> {
     let case = |name, modules, body, twin| {
         let case = Case::new(name, modules, body, numbers(), twin, BOUND);
         let strays = case.inputs.len() / case.arguments * STRAYS / 1000;
         case.at_scale(&[SCALE]).with_strays(strays)
     };
-    macro_rules! draw {
+    macro_rules! sample {
         ($name:literal, $module:literal, $call:literal, $model:expr) => {
             case(
                 $name,
@@ -339,36 +339,36 @@ fn draws() -> Vec<Case> {
         };
     }
     vec![
-        draw!(
-            "heitz_draw",
+        sample!(
+            "heitz_sample",
             "heitz2016",
-            "heitz2016_draw(facets, wo, wi.yz, &stream)",
+            "heitz2016_sample(facets, wo, wi.yz, &stream)",
             Model::Heitz2016
         ),
-        draw!(
-            "wang_draw",
+        sample!(
+            "wang_sample",
             "wang2022",
-            "wang2022_draw(facets, true, wo, wi.yz, &stream)",
+            "wang2022_sample(facets, true, wo, wi.yz, &stream)",
             Model::Wang2022 { correlated: true }
         ),
-        draw!(
-            "wang_uncorrelated_draw",
+        sample!(
+            "wang_uncorrelated_sample",
             "wang2022",
-            "wang2022_draw(facets, false, wo, wi.yz, &stream)",
+            "wang2022_sample(facets, false, wo, wi.yz, &stream)",
             Model::Wang2022 { correlated: false }
         ),
-        draw!(
-            "cui_draw",
+        sample!(
+            "cui_sample",
             "cui2023",
-            "cui2023_draw(facets, wo, wi.yz, &stream)",
+            "cui2023_sample(facets, wo, wi.yz, &stream)",
             Model::Cui2023 {
                 bidirectional: false
             }
         ),
-        draw!(
-            "stratified_bidirectional_draw",
+        sample!(
+            "stratified_bidirectional_sample",
             "stratified_bidirectional",
-            "stratified_bidirectional_draw(facets, wo, wi.yz, &stream)",
+            "stratified_bidirectional_sample(facets, wo, wi.yz, &stream)",
             Model::StratifiedBidirectional
         ),
     ]
@@ -406,11 +406,11 @@ fn lobes() -> Vec<Case> {
             }),
         ),
         walks_of(
-            "conductor_draw",
+            "conductor_sample",
             of_metal,
             metal!(
                 "let lobe = MultibounceConductor(facets, u32(x[8]) % 7u, MIS_PDF_NORMALISED);",
-                stored!("multibounce_conductor_draw(lobe, wo, wi, &stream)")
+                stored!("multibounce_conductor_sample(lobe, wo, wi, &stream)")
             ),
             numbers(),
             walks!(|x| {
@@ -437,11 +437,11 @@ fn lobes() -> Vec<Case> {
             }),
         ),
         walks_of(
-            "diffuse_draw",
+            "diffuse_sample",
             diffuse,
             metal!(
                 "let lobe = MultibounceDiffuse(normals, vec3f(0.9, 0.5, 0.1));",
-                stored!("multibounce_diffuse_draw(lobe, wo, wi, &stream)")
+                stored!("multibounce_diffuse_sample(lobe, wo, wi, &stream)")
             ),
             numbers(),
             walks!(|x| {
@@ -494,7 +494,7 @@ fn interfaces() -> Vec<Case> {
         case.at_scale(&[SCALE]).with_strays(strays)
     };
     macro_rules! interface {
-        ($name:literal, $draw:literal, $constant:literal, $model:expr) => {
+        ($name:literal, $sample:literal, $constant:literal, $model:expr) => {
             [
                 case(
                     $name,
@@ -512,11 +512,11 @@ fn interfaces() -> Vec<Case> {
                     }),
                 ),
                 case(
-                    $draw,
+                    $sample,
                     glass!(
                         $constant,
                         "MIS_PDF_NORMALISED",
-                        stored!("multibounce_dielectric_draw(lobe, wo, wi, 1u, &stream)")
+                        stored!("multibounce_dielectric_sample(lobe, wo, wi, 1u, &stream)")
                     ),
                     with_index(&numbers()),
                     walks!(|x| {
@@ -531,14 +531,14 @@ fn interfaces() -> Vec<Case> {
     }
     let mut cases = interface!(
         "heitz_interface_value",
-        "heitz_interface_draw",
+        "heitz_interface_sample",
         "MULTIBOUNCE_MODEL_HEITZ",
         Model::Heitz2016
     )
     .to_vec();
     cases.extend(interface!(
         "stratified_bidirectional_interface_value",
-        "stratified_bidirectional_interface_draw",
+        "stratified_bidirectional_interface_sample",
         "MULTIBOUNCE_MODEL_STRATIFIED_BIDIRECTIONAL",
         Model::StratifiedBidirectional
     ));
@@ -548,7 +548,7 @@ fn interfaces() -> Vec<Case> {
 fn cases() -> Vec<Case> {
     let mut cases = values();
     cases.extend(other_values());
-    cases.extend(draws());
+    cases.extend(samples());
     cases.extend(lobes());
     cases.extend(interfaces());
     cases.extend(closed());
@@ -564,7 +564,7 @@ fn closed_forms_hold() {
 fn walks_of_metals_are_the_twins() {
     let mut cases = values();
     cases.extend(other_values());
-    cases.extend(draws());
+    cases.extend(samples());
     cases.extend(lobes());
     prove("multibounce, metals", &cases);
 }

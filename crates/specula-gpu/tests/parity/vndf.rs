@@ -11,16 +11,16 @@ use crate::harness::{
 use crate::ndf::is_visible;
 
 /// Points of the unit square for each pair of alphas and view.
-const DRAWS: usize = 24;
+const SAMPLES: usize = 24;
 
 /// Alphas, a view and a point of the unit square.
-fn draws() -> Vec<[f32; 7]> {
+fn samples() -> Vec<[f32; 7]> {
     let edges = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.6, -0.8, 1e-6]];
     let views = [both_sides(), edges.to_vec()].concat();
     let mut rows = Vec::new();
     for [ax, ay] in ALPHAS {
         for wo in &views {
-            for _ in 0..DRAWS {
+            for _ in 0..SAMPLES {
                 let u = r2(rows.len());
                 rows.push([ax, ay, wo[0], wo[1], wo[2], u[0], u[1]]);
             }
@@ -36,7 +36,7 @@ fn pairs() -> Vec<[f32; 8]> {
         let wi = exact::sample_direction(alpha(&x, 0), wo, [x[5], x[6]]);
         [x[0], x[1], x[2], x[3], x[4], wi.x, wi.y, wi.z]
     };
-    let mut rows: Vec<[f32; 8]> = draws().into_iter().step_by(5).map(pair).collect();
+    let mut rows: Vec<[f32; 8]> = samples().into_iter().step_by(5).map(pair).collect();
     for [ax, ay] in ALPHAS {
         for wo in both_sides() {
             let away = both_sides().into_iter().step_by(3);
@@ -47,7 +47,7 @@ fn pairs() -> Vec<[f32; 8]> {
 }
 
 /// Statements before those of a sample.
-macro_rules! drawing {
+macro_rules! sampling {
     ($($body:literal)*) => {
         concat!(
             "let alpha = vec2f(x[0], x[1]);
@@ -101,7 +101,7 @@ fn samplers() -> Vec<Case> {
             "heitz_normals",
             &["heitz"],
             direction_of!("heitz_sample_wm(alpha, wo, u)"),
-            draws(),
+            samples(),
             sampled!(heitz::sample_wm),
             // Along the surface and alpha 1e-3: the last point of the ellipse is a root of a difference.
             3000.0,
@@ -111,7 +111,7 @@ fn samplers() -> Vec<Case> {
             "cap_normals",
             &["cap"],
             direction_of!("cap_sample_wm(alpha, wo, u)"),
-            draws(),
+            samples(),
             sampled!(cap::sample_wm),
             256.0,
         )
@@ -120,7 +120,7 @@ fn samplers() -> Vec<Case> {
             "cap_reflections",
             &["cap"],
             direction_of!("cap_sample_direction(alpha, wo, u)"),
-            draws(),
+            samples(),
             sampled!(cap::sample_direction),
             256.0,
         )
@@ -129,7 +129,7 @@ fn samplers() -> Vec<Case> {
             "bounded_reflections",
             &["bounded"],
             direction_of!("bounded_sample_direction(alpha, wo, u)"),
-            draws(),
+            samples(),
             sampled!(bounded::sample_direction),
             // Reflections of alphas (8, 0.01) turn fast with the half vector.
             512.0,
@@ -139,7 +139,7 @@ fn samplers() -> Vec<Case> {
             "exact_reflections",
             &["exact"],
             direction_of!("exact_sample_direction(alpha, wo, u)"),
-            draws(),
+            samples(),
             sampled!(exact::sample_direction),
             // The same of alphas (1e-4, 10).
             2000.0,
@@ -149,7 +149,7 @@ fn samplers() -> Vec<Case> {
             "beckmann_normals",
             &["beckmann_visible"],
             direction_of!("beckmann_visible_sample_wm(alpha, wo, u)"),
-            draws(),
+            samples(),
             sampled!(beckmann::sample_wm),
             // The twin finds its roots in f64.
             256.0,
@@ -169,7 +169,7 @@ fn chosen_samplers() -> Vec<Case> {
         Case::new(
             "chosen_reflections",
             &["reflection"],
-            drawing!(
+            sampling!(
                 "for (var k = 0u; k < 4u; k++) {
                      let w = reflection_sample_direction(k, alpha, wo, u);
                      y[3u * k] = w.x; y[3u * k + 1u] = w.y; y[3u * k + 2u] = w.z;
@@ -177,13 +177,13 @@ fn chosen_samplers() -> Vec<Case> {
                  let w = reflection_mirrored(wo, vec3f(0.36, 0.48, 0.8));
                  y[12] = w.x; y[13] = w.y; y[14] = w.z;"
             ),
-            draws(),
+            samples(),
             twins!(|x| {
                 let (ggx, wo) = (Ggx::new(alpha(x, 0)), vector(x, 2));
-                let draw = |s| ggx.sample_reflection(s, wo, [x[5], x[6]]).to_array();
+                let sample = |s| ggx.sample_reflection(s, wo, [x[5], x[6]]).to_array();
                 let wm = [0.36_f32, 0.48, 0.8].map(|c| T::of(c.into()));
                 let mirrored = reflect(wo, wm.into()).to_array();
-                [CHOSEN.map(draw).as_flattened(), &mirrored[..]].concat()
+                [CHOSEN.map(sample).as_flattened(), &mirrored[..]].concat()
             }),
             // As of Heitz.
             4000.0,
@@ -192,18 +192,18 @@ fn chosen_samplers() -> Vec<Case> {
         Case::new(
             "kept_reflections",
             &["reflections"],
-            drawing!(
+            sampling!(
                 "for (var k = 0u; k < 4u; k++) {
                      let kept = reflections_new(alpha, wo, k);
                      let w = reflections_sample_direction(kept, u);
                      y[3u * k] = w.x; y[3u * k + 1u] = w.y; y[3u * k + 2u] = w.z;
                  }"
             ),
-            draws(),
+            samples(),
             twins!(|x| {
                 let (alpha, wo): (Alpha<T>, Vec3<T>) = (alpha(x, 0), vector(x, 2));
-                let draw = |s| Reflections::new(alpha, wo, s).sample_direction([x[5], x[6]]);
-                CHOSEN.map(|s| draw(s).to_array()).concat()
+                let sample = |s| Reflections::new(alpha, wo, s).sample_direction([x[5], x[6]]);
+                CHOSEN.map(|s| sample(s).to_array()).concat()
             }),
             // As of Heitz.
             4000.0,
@@ -356,31 +356,31 @@ fn faults_in_samplers_are_noticed() {
 
 #[test]
 fn every_function_of_samplers_has_a_case() {
-    let draw = "part of its sampler's draw, private in Rust too";
+    let sample = "part of its sampler, private in Rust too";
     let norm = "part of the norm and the density";
     let elsewhere = [
-        ("stretched_new", draw),
-        ("stretched_squared_radius", draw),
-        ("half_vector_mirrored", draw),
+        ("stretched_new", sample),
+        ("stretched_squared_radius", sample),
+        ("half_vector_mirrored", sample),
         ("half_vector_density", norm),
-        ("cap_half_vector", draw),
-        ("cap_half_vector_towards", draw),
-        ("bounded_cap", draw),
-        ("bounded_bound", draw),
+        ("cap_half_vector", sample),
+        ("cap_half_vector_towards", sample),
+        ("bounded_cap", sample),
+        ("bounded_bound", sample),
         ("bounded_norm_quotient", norm),
-        ("exact_cone_new", draw),
-        ("exact_cone_root", draw),
+        ("exact_cone_new", sample),
+        ("exact_cone_root", sample),
         ("exact_cone_norm", norm),
-        ("exact_chords_half_vector", draw),
-        ("exact_chords_lift", draw),
-        ("exact_isotropic_roots", draw),
+        ("exact_chords_half_vector", sample),
+        ("exact_chords_lift", sample),
+        ("exact_isotropic_roots", sample),
         ("exact_isotropic_norm", norm),
-        ("exact_isotropic_half_vector", draw),
+        ("exact_isotropic_half_vector", sample),
         ("exact_norm_quotient", norm),
-        ("beckmann_visible_slope_along", draw),
-        ("beckmann_visible_slope_away", draw),
-        ("beckmann_visible_slope_towards", draw),
-        ("beckmann_visible_excess_below", draw),
+        ("beckmann_visible_slope_along", sample),
+        ("beckmann_visible_slope_away", sample),
+        ("beckmann_visible_slope_towards", sample),
+        ("beckmann_visible_excess_below", sample),
     ];
     assert_covered("vndf", &cases(), &elsewhere);
 }

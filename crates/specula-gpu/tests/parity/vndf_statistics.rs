@@ -19,7 +19,7 @@ struct Sampler {
     name: &'static str,
     modules: &'static [&'static str],
     /// An expression of `alpha`, `wo` and `u`.
-    draw: &'static str,
+    sample: &'static str,
     density: Density,
     /// Whether samples below the horizon are rejected.
     is_reflection: bool,
@@ -29,56 +29,56 @@ const SAMPLERS: [Sampler; 8] = [
     Sampler {
         name: "heitz normals",
         modules: &["heitz"],
-        draw: "heitz_sample_wm(alpha, wo, u)",
+        sample: "heitz_sample_wm(alpha, wo, u)",
         density: heitz::pdf_wm,
         is_reflection: false,
     },
     Sampler {
         name: "cap normals",
         modules: &["cap"],
-        draw: "cap_sample_wm(alpha, wo, u)",
+        sample: "cap_sample_wm(alpha, wo, u)",
         density: cap::pdf_wm,
         is_reflection: false,
     },
     Sampler {
         name: "beckmann normals",
         modules: &["beckmann_visible"],
-        draw: "beckmann_visible_sample_wm(alpha, wo, u)",
+        sample: "beckmann_visible_sample_wm(alpha, wo, u)",
         density: beckmann::pdf_wm,
         is_reflection: false,
     },
     Sampler {
         name: "heitz reflections",
         modules: &["reflection", "sampler"],
-        draw: "reflection_sample_direction(SAMPLER_HEITZ, alpha, wo, u)",
+        sample: "reflection_sample_direction(SAMPLER_HEITZ, alpha, wo, u)",
         density: heitz::reflection_pdf,
         is_reflection: true,
     },
     Sampler {
         name: "cap reflections",
         modules: &["reflection", "sampler"],
-        draw: "reflection_sample_direction(SAMPLER_CAP, alpha, wo, u)",
+        sample: "reflection_sample_direction(SAMPLER_CAP, alpha, wo, u)",
         density: cap::reflection_pdf,
         is_reflection: true,
     },
     Sampler {
         name: "bounded reflections",
         modules: &["reflection", "sampler"],
-        draw: "reflection_sample_direction(SAMPLER_BOUNDED, alpha, wo, u)",
+        sample: "reflection_sample_direction(SAMPLER_BOUNDED, alpha, wo, u)",
         density: bounded::reflection_pdf,
         is_reflection: true,
     },
     Sampler {
         name: "exact reflections",
         modules: &["reflections", "sampler"],
-        draw: "reflections_sample_direction(reflections_new(alpha, wo, SAMPLER_EXACT), u)",
+        sample: "reflections_sample_direction(reflections_new(alpha, wo, SAMPLER_EXACT), u)",
         density: exact::reflection_pdf,
         is_reflection: true,
     },
     Sampler {
         name: "beckmann reflections",
         modules: &["reflection", "beckmann_visible"],
-        draw: "reflection_mirrored(wo, beckmann_visible_sample_wm(alpha, wo, u))",
+        sample: "reflection_mirrored(wo, beckmann_visible_sample_wm(alpha, wo, u))",
         density: beckmann::reflection_pdf,
         is_reflection: true,
     },
@@ -89,7 +89,7 @@ const ALPHAS: [[f32; 2]; 4] = [[0.05, 0.05], [0.3, 0.3], [0.2, 0.8], [1.2, 3.0]]
 /// Views of the tests: above, grazing and below.
 const VIEWS: [(f64, f64); 3] = [(0.7, 0.3), (0.05, 2.1), (-0.3, 0.3)];
 /// Samples of each test.
-const DRAWS: u32 = 30_000;
+const SAMPLES: u32 = 30_000;
 
 /// One pair of alphas and a view.
 type TextureCoordinates = ([f32; 2], [f32; 3]);
@@ -117,7 +117,7 @@ fn peaks(alpha: Alpha<f64>, wo: Vec3<f64>) -> Vec<Peak> {
         .to_vec()
 }
 
-/// Directions sampled on the GPU, `DRAWS` for each place.
+/// Directions sampled on the GPU, `SAMPLES` for each place.
 fn sampled(
     device: &specula_gpu::Gpu,
     sampler: &Sampler,
@@ -126,7 +126,7 @@ fn sampled(
     let mut rng = Rng::from_name(sampler.name);
     let mut inputs = Vec::new();
     for &([ax, ay], [x, y, z]) in places {
-        for _ in 0..DRAWS {
+        for _ in 0..SAMPLES {
             let u = [rng.uniform_f32(), rng.uniform_f32()].map(round);
             inputs.push([ax, ay, x, y, z, u[0], u[1]]);
         }
@@ -137,7 +137,7 @@ fn sampled(
          let u = vec2f(x[5], x[6]);
          let w = {};
          y[0] = w.x; y[1] = w.y; y[2] = w.z;",
-        sampler.draw
+        sampler.sample
     );
     evaluate(device, sampler.modules, &body, &inputs, 3)
 }
@@ -145,16 +145,16 @@ fn sampled(
 /// Holds samples against a density.
 fn fit(
     name: &str,
-    draws: &[f32],
+    samples: &[f32],
     is_reflection: bool,
     (alphas, wo): TextureCoordinates,
     density: Density,
     tests: usize,
 ) -> ChiSquare {
     let (alpha, wo) = widened(alphas, wo);
-    let mut draws = draws.as_chunks::<3>().0.iter();
+    let mut samples = samples.as_chunks::<3>().0.iter();
     let options = ChiSquareOptions {
-        samples: DRAWS,
+        samples: SAMPLES,
         cells: 150,
         cos_theta_edges: vec![wo.z, -wo.z],
         peaks: peaks(alpha, wo),
@@ -162,7 +162,7 @@ fn fit(
     };
     chi_square::test(
         |_| {
-            let w: Vec3<f64> = draws.next()?.map(f64::from).into();
+            let w: Vec3<f64> = samples.next()?.map(f64::from).into();
             (!is_reflection || w.z > 0.0).then_some(w)
         },
         |w| density(alpha, wo, w),
@@ -171,7 +171,7 @@ fn fit(
     )
 }
 
-fn prove_draws(samplers: &[Sampler]) {
+fn prove_samples(samplers: &[Sampler]) {
     let places = places();
     let tests = SAMPLERS.len() * places.len();
     let Some(device) = gpu(&format!("chi-square tests of {} samplers", samplers.len())) else {
@@ -182,13 +182,13 @@ fn prove_draws(samplers: &[Sampler]) {
         let is_beckmann = sampler.name.starts_with("beckmann");
         let is_seen = |&([x, y], wo): &TextureCoordinates| !is_beckmann || is_visible(x, y, wo);
         let places: Vec<TextureCoordinates> = places.iter().copied().filter(is_seen).collect();
-        let draws = sampled(device, sampler, &places);
+        let samples = sampled(device, sampler, &places);
         let mut least = 1.0_f64;
-        for (place, draws) in places.iter().zip(draws.chunks(3 * DRAWS as usize)) {
+        for (place, samples) in places.iter().zip(samples.chunks(3 * SAMPLES as usize)) {
             let name = format!("{} {place:?}", sampler.name);
             let fit = fit(
                 &name,
-                draws,
+                samples,
                 sampler.is_reflection,
                 *place,
                 sampler.density,
@@ -210,24 +210,24 @@ fn prove_draws(samplers: &[Sampler]) {
 
 #[test]
 fn normals_follow_their_density() {
-    prove_draws(&SAMPLERS[..3]);
+    prove_samples(&SAMPLERS[..3]);
 }
 
 #[test]
 fn reflections_follow_their_density() {
-    prove_draws(&SAMPLERS[3..]);
+    prove_samples(&SAMPLERS[3..]);
 }
 
 #[test]
-fn draws_of_another_sampler_are_noticed() {
+fn samples_of_another_sampler_are_noticed() {
     let Some(device) = gpu("the planted fault of the chi-square tests") else {
         return;
     };
     let place = places()[3];
     let sampler = &SAMPLERS[5];
-    let draws = sampled(device, sampler, &[place]);
+    let samples = sampled(device, sampler, &[place]);
     let density: Density = cap::reflection_pdf;
-    let wrong = fit("bounded for cap", &draws, true, place, density, 1);
+    let wrong = fit("bounded for cap", &samples, true, place, density, 1);
     assert!(!wrong.is_pass(), "{wrong}");
 }
 

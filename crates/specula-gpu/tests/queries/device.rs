@@ -75,7 +75,9 @@ fn cast_all(@builtin(global_invocation_id) id: vec3u) {
 pub(crate) fn hits(gpu: &Gpu, scene: &PreparedScene, rays: &[Ray], way: Way) -> Vec<Hit> {
     let flat = scene.flatten();
     let structures = matches!(way, Way::Query(_)).then(|| Structures::new(gpu, scene).unwrap());
-    let module = gpu.shader("rays", &source(&flat.constants, way)).unwrap();
+    let module = gpu
+        .shader("rays", &source(&flat.declarations(), way))
+        .unwrap();
     let kernel = match &structures {
         None => ComputeKernel::new(gpu, &module, "cast_all", 4),
         Some(structures) => ComputeKernel::with_structures(gpu, &module, "cast_all", 4, structures),
@@ -108,7 +110,7 @@ pub(crate) fn hits(gpu: &Gpu, scene: &PreparedScene, rays: &[Ray], way: Way) -> 
     output.into_iter().map(hit).collect()
 }
 
-fn source(constants: &[(&str, u32)], way: Way) -> String {
+fn source(declarations: &str, way: Way) -> String {
     let (mut text, way) = match way {
         Way::Tree => (String::new(), TREE.to_owned()),
         Way::Query(fault) => {
@@ -123,9 +125,7 @@ fn source(constants: &[(&str, u32)], way: Way) -> String {
         }
     };
     text += "const STACK_SIZE: u32 = 256u;\n";
-    for (name, value) in constants {
-        text += &format!("const {name}: u32 = {value}u;\n");
-    }
+    text += declarations;
     for module in SHARED.into_iter().chain([way.as_str(), ENTRY]) {
         let code = module.lines().filter(|line| !line.starts_with("import "));
         text.extend(code.flat_map(|line| [line, "\n"]));

@@ -5,7 +5,7 @@
 
 use glam::{DMat4, DVec3};
 use specula_bsdf::Rgb;
-use specula_render::{PreparedScene, RenderOptions};
+use specula_render::{PreparedScene, PrimitivePoint, RenderOptions};
 use specula_scene::builtin;
 use specula_scene::scene::{
     Bump, BumpRules, Channel, FloatParam, Geometry, ImageId, Interpolation, Material, MaterialId,
@@ -270,12 +270,17 @@ impl Point {
 
     /// What the CPU has: normal, tangent, softened normal, factor.
     fn cpu(&self, scene: &PreparedScene, material: u32) -> [f32; 10] {
-        let [normal, tangent] = scene.probe_bump(material, self.primitive, self.weights, self.near);
+        let at = PrimitivePoint {
+            primitive: self.primitive,
+            weights: self.weights,
+            near: self.near,
+        };
+        let [normal, tangent] = scene.bumped_frame(material, &at);
         let [unbent, wi, bent] = self.directions;
-        let (softened, factor) = scene.probe_softness(material, [unbent, bent, wi.map(|x| -x), wi]);
+        let softened = scene.softened_normal(material, [unbent, bent, wi.map(|x| -x), wi]);
         let mut all = [0.0; 10];
-        all[..9].copy_from_slice([normal, tangent, softened].as_flattened());
-        all[9] = factor;
+        all[..9].copy_from_slice([normal, tangent, softened.normal].as_flattened());
+        all[9] = softened.factor;
         all
     }
 }

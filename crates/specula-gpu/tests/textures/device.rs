@@ -87,9 +87,7 @@ impl Device {
         let gpu = self.0;
         let flat = scene.flatten();
         let mut source = specula_shaders::compose(&["frame"]).unwrap();
-        for (name, value) in &flat.constants {
-            source += &format!("const {name}: u32 = {value}u;\n");
-        }
+        source += &flat.declarations();
         for (name, text) in shader.modules {
             let text = match shader.fault {
                 Some(fault) if fault.module == *name => {

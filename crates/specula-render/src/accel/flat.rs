@@ -3,9 +3,9 @@
 use glam::DAffine3;
 
 use super::{Accel, QuadricShape, instances, quadric};
+use crate::codes::{self, NONE};
 use crate::convert::{id, narrow3};
-use crate::flat::Words;
-use crate::geometry::NONE;
+use crate::words::Words;
 
 impl Accel {
     /// Nodes and packets as they are; the root, quadrics and placements as words.
@@ -35,8 +35,8 @@ impl Accel {
 
 fn flatten_quadric(quadric: &quadric::Placed, to: &mut Words) {
     let (kind, radius, height) = match quadric.shape() {
-        QuadricShape::Sphere { radius } => (0, radius, 0.0),
-        QuadricShape::Disk { radius, height } => (1, radius, height),
+        QuadricShape::Sphere { radius } => (codes::QUADRIC_SPHERE, radius, 0.0),
+        QuadricShape::Disk { radius, height } => (codes::QUADRIC_DISK, radius, height),
     };
     to.id(kind);
     to.floats([radius, height].map(crate::convert::narrow));

@@ -3,7 +3,7 @@
 use specula_bsdf::Rgb;
 use specula_scene::scene::Film;
 
-use crate::flat::Words;
+use crate::words::Words;
 
 /// What a film does with radiance.
 #[derive(Clone, Copy, Debug)]

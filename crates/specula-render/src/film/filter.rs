@@ -10,7 +10,7 @@
 use specula_scene::scene::Filter;
 
 use crate::convert::{floor_index, narrow};
-use crate::flat::Words;
+use crate::words::Words;
 
 /// Cells that a filter's width is tabulated in.
 const CELLS: usize = 1024;

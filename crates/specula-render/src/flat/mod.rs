@@ -6,14 +6,16 @@
 //! compiled with. What has no twin in shaders yet is named in [`FlatScene::missing`].
 
 mod groups;
-mod lobe_kind;
-mod words;
+
+use core::fmt::Write as _;
 
 pub use groups::{FlatGroup, FlatInstance};
-pub use lobe_kind::LobeKind;
-pub(crate) use words::Words;
 
+use crate::codes;
+use crate::material::MaterialShader;
+use crate::offset;
 use crate::prepared::PreparedScene;
+use crate::words::Words;
 
 /// A prepared scene as arrays.
 #[derive(Clone, Debug)]
@@ -26,64 +28,61 @@ pub struct FlatScene<'a> {
     pub packets: &'a [u8],
     /// Everything else.
     pub words: Vec<u32>,
-    /// Places within `words`, counts and flags, by the name that shaders use.
+    /// Places within `words`, counts, codes and flags, by the names that shaders use.
     pub constants: Vec<(&'static str, u32)>,
-    /// Kinds of the scene's materials, each once.
-    pub lobes: Vec<LobeKind>,
+    /// Numbers that shaders share with the renderer, by their names there.
+    pub floats: Vec<(&'static str, f32)>,
+    /// What the scene's materials need of shaders, each once.
+    pub shaders: Vec<MaterialShader>,
     /// Features of the scene that shaders do not know, in a person's words; none: all is known.
     pub missing: Vec<String>,
 }
 
-/// What a flattened scene gathers on the way.
-#[derive(Default)]
-pub(crate) struct Flattening {
-    pub(crate) words: Words,
-    lobes: Vec<LobeKind>,
-    missing: Vec<String>,
-}
-
-impl Flattening {
-    /// Notes a kind of material that is used.
-    pub(crate) fn uses(&mut self, kind: LobeKind) {
-        if !self.lobes.contains(&kind) {
-            self.lobes.push(kind);
+impl FlatScene<'_> {
+    /// All constants as declarations in WGSL, which stand in front of the shader of the scene.
+    #[must_use]
+    pub fn declarations(&self) -> String {
+        let mut text = String::new();
+        for (name, value) in &self.constants {
+            let _ = writeln!(text, "const {name}: u32 = {value}u;");
         }
-    }
-
-    /// Notes a feature that shaders do not know, once.
-    pub(crate) fn lacks(&mut self, feature: impl Into<String>) {
-        let feature = feature.into();
-        if !self.missing.contains(&feature) {
-            self.missing.push(feature);
+        for (name, value) in &self.floats {
+            // Rust writes as many digits as tell the number from all others.
+            let _ = writeln!(text, "const {name}: f32 = {value:?}f;");
         }
+        text
     }
 }
 
 impl PreparedScene {
     /// The scene as arrays of words.
     pub fn flatten(&self) -> FlatScene<'_> {
-        let mut to = Flattening::default();
-        crate::sampler::flatten(&mut to.words);
-        self.camera.flatten(&mut to.words);
-        self.filter.flatten(&mut to.words);
-        self.develop.flatten(&mut to.words);
-        let (nodes, packets) = self.geometry.flatten(&mut to);
-        self.textures.flatten(&mut to);
-        self.materials.flatten(&mut to);
-        self.lights.flatten(&mut to.words);
+        let mut words = Words::default();
+        for &(name, code) in codes::ALL {
+            words.constant(name, code);
+        }
+        crate::sampler::flatten(&mut words);
+        self.camera.flatten(&mut words);
+        self.filter.flatten(&mut words);
+        self.develop.flatten(&mut words);
+        let (nodes, packets) = self.geometry.flatten(&mut words);
+        let missing = self.textures.flatten(&mut words);
+        let shaders = self.materials.flatten(&mut words);
+        self.lights.flatten(&mut words);
         let [width, height] = self.resolution;
-        to.words.constant("WIDTH", width);
-        to.words.constant("HEIGHT", height);
-        to.words
-            .constant("HIDES_EMITTERS", u32::from(self.hide_emitters));
-        let (words, constants) = to.words.finish();
+        words.constant("WIDTH", width);
+        words.constant("HEIGHT", height);
+        words.constant("HIDES_EMITTERS", u32::from(self.hide_emitters));
+        words.float_constant("RELATIVE_ERROR", offset::RELATIVE_ERROR);
+        let (words, (constants, floats)) = words.finish();
         FlatScene {
             nodes,
             packets,
             words,
             constants,
-            lobes: to.lobes,
-            missing: to.missing,
+            floats,
+            shaders,
+            missing,
         }
     }
 }

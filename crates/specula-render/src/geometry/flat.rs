@@ -4,29 +4,25 @@ use specula_scene::scene::FloatParam;
 
 use super::{Geometry, GroupData, PlacedQuadric, Placement, ShapeRecord};
 use crate::accel::QuadricShape;
+use crate::codes;
 use crate::convert::{Affine, id, narrow};
-use crate::flat::{Flattening, Words};
 use crate::texture::{colour_parameter, float_parameter};
+use crate::words::Words;
 
 impl Geometry {
     /// Trees, groups, places and shapes; nodes and packets as they are.
-    pub(crate) fn flatten(&self, to: &mut Flattening) -> (&[u8], &[u8]) {
-        let arrays = self.accel.flatten(&mut to.words);
-        let places: Vec<u32> = self
-            .groups
-            .iter()
-            .map(|g| g.flatten(&mut to.words))
-            .collect();
-        to.words.begin("INSTANCES");
+    pub(crate) fn flatten(&self, to: &mut Words) -> (&[u8], &[u8]) {
+        let arrays = self.accel.flatten(to);
+        let places: Vec<u32> = self.groups.iter().map(|g| g.flatten(to)).collect();
+        to.begin("INSTANCES");
         for placement in &self.placements {
-            placement.flatten(&places, &mut to.words);
+            placement.flatten(&places, to);
         }
-        to.words.begin("SHAPES");
+        to.begin("SHAPES");
         for shape in &self.shapes {
-            shape.flatten(&mut to.words);
+            shape.flatten(to);
         }
-        to.words
-            .constant("HAS_PASSABLE", u32::from(self.has_passable));
+        to.constant("HAS_PASSABLE", u32::from(self.has_passable));
         arrays
     }
 }
@@ -100,8 +96,8 @@ impl PlacedQuadric {
     /// own space, its own from the group's, and its normals.
     fn flatten(&self, to: &mut Words) {
         let (kind, radius, height) = match self.shape {
-            QuadricShape::Sphere { radius } => (0, radius, 0.0),
-            QuadricShape::Disk { radius, height } => (1, radius, height),
+            QuadricShape::Sphere { radius } => (codes::QUADRIC_SPHERE, radius, 0.0),
+            QuadricShape::Disk { radius, height } => (codes::QUADRIC_DISK, radius, height),
         };
         to.id(kind);
         to.floats([narrow(radius), narrow(height)]);

@@ -1,8 +1,5 @@
-//! What takes noise away at the price of bias: bounds on what indirect light brings at once, and materials
-//! made rougher behind rough ones.
-//!
-//! Both are off unless asked for: [`RenderOptions::clamp`](crate::RenderOptions::clamp),
-//! [`RenderOptions::regularize`](crate::RenderOptions::regularize).
+//! Bounds on the contribution of indirect light, which take noise away at the price of bias
+//! ([`RenderOptions::clamp`](crate::RenderOptions::clamp)).
 
 use specula_bsdf::Rgb;
 
@@ -23,22 +20,6 @@ pub(super) fn bounded(contribution: Rgb<f32>, events: u32, bound: f32) -> Rgb<f3
     }
 }
 
-/// The width of facets behind a rough surface: pbrt-v4's `TrowbridgeReitzDistribution::Regularize`.
-///
-/// ```text
-/// alpha < 0.3:  clamp(2 alpha, 0.1, 0.3)
-/// ```
-///
-/// * `alpha`: 0 for a smooth surface.
-#[inline]
-pub(crate) fn regularized(alpha: f32) -> f32 {
-    if alpha < 0.3 {
-        (2.0 * alpha).clamp(0.1, 0.3)
-    } else {
-        alpha
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -54,21 +35,5 @@ mod tests {
         // What is not finite is still found.
         assert!(!bounded(rgb(f32::NAN, 0.0, 0.0), 2, 1.0).is_finite());
         assert!(!bounded(rgb(f32::INFINITY, 0.0, 0.0), 2, 1.0).is_finite());
-    }
-
-    #[test]
-    fn alphas_are_those_of_pbrt() {
-        for (alpha, expected) in [
-            (0.0, 0.1),
-            (0.04, 0.1),
-            (0.05, 0.1),
-            (0.1, 0.2),
-            (0.2, 0.3),
-            (0.3, 0.3),
-            (0.7, 0.7),
-        ] {
-            let found = regularized(alpha);
-            assert!((found - expected).abs() < 1e-7, "{alpha}: {found}");
-        }
     }
 }

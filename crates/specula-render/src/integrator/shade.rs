@@ -10,10 +10,10 @@ use super::path_states::PathStates;
 use super::vertex_batch::{self, VertexBatch, WAVEFRONT_SIZE};
 use super::visibility::TO_LIGHT;
 use super::wavefront::{MaterialRun, Wavefront, index};
-use super::{PathTracer, candidates, lobes};
+use super::{PathTracer, candidates};
 use crate::accel::{Hit, Ray};
 use crate::convert::id;
-use crate::material::Plain;
+use crate::material::{Plain, lobes};
 use crate::sampler::Purpose;
 
 impl PathTracer<'_> {

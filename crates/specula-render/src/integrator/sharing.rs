@@ -25,10 +25,10 @@ mod pairs;
 
 pub(super) use pairs::Work;
 
+use super::PathTracer;
 use super::vertex_batch::{Column, Vectors, VertexBatch, WAVEFRONT_SIZE, ZERO};
 use super::wavefront::{Wavefront, index};
-use super::{PathTracer, lobes};
-use crate::material::Plain;
+use crate::material::{Plain, lobes};
 use crate::offset::leave;
 
 /// How far, in errors of their positions, vertices are from each other at least: the direction from one to

@@ -1,7 +1,7 @@
 //! A fixed discrete distribution, sampled in constant time.
 
 use crate::convert::{floor_index, id, narrow};
-use crate::flat::Words;
+use crate::words::Words;
 
 /// A discrete distribution.
 ///

@@ -8,10 +8,11 @@ use super::cone::EmissionCone;
 use super::parallelogram::{Parallelogram, Seen};
 use crate::accel::{Bounds, QuadricShape};
 use crate::camera::concentric_disk;
+use crate::codes;
 use crate::convert::{Affine, abs, narrow, normal_matrix};
-use crate::flat::Words;
 use crate::geometry::{normal_of, unit_or};
 use crate::offset::coupled;
+use crate::words::Words;
 
 /// A point on a light.
 #[derive(Clone, Copy, Debug)]
@@ -143,15 +144,15 @@ impl Area {
                 edges,
                 normal,
                 area,
-            } => flat(0, corner, edges, normal, area),
+            } => flat(codes::AREA_TRIANGLE, corner, edges, normal, area),
             Self::Disk {
                 centre,
                 axes,
                 normal,
                 area,
-            } => flat(3, centre, axes, normal, area),
+            } => flat(codes::AREA_DISK, centre, axes, normal, area),
             Self::Parallelogram(light) => {
-                to.id(1);
+                to.id(codes::AREA_PARALLELOGRAM);
                 light.flatten(to);
             }
             Self::Sphere {
@@ -159,7 +160,7 @@ impl Area {
                 radius,
                 flipped,
             } => {
-                to.id(2);
+                to.id(codes::AREA_SPHERE);
                 to.vector(centre);
                 to.number(radius);
                 to.flag(flipped);
@@ -171,7 +172,7 @@ impl Area {
                 flipped,
                 area: _,
             } => {
-                to.id(4);
+                to.id(codes::AREA_ELLIPSOID);
                 for map in [&forward, &backward, &cofactor] {
                     to.affine(map);
                 }

@@ -5,9 +5,10 @@ use specula_scene::scene::{Light, SpotFalloff};
 
 use super::cone::EmissionCone;
 use super::projected::ProjectedImage;
+use crate::codes;
 use crate::convert::{narrow, narrow3};
-use crate::flat::Words;
 use crate::texture::Textures;
+use crate::words::Words;
 
 /// A light that only its own sampling can find.
 #[derive(Clone, Debug)]
@@ -127,7 +128,7 @@ impl Delta {
                 irradiance,
                 to_light,
             } => {
-                to.id(0);
+                to.id(codes::DELTA_DISTANT);
                 to.colour(irradiance);
                 to.vector(to_light);
             }
@@ -139,19 +140,19 @@ impl Delta {
                 cos_start,
                 falloff,
             } => {
-                to.id(1);
+                to.id(codes::DELTA_POINT);
                 to.vector(position);
                 to.vector(axis);
                 to.colour(intensity);
                 to.floats([cos_cone, cos_start]);
                 to.id(match falloff {
-                    SpotFalloff::SmoothCosine => 0,
-                    SpotFalloff::LinearAngle => 1,
-                    SpotFalloff::SquaredCosine => 2,
+                    SpotFalloff::SmoothCosine => codes::SPOT_SMOOTH_COSINE,
+                    SpotFalloff::LinearAngle => codes::SPOT_LINEAR_ANGLE,
+                    SpotFalloff::SquaredCosine => codes::SPOT_SQUARED_COSINE,
                 });
             }
             Self::ProjectedImage(ref projected) => {
-                to.id(2);
+                to.id(codes::DELTA_PROJECTED);
                 projected.flatten(to);
             }
         }

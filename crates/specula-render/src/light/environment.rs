@@ -21,7 +21,7 @@ use specula_scene::Image;
 use specula_scene::scene::EnvironmentMapping;
 
 use crate::convert::Affine;
-use crate::flat::Words;
+use crate::words::Words;
 pub(super) use batch::{Bundle, LANES};
 use picture::{LEAST_KEPT, Picture, Pixel, direction_and_sine, uv_and_sine};
 

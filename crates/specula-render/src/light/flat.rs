@@ -2,17 +2,9 @@
 
 use super::delta::Delta;
 use super::{Far, Lights, Source};
+use crate::codes;
 use crate::convert::id;
-use crate::flat::Words;
-
-/// Kinds of lights: the first word of each.
-const AREA: u32 = 0;
-const FAR: u32 = 1;
-const DELTA: u32 = 2;
-const TEXTURED: u32 = 3;
-/// Kinds of lights with extent at infinity.
-const ENVIRONMENT: u32 = 0;
-const SUN: u32 = 1;
+use crate::words::Words;
 
 impl Lights {
     /// Every light, those at infinity, and how one is chosen.
@@ -46,7 +38,7 @@ impl Source {
         let place = to.place();
         match self {
             Self::Textured(light) => {
-                to.id(TEXTURED);
+                to.id(codes::LIGHTS_TEXTURED);
                 to.flag(light.two_sided);
                 light.flatten(table, to);
             }
@@ -55,14 +47,14 @@ impl Source {
                 radiance,
                 two_sided,
             } => {
-                to.id(AREA);
+                to.id(codes::LIGHTS_AREA);
                 to.flag(*two_sided);
                 to.colour(*radiance);
                 area.flatten(to);
             }
-            Self::Far(number) => to.ids([FAR, id(*number)]),
+            Self::Far(number) => to.ids([codes::LIGHTS_FAR, id(*number)]),
             Self::Delta(delta) => {
-                to.id(DELTA);
+                to.id(codes::LIGHTS_DELTA);
                 delta.flatten(to);
             }
         }
@@ -74,10 +66,10 @@ impl Far {
     /// Kind and parameters; returns their place.
     fn flatten(&self, to: &mut Words) -> u32 {
         match self {
-            Self::Environment(light) => light.flatten(ENVIRONMENT, to),
+            Self::Environment(light) => light.flatten(codes::LIGHTS_ENVIRONMENT, to),
             Self::Sun(light) => {
                 let place = to.place();
-                to.id(SUN);
+                to.id(codes::LIGHTS_SUN);
                 light.flatten(to);
                 place
             }

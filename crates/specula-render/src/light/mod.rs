@@ -13,7 +13,6 @@ mod node;
 mod octahedral;
 mod parallelogram;
 mod piecewise;
-mod probe;
 mod projected;
 mod select;
 mod sun;

@@ -4,13 +4,13 @@ use specula_bsdf::Vec3;
 
 use super::cone::EmissionCone;
 use crate::convert::narrow;
-use crate::flat::Words;
+use crate::words::Words;
 
 /// How far a cosine must be beyond its bound before a light is left out; also the least value of
 /// either cosine that is not left out. It covers the rounding of `f32`.
-const SLACK: f32 = 1e-3;
+pub(super) const SLACK: f32 = 1e-3;
 /// Above every importance: two of them add up to a finite number.
-const MOST: f32 = 1e37;
+pub(super) const MOST: f32 = 1e37;
 
 /// A point to be lit.
 #[derive(Clone, Copy, Debug)]

@@ -8,9 +8,9 @@ use specula_bsdf::Vec3;
 
 use super::angles::{sin_cos_of_half, turns};
 use crate::convert::{abs, narrow};
-use crate::flat::Words;
 use crate::geometry::unit_or;
 use crate::offset::coupled;
+use crate::words::Words;
 
 /// Solid angle in sr below which rectangles too are sampled by area: rounding takes 6e-7 of it.
 const LEAST_SOLID_ANGLE: f32 = 1e-3;

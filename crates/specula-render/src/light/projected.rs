@@ -10,9 +10,10 @@ use specula_scene::scene::{ColourParam, ImageProjection, Profile, SpotFalloff};
 use super::cone::EmissionCone;
 use super::delta::share;
 use super::octahedral::{direction_of, square_of};
+use crate::codes;
 use crate::convert::{Affine, narrow, narrow3};
-use crate::flat::Words;
 use crate::texture::{TextureCoordinates, Textures, colour_parameter};
+use crate::words::Words;
 
 /// Cells along each side of a picture over which its brightness is averaged.
 const CELLS: u32 = 256;
@@ -122,11 +123,11 @@ impl ProjectedImage {
         to.vector(self.position);
         to.affine(&self.to_light);
         let (through, half, cosines) = match self.window {
-            None => (0, [0.0; 2], [0.0; 2]),
+            None => (codes::WINDOW_NONE, [0.0; 2], [0.0; 2]),
             Some(Window { half, profile }) => match profile {
-                Beside::Intensity => (1, half, [0.0; 2]),
-                Beside::Irradiance => (2, half, [0.0; 2]),
-                Beside::Spot(cosines) => (3, half, cosines),
+                Beside::Intensity => (codes::WINDOW_INTENSITY, half, [0.0; 2]),
+                Beside::Irradiance => (codes::WINDOW_IRRADIANCE, half, [0.0; 2]),
+                Beside::Spot(cosines) => (codes::WINDOW_SPOT, half, cosines),
             },
         };
         to.id(through);

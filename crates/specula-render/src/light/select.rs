@@ -15,7 +15,7 @@ use super::build::Emitter;
 use super::node::{Node, Receiver};
 use super::tree::LightTree;
 use crate::convert::narrow;
-use crate::flat::Words;
+use crate::words::Words;
 
 /// Smallest share of either class of lights where there are both.
 const LEAST_SHARE: f32 = 0.1;
@@ -80,6 +80,7 @@ impl Selection {
     pub(super) fn flatten(&self, to: &mut Words) {
         self.near.flatten(to);
         self.far.flatten(to);
+        to.float_constant("LIGHTS_LEAST_SHARE", LEAST_SHARE);
         to.begin("LIGHT_FAR_IRRADIANCE");
         to.number(self.far_irradiance);
         to.constant("LIGHT_ONLY", self.only.unwrap_or(u32::MAX));

@@ -4,7 +4,7 @@ use specula_bsdf::math::vec3;
 use specula_bsdf::{Frame, Real, Rgb, Vec3};
 
 use crate::convert::{narrow, narrow3};
-use crate::flat::Words;
+use crate::words::Words;
 
 /// The same radiance from every direction within a cone.
 #[derive(Clone, Debug)]

@@ -5,9 +5,9 @@ use specula_scene::scene::{ColourParam, FloatParam};
 
 use super::area::{Area, AreaSample};
 use super::piecewise::Piecewise;
-use crate::flat::Words;
 use crate::geometry::{At, Geometry, Surface};
 use crate::texture::{TextureCoordinates, Textures};
+use crate::words::Words;
 
 /// Cells along the sides of a triangle's table.
 const MOST_CELLS: usize = 32;

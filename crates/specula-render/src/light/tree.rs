@@ -8,9 +8,9 @@
 //! 12.6.3.
 
 use super::build::{Emitter, build};
-use super::node::{Node, Receiver};
+use super::node::{self, Node, Receiver};
 use crate::convert::{id, words_of};
-use crate::flat::Words;
+use crate::words::Words;
 
 /// Trail of a light that is not in the tree; no trail is 64 long.
 const ABSENT: u64 = u64::MAX;
@@ -55,6 +55,8 @@ impl LightTree {
 
     /// Nodes, and trails as lower and upper words, for shaders.
     pub(super) fn flatten(&self, to: &mut Words) {
+        to.float_constant("LIGHT_NODE_SLACK", node::SLACK);
+        to.float_constant("LIGHT_NODE_MOST", node::MOST);
         to.constant("LIGHT_NODE_COUNT", id(self.nodes.len()));
         to.begin("LIGHT_NODES");
         for node in &self.nodes {

@@ -14,9 +14,8 @@ use specula_scene::scene::{
 use specula_scene::{Energy, scene};
 
 use super::Models;
-use super::metal::{alpha, reflectance};
+use super::metal::{alpha, reflectance, regularized_alpha};
 use super::rough::{conductor, dielectric};
-use crate::integrator::bias;
 use crate::texture::{TextureCoordinates, Textures};
 
 /// What takes all light and gives none.
@@ -24,7 +23,7 @@ pub(super) fn black() -> Lobe<f32> {
     Black.into()
 }
 
-/// Angle of a material's first width from dp/du.
+/// Angle of a material's first alpha from dp/du.
 pub(super) fn rotation_rad(kind: &MaterialKind) -> f32 {
     match kind {
         MaterialKind::Conductor { roughness, .. }
@@ -189,11 +188,11 @@ impl<'a> At<'a> {
         alpha(roughness, self.textures, self.place, self.regularized)
     }
 
-    /// A roughness in `[0, 1]` whose square is the width of facets.
+    /// A roughness in `[0, 1]` whose square is alpha.
     fn roughness(&self, parameter: FloatParam) -> f32 {
         let roughness = self.unit(parameter);
         match self.regularized && roughness * roughness < 0.3 {
-            true => bias::regularized(roughness * roughness).sqrt(),
+            true => regularized_alpha(roughness * roughness).sqrt(),
             false => roughness,
         }
     }

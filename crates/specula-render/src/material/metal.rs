@@ -5,7 +5,6 @@ use specula_bsdf::{Alpha, Rgb};
 use specula_scene::scene::{ConductorFresnel, Roughness, RoughnessMapping};
 
 use crate::convert::narrow;
-use crate::integrator::bias;
 use crate::texture::{TextureCoordinates, Textures};
 
 /// The alphas; `None` where the surface is smooth: both are below [`Alpha::SPECULAR_BELOW`]. With
@@ -27,11 +26,27 @@ pub(super) fn alpha(
             RoughnessMapping::Square => r * r,
         };
         match regularized {
-            true => bias::regularized(alpha),
+            true => regularized_alpha(alpha),
             false => alpha,
         }
     });
     (x >= bound || y >= bound).then(|| Alpha::clamped(x.max(bound), y.max(bound)))
+}
+
+/// Alpha of a surface behind a rough one: pbrt-v4's `TrowbridgeReitzDistribution::Regularize`.
+///
+/// ```text
+/// alpha < 0.3:  clamp(2 alpha, 0.1, 0.3)
+/// ```
+///
+/// * `alpha`: 0 for a smooth surface.
+#[inline]
+pub(super) fn regularized_alpha(alpha: f32) -> f32 {
+    if alpha < 0.3 {
+        (2.0 * alpha).clamp(0.1, 0.3)
+    } else {
+        alpha
+    }
 }
 
 /// What a metal's facets reflect.
@@ -100,6 +115,22 @@ mod tests {
             for (found, expected) in found.to_array().into_iter().zip(expected) {
                 assert!((found - expected).abs() < 1e-4, "{found} {expected}");
             }
+        }
+    }
+
+    #[test]
+    fn alphas_are_those_of_pbrt() {
+        for (alpha, expected) in [
+            (0.0, 0.1),
+            (0.04, 0.1),
+            (0.05, 0.1),
+            (0.1, 0.2),
+            (0.2, 0.3),
+            (0.3, 0.3),
+            (0.7, 0.7),
+        ] {
+            let found = regularized_alpha(alpha);
+            assert!((found - expected).abs() < 1e-7, "{alpha}: {found}");
         }
     }
 }

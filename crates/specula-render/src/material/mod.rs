@@ -2,11 +2,14 @@
 
 mod bind;
 mod flat;
-mod fold;
+pub(crate) mod lobes;
 mod metal;
+mod parameters;
 mod rough;
 mod twins;
 
+use lobes::Sides;
+pub use parameters::MaterialShader;
 use specula_bsdf::bsdf::Lobe;
 use specula_bsdf::multibounce::MisPdf;
 use specula_bsdf::vndf;
@@ -16,7 +19,6 @@ use specula_scene::scene::{
     Bump, BumpRules, ColourParam, FloatParam, MaterialKind, Scene, TextureId,
 };
 
-use crate::integrator::lobes;
 use crate::medium_stack::Boundary;
 use crate::options::RenderOptions;
 use crate::texture::{TextureCoordinates, Textures};
@@ -120,7 +122,7 @@ impl Materials {
                 mis_pdf: options.mis_pdf,
                 regularized,
             };
-            let (kind, varies) = fold::folded(&material.kind, textures);
+            let (kind, varies) = parameters::folded(&material.kind, textures);
             let nowhere = TextureCoordinates::default();
             let is_mix = matches!(kind, MaterialKind::Mix { .. });
             let mut material = Material {
@@ -283,7 +285,7 @@ impl Material {
         let [inside, outside] = self.constant?;
         let black_inside = self.one_sided || matches!(inside, Lobe::Black(_));
         let is_bent = self.bump.is_some() || self.turn.is_some() || self.coat.is_some();
-        if is_bent || !lobes::is_known(&outside) {
+        if is_bent || !lobes::is_batched(&outside) {
             return None;
         }
         let eta = match self.kind {
@@ -296,7 +298,7 @@ impl Material {
             black_inside,
             specular: lobe.is_specular(),
             isotropic: bind::is_isotropic(&self.kind),
-            opaque: !lobes::lets_pass(&lobe),
+            opaque: lobes::sides(&lobe) == Sides::Reflects,
             eta,
         };
         Some([seen(inside, 1.0 / eta), seen(outside, eta)])
@@ -345,23 +347,10 @@ impl Chosen<'_> {
     /// Whether nothing comes through the lobe: it is black where `wi.z <= 0`.
     #[inline]
     pub(crate) fn is_opaque(&self, lobe: &Lobe<f32>) -> bool {
-        match lobe {
-            Lobe::Lambert(_)
-            | Lobe::Eon(_)
-            | Lobe::SmoothConductor(_)
-            | Lobe::RoughConductor(_)
-            | Lobe::CoatedDiffuse(_)
-            | Lobe::Layered(_)
-            | Lobe::Compensated(_)
-            | Lobe::MultibounceConductor(_)
-            | Lobe::Black(_)
-            | Lobe::RoughConductorBeckmann(_)
-            | Lobe::CompensatedBeckmann(_)
-            | Lobe::MultibounceConductorBeckmann(_)
-            | Lobe::Plastic(_)
-            | Lobe::PlasticBeckmann(_) => true,
-            Lobe::Principled(_) | Lobe::Gltf(_) => self.material.opaque_layers,
-            _ => false,
+        match lobes::sides(lobe) {
+            Sides::Reflects => true,
+            Sides::Transmits => false,
+            Sides::Depends => self.material.opaque_layers,
         }
     }
 }

@@ -16,7 +16,7 @@ impl Materials {
         let count = self.materials.len();
         let mut twins = Vec::new();
         for (i, material) in self.materials.iter().enumerate() {
-            let twin = material.depends_on_width().then(|| prepare(i));
+            let twin = material.depends_on_alpha().then(|| prepare(i));
             match twin.filter(|twin| !material.is_same_everywhere_as(twin)) {
                 Some(twin) => {
                     self.behind_rough.push(id(count + twins.len()));
@@ -53,7 +53,7 @@ impl Materials {
 }
 
 impl Material {
-    fn depends_on_width(&self) -> bool {
+    fn depends_on_alpha(&self) -> bool {
         !matches!(
             self.kind,
             MaterialKind::Diffuse { .. }

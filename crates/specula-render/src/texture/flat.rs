@@ -3,19 +3,16 @@
 //! A node is a record that begins with its kind; its inputs are the places of other records, which
 //! come before it. Shaders follow them without recursion (`texture_graph.wgsl`).
 
-use specula_bsdf::{Rgb, Vec3};
+use specula_bsdf::Rgb;
 use specula_scene::scene::{
     Channel, ColourParam, FloatParam, Interpolation, NoiseKind, TextureId, Wrap,
 };
 
 use super::graph::{Node, Picture};
-use super::{TextureCoordinates, Textures, finite, noise};
+use super::{Textures, finite, noise};
+use crate::codes::{self, NONE};
 use crate::convert::id;
-use crate::flat::{Flattening, Words};
-use crate::prepared::PreparedScene;
-
-/// No texture: a value stands beside it.
-const NONE: u32 = u32::MAX;
+use crate::words::Words;
 
 /// Nodes that may wait for their inputs at the same time in a shader.
 const MOST_WAITING: u32 = 32;
@@ -43,50 +40,34 @@ pub(crate) fn float_parameter(to: &mut Words, parameter: FloatParam) {
     to.number(value);
 }
 
-impl PreparedScene {
-    /// The value of a texture, for twins of shaders.
-    ///
-    /// * `place`: coordinates, second coordinates, position, normal, colour.
-    #[doc(hidden)]
-    pub fn probe_texture(&self, texture: usize, place: [f32; 13]) -> [f32; 3] {
-        let three = |i: usize| [place[i], place[i + 1], place[i + 2]];
-        let place = TextureCoordinates {
-            uv: [place[0], place[1]],
-            second_uv: [place[2], place[3]],
-            position: Vec3::from(three(4)),
-            normal: Vec3::from(three(7)),
-            colour: Rgb::from(three(10)),
-        };
-        let parameter = ColourParam::Texture(TextureId(texture));
-        self.textures.colour(parameter, &place).to_array()
-    }
-}
-
 impl Textures {
     /// Pictures, nodes, then a table of the nodes' places.
     ///
     /// What shaders can leave out is named: `TEXTURE_COUNT`, `TEXTURE_HAS_INPUTS`,
     /// `TEXTURE_HAS_NOISE`, and `TEXTURE_WAITING`, the length of their stack.
-    pub(crate) fn flatten(&self, to: &mut Flattening) {
+    ///
+    /// Returns what shaders cannot do, in a person's words.
+    pub(crate) fn flatten(&self, to: &mut Words) -> Vec<String> {
         let rasters: Vec<u32> = self
             .rasters
             .iter()
-            .map(|raster| raster.flatten(&mut to.words))
+            .map(|raster| raster.flatten(to))
             .collect();
         let mut records = Records::default();
         for node in &self.nodes {
-            records.add(node, &rasters, &mut to.words);
+            records.add(node, &rasters, to);
         }
-        to.words.begin("TEXTURES");
-        to.words.ids(records.places);
+        to.begin("TEXTURES");
+        to.ids(records.places);
+        let mut missing = Vec::new();
         let waiting = records.waiting.iter().copied().max().unwrap_or(0);
         if waiting > MOST_WAITING {
-            to.lacks(format!(
+            missing.push(format!(
                 "textures that are nested more than {MOST_WAITING} deep"
             ));
         }
         if self.extents.iter().any(|e| e.visits > MOST_VISITS) {
-            to.lacks(format!(
+            missing.push(format!(
                 "textures that share inputs so often that they unfold to more than {MOST_VISITS}"
             ));
         }
@@ -95,9 +76,9 @@ impl Textures {
             .iter()
             .any(|n| matches!(n, Node::Noise { .. } | Node::Dots { .. }));
         if has_noise {
-            noise::flatten(&mut to.words);
+            noise::flatten(to);
         } else {
-            noise::leave_out(&mut to.words);
+            noise::leave_out(to);
         }
         for (name, value) in [
             ("TEXTURE_COUNT", id(self.nodes.len())),
@@ -108,8 +89,9 @@ impl Textures {
             ("TEXTURE_HAS_NOISE", u32::from(has_noise)),
             ("TEXTURE_WAITING", waiting.clamp(1, MOST_WAITING)),
         ] {
-            to.words.constant(name, value);
+            to.constant(name, value);
         }
+        missing
     }
 }
 
@@ -154,10 +136,12 @@ impl Records {
                 to_texture,
             } => {
                 let (kind, [scale, variation]) = match *kind {
-                    NoiseKind::Fbm => (0, [1.0, 0.0]),
-                    NoiseKind::Turbulence => (1, [1.0, 0.0]),
-                    NoiseKind::Windy => (2, [1.0, 0.0]),
-                    NoiseKind::Marble { scale, variation } => (3, [scale, variation]),
+                    NoiseKind::Fbm => (codes::TEXTURE_NOISE_FBM, [1.0, 0.0]),
+                    NoiseKind::Turbulence => (codes::TEXTURE_NOISE_TURBULENCE, [1.0, 0.0]),
+                    NoiseKind::Windy => (codes::TEXTURE_NOISE_WINDY, [1.0, 0.0]),
+                    NoiseKind::Marble { scale, variation } => {
+                        (codes::TEXTURE_NOISE_MARBLE, [scale, variation])
+                    }
                 };
                 to.ids([kind, *octaves]);
                 to.floats([*roughness, scale, variation]);
@@ -171,23 +155,22 @@ impl Records {
 }
 
 impl Node {
-    /// As in `texture_graph.wgsl`: first those without inputs, then those that show one of two, then
-    /// those that wait for theirs.
+    /// Its code.
     fn kind(&self) -> u32 {
         match self {
-            Self::Constant(_) => 0,
-            Self::Image(_) => 1,
-            Self::Bilinear { .. } => 2,
-            Self::Noise { .. } => 3,
-            Self::VertexColour => 4,
-            Self::Checkerboard { .. } => 5,
-            Self::Checkerboard3d { .. } => 6,
-            Self::Dots { .. } => 7,
-            Self::Scale(..) => 8,
-            Self::Sum(..) => 9,
-            Self::Mix { .. } => 10,
-            Self::Threshold { .. } => 11,
-            Self::DirectionMix { .. } => 12,
+            Self::Constant(_) => codes::TEXTURE_CONSTANT,
+            Self::Image(_) => codes::TEXTURE_IMAGE,
+            Self::Bilinear { .. } => codes::TEXTURE_BILINEAR,
+            Self::Noise { .. } => codes::TEXTURE_NOISE,
+            Self::VertexColour => codes::TEXTURE_VERTEX_COLOUR,
+            Self::Checkerboard { .. } => codes::TEXTURE_CHECKERBOARD,
+            Self::Checkerboard3d { .. } => codes::TEXTURE_CHECKERBOARD_SOLID,
+            Self::Dots { .. } => codes::TEXTURE_DOTS,
+            Self::Scale(..) => codes::TEXTURE_SCALE,
+            Self::Sum(..) => codes::TEXTURE_SUM,
+            Self::Mix { .. } => codes::TEXTURE_MIX,
+            Self::Threshold { .. } => codes::TEXTURE_THRESHOLD,
+            Self::DirectionMix { .. } => codes::TEXTURE_DIRECTION_MIX,
         }
     }
 
@@ -235,7 +218,7 @@ impl Node {
 
     /// Whether it does something to its inputs' values.
     fn waits(&self) -> bool {
-        self.kind() >= 8
+        self.kind() >= codes::TEXTURE_SCALE
     }
 }
 
@@ -244,20 +227,20 @@ impl Picture {
     fn flatten(&self, rasters: &[u32], to: &mut Words) {
         to.id(rasters[self.image]);
         to.id(match self.channel {
-            Channel::Rgb => 0,
-            Channel::Mean => 1,
-            Channel::Luminance => 2,
-            Channel::Red => 3,
-            Channel::Green => 4,
-            Channel::Blue => 5,
+            Channel::Rgb => codes::TEXTURE_CHANNEL_RGB,
+            Channel::Mean => codes::TEXTURE_CHANNEL_MEAN,
+            Channel::Luminance => codes::TEXTURE_CHANNEL_LUMINANCE,
+            Channel::Red => codes::TEXTURE_CHANNEL_RED,
+            Channel::Green => codes::TEXTURE_CHANNEL_GREEN,
+            Channel::Blue => codes::TEXTURE_CHANNEL_BLUE,
         });
         to.flag(self.invert);
         to.number(self.scale);
         to.ids(self.lookup.wrap.map(|wrap| match wrap {
-            Wrap::Repeat => 0,
-            Wrap::Black => 1,
-            Wrap::Clamp => 2,
-            Wrap::Mirror => 3,
+            Wrap::Repeat => codes::TEXTURE_RASTER_REPEAT,
+            Wrap::Black => codes::TEXTURE_RASTER_BLACK,
+            Wrap::Clamp => codes::TEXTURE_RASTER_CLAMP,
+            Wrap::Mirror => codes::TEXTURE_RASTER_MIRROR,
         }));
         to.flag(self.lookup.filter == Interpolation::Nearest);
         self.mapping.flatten(to);

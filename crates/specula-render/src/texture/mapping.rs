@@ -5,8 +5,9 @@ use specula_bsdf::math::vec3;
 use specula_scene::scene::{TextureMapping, UvMapping};
 
 use super::TextureCoordinates;
+use crate::codes;
 use crate::convert::Affine;
-use crate::flat::Words;
+use crate::words::Words;
 
 /// [`TextureMapping`] in single precision.
 #[derive(Clone, Copy, Debug)]
@@ -70,26 +71,26 @@ impl Mapping {
     pub(super) fn flatten(&self, to: &mut Words) {
         match self {
             Self::Uv(m) => {
-                to.id(0);
+                to.id(codes::TEXTURE_MAPPING_UV);
                 to.floats(m.iter().flatten().copied());
             }
             Self::SecondUv(m) => {
-                to.id(1);
+                to.id(codes::TEXTURE_MAPPING_SECOND_UV);
                 to.floats(m.iter().flatten().copied());
             }
             Self::Planar(axes) => {
-                to.id(2);
+                to.id(codes::TEXTURE_MAPPING_PLANAR);
                 for (along, offset) in axes {
                     to.vector(*along);
                     to.number(*offset);
                 }
             }
             Self::Spherical(to_texture) => {
-                to.id(3);
+                to.id(codes::TEXTURE_MAPPING_SPHERICAL);
                 to.affine(to_texture);
             }
             Self::Cylindrical(to_texture) => {
-                to.id(4);
+                to.id(codes::TEXTURE_MAPPING_CYLINDRICAL);
                 to.affine(to_texture);
             }
         }

@@ -6,7 +6,7 @@ use specula_bsdf::math::rgb;
 use specula_bsdf::{Rgb, Vec3};
 
 use crate::convert::{floor_i32, floor_index};
-use crate::flat::Words;
+use crate::words::Words;
 
 /// Frequency of an octave over that of the one before: not 2, so that the lattices do not meet.
 const LACUNARITY: f32 = 1.99;
@@ -114,6 +114,7 @@ pub(super) fn in_dot([s, t]: [f32; 2]) -> bool {
 
 /// The tables for shaders: the permutation, the colours of marble.
 pub(super) fn flatten(to: &mut Words) {
+    to.float_constant("TEXTURE_NOISE_LACUNARITY", LACUNARITY);
     to.begin("NOISE_PERMUTATION");
     to.ids(PERMUTATION.map(u32::from));
     to.begin("NOISE_MARBLE");
@@ -122,6 +123,7 @@ pub(super) fn flatten(to: &mut Words) {
 
 /// Names for the tables where no texture reads them.
 pub(super) fn leave_out(to: &mut Words) {
+    to.float_constant("TEXTURE_NOISE_LACUNARITY", LACUNARITY);
     to.constant("NOISE_PERMUTATION", 0);
     to.constant("NOISE_MARBLE", 0);
 }

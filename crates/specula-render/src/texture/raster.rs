@@ -6,7 +6,7 @@ use specula_scene::Pixels;
 use specula_scene::scene::{Interpolation, Wrap};
 
 use crate::convert::floor_i32;
-use crate::flat::Words;
+use crate::words::Words;
 
 /// A picture's pixels, row by row from the top, in the depth of its file.
 #[derive(Clone, Debug, Default)]

@@ -20,7 +20,7 @@ fn black_pdf(wo: vec3f, wi: vec3f) -> f32 {
 
 /// 0.
 ///
-/// Twin: specula-bsdf/src/bsdf/black.rs, Black::eval_pdf.
+/// Twin: specula-bsdf/src/bsdf/mod.rs, Bsdf::eval_pdf.
 fn black_eval_pdf(wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
     return vec4f(0.0);
 }
@@ -28,6 +28,6 @@ fn black_eval_pdf(wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
 /// No direction is ever sampled.
 ///
 /// Twin: specula-bsdf/src/bsdf/black.rs, Black::sample.
-fn black_draw(wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn black_sample(wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     return bsdf_sample_none();
 }

@@ -6,7 +6,7 @@
 //     <lobe>_eval(lobe, wo, wi, transport)      f(wo, wi) |cos theta_i| in 1/sr, without Dirac deltas
 //     <lobe>_pdf(lobe, wo, wi)                  density with which a sample gives `wi`, in 1/sr
 //     <lobe>_eval_pdf(lobe, wo, wi, transport)  both: (red, green, blue, density)
-//     <lobe>_draw(lobe, wo, u, transport)       a direction; `u` independent and uniform in [0, 1):
+//     <lobe>_sample(lobe, wo, u, transport)       a direction; `u` independent and uniform in [0, 1):
 //                                               `u.x` chooses among lobes, `u.y`, `u.z` the direction
 //
 // Departure from the Rust source: a sample that leads to no direction has no flags, where Rust returns
@@ -28,7 +28,7 @@ struct BsdfSample {
     flags: u32,
 }
 
-/// The draw led to a direction.
+/// The sample led to a direction.
 const BSDF_SAMPLE_VALID: u32 = 1u;
 /// `wi` lies on the other side than `wo`.
 const BSDF_SAMPLE_TRANSMISSION: u32 = 2u;
@@ -45,9 +45,9 @@ const BSDF_SAMPLE_LARGEST: f32 = 3.4e38;
 /// A floor of divisors.
 const BSDF_SAMPLE_TINY: f32 = 1.1754944e-38;
 
-/// A draw that led to no direction.
+/// A sample that led to no direction.
 ///
-/// Twin: specula-bsdf/src/bsdf/mod.rs, `None`.
+/// Twin: Option::None.
 fn bsdf_sample_none() -> BsdfSample {
     return BsdfSample(vec3f(0.0, 0.0, 1.0), 0.0, vec3f(0.0), 1.0, 0u);
 }

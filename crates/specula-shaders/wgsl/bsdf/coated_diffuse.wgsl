@@ -15,7 +15,7 @@
 
 import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TINY, BsdfSample, BSDF_SAMPLE_RADIANCE, bsdf_sample_delta, bsdf_sample_of_reflection};
 import package::bsdf::microfacets::{MicrofacetsModel, microfacets_d, microfacets_g_over_cos, microfacets_norm, microfacets_sample_reflection};
-import package::energy::interface::{interface_internal_reflectance, interface_transmittance, interface_width};
+import package::energy::interface::{interface_internal_reflectance, interface_transmittance, interface_mean_alpha};
 import package::energy::interface_layer::{InterfaceLayer, interface_layer_crossing, interface_layer_new, interface_layer_there_and_back};
 import package::energy::interface_single::{interface_single_internal_reflectance, interface_single_reflectance_estimate, interface_single_transmittance};
 import package::fresnel::dielectric::{dielectric};
@@ -37,10 +37,10 @@ const COATED_DIFFUSE_UNLIMITED: u32 = 0xffffffffu;
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_diffuse.rs, CoatedDiffuse.
 struct CoatedDiffuse {
-    /// The coat's facets, of account where `width` is above 0; height-correlated GGX.
+    /// The coat's facets, of account where `mean_alpha` is above 0; height-correlated GGX.
     facets: MicrofacetsModel,
-    /// Width that stands for the coat's two; 0 for a smooth coat.
-    width: f32,
+    /// Alpha that stands for the coat's two; 0 for a smooth coat.
+    mean_alpha: f32,
     /// Index of the coat over that outside, in [1, 3].
     eta: f32,
     /// Of the base, in [0, 1].
@@ -98,18 +98,18 @@ fn coated_diffuse_followed(q: vec3f, max_depth: u32) -> vec3f {
 fn coated_diffuse_new(facets: MicrofacetsModel, rough: bool, eta: f32, albedo: vec3f, thickness: f32, max_depth: u32, scattering: u32) -> CoatedDiffuse {
     var lobe: CoatedDiffuse;
     lobe.facets = facets;
-    lobe.width = select(0.0, interface_width(facets.alpha), rough);
+    lobe.mean_alpha = select(0.0, interface_mean_alpha(facets.alpha), rough);
     lobe.eta = clamp(eta, 1.0, 3.0);
     lobe.albedo = albedo;
     lobe.layer = interface_layer_new(thickness);
     lobe.scattering = scattering;
     var internal: f32;
     if scattering == COATED_DIFFUSE_LOSSLESS {
-        internal = interface_internal_reflectance(lobe.width, lobe.eta);
+        internal = interface_internal_reflectance(lobe.mean_alpha, lobe.eta);
     } else {
-        internal = interface_single_internal_reflectance(lobe.width, lobe.eta);
+        internal = interface_single_internal_reflectance(lobe.mean_alpha, lobe.eta);
     }
-    let q = albedo * (internal * interface_layer_there_and_back(lobe.layer, lobe.width, lobe.eta));
+    let q = albedo * (internal * interface_layer_there_and_back(lobe.layer, lobe.mean_alpha, lobe.eta));
     let scale = 1.0 / (lobe.eta * lobe.eta);
     lobe.base = scale * albedo * coated_diffuse_followed(q, max_depth) / (vec3f(1.0) - q);
     return lobe;
@@ -120,21 +120,21 @@ fn coated_diffuse_new(facets: MicrofacetsModel, rough: bool, eta: f32, albedo: v
 /// Twin: specula-bsdf/src/bsdf/coated_diffuse.rs, CoatedDiffuse::incident.
 fn coated_diffuse_incident(lobe: CoatedDiffuse, w: vec3f) -> CoatedDiffuseIncident {
     let mu = abs(w.z);
-    let crossing = interface_layer_crossing(lobe.layer, lobe.width, lobe.eta, mu);
+    let crossing = interface_layer_crossing(lobe.layer, lobe.mean_alpha, lobe.eta, mu);
     if lobe.scattering == COATED_DIFFUSE_LOSSLESS {
-        let entering = interface_transmittance(lobe.width, lobe.eta, mu);
+        let entering = interface_transmittance(lobe.mean_alpha, lobe.eta, mu);
         return CoatedDiffuseIncident(1.0 - entering, entering * crossing);
     }
-    let reflected = interface_single_reflectance_estimate(lobe.width, lobe.eta, mu);
-    return CoatedDiffuseIncident(reflected, interface_single_transmittance(lobe.width, lobe.eta, mu) * crossing);
+    let reflected = interface_single_reflectance_estimate(lobe.mean_alpha, lobe.eta, mu);
+    return CoatedDiffuseIncident(reflected, interface_single_transmittance(lobe.mean_alpha, lobe.eta, mu) * crossing);
 }
 
-/// Probability of drawing the coat's reflection; 0 for a mirror that faces away.
+/// Probability of sampling the coat's reflection; 0 for a mirror that faces away.
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_diffuse.rs, CoatedDiffuse::coat_probability.
 fn coated_diffuse_coat_probability(lobe: CoatedDiffuse, view: CoatedDiffuseIncident, wo: vec3f) -> f32 {
     let diffuse = view.arriving * rgb_max_channel(lobe.albedo);
-    let visible = lobe.width > 0.0 || wo.z > 0.0;
+    let visible = lobe.mean_alpha > 0.0 || wo.z > 0.0;
     let share = view.reflected / max(view.reflected + diffuse, BSDF_SAMPLE_TINY);
     return select(0.0, share, visible);
 }
@@ -155,7 +155,7 @@ fn coated_diffuse_eval_pdf(lobe: CoatedDiffuse, wo: vec3f, wi: vec3f, transport:
     let arriving = coated_diffuse_incident(lobe, wi).arriving;
     var f_cos = lobe.base * (view.arriving * arriving * cosine);
     var pdf = (1.0 - p) * cosine;
-    if lobe.width > 0.0 && wo.z + wi.z > 0.0 {
+    if lobe.mean_alpha > 0.0 && wo.z + wi.z > 0.0 {
         let wm = normalize(wo + wi);
         let quarter = 0.25 * microfacets_d(lobe.facets, wm);
         let fresnel = dielectric(dot(wo, wm), lobe.eta).reflectance;
@@ -172,7 +172,7 @@ fn coated_diffuse_eval(lobe: CoatedDiffuse, wo: vec3f, wi: vec3f, transport: u32
     return coated_diffuse_eval_pdf(lobe, wo, wi, transport).rgb;
 }
 
-/// Density of `coated_diffuse_draw`, in 1/sr.
+/// Density of `coated_diffuse_sample`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_diffuse.rs, CoatedDiffuse::pdf.
 fn coated_diffuse_pdf(lobe: CoatedDiffuse, wo: vec3f, wi: vec3f) -> f32 {
@@ -184,12 +184,12 @@ fn coated_diffuse_pdf(lobe: CoatedDiffuse, wo: vec3f, wi: vec3f) -> f32 {
 /// * `u`: uniform in [0, 1)^3.
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_diffuse.rs, CoatedDiffuse::sample.
-fn coated_diffuse_draw(lobe: CoatedDiffuse, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn coated_diffuse_sample(lobe: CoatedDiffuse, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     let view = coated_diffuse_incident(lobe, wo);
     let p = coated_diffuse_coat_probability(lobe, view, wo);
     var wi = warp_cosine_hemisphere(u.yz);
     if u.x < p {
-        if lobe.width <= 0.0 {
+        if lobe.mean_alpha <= 0.0 {
             let mirrored = vec3f(-wo.x, -wo.y, wo.z);
             return bsdf_sample_delta(mirrored, vec3f(view.reflected / p), p, 0u, 1.0);
         }

@@ -16,7 +16,7 @@
 
 import package::bsdf::bsdf_sample::{BsdfSample, bsdf_sample_of_reflection};
 import package::bsdf::microfacets::{MicrofacetsModel};
-import package::bsdf::rough_conductor::{RoughConductor, rough_conductor_draw, rough_conductor_eval_pdf, rough_conductor_pdf};
+import package::bsdf::rough_conductor::{RoughConductor, rough_conductor_sample, rough_conductor_eval_pdf, rough_conductor_pdf};
 import package::energy::albedo::{AlbedoLoss, albedo_directional_loss, albedo_loss};
 import package::energy::fresnel_average::{fresnel_average_of};
 import package::energy::model::{MODEL_KULLA_CONTY, MODEL_TURQUIN, model_further_bounces};
@@ -69,7 +69,7 @@ fn compensated_turquin_factor(lobe: CompensatedConductor, wo: vec3f) -> vec3f {
     return vec3f(1.0) + lobe.colour * (loss / max(1.0 - loss, 1e-5));
 }
 
-/// Probability of drawing Kulla and Conty's second lobe.
+/// Probability of sampling Kulla and Conty's second lobe.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated.rs, Compensated::second_share.
 fn compensated_second_share(lobe: CompensatedConductor, loss: f32) -> f32 {
@@ -117,7 +117,7 @@ fn compensated_eval(lobe: CompensatedConductor, wo: vec3f, wi: vec3f, transport:
     return compensated_eval_pdf(lobe, wo, wi, transport).rgb;
 }
 
-/// Density of `compensated_draw`, in 1/sr.
+/// Density of `compensated_sample`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated.rs, Compensated::pdf.
 fn compensated_pdf(lobe: CompensatedConductor, wo: vec3f, wi: vec3f) -> f32 {
@@ -134,16 +134,16 @@ fn compensated_pdf(lobe: CompensatedConductor, wo: vec3f, wi: vec3f) -> f32 {
 /// * `u`: uniform in [0, 1)^3.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated.rs, Compensated::sample.
-fn compensated_draw(lobe: CompensatedConductor, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn compensated_sample(lobe: CompensatedConductor, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     if lobe.model != MODEL_KULLA_CONTY {
-        var sampled = rough_conductor_draw(lobe.single, wo, u, transport);
+        var sampled = rough_conductor_sample(lobe.single, wo, u, transport);
         sampled.weight *= compensated_turquin_factor(lobe, wo);
         return sampled;
     }
     let loss = albedo_directional_loss(lobe.loss, wo);
     var wi = warp_cosine_hemisphere(u.yz);
     if u.x >= compensated_second_share(lobe, loss) {
-        let first = rough_conductor_draw(lobe.single, wo, u, transport);
+        let first = rough_conductor_sample(lobe.single, wo, u, transport);
         if first.flags == 0u {
             return first;
         }

@@ -20,7 +20,7 @@
 
 import package::bsdf::bsdf_sample::{BSDF_SAMPLE_LARGEST, BSDF_SAMPLE_SPECULAR, BSDF_SAMPLE_TRANSMISSION, BSDF_SAMPLE_VALID, BsdfSample, BSDF_SAMPLE_RADIANCE, bsdf_sample_none, bsdf_sample_radiance_scale};
 import package::bsdf::microfacets::{MicrofacetsModel};
-import package::bsdf::rough_dielectric::{RoughDielectric, rough_dielectric_draw, rough_dielectric_eval_pdf, rough_dielectric_is_specular};
+import package::bsdf::rough_dielectric::{RoughDielectric, rough_dielectric_sample, rough_dielectric_eval_pdf, rough_dielectric_is_specular};
 import package::bsdf::tints::{TintsPair, tints_on_side};
 import package::energy::dielectric_albedo::{DielectricAlbedoLoss, dielectric_albedo_directional_loss, dielectric_albedo_loss};
 import package::fresnel::dielectric::{dielectric_average};
@@ -139,7 +139,7 @@ fn compensated_dielectric_eval(lobe: CompensatedDielectric, wo: vec3f, wi: vec3f
     return compensated_dielectric_eval_pdf(lobe, wo, wi, transport).rgb;
 }
 
-/// Density of `compensated_dielectric_draw`, in 1/sr.
+/// Density of `compensated_dielectric_sample`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated_dielectric.rs, CompensatedDielectric::pdf.
 fn compensated_dielectric_pdf(lobe: CompensatedDielectric, wo: vec3f, wi: vec3f) -> f32 {
@@ -151,7 +151,7 @@ fn compensated_dielectric_pdf(lobe: CompensatedDielectric, wo: vec3f, wi: vec3f)
 /// * `u`: uniform in [0, 1)^3.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated_dielectric.rs, CompensatedDielectric::sample.
-fn compensated_dielectric_draw(lobe: CompensatedDielectric, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn compensated_dielectric_sample(lobe: CompensatedDielectric, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     let side = compensated_dielectric_side(lobe, wo);
     var sampled: BsdfSample;
     if u.x < side.loss {
@@ -163,7 +163,7 @@ fn compensated_dielectric_draw(lobe: CompensatedDielectric, wo: vec3f, u: vec3f,
     } else {
         // Rounding must not bring 1 about.
         let rest = min((u.x - side.loss) / (1.0 - side.loss), COMPENSATED_DIELECTRIC_BELOW_ONE);
-        sampled = rough_dielectric_draw(lobe.single, wo, vec3f(rest, u.yz), transport);
+        sampled = rough_dielectric_sample(lobe.single, wo, vec3f(rest, u.yz), transport);
         if sampled.flags == 0u || (sampled.flags & BSDF_SAMPLE_SPECULAR) != 0u {
             return sampled;
         }

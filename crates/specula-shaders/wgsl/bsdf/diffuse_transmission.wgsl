@@ -36,7 +36,7 @@ fn diffuse_transmission_eval(lobe: DiffuseTransmission, wo: vec3f, wi: vec3f, tr
     return select(lobe.transmittance, lobe.reflectance, wi.z > 0.0) * (abs(wi.z) * DIFFUSE_TRANSMISSION_PER_PI);
 }
 
-/// Density of `diffuse_transmission_draw`, in 1/sr.
+/// Density of `diffuse_transmission_sample`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/lambert.rs, DiffuseTransmission::pdf.
 fn diffuse_transmission_pdf(lobe: DiffuseTransmission, wo: vec3f, wi: vec3f) -> f32 {
@@ -46,7 +46,7 @@ fn diffuse_transmission_pdf(lobe: DiffuseTransmission, wo: vec3f, wi: vec3f) -> 
 
 /// `f |cos|` and its density: (red, green, blue, density).
 ///
-/// Twin: specula-bsdf/src/bsdf/lambert.rs, DiffuseTransmission::eval_pdf.
+/// Twin: specula-bsdf/src/bsdf/mod.rs, Bsdf::eval_pdf.
 fn diffuse_transmission_eval_pdf(lobe: DiffuseTransmission, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
     return vec4f(diffuse_transmission_eval(lobe, wo, wi, transport), diffuse_transmission_pdf(lobe, wo, wi));
 }
@@ -54,7 +54,7 @@ fn diffuse_transmission_eval_pdf(lobe: DiffuseTransmission, wo: vec3f, wi: vec3f
 /// Samples `wi` by the cosine on either side.
 ///
 /// Twin: specula-bsdf/src/bsdf/lambert.rs, DiffuseTransmission::sample.
-fn diffuse_transmission_draw(lobe: DiffuseTransmission, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn diffuse_transmission_sample(lobe: DiffuseTransmission, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     let p = diffuse_transmission_reflection_probability(lobe);
     let w = warp_cosine_hemisphere(u.yz);
     if u.x < p {

@@ -93,7 +93,7 @@ fn eon_eval(lobe: EonLobe, wo: vec3f, wi: vec3f, transport: u32) -> vec3f {
     return eon_f(lobe, wo, wi) * wi.z;
 }
 
-/// Density of `eon_draw`, in 1/sr.
+/// Density of `eon_sample`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/eon.rs, Eon::pdf.
 fn eon_pdf(lobe: EonLobe, wo: vec3f, wi: vec3f) -> f32 {
@@ -102,7 +102,7 @@ fn eon_pdf(lobe: EonLobe, wo: vec3f, wi: vec3f) -> f32 {
 
 /// `f |cos|` and its density: (red, green, blue, density).
 ///
-/// Twin: specula-bsdf/src/bsdf/eon.rs, Eon::eval_pdf.
+/// Twin: specula-bsdf/src/bsdf/mod.rs, Bsdf::eval_pdf.
 fn eon_eval_pdf(lobe: EonLobe, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
     return vec4f(eon_eval(lobe, wo, wi, transport), warp_cosine_hemisphere_pdf(wi));
 }
@@ -110,7 +110,7 @@ fn eon_eval_pdf(lobe: EonLobe, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
 /// Samples `wi` by the cosine.
 ///
 /// Twin: specula-bsdf/src/bsdf/eon.rs, Eon::sample.
-fn eon_draw(lobe: EonLobe, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn eon_sample(lobe: EonLobe, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     let wi = warp_cosine_hemisphere(u.yz);
     return bsdf_sample_reflected(wi, eon_f(lobe, wo, wi) * EON_PI, warp_cosine_hemisphere_pdf(wi));
 }

@@ -152,10 +152,10 @@ fn gltf_parameters_default() -> GltfParameters {
     return p;
 }
 
-/// The width of a roughness, at least what f32 directions resolve.
+/// Alpha of a roughness, at least what f32 directions resolve.
 ///
-/// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, width.
-fn gltf_width(roughness: f32) -> f32 {
+/// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, alpha_of.
+fn gltf_alpha_of(roughness: f32) -> f32 {
     let held = clamp(roughness, 0.0, 1.0);
     return max(held * held, ALPHA_SPECULAR_BELOW);
 }
@@ -179,7 +179,7 @@ fn gltf_new(p: GltfParameters, coat_normal: vec3f) -> GltfLobe {
     let bends = p.volume == 1u && abs(ior - 1.0) >= 1e-3 && ior >= 0.1;
     let inside = p.volume == 1u && p.outside == 0u;
     let front = select(1.0, 0.0, inside);
-    let alpha = gltf_width(p.roughness);
+    let alpha = gltf_alpha_of(p.roughness);
     let strength = clamp(p.anisotropy, 0.0, 1.0);
     let alphas = vec2f(alpha + (1.0 - alpha) * strength * strength, alpha);
     let metallic = clamp(p.metallic, 0.0, 1.0);
@@ -208,7 +208,7 @@ fn gltf_new(p: GltfParameters, coat_normal: vec3f) -> GltfLobe {
         lobe.eta = 1.0 / ior;
     }
     lobe.clearcoat = front * clamp(p.clearcoat, 0.0, 1.0);
-    lobe.coat = gltf_facets(vec2f(gltf_width(p.clearcoat_roughness)), MASKING_HEIGHT_CORRELATED);
+    lobe.coat = gltf_facets(vec2f(gltf_alpha_of(p.clearcoat_roughness)), MASKING_HEIGHT_CORRELATED);
     lobe.coat_normal = coat_normal;
     let sheen = front * clamp(p.sheen_colour, vec3f(0.0), vec3f(1.0));
     lobe.has_sheen = select(1u, 0u, rgb_is_black(sheen));
@@ -400,7 +400,7 @@ fn gltf_eval(lobe: GltfLobe, wo: vec3f, wi: vec3f, transport: u32) -> vec3f {
     return gltf_eval_pdf(lobe, wo, wi, transport).rgb;
 }
 
-/// Density of `gltf_draw`, in 1/sr.
+/// Density of `gltf_sample`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::pdf.
 fn gltf_pdf(lobe: GltfLobe, wo: vec3f, wi: vec3f) -> f32 {
@@ -409,8 +409,8 @@ fn gltf_pdf(lobe: GltfLobe, wo: vec3f, wi: vec3f) -> f32 {
 
 /// A direction through the surface; upwards, to be rejected, where light is totally reflected.
 ///
-/// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::draw_through.
-fn gltf_draw_through(lobe: GltfLobe, wo: vec3f, u: vec2f) -> vec3f {
+/// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::sample_transmission.
+fn gltf_sample_transmission(lobe: GltfLobe, wo: vec3f, u: vec2f) -> vec3f {
     if lobe.bends == 0u {
         let up = microfacets_sample_reflection(lobe.passing, wo, u);
         return vec3f(up.xy, -up.z);
@@ -429,10 +429,10 @@ fn gltf_draw_through(lobe: GltfLobe, wo: vec3f, u: vec2f) -> vec3f {
 /// * `u`: uniform in [0, 1)^3.
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::sample.
-fn gltf_draw(lobe: GltfLobe, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn gltf_sample(lobe: GltfLobe, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     let shares = gltf_shares(lobe, wo);
     if u.x < shares.transmission {
-        let below = gltf_draw_through(lobe, wo, u.yz);
+        let below = gltf_sample_transmission(lobe, wo, u.yz);
         if below.z >= 0.0 {
             return bsdf_sample_none();
         }

@@ -7,7 +7,7 @@
 //
 // `A` is that of `albedo`. `q` and the sheen's albedo are tables, cubic in `sqrt(mu)` and in `sqrt(alpha)` or
 // the sheen's roughness. They are read with a margin of their largest error, less towards normal incidence,
-// so that errors cost light rather than make it. `q` of an anisotropic surface is taken at the width along
+// so that errors cost light rather than make it. `q` of an anisotropic surface is taken at the alpha along
 // the view.
 
 import package::energy::albedo::{AlbedoLoss, albedo_directional_loss, albedo_loss};
@@ -16,13 +16,13 @@ import package::energy::stencil::{StencilWeights, stencil_at};
 import package::ndf::distribution::{DISTRIBUTION_GGX};
 import package::ndf::masking::{MASKING_HEIGHT_CORRELATED};
 
-/// Knots along the width.
+/// Knots along the alpha.
 const GLTF_ALBEDO_ALPHAS: u32 = 16u;
 /// Knots along the sheen's roughness.
 const GLTF_ALBEDO_ROUGHNESSES: u32 = 12u;
 /// Knots along the cosine.
 const GLTF_ALBEDO_MUS: u32 = 24u;
-/// Where `q` by width and cosine begins.
+/// Where `q` by alpha and cosine begins.
 const GLTF_ALBEDO_SCHLICK_START: u32 = 923392u;
 /// Where the sheen's albedo by roughness and cosine begins.
 const GLTF_ALBEDO_SHEEN_START: u32 = 923776u;
@@ -83,10 +83,10 @@ fn gltf_albedo_half_vectors(mu: f32) -> f32 {
     return (((0.008978 * mu - 0.043663) * mu + 0.086456) * mu - 0.079853) * mu + 0.028164;
 }
 
-/// The width along the view.
+/// Alpha along the view.
 ///
-/// Twin: specula-bsdf/src/bsdf/gltf/albedo.rs, LayerAlbedo::width.
-fn gltf_albedo_width(alpha: vec2f, w: vec3f) -> f32 {
+/// Twin: specula-bsdf/src/bsdf/gltf/albedo.rs, LayerAlbedo::alpha_along.
+fn gltf_albedo_alpha_along(alpha: vec2f, w: vec3f) -> f32 {
     let along = w.xy * w.xy;
     let spread = dot(alpha * alpha, along);
     let sum = along.x + along.y;
@@ -99,7 +99,7 @@ fn gltf_albedo_width(alpha: vec2f, w: vec3f) -> f32 {
 fn gltf_albedo_limit(layer: GltfAlbedoLayer, w: vec3f) -> f32 {
     let mu = min(abs(w.z), 1.0);
     let whole = 1.0 - albedo_directional_loss(layer.loss, w);
-    let q = gltf_albedo_schlick(gltf_albedo_width(layer.alpha, w), mu) + GLTF_ALBEDO_MARGIN * (1.0 - mu);
+    let q = gltf_albedo_schlick(gltf_albedo_alpha_along(layer.alpha, w), mu) + GLTF_ALBEDO_MARGIN * (1.0 - mu);
     let leaves = max(1.0 - whole * (layer.normal + layer.rise * q), 0.0);
     let wanted = 1.0 - layer.normal - layer.rise * gltf_albedo_half_vectors(mu);
     if leaves < wanted {

@@ -18,7 +18,7 @@ fn lambert_eval(lobe: LambertLobe, wo: vec3f, wi: vec3f, transport: u32) -> vec3
     return lobe.albedo * warp_cosine_hemisphere_pdf(wi);
 }
 
-/// Density of `lambert_draw`, in 1/sr.
+/// Density of `lambert_sample`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/lambert.rs, Lambert::pdf.
 fn lambert_pdf(lobe: LambertLobe, wo: vec3f, wi: vec3f) -> f32 {
@@ -27,7 +27,7 @@ fn lambert_pdf(lobe: LambertLobe, wo: vec3f, wi: vec3f) -> f32 {
 
 /// `f |cos|` and its density: (red, green, blue, density).
 ///
-/// Twin: specula-bsdf/src/bsdf/lambert.rs, Lambert::eval_pdf.
+/// Twin: specula-bsdf/src/bsdf/mod.rs, Bsdf::eval_pdf.
 fn lambert_eval_pdf(lobe: LambertLobe, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
     let pdf = warp_cosine_hemisphere_pdf(wi);
     return vec4f(lobe.albedo * pdf, pdf);
@@ -36,7 +36,7 @@ fn lambert_eval_pdf(lobe: LambertLobe, wo: vec3f, wi: vec3f, transport: u32) -> 
 /// Samples `wi` by the cosine.
 ///
 /// Twin: specula-bsdf/src/bsdf/lambert.rs, Lambert::sample.
-fn lambert_draw(lobe: LambertLobe, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn lambert_sample(lobe: LambertLobe, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     let wi = warp_cosine_hemisphere(u.yz);
     return bsdf_sample_reflected(wi, lobe.albedo, warp_cosine_hemisphere_pdf(wi));
 }

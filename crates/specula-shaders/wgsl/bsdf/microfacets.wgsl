@@ -74,7 +74,7 @@ fn microfacets_g_over_cos(facets: MicrofacetsModel, wo: vec3f, wi: vec3f) -> f32
 ///
 /// * `u`: uniform in [0, 1)^2.
 ///
-/// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::sample_wm.
+/// Twin: specula-bsdf/src/vndf/visible_normals.rs, VisibleNormals::sample_wm.
 fn microfacets_sample_wm(facets: MicrofacetsModel, wo: vec3f, u: vec2f) -> vec3f {
     if facets.distribution == DISTRIBUTION_BECKMANN {
         return beckmann_visible_sample_wm(facets.alpha, wo, u);
@@ -86,7 +86,7 @@ fn microfacets_sample_wm(facets: MicrofacetsModel, wo: vec3f, u: vec2f) -> vec3f
 ///
 /// * `u`: uniform in [0, 1)^2.
 ///
-/// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::sample_reflection.
+/// Twin: specula-bsdf/src/vndf/visible_normals.rs, VisibleNormals::sample_reflection_by.
 fn microfacets_sample_reflection(facets: MicrofacetsModel, wo: vec3f, u: vec2f) -> vec3f {
     if facets.distribution == DISTRIBUTION_BECKMANN {
         return reflection_mirrored(wo, beckmann_visible_sample_wm(facets.alpha, wo, u));
@@ -97,7 +97,7 @@ fn microfacets_sample_reflection(facets: MicrofacetsModel, wo: vec3f, u: vec2f) 
 /// The constant `N` of `pdf(wi) = D(wm) / (4 N)` of reflections above the horizon, as numerator and
 /// denominator.
 ///
-/// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::reflection_norm_quotient.
+/// Twin: specula-bsdf/src/vndf/visible_normals.rs, VisibleNormals::reflection_norm_quotient.
 fn microfacets_norm_quotient(facets: MicrofacetsModel, wo: vec3f) -> vec2f {
     if facets.distribution == DISTRIBUTION_BECKMANN {
         return vec2f(beckmann_projected_area(facets.alpha, wo), 1.0);
@@ -107,7 +107,7 @@ fn microfacets_norm_quotient(facets: MicrofacetsModel, wo: vec3f) -> vec2f {
 
 /// The constant `N` of `pdf(wi) = D(wm) / (4 N)` of reflections above the horizon.
 ///
-/// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::reflection_norm.
+/// Twin: specula-bsdf/src/vndf/visible_normals.rs, VisibleNormals::reflection_norm_by.
 fn microfacets_norm(facets: MicrofacetsModel, wo: vec3f) -> f32 {
     let quotient = microfacets_norm_quotient(facets, wo);
     return quotient.x / quotient.y;

@@ -93,7 +93,7 @@ fn plastic_transmittance(lobe: PlasticLobe, w: vec3f) -> f32 {
     return dielectric(abs(w.z), lobe.eta).transmittance;
 }
 
-/// Probability of drawing the coat's reflection; 0 for a mirror that faces away.
+/// Probability of sampling the coat's reflection; 0 for a mirror that faces away.
 ///
 /// Twin: specula-bsdf/src/bsdf/plastic/mod.rs, Plastic::coat_probability.
 fn plastic_coat_probability(lobe: PlasticLobe, entering: f32, wo: vec3f) -> f32 {
@@ -135,7 +135,7 @@ fn plastic_eval(lobe: PlasticLobe, wo: vec3f, wi: vec3f, transport: u32) -> vec3
     return plastic_eval_pdf(lobe, wo, wi, transport).rgb;
 }
 
-/// Density of `plastic_draw`, in 1/sr.
+/// Density of `plastic_sample`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/plastic/mod.rs, Plastic::pdf.
 fn plastic_pdf(lobe: PlasticLobe, wo: vec3f, wi: vec3f) -> f32 {
@@ -147,7 +147,7 @@ fn plastic_pdf(lobe: PlasticLobe, wo: vec3f, wi: vec3f) -> f32 {
 /// * `u`: uniform in [0, 1)^3.
 ///
 /// Twin: specula-bsdf/src/bsdf/plastic/mod.rs, Plastic::sample.
-fn plastic_draw(lobe: PlasticLobe, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn plastic_sample(lobe: PlasticLobe, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     let entering = plastic_transmittance(lobe, wo);
     let p = plastic_coat_probability(lobe, entering, wo);
     var wi = warp_cosine_hemisphere(u.yz);

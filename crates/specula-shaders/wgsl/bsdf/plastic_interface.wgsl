@@ -11,7 +11,7 @@
 // specula-bsdf/src/bsdf/plastic/interface.rs. Anisotropic alphas are taken as `sqrt(alpha_x alpha_y)`.
 //
 // Departure from the Rust source: the table is read at the cosine for each direction, where Rust keeps the
-// row of a width and an index.
+// row of a alpha and an index.
 
 import package::energy::energy_table::{energy_table};
 import package::energy::stencil::{StencilWeights, stencil_at};
@@ -19,36 +19,36 @@ import package::ndf::distribution::{DISTRIBUTION_BECKMANN};
 
 /// Knots along the index.
 const PLASTIC_INTERFACE_ETAS: u32 = 9u;
-/// Knots along the width.
+/// Knots along the alpha.
 const PLASTIC_INTERFACE_ALPHAS: u32 = 25u;
 /// Knots along the cosine.
 const PLASTIC_INTERFACE_MUS: u32 = 20u;
-/// Where `T` by distribution, index, width and cosine begins.
+/// Where `T` by distribution, index, alpha and cosine begins.
 const PLASTIC_INTERFACE_TRANSMITTANCE_START: u32 = 913942u;
-/// Where `R_int` by distribution, index and width begins.
+/// Where `R_int` by distribution, index and alpha begins.
 const PLASTIC_INTERFACE_INTERNAL_START: u32 = 922942u;
 
-/// The tables at a width and an index.
+/// The tables at a alpha and an index.
 ///
 /// Twin: specula-bsdf/src/bsdf/plastic/interface.rs, Interface.
 struct PlasticInterface {
-    /// First row of the distribution, of rows by index and width.
+    /// First row of the distribution, of rows by index and alpha.
     first: u32,
     /// Neighbours of the index.
     eta: StencilWeights,
-    /// Neighbours of the width.
+    /// Neighbours of the alpha.
     alpha: StencilWeights,
 }
 
-/// The tables at a width and an index in [1, 3].
+/// The tables at a alpha and an index in [1, 3].
 ///
 /// Twin: specula-bsdf/src/bsdf/plastic/interface.rs, Interface::rough.
 fn plastic_interface_new(distribution: u32, alpha: vec2f, eta: f32) -> PlasticInterface {
-    let width = sqrt(alpha.x * alpha.y);
+    let mean = sqrt(alpha.x * alpha.y);
     let second = distribution == DISTRIBUTION_BECKMANN;
     let first = select(0u, PLASTIC_INTERFACE_ETAS * PLASTIC_INTERFACE_ALPHAS, second);
     let e = stencil_at(2.0 * (eta - 1.0) / (eta + 1.0), PLASTIC_INTERFACE_ETAS);
-    let a = stencil_at(sqrt(1.1 * width / (1.0 + width)), PLASTIC_INTERFACE_ALPHAS);
+    let a = stencil_at(sqrt(1.1 * mean / (1.0 + mean)), PLASTIC_INTERFACE_ALPHAS);
     return PlasticInterface(first, e, a);
 }
 

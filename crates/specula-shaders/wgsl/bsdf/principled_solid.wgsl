@@ -232,7 +232,7 @@ fn principled_solid_eval(lobe: PrincipledSolid, wo: vec3f, wi: vec3f, transport:
     return principled_solid_eval_pdf(lobe, wo, wi, transport).rgb;
 }
 
-/// Density of `principled_solid_draw`, in 1/sr.
+/// Density of `principled_solid_sample`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/principled/mod.rs, Principled::pdf.
 fn principled_solid_pdf(lobe: PrincipledSolid, wo: vec3f, wi: vec3f) -> f32 {
@@ -265,7 +265,7 @@ fn principled_solid_transmitted(lobe: PrincipledSolid, shares: PrincipledSolidSh
 /// * `u`: uniform in [0, 1)^3.
 ///
 /// Twin: specula-bsdf/src/bsdf/principled/solid.rs, Solid::sample.
-fn principled_solid_draw(lobe: PrincipledSolid, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn principled_solid_sample(lobe: PrincipledSolid, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     let shares = principled_solid_shares(lobe, wo);
     let before = shares.diffuse + shares.clearcoat;
     var wi: vec3f;

@@ -172,7 +172,7 @@ fn principled_thin_eval(lobe: PrincipledThin, wo: vec3f, wi: vec3f, transport: u
     return principled_thin_eval_pdf(lobe, wo, wi, transport).rgb;
 }
 
-/// Density of `principled_thin_draw`, in 1/sr.
+/// Density of `principled_thin_sample`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/principled/mod.rs, Principled::pdf.
 fn principled_thin_pdf(lobe: PrincipledThin, wo: vec3f, wi: vec3f) -> f32 {
@@ -184,7 +184,7 @@ fn principled_thin_pdf(lobe: PrincipledThin, wo: vec3f, wi: vec3f) -> f32 {
 /// * `u`: uniform in [0, 1)^3.
 ///
 /// Twin: specula-bsdf/src/bsdf/principled/thin.rs, Thin::sample.
-fn principled_thin_draw(lobe: PrincipledThin, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn principled_thin_sample(lobe: PrincipledThin, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     let shares = principled_thin_shares(lobe, wo);
     let first = shares.reflection;
     let second = first + shares.diffuse_reflection;

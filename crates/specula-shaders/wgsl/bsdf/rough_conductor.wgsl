@@ -54,7 +54,7 @@ fn rough_conductor_eval(lobe: RoughConductor, wo: vec3f, wi: vec3f, transport: u
     return rough_conductor_eval_pdf(lobe, wo, wi, transport).rgb;
 }
 
-/// Density of `rough_conductor_draw`, in 1/sr.
+/// Density of `rough_conductor_sample`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/conductor.rs, RoughConductor::pdf.
 fn rough_conductor_pdf(lobe: RoughConductor, wo: vec3f, wi: vec3f) -> f32 {
@@ -70,7 +70,7 @@ fn rough_conductor_pdf(lobe: RoughConductor, wo: vec3f, wi: vec3f) -> f32 {
 /// * `u`: uniform in [0, 1)^3.
 ///
 /// Twin: specula-bsdf/src/bsdf/conductor.rs, RoughConductor::sample.
-fn rough_conductor_draw(lobe: RoughConductor, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn rough_conductor_sample(lobe: RoughConductor, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     let wi = microfacets_sample_reflection(lobe.facets, wo, u.yz);
     let norm = microfacets_norm(lobe.facets, wo);
     let facet = rough_conductor_facet(lobe.facets, wo, wi);

@@ -113,7 +113,7 @@ fn rough_dielectric_stretches(lobe: RoughDielectric, side: RoughDielectricSide, 
 /// `other factor + one` with the product as it is: factors are split in halves of 12 bits, whose products
 /// are exact, and the largest meets `one` first.
 ///
-/// Twin: specula-bsdf/src/math/real.rs, Real::mul_add_once.
+/// Twin: specula-bsdf/src/math/real.rs, Real::mad_exact_product.
 fn rough_dielectric_sum(other: vec3f, factor: f32, one: vec3f) -> vec3f {
     let other_high = bitcast<vec3f>(bitcast<vec3u>(other) & vec3u(0xfffff000u));
     let other_low = other - other_high;
@@ -250,10 +250,10 @@ fn rough_dielectric_scattered(lobe: RoughDielectric, wi: vec3f, weight: f32, pdf
     return bsdf_sample_none();
 }
 
-/// A draw for `wo` on its own side: the normal, then the branch.
+/// A sample for `wo` on its own side: the normal, then the branch.
 ///
-/// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::draw.
-fn rough_dielectric_draw_normal_first(lobe: RoughDielectric, wo: vec3f, u: vec3f, side: RoughDielectricSide, transport: u32) -> BsdfSample {
+/// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::sample_normal_first.
+fn rough_dielectric_sample_normal_first(lobe: RoughDielectric, wo: vec3f, u: vec3f, side: RoughDielectricSide, transport: u32) -> BsdfSample {
     let wm = microfacets_sample_wm(lobe.facets, wo, u.yz);
     let cos_o = max(dot(wo, wm), 0.0);
     let sine_squared = (1.0 - cos_o) * (1.0 + cos_o);
@@ -291,10 +291,10 @@ fn rough_dielectric_draw_normal_first(lobe: RoughDielectric, wo: vec3f, u: vec3f
     return rough_dielectric_scattered(lobe, wi, weight * scale, pdf, reflects, side);
 }
 
-/// A draw for `wo` on its own side: the branch, then the normal.
+/// A sample for `wo` on its own side: the branch, then the normal.
 ///
-/// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::draw_branch_first.
-fn rough_dielectric_draw_branch_first(lobe: RoughDielectric, wo: vec3f, u: vec3f, side: RoughDielectricSide, transport: u32) -> BsdfSample {
+/// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::sample_branch_first.
+fn rough_dielectric_sample_branch_first(lobe: RoughDielectric, wo: vec3f, u: vec3f, side: RoughDielectricSide, transport: u32) -> BsdfSample {
     let reflects = u.x < rough_dielectric_branch_probability(wo, side.eta);
     var wi: vec3f;
     if reflects {
@@ -320,16 +320,16 @@ fn rough_dielectric_draw_branch_first(lobe: RoughDielectric, wo: vec3f, u: vec3f
 /// * `u`: uniform in [0, 1)^3.
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::sample.
-fn rough_dielectric_draw(lobe: RoughDielectric, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn rough_dielectric_sample(lobe: RoughDielectric, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     if rough_dielectric_is_specular(lobe) {
         return bsdf_sample_delta(-wo, lobe.tints.transmission, 1.0, BSDF_SAMPLE_TRANSMISSION, 1.0);
     }
     let side = rough_dielectric_side(lobe, wo);
     let upright = vec3f(wo.xy, wo.z * side.turn);
     if rough_dielectric_is_branch_first(lobe) {
-        return rough_dielectric_draw_branch_first(lobe, upright, u, side, transport);
+        return rough_dielectric_sample_branch_first(lobe, upright, u, side, transport);
     }
-    return rough_dielectric_draw_normal_first(lobe, upright, u, side, transport);
+    return rough_dielectric_sample_normal_first(lobe, upright, u, side, transport);
 }
 
 /// `f |cos|` and its density.
@@ -356,20 +356,20 @@ fn rough_dielectric_eval(lobe: RoughDielectric, wo: vec3f, wi: vec3f, transport:
     return rough_dielectric_eval_pdf(lobe, wo, wi, transport).rgb;
 }
 
-/// Density of `rough_dielectric_draw`, in 1/sr.
+/// Density of `rough_dielectric_sample`, in 1/sr.
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::pdf.
 fn rough_dielectric_pdf(lobe: RoughDielectric, wo: vec3f, wi: vec3f) -> f32 {
     return rough_dielectric_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE).a;
 }
 
-/// A draw of one branch alone, by all visible normals. The weight is of that branch: for walks that
+/// A sample of one branch alone, by all visible normals. The weight is of that branch: for walks that
 /// follow reflection and refraction one by one.
 ///
 /// * `u`: uniform in [0, 1)^2.
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::sample_branch.
-fn rough_dielectric_draw_branch(lobe: RoughDielectric, view: vec3f, u: vec2f, reflects: bool, transport: u32) -> BsdfSample {
+fn rough_dielectric_sample_branch(lobe: RoughDielectric, view: vec3f, u: vec2f, reflects: bool, transport: u32) -> BsdfSample {
     let side = rough_dielectric_side(lobe, view);
     let wo = vec3f(view.xy, view.z * side.turn);
     let wm = microfacets_sample_wm(lobe.facets, wo, u);
@@ -391,7 +391,7 @@ fn rough_dielectric_draw_branch(lobe: RoughDielectric, view: vec3f, u: vec2f, re
     return rough_dielectric_scattered(lobe, wi, weight * scale, pdf, reflects, side);
 }
 
-/// `f |cos|` without tints, and the density of `rough_dielectric_draw_branch` for the branch of `wi`.
+/// `f |cos|` without tints, and the density of `rough_dielectric_sample_branch` for the branch of `wi`.
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::eval_branch.
 fn rough_dielectric_eval_branch(lobe: RoughDielectric, wo: vec3f, wi: vec3f, transport: u32) -> vec2f {

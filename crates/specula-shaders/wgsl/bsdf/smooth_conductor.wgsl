@@ -35,7 +35,7 @@ fn smooth_conductor_eval_pdf(lobe: SmoothConductor, wo: vec3f, wi: vec3f, transp
 /// The mirrored direction; none for a view below the horizon.
 ///
 /// Twin: specula-bsdf/src/bsdf/conductor.rs, SmoothConductor::sample.
-fn smooth_conductor_draw(lobe: SmoothConductor, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn smooth_conductor_sample(lobe: SmoothConductor, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     if wo.z <= 0.0 {
         return bsdf_sample_none();
     }

@@ -34,7 +34,7 @@ fn smooth_dielectric_pdf(lobe: SmoothDielectric, wo: vec3f, wi: vec3f) -> f32 {
 
 /// `f |cos|` and its density without their Dirac deltas: 0.
 ///
-/// Twin: specula-bsdf/src/bsdf/smooth_dielectric.rs, SmoothDielectric::eval_pdf.
+/// Twin: specula-bsdf/src/bsdf/mod.rs, Bsdf::eval_pdf.
 fn smooth_dielectric_eval_pdf(lobe: SmoothDielectric, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
     return vec4f(0.0);
 }
@@ -42,7 +42,7 @@ fn smooth_dielectric_eval_pdf(lobe: SmoothDielectric, wo: vec3f, wi: vec3f, tran
 /// The mirrored or the refracted direction, by Fresnel's reflectance.
 ///
 /// Twin: specula-bsdf/src/bsdf/smooth_dielectric.rs, SmoothDielectric::sample.
-fn smooth_dielectric_draw(lobe: SmoothDielectric, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn smooth_dielectric_sample(lobe: SmoothDielectric, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     let inside = wo.z < 0.0;
     if wo.z == 0.0 || (inside && lobe.two_sided == 0u) {
         return bsdf_sample_none();

@@ -33,7 +33,7 @@ fn thin_dielectric_pdf(lobe: ThinDielectric, wo: vec3f, wi: vec3f) -> f32 {
 
 /// `f |cos|` and its density without their Dirac deltas: 0.
 ///
-/// Twin: specula-bsdf/src/bsdf/smooth_dielectric.rs, ThinDielectric::eval_pdf.
+/// Twin: specula-bsdf/src/bsdf/mod.rs, Bsdf::eval_pdf.
 fn thin_dielectric_eval_pdf(lobe: ThinDielectric, wo: vec3f, wi: vec3f, transport: u32) -> vec4f {
     return vec4f(0.0);
 }
@@ -41,7 +41,7 @@ fn thin_dielectric_eval_pdf(lobe: ThinDielectric, wo: vec3f, wi: vec3f, transpor
 /// The mirrored direction or straight on, by the pane's reflectance.
 ///
 /// Twin: specula-bsdf/src/bsdf/smooth_dielectric.rs, ThinDielectric::sample.
-fn thin_dielectric_draw(lobe: ThinDielectric, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
+fn thin_dielectric_sample(lobe: ThinDielectric, wo: vec3f, u: vec3f, transport: u32) -> BsdfSample {
     let single = dielectric(abs(wo.z), lobe.eta).reflectance;
     let reflectance = 2.0 * single / (1.0 + single);
     if u.x < reflectance {

@@ -33,9 +33,9 @@ const ALBEDO_ANISOTROPIC_COSINES: u32 = 22u;
 
 /// Values of one distribution and masking.
 const ALBEDO_TABLES_STRIDE: u32 = 222644u;
-/// Where `sqrt(1 - E)` by width and cosine begins.
+/// Where `sqrt(1 - E)` by alpha and cosine begins.
 const ALBEDO_ISOTROPIC_START: u32 = 0u;
-/// Where `sqrt(1 - E_avg)` over its scale, by width, begins.
+/// Where `sqrt(1 - E_avg)` over its scale, by alpha, begins.
 const ALBEDO_ISOTROPIC_AVERAGE_START: u32 = 1920u;
 /// Where `sqrt(1 - E)` by pair of alphas, azimuth and cosine begins.
 const ALBEDO_ANISOTROPIC_START: u32 = 1968u;
@@ -52,9 +52,9 @@ struct AlbedoLoss {
     stretched: u32,
     /// The alphas.
     alphas: CoordinatesAlphaPair,
-    /// Coefficients about the smaller width.
+    /// Coefficients about the smaller alpha.
     low: SplineCubic,
-    /// Coefficients about the larger width.
+    /// Coefficients about the larger alpha.
     high: SplineCubic,
     /// `1 - E_avg`, in (0, 1].
     average: f32,
@@ -155,7 +155,7 @@ fn albedo_directional_loss(loss: AlbedoLoss, wo: vec3f) -> f32 {
     var root: f32;
     if loss.stretched == 1u {
         let azimuth = coordinates_azimuth(loss.alphas, wo.x, wo.y);
-        let m = coordinates_cosine(cosine, azimuth.width);
+        let m = coordinates_cosine(cosine, azimuth.alpha);
         root = albedo_anisotropic(loss.table, loss.low, loss.high, azimuth.v, m);
     } else {
         let m = coordinates_cosine(cosine, loss.alphas.low);

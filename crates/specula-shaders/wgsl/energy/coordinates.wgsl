@@ -1,17 +1,17 @@
 // Where the tables of lost energy have their knots: coordinates in [0, 1] along which the square root
 // of a loss is smooth.
 //
-//     width      t(alpha), affine in sqrt(alpha / (alpha + 2)), alpha in [1e-4, 10]
+//     alpha      t(alpha), affine in sqrt(alpha / (alpha + 2)), alpha in [1e-4, 10]
 //     azimuth    v = ln(a / l) / ln(h / l),   a^2 = (l^2 x^2 + h^2 y^2) / (x^2 + y^2)
 //     cosine     m = 1 - sqrt(1 - sqrt(mu (1 + a) / (mu + a)))
 //
-// `a` is the width along the view, between the alphas `l < h` along x and y. Off a stretched surface
+// `a` is the alpha along the view, between the alphas `l < h` along x and y. Off a stretched surface
 // the loss changes where `tan phi ~ l / h`: the logarithm has room there at every ratio. For narrow
-// lobes everything happens at `mu ~ a`, for which `m` has room at every width, and the inner root
+// lobes everything happens at `mu ~ a`, for which `m` has room at every alpha, and the inner root
 // makes room for Beckmann's steep loss about normal incidence.
 //
 // Interfaces seen from the denser side have edges besides, along which light begins to pass: where the
-// sine of the view is `eta`, and for a narrow width the view's part along it. With the bend
+// sine of the view is `eta`, and for a narrow alpha the view's part along it. With the bend
 //
 //     w = y (1 - e) / (y (1 - 2e) + e),   x = 2w - 1,   bend(y, e) = (1 + x sqrt(3 / (2 x^2 + 1))) / 2
 //
@@ -51,15 +51,15 @@ struct CoordinatesAlphaPair {
 ///
 /// Twin: specula-bsdf/src/energy/coordinates.rs, Azimuth.
 struct CoordinatesAzimuth {
-    /// Width along the view.
-    width: f32,
+    /// Alpha along the view.
+    alpha: f32,
     /// Coordinate of the azimuth.
     v: f32,
     /// Share of the squared sine along the narrow axis.
     narrow: f32,
 }
 
-/// The coordinate of a width.
+/// The coordinate of a alpha.
 ///
 /// Twin: specula-bsdf/src/energy/coordinates.rs, alpha_coordinate.
 fn coordinates_alpha(alpha: f32) -> f32 {
@@ -67,11 +67,11 @@ fn coordinates_alpha(alpha: f32) -> f32 {
     return (root - COORDINATES_ROOT_START) * COORDINATES_ROOT_SCALE;
 }
 
-/// The coordinate of a cosine at a width along the view.
+/// The coordinate of a cosine at a alpha along the view.
 ///
 /// Twin: specula-bsdf/src/energy/coordinates.rs, cosine_coordinate.
-fn coordinates_cosine(cosine: f32, width: f32) -> f32 {
-    let share = cosine * (1.0 + width) / (cosine + width);
+fn coordinates_cosine(cosine: f32, alpha: f32) -> f32 {
+    let share = cosine * (1.0 + alpha) / (cosine + alpha);
     return 1.0 - sqrt(max(1.0 - sqrt(share), 0.0));
 }
 
@@ -89,9 +89,9 @@ fn coordinates_bend(y: f32, edge: f32) -> f32 {
 /// * `edge`: see `coordinates_edge`.
 ///
 /// Twin: specula-bsdf/src/energy/coordinates.rs, interface_cosine_coordinate.
-fn coordinates_interface_cosine(cosine: f32, width: f32, edge: f32) -> f32 {
+fn coordinates_interface_cosine(cosine: f32, alpha: f32, edge: f32) -> f32 {
     let bent = coordinates_bend(cosine * cosine, 1.0 - edge);
-    return 0.7 * coordinates_cosine(cosine, width) + 0.3 * bent;
+    return 0.7 * coordinates_cosine(cosine, alpha) + 0.3 * bent;
 }
 
 /// The alphas along x and y, in any order.
@@ -139,6 +139,6 @@ fn coordinates_edge(eta: f32) -> f32 {
 ///
 /// Twin: specula-bsdf/src/energy/coordinates.rs, average_scale.
 fn coordinates_average_scale(x: f32, y: f32) -> f32 {
-    let width = sqrt((x * x + y * y) * 0.5);
-    return width / (1.0 + width);
+    let alpha = sqrt((x * x + y * y) * 0.5);
+    return alpha / (1.0 + alpha);
 }

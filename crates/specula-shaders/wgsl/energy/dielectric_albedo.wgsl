@@ -34,9 +34,9 @@ const DIELECTRIC_ALBEDO_ANISOTROPIC_COSINES: u32 = 14u;
 /// Pairs of alphas of the anisotropic tables.
 const DIELECTRIC_ALBEDO_ANISOTROPIC_PAIRS: u32 = 78u;
 
-/// Where `sqrt(1 - E)` by index, width and cosine begins.
+/// Where `sqrt(1 - E)` by index, alpha and cosine begins.
 const DIELECTRIC_ALBEDO_START: u32 = 81468u;
-/// Where `sqrt(1 - E_avg)` over its scale, by index and width, begins.
+/// Where `sqrt(1 - E_avg)` over its scale, by index and alpha, begins.
 const DIELECTRIC_ALBEDO_AVERAGE_START: u32 = 90268u;
 /// Where `sqrt(1 - E)` by index, pair of alphas, azimuth and cosine begins.
 const DIELECTRIC_ALBEDO_ANISOTROPIC_START: u32 = 90668u;
@@ -64,13 +64,13 @@ struct DielectricAlbedoLoss {
     alphas: CoordinatesAlphaPair,
     /// Coefficients about the index, isotropic.
     eta: SplineCubic,
-    /// Coefficients about the width, isotropic.
+    /// Coefficients about the alpha, isotropic.
     alpha: SplineCubic,
     /// Coefficients about the index, anisotropic.
     anisotropic_eta: SplineQuadratic,
-    /// Coefficients about the smaller width, anisotropic.
+    /// Coefficients about the smaller alpha, anisotropic.
     low: SplineQuadratic,
-    /// Coefficients about the larger width, anisotropic.
+    /// Coefficients about the larger alpha, anisotropic.
     high: SplineQuadratic,
     /// `1 - E_avg`, in (0, 1].
     average: f32,
@@ -91,7 +91,7 @@ fn dielectric_albedo_eta_coordinate(eta: f32) -> f32 {
     return (root - DIELECTRIC_ALBEDO_ROOT_START) * DIELECTRIC_ALBEDO_ROOT_SCALE;
 }
 
-/// `sqrt(1 - E_avg)` over its scale, isotropic: by the first row of the half, index and width.
+/// `sqrt(1 - E_avg)` over its scale, isotropic: by the first row of the half, index and alpha.
 ///
 /// Twin: specula-bsdf/src/energy/dielectric_albedo.rs, DielectricLoss::new.
 fn dielectric_albedo_isotropic_average(table: u32, start: u32, eta: SplineCubic, alpha: SplineCubic) -> f32 {
@@ -107,7 +107,7 @@ fn dielectric_albedo_isotropic_average(table: u32, start: u32, eta: SplineCubic,
 /// `sqrt(1 - E_avg)` over its scale, anisotropic: by the first row of the half, index and alphas.
 ///
 /// Twin: specula-bsdf/src/energy/dielectric_albedo.rs, DielectricLoss::new.
-fn dielectric_albedo_stretched_average(table: u32, start: u32, eta: SplineQuadratic, low: SplineQuadratic, high: SplineQuadratic) -> f32 {
+fn dielectric_albedo_anisotropic_average(table: u32, start: u32, eta: SplineQuadratic, low: SplineQuadratic, high: SplineQuadratic) -> f32 {
     let first = table + DIELECTRIC_ALBEDO_ANISOTROPIC_AVERAGE_START;
     var root = 0.0;
     for (var n = 0u; n < 27u; n++) {
@@ -147,7 +147,7 @@ fn dielectric_albedo_loss(distribution: u32, masking: u32, alpha: vec2f, eta: f3
         loss.anisotropic_eta = spline_quadratic(place, DIELECTRIC_ALBEDO_ANISOTROPIC_ETAS / 2u);
         loss.low = spline_quadratic(low, DIELECTRIC_ALBEDO_ANISOTROPIC_ALPHAS);
         loss.high = spline_quadratic(high, DIELECTRIC_ALBEDO_ANISOTROPIC_ALPHAS);
-        root = dielectric_albedo_stretched_average(loss.table, loss.start, loss.anisotropic_eta, loss.low, loss.high);
+        root = dielectric_albedo_anisotropic_average(loss.table, loss.start, loss.anisotropic_eta, loss.low, loss.high);
     }
     let scaled = root * coordinates_average_scale(alpha.x, alpha.y);
     loss.average = clamp(scaled * scaled, 1e-18, 1.0);
@@ -183,8 +183,8 @@ fn dielectric_albedo_row(start: u32, cosine: SplineQuadratic) -> f32 {
 
 /// `sqrt(1 - E)` of an anisotropic table at the coordinates of an azimuth and a cosine.
 ///
-/// Twin: specula-bsdf/src/energy/dielectric_albedo.rs, stretched.
-fn dielectric_albedo_stretched(loss: DielectricAlbedoLoss, v: f32, m: f32) -> f32 {
+/// Twin: specula-bsdf/src/energy/dielectric_albedo.rs, anisotropic.
+fn dielectric_albedo_anisotropic(loss: DielectricAlbedoLoss, v: f32, m: f32) -> f32 {
     let azimuth = spline_quadratic(v, DIELECTRIC_ALBEDO_ANISOTROPIC_AZIMUTHS);
     let cosine = spline_quadratic(m, DIELECTRIC_ALBEDO_ANISOTROPIC_COSINES);
     let each = DIELECTRIC_ALBEDO_ANISOTROPIC_PAIRS * DIELECTRIC_ALBEDO_ANISOTROPIC_AZIMUTHS;
@@ -214,8 +214,8 @@ fn dielectric_albedo_directional_loss(loss: DielectricAlbedoLoss, wo: vec3f) -> 
     var root: f32;
     if loss.stretched == 1u {
         let azimuth = coordinates_azimuth(loss.alphas, wo.x, wo.y);
-        let m = coordinates_interface_cosine(cosine, azimuth.width, loss.edge);
-        root = dielectric_albedo_stretched(loss, coordinates_interface_azimuth(azimuth, loss.edge), m);
+        let m = coordinates_interface_cosine(cosine, azimuth.alpha, loss.edge);
+        root = dielectric_albedo_anisotropic(loss, coordinates_interface_azimuth(azimuth, loss.edge), m);
     } else {
         let m = coordinates_interface_cosine(cosine, loss.alphas.low, loss.edge);
         root = dielectric_albedo_isotropic(loss, m);

@@ -10,7 +10,7 @@
 ///
 /// * `low`: coefficients of the powers 0 to 3; `high`: of the power 4.
 ///
-/// Twin: specula-bsdf/src/energy/fit.rs, horner in ggx_loss.
+/// Twin: specula-bsdf/src/energy/fit.rs, ggx_loss, its `horner`.
 fn fit_quartic(x: f32, low: vec4f, high: f32) -> f32 {
     return (((high * x + low.w) * x + low.z) * x + low.y) * x + low.x;
 }
@@ -22,9 +22,9 @@ fn fit_quartic(x: f32, low: vec4f, high: f32) -> f32 {
 ///
 /// Twin: specula-bsdf/src/energy/fit.rs, ggx_loss.
 fn fit_ggx_loss(alpha: f32, cosine: f32) -> f32 {
-    let width = clamp(alpha, 1e-4, 1.0);
-    let p = sqrt(cosine * (1.0 + width) / (cosine + width));
-    let q = width / (1.0 + width);
+    let clamped = clamp(alpha, 1e-4, 1.0);
+    let p = sqrt(cosine * (1.0 + clamped) / (cosine + clamped));
+    let q = clamped / (1.0 + clamped);
     let constant_term = fit_quartic(q, vec4f(-0.2459010, -0.6555546, 11.8294695, -28.3126735), 18.5292090);
     let first = fit_quartic(q, vec4f(3.6134939, 6.4391663, -130.3911434, 324.0524915), -207.8692579);
     let second = fit_quartic(q, vec4f(-14.1432019, -22.8474365, 567.8079675, -1389.7207195), 879.6867027);

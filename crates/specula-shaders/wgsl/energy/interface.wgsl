@@ -11,7 +11,7 @@
 // `(eta - 1)/(eta + 1)`, `sqrt(1.1 alpha / (1 + alpha))` and `sqrt(mu)`, where `mu_e` is a cosine raised
 // by the roughness so that the quotient is smooth. Errors: specula-bsdf/src/energy/interface.rs.
 //
-// Departure from the Rust source: a coat is given by its width, `sqrt(alpha_x alpha_y)`, 0 where it is
+// Departure from the Rust source: a coat is given by its alpha, `sqrt(alpha_x alpha_y)`, 0 where it is
 // smooth.
 
 import package::energy::energy_table::{energy_table};
@@ -19,13 +19,13 @@ import package::fresnel::dielectric::{dielectric, dielectric_average};
 
 /// Knots along the index.
 const INTERFACE_ETAS: u32 = 9u;
-/// Knots along the width.
+/// Knots along the alpha.
 const INTERFACE_ALPHAS: u32 = 25u;
 /// Knots along the cosine.
 const INTERFACE_MUS: u32 = 25u;
-/// Where `T / (1 - F(mu_e))` by index, width and cosine begins.
+/// Where `T / (1 - F(mu_e))` by index, alpha and cosine begins.
 const INTERFACE_TRANSMITTANCE_START: u32 = 890576u;
-/// Where `R_int` by index and width begins.
+/// Where `R_int` by index and alpha begins.
 const INTERFACE_INTERNAL_START: u32 = 896201u;
 
 /// A place between two knots of a uniform axis.
@@ -55,11 +55,11 @@ fn interface_eta_knot(eta: f32, count: u32) -> InterfaceKnot {
     return interface_knot(2.0 * ((eta - 1.0) / (eta + 1.0)), count);
 }
 
-/// The place of a width in [0, 10], along `sqrt(1.1 alpha / (1 + alpha))`.
+/// The place of a alpha in [0, 10], along `sqrt(1.1 alpha / (1 + alpha))`.
 ///
 /// Twin: specula-bsdf/src/energy/interface.rs, alpha_knot.
-fn interface_alpha_knot(width: f32, count: u32) -> InterfaceKnot {
-    return interface_knot(sqrt(width / ((1.0 + width) * (10.0 / 11.0))), count);
+fn interface_alpha_knot(alpha: f32, count: u32) -> InterfaceKnot {
+    return interface_knot(sqrt(alpha / ((1.0 + alpha) * (10.0 / 11.0))), count);
 }
 
 /// The place of a cosine, along `sqrt(mu)`.
@@ -87,27 +87,27 @@ fn interface_plane(start: u32, rows: InterfaceKnot, columns: InterfaceKnot, coun
     return below + (above - below) * rows.fraction;
 }
 
-/// The width that stands for a coat's two.
+/// The alpha that stands for a coat's two.
 ///
-/// Twin: specula-bsdf/src/energy/interface.rs, width.
-fn interface_width(alpha: vec2f) -> f32 {
+/// Twin: specula-bsdf/src/energy/interface.rs, mean_alpha.
+fn interface_mean_alpha(alpha: vec2f) -> f32 {
     return sqrt(alpha.x * alpha.y);
 }
 
 /// The raised cosine at which the smooth transmittance is factored out of the table.
 ///
 /// Twin: specula-bsdf/src/energy/interface.rs, effective_cosine.
-fn interface_effective_cosine(mu: f32, width: f32) -> f32 {
-    let squared = width * width;
+fn interface_effective_cosine(mu: f32, alpha: f32) -> f32 {
+    let squared = alpha * alpha;
     return sqrt((mu * mu + squared) / (1.0 + squared));
 }
 
 /// `T / (1 - F(mu_e))` of the table that begins at `start`.
 ///
 /// Twin: specula-bsdf/src/energy/interface.rs, transmittance.
-fn interface_quotient(start: u32, width: f32, eta: f32, mu: f32) -> f32 {
+fn interface_quotient(start: u32, alpha: f32, eta: f32, mu: f32) -> f32 {
     let e = interface_eta_knot(eta, INTERFACE_ETAS);
-    let a = interface_alpha_knot(width, INTERFACE_ALPHAS);
+    let a = interface_alpha_knot(alpha, INTERFACE_ALPHAS);
     let m = interface_cosine_knot(mu, INTERFACE_MUS);
     let block = INTERFACE_ALPHAS * INTERFACE_MUS;
     let below = interface_plane(start + e.low * block, a, m, INTERFACE_MUS);
@@ -117,30 +117,30 @@ fn interface_quotient(start: u32, width: f32, eta: f32, mu: f32) -> f32 {
 
 /// Share of the light from outside at the cosine `mu` that enters.
 ///
-/// * `width`: of the coat, 0 for a smooth interface.
+/// * `alpha`: of the coat, 0 for a smooth interface.
 /// * `eta`: index inside over outside, in [1, 3].
 ///
 /// Twin: specula-bsdf/src/energy/interface.rs, transmittance.
-fn interface_transmittance(width: f32, eta: f32, mu: f32) -> f32 {
-    if width <= 0.0 {
+fn interface_transmittance(alpha: f32, eta: f32, mu: f32) -> f32 {
+    if alpha <= 0.0 {
         return dielectric(mu, eta).transmittance;
     }
-    let unhindered = dielectric(interface_effective_cosine(mu, width), eta).transmittance;
-    let quotient = interface_quotient(INTERFACE_TRANSMITTANCE_START, width, eta, mu);
+    let unhindered = dielectric(interface_effective_cosine(mu, alpha), eta).transmittance;
+    let quotient = interface_quotient(INTERFACE_TRANSMITTANCE_START, alpha, eta, mu);
     return clamp(unhindered * quotient, 0.0, 1.0);
 }
 
 /// Share of diffuse light from inside that is reflected.
 ///
-/// * `width`: of the coat, 0 for a smooth interface.
+/// * `alpha`: of the coat, 0 for a smooth interface.
 /// * `eta`: index inside over outside, in [1, 3].
 ///
 /// Twin: specula-bsdf/src/energy/interface.rs, internal_reflectance.
-fn interface_internal_reflectance(width: f32, eta: f32) -> f32 {
-    if width <= 0.0 {
+fn interface_internal_reflectance(alpha: f32, eta: f32) -> f32 {
+    if alpha <= 0.0 {
         return dielectric_average(1.0 / eta);
     }
     let e = interface_eta_knot(eta, INTERFACE_ETAS);
-    let a = interface_alpha_knot(width, INTERFACE_ALPHAS);
+    let a = interface_alpha_knot(alpha, INTERFACE_ALPHAS);
     return interface_plane(INTERFACE_INTERNAL_START, e, a, INTERFACE_ALPHAS);
 }

@@ -18,15 +18,15 @@ import package::fresnel::dielectric::{dielectric};
 
 /// Knots along the index.
 const INTERFACE_LAYER_ETAS: u32 = 9u;
-/// Knots along the width.
+/// Knots along the alpha.
 const INTERFACE_LAYER_ALPHAS: u32 = 13u;
 /// Knots along the cosine.
 const INTERFACE_LAYER_MUS: u32 = 13u;
 /// Knots along the thickness.
 const INTERFACE_LAYER_THICKNESSES: u32 = 7u;
-/// Where the cosines of `crossing` by index, width, cosine and thickness begin.
+/// Where the cosines of `crossing` by index, alpha, cosine and thickness begin.
 const INTERFACE_LAYER_CROSSING_START: u32 = 902476u;
-/// Where the cosines of `there_and_back` by index, width and thickness begin.
+/// Where the cosines of `there_and_back` by index, alpha and thickness begin.
 const INTERFACE_LAYER_THERE_AND_BACK_START: u32 = 913123u;
 
 /// A layer that absorbs and does not scatter.
@@ -58,20 +58,20 @@ fn interface_layer_left(layer: InterfaceLayer, cosine: f32) -> f32 {
 
 /// Share that is left of light from outside at the cosine `mu` which entered and crossed.
 ///
-/// * `width`: of the coat, 0 for a smooth interface.
+/// * `alpha`: of the coat, 0 for a smooth interface.
 /// * `eta`: index inside over outside, in [1, 3].
 ///
 /// Twin: specula-bsdf/src/energy/interface_layer.rs, Layer::crossing.
-fn interface_layer_crossing(layer: InterfaceLayer, width: f32, eta: f32, mu: f32) -> f32 {
+fn interface_layer_crossing(layer: InterfaceLayer, alpha: f32, eta: f32, mu: f32) -> f32 {
     if layer.thickness <= 0.0 {
         return 1.0;
     }
-    if width <= 0.0 {
+    if alpha <= 0.0 {
         return interface_layer_left(layer, dielectric(mu, eta).cos_t);
     }
-    let refracted = dielectric(interface_effective_cosine(mu, width), eta).cos_t;
+    let refracted = dielectric(interface_effective_cosine(mu, alpha), eta).cos_t;
     let e = interface_eta_knot(eta, INTERFACE_LAYER_ETAS);
-    let a = interface_alpha_knot(width, INTERFACE_LAYER_ALPHAS);
+    let a = interface_alpha_knot(alpha, INTERFACE_LAYER_ALPHAS);
     let m = interface_cosine_knot(mu, INTERFACE_LAYER_MUS);
     let row = INTERFACE_LAYER_MUS * INTERFACE_LAYER_THICKNESSES;
     let start = INTERFACE_LAYER_CROSSING_START + (e.low * INTERFACE_LAYER_ALPHAS + a.low) * row;
@@ -88,16 +88,16 @@ fn interface_layer_crossing(layer: InterfaceLayer, width: f32, eta: f32, mu: f32
 
 /// Share that is left of diffuse light which crossed upwards, was reflected, and crossed again.
 ///
-/// * `width`: of the coat, 0 for a smooth interface.
+/// * `alpha`: of the coat, 0 for a smooth interface.
 /// * `eta`: index inside over outside, in [1, 3].
 ///
 /// Twin: specula-bsdf/src/energy/interface_layer.rs, Layer::there_and_back.
-fn interface_layer_there_and_back(layer: InterfaceLayer, width: f32, eta: f32) -> f32 {
+fn interface_layer_there_and_back(layer: InterfaceLayer, alpha: f32, eta: f32) -> f32 {
     if layer.thickness <= 0.0 {
         return 1.0;
     }
     let e = interface_eta_knot(eta, INTERFACE_LAYER_ETAS);
-    let a = interface_alpha_knot(width, INTERFACE_LAYER_ALPHAS);
+    let a = interface_alpha_knot(alpha, INTERFACE_LAYER_ALPHAS);
     let block = INTERFACE_LAYER_ALPHAS * INTERFACE_LAYER_THICKNESSES;
     let start = INTERFACE_LAYER_THERE_AND_BACK_START + e.low * block;
     let below = interface_plane(start, a, layer.place, INTERFACE_LAYER_THICKNESSES);

@@ -77,10 +77,10 @@ fn cui2023_eval(facets: WalkFacets, wo: vec3f, wi: vec3f, stream: ptr<function, 
 /// A direction and its weight: leaves with probability `G1`, whatever came before, and makes up for it
 /// (algorithm 2). Its own density is not known: `pdf` is 0.
 ///
-/// * `u`: draws the first facet.
+/// * `u`: samples the first facet.
 ///
 /// Twin: specula-bsdf/src/multibounce/cui2023.rs, sample.
-fn cui2023_draw(facets: WalkFacets, wo: vec3f, u: vec2f, stream: ptr<function, StreamState>) -> BsdfSample {
+fn cui2023_sample(facets: WalkFacets, wo: vec3f, u: vec2f, stream: ptr<function, StreamState>) -> BsdfSample {
     var flight = walk_arriving(facets, wo);
     var state = state_new(flight.rate);
     var weight = vec3f(1.0);
@@ -121,7 +121,7 @@ struct Cui2023Subpath {
 
 /// A walk from one end.
 ///
-/// Twin: specula-bsdf/src/multibounce/cui2023.rs, Subpath::draw.
+/// Twin: specula-bsdf/src/multibounce/cui2023.rs, Subpath::sample.
 fn cui2023_subpath(facets: WalkFacets, start: WalkFlight, stream: ptr<function, StreamState>) -> Cui2023Subpath {
     var path: Cui2023Subpath;
     path.flights[0] = start;

@@ -77,10 +77,10 @@ fn heitz2016_eval(
 /// A direction and its weight, the product of Fresnel terms; none for the walk that did not leave
 /// within `WALK_MAX_BOUNCES`. Its own density is not known: `pdf` is 0.
 ///
-/// * `u`: draws the first facet.
+/// * `u`: samples the first facet.
 ///
 /// Twin: specula-bsdf/src/multibounce/heitz2016.rs, sample.
-fn heitz2016_draw(
+fn heitz2016_sample(
     facets: WalkFacets,
     wo: vec3f,
     u: vec2f,

@@ -41,10 +41,10 @@ fn heitz_interface_eval(
 /// A direction sampled at a dielectric; its weight is 1 (for light). Its own density is not known: `pdf`
 /// is 0. Transmitted where `wi.z < 0`, whatever the flags.
 ///
-/// * `u`: draws reflection or refraction (x), and the first facet.
+/// * `u`: samples reflection or refraction (x), and the first facet.
 ///
 /// Twin: specula-bsdf/src/multibounce/heitz2016.rs, sample_interface.
-fn heitz_interface_draw(
+fn heitz_interface_sample(
     facets: MultibounceInterface,
     wo: vec3f,
     u: vec3f,
@@ -102,7 +102,7 @@ fn heitz_interface_collisions(
 
 /// The walk after one more bounce.
 ///
-/// * `u`: draws reflection or refraction (x), and the facet.
+/// * `u`: samples reflection or refraction (x), and the facet.
 ///
 /// Twin: specula-bsdf/src/multibounce/heitz2016.rs, after.
 fn heitz_interface_after(

@@ -1,6 +1,6 @@
 // A rough metal with all its bounces, by one of the models.
 //
-// Values are estimates from a stream of random numbers. Draws are the walk's; their true density is not
+// Values are estimates from a stream of random numbers. Samples are the walk's; their true density is not
 // known, and that of `mis_pdf` takes its place for the weights of multiple importance sampling (any
 // positive function serves there: the weights of two strategies sum to 1 whatever it is).
 //
@@ -9,19 +9,19 @@
 import package::bsdf::bsdf_sample::{BsdfSample, bsdf_sample_reflected};
 import package::math::stream::{StreamState};
 import package::multibounce::bitterli2022::{bitterli2022_eval};
-import package::multibounce::cui2023::{cui2023_draw, cui2023_eval, cui2023_eval_bidirectional};
-import package::multibounce::heitz2016::{heitz2016_draw, heitz2016_eval};
+import package::multibounce::cui2023::{cui2023_sample, cui2023_eval, cui2023_eval_bidirectional};
+import package::multibounce::heitz2016::{heitz2016_sample, heitz2016_eval};
 import package::multibounce::mis_pdf::{mis_pdf_reflection};
 import package::multibounce::multibounce_model::{MULTIBOUNCE_MODEL_BITTERLI, MULTIBOUNCE_MODEL_CUI, MULTIBOUNCE_MODEL_CUI_BIDIRECTIONAL, MULTIBOUNCE_MODEL_HEITZ, MULTIBOUNCE_MODEL_WANG, MULTIBOUNCE_MODEL_WANG_UNCORRELATED};
-import package::multibounce::stratified_bidirectional::{stratified_bidirectional_draw, stratified_bidirectional_eval};
+import package::multibounce::stratified_bidirectional::{stratified_bidirectional_sample, stratified_bidirectional_eval};
 import package::multibounce::walk::{WalkFacets};
-import package::multibounce::wang2022::{wang2022_draw, wang2022_eval};
+import package::multibounce::wang2022::{wang2022_sample, wang2022_eval};
 
 /// Reflection off a rough metal with every bounce between its facets.
 ///
 /// Backfacing views (`wo.z < 0`) are continued: the first collision is `Exp(sigma(wo) / |wo.z|)` deep.
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_conductor.rs, Conductor.
+/// Twin: specula-bsdf/src/bsdf/multibounce_conductor.rs, MultibounceConductor.
 struct MultibounceConductor {
     /// Its facets.
     facets: WalkFacets,
@@ -34,7 +34,7 @@ struct MultibounceConductor {
 /// An estimate of the model's `f cos` alone, without the density of multiple importance sampling; black
 /// where `wi.z <= 0`.
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_conductor.rs, Conductor::estimate.
+/// Twin: specula-bsdf/src/bsdf/multibounce_conductor.rs, MultibounceConductor::estimate.
 fn multibounce_conductor_eval(
     lobe: MultibounceConductor,
     wo: vec3f,
@@ -69,14 +69,14 @@ fn multibounce_conductor_eval(
 
 /// The density for multiple importance sampling, in 1/sr; 0 where `wi.z <= 0`.
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_conductor.rs, Conductor::pdf.
+/// Twin: specula-bsdf/src/bsdf/multibounce_conductor.rs, MultibounceConductor::pdf.
 fn multibounce_conductor_pdf(lobe: MultibounceConductor, wo: vec3f, wi: vec3f) -> f32 {
     return mis_pdf_reflection(lobe.mis, lobe.facets.normals, wo, wi);
 }
 
 /// An estimate of `f cos` and the density: (red, green, blue, density).
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_conductor.rs, Conductor::eval_pdf_random.
+/// Twin: specula-bsdf/src/bsdf/multibounce_conductor.rs, MultibounceConductor::eval_pdf_random.
 fn multibounce_conductor_eval_pdf(
     lobe: MultibounceConductor,
     wo: vec3f,
@@ -90,9 +90,9 @@ fn multibounce_conductor_eval_pdf(
 /// A direction of the model's walk and its weight, without the density of multiple importance sampling
 /// (`pdf` is 0); none for a walk that was given up.
 ///
-/// * `u`: draws the first facet.
+/// * `u`: samples the first facet.
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_conductor.rs, Conductor::draw.
+/// Twin: specula-bsdf/src/bsdf/multibounce_conductor.rs, MultibounceConductor::sample_walk.
 fn multibounce_conductor_walk(
     lobe: MultibounceConductor,
     wo: vec3f,
@@ -101,17 +101,17 @@ fn multibounce_conductor_walk(
 ) -> BsdfSample {
     switch lobe.model {
         case MULTIBOUNCE_MODEL_HEITZ, MULTIBOUNCE_MODEL_BITTERLI: {
-            return heitz2016_draw(lobe.facets, wo, u, stream);
+            return heitz2016_sample(lobe.facets, wo, u, stream);
         }
         case MULTIBOUNCE_MODEL_WANG, MULTIBOUNCE_MODEL_WANG_UNCORRELATED: {
             let correlated = lobe.model == MULTIBOUNCE_MODEL_WANG;
-            return wang2022_draw(lobe.facets, correlated, wo, u, stream);
+            return wang2022_sample(lobe.facets, correlated, wo, u, stream);
         }
         case MULTIBOUNCE_MODEL_CUI, MULTIBOUNCE_MODEL_CUI_BIDIRECTIONAL: {
-            return cui2023_draw(lobe.facets, wo, u, stream);
+            return cui2023_sample(lobe.facets, wo, u, stream);
         }
         default: {
-            return stratified_bidirectional_draw(lobe.facets, wo, u, stream);
+            return stratified_bidirectional_sample(lobe.facets, wo, u, stream);
         }
     }
 }
@@ -120,8 +120,8 @@ fn multibounce_conductor_walk(
 ///
 /// * `u`: `u.yz` samples the first facet.
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_conductor.rs, Conductor::sample_random.
-fn multibounce_conductor_draw(
+/// Twin: specula-bsdf/src/bsdf/multibounce_conductor.rs, MultibounceConductor::sample_random.
+fn multibounce_conductor_sample(
     lobe: MultibounceConductor,
     wo: vec3f,
     u: vec3f,

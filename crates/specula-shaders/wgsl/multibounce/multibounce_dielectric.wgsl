@@ -5,12 +5,12 @@
 import package::bsdf::bsdf_sample::{BSDF_SAMPLE_SPECULAR, BSDF_SAMPLE_TRANSMISSION, BSDF_SAMPLE_VALID, BsdfSample, bsdf_sample_none, bsdf_sample_radiance_scale, bsdf_sample_reflected, bsdf_sample_transmitted};
 import package::bsdf::tints::{TintsPair};
 import package::math::stream::{StreamState};
-import package::multibounce::heitz_interface::{heitz_interface_draw, heitz_interface_eval};
+import package::multibounce::heitz_interface::{heitz_interface_sample, heitz_interface_eval};
 import package::multibounce::mis_pdf::{mis_pdf_interface};
 import package::multibounce::multibounce_interface::{MultibounceInterface, multibounce_interface_beyond, multibounce_interface_turned};
 import package::multibounce::multibounce_model::{MULTIBOUNCE_MODEL_HEITZ};
 import package::multibounce::normals::{NormalsModel};
-import package::multibounce::stratified_bidirectional_interface::{stratified_bidirectional_interface_draw, stratified_bidirectional_interface_eval};
+import package::multibounce::stratified_bidirectional_interface::{stratified_bidirectional_interface_sample, stratified_bidirectional_interface_eval};
 
 /// Reflection and refraction at a rough interface with every bounce between its facets, on both sides
 /// of them. Values are estimates; no energy is lost.
@@ -19,7 +19,7 @@ import package::multibounce::stratified_bidirectional_interface::{stratified_bid
 /// the papers of the others treat metals only. Indices within 1e-3 of each other are taken as equal:
 /// light passes straight on.
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, Dielectric.
+/// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, MultibounceDielectric.
 struct MultibounceDielectric {
     /// Distribution of its facets.
     normals: NormalsModel,
@@ -37,14 +37,14 @@ struct MultibounceDielectric {
 
 /// Whether light passes straight on.
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, Dielectric::is_index_matched.
+/// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, MultibounceDielectric::is_index_matched.
 fn multibounce_dielectric_is_index_matched(lobe: MultibounceDielectric) -> bool {
     return abs(lobe.eta - 1.0) < 1e-3;
 }
 
 /// Whether `wo` views the facets from inside, where z is turned.
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, Dielectric::side.
+/// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, MultibounceDielectric::side.
 fn multibounce_dielectric_is_turned(lobe: MultibounceDielectric, wo: vec3f) -> bool {
     return lobe.two_sided == 1u && wo.z < 0.0;
 }
@@ -53,7 +53,7 @@ fn multibounce_dielectric_is_turned(lobe: MultibounceDielectric, wo: vec3f) -> b
 ///
 /// * `is_turned`: whether that is inside.
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, Dielectric::side.
+/// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, MultibounceDielectric::side.
 fn multibounce_dielectric_side(lobe: MultibounceDielectric, is_turned: bool) -> MultibounceInterface {
     let outside = MultibounceInterface(lobe.normals, lobe.eta);
     if is_turned {
@@ -64,14 +64,14 @@ fn multibounce_dielectric_side(lobe: MultibounceDielectric, is_turned: bool) -> 
 
 /// A vector to the frame of that side, or back.
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, Dielectric::eval_pdf_random.
+/// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, MultibounceDielectric::eval_pdf_random.
 fn multibounce_dielectric_upright(is_turned: bool, w: vec3f) -> vec3f {
     return select(w, multibounce_interface_turned(w), is_turned);
 }
 
 /// The density for multiple importance sampling, over the sphere, in 1/sr.
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, Dielectric::pdf.
+/// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, MultibounceDielectric::pdf.
 fn multibounce_dielectric_pdf(lobe: MultibounceDielectric, wo: vec3f, wi: vec3f) -> f32 {
     if multibounce_dielectric_is_index_matched(lobe) || wi.z == 0.0 {
         return 0.0;
@@ -86,7 +86,7 @@ fn multibounce_dielectric_pdf(lobe: MultibounceDielectric, wo: vec3f, wi: vec3f)
 ///
 /// * `transport`: `BSDF_SAMPLE_RADIANCE` or `BSDF_SAMPLE_IMPORTANCE`.
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, Dielectric::eval_pdf_random.
+/// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, MultibounceDielectric::eval_pdf_random.
 fn multibounce_dielectric_eval(
     lobe: MultibounceDielectric,
     wo: vec3f,
@@ -115,7 +115,7 @@ fn multibounce_dielectric_eval(
 
 /// An estimate of `f |cos|` and the density: (red, green, blue, density).
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, Dielectric::eval_pdf_random.
+/// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, MultibounceDielectric::eval_pdf_random.
 fn multibounce_dielectric_eval_pdf(
     lobe: MultibounceDielectric,
     wo: vec3f,
@@ -129,10 +129,10 @@ fn multibounce_dielectric_eval_pdf(
 
 /// A direction of the model's walk with the density of multiple importance sampling.
 ///
-/// * `u`: draws reflection or refraction (x), and the first facet.
+/// * `u`: samples reflection or refraction (x), and the first facet.
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, Dielectric::sample_random.
-fn multibounce_dielectric_draw(
+/// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, MultibounceDielectric::sample_random.
+fn multibounce_dielectric_sample(
     lobe: MultibounceDielectric,
     wo: vec3f,
     u: vec3f,
@@ -148,9 +148,9 @@ fn multibounce_dielectric_draw(
     let view = multibounce_dielectric_upright(is_turned, wo);
     var left: BsdfSample;
     if lobe.model == MULTIBOUNCE_MODEL_HEITZ {
-        left = heitz_interface_draw(side, view, u, stream);
+        left = heitz_interface_sample(side, view, u, stream);
     } else {
-        left = stratified_bidirectional_interface_draw(side, view, u, stream);
+        left = stratified_bidirectional_interface_sample(side, view, u, stream);
     }
     if left.flags == 0u {
         return bsdf_sample_none();

@@ -15,7 +15,7 @@ import package::multibounce::walk::{WALK_MAX_BOUNCES, walk_flight, walk_pair};
 /// The density for multiple importance sampling is the cosine's: the walk's is close to it at every
 /// roughness.
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_diffuse.rs, Diffuse.
+/// Twin: specula-bsdf/src/bsdf/multibounce_diffuse.rs, MultibounceDiffuse.
 struct MultibounceDiffuse {
     /// Distribution of its facets.
     normals: NormalsModel,
@@ -68,14 +68,14 @@ fn multibounce_diffuse_scatter(wm: vec3f, u: vec2f) -> vec3f {
 
 /// The density for multiple importance sampling, in 1/sr.
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_diffuse.rs, Diffuse::pdf.
+/// Twin: specula-bsdf/src/bsdf/multibounce_diffuse.rs, MultibounceDiffuse::pdf.
 fn multibounce_diffuse_pdf(lobe: MultibounceDiffuse, wo: vec3f, wi: vec3f) -> f32 {
     return warp_cosine_hemisphere_pdf(wi);
 }
 
 /// An estimate of `f cos` and the density: (red, green, blue, density).
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_diffuse.rs, Diffuse::eval_pdf_random.
+/// Twin: specula-bsdf/src/bsdf/multibounce_diffuse.rs, MultibounceDiffuse::eval_pdf_random.
 fn multibounce_diffuse_eval_pdf(
     lobe: MultibounceDiffuse,
     wo: vec3f,
@@ -90,8 +90,8 @@ fn multibounce_diffuse_eval_pdf(
 ///
 /// * `u`: `u.yz` samples the first facet.
 ///
-/// Twin: specula-bsdf/src/bsdf/multibounce_diffuse.rs, Diffuse::sample_random.
-fn multibounce_diffuse_draw(
+/// Twin: specula-bsdf/src/bsdf/multibounce_diffuse.rs, MultibounceDiffuse::sample_random.
+fn multibounce_diffuse_sample(
     lobe: MultibounceDiffuse,
     wo: vec3f,
     u: vec3f,

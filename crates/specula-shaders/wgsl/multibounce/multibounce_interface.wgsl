@@ -71,7 +71,7 @@ fn multibounce_interface_beyond(facets: MultibounceInterface) -> MultibounceInte
 
 /// The next direction, and whether it has changed sides.
 ///
-/// * `u`: draws reflection or refraction (x), and the facet.
+/// * `u`: samples reflection or refraction (x), and the facet.
 ///
 /// Twin: specula-bsdf/src/multibounce/interface.rs, Interface::bounce.
 fn multibounce_interface_bounce(facets: MultibounceInterface, d: vec3f, u: vec3f) -> MultibounceInterfaceBent {

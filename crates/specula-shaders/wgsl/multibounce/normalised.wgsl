@@ -21,7 +21,7 @@
 // | down | turned up: as before, with `1 - u` for `u` | `0.8 a^4 / (a^4 + 0.15)` of it |
 // | down | rolled on, to the other side of the axis | `0.45 (1 - r^2)` |
 //
-// `r` is the ratio of the smaller width to the larger, `a^2` their product. The azimuth spreads about
+// `r` is the ratio of the smaller alpha to the larger, `a^2` their product. The azimuth spreads about
 // the forward direction: `tan(phi / 2) = kappa tan(phi' / 2)` (a wrapped Cauchy distribution, where
 // all light goes forward), `kappa = 1 / (1 + 2 (1 - a^2) sin^2 theta_o)`. All depends continuously on
 // alphas and directions.
@@ -97,7 +97,7 @@ struct NormalisedChoice {
 ///
 /// * Returns: 1/sr; 0 where `wi.z <= 0`, above 0 elsewhere.
 ///
-/// Invariant: integrates to 1; is that of `normalised_draw_direction`.
+/// Invariant: integrates to 1; is that of `normalised_sample_direction`.
 ///
 /// Twin: specula-bsdf/src/multibounce/normalised.rs, pdf.
 fn normalised_pdf(normals: NormalsModel, wo: vec3f, wi: vec3f) -> f32 {
@@ -133,11 +133,11 @@ fn normalised_pdf(normals: NormalsModel, wo: vec3f, wi: vec3f) -> f32 {
 
 /// A direction of the density `normalised_pdf`.
 ///
-/// * `u`: uniform in `[0, 1)`; two draw a facet, the third what follows.
+/// * `u`: uniform in `[0, 1)`; two sample a facet, the third what follows.
 /// * Returns: unit, above the horizon; with `z <= 0` in the rare case that rounding leaves it there.
 ///
 /// Twin: specula-bsdf/src/multibounce/normalised.rs, sample.
-fn normalised_draw_direction(normals: NormalsModel, wo: vec3f, u: vec3f) -> vec3f {
+fn normalised_sample_direction(normals: NormalsModel, wo: vec3f, u: vec3f) -> vec3f {
     let maps = normalised_maps(normals, wo);
     var choice = normalised_takes(u.z, NORMALISED_FLOOR);
     if choice.is_taken {

@@ -52,7 +52,7 @@ fn normals_projected_area(normals: NormalsModel, w: vec3f) -> f32 {
 ///
 /// * `u`: uniform in [0, 1)^2.
 ///
-/// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::sample_wm.
+/// Twin: specula-bsdf/src/vndf/visible_normals.rs, VisibleNormals::sample_wm.
 fn normals_sample_wm(normals: NormalsModel, wo: vec3f, u: vec2f) -> vec3f {
     if normals.distribution == DISTRIBUTION_BECKMANN {
         return beckmann_visible_sample_wm(normals.alpha, wo, u);

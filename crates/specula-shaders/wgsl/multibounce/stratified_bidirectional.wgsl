@@ -75,9 +75,9 @@ fn stratified_bidirectional_goes_on(weight: vec3f, mass: f32) -> f32 {
 /// One walk's estimate of two bounces and more.
 ///
 /// * `both`: weighs with the walks from the other end.
-/// * `u`: draws the first facet.
+/// * `u`: samples the first facet.
 ///
-/// Twin: specula-bsdf/src/multibounce/stratified_bidirectional.rs, Walk::finish.
+/// Twin: specula-bsdf/src/multibounce/stratified_bidirectional.rs, EvalWalk::finish.
 fn stratified_bidirectional_walk(
     facets: WalkFacets,
     both: bool,
@@ -131,10 +131,10 @@ fn stratified_bidirectional_walk(
 /// A direction and its weight; none for the walk that did not leave within `WALK_MAX_BOUNCES`. Its own
 /// density is not known: `pdf` is 0.
 ///
-/// * `u`: draws the first facet.
+/// * `u`: samples the first facet.
 ///
 /// Twin: specula-bsdf/src/multibounce/stratified_bidirectional.rs, sample.
-fn stratified_bidirectional_draw(facets: WalkFacets, wo: vec3f, u: vec2f, stream: ptr<function, StreamState>) -> BsdfSample {
+fn stratified_bidirectional_sample(facets: WalkFacets, wo: vec3f, u: vec2f, stream: ptr<function, StreamState>) -> BsdfSample {
     var flight = walk_arriving(facets, wo);
     var state = state_new(flight.rate);
     var weight = vec3f(1.0);

@@ -86,7 +86,7 @@ fn stratified_bidirectional_interface_eval_end(
 
 /// One walk's estimate of two facets and more.
 ///
-/// * `lambda`: of `wi`; `u`: draws the first facet.
+/// * `lambda`: of `wi`; `u`: samples the first facet.
 ///
 /// Twin: specula-bsdf/src/multibounce/stratified_bidirectional.rs, interface_walk.
 fn stratified_bidirectional_interface_walk(
@@ -149,10 +149,10 @@ fn stratified_bidirectional_interface_walk(
 /// A direction sampled at a dielectric; its weight is 1 (for light). Its own density is not known: `pdf`
 /// is 0. Transmitted where `wi.z < 0`, whatever the flags.
 ///
-/// * `u`: draws reflection or refraction (x), and the first facet.
+/// * `u`: samples reflection or refraction (x), and the first facet.
 ///
 /// Twin: specula-bsdf/src/multibounce/stratified_bidirectional.rs, sample_interface.
-fn stratified_bidirectional_interface_draw(
+fn stratified_bidirectional_interface_sample(
     facets: MultibounceInterface,
     wo: vec3f,
     u: vec3f,

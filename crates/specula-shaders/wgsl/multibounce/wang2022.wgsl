@@ -76,10 +76,10 @@ fn wang2022_eval(
 /// A direction and its weight, the product of Fresnel terms. Its own density is not known: `pdf`
 /// is 0.
 ///
-/// * `u`: draws the first facet.
+/// * `u`: samples the first facet.
 ///
 /// Twin: specula-bsdf/src/multibounce/wang2022.rs, sample.
-fn wang2022_draw(
+fn wang2022_sample(
     facets: WalkFacets,
     correlated: bool,
     wo: vec3f,

@@ -2,9 +2,9 @@
 
 /// GGX; see `ggx`.
 ///
-/// Twin: specula-bsdf/src/energy/albedo.rs, Distribution.
+/// Twin: specula-bsdf/src/ndf/ggx.rs, Ggx.
 const DISTRIBUTION_GGX: u32 = 0u;
 /// Beckmann; see `beckmann`.
 ///
-/// Twin: specula-bsdf/src/energy/albedo.rs, Distribution.
+/// Twin: specula-bsdf/src/ndf/beckmann.rs, Beckmann.
 const DISTRIBUTION_BECKMANN: u32 = 1u;

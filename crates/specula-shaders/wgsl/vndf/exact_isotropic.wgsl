@@ -17,7 +17,7 @@
 
 import package::math::turns::{turns_sin_cos};
 
-/// `(Delta, lambda, kappa)` for the width `a` and a view at height `z > 0`.
+/// `(Delta, lambda, kappa)` for the alpha `a` and a view at height `z > 0`.
 ///
 /// Twin: specula-bsdf/src/vndf/exact/isotropic.rs, roots.
 fn exact_isotropic_roots(a: f32, z: f32) -> vec3f {
@@ -39,7 +39,7 @@ fn exact_isotropic_norm(a: f32, z: f32) -> vec2f {
 
 /// A half vector back in the surface's space, of any length.
 ///
-/// * `a`: the width; `wo`: `wo.z > 0`.
+/// * `a`: the alpha; `wo`: `wo.z > 0`.
 /// * `u`: uniform in [0, 1)^2; `u.x` is the squared radius on the disk, `u.y` the azimuth.
 ///
 /// Twin: specula-bsdf/src/vndf/exact/isotropic.rs, half_vector.

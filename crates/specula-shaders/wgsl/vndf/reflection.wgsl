@@ -20,7 +20,7 @@ fn reflection_mirrored(wo: vec3f, wm: vec3f) -> vec3f {
 /// * `strategy`: one of the samplers of `sampler`.
 /// * `u`: uniform in [0, 1)^2, as the sampler's own function takes it.
 ///
-/// Twin: specula-bsdf/src/ndf/ggx.rs, Ggx::sample_reflection.
+/// Twin: specula-bsdf/src/vndf/visible_normals.rs, Ggx::sample_reflection.
 fn reflection_sample_direction(strategy: u32, alpha: vec2f, wo: vec3f, u: vec2f) -> vec3f {
     switch strategy {
         case SAMPLER_HEITZ: {
@@ -42,7 +42,7 @@ fn reflection_sample_direction(strategy: u32, alpha: vec2f, wo: vec3f, u: vec2f)
 ///
 /// * `strategy`: one of the samplers of `sampler`.
 ///
-/// Twin: specula-bsdf/src/ndf/ggx.rs, Ggx::reflection_norm_quotient.
+/// Twin: specula-bsdf/src/vndf/visible_normals.rs, Ggx::reflection_norm_quotient.
 fn reflection_norm_quotient(strategy: u32, alpha: vec2f, wo: vec3f) -> vec2f {
     switch strategy {
         case SAMPLER_HEITZ, SAMPLER_CAP: {

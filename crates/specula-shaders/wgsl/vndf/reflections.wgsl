@@ -1,4 +1,4 @@
-// Many reflections of one view: what does not depend on the draw is computed once.
+// Many reflections of one view: what does not depend on the sample is computed once.
 //
 // All samplers share the density `D(wm) / (4 N(wo))`. With `N` kept, a density costs `D` alone: no square
 // root and one division. anisotropic alpha keep the cone of `exact` as well, which is most of a sample's
@@ -31,7 +31,7 @@ struct ReflectionsSampler {
 
 /// The reflections of `wo`.
 ///
-/// * `wo`: unit, any hemisphere; below the horizon all samplers draw by the whole cap.
+/// * `wo`: unit, any hemisphere; below the horizon all samplers sample by the whole cap.
 ///
 /// Twin: specula-bsdf/src/vndf/reflections.rs, Reflections::new.
 fn reflections_new(alpha: vec2f, wo: vec3f, strategy: u32) -> ReflectionsSampler {

@@ -124,7 +124,7 @@ pub(super) fn cases() -> Vec<Case> {
          let wi = vec3f(x[3], x[4], x[5]);
          let value = black_eval_pdf(wo, wi, 0u);
          y[0] = dot(value, value) + dot(black_eval(wo, wi, 0u), wo) + black_pdf(wo, wi);
-         y[1] = f32(black_draw(wo, wi, 0u).flags);",
+         y[1] = f32(black_sample(wo, wi, 0u).flags);",
         product::<3, 3, 6>(&both_sides(), &both_sides()),
         twins!(|_x| vec![T::ZERO, T::ZERO]),
         0.0,

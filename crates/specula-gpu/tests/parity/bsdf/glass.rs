@@ -122,7 +122,7 @@ fn branch_cases() -> Vec<Case> {
          let lobe = RoughDielectric(facets, x[12], u32(x[13]), white);
          y[0] = rough_dielectric_eval_branch(lobe, wo, wi, transport).x;
          for (var k = 0u; k < 2u; k++) {
-             let sampled = rough_dielectric_draw_branch(lobe, wo, fract(abs(wi.xy)), k == 0u, transport);
+             let sampled = rough_dielectric_sample_branch(lobe, wo, fract(abs(wi.xy)), k == 0u, transport);
              if sampled.flags != 0u {
                  let value = rough_dielectric_eval_branch(lobe, wo, sampled.wi, transport);
                  // Nothing passes where all is reflected.

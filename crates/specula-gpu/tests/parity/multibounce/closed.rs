@@ -91,7 +91,7 @@ fn densities() -> Vec<Case> {
             "normalised_directions",
             modules,
             metal!(
-                "let sampled = normalised_draw_direction(normals, wo, wi.yzx);
+                "let sampled = normalised_sample_direction(normals, wo, wi.yzx);
                  if sampled.z > 0.0 { y[0] = sampled.x; y[1] = sampled.y; y[2] = sampled.z; }"
             ),
             numbers(),

@@ -10,21 +10,21 @@ pub(super) const ELSEWHERE: &[(&str, &str)] = &[
          cui2023_roulette",
     ),
     (
-        "heitz_value and heitz_draw",
+        "heitz_value and heitz_sample",
         "heitz2016_step heitz2016_depth",
     ),
     (
-        "heitz_interface_value and heitz_interface_draw",
-        "heitz_interface_eval heitz_interface_draw heitz_interface_left heitz_interface_collisions
+        "heitz_interface_value and heitz_interface_sample",
+        "heitz_interface_eval heitz_interface_sample heitz_interface_left heitz_interface_collisions
          heitz_interface_after heitz_interface_flown multibounce_interface_connection
          multibounce_interface_leaves multibounce_interface_lambda
          multibounce_dielectric_is_index_matched multibounce_dielectric_is_turned
          multibounce_dielectric_side multibounce_dielectric_upright",
     ),
     (
-        "stratified_bidirectional_interface_value and stratified_bidirectional_interface_draw",
+        "stratified_bidirectional_interface_value and stratified_bidirectional_interface_sample",
         "stratified_bidirectional_interface_eval stratified_bidirectional_interface_is_better_end stratified_bidirectional_interface_eval_end
-         stratified_bidirectional_interface_walk stratified_bidirectional_interface_draw",
+         stratified_bidirectional_interface_walk stratified_bidirectional_interface_sample",
     ),
     (
         "mis_lambert and mis_hapke",
@@ -35,7 +35,7 @@ pub(super) const ELSEWHERE: &[(&str, &str)] = &[
         "mis_pdf_lambert_share mis_pdf_interface multibounce_interface_phase",
     ),
     (
-        "conductor_value and conductor_draw",
+        "conductor_value and conductor_sample",
         "multibounce_conductor_eval multibounce_conductor_pdf multibounce_conductor_walk",
     ),
     (
@@ -43,7 +43,7 @@ pub(super) const ELSEWHERE: &[(&str, &str)] = &[
         "multibounce_dielectric_eval_pdf",
     ),
     (
-        "diffuse_value and diffuse_draw",
+        "diffuse_value and diffuse_sample",
         "multibounce_diffuse_eval multibounce_diffuse_scatter multibounce_diffuse_pdf",
     ),
     (
@@ -57,7 +57,7 @@ pub(super) const ELSEWHERE: &[(&str, &str)] = &[
          normalised_of_axis normalised_roll_back normalised_roll normalised_horizontal",
     ),
     ("stratified_bidirectional_value", "stratified_bidirectional_stratum stratified_bidirectional_goes_on stratified_bidirectional_walk"),
-    ("wang_value and wang_draw", "wang2022_leaves"),
+    ("wang_value and wang_sample", "wang2022_leaves"),
 ];
 
 /// One at least for every module.

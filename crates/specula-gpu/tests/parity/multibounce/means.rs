@@ -66,12 +66,12 @@ pub(crate) use summed;
 
 /// The statistics of a sample: energy, and where it goes.
 macro_rules! moments {
-    ($draw:literal) => {
+    ($sample:literal) => {
         summed!(
             "let number = stream_next(&stream);
              let u = vec3f(number, walk_pair(&stream));
              let sampled = ",
-            $draw,
+            $sample,
             ";
              var value = vec3f(0.0);
              if sampled.flags != 0u {
@@ -179,7 +179,7 @@ fn of_value(f: Rgb<f64>) -> [f64; 3] {
 }
 
 /// The statistics of a sample.
-fn of_draw(sampled: Option<(Vec3<f64>, Rgb<f64>)>) -> [f64; 3] {
+fn of_sample(sampled: Option<(Vec3<f64>, Rgb<f64>)>) -> [f64; 3] {
     sampled.map_or([0.0; 3], |(wi, weight)| {
         [weight.r, weight.r * wi.x, weight.r * wi.z]
     })
@@ -199,7 +199,7 @@ const METAL_VALUE: &str = metal!(
     summed!("let value = multibounce_conductor_eval(lobe, wo, wi, &stream);")
 );
 
-const METAL_DRAW: &str = metal!(
+const METAL_SAMPLE: &str = metal!(
     "let lobe = MultibounceConductor(facets, u32(x[9]), MIS_PDF_LAMBERT);
      ",
     moments!("multibounce_conductor_walk(lobe, wo, u.yz, &stream)")
@@ -222,13 +222,13 @@ fn metals_have_the_means_of_the_twins() {
             |x, stream| of_value(conductor(x, model).estimate(vector(x, 2), vector(x, 5), stream)),
         ));
         report += &held(compare(
-            &format!("{model} draws"),
+            &format!("{model} samples"),
             METALS,
-            METAL_DRAW,
+            METAL_SAMPLE,
             &of_model(views()),
             |x, stream| {
                 let u = [stream.next(), stream.next()];
-                of_draw(conductor(x, model).sample_walk(vector(x, 2), u, stream))
+                of_sample(conductor(x, model).sample_walk(vector(x, 2), u, stream))
             },
         ));
     }
@@ -264,10 +264,10 @@ fn dielectrics_have_the_means_of_the_twins() {
         "MIS_PDF_LAMBERT",
         summed!("let value = multibounce_dielectric_eval(lobe, wo, wi, 0u, &stream);")
     );
-    const GLASS_DRAW: &str = glass!(
+    const GLASS_SAMPLE: &str = glass!(
         "u32(x[10])",
         "MIS_PDF_LAMBERT",
-        moments!("multibounce_dielectric_draw(lobe, wo, u, 0u, &stream)")
+        moments!("multibounce_dielectric_sample(lobe, wo, u, 0u, &stream)")
     );
     let lights = [direction(0.7, 2.0), direction(-0.5, 3.5)];
     let mut report = String::new();
@@ -296,14 +296,14 @@ fn dielectrics_have_the_means_of_the_twins() {
             },
         ));
         report += &held(compare(
-            &format!("dielectric {model} draws"),
+            &format!("dielectric {model} samples"),
             MODULES,
-            GLASS_DRAW,
+            GLASS_SAMPLE,
             &of_model(views()),
             |x, stream| {
                 let u = [stream.next(), stream.next(), stream.next()];
                 let sampled = lobe(x).sample_random(vector(x, 2), u, Transport::Radiance, stream);
-                of_draw(sampled.map(|s| (s.wi, s.weight)))
+                of_sample(sampled.map(|s| (s.wi, s.weight)))
             },
         ));
     }
@@ -318,10 +318,10 @@ fn diffuse_facets_have_the_means_of_the_twins() {
          ",
         summed!("let value = multibounce_diffuse_eval(lobe, wo, wi, &stream);")
     );
-    const DIFFUSE_DRAW: &str = metal!(
+    const DIFFUSE_SAMPLE: &str = metal!(
         "let lobe = MultibounceDiffuse(normals, vec3f(0.9, 0.5, 0.1));
          ",
-        moments!("multibounce_diffuse_draw(lobe, wo, u, &stream)")
+        moments!("multibounce_diffuse_sample(lobe, wo, u, &stream)")
     );
     let lobe = |x: &[f64]| MultibounceDiffuse::new(ggx(x), rgb(0.9, 0.5, 0.1));
     let above = [direction(0.7, 2.0), direction(0.1, 0.4)];
@@ -340,14 +340,14 @@ fn diffuse_facets_have_the_means_of_the_twins() {
         },
     ));
     report += &held(compare(
-        "diffuse draws",
+        "diffuse samples",
         MODULES,
-        DIFFUSE_DRAW,
+        DIFFUSE_SAMPLE,
         &views(),
         |x, stream| {
             let u = [stream.next(), stream.next(), stream.next()];
             let sampled = lobe(x).sample_random(vector(x, 2), u, Transport::Radiance, stream);
-            of_draw(sampled.map(|s| (s.wi, s.weight)))
+            of_sample(sampled.map(|s| (s.wi, s.weight)))
         },
     ));
     println!("means of diffuse facets\n{report}");

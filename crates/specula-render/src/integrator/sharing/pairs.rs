@@ -6,10 +6,11 @@ use specula_bsdf::math::rgb;
 use super::super::vertex_batch::{Column, Vectors, WAVEFRONT_SIZE, ZERO};
 use super::super::visibility::TO_LIGHT;
 use super::super::wavefront::{Queue, Wavefront, index};
-use super::super::{PathTracer, bias, lobes, power_heuristic};
+use super::super::{PathTracer, bias, power_heuristic};
 use super::{Shared, connect};
 use crate::accel::Ray;
 use crate::convert::id;
+use crate::material::lobes;
 
 /// What a lobe makes of a direction: `f |cos|` and density.
 pub(super) struct Found {

@@ -1,7 +1,7 @@
 //! Cells between the centres of a picture's pixels, along one axis.
 
 use crate::convert::{floor_i32, id};
-use crate::flat::Words;
+use crate::words::Words;
 
 /// How the cells lie along one axis of a picture.
 #[derive(Clone, Copy, Debug)]

@@ -12,8 +12,9 @@ use super::super::angles::{sin_cos_half_turns, sin_cos_turns, turns};
 use super::super::octahedral::{direction_of, square_of};
 use super::super::piecewise::Piecewise;
 use super::axis::{Axis, AxisKind};
+use crate::codes;
 use crate::convert::narrow;
-use crate::flat::Words;
+use crate::words::Words;
 
 /// Red, green, blue, and what is sampled by.
 pub(super) type Pixel = [f32; 4];
@@ -141,9 +142,11 @@ impl Picture {
     /// Mapping, axes and places of the tables, for shaders.
     pub(super) fn flatten(&self, tables: [u32; 4], to: &mut Words) {
         to.id(match self.mapping {
-            EnvironmentMapping::EqualAreaOctahedral => 0,
-            EnvironmentMapping::LatitudeLongitude => 1,
-            EnvironmentMapping::LatitudeLongitudePoles => 2,
+            EnvironmentMapping::EqualAreaOctahedral => codes::ENVIRONMENT_EQUAL_AREA,
+            EnvironmentMapping::LatitudeLongitude => codes::ENVIRONMENT_LATITUDE_LONGITUDE,
+            EnvironmentMapping::LatitudeLongitudePoles => {
+                codes::ENVIRONMENT_LATITUDE_LONGITUDE_POLES
+            }
         });
         for axis in &self.axes {
             axis.flatten(to);

@@ -15,7 +15,7 @@ import package::bsdf::layered::layered_coat::{LayeredCoat, layered_coat_reflecti
 import package::bsdf::layered::layered_density::{layered_density_blurred, layered_density_pdf};
 import package::bsdf::layered::layered_lobe::{LAYERED_LOBE_MOST_EVENTS, LayeredLobe, layered_lobe_is_mirror, layered_lobe_mirrored};
 import package::bsdf::layered::layered_medium::{LayeredMedium};
-import package::bsdf::layered::layered_walk::{layered_walk_draw, layered_walk_eval};
+import package::bsdf::layered::layered_walk::{layered_walk_sample, layered_walk_eval};
 import package::bsdf::microfacets::{MicrofacetsModel};
 import package::fresnel::reflectance::{reflectance_under};
 import package::math::stream::{StreamState};
@@ -101,10 +101,10 @@ fn layered_eval_pdf(lobe: LayeredLobe, wo: vec3f, wi: vec3f, stream: ptr<functio
 
 /// A direction of the walk with the density for multiple importance sampling.
 ///
-/// * `u`: draws what happens at the coat first.
+/// * `u`: samples what happens at the coat first.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/mod.rs, Layered::sample_random.
-fn layered_draw(lobe: LayeredLobe, wo: vec3f, u: vec3f, stream: ptr<function, StreamState>) -> BsdfSample {
+fn layered_sample(lobe: LayeredLobe, wo: vec3f, u: vec3f, stream: ptr<function, StreamState>) -> BsdfSample {
     if layered_lobe_is_mirror(lobe) {
         if wo.z <= 0.0 {
             return bsdf_sample_none();
@@ -112,7 +112,7 @@ fn layered_draw(lobe: LayeredLobe, wo: vec3f, u: vec3f, stream: ptr<function, St
         let mirrored = vec3f(-wo.x, -wo.y, wo.z);
         return bsdf_sample_delta(mirrored, layered_lobe_mirrored(lobe, wo), 1.0, 0u, 1.0);
     }
-    let left = layered_walk_draw(lobe, wo, u, stream);
+    let left = layered_walk_sample(lobe, wo, u, stream);
     if left.flags == 0u || left.wi.z <= 0.0 {
         return bsdf_sample_none();
     }

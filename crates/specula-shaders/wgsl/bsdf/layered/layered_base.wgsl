@@ -1,10 +1,10 @@
 // What lies under a coat.
 
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
-import package::bsdf::lambert::{LambertLobe, lambert_draw, lambert_eval_pdf};
+import package::bsdf::lambert::{LambertLobe, lambert_sample, lambert_eval_pdf};
 import package::bsdf::microfacets::{MicrofacetsModel};
-import package::bsdf::rough_conductor::{RoughConductor, rough_conductor_draw, rough_conductor_eval_pdf};
-import package::bsdf::smooth_conductor::{SmoothConductor, smooth_conductor_draw};
+import package::bsdf::rough_conductor::{RoughConductor, rough_conductor_sample, rough_conductor_eval_pdf};
+import package::bsdf::smooth_conductor::{SmoothConductor, smooth_conductor_sample};
 import package::fresnel::reflectance::{ReflectanceModel, reflectance_eval};
 import package::math::stream::{StreamState, stream_next};
 
@@ -53,18 +53,18 @@ fn layered_base_eval_pdf(base: LayeredBase, wo: vec3f, wi: vec3f) -> vec4f {
 /// A direction, its weight and its density.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/base.rs, Base::sample.
-fn layered_base_draw(base: LayeredBase, wo: vec3f, stream: ptr<function, StreamState>) -> BsdfSample {
+fn layered_base_sample(base: LayeredBase, wo: vec3f, stream: ptr<function, StreamState>) -> BsdfSample {
     if base.kind == LAYERED_BASE_MIRROR {
         let mirror = SmoothConductor(base.reflectance);
-        return smooth_conductor_draw(mirror, wo, vec3f(0.0), BSDF_SAMPLE_RADIANCE);
+        return smooth_conductor_sample(mirror, wo, vec3f(0.0), BSDF_SAMPLE_RADIANCE);
     }
     let first = stream_next(stream);
     let u = vec3f(0.0, first, stream_next(stream));
     if base.kind == LAYERED_BASE_METAL {
         let lobe = RoughConductor(base.facets, base.reflectance);
-        return rough_conductor_draw(lobe, wo, u, BSDF_SAMPLE_RADIANCE);
+        return rough_conductor_sample(lobe, wo, u, BSDF_SAMPLE_RADIANCE);
     }
-    return lambert_draw(LambertLobe(base.albedo), wo, u, BSDF_SAMPLE_RADIANCE);
+    return lambert_sample(LambertLobe(base.albedo), wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
 /// Reflectance of a facet; of the whole where diffuse.

@@ -2,8 +2,8 @@
 
 import package::bsdf::bsdf_sample::{BSDF_SAMPLE_TRANSMISSION, BsdfSample, BSDF_SAMPLE_IMPORTANCE, bsdf_sample_delta, bsdf_sample_radiance_scale};
 import package::bsdf::microfacets::{MicrofacetsModel, microfacets_d_along, microfacets_g_over_cos};
-import package::bsdf::rough_dielectric::{RoughDielectric, rough_dielectric_draw, rough_dielectric_draw_branch, rough_dielectric_eval_branch};
-import package::bsdf::smooth_dielectric::{SmoothDielectric, smooth_dielectric_draw};
+import package::bsdf::rough_dielectric::{RoughDielectric, rough_dielectric_sample, rough_dielectric_sample_branch, rough_dielectric_eval_branch};
+import package::bsdf::smooth_dielectric::{SmoothDielectric, smooth_dielectric_sample};
 import package::bsdf::tints::{TintsPair};
 import package::fresnel::dielectric::{dielectric};
 import package::math::stream::{StreamState, stream_next};
@@ -85,7 +85,7 @@ fn layered_coat_enter(
     }
     let first = stream_next(stream);
     let u = vec2f(first, stream_next(stream));
-    let sampled = rough_dielectric_draw_branch(layered_coat_rough(coat, 0u), wo, u, false, transport);
+    let sampled = rough_dielectric_sample_branch(layered_coat_rough(coat, 0u), wo, u, false, transport);
     return LayeredCoatSample(sampled.wi, sampled.weight.r, sampled.pdf, sampled.flags != 0u);
 }
 
@@ -100,7 +100,7 @@ fn layered_coat_bounce(coat: LayeredCoat, w: vec3f, stream: ptr<function, Stream
     let first = stream_next(stream);
     let u = vec2f(first, stream_next(stream));
     let lobe = layered_coat_rough(coat, 1u);
-    let sampled = rough_dielectric_draw_branch(lobe, -w, u, true, BSDF_SAMPLE_IMPORTANCE);
+    let sampled = rough_dielectric_sample_branch(lobe, -w, u, true, BSDF_SAMPLE_IMPORTANCE);
     return LayeredCoatSample(sampled.wi, sampled.weight.r, sampled.pdf, sampled.flags != 0u);
 }
 
@@ -121,7 +121,7 @@ fn layered_coat_passes(coat: LayeredCoat, wo: vec3f, w: vec3f, transport: u32) -
 /// Twin: specula-bsdf/src/bsdf/layered/coat.rs, Coat::scatter_above.
 fn layered_coat_scatter_above(coat: LayeredCoat, wo: vec3f, u: vec3f) -> BsdfSample {
     if coat.rough == 1u {
-        return rough_dielectric_draw(layered_coat_rough(coat, 0u), wo, u, BSDF_SAMPLE_IMPORTANCE);
+        return rough_dielectric_sample(layered_coat_rough(coat, 0u), wo, u, BSDF_SAMPLE_IMPORTANCE);
     }
     let bent = dielectric(abs(wo.z), coat.eta);
     let b = layered_coat_below(coat, wo);
@@ -150,8 +150,8 @@ fn layered_coat_scatter_below(
     let second = stream_next(stream);
     let u = vec3f(first, second, stream_next(stream));
     if coat.rough == 1u {
-        return rough_dielectric_draw(layered_coat_rough(coat, 1u), -w, u, BSDF_SAMPLE_IMPORTANCE);
+        return rough_dielectric_sample(layered_coat_rough(coat, 1u), -w, u, BSDF_SAMPLE_IMPORTANCE);
     }
     let smooth_coat = SmoothDielectric(coat.eta, 1u, TintsPair(vec3f(1.0), vec3f(1.0)));
-    return smooth_dielectric_draw(smooth_coat, -w, u, BSDF_SAMPLE_IMPORTANCE);
+    return smooth_dielectric_sample(smooth_coat, -w, u, BSDF_SAMPLE_IMPORTANCE);
 }

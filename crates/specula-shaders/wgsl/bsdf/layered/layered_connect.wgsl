@@ -9,11 +9,11 @@
 //
 // Over a narrow base the tails are rare and bright without C: a light off the mirror's direction is seen
 // by a rare `u` and a common `v` as much as the other way round. Over a wide one C is left out, and later
-// vertices have A and B. A smooth coat leaves A, which then is no draw: the first bounce is a closed
+// vertices have A and B. A smooth coat leaves A, which then is no sample: the first bounce is a closed
 // form. Over a mirror B and C remain.
 
 import package::bsdf::bsdf_sample::{BSDF_SAMPLE_IMPORTANCE, BSDF_SAMPLE_RADIANCE};
-import package::bsdf::layered::layered_base::{layered_base_draw, layered_base_eval_pdf, layered_base_is_mirror};
+import package::bsdf::layered::layered_base::{layered_base_sample, layered_base_eval_pdf, layered_base_is_mirror};
 import package::bsdf::layered::layered_coat::{LayeredCoatSample, layered_coat_passes};
 import package::bsdf::layered::layered_lobe::{LayeredLobe, layered_lobe_echoes};
 import package::bsdf::layered::layered_medium::{layered_medium_phase, layered_medium_transmittance, layered_medium_turned};
@@ -33,7 +33,7 @@ struct LayeredConnectEnds {
     wi: vec3f,
     /// How light of `wi` comes in: for radiance, the way back from it.
     entry: LayeredCoatSample,
-    /// `p(u | wo)` of how light of `wo` came in, at a first vertex that C may draw.
+    /// `p(u | wo)` of how light of `wo` came in, at a first vertex that C may sample.
     first: f32,
     /// Whether this is such a vertex.
     is_first: bool,
@@ -125,7 +125,7 @@ fn layered_connect_at_base(
             sum += value.rgb * (layered_connect_arriving(ends, v) * left);
         }
     }
-    let next = layered_base_draw(lobe.base, u, stream);
+    let next = layered_base_sample(lobe.base, u, stream);
     if next.flags != 0u && is_rough {
         let passed = layered_coat_passes(lobe.coat, ends.wi, next.wi, BSDF_SAMPLE_RADIANCE);
         let back = layered_connect_back(ends, lobe, u, next.wi);
@@ -148,7 +148,7 @@ fn layered_connect_sampled_from_light(
         return vec3f(0.0);
     }
     let v = -ends.entry.w;
-    let sampled = layered_base_draw(lobe.base, v, stream);
+    let sampled = layered_base_sample(lobe.base, v, stream);
     if sampled.flags == 0u {
         return vec3f(0.0);
     }

@@ -27,11 +27,11 @@ const LAYERED_DENSITY_TINY: f32 = 1.1754944e-38;
 /// The metal's facets as blurred by a rough coat.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/density.rs, blurred_metal.
-fn layered_density_blurred(metal: MicrofacetsModel, metal_rough: bool, coat: MicrofacetsModel, eta: f32) -> MicrofacetsModel {
+fn layered_density_blurred(metal_facets: MicrofacetsModel, metal_rough: bool, coat: MicrofacetsModel, eta: f32) -> MicrofacetsModel {
     let bend = 1.0 - 1.0 / eta;
-    let own = select(vec2f(0.0), metal.alpha, metal_rough);
+    let own = select(vec2f(0.0), metal_facets.alpha, metal_rough);
     let alpha = sqrt(own * own + 0.5 * bend * bend * coat.alpha * coat.alpha);
-    var blurred = metal;
+    var blurred = metal_facets;
     blurred.alpha = alpha_clamped(max(alpha, vec2f(ALPHA_SPECULAR_BELOW)));
     return blurred;
 }

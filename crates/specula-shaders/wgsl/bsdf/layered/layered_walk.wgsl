@@ -1,11 +1,11 @@
 // The random walk between coat and base: its value for two directions, and its samples.
 //
 // A value adds up what every vertex below the coat sends to the light (`layered_connect`). Light that the
-// coat reflects is followed with its reflectance as a factor, never chosen against leaving. A walk's
-// draws take what the surfaces draw, by what they carry, until one leaves.
+// coat reflects is followed with its reflectance as a factor, never chosen against leaving. A
+// sample follows what its surfaces sample, with their weights, until it leaves.
 
 import package::bsdf::bsdf_sample::{BSDF_SAMPLE_SPECULAR, BSDF_SAMPLE_TRANSMISSION, BSDF_SAMPLE_VALID, BsdfSample, BSDF_SAMPLE_IMPORTANCE, BSDF_SAMPLE_RADIANCE, bsdf_sample_none};
-import package::bsdf::layered::layered_base::{layered_base_draw, layered_base_is_mirror};
+import package::bsdf::layered::layered_base::{layered_base_sample, layered_base_is_mirror};
 import package::bsdf::layered::layered_coat::{layered_coat_bounce, layered_coat_enter, layered_coat_scatter_above, layered_coat_scatter_below};
 import package::bsdf::layered::layered_connect::{LayeredConnectEnds, LayeredConnectVertex, layered_connect_at_base, layered_connect_at_particle, layered_connect_sampled_from_light};
 import package::bsdf::layered::layered_lobe::{LAYERED_LOBE_MOST_EVENTS, LayeredLobe, layered_lobe_is_base_narrow};
@@ -133,13 +133,13 @@ fn layered_walk_eval(lobe: LayeredLobe, wo: vec3f, wi: vec3f, stream: ptr<functi
     return sum;
 }
 
-/// A draw of the walk; none where nothing leaves. Specular where every surface on the way was smooth. Its
+/// A sample of the walk; none where nothing leaves. Specular where every surface on the way was smooth. Its
 /// own density is not known: `pdf` is 0.
 ///
-/// * `u`: draws what happens at the coat first.
+/// * `u`: samples what happens at the coat first.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/walk.rs, sample.
-fn layered_walk_draw(lobe: LayeredLobe, wo: vec3f, u: vec3f, stream: ptr<function, StreamState>) -> BsdfSample {
+fn layered_walk_sample(lobe: LayeredLobe, wo: vec3f, u: vec3f, stream: ptr<function, StreamState>) -> BsdfSample {
     let first = layered_coat_scatter_above(lobe.coat, wo, u);
     var specular = first.flags & BSDF_SAMPLE_SPECULAR;
     if first.flags == 0u {
@@ -160,7 +160,7 @@ fn layered_walk_draw(lobe: LayeredLobe, wo: vec3f, u: vec3f, stream: ptr<functio
             state.w = layered_medium_turned(lobe.medium, state.w, stream);
             specular = 0u;
         } else if end == LAYERED_WALK_BASE {
-            let next = layered_base_draw(lobe.base, -state.w, stream);
+            let next = layered_base_sample(lobe.base, -state.w, stream);
             if next.flags == 0u {
                 break;
             }

@@ -9,6 +9,7 @@ use crate::convert::{Affine, id};
 pub(crate) struct Words {
     words: Vec<u32>,
     constants: Vec<(&'static str, u32)>,
+    floats: Vec<(&'static str, f32)>,
 }
 
 impl Words {
@@ -23,9 +24,14 @@ impl Words {
         self.constant(name, place);
     }
 
-    /// Names a number for shaders.
+    /// Names an index, a count or a code for shaders.
     pub(crate) fn constant(&mut self, name: &'static str, value: u32) {
         self.constants.push((name, value));
+    }
+
+    /// Names a number for shaders.
+    pub(crate) fn float_constant(&mut self, name: &'static str, value: f32) {
+        self.floats.push((name, value));
     }
 
     pub(crate) fn id(&mut self, word: u32) {
@@ -64,7 +70,11 @@ impl Words {
         self.vector(m.translation);
     }
 
-    pub(super) fn finish(self) -> (Vec<u32>, Vec<(&'static str, u32)>) {
-        (self.words, self.constants)
+    /// The words, and what is named: places, counts and codes, then numbers.
+    pub(crate) fn finish(self) -> (Vec<u32>, Constants) {
+        (self.words, (self.constants, self.floats))
     }
 }
+
+/// Values by the names that shaders have for them.
+pub(crate) type Constants = (Vec<(&'static str, u32)>, Vec<(&'static str, f32)>);

@@ -5,11 +5,11 @@
 import tracer::bound::{Bound, Parameters, bound_albedo};
 import package::bsdf::diffuse_transmission::{DiffuseTransmission};
 import package::bsdf::diffuse_transmission::{diffuse_transmission_eval_pdf};
-import package::bsdf::diffuse_transmission::{diffuse_transmission_draw};
+import package::bsdf::diffuse_transmission::{diffuse_transmission_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
 /// The parameters at a place: `first` the reflectance, `second` the transmittance.
-fn material_sheet_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
+fn material_diffuse_transmission_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     var b = head;
     b.first = bound_albedo(p.values[0]);
     b.second = bound_albedo(p.values[1]);
@@ -17,17 +17,17 @@ fn material_sheet_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
 }
 
 /// `f |cos|` and its density.
-fn material_sheet_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
+fn material_diffuse_transmission_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
     let lobe = DiffuseTransmission(b.first, b.second);
     return diffuse_transmission_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE);
 }
 
 /// A direction.
-fn material_sheet_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
-    return diffuse_transmission_draw(DiffuseTransmission(b.first, b.second), wo, u, BSDF_SAMPLE_RADIANCE);
+fn material_diffuse_transmission_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
+    return diffuse_transmission_sample(DiffuseTransmission(b.first, b.second), wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
 /// For denoisers.
-fn material_sheet_albedo(b: Bound) -> vec3f {
+fn material_diffuse_transmission_albedo(b: Bound) -> vec3f {
     return b.first + b.second;
 }

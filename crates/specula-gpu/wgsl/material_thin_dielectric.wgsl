@@ -5,11 +5,11 @@
 import tracer::world::{number};
 import tracer::bound::{Bound, Parameters, bound_albedo};
 import package::bsdf::tints::{TintsPair};
-import package::bsdf::thin_dielectric::{ThinDielectric, thin_dielectric_draw};
+import package::bsdf::thin_dielectric::{ThinDielectric, thin_dielectric_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
 /// The parameters at a place: `eta`, and the tints of reflection and transmission.
-fn material_thin_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
+fn material_thin_dielectric_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     var b = head;
     b.eta = number(p.plain);
     b.first = bound_albedo(p.values[0]);
@@ -19,17 +19,17 @@ fn material_thin_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
 }
 
 /// Nothing: all of it is a Dirac delta.
-fn material_thin_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
+fn material_thin_dielectric_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
     return vec4f(0.0);
 }
 
 /// A direction.
-fn material_thin_draw(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
+fn material_thin_dielectric_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     let pane = ThinDielectric(b.eta, TintsPair(b.first, b.second));
-    return thin_dielectric_draw(pane, wo, u, BSDF_SAMPLE_RADIANCE);
+    return thin_dielectric_sample(pane, wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
 /// For denoisers.
-fn material_thin_albedo(b: Bound) -> vec3f {
+fn material_thin_dielectric_albedo(b: Bound) -> vec3f {
     return vec3f(1.0);
 }

@@ -1,0 +1,211 @@
+//! What a prepared scene answers about single points: textures, bump maps, and lights as a point sees them.
+//!
+//! For previews and for whoever renders the scene by other means: shaders are compared with these answers.
+
+use specula_bsdf::{Rgb, Vec3};
+use specula_scene::scene::{BumpRules, ColourParam, TextureId};
+
+use crate::bump::{self, Softness};
+use crate::geometry::{At, Surface};
+use crate::light::Receiver;
+use crate::prepared::PreparedScene;
+use crate::texture::TextureCoordinates;
+
+/// Where a texture is evaluated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TexturePoint {
+    /// Coordinates.
+    pub uv: [f32; 2],
+    /// Those of the second set.
+    pub second_uv: [f32; 2],
+    /// Position in the world.
+    pub position: [f32; 3],
+    /// Geometric normal in the world, unit.
+    pub normal: [f32; 3],
+    /// The mesh's colour.
+    pub colour: [f32; 3],
+}
+
+/// A point to be lit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LitPoint {
+    /// Position in the world.
+    pub position: [f32; 3],
+    /// Unit normal; `None` where light from every side counts.
+    pub normal: Option<[f32; 3]>,
+}
+
+/// A sampled light, as a point sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointLighting {
+    /// Unit, towards the light.
+    pub wi: [f32; 3],
+    /// Radiance; of a light without extent, irradiance on a surface that faces it.
+    pub radiance: [f32; 3],
+    /// Density in 1/sr with which `wi` is sampled; of a light without extent, its probability.
+    pub pdf: f32,
+    /// Whether the light has no extent.
+    pub is_delta: bool,
+    /// The light's point, that point's error, and the normal there; `None`: from infinity.
+    pub target: Option<[[f32; 3]; 3]>,
+}
+
+/// A point of a surface: its primitive, and where it is on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PrimitivePoint {
+    /// Index of the placement, index within its group.
+    pub primitive: [u32; 2],
+    /// Barycentric weights of a triangle's second and third vertex.
+    pub weights: [f32; 2],
+    /// The point in the world, roughly; for quadrics only.
+    pub near: [f32; 3],
+}
+
+/// How Mitsuba's rules soften a bump map: see [`PreparedScene::softened_normal`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SoftenedNormal {
+    /// The bent normal, turned back towards the viewer.
+    pub normal: [f32; 3],
+    /// Factor on light from `wi`.
+    pub factor: f32,
+}
+
+impl PreparedScene {
+    /// The value of a texture at a point.
+    ///
+    /// * `texture`: index of one of the scene's textures.
+    ///
+    /// # Panics
+    /// Where there is no such texture.
+    #[must_use]
+    pub fn texture_value(&self, texture: usize, at: &TexturePoint) -> [f32; 3] {
+        let place = TextureCoordinates {
+            uv: at.uv,
+            second_uv: at.second_uv,
+            position: Vec3::from(at.position),
+            normal: Vec3::from(at.normal),
+            colour: Rgb::from(at.colour),
+        };
+        let parameter = ColourParam::Texture(TextureId(texture));
+        self.textures.colour(parameter, &place).to_array()
+    }
+
+    /// The light that `u` leads to; `None` where none reaches the point.
+    ///
+    /// * `u`: uniform in `[0, 1)`: the light by the first and the last, its point by the others.
+    #[must_use]
+    pub fn sample_light(&self, lit: &LitPoint, u: [f32; 4]) -> Option<PointLighting> {
+        let world = (&self.geometry, &self.textures);
+        let sample = self.lights.sample(&receiver(lit), world, u)?;
+        let target = sample
+            .from
+            .map(|t| [t.point, t.error, t.normal].map(Vec3::to_array));
+        Some(PointLighting {
+            wi: sample.wi.to_array(),
+            radiance: sample.radiance.to_array(),
+            pdf: sample.pdf,
+            is_delta: sample.delta,
+            target,
+        })
+    }
+
+    /// Density in 1/sr with which [`sample_light`](Self::sample_light) samples a point of a light's surface.
+    ///
+    /// * `on_light`: position and unit normal of that point.
+    /// * `weights`: of its primitive's second and third corner.
+    #[must_use]
+    pub fn light_pdf(
+        &self,
+        lit: &LitPoint,
+        light: u32,
+        on_light: [[f32; 3]; 2],
+        weights: [f32; 2],
+    ) -> f32 {
+        let [position, normal] = on_light.map(Vec3::from);
+        let surface = Surface {
+            position,
+            error: Vec3::ZERO,
+            ng: normal,
+            ns: normal,
+            tangent: Vec3::ZERO,
+            uv: [0.0; 2],
+            second_uv: [0.0; 2],
+            colour: Rgb::WHITE,
+            shape: 0,
+            light,
+            at: At {
+                weights,
+                ..At::default()
+            },
+        };
+        self.lights.pdf_of_surface(&receiver(lit), &surface)
+    }
+
+    /// Radiance of every light at infinity from a direction, with the density of that direction.
+    #[must_use]
+    pub fn radiance_from_infinity(&self, wi: [f32; 3]) -> Vec<[f32; 4]> {
+        let arriving = self.lights.arriving_from_infinity(Vec3::from(wi));
+        arriving.map(|(c, pdf)| [c.r, c.g, c.b, pdf]).collect()
+    }
+
+    /// Probability with which [`sample_light`](Self::sample_light) samples a light at infinity.
+    #[must_use]
+    pub fn probability_of_infinity(&self, lit: &LitPoint) -> f32 {
+        self.lights.share_from_infinity(&receiver(lit))
+    }
+
+    /// Shading normal and tangent under the bump map of a material.
+    ///
+    /// # Panics
+    /// Where there is no such material or primitive.
+    #[must_use]
+    pub fn bumped_frame(&self, material: u32, at: &PrimitivePoint) -> [[f32; 3]; 2] {
+        let [instance, primitive] = at.primitive;
+        let hit = At {
+            instance,
+            primitive,
+            weights: at.weights,
+        };
+        let (textures, geometry) = (&self.textures, &self.geometry);
+        let surface = geometry.surface_at(&hit, || Vec3::from(at.near));
+        let chosen = self
+            .materials
+            .at(material, textures, &surface.place(), |_| 0.5);
+        let material = chosen.material;
+        let (normal, tangent) = match &material.bump {
+            None => (surface.ns, surface.tangent),
+            Some(map) => bump::bend(map, material.bump_rules, textures, geometry, &surface),
+        };
+        [normal.to_array(), tangent.to_array()]
+    }
+
+    /// A bent normal as a material's rules turn it back, and their factor on light from `wi`.
+    ///
+    /// * `directions`: the normals without and with the bump map, `wo`, and `wi`.
+    ///
+    /// # Panics
+    /// Where there is no such material.
+    #[must_use]
+    pub fn softened_normal(&self, material: u32, directions: [[f32; 3]; 4]) -> SoftenedNormal {
+        let [unbent, bent, wo, wi] = directions.map(Vec3::from);
+        let place = TextureCoordinates::default();
+        let chosen = self.materials.at(material, &self.textures, &place, |_| 0.5);
+        let (normal, softness) = match chosen.material.bump_rules {
+            BumpRules::Mitsuba { fades } if chosen.material.bump.is_some() => {
+                Softness::new(unbent, bent, wo, fades)
+            }
+            _ => (bent, None),
+        };
+        SoftenedNormal {
+            normal: normal.to_array(),
+            factor: softness.map_or(1.0, |s| s.factor(wi)),
+        }
+    }
+}
+
+fn receiver(lit: &LitPoint) -> Receiver {
+    Receiver {
+        point: Vec3::from(lit.position),
+        normal: lit.normal.map(Vec3::from),
+    }
+}
