@@ -4,6 +4,7 @@
 
 mod albedo;
 mod bench;
+mod book;
 mod exact;
 mod features;
 mod generated;
@@ -100,6 +101,8 @@ enum Chore {
     Memory(memory::Memory),
     /// Render for an hour, and fail where its memory grows
     Soak(soak::Soak),
+    /// Build the guide as a book in target/book, and fail where a link is dead
+    Book(book::Book),
     /// Check what no compiler checks: file heads, lengths, leftovers, trailing spaces
     Tidy,
 }
@@ -139,6 +142,7 @@ fn run(chore: &Chore) -> Result<()> {
         Chore::Rays(rays) => rays::run(&root, rays),
         Chore::Memory(memory) => memory::run(&root, memory),
         Chore::Soak(soak) => soak::run(&root, soak),
+        Chore::Book(book) => book::run(&root, book),
         Chore::Tidy => tidy::run(&root),
     }
 }

@@ -223,7 +223,7 @@ pub(crate) fn speeds(gpu: &Gpu, effort: &Effort) -> Result<String> {
     };
     Ok(format!(
         "## Speed beside the processor's\n\n\
-         The scenes of [`data/versus`](../../data/versus), {0}x{0} pixels, paths as long as they say; rays of \
+         The scenes of `data/versus`, {0}x{0} pixels, paths as long as they say; rays of \
          cameras, bounces and shadows.\n\
          `paths`: a thread follows a path to its end. `queues`: a thread takes a path to its next vertex, and \
          paths that go on form a queue (`--gpu-schedule`).\n{queries}{left_out}\

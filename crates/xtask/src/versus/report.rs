@@ -164,7 +164,7 @@ fn processor() -> String {
 const HEAD: &str = "\
 # Equal time, other renderers
 
-Written by the chore below, on a machine that does nothing else; the scenes are in [`data/versus`](../../data/versus).
+Written by the chore below, on a machine that does nothing else; the scenes are in `data/versus`.
 
     cargo xtask versus --mitsuba PYTHON --cycles PYTHON --publish
 
