@@ -31,6 +31,7 @@ pub(super) fn make(root: &Path, summary: &Summary) -> Result<PathBuf> {
             let beside = page.parent().unwrap_or(Path::new(""));
             if let Some(file) = resolve(beside, path)
                 && root.join(&file).is_file()
+                && !summary.has(&file)
             {
                 copy(root, &folder, &file)?;
             }
