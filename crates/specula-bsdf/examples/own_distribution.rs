@@ -10,7 +10,7 @@ use specula_bsdf::bsdf::RoughConductor;
 use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::math::{Real, vec3};
 use specula_bsdf::ndf::{Ggx, Ndf};
-use specula_bsdf::vndf::{Sampler, reflect};
+use specula_bsdf::vndf::VisibleNormals;
 use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, Vec3};
 
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +42,9 @@ impl<T: Real> Ndf<T> for Hazy<T> {
     fn lambda_cos(&self, w: Vec3<T>) -> T {
         self.mix(|ggx| ggx.lambda_cos(w))
     }
+}
 
+impl<T: Real> VisibleNormals<T> for Hazy<T> {
     fn sample_wm(&self, wo: Vec3<T>, u: [T; 2]) -> Vec3<T> {
         // Each part by what is seen of it; the random number that chose is used again.
         let seen = self.haze * self.parts[1].projected_area(wo) / self.projected_area(wo);
@@ -51,14 +53,6 @@ impl<T: Real> Ndf<T> for Hazy<T> {
         } else {
             self.parts[0].sample_wm(wo, [(u[0] - seen) / (T::ONE - seen), u[1]])
         }
-    }
-
-    fn sample_reflection(&self, _: Sampler, wo: Vec3<T>, u: [T; 2]) -> Vec3<T> {
-        reflect(wo, self.sample_wm(wo, u))
-    }
-
-    fn reflection_norm(&self, _: Sampler, wo: Vec3<T>) -> T {
-        self.projected_area(wo)
     }
 }
 

@@ -3,9 +3,10 @@
 
 use std::error::Error;
 
+use specula_bsdf::bsdf::MultibounceConductor;
 use specula_bsdf::fresnel::{Conductor, Reflectance};
 use specula_bsdf::math::{Stream, vec3};
-use specula_bsdf::multibounce::{MultibounceConductor, MultibounceModel};
+use specula_bsdf::multibounce::MultibounceModel;
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, metals};
 
