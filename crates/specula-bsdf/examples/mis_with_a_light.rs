@@ -45,7 +45,7 @@ fn estimate(lobe: &impl Bsdf<f64>, lamp: &Lamp, wo: Vec3<f64>, stream: &mut Stre
     let mut sum = Rgb::BLACK;
     let wi = lamp.sample([stream.next(), stream.next()]);
     let (f_cos, pdf) = lobe.eval_pdf(wo, wi, Transport::Radiance);
-    sum = sum + f_cos * (power(lamp.pdf(wi), pdf) / lamp.pdf(wi));
+    sum += f_cos * (power(lamp.pdf(wi), pdf) / lamp.pdf(wi));
 
     let u = [stream.next(), stream.next(), stream.next()];
     if let Some(s) = lobe.sample(wo, u, Transport::Radiance) {
@@ -53,7 +53,7 @@ fn estimate(lobe: &impl Bsdf<f64>, lamp: &Lamp, wo: Vec3<f64>, stream: &mut Stre
         let hit = lamp.pdf(s.wi);
         let weight = if s.specular { 1.0 } else { power(s.pdf, hit) };
         if hit > 0.0 {
-            sum = sum + s.weight * weight;
+            sum += s.weight * weight;
         }
     }
     sum
@@ -71,7 +71,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut stream = Stream::new(3);
     let mut sum = Rgb::BLACK;
     for _ in 0..10_000 {
-        sum = sum + estimate(&lobe, &lamp, vec3(0.6, 0.0, 0.8), &mut stream);
+        sum += estimate(&lobe, &lamp, vec3(0.6, 0.0, 0.8), &mut stream);
     }
     println!("radiance {:?}", sum * 1e-4);
     Ok(())

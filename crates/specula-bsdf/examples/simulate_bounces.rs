@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for _ in 0..1000 {
         let (f_cos, pdf) = lobe.eval_pdf_random(wo, wi, Transport::Radiance, &mut stream);
         assert!(pdf > 0.0);
-        sum = sum + f_cos;
+        sum += f_cos;
     }
     println!("f cos, mean of 1000 walks: {:?}", sum * 1e-3);
     Ok(())
