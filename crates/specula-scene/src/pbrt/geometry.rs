@@ -171,18 +171,27 @@ pub(super) fn read(
             meshes.push(mesh);
         }
     }
-    let geometries = slots
-        .into_iter()
-        .map(|(slot, own_area, pieces)| ShapeGeometry {
-            geometry: match slot {
-                Slot::Job(i) => ids[i],
-                Slot::Ready(geometry) => Some(geometry),
-                Slot::Nothing => None,
-            },
+    Ok((geometries(slots, &ids), meshes))
+}
+
+/// The geometries of shapes, from those of the jobs.
+fn geometries(
+    slots: Vec<(Slot, Option<f64>, Option<usize>)>,
+    of_jobs: &[Option<Geometry>],
+) -> Vec<ShapeGeometry> {
+    let resolved = slots.into_iter().map(|(slot, own_area, pieces)| {
+        let geometry = match slot {
+            Slot::Job(i) => of_jobs[i],
+            Slot::Ready(geometry) => Some(geometry),
+            Slot::Nothing => None,
+        };
+        ShapeGeometry {
+            geometry,
             own_area,
             pieces,
-        });
-    Ok((geometries.collect(), meshes))
+        }
+    });
+    resolved.collect()
 }
 
 /// The error of the scene for a mistake in a mesh.
