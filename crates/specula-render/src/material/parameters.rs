@@ -496,8 +496,8 @@ impl Parameters {
             .floats([g.transmission, g.clearcoat, g.clearcoat_roughness])
             .floats([g.sheen_roughness])
             .number(g.ior)
-            .id(codes::GLTF_VOLUME * u32::from(g.volume)
-                | codes::GLTF_COMPENSATED * u32::from(compensated))
+            .id((codes::GLTF_VOLUME * u32::from(g.volume))
+                | (codes::GLTF_COMPENSATED * u32::from(compensated)))
             .flag(regularized)
     }
 
