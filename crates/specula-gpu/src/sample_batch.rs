@@ -87,7 +87,7 @@ impl SampleBatch {
         let count = u32::try_from(runs.len()).unwrap_or(u32::MAX);
         let words = runs.iter().map(|run| {
             let [x, y] = run.pixel;
-            [x, y, run.number, run.count]
+            [x, y, run.first, run.count]
         });
         let wanted: Vec<[u32; 4]> = std::iter::once([longest, count, 0, 0])
             .chain(words)

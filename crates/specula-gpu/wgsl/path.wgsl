@@ -190,7 +190,7 @@ fn path_receiver(vertex: PathVertex) -> Receiver {
 
 /// How many lights are sampled at a vertex.
 ///
-/// Twin: specula-render/src/integrator/candidates.rs, PathTracer::lights_at.
+/// Twin: specula-render/src/integrator/candidates.rs, PathTracer::light_candidates.
 fn path_lights_at(bound: Bound, depth: u32) -> u32 {
     let is_metal = bound.kind == KIND_CONDUCTOR || bound.kind == KIND_COMPENSATED_CONDUCTOR
         || bound.kind == KIND_MULTIBOUNCE_CONDUCTOR;
@@ -200,7 +200,7 @@ fn path_lights_at(bound: Bound, depth: u32) -> u32 {
 
 /// The values of one of several lights.
 ///
-/// Twin: specula-render/src/integrator/candidates.rs, random_numbers.
+/// Twin: specula-render/src/integrator/estimator.rs, candidate_random_numbers.
 fn path_light_numbers(u: vec4f, which: u32, count: u32) -> vec4f {
     if count == 1u {
         return u;
@@ -219,7 +219,7 @@ struct PathLight {
 
 /// Samples a light, one of so many.
 ///
-/// Twin: specula-render/src/integrator.rs, PathTracer::consider_light.
+/// Twin: specula-render/src/integrator.rs, PathTracer::sample_light.
 fn path_consider(
     throughput: vec3f,
     vertex: PathVertex,
@@ -258,7 +258,7 @@ fn path_consider(
 
 /// Adds light that was scattered so many times on its way to the camera.
 ///
-/// Twin: specula-render/src/integrator/bias.rs, bounded.
+/// Twin: specula-render/src/integrator/estimator.rs, clamp_indirect.
 fn path_add(state: ptr<function, PathState>, contribution: vec3f, events: u32) {
     var c = contribution;
     if CLAMPS != 0u && events > 1u {
@@ -280,7 +280,7 @@ fn path_direct(state: ptr<function, PathState>, vertex: PathVertex, s: Sequence,
     }
     let count = path_lights_at(vertex.bound, depth);
     var kept: PathLight;
-    // What all would bring that have been sampled. Twin: candidates.rs, keeps_second.
+    // What all would bring that have been sampled. Twin: estimator.rs, choose_candidate.
     var all_bring = 0.0;
     var kept_brings = 0.0;
     for (var which = 0u; which < count; which += 1u) {

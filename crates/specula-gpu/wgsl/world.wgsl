@@ -73,7 +73,7 @@ fn offset_away(p: vec3f, d: vec3f) -> vec3f {
 ///
 /// * `normal`: unit geometric normal, either side.
 ///
-/// Twin: specula-render/src/offset.rs, leave.
+/// Twin: specula-render/src/offset.rs, SurfacePoint::ray_origin.
 fn offset_leave(p: vec3f, error: vec3f, normal: vec3f, direction: vec3f) -> vec3f {
     let distance = dot(abs(normal), error);
     let side = select(distance, -distance, dot(normal, direction) < 0.0);

@@ -1,6 +1,6 @@
 //! Cameras: from a point of the picture to a ray.
 
-use multiversion::multiversion;
+use macro_rules_attribute::apply;
 use specula_bsdf::Vec3;
 use specula_bsdf::math::vec3;
 use specula_scene::scene::{self, EnvironmentMapping, Projection};
@@ -8,7 +8,9 @@ use specula_scene::scene::{self, EnvironmentMapping, Projection};
 use crate::accel::Ray;
 use crate::codes;
 use crate::convert::{Affine, narrow};
+use crate::disk::concentric_disk;
 use crate::light::direction_of_sphere;
+use crate::simd::simd_levels;
 use crate::words::Words;
 
 /// A camera for a picture of a certain size.
@@ -101,26 +103,23 @@ impl Camera {
 impl Camera {
     /// [`Camera::ray`] for many points, as many as random numbers for the lens.
     ///
-    /// * `keep`: takes each ray with the point's index.
+    /// * `store`: receives each ray with the point's index.
     pub(crate) fn rays(
         &self,
         raster: [&[f32]; 2],
         lens: [&[f32]; 2],
-        keep: impl FnMut(usize, Ray),
+        store: impl FnMut(usize, Ray),
     ) {
-        rays(self, raster, lens, keep);
+        rays(self, raster, lens, store);
     }
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
-fn rays<K: FnMut(usize, Ray)>(
+#[apply(simd_levels)]
+fn rays<S: FnMut(usize, Ray)>(
     camera: &Camera,
     [x, y]: [&[f32]; 2],
     [u, v]: [&[f32]; 2],
-    mut keep: K,
+    mut store: S,
 ) {
     let points = x.iter().zip(y).zip(u.iter().zip(v));
     for (i, ((&x, &y), (&u, &v))) in points.enumerate() {
@@ -130,7 +129,7 @@ fn rays<K: FnMut(usize, Ray)>(
             direction,
             t_max: f32::INFINITY,
         };
-        keep(i, ray);
+        store(i, ray);
     }
 }
 
@@ -174,25 +173,6 @@ fn within_sphere(mapping: EnvironmentMapping, [mut u, mut v]: [f32; 2]) -> [f32;
         }
     }
     [u, v].map(|x| x.clamp(0.0, 1.0))
-}
-
-/// A point of the unit disk, area-preserving and continuous.
-///
-/// Source: Shirley and Chiu 1997, in the branch-lean form of Cline (Shirley 2011).
-#[inline]
-pub(crate) fn concentric_disk(u: [f32; 2]) -> [f32; 2] {
-    use core::f32::consts::{FRAC_PI_2, FRAC_PI_4};
-    let a = 2.0 * u[0] - 1.0;
-    let b = 2.0 * u[1] - 1.0;
-    if a == 0.0 && b == 0.0 {
-        return [0.0, 0.0];
-    }
-    let (r, phi) = if a * a > b * b {
-        (a, FRAC_PI_4 * (b / a))
-    } else {
-        (b, FRAC_PI_2 - FRAC_PI_4 * (a / b))
-    };
-    [r * phi.cos(), r * phi.sin()]
 }
 
 /// The screen window for a new size: the file's own where it was no default, else the default of

@@ -1,4 +1,4 @@
-//! Passes whose samples a device takes: what it is asked for, and what it brings.
+//! Passes whose samples a device takes: what is requested of it, and how its sums are added.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -16,13 +16,13 @@ pub struct Wanted {
     counts: [u32; 2],
 }
 
-/// Samples of a pixel whose numbers follow each other.
+/// Consecutive samples of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Run {
     /// Column and row.
     pub pixel: [u32; 2],
-    /// Number of the first.
-    pub number: u32,
+    /// Index of the first.
+    pub first: u32,
     /// How many, at most 64.
     pub count: u32,
     /// The pixel's place in the tile.
@@ -63,7 +63,7 @@ impl Wanted {
             let begins = (from..to).step_by(longest.max(1) as usize);
             begins.map(move |begin| Run {
                 pixel,
-                number: first.wrapping_add(begin),
+                first: first.wrapping_add(begin),
                 count: longest.min(to - begin),
                 place,
             })
@@ -78,7 +78,7 @@ impl Renderer<'_> {
     /// * `device`: the sums of tiles, in the order of [`Wanted::runs`].
     ///
     /// # Errors
-    /// Those of the device. The film keeps what came before, and can be gone on with.
+    /// Those of the device. The film has what came before, and can be resumed.
     pub fn render_pass_with<E>(
         &mut self,
         samples: u32,
@@ -139,23 +139,23 @@ impl Renderer<'_> {
                 tile.pixels[run.place].add_run(sums, run.count);
                 tile.invalid += u64::from(sums.invalid.count_ones());
                 if sums.invalid != 0 {
-                    let number = run.number.wrapping_add(sums.invalid.trailing_zeros());
-                    invalid = Some((run.pixel, number));
+                    let sample = run.first.wrapping_add(sums.invalid.trailing_zeros());
+                    invalid = Some((run.pixel, sample));
                 }
             }
         }
-        done.invalid = invalid.map(|(pixel, number)| self.invalid(pixel, number));
+        done.invalid = invalid.map(|(pixel, sample)| self.invalid(pixel, sample));
         done
     }
 
     /// A sample that was not finite, with the material at which it went wrong.
-    fn invalid(&self, pixel: [u32; 2], number: u32) -> InvalidSample {
+    fn invalid(&self, pixel: [u32; 2], sample: u32) -> InvalidSample {
         let tracer = PathTracer::new(self.scene, &self.options);
-        let sampler = Sampler::new(pixel, number, self.options.seed);
-        let material = tracer.blame(&mut Wavefront::new(), pixel, sampler);
+        let sampler = Sampler::new(pixel, sample, self.options.seed);
+        let material = tracer.material_of_invalid_sample(&mut Wavefront::new(), pixel, sampler);
         InvalidSample {
             pixel,
-            number,
+            sample,
             material: material.map(|m| m as usize),
         }
     }

@@ -78,13 +78,13 @@ pub(crate) struct GroupData {
     pub(crate) quadrics: Vec<PlacedQuadric>,
     /// Shape of every primitive.
     pub(crate) shape_of: Vec<u32>,
-    /// Number of every primitive among the group's lights, or [`NONE`]; ends with the last light.
+    /// Index of every primitive among the group's lights, or [`NONE`]; ends with the last light.
     light_of: Vec<u32>,
-    /// Primitives that send out light, by that number.
+    /// Primitives that emit, by that index.
     pub(crate) emitters: Vec<u32>,
 }
 
-/// A quadric in its group, with its shape's number.
+/// A quadric in its group, with its shape's index.
 pub(crate) const BYTES_PER_QUADRIC: u64 =
     (size_of::<PlacedQuadric>() + size_of::<Quadric>() + 8 + size_of::<ShapeRecord>()) as u64;
 
@@ -101,7 +101,7 @@ pub(crate) struct Placement {
     to_world: Affine,
     normals: Affine,
     identity: bool,
-    /// Number of the group's first light in the world's list.
+    /// Index of the group's first light in the world's list.
     pub(crate) first_light: u32,
 }
 
@@ -222,7 +222,7 @@ fn build_accel(groups: &[GroupData], placements: &[Placement]) -> Result<Accel, 
 }
 
 impl GroupData {
-    /// Number of a primitive among the group's lights, or [`NONE`].
+    /// Index of a primitive among the group's lights, or [`NONE`].
     #[inline(always)]
     pub(crate) fn light_of(&self, primitive: u32) -> u32 {
         self.light_of

@@ -1,21 +1,20 @@
 //! Unidirectional path tracing with next-event estimation.
 //!
-//! At every vertex one light is sampled (of two, at first vertices of rough metal: `candidates`) and one
-//! direction; what both can find is weighted by the
-//! power heuristic (Veach 1997, 9.2.4) with exponent 3/2. From the fourth vertex on, paths survive with
-//! twice their throughput's largest channel as probability, corrected for the squeezing of radiance by
-//! refraction (pbrt's eta scale), at least 5 %; above 95 % roulette is not played.
+//! At every vertex one light is sampled (two at first vertices of rough metal: `candidates`) and one direction.
+//! Both are combined by the power heuristic. The rules are in `estimator`. They are applied in two ways: to
+//! batches of vertices whose materials are constant (`wavefront`, `shade`), and here, the scalar way, to single
+//! vertices with any material. Single vertices bring textures, bump maps, mixtures, cut-outs and media with
+//! them; the estimator is the same.
 //!
-//! The shading frame is turned such that both normals face the viewer; a direction whose side of
-//! the shading normal differs from its side of the surface carries nothing, so that light does not
-//! leak. A view below the shading horizon is left to the lobes, which know it; only perfect mirrors
-//! and panes, which have no answer there, take the geometric normal instead.
+//! Both normals of a vertex face the viewer. A direction whose sides of the two differ carries nothing, so that
+//! light does not leak. Lobes answer for views below the shading horizon; perfect mirrors and panes have no
+//! answer there and take the geometric normal instead.
 //!
-//! Media absorb between the surface where a path enters them and the one where it leaves
-//! (`medium_stack`); a path begins in none.
+//! Media absorb between the surface where a path enters them and the one where it leaves (`medium_stack`). A
+//! path begins in none.
 
-pub(crate) mod bias;
 mod candidates;
+pub(crate) mod estimator;
 mod path_states;
 mod shade;
 mod sharing;
@@ -31,33 +30,14 @@ use specula_scene::scene::{BumpRules, ColourParam};
 
 use crate::accel::Ray;
 use crate::bump::{self, Softness};
-use crate::film::PixelSample;
+use crate::film::{PixelSample, ScatterCounts};
 use crate::geometry::{NONE, Surface};
 use crate::light::{LightSample, Receiver};
 use crate::material::{Coat, Material};
 use crate::medium_stack::MediumStack;
-use crate::offset::leave;
 use crate::options::{RenderOptions, Strategy};
 use crate::prepared::PreparedScene;
-use crate::renderer::ScatterCounts;
 use crate::sampler::Sampler;
-
-/// Vertices before roulette begins.
-const ROULETTE_FROM: u32 = 3;
-
-/// Probability of going on with a throughput, its largest channel, refraction's squeezing taken out.
-#[inline(always)]
-fn survival_probability(largest: f32) -> f32 {
-    (2.0 * largest).clamp(0.05, 1.0)
-}
-
-/// Weight by the power heuristic with exponent 3/2.
-///
-/// * `ratio`: the other strategy's density over this one's.
-#[inline(always)]
-fn power_heuristic(ratio: f32) -> f32 {
-    1.0 / (1.0 + ratio * ratio.sqrt())
-}
 
 /// Traces paths through a scene.
 #[derive(Clone, Copy)]
@@ -65,21 +45,22 @@ pub(crate) struct PathTracer<'a> {
     scene: &'a PreparedScene,
     max_depth: u32,
     strategy: Strategy,
-    /// Whether paths of a group share what they find.
+    /// Whether paths of a group share vertices.
     shares: bool,
-    /// The most radiance that a contribution of indirect light may bring; infinite where it is unbounded.
+    /// Largest contribution of indirect light, as radiance; infinite where it is not clamped.
     bound: f32,
 }
 
-/// Where the last direction was sampled, if lights could have found it too.
+/// The vertex where the last direction was sampled.
 #[derive(Clone, Copy)]
-struct Previous {
+struct PreviousVertex {
     receiver: Receiver,
+    /// Density of the direction, per light candidate.
     pdf: f32,
 }
 
-/// A surface with its lobe and frames, turned to the viewer.
-struct Vertex {
+/// A surface with its lobe and shading frame, which faces the viewer.
+struct ShadingPoint {
     surface: Surface,
     lobe: Lobe<f32>,
     /// Whether the lobe is black where `wi.z <= 0`.
@@ -92,8 +73,8 @@ struct Vertex {
     wo: Vec3<f32>,
 }
 
-impl Vertex {
-    /// The vertex as lights are chosen for it.
+impl ShadingPoint {
+    /// The point as lights are chosen for it.
     #[inline]
     fn receiver(&self) -> Receiver {
         Receiver {
@@ -103,33 +84,33 @@ impl Vertex {
     }
 }
 
-/// A path being traced.
-struct State {
+/// The state of a path.
+struct PathState {
     radiance: Rgb<f32>,
     throughput: Rgb<f32>,
     /// Product of the squared relative indices so far.
     eta_scale: f32,
-    /// What the path is in.
+    /// The media that the path is in.
     media: MediumStack,
-    /// Whether the path has only passed through thin panes: lights that are hidden stay so.
+    /// Whether the path has passed through thin panes only: hidden lights stay hidden.
     straight: bool,
     /// Whether it was scattered by a lobe that is not perfectly smooth.
     rough: bool,
-    /// As of `PathTracer`; infinite while others may have another throughput.
+    /// As of `PathTracer`; infinite while the path is shared, as others may have another throughput.
     bound: f32,
-    previous: Option<Previous>,
+    previous: Option<PreviousVertex>,
     tally: Tally,
 }
 
-impl State {
-    /// Adds light that was scattered so many times on its way to the camera.
+impl PathState {
+    /// Adds light that was scattered `events` times on its way to the camera.
     #[inline(always)]
     fn add(&mut self, contribution: Rgb<f32>, events: u32) {
-        self.radiance += bias::bounded(contribution, events, self.bound);
+        self.radiance += estimator::clamp_indirect(contribution, events, self.bound);
     }
 }
 
-/// What is counted on the way.
+/// Counts of a render.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Tally {
     pub(crate) rays: u64,
@@ -147,13 +128,13 @@ impl Tally {
     }
 }
 
-/// A path on its way.
+/// A path.
 struct Path {
     sampler: Sampler,
-    /// The one that it goes on with.
+    /// The ray to its next vertex.
     ray: Ray,
-    state: State,
-    /// What its first vertex showed.
+    state: PathState,
+    /// Albedo, normal and depth of its first vertex.
     first: PixelSample,
 }
 
@@ -169,12 +150,12 @@ impl<'a> PathTracer<'a> {
         }
     }
 
-    /// What a path of a wavefront that has ended brings to its pixel, and the weight of its sample.
+    /// The pixel sample of a path that has ended, developed, and its filter weight.
     #[inline(always)]
     pub(crate) fn contribution(&self, wavefront: &Wavefront, path: usize) -> (PixelSample, f32) {
-        let (seen, weight) = wavefront.seen(path);
-        let colour = self.scene.develop.of(seen.colour);
-        (PixelSample { colour, ..seen }, weight)
+        let (sample, weight) = wavefront.pixel_sample(path);
+        let colour = self.scene.develop.of(sample.colour);
+        (PixelSample { colour, ..sample }, weight)
     }
 
     /// Follows a path to its end, one vertex after the other.
@@ -186,28 +167,28 @@ impl<'a> PathTracer<'a> {
         }
     }
 
-    /// The material of the surface at which a sample goes wrong, if it is a surface's: follows it again
-    /// until its radiance is not finite.
+    /// The material at which a sample became invalid; `None` beyond all surfaces. Follows the path again until
+    /// its radiance is not finite.
     #[cold]
-    pub(crate) fn blame(
+    pub(crate) fn material_of_invalid_sample(
         &self,
         wavefront: &mut Wavefront,
         pixel: [u32; 2],
         sampler: Sampler,
     ) -> Option<u32> {
         self.begin(wavefront, std::iter::once((pixel, sampler)));
-        let mut path = wavefront.first();
+        let mut path = wavefront.first_path();
         let mut depth = 0;
         loop {
-            let found = self.nearest(&path.ray, &path.sampler, depth, &mut path.state);
-            let shape = found.as_ref().map(|s| s.shape);
-            let goes_on = self.meet(&mut path, found, depth);
-            let State {
+            let surface = self.intersect(&path.ray, &path.sampler, depth, &mut path.state);
+            let shape = surface.as_ref().map(|s| s.shape);
+            let continues = self.shade(&mut path, surface, depth);
+            let PathState {
                 radiance,
                 throughput,
                 ..
             } = &path.state;
-            if !goes_on || !radiance.is_finite() || !throughput.is_finite() {
+            if !continues || !radiance.is_finite() || !throughput.is_finite() {
                 let shapes = &self.scene.geometry.shapes;
                 return shape.map(|s| shapes[s as usize].material);
             }
@@ -215,18 +196,18 @@ impl<'a> PathTracer<'a> {
         }
     }
 
-    /// Takes a path from one vertex to the next; returns whether it goes on.
+    /// Takes a path from one vertex to the next; returns whether it continues.
     fn step(&self, path: &mut Path, depth: u32) -> bool {
-        let found = self.nearest(&path.ray, &path.sampler, depth, &mut path.state);
-        self.meet(path, found, depth)
+        let surface = self.intersect(&path.ray, &path.sampler, depth, &mut path.state);
+        self.shade(path, surface, depth)
     }
 
-    /// What a path does where its ray ends; returns whether it goes on.
+    /// Adds emission where a path's ray ends, and shades the surface there; returns whether the path continues.
     ///
-    /// * `found`: the surface there; `None` where there is none.
-    fn meet(&self, path: &mut Path, found: Option<Surface>, depth: u32) -> bool {
+    /// * `surface`: `None` where the ray hit nothing.
+    fn shade(&self, path: &mut Path, surface: Option<Surface>, depth: u32) -> bool {
         let Path { ray, state, .. } = path;
-        let Some(surface) = found else {
+        let Some(surface) = surface else {
             if !(state.straight && self.scene.hide_emitters) {
                 let radiance = self.background(state.previous, ray.direction);
                 state.add(state.throughput * radiance, depth);
@@ -235,11 +216,11 @@ impl<'a> PathTracer<'a> {
         };
         let radiance = self.emission(state.previous, &surface, ray.direction);
         state.add(state.throughput * radiance, depth);
-        self.pass_on(path, surface, depth)
+        self.shade_surface(path, surface, depth)
     }
 
-    /// What a path does at a surface, its emission aside; returns whether it goes on.
-    fn pass_on(&self, path: &mut Path, surface: Surface, depth: u32) -> bool {
+    /// Adds direct light at a surface and scatters the path; returns whether it continues.
+    fn shade_surface(&self, path: &mut Path, surface: Surface, depth: u32) -> bool {
         let Path {
             sampler,
             ray,
@@ -249,7 +230,7 @@ impl<'a> PathTracer<'a> {
         if depth >= self.max_depth && depth > 0 {
             return false;
         }
-        let vertex = self.vertex(surface, -ray.direction, sampler, depth, state.rough);
+        let vertex = self.shading_point(surface, -ray.direction, sampler, depth, state.rough);
         if depth == 0 {
             first.albedo = vertex.lobe.albedo();
             first.normal = vertex.frame.n;
@@ -266,15 +247,15 @@ impl<'a> PathTracer<'a> {
         true
     }
 
-    /// Light from infinity on a ray that meets nothing.
+    /// Light from infinity on a ray that hits nothing, with its MIS weight.
     ///
-    /// * `previous`: where it was sampled, if lights could have found it too.
+    /// * `previous`: where the ray was sampled; `None` where no light sample could have found it.
     #[inline]
-    fn background(&self, previous: Option<Previous>, direction: Vec3<f32>) -> Rgb<f32> {
+    fn background(&self, previous: Option<PreviousVertex>, direction: Vec3<f32>) -> Rgb<f32> {
         let lights = &self.scene.lights;
         let mut sum = Rgb::BLACK;
         for (radiance, pdf) in lights.arriving_from_infinity(direction) {
-            let weight = self.lobe_weight(previous, |receiver| {
+            let weight = self.emission_weight(previous, |receiver| {
                 lights.share_from_infinity(receiver) * pdf
             });
             sum += radiance * weight;
@@ -282,13 +263,13 @@ impl<'a> PathTracer<'a> {
         sum
     }
 
-    /// Light that the surface sends out itself.
+    /// Emission of a surface, with its MIS weight.
     ///
     /// * `previous`: as of [`Self::background`].
     #[inline]
     fn emission(
         &self,
-        previous: Option<Previous>,
+        previous: Option<PreviousVertex>,
         surface: &Surface,
         direction: Vec3<f32>,
     ) -> Rgb<f32> {
@@ -297,7 +278,7 @@ impl<'a> PathTracer<'a> {
         if surface.light == NONE || !emits {
             return Rgb::BLACK;
         }
-        let weight = self.lobe_weight(previous, |receiver| {
+        let weight = self.emission_weight(previous, |receiver| {
             self.scene.lights.pdf_of_surface(receiver, surface)
         });
         let radiance = match shape.radiance {
@@ -311,41 +292,34 @@ impl<'a> PathTracer<'a> {
         radiance * weight
     }
 
-    /// Weight of light found by a lobe's direction.
+    /// MIS weight of emission on a ray that a lobe sampled, or the camera.
+    ///
+    /// * `light_pdf`: density with which light sampling takes the direction at a receiver.
     #[inline]
-    fn lobe_weight(
+    fn emission_weight(
         &self,
-        previous: Option<Previous>,
+        previous: Option<PreviousVertex>,
         light_pdf: impl FnOnce(&Receiver) -> f32,
     ) -> f32 {
-        match (previous, self.strategy) {
-            (None, _) | (_, Strategy::BsdfOnly) => 1.0,
-            (_, Strategy::LightsOnly) => 0.0,
-            (Some(p), _) => self.heuristic(p.pdf, light_pdf(&p.receiver)),
+        match previous {
+            None => estimator::emission_weight(self.strategy, None, || 0.0),
+            Some(p) => {
+                estimator::emission_weight(self.strategy, Some(p.pdf), || light_pdf(&p.receiver))
+            }
         }
     }
 
-    /// Weight of the strategy with density `a` against the one with density `b`.
-    #[inline]
-    fn heuristic(&self, a: f32, b: f32) -> f32 {
-        // As a ratio: squares of densities overflow.
-        let ratio = b / a;
-        match self.strategy {
-            Strategy::Balance => 1.0 / (1.0 + ratio),
-            Strategy::Power => 1.0 / (1.0 + ratio * ratio),
-            _ => power_heuristic(ratio),
-        }
-    }
-
-    /// * `rough`: whether the path was scattered by a lobe that is not perfectly smooth.
-    fn vertex(
+    /// The surface with its material's lobe and its shading frame.
+    ///
+    /// * `rough`: as of `PathState`.
+    fn shading_point(
         &self,
         surface: Surface,
         wo: Vec3<f32>,
         sampler: &Sampler,
         depth: u32,
         rough: bool,
-    ) -> Vertex {
+    ) -> ShadingPoint {
         let outside = surface.ng.dot(wo) > 0.0;
         let facing = if outside { surface.ng } else { -surface.ng };
         let shape = &self.scene.geometry.shapes[surface.shape as usize];
@@ -358,7 +332,7 @@ impl<'a> PathTracer<'a> {
         });
         let mut lobe = chosen.lobe(textures, &place, outside);
         let material = chosen.material;
-        let (ns, tangent) = self.shading(&surface, material);
+        let (ns, tangent) = self.shading_normal_and_tangent(&surface, material);
         let tangent = if material.is_plain_and_isotropic() {
             Vec3::ZERO
         } else {
@@ -383,7 +357,7 @@ impl<'a> PathTracer<'a> {
             let normal = self.coat_normal(coat, &surface, facing);
             *gltf = gltf.with_coat_normal(frame.to_local(normal));
         }
-        Vertex {
+        ShadingPoint {
             surface,
             opaque: chosen.is_opaque(&lobe),
             lobe,
@@ -394,9 +368,13 @@ impl<'a> PathTracer<'a> {
         }
     }
 
-    /// Shading normal and tangent, bent and turned as the material asks.
+    /// Shading normal and tangent, with the material's bump map and rotation.
     #[inline]
-    fn shading(&self, surface: &Surface, material: &Material) -> (Vec3<f32>, Vec3<f32>) {
+    fn shading_normal_and_tangent(
+        &self,
+        surface: &Surface,
+        material: &Material,
+    ) -> (Vec3<f32>, Vec3<f32>) {
         let (ns, tangent) = match &material.bump {
             None => (surface.ns, surface.tangent),
             Some(r) => {
@@ -435,21 +413,29 @@ impl<'a> PathTracer<'a> {
         normal * side
     }
 
-    /// Light from one sampled light.
+    /// Adds direct light from one light sample.
     #[inline]
-    fn add_direct(&self, state: &mut State, vertex: &Vertex, sampler: &Sampler, depth: u32) {
+    fn add_direct(
+        &self,
+        state: &mut PathState,
+        vertex: &ShadingPoint,
+        sampler: &Sampler,
+        depth: u32,
+    ) {
         if vertex.lobe.is_specular() {
             return;
         }
-        let count = self.lights_at(&vertex.lobe, depth);
-        let consider = |which| self.consider_light(state, vertex, sampler, depth, [which, count]);
-        let first = consider(0);
-        let kept = if count == 1 {
+        let count = self.light_candidates(&vertex.lobe, depth);
+        let candidate = |nth| self.sample_light(state, vertex, sampler, depth, [nth, count]);
+        let first = candidate(0);
+        let chosen = if count == 1 {
             first
         } else {
-            candidates::keep_one([first, consider(1)], || candidates::choice(sampler, depth))
+            candidates::choose([first, candidate(1)], || {
+                candidates::random_number(sampler, depth)
+            })
         };
-        let Some((light, contribution)) = kept else {
+        let Some((light, contribution)) = chosen else {
             return;
         };
         let mut beyond;
@@ -460,41 +446,41 @@ impl<'a> PathTracer<'a> {
         } else {
             &state.media
         };
-        let s = &vertex.surface;
-        let place = (s.position, s.error, s.ng);
-        let left = self.transmittance(place, &light, media, sampler, depth, &mut state.tally.rays);
-        if let Some(left) = left {
-            state.add(contribution * left, depth + 1);
+        let from = vertex.surface.point();
+        let rays = &mut state.tally.rays;
+        let transmittance = self.transmittance(&from, &light, media, sampler, depth, rays);
+        if let Some(transmittance) = transmittance {
+            state.add(contribution * transmittance, depth + 1);
         }
     }
 
-    /// Samples a light, and says what it would bring to the path; `None`: nothing.
+    /// A light sample and its contribution, should nothing occlude it; `None`: it has none.
     ///
-    /// * `which`, `count`: of how many.
+    /// * `nth`, `count`: which of how many light candidates.
     #[inline]
-    fn consider_light(
+    fn sample_light(
         &self,
-        state: &State,
-        vertex: &Vertex,
+        state: &PathState,
+        vertex: &ShadingPoint,
         sampler: &Sampler,
         depth: u32,
-        [which, count]: [u32; 2],
+        [nth, count]: [u32; 2],
     ) -> Option<(LightSample, Rgb<f32>)> {
         let receiver = vertex.receiver();
         let scene = self.scene;
         let world = (&scene.geometry, &scene.textures);
-        let u = candidates::random_numbers(sampler.light(depth), which, count);
+        let u = estimator::candidate_random_numbers(sampler.light(depth), nth, count);
         let mut light = scene.lights.sample(&receiver, world, u)?;
         if self.strategy == Strategy::BsdfOnly && !light.delta {
             return None;
         }
         light.pdf *= count as f32;
         let wi = vertex.frame.to_local(light.wi);
-        if wi.z * vertex.facing.dot(light.wi) <= 0.0 {
+        if !estimator::sides_agree(wi.z, vertex.facing.dot(light.wi)) {
             return None;
         }
         let wo = vertex.frame.to_local(vertex.wo);
-        let mut stream = sampler.stream(depth, candidates::stream(which));
+        let mut stream = sampler.stream(depth, estimator::stream_of_candidate(nth));
         let (f_cos, pdf) = vertex
             .lobe
             .eval_pdf_random(wo, wi, Transport::Radiance, &mut stream);
@@ -505,27 +491,29 @@ impl<'a> PathTracer<'a> {
             Some(softness) => f_cos * softness.factor(light.wi),
             None => f_cos,
         };
-        let weight = if light.delta || self.strategy == Strategy::LightsOnly {
-            1.0
-        } else {
-            self.heuristic(light.pdf, pdf)
-        };
-        let contribution = state.throughput * f_cos * (light.radiance * (weight / light.pdf));
+        let weight = estimator::light_weight(self.strategy, light.delta, light.pdf, pdf);
+        let contribution = estimator::light_contribution(
+            state.throughput,
+            f_cos,
+            light.radiance,
+            weight,
+            light.pdf,
+        );
         (weight > 0.0).then_some((light, contribution))
     }
 
-    /// Samples the next direction; `None` where the path ends.
+    /// Samples the next ray; `None` where the path ends.
     #[inline]
     fn scatter(
         &self,
-        state: &mut State,
-        vertex: &Vertex,
+        state: &mut PathState,
+        vertex: &ShadingPoint,
         sampler: &Sampler,
         depth: u32,
     ) -> Option<Ray> {
         let [u0, u1, u2, survival] = sampler.scatter(depth);
         let wo = vertex.frame.to_local(vertex.wo);
-        let mut stream = sampler.stream(depth, 1);
+        let mut stream = sampler.stream(depth, estimator::STREAM_SCATTER);
         let sample =
             (vertex.lobe).sample_random(wo, [u0, u1, u2], Transport::Radiance, &mut stream);
         if !matches!(vertex.lobe, Lobe::Black(_)) {
@@ -542,40 +530,30 @@ impl<'a> PathTracer<'a> {
             event,
         } = sample?;
         let direction = vertex.frame.to_world(wi).normalize();
-        if wi.z * vertex.facing.dot(direction) <= 0.0 {
+        if !estimator::sides_agree(wi.z, vertex.facing.dot(direction)) {
             return None;
         }
         state.throughput *= weight;
         if let Some(softness) = &vertex.softness {
             state.throughput *= softness.factor(direction);
         }
-        state.eta_scale *= eta * eta;
+        state.eta_scale = estimator::eta_scale_after(state.eta_scale, eta);
         state.rough |= !specular;
         state.straight &=
             matches!(vertex.lobe, Lobe::ThinDielectric(_)) && event == Event::Transmission;
         if event == Event::Transmission {
             self.cross(&mut state.media, &vertex.surface, direction);
         }
-        let largest = state.throughput.max_channel() * state.eta_scale;
-        if largest.is_nan() || largest <= 0.0 {
+        let (survives, throughput) =
+            estimator::russian_roulette(depth, state.throughput, state.eta_scale, survival);
+        if !survives {
             return None;
         }
-        let probability = survival_probability(largest);
-        if depth >= ROULETTE_FROM && probability < 0.95 {
-            if survival >= probability {
-                return None;
-            }
-            state.throughput *= 1.0 / probability;
-        }
-        let s = &vertex.surface;
-        state.previous = (!specular).then_some(Previous {
+        state.throughput = throughput;
+        state.previous = (!specular).then_some(PreviousVertex {
             receiver: vertex.receiver(),
-            pdf: candidates::density(pdf, self.lights_at(&vertex.lobe, depth)),
+            pdf: estimator::pdf_per_candidate(pdf, self.light_candidates(&vertex.lobe, depth)),
         });
-        Some(Ray {
-            origin: leave(s.position, s.error, s.ng, direction),
-            direction,
-            t_max: f32::INFINITY,
-        })
+        Some(estimator::spawn_ray(&vertex.surface.point(), direction))
     }
 }

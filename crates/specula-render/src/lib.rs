@@ -6,6 +6,7 @@ mod camera;
 mod codes;
 mod convert;
 mod device;
+mod disk;
 mod film;
 mod flat;
 mod geometry;
@@ -21,13 +22,27 @@ mod points;
 mod prepared;
 mod renderer;
 mod sampler;
+mod simd;
+mod soa;
 mod texture;
 mod words;
+
+/// Constants of the path estimator, from which shaders are made.
+#[doc(hidden)]
+pub mod estimator {
+    pub use crate::integrator::estimator::{
+        HASH_CANDIDATE, INDIRECT_FROM, MOST_PASSES, ROULETTE_BELOW, ROULETTE_FROM, ROULETTE_LEAST,
+        ROULETTE_SCALE, SHADOW_RAY_END, STREAM_SCATTER, stream_of_candidate,
+    };
+    pub use crate::light::{FINER, LEAST_SHARE};
+    pub use crate::medium_stack::MOST_MEDIA;
+    pub use crate::offset::RELATIVE_ERROR;
+}
 
 pub use device::{Run, Wanted};
 pub use film::{
     FilmBuffer, FilmFile, FilmFileError, Label, MOST_SAMPLES, MergeError, NoiseEstimate,
-    NoiseOutlook, NoiseTrend, RunSums,
+    NoiseOutlook, NoiseTrend, RunSums, ScatterCounts,
 };
 pub use flat::{FlatGroup, FlatInstance, FlatScene};
 pub use material::MaterialShader;
@@ -35,4 +50,4 @@ pub use memory::MemoryEstimate;
 pub use options::{RenderOptions, Strategy};
 pub use points::{LitPoint, PointLighting, PrimitivePoint, SoftenedNormal, TexturePoint};
 pub use prepared::{PrepareError, PreparedScene};
-pub use renderer::{InvalidSample, PassReport, Renderer, ResumeError, ScatterCounts};
+pub use renderer::{InvalidSample, PassReport, Renderer, ResumeError};

@@ -8,7 +8,7 @@
 use specula_bsdf::Rgb;
 
 /// How many media are remembered; those entered first are forgotten.
-const DEEPEST: usize = 4;
+pub const MOST_MEDIA: usize = 4;
 
 /// What absorbs on the two sides of a surface, per scene unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub(crate) struct Boundary {
 pub(crate) struct MediumStack {
     absorption: Option<Rgb<f32>>,
     /// Materials of the media entered, with their absorption; the first `count` are meant.
-    entered: [(u32, Rgb<f32>); DEEPEST],
+    entered: [(u32, Rgb<f32>); MOST_MEDIA],
     count: usize,
 }
 
@@ -32,7 +32,7 @@ impl MediumStack {
     /// Empty space.
     pub(crate) const NONE: Self = Self {
         absorption: None,
-        entered: [(0, Rgb::BLACK); DEEPEST],
+        entered: [(0, Rgb::BLACK); MOST_MEDIA],
         count: 0,
     };
 
@@ -60,7 +60,7 @@ impl MediumStack {
     }
 
     fn enter(&mut self, material: u32, inside: Rgb<f32>) {
-        if self.count == DEEPEST {
+        if self.count == MOST_MEDIA {
             self.entered.rotate_left(1);
             self.count -= 1;
         }

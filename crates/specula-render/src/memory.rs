@@ -17,7 +17,7 @@ use crate::picture::{ALL_CHANNELS, blocks_size};
 
 /// The program itself, as it is before a scene is read.
 const PROGRAM: u64 = 10 << 20;
-/// Code and buffers that only rendering and writing bring into memory.
+/// Code and buffers that only rendering and writing load.
 const LATER: u64 = 6 << 20;
 /// Stack and buffers of a thread.
 const THREAD: u64 = 1 << 20;
@@ -45,7 +45,7 @@ pub struct MemoryEstimate {
     pub reading: u64,
     /// Largest sum while the render is prepared.
     preparing: u64,
-    /// What of the scene is freed in small pieces: allocators may keep those.
+    /// What of the scene is freed in small pieces: allocators may not return those.
     loose: u64,
 }
 

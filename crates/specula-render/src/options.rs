@@ -1,5 +1,7 @@
 //! What a render may be asked for.
 
+use core::fmt;
+
 use specula_bsdf::multibounce::MisPdf;
 use specula_bsdf::vndf;
 use specula_scene::{Energy, Scene};
@@ -7,7 +9,7 @@ use specula_scene::{Energy, Scene};
 /// What stands before the options that bias a picture, at the end of [`RenderOptions::settings`].
 pub(crate) const BIASED: &str = "biased: ";
 
-/// How direct light is found.
+/// How direct light is estimated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Strategy {
     /// By lights and by lobes, combined by the power heuristic (Veach 1997, 9.2.4) with exponent 3/2.
@@ -24,6 +26,19 @@ pub enum Strategy {
     Power,
 }
 
+/// The name in [`RenderOptions::settings`], by which films are compared.
+impl fmt::Display for Strategy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Mis => "Mis",
+            Self::Balance => "Balance",
+            Self::LightsOnly => "LightsOnly",
+            Self::BsdfOnly => "BsdfOnly",
+            Self::Power => "Power",
+        })
+    }
+}
+
 /// Settings of a render.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderOptions {
@@ -38,36 +53,36 @@ pub struct RenderOptions {
     pub vndf_sampler: vndf::Sampler,
     /// What is done about multiple scattering where a material does not say it itself.
     pub energy: Energy,
-    /// Density that simulated bounces are weighed with against lights.
+    /// Density of simulated bounces in MIS with lights.
     pub mis_pdf: MisPdf,
     /// Size of the whole picture; `None`: as the scene says.
     pub resolution: Option<[u32; 2]>,
     /// Pixels to render, `[x0, x1, y0, y1]`, half open; `None`: as the scene says, scaled with the
     /// resolution.
     pub crop: Option<[u32; 4]>,
-    /// How direct light is found.
+    /// How direct light is estimated.
     pub strategy: Strategy,
-    /// Whether, with both strategies, lights are sampled by what lobes find less well: skies by what
-    /// exceeds their mean (Karlik et al. 2019). Otherwise by luminance.
+    /// Whether, with both strategies, environment lights are sampled by what exceeds their mean, as lobes sample the
+    /// rest well (MIS compensation: Karlik et al. 2019). Otherwise by luminance.
     pub mis_compensation: bool,
     /// Paths of how many neighbouring pixels share what lies behind their first rough vertices (Bekaert et
     /// al. 2002), at most [`RenderOptions::MOST_SHARING`]; 1: none. Less noise for the time between rough
     /// surfaces that light each other; pixels that share have some of their noise in common.
     pub share_paths: u32,
-    /// Number of each pixel's first sample: renders of different numbers are parts of one picture.
+    /// Index of each pixel's first sample: renders from different indices are parts of one picture.
     pub first_sample: u32,
     /// Estimated error at which the picture is done, with samples spread by their error and cost (see
     /// [`FilmBuffer::noise`](crate::FilmBuffer::noise)); at 0 it is done after the samples that were asked
     /// for. `None`: as many for every pixel.
     pub noise: Option<f32>,
-    /// Bias: the most that a contribution of indirect light may bring in any channel, in picture values (1 is white,
-    /// the film's exposure applied, its white balance not); larger ones are scaled down whole, which keeps their
+    /// Bias: the largest contribution of indirect light in any channel, in picture values (1 is white,
+    /// the film's exposure applied, its white balance not); larger ones are scaled down whole, which preserves their
     /// hue. Indirect is light that was scattered twice or more, as in Cycles' "clamp indirect". Takes away fireflies
     /// and with them the light that they stand for: the picture gets darker. Finite and above 0; `None`: unbounded.
     pub clamp: Option<f32>,
-    /// Bias: whether surfaces that a path meets behind a surface that is not perfectly smooth are made rougher, as
+    /// Bias: whether surfaces that a path hits behind a surface that is not perfectly smooth are made rougher, as
     /// by pbrt-v4's `regularize`: alphas `alpha` below 0.3 become `clamp(2 alpha, 0.1, 0.3)`, so that mirrors and
-    /// clear glass have `alpha` 0.1. Caustics become blurred, and lights are found through glass.
+    /// clear glass have `alpha` 0.1. Caustics become blurred, and light sampling works through glass.
     pub regularize: bool,
 }
 
@@ -110,8 +125,8 @@ impl RenderOptions {
         let biased = self.bias().map(|bias| format!(", {BIASED}{bias}"));
         let biased = biased.unwrap_or_default();
         format!(
-            "depth {max_depth}, seed {seed}, sampler {vndf_sampler}, energy {energy}, {mis_pdf:?}, \
-             {strategy:?}{sampled}{shared}{spread}{biased}"
+            "depth {max_depth}, seed {seed}, sampler {vndf_sampler}, energy {energy}, {mis_pdf}, \
+             {strategy}{sampled}{shared}{spread}{biased}"
         )
     }
 

@@ -98,8 +98,8 @@ impl PreparedScene {
         let world = (&self.geometry, &self.textures);
         let sample = self.lights.sample(&receiver(lit), world, u)?;
         let target = sample
-            .from
-            .map(|t| [t.point, t.error, t.normal].map(Vec3::to_array));
+            .target
+            .map(|t| [t.position, t.error, t.normal].map(Vec3::to_array));
         Some(PointLighting {
             wi: sample.wi.to_array(),
             radiance: sample.radiance.to_array(),

@@ -30,10 +30,10 @@ pub struct PreparedScene {
     pub(crate) textures: Textures,
     pub(crate) materials: Materials,
     pub(crate) lights: Lights,
-    /// Material of each shape that is dealt with in batches, and whether its sides differ.
-    lanes_of: Vec<Option<(u32, bool)>>,
+    /// Material of each shape that batches know, and whether its sides differ.
+    batch_materials: Vec<Option<(u32, bool)>>,
     /// The same behind rough surfaces; empty where that makes no difference.
-    lanes_behind_rough: Vec<Option<(u32, bool)>>,
+    batch_materials_behind_rough: Vec<Option<(u32, bool)>>,
     /// Whether lights are hidden from the camera.
     pub(crate) hide_emitters: bool,
 }
@@ -143,7 +143,7 @@ impl PreparedScene {
                 Strategy::Mis | Strategy::Balance | Strategy::Power
             );
         let lights = Lights::new(&scene, &geometry, &textures, beside_lobes);
-        let lanes = |rough: bool| -> Vec<Option<(u32, bool)>> {
+        let known = |rough: bool| -> Vec<Option<(u32, bool)>> {
             let of = |material: u32| {
                 let material = materials.on_path(material, rough);
                 let [plain, _] = materials.plain(material)?;
@@ -151,9 +151,9 @@ impl PreparedScene {
             };
             geometry.shapes.iter().map(|s| of(s.material)).collect()
         };
-        let lanes_of = lanes(false);
-        let lanes_behind_rough = match materials.are_regularized() {
-            true => lanes(true),
+        let batch_materials = known(false);
+        let batch_materials_behind_rough = match materials.are_regularized() {
+            true => known(true),
             false => Vec::new(),
         };
         Ok(Self {
@@ -162,8 +162,8 @@ impl PreparedScene {
             develop,
             resolution,
             crop,
-            lanes_of,
-            lanes_behind_rough,
+            batch_materials,
+            batch_materials_behind_rough,
             geometry,
             textures,
             materials,
@@ -172,18 +172,18 @@ impl PreparedScene {
         })
     }
 
-    /// Material of a shape that is dealt with in batches, and whether its sides differ.
+    /// Material of a shape, and whether its sides differ; `None` where batches do not know it.
     ///
     /// * `rough`: whether the path was scattered by a lobe that is not perfectly smooth.
     #[inline(always)]
-    pub(crate) fn lanes_of(&self, shape: u32, rough: bool) -> Option<(u32, bool)> {
-        let behind = rough && !self.lanes_behind_rough.is_empty();
-        let lanes = if behind {
-            &self.lanes_behind_rough
+    pub(crate) fn batch_material(&self, shape: u32, rough: bool) -> Option<(u32, bool)> {
+        let behind = rough && !self.batch_materials_behind_rough.is_empty();
+        let materials = if behind {
+            &self.batch_materials_behind_rough
         } else {
-            &self.lanes_of
+            &self.batch_materials
         };
-        lanes[shape as usize]
+        materials[shape as usize]
     }
 
     /// Width and height of the whole picture.

@@ -3,18 +3,19 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use multiversion::multiversion;
+use macro_rules_attribute::apply;
 use rayon::prelude::*;
 
-use crate::film::{Aim, FilmBuffer, PixelSums, Tile};
+use crate::film::{Aim, FilmBuffer, PixelSums, ScatterCounts, Tile};
 use crate::integrator::{PathTracer, Tally, Wavefront};
 use crate::options::RenderOptions;
 use crate::prepared::PreparedScene;
 use crate::sampler::Sampler;
+use crate::simd::simd_levels;
 
 /// A render in progress.
 ///
-/// A sample is determined by its pixel, its number in the pixel and the seed, and a pixel adds its
+/// A sample is determined by its pixel, its index in the pixel and the seed, and a pixel adds its
 /// samples in the order of their indices: the picture does not depend, by a single bit, on the
 /// number of threads or on how the samples are split into passes. Adaptive sampling allots work when
 /// all tiles have what was allotted before, so that this holds there too.
@@ -33,7 +34,7 @@ pub struct PassReport {
     pub samples_done_total: u32,
     /// Rays of this pass: camera, bounces and shadows.
     pub rays: u64,
-    /// Directions that this pass drew from lobes; `None` where a device drew them.
+    /// Directions that lobes sampled in this pass; `None` where a device sampled them.
     pub scattered: Option<ScatterCounts>,
     /// Whether the pass was finished, not stopped.
     pub complete: bool,
@@ -43,39 +44,13 @@ pub struct PassReport {
     pub invalid: Option<InvalidSample>,
 }
 
-/// Directions sampled at surfaces, black ones apart.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct ScatterCounts {
-    /// How many.
-    pub sampled: u64,
-    /// Those of them at which a lobe gave none, so that the path ended: a sampler's waste.
-    pub rejected: u64,
-}
-
-impl ScatterCounts {
-    /// Share of the samples that were rejected, in `[0, 1]`; 0 where there was none.
-    pub fn rejected_share(&self) -> f64 {
-        self.rejected as f64 / self.sampled.max(1) as f64
-    }
-
-    /// Of both.
-    #[must_use]
-    #[inline(always)]
-    pub fn and(self, other: Self) -> Self {
-        Self {
-            sampled: self.sampled + other.sampled,
-            rejected: self.rejected + other.rejected,
-        }
-    }
-}
-
 /// A sample that was not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct InvalidSample {
     /// Column and row.
     pub pixel: [u32; 2],
-    /// Its number in the pixel.
-    pub number: u32,
+    /// Its index in the pixel.
+    pub sample: u32,
     /// Index of the material in the scene at whose surface it went wrong; `None` beyond all surfaces.
     pub material: Option<usize>,
 }
@@ -100,7 +75,7 @@ pub enum ResumeError {
     )]
     Gaps,
     /// Its samples begin elsewhere.
-    #[error("its samples begin with number {0}")]
+    #[error("its samples begin with index {0}")]
     FirstSample(u32),
     /// Its samples are spread by their error and those of the render evenly, or the other way round.
     #[error("one was made for a noise, the other for a number of samples")]
@@ -187,7 +162,7 @@ impl<'a> Renderer<'a> {
     /// A pass that is stopped leaves whole tiles unrendered; the next pass begins with what they
     /// lack, and takes every pixel to the same count.
     ///
-    /// * `stop`: looked at before every vertex, so that a pass ends within milliseconds; the tiles that
+    /// * `stop`: read before every vertex, so that a pass ends within milliseconds; the tiles that
     ///   were being rendered stay as they were.
     pub fn render_pass(&mut self, samples: u32, stop: &AtomicBool) -> PassReport {
         let goals = self.goals(samples);
@@ -331,8 +306,10 @@ fn render_tile(
             let (pixel, sampler) = sample(place);
             done.invalid = Some(InvalidSample {
                 pixel,
-                number: first.wrapping_add(place.1),
-                material: tracer.blame(wavefront, pixel, sampler).map(|m| m as usize),
+                sample: first.wrapping_add(place.1),
+                material: tracer
+                    .material_of_invalid_sample(wavefront, pixel, sampler)
+                    .map(|m| m as usize),
             });
         }
         true
@@ -369,7 +346,7 @@ fn render_tile(
 }
 
 /// Groups of at most `size` pixels of a tile whose paths share: squares of 4 x 4 pixels are dealt out by
-/// chance, anew for every sample, so that no pixel keeps its partners.
+/// chance, anew for every sample, so that pixels change partners.
 ///
 /// * `bounds`: of the tile.
 /// * `sampler`: of the sample of a pixel, by its place in the tile.
@@ -398,11 +375,8 @@ fn groups(
 
 /// Adds the samples of a wavefront to their pixels; returns those that are not finite.
 ///
-/// * `places`: of each path the pixel, and the number of the sample there.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
+/// * `places`: of each path the pixel, and the index of the sample there.
+#[apply(simd_levels)]
 fn add_samples(
     tracer: &PathTracer<'_>,
     wavefront: &Wavefront,

@@ -1,8 +1,8 @@
-//! Sample sequences: which dimension of which sequence every decision of a path uses.
+//! The sampler: which dimension of which sequence every decision of a path uses.
 //!
-//! RandomNumbers come in sets of four, one for each purpose at each vertex:
+//! Dimensions come in sets of four, one set for each purpose at each vertex:
 //!
-//! | set | 0 | 1 and 2 | 3 |
+//! | set | dimension 0 | 1 and 2 | 3 |
 //! |---|---|---|---|
 //! | camera | x on the lens | x and y within the filter | y on the lens |
 //! | scatter, vertex v | choice of lobe | direction | Russian roulette |
@@ -11,29 +11,26 @@
 //! Each set is the first four dimensions of an Owen-scrambled Sobol sequence, shuffled and
 //! scrambled by itself (Burley 2020, "padding"; by the crate `sobol_burley`), under a hash of the set, the
 //! pixel, the render's seed and the block of 2^16 samples: pixels and sets are decorrelated, and a
-//! sequence never runs past its length. RandomNumbers 1 and 2 are Sobol's first two dimensions: any 2^k samples
-//! from a multiple of 2^k on have one in each elementary rectangle of area 2^-k.
+//! sequence never runs past its length. Dimensions 1 and 2 are Sobol's first two: any 2^k samples from a
+//! multiple of 2^k on have one in each elementary rectangle of area 2^-k.
 //!
-//! Higher dimensions for the other sets, under one shuffle, were here before: some pairs of them are
-//! so badly distributed that 32 samples miss half of a product. Mean squared error at 32 samples of sets
-//! by themselves over that, in the scenes of `data/versus`: 0.91 to 0.71.
+//! The sets of the first vertex are joined with the camera's: which part of a fine or bumpy surface a pixel sees
+//! and where the light comes from that it reflects are correlated. Their sequences take the index of the sample
+//! as the camera's set has shuffled it, transformed by a matrix of bits ([`TURN`]) that stratifies both sets
+//! together.
 //!
-//! The sets of the first vertex go with the camera's, though: what a pixel sees of a finely cut or bumpy
-//! surface, and what light it reflects from where, belong together. Their sequences take the sample's number
-//! as the camera's set has shuffled it, turned by a matrix of bits ([`TURN`]) that makes the random numbers of both
-//! sets even together. Squared error over that of sets by themselves at 16 and 64 samples: 0.93 and 0.89 on
-//! two million triangles, 0.93 and 1.05 under the sun, 0.98 and 1.00 for glass, 1.00 in the metal room.
-//!
-//! Lobes that walk between microfacets draw from a hashed stream per vertex. Opacity and the choice
+//! Lobes that walk between microfacets take random numbers from a hashed stream per vertex. Opacity and the choice
 //! within mixed materials take hashed random numbers, since their count along a path is not bounded.
 
 use std::sync::LazyLock;
 
-use multiversion::multiversion;
+use macro_rules_attribute::apply;
 use sobol_burley::parts::sobol_rev;
 use sobol_burley::sample_4d;
 use specula_bsdf::math::Stream;
 
+use crate::simd::simd_levels;
+use crate::soa::Floats;
 use crate::words::Words;
 
 /// The random numbers of one sample of one pixel.
@@ -54,7 +51,7 @@ impl Sampler {
         }
     }
 
-    /// Random numbers 1 and 2 for the filter, 0 and 3 for the lens.
+    /// Dimensions 1 and 2 for the filter, 0 and 3 for the lens.
     #[cfg(test)]
     pub(crate) fn camera(&self) -> [f32; 4] {
         self.set(Purpose::Camera.set(0))
@@ -66,14 +63,13 @@ impl Sampler {
         self.set(Purpose::Scatter.set(vertex))
     }
 
-    /// One number for the choice of a light, two for the point on it, one for finer digits of the
-    /// choice.
+    /// One random number for the choice of a light, two for the point on it, one for finer digits of the choice.
     #[inline]
     pub(crate) fn light(&self, vertex: u32) -> [f32; 4] {
         self.set(Purpose::Light.set(vertex))
     }
 
-    /// A number in `[0, 1)` that depends on the sample and on `key`.
+    /// A random number in `[0, 1)` that depends on the sample and on `key`.
     #[inline]
     pub(crate) fn hashed(&self, key: [u32; 3]) -> f32 {
         let bits = hash(self.seed ^ hash(self.index ^ hash(key[0] ^ hash(key[1] ^ hash(key[2])))));
@@ -81,8 +77,9 @@ impl Sampler {
         (bits >> 8) as f32 * (1.0 / 16_777_216.0)
     }
 
-    /// Random numbers without end for a lobe whose values are estimates, at one vertex; `purpose` tells
-    /// its evaluation from its sampling.
+    /// A stream of random numbers for a lobe whose values are estimates, at one vertex.
+    ///
+    /// * `purpose`: tells its evaluation from its sampling.
     #[inline]
     pub(crate) fn stream(&self, vertex: u32, purpose: u32) -> Stream {
         let low = hash(self.seed ^ hash(vertex ^ hash(purpose)));
@@ -93,16 +90,16 @@ impl Sampler {
     #[inline]
     fn set(&self, set: u32) -> [f32; 4] {
         let key = seed_of_set(self.seed, set);
-        if goes_with_camera(set) {
-            let rest = turned(shuffled(self.index, seed_of_set(self.seed, CAMERA)));
-            return [0, 1, 2, 3].map(|k| scrambled(number(rest, k), key, KEYS[k]));
+        if is_joined_with_camera(set) {
+            let index = turned(shuffled(self.index, seed_of_set(self.seed, CAMERA)));
+            return [0, 1, 2, 3].map(|k| scrambled(sobol(index, k), key, KEYS[k]));
         }
         let [x, y, z, w] = sample_4d(self.index, 0, key);
         [z, x, y, w]
     }
 }
 
-/// What the random numbers at a vertex are for.
+/// The purpose of a set of dimensions at a vertex.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Purpose {
     /// The filter and the lens, whatever the vertex.
@@ -126,14 +123,14 @@ impl Purpose {
 /// The camera's set.
 const CAMERA: u32 = 0;
 
-/// Whether a set is even together with the camera's: those of the first vertex.
+/// Whether a set is stratified together with the camera's: those of the first vertex.
 #[inline(always)]
-fn goes_with_camera(set: u32) -> bool {
+fn is_joined_with_camera(set: u32) -> bool {
     set == Purpose::Scatter.set(0) || set == Purpose::Light.set(0)
 }
 
-/// Columns of the matrix that turns the number of a sample for sets that go with the camera's: bit 0 first,
-/// the lowest bit of a column stands for bit 0.
+/// Columns of the matrix that transforms the index of a sample for sets that are joined with the camera's: bit 0
+/// first; the lowest bit of a column stands for bit 0.
 ///
 /// Each is, after those before it, the best for the `2^k` samples that it is the last for: the one that makes
 /// [`tests::unevenness`] least. Columns end at the diagonal, which is 1, so that `2^k` samples from a
@@ -142,30 +139,30 @@ const TURN: [u32; 16] = [
     1, 2, 7, 15, 26, 33, 102, 216, 398, 517, 1449, 2698, 4096, 8192, 16384, 32768,
 ];
 
-/// A shuffled number, turned; bits reversed.
+/// A shuffled index, transformed by [`TURN`]; bits reversed.
 #[inline(always)]
-fn turned(rest: u32) -> u32 {
+fn turned(shuffled: u32) -> u32 {
     let mut bits = 0;
     for (bit, column) in TURN.iter().enumerate() {
-        bits ^= mask(rest, bit) & column.reverse_bits();
+        bits ^= mask(shuffled, bit) & column.reverse_bits();
     }
     bits
 }
 
-/// The number of a sample, shuffled; bits reversed.
+/// The index of a sample, shuffled; bits reversed.
 #[inline(always)]
 fn shuffled(index: u32, key: u32) -> u32 {
     use sobol_burley::parts::{hash, owen_scramble_rev};
     owen_scramble_rev(index.reverse_bits(), hash(key ^ 0x79c6_8e4a))
 }
 
-/// A number of a set before it is scrambled, bits reversed.
+/// Dimension `k` of a set before it is scrambled, bits reversed.
 ///
-/// * `rest`: the shuffled number of the sample, bits reversed.
+/// * `index`: the shuffled index of the sample, bits reversed.
 #[inline(always)]
-fn number(rest: u32, k: usize) -> u32 {
+fn sobol(index: u32, k: usize) -> u32 {
     let columns = COLUMNS.iter().enumerate();
-    columns.fold(0, |bits, (bit, c)| bits ^ (mask(rest, bit) & c[k]))
+    columns.fold(0, |bits, (bit, c)| bits ^ (mask(index, bit) & c[k]))
 }
 
 /// All ones where a bit of a reversed word is 1.
@@ -174,25 +171,25 @@ fn mask(reversed: u32, bit: usize) -> u32 {
     ((reversed << bit) >> 31).wrapping_neg()
 }
 
-/// What a set is shuffled and scrambled by.
+/// The seed with which a set is shuffled and scrambled.
 #[inline(always)]
 fn seed_of_set(seed: u32, set: u32) -> u32 {
     hash(seed.wrapping_add(set.wrapping_mul(0x9e37_79b9)))
 }
 
-/// Random numbers of many samples at once: those that a [`Sampler`] draws, bit for bit.
+/// Random numbers of many samples at once: those of [`Sampler`], bit for bit.
 #[derive(Clone, Debug)]
 pub(crate) struct RandomNumbers<const N: usize> {
     indices: [u32; N],
     seeds: [u32; N],
-    /// What the sets are shuffled and scrambled by.
+    /// The seeds of the set.
     keys: [u32; N],
     /// Shuffled indices, bits reversed.
-    rest: [u32; N],
+    shuffled: [u32; N],
     /// Of the sequence's third and fourth dimension, before they are scrambled.
     bits: [[u32; N]; 2],
-    /// By number of the set.
-    pub(crate) values: [[f32; N]; 4],
+    /// By dimension of the set.
+    pub(crate) values: [Floats<N>; 4],
 }
 
 impl<const N: usize> RandomNumbers<N> {
@@ -200,25 +197,25 @@ impl<const N: usize> RandomNumbers<N> {
         indices: [0; N],
         seeds: [0; N],
         keys: [0; N],
-        rest: [0; N],
+        shuffled: [0; N],
         bits: [[0; N]; 2],
         values: [[0.0; N]; 4],
     };
 
-    /// Places a sample.
+    /// Sets the sampler of an element.
     #[inline(always)]
-    pub(crate) fn place(&mut self, i: usize, sampler: &Sampler) {
+    pub(crate) fn set(&mut self, i: usize, sampler: &Sampler) {
         self.indices[i] = sampler.index;
         self.seeds[i] = sampler.seed;
     }
 
-    /// Samples for the first `n` samples.
-    pub(crate) fn draw(&mut self, n: usize, purpose: Purpose, vertex: u32) {
-        draw(n, purpose.set(vertex), self);
+    /// The random numbers of the first `n` elements for a purpose.
+    pub(crate) fn generate(&mut self, n: usize, purpose: Purpose, vertex: u32) {
+        generate(n, purpose.set(vertex), self);
     }
 }
 
-/// Columns of the generator matrices by bit of the index from its highest, and number of the set.
+/// Columns of the generator matrices by bit of the index from its highest, and dimension of the set.
 static COLUMNS: LazyLock<[[u32; 4]; 16]> = LazyLock::new(|| {
     let mut bit = 32;
     [(); 16].map(|()| {
@@ -227,13 +224,13 @@ static COLUMNS: LazyLock<[[u32; 4]; 16]> = LazyLock::new(|| {
     })
 });
 
-/// Sobol's dimensions by number of the set.
+/// Sobol's dimensions by dimension of the set.
 const ORDER: [u32; 4] = [2, 0, 1, 3];
 
 /// What distinguishes the scrambling of the random numbers, as in the crate's `sample_4d`.
 const KEYS: [u32; 4] = [0x691e_72ca, 0x912f_69ba, 0x174f_18ab, 0xb40c_c1b8];
 
-/// The generator matrices for shaders, by bit and number.
+/// The generator matrices for shaders, by bit and dimension.
 pub(crate) fn flatten(to: &mut Words) {
     to.begin("SOBOL_COLUMNS");
     to.ids(COLUMNS.iter().flatten().copied());
@@ -246,37 +243,34 @@ pub(crate) fn flatten(to: &mut Words) {
 /// The first dimension's generator matrix is the identity, the second's Pascal's triangle modulo 2, whose
 /// entry at `i`, `j` is 1 where the bits of `i` are among those of `j` (Lucas's theorem): four steps
 /// instead of sixteen columns.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
-fn draw<const N: usize>(n: usize, set: u32, random_numbers: &mut RandomNumbers<N>) {
+#[apply(simd_levels)]
+fn generate<const N: usize>(n: usize, set: u32, random_numbers: &mut RandomNumbers<N>) {
     let n = n.min(N);
     let RandomNumbers {
         indices,
         seeds,
         keys,
-        rest,
+        shuffled: indices_shuffled,
         bits,
         values,
     } = random_numbers;
     for i in 0..n {
         keys[i] = seed_of_set(seeds[i], set);
     }
-    if goes_with_camera(set) {
+    if is_joined_with_camera(set) {
         for i in 0..n {
-            rest[i] = turned(shuffled(indices[i], seed_of_set(seeds[i], CAMERA)));
+            indices_shuffled[i] = turned(shuffled(indices[i], seed_of_set(seeds[i], CAMERA)));
         }
     } else {
         for i in 0..n {
-            rest[i] = shuffled(indices[i], keys[i]);
+            indices_shuffled[i] = shuffled(indices[i], keys[i]);
         }
     }
     // One column after the other: these are the loops that become vectors.
     let [b0, b3] = bits;
     for (bit, [c0, _, _, c3]) in COLUMNS.iter().enumerate() {
         for i in 0..n {
-            let mask = mask(rest[i], bit);
+            let mask = mask(indices_shuffled[i], bit);
             let so_far = |b: u32| if bit == 0 { 0 } else { b };
             b0[i] = so_far(b0[i]) ^ (mask & c0);
             b3[i] = so_far(b3[i]) ^ (mask & c3);
@@ -288,7 +282,7 @@ fn draw<const N: usize>(n: usize, set: u32, random_numbers: &mut RandomNumbers<N
         v3[i] = scrambled(b3[i], keys[i], KEYS[3]);
     }
     for i in 0..n {
-        let x = (rest[i] & 0xffff_0000).reverse_bits();
+        let x = (indices_shuffled[i] & 0xffff_0000).reverse_bits();
         v1[i] = scrambled(x, keys[i], KEYS[1]);
         let x = x ^ ((x >> 1) & 0x5555);
         let x = x ^ ((x >> 2) & 0x3333);
@@ -298,11 +292,11 @@ fn draw<const N: usize>(n: usize, set: u32, random_numbers: &mut RandomNumbers<N
     }
 }
 
-/// A number of a set in `[0, 1)` from its bits, reversed.
+/// A random number in `[0, 1)` from its bits, reversed.
 #[inline(always)]
-fn scrambled(bits: u32, set: u32, number: u32) -> f32 {
+fn scrambled(bits: u32, set: u32, dimension: u32) -> f32 {
     use sobol_burley::parts::{hash, owen_scramble_rev, u32_to_f32_norm};
-    let key = hash(set.wrapping_mul(0x9c8f_2d3b) ^ number);
+    let key = hash(set.wrapping_mul(0x9c8f_2d3b) ^ dimension);
     u32_to_f32_norm(owen_scramble_rev(bits, key).reverse_bits())
 }
 
@@ -349,36 +343,36 @@ mod tests {
             Sampler::new([7 * k, k], k.wrapping_mul(2_654_435_761), 5)
         };
         for i in 0..33 {
-            random_numbers.place(i, &sampler(i));
+            random_numbers.set(i, &sampler(i));
         }
-        let found = |random_numbers: &RandomNumbers<48>, i: usize| {
+        let values = |random_numbers: &RandomNumbers<48>, i: usize| {
             [0, 1, 2, 3].map(|d| random_numbers.values[d][i])
         };
         for vertex in [0, 1, 30, 31, 32, 99] {
-            random_numbers.draw(33, Purpose::Scatter, vertex);
+            random_numbers.generate(33, Purpose::Scatter, vertex);
             for i in 0..33 {
-                assert_eq!(found(&random_numbers, i), sampler(i).scatter(vertex));
+                assert_eq!(values(&random_numbers, i), sampler(i).scatter(vertex));
             }
-            random_numbers.draw(33, Purpose::Light, vertex);
+            random_numbers.generate(33, Purpose::Light, vertex);
             for i in 0..33 {
-                assert_eq!(found(&random_numbers, i), sampler(i).light(vertex));
+                assert_eq!(values(&random_numbers, i), sampler(i).light(vertex));
             }
         }
-        random_numbers.draw(33, Purpose::Camera, 7);
+        random_numbers.generate(33, Purpose::Camera, 7);
         for i in 0..33 {
-            assert_eq!(found(&random_numbers, i), sampler(i).camera());
+            assert_eq!(values(&random_numbers, i), sampler(i).camera());
         }
     }
 
     /// How uneven the first samples of two sets are together, but for a factor: Owen's gain coefficients, the
-    /// variance over that of random numbers (Owen 1997, "Monte Carlo variance of scrambled net quadrature",
-    /// 4), summed over what involves random numbers of both.
+    /// variance over that of independent samples (Owen 1997, "Monte Carlo variance of scrambled net quadrature",
+    /// 4), summed over the terms with dimensions of both.
     ///
-    /// * `samples`: their random numbers, and those random numbers turned.
+    /// * `samples`: their indices, as they are and transformed.
     ///
-    /// The terms of a number's first `k` digits have half the weight of those before. Of the first set the
-    /// random numbers 1 and 2 count (the filter's), of the second 0, 1 and 2. Terms of three random numbers weigh 0.7,
-    /// of four 0.5.
+    /// The terms of a dimension's first `k` digits have half the weight of those before. Of the first set
+    /// dimensions 1 and 2 count (the filter's), of the second 0, 1 and 2. Terms of three dimensions weigh 0.7, of
+    /// four 0.5.
     fn unevenness(samples: impl Iterator<Item = (u32, u32)>) -> f64 {
         // By the number of digits that are zero: those terms, and less the next one.
         let terms: [f64; 17] = core::array::from_fn(|zeros| {
@@ -391,7 +385,7 @@ mod tests {
             sum - next
         });
         let term = |index: u32, k: usize| {
-            let digits = number(index.reverse_bits(), k);
+            let digits = sobol(index.reverse_bits(), k);
             terms[digits.trailing_zeros().min(16) as usize]
         };
         let of = |(index, turned): (u32, u32)| {
@@ -423,11 +417,11 @@ mod tests {
         }
     }
 
-    /// Variance of what depends on random numbers of both sets, over that with sets by themselves.
+    /// Variance of integrands over dimensions of both sets, relative to that with independent sets.
     #[test]
     fn camera_and_first_vertex_are_even_together() {
         let alone = unevenness(core::iter::once((0, 0)));
-        let rest = |samples: u32| unevenness((0..samples).map(|i| (i, turn(i)))) / alone;
+        let relative = |samples: u32| unevenness((0..samples).map(|i| (i, turn(i)))) / alone;
         for (samples, expected) in [
             (4, 1.030),
             (16, 0.931),
@@ -435,7 +429,7 @@ mod tests {
             (256, 0.434),
             (4096, 0.125),
         ] {
-            let found = rest(samples);
+            let found = relative(samples);
             assert!((found - expected).abs() < 1e-3, "{samples}: {found}");
         }
         // Measured: the integral of a ridge that runs across a pixel and a lobe.

@@ -27,7 +27,7 @@ fn overflowing_samples_are_counted_and_named() {
     assert!(report.invalid_samples > 0, "nothing overflows");
     let one = report.invalid.expect("one is named");
     assert!(
-        one.number < 64 && one.pixel.iter().all(|&p| p < 8),
+        one.sample < 64 && one.pixel.iter().all(|&p| p < 8),
         "{one:?}"
     );
     let name = prepared.material_name(one.material.expect("at a surface"));

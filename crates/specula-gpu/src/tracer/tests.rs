@@ -176,7 +176,7 @@ fn samples_that_are_not_finite_are_counted_and_named() {
     let report = tracer.render_pass(&mut renderer, 8, &go).unwrap();
     assert!(report.invalid_samples > 0, "nothing overflows");
     let one = report.invalid.unwrap();
-    assert!(one.number < 8 && one.material.is_some(), "{one:?}");
+    assert!(one.sample < 8 && one.material.is_some(), "{one:?}");
     let picture = renderer.film().picture();
     let finite = |c: &Rgb<f32>| c.is_finite();
     assert!(picture.colour.iter().all(finite));

@@ -13,7 +13,7 @@
     reason = "an index below the arrays' length is what the compiler makes vectors of"
 )]
 
-use multiversion::multiversion;
+use macro_rules_attribute::apply;
 
 use super::frame::greatest_axis;
 use super::node::Kind;
@@ -21,6 +21,7 @@ use super::quadric::{self, Approach, Placed};
 use super::traverse::Scene;
 use super::triangle;
 use super::{Hit, QuadricShape, Ray};
+use crate::simd::simd_levels;
 
 /// Rays of a pack.
 const PACK: usize = 16;
@@ -375,10 +376,7 @@ impl Pack {
     }
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
+#[apply(simd_levels)]
 fn closest(small: &Small, rays: &[Ray], hits: &mut [Option<Hit>]) {
     for (axis, members) in Order::new(rays).packs() {
         let mut pack = Pack::new(rays, members, axis);
@@ -395,10 +393,7 @@ fn closest(small: &Small, rays: &[Ray], hits: &mut [Option<Hit>]) {
     }
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
+#[apply(simd_levels)]
 fn any(small: &Small, rays: &[Ray], found: &mut [bool]) {
     for (axis, members) in Order::new(rays).packs() {
         let mut pack = Pack::new(rays, members, axis);

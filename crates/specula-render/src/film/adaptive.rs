@@ -86,7 +86,7 @@ impl Tile {
     }
 
     /// The squared error for one sample, `x^2`. A pixel whose variance [`PATIENCE`] samples have not made known
-    /// counts as the worst of the others: it must not draw all work to it (Winsor's mean; Dixon 1960, "Simplified
+    /// counts as the worst of the others: it must not attract all work (Winsor's mean; Dixon 1960, "Simplified
     /// estimation from censored normal samples"). `None`: there are no others.
     fn squared_error(&self, brightness: f64) -> Option<f64> {
         let (mut sum, mut worst, mut counted) = (0.0, 0.0_f64, 0_usize);
@@ -181,7 +181,7 @@ impl FilmBuffer {
     }
 
     /// What the samples of each tile should be in proportion to, `x / sqrt(c)`; `x` of the tiles around is
-    /// in it, as one that has not met what they have may do so.
+    /// in it, as one that has not hit what they have may do so.
     pub(super) fn wishes(&self) -> Vec<f64> {
         let brightness = self.survey().brightness;
         let known: Vec<Option<f64>> = (self.tiles.par_iter())

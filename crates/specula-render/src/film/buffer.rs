@@ -10,13 +10,13 @@ use crate::picture::Picture;
 /// Side of a tile in pixels.
 pub(crate) const TILE: u32 = 16;
 
-/// What one camera path brings to its pixel.
+/// What one camera path adds to its pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PixelSample {
     pub(crate) colour: Rgb<f32>,
     pub(crate) albedo: Rgb<f32>,
     pub(crate) normal: Vec3<f32>,
-    /// Distance along the camera ray; `None` where the path met nothing.
+    /// Distance along the camera ray; `None` where the ray hit nothing.
     pub(crate) depth: Option<f32>,
 }
 
@@ -157,15 +157,15 @@ pub(crate) struct Tile {
 
 /// The film: sums per pixel, in tiles.
 ///
-/// A pixel's sums depend on its own samples only, added in the order of their numbers.
+/// A pixel's sums depend on its own samples only, added in the order of their indices.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmBuffer {
     full_resolution: [u32; 2],
     /// `[x0, x1, y0, y1]`.
     crop: [u32; 4],
-    /// Number of each pixel's first sample.
+    /// Index of each pixel's first sample.
     first_sample: u32,
-    /// Numbers of the samples of a film that was merged from parts which leave gaps, half open, in
+    /// Indices of the samples of a film that was merged from parts which leave gaps, half open, in
     /// order; empty: `first_sample` and what follows.
     parts: Vec<[u32; 2]>,
     /// Work that adaptive sampling has allotted so far, in samples of every pixel; 0 in other films.
@@ -193,7 +193,7 @@ impl FilmBuffer {
     /// An empty film.
     ///
     /// * `crop`: pixels `[x0, x1, y0, y1]` of the whole picture, half open.
-    /// * `first_sample`: the number that each pixel's first sample will have.
+    /// * `first_sample`: the index of each pixel's first sample.
     pub fn new(full_resolution: [u32; 2], crop: [u32; 4], first_sample: u32) -> Self {
         let [x0, x1, y0, y1] = crop;
         let mut tiles = Vec::new();
@@ -225,7 +225,7 @@ impl FilmBuffer {
         self.full_resolution
     }
 
-    /// Numbers of the samples within, as ranges `[from, to)` in order. Where a pass was not
+    /// Indices of the samples within, as ranges `[from, to)` in order. Where a pass was not
     /// finished, some pixels lack the last ones; in an adaptive film, most do.
     pub fn samples(&self) -> Vec<[u32; 2]> {
         if !self.parts.is_empty() {
@@ -242,12 +242,12 @@ impl FilmBuffer {
         self.parts.is_empty()
     }
 
-    /// Number of each pixel's first sample.
+    /// Index of each pixel's first sample.
     pub fn first_sample(&self) -> u32 {
         self.first_sample
     }
 
-    /// A film of sums that were kept; `None` where the parts do not fit each other.
+    /// A film of stored sums; `None` where the parts do not fit each other.
     pub(crate) fn restore(
         mut self,
         parts: Vec<[u32; 2]>,

@@ -28,7 +28,9 @@ use super::buffer::{FilmBuffer, PixelSums, Tile};
 use crate::options::BIASED;
 
 const MAGIC: &[u8; 8] = b"SPECFILM";
-const FORMAT: u32 = 3;
+/// Version of the format. Films of another version are not read: their fingerprints and settings are encoded
+/// otherwise.
+const FORMAT: u32 = 4;
 /// Longest text of a label.
 const LONGEST_TEXT: usize = 1 << 16;
 /// Most pixels of a film that is read: those of a picture.
@@ -95,7 +97,10 @@ pub enum FilmFileError {
     #[error("no film of Specula's")]
     NotAFilm,
     /// It is of another version of the format.
-    #[error("a film in version {0} of the format; expected version {FORMAT}")]
+    #[error(
+        "a film in version {0} of the format; this program reads version {FORMAT}: render it again, or use the \
+         program that wrote it"
+    )]
     Format(u32),
     /// Its checksum is wrong, or it is cut off.
     #[error("damaged or cut off: its checksum does not agree")]

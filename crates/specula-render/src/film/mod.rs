@@ -1,4 +1,4 @@
-//! What samples are gathered in: the reconstruction filter and the sums per pixel.
+//! The film: reconstruction filter, sums per pixel, noise estimates, film files.
 
 mod adaptive;
 mod buffer;
@@ -7,6 +7,7 @@ mod file;
 pub(crate) mod filter;
 mod noise;
 mod run;
+mod scatter_counts;
 mod sum;
 mod trend;
 
@@ -19,4 +20,5 @@ pub use file::{FilmFile, FilmFileError, Label};
 pub use noise::NoiseEstimate;
 pub(crate) use run::LONGEST_RUN;
 pub use run::RunSums;
+pub use scatter_counts::ScatterCounts;
 pub use trend::{NoiseOutlook, NoiseTrend};

@@ -9,8 +9,8 @@
 //! * `Y`: the pixel's luminance, `v` the variance of its mean; `B`: luminance of the picture, the mean
 //!   over its pixels.
 //!
-//! `v` is itself estimated from the pixel's samples. Where a rare path brings a thousand times what others
-//! bring (a firefly), one sample makes all of it: the estimate says nothing about the pixel's error, its
+//! `v` is itself estimated from the pixel's samples. Where a rare path contributes a thousand times what others
+//! do (a firefly), one sample makes all of it: the estimate says nothing about the pixel's error, its
 //! own error is as large as itself, and one such pixel can outweigh all others. So pixels whose variance
 //! is not known are left out. A pixel's mean is carried by about
 //!

@@ -1,4 +1,4 @@
-//! Sums of a run of samples of one pixel, exact, as a device brings them.
+//! Sums of a run of samples of one pixel, exact, as a device returns them.
 //!
 //! A device has no `f64`, and its compilers may reorder and fuse what is added in `f32`. So it adds
 //! integers: a run's values are multiples of one unit, far below the last bit of all but absurdly small

@@ -1,7 +1,7 @@
 //! Sums that do not depend on the order of their terms, so that a picture does not depend on how its
 //! samples were split among runs and machines.
 
-/// A sum of two `f64`: what rounding takes from the first is kept in the second (Knuth's two-sum).
+/// A sum of two `f64`: what rounding takes from the first is stored in the second (Knuth's two-sum).
 ///
 /// Exact, and so the same in any order, as long as the terms' bits span less than about a hundred
 /// binary places: 24 of an `f32`, 48 of its square, the rest for their range and number.

@@ -237,7 +237,7 @@ impl GroupData {
     }
 }
 
-/// Numbers the lights of a shape: every primitive, or every parallelogram of two triangles.
+/// Gives indices to the lights of a shape: every primitive, or every parallelogram of two triangles.
 ///
 /// * `whole`: whether parallelograms may be lights.
 fn add_lights(group: &mut GroupData, primitives: Range<usize>, whole: bool) {

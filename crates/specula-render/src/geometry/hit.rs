@@ -6,7 +6,7 @@ use specula_bsdf::{Rgb, Vec3};
 use super::{Geometry, GroupData, NONE, PlacedQuadric, normal_of, unit_or};
 use crate::accel::{Hit, QuadricShape, Ray};
 use crate::convert::{abs, narrow};
-use crate::offset::{RELATIVE_ERROR, coupled};
+use crate::offset::{RELATIVE_ERROR, SurfacePoint, coupled};
 use crate::texture::TextureCoordinates;
 
 /// A triangle of a mesh.
@@ -34,7 +34,7 @@ pub(crate) struct Surface {
     /// The mesh's, interpolated; white where it has none.
     pub(crate) colour: Rgb<f32>,
     pub(crate) shape: u32,
-    /// Number of the light that it is part of, or [`NONE`].
+    /// Index of the light that it is part of, or [`NONE`].
     pub(crate) light: u32,
     /// Where it is in its primitive.
     pub(crate) at: At,
@@ -52,6 +52,16 @@ pub(crate) struct At {
 }
 
 impl Surface {
+    /// The surface as rays leave it.
+    #[inline(always)]
+    pub(crate) fn point(&self) -> SurfacePoint {
+        SurfacePoint {
+            position: self.position,
+            error: self.error,
+            normal: self.ng,
+        }
+    }
+
     /// Where textures are evaluated for it.
     #[inline(always)]
     pub(crate) fn place(&self) -> TextureCoordinates {

@@ -1,50 +1,49 @@
-//! What the paths of a wavefront carry, in columns by the number of the path.
+//! The state of the paths of a wavefront, as a structure of arrays.
 
 use specula_bsdf::{Rgb, Vec3};
 
-use super::vertex_batch::{Column, Vectors, WAVEFRONT_SIZE, ZERO};
-use super::{Path, Previous, State, Tally, bias};
+use super::vertex_batch::{Floats, Vectors, WAVEFRONT_SIZE, ZERO};
+use super::{Path, PathState, PreviousVertex, Tally, estimator};
 use crate::accel::Ray;
 use crate::film::PixelSample;
 use crate::light::{Lights, Receiver};
 use crate::medium_stack::MediumStack;
 use crate::sampler::Sampler;
 
-/// The columns.
+/// The states, by index of the path.
 pub(super) struct PathStates {
     pub(super) samplers: [Sampler; WAVEFRONT_SIZE],
     pub(super) radiance: Vectors,
     pub(super) throughput: Vectors,
     /// Product of the squared relative indices so far.
-    pub(super) eta_scale: Column,
-    /// What they are in.
+    pub(super) eta_scale: Floats,
+    /// The media that they are in.
     media: [MediumStack; WAVEFRONT_SIZE],
-    /// As of `State`.
+    /// As of `PathState`.
     pub(super) straight: [bool; WAVEFRONT_SIZE],
     pub(super) rough: [bool; WAVEFRONT_SIZE],
-    pub(super) bound: Column,
+    pub(super) bound: Floats,
     pub(super) previous: Receivers,
-    /// Density of the last direction there; 0 where no light could have found it.
-    pub(super) previous_pdf: Column,
-    /// Probability with which the light sampled there was to be one from infinity; negative where it was not
-    /// kept.
-    pub(super) previous_share: Column,
-    pub(super) first: FirstSeen,
+    /// Density with which the last direction was sampled there; 0 where no light sample could have found it.
+    pub(super) previous_pdf: Floats,
+    /// Probability with which light sampling took a light from infinity there; negative where it is not stored.
+    pub(super) previous_share: Floats,
+    pub(super) first: FirstHits,
 }
 
-/// Points as lights are chosen for them.
+/// Receivers of light; see [`Receiver`].
 pub(super) struct Receivers {
     point: Vectors,
     /// Zero where light arrives from both sides.
     normal: Vectors,
 }
 
-/// What the first vertices show.
-pub(super) struct FirstSeen {
+/// Albedo, normal and depth of the first vertices.
+pub(super) struct FirstHits {
     pub(super) albedo: Vectors,
     pub(super) normal: Vectors,
-    /// Distance along the camera rays; infinite where they meet nothing.
-    pub(super) depth: Column,
+    /// Distance along the camera rays; infinite where they hit nothing.
+    pub(super) depth: Floats,
 }
 
 impl Receivers {
@@ -81,7 +80,7 @@ impl PathStates {
             },
             previous_pdf: ZERO,
             previous_share: ZERO,
-            first: FirstSeen {
+            first: FirstHits {
                 albedo: Vectors::ZERO,
                 normal: Vectors::ZERO,
                 depth: ZERO,
@@ -89,20 +88,15 @@ impl PathStates {
         })
     }
 
-    /// Makes the first `n` paths new ones, but for their samplers.
+    /// Begins the first `n` paths anew; their samplers are set elsewhere.
     ///
-    /// * `has_media`: whether paths may have entered any.
+    /// * `has_media`: whether the scene has absorbing media.
     /// * `bound`: as of `PathTracer`.
     pub(super) fn begin(&mut self, n: usize, has_media: bool, bound: f32) {
-        let columns = |v: &mut Vectors, value: f32| {
-            v.x[..n].fill(value);
-            v.y[..n].fill(value);
-            v.z[..n].fill(value);
-        };
-        columns(&mut self.radiance, 0.0);
-        columns(&mut self.throughput, 1.0);
-        columns(&mut self.first.albedo, 0.0);
-        columns(&mut self.first.normal, 0.0);
+        self.radiance.fill(0..n, 0.0);
+        self.throughput.fill(0..n, 1.0);
+        self.first.albedo.fill(0..n, 0.0);
+        self.first.normal.fill(0..n, 0.0);
         self.first.depth[..n].fill(f32::INFINITY);
         self.eta_scale[..n].fill(1.0);
         self.previous_pdf[..n].fill(0.0);
@@ -114,20 +108,20 @@ impl PathStates {
         }
     }
 
-    /// Adds light that was scattered so many times on its way to the camera.
+    /// Adds light that was scattered `events` times on its way to the camera.
     #[inline(always)]
     pub(super) fn add(&mut self, i: usize, contribution: Rgb<f32>, events: u32) {
-        let radiance = bias::bounded(contribution, events, self.bound[i]);
+        let radiance = estimator::clamp_indirect(contribution, events, self.bound[i]);
         self.radiance.x[i] += radiance.r;
         self.radiance.y[i] += radiance.g;
         self.radiance.z[i] += radiance.b;
     }
 
-    /// Where the last direction was sampled, if lights could have found it too.
+    /// Where the last direction was sampled, if a light sample could have found it.
     #[inline(always)]
-    pub(super) fn previous(&self, i: usize) -> Option<Previous> {
+    pub(super) fn previous(&self, i: usize) -> Option<PreviousVertex> {
         let pdf = self.previous_pdf[i];
-        (pdf > 0.0).then(|| Previous {
+        (pdf > 0.0).then(|| PreviousVertex {
             receiver: self.previous.get(i),
             pdf,
         })
@@ -141,17 +135,17 @@ impl PathStates {
         lights: &Lights,
         receiver: &Receiver,
     ) -> f32 {
-        let kept = self.previous_share[i];
-        if kept >= 0.0 {
-            kept
+        let stored = self.previous_share[i];
+        if stored >= 0.0 {
+            stored
         } else {
             lights.share_from_infinity(receiver)
         }
     }
 
-    /// What a path brings to its pixel.
+    /// What a path adds to its pixel.
     #[inline(always)]
-    pub(super) fn seen(&self, i: usize) -> PixelSample {
+    pub(super) fn pixel_sample(&self, i: usize) -> PixelSample {
         let depth = self.first.depth[i];
         PixelSample {
             colour: self.radiance.colour(i),
@@ -161,12 +155,12 @@ impl PathStates {
         }
     }
 
-    /// A path for itself, which goes on with `ray`.
-    pub(super) fn take(&self, i: usize, ray: Ray) -> Path {
+    /// One path, which continues with `ray`.
+    pub(super) fn load(&self, i: usize, ray: Ray) -> Path {
         Path {
             sampler: self.samplers[i],
             ray,
-            state: State {
+            state: PathState {
                 radiance: self.radiance.colour(i),
                 throughput: self.throughput.colour(i),
                 eta_scale: self.eta_scale[i],
@@ -177,13 +171,13 @@ impl PathStates {
                 previous: self.previous(i),
                 tally: Tally::default(),
             },
-            first: self.seen(i),
+            first: self.pixel_sample(i),
         }
     }
 
-    /// Puts a path back; returns what it counted since.
-    pub(super) fn put(&mut self, i: usize, path: &Path) -> Tally {
-        let State {
+    /// Stores a path; returns its counts.
+    pub(super) fn store(&mut self, i: usize, path: &Path) -> Tally {
+        let PathState {
             radiance,
             throughput,
             eta_scale,

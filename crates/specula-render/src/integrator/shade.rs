@@ -1,4 +1,4 @@
-//! The vertices of a wavefront that are dealt with in batch: from hits to batch, light, and onwards.
+//! Shading of the vertices of a wavefront that form a batch: from hits to surfaces, direct light and new rays.
 
 use core::ops::Range;
 
@@ -8,37 +8,36 @@ use specula_bsdf::{Bsdf, Vec3};
 
 use super::path_states::PathStates;
 use super::vertex_batch::{self, VertexBatch, WAVEFRONT_SIZE};
-use super::visibility::TO_LIGHT;
 use super::wavefront::{MaterialRun, Wavefront, index};
-use super::{PathTracer, candidates};
+use super::{PathTracer, candidates, estimator};
 use crate::accel::{Hit, Ray};
 use crate::convert::id;
 use crate::material::{Plain, lobes};
 use crate::sampler::Purpose;
 
 impl PathTracer<'_> {
-    /// Takes the paths in batch from this vertex to the next.
+    /// Takes the paths of the batch from this vertex to the next.
     pub(super) fn shade_batch(&self, wavefront: &mut Wavefront, depth: u32) {
-        self.load(wavefront);
+        self.load_vertices(wavefront);
         let batch = &mut *wavefront.batch;
         let n = batch.count;
-        vertex_batch::make_surfaces(n, &batch.triangles, &mut batch.surfaces);
-        vertex_batch::turn(n, &mut batch.surfaces);
-        for (plain, range) in self.each(&wavefront.runs) {
+        vertex_batch::interpolate_triangles(n, &batch.triangles, &mut batch.surfaces);
+        vertex_batch::face_viewers(n, &mut batch.surfaces);
+        for (plain, range) in self.material_runs(&wavefront.runs) {
             if plain.specular {
-                vertex_batch::straighten(range.start, range.end, &mut batch.surfaces);
+                vertex_batch::use_geometric_normals(range.start, range.end, &mut batch.surfaces);
             }
         }
         if depth == 0 {
-            self.show(wavefront);
+            self.store_first_hits(wavefront);
         }
-        self.note_shared(wavefront);
+        self.record_shared_vertices(wavefront);
         self.light_batch(wavefront, depth);
         self.scatter_batch(wavefront, depth);
     }
 
-    /// Keeps what the first vertices show.
-    fn show(&self, wavefront: &mut Wavefront) {
+    /// Stores albedo, normal and depth of the first vertices.
+    fn store_first_hits(&self, wavefront: &mut Wavefront) {
         let Wavefront {
             paths,
             live,
@@ -48,26 +47,26 @@ impl PathTracer<'_> {
         } = wavefront;
         let VertexBatch {
             surfaces: s,
-            owners,
-            places,
+            path_indices,
+            live_indices,
             ..
         } = &**batch;
-        for (plain, range) in self.each(runs) {
+        for (plain, range) in self.material_runs(runs) {
             let albedo = plain.lobe.albedo();
             for i in range {
-                let path = index(owners[i]);
+                let path = index(path_indices[i]);
                 if !(plain.black_inside && s.side[i] < 0.0) {
                     paths.first.albedo.set_colour(path, albedo);
                 }
                 paths.first.normal.set(path, s.ns.get(i));
-                let ray = live.ray(places[i] as usize);
+                let ray = live.ray(live_indices[i] as usize);
                 paths.first.depth[path] = (s.position.get(i) - ray.origin).length();
             }
         }
     }
 
-    /// Runs of the batch with their materials.
-    fn each<'s>(
+    /// The material runs of the batch: materials with ranges of vertices.
+    fn material_runs<'s>(
         &'s self,
         runs: &'s [MaterialRun],
     ) -> impl Iterator<Item = (&'s Plain, Range<usize>)> {
@@ -80,8 +79,8 @@ impl PathTracer<'_> {
         })
     }
 
-    /// Brings what is sorted into the batch.
-    fn load(&self, wavefront: &mut Wavefront) {
+    /// Loads the vertices, sorted by material, into the batch.
+    fn load_vertices(&self, wavefront: &mut Wavefront) {
         let Wavefront {
             paths,
             live,
@@ -92,25 +91,27 @@ impl PathTracer<'_> {
         } = wavefront;
         let VertexBatch {
             surfaces: s,
-            scatter_samples: o,
+            scatter_samples: scatter,
             random_numbers,
-            owners,
-            places,
+            path_indices,
+            live_indices,
             count,
             ..
         } = &mut **batch;
         for i in 0..WAVEFRONT_SIZE.min(*count) {
-            let k = places[i] as usize;
-            let (path, ray) = (live.number(k), live.ray(k));
-            owners[i] = id(path);
-            random_numbers.place(i, &paths.samplers[path]);
-            s.towards.set(i, -ray.direction);
-            o.throughput.set_colour(i, paths.throughput.colour(path));
-            o.eta_scale[i] = paths.eta_scale[path];
+            let k = live_indices[i] as usize;
+            let (path, ray) = (live.index(k), live.ray(k));
+            path_indices[i] = id(path);
+            random_numbers.set(i, &paths.samplers[path]);
+            s.wo_world.set(i, -ray.direction);
+            scatter
+                .throughput
+                .set_colour(i, paths.throughput.colour(path));
+            scatter.eta_scale[i] = paths.eta_scale[path];
         }
-        for (plain, range) in self.each(runs) {
+        for (plain, range) in self.material_runs(runs) {
             for i in range {
-                let k = batch.places[i] as usize;
+                let k = batch.live_indices[i] as usize;
                 if let Some(hit) = &hits[k] {
                     self.load_surface(batch, i, (live.ray(k), hit), !plain.isotropic);
                 }
@@ -118,7 +119,7 @@ impl PathTracer<'_> {
         }
     }
 
-    /// Brings a surface into its element.
+    /// Loads the surface of one vertex.
     #[inline(always)]
     fn load_surface(
         &self,
@@ -139,7 +140,7 @@ impl PathTracer<'_> {
             }
             t.weights[0][i] = hit.u;
             t.weights[1][i] = hit.v;
-            t.wanted[i] = true;
+            t.is_triangle[i] = true;
             if needs_tangent {
                 tangent = geometry.tangent(hit);
             }
@@ -151,7 +152,7 @@ impl PathTracer<'_> {
                     [s.position, s.error, s.ng, s.ns, s.tangent]
                 }
             };
-            t.wanted[i] = false;
+            t.is_triangle[i] = false;
             s.position.set(i, position);
             s.error[i] = error.x;
             s.ng.set(i, ng);
@@ -163,85 +164,93 @@ impl PathTracer<'_> {
         s.tangent.set(i, tangent);
     }
 
-    /// Adds light from one sampled light to each path.
+    /// Adds direct light from one light sample to each path.
     fn light_batch(&self, wavefront: &mut Wavefront, depth: u32) {
         wavefront
             .batch
             .random_numbers
-            .draw(wavefront.batch.count, Purpose::Light, depth);
+            .generate(wavefront.batch.count, Purpose::Light, depth);
         let twice = self
-            .with_two_lights(&wavefront.runs, depth)
+            .runs_with_two_candidates(&wavefront.runs, depth)
             .next()
             .is_some();
         if twice {
-            self.part_numbers(wavefront, depth);
+            self.split_random_numbers(wavefront, depth);
         }
-        self.consider(wavefront, depth, 0);
+        self.sample_candidates(wavefront, depth, 0);
         if twice {
-            self.consider(wavefront, depth, 1);
-            self.keep_one(wavefront, depth);
+            self.sample_candidates(wavefront, depth, 1);
+            self.choose_candidates(wavefront, depth);
         }
         let batch = &mut *wavefront.batch;
-        vertex_batch::aim(batch.count, &batch.surfaces, &mut batch.light_samples);
-        self.add_unblocked(wavefront, depth);
+        vertex_batch::shadow_rays(batch.count, &batch.surfaces, &mut batch.light_samples);
+        self.trace_shadow_rays(wavefront, depth);
     }
 
-    /// MaterialRuns where two lights are sampled.
-    fn with_two_lights<'s>(
+    /// The material runs at whose vertices two lights are sampled.
+    fn runs_with_two_candidates<'s>(
         &'s self,
         runs: &'s [MaterialRun],
         depth: u32,
     ) -> impl Iterator<Item = (&'s Plain, Range<usize>)> {
-        let two = move |plain: &Plain| self.lights_at(&plain.lobe, depth) == 2;
-        self.each(runs).filter(move |(plain, _)| two(plain))
+        let two = move |plain: &Plain| self.light_candidates(&plain.lobe, depth) == 2;
+        self.material_runs(runs)
+            .filter(move |(plain, _)| two(plain))
     }
 
-    /// Makes the random numbers of one light those of two where as many are sampled.
-    fn part_numbers(&self, wavefront: &mut Wavefront, depth: u32) {
+    /// Makes random numbers for two lights from those for one, where two are sampled.
+    fn split_random_numbers(&self, wavefront: &mut Wavefront, depth: u32) {
         let VertexBatch {
             random_numbers,
             second_random_numbers,
             ..
         } = &mut *wavefront.batch;
-        let first_random_numbers = &mut random_numbers.values;
-        for (_, range) in self.with_two_lights(&wavefront.runs, depth) {
+        let first_numbers = &mut random_numbers.values;
+        for (_, range) in self.runs_with_two_candidates(&wavefront.runs, depth) {
             for i in range {
-                let u = [0, 1, 2, 3].map(|k| first_random_numbers[k][i]);
-                for (to, which) in [(&mut *first_random_numbers, 0), (second_random_numbers, 1)] {
-                    let parted = candidates::random_numbers(u, which, 2);
+                let u = [0, 1, 2, 3].map(|k| first_numbers[k][i]);
+                for (to, nth) in [(&mut *first_numbers, 0), (second_random_numbers, 1)] {
+                    let u = estimator::candidate_random_numbers(u, nth, 2);
                     for k in 0..4 {
-                        to[k][i] = parted[k];
+                        to[k][i] = u[k];
                     }
                 }
             }
         }
     }
 
-    /// Keeps one of two lights.
-    fn keep_one(&self, wavefront: &mut Wavefront, depth: u32) {
+    /// Chooses one of two light candidates.
+    fn choose_candidates(&self, wavefront: &mut Wavefront, depth: u32) {
         let Wavefront {
             paths, runs, batch, ..
         } = wavefront;
         let VertexBatch {
             light_samples,
-            second,
+            second_light_samples,
             second_random_numbers: [choices, ..],
-            owners,
+            path_indices,
             ..
         } = &mut **batch;
-        for (_, range) in self.with_two_lights(runs, depth) {
+        for (_, range) in self.runs_with_two_candidates(runs, depth) {
             for i in range.clone() {
-                choices[i] = candidates::choice(&paths.samplers[index(owners[i])], depth);
+                choices[i] =
+                    candidates::random_number(&paths.samplers[index(path_indices[i])], depth);
             }
-            vertex_batch::keep_one(range.start, range.end, choices, light_samples, second);
+            vertex_batch::choose_candidates(
+                range.start,
+                range.end,
+                choices,
+                light_samples,
+                second_light_samples,
+            );
         }
     }
 
-    /// Samples a light for each vertex, and weighs what it would bring.
+    /// Samples a light for each vertex, and computes its contribution should nothing occlude it.
     ///
-    /// * `which`: 1 for the second where two are sampled; else 0.
-    fn consider(&self, wavefront: &mut Wavefront, depth: u32, which: u32) {
-        self.draw_lights(wavefront, depth, which);
+    /// * `nth`: 1 for the second of two candidates, else 0.
+    fn sample_candidates(&self, wavefront: &mut Wavefront, depth: u32, nth: u32) {
+        self.sample_lights(wavefront, depth, nth);
         let Wavefront {
             paths,
             runs,
@@ -252,45 +261,53 @@ impl PathTracer<'_> {
         let VertexBatch {
             surfaces: s,
             light_samples,
-            second,
-            scatter_samples: o,
-            owners,
+            second_light_samples,
+            scatter_samples: scatter,
+            path_indices,
             ..
         } = &mut **batch;
-        let a = if which == 0 { light_samples } else { second };
-        for (plain, range) in self.each(runs) {
+        let a = if nth == 0 {
+            light_samples
+        } else {
+            second_light_samples
+        };
+        for (plain, range) in self.material_runs(runs) {
             let (from, to) = (range.start, range.end);
-            let count = self.lights_at(&plain.lobe, depth);
-            if which >= count {
+            let count = self.light_candidates(&plain.lobe, depth);
+            if nth >= count {
                 continue;
             }
             if plain.specular {
-                a.contribution.x[range.clone()].fill(0.0);
-                a.contribution.y[range.clone()].fill(0.0);
-                a.contribution.z[range].fill(0.0);
+                a.contribution.fill(range, 0.0);
                 continue;
             }
             for i in range {
                 let black = plain.black_inside && s.side[i] < 0.0;
                 a.pdf[i] *= if black { 0.0 } else { count as f32 };
             }
-            vertex_batch::to_frames(from, to, s, a);
-            let purpose = candidates::stream(which);
-            fill_streams(paths, &owners[from..to], plain, (depth, purpose), streams);
+            vertex_batch::lights_to_local(from, to, s, a);
+            let purpose = estimator::stream_of_candidate(nth);
+            fill_streams(
+                paths,
+                &path_indices[from..to],
+                plain,
+                (depth, purpose),
+                streams,
+            );
             lobes::eval_pdf(
                 &plain.lobe,
-                s.wo.directions(from, to),
-                a.wi.directions(from, to),
+                s.wo.directions(from..to),
+                a.wi.directions(from..to),
                 streams,
-                a.f_cos.colours_mut(from, to),
+                a.f_cos.colours_mut(from..to),
                 &mut a.lobe_pdf[from..to],
             );
-            vertex_batch::weigh(from, to, &o.throughput, a);
+            vertex_batch::light_contributions(from, to, &scatter.throughput, a);
         }
     }
 
     /// Samples a light for each vertex.
-    fn draw_lights(&self, wavefront: &mut Wavefront, depth: u32, which: u32) {
+    fn sample_lights(&self, wavefront: &mut Wavefront, depth: u32, nth: u32) {
         let Wavefront {
             runs,
             batch,
@@ -302,46 +319,47 @@ impl PathTracer<'_> {
         let VertexBatch {
             surfaces: s,
             light_samples,
-            second,
-            share_far,
+            second_light_samples,
+            share_from_infinity,
             random_numbers,
             second_random_numbers,
             ..
         } = &mut **batch;
-        let (random_numbers, a) = match which {
+        let (random_numbers, a) = match nth {
             0 => (&random_numbers.values, light_samples),
-            _ => (&*second_random_numbers, second),
+            _ => (&*second_random_numbers, second_light_samples),
         };
         if let Some(light) = scene.lights.lone_parallelogram() {
             let [_, u, v, _] = random_numbers;
-            vertex_batch::draw_light(n, light, [u, v], s, a);
+            vertex_batch::sample_parallelogram(n, light, [u, v], s, a);
             return;
         }
         let world = (&scene.geometry, &scene.textures);
-        let wanted = |plain: &Plain| !plain.specular && self.lights_at(&plain.lobe, depth) > which;
+        let is_lit =
+            |plain: &Plain| !plain.specular && self.light_candidates(&plain.lobe, depth) > nth;
         let receivers = self
-            .each(runs)
-            .filter(|(plain, _)| wanted(plain))
+            .material_runs(runs)
+            .filter(|(plain, _)| is_lit(plain))
             .flat_map(|(plain, range)| range.map(move |i| (i, plain)))
             .map(|(i, plain)| (i, s.receiver(i, plain)));
         let u = [0, 1, 2, 3].map(|k| &random_numbers[k][..]);
-        let place = |i, light| a.set(i, light);
-        (scene.lights).sample_all(lights, receivers, world, u, share_far, place);
+        let store = |i, light| a.set(i, light);
+        (scene.lights).sample_all(lights, receivers, world, u, share_from_infinity, store);
     }
 
-    /// Adds the light that nothing is in the way of.
-    fn add_unblocked(&self, wavefront: &mut Wavefront, depth: u32) {
+    /// Traces shadow rays, and adds the contributions that are not occluded.
+    fn trace_shadow_rays(&self, wavefront: &mut Wavefront, depth: u32) {
         let Wavefront {
             paths,
             batch,
-            shadows,
-            blocked,
+            shadow_rays,
+            occluded,
             tally,
             shared,
             ..
         } = wavefront;
         let a = &batch.light_samples;
-        shadows.clear();
+        shadow_rays.clear();
         for i in 0..WAVEFRONT_SIZE.min(batch.count) {
             if a.contribution.colour(i).is_black() {
                 continue;
@@ -349,20 +367,24 @@ impl PathTracer<'_> {
             let ray = Ray {
                 origin: a.origin.get(i),
                 direction: a.direction.get(i),
-                t_max: if a.far[i] { f32::INFINITY } else { TO_LIGHT },
+                t_max: if a.is_infinite[i] {
+                    f32::INFINITY
+                } else {
+                    estimator::SHADOW_RAY_END
+                },
             };
-            shadows.push(id(i), ray);
+            shadow_rays.push(id(i), ray);
         }
         let accel = &self.scene.geometry.accel;
-        accel.occluded_all(shadows.rays(), blocked);
-        tally.rays += shadows.len() as u64;
-        for (k, &blocked) in blocked.iter().enumerate() {
-            if !blocked {
-                let lane = shadows.number(k);
-                let path = index(batch.owners[lane]);
+        accel.occluded_all(shadow_rays.rays(), occluded);
+        tally.rays += shadow_rays.len() as u64;
+        for (k, &is_occluded) in occluded.iter().enumerate() {
+            if !is_occluded {
+                let i = shadow_rays.index(k);
+                let path = index(batch.path_indices[i]);
                 match shared {
-                    Some(shared) if shared.is_at_y(path) => shared.keep_light(path, batch, lane),
-                    _ => paths.add(path, a.contribution.colour(lane), depth + 1),
+                    Some(shared) if shared.is_at_y(path) => shared.store_light(path, batch, i),
+                    _ => paths.add(path, a.contribution.colour(i), depth + 1),
                 }
             }
         }
@@ -380,47 +402,54 @@ impl PathTracer<'_> {
             ..
         } = wavefront;
         let n = batch.count;
-        batch.random_numbers.draw(n, Purpose::Scatter, depth);
+        batch.random_numbers.generate(n, Purpose::Scatter, depth);
         let VertexBatch {
             surfaces: s,
-            scatter_samples: o,
+            scatter_samples: scatter,
             random_numbers,
-            owners,
+            path_indices,
             ..
         } = &mut **batch;
-        for (plain, range) in self.each(runs) {
+        for (plain, range) in self.material_runs(runs) {
             let (from, to) = (range.start, range.end);
-            fill_streams(paths, &owners[from..to], plain, (depth, 1), streams);
+            fill_streams(
+                paths,
+                &path_indices[from..to],
+                plain,
+                (depth, estimator::STREAM_SCATTER),
+                streams,
+            );
             let u = [0, 1, 2].map(|k| &random_numbers.values[k][from..to]);
             let samples = specula_bsdf::batch::Samples {
-                wi: o.wi.directions_mut(from, to),
-                weight: o.weight.colours_mut(from, to),
-                pdf: &mut o.pdf[from..to],
-                kind: &mut o.kind[from..to],
+                wi: scatter.wi.directions_mut(from..to),
+                weight: scatter.weight.colours_mut(from..to),
+                pdf: &mut scatter.pdf[from..to],
+                kind: &mut scatter.outcome[from..to],
             };
-            lobes::sample(&plain.lobe, s.wo.directions(from, to), u, streams, samples);
+            lobes::sample(&plain.lobe, s.wo.directions(from..to), u, streams, samples);
             let sides = plain.black_inside.then(|| &s.side[from..to]);
-            let scattered = vertex_batch::count_scattered(&o.kind[from..to], sides);
+            let scattered = vertex_batch::count_scattered(&scatter.outcome[from..to], sides);
             tally.scattered = tally.scattered.and(scattered);
             for i in range.filter(|_| !plain.opaque) {
                 if matches!(
-                    o.kind[i],
+                    scatter.outcome[i],
                     SampleOutcome::Transmission | SampleOutcome::SpecularTransmission
                 ) {
-                    o.eta_scale[i] *= plain.eta * plain.eta;
+                    scatter.eta_scale[i] =
+                        estimator::eta_scale_after(scatter.eta_scale[i], plain.eta);
                 }
             }
         }
         if let Some(shared) = shared {
             let n = n.min(WAVEFRONT_SIZE);
-            shared.let_pass(&owners[..n], &mut random_numbers.values[3][..n]);
+            shared.disable_roulette_at_x(&path_indices[..n], &mut random_numbers.values[3][..n]);
         }
-        vertex_batch::go_on(n, depth, s, &random_numbers.values[3], o);
-        self.keep(wavefront, depth);
+        vertex_batch::scatter(n, depth, s, &random_numbers.values[3], scatter);
+        self.continue_paths(wavefront, depth);
     }
 
-    /// Brings the paths that go on back from the batch.
-    fn keep(&self, wavefront: &mut Wavefront, depth: u32) {
+    /// Stores the paths that continue, with their rays.
+    fn continue_paths(&self, wavefront: &mut Wavefront, depth: u32) {
         let Wavefront {
             paths,
             next,
@@ -429,41 +458,41 @@ impl PathTracer<'_> {
             shared,
             ..
         } = wavefront;
-        let (s, o) = (&batch.surfaces, &batch.scatter_samples);
-        for (plain, range) in self.each(runs) {
+        let (s, scatter) = (&batch.surfaces, &batch.scatter_samples);
+        for (plain, range) in self.material_runs(runs) {
             for i in range {
-                if !o.alive[i] || (plain.black_inside && s.side[i] < 0.0) {
+                if !scatter.alive[i] || (plain.black_inside && s.side[i] < 0.0) {
                     continue;
                 }
-                let number = batch.owners[i];
-                let path = index(number);
+                let path_index = batch.path_indices[i];
+                let path = index(path_index);
                 let ray = Ray {
-                    origin: o.origin.get(i),
-                    direction: o.direction.get(i),
+                    origin: scatter.origin.get(i),
+                    direction: scatter.direction.get(i),
                     t_max: f32::INFINITY,
                 };
-                next.push(number, ray);
-                let mut throughput = o.throughput.colour(i);
+                next.push(path_index, ray);
+                let mut throughput = scatter.throughput.colour(i);
                 if let Some(shared) = shared {
                     if shared.is_at_y(path) {
-                        shared.keep_direction(path, batch, i);
+                        shared.store_direction(path, batch, i);
                     }
-                    let from_x = shared.carried_from_x(path, o.weight.colour(i));
+                    let from_x = shared.throughput_from_x(path, scatter.weight.colour(i));
                     throughput = from_x.unwrap_or(throughput);
                 }
                 paths.throughput.set_colour(path, throughput);
-                paths.eta_scale[path] = o.eta_scale[i];
+                paths.eta_scale[path] = scatter.eta_scale[i];
                 paths.straight[path] = false;
                 paths.rough[path] |= matches!(
-                    o.kind[i],
+                    scatter.outcome[i],
                     SampleOutcome::Reflection | SampleOutcome::Transmission
                 );
                 if plain.specular {
                     paths.previous_pdf[path] = 0.0;
                 } else {
-                    let lights = self.lights_at(&plain.lobe, depth);
-                    paths.previous_pdf[path] = candidates::density(o.pdf[i], lights);
-                    paths.previous_share[path] = batch.share_far[i];
+                    let lights = self.light_candidates(&plain.lobe, depth);
+                    paths.previous_pdf[path] = estimator::pdf_per_candidate(scatter.pdf[i], lights);
+                    paths.previous_share[path] = batch.share_from_infinity[i];
                     paths.previous.set(path, &s.receiver(i, plain));
                 }
             }
@@ -474,7 +503,7 @@ impl PathTracer<'_> {
 /// Streams for lobes whose values are estimates.
 fn fill_streams(
     paths: &PathStates,
-    owners: &[u32],
+    path_indices: &[u32],
     plain: &Plain,
     (depth, purpose): (u32, u32),
     streams: &mut Vec<Stream>,
@@ -482,6 +511,6 @@ fn fill_streams(
     streams.clear();
     if lobes::takes_streams(&plain.lobe) {
         let stream = |&p: &u32| paths.samplers[index(p)].stream(depth, purpose);
-        streams.extend(owners.iter().map(stream));
+        streams.extend(path_indices.iter().map(stream));
     }
 }

@@ -2,20 +2,18 @@
 //!
 //! Bekaert, Sbert and Halton 2002, "Accelerating path tracing by re-using paths". A group is of
 //! neighbouring pixels, one sample of each. Let `x_i` be the first vertex of path `i` whose lobe is not
-//! perfectly smooth, and `y_i` the next. Every `x_i` that sees `y_j` takes the light that path `j` found
-//! there, as if it had sampled `y_j` itself. With `p_k` the density of `y_j` among the points that path `k`
-//! draws from `x_k` (area measure, 0 where something stands between) and `q_k` that of the direction
-//! sampled at `y_j` seen from `x_k`, the estimates are combined by the balance heuristic (Veach 1997,
-//! 9.2.2):
+//! perfectly smooth, and `y_i` the next. Every `x_i` that sees `y_j` takes the radiance that path `j` estimated
+//! there, as if it had sampled `y_j` itself. With `p_k` the density with which path `k` samples `y_j` from `x_k`
+//! (area measure, 0 where `y_j` is occluded) and `q_k` that of the direction sampled at `y_j` seen from `x_k`,
+//! the estimates are combined by the balance heuristic (Veach 1997, 9.2.2):
 //!
 //! * the light sampled at `y_j`: `f_i g_i f(y_j, light) L w_L / (pdf sum_k p_k)`
-//! * what the sampled direction found: `f_i g_i f(y_j, direction) L w_B / (sum_k p_k q_k)`
+//! * radiance along the sampled direction: `f_i g_i f(y_j, direction) L w_B / (sum_k p_k q_k)`
 //!
-//! As `k = i` is in both sums, what is found is scaled no higher than path `i` would have scaled it, the
-//! weight of light at `y_j` aside: sharing makes no fireflies of far-fetched connections. Light that both strategies find at `y_j` is weighed with the mean density of the
-//! group, `sum p_k q_k / sum p_k`, the same in both, so that the weights add up to 1. Light of the
-//! surfaces at `y_j` themselves, and all that is found beyond vertices that are smooth, textured or
-//! estimates, stays with its own path.
+//! As `k = i` is in both sums, radiance is scaled no higher than path `i` would have scaled it, the weight of
+//! light at `y_j` aside: sharing makes no fireflies. MIS at `y_j` takes the mean density of the group,
+//! `sum p_k q_k / sum p_k`, for both strategies, so that their weights add up to 1. Emission of the surfaces at
+//! `y_j`, and light beyond vertices that are smooth, textured or stochastic, stays with its own path.
 
 use specula_bsdf::math::{rgb, vec3};
 use specula_bsdf::{Frame, Rgb, Vec3};
@@ -23,53 +21,52 @@ use specula_bsdf::{Frame, Rgb, Vec3};
 mod connect;
 mod pairs;
 
-pub(super) use pairs::Work;
+pub(super) use pairs::PairBuffers;
 
-use super::PathTracer;
-use super::vertex_batch::{Column, Vectors, VertexBatch, WAVEFRONT_SIZE, ZERO};
+use super::vertex_batch::{Floats, Vectors, VertexBatch, WAVEFRONT_SIZE, ZERO};
 use super::wavefront::{Wavefront, index};
+use super::{PathTracer, estimator};
 use crate::material::{Plain, lobes};
-use crate::offset::leave;
+use crate::offset::SurfacePoint;
 
-/// How far, in errors of their positions, vertices are from each other at least: the direction from one to
-/// the other is then good to a thousandth of what lobes can tell apart. Nearer ones, as in the corners of
-/// finely cut meshes, stay with their own paths.
-const FAR: f32 = 256.0;
+/// Least distance of two vertices that are connected, in errors of their positions. The direction between them
+/// is then exact enough for lobes. Nearer vertices, as in corners of fine meshes, are not shared.
+const LEAST_DISTANCE: f32 = 256.0;
 
 /// How far a path has come.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Stage {
-    /// It met smooth surfaces only.
-    Begins,
-    /// The vertex before was its `x`.
-    Left,
-    /// This vertex, or the one before, is its `y`.
-    Arrived,
+    /// All vertices were perfectly smooth.
+    BeforeX,
+    /// The last vertex is its `x`.
+    AtX,
+    /// The last vertex is its `y`.
+    AtY,
     /// Its `y` is farther back.
-    Beyond,
+    AfterY,
     /// It has no `y`.
-    Apart,
+    Unshared,
 }
 
 /// Vertices by the index of their path.
 struct Vertices {
     position: Vectors,
-    error: Column,
+    error: Floats,
     /// Geometric normals on the viewers' sides.
     facing: Vectors,
     axes: [Vectors; 3],
     key: [u32; WAVEFRONT_SIZE],
 }
 
-/// Light from infinity or of a surface that a direction sampled at a `y` met.
-struct Met {
+/// Emission, of a surface or from infinity, that a direction sampled at a `y` hit.
+struct EmissionHit {
     path: usize,
     radiance: Rgb<f32>,
-    /// Density with which lights would have sampled it.
+    /// Density with which light sampling takes the direction.
     light_pdf: f32,
 }
 
-/// What paths of groups leave for each other, by path index.
+/// The vertices that paths share, by path index.
 pub(super) struct Shared {
     stage: [Stage; WAVEFRONT_SIZE],
     has_x: [bool; WAVEFRONT_SIZE],
@@ -79,19 +76,19 @@ pub(super) struct Shared {
     wo: Vectors,
     /// Up to `x`.
     throughput: Vectors,
-    /// What the path had found before its `y`.
-    before: Vectors,
-    /// The light sampled at `y`, over its density; that density, 0 where nothing arrives.
+    /// Radiance of the path from before its `y`.
+    radiance_before_y: Vectors,
+    /// The light sample at `y`: radiance over density, direction, density (0 where it is occluded).
     light: Vectors,
-    towards: Vectors,
-    light_pdf: Column,
+    light_wi: Vectors,
+    light_pdf: Floats,
     light_delta: [bool; WAVEFRONT_SIZE],
     /// The direction sampled at `y`; 0 where the path ends there.
-    scatter_samples: Vectors,
-    /// Throughput behind `y` before roulette, and what roulette made of it.
-    carried: Vectors,
-    roulette: Column,
-    met: Vec<Met>,
+    sampled_wi: Vectors,
+    /// Throughput after `y` without Russian roulette, and the factor of roulette.
+    throughput_after_y: Vectors,
+    roulette: Floats,
+    emission_hits: Vec<EmissionHit>,
 }
 
 impl Vertices {
@@ -103,14 +100,14 @@ impl Vertices {
         key: [0; WAVEFRONT_SIZE],
     };
 
-    fn set(&mut self, path: usize, batch: &VertexBatch, lane: usize, key: u32) {
+    fn set(&mut self, path: usize, batch: &VertexBatch, i: usize, key: u32) {
         let s = &batch.surfaces;
-        self.position.set(path, s.position.get(lane));
-        self.error[path] = s.error[lane];
-        self.facing.set(path, s.ng.get(lane) * s.side[lane]);
-        self.axes[0].set(path, s.axes[0].get(lane));
-        self.axes[1].set(path, s.axes[1].get(lane));
-        self.axes[2].set(path, s.ns.get(lane));
+        self.position.set(path, s.position.get(i));
+        self.error[path] = s.error[i];
+        self.facing.set(path, s.ng.get(i) * s.side[i]);
+        self.axes[0].set(path, s.axes[0].get(i));
+        self.axes[1].set(path, s.axes[1].get(i));
+        self.axes[2].set(path, s.ns.get(i));
         self.key[path] = key;
     }
 
@@ -124,64 +121,67 @@ impl Vertices {
     #[inline(always)]
     fn local(&self, path: usize, w: Vec3<f32>) -> Vec3<f32> {
         let local = self.frame(path).to_local(w);
-        let agree = local.z * self.facing.get(path).dot(w) > 0.0;
-        let keep = |v: f32| if agree { v } else { 0.0 };
-        vec3(keep(local.x), keep(local.y), keep(local.z))
+        let agree = estimator::sides_agree(local.z, self.facing.get(path).dot(w));
+        let or_zero = |v: f32| if agree { v } else { 0.0 };
+        vec3(or_zero(local.x), or_zero(local.y), or_zero(local.z))
     }
 
-    /// Whether a point is far enough from a vertex for a direction between them.
+    /// Whether a point is far enough from a vertex to be connected with it.
     #[inline(always)]
-    fn is_far(&self, path: usize, point: Vec3<f32>, error: f32) -> bool {
+    fn is_connectable(&self, path: usize, point: Vec3<f32>, error: f32) -> bool {
         let away = (point - self.position.get(path)).length();
-        away > FAR * (self.error[path] + error)
+        away > LEAST_DISTANCE * (self.error[path] + error)
     }
 
-    /// Where a ray leaves a vertex.
+    /// A vertex as rays leave it.
     #[inline(always)]
-    fn leave(&self, path: usize, w: Vec3<f32>) -> Vec3<f32> {
-        let error = Vec3::splat(self.error[path]);
-        leave(self.position.get(path), error, self.facing.get(path), w)
+    fn point(&self, path: usize) -> SurfacePoint {
+        SurfacePoint {
+            position: self.position.get(path),
+            error: Vec3::splat(self.error[path]),
+            normal: self.facing.get(path),
+        }
     }
 }
 
 impl Shared {
     pub(super) fn new() -> Box<Self> {
         Box::new(Self {
-            stage: [Stage::Apart; WAVEFRONT_SIZE],
+            stage: [Stage::Unshared; WAVEFRONT_SIZE],
             has_x: [false; WAVEFRONT_SIZE],
             x: Vertices::NONE,
             y: Vertices::NONE,
             wo: Vectors::ZERO,
             throughput: Vectors::ZERO,
-            before: Vectors::ZERO,
+            radiance_before_y: Vectors::ZERO,
             light: Vectors::ZERO,
-            towards: Vectors::ZERO,
+            light_wi: Vectors::ZERO,
             light_pdf: ZERO,
             light_delta: [false; WAVEFRONT_SIZE],
-            scatter_samples: Vectors::ZERO,
-            carried: Vectors::ZERO,
+            sampled_wi: Vectors::ZERO,
+            throughput_after_y: Vectors::ZERO,
             roulette: ZERO,
-            met: Vec::new(),
+            emission_hits: Vec::new(),
         })
     }
 
-    /// Makes all paths new ones that will share.
+    /// Begins all paths anew.
     pub(super) fn begin(&mut self) {
-        self.stage.fill(Stage::Begins);
+        self.stage.fill(Stage::BeforeX);
         self.has_x.fill(false);
-        self.met.clear();
+        self.emission_hits.clear();
     }
 
-    /// Whether a path's last vertex was its `y`, or this one is.
+    /// Whether a path's last vertex is its `y`.
     #[inline(always)]
     pub(super) fn is_at_y(&self, path: usize) -> bool {
-        self.stage[path] == Stage::Arrived
+        self.stage[path] == Stage::AtY
     }
 
-    /// Keeps what a direction that was sampled at a `y` met.
-    pub(super) fn meet(&mut self, path: usize, radiance: Rgb<f32>, light_pdf: f32) {
+    /// Records emission that the direction sampled at a `y` hit.
+    pub(super) fn record_emission(&mut self, path: usize, radiance: Rgb<f32>, light_pdf: f32) {
         if !radiance.is_black() {
-            self.met.push(Met {
+            self.emission_hits.push(EmissionHit {
                 path,
                 radiance,
                 light_pdf,
@@ -189,62 +189,61 @@ impl Shared {
         }
     }
 
-    /// Says that a path goes a vertex by itself.
-    pub(super) fn pass_alone(&mut self, path: usize) {
+    /// Records that a vertex of a path is shaded the scalar way.
+    pub(super) fn leave_batch(&mut self, path: usize) {
         let stage = &mut self.stage[path];
         *stage = match stage {
-            Stage::Arrived | Stage::Beyond => Stage::Beyond,
-            _ => Stage::Apart,
+            Stage::AtY | Stage::AfterY => Stage::AfterY,
+            _ => Stage::Unshared,
         };
     }
 
-    /// Whether the vertex in an element is far enough from the `x` of its path.
-    fn is_far(&self, path: usize, batch: &VertexBatch, lane: usize) -> bool {
+    /// Whether vertex `i` of the batch is far enough from the `x` of its path.
+    fn is_connectable(&self, path: usize, batch: &VertexBatch, i: usize) -> bool {
         let s = &batch.surfaces;
-        self.x.is_far(path, s.position.get(lane), s.error[lane])
+        self.x.is_connectable(path, s.position.get(i), s.error[i])
     }
 
-    /// Keeps the light sampled at a `y`, which nothing is in the way of.
-    pub(super) fn keep_light(&mut self, path: usize, batch: &VertexBatch, lane: usize) {
+    /// Stores the light sample at a `y`, which is not occluded.
+    pub(super) fn store_light(&mut self, path: usize, batch: &VertexBatch, i: usize) {
         let a = &batch.light_samples;
-        let scale = 1.0 / a.pdf[lane];
-        self.light.set_colour(path, a.radiance.colour(lane) * scale);
-        self.towards.set(path, a.towards.get(lane));
-        self.light_pdf[path] = a.pdf[lane];
-        self.light_delta[path] = a.delta[lane];
+        let scale = 1.0 / a.pdf[i];
+        self.light.set_colour(path, a.radiance.colour(i) * scale);
+        self.light_wi.set(path, a.wi_world.get(i));
+        self.light_pdf[path] = a.pdf[i];
+        self.light_delta[path] = a.delta[i];
     }
 
-    /// Keeps the direction sampled at a `y`, in which the path goes on.
-    pub(super) fn keep_direction(&mut self, path: usize, batch: &VertexBatch, lane: usize) {
-        let o = &batch.scatter_samples;
-        // Until now the throughput without colour with which the path met its `y`.
-        let carried = o.weight.colour(lane) * self.roulette[path];
-        let throughput = o.throughput.colour(lane).max_channel();
-        self.scatter_samples.set(path, o.direction.get(lane));
-        self.carried.set_colour(path, carried);
-        self.roulette[path] = throughput / carried.max_channel();
+    /// Stores the direction sampled at a `y`, in which the path continues.
+    pub(super) fn store_direction(&mut self, path: usize, batch: &VertexBatch, i: usize) {
+        let scatter = &batch.scatter_samples;
+        // Until here `roulette` holds the colourless throughput up to `y`.
+        let throughput_after_y = scatter.weight.colour(i) * self.roulette[path];
+        let throughput = scatter.throughput.colour(i).max_channel();
+        self.sampled_wi.set(path, scatter.direction.get(i));
+        self.throughput_after_y.set_colour(path, throughput_after_y);
+        self.roulette[path] = throughput / throughput_after_y.max_channel();
     }
 
-    /// What a path carries on from its `x`, where no roulette is played: the density of `y` would have its
-    /// probability in it.
-    pub(super) fn carried_from_x(&self, path: usize, weight: Rgb<f32>) -> Option<Rgb<f32>> {
-        let leaves = self.stage[path] == Stage::Left;
-        leaves.then(|| self.throughput.colour(path) * weight)
+    /// Throughput after `x`, where roulette is not played: its probability would be part of the density of `y`.
+    pub(super) fn throughput_from_x(&self, path: usize, weight: Rgb<f32>) -> Option<Rgb<f32>> {
+        let is_at_x = self.stage[path] == Stage::AtX;
+        is_at_x.then(|| self.throughput.colour(path) * weight)
     }
 
-    /// Sees to it that no path ends at its `x` by roulette.
+    /// Lets every path survive Russian roulette at its `x`.
     ///
-    /// * `survival`: the random numbers that decide, by element.
-    pub(super) fn let_pass(&self, owners: &[u32], survival: &mut [f32]) {
-        for (owner, survival) in owners.iter().zip(survival) {
-            if self.stage[index(*owner)] == Stage::Left {
+    /// * `survival`: the random numbers that decide.
+    pub(super) fn disable_roulette_at_x(&self, path_indices: &[u32], survival: &mut [f32]) {
+        for (owner, survival) in path_indices.iter().zip(survival) {
+            if self.stage[index(*owner)] == Stage::AtX {
                 *survival = 0.0;
             }
         }
     }
 
     fn has_y(&self, path: usize) -> bool {
-        matches!(self.stage[path], Stage::Arrived | Stage::Beyond)
+        matches!(self.stage[path], Stage::AtY | Stage::AfterY)
     }
 }
 
@@ -254,8 +253,8 @@ fn is_shared(plain: &Plain) -> bool {
 }
 
 impl PathTracer<'_> {
-    /// Notes which of the vertices in batch are the `x` and `y` of their paths.
-    pub(super) fn note_shared(&self, wavefront: &mut Wavefront) {
+    /// Records which vertices of the batch are the `x` and `y` of their paths.
+    pub(super) fn record_shared_vertices(&self, wavefront: &mut Wavefront) {
         let Wavefront {
             paths,
             runs,
@@ -271,37 +270,39 @@ impl PathTracer<'_> {
             Some((&sides[(s.key % 2) as usize], s))
         });
         for (plain, run) in sides {
-            for lane in run.from..run.to.min(WAVEFRONT_SIZE) {
-                let path = index(batch.owners[lane]);
-                let black = plain.black_inside && batch.surfaces.side[lane] < 0.0;
+            for i in run.from..run.to.min(WAVEFRONT_SIZE) {
+                let path = index(batch.path_indices[i]);
+                let black = plain.black_inside && batch.surfaces.side[i] < 0.0;
                 let usable = is_shared(plain) && !black;
                 let after = match (shared.stage[path], usable) {
-                    (Stage::Begins, true) => {
-                        shared.x.set(path, batch, lane, run.key);
-                        shared.wo.set(path, batch.surfaces.wo.get(lane));
-                        let throughput = batch.scatter_samples.throughput.colour(lane);
+                    (Stage::BeforeX, true) => {
+                        shared.x.set(path, batch, i, run.key);
+                        shared.wo.set(path, batch.surfaces.wo.get(i));
+                        let throughput = batch.scatter_samples.throughput.colour(i);
                         shared.throughput.set_colour(path, throughput);
                         shared.has_x[path] = true;
-                        Stage::Left
+                        Stage::AtX
                     }
-                    (Stage::Left, true) if shared.is_far(path, batch, lane) => {
-                        shared.y.set(path, batch, lane, run.key);
-                        shared.before.set_colour(path, paths.radiance.colour(path));
+                    (Stage::AtX, true) if shared.is_connectable(path, batch, i) => {
+                        shared.y.set(path, batch, i, run.key);
+                        shared
+                            .radiance_before_y
+                            .set_colour(path, paths.radiance.colour(path));
                         paths.radiance.set_colour(path, Rgb::BLACK);
-                        // What others take is bounded when they take it.
+                        // Contributions to other paths are clamped there.
                         paths.bound[path] = f32::INFINITY;
                         shared.light_pdf[path] = 0.0;
-                        shared.scatter_samples.set(path, Vec3::ZERO);
-                        let o = &mut batch.scatter_samples;
+                        shared.sampled_wi.set(path, Vec3::ZERO);
+                        let scatter = &mut batch.scatter_samples;
                         // Without colour: others may have another.
-                        let scale = o.throughput.colour(lane).max_channel();
+                        let scale = scatter.throughput.colour(i).max_channel();
                         shared.roulette[path] = scale;
-                        o.throughput.set_colour(lane, rgb(scale, scale, scale));
-                        Stage::Arrived
+                        scatter.throughput.set_colour(i, rgb(scale, scale, scale));
+                        Stage::AtY
                     }
-                    (Stage::Begins, false) if plain.specular => Stage::Begins,
-                    (Stage::Arrived | Stage::Beyond, _) => Stage::Beyond,
-                    _ => Stage::Apart,
+                    (Stage::BeforeX, false) if plain.specular => Stage::BeforeX,
+                    (Stage::AtY | Stage::AfterY, _) => Stage::AfterY,
+                    _ => Stage::Unshared,
                 };
                 shared.stage[path] = after;
             }
@@ -319,7 +320,7 @@ mod tests {
 
     /// Before roulette, which is another, a path that shares with none is the path alone up to rounding.
     #[test]
-    fn a_group_of_one_is_a_path_alone() {
+    fn a_group_of_one_is_an_unshared_path() {
         let mut scene = specula_scene::builtin::orbs();
         let texts = [
             "conductor Au alpha 0.3",
@@ -384,9 +385,13 @@ mod tests {
         let sample = |i| ([i % 64, i / 64], Sampler::new([i % 64, i / 64], 0, 0));
         tracer.begin(&mut wavefront, (0..id(Wavefront::SIZE)).map(sample));
         tracer.follow_all(&mut wavefront);
-        let before: Vec<_> = (0..WAVEFRONT_SIZE).map(|i| wavefront.seen(i).0).collect();
+        let before: Vec<_> = (0..WAVEFRONT_SIZE)
+            .map(|i| wavefront.pixel_sample(i).0)
+            .collect();
         tracer.share(&mut wavefront, &[4; Wavefront::SIZE / 4]);
-        let after: Vec<_> = (0..WAVEFRONT_SIZE).map(|i| wavefront.seen(i).0).collect();
+        let after: Vec<_> = (0..WAVEFRONT_SIZE)
+            .map(|i| wavefront.pixel_sample(i).0)
+            .collect();
         let colours = |samples: &[crate::film::PixelSample]| -> Vec<_> {
             samples.iter().map(|s| s.colour).collect()
         };

@@ -1,169 +1,108 @@
-//! Vertices of many paths side by side: structures of arrays, and the loops over them.
+//! Vertices of many paths as structures of arrays, and the loops over them.
 //!
-//! The loops are free of branches and compiled for the machine's vectors; each does what its scalar
-//! twin of `integrator.rs` does, in the same order of operations.
+//! The loops are free of branches and compiled for each instruction set. They call the functions of `estimator`,
+//! as the scalar way of `integrator.rs` does.
 
 #![allow(
     clippy::needless_range_loop,
     reason = "an index below the arrays' length is what the compiler makes vectors of"
 )]
 
-use multiversion::multiversion;
-use specula_bsdf::batch::{Colours, Directions, SampleOutcome};
+use macro_rules_attribute::apply;
+use specula_bsdf::batch::SampleOutcome;
 use specula_bsdf::math::{rgb, vec3};
 use specula_bsdf::{Frame, Rgb, Vec3};
 
-use super::{ROULETTE_FROM, candidates, power_heuristic, survival_probability};
+use super::estimator;
+use crate::film::ScatterCounts;
 use crate::geometry::unit_or;
-use crate::light::{LightSample, Parallelogram, Receiver, Seen};
+use crate::light::{LightSample, Parallelogram, ParallelogramSample, Receiver};
 use crate::material::Plain;
-use crate::offset::{coupled, leave};
-use crate::renderer::ScatterCounts;
+use crate::offset::{SurfacePoint, coupled};
+use crate::options::Strategy;
 use crate::sampler::RandomNumbers;
+use crate::simd::simd_levels;
+use crate::soa;
 
 /// Most vertices at once.
 pub(super) const WAVEFRONT_SIZE: usize = 512;
 
-/// A number of each vertex.
-pub(super) type Column = [f32; WAVEFRONT_SIZE];
+/// One value of each vertex.
+pub(super) type Floats = soa::Floats<WAVEFRONT_SIZE>;
 
-/// A vector of each vertex.
-pub(super) struct Vectors {
-    pub(super) x: Column,
-    pub(super) y: Column,
-    pub(super) z: Column,
-}
+/// One vector of each vertex.
+pub(super) type Vectors = soa::Vectors<WAVEFRONT_SIZE>;
 
-impl Vectors {
-    pub(super) const ZERO: Self = Self {
-        x: [0.0; WAVEFRONT_SIZE],
-        y: [0.0; WAVEFRONT_SIZE],
-        z: [0.0; WAVEFRONT_SIZE],
-    };
-
-    #[inline(always)]
-    pub(super) fn get(&self, i: usize) -> Vec3<f32> {
-        vec3(self.x[i], self.y[i], self.z[i])
-    }
-
-    #[inline(always)]
-    pub(super) fn set(&mut self, i: usize, v: Vec3<f32>) {
-        self.x[i] = v.x;
-        self.y[i] = v.y;
-        self.z[i] = v.z;
-    }
-
-    #[inline(always)]
-    pub(super) fn set_array(&mut self, i: usize, [x, y, z]: &[f32; 3]) {
-        self.x[i] = *x;
-        self.y[i] = *y;
-        self.z[i] = *z;
-    }
-
-    #[inline(always)]
-    pub(super) fn colour(&self, i: usize) -> Rgb<f32> {
-        rgb(self.x[i], self.y[i], self.z[i])
-    }
-
-    #[inline(always)]
-    pub(super) fn set_colour(&mut self, i: usize, c: Rgb<f32>) {
-        self.set(i, vec3(c.r, c.g, c.b));
-    }
-
-    pub(super) fn directions(&self, from: usize, to: usize) -> Directions<&[f32]> {
-        Directions {
-            x: &self.x[from..to],
-            y: &self.y[from..to],
-            z: &self.z[from..to],
-        }
-    }
-
-    pub(super) fn directions_mut(&mut self, from: usize, to: usize) -> Directions<&mut [f32]> {
-        Directions {
-            x: &mut self.x[from..to],
-            y: &mut self.y[from..to],
-            z: &mut self.z[from..to],
-        }
-    }
-
-    pub(super) fn colours_mut(&mut self, from: usize, to: usize) -> Colours<&mut [f32]> {
-        Colours {
-            r: &mut self.x[from..to],
-            g: &mut self.y[from..to],
-            b: &mut self.z[from..to],
-        }
-    }
-}
-
-/// Corners, normals and weights of the triangles that rays met.
+/// Corners, normals and barycentric weights of the triangles that rays hit.
 pub(super) struct Triangles {
     pub(super) corners: [Vectors; 3],
     /// Those of the corners; zero where the mesh has none.
     pub(super) normals: [Vectors; 3],
-    /// Weights of the second and third corner.
-    pub(super) weights: [Column; 2],
-    /// Whether the surface is still to be made from it.
-    pub(super) wanted: [bool; WAVEFRONT_SIZE],
+    /// Barycentric weights of the second and third corner.
+    pub(super) weights: [Floats; 2],
+    /// Whether the vertex is on such a triangle; else its surface is complete.
+    pub(super) is_triangle: [bool; WAVEFRONT_SIZE],
 }
 
-/// Surfaces, turned to their viewers.
+/// Surfaces, with frames that face their viewers.
 pub(super) struct Surfaces {
     pub(super) position: Vectors,
     /// Bound on the error of each component of the position.
-    pub(super) error: Column,
+    pub(super) error: Floats,
     /// Geometric normals, towards the outside.
     pub(super) ng: Vectors,
-    /// Shading normals; on the viewer's side of the surface after [`turn`].
+    /// Shading normals; on the viewer's side of the surface after [`face_viewers`].
     pub(super) ns: Vectors,
     pub(super) tangent: Vectors,
-    /// 1 where the outside is seen, else -1.
-    pub(super) side: Column,
+    /// 1 where the viewer is outside, else -1.
+    pub(super) side: Floats,
     /// Towards the viewer, unit.
-    pub(super) towards: Vectors,
+    pub(super) wo_world: Vectors,
     /// Axes of the shading frame; the third is `ns`.
     pub(super) axes: [Vectors; 2],
-    /// `towards`, in the frame.
+    /// `wo_world`, in the frame.
     pub(super) wo: Vectors,
 }
 
-/// Light that could arrive.
+/// Light samples, of which occlusion is not known.
 pub(super) struct LightSamples {
-    /// Towards the light.
-    pub(super) towards: Vectors,
+    /// Towards the light, unit.
+    pub(super) wi_world: Vectors,
     pub(super) radiance: Vectors,
-    /// As of `LightSample`; 0 where there is none.
-    pub(super) pdf: Column,
+    /// As of `LightSample`; 0 where there is no sample.
+    pub(super) pdf: Floats,
     pub(super) delta: [bool; WAVEFRONT_SIZE],
     /// Whether it comes from infinity; else from the target.
-    pub(super) far: [bool; WAVEFRONT_SIZE],
+    pub(super) is_infinite: [bool; WAVEFRONT_SIZE],
     pub(super) target: Vectors,
     /// Bound on the error of each component of the target.
-    pub(super) target_error: Column,
+    pub(super) target_error: Floats,
     pub(super) target_normal: Vectors,
-    /// `towards`, in the frame.
+    /// `wi_world`, in the frame.
     pub(super) wi: Vectors,
     /// `f |cos|` of the lobe, and its density.
     pub(super) f_cos: Vectors,
-    pub(super) lobe_pdf: Column,
-    /// Weighed, with the path's throughput, if nothing is in the way; black where nothing arrives.
+    pub(super) lobe_pdf: Floats,
+    /// Contribution to the path, should nothing occlude it.
     pub(super) contribution: Vectors,
-    /// The ray to look along.
+    /// The shadow ray.
     pub(super) origin: Vectors,
     pub(super) direction: Vectors,
 }
 
-/// Directions sampled, and what they carry.
+/// Directions sampled from lobes.
 pub(super) struct ScatterSamples {
     pub(super) wi: Vectors,
     pub(super) weight: Vectors,
-    pub(super) pdf: Column,
-    pub(super) kind: [SampleOutcome; WAVEFRONT_SIZE],
-    /// Throughput, before and after.
+    pub(super) pdf: Floats,
+    pub(super) outcome: [SampleOutcome; WAVEFRONT_SIZE],
+    /// Of the path, before and after.
     pub(super) throughput: Vectors,
     /// Product of the squared relative indices.
-    pub(super) eta_scale: Column,
+    pub(super) eta_scale: Floats,
     pub(super) direction: Vectors,
     pub(super) origin: Vectors,
+    /// Whether the path continues.
     pub(super) alive: [bool; WAVEFRONT_SIZE],
 }
 
@@ -171,39 +110,39 @@ pub(super) struct ScatterSamples {
 pub(super) struct VertexBatch {
     /// How many there are.
     pub(super) count: usize,
-    /// Of each vertex the number of its path, and its place among those that live.
-    pub(super) owners: [u32; WAVEFRONT_SIZE],
-    pub(super) places: [u32; WAVEFRONT_SIZE],
+    /// Of each vertex the index of its path, and its index among the live paths.
+    pub(super) path_indices: [u32; WAVEFRONT_SIZE],
+    pub(super) live_indices: [u32; WAVEFRONT_SIZE],
     pub(super) triangles: Triangles,
     pub(super) surfaces: Surfaces,
     pub(super) light_samples: LightSamples,
-    /// The second, where two are sampled.
-    pub(super) second: LightSamples,
-    /// Probability with which the light to be sampled is one from infinity.
-    pub(super) share_far: Column,
+    /// The second candidates, where two are sampled.
+    pub(super) second_light_samples: LightSamples,
+    /// Probability with which light sampling takes a light from infinity.
+    pub(super) share_from_infinity: Floats,
     pub(super) scatter_samples: ScatterSamples,
-    /// Of the sequences.
+    /// Of the set that is in use.
     pub(super) random_numbers: RandomNumbers<WAVEFRONT_SIZE>,
-    /// Those of second lights.
-    pub(super) second_random_numbers: [Column; 4],
-    /// Where camera rays pass the raster.
-    pub(super) raster: [Column; 2],
+    /// Those of the second light candidates.
+    pub(super) second_random_numbers: [Floats; 4],
+    /// Where camera rays pass through the raster.
+    pub(super) raster: [Floats; 2],
 }
 
 /// Of zeros.
-pub(super) const ZERO: Column = [0.0; WAVEFRONT_SIZE];
+pub(super) const ZERO: Floats = [0.0; WAVEFRONT_SIZE];
 
 impl VertexBatch {
     pub(super) fn new() -> Box<Self> {
         Box::new(Self {
             count: 0,
-            owners: [0; WAVEFRONT_SIZE],
-            places: [0; WAVEFRONT_SIZE],
+            path_indices: [0; WAVEFRONT_SIZE],
+            live_indices: [0; WAVEFRONT_SIZE],
             triangles: Triangles {
                 corners: [Vectors::ZERO; 3],
                 normals: [Vectors::ZERO; 3],
                 weights: [ZERO; 2],
-                wanted: [false; WAVEFRONT_SIZE],
+                is_triangle: [false; WAVEFRONT_SIZE],
             },
             surfaces: Surfaces {
                 position: Vectors::ZERO,
@@ -212,18 +151,18 @@ impl VertexBatch {
                 ns: Vectors::ZERO,
                 tangent: Vectors::ZERO,
                 side: ZERO,
-                towards: Vectors::ZERO,
+                wo_world: Vectors::ZERO,
                 axes: [Vectors::ZERO; 2],
                 wo: Vectors::ZERO,
             },
             light_samples: LightSamples::ZERO,
-            second: LightSamples::ZERO,
-            share_far: ZERO,
+            second_light_samples: LightSamples::ZERO,
+            share_from_infinity: ZERO,
             scatter_samples: ScatterSamples {
                 wi: Vectors::ZERO,
                 weight: Vectors::ZERO,
                 pdf: ZERO,
-                kind: [SampleOutcome::Rejected; WAVEFRONT_SIZE],
+                outcome: [SampleOutcome::Rejected; WAVEFRONT_SIZE],
                 throughput: Vectors::ZERO,
                 eta_scale: ZERO,
                 direction: Vectors::ZERO,
@@ -239,11 +178,11 @@ impl VertexBatch {
 
 impl LightSamples {
     const ZERO: Self = Self {
-        towards: Vectors::ZERO,
+        wi_world: Vectors::ZERO,
         radiance: Vectors::ZERO,
         pdf: ZERO,
         delta: [false; WAVEFRONT_SIZE],
-        far: [false; WAVEFRONT_SIZE],
+        is_infinite: [false; WAVEFRONT_SIZE],
         target: Vectors::ZERO,
         target_error: ZERO,
         target_normal: Vectors::ZERO,
@@ -255,20 +194,20 @@ impl LightSamples {
         direction: Vectors::ZERO,
     };
 
-    /// Places light that was sampled.
+    /// Stores a light sample.
     #[inline]
     pub(super) fn set(&mut self, i: usize, light: Option<LightSample>) {
         let Some(light) = light else {
             self.pdf[i] = 0.0;
             return;
         };
-        self.towards.set(i, light.wi);
+        self.wi_world.set(i, light.wi);
         self.radiance.set_colour(i, light.radiance);
         self.pdf[i] = light.pdf;
         self.delta[i] = light.delta;
-        self.far[i] = light.from.is_none();
-        if let Some(target) = light.from {
-            self.target.set(i, target.point);
+        self.is_infinite[i] = light.target.is_none();
+        if let Some(target) = light.target {
+            self.target.set(i, target.position);
             self.target_error[i] = target.error.x;
             self.target_normal.set(i, target.normal);
         }
@@ -282,6 +221,16 @@ impl Surfaces {
             s: self.axes[0].get(i),
             t: self.axes[1].get(i),
             n: self.ns.get(i),
+        }
+    }
+
+    /// A vertex as rays leave it.
+    #[inline(always)]
+    fn point(&self, i: usize) -> SurfacePoint {
+        SurfacePoint {
+            position: self.position.get(i),
+            error: Vec3::splat(self.error[i]),
+            normal: self.ng.get(i),
         }
     }
 
@@ -301,12 +250,9 @@ impl Surfaces {
     }
 }
 
-/// Makes surfaces from the triangles of the first `n` vertices that want one.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
-pub(super) fn make_surfaces(n: usize, t: &Triangles, s: &mut Surfaces) {
+/// Position, error and normals of the first `n` vertices that are on triangles.
+#[apply(simd_levels)]
+pub(super) fn interpolate_triangles(n: usize, t: &Triangles, s: &mut Surfaces) {
     for i in 0..n.min(WAVEFRONT_SIZE) {
         let [a, b, c] = [&t.corners[0], &t.corners[1], &t.corners[2]].map(|v| v.get(i));
         let [na, nb, nc] = [&t.normals[0], &t.normals[1], &t.normals[2]].map(|v| v.get(i));
@@ -317,18 +263,18 @@ pub(super) fn make_surfaces(n: usize, t: &Triangles, s: &mut Surfaces) {
         let position = a * w + b * u + c * v;
         let reach = largest(abs(a), largest(abs(b), abs(c)));
         let error = coupled(reach).x;
-        let wanted = t.wanted[i];
+        let is_triangle = t.is_triangle[i];
         let pick = |new: Vec3<f32>, old: Vec3<f32>| {
             vec3(
-                if wanted { new.x } else { old.x },
-                if wanted { new.y } else { old.y },
-                if wanted { new.z } else { old.z },
+                if is_triangle { new.x } else { old.x },
+                if is_triangle { new.y } else { old.y },
+                if is_triangle { new.z } else { old.z },
             )
         };
         s.position.set(i, pick(position, s.position.get(i)));
         s.ng.set(i, pick(ng, s.ng.get(i)));
         s.ns.set(i, pick(ns, s.ns.get(i)));
-        s.error[i] = if wanted { error } else { s.error[i] };
+        s.error[i] = if is_triangle { error } else { s.error[i] };
     }
 }
 
@@ -348,15 +294,12 @@ fn largest(a: Vec3<f32>, b: Vec3<f32>) -> Vec3<f32> {
     vec3(a.x.max(b.x), a.y.max(b.y), a.z.max(b.z))
 }
 
-/// Turns the first `n` surfaces to their viewers, and makes their frames.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
-pub(super) fn turn(n: usize, s: &mut Surfaces) {
+/// Turns the normals of the first `n` surfaces to their viewers, and computes their frames.
+#[apply(simd_levels)]
+pub(super) fn face_viewers(n: usize, s: &mut Surfaces) {
     for i in 0..n.min(WAVEFRONT_SIZE) {
-        let wo = s.towards.get(i).normalize();
-        s.towards.set(i, wo);
+        let wo = s.wo_world.get(i).normalize();
+        s.wo_world.set(i, wo);
         let ng = s.ng.get(i);
         let side = if ng.dot(wo) > 0.0 { 1.0 } else { -1.0 };
         s.side[i] = side;
@@ -370,11 +313,11 @@ pub(super) fn turn(n: usize, s: &mut Surfaces) {
     }
 }
 
-/// Frames about the geometric normals for vertices of mirrors that are seen from behind their shading
-/// normals.
+/// Frames about the geometric normals where the viewer is behind the shading normal: perfect mirrors have no
+/// answer there.
 ///
 /// * `from`, `to`: the vertices of mirrors.
-pub(super) fn straighten(from: usize, to: usize, s: &mut Surfaces) {
+pub(super) fn use_geometric_normals(from: usize, to: usize, s: &mut Surfaces) {
     for i in from..to {
         if s.wo.z[i] <= 0.0 {
             let n = s.ng.get(i) * s.side[i];
@@ -382,130 +325,130 @@ pub(super) fn straighten(from: usize, to: usize, s: &mut Surfaces) {
             s.ns.set(i, n);
             s.axes[0].set(i, frame.s);
             s.axes[1].set(i, frame.t);
-            s.wo.set(i, frame.to_local(s.towards.get(i)));
+            s.wo.set(i, frame.to_local(s.wo_world.get(i)));
         }
     }
 }
 
-/// Samples points of the one light of a scene for the first `n` vertices, as `Area::sample` does.
+/// Samples points of the one light of a scene, a parallelogram, for the first `n` vertices, as `Area::sample`
+/// does.
 ///
-/// * `u`: of the points.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
-pub(super) fn draw_light(
+/// * `u`: random numbers of the points.
+#[apply(simd_levels)]
+pub(super) fn sample_parallelogram(
     n: usize,
     (light, radiance, two_sided): (&Parallelogram, Rgb<f32>, bool),
-    u: [&Column; 2],
+    u: [&Floats; 2],
     s: &Surfaces,
     a: &mut LightSamples,
 ) {
     let (normal, error) = (light.normal, light.error.x);
     for i in 0..n.min(WAVEFRONT_SIZE) {
-        let Seen { point, wi, pdf } = light.sample(s.position.get(i), [u[0][i], u[1][i]]);
+        let ParallelogramSample { point, wi, pdf } =
+            light.sample(s.position.get(i), [u[0][i], u[1][i]]);
         let emits = two_sided | (normal.dot(wi) < 0.0);
         a.pdf[i] = if emits { pdf } else { 0.0 };
-        a.towards.set(i, wi);
+        a.wi_world.set(i, wi);
         a.radiance.set_colour(i, radiance);
         a.delta[i] = false;
-        a.far[i] = false;
+        a.is_infinite[i] = false;
         a.target.set(i, point);
         a.target_error[i] = error;
         a.target_normal.set(i, normal);
     }
 }
 
-/// Turns the light that could arrive into the frames; what comes from the wrong side is taken out.
+/// Directions to lights in the shading frames. Samples from the wrong side get density 0.
 ///
-/// * `from`, `to`: at which vertices.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
-pub(super) fn to_frames(from: usize, to: usize, s: &Surfaces, a: &mut LightSamples) {
+/// * `from`, `to`: the vertices.
+#[apply(simd_levels)]
+pub(super) fn lights_to_local(from: usize, to: usize, s: &Surfaces, a: &mut LightSamples) {
     for i in from..to.min(WAVEFRONT_SIZE) {
-        let towards = a.towards.get(i);
-        let wi = s.frame(i).to_local(towards);
-        let through = wi.z * s.facing(i, towards);
+        let wi_world = a.wi_world.get(i);
+        let wi = s.frame(i).to_local(wi_world);
+        let through = estimator::sides_agree(wi.z, s.facing(i, wi_world));
         a.wi.set(i, wi);
-        a.pdf[i] = if through > 0.0 { a.pdf[i] } else { 0.0 };
+        a.pdf[i] = if through { a.pdf[i] } else { 0.0 };
     }
 }
 
-/// Weighs light that was sampled against the lobe's directions, by the power heuristic.
+/// Contributions of light samples, with their MIS weights.
 ///
-/// * `from`, `to`: at which vertices.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
-pub(super) fn weigh(from: usize, to: usize, throughput: &Vectors, a: &mut LightSamples) {
+/// * `from`, `to`: the vertices.
+#[apply(simd_levels)]
+pub(super) fn light_contributions(
+    from: usize,
+    to: usize,
+    throughput: &Vectors,
+    a: &mut LightSamples,
+) {
     for i in from..to.min(WAVEFRONT_SIZE) {
         let pdf = a.pdf[i];
-        let ratio = a.lobe_pdf[i] / pdf;
-        let both = power_heuristic(ratio);
-        let weight = if a.delta[i] { 1.0 } else { both };
-        let arrives = pdf > 0.0;
-        let scale = if arrives { weight / pdf } else { 0.0 };
+        let weight = estimator::light_weight(Strategy::Mis, a.delta[i], pdf, a.lobe_pdf[i]);
+        let (f_cos, radiance) = (a.f_cos.colour(i), a.radiance.colour(i));
         let contribution =
-            throughput.colour(i) * a.f_cos.colour(i) * (a.radiance.colour(i) * scale);
+            estimator::light_contribution(throughput.colour(i), f_cos, radiance, weight, pdf);
+        let arrives = pdf > 0.0;
         let pick = |c: f32| if arrives { c } else { 0.0 };
         a.contribution.set_colour(i, contribution.map(pick));
     }
 }
 
-/// Keeps one of two lights, which brings as much as both; see `candidates`.
+/// Replaces the first of two light candidates by the one that chance chooses; see `candidates`.
 ///
-/// * `u`: decides, by element.
-/// * `a`, `b`: the first, which the kept one takes the place of, and the second.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
-pub(super) fn keep_one(from: usize, to: usize, u: &Column, a: &mut LightSamples, b: &LightSamples) {
+/// * `u`: the random numbers that choose.
+/// * `a`, `b`: the first and the second candidates.
+#[apply(simd_levels)]
+pub(super) fn choose_candidates(
+    from: usize,
+    to: usize,
+    u: &Floats,
+    a: &mut LightSamples,
+    b: &LightSamples,
+) {
     for i in from..to.min(WAVEFRONT_SIZE) {
         let [x, y] = [a.contribution.colour(i), b.contribution.colour(i)];
-        let (keeps_b, scale) = candidates::keeps_second(x, y, u[i]);
-        let pick = |a: f32, b: f32| if keeps_b { b } else { a };
+        let (is_second, scale) = estimator::choose_candidate(x, y, u[i]);
+        let pick = |a: f32, b: f32| if is_second { b } else { a };
         let [of_a, of_b] =
-            [&*a, b].map(|a| (a.towards.get(i), a.target.get(i), a.target_normal.get(i)));
+            [&*a, b].map(|a| (a.wi_world.get(i), a.target.get(i), a.target_normal.get(i)));
         let pick_vector =
             |a: Vec3<f32>, b: Vec3<f32>| vec3(pick(a.x, b.x), pick(a.y, b.y), pick(a.z, b.z));
         let contribution = rgb(pick(x.r, y.r), pick(x.g, y.g), pick(x.b, y.b));
         a.contribution.set_colour(i, contribution * scale);
-        a.towards.set(i, pick_vector(of_a.0, of_b.0));
+        a.wi_world.set(i, pick_vector(of_a.0, of_b.0));
         a.target.set(i, pick_vector(of_a.1, of_b.1));
         a.target_normal.set(i, pick_vector(of_a.2, of_b.2));
         a.target_error[i] = pick(a.target_error[i], b.target_error[i]);
-        a.far[i] = (keeps_b & b.far[i]) | (!keeps_b & a.far[i]);
+        a.is_infinite[i] = (is_second & b.is_infinite[i]) | (!is_second & a.is_infinite[i]);
     }
 }
 
-/// Aims the rays that look for the light that was sampled.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
-pub(super) fn aim(n: usize, s: &Surfaces, a: &mut LightSamples) {
+/// Shadow rays of the first `n` light samples.
+#[apply(simd_levels)]
+pub(super) fn shadow_rays(n: usize, s: &Surfaces, a: &mut LightSamples) {
     for i in 0..n.min(WAVEFRONT_SIZE) {
-        let towards = a.towards.get(i);
-        let error = Vec3::splat(s.error[i]);
-        let origin = leave(s.position.get(i), error, s.ng.get(i), towards);
-        let error = Vec3::splat(a.target_error[i]);
-        let end = leave(a.target.get(i), error, a.target_normal.get(i), -towards);
-        let along = end - origin;
-        let far = a.far[i];
-        a.origin.set(i, origin);
-        a.direction.x[i] = if far { towards.x } else { along.x };
-        a.direction.y[i] = if far { towards.y } else { along.y };
-        a.direction.z[i] = if far { towards.z } else { along.z };
+        let wi = a.wi_world.get(i);
+        let target = SurfacePoint {
+            position: a.target.get(i),
+            error: Vec3::splat(a.target_error[i]),
+            normal: a.target_normal.get(i),
+        };
+        let to_infinity = estimator::spawn_ray(&s.point(i), wi);
+        let to_target = estimator::shadow_ray(&s.point(i), wi, &target);
+        let is_infinite = a.is_infinite[i];
+        let pick = |infinity: f32, target: f32| if is_infinite { infinity } else { target };
+        let (direction, along) = (to_infinity.direction, to_target.direction);
+        a.origin.set(i, to_infinity.origin);
+        a.direction.x[i] = pick(direction.x, along.x);
+        a.direction.y[i] = pick(direction.y, along.y);
+        a.direction.z[i] = pick(direction.z, along.z);
     }
 }
 
 /// How many directions were sampled, and how many of them rejected.
 ///
-/// * `sides`: 1 or -1 where lobes are black from the inside, from which none is sampled.
+/// * `sides`: 1 or -1 where lobes are black from the inside, where no direction is sampled.
 pub(super) fn count_scattered(kinds: &[SampleOutcome], sides: Option<&[f32]>) -> ScatterCounts {
     let is_rejected = |k: &SampleOutcome| *k == SampleOutcome::Rejected;
     match sides {
@@ -522,27 +465,28 @@ pub(super) fn count_scattered(kinds: &[SampleOutcome], sides: Option<&[f32]>) ->
     }
 }
 
-/// Goes on in the directions that were sampled, by the rules of `PathTracer::scatter`.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
-pub(super) fn go_on(n: usize, depth: u32, s: &Surfaces, survival: &Column, o: &mut ScatterSamples) {
-    let plays = depth >= ROULETTE_FROM;
+/// Continues the first `n` paths in the directions that lobes sampled, or ends them.
+///
+/// * `survival`: random numbers for Russian roulette.
+#[apply(simd_levels)]
+pub(super) fn scatter(
+    n: usize,
+    depth: u32,
+    s: &Surfaces,
+    survival: &Floats,
+    scatter: &mut ScatterSamples,
+) {
     for i in 0..n.min(WAVEFRONT_SIZE) {
-        let wi = o.wi.get(i);
+        let wi = scatter.wi.get(i);
         let direction = s.frame(i).to_world(wi).normalize();
-        let throughput = o.throughput.colour(i) * o.weight.colour(i);
-        let largest = throughput.max_channel() * o.eta_scale[i];
-        let probability = survival_probability(largest);
-        let thinned = plays & (probability < 0.95);
-        let survives = !thinned | (survival[i] < probability);
-        let scale = if thinned { 1.0 / probability } else { 1.0 };
-        o.alive[i] = (wi.z * s.facing(i, direction) > 0.0) & (largest > 0.0) & survives;
-        o.throughput.set_colour(i, throughput * scale);
-        o.direction.set(i, direction);
-        let error = Vec3::splat(s.error[i]);
-        let origin = leave(s.position.get(i), error, s.ng.get(i), direction);
-        o.origin.set(i, origin);
+        let throughput = scatter.throughput.colour(i) * scatter.weight.colour(i);
+        let (survives, throughput) =
+            estimator::russian_roulette(depth, throughput, scatter.eta_scale[i], survival[i]);
+        scatter.alive[i] = estimator::sides_agree(wi.z, s.facing(i, direction)) & survives;
+        scatter.throughput.set_colour(i, throughput);
+        scatter.direction.set(i, direction);
+        scatter
+            .origin
+            .set(i, estimator::spawn_ray(&s.point(i), direction).origin);
     }
 }

@@ -1,40 +1,37 @@
-//! What rays pass on their way: cut-outs, hidden lights, and boundaries without surface, between
-//! which media absorb.
+//! Rays through cut-outs, hidden lights, and boundaries of media that have no surface.
 
 use specula_bsdf::{Rgb, Vec3};
 
-use super::{PathTracer, State};
+use super::estimator::{self, MOST_PASSES};
+use super::{PathState, PathTracer};
 use crate::accel::Ray;
 use crate::geometry::{NONE, Surface};
 use crate::light::LightSample;
 use crate::medium_stack::{MediumStack, transmittance};
-use crate::offset::leave;
+use crate::offset::SurfacePoint;
 use crate::sampler::Sampler;
 
-/// How much of the ray to a light is looked at: not its very end.
-pub(super) const TO_LIGHT: f32 = 1.0 - 1e-4;
-/// Most surfaces that a ray passes.
-const MOST_PASSES: u32 = 4096;
-
-/// What a surface does with a ray that meets it.
-enum Meeting {
-    Stops,
-    /// It is not there.
-    Passes,
-    /// It bounds what absorbs, and nothing else.
-    Crosses,
+/// What a surface does to a ray that hits it.
+enum Passage {
+    /// The ray ends.
+    Blocked,
+    /// The ray passes as if nothing were there.
+    Free,
+    /// The ray passes from one medium into another.
+    Boundary,
 }
 
 impl PathTracer<'_> {
-    /// The first surface that does not let the ray pass, and what is absorbed on the way to it.
-    /// Hidden lights let the camera's rays pass until these have met something else, as in Mitsuba.
+    /// The first surface that blocks the ray. Media on the way absorb.
+    ///
+    /// Hidden lights let camera rays pass until these have hit something else, as in Mitsuba.
     #[inline]
-    pub(super) fn nearest(
+    pub(super) fn intersect(
         &self,
         ray: &Ray,
         sampler: &Sampler,
         depth: u32,
-        state: &mut State,
+        state: &mut PathState,
     ) -> Option<Surface> {
         let geometry = &self.scene.geometry;
         let mut ray = *ray;
@@ -45,62 +42,52 @@ impl PathTracer<'_> {
             let hit = geometry.accel.intersect(&ray)?;
             let surface = geometry.surface(&ray, &hit);
             hidden &= surface.light != NONE;
-            let meeting = match (hidden, geometry.has_passable) {
-                (true, _) => Meeting::Passes,
-                (false, true) => self.meeting(&surface, sampler, [depth, pass, 1]),
-                (false, false) => Meeting::Stops,
+            let passage = match (hidden, geometry.has_passable) {
+                (true, _) => Passage::Free,
+                (false, true) => self.passage(&surface, sampler, [depth, pass, 1]),
+                (false, false) => Passage::Blocked,
             };
-            if let (Some(absorption), Meeting::Stops | Meeting::Crosses) =
-                (state.media.absorption(), &meeting)
+            if let (Some(absorption), Passage::Blocked | Passage::Boundary) =
+                (state.media.absorption(), &passage)
             {
                 let distance = (surface.position - begin).length();
                 state.throughput *= transmittance(absorption, distance);
             }
-            match meeting {
-                Meeting::Stops => return Some(surface),
-                Meeting::Passes => {}
-                Meeting::Crosses => {
+            match passage {
+                Passage::Blocked => return Some(surface),
+                Passage::Free => {}
+                Passage::Boundary => {
                     self.cross(&mut state.media, &surface, ray.direction);
                     begin = surface.position;
                 }
             }
-            ray.origin = leave(surface.position, surface.error, surface.ng, ray.direction);
+            ray.origin = surface.point().ray_origin(ray.direction);
         }
         None
     }
 
-    /// What is left of a light's radiance on its way to the vertex; `None` where something stands
-    /// between them.
+    /// Transmittance from a light to the vertex; `None` where the light is occluded.
     ///
-    /// * `position`, `error`, `ng`: of the vertex' surface.
-    /// * `media`: what the vertex is in, on the light's side.
+    /// * `from`: the vertex.
+    /// * `media`: those at the vertex, on the light's side.
     #[inline]
     pub(super) fn transmittance(
         &self,
-        (position, error, ng): (Vec3<f32>, Vec3<f32>, Vec3<f32>),
+        from: &SurfacePoint,
         light: &LightSample,
         media: &MediumStack,
         sampler: &Sampler,
         depth: u32,
         rays: &mut u64,
     ) -> Option<Rgb<f32>> {
-        let origin = leave(position, error, ng, light.wi);
-        let ray = match light.from {
-            None => Ray {
-                origin,
-                direction: light.wi,
-                t_max: f32::INFINITY,
-            },
-            Some(target) => Ray {
-                origin,
-                direction: leave(target.point, target.error, target.normal, -light.wi) - origin,
-                t_max: TO_LIGHT,
-            },
+        let ray = match &light.target {
+            None => estimator::spawn_ray(from, light.wi),
+            Some(target) => estimator::shadow_ray(from, light.wi, target),
         };
         if self.scene.geometry.has_passable {
             return self.transmittance_through(
                 ray,
-                position,
+                from.position,
                 light,
                 *media,
                 (sampler, depth),
@@ -109,7 +96,7 @@ impl PathTracer<'_> {
         }
         *rays += 1;
         let visible = !self.scene.geometry.accel.occluded(&ray);
-        visible.then(|| last_stretch(position, light, media))
+        visible.then(|| transmittance_to_light(from.position, light, media))
     }
 
     /// [`PathTracer::transmittance`] where some surfaces let rays pass.
@@ -123,49 +110,49 @@ impl PathTracer<'_> {
         rays: &mut u64,
     ) -> Option<Rgb<f32>> {
         let geometry = &self.scene.geometry;
-        let mut left = Rgb::WHITE;
+        let mut product = Rgb::WHITE;
         for pass in 0..MOST_PASSES {
             *rays += 1;
             let Some(hit) = geometry.accel.intersect(&ray) else {
-                return Some(left * last_stretch(begin, light, &media));
+                return Some(product * transmittance_to_light(begin, light, &media));
             };
             let surface = geometry.surface(&ray, &hit);
-            match self.meeting(&surface, sampler, [depth, pass, 2]) {
-                Meeting::Stops => return None,
-                Meeting::Passes => {}
-                Meeting::Crosses => {
+            match self.passage(&surface, sampler, [depth, pass, 2]) {
+                Passage::Blocked => return None,
+                Passage::Free => {}
+                Passage::Boundary => {
                     if let Some(absorption) = media.absorption() {
                         let distance = (surface.position - begin).length();
-                        left *= transmittance(absorption, distance);
+                        product *= transmittance(absorption, distance);
                     }
                     self.cross(&mut media, &surface, ray.direction);
                     begin = surface.position;
                 }
             }
-            ray.origin = leave(surface.position, surface.error, surface.ng, ray.direction);
+            ray.origin = surface.point().ray_origin(ray.direction);
             ray.t_max -= hit.t;
             if ray.t_max <= 0.0 {
-                return Some(left * last_stretch(begin, light, &media));
+                return Some(product * transmittance_to_light(begin, light, &media));
             }
         }
         None
     }
 
-    /// What a surface does with a ray, by chance where it is partly transparent.
-    fn meeting(&self, surface: &Surface, sampler: &Sampler, key: [u32; 3]) -> Meeting {
+    /// What a surface does to a ray: by chance where it is partly transparent.
+    fn passage(&self, surface: &Surface, sampler: &Sampler, key: [u32; 3]) -> Passage {
         let shape = &self.scene.geometry.shapes[surface.shape as usize];
         let there = shape.alpha.is_none_or(|alpha| {
             let alpha = self.scene.textures.float(alpha, &surface.place());
             alpha >= 1.0 || sampler.hashed(key) < alpha
         });
         match (there, shape.is_interface) {
-            (false, _) => Meeting::Passes,
-            (true, false) => Meeting::Stops,
-            (true, true) => Meeting::Crosses,
+            (false, _) => Passage::Free,
+            (true, false) => Passage::Blocked,
+            (true, true) => Passage::Boundary,
         }
     }
 
-    /// Passes a surface: what the path is in changes where that bounds a body.
+    /// Updates the media where a path passes a surface that bounds one.
     #[inline]
     pub(super) fn cross(&self, media: &mut MediumStack, surface: &Surface, direction: Vec3<f32>) {
         let material = self.scene.geometry.shapes[surface.shape as usize].material;
@@ -175,11 +162,11 @@ impl PathTracer<'_> {
     }
 }
 
-/// What the last body leaves of a light. What sees one at infinity is in none that is closed.
-fn last_stretch(begin: Vec3<f32>, light: &LightSample, media: &MediumStack) -> Rgb<f32> {
-    match (media.absorption(), &light.from) {
+/// Transmittance of the medium in front of the light. A vertex that sees infinity is in no closed medium.
+fn transmittance_to_light(begin: Vec3<f32>, light: &LightSample, media: &MediumStack) -> Rgb<f32> {
+    match (media.absorption(), &light.target) {
         (Some(absorption), Some(target)) => {
-            transmittance(absorption, (target.point - begin).length())
+            transmittance(absorption, (target.position - begin).length())
         }
         _ => Rgb::WHITE,
     }

@@ -5,11 +5,11 @@ use specula_bsdf::math::vec3;
 use specula_bsdf::{Frame, Real, Vec3};
 
 use super::cone::EmissionCone;
-use super::parallelogram::{Parallelogram, Seen};
+use super::parallelogram::{Parallelogram, ParallelogramSample};
 use crate::accel::{Bounds, QuadricShape};
-use crate::camera::concentric_disk;
 use crate::codes;
 use crate::convert::{Affine, abs, narrow, normal_matrix};
+use crate::disk::concentric_disk;
 use crate::geometry::{normal_of, unit_or};
 use crate::offset::coupled;
 use crate::words::Words;
@@ -241,7 +241,7 @@ impl Area {
         }
     }
 
-    /// A point of the surface, uniform by area but on ellipsoids; the same as [`Area::sample`] draws,
+    /// A point of the surface, uniform by area but on ellipsoids; the same as [`Area::sample`] samples,
     /// except on spheres and rectangles.
     pub(super) fn point(&self, u: [f32; 2]) -> Vec3<f32> {
         match *self {
@@ -298,7 +298,7 @@ impl Area {
                 by_area(p, point, reach, normal, 1.0 / area)
             }
             Self::Parallelogram(light) => {
-                let Seen { point, wi, pdf } = light.sample(p, u);
+                let ParallelogramSample { point, wi, pdf } = light.sample(p, u);
                 (pdf > 0.0).then_some(AreaSample {
                     point,
                     error: light.error,
@@ -339,7 +339,7 @@ impl Area {
         }
     }
 
-    /// Density in 1/sr with which [`Area::sample`] draws the direction from `p` to the point `q` of
+    /// Density in 1/sr with which [`Area::sample`] samples the direction from `p` to the point `q` of
     /// the light.
     ///
     /// * `normal`: of the light at `q`.

@@ -1,222 +1,213 @@
-//! Lights for many vertices at once: chosen one by one, and sampled in batches where that pays.
+//! Light samples of many vertices at once. Lights are chosen vertex by vertex; the environment and parallelograms
+//! are sampled in batches.
 
 #![allow(
     clippy::needless_range_loop,
     reason = "an index below the arrays' length is what the compiler makes vectors of"
 )]
 
-use multiversion::multiversion;
-use specula_bsdf::math::vec3;
+use macro_rules_attribute::apply;
 use specula_bsdf::{Rgb, Vec3};
 
 use super::area::Area;
-use super::environment::{Bundle, Environment, LANES};
+use super::environment::{BATCH_SIZE, DirectionBatch, Environment};
 use super::node::Node;
-use super::{Far, LightSample, Lights, Parallelogram, Receiver, Source, Target};
+use super::{Far, LightSample, Lights, Parallelogram, Receiver, Source};
 use crate::geometry::Geometry;
+use crate::offset::SurfacePoint;
+use crate::simd::simd_levels;
+use crate::soa;
 use crate::texture::Textures;
 
-/// Most nodes of a tree that all receivers are compared with at once: those over eight lights.
-const NODES: usize = 15;
+/// Most nodes of a light tree whose importances are computed in batches: those over eight lights.
+const MOST_NODES: usize = 15;
 
-type Column = [f32; LANES];
+type Floats = soa::Floats<BATCH_SIZE>;
+type Vectors = soa::Vectors<BATCH_SIZE>;
 
-/// Room for what waits to be sampled.
-pub(crate) struct Waiting {
-    receivers: Receivers,
-    sky: Group,
-    bundle: Bundle,
-    /// For the parallelogram of each node.
-    facing: [Group; NODES],
+/// Vertices that wait until a batch of them is full.
+pub(crate) struct LightQueues {
+    receivers: ReceiverQueue,
+    environment: LightQueue,
+    directions: DirectionBatch,
+    /// Of each light that is a parallelogram.
+    parallelograms: [LightQueue; MOST_NODES],
 }
 
-/// Points that a light is to be chosen for.
-struct Receivers {
-    lanes: [usize; LANES],
-    receivers: [Receiver; LANES],
-    point: [Column; 3],
+/// Receivers that a light is to be chosen for.
+struct ReceiverQueue {
+    vertices: [usize; BATCH_SIZE],
+    receivers: [Receiver; BATCH_SIZE],
+    point: Vectors,
     /// Zero where there is none.
-    normal: [Column; 3],
+    normal: Vectors,
     /// Of each node of the tree.
-    importance: [Column; NODES],
+    importance: [Floats; MOST_NODES],
     count: usize,
 }
 
-/// Points that one light was chosen for.
-struct Group {
-    lanes: [usize; LANES],
-    probabilities: Column,
-    point: [Column; 3],
-    u: [Column; 2],
-    seen: SeenColumns,
+/// Receivers that one light was chosen for.
+struct LightQueue {
+    vertices: [usize; BATCH_SIZE],
+    probabilities: Floats,
+    point: Vectors,
+    u: [Floats; 2],
+    samples: ParallelogramSamples,
     count: usize,
 }
 
-/// [`Seen`](super::Seen) of each.
-struct SeenColumns {
-    point: [Column; 3],
-    wi: [Column; 3],
-    pdf: Column,
+/// A [`ParallelogramSample`](super::ParallelogramSample) of each.
+struct ParallelogramSamples {
+    point: Vectors,
+    wi: Vectors,
+    pdf: Floats,
 }
 
-const ZERO: Column = [0.0; LANES];
-const ZEROS: [Column; 3] = [ZERO; 3];
+const ZERO: Floats = [0.0; BATCH_SIZE];
 
-#[inline(always)]
-fn get(columns: &[Column; 3], i: usize) -> Vec3<f32> {
-    vec3(columns[0][i], columns[1][i], columns[2][i])
-}
-
-#[inline(always)]
-fn set(columns: &mut [Column; 3], i: usize, v: Vec3<f32>) {
-    columns[0][i] = v.x;
-    columns[1][i] = v.y;
-    columns[2][i] = v.z;
-}
-
-impl Waiting {
+impl LightQueues {
     pub(crate) fn new() -> Box<Self> {
         let nowhere = Receiver {
             point: Vec3::ZERO,
             normal: None,
         };
         Box::new(Self {
-            receivers: Receivers {
-                lanes: [0; LANES],
-                receivers: [nowhere; LANES],
-                point: ZEROS,
-                normal: ZEROS,
-                importance: [ZERO; NODES],
+            receivers: ReceiverQueue {
+                vertices: [0; BATCH_SIZE],
+                receivers: [nowhere; BATCH_SIZE],
+                point: Vectors::ZERO,
+                normal: Vectors::ZERO,
+                importance: [ZERO; MOST_NODES],
                 count: 0,
             },
-            sky: Group::EMPTY,
-            bundle: Bundle::ZERO,
-            facing: [const { Group::EMPTY }; NODES],
+            environment: LightQueue::EMPTY,
+            directions: DirectionBatch::ZERO,
+            parallelograms: [const { LightQueue::EMPTY }; MOST_NODES],
         })
     }
 }
 
-impl Group {
+impl LightQueue {
     const EMPTY: Self = Self {
-        lanes: [0; LANES],
+        vertices: [0; BATCH_SIZE],
         probabilities: ZERO,
-        point: ZEROS,
+        point: Vectors::ZERO,
         u: [ZERO; 2],
-        seen: SeenColumns {
-            point: ZEROS,
-            wi: ZEROS,
+        samples: ParallelogramSamples {
+            point: Vectors::ZERO,
+            wi: Vectors::ZERO,
             pdf: ZERO,
         },
         count: 0,
     };
 
-    /// Adds a point; returns whether there is no room for another.
+    /// Adds a receiver; returns whether the queue is full.
     #[inline(always)]
-    fn push(&mut self, lane: usize, probability: f32, p: Vec3<f32>, u: [f32; 2]) -> bool {
-        let at = self.count % LANES;
-        self.lanes[at] = lane;
+    fn push(&mut self, vertex: usize, probability: f32, p: Vec3<f32>, u: [f32; 2]) -> bool {
+        let at = self.count % BATCH_SIZE;
+        self.vertices[at] = vertex;
         self.probabilities[at] = probability;
-        set(&mut self.point, at, p);
+        self.point.set(at, p);
         self.u[0][at] = u[0];
         self.u[1][at] = u[1];
         self.count = at + 1;
-        self.count == LANES
+        self.count == BATCH_SIZE
     }
 }
 
 impl Lights {
     /// [`Lights::sample`] for many receivers.
     ///
-    /// * `receivers`: with their batches.
-    /// * `u`: as of [`Lights::sample`], by element.
-    /// * `shares`: takes [`Lights::share_from_infinity`], by element.
-    /// * `place`: takes what was sampled for an element, once for each.
+    /// * `receivers`: with the indices of their vertices.
+    /// * `u`: as of [`Lights::sample`], by vertex.
+    /// * `shares`: receives [`Lights::share_from_infinity`], by vertex.
+    /// * `store`: receives the light sample of a vertex, once for each.
     #[inline]
     pub(crate) fn sample_all(
         &self,
-        waiting: &mut Waiting,
+        queues: &mut LightQueues,
         receivers: impl Iterator<Item = (usize, Receiver)>,
         world: (&Geometry, &Textures),
         u: [&[f32]; 4],
         shares: &mut [f32],
-        mut place: impl FnMut(usize, Option<LightSample>),
+        mut store: impl FnMut(usize, Option<LightSample>),
     ) {
         for (i, receiver) in receivers {
-            let r = &mut waiting.receivers;
-            let at = r.count % LANES;
-            r.lanes[at] = i;
+            let r = &mut queues.receivers;
+            let at = r.count % BATCH_SIZE;
+            r.vertices[at] = i;
             r.receivers[at] = receiver;
-            set(&mut r.point, at, receiver.point);
-            set(&mut r.normal, at, receiver.normal.unwrap_or(Vec3::ZERO));
+            r.point.set(at, receiver.point);
+            r.normal.set(at, receiver.normal.unwrap_or(Vec3::ZERO));
             r.count = at + 1;
-            if r.count == LANES {
-                self.choose_all(waiting, world, u, shares, &mut place);
+            if r.count == BATCH_SIZE {
+                self.choose_all(queues, world, u, shares, &mut store);
             }
         }
-        self.choose_all(waiting, world, u, shares, &mut place);
-        self.draw_sky(waiting, &mut place);
-        for node in 0..NODES {
-            self.draw_parallelogram(waiting, node, &mut place);
+        self.choose_all(queues, world, u, shares, &mut store);
+        self.sample_environment_queue(queues, &mut store);
+        for node in 0..MOST_NODES {
+            self.sample_parallelogram_queue(queues, node, &mut store);
         }
     }
 
-    /// Chooses a light for all receivers that wait, and samples what is not sampled in batches.
+    /// Chooses lights for the queued receivers, and samples those lights that have no queue.
     fn choose_all(
         &self,
-        waiting: &mut Waiting,
+        queues: &mut LightQueues,
         world: (&Geometry, &Textures),
         u: [&[f32]; 4],
         shares: &mut [f32],
-        place: &mut impl FnMut(usize, Option<LightSample>),
+        store: &mut impl FnMut(usize, Option<LightSample>),
     ) {
-        let r = &mut waiting.receivers;
+        let r = &mut queues.receivers;
         let n = std::mem::take(&mut r.count);
         let nodes = self.selection.nodes();
-        let few = nodes.len() <= NODES;
+        let few = nodes.len() <= MOST_NODES;
         if few && self.selection.chooses() {
             for (node, column) in nodes.iter().zip(&mut r.importance) {
-                compare(n, node, &r.point, &r.normal, column);
+                node_importances(n, node, &r.point, &r.normal, column);
             }
         }
-        let sky = self.sky().map(|(_, index)| index);
+        let environment = self.environment().map(|(_, index)| index);
         for at in 0..n {
-            let r = &waiting.receivers;
-            let (lane, receiver) = (r.lanes[at], r.receivers[at]);
-            let u = u.map(|u| u[lane]);
+            let r = &queues.receivers;
+            let (vertex, receiver) = (r.vertices[at], r.receivers[at]);
+            let u = u.map(|u| u[vertex]);
             let chosen = if few {
-                let importance = |node: usize| r.importance[node % NODES][at];
-                shares[lane] = self.selection.share(&importance);
-                (self.selection).choose(&importance, shares[lane], [u[0], u[3]])
+                let importance = |node: usize| r.importance[node % MOST_NODES][at];
+                shares[vertex] = self.selection.share(&importance);
+                (self.selection).choose(&importance, shares[vertex], [u[0], u[3]])
             } else {
                 let importance = self.selection.importances(&receiver);
-                shares[lane] = self.selection.share(&importance);
-                (self.selection).choose(&importance, shares[lane], [u[0], u[3]])
+                shares[vertex] = self.selection.share(&importance);
+                (self.selection).choose(&importance, shares[vertex], [u[0], u[3]])
             };
             let Some((light, probability)) = chosen else {
-                place(lane, None);
+                store(vertex, None);
                 continue;
             };
             let (p, u) = (receiver.point, [u[1], u[2]]);
-            if Some(light) == sky {
-                if waiting.sky.push(lane, probability, p, u) {
-                    self.draw_sky(waiting, place);
+            if Some(light) == environment {
+                if queues.environment.push(vertex, probability, p, u) {
+                    self.sample_environment_queue(queues, store);
                 }
                 continue;
             }
-            match self.place_of_parallelogram(light) {
+            match self.queue_of_parallelogram(light) {
                 Some(node) => {
-                    if waiting.facing[node].push(lane, probability, p, u) {
-                        self.draw_parallelogram(waiting, node, place);
+                    if queues.parallelograms[node].push(vertex, probability, p, u) {
+                        self.sample_parallelogram_queue(queues, node, store);
                     }
                 }
-                None => place(lane, self.sample_one((light, probability), p, world, u)),
+                None => store(vertex, self.sample_one((light, probability), p, world, u)),
             }
         }
     }
 
-    /// The group of a parallelogram that is sampled in batches.
+    /// The index of the queue of a parallelogram.
     #[inline(always)]
-    fn place_of_parallelogram(&self, light: u32) -> Option<usize> {
+    fn queue_of_parallelogram(&self, light: u32) -> Option<usize> {
         let is_one = matches!(
             self.sources[light as usize],
             Source::Area {
@@ -224,40 +215,48 @@ impl Lights {
                 ..
             }
         );
-        (is_one && (light as usize) < NODES).then_some(light as usize)
+        (is_one && (light as usize) < MOST_NODES).then_some(light as usize)
     }
 
-    /// Samples directions of the sky for all that wait for one.
-    fn draw_sky(&self, waiting: &mut Waiting, place: &mut impl FnMut(usize, Option<LightSample>)) {
-        let Waiting { sky, bundle, .. } = waiting;
-        let n = std::mem::take(&mut sky.count);
-        let Some((light, _)) = self.sky().filter(|_| n > 0) else {
+    /// Samples the environment light for its queue.
+    fn sample_environment_queue(
+        &self,
+        queues: &mut LightQueues,
+        store: &mut impl FnMut(usize, Option<LightSample>),
+    ) {
+        let LightQueues {
+            environment,
+            directions,
+            ..
+        } = queues;
+        let n = std::mem::take(&mut environment.count);
+        let Some((light, _)) = self.environment().filter(|_| n > 0) else {
             return;
         };
-        bundle.u = sky.u;
-        light.sample_all(n, bundle);
+        directions.u = environment.u;
+        light.sample_all(n, directions);
         for i in 0..n {
-            let pdf = bundle.pdf[i];
+            let pdf = directions.pdf[i];
             let sampled = LightSample {
-                wi: bundle.direction(i),
-                radiance: bundle.radiance(i),
-                pdf: sky.probabilities[i] * pdf,
+                wi: directions.direction.get(i),
+                radiance: directions.radiance.colour(i),
+                pdf: environment.probabilities[i] * pdf,
                 delta: false,
-                from: None,
+                target: None,
             };
-            place(sky.lanes[i], (pdf > 0.0).then_some(sampled));
+            store(environment.vertices[i], (pdf > 0.0).then_some(sampled));
         }
     }
 
-    /// Samples points of a parallelogram for all that wait for one.
-    fn draw_parallelogram(
+    /// Samples points of a parallelogram for its queue.
+    fn sample_parallelogram_queue(
         &self,
-        waiting: &mut Waiting,
+        queues: &mut LightQueues,
         node: usize,
-        place: &mut impl FnMut(usize, Option<LightSample>),
+        store: &mut impl FnMut(usize, Option<LightSample>),
     ) {
-        let group = &mut waiting.facing[node];
-        let n = std::mem::take(&mut group.count);
+        let queue = &mut queues.parallelograms[node];
+        let n = std::mem::take(&mut queue.count);
         if n == 0 {
             return;
         }
@@ -269,61 +268,62 @@ impl Lights {
         else {
             return;
         };
-        look_at(n, light, group);
+        sample_points(n, light, queue);
         for i in 0..n {
-            let (wi, pdf) = (get(&group.seen.wi, i), group.seen.pdf[i]);
+            let (wi, pdf) = (queue.samples.wi.get(i), queue.samples.pdf[i]);
             let emits = *two_sided || light.normal.dot(wi) < 0.0;
             let sampled = LightSample {
                 wi,
                 radiance: *radiance,
-                pdf: group.probabilities[i] * pdf,
+                pdf: queue.probabilities[i] * pdf,
                 delta: false,
-                from: Some(Target {
-                    point: get(&group.seen.point, i),
+                target: Some(SurfacePoint {
+                    position: queue.samples.point.get(i),
                     error: light.error,
                     normal: light.normal,
                 }),
             };
-            place(group.lanes[i], (emits && pdf > 0.0).then_some(sampled));
+            store(queue.vertices[i], (emits && pdf > 0.0).then_some(sampled));
         }
     }
 
     /// [`Lights::arriving_from_infinity`] for many directions.
     ///
     /// * `directions`: with indices of any meaning.
-    /// * `place`: takes radiance and density of each light from infinity, for each number.
+    /// * `store`: receives radiance and density of each light from infinity, for each index.
     #[inline]
     pub(crate) fn arriving_from_infinity_all(
         &self,
-        waiting: &mut Waiting,
+        queues: &mut LightQueues,
         mut directions: impl Iterator<Item = (usize, Vec3<f32>)>,
-        mut place: impl FnMut(usize, Rgb<f32>, f32),
+        mut store: impl FnMut(usize, Rgb<f32>, f32),
     ) {
-        let mut indices = [0; LANES];
-        let bundle = &mut waiting.bundle;
+        let mut indices = [0; BATCH_SIZE];
+        let batch = &mut queues.directions;
         loop {
             let mut n = 0;
-            for (number, w) in directions.by_ref().take(LANES) {
-                indices[n] = number;
-                bundle.set_direction(n, w);
+            for (index, w) in directions.by_ref().take(BATCH_SIZE) {
+                indices[n] = index;
+                batch.direction.set(n, w);
                 n += 1;
             }
             if n == 0 {
                 return;
             }
-            for (place_in_far, (light, index)) in self.far.iter().enumerate() {
-                let probability = self.selection.probability_far(*index);
+            for (nth, (light, light_index)) in self.far.iter().enumerate() {
+                let probability = self.selection.probability_far(*light_index);
                 match light {
-                    Far::Environment(sky) if self.sky == Some(place_in_far) => {
-                        sky.arriving_all(n, bundle);
-                        for (i, &number) in indices[..n].iter().enumerate() {
-                            place(number, bundle.radiance(i), probability * bundle.pdf[i]);
+                    Far::Environment(light) if self.environment == Some(nth) => {
+                        light.arriving_all(n, batch);
+                        for (i, &index) in indices[..n].iter().enumerate() {
+                            let radiance = batch.radiance.colour(i);
+                            store(index, radiance, probability * batch.pdf[i]);
                         }
                     }
                     light => {
-                        for (i, &number) in indices[..n].iter().enumerate() {
-                            let (radiance, pdf) = light.arriving(bundle.direction(i));
-                            place(number, radiance, probability * pdf);
+                        for (i, &index) in indices[..n].iter().enumerate() {
+                            let (radiance, pdf) = light.arriving(batch.direction.get(i));
+                            store(index, radiance, probability * pdf);
                         }
                     }
                 }
@@ -331,43 +331,37 @@ impl Lights {
         }
     }
 
-    /// The light from infinity that is sampled in batches, and its number among all lights.
-    fn sky(&self) -> Option<(&Environment, u32)> {
-        match &self.far[self.sky?] {
-            (Far::Environment(sky), index) => Some((sky, *index)),
+    /// The environment light that is sampled in batches, and its index among all lights.
+    fn environment(&self) -> Option<(&Environment, u32)> {
+        match &self.far[self.environment?] {
+            (Far::Environment(light), index) => Some((light, *index)),
             (Far::Sun(_), _) => None,
         }
     }
 }
 
 /// [`Node::importance`] of a node for the first `n` receivers.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
-fn compare(
+#[apply(simd_levels)]
+fn node_importances(
     n: usize,
     node: &Node,
-    point: &[Column; 3],
-    normal: &[Column; 3],
-    importance: &mut Column,
+    point: &Vectors,
+    normal: &Vectors,
+    importance: &mut Floats,
 ) {
-    for i in 0..n.min(LANES) {
-        importance[i] = node.importance_at(get(point, i), get(normal, i));
+    for i in 0..n.min(BATCH_SIZE) {
+        importance[i] = node.importance_at(point.get(i), normal.get(i));
     }
 }
 
-/// Points of a parallelogram as the first `n` of a group see them.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
-fn look_at(n: usize, light: &Parallelogram, group: &mut Group) {
-    for i in 0..n.min(LANES) {
-        let seen = light.sample(get(&group.point, i), [group.u[0][i], group.u[1][i]]);
-        set(&mut group.seen.point, i, seen.point);
-        set(&mut group.seen.wi, i, seen.wi);
-        group.seen.pdf[i] = seen.pdf;
+/// Samples points of a parallelogram for the first `n` receivers of its queue.
+#[apply(simd_levels)]
+fn sample_points(n: usize, light: &Parallelogram, queue: &mut LightQueue) {
+    for i in 0..n.min(BATCH_SIZE) {
+        let sample = light.sample(queue.point.get(i), [queue.u[0][i], queue.u[1][i]]);
+        queue.samples.point.set(i, sample.point);
+        queue.samples.wi.set(i, sample.wi);
+        queue.samples.pdf[i] = sample.pdf;
     }
 }
 
@@ -377,7 +371,7 @@ mod tests {
     use crate::options::RenderOptions;
     use crate::prepared::PreparedScene;
     use crate::sampler::Sampler;
-    use specula_bsdf::math::warp;
+    use specula_bsdf::math::{vec3, warp};
     use specula_scene::scene::Light;
 
     /// The orbs under their picture alone, and with a sun, a point and their own lamps beside it.
@@ -407,7 +401,7 @@ mod tests {
         (a - b).abs() > 1e-5 * a.abs().max(b.abs())
     }
 
-    fn number(i: usize) -> [f32; 4] {
+    fn random_numbers(i: usize) -> [f32; 4] {
         Sampler::new([crate::convert::id(i), 1], 3, 5).light(0)
     }
 
@@ -420,21 +414,22 @@ mod tests {
     }
 
     #[test]
-    fn lanes_draw_what_is_sampled_for_one() {
+    fn batches_sample_what_is_sampled_for_one() {
         const COUNT: usize = 1000;
         for (scene, mixed) in scenes().iter().zip([false, true]) {
             let lights = &scene.lights;
             let world = (&scene.geometry, &scene.textures);
-            let u: [Vec<f32>; 4] = [0, 1, 2, 3].map(|k| (0..COUNT).map(|i| number(i)[k]).collect());
+            let u: [Vec<f32>; 4] =
+                [0, 1, 2, 3].map(|k| (0..COUNT).map(|i| random_numbers(i)[k]).collect());
             let mut sampled = vec![None; COUNT];
             let receivers = (0..COUNT).filter(|i| i % 7 != 2).map(|i| (i, receiver(i)));
-            let columns = [0, 1, 2, 3].map(|k| &u[k][..]);
+            let slices = [0, 1, 2, 3].map(|k| &u[k][..]);
             let mut shares = vec![-1.0; COUNT];
             lights.sample_all(
-                &mut Waiting::new(),
+                &mut LightQueues::new(),
                 receivers,
                 world,
-                columns,
+                slices,
                 &mut shares,
                 |i, light| {
                     assert!(sampled[i].is_none(), "twice");
@@ -442,21 +437,21 @@ mod tests {
                 },
             );
             let (mut far, mut near) = (0, 0);
-            for (i, lane) in sampled.iter().enumerate() {
-                let Some(lane) = lane else {
+            for (i, batch) in sampled.iter().enumerate() {
+                let Some(batch) = batch else {
                     assert_eq!(i % 7, 2);
                     continue;
                 };
-                let one = lights.sample(&receiver(i), world, number(i));
+                let one = lights.sample(&receiver(i), world, random_numbers(i));
                 assert_eq!(shares[i], lights.share_from_infinity(&receiver(i)));
-                let (Some(a), Some(b)) = (lane, one) else {
-                    assert!(lane.is_none() && one.is_none());
+                let (Some(a), Some(b)) = (batch, one) else {
+                    assert!(batch.is_none() && one.is_none());
                     continue;
                 };
                 assert!((a.wi - b.wi).length() < 1e-6 && !apart(a.pdf, b.pdf));
                 assert!(!apart(a.radiance.r, b.radiance.r) && !apart(a.radiance.b, b.radiance.b));
-                assert_eq!((a.delta, a.from.is_none()), (b.delta, b.from.is_none()));
-                *(if a.from.is_none() {
+                assert_eq!((a.delta, a.target.is_none()), (b.delta, b.target.is_none()));
+                *(if a.target.is_none() {
                     &mut far
                 } else {
                     &mut near
@@ -467,11 +462,11 @@ mod tests {
     }
 
     #[test]
-    fn lanes_look_up_what_is_looked_up_for_one() {
+    fn batches_evaluate_what_is_evaluated_for_one() {
         for scene in &scenes() {
             let lights = &scene.lights;
             let direction = |i: usize| {
-                let u = number(i);
+                let u = random_numbers(i);
                 let near = i.is_multiple_of(3);
                 let w: Vec3<f32> = warp::uniform_sphere([u[0], u[1]]);
                 let w = if near {
@@ -484,7 +479,7 @@ mod tests {
             let mut found = vec![Vec::new(); 500];
             let directions = (0..500).map(|i| (i, direction(i)));
             lights.arriving_from_infinity_all(
-                &mut Waiting::new(),
+                &mut LightQueues::new(),
                 directions,
                 |i, radiance, pdf| {
                     found[i].push((radiance, pdf));

@@ -22,8 +22,8 @@ use specula_scene::scene::EnvironmentMapping;
 
 use crate::convert::Affine;
 use crate::words::Words;
-pub(super) use batch::{Bundle, LANES};
-use picture::{LEAST_KEPT, Picture, Pixel, direction_and_sine, uv_and_sine};
+pub(super) use batch::{BATCH_SIZE, DirectionBatch};
+use picture::{LEAST_WEIGHT, Picture, Pixel, direction_and_sine, uv_and_sine};
 
 /// A pixel of the picture: itself with what it is sampled by, and its place in the table.
 pub(super) const BYTES_PER_PIXEL: u64 = (size_of::<Pixel>() + size_of::<f32>()) as u64;
@@ -40,7 +40,7 @@ pub(crate) struct Environment {
     radiance: Rgb<f32>,
     picture: Option<Box<Picture>>,
     /// Share of a constant light that is not left to lobes.
-    kept: f32,
+    least_weight: f32,
     to_world: Affine,
     to_light: Affine,
 }
@@ -62,7 +62,7 @@ impl Environment {
             picture: image.and_then(|(image, mapping)| {
                 Picture::new(image, mapping, beside_lobes).map(Box::new)
             }),
-            kept: if beside_lobes { LEAST_KEPT } else { 1.0 },
+            least_weight: if beside_lobes { LEAST_WEIGHT } else { 1.0 },
             to_world: Affine::linear(&m),
             to_light: Affine::linear(&m.inverse()),
         }
@@ -84,7 +84,7 @@ impl Environment {
     }
 
     /// Radiance from the direction `wi` (unit, world), and the density in 1/sr with which
-    /// [`Environment::sample`] draws it.
+    /// [`Environment::sample`] samples it.
     #[inline]
     pub(crate) fn arriving(&self, wi: Vec3<f32>) -> (Rgb<f32>, f32) {
         match &self.picture {
@@ -123,7 +123,7 @@ impl Environment {
         let factor = f64::from(self.radiance.luminance().max(self.radiance.mean()));
         factor
             * match &self.picture {
-                None => f64::from(self.kept) * 4.0 * core::f64::consts::PI,
+                None => f64::from(self.least_weight) * 4.0 * core::f64::consts::PI,
                 Some(p) => p.integral(),
             }
     }

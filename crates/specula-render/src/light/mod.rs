@@ -28,6 +28,7 @@ use specula_scene::scene::{ColourParam, Light, Scene};
 
 use crate::accel::Bounds;
 use crate::geometry::{Geometry, GroupData, Placement, ShapeRecord, Surface, parallelogram};
+use crate::offset::SurfacePoint;
 use crate::texture::Textures;
 use area::{Area, AreaSample};
 use build::Emitter;
@@ -37,10 +38,11 @@ use select::Selection;
 use sun::Sun;
 use textured::{Textured, Varying};
 
-pub(crate) use batch::Waiting;
+pub(crate) use batch::LightQueues;
 pub(crate) use environment::direction as direction_of_sphere;
 pub(crate) use node::Receiver;
-pub(crate) use parallelogram::{Parallelogram, Seen};
+pub(crate) use parallelogram::{Parallelogram, ParallelogramSample};
+pub use select::{FINER, LEAST_SHARE};
 
 #[derive(Clone, Debug)]
 enum Source {
@@ -69,12 +71,12 @@ pub(crate) struct Lights {
     sources: Vec<Source>,
     /// With their places in `sources`.
     far: Vec<(Far, u32)>,
-    /// Index in `far` of the light that is sampled in batches, if any.
-    sky: Option<usize>,
+    /// Index in `far` of the environment light that is sampled in batches, if any.
+    environment: Option<usize>,
     selection: Selection,
 }
 
-/// Light that could arrive, if nothing is in the way.
+/// A light sample, of which occlusion is not known.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightSample {
     /// Unit, towards the light.
@@ -83,18 +85,10 @@ pub(crate) struct LightSample {
     pub(crate) radiance: Rgb<f32>,
     /// Density in 1/sr, times the probability of the light; the probability alone where `delta`.
     pub(crate) pdf: f32,
-    /// Whether no direction sampled otherwise can find it.
+    /// Whether no sampled direction can hit it.
     pub(crate) delta: bool,
-    /// Where it comes from; `None`: from infinity.
-    pub(crate) from: Option<Target>,
-}
-
-/// The end of a shadow ray.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Target {
-    pub(crate) point: Vec3<f32>,
-    pub(crate) error: Vec3<f32>,
-    pub(crate) normal: Vec3<f32>,
+    /// The point of a light; `None` for light from infinity.
+    pub(crate) target: Option<SurfacePoint>,
 }
 
 /// A light that is part of a shape: itself, its place in the tree, and what that is built from.
@@ -107,7 +101,7 @@ pub(crate) const BYTES_PER_FAR_PIXEL: u64 = environment::BYTES_PER_PIXEL;
 impl Lights {
     /// Gathers the lights of a scene.
     ///
-    /// * `beside_lobes`: whether lobes are sampled from as well, weighted against lights.
+    /// * `beside_lobes`: whether lobes are sampled as well, combined by MIS.
     pub(crate) fn new(
         scene: &Scene,
         geometry: &Geometry,
@@ -117,7 +111,7 @@ impl Lights {
         let mut lights = Self {
             sources: Vec::new(),
             far: Vec::new(),
-            sky: None,
+            environment: None,
             selection: Selection::default(),
         };
         let mut near = Vec::new();
@@ -146,7 +140,7 @@ impl Lights {
             }
         }
         lights.selection = Selection::new(near, &far, lights.sources.len());
-        lights.sky = lights.far.iter().position(|(light, _)| light.is_picture());
+        lights.environment = lights.far.iter().position(|(light, _)| light.is_image());
         lights
     }
 
@@ -230,7 +224,7 @@ impl Lights {
         self.sources.len()
     }
 
-    /// Light at a point from one light.
+    /// Samples a light at a point.
     ///
     /// * `world`: what textured lights lie on.
     /// * `u`: choice of light, two for the point on it, finer digits of the choice.
@@ -269,14 +263,14 @@ impl Lights {
                 (light.two_sided || s.normal.dot(s.wi) < 0.0)
                     .then(|| from_area(&s, radiance, probability))
             }
-            Source::Far(number) => {
-                let (wi, radiance, pdf) = self.far[*number].0.sample(u)?;
+            Source::Far(index) => {
+                let (wi, radiance, pdf) = self.far[*index].0.sample(u)?;
                 Some(LightSample {
                     wi,
                     radiance,
                     pdf: probability * pdf,
                     delta: false,
-                    from: None,
+                    target: None,
                 })
             }
             Source::Delta(delta) => {
@@ -287,8 +281,8 @@ impl Lights {
                         radiance,
                         pdf: probability,
                         delta: true,
-                        from: place.map(|point| Target {
-                            point,
+                        target: place.map(|position| SurfacePoint {
+                            position,
                             error: Vec3::ZERO,
                             normal: wi,
                         }),
@@ -338,7 +332,7 @@ impl Lights {
     }
 
     /// Lights from infinity in the direction `wi`: radiance, and density in 1/sr, times the
-    /// probability among the lights from infinity. [`Lights::sample`] draws it with that density
+    /// probability among the lights from infinity. [`Lights::sample`] samples it with that density
     /// times [`Lights::share_from_infinity`].
     #[inline]
     pub(crate) fn arriving_from_infinity(
@@ -385,7 +379,7 @@ impl Far {
         }
     }
 
-    /// Radiance from a direction, and the density in 1/sr with which [`Far::sample`] draws it.
+    /// Radiance from a direction, and the density in 1/sr with which [`Far::sample`] samples it.
     #[inline]
     fn arriving(&self, wi: Vec3<f32>) -> (Rgb<f32>, f32) {
         match self {
@@ -402,8 +396,8 @@ impl Far {
         }
     }
 
-    fn is_picture(&self) -> bool {
-        matches!(self, Self::Environment(light) if light.is_picture())
+    fn is_image(&self) -> bool {
+        matches!(self, Self::Environment(light) if light.is_image())
     }
 
     fn sampled_integral(&self) -> f64 {
@@ -422,8 +416,8 @@ fn from_area(s: &AreaSample, radiance: Rgb<f32>, probability: f32) -> LightSampl
         radiance,
         pdf: probability * s.pdf,
         delta: false,
-        from: Some(Target {
-            point: s.point,
+        target: Some(SurfacePoint {
+            position: s.point,
             error: s.error,
             normal: s.normal,
         }),

@@ -1,7 +1,7 @@
 //! Parallelograms that send out light: rectangles are sampled uniformly by solid angle, others by area.
 //!
 //! Source: Urena, Fajardo and King 2013, An Area-Preserving Parametrization for Spherical Rectangles.
-//! Departures: the angles of the spherical rectangle are kept as what they exceed a right angle by, so
+//! Departures: the angles of the spherical rectangle are stored as what they exceed a right angle by, so
 //! that their sum does not cancel against a full turn; eq. for `x` without quotients of sines.
 
 use specula_bsdf::Vec3;
@@ -35,7 +35,7 @@ pub(crate) struct Parallelogram {
 
 /// A point of a parallelogram, seen from another point.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Seen {
+pub(crate) struct ParallelogramSample {
     pub(crate) point: Vec3<f32>,
     /// Towards it, unit.
     pub(crate) wi: Vec3<f32>,
@@ -98,7 +98,7 @@ impl Parallelogram {
     ///
     /// * `u`: uniform in `[0, 1)^2`.
     #[inline(always)]
-    pub(crate) fn sample(&self, p: Vec3<f32>, u: [f32; 2]) -> Seen {
+    pub(crate) fn sample(&self, p: Vec3<f32>, u: [f32; 2]) -> ParallelogramSample {
         let spread = self.spread(p);
         let solid_angle = core::f32::consts::TAU * spread.solid_angle;
         let by_angle = solid_angle >= self.least;
@@ -115,7 +115,7 @@ impl Parallelogram {
             per_area
         };
         let usable = (pdf > 0.0) & (pdf < f32::INFINITY) & (wi.length_squared() > 0.5);
-        Seen {
+        ParallelogramSample {
             point,
             wi,
             pdf: if usable { pdf } else { 0.0 },
@@ -292,7 +292,7 @@ mod tests {
         }
     }
 
-    /// No point of view brings a number that is none.
+    /// No point of view makes a value that is not a number.
     #[test]
     fn views_of_every_kind_stay_finite() {
         let (light, place) = rectangle();

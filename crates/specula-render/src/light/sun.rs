@@ -57,7 +57,7 @@ impl Sun {
         }
     }
 
-    /// Density in 1/sr with which [`Sun::sample`] draws `wi`.
+    /// Density in 1/sr with which [`Sun::sample`] samples `wi`.
     #[inline]
     pub(super) fn pdf(&self, wi: Vec3<f32>) -> f32 {
         if self.covers(wi) {

@@ -1,4 +1,4 @@
-//! The choice among lights: what is sampled, what is looked up, what could contribute.
+//! The choice among lights: samples, densities, contributions.
 
 use specula_bsdf::Vec3;
 use specula_bsdf::math::{vec3, warp::uniform_sphere};

@@ -13,7 +13,7 @@ use crate::words::Words;
 const MOST_CELLS: usize = 32;
 /// With fewer, no table is made: points are sampled uniformly.
 const LEAST_CELLS: usize = 4;
-/// Share of points of a table that are sampled uniformly: what the table missed is still found.
+/// Share of points of a table that are sampled uniformly: what the table missed is sampled too.
 const UNIFORM_SHARE: f64 = 0.1;
 /// A table pays where its largest density is this much above the uniform one.
 const WORTH_IT: f64 = 1.5;
@@ -24,7 +24,7 @@ pub(super) fn cells_for(emitters: usize) -> usize {
     budget.isqrt().clamp(2, MOST_CELLS)
 }
 
-/// The weights of a square grid with a share of their neighbours': looked at in its middle only, a
+/// The weights of a square grid with a share of their neighbours': evaluated in its middle only, a
 /// cell next to a bright one may be partly bright.
 fn blurred(weights: &[f64], cells: usize) -> Vec<f64> {
     let at = |x: usize, y: usize| {
@@ -75,7 +75,7 @@ pub(super) struct Textured {
 }
 
 impl Textured {
-    /// * `cells`: along each side of the grid on which the emission is looked at.
+    /// * `cells`: along each side of the grid on which the emission is evaluated.
     pub(super) fn new(
         area: Area,
         emits: Varying,
@@ -166,7 +166,7 @@ impl Textured {
         self.area.flatten(to);
     }
 
-    /// Density in 1/sr with which [`Textured::sample`] draws the direction from `p` to `s`.
+    /// Density in 1/sr with which [`Textured::sample`] samples the direction from `p` to `s`.
     pub(super) fn pdf(&self, p: Vec3<f32>, s: &Surface) -> f32 {
         let density = match &self.table {
             None => 1.0,

@@ -1,8 +1,8 @@
 //! A binary tree over the lights in the scene: choice by importance at a point.
 //!
 //! From the root down, either child is taken with the probability of its share of the importance of
-//! both; the path to every light is kept as a trail of bits, such that the probability of a light
-//! that a ray met by chance is the same product.
+//! both; the path to every light is stored as a trail of bits, such that the probability of a light
+//! that a ray hit by chance is the same product.
 //!
 //! Source: Conty Estevez and Kulla 2018, section 5.4; Pharr, Jakob and Humphreys, 4th edition,
 //! 12.6.3.
@@ -120,7 +120,7 @@ impl LightTree {
         }
     }
 
-    /// Probability with which [`LightTree::sample`] draws a light by the same importances.
+    /// Probability with which [`LightTree::sample`] samples a light by the same importances.
     #[inline]
     pub(super) fn probability(&self, importance: &impl Fn(usize) -> f32, light: u32) -> f32 {
         let Some(mut trail) = self.trails.get(light as usize).copied() else {

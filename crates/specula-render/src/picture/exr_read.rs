@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn a_failed_write_keeps_the_old_picture() {
+    fn a_failed_write_leaves_the_old_picture() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.exr");
         write_exr(&path, &full(), &Metadata::default()).unwrap();

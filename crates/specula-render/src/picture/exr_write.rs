@@ -125,7 +125,7 @@ fn write_blocks<'a, L: WritableLayers<'a>>(
 
 /// OpenEXR's text is one byte per character: others become question marks.
 fn latin(text: &str) -> Text {
-    let kept: String = text
+    let printable: String = text
         .chars()
         .map(|c| {
             if c.is_ascii() && !c.is_ascii_control() {
@@ -135,7 +135,7 @@ fn latin(text: &str) -> Text {
             }
         })
         .collect();
-    Text::from(kept.as_str())
+    Text::from(printable.as_str())
 }
 
 fn signed(pixel: u32) -> i32 {

@@ -180,7 +180,7 @@ impl Job<'_> {
         };
         format!(
             ": one is sample {} of pixel ({x}, {y}), {at}",
-            sample.number
+            sample.sample
         )
     }
 

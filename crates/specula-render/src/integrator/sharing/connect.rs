@@ -5,34 +5,30 @@
     reason = "an index below the arrays' length is what the compiler makes vectors of"
 )]
 
-use multiversion::multiversion;
+use macro_rules_attribute::apply;
 use specula_bsdf::Vec3;
 
-use super::super::vertex_batch::{Column, Vectors, WAVEFRONT_SIZE};
+use super::super::estimator;
+use super::super::vertex_batch::{Floats, Vectors, WAVEFRONT_SIZE};
 use super::super::wavefront::index;
 use super::Vertices;
-use super::pairs::{Found, Pairs};
+use super::pairs::{LobeValues, Pairs};
+use crate::simd::simd_levels;
 
-/// Directions in the frames of vertices; zero where they are on different sides of surface and frame.
+/// Directions in the frames of vertices; zero where their sides of surface and frame differ.
 ///
 /// * `n`: of the vertices.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
-pub(super) fn turn(n: usize, vertices: &Vertices, w: &Vectors, local: &mut Vectors) {
+#[apply(simd_levels)]
+pub(super) fn to_local(n: usize, vertices: &Vertices, w: &Vectors, local: &mut Vectors) {
     for i in 0..n.min(WAVEFRONT_SIZE) {
         local.set(i, vertices.local(i, w.get(i)));
     }
 }
 
-/// What lies between the two of each pair.
+/// Connects the two of each pair: geometry term, local directions, shadow ray.
 ///
 /// * `wo`: towards the viewers of the `x`, local.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
+#[apply(simd_levels)]
 pub(super) fn connect(x: &Vertices, y: &Vertices, wo: &Vectors, pairs: &mut Pairs) {
     for k in 0..pairs.count.min(WAVEFRONT_SIZE) {
         let (i, j) = (index(pairs.x[k]), index(pairs.y[k]));
@@ -43,35 +39,31 @@ pub(super) fn connect(x: &Vertices, y: &Vertices, wo: &Vectors, pairs: &mut Pair
         let squared = between.dot(between);
         let direction = between * (1.0 / squared.sqrt());
         let cos = -y.facing.get(j).dot(direction);
-        let is_pair =
-            x.is_far(i, to, y.error[j]) & (squared > 0.0) & (squared < f32::INFINITY) & (cos > 0.0);
+        let is_pair = x.is_connectable(i, to, y.error[j])
+            & (squared > 0.0)
+            & (squared < f32::INFINITY)
+            & (cos > 0.0);
         pairs.g[k] = if is_pair { cos / squared } else { 0.0 };
-        pairs.at_x[0].set(k, wo.get(i));
-        pairs.at_x[1].set(k, x.local(i, direction));
-        pairs.back.set(k, y.frame(j).to_local(-direction));
-        let origin = x.leave(i, direction);
-        pairs.origin.set(k, origin);
-        pairs.along.set(k, y.leave(j, -direction) - origin);
+        pairs.wo_at_x.set(k, wo.get(i));
+        pairs.wi_at_x.set(k, x.local(i, direction));
+        pairs.wo_at_y.set(k, y.frame(j).to_local(-direction));
+        let ray = estimator::shadow_ray(&x.point(i), direction, &y.point(j));
+        pairs.origin.set(k, ray.origin);
+        pairs.direction.set(k, ray.direction);
     }
 }
 
-/// Brings what pairs have into an order.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
-pub(super) fn bring(order: &[u32], from: &Vectors, to: &mut Vectors) {
+/// Gathers vectors of pairs into an order.
+#[apply(simd_levels)]
+pub(super) fn gather(order: &[u32], from: &Vectors, to: &mut Vectors) {
     for l in 0..order.len().min(WAVEFRONT_SIZE) {
         to.set(l, from.get(index(order[l])));
     }
 }
 
-/// Brings what the paths of pairs have into an order.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
-pub(super) fn bring_of(
+/// Gathers vectors of the paths of pairs into an order.
+#[apply(simd_levels)]
+pub(super) fn gather_by_path(
     order: &[u32],
     paths: &[u32; WAVEFRONT_SIZE],
     from: &Vectors,
@@ -82,48 +74,43 @@ pub(super) fn bring_of(
     }
 }
 
-/// Brings what lobes made of directions back to the pairs.
+/// Stores the values of lobes for the pairs.
 ///
 /// * `wi`: the directions; zero is none.
 /// * `(f, pdf)`: of the pairs.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
-pub(super) fn hand_back(
+#[apply(simd_levels)]
+pub(super) fn store_values(
     order: &[u32],
     wi: &Vectors,
-    found: &mut Found,
-    (f, pdf): (&mut Vectors, &mut Column),
+    values: &mut LobeValues,
+    (f, pdf): (&mut Vectors, &mut Floats),
 ) {
     let n = order.len().min(WAVEFRONT_SIZE);
     for l in 0..n {
-        let there = (wi.get(l) != Vec3::ZERO) & (found.pdf[l] > 0.0);
-        let keep = |v: f32| if there { v } else { 0.0 };
-        found.f.set_colour(l, found.f.colour(l).map(keep));
-        found.pdf[l] = keep(found.pdf[l]);
+        let is_valid = (wi.get(l) != Vec3::ZERO) & (values.pdf[l] > 0.0);
+        let or_zero = |v: f32| if is_valid { v } else { 0.0 };
+        values.f.set_colour(l, values.f.colour(l).map(or_zero));
+        values.pdf[l] = or_zero(values.pdf[l]);
     }
     for l in 0..n {
         let k = index(order[l]);
-        f.set_colour(k, found.f.colour(l));
-        pdf[k] = found.pdf[l];
+        f.set_colour(k, values.f.colour(l));
+        pdf[k] = values.pdf[l];
     }
 }
 
-/// Makes of the densities of directions at the `x` those of the `y`.
+/// Densities of directions at the `x` as densities of the `y` in area measure.
 ///
-/// * `throughput`: of the paths, up to `x`.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
-    "x86_64+avx2+fma+bmi1+bmi2"
-))]
-pub(super) fn weigh(throughput: &Vectors, pairs: &mut Pairs) {
+/// * `throughput_to_x`: of the paths.
+#[apply(simd_levels)]
+pub(super) fn to_area_measure(throughput_to_x: &Vectors, pairs: &mut Pairs) {
     for k in 0..pairs.count.min(WAVEFRONT_SIZE) {
         let (g, f) = (pairs.g[k], pairs.f.colour(k));
-        // Paths that carry nothing end, and never reach the point.
-        let carries = throughput.colour(index(pairs.x[k])) * f;
-        let goes_on = (g > 0.0) & !((carries.r == 0.0) & (carries.g == 0.0) & (carries.b == 0.0));
+        // Paths without throughput end, and never reach the point.
+        let throughput = throughput_to_x.colour(index(pairs.x[k])) * f;
+        let is_black = (throughput.r == 0.0) & (throughput.g == 0.0) & (throughput.b == 0.0);
+        let continues = (g > 0.0) & !is_black;
         pairs.f.set_colour(k, f * g);
-        pairs.p[k] = if goes_on { pairs.p[k] * g } else { 0.0 };
+        pairs.p[k] = if continues { pairs.p[k] * g } else { 0.0 };
     }
 }

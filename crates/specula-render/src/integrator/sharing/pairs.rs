@@ -1,24 +1,24 @@
-//! The pairs of an `x` and a `y` of a group: what lies between, and what the one gets of the other.
+//! The pairs of an `x` and a `y` of a group: their connections, and the radiance that `x` receives from `y`.
 
 use specula_bsdf::Rgb;
 use specula_bsdf::math::rgb;
 
-use super::super::vertex_batch::{Column, Vectors, WAVEFRONT_SIZE, ZERO};
-use super::super::visibility::TO_LIGHT;
-use super::super::wavefront::{Queue, Wavefront, index};
-use super::super::{PathTracer, bias, power_heuristic};
+use super::super::vertex_batch::{Floats, Vectors, WAVEFRONT_SIZE, ZERO};
+use super::super::wavefront::{RayQueue, Wavefront, index};
+use super::super::{PathTracer, estimator};
 use super::{Shared, connect};
 use crate::accel::Ray;
 use crate::convert::id;
 use crate::material::lobes;
+use crate::options::Strategy;
 
-/// What a lobe makes of a direction: `f |cos|` and density.
-pub(super) struct Found {
+/// Values of lobes: `f |cos|` and density.
+pub(super) struct LobeValues {
     pub(super) f: Vectors,
-    pub(super) pdf: Column,
+    pub(super) pdf: Floats,
 }
 
-/// Pairs of an `x` and a `y` of a group, side by side; those of one `y` in a row.
+/// Pairs of an `x` and a `y` of a group; those of one `y` are consecutive.
 pub(super) struct Pairs {
     pub(super) count: usize,
     /// Paths of `x` and of `y`.
@@ -26,42 +26,44 @@ pub(super) struct Pairs {
     pub(super) y: [u32; WAVEFRONT_SIZE],
     /// Cosine at `y` over squared distance, in the units of `y`'s own path; 0 where the two are too close or
     /// turned away from each other.
-    pub(super) g: Column,
+    pub(super) g: Floats,
     /// At `x`, local: towards its viewer and towards `y`.
-    pub(super) at_x: [Vectors; 2],
+    pub(super) wo_at_x: Vectors,
+    pub(super) wi_at_x: Vectors,
     /// At `y`, local: towards `x`.
-    pub(super) back: Vectors,
-    /// The ray between them.
+    pub(super) wo_at_y: Vectors,
+    /// The shadow ray between them.
     pub(super) origin: Vectors,
-    pub(super) along: Vectors,
+    pub(super) direction: Vectors,
     /// `f |cos|` at `x` times `g`.
     pub(super) f: Vectors,
-    /// Density of `y`; 0 where something stands between.
-    pub(super) p: Column,
-    /// At `y`: towards the light, and in the direction that was sampled.
-    behind: [Found; 2],
+    /// Density of `y`; 0 where it is occluded.
+    pub(super) p: Floats,
+    /// Lobe values at `y`: towards the light, and in the sampled direction.
+    values_at_y: [LobeValues; 2],
 }
 
-/// Room for evaluations.
-pub(in super::super) struct Work {
+/// Buffers of [`PathTracer::share`].
+pub(in super::super) struct PairBuffers {
     pairs: Box<Pairs>,
     /// The pairs of each `y`: its path, from, to.
     rows: Vec<(usize, usize, usize)>,
     /// Pairs by the keys of their lobes, and how many there are up to each key.
     order: Vec<u32>,
     ends: Vec<u32>,
-    /// In that order: `wo`, `wi`, and what the lobes make of them.
+    /// In that order: `wo`, `wi`, and the values of the lobes.
     wo: Vectors,
     wi: Vectors,
-    found: Found,
-    /// Directions at each `y`, local, by path; 0 where they are on different sides of surface and frame.
-    beyond: [Vectors; 2],
-    rays: Box<Queue>,
-    blocked: Vec<bool>,
+    values: LobeValues,
+    /// Directions to the light and sampled at each `y`, local, by path; 0 where their sides of surface and frame
+    /// differ.
+    wi_at_y: [Vectors; 2],
+    rays: Box<RayQueue>,
+    occluded: Vec<bool>,
 }
 
-impl Found {
-    const NONE: Self = Self {
+impl LobeValues {
+    const ZERO: Self = Self {
         f: Vectors::ZERO,
         pdf: ZERO,
     };
@@ -73,17 +75,18 @@ impl Pairs {
         x: [0; WAVEFRONT_SIZE],
         y: [0; WAVEFRONT_SIZE],
         g: ZERO,
-        at_x: [Vectors::ZERO; 2],
-        back: Vectors::ZERO,
+        wo_at_x: Vectors::ZERO,
+        wi_at_x: Vectors::ZERO,
+        wo_at_y: Vectors::ZERO,
         origin: Vectors::ZERO,
-        along: Vectors::ZERO,
+        direction: Vectors::ZERO,
         f: Vectors::ZERO,
         p: ZERO,
-        behind: [Found::NONE; 2],
+        values_at_y: [LobeValues::ZERO; 2],
     };
 }
 
-impl Work {
+impl PairBuffers {
     pub(in super::super) fn new() -> Self {
         Self {
             pairs: Box::new(Pairs::NONE),
@@ -92,10 +95,10 @@ impl Work {
             ends: Vec::new(),
             wo: Vectors::ZERO,
             wi: Vectors::ZERO,
-            found: Found::NONE,
-            beyond: [Vectors::ZERO; 2],
-            rays: Queue::new(),
-            blocked: Vec::new(),
+            values: LobeValues::ZERO,
+            wi_at_y: [Vectors::ZERO; 2],
+            rays: RayQueue::new(),
+            occluded: Vec::new(),
         }
     }
 
@@ -132,7 +135,7 @@ impl Work {
         }
     }
 
-    /// The rows and columns of a group.
+    /// Lists the pairs of a group.
     fn list(&mut self, shared: &Shared, group: core::ops::Range<usize>) {
         let pairs = &mut *self.pairs;
         for j in group.clone().filter(|&j| shared.has_y(j)) {
@@ -149,12 +152,17 @@ impl Work {
 }
 
 impl Shared {
-    /// Adds what each `x` gets from the `y` of its group.
+    /// Adds the radiance that each `x` receives from the `y` of its group.
     ///
-    /// * `radiance`: of the paths, that with a `y` behind it.
-    fn combine(&self, work: &Work, radiance: &Vectors, sums: &mut [Rgb<f32>; WAVEFRONT_SIZE]) {
+    /// * `radiance`: of the paths, from behind `y` where they have one.
+    fn combine(
+        &self,
+        work: &PairBuffers,
+        radiance: &Vectors,
+        sums: &mut [Rgb<f32>; WAVEFRONT_SIZE],
+    ) {
         let pairs = &*work.pairs;
-        let [light, sampled] = &pairs.behind;
+        let [light, sampled] = &pairs.values_at_y;
         for &(j, from, to) in &work.rows {
             let row = || (from..to.min(WAVEFRONT_SIZE)).filter(|&k| pairs.p[k] > 0.0);
             let (mut area, mut at_light, mut at_sampled) = (0.0, 0.0, 0.0);
@@ -167,56 +175,54 @@ impl Shared {
                 continue;
             }
             let lit = self.light_at(j, at_light / area) * (1.0 / area);
-            let beyond = if at_sampled > 0.0 {
-                self.found_beyond(j, at_sampled / area, radiance) * (1.0 / at_sampled)
+            let along = if at_sampled > 0.0 {
+                self.radiance_along_sample(j, at_sampled / area, radiance) * (1.0 / at_sampled)
             } else {
                 Rgb::BLACK
             };
             for k in row() {
-                let arrives = light.f.colour(k) * lit + sampled.f.colour(k) * beyond;
+                let arrives = light.f.colour(k) * lit + sampled.f.colour(k) * along;
                 sums[index(pairs.x[k])] += pairs.f.colour(k) * arrives;
             }
         }
     }
 
-    /// The light that was sampled at a `y`, weighed.
+    /// The light sample at a `y`, with its MIS weight.
     ///
-    /// * `density`: of its direction among the group's.
+    /// * `density`: of its direction, by the lobes of the group.
     fn light_at(&self, j: usize, density: f32) -> Rgb<f32> {
         let pdf = self.light_pdf[j];
         if pdf <= 0.0 {
             return Rgb::BLACK;
         }
-        let weight = if self.light_delta[j] {
-            1.0
-        } else {
-            power_heuristic(density / pdf)
-        };
+        let weight = estimator::light_weight(Strategy::Mis, self.light_delta[j], pdf, density);
         self.light.colour(j) * weight
     }
 
-    /// What came along the direction that was sampled at a `y`.
+    /// Radiance along the direction that was sampled at a `y`.
     ///
-    /// * `density`: of the direction among the group's.
-    fn found_beyond(&self, j: usize, density: f32, radiance: &Vectors) -> Rgb<f32> {
-        let (found, carried) = (radiance.colour(j), self.carried.colour(j));
+    /// * `density`: of the direction, by the lobes of the group.
+    fn radiance_along_sample(&self, j: usize, density: f32, radiance: &Vectors) -> Rgb<f32> {
+        let radiance = radiance.colour(j);
+        let throughput = self.throughput_after_y.colour(j);
         let over = |a: f32, b: f32| if b > 0.0 { a / b } else { 0.0 };
         let mut sum = rgb(
-            over(found.r, carried.r),
-            over(found.g, carried.g),
-            over(found.b, carried.b),
+            over(radiance.r, throughput.r),
+            over(radiance.g, throughput.g),
+            over(radiance.b, throughput.b),
         );
-        let first = self.met.partition_point(|met| met.path < j);
-        for met in self.met[first..].iter().take_while(|met| met.path == j) {
-            let weight = power_heuristic(met.light_pdf / density);
-            sum += met.radiance * (weight * self.roulette[j]);
+        let hits = &self.emission_hits;
+        let first = hits.partition_point(|hit| hit.path < j);
+        for hit in hits[first..].iter().take_while(|hit| hit.path == j) {
+            let weight = estimator::mis_weight(Strategy::Mis, density, hit.light_pdf);
+            sum += hit.radiance * (weight * self.roulette[j]);
         }
         sum
     }
 }
 
 impl PathTracer<'_> {
-    /// Lets the paths of a wavefront that have ended share what they found.
+    /// Lets the paths of a wavefront that have ended share their `y`.
     ///
     /// * `sizes`: of the groups, one behind the other.
     pub(crate) fn share(&self, wavefront: &mut Wavefront, sizes: &[usize]) {
@@ -226,12 +232,12 @@ impl PathTracer<'_> {
         };
         let mut sums = [Rgb::BLACK; WAVEFRONT_SIZE];
         let mut begin = 0;
-        shared.met.sort_by_key(|met| met.path);
+        shared.emission_hits.sort_by_key(|hit| hit.path);
         let all = sizes.iter().sum::<usize>().min(WAVEFRONT_SIZE);
-        for (local, w) in (work.beyond.iter_mut()).zip([&shared.towards, &shared.scatter_samples]) {
-            connect::turn(all, &shared.y, w, local);
+        for (local, w) in (work.wi_at_y.iter_mut()).zip([&shared.light_wi, &shared.sampled_wi]) {
+            connect::to_local(all, &shared.y, w, local);
         }
-        // As many groups at once as have pairs for the batch.
+        // As many groups at once as the batch has room for pairs.
         let mut rest = sizes;
         while !rest.is_empty() {
             work.pairs.count = 0;
@@ -249,19 +255,24 @@ impl PathTracer<'_> {
             rest = &rest[taken..];
             connect::connect(&shared.x, &shared.y, &shared.wo, &mut work.pairs);
             self.evaluate_x(&shared, &mut work);
-            wavefront.tally.rays += self.look(&mut work);
+            wavefront.tally.rays += self.trace_pairs(&mut work);
             self.evaluate_y(&shared, &mut work);
             shared.combine(&work, &wavefront.paths.radiance, &mut sums);
         }
         for (path, sum) in sums.iter().enumerate().take(begin) {
             let own = if shared.has_y(path) {
-                shared.before.colour(path)
+                shared.radiance_before_y.colour(path)
             } else {
                 wavefront.paths.radiance.colour(path)
             };
             // Light at a `y` was scattered there and at `x` at least.
-            let got = bias::bounded(shared.throughput.colour(path) * *sum, 2, self.bound);
-            let sum = if shared.has_x[path] { own + got } else { own };
+            let received =
+                estimator::clamp_indirect(shared.throughput.colour(path) * *sum, 2, self.bound);
+            let sum = if shared.has_x[path] {
+                own + received
+            } else {
+                own
+            };
             wavefront.paths.radiance.set_colour(path, sum);
         }
         wavefront.shared = Some(shared);
@@ -269,45 +280,48 @@ impl PathTracer<'_> {
     }
 
     /// Evaluates the lobes of the `x`.
-    fn evaluate_x(&self, shared: &Shared, work: &mut Work) {
+    fn evaluate_x(&self, shared: &Shared, work: &mut PairBuffers) {
         let key = |pairs: &Pairs, k: usize| shared.x.key[index(pairs.x[k])];
         work.sort(self.key_count(), |pairs, k| pairs.g[k] > 0.0, key);
-        let Work {
+        let PairBuffers {
             pairs,
             order,
             wo,
             wi,
-            found,
+            values,
             ..
         } = work;
-        connect::bring(order, &pairs.at_x[0], wo);
-        connect::bring(order, &pairs.at_x[1], wi);
-        self.evaluate(&work.ends, wo, wi, found);
-        connect::hand_back(order, wi, found, (&mut pairs.f, &mut pairs.p));
-        connect::weigh(&shared.throughput, pairs);
+        connect::gather(order, &pairs.wo_at_x, wo);
+        connect::gather(order, &pairs.wi_at_x, wi);
+        self.evaluate(&work.ends, wo, wi, values);
+        connect::store_values(order, wi, values, (&mut pairs.f, &mut pairs.p));
+        connect::to_area_measure(&shared.throughput, pairs);
     }
 
     /// Evaluates the lobes of the `y`.
-    fn evaluate_y(&self, shared: &Shared, work: &mut Work) {
+    fn evaluate_y(&self, shared: &Shared, work: &mut PairBuffers) {
         let key = |pairs: &Pairs, k: usize| shared.y.key[index(pairs.y[k])];
         work.sort(self.key_count(), |pairs, k| pairs.p[k] > 0.0, key);
-        let Work {
+        let PairBuffers {
             pairs,
             order,
             wo,
             wi,
-            found,
-            beyond,
+            values,
+            wi_at_y,
             ..
         } = work;
         let Pairs {
-            y, back, behind, ..
+            y,
+            wo_at_y,
+            values_at_y,
+            ..
         } = &mut **pairs;
-        connect::bring(order, back, wo);
-        for (beyond, behind) in beyond.iter().zip(behind) {
-            connect::bring_of(order, y, beyond, wi);
-            self.evaluate(&work.ends, wo, wi, found);
-            connect::hand_back(order, wi, found, (&mut behind.f, &mut behind.pdf));
+        connect::gather(order, wo_at_y, wo);
+        for (wi_at_y, at_y) in wi_at_y.iter().zip(values_at_y) {
+            connect::gather_by_path(order, y, wi_at_y, wi);
+            self.evaluate(&work.ends, wo, wi, values);
+            connect::store_values(order, wi, values, (&mut at_y.f, &mut at_y.pdf));
         }
     }
 
@@ -319,7 +333,7 @@ impl PathTracer<'_> {
     /// Evaluates lobes of sorted pairs.
     ///
     /// * `ends`: of each key.
-    fn evaluate(&self, ends: &[u32], wo: &Vectors, wi: &Vectors, found: &mut Found) {
+    fn evaluate(&self, ends: &[u32], wo: &Vectors, wi: &Vectors, values: &mut LobeValues) {
         let mut from = 0;
         for (key, &end) in (0..).zip(&ends[..self.key_count()]) {
             let to = (end as usize).min(WAVEFRONT_SIZE);
@@ -329,23 +343,23 @@ impl PathTracer<'_> {
             if let Some(sides) = self.scene.materials.plain(key / 2) {
                 lobes::eval_pdf(
                     &sides[(key % 2) as usize].lobe,
-                    wo.directions(from, to),
-                    wi.directions(from, to),
+                    wo.directions(from..to),
+                    wi.directions(from..to),
                     &mut [],
-                    found.f.colours_mut(from, to),
-                    &mut found.pdf[from..to],
+                    values.f.colours_mut(from..to),
+                    &mut values.pdf[from..to],
                 );
             }
             from = to;
         }
     }
 
-    /// Takes out the pairs that do not see each other; returns how many rays that took.
-    fn look(&self, work: &mut Work) -> u64 {
-        let Work {
+    /// Removes the pairs that are occluded from each other; returns how many rays were traced.
+    fn trace_pairs(&self, work: &mut PairBuffers) -> u64 {
+        let PairBuffers {
             pairs,
             rays,
-            blocked,
+            occluded,
             ..
         } = work;
         rays.clear();
@@ -353,15 +367,22 @@ impl PathTracer<'_> {
             if pairs.x[k] != pairs.y[k] && pairs.p[k] > 0.0 {
                 let ray = Ray {
                     origin: pairs.origin.get(k),
-                    direction: pairs.along.get(k),
-                    t_max: TO_LIGHT,
+                    direction: pairs.direction.get(k),
+                    t_max: estimator::SHADOW_RAY_END,
                 };
                 rays.push(id(k), ray);
             }
         }
-        self.scene.geometry.accel.occluded_all(rays.rays(), blocked);
-        for (r, _) in blocked.iter().enumerate().filter(|(_, blocked)| **blocked) {
-            pairs.p[rays.number(r)] = 0.0;
+        self.scene
+            .geometry
+            .accel
+            .occluded_all(rays.rays(), occluded);
+        for (r, _) in occluded
+            .iter()
+            .enumerate()
+            .filter(|(_, occluded)| **occluded)
+        {
+            pairs.p[rays.index(r)] = 0.0;
         }
         rays.len() as u64
     }

@@ -19,9 +19,9 @@ use crate::words::Words;
 /// Red, green, blue, and what is sampled by.
 pub(super) type Pixel = [f32; 4];
 
-/// What lights sampled beside lobes keep of a pixel that is darker than the sky's mean: lobes whose density
-/// is wrong, or which draw nothing, still have their light from there.
-pub(super) const LEAST_KEPT: f32 = 0.01;
+/// Least share of its weight that MIS compensation leaves a pixel darker than the mean: lobes whose density is
+/// wrong, or which sample nothing, still get light from there.
+pub(super) const LEAST_WEIGHT: f32 = 0.01;
 
 /// A picture, ready to be sampled from.
 #[derive(Clone, Debug)]
@@ -87,14 +87,14 @@ impl Picture {
         Some(picture)
     }
 
-    /// Takes the mean over the sphere off what is sampled by: drawing from lobes finds what is as bright
+    /// Takes the mean over the sphere off what is sampled by: sampling lobes covers what is as bright
     /// everywhere, so that samples of lights do more in what stands out.
     ///
     /// Source: Karlik et al. 2019, "MIS Compensation", for light from a picture (there without a floor).
     fn leave_to_lobes(&mut self) {
         let mean = narrow(self.integral() / (4.0 * core::f64::consts::PI));
         for [_, _, _, strength] in &mut self.corners {
-            *strength = (*strength - mean).max(LEAST_KEPT * *strength);
+            *strength = (*strength - mean).max(LEAST_WEIGHT * *strength);
         }
         self.tabulate();
     }

@@ -1,4 +1,4 @@
-//! HDR-FLIP: the largest LDR-FLIP over the exposures at which a picture can be looked at.
+//! HDR-FLIP: the largest LDR-FLIP over the exposures at which a picture can be viewed.
 
 use specula_bsdf::Rgb;
 
@@ -60,7 +60,7 @@ fn tone(value: f32, gain: f32) -> f32 {
     if !value.is_finite() {
         return 0.0;
     }
-    // Far beyond white: keeps the squares finite.
+    // Far beyond white: the squares stay finite.
     let x = (value * gain).clamp(0.0, 1.0e6);
     let mapped = (K[0] * x * x + K[1] * x + K[2]) / (K[3] * x * x + K[4] * x + K[5]);
     mapped.clamp(0.0, 1.0)
