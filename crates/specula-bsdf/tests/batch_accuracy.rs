@@ -61,7 +61,7 @@ where
     let samples = samples.as_slices();
     for (i, &density) in pdf.iter().enumerate() {
         let (wo, wi): (Vec3<f64>, Vec3<f64>) =
-            (wo.get(i).unwrap().cast(), wi.get(i).unwrap().cast());
+            (wo.get(i).expect("an element").cast(), wi.get(i).expect("an element").cast());
         let (f, p) = twin.eval_pdf(wo, wi, transport);
         worst.see(0, f_cos.g[i], f.g);
         worst.see(1, density, p);
@@ -69,7 +69,7 @@ where
             samples.kind[i],
             SampleOutcome::Reflection | SampleOutcome::Transmission
         ) {
-            let wi = samples.wi.get(i).unwrap().cast();
+            let wi = samples.wi.get(i).expect("an element").cast();
             let (f, p) = twin.eval_pdf(wo, wi, transport);
             worst.see(2, samples.weight.g[i], f.g / p);
             worst.see(3, samples.pdf[i], p);
@@ -156,8 +156,8 @@ fn directions_stay_within_their_bound() {
                     .sample_reflection(sampler, alphas, wo, u, got.as_mut_slices())
                     .unwrap();
                 for i in 0..N {
-                    let got: Vec3<f64> = got.as_slices().get(i).unwrap().cast();
-                    let expected = expected.as_slices().get(i).unwrap();
+                    let got: Vec3<f64> = got.as_slices().get(i).expect("an element").cast();
+                    let expected = expected.as_slices().get(i).expect("an element");
                     // At the horizon one may be rejected and the other not.
                     if got.z.min(expected.z) > 1e-5 {
                         worst = worst.max((got - expected).length());

@@ -55,7 +55,7 @@ fn eval<T: Real>(level: Level, metal: &MultibounceConductor<T>, of: &Elements<T>
         .eval_pdf_random(metal, wo, wi, &mut streams, f_cos.as_mut_slices(), &mut pdf)
         .expect("equal lengths");
     let rows = streams.iter_mut().enumerate().map(|(i, stream)| {
-        let f = f_cos.as_slices().get(i).unwrap();
+        let f = f_cos.as_slices().get(i).expect("as many as elements");
         row([f.r, f.g, f.b, pdf[i], T::ZERO, T::ZERO, T::ZERO], stream)
     });
     rows.collect()
@@ -65,8 +65,8 @@ fn eval_scalar<T: Real>(metal: &MultibounceConductor<T>, of: &Elements<T>) -> Ve
     let mut streams = streams(of.wo.x.len());
     let rows = streams.iter_mut().enumerate().map(|(i, stream)| {
         let (wo, wi) = (
-            of.wo.as_slices().get(i).unwrap(),
-            of.wi.as_slices().get(i).unwrap(),
+            of.wo.as_slices().get(i).expect("an element"),
+            of.wi.as_slices().get(i).expect("an element"),
         );
         let (f, pdf) = metal.eval_pdf_random(wo, wi, Transport::Radiance, stream);
         row([f.r, f.g, f.b, pdf, T::ZERO, T::ZERO, T::ZERO], stream)
@@ -89,7 +89,8 @@ fn sample<T: Real>(level: Level, metal: &MultibounceConductor<T>, of: &Elements<
         .expect("equal lengths");
     let samples = samples.as_slices();
     let rows = streams.iter_mut().enumerate().map(|(i, stream)| {
-        let (wi, f) = (samples.wi.get(i).unwrap(), samples.weight.get(i).unwrap());
+        let (wi, f) = (samples.wi.get(i), samples.weight.get(i));
+        let (wi, f) = (wi.expect("an element"), f.expect("an element"));
         let is_reflection = samples.kind[i] == SampleOutcome::Reflection;
         assert_eq!(is_reflection, samples.pdf[i] > T::ZERO);
         row([f.r, f.g, f.b, samples.pdf[i], wi.x, wi.y, wi.z], stream)
@@ -101,7 +102,7 @@ fn sample_scalar<T: Real>(metal: &MultibounceConductor<T>, of: &Elements<T>) -> 
     let mut streams = streams(of.wo.x.len());
     let rows = streams.iter_mut().enumerate().map(|(i, stream)| {
         let u = of.u().map(|u| u[i]);
-        let wo = of.wo.as_slices().get(i).unwrap();
+        let wo = of.wo.as_slices().get(i).expect("an element");
         let sample = metal.sample_random(wo, u, Transport::Radiance, stream);
         let values = sample.map_or([T::ZERO; 7], |s| {
             let (f, wi) = (s.weight, s.wi);

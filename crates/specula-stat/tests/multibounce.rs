@@ -4,10 +4,8 @@ mod common;
 
 use common::alpha;
 use rayon::prelude::*;
-use specula_bsdf::bsdf::{
-    MultibounceConductor as Conductor, MultibounceDielectric as Dielectric,
-    MultibounceDiffuse as Diffuse,
-};
+use specula_bsdf::bsdf::MultibounceConductor as Conductor;
+use specula_bsdf::bsdf::{MultibounceDielectric as Dielectric, MultibounceDiffuse as Diffuse};
 use specula_bsdf::fresnel::{Conductor as Metal, Reflectance};
 use specula_bsdf::internal::DepthState;
 use specula_bsdf::math::{Real, Stream, rgb, vec3};

@@ -49,10 +49,10 @@ fn compiler(wanted: &str) -> Result<Option<PathBuf>> {
         }
         return Ok(Some(named));
     }
-    let mut rustup = Command::new("rustup");
-    rustup.args(["which", "rustc", "--toolchain"]);
     let asked = [wanted.to_owned(), format!("{wanted}.0")].map(|toolchain| {
-        let answer = rustup.arg(toolchain).output().ok()?;
+        let mut rustup = Command::new("rustup");
+        rustup.args(["which", "rustc", "--toolchain", &toolchain]);
+        let answer = rustup.output().ok()?;
         let path = String::from_utf8(answer.stdout).ok()?;
         answer.status.success().then(|| PathBuf::from(path.trim()))
     });
