@@ -83,7 +83,10 @@ fn scalar<T: Real, L: Bsdf<T>>(lobe: &L, e: &Elements<T>) -> Outcome<T> {
     };
     let (wo, wi) = (e.wo.as_slices(), e.wi.as_slices());
     for i in 0..n {
-        let (wo, wi) = (wo.get(i).expect("an element"), wi.get(i).expect("an element"));
+        let (wo, wi) = (
+            wo.get(i).expect("an element"),
+            wi.get(i).expect("an element"),
+        );
         push(&mut out.f_cos, lobe.eval(wo, wi, Transport::Radiance));
         out.pdf.push(lobe.pdf(wo, wi));
         let (f_cos, pdf) = lobe.eval_pdf(wo, wi, Transport::Radiance);
@@ -317,7 +320,11 @@ fn per_element_colours_are_one_lobe_each() {
         for level in levels() {
             let many = batch(level, &textured, &elements);
             for i in (0..N).step_by(7) {
-                let colour = f0.as_slices().get(i).expect("an element").map(|x| x.within(0.0, 1.0));
+                let colour = f0
+                    .as_slices()
+                    .get(i)
+                    .expect("an element")
+                    .map(|x| x.within(0.0, 1.0));
                 let reflectance = Reflectance::Schlick(Schlick { f0: colour });
                 let one = batch_common::metal([alpha_x[i], alpha_y[i]], reflectance);
                 let one = batch(level, &one.with_sampler(sampler), &elements);
@@ -367,7 +374,10 @@ fn bare_samplers_are_the_scalar_ones() {
                 .unwrap();
             for i in 0..N {
                 let u = [u[0][i], u[1][i]];
-                let (wo, wi) = (wo.get(i).expect("an element"), wi.get(i).expect("an element"));
+                let (wo, wi) = (
+                    wo.get(i).expect("an element"),
+                    wi.get(i).expect("an element"),
+                );
                 let (expected, density) = match sampler {
                     Sampler::Heitz => (
                         vndf::heitz::sample_reflection(alpha, wo, u),

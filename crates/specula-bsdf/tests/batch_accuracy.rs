@@ -60,8 +60,10 @@ where
         .expect("equal lengths");
     let samples = samples.as_slices();
     for (i, &density) in pdf.iter().enumerate() {
-        let (wo, wi): (Vec3<f64>, Vec3<f64>) =
-            (wo.get(i).expect("an element").cast(), wi.get(i).expect("an element").cast());
+        let (wo, wi): (Vec3<f64>, Vec3<f64>) = (
+            wo.get(i).expect("an element").cast(),
+            wi.get(i).expect("an element").cast(),
+        );
         let (f, p) = twin.eval_pdf(wo, wi, transport);
         worst.see(0, f_cos.g[i], f.g);
         worst.see(1, density, p);

@@ -11,7 +11,7 @@ use specula_bsdf::internal::DepthState;
 use specula_bsdf::math::{Real, Stream, rgb, vec3};
 use specula_bsdf::multibounce::MultibounceModel as Model;
 use specula_bsdf::ndf::{Beckmann, Ggx, Ndf};
-use specula_bsdf::vndf::VisibleNormals;
+use specula_bsdf::vndf::VisibleNormals as Normals;
 use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, Vec3};
 use specula_stat::z_test::Moments;
 
@@ -120,7 +120,7 @@ fn single_precision_has_the_same_means() {
     }
 }
 
-fn models_agree<N: VisibleNormals<f64> + Sync>(ndf: impl Fn(Alpha<f64>) -> N, n: u64) {
+fn models_agree<N: Normals<f64> + Sync>(ndf: impl Fn(Alpha<f64>) -> N, n: u64) {
     let views = [
         (at(20.0, 10.0), at(50.0, 200.0)),
         (at(65.0, 40.0), at(35.0, 100.0)),
@@ -162,12 +162,7 @@ fn models_agree_on_beckmann() {
 }
 
 /// Albedo for F = 1 by uniform directions and by the model's own samples.
-fn furnace<N: VisibleNormals<f64> + Sync>(
-    ndf: N,
-    model: Model,
-    wo: Vec3<f64>,
-    n: u64,
-) -> [Moments; 2] {
+fn furnace<N: Normals<f64> + Sync>(ndf: N, model: Model, wo: Vec3<f64>, n: u64) -> [Moments; 2] {
     let lobe = Conductor::new(ndf, white(), model);
     let evaluated = moments(7, n, |s| {
         // Half by the single-scattering lobe's normals, half by cosine: the balance heuristic.
