@@ -13,8 +13,12 @@ use specula_bsdf::vndf::Sampler;
 use specula_bsdf::{Alpha, Event, Frame, Transport};
 
 fn back<V: Serialize + DeserializeOwned + PartialEq + core::fmt::Debug>(value: V) {
-    let text = serde_json::to_string(&value).unwrap();
-    assert_eq!(serde_json::from_str::<V>(&text).unwrap(), value, "{text}");
+    let text = serde_json::to_string(&value).expect("written");
+    assert_eq!(
+        serde_json::from_str::<V>(&text).expect("read"),
+        value,
+        "{text}"
+    );
 }
 
 #[test]
