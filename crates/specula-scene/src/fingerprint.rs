@@ -9,13 +9,17 @@ use twox_hash::XxHash3_64;
 use crate::scene::{Scene, Settings};
 use parts::Part;
 
+/// Version of the bytes that `parts` feeds. Whoever changes them raises it, and the version of the format of films.
+const ENCODING: u32 = 1;
+
 /// Bytes gathered before they are hashed.
 const BLOCK: usize = 1 << 16;
 
 impl Scene {
     /// A hash (XXH3) of everything in the scene that affects a picture: scenes with the same number render
     /// the same, but for a chance of 2^-64. Names, and the depth and samples that the file asks for, are
-    /// not part of it. Other versions of this crate may compute other numbers.
+    /// not part of it. The number depends on
+    /// neither machine nor compiler, but on the version of its encoding.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
         // In full, so that a field added to the scene is not forgotten here.
@@ -42,6 +46,7 @@ impl Scene {
             floor: _,
         } = self;
         let mut hash = BlockHasher::new();
+        ENCODING.feed(&mut hash);
         camera.feed(&mut hash);
         film.feed(&mut hash);
         hide_emitters.feed(&mut hash);
@@ -71,6 +76,7 @@ impl BlockHasher {
         }
     }
 
+    #[inline(always)]
     fn bytes(&mut self, bytes: &[u8]) {
         if self.block.len() + bytes.len() > BLOCK {
             self.state.write(&self.block);
@@ -87,7 +93,45 @@ impl BlockHasher {
 
 #[cfg(test)]
 mod tests {
+    use specula_bsdf::Rgb;
+
+    use super::parts::Part;
+    use super::*;
     use crate::builtin;
+    use crate::scene::{
+        ColourParam, ConductorFresnel, FloatParam, Light, Material, MaterialKind, Roughness,
+        RoughnessMapping, SpotFalloff, TextureId,
+    };
+
+    /// A change of these numbers is one of `ENCODING` and of the version of the format of films.
+    #[test]
+    fn the_encoding_is_pinned() {
+        let hash_of = |part: &dyn Part| {
+            let mut hash = BlockHasher::new();
+            part.feed(&mut hash);
+            hash.finish()
+        };
+        let light = Light::Spot {
+            position: [1.0, 2.0, 3.0],
+            axis: [0.0, 0.0, -1.0],
+            intensity: Rgb::splat(4.0),
+            cone_angle_deg: 30.0,
+            falloff_start_deg: 25.0,
+            falloff: SpotFalloff::SquaredCosine,
+        };
+        let material = Material::new(MaterialKind::Conductor {
+            fresnel: ConductorFresnel::Schlick(ColourParam::WHITE),
+            roughness: Roughness::isotropic(FloatParam::Value(0.25), RoughnessMapping::Square),
+            tint: ColourParam::Texture(TextureId(3)),
+        });
+        let numbers = [hash_of(&-0.5_f32), hash_of(&light), hash_of(&material)];
+        let expected = [
+            9_050_541_880_367_011_843,
+            13_737_838_858_724_066_537,
+            5_838_357_727_180_731_617,
+        ];
+        assert_eq!(numbers, expected);
+    }
 
     #[test]
     fn any_change_that_shows_changes_the_number() {

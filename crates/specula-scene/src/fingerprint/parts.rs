@@ -25,6 +25,7 @@ pub(super) trait Part {
 macro_rules! numbers {
     ($($type:ty),+) => {
         $(impl Part for $type {
+            #[inline(always)]
             fn feed(&self, hash: &mut BlockHasher) {
                 hash.bytes(&self.to_le_bytes());
             }
@@ -66,6 +67,7 @@ impl<T: Part> Part for Vec<T> {
 }
 
 impl<T: Part, const N: usize> Part for [T; N] {
+    #[inline(always)]
     fn feed(&self, hash: &mut BlockHasher) {
         for item in self {
             item.feed(hash);
