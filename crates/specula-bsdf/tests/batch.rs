@@ -116,7 +116,7 @@ const ALPHAS: [[f32; 2]; 4] = [[0.3, 0.3], [0.1, 0.8], [1e-3, 1e-3], [4.0, 0.5]]
 fn levels() -> Vec<Level> {
     let (here, lacking): (Vec<_>, Vec<_>) = Level::ALL.into_iter().partition(|l| l.is_available());
     for level in lacking {
-        println!("skipped: this machine has no {level}");
+        specula_testing::not_of_this_machine("batches", format_args!("no {level}"));
     }
     here
 }

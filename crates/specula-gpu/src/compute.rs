@@ -210,11 +210,13 @@ mod tests {
         }";
 
     /// The best adapter; without one the test says that it is skipped.
-    #[allow(clippy::print_stdout, reason = "a test that is skipped says so")]
+    #[track_caller]
     fn gpu() -> Option<Gpu> {
         let gpu = Gpu::open(&AdapterChoice::Best);
         if let Err(error) = &gpu {
-            println!("SKIPPED: {error}");
+            let required = std::env::var("SPECULA_GPU").is_ok_and(|v| v == "require");
+            assert!(!required, "SPECULA_GPU=require, but: {error}");
+            specula_testing::skip("kernels", error, "apt-get install mesa-vulkan-drivers");
         }
         gpu.ok()
     }

@@ -1,8 +1,6 @@
 //! Scenes that people render, on the GPU beside the processor: the same samples, pixel by pixel.
 //!
-//! Those of `data/versus` that need no file made first in every run. Real scenes by others, which are not part of the repository, where
-//! they lie beside it in `shared/scenes`, with `SPECULA_REAL_SCENES=1`: minutes on
-//! a GPU in software.
+//! Those of `data/versus` that need no file made first, and some of `data/scenes`, which are by others.
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail loudly")]
 #![allow(clippy::print_stdout, reason = "a suite says how much it checked")]
 
@@ -91,31 +89,15 @@ fn scenes_of_the_comparison() {
 
 #[test]
 fn real_scenes() {
-    if std::env::var_os("SPECULA_REAL_SCENES").is_none() {
-        println!("SKIPPED: real scenes: they take minutes; SPECULA_REAL_SCENES=1 renders them");
-        return;
-    }
     let Some(gpu) = gpu("real scenes") else {
         return;
     };
-    let folder = root().join("../shared/scenes");
-    let mut found = 0;
     for name in [
         "cornell-box/cornell-box.pbrt",
-        "cornell-box/cornell-box-silver.pbrt",
         "cornell-box/cornell-box-environment-map.pbrt",
         "veach-mis/veach-mis.pbrt",
-        "material-testball/material-testball.pbrt",
-        "staircase2/staircase2.pbrt",
-        "bmw-m6/bmw-m6.pbrt",
-        "gltf-shaderballs/boombox.glb",
-        "gltf-shaderballs/shaderball.glb",
+        "gltf/boombox.glb",
     ] {
-        let file = folder.join(name);
-        if file.exists() {
-            check(gpu, &file, 0.02);
-            found += 1;
-        }
+        check(gpu, &specula_testing::scene(name), 0.02);
     }
-    println!("{found} scenes");
 }

@@ -1,9 +1,8 @@
-//! Scenes of Mitsuba 3's test-suite, read and rendered here, against its reference pictures.
+//! Mitsuba's scenes of `data/scenes`, rendered here, against reference pictures by Mitsuba 3.
 //!
-//! The scenes are data of another project and lie beside this one; where they are absent the test
-//! says so. For each scene the picture's mean, its 8 x 8 tiles and its pixels must agree with the
-//! reference within the noise of both. `SPECULA_SPHERES_SPP` sets the samples per pixel, and
-//! `SPECULA_SPHERES` picks scenes whose name contains it.
+//! For each scene the picture's mean, its 8 x 8 tiles and its pixels must agree with the reference within the
+//! noise of both. `SPECULA_SPHERES_SPP` sets the samples per pixel, and `SPECULA_SPHERES` selects scenes whose
+//! name contains it.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -15,26 +14,15 @@ use specula_scene::{Format, LoadOptions, Scene, load_as};
 use specula_stat::Report;
 use specula_stat::image::{NoisyImage, compare};
 
-/// Samples per pixel of the references. Their variances are those of one sample; this many explain
-/// how far a render of 8192 samples by Mitsuba 3.9.1 is from them.
+/// Samples per pixel of the references. Their variances are those of one sample.
 const REFERENCE_SAMPLES: f64 = 16_384.0;
 /// Chance of a false alarm over the whole test.
 const SIGNIFICANCE: f64 = 0.01;
-/// A reference whose white is not Specula's: the background, an emitter of radiance 1 by default, has
-/// these values there. Mitsuba 3.9.1 renders it as (1, 1, 1), too, and is as far from it.
-const OLD_WHITE: (&str, [f32; 3]) = ("test_constant", [1.001_084, 0.999_708, 0.999_703]);
-
-fn spheres() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/scenes/mitsuba-bsdf-spheres")
-}
 
 #[test]
 fn mitsubas_references_are_met() {
-    let root = spheres();
-    let Ok(files) = std::fs::read_dir(root.join("bsdf_spheres")) else {
-        println!("skipped: {} is not there", root.display());
-        return;
-    };
+    let root = specula_testing::scene("mitsuba");
+    let files = std::fs::read_dir(&root).expect("a folder");
     let wanted = std::env::var("SPECULA_SPHERES").unwrap_or_default();
     let mut scenes: Vec<PathBuf> = files
         .map(|f| f.unwrap().path())
@@ -61,16 +49,16 @@ fn mitsubas_references_are_met() {
     assert!(failing.is_empty(), "not as in the references: {failing:?}");
 }
 
-/// `test_bumpmap` of `.../test_bumpmap_path.xml`.
+/// `bumpmap` of `.../bumpmap.xml`.
 fn name_of(path: &Path) -> String {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    stem.trim_end_matches("_path").to_owned()
+    let stem = path.file_stem().unwrap_or_default();
+    stem.to_string_lossy().into_owned()
 }
 
 /// Renders a scene and compares it: a line with the least p-values, and whether all pass.
 fn compared(root: &Path, path: &Path, samples: u32) -> (String, bool) {
     let name = name_of(path);
-    let picture = render(&load(root, path), samples);
+    let picture = render(&load(path), samples);
     if let Ok(folder) = std::env::var("SPECULA_SPHERES_OUT") {
         let file = Path::new(&folder).join(format!("{name}.exr"));
         specula_render::picture::write_exr(&file, &picture, &Default::default()).expect("writable");
@@ -96,26 +84,22 @@ fn compared(root: &Path, path: &Path, samples: u32) -> (String, bool) {
 /// What is found when a picture's channels are compared with the reference's.
 fn against_reference(root: &Path, name: &str, picture: &Picture, samples: f64) -> Vec<Report> {
     let reference = |suffix: &str| {
-        let file = format!("bsdf_spheres/refs/{name}_ref_rgb{suffix}.exr");
+        let file = format!("references/{name}{suffix}.exr");
         read_exr(&root.join(file)).expect("a reference")
     };
-    let (mean, variance) = (reference(""), reference("_var"));
+    let (mean, variance) = (reference(""), reference("-variance"));
     assert_eq!([mean.width, mean.height], [picture.width, picture.height]);
     let one_sample: Vec<f64> = variance.colour.iter().map(|v| one_sample(*v)).collect();
     let their_noise: Vec<f64> = one_sample.iter().map(|v| v / REFERENCE_SAMPLES).collect();
-    let white = match name {
-        _ if name == OLD_WHITE.0 => OLD_WHITE.1,
-        _ => [1.0; 3],
-    };
     let compare_channel = |channel: usize| {
-        let of = |layer: &[Rgb<f32>], factor: f64| -> Vec<f64> {
-            let value = |c: &Rgb<f32>| f64::from(c.to_array()[channel]) * factor;
+        let of = |layer: &[Rgb<f32>]| -> Vec<f64> {
+            let value = |c: &Rgb<f32>| f64::from(c.to_array()[channel]);
             layer.iter().map(value).collect()
         };
-        let specula = of(&picture.colour, f64::from(white[channel]));
-        let theirs = of(&mean.colour, 1.0);
+        let specula = of(&picture.colour);
+        let theirs = of(&mean.colour);
         // Few samples may miss what is rare, and then know nothing of its noise; the reference does.
-        let our_noise: Vec<f64> = of(&picture.variance, 1.0)
+        let our_noise: Vec<f64> = of(&picture.variance)
             .into_iter()
             .zip(&one_sample)
             .map(|(v, one)| v.max(one / samples))
@@ -135,10 +119,8 @@ fn against_reference(root: &Path, name: &str, picture: &Picture, samples: f64) -
     (0..3).map(compare_channel).collect()
 }
 
-fn load(root: &Path, path: &Path) -> Scene {
-    let mut options = LoadOptions::default();
-    options.folders = vec![root.join("common")];
-    let loaded = load_as(path, Format::Mitsuba, &options);
+fn load(path: &Path) -> Scene {
+    let loaded = load_as(path, Format::Mitsuba, &LoadOptions::default());
     let loaded = loaded.unwrap_or_else(|e| panic!("{}: {e}", e.place()));
     loaded.scene
 }
@@ -146,14 +128,9 @@ fn load(root: &Path, path: &Path) -> Scene {
 /// Pictures that are wrong in a small way are told apart: mirrored, 3 % too bright, one pixel.
 #[test]
 fn wrong_pictures_are_told_apart() {
-    let root = spheres();
-    let name = "test_textured_diffuse";
-    let path = root.join(format!("bsdf_spheres/{name}_path.xml"));
-    if !path.exists() {
-        println!("skipped: {} is not there", path.display());
-        return;
-    }
-    let good = render(&load(&root, &path), 64);
+    let root = specula_testing::scene("mitsuba");
+    let name = "textured-diffuse";
+    let good = render(&load(&root.join(format!("{name}.xml"))), 64);
     let passes = |picture: &Picture| {
         against_reference(&root, name, picture, 64.0)
             .iter()
@@ -173,10 +150,8 @@ fn wrong_pictures_are_told_apart() {
     assert!(!passes(&dotted), "one pixel");
 }
 
-/// Variance of one sample of a pixel of a reference.
-///
-/// The files hold differences of moments that were converted as colours: one channel or another is
-/// negative. So the largest counts for all, and at least what Mitsuba's own test takes for least.
+/// Variance of one sample of a pixel of a reference: the largest channel's, and at least what Mitsuba's own
+/// test takes for least.
 fn one_sample(variance: Rgb<f32>) -> f64 {
     f64::from(variance.max_channel()).max(1e-4)
 }

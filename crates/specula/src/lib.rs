@@ -1,6 +1,18 @@
 //! Specula: render rough metal right. This crate re-exports the libraries and holds the command
 //! line.
 //!
+//! | feature | gives |
+//! |---|---|
+//! | `cli` (default) | the program `specula` |
+//! | `tev` (default) | a live view in the viewer tev: `render --display-server` |
+//! | `gpu` | the module `gpu`, `render --device gpu` |
+//! | `lab` | the module `lab`, `specula lab` |
+//! | `shaders` | the module `shaders`, `specula shaders` |
+//! | `full` | all of these |
+//! | `oidn` | Open Image Denoise, whose library must be installed: `specula denoise`, `render --denoise` |
+//!
+//! The library alone has no need of `cli` and what it depends on: `default-features = false`.
+//!
 //! ```no_run
 //! use std::sync::atomic::AtomicBool;
 //!
@@ -22,8 +34,11 @@
 #![forbid(unsafe_code)]
 
 pub use specula_bsdf as bsdf;
+#[cfg(feature = "gpu")]
 pub use specula_gpu as gpu;
+#[cfg(feature = "lab")]
 pub use specula_lab as lab;
 pub use specula_render as render;
 pub use specula_scene as scene;
+#[cfg(feature = "shaders")]
 pub use specula_shaders as shaders;

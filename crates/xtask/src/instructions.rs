@@ -48,13 +48,15 @@ struct Count {
 /// compiler than the kept counts are of, it says so and passes.
 pub(crate) fn run(root: &Path, check: bool) -> Result<()> {
     if Command::new("valgrind").arg("--version").output().is_err() {
-        println!("skipped: no `valgrind` found (Debian, Ubuntu: apt-get install valgrind)");
+        let remedy = "apt-get install valgrind";
+        specula_testing::skip("instruction counts", "no valgrind", remedy);
         return Ok(());
     }
     let compiler = compiler()?;
     let kept = fs::read_to_string(root.join(KEPT)).unwrap_or_default();
     if check && header(&kept) != Some(&compiler) {
-        println!("skipped: {KEPT} is of another compiler or machine than {compiler}");
+        let why = format!("{KEPT} is of another compiler or machine than {compiler}");
+        specula_testing::skip("instruction counts", why, "cargo xtask instructions");
         return Ok(());
     }
     let program = build(root)?;
@@ -121,7 +123,7 @@ fn count(program: &Path, kernel: &str, level: &str) -> Result<Option<Count>> {
     let elements = String::from_utf8_lossy(&output.stdout);
     let Ok(elements) = elements.trim().parse::<f64>() else {
         if level == "avx2" {
-            println!("skipped: {kernel} at {level}, which this machine lacks");
+            specula_testing::not_of_this_machine(kernel, format_args!("no {level}"));
             return Ok(None);
         }
         return Err(format!("{kernel} at {level} did not run").into());

@@ -11,14 +11,14 @@ use crate::adapter::AdapterChoice;
 mod memory;
 
 /// The GPU of the tests; without one a test says that it is skipped.
-#[allow(clippy::print_stdout, reason = "a test that is skipped says so")]
+#[track_caller]
 fn gpu() -> Option<Gpu> {
     let choice = std::env::var("SPECULA_GPU_ADAPTER").unwrap_or_else(|_| "best".to_owned());
     let gpu = Gpu::open(&choice.parse::<AdapterChoice>().unwrap_or_default());
     if let Err(error) = &gpu {
         let required = std::env::var("SPECULA_GPU").is_ok_and(|v| v == "require");
         assert!(!required, "SPECULA_GPU=require, but: {error}");
-        println!("SKIPPED: {error}");
+        specula_testing::skip("the tracer", error, "apt-get install mesa-vulkan-drivers");
     }
     gpu.ok()
 }

@@ -1,6 +1,5 @@
 //! Processes whose memory ends.
 
-use std::io::Write as _;
 use std::process::{Child, Command, Stdio};
 
 use super::{AdapterKind, Gpu};
@@ -18,16 +17,12 @@ pub(crate) const MIB: u64 = 1 << 20;
 /// # Panics
 /// Where it fails there.
 pub(crate) fn is_alone(gpu: &Gpu, test: &str) -> bool {
-    let skip = |why: &str| {
-        // Not `eprintln`, whose output tests keep to themselves.
-        let _ = writeln!(std::io::stderr(), "SKIPPED: {test}: {why}");
-    };
     if gpu.adapter.kind != AdapterKind::Software {
-        skip("the GPU's memory is its own");
+        specula_testing::not_of_this_machine(test, "the GPU's memory is its own");
         return false;
     }
     if Command::new("prlimit").arg("--version").output().is_err() {
-        skip("needs util-linux's prlimit");
+        specula_testing::skip(test, "no prlimit", "apt-get install util-linux");
         return false;
     }
     if std::env::var_os(ALONE).is_some() {

@@ -11,12 +11,8 @@ use specula_gpu::{Gpu, GpuError};
 static GPU: LazyLock<Result<Gpu, GpuError>> = LazyLock::new(|| {
     let choice = std::env::var("SPECULA_GPU_ADAPTER").unwrap_or_else(|_| "best".to_owned());
     let gpu = Gpu::open(&choice.parse().unwrap_or_default());
-    match &gpu {
-        Ok(gpu) => say(&format!("GPU {}", gpu.adapter)),
-        Err(error) => say(&format!(
-            "SKIPPED: what needs a GPU: {error}. On Debian `apt-get install mesa-vulkan-drivers` installs \
-             one in software"
-        )),
+    if let Ok(gpu) = &gpu {
+        say(&format!("GPU {}", gpu.adapter));
     }
     gpu
 });
@@ -31,13 +27,14 @@ fn say(line: &str) {
 ///
 /// # Panics
 /// Where there is none though `SPECULA_GPU=require` asks for it.
+#[track_caller]
 pub(crate) fn gpu(what: &str) -> Option<&'static Gpu> {
     match &*GPU {
         Ok(gpu) => Some(gpu),
         Err(error) => {
             let required = std::env::var("SPECULA_GPU").is_ok_and(|v| v == "require");
             assert!(!required, "SPECULA_GPU=require, but: {error}");
-            say(&format!("SKIPPED: {what}"));
+            specula_testing::skip(what, error, "apt-get install mesa-vulkan-drivers");
             None
         }
     }

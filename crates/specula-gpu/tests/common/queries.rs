@@ -1,13 +1,12 @@
 //! The GPU of the tests, where it offers ray queries.
 
-use std::io::Write as _;
-
 use specula_gpu::Gpu;
 
 /// The GPU; where there is none or it offers no ray queries, a loud line that `what` is skipped.
 ///
 /// # Panics
 /// Where there are none though `SPECULA_RAY_QUERIES` asks for them, by `require` or `all`.
+#[track_caller]
 pub(crate) fn gpu_with_queries(what: &str) -> Option<&'static Gpu> {
     let gpu = super::common::gpu(what);
     if let Some(gpu) = gpu.filter(|gpu| gpu.has_ray_queries()) {
@@ -18,11 +17,13 @@ pub(crate) fn gpu_with_queries(what: &str) -> Option<&'static Gpu> {
         !required,
         "SPECULA_RAY_QUERIES asks for them, but the GPU offers none"
     );
-    // Not `eprintln`, whose output tests keep to themselves.
-    let _ = writeln!(
-        std::io::stderr(),
-        "SKIPPED: {what}: the GPU offers no ray queries. Mesa's software has them from 25.0 on (on Debian 12: \
-         `apt-get install -t bookworm-backports mesa-vulkan-drivers`)"
-    );
+    if gpu.is_some() {
+        specula_testing::skip(
+            what,
+            "the GPU offers no ray queries",
+            "Mesa's software GPU has them from 25.0 on: on Debian 12, apt-get install -t \
+             bookworm-backports mesa-vulkan-drivers",
+        );
+    }
     None
 }

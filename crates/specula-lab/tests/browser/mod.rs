@@ -26,7 +26,8 @@ fn program() -> Option<PathBuf> {
 /// What a page's own check says in a window of so many pixels' width; `None` where there is no browser.
 pub(crate) fn check(page: &Path, width: u32) -> Option<String> {
     let Some(program) = program() else {
-        eprintln!("SKIPPED: the page is not tested, as no Chromium is on the PATH ({NAMES:?})");
+        let why = format!("no Chromium is on the PATH ({NAMES:?})");
+        specula_testing::skip("the page in a browser", why, "apt-get install chromium");
         return None;
     };
     let profile = tempfile::tempdir().expect("a temporary folder");

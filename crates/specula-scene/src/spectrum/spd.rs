@@ -162,26 +162,16 @@ mod tests {
         );
     }
 
-    /// Needs the scenes beside the workspace; says so where they are absent.
     #[test]
-    fn files_of_real_scenes_are_gold() {
-        let scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/scenes");
-        let mut skipped = 0;
-        for scene in ["cornell-box", "material-testball"] {
-            let read = |file| std::fs::read_to_string(format!("{scenes}/{scene}/spds/{file}"));
-            let (Ok(eta), Ok(k)) = (read("Au.eta.spd"), read("Au.k.spd")) else {
-                skipped += 1;
-                continue;
-            };
-            let fit = fit_conductor(&parse_spd(&eta).unwrap(), &parse_spd(&k).unwrap());
-            // Johnson and Christy's gold, whose green and blue our own table has as well.
-            for (c, eta, k) in [(1, 0.498, 2.257), (2, 1.475, 1.776)] {
-                assert!((fit.eta[c] - eta).abs() < 0.1, "{scene}: {fit:?}");
-                assert!((fit.k[c] - k).abs() < 0.2, "{scene}: {fit:?}");
-            }
-        }
-        if skipped > 0 {
-            println!("skipped {skipped} of 2: the scenes are not there");
+    fn files_of_a_real_scene_are_gold() {
+        let folder = specula_testing::scene("cornell-box/spds");
+        let read = |file| std::fs::read_to_string(folder.join(file)).unwrap();
+        let [eta, k] = ["Au.eta.spd", "Au.k.spd"].map(|f| parse_spd(&read(f)).unwrap());
+        let fit = fit_conductor(&eta, &k);
+        // Johnson and Christy's gold, whose green and blue our own table has as well.
+        for (c, eta, k) in [(1, 0.498, 2.257), (2, 1.475, 1.776)] {
+            assert!((fit.eta[c] - eta).abs() < 0.1, "{fit:?}");
+            assert!((fit.k[c] - k).abs() < 0.2, "{fit:?}");
         }
     }
 }

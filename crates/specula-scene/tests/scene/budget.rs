@@ -119,10 +119,7 @@ fn pipes_sockets_folders_and_devices() {
     let made = std::process::Command::new("mkfifo")
         .arg(at("pipe"))
         .status();
-    if !made.is_ok_and(|status| status.success()) {
-        println!("skipped: no mkfifo here");
-        return;
-    }
+    assert!(made.is_ok_and(|status| status.success()), "mkfifo");
     for name in ["pipe.png", "pipe.ply", "pipe.pbrt", "pipe.spd"] {
         std::fs::hard_link(at("pipe"), at(name)).unwrap();
     }

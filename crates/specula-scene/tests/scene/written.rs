@@ -1,7 +1,6 @@
 //! Scenes by others, and small ones, written as pbrt-v4 files and read back.
 
 use std::collections::HashSet;
-use std::path::Path;
 
 use glam::DMat4;
 use specula_scene::scene::{
@@ -184,58 +183,35 @@ fn expect(what: &str, before: &Scene, after: &Scene) {
 
 #[test]
 fn pbrt_scenes_by_others_survive() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/scenes");
-    let mut skipped = 0;
     for name in [
         "cornell-box/cornell-box",
         "cornell-box/cornell-box-specular-volume",
         "cornell-box/cornell-box-specular",
         "cornell-box/cornell-box-volume",
-        "material-testball/material-testball",
         "staircase2/staircase2",
         "veach-mis/veach-mis",
         "volumetric-caustic/volumetric-caustic",
     ] {
-        let path = root.join(name).with_extension("pbrt");
-        if !path.exists() {
-            skipped += 1;
-            continue;
-        }
+        let path = specula_testing::scene(&format!("{name}.pbrt"));
         let scene = load(&path).unwrap().scene;
         let (back, notes) = round_trip(&scene);
         assert_eq!(notes, [""; 0], "{name}");
         expect(name, &scene, &back);
     }
-    println!("{skipped} scenes skipped (those that ../shared/scenes lacks)");
 }
 
 #[test]
 fn scenes_of_other_formats_are_written_so_that_they_are_read() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/scenes");
-    let mut found = 0;
-    for folder in ["gltf-shaderballs", "mitsuba-bsdf-spheres/bsdf_spheres"] {
-        let Ok(entries) = std::fs::read_dir(root.join(folder)) else {
-            continue;
-        };
-        let mut paths: Vec<_> = entries.map(|e| e.unwrap().path()).collect();
-        paths.sort();
-        // Resampling environments takes long.
-        for path in paths.into_iter().step_by(4) {
-            let known = path
-                .extension()
-                .is_some_and(|e| e == "glb" || e == "gltf" || e == "xml");
-            let mut options = specula_scene::LoadOptions::default();
-            options.folders = vec![root.join("mitsuba-bsdf-spheres/common")];
-            let loaded = specula_scene::load_with(&path, &options);
-            let Some(loaded) = loaded.ok().filter(|_| known) else {
-                continue;
-            };
-            let (back, _) = round_trip(&loaded.scene);
-            assert_eq!(back.shapes.len(), loaded.scene.shapes.len(), "{path:?}");
-            found += 1;
-        }
+    for name in [
+        "gltf/boombox.glb",
+        "gltf/openpbr-viewer-neutral_objects.glb",
+        "mitsuba/envmap.xml",
+        "mitsuba/principled.xml",
+    ] {
+        let loaded = load(&specula_testing::scene(name)).unwrap();
+        let (back, _) = round_trip(&loaded.scene);
+        assert_eq!(back.shapes.len(), loaded.scene.shapes.len(), "{name}");
     }
-    println!("{found} scenes found in ../shared/scenes");
 }
 
 #[test]

@@ -6,19 +6,26 @@ use std::process::{Command, Output};
 use specula_shaders::File;
 
 /// A program that can be started, or a line that says what was skipped.
+#[track_caller]
 pub(crate) fn program(name: &str, what: &str) -> Option<PathBuf> {
     if Command::new(name).arg("--version").output().is_ok() {
         return Some(PathBuf::from(name));
     }
-    eprintln!("skipped: {what}: {name} is not installed");
+    let why = format!("{name} is not installed");
+    specula_testing::skip(what, why, "apt-get install glslang-tools spirv-tools");
     None
 }
 
 /// A Python that has DXC, or a line that says what was skipped.
+#[track_caller]
 pub(crate) fn dxc_python() -> Option<PathBuf> {
     let python = std::env::var_os("SPECULA_DXC_PYTHON").map(PathBuf::from);
     if python.is_none() {
-        eprintln!("skipped: HLSL with DXC: SPECULA_DXC_PYTHON names no Python that has compushady");
+        specula_testing::skip(
+            "HLSL with DXC",
+            "SPECULA_DXC_PYTHON names no Python that has compushady",
+            "pip install compushady",
+        );
     }
     python
 }

@@ -5,17 +5,16 @@ use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use specula::bsdf::vndf;
-use specula::gpu::{Rays, Schedule};
 use specula::render::RenderOptions;
 use specula::render::picture::{Display, ToneMap};
 use specula::scene::Energy;
-use specula::shaders::Language;
 
-use super::device::Device;
-use super::lab_arguments::LabArguments;
+use super::device::{Device, GpuArguments};
+use super::lab::LabArguments;
 use super::loading::LoadingArguments;
 use super::machine::MachineArguments;
 use super::material::MaterialOverride;
+use super::shaders::ShadersArguments;
 use super::{live_view, values};
 
 /// Render rough metal right: a path tracer whose microfacet mathematics can be trusted.
@@ -229,16 +228,8 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "NAME", default_value_t = Device::Cpu)]
     pub(crate) device: Device,
 
-    /// How a GPU follows paths, to the same samples: paths (a thread follows one to its end), queues (a
-    /// thread takes one to its next vertex, and those that go on form a queue), or auto:
-    /// queues, as measurements say (of software only: no real GPU has been measured)
-    #[arg(long, value_name = "NAME", default_value_t = Schedule::Auto)]
-    pub(crate) gpu_schedule: Schedule,
-
-    /// How rays find on a GPU what they hit: tree, through Specula's own; query, by the GPU's ray
-    /// queries, or an error; or auto: queries where a real GPU offers them and they take the scene
-    #[arg(long, value_name = "NAME", default_value_t = Rays::Auto)]
-    pub(crate) gpu_rays: Rays,
+    #[command(flatten)]
+    pub(crate) gpu: GpuArguments,
 
     #[command(flatten)]
     pub(crate) machine: MachineArguments,
@@ -334,39 +325,6 @@ pub(crate) struct DenoiseArguments {
     /// Print errors only
     #[arg(short, long)]
     pub(crate) quiet: bool,
-}
-
-const SHADERS_EXAMPLES: &str = "\
-Examples:
-  specula shaders --lang hlsl -o shaders
-      shaders/specula.hlsl to include, shaders/example.hlsl that does, and the energy tables
-  specula shaders --lang glsl --modules ggx,bounded -o shaders
-      these modules and what they use
-  specula shaders -o shaders
-      all languages
-  specula shaders --list
-      the modules
-
-Every function keeps its name and its documentation. Files are replaced whole or not at all.";
-
-#[derive(Args, Debug)]
-#[command(after_help = SHADERS_EXAMPLES)]
-pub(crate) struct ShadersArguments {
-    /// Languages, separated by commas: wgsl, hlsl, glsl, glsl-es, msl, spirv [default: all]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
-    pub(crate) lang: Vec<Language>,
-
-    /// Modules, separated by commas; what they use comes with them [default: all]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
-    pub(crate) modules: Vec<String>,
-
-    /// Folder to write to, made where there is none
-    #[arg(short, long, value_name = "DIR", required_unless_present = "list")]
-    pub(crate) output: Option<PathBuf>,
-
-    /// List the modules and write nothing
-    #[arg(long, conflicts_with_all = ["lang", "modules", "output"])]
-    pub(crate) list: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

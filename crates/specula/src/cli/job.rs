@@ -3,12 +3,11 @@
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use specula::gpu::GpuError;
 use specula::render::{FilmBuffer, InvalidSample, Renderer};
 
 use super::checkpoint::Checkpoint;
 use super::console::say;
-use super::device::{self, Samples};
+use super::device::{self, GpuError, Samples};
 use super::live_view::LiveView;
 use super::noise_report::{self, NoiseWatch};
 use super::outputs::{self, Outputs};

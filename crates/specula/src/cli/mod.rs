@@ -1,5 +1,7 @@
 //! The commands, one file each.
 
+#[cfg(not(all(feature = "gpu", feature = "lab", feature = "shaders", feature = "tev")))]
+mod absent;
 mod arguments;
 mod check;
 mod checkpoint;
@@ -12,11 +14,9 @@ mod failure;
 mod file_id;
 mod info;
 mod job;
+#[cfg(feature = "lab")]
 mod lab;
-mod lab_arguments;
-mod lab_compare;
-mod lab_material;
-mod lab_run;
+#[cfg(feature = "tev")]
 mod live_view;
 mod load;
 mod loading;
@@ -30,11 +30,18 @@ mod outputs;
 mod progress;
 mod render;
 mod schedule;
+#[cfg(feature = "shaders")]
 mod shaders;
 mod stop;
 mod values;
 mod watch;
 
+#[cfg(not(feature = "lab"))]
+use absent::lab;
+#[cfg(not(feature = "tev"))]
+use absent::live_view;
+#[cfg(not(feature = "shaders"))]
+use absent::shaders;
 use std::process::ExitCode;
 
 pub(crate) use arguments::Arguments;

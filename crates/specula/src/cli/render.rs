@@ -4,7 +4,6 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use specula::gpu::{Gpu, TracerOptions};
 use specula::render::{
     FilmBuffer, Label, MOST_SAMPLES, PrepareError, PreparedScene, RenderOptions, Renderer,
 };
@@ -13,7 +12,7 @@ use specula::scene::Scene;
 use super::arguments::RenderArguments;
 use super::checkpoint::{Checkpoint, Start};
 use super::console::say;
-use super::device::{self, Samples};
+use super::device::{self, Gpu, Samples};
 use super::file_id::Inputs;
 use super::job::Job;
 use super::live_view::LiveView;
@@ -35,7 +34,7 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
         arguments,
         stop: &stop,
         threads,
-        gpu: device::open(&arguments.device, arguments.gpu_rays)?,
+        gpu: device::open(&arguments.device, &arguments.gpu)?,
     };
     let pool = machine::pool(threads, arguments.machine.nice)?;
     if arguments.watch {
@@ -159,11 +158,7 @@ impl Context<'_> {
     ) -> Result<ExitCode, Failure> {
         let arguments = self.arguments;
         let options = rest.options;
-        let on_gpu = TracerOptions {
-            rays: arguments.gpu_rays,
-            schedule: arguments.gpu_schedule,
-        };
-        let chosen = (&arguments.device, on_gpu);
+        let chosen = (&arguments.device, &arguments.gpu);
         let gpu = self.gpu.as_ref();
         let source = Samples::new(chosen, gpu, prepared, &options, arguments.quiet)?;
         let renderer = match rest.begun {

@@ -1,15 +1,48 @@
 //! `specula shaders`.
 
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use clap::Args;
 use specula::scene::atomic;
 use specula::shaders::{EXAMPLE_MODULES, ExportError, File, Language, MODULES, export};
 
-use super::arguments::ShadersArguments;
 use super::console::say;
 use super::{Failure, print};
+
+const SHADERS_EXAMPLES: &str = "\
+Examples:
+  specula shaders --lang hlsl -o shaders
+      shaders/specula.hlsl to include, shaders/example.hlsl that does, and the energy tables
+  specula shaders --lang glsl --modules ggx,bounded -o shaders
+      these modules and what they use
+  specula shaders -o shaders
+      all languages
+  specula shaders --list
+      the modules
+
+Every function keeps its name and its documentation. Files are replaced whole or not at all.";
+
+#[derive(Args, Debug)]
+#[command(after_help = SHADERS_EXAMPLES)]
+pub(crate) struct ShadersArguments {
+    /// Languages, separated by commas: wgsl, hlsl, glsl, glsl-es, msl, spirv [default: all]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub(crate) lang: Vec<Language>,
+
+    /// Modules, separated by commas; what they use comes with them [default: all]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub(crate) modules: Vec<String>,
+
+    /// Folder to write to, made where there is none
+    #[arg(short, long, value_name = "DIR", required_unless_present = "list")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// List the modules and write nothing
+    #[arg(long, conflicts_with_all = ["lang", "modules", "output"])]
+    pub(crate) list: bool,
+}
 
 /// Writes the library in shading languages, or lists its modules.
 pub(crate) fn run(arguments: &ShadersArguments) -> Result<ExitCode, Failure> {

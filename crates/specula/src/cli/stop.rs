@@ -171,6 +171,7 @@ impl Stop {
 }
 
 /// A flag for the first signal; the second ends the program.
+#[cfg(feature = "lab")]
 #[derive(Clone, Default)]
 pub(crate) struct StopFlag {
     /// Set by the first signal.
@@ -178,6 +179,7 @@ pub(crate) struct StopFlag {
     signal: Arc<Mutex<Option<Signal>>>,
 }
 
+#[cfg(feature = "lab")]
 impl StopFlag {
     /// Listens from now on.
     pub(crate) fn listen() -> Result<Self, Failure> {

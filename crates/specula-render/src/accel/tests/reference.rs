@@ -60,7 +60,7 @@ fn kernels_agree_bit_for_bit() {
     let mesh = Mesh::soup(20_000, &mut random);
     let accel = mesh.accel();
     if accel.instructions() == Instructions::Portable {
-        println!("skipped: this machine has no AVX2");
+        specula_testing::not_of_this_machine("the kernel for AVX2", "no AVX2");
         return;
     }
     let portable = accel.clone().portable();

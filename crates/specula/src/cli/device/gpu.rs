@@ -1,0 +1,313 @@
+//! Devices of a program that is built with the feature `gpu`.
+
+use std::fmt;
+use std::process::ExitCode;
+use std::sync::atomic::AtomicBool;
+
+use clap::Args;
+use specula::gpu::{
+    AdapterChoice, AdapterKind, Gpu, GpuError, Rays, Schedule, Tracer, TracerError, TracerOptions,
+    adapters,
+};
+use specula::render::{PassReport, PreparedScene, RenderOptions, Renderer};
+
+use super::super::console::say;
+use super::super::{Failure, print};
+use super::Device;
+
+/// How a GPU renders.
+#[derive(Args, Debug, Default)]
+pub(crate) struct GpuArguments {
+    /// How a GPU follows paths, to the same samples: paths (a thread follows one to its end), queues (a
+    /// thread takes one to its next vertex, and those that go on form a queue), or auto:
+    /// queues, as measurements say (of software only: no real GPU has been measured)
+    #[arg(long, value_name = "NAME", default_value_t = Schedule::Auto)]
+    gpu_schedule: Schedule,
+
+    /// How rays are intersected on a GPU: tree, through Specula's own; query, by the GPU's ray
+    /// queries, or an error; or auto: queries where a real GPU offers them and they take the scene
+    #[arg(long, value_name = "NAME", default_value_t = Rays::Auto)]
+    gpu_rays: Rays,
+}
+
+impl GpuArguments {
+    /// What the library is told.
+    fn options(&self) -> TracerOptions {
+        TracerOptions {
+            rays: self.gpu_rays,
+            schedule: self.gpu_schedule,
+        }
+    }
+}
+
+/// Lists what `--device gpu:INDEX` can be given.
+pub(crate) fn list() -> Result<ExitCode, Failure> {
+    let found = adapters();
+    let lines: Vec<String> = found.iter().map(|a| format!("gpu:{a}\n")).collect();
+    print(&format!("cpu: {} threads\n", rayon::current_num_threads()))?;
+    print(&lines.concat())?;
+    if found.is_empty() {
+        let none = GpuError::NoAdapter;
+        print(&format!("{none}\n"))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Opens the GPU that is asked for; `None`: the processor renders.
+///
+/// # Errors
+/// Where a GPU is asked for and cannot be opened, or ray queries are and it offers none.
+pub(crate) fn open(device: &Device, arguments: &GpuArguments) -> Result<Option<Gpu>, Failure> {
+    let gpu = opened(device)?;
+    let lacks = match &gpu {
+        _ if arguments.gpu_rays != Rays::Query => return Ok(gpu),
+        Some(open) if open.has_ray_queries() => return Ok(gpu),
+        Some(gpu) => format!("{} offers no ray queries", gpu.adapter),
+        None if *device == Device::Cpu => "the processor has no ray queries".to_owned(),
+        None => "there is no real GPU".to_owned(),
+    };
+    Err(Failure::bad_input(format_args!(
+        "--device {device} --gpu-rays query: {lacks} (`specula devices` tells who does); \
+         --gpu-rays auto goes on without"
+    )))
+}
+
+fn choice(which: Option<&str>) -> AdapterChoice {
+    let choice = which.map(|which| match which.parse() {
+        Ok(choice) => choice,
+        Err(never) => match never {},
+    });
+    choice.unwrap_or(AdapterChoice::Best)
+}
+
+fn opened(device: &Device) -> Result<Option<Gpu>, Failure> {
+    match device {
+        Device::Cpu => Ok(None),
+        Device::Auto => {
+            let real = adapters()
+                .into_iter()
+                .find(|a| a.kind != AdapterKind::Software);
+            Ok(
+                real.and_then(|a| match Gpu::open(&AdapterChoice::Index(a.index)) {
+                    Ok(gpu) => Some(gpu),
+                    Err(error) => {
+                        note(&error);
+                        None
+                    }
+                }),
+            )
+        }
+        Device::Gpu(which) => match Gpu::open(&choice(which.as_deref())) {
+            Ok(gpu) => Ok(Some(gpu)),
+            Err(error @ (GpuError::NoAdapter | GpuError::NoSuchAdapter { .. })) => Err(
+                Failure::bad_input(format_args!("--device {device}: {error}")),
+            ),
+            Err(error) => Err(Failure::other(error)),
+        },
+    }
+}
+
+/// A device that fails under the scene.
+///
+/// * `kept`: what there is of the picture, after a semicolon.
+pub(crate) fn failed(error: &GpuError, kept: &str) -> Failure {
+    match error {
+        GpuError::OutOfMemory(_) => Failure::bad_input(format_args!(
+            "{error}; --device cpu renders in the processor's memory{kept}"
+        )),
+        _ => Failure::other(format_args!("{error}{kept}")),
+    }
+}
+
+fn note(error: &dyn fmt::Display) {
+    say!("note: {error}; the processor renders");
+}
+
+/// What takes the samples of a render.
+pub(crate) struct Samples<'a> {
+    tracer: Option<Tracer<'a>>,
+    /// Whether the processor goes on where a GPU fails.
+    falls_back: bool,
+}
+
+impl<'a> Samples<'a> {
+    /// Prepares the GPU for the scene.
+    ///
+    /// # Errors
+    /// Where a GPU is asked for and does not render the scene.
+    pub(crate) fn new(
+        (device, arguments): (&Device, &GpuArguments),
+        gpu: Option<&'a Gpu>,
+        scene: &PreparedScene,
+        options: &RenderOptions,
+        quiet: bool,
+    ) -> Result<Self, Failure> {
+        let falls_back = *device == Device::Auto;
+        let prepare = |gpu| Tracer::with_options(gpu, scene, options, arguments.options());
+        let tracer = match gpu.map(|gpu| (prepare(gpu), gpu)) {
+            None => None,
+            Some((Ok(tracer), gpu)) => {
+                if !quiet {
+                    let way = match tracer.uses_ray_queries() {
+                        true => "by its ray queries",
+                        false => "through Specula's tree",
+                    };
+                    say!("rendering on {}, rays {way}", gpu.adapter);
+                }
+                Some(tracer)
+            }
+            Some((Err(error @ TracerError::Queries(_)), _)) => {
+                return Err(Failure::bad_input(format_args!(
+                    "--gpu-rays query: {error}; --gpu-rays tree does"
+                )));
+            }
+            Some((Err(error), _)) if falls_back => {
+                note(&error);
+                None
+            }
+            Some((Err(error @ (TracerError::Missing(_) | TracerError::TooLarge { .. })), _)) => {
+                return Err(Failure::bad_input(format_args!(
+                    "--device {device}: {error}; --device cpu does"
+                )));
+            }
+            Some((Err(TracerError::Gpu(error)), _)) => return Err(failed(&error, "")),
+            Some((Err(error), _)) => return Err(Failure::other(error)),
+        };
+        Ok(Self { tracer, falls_back })
+    }
+
+    /// Adds samples to the film; where a GPU fails and may be left, the processor takes the rest.
+    ///
+    /// # Errors
+    /// That of a GPU that was asked for. The film keeps what came before.
+    pub(crate) fn pass(
+        &mut self,
+        renderer: &mut Renderer<'_>,
+        samples: u32,
+        stop: &AtomicBool,
+    ) -> Result<PassReport, GpuError> {
+        if let Some(tracer) = &mut self.tracer {
+            match tracer.render_pass(renderer, samples, stop) {
+                Err(error) if self.falls_back => {
+                    note(&error);
+                    self.tracer = None;
+                }
+                result => return result,
+            }
+        }
+        Ok(renderer.render_pass(samples, stop))
+    }
+}
+
+#[cfg(test)]
+#[path = "../../../../specula-gpu/tests/common/limited.rs"]
+mod limited;
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write as _;
+
+    use super::limited::{Limit, MIB, is_alone};
+    use super::*;
+
+    /// The GPU of the tests; without one a loud line that `what` is skipped.
+    #[track_caller]
+    fn gpu(what: &str) -> Option<Gpu> {
+        let gpu = Gpu::open(&AdapterChoice::Best);
+        if let Err(error) = &gpu {
+            let required = std::env::var("SPECULA_GPU").is_ok_and(|v| v == "require");
+            assert!(!required, "SPECULA_GPU=require, but: {error}");
+            specula_testing::skip(what, error, "apt-get install mesa-vulkan-drivers");
+        }
+        gpu.ok()
+    }
+
+    /// A lit disk with a texture of so many pixels along each side.
+    fn textured(side: u64) -> (PreparedScene, RenderOptions) {
+        let folder = tempfile::tempdir().unwrap();
+        let header = format!("Pf\n{side} {side}\n-1.0\n");
+        let mut file = std::fs::File::create(folder.path().join("t.pfm")).unwrap();
+        file.write_all(header.as_bytes()).unwrap();
+        // Too many values for a palette; black else, and the file takes no room.
+        for i in 0..u16::try_from(side.min(300)).unwrap() {
+            let value = f32::from(i) * 1e-3;
+            file.write_all(&value.to_le_bytes()).unwrap();
+        }
+        file.set_len(header.len() as u64 + 4 * side * side).unwrap();
+        let text = "LookAt 0 0 4  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 40\n\
+            Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\nWorldBegin\n\
+            LightSource \"infinite\" \"rgb L\" [0.7 0.8 1.0]\n\
+            Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"t.pfm\"\n\
+            Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"disk\"\n";
+        let path = folder.path().join("scene.pbrt");
+        std::fs::write(&path, text).unwrap();
+        let scene = specula::scene::load(&path).unwrap().scene;
+        let options = RenderOptions::from_scene(&scene);
+        (PreparedScene::new(&scene, &options).unwrap(), options)
+    }
+
+    /// `auto` on a GPU that is there, in software too.
+    fn auto<'a>(gpu: &'a Gpu, scene: &PreparedScene, options: &RenderOptions) -> Samples<'a> {
+        let arguments = GpuArguments::default();
+        let samples = Samples::new((&Device::Auto, &arguments), Some(gpu), scene, options, true);
+        samples.unwrap_or_else(|_| panic!("auto fails"))
+    }
+
+    /// Takes samples, which must be the processor's.
+    fn is_the_processors(mut samples: Samples<'_>, scene: &PreparedScene, options: &RenderOptions) {
+        let go = AtomicBool::new(false);
+        let mut renderer = Renderer::new(scene, options.clone());
+        let report = samples.pass(&mut renderer, 4, &go).unwrap();
+        assert!(report.complete);
+        assert!(samples.tracer.is_none(), "the GPU goes on");
+        let mut processor = Renderer::new(scene, options.clone());
+        processor.render_pass(4, &go);
+        assert!(renderer.film() == processor.film());
+    }
+
+    #[test]
+    fn auto_goes_on_where_a_device_is_lost_or_does_not_hold_the_scene() {
+        let Some(gpu) = gpu("what auto does") else {
+            return;
+        };
+        if gpu.adapter.kind == AdapterKind::Software {
+            let (scene, options) = textured(3500);
+            is_the_processors(auto(&gpu, &scene, &options), &scene, &options);
+        }
+        let (scene, options) = textured(4);
+        let samples = auto(&gpu, &scene, &options);
+        assert!(samples.tracer.is_some());
+        gpu.device.destroy();
+        is_the_processors(samples, &scene, &options);
+        is_the_processors(auto(&gpu, &scene, &options), &scene, &options);
+    }
+
+    #[test]
+    fn where_memory_ends_auto_goes_on_and_a_gpu_that_is_asked_for_is_an_error() {
+        let what = "where_memory_ends_auto_goes_on_and_a_gpu_that_is_asked_for_is_an_error";
+        let Some(gpu) = gpu(what) else { return };
+        if !is_alone(&gpu, &format!("cli::device::gpu::tests::{what}")) {
+            return;
+        }
+        let side = 3300;
+        let (scene, options) = textured(side);
+        assert!(auto(&gpu, &scene, &options).tracer.is_some());
+        gpu.wait().unwrap();
+        // For the scene as an array here, which grows by doubling, and for the driver's compiler, which
+        // crashes without; not for another array there.
+        let limit = Limit::new(2 * 12 * side * side + 96 * MIB);
+        let samples = auto(&gpu, &scene, &options);
+        let (device, arguments) = (Device::Gpu(None), GpuArguments::default());
+        let chosen = (&device, &arguments);
+        let refused = Samples::new(chosen, Some(&gpu), &scene, &options, true);
+        limit.lift();
+        let (code, said) = refused
+            .err()
+            .map(|failure| failure.told())
+            .unwrap_or_default();
+        assert_eq!(code, 2, "{said}");
+        assert!(said.contains("the GPU is out of memory"), "{said}");
+        assert!(said.contains("--device cpu renders"), "{said}");
+        is_the_processors(samples, &scene, &options);
+    }
+}

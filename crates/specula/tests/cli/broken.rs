@@ -1,0 +1,106 @@
+//! Broken scenes: each a located report and exit code 2, none a panic, and no good file is lost.
+
+use std::path::{Path, PathBuf};
+
+use crate::common::{SMALL, specula, stderr};
+
+fn broken(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/broken")
+        .join(name)
+}
+
+/// File, place that the report names, and a word of the message.
+const SCENES: [(&str, &str, &str); 10] = [
+    (
+        "missing_mesh.pbrt",
+        "missing_mesh.pbrt:4:",
+        "no-such-mesh.ply",
+    ),
+    ("nan_transform.pbrt", "nan_transform.pbrt:5:", "finite"),
+    (
+        "unknown_directive.pbrt",
+        "unknown_directive.pbrt:4:",
+        "Shpae",
+    ),
+    (
+        "truncated_ply.pbrt",
+        "truncated_ply.pbrt:5:",
+        "truncated.ply",
+    ),
+    (
+        "recursive_include.pbrt",
+        "recursive_include.pbrt:4:",
+        "includes itself",
+    ),
+    (
+        "negative_roughness.pbrt",
+        "negative_roughness.pbrt:5:",
+        "roughness",
+    ),
+    ("zero_area.pbrt", "zero_area.pbrt:", "area"),
+    ("empty_scene.pbrt", "empty_scene.pbrt:", "no shape"),
+    (
+        "billion_triangles.pbrt",
+        "billion_triangles.pbrt:4:",
+        "billion.ply",
+    ),
+    ("garbage.pbrt", "garbage.pbrt:1:", ""),
+];
+
+#[test]
+fn every_broken_scene_is_a_located_error() {
+    for (name, place, word) in SCENES {
+        for command in ["render", "info"] {
+            let folder = tempfile::tempdir().unwrap();
+            let run = specula(folder.path())
+                .arg(command)
+                .arg(broken(name))
+                .output()
+                .unwrap();
+            // The report breaks lines; places and words are looked for without regard to that.
+            let text: String = stderr(&run)
+                .chars()
+                .filter(|c| !c.is_whitespace() && *c != '│')
+                .collect();
+            let word: String = word.split_whitespace().collect();
+            assert_eq!(run.status.code(), Some(2), "{command} {name}: {text}");
+            assert!(text.contains(place), "{command} {name}: {}", stderr(&run));
+            assert!(text.contains(&word), "{command} {name}: {}", stderr(&run));
+            assert!(!text.contains("panicked"), "{command} {name}: {text}");
+            let left = std::fs::read_dir(folder.path()).unwrap().count();
+            assert_eq!(left, 0, "{command} {name} left files");
+        }
+    }
+}
+
+#[test]
+fn a_missing_scene_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = specula(folder.path())
+        .args(["render", "nowhere.pbrt"])
+        .output()
+        .unwrap();
+    assert_eq!(run.status.code(), Some(2));
+    assert!(stderr(&run).contains("nowhere.pbrt"), "{}", stderr(&run));
+}
+
+#[test]
+fn a_good_picture_stays_when_a_later_render_fails() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.pbrt");
+    let render = || {
+        specula(folder.path())
+            .args(["render", "-q", "-o", "a.exr", "-o", "a.png"])
+            .arg(&scene)
+            .output()
+            .unwrap()
+    };
+    std::fs::write(&scene, SMALL).unwrap();
+    assert!(render().status.success());
+    let read = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    let before = (read("a.exr"), read("a.png"));
+    std::fs::copy(broken("unknown_directive.pbrt"), &scene).unwrap();
+    assert_eq!(render().status.code(), Some(2));
+    assert_eq!((read("a.exr"), read("a.png")), before);
+}

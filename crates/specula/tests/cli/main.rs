@@ -1,0 +1,29 @@
+//! The command line, end to end: one test file for each command or promise, in one program, which is
+//! linked once.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail loudly")]
+
+mod absent;
+mod broken;
+mod check;
+mod checkpoint;
+mod common;
+mod compare;
+mod convert;
+mod denoise;
+#[cfg(feature = "gpu")]
+mod device;
+#[cfg(unix)]
+mod interrupt;
+#[cfg(feature = "lab")]
+mod lab;
+#[cfg(feature = "tev")]
+mod live_view;
+mod memory;
+#[cfg(target_os = "linux")]
+mod messages;
+mod outputs;
+mod render;
+#[cfg(feature = "shaders")]
+mod shaders;
+#[cfg(unix)]
+mod watch;
