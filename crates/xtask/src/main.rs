@@ -6,6 +6,7 @@ mod albedo;
 mod bench;
 mod book;
 mod exact;
+mod feature_sets;
 mod features;
 mod generated;
 mod gltf;
@@ -62,7 +63,9 @@ enum Chore {
         check: bool,
     },
     /// Everything that must pass: format, lints, documentation, tests, tables, tidiness
-    Test,
+    Test(suite::Suite),
+    /// Check that every set of features that users choose compiles
+    Features,
     /// Run the benches
     Bench {
         /// Passed on to `cargo bench --workspace`
@@ -71,7 +74,7 @@ enum Chore {
     },
     /// Print what the sampler of exact reflections rejects and saves
     Exact {
-        /// Draw this many reflections in f32 instead [default: 10^9], and fail if more than one in
+        /// Sample this many reflections in f32 instead [default: 10^9], and fail if more than one in
         /// 10^6 lies below the surface
         #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "1000000000")]
         fuzz: Option<u64>,
@@ -127,7 +130,8 @@ fn run(chore: &Chore) -> Result<()> {
             generated::apply(&root, &metals::generate(&root)?, *check)
         }
         Chore::Tables { check } => tables::run(&root, *check),
-        Chore::Test => suite::run(&root),
+        Chore::Test(suite) => suite::run(&root, suite),
+        Chore::Features => feature_sets::run(&root),
         Chore::Bench { arguments } => bench::run(&root, arguments),
         Chore::Exact { figure: true, .. } => {
             generated::apply(&root, &exact::generate(&root)?, false)

@@ -1,9 +1,21 @@
 //! `cargo xtask test`: everything that must pass before a change is kept.
 
+mod skips;
+mod times;
+
 use std::path::Path;
+use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use crate::{Result, instructions, tables, tidy, workspace};
+use crate::{Result, book, feature_sets, tables, tidy, workspace};
+
+/// How to run the suite.
+#[derive(clap::Args)]
+pub(crate) struct Suite {
+    /// Fail where a test is skipped that could run with more installed
+    #[arg(long)]
+    strict: bool,
+}
 
 /// A cargo command.
 struct Step {
@@ -25,6 +37,8 @@ const CARGO_STEPS: &[Step] = &[
             "clippy",
             "--workspace",
             "--all-targets",
+            "--features",
+            "specula/full",
             "--quiet",
             "--",
             "-D",
@@ -34,20 +48,33 @@ const CARGO_STEPS: &[Step] = &[
     },
     Step {
         name: "documentation",
-        arguments: &["doc", "--workspace", "--no-deps", "--quiet"],
+        arguments: &[
+            "doc",
+            "--workspace",
+            "--no-deps",
+            "--features",
+            "specula/full",
+            "--quiet",
+        ],
         environment: Some(("RUSTDOCFLAGS", "-D warnings")),
-    },
-    Step {
-        // The examples in the documentation are among them.
-        name: "tests",
-        arguments: &["test", "--workspace", "--quiet", "--no-fail-fast"],
-        environment: None,
     },
 ];
 
+/// The tests; the examples in the documentation are among them.
+const TESTS: &[&str] = &[
+    "test",
+    "--workspace",
+    "--features",
+    "specula/full",
+    "--no-fail-fast",
+    "--",
+    "--quiet",
+];
+
 /// Runs every step, even after one has failed, and prints each with its time.
-pub(crate) fn run(root: &Path) -> Result<()> {
+pub(crate) fn run(root: &Path, suite: &Suite) -> Result<()> {
     let mut report = Report::default();
+    let skips = skips::File::new(root)?;
     for step in CARGO_STEPS {
         report.step(step.name, || {
             let mut command = workspace::cargo(root);
@@ -58,10 +85,42 @@ pub(crate) fn run(root: &Path) -> Result<()> {
             }
         });
     }
+    report.step("features", || feature_sets::run(root));
+    let mut suites = Vec::new();
+    report.step("tests", || tests(root, skips.path(), &mut suites));
     report.step("tables", || tables::run(root, true));
-    report.step("instructions", || instructions::run(root, true));
+    report.step("instructions", || instructions(skips.path()));
+    report.step("book", || book::run(root, &book::Book::default()));
     report.step("tidy", || tidy::run(root));
+    let skipped = skips.read()?;
+    report.step("skips", || skipped.verdict(suite.strict));
+    println!("== suites\n{}", times::table(&suites));
+    println!("== skipped\n{skipped}");
     report.finish()
+}
+
+/// Runs the tests, and notes how long each program of tests took.
+fn tests(root: &Path, skips: &Path, suites: &mut Vec<times::Suite>) -> Result<()> {
+    let mut command = workspace::cargo(root);
+    command.args(TESTS).env(specula_testing::FILE, skips);
+    let mut cargo = command.stderr(Stdio::piped()).spawn()?;
+    let messages = cargo.stderr.take().ok_or("cargo has no standard error")?;
+    suites.extend(times::follow(messages)?);
+    match cargo.wait()?.success() {
+        true => Ok(()),
+        false => Err(format!("`cargo {}` failed", TESTS.join(" ")).into()),
+    }
+}
+
+/// Counts instructions in a process of its own, whose skips go to the file too.
+fn instructions(skips: &Path) -> Result<()> {
+    let mut command = Command::new(std::env::current_exe()?);
+    command.args(["instructions", "--check"]);
+    command.env(specula_testing::FILE, skips);
+    match command.status()?.success() {
+        true => Ok(()),
+        false => Err("`cargo xtask instructions --check` failed".into()),
+    }
 }
 
 /// What ran, how long, and what failed.

@@ -23,7 +23,7 @@ use crate::Result;
 const BUILT: &str = "target/book";
 
 /// What to do with the book.
-#[derive(clap::Args)]
+#[derive(clap::Args, Default)]
 pub(crate) struct Book {
     /// Check links and pictures, and build nothing
     #[arg(long)]

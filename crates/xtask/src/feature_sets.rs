@@ -1,0 +1,78 @@
+//! `cargo xtask features`: every set of features that users choose compiles.
+
+use std::path::Path;
+
+use crate::{Result, workspace};
+
+/// Packages with the sets of features that are checked, beside the default and all, which tests and lints compile.
+const SETS: &[(&str, &[&str])] = &[
+    (
+        "specula-bsdf",
+        &["", "std", "glam", "mint", "serde", "glam,mint,serde"],
+    ),
+    ("specula-scene", &[""]),
+    (
+        "specula",
+        &[
+            "",
+            "gpu",
+            "lab",
+            "shaders",
+            "cli",
+            "cli,gpu",
+            "cli,lab",
+            "cli,shaders",
+            "cli,oidn",
+        ],
+    ),
+];
+
+/// Checks each set, warnings as errors; fails with those that do not compile.
+pub(crate) fn run(root: &Path) -> Result<()> {
+    let mut failed = Vec::new();
+    let mut count = 0;
+    for (package, sets) in SETS {
+        for set in *sets {
+            let mut check = workspace::cargo(root);
+            check.args(["clippy", "--quiet", "--package", package]);
+            check.args(["--no-default-features", "--features", set]);
+            check.args(["--", "-D", "warnings"]);
+            count += 1;
+            if !check.status()?.success() {
+                failed.push(format!("{package} with features `{set}`"));
+            }
+        }
+    }
+    match failed.as_slice() {
+        [] => {
+            println!("{count} sets of features compile");
+            Ok(())
+        }
+        failed => Err(format!("these do not compile:\n{}", failed.join("\n")).into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_feature_of_a_manifest_is_in_a_set() {
+        let root = workspace::root();
+        for (package, sets) in SETS {
+            let manifest = root.join(format!("crates/{package}/Cargo.toml"));
+            let manifest = std::fs::read_to_string(manifest).unwrap();
+            let (_, features) = manifest.split_once("[features]\n").unwrap();
+            let features = features.split("\n[").next().unwrap();
+            for line in features.lines().filter(|l| !l.starts_with([' ', '#', ']'])) {
+                let Some((name, _)) = line.split_once(" = ") else {
+                    continue;
+                };
+                // Tests and lints compile with these.
+                let elsewhere = ["default", "full", "tev", "miette"].contains(&name);
+                let in_a_set = sets.iter().any(|set| set.split(',').any(|f| f == name));
+                assert!(elsewhere || in_a_set, "{package}: {name}");
+            }
+        }
+    }
+}
