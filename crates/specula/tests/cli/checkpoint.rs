@@ -123,7 +123,7 @@ fn a_film_is_never_lost_by_mistake() {
         ),
         (
             &["-o", "a.exr", "--resume", "--samples", "8..9"],
-            "begin with number 0",
+            "begin with index 0",
         ),
         (
             &["-o", "a.exr", "--resume", "--resolution", "12x8"],
