@@ -220,7 +220,7 @@ fn area_triangle(u: vec2f) -> vec2f {
 /// A point of the unit disk, area-preserving and continuous.
 ///
 /// Source: Shirley and Chiu 1997, in the branch-lean form of Cline (Shirley 2011).
-/// Twin: specula-render/src/camera.rs, concentric_disk.
+/// Twin: specula-render/src/disk.rs, concentric_disk.
 fn area_disk(u: vec2f) -> vec2f {
     let at = 2.0 * u - vec2f(1.0);
     if at.x == 0.0 && at.y == 0.0 {

@@ -134,7 +134,7 @@ fn path_emission(state: PathState, surface: Surface, direction: vec3f) -> vec3f 
 ///
 /// * `normal`, `tangent`: bent by its bump.
 ///
-/// Twin: specula-render/src/integrator.rs, PathTracer::shading.
+/// Twin: specula-render/src/integrator.rs, PathTracer::shading_normal_and_tangent.
 fn path_tangent(surface: Surface, bound: Bound, normal: vec3f, tangent: vec3f) -> vec3f {
     if bound.isotropic {
         return vec3f(0.0);
@@ -150,7 +150,7 @@ fn path_tangent(surface: Surface, bound: Bound, normal: vec3f, tangent: vec3f) -
 
 /// The vertex at a surface.
 ///
-/// Twin: specula-render/src/integrator.rs, PathTracer::vertex.
+/// Twin: specula-render/src/integrator.rs, PathTracer::shading_point.
 fn path_vertex(
     surface: Surface,
     wo: vec3f,

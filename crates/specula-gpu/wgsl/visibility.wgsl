@@ -52,7 +52,7 @@ fn visibility_radiance(s: Surface, direction: vec3f) -> vec3f {
 
 /// What a surface does with a ray, by chance where it is partly transparent.
 ///
-/// Twin: specula-render/src/integrator/visibility.rs, PathTracer::meeting.
+/// Twin: specula-render/src/integrator/visibility.rs, PathTracer::passage.
 fn visibility_meeting(surface: Surface, s: Sequence, key: vec3u) -> u32 {
     let shape = SHAPES + surface.shape * SHAPE_SIZE;
     let alpha = parameter_float(shape + 7u, visibility_place(surface));
@@ -73,7 +73,7 @@ fn visibility_cross(media: ptr<function, MediumStack>, surface: Surface, directi
 ///
 /// * `ray`: the one that meets it, when this returns.
 ///
-/// Twin: specula-render/src/integrator/visibility.rs, PathTracer::nearest.
+/// Twin: specula-render/src/integrator/visibility.rs, PathTracer::intersect.
 fn visibility_nearest(
     ray: ptr<function, Ray>,
     media: ptr<function, MediumStack>,
