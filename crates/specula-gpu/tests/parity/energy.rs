@@ -205,10 +205,10 @@ fn coordinate_cases() -> Vec<Case> {
              let edge = coordinates_edge(x[5]);
              let azimuth = coordinates_azimuth(alphas, x[2], x[3]);
              y[0] = alphas.low; y[1] = alphas.high; y[2] = edge;
-             y[3] = azimuth.width; y[4] = azimuth.v; y[5] = azimuth.narrow;
+             y[3] = azimuth.alpha; y[4] = azimuth.v; y[5] = azimuth.narrow;
              y[6] = coordinates_interface_azimuth(azimuth, edge);
-             y[7] = coordinates_cosine(abs(x[4]), azimuth.width);
-             y[8] = coordinates_interface_cosine(abs(x[4]), azimuth.width, edge);",
+             y[7] = coordinates_cosine(abs(x[4]), azimuth.alpha);
+             y[8] = coordinates_interface_cosine(abs(x[4]), azimuth.alpha, edge);",
             stretched_views(),
             twins!(|x| {
                 let alphas = AlphaPair::new(x[0], x[1]);
