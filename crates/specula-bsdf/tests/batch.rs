@@ -6,6 +6,8 @@
 
 mod batch_common;
 
+use std::collections::BTreeSet;
+
 use batch_common::Elements;
 use specula_bsdf::batch::{
     Alphas, Any, Colours, Directions, LengthMismatch, Level, Lobes, PerElement, PerElementMetal,
@@ -58,7 +60,7 @@ fn batch<T: Real, L: Lobes<T>>(level: Level, lobes: &L, e: &Elements<T>) -> Outc
     out
 }
 
-fn kind<T: Real>(sample: &BsdfSample<T>) -> SampleOutcome {
+fn outcome<T: Real>(sample: &BsdfSample<T>) -> SampleOutcome {
     match (sample.event, sample.specular) {
         (Event::Reflection, false) => SampleOutcome::Reflection,
         (Event::Transmission, false) => SampleOutcome::Transmission,
@@ -104,8 +106,8 @@ fn scalar<T: Real, L: Bsdf<T>>(lobe: &L, e: &Elements<T>) -> Outcome<T> {
             sample.map_or(Rgb::BLACK, |s| s.weight),
         );
         out.samples.pdf.push(sample.map_or(T::ZERO, |s| s.pdf));
-        let kind = sample.as_ref().map_or(SampleOutcome::Rejected, kind);
-        out.samples.kind.push(kind);
+        let outcome = sample.as_ref().map_or(SampleOutcome::Rejected, outcome);
+        out.samples.outcome.push(outcome);
     }
     out
 }
@@ -119,6 +121,32 @@ fn levels() -> Vec<Level> {
         specula_testing::not_of_this_machine("batches", format_args!("no {level}"));
     }
     here
+}
+
+macro_rules! batches_of_lobes {
+    ($($(#[$doc:meta])* $name:ident: $lobe:ty, $sides:ident, $batch:ident, $shader:literal;)*) => {
+        [$((stringify!($name), stringify!($batch))),*]
+    };
+}
+
+#[test]
+fn every_lobe_with_batches_is_compared() {
+    // What `plain_loops_are_exact` compares.
+    let mut compared = BTreeSet::from(["Compensated"]);
+    macro_rules! each {
+        ($name:literal, $lobe:expr) => {{
+            let _ = $lobe;
+            compared.insert($name);
+        }};
+    }
+    for_every_lobe!(f32, ALPHAS[0], each);
+    for (lobe, batch) in specula_bsdf::lobe_table!(batches_of_lobes) {
+        assert!(
+            !["closed", "delta"].contains(&batch) || compared.contains(lobe),
+            "the table of lobes says that {lobe} has `{batch}` batches: compare them in `for_every_lobe` of \
+             tests/batch_common/mod.rs"
+        );
+    }
 }
 
 #[test]
@@ -409,7 +437,7 @@ fn bare_samplers_are_the_scalar_ones() {
 }
 
 #[test]
-fn rejected_draws_are_zero_throughout() {
+fn rejected_samples_are_zero_throughout() {
     let mut elements = Elements::<f32>::above(2000, 7);
     // Grazing views of a rough metal reflect downwards often.
     elements.wo.x.fill(0.995);
@@ -420,7 +448,7 @@ fn rejected_draws_are_zero_throughout() {
         let s = batch(level, &lobe.with_sampler(Sampler::Cap), &elements).samples;
         let mut rejected = 0;
         for i in 0..2000 {
-            let numbers = [
+            let values = [
                 s.wi.x[i],
                 s.wi.y[i],
                 s.wi.z[i],
@@ -429,9 +457,9 @@ fn rejected_draws_are_zero_throughout() {
                 s.weight.b[i],
                 s.pdf[i],
             ];
-            if s.kind[i] == SampleOutcome::Rejected {
+            if s.outcome[i] == SampleOutcome::Rejected {
                 rejected += 1;
-                assert_eq!(numbers, [0.0; 7]);
+                assert_eq!(values, [0.0; 7]);
             } else {
                 assert!(s.wi.z[i] > 0.0 && s.pdf[i] > 0.0 && s.weight.r[i] > 0.0);
             }
@@ -474,10 +502,10 @@ fn slices_that_differ_in_length_are_named() {
     assert_eq!((error.name, error.found), ("alpha_y", 3));
 
     let mut samples = Samples::<Vec<f32>, Vec<SampleOutcome>>::rejected(8);
-    samples.kind.pop();
+    samples.outcome.pop();
     let u = e.u();
     let error = Level::best()
         .sample(&lobe, wo, u, Transport::Radiance, samples.as_mut_slices())
         .unwrap_err();
-    assert_eq!((error.name, error.found, error.expected), ("kind", 7, 8));
+    assert_eq!((error.name, error.found, error.expected), ("outcome", 7, 8));
 }

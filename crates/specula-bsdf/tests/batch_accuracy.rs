@@ -68,7 +68,7 @@ where
         worst.see(0, f_cos.g[i], f.g);
         worst.see(1, density, p);
         if matches!(
-            samples.kind[i],
+            samples.outcome[i],
             SampleOutcome::Reflection | SampleOutcome::Transmission
         ) {
             let wi = samples.wi.get(i).expect("an element").cast();

@@ -91,7 +91,7 @@ fn sample<T: Real>(level: Level, metal: &MultibounceConductor<T>, of: &Elements<
     let rows = streams.iter_mut().enumerate().map(|(i, stream)| {
         let (wi, f) = (samples.wi.get(i), samples.weight.get(i));
         let (wi, f) = (wi.expect("an element"), f.expect("an element"));
-        let is_reflection = samples.kind[i] == SampleOutcome::Reflection;
+        let is_reflection = samples.outcome[i] == SampleOutcome::Reflection;
         assert_eq!(is_reflection, samples.pdf[i] > T::ZERO);
         row([f.r, f.g, f.b, samples.pdf[i], wi.x, wi.y, wi.z], stream)
     });

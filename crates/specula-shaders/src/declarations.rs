@@ -8,7 +8,7 @@
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Declaration<'a> {
     /// What is declared.
-    pub kind: Kind,
+    pub kind: DeclarationKind,
     /// Its name.
     pub name: &'a str,
     /// The lines of its doc comment, without `/// `.
@@ -17,7 +17,7 @@ pub struct Declaration<'a> {
 
 /// What a declaration declares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum DeclarationKind {
     /// `fn`
     Function,
     /// `struct`
@@ -69,7 +69,7 @@ pub fn fields(text: &str) -> Vec<Field<'_>> {
     let mut docs = Vec::new();
     let mut structure = None;
     for line in text.lines() {
-        if let Some((Kind::Struct, name)) = declared(line) {
+        if let Some((DeclarationKind::Struct, name)) = declared(line) {
             structure = Some(name);
             docs.clear();
         } else if line.starts_with('}') {
@@ -94,15 +94,15 @@ pub fn fields(text: &str) -> Vec<Field<'_>> {
 }
 
 /// The kind and the name of what begins on this line.
-fn declared(line: &str) -> Option<(Kind, &str)> {
+fn declared(line: &str) -> Option<(DeclarationKind, &str)> {
     let declaration = without_attributes(line);
     let (keyword, rest) = declaration.split_at_checked(declaration.find([' ', '<'])?)?;
     let kind = match keyword {
-        "fn" => Kind::Function,
-        "struct" => Kind::Struct,
-        "const" => Kind::Constant,
-        "alias" => Kind::Alias,
-        "var" => Kind::Variable,
+        "fn" => DeclarationKind::Function,
+        "struct" => DeclarationKind::Struct,
+        "const" => DeclarationKind::Constant,
+        "alias" => DeclarationKind::Alias,
+        "var" => DeclarationKind::Variable,
         _ => return None,
     };
     let rest = match rest.strip_prefix('<') {
@@ -136,19 +136,19 @@ mod tests {
                     /// T.\n@group(0) @binding(0) var<storage, read> t: array<f32>;\nalias W = f32;\n\
                     @compute @workgroup_size(64)\nfn main() {\n}\n";
         let found = declarations(text);
-        let rows: Vec<(Kind, &str, usize)> = found
+        let rows: Vec<(DeclarationKind, &str, usize)> = found
             .iter()
             .map(|d| (d.kind, d.name, d.docs.len()))
             .collect();
         assert_eq!(
             rows,
             [
-                (Kind::Constant, "A_B", 1),
-                (Kind::Struct, "Pair", 0),
-                (Kind::Function, "f_g", 3),
-                (Kind::Variable, "t", 1),
-                (Kind::Alias, "W", 0),
-                (Kind::Function, "main", 0),
+                (DeclarationKind::Constant, "A_B", 1),
+                (DeclarationKind::Struct, "Pair", 0),
+                (DeclarationKind::Function, "f_g", 3),
+                (DeclarationKind::Variable, "t", 1),
+                (DeclarationKind::Alias, "W", 0),
+                (DeclarationKind::Function, "main", 0),
             ]
         );
         assert_eq!(found[2].docs, ["F.", "", "    code"]);

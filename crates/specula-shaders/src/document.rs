@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::declarations::{Kind, declarations, fields};
+use crate::declarations::{DeclarationKind, declarations, fields};
 use crate::items::{Item, ItemKind, identifiers, items};
 use crate::modules::Module;
 
@@ -44,7 +44,7 @@ impl<'a> Comments<'a> {
         };
         for module in modules {
             for declared in declarations(module.text) {
-                if declared.kind == Kind::Function {
+                if declared.kind == DeclarationKind::Function {
                     comments.homes.insert(declared.name, module);
                 }
                 comments.docs.insert(declared.name, declared.docs);

@@ -28,7 +28,7 @@ mod tables;
 mod translate;
 
 pub use compose::{compose, ordered};
-pub use declarations::{Declaration, Field, Kind, declarations, fields};
+pub use declarations::{Declaration, DeclarationKind, Field, declarations, fields};
 pub use error::ComposeError;
 pub use export::{EXAMPLE_MODULES, ExportError, File, export};
 pub use language::Language;

@@ -1,4 +1,4 @@
-//! The modules: one row for each file of `wgsl/`.
+//! The modules: the files of `wgsl/`.
 
 use crate::error::ComposeError;
 
@@ -11,120 +11,8 @@ pub struct Module {
     pub text: &'static str,
 }
 
-/// The rows: paths to modules with the files' texts.
-macro_rules! modules {
-    ($($path:literal,)*) => {
-        &[$(Module {
-            path: $path,
-            text: include_str!(concat!("../wgsl/", $path, ".wgsl")),
-        },)*]
-    };
-}
-
-/// All modules, by folder.
-pub const MODULES: &[Module] = modules![
-    // Files of the folder itself.
-    "alpha",
-    // math
-    "math/arccosine",
-    "math/erf",
-    "math/frame",
-    "math/rgb",
-    "math/stream",
-    "math/turns",
-    "math/warp",
-    // ndf
-    "ndf/beckmann",
-    "ndf/distribution",
-    "ndf/ggx",
-    "ndf/masking",
-    // vndf
-    "vndf/beckmann_visible",
-    "vndf/bounded",
-    "vndf/cap",
-    "vndf/exact",
-    "vndf/exact_chords",
-    "vndf/exact_cone",
-    "vndf/exact_isotropic",
-    "vndf/half_vector",
-    "vndf/heitz",
-    "vndf/reflection",
-    "vndf/reflections",
-    "vndf/sampler",
-    "vndf/stretched",
-    // fresnel
-    "fresnel/conductor",
-    "fresnel/dielectric",
-    "fresnel/f82",
-    "fresnel/reflectance",
-    "fresnel/schlick",
-    // energy
-    "energy/albedo",
-    "energy/coordinates",
-    "energy/dielectric_albedo",
-    "energy/energy_table",
-    "energy/fit",
-    "energy/fresnel_average",
-    "energy/interface",
-    "energy/interface_layer",
-    "energy/interface_single",
-    "energy/model",
-    "energy/pairs",
-    "energy/spline",
-    "energy/stencil",
-    // bsdf
-    "bsdf/black",
-    "bsdf/bsdf_sample",
-    "bsdf/coated_diffuse",
-    "bsdf/compensated",
-    "bsdf/compensated_dielectric",
-    "bsdf/diffuse_transmission",
-    "bsdf/eon",
-    "bsdf/gltf",
-    "bsdf/gltf_albedo",
-    "bsdf/gltf_sheen",
-    "bsdf/lambert",
-    "bsdf/layered/layered",
-    "bsdf/layered/layered_base",
-    "bsdf/layered/layered_coat",
-    "bsdf/layered/layered_connect",
-    "bsdf/layered/layered_density",
-    "bsdf/layered/layered_lobe",
-    "bsdf/layered/layered_medium",
-    "bsdf/layered/layered_walk",
-    "bsdf/microfacets",
-    "bsdf/plastic",
-    "bsdf/plastic_interface",
-    "bsdf/principled_coat",
-    "bsdf/principled_parameters",
-    "bsdf/principled_solid",
-    "bsdf/principled_terms",
-    "bsdf/principled_thin",
-    "bsdf/rough_conductor",
-    "bsdf/rough_dielectric",
-    "bsdf/smooth_conductor",
-    "bsdf/smooth_dielectric",
-    "bsdf/thin_dielectric",
-    "bsdf/tints",
-    // multibounce
-    "multibounce/bitterli2022",
-    "multibounce/cui2023",
-    "multibounce/heitz2016",
-    "multibounce/heitz_interface",
-    "multibounce/mis_pdf",
-    "multibounce/multibounce_conductor",
-    "multibounce/multibounce_dielectric",
-    "multibounce/multibounce_diffuse",
-    "multibounce/multibounce_interface",
-    "multibounce/multibounce_model",
-    "multibounce/normalised",
-    "multibounce/normals",
-    "multibounce/stratified_bidirectional",
-    "multibounce/stratified_bidirectional_interface",
-    "multibounce/state",
-    "multibounce/walk",
-    "multibounce/wang2022",
-];
+/// All modules, by folder: one for each file of `wgsl/`, listed by `build.rs`.
+pub const MODULES: &[Module] = include!(concat!(env!("OUT_DIR"), "/modules.rs"));
 
 /// Names that a module takes from another one.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is a failed test")]
 
-use specula_shaders::{Kind, MODULES, declarations};
+use specula_shaders::{DeclarationKind, MODULES, declarations};
 
 const HEAD: &str = "\
 # Modules
@@ -24,7 +24,9 @@ fn table() -> String {
             text += &format!("\n## {name}\n\n| module | functions | |\n|---|---|---|\n");
         }
         let declared = declarations(module.text);
-        let functions = declared.iter().filter(|d| d.kind == Kind::Function);
+        let functions = declared
+            .iter()
+            .filter(|d| d.kind == DeclarationKind::Function);
         text += &format!(
             "| `{}` | {} | {} |\n",
             module.name(),

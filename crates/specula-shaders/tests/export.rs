@@ -10,7 +10,9 @@ mod tools;
 
 use std::collections::BTreeSet;
 
-use specula_shaders::{Kind, Language, MODULES, compose, declarations, export, fields, ordered};
+use specula_shaders::{
+    DeclarationKind, Language, MODULES, compose, declarations, export, fields, ordered,
+};
 use tools::Folder;
 
 const TEXTS: [Language; 5] = [
@@ -82,13 +84,15 @@ fn all_documentation_survives() {
     for language in TEXTS {
         let text = library(language);
         let mut lines = text.lines().filter_map(|l| l.strip_prefix("///"));
-        let count = |kind: Kind| {
+        let count = |kind: DeclarationKind| {
             let all = MODULES.iter().flat_map(|m| declarations(m.text));
             let documented = all.filter(|d| d.kind == kind);
             documented.map(|d| d.docs.len()).sum::<usize>()
         };
         // naga writes buffers its own way, and no comment finds them.
-        let expected = count(Kind::Function) + count(Kind::Struct) + count(Kind::Constant);
+        let expected = count(DeclarationKind::Function)
+            + count(DeclarationKind::Struct)
+            + count(DeclarationKind::Constant);
         let found = lines.by_ref().count();
         assert!(found >= expected, "{language}: {found} lines of {expected}");
         for module in MODULES {
@@ -103,7 +107,9 @@ fn all_documentation_survives() {
 }
 
 fn is_without_functions(text: &str) -> bool {
-    !declarations(text).iter().any(|d| d.kind == Kind::Function)
+    !declarations(text)
+        .iter()
+        .any(|d| d.kind == DeclarationKind::Function)
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use specula_shaders::{Kind, MODULES, Module, compose, declarations};
+use specula_shaders::{DeclarationKind, MODULES, Module, compose, declarations};
 
 fn crate_folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -38,13 +38,16 @@ fn words(text: &str) -> BTreeSet<&str> {
 }
 
 #[test]
-fn every_file_is_registered() {
+fn every_file_is_a_module() {
     let mut found = BTreeSet::new();
     files(&crate_folder().join("wgsl"), "", &mut found);
-    let registered: BTreeSet<String> = MODULES.iter().map(|m| m.path.to_owned()).collect();
-    let missing: Vec<_> = found.difference(&registered).cloned().collect();
-    assert!(missing.is_empty(), "not in src/modules.rs: {missing:?}");
-    assert_eq!(registered.len(), MODULES.len(), "a row stands there twice");
+    let listed: BTreeSet<String> = MODULES.iter().map(|m| m.path.to_owned()).collect();
+    let missing: Vec<_> = found.symmetric_difference(&listed).collect();
+    assert!(
+        missing.is_empty(),
+        "files of wgsl/ that build.rs does not list, or listed without a file: {missing:?}"
+    );
+    assert_eq!(listed.len(), MODULES.len(), "a file is listed twice");
 }
 
 #[test]
@@ -201,7 +204,7 @@ fn every_function_has_its_twin() {
     for module in MODULES {
         for declared in declarations(module.text) {
             let has_twin = declared.docs.iter().any(|d| d.contains("Twin: "));
-            if declared.kind == Kind::Function && !has_twin {
+            if declared.kind == DeclarationKind::Function && !has_twin {
                 findings.push(format!("{}: `{}` has no twin", module.path, declared.name));
             }
         }
@@ -359,14 +362,16 @@ fn every_name_begins_with_its_module() {
 /// Functions and constants begin with the module's name, structures with its words in capitals; so that a
 /// structure does not take a common word from the caller (`Frame`), it has two words at least. No name begins
 /// with another module's longer name.
-fn fault_of_name(module: &Module, kind: Kind, name: &str) -> Option<String> {
+fn fault_of_name(module: &Module, kind: DeclarationKind, name: &str) -> Option<String> {
     let spelt = |m: &Module| match kind {
-        Kind::Constant => m.name().to_uppercase(),
-        Kind::Struct | Kind::Alias => m.name().split('_').map(capitalised).collect(),
-        Kind::Variable => "specula".to_owned(),
+        DeclarationKind::Constant => m.name().to_uppercase(),
+        DeclarationKind::Struct | DeclarationKind::Alias => {
+            m.name().split('_').map(capitalised).collect()
+        }
+        DeclarationKind::Variable => "specula".to_owned(),
         _ => m.name().to_owned(),
     };
-    let is_type = matches!(kind, Kind::Struct | Kind::Alias);
+    let is_type = matches!(kind, DeclarationKind::Struct | DeclarationKind::Alias);
     let begins = |m: &Module| {
         name.strip_prefix(spelt(m).as_str()).is_some_and(|rest| {
             let next = rest.chars().next();
@@ -374,8 +379,8 @@ fn fault_of_name(module: &Module, kind: Kind, name: &str) -> Option<String> {
         })
     };
     let case = match kind {
-        Kind::Constant => name.chars().all(|c| !c.is_ascii_lowercase()),
-        Kind::Struct | Kind::Alias => !name.contains('_'),
+        DeclarationKind::Constant => name.chars().all(|c| !c.is_ascii_lowercase()),
+        DeclarationKind::Struct | DeclarationKind::Alias => !name.contains('_'),
         _ => name.chars().all(|c| !c.is_ascii_uppercase()),
     };
     let prefix = spelt(module);
@@ -391,7 +396,7 @@ fn fault_of_name(module: &Module, kind: Kind, name: &str) -> Option<String> {
     let other = MODULES
         .iter()
         .find(longer)
-        .filter(|_| kind != Kind::Variable)?;
+        .filter(|_| kind != DeclarationKind::Variable)?;
     Some(format!("`{name}` looks like a name of {}", other.path))
 }
 
@@ -405,49 +410,79 @@ fn capitalised(word: &str) -> String {
 fn names_without_their_module_are_found() {
     let module = |path: &str| MODULES.iter().find(|m| m.path == path).unwrap();
     for (path, kind, name, sound) in [
-        ("math/frame", Kind::Struct, "FrameBasis", true),
-        ("math/frame", Kind::Struct, "Frame", false),
-        ("math/frame", Kind::Struct, "Basis", false),
-        ("math/frame", Kind::Struct, "Framework", false),
-        ("energy/albedo", Kind::Struct, "Loss", false),
-        ("energy/interface", Kind::Struct, "InterfaceKnot", true),
-        ("energy/interface", Kind::Struct, "InterfaceLayer", false),
+        ("math/frame", DeclarationKind::Struct, "FrameBasis", true),
+        ("math/frame", DeclarationKind::Struct, "Frame", false),
+        ("math/frame", DeclarationKind::Struct, "Basis", false),
+        ("math/frame", DeclarationKind::Struct, "Framework", false),
+        ("energy/albedo", DeclarationKind::Struct, "Loss", false),
+        (
+            "energy/interface",
+            DeclarationKind::Struct,
+            "InterfaceKnot",
+            true,
+        ),
+        (
+            "energy/interface",
+            DeclarationKind::Struct,
+            "InterfaceLayer",
+            false,
+        ),
         (
             "energy/interface_layer",
-            Kind::Struct,
+            DeclarationKind::Struct,
             "InterfaceLayer",
             true,
         ),
-        ("fresnel/dielectric", Kind::Function, "dielectric", true),
-        ("fresnel/dielectric", Kind::Function, "dielectrics_f", false),
         (
             "fresnel/dielectric",
-            Kind::Function,
+            DeclarationKind::Function,
+            "dielectric",
+            true,
+        ),
+        (
+            "fresnel/dielectric",
+            DeclarationKind::Function,
+            "dielectrics_f",
+            false,
+        ),
+        (
+            "fresnel/dielectric",
+            DeclarationKind::Function,
             "dielectric_albedo_f",
             false,
         ),
-        ("fresnel/f82", Kind::Function, "f82_eval", true),
-        ("fresnel/f82", Kind::Function, "f_eval", false),
+        ("fresnel/f82", DeclarationKind::Function, "f82_eval", true),
+        ("fresnel/f82", DeclarationKind::Function, "f_eval", false),
         (
             "bsdf/bsdf_sample",
-            Kind::Constant,
+            DeclarationKind::Constant,
             "BSDF_SAMPLE_VALID",
             true,
         ),
-        ("bsdf/bsdf_sample", Kind::Constant, "BSDF_VALID", false),
         (
             "bsdf/bsdf_sample",
-            Kind::Constant,
+            DeclarationKind::Constant,
+            "BSDF_VALID",
+            false,
+        ),
+        (
+            "bsdf/bsdf_sample",
+            DeclarationKind::Constant,
             "bsdf_sample_valid",
             false,
         ),
         (
             "energy/energy_table",
-            Kind::Variable,
+            DeclarationKind::Variable,
             "specula_tables",
             true,
         ),
-        ("energy/energy_table", Kind::Variable, "tables", false),
+        (
+            "energy/energy_table",
+            DeclarationKind::Variable,
+            "tables",
+            false,
+        ),
     ] {
         let fault = fault_of_name(module(path), kind, name);
         assert_eq!(fault.is_none(), sound, "{path} {name}: {fault:?}");
@@ -534,7 +569,9 @@ fn every_lobe_has_its_shader() {
         .filter(|(_, shader)| !MODULES.iter().any(|m| m.path == *shader));
     none(
         &missing
-            .map(|(lobe, shader)| format!("lobe {lobe}: there is no wgsl/{shader}.wgsl"))
+            .map(|(lobe, shader)| {
+                format!("lobe {lobe}: there is no crates/specula-shaders/wgsl/{shader}.wgsl")
+            })
             .collect::<Vec<_>>(),
     );
 }

@@ -3,8 +3,7 @@
 
 mod common;
 
-use common::alpha;
-use rayon::prelude::*;
+use common::{alpha, moments, sigmas};
 use specula_bsdf::bsdf::{Base, CoatedDiffuse, Layered, Medium, RoughConductor, SmoothConductor};
 use specula_bsdf::fresnel::{Conductor as Metal, Reflectance, dielectric};
 use specula_bsdf::math::{Real, Stream, rgb, vec3, warp};
@@ -51,31 +50,6 @@ fn at(degrees: f64, azimuth: f64) -> Vec3<f64> {
     vec3(s * cos, s * sin, c)
 }
 
-/// Moments of each of `cells` values, sampled in parallel by streams of fixed seeds.
-fn moments<const N: usize>(
-    seed: u64,
-    n: u64,
-    sample: impl Fn(&mut Stream) -> [f64; N] + Sync,
-) -> [Moments; N] {
-    (0..8_u64)
-        .into_par_iter()
-        .map(|chunk| {
-            let mut stream = Stream::new((seed << 8 | chunk).wrapping_mul(0x2545_f491_4f6c_dd1d));
-            let mut sums = [Moments::default(); N];
-            for _ in 0..n / 8 {
-                for (m, x) in sums.iter_mut().zip(sample(&mut stream)) {
-                    m.push(x);
-                }
-            }
-            sums
-        })
-        .collect::<Vec<_>>()
-        .into_iter()
-        .fold([Moments::default(); N], |a, b| {
-            core::array::from_fn(|i| a[i].merge(b[i]))
-        })
-}
-
 fn sampled(
     lobe: &Layered<f64>,
     wo: Vec3<f64>,
@@ -95,11 +69,6 @@ fn value(lobe: &Layered<f64>, wo: Vec3<f64>, wi: Vec3<f64>, n: u64, seed: u64) -
     moments(seed, n, |s| {
         lobe.eval_pdf_random(wo, wi, RADIANCE, s).0.to_array()
     })
-}
-
-fn sigmas(a: &Moments, b: &Moments) -> f64 {
-    let rounding = 1e-9 * (a.mean().abs() + b.mean().abs()) + 1e-12;
-    (a.mean() - b.mean()) / (a.variance_of_mean() + b.variance_of_mean() + rounding.powi(2)).sqrt()
 }
 
 fn against(m: &Moments, truth: f64) -> f64 {

@@ -101,7 +101,7 @@ impl Level {
     /// [`SampleOutcome::Rejected`] with `wi`, `weight` and `pdf` all zero.
     ///
     /// * `wo: (n, 3) T`, `u: (n, 3) T` in `[0, 1)` `-> wi: (n, 3) T`, `weight: (n, 3) T`,
-    ///   `pdf: (n,) T`, `kind: (n,) u8`
+    ///   `pdf: (n,) T`, `outcome: (n,) u8`
     ///
     /// # Errors
     /// Where a slice is not as long as `wi.x`; nothing is written then.

@@ -16,72 +16,76 @@ use crate::vndf::Sampler;
 /// Elements between two stages, few enough to stay in the nearest cache.
 const CHUNK: usize = 128;
 
-/// Runs `$body` with `$f` standing for the family with a constant sampler.
+// Whether there is a choice is a constant of the family's type: loops of a choice that it does not have are not compiled.
+
+/// Runs `$body` with `$f` standing for the family, of type `F`, with a constant sampler.
 macro_rules! per_sampler {
-    ($family:expr, $f:ident => $body:expr) => {{
-        let family = $family;
-        let choose = |sampler| family.with(|lobe| lobe.choose_sampler(sampler));
-        match family.common().sampler() {
-            None => {
-                let $f = family;
-                $body
+    ($family:expr, $f:ident => $body:expr) => {
+        if F::HAS_SAMPLER {
+            let family = $family;
+            let choose = |sampler| family.with(|lobe| lobe.choose_sampler(sampler));
+            match family.common().sampler() {
+                Sampler::Cap => {
+                    let $f = choose(Sampler::Cap);
+                    $body
+                }
+                Sampler::Bounded => {
+                    let $f = choose(Sampler::Bounded);
+                    $body
+                }
+                Sampler::Exact if F::MAY_BE_ISOTROPIC && family.is_isotropic() => {
+                    let $f = Isotropic(choose(Sampler::Exact));
+                    $body
+                }
+                Sampler::Exact => {
+                    let $f = choose(Sampler::Exact);
+                    $body
+                }
+                Sampler::Heitz => {
+                    let $f = choose(Sampler::Heitz);
+                    $body
+                }
             }
-            Some(Sampler::Cap) => {
-                let $f = choose(Sampler::Cap);
-                $body
-            }
-            Some(Sampler::Bounded) => {
-                let $f = choose(Sampler::Bounded);
-                $body
-            }
-            Some(Sampler::Exact) if family.is_isotropic() => {
-                let $f = Isotropic(choose(Sampler::Exact));
-                $body
-            }
-            Some(Sampler::Exact) => {
-                let $f = choose(Sampler::Exact);
-                $body
-            }
-            Some(Sampler::Heitz) => {
-                let $f = choose(Sampler::Heitz);
-                $body
-            }
+        } else {
+            let $f = $family;
+            $body
         }
-    }};
+    };
 }
 
-/// Runs `$body` with `$f` standing for the family with a known kind of reflectance.
+/// Runs `$body` with `$f` standing for the family, of type `F`, with a known kind of reflectance.
 macro_rules! per_reflectance {
-    ($family:expr, $f:ident => $body:expr) => {{
-        let family = $family;
-        let choose = |reflectance| family.with(|lobe| lobe.choose_reflectance(reflectance));
-        match family.common().reflectance() {
-            None => {
-                let $f = family;
-                $body
+    ($family:expr, $f:ident => $body:expr) => {
+        if F::HAS_REFLECTANCE {
+            let family = $family;
+            let choose = |reflectance| family.with(|lobe| lobe.choose_reflectance(reflectance));
+            match family.common().reflectance() {
+                Reflectance::Constant(r) => {
+                    let $f = choose(Reflectance::Constant(r));
+                    $body
+                }
+                Reflectance::Conductor(r) => {
+                    let $f = choose(Reflectance::Conductor(r));
+                    $body
+                }
+                Reflectance::Schlick(r) => {
+                    let $f = choose(Reflectance::Schlick(r));
+                    $body
+                }
+                Reflectance::F82Tint(r) => {
+                    let $f = choose(Reflectance::F82Tint(r));
+                    $body
+                }
+                Reflectance::Tinted(r) => {
+                    let $f = choose(Reflectance::Tinted(r));
+                    $body
+                }
             }
-            Some(Reflectance::Constant(r)) => {
-                let $f = choose(Reflectance::Constant(r));
-                $body
-            }
-            Some(Reflectance::Conductor(r)) => {
-                let $f = choose(Reflectance::Conductor(r));
-                $body
-            }
-            Some(Reflectance::Schlick(r)) => {
-                let $f = choose(Reflectance::Schlick(r));
-                $body
-            }
-            Some(Reflectance::F82Tint(r)) => {
-                let $f = choose(Reflectance::F82Tint(r));
-                $body
-            }
-            Some(Reflectance::Tinted(r)) => {
-                let $f = choose(Reflectance::Tinted(r));
-                $body
-            }
+        } else {
+            let $f = $family;
+            $body
         }
-    }};
+    };
 }
 
 pub(super) struct Eval<'a, T> {
@@ -153,7 +157,7 @@ impl<T: Real> Kernel for EvalPdf<'_, T> {
         if F::Lobe::STAGED {
             self.in_stages(family);
         } else {
-            per_sampler!(family, f => per_reflectance!(f, f => self.each(f)));
+            per_sampler!(family, f => per_reflectance!(f, known => self.each(known)));
         }
     }
 }
@@ -215,7 +219,7 @@ impl<T: Real> Kernel for Sample<'_, T> {
         if F::Lobe::STAGED {
             self.in_stages(family);
         } else {
-            per_sampler!(family, f => per_reflectance!(f, f => self.each(f)));
+            per_sampler!(family, f => per_reflectance!(f, known => self.each(known)));
         }
     }
 }

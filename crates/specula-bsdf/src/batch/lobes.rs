@@ -1,7 +1,7 @@
 //! What the batch functions take in place of one lobe.
 
 use super::level::Arithmetic;
-use super::recast::Recast;
+use super::recast::{Recast, convert, recast};
 use super::slices::LengthMismatch;
 use crate::bsdf::{
     Bsdf, BsdfSample, CoatedDiffuse, Compensated, CompensatedDielectric, DiffuseTransmission, Eon,
@@ -13,6 +13,10 @@ use crate::vndf::Sampler;
 
 /// The lobes of a batch: one lobe for all elements (every single-scattering lobe of this crate), or
 /// [`PerElement`](super::PerElement) alphas, or [`Any`] lobe that implements [`Bsdf`].
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no lobe whose batches are known",
+    note = "wrap a lobe of your own in `batch::Any`; a lobe of this crate has its batches in `src/batch/lobes.rs`"
+)]
 pub trait Lobes<T: Real> {
     /// Fails where an array of per-element parameters is not `n` long.
     #[doc(hidden)]
@@ -40,6 +44,15 @@ pub trait Family<U: Real>: Copy {
     /// The lobe's type.
     type Lobe: InStages<U>;
 
+    /// Whether the sampler of its lobes is a choice.
+    const HAS_SAMPLER: bool = Self::Lobe::HAS_SAMPLER;
+
+    /// Whether the reflectance of its lobes is a choice that they have in common.
+    const HAS_REFLECTANCE: bool = Self::Lobe::HAS_REFLECTANCE;
+
+    /// Whether [`is_isotropic`](Family::is_isotropic) may say so.
+    const MAY_BE_ISOTROPIC: bool = Self::Lobe::HAS_SAMPLER;
+
     /// The lobe at `i`.
     fn at(&self, i: usize) -> Self::Lobe;
 
@@ -64,6 +77,12 @@ pub trait InStages<U: Real>: Bsdf<U> + Copy {
     /// reflectance in the second one only.
     const STAGED: bool = false;
 
+    /// Whether the sampler is a choice.
+    const HAS_SAMPLER: bool = false;
+
+    /// Whether the reflectance is a choice.
+    const HAS_REFLECTANCE: bool = false;
+
     /// Whether the alphas are equal, and the sampler has a shorter way for such.
     #[inline(always)]
     fn is_isotropic(&self) -> bool {
@@ -77,10 +96,10 @@ pub trait InStages<U: Real>: Bsdf<U> + Copy {
         self
     }
 
-    /// The sampler, if there is a choice.
+    /// The sampler, where there is a choice.
     #[inline(always)]
-    fn sampler(&self) -> Option<Sampler> {
-        None
+    fn sampler(&self) -> Sampler {
+        Sampler::default()
     }
 
     /// With this sampler.
@@ -90,10 +109,10 @@ pub trait InStages<U: Real>: Bsdf<U> + Copy {
         self
     }
 
-    /// The reflectance, if there is a choice.
+    /// The reflectance, where there is a choice.
     #[inline(always)]
-    fn reflectance(&self) -> Option<Reflectance<U>> {
-        None
+    fn reflectance(&self) -> Reflectance<U> {
+        Reflectance::Constant(Rgb::BLACK)
     }
 
     /// With this reflectance.
@@ -168,6 +187,7 @@ pub(super) struct Isotropic<F>(pub(super) F);
 
 impl<U: Real, F: Family<U>> Family<U> for Isotropic<F> {
     type Lobe = F::Lobe;
+    const HAS_REFLECTANCE: bool = F::HAS_REFLECTANCE;
 
     #[inline(always)]
     fn at(&self, i: usize) -> F::Lobe {
@@ -236,10 +256,16 @@ impl<T: Real, L: Bsdf<T> + Copy> Lobes<T> for Any<L> {
     }
 }
 
+recast!(SmoothConductor, self, U => SmoothConductor {
+    reflectance: self.reflectance.recast(),
+});
+
 impl<U: Real> InStages<U> for SmoothConductor<U> {
+    const HAS_REFLECTANCE: bool = true;
+
     #[inline(always)]
-    fn reflectance(&self) -> Option<Reflectance<U>> {
-        Some(self.reflectance)
+    fn reflectance(&self) -> Reflectance<U> {
+        self.reflectance
     }
 
     #[inline(always)]
@@ -255,10 +281,12 @@ impl<T: Real> Lobes<T> for SmoothConductor<T> {
     }
 }
 
-/// Lobes without choices to be made into constants.
+/// Lobes without choices to be made into constants, each with the same lobe in the scalar `U`.
 macro_rules! as_they_are {
-    ($($lobe:ident),*) => {
-        $(impl<U: Real> InStages<U> for $lobe<U> {}
+    ($($lobe:ident, $self:ident, $u:ident => $body:expr;)*) => {
+        $(recast!($lobe, $self, $u => $body);
+
+        impl<U: Real> InStages<U> for $lobe<U> {}
 
         impl<T: Real> Lobes<T> for $lobe<T> {
             #[inline(always)]
@@ -269,13 +297,23 @@ macro_rules! as_they_are {
     };
 }
 
-as_they_are!(
-    Lambert,
-    Eon,
-    DiffuseTransmission,
-    SmoothDielectric,
-    ThinDielectric
-);
+as_they_are! {
+    Lambert, self, U => Lambert::new(self.albedo().cast());
+    Eon, self, U => Eon {
+        albedo: self.albedo.cast(),
+        roughness: convert(self.roughness),
+    };
+    DiffuseTransmission, self, U => DiffuseTransmission {
+        reflectance: self.reflectance.cast(),
+        transmittance: self.transmittance.cast(),
+    };
+    SmoothDielectric, self, U => SmoothDielectric {
+        eta: convert(self.eta),
+        two_sided: self.two_sided,
+        tints: self.tints.cast(),
+    };
+    ThinDielectric, self, U => ThinDielectric::new(convert(self.eta)).with_tints(self.tints.cast());
+}
 
 /// Lobes that look up tables and branch: loops of their scalar code.
 macro_rules! one_by_one {

@@ -40,6 +40,9 @@ struct Coloured<'a, T, U> {
 
 impl<T: Real, U: Real> Family<U> for Coloured<'_, T, U> {
     type Lobe = RoughConductor<U>;
+    // Each lobe has Schlick's approximation, whatever the common one has.
+    const HAS_REFLECTANCE: bool = false;
+    const MAY_BE_ISOTROPIC: bool = false;
 
     #[inline(always)]
     fn at(&self, i: usize) -> RoughConductor<U> {
@@ -89,14 +92,8 @@ impl<T: Real> Lobes<T> for PerElementMetal<'_, T> {
 
     #[inline(always)]
     fn run<A: Arithmetic, K: Kernel>(&self, n: usize, kernel: K) {
-        // One model of reflectance: kernels have one loop.
-        let any = Reflectance::Constant(Rgb::BLACK);
-        let lobe = RoughConductor {
-            reflectance: any,
-            ..self.lobe
-        };
         kernel.run::<A::Of<T>, _>(Coloured {
-            lobe: lobe.recast(),
+            lobe: self.lobe.recast(),
             alpha_values: AlphaSlices::first(self.alpha_x, self.alpha_y, n),
             f0: self.f0.first(n),
         });

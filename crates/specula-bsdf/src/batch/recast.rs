@@ -1,11 +1,7 @@
-//! Parameters and lobes in another scalar: the same values in `f32` and in its fused twin, rounded
-//! from `f64` to `f32`.
+//! Parameters in another scalar: the same values in `f32` and in its fused twin, rounded from `f64` to `f32`. Lobes
+//! stand with their batches.
 
 use crate::alpha::Alpha;
-use crate::bsdf::{
-    Bsdf, DiffuseTransmission, Eon, Lambert, RoughConductor, RoughDielectric, SmoothConductor,
-    SmoothDielectric, ThinDielectric,
-};
 use crate::fresnel::{Conductor, F82Tint, Reflectance, Schlick, Tinted, Untinted};
 use crate::math::Real;
 use crate::ndf::{Ggx, Ndf};
@@ -39,6 +35,8 @@ macro_rules! recast {
     };
 }
 
+pub(super) use recast;
+
 recast!(Alpha, self, U => Alpha { x: convert(self.x), y: convert(self.y) });
 recast!(Ggx, self, U => Ggx::new(self.alpha().recast()));
 recast!(Conductor, self, U => Conductor {
@@ -64,38 +62,4 @@ recast!(Reflectance, self, U => match self {
         tint: f.tint.cast(),
         of: f.of.recast(),
     }),
-});
-
-recast!(Lambert, self, U => Lambert::new(self.albedo().cast()));
-recast!(Eon, self, U => Eon {
-    albedo: self.albedo.cast(),
-    roughness: convert(self.roughness),
-});
-recast!(DiffuseTransmission, self, U => DiffuseTransmission {
-    reflectance: self.reflectance.cast(),
-    transmittance: self.transmittance.cast(),
-});
-recast!(SmoothConductor, self, U => SmoothConductor {
-    reflectance: self.reflectance.recast(),
-});
-recast!(RoughConductor, self, U => RoughConductor::new(self.ndf.recast(), self.reflectance.recast())
-    .with_sampler(self.sampler)
-    .with_masking(self.masking));
-recast!(SmoothDielectric, self, U => SmoothDielectric {
-    eta: convert(self.eta),
-    two_sided: self.two_sided,
-    tints: self.tints.cast(),
-});
-recast!(ThinDielectric, self, U => ThinDielectric::new(convert(self.eta))
-    .with_tints(self.tints.cast()));
-recast!(RoughDielectric, self, U => {
-    let (ndf, eta) = (self.ndf.recast(), convert(self.eta));
-    let lobe = if self.two_sided {
-        RoughDielectric::new(ndf, eta)
-    } else {
-        RoughDielectric::facing(ndf, eta)
-    };
-    lobe.with_sampler(self.sampler)
-        .with_masking(self.masking)
-        .with_tints(self.tints.cast())
 });

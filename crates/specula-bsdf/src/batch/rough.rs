@@ -3,7 +3,7 @@
 use super::alphas::{AlphaAt, AlphaSlices, Alphas};
 use super::level::Arithmetic;
 use super::lobes::{Family, InStages, Kernel, Lobes, Same};
-use super::recast::Recast;
+use super::recast::{Recast, convert, recast};
 use super::slices::LengthMismatch;
 use crate::alpha::Alpha;
 use crate::bsdf::{BsdfSample, RoughConductor, RoughDielectric};
@@ -39,6 +39,21 @@ impl<'a, T: Real, L> PerElement<'a, T, L> {
     }
 }
 
+recast!(RoughConductor, self, U => RoughConductor::new(self.ndf.recast(), self.reflectance.recast())
+    .with_sampler(self.sampler)
+    .with_masking(self.masking));
+recast!(RoughDielectric, self, U => {
+    let (ndf, eta) = (self.ndf.recast(), convert(self.eta));
+    let lobe = if self.two_sided {
+        RoughDielectric::new(ndf, eta)
+    } else {
+        RoughDielectric::facing(ndf, eta)
+    };
+    lobe.with_sampler(self.sampler)
+        .with_masking(self.masking)
+        .with_tints(self.tints.cast())
+});
+
 /// A lobe that can be given other alphas.
 trait Rough<U: Real>: InStages<U> {
     fn with_ndf(self, ggx: Ggx<U>) -> Self;
@@ -71,6 +86,8 @@ fn made_isotropic<U: Real>(ggx: &Ggx<U>) -> Ggx<U> {
 
 impl<U: Real> InStages<U> for RoughConductor<U> {
     const STAGED: bool = true;
+    const HAS_SAMPLER: bool = true;
+    const HAS_REFLECTANCE: bool = true;
 
     #[inline(always)]
     fn is_isotropic(&self) -> bool {
@@ -84,8 +101,8 @@ impl<U: Real> InStages<U> for RoughConductor<U> {
     }
 
     #[inline(always)]
-    fn sampler(&self) -> Option<Sampler> {
-        Some(self.sampler)
+    fn sampler(&self) -> Sampler {
+        self.sampler
     }
 
     #[inline(always)]
@@ -94,8 +111,8 @@ impl<U: Real> InStages<U> for RoughConductor<U> {
     }
 
     #[inline(always)]
-    fn reflectance(&self) -> Option<Reflectance<U>> {
-        Some(self.reflectance)
+    fn reflectance(&self) -> Reflectance<U> {
+        self.reflectance
     }
 
     #[inline(always)]
@@ -128,6 +145,8 @@ impl<U: Real> InStages<U> for RoughConductor<U> {
 }
 
 impl<U: Real> InStages<U> for RoughDielectric<U> {
+    const HAS_SAMPLER: bool = true;
+
     #[inline(always)]
     fn is_isotropic(&self) -> bool {
         is_isotropic(&self.ndf)
@@ -140,8 +159,8 @@ impl<U: Real> InStages<U> for RoughDielectric<U> {
     }
 
     #[inline(always)]
-    fn sampler(&self) -> Option<Sampler> {
-        Some(self.sampler)
+    fn sampler(&self) -> Sampler {
+        self.sampler
     }
 
     #[inline(always)]
@@ -158,6 +177,7 @@ struct Textured<'a, T, L> {
 
 impl<T: Real, U: Real, L: Rough<U>> Family<U> for Textured<'_, T, L> {
     type Lobe = L;
+    const MAY_BE_ISOTROPIC: bool = false;
 
     #[inline(always)]
     fn at(&self, i: usize) -> L {

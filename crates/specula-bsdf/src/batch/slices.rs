@@ -47,9 +47,9 @@ pub enum SampleOutcome {
     SpecularTransmission,
 }
 
-/// Samples, one array per component. `S` as for [`Directions`]; `K` likewise for [`SampleOutcome`].
+/// Samples, one array per component. `S` as for [`Directions`]; `O` likewise for [`SampleOutcome`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Samples<S, K> {
+pub struct Samples<S, O> {
     /// Towards the light, unit; `(0, 0, 0)` where rejected.
     pub wi: Directions<S>,
     /// `f |cos theta_i| / pdf`; 0 where rejected.
@@ -57,7 +57,7 @@ pub struct Samples<S, K> {
     /// Density in 1/sr, or probability where specular; 0 where rejected.
     pub pdf: S,
     /// What became of the sample.
-    pub kind: K,
+    pub outcome: O,
 }
 
 /// Slices of one call that differ in length.
@@ -315,7 +315,7 @@ impl<T: Real> Samples<Vec<T>, Vec<SampleOutcome>> {
             wi: Directions::zeroed(n),
             weight: Colours::zeroed(n),
             pdf: vec![T::ZERO; n],
-            kind: vec![SampleOutcome::Rejected; n],
+            outcome: vec![SampleOutcome::Rejected; n],
         }
     }
 
@@ -325,7 +325,7 @@ impl<T: Real> Samples<Vec<T>, Vec<SampleOutcome>> {
             wi: self.wi.as_slices(),
             weight: self.weight.as_slices(),
             pdf: &self.pdf,
-            kind: &self.kind,
+            outcome: &self.outcome,
         }
     }
 
@@ -335,7 +335,7 @@ impl<T: Real> Samples<Vec<T>, Vec<SampleOutcome>> {
             wi: self.wi.as_mut_slices(),
             weight: self.weight.as_mut_slices(),
             pdf: &mut self.pdf,
-            kind: &mut self.kind,
+            outcome: &mut self.outcome,
         }
     }
 }
@@ -344,8 +344,8 @@ impl<T: Real> Samples<&mut [T], &mut [SampleOutcome]> {
     pub(super) fn lengths(&self) -> [(&'static str, usize); 8] {
         let [x, y, z] = self.wi.lengths(["wi.x", "wi.y", "wi.z"]);
         let [r, g, b] = self.weight.lengths(["weight.r", "weight.g", "weight.b"]);
-        let (pdf, kind) = (("pdf", self.pdf.len()), ("kind", self.kind.len()));
-        [x, y, z, r, g, b, pdf, kind]
+        let (pdf, outcome) = (("pdf", self.pdf.len()), ("outcome", self.outcome.len()));
+        [x, y, z, r, g, b, pdf, outcome]
     }
 
     #[inline(always)]
@@ -354,7 +354,7 @@ impl<T: Real> Samples<&mut [T], &mut [SampleOutcome]> {
             wi: self.wi.first(n),
             weight: self.weight.first(n),
             pdf: &mut self.pdf[..n],
-            kind: &mut self.kind[..n],
+            outcome: &mut self.outcome[..n],
         }
     }
 
@@ -368,21 +368,21 @@ impl<T: Real> Samples<&mut [T], &mut [SampleOutcome]> {
             wi: self.wi.range(start, end),
             weight: self.weight.range(start, end),
             pdf: &mut self.pdf[start..end],
-            kind: &mut self.kind[start..end],
+            outcome: &mut self.outcome[start..end],
         }
     }
 
     #[inline(always)]
     pub(super) fn set_from<U: Real>(&mut self, i: usize, sample: Option<BsdfSample<U>>) {
         // As a whole, so that the loop stays free of branches.
-        let (wi, weight, pdf, kind) = match sample {
+        let (wi, weight, pdf, outcome) = match sample {
             Some(s) => (s.wi, s.weight, s.pdf, SampleOutcome::of(&s)),
             None => (Vec3::ZERO, Rgb::BLACK, U::ZERO, SampleOutcome::Rejected),
         };
         self.wi.set_from(i, wi);
         self.weight.set_from(i, weight);
         self.pdf[i] = T::of(pdf.to_f64());
-        self.kind[i] = kind;
+        self.outcome[i] = outcome;
     }
 }
 

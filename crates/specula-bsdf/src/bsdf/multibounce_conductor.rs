@@ -1,6 +1,6 @@
 //! A rough metal with all its bounces, by one of the models.
 
-use super::{Bsdf, BsdfSample, Event, Transport};
+use super::{Bsdf, BsdfSample, Transport};
 use crate::fresnel::Reflectance;
 use crate::math::{Real, Rgb, Stream, Vec3};
 use crate::multibounce::walk::Facets;
@@ -134,20 +134,12 @@ impl<T: Real, N: VisibleNormals<T>> Bsdf<T> for MultibounceConductor<T, N> {
 
     #[inline]
     fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
-        let mut stream = seed(
-            wo,
-            Vec3 {
-                x: u[0],
-                y: u[1],
-                z: u[2],
-            },
-        );
-        self.sample_random(wo, u, transport, &mut stream)
+        self.sample_random(wo, u, transport, &mut seed(wo, u))
     }
 
     #[inline]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> (Rgb<T>, T) {
-        self.eval_pdf_random(wo, wi, transport, &mut seed(wo, wi))
+        self.eval_pdf_random(wo, wi, transport, &mut seed(wo, wi.to_array()))
     }
 
     #[inline]
@@ -179,15 +171,7 @@ impl<T: Real, N: VisibleNormals<T>> Bsdf<T> for MultibounceConductor<T, N> {
         stream: &mut Stream,
     ) -> Option<BsdfSample<T>> {
         let (wi, weight) = self.sample_walk(wo, [u[1], u[2]], stream)?;
-        let pdf = self.pdf(wo, wi);
-        (wi.z > T::ZERO && pdf > T::ZERO && pdf.is_finite()).then_some(BsdfSample {
-            wi,
-            weight,
-            pdf,
-            event: Event::Reflection,
-            specular: false,
-            eta: T::ONE,
-        })
+        BsdfSample::reflected(wi, weight, self.pdf(wo, wi))
     }
 
     #[inline(always)]

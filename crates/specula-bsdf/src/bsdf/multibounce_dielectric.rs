@@ -130,13 +130,12 @@ impl<T: Real, N: VisibleNormals<T>> Bsdf<T> for MultibounceDielectric<T, N> {
 
     #[inline]
     fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
-        let [x, y, z] = u;
-        self.sample_random(wo, u, transport, &mut seed(wo, Vec3 { x, y, z }))
+        self.sample_random(wo, u, transport, &mut seed(wo, u))
     }
 
     #[inline]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> (Rgb<T>, T) {
-        self.eval_pdf_random(wo, wi, transport, &mut seed(wo, wi))
+        self.eval_pdf_random(wo, wi, transport, &mut seed(wo, wi.to_array()))
     }
 
     #[inline]

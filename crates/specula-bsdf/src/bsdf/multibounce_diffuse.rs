@@ -1,6 +1,6 @@
 //! A rough surface of Lambertian facets with all its bounces (Heitz et al. 2016).
 
-use super::{Bsdf, BsdfSample, Event, Transport};
+use super::{Bsdf, BsdfSample, Transport};
 use crate::math::{Real, Rgb, Stream, Vec3, warp};
 use crate::multibounce::{heitz2016, seed};
 use crate::ndf::Ggx;
@@ -37,13 +37,12 @@ impl<T: Real, N: VisibleNormals<T>> Bsdf<T> for MultibounceDiffuse<T, N> {
 
     #[inline]
     fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
-        let [x, y, z] = u;
-        self.sample_random(wo, u, transport, &mut seed(wo, Vec3 { x, y, z }))
+        self.sample_random(wo, u, transport, &mut seed(wo, u))
     }
 
     #[inline]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> (Rgb<T>, T) {
-        self.eval_pdf_random(wo, wi, transport, &mut seed(wo, wi))
+        self.eval_pdf_random(wo, wi, transport, &mut seed(wo, wi.to_array()))
     }
 
     #[inline(always)]
@@ -77,14 +76,7 @@ impl<T: Real, N: VisibleNormals<T>> Bsdf<T> for MultibounceDiffuse<T, N> {
     ) -> Option<BsdfSample<T>> {
         let (wi, weight) =
             heitz2016::sample_diffuse(&self.ndf, self.albedo, wo, [u[1], u[2]], stream)?;
-        (wi.z > T::ZERO).then(|| BsdfSample {
-            wi,
-            weight,
-            pdf: self.pdf(wo, wi),
-            event: Event::Reflection,
-            specular: false,
-            eta: T::ONE,
-        })
+        BsdfSample::reflected(wi, weight, self.pdf(wo, wi))
     }
 
     #[inline(always)]

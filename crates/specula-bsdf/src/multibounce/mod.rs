@@ -34,10 +34,10 @@ pub use model::{MultibounceModel, UnknownMultibounceModel};
 
 use crate::math::{Real, Stream, Vec3};
 
-/// A stream for callers without one, seeded by the arguments.
-pub(crate) fn seed<T: Real>(a: Vec3<T>, b: Vec3<T>) -> Stream {
-    let words = [a.x, a.y, a.z, b.x, b.y, b.z];
-    Stream::new(words.iter().fold(0xcbf2_9ce4_8422_2325, |hash, x| {
+/// A stream for callers without one, seeded by the arguments of `sample` (`wo`, `u`) or `eval` (`wo`, `wi`).
+pub(crate) fn seed<T: Real>(wo: Vec3<T>, others: [T; 3]) -> Stream {
+    let words = wo.to_array().into_iter().chain(others);
+    Stream::new(words.fold(0xcbf2_9ce4_8422_2325, |hash, x| {
         (hash ^ x.to_f64().to_bits())
             .wrapping_mul(0x9e37_79b9_7f4a_7c15)
             .rotate_left(29)

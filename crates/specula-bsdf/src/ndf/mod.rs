@@ -127,3 +127,111 @@ pub trait Ndf<T: Real>: Copy {
         self.d(wm) * wo.dot(wm).at_least(T::ZERO) / self.projected_area(wo)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::vec3;
+
+    const ALPHAS: [(f64, f64); 8] = [
+        (1e-4, 1e-4),
+        (0.05, 0.05),
+        (0.3, 0.3),
+        (1.0, 1.0),
+        (0.05, 0.5),
+        (0.8, 0.2),
+        (1e-3, 3.0),
+        (10.0, 0.5),
+    ];
+    const COSINES: [f64; 8] = [1.0, 0.9, 0.7, 0.3, 0.05, 5e-3, 1e-4, 1e-6];
+    const AZIMUTHS: [f64; 4] = [0.0, 0.7, 1.570_796_326_794_896_6, 4.0];
+
+    /// Directions above the horizon, down to grazing.
+    fn directions() -> impl Iterator<Item = Vec3<f64>> {
+        COSINES.into_iter().flat_map(|z| {
+            let r = ((1.0 - z) * (1.0 + z)).sqrt();
+            AZIMUTHS.map(|phi| vec3(r * phi.cos(), r * phi.sin(), z))
+        })
+    }
+
+    fn turned(w: Vec3<f64>) -> Vec3<f64> {
+        vec3(w.x, w.y, -w.z)
+    }
+
+    /// Holds `g2_over_cos_quotient`, which a distribution may write in its own form, against the functions that name
+    /// the equation.
+    fn masking_is_one(file: &str, ndf: &impl Ndf<f64>) {
+        for masking in [Masking::HeightCorrelated, Masking::Separable] {
+            for wo in directions() {
+                for wi in directions() {
+                    let (named, g2) = match masking {
+                        Masking::HeightCorrelated => ("g2_correlated", ndf.g2_correlated(wo, wi)),
+                        Masking::Separable => ("g2_separable", ndf.g2_separable(wo, wi)),
+                    };
+                    // Light from below and views from below: Lambda is that of the upper direction, and the projected
+                    // area alone knows the side of the view.
+                    let (sigma, sigma_below) =
+                        (ndf.projected_area(wo), ndf.projected_area(turned(wo)));
+                    let shadow = ndf.lambda_cos(wi) / wi.z;
+                    let from_below = match masking {
+                        Masking::HeightCorrelated => 1.0 / (sigma_below + wo.z * shadow),
+                        Masking::Separable => 1.0 / (sigma_below * (1.0 + shadow)),
+                    };
+                    let refracted = match masking {
+                        Masking::HeightCorrelated => 1.0 / (sigma + wo.z * shadow),
+                        Masking::Separable => 1.0 / (sigma * (1.0 + shadow)),
+                    };
+                    for (form, wo, wi, expected) in [
+                        (named, wo, wi, g2 / wo.z),
+                        (
+                            "projected_area and lambda_cos, to below",
+                            wo,
+                            turned(wi),
+                            refracted,
+                        ),
+                        (
+                            "projected_area and lambda_cos, from below",
+                            turned(wo),
+                            wi,
+                            from_below,
+                        ),
+                    ] {
+                        let quotient = ndf.g2_over_cos(masking, wo, wi);
+                        assert!(
+                            (quotient / expected - 1.0).abs() < 1e-9,
+                            "G2 / |cos| at {:?}, wo {wo:?}, wi {wi:?} is {quotient} by `g2_over_cos_quotient` ({file}), \
+                             but {expected} by `{form}` (ndf/mod.rs, {file}). Whoever changes masking changes \
+                             both, and their twins in specula-shaders/wgsl/ndf.",
+                            ndf.alpha(),
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    /// Holds `d_along`, which a distribution may write in its own form, against `d`.
+    fn density_is_one(file: &str, ndf: &impl Ndf<f64>) {
+        for wm in directions() {
+            for length in [0.25, 1.0, 3.0] {
+                let (along, expected) = (ndf.d_along(wm * length, length * length), ndf.d(wm));
+                assert!(
+                    (along - expected).abs() <= 1e-9 * expected,
+                    "D at {:?}, wm {wm:?} is {along} by `d_along`, but {expected} by `d` ({file})",
+                    ndf.alpha(),
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn every_form_of_a_distribution_is_the_same_function() {
+        for (x, y) in ALPHAS {
+            let (ggx, beckmann) = (Ggx::new(Alpha { x, y }), Beckmann::new(Alpha { x, y }));
+            masking_is_one("ndf/ggx.rs", &ggx);
+            density_is_one("ndf/ggx.rs", &ggx);
+            masking_is_one("ndf/mod.rs", &beckmann);
+            density_is_one("ndf/beckmann.rs", &beckmann);
+        }
+    }
+}

@@ -108,8 +108,8 @@ pub(crate) fn reflectances<T: Real>() -> [Reflectance<T>; 5] {
     ]
 }
 
-/// Calls the macro `$each` with every lobe: a name, and the lobe for alphas `$alpha` in the scalar
-/// `$t`.
+/// Calls the macro `$each` with every lobe that has loops of its own: its name in the table of lobes, and the lobe for
+/// alphas `$alpha` in the scalar `$t`.
 #[macro_export]
 macro_rules! for_every_lobe {
     ($t:ty, $alpha:expr, $each:ident) => {{
@@ -117,34 +117,34 @@ macro_rules! for_every_lobe {
         for sampler in make::SAMPLERS {
             for reflectance in make::reflectances::<$t>() {
                 let metal = make::metal::<$t>($alpha, reflectance).with_sampler(sampler);
-                $each!("rough conductor", metal);
+                $each!("RoughConductor", metal);
             }
             let separable = specula_bsdf::ndf::Masking::Separable;
             let metal = make::metal::<$t>($alpha, make::gold()).with_sampler(sampler);
-            $each!("rough conductor", metal.with_masking(separable));
+            $each!("RoughConductor", metal.with_masking(separable));
             for eta in [1.5, 1.0 / 1.5, 1.0, 2.4] {
                 let glass = make::glass::<$t>($alpha, eta).with_sampler(sampler);
-                $each!("rough dielectric", glass);
-                $each!("rough dielectric", glass.with_masking(separable));
+                $each!("RoughDielectric", glass);
+                $each!("RoughDielectric", glass.with_masking(separable));
             }
             let coat = make::coated_diffuse::<$t>(Some($alpha)).with_sampler(sampler);
-            $each!("coated diffuse", coat);
+            $each!("CoatedDiffuse", coat);
             let coat = make::lossy_coat::<$t>(Some($alpha)).with_sampler(sampler);
-            $each!("coated diffuse", coat);
+            $each!("CoatedDiffuse", coat);
         }
-        $each!("coated diffuse", make::coated_diffuse::<$t>(None));
-        $each!("coated diffuse", make::lossy_coat::<$t>(None));
-        $each!("lambert", make::lambert::<$t>());
-        $each!("eon", make::eon::<$t>());
-        $each!("diffuse transmission", make::sheet::<$t>());
+        $each!("CoatedDiffuse", make::coated_diffuse::<$t>(None));
+        $each!("CoatedDiffuse", make::lossy_coat::<$t>(None));
+        $each!("Lambert", make::lambert::<$t>());
+        $each!("Eon", make::eon::<$t>());
+        $each!("DiffuseTransmission", make::sheet::<$t>());
         for reflectance in make::reflectances::<$t>() {
             $each!(
-                "smooth conductor",
+                "SmoothConductor",
                 specula_bsdf::bsdf::SmoothConductor::new(reflectance)
             );
         }
-        $each!("smooth dielectric", make::smooth_dielectric::<$t>());
-        $each!("thin dielectric", make::pane::<$t>());
+        $each!("SmoothDielectric", make::smooth_dielectric::<$t>());
+        $each!("ThinDielectric", make::pane::<$t>());
     }};
 }
 

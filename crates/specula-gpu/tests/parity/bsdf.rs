@@ -17,7 +17,7 @@ use specula_bsdf::fresnel::{dielectric, refract};
 use specula_bsdf::math::{rgb, vec3};
 use specula_bsdf::vndf::{Sampler, reflect};
 use specula_bsdf::{Bsdf, Event, Real, Rgb, Transport, Vec3};
-use specula_shaders::{Kind, MODULES, declarations};
+use specula_shaders::{DeclarationKind, MODULES, declarations};
 
 use crate::harness::{
     Case, Fault, Twin, assert_covered, both_sides, catch, direction, evaluate, gpu, prove, r2,
@@ -310,7 +310,7 @@ fn every_function_is_covered() {
     let modules = MODULES.iter().filter(|m| m.folder() == "bsdf");
     let elsewhere: Vec<(&str, &str)> = modules
         .flat_map(|m| declarations(m.text))
-        .filter(|d| d.kind == Kind::Function && !called.contains(d.name))
+        .filter(|d| d.kind == DeclarationKind::Function && !called.contains(d.name))
         .filter(|d| steps.contains(d.name))
         .map(|d| (d.name, "a step of a lobe"))
         .collect();

@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 pub(crate) use crate::common::gpu;
 use specula_bsdf::{Alpha, Real, Vec3};
 use specula_gpu::{ComputeKernel, Gpu, GpuError};
-use specula_shaders::{Declaration, Kind, MODULES, Module, declarations, ordered};
+use specula_shaders::{Declaration, DeclarationKind, MODULES, Module, declarations, ordered};
 
 /// Invocations of a workgroup.
 const GROUP: usize = 64;
@@ -412,7 +412,7 @@ pub(crate) fn assert_covered(folder: &str, cases: &[Case], elsewhere: &[(&str, &
     let modules = MODULES.iter().filter(|m| m.folder() == folder);
     let functions: Vec<Declaration<'_>> = modules
         .flat_map(|m| declarations(m.text))
-        .filter(|d| d.kind == Kind::Function)
+        .filter(|d| d.kind == DeclarationKind::Function)
         .collect();
     assert!(!functions.is_empty(), "no modules in '{folder}'");
     let is_called = |name: &str| {

@@ -424,7 +424,7 @@ impl PathTracer<'_> {
                 wi: scatter.wi.directions_mut(from..to),
                 weight: scatter.weight.colours_mut(from..to),
                 pdf: &mut scatter.pdf[from..to],
-                kind: &mut scatter.outcome[from..to],
+                outcome: &mut scatter.outcome[from..to],
             };
             lobes::sample(&plain.lobe, s.wo.directions(from..to), u, streams, samples);
             let sides = plain.black_inside.then(|| &s.side[from..to]);

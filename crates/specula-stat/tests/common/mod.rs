@@ -6,11 +6,12 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use rayon::prelude::*;
-use specula_bsdf::math::{Rgb, Vec3};
+use specula_bsdf::math::{Rgb, Stream, Vec3};
 use specula_bsdf::{Alpha, Bsdf, Transport};
 use specula_stat::consistency::ConsistencyOptions;
 use specula_stat::quadrature::direction;
 use specula_stat::twin::TwinOptions;
+use specula_stat::z_test::Moments;
 use specula_stat::{DirectionSample, Plan, Report, Rng, Subject, consistency, twin};
 
 /// Tests with chance in all suites together, rounded up: they share one significance.
@@ -134,7 +135,38 @@ pub(crate) fn prove_all<C: Sync>(
     );
 }
 
-/// Every width with every item.
+/// Moments of each of `N` values, sampled in parallel by streams of fixed seeds.
+pub(crate) fn moments<const N: usize>(
+    seed: u64,
+    n: u64,
+    sample: impl Fn(&mut Stream) -> [f64; N] + Sync,
+) -> [Moments; N] {
+    (0..8_u64)
+        .into_par_iter()
+        .map(|chunk| {
+            let mut stream = Stream::new((seed << 8 | chunk).wrapping_mul(0x2545_f491_4f6c_dd1d));
+            let mut sums = [Moments::default(); N];
+            for _ in 0..n / 8 {
+                for (m, x) in sums.iter_mut().zip(sample(&mut stream)) {
+                    m.push(x);
+                }
+            }
+            sums
+        })
+        .collect::<Vec<_>>()
+        .into_iter()
+        .fold([Moments::default(); N], |a, b| {
+            core::array::from_fn(|i| a[i].merge(b[i]))
+        })
+}
+
+/// The difference of two means, in standard errors.
+pub(crate) fn sigmas(a: &Moments, b: &Moments) -> f64 {
+    let rounding = 1e-9 * (a.mean().abs() + b.mean().abs()) + 1e-12;
+    (a.mean() - b.mean()) / (a.variance_of_mean() + b.variance_of_mean() + rounding.powi(2)).sqrt()
+}
+
+/// Every pair of alphas with every item.
 pub(crate) fn with_alphas<C: Copy>(items: &[C]) -> Vec<(C, (f64, f64))> {
     items
         .iter()
@@ -150,12 +182,25 @@ pub(crate) fn twins(
     double: &(impl Bsdf<f64> + Sync),
     transport: Transport,
 ) -> Report {
+    twins_from(name, single, double, transport, -1.0)
+}
+
+/// [`twins`] for views whose cosine of the polar angle is not below `lowest`.
+pub(crate) fn twins_from(
+    name: &str,
+    single: &(impl Bsdf<f32> + Sync),
+    double: &(impl Bsdf<f64> + Sync),
+    transport: Transport,
+    lowest: f64,
+) -> Report {
     let single = Subject::from_bsdf(single, transport);
     let double = Subject::from_bsdf(double, transport);
     let mut report = Report::new(name);
     let mut rng = Rng::from_name(name);
-    let views = views(&both_sides());
-    let options = TwinOptions::default();
+    let mut views = views(&both_sides());
+    views.retain(|wo| wo.z >= lowest);
+    let mut options = TwinOptions::default();
+    options.lowest_cos_theta = options.lowest_cos_theta.max(lowest);
     report
         .checks
         .push(twin::test("", &single, &double, &views, &options, &mut rng));

@@ -86,7 +86,7 @@ impl Level {
     /// `wi`, `weight` and `pdf` all zero.
     ///
     /// * `wo: (n, 3) T`, `u: (n, 3) T` in `[0, 1)`, `streams: (n,) Stream` `-> wi: (n, 3) T`,
-    ///   `weight: (n, 3) T`, `pdf: (n,) T`, `kind: (n,) u8`
+    ///   `weight: (n, 3) T`, `pdf: (n,) T`, `outcome: (n,) u8`
     /// * `u`: the last two sample the first facet; all else is sampled from the streams, as for
     ///   [`eval_pdf_random`](Level::eval_pdf_random).
     ///

@@ -190,13 +190,12 @@ impl<T: Real> Bsdf<T> for Layered<T> {
 
     #[inline]
     fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
-        let mut stream = seed(wo, vec3(u[0], u[1], u[2]));
-        self.sample_random(wo, u, transport, &mut stream)
+        self.sample_random(wo, u, transport, &mut seed(wo, u))
     }
 
     #[inline]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> (Rgb<T>, T) {
-        self.eval_pdf_random(wo, wi, transport, &mut seed(wo, wi))
+        self.eval_pdf_random(wo, wi, transport, &mut seed(wo, wi.to_array()))
     }
 
     #[inline]
@@ -242,15 +241,7 @@ impl<T: Real> Bsdf<T> for Layered<T> {
         if left.specular {
             return Some(delta(left.wi, left.weight));
         }
-        let pdf = self.pdf(wo, left.wi);
-        (pdf > T::ZERO && pdf.is_finite()).then_some(BsdfSample {
-            wi: left.wi,
-            weight: left.weight,
-            pdf,
-            event: Event::Reflection,
-            specular: false,
-            eta: T::ONE,
-        })
+        BsdfSample::reflected(left.wi, left.weight, self.pdf(wo, left.wi))
     }
 
     #[inline]
