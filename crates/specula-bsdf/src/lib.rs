@@ -278,3 +278,8 @@ pub mod vndf;
 pub use alpha::{Alpha, AlphaError};
 pub use bsdf::{Bsdf, BsdfSample, Event, Transport};
 pub use math::{Frame, Real, Rgb, Vec3};
+
+/// The Rust of the README compiles and runs.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -56,3 +56,8 @@ pub use proof::{Plan, prove};
 pub use report::{Check, Report};
 pub use rng::Rng;
 pub use subject::{DirectionSample, Subject};
+
+/// The Rust of the README compiles and runs.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
