@@ -1,4 +1,4 @@
-//! Numbers that are known: albedos in closed form and the published shares of rejected samples.
+//! Known values: albedos in closed form and the published shares of rejected samples.
 
 mod common;
 
@@ -28,13 +28,16 @@ fn single_scattering_albedo_is_one_minus_ln_two() {
     let subject = Subject::from_bsdf(&lobe, Transport::Radiance);
     let exact = 1.0 - std::f64::consts::LN_2;
     let quadrature = furnace::albedo(&subject, Vec3::Z, &[], &Quadrature::default());
-    assert!((quadrature.value[0] - exact).abs() < 1e-7, "{quadrature:?}");
+    assert!(
+        (quadrature.value[0] - exact).abs() < 1e-7,
+        "white GGX metal, alpha 1, seen along the normal: albedo {quadrature:?}, expected 1 - ln 2 = {exact}"
+    );
     let [sampled, ..] = furnace::sampled_albedo(&subject, Vec3::Z, 1_000_000, &mut Rng::new(1));
     let half = sampled.half_interval(0.01);
-    assert!(half < 1e-3);
+    assert!(half < 1e-3, "half interval {half}, expected below 1e-3");
     assert!(
         (sampled.mean() - exact).abs() < half,
-        "{} +- {half}",
+        "white GGX metal, alpha 1, by samples: albedo {} +- {half}, expected 1 - ln 2 = {exact}",
         sampled.mean()
     );
 }
@@ -43,7 +46,10 @@ fn single_scattering_albedo_is_one_minus_ln_two() {
 fn rejected((sample, pdf): (Sample, Density), alphas: (f64, f64), wo: Vec3<f64>) -> f64 {
     let alpha = alpha(alphas);
     let accepted = Quadrature::default().integrate(Patch::UPPER, |wi| [pdf(alpha, wo, wi)]);
-    assert!(accepted.converged, "{accepted:?}");
+    assert!(
+        accepted.converged,
+        "alphas {alphas:?}, wo {wo:?}: the integral of the pdf does not converge: {accepted:?}"
+    );
     let mut rng = Rng::from_name(&format!("{alphas:?} {wo:?}"));
     let mut share = Moments::default();
     for _ in 0..20_000 {
@@ -55,22 +61,44 @@ fn rejected((sample, pdf): (Sample, Density), alphas: (f64, f64), wo: Vec3<f64>)
     let slack = 4.0 * share.variance_of_mean().sqrt() + 1e-4;
     assert!(
         (share.mean() - expected).abs() < slack,
-        "{expected} {share:?}"
+        "alphas {alphas:?}, wo {wo:?}: {share:?} of the samples are rejected, {expected} by the pdf"
     );
     100.0 * expected
 }
 
+/// Holds a share of rejected samples, in per cent, against the published one.
+fn expect(sampler: &str, alphas: (f64, f64), share: f64, published: f64, tolerance: f64) {
+    assert!(
+        (share - published).abs() < tolerance,
+        "{sampler}, alphas {alphas:?}: {share} % of the samples are rejected, expected {published} % within {tolerance}"
+    );
+}
+
 #[test]
 fn rejections_at_alpha_one_and_normal_incidence() {
-    assert!((rejected(CAP, (1.0, 1.0), Vec3::Z) - 50.0).abs() < 1e-3);
-    assert!(rejected(BOUNDED, (1.0, 1.0), Vec3::Z).abs() < 1e-3);
+    expect(
+        "caps",
+        (1.0, 1.0),
+        rejected(CAP, (1.0, 1.0), Vec3::Z),
+        50.0,
+        1e-3,
+    );
+    let bounded = rejected(BOUNDED, (1.0, 1.0), Vec3::Z);
+    expect("bounded caps", (1.0, 1.0), bounded, 0.0, 1e-3);
 }
 
 #[test]
 fn rejections_at_alpha_six_tenths_and_45_degrees() {
     let wo = direction(f64::sqrt(0.5), 0.3);
-    assert!((rejected(CAP, (0.6, 0.6), wo) - 23.4).abs() < 0.05);
-    assert!((rejected(BOUNDED, (0.6, 0.6), wo) - 6.2).abs() < 0.05);
+    expect(
+        "caps",
+        (0.6, 0.6),
+        rejected(CAP, (0.6, 0.6), wo),
+        23.4,
+        0.05,
+    );
+    let bounded = rejected(BOUNDED, (0.6, 0.6), wo);
+    expect("bounded caps", (0.6, 0.6), bounded, 6.2, 0.05);
 }
 
 /// Mean over views uniform in solid angle, theta up to 85 degrees.
@@ -100,6 +128,6 @@ fn mean_rejections_of_anisotropic_roughness() {
     );
     println!("(0.2, 0.8): cap {cap:.2} %, bounded {bounded:.2} %");
     // The exact cone of reflections above the surface (closed form) says 17.82 and 16.27.
-    assert!((cap - 17.82).abs() < 0.05, "{cap}");
-    assert!((bounded - 16.27).abs() < 0.05, "{bounded}");
+    expect("caps, mean", (0.2, 0.8), cap, 17.82, 0.05);
+    expect("bounded caps, mean", (0.2, 0.8), bounded, 16.27, 0.05);
 }
