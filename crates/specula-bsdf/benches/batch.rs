@@ -88,12 +88,12 @@ fn samplers<'a>(input: &'a Input, level: Option<Level>, alpha: Alpha<f32>) -> Ve
         let mut pdf = vec![0.0; N];
         match level {
             Some(level) => {
-                let draw = move || {
+                let sample = move || {
                     let out = sampled.as_mut_slices();
                     let done = level.sample_reflection(sampler, alphas, wo, [u1, u2], out);
                     black_box((done, &mut sampled)).0.expect("equal lengths");
                 };
-                kernels.push((format!("{sampler} sample"), Box::new(draw)));
+                kernels.push((format!("{sampler} sample"), Box::new(sample)));
                 let density = move || {
                     let done = level.reflection_pdf(sampler, alphas, wo, wi, &mut pdf);
                     black_box((done, &mut pdf)).0.expect("equal lengths");
@@ -101,7 +101,7 @@ fn samplers<'a>(input: &'a Input, level: Option<Level>, alpha: Alpha<f32>) -> Ve
                 kernels.push((format!("{sampler} pdf"), Box::new(density)));
             }
             None => {
-                let draw = move || {
+                let sample = move || {
                     for i in 0..N {
                         let (wo, u) = (element(&wo, i), [u1[i], u2[i]]);
                         black_box(match sampler {
@@ -112,7 +112,7 @@ fn samplers<'a>(input: &'a Input, level: Option<Level>, alpha: Alpha<f32>) -> Ve
                         });
                     }
                 };
-                kernels.push((format!("{sampler} sample"), Box::new(draw)));
+                kernels.push((format!("{sampler} sample"), Box::new(sample)));
                 let density = move || {
                     for i in 0..N {
                         let (wo, wi) = (element(&wo, i), element(&wi, i));

@@ -9,9 +9,9 @@
 //! Instructions instead of time, whatever else the machine does: `-- count MODEL ALPHA N` evaluates
 //! a model N times per pair of directions and prints nothing, to be run under
 //! `valgrind --tool=callgrind` (MODEL `published` is the yardstick); `-- count-glass MODEL ALPHA N`
-//! likewise for glass; `-- count-lanes OF LEVEL ALPHA N` evaluates or samples (OF is `eval` or
+//! likewise for glass; `-- count-batches OF LEVEL ALPHA N` evaluates or samples (OF is `eval` or
 //! `sample`) N times 1024 elements of gold in one batch (LEVEL is `baseline` or `avx2`) or one by one
-//! (`scalar`). `-- lanes` prints the part on batches alone.
+//! (`scalar`). `-- batches` prints the part on batches alone.
 #![allow(clippy::print_stdout, reason = "a bench reports on stdout")]
 
 use std::hint::black_box;
@@ -49,10 +49,10 @@ impl Measured {
     };
 
     #[inline(never)]
-    fn slice(&mut self, mut draw: impl FnMut() -> f32) {
+    fn slice(&mut self, mut estimate: impl FnMut() -> f32) {
         let start = Instant::now();
         for _ in 0..PER_SLICE {
-            let x = f64::from(black_box(draw()));
+            let x = f64::from(black_box(estimate()));
             self.sum += x;
             self.squares += x * x;
         }
@@ -95,13 +95,13 @@ fn main() {
             _ => {}
         }
     }
-    if arguments.iter().any(|a| a == "lanes") {
-        return lanes();
+    if arguments.iter().any(|a| a == "batches") {
+        return batches();
     }
     if let [_, command, of, level, alpha, n, ..] = &arguments[..]
-        && command == "count-lanes"
+        && command == "count-batches"
     {
-        return count_lanes(of, level, alpha, n);
+        return count_batches(of, level, alpha, n);
     }
     for alpha in [0.5_f32, 1.0] {
         let lobes = MultibounceModel::ALL.map(|model| {
@@ -110,7 +110,7 @@ fn main() {
         });
         let mut published = [Measured::NONE; 4];
         let mut evals = [[Measured::NONE; 4]; MultibounceModel::ALL.len()];
-        let mut draws = evals;
+        let mut samples = evals;
         let mut stream = Stream::new(1);
         for _ in 0..SLICES {
             for (k, (i, o)) in PAIRS.into_iter().enumerate() {
@@ -119,12 +119,12 @@ fn main() {
                     let (wo, wi) = black_box((wo, wi));
                     lobes[0].estimate_as_heitz(wo, wi, &mut stream).r
                 });
-                for (lobe, (eval, draw)) in lobes.iter().zip(evals.iter_mut().zip(&mut draws)) {
+                for (lobe, (eval, sample)) in lobes.iter().zip(evals.iter_mut().zip(&mut samples)) {
                     eval[k].slice(|| {
                         let (wo, wi) = black_box((wo, wi));
                         lobe.estimate(wo, wi, &mut stream).r
                     });
-                    draw[k].slice(|| {
+                    sample[k].slice(|| {
                         let u = [stream.next(), stream.next()];
                         lobe.sample_walk(black_box(wo), u, &mut stream)
                             .map_or(0.0, |(_, weight)| weight.r)
@@ -137,20 +137,21 @@ fn main() {
             "  model                  mean  variance      ns  relative   sample ns  weight variance"
         );
         let yardstick = over(published.iter().map(Measured::product));
-        let print = |name: &str, eval: &[Measured], draw: &[Measured]| {
+        let print = |name: &str, eval: &[Measured], sample: &[Measured]| {
             println!(
                 "  {name:<19} {:>7.4} {:>9.5} {:>7.1} {:>9.3}   {:>9.1} {:>16.5}",
                 over(eval.iter().map(Measured::mean)),
                 over(eval.iter().map(Measured::variance)),
                 over(eval.iter().map(|m| m.ns)),
                 over(eval.iter().map(Measured::product)) / yardstick,
-                over(draw.iter().map(|m| m.ns)),
-                draw.iter().map(Measured::variance).fold(0.0, f64::max),
+                over(sample.iter().map(|m| m.ns)),
+                sample.iter().map(Measured::variance).fold(0.0, f64::max),
             );
         };
-        print("heitz, as published", &published, &draws[0]);
-        for (model, (eval, draw)) in MultibounceModel::ALL.iter().zip(evals.iter().zip(&draws)) {
-            print(model.name(), eval, draw);
+        print("heitz, as published", &published, &samples[0]);
+        for (model, (eval, sample)) in MultibounceModel::ALL.iter().zip(evals.iter().zip(&samples))
+        {
+            print(model.name(), eval, sample);
         }
     }
     dielectrics();
@@ -260,7 +261,7 @@ fn dielectrics() {
         }
     }
     densities();
-    lanes();
+    batches();
 }
 
 /// Elements of gold, with streams of their own.
@@ -323,7 +324,7 @@ impl Batch {
     }
 
     #[inline(never)]
-    fn lanes(&mut self, samples: bool, level: Level) {
+    fn run(&mut self, samples: bool, level: Level) {
         let (wo, wi) = (self.wo.as_slices(), self.wi.as_slices());
         let streams = &mut self.streams;
         let outcome = if samples {
@@ -338,21 +339,21 @@ impl Batch {
 }
 
 /// As [`count`], many elements at once.
-fn count_lanes(of: &str, level: &str, alpha: &str, n: &str) {
+fn count_batches(of: &str, level: &str, alpha: &str, n: &str) {
     let mut batch = Batch::new(alpha.parse().expect("ALPHA is a number"), 1024);
     let n: u32 = n.parse().expect("N is a count");
     let samples = of == "sample";
     for _ in 0..n {
         match level {
-            "baseline" => batch.lanes(samples, Level::Baseline),
-            "avx2" => batch.lanes(samples, Level::Avx2),
+            "baseline" => batch.run(samples, Level::Baseline),
+            "avx2" => batch.run(samples, Level::Avx2),
             _ => batch.scalar(samples),
         }
     }
 }
 
 /// Elements one by one and in batches, gold.
-fn lanes() {
+fn batches() {
     println!("batches of gold: ns of an element one by one, and how many times faster");
     println!("             alpha     n  one by one  baseline    AVX2  AVX-512");
     for samples in [false, true] {
@@ -368,7 +369,7 @@ fn lanes() {
                         for _ in 0..repeats {
                             match k.checked_sub(1) {
                                 None => batch.scalar(samples),
-                                Some(level) => batch.lanes(samples, Level::ALL[level]),
+                                Some(level) => batch.run(samples, Level::ALL[level]),
                             }
                         }
                         #[allow(clippy::cast_precision_loss, reason = "a few thousand")]

@@ -22,7 +22,7 @@ struct Point {
     wo: Vec3<f32>,
     wi: Vec3<f32>,
     u: [f32; 2],
-    kept: Reflections<f32>,
+    fixed_view: Reflections<f32>,
 }
 
 impl Point {
@@ -32,7 +32,7 @@ impl Point {
             wo,
             wi,
             u,
-            kept: Reflections::new(alpha, wo, Sampler::Exact),
+            fixed_view: Reflections::new(alpha, wo, Sampler::Exact),
         }
     }
 }
@@ -129,15 +129,15 @@ fn main() {
             vndf::exact::reflection_pdf(p.alpha, p.wo, p.wi)
         }));
         for (i, points) in [&isotropic, &points].into_iter().enumerate() {
-            times[10 + i].push(time_pdfs(points, |p| p.kept.pdf(p.wi)));
-            times[12 + i].push(time_samples(points, |p| p.kept.sample(p.u)));
+            times[10 + i].push(time_pdfs(points, |p| p.fixed_view.pdf(p.wi)));
+            times[12 + i].push(time_samples(points, |p| p.fixed_view.sample(p.u)));
         }
     }
     let ns: Vec<f64> = times.iter_mut().map(|t| median_ns(t)).collect();
     report(&ns);
 }
 
-/// * `ns`: samples, densities, then densities and samples with the view kept.
+/// * `ns`: samples, densities, then densities and samples with a `Reflections` of the view.
 fn report(ns: &[f64]) {
     let names = ["heitz", "cap", "bounded", "exact, ax = ay", "exact"];
     println!("GGX reflection off a visible normal, f32, scalar, one thread (median of {ROUNDS})");
@@ -168,7 +168,7 @@ fn report(ns: &[f64]) {
         ns[9] / ns[7]
     );
     println!(
-        "  exact with the view's N and cone kept (vndf::Reflections), ns and share of the above"
+        "  exact by vndf::Reflections, which stores N and cone of the view, ns and share of the above"
     );
     for (i, name) in ["ax = ay", "any"].iter().enumerate() {
         println!(

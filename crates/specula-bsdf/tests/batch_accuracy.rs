@@ -1,7 +1,7 @@
 //! How far the kernels are from the same formulas in f64, at every level: the table in the
 //! documentation of `batch`.
 //!
-//! Inputs are f32 numbers; the f64 twin gets the same. Densities and weights of samples are held
+//! Inputs are f32 values; the f64 twin gets the same. Densities and weights of samples are held
 //! against the twin's at the direction that was returned, so that its rounding (within 1e-6) does
 //! not count twice.
 #![allow(
@@ -143,14 +143,14 @@ fn directions_stay_within_their_bound() {
         for [x, y] in ALPHAS {
             let alpha = Alpha::clamped(f64::from(x), f64::from(y));
             let mut expected = Directions::<Vec<f64>>::zeroed(N);
-            let draw = Level::Baseline.sample_reflection(
+            let done = Level::Baseline.sample_reflection(
                 sampler,
                 Alphas::Same(alpha),
                 twins.as_slices(),
                 [&u[0], &u[1]],
                 expected.as_mut_slices(),
             );
-            draw.unwrap();
+            done.unwrap();
             for level in levels() {
                 let mut got = Directions::<Vec<f32>>::zeroed(N);
                 let (alphas, u) = (Alphas::Same(Alpha { x, y }), [&e.u[1][..], &e.u[2]]);

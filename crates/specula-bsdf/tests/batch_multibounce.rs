@@ -1,4 +1,4 @@
-//! Walks in lanes against the scalar functions, element by element and on average.
+//! Walks in batches against the scalar functions, element by element and on average.
 #![allow(clippy::print_stdout, reason = "tests say what they skipped")]
 
 mod batch_common;

@@ -58,7 +58,7 @@ fn the_bound_unclamped_saves_rejections_above_one() {
 #[test]
 fn the_bounded_cap_holds_every_reflection_above_the_surface() {
     // Conservative: whatever the whole cap samples above the horizon has the bounded density, and
-    // the share it keeps is N_bounded / N_cap at the most.
+    // the share that it accepts is N_bounded / N_cap at the most.
     for &(ax, ay) in &[
         (0.05, 0.05),
         (0.6, 0.6),
@@ -70,12 +70,12 @@ fn the_bounded_cap_holds_every_reflection_above_the_surface() {
         let alpha = Alpha::clamped(ax, ay);
         for i in 0..40 {
             let wo = view(89.9 * r2(i)[0], 6.0 * r2(i)[1]);
-            let kept = 1.0 - rejected(vndf::cap::sample_reflection, alpha, wo);
-            let kept_bounded = 1.0 - rejected(vndf::bounded::sample_reflection, alpha, wo);
+            let accepted = 1.0 - rejected(vndf::cap::sample_reflection, alpha, wo);
+            let accepted_bounded = 1.0 - rejected(vndf::bounded::sample_reflection, alpha, wo);
             let ratio = vndf::bounded::norm(alpha, wo) / Ggx::new(alpha).projected_area(wo);
             assert!(
-                (kept - kept_bounded * ratio).abs() < 3e-3,
-                "{ax} {ay} {wo:?}: {kept} {kept_bounded} {ratio}"
+                (accepted - accepted_bounded * ratio).abs() < 3e-3,
+                "{ax} {ay} {wo:?}: {accepted} {accepted_bounded} {ratio}"
             );
         }
     }
@@ -184,8 +184,8 @@ fn the_exact_norm_has_its_root() {
     let mut random = Random(4);
     let mut worst = [0.0_f64; 2];
     for _ in 0..20_000 {
-        let mut width = || f64::from(random.log_uniform(1e-3, 8.0));
-        let alpha = Alpha::clamped(width(), width());
+        let mut alpha = || f64::from(random.log_uniform(1e-3, 8.0));
+        let alpha = Alpha::clamped(alpha(), alpha());
         let wo: Vec3<f64> = random.view().cast();
         let wo = wo.normalize();
         let h = alpha.stretch(wo);

@@ -23,27 +23,27 @@ static TABLES: LazyLock<Tables> = LazyLock::new(|| {
         .into_iter()
         .enumerate()
     {
-        for (name, numbers) in losses(table) {
-            tables.push(format!("{prefix}_{name}"), &numbers);
+        for (name, values) in losses(table) {
+            tables.push(format!("{prefix}_{name}"), &values);
         }
     }
-    for (name, numbers) in interfaces() {
-        tables.push(format!("COAT_{name}"), &numbers);
+    for (name, values) in interfaces() {
+        tables.push(format!("COAT_{name}"), &values);
     }
     let plastic = ["PLASTIC_TRANSMITTANCE", "PLASTIC_INTERNAL"];
     let gltf = ["GLTF_SCHLICK", "GLTF_SHEEN"];
     let pairs = plastic.into_iter().zip(plastic_interface::raw_tables());
-    for (name, numbers) in pairs.chain(gltf.into_iter().zip(gltf_albedo::raw_tables())) {
-        tables.push(name.to_owned(), &numbers);
+    for (name, values) in pairs.chain(gltf.into_iter().zip(gltf_albedo::raw_tables())) {
+        tables.push(name.to_owned(), &values);
     }
     tables
 });
 
 impl Tables {
-    fn push(&mut self, name: String, numbers: &[f32]) {
+    fn push(&mut self, name: String, values: &[f32]) {
         self.names.push((name, self.bytes.len() / 4));
         self.bytes
-            .extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
+            .extend(values.iter().flat_map(|x| x.to_le_bytes()));
     }
 }
 
@@ -149,14 +149,14 @@ mod tests {
 
     #[test]
     fn the_array_is_whole_and_its_numbers_are_sound() {
-        let numbers: Vec<f32> = tables()
+        let values: Vec<f32> = tables()
             .as_chunks()
             .0
             .iter()
             .map(|b| f32::from_le_bytes(*b))
             .collect();
-        assert_eq!(numbers.len(), 924_064);
-        assert!(numbers.iter().all(|x| x.is_finite() && x.abs() < 13.0));
+        assert_eq!(values.len(), 924_064);
+        assert!(values.iter().all(|x| x.is_finite() && x.abs() < 13.0));
         assert!(offset("GGX").is_none());
     }
 }

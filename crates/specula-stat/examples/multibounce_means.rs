@@ -80,13 +80,13 @@ fn main() {
 fn against_the_reference() {
     for model in MultibounceModel::ALL {
         for (i, o, half, one) in REFERENCE {
-            for (width, (reference, error)) in [(0.5, half), (1.0, one)] {
+            for (alpha, (reference, error)) in [(0.5, half), (1.0, one)] {
                 let lobe =
-                    MultibounceConductor::new(Ggx::new(Alpha::isotropic(width)), white(), model);
+                    MultibounceConductor::new(Ggx::new(Alpha::isotropic(alpha)), white(), model);
                 let m = mean(&lobe, at(i, 1.0), at(o, -1.0));
                 let z = (m.mean() - reference) / (m.variance_of_mean() + error * error).sqrt();
                 println!(
-                    "{:<18} alpha {width:<3} {i:>2} to {o:>2}: {:.5} +- {:.5}, {z:+.2}",
+                    "{:<18} alpha {alpha:<3} {i:>2} to {o:>2}: {:.5} +- {:.5}, {z:+.2}",
                     model.name(),
                     m.mean(),
                     m.variance_of_mean().sqrt(),

@@ -81,7 +81,7 @@ fn integrated(pdf: impl Fn(Vec3<f64>) -> f64) -> Vec<f64> {
     cells
 }
 
-/// Every view of every width: along and across the grain.
+/// Every view of every pair of alphas: along and across the grain.
 fn cases() -> Vec<((f64, f64), f64, f64)> {
     let mut cases = Vec::new();
     for alphas in ALPHAS {
@@ -271,7 +271,7 @@ fn normalised_density_integrates_to_one() {
 
 #[test]
 fn sums_of_the_papers_are_no_densities() {
-    let of = |width: f64, mis, view| total(Ggx::new(alpha((width, width))), mis, at(view, 0.0));
+    let of = |a: f64, mis, view| total(Ggx::new(alpha((a, a))), mis, at(view, 0.0));
     let hapke = of(1.0, MisPdf::Hapke, 0.0);
     assert!((hapke - 1.41).abs() < 0.01, "{hapke}");
     let most = of(1.0, MisPdf::Hapke, 80.0);

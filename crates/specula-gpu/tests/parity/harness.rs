@@ -429,7 +429,11 @@ pub(crate) fn assert_covered(folder: &str, cases: &[Case], elsewhere: &[(&str, &
         .map(|d| d.name)
         .filter(|name| !is_called(name) && !listed(name))
         .collect();
-    assert!(bare.is_empty(), "no case calls {}", bare.join(", "));
+    assert!(
+        bare.is_empty(),
+        "no case of crates/specula-gpu/tests/parity/{folder} calls {}",
+        bare.join(", ")
+    );
     for (name, reason) in elsewhere {
         let known = functions.iter().any(|d| d.name == *name);
         assert!(
