@@ -144,7 +144,7 @@ mod tests {
         (10.0, 0.5),
     ];
     const COSINES: [f64; 8] = [1.0, 0.9, 0.7, 0.3, 0.05, 5e-3, 1e-4, 1e-6];
-    const AZIMUTHS: [f64; 4] = [0.0, 0.7, 1.570_796_326_794_896_6, 4.0];
+    const AZIMUTHS: [f64; 4] = [0.0, 0.7, core::f64::consts::FRAC_PI_2, 4.0];
 
     /// Directions above the horizon, down to grazing.
     fn directions() -> impl Iterator<Item = Vec3<f64>> {
