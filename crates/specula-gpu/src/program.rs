@@ -162,7 +162,7 @@ fn constants(flat: &FlatScene<'_>, options: &RenderOptions, kinds: &[&Module]) -
         ("STACK_SIZE", 8 * levels),
         ("SEED", options.seed),
         ("MAX_DEPTH", options.max_depth),
-        ("STRATEGY", options.strategy as u32),
+        ("STRATEGY", options.strategy.code()),
         ("CLAMPS", u32::from(options.clamp.is_some())),
         ("CLAMP_BITS", options.clamp.unwrap_or(f32::MAX).to_bits()),
         ("BOUND_KEPT", stored),

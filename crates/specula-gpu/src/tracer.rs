@@ -104,13 +104,7 @@ impl<'a> Tracer<'a> {
         (schedule, structures): (Schedule, Option<Structures>),
         texts: [&str; 2],
     ) -> Result<Self, TracerError> {
-        let limits = gpu.device.limits();
-        let [path_tracer, adder] = texts;
-        let module = gpu.shader("path tracer", path_tracer)?;
-        let is_queues = schedule.is_queues(limits.max_storage_buffers_per_shader_stage);
-        let structures = structures.as_ref().map(Structures::bindings);
-        let taker = PathKernels::new(gpu, &module, is_queues, structures, options.max_depth)?;
-        let kernels = Kernels::new(gpu, taker, adder)?;
+        // Before shaders are compiled: a scene that memory does not hold is told at once.
         let [tables, nodes, packets, words] = arrays(flat);
         let scene = [
             upload(gpu, tables)?,
@@ -118,6 +112,13 @@ impl<'a> Tracer<'a> {
             upload(gpu, packets)?,
             upload(gpu, words)?,
         ];
+        let limits = gpu.device.limits();
+        let [path_tracer, adder] = texts;
+        let module = gpu.shader("path tracer", path_tracer)?;
+        let is_queues = schedule.is_queues(limits.max_storage_buffers_per_shader_stage);
+        let structures = structures.as_ref().map(Structures::bindings);
+        let taker = PathKernels::new(gpu, &module, is_queues, structures, options.max_depth)?;
+        let kernels = Kernels::new(gpu, taker, adder)?;
         let largest = limit(gpu) / kernels.taker.sample_size().max(size_of::<RunSums>() as u64);
         Ok(Self {
             gpu,

@@ -148,6 +148,17 @@ fn compared(
     [differing(&a, &b), mean(&b) / mean(&a)]
 }
 
+/// Largest share of pixels that may differ: paths part where rounding decides otherwise.
+///
+/// SwiftShader: none in 27 pictures, 2 of 1280 pixels in one. Real GPUs fuse multiplications and additions and have
+/// square roots and quotients of their own.
+fn most_differing(gpu: &Gpu) -> f64 {
+    match gpu.adapter.kind {
+        AdapterKind::Software => 0.005,
+        _ => 0.02,
+    }
+}
+
 /// The same samples give the same picture.
 fn check(name: &str, scene: &Scene, change: impl Fn(RenderOptions) -> RenderOptions) {
     for (gpu, rays) in devices(name) {
@@ -156,10 +167,12 @@ fn check(name: &str, scene: &Scene, change: impl Fn(RenderOptions) -> RenderOpti
             "{name}, {rays}: {:.2} % of pixels differ, means {ratio:.5}",
             100.0 * share
         );
+        let bound = most_differing(gpu);
         assert!(
-            share < 0.02,
-            "{name}, {rays}: {:.1} % of pixels differ",
-            100.0 * share
+            share < bound,
+            "{name}, {rays}: {:.2} % of pixels differ, bound {:.2} %",
+            100.0 * share,
+            100.0 * bound
         );
     }
 }

@@ -38,23 +38,6 @@ struct Bound {
     kept: array<vec3f, BOUND_KEPT>,
 }
 
-// Words of a record's head.
-/// Kind.
-const MATERIAL_KIND: u32 = 0u;
-/// Whether its back is black.
-const MATERIAL_ONE_SIDED: u32 = 1u;
-/// Whether layers let nothing through.
-const MATERIAL_OPAQUE: u32 = 2u;
-/// Rotation of the tangent, in radians.
-const MATERIAL_ROTATION: u32 = 3u;
-/// Whether tangents do not matter.
-const MATERIAL_ISOTROPIC: u32 = 4u;
-/// Energy model.
-const MATERIAL_ENERGY: u32 = 5u;
-/// Texture of directions, or NONE.
-const MATERIAL_DIRECTION: u32 = 6u;
-/// How many parameters may have a texture; they follow.
-const MATERIAL_PARAMETERS: u32 = 7u;
 /// Least alpha of a rough surface.
 const BOUND_SMOOTH_BELOW: f32 = 1.0e-3;
 /// Most parameters that may have a texture.

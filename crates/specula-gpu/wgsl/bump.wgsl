@@ -10,8 +10,6 @@ import tracer::texture_coordinates::{TextureCoordinates};
 import tracer::world::{word, number, unit_or};
 import package::math::frame::{FrameBasis, frame_from_normal_tangent};
 
-/// Words of a material's bump maps: its own, whether its clear coat is bent otherwise, the coat's.
-const BUMP_SIZE: u32 = 9u;
 
 /// A shading normal with the tangent along u.
 struct BumpedFrame {

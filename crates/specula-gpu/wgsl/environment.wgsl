@@ -17,17 +17,6 @@ import tracer::world::{affine_vector, number, vector, word};
 
 /// `1 / (4 pi)`.
 const ENVIRONMENT_PER_SPHERE: f32 = 0.07957747;
-/// Places within the words.
-const ENVIRONMENT_TO_WORLD: u32 = 3u;
-const ENVIRONMENT_TO_LIGHT: u32 = 15u;
-const ENVIRONMENT_IS_PICTURE: u32 = 27u;
-const ENVIRONMENT_MAPPING: u32 = 28u;
-const ENVIRONMENT_ACROSS: u32 = 29u;
-const ENVIRONMENT_DOWN: u32 = 34u;
-const ENVIRONMENT_CORNERS: u32 = 39u;
-const ENVIRONMENT_DENSITY: u32 = 40u;
-const ENVIRONMENT_ROWS: u32 = 41u;
-const ENVIRONMENT_COLUMNS: u32 = 42u;
 
 /// A sampled direction.
 struct EnvironmentSample {

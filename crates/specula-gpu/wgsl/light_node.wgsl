@@ -9,8 +9,6 @@
 
 import tracer::world::{number, vector, word};
 
-/// Words of a node.
-const LIGHT_NODE_WORDS: u32 = 12u;
 
 /// An estimate of the irradiance by the lights of the node at `at`, 0 only where none can contribute.
 ///

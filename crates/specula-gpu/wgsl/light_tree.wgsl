@@ -10,13 +10,11 @@
 // Source: Conty Estevez and Kulla 2018, section 5.4; Pharr, Jakob and Humphreys, 4th edition, 12.6.3.
 // Twin of specula-render/src/light/tree.rs.
 
-import tracer::light_node::{LIGHT_NODE_WORDS, light_node_importance};
+import tracer::light_node::{light_node_importance};
 import tracer::world::{word};
 
 /// Trail of a light that is not in the tree.
 const LIGHT_TREE_ABSENT: vec2u = vec2u(0xffffffffu, 0xffffffffu);
-/// Rounding must not take the chance of the lesser child.
-const LIGHT_TREE_LEAST_SHARE: f32 = 1e-6;
 /// The largest number below 1.
 const LIGHT_TREE_BELOW_ONE: f32 = 0.99999994;
 
@@ -44,7 +42,7 @@ struct LightNumber {
 
 /// The word at a node.
 fn light_tree_place(node: u32) -> u32 {
-    return LIGHT_NODES + LIGHT_NODE_WORDS * node;
+    return LIGHT_NODES + LIGHT_NODE_SIZE * node;
 }
 
 /// Whether a node is a leaf.

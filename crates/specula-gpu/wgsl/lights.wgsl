@@ -25,8 +25,6 @@ import tracer::sun::{sun_arriving, sun_density, sun_sample};
 import tracer::textured::{textured_sample, textured_pdf};
 import tracer::world::{number, vector, word};
 
-/// What the second number of a choice counts: the first is a multiple of it, 2^-23.
-const LIGHTS_FINER: f32 = 1.1920929e-7;
 
 /// A point to be lit.
 /// Twin: specula-render/src/light/node.rs, Receiver.

@@ -4,10 +4,6 @@
 
 import tracer::world::{word, vector};
 
-/// How many media are remembered; those entered first are forgotten.
-const MEDIUM_STACK_DEEPEST: u32 = 4u;
-/// Words of a material's boundary.
-const BOUNDARY_SIZE: u32 = 7u;
 
 /// What a path is in.
 struct MediumStack {
@@ -40,7 +36,7 @@ fn medium_stack_cross(media: ptr<function, MediumStack>, material: u32, inwards:
     if inwards {
         (*media).absorption = vector(at + 1u);
         if known == BOUNDARY_INSIDE {
-            if (*media).count == MEDIUM_STACK_DEEPEST {
+            if (*media).count == MOST_MEDIA {
                 let m = (*media).materials;
                 (*media).materials = vec4u(m.y, m.z, m.w, 0u);
                 (*media).count -= 1u;

@@ -3,9 +3,6 @@
 // Twin of specula-render/src/geometry/partials.rs.
 
 import tracer::surface::{Surface, surface_normal_of, surface_pair};
-import tracer::surface::{GROUP_POSITIONS, GROUP_TRIANGLE_COUNT, GROUP_TRIANGLES, GROUP_QUADRICS};
-import tracer::surface::{GROUP_NORMALS, GROUP_UVS, GROUP_TANGENTS};
-import tracer::surface::{INSTANCE_SIZE, SHAPE_SIZE, QUADRIC_SIZE};
 import tracer::world::{word, number, vector, affine_point, affine_vector, unit_or};
 
 /// First derivatives by u and v.

@@ -10,7 +10,7 @@ import tracer::sequence::{sequence_stream, sequence_hashed};
 import tracer::camera::{camera_ray};
 import tracer::film::{film_developed};
 import tracer::ray::{Ray};
-import tracer::surface::{Surface, SHAPE_SIZE};
+import tracer::surface::{Surface};
 import tracer::medium_stack::{MediumStack};
 import tracer::visibility::{visibility_nearest, visibility_transmittance, visibility_cross, visibility_place};
 import tracer::visibility::{visibility_radiance};
@@ -20,7 +20,6 @@ import tracer::bump::{bump_softness, bump_coat_differs, bump_of_coat};
 import tracer::lights::{Receiver, LightSample, lights_sample, lights_pdf_of_surface};
 import tracer::lights::{lights_arriving_count, lights_arriving, lights_share_from_infinity};
 import tracer::material::{Bound, material_bind, material_eval, material_sample, material_albedo};
-import tracer::bound::{MATERIAL_ROTATION};
 import package::math::frame::{FrameBasis, frame_from_normal_tangent, frame_to_local, frame_to_world};
 import package::bsdf::bsdf_sample::{BsdfSample};
 
@@ -31,16 +30,6 @@ import package::bsdf::bsdf_sample::{BsdfSample};
 /// met); albedo and rays traced; normal and the filter's weight, which the other vectors are times.
 @group(0) @binding(5) var<storage, read_write> path_found: array<vec4f>;
 
-/// Vertices before roulette begins.
-const PATH_ROULETTE_FROM: u32 = 3u;
-/// Strategies of direct light, as in specula-render/src/options.rs.
-const STRATEGY_BALANCE: u32 = 1u;
-/// By lights only.
-const STRATEGY_LIGHTS_ONLY: u32 = 2u;
-/// By lobes only.
-const STRATEGY_BSDF_ONLY: u32 = 3u;
-/// Both, weighed by the power heuristic with exponent 2 instead of 3/2.
-const STRATEGY_POWER: u32 = 4u;
 
 /// It has only passed through thin panes: lights that are hidden stay so.
 const PATH_STRAIGHT: u32 = 1u;
@@ -261,7 +250,7 @@ fn path_consider(
 /// Twin: specula-render/src/integrator/estimator.rs, clamp_indirect.
 fn path_add(state: ptr<function, PathState>, contribution: vec3f, events: u32) {
     var c = contribution;
-    if CLAMPS != 0u && events > 1u {
+    if CLAMPS != 0u && events >= INDIRECT_FROM {
         let bound = bitcast<f32>(CLAMP_BITS) / number(FILM);
         let largest = max(c.x, max(c.y, c.z));
         if largest > bound {
@@ -288,7 +277,7 @@ fn path_direct(state: ptr<function, PathState>, vertex: PathVertex, s: Sequence,
         let brings = path_mean(found.contribution);
         let before = all_bring;
         all_bring += brings;
-        let u = sequence_hashed(s, vec3u(depth, 0u, 3u));
+        let u = sequence_hashed(s, vec3u(depth, 0u, HASH_CANDIDATE));
         if !(brings <= 0.0) && (which == 0u || u * all_bring >= before) {
             kept = found;
             kept_brings = brings;
@@ -323,7 +312,7 @@ fn path_scatter(
     depth: u32,
 ) -> bool {
     let u = sequence_scatter(s, depth);
-    let sampled = material_sample(vertex.bound, vertex.wo, u.xyz, sequence_stream(s, depth, 1u));
+    let sampled = material_sample(vertex.bound, vertex.wo, u.xyz, sequence_stream(s, depth, STREAM_SCATTER));
     if sampled.flags == 0u {
         return false;
     }
@@ -350,8 +339,8 @@ fn path_scatter(
     if !(largest > 0.0) {
         return false;
     }
-    let probability = clamp(2.0 * largest, 0.05, 1.0);
-    if depth >= PATH_ROULETTE_FROM && probability < 0.95 {
+    let probability = clamp(ROULETTE_SCALE * largest, ROULETTE_LEAST, 1.0);
+    if depth >= ROULETTE_FROM && probability < ROULETTE_BELOW {
         if u.w >= probability {
             return false;
         }

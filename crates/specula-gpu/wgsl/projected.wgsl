@@ -12,13 +12,6 @@ import tracer::texture_graph::{parameter_colour};
 import tracer::texture_coordinates::{TextureCoordinates};
 import tracer::world::{affine_vector, number, word};
 
-/// Places within the words.
-const PROJECTED_TO_LIGHT: u32 = 3u;
-const PROJECTED_THROUGH: u32 = 15u;
-const PROJECTED_HALF: u32 = 16u;
-const PROJECTED_COSINES: u32 = 18u;
-const PROJECTED_INTENSITY: u32 = 20u;
-
 /// Radiant intensity of the light at `at` towards `w` (unit, world).
 /// Twin: specula-render/src/light/projected.rs, ProjectedImage::intensity.
 fn projected_intensity(at: u32, w: vec3f) -> vec3f {

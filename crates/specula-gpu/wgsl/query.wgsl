@@ -15,7 +15,6 @@
 import tracer::world::{word, affine_point, affine_vector};
 import tracer::ray::{Ray, Hit};
 import tracer::quadric::{quadric_distance};
-import tracer::surface::{INSTANCE_SIZE, QUADRIC_SIZE, GROUP_QUADRICS, GROUP_TRIANGLE_COUNT};
 
 /// Every instance of the scene. Its custom index is that of hits.
 @group(1) @binding(0) var query_scene: acceleration_structure;

@@ -31,36 +31,6 @@ struct Surface {
     weights: vec2f,
 }
 
-// Words of a group's record: see `flatten` of specula-render/src/geometry/flat.rs.
-/// Positions.
-const GROUP_POSITIONS: u32 = 0u;
-/// How many triangles; quadrics come behind them in the numbering.
-const GROUP_TRIANGLE_COUNT: u32 = 1u;
-/// Corners of triangles.
-const GROUP_TRIANGLES: u32 = 2u;
-/// Shape of every primitive.
-const GROUP_SHAPE_OF: u32 = 3u;
-/// Light of every primitive, up to the count that follows.
-const GROUP_LIGHT_OF: u32 = 4u;
-/// Spheres and disks.
-const GROUP_QUADRICS: u32 = 6u;
-/// Normals, then how many vertices have them.
-const GROUP_NORMALS: u32 = 7u;
-/// Coordinates, then how many vertices have them.
-const GROUP_UVS: u32 = 9u;
-/// Second coordinates, then how many vertices have them.
-const GROUP_SECOND_UVS: u32 = 11u;
-/// Tangents, then how many vertices have them.
-const GROUP_TANGENTS: u32 = 13u;
-/// Colours, then how many vertices have them.
-const GROUP_COLOURS: u32 = 15u;
-/// Words of an instance.
-const INSTANCE_SIZE: u32 = 39u;
-/// Words of a shape.
-const SHAPE_SIZE: u32 = 10u;
-/// Words of a quadric.
-const QUADRIC_SIZE: u32 = 40u;
-
 /// A pair of values.
 fn surface_pair(at: u32) -> vec2f {
     return vec2f(number(at), number(at + 1u));

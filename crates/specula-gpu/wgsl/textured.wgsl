@@ -10,13 +10,11 @@
 import tracer::area::{AreaSample, area_sample, area_pdf, area_triangle};
 import tracer::piecewise::{piecewise_density, piecewise_sample};
 import tracer::ray::{Hit, Ray};
-import tracer::surface::{Surface, surface_at, SHAPE_SIZE};
+import tracer::surface::{Surface, surface_at};
 import tracer::texture_graph::{parameter_colour, parameter_float};
 import tracer::texture_coordinates::{TextureCoordinates};
 import tracer::world::{word};
 
-/// Offset of the shape.
-const TEXTURED_AREA: u32 = 6u;
 
 /// A point of a light, and the radiance that it sends to either side.
 struct TexturedSample {

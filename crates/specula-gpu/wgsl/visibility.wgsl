@@ -7,16 +7,12 @@ import tracer::world::{word, offset_leave};
 import tracer::sequence::{Sequence, sequence_hashed};
 import tracer::ray::{Ray};
 import tracer::traverse::{traverse, traverse_occluded};
-import tracer::surface::{Surface, surface_at, SHAPE_SIZE};
+import tracer::surface::{Surface, surface_at};
 import tracer::medium_stack::{MediumStack, medium_stack_cross, medium_stack_transmittance};
 import tracer::texture_coordinates::{TextureCoordinates};
 import tracer::texture_graph::{parameter_float, parameter_colour};
 import tracer::lights::{LightSample};
 
-/// How much of the ray to a light is looked at: not its very end.
-const VISIBILITY_TO_LIGHT: f32 = 0.9999;
-/// Most surfaces that a ray passes.
-const VISIBILITY_MOST: u32 = 4096u;
 /// The ray ends at the surface.
 const VISIBILITY_STOPS: u32 = 0u;
 /// The surface is not there.
@@ -84,7 +80,7 @@ fn visibility_nearest(
     met.left = vec3f(1.0);
     var begin = (*ray).origin;
     var hidden = HIDES_EMITTERS != 0u && depth == 0u;
-    for (var pass_ = 0u; pass_ < VISIBILITY_MOST; pass_ += 1u) {
+    for (var pass_ = 0u; pass_ < MOST_PASSES; pass_ += 1u) {
         met.rays += 1u;
         let hit = traverse(*ray, false);
         if hit.instance == NONE {
@@ -143,7 +139,7 @@ fn visibility_transmittance(
     if light.from_infinity == 0u {
         let other = offset_leave(
             light.target_position, light.target_error, light.target_normal, -light.wi);
-        ray = Ray(origin, other - origin, VISIBILITY_TO_LIGHT);
+        ray = Ray(origin, other - origin, SHADOW_RAY_END);
     }
     if HAS_PASSABLE == 0u {
         *rays += 1u;
@@ -155,7 +151,7 @@ fn visibility_transmittance(
     var media = within;
     var begin = surface.position;
     var left = vec3f(1.0);
-    for (var pass_ = 0u; pass_ < VISIBILITY_MOST; pass_ += 1u) {
+    for (var pass_ = 0u; pass_ < MOST_PASSES; pass_ += 1u) {
         *rays += 1u;
         let hit = traverse(ray, false);
         if hit.instance == NONE {

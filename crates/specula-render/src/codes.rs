@@ -2,16 +2,18 @@
 //! front of every shader as a constant of its name.
 
 /// Makes a constant of each row, and the list of all.
-macro_rules! codes {
+macro_rules! shared_constants {
     ($($(#[$doc:meta])* $name:ident = $value:expr;)*) => {
         $($(#[$doc])* pub(crate) const $name: u32 = $value;)*
 
-        /// All codes, by their names.
+        /// All of them, by their names.
         pub(crate) const ALL: &[(&str, u32)] = &[$((stringify!($name), $name)),*];
     };
 }
 
-codes! {
+pub(crate) use shared_constants;
+
+shared_constants! {
     /// No light, no texture, no hit.
     NONE = u32::MAX;
 
@@ -191,6 +193,17 @@ codes! {
     BOUNDARY_INSIDE = 1;
     /// Both sides are known.
     BOUNDARY_BOTH = 2;
+
+    /// How a path combines light and lobe samples: the power heuristic with exponent 3/2.
+    STRATEGY_MIS = 0;
+    /// The balance heuristic.
+    STRATEGY_BALANCE = 1;
+    /// Light samples only.
+    STRATEGY_LIGHTS_ONLY = 2;
+    /// Lobe samples only.
+    STRATEGY_BSDF_ONLY = 3;
+    /// The power heuristic with exponent 2.
+    STRATEGY_POWER = 4;
 
     /// Flag of glTF's material: it bounds a volume.
     GLTF_VOLUME = 1;

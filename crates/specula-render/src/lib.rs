@@ -11,6 +11,7 @@ mod film;
 mod flat;
 mod geometry;
 mod integrator;
+mod layout;
 mod light;
 mod material;
 mod medium_stack;

@@ -6,6 +6,8 @@ use specula_bsdf::multibounce::MisPdf;
 use specula_bsdf::vndf;
 use specula_scene::{Energy, Scene};
 
+use crate::codes;
+
 /// What stands before the options that bias a picture, at the end of [`RenderOptions::settings`].
 pub(crate) const BIASED: &str = "biased: ";
 
@@ -24,6 +26,20 @@ pub enum Strategy {
     BsdfOnly,
     /// As [`Strategy::Mis`] with exponent 2, as other renderers have it. For comparison: slower.
     Power,
+}
+
+impl Strategy {
+    /// Its code in shaders.
+    #[must_use]
+    pub const fn code(self) -> u32 {
+        match self {
+            Self::Mis => codes::STRATEGY_MIS,
+            Self::Balance => codes::STRATEGY_BALANCE,
+            Self::LightsOnly => codes::STRATEGY_LIGHTS_ONLY,
+            Self::BsdfOnly => codes::STRATEGY_BSDF_ONLY,
+            Self::Power => codes::STRATEGY_POWER,
+        }
+    }
 }
 
 /// The name in [`RenderOptions::settings`], by which films are compared.

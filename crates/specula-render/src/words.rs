@@ -24,6 +24,19 @@ impl Words {
         self.constant(name, place);
     }
 
+    /// Checks that the next word is a record's field at `offset`, as [`crate::layout`] tells shaders. At the record's
+    /// end, `offset` is its size.
+    ///
+    /// * `record`: place of its first word.
+    ///
+    /// # Panics
+    ///
+    /// In builds with debug assertions, where it is another.
+    #[track_caller]
+    pub(crate) fn field(&self, record: u32, offset: u32) {
+        debug_assert_eq!(self.place() - record, offset, "layout of a record");
+    }
+
     /// Names an index, a count or a code for shaders.
     pub(crate) fn constant(&mut self, name: &'static str, value: u32) {
         self.constants.push((name, value));

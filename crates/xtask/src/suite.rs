@@ -1,5 +1,6 @@
 //! `cargo xtask test`: everything that must pass before a change is kept.
 
+mod drivers;
 mod skips;
 mod times;
 
@@ -103,6 +104,7 @@ pub(crate) fn run(root: &Path, suite: &Suite) -> Result<()> {
 fn tests(root: &Path, skips: &Path, suites: &mut Vec<times::Suite>) -> Result<()> {
     let mut command = workspace::cargo(root);
     command.args(TESTS).env(specula_testing::FILE, skips);
+    command.envs(drivers::variable());
     let mut cargo = command.stderr(Stdio::piped()).spawn()?;
     let messages = cargo.stderr.take().ok_or("cargo has no standard error")?;
     suites.extend(times::follow(messages)?);

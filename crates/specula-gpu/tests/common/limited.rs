@@ -31,6 +31,8 @@ pub(crate) fn is_alone(gpu: &Gpu, test: &str) -> bool {
     let output = Command::new(std::env::current_exe().unwrap())
         .args(["--exact", "--nocapture", test])
         .env(ALONE, "1")
+        // Every thread reserves 64 MiB of addresses otherwise, which the limit counts.
+        .env("MALLOC_ARENA_MAX", "1")
         .output()
         .unwrap();
     if is_crashed(output.status) {

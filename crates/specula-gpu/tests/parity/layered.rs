@@ -119,7 +119,8 @@ fn colour<T: Real>(value: Rgb<T>) -> Vec<T> {
 
 fn cases() -> Vec<Case> {
     let walk = |name, body, inputs: Vec<[f32; 13]>, twin| {
-        let strays = (2 * inputs.len()).div_ceil(1000);
+        // Walks part where rounding decides otherwise: by lavapipe 2 of a thousand, by SwiftShader 3.
+        let strays = (4 * inputs.len()).div_ceil(1000);
         let case = Case::new(name, MODULES, body, inputs, twin, BOUND);
         case.at_scale(&[0.01]).with_strays(strays)
     };

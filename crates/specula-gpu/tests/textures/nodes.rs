@@ -71,7 +71,12 @@ pub(crate) const FAULTS: [(Fault, &str); 14] = [
         "(bytes >> 9u)",
         "picture of bytes",
     ),
-    fault("texture_noise", "= 1.99;", "= 2.0;", "noise fbm"),
+    fault(
+        "texture_noise",
+        "*= TEXTURE_NOISE_LACUNARITY;",
+        "*= 2.0;",
+        "noise fbm",
+    ),
     fault(
         "texture_noise",
         "(y + cell.z)",

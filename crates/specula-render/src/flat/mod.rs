@@ -12,6 +12,8 @@ use core::fmt::Write as _;
 pub use groups::{FlatGroup, FlatInstance};
 
 use crate::codes;
+use crate::integrator::estimator;
+use crate::layout;
 use crate::material::MaterialShader;
 use crate::offset;
 use crate::prepared::PreparedScene;
@@ -58,9 +60,10 @@ impl PreparedScene {
     /// The scene as arrays of words.
     pub fn flatten(&self) -> FlatScene<'_> {
         let mut words = Words::default();
-        for &(name, code) in codes::ALL {
-            words.constant(name, code);
+        for &(name, value) in codes::ALL.iter().chain(layout::ALL) {
+            words.constant(name, value);
         }
+        estimator::flatten(&mut words);
         crate::sampler::flatten(&mut words);
         self.camera.flatten(&mut words);
         self.filter.flatten(&mut words);

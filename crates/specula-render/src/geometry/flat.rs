@@ -6,6 +6,7 @@ use super::{Geometry, GroupData, PlacedQuadric, Placement, ShapeRecord};
 use crate::accel::QuadricShape;
 use crate::codes;
 use crate::convert::{Affine, id, narrow};
+use crate::layout;
 use crate::texture::{colour_parameter, float_parameter};
 use crate::words::Words;
 
@@ -31,12 +32,14 @@ impl ShapeRecord {
     /// Material, whether both sides send out light, whether there are coordinates, radiance, opacity,
     /// whether it is an interface.
     fn flatten(&self, to: &mut Words) {
+        let record = to.place();
         to.id(self.material);
         to.flag(self.two_sided);
         to.flag(self.has_uvs);
         colour_parameter(to, self.radiance);
         float_parameter(to, self.alpha.unwrap_or(FloatParam::Value(1.0)));
         to.flag(self.is_interface);
+        to.field(record, layout::SHAPE_SIZE);
     }
 }
 
@@ -44,12 +47,14 @@ impl Placement {
     /// Offset of the group's record, whether it moves nothing, the group's first light, then the world
     /// from the group, its normals, and the group from the world.
     fn flatten(&self, groups: &[u32], to: &mut Words) {
+        let record = to.place();
         to.id(groups[self.group as usize]);
         to.flag(self.identity);
         to.id(self.first_light);
         to.affine(&self.to_world);
         to.affine(&self.normals);
         to.affine(&Affine::new(&self.inverse));
+        to.field(record, layout::INSTANCE_SIZE);
     }
 }
 
@@ -82,9 +87,28 @@ impl GroupData {
             quadric.flatten(to);
         }
         let record = to.place();
-        to.ids([positions, id(self.triangles.len()), triangles, shape_of]);
-        to.ids([light_of, id(self.light_of.len()), quadrics]);
-        for (place, count) in [normals, uvs, second_uvs, tangents, colours] {
+        let triangle_count = id(self.triangles.len());
+        for (field, word) in [
+            (layout::GROUP_POSITIONS, positions),
+            (layout::GROUP_TRIANGLE_COUNT, triangle_count),
+            (layout::GROUP_TRIANGLES, triangles),
+            (layout::GROUP_SHAPE_OF, shape_of),
+        ] {
+            to.field(record, field);
+            to.id(word);
+        }
+        to.field(record, layout::GROUP_LIGHT_OF);
+        to.ids([light_of, id(self.light_of.len())]);
+        to.field(record, layout::GROUP_QUADRICS);
+        to.id(quadrics);
+        for (field, (place, count)) in [
+            (layout::GROUP_NORMALS, normals),
+            (layout::GROUP_UVS, uvs),
+            (layout::GROUP_SECOND_UVS, second_uvs),
+            (layout::GROUP_TANGENTS, tangents),
+            (layout::GROUP_COLOURS, colours),
+        ] {
+            to.field(record, field);
             to.ids([place, count]);
         }
         record
@@ -99,11 +123,13 @@ impl PlacedQuadric {
             QuadricShape::Sphere { radius } => (codes::QUADRIC_SPHERE, radius, 0.0),
             QuadricShape::Disk { radius, height } => (codes::QUADRIC_DISK, radius, height),
         };
+        let record = to.place();
         to.id(kind);
         to.floats([narrow(radius), narrow(height)]);
         to.flag(self.flipped);
         to.affine(&self.forward);
         to.affine(&self.backward);
         to.affine(&self.normals);
+        to.field(record, layout::QUADRIC_SIZE);
     }
 }

@@ -9,6 +9,7 @@ use specula_bsdf::{Rgb, Vec3};
 use crate::accel::Ray;
 use crate::offset::SurfacePoint;
 use crate::options::Strategy;
+use crate::words::Words;
 
 /// Scattering events of a path before Russian roulette begins.
 pub const ROULETTE_FROM: u32 = 3;
@@ -37,6 +38,19 @@ pub const HASH_CANDIDATE: u32 = 3;
 #[inline(always)]
 pub const fn stream_of_candidate(candidate: u32) -> u32 {
     2 * candidate
+}
+
+/// The constants above, for shaders.
+pub(crate) fn flatten(to: &mut Words) {
+    to.constant("ROULETTE_FROM", ROULETTE_FROM);
+    to.float_constant("ROULETTE_SCALE", ROULETTE_SCALE);
+    to.float_constant("ROULETTE_LEAST", ROULETTE_LEAST);
+    to.float_constant("ROULETTE_BELOW", ROULETTE_BELOW);
+    to.constant("INDIRECT_FROM", INDIRECT_FROM);
+    to.float_constant("SHADOW_RAY_END", SHADOW_RAY_END);
+    to.constant("MOST_PASSES", MOST_PASSES);
+    to.constant("STREAM_SCATTER", STREAM_SCATTER);
+    to.constant("HASH_CANDIDATE", HASH_CANDIDATE);
 }
 
 /// Weight by the power heuristic (Veach 1997, 9.2.4) with exponent 3/2.

@@ -21,6 +21,7 @@ use specula_scene::Image;
 use specula_scene::scene::EnvironmentMapping;
 
 use crate::convert::Affine;
+use crate::layout;
 use crate::words::Words;
 pub(super) use batch::{BATCH_SIZE, DirectionBatch};
 use picture::{LEAST_WEIGHT, Picture, Pixel, direction_and_sine, uv_and_sine};
@@ -73,12 +74,16 @@ impl Environment {
         let tables = self.picture.as_ref().map(|p| p.flatten_tables(to));
         let place = to.place();
         to.id(prefix);
+        let record = to.place();
         to.colour(self.radiance);
+        to.field(record, layout::ENVIRONMENT_TO_WORLD);
         to.affine(&self.to_world);
+        to.field(record, layout::ENVIRONMENT_TO_LIGHT);
         to.affine(&self.to_light);
+        to.field(record, layout::ENVIRONMENT_IS_PICTURE);
         to.flag(self.picture.is_some());
         if let (Some(picture), Some(tables)) = (&self.picture, tables) {
-            picture.flatten(tables, to);
+            picture.flatten(record, tables, to);
         }
         place
     }

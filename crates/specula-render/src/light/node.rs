@@ -4,6 +4,7 @@ use specula_bsdf::Vec3;
 
 use super::cone::EmissionCone;
 use crate::convert::narrow;
+use crate::layout;
 use crate::words::Words;
 
 /// How far a cosine must be beyond its bound before a light is left out; also the least value of
@@ -60,14 +61,16 @@ impl Node {
         }
     }
 
-    /// 12 words for shaders: sphere, axis, cosines, intensity, flags (two-sided, leaf), link.
+    /// For shaders: sphere, axis, cosines, intensity, flags (two-sided, leaf), link.
     pub(super) fn flatten(&self, to: &mut Words) {
+        let record = to.place();
         to.vector(self.centre);
         to.number(self.radius);
         to.vector(self.axis);
         to.floats([self.cos_o, self.cos_e, self.intensity]);
         to.id(u32::from(self.two_sided) | u32::from(self.leaf) << 1);
         to.id(self.link);
+        to.field(record, layout::LIGHT_NODE_SIZE);
     }
 
     /// An estimate of the irradiance by the node's lights, 0 only where none can contribute.

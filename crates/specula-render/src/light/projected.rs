@@ -12,6 +12,7 @@ use super::delta::share;
 use super::octahedral::{direction_of, square_of};
 use crate::codes;
 use crate::convert::{Affine, narrow, narrow3};
+use crate::layout;
 use crate::texture::{TextureCoordinates, Textures, colour_parameter};
 use crate::words::Words;
 
@@ -120,7 +121,9 @@ impl ProjectedImage {
 
     /// Parameters, for shaders.
     pub(super) fn flatten(&self, to: &mut Words) {
+        let record = to.place();
         to.vector(self.position);
+        to.field(record, layout::PROJECTED_TO_LIGHT);
         to.affine(&self.to_light);
         let (through, half, cosines) = match self.window {
             None => (codes::WINDOW_NONE, [0.0; 2], [0.0; 2]),
@@ -130,9 +133,13 @@ impl ProjectedImage {
                 Beside::Spot(cosines) => (codes::WINDOW_SPOT, half, cosines),
             },
         };
+        to.field(record, layout::PROJECTED_THROUGH);
         to.id(through);
+        to.field(record, layout::PROJECTED_HALF);
         to.floats(half);
+        to.field(record, layout::PROJECTED_COSINES);
         to.floats(cosines);
+        to.field(record, layout::PROJECTED_INTENSITY);
         colour_parameter(to, self.intensity);
     }
 

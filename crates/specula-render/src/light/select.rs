@@ -80,6 +80,7 @@ impl Selection {
         self.near.flatten(to);
         self.far.flatten(to);
         to.float_constant("LIGHTS_LEAST_SHARE", LEAST_SHARE);
+        to.float_constant("LIGHTS_FINER", narrow(FINER));
         to.begin("LIGHT_FAR_IRRADIANCE");
         to.number(self.far_irradiance);
         to.constant("LIGHT_ONLY", self.only.unwrap_or(u32::MAX));

@@ -6,6 +6,7 @@ use specula_scene::scene::{ColourParam, FloatParam};
 use super::area::{Area, AreaSample};
 use super::piecewise::Piecewise;
 use crate::geometry::{At, Geometry, Surface};
+use crate::layout;
 use crate::texture::{TextureCoordinates, Textures};
 use crate::words::Words;
 
@@ -161,8 +162,10 @@ impl Textured {
 
     /// Parameters, for shaders; radiance and opacity are those of the shape.
     pub(super) fn flatten(&self, table: [u32; 3], to: &mut Words) {
+        let record = to.place();
         to.ids([self.instance, self.primitive, u32::from(self.swapped)]);
         to.ids(table);
+        to.field(record, layout::TEXTURED_AREA);
         self.area.flatten(to);
     }
 

@@ -15,6 +15,9 @@ use crate::words::Words;
 /// Trail of a light that is not in the tree; no trail is 64 long.
 const ABSENT: u64 = u64::MAX;
 
+/// Least share of the lesser child: rounding must not take its chance.
+const LEAST_SHARE: f32 = 1e-6;
+
 /// A distribution over lights that depends on the receiver.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LightTree {
@@ -55,6 +58,7 @@ impl LightTree {
 
     /// Nodes, and trails as lower and upper words, for shaders.
     pub(super) fn flatten(&self, to: &mut Words) {
+        to.float_constant("LIGHT_TREE_LEAST_SHARE", LEAST_SHARE);
         to.float_constant("LIGHT_NODE_SLACK", node::SLACK);
         to.float_constant("LIGHT_NODE_MOST", node::MOST);
         to.constant("LIGHT_NODE_COUNT", id(self.nodes.len()));
@@ -156,13 +160,11 @@ impl LightTree {
 /// then, but the probabilities still add up to 1.
 #[inline(always)]
 fn share([a, b]: [f32; 2]) -> f32 {
-    // Rounding must not take the chance of the lesser one.
-    const LEAST: f32 = 1e-6;
     if a <= 0.0 {
         if b > 0.0 { 0.0 } else { 0.5 }
     } else if b <= 0.0 {
         1.0
     } else {
-        (a / (a + b)).clamp(LEAST, 1.0 - LEAST)
+        (a / (a + b)).clamp(LEAST_SHARE, 1.0 - LEAST_SHARE)
     }
 }

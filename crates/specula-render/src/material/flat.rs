@@ -11,6 +11,8 @@ use super::{Material, MaterialShader, Materials};
 use crate::bump;
 use crate::codes;
 use crate::convert::id;
+use crate::layout;
+use crate::medium_stack::MOST_MEDIA;
 use crate::words::Words;
 
 impl Materials {
@@ -42,6 +44,7 @@ impl Materials {
         for material in &self.materials {
             material.flatten_boundary(to);
         }
+        to.constant("MOST_MEDIA", id(MOST_MEDIA));
         to.constant("HAS_BOUNDARIES", u32::from(self.has_boundaries));
         let turns = |m: &Material| m.turn.is_some_and(|t| t.direction.is_some());
         to.constant(
@@ -71,16 +74,31 @@ impl Material {
         let rotation_rad = self.turn.map_or(0.0, |t| t.rotation_rad);
         let direction = self.turn.and_then(|t| t.direction);
         let kind = self.shader();
-        words.ids([kind as u32, u32::from(self.one_sided)]);
-        words.flag(self.opaque_layers);
-        words.number(rotation_rad);
-        words.flag(self.is_plain_and_isotropic());
-        words.id(energy_code(self.models.energy));
-        words.id(direction.map_or(codes::NONE, |texture| id(texture.0)));
+        let head = [
+            (layout::MATERIAL_KIND, kind as u32),
+            (layout::MATERIAL_ONE_SIDED, u32::from(self.one_sided)),
+            (layout::MATERIAL_OPAQUE, u32::from(self.opaque_layers)),
+            (layout::MATERIAL_ROTATION, rotation_rad.to_bits()),
+            (
+                layout::MATERIAL_ISOTROPIC,
+                u32::from(self.is_plain_and_isotropic()),
+            ),
+            (layout::MATERIAL_ENERGY, energy_code(self.models.energy)),
+            (
+                layout::MATERIAL_DIRECTION,
+                direction.map_or(codes::NONE, |texture| id(texture.0)),
+            ),
+        ];
+        let record = words.place();
+        for (field, word) in head {
+            words.field(record, field);
+            words.id(word);
+        }
+        words.field(record, layout::MATERIAL_PARAMETERS);
         self.parameters().flatten(words);
     }
 
-    /// 7 words: which of its sides are known to absorb; then what absorbs inside, and around.
+    /// Which of its sides are known to absorb; then what absorbs inside, and around.
     fn flatten_boundary(&self, to: &mut Words) {
         let known = self
             .boundary
@@ -89,17 +107,21 @@ impl Material {
                 Some(_) => codes::BOUNDARY_BOTH,
             });
         let colour = |c: Option<Rgb<f32>>| c.unwrap_or(Rgb::BLACK);
+        let record = to.place();
         to.id(known);
         to.colour(colour(self.boundary.map(|b| b.inside)));
         to.colour(colour(self.boundary.and_then(|b| b.around)));
+        to.field(record, layout::BOUNDARY_SIZE);
     }
 
-    /// 9 words: the bump map, whether the clear coat is bent otherwise, its bump.
+    /// The bump map, whether the clear coat is bent otherwise, its bump.
     fn flatten_bumps(&self, to: &mut Words) {
+        let record = to.place();
         bump::flatten(self.bump.as_ref(), self.bump_rules, to);
         to.flag(self.coat.is_some());
         let coat = self.coat.and_then(|c| c.0);
         bump::flatten(coat.as_ref(), BumpRules::Plain, to);
+        to.field(record, layout::BUMP_SIZE);
     }
 
     fn is_bent(&self) -> bool {

@@ -14,6 +14,7 @@ use super::super::piecewise::Piecewise;
 use super::axis::{Axis, AxisKind};
 use crate::codes;
 use crate::convert::narrow;
+use crate::layout;
 use crate::words::Words;
 
 /// Red, green, blue, and what is sampled by.
@@ -140,7 +141,10 @@ impl Picture {
     }
 
     /// Mapping, axes and places of the tables, for shaders.
-    pub(super) fn flatten(&self, tables: [u32; 4], to: &mut Words) {
+    ///
+    /// * `record`: place of the light's first word.
+    pub(super) fn flatten(&self, record: u32, tables: [u32; 4], to: &mut Words) {
+        to.field(record, layout::ENVIRONMENT_MAPPING);
         to.id(match self.mapping {
             EnvironmentMapping::EqualAreaOctahedral => codes::ENVIRONMENT_EQUAL_AREA,
             EnvironmentMapping::LatitudeLongitude => codes::ENVIRONMENT_LATITUDE_LONGITUDE,
@@ -148,10 +152,21 @@ impl Picture {
                 codes::ENVIRONMENT_LATITUDE_LONGITUDE_POLES
             }
         });
-        for axis in &self.axes {
+        let axes = [layout::ENVIRONMENT_ACROSS, layout::ENVIRONMENT_DOWN];
+        for (axis, field) in self.axes.iter().zip(axes) {
+            to.field(record, field);
             axis.flatten(to);
         }
-        to.ids(tables);
+        let fields = [
+            layout::ENVIRONMENT_CORNERS,
+            layout::ENVIRONMENT_DENSITY,
+            layout::ENVIRONMENT_ROWS,
+            layout::ENVIRONMENT_COLUMNS,
+        ];
+        for (table, field) in tables.into_iter().zip(fields) {
+            to.field(record, field);
+            to.id(table);
+        }
     }
 
     /// Integral over a cell, in pixels, of what is sampled by, without the sine.

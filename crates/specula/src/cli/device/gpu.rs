@@ -293,8 +293,8 @@ mod tests {
         let (scene, options) = textured(side);
         assert!(auto(&gpu, &scene, &options).tracer.is_some());
         gpu.wait().unwrap();
-        // For the scene as an array here, which grows by doubling, and for the driver's compiler, which
-        // crashes without; not for another array there.
+        // For the scene as an array here, which grows by doubling, and for what else the driver takes;
+        // not for another array there.
         let limit = Limit::new(2 * 12 * side * side + 96 * MIB);
         let samples = auto(&gpu, &scene, &options);
         let (device, arguments) = (Device::Gpu(None), GpuArguments::default());
