@@ -168,7 +168,7 @@ fn machine(gpu: &Gpu, options: &Options) -> String {
     }
     if adapter.kind == AdapterKind::Software {
         text += "\n**No real GPU has been measured yet.** This adapter is software on the processor. Its \
-                 figures tell that the bench works, and nothing of a GPU.\n";
+                 figures show that the bench works, and nothing of a GPU.\n";
         if std::env::var("GALLIVM_PERF").is_ok_and(|v| v.contains("nopt")) {
             text +=
                 "It compiles without optimisation (`GALLIVM_PERF=nopt` in `.cargo/config.toml`).\n";
@@ -245,9 +245,9 @@ Written by the bench below, which runs on any GPU that offers Vulkan, Metal or D
 
     cargo bench -p specula-gpu --bench gpu -- --publish
 
-- **Time** is the clock's around whole runs, with handing in the work and waiting for it, each run so much
+- **Time** is the clock's around whole runs, with submitting the work and waiting for it, each run so much
   work that it lasts 0.1 s or more. Compilation and uploading come before and are told apart.
 - **Medians** of rounds; in a round all that is compared takes its turn. Ratios are medians of the rounds'
   ratios; where other programs run, single rounds stray from them as far as each table says.
-- `--adapter` chooses a GPU by its place or a part of its name, `--quick` takes a look.
+- `--adapter` chooses a GPU by its index or a part of its name, `--quick` takes fewer and smaller ones.
 ";

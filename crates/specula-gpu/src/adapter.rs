@@ -47,7 +47,7 @@ pub struct AdapterDescription {
     pub backend: String,
     /// The driver and its version.
     pub driver: String,
-    /// Whether it searches for what rays hit by itself.
+    /// Whether it offers ray queries.
     pub ray_queries: bool,
 }
 
@@ -119,15 +119,15 @@ impl FromStr for AdapterChoice {
 }
 
 impl AdapterChoice {
-    /// The place of the chosen adapter in `found`.
-    fn among(&self, found: &[AdapterDescription]) -> Result<usize, GpuError> {
+    /// The index of the chosen adapter in `all`.
+    fn among(&self, all: &[AdapterDescription]) -> Result<usize, GpuError> {
         let best = |wanted: &dyn Fn(&AdapterDescription) -> bool| {
             let kind = |(_, a): &(usize, &AdapterDescription)| a.kind;
-            let candidates = found.iter().enumerate().filter(|(_, a)| wanted(a));
+            let candidates = all.iter().enumerate().filter(|(_, a)| wanted(a));
             candidates.min_by_key(kind).map(|(place, _)| place)
         };
         let place = match self {
-            _ if found.is_empty() => return Err(GpuError::NoAdapter),
+            _ if all.is_empty() => return Err(GpuError::NoAdapter),
             Self::Best => best(&|_| true),
             Self::Index(index) => best(&|a| a.index == *index),
             Self::Name(name) => {
@@ -141,7 +141,7 @@ impl AdapterChoice {
                 Self::Index(index) => index.to_string(),
                 Self::Name(name) => name.clone(),
             },
-            found: found.iter().map(|a| format!("\n  {a}")).collect(),
+            available: all.iter().map(|a| format!("\n  {a}")).collect(),
         })
     }
 }
@@ -153,12 +153,12 @@ pub enum GpuError {
     #[error("no GPU found: no driver for Vulkan, Metal or Direct3D 12 offers one")]
     NoAdapter,
     /// The adapter that was asked for is not there.
-    #[error("no GPU '{wanted}'; there are:{found}")]
+    #[error("no GPU '{wanted}'; there are:{available}")]
     NoSuchAdapter {
         /// What was asked for.
         wanted: String,
         /// What there is, a line each.
-        found: String,
+        available: String,
     },
     /// The adapter is there but cannot be opened.
     #[error("the GPU {adapter} cannot be opened: {reason}")]
@@ -216,8 +216,8 @@ fn instance() -> wgpu::Instance {
 }
 
 fn described(instance: &wgpu::Instance) -> Vec<(AdapterDescription, wgpu::Adapter)> {
-    let found = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
-    let mut all: Vec<_> = found
+    let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
+    let mut all: Vec<_> = adapters
         .into_iter()
         .map(|adapter| (AdapterDescription::new(0, &adapter), adapter))
         .collect();
@@ -248,10 +248,10 @@ impl Gpu {
     /// Where there is no such adapter or its driver does not open it.
     pub fn open(choice: &AdapterChoice) -> Result<Self, GpuError> {
         let all = described(&instance());
-        let (found, mut handles): (Vec<_>, Vec<_>) = all.into_iter().unzip();
-        let place = choice.among(&found)?;
+        let (descriptions, mut handles): (Vec<_>, Vec<_>) = all.into_iter().unzip();
+        let place = choice.among(&descriptions)?;
         let handle = handles.swap_remove(place);
-        let adapter = found[place].clone();
+        let adapter = descriptions[place].clone();
         let request = handle.request_device(&wgpu::DeviceDescriptor {
             label: Some("specula"),
             required_features: handle.features() & RAY_QUERIES,
@@ -269,11 +269,11 @@ impl Gpu {
         let lost = Arc::clone(&failure);
         device.set_device_lost_callback(move |reason, message| {
             // Reported too when the device is dropped on purpose; nobody is left to read it then.
-            keep_first(&lost, lost_because(&format!("{reason:?}"), &message));
+            store_first(&lost, lost_because(&format!("{reason:?}"), &message));
         });
         let uncaught = Arc::clone(&failure);
         device.on_uncaptured_error(Arc::new(move |error| {
-            keep_first(&uncaught, GpuError::from(error));
+            store_first(&uncaught, GpuError::from(error));
         }));
         Ok(Self {
             adapter,
@@ -317,7 +317,7 @@ impl Gpu {
         }
     }
 
-    /// Waits until all work that was handed in is done.
+    /// Waits until all submitted work is done.
     ///
     /// # Errors
     /// Where the device was lost meanwhile.
@@ -330,8 +330,8 @@ impl Gpu {
     }
 }
 
-/// Keeps the error that others follow from: see [`cause`].
-fn keep_first(failure: &Mutex<Option<GpuError>>, error: GpuError) {
+/// Stores the error that others follow from: see [`cause`].
+fn store_first(failure: &Mutex<Option<GpuError>>, error: GpuError) {
     let mut failure = failure.lock().unwrap_or_else(PoisonError::into_inner);
     *failure = Some(match failure.take() {
         Some(first) => cause(first, error),
@@ -391,12 +391,12 @@ mod tests {
 
     #[test]
     fn real_adapters_come_before_software() {
-        let found = described(&[
+        let all = described(&[
             ("llvmpipe", AdapterKind::Software),
             ("Arc 140V", AdapterKind::Integrated),
             ("RTX 4090", AdapterKind::Discrete),
         ]);
-        let place = |text: &str| text.parse::<AdapterChoice>().unwrap().among(&found);
+        let place = |text: &str| text.parse::<AdapterChoice>().unwrap().among(&all);
         assert_eq!(place("best"), Ok(2));
         assert_eq!(place("0"), Ok(0));
         assert_eq!(place("arc"), Ok(1));

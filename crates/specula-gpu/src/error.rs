@@ -6,7 +6,7 @@ use crate::adapter::GpuError;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TracerError {
-    /// The scene has what shaders do not know.
+    /// The scene has features that shaders do not support.
     #[error("the GPU does not render {}", .0.join(", "))]
     Missing(Vec<String>),
     /// The scene's arrays are larger than the device takes.

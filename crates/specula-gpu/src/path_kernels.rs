@@ -1,4 +1,4 @@
-//! The kernels that take samples: paths to their ends, or in queues from vertex to vertex.
+//! The kernels that take samples: a thread follows a path to its end, or wavefronts go from vertex to vertex in queues.
 
 use wgpu::BufferUsages as Usages;
 
@@ -11,12 +11,12 @@ use crate::stage::{RayBindings, Slot, Stage, array, layout, submit};
 pub(crate) const SAMPLE_SIZE: u64 = 48;
 /// Bytes of a path's state between its vertices: `PathState` in path.wgsl.
 const STATE_SIZE: u64 = 144;
-/// Arrays that are only read: the scene's, and the wave's.
+/// Arrays that are only read: those of the scene, and the requested runs.
 const READ: u32 = 5;
 /// Arrays of a kernel that follows whole paths.
 const PATH_ARRAYS: u32 = 6;
-/// Vertices of paths in queues that are handed in at once. Few paths are longer; whether one is, the
-/// device says before more are handed in.
+/// Vertices of paths in queues that are submitted at once. Few paths are longer; whether one is, is read back before
+/// more are submitted.
 const VERTICES_AT_ONCE: u32 = 16;
 
 /// The kernels that take samples.
@@ -33,14 +33,14 @@ pub(crate) enum PathKernels {
 pub(crate) struct Queues {
     begin: Stage,
     bounce: Stage,
-    turn: Stage,
-    /// Vertices that a path has at most.
+    advance: Stage,
+    /// Most vertices of a path.
     most: u32,
 }
 
-/// A taker with its arrays.
+/// The kernels with their arrays.
 #[derive(Debug)]
-pub(crate) enum Taking {
+pub(crate) enum BoundKernels {
     Paths(Stage, wgpu::BindGroup),
     Queues(Queues, QueueArrays),
 }
@@ -49,14 +49,14 @@ pub(crate) enum Taking {
 #[derive(Debug)]
 pub(crate) struct QueueArrays {
     group: wgpu::BindGroup,
-    turning: wgpu::BindGroup,
+    advance_group: wgpu::BindGroup,
     control: wgpu::Buffer,
     workgroups: wgpu::Buffer,
 }
 
 impl PathKernels {
     /// * `module`: the scene's shader.
-    /// * `structures`: what its rays are cast by; `None`: the tree.
+    /// * `structures`: of ray queries; `None`: rays are traversed by the shader.
     pub(crate) fn new(
         gpu: &Gpu,
         module: &wgpu::ShaderModule,
@@ -78,11 +78,17 @@ impl PathKernels {
             binding,
             is_written: true,
         });
-        let turn = gpu.shader("turn", program::QUEUE_ADVANCE)?;
+        let advance = gpu.shader("queue advance", program::QUEUE_ADVANCE)?;
         Ok(Self::Queues(Queues {
             begin: Stage::new(gpu, &arrays, module, "queue_begin", None)?,
             bounce: Stage::new(gpu, &arrays, module, "queue_bounce", structures)?,
-            turn: Stage::new(gpu, &layout(gpu, both)?, &turn, "queue_advance_main", None)?,
+            advance: Stage::new(
+                gpu,
+                &layout(gpu, both)?,
+                &advance,
+                "queue_advance_main",
+                None,
+            )?,
             most: max_depth.saturating_add(1),
         }))
     }
@@ -95,12 +101,17 @@ impl PathKernels {
         }
     }
 
-    /// Arrays for so many samples.
+    /// The kernels with arrays for so many samples.
     ///
-    /// * `arrays`: the scene's, the runs that are wanted, the samples that are found.
-    pub(crate) fn with_room(&self, gpu: &Gpu, arrays: &[&wgpu::Buffer], samples: usize) -> Taking {
+    /// * `arrays`: those of the scene, the requested runs, the results.
+    pub(crate) fn with_capacity(
+        &self,
+        gpu: &Gpu,
+        arrays: &[&wgpu::Buffer],
+        samples: usize,
+    ) -> BoundKernels {
         match self {
-            Self::Paths(stage) => Taking::Paths(stage.clone(), stage.group(gpu, arrays)),
+            Self::Paths(stage) => BoundKernels::Paths(stage.clone(), stage.group(gpu, arrays)),
             Self::Queues(queues) => {
                 let samples = samples as u64;
                 let states = array(gpu, "paths", samples * STATE_SIZE, Usages::empty());
@@ -110,29 +121,31 @@ impl PathKernels {
                 let all = [arrays, &[&states, &control, &slots]].concat();
                 let arrays = QueueArrays {
                     group: queues.bounce.group(gpu, &all),
-                    turning: queues.turn.group(gpu, &[&control, &workgroups]),
+                    advance_group: queues.advance.group(gpu, &[&control, &workgroups]),
                     control,
                     workgroups,
                 };
-                Taking::Queues(queues.clone(), arrays)
+                BoundKernels::Queues(queues.clone(), arrays)
             }
         }
     }
 }
 
-impl Taking {
-    /// Takes the samples of a wave that has so many places for them.
-    pub(crate) fn take(&self, gpu: &Gpu, places: usize) -> Result<(), GpuError> {
+impl BoundKernels {
+    /// Takes the samples of a batch.
+    ///
+    /// * `slots`: threads, one for each sample or none.
+    pub(crate) fn take(&self, gpu: &Gpu, slots: usize) -> Result<(), GpuError> {
         match self {
-            Self::Paths(stage, group) => submit(gpu, |pass| stage.run(pass, group, places)),
-            Self::Queues(queues, arrays) => queues.take(gpu, arrays, places),
+            Self::Paths(stage, group) => submit(gpu, |pass| stage.run(pass, group, slots)),
+            Self::Queues(queues, arrays) => queues.take(gpu, arrays, slots),
         }
     }
 }
 
 impl Queues {
-    fn take(&self, gpu: &Gpu, arrays: &QueueArrays, places: usize) -> Result<(), GpuError> {
-        // The first turn is to vertex 0.
+    fn take(&self, gpu: &Gpu, arrays: &QueueArrays, slots: usize) -> Result<(), GpuError> {
+        // The first advance is to vertex 0.
         let before: [u32; 3] = [u32::MAX, 0, 0];
         gpu.caught(|gpu| {
             let control = bytemuck::bytes_of(&before);
@@ -143,12 +156,12 @@ impl Queues {
             let next = VERTICES_AT_ONCE.min(self.most - done);
             submit(gpu, |pass| {
                 if done == 0 {
-                    self.begin.run(pass, &arrays.group, places);
+                    self.begin.run(pass, &arrays.group, slots);
                 }
                 for _ in 0..next {
-                    self.turn.run(pass, &arrays.turning, 1);
+                    self.advance.run(pass, &arrays.advance_group, 1);
                     self.bounce
-                        .run_as_said(pass, &arrays.group, &arrays.workgroups);
+                        .run_indirect(pass, &arrays.group, &arrays.workgroups);
                 }
             })?;
             done += next;

@@ -6,11 +6,11 @@ use std::fmt::Write as _;
 use specula_render::{FlatScene, MaterialShader, RenderOptions};
 use specula_shaders::ComposeError;
 
-/// The kernel that adds samples, complete in itself.
+/// The kernel that sums samples, complete in itself.
 pub(crate) const SUMS: &str = include_str!("../wgsl/sums.wgsl");
 /// Its entry point.
 pub(crate) const SUMS_ENTRY: &str = "sums_main";
-/// The kernel between two vertices of paths in queues, complete in itself.
+/// The kernel between two vertices of a wavefront, complete in itself.
 pub(crate) const QUEUE_ADVANCE: &str = include_str!("../wgsl/queue_advance.wgsl");
 
 /// A module of the tracer.
@@ -28,7 +28,7 @@ impl Module {
 
     /// Whether it stores all parameters of a material.
     fn stores_parameters(&self) -> bool {
-        self.text.contains("bound_keep(")
+        self.text.contains("bound_store(")
     }
 }
 
@@ -73,7 +73,7 @@ const BEFORE: &[Module] = modules![
     "bound",
 ];
 
-/// Ways of rays to what they hit, one of which a shader has: through the tree, by ray queries.
+/// How rays are cast, one of which a shader has: by traversal of the tree, by ray queries.
 const RAYS: &[Module] = modules!["traverse", "query"];
 
 /// What modules of several kinds of material import.
@@ -165,7 +165,7 @@ fn constants(flat: &FlatScene<'_>, options: &RenderOptions, kinds: &[&Module]) -
         ("STRATEGY", options.strategy.code()),
         ("CLAMPS", u32::from(options.clamp.is_some())),
         ("CLAMP_BITS", options.clamp.unwrap_or(f32::MAX).to_bits()),
-        ("BOUND_KEPT", stored),
+        ("BOUND_STORED", stored),
     ];
     let mut text = String::from("// Constants of the scene and the render.\n");
     text += &flat.declarations();
@@ -221,7 +221,7 @@ fn dispatch(flat: &FlatScene<'_>) -> String {
     let bind = |(code, module): (String, &str)| {
         format!("            case {code}: {{ b = {module}_bind(head, p, outside); }}\n")
     };
-    // Not where there is no mix: every look-up of a texture makes a shader larger.
+    // Not where there is no mix: every evaluation of a texture makes a shader larger.
     let has_mix = flat.shaders.contains(&MaterialShader::Mix);
     let choice = if has_mix { CHOICE } else { "" };
     let turns = flat.constants.contains(&("HAS_DIRECTIONS", 1));
@@ -232,7 +232,7 @@ fn dispatch(flat: &FlatScene<'_>) -> String {
     };
     format!(
         "
-/// The material of a surface at a point of it; mixes choose by chance.
+/// The material of a surface at a point; mixes choose by chance.
 ///
 /// Twin: specula-render/src/material/mod.rs, Materials::at.
 fn material_bind(material: u32, place: TextureCoordinates, outside: bool, s: Sequence, depth: u32) -> Bound {{
@@ -258,14 +258,14 @@ fn material_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {{
     }}
 }}
 
-/// A direction.
+/// Samples a direction.
 fn material_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {{
     switch b.kind {{
 {sample}        default: {{ return bsdf_sample_none(); }}
     }}
 }}
 
-/// A colour for denoisers.
+/// Albedo, as a feature for denoisers.
 fn material_albedo(b: Bound) -> vec3f {{
     switch b.kind {{
 {albedo}        default: {{ return vec3f(0.0); }}

@@ -1,8 +1,8 @@
-//! Ray queries: structures that an adapter builds over a scene, and whether it can.
+//! Ray queries: acceleration structures that an adapter builds over a scene, and whether it can.
 //!
-//! Triangles are built from as they are. Spheres and disks are boxes, whose candidates the shader tests
-//! (`query.wgsl`). An adapter's structure holds the one or the other, so that a group with both has two
-//! of them and each of its places is two instances, of one number.
+//! Triangles are taken as they are. Spheres and disks are boxes, whose candidates the shader intersects
+//! (`query.wgsl`). A structure of an adapter has triangles or boxes, so that a group with both has two of them, and each
+//! of its instances is two instances of the adapter with the same custom index.
 
 use std::fmt;
 use std::str::FromStr;
@@ -13,13 +13,13 @@ use crate::adapter::{AdapterKind, Gpu, GpuError, RAY_QUERIES};
 use crate::error::TracerError;
 use crate::stage::{RayBindings, filled};
 
-/// How rays find on a device what they hit.
+/// How rays are cast on a device.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rays {
-    /// By ray queries where a real GPU offers them and they take the scene, else through the tree.
+    /// By ray queries where a real GPU offers them and they support the scene, else by traversal of the tree.
     #[default]
     Auto,
-    /// Through the tree that the processor's rays go through too.
+    /// By traversal of the same tree as on the processor.
     Tree,
     /// By the adapter's ray queries, or an error.
     Query,
@@ -54,11 +54,11 @@ pub struct Structures {
     bindings: RayBindings,
 }
 
-/// Values of instances have 24 bits.
+/// Indices of instances have 24 bits.
 const MOST_INSTANCES: usize = 1 << 24;
-/// Primitives that are built from at once, unless one structure has more: each needs memory to work in.
+/// Primitives of the structures that are built at once, unless one has more: building needs memory.
 const BATCH: usize = 1 << 22;
-/// Sizes of determinants that an adapter inverts without losing digits.
+/// Absolute values of determinants that an adapter inverts without losing digits.
 const DETERMINANTS: std::ops::RangeInclusive<f32> = 1e-30..=1e30;
 
 impl Gpu {
@@ -73,8 +73,8 @@ impl Structures {
     /// Builds the structures of a scene.
     ///
     /// # Errors
-    /// [`TracerError::Queries`] where the adapter offers none or they do not take the scene; else what
-    /// the device says.
+    /// [`TracerError::Queries`] where the adapter offers none or they do not support the scene; else those of
+    /// the device.
     pub fn new(gpu: &Gpu, scene: &PreparedScene) -> Result<Self, TracerError> {
         if !gpu.has_ray_queries() {
             let reason = format!("{} offers none", gpu.adapter);
@@ -87,12 +87,12 @@ impl Structures {
         Ok(gpu.caught(|gpu| build(gpu, &groups, &instances))??)
     }
 
-    /// As shaders bind them.
+    /// The bind group for shaders.
     pub(crate) fn bindings(&self) -> &RayBindings {
         &self.bindings
     }
 
-    /// The structures where they are asked for, `None` where rays go through the tree.
+    /// The structures where ray queries are chosen, `None` where rays are traversed by the shader.
     pub(crate) fn chosen(
         rays: Rays,
         gpu: &Gpu,
@@ -114,7 +114,7 @@ impl Structures {
     }
 }
 
-/// What of a scene is beyond a device's ray queries; `None`: they take it.
+/// Why a scene is beyond a device's ray queries; `None`: they support it.
 fn beyond(
     limits: &wgpu::Limits,
     groups: &[FlatGroup<'_>],
@@ -156,7 +156,7 @@ fn determinant([a, b, c]: &[[f32; 4]; 3]) -> f32 {
         + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
-/// What one structure is built from.
+/// The geometry of one structure.
 enum Geometry {
     Triangles {
         size: wgpu::BlasTriangleGeometrySizeDescriptor,
@@ -199,12 +199,12 @@ fn build(
     submit(gpu, &pending, None);
     let placed: Vec<wgpu::TlasInstance> = (0..)
         .zip(instances)
-        .flat_map(|(number, instance)| {
+        .flat_map(|(index, instance)| {
             let of_group = &structures[instance.group as usize];
             of_group.iter().map(move |blas| {
                 let mut rows = [0.0; 12];
                 rows.copy_from_slice(instance.to_world.as_flattened());
-                wgpu::TlasInstance::new(blas, rows, number, 0xff)
+                wgpu::TlasInstance::new(blas, rows, index, 0xff)
             })
         })
         .collect();
@@ -282,7 +282,7 @@ fn input(gpu: &Gpu, contents: &[u8]) -> Result<wgpu::Buffer, GpuError> {
     filled(gpu, "object", contents, wgpu::BufferUsages::BLAS_INPUT)
 }
 
-/// Has structures built.
+/// Submits the build of structures.
 fn submit(gpu: &Gpu, pending: &[Pending], tlas: Option<&wgpu::Tlas>) {
     let entries: Vec<wgpu::BlasBuildEntry<'_>> = pending.iter().map(Pending::entry).collect();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -337,7 +337,7 @@ fn bound(gpu: &Gpu, tlas: &wgpu::Tlas) -> Structures {
                 count: None,
             }],
         });
-    // The group keeps the structure, and that what it is made of.
+    // The bind group owns the structure, and that its parts.
     let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("ray queries"),
         layout: &layout,

@@ -1,17 +1,17 @@
-//! A wave: runs of samples that a device takes at once, and their sums.
+//! A batch: runs of samples that a device takes at once, and their sums.
 
 use specula_render::{Run, RunSums};
 use wgpu::BufferUsages as Usages;
 
 use crate::adapter::{Gpu, GpuError};
-use crate::path_kernels::{PathKernels, SAMPLE_SIZE, Taking};
+use crate::path_kernels::{BoundKernels, PathKernels, SAMPLE_SIZE};
 use crate::program;
 use crate::stage::{Slot, Stage, array, layout, submit};
 
-/// Bytes of a run that is wanted.
+/// Bytes of a requested run.
 const RUN_SIZE: u64 = 16;
 
-/// The kernels of a wave.
+/// The kernels of a batch.
 #[derive(Debug)]
 pub(crate) struct Kernels {
     pub(crate) taker: PathKernels,
@@ -19,19 +19,19 @@ pub(crate) struct Kernels {
     sums: Stage,
 }
 
-/// Arrays on the device for a wave.
+/// Arrays on the device for a batch.
 #[derive(Debug)]
 pub(crate) struct SampleBatch {
-    /// Room for samples and runs.
-    room: [usize; 2],
-    wanted: wgpu::Buffer,
+    /// Capacity in samples and runs.
+    capacity: [usize; 2],
+    requests: wgpu::Buffer,
     sums: wgpu::Buffer,
-    taking: Taking,
+    taking: BoundKernels,
     adding: wgpu::BindGroup,
 }
 
 impl Kernels {
-    /// * `adder`: the text of the kernel that adds.
+    /// * `adder`: the text of the kernel that sums samples.
     pub(crate) fn new(gpu: &Gpu, taker: PathKernels, adder: &str) -> Result<Self, GpuError> {
         let slots = (0..3).map(|binding| Slot {
             binding,
@@ -45,33 +45,33 @@ impl Kernels {
 }
 
 impl SampleBatch {
-    /// * `room`: for so many samples and runs.
+    /// * `capacity`: in samples and runs.
     pub(crate) fn new(
         gpu: &Gpu,
         kernels: &Kernels,
         scene: &[wgpu::Buffer],
-        room: [usize; 2],
+        capacity: [usize; 2],
     ) -> Result<Self, GpuError> {
         gpu.caught(|gpu| {
-            let [samples, runs] = room.map(|n| n as u64);
-            let wanted = array(gpu, "wanted", (runs + 1) * RUN_SIZE, Usages::COPY_DST);
-            let found = array(gpu, "found", samples * SAMPLE_SIZE, Usages::empty());
+            let [samples, runs] = capacity.map(|n| n as u64);
+            let requests = array(gpu, "requests", (runs + 1) * RUN_SIZE, Usages::COPY_DST);
+            let results = array(gpu, "results", samples * SAMPLE_SIZE, Usages::empty());
             let sums_size = runs * size_of::<RunSums>() as u64;
             let sums = array(gpu, "sums", sums_size, Usages::COPY_SRC);
-            let read: Vec<_> = scene.iter().chain([&wanted, &found]).collect();
+            let read: Vec<_> = scene.iter().chain([&requests, &results]).collect();
             Self {
-                room,
-                taking: kernels.taker.with_room(gpu, &read, room[0]),
-                adding: kernels.sums.group(gpu, &[&wanted, &found, &sums]),
-                wanted,
+                capacity,
+                taking: kernels.taker.with_capacity(gpu, &read, capacity[0]),
+                adding: kernels.sums.group(gpu, &[&requests, &results, &sums]),
+                requests,
                 sums,
             }
         })
     }
 
-    /// Whether so many samples and runs have room.
+    /// Whether the capacity suffices for so many samples and runs.
     pub(crate) fn holds(&self, [samples, runs]: [usize; 2]) -> bool {
-        self.room[0] >= samples && self.room[1] >= runs
+        self.capacity[0] >= samples && self.capacity[1] >= runs
     }
 
     /// Takes the samples of runs, and adds those of each.
@@ -89,12 +89,12 @@ impl SampleBatch {
             let [x, y] = run.pixel;
             [x, y, run.first, run.count]
         });
-        let wanted: Vec<[u32; 4]> = std::iter::once([longest, count, 0, 0])
+        let requests: Vec<[u32; 4]> = std::iter::once([longest, count, 0, 0])
             .chain(words)
             .collect();
         gpu.caught(|gpu| {
-            let wanted = bytemuck::cast_slice(&wanted);
-            gpu.queue.write_buffer(&self.wanted, 0, wanted);
+            let requests = bytemuck::cast_slice(&requests);
+            gpu.queue.write_buffer(&self.requests, 0, requests);
         })?;
         self.taking.take(gpu, runs.len() * longest as usize)?;
         submit(gpu, |pass| {

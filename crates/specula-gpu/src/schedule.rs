@@ -1,4 +1,4 @@
-//! In which order a device follows the paths of a wave.
+//! In which order a device follows the paths of a batch.
 
 use std::fmt;
 use std::str::FromStr;
@@ -9,13 +9,13 @@ pub(crate) const QUEUE_ARRAYS: u32 = 9;
 /// How threads follow paths. The samples are the same by either.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Schedule {
-    /// What measurements say: queues, where a kernel may have enough arrays. Software alone has been measured
+    /// The faster one by measurements: queues, where a kernel may have enough arrays. Software alone has been measured
     /// (`docs/gpu`), no real GPU.
     #[default]
     Auto,
     /// A thread follows a path to its end.
     Paths,
-    /// A thread takes a path to its next vertex, and paths that go on form a queue.
+    /// A thread takes a path to its next vertex, and paths that continue form a queue.
     Queues,
 }
 

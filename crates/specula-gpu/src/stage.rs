@@ -127,8 +127,8 @@ impl Stage {
         pass.dispatch_workgroups(workgroups, 1, 1);
     }
 
-    /// Runs as many workgroups as a buffer says by then.
-    pub(crate) fn run_as_said(
+    /// Runs as many workgroups as a buffer on the device says.
+    pub(crate) fn run_indirect(
         &self,
         pass: &mut wgpu::ComputePass<'_>,
         group: &wgpu::BindGroup,
@@ -139,7 +139,7 @@ impl Stage {
     }
 }
 
-/// Hands in what `record` records.
+/// Submits the commands that `record` records.
 pub(crate) fn submit(
     gpu: &Gpu,
     record: impl FnOnce(&mut wgpu::ComputePass<'_>),
@@ -161,7 +161,7 @@ pub(crate) fn array(gpu: &Gpu, label: &str, size: u64, usage: wgpu::BufferUsages
     })
 }
 
-/// Bytes that are on their way to the device at once.
+/// Most bytes of an upload at once.
 const CHUNK: usize = 1 << 24;
 
 /// An array on the device with contents, and zeros up to a multiple of four bytes.
@@ -183,11 +183,11 @@ pub(crate) fn filled(
             mapped_at_creation: false,
         })
     })?;
-    for (chunk, number) in contents.chunks(CHUNK).zip(0_u64..) {
+    for (chunk, index) in contents.chunks(CHUNK).zip(0_u64..) {
         let (whole, last) = chunk.split_at(chunk.len() / 4 * 4);
         let mut end = [0; 4];
         end[..last.len()].copy_from_slice(last);
-        let place = number * CHUNK as u64;
+        let place = index * CHUNK as u64;
         gpu.caught(|gpu| {
             gpu.queue.write_buffer(&buffer, place, whole);
             if !last.is_empty() {
@@ -196,7 +196,7 @@ pub(crate) fn filled(
             }
             gpu.queue.submit([]);
         })?;
-        // So that the next chunk takes the place of this one.
+        // So that the next chunk reuses the staging memory of this one.
         gpu.wait()?;
     }
     Ok(buffer)

@@ -16,17 +16,17 @@ use crate::sample_batch::{Kernels, SampleBatch};
 use crate::schedule::Schedule;
 use crate::stage::{WORKGROUP, filled};
 
-/// How long a dispatch should take: systems take devices away from work of seconds.
-const WAVE_TIME: Duration = Duration::from_millis(100);
-/// Samples of the first wave.
-const FIRST_WAVE: usize = 1 << 12;
-/// Most samples of a wave.
-const LARGEST_WAVE: usize = 1 << 21;
+/// How long a batch should take: systems reset devices whose work takes seconds.
+const BATCH_TIME: Duration = Duration::from_millis(100);
+/// Samples of the first batch.
+const FIRST_BATCH: usize = 1 << 12;
+/// Most samples of a batch.
+const LARGEST_BATCH: usize = 1 << 21;
 
 /// How a device renders. The samples are the same, but for rays at edges and rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TracerOptions {
-    /// How rays find what they hit.
+    /// How rays are cast.
     pub rays: Rays,
     /// In which order paths are followed.
     pub schedule: Schedule,
@@ -40,21 +40,20 @@ pub struct Tracer<'a> {
     /// Tables, nodes, packets, words.
     scene: [wgpu::Buffer; 4],
     uses_ray_queries: bool,
-    wave: Option<SampleBatch>,
-    /// Samples of the next wave.
+    batch: Option<SampleBatch>,
+    /// Samples of the next batch.
     samples: usize,
     largest: usize,
 }
 
-/// Features of a scene that shaders do not know, in a person's words; none: it can be rendered on a
-/// device.
+/// Features of a scene that shaders do not support, in words for a message; none: a device can render it.
 #[must_use]
 pub fn missing(scene: &PreparedScene) -> Vec<String> {
     scene.flatten().missing
 }
 
 impl<'a> Tracer<'a> {
-    /// Compiles the scene's shader and uploads the scene, by the ways of [`TracerOptions::default`].
+    /// Compiles the scene's shader and uploads the scene, with [`TracerOptions::default`].
     ///
     /// # Errors
     /// [`TracerError::Missing`] before anything else; where the scene is too large, or the device
@@ -67,7 +66,7 @@ impl<'a> Tracer<'a> {
         Self::with_options(gpu, scene, options, TracerOptions::default())
     }
 
-    /// The same by ways of choice.
+    /// [`new`](Self::new) with options.
     ///
     /// # Errors
     /// As [`new`](Self::new); [`TracerError::Queries`] where ray queries are asked for and cannot be had.
@@ -95,8 +94,8 @@ impl<'a> Tracer<'a> {
         Self::of_texts(gpu, &flat, options, (on_gpu.schedule, structures), texts)
     }
 
-    /// * `structures`: what rays are cast by; `None`: the tree.
-    /// * `texts`: of the scene's shader, and of the one that adds.
+    /// * `structures`: of ray queries; `None`: rays are traversed by the shader.
+    /// * `texts`: of the scene's shader, and of the one that sums samples.
     fn of_texts(
         gpu: &'a Gpu,
         flat: &FlatScene<'_>,
@@ -125,16 +124,16 @@ impl<'a> Tracer<'a> {
             kernels,
             scene,
             uses_ray_queries: structures.is_some(),
-            wave: None,
-            samples: FIRST_WAVE,
+            batch: None,
+            samples: FIRST_BATCH,
             largest: usize::try_from(largest)
                 .unwrap_or(usize::MAX)
-                .min(LARGEST_WAVE)
+                .min(LARGEST_BATCH)
                 .min(limits.max_compute_workgroups_per_dimension as usize * WORKGROUP),
         })
     }
 
-    /// Whether rays are cast by the adapter's ray queries; else they go through the tree.
+    /// Whether rays are cast by the adapter's ray queries; else the shader traverses the tree.
     #[must_use]
     pub fn uses_ray_queries(&self) -> bool {
         self.uses_ray_queries
@@ -143,7 +142,7 @@ impl<'a> Tracer<'a> {
     /// Adds samples to a render's film: [`Renderer::render_pass`] on the device.
     ///
     /// # Errors
-    /// Those of the device. The film keeps what came before.
+    /// Those of the device. Samples of finished batches stay in the film.
     pub fn render_pass(
         &mut self,
         renderer: &mut Renderer<'_>,
@@ -156,14 +155,14 @@ impl<'a> Tracer<'a> {
             stop,
             || most.get(),
             |wanted| {
-                let found = self.take(wanted);
+                let sums = self.take(wanted);
                 most.set(self.samples);
-                found
+                sums
             },
         )
     }
 
-    /// The sums of tiles, in the order of [`Wanted::runs`], in waves.
+    /// The sums of tiles, in the order of [`Wanted::runs`], in batches.
     fn take(&mut self, wanted: &[Wanted]) -> Result<Vec<RunSums>, GpuError> {
         let longest = wanted.iter().map(Wanted::longest_run).max().unwrap_or(0);
         let longest = longest.max(1);
@@ -174,8 +173,8 @@ impl<'a> Tracer<'a> {
             let most = (self.largest / longest as usize).clamp(1, rest.len());
             let (now, later) = rest.split_at(most);
             let start = Instant::now();
-            match self.wave(now, longest) {
-                Ok(found) => sums.extend(found),
+            match self.take_batch(now, longest) {
+                Ok(of_batch) => sums.extend(of_batch),
                 Err(GpuError::OutOfMemory(_)) if self.shrinks(now.len() * longest as usize) => {
                     continue;
                 }
@@ -188,19 +187,18 @@ impl<'a> Tracer<'a> {
         Ok(sums)
     }
 
-    /// Halves all waves from now on where memory did not suffice for one of so many samples; whether that
-    /// may help.
+    /// Halves the largest batch, as memory did not suffice for one of so many samples; returns whether that may help.
     fn shrinks(&mut self, samples: usize) -> bool {
         self.largest = samples / 2;
         self.samples = self.samples.min(self.largest);
         self.largest >= WORKGROUP && self.gpu.check().is_ok()
     }
 
-    /// Makes the next wave as large as lasts [`WAVE_TIME`].
+    /// Adjusts the size of the next batch to [`BATCH_TIME`].
     fn adjust(&mut self, samples: usize, took: Duration) {
-        if took < WAVE_TIME / 2 && samples >= self.samples / 2 {
+        if took < BATCH_TIME / 2 && samples >= self.samples / 2 {
             self.samples = (self.samples * 2).min(self.largest);
-        } else if took > 2 * WAVE_TIME {
+        } else if took > 2 * BATCH_TIME {
             self.samples = (self.samples / 2).max(WORKGROUP);
         }
     }
@@ -208,19 +206,19 @@ impl<'a> Tracer<'a> {
     /// The sums of runs.
     ///
     /// * `longest`: samples of the longest one.
-    fn wave(&mut self, runs: &[Run], longest: u32) -> Result<Vec<RunSums>, GpuError> {
+    fn take_batch(&mut self, runs: &[Run], longest: u32) -> Result<Vec<RunSums>, GpuError> {
         let needed = [runs.len() * longest as usize, runs.len()];
-        let wave = match self.wave.take() {
-            Some(wave) if wave.holds(needed) => wave,
+        let batch = match self.batch.take() {
+            Some(batch) if batch.holds(needed) => batch,
             smaller => {
-                // What there is goes before more is asked for.
+                // Freed before more memory is requested.
                 drop(smaller);
-                let room = needed.map(|n| n.next_power_of_two().min(self.largest).max(n));
-                SampleBatch::new(self.gpu, &self.kernels, &self.scene, room)?
+                let capacity = needed.map(|n| n.next_power_of_two().min(self.largest).max(n));
+                SampleBatch::new(self.gpu, &self.kernels, &self.scene, capacity)?
             }
         };
-        let sums = wave.take(self.gpu, &self.kernels, runs, longest)?;
-        self.wave = Some(wave);
+        let sums = batch.take(self.gpu, &self.kernels, runs, longest)?;
+        self.batch = Some(batch);
         Ok(sums)
     }
 }

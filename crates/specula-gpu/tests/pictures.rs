@@ -57,7 +57,7 @@ fn on_processor(scene: &Scene, options: &RenderOptions, samples: u32) -> Picture
     renderer.film().picture()
 }
 
-/// A GPU, and how rays find there what they hit.
+/// A GPU, and how rays are cast there.
 type Device<'a> = (&'a Gpu, Rays);
 
 /// What software renders by ray queries too: it compiles such a shader for half a minute. All with

@@ -1,8 +1,8 @@
 // Sines of angles and angles of points, as polynomials without branches.
 //
 // The coefficients are Chebyshev fits in the square of the argument, computed in 40 digits. WGSL's own
-// functions have errors of up to 2^-11 (sin, cos) and 4096 ulps (atan2, acos): too large for what is
-// sampled to be the renderer's on the CPU.
+// functions have errors of up to 2^-11 (sin, cos) and 4096 ulps (atan2, acos): too large for samples that should be
+// those of the CPU.
 
 /// `size` with the sign of another number, that of zero included: `f32::copysign`.
 fn angles_with_sign(size: f32, signed: f32) -> f32 {

@@ -1,10 +1,10 @@
-// Shapes that send out light: triangles, parallelograms, spheres, disks and ellipsoids, sampled from a
+// Shapes that emit light: triangles, parallelograms, spheres, disks and ellipsoids, sampled from a
 // point.
 //
-// Words of one: kind, then of
+// Layout of a record, in words: kind, then of
 // - a triangle or disk: corner or centre, two edges or axes, normal (3 each), area;
 // - a parallelogram: see parallelogram.wgsl;
-// - a sphere: centre (3), radius, whether its normals are turned inwards;
+// - a sphere: centre (3), radius, whether its normals point inwards;
 // - an ellipsoid: from the unit sphere to the world, back, cofactor (affine maps), the same flag.
 //
 // Twin of specula-render/src/light/area.rs.
@@ -18,7 +18,7 @@ import tracer::world::{affine_magnitude, affine_point, affine_vector, number, of
 /// `1 / (4 pi)`.
 const AREA_PER_SPHERE: f32 = 0.07957747;
 
-/// A point on a light.
+/// A sampled point on a light.
 /// Twin: specula-render/src/light/area.rs, AreaSample.
 struct AreaSample {
     /// The point.
@@ -46,7 +46,7 @@ struct AreaCone {
     one_minus_cosine: f32,
 }
 
-/// A point of the shape at `at` as seen from `p`.
+/// Samples a point of the shape at `at`, as seen from `p`.
 ///
 /// * `u`: uniform in `[0, 1)^2`.
 ///
@@ -128,9 +128,9 @@ fn area_pdf(at: u32, p: vec3f, q: vec3f, normal: vec3f) -> f32 {
     return parallelogram_ratio(per_area * distance_squared, cosine);
 }
 
-/// -1 where the normals are turned inwards, else 1.
+/// -1 where the normals point inwards, else 1.
 ///
-/// * `at`: of the flag.
+/// * `at`: offset of the flag.
 fn area_sign(at: u32) -> f32 {
     return select(1.0, -1.0, word(at) != 0u);
 }
@@ -150,10 +150,10 @@ fn area_cone(p: vec3f, centre: vec3f, radius: f32) -> AreaCone {
     return AreaCone(d * (1.0 / to_centre), to_centre, sine_squared, one_minus_cosine);
 }
 
-/// A point of the sphere at `at` as seen from `p`.
+/// Samples a point of the sphere at `at`, as seen from `p`.
 ///
 /// Source: Pharr, Jakob and Humphreys, 4th edition, 6.2.4. Departure: `1 - cos theta` is sampled
-/// instead of `cos theta`, which keeps its digits for spheres far away and needs no second branch.
+/// instead of `cos theta`, which does not lose digits for spheres far away and needs no second branch.
 /// Twin: specula-render/src/light/area.rs, sample_sphere.
 fn area_sample_sphere(at: u32, p: vec3f, u: vec2f) -> AreaSample {
     let centre = vector(at + 1u);
@@ -184,7 +184,7 @@ fn area_sample_sphere(at: u32, p: vec3f, u: vec2f) -> AreaSample {
     );
 }
 
-/// A point that was sampled by area, as seen from `p`.
+/// The sample of a point that was sampled by area, as seen from `p`.
 ///
 /// * `per_area`: density over the area.
 ///

@@ -1,4 +1,4 @@
-// A material at a point: its parameters there, textures looked up.
+// A material at a point: its parameters there, with textures evaluated.
 //
 // Each kind of material has a module of its own (`material_diffuse`, `material_conductor`, ...) with
 // four functions: bind, eval, sample and albedo. The switch over the kinds that a scene has is written for
@@ -10,18 +10,18 @@ import tracer::world::{word, number};
 import tracer::texture_coordinates::{TextureCoordinates};
 import tracer::texture_graph::{parameter_colour, texture_colour};
 
-/// A material's parameters at a point; what `first`, `second` and `third` are is its kind's matter.
+/// A material's parameters at a point. Each kind of material says what `first`, `second` and `third` are.
 struct Bound {
     kind: u32,
-    // The material's number; of a mix, the chosen one's.
+    // Index of the material; of a mix, of the chosen one.
     material: u32,
-    // Turn of the tangent, in radians.
+    // Rotation of the tangent, in radians.
     rotation: f32,
-    // Which of the kind's lobes it is.
+    // Which of the kind's lobes, where it has several.
     variant: u32,
-    // Whether nothing but Dirac deltas is left.
+    // Whether the lobe consists of Dirac deltas alone.
     specular: bool,
-    // Whether it is black where `wi.z <= 0`.
+    // Whether the lobe is black where `wi.z <= 0`.
     opaque: bool,
     // Whether tangents do not matter.
     isotropic: bool,
@@ -35,14 +35,14 @@ struct Bound {
     second: vec3f,
     third: vec3f,
     // All parameters, of kinds that have many.
-    kept: array<vec3f, BOUND_KEPT>,
+    stored: array<vec3f, BOUND_STORED>,
 }
 
 /// Least alpha of a rough surface.
 const BOUND_SMOOTH_BELOW: f32 = 1.0e-3;
 /// Most parameters that may have a texture.
 const MOST_PARAMETERS: u32 = 12u;
-/// Kind of what is black.
+/// Kind of a black surface.
 const BOUND_BLACK: u32 = 0xffffffffu;
 
 /// A black surface.
@@ -55,7 +55,7 @@ fn bound_black() -> Bound {
     return b;
 }
 
-/// What the head of a record says.
+/// The parameters that the head of a record holds.
 fn bound_head(record: u32) -> Bound {
     var b: Bound;
     b.kind = word(record + MATERIAL_KIND);
@@ -67,15 +67,16 @@ fn bound_head(record: u32) -> Bound {
     return b;
 }
 
-/// A material's parameters at a place: those that may have a texture, looked up, and the place of the other
-/// words.
+/// A material's parameters at a point.
 struct Parameters {
+    // Those that may have a texture, evaluated; the first `count` of these.
     values: array<vec3f, MOST_PARAMETERS>,
     count: u32,
+    // Offset of the others.
     plain: u32,
 }
 
-/// Looks up the parameters of a record. One call in a loop: textures are long.
+/// Evaluates the parameters of a record. One call in a loop, since the code of textures is long.
 fn bound_parameters(record: u32, place: TextureCoordinates) -> Parameters {
     var p: Parameters;
     let count = word(record + MATERIAL_PARAMETERS);
@@ -89,7 +90,7 @@ fn bound_parameters(record: u32, place: TextureCoordinates) -> Parameters {
     return p;
 }
 
-/// The turn of tangents that a texture of directions says, in radians.
+/// Rotation of the tangent by a texture of directions, in radians.
 ///
 /// Twin: specula-render/src/material/mod.rs, azimuth.
 fn bound_direction(record: u32, place: TextureCoordinates) -> f32 {
@@ -105,35 +106,35 @@ fn bound_direction(record: u32, place: TextureCoordinates) -> f32 {
     return atan2(at.y, at.x);
 }
 
-/// Keeps all parameters.
-fn bound_keep(b: Bound, p: Parameters) -> Bound {
-    var keeping = b;
-    for (var i = 0u; i < BOUND_KEPT; i += 1u) {
-        keeping.kept[i] = p.values[i];
+/// Stores all parameters.
+fn bound_store(b: Bound, p: Parameters) -> Bound {
+    var all = b;
+    for (var i = 0u; i < BOUND_STORED; i += 1u) {
+        all.stored[i] = p.values[i];
     }
-    return keeping;
+    return all;
 }
 
-/// A number in `[0, 1]`.
+/// A scalar parameter, clamped to `[0, 1]`.
 fn bound_unit(x: vec3f) -> f32 {
     return clamp(x.x, 0.0, 1.0);
 }
 
-/// A colour in `[0, 1]`.
+/// A colour, clamped to `[0, 1]`.
 fn bound_albedo(colour: vec3f) -> vec3f {
     return clamp(colour, vec3f(0.0), vec3f(1.0));
 }
 
-/// Alphas of facets behind a rough surface.
+/// Alphas of a surface that a path meets behind a rough one: at least 0.1.
 ///
 /// Twin: specula-render/src/material/metal.rs, regularized_alpha.
 fn bound_regularized(alpha: vec2f) -> vec2f {
     return select(alpha, clamp(2.0 * alpha, vec2f(0.1), vec2f(0.3)), alpha < vec2f(0.3));
 }
 
-/// A roughness whose square is alpha.
+/// A roughness in `[0, 1]`, whose square is alpha.
 ///
-/// Twin: specula-render/src/material/bind.rs, At::roughness.
+/// Twin: specula-render/src/material/bind.rs, PointParameters::roughness.
 fn bound_unit_roughness(x: vec3f, is_regularized: bool) -> f32 {
     let r = bound_unit(x);
     if is_regularized && r * r < 0.3 {
@@ -142,7 +143,9 @@ fn bound_unit_roughness(x: vec3f, is_regularized: bool) -> f32 {
     return r;
 }
 
-/// Alphas of facets from two values and what these are; 0 where the surface is smooth.
+/// Alphas from two parameters; 0 where the surface is smooth.
+///
+/// * `mapping`: what the parameters are, ROUGHNESS_*.
 ///
 /// Twin: specula-render/src/material/metal.rs, alpha.
 fn bound_alphas(across: f32, along: f32, mapping: u32) -> vec2f {
@@ -159,7 +162,7 @@ fn bound_alphas(across: f32, along: f32, mapping: u32) -> vec2f {
     return select(vec2f(0.0), clamp(r, vec2f(BOUND_SMOOTH_BELOW), vec2f(10.0)), is_rough);
 }
 
-/// AlphaPair, distribution and masking from the first two parameters and the first three words.
+/// Alphas, distribution and masking from the first two parameters and the first three words.
 fn bound_roughness(b: Bound, p: Parameters) -> Bound {
     var rough = b;
     rough.alpha = bound_alphas(p.values[0].x, p.values[1].x, word(p.plain));

@@ -1,7 +1,7 @@
-// Bump maps: heights and normal maps that bend shading normals.
+// Bump maps by heights, and normal maps: they bend shading normals.
 //
-// Twin of specula-render/src/bump.rs. A bump map is 4 words, as `flatten` writes them there: what it
-// is, its rules, then the parameter of its heights or a texture and a factor.
+// Twin of specula-render/src/bump.rs. A bump map is 4 words, as `flatten` there writes them: its kind, its rules,
+// then the parameter of its heights, or a texture and a factor.
 
 import tracer::partials::{Partials, partials_of};
 import tracer::surface::{Surface};
@@ -26,7 +26,7 @@ struct BumpedFrame {
 /// with `n0` the normal before it was bent to `n`. It does not fade where `a` is 0.
 ///
 /// Source: Conty Estevez, Lecocq and Stein 2019, "A Microfacet-Based Shadowing Function to Solve
-/// the BumpSample Terminator Problem".
+/// the Bump Terminator Problem".
 ///
 /// Twin: specula-render/src/bump.rs, Softness.
 struct Softness {
@@ -46,7 +46,7 @@ fn bump_of_material(material: u32) -> u32 {
     return BUMPS + BUMP_SIZE * material;
 }
 
-/// Whether a clear coat is bent otherwise than the rest of its material.
+/// Whether a clear coat has a bump map of its own, or none while the rest of its material has one.
 fn bump_coat_differs(material: u32) -> bool {
     return BUMP_COUNT != 0u && word(bump_of_material(material) + 4u) != 0u;
 }
@@ -56,15 +56,15 @@ fn bump_of_coat(material: u32) -> u32 {
     return bump_of_material(material) + 5u;
 }
 
-/// Whether there is a bump map at a place.
+/// Whether there is a bump map at an offset.
 fn bump_is_there(at: u32) -> bool {
     return BUMP_COUNT != 0u && word(at) != BUMP_NONE;
 }
 
 /// The bent normal, turned back where it faces away from `wo` though the unbent one does not
-/// (or the other way round), and how light fades on it; nothing of this by plain rules.
+/// (or the other way round), and how light fades on it. By plain rules neither is done.
 ///
-/// * `at`: the bump.
+/// * `at`: the bump map.
 /// * `unbent`, `bent`: unit, on the same side of the surface.
 ///
 /// Twin: specula-render/src/bump.rs, Softness::new, with the choice around its call in
@@ -154,7 +154,7 @@ fn bump_displaced(height: u32, n: vec3f, place: TextureCoordinates, partials: Pa
     // The step that rounding left: coordinates of large tiled planes have few digits.
     let moved = place.uv + BUMP_STEP;
     let steps = moved - place.uv;
-    // One call in a loop: textures are long. Here, along u, along v.
+    // One call in a loop, since the code of textures is long. At the point, along u, along v.
     var heights = vec3f(0.0);
     for (var i = 0u; i < 3u; i++) {
         var there = place;

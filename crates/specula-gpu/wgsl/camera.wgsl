@@ -13,7 +13,7 @@ struct CameraRay {
     weight: f32,
 }
 
-/// A position about the pixel's middle sampled by one axis of the filter, and its weight.
+/// Samples a position about the pixel's centre along one axis of the filter; position and weight.
 ///
 /// * `at`: the axis.
 ///
@@ -45,7 +45,7 @@ fn camera_filter(at: u32, u: f32) -> vec2f {
     return vec2f(x, select(magnitude, -magnitude, negative));
 }
 
-/// A coordinate beyond the unit interval mirrored at its nearer end.
+/// A coordinate beyond the unit interval, mirrored at the nearer end.
 fn camera_folded(x: f32) -> f32 {
     return select(2.0 - x, -x, x < 0.0);
 }
@@ -75,7 +75,7 @@ fn camera_within_sphere(mapping: u32, at: vec2f) -> vec2f {
 
 /// The ray of a sample.
 ///
-/// * `u`: the second and third number for the filter, the first and last for the lens.
+/// * `u`: uniform in `[0, 1)^4`: the second and third for the filter, the first and last for the lens.
 ///
 /// Twin: specula-render/src/camera.rs, Camera::ray.
 fn camera_ray(pixel: vec2u, u: vec4f) -> CameraRay {

@@ -1,10 +1,10 @@
-// Lights without extent: parallel, point, spot, and pictures projected from a point.
+// Lights without extent: parallel, point, spot and projected-image lights.
 //
-// Words of one: kind, then of
+// Layout of a record, in words: kind, then of
 // - a parallel light: irradiance, direction to it (3 each);
-// - a point: position, axis, intensity (3 each), cosine of the cone and of where its edge begins (-2: a
-//   whole sphere of directions), falloff;
-// - a picture: see projected.wgsl.
+// - a point or spot: position, axis, intensity (3 each), cosines of the angles where a spot ends and where it
+//   starts to fade (-2: all directions), falloff;
+// - a projected image: see projected.wgsl.
 //
 // Twin of specula-render/src/light/delta.rs.
 
@@ -13,19 +13,19 @@ import tracer::spot::{spot_share};
 import tracer::projected::{projected_intensity};
 import tracer::world::{number, vector, word};
 
-/// What arrives from a light without extent.
+/// Light that arrives from a light without extent.
 struct DeltaArrival {
-    /// On a surface that faces the light; black: nothing arrives.
+    /// Irradiance on a surface that faces the light; black: nothing arrives.
     irradiance: vec3f,
     /// Unit, towards the light.
     wi: vec3f,
-    /// Of the light; of no use where it is parallel.
+    /// Position of the light; meaningless where it is parallel.
     position: vec3f,
     /// Whether it is parallel.
     distant: bool,
 }
 
-/// What arrives at `p` from the light at `at`.
+/// Light that arrives at `p` from the light at `at`.
 /// Twin: specula-render/src/light/delta.rs, Delta::illuminate.
 fn delta_illuminate(at: u32, p: vec3f) -> DeltaArrival {
     if word(at) == DELTA_DISTANT {

@@ -1,11 +1,11 @@
-// Light from infinity: a constant, or a picture of the sphere of directions, which is interpolated
-// bilinearly and sampled by just that.
+// Environment lights: a constant, or a picture of the sphere of directions, which is interpolated bilinearly and
+// sampled in proportion to the interpolated values.
 //
-// Words of one: factor (3), maps of light space to the world and back (12 each), whether there is a
-// picture; then its mapping (0: equal areas, else latitude and longitude), its two axes (cells, whole
-// cells that fit, where the first begins, where in the first cell the picture begins and in the last
-// ends), and the places of: pixels at the corners of the cells (red, green, blue, what is sampled by),
-// densities by row of cells, cumulated shares in the rows, cumulated shares of the rows.
+// Layout of a record, in words: factor (3), maps of light space to the world and back (12 each), whether there is a
+// picture; then its mapping (0: equal-area, else latitude and longitude), its two axes (cells, whole cells that fit,
+// where the first begins, where in the first cell the picture begins and in the last ends), and the offsets of:
+// pixels at the corners of the cells (red, green, blue, sampling weight), densities by row of cells, CDFs of the
+// cells in each row, CDF of the rows.
 //
 // Twin of specula-render/src/light/environment.rs, environment/{axis,picture}.rs.
 
@@ -22,17 +22,17 @@ const ENVIRONMENT_PER_SPHERE: f32 = 0.07957747;
 struct EnvironmentSample {
     /// Unit, world.
     wi: vec3f,
-    /// From there.
+    /// Radiance from there.
     radiance: vec3f,
     /// In 1/sr; 0: there is no sample.
     pdf: f32,
 }
 
-/// A direction of light space, and the sine of its polar angle where the mapping crowds by it, else 1.
+/// A direction of light space, and the sine of its polar angle; 1 where the mapping is equal-area.
 struct EnvironmentDirection {
     /// Unit.
     w: vec3f,
-    /// Of the polar angle, or 1.
+    /// Of the polar angle, or 1 (equal-area mapping).
     sine: f32,
 }
 
@@ -72,7 +72,7 @@ fn environment_arriving(at: u32, wi: vec3f) -> vec4f {
     return vec4f(colour.rgb * vector(at), pdf);
 }
 
-/// A direction sampled by what arrives.
+/// Samples a direction in proportion to its radiance.
 ///
 /// * `u`: uniform in `[0, 1)^2`.
 ///
@@ -116,7 +116,7 @@ fn environment_direction(mapping: u32, uv: vec2f) -> EnvironmentDirection {
 
 /// Density per solid angle with which a point in a row of cells is sampled.
 ///
-/// * `strength`: what is sampled by, there.
+/// * `strength`: sampling weight there.
 /// * `sine`: of the polar angle; 1 where equal areas are equal solid angles.
 ///
 /// Twin: specula-render/src/light/environment/picture.rs, Picture::pdf.
@@ -127,7 +127,7 @@ fn environment_density(at: u32, row: u32, strength: f32, sine: f32) -> f32 {
     return 0.0;
 }
 
-/// The pixels about a cell.
+/// The pixels at the corners of a cell.
 /// Twin: specula-render/src/light/environment/picture.rs, Picture::corners.
 fn environment_corners(at: u32, x: u32, y: u32) -> EnvironmentCorners {
     let row = word(at + ENVIRONMENT_ACROSS) + 1u;
@@ -141,12 +141,12 @@ fn environment_corners(at: u32, x: u32, y: u32) -> EnvironmentCorners {
     );
 }
 
-/// Red, green, blue, and what is sampled by.
+/// Red, green, blue and sampling weight of the pixel at `at`.
 fn environment_pixel(at: u32) -> vec4f {
     return vec4f(vector(at), number(at + 3u));
 }
 
-/// Between the pixels about a cell.
+/// Bilinear interpolation between the pixels at the corners of a cell.
 /// Twin: specula-render/src/light/environment/picture.rs, mix.
 fn environment_mix(corners: EnvironmentCorners, at: vec2f) -> vec4f {
     let upper = corners.a * (1.0 - at.x) + corners.b * at.x;
@@ -154,7 +154,7 @@ fn environment_mix(corners: EnvironmentCorners, at: vec2f) -> vec4f {
     return upper * (1.0 - at.y) + lower * at.y;
 }
 
-/// Between the values at the corners of a square: upper row, lower row.
+/// Bilinear interpolation between the values at the corners of a square: upper row, lower row.
 /// Twin: specula-render/src/light/environment/picture.rs, bilinear_of.
 fn environment_bilinear(corners: vec4f, x: f32, y: f32) -> f32 {
     let upper = corners.x * (1.0 - x) + corners.y * x;
@@ -162,7 +162,7 @@ fn environment_bilinear(corners: vec4f, x: f32, y: f32) -> f32 {
     return upper * (1.0 - y) + lower * y;
 }
 
-/// Where in a cell a point lies that is sampled by the corners' strengths.
+/// Samples a point of a cell in proportion to the sampling weights, interpolated between its corners.
 ///
 /// * `xs`, `ys`: the part of the cell that lies within the picture.
 /// * `u`: uniform in `[0, 1)^2`.
@@ -178,7 +178,7 @@ fn environment_within(strengths: vec4f, xs: vec2f, ys: vec2f, u: vec2f) -> vec2f
     return vec2f(xs.x + (xs.y - xs.x) * x, ys.x + (ys.y - ys.x) * y);
 }
 
-/// A point of `[0, 1]` with a density that goes from `a` to `b`, up to a factor.
+/// Samples a point of `[0, 1]` with a density that goes linearly from `a` to `b`, up to a factor.
 ///
 /// Source: Pharr, Jakob and Humphreys, 4th edition, eq. 2.24, in the form that does not cancel.
 /// Twin: specula-render/src/light/environment/picture.rs, sample_linear.

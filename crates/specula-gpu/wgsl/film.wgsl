@@ -1,14 +1,14 @@
-// From a sample's radiance to picture values: exposure, bound, white balance.
+// Develops a sample: from radiance to picture values, by exposure, largest value and white balance.
 //
 // Twin of specula-render/src/film/develop.rs.
 
 import tracer::world::{number, vector};
 
-/// Picture values of a radiance; one that is not finite stays as it is, to be found later.
+/// Picture values of a radiance. One that is not finite stays as it is: sums.wgsl counts it as invalid.
 ///
 /// Twin: specula-render/src/film/develop.rs, Develop::of.
 fn film_developed(radiance: vec3f) -> vec3f {
-    // By its bits: compilers may take values for finite.
+    // By the bits: compilers may assume that values are finite.
     let exponents = bitcast<vec3u>(radiance) & vec3u(0x7f800000u);
     if any(exponents == vec3u(0x7f800000u)) {
         return radiance;

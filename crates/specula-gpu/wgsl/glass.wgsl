@@ -8,7 +8,7 @@ import package::bsdf::tints::{TintsPair};
 import package::bsdf::microfacets::{MicrofacetsModel};
 import package::bsdf::smooth_dielectric::{SmoothDielectric};
 
-/// The parameters at a place: `eta` the index beyond the surface over that on the viewer's side,
+/// Binds the parameters at a point: `eta` the index beyond the surface over that on the viewer's side,
 /// `first` and `second` the tints of reflection and transmission.
 fn glass_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     var b = bound_roughness(head, p);
@@ -21,18 +21,18 @@ fn glass_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     return b;
 }
 
-/// The tints of what `glass_bind` made.
+/// The tints of glass that `glass_bind` bound.
 fn glass_tints(b: Bound) -> TintsPair {
     return TintsPair(b.first, b.second);
 }
 
-/// The facets of what `glass_bind` made. Caps whatever is chosen for metals: refraction needs all visible
-/// normals.
+/// The facets of glass that `glass_bind` bound. They are sampled by spherical caps, whatever sampler metals
+/// have: refraction needs all visible normals.
 fn glass_facets(b: Bound) -> MicrofacetsModel {
     return MicrofacetsModel(b.alpha, b.distribution, b.masking, SAMPLER_CAP);
 }
 
-/// The smooth surface of what `glass_bind` made, facing the viewer.
+/// The smooth surface of glass that `glass_bind` bound, facing the viewer.
 fn glass_smooth(b: Bound) -> SmoothDielectric {
     return SmoothDielectric(b.eta, 0u, glass_tints(b));
 }

@@ -1,7 +1,7 @@
-// A set of lights as a point sees it: the bound on what could arrive.
+// A node of the light tree: a set of lights, and an estimate of the irradiance by them at a point.
 //
-// Words of a node: centre and radius of a sphere around the lights, axis (3), cosines of the angles that
-// bound their normals and what they send beyond those, sum of the peak intensities, whether they emit
+// Words of a node: centre and radius of a sphere around the lights, axis (3), cosines of the angles that bound
+// their normals and their emission about those, sum of the peak intensities, whether they emit
 // to both sides (bit 0) and whether it is a leaf (bit 1), link: a leaf's light, otherwise the distance
 // in nodes to the right child. The left child follows.
 //
@@ -48,7 +48,7 @@ fn light_node_importance(at: u32, position: vec3f, normal: vec3f) -> f32 {
         factor = max(received, LIGHT_NODE_SLACK);
     }
     let cosine_o = number(at + 7u);
-    // Lights all around their normals, spheres and points, send everywhere alike.
+    // Spheres and points emit in every direction alike.
     if cosine_o > -1.0 {
         let along = -dot(vector(at + 4u), to_centre);
         let two_sided = (word(at + 10u) & 1u) != 0u;

@@ -1,8 +1,8 @@
-// A binary tree over the lights in the scene: choice by importance at a point.
+// A binary tree over the lights within the scene: sampling a light by its importance at a point.
 //
-// From the root down, either child is taken with the probability of its share of the importance of both;
-// the path to every light is kept as a trail of bits, such that the probability of a light that a ray
-// met by chance is the same product.
+// From the root down, either child is taken with the probability of its share of the importance of both. A trail of
+// bits is stored for every light, the way to its leaf, so that the probability of a light that a ray hits by chance
+// is the same product.
 //
 // LIGHT_NODES has LIGHT_NODE_COUNT nodes, LIGHT_TRAILS two words for each light: the lower and the upper
 // bits of its trail, from the root on; 1 for right.
@@ -20,19 +20,19 @@ const LIGHT_TREE_BELOW_ONE: f32 = 0.99999994;
 
 /// A light and its probability; 0: there is no light.
 struct LightChoice {
-    /// Its number.
+    /// Its index.
     light: u32,
     /// In (0, 1].
     probability: f32,
 }
 
-/// A number in `[0, 1)` with more digits than a word holds: `coarse + spacing * digits`.
+/// A random number in `[0, 1)` with more digits than `f32` holds: `coarse + spacing * digits`.
 ///
-/// `digits` are sampled once and count what `coarse` leaves open: decisions consume digits of `coarse`,
-/// and as its part is stretched, `spacing` grows with it. The twins have `f64` for it; against these, a
-/// decision errs where the number is within a rounding of `f32` (2^-24) of its threshold.
-struct LightNumber {
-    /// A multiple of `spacing` but for a shift: below 0 where a threshold cut its part.
+/// A decision at a threshold rescales the part of the range on its side to `[0, 1)`: `coarse` loses digits, and
+/// `spacing` grows. `digits` stays. The twins use `f64`; a decision differs from theirs where the random number is
+/// within a rounding of `f32` (2^-24) of the threshold.
+struct LightRandomNumber {
+    /// A multiple of `spacing`, but for a shift; below 0 where a threshold lies within a step.
     coarse: f32,
     /// Distance of two values of `coarse`.
     spacing: f32,
@@ -40,7 +40,7 @@ struct LightNumber {
     digits: f32,
 }
 
-/// The word at a node.
+/// Offset of a node.
 fn light_tree_place(node: u32) -> u32 {
     return LIGHT_NODES + LIGHT_NODE_SIZE * node;
 }
@@ -64,8 +64,8 @@ fn light_tree_children(node: u32, position: vec3f, normal: vec3f) -> vec2f {
     );
 }
 
-/// Share of the first of two importances, off 0 and 1 unless one is 0 alone; a half where both are:
-/// nothing arrives then, but the probabilities still add up to 1.
+/// Share of the first of two importances; 0 or 1 only where just one of them is 0. One half where both are 0:
+/// no light arrives then, but the probabilities still add up to 1.
 /// Twin: specula-render/src/light/tree.rs, share.
 fn light_tree_share(importances: vec2f) -> f32 {
     if importances.x <= 0.0 {
@@ -92,22 +92,22 @@ fn light_tree_total(position: vec3f, normal: vec3f) -> f32 {
     return importances.x + importances.y;
 }
 
-/// The number itself, as far as `f32` holds it.
-fn light_tree_value(u: LightNumber) -> f32 {
+/// The random number, rounded to `f32`.
+fn light_tree_value(u: LightRandomNumber) -> f32 {
     return clamp(u.coarse + u.spacing * u.digits, 0.0, LIGHT_TREE_BELOW_ONE);
 }
 
-/// The part of a number's range from `begin` on, stretched by `1 / size` to `[0, 1)`.
-fn light_tree_within(u: LightNumber, begin: f32, size: f32) -> LightNumber {
-    return LightNumber((u.coarse - begin) / size, u.spacing / size, u.digits);
+/// The random number within the part of its range that starts at `begin`, rescaled by `1 / size` to `[0, 1)`.
+fn light_tree_within(u: LightRandomNumber, begin: f32, size: f32) -> LightRandomNumber {
+    return LightRandomNumber((u.coarse - begin) / size, u.spacing / size, u.digits);
 }
 
-/// A light and its probability.
+/// Samples a light, with its probability.
 ///
 /// * `u`: uniform in `[0, 1)`.
 ///
 /// Twin: specula-render/src/light/tree.rs, LightTree::sample.
-fn light_tree_sample(position: vec3f, normal: vec3f, u: LightNumber) -> LightChoice {
+fn light_tree_sample(position: vec3f, normal: vec3f, u: LightRandomNumber) -> LightChoice {
     if LIGHT_NODE_COUNT == 0u {
         return LightChoice(0u, 0.0);
     }

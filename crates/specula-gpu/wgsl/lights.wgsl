@@ -1,16 +1,16 @@
-// The lights of a scene: one is chosen at a point and a point on it sampled; what is met by chance is
-// looked up with the density of just that.
+// The lights of a scene: sampling one of them and a point on it, and the density of that for emission that a ray
+// hits by chance.
 //
-// LIGHT_PLACES has the place of each of LIGHT_COUNT lights: its kind, then of
+// LIGHT_PLACES has the offset of each of LIGHT_COUNT lights: its kind, then of
 // - a shape: whether it emits to both sides, radiance (3), the shape (area.wgsl);
-// - a shape whose emission varies: whether it emits to both sides, itself (textured.wgsl);
-// - a light with extent at infinity: its number among those;
-// - a light without extent: itself (delta.wgsl).
+// - a shape whose emission varies: whether it emits to both sides, its record (textured.wgsl);
+// - a light with extent at infinity: its index among those;
+// - a light without extent: its record (delta.wgsl).
 //
-// LIGHT_FAR has the place and the number of each of LIGHT_FAR_COUNT lights with extent at infinity: kind,
-// then itself (environment.wgsl, sun.wgsl). LIGHT_ALIAS has LIGHT_ALIAS_COUNT bins of an alias table over
-// all lights, of which only those at infinity have weights: share of the bin that is its own, whom the
-// rest belongs to, probability of the entry. LIGHT_FAR_IRRADIANCE is the place of their irradiance,
+// LIGHT_FAR has the offset and the index of each of LIGHT_FAR_COUNT lights with extent at infinity: kind, then the
+// record (environment.wgsl, sun.wgsl). LIGHT_ALIAS has LIGHT_ALIAS_COUNT bins of an alias table over
+// all lights, of which only those at infinity have weights: share of the bin that is its own, the light that has
+// the rest, probability of the entry. LIGHT_FAR_IRRADIANCE is the offset of their irradiance,
 // LIGHT_ONLY the light that is always sampled, or NONE.
 //
 // What a scene lacks is not compiled: LIGHT_HAS_TEXTURED, LIGHT_HAS_PROJECTED.
@@ -20,7 +20,7 @@
 import tracer::area::{AreaSample, area_sample, area_pdf};
 import tracer::delta::{delta_illuminate};
 import tracer::environment::{environment_arriving, environment_sample};
-import tracer::light_tree::{LightChoice, LightNumber, light_tree_sample, light_tree_probability, light_tree_total, light_tree_value, light_tree_within};
+import tracer::light_tree::{LightChoice, LightRandomNumber, light_tree_sample, light_tree_probability, light_tree_total, light_tree_value, light_tree_within};
 import tracer::sun::{sun_arriving, sun_density, sun_sample};
 import tracer::textured::{textured_sample, textured_pdf};
 import tracer::world::{number, vector, word};
@@ -35,7 +35,7 @@ struct Receiver {
     normal: vec3f,
 }
 
-/// Light that could arrive, if nothing is in the way.
+/// A sample of a light, whose visibility is not known yet.
 /// Twin: specula-render/src/light/mod.rs, LightSample and Target.
 struct LightSample {
     /// Unit, towards the light.
@@ -44,13 +44,13 @@ struct LightSample {
     pdf: f32,
     /// Radiance; of a light without extent, irradiance on a surface that faces it.
     radiance: vec3f,
-    /// Whether no direction sampled otherwise can find it.
+    /// Whether the light is a Dirac delta, which no lobe's direction hits.
     delta: u32,
     /// Where it comes from.
     target_position: vec3f,
-    /// Bound on the error of each component of that.
+    /// Bound on the error of each component of `target_position`.
     target_error: vec3f,
-    /// Of the light there.
+    /// Normal of the light there.
     target_normal: vec3f,
     /// Whether it comes from infinity: there is no target then.
     from_infinity: u32,
@@ -58,9 +58,9 @@ struct LightSample {
     valid: u32,
 }
 
-/// Light at a point from one light.
+/// Samples a light and a point on it.
 ///
-/// * `u`: choice of light, two for the point on it, finer digits of the choice.
+/// * `u`: uniform in `[0, 1)^4`: choice of light, two for the point on it, finer digits of the choice.
 ///
 /// Twin: specula-render/src/light/mod.rs, Lights::sample.
 fn lights_sample(receiver: Receiver, u: vec4f) -> LightSample {
@@ -91,20 +91,20 @@ fn lights_sample(receiver: Receiver, u: vec4f) -> LightSample {
     return sampled;
 }
 
-/// A point of the shape that emits at `at`, seen from `p`.
+/// Samples a point of the emitting shape at `at`, as seen from `p`.
 /// Twin: specula-render/src/light/mod.rs, Lights::sample_one.
 fn lights_sample_area(at: u32, p: vec3f, u: vec2f) -> LightSample {
     return lights_from_area(area_sample(at + 4u, p, u), vector(at + 1u), word(at) != 0u);
 }
 
-/// A point of the shape at `at` whose emission varies, seen from `p`.
+/// Samples a point of the shape at `at`, whose emission varies, as seen from `p`.
 /// Twin: specula-render/src/light/mod.rs, Lights::sample_one.
 fn lights_sample_textured(at: u32, p: vec3f, u: vec2f) -> LightSample {
     let s = textured_sample(at + 1u, p, u);
     return lights_from_area(s.area, s.radiance, word(at) != 0u);
 }
 
-/// A sampled point of a shape.
+/// The light sample of a sampled point of a shape.
 /// Twin: specula-render/src/light/mod.rs, from_area.
 fn lights_from_area(s: AreaSample, radiance: vec3f, two_sided: bool) -> LightSample {
     var sampled: LightSample;
@@ -119,7 +119,7 @@ fn lights_from_area(s: AreaSample, radiance: vec3f, two_sided: bool) -> LightSam
     return sampled;
 }
 
-/// A direction to the light at infinity at `at`.
+/// Samples a direction to the light with extent at infinity at `at`.
 /// Twin: specula-render/src/light/mod.rs, Far::sample.
 fn lights_sample_far(at: u32, u: vec2f) -> LightSample {
     var sampled: LightSample;
@@ -139,7 +139,7 @@ fn lights_sample_far(at: u32, u: vec2f) -> LightSample {
     return sampled;
 }
 
-/// What the light without extent at `at` sends to `p`.
+/// The light sample of the light without extent at `at`, at `p`.
 /// Twin: specula-render/src/light/mod.rs, Lights::sample_one.
 fn lights_sample_delta(at: u32, p: vec3f) -> LightSample {
     let arrival = delta_illuminate(at, p);
@@ -158,9 +158,9 @@ fn lights_sample_delta(at: u32, p: vec3f) -> LightSample {
 /// Density in 1/sr, times the probability of the light, with which `lights_sample` samples the direction to
 /// the point `position` of the surface of a light.
 ///
-/// * `light`: its number; NONE of a surface that does not emit.
+/// * `light`: its index; NONE of a surface that does not emit.
 /// * `normal`: of the surface there.
-/// * `weights`: of its primitive's second and third corner there.
+/// * `weights`: barycentric, of its primitive's second and third corner.
 ///
 /// Twin: specula-render/src/light/mod.rs, Lights::pdf_of_surface.
 fn lights_pdf_of_surface(
@@ -187,14 +187,14 @@ fn lights_pdf_of_surface(
 }
 
 /// How many lights with extent at infinity there are.
-fn lights_arriving_count() -> u32 {
+fn lights_count_at_infinity() -> u32 {
     return LIGHT_FAR_COUNT;
 }
 
 /// Radiance from the direction `wi` of light `i` at infinity, and the density in 1/sr, times its
 /// probability among those: `lights_sample` samples it with that density times `lights_share_from_infinity`.
 /// Twin: specula-render/src/light/mod.rs, Lights::arriving_from_infinity.
-fn lights_arriving(i: u32, wi: vec3f) -> vec4f {
+fn lights_arriving_from_infinity(i: u32, wi: vec3f) -> vec4f {
     let at = word(LIGHT_FAR + 2u * i);
     let light = word(LIGHT_FAR + 2u * i + 1u);
     var arriving = vec4f(0.0);
@@ -210,8 +210,8 @@ fn lights_arriving(i: u32, wi: vec3f) -> vec4f {
     return vec4f(arriving.rgb, probability * arriving.w);
 }
 
-/// Probability with which `lights_sample` takes any light from infinity: the estimates of irradiance
-/// decide, within bounds, since neither knows what is in the way.
+/// Probability with which `lights_sample` takes any light at infinity: by the estimates of irradiance, within bounds,
+/// since these do not know what is occluded.
 /// Twin: specula-render/src/light/select.rs, Selection::share.
 fn lights_share_from_infinity(receiver: Receiver) -> f32 {
     let far = number(LIGHT_FAR_IRRADIANCE);
@@ -225,14 +225,14 @@ fn lights_share_from_infinity(receiver: Receiver) -> f32 {
     return clamp(far / (far + near), LIGHTS_LEAST_SHARE, 1.0 - LIGHTS_LEAST_SHARE);
 }
 
-/// Probability with which `lights_sample` takes a light in the scene.
+/// Probability with which `lights_sample` takes a light within the scene.
 /// Twin: specula-render/src/light/select.rs, Selection::probability_near.
 fn lights_probability_near(receiver: Receiver, light: u32) -> f32 {
     let share = 1.0 - lights_share_from_infinity(receiver);
     return share * light_tree_probability(receiver.position, receiver.normal, light);
 }
 
-/// A light and its probability.
+/// Samples a light, with its probability.
 ///
 /// * `u`, `finer`: uniform in `[0, 1)`; the second adds digits to the first.
 ///
@@ -242,17 +242,17 @@ fn lights_choose(receiver: Receiver, u: f32, finer: f32) -> LightChoice {
         return LightChoice(LIGHT_ONLY, 1.0);
     }
     let share = lights_share_from_infinity(receiver);
-    let choosing = LightNumber(u, LIGHTS_FINER, finer);
-    if light_tree_value(choosing) < share {
-        let choice = lights_alias(light_tree_value(light_tree_within(choosing, 0.0, share)));
+    let random = LightRandomNumber(u, LIGHTS_FINER, finer);
+    if light_tree_value(random) < share {
+        let choice = lights_alias(light_tree_value(light_tree_within(random, 0.0, share)));
         return LightChoice(choice.light, share * choice.probability);
     }
-    let rest = light_tree_within(choosing, share, 1.0 - share);
+    let rest = light_tree_within(random, share, 1.0 - share);
     let choice = light_tree_sample(receiver.position, receiver.normal, rest);
     return LightChoice(choice.light, (1.0 - share) * choice.probability);
 }
 
-/// A light at infinity and its probability among those.
+/// Samples a light at infinity, with its probability among those.
 ///
 /// * `u`: uniform in `[0, 1)`: `u n` chooses a bin, its fraction between the bin's two entries. A
 ///   fraction in `f32` moves the border between two lights by 2^-24 of `u` at most.

@@ -11,7 +11,7 @@ import package::bsdf::coated_diffuse::{CoatedDiffuse, coated_diffuse_new};
 import package::bsdf::coated_diffuse::{coated_diffuse_eval_pdf, coated_diffuse_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
-/// The parameters at a place: `first` the albedo, `eta` the coat's index, `second.x` the thickness of
+/// Binds the parameters at a point: `first` the albedo, `eta` the coat's index, `second.x` the thickness of
 /// what absorbs, `variant` whether facets lose no light, `energy` the most events.
 fn material_coated_diffuse_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     var b = bound_roughness(head, p);
@@ -31,17 +31,17 @@ fn material_coated_diffuse_lobe(b: Bound) -> CoatedDiffuse {
     return coated_diffuse_new(facets, rough, b.eta, b.first, b.second.x, b.energy, b.variant);
 }
 
-/// `f |cos|` and its density.
+/// `f |cos|`, and the density of `wi` in 1/sr.
 fn material_coated_diffuse_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
     return coated_diffuse_eval_pdf(material_coated_diffuse_lobe(b), wo, wi, BSDF_SAMPLE_RADIANCE);
 }
 
-/// A direction.
+/// Samples a direction.
 fn material_coated_diffuse_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     return coated_diffuse_sample(material_coated_diffuse_lobe(b), wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
-/// For denoisers.
+/// Albedo, as a feature for denoisers.
 fn material_coated_diffuse_albedo(b: Bound) -> vec3f {
     return b.first;
 }

@@ -8,12 +8,12 @@ import package::bsdf::smooth_conductor::{SmoothConductor, smooth_conductor_sampl
 import package::bsdf::compensated::{compensated_new, compensated_eval_pdf, compensated_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
-/// The parameters at a place: those of `metal_bind`.
+/// Binds the parameters at a point: those of `metal_bind`.
 fn material_compensated_conductor_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     return metal_bind(head, p, outside);
 }
 
-/// `f |cos|` and its density.
+/// `f |cos|`, and the density of `wi` in 1/sr.
 fn material_compensated_conductor_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
     if b.specular {
         return vec4f(0.0);
@@ -22,7 +22,7 @@ fn material_compensated_conductor_eval(b: Bound, wo: vec3f, wi: vec3f, stream: v
     return compensated_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE);
 }
 
-/// A direction.
+/// Samples a direction.
 fn material_compensated_conductor_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     if b.specular {
         let mirror = SmoothConductor(metal_reflectance(b));
@@ -32,7 +32,7 @@ fn material_compensated_conductor_sample(b: Bound, wo: vec3f, u: vec3f, stream: 
     return compensated_sample(lobe, wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
-/// For denoisers.
+/// Albedo, as a feature for denoisers.
 fn material_compensated_conductor_albedo(b: Bound) -> vec3f {
     return metal_albedo(b);
 }

@@ -10,12 +10,12 @@ import package::bsdf::compensated_dielectric::{compensated_dielectric_sample};
 import package::bsdf::smooth_dielectric::{smooth_dielectric_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
-/// The parameters at a place: those of `glass_bind`.
+/// Binds the parameters at a point: those of `glass_bind`.
 fn material_compensated_dielectric_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     return glass_bind(head, p, outside);
 }
 
-/// `f |cos|` and its density.
+/// `f |cos|`, and the density of `wi` in 1/sr.
 fn material_compensated_dielectric_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
     if b.specular {
         return vec4f(0.0);
@@ -24,7 +24,7 @@ fn material_compensated_dielectric_eval(b: Bound, wo: vec3f, wi: vec3f, stream: 
     return compensated_dielectric_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE);
 }
 
-/// A direction.
+/// Samples a direction.
 fn material_compensated_dielectric_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     if b.specular {
         return smooth_dielectric_sample(glass_smooth(b), wo, u, BSDF_SAMPLE_RADIANCE);
@@ -33,7 +33,7 @@ fn material_compensated_dielectric_sample(b: Bound, wo: vec3f, u: vec3f, stream:
     return compensated_dielectric_sample(lobe, wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
-/// For denoisers.
+/// Albedo, as a feature for denoisers.
 fn material_compensated_dielectric_albedo(b: Bound) -> vec3f {
     return vec3f(1.0);
 }

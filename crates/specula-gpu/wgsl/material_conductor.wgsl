@@ -9,12 +9,12 @@ import package::bsdf::rough_conductor::{RoughConductor, rough_conductor_eval_pdf
 import package::bsdf::rough_conductor::{rough_conductor_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
-/// The parameters at a place: those of `metal_bind`.
+/// Binds the parameters at a point: those of `metal_bind`.
 fn material_conductor_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     return metal_bind(head, p, outside);
 }
 
-/// `f |cos|` and its density.
+/// `f |cos|`, and the density of `wi` in 1/sr.
 fn material_conductor_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
     if b.specular {
         return vec4f(0.0);
@@ -23,7 +23,7 @@ fn material_conductor_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec
     return rough_conductor_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE);
 }
 
-/// A direction.
+/// Samples a direction.
 fn material_conductor_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     if b.specular {
         let mirror = SmoothConductor(metal_reflectance(b));
@@ -33,7 +33,7 @@ fn material_conductor_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> Bs
     return rough_conductor_sample(lobe, wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
-/// For denoisers.
+/// Albedo, as a feature for denoisers.
 fn material_conductor_albedo(b: Bound) -> vec3f {
     return metal_albedo(b);
 }

@@ -9,12 +9,12 @@ import package::bsdf::rough_dielectric::{rough_dielectric_sample};
 import package::bsdf::smooth_dielectric::{smooth_dielectric_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
-/// The parameters at a place: those of `glass_bind`.
+/// Binds the parameters at a point: those of `glass_bind`.
 fn material_dielectric_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     return glass_bind(head, p, outside);
 }
 
-/// `f |cos|` and its density.
+/// `f |cos|`, and the density of `wi` in 1/sr.
 fn material_dielectric_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
     if b.specular {
         return vec4f(0.0);
@@ -23,7 +23,7 @@ fn material_dielectric_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> ve
     return rough_dielectric_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE);
 }
 
-/// A direction.
+/// Samples a direction.
 fn material_dielectric_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     if b.specular {
         return smooth_dielectric_sample(glass_smooth(b), wo, u, BSDF_SAMPLE_RADIANCE);
@@ -32,7 +32,7 @@ fn material_dielectric_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> B
     return rough_dielectric_sample(lobe, wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
-/// For denoisers.
+/// Albedo, as a feature for denoisers.
 fn material_dielectric_albedo(b: Bound) -> vec3f {
     return vec3f(1.0);
 }

@@ -7,7 +7,7 @@ import package::bsdf::lambert::{LambertLobe, lambert_eval_pdf, lambert_sample};
 import package::bsdf::eon::{EonLobe, eon_eval_pdf, eon_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
-/// The parameters at a place: `first` the albedo, `eta` the roughness.
+/// Binds the parameters at a point: `first` the albedo, `eta` the roughness.
 fn material_diffuse_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     var b = head;
     b.first = bound_albedo(p.values[0]);
@@ -17,7 +17,7 @@ fn material_diffuse_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     return b;
 }
 
-/// `f |cos|` and its density.
+/// `f |cos|`, and the density of `wi` in 1/sr.
 fn material_diffuse_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
     if b.variant == 1u {
         return eon_eval_pdf(EonLobe(b.first, b.eta), wo, wi, BSDF_SAMPLE_RADIANCE);
@@ -25,7 +25,7 @@ fn material_diffuse_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f
     return lambert_eval_pdf(LambertLobe(b.first), wo, wi, BSDF_SAMPLE_RADIANCE);
 }
 
-/// A direction.
+/// Samples a direction.
 fn material_diffuse_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     if b.variant == 1u {
         return eon_sample(EonLobe(b.first, b.eta), wo, u, BSDF_SAMPLE_RADIANCE);
@@ -33,7 +33,7 @@ fn material_diffuse_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> Bsdf
     return lambert_sample(LambertLobe(b.first), wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
-/// For denoisers.
+/// Albedo, as a feature for denoisers.
 fn material_diffuse_albedo(b: Bound) -> vec3f {
     return b.first;
 }

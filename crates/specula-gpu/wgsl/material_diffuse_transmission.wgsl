@@ -8,7 +8,7 @@ import package::bsdf::diffuse_transmission::{diffuse_transmission_eval_pdf};
 import package::bsdf::diffuse_transmission::{diffuse_transmission_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
-/// The parameters at a place: `first` the reflectance, `second` the transmittance.
+/// Binds the parameters at a point: `first` the reflectance, `second` the transmittance.
 fn material_diffuse_transmission_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     var b = head;
     b.first = bound_albedo(p.values[0]);
@@ -16,18 +16,18 @@ fn material_diffuse_transmission_bind(head: Bound, p: Parameters, outside: bool)
     return b;
 }
 
-/// `f |cos|` and its density.
+/// `f |cos|`, and the density of `wi` in 1/sr.
 fn material_diffuse_transmission_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
     let lobe = DiffuseTransmission(b.first, b.second);
     return diffuse_transmission_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE);
 }
 
-/// A direction.
+/// Samples a direction.
 fn material_diffuse_transmission_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     return diffuse_transmission_sample(DiffuseTransmission(b.first, b.second), wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
-/// For denoisers.
+/// Albedo, as a feature for denoisers.
 fn material_diffuse_transmission_albedo(b: Bound) -> vec3f {
     return b.first + b.second;
 }

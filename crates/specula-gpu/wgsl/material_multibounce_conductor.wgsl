@@ -13,12 +13,12 @@ import package::multibounce::multibounce_conductor::{multibounce_conductor_eval_
 import package::multibounce::multibounce_conductor::{multibounce_conductor_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
-/// The parameters at a place: those of `metal_bind`.
+/// Binds the parameters at a point: those of `metal_bind`.
 fn material_multibounce_conductor_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     return metal_bind(head, p, outside);
 }
 
-/// `f |cos|` and its density.
+/// `f |cos|`, and the density of `wi` in 1/sr.
 fn material_multibounce_conductor_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
     if b.specular {
         return vec4f(0.0);
@@ -29,7 +29,7 @@ fn material_multibounce_conductor_eval(b: Bound, wo: vec3f, wi: vec3f, stream: v
     return multibounce_conductor_eval_pdf(lobe, wo, wi, &random);
 }
 
-/// A direction.
+/// Samples a direction.
 fn material_multibounce_conductor_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     if b.specular {
         let mirror = SmoothConductor(metal_reflectance(b));
@@ -41,7 +41,7 @@ fn material_multibounce_conductor_sample(b: Bound, wo: vec3f, u: vec3f, stream: 
     return multibounce_conductor_sample(lobe, wo, u, &random);
 }
 
-/// For denoisers.
+/// Albedo, as a feature for denoisers.
 fn material_multibounce_conductor_albedo(b: Bound) -> vec3f {
     return metal_albedo(b);
 }

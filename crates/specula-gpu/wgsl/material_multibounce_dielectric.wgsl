@@ -12,7 +12,7 @@ import package::multibounce::multibounce_dielectric::{multibounce_dielectric_sam
 import package::bsdf::smooth_dielectric::{smooth_dielectric_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
-/// The parameters at a place: those of `glass_bind`.
+/// Binds the parameters at a point: those of `glass_bind`.
 fn material_multibounce_dielectric_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     return glass_bind(head, p, outside);
 }
@@ -23,7 +23,7 @@ fn material_multibounce_dielectric_lobe(b: Bound) -> MultibounceDielectric {
     return MultibounceDielectric(normals, b.eta, 0u, b.energy, BOUNCES_PDF, glass_tints(b));
 }
 
-/// `f |cos|` and its density.
+/// `f |cos|`, and the density of `wi` in 1/sr.
 fn material_multibounce_dielectric_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
     if b.specular {
         return vec4f(0.0);
@@ -33,7 +33,7 @@ fn material_multibounce_dielectric_eval(b: Bound, wo: vec3f, wi: vec3f, stream: 
     return multibounce_dielectric_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE, &random);
 }
 
-/// A direction.
+/// Samples a direction.
 fn material_multibounce_dielectric_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     if b.specular {
         return smooth_dielectric_sample(glass_smooth(b), wo, u, BSDF_SAMPLE_RADIANCE);
@@ -43,7 +43,7 @@ fn material_multibounce_dielectric_sample(b: Bound, wo: vec3f, u: vec3f, stream:
     return multibounce_dielectric_sample(lobe, wo, u, BSDF_SAMPLE_RADIANCE, &random);
 }
 
-/// For denoisers.
+/// Albedo, as a feature for denoisers.
 fn material_multibounce_dielectric_albedo(b: Bound) -> vec3f {
     return vec3f(1.0);
 }

@@ -8,7 +8,7 @@ import package::bsdf::microfacets::{MicrofacetsModel};
 import package::bsdf::plastic::{PlasticLobe, plastic_smooth, plastic_rough, plastic_eval_pdf, plastic_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
-/// The parameters at a place: `eta`, `first` and `second` the colours of base and coat, `variant` whether
+/// Binds the parameters at a point: `eta`, `first` and `second` the colours of base and coat, `variant` whether
 /// the base colours what comes back to it. Its back is black, as Mitsuba's.
 fn material_plastic_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     if !outside {
@@ -33,17 +33,17 @@ fn material_plastic_lobe(b: Bound) -> PlasticLobe {
     return plastic_rough(facets, b.eta, b.first, b.second, nonlinear);
 }
 
-/// `f |cos|` and its density.
+/// `f |cos|`, and the density of `wi` in 1/sr.
 fn material_plastic_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) -> vec4f {
     return plastic_eval_pdf(material_plastic_lobe(b), wo, wi, BSDF_SAMPLE_RADIANCE);
 }
 
-/// A direction.
+/// Samples a direction.
 fn material_plastic_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     return plastic_sample(material_plastic_lobe(b), wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
-/// For denoisers.
+/// Albedo, as a feature for denoisers.
 fn material_plastic_albedo(b: Bound) -> vec3f {
     return b.first;
 }

@@ -8,7 +8,7 @@ import package::bsdf::tints::{TintsPair};
 import package::bsdf::thin_dielectric::{ThinDielectric, thin_dielectric_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
 
-/// The parameters at a place: `eta`, and the tints of reflection and transmission.
+/// Binds the parameters at a point: `eta`, and the tints of reflection and transmission.
 fn material_thin_dielectric_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     var b = head;
     b.eta = number(p.plain);
@@ -23,13 +23,13 @@ fn material_thin_dielectric_eval(b: Bound, wo: vec3f, wi: vec3f, stream: vec2u) 
     return vec4f(0.0);
 }
 
-/// A direction.
+/// Samples a direction.
 fn material_thin_dielectric_sample(b: Bound, wo: vec3f, u: vec3f, stream: vec2u) -> BsdfSample {
     let pane = ThinDielectric(b.eta, TintsPair(b.first, b.second));
     return thin_dielectric_sample(pane, wo, u, BSDF_SAMPLE_RADIANCE);
 }
 
-/// For denoisers.
+/// Albedo, as a feature for denoisers.
 fn material_thin_dielectric_albedo(b: Bound) -> vec3f {
     return vec3f(1.0);
 }

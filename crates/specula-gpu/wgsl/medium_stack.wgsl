@@ -5,23 +5,23 @@
 import tracer::world::{word, vector};
 
 
-/// What a path is in.
+/// The media that a path is in.
 struct MediumStack {
-    // What absorbs where the path is, per scene unit; zero where nothing does.
+    // Absorption coefficient where the path is, per scene unit; zero where nothing absorbs.
     absorption: vec3f,
     count: u32,
     // Materials of the media entered, the first `count` of these.
     materials: vec4u,
 }
 
-/// What a body's material absorbs inside.
+/// Absorption coefficient of the medium inside of a material's surface.
 fn medium_stack_inside(material: u32) -> vec3f {
     return vector(BOUNDARIES + material * BOUNDARY_SIZE + 1u);
 }
 
-/// Passes a surface: what the path is in changes where that bounds a body.
+/// Updates the media where a path passes a surface that bounds one.
 ///
-/// * `inwards`: whether from its outside to its inside.
+/// * `inwards`: whether the path passes from outside to inside.
 ///
 /// Twin: specula-render/src/medium_stack.rs, MediumStack::cross.
 fn medium_stack_cross(media: ptr<function, MediumStack>, material: u32, inwards: bool) {
@@ -51,19 +51,19 @@ fn medium_stack_cross(media: ptr<function, MediumStack>, material: u32, inwards:
     }
 }
 
-/// Forgets the body of that material that was entered last.
+/// Removes the medium of that material that was entered last.
 ///
 /// Twin: specula-render/src/medium_stack.rs, MediumStack::leave.
 fn medium_stack_leave(media: ptr<function, MediumStack>, material: u32) {
     let count = (*media).count;
-    var found = count;
+    var last = count;
     for (var i = 0u; i < count; i += 1u) {
         if (*media).materials[i] == material {
-            found = i;
+            last = i;
         }
     }
-    if found < count {
-        for (var i = found; i + 1u < count; i += 1u) {
+    if last < count {
+        for (var i = last; i + 1u < count; i += 1u) {
             (*media).materials[i] = (*media).materials[i + 1u];
         }
         (*media).count = count - 1u;
@@ -74,7 +74,7 @@ fn medium_stack_leave(media: ptr<function, MediumStack>, material: u32) {
     }
 }
 
-/// What absorption leaves over a distance (Beer and Lambert).
+/// Transmittance over a distance, `exp(-absorption distance)` (Beer and Lambert).
 ///
 /// Twin: specula-render/src/medium_stack.rs, transmittance.
 fn medium_stack_transmittance(absorption: vec3f, distance: f32) -> vec3f {

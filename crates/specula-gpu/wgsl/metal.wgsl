@@ -7,8 +7,10 @@ import tracer::bound::{Bound, Parameters, bound_albedo, bound_roughness};
 import package::fresnel::reflectance::{ReflectanceModel};
 import package::bsdf::microfacets::{MicrofacetsModel};
 
-/// Reflectance of a metal by what two colours are: `first` and `second` are eta and k, or the reflectance at
-/// normal incidence, or white; `variant` says which.
+/// Binds the reflectance of a metal: `first` and `second` become eta and k, or `first` the reflectance at normal
+/// incidence; `variant` is `kind`.
+///
+/// * `kind`: what the two colours are, one of METAL_*.
 fn metal_indices(b: Bound, kind: u32, one: vec3f, other: vec3f) -> Bound {
     var m = b;
     if kind == METAL_INDEX {
@@ -26,8 +28,8 @@ fn metal_indices(b: Bound, kind: u32, one: vec3f, other: vec3f) -> Bound {
     return m;
 }
 
-/// Alphas and reflectance of a metal, as of `metal_indices`; `variant` is 4 more where it is rough; `third` the
-/// tint.
+/// Binds alphas and reflectance of a metal, as `metal_indices` does; `variant` is 4 more where it is rough, `third`
+/// is the tint.
 fn metal_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     let kind = word(p.plain + 3u);
     var b = metal_indices(bound_roughness(head, p), kind, p.values[2], p.values[3]);
@@ -38,7 +40,7 @@ fn metal_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
     return b;
 }
 
-/// The reflectance of what `metal_bind` made.
+/// The reflectance of a metal that `metal_bind` bound.
 fn metal_reflectance(b: Bound) -> ReflectanceModel {
     let kind = b.variant & 3u;
     if kind <= METAL_REFLECTANCE {
@@ -50,12 +52,12 @@ fn metal_reflectance(b: Bound) -> ReflectanceModel {
     return reflectance_constant(b.third);
 }
 
-/// The facets of what `metal_bind` made.
+/// The facets of a metal that `metal_bind` bound.
 fn metal_facets(b: Bound) -> MicrofacetsModel {
     return MicrofacetsModel(b.alpha, b.distribution, b.masking, SAMPLER);
 }
 
-/// A colour for denoisers.
+/// Albedo, as a feature for denoisers.
 fn metal_albedo(b: Bound) -> vec3f {
     return reflectance_eval(metal_reflectance(b), 2.0 / 3.0);
 }

@@ -1,31 +1,32 @@
-// Parallelograms that send out light: rectangles are sampled uniformly by solid angle, others by area.
+// Parallelograms that emit light: rectangles are sampled uniformly by solid angle, others by area.
 //
 // Source: Urena, Fajardo and King 2013, An Area-Preserving Parametrization for Spherical Rectangles.
-// Departures: the angles of the spherical rectangle are kept as what they exceed a right angle by, so
-// that their sum does not cancel against a full turn; eq. for `x` without quotients of sines.
+// Departures: of the angles of the spherical rectangle their excess over a right angle is stored, so that their sum
+// does not cancel against a full turn; the equation for `x` has no quotients of sines.
 //
-// Words of one: corner, two edges, normal (3 each), area, two edges of length 1 (3 each), their
-// lengths, the solid angle from which on it is sampled by that, bound on the error of a point (3).
+// Layout of a record, in words: corner, two edges, normal (3 each), area, two edges of length 1 (3 each), their
+// lengths, the least solid angle at which it is sampled by solid angle, bound on the error of a point (3).
 
 import tracer::angles::{angles_sin_cos_of_half, angles_turns, angles_with_sign};
 import tracer::world::{number, vector};
 
-/// What stands for 0 below a quotient.
+/// Least denominator of a quotient.
 const PARALLELOGRAM_LEAST: f32 = 1e-37;
-/// What stands for infinity.
+/// A value that stands for infinity.
 const PARALLELOGRAM_MOST: f32 = 3e38;
 
-/// A point of a parallelogram, seen from another point.
+/// A sampled point of a parallelogram, as seen from another point.
 struct ParallelogramSeen {
     /// The point.
     position: vec3f,
     /// Towards it, unit.
     wi: vec3f,
-    /// In 1/sr; 0 where the point is of no use.
+    /// In 1/sr; 0: there is no sample.
     pdf: f32,
 }
 
-/// A rectangle from a point, in the coordinates of its sides with the point as origin.
+/// A spherical rectangle: a rectangle as seen from a point, in the coordinates of its sides, whose origin is the
+/// point.
 struct ParallelogramSpread {
     /// Where it begins and ends along its first side.
     x: vec2f,
@@ -35,13 +36,13 @@ struct ParallelogramSpread {
     h: f32,
     /// Components along the normal of the planes through the point and the lower and upper side.
     b: vec2f,
-    /// What the last two angles exceed right angles by, in turns.
+    /// Excess of the last two angles over right angles, in turns.
     last: f32,
-    /// In turns: over 2 pi.
+    /// Over 2 pi.
     solid_angle: f32,
 }
 
-/// The point of the parallelogram at `at` that `u` leads to, as seen from `p`.
+/// Samples a point of the parallelogram at `at`, as seen from `p`.
 ///
 /// * `u`: uniform in `[0, 1)^2`.
 ///
@@ -93,7 +94,7 @@ fn parallelogram_ratio(a: f32, b: f32) -> f32 {
     return a / b;
 }
 
-/// The rectangle at `at` from `p`.
+/// The spherical rectangle of the parallelogram at `at`, as seen from `p`.
 /// Twin: specula-render/src/light/parallelogram.rs, Parallelogram::spread.
 fn parallelogram_spread(at: u32, p: vec3f) -> ParallelogramSpread {
     let d = vector(at) - p;
@@ -116,12 +117,14 @@ fn parallelogram_along(t: f32, h_squared: f32) -> f32 {
     return t / sqrt(max(t * t + h_squared, PARALLELOGRAM_LEAST));
 }
 
-/// What an angle exceeds a right angle by, in turns, by the sine of that.
+/// Excess of an angle over a right angle, in turns.
+///
+/// * `sine`: of the excess.
 fn parallelogram_excess(sine: f32) -> f32 {
     return angles_turns(sine, sqrt(max((1.0 - sine) * (1.0 + sine), 0.0)));
 }
 
-/// Weights of the two edges of a point sampled uniformly by solid angle.
+/// Samples a point uniformly by solid angle: its coordinates along the two edges, in `[0, 1]`.
 /// Twin: specula-render/src/light/parallelogram.rs, Spread::sample.
 fn parallelogram_weights(spread: ParallelogramSpread, u: vec2f, sides: vec2f) -> vec2f {
     let h = spread.h;

@@ -1,4 +1,4 @@
-// Derivatives of a surface by its coordinates: for bump maps, and where a rotation needs a side.
+// Derivatives of a surface by its texture coordinates: for bump maps, and for the sense of rotations.
 //
 // Twin of specula-render/src/geometry/partials.rs.
 
@@ -19,19 +19,19 @@ struct Partials {
     normal_along_v: vec3f,
 }
 
-/// Derivatives with the unit normal that they are at.
+/// The unit normal and the derivatives at a point.
 struct PartialsAndNormal {
     normal: vec3f,
     partials: Partials,
 }
 
-/// Derivatives of a triangle's linear quantities by its coordinates.
+/// Derivatives by u and v of a quantity that is linear over a triangle.
 struct PartialsSolved {
     along_u: vec3f,
     along_v: vec3f,
 }
 
-/// The derivatives at a surface, in the world; zero vectors where its coordinates do not move.
+/// The derivatives at a surface, in the world; zero vectors where its texture coordinates are constant.
 ///
 /// Twin: specula-render/src/geometry/partials.rs, Geometry::partials.
 fn partials_of(s: Surface) -> Partials {
@@ -39,29 +39,29 @@ fn partials_of(s: Surface) -> Partials {
     let group = word(placement);
     let identity = word(placement + 1u) != 0u;
     let triangles = word(group + GROUP_TRIANGLE_COUNT);
-    var found: PartialsAndNormal;
+    var in_group: PartialsAndNormal;
     if s.primitive < triangles {
         let has_uvs = word(SHAPES + s.shape * SHAPE_SIZE + 2u) != 0u;
-        found = partials_of_triangle(group, s.primitive, s.weights, has_uvs);
+        in_group = partials_of_triangle(group, s.primitive, s.weights, has_uvs);
     } else {
         var near = s.position;
         if !identity {
             near = affine_point(placement + 27u, near);
         }
         let at = word(group + GROUP_QUADRICS) + (s.primitive - triangles) * QUADRIC_SIZE;
-        found = partials_of_quadric(at, near);
+        in_group = partials_of_quadric(at, near);
     }
     if identity {
-        return found.partials;
+        return in_group.partials;
     }
-    return partials_moved(found, placement + 3u, placement + 15u).partials;
+    return partials_moved(in_group, placement + 3u, placement + 15u).partials;
 }
 
 /// The unit normal and the derivatives after a transform.
 ///
 /// With `m = N n`, `d(m/|m|) = (dm - n' (n' . dm)) / |m|`.
 ///
-/// * `points`, `normals`: places of affine maps.
+/// * `points`, `normals`: offsets of the affine maps of points and of normals.
 ///
 /// Twin: specula-render/src/geometry/partials.rs, Partials::moved.
 fn partials_moved(before: PartialsAndNormal, points: u32, normals: u32) -> PartialsAndNormal {
@@ -82,7 +82,7 @@ fn partials_moved(before: PartialsAndNormal, points: u32, normals: u32) -> Parti
     );
 }
 
-/// Derivatives of what changes by `along` and `other` where coordinates change by the rows' vectors.
+/// Derivatives by u and v of a quantity that changes by `along` and `other` where `(u, v)` changes by the rows.
 fn partials_solved(rows: vec4f, along: vec3f, other: vec3f) -> PartialsSolved {
     let determinant = rows.x * rows.w - rows.y * rows.z;
     if determinant == 0.0 {
@@ -137,7 +137,7 @@ fn partials_of_triangle(
         let side = number(tangents + 4u * i.x + 3u) * w.x + number(tangents + 4u * i.y + 3u) * w.y
             + number(tangents + 4u * i.z + 3u) * w.z;
         let along_v = cross(ns, tangent) * side;
-        // What a mesh says itself; lengths do not matter to normal maps and rotations.
+        // The mesh's own tangents; lengths do not matter to normal maps and rotations.
         if dot(along_v, along_v) > 0.0 {
             dp = PartialsSolved(tangent, along_v);
         }

@@ -1,7 +1,6 @@
-// A distribution over the unit square, constant in every cell of a grid.
+// A distribution over the unit square, constant in every cell of a grid, sampled by its CDFs.
 //
-// Its words are cumulated shares of the cells in each row, `width + 1` a row, and those of the rows,
-// `height + 1`.
+// Its words are the CDFs of the cells in each row, `width + 1` words a row, and the CDF of the rows, `height + 1`.
 //
 // Twin of specula-render/src/light/piecewise.rs.
 
@@ -10,16 +9,18 @@ import tracer::world::{number};
 /// The largest number below 1 that is a multiple of `f32`'s epsilon.
 const PIECEWISE_BELOW_ONE: f32 = 0.9999999;
 
-/// A cell along one axis, and where in it a point lies.
+/// A cell along one axis, and the position of a point within it.
 struct PiecewiseCell {
-    /// Its number.
+    /// Its index.
     cell: u32,
     /// In `[0, 1]`.
     within: f32,
 }
 
-/// The cell in which `u` falls among `count` of them, by their cumulated shares from `cdf` on, and where
-/// within it.
+/// Inverts a CDF: the cell among `count` in which `u` falls, and the position within it.
+///
+/// * `cdf`: offset of the `count + 1` values of the CDF.
+///
 /// Twin: specula-render/src/light/piecewise.rs, invert.
 fn piecewise_invert(cdf: u32, count: u32, u: f32) -> PiecewiseCell {
     var cell = 0u;
@@ -37,9 +38,9 @@ fn piecewise_invert(cdf: u32, count: u32, u: f32) -> PiecewiseCell {
     return PiecewiseCell(cell, 0.5);
 }
 
-/// A point sampled by the shares of a grid of `cells` x `cells`.
+/// Samples a point by a grid of `cells` x `cells`.
 ///
-/// * `rows`, `columns`: places of the cumulated shares.
+/// * `rows`, `columns`: offsets of the CDFs of the cells in each row, and of the CDF of the rows.
 /// * `u`: uniform in `[0, 1)^2`.
 ///
 /// Twin: specula-render/src/light/piecewise.rs, Piecewise::sample.

@@ -1,8 +1,8 @@
-// Pictures that a light projects from a point.
+// Projected-image lights: an image by direction from a point.
 //
-// Words of one: position (3), the map to light space (affine), what it goes through (0: all directions, 1
-// to 3: a window), the window's half sides (2), cosines at the end of a spot and at its start, intensity
-// (a colour parameter).
+// Layout of a record, in words: position (3), the affine map to light space (12), the window that it goes through
+// (WINDOW_*; WINDOW_NONE: all directions), the window's half sides (2), cosines where a spot ends and where it starts
+// to fade, intensity (a colour parameter).
 //
 // Twin of specula-render/src/light/projected.rs.
 
@@ -23,8 +23,8 @@ fn projected_intensity(at: u32, w: vec3f) -> vec3f {
     return max(parameter_colour(at + PROJECTED_INTENSITY, place), vec3f(0.0)) * within.z;
 }
 
-/// The picture's coordinates towards `w` (light space, of any length), and the factor on it; 0 where it is
-/// dark.
+/// Texture coordinates of the image towards `w` (light space, of any length), and the factor on it; 0 outside of
+/// the image.
 /// Twin: specula-render/src/light/projected.rs, ProjectedImage::coordinates.
 fn projected_coordinates(at: u32, w: vec3f) -> vec3f {
     let through = word(at + PROJECTED_THROUGH);

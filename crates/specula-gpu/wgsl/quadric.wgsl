@@ -1,13 +1,13 @@
-// Where rays meet spheres and disks.
+// Intersection of rays with spheres and disks.
 //
 // Twin of specula-render/src/accel/quadric.rs. Departure: in f32, where the CPU computes in f64.
 
 import tracer::world::{word, number, affine_point, affine_vector};
 
-/// The least `t > 0` at which a ray meets a quadric; not positive where it does not.
+/// The least `t > 0` at which a ray hits a quadric; not positive where it misses.
 ///
-/// * `at`: the place of its kind (sphere, disk), radius and height.
-/// * `space`: the place of its own space from that of the ray.
+/// * `at`: offset of its kind (sphere, disk), radius and height.
+/// * `space`: offset of the affine map from the space of the ray to that of the quadric.
 ///
 /// Source: Haines, Guenther and Akenine-Moeller 2019 (Ray Tracing Gems 7), eqs. 5 and 10.
 fn quadric_distance(at: u32, space: u32, origin: vec3f, direction: vec3f) -> f32 {

@@ -1,25 +1,25 @@
-// Rays by the adapter's ray queries: it searches triangles itself, and finds the boxes of spheres and disks,
-// which are tested here.
+// Rays by the adapter's ray queries: the adapter intersects triangles, and yields the boxes of spheres and disks,
+// which are intersected here.
 //
-// Stands in the place of traverse.wgsl: the same functions, the same meaning of hits. Barycentrics need no
-// change, since queries too weigh the second and the third corner; `t` neither, since they do not make a
-// direction a unit one in a group's space. Departures: any of several hits with the same `t` may win, and
-// whether a ray through an edge or a corner meets a triangle is the adapter's to say.
+// Replaces traverse.wgsl: the same functions, the same meaning of hits. Barycentrics are those of the second and the
+// third corner by both, and `t` is the same, since queries do not normalize a direction in a group's space.
+// Departures: any of several hits with the same `t` may win, and the adapter decides whether a ray through an edge or
+// a corner hits a triangle.
 //
-// Hits of quadrics are kept here beside the query: naga 30.0.1 tests one that is handed to it
-// (`rayQueryGenerateIntersection`) against the `t` of the candidate where that of the nearest hit is meant,
-// and loses it. So they do not shorten the search for triangles.
+// Hits of quadrics are stored here beside the query: naga 30.0.1 compares one that is handed to it
+// (`rayQueryGenerateIntersection`) with the `t` of the candidate instead of that of the nearest hit, and loses it. So
+// they do not shorten the search for triangles.
 //
-// Twin of specula-gpu/src/queries.rs, which builds what is searched.
+// Twin of specula-gpu/src/queries.rs, which builds the acceleration structure.
 
 import tracer::world::{word, affine_point, affine_vector};
 import tracer::ray::{Ray, Hit};
 import tracer::quadric::{quadric_distance};
 
-/// Every instance of the scene. Its custom index is that of hits.
+/// Every instance of the scene, with its index as custom data.
 @group(1) @binding(0) var query_scene: acceleration_structure;
 
-/// The least `t > 0` at which a ray meets a quadric of an instance; not positive where it does not.
+/// The least `t > 0` at which a ray hits a quadric of an instance; not positive where it misses.
 ///
 /// * `index`: among the quadrics of the instance's group.
 fn query_quadric(ray: Ray, instance: u32, index: u32) -> f32 {
@@ -34,10 +34,10 @@ fn query_quadric(ray: Ray, instance: u32, index: u32) -> f32 {
     return quadric_distance(at, at + 16u, origin, direction);
 }
 
-/// The first surface that a ray meets; any surface where `any` is set.
+/// The first hit of a ray; any hit where `any` is set.
 fn traverse(ray: Ray, any: bool) -> Hit {
     var best = Hit(ray.t_max, 0.0, 0.0, 0u, NONE);
-    // Queries may do anything with a ray that goes nowhere.
+    // Queries are undefined for a ray without direction.
     if TREE_ROOT == NONE || all(ray.direction == vec3f(0.0)) {
         return best;
     }
@@ -69,7 +69,7 @@ fn traverse(ray: Ray, any: bool) -> Hit {
     return best;
 }
 
-/// Whether anything is in a ray's way.
+/// Whether anything occludes a ray.
 fn traverse_occluded(ray: Ray) -> bool {
     return traverse(ray, true).instance != NONE;
 }

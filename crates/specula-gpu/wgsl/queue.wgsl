@@ -1,16 +1,16 @@
-// Paths in queues: all that live are taken from one vertex to the next, and those that go on make the next
-// queue. Which place a path has in it depends on chance, and its result does not: that goes to its own slot.
+// Wavefronts of paths, in queues: all paths are taken from one vertex to the next, and those that continue form the
+// next queue. The order of a queue is not deterministic. Results are, since every path writes to its own slot.
 
-import tracer::path::{PathState, path_is_wanted, path_sequence, path_begin, path_step, path_end};
+import tracer::path::{PathState, path_is_requested, path_sequence, path_begin, path_step, path_end};
 
-/// The paths on their way, by their slots.
+/// States of the paths, by slot.
 @group(0) @binding(6) var<storage, read_write> queue_states: array<PathState>;
-/// Vertices before this one, paths in the queues of even vertices, and of odd ones.
+/// Depth of the current vertex, then the number of paths in the queue of even depths and of odd ones.
 @group(0) @binding(7) var<storage, read_write> queue_control: array<atomic<u32>, 3>;
-/// Slots of the paths in the queues of even vertices, then of odd ones.
+/// Slots of the paths in the queue of even depths, then of odd ones.
 @group(0) @binding(8) var<storage, read_write> queue_slots: array<u32>;
 
-/// Puts a path into the queue of a vertex.
+/// Appends a path to the queue of a depth.
 fn queue_append(slot: u32, depth: u32) {
     let side = depth & 1u;
     let place = atomicAdd(&queue_control[1u + side], 1u);
@@ -21,7 +21,7 @@ fn queue_append(slot: u32, depth: u32) {
 @compute @workgroup_size(64)
 fn queue_begin(@builtin(global_invocation_id) id: vec3u) {
     let slot = id.x;
-    if path_is_wanted(slot) {
+    if path_is_requested(slot) {
         queue_states[slot] = path_begin(slot, path_sequence(slot));
         queue_append(slot, 0u);
     }

@@ -1,4 +1,4 @@
-// Rays and what they hit, whichever way they find it.
+// Rays and hits, of traversal (traverse.wgsl) and of ray queries (query.wgsl).
 //
 // Twin of Ray and Hit of specula-render/src/accel/mod.rs.
 
@@ -9,9 +9,10 @@ struct Ray {
     t_max: f32,
 }
 
-/// Where a ray first meets a surface; `instance` is NONE where it meets none.
+/// A hit of a ray; `instance` is NONE where it hits nothing.
 struct Hit {
     t: f32,
+    // Barycentric weights of the second and third corner.
     u: f32,
     v: f32,
     primitive: u32,

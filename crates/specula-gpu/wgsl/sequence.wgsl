@@ -1,10 +1,11 @@
-// Sample sequences: Owen-scrambled Sobol, one per pixel and set (Burley 2020), and hashed values.
+// Random numbers of samples: Owen-scrambled Sobol sequences, one per pixel and set of four dimensions (Burley 2020),
+// and hashes.
 //
-// Twin of specula-render/src/sampler.rs, bit for bit; its table of values holds here too.
+// Twin of specula-render/src/sampler.rs, bit for bit; its table of sets holds here too.
 
 import tracer::world::{word};
 
-/// The values of one sample of one pixel.
+/// The random numbers of one sample of one pixel.
 struct Sequence {
     index: u32,
     seed: u32,
@@ -22,7 +23,7 @@ fn sequence_hash(bits: u32) -> u32 {
     return x ^ (x >> 16u);
 }
 
-/// The values of sample `number` of a pixel.
+/// The random numbers of sample `number` of a pixel.
 ///
 /// Twin: specula-render/src/sampler.rs, Sampler::new.
 fn sequence_of(pixel: vec2u, number: u32, seed: u32) -> Sequence {
@@ -51,7 +52,7 @@ fn sequence_scramble(reversed: u32, key: u32) -> u32 {
     return n ^ (n * 0x53a22864u);
 }
 
-/// A shuffled number for the sets that go with the camera's, bits reversed.
+/// The shuffled index, bits reversed, for the sets that are stratified together with the camera's.
 ///
 /// Twin: specula-render/src/sampler.rs, turned.
 fn sequence_turned(rest: u32) -> u32 {
@@ -64,12 +65,12 @@ fn sequence_turned(rest: u32) -> u32 {
     return bits;
 }
 
-/// Four values in `[0, 1)`.
+/// Four random numbers in `[0, 1)`.
 ///
 /// Twin: specula-render/src/sampler.rs, Sampler::set.
 fn sequence_set(s: Sequence, purpose: u32) -> vec4f {
     let seed = sequence_hash(s.seed + purpose * 0x9e3779b9u);
-    // The sets of the first vertex go with the camera's.
+    // The sets of the first vertex are stratified together with the camera's.
     let together = purpose == 1u || purpose == 2u;
     let shuffle = select(seed, sequence_hash(s.seed), together);
     var rest = sequence_scramble(reverseBits(s.index), sequence_mix(shuffle ^ 0x79c68e4au));
@@ -95,22 +96,22 @@ fn sequence_set(s: Sequence, purpose: u32) -> vec4f {
     return bitcast<vec4f>((reverseBits(scrambled) >> vec4u(9u)) | vec4u(0x3f800000u)) - 1.0;
 }
 
-/// The second and third number for the filter, the first and last for the lens.
+/// Random numbers for the camera: the second and third for the filter, the first and last for the lens.
 fn sequence_camera(s: Sequence) -> vec4f {
     return sequence_set(s, 0u);
 }
 
-/// Three values for the lobe, one for Russian roulette.
+/// Random numbers for scattering: three for the lobe, one for Russian roulette.
 fn sequence_scatter(s: Sequence, depth: u32) -> vec4f {
     return sequence_set(s, 1u + 2u * depth);
 }
 
-/// One number for the choice of a light, two for the point on it, one for finer digits of the choice.
+/// Random numbers for a light: one for its choice, two for the point on it, one for finer digits of the choice.
 fn sequence_light(s: Sequence, depth: u32) -> vec4f {
     return sequence_set(s, 2u + 2u * depth);
 }
 
-/// A number in `[0, 1)` that depends on the sample and on `key`.
+/// A random number in `[0, 1)`, by a hash of the sample and `key`.
 ///
 /// Twin: specula-render/src/sampler.rs, Sampler::hashed.
 fn sequence_hashed(s: Sequence, key: vec3u) -> f32 {
@@ -119,7 +120,7 @@ fn sequence_hashed(s: Sequence, key: vec3u) -> f32 {
     return f32(bits >> 8u) * (1.0 / 16777216.0);
 }
 
-/// The state of a stream without end for a lobe whose values are estimates: low word, high word.
+/// The state of an endless stream of random numbers, for lobes whose values are estimates: low word, high word.
 ///
 /// Twin: specula-render/src/sampler.rs, Sampler::stream.
 fn sequence_stream(s: Sequence, depth: u32, purpose: u32) -> vec2u {

@@ -1,4 +1,4 @@
-// How spot lights fade to their edge.
+// Falloff of spot lights towards their edge.
 //
 // Twin of specula-render/src/light/delta.rs.
 

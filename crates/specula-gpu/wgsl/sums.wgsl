@@ -1,32 +1,32 @@
-// Adds the samples of each run, exactly: one thread a run.
+// Sums of the samples of each run, exact: one thread a run.
 //
 // Every value is a whole number of units, and integers are added in words: nothing depends on the
-// order, on how runs are cut, or on what a compiler does with f32. Of the values that the
-// largest of the run exceeds by 2^96 and more, and of squares that it exceeds by 2^72, bits below the unit are left
-// out; a film's sums end before these.
+// order, on how samples are cut into runs, or on how a compiler treats f32. Bits below the unit are left out: of
+// values that the largest of the run exceeds by 2^96 and more, and of squares that it exceeds by 2^72. A film's sums
+// do not have these bits.
 //
 // Layout: specula-render/src/film/run.rs, RunSums.
 
-/// As `path_wanted` in path.wgsl.
-@group(0) @binding(0) var<storage, read> sums_wanted: array<vec4u>;
-/// As `path_found` there, as bits.
-@group(0) @binding(1) var<storage, read> sums_found: array<vec4u>;
-/// Eleven vectors a run.
+/// As of `path_requests` in path.wgsl.
+@group(0) @binding(0) var<storage, read> sums_requests: array<vec4u>;
+/// As of `path_results` there, as bits.
+@group(0) @binding(1) var<storage, read> sums_results: array<vec4u>;
+/// Sums: eleven vectors a run.
 @group(0) @binding(2) var<storage, read_write> sums_of_runs: array<vec4u>;
 
 /// Vectors of a run's sums.
 const SUMS_SIZE: u32 = 11u;
-/// How far the largest value is shifted in its sum: 24 bits and those of 64 samples are left, and the sign.
+/// How far the largest value is shifted in its sum: room is left for its 24 bits, for 64 samples, and for the sign.
 const SUMS_VALUE_SHIFT: u32 = 96u;
 /// The same of squares, which have 48 bits.
 const SUMS_SQUARE_SHIFT: u32 = 72u;
 
-/// The exponent of a number's bits, 1 for those below the normal ones; 255: it is not finite.
+/// The biased exponent of a float, 1 for subnormal ones; 255: it is not finite.
 fn sums_exponent(bits: u32) -> u32 {
     return max((bits >> 23u) & 0xffu, 1u);
 }
 
-/// The digits of a number's bits, in units of `2^(exponent - 150)`.
+/// The significand of a float, in units of `2^(exponent - 150)`.
 fn sums_digits(bits: u32) -> u32 {
     let is_normal = ((bits >> 23u) & 0xffu) != 0u;
     return (bits & 0x7fffffu) | select(0u, 0x800000u, is_normal);
@@ -83,7 +83,7 @@ fn sums_plus(a: vec4u, b: vec4u) -> vec4u {
     return sum;
 }
 
-/// Adds a whole number, moved up or, where `places` is below 0, down; below 0 itself where `negative`.
+/// Adds an integer, shifted up or, where `places` is negative, down; subtracts it where `negative`.
 fn sums_add(sum: vec4u, x: vec2u, places: i32, negative: bool) -> vec4u {
     var term = vec4u(0u);
     if places >= 0 {
@@ -97,8 +97,8 @@ fn sums_add(sum: vec4u, x: vec2u, places: i32, negative: bool) -> vec4u {
     return sums_plus(sum, term);
 }
 
-/// Adds a number in units of `2^-30`, rounded, halves away from 0: low word, high word of the sum. What
-/// is not a number counts as 0, and nothing as more than `2^26`.
+/// Adds a float in units of `2^-30`, rounded, halves away from 0: low word, high word of the sum. NaN counts as 0,
+/// and values beyond `2^26` count as that.
 fn sums_add_fixed(sum: vec2u, bits: u32) -> vec2u {
     let exponent = sums_exponent(bits);
     let digits = sums_digits(bits);
@@ -137,7 +137,7 @@ fn sums_has_depth(value: vec4u) -> bool {
 fn sums_scales(begin: u32, count: u32) -> vec2u {
     var scales = vec2u(1u);
     for (var i = 0u; i < count; i += 1u) {
-        let value = sums_found[begin + 3u * i];
+        let value = sums_results[begin + 3u * i];
         if !sums_is_finite(value) {
             continue;
         }
@@ -154,11 +154,11 @@ fn sums_scales(begin: u32, count: u32) -> vec2u {
 @compute @workgroup_size(64)
 fn sums_main(@builtin(global_invocation_id) id: vec3u) {
     let run = id.x;
-    if run >= sums_wanted[0].y {
+    if run >= sums_requests[0].y {
         return;
     }
-    let count = sums_wanted[run + 1u].w;
-    let begin = 3u * run * sums_wanted[0].x;
+    let count = sums_requests[run + 1u].w;
+    let begin = 3u * run * sums_requests[0].x;
     let scales = sums_scales(begin, count);
     var colour: array<vec4u, 3>;
     var squares: array<vec4u, 3>;
@@ -169,9 +169,9 @@ fn sums_main(@builtin(global_invocation_id) id: vec3u) {
     var rays = 0u;
     var invalid = vec2u(0u);
     for (var i = 0u; i < count; i += 1u) {
-        let value = sums_found[begin + 3u * i];
-        let first = sums_found[begin + 3u * i + 1u];
-        let second = sums_found[begin + 3u * i + 2u];
+        let value = sums_results[begin + 3u * i];
+        let first = sums_results[begin + 3u * i + 1u];
+        let second = sums_results[begin + 3u * i + 2u];
         rays += u32(bitcast<f32>(first.w));
         if !sums_is_finite(value) {
             invalid |= select(vec2u(0u, 1u << (i & 31u)), vec2u(1u << (i & 31u), 0u), i < 32u);

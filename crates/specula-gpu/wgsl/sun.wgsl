@@ -1,6 +1,6 @@
 // A round light infinitely far away: the same radiance from every direction within a cone.
 //
-// Words of one: tangent, bitangent, axis, radiance (3 each), `1 - cos` of the half angle.
+// Layout of a record, in words: tangent, bitangent, axis, radiance (3 each), `1 - cos` of the half angle.
 //
 // Twin of specula-render/src/light/sun.rs.
 
@@ -14,7 +14,7 @@ fn sun_density(at: u32) -> f32 {
 
 /// Radiance from the direction `wi` (unit), and the density in 1/sr with which `sun_sample` samples it.
 ///
-/// By the chord, `|wi - axis|^2 = 2 (1 - cos)`, which keeps the digits that the cosine of a small angle
+/// By the chord, `|wi - axis|^2 = 2 (1 - cos)`, which has the digits that the cosine of a small angle
 /// lacks.
 /// Twin: specula-render/src/light/sun.rs, Sun::radiance and Sun::pdf.
 fn sun_arriving(at: u32, wi: vec3f) -> vec4f {
@@ -25,7 +25,7 @@ fn sun_arriving(at: u32, wi: vec3f) -> vec4f {
     return vec4f(0.0);
 }
 
-/// A direction (unit, world) in which the sun at `at` is seen, uniform by solid angle.
+/// Samples a direction (unit, world) towards the sun at `at`, uniformly by solid angle.
 ///
 /// * `u`: uniform in `[0, 1)^2`.
 ///

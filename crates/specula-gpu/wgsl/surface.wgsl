@@ -1,4 +1,4 @@
-// From a hit to the surface there: position with its error, normals, tangent, coordinates.
+// From a hit to the surface there: position with its error, normals, tangent, texture coordinates.
 //
 // Twin of specula-render/src/geometry/{hit,flat}.rs.
 
@@ -18,20 +18,21 @@ struct Surface {
     ng: vec3f,
     // Shading normal, unit.
     ns: vec3f,
-    // dp/du, or zero where there are no coordinates.
+    // dp/du, or zero where there are no texture coordinates.
     tangent: vec3f,
     uv: vec2f,
     second_uv: vec2f,
     colour: vec3f,
     shape: u32,
-    // Number of the light that it is part of, or NONE.
+    // Index of the light that it is part of, or NONE.
     light: u32,
     instance: u32,
     primitive: u32,
+    // Barycentric, of the second and third corner.
     weights: vec2f,
 }
 
-/// A pair of values.
+/// A vector of two components.
 fn surface_pair(at: u32) -> vec2f {
     return vec2f(number(at), number(at + 1u));
 }
@@ -50,7 +51,7 @@ fn surface_normal_of(first: vec3f, second: vec3f) -> vec3f {
     return unit_or(cross(first / scale, second / scale), vec3f(0.0, 0.0, 1.0));
 }
 
-/// A point of a triangle, in its group's space.
+/// The surface at a point of a triangle, in its group's space.
 ///
 /// Twin: specula-render/src/geometry/hit.rs, GroupData::triangle_surface.
 fn surface_of_triangle(group: u32, primitive: u32, weights: vec2f, has_uvs: bool) -> Surface {

@@ -14,6 +14,6 @@ struct TextureCoordinates {
     position: vec3f,
     /// Geometric normal in the world, unit: pbrt's `directionmix` takes this one, too.
     normal: vec3f,
-    /// The mesh's, interpolated; white where it has none.
+    /// Vertex colour, interpolated; white where the mesh has none.
     colour: vec3f,
 }

@@ -1,9 +1,8 @@
 // Graphs of texture nodes, and parameters that may be textures.
 //
-// Twin of specula-render/src/texture/graph.rs and mod.rs. WGSL has no recursion: nodes that wait for
-// the values of their inputs stand on a stack, as long as the scene's graphs need it (TEXTURE_WAITING,
-// at most 32). Nodes without inputs need none, and what a scene does not use is not compiled: the
-// constants are those of specula-render/src/texture/flat.rs.
+// Twin of specula-render/src/texture/graph.rs and mod.rs. WGSL has no recursion: nodes that wait for the values of
+// their inputs are on a stack, whose size is what the scene's graphs need (TEXTURE_WAITING, at most 32). What a scene
+// does not use is not compiled: the constants are those of specula-render/src/texture/flat.rs.
 
 import tracer::texture_mapping::{texture_mapping_at};
 import tracer::texture_noise::{texture_noise_fbm, texture_noise_turbulence, texture_noise_windy};
@@ -16,7 +15,7 @@ import tracer::world::{word, number, vector, affine_point};
 struct TextureWaiting {
     /// Offset of the node.
     at: u32,
-    /// Which input comes next: `TEXTURE_AMOUNT`, `TEXTURE_FIRST` or `TEXTURE_SECOND`.
+    /// Which input is evaluated next: `TEXTURE_AMOUNT`, `TEXTURE_FIRST` or `TEXTURE_SECOND`.
     stage: u32,
     /// Share of the second input.
     amount: f32,
@@ -31,7 +30,7 @@ const TEXTURE_FIRST: u32 = 1u;
 /// The second, or the only one.
 const TEXTURE_SECOND: u32 = 2u;
 
-/// A colour parameter of 4 words: a texture's number, or NONE and the value.
+/// A colour parameter of 4 words: the index of a texture, or NONE and the value.
 ///
 /// Twin: specula-render/src/texture/mod.rs, Textures::colour.
 fn parameter_colour(at: u32, place: TextureCoordinates) -> vec3f {
@@ -41,7 +40,7 @@ fn parameter_colour(at: u32, place: TextureCoordinates) -> vec3f {
     return texture_colour(word(at), place);
 }
 
-/// A number parameter of 2 words: a texture's number, or NONE and the value.
+/// A scalar parameter of 2 words: the index of a texture, or NONE and the value.
 ///
 /// Twin: specula-render/src/texture/mod.rs, Textures::float.
 fn parameter_float(at: u32, place: TextureCoordinates) -> f32 {
@@ -51,7 +50,7 @@ fn parameter_float(at: u32, place: TextureCoordinates) -> f32 {
     return texture_float(word(at), place);
 }
 
-/// The colour of a texture; 0 where it is no number.
+/// The colour of a texture; 0 where it is not finite.
 ///
 /// Twin: specula-render/src/texture/mod.rs, Textures::colour.
 fn texture_colour(id: u32, place: TextureCoordinates) -> vec3f {
@@ -66,14 +65,14 @@ fn texture_colour(id: u32, place: TextureCoordinates) -> vec3f {
     );
 }
 
-/// The number that a texture gives; 0 where it is none.
+/// The scalar value of a texture; 0 where it is not finite.
 ///
 /// Twin: specula-render/src/texture/mod.rs, Textures::float.
 fn texture_float(id: u32, place: TextureCoordinates) -> f32 {
     return texture_colour(id, place).x;
 }
 
-/// The number, or 0 where its bits are none: comparisons may be compiled as if all values were finite.
+/// The value, or 0 where it is not finite. By the bits: compilers may assume that values are finite.
 ///
 /// Twin: specula-render/src/texture/mod.rs, finite.
 fn texture_graph_finite(v: f32) -> f32 {
@@ -104,7 +103,7 @@ fn texture_graph_value(root: u32, place: TextureCoordinates) -> vec3f {
             continue;
         }
         var value = texture_graph_leaf(at, place);
-        // Nodes that waited for this value alone have theirs; one that needs another input goes on.
+        // Nodes that waited for this value alone are done; one that needs another input continues.
         at = NONE;
         while count > 0u && at == NONE {
             var node = waiting[count - 1u];
@@ -122,7 +121,7 @@ fn texture_graph_value(root: u32, place: TextureCoordinates) -> vec3f {
             }
             at = texture_graph_next(node);
             if node.stage == TEXTURE_FIRST && (node.amount <= 0.0 || node.amount >= 1.0) {
-                // One input shows alone.
+                // One input has all the weight.
                 count -= 1u;
             } else {
                 waiting[count - 1u] = node;
@@ -135,7 +134,7 @@ fn texture_graph_value(root: u32, place: TextureCoordinates) -> vec3f {
     return vec3f(0.0);
 }
 
-/// A node that waits for its inputs, none of which has been evaluated.
+/// A node that waits for its inputs, of which none has been evaluated.
 fn texture_graph_begun(at: u32, place: TextureCoordinates) -> TextureWaiting {
     let kind = word(at);
     if kind == TEXTURE_MIX {
@@ -165,7 +164,7 @@ fn texture_graph_next(node: TextureWaiting) -> u32 {
     return word(node.at + select(1u, 2u, is_second || is_alone));
 }
 
-/// The value of a node with that of its last input.
+/// The value of a node, from that of its last input.
 fn texture_graph_done(node: TextureWaiting, last: vec3f) -> vec3f {
     let kind = word(node.at);
     if kind == TEXTURE_SCALE {
@@ -180,7 +179,7 @@ fn texture_graph_done(node: TextureWaiting, last: vec3f) -> vec3f {
     return texture_graph_mixed(node.first, last, node.amount);
 }
 
-/// Whether a node that shows one of two shows the first.
+/// Whether a node that selects one of two inputs selects the first.
 fn texture_graph_shows_first(at: u32, place: TextureCoordinates) -> bool {
     let kind = word(at);
     if kind == TEXTURE_CHECKERBOARD_SOLID {
@@ -224,7 +223,7 @@ fn texture_graph_leaf(at: u32, place: TextureCoordinates) -> vec3f {
 
 /// The value of a node of noise.
 ///
-/// * `at`: the kind of noise, behind which its values are.
+/// * `at`: offset of the kind of noise, which its parameters follow.
 fn texture_graph_noise(at: u32, place: TextureCoordinates) -> vec3f {
     let p = affine_point(at + 5u, place.position);
     let octaves = word(at + 1u);
@@ -245,9 +244,9 @@ fn texture_graph_noise(at: u32, place: TextureCoordinates) -> vec3f {
     }
 }
 
-/// The value of a picture: its channel, inverted, scaled.
+/// The value of an image texture: a channel, inverted, scaled.
 ///
-/// * `at`: the picture's place within its node.
+/// * `at`: offset of the image within its node.
 ///
 /// Twin: specula-render/src/texture/graph.rs, Textures::picture.
 fn texture_graph_picture(at: u32, place: TextureCoordinates) -> vec3f {
@@ -278,7 +277,7 @@ fn texture_graph_picture(at: u32, place: TextureCoordinates) -> vec3f {
     return c * number(at + 3u);
 }
 
-/// Whether the floors of the coordinates have an even sum.
+/// Whether the sum of the floors of the coordinates is even.
 ///
 /// Twin: specula-render/src/texture/graph.rs, is_even; beyond 2^30 all values are even.
 fn texture_graph_is_even(coordinates: vec3f) -> bool {

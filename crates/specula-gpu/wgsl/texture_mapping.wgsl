@@ -1,4 +1,4 @@
-// From a place on a surface to texture coordinates.
+// Texture mappings: from a point of a surface to texture coordinates.
 //
 // Twin of specula-render/src/texture/mapping.rs.
 
@@ -8,7 +8,7 @@ import tracer::world::{word, number, vector, affine_point};
 
 /// `(s, t)`, with its origin at the lower left of pictures.
 ///
-/// * `at`: the mapping's kind, behind which its values are.
+/// * `at`: offset of the mapping's kind, which its parameters follow.
 ///
 /// Twin: specula-render/src/texture/mapping.rs, Mapping::at. Departure: angles by `angles_turns`,
 /// within 1e-7 of a turn; the CPU's are those of its `atan2`.

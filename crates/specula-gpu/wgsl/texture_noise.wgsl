@@ -37,7 +37,7 @@ fn texture_noise(p: vec3f) -> f32 {
     return texture_noise_between(w.z, planes.x, planes.y);
 }
 
-/// The plane of a corner's gradient.
+/// The linear function of a corner's gradient.
 fn texture_noise_corner(cell: vec3u, d: vec3f, corner: vec3u) -> f32 {
     return texture_noise_gradient(texture_noise_hash(cell + corner), d - vec3f(corner));
 }
@@ -71,7 +71,7 @@ fn texture_noise_fbm(p: vec3f, roughness: f32, octaves: u32) -> f32 {
     return texture_noise_sum(p, roughness, octaves, false).x;
 }
 
-/// The same of absolute values; the mean of the octaves left out stands for them, as in pbrt.
+/// The same of absolute values; octaves that are left out are replaced by their mean, as in pbrt.
 ///
 /// Twin: specula-render/src/texture/noise.rs, turbulence.
 fn texture_noise_turbulence(p: vec3f, roughness: f32, octaves: u32) -> f32 {
@@ -122,8 +122,8 @@ fn texture_noise_marble(p: vec3f, variation: f32, roughness: f32, octaves: u32) 
     return colour * 1.5;
 }
 
-/// The sine of an angle in radians: whole turns are taken away in two parts, the first of which has
-/// few digits, so that its multiples are exact.
+/// The sine of an angle in radians. Whole turns are subtracted in two parts, of which the first has few digits, so
+/// that its multiples are exact.
 fn texture_noise_sine(angle_rad: f32) -> f32 {
     let turns = round(angle_rad * 0.15915494);
     let rest = (angle_rad - turns * 6.28125) - turns * 0.0019353072;
@@ -136,7 +136,7 @@ fn texture_noise_sine(angle_rad: f32) -> f32 {
 fn texture_noise_in_dot(at: vec2f) -> bool {
     let radius = 0.35;
     let cell = floor(at + 0.5);
-    // One call in a loop: the noise is long.
+    // One call in a loop, since the code of noise is long.
     var values = vec3f(0.0);
     for (var i = 0u; i < 3u; i++) {
         let shift = select(select(vec2f(0.5), vec2f(1.5, 2.8), i == 1u), vec2f(4.5, 9.8), i == 2u);

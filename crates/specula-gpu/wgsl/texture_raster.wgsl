@@ -1,14 +1,14 @@
-// Pictures, looked up.
+// Image textures: pixels in memory and their interpolation.
 //
-// Twin of specula-render/src/texture/raster.rs. Coordinates are finite here: nothing that shaders
-// compute leads to others.
+// Twin of specula-render/src/texture/raster.rs. Departure: coordinates are taken to be finite, since shaders compute
+// no others.
 
 import tracer::world::{word, number, vector};
 
-/// Pixel values stay within this: conversions of larger values differ between devices.
+/// Largest pixel index: conversions of larger values to integers differ between devices.
 const TEXTURE_RASTER_FARTHEST: f32 = 1073741824.0;
 
-/// The value at `(s, t)`; t = 0 is the lower edge of the picture.
+/// The value at `(s, t)`, between pixels by bilinear interpolation; t = 0 is the lower edge of the picture.
 ///
 /// * `at`: the raster: width, height, whether it is of bytes, then its pixels.
 /// * `wrap`: along s and t.
@@ -37,7 +37,7 @@ fn texture_raster_at(at: u32, coordinates: vec2f, wrap: vec2u, nearest: bool) ->
     return sum;
 }
 
-/// Values of the pixel around a point.
+/// Column and row of the pixel that a point lies in.
 ///
 /// Twin: specula-render/src/convert.rs, floor_i32; far outside it saturates earlier.
 fn texture_raster_floor(place: vec2f) -> vec2i {
@@ -67,7 +67,7 @@ fn texture_raster_pixel(at: u32, size: vec2i, pixel: vec2i, wrap: vec2u) -> vec3
     );
 }
 
-/// Coordinates that repeat are reduced first: pixel values stay small and exact.
+/// Coordinates that repeat are reduced first, so that pixel indices stay small and exact.
 ///
 /// Twin: specula-render/src/texture/raster.rs, reduced.
 fn texture_raster_reduced(s: f32, wrap: u32) -> f32 {
@@ -80,7 +80,7 @@ fn texture_raster_reduced(s: f32, wrap: u32) -> f32 {
     return s;
 }
 
-/// A number of `0..size`; -1 where the picture is black.
+/// The index of a pixel, wrapped to `0..size`; -1 where the picture is black.
 ///
 /// Twin: specula-render/src/texture/raster.rs, wrapped.
 fn texture_raster_wrapped(x: i32, size: i32, wrap: u32) -> i32 {

@@ -1,9 +1,8 @@
 // Shapes whose emission varies over them, by textures or by opacity.
 //
-// Words of one: instance, primitive, whether the area's second and third corner are the primitive's third
-// and second, cells along the sides of the table by which points are sampled (0: uniformly), the table's
-// rows and columns (piecewise.wgsl), the shape (area.wgsl). Radiance and opacity are those of the
-// surface's shape.
+// Layout of a record, in words: instance, primitive, whether the area's second and third corner are the primitive's
+// third and second, cells along the sides of the table by which points are sampled (0: uniformly), the table's rows
+// and columns (piecewise.wgsl), the shape (area.wgsl). Radiance and opacity are those of the surface's shape.
 //
 // Twin of specula-render/src/light/textured.rs.
 
@@ -16,15 +15,15 @@ import tracer::texture_coordinates::{TextureCoordinates};
 import tracer::world::{word};
 
 
-/// A point of a light, and the radiance that it sends to either side.
+/// A sampled point of a light, and its radiance.
 struct TexturedSample {
-    /// The point; no sample where its density is 0.
+    /// The point; there is no sample where its density is 0.
     area: AreaSample,
-    /// From there.
+    /// Emitted there.
     radiance: vec3f,
 }
 
-/// A point of the light at `at` as seen from `p`.
+/// Samples a point of the light at `at`, as seen from `p`.
 ///
 /// * `u`: uniform in `[0, 1)^2`.
 ///
@@ -40,7 +39,7 @@ fn textured_sample(at: u32, p: vec3f, u: vec2f) -> TexturedSample {
     var sampled = TexturedSample(area_sample(at + TEXTURED_AREA, p, uv), vec3f(0.0));
     sampled.area.pdf *= density;
     let weights = textured_swapped(at, area_triangle(uv));
-    // Quadrics project the ray's end, triangles take the weights.
+    // Of quadrics `surface_at` projects the ray's end; of triangles it takes the weights.
     let ray = Ray(sampled.area.position, vec3f(0.0), 0.0);
     let hit = Hit(0.0, weights.x, weights.y, word(at + 1u), word(at));
     sampled.radiance = textured_radiance(surface_at(ray, hit));
@@ -54,7 +53,7 @@ fn textured_sample(at: u32, p: vec3f, u: vec2f) -> TexturedSample {
 /// light at `at`.
 ///
 /// * `normal`: of the surface there.
-/// * `weights`: of the primitive's second and third corner.
+/// * `weights`: barycentric, of the primitive's second and third corner.
 ///
 /// Twin: specula-render/src/light/textured.rs, Textured::pdf.
 fn textured_pdf(at: u32, p: vec3f, position: vec3f, normal: vec3f, weights: vec2f) -> f32 {
@@ -67,7 +66,7 @@ fn textured_pdf(at: u32, p: vec3f, position: vec3f, normal: vec3f, weights: vec2
     return pdf * piecewise_density(word(at + 4u), word(at + 5u), cells, uv);
 }
 
-/// What a point of a shape sends out; what is cut out sends nothing.
+/// Emitted radiance at a point of a shape, times its opacity.
 ///
 /// Twin: specula-render/src/light/textured.rs, Varying::radiance.
 fn textured_radiance(s: Surface) -> vec3f {
@@ -77,7 +76,7 @@ fn textured_radiance(s: Surface) -> vec3f {
     return radiance * clamp(parameter_float(shape + 7u, place), 0.0, 1.0);
 }
 
-/// Weights of the area's corners from those of the primitive, and back.
+/// Barycentric weights of the area from those of the primitive, and back.
 fn textured_swapped(at: u32, weights: vec2f) -> vec2f {
     return select(weights, weights.yx, word(at + 2u) != 0u);
 }

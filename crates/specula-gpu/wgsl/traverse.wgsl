@@ -1,23 +1,24 @@
-// Rays through the trees: 8-wide nodes over packets of 8 triangles, spheres, disks and placements.
+// Traversal of the bounding volume hierarchies: 8-wide nodes over packets of 8 triangles, spheres, disks and
+// instances.
 //
 // Twin of specula-render/src/accel/{traverse,frame,triangle,instances}.rs: the same boxes, the
 // same watertight test of triangles (Woop, Benthin and Wald 2013), the same rule for ties. Departures:
-// placements in f32, where the CPU computes in f64; directions along an axis get a tiny component
-// instead of an infinite reciprocal, which shaders may not count on. Where rays are cast by the adapter's
-// queries, query.wgsl stands in this module's place.
+// transforms of instances in f32, where the CPU computes in f64; directions along an axis get a tiny component
+// instead of an infinite reciprocal, which shaders may not count on. Where the adapter's ray queries cast rays,
+// query.wgsl replaces this module.
 
 import tracer::world::{word, affine_point, affine_vector};
 import tracer::ray::{Ray, Hit};
 import tracer::quadric::{quadric_distance};
 
-/// A ray prepared for boxes and triangles.
+/// A ray, prepared for the tests of boxes and triangles.
 ///
 /// Twin: specula-render/src/accel/frame.rs, RayFrame.
 struct RayFrame {
     origin: vec3f,
     direction: vec3f,
     scale: vec3f,
-    // Rows of the nodes' boxes that the ray meets first.
+    // Which bounds of boxes the ray reaches first: indices of the rows of nodes.
     near: vec3u,
     // The two lesser axes, and the one in which the direction is greatest.
     axes: vec3u,
@@ -28,9 +29,9 @@ struct RayFrame {
 ///
 /// Twin: specula-render/src/accel/frame.rs, SLACK.
 const TRAVERSE_SLACK: f32 = 1.00000095367431640625;
-/// Marks where rays leave a placed group, on the stack.
+/// On the stack: the ray leaves an instance.
 const TRAVERSE_LEAVE: u32 = 0xffffffffu;
-/// Least size of a component of a direction in the test of boxes.
+/// Least absolute value of a direction's component in the test of boxes.
 const TRAVERSE_LEAST: f32 = 1.0e-30;
 
 /// Prepares a ray.
@@ -77,10 +78,10 @@ fn traverse_box(base: u32, lane: u32, frame: RayFrame, end: f32) -> f32 {
     return select(-1.0, first, first <= last);
 }
 
-/// Keeps a hit where it is nearer than what was found, or as near and of a smaller number.
+/// Replaces the nearest hit so far by one that is nearer, or as near and of a smaller index.
 fn traverse_offer(best: ptr<function, Hit>, t: f32, u: f32, v: f32, primitive: u32, instance: u32) {
-    let found = (*best).instance != NONE;
-    let tied = t == (*best).t && found
+    let is_hit = (*best).instance != NONE;
+    let tied = t == (*best).t && is_hit
         && (instance < (*best).instance
             || (instance == (*best).instance && primitive < (*best).primitive));
     if t < (*best).t || tied {
@@ -97,7 +98,7 @@ fn traverse_vertex(base: u32, lane: u32, corner: u32, frame: RayFrame) -> vec3f 
     return vec3f(x - frame.shear.x * z, y - frame.shear.y * z, z);
 }
 
-/// Tries the triangles of a packet.
+/// Intersects the triangles of a packet.
 fn traverse_packet(index: u32, frame: RayFrame, instance: u32, best: ptr<function, Hit>) {
     let base = index * 80u;
     for (var lane = 0u; lane < 8u; lane += 1u) {
@@ -122,7 +123,7 @@ fn traverse_packet(index: u32, frame: RayFrame, instance: u32, best: ptr<functio
     }
 }
 
-/// The first surface that a ray meets; any surface where `any` is set.
+/// The first hit of a ray; any hit where `any` is set.
 ///
 /// Twin: specula-render/src/accel/traverse.rs, cast.
 fn traverse(ray: Ray, any: bool) -> Hit {
@@ -193,7 +194,7 @@ fn traverse(ray: Ray, any: bool) -> Hit {
     return best;
 }
 
-/// Whether anything is in a ray's way.
+/// Whether anything occludes a ray.
 fn traverse_occluded(ray: Ray) -> bool {
     return traverse(ray, true).instance != NONE;
 }

@@ -1,5 +1,4 @@
-// What rays pass on their way: cut-outs, hidden lights, and boundaries without surface, between which
-// media absorb.
+// Rays through cut-outs, hidden lights, and boundaries of media that have no surface.
 //
 // Twin of specula-render/src/integrator/visibility.rs.
 
@@ -14,27 +13,28 @@ import tracer::texture_graph::{parameter_float, parameter_colour};
 import tracer::lights::{LightSample};
 
 /// The ray ends at the surface.
-const VISIBILITY_STOPS: u32 = 0u;
-/// The surface is not there.
-const VISIBILITY_PASSES: u32 = 1u;
-/// The surface bounds what absorbs, and nothing else.
-const VISIBILITY_CROSSES: u32 = 2u;
+const VISIBILITY_BLOCKED: u32 = 0u;
+/// The ray passes as if nothing were there.
+const VISIBILITY_FREE: u32 = 1u;
+/// The ray passes from one medium into another.
+const VISIBILITY_BOUNDARY: u32 = 2u;
 
-/// The first surface that does not let a ray pass, if there is one.
-struct Met {
-    found: bool,
+/// The first surface that blocks a ray, if there is one.
+struct VisibilityHit {
+    is_hit: bool,
     surface: Surface,
-    // What is left of what the ray carries.
-    left: vec3f,
+    // Of the media on the way.
+    transmittance: vec3f,
+    // How many rays were traced.
     rays: u32,
 }
 
-/// The surface as textures see it.
+/// The surface as textures take it.
 fn visibility_place(s: Surface) -> TextureCoordinates {
     return TextureCoordinates(s.uv, s.second_uv, s.position, s.ng, s.colour);
 }
 
-/// Light that a surface sends out itself; black where it sends none out there.
+/// Emitted radiance of a surface; black on a side that does not emit.
 ///
 /// Twin: specula-render/src/integrator.rs, PathTracer::emission.
 fn visibility_radiance(s: Surface, direction: vec3f) -> vec3f {
@@ -46,84 +46,89 @@ fn visibility_radiance(s: Surface, direction: vec3f) -> vec3f {
     return max(parameter_colour(shape + 3u, visibility_place(s)), vec3f(0.0));
 }
 
-/// What a surface does with a ray, by chance where it is partly transparent.
+/// What a surface does to a ray: by chance where it is partly transparent.
 ///
 /// Twin: specula-render/src/integrator/visibility.rs, PathTracer::passage.
-fn visibility_meeting(surface: Surface, s: Sequence, key: vec3u) -> u32 {
+fn visibility_passage(surface: Surface, s: Sequence, key: vec3u) -> u32 {
     let shape = SHAPES + surface.shape * SHAPE_SIZE;
     let alpha = parameter_float(shape + 7u, visibility_place(surface));
     if !(alpha >= 1.0 || sequence_hashed(s, key) < alpha) {
-        return VISIBILITY_PASSES;
+        return VISIBILITY_FREE;
     }
-    return select(VISIBILITY_STOPS, VISIBILITY_CROSSES, word(shape + 9u) != 0u);
+    return select(VISIBILITY_BLOCKED, VISIBILITY_BOUNDARY, word(shape + 9u) != 0u);
 }
 
-/// Passes a surface: what the path is in changes where that bounds a body.
+/// Updates the media where a path passes a surface that bounds one.
+///
+/// Twin: specula-render/src/integrator/visibility.rs, PathTracer::cross.
 fn visibility_cross(media: ptr<function, MediumStack>, surface: Surface, direction: vec3f) {
     let material = word(SHAPES + surface.shape * SHAPE_SIZE);
     medium_stack_cross(media, material, dot(surface.ng, direction) < 0.0);
 }
 
-/// The first surface that does not let the ray pass, and what is absorbed on the way to it. Hidden lights
-/// let the camera's rays pass until these have met something else.
+/// The first surface that blocks the ray, and the transmittance of the media on the way. Hidden lights let camera
+/// rays pass until these have hit something else.
 ///
-/// * `ray`: the one that meets it, when this returns.
+/// * `ray`: on return, the ray that hits the surface.
 ///
 /// Twin: specula-render/src/integrator/visibility.rs, PathTracer::intersect.
-fn visibility_nearest(
+fn visibility_intersect(
     ray: ptr<function, Ray>,
     media: ptr<function, MediumStack>,
     s: Sequence,
     depth: u32,
-) -> Met {
-    var met: Met;
-    met.left = vec3f(1.0);
+) -> VisibilityHit {
+    var first: VisibilityHit;
+    first.transmittance = vec3f(1.0);
     var begin = (*ray).origin;
     var hidden = HIDES_EMITTERS != 0u && depth == 0u;
     for (var pass_ = 0u; pass_ < MOST_PASSES; pass_ += 1u) {
-        met.rays += 1u;
+        first.rays += 1u;
         let hit = traverse(*ray, false);
         if hit.instance == NONE {
-            return met;
+            return first;
         }
-        met.surface = surface_at(*ray, hit);
-        hidden = hidden && met.surface.light != NONE;
-        var meeting = VISIBILITY_STOPS;
+        first.surface = surface_at(*ray, hit);
+        hidden = hidden && first.surface.light != NONE;
+        var passage = VISIBILITY_BLOCKED;
         if hidden {
-            meeting = VISIBILITY_PASSES;
+            passage = VISIBILITY_FREE;
         } else if HAS_PASSABLE != 0u {
-            meeting = visibility_meeting(met.surface, s, vec3u(depth, pass_, 1u));
+            passage = visibility_passage(first.surface, s, vec3u(depth, pass_, 1u));
         }
-        if HAS_BOUNDARIES != 0u && meeting != VISIBILITY_PASSES {
-            let distance = length(met.surface.position - begin);
-            met.left *= medium_stack_transmittance((*media).absorption, distance);
+        if HAS_BOUNDARIES != 0u && passage != VISIBILITY_FREE {
+            let distance = length(first.surface.position - begin);
+            first.transmittance *= medium_stack_transmittance((*media).absorption, distance);
         }
-        if meeting == VISIBILITY_STOPS {
-            met.found = true;
-            return met;
+        if passage == VISIBILITY_BLOCKED {
+            first.is_hit = true;
+            return first;
         }
         let direction = (*ray).direction;
-        if meeting == VISIBILITY_CROSSES {
-            visibility_cross(media, met.surface, direction);
-            begin = met.surface.position;
+        if passage == VISIBILITY_BOUNDARY {
+            visibility_cross(media, first.surface, direction);
+            begin = first.surface.position;
         }
         (*ray).origin = offset_leave(
-            met.surface.position, met.surface.error, met.surface.ng, direction);
+            first.surface.position, first.surface.error, first.surface.ng, direction);
     }
-    return met;
+    return first;
 }
 
-/// What the last body leaves of a light. What sees one at infinity is in none that is closed.
-fn visibility_last_stretch(begin: vec3f, light: LightSample, media: MediumStack) -> vec3f {
+/// Transmittance of the medium in front of the light. A vertex that sees infinity is in no closed medium.
+///
+/// Twin: specula-render/src/integrator/visibility.rs, transmittance_to_light.
+fn visibility_last_segment(begin: vec3f, light: LightSample, media: MediumStack) -> vec3f {
     if HAS_BOUNDARIES == 0u || light.from_infinity != 0u {
         return vec3f(1.0);
     }
     return medium_stack_transmittance(media.absorption, length(light.target_position - begin));
 }
 
-/// What is left of a light's radiance on its way to a surface; zero where something stands between them.
+/// Transmittance from a light to a surface; zero where the light is occluded.
 ///
-/// * `within`: what the surface is in, on the light's side.
+/// * `within`: the media at the surface, on the light's side.
+/// * `rays`: number of rays that were traced, which is added to.
 ///
 /// Twin: specula-render/src/integrator/visibility.rs, PathTracer::transmittance.
 fn visibility_transmittance(
@@ -146,32 +151,32 @@ fn visibility_transmittance(
         if traverse_occluded(ray) {
             return vec3f(0.0);
         }
-        return visibility_last_stretch(surface.position, light, within);
+        return visibility_last_segment(surface.position, light, within);
     }
     var media = within;
     var begin = surface.position;
-    var left = vec3f(1.0);
+    var transmittance = vec3f(1.0);
     for (var pass_ = 0u; pass_ < MOST_PASSES; pass_ += 1u) {
         *rays += 1u;
         let hit = traverse(ray, false);
         if hit.instance == NONE {
-            return left * visibility_last_stretch(begin, light, media);
+            return transmittance * visibility_last_segment(begin, light, media);
         }
         let there = surface_at(ray, hit);
-        let meeting = visibility_meeting(there, s, vec3u(depth, pass_, 2u));
-        if meeting == VISIBILITY_STOPS {
+        let passage = visibility_passage(there, s, vec3u(depth, pass_, 2u));
+        if passage == VISIBILITY_BLOCKED {
             return vec3f(0.0);
         }
-        if meeting == VISIBILITY_CROSSES {
+        if passage == VISIBILITY_BOUNDARY {
             let distance = length(there.position - begin);
-            left *= medium_stack_transmittance(media.absorption, distance);
+            transmittance *= medium_stack_transmittance(media.absorption, distance);
             visibility_cross(&media, there, ray.direction);
             begin = there.position;
         }
         ray.origin = offset_leave(there.position, there.error, there.ng, ray.direction);
         ray.t_max -= hit.t;
         if ray.t_max <= 0.0 {
-            return left * visibility_last_stretch(begin, light, media);
+            return transmittance * visibility_last_segment(begin, light, media);
         }
     }
     return vec3f(0.0);

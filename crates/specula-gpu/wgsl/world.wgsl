@@ -1,6 +1,6 @@
-// The scene on the device: nodes and packets of its trees, and all else as words.
+// The scene on the device: nodes and packets of its bounding volume hierarchies, and all else as words of 32 bits.
 //
-// Places of the parts are constants made for each scene by `specula-render/src/flat` (SHAPES,
+// Offsets of the parts are constants made for each scene by `specula-render/src/flat` (SHAPES,
 // MATERIALS, LIGHTS, ...), written in front of the composed shader; so are the codes of
 // specula-render/src/codes.rs (NONE, LIGHTS_AREA, TEXTURE_MIX, ...).
 //
@@ -13,20 +13,20 @@
 /// Everything else.
 @group(0) @binding(3) var<storage, read> world_words: array<u32>;
 
-/// Larger than any distance within reach, which is bounded by 1e15 along each axis.
+/// Larger than any distance within a scene, which is bounded by 1e15 along each axis.
 const FARTHEST: f32 = 3.0e38;
 
-/// The word at a place.
+/// The word at an offset.
 fn word(at: u32) -> u32 {
     return world_words[at];
 }
 
-/// The number at a place.
+/// The float at an offset.
 fn number(at: u32) -> f32 {
     return bitcast<f32>(world_words[at]);
 }
 
-/// Three values from a place on.
+/// The vector of three floats at an offset.
 fn vector(at: u32) -> vec3f {
     return vec3f(number(at), number(at + 1u), number(at + 2u));
 }
@@ -45,7 +45,7 @@ fn affine_point(at: u32, p: vec3f) -> vec3f {
     return affine_vector(at, p) + vector(at + 9u);
 }
 
-/// Magnitudes that are summed in `affine_point`.
+/// Sums of the absolute values of the terms that `affine_point` sums.
 ///
 /// Twin: specula-render/src/convert.rs, Affine::magnitude.
 fn affine_magnitude(at: u32, p: vec3f) -> vec3f {
@@ -60,7 +60,7 @@ fn offset_coupled(magnitude: vec3f) -> vec3f {
     return vec3f(max(magnitude.x, max(magnitude.y, magnitude.z)) * RELATIVE_ERROR);
 }
 
-/// `p + d`, moved on by an ulp or two where rounding may have kept it.
+/// `p + d`, moved an ulp or two further, since rounding may have left it at `p`.
 ///
 /// Twin: specula-render/src/offset.rs, away.
 fn offset_away(p: vec3f, d: vec3f) -> vec3f {
@@ -69,7 +69,7 @@ fn offset_away(p: vec3f, d: vec3f) -> vec3f {
     return moved + select(further, -further, d < vec3f(0.0));
 }
 
-/// The origin of a ray that leaves `p` towards `direction`: outside the box of the point's error.
+/// The origin of a ray that leaves `p` towards `direction`: outside of the box of the point's error.
 ///
 /// * `normal`: unit geometric normal, either side.
 ///

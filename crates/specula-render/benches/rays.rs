@@ -87,13 +87,13 @@ fn main() {
 
 type Trace<'a> = Box<dyn Fn(&[Ray]) -> usize + 'a>;
 
-/// A way to trace rays; its functions return how many hit.
+/// An implementation of ray casting; its functions return how many hit.
 pub(crate) struct Tracer<'a> {
     /// What to call it.
     pub(crate) name: &'a str,
-    /// Finds the closest hits.
+    /// Computes the closest hits.
     pub(crate) closest: Trace<'a>,
-    /// Finds whether there is any hit.
+    /// Tests for any hit.
     pub(crate) any: Trace<'a>,
 }
 

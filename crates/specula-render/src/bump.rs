@@ -22,7 +22,7 @@ pub(crate) const STEP: f32 = 0.0005;
 /// with `n0` the normal before it was bent to `n`.
 ///
 /// Source: Conty Estevez, Lecocq and Stein 2019, "A Microfacet-Based Shadowing Function to Solve
-/// the BumpSample Terminator Problem".
+/// the Bump Terminator Problem".
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Softness {
     /// The normal before it was bent, unit.

@@ -82,7 +82,7 @@ shared_constants! {
     TEXTURE_NOISE = 3;
     /// The colour of the mesh.
     TEXTURE_VERTEX_COLOUR = 4;
-    /// Kind of a node that shows one of two inputs, and the first of these: checks.
+    /// Kind of a node that selects one of two inputs, and the first of these: checks.
     TEXTURE_CHECKERBOARD = 5;
     /// Checks in three dimensions.
     TEXTURE_CHECKERBOARD_SOLID = 6;
@@ -92,7 +92,7 @@ shared_constants! {
     TEXTURE_SCALE = 8;
     /// A sum.
     TEXTURE_SUM = 9;
-    /// Interpolation by a number.
+    /// Interpolation by a scalar.
     TEXTURE_MIX = 10;
     /// 1 from a bound on.
     TEXTURE_THRESHOLD = 11;

@@ -25,7 +25,7 @@ pub struct Run {
     pub first: u32,
     /// How many, at most 64.
     pub count: u32,
-    /// The pixel's place in the tile.
+    /// Index of the pixel in the tile.
     place: usize,
 }
 
@@ -101,7 +101,7 @@ impl Renderer<'_> {
         Ok(self.report(done, None, complete))
     }
 
-    /// What tiles need next, of so many samples together, a tile at least.
+    /// The samples that tiles need next: so many together, one tile at least.
     ///
     /// * `goals`: samples that they are to have.
     fn wanted(&self, goals: &[u32], most: usize) -> Vec<Wanted> {
@@ -127,7 +127,7 @@ impl Renderer<'_> {
         wanted
     }
 
-    /// Adds what a device contributed.
+    /// Adds the sums of a device.
     fn add(&mut self, wanted: &[Wanted], sums: &[RunSums]) -> Done {
         let (mut done, mut invalid) = (Done::default(), None);
         let mut sums = sums.iter();

@@ -1,4 +1,4 @@
-//! Flat arrays of everything that rays can hit, and the way back from a hit to its surface.
+//! Flat arrays of everything that rays can hit, and the surface at a hit.
 //!
 //! Shapes of the world are baked into one group in world space; every object that is instanced is
 //! a group of its own. Orientation is baked too: a triangle's winding is such that
@@ -6,7 +6,7 @@
 //! flipped by `ReverseOrientation`, travelling with the shape under mirroring transforms; where the
 //! mesh has vertex normals, the side that they point to. Spheres and disks follow the same rule
 //! (outwards, and +z). pbrt itself turns the hits, though not the light samples, of mirrored
-//! spheres and disks inside out; here they stay as they are.
+//! spheres and disks inside out; Specula does not.
 
 mod bake;
 mod flat;
@@ -24,7 +24,7 @@ use crate::convert::{Affine, id, narrow3, normal_matrix, widen3};
 use crate::texture::Textures;
 use bake::Baker;
 
-pub(crate) use hit::{At, Surface};
+pub(crate) use hit::{PrimitiveLocation, Surface};
 pub(crate) use partials::Partials;
 
 /// No light.
@@ -38,12 +38,12 @@ pub(crate) const FARTHEST: f32 = 1e15;
 #[derive(Clone, Debug)]
 pub(crate) struct ShapeRecord {
     pub(crate) material: u32,
-    /// Black where it sends out nothing.
+    /// Emitted radiance; black where it does not emit.
     pub(crate) radiance: ColourParam,
     pub(crate) two_sided: bool,
     /// Opacity, where it is not 1 everywhere.
     pub(crate) alpha: Option<FloatParam>,
-    /// Whether it bounds what absorbs, and nothing else.
+    /// Whether it is no surface but the boundary of a medium.
     pub(crate) is_interface: bool,
     has_uvs: bool,
 }
@@ -84,15 +84,15 @@ pub(crate) struct GroupData {
     pub(crate) emitters: Vec<u32>,
 }
 
-/// A quadric in its group, with its shape's index.
+/// Memory of a quadric in its group, with its shape's index.
 pub(crate) const BYTES_PER_QUADRIC: u64 =
     (size_of::<PlacedQuadric>() + size_of::<Quadric>() + 8 + size_of::<ShapeRecord>()) as u64;
 
-/// An instance, and what the tree over instances is built from.
+/// Memory of an instance, with its share of the tree over instances.
 pub(crate) const BYTES_PER_INSTANCE: u64 =
     (size_of::<Placement>() + size_of::<Instance>() + 24) as u64;
 
-/// A group's place in the world.
+/// A group, placed in the world: an instance.
 #[derive(Clone, Debug)]
 pub(crate) struct Placement {
     pub(crate) group: u32,
@@ -140,7 +140,7 @@ impl Geometry {
             placements.push(Placement::new(group, to_world));
         }
         let shapes = baker.records;
-        // Rays go straight into a lone group: an empty world group must not stand in the way.
+        // A lone group needs no tree over instances: an empty world group must not make it one of two.
         placements.retain(|p| !groups[p.group as usize].shape_of.is_empty());
         let mut lights = 0;
         for p in &mut placements {
@@ -165,7 +165,7 @@ impl Geometry {
 }
 
 impl Geometry {
-    /// Whether its tree is the one over these groups at these places.
+    /// Whether its acceleration structure is that of these groups and instances.
     fn has_shapes_of(&self, groups: &[GroupData], placements: &[Placement]) -> bool {
         let place = |p: &Placement| (p.group, p.transform);
         self.groups.len() == groups.len()
@@ -178,7 +178,7 @@ impl Geometry {
             })
     }
 
-    /// The group that a hit is in.
+    /// The group of a hit.
     #[inline(always)]
     pub(crate) fn group_of(&self, hit: &Hit) -> &GroupData {
         let placement = &self.placements[hit.instance as usize];
@@ -239,7 +239,7 @@ impl GroupData {
 }
 
 impl PlacedQuadric {
-    /// As the tree knows it.
+    /// The quadric as the acceleration structure takes it.
     fn in_tree(&self) -> Quadric {
         Quadric {
             shape: self.shape,
@@ -279,7 +279,7 @@ pub(crate) fn parallelogram([one, other]: [[Vec3<f32>; 3]; 2]) -> Option<[Vec3<f
     let lone = (0..3).find(|&i| !other.contains(&one[i]))?;
     let [corner, next, last] = [0, 1, 2].map(|i| one[(lone + i) % 3]);
     let opposite = (0..3).find(|&i| other[i] != next && other[i] != last)?;
-    // The other runs along the shared edge the other way round.
+    // The two triangles traverse the shared edge in opposite directions.
     if other[(opposite + 1) % 3] != last || other[(opposite + 2) % 3] != next {
         return None;
     }

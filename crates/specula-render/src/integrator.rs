@@ -1,10 +1,9 @@
 //! Unidirectional path tracing with next-event estimation.
 //!
 //! At every vertex one light is sampled (two at first vertices of rough metal: `candidates`) and one direction.
-//! Both are combined by the power heuristic. The rules are in `estimator`. They are applied in two ways: to
-//! batches of vertices whose materials are constant (`wavefront`, `shade`), and here, the scalar way, to single
-//! vertices with any material. Single vertices bring textures, bump maps, mixtures, cut-outs and media with
-//! them; the estimator is the same.
+//! Both are combined by the power heuristic. The rules are in `estimator`. `wavefront` and `shade` apply them to batches
+//! of vertices whose materials are constant. This module applies them to single vertices with any material: textures,
+//! bump maps, mixtures, cut-outs and media.
 //!
 //! Both normals of a vertex face the viewer. A direction whose sides of the two differ carries nothing, so that
 //! light does not leak. Lobes answer for views below the shading horizon; perfect mirrors and panes have no
@@ -249,7 +248,7 @@ impl<'a> PathTracer<'a> {
 
     /// Light from infinity on a ray that hits nothing, with its MIS weight.
     ///
-    /// * `previous`: where the ray was sampled; `None` where no light sample could have found it.
+    /// * `previous`: where the ray was sampled; `None` where no light sample could have had its direction.
     #[inline]
     fn background(&self, previous: Option<PreviousVertex>, direction: Vec3<f32>) -> Rgb<f32> {
         let lights = &self.scene.lights;

@@ -101,7 +101,7 @@ mod tests {
         media.absorption().map_or(0.0, |a| a.r)
     }
 
-    /// Crosses `(material, inwards)`, each body absorbing as much as its number says.
+    /// Crosses `(material, inwards)`, each medium absorbing as much as its index says.
     fn along(steps: &[(u32, bool)]) -> Vec<f32> {
         let mut media = MediumStack::NONE;
         let each = steps.iter().map(|&(material, inwards)| {

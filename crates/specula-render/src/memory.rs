@@ -29,11 +29,11 @@ pub struct MemoryEstimate {
     pub scene: u64,
     /// Vertices and triangles in the world.
     pub geometry: u64,
-    /// The tree over them.
+    /// The bounding volume hierarchies over them.
     pub tree: u64,
     /// Pictures of textures.
     pub textures: u64,
-    /// Lights, the tree over them, and pictures of skies.
+    /// Lights, the tree over them, and images of environment lights.
     pub lights: u64,
     /// Sums of samples.
     pub film: u64,
@@ -131,7 +131,7 @@ impl MemoryEstimate {
         for (index, image) in scene.images.iter().enumerate().filter(|(i, _)| used[*i]) {
             // Textures take the pictures over, but for those that lights have as well.
             let size = image.pixels.size();
-            if skies(scene).any(|id| id == index) {
+            if environment_images(scene).any(|id| id == index) {
                 held.add(size);
             }
             self.textures += size;
@@ -180,9 +180,9 @@ impl MemoryEstimate {
         held.add(placed);
         self.geometry += placed;
         let tree = predicted(&sizes, scene.instances.len(), threads);
-        held.add(tree.kept + tree.building);
+        held.add(tree.finished + tree.building);
         held.free(tree.building);
-        self.tree = tree.kept;
+        self.tree = tree.finished;
     }
 
     fn add_lights(&mut self, scene: &Scene, held: &mut Held) {
@@ -193,14 +193,14 @@ impl MemoryEstimate {
             .map(|s| mesh_of(s).map_or(1, |m| scene.meshes[m].triangles.len()))
             .sum();
         self.lights = BYTES_PER_EMITTER * emitters as u64;
-        for id in skies(scene) {
+        for id in environment_images(scene) {
             self.lights += BYTES_PER_FAR_PIXEL * pixels(&scene.images[id]);
         }
         held.add(self.lights);
     }
 }
 
-/// What is held, and what was at most.
+/// Bytes that are allocated, and the most that were.
 struct Held {
     now: u64,
     peak: u64,
@@ -236,7 +236,7 @@ fn pixels(image: &specula_scene::Image) -> u64 {
 }
 
 /// Pictures of infinite lights.
-fn skies(scene: &Scene) -> impl Iterator<Item = usize> {
+fn environment_images(scene: &Scene) -> impl Iterator<Item = usize> {
     scene.lights.iter().filter_map(|light| match light {
         Light::Infinite { image, .. } => image.map(|(id, _)| id.0),
         _ => None,

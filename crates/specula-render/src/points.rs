@@ -1,12 +1,12 @@
 //! What a prepared scene answers about single points: textures, bump maps, and lights as a point sees them.
 //!
-//! For previews and for whoever renders the scene by other means: shaders are compared with these answers.
+//! For previews and for other renderers of the scene: shaders are compared with these values.
 
 use specula_bsdf::{Rgb, Vec3};
 use specula_scene::scene::{BumpRules, ColourParam, TextureId};
 
 use crate::bump::{self, Softness};
-use crate::geometry::{At, Surface};
+use crate::geometry::{PrimitiveLocation, Surface};
 use crate::light::Receiver;
 use crate::prepared::PreparedScene;
 use crate::texture::TextureCoordinates;
@@ -14,15 +14,15 @@ use crate::texture::TextureCoordinates;
 /// Where a texture is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TexturePoint {
-    /// Coordinates.
+    /// Texture coordinates.
     pub uv: [f32; 2],
-    /// Those of the second set.
+    /// Second texture coordinates.
     pub second_uv: [f32; 2],
     /// Position in the world.
     pub position: [f32; 3],
     /// Geometric normal in the world, unit.
     pub normal: [f32; 3],
-    /// The mesh's colour.
+    /// Vertex colour of the mesh.
     pub colour: [f32; 3],
 }
 
@@ -53,7 +53,7 @@ pub struct PointLighting {
 /// A point of a surface: its primitive, and where it is on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PrimitivePoint {
-    /// Index of the placement, index within its group.
+    /// Index of the instance, index of the primitive within its group.
     pub primitive: [u32; 2],
     /// Barycentric weights of a triangle's second and third vertex.
     pub weights: [f32; 2],
@@ -90,7 +90,7 @@ impl PreparedScene {
         self.textures.colour(parameter, &place).to_array()
     }
 
-    /// The light that `u` leads to; `None` where none reaches the point.
+    /// Samples a light; `None` where no light reaches the point.
     ///
     /// * `u`: uniform in `[0, 1)`: the light by the first and the last, its point by the others.
     #[must_use]
@@ -133,9 +133,9 @@ impl PreparedScene {
             colour: Rgb::WHITE,
             shape: 0,
             light,
-            at: At {
+            at: PrimitiveLocation {
                 weights,
-                ..At::default()
+                ..PrimitiveLocation::default()
             },
         };
         self.lights.pdf_of_surface(&receiver(lit), &surface)
@@ -161,7 +161,7 @@ impl PreparedScene {
     #[must_use]
     pub fn bumped_frame(&self, material: u32, at: &PrimitivePoint) -> [[f32; 3]; 2] {
         let [instance, primitive] = at.primitive;
-        let hit = At {
+        let hit = PrimitiveLocation {
             instance,
             primitive,
             weights: at.weights,

@@ -1,10 +1,10 @@
-//! An array of words: numbers, indices and vectors one after the other.
+//! An array of 32-bit words for shaders: floats, indices and vectors one after the other.
 
 use specula_bsdf::{Rgb, Vec3};
 
 use crate::convert::{Affine, id};
 
-/// Words that a shader reads by their place; `f32` as its bits.
+/// Words that a shader reads by their offsets, `f32` as its bits, and named constants.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Words {
     words: Vec<u32>,
@@ -13,12 +13,12 @@ pub(crate) struct Words {
 }
 
 impl Words {
-    /// The place of the next word.
+    /// The offset of the next word.
     pub(crate) fn place(&self) -> u32 {
         id(self.words.len())
     }
 
-    /// Names the place of the next word for shaders.
+    /// Adds a constant: the offset of the next word.
     pub(crate) fn begin(&mut self, name: &'static str) {
         let place = self.place();
         self.constant(name, place);
@@ -27,7 +27,7 @@ impl Words {
     /// Checks that the next word is a record's field at `offset`, as [`crate::layout`] tells shaders. At the record's
     /// end, `offset` is its size.
     ///
-    /// * `record`: place of its first word.
+    /// * `record`: offset of its first word.
     ///
     /// # Panics
     ///
@@ -37,12 +37,12 @@ impl Words {
         debug_assert_eq!(self.place() - record, offset, "layout of a record");
     }
 
-    /// Names an index, a count or a code for shaders.
+    /// Adds a constant: an index, a count or a code.
     pub(crate) fn constant(&mut self, name: &'static str, value: u32) {
         self.constants.push((name, value));
     }
 
-    /// Names a number for shaders.
+    /// Adds a constant: a float.
     pub(crate) fn float_constant(&mut self, name: &'static str, value: f32) {
         self.floats.push((name, value));
     }
@@ -63,8 +63,8 @@ impl Words {
         self.words.push(x.to_bits());
     }
 
-    pub(crate) fn floats(&mut self, numbers: impl IntoIterator<Item = f32>) {
-        self.words.extend(numbers.into_iter().map(f32::to_bits));
+    pub(crate) fn floats(&mut self, values: impl IntoIterator<Item = f32>) {
+        self.words.extend(values.into_iter().map(f32::to_bits));
     }
 
     pub(crate) fn vector(&mut self, v: Vec3<f32>) {
@@ -83,11 +83,11 @@ impl Words {
         self.vector(m.translation);
     }
 
-    /// The words, and what is named: places, counts and codes, then numbers.
+    /// The words, and the constants: offsets, counts and codes, then floats.
     pub(crate) fn finish(self) -> (Vec<u32>, Constants) {
         (self.words, (self.constants, self.floats))
     }
 }
 
-/// Values by the names that shaders have for them.
+/// Constants of shaders by name.
 pub(crate) type Constants = (Vec<(&'static str, u32)>, Vec<(&'static str, f32)>);

@@ -68,7 +68,7 @@ fn shadow_rays_pass_interfaces_and_are_dimmed_between_them() {
         * (-f64::from(sigma) * 1.5 * (1.0 + 1.0 / cosine)).exp();
     let picture = render(&point, 64, 1, Strategy::Mis);
     assert_mean("point above", &picture, expected, 1e-3);
-    // A lamp there, found by lobes as well.
+    // A lamp there, hit by directions of lobes as well.
     let lamp = material(&mut scene, diffuse(0.0));
     scene.shapes.push(emitting(sphere(0.5, centre, lamp), 3.0));
     let results = [

@@ -11,7 +11,7 @@ use specula_render::{FilmBuffer, PreparedScene, RenderOptions, Renderer};
 use specula_scene::scene::*;
 
 /// A floor, a ball of clear glass above it, and a small bright lamp, which only paths from the floor through
-/// the glass find: a caustic.
+/// the glass hit: a caustic.
 fn caustic() -> Scene {
     let mut scene = empty(look([0.0, -4.0, 3.0], [0.0, 0.0, 0.3], 45.0), 32);
     let floor = material(&mut scene, diffuse(0.5));
@@ -98,7 +98,7 @@ fn bounds_that_nothing_reaches_change_nothing() {
     }
 }
 
-/// Sample by sample: never more than without, and no more above direct light than every vertex may bring.
+/// Sample by sample: never more than without, and no more above direct light than every vertex may contribute.
 #[test]
 fn clamped_samples_are_bounded() {
     const MOST: f32 = 0.05;
@@ -115,7 +115,7 @@ fn clamped_samples_are_bounded() {
                 clamp: Some(MOST),
                 ..plain.clone()
             };
-            // The same numbers: light of the first surfaces is the same.
+            // The same random numbers: light of the first surfaces is the same.
             let direct = RenderOptions {
                 max_depth: 1,
                 share_paths: 1,
@@ -188,7 +188,7 @@ fn rough_scenes_are_not_regularized() {
     assert!(a != b);
 }
 
-/// What cameras see directly, or by way of mirrors and glass only, stays sharp.
+/// What cameras see directly, or through mirrors and glass only, stays sharp.
 #[test]
 fn what_is_seen_through_glass_is_not_regularized() {
     let mut scene = caustic();
@@ -201,7 +201,7 @@ fn what_is_seen_through_glass_is_not_regularized() {
     assert!(a == b);
 }
 
-/// Lights are found through glass that is rough: much less noise; the light is nearly the same, spread.
+/// Lights are sampled through glass that is rough: much less noise; the light is nearly the same, spread.
 #[test]
 fn regularizing_takes_the_noise_of_caustics() {
     let scene = caustic();

@@ -40,7 +40,7 @@ fn plain(junk: &[[[f32; 3]; 3]]) -> Scene {
 }
 
 const JUNK: [[[f32; 3]; 3]; 7] = [
-    // A point, in view of the camera; lines; the last one is as long as numbers go.
+    // A point, in view of the camera; lines; the last one is as long as `f32` allows.
     [[0.2, 0.1, 0.3]; 3],
     [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [2.0, 2.0, 2.0]],
     [[-1.0, 0.0, 0.5], [1.0, 0.0, 0.5], [0.0, 0.0, 0.5]],
@@ -50,7 +50,7 @@ const JUNK: [[[f32; 3]; 3]; 7] = [
     [[0.0, 0.0, -1e11], [0.0, 0.0, 0.0], [0.0, 0.0, 1e11]],
 ];
 
-/// A render of which nothing is asked but that all of it is numbers.
+/// A render of which nothing is checked but that all of it is finite.
 fn rendered(scene: &Scene) -> Picture {
     let picture = render(scene, 16, 6, Strategy::Mis);
     assert_eq!(picture.non_finite_count(), 0);
@@ -61,7 +61,7 @@ fn rendered(scene: &Scene) -> Picture {
 fn triangles_without_area_change_nothing() {
     let with = rendered(&plain(&JUNK));
     let without = rendered(&plain(&[]));
-    // The third is as thin as a line, but numbers of 32 bits give it an area.
+    // The third is as thin as a line, but floats of 32 bits give it an area.
     assert_eq!(with.colour, without.colour);
     assert_eq!(with.normal, without.normal);
     assert_eq!(with.depth, without.depth);
@@ -193,7 +193,7 @@ fn huge_shapes_are_right_or_refused() {
     }
 }
 
-/// Lights and cameras at the end of the numbers: whatever is seen is a number.
+/// Lights and cameras at the end of the range of `f32`: all values stay finite.
 #[test]
 fn distant_lights_and_cameras_make_no_nan() {
     for far in [1e12, 1e20, 1e30, 1e38] {

@@ -250,7 +250,7 @@ fn an_empty_scene_is_its_sky_and_half_a_veil_is_half_seen() {
     assert_mean("veil", &run(&sky, 1, &[4096], None), 0.375, 0.0);
 }
 
-/// Every one of very many emitting triangles is a light, and its hits find it at once.
+/// Every one of very many emitting triangles is a light, and a hit knows its light at once.
 #[test]
 fn two_hundred_thousand_lights_are_no_obstacle() {
     let mut scene = empty(look([0.0, 0.0, 1.0], [0.0, 0.1, 0.0], 60.0), 8);

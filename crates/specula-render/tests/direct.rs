@@ -13,7 +13,7 @@ use specula_scene::scene::*;
 
 const ALBEDO: f64 = 0.5;
 
-/// Renders by lights, by lobes and by both; all must find `irradiance * albedo / pi`.
+/// Renders by lights, by lobes and by both; all must be `irradiance * albedo / pi`.
 fn check(what: &str, scene: &Scene, irradiance: f64, strategies: &[(Strategy, u32)]) {
     for &(strategy, spp) in strategies {
         let picture = render(scene, spp, 1, strategy);
@@ -211,7 +211,7 @@ fn lights_without_extent_follow_their_laws() {
     }
 }
 
-/// Irradiance on a floor that the sun's disk is wholly above is its own times the cosine; lobes find
+/// Irradiance on a floor that the sun's disk is wholly above is its own times the cosine; lobes hit
 /// it too, and a mirror and the camera see `E / (pi sin^2)`.
 #[test]
 fn suns_light_by_their_irradiance_and_are_seen() {

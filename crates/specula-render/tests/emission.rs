@@ -124,7 +124,7 @@ fn one_bright_pixel_lights_from_where_it_is() {
     }
 }
 
-/// The table of bright cells pays: without it, 1 sample in 42 would find the light.
+/// The table of bright cells pays: without it, 1 sample in 42 would hit the light.
 #[test]
 fn bright_parts_are_sampled_more() {
     let mut values = [0.0_f32; 64];
@@ -179,7 +179,7 @@ fn spheres_and_disks_emit_by_the_place_too() {
     check("half a sphere", &scene, half, &BY_LOBES);
 }
 
-/// A veil of opacity 1/4 that emits: a quarter of its light, whoever finds it, and what is behind
+/// A veil of opacity 1/4 that emits: a quarter of its light, by every strategy, and what is behind
 /// it for the rest.
 #[test]
 fn partly_transparent_lamps_emit_as_much_as_they_are_there() {
@@ -238,7 +238,7 @@ fn a_lamp_shows_its_picture() {
     assert_eq!(found, [2.0, 1.0, 4.0, 3.0]);
 }
 
-/// A quarter of the lamp's picture is not a number and below 0: it is black there.
+/// A quarter of the lamp's picture is NaN and below 0: it is black there.
 #[test]
 fn broken_values_are_black() {
     let mut scene = lit_floor();
@@ -249,7 +249,7 @@ fn broken_values_are_black() {
     assert_mean("broken", &picture, half * ALBEDO / PI, 1e-3);
 }
 
-/// What Mitsuba 3.9.1 shows: shapes that emit let the camera's rays pass until these have met
+/// What Mitsuba 3.9.1 shows: shapes that emit let the camera's rays pass until these have hit
 /// something else, light from infinity is black as long as they went straight, and both still light
 /// what they lit.
 #[test]

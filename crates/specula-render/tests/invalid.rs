@@ -9,7 +9,7 @@ use specula_bsdf::Rgb;
 use specula_render::{PreparedScene, RenderOptions, Renderer};
 use specula_scene::scene::*;
 
-/// A floor under 64 lights as strong as numbers go, of which one stands for all.
+/// A floor under 64 lights as strong as `f32` allows, of which one stands for all.
 #[test]
 fn overflowing_samples_are_counted_and_named() {
     let mut scene = lit_floor();

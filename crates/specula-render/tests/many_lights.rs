@@ -36,7 +36,7 @@ fn a_strong_light_far_away_does_not_hide_a_weak_one_nearby() {
     );
 }
 
-/// Above, next to the horizon, and mostly below it: the weights of what a lobe finds depend on the
+/// Above, next to the horizon, and mostly below it: the weights of lights that a lobe's direction hits depend on the
 /// normal at the vertex before.
 #[test]
 fn strategies_agree_where_the_normal_decides_among_lights() {
@@ -72,7 +72,7 @@ fn lights_of_rough_metal_add_up() {
         let mut scene = floor();
         scene.materials[0].kind = mirror_metal(0.4);
         scene.materials[0].energy = Some(energy.parse().expect("a known name"));
-        // Hidden lights send first vertices the scalar way.
+        // With hidden lights first vertices are shaded singly.
         scene.settings.hide_emitters = hides;
         // In front of the sky, lit or not.
         let mut lamp = sphere(0.7, [-4.0, 0.0, 4.0], MaterialId(0));

@@ -355,13 +355,13 @@ fn layered_materials_agree_by_all_strategies() {
     }
 }
 
-/// A number as a parameter.
+/// A constant parameter.
 type Float<'a> = &'a dyn Fn(f32) -> FloatParam;
 /// A grey as a parameter.
 type Grey<'a> = &'a dyn Fn(f32) -> ColourParam;
 
 /// Every parameter as a texture that is the same everywhere, yet is not folded: what is rendered in
-/// lanes there and one by one here differs by rounding.
+/// batches there and one by one here differs by rounding.
 #[test]
 fn textures_and_values_bind_alike() {
     let textures = RefCell::new(vec![Texture::VertexColour]);

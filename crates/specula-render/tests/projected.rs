@@ -140,14 +140,14 @@ LightSource \"projection\" \"string filename\" \"p.png\" \"float fov\" 50 \"floa
 }
 
 /// A light over the floor at the height 2 that projects `image_projection` downwards, its picture one row of
-/// numbers.
-fn over_floor(numbers: &[f32], image_projection: ImageProjection, turn: DMat4) -> Scene {
+/// values.
+fn over_floor(values: &[f32], image_projection: ImageProjection, turn: DMat4) -> Scene {
     let mut scene = lit_floor();
     scene.images.push(Image {
         name: "row".into(),
-        width: u32::try_from(numbers.len()).unwrap(),
+        width: u32::try_from(values.len()).unwrap(),
         height: 1,
-        pixels: numbers.iter().map(|v| [*v; 3]).collect(),
+        pixels: values.iter().map(|v| [*v; 3]).collect(),
     });
     scene.textures.push(Texture::Image {
         image: ImageId(0),
@@ -188,14 +188,14 @@ fn windows_throw_intensities_and_irradiances() {
     ];
     for (profile, factor) in profiles {
         // Turned about y, the floor's middle is at x = tan(turn) in the window.
-        for (turn, number) in [(tilt, 5.0), (-tilt, 1.0), (0.6, 0.0), (PI, 0.0)] {
+        for (turn, value) in [(tilt, 5.0), (-tilt, 1.0), (0.6, 0.0), (PI, 0.0)] {
             let turned = DMat4::from_rotation_y(-turn);
             let mut scene = over_floor(&[1.0, 5.0], image_projection(profile), turned);
             scene.lights.push(Light::Point {
                 position: [0.0, 0.0, 3.0],
                 intensity: Rgb::splat(0.9),
             });
-            let expected = (number * factor / 4.0 + 0.1) * 0.5 / PI;
+            let expected = (value * factor / 4.0 + 0.1) * 0.5 / PI;
             let what = format!("{profile:?} {turn}");
             assert_mean(
                 &what,
@@ -210,14 +210,14 @@ fn windows_throw_intensities_and_irradiances() {
 /// One bright pixel of many, next to a point light: its light must not be forgotten.
 #[test]
 fn a_lone_bright_pixel_is_projected() {
-    let mut numbers = [0.0; 1024];
-    numbers[513] = 7.0;
+    let mut values = [0.0; 1024];
+    values[513] = 7.0;
     let image_projection = ImageProjection::Window {
         half: [5.0, 0.25],
         profile: Profile::Intensity,
     };
     let turn = (5.0 * (2.0 * 513.5 / 1024.0 - 1.0_f64)).atan();
-    let mut scene = over_floor(&numbers, image_projection, DMat4::from_rotation_y(-turn));
+    let mut scene = over_floor(&values, image_projection, DMat4::from_rotation_y(-turn));
     scene.lights.push(Light::Point {
         position: [0.0, 0.0, 3.0],
         intensity: Rgb::splat(0.9),
@@ -229,14 +229,14 @@ fn a_lone_bright_pixel_is_projected() {
 #[test]
 fn pictures_of_all_directions_reach_all_directions() {
     // s < 1/2 has x < 0 in light space.
-    for (turn, number) in [(0.4, 5.0), (-0.4, 1.0), (2.0, 5.0), (-3.0, 1.0)] {
+    for (turn, value) in [(0.4, 5.0), (-0.4, 1.0), (2.0, 5.0), (-3.0, 1.0)] {
         let scene = over_floor(
             &[1.0, 5.0],
             ImageProjection::Sphere,
             DMat4::from_rotation_y(-turn),
         );
         let picture = render(&scene, 16, 1, Strategy::Mis);
-        assert_mean("sphere", &picture, number / 4.0 * 0.5 / PI, 1e-3);
+        assert_mean("sphere", &picture, value / 4.0 * 0.5 / PI, 1e-3);
     }
 }
 

@@ -20,12 +20,12 @@ const SIGNIFICANCE: f64 = 1e-4;
 
 /// Where a scene of about 4 units is put, and in which unit.
 #[derive(Clone, Copy, Debug)]
-struct TextureCoordinates {
+struct PlaceAndUnit {
     scale: f64,
     shift: [f64; 3],
 }
 
-impl TextureCoordinates {
+impl PlaceAndUnit {
     const HERE: Self = Self {
         scale: 1.0,
         shift: [0.0; 3],
@@ -69,7 +69,7 @@ impl TextureCoordinates {
     }
 
     fn camera(self, from: [f64; 3], to: [f64; 3], fov_deg: f64) -> Camera {
-        // The direction from the scene's own numbers: far away, a difference would be rounded.
+        // The direction from the scene's own values: far away, a difference would be rounded.
         let mut camera = look(from, to, fov_deg);
         camera.to_world = self.rigid(camera.to_world);
         camera
@@ -127,7 +127,7 @@ fn add_mesh(scene: &mut Scene, mesh: Mesh) -> Geometry {
 
 /// Spheres, a disk and meshes, one of them instanced; glass that absorbs, a rough metal; a lamp, a
 /// point light and a little sky, seen through a lens.
-fn still_life(at: TextureCoordinates, size: u32) -> Scene {
+fn still_life(at: PlaceAndUnit, size: u32) -> Scene {
     let mut camera = at.camera([0.3, 1.6, 4.0], [0.0, 0.4, 0.0], 40.0);
     camera.lens_radius = 0.01 * at.scale;
     camera.focal_distance = 4.0 * at.scale;
@@ -197,7 +197,7 @@ fn assert_same(what: &str, picture: &Picture, reference: &Picture) {
             layer.iter().map(value).collect()
         };
         let [a, b] = [picture, reference].map(|p| (of(&p.colour), of(&p.variance)));
-        // A few samples may not have met what is rare.
+        // A few samples may have missed what is rare.
         let floor = b.1.iter().sum::<f64>() / b.1.len() as f64;
         let [va, vb] = [&a.1, &b.1].map(|v| v.iter().map(|x| x.max(floor)).collect::<Vec<_>>());
         let image = |mean, variance| NoisyImage {
@@ -214,16 +214,11 @@ fn assert_same(what: &str, picture: &Picture, reference: &Picture) {
 /// the scene does not have.
 #[test]
 fn pictures_in_other_units_are_equal_bit_for_bit() {
-    let reference = render(
-        &still_life(TextureCoordinates::HERE, 32),
-        16,
-        8,
-        Strategy::Mis,
-    );
+    let reference = render(&still_life(PlaceAndUnit::HERE, 32), 16, 8, Strategy::Mis);
     for exponent in [-40, -20, -1, 7, 20, 40, 48] {
         let scale = 2.0_f64.powi(exponent);
         let picture = render(
-            &still_life(TextureCoordinates::scaled(scale), 32),
+            &still_life(PlaceAndUnit::scaled(scale), 32),
             16,
             8,
             Strategy::Mis,
@@ -246,15 +241,10 @@ fn pictures_in_other_units_are_equal_bit_for_bit() {
 /// Units that round: a millionth and a million.
 #[test]
 fn a_millionth_and_a_million_look_like_one() {
-    let reference = render(
-        &still_life(TextureCoordinates::HERE, 32),
-        256,
-        8,
-        Strategy::Mis,
-    );
+    let reference = render(&still_life(PlaceAndUnit::HERE, 32), 256, 8, Strategy::Mis);
     for scale in [1e-6, 1e6] {
         let picture = render(
-            &still_life(TextureCoordinates::scaled(scale), 32),
+            &still_life(PlaceAndUnit::scaled(scale), 32),
             256,
             8,
             Strategy::Mis,
@@ -264,7 +254,7 @@ fn a_millionth_and_a_million_look_like_one() {
 }
 
 /// A body in a uniform sky, however small or far: acne would darken it.
-fn furnace(at: TextureCoordinates, of_triangles: bool) -> Scene {
+fn furnace(at: PlaceAndUnit, of_triangles: bool) -> Scene {
     let mut scene = empty(at.camera([0.0, 0.0, 4.0], [0.0; 3], 8.0), 16);
     let white = material(&mut scene, diffuse(0.8));
     let place = at.rigid(DMat4::IDENTITY);
@@ -284,9 +274,9 @@ fn furnace(at: TextureCoordinates, of_triangles: bool) -> Scene {
 fn no_surface_shadows_itself() {
     let mut worst = Vec::new();
     let places = [1e-6, 1e-3, 1.0, 1e3, 1e6]
-        .map(TextureCoordinates::scaled)
+        .map(PlaceAndUnit::scaled)
         .into_iter()
-        .chain([1e2, 1e3, 1e4, 1e5].map(TextureCoordinates::moved));
+        .chain([1e2, 1e3, 1e4, 1e5].map(PlaceAndUnit::moved));
     for at in places {
         for of_triangles in [false, true] {
             let picture = render(&furnace(at, of_triangles), 64, 8, Strategy::Mis);
@@ -305,13 +295,13 @@ fn no_surface_shadows_itself() {
 #[test]
 fn no_light_leaks_into_a_closed_box() {
     let places = [1e-6, 1.0, 1e6]
-        .map(TextureCoordinates::scaled)
+        .map(PlaceAndUnit::scaled)
         .into_iter()
-        .chain([1e2, 1e3, 1e4].map(TextureCoordinates::moved));
+        .chain([1e2, 1e3, 1e4].map(PlaceAndUnit::moved));
     for at in places {
         let mut scene = empty(at.camera([0.1, 0.2, 0.7], [-0.9, -1.0, -1.0], 100.0), 24);
         let grey = material(&mut scene, diffuse(0.8));
-        // Corners in common: the faces are watertight where their vertices are the same numbers.
+        // Corners in common: the faces are watertight where their vertices are the same bits.
         let mut mesh = Mesh::default();
         for i in 0..8_u32 {
             let side = |bit: u32| if i >> bit & 1 == 0 { -1.0 } else { 1.0 };
@@ -357,16 +347,11 @@ fn no_light_leaks_into_a_closed_box() {
 /// Far from the origin coordinates are coarse: shapes and the camera move by a step, pictures stay.
 #[test]
 fn far_places_degrade_gracefully() {
-    let reference = render(
-        &still_life(TextureCoordinates::HERE, 32),
-        256,
-        8,
-        Strategy::Mis,
-    );
+    let reference = render(&still_life(PlaceAndUnit::HERE, 32), 256, 8, Strategy::Mis);
     let (expected, _) = mean(&reference);
     for (distance, tolerance) in [(4e1, 0.01), (4e2, 0.01), (4e3, 0.015), (4e4, 0.05)] {
         let picture = render(
-            &still_life(TextureCoordinates::moved(distance), 32),
+            &still_life(PlaceAndUnit::moved(distance), 32),
             256,
             8,
             Strategy::Mis,

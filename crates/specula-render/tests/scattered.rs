@@ -60,9 +60,9 @@ fn a_sampler_rejects_what_lies_below_the_horizon() {
     }
 }
 
-/// Many bounces: in lanes and one by one, counts agree within what chance and rounding do.
+/// Many bounces: in batches and one by one, counts agree within what chance and rounding do.
 #[test]
-fn lanes_count_as_single_vertices_do() {
+fn batches_count_as_single_vertices_do() {
     let mut scene = furnace();
     scene.camera = look([0.0, 0.5, 3.0], [0.0; 3], 40.0);
     let metal = material(&mut scene, mirror_metal(0.6));
@@ -74,13 +74,13 @@ fn lanes_count_as_single_vertices_do() {
         strategy,
         ..RenderOptions::default()
     };
-    let lanes = scattered(&scene, &options(Strategy::Mis), 1);
+    let batches = scattered(&scene, &options(Strategy::Mis), 1);
     let single = scattered(&scene, &options(Strategy::Balance), 1);
-    assert!(lanes.rejected > 3000, "{lanes:?}");
-    let sampled = lanes.sampled as f64 / single.sampled as f64;
-    let rejected = lanes.rejected as f64 / single.rejected as f64;
-    assert!((sampled - 1.0).abs() < 0.02, "{lanes:?}, {single:?}");
-    assert!((rejected - 1.0).abs() < 0.05, "{lanes:?}, {single:?}");
+    assert!(batches.rejected > 3000, "{batches:?}");
+    let sampled = batches.sampled as f64 / single.sampled as f64;
+    let rejected = batches.rejected as f64 / single.rejected as f64;
+    assert!((sampled - 1.0).abs() < 0.02, "{batches:?}, {single:?}");
+    assert!((rejected - 1.0).abs() < 0.05, "{batches:?}, {single:?}");
 }
 
 /// The counts are sums over tiles, whoever renders them, and over passes.

@@ -1,4 +1,4 @@
-//! Paths that share find the same picture, with less noise, however the work is cut.
+//! Path sharing gives the same picture, with less noise, however the work is cut.
 
 mod common;
 

@@ -7,7 +7,7 @@
 
 layout(local_size_x = 64) in;
 
-/// For each sample two vectors: the view (unit, local, z up) with alpha, two uniform numbers in [0, 1).
+/// For each sample two vectors: the view (unit, local, z up) with alpha, two uniform random numbers in [0, 1).
 layout(std430, binding = 1) readonly buffer Requests {
     vec4 requests[];
 };

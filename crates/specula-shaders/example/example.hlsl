@@ -2,7 +2,7 @@
 
 #include "specula.hlsl"
 
-/// For each sample two vectors: the view (unit, local, z up) with alpha, two uniform numbers in [0, 1).
+/// For each sample two vectors: the view (unit, local, z up) with alpha, two uniform random numbers in [0, 1).
 StructuredBuffer<float4> requests : register(t1);
 /// For each sample the direction of the light, and `f cos / pdf`; 0 where it went below the surface.
 RWStructuredBuffer<float4> results : register(u0);

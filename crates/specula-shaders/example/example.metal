@@ -2,9 +2,9 @@
 
 #include "specula.metal"
 
-// requests: for each sample two vectors: the view (unit, local, z up) with alpha, two uniform numbers in
-// [0, 1). results: for each sample the direction of the light, and `f cos / pdf`; 0 where it went below
-// the surface.
+// requests: for each sample two vectors: the view (unit, local, z up) with alpha, two uniform random
+// numbers in [0, 1). results: for each sample the direction of the light, and `f cos / pdf`; 0 where it
+// went below the surface.
 kernel void sample_reflections(device const metal::float4* requests [[buffer(1)]],
                              device metal::float4* results [[buffer(2)]],
                              constant uint& count [[buffer(3)]],

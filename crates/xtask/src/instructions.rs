@@ -1,5 +1,5 @@
 //! `cargo xtask instructions`: how many instructions the kernels take, counted under valgrind and
-//! compared with what is kept. A count, unlike a time, is the same on a loaded machine.
+//! compared with the recorded ones. A count, unlike a time, is the same on a loaded machine.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -8,10 +8,10 @@ use std::process::Command;
 
 use crate::{Result, workspace};
 
-/// The kept counts, from the workspace's root.
-const KEPT: &str = "crates/specula-bsdf/benches/instructions.txt";
+/// The recorded counts, from the workspace's root.
+const RECORDED: &str = "crates/specula-bsdf/benches/instructions.txt";
 
-/// Largest difference from a kept count, as a share of it.
+/// Largest difference from a recorded count, as a share of it.
 const TOLERANCE: f64 = 0.05;
 
 /// Kernels of `benches/instructions.rs`, and the levels to count each at.
@@ -45,7 +45,7 @@ struct Count {
 }
 
 /// Counts, and writes the file or, with `check`, compares with it. Without valgrind, or with another
-/// compiler than the kept counts are of, it says so and passes.
+/// compiler than the recorded counts are of, it says so and passes.
 pub(crate) fn run(root: &Path, check: bool) -> Result<()> {
     if Command::new("valgrind").arg("--version").output().is_err() {
         let remedy = "apt-get install valgrind";
@@ -53,9 +53,9 @@ pub(crate) fn run(root: &Path, check: bool) -> Result<()> {
         return Ok(());
     }
     let compiler = compiler()?;
-    let kept = fs::read_to_string(root.join(KEPT)).unwrap_or_default();
-    if check && header(&kept) != Some(&compiler) {
-        let why = format!("{KEPT} is of another compiler or machine than {compiler}");
+    let recorded = fs::read_to_string(root.join(RECORDED)).unwrap_or_default();
+    if check && header(&recorded) != Some(&compiler) {
+        let why = format!("{RECORDED} is of another compiler or machine than {compiler}");
         specula_testing::skip("instruction counts", why, "cargo xtask instructions");
         return Ok(());
     }
@@ -69,10 +69,10 @@ pub(crate) fn run(root: &Path, check: bool) -> Result<()> {
         }
     }
     if check {
-        return compare(&parse(&kept)?, &counts);
+        return compare(&parse(&recorded)?, &counts);
     }
-    fs::write(root.join(KEPT), text(&compiler, &counts))?;
-    println!("{KEPT}: {} counts written", counts.len());
+    fs::write(root.join(RECORDED), text(&compiler, &counts))?;
+    println!("{RECORDED}: {} counts written", counts.len());
     Ok(())
 }
 
@@ -164,16 +164,16 @@ fn parse(text: &str) -> Result<Vec<Count>> {
                 level: level.to_owned(),
                 instructions: count.parse()?,
             }),
-            _ => Err(format!("{KEPT}: not a kernel, a level and a count: {line}").into()),
+            _ => Err(format!("{RECORDED}: not a kernel, a level and a count: {line}").into()),
         })
         .collect()
 }
 
-/// Fails with every count that is off by more than the tolerance, or not kept.
-fn compare(kept: &[Count], counts: &[Count]) -> Result<()> {
+/// Fails with every count that is off by more than the tolerance, or not recorded.
+fn compare(recorded: &[Count], counts: &[Count]) -> Result<()> {
     let mut off = String::new();
     for c in counts {
-        let old = kept
+        let old = recorded
             .iter()
             .find(|k| (&k.kernel, &k.level) == (&c.kernel, &c.level))
             .map_or(f64::NAN, |k| k.instructions);
@@ -185,12 +185,12 @@ fn compare(kept: &[Count], counts: &[Count]) -> Result<()> {
             c.instructions,
             100.0 * change
         );
-        // A count that is not kept is NaN, and off.
+        // A count that is not recorded is NaN, and off.
         let close = change.abs() <= TOLERANCE;
         if !close {
             let _ = writeln!(
                 off,
-                "{} at {}: {:.1} instructions per element, kept {old:.1}",
+                "{} at {}: {:.1} instructions per element, recorded {old:.1}",
                 c.kernel, c.level, c.instructions
             );
         }

@@ -196,7 +196,7 @@ fn quotient(eta: f64, alpha: f64, mu: f64) -> f64 {
         return 1.0;
     }
     let smooth = dielectric(effective_cosine(mu, alpha), eta).transmittance;
-    ScatterCounts::from(eta, alpha, mu, &[], [64, 32]).transmitted[0] / smooth
+    SingleScattering::from(eta, alpha, mu, &[], [64, 32]).transmitted[0] / smooth
 }
 
 /// Cosines of `crossing` as shares of the smooth one, by thickness.
@@ -206,7 +206,7 @@ fn crossing_cosines(eta: f64, alpha: f64, mu: f64) -> [f64; THICKNESSES] {
     }
     let refracted = dielectric(effective_cosine(mu, alpha), eta).cos_t;
     let thicknesses = thicknesses();
-    let scattered = ScatterCounts::from(eta, alpha, mu, &thicknesses, [64, 32]);
+    let scattered = SingleScattering::from(eta, alpha, mu, &thicknesses, [64, 32]);
     let mut l = 0;
     thicknesses.map(|_| {
         l += 1;
@@ -218,12 +218,12 @@ fn crossing_cosines(eta: f64, alpha: f64, mu: f64) -> [f64; THICKNESSES] {
 ///
 /// `[0]` of each: the share; `[1]`: that times the inverse cosine; from `[2]` on: the share that
 /// crosses each thickness.
-struct ScatterCounts {
+struct SingleScattering {
     reflected: Vec<f64>,
     transmitted: Vec<f64>,
 }
 
-impl ScatterCounts {
+impl SingleScattering {
     /// * `eta`: index beyond the interface over that on the side of `mu`.
     /// * `points`: over the cap's height and over half its azimuths (it is symmetric).
     fn from(eta: f64, alpha: f64, mu: f64, thicknesses: &[f64], points: [u32; 2]) -> Self {
@@ -287,7 +287,7 @@ fn mean_cosine(sums: &[f64], l: usize, thicknesses: &[f64]) -> f64 {
 
 /// What becomes inside of diffuse light from inside.
 struct Internal {
-    /// As [`ScatterCounts`]'s, the inverse cosines of both crossings added.
+    /// As of [`SingleScattering`], the inverse cosines of both crossings added.
     reflected: Vec<f64>,
     thicknesses: Vec<f64>,
 }
@@ -299,7 +299,7 @@ impl Internal {
     }
 }
 
-/// * `points`: cosines on either side of the critical angle, and as [`ScatterCounts::from`].
+/// * `points`: cosines on either side of the critical angle, and as [`SingleScattering::from`].
 fn internal(eta: f64, alpha: f64, thicknesses: &[f64], points: [u32; 3]) -> Internal {
     let critical = (1.0 - 1.0 / (eta * eta)).sqrt();
     let mut sums = vec![0.0; 2 + thicknesses.len()];
@@ -310,7 +310,7 @@ fn internal(eta: f64, alpha: f64, thicknesses: &[f64], points: [u32; 3]) -> Inte
             let mu = low + (high - low) * y * y * y * (10.0 - 15.0 * y + 6.0 * y * y);
             let slope = 30.0 * y * y * (1.0 - y) * (1.0 - y);
             let weight = 2.0 * mu * slope * (high - low) / f64::from(points[0]);
-            let mut once = ScatterCounts {
+            let mut once = SingleScattering {
                 reflected: vec![0.0; 2 + thicknesses.len()],
                 transmitted: vec![],
             };
@@ -319,7 +319,7 @@ fn internal(eta: f64, alpha: f64, thicknesses: &[f64], points: [u32; 3]) -> Inte
                 add(&mut once.reflected, share, mu, thicknesses);
             } else {
                 let points = [points[1], points[2]];
-                once = ScatterCounts::from(1.0 / eta, alpha, mu, thicknesses, points);
+                once = SingleScattering::from(1.0 / eta, alpha, mu, thicknesses, points);
             }
             sums[0] += weight * once.reflected[0];
             sums[1] += weight * (once.reflected[1] + once.reflected[0] / mu);
@@ -374,7 +374,8 @@ mod tests {
             for alpha in ALPHAS {
                 for mu in MUS {
                     let got = interface_single::transmittance(ggx(alpha), eta, mu);
-                    let exact = ScatterCounts::from(eta, alpha, mu, &[], [64, 32]).transmitted[0];
+                    let exact =
+                        SingleScattering::from(eta, alpha, mu, &[], [64, 32]).transmitted[0];
                     entering.push(got - exact, || format!("{eta} {alpha} {mu}: {got} {exact}"));
                 }
                 let got = interface_single::internal_reflectance(ggx(alpha), eta);
@@ -398,7 +399,8 @@ mod tests {
                 for alpha in ALPHAS {
                     for mu in MUS {
                         let got = layer.crossing(ggx(alpha), eta, mu);
-                        let once = ScatterCounts::from(eta, alpha, mu, &[t], [64, 32]).transmitted;
+                        let once =
+                            SingleScattering::from(eta, alpha, mu, &[t], [64, 32]).transmitted;
                         let exact = once[2] / once[0];
                         crossing.push(got - exact, || format!("{eta} {alpha} {mu}: {got} {exact}"));
                     }
@@ -423,8 +425,8 @@ mod tests {
                 let y = (f64::from(i) + 0.5) / f64::from(STEPS);
                 let (mu, weight) = (y * y, 4.0 * y * y * y / f64::from(STEPS));
                 enters +=
-                    weight * ScatterCounts::from(eta, alpha, mu, &[], [64, 32]).transmitted[0];
-                let inside = ScatterCounts::from(1.0 / eta, alpha, mu, &[], [64, 32]);
+                    weight * SingleScattering::from(eta, alpha, mu, &[], [64, 32]).transmitted[0];
+                let inside = SingleScattering::from(1.0 / eta, alpha, mu, &[], [64, 32]);
                 leaves += weight * inside.transmitted[0];
                 assert!(inside.transmitted[0] + inside.reflected[0] < 1.0);
             }

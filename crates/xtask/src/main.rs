@@ -82,7 +82,7 @@ enum Chore {
         #[arg(long, conflicts_with = "fuzz")]
         figure: bool,
     },
-    /// Count the kernels' instructions under valgrind, and keep the counts
+    /// Count the kernels' instructions under valgrind, and record the counts
     Instructions {
         /// Write nothing; fail where a count is off by more than 5 %
         #[arg(long)]

@@ -130,7 +130,7 @@ impl Width for Beckmann<f64> {
 }
 
 /// Mean of `value(wo, wm)` over the normals visible from the cosine `mu`, by Gauss and Legendre's
-/// rule over the warp's two numbers, the second over its half: azimuths are symmetric.
+/// rule over the warp's two random numbers, the second over its half: azimuths are symmetric.
 fn mean<N: Width>(alpha: f64, mu: f64, value: impl Fn(Vec3<f64>, Vec3<f64>) -> f64) -> f64 {
     let ndf = N::of(alpha);
     let wo = vec3((1.0 - mu * mu).max(0.0).sqrt(), 0.0, mu);

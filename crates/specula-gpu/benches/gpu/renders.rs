@@ -187,7 +187,7 @@ fn longest_path(
     Ok((0..SAMPLERS.len()).map(cells).collect())
 }
 
-/// Table 4: samples and rays per second beside the processor's, by both schedules and ways of rays.
+/// Table 4: samples and rays per second beside the processor's, by both schedules, and by traversal and ray queries.
 pub(crate) fn speeds(gpu: &Gpu, effort: &Effort) -> Result<String> {
     let mut rows = vec![row([
         "scene",
@@ -226,7 +226,7 @@ pub(crate) fn speeds(gpu: &Gpu, effort: &Effort) -> Result<String> {
          The scenes of `data/versus`, {0}x{0} pixels, paths as long as they say; rays of \
          cameras, bounces and shadows.\n\
          `paths`: a thread follows a path to its end. `queues`: a thread takes a path to its next vertex, and \
-         paths that go on form a queue (`--gpu-schedule`).\n{queries}{left_out}\
+         paths that continue form a queue (`--gpu-schedule`).\n{queries}{left_out}\
          Medians of {1} rounds.\n\n{2}",
         effort.side,
         effort.render_rounds,
@@ -246,7 +246,7 @@ fn row_of_reason(file: &SceneFile, rays: Rays, reason: &TracerError) -> Vec<Stri
     cells
 }
 
-/// The rows of one scene and way of rays.
+/// The rows of one scene, by traversal or by ray queries.
 fn speed(gpu: &Gpu, effort: &Effort, file: &SceneFile, rays: Rays) -> Result<Vec<Vec<String>>> {
     let scene = file.load()?;
     let options = RenderOptions {

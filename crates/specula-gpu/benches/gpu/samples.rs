@@ -7,22 +7,22 @@ use specula_gpu::{Arrays, ComputeKernel, Gpu};
 
 use crate::{Effort, Result, figure, median, range, row, table};
 
-/// samples of a lane, as in Dupuy and Benyoub 2023, section 4.
+/// samples of a thread, as in Dupuy and Benyoub 2023, section 4.
 const SAMPLES: usize = 64;
 /// Threads of a workgroup, as the shader says.
 const WORKGROUP: usize = 64;
 /// Different views with their alphas.
 const POINTS: u16 = 4096;
-/// Lanes of the first run.
+/// Threads of the first run.
 const FIRST: usize = 1 << 14;
-/// Most lanes of a run; where that is too short, it is run repeatedly.
+/// Most threads of a run; where that is too short, it is run repeatedly.
 const MOST: usize = 1 << 24;
 /// Least seconds of a run.
 const SECONDS: f64 = 0.1;
 /// Most by which two estimates of the same mean may differ.
 const DIFFERENCE: f64 = 0.01;
 
-/// What a lane does in a sample: WGSL that reads `alpha`, `wo` and `u`, and adds to `sum`.
+/// What a thread does in a sample: WGSL that reads `alpha`, `wo` and `u`, and adds to `sum`.
 struct Work {
     name: &'static str,
     modules: &'static [&'static str],
@@ -179,7 +179,7 @@ fn points(is_isotropic: bool) -> Vec<[f32; 4]> {
 struct Measured {
     kernel: ComputeKernel,
     arrays: Arrays,
-    lanes: usize,
+    threads: usize,
     runs: usize,
     /// Mean over the samples of what they added last.
     mean: f64,
@@ -201,15 +201,15 @@ impl Measured {
         let mut measured = Self {
             kernel,
             arrays,
-            lanes: FIRST,
+            threads: FIRST,
             runs: 1,
             mean: 0.0,
         };
         measured.arrays = upload(gpu, &measured.kernel, points, FIRST)?;
         while measured.seconds(gpu)? < SECONDS {
-            if 2 * measured.lanes <= most {
-                measured.lanes *= 2;
-                measured.arrays = upload(gpu, &measured.kernel, points, measured.lanes)?;
+            if 2 * measured.threads <= most {
+                measured.threads *= 2;
+                measured.arrays = upload(gpu, &measured.kernel, points, measured.threads)?;
             } else {
                 measured.runs *= 2;
             }
@@ -222,14 +222,15 @@ impl Measured {
     fn seconds(&self, gpu: &Gpu) -> Result<f64> {
         let start = Instant::now();
         for _ in 0..self.runs {
-            self.kernel.run(gpu, &self.arrays, workgroups(self.lanes))?;
+            self.kernel
+                .run(gpu, &self.arrays, workgroups(self.threads))?;
         }
         Ok(start.elapsed().as_secs_f64())
     }
 
     /// Nanoseconds of a sample.
     fn nanoseconds(&self, gpu: &Gpu) -> Result<f64> {
-        Ok(1e9 * self.seconds(gpu)? / (self.lanes * self.runs * SAMPLES) as f64)
+        Ok(1e9 * self.seconds(gpu)? / (self.threads * self.runs * SAMPLES) as f64)
     }
 
     /// Of the last component of the sums.
@@ -241,13 +242,18 @@ impl Measured {
     }
 }
 
-fn upload(gpu: &Gpu, kernel: &ComputeKernel, points: &[[f32; 4]], lanes: usize) -> Result<Arrays> {
-    Ok(kernel.upload(gpu, &[bytemuck::cast_slice(points)], 16 * lanes as u64)?)
+fn upload(
+    gpu: &Gpu,
+    kernel: &ComputeKernel,
+    points: &[[f32; 4]],
+    threads: usize,
+) -> Result<Arrays> {
+    Ok(kernel.upload(gpu, &[bytemuck::cast_slice(points)], 16 * threads as u64)?)
 }
 
-/// * `lanes`: a power of two.
-fn workgroups(lanes: usize) -> [u32; 3] {
-    let groups = u32::try_from(lanes / WORKGROUP).unwrap_or(u32::MAX);
+/// * `threads`: a power of two.
+fn workgroups(threads: usize) -> [u32; 3] {
+    let groups = u32::try_from(threads / WORKGROUP).unwrap_or(u32::MAX);
     let across = groups.min(1 << 15);
     [across, groups / across, 1]
 }

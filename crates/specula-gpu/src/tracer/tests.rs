@@ -1,4 +1,4 @@
-//! Films do not depend on waves, passes or schedules, by a single bit; and planted faults show.
+//! Films do not depend on batches, passes or schedules, not by a single bit; planted faults show.
 
 use specula_bsdf::Rgb;
 use specula_render::FilmBuffer;
@@ -67,15 +67,15 @@ impl<'a> Render<'a> {
 
     /// The film after these passes; where a noise is asked for, after as many as it takes.
     ///
-    /// * `first_sample`: the number of the first sample of a pixel.
-    /// * `largest`: most samples of a wave.
+    /// * `first_sample`: the index of the first sample of a pixel.
+    /// * `largest`: most samples of a batch.
     fn film(&mut self, first_sample: u32, largest: usize, passes: &[u32]) -> FilmBuffer {
         let options = RenderOptions {
             first_sample,
             ..self.options.clone()
         };
         self.tracer.largest = largest;
-        self.tracer.samples = FIRST_WAVE.min(largest);
+        self.tracer.samples = FIRST_BATCH.min(largest);
         let mut renderer = Renderer::new(self.prepared, options);
         let mut passes = passes.iter().copied();
         loop {
@@ -98,16 +98,16 @@ fn films_are_the_same_however_samples_are_cut() {
     let prepared = PreparedScene::new(&room(), &options).unwrap();
     let render = |schedule| Render::new(&gpu, &prepared, &options, schedule, str::to_owned);
     let mut paths = render(Schedule::Paths);
-    let whole = paths.film(0, LARGEST_WAVE, &[70]);
+    let whole = paths.film(0, LARGEST_BATCH, &[70]);
     let lit = whole.picture();
     assert!(lit.colour.iter().all(|c| c.g > 0.0), "a lit room");
-    assert!(paths.film(0, 1 << 10, &[70]) == whole, "waves");
+    assert!(paths.film(0, 1 << 10, &[70]) == whole, "batches");
     assert!(paths.film(0, 200, &[1, 2, 67]) == whole, "passes");
-    let mut merged = paths.film(41, LARGEST_WAVE, &[29]);
-    merged.merge(&paths.film(0, LARGEST_WAVE, &[41])).unwrap();
+    let mut merged = paths.film(41, LARGEST_BATCH, &[29]);
+    merged.merge(&paths.film(0, LARGEST_BATCH, &[41])).unwrap();
     assert!(merged.picture() == lit, "parts");
     let mut queues = render(Schedule::Queues);
-    assert!(queues.film(0, LARGEST_WAVE, &[70]) == whole, "queues");
+    assert!(queues.film(0, LARGEST_BATCH, &[70]) == whole, "queues");
     assert!(queues.film(0, 1 << 10, &[33, 37]) == whole, "queues, cut");
 }
 
@@ -121,7 +121,7 @@ fn adaptive_films_are_the_same_however_samples_are_cut() {
     };
     let prepared = PreparedScene::new(&room(), &options).unwrap();
     let mut render = Render::new(&gpu, &prepared, &options, Schedule::Auto, str::to_owned);
-    let whole = render.film(0, LARGEST_WAVE, &[]);
+    let whole = render.film(0, LARGEST_BATCH, &[]);
     assert!(whole.is_adaptive() && whole.most_and_mean_samples().0 > 32);
     assert!(render.film(0, 300, &[20, 33, 2]) == whole);
 }
@@ -135,7 +135,7 @@ fn faults_of_queues_show_in_films() {
     };
     let prepared = PreparedScene::new(&room(), &options).unwrap();
     let film = |schedule, change: &dyn Fn(&str) -> String| {
-        Render::new(&gpu, &prepared, &options, schedule, change).film(0, LARGEST_WAVE, &[3])
+        Render::new(&gpu, &prepared, &options, schedule, change).film(0, LARGEST_BATCH, &[3])
     };
     let right = film(Schedule::Paths, &str::to_owned);
     let text = include_str!("../../wgsl/queue.wgsl");
@@ -145,7 +145,7 @@ fn faults_of_queues_show_in_films() {
             "path_step(slot, &state, path_sequence(slot), depth)",
             "path_step(slot, &state, path_sequence(slot), depth) && slot != 50u",
         ),
-        // A path in a neighbour's place.
+        // A path with the state of its neighbour.
         (
             "var state = queue_states[slot];",
             "var state = queue_states[slot ^ 1u];",
@@ -180,7 +180,7 @@ fn samples_that_are_not_finite_are_counted_and_named() {
     let picture = renderer.film().picture();
     let finite = |c: &Rgb<f32>| c.is_finite();
     assert!(picture.colour.iter().all(finite));
-    // The processor finds the same ones, but for paths that round otherwise.
+    // The processor has the same ones, but for paths that round otherwise.
     let mut processor = Renderer::new(&prepared, options);
     let there = processor.render_pass(8, &go).invalid_samples;
     assert!(
@@ -190,7 +190,7 @@ fn samples_that_are_not_finite_are_counted_and_named() {
     );
 }
 
-/// A device that goes away in the midst of a render is an error, and the film keeps what came before.
+/// A device that goes away in the midst of a render is an error, and earlier samples stay in the film.
 #[test]
 fn a_lost_device_is_an_error_and_the_film_stays() {
     let Some(gpu) = gpu() else { return };

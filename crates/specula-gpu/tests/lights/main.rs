@@ -1,4 +1,4 @@
-//! Lights: what shaders sample and look up, beside the renderer on the CPU, at random points of scenes
+//! Lights: samples and densities of shaders beside those of the renderer on the CPU, at random points of scenes
 //! with every kind of light. Faults planted in the shaders are noticed.
 //!
 //! Where no GPU is found, the tests say that they are skipped; `SPECULA_GPU=require` makes that a
@@ -24,7 +24,7 @@ use specula_scene::Scene;
 const CASES: u32 = 16_384;
 /// Share of answers that may differ where rounding decides between two lights, or at edges.
 const STRAYS: f64 = 3e-4;
-/// Words of a case: point, normal (zero: none), four values, a light, a target and its normal, a
+/// Words of a case: point, normal (zero: none), four random numbers, a light, a target and its normal, a
 /// direction, weights of the target's corners.
 const CASE: usize = 22;
 /// Words of an answer: the sample (20), the density of the target, the share of lights at infinity, and
@@ -113,8 +113,8 @@ fn answer_all(@builtin(global_invocation_id) id: vec3u) {
     answers[to + 20u] = lights_pdf_of_surface(
         receiver, light, case_vector(at + 11u), case_vector(at + 14u), weights);
     answers[to + 21u] = lights_share_from_infinity(receiver);
-    for (var i = 0u; i < lights_arriving_count(); i += 1u) {
-        let arriving = lights_arriving(i, case_vector(at + 17u));
+    for (var i = 0u; i < lights_count_at_infinity(); i += 1u) {
+        let arriving = lights_arriving_from_infinity(i, case_vector(at + 17u));
         answer_vector(to + 22u + 4u * i, arriving.rgb);
         answers[to + 25u + 4u * i] = arriving.w;
     }
@@ -125,7 +125,7 @@ fn prepared(scene: &Scene) -> PreparedScene {
     PreparedScene::new(scene, &RenderOptions::default()).unwrap()
 }
 
-/// A receiver, its values, and what the CPU says to them.
+/// A receiver, its random numbers, and the results of the CPU.
 struct Question {
     words: [f32; CASE],
     answer: [f32; ANSWER],
@@ -241,11 +241,11 @@ fn answers(
         .unwrap();
     kernel.run(gpu, &arrays, [CASES / 64, 1, 1]).unwrap();
     let output = arrays.output(gpu).unwrap();
-    let numbers: Vec<f32> = output
+    let floats: Vec<f32> = output
         .chunks_exact(4)
         .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
         .collect();
-    let (rows, _) = numbers.as_chunks::<ANSWER>();
+    let (rows, _) = floats.as_chunks::<ANSWER>();
     rows.to_vec()
 }
 

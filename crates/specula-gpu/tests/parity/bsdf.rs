@@ -153,7 +153,7 @@ pub(crate) fn sampled<T: Real>(lobe: &Lobe<T>, x: &[T]) -> Vec<T> {
     y
 }
 
-/// The transport of a number.
+/// The transport of a code.
 fn transport<T: Real>(x: T) -> Transport {
     if x > T::ZERO {
         Transport::Importance
@@ -168,7 +168,7 @@ pub(crate) fn colour<T: Real>(channels: [f32; 3]) -> Rgb<T> {
     rgb(r, g, b)
 }
 
-/// The sampler of a number.
+/// The sampler of a code.
 pub(crate) fn sampler<T: Real>(x: T) -> Sampler {
     let all = [
         Sampler::Heitz,

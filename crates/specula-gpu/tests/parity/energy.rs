@@ -29,7 +29,7 @@ fn channels<T>(colour: Rgb<T>) -> Vec<T> {
 }
 
 /// A small whole number as a scalar.
-fn number<T: Real>(x: usize) -> T {
+fn scalar<T: Real>(x: usize) -> T {
     T::of(u32::try_from(x).map_or(f64::NAN, f64::from))
 }
 
@@ -74,7 +74,7 @@ const INDICES: [[f32; 1]; 8] = [
     [0.25],
 ];
 
-/// AlphaPair, views and tables.
+/// Alphas, views and tables.
 fn losses() -> Vec<[f32; 6]> {
     product(&product::<2, 3, 5>(&ALPHAS, &both_sides()), &TABLES)
 }
@@ -152,9 +152,9 @@ fn axis_cases() -> Vec<Case> {
             places(),
             twins!(|x| {
                 let (cubic, quadratic) = (Spline::cubic(x[0], 10), Spline::quadratic(x[0], 9));
-                let first = number(cubic.first());
+                let first = scalar(cubic.first());
                 let place = x[0].within(T::ZERO, T::ONE) * T::of(7.0) - first;
-                let mut y = vec![first, place, first, number(quadratic.first())];
+                let mut y = vec![first, place, first, scalar(quadratic.first())];
                 y.extend(cubic.weights());
                 y.extend(quadratic.weights());
                 y
@@ -174,7 +174,7 @@ fn axis_cases() -> Vec<Case> {
             places(),
             twins!(|x| {
                 let stencil = Stencil::new(x[0], 10);
-                let power = |n: i32| stencil.sum(|i| T::of(number::<f64>(i).powi(n)));
+                let power = |n: i32| stencil.sum(|i| T::of(scalar::<f64>(i).powi(n)));
                 vec![power(0), power(1), power(2), power(4)]
             }),
             3.0,
@@ -189,7 +189,7 @@ fn axis_cases() -> Vec<Case> {
             indices(),
             twins!(|x| {
                 let [i, j, azimuth] = [0, 1, 2].map(|k| index(x[k]));
-                vec![number(pair(i, j).0), number(row(i, j, azimuth, 12))]
+                vec![scalar(pair(i, j).0), scalar(row(i, j, azimuth, 12))]
             }),
             0.0,
         ),
@@ -291,12 +291,12 @@ fn loss_cases() -> Vec<Case> {
             "y[0] = f32(dielectric_albedo_half_start(x[0], 12u));
              y[1] = dielectric_albedo_eta_coordinate(x[0]);",
             INDICES.to_vec(),
-            twins!(|x| vec![number(half(x[0], 12)), eta_coordinate(x[0])]),
+            twins!(|x| vec![scalar(half(x[0], 12)), eta_coordinate(x[0])]),
             3.0,
         )
         .at_scale(&[1.0]),
         Case::new(
-            "energy_table_numbers",
+            "energy_table_values",
             &["energy_table"],
             "y[0] = energy_table(u32(x[0]));",
             (0..924).map(|i: u16| [f32::from(i) * 1000.0]).collect(),

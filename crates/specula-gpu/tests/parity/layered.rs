@@ -105,7 +105,7 @@ fn pairs(seeds: &[[f32; 1]]) -> Vec<[f32; 13]> {
     rows(&lit)
 }
 
-fn numbers() -> Vec<[f32; 13]> {
+fn sampling_inputs() -> Vec<[f32; 13]> {
     let points = (0..24_u16).map(|i| {
         let [a, b] = r2(usize::from(i));
         [r2(usize::from(i) + 70)[0], a, b, f32::from(i) * 1009.0]
@@ -159,7 +159,7 @@ fn cases() -> Vec<Case> {
         walk(
             "layered_sample",
             coat!(stored!("layered_sample(lobe, wo, wi, &stream)")),
-            numbers(),
+            sampling_inputs(),
             walks!(|x| {
                 let (wo, u, transport) = (vector(x, 2), [x[5], x[6], x[7]], Transport::Radiance);
                 sampled(lobe(x).sample_random(wo, u, transport, &mut stream(x, 8)))
@@ -309,9 +309,9 @@ fn values_and_samples_have_the_means_of_the_twins() {
     const SAMPLE: &str = coat!(
         "lobe.max_depth = 40u;",
         summed!(
-            "let number = stream_next(&stream);
+            "let first = stream_next(&stream);
          let other = stream_next(&stream);
-         let sampled = layered_sample(lobe, wo, vec3f(number, other, stream_next(&stream)), &stream);
+         let sampled = layered_sample(lobe, wo, vec3f(first, other, stream_next(&stream)), &stream);
          var value = vec3f(0.0);
          if sampled.flags != 0u { value = sampled.weight.r * vec3f(1.0, sampled.wi.x, sampled.wi.z); }"
         )

@@ -176,8 +176,8 @@ fn of_all_models() -> Vec<[f32; 9]> {
         .collect()
 }
 
-/// Alphas, views, three values, seeds.
-fn numbers() -> Vec<[f32; 9]> {
+/// Alphas, views, three random numbers, seeds.
+fn sampling_inputs() -> Vec<[f32; 9]> {
     let views: Vec<[f32; 5]> = product(&ALPHAS, &both_sides());
     let points: Vec<[f32; 4]> = (0..32_u16)
         .map(|i| {
@@ -312,7 +312,7 @@ fn other_values() -> Vec<Case> {
 /// The models' samples, one case each.
 fn samples() -> Vec<Case> {
     let case = |name, modules, body, twin| {
-        let case = Case::new(name, modules, body, numbers(), twin, BOUND);
+        let case = Case::new(name, modules, body, sampling_inputs(), twin, BOUND);
         let strays = case.inputs.len() / case.arguments * STRAYS / 1000;
         case.at_scale(&[SCALE]).with_strays(strays)
     };
@@ -412,7 +412,7 @@ fn lobes() -> Vec<Case> {
                 "let lobe = MultibounceConductor(facets, u32(x[8]) % 7u, MIS_PDF_NORMALISED);",
                 stored!("multibounce_conductor_sample(lobe, wo, wi, &stream)")
             ),
-            numbers(),
+            sampling_inputs(),
             walks!(|x| {
                 let lobe = conductor(x, of_seed(x[8]));
                 let u = [x[5], x[6], x[7]];
@@ -443,7 +443,7 @@ fn lobes() -> Vec<Case> {
                 "let lobe = MultibounceDiffuse(normals, vec3f(0.9, 0.5, 0.1));",
                 stored!("multibounce_diffuse_sample(lobe, wo, wi, &stream)")
             ),
-            numbers(),
+            sampling_inputs(),
             walks!(|x| {
                 let lobe = MultibounceDiffuse::new(ggx(x), rgb(0.9, 0.5, 0.1));
                 let u = [x[5], x[6], x[7]];
@@ -518,7 +518,7 @@ fn interfaces() -> Vec<Case> {
                         "MIS_PDF_NORMALISED",
                         stored!("multibounce_dielectric_sample(lobe, wo, wi, 1u, &stream)")
                     ),
-                    with_index(&numbers()),
+                    with_index(&sampling_inputs()),
                     walks!(|x| {
                         let lobe = dielectric_lobe(x, $model, MisPdf::Normalised);
                         let u = [x[5], x[6], x[7]];

@@ -190,12 +190,12 @@ fn chosen_samplers() -> Vec<Case> {
         )
         .at_scale(&[1.0]),
         Case::new(
-            "kept_reflections",
+            "stored_reflections",
             &["reflections"],
             sampling!(
                 "for (var k = 0u; k < 4u; k++) {
-                     let kept = reflections_new(alpha, wo, k);
-                     let w = reflections_sample_direction(kept, u);
+                     let reflections = reflections_new(alpha, wo, k);
+                     let w = reflections_sample_direction(reflections, u);
                      y[3u * k] = w.x; y[3u * k + 1u] = w.y; y[3u * k + 2u] = w.z;
                  }"
             ),

@@ -92,9 +92,9 @@ const VIEWS: [(f64, f64); 3] = [(0.7, 0.3), (0.05, 2.1), (-0.3, 0.3)];
 const SAMPLES: u32 = 30_000;
 
 /// One pair of alphas and a view.
-type TextureCoordinates = ([f32; 2], [f32; 3]);
+type AlphasAndView = ([f32; 2], [f32; 3]);
 
-fn places() -> Vec<TextureCoordinates> {
+fn places() -> Vec<AlphasAndView> {
     let views = VIEWS.map(|(cosine, azimuth)| direction(cosine, azimuth));
     let at = |alphas| views.map(|wo| (alphas, wo));
     ALPHAS.into_iter().flat_map(at).collect()
@@ -118,11 +118,7 @@ fn peaks(alpha: Alpha<f64>, wo: Vec3<f64>) -> Vec<Peak> {
 }
 
 /// Directions sampled on the GPU, `SAMPLES` for each place.
-fn sampled(
-    device: &specula_gpu::Gpu,
-    sampler: &Sampler,
-    places: &[TextureCoordinates],
-) -> Vec<f32> {
+fn sampled(device: &specula_gpu::Gpu, sampler: &Sampler, places: &[AlphasAndView]) -> Vec<f32> {
     let mut rng = Rng::from_name(sampler.name);
     let mut inputs = Vec::new();
     for &([ax, ay], [x, y, z]) in places {
@@ -147,7 +143,7 @@ fn fit(
     name: &str,
     samples: &[f32],
     is_reflection: bool,
-    (alphas, wo): TextureCoordinates,
+    (alphas, wo): AlphasAndView,
     density: Density,
     tests: usize,
 ) -> ChiSquare {
@@ -180,8 +176,8 @@ fn prove_samples(samplers: &[Sampler]) {
     let mut failures = Vec::new();
     for sampler in samplers {
         let is_beckmann = sampler.name.starts_with("beckmann");
-        let is_seen = |&([x, y], wo): &TextureCoordinates| !is_beckmann || is_visible(x, y, wo);
-        let places: Vec<TextureCoordinates> = places.iter().copied().filter(is_seen).collect();
+        let is_seen = |&([x, y], wo): &AlphasAndView| !is_beckmann || is_visible(x, y, wo);
+        let places: Vec<AlphasAndView> = places.iter().copied().filter(is_seen).collect();
         let samples = sampled(device, sampler, &places);
         let mut least = 1.0_f64;
         for (place, samples) in places.iter().zip(samples.chunks(3 * SAMPLES as usize)) {

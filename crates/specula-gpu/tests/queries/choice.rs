@@ -1,4 +1,4 @@
-//! Which way rays go where they may choose, and that both schedules go by it.
+//! Whether rays are traversed or cast by queries where that is automatic, with both schedules.
 
 use std::sync::atomic::AtomicBool;
 

@@ -1,4 +1,4 @@
-//! Casts rays on a GPU, through the tree or by queries.
+//! Casts rays on a GPU, by traversal or by queries.
 
 use specula_gpu::{ComputeKernel, Gpu, Structures};
 use specula_render::PreparedScene;
@@ -12,9 +12,9 @@ pub(crate) struct Fault {
     pub(crate) to: &'static str,
 }
 
-/// How rays find what they hit.
+/// How rays are cast.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Way {
+pub(crate) enum RayCasting {
     Tree,
     Query(Option<Fault>),
 }
@@ -48,7 +48,7 @@ const QUERY: &str = include_str!("../../wgsl/query.wgsl");
 /// Eight words a ray: origin, direction, end, whether any hit will do. Five a hit.
 const ENTRY: &str = "
 @group(0) @binding(0) var<storage, read> rays: array<f32>;
-@group(0) @binding(4) var<storage, read_write> found: array<u32>;
+@group(0) @binding(4) var<storage, read_write> results: array<u32>;
 
 @compute @workgroup_size(64)
 fn cast_all(@builtin(global_invocation_id) id: vec3u) {
@@ -63,20 +63,26 @@ fn cast_all(@builtin(global_invocation_id) id: vec3u) {
         hit.instance = 0u;
     }
     let to = 5u * id.x;
-    found[to] = bitcast<u32>(hit.t);
-    found[to + 1u] = bitcast<u32>(hit.u);
-    found[to + 2u] = bitcast<u32>(hit.v);
-    found[to + 3u] = hit.primitive;
-    found[to + 4u] = hit.instance;
+    results[to] = bitcast<u32>(hit.t);
+    results[to + 1u] = bitcast<u32>(hit.u);
+    results[to + 2u] = bitcast<u32>(hit.v);
+    results[to + 3u] = hit.primitive;
+    results[to + 4u] = hit.instance;
 }
 ";
 
 /// What the rays hit; their number is a multiple of 64.
-pub(crate) fn hits(gpu: &Gpu, scene: &PreparedScene, rays: &[Ray], way: Way) -> Vec<Hit> {
+pub(crate) fn hits(
+    gpu: &Gpu,
+    scene: &PreparedScene,
+    rays: &[Ray],
+    casting: RayCasting,
+) -> Vec<Hit> {
     let flat = scene.flatten();
-    let structures = matches!(way, Way::Query(_)).then(|| Structures::new(gpu, scene).unwrap());
+    let structures =
+        matches!(casting, RayCasting::Query(_)).then(|| Structures::new(gpu, scene).unwrap());
     let module = gpu
-        .shader("rays", &source(&flat.declarations(), way))
+        .shader("rays", &source(&flat.declarations(), casting))
         .unwrap();
     let kernel = match &structures {
         None => ComputeKernel::new(gpu, &module, "cast_all", 4),
@@ -110,10 +116,10 @@ pub(crate) fn hits(gpu: &Gpu, scene: &PreparedScene, rays: &[Ray], way: Way) -> 
     output.into_iter().map(hit).collect()
 }
 
-fn source(declarations: &str, way: Way) -> String {
-    let (mut text, way) = match way {
-        Way::Tree => (String::new(), TREE.to_owned()),
-        Way::Query(fault) => {
+fn source(declarations: &str, casting: RayCasting) -> String {
+    let (mut text, module) = match casting {
+        RayCasting::Tree => (String::new(), TREE.to_owned()),
+        RayCasting::Query(fault) => {
             let module = match fault {
                 None => QUERY.to_owned(),
                 Some(Fault { from, to }) => {
@@ -126,7 +132,7 @@ fn source(declarations: &str, way: Way) -> String {
     };
     text += "const STACK_SIZE: u32 = 256u;\n";
     text += declarations;
-    for module in SHARED.into_iter().chain([way.as_str(), ENTRY]) {
+    for module in SHARED.into_iter().chain([module.as_str(), ENTRY]) {
         let code = module.lines().filter(|line| !line.starts_with("import "));
         text.extend(code.flat_map(|line| [line, "\n"]));
     }

@@ -19,7 +19,7 @@ mod offered;
 mod rays;
 mod scenes;
 
-use device::{Fault, Hit, Way, hits};
+use device::{Fault, Hit, RayCasting, hits};
 use offered::gpu_with_queries;
 use rays::{Aim, Ray, from_within, towards};
 use scenes::{closed, instances, prepared};
@@ -28,14 +28,14 @@ use specula_render::PreparedScene;
 
 /// Rays of each scene, of either aim.
 const RAYS: usize = 8192;
-/// Share of rays at faces that may find another surface, or none: some pass an edge.
+/// Share of rays at faces that may hit another surface, or none: some pass an edge.
 const STRAYS: f64 = 1e-3;
 /// The same of rays at edges and corners, where either answer is right.
 const STRAYS_AT_EDGES: f64 = 0.12;
 /// Share of rays that may be farther apart than [`ERROR`]: those that graze.
 const APART: f64 = 1e-3;
 /// Error of `t`, relative, and of barycentrics. A ray that grazes a triangle magnifies the rounding of
-/// either way.
+/// both.
 const ERROR: f64 = 1e-4;
 /// Share of rays at edges and corners that may leave a closed mesh. (Vulkan asks for none as far as
 /// possible. The boxes of Mesa's software are no larger than what they hold.)
@@ -82,10 +82,10 @@ fn difference(rays: &[Ray], a: &[Hit], b: &[Hit]) -> Difference {
     found
 }
 
-/// Casts the rays both ways.
+/// Casts the rays by traversal and by queries.
 fn compared(gpu: &Gpu, scene: &PreparedScene, rays: &[Ray], fault: Option<Fault>) -> Difference {
-    let tree = hits(gpu, scene, rays, Way::Tree);
-    let query = hits(gpu, scene, rays, Way::Query(fault));
+    let tree = hits(gpu, scene, rays, RayCasting::Tree);
+    let query = hits(gpu, scene, rays, RayCasting::Query(fault));
     difference(rays, &tree, &query)
 }
 
@@ -137,17 +137,17 @@ fn nothing_leaks_out_of_a_closed_mesh() {
         let scene = prepared(&closed(placed));
         for aim in [Aim::Faces, Aim::Edges] {
             let rays = from_within(&scene, aim, 4 * RAYS, 5);
-            for (way, most) in [(Way::Tree, 0.0), (Way::Query(None), LEAKS)] {
-                let found = hits(gpu, &scene, &rays, way);
+            for (casting, most) in [(RayCasting::Tree, 0.0), (RayCasting::Query(None), LEAKS)] {
+                let found = hits(gpu, &scene, &rays, casting);
                 let leaks = found.iter().filter(|hit| !hit.is_there()).count();
                 println!(
-                    "{name}, {aim:?}, {way:?}: {leaks} of {} rays leak",
+                    "{name}, {aim:?}, {casting:?}: {leaks} of {} rays leak",
                     rays.len()
                 );
                 let most = if aim == Aim::Edges { most } else { 0.0 };
                 assert!(
                     leaks as f64 <= most * rays.len() as f64,
-                    "{name}, {aim:?}, {way:?}: {leaks} leaks"
+                    "{name}, {aim:?}, {casting:?}: {leaks} leaks"
                 );
             }
         }
@@ -176,11 +176,11 @@ fn faults_are_noticed() {
             "affine_vector(placement + 27u, direction)",
             "normalize(affine_vector(placement + 27u, direction))",
         ),
-        // Quadrics are never met; not the nearest of them; before where the ray begins, too.
+        // Quadrics are never hit; not the nearest of them; before where the ray begins, too.
         ("t > 0.0 && t < best.t", "t > 0.0 && t < 0.0"),
         ("t > 0.0 && t < best.t", "t > 0.0 && t < ray.t_max"),
         ("t > 0.0 && t < best.t", "t < best.t"),
-        // Their values begin anew.
+        // Their indices begin at 0 again.
         (
             "triangles + candidate.primitive_index",
             "candidate.primitive_index",
@@ -198,11 +198,11 @@ fn faults_are_noticed() {
             "TRIANGLE && hit.t < best.t",
             "TRIANGLE && best.instance == NONE",
         ),
-        // Quadrics are never asked for.
+        // Quadrics are never intersected.
         ("QUADRIC_COUNT == 0u", "QUADRIC_COUNT != 0u"),
         // Back faces are not there.
         ("select(RAY_FLAG_NONE,", "select(RAY_FLAG_CULL_BACK_FACING,"),
-        // Instances by their place in the adapter's list.
+        // Instances by their index in the adapter's list.
         (
             "let instance = hit.instance_custom_data",
             "let instance = hit.instance_index",

@@ -23,7 +23,7 @@ const POINTS: usize = 32;
 /// The kernel: every material's bump map at every point.
 const KERNEL: &str = "
 @group(0) @binding(0) var<storage, read> points: array<f32>;
-@group(0) @binding(4) var<storage, read_write> found: array<f32>;
+@group(0) @binding(4) var<storage, read_write> results: array<f32>;
 
 fn three(at: u32) -> vec3f {
     return vec3f(points[at], points[at + 1u], points[at + 2u]);
@@ -44,15 +44,15 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     let softened = bump_softened(bump, wo, turned, -wi);
     let to = 10u * (id.x + id.y * arrayLength(&points) / 16u);
     for (var axis = 0u; axis < 3u; axis++) {
-        found[to + axis] = bent.normal[axis];
-        found[to + 3u + axis] = bent.tangent[axis];
-        found[to + 6u + axis] = softened.normal[axis];
+        results[to + axis] = bent.normal[axis];
+        results[to + 3u + axis] = bent.tangent[axis];
+        results[to + 6u + axis] = softened.normal[axis];
     }
-    found[to + 9u] = bump_softness(softened.softness, wi);
+    results[to + 9u] = bump_softness(softened.softness, wi);
 }
 ";
 
-/// A primitive of the scene, by name: instance, number in its group, and whether it is a quadric about
+/// A primitive of the scene, by name: instance, index in its group, and whether it is a quadric about
 /// a point of the world.
 const PRIMITIVES: [(&str, u32, u32, Option<[f32; 3]>); 12] = [
     ("bent mesh", 0, 0, None),
@@ -259,13 +259,13 @@ fn points() -> Vec<Point> {
 }
 
 impl Point {
-    fn numbers(&self) -> [f32; 16] {
-        let mut numbers = [0.0; 16];
-        numbers[..3].copy_from_slice(&self.near);
-        numbers[3..5].copy_from_slice(&self.weights);
-        numbers[5..7].copy_from_slice(&self.primitive.map(f32::from_bits));
-        numbers[7..].copy_from_slice(self.directions.as_flattened());
-        numbers
+    fn inputs(&self) -> [f32; 16] {
+        let mut inputs = [0.0; 16];
+        inputs[..3].copy_from_slice(&self.near);
+        inputs[3..5].copy_from_slice(&self.weights);
+        inputs[5..7].copy_from_slice(&self.primitive.map(f32::from_bits));
+        inputs[7..].copy_from_slice(self.directions.as_flattened());
+        inputs
     }
 
     /// What the CPU has: normal, tangent, softened normal, factor.
@@ -290,7 +290,7 @@ fn errors(device: &Device, fault: Option<Fault>) -> Vec<(String, f32, [f32; 4])>
     let scene = PreparedScene::consume(scene(), &RenderOptions::default()).unwrap();
     let points = points();
     let materials = materials();
-    let numbers: Vec<f32> = points.iter().flat_map(Point::numbers).collect();
+    let inputs: Vec<f32> = points.iter().flat_map(Point::inputs).collect();
     let shader = Shader {
         kernel: KERNEL,
         modules: &BUMPS,
@@ -298,7 +298,7 @@ fn errors(device: &Device, fault: Option<Fault>) -> Vec<(String, f32, [f32; 4])>
     };
     let groups = [points.len(), materials.len(), 1].map(|n| u32::try_from(n).unwrap());
     let count = 10 * points.len() * materials.len();
-    let found = device.run(&scene, &shader, &numbers, count, groups);
+    let found = device.run(&scene, &shader, &inputs, count, groups);
     let mut errors: Vec<(String, f32, [f32; 4])> = Vec::new();
     for (m, (material, _, _, bound)) in (0_u32..).zip(&materials) {
         for (i, point) in points.iter().enumerate() {
@@ -314,7 +314,7 @@ fn errors(device: &Device, fault: Option<Fault>) -> Vec<(String, f32, [f32; 4])>
             match errors.last_mut().filter(|e| e.0 == name) {
                 Some((_, _, most)) => {
                     for (most, here) in most.iter_mut().zip(here) {
-                        // `f32::max` would hide what is no number.
+                        // `f32::max` would hide NaN.
                         *most = if here <= *most { *most } else { here };
                     }
                 }

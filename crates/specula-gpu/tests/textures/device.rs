@@ -74,13 +74,13 @@ impl Device {
 
     /// Runs a shader over a scene.
     ///
-    /// * `values`: what it reads.
+    /// * `inputs`: the values that it reads.
     /// * `count`: how many values it writes.
     pub(crate) fn run(
         &self,
         scene: &PreparedScene,
         shader: &Shader<'_>,
-        numbers: &[f32],
+        inputs: &[f32],
         count: usize,
         workgroups: [u32; 3],
     ) -> Vec<f32> {
@@ -110,7 +110,7 @@ impl Device {
             }
         };
         let inputs = [
-            or_one(bytes(numbers)),
+            or_one(bytes(inputs)),
             or_one(flat.nodes),
             or_one(flat.packets),
             or_one(bytes(&flat.words)),
@@ -119,8 +119,8 @@ impl Device {
         let arrays = kernel.upload(gpu, &inputs, 4 * count as u64).unwrap();
         kernel.run(gpu, &arrays, workgroups).unwrap();
         let output = arrays.output(gpu).unwrap();
-        let number = |b: &[u8]| f32::from_le_bytes([b[0], b[1], b[2], b[3]]);
-        output.chunks_exact(4).map(number).collect()
+        let float = |b: &[u8]| f32::from_le_bytes([b[0], b[1], b[2], b[3]]);
+        output.chunks_exact(4).map(float).collect()
     }
 }
 

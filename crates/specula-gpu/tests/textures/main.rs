@@ -34,7 +34,7 @@ const MOST_MOVED: f64 = 0.005;
 /// The kernel: every texture at every place.
 const KERNEL: &str = "
 @group(0) @binding(0) var<storage, read> places: array<f32>;
-@group(0) @binding(4) var<storage, read_write> found: array<f32>;
+@group(0) @binding(4) var<storage, read_write> results: array<f32>;
 
 fn three(at: u32) -> vec3f {
     return vec3f(places[at], places[at + 1u], places[at + 2u]);
@@ -48,16 +48,16 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     let place = TextureCoordinates(uv, second_uv, three(at + 4u), three(at + 7u), three(at + 10u));
     let c = texture_colour(id.y, place);
     let to = 3u * (id.x + id.y * arrayLength(&places) / 13u);
-    found[to] = c.x;
-    found[to + 1u] = c.y;
-    found[to + 2u] = c.z;
+    results[to] = c.x;
+    results[to + 1u] = c.y;
+    results[to + 2u] = c.z;
 }
 ";
 
 /// Coordinates, second coordinates, position, normal, colour.
 type TextureCoordinates = [f32; 13];
 
-/// A number in `[0, 1)`.
+/// A random number in `[0, 1)`.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "the nearest number of single precision is meant"
@@ -127,7 +127,7 @@ fn compare(scene: &PreparedScene, texture: usize, bound: f64, found: &[f32]) -> 
     let error = |place: &TextureCoordinates, gpu: &[f32], cpu: &[f32; 3]| {
         let apart = gpu.iter().zip(cpu).map(|(g, c)| (g - c).abs());
         let error = f64::from(apart.fold(0.0, f32::max)) / ulp;
-        // What is no number is no small error.
+        // NaN is no small error.
         if gpu.iter().all(|g| g.is_finite()) {
             error / f64::from(reach(place))
         } else {
@@ -250,7 +250,7 @@ fn planted_faults_are_found() {
     }
 }
 
-/// The other ways of scenes that lack something: no textures, no inputs, no noise.
+/// Shaders without the parts that a scene does not need: no textures, no inputs, no noise.
 #[test]
 fn what_a_scene_lacks_is_left_out() {
     let Some(device) = Device::open("what_a_scene_lacks_is_left_out") else {

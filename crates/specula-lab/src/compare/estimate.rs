@@ -225,7 +225,7 @@ mod tests {
 
     fn noisy(deviation: f64, seed: u64) -> Picture {
         let mut rng = Rng::new(seed);
-        // Uniform numbers have a variance of 1/12.
+        // Uniform random numbers have a variance of 1/12.
         let mut value = || 1.0 + deviation * 12.0_f64.sqrt() * (rng.uniform() - 0.5);
         #[expect(clippy::cast_possible_truncation, reason = "colours are f32")]
         let pixel = |_| Rgb::splat(value() as f32);

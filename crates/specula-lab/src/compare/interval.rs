@@ -141,7 +141,7 @@ mod tests {
         assert!((quantile(0.975, f64::INFINITY) - 1.96).abs() < 1e-3);
     }
 
-    /// Of sums of two means of normal numbers with other variances and counts.
+    /// Of sums of two means of normally distributed values with other variances and counts.
     #[test]
     fn intervals_hold_as_often_as_they_say() {
         let mut rng = Rng::new(5);

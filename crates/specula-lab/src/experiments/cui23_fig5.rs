@@ -257,7 +257,7 @@ fn figure(points: &[Point]) -> Figure {
                 here.map(|p| [f64::from(p.theta_o_deg), value(p, i)])
                     .collect()
             };
-            // The truth first, so that the others are sampled over it.
+            // The truth first, so that the others lie over it.
             let series = (0..MODELS.len())
                 .map(|i| Series::new(MODELS[i].label, MODELS[i].style, line(i)))
                 .collect();

@@ -22,7 +22,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
-/// Of the bidirectional estimator under the point light; the paper's 17, in step with the sampler.
+/// Of the bidirectional estimator under the point light; the paper's 17, as a power of two for the sampler.
 const SAMPLES: u32 = 16;
 const DIRECT: u32 = 1;
 

@@ -21,7 +21,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
-/// Two numbers along x and y.
+/// Two values along x and y.
 type Pair = (f64, f64);
 
 /// Panels: name, alphas, x and y of the view.

@@ -188,7 +188,7 @@ fn write(
             })
         })
         .collect();
-    let caption = format!("Directional albedo over alpha_values and views, {title}.");
+    let caption = format!("Directional albedo over alphas and views, {title}.");
     lab.plot(name, &caption, &Figure::grid(3, panels))
 }
 

@@ -12,7 +12,7 @@ use std::mem::MaybeUninit;
 
 use super::frame::RayFrame;
 use super::kernel::{EntryStack, Kernel, PacketHits, STACK};
-use super::node::{Child, Kind, Lanes, Node8, Packet8};
+use super::node::{Child, ChildKind, Lanes, Node8, Packet8};
 use super::traverse::{self, Scene};
 use super::{Hit, Ray, interleaved};
 
@@ -41,14 +41,19 @@ impl Avx2 {
         unsafe { occluded(self, scene, ray) }
     }
 
-    pub(super) fn intersect_in_step(self, scene: &Scene, rays: &[Ray], hits: &mut [Option<Hit>]) {
+    pub(super) fn intersect_interleaved(
+        self,
+        scene: &Scene,
+        rays: &[Ray],
+        hits: &mut [Option<Hit>],
+    ) {
         // SAFETY: `self` proves that the machine has the features.
-        unsafe { intersect_in_step(self, scene, rays, hits) }
+        unsafe { intersect_interleaved(self, scene, rays, hits) }
     }
 
-    pub(super) fn occluded_in_step(self, scene: &Scene, rays: &[Ray], found: &mut [bool]) {
+    pub(super) fn occluded_interleaved(self, scene: &Scene, rays: &[Ray], occluded: &mut [bool]) {
         // SAFETY: `self` proves that the machine has the features.
-        unsafe { occluded_in_step(self, scene, rays, found) }
+        unsafe { occluded_interleaved(self, scene, rays, occluded) }
     }
 }
 
@@ -63,13 +68,13 @@ fn occluded(kernel: Avx2, scene: &Scene, ray: &Ray) -> bool {
 }
 
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
-fn intersect_in_step(kernel: Avx2, scene: &Scene, rays: &[Ray], hits: &mut [Option<Hit>]) {
+fn intersect_interleaved(kernel: Avx2, scene: &Scene, rays: &[Ray], hits: &mut [Option<Hit>]) {
     interleaved::intersect(kernel, scene, rays, hits);
 }
 
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
-fn occluded_in_step(kernel: Avx2, scene: &Scene, rays: &[Ray], found: &mut [bool]) {
-    interleaved::occluded(kernel, scene, rays, found);
+fn occluded_interleaved(kernel: Avx2, scene: &Scene, rays: &[Ray], occluded: &mut [bool]) {
+    interleaved::occluded(kernel, scene, rays, occluded);
 }
 
 /// A stack whose entries are not initialised until they are written.
@@ -99,9 +104,9 @@ impl Kernel for Avx2 {
     #[inline(always)]
     fn prefetch(self, scene: &Scene, child: Child) {
         match child.kind() {
-            Kind::Node => prefetch(&scene.nodes[child.index()]),
-            Kind::Packet => prefetch(&scene.packets[child.index()]),
-            Kind::Quadric | Kind::Placement => {}
+            ChildKind::Node => prefetch(&scene.nodes[child.index()]),
+            ChildKind::Packet => prefetch(&scene.packets[child.index()]),
+            ChildKind::Quadric | ChildKind::Placement => {}
         }
     }
 

@@ -1,13 +1,13 @@
 //! Small scenes: sixteen rays at a time against every primitive.
 //!
 //! Below a few dozen primitives a tree costs more than it saves. Rays are sorted by the axis in which
-//! their direction is greatest, so that the triangle test permutes the coordinates of all alike, and
-//! laid side by side. The loops over [`PACK`] rays are compiled to vectors. Triangles that share corners
+//! their direction is greatest, so that the triangle test permutes the coordinates of all alike, and stored as
+//! structures of arrays. The loops over [`PACK`] rays are compiled to SIMD instructions. Triangles that share corners
 //! are tested together: each corner is sheared once.
 //!
 //! Operation by operation the same as the traversal, whose boxes cull no hit: the answers are equal bit
-//! for bit, but for slivers a million of their room's sizes from the origin, which rounding opens to rays
-//! beside them. Primitives come in ascending order, so that of equal distances the first stays.
+//! for bit, but for slivers in rooms that are a million of their own sizes away from the origin: rounding lets rays
+//! beside them hit. Primitives come in ascending order, so that of equal distances the first stays.
 #![allow(
     clippy::needless_range_loop,
     reason = "an index below the arrays' length is what the compiler makes vectors of"
@@ -16,8 +16,8 @@
 use macro_rules_attribute::apply;
 
 use super::frame::greatest_axis;
-use super::node::Kind;
-use super::quadric::{self, Approach, Placed};
+use super::node::ChildKind;
+use super::quadric::{self, Approach, PreparedQuadric};
 use super::traverse::Scene;
 use super::triangle;
 use super::{Hit, QuadricShape, Ray};
@@ -36,7 +36,7 @@ const QUADRIC: usize = 3;
 /// Corners of a cluster: those of a box. A power of two.
 const CORNERS: usize = 8;
 
-/// A number of each ray.
+/// One component of each ray of a pack.
 type Column = [f32; PACK];
 
 /// Triangles one after the other, and the corners that they share.
@@ -44,7 +44,7 @@ type Column = [f32; PACK];
 struct Cluster {
     /// By the axis in which directions are greatest, with coordinates in the order of its shear.
     corners: [Vec<[f32; 3]>; 3],
-    /// Places among the corners.
+    /// Indices of corners.
     triangles: Vec<[u8; 3]>,
 }
 
@@ -79,35 +79,35 @@ impl Cluster {
     }
 }
 
-/// Everything that there is.
+/// The primitives of a small scene.
 #[derive(Clone, Debug)]
-pub(super) struct Small {
+pub(super) struct SmallScene {
     /// All triangles, ascending.
     clusters: Vec<Cluster>,
     /// Of the triangles and then of the quadrics, ascending.
     primitives: Vec<u32>,
-    quadrics: Vec<Placed>,
+    quadrics: Vec<PreparedQuadric>,
     /// How many triangles there are.
     first_quadric: u32,
     instance: u32,
 }
 
-impl Small {
-    /// `None` where there is nothing, too much, or anything but one instance in its own space.
+impl SmallScene {
+    /// `None` where the scene is empty, too large, or anything but one untransformed instance.
     pub(super) fn new(scene: &Scene) -> Option<Self> {
         let instance = scene.single?;
         if scene.packets.len() + scene.quadrics.len() > MOST {
             return None;
         }
         let mut triangles: Vec<(u32, [[f32; 3]; 3])> = Vec::new();
-        let mut quadrics: Vec<Placed> = Vec::new();
+        let mut quadrics: Vec<PreparedQuadric> = Vec::new();
         let mut pending = vec![scene.root?];
         while let Some(child) = pending.pop() {
             match child.kind() {
-                Kind::Node => pending.extend(scene.nodes[child.index()].held()),
-                Kind::Packet => triangles.extend(scene.packets[child.index()].held()),
-                Kind::Quadric => quadrics.push(scene.quadrics[child.index()]),
-                Kind::Placement => return None,
+                ChildKind::Node => pending.extend(scene.nodes[child.index()].occupied()),
+                ChildKind::Packet => triangles.extend(scene.packets[child.index()].occupied()),
+                ChildKind::Quadric => quadrics.push(scene.quadrics[child.index()]),
+                ChildKind::Placement => return None,
             }
         }
         if triangles.len() + QUADRIC * quadrics.len() > MOST {
@@ -146,11 +146,11 @@ impl Small {
     }
 
     /// Whether the rays hit anything, in order.
-    pub(super) fn occluded(&self, rays: &[Ray], found: &mut Vec<bool>) {
-        found.clear();
-        found.resize(rays.len(), false);
-        for (rays, found) in rays.chunks(BATCH).zip(found.chunks_mut(BATCH)) {
-            any(self, rays, found);
+    pub(super) fn occluded(&self, rays: &[Ray], occluded: &mut Vec<bool>) {
+        occluded.clear();
+        occluded.resize(rays.len(), false);
+        for (rays, occluded) in rays.chunks(BATCH).zip(occluded.chunks_mut(BATCH)) {
+            any(self, rays, occluded);
         }
     }
 }
@@ -196,7 +196,7 @@ impl Order {
     }
 }
 
-/// Rays side by side, and their closest hits so far.
+/// Rays as a structure of arrays, and their closest hits so far.
 struct Pack {
     origin: [Column; 3],
     direction: [Column; 3],
@@ -211,7 +211,7 @@ struct Pack {
     place: [u32; PACK],
 }
 
-/// What a lane holds.
+/// The vector in a lane.
 #[inline(always)]
 fn at<T: Copy>(columns: &[[T; PACK]; 3], lane: usize) -> [T; 3] {
     [columns[0][lane], columns[1][lane], columns[2][lane]]
@@ -262,9 +262,10 @@ impl Pack {
         }
     }
 
-    /// Takes what is closer of some triangles, whose places begin with `place`.
+    /// Updates the closest hits by a cluster of triangles.
     ///
-    /// * `sheared`: room for corners.
+    /// * `place`: index of the first triangle.
+    /// * `sheared`: scratch memory for corners.
     #[inline(always)]
     fn offer_cluster(
         &mut self,
@@ -285,7 +286,7 @@ impl Pack {
         }
     }
 
-    /// Takes what is closer of a triangle.
+    /// Updates the closest hits by a triangle.
     ///
     /// * `p`: its corners, sheared.
     #[inline(always)]
@@ -315,9 +316,9 @@ impl Pack {
         }
     }
 
-    /// Takes what is closer of a quadric.
+    /// Updates the closest hits by a quadric.
     #[inline(always)]
-    fn offer_quadric(&mut self, quadric: &Placed, place: u32) {
+    fn offer_quadric(&mut self, quadric: &PreparedQuadric, place: u32) {
         let [mut o, mut d] = [[[0.0; PACK]; 3]; 2];
         for lane in 0..PACK {
             let origin = [0, 1, 2].map(|k| f64::from(self.origin[k][lane]));
@@ -329,7 +330,7 @@ impl Pack {
             }
         }
         let mut t = [0.0; PACK];
-        let mut meets = [1_u32; PACK];
+        let mut is_hit = [1_u32; PACK];
         match quadric.shape() {
             QuadricShape::Disk { radius, height } => {
                 for lane in 0..PACK {
@@ -340,8 +341,8 @@ impl Pack {
                 let mut some = 0;
                 for lane in 0..PACK {
                     let near = Approach::new(at(&o, lane), at(&d, lane), radius);
-                    meets[lane] = u32::from(near.meets());
-                    some |= meets[lane];
+                    is_hit[lane] = u32::from(near.hits());
+                    some |= is_hit[lane];
                 }
                 if some == 0 {
                     return;
@@ -353,7 +354,7 @@ impl Pack {
             }
         }
         for lane in 0..PACK {
-            let closer = (meets[lane] != 0) & (t[lane] > 0.0) & (t[lane] < self.t[lane]);
+            let closer = (is_hit[lane] != 0) & (t[lane] > 0.0) & (t[lane] < self.t[lane]);
             self.t[lane] = if closer { t[lane] } else { self.t[lane] };
             self.u[lane] = if closer { 0.0 } else { self.u[lane] };
             self.v[lane] = if closer { 0.0 } else { self.v[lane] };
@@ -361,9 +362,9 @@ impl Pack {
         }
     }
 
-    /// Takes what is closer of everything.
+    /// Updates the closest hits by all primitives.
     #[inline(always)]
-    fn offer_all(&mut self, small: &Small, axis: usize) {
+    fn offer_all(&mut self, small: &SmallScene, axis: usize) {
         let mut place = 0;
         let mut sheared = [[[0.0; PACK]; 3]; CORNERS];
         for cluster in &small.clusters {
@@ -377,7 +378,7 @@ impl Pack {
 }
 
 #[apply(simd_levels)]
-fn closest(small: &Small, rays: &[Ray], hits: &mut [Option<Hit>]) {
+fn closest(small: &SmallScene, rays: &[Ray], hits: &mut [Option<Hit>]) {
     for (axis, members) in Order::new(rays).packs() {
         let mut pack = Pack::new(rays, members, axis);
         pack.offer_all(small, axis);
@@ -394,12 +395,12 @@ fn closest(small: &Small, rays: &[Ray], hits: &mut [Option<Hit>]) {
 }
 
 #[apply(simd_levels)]
-fn any(small: &Small, rays: &[Ray], found: &mut [bool]) {
+fn any(small: &SmallScene, rays: &[Ray], occluded: &mut [bool]) {
     for (axis, members) in Order::new(rays).packs() {
         let mut pack = Pack::new(rays, members, axis);
         pack.offer_all(small, axis);
         for (lane, &i) in members.iter().enumerate() {
-            found[usize::from(i)] = pack.place[lane] != NOTHING;
+            occluded[usize::from(i)] = pack.place[lane] != NOTHING;
         }
     }
 }

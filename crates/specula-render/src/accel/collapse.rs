@@ -1,11 +1,11 @@
-//! Binary trees to 8-wide ones at the least surface area cost.
+//! Collapses binary trees to 8-wide ones with the least cost by surface area.
 
 use std::collections::BinaryHeap;
 
 use super::Bounds;
 use super::binary::Binary;
 use super::kernel::MAX_DEPTH;
-use super::node::{Child, Kind, Node8, WIDTH};
+use super::node::{Child, ChildKind, Node8, WIDTH};
 
 /// Cost of testing a packet of triangles, relative to a node. Measured, see `benches/rays.rs`.
 const PACKET_COST: f64 = 1.0;
@@ -89,7 +89,7 @@ pub(super) fn plant(
     Plan::new(tree, &packable).emit(0, nodes, &mut leaf)
 }
 
-/// What becomes of each binary node.
+/// How a binary tree is collapsed: what becomes of each of its nodes.
 ///
 /// `choices[n][j]` says how the subtree `n` is best cut into at most `j` wide children: into `k` of
 /// its left part and `j - k` of its right one; 0 where `j - 1` children do as well. `choices[n][1]`:
@@ -197,7 +197,7 @@ impl Plan {
 
     /// At most `count` subtrees that hold everything: the largest are opened first.
     fn parts(&self, count: usize) -> Vec<u32> {
-        // By the bits of areas: numbers that are not negative are ordered as their bits are.
+        // By the bits of areas: floats that are not negative are ordered as their bits are.
         let area = |at: u32| self.tree.0[at as usize].bounds.half_area().to_bits();
         let mut open = BinaryHeap::from([(area(0), 0)]);
         let mut parts = Vec::new();
@@ -225,7 +225,7 @@ impl Plan {
         nodes: &mut Vec<Node8>,
         leaf: &mut impl FnMut(&[u32]) -> Child,
     ) -> Tree {
-        let root = Child::new(Kind::Node, nodes.len());
+        let root = Child::new(ChildKind::Node, nodes.len());
         let (mut deepest, mut children, mut items) = (0, Vec::new(), Vec::new());
         let bounds = self.tree.0[at as usize].bounds;
         let mut pending = vec![(at, nodes.len(), 1)];
@@ -241,7 +241,7 @@ impl Plan {
                 } else {
                     pending.push((child, nodes.len(), depth + 1));
                     nodes.push(Node8::EMPTY);
-                    Child::new(Kind::Node, nodes.len() - 1)
+                    Child::new(ChildKind::Node, nodes.len() - 1)
                 };
                 let bounds = &self.tree.0[child as usize].bounds;
                 nodes[target].set(lane, bounds, reference);

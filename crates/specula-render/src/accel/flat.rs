@@ -1,4 +1,4 @@
-//! The trees for shaders.
+//! The acceleration structure for shaders.
 
 use glam::DAffine3;
 
@@ -10,8 +10,8 @@ use crate::words::Words;
 impl Accel {
     /// Nodes and packets as they are; the root, quadrics and placements as words.
     ///
-    /// A quadric: its kind (sphere, disk), radius, height, number, and its space from the group's; a
-    /// placement: root, instance, whether it moves nothing, and the group's space from the world's.
+    /// A quadric: kind (sphere, disk), radius, height, index within the group, affine map from the group's space to its
+    /// own. A placement: root, instance, whether it is the identity, affine map from the world to the group's space.
     pub(crate) fn flatten(&self, to: &mut Words) -> (&[u8], &[u8]) {
         let scene = &self.scene;
         to.constant("TREE_ROOT", scene.root.map_or(NONE, |root| root.0));
@@ -33,7 +33,7 @@ impl Accel {
     }
 }
 
-fn flatten_quadric(quadric: &quadric::Placed, to: &mut Words) {
+fn flatten_quadric(quadric: &quadric::PreparedQuadric, to: &mut Words) {
     let (kind, radius, height) = match quadric.shape() {
         QuadricShape::Sphere { radius } => (codes::QUADRIC_SPHERE, radius, 0.0),
         QuadricShape::Disk { radius, height } => (codes::QUADRIC_DISK, radius, height),

@@ -1,4 +1,4 @@
-//! A ray prepared for the kernels: reciprocals for the slabs, shear for the triangles.
+//! A ray, prepared for the kernels: reciprocals for the slabs, shear for the triangles.
 
 use super::Ray;
 
@@ -18,7 +18,7 @@ pub(super) struct RayFrame {
     pub(super) near_scale: [f32; 3],
     /// The same with [`SLACK`].
     pub(super) far_scale: [f32; 3],
-    /// Per axis the array of [`super::node::Node8::bounds`] that the ray meets first; the other is
+    /// Per axis the array of [`super::node::Node8::bounds`] that the ray reaches first; the other is
     /// this one `^ 1`.
     pub(super) near: [u8; 3],
     /// The two lesser axes, and the one in which the direction is greatest.
@@ -65,7 +65,7 @@ pub(super) fn greatest_axis(ray: &Ray) -> Option<u8> {
     let finite =
         (o[0] * 0.0 + o[1] * 0.0 + o[2] * 0.0) + (d[0] * 0.0 + d[1] * 0.0 + d[2] * 0.0) == 0.0;
     let [x, y, z] = d.map(f32::abs);
-    // Without branches, which would be guessed wrong as often as not.
+    // Without branches, which would be mispredicted half of the time.
     let axis = if (x > y) & (x > z) {
         0
     } else {

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::chunks::{self, Item};
 use super::collapse::{self, Tree};
 use super::kernel::MAX_DEPTH;
-use super::node::{Child, Kind, Node8, Packet8};
+use super::node::{Child, ChildKind, Node8, Packet8};
 use super::traverse::Scene;
 use super::{Bounds, Group, quadric, triangle};
 
@@ -17,7 +17,7 @@ pub(super) struct GroupTree {
     pub(super) triangles: usize,
 }
 
-/// What rays walk over.
+/// The arrays that are traversed.
 #[derive(Default)]
 struct Arrays {
     nodes: Vec<Node8>,
@@ -27,7 +27,7 @@ struct Arrays {
 #[derive(Default)]
 struct Leaves {
     packets: Vec<Packet8>,
-    quadrics: Vec<quadric::Placed>,
+    quadrics: Vec<quadric::PreparedQuadric>,
 }
 
 /// Levels of the tree over the parts of chunks, and of each part: balanced trees over
@@ -35,13 +35,13 @@ struct Leaves {
 const LEVELS: usize = MAX_DEPTH / 2;
 /// Most parts of all chunks together, where there are fewer chunks than that.
 const MOST_PARTS: usize = 1 << 17;
-/// Most parts of a chunk. They are the items of the tree over all, which is the better for more.
+/// Most parts of a chunk. They are the items of the tree over all chunks, which is better with more of them.
 const PARTS: usize = 256;
-/// How many chunks are built before the next are begun: bounds the memory.
+/// How many chunks are built at the same time, which bounds the memory.
 pub(super) const WAVE: usize = 16;
-/// From here on reinsertion, which takes the longest, is done with less effort.
+/// Items from which on reinsertion, which takes most of the time, has less effort.
 const LARGE: usize = 1_000_000;
-/// Its effort then.
+/// Effort of reinsertion in large groups.
 const EFFORT_IF_LARGE: f32 = 0.05;
 
 impl GroupTree {
@@ -91,7 +91,7 @@ impl GroupTree {
 fn items(group: &Group<'_>) -> Vec<Item> {
     let triangles = group.triangles.par_iter().with_min_len(1 << 14);
     let item = |(primitive, indices): (usize, &[u32; 3])| Item {
-        // Nothing stands for what cannot be hit.
+        // An empty box marks a triangle that cannot be hit.
         bounds: triangle::bounds(&indices.map(|v| group.positions[v as usize]))
             .unwrap_or(Bounds::EMPTY),
         primitive: u32::try_from(primitive).expect("counts are checked"),
@@ -116,7 +116,7 @@ fn bounds(items: &[Item]) -> Vec<Bounds> {
 
 /// The tree of a large group.
 fn in_chunks(group: &Group<'_>, items: &mut [Item], arrays: &mut Arrays) -> Tree {
-    // Room for what is seen in practice, untouched until it is needed: growing would copy.
+    // As much as is needed in practice, so that arrays need not grow; pages are not touched before they are used.
     arrays.nodes.reserve(items.len() / 9);
     arrays.leaves.packets.reserve(items.len() / 3);
     let effort = if items.len() > LARGE {
@@ -158,16 +158,16 @@ impl Leaves {
         let first = &items[leaf[0] as usize];
         if !is_triangle(group, first) {
             let quadric = &group.quadrics[first.primitive as usize - group.triangles.len()];
-            let placed = quadric::Placed::new(quadric, first.primitive);
+            let placed = quadric::PreparedQuadric::new(quadric, first.primitive);
             self.quadrics.push(placed);
-            return Child::new(Kind::Quadric, self.quadrics.len() - 1);
+            return Child::new(ChildKind::Quadric, self.quadrics.len() - 1);
         }
         let mut primitives = [0; 8];
         for (primitive, &item) in primitives.iter_mut().zip(leaf) {
             *primitive = items[item as usize].primitive;
         }
         let primitives = &mut primitives[..leaf.len()];
-        // In the order of the input, which chunks do not keep.
+        // In the order of the input, which chunks do not preserve.
         primitives.sort_unstable();
         let mut packet = Packet8::EMPTY;
         for (lane, &primitive) in primitives.iter().enumerate() {
@@ -179,7 +179,7 @@ impl Leaves {
             );
         }
         self.packets.push(packet);
-        Child::new(Kind::Packet, self.packets.len() - 1)
+        Child::new(ChildKind::Packet, self.packets.len() - 1)
     }
 }
 

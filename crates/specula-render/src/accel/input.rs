@@ -16,7 +16,7 @@ pub struct Group<'a> {
     pub quadrics: &'a [Quadric],
 }
 
-/// A group's place in the world.
+/// A group, placed in the world.
 ///
 /// A single instance with the identity transform costs nothing: rays go straight into the group.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,7 +77,7 @@ pub enum AccelError {
         /// The quadric within it.
         quadric: usize,
     },
-    /// More primitives or instances than the numbering has room for.
+    /// More primitives or instances than indices of 30 bits.
     #[error("{count} primitives or instances: at most {MOST} are possible")]
     TooMany {
         /// How many there are.
@@ -85,7 +85,7 @@ pub enum AccelError {
     },
 }
 
-/// Numbers of nodes, packets, quadrics and instances have 30 bits.
+/// Indices of nodes, packets, quadrics and instances have 30 bits.
 const MOST: usize = 1 << 29;
 
 /// Checks every index and transform, so that the build and the traversal cannot fail.

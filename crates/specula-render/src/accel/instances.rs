@@ -4,7 +4,7 @@ use glam::{DAffine3, DMat4, DVec3};
 use specula_bsdf::{Real, Vec3};
 
 use super::collapse::{self, Tree};
-use super::node::{Child, Kind};
+use super::node::{Child, ChildKind};
 use super::traverse::Scene;
 use super::{Bounds, Instance, Ray};
 
@@ -23,7 +23,7 @@ pub(super) struct Placement {
 }
 
 impl Placement {
-    /// The instance has been checked.
+    /// * `instance`: has been checked.
     pub(super) fn new(index: u32, instance: &Instance, tree: &Tree) -> Self {
         let identity = instance.to_world == DMat4::IDENTITY;
         let to_world = DAffine3::from_mat4(instance.to_world);
@@ -68,14 +68,14 @@ pub(super) fn build(placed: &[Placement], scene: &mut Scene) -> Option<Tree> {
         &items,
         |_| false,
         &mut scene.nodes,
-        |leaf| Child::new(Kind::Placement, leaf[0] as usize),
+        |leaf| Child::new(ChildKind::Placement, leaf[0] as usize),
     );
     Some(tree)
 }
 
 /// The box around a transformed box: centre and half extents, the latter through `|A|`.
 ///
-/// Padded by what rounding the ray in the group's space may amount to near the box.
+/// Padded by the error that rounding the ray in the group's space may cause near the box.
 fn transformed(bounds: &Bounds, to_world: &DAffine3) -> Bounds {
     let (min, max) = (
         DVec3::from_array(bounds.min.map(f64::from)),

@@ -1,21 +1,21 @@
-//! Several rays in step through one tree: while what one needs next comes from memory, others go on.
+//! Interleaved traversal: several rays through one tree, so that the others proceed while a node of one of them is
+//! loaded from memory.
 //!
-//! Each ray goes the way that [`super::traverse`] would take it; that walk is kept apart because it is
-//! faster where nothing has to be waited for: its state stays in registers.
+//! Each ray visits the nodes that [`super::traverse`] would visit. That traversal is separate because it is faster where
+//! nothing has to be loaded: its state stays in registers.
 
 use super::frame::RayFrame;
 use super::kernel::{EntryStack, Kernel};
 use super::node::{Child, Lanes, Node8};
-use super::traverse::{Best, GroupLeaves, Leaves, Scene, child_of};
+use super::traverse::{ClosestHit, GroupLeaves, Leaves, Scene, child_of};
 use super::{Hit, Ray};
 
-/// How many rays go in step. Measured: `cargo xtask rays`.
+/// Rays that are interleaved. Measured: `cargo xtask rays`.
 const RAYS: usize = 8;
-/// Bytes of a tree that the caches next to the processor are taken to hold. Measured likewise.
+/// Bytes of a tree that the first levels of caches are assumed to hold. Measured likewise.
 const IN_CACHE: usize = 4 << 20;
-/// Least squared cosine between directions of rays that find in the cache what the ray before them
-/// needed.
-const NARROW: f32 = 0.9;
+/// Least squared cosine between directions of coherent rays, which need nodes that are in the cache already.
+const COHERENT: f32 = 0.9;
 
 /// [`super::traverse::intersect`] of each ray; `hits` are as many, and `None`.
 #[inline(always)]
@@ -28,53 +28,54 @@ pub(super) fn intersect<K: Kernel>(
     cast::<K, false>(kernel, scene, rays, |ray, best| hits[ray] = best.hit());
 }
 
-/// [`super::traverse::occluded`] of each ray; `found` are as many, and `false`.
+/// [`super::traverse::occluded`] of each ray; `occluded` are as many, and `false`.
 #[inline(always)]
-pub(super) fn occluded<K: Kernel>(kernel: K, scene: &Scene, rays: &[Ray], found: &mut [bool]) {
+pub(super) fn occluded<K: Kernel>(kernel: K, scene: &Scene, rays: &[Ray], occluded: &mut [bool]) {
     cast::<K, true>(kernel, scene, rays, |ray, best| {
-        found[ray] = best.hit().is_some()
+        occluded[ray] = best.hit().is_some()
     });
 }
 
-/// Whether rays gain by going in step: where there is one group, larger than the caches, and the rays
-/// go different ways.
+/// Whether interleaving is faster: where there is one group, larger than the caches, and the rays are incoherent.
 pub(super) fn gains(scene: &Scene, rays: &[Ray]) -> bool {
     let bytes = size_of_val(scene.nodes.as_slice()) + size_of_val(scene.packets.as_slice());
-    scene.single.is_some() && bytes > IN_CACHE && !are_narrow(rays)
+    scene.single.is_some() && bytes > IN_CACHE && !are_coherent(rays)
 }
 
-/// Whether all directions lie about the first.
-fn are_narrow(rays: &[Ray]) -> bool {
+/// Whether all directions are close to the first.
+fn are_coherent(rays: &[Ray]) -> bool {
     let Some(axis) = rays.first().map(|ray| ray.direction) else {
         return true;
     };
-    let least = NARROW * axis.length_squared();
+    let least = COHERENT * axis.length_squared();
     rays.iter().all(|ray| {
         let along = ray.direction.dot(axis);
         along > 0.0 && along * along > least * ray.direction.length_squared()
     })
 }
 
-/// A ray on its way.
-struct Traveller<S> {
+/// The state of a ray that is being traversed.
+struct RayInFlight<S> {
     /// Index of the ray.
-    ray: usize,
+    index: usize,
     frame: RayFrame,
-    best: Best,
+    best: ClosestHit,
     /// See [`super::traverse`].
     stack: S,
     top: usize,
     current: Child,
 }
 
-/// `ANY`: stops at a ray's first hit. Rays that cannot hit are passed over. Only where there is one
-/// group.
+/// Traverses the rays, and calls `done` for each with its closest hit. Skips rays that cannot hit. Only where there is
+/// one group.
+///
+/// * `ANY`: stops at any hit.
 #[inline(always)]
 fn cast<K: Kernel, const ANY: bool>(
     kernel: K,
     scene: &Scene,
     rays: &[Ray],
-    mut done: impl FnMut(usize, &Best),
+    mut done: impl FnMut(usize, &ClosestHit),
 ) {
     let (Some(root), Some(instance)) = (scene.root, scene.single) else {
         return;
@@ -82,12 +83,12 @@ fn cast<K: Kernel, const ANY: bool>(
     let leaves = GroupLeaves { scene, instance };
     let mut waiting = rays.iter().enumerate().filter_map(|(index, ray)| {
         let frame = RayFrame::new(ray)?;
-        Some((index, frame, Best::new(ray.t_max)))
+        Some((index, frame, ClosestHit::new(ray.t_max)))
     });
-    let mut travellers: [Option<Traveller<K::Stack>>; RAYS] = std::array::from_fn(|_| {
-        let (ray, frame, best) = waiting.next()?;
-        Some(Traveller {
-            ray,
+    let mut in_flight: [Option<RayInFlight<K::Stack>>; RAYS] = std::array::from_fn(|_| {
+        let (index, frame, best) = waiting.next()?;
+        Some(RayInFlight {
+            index,
             frame,
             best,
             stack: kernel.stack(),
@@ -95,28 +96,28 @@ fn cast<K: Kernel, const ANY: bool>(
             current: root,
         })
     });
-    let mut on_their_way = travellers.iter().flatten().count();
-    while on_their_way > 0 {
-        for place in &mut travellers {
-            let Some(traveller) = place else { continue };
-            if traveller.step::<K, ANY>(kernel, scene, &leaves) {
-                kernel.prefetch(scene, traveller.current);
+    let mut active = in_flight.iter().flatten().count();
+    while active > 0 {
+        for place in &mut in_flight {
+            let Some(ray) = place else { continue };
+            if ray.step::<K, ANY>(kernel, scene, &leaves) {
+                kernel.prefetch(scene, ray.current);
                 continue;
             }
-            done(traveller.ray, &traveller.best);
-            if let Some((ray, frame, best)) = waiting.next() {
-                (traveller.ray, traveller.frame, traveller.best) = (ray, frame, best);
-                (traveller.top, traveller.current) = (0, root);
+            done(ray.index, &ray.best);
+            if let Some((index, frame, best)) = waiting.next() {
+                (ray.index, ray.frame, ray.best) = (index, frame, best);
+                (ray.top, ray.current) = (0, root);
             } else {
                 *place = None;
-                on_their_way -= 1;
+                active -= 1;
             }
         }
     }
 }
 
-impl<S: EntryStack> Traveller<S> {
-    /// Deals with the current child and goes to the next; `false` where there is none.
+impl<S: EntryStack> RayInFlight<S> {
+    /// Visits the current child and goes to the next one; `false` where there is none.
     #[inline(always)]
     fn step<K: Kernel<Stack = S>, const ANY: bool>(
         &mut self,
@@ -142,8 +143,7 @@ impl<S: EntryStack> Traveller<S> {
         false
     }
 
-    /// Goes to the nearest child that is met and leaves the others on the stack; `false` where none
-    /// is.
+    /// Goes to the nearest child whose box is hit and pushes the others onto the stack; `false` where none is hit.
     #[inline(always)]
     fn enter<K: Kernel<Stack = S>, const ANY: bool>(&mut self, kernel: K, node: &Node8) -> bool {
         let mut entries = Lanes::default();

@@ -1,4 +1,4 @@
-//! What the traversal asks of the machine, and the portable answer.
+//! The kernels of the traversal, for one node or packet: what depends on the instruction set, and the portable one.
 
 use super::frame::RayFrame;
 use super::node::{Child, Lanes, Node8, Packet8, WIDTH};
@@ -8,7 +8,7 @@ use super::triangle::{self, max, min};
 /// Most levels of 8-wide nodes that a tree may have; deeper ones are rebuilt balanced.
 pub(super) const MAX_DEPTH: usize = 36;
 
-/// Room on the stack: each level leaves at most seven siblings behind.
+/// Size of the stack: each level pushes at most seven siblings.
 pub(super) const STACK: usize = (WIDTH - 1) * MAX_DEPTH;
 
 /// Distances and weights of the triangles of a packet.
@@ -33,11 +33,11 @@ pub(super) trait Kernel: Copy {
     type Stack: EntryStack;
     /// An empty stack.
     fn stack(self) -> Self::Stack;
-    /// Has what a child refers to contributed into the cache.
+    /// Prefetches what a child refers to into the cache.
     fn prefetch(self, scene: &Scene, child: Child);
-    /// Which children's boxes the ray meets in `[0, t_cull]`, as bits, and where it enters.
+    /// Which children's boxes the ray hits in `[0, t_cull]`, as bits, and where it enters them.
     fn boxes(self, node: &Node8, frame: &RayFrame, t_cull: f32, entry: &mut Lanes) -> u32;
-    /// Which triangles the ray meets in `(0, t_most]`, as bits, and where.
+    /// Which triangles the ray hits in `(0, t_most]`, as bits, and where.
     fn triangles(
         self,
         packet: &Packet8,
@@ -76,7 +76,7 @@ impl Kernel for Portable {
 
     #[inline(always)]
     fn boxes(self, node: &Node8, frame: &RayFrame, t_cull: f32, entry: &mut Lanes) -> u32 {
-        // Where the ray lies in a box's face, 0 * inf is NaN: `min` and `max` then keep the other.
+        // Where the ray lies in a box's face, 0 * inf is NaN: `min` and `max` then return the other operand.
         let mut far = [t_cull; WIDTH];
         entry.0 = [0.0; WIDTH];
         for axis in 0..3 {
@@ -135,7 +135,7 @@ impl Kernel for Portable {
     }
 }
 
-/// Eight answers as bits.
+/// Eight conditions as bits.
 #[inline(always)]
 fn bits(mut f: impl FnMut(usize) -> bool) -> u32 {
     (0..WIDTH).fold(0, |mask, lane| mask | (u32::from(f(lane)) << lane))

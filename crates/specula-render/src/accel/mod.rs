@@ -14,8 +14,8 @@
 //! - **Ties.** Of hits with equal `t` the smallest `(instance, primitive)` wins, whatever the order
 //!   of traversal.
 //! - **No leaks.** A ray from inside a closed mesh hits it: `triangle.rs` has the argument.
-//! - **Batches are rays one by one.** Small scenes (`brute_force.rs`) and rays that part in large trees
-//!   (`interleaved.rs`) go other ways in batches, to the same answers bit for bit.
+//! - **A batch is its rays one by one.** Batches in small scenes (`brute_force.rs`) and of incoherent rays in large
+//!   trees (`interleaved.rs`) are computed otherwise, with the same hits bit for bit.
 //! - **It cannot fail.** Rays that are not finite hit nothing; indices are checked at build.
 
 mod binary;
@@ -49,7 +49,7 @@ pub(crate) use triangle::has_area;
 
 #[cfg(target_arch = "x86_64")]
 use avx2::Avx2;
-use brute_force::Small;
+use brute_force::SmallScene;
 use collapse::Tree;
 use group::GroupTree;
 use instances::Placement;
@@ -69,7 +69,7 @@ pub struct Ray {
     pub t_max: f32,
 }
 
-/// Where a ray first meets a surface.
+/// The first hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Ray parameter, in `(0, t_max)`.
@@ -108,11 +108,11 @@ pub struct AccelStats {
     pub packets: usize,
     /// Levels of 8-wide nodes of the deepest tree.
     pub depth: usize,
-    /// Memory of nodes, packets, quadrics and placements.
+    /// Memory of nodes, packets, quadrics and instances.
     pub bytes: usize,
 }
 
-/// Rays against instances of groups of triangles and quadrics.
+/// An acceleration structure over instances of groups of triangles and quadrics.
 ///
 /// # Examples
 ///
@@ -138,16 +138,16 @@ pub struct AccelStats {
 #[derive(Clone, Debug)]
 pub struct Accel {
     scene: Scene,
-    /// The same once more, where it is small.
-    small: Option<Small>,
+    /// A copy for `brute_force`, where the scene is small.
+    small: Option<SmallScene>,
     bounds: Option<Bounds>,
-    kernel: Choice,
+    kernel: KernelChoice,
     stats: AccelStats,
 }
 
 /// The kernel in use. [`Avx2`] exists only where the machine has it.
 #[derive(Clone, Copy, Debug)]
-enum Choice {
+enum KernelChoice {
     Portable,
     #[cfg(target_arch = "x86_64")]
     Avx2(Avx2),
@@ -156,13 +156,12 @@ enum Choice {
 impl Accel {
     /// Builds the trees of the groups (in parallel, in rayon's current pool) and of the instances.
     ///
-    /// Triangles without area or with a vertex that is not finite are left out; they keep their
-    /// place in the numbering.
+    /// Triangles without area or with a vertex that is not finite are left out. Indices of the others stay as they are.
     ///
     /// # Errors
     ///
     /// [`AccelError`] where an index is out of range, a transform is singular or not finite, or
-    /// there are more primitives than the numbering has room for.
+    /// there are more primitives than indices.
     pub fn build(groups: &[Group<'_>], instances: &[Instance]) -> Result<Self, AccelError> {
         input::check(groups, instances)?;
         let built: Vec<_> = groups.par_iter().map(GroupTree::build).collect();
@@ -193,8 +192,8 @@ impl Accel {
         }
         Ok(Self {
             bounds,
-            small: Small::new(&scene),
-            kernel: Choice::best(),
+            small: SmallScene::new(&scene),
+            kernel: KernelChoice::best(),
             stats: AccelStats {
                 triangles,
                 quadrics: scene.quadrics.len(),
@@ -210,23 +209,23 @@ impl Accel {
         })
     }
 
-    /// The first surface that the ray meets.
+    /// The first hit of the ray.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
         match self.kernel {
-            Choice::Portable => traverse::intersect(Portable, &self.scene, ray),
+            KernelChoice::Portable => traverse::intersect(Portable, &self.scene, ray),
             #[cfg(target_arch = "x86_64")]
-            Choice::Avx2(kernel) => kernel.intersect(&self.scene, ray),
+            KernelChoice::Avx2(kernel) => kernel.intersect(&self.scene, ray),
         }
     }
 
-    /// Whether the ray meets any surface: whether [`Accel::intersect`] returns a hit, but faster.
+    /// Whether the ray hits any surface: whether [`Accel::intersect`] returns a hit, but faster.
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
         match self.kernel {
-            Choice::Portable => traverse::occluded(Portable, &self.scene, ray),
+            KernelChoice::Portable => traverse::occluded(Portable, &self.scene, ray),
             #[cfg(target_arch = "x86_64")]
-            Choice::Avx2(kernel) => kernel.occluded(&self.scene, ray),
+            KernelChoice::Avx2(kernel) => kernel.occluded(&self.scene, ray),
         }
     }
 
@@ -241,26 +240,26 @@ impl Accel {
         }
         hits.resize(rays.len(), None);
         match self.kernel {
-            Choice::Portable => interleaved::intersect(Portable, &self.scene, rays, hits),
+            KernelChoice::Portable => interleaved::intersect(Portable, &self.scene, rays, hits),
             #[cfg(target_arch = "x86_64")]
-            Choice::Avx2(kernel) => kernel.intersect_in_step(&self.scene, rays, hits),
+            KernelChoice::Avx2(kernel) => kernel.intersect_interleaved(&self.scene, rays, hits),
         }
     }
 
     /// [`Accel::occluded`] of each ray, in order: the same answers, but faster for many rays.
-    pub fn occluded_all(&self, rays: &[Ray], found: &mut Vec<bool>) {
-        found.clear();
+    pub fn occluded_all(&self, rays: &[Ray], occluded: &mut Vec<bool>) {
+        occluded.clear();
         if let Some(small) = &self.small {
-            return small.occluded(rays, found);
+            return small.occluded(rays, occluded);
         }
         if !interleaved::gains(&self.scene, rays) {
-            return found.extend(rays.iter().map(|ray| self.occluded(ray)));
+            return occluded.extend(rays.iter().map(|ray| self.occluded(ray)));
         }
-        found.resize(rays.len(), false);
+        occluded.resize(rays.len(), false);
         match self.kernel {
-            Choice::Portable => interleaved::occluded(Portable, &self.scene, rays, found),
+            KernelChoice::Portable => interleaved::occluded(Portable, &self.scene, rays, occluded),
             #[cfg(target_arch = "x86_64")]
-            Choice::Avx2(kernel) => kernel.occluded_in_step(&self.scene, rays, found),
+            KernelChoice::Avx2(kernel) => kernel.occluded_interleaved(&self.scene, rays, occluded),
         }
     }
 
@@ -274,24 +273,24 @@ impl Accel {
         self.stats
     }
 
-    /// What it is traversed with: the best that the machine has, unless chosen otherwise.
+    /// The instructions in use: the best that the machine has, unless chosen otherwise.
     pub fn instructions(&self) -> Instructions {
         match self.kernel {
-            Choice::Portable => Instructions::Portable,
+            KernelChoice::Portable => Instructions::Portable,
             #[cfg(target_arch = "x86_64")]
-            Choice::Avx2(_) => Instructions::Avx2,
+            KernelChoice::Avx2(_) => Instructions::Avx2,
         }
     }
 
     /// The same structure with the portable kernel, for comparison.
     #[must_use]
     pub fn portable(mut self) -> Self {
-        self.kernel = Choice::Portable;
+        self.kernel = KernelChoice::Portable;
         self
     }
 }
 
-impl Choice {
+impl KernelChoice {
     fn best() -> Self {
         #[cfg(target_arch = "x86_64")]
         if let Some(kernel) = Avx2::detect() {

@@ -1,4 +1,4 @@
-//! The arrays that rays walk over: 8-wide nodes and packets of 8 triangles, 64-byte aligned.
+//! The arrays that are traversed: 8-wide nodes and packets of 8 triangles, 64-byte aligned.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -7,19 +7,19 @@ use super::{Bounds, triangle};
 /// How many children a node has at most, and triangles a packet.
 pub(super) const WIDTH: usize = 8;
 
-/// Eight numbers, one for each child or triangle.
+/// Eight floats, a SIMD lane for each child or triangle.
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C, align(32))]
 pub(super) struct Lanes(pub(super) [f32; WIDTH]);
 
-/// What a node's lane, or the root, refers to: two bits of kind and an index of 30 bits.
+/// A reference to a child of a node, or to the root: two bits of kind and an index of 30 bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 #[repr(transparent)]
 pub(super) struct Child(pub(super) u32);
 
 /// The kinds of [`Child`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum ChildKind {
     Node,
     Packet,
     Quadric,
@@ -27,7 +27,7 @@ pub(super) enum Kind {
 }
 
 impl Child {
-    pub(super) fn new(kind: Kind, index: usize) -> Self {
+    pub(super) fn new(kind: ChildKind, index: usize) -> Self {
         let index = u32::try_from(index).expect("counts are checked before the build");
         assert!(index < 1 << 30, "counts are checked before the build");
         Self(((kind as u32) << 30) | index)
@@ -39,12 +39,12 @@ impl Child {
     }
 
     #[inline(always)]
-    pub(super) fn kind(self) -> Kind {
+    pub(super) fn kind(self) -> ChildKind {
         match self.0 >> 30 {
-            0 => Kind::Node,
-            1 => Kind::Packet,
-            2 => Kind::Quadric,
-            _ => Kind::Placement,
+            0 => ChildKind::Node,
+            1 => ChildKind::Packet,
+            2 => ChildKind::Quadric,
+            _ => ChildKind::Placement,
         }
     }
 
@@ -66,7 +66,7 @@ pub(super) struct Node8 {
 }
 
 impl Node8 {
-    /// No children: boxes that no ray meets.
+    /// No children: boxes that no ray hits.
     pub(super) const EMPTY: Self = Self {
         bounds: {
             let (min, max) = (
@@ -87,15 +87,15 @@ impl Node8 {
         self.children[lane] = child;
     }
 
-    /// The children that there are.
-    pub(super) fn held(&self) -> impl Iterator<Item = Child> {
+    /// The children in occupied lanes.
+    pub(super) fn occupied(&self) -> impl Iterator<Item = Child> {
         let [low, high] = [0, 1].map(|side| self.bounds[side].0);
         let lanes = (0..WIDTH).filter(move |&lane| low[lane] <= high[lane]);
         lanes.map(|lane| self.children[lane])
     }
 }
 
-/// Up to eight triangles. Lanes without one hold a point, which no ray hits.
+/// Up to eight triangles. Empty lanes hold a point, which no ray hits.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C, align(64))]
 pub(super) struct Packet8 {
@@ -121,8 +121,8 @@ impl Packet8 {
         self.primitives[lane] = primitive;
     }
 
-    /// The triangles that there are, with their indices.
-    pub(super) fn held(&self) -> impl Iterator<Item = (u32, [[f32; 3]; 3])> {
+    /// The triangles in occupied lanes, with their indices.
+    pub(super) fn occupied(&self) -> impl Iterator<Item = (u32, [[f32; 3]; 3])> {
         let corners = |lane: usize| {
             self.vertices
                 .each_ref()

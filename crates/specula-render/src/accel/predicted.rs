@@ -1,39 +1,39 @@
-//! How much memory trees take, from counts alone.
+//! How much memory acceleration structures take, by counts of primitives.
 
 use super::chunks::CHUNK;
 use super::group::WAVE;
 use super::instances::Placement;
-use super::quadric::Placed;
+use super::quadric::PreparedQuadric;
 
 /// Nodes and packets, per triangle: measured on meshes (74 where packets are full, to 103).
 const TRIANGLE: usize = 104;
 /// A quadric's share of the nodes.
 const NODES_OF_QUADRIC: usize = 48;
-/// Boxes with their numbers, of all primitives of a group.
+/// A box with its index, of each primitive of a group.
 const ITEM: usize = 28;
-/// What building a tree takes for each item of a chunk: hash table, binary trees and plans.
+/// Memory while a tree is built, for each item of a chunk: hash table, binary trees and plans.
 const BUILDING: usize = 170;
-/// What finished chunks of a wave leave behind, per item, before and while they are joined.
+/// Memory of the trees of finished chunks, per item of a wave, until they are joined.
 const WAVE_ITEM: usize = 25;
 
-/// Bytes of trees.
+/// Bytes of acceleration structures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Predicted {
-    /// When they are built.
-    pub(crate) kept: u64,
+    /// Of the finished structures.
+    pub(crate) finished: u64,
     /// Besides, while they are built.
     pub(crate) building: u64,
 }
 
 /// The trees over groups of so many triangles and quadrics, and over their instances.
 pub(crate) fn predicted(groups: &[(usize, usize)], instances: usize, threads: usize) -> Predicted {
-    let quadric = size_of::<Placed>() + NODES_OF_QUADRIC;
-    let (mut kept, mut largest) = (0, 0);
+    let quadric = size_of::<PreparedQuadric>() + NODES_OF_QUADRIC;
+    let (mut finished, mut largest) = (0, 0);
     let mut building = Vec::new();
     for &(triangles, quadrics) in groups {
         let tree = TRIANGLE * triangles + quadric * quadrics;
         let items = triangles + quadrics;
-        kept += tree;
+        finished += tree;
         largest = largest.max(tree);
         // In large groups as many chunks at once as there are threads, of a wave at most.
         let (at_once, wave) = if items <= 2 * CHUNK {
@@ -51,7 +51,7 @@ pub(crate) fn predicted(groups: &[(usize, usize)], instances: usize, threads: us
     let copied = if several { 2 * largest } else { 0 };
     let placed = instances * (size_of::<Placement>() + NODES_OF_QUADRIC);
     Predicted {
-        kept: (kept + placed) as u64,
+        finished: (finished + placed) as u64,
         // Lists that grow are copied, and allocators do not give all of it back at once.
         building: (side_by_side + side_by_side / 4 + copied) as u64,
     }

@@ -71,14 +71,14 @@ impl Quadric {
 
 /// A quadric, ready to be intersected.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Placed {
+pub(super) struct PreparedQuadric {
     shape: QuadricShape,
     to_object: DAffine3,
     /// Index within the group.
     pub(super) primitive: u32,
 }
 
-impl Placed {
+impl PreparedQuadric {
     /// `quadric` must be regular.
     pub(super) fn new(quadric: &Quadric, primitive: u32) -> Self {
         Self {
@@ -88,7 +88,7 @@ impl Placed {
         }
     }
 
-    /// The least `t > 0` at which the ray meets the surface; NaN or not positive where it does not.
+    /// The least `t > 0` at which the ray hits the surface; NaN or not positive where it misses.
     #[inline(never)]
     pub(super) fn t(&self, ray: &Ray) -> f32 {
         let wide = |v: Vec3<f32>| v.to_array().map(f64::from);
@@ -97,7 +97,7 @@ impl Placed {
             QuadricShape::Disk { radius, height } => disk(o, d, radius, height),
             QuadricShape::Sphere { radius } => {
                 let near = Approach::new(o, d, radius);
-                if near.meets() {
+                if near.hits() {
                     near.t(o, radius)
                 } else {
                     f32::NAN
@@ -106,18 +106,18 @@ impl Placed {
         }
     }
 
-    /// Its own space from the group's.
+    /// Affine map from the group's space to its own.
     pub(super) fn own_space(&self) -> &DAffine3 {
         &self.to_object
     }
 
-    /// What it is in its own space.
+    /// Its shape, in its own space.
     #[inline(always)]
     pub(super) fn shape(&self) -> QuadricShape {
         self.shape
     }
 
-    /// A ray's origin and direction in its own space.
+    /// Transforms a ray's origin and direction to its own space.
     #[inline(always)]
     pub(super) fn enter(&self, origin: [f64; 3], direction: [f64; 3]) -> ([f64; 3], [f64; 3]) {
         let (origin, direction) = (DVec3::from_array(origin), DVec3::from_array(direction));
@@ -127,7 +127,7 @@ impl Placed {
     }
 }
 
-/// Where a ray meets the disk; NaN or not positive where it does not.
+/// `t` at which a ray hits the disk; NaN or not positive where it misses.
 #[inline(always)]
 pub(super) fn disk(o: [f64; 3], d: [f64; 3], radius: f64, height: f64) -> f32 {
     let t = (height - o[2]) / d[2];
@@ -136,7 +136,7 @@ pub(super) fn disk(o: [f64; 3], d: [f64; 3], radius: f64, height: f64) -> f32 {
     f32::of(if inside { t } else { f64::NAN })
 }
 
-/// How close a ray comes to a sphere's centre.
+/// The intersection of a ray with a sphere: terms of the quadratic equation.
 ///
 /// The discriminant comes from the vector between the centre and the ray's closest point, the roots
 /// from `q` and `c / q`, neither of which cancels (Haines, Guenther and Akenine-Moeller 2019, Ray
@@ -162,13 +162,13 @@ impl Approach {
         }
     }
 
-    /// Whether the ray, or its backward extension, meets the sphere.
+    /// Whether the ray, or its backward extension, hits the sphere.
     #[inline(always)]
-    pub(super) fn meets(&self) -> bool {
+    pub(super) fn hits(&self) -> bool {
         self.discriminant >= 0.0
     }
 
-    /// Where, if it does; not positive where the sphere lies behind.
+    /// `t` of the hit, if there is one; not positive where the sphere lies behind.
     #[inline(always)]
     pub(super) fn t(&self, o: [f64; 3], radius: f64) -> f32 {
         let Self { a, b, discriminant } = *self;

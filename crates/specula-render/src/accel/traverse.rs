@@ -1,19 +1,19 @@
-//! The walk of a ray through the nodes, near children first; generic over the kernel.
+//! Traversal of the trees by a ray, near children first; generic over the kernel.
 
 use super::frame::{RayFrame, SLACK};
 use super::instances::Placement;
 use super::kernel::{EntryStack, Kernel, PacketHits};
-use super::node::{Child, Kind, Lanes, Node8, Packet8};
+use super::node::{Child, ChildKind, Lanes, Node8, Packet8};
 use super::{Hit, Ray, quadric};
 
-/// Everything that a ray may meet. All indices in it are valid by construction.
+/// Everything that a ray may hit. All indices in it are valid by construction.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scene {
     pub(super) nodes: Vec<Node8>,
     pub(super) packets: Vec<Packet8>,
-    pub(super) quadrics: Vec<quadric::Placed>,
+    pub(super) quadrics: Vec<quadric::PreparedQuadric>,
     pub(super) placements: Vec<Placement>,
-    /// Where to begin; always a node. `None`: there is nothing.
+    /// The root; always a node. `None`: the scene is empty.
     pub(super) root: Option<Child>,
     /// Set where `root` is that of the only, untransformed instance: its index.
     pub(super) single: Option<u32>,
@@ -21,14 +21,14 @@ pub(super) struct Scene {
 
 /// The closest hit so far.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Best {
+pub(super) struct ClosestHit {
     hit: Hit,
     /// `hit.t` with slack: boxes beyond it are culled.
     pub(super) t_cull: f32,
-    found: bool,
+    is_hit: bool,
 }
 
-impl Best {
+impl ClosestHit {
     #[inline(always)]
     pub(super) fn new(t_max: f32) -> Self {
         Self {
@@ -41,17 +41,18 @@ impl Best {
                 instance: 0,
             },
             t_cull: t_max * SLACK,
-            found: false,
+            is_hit: false,
         }
     }
 
-    /// What was found.
+    /// The closest hit; `None` where there is none.
     #[inline(always)]
     pub(super) fn hit(&self) -> Option<Hit> {
-        self.found.then_some(self.hit)
+        self.is_hit.then_some(self.hit)
     }
 
-    /// Takes the hit if it is closer, or as close and of a lesser instance or primitive.
+    /// Replaces the closest hit by this one if it is closer, or as close and of a smaller instance or primitive;
+    /// returns whether it did.
     #[inline(always)]
     fn offer(&mut self, hit: Hit) -> bool {
         let closer = hit.t < self.hit.t
@@ -60,7 +61,7 @@ impl Best {
         if closer {
             self.hit = hit;
             self.t_cull = hit.t * SLACK;
-            self.found = true;
+            self.is_hit = true;
         }
         closer
     }
@@ -73,45 +74,48 @@ pub(super) fn intersect<K: Kernel>(kernel: K, scene: &Scene, ray: &Ray) -> Optio
 
 #[inline(always)]
 pub(super) fn occluded<K: Kernel>(kernel: K, scene: &Scene, ray: &Ray) -> bool {
-    cast::<K, true>(kernel, scene, ray).is_some_and(|best| best.found)
+    cast::<K, true>(kernel, scene, ray).is_some_and(|best| best.is_hit)
 }
 
-/// `ANY`: stops at the first hit.
+/// The closest hit; `None` where the ray cannot hit.
+///
+/// * `ANY`: stops at any hit.
 #[inline(always)]
-fn cast<K: Kernel, const ANY: bool>(kernel: K, scene: &Scene, ray: &Ray) -> Option<Best> {
+fn cast<K: Kernel, const ANY: bool>(kernel: K, scene: &Scene, ray: &Ray) -> Option<ClosestHit> {
     let root = scene.root?;
     let frame = RayFrame::new(ray)?;
-    let mut best = Best::new(ray.t_max);
+    let mut best = ClosestHit::new(ray.t_max);
     if let Some(instance) = scene.single {
         let leaves = GroupLeaves { scene, instance };
-        walk::<K, _, ANY>(kernel, scene, root, &frame, &leaves, &mut best);
+        traverse_tree::<K, _, ANY>(kernel, scene, root, &frame, &leaves, &mut best);
     } else {
         let leaves = TopLeaves { scene };
-        walk::<K, _, ANY>(kernel, scene, root, &frame, &leaves, &mut best);
+        traverse_tree::<K, _, ANY>(kernel, scene, root, &frame, &leaves, &mut best);
     }
     Some(best)
 }
 
-/// What happens at a child that is not a node.
+/// The leaves of a tree: what is done at a child that is not a node.
 pub(super) trait Leaves {
-    /// Offers what is hit in it to `best`; says whether anything was taken.
+    /// Intersects a leaf and updates `best`; returns whether it changed.
     fn visit<K: Kernel, const ANY: bool>(
         &self,
         kernel: K,
         leaf: Child,
         frame: &RayFrame,
-        best: &mut Best,
+        best: &mut ClosestHit,
     ) -> bool;
 }
 
+/// Traverses a tree and updates `best`; returns whether it changed.
 #[inline(always)]
-fn walk<K: Kernel, L: Leaves, const ANY: bool>(
+fn traverse_tree<K: Kernel, L: Leaves, const ANY: bool>(
     kernel: K,
     scene: &Scene,
     root: Child,
     frame: &RayFrame,
     leaves: &L,
-    best: &mut Best,
+    best: &mut ClosestHit,
 ) -> bool {
     // An entry is the bits of the entry distance (not negative, so they sort as it does) and below
     // them the child.
@@ -191,10 +195,10 @@ impl Leaves for GroupLeaves<'_> {
         kernel: K,
         leaf: Child,
         frame: &RayFrame,
-        best: &mut Best,
+        best: &mut ClosestHit,
     ) -> bool {
         let instance = self.instance;
-        if leaf.kind() == Kind::Packet {
+        if leaf.kind() == ChildKind::Packet {
             let packet = &self.scene.packets[leaf.index()];
             let mut hits = PacketHits::default();
             let mut mask = kernel.triangles(packet, frame, best.hit.t, &mut hits);
@@ -238,7 +242,7 @@ impl Leaves for TopLeaves<'_> {
         kernel: K,
         leaf: Child,
         frame: &RayFrame,
-        best: &mut Best,
+        best: &mut ClosestHit,
     ) -> bool {
         let placement = &self.scene.placements[leaf.index()];
         let (scene, instance) = (self.scene, placement.instance);
@@ -252,6 +256,6 @@ impl Leaves for TopLeaves<'_> {
         } else {
             return false;
         };
-        walk::<K, _, ANY>(kernel, scene, placement.root, frame, &leaves, best)
+        traverse_tree::<K, _, ANY>(kernel, scene, placement.root, frame, &leaves, best)
     }
 }

@@ -76,7 +76,7 @@ pub(super) fn distance([u, v, w]: [f32; 3], z: [f32; 3], shear_z: f32) -> (f32, 
     (t, v, w)
 }
 
-/// Shears one vertex, given relative to nothing but the world's origin.
+/// Shears one vertex along the ray.
 #[inline(always)]
 pub(super) fn shear(p: [f32; 3], origin: [f32; 3], shear: [f32; 3]) -> [f32; 3] {
     let z = p[2] - origin[2];

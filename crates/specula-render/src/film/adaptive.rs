@@ -364,7 +364,7 @@ mod tests {
         assert!((0.8..=1.0).contains(&ratio), "{counts:?}: {ratio}");
     }
 
-    /// A round of a few samples tells little: neighbours are looked at, no tile grows by too much, and
+    /// A round of a few samples tells little: neighbours are taken into account, no tile grows by too much, and
     /// none is given up.
     #[test]
     fn estimates_are_not_trusted_too_far() {

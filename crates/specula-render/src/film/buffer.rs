@@ -101,7 +101,7 @@ impl PixelSums {
         [0, 1, 2].map(|i| ((self.squares[i].value() / n - mean[i] * mean[i]) / (n - 1.0)).max(0.0))
     }
 
-    /// All of it as numbers of 64 bits, for files.
+    /// All of it as words of 64 bits, for files.
     pub(crate) fn words(&self) -> [u64; Self::WORDS] {
         let Self {
             colour,
@@ -287,7 +287,7 @@ impl FilmBuffer {
         (most, sum as f64 / self.sums().count().max(1) as f64)
     }
 
-    /// Samples that were not finite numbers. They count as black; a correct renderer has none.
+    /// Samples that were not finite. They count as black; a correct renderer has none.
     pub fn invalid_samples(&self) -> u64 {
         self.tiles.iter().map(|t| t.invalid).sum()
     }
@@ -377,7 +377,7 @@ impl FilmBuffer {
                 let at = (y * width + x) as usize;
                 let inverse = 1.0 / f64::from(p.count.max(1));
                 picture.colour[at] = Rgb::from(p.mean()).cast();
-                // Unknown below two samples: 0, since pictures hold finite numbers only.
+                // Unknown below two samples: 0, since pictures hold finite values only.
                 picture.variance[at] =
                     Rgb::from(p.variance().map(|v| if v.is_finite() { v } else { 0.0 })).cast();
                 picture.albedo[at] = Rgb::from(p.albedo.map(|a| a.value() * inverse)).cast();

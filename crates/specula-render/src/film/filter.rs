@@ -54,9 +54,9 @@ impl FilterSampler {
         }
     }
 
-    /// Moves points from their pixels' centres, and weighs their samples.
+    /// Moves points from their pixels' centres, and multiplies the weights of their samples.
     ///
-    /// * `u`: as many numbers as points along each axis.
+    /// * `u`: random numbers of each axis, one for each point.
     pub(crate) fn sample_all(&self, u: [&[f32]; 2], at: [&mut [f32]; 2], weights: &mut [f32]) {
         weights.fill(1.0);
         for ((axis, u), at) in self.axes.iter().zip(u).zip(at) {

@@ -23,7 +23,7 @@
 //! (Kish 1965, "Survey sampling", 11.7). Where it is below [`CARRIERS`], which is where the standard error
 //! exceeds half of the mean, the variance counts as not known. (Zirr et al. 2018, "Re-weighting firefly
 //! samples for improved finite-sample Monte Carlo estimates", trust a sample likewise by how many of its kind
-//! there are. Departures: within the pixel alone, and nothing is re-weighted: the picture keeps its fireflies.)
+//! there are. Departures: within the pixel alone, and nothing is re-weighted: fireflies stay in the picture.)
 //!
 //! At most one pixel in [`ONE_IN`] is left out, those with the largest `e`: what is noisy all over is said to
 //! be noisy. The estimate is that of all other pixels, a trimmed mean (Huber and Ronchetti 2009, "Robust
@@ -59,7 +59,7 @@ pub struct NoiseEstimate {
     pub share_left_out: f32,
 }
 
-/// Pixels of a tile, as bits by their place in it.
+/// A set of pixels of a tile, as bits by their index in it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Places([u64; 4]);
 

@@ -14,8 +14,7 @@ pub(crate) const LONGEST_RUN: u32 = 64;
 
 /// Sums over a run of at most 64 samples of a pixel: 176 bytes.
 ///
-/// Let `e` be the largest exponent of the values' bits as `f32` (1 where all are below the normal
-/// numbers).
+/// Let `e` be the largest exponent of the values' bits as `f32` (1 where all are subnormal).
 ///
 /// GPU twin: `sums.wgsl`, which says how bits beyond these units are left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
@@ -138,7 +137,7 @@ mod tests {
         };
         for longest in [1, 7, 64] {
             assert_eq!(values(&of_runs(longest)), values(&one_by_one), "{longest}");
-            // To the last bit of what a file keeps.
+            // To the last bit that a file stores.
             assert_eq!(of_runs(longest), of_runs(50), "{longest}");
         }
         let mut short = samples.clone();

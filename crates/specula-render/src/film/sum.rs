@@ -4,7 +4,7 @@
 /// A sum of two `f64`: what rounding takes from the first is stored in the second (Knuth's two-sum).
 ///
 /// Exact, and so the same in any order, as long as the terms' bits span less than about a hundred
-/// binary places: 24 of an `f32`, 48 of its square, the rest for their range and number.
+/// binary digits: 24 of an `f32`, 48 of its square, the rest for their range and count.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Sum {
     high: f64,
@@ -59,7 +59,7 @@ impl Sum {
     }
 }
 
-/// A sum of numbers of the order of 1 (colours of surfaces, directions) in units of 2^-30: exact for
+/// A sum of values of the order of 1 (colours of surfaces, directions) in units of 2^-30: exact for
 /// 2^31 of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct FixedSum(i64);

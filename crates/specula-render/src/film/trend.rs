@@ -1,6 +1,6 @@
-//! How a render's noise falls with its samples, and when it will be where it is to be.
+//! How a render's noise falls with its samples, and at how many it will reach the aim.
 
-/// Samples between two points that are remembered, as a ratio.
+/// Ratio of the samples of two points that are stored.
 const APART: f64 = 1.15;
 /// The rate is that of the points with at least this share of the samples now.
 const WINDOW: f64 = 0.25;
@@ -12,29 +12,29 @@ const LARGEST_RATE: f64 = 0.5;
 /// A rate below which noise does not fall.
 const LEAST_RATE: f64 = 0.02;
 
-/// What a render's noise was at what number of samples.
+/// A render's noise by its samples.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NoiseTrend {
     /// Samples on average, and noise.
     points: Vec<(f64, f64)>,
 }
 
-/// What a trend comes to.
+/// A forecast of noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoiseOutlook {
     /// Noise now.
     pub noise: f32,
     /// Samples a pixel now, on average.
     pub samples: f64,
-    /// `r` of noise in proportion to `samples^-r`, in `[0, 1/2]`: 1/2 where all goes well, less where light is found
-    /// rarely.
+    /// `r` of noise in proportion to `samples^-r`, in `[0, 1/2]`: 1/2 where all goes well, less where lights are rarely
+    /// hit.
     pub rate: f64,
     /// Samples a pixel at which the aim will be reached at that rate; infinite where noise does not fall.
     pub needed: f64,
 }
 
 impl NoiseTrend {
-    /// Remembers a state.
+    /// Stores the noise at a number of samples.
     ///
     /// * `samples`: of a pixel on average.
     /// * `noise`: as of [`FilmBuffer::noise`](crate::FilmBuffer::noise).

@@ -1,4 +1,4 @@
-//! Shapes into groups: transforms applied, windings turned to the outside.
+//! Bakes shapes into groups: applies transforms and orients windings to the outside.
 
 use core::ops::Range;
 
@@ -14,10 +14,10 @@ use crate::accel::QuadricShape;
 use crate::convert::{Affine, id, narrow3, normal_matrix, transform_point};
 use crate::texture::Textures;
 
-/// No light.
+/// No emission.
 const BLACK: ColourParam = ColourParam::Value(Rgb::BLACK);
 
-/// A scene's geometry on its way into groups. Every mesh is freed once nothing else needs it.
+/// Bakes a scene's geometry. Every mesh is freed once nothing else needs it.
 pub(super) struct Baker<'a> {
     textures: &'a Textures,
     meshes: &'a mut [Mesh],
@@ -25,9 +25,9 @@ pub(super) struct Baker<'a> {
     uses: Vec<usize>,
     pub(super) world: Vec<Shape>,
     pub(super) objects: Vec<Vec<Shape>>,
-    /// Objects and their places.
+    /// Instances: index of the object, and transform to the world.
     pub(super) instances: Vec<(usize, DMat4)>,
-    /// Which materials are no surfaces.
+    /// Which materials are interfaces: no surfaces but boundaries of media.
     interfaces: Vec<bool>,
     pub(super) records: Vec<ShapeRecord>,
     with_colours: bool,
@@ -53,7 +53,7 @@ impl<'a> Baker<'a> {
                 (!is_interface(material) || material.bounds_absorption())
                     && !matches!(s.alpha, FloatParam::Value(a) if a <= 0.0)
             });
-            // Triangles come first in the numbering, whatever the order of the shapes.
+            // Indices of triangles come first, whatever the order of the shapes.
             shapes.sort_by_key(|s| !matches!(s.geometry, SceneGeometry::Mesh(_)));
             shapes
         };
@@ -143,7 +143,7 @@ impl<'a> Baker<'a> {
         group
     }
 
-    /// Adds a mesh; returns whether it has surface coordinates.
+    /// Adds a mesh; returns whether it has texture coordinates.
     fn add_mesh(&mut self, group: &mut GroupData, index: usize, shape: &Shape) -> bool {
         self.uses[index] -= 1;
         let last;
@@ -192,7 +192,7 @@ impl GroupData {
         let mirrored = DMat3::from_mat4(*m).determinant() < 0.0;
         if mesh.tangents.len() == mesh.positions.len() {
             self.tangents.resize(first as usize, [0.0; 4]);
-            // Normals that are turned round, and mirrors, turn their cross product.
+            // Reversed normals and mirroring transforms reverse the cross product.
             let turned = mirrored != shape.reverse_orientation;
             let linear = DMat3::from_mat4(*m);
             self.tangents
@@ -216,8 +216,8 @@ impl GroupData {
         self.triangles = triangles;
     }
 
-    /// Whether the winding's side is not the one that the vertex normals point to; `None` where
-    /// they do not say.
+    /// Whether the vertex normals point to the side opposite to that of the winding; `None` where they are
+    /// perpendicular to it.
     fn disagrees(&self, t: [u32; 3]) -> Option<bool> {
         let [a, b, c] = t.map(|v| glam::DVec3::from(self.positions[v as usize].map(f64::from)));
         let [na, nb, nc] = t.map(|v| glam::DVec3::from(self.normals[v as usize].map(f64::from)));

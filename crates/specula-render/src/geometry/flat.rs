@@ -1,4 +1,4 @@
-//! Surfaces for shaders.
+//! Geometry as words for shaders.
 
 use specula_scene::scene::FloatParam;
 
@@ -11,7 +11,7 @@ use crate::texture::{colour_parameter, float_parameter};
 use crate::words::Words;
 
 impl Geometry {
-    /// Trees, groups, places and shapes; nodes and packets as they are.
+    /// Writes acceleration structure, groups, instances and shapes; returns nodes and packets as bytes.
     pub(crate) fn flatten(&self, to: &mut Words) -> (&[u8], &[u8]) {
         let arrays = self.accel.flatten(to);
         let places: Vec<u32> = self.groups.iter().map(|g| g.flatten(to)).collect();
@@ -29,8 +29,8 @@ impl Geometry {
 }
 
 impl ShapeRecord {
-    /// Material, whether both sides send out light, whether there are coordinates, radiance, opacity,
-    /// whether it is an interface.
+    /// Material, whether both sides emit, whether there are texture coordinates, radiance, opacity, whether it is an
+    /// interface.
     fn flatten(&self, to: &mut Words) {
         let record = to.place();
         to.id(self.material);
@@ -44,8 +44,8 @@ impl ShapeRecord {
 }
 
 impl Placement {
-    /// Offset of the group's record, whether it moves nothing, the group's first light, then the world
-    /// from the group, its normals, and the group from the world.
+    /// Offset of the group's record, whether the transform is the identity, index of the group's first light, then
+    /// affine maps: group to world, of normals, world to group.
     fn flatten(&self, groups: &[u32], to: &mut Words) {
         let record = to.place();
         to.id(groups[self.group as usize]);
@@ -59,10 +59,10 @@ impl Placement {
 }
 
 impl GroupData {
-    /// Arrays, then a record of where they are, whose place is returned.
+    /// Arrays, then a record of their offsets, whose own offset is returned.
     fn flatten(&self, to: &mut Words) -> u32 {
         let vertices = self.positions.len();
-        // As for the CPU: those of meshes without any are behind the array's end.
+        // As on the CPU: vertices of meshes without such values lie behind the end of the array.
         let begin = |to: &mut Words, there: usize| (to.place(), id(there.min(vertices)));
         let positions = begin(to, vertices).0;
         to.floats(self.positions.iter().flatten().copied());
@@ -116,8 +116,8 @@ impl GroupData {
 }
 
 impl PlacedQuadric {
-    /// Kind (sphere, disk), radius, height, whether it is turned inside out, then the group from its
-    /// own space, its own from the group's, and its normals.
+    /// Kind (sphere, disk), radius, height, whether it is inside out, then affine maps: own space to group, group to own
+    /// space, of normals.
     fn flatten(&self, to: &mut Words) {
         let (kind, radius, height) = match self.shape {
             QuadricShape::Sphere { radius } => (codes::QUADRIC_SPHERE, radius, 0.0),

@@ -1,4 +1,4 @@
-//! From a hit to the surface there: position with its error, normals, tangent, coordinates.
+//! From a hit to the surface there: position with its error, normals, tangent, texture coordinates.
 
 use specula_bsdf::math::{rgb, vec3};
 use specula_bsdf::{Rgb, Vec3};
@@ -26,24 +26,24 @@ pub(crate) struct Surface {
     pub(crate) ng: Vec3<f32>,
     /// Shading normal, unit.
     pub(crate) ns: Vec3<f32>,
-    /// dp/du, or zero where there are no coordinates: any tangent will do then.
+    /// dp/du, or zero where there are no texture coordinates: any tangent will do then.
     pub(crate) tangent: Vec3<f32>,
     pub(crate) uv: [f32; 2],
-    /// Of the second set; 0 where the mesh has none.
+    /// Second texture coordinates; 0 where the mesh has none.
     pub(crate) second_uv: [f32; 2],
-    /// The mesh's, interpolated; white where it has none.
+    /// Vertex colour, interpolated; white where the mesh has none.
     pub(crate) colour: Rgb<f32>,
     pub(crate) shape: u32,
     /// Index of the light that it is part of, or [`NONE`].
     pub(crate) light: u32,
-    /// Where it is in its primitive.
-    pub(crate) at: At,
+    /// The point of the primitive.
+    pub(crate) at: PrimitiveLocation,
 }
 
-/// A point of a primitive.
+/// A point on a primitive.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct At {
-    /// Index of the placement.
+pub(crate) struct PrimitiveLocation {
+    /// Index of the instance.
     pub(crate) instance: u32,
     /// Index within the group.
     pub(crate) primitive: u32,
@@ -62,7 +62,7 @@ impl Surface {
         }
     }
 
-    /// Where textures are evaluated for it.
+    /// The coordinates at which its textures are evaluated.
     #[inline(always)]
     pub(crate) fn place(&self) -> TextureCoordinates {
         TextureCoordinates {
@@ -79,7 +79,7 @@ impl Geometry {
     /// The surface at a hit.
     #[inline]
     pub(crate) fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
-        let at = At {
+        let at = PrimitiveLocation {
             instance: hit.instance,
             primitive: hit.primitive,
             weights: [hit.u, hit.v],
@@ -88,7 +88,7 @@ impl Geometry {
         self.surface_at(&at, || ray.origin + ray.direction * hit.t)
     }
 
-    /// The triangle at a hit; `None` for quadrics, and in groups that are placed.
+    /// The triangle at a hit; `None` for quadrics, and in instances with a transform.
     #[inline(always)]
     pub(crate) fn facet(&self, hit: &Hit) -> Option<Facet<'_>> {
         let placement = &self.placements[hit.instance as usize];
@@ -105,11 +105,11 @@ impl Geometry {
         })
     }
 
-    /// The tangent at a hit of a triangle, as of [`Surface::tangent`], where the group is not placed.
+    /// The tangent at a hit of a triangle, as of [`Surface::tangent`], in an instance without transform.
     #[inline]
     pub(crate) fn tangent(&self, hit: &Hit) -> Vec3<f32> {
         let group = &self.groups[self.placements[hit.instance as usize].group as usize];
-        let at = At {
+        let at = PrimitiveLocation {
             instance: hit.instance,
             primitive: hit.primitive,
             weights: [hit.u, hit.v],
@@ -119,7 +119,7 @@ impl Geometry {
     }
 
     /// Position, its error, normal and tangent at a hit of a quadric, as of [`Geometry::surface`]; `None`
-    /// for triangles, and in groups that are placed.
+    /// for triangles, and in instances with a transform.
     #[inline]
     pub(crate) fn quadric(&self, ray: &Ray, hit: &Hit) -> Option<[Vec3<f32>; 4]> {
         let placement = &self.placements[hit.instance as usize];
@@ -129,15 +129,19 @@ impl Geometry {
             return None;
         }
         let near = ray.origin + ray.direction * hit.t;
-        let bare = group.quadrics[index].bare(near);
-        Some([bare.position, bare.error, bare.normal, bare.tangent])
+        let point = group.quadrics[index].point_near(near);
+        Some([point.position, point.error, point.normal, point.tangent])
     }
 
     /// The surface at a point of a primitive.
     ///
     /// * `near`: the point in the world, roughly; for quadrics only.
     #[inline]
-    pub(crate) fn surface_at(&self, at: &At, near: impl FnOnce() -> Vec3<f32>) -> Surface {
+    pub(crate) fn surface_at(
+        &self,
+        at: &PrimitiveLocation,
+        near: impl FnOnce() -> Vec3<f32>,
+    ) -> Surface {
         let placement = &self.placements[at.instance as usize];
         let group = &self.groups[placement.group as usize];
         let triangles = group.triangles.len();
@@ -183,7 +187,7 @@ impl super::Placement {
 impl GroupData {
     /// The mesh's own tangent, not unit, and its side; zero where it has none. Within a group that
     /// has tangents.
-    pub(super) fn tangent(&self, at: &At) -> (Vec3<f32>, f32) {
+    pub(super) fn tangent(&self, at: &PrimitiveLocation) -> (Vec3<f32>, f32) {
         let [i, j, k] = self.triangles[at.primitive as usize].map(|v| v as usize);
         let [ta, tb, tc] = [i, j, k].map(|v| self.tangents.get(v).copied().unwrap_or([0.0; 4]));
         let [u, v] = at.weights;
@@ -193,10 +197,10 @@ impl GroupData {
 
     /// dp/du of a triangle, or the mesh's own tangent, unit; zero where it has neither.
     ///
-    /// pbrt's tangent without coordinates, the first edge, would turn brushed metal at every
-    /// triangle: there is none.
+    /// Departure: pbrt takes the first edge where there are no texture coordinates, which would turn brushed metal at
+    /// every triangle.
     #[inline]
-    fn tangent_of_triangle(&self, at: &At, has_uvs: bool) -> Vec3<f32> {
+    fn tangent_of_triangle(&self, at: &PrimitiveLocation, has_uvs: bool) -> Vec3<f32> {
         let [i, j, k] = self.triangles[at.primitive as usize].map(|v| v as usize);
         let mut tangent = Vec3::ZERO;
         if has_uvs {
@@ -217,7 +221,7 @@ impl GroupData {
     }
 
     #[inline]
-    fn triangle_surface(&self, at: &At, has_uvs: bool) -> Surface {
+    fn triangle_surface(&self, at: &PrimitiveLocation, has_uvs: bool) -> Surface {
         let [i, j, k] = self.triangles[at.primitive as usize].map(|v| v as usize);
         let [a, b, c] = [i, j, k].map(|v| Vec3::from(self.positions[v]));
         let [u, v] = at.weights;
@@ -261,7 +265,7 @@ impl GroupData {
             colour,
             shape: 0,
             light: NONE,
-            at: At::default(),
+            at: PrimitiveLocation::default(),
         }
     }
 }
@@ -270,8 +274,8 @@ impl PlacedQuadric {
     /// The surface next to a point of the group's space.
     fn surface(&self, near: Vec3<f32>) -> Surface {
         use core::f32::consts::{PI, TAU};
-        let bare = self.bare(near);
-        let q = bare.own;
+        let point = self.point_near(near);
+        let q = point.own;
         let phi = q.y.atan2(q.x);
         let u = if phi < 0.0 {
             phi / TAU + 1.0
@@ -288,23 +292,23 @@ impl PlacedQuadric {
             }
         };
         Surface {
-            position: bare.position,
-            error: bare.error,
-            ng: bare.normal,
-            ns: bare.normal,
-            tangent: bare.tangent,
+            position: point.position,
+            error: point.error,
+            ng: point.normal,
+            ns: point.normal,
+            tangent: point.tangent,
             uv: [u, v.clamp(0.0, 1.0)],
             second_uv: [0.0; 2],
             colour: Rgb::WHITE,
             shape: 0,
             light: NONE,
-            at: At::default(),
+            at: PrimitiveLocation::default(),
         }
     }
 
-    /// What needs no coordinates of the surface next to a point of the group's space.
+    /// The surface next to a point of the group's space, without texture coordinates.
     #[inline]
-    fn bare(&self, near: Vec3<f32>) -> Bare {
+    fn point_near(&self, near: Vec3<f32>) -> QuadricPoint {
         let q = self.backward.point(near);
         let (q, normal) = match self.shape {
             QuadricShape::Sphere { radius } => {
@@ -314,7 +318,7 @@ impl PlacedQuadric {
             QuadricShape::Disk { height, .. } => (vec3(q.x, q.y, narrow(height)), Vec3::Z),
         };
         let normal = if self.flipped { -normal } else { normal };
-        Bare {
+        QuadricPoint {
             position: self.forward.point(q),
             error: coupled(self.forward.magnitude(q)),
             normal: unit_or(self.normals.vector(normal), normal),
@@ -325,7 +329,7 @@ impl PlacedQuadric {
 }
 
 /// A point of a quadric.
-struct Bare {
+struct QuadricPoint {
     position: Vec3<f32>,
     error: Vec3<f32>,
     normal: Vec3<f32>,

@@ -1,4 +1,4 @@
-//! Derivatives of a surface by its coordinates: for bump maps, and where a rotation needs a side.
+//! Derivatives of a surface by its texture coordinates: for bump maps, and for the sense of rotations.
 
 use specula_bsdf::Vec3;
 use specula_bsdf::math::vec3;
@@ -6,7 +6,7 @@ use specula_bsdf::math::vec3;
 use super::{Geometry, GroupData, PlacedQuadric, Surface, normal_of, unit_or};
 use crate::accel::QuadricShape;
 use crate::convert::{Affine, narrow};
-use crate::geometry::hit::At;
+use crate::geometry::hit::PrimitiveLocation;
 
 /// First derivatives by u and v, in the world.
 #[derive(Clone, Copy, Debug)]
@@ -18,7 +18,7 @@ pub(crate) struct Partials {
 }
 
 impl Geometry {
-    /// The derivatives at a surface; zero vectors where its coordinates do not move.
+    /// The derivatives at a surface; zero vectors where its texture coordinates are constant.
     pub(crate) fn partials(&self, surface: &Surface) -> Partials {
         let at = &surface.at;
         let placement = &self.placements[at.instance as usize];
@@ -61,7 +61,7 @@ impl Partials {
 
 impl GroupData {
     /// The unit shading normal and the derivatives of a triangle.
-    fn triangle_partials(&self, at: &At, has_uvs: bool) -> (Vec3<f32>, Partials) {
+    fn triangle_partials(&self, at: &PrimitiveLocation, has_uvs: bool) -> (Vec3<f32>, Partials) {
         let [i, j, k] = self.triangles[at.primitive as usize].map(|v| v as usize);
         let [a, b, c] = [i, j, k].map(|v| Vec3::from(self.positions[v]));
         let edges = [b - a, c - a];
@@ -98,7 +98,7 @@ impl GroupData {
         if self.tangents.len() > i.max(j).max(k) {
             let (tangent, side) = self.tangent(at);
             let along_v = ns.cross(tangent) * side;
-            // What a mesh says itself; lengths do not matter to normal maps and rotations.
+            // The mesh's own tangents; lengths do not matter to normal maps and rotations.
             if along_v.length_squared() > 0.0 {
                 partials.dp = [tangent, along_v];
             }

@@ -1,4 +1,4 @@
-//! Two light samples where a path first meets rough metal, one of which gets a shadow ray.
+//! Two light samples where a camera path first hits rough metal, one of which gets a shadow ray.
 //!
 //! Lights are chosen without regard to the lobe: the environment or a lamp, whichever is brighter at the point.
 //! Contributions off a metal differ from that by orders of magnitude. So two lights are sampled, each over twice

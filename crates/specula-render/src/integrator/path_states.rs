@@ -24,7 +24,7 @@ pub(super) struct PathStates {
     pub(super) rough: [bool; WAVEFRONT_SIZE],
     pub(super) bound: Floats,
     pub(super) previous: Receivers,
-    /// Density with which the last direction was sampled there; 0 where no light sample could have found it.
+    /// Density with which the last direction was sampled there; 0 where no light sample could have had it.
     pub(super) previous_pdf: Floats,
     /// Probability with which light sampling took a light from infinity there; negative where it is not stored.
     pub(super) previous_share: Floats,
@@ -117,7 +117,7 @@ impl PathStates {
         self.radiance.z[i] += radiance.b;
     }
 
-    /// Where the last direction was sampled, if a light sample could have found it.
+    /// Where the last direction was sampled, if a light sample could have had it.
     #[inline(always)]
     pub(super) fn previous(&self, i: usize) -> Option<PreviousVertex> {
         let pdf = self.previous_pdf[i];

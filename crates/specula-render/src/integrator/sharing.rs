@@ -189,7 +189,7 @@ impl Shared {
         }
     }
 
-    /// Records that a vertex of a path is shaded the scalar way.
+    /// Records that a vertex of a path is shaded singly (`PathTracer::shade`).
     pub(super) fn leave_batch(&mut self, path: usize) {
         let stage = &mut self.stage[path];
         *stage = match stage {

@@ -1,7 +1,7 @@
 //! Vertices of many paths as structures of arrays, and the loops over them.
 //!
 //! The loops are free of branches and compiled for each instruction set. They call the functions of `estimator`,
-//! as the scalar way of `integrator.rs` does.
+//! as `integrator.rs` does for single vertices.
 
 #![allow(
     clippy::needless_range_loop,

@@ -1,8 +1,7 @@
 //! A wavefront: paths that are traced vertex by vertex together.
 //!
-//! Vertices on surfaces with constant materials are sorted by material and shaded in a batch (`shade`); others go
-//! the scalar way (`PathTracer::shade`). The scene alone decides which way a vertex goes, and a path never depends
-//! on the others of its wavefront.
+//! Vertices on surfaces with constant materials are sorted by material and shaded in batches (`shade`); others are shaded
+//! singly (`PathTracer::shade`). The scene alone decides which, and a path never depends on the others of its wavefront.
 
 use core::sync::atomic::{AtomicBool, Ordering};
 
@@ -105,7 +104,7 @@ impl RayQueue {
         self.len.min(WAVEFRONT_SIZE)
     }
 
-    /// The index of the path or vertex at a place.
+    /// The index of the path or vertex.
     #[inline(always)]
     pub(super) fn index(&self, k: usize) -> usize {
         index(self.indices[k % WAVEFRONT_SIZE])
@@ -274,7 +273,7 @@ impl PathTracer<'_> {
             && self.max_depth > 0
     }
 
-    /// Takes one path to its next vertex the scalar way.
+    /// Takes one path to its next vertex, by itself.
     ///
     /// * `step`: returns whether the path continues.
     fn step_scalar(

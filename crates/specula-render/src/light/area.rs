@@ -1,4 +1,4 @@
-//! Shapes that send out light: triangles, spheres, disks and ellipsoids, sampled from a point.
+//! Shapes that emit light: triangles, spheres, disks and ellipsoids, sampled from a point.
 
 use glam::{DMat3, DMat4};
 use specula_bsdf::math::vec3;
@@ -196,7 +196,7 @@ impl Area {
     pub(crate) fn projected_area(&self) -> f32 {
         match self {
             Self::Triangle { .. } | Self::Parallelogram(_) | Self::Disk { .. } => self.area(),
-            // Cauchy's formula for convex media.
+            // Cauchy's formula for convex bodies.
             Self::Sphere { .. } | Self::Ellipsoid { .. } => 0.25 * self.area(),
         }
     }
@@ -422,7 +422,7 @@ impl Cone {
 }
 
 /// Source: Pharr, Jakob and Humphreys, 4th edition, 6.2.4. Departure: `1 - cos theta` is sampled
-/// instead of `cos theta`, which keeps its digits for spheres far away and needs no second branch.
+/// instead of `cos theta`, which does not lose digits for spheres far away and needs no second branch.
 #[inline]
 fn sample_sphere(
     p: Vec3<f32>,

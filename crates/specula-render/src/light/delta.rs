@@ -10,7 +10,7 @@ use crate::convert::{narrow, narrow3};
 use crate::texture::Textures;
 use crate::words::Words;
 
-/// A light without extent: only light sampling can find it.
+/// A light without extent: only light sampling can reach it.
 #[derive(Clone, Debug)]
 pub(crate) enum Delta {
     Distant {

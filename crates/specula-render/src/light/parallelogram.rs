@@ -1,4 +1,4 @@
-//! Parallelograms that send out light: rectangles are sampled uniformly by solid angle, others by area.
+//! Parallelograms that emit light: rectangles are sampled uniformly by solid angle, others by area.
 //!
 //! Source: Urena, Fajardo and King 2013, An Area-Preserving Parametrization for Spherical Rectangles.
 //! Departures: the angles of the spherical rectangle are stored as what they exceed a right angle by, so
@@ -181,7 +181,7 @@ impl Spread {
     }
 }
 
-/// A number within its bounds; the upper where it is none.
+/// A value, clamped to its bounds; the upper one where it is NaN.
 #[inline(always)]
 fn between(v: f32, [low, high]: [f32; 2]) -> f32 {
     let v = if v < high { v } else { high };

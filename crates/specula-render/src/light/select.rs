@@ -7,7 +7,7 @@
 //! P(far) = clamp(E_far / (E_far + E_near(receiver)), 0.1, 0.9)
 //! ```
 //!
-//! Neither knows what is in the way, hence the bounds. Everything is a function of the receiver
+//! Neither accounts for occlusion, hence the bounds. Everything is a function of the receiver
 //! alone, so that the probability of a light that a ray hit by chance is that of its choice.
 
 use super::alias::AliasTable;

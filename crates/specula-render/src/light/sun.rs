@@ -40,7 +40,7 @@ impl Sun {
 
     /// Whether it is seen in the direction `wi` (unit).
     ///
-    /// By the chord, `|wi - axis|^2 = 2 (1 - cos)`, which keeps the digits that the cosine of a
+    /// By the chord, `|wi - axis|^2 = 2 (1 - cos)`, which has the digits that the cosine of a
     /// small angle lacks.
     #[inline]
     fn covers(&self, wi: Vec3<f32>) -> bool {

@@ -5,7 +5,7 @@ use specula_scene::scene::{ColourParam, FloatParam};
 
 use super::area::{Area, AreaSample};
 use super::piecewise::Piecewise;
-use crate::geometry::{At, Geometry, Surface};
+use crate::geometry::{Geometry, PrimitiveLocation, Surface};
 use crate::layout;
 use crate::texture::{TextureCoordinates, Textures};
 use crate::words::Words;
@@ -42,7 +42,7 @@ fn blurred(weights: &[f64], cells: usize) -> Vec<f64> {
         .collect()
 }
 
-/// What a shape sends out at each of its points.
+/// Emission that varies over a shape.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Varying {
     pub(super) radiance: ColourParam,
@@ -120,7 +120,7 @@ impl Textured {
     /// The surface at the point that `u` leads to.
     fn surface(&self, geometry: &Geometry, u: [f32; 2], point: Vec3<f32>) -> Surface {
         let [b, c] = Area::weights(u);
-        let at = At {
+        let at = PrimitiveLocation {
             instance: self.instance,
             primitive: self.primitive,
             weights: if self.swapped { [c, b] } else { [b, c] },
@@ -128,7 +128,7 @@ impl Textured {
         geometry.surface_at(&at, || point)
     }
 
-    /// A point of the light as seen from `p`, and the radiance that it sends to either side.
+    /// Samples a point of the light, as seen from `p`; returns it with its radiance.
     pub(super) fn sample(
         &self,
         p: Vec3<f32>,

@@ -73,7 +73,7 @@ pub(super) fn lobe(
     outside: bool,
     models: Models,
 ) -> Lobe<f32> {
-    let at = At::new(textures, place, models);
+    let at = PointParameters::new(textures, place, models);
     match *kind {
         MaterialKind::Diffuse {
             reflectance,
@@ -154,16 +154,16 @@ pub(super) fn lobe(
     }
 }
 
-/// Parameters at a place.
+/// Parameters at a point.
 #[derive(Clone, Copy)]
-struct At<'a> {
+struct PointParameters<'a> {
     textures: &'a Textures,
     place: &'a TextureCoordinates,
     /// Whether it is behind a rough surface that makes it rougher.
     regularized: bool,
 }
 
-impl<'a> At<'a> {
+impl<'a> PointParameters<'a> {
     fn new(textures: &'a Textures, place: &'a TextureCoordinates, models: Models) -> Self {
         Self {
             textures,
@@ -236,7 +236,7 @@ impl<'a> At<'a> {
             .into()
     }
 
-    /// What light meets under a coat over Lambert.
+    /// The layer between a coat and the Lambertian base below it.
     fn coat_layer(&self, medium: &CoatMedium, lossless: bool, models: Models) -> CoatLayer<f32> {
         CoatLayer {
             thickness: self.textures.float(medium.thickness, self.place),

@@ -26,9 +26,9 @@ use crate::texture::{TextureCoordinates, Textures};
 /// All materials of a scene.
 #[derive(Clone, Debug)]
 pub(crate) struct Materials {
-    /// Those of the scene, then those that are found behind rough surfaces only.
+    /// Those of the scene, then the regularized ones, which paths hit behind rough surfaces only.
     materials: Vec<Material>,
-    /// Of each of the scene the one that is found behind rough surfaces; empty where it is itself.
+    /// Of each material of the scene the one behind rough surfaces; empty without regularization.
     behind_rough: Vec<u32>,
     has_boundaries: bool,
     names: Vec<Option<String>>,
@@ -82,7 +82,7 @@ struct Turn {
     direction: Option<TextureId>,
 }
 
-/// What bends a clear coat; `None`: it keeps the normals of the mesh.
+/// The bump map of a clear coat; `None`: it has the normals of the mesh.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Coat(pub(crate) Option<Bump>);
 
@@ -140,7 +140,7 @@ impl Materials {
                 one_sided: material.one_sided,
                 bump_rules: material.bump_rules,
                 bump: material.bump.filter(|bump| match bump {
-                    // A surface moved along its normals by the same distance keeps them.
+                    // A constant height does not change normals.
                     Bump::Height(h) => {
                         matches!(textures.fold_float(*h), FloatParam::Texture(_))
                     }
@@ -197,9 +197,9 @@ impl Materials {
         self.materials[material as usize].boundary.as_ref()
     }
 
-    /// The material at a place, one of the parts where it is a mix.
+    /// The material at a point, one of the parts where it is a mix.
     ///
-    /// * `random`: for every mix on the way, a number in `[0, 1)`.
+    /// * `random`: a random number in `[0, 1)` for each level of mixes.
     #[inline]
     pub(crate) fn at(
         &self,

@@ -1,7 +1,7 @@
-//! Materials as paths find them behind rough surfaces, where these are made rougher
+//! Regularized materials, which paths hit behind rough surfaces, where these are made rougher
 //! ([`RenderOptions::regularize`]).
 //!
-//! Each material that this changes has a twin behind all others: prepared once, dealt with as any other.
+//! Each material that this changes has a twin behind all others: prepared once, and used like any other.
 
 use specula_scene::scene::{MaterialId, MaterialKind};
 
@@ -11,7 +11,7 @@ use crate::convert::id;
 impl Materials {
     /// Adds the twins.
     ///
-    /// * `prepare`: makes the twin of a material of the scene, by its number.
+    /// * `prepare`: makes the twin of a material of the scene, by its index.
     pub(super) fn add_twins(&mut self, prepare: impl Fn(usize) -> Material) {
         let count = self.materials.len();
         let mut twins = Vec::new();
@@ -33,7 +33,7 @@ impl Materials {
         self.materials.extend(twins);
     }
 
-    /// The material that a path finds where a shape has `material`.
+    /// The material that a path hits where a shape has `material`.
     ///
     /// * `rough`: whether it was scattered by a lobe that is not perfectly smooth.
     #[inline(always)]

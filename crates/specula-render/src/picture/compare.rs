@@ -1,4 +1,4 @@
-//! How far two pictures are apart, as numbers and as a map.
+//! Differences between two pictures, by metrics and as a map.
 
 use specula_bsdf::Rgb;
 

@@ -1,4 +1,4 @@
-//! Finished pictures: what a render leaves, as files and as numbers.
+//! Finished pictures: the results of renders, as files and by metrics.
 //!
 //! Files are written whole or not at all ([`write_exr`], [`write_png`]): into a temporary file
 //! in the same folder, synchronised, then renamed over the old one.
@@ -43,11 +43,11 @@ pub struct Picture {
     pub offset: [u32; 2],
     /// Radiance times exposure: linear RGB, sRGB primaries, D65 white.
     pub colour: Vec<Rgb<f32>>,
-    /// Albedo of what is seen.
+    /// Albedo of the first visible surface.
     pub albedo: Vec<Rgb<f32>>,
-    /// Shading normal of what is seen, in the world.
+    /// Shading normal of the first visible surface, in the world.
     pub normal: Vec<Vec3<f32>>,
-    /// Distance along the camera ray to what is seen, in scene units; 0 where there is nothing.
+    /// Distance along the camera ray to the first visible surface, in scene units; 0 where there is none.
     pub depth: Vec<f32>,
     /// Samples taken.
     pub sample_count: Vec<f32>,

@@ -4,10 +4,10 @@ use specula_bsdf::Rgb;
 
 use super::srgb;
 
-/// How values above 1 are contributed onto a screen.
+/// How values above 1 are mapped to those that a screen can show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ToneMap {
-    /// They are cut off: what lies in `[0, 1]` is shown exactly.
+    /// They are clamped; values in `[0, 1]` are shown exactly.
     #[default]
     Clamp,
     /// A filmic shoulder per channel.

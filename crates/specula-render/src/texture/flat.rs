@@ -1,7 +1,6 @@
-//! Textures for shaders.
+//! Textures as words for shaders.
 //!
-//! A node is a record that begins with its kind; its inputs are the places of other records, which
-//! come before it. Shaders follow them without recursion (`texture_graph.wgsl`).
+//! A node is a record that begins with its kind. Its inputs are offsets of other records, which come before it. Shaders follow them without recursion (`texture_graph.wgsl`).
 
 use specula_bsdf::Rgb;
 use specula_scene::scene::{
@@ -20,7 +19,7 @@ const MOST_WAITING: u32 = 32;
 /// Most nodes that a shader evaluates for one value, each as often as others refer to it.
 const MOST_VISITS: u32 = 4096;
 
-/// 4 words: the texture's number, or [`NONE`] and the value.
+/// A colour parameter in 4 words: the index of a texture, or [`NONE`] and the value.
 pub(crate) fn colour_parameter(to: &mut Words, parameter: ColourParam) {
     let (texture, value) = match parameter {
         ColourParam::Value(c) => (NONE, c.map(finite)),
@@ -30,7 +29,7 @@ pub(crate) fn colour_parameter(to: &mut Words, parameter: ColourParam) {
     to.colour(value);
 }
 
-/// 2 words: the texture's number, or [`NONE`] and the value.
+/// A scalar parameter in 2 words: the index of a texture, or [`NONE`] and the value.
 pub(crate) fn float_parameter(to: &mut Words, parameter: FloatParam) {
     let (texture, value) = match parameter {
         FloatParam::Value(v) => (NONE, finite(v)),
@@ -41,12 +40,12 @@ pub(crate) fn float_parameter(to: &mut Words, parameter: FloatParam) {
 }
 
 impl Textures {
-    /// Pictures, nodes, then a table of the nodes' places.
+    /// Pictures, nodes, then a table of the nodes' offsets.
     ///
-    /// What shaders can leave out is named: `TEXTURE_COUNT`, `TEXTURE_HAS_INPUTS`,
-    /// `TEXTURE_HAS_NOISE`, and `TEXTURE_WAITING`, the length of their stack.
+    /// Constants say what shaders can leave out: `TEXTURE_COUNT`, `TEXTURE_HAS_INPUTS`,
+    /// `TEXTURE_HAS_NOISE`, and `TEXTURE_WAITING`, the size of their stack.
     ///
-    /// Returns what shaders cannot do, in a person's words.
+    /// Returns features that shaders do not support, in words for a message.
     pub(crate) fn flatten(&self, to: &mut Words) -> Vec<String> {
         let rasters: Vec<u32> = self
             .rasters
@@ -206,7 +205,7 @@ impl Node {
         }
     }
 
-    /// All that it refers to.
+    /// All nodes that it refers to.
     pub(super) fn all_inputs(&self) -> impl Iterator<Item = TextureId> {
         let [first, second] = self.inputs();
         [first, second, self.amount()].into_iter().flatten()
@@ -216,14 +215,14 @@ impl Node {
         self.inputs()[0].is_some()
     }
 
-    /// Whether it does something to its inputs' values.
+    /// Whether its value is computed from its inputs' values, rather than one of these.
     fn waits(&self) -> bool {
         self.kind() >= codes::TEXTURE_SCALE
     }
 }
 
 impl Picture {
-    /// Its raster's place, channel, whether it is inverted, factor, wraps, filter, mapping.
+    /// Offset of its raster, channel, whether it is inverted, factor, wraps, filter, mapping.
     fn flatten(&self, rasters: &[u32], to: &mut Words) {
         to.id(rasters[self.image]);
         to.id(match self.channel {

@@ -57,7 +57,7 @@ pub(super) enum Node {
     VertexColour,
 }
 
-/// A picture and what is done to its values.
+/// An image texture: a picture, and what is done to its values.
 #[derive(Clone, Debug)]
 pub(super) struct Picture {
     pub(super) image: usize,
@@ -148,8 +148,8 @@ impl Node {
 }
 
 impl Textures {
-    /// The node, given those before it: the input that it always shows, or a constant where all that
-    /// it shows is one.
+    /// The node, simplified by those before it: its input where that has all the weight, or a constant where it is the
+    /// same everywhere.
     pub(super) fn folded(&self, node: Node) -> Node {
         let node = match node {
             Node::Mix { a, b, amount } => match self.fold_float(amount) {
@@ -188,12 +188,14 @@ impl Textures {
         value.map_or(node, Node::Constant)
     }
 
-    /// The value of a node at a place.
+    /// The value of a node at a point, evaluated as a tree.
     pub(super) fn node(&self, index: usize, place: &TextureCoordinates) -> Rgb<f32> {
         self.value(index, place, |id| self.node(id.0, place))
     }
 
-    /// The value of a node whose inputs have values.
+    /// The value of a node at a point.
+    ///
+    /// * `input`: value of an input.
     #[inline(always)]
     fn value(
         &self,
@@ -274,8 +276,7 @@ impl Textures {
         }
     }
 
-    /// [`Textures::node`] with every node evaluated once, in order: what many nodes refer to takes no
-    /// longer than what one does.
+    /// [`Textures::node`], evaluated node by node in order: each once, however many others refer to it.
     ///
     /// * `first`: the first of the nodes that it depends on.
     pub(super) fn in_order(
@@ -315,7 +316,7 @@ impl Textures {
     }
 }
 
-/// Whether the floors of the coordinates have an even sum.
+/// Whether the sum of the floors of the coordinates is even.
 fn is_even(coordinates: &[f32]) -> bool {
     let sum = coordinates
         .iter()

@@ -1,4 +1,4 @@
-//! From a place on a surface to texture coordinates.
+//! Texture mappings: from a point of a surface to texture coordinates.
 
 use specula_bsdf::Vec3;
 use specula_bsdf::math::vec3;
@@ -67,7 +67,7 @@ impl Mapping {
 }
 
 impl Mapping {
-    /// Its kind, then its numbers.
+    /// Its kind, then its parameters.
     pub(super) fn flatten(&self, to: &mut Words) {
         match self {
             Self::Uv(m) => {

@@ -20,13 +20,13 @@ pub(crate) use flat::{colour_parameter, float_parameter};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TextureCoordinates {
     pub(crate) uv: [f32; 2],
-    /// Of the second set; 0 where the mesh has none.
+    /// Second texture coordinates; 0 where the mesh has none.
     pub(crate) second_uv: [f32; 2],
     /// In the world.
     pub(crate) position: Vec3<f32>,
     /// Geometric normal in the world, unit: pbrt's `directionmix` takes this one, too.
     pub(crate) normal: Vec3<f32>,
-    /// The mesh's, interpolated; white where it has none.
+    /// Vertex colour, interpolated; white where the mesh has none.
     pub(crate) colour: Rgb<f32>,
 }
 
@@ -42,13 +42,13 @@ impl Default for TextureCoordinates {
     }
 }
 
-/// Most nodes that are evaluated as a tree, each as often as others refer to it.
+/// Most nodes of a graph that is evaluated as a tree: each as often as others refer to it.
 const LARGEST_TREE: u32 = 256;
 
-/// What the value of a node takes.
+/// The part of the graph that the value of a node depends on.
 #[derive(Clone, Copy, Debug)]
 struct Extent {
-    /// Nodes of the tree that it unfolds to.
+    /// Nodes of the tree that it unfolds to, which are evaluated.
     visits: u32,
     /// The first of the nodes that it depends on.
     first: usize,
@@ -57,16 +57,16 @@ struct Extent {
 /// All textures of a scene, with the pictures that they use.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Textures {
-    /// By the scene's numbers. A node's inputs come before it.
+    /// By the scene's indices. A node's inputs come before it.
     nodes: Vec<Node>,
     /// Of every node.
     extents: Vec<Extent>,
-    /// By the scene's numbers; empty where no texture uses a picture.
+    /// By the scene's indices; empty where no texture uses the picture.
     rasters: Vec<Raster>,
 }
 
 impl Textures {
-    /// Takes what the scene's textures use.
+    /// The scene's textures, folded, with their pictures.
     ///
     /// * `scene`: left without the pixels of the pictures that only textures use.
     pub(crate) fn new(scene: &mut Scene) -> Self {
@@ -122,8 +122,8 @@ impl Textures {
         })
     }
 
-    /// The value of a texture: of small graphs as a tree, which leaves out what is not shown, of large
-    /// ones in order.
+    /// The value of a texture. Small graphs are evaluated as trees, which skips inputs without weight; large ones node by
+    /// node.
     #[inline]
     fn at(&self, id: TextureId, place: &TextureCoordinates) -> Rgb<f32> {
         let Extent { visits, first } = self.extents[id.0];
@@ -134,7 +134,7 @@ impl Textures {
         }
     }
 
-    /// A colour at a place; 0 where it is no number.
+    /// A colour parameter at a point; 0 where it is not finite.
     #[inline]
     pub(crate) fn colour(&self, parameter: ColourParam, place: &TextureCoordinates) -> Rgb<f32> {
         let value = match parameter {
@@ -144,7 +144,7 @@ impl Textures {
         value.map(finite)
     }
 
-    /// A number at a place; 0 where it is none.
+    /// A scalar parameter at a point; 0 where it is not finite.
     #[inline]
     pub(crate) fn float(&self, parameter: FloatParam, place: &TextureCoordinates) -> f32 {
         finite(match parameter {
@@ -153,7 +153,7 @@ impl Textures {
         })
     }
 
-    /// The same parameter, as a value where its texture is the same everywhere.
+    /// The parameter, as a value where its texture is constant.
     pub(crate) fn fold_colour(&self, parameter: ColourParam) -> ColourParam {
         match parameter {
             ColourParam::Texture(id) => match self.nodes[id.0] {
@@ -164,7 +164,7 @@ impl Textures {
         }
     }
 
-    /// The same parameter, as a value where its texture is the same everywhere.
+    /// The parameter, as a value where its texture is constant.
     pub(crate) fn fold_float(&self, parameter: FloatParam) -> FloatParam {
         match parameter {
             FloatParam::Texture(id) => match self.nodes[id.0] {
@@ -175,7 +175,7 @@ impl Textures {
         }
     }
 
-    /// Whether any texture shows the colours of vertices.
+    /// Whether any texture uses the colours of vertices.
     pub(crate) fn shows_vertex_colours(&self) -> bool {
         self.nodes.iter().any(|n| matches!(n, Node::VertexColour))
     }

@@ -8,7 +8,7 @@ use specula_bsdf::{Rgb, Vec3};
 use crate::convert::{floor_i32, floor_index};
 use crate::words::Words;
 
-/// Frequency of an octave over that of the one before: not 2, so that the lattices do not meet.
+/// Frequency of an octave over that of the one before: not 2, so that the lattices do not coincide.
 const LACUNARITY: f32 = 1.99;
 
 /// Gradient noise, in about `[-1, 1]`; 0 at all points of the integer lattice.
@@ -57,7 +57,7 @@ pub(super) fn fbm(p: Vec3<f32>, roughness: f32, octaves: u32) -> f32 {
     sum(p, roughness, octaves, |n| n).0
 }
 
-/// The same of absolute values; the mean of the octaves left out stands for them, as in pbrt.
+/// The same of absolute values; octaves that are left out are replaced by their mean, as in pbrt.
 pub(super) fn turbulence(p: Vec3<f32>, roughness: f32, octaves: u32) -> f32 {
     let (sum, amplitude) = sum(p, roughness, octaves, f32::abs);
     sum + 0.2 * amplitude
@@ -121,7 +121,7 @@ pub(super) fn flatten(to: &mut Words) {
     to.floats(MARBLE.into_iter().flatten());
 }
 
-/// Names for the tables where no texture reads them.
+/// Constants for the tables where no texture reads them.
 pub(super) fn leave_out(to: &mut Words) {
     to.float_constant("TEXTURE_NOISE_LACUNARITY", LACUNARITY);
     to.constant("NOISE_PERMUTATION", 0);

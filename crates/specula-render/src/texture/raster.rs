@@ -1,4 +1,4 @@
-//! Pictures, looked up.
+//! Image textures: pixels in memory and their interpolation.
 
 use specula_bsdf::Rgb;
 use specula_bsdf::math::rgb;
@@ -16,7 +16,7 @@ pub(super) struct Raster {
     pixels: Pixels,
 }
 
-/// How a picture is looked up.
+/// How a picture is sampled: behaviour outside of it, and interpolation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lookup {
     /// Along s and t.
@@ -40,8 +40,7 @@ impl Raster {
         }
     }
 
-    /// The value at `(s, t)`; t = 0 is the lower edge of the picture. Black where the coordinates
-    /// are no numbers.
+    /// The value at `(s, t)`; t = 0 is the lower edge of the picture. Black where the coordinates are not finite.
     pub(super) fn at(&self, [s, t]: [f32; 2], lookup: Lookup) -> Rgb<f32> {
         if self.width == 0 || !(s.is_finite() && t.is_finite()) {
             return Rgb::BLACK;
@@ -78,8 +77,8 @@ impl Raster {
 }
 
 impl Raster {
-    /// Width, height, whether it is of bytes; then three numbers for each pixel, or 256 numbers and a
-    /// word for each pixel, red in its lowest byte. Returns its place.
+    /// Width, height, whether pixels are bytes; then three floats for each pixel, or a table of 256 floats and a word of
+    /// three bytes for each pixel, red in the lowest one. Returns its offset.
     pub(super) fn flatten(&self, to: &mut Words) -> u32 {
         let here = to.place();
         to.ids([self.width, self.height].map(i32::unsigned_abs));
@@ -101,7 +100,7 @@ impl Raster {
     }
 }
 
-/// Coordinates that repeat are reduced first: pixel numbers stay small and exact.
+/// Coordinates that repeat are reduced first, so that pixel indices stay small and exact.
 #[inline]
 fn reduced(s: f32, wrap: Wrap) -> f32 {
     match wrap {
@@ -111,7 +110,7 @@ fn reduced(s: f32, wrap: Wrap) -> f32 {
     }
 }
 
-/// A number of `0..size`; `None` where the picture is black.
+/// The index of a pixel, wrapped to `0..size`; `None` where the picture is black.
 #[inline]
 fn wrapped(x: i32, size: i32, wrap: Wrap) -> Option<usize> {
     let inside = if (0..size).contains(&x) {

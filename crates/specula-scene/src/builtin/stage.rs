@@ -114,7 +114,7 @@ fn swept(profile: &[[f64; 2]]) -> Mesh {
         );
         let here = [*y, *z];
         length += (here[0] - p[0]).hypot(here[1] - p[1]);
-        // Where a straight part meets a bend, the straight part keeps its normal.
+        // Where a straight part meets a bend, the straight part has its own normal.
         let (p, q) = match i {
             1 => (profile[0], here),
             _ if i + 2 == profile.len() => (here, q),

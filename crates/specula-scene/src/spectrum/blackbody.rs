@@ -36,7 +36,7 @@ pub(super) fn xyz_of_blackbody(kelvin: f64) -> [f64; 3] {
     integrate(|nm| planck(nm, kelvin))
 }
 
-/// Planck's law over its value at 830 nm, the end of the visible where cold media are brightest:
+/// Planck's law over its value at 830 nm, the end of the visible where cold bodies are brightest:
 /// written as a ratio, it underflows for no temperature.
 fn planck(nm: f64, kelvin: f64) -> f64 {
     const END_NM: f64 = 830.0;

@@ -8,7 +8,7 @@ use super::{TextureType, WriteError, Writer, quoted, rgb_list};
 use crate::scene::{Channel, NoiseKind, Scene, Texture, TextureId};
 use crate::validate::surface::inputs;
 
-/// Whether the textures of a scene have no colours, by their numbers.
+/// Whether the textures of a scene have no colours, by their indices.
 pub(super) fn greys(scene: &Scene) -> Vec<bool> {
     let is_grey = |[r, g, b]: &[f32; 3]| r == g && g == b;
     let pictures: Vec<bool> = scene

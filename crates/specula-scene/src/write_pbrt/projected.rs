@@ -17,7 +17,9 @@ impl Writer<'_> {
         image_projection: &ImageProjection,
     ) -> Result<(DMat4, String), WriteError> {
         let Some((id, channel, factor)) = self.picture_of(intensity) else {
-            self.note("lights that image_projection what is no picture are written as points of their mean");
+            self.note(
+                "lights that project what is no image are written as point lights of its mean",
+            );
             let position = to_world.w_axis.truncate().to_array();
             let directive = format!(
                 "\"point\" \"point3 from\" [ {} ] \"rgb I\" [ {} ]",

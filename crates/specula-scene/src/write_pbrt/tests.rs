@@ -57,7 +57,7 @@ fn the_built_in_scene_survives() {
     }
 }
 
-/// What a material is, without the numbers of its textures.
+/// What a material is, without the indices of its textures.
 fn summary_of(scene: &Scene, id: crate::scene::MaterialId) -> String {
     match scene.materials[id.0].kind {
         MaterialKind::Diffuse { .. } => "diffuse".to_owned(),

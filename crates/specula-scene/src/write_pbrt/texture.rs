@@ -86,8 +86,8 @@ impl Writer<'_> {
                 }
             }
         }
-        let numbers = (0..=id.0).filter(|i| is_needed[*i]);
-        numbers.map(TextureId).collect()
+        let indices = (0..=id.0).filter(|i| is_needed[*i]);
+        indices.map(TextureId).collect()
     }
 
     /// Writes a texture times a colour.

@@ -52,7 +52,7 @@ fn bsdf_sample_none() -> BsdfSample {
     return BsdfSample(vec3f(0.0, 0.0, 1.0), 0.0, vec3f(0.0), 1.0, 0u);
 }
 
-/// A reflected sample; none below the horizon or where its density is no positive number.
+/// A reflected sample; none below the horizon or where its density is not positive and finite.
 ///
 /// Twin: specula-bsdf/src/bsdf/lambert.rs, BsdfSample::reflected.
 fn bsdf_sample_reflected(wi: vec3f, weight: vec3f, pdf: f32) -> BsdfSample {
@@ -62,7 +62,7 @@ fn bsdf_sample_reflected(wi: vec3f, weight: vec3f, pdf: f32) -> BsdfSample {
     return bsdf_sample_none();
 }
 
-/// A transmitted sample; none above the horizon or where its density is no positive number.
+/// A transmitted sample; none above the horizon or where its density is not positive and finite.
 ///
 /// Twin: specula-bsdf/src/bsdf/lambert.rs, BsdfSample::transmitted.
 fn bsdf_sample_transmitted(wi: vec3f, weight: vec3f, pdf: f32, eta: f32) -> BsdfSample {

@@ -37,7 +37,7 @@ const COATED_DIFFUSE_UNLIMITED: u32 = 0xffffffffu;
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_diffuse.rs, CoatedDiffuse.
 struct CoatedDiffuse {
-    /// The coat's facets, of account where `mean_alpha` is above 0; height-correlated GGX.
+    /// The coat's facets, used where `mean_alpha` is above 0; height-correlated GGX.
     facets: MicrofacetsModel,
     /// Alpha that stands for the coat's two; 0 for a smooth coat.
     mean_alpha: f32,
@@ -90,7 +90,7 @@ fn coated_diffuse_followed(q: vec3f, max_depth: u32) -> vec3f {
 /// * `eta`: index of the coat over that outside, clamped to [1, 3].
 /// * `albedo`: of the base, in [0, 1].
 /// * `thickness`: optical, of an absorbing medium, from 0 up: light that crosses it once at the cosine `mu`
-///   keeps `exp(-thickness / mu)`.
+///   is attenuated to `exp(-thickness / mu)`.
 /// * `max_depth`: events after which light is lost; `COATED_DIFFUSE_UNLIMITED`: no limit.
 /// * `scattering`: `COATED_DIFFUSE_SINGLE` or `COATED_DIFFUSE_LOSSLESS`.
 ///
@@ -115,7 +115,7 @@ fn coated_diffuse_new(facets: MicrofacetsModel, rough: bool, eta: f32, albedo: v
     return lobe;
 }
 
-/// What becomes of light from `w`.
+/// The shares of light from `w` that the coat reflects and transmits.
 ///
 /// Twin: specula-bsdf/src/bsdf/coated_diffuse.rs, CoatedDiffuse::incident.
 fn coated_diffuse_incident(lobe: CoatedDiffuse, w: vec3f) -> CoatedDiffuseIncident {

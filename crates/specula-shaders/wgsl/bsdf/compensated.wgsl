@@ -3,7 +3,7 @@
 //     Turquin            f = f_ss (1 + F_ms L(wo) / E(wo)),     E = 1 - L
 //     Kulla and Conty    f = f_ss + F_avg F_ms L(wo) L(wi) / (pi L_avg)
 //
-// `L` is the loss of the white surface by azimuth and elevation, so that anisotropic surfaces keep their
+// `L` is the loss of the white surface by azimuth and elevation, so that anisotropic surfaces conserve
 // energy too. For views below the horizon (`wo.z < 0`) `L` is that of the mirror image: finite and
 // continuous.
 //
@@ -28,15 +28,15 @@ import package::math::warp::{warp_cosine_hemisphere, warp_cosine_hemisphere_pdf}
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated.rs, Compensated.
 struct CompensatedConductor {
-    /// What is scattered once.
+    /// The single-scattering lobe.
     single: RoughConductor,
-    /// What is lost.
+    /// The energy that it loses.
     loss: AlbedoLoss,
     /// `MODEL_TURQUIN`, `MODEL_TURQUIN_SERIES` or `MODEL_KULLA_CONTY`.
     model: u32,
     /// Average reflectance of a facet.
     average: vec3f,
-    /// Factor of the light contributed back: `F_ms` (Turquin), `F_avg F_ms` (Kulla and Conty).
+    /// Factor of the light given back: `F_ms` (Turquin), `F_avg F_ms` (Kulla and Conty).
     colour: vec3f,
 }
 

@@ -35,21 +35,21 @@ const COMPENSATED_DIELECTRIC_BELOW_ONE: f32 = 0.99999988079071;
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated_dielectric.rs, CompensatedDielectric.
 struct CompensatedDielectric {
-    /// What is scattered once.
+    /// The single-scattering lobe.
     single: RoughDielectric,
-    /// What is lost, seen from above.
+    /// The energy that it loses, for views from above.
     above: DielectricAlbedoLoss,
-    /// What is lost, seen from below with the inverse index.
+    /// The energy that it loses, for views from below, with the inverse index.
     below: DielectricAlbedoLoss,
     /// Transmitted shares, from above and from below.
     transmitted: vec2f,
 }
 
-/// What a view meets.
+/// The interface from the side of a view.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated_dielectric.rs, Side.
 struct CompensatedDielectricSide {
-    /// Factor of z that brings the view above.
+    /// Factor of z that moves the view above the surface.
     turn: f32,
     /// Index beyond over the index on the side of the view.
     eta: f32,
@@ -83,7 +83,7 @@ fn compensated_dielectric_is_inside(lobe: CompensatedDielectric, wo: vec3f) -> b
     return lobe.single.two_sided == 1u && wo.z < 0.0;
 }
 
-/// The interface as `wo` meets it.
+/// The interface from the side of `wo`.
 ///
 /// Twin: specula-bsdf/src/bsdf/compensated_dielectric.rs, CompensatedDielectric::side.
 fn compensated_dielectric_side(lobe: CompensatedDielectric, wo: vec3f) -> CompensatedDielectricSide {
@@ -161,7 +161,7 @@ fn compensated_dielectric_sample(lobe: CompensatedDielectric, wo: vec3f, u: vec3
         sampled.flags = BSDF_SAMPLE_VALID | select(0u, BSDF_SAMPLE_TRANSMISSION, transmits);
         sampled.eta = select(1.0, side.eta, transmits);
     } else {
-        // Rounding must not bring 1 about.
+        // Rounding must not yield 1.
         let rest = min((u.x - side.loss) / (1.0 - side.loss), COMPENSATED_DIELECTRIC_BELOW_ONE);
         sampled = rough_dielectric_sample(lobe.single, wo, vec3f(rest, u.yz), transport);
         if sampled.flags == 0u || (sampled.flags & BSDF_SAMPLE_SPECULAR) != 0u {

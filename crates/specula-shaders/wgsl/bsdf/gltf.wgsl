@@ -61,9 +61,9 @@ struct GltfParameters {
     specular_colour: vec3f,
     /// `transmission`.
     transmission: f32,
-    /// 1 where the surface bounds a body, so that light bends (`KHR_materials_volume`).
+    /// 1 where the surface bounds a volume, so that light bends (`KHR_materials_volume`).
     volume: u32,
-    /// 1 where it is seen from outside; of account where `volume` is 1.
+    /// 1 where it is seen from outside; used where `volume` is 1.
     outside: u32,
     /// `clearcoat`.
     clearcoat: f32,

@@ -63,8 +63,8 @@ fn gltf_albedo_sum(start: u32, place: StencilWeights, mu: f32) -> f32 {
     var sum = 0.0;
     for (var i = 0u; i < 4u; i++) {
         let first = start + (place.first + i) * GLTF_ALBEDO_MUS + m.first;
-        let numbers = vec4f(energy_table(first), energy_table(first + 1u), energy_table(first + 2u), energy_table(first + 3u));
-        sum += place.weights[i] * dot(m.weights, numbers);
+        let values = vec4f(energy_table(first), energy_table(first + 1u), energy_table(first + 2u), energy_table(first + 3u));
+        sum += place.weights[i] * dot(m.weights, values);
     }
     return sum;
 }

@@ -19,7 +19,7 @@ struct MicrofacetsModel {
     distribution: u32,
     /// `MASKING_HEIGHT_CORRELATED` or `MASKING_SEPARABLE`.
     masking: u32,
-    /// One of `SAMPLER_HEITZ`, `SAMPLER_CAP`, `SAMPLER_BOUNDED` and `SAMPLER_EXACT`; of account for GGX
+    /// One of `SAMPLER_HEITZ`, `SAMPLER_CAP`, `SAMPLER_BOUNDED` and `SAMPLER_EXACT`; used for GGX
     /// only, Beckmann has one.
     strategy: u32,
 }

@@ -22,7 +22,7 @@ import package::math::warp::{warp_cosine_hemisphere, warp_cosine_hemisphere_pdf}
 ///
 /// Twin: specula-bsdf/src/bsdf/plastic/mod.rs, Plastic.
 struct PlasticLobe {
-    /// The coat's facets, of account where `rough` is 1; Mitsuba's masking is separable.
+    /// The coat's facets, used where `rough` is 1; Mitsuba's masking is separable.
     facets: MicrofacetsModel,
     /// 1 where the coat has facets.
     rough: u32,

@@ -10,8 +10,8 @@
 // Rough: tables, cubic in `(eta - 1)/(eta + 1)`, `sqrt(1.1 alpha / (1 + alpha))` and `sqrt(mu)`. Errors:
 // specula-bsdf/src/bsdf/plastic/interface.rs. Anisotropic alphas are taken as `sqrt(alpha_x alpha_y)`.
 //
-// Departure from the Rust source: the table is read at the cosine for each direction, where Rust keeps the
-// row of a alpha and an index.
+// Departure from the Rust source: the table is read at the cosine for each direction, where Rust stores
+// the row of an alpha and an index.
 
 import package::energy::energy_table::{energy_table};
 import package::energy::stencil::{StencilWeights, stencil_at};
@@ -28,7 +28,7 @@ const PLASTIC_INTERFACE_TRANSMITTANCE_START: u32 = 913942u;
 /// Where `R_int` by distribution, index and alpha begins.
 const PLASTIC_INTERFACE_INTERNAL_START: u32 = 922942u;
 
-/// The tables at a alpha and an index.
+/// The tables at an alpha and an index.
 ///
 /// Twin: specula-bsdf/src/bsdf/plastic/interface.rs, Interface.
 struct PlasticInterface {
@@ -40,7 +40,7 @@ struct PlasticInterface {
     alpha: StencilWeights,
 }
 
-/// The tables at a alpha and an index in [1, 3].
+/// The tables at an alpha and an index in [1, 3].
 ///
 /// Twin: specula-bsdf/src/bsdf/plastic/interface.rs, Interface::rough.
 fn plastic_interface_new(distribution: u32, alpha: vec2f, eta: f32) -> PlasticInterface {
@@ -80,8 +80,8 @@ fn plastic_interface_transmittance(interior: PlasticInterface, mu: f32) -> f32 {
         let j = n % 4u;
         let row = interior.first + (interior.eta.first + i) * PLASTIC_INTERFACE_ALPHAS + interior.alpha.first + j;
         let place = PLASTIC_INTERFACE_TRANSMITTANCE_START + row * PLASTIC_INTERFACE_MUS + at.first;
-        let numbers = vec4f(energy_table(place), energy_table(place + 1u), energy_table(place + 2u), energy_table(place + 3u));
-        sum += interior.eta.weights[i] * interior.alpha.weights[j] * dot(at.weights, numbers);
+        let values = vec4f(energy_table(place), energy_table(place + 1u), energy_table(place + 2u), energy_table(place + 3u));
+        sum += interior.eta.weights[i] * interior.alpha.weights[j] * dot(at.weights, values);
     }
     return clamp(sum, 0.0, 1.0);
 }

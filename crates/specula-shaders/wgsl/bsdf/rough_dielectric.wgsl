@@ -43,13 +43,13 @@ struct RoughDielectric {
     tints: TintsPair,
 }
 
-/// The interface as a view meets it.
+/// The interface from the side of a view.
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, Side.
 struct RoughDielectricSide {
     /// Whether the view is from inside an interface with both sides.
     inside: bool,
-    /// Factor of z that brings the view above.
+    /// Factor of z that moves the view above the surface.
     turn: f32,
     /// Index beyond over the index on the side of the view.
     eta: f32,
@@ -73,14 +73,14 @@ struct RoughDielectricScatter {
     carried: f32,
 }
 
-/// Whether nothing is bent, so that only a Dirac delta is left.
+/// Whether nothing is bent, so that the lobe is a Dirac delta alone.
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::is_specular.
 fn rough_dielectric_is_specular(lobe: RoughDielectric) -> bool {
     return abs(lobe.eta - 1.0) < 1e-3;
 }
 
-/// The interface as `wo` meets it.
+/// The interface from the side of `wo`.
 ///
 /// Twin: specula-bsdf/src/bsdf/dielectric.rs, RoughDielectric::side.
 fn rough_dielectric_side(lobe: RoughDielectric, wo: vec3f) -> RoughDielectricSide {

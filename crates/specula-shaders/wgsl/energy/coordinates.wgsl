@@ -59,7 +59,7 @@ struct CoordinatesAzimuth {
     narrow: f32,
 }
 
-/// The coordinate of a alpha.
+/// The coordinate of an alpha.
 ///
 /// Twin: specula-bsdf/src/energy/coordinates.rs, alpha_coordinate.
 fn coordinates_alpha(alpha: f32) -> f32 {
@@ -67,7 +67,7 @@ fn coordinates_alpha(alpha: f32) -> f32 {
     return (root - COORDINATES_ROOT_START) * COORDINATES_ROOT_SCALE;
 }
 
-/// The coordinate of a cosine at a alpha along the view.
+/// The coordinate of a cosine at an alpha along the view.
 ///
 /// Twin: specula-bsdf/src/energy/coordinates.rs, cosine_coordinate.
 fn coordinates_cosine(cosine: f32, alpha: f32) -> f32 {
@@ -101,7 +101,7 @@ fn coordinates_alpha_pair(x: f32, y: f32) -> CoordinatesAlphaPair {
     let low = min(x, y);
     let high = max(x, y);
     let excess = (high - low) * (high + low) / (low * low);
-    // isotropic alpha have no azimuth; the floor keeps 0 / 0 away.
+    // Isotropic alphas have no azimuth; the floor avoids 0 / 0.
     let per_logarithm = 1.0 / max(log(1.0 + excess), COORDINATES_EPSILON);
     return CoordinatesAlphaPair(low, high, excess, per_logarithm, select(0u, 1u, x > y));
 }

@@ -55,7 +55,7 @@ fn interface_eta_knot(eta: f32, count: u32) -> InterfaceKnot {
     return interface_knot(2.0 * ((eta - 1.0) / (eta + 1.0)), count);
 }
 
-/// The place of a alpha in [0, 10], along `sqrt(1.1 alpha / (1 + alpha))`.
+/// The knot of an alpha in [0, 10], along `sqrt(1.1 alpha / (1 + alpha))`.
 ///
 /// Twin: specula-bsdf/src/energy/interface.rs, alpha_knot.
 fn interface_alpha_knot(alpha: f32, count: u32) -> InterfaceKnot {
@@ -69,7 +69,7 @@ fn interface_cosine_knot(mu: f32, count: u32) -> InterfaceKnot {
     return interface_knot(sqrt(clamp(mu, 0.0, 1.0)), count);
 }
 
-/// The number at `start` and the next one, weighed.
+/// The value at `start` and the next one, interpolated.
 ///
 /// Twin: specula-bsdf/src/energy/interface.rs, Knot::lerp.
 fn interface_along(start: u32, knot: InterfaceKnot) -> f32 {

@@ -1,6 +1,6 @@
 // What an absorbing layer under a dielectric interface takes, for coats.
 //
-// Light that crosses a layer of optical thickness `t` at the cosine `mu` keeps `exp(-t / mu)`. Of light
+// Light that crosses a layer of optical thickness `t` at the cosine `mu` is attenuated to `exp(-t / mu)`. Of light
 // that entered at the cosine `mu`, with `<>` the mean over where the interface sends it, and of diffuse
 // light that the interface reflects inside, up at `mu_i` and down at `mu_r`:
 //

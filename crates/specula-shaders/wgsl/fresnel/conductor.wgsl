@@ -28,7 +28,7 @@ struct ConductorIor {
 /// Twin: specula-bsdf/src/fresnel/conductor.rs, Conductor::eval.
 fn conductor_eval(conductor: ConductorIor, cosine: f32) -> vec3f {
     let inside = clamp(cosine, 0.0, 1.0);
-    // Beyond 1000 everything reflects alike; the limit keeps products in range.
+    // Beyond 1000 everything reflects alike; the limit holds products in range.
     let eta = min(conductor.eta, vec3f(1e3));
     let k = min(conductor.k, vec3f(1e3));
     let eta_squared = eta * eta;

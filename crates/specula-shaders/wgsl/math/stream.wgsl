@@ -21,7 +21,7 @@ fn stream_new(seed: vec2u) -> StreamState {
     return StreamState(seed);
 }
 
-/// The next number, uniform in `[0, 1)`, in steps of 2^-24.
+/// The next random number, uniform in `[0, 1)`, in steps of 2^-24.
 ///
 /// Twin: specula-bsdf/src/math/stream.rs, Stream::next.
 fn stream_next(stream: ptr<function, StreamState>) -> f32 {

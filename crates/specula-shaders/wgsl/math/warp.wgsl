@@ -12,7 +12,7 @@ import package::math::turns::{turns_sin_cos};
 fn warp_cosine_hemisphere(u: vec2f) -> vec3f {
     let phi = turns_sin_cos(u.y);
     let r = sqrt(u.x);
-    // 1 - u keeps z exact and above zero for every u < 1.
+    // With 1 - u, z is exact and above zero for every u < 1.
     return vec3f(r * phi.y, r * phi.x, sqrt(1.0 - u.x));
 }
 

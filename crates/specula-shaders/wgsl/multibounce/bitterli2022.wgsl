@@ -12,8 +12,8 @@
 // A walk goes on after an upward flight with the probability that a facet meets it, and connects with
 // `f_p p`.
 //
-// Departures: the same distribution is kept in the form of `state`, whose values are those of the
-// paper but for rounding. The paper's differences of rates need f64 (in which the Rust keeps its
+// Departures: the same distribution has the form of `state`, whose values are those of the
+// paper but for rounding. The paper's differences of rates need f64 (in which Rust has the
 // coefficients) and rates that are moved apart where they meet; WGSL has no f64, and `state` needs
 // neither. The paper gives no sampling of directions: that of Heitz 2016 is used.
 //

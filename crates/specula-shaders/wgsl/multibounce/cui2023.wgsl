@@ -36,7 +36,7 @@ const CUI2023_GOES_ON: f32 = 0.7;
 /// Flights that a subpath can hold. Roulette leaves 0.7^10 of the walks that get there, and each end
 /// covers for the other.
 const CUI2023_SUBPATH: u32 = 12u;
-/// A finite cap: an infinite quotient times the roulette's 0 would be no number.
+/// A finite cap: an infinite quotient times the roulette's 0 would be NaN.
 const CUI2023_CAP: f32 = 1e30;
 
 /// An estimate of `f cos` from one end; `wi.z > 0`.
@@ -188,7 +188,7 @@ fn cui2023_path_over_density(
     exit_rate: f32,
 ) -> f32 {
     var state = state_new((*eye).flights[0].rate);
-    // The state brings prod |Lambda(d_i)|, i < k. The walk from wi drew with sigma(d_i), i > s + 1.
+    // The state has the factor prod |Lambda(d_i)|, i < k. The walk from wi sampled with sigma(d_i), i > s + 1.
     var factor = 1.0 / (*eye).flights[s].facing;
     // It has room for the flights of both subpaths: state_down does not fail.
     for (var j = 1u; j <= s; j++) {
@@ -229,7 +229,7 @@ fn cui2023_rivals(
     t: u32,
     quarter_d: f32,
 ) -> f32 {
-    // Towards wi: the facets that the light's walk drew, from its last. Then towards wo.
+    // Towards wi: the facets that the light's walk sampled, from its last. Then towards wo.
     let towards_wi = cui2023_rivals_along(light, t, (*eye).flights[s].facing, s + t, quarter_d);
     let towards_wo = cui2023_rivals_along(eye, s, (*light).flights[t].facing, s + t, quarter_d);
     return 1.0 + towards_wi + towards_wo;

@@ -13,13 +13,13 @@ import package::multibounce::walk::{WALK_MAX_BOUNCES, walk_flight};
 struct HeitzInterfaceWalk {
     /// The facets on the side that it is on.
     side: MultibounceInterface,
-    /// Where it meets one of them; of meaning where it has not left.
+    /// Where it meets one of them; meaningful where it has not left.
     at: MultibounceInterfaceCollision,
     /// Whether that is another side than the one it started on.
     is_beyond: bool,
     /// Whether it has left, along `at.flight.d` in the frame of its side.
     has_left: bool,
-    /// What its connections summed up to.
+    /// Sum of its connections.
     sum: f32,
 }
 

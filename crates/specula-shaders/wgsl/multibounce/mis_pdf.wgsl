@@ -13,7 +13,7 @@ const MIS_PDF_LAMBERT: u32 = 0u;
 /// density. Of reflection alone: at a dielectric it is `MIS_PDF_LAMBERT`.
 /// Twin: specula-bsdf/src/multibounce/mis_pdf.rs, MisPdf::Hapke.
 const MIS_PDF_HAPKE: u32 = 1u;
-/// StratifiedBidirectional: see `normalised_pdf`. Integrates to 1.
+/// The density of `normalised_pdf`. Integrates to 1.
 /// Twin: specula-bsdf/src/multibounce/mis_pdf.rs, MisPdf::Normalised.
 const MIS_PDF_NORMALISED: u32 = 2u;
 

@@ -4,7 +4,7 @@
 // known, and that of `mis_pdf` takes its place for the weights of multiple importance sampling (any
 // positive function serves there: the weights of two strategies sum to 1 whatever it is).
 //
-// Departure from the Rust source: a caller always brings a stream.
+// Departure from the Rust source: the caller always passes a stream.
 
 import package::bsdf::bsdf_sample::{BsdfSample, bsdf_sample_reflected};
 import package::math::stream::{StreamState};

@@ -1,6 +1,6 @@
 // A rough dielectric interface with all its bounces.
 //
-// Departure from the Rust source: a caller always brings a stream.
+// Departure from the Rust source: the caller always passes a stream.
 
 import package::bsdf::bsdf_sample::{BSDF_SAMPLE_SPECULAR, BSDF_SAMPLE_TRANSMISSION, BSDF_SAMPLE_VALID, BsdfSample, bsdf_sample_none, bsdf_sample_radiance_scale, bsdf_sample_reflected, bsdf_sample_transmitted};
 import package::bsdf::tints::{TintsPair};
@@ -15,9 +15,9 @@ import package::multibounce::stratified_bidirectional_interface::{stratified_bid
 /// Reflection and refraction at a rough interface with every bounce between its facets, on both sides
 /// of them. Values are estimates; no energy is lost.
 ///
-/// `MULTIBOUNCE_MODEL_HEITZ` walks with heights; every other model here is `MULTIBOUNCE_MODEL_STRATIFIED_BIDIRECTIONAL`, as
-/// the papers of the others treat metals only. Indices within 1e-3 of each other are taken as equal:
-/// light passes straight on.
+/// `MULTIBOUNCE_MODEL_HEITZ` walks with heights; every other model here is
+/// `MULTIBOUNCE_MODEL_STRATIFIED_BIDIRECTIONAL`, as the papers of the others treat metals only. Indices within 1e-3
+/// of each other are taken as equal: light passes straight on.
 ///
 /// Twin: specula-bsdf/src/bsdf/multibounce_dielectric.rs, MultibounceDielectric.
 struct MultibounceDielectric {

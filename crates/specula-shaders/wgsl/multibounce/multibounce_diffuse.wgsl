@@ -1,6 +1,6 @@
 // A rough surface of Lambertian facets with all its bounces (Heitz et al. 2016).
 //
-// Departure from the Rust source: a caller always brings a stream.
+// Departure from the Rust source: the caller always passes a stream.
 
 import package::bsdf::bsdf_sample::{BsdfSample, bsdf_sample_none, bsdf_sample_reflected};
 import package::math::frame::{frame_from_normal, frame_to_world};

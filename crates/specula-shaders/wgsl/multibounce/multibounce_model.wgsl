@@ -1,4 +1,4 @@
-// The models of multiple bounces by number.
+// Codes of the models of multiple bounces.
 
 /// Heitz et al. 2016. Twin: specula-bsdf/src/multibounce/model.rs, MultibounceModel::Heitz2016.
 const MULTIBOUNCE_MODEL_HEITZ: u32 = 0u;

@@ -30,7 +30,7 @@ import package::math::warp::{warp_cosine_hemisphere};
 import package::multibounce::normals::{NormalsModel, normals_d, normals_lambda_cos, normals_sample_wm};
 import package::multibounce::walk::{walk_flight};
 
-/// A cosine lobe's share: keeps the density above 0 where D underflows.
+/// A cosine lobe's share, so that the density is above 0 where D underflows.
 const NORMALISED_FLOOR: f32 = 1e-4;
 /// `e` of upward flights.
 const NORMALISED_RISE: f32 = 0.25;
@@ -83,13 +83,13 @@ struct NormalisedSources {
     down: NormalisedSource,
 }
 
-/// A part of `[0, 1)` that was taken or not, and where the number stands in it.
+/// Whether a random number lies in a part of `[0, 1)`, and its position there.
 ///
 /// Twin: specula-bsdf/src/multibounce/normalised.rs, sample.
 struct NormalisedChoice {
     /// Whether the part was taken.
     is_taken: bool,
-    /// The number stretched to `[0, 1)`.
+    /// The random number, rescaled to `[0, 1)`.
     rest: f32,
 }
 
@@ -168,7 +168,7 @@ fn normalised_sample_direction(normals: NormalsModel, wo: vec3f, u: vec3f) -> ve
     return normalised_at(scattered, normalised_fast(raised, NORMALISED_RISE_BELOW, maps.mu));
 }
 
-/// Takes the part below `share` of `[0, 1)`, and stretches what a number falls in to `[0, 1)`.
+/// Whether a random number lies below `share`, and the number rescaled from its part to `[0, 1)`.
 ///
 /// Twin: specula-bsdf/src/multibounce/normalised.rs, sample.
 fn normalised_takes(choice: f32, share: f32) -> NormalisedChoice {
@@ -178,7 +178,7 @@ fn normalised_takes(choice: f32, share: f32) -> NormalisedChoice {
     return NormalisedChoice(false, (choice - share) / max(1.0 - share, NORMALISED_TINY));
 }
 
-/// What a map brings from the flight `source` that meets facets, times `4 sigma(wo)`.
+/// Density from the flight `source` that meets facets, by the maps of directions, times `4 sigma(wo)`.
 ///
 /// Twin: specula-bsdf/src/multibounce/normalised.rs, pdf.
 fn normalised_sent(

@@ -10,7 +10,7 @@
 // 2023, bounded for every `d`; the variance of walks that leave first and connect then (Heitz 2016,
 // Bitterli and d'Eon 2022) diverges for `wi` along the normal.
 //
-// The same path `d_0 .. d_k` is found from the other end with a density whose quotient by this one is
+// The same path `d_0 .. d_k` is sampled from the other end with a density whose quotient by this one is
 // (all facets but the ends' are shared)
 //
 //     R_k = D(h_{k-1}) / D(h_0)  prod_{i=0}^{k-2} sigma(-d_i) / prod_{i=2}^{k} sigma(d_i)

@@ -76,7 +76,7 @@ struct WalkTurn {
     quarter_d: f32,
 }
 
-/// What a path brings to the facet that connects it.
+/// The facet that connects a path to the other direction: its reflectance and density.
 ///
 /// Twin: specula-bsdf/src/multibounce/walk.rs, Facets::connection.
 struct WalkConnection {

@@ -10,10 +10,10 @@
 // and 0 for a downward one. A path weighs `prod v_i s_i`, `v = F D / (4 |d_z|)`, where the segment
 // terms `s` are these probabilities (the last) or their complements, over `l`.
 //
-// The model's bias is its own: it keeps the energy (its furnace is exact) but not its directions, as
-// depths of later collisions are not exponential. Against Heitz 2016 it errs by -20 % to +11 % at
-// alpha 1 up to 60 degrees, and by +180 % at 85. One bounce is exact when correlated, and has the separable `G2` when not. The uncorrelated
-// model is reciprocal; the correlated one, as released, is not: the reversed flight has another rate.
+// The model's bias is its own: it conserves energy (its furnace is exact) but not its directions, as depths of later
+// collisions are not exponential. Against Heitz 2016 it errs by -20 % to +11 % at alpha 1 up to 60 degrees, and by
+// +180 % at 85. One bounce is exact when correlated, and has the separable `G2` when not. The uncorrelated model is
+// reciprocal; the correlated one, as released, is not: the reversed flight has another rate.
 //
 // Departures: the released code samples visible normals below the horizon with a routine that is wrong
 // there; Specula's is not. Its constant roulette starts at the third bounce here too.

@@ -37,7 +37,7 @@ fn ggx_d_along(alpha: vec2f, m: vec3f, length_squared: f32) -> f32 {
 
 /// `(h2, t)`: `h2 = (alpha_x x)^2 + (alpha_y y)^2` and `t = sqrt(h2 + z^2)`.
 ///
-/// A view straight from below sees nothing; a floor of `h2` keeps quotients by sigma finite.
+/// A view straight from below sees nothing; with a floor of `h2` quotients by sigma are finite.
 ///
 /// Twin: specula-bsdf/src/ndf/ggx.rs, Ggx::stretched_length.
 fn ggx_stretched_length(alpha: vec2f, w: vec3f) -> vec2f {

@@ -23,7 +23,7 @@ import package::alpha::{alpha_stretch};
 ///
 /// Twin: specula-bsdf/src/vndf/exact/cone.rs, Cone.
 struct ExactCone {
-    /// The stretched view, of any length; kept off the normal by a hair, so that the plane of incidence
+    /// The stretched view, of any length; moved off the normal by a hair, so that the plane of incidence
     /// is defined.
     h: vec3f,
     /// `|h|^2`.

@@ -54,7 +54,7 @@ fn exact_isotropic_half_vector(a: f32, wo: vec3f, u: vec2f) -> vec3f {
     let scale = 1.0 / (delta * b);
     let root = sqrt(lambda * b);
 
-    // The plane of incidence, kept defined at the normal.
+    // The plane of incidence, defined at the normal too.
     let plane = dot(wo.xy, wo.xy);
     let sine = sqrt(max(plane, 1e-24));
     let incidence = select(vec2f(sine, 0.0), wo.xy, plane > 1e-24);

@@ -1,7 +1,7 @@
 // Many reflections of one view: what does not depend on the sample is computed once.
 //
-// All samplers share the density `D(wm) / (4 N(wo))`. With `N` kept, a density costs `D` alone: no square
-// root and one division. anisotropic alpha keep the cone of `exact` as well, which is most of a sample's
+// All samplers share the density `D(wm) / (4 N(wo))`. With `N` stored, a density costs `D` alone: no square
+// root and one division. For anisotropic alphas the cone of `exact` is stored as well, which is most of a sample's
 // cost. Worth it from the second use of a view on: several light samples at a shading point,
 // resampling, mixtures with guided distributions.
 

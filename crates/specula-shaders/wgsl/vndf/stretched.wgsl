@@ -28,7 +28,7 @@ fn stretched_new(alpha: vec2f, wo: vec3f) -> StretchedDirection {
     return StretchedDirection(h * (factor * inverse), select(radius, long, up) * inverse);
 }
 
-/// `x^2 + y^2` with a floor that keeps the straight view from below finite: it sees only facets at the
+/// `x^2 + y^2` with a floor, so that the straight view from below is finite: it sees only facets at the
 /// horizon.
 ///
 /// Twin: specula-bsdf/src/vndf/mod.rs, squared_radius.

@@ -1,4 +1,4 @@
-//! What a program says that is built without a feature of Cargo.
+//! Commands and options of a program that was built without a feature of Cargo: messages that name it.
 
 /// That this program lacks something, and how to have it.
 ///

@@ -1,4 +1,4 @@
-//! What can be typed, and the help that teaches it.
+//! Commands and options, with their help.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -95,7 +95,7 @@ while the first runs.
 Every half minute the picture so far is written, and a checkpoint beside it (scene.film for
 scene.exr) from which --resume goes on after Ctrl-C, a crash or a power cut, to the same picture
 bit for bit; it is removed when the render is done. Files are replaced whole or not at all. Where a
-picture cannot be written in the end, the samples are kept in a film, which is named.";
+picture cannot be written in the end, the samples are saved in a film, which is named.";
 
 #[derive(Args, Debug)]
 #[command(after_help = RENDER_EXAMPLES)]
@@ -130,14 +130,14 @@ pub(crate) struct RenderArguments {
     #[arg(long, conflicts_with = "samples")]
     pub(crate) adaptive: bool,
 
-    /// Bias: scale what indirect light (scattered twice or more) brings at once down to V in every channel, where
-    /// 1 is white: fireflies go, and the light that they stand for with them. The picture gets darker; 10 takes
-    /// little, 1 much
+    /// Bias: clamp each contribution of indirect light (scattered twice or more) to V in every channel, where 1 is
+    /// white: fireflies go, and the light that they stand for with them. The picture gets darker; 10 takes little,
+    /// 1 much
     #[arg(long, value_name = "V", value_parser = values::positive)]
     pub(crate) clamp: Option<f32>,
 
     /// Bias: make shiny surfaces rougher where paths come to them from rough ones, as pbrt's `regularize`: less
-    /// noise of light that gets onto rough surfaces by way of glass and mirrors; such caustics get blurred
+    /// noise of light that reaches rough surfaces through glass and mirrors; such caustics get blurred
     #[arg(long)]
     pub(crate) regularize: bool,
 
@@ -161,7 +161,7 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "T", default_value = "30s", value_parser = values::interval)]
     pub(crate) checkpoint: values::Interval,
 
-    /// Which sampler draws reflections off rough surfaces; the picture converges to the same
+    /// Sampler of reflections off rough surfaces; the picture converges to the same
     #[arg(long, value_name = "NAME", default_value_t = SamplerName::Exact)]
     pub(crate) sampler: SamplerName,
 
@@ -186,12 +186,12 @@ pub(crate) struct RenderArguments {
     pub(crate) material: Vec<MaterialOverride>,
 
     /// Render again whenever the scene or a file that it reads changes, until Ctrl-C. The picture is
-    /// written every two seconds; trees over shapes that did not change are kept
+    /// written every two seconds; acceleration structures of shapes that did not change are reused
     #[arg(long, conflicts_with_all = ["samples", "resume", "restart"])]
     pub(crate) watch: bool,
 
-    /// Denoise the finished picture with Open Image Denoise, guided by albedo and normals; .film keeps
-    /// the samples. In programs built with it only
+    /// Denoise the finished picture with Open Image Denoise, guided by albedo and normals; .film has
+    /// the samples as they are. In programs built with it only
     #[arg(long)]
     pub(crate) denoise: bool,
 
@@ -211,7 +211,7 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u32,
 
-    /// Let the paths of N neighbouring pixels, 1 to 16, share what they find behind their first rough
+    /// Let the paths of N neighbouring pixels, 1 to 16, share their vertices behind the first rough
     /// surfaces: half the time to the same noise where rough surfaces light each other (8 is good),
     /// more on fine detail under open skies. Pixels that share have some of their noise in common
     #[arg(long, value_name = "N", default_value_t = 1,
@@ -259,7 +259,7 @@ pub(crate) struct DisplayArguments {
 }
 
 impl DisplayArguments {
-    /// What the library is told.
+    /// As the library takes it.
     pub(crate) fn display(&self) -> Display {
         Display {
             tone_map: match self.tone {

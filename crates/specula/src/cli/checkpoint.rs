@@ -19,13 +19,13 @@ pub(crate) enum Start {
     New,
     /// Go on with it.
     Resume,
-    /// Go on with a film that was kept elsewhere.
+    /// Go on with a film that is elsewhere.
     ResumeFrom(PathBuf),
     /// Replace it.
     Restart,
 }
 
-/// Where a render keeps its film.
+/// The checkpoint of a render: the file that its film is saved in.
 pub(crate) struct Checkpoint {
     path: PathBuf,
     label: Label,
@@ -186,11 +186,11 @@ impl Checkpoint {
     /// folder for temporary files. Returns what to say about it.
     ///
     /// * `seconds`: of this run.
-    pub(crate) fn keep(&self, film: &FilmBuffer, seconds: f64) -> String {
+    pub(crate) fn rescue(&self, film: &FilmBuffer, seconds: f64) -> String {
         let label = self.label(seconds);
         let Err(first) = FilmFile::write(&self.path, &label, film) else {
             return format!(
-                "the samples are kept in '{}': --resume goes on from there",
+                "the samples are saved in '{}': --resume goes on from there",
                 self.path.display()
             );
         };
@@ -206,7 +206,7 @@ impl Checkpoint {
         let name = path.display();
         match FilmFile::write(&path, &label, film) {
             Ok(()) => {
-                format!("the samples are kept in '{name}': --resume={name} goes on from there")
+                format!("the samples are saved in '{name}': --resume={name} goes on from there")
             }
             Err(second) => {
                 let _ = std::fs::remove_file(&path);

@@ -18,7 +18,7 @@ impl FileId {
     ///
     /// # Errors
     ///
-    /// Where there is none, or the system does not let one look.
+    /// Where there is none, or the system denies access.
     #[cfg(unix)]
     pub(crate) fn of(path: &Path) -> io::Result<Self> {
         use std::os::unix::fs::MetadataExt;
@@ -42,7 +42,7 @@ impl FileId {
     ///
     /// # Errors
     ///
-    /// Where there is none, or the system does not let one look.
+    /// Where there is none, or the system denies access.
     #[cfg(not(unix))]
     pub(crate) fn of(path: &Path) -> io::Result<Self> {
         path.canonicalize().map(Self)

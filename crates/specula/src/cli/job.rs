@@ -1,4 +1,4 @@
-//! A render on its way: passes, progress, checkpoints, and what is written in the end.
+//! A running render: passes, progress, checkpoints, and what is written in the end.
 
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -31,13 +31,13 @@ pub(crate) struct Job<'a> {
     pub(crate) is_watched: bool,
 }
 
-/// What the passes so far have come to.
+/// Results of the passes so far.
 #[derive(Default)]
 struct Sum {
     rays: u64,
     invalid: u64,
     one_invalid: Option<InvalidSample>,
-    /// Whether a picture could not be written on the way.
+    /// Whether a picture could not be written during the render.
     is_warned: bool,
 }
 
@@ -147,7 +147,7 @@ impl Job<'_> {
     }
 
     /// Writes the pictures and the film, each whether or not the others can be written. Where one cannot,
-    /// the samples are kept.
+    /// the samples are saved.
     fn write_all(&mut self, seconds: f64, interrupted: bool) -> Result<(), Failure> {
         let pictures = self.write_pictures(seconds, self.denoised);
         let film = match (interrupted, &pictures) {
@@ -157,14 +157,14 @@ impl Job<'_> {
             (false, Err(_)) => Ok(()),
         };
         Failure::join(pictures, film)
-            .map_err(|failure| failure.and(&self.checkpoint.keep(self.renderer.film(), seconds)))
+            .map_err(|failure| failure.and(&self.checkpoint.rescue(self.renderer.film(), seconds)))
     }
 
-    /// Keeps what there is where the device failed.
+    /// Saves the samples so far where the device failed.
     fn give_up<T>(&mut self, error: &GpuError, elapsed: Duration) -> Result<T, Failure> {
         let seconds = elapsed.as_secs_f64();
-        let kept = self.checkpoint.keep(self.renderer.film(), seconds);
-        Err(device::failed(error, &format!("; {kept}")))
+        let saved = self.checkpoint.rescue(self.renderer.film(), seconds);
+        Err(device::failed(error, &format!("; {saved}")))
     }
 
     /// Where a sample went wrong, after a colon.

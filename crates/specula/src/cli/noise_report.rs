@@ -118,13 +118,13 @@ fn message(
     };
     let rare = if outliers {
         format!(
-            ": light that paths find rarely, as a rule by way of rough surfaces and then shiny ones \
+            ": light that paths rarely hit, as a rule after rough surfaces and then shiny ones \
              (caustics). {offers}, at the price of bias: pictures get darker, caustics blurred"
         )
     } else if outlook.rate < 0.4 {
         let rate = outlook.rate;
         format!(
-            ". It falls by the power {rate:.2} of the samples in place of 1/2: light is found rarely. \
+            ". It falls by the power {rate:.2} of the samples in place of 1/2: paths rarely hit the light. \
              {offers}, at the price of bias"
         )
     } else {
@@ -231,7 +231,7 @@ mod tests {
     fn fireflies_are_told_with_what_helps() {
         let text = said(2000.0, 0.92, None, 65_536).unwrap();
         assert!(
-            text.contains("have 92 % of the squared error: light that paths find rarely"),
+            text.contains("have 92 % of the squared error: light that paths rarely hit"),
             "{text}"
         );
         assert!(text.contains("--regularize or --clamp 10"), "{text}");

@@ -57,7 +57,7 @@ impl Outputs {
         self.paths.iter().find(|p| is_film(p)).map(PathBuf::as_path)
     }
 
-    /// Where the film of a render is kept: the one asked for, or one beside the first file.
+    /// Where the film of a render is saved: the one asked for, or one beside the first file.
     pub(crate) fn checkpoint(&self) -> PathBuf {
         match (self.film(), self.paths.first()) {
             (Some(film), _) => film.to_owned(),

@@ -190,7 +190,7 @@ impl StopFlag {
             if shared.asked.swap(true, Ordering::SeqCst) {
                 signal.exit();
             }
-            say!("\nstopping; what is finished is kept");
+            say!("\nstopping; what is finished is saved");
             if signal != Signal::Interrupt {
                 end_after(GRACE, signal);
             }
@@ -278,7 +278,7 @@ fn finishing(elapsed: Duration, expected: Option<Duration>) -> String {
         ),
         Some(left) if left.is_zero() => format!("finishing the pass, nearly done; {again}"),
         Some(left) if left > LONG => format!(
-            "finishing the pass, which is a long one, {} left; {again}, which keeps all finished tiles",
+            "finishing the pass, which is a long one, {} left; {again}, which saves all finished tiles",
             short(left.as_secs_f64())
         ),
         Some(left) => format!(

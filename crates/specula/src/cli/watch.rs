@@ -1,6 +1,6 @@
 //! `render --watch`: renders again whenever a file of the scene changes.
 //!
-//! Files are looked at several times a second by name, length and time of change: that works with editors
+//! Files are checked several times a second by name, length and time of change: that works with editors
 //! that replace files and on network folders, which tell nobody of changes.
 
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ use super::stop::{Signal, Stop};
 
 /// Between two pictures of a render that is watched.
 pub(crate) const PICTURE_EVERY: Duration = Duration::from_secs(2);
-/// Between two looks at the files.
+/// Between two checks of the files.
 const LOOK_EVERY: Duration = Duration::from_millis(200);
 /// A file that was changed must stay the same for so long: editors write in steps.
 const SETTLED: Duration = Duration::from_millis(100);

@@ -103,7 +103,7 @@ const ANISOTROPIC_AXES: [Axis; 5] = [
 fn stretched_view(eta: f64, low: f64, high: f64, v: f64, m: f64) -> Vec3<f64> {
     let (alpha_values, edge) = (AlphaPair::new(low, high), edge(eta));
     let at = |share: f64| alpha_values.azimuth((1.0 - share).sqrt(), share.sqrt());
-    // isotropic alpha have the same value at every azimuth.
+    // Isotropic alphas have the same value at every azimuth.
     let share = match low < high {
         true => solve(v, |share| at(share).interface(edge)),
         false => 0.5,

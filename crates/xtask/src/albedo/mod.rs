@@ -138,7 +138,7 @@ fn texts<N: Tabulated<f64>>(ndf: impl Fn(Alpha<f64>) -> N + Sync) -> [[Digits; 4
     })
 }
 
-/// `each` of the numbers below `count`, in their order, by as many threads as there are cores.
+/// `each` of the indices below `count`, in their order, by as many threads as there are cores.
 fn parallel<R: Send>(count: usize, each: impl Fn(usize) -> R + Sync) -> Vec<R> {
     let next = AtomicUsize::new(0);
     let done = Mutex::new(Vec::with_capacity(count));

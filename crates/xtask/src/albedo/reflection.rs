@@ -95,7 +95,7 @@ pub(super) fn pairs(count: usize) -> Vec<[usize; 2]> {
 /// The view at coordinates of the anisotropic table.
 fn anisotropic_view(low: f64, high: f64, v: f64, m: f64) -> Vec3<f64> {
     let along = low.powf(1.0 - v) * high.powf(v);
-    // isotropic alpha have the same value at every azimuth.
+    // Isotropic alphas have the same value at every azimuth.
     let share = match low < high {
         true => (along - low) * (along + low) / ((high - low) * (high + low)),
         false => 0.5,

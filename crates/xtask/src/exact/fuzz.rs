@@ -25,7 +25,7 @@ pub(super) fn run(count: u64) -> Result<()> {
     let threads = thread::available_parallelism().map_or(1, |n| n.get() as u64);
     let counts: Vec<[Count; 2]> = thread::scope(|scope| {
         let workers: Vec<_> = (0..threads)
-            .map(|seed| scope.spawn(move || draw(seed, count.div_ceil(threads))))
+            .map(|seed| scope.spawn(move || sample(seed, count.div_ceil(threads))))
             .collect();
         workers.into_iter().filter_map(|w| w.join().ok()).collect()
     });
@@ -47,7 +47,7 @@ pub(super) fn run(count: u64) -> Result<()> {
 }
 
 /// A fifth of the samples with isotropic alpha, the rest with unequal ones.
-fn draw(seed: u64, count: u64) -> [Count; 2] {
+fn sample(seed: u64, count: u64) -> [Count; 2] {
     let mut stream = Stream::new(0x5eed ^ (seed << 32));
     let mut counts = [Count::default(); 2];
     for round in 0..count.div_ceil(PER_VIEW) {

@@ -54,7 +54,7 @@ impl Cone {
         foot + self.v * (height / v2)
     }
 
-    /// The reflection sampled by three numbers: uniform as seen along the axis, then mirrored about
+    /// The reflection sampled by three random numbers: uniform as seen along the axis, then mirrored about
     /// it with the probability that makes it uniform as seen along the view.
     pub(super) fn sample(&self, u: [f64; 3]) -> Vec3<f64> {
         let r = u[0].sqrt();

@@ -1,5 +1,5 @@
 //! Tables: what is rejected, and variances against bounded caps, for independent and for
-//! stratified numbers.
+//! stratified random numbers.
 
 use sobol_burley::sample_4d;
 use specula_bsdf::Alpha;

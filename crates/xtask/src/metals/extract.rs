@@ -7,8 +7,8 @@ use super::catalogue;
 use super::csv::{self, Measurement};
 use crate::Result;
 
-/// Wavelengths kept, in nm, and one row more on either side: what is seen, with some margin.
-const KEPT_NM: (f64, f64) = (350.0, 850.0);
+/// The wavelengths that are extracted, in nm, and one row more on either side: the visible ones, with some margin.
+const EXTRACTED_NM: (f64, f64) = (350.0, 850.0);
 
 /// Writes every file whose page is in `folder`.
 ///
@@ -21,13 +21,13 @@ pub(crate) fn extract(root: &Path, folder: &Path) -> Result<()> {
         let page = folder.join(format!("database/data/{}.yml", entry.page));
         let Ok(yaml) = fs::read_to_string(&page) else {
             println!(
-                "{}: {} is not there, kept as it is",
+                "{}: {} is not there, left as it is",
                 entry.file,
                 page.display()
             );
             continue;
         };
-        let measurement = kept(parse(&yaml).map_err(|e| format!("{}: {e}", page.display()))?);
+        let measurement = visible(parse(&yaml).map_err(|e| format!("{}: {e}", page.display()))?);
         let (symbol, name) = entry.metal;
         let head = [
             format!("{symbol}, {name}: {}", entry.source),
@@ -74,11 +74,13 @@ fn parse(yaml: &str) -> Result<Measurement> {
     }
 }
 
-/// The rows within [`KEPT_NM`] and one on either side.
-fn kept(measurement: Measurement) -> Measurement {
+/// The rows within [`EXTRACTED_NM`] and one on either side.
+fn visible(measurement: Measurement) -> Measurement {
     let rows = measurement.rows;
-    let first = rows.partition_point(|r| r[0] < KEPT_NM.0).saturating_sub(1);
-    let end = (rows.partition_point(|r| r[0] <= KEPT_NM.1) + 1).min(rows.len());
+    let first = rows
+        .partition_point(|r| r[0] < EXTRACTED_NM.0)
+        .saturating_sub(1);
+    let end = (rows.partition_point(|r| r[0] <= EXTRACTED_NM.1) + 1).min(rows.len());
     Measurement {
         rows: rows[first..end].to_vec(),
     }
@@ -105,11 +107,11 @@ SPECS:
 ";
 
     #[test]
-    fn reads_the_table_and_keeps_the_visible() {
+    fn reads_the_table_and_extracts_the_visible() {
         let all = parse(PAGE).unwrap();
         assert_eq!(all.rows.len(), 5);
         assert_eq!(
-            kept(all).rows,
+            visible(all).rows,
             [[300.0, 1.1, 1.5], [587.6, 1.2, 2.25], [900.0, 1.3, 3.5]]
         );
     }
@@ -138,7 +140,7 @@ SPECS:
             }
             let yaml = fs::read_to_string(&page).unwrap();
             let committed = csv::read(&root, entry.file).unwrap();
-            assert_eq!(kept(parse(&yaml).unwrap()), committed, "{}", entry.file);
+            assert_eq!(visible(parse(&yaml).unwrap()), committed, "{}", entry.file);
         }
         // Its page is of another part of the database.
         assert_eq!(without_page, ["CuZn"]);

@@ -15,7 +15,7 @@ pub(super) enum Part {
     Sampling,
     Evaluation,
     Lights,
-    Numbers,
+    RandomNumbers,
     Film,
     /// Clearing, copying and allocating memory.
     Memory,
@@ -30,7 +30,7 @@ impl Part {
         Self::Sampling,
         Self::Evaluation,
         Self::Lights,
-        Self::Numbers,
+        Self::RandomNumbers,
         Self::Film,
         Self::Memory,
         Self::Rest,
@@ -44,7 +44,7 @@ impl Part {
             Self::Sampling => "BSDF sampling",
             Self::Evaluation => "BSDF evaluation",
             Self::Lights => "lights",
-            Self::Numbers => "numbers",
+            Self::RandomNumbers => "random numbers",
             Self::Film => "camera, film",
             Self::Memory => "memory",
             Self::Rest => "rest",
@@ -135,7 +135,7 @@ fn origin(symbol: &str, file: &str, function: &str) -> Origin {
         return Origin::Of(Part::Memory);
     }
     if file.contains("sobol_burley") {
-        return Origin::Of(Part::Numbers);
+        return Origin::Of(Part::RandomNumbers);
     }
     if let Some(rest) = within("specula-bsdf/src/") {
         return of_bsdf(rest, function);
@@ -161,7 +161,7 @@ fn origin(symbol: &str, file: &str, function: &str) -> Origin {
         return Origin::Of(Part::Lights);
     }
     if starts(&["sampler"]) {
-        return Origin::Of(Part::Numbers);
+        return Origin::Of(Part::RandomNumbers);
     }
     if starts(&["camera", "film", "renderer"]) {
         return Origin::Of(Part::Film);
@@ -181,7 +181,7 @@ fn of_bsdf(rest: &str, function: &str) -> Origin {
     if rest.starts_with("math") {
         return Origin::Neutral;
     }
-    if is(&["sample", "draw"]) {
+    if is(&["sample"]) {
         return Origin::Of(Part::Sampling);
     }
     if is(&["eval", "pdf", "albedo"]) {

@@ -25,8 +25,8 @@ pub(super) fn row(row: &Row) -> String {
 /// All of it, as Markdown.
 pub(super) fn tables(rows: &[Row]) -> String {
     let mut text = String::from(
-        "Millions of rays a second, one thread, and specula over Embree's:\n\n\
-         | triangles | rays | specula | Embree | with its layer | ratio | ratio with layer |\n\
+        "Millions of rays a second, one thread, and Specula's over Embree's:\n\n\
+         | triangles | rays | Specula | Embree | with its layer | ratio | ratio with layer |\n\
          |---|---|---|---|---|---|---|\n",
     );
     for row in rows {
@@ -56,7 +56,7 @@ pub(super) fn tables(rows: &[Row]) -> String {
     }
     text.push_str(
         "\nSeconds to build, by the clock, and bytes a triangle:\n\n\
-         | triangles | specula, 1 thread | 2 threads | Embree, 1 thread | 2 threads | specula, bytes | Embree, bytes |\n\
+         | triangles | Specula, 1 thread | 2 threads | Embree, 1 thread | 2 threads | Specula, bytes | Embree, bytes |\n\
          |---|---|---|---|---|---|---|\n",
     );
     for row in rows {

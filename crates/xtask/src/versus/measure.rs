@@ -309,7 +309,7 @@ fn prepare(
     };
     let half = (plan.reference * spp).div_ceil(2);
     let start = format!("{name}-reference-{key:016x}-{sampler}-");
-    let (halves, half_spp) = match kept_reference(folder, &start, half)? {
+    let (halves, half_spp) = match stored_reference(folder, &start, half)? {
         Some(found) => found,
         None => {
             let mut taken = 0;
@@ -386,8 +386,12 @@ fn half_files(folder: &Path, start: &str, spp: u32) -> [PathBuf; 2] {
     [1, 2].map(|i| folder.join(format!("{start}{spp}-{i}.exr")))
 }
 
-/// The halves of a kept reference of at least `wanted` samples each, and how many they have.
-fn kept_reference(folder: &Path, start: &str, wanted: u32) -> Result<Option<([PathBuf; 2], u32)>> {
+/// The halves of a stored reference of at least `wanted` samples each, and how many they have.
+fn stored_reference(
+    folder: &Path,
+    start: &str,
+    wanted: u32,
+) -> Result<Option<([PathBuf; 2], u32)>> {
     let mut best = None;
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
@@ -436,13 +440,13 @@ mod tests {
 
     #[test]
     fn references_of_another_scene_or_too_few_samples_are_not_taken() {
-        let folder = scratch("kept");
+        let folder = scratch("stored");
         for (key, spp) in [(1, 64), (1, 512), (1, 128), (2, 4096)] {
             for file in half_files(&folder, &format!("a-{key}-"), spp) {
                 fs::write(file, "").unwrap();
             }
         }
-        let found = |key, wanted| kept_reference(&folder, &format!("a-{key}-"), wanted).unwrap();
+        let found = |key, wanted| stored_reference(&folder, &format!("a-{key}-"), wanted).unwrap();
         assert_eq!(found(1, 100).unwrap().1, 512);
         assert!(found(1, 1000).is_none());
         assert!(found(3, 1).is_none());

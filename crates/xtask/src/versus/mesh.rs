@@ -1,4 +1,4 @@
-//! A mesh too large to keep: a displaced sphere of any number of triangles.
+//! A mesh too large for the repository: a displaced sphere of any number of triangles.
 
 use std::f64::consts::{PI, TAU};
 use std::fs;

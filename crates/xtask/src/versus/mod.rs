@@ -64,7 +64,7 @@ pub(crate) struct Versus {
     /// Specula [default: built from this workspace]
     #[arg(long, value_name = "PROGRAM")]
     specula: Option<PathBuf>,
-    /// Folder for pictures, references (which are kept) and the report
+    /// Folder for pictures, references (which are reused) and the report
     #[arg(long, value_name = "DIR", default_value = "target/versus")]
     out: PathBuf,
     /// Scenes to render [default: all]

@@ -135,7 +135,7 @@ pub(crate) fn document(versus: &Versus, outcomes: &[Outcome], minutes: f64) -> S
         format!("{:?}", plan.clock).to_lowercase(),
     );
     text.push_str(
-        "## Result\n\nTime to equal error, specula over theirs, median of the rounds:\n\n",
+        "## Result\n\nTime to equal error, Specula over theirs, median of the rounds:\n\n",
     );
     text.push_str(&summary(outcomes));
     for outcome in outcomes {
@@ -194,7 +194,7 @@ Written by the chore below, on a machine that does nothing else; the scenes are 
   what is measured. The column beside gives the error against the other's reference. RMSE over
   pixels and channels; trimmed: without the largest 0.1 % of squares; relMSE with 0.01 added to the
   squared reference.
-- **Time to equal error**, specula over theirs: t mse / (t' mse'), as squared errors fall with time. The
+- **Time to equal error**, Specula over theirs: t mse / (t' mse'), as squared errors fall with time. The
   column `rate` checks that: the exponent of the trimmed RMSE's fall from the rounds to a render of four
   times the samples: 0.5 for independent samples.
 - **The means** of a pair's references must agree within 0.5 %, pbrt's, which is spectral, within 2 %;

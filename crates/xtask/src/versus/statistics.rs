@@ -89,12 +89,12 @@ fn trimmed_mean(values: &mut [f64]) -> f64 {
         reason = "a thousandth of a count"
     )]
     let dropped = (values.len() as f64 * TRIMMED_SHARE).ceil() as usize;
-    let kept = values.len() - dropped;
-    if kept == 0 {
+    let remaining = values.len() - dropped;
+    if remaining == 0 {
         return 0.0;
     }
-    values.select_nth_unstable_by(kept, f64::total_cmp);
-    values[..kept].iter().sum::<f64>() / kept as f64
+    values.select_nth_unstable_by(remaining, f64::total_cmp);
+    values[..remaining].iter().sum::<f64>() / remaining as f64
 }
 
 /// The mean of a picture, all channels together.

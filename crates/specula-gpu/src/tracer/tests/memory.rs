@@ -15,8 +15,8 @@ fn gpu_alone(test: &str) -> Option<Gpu> {
 }
 
 #[test]
-fn waves_shrink_to_what_memory_holds() {
-    let Some(gpu) = gpu_alone("waves_shrink_to_what_memory_holds") else {
+fn batches_shrink_to_what_memory_holds() {
+    let Some(gpu) = gpu_alone("batches_shrink_to_what_memory_holds") else {
         return;
     };
     let options = RenderOptions {
@@ -34,13 +34,13 @@ fn waves_shrink_to_what_memory_holds() {
         let go = AtomicBool::new(false);
         let report = render.tracer.render_pass(&mut renderer, 64, &go);
         assert!(report.unwrap().complete);
-        render.tracer.wave = None;
+        render.tracer.batch = None;
         gpu.wait().unwrap();
         (renderer.film().clone(), render.tracer.largest)
     };
     let (right, largest) = film();
     assert!(largest >= all, "{largest} though there is memory");
-    // A wave of all samples takes twice as much.
+    // A batch of all samples takes twice as much.
     let limit = Limit::new(64 * MIB);
     let (film, largest) = film();
     limit.lift();

@@ -1,4 +1,4 @@
-//! Interfaces between dielectrics: rough, smooth, thin, and those that keep their energy.
+//! Interfaces between dielectrics: rough, smooth, thin, and compensated ones.
 
 use specula_bsdf::Real;
 use specula_bsdf::bsdf::{

@@ -46,7 +46,7 @@ pub(super) fn metal<T: Real>(which: T) -> Reflectance<T> {
     })
 }
 
-/// The masking of a number.
+/// The masking of a code.
 pub(super) fn masking<T: Real>(x: T) -> Masking {
     if x > T::ZERO {
         Masking::Separable
@@ -125,8 +125,8 @@ fn metals() -> Vec<[f32; 6]> {
 }
 
 /// The same and a model of compensation.
-fn kept() -> Vec<[f32; 7]> {
-    // At alphas of 10 single scattering keeps a thousandth: Turquin's quotient has few digits in f32.
+fn compensated_metals() -> Vec<[f32; 7]> {
+    // At alphas of 10 single scattering reflects a thousandth: Turquin's quotient has few digits in f32.
     let some = metals()
         .into_iter()
         .filter(|p| p[0].min(p[1]) < 5.0 && (p[4] == 3.0 || p[2] > 0.0));
@@ -153,7 +153,7 @@ pub(super) fn cases() -> Vec<Case> {
             "compensated",
             concat!(metal!(), "let lobe = compensated_new(facets, reflectance, u32(x[13]));\n"),
             compensated,
-            rows(&kept(), |p| ([p[0], p[1]], None), |p| p[2] > 0.0),
+            rows(&compensated_metals(), |p| ([p[0], p[1]], None), |p| p[2] > 0.0),
             [2048.0, 4096.0],
             &[1e-3]
         ),

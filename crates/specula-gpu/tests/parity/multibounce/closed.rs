@@ -9,8 +9,8 @@ use specula_bsdf::vndf::VisibleNormals;
 use specula_bsdf::{Bsdf, Real, Vec3};
 
 use super::{
-    GLASS, conductor, dielectric_lobe, ggx, glass, glass_pairs, metal, numbers, pairs, reflectance,
-    stream, walks, with_index,
+    GLASS, conductor, dielectric_lobe, ggx, glass, glass_pairs, metal, pairs, reflectance,
+    sampling_inputs, stream, walks, with_index,
 };
 use crate::harness::{Case, Twin, alpha, product, round, twins, vector};
 
@@ -94,7 +94,7 @@ fn densities() -> Vec<Case> {
                 "let sampled = normalised_sample_direction(normals, wo, wi.yzx);
                  if sampled.z > 0.0 { y[0] = sampled.x; y[1] = sampled.y; y[2] = sampled.z; }"
             ),
-            numbers(),
+            sampling_inputs(),
             twins!(|x| {
                 let sampled = sample_normalised(&ggx(x), vector(x, 2), [x[6], x[7], x[5]]);
                 sampled.map_or(vec![T::ZERO; 3], |w| w.to_array().to_vec())
@@ -158,7 +158,7 @@ fn flights() -> Vec<Case> {
                  y[4] = met.next.d.x; y[5] = met.next.d.y; y[6] = met.next.d.z;
                  y[7] = bounce.fresnel.r; y[8] = bounce.next.d.z - met.next.d.z;"
             ),
-            numbers(),
+            sampling_inputs(),
             twins!(|x| {
                 let wo = vector(x, 2);
                 let wm = ggx(x).sample_wm(wo, [x[6], x[7]]);
@@ -210,7 +210,7 @@ fn normals(modules: &'static [&'static str]) -> Case {
              y[4] = sampled.x; y[5] = sampled.y; y[6] = sampled.z;
              let first = walk_pair(&stream); y[7] = first.x; y[8] = first.y;"
         ),
-        numbers(),
+        sampling_inputs(),
         twins!(|x| {
             let (one, other, wo) = (ggx(x), Beckmann::new(alpha(x, 0)), vector(x, 2));
             let wm = Vec3 {
@@ -239,7 +239,7 @@ fn normals(modules: &'static [&'static str]) -> Case {
     .at_scale(&[1.0])
 }
 
-/// Rates of seven flights, below 0 for upward ones; a rate of leaving; a number; a seed.
+/// Rates of seven flights, below 0 for upward ones; a rate of leaving; a random number; a seed.
 fn walks_of_rates() -> Vec<[f32; 10]> {
     let mut stream = Stream::new(3);
     let mut next = || stream.next::<f32>();
@@ -389,7 +389,7 @@ fn sides() -> Vec<Case> {
              y[0] = bent.d.x; y[1] = bent.d.y; y[2] = bent.d.z; y[3] = f32(bent.crosses);
              let turned = multibounce_interface_turned(bent.d);
              y[4] = turned.z + bent.d.z;",
-            with_index::<9, 10>(&numbers()),
+            with_index::<9, 10>(&sampling_inputs()),
             twins!(|x| {
                 let wo = vector(x, 2);
                 let eta = T::ONE / (T::ONE / x[9]);

@@ -68,8 +68,8 @@ pub(crate) use summed;
 macro_rules! moments {
     ($sample:literal) => {
         summed!(
-            "let number = stream_next(&stream);
-             let u = vec3f(number, walk_pair(&stream));
+            "let first = stream_next(&stream);
+             let u = vec3f(first, walk_pair(&stream));
              let sampled = ",
             $sample,
             ";

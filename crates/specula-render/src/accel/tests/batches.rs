@@ -275,7 +275,7 @@ fn what_is_small_in_a_room_is_not_passed_by() {
 }
 
 #[test]
-fn rays_in_step_are_rays_one_by_one() {
+fn interleaved_rays_are_rays_one_by_one() {
     let mut random = Random(23);
     let mut count = 0;
     for (triangles, spheres) in [(1, 0), (0, 1), (500, 30), (5000, 0)] {
@@ -288,7 +288,7 @@ fn rays_in_step_are_rays_one_by_one() {
         let accel = Accel::build(&[group], &[Instance::of(0)]).unwrap();
         let scene = &accel.scene;
         let rays = rays(20_000, &mesh, &mut random);
-        // Fewer than go in step, too.
+        // Fewer than are interleaved, too.
         for batch in [&rays[..], &rays[..2], &rays[..0]] {
             let (mut hits, mut found) = (vec![None; batch.len()], vec![false; batch.len()]);
             interleaved::intersect(Portable, scene, batch, &mut hits);
@@ -296,8 +296,8 @@ fn rays_in_step_are_rays_one_by_one() {
             #[cfg(target_arch = "x86_64")]
             if let Some(kernel) = Avx2::detect() {
                 let (mut other, mut others) = (vec![None; batch.len()], vec![false; batch.len()]);
-                kernel.intersect_in_step(scene, batch, &mut other);
-                kernel.occluded_in_step(scene, batch, &mut others);
+                kernel.intersect_interleaved(scene, batch, &mut other);
+                kernel.occluded_interleaved(scene, batch, &mut others);
                 let bits = |hits: Vec<Option<Hit>>| hits.into_iter().map(exact).collect::<Vec<_>>();
                 assert_eq!((bits(other), others), (bits(hits.clone()), found.clone()));
             }
@@ -312,7 +312,7 @@ fn rays_in_step_are_rays_one_by_one() {
 }
 
 #[test]
-fn rays_gain_in_step_where_they_part_in_a_large_tree() {
+fn incoherent_rays_in_a_large_tree_gain_by_interleaving() {
     let mut random = Random(24);
     let large = Mesh::soup(60_000, &mut random).accel();
     let small = Mesh::soup(1000, &mut random).accel();

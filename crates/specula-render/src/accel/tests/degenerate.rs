@@ -3,7 +3,7 @@
 use super::super::binary::Binary;
 use super::super::collapse;
 use super::super::kernel::MAX_DEPTH;
-use super::super::node::{Child, Kind};
+use super::super::node::{Child, ChildKind};
 use super::*;
 
 #[test]
@@ -130,7 +130,7 @@ fn balanced_trees_are_whole_and_shallow() {
         &mut nodes,
         |items| {
             seen += items.len();
-            Child::new(Kind::Packet, 0)
+            Child::new(ChildKind::Packet, 0)
         },
     );
     assert_eq!(seen, 3000);

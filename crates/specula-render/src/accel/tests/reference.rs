@@ -3,7 +3,7 @@
 #[cfg(target_arch = "x86_64")]
 use super::super::avx2::Avx2;
 use super::super::kernel::{Kernel, Portable};
-use super::super::node::{Child, Kind, Lanes, Node8};
+use super::super::node::{Child, ChildKind, Lanes, Node8};
 use super::*;
 
 /// Rays of all kinds: random, along axes, with zeros and negative zeros, limited, from a vertex.
@@ -117,7 +117,7 @@ fn equal_distances_in_a_plane_go_to_the_smallest_index() {
 /// Children that a ray meets, by each kernel that there is.
 fn boxes_met(bounds: &Bounds, ray: &Ray) -> Vec<u32> {
     let mut node = Node8::EMPTY;
-    node.set(3, bounds, Child::new(Kind::Node, 0));
+    node.set(3, bounds, Child::new(ChildKind::Node, 0));
     let frame = RayFrame::new(ray).unwrap();
     let (t, mut entry) = (f32::INFINITY, Lanes::default());
     let mut masks = vec![Portable.boxes(&node, &frame, t, &mut entry)];

@@ -111,7 +111,7 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// Samples of paths in wavefronts, and of the same paths followed one by one the scalar way.
+/// Samples of paths in wavefronts, and of the same paths followed one by one.
 fn both_ways(case: &Case, options: &RenderOptions) -> (PreparedScene, Vec<[PixelSample; 2]>) {
     let mut scene = specula_scene::builtin::orbs();
     for (i, material) in scene.materials.iter_mut().enumerate() {
@@ -159,7 +159,7 @@ fn are_apart([a, b]: &[PixelSample; 2]) -> bool {
         || a.depth.is_some() != b.depth.is_some()
 }
 
-/// Vector loops round otherwise than the scalar way. Rounding grows along a path, and now and then sends one past an
+/// Vector loops round otherwise than scalar code. Rounding grows along a path, and now and then sends one past an
 /// edge: at most 0.7 % of samples were apart (AVX2), all others agreed to 2e-4.
 #[test]
 fn paths_in_wavefronts_are_paths_alone() {

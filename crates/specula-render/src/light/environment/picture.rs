@@ -1,4 +1,4 @@
-//! A picture of the sphere of directions: looked up and sampled by its bilinear interpolation.
+//! An image of the sphere of directions: evaluated and sampled by its bilinear interpolation.
 //!
 //! The four pixels about each cell lie at fixed places of one array, edges and folds included, with what
 //! is sampled by beside their colours: one look-up has radiance and density.
@@ -346,7 +346,7 @@ fn cut(corners: [f32; 4], [xs, ys]: [[f32; 2]; 2]) -> [f32; 4] {
     [at(0, 0), at(1, 0), at(0, 1), at(1, 1)]
 }
 
-/// Between the values at the corners of a square: upper row, lower row.
+/// Bilinear interpolation between the values at the corners of a square: upper row, lower row.
 #[inline(always)]
 fn bilinear_of([a, b, c, d]: [f32; 4], [x, y]: [f32; 2]) -> f32 {
     (a * (1.0 - x) + b * x) * (1.0 - y) + (c * (1.0 - x) + d * x) * y

@@ -3,11 +3,11 @@
 //
 // Position-free transport between parallel interfaces (Guo, Hasan and Zhao 2018), as in pbrt-v4's
 // `LayeredBxDF` (Pharr, Jakob and Humphreys 2023, 14.3): light passes the coat or is reflected; below,
-// it crosses a slab of optical thickness `t`, keeping `exp(-t / |cos|)` or scattering in it, meets base
+// it crosses a slab of optical thickness `t`, attenuated to `exp(-t / |cos|)` or scattered in it, meets base
 // and coat in turn, and ends after a number of events. Each surface scatters singly (Cook and Torrance),
 // so what a rough one scatters twice is lost.
 //
-// Values are unbiased estimates. Departure from the Rust source: a caller always brings a stream.
+// Values are unbiased estimates. Departure from the Rust source: the caller always passes a stream.
 
 import package::bsdf::bsdf_sample::{BSDF_SAMPLE_SPECULAR, BsdfSample, bsdf_sample_delta, bsdf_sample_none, bsdf_sample_reflected};
 import package::bsdf::layered::layered_base::{LAYERED_BASE_DIFFUSE, LAYERED_BASE_METAL, LayeredBase, layered_base_reflectance};

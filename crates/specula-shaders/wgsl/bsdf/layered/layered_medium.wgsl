@@ -27,7 +27,7 @@ fn layered_medium_scatters(medium: LayeredMedium) -> bool {
     return medium.thickness > 0.0 && any(medium.albedo != vec3f(0.0));
 }
 
-/// `exp(-depth / |cos|)`: what is left after a way through a slab of that depth.
+/// `exp(-depth / |cos|)`: transmittance of a slab of that optical depth.
 ///
 /// Twin: specula-bsdf/src/bsdf/layered/medium.rs, Medium::transmittance.
 fn layered_medium_transmittance(depth: f32, w: vec3f) -> f32 {

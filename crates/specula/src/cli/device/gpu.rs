@@ -18,20 +18,20 @@ use super::Device;
 /// How a GPU renders.
 #[derive(Args, Debug, Default)]
 pub(crate) struct GpuArguments {
-    /// How a GPU follows paths, to the same samples: paths (a thread follows one to its end), queues (a
-    /// thread takes one to its next vertex, and those that go on form a queue), or auto:
-    /// queues, as measurements say (of software only: no real GPU has been measured)
+    /// How a GPU follows paths, with the same samples: paths (a thread follows one to its end), queues (a
+    /// thread takes one to its next vertex, and those that continue form a queue), or auto:
+    /// queues, the faster one by measurements (of software only: no real GPU has been measured)
     #[arg(long, value_name = "NAME", default_value_t = Schedule::Auto)]
     gpu_schedule: Schedule,
 
-    /// How rays are intersected on a GPU: tree, through Specula's own; query, by the GPU's ray
-    /// queries, or an error; or auto: queries where a real GPU offers them and they take the scene
+    /// How rays are cast on a GPU: tree, by traversal of Specula's own; query, by the GPU's ray
+    /// queries, or an error; or auto: queries where a real GPU offers them and they support the scene
     #[arg(long, value_name = "NAME", default_value_t = Rays::Auto)]
     gpu_rays: Rays,
 }
 
 impl GpuArguments {
-    /// What the library is told.
+    /// As the library takes it.
     fn options(&self) -> TracerOptions {
         TracerOptions {
             rays: self.gpu_rays,
@@ -42,11 +42,11 @@ impl GpuArguments {
 
 /// Lists what `--device gpu:INDEX` can be given.
 pub(crate) fn list() -> Result<ExitCode, Failure> {
-    let found = adapters();
-    let lines: Vec<String> = found.iter().map(|a| format!("gpu:{a}\n")).collect();
+    let adapters = adapters();
+    let lines: Vec<String> = adapters.iter().map(|a| format!("gpu:{a}\n")).collect();
     print(&format!("cpu: {} threads\n", rayon::current_num_threads()))?;
     print(&lines.concat())?;
-    if found.is_empty() {
+    if adapters.is_empty() {
         let none = GpuError::NoAdapter;
         print(&format!("{none}\n"))?;
     }
@@ -109,13 +109,13 @@ fn opened(device: &Device) -> Result<Option<Gpu>, Failure> {
 
 /// A device that fails under the scene.
 ///
-/// * `kept`: what there is of the picture, after a semicolon.
-pub(crate) fn failed(error: &GpuError, kept: &str) -> Failure {
+/// * `saved`: where the samples so far are, after a semicolon.
+pub(crate) fn failed(error: &GpuError, saved: &str) -> Failure {
     match error {
         GpuError::OutOfMemory(_) => Failure::bad_input(format_args!(
-            "{error}; --device cpu renders in the processor's memory{kept}"
+            "{error}; --device cpu renders in the processor's memory{saved}"
         )),
-        _ => Failure::other(format_args!("{error}{kept}")),
+        _ => Failure::other(format_args!("{error}{saved}")),
     }
 }
 
@@ -148,11 +148,11 @@ impl<'a> Samples<'a> {
             None => None,
             Some((Ok(tracer), gpu)) => {
                 if !quiet {
-                    let way = match tracer.uses_ray_queries() {
+                    let casting = match tracer.uses_ray_queries() {
                         true => "by its ray queries",
                         false => "through Specula's tree",
                     };
-                    say!("rendering on {}, rays {way}", gpu.adapter);
+                    say!("rendering on {}, rays {casting}", gpu.adapter);
                 }
                 Some(tracer)
             }
@@ -179,7 +179,7 @@ impl<'a> Samples<'a> {
     /// Adds samples to the film; where a GPU fails and may be left, the processor takes the rest.
     ///
     /// # Errors
-    /// That of a GPU that was asked for. The film keeps what came before.
+    /// That of a GPU that was asked for. Earlier samples stay in the film.
     pub(crate) fn pass(
         &mut self,
         renderer: &mut Renderer<'_>,

@@ -27,7 +27,7 @@ as SVG and PNG, pictures as EXR and PNG. The page report.html holds all of them 
 network.
 
 Exit codes: 0 done; 1 failed; 2 the arguments, the scene or the results are wrong; 130 stopped by
-Ctrl-C, what was finished is kept and reported.";
+Ctrl-C, what was finished is saved and reported.";
 
 /// The papers' tables and figures, and measurements on a scene or a material of yours.
 #[derive(Args, Debug)]
@@ -101,7 +101,7 @@ Examples:
       all whose names begin so
 
 Each experiment's folder is replaced when it is done, not before. The page is about all results in
-the folder, those of earlier runs too. Ctrl-C keeps what is finished; once more ends the program at
+the folder, those of earlier runs too. Ctrl-C saves what is finished; once more ends the program at
 once.";
 
 #[derive(Args, Debug)]

@@ -88,11 +88,11 @@ pub(crate) fn run(arguments: &LabCompareArguments) -> Result<ExitCode, Failure> 
 
 /// Each once, in their order.
 fn distinct<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
-    let mut kept = Vec::new();
+    let mut unique = Vec::new();
     for one in all {
-        if !kept.contains(&one) {
-            kept.push(one);
+        if !unique.contains(&one) {
+            unique.push(one);
         }
     }
-    kept
+    unique
 }

@@ -23,12 +23,12 @@ pub(crate) fn run(arguments: &MaterialArguments) -> Result<ExitCode, Failure> {
     let output = &arguments.output;
     let desk = Desk::new(&arguments.effort)?;
     let done = if is_page(output) {
-        let (kept, place) = scratch(output)?;
+        let (temporary, place) = scratch(output)?;
         let done = measure(&options, &place, &desk)?;
         if done {
             announce(&report::write_to(&place, output).map_err(failure)?);
         }
-        drop(kept);
+        drop(temporary);
         done
     } else {
         folder(output)?;

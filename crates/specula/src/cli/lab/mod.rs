@@ -223,7 +223,7 @@ pub(crate) fn is_page(path: &Path) -> bool {
     end.is_some_and(|e| e.eq_ignore_ascii_case("html") || e.eq_ignore_ascii_case("htm"))
 }
 
-/// A folder for what is not kept.
+/// A temporary folder.
 pub(crate) fn scratch(page: &Path) -> Result<(tempfile::TempDir, PathBuf), Failure> {
     let parent = match page.parent() {
         Some(p) if !p.as_os_str().is_empty() => p.to_owned(),
