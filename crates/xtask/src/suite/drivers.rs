@@ -1,6 +1,6 @@
 //! The software GPU of the tests.
 //!
-//! Chromium brings SwiftShader, which compiles the tracer's shaders ten times faster than Mesa's lavapipe. Where it is
+//! Chromium includes SwiftShader, which compiles the tracer's shaders ten times faster than Mesa's lavapipe. Where it is
 //! installed, tests find it beside the machine's own drivers. A real GPU is preferred to both; ray queries are
 //! lavapipe's.
 
