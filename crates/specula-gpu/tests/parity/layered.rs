@@ -309,9 +309,9 @@ fn values_and_samples_have_the_means_of_the_twins() {
     const SAMPLE: &str = coat!(
         "lobe.max_depth = 40u;",
         summed!(
-            "let first = stream_next(&stream);
+            "let u_lobe = stream_next(&stream);
          let other = stream_next(&stream);
-         let sampled = layered_sample(lobe, wo, vec3f(first, other, stream_next(&stream)), &stream);
+         let sampled = layered_sample(lobe, wo, vec3f(u_lobe, other, stream_next(&stream)), &stream);
          var value = vec3f(0.0);
          if sampled.flags != 0u { value = sampled.weight.r * vec3f(1.0, sampled.wi.x, sampled.wi.z); }"
         )

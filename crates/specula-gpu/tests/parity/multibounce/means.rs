@@ -68,8 +68,8 @@ pub(crate) use summed;
 macro_rules! moments {
     ($sample:literal) => {
         summed!(
-            "let first = stream_next(&stream);
-             let u = vec3f(first, walk_pair(&stream));
+            "let u_lobe = stream_next(&stream);
+             let u = vec3f(u_lobe, walk_pair(&stream));
              let sampled = ",
             $sample,
             ";
