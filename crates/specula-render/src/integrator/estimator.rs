@@ -1,8 +1,8 @@
 //! The rules of the path estimator: weights, Russian roulette, light candidates, rays.
 //!
-//! Pure scalar functions, each rule once. The scalar way calls them for one vertex; the loops over batches call
+//! Pure scalar functions, each rule once. `integrator` calls them for a single vertex; the loops over batches call
 //! them for every element, where they compile to the machine's vectors. Conditions are therefore written without
-//! branches. Constants are public so that shaders are given the same ones.
+//! branches. Constants are public, and written in front of shaders (`flatten`).
 
 use specula_bsdf::{Rgb, Vec3};
 

@@ -38,33 +38,14 @@ pub(crate) fn look(from: [f64; 3], to: [f64; 3], fov_deg: f64) -> Camera {
 
 /// A scene with nothing in it.
 pub(crate) fn empty(camera: Camera, size: u32) -> Scene {
-    Scene {
-        camera,
-        film: Film {
-            resolution: [size; 2],
-            crop: [0, size, 0, size],
-            filter: Filter::Box { radius: [0.5; 2] },
-            exposure: 1.0,
-            max_component: None,
-            balance: Film::NO_BALANCE,
-            file_name: None,
-        },
-        settings: Settings {
-            max_depth: 5,
-            samples_per_pixel: 1,
-            hide_emitters: false,
-            energy: Energy::None,
-        },
-        images: Vec::new(),
-        textures: Vec::new(),
-        materials: Vec::new(),
-        meshes: Vec::new(),
-        shapes: Vec::new(),
-        objects: Vec::new(),
-        instances: Vec::new(),
-        lights: Vec::new(),
-        floor: None,
-    }
+    let film = Film::new([size; 2], Filter::Box { radius: [0.5; 2] });
+    let settings = Settings {
+        max_depth: 5,
+        samples_per_pixel: 1,
+        hide_emitters: false,
+        energy: Energy::None,
+    };
+    Scene::empty(camera, film, settings)
 }
 
 pub(crate) fn grey(v: f32) -> ColourParam {

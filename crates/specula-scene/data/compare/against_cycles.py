@@ -161,10 +161,10 @@ def main():
             }  # fmt: skip
             (work / "job.json").write_text(json.dumps(job))
             run(options.bpy, Path(__file__).with_name("cycles_render.py"), work / "job.json")
-        ours = pictures.load(mine)
+        own = pictures.load(mine)
         peer = pictures.of_runs([pictures.load(p)[0] for p in job["pictures"]])
-        row = pictures.compare(ours, peer) | {"size": f"{WIDTH}x{HEIGHT}", "spp": [samples, samples]}
-        pictures.sheet(options.out / f"cycles-{work.name}.png", ours[0], peer[0])
+        row = pictures.compare(own, peer) | {"size": f"{WIDTH}x{HEIGHT}", "spp": [samples, samples]}
+        pictures.sheet(options.out / f"cycles-{work.name}.png", own[0], peer[0])
         rows[name] = row
         rows_file.write_text(json.dumps(rows, indent=1))
         print(name, row, flush=True)

@@ -46,11 +46,11 @@ def main():
         for i, picture in enumerate(made):
             path = work / f"{options.variant}-{i}.exr"
             mi.Bitmap(picture.astype("float32")).write(str(path))
-        ours, peer = pictures.load(mine), pictures.of_runs(made)
-        row = pictures.compare(ours, peer) | {"size": f"{width}x{height}", "spp": [samples] * 2}
+        own, peer = pictures.load(mine), pictures.of_runs(made)
+        row = pictures.compare(own, peer) | {"size": f"{width}x{height}", "spp": [samples] * 2}
         rows[name] = row | {"notes": notes}
         rows_file.write_text(json.dumps(rows, indent=1))
-        pictures.sheet(options.out / f"{options.variant}-{name}.png", ours[0], peer[0])
+        pictures.sheet(options.out / f"{options.variant}-{name}.png", own[0], peer[0])
         print(name, rows[name], flush=True)
 
 

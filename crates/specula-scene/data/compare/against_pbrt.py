@@ -5,7 +5,7 @@
 PBRT and SPECULA are the programs; SCENES is the folder of scenes. Both read what
 `pbrt_text.variant` writes. pbrt renders four pictures of different seeds, which give its noise;
 specula's pictures hold theirs. Prints a line per scene, and writes FOLDER/pbrt.json and a sheet
-per scene (ours, pbrt's, relative difference).
+per scene (specula's, pbrt's, relative difference).
 """
 import argparse
 import json
@@ -76,11 +76,11 @@ def main():
             command = [options.pbrt, "--quiet", "--nthreads", t, "--seed", seed + 1, "--outfile"]
             their_time += run([*command, picture, file], log)
             theirs.append(pictures.load(picture)[0])
-        ours, peer = pictures.load(mine), pictures.of_runs(theirs)
-        row = pictures.compare(ours, peer)
+        own, peer = pictures.load(mine), pictures.of_runs(theirs)
+        row = pictures.compare(own, peer)
         row |= {"size": f"{width}x{height}", "spp": [our_samples, their_samples]}
         row["seconds"] = [round(our_time, 1), round(their_time, 1)]
-        pictures.sheet(options.out / f"pbrt-{name}.png", ours[0], peer[0])
+        pictures.sheet(options.out / f"pbrt-{name}.png", own[0], peer[0])
         rows[name] = row
         rows_file.write_text(json.dumps(rows, indent=1))
         print(name, row, flush=True)

@@ -37,7 +37,7 @@ def tiles(picture):
     return blocks.mean((1, 3))
 
 
-def compare(ours, theirs):
+def compare(own, theirs):
     """Numbers of the table; each picture is (colour, variance).
 
     ratio, ratio_error: of the means, per channel, and its standard error; tile_ratio: the median of
@@ -45,7 +45,7 @@ def compare(ours, theirs):
     theirs; noise: what the median would be if noise were all; z_rms: root mean square of the tiles'
     differences over their standard errors, 1 where noise is all.
     """
-    (a, var_a), (b, var_b) = ours, theirs
+    (a, var_a), (b, var_b) = own, theirs
     ta, tb = tiles(a), tiles(b)
     level = np.maximum(tb.sum(2), FLOOR * b.sum(2).mean())
     lit = tb.sum(2) >= level
@@ -84,19 +84,19 @@ def exposure_of(picture):
     return 0.7 / max(float(np.percentile(picture.max(2), 90)), 1e-9)
 
 
-def sheet(path, ours, theirs, exposure=None, span=0.2, zoom=2):
-    """Ours, theirs, and the tiles' relative difference: blue where ours is darker, red where it is
+def sheet(path, own, theirs, exposure=None, span=0.2, zoom=2):
+    """Specula's, the peer's, and the tiles' relative difference: blue where specula's is darker, red where it is
     brighter, full colour at `span`. Pixels are `zoom` wide."""
     exposure = exposure or exposure_of(theirs)
-    ta, tb = tiles(ours).sum(2), tiles(theirs).sum(2)
+    ta, tb = tiles(own).sum(2), tiles(theirs).sum(2)
     relative = (ta - tb) / np.maximum(tb, FLOOR * theirs.sum(2).mean()) / span
     relative = np.clip(np.repeat(np.repeat(relative, TILE, 0), TILE, 1), -1, 1)
     difference = np.stack(
         [1 + np.minimum(relative, 0), 1 - np.abs(relative), 1 - np.maximum(relative, 0)], axis=2
     )
-    full = np.ones_like(ours)
+    full = np.ones_like(own)
     full[: difference.shape[0], : difference.shape[1]] = difference
-    gap = np.ones((ours.shape[0], 4, 3))
-    row = [shown(ours, exposure), shown(gap), shown(theirs, exposure), shown(gap), shown(full)]
+    gap = np.ones((own.shape[0], 4, 3))
+    row = [shown(own, exposure), shown(gap), shown(theirs, exposure), shown(gap), shown(full)]
     row = np.concatenate(row, axis=1).repeat(zoom, axis=0).repeat(zoom, axis=1)
     mi.Bitmap(np.ascontiguousarray(row)).write(str(path))
