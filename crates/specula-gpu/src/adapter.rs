@@ -49,12 +49,15 @@ pub struct AdapterDescription {
     pub driver: String,
     /// Whether it offers ray queries.
     pub ray_queries: bool,
+    /// Bytes of the largest array that it takes.
+    pub largest_array: u64,
 }
 
 impl AdapterDescription {
     fn new(index: usize, adapter: &wgpu::Adapter) -> Self {
         let info = adapter.get_info();
         let driver = format!("{} {}", info.driver, info.driver_info);
+        let limits = adapter.limits();
         Self {
             index,
             name: info.name,
@@ -68,6 +71,9 @@ impl AdapterDescription {
             backend: info.backend.to_string(),
             driver: driver.trim().to_owned(),
             ray_queries: adapter.features().contains(RAY_QUERIES),
+            largest_array: limits
+                .max_storage_buffer_binding_size
+                .min(limits.max_buffer_size),
         }
     }
 }
@@ -81,6 +87,7 @@ impl fmt::Display for AdapterDescription {
             backend,
             driver,
             ray_queries,
+            largest_array: _,
         } = self;
         write!(f, "{index}: {name} ({kind}, {backend}")?;
         if !driver.is_empty() {
@@ -385,6 +392,7 @@ mod tests {
             backend: "vulkan".to_owned(),
             driver: String::new(),
             ray_queries: kind == AdapterKind::Discrete,
+            largest_array: 1 << 30,
         };
         kinds.iter().enumerate().map(one).collect()
     }

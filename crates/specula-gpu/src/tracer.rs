@@ -84,7 +84,7 @@ impl<'a> Tracer<'a> {
         if !missing.is_empty() {
             return Err(TracerError::Missing(missing));
         }
-        let (needed, limit) = (largest_array(&flat), limit(gpu));
+        let (needed, limit) = (largest_array(&flat), gpu.adapter.largest_array);
         if needed > limit {
             return Err(TracerError::TooLarge { needed, limit });
         }
@@ -118,7 +118,8 @@ impl<'a> Tracer<'a> {
         let structures = structures.as_ref().map(Structures::bindings);
         let taker = PathKernels::new(gpu, &module, is_queues, structures, options.max_depth)?;
         let kernels = Kernels::new(gpu, taker, adder)?;
-        let largest = limit(gpu) / kernels.taker.sample_size().max(size_of::<RunSums>() as u64);
+        let largest = gpu.adapter.largest_array
+            / kernels.taker.sample_size().max(size_of::<RunSums>() as u64);
         Ok(Self {
             gpu,
             kernels,
@@ -237,14 +238,6 @@ fn arrays<'f>(flat: &'f FlatScene<'_>) -> [&'f [u8]; 4] {
 fn largest_array(flat: &FlatScene<'_>) -> u64 {
     let sizes = arrays(flat).map(|array| array.len() as u64);
     sizes.into_iter().max().unwrap_or(0)
-}
-
-/// Bytes that an array may have.
-fn limit(gpu: &Gpu) -> u64 {
-    let limits = gpu.device.limits();
-    limits
-        .max_storage_buffer_binding_size
-        .min(limits.max_buffer_size)
 }
 
 /// A buffer that is never empty, which bindings must not be.

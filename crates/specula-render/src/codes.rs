@@ -210,16 +210,3 @@ shared_constants! {
     /// Flag of glTF's material: its metal is compensated.
     GLTF_COMPENSATED = 2;
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_are_unique() {
-        let mut names: Vec<&str> = ALL.iter().map(|(name, _)| *name).collect();
-        names.sort_unstable();
-        names.dedup();
-        assert_eq!(names.len(), ALL.len());
-    }
-}

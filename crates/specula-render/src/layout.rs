@@ -1,31 +1,31 @@
-//! Layout of the records that the renderer writes into a scene's words and shaders read: places of fields from a
+//! Layout of the records that the renderer writes into a scene's words and shaders read: offsets of fields from a
 //! record's first word, and sizes in words. Each is stated here alone, and written in front of every shader as a
 //! constant of its name; [`Words::field`](crate::words::Words::field) checks it where a record is written.
 
 use crate::codes::shared_constants;
 
 shared_constants! {
-    /// Group of shapes: place of its vertices' positions.
+    /// Group of shapes: offset of its vertices' positions.
     GROUP_POSITIONS = 0;
     /// How many triangles; quadrics follow them in the numbering.
     GROUP_TRIANGLE_COUNT = 1;
-    /// Place of the triangles' vertices.
+    /// Offset of the triangles' vertices.
     GROUP_TRIANGLES = 2;
-    /// Place of each primitive's shape.
+    /// Offset of each primitive's shape.
     GROUP_SHAPE_OF = 3;
-    /// Place of each primitive's light, up to the count that follows.
+    /// Offset of each primitive's light, up to the count that follows.
     GROUP_LIGHT_OF = 4;
-    /// Place of spheres and disks.
+    /// Offset of spheres and disks.
     GROUP_QUADRICS = 6;
-    /// Place of normals, then how many vertices have them.
+    /// Offset of normals, then how many vertices have them.
     GROUP_NORMALS = 7;
-    /// Place of texture coordinates, then how many vertices have them.
+    /// Offset of texture coordinates, then how many vertices have them.
     GROUP_UVS = 9;
-    /// Place of second texture coordinates, then how many vertices have them.
+    /// Offset of second texture coordinates, then how many vertices have them.
     GROUP_SECOND_UVS = 11;
-    /// Place of tangents, then how many vertices have them.
+    /// Offset of tangents, then how many vertices have them.
     GROUP_TANGENTS = 13;
-    /// Place of colours, then how many vertices have them.
+    /// Offset of colours, then how many vertices have them.
     GROUP_COLOURS = 15;
     /// Words of an instance.
     INSTANCE_SIZE = 39;
@@ -83,25 +83,12 @@ shared_constants! {
     ENVIRONMENT_ACROSS = 29;
     /// Cells down.
     ENVIRONMENT_DOWN = 34;
-    /// Place of the cells' corners.
+    /// Offset of the cells' corners.
     ENVIRONMENT_CORNERS = 39;
-    /// Place of the rows' densities.
+    /// Offset of the rows' densities.
     ENVIRONMENT_DENSITY = 40;
-    /// Place of the distribution over rows.
+    /// Offset of the distribution over rows.
     ENVIRONMENT_ROWS = 41;
-    /// Place of the distributions over columns.
+    /// Offset of the distributions over columns.
     ENVIRONMENT_COLUMNS = 42;
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::codes;
-
-    #[test]
-    fn names_differ_from_those_of_codes() {
-        for (name, _) in ALL {
-            assert!(codes::ALL.iter().all(|(code, _)| code != name), "{name}");
-        }
-    }
 }

@@ -14,14 +14,14 @@ pub(crate) struct Words {
 
 impl Words {
     /// The offset of the next word.
-    pub(crate) fn place(&self) -> u32 {
+    pub(crate) fn offset(&self) -> u32 {
         id(self.words.len())
     }
 
     /// Adds a constant: the offset of the next word.
     pub(crate) fn begin(&mut self, name: &'static str) {
-        let place = self.place();
-        self.constant(name, place);
+        let offset = self.offset();
+        self.constant(name, offset);
     }
 
     /// Checks that the next word is a record's field at `offset`, as [`crate::layout`] tells shaders. At the record's
@@ -34,7 +34,7 @@ impl Words {
     /// In builds with debug assertions, where it is another.
     #[track_caller]
     pub(crate) fn field(&self, record: u32, offset: u32) {
-        debug_assert_eq!(self.place() - record, offset, "layout of a record");
+        debug_assert_eq!(self.offset() - record, offset, "layout of a record");
     }
 
     /// Adds a constant: an index, a count or a code.

@@ -105,9 +105,6 @@ fn tests(root: &Path, skips: &Path, suites: &mut Vec<times::Suite>) -> Result<()
     let mut command = workspace::cargo(root);
     command.args(TESTS).env(specula_testing::FILE, skips);
     command.envs(drivers::variable());
-    if std::env::var_os(drivers::LAVAPIPE.0).is_none() {
-        command.envs([drivers::LAVAPIPE]);
-    }
     let mut cargo = command.stderr(Stdio::piped()).spawn()?;
     let messages = cargo.stderr.take().ok_or("cargo has no standard error")?;
     suites.extend(times::follow(messages)?);

@@ -89,3 +89,17 @@ impl PreparedScene {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_constants_are_unique() {
+        let all = codes::ALL.iter().chain(layout::ALL);
+        let mut names: Vec<&str> = all.map(|(name, _)| *name).collect();
+        names.sort_unstable();
+        let repeated = names.windows(2).find(|pair| pair[0] == pair[1]);
+        assert_eq!(repeated, None);
+    }
+}

@@ -32,7 +32,7 @@ impl ShapeRecord {
     /// Material, whether both sides emit, whether there are texture coordinates, radiance, opacity, whether it is an
     /// interface.
     fn flatten(&self, to: &mut Words) {
-        let record = to.place();
+        let record = to.offset();
         to.id(self.material);
         to.flag(self.two_sided);
         to.flag(self.has_uvs);
@@ -47,7 +47,7 @@ impl Placement {
     /// Offset of the group's record, whether the transform is the identity, index of the group's first light, then
     /// affine maps: group to world, of normals, world to group.
     fn flatten(&self, groups: &[u32], to: &mut Words) {
-        let record = to.place();
+        let record = to.offset();
         to.id(groups[self.group as usize]);
         to.flag(self.identity);
         to.id(self.first_light);
@@ -63,7 +63,7 @@ impl GroupData {
     fn flatten(&self, to: &mut Words) -> u32 {
         let vertices = self.positions.len();
         // As on the CPU: vertices of meshes without such values lie behind the end of the array.
-        let begin = |to: &mut Words, there: usize| (to.place(), id(there.min(vertices)));
+        let begin = |to: &mut Words, there: usize| (to.offset(), id(there.min(vertices)));
         let positions = begin(to, vertices).0;
         to.floats(self.positions.iter().flatten().copied());
         let normals = begin(to, self.normals.len());
@@ -76,17 +76,17 @@ impl GroupData {
         to.floats(self.tangents.iter().flatten().copied());
         let colours = begin(to, self.colours.len());
         to.floats(self.colours.iter().flatten().copied());
-        let triangles = to.place();
+        let triangles = to.offset();
         to.ids(self.triangles.iter().flatten().copied());
-        let shape_of = to.place();
+        let shape_of = to.offset();
         to.ids(self.shape_of.iter().copied());
-        let light_of = to.place();
+        let light_of = to.offset();
         to.ids(self.light_of.iter().copied());
-        let quadrics = to.place();
+        let quadrics = to.offset();
         for quadric in &self.quadrics {
             quadric.flatten(to);
         }
-        let record = to.place();
+        let record = to.offset();
         let triangle_count = id(self.triangles.len());
         for (field, word) in [
             (layout::GROUP_POSITIONS, positions),
@@ -123,7 +123,7 @@ impl PlacedQuadric {
             QuadricShape::Sphere { radius } => (codes::QUADRIC_SPHERE, radius, 0.0),
             QuadricShape::Disk { radius, height } => (codes::QUADRIC_DISK, radius, height),
         };
-        let record = to.place();
+        let record = to.offset();
         to.id(kind);
         to.floats([narrow(radius), narrow(height)]);
         to.flag(self.flipped);

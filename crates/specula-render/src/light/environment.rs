@@ -72,9 +72,9 @@ impl Environment {
     /// Factor, maps and picture, for shaders; `prefix` goes in front. Returns the place of that.
     pub(super) fn flatten(&self, prefix: u32, to: &mut Words) -> u32 {
         let tables = self.picture.as_ref().map(|p| p.flatten_tables(to));
-        let place = to.place();
+        let place = to.offset();
         to.id(prefix);
-        let record = to.place();
+        let record = to.offset();
         to.colour(self.radiance);
         to.field(record, layout::ENVIRONMENT_TO_WORLD);
         to.affine(&self.to_world);

@@ -35,7 +35,7 @@ impl Source {
             Self::Textured(light) => light.flatten_table(to),
             _ => [0; 3],
         };
-        let place = to.place();
+        let place = to.offset();
         match self {
             Self::Textured(light) => {
                 to.id(codes::LIGHTS_TEXTURED);
@@ -68,7 +68,7 @@ impl Far {
         match self {
             Self::Environment(light) => light.flatten(codes::LIGHTS_ENVIRONMENT, to),
             Self::Sun(light) => {
-                let place = to.place();
+                let place = to.offset();
                 to.id(codes::LIGHTS_SUN);
                 light.flatten(to);
                 place

@@ -63,7 +63,7 @@ impl Node {
 
     /// For shaders: sphere, axis, cosines, intensity, flags (two-sided, leaf), link.
     pub(super) fn flatten(&self, to: &mut Words) {
-        let record = to.place();
+        let record = to.offset();
         to.vector(self.centre);
         to.number(self.radius);
         to.vector(self.axis);

@@ -111,9 +111,9 @@ impl Piecewise {
     /// Places of the cumulated shares in the rows, and of those of the rows, for shaders.
     pub(super) fn flatten(&self, to: &mut Words) -> [u32; 2] {
         [&self.rows, &self.columns].map(|shares| {
-            let place = to.place();
+            let offset = to.offset();
             to.floats(shares.iter().copied());
-            place
+            offset
         })
     }
 

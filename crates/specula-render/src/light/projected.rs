@@ -121,7 +121,7 @@ impl ProjectedImage {
 
     /// Parameters, for shaders.
     pub(super) fn flatten(&self, to: &mut Words) {
-        let record = to.place();
+        let record = to.offset();
         to.vector(self.position);
         to.field(record, layout::PROJECTED_TO_LIGHT);
         to.affine(&self.to_light);

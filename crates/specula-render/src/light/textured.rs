@@ -162,7 +162,7 @@ impl Textured {
 
     /// Parameters, for shaders; radiance and opacity are those of the shape.
     pub(super) fn flatten(&self, table: [u32; 3], to: &mut Words) {
-        let record = to.place();
+        let record = to.offset();
         to.ids([self.instance, self.primitive, u32::from(self.swapped)]);
         to.ids(table);
         to.field(record, layout::TEXTURED_AREA);

@@ -23,7 +23,7 @@ impl Materials {
         let mut shaders = Vec::new();
         let mut places = Vec::with_capacity(self.materials.len());
         for material in &self.materials {
-            places.push(to.place());
+            places.push(to.offset());
             material.flatten(to);
             let shader = material.shader();
             if !shaders.contains(&shader) {
@@ -89,7 +89,7 @@ impl Material {
                 direction.map_or(codes::NONE, |texture| id(texture.0)),
             ),
         ];
-        let record = words.place();
+        let record = words.offset();
         for (field, word) in head {
             words.field(record, field);
             words.id(word);
@@ -107,7 +107,7 @@ impl Material {
                 Some(_) => codes::BOUNDARY_BOTH,
             });
         let colour = |c: Option<Rgb<f32>>| c.unwrap_or(Rgb::BLACK);
-        let record = to.place();
+        let record = to.offset();
         to.id(known);
         to.colour(colour(self.boundary.map(|b| b.inside)));
         to.colour(colour(self.boundary.and_then(|b| b.around)));
@@ -116,7 +116,7 @@ impl Material {
 
     /// The bump map, whether the clear coat is bent otherwise, its bump.
     fn flatten_bumps(&self, to: &mut Words) {
-        let record = to.place();
+        let record = to.offset();
         bump::flatten(self.bump.as_ref(), self.bump_rules, to);
         to.flag(self.coat.is_some());
         let coat = self.coat.and_then(|c| c.0);

@@ -109,7 +109,7 @@ impl Records {
         self.waiting
             .push(deepest.unwrap_or(0) + u32::from(node.waits()));
         let place = |input: TextureId| self.places[input.0];
-        let here = to.place();
+        let here = to.offset();
         to.id(node.kind());
         to.ids([first, second].into_iter().flatten().map(place));
         match node {

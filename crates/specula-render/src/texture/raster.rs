@@ -80,7 +80,7 @@ impl Raster {
     /// Width, height, whether pixels are bytes; then three floats for each pixel, or a table of 256 floats and a word of
     /// three bytes for each pixel, red in the lowest one. Returns its offset.
     pub(super) fn flatten(&self, to: &mut Words) -> u32 {
-        let here = to.place();
+        let here = to.offset();
         to.ids([self.width, self.height].map(i32::unsigned_abs));
         let Some(indexed) = self.pixels.indexed() else {
             to.flag(false);

@@ -16,9 +16,6 @@ const SWIFTSHADER: [&str; 3] = [
     "/opt/google/chrome/vk_swiftshader_icd.json",
 ];
 
-/// Leaves out lavapipe's optimisation, whose time is longer than that of the tests' shaders.
-pub(super) const LAVAPIPE: (&str, &str) = ("GALLIVM_PERF", "nopt");
-
 /// The variable that adds SwiftShader to Vulkan's drivers; `None` where a person chose drivers, or it is not there.
 pub(super) fn variable() -> Option<(&'static str, &'static str)> {
     of(

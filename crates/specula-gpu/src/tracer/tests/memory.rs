@@ -60,7 +60,7 @@ fn scenes_that_memory_does_not_hold_are_errors_and_leave_the_device_whole() {
     let texts = [text.as_str(), program::SUMS];
     let schedule = (Schedule::Auto, None);
     // As large as the device takes: what matters is the size.
-    let size = limit(&gpu).min(128 * MIB);
+    let size = gpu.adapter.largest_array.min(128 * MIB);
     flat.words.resize(usize::try_from(size / 4).unwrap(), 0);
     assert!(Tracer::of_texts(&gpu, &flat, &options, schedule, texts).is_ok());
     gpu.wait().unwrap();

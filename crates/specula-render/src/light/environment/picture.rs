@@ -132,9 +132,9 @@ impl Picture {
 
     /// Pixels and tables for shaders; returns their places.
     pub(super) fn flatten_tables(&self, to: &mut Words) -> [u32; 4] {
-        let corners = to.place();
+        let corners = to.offset();
         to.floats(self.corners.iter().flatten().copied());
-        let density = to.place();
+        let density = to.offset();
         to.floats(self.density.iter().copied());
         let [rows, columns] = self.table.flatten(to);
         [corners, density, rows, columns]
