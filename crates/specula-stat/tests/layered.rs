@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{alpha, moments, sigmas};
+use common::{alpha, at, in_cells, moments, sampled, sigmas};
 use specula_bsdf::bsdf::{Base, CoatedDiffuse, Layered, Medium, RoughConductor, SmoothConductor};
 use specula_bsdf::fresnel::{Conductor as Metal, Reflectance, dielectric};
 use specula_bsdf::math::{Real, Stream, rgb, vec3, warp};
@@ -41,22 +41,6 @@ fn medium<T: Real>(thickness: f64, albedo: f64, g: f64) -> Medium<T> {
         albedo: rgb(T::of(albedo), T::of(0.5 * albedo), T::of(0.2 * albedo)),
         g: T::of(g),
     }
-}
-
-/// At `degrees` from the normal, in the plane at `azimuth` degrees.
-fn at(degrees: f64, azimuth: f64) -> Vec3<f64> {
-    let (s, c) = degrees.to_radians().sin_cos();
-    let (sin, cos) = azimuth.to_radians().sin_cos();
-    vec3(s * cos, s * sin, c)
-}
-
-fn sampled(
-    lobe: &Layered<f64>,
-    wo: Vec3<f64>,
-    s: &mut Stream,
-) -> Option<specula_bsdf::BsdfSample<f64>> {
-    let u = [s.next(), s.next(), s.next()];
-    lobe.sample_random(wo, u, RADIANCE, s)
 }
 
 fn albedo(lobe: &Layered<f64>, wo: Vec3<f64>, n: u64) -> [Moments; 3] {
@@ -110,31 +94,6 @@ const RINGS: usize = 4;
 const SECTORS: usize = 6;
 const CELLS: usize = RINGS * SECTORS;
 
-/// The cell of a direction: rings of equal `sin^2`, sectors of equal azimuth.
-fn cell(w: Vec3<f64>) -> usize {
-    let turn = w.y.atan2(w.x) / core::f64::consts::TAU + 0.5;
-    let index = |x: f64, n: usize| {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            clippy::cast_precision_loss,
-            reason = "a small index"
-        )]
-        let i = (x * n as f64) as usize;
-        i.min(n - 1)
-    };
-    index(w.x * w.x + w.y * w.y, RINGS) * SECTORS + index(turn, SECTORS)
-}
-
-/// A number in the cell of its direction.
-fn sorted(placed: Option<(Vec3<f64>, f64)>) -> [f64; CELLS] {
-    let mut cells = [0.0; CELLS];
-    if let Some((w, x)) = placed {
-        cells[cell(w)] = x;
-    }
-    cells
-}
-
 /// The walk's samples, weighed, and its values put the same light into every cell of the hemisphere;
 /// values are asked at samples of the walk and at cosines, weighed by the density.
 #[test]
@@ -147,7 +106,7 @@ fn samples_follow_values() {
             let density = |wi: Vec3<f64>| wi.z / core::f64::consts::PI;
             let samples = moments(31, 60_000, |s| {
                 let x = sampled(lobe, wo, s).filter(|x| !x.specular);
-                sorted(x.map(|x| (x.wi, x.weight.r)))
+                in_cells::<CELLS>(x.map(|x| (x.wi, x.weight.r)), [RINGS, SECTORS])
             });
             let values = moments(32, 60_000, |s| {
                 // samples of the walk are common where the density is high: both together are seen
@@ -160,7 +119,7 @@ fn samples_follow_values() {
                     let x = sampled(lobe, wo, s).filter(|x| !x.specular);
                     x.map(|x| (x.wi, 2.0 * x.weight.r * x.pdf / (x.pdf + density(x.wi))))
                 };
-                sorted(placed)
+                in_cells::<CELLS>(placed, [RINGS, SECTORS])
             });
             for (i, (a, b)) in samples.iter().zip(&values).enumerate() {
                 let p = two_sided_p(sigmas(a, b));

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::alpha;
+use common::{alpha, at};
 use rayon::prelude::*;
 use specula_bsdf::bsdf::MultibounceConductor as Conductor;
 use specula_bsdf::bsdf::{MultibounceDielectric as Dielectric, MultibounceDiffuse as Diffuse};
@@ -29,13 +29,6 @@ fn gold() -> Reflectance<f64> {
         eta: rgb(0.143, 0.375, 1.442),
         k: rgb(3.983, 2.386, 1.603),
     })
-}
-
-/// At `degrees` from the normal, in the plane at `azimuth` degrees.
-fn at(degrees: f64, azimuth: f64) -> Vec3<f64> {
-    let (s, c) = degrees.to_radians().sin_cos();
-    let (sin, cos) = azimuth.to_radians().sin_cos();
-    vec3(s * cos, s * sin, c)
 }
 
 /// Moments of `n` values, sampled in parallel by streams of fixed seeds.

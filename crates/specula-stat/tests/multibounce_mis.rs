@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::alpha;
+use common::{alpha, at};
 use rayon::prelude::*;
 use specula_bsdf::bsdf::{MultibounceConductor, MultibounceDielectric};
 use specula_bsdf::fresnel::Reflectance;
@@ -28,12 +28,6 @@ const ALPHAS: [(f64, f64); 9] = [
     (0.8, 0.2),
 ];
 const VIEWS: [f64; 6] = [0.0, 30.0, 60.0, 70.0, 80.0, 85.0];
-
-fn at(degrees: f64, azimuth: f64) -> Vec3<f64> {
-    let (s, c) = degrees.to_radians().sin_cos();
-    let (sin, cos) = azimuth.to_radians().sin_cos();
-    vec3(s * cos, s * sin, c)
-}
 
 fn metal<N: VisibleNormals<f64>>(ndf: N, mis: MisPdf) -> MultibounceConductor<f64, N> {
     let white = Reflectance::Constant(Rgb::splat(1.0));
@@ -114,7 +108,7 @@ fn distances<N: VisibleNormals<f64>>(ndf: N, wo: Vec3<f64>) -> [f64; 3] {
 }
 
 /// As fig. 8 of Cui et al. 2023: distance (L1, over cells of equal solid angle) of each density from
-/// that of the walk's samples, whose noise is in all three. StratifiedBidirectional is the closest everywhere.
+/// that of the walk's samples, whose noise is in all three. The normalised one is the closest everywhere.
 #[test]
 fn normalised_density_is_closest_to_the_walks() {
     let of = |(alphas, view, azimuth): ((f64, f64), f64, f64)| {

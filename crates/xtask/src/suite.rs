@@ -1,11 +1,12 @@
 //! `cargo xtask test`: everything that must pass before a change is kept.
 
 mod drivers;
+mod programs;
 mod skips;
 mod times;
 
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::time::Instant;
 
 use crate::{Result, book, feature_sets, tables, tidy, workspace};
@@ -61,17 +62,6 @@ const CARGO_STEPS: &[Step] = &[
     },
 ];
 
-/// The tests; the examples in the documentation are among them.
-const TESTS: &[&str] = &[
-    "test",
-    "--workspace",
-    "--features",
-    "specula/full",
-    "--no-fail-fast",
-    "--",
-    "--quiet",
-];
-
 /// Runs every step, even after one has failed, and prints each with its time.
 pub(crate) fn run(root: &Path, suite: &Suite) -> Result<()> {
     let mut report = Report::default();
@@ -102,16 +92,12 @@ pub(crate) fn run(root: &Path, suite: &Suite) -> Result<()> {
 
 /// Runs the tests, and notes how long each program of tests took.
 fn tests(root: &Path, skips: &Path, suites: &mut Vec<times::Suite>) -> Result<()> {
-    let mut command = workspace::cargo(root);
-    command.args(TESTS).env(specula_testing::FILE, skips);
-    command.envs(drivers::variable());
-    let mut cargo = command.stderr(Stdio::piped()).spawn()?;
-    let messages = cargo.stderr.take().ok_or("cargo has no standard error")?;
-    suites.extend(times::follow(messages)?);
-    match cargo.wait()?.success() {
-        true => Ok(()),
-        false => Err(format!("`cargo {}` failed", TESTS.join(" ")).into()),
-    }
+    let skips = skips
+        .to_str()
+        .ok_or("the workspace's path is not Unicode")?;
+    let mut environment = vec![(specula_testing::FILE, skips)];
+    environment.extend(drivers::variable());
+    programs::run(root, &environment, suites)
 }
 
 /// Counts instructions in a process of its own, whose skips go to the file too.

@@ -12,10 +12,10 @@ use crate::vndf::VisibleNormals;
 /// Reflection and refraction at a rough interface with every bounce between its facets, on both
 /// sides of them. Values are estimates; no energy is lost.
 ///
-/// [`MultibounceModel::Heitz2016`] walks with heights; every other model here is [`MultibounceModel::StratifiedBidirectional`], as the
-/// papers of the others treat metals only.
+/// [`MultibounceModel::Heitz2016`] walks with heights; every other model here is
+/// [`MultibounceModel::StratifiedBidirectional`], as the papers of the others treat metals only.
 ///
-/// StratifiedBidirectional estimates `f` from the end whose walks vary less, whichever of the two is asked for:
+/// The stratified bidirectional estimator walks from the end whose walks vary less, whichever of the two is asked for:
 /// `f / eta^2` is symmetric. Variance times time over that of walks from `wo`, geometric means over
 /// 5, 20, 40, 60 and 80 degrees at both ends, index 1.5:
 ///

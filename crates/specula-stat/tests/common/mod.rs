@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use rayon::prelude::*;
-use specula_bsdf::math::{Rgb, Stream, Vec3};
-use specula_bsdf::{Alpha, Bsdf, Transport};
+use specula_bsdf::math::{Real, Rgb, Stream, Vec3};
+use specula_bsdf::{Alpha, Bsdf, BsdfSample, Transport};
 use specula_stat::consistency::ConsistencyOptions;
 use specula_stat::quadrature::direction;
 use specula_stat::twin::TwinOptions;
@@ -47,6 +47,49 @@ pub(crate) fn alpha((x, y): (f64, f64)) -> Alpha<f64> {
 pub(crate) fn alpha_f32((x, y): (f64, f64)) -> Alpha<f32> {
     #[expect(clippy::cast_possible_truncation, reason = "rounding is meant")]
     Alpha::clamped(x as f32, y as f32)
+}
+
+/// At `degrees` from the normal, in the plane at `azimuth` degrees.
+pub(crate) fn at(degrees: f64, azimuth: f64) -> Vec3<f64> {
+    direction(degrees.to_radians().cos(), azimuth.to_radians())
+}
+
+/// Zero but for `x` in the cell of its direction.
+///
+/// * `rings`: of equal solid angle times cosine, on each side of the surface; those below follow those above.
+/// * `sectors`: of equal azimuth.
+pub(crate) fn in_cells<const CELLS: usize>(
+    placed: Option<(Vec3<f64>, f64)>,
+    [rings, sectors]: [usize; 2],
+) -> [f64; CELLS] {
+    let index = |x: f64, n: usize| {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            clippy::cast_precision_loss,
+            reason = "a small index"
+        )]
+        let i = (x * n as f64) as usize;
+        i.min(n - 1)
+    };
+    let mut cells = [0.0; CELLS];
+    if let Some((w, x)) = placed {
+        let below = if w.z < 0.0 { rings } else { 0 };
+        let ring = below + index(w.x * w.x + w.y * w.y, rings);
+        let turn = w.y.atan2(w.x) / core::f64::consts::TAU + 0.5;
+        cells[ring * sectors + index(turn, sectors)] = x;
+    }
+    cells
+}
+
+/// A sample of a lobe whose values are estimates.
+pub(crate) fn sampled<T: Real>(
+    lobe: &impl Bsdf<T>,
+    wo: Vec3<f64>,
+    s: &mut Stream,
+) -> Option<BsdfSample<T>> {
+    let u = [s.next(), s.next(), s.next()];
+    lobe.sample_random(wo.cast(), u, Transport::Radiance, s)
 }
 
 /// Every cosine at every azimuth.

@@ -1,13 +1,13 @@
 //! Proofs of lobes whose values are estimates: everything by means, whose p-values are two-sided.
 
-use specula_bsdf::math::{Real, Stream, vec3, warp};
-use specula_bsdf::{Bsdf, BsdfSample, Transport, Vec3};
+use specula_bsdf::math::{Real, vec3, warp};
+use specula_bsdf::{Bsdf, Transport, Vec3};
 use specula_stat::normalisation::integrate_bands;
 use specula_stat::quadrature::{Peak, Quadrature};
 use specula_stat::z_test::{Moments, sidak, two_sided_p};
 use specula_stat::{Check, Report};
 
-use crate::common::{SUITE_TESTS, moments, sigmas};
+use crate::common::{SUITE_TESTS, at, in_cells, moments, sampled, sigmas};
 
 /// Estimates of each mean.
 const COUNT: u64 = 40_000;
@@ -16,44 +16,6 @@ const RADIANCE: Transport = Transport::Radiance;
 const RINGS: usize = 3;
 const SECTORS: usize = 4;
 const CELLS: usize = 2 * RINGS * SECTORS;
-
-/// At `degrees` from the normal, in the plane at `azimuth` degrees.
-fn at(degrees: f64, azimuth: f64) -> Vec3<f64> {
-    let (s, c) = degrees.to_radians().sin_cos();
-    let (sin, cos) = azimuth.to_radians().sin_cos();
-    vec3(s * cos, s * sin, c)
-}
-
-/// The cell of a direction.
-fn cell(w: Vec3<f64>) -> usize {
-    let index = |x: f64, n: usize| {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            clippy::cast_precision_loss,
-            reason = "a small index"
-        )]
-        let i = (x * n as f64) as usize;
-        i.min(n - 1)
-    };
-    let turn = w.y.atan2(w.x) / core::f64::consts::TAU + 0.5;
-    let ring = index(w.x * w.x + w.y * w.y, RINGS) + if w.z < 0.0 { RINGS } else { 0 };
-    ring * SECTORS + index(turn, SECTORS)
-}
-
-/// Zero but for `x` in the cell of its direction.
-fn sorted(placed: Option<(Vec3<f64>, f64)>) -> [f64; CELLS] {
-    let mut cells = [0.0; CELLS];
-    if let Some((w, x)) = placed {
-        cells[cell(w)] = x;
-    }
-    cells
-}
-
-fn sampled<T: Real>(lobe: &impl Bsdf<T>, wo: Vec3<f64>, s: &mut Stream) -> Option<BsdfSample<T>> {
-    let u = [s.next(), s.next(), s.next()];
-    lobe.sample_random(wo.cast(), u, RADIANCE, s)
-}
 
 /// Means of `f cos` by `n` estimates.
 fn value<T: Real>(
@@ -141,7 +103,7 @@ fn samples_follow_values(lobe: &(impl Bsdf<f64> + Sync), wo: Vec3<f64>, transmit
     let cosine = |wi: Vec3<f64>| wi.z.abs() / (sides * core::f64::consts::PI);
     let samples = moments(31, COUNT, |s| {
         let x = sampled(lobe, wo, s).filter(|x| !x.specular);
-        sorted(x.map(|x| (x.wi, x.weight.r)))
+        in_cells::<CELLS>(x.map(|x| (x.wi, x.weight.r)), [RINGS, SECTORS])
     });
     let values = moments(32, COUNT, |s| {
         let placed = if s.next::<f64>() < 0.5 {
@@ -155,7 +117,7 @@ fn samples_follow_values(lobe: &(impl Bsdf<f64> + Sync), wo: Vec3<f64>, transmit
             let x = sampled(lobe, wo, s).filter(|x| !x.specular);
             x.map(|x| (x.wi, 2.0 * x.weight.r * x.pdf / (x.pdf + cosine(x.wi))))
         };
-        sorted(placed)
+        in_cells::<CELLS>(placed, [RINGS, SECTORS])
     });
     let cells = samples.iter().zip(&values).enumerate();
     #[expect(clippy::cast_precision_loss, reason = "far below 2^53 samples")]

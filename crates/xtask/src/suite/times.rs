@@ -1,56 +1,22 @@
-//! How long each program of tests took, from what cargo says while it runs them.
+//! How long each program of tests took.
 
-use std::io::{BufRead, BufReader, Read, Write};
 use std::time::Instant;
 
-use crate::Result;
-
-/// A program of tests.
+/// A program of tests, or a part of the run.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Suite {
     name: String,
     seconds: f64,
 }
 
-/// Passes cargo's messages on to standard error until it ends; the programs that it ran, with their times.
-pub(super) fn follow(messages: impl Read) -> Result<Vec<Suite>> {
-    let mut suites = Vec::new();
-    let mut running: Option<(String, Instant)> = None;
-    let mut reader = BufReader::new(messages);
-    let mut line = Vec::new();
-    loop {
-        line.clear();
-        let ended = reader.read_until(b'\n', &mut line)? == 0;
-        std::io::stderr().write_all(&line)?;
-        let next = name(&String::from_utf8_lossy(&line));
-        if (ended || next.is_some())
-            && let Some((name, start)) = running.take()
-        {
-            let seconds = start.elapsed().as_secs_f64();
-            suites.push(Suite { name, seconds });
-        }
-        if ended {
-            return Ok(suites);
-        }
-        if let Some(name) = next {
-            running = Some((name, Instant::now()));
+impl Suite {
+    /// One that ends now.
+    pub(super) fn new(name: &str, start: Instant) -> Self {
+        Self {
+            name: name.to_owned(),
+            seconds: start.elapsed().as_secs_f64(),
         }
     }
-}
-
-/// What a line of cargo's says is run next: `specula_bsdf tests/batch.rs`.
-fn name(line: &str) -> Option<String> {
-    let line = line.trim();
-    if let Some(package) = line.strip_prefix("Doc-tests ") {
-        return Some(format!("{package} examples of the documentation"));
-    }
-    let (target, program) = line.strip_prefix("Running ")?.split_once(" (")?;
-    let file = program.trim_end_matches(')').rsplit(['/', '\\']).next()?;
-    let (program, _) = file.rsplit_once('-')?;
-    Some(format!(
-        "{program} {}",
-        target.trim_start_matches("unittests ")
-    ))
 }
 
 /// The table, the longest first; what took less than a second together.
@@ -73,26 +39,6 @@ pub(super) fn table(suites: &[Suite]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    const TEXT: &str = "   Compiling specula v0.1.0\n\
-        \x20    Running unittests src/lib.rs (target/debug/deps/specula_bsdf-12ab)\n\
-        SKIPPED a.rs:1: x\n\
-        \x20    Running tests/batch.rs (target/debug/deps/batch-34cd)\n\
-        \x20  Doc-tests specula_bsdf\n";
-
-    #[test]
-    fn programs_are_named_in_order() {
-        let suites = follow(TEXT.as_bytes()).unwrap();
-        let names: Vec<_> = suites.iter().map(|s| s.name.as_str()).collect();
-        assert_eq!(
-            names,
-            [
-                "specula_bsdf src/lib.rs",
-                "batch tests/batch.rs",
-                "specula_bsdf examples of the documentation"
-            ]
-        );
-    }
 
     #[test]
     fn the_longest_comes_first() {
