@@ -6,7 +6,7 @@ mod common;
 use common::{alpha, at, in_cells, moments, sampled, sigmas};
 use specula_bsdf::bsdf::{Base, CoatedDiffuse, Layered, Medium, RoughConductor, SmoothConductor};
 use specula_bsdf::fresnel::{Conductor as Metal, Reflectance, dielectric};
-use specula_bsdf::math::{Real, Stream, rgb, vec3, warp};
+use specula_bsdf::math::{Real, rgb, vec3, warp};
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, Vec3};
 use specula_stat::normalisation::integrate_bands;
