@@ -17,8 +17,8 @@ use crate::picture::{ALL_CHANNELS, blocks_size};
 
 /// The program itself, as it is before a scene is read.
 const PROGRAM: u64 = 10 << 20;
-/// Code and buffers that only rendering and writing load.
-const LATER: u64 = 6 << 20;
+/// Code and buffers that only rendering and writing load. Code without optimisation is larger.
+const LATER: u64 = if cfg!(debug_assertions) { 10 } else { 6 } << 20;
 /// Stack and buffers of a thread.
 const THREAD: u64 = 1 << 20;
 
