@@ -56,10 +56,10 @@ fn row(alphas: &[f32], metal: ConductorFresnel, pixels: u32) -> Scene {
     scene.meshes.clear();
     scene.lights.clear();
     for (i, alpha) in alphas.iter().enumerate() {
-        let width = FloatParam::Value(*alpha);
+        let alpha = FloatParam::Value(*alpha);
         let metal = MaterialKind::Conductor {
             fresnel: metal,
-            roughness: Roughness::isotropic(width, RoughnessMapping::Alpha),
+            roughness: Roughness::isotropic(alpha, RoughnessMapping::Alpha),
             tint: ColourParam::WHITE,
         };
         scene.materials.push(Material::new(metal));

@@ -390,8 +390,8 @@ fn textures_and_values_bind_alike() {
     }
 }
 
-fn rough(f: Float, width: f32) -> Roughness {
-    Roughness::isotropic(f(width), RoughnessMapping::Square)
+fn rough(f: Float, roughness: f32) -> Roughness {
+    Roughness::isotropic(f(roughness), RoughnessMapping::Square)
 }
 
 fn simple_kinds(f: Float, c: Grey) -> Vec<MaterialKind> {

@@ -17,6 +17,7 @@ use specula_bsdf::{Alpha, Vec3};
 
 use crate::Result;
 use crate::generated::Generated;
+use rayon::prelude::*;
 
 const ETAS: u32 = 9;
 const ALPHAS: u32 = 25;
@@ -50,7 +51,7 @@ pub(crate) fn generate(_root: &Path) -> Result<Vec<Generated>> {
     )?;
     for transmittance in [transmitted::<Ggx<f64>>, transmitted::<Beckmann<f64>>] {
         let rows: Vec<String> = places()
-            .into_iter()
+            .into_par_iter()
             .map(|(i, j)| {
                 let row = (0..MUS).map(|k| word(transmittance(eta(i), alpha(j), mu(k))));
                 row.collect::<Vec<_>>().join(",")
@@ -74,7 +75,7 @@ pub(crate) fn generate(_root: &Path) -> Result<Vec<Generated>> {
         internal_reflectance::<Beckmann<f64>>,
     ] {
         let words: Vec<String> = places()
-            .into_iter()
+            .into_par_iter()
             .map(|(i, j)| word(internal(eta(i), alpha(j))))
             .collect();
         let rows: Vec<String> = words
@@ -112,18 +113,18 @@ fn mu(k: u32) -> f64 {
     (f64::from(k) / f64::from(MUS - 1)).powi(2).max(1e-6)
 }
 
-/// A distribution by its width.
-trait Width: VisibleNormals<f64> {
+/// An isotropic distribution by its alpha.
+trait Isotropic: VisibleNormals<f64> {
     fn of(alpha: f64) -> Self;
 }
 
-impl Width for Ggx<f64> {
+impl Isotropic for Ggx<f64> {
     fn of(alpha: f64) -> Self {
         Self::new(Alpha::isotropic(alpha))
     }
 }
 
-impl Width for Beckmann<f64> {
+impl Isotropic for Beckmann<f64> {
     fn of(alpha: f64) -> Self {
         Self::new(Alpha::isotropic(alpha))
     }
@@ -131,7 +132,7 @@ impl Width for Beckmann<f64> {
 
 /// Mean of `value(wo, wm)` over the normals visible from the cosine `mu`, by Gauss and Legendre's
 /// rule over the warp's two random numbers, the second over its half: azimuths are symmetric.
-fn mean<N: Width>(alpha: f64, mu: f64, value: impl Fn(Vec3<f64>, Vec3<f64>) -> f64) -> f64 {
+fn mean<N: Isotropic>(alpha: f64, mu: f64, value: impl Fn(Vec3<f64>, Vec3<f64>) -> f64) -> f64 {
     let ndf = N::of(alpha);
     let wo = vec3((1.0 - mu * mu).max(0.0).sqrt(), 0.0, mu);
     static HEIGHTS: LazyLock<[[f64; 2]; 40]> = LazyLock::new(gauss_legendre);
@@ -168,7 +169,7 @@ fn gauss_legendre<const N: usize>() -> [[f64; 2]; N] {
 }
 
 /// `T(mu)`.
-fn transmitted<N: Width>(eta: f64, alpha: f64, mu: f64) -> f64 {
+fn transmitted<N: Isotropic>(eta: f64, alpha: f64, mu: f64) -> f64 {
     let ndf = N::of(alpha);
     mean::<N>(alpha, mu, |wo, wm| {
         let cos = wo.dot(wm);
@@ -179,7 +180,7 @@ fn transmitted<N: Width>(eta: f64, alpha: f64, mu: f64) -> f64 {
 }
 
 /// The rectangle rule for `R_int`.
-fn internal_reflectance<N: Width>(eta: f64, alpha: f64) -> f64 {
+fn internal_reflectance<N: Isotropic>(eta: f64, alpha: f64) -> f64 {
     let ndf = N::of(alpha);
     let sum: f64 = (0..64)
         .map(|k| {
@@ -200,7 +201,7 @@ mod tests {
 
     #[test]
     fn the_plastic_tables_hold_their_bound() {
-        fn worst<N: Width + specula_bsdf::energy::Tabulated<f64>>() -> f64 {
+        fn worst<N: Isotropic + specula_bsdf::energy::Tabulated<f64>>() -> f64 {
             let mut worst = 0.0_f64;
             for eta in [1.33, 1.5046, 1.9, 2.4] {
                 for alpha in [0.01, 0.03, 0.1, 0.25, 0.5, 0.9, 1.4] {

@@ -26,8 +26,8 @@ fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
     let cases: Vec<Case> = ANGLES
         .into_iter()
         .flat_map(|theta_deg| {
-            ALPHAS.map(|width| Case {
-                alpha: [width; 2],
+            ALPHAS.map(|alpha| Case {
+                alpha: [alpha; 2],
                 theta_deg,
             })
         })

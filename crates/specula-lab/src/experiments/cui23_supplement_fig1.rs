@@ -22,7 +22,7 @@ const ISOTROPIC: [f64; 2] = [0.25, 0.6];
 const ANGLES: [f64; 2] = [30.0, 60.0];
 
 fn run(lab: &mut Lab<'_>) -> Result<Verdict> {
-    let all = ALPHAS.into_iter().chain(ISOTROPIC.map(|width| [width; 2]));
+    let all = ALPHAS.into_iter().chain(ISOTROPIC.map(|alpha| [alpha; 2]));
     let cases: Vec<Case> = ANGLES
         .into_iter()
         .flat_map(|theta_deg| all.clone().map(move |alpha| Case { alpha, theta_deg }))

@@ -142,12 +142,12 @@ fn silver((alpha_x, alpha_y): (f64, f64)) -> MaterialKind {
         // Not reached: the table has silver.
         None => ConductorFresnel::Reflectance(ColourParam::Value(Rgb::splat(0.95))),
     };
-    let width = |alpha| FloatParam::Value(single_precision(alpha));
+    let value = |alpha| FloatParam::Value(single_precision(alpha));
     MaterialKind::Conductor {
         fresnel,
         roughness: Roughness {
-            v: width(alpha_y),
-            ..Roughness::isotropic(width(alpha_x), RoughnessMapping::Alpha)
+            v: value(alpha_y),
+            ..Roughness::isotropic(value(alpha_x), RoughnessMapping::Alpha)
         },
         tint: ColourParam::WHITE,
     }

@@ -24,6 +24,9 @@ pub(super) fn mdbook(root: &Path) -> Result<PathBuf> {
         .args(["install", "mdbook", "--quiet", "--locked", "--force"])
         .args(["--version", &format!("={VERSION}")])
         .args(["--no-default-features", "--features", "search"])
+        // The book takes seconds without optimisation; to optimise and to describe mdBook takes minutes.
+        .arg("--debug")
+        .env("CARGO_PROFILE_DEV_DEBUG", "false")
         .arg("--root")
         .arg(&folder)
         .arg("--target-dir")
