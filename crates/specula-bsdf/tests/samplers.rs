@@ -265,7 +265,7 @@ fn views_from_below_are_stable_in_f32() {
 }
 
 #[test]
-fn heitz_and_cap_draw_only_visible_normals() {
+fn heitz_and_cap_sample_only_visible_normals() {
     for &degrees in &[0.0, 40.0, 85.0, 100.0, 150.0] {
         let wo = view(degrees, 2.0);
         let alpha = Alpha::clamped(0.2, 0.8);
@@ -316,4 +316,30 @@ fn names_of_samplers_round_trip() {
         assert_eq!(name.parse::<vndf::Sampler>().unwrap().to_string(), name);
     }
     assert!("ggx".parse::<vndf::Sampler>().is_err());
+}
+
+/// The largest random number of `f32` is at the disk's rim, which is the horizon.
+#[test]
+fn the_last_random_number_stays_above_the_horizon() {
+    let last = 1.0 - f32::EPSILON / 2.0;
+    let (mut below, mut count) = (0, 0);
+    for (x, y) in [
+        (0.05, 0.05),
+        (0.3, 0.3),
+        (1.0, 1.0),
+        (4.0, 4.0),
+        (0.1, 0.9),
+        (2.0, 0.4),
+    ] {
+        let alpha = Alpha::<f32>::clamped(x, y);
+        for degrees in [1e-3, 20.0, 60.0, 85.0, 89.5] {
+            let wo = view(degrees, 0.7).cast::<f32>();
+            for i in 0_u8..=255 {
+                let u = [last, f32::from(i) / 256.0];
+                below += u32::from(vndf::exact::sample_reflection(alpha, wo, u).is_none());
+                count += 1;
+            }
+        }
+    }
+    assert_eq!(below, 0, "of {count}");
 }

@@ -2,6 +2,8 @@
 //! must turn the matching check red, and the check must be green without it.
 
 mod common;
+mod faults_of_colour;
+mod textbook;
 
 use std::f64::consts::PI;
 

@@ -234,7 +234,7 @@ impl<T: Real> Bsdf<T> for CoatedDiffuse<T> {
         let mut f_cos = self.base_f_cos(from, wi);
         let mut pdf = (T::ONE - p) * warp::cosine_hemisphere_pdf(wi);
         if let Some(ggx) = self.coat {
-            let wm = (wo + wi).normalize();
+            let wm = (wo + wi).normalize_any();
             if wm.z > T::ZERO {
                 let quarter = T::of(0.25) * ggx.d(wm);
                 let fresnel = dielectric(wo.dot(wm), self.eta).reflectance;

@@ -31,7 +31,7 @@ use crate::vndf::{Sampler, VisibleNormals, reflect};
 /// Departure: transmission uses the `G2` of reflection, as pbrt-v4 does, not the Beta function of
 /// Smith's model for opposite sides (Heitz et al. 2016), which an energy compensation makes up for.
 ///
-/// Indices within 1e-3 of each other are taken as equal: light passes straight on.
+/// Indices within [`INDEX_MATCHED`](Self::INDEX_MATCHED) of each other are taken as equal: light passes straight on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoughDielectric<T, N = Ggx<T>> {
     pub(crate) ndf: N,
@@ -86,7 +86,7 @@ impl<T: Real, N: VisibleNormals<T>> RoughDielectric<T, N> {
 
     #[inline(always)]
     fn is_index_matched(&self) -> bool {
-        (self.eta - T::ONE).abs() < T::of(1e-3)
+        (self.eta - T::ONE).abs() < T::of(RoughDielectric::<T>::INDEX_MATCHED)
     }
 
     /// The interface as `wo` meets it.
@@ -356,6 +356,9 @@ impl<T: Real, N: VisibleNormals<T>> RoughDielectric<T, N> {
 }
 
 impl<T: Real> RoughDielectric<T> {
+    /// Distance of the index from 1 below which nothing bends.
+    pub const INDEX_MATCHED: f64 = 1e-3;
+
     /// The same interface, sampled by another sampler.
     #[inline(always)]
     #[must_use]

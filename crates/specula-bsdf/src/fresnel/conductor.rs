@@ -25,6 +25,8 @@ impl<T: Real> Conductor<T> {
     /// F = (Rs + Rp) / 2
     /// ```
     ///
+    /// NaN does not leave: a cosine that is NaN counts as 0, an index as 1000, at which all reflects.
+    ///
     /// Source: Born and Wolf, Principles of Optics, 14.2; Fresnel's equations for a complex index.
     #[inline(always)]
     pub fn eval(&self, cos: T) -> Rgb<T> {
@@ -94,6 +96,18 @@ mod tests {
         assert!((r.g - f0(1.5, 0.0)).abs() < 1e-14);
         assert!((r.b - f0(3.0, 2.0)).abs() < 1e-14);
         assert!((f.eval(0.0).r - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn nan_reflects() {
+        let gold = |eta, k| Conductor {
+            eta: Rgb::splat(eta),
+            k: Rgb::splat(k),
+        };
+        assert_eq!(gold(0.2_f32, 3.0).eval(f32::NAN), gold(0.2, 3.0).eval(0.0));
+        for (eta, k) in [(f32::NAN, 3.0), (0.2, f32::NAN), (f32::NAN, f32::NAN)] {
+            assert!(gold(eta, k).eval(0.7).g > 0.99, "{eta} {k}");
+        }
     }
 
     #[test]

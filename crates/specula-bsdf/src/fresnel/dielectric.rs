@@ -26,6 +26,8 @@ pub struct Refraction<T> {
 /// * `cos`: cosine between the direction and the normal on its side, in `[0, 1]`.
 /// * `eta`: index beyond the interface over the index on the direction's side, above 0.
 ///
+/// NaN does not leave: a cosine that is NaN counts as 0, an index that is NaN reflects all.
+///
 /// Departure: the second form of `cos_t`, which does not cancel where `eta` is near 1 and the angle
 /// grazing.
 #[inline(always)]
@@ -119,6 +121,15 @@ mod tests {
         let brewster = 1.0 / (1.0 + 1.5_f64 * 1.5).sqrt();
         let expected = 0.5 * ((1.0 - 2.25_f64) / (1.0 + 2.25)).powi(2);
         assert!((dielectric(brewster, 1.5).reflectance - expected).abs() < 1e-12);
+    }
+
+    #[test]
+    fn nan_reflects_all() {
+        for (cos, eta) in [(f32::NAN, 1.5), (0.7, f32::NAN), (f32::NAN, f32::NAN)] {
+            let there = dielectric(cos, eta);
+            let all = (there.reflectance, there.transmittance);
+            assert_eq!(all, (1.0, 0.0), "{cos} {eta}");
+        }
     }
 
     #[test]

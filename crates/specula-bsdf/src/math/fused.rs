@@ -65,7 +65,7 @@ macro_rules! impl_fused {
             const MAX: Self = Self(<$t as Real>::MAX);
             type Fused = Self;
 
-            forward!(sqrt, abs, floor, exp, ln, sin, cos, erf, erfc);
+            forward!(sqrt, abs, floor, exp, exp_m1, ln, sin, cos, erf, erfc);
 
             #[inline(always)]
             fn of(x: f64) -> Self {

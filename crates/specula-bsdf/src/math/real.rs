@@ -88,6 +88,8 @@ pub trait Real:
     fn floor(self) -> Self;
     /// e to the power of `self`.
     fn exp(self) -> Self;
+    /// `exp(self) - 1`, precise near 0.
+    fn exp_m1(self) -> Self;
     /// Natural logarithm.
     fn ln(self) -> Self;
     /// The sine, in radians, by the platform's library. Kernels take
@@ -155,7 +157,7 @@ pub trait Real:
 macro_rules! impl_real {
     (
         $t:ident, $turns:path, $digits:literal,
-        $sqrt:ident $floor:ident $exp:ident $ln:ident $sin:ident $cos:ident $atan2:ident
+        $sqrt:ident $floor:ident $exp:ident $exp_m1:ident $ln:ident $sin:ident $cos:ident $atan2:ident
         $erf:ident $erfc:ident
     ) => {
         impl Real for $t {
@@ -201,6 +203,10 @@ macro_rules! impl_real {
             #[inline(always)]
             fn exp(self) -> Self {
                 platform!($t::exp or $exp(self))
+            }
+            #[inline(always)]
+            fn exp_m1(self) -> Self {
+                platform!($t::exp_m1 or $exp_m1(self))
             }
             #[inline(always)]
             fn ln(self) -> Self {
@@ -251,8 +257,8 @@ macro_rules! impl_real {
     };
 }
 
-impl_real!(f32, turns::sin_cos_f32, 24, sqrtf floorf expf logf sinf cosf atan2f erff erfcf);
-impl_real!(f64, turns::sin_cos_f64, 53, sqrt floor exp log sin cos atan2 erf erfc);
+impl_real!(f32, turns::sin_cos_f32, 24, sqrtf floorf expf expm1f logf sinf cosf atan2f erff erfcf);
+impl_real!(f64, turns::sin_cos_f64, 53, sqrt floor exp expm1 log sin cos atan2 erf erfc);
 
 #[cfg(test)]
 mod tests {

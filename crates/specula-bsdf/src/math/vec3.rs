@@ -74,6 +74,15 @@ impl<T: Real> Vec3<T> {
         self * (T::ONE / self.length())
     }
 
+    /// The unit vector of the same direction, of those too whose squares vanish; NaN for the zero vector.
+    #[inline(always)]
+    pub(crate) fn normalize_any(self) -> Self {
+        let largest = self.x.abs().at_least(self.y.abs()).at_least(self.z.abs());
+        let is_small = largest < T::of(1e-10);
+        let scale = T::select(is_small, T::ONE / largest.at_least(T::TINY), T::ONE);
+        (self * scale).normalize()
+    }
+
     /// Componentwise product.
     #[inline(always)]
     pub fn hadamard(self, o: Self) -> Self {

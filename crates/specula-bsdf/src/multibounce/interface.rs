@@ -9,7 +9,7 @@
 //!
 //! (Heitz et al. 2016). Refraction turns z, exchanges the depths and inverts `eta`.
 
-use super::walk::Flight;
+use super::walk::{Flight, LEAST_COS};
 use crate::fresnel::{dielectric, refract};
 use crate::math::{Real, Vec3};
 use crate::vndf::VisibleNormals;
@@ -31,8 +31,8 @@ pub(crate) fn turned<T: Real>(w: Vec3<T>) -> Vec3<T> {
 /// The depth as seen from the other side.
 #[inline(always)]
 pub(crate) fn depth_beyond<T: Real>(tau: T) -> T {
-    // Near 0, 1 - exp(-tau) is tau; a ray that touches the top is infinitely deep inside.
-    let share = T::select(tau > T::of(1e-3), T::ONE - (-tau).exp(), tau);
+    // A ray that touches the top is infinitely deep inside.
+    let share = -(-tau).exp_m1();
     (-share.at_least(T::TINY).ln()).at_least(T::ZERO)
 }
 
@@ -131,7 +131,7 @@ impl<T: Real, N: VisibleNormals<T>> Interface<T, N> {
         } else {
             depth_beyond(tau)
         };
-        let lambda = self.ndf.lambda_cos(wi) / wi.z.abs().at_least(T::of(1e-12));
+        let lambda = self.ndf.lambda_cos(wi) / wi.z.abs().at_least(T::of(LEAST_COS));
         (-(depth * lambda)).exp()
     }
 

@@ -47,7 +47,7 @@
 use super::heitz2016;
 use super::interface::{Collision, Interface, Next, depth_beyond, turned};
 use super::state::DepthState;
-use super::walk::{Facets, Flight, MAX_BOUNCES};
+use super::walk::{Facets, Flight, LEAST_COS, MAX_BOUNCES};
 use crate::math::{Real, Rgb, Stream, Vec3};
 use crate::vndf::VisibleNormals;
 
@@ -69,7 +69,9 @@ pub(crate) fn eval<T: Real, N: VisibleNormals<T>>(
     let mut sum = facets.single(&arriving, &leaving);
     let shift = [stream.next::<T>(), stream.next::<T>()];
     if wo.z > T::ZERO {
-        let back = wi.z / wo.z;
+        // By the cosines that the rates are of: else the flight back outweighs its density.
+        let least = T::of(LEAST_COS);
+        let back = wi.z.at_least(least) / wo.z.at_least(least);
         let (from_wi, to_wo) = (leaving.reversed(), arriving.reversed());
         for k in 0..SPLIT {
             let u = stratum(shift, k);
@@ -282,7 +284,8 @@ pub(crate) fn eval_interface<T: Real, N: VisibleNormals<T>>(
     if wo.z <= T::ZERO || is_better_end(interface, wo, wi) {
         return eval_interface_from(interface, wo, wi, stream);
     }
-    let cosines = wi.z.abs() / wo.z;
+    let least = T::of(LEAST_COS);
+    let cosines = wi.z.abs().at_least(least) / wo.z.at_least(least);
     if wi.z > T::ZERO {
         cosines * eval_interface_from(interface, wi, wo, stream)
     } else {
@@ -324,7 +327,7 @@ fn eval_interface_from<T: Real, N: VisibleNormals<T>>(
 ) -> T {
     let arriving = Flight::new(&interface.ndf, -wo);
     let reflects = wi.z > T::ZERO;
-    let lambda = interface.ndf.lambda_cos(wi) / wi.z.abs().at_least(T::of(1e-12));
+    let lambda = interface.ndf.lambda_cos(wi) / wi.z.abs().at_least(T::of(LEAST_COS));
     let single = interface.phase(&arriving, wi, reflects);
     let leaves = if single <= T::ZERO {
         T::ZERO

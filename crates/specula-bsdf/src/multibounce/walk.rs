@@ -21,6 +21,9 @@ use crate::vndf::VisibleNormals;
 /// energy but for views within 1e-3 of the horizon.
 pub(crate) const MAX_BOUNCES: usize = 64;
 
+/// Least cosine of a flight: rates are finite.
+pub(crate) const LEAST_COS: f64 = 1e-12;
+
 /// A direction of travel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Flight<T> {
@@ -43,7 +46,7 @@ impl<T: Real> Flight<T> {
             d,
             facing,
             backing: below + d.z.at_least(T::ZERO),
-            rate: facing / d.z.abs().at_least(T::of(1e-12)),
+            rate: facing / d.z.abs().at_least(T::of(LEAST_COS)),
         }
     }
 
@@ -54,7 +57,7 @@ impl<T: Real> Flight<T> {
             d: -self.d,
             facing: self.backing,
             backing: self.facing,
-            rate: self.backing / self.d.z.abs().at_least(T::of(1e-12)),
+            rate: self.backing / self.d.z.abs().at_least(T::of(LEAST_COS)),
         }
     }
 

@@ -1,6 +1,6 @@
 //! GGX (Trowbridge and Reitz 1975; Walter et al. 2007), isotropic and anisotropic.
 
-use super::{Masking, Ndf};
+use super::{LEAST_COS, Masking, Ndf};
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3};
 
@@ -26,8 +26,9 @@ impl<T: Real> Ggx<T> {
         let y = m.y * ax;
         let area = ax * ay;
         let z = m.z * area;
-        let e = z.mad(z, x.mad(x, y * y));
-        let root = area * area * length_squared / e;
+        // Squares of the smallest vectors vanish: their quotient is 1, that of the surface's normal.
+        let e = z.mad(z, x.mad(x, y.mad(y, T::TINY)));
+        let root = (area * area).mad(length_squared, T::TINY) / e;
         T::select(m.z > T::ZERO, root * root * (T::INV_PI / area), T::ZERO)
     }
 
@@ -104,7 +105,7 @@ impl<T: Real> Ndf<T> for Ggx<T> {
         let (s, b) = self.projected_area_quotient(wo);
         let (h2, t) = self.stretched_length(wi);
         let l = T::TWO * (t + cos_i);
-        let seen = l * cos_i;
+        let seen = l.mad(cos_i, T::of(LEAST_COS));
         let denominator = match masking {
             Masking::HeightCorrelated => s.mad(seen, wo.z.abs() * (h2 * b)),
             Masking::Separable => s * (seen + h2),

@@ -12,6 +12,10 @@ pub use ggx::Ggx;
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3};
 
+/// Added to cosines of incidence, so that two directions on the horizon leave no 0/0: what they see of each other is
+/// right down to cosines of 1e-22.
+const LEAST_COS: f64 = 1e-30;
+
 /// How masking of the viewer and shadowing of the light go together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -49,7 +53,8 @@ pub trait Ndf<T: Real>: Copy {
     /// `D` of the normal along `m`, of the squared length given: saves normalising a half vector.
     #[inline(always)]
     fn d_along(&self, m: Vec3<T>, length_squared: T) -> T {
-        self.d(m * (T::ONE / length_squared.sqrt()))
+        let _ = length_squared;
+        self.d(m.normalize_any())
     }
 
     /// `|w.z| Lambda(|w.z|)`: finite at grazing angles, where `Lambda` is not.
@@ -103,7 +108,7 @@ pub trait Ndf<T: Real>: Copy {
     /// [`g2_over_cos`](Ndf::g2_over_cos) as numerator and denominator.
     #[inline(always)]
     fn g2_over_cos_quotient(&self, masking: Masking, wo: Vec3<T>, wi: Vec3<T>) -> (T, T) {
-        let cos_i = wi.z.abs();
+        let cos_i = wi.z.abs() + T::of(LEAST_COS);
         let sigma_o = self.projected_area(wo);
         let lambda_i = self.lambda_cos(wi);
         let denominator = match masking {

@@ -60,7 +60,7 @@ pub fn sample_reflection<T: Real>(alpha: Alpha<T>, wo: Vec3<T>, u: [T; 2]) -> Op
 #[inline(always)]
 pub fn reflection_pdf<T: Real>(alpha: Alpha<T>, wo: Vec3<T>, wi: Vec3<T>) -> T {
     let ndf = Beckmann::new(alpha);
-    let wm = (wo + wi).normalize();
+    let wm = (wo + wi).normalize_any();
     let pdf = ndf.d(wm) / (T::of(4.0) * ndf.projected_area(wo));
     T::select(wi.z > T::ZERO && wm.z > T::ZERO, pdf, T::ZERO)
 }

@@ -25,8 +25,10 @@ pub fn sample_wm<T: Real>(alpha: Alpha<T>, wo: Vec3<T>, u: [T; 2]) -> Vec3<T> {
     let i = Stretched::new(alpha, wo);
     let v = i.direction;
     let sine2 = v.x * v.x + v.y * v.y;
-    let across = sine2 > T::ZERO;
-    let inverse_sine = T::ONE / sine2.at_least(T::TINY).sqrt();
+    // Below, the plane of incidence is lost to rounding and to squares that vanish.
+    let least = T::of(1e-36);
+    let across = sine2 > least;
+    let inverse_sine = T::ONE / sine2.at_least(least).sqrt();
     let t1_axis = vec3(
         T::select(across, -v.y * inverse_sine, T::ONE),
         T::select(across, v.x * inverse_sine, T::ZERO),

@@ -363,6 +363,7 @@ fn every_function_of_samplers_has_a_case() {
         ("stretched_squared_radius", sample),
         ("half_vector_mirrored", sample),
         ("half_vector_density", norm),
+        ("half_vector_unit", "part of the lobes, private in Rust too"),
         ("cap_half_vector", sample),
         ("cap_half_vector_towards", sample),
         ("bounded_cap", sample),

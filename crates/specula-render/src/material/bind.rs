@@ -3,7 +3,7 @@
 use specula_bsdf::bsdf::{
     Base, Black, CoatLayer, CoatScattering, CoatedDiffuse, DiffuseTransmission, Eon, Gltf,
     GltfParameters, Lambert, Layered, Lobe, Medium, Plastic, Principled, PrincipledParameters,
-    SmoothConductor, SmoothDielectric, ThinDielectric, Tints,
+    RoughDielectric, SmoothConductor, SmoothDielectric, ThinDielectric, Tints,
 };
 use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::ndf::{Beckmann, Ggx};
@@ -282,7 +282,9 @@ impl<'a> PointParameters<'a> {
     ) -> Lobe<f32> {
         match self.alpha(roughness) {
             // With equal indices nothing is bent, however rough.
-            Some(alpha) if (relative - 1.0).abs() > 1e-4 => {
+            Some(alpha)
+                if f64::from((relative - 1.0).abs()) >= RoughDielectric::<f32>::INDEX_MATCHED =>
+            {
                 dielectric(roughness, alpha, relative, tints, models)
             }
             _ => SmoothDielectric::facing(relative).with_tints(tints).into(),

@@ -21,6 +21,7 @@ import package::energy::interface_single::{interface_single_internal_reflectance
 import package::fresnel::dielectric::{dielectric};
 import package::math::rgb::{rgb_max_channel};
 import package::math::warp::{warp_cosine_hemisphere, warp_cosine_hemisphere_pdf};
+import package::vndf::half_vector::{half_vector_unit};
 
 /// Light within a coat that one facet sends to another is lost: each facet scatters once.
 ///
@@ -156,7 +157,7 @@ fn coated_diffuse_eval_pdf(lobe: CoatedDiffuse, wo: vec3f, wi: vec3f, transport:
     var f_cos = lobe.base * (view.arriving * arriving * cosine);
     var pdf = (1.0 - p) * cosine;
     if lobe.mean_alpha > 0.0 && wo.z + wi.z > 0.0 {
-        let wm = normalize(wo + wi);
+        let wm = half_vector_unit(wo + wi);
         let quarter = 0.25 * microfacets_d(lobe.facets, wm);
         let fresnel = dielectric(dot(wo, wm), lobe.eta).reflectance;
         f_cos += vec3f(fresnel * quarter * microfacets_g_over_cos(lobe.facets, wo, wi));

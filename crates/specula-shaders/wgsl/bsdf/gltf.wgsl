@@ -34,6 +34,7 @@ import package::math::rgb::{rgb_is_black, rgb_max_channel};
 import package::math::warp::{warp_cosine_hemisphere, warp_uniform_sphere};
 import package::ndf::distribution::{DISTRIBUTION_GGX};
 import package::ndf::masking::{MASKING_HEIGHT_CORRELATED, MASKING_SEPARABLE};
+import package::vndf::half_vector::{half_vector_unit};
 import package::vndf::sampler::{SAMPLER_BOUNDED};
 
 /// `1 / pi`.
@@ -288,7 +289,7 @@ fn gltf_covers(lobe: GltfLobe, wo: vec3f, wi: vec3f) -> f32 {
 ///
 /// Twin: specula-bsdf/src/bsdf/gltf/mod.rs, Gltf::base_reflection.
 fn gltf_base_reflection(lobe: GltfLobe, shares: GltfShares, wo: vec3f, wi: vec3f) -> vec4f {
-    let wm = normalize(wo + wi);
+    let wm = half_vector_unit(wo + wi);
     let fresnel = gltf_fresnel(lobe, dot(wo, wm), shares.gain);
     let cosine = wi.z * GLTF_PER_PI;
     let quarter = 0.25 * microfacets_d(lobe.facets, wm);
@@ -367,7 +368,7 @@ fn gltf_transmission(lobe: GltfLobe, shares: GltfShares, wo: vec3f, wi: vec3f, t
     if wo.z + up.z <= 0.0 {
         return vec4f(0.0);
     }
-    let wm = normalize(wo + up);
+    let wm = half_vector_unit(wo + up);
     let left = gltf_fresnel(lobe, dot(wo, wm), shares.gain).a;
     let quarter = 0.25 * microfacets_d(lobe.passing, wm);
     let shadowed = microfacets_g_over_cos(lobe.passing, wo, up);

@@ -17,6 +17,7 @@ import package::bsdf::plastic_interface::{PlasticInterface, plastic_interface_in
 import package::fresnel::dielectric::{dielectric};
 import package::math::rgb::{rgb_max_channel};
 import package::math::warp::{warp_cosine_hemisphere, warp_cosine_hemisphere_pdf};
+import package::vndf::half_vector::{half_vector_unit};
 
 /// Lambert under a dielectric coat, as Mitsuba 3 has it.
 ///
@@ -119,7 +120,7 @@ fn plastic_eval_pdf(lobe: PlasticLobe, wo: vec3f, wi: vec3f, transport: u32) -> 
     var f_cos = lobe.base * (entering * plastic_transmittance(lobe, wi) * cosine);
     var pdf = (1.0 - p) * cosine;
     if lobe.rough == 1u && wo.z + wi.z > 0.0 {
-        let wm = normalize(wo + wi);
+        let wm = half_vector_unit(wo + wi);
         let quarter = 0.25 * microfacets_d(lobe.facets, wm);
         let fresnel = dielectric(dot(wo, wm), lobe.eta).reflectance;
         f_cos += lobe.specular * (fresnel * quarter * microfacets_g_over_cos(lobe.facets, wo, wi));

@@ -20,6 +20,7 @@ import package::fresnel::dielectric::{DielectricRefraction, dielectric, dielectr
 import package::math::rgb::{rgb_max_channel};
 import package::math::warp::{warp_cosine_hemisphere};
 import package::ndf::masking::{MASKING_SEPARABLE};
+import package::vndf::half_vector::{half_vector_unit};
 import package::vndf::reflection::{reflection_mirrored};
 import package::vndf::sampler::{SAMPLER_BOUNDED, SAMPLER_CAP};
 
@@ -160,7 +161,7 @@ fn principled_solid_reflection(lobe: PrincipledSolid, shares: PrincipledSolidSha
     if wo.z + wi.z <= 0.0 {
         return vec4f(0.0);
     }
-    let wm = normalize(wo + wi);
+    let wm = half_vector_unit(wo + wi);
     let cosine = dot(wo, wm);
     let bent = dielectric(cosine, lobe.eta);
     let quarter = 0.25 * microfacets_d(lobe.facets, wm);

@@ -16,6 +16,7 @@ import package::fresnel::dielectric::{dielectric};
 import package::math::rgb::{rgb_max_channel};
 import package::math::warp::{warp_cosine_hemisphere};
 import package::ndf::masking::{MASKING_SEPARABLE};
+import package::vndf::half_vector::{half_vector_unit};
 import package::vndf::sampler::{SAMPLER_BOUNDED};
 
 /// `1 / pi`.
@@ -122,7 +123,7 @@ fn principled_thin_evaluate(lobe: PrincipledThin, shares: PrincipledThinShares, 
     if up.z <= 0.0 || wo.z + up.z <= 0.0 {
         return vec4f(0.0);
     }
-    let wm = normalize(wo + up);
+    let wm = half_vector_unit(wo + up);
     let cosine_pdf = up.z * PRINCIPLED_THIN_PER_PI;
     let cosine = dot(wo, wm);
     let fresnel = principled_thin_fresnel(lobe, cosine);

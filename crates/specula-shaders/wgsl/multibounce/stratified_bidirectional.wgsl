@@ -45,13 +45,15 @@ fn stratified_bidirectional_eval(facets: WalkFacets, wo: vec3f, wi: vec3f, strea
     let shift = walk_pair(stream);
     // Backfacing shading normals have no other end.
     let both = wo.z > 0.0;
+    // By the cosines that the rates are of: else the flight back outweighs its density.
+    let back = max(wi.z, 1e-12) / max(wo.z, 1e-12);
     for (var k = 0u; k < STRATIFIED_BIDIRECTIONAL_SPLIT; k++) {
         let u = stratified_bidirectional_stratum(shift, k);
         sum += stratified_bidirectional_walk(facets, both, arriving, leaving, u, stream);
         if both {
             let from_wi = walk_reversed(leaving);
             let to_wo = walk_reversed(arriving);
-            sum += stratified_bidirectional_walk(facets, both, from_wi, to_wo, u, stream) * (wi.z / wo.z);
+            sum += stratified_bidirectional_walk(facets, both, from_wi, to_wo, u, stream) * back;
         }
     }
     return sum;

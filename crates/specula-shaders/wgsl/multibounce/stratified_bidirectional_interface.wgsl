@@ -27,7 +27,7 @@ fn stratified_bidirectional_interface_eval(
     if wo.z <= 0.0 || stratified_bidirectional_interface_is_better_end(facets, wo, wi) {
         return stratified_bidirectional_interface_eval_end(facets, wo, wi, stream);
     }
-    let cosines = abs(wi.z) / wo.z;
+    let cosines = max(abs(wi.z), 1e-12) / max(wo.z, 1e-12);
     if wi.z > 0.0 {
         return cosines * stratified_bidirectional_interface_eval_end(facets, wi, wo, stream);
     }

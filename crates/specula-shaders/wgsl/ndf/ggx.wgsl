@@ -31,7 +31,9 @@ fn ggx_d_along(alpha: vec2f, m: vec3f, length_squared: f32) -> f32 {
     let x = m.x * alpha.y;
     let y = m.y * alpha.x;
     let z = m.z * area;
-    let root = area * area * length_squared / (z * z + (x * x + y * y));
+    // Squares of the smallest vectors vanish: their quotient is 1, that of the surface's normal.
+    let tiny = 1.17549435e-38;
+    let root = (area * area * length_squared + tiny) / (z * z + (x * x + (y * y + tiny)));
     return root * root * (0.31830987 / area);
 }
 
@@ -123,7 +125,8 @@ fn ggx_g2_over_cos_quotient(masking: u32, alpha: vec2f, wo: vec3f, wi: vec3f) ->
     let cosine = abs(wi.z);
     let area = ggx_projected_area_quotient(alpha, wo);
     let length = ggx_stretched_length(alpha, wi);
-    let seen = 2.0 * (length.y + cosine) * cosine;
+    // The summand: two directions on the horizon leave no 0/0.
+    let seen = 2.0 * (length.y + cosine) * cosine + 1e-30;
     let correlated = area.x * seen + abs(wo.z) * (length.x * area.y);
     let separable = area.x * (seen + length.x);
     let denominator = select(correlated, separable, masking == MASKING_SEPARABLE);

@@ -52,7 +52,8 @@ fn masking_g_correlated(cosines: vec2f, lambda_cos: vec2f) -> f32 {
 ///
 /// Twin: specula-bsdf/src/ndf/mod.rs, Ndf::g2_over_cos_quotient.
 fn masking_over_cos_quotient(masking: u32, area: f32, cosines: vec2f, lambda_cos: f32) -> vec2f {
-    let cosine = abs(cosines.y);
+    // The summand: two directions on the horizon leave no 0/0.
+    let cosine = abs(cosines.y) + 1e-30;
     let correlated = area * cosine + abs(cosines.x) * lambda_cos;
     let separable = area * (cosine + lambda_cos);
     return vec2f(cosine, select(correlated, separable, masking == MASKING_SEPARABLE));

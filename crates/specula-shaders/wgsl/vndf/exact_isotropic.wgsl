@@ -64,7 +64,7 @@ fn exact_isotropic_half_vector(a: f32, wo: vec3f, u: vec2f) -> vec3f {
     let to_length = inverse * sine;
 
     let phi = turns_sin_cos(u.y);
-    let disk = sqrt(u.x) * phi.yx;
+    let disk = sqrt(min(u.x, 0.9999962)) * phi.yx;
     let y = disk.y * disk.y;
     let middle = sqrt(max((1.0 - y) * kappa * b + y * tilt * delta, 0.0));
     let on_t = root * scale * delta * disk.y;

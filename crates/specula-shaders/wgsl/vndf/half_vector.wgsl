@@ -2,6 +2,15 @@
 
 import package::ndf::ggx::{ggx_d_along};
 
+/// The unit vector along `m`, of those too whose squares vanish.
+///
+/// Twin: specula-bsdf/src/math/vec3.rs, Vec3::normalize_any.
+fn half_vector_unit(m: vec3f) -> vec3f {
+    let largest = max(max(abs(m.x), abs(m.y)), abs(m.z));
+    let scale = select(1.0, 1.0 / max(largest, 1.17549435e-38), largest < 1e-10);
+    return normalize(m * scale);
+}
+
 /// `wo` mirrored about a vector `m` of any length.
 ///
 /// Twin: specula-bsdf/src/vndf/mod.rs, reflect_unnormalised.

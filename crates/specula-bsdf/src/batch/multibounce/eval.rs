@@ -9,7 +9,7 @@ use super::walk_states::{
 use crate::batch::slices::{Colours, Directions};
 use crate::math::{Real, Stream, Vec3};
 use crate::multibounce::stratified_bidirectional::{EvalWalk, SPLIT, goes_on, share, stratum};
-use crate::multibounce::walk::{Flight, meet, turn};
+use crate::multibounce::walk::{Flight, LEAST_COS, meet, turn};
 use crate::ndf::{Ggx, Ndf};
 
 /// Some elements, one a walk, and their walks.
@@ -133,9 +133,10 @@ impl<T: Real> EvalWalks<T> {
         for i in 0..going {
             self.finish(facets, bounces, i);
         }
+        let least = T::of(LEAST_COS);
         for i in 0..whole(count) {
             let back = if reversed {
-                self.wi.z[i] / self.wo.z[i]
+                self.wi.z[i].at_least(least) / self.wo.z[i].at_least(least)
             } else {
                 T::ONE
             };

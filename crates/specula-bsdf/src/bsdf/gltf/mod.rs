@@ -291,7 +291,7 @@ impl<T: Real> Gltf<T> {
 
     #[inline]
     fn reflection(&self, shares: &Shares<T>, wo: Vec3<T>, wi: Vec3<T>) -> (Rgb<T>, T) {
-        let wm = (wo + wi).normalize();
+        let wm = (wo + wi).normalize_any();
         // A half vector of zero length is NaN here.
         let facing = wm.z > T::ZERO;
         let (mut f_cos, mut pdf) = if facing {
@@ -354,7 +354,7 @@ impl<T: Real> Gltf<T> {
             return self.refraction(shares, wo, wi, transport);
         }
         let up = vec3(wi.x, wi.y, -wi.z);
-        let wm = (wo + up).normalize();
+        let wm = (wo + up).normalize_any();
         let facing = wm.z > T::ZERO;
         if !facing {
             return (Rgb::BLACK, T::ZERO);
@@ -380,7 +380,7 @@ impl<T: Real> Gltf<T> {
         transport: Transport,
     ) -> (Rgb<T>, T) {
         let generalised = wo + wi * self.eta;
-        let wm = (generalised * T::ONE.copysign(generalised.z)).normalize();
+        let wm = (generalised * T::ONE.copysign(generalised.z)).normalize_any();
         let (cos_o, cos_i) = (wo.dot(wm), wi.dot(wm));
         // Facets seen from behind do not scatter; a half vector of zero length is NaN here.
         let lit = cos_o > T::ZERO && cos_i < T::ZERO;

@@ -198,7 +198,7 @@ impl<T: Real, N: VisibleNormals<T>> Bsdf<T> for Plastic<T, N> {
         let mut f_cos = self.base * (entering * self.transmittance(wi) * cosine);
         let mut pdf = (T::ONE - p) * cosine;
         if let Some(ndf) = self.coat {
-            let wm = (wo + wi).normalize();
+            let wm = (wo + wi).normalize_any();
             if wm.z > T::ZERO {
                 let quarter = T::of(0.25) * ndf.d(wm);
                 let fresnel = dielectric(wo.dot(wm), self.eta).reflectance;

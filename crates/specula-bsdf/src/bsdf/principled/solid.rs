@@ -140,7 +140,7 @@ impl<T: Real> Solid<T> {
 
     #[inline]
     fn reflection(&self, shares: &Shares<T>, wo: Vec3<T>, wi: Vec3<T>) -> (Rgb<T>, T) {
-        let wm = (wo + wi).normalize();
+        let wm = (wo + wi).normalize_any();
         // A half vector of zero length is NaN here.
         let facing = wm.z > T::ZERO;
         if !facing {
@@ -177,7 +177,7 @@ impl<T: Real> Solid<T> {
         transport: Transport,
     ) -> (Rgb<T>, T) {
         let generalised = wo + wi * self.eta;
-        let wm = (generalised * T::ONE.copysign(generalised.z)).normalize();
+        let wm = (generalised * T::ONE.copysign(generalised.z)).normalize_any();
         let (cos_o, cos_i) = (wo.dot(wm), wi.dot(wm));
         // Facets seen from behind do not scatter; a half vector of zero length is NaN here.
         let lit = cos_o > T::ZERO && cos_i < T::ZERO;

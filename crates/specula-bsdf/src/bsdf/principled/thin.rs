@@ -113,7 +113,7 @@ impl<T: Real> Thin<T> {
         up: Vec3<T>,
         reflects: bool,
     ) -> (Rgb<T>, T) {
-        let wm = (wo + up).normalize();
+        let wm = (wo + up).normalize_any();
         let cos_pdf = up.z * T::INV_PI;
         let facing = wm.z > T::ZERO;
         if up.z <= T::ZERO || !facing {

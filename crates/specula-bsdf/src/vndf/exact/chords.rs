@@ -17,6 +17,7 @@
 //! Source: our own derivation, `docs/exact-reflection-sampling.md`.
 
 use super::cone::Cone;
+use super::radius;
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3, vec3};
 
@@ -52,7 +53,7 @@ pub(in crate::vndf) fn half_vector<T: Real>(alpha: Alpha<T>, cone: &Cone<T>, u: 
     let along = [k.y * thin, -k.x * thin];
 
     let (sin_phi, cos_phi) = u[1].sin_cos_turns();
-    let disk = u[0].sqrt();
+    let disk = radius(u[0]);
     let (x, y) = (disk * cos_phi, disk * sin_phi);
     let c = (T::ONE - y * y).safe_sqrt();
 

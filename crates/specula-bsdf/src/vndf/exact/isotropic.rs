@@ -15,6 +15,7 @@
 //! with `r = |(hx, hy)|`, `L = |h|`, `T1` across the plane of incidence and `T2 = h/L x T1` (towards
 //! the surface's normal). Nothing in it cancels.
 
+use super::radius;
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3, vec3};
 
@@ -67,7 +68,7 @@ pub(super) fn half_vector<T: Real>(alpha: Alpha<T>, wo: Vec3<T>, u: [T; 2]) -> V
     let (to_sine, to_length) = (inverse * (r * r + z * z).sqrt(), inverse * sine);
 
     let (sin_phi, cos_phi) = u[1].sin_cos_turns();
-    let disk = u[0].sqrt();
+    let disk = radius(u[0]);
     let (disk_x, disk_y) = (disk * cos_phi, disk * sin_phi);
     let y2 = disk_y * disk_y;
     let middle = ((T::ONE - y2) * kappa * b + y2 * tilt * delta).safe_sqrt();

@@ -43,6 +43,12 @@ pub fn sample_direction<T: Real>(alpha: Alpha<T>, wo: Vec3<T>, u: [T; 2]) -> Vec
     }
 }
 
+/// The radius of a point of the disk. Its rim is the horizon, below which rounding would leave some.
+#[inline(always)]
+fn radius<T: Real>(u: T) -> T {
+    u.at_most(T::ONE - T::of(32.0) * T::EPSILON).sqrt()
+}
+
 /// The reflection of `wo`; `None` below the horizon.
 #[inline(always)]
 pub fn sample_reflection<T: Real>(alpha: Alpha<T>, wo: Vec3<T>, u: [T; 2]) -> Option<Vec3<T>> {
