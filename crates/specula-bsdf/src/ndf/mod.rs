@@ -52,8 +52,7 @@ pub trait Ndf<T: Real>: Copy {
 
     /// `D` of the normal along `m`, of the squared length given: saves normalising a half vector.
     #[inline(always)]
-    fn d_along(&self, m: Vec3<T>, length_squared: T) -> T {
-        let _ = length_squared;
+    fn d_along(&self, m: Vec3<T>, _length_squared: T) -> T {
         self.d(m.normalize_any())
     }
 

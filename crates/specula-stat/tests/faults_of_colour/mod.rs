@@ -4,6 +4,7 @@
 use std::f64::consts::PI;
 
 use specula_bsdf::bsdf::{Gltf, GltfParameters, Principled, PrincipledParameters};
+use specula_bsdf::energy::{EnergyModel, FmsVariant};
 use specula_bsdf::math::{Stream, rgb};
 use specula_bsdf::{Bsdf, Rgb, Transport, Vec3};
 use specula_stat::Check;
@@ -11,7 +12,8 @@ use specula_stat::Check;
 use crate::common::at;
 use crate::textbook::fresnel::{GOLD, average, conductor, dielectric, of_metal};
 use crate::textbook::{
-    EXACT, Facets, Shape, TABLES, Value, compare, cosine_average, glass, half, metal, walks,
+    EXACT, Facets, INTERFACE_TABLES, Shape, TABLES, Tolerance, Value, compare, energy, fresnel,
+    glass, half, metal, walks,
 };
 
 const ROUGH: Facets = Facets {
@@ -41,8 +43,7 @@ fn right_metal(wo: Vec3<f64>, wi: Vec3<f64>) -> Rgb<f64> {
 }
 
 /// That values with a fault are told from those without, which are not told from themselves.
-fn is_caught(name: &str, lowest: f64, wrong: Value<'_>, right: Value<'_>, tables: bool) {
-    let tolerance = if tables { TABLES } else { EXACT };
+fn is_caught(name: &str, lowest: f64, wrong: Value<'_>, right: Value<'_>, tolerance: Tolerance) {
     let check = |value| compare(name, &views(), lowest, (value, right), tolerance);
     assert_told(&check(wrong), &check(right));
 }
@@ -64,13 +65,13 @@ fn fresnel_at_the_facets_tilt() {
     let wrong = |wo: Vec3<f64>, wi: Vec3<f64>| {
         gold(half(wo, wi).z) * ROUGH.white(wo, wi) * f64::from(u8::from(wi.z > 0.0))
     };
-    is_caught("tilt", 0.0, &wrong, &right_metal, false);
+    is_caught("tilt", 0.0, &wrong, &right_metal, EXACT);
 }
 
 #[test]
 fn fresnel_at_the_view() {
     let wrong = |wo: Vec3<f64>, wi| metal(ROUGH, |_| gold(wo.z), wo, wi);
-    is_caught("view", 0.0, &wrong, &right_metal, false);
+    is_caught("view", 0.0, &wrong, &right_metal, EXACT);
 }
 
 #[test]
@@ -80,7 +81,7 @@ fn a_metal_without_its_absorption() {
         rgb(r, g, b)
     };
     let wrong = |wo, wi| metal(ROUGH, fresnel, wo, wi);
-    is_caught("absorption", 0.0, &wrong, &right_metal, false);
+    is_caught("absorption", 0.0, &wrong, &right_metal, EXACT);
 }
 
 #[test]
@@ -89,20 +90,20 @@ fn red_and_blue_exchanged() {
         let f = right_metal(wo, wi);
         rgb(f.b, f.g, f.r)
     };
-    is_caught("channels", 0.0, &wrong, &right_metal, false);
+    is_caught("channels", 0.0, &wrong, &right_metal, EXACT);
 }
 
 #[test]
 fn a_metal_as_grey_as_its_luminance() {
     let wrong = |wo, wi| Rgb::splat(right_metal(wo, wi).luminance());
-    is_caught("grey", 0.0, &wrong, &right_metal, false);
+    is_caught("grey", 0.0, &wrong, &right_metal, EXACT);
 }
 
 #[test]
 fn a_tint_that_is_squared() {
     let right = |wo, wi| right_metal(wo, wi) * colour();
     let wrong = |wo, wi| right(wo, wi) * colour();
-    is_caught("tint", 0.0, &wrong, &right, false);
+    is_caught("tint", 0.0, &wrong, &right, EXACT);
 }
 
 fn right_glass(wo: Vec3<f64>, wi: Vec3<f64>) -> Rgb<f64> {
@@ -112,13 +113,13 @@ fn right_glass(wo: Vec3<f64>, wi: Vec3<f64>) -> Rgb<f64> {
 #[test]
 fn the_index_upside_down() {
     let wrong = |wo, wi| Rgb::splat(glass(ROUGH, 1.0 / ETA, (wo, wi), Transport::Radiance));
-    is_caught("index", -1.0, &wrong, &right_glass, false);
+    is_caught("index", -1.0, &wrong, &right_glass, EXACT);
 }
 
 #[test]
 fn radiance_that_is_not_scaled() {
     let wrong = |wo, wi| Rgb::splat(glass(ROUGH, ETA, (wo, wi), Transport::Importance));
-    is_caught("radiance", -1.0, &wrong, &right_glass, false);
+    is_caught("radiance", -1.0, &wrong, &right_glass, EXACT);
 }
 
 #[test]
@@ -127,7 +128,7 @@ fn radiance_scaled_the_wrong_way() {
         let scale = if wo.z * wi.z < 0.0 { ETA.powi(4) } else { 1.0 };
         right_glass(wo, wi) * scale
     };
-    is_caught("radiance", -1.0, &wrong, &right_glass, false);
+    is_caught("radiance", -1.0, &wrong, &right_glass, EXACT);
 }
 
 #[test]
@@ -144,7 +145,7 @@ fn tints_of_the_two_sides_exchanged() {
         -1.0,
         &tinted(transmission, reflection),
         &right,
-        false,
+        EXACT,
     );
 }
 
@@ -160,38 +161,29 @@ fn refraction_with_the_fresnel_term_of_reflection() {
         let share = dielectric(cos, ETA);
         f * (share / (1.0 - share).max(1e-9))
     };
-    is_caught("share", -1.0, &wrong, &right_glass, false);
-}
-
-/// Turquin's metal with this reflectance at normal incidence.
-fn turquin(f0: Rgb<f64>) -> impl Fn(Vec3<f64>, Vec3<f64>) -> Rgb<f64> {
-    move |wo, wi| {
-        let albedo = ROUGHEST.albedo(wo);
-        metal(ROUGHEST, gold, wo, wi) * f0.map(|f| 1.0 + f * (1.0 - albedo) / albedo)
-    }
+    is_caught("share", -1.0, &wrong, &right_glass, EXACT);
 }
 
 #[test]
 fn turquins_factor_by_a_reflectance_of_grazing_angles() {
+    let turquin = |f0| {
+        let model = EnergyModel::Turquin(FmsVariant::NormalIncidence);
+        energy::compensated_metal(ROUGHEST, model, [f0, Rgb::BLACK])
+    };
     let (wrong, right) = (turquin(gold(0.3)), turquin(gold(1.0)));
-    is_caught("Turquin", 0.0, &wrong, &right, true);
+    is_caught("Turquin", 0.0, &wrong, &right, TABLES);
 }
 
 /// Kulla and Conty's metal with this average reflectance.
 fn kulla_conty(average: Rgb<f64>) -> impl Fn(Vec3<f64>, Vec3<f64>) -> Rgb<f64> {
-    let mean = cosine_average(|w| ROUGHEST.albedo(w));
-    let series = average.map(|f| f * f * mean / (1.0 - f * (1.0 - mean)));
-    move |wo, wi| {
-        let lost = (1.0 - ROUGHEST.albedo(wo)) * (1.0 - ROUGHEST.albedo(wi));
-        metal(ROUGHEST, gold, wo, wi) + series * (lost * wi.z / (PI * (1.0 - mean)))
-    }
+    energy::compensated_metal(ROUGHEST, EnergyModel::KullaConty, [gold(1.0), average])
 }
 
 #[test]
 fn kulla_contys_average_five_per_cent_high() {
     let right = average(gold);
     let (wrong, right) = (kulla_conty(right * 1.05), kulla_conty(right));
-    is_caught("Kulla-Conty", 0.0, &wrong, &right, true);
+    is_caught("Kulla-Conty", 0.0, &wrong, &right, TABLES);
 }
 
 #[test]
@@ -202,34 +194,14 @@ fn kulla_conty_with_one_factor_of_the_average_too_few() {
         let single = metal(ROUGHEST, gold, wo, wi);
         single + (book(wo, wi) - single) * right.map(|f| 1.0 / f)
     };
-    is_caught("Kulla-Conty", 0.0, &wrong, &book, true);
-}
-
-/// Compensated glass seen from above, whose lost light is transmitted in this share of the right one.
-fn compensated_glass(of_share: f64) -> impl Fn(Vec3<f64>, Vec3<f64>) -> Rgb<f64> {
-    let loss = |w: Vec3<f64>, eta: f64| 1.0 - ROUGHEST.glass_albedo(w, eta).iter().sum::<f64>();
-    let [near, far] = [ETA, 1.0 / ETA].map(|eta| cosine_average(|w| loss(w, eta)));
-    let fresnel = average(|cos| Rgb::splat(dielectric(cos, ETA))).g;
-    let share = of_share * (1.0 - fresnel) * near.min(far) / near;
-    move |wo, wi| {
-        let up = Vec3 {
-            z: wi.z.abs(),
-            ..wi
-        };
-        let second = if wi.z > 0.0 {
-            (1.0 - share) * loss(up, ETA) / near
-        } else {
-            share * loss(up, 1.0 / ETA) / far
-        };
-        let single = glass(ROUGHEST, ETA, (wo, wi), Transport::Importance);
-        Rgb::splat(single + loss(wo, ETA) * second * up.z / PI)
-    }
+    is_caught("Kulla-Conty", 0.0, &wrong, &book, TABLES);
 }
 
 #[test]
 fn compensated_glass_that_transmits_four_fifths() {
-    let (wrong, right) = (compensated_glass(0.8), compensated_glass(1.0));
-    is_caught("compensated glass", -1.0, &wrong, &right, true);
+    let glass = |of_share| energy::compensated_glass(ROUGHEST, ETA, of_share);
+    let (wrong, right) = (glass(0.8), glass(1.0));
+    is_caught("compensated glass", -1.0, &wrong, &right, INTERFACE_TABLES);
 }
 
 /// Walks off gold with this reflectance.
@@ -301,11 +273,11 @@ fn a_coat_with_fresnel_of_another_facet() {
         let cos = wo.dot(half(wo, wi));
         right(wo, wi) * (dielectric(wo.z, ETA) / dielectric(cos, ETA))
     };
-    is_caught("coat", 0.0, &wrong, &right, false);
+    is_caught("coat", 0.0, &wrong, &right, EXACT);
 }
 
 fn schlick(cos: f64) -> Rgb<f64> {
-    colour().map(|f| f + (1.0 - f) * (1.0 - cos).powi(5))
+    fresnel::schlick(colour(), cos)
 }
 
 /// Values of a lobe whose colour is Schlick's of the half vector, with that of the view instead.
@@ -339,7 +311,7 @@ fn principled_metal_with_fresnel_at_the_view() {
         0.0,
         &schlick_at_the_view(&lobe),
         &right,
-        false,
+        EXACT,
     );
 }
 
@@ -351,7 +323,7 @@ fn gltf_metal_with_fresnel_at_the_view() {
         ..GltfParameters::default()
     });
     let right = |wo, wi| metal(ROUGH, schlick, wo, wi);
-    is_caught("glTF", 0.0, &schlick_at_the_view(&lobe), &right, false);
+    is_caught("glTF", 0.0, &schlick_at_the_view(&lobe), &right, EXACT);
 }
 
 #[test]
@@ -368,6 +340,6 @@ fn a_base_that_takes_the_coats_colour() {
         0.0,
         &plastic(base * specular),
         &plastic(base),
-        true,
+        TABLES,
     );
 }

@@ -114,6 +114,11 @@ pub(crate) fn of_metal(indices: [[f64; 2]; 3]) -> impl Fn(f64) -> Rgb<f64> {
     }
 }
 
+/// Schlick's `F0 + (1 - F0) (1 - cos)^5`.
+pub(crate) fn schlick(f0: Rgb<f64>, cos: f64) -> Rgb<f64> {
+    f0.map(|f| f + (1.0 - f) * (1.0 - cos).powi(5))
+}
+
 /// `2 int F(mu) mu dmu`, per channel.
 pub(crate) fn average(fresnel: impl Fn(f64) -> Rgb<f64>) -> Rgb<f64> {
     let count = 2000;
