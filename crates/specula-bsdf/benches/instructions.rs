@@ -10,11 +10,13 @@ use std::process::ExitCode;
 
 use specula_bsdf::batch::{Alphas, Colours, Directions, Level, Lobes, SampleOutcome, Samples};
 use specula_bsdf::bsdf::{
-    CoatedDiffuse, Compensated, Eon, RoughConductor, RoughDielectric, SmoothConductor,
+    CoatedDiffuse, Compensated, Eon, MultibounceConductor, RoughConductor, RoughDielectric,
+    SmoothConductor,
 };
 use specula_bsdf::energy::{EnergyModel, FmsVariant};
 use specula_bsdf::fresnel::{Conductor, Reflectance};
 use specula_bsdf::math::{Stream, rgb, vec3, warp};
+use specula_bsdf::multibounce::MultibounceModel;
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::vndf::{self, Sampler};
 use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, Vec3};
@@ -33,11 +35,14 @@ struct Data {
     alpha: Alpha<f32>,
     gold: RoughConductor<f32>,
     exact: RoughConductor<f32>,
+    brushed: RoughConductor<f32>,
     glass: RoughDielectric<f32>,
     mirror: SmoothConductor<f32>,
     eon: Eon<f32>,
     coated_diffuse: CoatedDiffuse<f32>,
     turquin: Compensated<f32>,
+    bounces: MultibounceConductor<f32>,
+    streams: Vec<Stream>,
 }
 
 impl Data {
@@ -67,11 +72,18 @@ impl Data {
             gold: RoughConductor::new(ggx, gold).with_sampler(Sampler::Bounded),
             exact: RoughConductor::new(Ggx::new(Alpha::isotropic(0.3)), gold)
                 .with_sampler(Sampler::Exact),
+            brushed: RoughConductor::new(ggx, gold).with_sampler(Sampler::Exact),
             glass: RoughDielectric::new(ggx, 1.5),
             mirror: SmoothConductor::new(gold),
             eon: Eon::new(Rgb::splat(0.5), 0.5),
             coated_diffuse: CoatedDiffuse::new(Some(ggx), 1.5, Rgb::splat(0.5)),
             turquin: Compensated::new(ggx, gold, EnergyModel::Turquin(FmsVariant::AverageSeries)),
+            bounces: MultibounceConductor::new(
+                ggx,
+                gold,
+                MultibounceModel::StratifiedBidirectional,
+            ),
+            streams: (0..N as u64).map(Stream::new).collect(),
         }
     }
 }
@@ -103,6 +115,9 @@ fn scalar(data: &mut Data, kernel: &str) -> Option<()> {
                 u(i),
             ));
         }),
+        "exact-unequal" => all(&|i| {
+            black_box(vndf::exact::sample_reflection(alpha, element(&wo, i), u(i)));
+        }),
         "pdf" => all(&|i| {
             black_box(vndf::bounded::reflection_pdf(
                 alpha,
@@ -120,6 +135,7 @@ fn scalar_lobe(data: &Data, kernel: &str) -> Option<()> {
         "gold" => draw_each(data, &data.gold),
         "gold-eval" => eval_each(data, &data.gold),
         "exact" => draw_each(data, &data.exact),
+        "brushed" => draw_each(data, &data.brushed),
         "exact-eval" => eval_each(data, &data.exact),
         "glass" => draw_each(data, &data.glass),
         "glass-eval" => eval_each(data, &data.glass),
@@ -130,6 +146,8 @@ fn scalar_lobe(data: &Data, kernel: &str) -> Option<()> {
         "coated-diffuse-eval" => eval_each(data, &data.coated_diffuse),
         "turquin" => draw_each(data, &data.turquin),
         "turquin-eval" => eval_each(data, &data.turquin),
+        "bounces" => draw_each(data, &data.bounces),
+        "bounces-eval" => eval_each(data, &data.bounces),
         _ => return None,
     }
     Some(())
@@ -160,6 +178,7 @@ fn batch(data: &mut Data, kernel: &str, level: Level) -> Option<()> {
         "heitz" => reflect(Sampler::Heitz),
         "cap" => reflect(Sampler::Cap),
         "bounded" => reflect(Sampler::Bounded),
+        "exact-unequal" => reflect(Sampler::Exact),
         "pdf" => level.reflection_pdf(Sampler::Bounded, alphas, wo, wi, &mut data.pdf),
         _ => return batch_lobe(data, kernel, level),
     };
@@ -171,6 +190,7 @@ fn batch_lobe(data: &mut Data, kernel: &str, level: Level) -> Option<()> {
         "gold" => draw_all(data, |d| d.gold, level),
         "gold-eval" => eval_all(data, |d| d.gold, level),
         "exact" => draw_all(data, |d| d.exact, level),
+        "brushed" => draw_all(data, |d| d.brushed, level),
         "exact-eval" => eval_all(data, |d| d.exact, level),
         "glass" => draw_all(data, |d| d.glass, level),
         "glass-eval" => eval_all(data, |d| d.glass, level),
@@ -181,6 +201,21 @@ fn batch_lobe(data: &mut Data, kernel: &str, level: Level) -> Option<()> {
         "coated-diffuse-eval" => eval_all(data, |d| d.coated_diffuse, level),
         "turquin" => draw_all(data, |d| d.turquin, level),
         "turquin-eval" => eval_all(data, |d| d.turquin, level),
+        "bounces" => {
+            let u = [&data.u[0][..], &data.u[1], &data.u[2]];
+            let samples = data.samples.as_mut_slices();
+            let (wo, streams) = (data.wo.as_slices(), &mut data.streams);
+            level
+                .sample_random(&data.bounces, wo, u, streams, samples)
+                .ok()
+        }
+        "bounces-eval" => {
+            let (wo, wi) = (data.wo.as_slices(), data.wi.as_slices());
+            let (streams, f_cos) = (&mut data.streams, data.f_cos.as_mut_slices());
+            level
+                .eval_pdf_random(&data.bounces, wo, wi, streams, f_cos, &mut data.pdf)
+                .ok()
+        }
         "glass-pdf" => {
             let (wo, wi) = (data.wo.as_slices(), data.wi.as_slices());
             level.pdf(&data.glass, wo, wi, &mut data.pdf).ok()

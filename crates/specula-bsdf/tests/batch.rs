@@ -152,6 +152,7 @@ fn every_lobe_with_batches_is_compared() {
 #[test]
 fn the_baseline_is_the_scalar_code_bit_for_bit() {
     let elements = Elements::<f32>::new(N, 1);
+    let awkward = Elements::<f32>::new(N, 14).with_nan();
     for alpha in ALPHAS {
         macro_rules! each {
             ($name:literal, $lobe:expr) => {{
@@ -159,6 +160,10 @@ fn the_baseline_is_the_scalar_code_bit_for_bit() {
                 let expected = scalar(&lobe, &elements);
                 let got = batch(Level::Baseline, &lobe, &elements);
                 assert!(expected == got, "{}, {alpha:?}: {lobe:?}", $name);
+                // As text, in which NaN is NaN.
+                let expected = format!("{:?}", scalar(&lobe, &awkward));
+                let got = format!("{:?}", batch(Level::Baseline, &lobe, &awkward));
+                assert!(expected == got, "{}, {alpha:?}, NaN: {lobe:?}", $name);
             }};
         }
         for_every_lobe!(f32, alpha, each);
@@ -381,17 +386,30 @@ fn per_element_colours_are_one_lobe_each() {
 
 #[test]
 fn bare_samplers_are_the_scalar_ones() {
-    let elements = Elements::<f32>::new(N, 6);
-    let alpha = Alpha::clamped(0.2_f32, 0.7);
-    let (alpha_x, alpha_y) = (vec![0.2_f32; N], vec![0.7_f32; N]);
-    let textured = Alphas::PerElement {
+    let mixed = Elements::<f32>::new(N, 6);
+    let above = Elements::<f32>::above(N, 15);
+    let nan = Elements::<f32>::above(N, 16).with_nan();
+    for elements in [mixed, above, nan] {
+        for alpha in [[0.2, 0.7], [0.4, 0.4]] {
+            bare_samplers(&elements, alpha);
+        }
+    }
+}
+
+fn bare_samplers(elements: &Elements<f32>, [x, y]: [f32; 2]) {
+    let alpha = Alpha::clamped(x, y);
+    let (alpha_x, alpha_y) = (vec![x; N], vec![y; N]);
+    // Equal alphas among unequal ones.
+    let mut partly = alpha_y.clone();
+    partly[N / 2] = x;
+    let textured = |alpha_y| Alphas::PerElement {
         alpha_x: &alpha_x,
-        alpha_y: &alpha_y,
+        alpha_y,
     };
     let (wo, wi) = (elements.wo.as_slices(), elements.wi.as_slices());
     let u = [&elements.u[1][..], &elements.u[2]];
     for sampler in batch_common::SAMPLERS {
-        for alphas in [Alphas::from(alpha), textured] {
+        for alphas in [Alphas::from(alpha), textured(&alpha_y), textured(&partly)] {
             let mut sampled = Directions::zeroed(N);
             let mut pdf = vec![0.0; N];
             Level::Baseline
@@ -401,6 +419,12 @@ fn bare_samplers_are_the_scalar_ones() {
                 .reflection_pdf(sampler, alphas, wo, wi, &mut pdf)
                 .unwrap();
             for i in 0..N {
+                let alpha = match alphas {
+                    Alphas::Same(alpha) => alpha,
+                    Alphas::PerElement { alpha_x, alpha_y } => {
+                        Alpha::clamped(alpha_x[i], alpha_y[i])
+                    }
+                };
                 let u = [u[0][i], u[1][i]];
                 let (wo, wi) = (
                     wo.get(i).expect("an element"),
@@ -425,12 +449,13 @@ fn bare_samplers_are_the_scalar_ones() {
                     ),
                 };
                 let expected = expected.unwrap_or(Vec3::ZERO);
+                let found = sampled.as_slices().get(i).expect("an element");
+                assert_eq!(found, expected, "{sampler} {i} {wo:?}");
                 assert_eq!(
-                    sampled.as_slices().get(i).expect("an element"),
-                    expected,
+                    format!("{:?}", pdf[i]),
+                    format!("{density:?}"),
                     "{sampler} {i}"
                 );
-                assert_eq!(pdf[i], density, "{sampler} {i}");
             }
         }
     }

@@ -23,6 +23,8 @@ const KERNELS: &[(&str, &[&str])] = &[
     ("gold", &["scalar", "baseline", "avx2"]),
     ("gold-eval", &["scalar", "baseline", "avx2"]),
     ("exact", &["scalar", "baseline", "avx2"]),
+    ("exact-unequal", &["scalar", "baseline", "avx2"]),
+    ("brushed", &["baseline", "avx2"]),
     ("exact-eval", &["avx2"]),
     ("glass", &["scalar", "avx2"]),
     ("glass-eval", &["scalar", "baseline", "avx2"]),
@@ -34,6 +36,8 @@ const KERNELS: &[(&str, &[&str])] = &[
     ("coated-diffuse-eval", &["avx2"]),
     ("turquin", &["avx2"]),
     ("turquin-eval", &["scalar", "avx2"]),
+    ("bounces", &["scalar", "avx2"]),
+    ("bounces-eval", &["scalar", "avx2"]),
 ];
 
 /// Instructions per element of one kernel at one level.

@@ -83,6 +83,16 @@ impl<'a, T: Real> AlphaSlices<'a, T> {
 }
 
 impl<T: Real> AlphaSlices<'_, T> {
+    /// Whether no element is isotropic, once clamped.
+    #[inline(always)]
+    pub(super) fn all_unequal(&self) -> bool {
+        let pairs = self.x.iter().zip(self.y);
+        pairs.fold(true, |all, (&x, &y)| {
+            let alpha = Alpha::clamped(x, y);
+            all & (alpha.x != alpha.y)
+        })
+    }
+
     #[inline(always)]
     pub(super) fn range(&self, start: usize, end: usize) -> Self {
         let count = end - start;

@@ -7,7 +7,7 @@ use super::slices::{Directions, LengthMismatch, check};
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3, vec3};
 use crate::ndf::Ggx;
-use crate::vndf::{self, Sampler};
+use crate::vndf::{self, Sampler, exact};
 
 const WO: [&str; 3] = ["wo.x", "wo.y", "wo.z"];
 const WI: [&str; 3] = ["wi.x", "wi.y", "wi.z"];
@@ -84,13 +84,22 @@ impl<T: Real> Task for Reflections<'_, T> {
     #[inline(always)]
     fn run<A: Arithmetic>(self) {
         let n = self.wi.x.len();
+        let is_exact = self.sampler == Sampler::Exact;
         match self.alpha_values {
-            Alphas::Same(Alpha { x, y }) if x == y && self.sampler == Sampler::Exact => {
-                self.exact::<A::Of<T>>(IsotropicAlpha(convert(x)));
+            Alphas::Same(Alpha { x, y }) if x == y && is_exact => {
+                self.exact::<A::Of<T>, false>(IsotropicAlpha(convert(x)));
+            }
+            Alphas::Same(alpha) if is_exact => {
+                self.exact::<A::Of<T>, true>(OneAlpha(alpha.recast()));
             }
             Alphas::Same(alpha) => self.with::<A::Of<T>>(OneAlpha(alpha.recast())),
             Alphas::PerElement { alpha_x, alpha_y } => {
-                self.with::<A::Of<T>>(AlphaSlices::first(alpha_x, alpha_y, n));
+                let alphas = AlphaSlices::first(alpha_x, alpha_y, n);
+                if is_exact && alphas.all_unequal() {
+                    self.exact::<A::Of<T>, true>(alphas);
+                } else {
+                    self.with::<A::Of<T>>(alphas);
+                }
             }
         }
     }
@@ -108,12 +117,12 @@ impl<T: Real> Reflections<'_, T> {
         }
     }
 
-    /// Exact reflections of isotropic alpha. Where all views lie above the horizon, the loop is spared
-    /// the sampler that serves views below.
+    /// Exact reflections. Where all views lie above the horizon, the loop is spared the sampler that serves views below, and
+    /// the choice between equal alphas and `UNEQUAL` ones. Without blends (SSE2, NEON) neither leaves a vector loop.
     #[inline(always)]
-    fn exact<U: Real>(self, alpha_values: IsotropicAlpha<U>) {
-        let below = self.wo.z.iter().fold(false, |any, &z| any | (z <= T::TINY));
-        if below {
+    fn exact<U: Real, const UNEQUAL: bool>(self, alpha_values: impl AlphaAt<U>) {
+        let above = self.wo.z.iter().fold(true, |all, &z| all & (z > T::TINY));
+        if !above {
             return self.sampled_by(Sampler::Exact, alpha_values);
         }
         let n = self.wi.x.len();
@@ -121,12 +130,16 @@ impl<T: Real> Reflections<'_, T> {
         let (wo, u0, u1) = (self.wo.first(n), &u0[..n], &u1[..n]);
         let mut wi = self.wi.first(n);
         for i in 0..n {
-            let ndf = Ggx::new(alpha_values.at(i));
             let u = [convert(u0[i]), convert(u1[i])];
             let wo: Vec3<U> = wo.get_as(i);
             // Known to be above.
             let wo = vec3(wo.x, wo.y, wo.z.at_least(U::TINY));
-            let sampled = ndf.sample_reflection(Sampler::Exact, wo, u);
+            let alpha = alpha_values.at(i);
+            let sampled = if UNEQUAL {
+                exact::sample_along_chords(alpha, wo, u)
+            } else {
+                exact::sample_direction(alpha, wo, u)
+            };
             let above = sampled.z > U::ZERO;
             wi.set_from(i, if above { sampled } else { Vec3::ZERO });
         }

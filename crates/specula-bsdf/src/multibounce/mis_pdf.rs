@@ -70,7 +70,23 @@ impl FromStr for MisPdf {
 
 /// The density `mis` of a reflected `wi`, in 1/sr; 0 where `wi.z <= 0`, above 0 elsewhere.
 #[inline(always)]
-pub(crate) fn reflection<T: Real, N: Ndf<T>>(mis: MisPdf, ndf: &N, wo: Vec3<T>, wi: Vec3<T>) -> T {
+pub(crate) fn reflection<T: Real, N: VisibleNormals<T>>(
+    mis: MisPdf,
+    ndf: &N,
+    wo: Vec3<T>,
+    wi: Vec3<T>,
+) -> T {
+    reflection_of::<T, N, { normalised::SOME }>(mis, ndf, wo, wi)
+}
+
+/// [`reflection`], by these terms of the normalised density.
+#[inline(always)]
+pub(crate) fn reflection_of<T: Real, N: VisibleNormals<T>, const TERMS: u8>(
+    mis: MisPdf,
+    ndf: &N,
+    wo: Vec3<T>,
+    wi: Vec3<T>,
+) -> T {
     if wi.z <= T::ZERO {
         return T::ZERO;
     }
@@ -80,7 +96,7 @@ pub(crate) fn reflection<T: Real, N: Ndf<T>>(mis: MisPdf, ndf: &N, wo: Vec3<T>, 
             let alpha = ndf.alpha();
             first_facet(ndf, wo, wi) + hapke(T::HALF * (alpha.x + alpha.y), wo.z.abs(), wi.z)
         }
-        MisPdf::Normalised => normalised::pdf(ndf, wo, wi),
+        MisPdf::Normalised => normalised::pdf_of::<T, N, TERMS>(ndf, wo, wi),
     }
 }
 

@@ -56,6 +56,20 @@ impl<T: Real> Elements<T> {
         Self { wo, wi, u }
     }
 
+    /// Some components that are not numbers.
+    pub(crate) fn with_nan(mut self) -> Self {
+        let nan = T::of(f64::NAN);
+        for directions in [&mut self.wo, &mut self.wi] {
+            for (i, x) in directions.x.iter_mut().enumerate() {
+                *x = if i % 11 == 3 { nan } else { *x };
+            }
+            for (i, z) in directions.z.iter_mut().enumerate() {
+                *z = if i % 7 == 2 { nan } else { *z };
+            }
+        }
+        self
+    }
+
     pub(crate) fn u(&self) -> [&[T]; 3] {
         [&self.u[0], &self.u[1], &self.u[2]]
     }

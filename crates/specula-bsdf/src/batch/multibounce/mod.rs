@@ -32,9 +32,11 @@ use super::recast::{Recast, convert};
 use super::slices::{Colours, Directions, LengthMismatch, SampleOutcome, Samples, check};
 use crate::bsdf::{Bsdf, BsdfSample, Event, MultibounceConductor, Transport};
 use crate::math::{Real, Stream};
-use crate::multibounce::mis_pdf::reflection;
+use crate::multibounce::mis_pdf::reflection_of;
+use crate::multibounce::normalised;
 use crate::multibounce::walk::Facets;
 use crate::multibounce::{MisPdf, MultibounceModel};
+use crate::ndf::Ndf as _;
 
 const WO: [&str; 3] = ["wo.x", "wo.y", "wo.z"];
 
@@ -123,19 +125,31 @@ impl Level {
     }
 }
 
-/// Runs `$body` with `$mis` standing for a known density, so that the loop in it does not branch.
+/// Runs `$body` with `$mis` standing for a known density, and the constant `TERMS` for its terms, so that the loop in it does
+/// not branch.
 macro_rules! per_density {
-    ($density:expr, $mis:ident => $body:expr) => {
-        match $density {
-            MisPdf::Lambert => {
+    ($metal:expr, $mis:ident => $body:expr) => {
+        match (
+            $metal.mis_pdf(),
+            normalised::terms($metal.facets().ndf.alpha()),
+        ) {
+            (MisPdf::Lambert, _) => {
+                const TERMS: u8 = normalised::ALL;
                 let $mis = MisPdf::Lambert;
                 $body
             }
-            MisPdf::Hapke => {
+            (MisPdf::Hapke, _) => {
+                const TERMS: u8 = normalised::ALL;
                 let $mis = MisPdf::Hapke;
                 $body
             }
-            MisPdf::Normalised => {
+            (MisPdf::Normalised, normalised::RAISED) => {
+                const TERMS: u8 = normalised::RAISED;
+                let $mis = MisPdf::Normalised;
+                $body
+            }
+            (MisPdf::Normalised, _) => {
+                const TERMS: u8 = normalised::ALL;
                 let $mis = MisPdf::Normalised;
                 $body
             }
@@ -190,8 +204,8 @@ impl<T: Real> Task for EvalPdf<'_, T> {
             let f_cos = self.f_cos.range(start, end).first(count);
             evals.eval(&facets, wo, wi, streams, f_cos);
             let pdf = &mut self.pdf[start..end][..count];
-            per_density!(self.metal.mis_pdf(), mis => for (i, pdf) in pdf.iter_mut().enumerate() {
-                *pdf = convert(reflection(mis, &facets.ndf, wo.get_as(i), wi.get_as(i)));
+            per_density!(self.metal, mis => for (i, pdf) in pdf.iter_mut().enumerate() {
+                *pdf = convert(reflection_of::<_, _, TERMS>(mis, &facets.ndf, wo.get_as(i), wi.get_as(i)));
             });
             start = end;
         }
@@ -231,8 +245,8 @@ impl<T: Real> Task for Sample<'_, T> {
             let u = [&self.u[1][start..end], &self.u[2][start..end]];
             walks.sample(&facets, wo, u, &mut self.streams[start..end]);
             let mut samples = self.samples.range(start, end).first(count);
-            per_density!(self.metal.mis_pdf(), mis => for i in 0..count {
-                samples.set_from(i, with_density(mis, &facets, &walks, i));
+            per_density!(self.metal, mis => for i in 0..count {
+                samples.set_from(i, with_density::<_, TERMS>(mis, &facets, &walks, i));
             });
             start = end;
         }
@@ -241,14 +255,14 @@ impl<T: Real> Task for Sample<'_, T> {
 
 /// The sample of element `i` with its density; `None` where the walk did not leave.
 #[inline(always)]
-fn with_density<U: Real>(
+fn with_density<U: Real, const TERMS: u8>(
     mis: MisPdf,
     facets: &Metal<U>,
     walks: &SampleWalks<U>,
     i: usize,
 ) -> Option<BsdfSample<U>> {
     let (wi, weight) = (walks.wi.at(i), walks.weight.at(i));
-    let pdf = reflection(mis, &facets.ndf, walks.wo.at(i), wi);
+    let pdf = reflection_of::<_, _, TERMS>(mis, &facets.ndf, walks.wo.at(i), wi);
     let is_sampled = (wi.z > U::ZERO) & (pdf > U::ZERO) & pdf.is_finite();
     is_sampled.then_some(BsdfSample {
         wi,

@@ -32,15 +32,20 @@ pub(super) use cone::Cone;
 #[inline(always)]
 pub fn sample_direction<T: Real>(alpha: Alpha<T>, wo: Vec3<T>, u: [T; 2]) -> Vec3<T> {
     if wo.z > T::ZERO {
-        let m = if alpha.x == alpha.y {
-            isotropic::half_vector(alpha, wo, u)
+        if alpha.x == alpha.y {
+            reflect_unnormalised(wo, isotropic::half_vector(alpha, wo, u))
         } else {
-            half_vector(alpha, &Cone::new(alpha, wo), u)
-        };
-        reflect_unnormalised(wo, m)
+            sample_along_chords(alpha, wo, u)
+        }
     } else {
         cap::sample_direction(alpha, wo, u)
     }
+}
+
+/// [`sample_direction`] of a view above the horizon, `wo.z > 0`, for unequal alphas.
+#[inline(always)]
+pub(crate) fn sample_along_chords<T: Real>(alpha: Alpha<T>, wo: Vec3<T>, u: [T; 2]) -> Vec3<T> {
+    reflect_unnormalised(wo, half_vector(alpha, &Cone::new(alpha, wo), u))
 }
 
 /// The radius of a point of the disk. Its rim is the horizon, below which rounding would leave some.

@@ -52,9 +52,15 @@ pub(super) const ELSEWHERE: &[(&str, &str)] = &[
     ),
     (
         "mis_normalised and normalised_directions",
-        "normalised_takes normalised_sent normalised_met normalised_slow normalised_fast
-         normalised_at normalised_maps normalised_stays normalised_turn normalised_to_axis
-         normalised_of_axis normalised_roll_back normalised_roll normalised_horizontal",
+        "normalised_takes normalised_sent normalised_rolled_sent normalised_met normalised_low
+         normalised_opposite normalised_flight normalised_view normalised_stays
+         normalised_to_grain normalised_maps_odds normalised_maps_odds_inverse
+         normalised_maps_at normalised_maps_horizontal normalised_maps_turn
+         normalised_maps_rise_back normalised_maps_rise_send normalised_maps_rolled
+         normalised_maps_roll_back normalised_maps_roll_send normalised_lobes_cumulative
+         normalised_lobes_inverse normalised_lobes_round normalised_lobes_round_density
+         normalised_lobes_round_direction normalised_lobes_cone normalised_lobes_cone_density
+         normalised_lobes_cone_direction",
     ),
     ("stratified_bidirectional_value", "stratified_bidirectional_stratum stratified_bidirectional_goes_on stratified_bidirectional_walk"),
     ("wang_value and wang_sample", "wang2022_leaves"),
@@ -119,8 +125,20 @@ pub(super) const FAULTS: &[Fault] = &[
     fault(
         "mis_normalised",
         "multibounce/normalised",
-        "0.45 * rolled",
-        "0.46 * rolled",
+        "1.72 * smooth_part",
+        "1.74 * smooth_part",
+    ),
+    fault(
+        "mis_normalised",
+        "multibounce/normalised_maps",
+        "ROLLED_UP: f32 = 0.88;",
+        "ROLLED_UP: f32 = 0.9;",
+    ),
+    fault(
+        "mis_normalised",
+        "multibounce/normalised_lobes",
+        "-1.02 * wo.x",
+        "-1.03 * wo.x",
     ),
     fault("mis_hapke", "multibounce/mis_pdf", "0.975", "0.974"),
     fault(
