@@ -167,25 +167,30 @@ fn distances<N: VisibleNormals<f64>>(ndf: N, wo: Vec3<f64>, count: u32) -> [f64;
 fn normalised_density_is_closest_to_the_walks() {
     const COUNT: u32 = 60_000;
     let (listed, random) = cases();
-    let of = |(alphas, view, azimuth): Case| {
+    let cases: Vec<Case> = listed.iter().chain(&random).copied().collect();
+    // Beckmann's normals are found by iteration: a third of the cases.
+    let of = |(i, case): (usize, &Case)| {
+        let (alphas, view, azimuth) = *case;
         let wo = at(view, azimuth);
         let ggx = distances(Ggx::new(alpha(alphas)), wo, COUNT);
-        [ggx, distances(Beckmann::new(alpha(alphas)), wo, COUNT)]
+        let beckmann = (i % 3 == 0).then(|| distances(Beckmann::new(alpha(alphas)), wo, COUNT));
+        (ggx, beckmann)
     };
-    let cases: Vec<Case> = listed.iter().chain(&random).copied().collect();
-    let all: Vec<_> = cases.par_iter().map(|case| of(*case)).collect();
+    let all: Vec<_> = cases.par_iter().enumerate().map(of).collect();
     let mut sums = [0.0; 3];
-    for (i, (case, two)) in cases.iter().zip(&all).enumerate() {
-        for (name, distance) in ["GGX", "Beckmann"].iter().zip(two) {
-            let [lambert, hapke, specula] = *distance;
+    for (i, (case, (ggx, beckmann))) in cases.iter().zip(&all).enumerate() {
+        for (name, distance) in [("GGX", Some(ggx)), ("Beckmann", beckmann.as_ref())] {
+            let Some([lambert, hapke, specula]) = distance else {
+                continue;
+            };
             println!("{name} {case:?}: lambert {lambert:.4} hapke {hapke:.4} specula {specula:.4}");
             assert!(
-                specula < lambert.min(hapke) + 0.015,
+                *specula < lambert.min(*hapke) + 0.015,
                 "{name} {case:?}: {distance:?}"
             );
         }
         if (listed.len()..listed.len() + 60).contains(&i) {
-            for (sum, d) in sums.iter_mut().zip(two[0]) {
+            for (sum, d) in sums.iter_mut().zip(ggx) {
                 *sum += d / 60.0;
             }
         }

@@ -16,6 +16,7 @@ mod interface_single;
 mod memory;
 mod metals;
 mod msrv;
+mod mutants;
 mod no_std;
 mod plastic;
 mod profile;
@@ -66,6 +67,8 @@ enum Chore {
     Test(suite::Suite),
     /// Check that every set of features that users choose compiles
     Features,
+    /// Try faults made by machine in `specula-bsdf`: which do its tests notice?
+    Mutants(mutants::Sample),
     /// Run the benches
     Bench {
         /// Passed on to `cargo bench --workspace`
@@ -132,6 +135,7 @@ fn run(chore: &Chore) -> Result<()> {
         Chore::Tables { check } => tables::run(&root, *check),
         Chore::Test(suite) => suite::run(&root, suite),
         Chore::Features => feature_sets::run(&root),
+        Chore::Mutants(sample) => mutants::run(&root, sample),
         Chore::Bench { arguments } => bench::run(&root, arguments),
         Chore::Exact { figure: true, .. } => {
             generated::apply(&root, &exact::generate(&root)?, false)

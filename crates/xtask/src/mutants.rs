@@ -1,0 +1,170 @@
+//! `cargo xtask mutants`: faults made by machine in `specula-bsdf`, and whether its tests and those of `specula-stat` notice.
+//!
+//! cargo-mutants lists some 8000 faults: an operator for another, a constant for a function's value. A sample of them is
+//! built and tested one by one, in a copy of the workspace. What survives is equivalent, or a test is missing.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitStatus};
+
+use crate::{Result, workspace};
+
+/// Version of cargo-mutants.
+const VERSION: &str = "27.1.0";
+
+/// Programs of tests: a minute in all. The statistical ones are too long to run for each fault.
+const TESTS: &[&str] = &[
+    "awkward_directions",
+    "batch",
+    "batch_accuracy",
+    "batch_multibounce",
+    "coats_of_pbrt",
+    "colours",
+    "extremes",
+    "known_values",
+    "lobes",
+    "no_panics",
+    "samplers",
+    "tints",
+    "values_of_mitsuba",
+];
+
+/// Which faults to try.
+#[derive(clap::Args)]
+pub(crate) struct Sample {
+    /// About so many; 40 take half an hour on two cores
+    #[arg(long, default_value_t = 40)]
+    count: usize,
+    /// Chooses them: the next seed takes the next ones of the list
+    #[arg(long, default_value_t = 1)]
+    seed: usize,
+    /// Of these files only: a glob, such as '**/vndf/*.rs'
+    #[arg(long, value_name = "GLOB")]
+    file: Vec<String>,
+    /// Where the report is written, in a folder mutants.out
+    #[arg(long, value_name = "DIR", default_value = "target")]
+    output: PathBuf,
+}
+
+/// Tries the sample, and prints which share is caught.
+pub(crate) fn run(root: &Path, sample: &Sample) -> Result<()> {
+    let program = installed(root)?;
+    let mut list = command(root, &program, sample);
+    let list = list.arg("--list").output()?;
+    if !list.status.success() {
+        return Err(String::from_utf8_lossy(&list.stderr).into());
+    }
+    let all = String::from_utf8_lossy(&list.stdout).lines().count();
+    let (shard, shards) = shard(all, sample)?;
+    let mut mutants = command(root, &program, sample);
+    mutants.args(["--sharding", "round-robin", "--shard"]);
+    mutants.arg(format!("{shard}/{shards}"));
+    mutants.args(["--profile", "mutants", "--cap-lints", "true"]);
+    // The first build compiles all; a fault that never ends is caught by time.
+    mutants.args(["--build-timeout", "900", "--timeout", "240"]);
+    mutants.arg("--output").arg(&sample.output);
+    for package in ["specula-bsdf", "specula-stat"] {
+        mutants.args(["--test-package", package]);
+    }
+    mutants.args(["--", "--lib"]);
+    for test in TESTS {
+        mutants.args(["--test", test]);
+    }
+    println!("every {shards}th of {all} faults, from the {shard}th on");
+    verdict(mutants.status()?)?;
+    let folder = sample.output.join("mutants.out");
+    let count = |name: &str| {
+        let text = std::fs::read_to_string(folder.join(name)).unwrap_or_default();
+        text.lines().count()
+    };
+    let caught = count("caught.txt") + count("timeout.txt");
+    let viable = caught + count("missed.txt");
+    println!(
+        "{caught} of {viable} faults that compile are caught; the others are in {}",
+        folder.join("missed.txt").display()
+    );
+    Ok(())
+}
+
+/// Which part of how many is the sample.
+fn shard(all: usize, sample: &Sample) -> Result<(usize, usize)> {
+    if all == 0 || sample.count == 0 {
+        return Err("no faults to try".into());
+    }
+    let shards = (all / sample.count).max(1);
+    Ok((sample.seed % shards, shards))
+}
+
+/// Faults that survive are a result, not a failure.
+fn verdict(status: ExitStatus) -> Result<()> {
+    const SURVIVORS: i32 = 2;
+    const TIMEOUTS: i32 = 3;
+    match status.code() {
+        Some(0 | SURVIVORS | TIMEOUTS) => Ok(()),
+        _ => Err(format!("cargo-mutants ended with {status}").into()),
+    }
+}
+
+fn command(root: &Path, program: &Path, sample: &Sample) -> Command {
+    let mut command = Command::new(program);
+    command.current_dir(root);
+    command.args(["mutants", "--package", "specula-bsdf"]);
+    for file in &sample.file {
+        command.args(["--file", file]);
+    }
+    command
+}
+
+/// cargo-mutants in `target/mutants-tools`, installed where it is missing.
+fn installed(root: &Path) -> Result<PathBuf> {
+    let folder = root.join("target/mutants-tools");
+    let program = folder.join("bin/cargo-mutants");
+    let version = Command::new(&program)
+        .args(["mutants", "--version"])
+        .output();
+    let is_right = version.is_ok_and(|v| String::from_utf8_lossy(&v.stdout).contains(VERSION));
+    if !is_right {
+        println!("installing cargo-mutants {VERSION} in {}", folder.display());
+        let mut install = workspace::cargo(root);
+        install.args(["install", "cargo-mutants", "--quiet", "--locked", "--force"]);
+        install.args(["--debug", "--version", VERSION, "--root"]);
+        if !install.arg(&folder).status()?.success() {
+            return Err(format!("cargo-mutants {VERSION} could not be installed").into());
+        }
+    }
+    Ok(program)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample(count: usize, seed: usize) -> Sample {
+        Sample {
+            count,
+            seed,
+            file: Vec::new(),
+            output: PathBuf::new(),
+        }
+    }
+
+    #[test]
+    fn seeds_take_other_parts() {
+        assert_eq!(shard(8000, &sample(40, 1)).unwrap(), (1, 200));
+        assert_eq!(shard(8000, &sample(40, 203)).unwrap(), (3, 200));
+        assert_eq!(shard(10, &sample(40, 7)).unwrap(), (0, 1));
+        assert!(shard(0, &sample(40, 1)).is_err());
+        assert!(shard(10, &sample(0, 1)).is_err());
+    }
+
+    #[test]
+    fn every_program_of_tests_exists() {
+        let root = workspace::root();
+        for test in TESTS {
+            let file = |package: &str| root.join(format!("crates/{package}/tests/{test}.rs"));
+            assert!(
+                file("specula-bsdf").exists() || file("specula-stat").exists(),
+                "{test}"
+            );
+        }
+    }
+}
