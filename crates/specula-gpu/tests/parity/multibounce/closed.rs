@@ -17,6 +17,7 @@ use crate::harness::{Case, Twin, alpha, product, round, twins, vector};
 /// Every case of this file.
 pub(super) fn closed() -> Vec<Case> {
     let mut cases = densities();
+    cases.extend(normalised());
     cases.extend(flights());
     cases.extend(depths());
     cases.extend(sides());
@@ -80,6 +81,12 @@ fn densities() -> Vec<Case> {
             "MIS_PDF_NORMALISED",
             MisPdf::Normalised
         ),
+    ]
+}
+
+fn normalised() -> Vec<Case> {
+    let modules: &[&str] = &["mis_pdf", "reflectance", "distribution"];
+    vec![
         Case::new(
             "normalised_of_beckmann",
             modules,
