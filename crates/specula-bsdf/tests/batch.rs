@@ -414,10 +414,10 @@ fn bare_samplers(elements: &Elements<f32>, [x, y]: [f32; 2]) {
             let mut pdf = vec![0.0; N];
             Level::Baseline
                 .sample_reflection(sampler, alphas, wo, u, sampled.as_mut_slices())
-                .unwrap();
+                .expect("equal lengths");
             Level::Baseline
                 .reflection_pdf(sampler, alphas, wo, wi, &mut pdf)
-                .unwrap();
+                .expect("equal lengths");
             for i in 0..N {
                 let alpha = match alphas {
                     Alphas::Same(alpha) => alpha,
