@@ -144,7 +144,7 @@ fn verdict(trials: &[Trial; 9], truth: &Reference) -> Verdict {
         ],
         caveat: format!(
             "Pots and environment of our own, on a floor so dark that noise is of the metal; direct \
-             light only, the environment sampled by luminance. (DirectionSample by what exceeds \
+             light only, the environment sampled by luminance. (Sampled by what exceeds \
              the environment's mean, as Specula does, it leaves Cui's bidirectional estimator the same noise \
              with each density.) The paper does not say which of its estimators it shows. A smaller density \
              gives samples of the light more weight, whose evaluation is noisy: that pays only with a \
