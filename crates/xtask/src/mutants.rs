@@ -117,17 +117,14 @@ fn command(root: &Path, program: &Path, sample: &Sample) -> Command {
 /// cargo-mutants in `target/mutants-tools`, installed where it is missing.
 fn installed(root: &Path) -> Result<PathBuf> {
     let folder = root.join("target/mutants-tools");
-    let program = folder.join("bin/cargo-mutants");
+    let program = folder.join(format!("bin/cargo-mutants{}", std::env::consts::EXE_SUFFIX));
     let version = Command::new(&program)
         .args(["mutants", "--version"])
         .output();
     let is_right = version.is_ok_and(|v| String::from_utf8_lossy(&v.stdout).contains(VERSION));
     if !is_right {
-        println!("installing cargo-mutants {VERSION} in {}", folder.display());
-        let mut install = workspace::cargo(root);
-        install.args(["install", "cargo-mutants", "--quiet", "--locked", "--force"]);
-        install.args(["--debug", "--version", VERSION, "--root"]);
-        if !install.arg(&folder).status()?.success() {
+        let mut install = workspace::install(root, &folder, "cargo-mutants", VERSION);
+        if !install.status()?.success() {
             return Err(format!("cargo-mutants {VERSION} could not be installed").into());
         }
     }

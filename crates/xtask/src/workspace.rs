@@ -34,6 +34,23 @@ pub(crate) fn cargo(root: &Path) -> Command {
     command
 }
 
+/// A command that installs this version of a crate's program in `folder/bin`, and says so.
+pub(crate) fn install(root: &Path, folder: &Path, name: &str, version: &str) -> Command {
+    println!("installing {name} {version} in {}", folder.display());
+    let mut install = cargo(root);
+    install
+        .args(["install", name, "--quiet", "--locked", "--force"])
+        .args(["--version", &format!("={version}")])
+        // Such programs take seconds without optimisation; to optimise and to describe them takes minutes.
+        .arg("--debug")
+        .env("CARGO_PROFILE_DEV_DEBUG", "false")
+        .arg("--root")
+        .arg(folder)
+        .arg("--target-dir")
+        .arg(folder.join("build"));
+    install
+}
+
 /// Every `.rs` file under `crates`, sorted; folders named `target` are left out.
 pub(crate) fn rust_files(root: &Path) -> Result<Vec<PathBuf>> {
     let mut files = Vec::new();

@@ -18,19 +18,8 @@ pub(super) fn mdbook(root: &Path) -> Result<PathBuf> {
             return Ok(program.to_owned());
         }
     }
-    println!("installing mdBook {VERSION} in {}", folder.display());
-    let mut install = workspace::cargo(root);
-    install
-        .args(["install", "mdbook", "--quiet", "--locked", "--force"])
-        .args(["--version", &format!("={VERSION}")])
-        .args(["--no-default-features", "--features", "search"])
-        // The book takes seconds without optimisation; to optimise and to describe mdBook takes minutes.
-        .arg("--debug")
-        .env("CARGO_PROFILE_DEV_DEBUG", "false")
-        .arg("--root")
-        .arg(&folder)
-        .arg("--target-dir")
-        .arg(folder.join("build"));
+    let mut install = workspace::install(root, &folder, "mdbook", VERSION);
+    install.args(["--no-default-features", "--features", "search"]);
     if !install.status()?.success() {
         return Err(format!("mdBook {VERSION} could not be installed").into());
     }

@@ -51,7 +51,7 @@ use super::walk::Flight;
 use crate::alpha::Alpha;
 use crate::math::{Real, Vec3, vec3, warp};
 use crate::ndf::Ndf;
-use crate::vndf::VisibleNormals;
+use crate::vndf::{VisibleNormals, reflect};
 
 /// A cosine lobe's share, so that the density is above 0 where D underflows.
 const FLOOR: f64 = 1e-4;
@@ -186,8 +186,7 @@ fn opposite<T: Real>([height, turn]: [T; 2]) -> [T; 2] {
 #[inline(always)]
 fn flight<T: Real, N: VisibleNormals<T>>(ndf: &N, wo: Vec3<T>, u: [T; 2]) -> Vec3<T> {
     let inside = |u: T| u.within(T::ZERO, T::ONE - T::EPSILON);
-    let wm = ndf.sample_wm(wo, [inside(u[0]), inside(u[1])]);
-    wm * (T::TWO * wo.dot(wm)) - wo
+    reflect(wo, ndf.sample_wm(wo, [inside(u[0]), inside(u[1])]))
 }
 
 /// `D` of the facet that turns `wo` to `w`.
