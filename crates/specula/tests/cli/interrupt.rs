@@ -4,6 +4,7 @@ use std::io::{BufRead, BufReader};
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Child, ChildStderr, Command, ExitStatus, Stdio};
+use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
 use crate::common::{send, small_scene, specula};
@@ -65,11 +66,21 @@ impl Render {
         }
     }
 
-    /// Its end, within a minute.
+    /// Its end. After a minute it is killed: a signal that the tests were started to ignore, by `nohup` for example, it
+    /// ignores as well.
     fn end(mut self) -> (ExitStatus, String) {
         let start = Instant::now();
+        let id = self.child.id();
+        let (ended, end) = channel::<()>();
+        let watch = std::thread::spawn(move || {
+            if end.recv_timeout(Duration::from_secs(60)) == Err(RecvTimeoutError::Timeout) {
+                send("KILL", id);
+            }
+        });
         while self.said.read_line(&mut self.text).expect("text") > 0 {}
         let status = self.child.wait().expect("it ends");
+        drop(ended);
+        watch.join().expect("the watch ends");
         assert!(start.elapsed() < Duration::from_secs(60), "{}", self.text);
         (status, self.text)
     }
