@@ -1,9 +1,11 @@
 //! One compute kernel over arrays: upload, run, read back.
 
+use std::borrow::Cow;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
 use crate::adapter::{Gpu, GpuError};
+use crate::dead_branches;
 use crate::queries::Structures;
 use crate::stage::{RayBindings, Slot, Stage, filled, layout};
 
@@ -27,16 +29,21 @@ pub struct Arrays {
 }
 
 impl Gpu {
-    /// Compiles WGSL.
+    /// Compiles WGSL, without branches that its constants rule out.
     ///
     /// # Errors
     /// [`GpuError::Shader`] with the compiler's text where it does not compile.
     pub fn shader(&self, label: &str, source: &str) -> Result<wgpu::ShaderModule, GpuError> {
+        // What is no WGSL is refused with the text that tells where.
+        let source = match dead_branches::parsed(source) {
+            Some(module) => wgpu::ShaderSource::Naga(Cow::Owned(module)),
+            None => wgpu::ShaderSource::Wgsl(source.into()),
+        };
         let module = self.caught(|gpu| {
             gpu.device
                 .create_shader_module(wgpu::ShaderModuleDescriptor {
                     label: Some(label),
-                    source: wgpu::ShaderSource::Wgsl(source.into()),
+                    source,
                 })
         });
         module.map_err(|error| error.of_shader(label))

@@ -2,6 +2,7 @@
 
 pub mod adapter;
 pub mod compute;
+mod dead_branches;
 mod error;
 mod experimental;
 mod path_kernels;
