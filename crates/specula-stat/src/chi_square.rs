@@ -339,7 +339,7 @@ impl Grid {
         let samples = f64::from(options.samples);
         let quadrature = Quadrature {
             relative_tolerance: 1e-4,
-            absolute_tolerance: 0.03 / samples,
+            absolute_tolerance: 2e-3 / samples,
             max_patches: 1000,
             peaks: options.peaks.clone(),
             ..Quadrature::default()
@@ -365,9 +365,7 @@ impl Grid {
         }
         let most = samples / f64::from(options.cells.max(1));
         while let Some((node, patch, depth)) = pending.pop() {
-            // What is split in any case need not be known better.
-            let is_split = |[value]: [f64; 1], error| (value - error) * samples > most;
-            let integral = quadrature.integrate_until(patch, |w| [pdf(w)], is_split);
+            let integral = quadrature.integrate(patch, |w| [pdf(w)]);
             let expected = integral.value[0] * samples;
             if expected > most && depth < 40 {
                 let (halves, axis, at) = patch.bisect();

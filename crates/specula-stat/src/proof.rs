@@ -112,8 +112,8 @@ fn prove_view(
     edges.extend([1.0, plan.eta, 1.0 / plan.eta].map(|e| -wo.z * e));
     let peaks = peaks(wo, plan);
     let quadrature = Quadrature {
-        relative_tolerance: 1e-4,
-        absolute_tolerance: 1e-5,
+        relative_tolerance: 1e-5,
+        absolute_tolerance: 1e-7,
         peaks: peaks.clone(),
         ..Quadrature::default()
     };

@@ -179,18 +179,6 @@ impl Quadrature {
         patch: Patch,
         f: impl Fn(Vec3<f64>) -> [f64; N],
     ) -> Integral<N> {
-        self.integrate_until(patch, f, |_, _| false)
-    }
-
-    /// [`integrate`](Self::integrate), which may end before the tolerance is reached.
-    ///
-    /// * `is_enough`: of the value and the estimate of its error.
-    pub(crate) fn integrate_until<const N: usize>(
-        &self,
-        patch: Patch,
-        f: impl Fn(Vec3<f64>) -> [f64; N],
-        is_enough: impl Fn([f64; N], f64) -> bool,
-    ) -> Integral<N> {
         let rule = Rule::new();
         let mut evaluations = 0;
         let mut measure = |patch: Patch| {
@@ -205,8 +193,7 @@ impl Quadrature {
             let goal = self
                 .absolute_tolerance
                 .max(self.relative_tolerance * magnitude);
-            let is_done = error <= goal || is_enough(value, error);
-            if is_done || heap.len() >= self.max_patches || !error.is_finite() {
+            if error <= goal || heap.len() >= self.max_patches || !error.is_finite() {
                 break;
             }
             let Some(worst) = heap.pop() else { break };
