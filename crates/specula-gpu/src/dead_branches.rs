@@ -6,57 +6,54 @@
 use wgpu::naga::compact::{KeepUnused, compact};
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 use wgpu::naga::{
-    Arena, BinaryOperator, Block, Expression, Function, Handle, Literal, LocalVariable, Module,
-    Statement, UnaryOperator, front,
+    Arena, BinaryOperator, Block, Constant, Expression, Function, Handle, Literal, LocalVariable,
+    Module, Statement, UnaryOperator, front,
 };
 
 /// The module of a WGSL text, without branches that are never taken; `None` where the text is no valid WGSL.
 pub(crate) fn parsed(text: &str) -> Option<Module> {
     let mut module = front::wgsl::parse_str(text).ok()?;
+    // Compaction panics where the module is not valid.
     let mut validator = Validator::new(ValidationFlags::all(), Capabilities::all());
     validator.validate(&module).ok()?;
-    prune_all(&mut module);
-    // Expressions of branches that are gone.
-    compact(&mut module, KeepUnused::Yes);
-    Some(module)
-}
-
-fn prune_all(module: &mut Module) {
     let Module {
         functions,
         entry_points,
         constants,
         global_expressions,
         ..
-    } = module;
-    let constant = |expression: &Expression| match *expression {
-        Expression::Literal(literal) => Some(literal),
-        Expression::Constant(handle) => match global_expressions[constants[handle].init] {
-            Expression::Literal(literal) => Some(literal),
-            _ => None,
-        },
-        _ => None,
-    };
+    } = &mut module;
     let entries = entry_points.iter_mut().map(|entry| &mut entry.function);
     for function in functions.iter_mut().map(|(_, f)| f).chain(entries) {
-        prune(function, &constant);
+        prune(function, constants, global_expressions);
     }
+    // Expressions of branches that are gone.
+    compact(&mut module, KeepUnused::Yes);
+    Some(module)
 }
 
-fn prune(function: &mut Function, constant: &dyn Fn(&Expression) -> Option<Literal>) {
+fn prune(
+    function: &mut Function,
+    constants: &Arena<Constant>,
+    global_expressions: &Arena<Expression>,
+) {
     // Names keep the expressions of a branch that is gone.
     function.named_expressions.clear();
+    let mut stores = Vec::new();
     // A temporary of `a && b` may be a constant once a branch is gone, and rule out another.
     loop {
         let values = Values {
             expressions: &function.expressions,
-            constant,
-            temporaries: temporaries(function, constant),
+            constants,
+            global_expressions,
+            variables: &function.local_variables,
+            stores: &stores,
         };
-        let mut is_changed = false;
-        let body = values.taken(std::mem::take(&mut function.body), &mut is_changed);
+        let mut kept = Kept::default();
+        let body = values.taken(std::mem::take(&mut function.body), &mut kept);
         function.body = body;
-        if !is_changed {
+        stores = kept.stores;
+        if !kept.is_changed {
             return;
         }
     }
@@ -65,15 +62,33 @@ fn prune(function: &mut Function, constant: &dyn Fn(&Expression) -> Option<Liter
 /// What is known of a function's values before it runs.
 struct Values<'a> {
     expressions: &'a Arena<Expression>,
-    /// Of literals and the module's constants.
-    constant: &'a dyn Fn(&Expression) -> Option<Literal>,
-    /// Values of temporaries that are stored once.
-    temporaries: Vec<(Handle<LocalVariable>, Literal)>,
+    constants: &'a Arena<Constant>,
+    global_expressions: &'a Arena<Expression>,
+    variables: &'a Arena<LocalVariable>,
+    /// All stores, pointers and values; none in the first round, which does not know of them.
+    stores: &'a [Store],
+}
+
+/// The pointer and the value.
+type Store = (Handle<Expression>, Handle<Expression>);
+
+/// What a round has found.
+#[derive(Default)]
+struct Kept {
+    stores: Vec<Store>,
+    is_changed: bool,
 }
 
 impl Values<'_> {
     fn value(&self, expression: Handle<Expression>) -> Option<Literal> {
         match self.expressions[expression] {
+            Expression::Literal(literal) => Some(literal),
+            Expression::Constant(constant) => {
+                match self.global_expressions[self.constants[constant].init] {
+                    Expression::Literal(literal) => Some(literal),
+                    _ => None,
+                }
+            }
             Expression::Unary {
                 op: UnaryOperator::LogicalNot,
                 expr,
@@ -84,58 +99,69 @@ impl Values<'_> {
             Expression::Binary { op, left, right } => {
                 compared(op, self.value(left)?, self.value(right)?)
             }
-            Expression::Load { pointer } => {
-                let Expression::LocalVariable(variable) = self.expressions[pointer] else {
-                    return None;
-                };
-                let mut known = self.temporaries.iter();
-                known.find(|(v, _)| *v == variable).map(|(_, value)| *value)
-            }
-            ref other => (self.constant)(other),
+            Expression::Load { pointer } => self.temporary(pointer),
+            _ => None,
         }
     }
 
+    /// The value of a variable without a name, which holds `a && b` or `a || b`, where it is stored once.
+    ///
+    /// The front end stores it in each branch before it loads it.
+    fn temporary(&self, pointer: Handle<Expression>) -> Option<Literal> {
+        let variable = |pointer| match self.expressions[pointer] {
+            Expression::LocalVariable(variable) => Some(variable),
+            _ => None,
+        };
+        let loaded = variable(pointer)?;
+        let LocalVariable { name, init, .. } = &self.variables[loaded];
+        if name.is_some() || init.is_some() {
+            return None;
+        }
+        let mut stores = self.stores.iter().filter(|s| variable(s.0) == Some(loaded));
+        let (_, value) = stores.next()?;
+        if stores.next().is_some() {
+            return None;
+        }
+        self.value(*value)
+    }
+
     /// The block without what is never run.
-    fn taken(&self, block: Block, is_changed: &mut bool) -> Block {
-        let mut kept = Block::with_capacity(block.len());
+    fn taken(&self, block: Block, kept: &mut Kept) -> Block {
+        let mut rest = Block::with_capacity(block.len());
         for (mut statement, span) in block.span_into_iter() {
+            if let Statement::If {
+                condition,
+                accept,
+                reject,
+            } = &mut statement
+                && let Some(Literal::Bool(value)) = self.value(*condition)
+            {
+                kept.is_changed = true;
+                let branch = if value { accept } else { reject };
+                statement = Statement::Block(std::mem::take(branch));
+            }
+            let mut within = |inner: &mut Block| *inner = self.taken(std::mem::take(inner), kept);
             match &mut statement {
-                Statement::Block(inner) => *inner = self.taken(std::mem::take(inner), is_changed),
-                Statement::If {
-                    condition,
-                    accept,
-                    reject,
-                } => {
-                    let [accept, reject] =
-                        [accept, reject].map(|b| (self.taken(std::mem::take(b), is_changed), b));
-                    if let Some(Literal::Bool(value)) = self.value(*condition) {
-                        *is_changed = true;
-                        statement = Statement::Block(if value { accept.0 } else { reject.0 });
-                    } else {
-                        *accept.1 = accept.0;
-                        *reject.1 = reject.0;
-                    }
+                Statement::Store { pointer, value } => kept.stores.push((*pointer, *value)),
+                Statement::Block(inner) => within(inner),
+                Statement::If { accept, reject, .. } => {
+                    [accept, reject].into_iter().for_each(within)
                 }
                 Statement::Switch { cases, .. } => {
-                    for case in cases {
-                        case.body = self.taken(std::mem::take(&mut case.body), is_changed);
-                    }
+                    cases.iter_mut().for_each(|case| within(&mut case.body));
                 }
                 Statement::Loop {
                     body, continuing, ..
-                } => {
-                    *body = self.taken(std::mem::take(body), is_changed);
-                    *continuing = self.taken(std::mem::take(continuing), is_changed);
-                }
+                } => [body, continuing].into_iter().for_each(within),
                 _ => {}
             }
             let ends = leaves(&statement);
-            kept.push(statement, span);
+            rest.push(statement, span);
             if ends {
                 break;
             }
         }
-        kept
+        rest
     }
 }
 
@@ -165,99 +191,24 @@ fn compared(op: BinaryOperator, a: Literal, b: Literal) -> Option<Literal> {
     }))
 }
 
-/// Variables without a name, which hold `a && b` and `a || b`, where all that is stored there is one constant.
-///
-/// The front end stores them in each branch before it loads them.
-fn temporaries(
-    function: &Function,
-    constant: &dyn Fn(&Expression) -> Option<Literal>,
-) -> Vec<(Handle<LocalVariable>, Literal)> {
-    let mut stores = Vec::new();
-    collect_stores(&function.body, &mut stores);
-    let unnamed = function.local_variables.iter();
-    let unnamed =
-        unnamed.filter(|(_, variable)| variable.name.is_none() && variable.init.is_none());
-    let stored = |variable| {
-        let to = |&&(pointer, _): &&(Handle<Expression>, _)| matches!(function.expressions[pointer], Expression::LocalVariable(v) if v == variable);
-        let mut all = stores.iter().filter(to);
-        let (_, value) = all.next()?;
-        all.next().is_none().then_some(*value)
-    };
-    unnamed
-        .filter_map(|(variable, _)| {
-            let value = constant(&function.expressions[stored(variable)?])?;
-            Some((variable, value))
-        })
-        .collect()
-}
-
-/// Pointers and values of all stores.
-fn collect_stores(block: &Block, stores: &mut Vec<(Handle<Expression>, Handle<Expression>)>) {
-    for statement in block {
-        match statement {
-            Statement::Store { pointer, value } => stores.push((*pointer, *value)),
-            Statement::Block(block) => collect_stores(block, stores),
-            Statement::If { accept, reject, .. } => {
-                collect_stores(accept, stores);
-                collect_stores(reject, stores);
-            }
-            Statement::Switch { cases, .. } => {
-                for case in cases {
-                    collect_stores(&case.body, stores);
-                }
-            }
-            Statement::Loop {
-                body, continuing, ..
-            } => {
-                collect_stores(body, stores);
-                collect_stores(continuing, stores);
-            }
-            _ => {}
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Calls in a function, in order.
-    fn calls(module: &Module, name: &str) -> Vec<String> {
-        fn collect(module: &Module, block: &Block, calls: &mut Vec<String>) {
-            for statement in block {
-                match statement {
-                    Statement::Call { function, .. } => {
-                        calls.push(module.functions[*function].name.clone().unwrap_or_default());
-                    }
-                    Statement::Block(block) => collect(module, block, calls),
-                    Statement::If { accept, reject, .. } => {
-                        collect(module, accept, calls);
-                        collect(module, reject, calls);
-                    }
-                    Statement::Loop { body, .. } => collect(module, body, calls),
-                    Statement::Switch { cases, .. } => {
-                        for case in cases {
-                            collect(module, &case.body, calls);
-                        }
-                    }
-                    _ => {}
-                }
-            }
-        }
-        let named = |(_, f): &(_, &Function)| f.name.as_deref() == Some(name);
-        let function = module.functions.iter().find(named).unwrap().1;
-        let mut all = Vec::new();
-        collect(module, &function.body, &mut all);
-        all
-    }
-
+    /// Which of the functions `a` and `b` are called by a function with this body.
     fn called(body: &str) -> Vec<String> {
         let text = format!(
             "const NO: u32 = 0u;\nconst THREE: u32 = 3u;\n\
              fn a() -> f32 {{ return 1.0; }}\nfn b() -> f32 {{ return 2.0; }}\n\
-             fn f(x: u32) -> f32 {{\n{body}\n}}"
+             fn f(x: u32) -> f32 {{\n{body}\n}}\n\
+             @compute @workgroup_size(1)\n\
+             fn main(@builtin(local_invocation_index) x: u32) {{ _ = f(x); }}"
         );
-        calls(&parsed(&text).unwrap(), "f")
+        let mut module = parsed(&text).unwrap();
+        compact(&mut module, KeepUnused::No);
+        let functions = module.functions.iter();
+        let names = functions.filter_map(|(_, function)| function.name.clone());
+        names.filter(|name| name != "f").collect()
     }
 
     #[test]
