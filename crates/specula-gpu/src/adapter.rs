@@ -4,6 +4,8 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use crate::shader::Shaders;
+
 /// What wgpu calls ray queries.
 pub(crate) const RAY_QUERIES: wgpu::Features = wgpu::Features::EXPERIMENTAL_RAY_QUERY;
 
@@ -246,6 +248,8 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// What went wrong where no scope caught it; the first report stays.
     failure: Arc<Mutex<Option<GpuError>>>,
+    /// What it has compiled.
+    pub(crate) shaders: Shaders,
 }
 
 impl Gpu {
@@ -287,6 +291,7 @@ impl Gpu {
             device,
             queue,
             failure,
+            shaders: Shaders::default(),
         })
     }
 

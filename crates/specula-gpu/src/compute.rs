@@ -7,7 +7,8 @@ use std::time::Duration;
 use crate::adapter::{Gpu, GpuError};
 use crate::dead_branches;
 use crate::queries::Structures;
-use crate::stage::{RayBindings, Slot, Stage, filled, layout};
+use crate::shader::{Shader, Slot};
+use crate::stage::{RayBindings, Stage, filled, layout};
 
 /// A compiled compute shader that reads arrays and writes one.
 ///
@@ -29,24 +30,28 @@ pub struct Arrays {
 }
 
 impl Gpu {
-    /// Compiles WGSL, without branches that its constants rule out.
+    /// Compiles WGSL, without branches that its constants rule out; of the same text the second time, the first
+    /// shader.
     ///
     /// # Errors
     /// [`GpuError::Shader`] with the compiler's text where it does not compile.
-    pub fn shader(&self, label: &str, source: &str) -> Result<wgpu::ShaderModule, GpuError> {
-        // What is no WGSL is refused with the text that tells where.
-        let source = match dead_branches::parsed(source) {
-            Some(module) => wgpu::ShaderSource::Naga(Cow::Owned(module)),
-            None => wgpu::ShaderSource::Wgsl(source.into()),
-        };
-        let module = self.caught(|gpu| {
-            gpu.device
-                .create_shader_module(wgpu::ShaderModuleDescriptor {
-                    label: Some(label),
-                    source,
-                })
-        });
-        module.map_err(|error| error.of_shader(label))
+    pub fn shader(&self, label: &str, source: &str) -> Result<Shader, GpuError> {
+        self.check()?;
+        self.shaders.get(source, || {
+            // What is no WGSL is refused with the text that tells where.
+            let source = match dead_branches::parsed(source) {
+                Some(module) => wgpu::ShaderSource::Naga(Cow::Owned(module)),
+                None => wgpu::ShaderSource::Wgsl(source.into()),
+            };
+            let module = self.caught(|gpu| {
+                gpu.device
+                    .create_shader_module(wgpu::ShaderModuleDescriptor {
+                        label: Some(label),
+                        source,
+                    })
+            });
+            module.map_err(|error| error.of_shader(label))
+        })
     }
 
     /// Copies the first `size` bytes of a buffer here; its usage must include `COPY_SRC`.
@@ -89,17 +94,12 @@ impl Gpu {
 }
 
 impl ComputeKernel {
-    /// Compiles the entry point `entry` of a shader module that reads so many arrays.
+    /// Compiles the entry point `entry` of a shader that reads so many arrays.
     ///
     /// # Errors
     /// [`GpuError::Shader`] where the driver does not compile it.
-    pub fn new(
-        gpu: &Gpu,
-        module: &wgpu::ShaderModule,
-        entry: &str,
-        inputs: usize,
-    ) -> Result<Self, GpuError> {
-        Self::build(gpu, module, entry, inputs, None)
+    pub fn new(gpu: &Gpu, shader: &Shader, entry: &str, inputs: usize) -> Result<Self, GpuError> {
+        Self::build(gpu, shader, entry, inputs, None)
     }
 
     /// The same for a shader that casts rays by queries: in group 1 the binding 0 is the scene's
@@ -109,17 +109,17 @@ impl ComputeKernel {
     /// [`GpuError::Shader`] where the driver does not compile it.
     pub fn with_structures(
         gpu: &Gpu,
-        module: &wgpu::ShaderModule,
+        shader: &Shader,
         entry: &str,
         inputs: usize,
         structures: &Structures,
     ) -> Result<Self, GpuError> {
-        Self::build(gpu, module, entry, inputs, Some(structures.bindings()))
+        Self::build(gpu, shader, entry, inputs, Some(structures.bindings()))
     }
 
     fn build(
         gpu: &Gpu,
-        module: &wgpu::ShaderModule,
+        shader: &Shader,
         entry: &str,
         inputs: usize,
         structures: Option<&RayBindings>,
@@ -132,7 +132,7 @@ impl ComputeKernel {
         Ok(Self {
             label: entry.to_owned(),
             inputs,
-            stage: Stage::new(gpu, &layout, module, entry, structures)?,
+            stage: Stage::new(gpu, &layout, shader, entry, structures)?,
         })
     }
 
@@ -206,7 +206,7 @@ impl Arrays {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::adapter::AdapterChoice;
+    use crate::common;
 
     const DOUBLING: &str = "
         @group(0) @binding(0) var<storage, read> numbers: array<f32>;
@@ -216,35 +216,27 @@ mod tests {
             doubled[place.x] = 2.0 * numbers[place.x];
         }";
 
-    /// The best adapter; without one the test says that it is skipped.
-    #[track_caller]
-    fn gpu() -> Option<Gpu> {
-        let gpu = Gpu::open(&AdapterChoice::Best);
-        if let Err(error) = &gpu {
-            let required = std::env::var("SPECULA_GPU").is_ok_and(|v| v == "require");
-            assert!(!required, "SPECULA_GPU=require, but: {error}");
-            specula_testing::skip("kernels", error, "apt-get install mesa-vulkan-drivers");
-        }
-        gpu.ok()
-    }
-
     #[test]
     fn a_kernel_reads_and_writes_arrays() {
-        let Some(gpu) = gpu() else { return };
-        let module = gpu.shader("doubling", DOUBLING).unwrap();
-        let kernel = ComputeKernel::new(&gpu, &module, "main", 1).unwrap();
+        let Some(gpu) = common::gpu("kernels") else {
+            return;
+        };
+        let shader = gpu.shader("doubling", DOUBLING).unwrap();
+        let kernel = ComputeKernel::new(gpu, &shader, "main", 1).unwrap();
         let numbers = [1.0_f32, -2.5, 3.0, 1e30];
         let bytes = bytemuck::bytes_of(&numbers);
-        let arrays = kernel.upload(&gpu, &[bytes], 16).unwrap();
-        kernel.run(&gpu, &arrays, [1, 1, 1]).unwrap();
-        let output = arrays.output(&gpu).unwrap();
+        let arrays = kernel.upload(gpu, &[bytes], 16).unwrap();
+        kernel.run(gpu, &arrays, [1, 1, 1]).unwrap();
+        let output = arrays.output(gpu).unwrap();
         let doubled: &[f32] = bytemuck::cast_slice(&output);
         assert_eq!(doubled, numbers.map(|x| 2.0 * x));
     }
 
     #[test]
     fn mistakes_are_errors_and_leave_the_device_whole() {
-        let Some(gpu) = gpu() else { return };
+        let Some(gpu) = common::gpu("kernels") else {
+            return;
+        };
         let wrong = gpu
             .shader("wrong", "fn main() { undefined(); }")
             .unwrap_err();
@@ -253,20 +245,20 @@ mod tests {
                 if label == "wrong" && text.contains("undefined")),
             "{wrong}"
         );
-        let module = gpu.shader("doubling", DOUBLING).unwrap();
-        let missing = ComputeKernel::new(&gpu, &module, "absent", 1);
+        let shader = gpu.shader("doubling", DOUBLING).unwrap();
+        let missing = ComputeKernel::new(gpu, &shader, "absent", 1);
         assert!(matches!(missing, Err(GpuError::Shader { .. })));
-        let kernel = ComputeKernel::new(&gpu, &module, "main", 1).unwrap();
-        let too_few = kernel.upload(&gpu, &[], 16);
+        let kernel = ComputeKernel::new(gpu, &shader, "main", 1).unwrap();
+        let too_few = kernel.upload(gpu, &[], 16);
         assert!(matches!(too_few, Err(GpuError::Refused(_))));
-        let too_large = kernel.upload(&gpu, &[&[0; 16]], 1 << 50);
+        let too_large = kernel.upload(gpu, &[&[0; 16]], 1 << 50);
         assert!(matches!(
             too_large,
             Err(GpuError::Refused(_) | GpuError::OutOfMemory(_))
         ));
-        let arrays = kernel.upload(&gpu, &[&[0; 16]], 16).unwrap();
-        let too_many = kernel.run(&gpu, &arrays, [1 << 30, 1, 1]);
+        let arrays = kernel.upload(gpu, &[&[0; 16]], 16).unwrap();
+        let too_many = kernel.run(gpu, &arrays, [1 << 30, 1, 1]);
         assert!(matches!(too_many, Err(GpuError::Refused(_))));
-        assert!(kernel.run(&gpu, &arrays, [1, 1, 1]).is_ok());
+        assert!(kernel.run(gpu, &arrays, [1, 1, 1]).is_ok());
     }
 }

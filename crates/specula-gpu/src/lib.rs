@@ -10,12 +10,20 @@ mod program;
 mod queries;
 mod sample_batch;
 mod schedule;
+mod shader;
 mod stage;
 mod tracer;
+
+#[cfg(test)]
+extern crate self as specula_gpu;
+#[cfg(test)]
+#[path = "../tests/common/mod.rs"]
+mod common;
 
 pub use adapter::{AdapterChoice, AdapterDescription, AdapterKind, Gpu, GpuError, adapters};
 pub use compute::{Arrays, ComputeKernel};
 pub use error::TracerError;
 pub use queries::{Rays, Structures};
 pub use schedule::{Schedule, UnknownSchedule};
+pub use shader::Shader;
 pub use tracer::{Tracer, TracerOptions, missing};

@@ -5,7 +5,8 @@ use wgpu::BufferUsages as Usages;
 use crate::adapter::{Gpu, GpuError};
 use crate::program;
 use crate::schedule::QUEUE_ARRAYS;
-use crate::stage::{RayBindings, Slot, Stage, array, layout, submit};
+use crate::shader::{Shader, Slot};
+use crate::stage::{RayBindings, Stage, array, layout, submit};
 
 /// Bytes of a sample on the device.
 pub(crate) const SAMPLE_SIZE: u64 = 48;
@@ -55,11 +56,11 @@ pub(crate) struct QueueArrays {
 }
 
 impl PathKernels {
-    /// * `module`: the scene's shader.
+    /// * `shader`: the scene's.
     /// * `structures`: of ray queries; `None`: rays are traversed by the shader.
     pub(crate) fn new(
         gpu: &Gpu,
-        module: &wgpu::ShaderModule,
+        shader: &Shader,
         is_queues: bool,
         structures: Option<&RayBindings>,
         max_depth: u32,
@@ -70,7 +71,7 @@ impl PathKernels {
         };
         if !is_queues {
             let arrays = layout(gpu, (0..PATH_ARRAYS).map(slot))?;
-            let stage = Stage::new(gpu, &arrays, module, "path_main", structures)?;
+            let stage = Stage::new(gpu, &arrays, shader, "path_main", structures)?;
             return Ok(Self::Paths(stage));
         }
         let arrays = layout(gpu, (0..QUEUE_ARRAYS).map(slot))?;
@@ -80,8 +81,8 @@ impl PathKernels {
         });
         let advance = gpu.shader("queue advance", program::QUEUE_ADVANCE)?;
         Ok(Self::Queues(Queues {
-            begin: Stage::new(gpu, &arrays, module, "queue_begin", None)?,
-            bounce: Stage::new(gpu, &arrays, module, "queue_bounce", structures)?,
+            begin: Stage::new(gpu, &arrays, shader, "queue_begin", None)?,
+            bounce: Stage::new(gpu, &arrays, shader, "queue_bounce", structures)?,
             advance: Stage::new(
                 gpu,
                 &layout(gpu, both)?,

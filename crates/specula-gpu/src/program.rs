@@ -13,6 +13,20 @@ pub(crate) const SUMS_ENTRY: &str = "sums_main";
 /// The kernel between two vertices of a wavefront, complete in itself.
 pub(crate) const QUEUE_ADVANCE: &str = include_str!("../wgsl/queue_advance.wgsl");
 
+/// Stands for a bound of indirect light where there is none; as a float it is not a number.
+const UNCLAMPED: u32 = u32::MAX;
+
+/// What a render asks of the shader, as `path_requests` in path.wgsl has it: seed, maximum depth, strategy, bound of
+/// indirect light. Not constants: renders that differ by these share what is compiled.
+pub(crate) fn settings(options: &RenderOptions) -> [u32; 4] {
+    [
+        options.seed,
+        options.max_depth,
+        options.strategy.code(),
+        options.clamp.map_or(UNCLAMPED, f32::to_bits),
+    ]
+}
+
 /// A module of the tracer.
 struct Module {
     name: &'static str,
@@ -97,11 +111,7 @@ const AFTER: &[Module] = modules!["path", "queue"];
 /// The shader's text.
 ///
 /// * `queries`: whether rays are cast by the adapter's ray queries.
-pub(crate) fn source(
-    flat: &FlatScene<'_>,
-    options: &RenderOptions,
-    queries: bool,
-) -> Result<String, ComposeError> {
+pub(crate) fn source(flat: &FlatScene<'_>, queries: bool) -> Result<String, ComposeError> {
     let named = |m: &&Module| flat.shaders.iter().any(|s| s.module() == Some(m.name));
     let kinds: Vec<&Module> = MATERIALS.iter().filter(named).collect();
     let parts = MATERIAL_PARTS
@@ -122,7 +132,7 @@ pub(crate) fn source(
     if queries {
         text += "enable wgpu_ray_query;\n";
     }
-    text += &constants(flat, options, &kinds);
+    text += &constants(flat, &kinds);
     text += &specula_shaders::compose(&library)?;
     for module in &tracer {
         text += &code(module.text);
@@ -150,7 +160,7 @@ fn library_modules(text: &'static str) -> impl Iterator<Item = &'static str> {
 }
 
 /// * `kinds`: the modules of the scene's kinds of material.
-fn constants(flat: &FlatScene<'_>, options: &RenderOptions, kinds: &[&Module]) -> String {
+fn constants(flat: &FlatScene<'_>, kinds: &[&Module]) -> String {
     let find = |name: &str| flat.constants.iter().find(|c| c.0 == name).map(|c| c.1);
     // Eight children a level, of the trees over instances and within them.
     let levels = 2 * find("TREE_DEPTH").unwrap_or(0) + 1;
@@ -160,14 +170,10 @@ fn constants(flat: &FlatScene<'_>, options: &RenderOptions, kinds: &[&Module]) -
     };
     let own = [
         ("STACK_SIZE", 8 * levels),
-        ("SEED", options.seed),
-        ("MAX_DEPTH", options.max_depth),
-        ("STRATEGY", options.strategy.code()),
-        ("CLAMPS", u32::from(options.clamp.is_some())),
-        ("CLAMP_BITS", options.clamp.unwrap_or(f32::MAX).to_bits()),
         ("BOUND_STORED", stored),
+        ("UNCLAMPED", UNCLAMPED),
     ];
-    let mut text = String::from("// Constants of the scene and the render.\n");
+    let mut text = String::from("// Constants of the scene.\n");
     text += &flat.declarations();
     for (name, value) in own {
         let _ = writeln!(text, "const {name}: u32 = {value}u;");

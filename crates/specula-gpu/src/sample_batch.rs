@@ -6,10 +6,14 @@ use wgpu::BufferUsages as Usages;
 use crate::adapter::{Gpu, GpuError};
 use crate::path_kernels::{BoundKernels, PathKernels, SAMPLE_SIZE};
 use crate::program;
-use crate::stage::{Slot, Stage, array, layout, submit};
+use crate::shader::Slot;
+use crate::stage::{Stage, array, layout, submit};
 
 /// Bytes of a requested run.
 const RUN_SIZE: u64 = 16;
+
+/// Vectors before the first run, each as large as a run.
+const HEAD: u64 = 2;
 
 /// The kernels of a batch.
 #[derive(Debug)]
@@ -37,9 +41,9 @@ impl Kernels {
             binding,
             is_written: binding == 2,
         });
-        let module = gpu.shader("sums", adder)?;
+        let shader = gpu.shader("sums", adder)?;
         let arrays = layout(gpu, slots)?;
-        let sums = Stage::new(gpu, &arrays, &module, program::SUMS_ENTRY, None)?;
+        let sums = Stage::new(gpu, &arrays, &shader, program::SUMS_ENTRY, None)?;
         Ok(Self { taker, sums })
     }
 }
@@ -54,7 +58,7 @@ impl SampleBatch {
     ) -> Result<Self, GpuError> {
         gpu.caught(|gpu| {
             let [samples, runs] = capacity.map(|n| n as u64);
-            let requests = array(gpu, "requests", (runs + 1) * RUN_SIZE, Usages::COPY_DST);
+            let requests = array(gpu, "requests", (runs + HEAD) * RUN_SIZE, Usages::COPY_DST);
             let results = array(gpu, "results", samples * SAMPLE_SIZE, Usages::empty());
             let sums_size = runs * size_of::<RunSums>() as u64;
             let sums = array(gpu, "sums", sums_size, Usages::COPY_SRC);
@@ -76,20 +80,22 @@ impl SampleBatch {
 
     /// Takes the samples of runs, and adds those of each.
     ///
+    /// * `settings`: of the render, by [`program::settings`].
     /// * `longest`: samples of the longest run.
     pub(crate) fn take(
         &self,
         gpu: &Gpu,
         kernels: &Kernels,
-        runs: &[Run],
-        longest: u32,
+        settings: [u32; 4],
+        (runs, longest): (&[Run], u32),
     ) -> Result<Vec<RunSums>, GpuError> {
         let count = u32::try_from(runs.len()).unwrap_or(u32::MAX);
         let words = runs.iter().map(|run| {
             let [x, y] = run.pixel;
             [x, y, run.first, run.count]
         });
-        let requests: Vec<[u32; 4]> = std::iter::once([longest, count, 0, 0])
+        let requests: Vec<[u32; 4]> = [[longest, count, 0, 0], settings]
+            .into_iter()
             .chain(words)
             .collect();
         gpu.caught(|gpu| {

@@ -1,23 +1,22 @@
 //! A compiled kernel, and its arrays.
 
 use crate::adapter::{Gpu, GpuError};
+use crate::shader::{Entry, Shader, Slot};
 
 /// Threads of a workgroup, as the shaders say.
 pub(crate) const WORKGROUP: usize = 64;
 
-/// An array of a kernel.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Slot {
-    pub(crate) binding: u32,
-    pub(crate) is_written: bool,
+/// The arrays of kernels that share them.
+#[derive(Clone, Debug)]
+pub(crate) struct Layout {
+    slots: Vec<Slot>,
+    handle: wgpu::BindGroupLayout,
 }
 
-/// The arrays of kernels that share them.
-pub(crate) fn layout(
-    gpu: &Gpu,
-    slots: impl IntoIterator<Item = Slot>,
-) -> Result<wgpu::BindGroupLayout, GpuError> {
-    let entry = |slot: Slot| wgpu::BindGroupLayoutEntry {
+/// The arrays of kernels that share them, as the device knows them.
+pub(crate) fn layout(gpu: &Gpu, slots: impl IntoIterator<Item = Slot>) -> Result<Layout, GpuError> {
+    let slots: Vec<Slot> = slots.into_iter().collect();
+    let entry = |slot: &Slot| wgpu::BindGroupLayoutEntry {
         binding: slot.binding,
         visibility: wgpu::ShaderStages::COMPUTE,
         ty: wgpu::BindingType::Buffer {
@@ -29,14 +28,15 @@ pub(crate) fn layout(
         },
         count: None,
     };
-    let entries: Vec<_> = slots.into_iter().map(entry).collect();
-    gpu.caught(|gpu| {
+    let entries: Vec<_> = slots.iter().map(entry).collect();
+    let handle = gpu.caught(|gpu| {
         let device = &gpu.device;
         device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("arrays"),
             entries: &entries,
         })
-    })
+    })?;
+    Ok(Layout { slots, handle })
 }
 
 /// The acceleration structure of ray queries: group 1 of shaders.
@@ -50,44 +50,56 @@ pub(crate) struct RayBindings {
 #[derive(Clone, Debug)]
 pub(crate) struct Stage {
     pipeline: wgpu::ComputePipeline,
-    layout: wgpu::BindGroupLayout,
+    layout: Layout,
     /// Group 1, of a kernel that casts rays by ray queries.
     structures: Option<wgpu::BindGroup>,
 }
 
 impl Stage {
-    /// Compiles an entry point of a module.
+    /// Compiles an entry point of a shader.
     ///
     /// * `structures`: where it casts rays by ray queries.
     pub(crate) fn new(
         gpu: &Gpu,
-        layout: &wgpu::BindGroupLayout,
-        module: &wgpu::ShaderModule,
+        layout: &Layout,
+        shader: &Shader,
         entry: &str,
         structures: Option<&RayBindings>,
     ) -> Result<Self, GpuError> {
-        let made = gpu.caught(|gpu| {
-            let device = &gpu.device;
-            let whole = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some(entry),
-                bind_group_layouts: &[Some(layout), structures.map(|s| &s.layout)],
-                ..Default::default()
+        let make = |module: &wgpu::ShaderModule| {
+            let made = gpu.caught(|gpu| {
+                let device = &gpu.device;
+                let whole = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                    label: Some(entry),
+                    bind_group_layouts: &[Some(&layout.handle), structures.map(|s| &s.layout)],
+                    ..Default::default()
+                });
+                device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                    label: Some(entry),
+                    layout: Some(&whole),
+                    module,
+                    entry_point: Some(entry),
+                    compilation_options: wgpu::PipelineCompilationOptions::default(),
+                    cache: None,
+                })
             });
-            let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(entry),
-                layout: Some(&whole),
-                module,
-                entry_point: Some(entry),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                cache: None,
-            });
-            Self {
-                pipeline,
-                layout: layout.clone(),
-                structures: structures.map(|s| s.group.clone()),
-            }
-        });
-        made.map_err(|error| error.of_shader(entry))
+            made.map_err(|error| error.of_shader(entry))
+        };
+        let key = Entry {
+            name: entry.to_owned(),
+            slots: layout.slots.clone(),
+            casts_queries: structures.is_some(),
+        };
+        Ok(Self {
+            pipeline: shader.kernel(key, make)?,
+            layout: layout.clone(),
+            structures: structures.map(|s| s.group.clone()),
+        })
+    }
+
+    #[cfg(test)]
+    pub(crate) fn pipeline(&self) -> &wgpu::ComputePipeline {
+        &self.pipeline
     }
 
     /// The kernel's arrays, in the order of their bindings.
@@ -101,7 +113,7 @@ impl Stage {
             .collect();
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("arrays"),
-            layout: &self.layout,
+            layout: &self.layout.handle,
             entries: &entries,
         })
     }

@@ -37,6 +37,8 @@ pub struct TracerOptions {
 pub struct Tracer<'a> {
     gpu: &'a Gpu,
     kernels: Kernels,
+    /// Of the render.
+    settings: [u32; 4],
     /// Tables, nodes, packets, words.
     scene: [wgpu::Buffer; 4],
     uses_ray_queries: bool,
@@ -89,7 +91,7 @@ impl<'a> Tracer<'a> {
             return Err(TracerError::TooLarge { needed, limit });
         }
         let structures = Structures::chosen(on_gpu.rays, gpu, scene)?;
-        let text = program::source(&flat, options, structures.is_some())?;
+        let text = program::source(&flat, structures.is_some())?;
         let texts = [text.as_str(), program::SUMS];
         Self::of_texts(gpu, &flat, options, (on_gpu.schedule, structures), texts)
     }
@@ -113,16 +115,17 @@ impl<'a> Tracer<'a> {
         ];
         let limits = gpu.device.limits();
         let [path_tracer, adder] = texts;
-        let module = gpu.shader("path tracer", path_tracer)?;
+        let shader = gpu.shader("path tracer", path_tracer)?;
         let is_queues = schedule.is_queues(limits.max_storage_buffers_per_shader_stage);
         let structures = structures.as_ref().map(Structures::bindings);
-        let taker = PathKernels::new(gpu, &module, is_queues, structures, options.max_depth)?;
+        let taker = PathKernels::new(gpu, &shader, is_queues, structures, options.max_depth)?;
         let kernels = Kernels::new(gpu, taker, adder)?;
         let largest = gpu.adapter.largest_array
             / kernels.taker.sample_size().max(size_of::<RunSums>() as u64);
         Ok(Self {
             gpu,
             kernels,
+            settings: program::settings(options),
             scene,
             uses_ray_queries: structures.is_some(),
             batch: None,
@@ -218,7 +221,7 @@ impl<'a> Tracer<'a> {
                 SampleBatch::new(self.gpu, &self.kernels, &self.scene, capacity)?
             }
         };
-        let sums = batch.take(self.gpu, &self.kernels, runs, longest)?;
+        let sums = batch.take(self.gpu, &self.kernels, self.settings, (runs, longest))?;
         self.batch = Some(batch);
         Ok(sums)
     }

@@ -143,7 +143,7 @@ fn runs() -> Vec<Vec<Sample>> {
 /// What the device makes of the runs.
 fn on_device(gpu: &Gpu, text: &str, runs: &[Vec<Sample>]) -> Vec<RunSums> {
     let count = u32::try_from(runs.len()).unwrap();
-    let mut wanted = vec![[PLACES as u32, count, 0, 0]];
+    let mut wanted = vec![[PLACES as u32, count, 0, 0], [0; 4]];
     wanted.extend(runs.iter().map(|r| [0, 0, 0, r.len() as u32]));
     let mut found: Vec<Sample> = Vec::new();
     for run in runs {

@@ -2,8 +2,7 @@
 // queue.wgsl takes all paths from one vertex to the next.
 //
 // Twin of specula-render/src/integrator.rs and integrator/estimator.rs: the same random numbers serve the same
-// decisions, so that a sample follows the same path up to rounding. SEED, MAX_DEPTH and STRATEGY are constants of the
-// render.
+// decisions, so that a sample follows the same path up to rounding.
 
 import tracer::world::{word, number, offset_leave};
 import tracer::sequence::{Sequence, sequence_of, sequence_camera, sequence_scatter, sequence_light};
@@ -24,15 +23,17 @@ import tracer::material::{Bound, material_bind, material_eval, material_sample, 
 import package::math::frame::{FrameBasis, frame_from_normal_tangent, frame_to_local, frame_to_world};
 import package::bsdf::bsdf_sample::{BsdfSample};
 
-/// The samples to be taken, in runs of consecutive samples of a pixel. First the slots of each run and the number
-/// of runs; then of each run: column, row, index of its first sample, number of samples.
+/// The samples to be taken, in runs of consecutive samples of a pixel. First the slots of each run and the number of
+/// runs; then the render's seed, maximum depth, strategy, and bound of indirect light (bits of a float, or UNCLAMPED);
+/// then of each run: column, row, index of its first sample, number of samples.
 @group(0) @binding(4) var<storage, read> path_requests: array<vec4u>;
 /// Three vectors a sample, as sums.wgsl reads them: picture values and depth (negative where the camera ray hit
 /// nothing); albedo and number of rays; normal and the filter's weight. All but depth, rays and weight are times
 /// the weight.
 @group(0) @binding(5) var<storage, read_write> path_results: array<vec4f>;
 
-
+/// Where runs begin in `path_requests`.
+const PATH_FIRST_RUN: u32 = 2u;
 /// The path has passed through thin panes only: hidden lights stay hidden.
 const PATH_STRAIGHT: u32 = 1u;
 /// The path was scattered by a lobe that is not perfectly smooth.
@@ -70,16 +71,27 @@ struct PathShadingPoint {
     wo: vec3f,
 }
 
+/// The render's maximum depth.
+fn path_max_depth() -> u32 {
+    return path_requests[1].y;
+}
+
+/// How direct light is sampled: one of the codes `STRATEGY_*`.
+fn path_strategy() -> u32 {
+    return path_requests[1].z;
+}
+
 /// MIS weight of a direction that was sampled with density `a` and could have been with density `b`.
 ///
 /// Twin: specula-render/src/integrator/estimator.rs, mis_weight.
 fn path_mis_weight(a: f32, b: f32) -> f32 {
     // As a ratio: squares of densities overflow.
     let ratio = min(b / a, 1.0e18);
-    if STRATEGY == STRATEGY_BALANCE {
+    let strategy = path_strategy();
+    if strategy == STRATEGY_BALANCE {
         return 1.0 / (1.0 + ratio);
     }
-    if STRATEGY == STRATEGY_POWER {
+    if strategy == STRATEGY_POWER {
         return 1.0 / (1.0 + ratio * ratio);
     }
     return 1.0 / (1.0 + ratio * sqrt(ratio));
@@ -90,10 +102,11 @@ fn path_mis_weight(a: f32, b: f32) -> f32 {
 ///
 /// Twin: specula-render/src/integrator/estimator.rs, emission_weight.
 fn path_emission_weight(pdf: f32, light_pdf: f32) -> f32 {
-    if pdf <= 0.0 || STRATEGY == STRATEGY_BSDF_ONLY {
+    let strategy = path_strategy();
+    if pdf <= 0.0 || strategy == STRATEGY_BSDF_ONLY {
         return 1.0;
     }
-    if STRATEGY == STRATEGY_LIGHTS_ONLY {
+    if strategy == STRATEGY_LIGHTS_ONLY {
         return 0.0;
     }
     return path_mis_weight(pdf, light_pdf);
@@ -235,7 +248,7 @@ fn path_sample_light(
     var candidate: PathCandidate;
     let u = path_candidate_random_numbers(sequence_light(s, depth), which, count);
     let light = lights_sample(path_receiver(vertex), u);
-    if light.valid == 0u || (STRATEGY == STRATEGY_BSDF_ONLY && light.delta == 0u) {
+    if light.valid == 0u || (path_strategy() == STRATEGY_BSDF_ONLY && light.delta == 0u) {
         return candidate;
     }
     let wi = frame_to_local(vertex.frame, light.wi);
@@ -248,7 +261,7 @@ fn path_sample_light(
     }
     let pdf = light.pdf * f32(count);
     var weight = 1.0;
-    if light.delta == 0u && STRATEGY != STRATEGY_LIGHTS_ONLY {
+    if light.delta == 0u && path_strategy() != STRATEGY_LIGHTS_ONLY {
         weight = path_mis_weight(pdf, f.w);
     }
     if weight <= 0.0 {
@@ -265,8 +278,8 @@ fn path_sample_light(
 /// Twin: specula-render/src/integrator/estimator.rs, clamp_indirect.
 fn path_add(state: ptr<function, PathState>, contribution: vec3f, events: u32) {
     var c = contribution;
-    if CLAMPS != 0u && events >= INDIRECT_FROM {
-        let bound = bitcast<f32>(CLAMP_BITS) / number(FILM);
+    if path_requests[1].w != UNCLAMPED && events >= INDIRECT_FROM {
+        let bound = bitcast<f32>(path_requests[1].w) / number(FILM);
         let largest = max(c.x, max(c.y, c.z));
         if largest > bound {
             c *= bound / largest;
@@ -374,19 +387,19 @@ fn path_scatter(
 fn path_is_requested(slot: u32) -> bool {
     let head = path_requests[0];
     let run = slot / head.x;
-    return run < head.y && slot % head.x < path_requests[run + 1u].w;
+    return run < head.y && slot % head.x < path_requests[run + PATH_FIRST_RUN].w;
 }
 
 /// The sample sequence of a slot.
 fn path_sequence(slot: u32) -> Sequence {
     let slots = path_requests[0].x;
-    let run = path_requests[slot / slots + 1u];
-    return sequence_of(run.xy, run.z + slot % slots, SEED);
+    let run = path_requests[slot / slots + PATH_FIRST_RUN];
+    return sequence_of(run.xy, run.z + slot % slots, path_requests[1].x);
 }
 
 /// Begins a path: its camera ray.
 fn path_begin(slot: u32, s: Sequence) -> PathState {
-    let pixel = path_requests[slot / path_requests[0].x + 1u].xy;
+    let pixel = path_requests[slot / path_requests[0].x + PATH_FIRST_RUN].xy;
     let begin = camera_ray(pixel, sequence_camera(s));
     var state: PathState;
     state.ray = Ray(begin.origin, begin.direction, FARTHEST);
@@ -428,14 +441,14 @@ fn path_step(slot: u32, state: ptr<function, PathState>, s: Sequence, depth: u32
     let surface = hit.surface;
     let radiance = path_emission(*state, surface, ray.direction);
     path_add(state, (*state).throughput * radiance, depth);
-    if depth >= MAX_DEPTH && depth > 0u {
+    if depth >= path_max_depth() && depth > 0u {
         return false;
     }
     let rough = ((*state).flags & PATH_ROUGH) != 0u;
     let vertex = path_shading_point(surface, -ray.direction, s, depth, rough);
     if depth == 0u {
         path_write_features(slot, vertex, length(surface.position - begin));
-        if MAX_DEPTH == 0u {
+        if path_max_depth() == 0u {
             return false;
         }
     }

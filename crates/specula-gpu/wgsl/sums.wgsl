@@ -14,6 +14,8 @@
 /// Sums: eleven vectors a run.
 @group(0) @binding(2) var<storage, read_write> sums_of_runs: array<vec4u>;
 
+/// Where runs begin in `sums_requests`.
+const SUMS_FIRST_RUN: u32 = 2u;
 /// Vectors of a run's sums.
 const SUMS_SIZE: u32 = 11u;
 /// How far the largest value is shifted in its sum: room is left for its 24 bits, for 64 samples, and for the sign.
@@ -157,7 +159,7 @@ fn sums_main(@builtin(global_invocation_id) id: vec3u) {
     if run >= sums_requests[0].y {
         return;
     }
-    let count = sums_requests[run + 1u].w;
+    let count = sums_requests[run + SUMS_FIRST_RUN].w;
     let begin = 3u * run * sums_requests[0].x;
     let scales = sums_scales(begin, count);
     var colour: array<vec4u, 3>;

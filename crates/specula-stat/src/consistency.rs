@@ -67,7 +67,7 @@ pub fn samples(
 }
 
 /// Checks `eval` and `pdf` of one `wo` at directions all over the sphere, some of them within
-/// rounding of the horizon and the poles: finite and non-negative.
+/// rounding of the horizon and the poles: finite and non-negative, and the same from `eval_pdf`.
 #[must_use]
 pub fn directions(
     name: &str,
@@ -82,6 +82,13 @@ pub fn directions(
         let (value, pdf) = (subject.eval(wo, wi), subject.pdf(wo, wi));
         if !(is_sane(value) && pdf >= 0.0 && pdf.is_finite()) {
             failure = Some(format!("wo {wo:?}, wi {wi:?}: eval {value:?}, pdf {pdf}"));
+            break;
+        }
+        let together = subject.eval_pdf(wo, wi);
+        if !are_close((value, pdf), together, options.relative_tolerance) {
+            failure = Some(format!(
+                "wo {wo:?}, wi {wi:?}: eval {value:?}, pdf {pdf}, together {together:?}"
+            ));
             break;
         }
     }
@@ -107,6 +114,13 @@ pub(crate) fn probe(rng: &mut Rng) -> Vec3<f64> {
         _ => 0.0,
     };
     direction(sign * cos_theta, 2.0 * std::f64::consts::PI * azimuth)
+}
+
+/// Whether values and densities are the same but for rounding.
+fn are_close(a: (Rgb<f64>, f64), b: (Rgb<f64>, f64), tolerance: f64) -> bool {
+    let all = |(value, pdf): (Rgb<f64>, f64)| [value.r, value.g, value.b, pdf];
+    let mut pairs = all(a).into_iter().zip(all(b));
+    pairs.all(|(a, b)| (a - b).abs() <= tolerance * a.max(b))
 }
 
 fn is_sane(colour: Rgb<f64>) -> bool {

@@ -140,8 +140,8 @@ fn prove_view(
     report.checks.push(check);
     // The pdf and the three channels of f cos are integrated together.
     let all = normalisation::integrate_bands(&edges, &quadrature, |wi| {
-        let Rgb { r, g, b } = subject.eval(wo, wi);
-        [subject.pdf(wo, wi), r, g, b]
+        let (Rgb { r, g, b }, pdf) = subject.eval_pdf(wo, wi);
+        [pdf, r, g, b]
     });
     let [mass, r, g, b] = all.value;
     let integral = all.with_value([mass]);

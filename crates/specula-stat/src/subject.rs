@@ -30,12 +30,15 @@ impl DirectionSample {
 
 type Eval<'a> = Box<dyn Fn(Vec3<f64>, Vec3<f64>) -> Rgb<f64> + Sync + 'a>;
 type Pdf<'a> = Box<dyn Fn(Vec3<f64>, Vec3<f64>) -> f64 + Sync + 'a>;
+type EvalPdf<'a> = Box<dyn Fn(Vec3<f64>, Vec3<f64>) -> (Rgb<f64>, f64) + Sync + 'a>;
 type Sample<'a> = Box<dyn Fn(Vec3<f64>, [f64; 3]) -> Option<DirectionSample> + Sync + 'a>;
 
 /// A BSDF under test. Its interface is in double precision.
 pub struct Subject<'a> {
     eval: Eval<'a>,
     pdf: Pdf<'a>,
+    /// Both together, where a BSDF has a function for that.
+    eval_pdf: Option<EvalPdf<'a>>,
     sample: Sample<'a>,
 }
 
@@ -54,13 +57,14 @@ impl<'a> Subject<'a> {
         Self {
             eval: Box::new(eval),
             pdf: Box::new(pdf),
+            eval_pdf: None,
             sample: Box::new(sample),
         }
     }
 
     /// A BSDF from an implementor of [`Bsdf`], in either precision.
     pub fn from_bsdf<T: Real, B: Bsdf<T> + Sync>(bsdf: &'a B, transport: Transport) -> Self {
-        Self::new(
+        let separate = Self::new(
             move |wo, wi| bsdf.eval(wo.cast(), wi.cast(), transport).cast(),
             move |wo, wi| bsdf.pdf(wo.cast(), wi.cast()).to_f64(),
             move |wo, u| {
@@ -72,7 +76,15 @@ impl<'a> Subject<'a> {
                     is_specular: sample.specular,
                 })
             },
-        )
+        );
+        let eval_pdf = move |wo: Vec3<f64>, wi: Vec3<f64>| {
+            let (value, pdf) = bsdf.eval_pdf(wo.cast(), wi.cast(), transport);
+            (value.cast(), pdf.to_f64())
+        };
+        Self {
+            eval_pdf: Some(Box::new(eval_pdf)),
+            ..separate
+        }
     }
 
     /// `f |cos theta_i|`, 1/sr.
@@ -85,6 +97,15 @@ impl<'a> Subject<'a> {
     #[must_use]
     pub fn pdf(&self, wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {
         (self.pdf)(wo, wi)
+    }
+
+    /// [`eval`](Self::eval) and [`pdf`](Self::pdf) together.
+    #[must_use]
+    pub fn eval_pdf(&self, wo: Vec3<f64>, wi: Vec3<f64>) -> (Rgb<f64>, f64) {
+        match &self.eval_pdf {
+            Some(eval_pdf) => eval_pdf(wo, wi),
+            None => (self.eval(wo, wi), self.pdf(wo, wi)),
+        }
     }
 
     /// Samples a direction.

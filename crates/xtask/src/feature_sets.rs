@@ -1,6 +1,7 @@
 //! `cargo xtask features`: every set of features that users choose compiles.
 
 use std::path::Path;
+use std::time::Instant;
 
 use crate::{Result, workspace};
 
@@ -37,7 +38,11 @@ pub(crate) fn run(root: &Path) -> Result<()> {
             check.args(["--no-default-features", "--features", set]);
             check.args(["--", "-D", "warnings"]);
             count += 1;
-            if !check.status()?.success() {
+            let begin = Instant::now();
+            let is_fine = check.status()?.success();
+            let took = begin.elapsed().as_secs_f64();
+            println!("{package} with features `{set}`: {took:.1} s");
+            if !is_fine {
                 failed.push(format!("{package} with features `{set}`"));
             }
         }

@@ -7,21 +7,9 @@ use specula_scene::scene::Light;
 
 use super::*;
 use crate::adapter::AdapterChoice;
+use crate::common;
 
 mod memory;
-
-/// The GPU of the tests; without one a test says that it is skipped.
-#[track_caller]
-fn gpu() -> Option<Gpu> {
-    let choice = std::env::var("SPECULA_GPU_ADAPTER").unwrap_or_else(|_| "best".to_owned());
-    let gpu = Gpu::open(&choice.parse::<AdapterChoice>().unwrap_or_default());
-    if let Err(error) = &gpu {
-        let required = std::env::var("SPECULA_GPU").is_ok_and(|v| v == "require");
-        assert!(!required, "SPECULA_GPU=require, but: {error}");
-        specula_testing::skip("the tracer", error, "apt-get install mesa-vulkan-drivers");
-    }
-    gpu.ok()
-}
 
 /// A closed bright room, so that paths are long, with glass in it.
 fn room() -> Scene {
@@ -56,7 +44,7 @@ impl<'a> Render<'a> {
         change: impl Fn(&str) -> String,
     ) -> Self {
         let flat = prepared.flatten();
-        let text = change(&program::source(&flat, options, false).unwrap());
+        let text = change(&program::source(&flat, false).unwrap());
         let texts = [text.as_str(), program::SUMS];
         Self {
             prepared,
@@ -93,10 +81,12 @@ impl<'a> Render<'a> {
 
 #[test]
 fn films_are_the_same_however_samples_are_cut() {
-    let Some(gpu) = gpu() else { return };
+    let Some(gpu) = common::gpu("the tracer") else {
+        return;
+    };
     let options = RenderOptions::from_scene(&room());
     let prepared = PreparedScene::new(&room(), &options).unwrap();
-    let render = |schedule| Render::new(&gpu, &prepared, &options, schedule, str::to_owned);
+    let render = |schedule| Render::new(gpu, &prepared, &options, schedule, str::to_owned);
     let mut paths = render(Schedule::Paths);
     let whole = paths.film(0, LARGEST_BATCH, &[70]);
     let lit = whole.picture();
@@ -113,14 +103,16 @@ fn films_are_the_same_however_samples_are_cut() {
 
 #[test]
 fn adaptive_films_are_the_same_however_samples_are_cut() {
-    let Some(gpu) = gpu() else { return };
+    let Some(gpu) = common::gpu("the tracer") else {
+        return;
+    };
     let options = RenderOptions {
         noise: Some(0.1),
         samples_per_pixel: 1 << 12,
         ..RenderOptions::from_scene(&room())
     };
     let prepared = PreparedScene::new(&room(), &options).unwrap();
-    let mut render = Render::new(&gpu, &prepared, &options, Schedule::Auto, str::to_owned);
+    let mut render = Render::new(gpu, &prepared, &options, Schedule::Auto, str::to_owned);
     let whole = render.film(0, LARGEST_BATCH, &[]);
     assert!(whole.is_adaptive() && whole.most_and_mean_samples().0 > 32);
     assert!(render.film(0, 300, &[20, 33, 2]) == whole);
@@ -128,14 +120,16 @@ fn adaptive_films_are_the_same_however_samples_are_cut() {
 
 #[test]
 fn faults_of_queues_show_in_films() {
-    let Some(gpu) = gpu() else { return };
+    let Some(gpu) = common::gpu("the tracer") else {
+        return;
+    };
     let options = RenderOptions {
         max_depth: 6,
         ..RenderOptions::from_scene(&room())
     };
     let prepared = PreparedScene::new(&room(), &options).unwrap();
     let film = |schedule, change: &dyn Fn(&str) -> String| {
-        Render::new(&gpu, &prepared, &options, schedule, change).film(0, LARGEST_BATCH, &[3])
+        Render::new(gpu, &prepared, &options, schedule, change).film(0, LARGEST_BATCH, &[3])
     };
     let right = film(Schedule::Paths, &str::to_owned);
     let text = include_str!("../../wgsl/queue.wgsl");
@@ -159,7 +153,9 @@ fn faults_of_queues_show_in_films() {
 
 #[test]
 fn samples_that_are_not_finite_are_counted_and_named() {
-    let Some(gpu) = gpu() else { return };
+    let Some(gpu) = common::gpu("the tracer") else {
+        return;
+    };
     let mut scene = room();
     scene.lights.clear();
     for i in 0..64 {
@@ -171,7 +167,7 @@ fn samples_that_are_not_finite_are_counted_and_named() {
     let options = RenderOptions::from_scene(&scene);
     let prepared = PreparedScene::new(&scene, &options).unwrap();
     let mut renderer = Renderer::new(&prepared, options.clone());
-    let mut tracer = Tracer::new(&gpu, &prepared, &options).unwrap();
+    let mut tracer = Tracer::new(gpu, &prepared, &options).unwrap();
     let go = AtomicBool::new(false);
     let report = tracer.render_pass(&mut renderer, 8, &go).unwrap();
     assert!(report.invalid_samples > 0, "nothing overflows");
@@ -193,7 +189,9 @@ fn samples_that_are_not_finite_are_counted_and_named() {
 /// A device that goes away in the midst of a render is an error, and earlier samples stay in the film.
 #[test]
 fn a_lost_device_is_an_error_and_the_film_stays() {
-    let Some(gpu) = gpu() else { return };
+    let Some(gpu) = common::gpu("the tracer") else {
+        return;
+    };
     let options = RenderOptions::from_scene(&room());
     let prepared = PreparedScene::new(&room(), &options).unwrap();
     for schedule in [Schedule::Paths, Schedule::Queues] {
@@ -218,16 +216,18 @@ fn a_lost_device_is_an_error_and_the_film_stays() {
 /// A shader that does not compile is an error with its name, and the device goes on.
 #[test]
 fn shaders_that_do_not_compile_are_errors() {
-    let Some(gpu) = gpu() else { return };
+    let Some(gpu) = common::gpu("the tracer") else {
+        return;
+    };
     let options = RenderOptions::from_scene(&room());
     let prepared = PreparedScene::new(&room(), &options).unwrap();
     let flat = prepared.flatten();
-    let right = program::source(&flat, &options, false).unwrap();
+    let right = program::source(&flat, false).unwrap();
     let wrong = right.replace("fn path_step(", "fn path_stop(");
     assert!(wrong != right);
     let tracer = |texts| {
         let how = (Schedule::Queues, None);
-        Tracer::of_texts(&gpu, &flat, &options, how, texts)
+        Tracer::of_texts(gpu, &flat, &options, how, texts)
     };
     for (texts, name) in [
         ([wrong.as_str(), program::SUMS], "path tracer"),

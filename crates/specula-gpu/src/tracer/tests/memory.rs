@@ -9,9 +9,9 @@ mod limited;
 use limited::{Limit, MIB, is_alone};
 
 /// The GPU, in a process that has this test alone; `None` in the one that started it, where all is done.
-fn gpu_alone(test: &str) -> Option<Gpu> {
-    let gpu = gpu()?;
-    is_alone(&gpu, &format!("tracer::tests::memory::{test}")).then_some(gpu)
+fn gpu_alone(test: &str) -> Option<&'static Gpu> {
+    let gpu = common::gpu("the tracer's memory")?;
+    is_alone(gpu, &format!("tracer::tests::memory::{test}")).then_some(gpu)
 }
 
 #[test]
@@ -27,7 +27,7 @@ fn batches_shrink_to_what_memory_holds() {
     let prepared = PreparedScene::new(&room(), &options).unwrap();
     let all = 64 * 112 * 96;
     let schedule = Schedule::Queues;
-    let mut render = Render::new(&gpu, &prepared, &options, schedule, str::to_owned);
+    let mut render = Render::new(gpu, &prepared, &options, schedule, str::to_owned);
     let mut film = || {
         let mut renderer = Renderer::new(&prepared, options.clone());
         render.tracer.samples = all;
@@ -56,17 +56,17 @@ fn scenes_that_memory_does_not_hold_are_errors_and_leave_the_device_whole() {
     let options = RenderOptions::from_scene(&scene);
     let prepared = PreparedScene::new(&scene, &options).unwrap();
     let mut flat = prepared.flatten();
-    let text = program::source(&flat, &options, false).unwrap();
+    let text = program::source(&flat, false).unwrap();
     let texts = [text.as_str(), program::SUMS];
     let schedule = (Schedule::Auto, None);
     // As large as the device takes: what matters is the size.
     let size = gpu.adapter.largest_array.min(128 * MIB);
     flat.words.resize(usize::try_from(size / 4).unwrap(), 0);
-    assert!(Tracer::of_texts(&gpu, &flat, &options, schedule, texts).is_ok());
+    assert!(Tracer::of_texts(gpu, &flat, &options, schedule, texts).is_ok());
     gpu.wait().unwrap();
     let limit = Limit::new(size / 2);
     let schedule = (Schedule::Auto, None);
-    let error = Tracer::of_texts(&gpu, &flat, &options, schedule, texts).unwrap_err();
+    let error = Tracer::of_texts(gpu, &flat, &options, schedule, texts).unwrap_err();
     assert!(
         matches!(error, TracerError::Gpu(GpuError::OutOfMemory(_))),
         "{error:?}"
@@ -75,7 +75,7 @@ fn scenes_that_memory_does_not_hold_are_errors_and_leave_the_device_whole() {
     assert!(said.starts_with("the GPU is out of memory"), "{said}");
     limit.lift();
     let schedule = (Schedule::Auto, None);
-    assert!(Tracer::of_texts(&gpu, &flat, &options, schedule, texts).is_ok());
+    assert!(Tracer::of_texts(gpu, &flat, &options, schedule, texts).is_ok());
 }
 
 #[test]
@@ -86,11 +86,11 @@ fn arrays_that_memory_does_not_hold_are_errors() {
     let size = 64 << 20;
     let usage = wgpu::BufferUsages::COPY_SRC;
     let contents = vec![1; size];
-    let whole = crate::stage::filled(&gpu, "whole", &contents, usage).unwrap();
+    let whole = crate::stage::filled(gpu, "whole", &contents, usage).unwrap();
     gpu.wait().unwrap();
     let limit = Limit::new(size as u64 / 2);
     for error in [
-        crate::stage::filled(&gpu, "more", &contents, usage).unwrap_err(),
+        crate::stage::filled(gpu, "more", &contents, usage).unwrap_err(),
         gpu.read(&whole, size as u64).unwrap_err(),
     ] {
         assert!(matches!(error, GpuError::OutOfMemory(_)), "{error:?}");
