@@ -30,6 +30,20 @@ struct Outcome<T> {
     wi: Directions<Vec<T>>,
 }
 
+impl Outcome<f32> {
+    /// Whether all of it is finite, and values, densities and weights are not negative.
+    fn is_sane(&self) -> bool {
+        let colours = [&self.f_cos, &self.both.0, &self.samples.weight];
+        let colours = colours.into_iter().flat_map(|c| [&c.r, &c.g, &c.b]);
+        let densities = [&self.pdf, &self.both.1, &self.samples.pdf];
+        let positive = colours.chain(densities).flatten();
+        let directions = [&self.wi, &self.samples.wi];
+        let mut directions = directions.into_iter().flat_map(|w| [&w.x, &w.y, &w.z]);
+        positive.copied().all(|x| x.is_finite() && x >= 0.0)
+            && directions.all(|w| w.iter().all(|x| x.is_finite()))
+    }
+}
+
 fn batch<T: Real, L: Lobes<T>>(level: Level, lobes: &L, e: &Elements<T>) -> Outcome<T> {
     let n = e.wo.x.len();
     let (wo, wi) = (e.wo.as_slices(), e.wi.as_slices());
@@ -153,6 +167,7 @@ fn every_lobe_with_batches_is_compared() {
 fn the_baseline_is_the_scalar_code_bit_for_bit() {
     let elements = Elements::<f32>::new(N, 1);
     let awkward = Elements::<f32>::new(N, 14).with_nan();
+    let horizon = Elements::<f32>::near_the_horizon(2003, 17);
     for alpha in ALPHAS {
         macro_rules! each {
             ($name:literal, $lobe:expr) => {{
@@ -164,6 +179,14 @@ fn the_baseline_is_the_scalar_code_bit_for_bit() {
                 let expected = format!("{:?}", scalar(&lobe, &awkward));
                 let got = format!("{:?}", batch(Level::Baseline, &lobe, &awkward));
                 assert!(expected == got, "{}, {alpha:?}, NaN: {lobe:?}", $name);
+                let expected = scalar(&lobe, &horizon);
+                let got = batch(Level::Baseline, &lobe, &horizon);
+                assert!(expected == got, "{}, {alpha:?}, horizon: {lobe:?}", $name);
+                for level in levels() {
+                    let got = batch(level, &lobe, &horizon);
+                    let name = $name;
+                    assert!(got.is_sane(), "{name}, {alpha:?}, {level}: {lobe:?}");
+                }
             }};
         }
         for_every_lobe!(f32, alpha, each);

@@ -127,6 +127,99 @@ fn errors_stay_within_the_table() {
         .for_each(|worst| within(worst, [1e-6; 4]));
 }
 
+/// Cosines below which facets' views of each other are regularised: values are finite there, and not compared.
+const COMPARED: f64 = 1e-14;
+
+/// How far `f64` values lie apart where each component of the directions is rounded once more: no `f32` knows better.
+fn uncertainty<M: Bsdf<f64>>(twin: &M, at: [Vec3<f64>; 2], value: [f64; 2]) -> [f64; 2] {
+    let mut most = [0.0_f64; 2];
+    for k in 0..6 {
+        for step in [-1.0, 1.0] {
+            let mut moved = at;
+            let w = &mut moved[k / 3];
+            let factor = 1.0 + step * f64::from(f32::EPSILON);
+            match k % 3 {
+                0 => w.x *= factor,
+                1 => w.y *= factor,
+                _ => w.z *= factor,
+            }
+            let (f, pdf) = twin.eval_pdf(moved[0], moved[1], Transport::Radiance);
+            for (most, (a, b)) in most.iter_mut().zip([f.g, pdf].into_iter().zip(value)) {
+                *most = most.max((a - b).abs());
+            }
+        }
+    }
+    most
+}
+
+/// Largest error as a share of its bound, and how many elements were compared.
+fn near_the_horizon<L, M>(level: Level, lobe: &L, twin: &M, e: &Elements<f32>) -> (f64, usize)
+where
+    L: Lobes<f32>,
+    M: Bsdf<f64>,
+{
+    let (wo, wi) = (e.wo.as_slices(), e.wi.as_slices());
+    let mut f_cos = Colours::<Vec<f32>>::zeroed(N);
+    let mut pdf = vec![0.0_f32; N];
+    let transport = Transport::Radiance;
+    level
+        .eval_pdf(lobe, wo, wi, transport, f_cos.as_mut_slices(), &mut pdf)
+        .expect("equal lengths");
+    let (mut worst, mut compared) = (0.0_f64, 0);
+    for (i, &density) in pdf.iter().enumerate() {
+        let at = [wo, wi].map(|w| w.get(i).expect("an element").cast::<f64>());
+        let found = [f_cos.g[i], density].map(f64::from);
+        assert!(found.iter().all(|x| x.is_finite() && *x >= 0.0), "{at:?}");
+        let half = at[0] + at[1];
+        let is_regularised = half.x.hypot(half.y) > 0.0 && half.length() < 1e-10;
+        if is_regularised || at.iter().any(|w| w.z.abs() < COMPARED) {
+            continue;
+        }
+        compared += 1;
+        let (f, p) = twin.eval_pdf(at[0], at[1], transport);
+        let uncertain = uncertainty(twin, at, [f.g, p]);
+        for ((a, b), uncertain) in found.into_iter().zip([f.g, p]).zip(uncertain) {
+            let off = (a - b).abs() / (1e-3 * b.abs() + 4.0 * uncertain + 2e-4);
+            assert!(off <= 1.0, "{level}, {at:?}: {a:e}, f64 {b:e}");
+            worst = worst.max(off);
+        }
+    }
+    (worst, compared)
+}
+
+/// The sweep of specula-stat's `extremes` for batches.
+#[test]
+fn values_are_those_of_f64_down_to_the_horizon() {
+    let elements = Elements::<f32>::near_the_horizon(N, 13);
+    let (mut worst, mut compared, mut tried) = (0.0_f64, 0, 0);
+    for level in levels() {
+        for alpha in ALPHAS {
+            let mut see = |(off, count): (f64, usize)| {
+                worst = worst.max(off);
+                compared += count;
+                tried += N;
+            };
+            for sampler in batch_common::SAMPLERS {
+                let lobe = batch_common::metal(alpha, batch_common::gold()).with_sampler(sampler);
+                let twin = batch_common::metal(alpha, batch_common::gold()).with_sampler(sampler);
+                see(near_the_horizon(level, &lobe, &twin, &elements));
+            }
+            let (lobe, twin) = (
+                batch_common::glass(alpha, 1.5),
+                batch_common::glass(alpha, 1.5),
+            );
+            see(near_the_horizon(level, &lobe, &twin, &elements));
+            let (lobe, twin) = (
+                batch_common::coated_diffuse(Some(alpha)),
+                batch_common::coated_diffuse(Some(alpha)),
+            );
+            see(near_the_horizon(level, &lobe, &twin, &elements));
+        }
+    }
+    println!("{tried} pairs of directions, {compared} compared, at most {worst:.3} of the bound");
+    assert!(compared > tried / 20, "{compared} of {tried}");
+}
+
 #[test]
 fn directions_stay_within_their_bound() {
     let e = Elements::<f32>::new(N, 12);

@@ -1,5 +1,6 @@
 //! Directions at the edge of what a type holds: cosines sampled by their logarithm down to 1e-38, on both sides, lights
-//! opposite to the view in azimuth, beside it and anywhere, at every lobe, every level and in both precisions.
+//! opposite to the view in azimuth, beside it and anywhere, at every lobe and in both precisions. (Batches, at every
+//! level: `values_are_those_of_f64_down_to_the_horizon` in specula-bsdf/tests/batch_accuracy.rs.)
 #![allow(clippy::print_stdout, reason = "the suite says what it tried")]
 
 mod common;
