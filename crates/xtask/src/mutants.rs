@@ -28,6 +28,9 @@ const TESTS: &[&str] = &[
     "values_of_mitsuba",
 ];
 
+/// Where these are.
+const PACKAGES: [&str; 2] = ["specula-bsdf", "specula-stat"];
+
 /// Which faults to try.
 #[derive(clap::Args)]
 pub(crate) struct Sample {
@@ -62,12 +65,20 @@ pub(crate) fn run(root: &Path, sample: &Sample) -> Result<()> {
     // The first build compiles all; a fault that never ends is caught by time.
     mutants.args(["--build-timeout", "900", "--timeout", "240"]);
     mutants.arg("--output").arg(&sample.output);
-    for package in ["specula-bsdf", "specula-stat"] {
+    for package in PACKAGES {
         mutants.args(["--test-package", package]);
     }
-    mutants.args(["--", "--lib"]);
-    for test in TESTS {
-        mutants.args(["--test", test]);
+    // It would test the code without faults in the package alone that is to have them, which lacks most programs.
+    mutants.args(["--baseline", "skip", "--"]);
+    mutants.args(tests());
+    println!("the code without faults");
+    let mut without = workspace::cargo(root);
+    without.args(["test", "--quiet", "--profile", "mutants"]);
+    for package in PACKAGES {
+        without.args(["--package", package]);
+    }
+    if !without.args(tests()).status()?.success() {
+        return Err("tests fail without faults".into());
     }
     println!("every {shards}th of {all} faults, from the {shard}th on");
     verdict(mutants.status()?)?;
@@ -83,6 +94,12 @@ pub(crate) fn run(root: &Path, sample: &Sample) -> Result<()> {
         folder.join("missed.txt").display()
     );
     Ok(())
+}
+
+/// Which tests are run, as arguments of `cargo test`.
+fn tests() -> Vec<&'static str> {
+    let programs = TESTS.iter().flat_map(|&test| ["--test", test]);
+    std::iter::once("--lib").chain(programs).collect()
 }
 
 /// Which part of how many is the sample.
