@@ -167,7 +167,7 @@ fn every_lobe_with_batches_is_compared() {
 fn the_baseline_is_the_scalar_code_bit_for_bit() {
     let elements = Elements::<f32>::new(N, 1);
     let awkward = Elements::<f32>::new(N, 14).with_nan();
-    let horizon = Elements::<f32>::near_the_horizon(2003, 17);
+    let horizon = Elements::near_the_horizon(2003, 17);
     for alpha in ALPHAS {
         macro_rules! each {
             ($name:literal, $lobe:expr) => {{

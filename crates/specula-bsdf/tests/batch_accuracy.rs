@@ -14,6 +14,7 @@ mod batch_common;
 use batch_common::Elements;
 use specula_bsdf::batch::{Alphas, Colours, Directions, Level, Lobes, SampleOutcome, Samples};
 use specula_bsdf::{Alpha, Bsdf, Transport, Vec3};
+use specula_testing::horizon::{is_compared, roundings};
 
 const N: usize = 20_000;
 
@@ -127,26 +128,14 @@ fn errors_stay_within_the_table() {
         .for_each(|worst| within(worst, [1e-6; 4]));
 }
 
-/// Cosines below which facets' views of each other are regularised: values are finite there, and not compared.
-const COMPARED: f64 = 1e-14;
-
 /// How far `f64` values lie apart where each component of the directions is rounded once more: no `f32` knows better.
 fn uncertainty<M: Bsdf<f64>>(twin: &M, at: [Vec3<f64>; 2], value: [f64; 2]) -> [f64; 2] {
     let mut most = [0.0_f64; 2];
-    for k in 0..6 {
-        for step in [-1.0, 1.0] {
-            let mut moved = at;
-            let w = &mut moved[k / 3];
-            let factor = 1.0 + step * f64::from(f32::EPSILON);
-            match k % 3 {
-                0 => w.x *= factor,
-                1 => w.y *= factor,
-                _ => w.z *= factor,
-            }
-            let (f, pdf) = twin.eval_pdf(moved[0], moved[1], Transport::Radiance);
-            for (most, (a, b)) in most.iter_mut().zip([f.g, pdf].into_iter().zip(value)) {
-                *most = most.max((a - b).abs());
-            }
+    for moved in roundings(at.map(Vec3::to_array)) {
+        let [wo, wi] = moved.map(Vec3::from);
+        let (f, pdf) = twin.eval_pdf(wo, wi, Transport::Radiance);
+        for (most, (a, b)) in most.iter_mut().zip([f.g, pdf].into_iter().zip(value)) {
+            *most = most.max((a - b).abs());
         }
     }
     most
@@ -170,9 +159,7 @@ where
         let at = [wo, wi].map(|w| w.get(i).expect("an element").cast::<f64>());
         let found = [f_cos.g[i], density].map(f64::from);
         assert!(found.iter().all(|x| x.is_finite() && *x >= 0.0), "{at:?}");
-        let half = at[0] + at[1];
-        let is_regularised = half.x.hypot(half.y) > 0.0 && half.length() < 1e-10;
-        if is_regularised || at.iter().any(|w| w.z.abs() < COMPARED) {
+        if !is_compared(at.map(Vec3::to_array)) {
             continue;
         }
         compared += 1;
@@ -190,7 +177,7 @@ where
 /// The sweep of specula-stat's `extremes` for batches.
 #[test]
 fn values_are_those_of_f64_down_to_the_horizon() {
-    let elements = Elements::<f32>::near_the_horizon(N, 13);
+    let elements = Elements::near_the_horizon(N, 13);
     let (mut worst, mut compared, mut tried) = (0.0_f64, 0, 0);
     for level in levels() {
         for alpha in ALPHAS {

@@ -15,6 +15,7 @@ use specula_bsdf::math::{Real, Rgb, Stream, Vec3, vec3, warp};
 use specula_bsdf::multibounce::MultibounceModel;
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Alpha, Bsdf, Transport};
+use specula_testing::horizon::{self, is_compared, roundings};
 
 use lobes::{examples, row};
 
@@ -30,21 +31,11 @@ const ALPHAS: [(f64, f64); 8] = [
 ];
 /// Pairs of directions of each lobe.
 const PAIRS: usize = 20_000;
-/// Cosines below which values are only finite and bounded: what facets see of each other is regularised there, and so
-/// are half vectors shorter than 1e-10 that are not along the normal.
-const COMPARED: f64 = 1e-14;
-
 /// Absolute tolerance, in 1/sr: losses of smooth surfaces are small differences of tables.
 const ABSOLUTE: f64 = 2e-4;
 
-/// A unit direction that `f32` holds, with a cosine whose logarithm is uniform.
 fn direction(s: &mut Stream, azimuth: [f32; 2]) -> Vec3<f32> {
-    let exponent = -38.0 * s.next::<f64>();
-    #[expect(clippy::cast_possible_truncation, reason = "rounding is meant")]
-    let z = 10.0_f64.powf(exponent).max(1e-38) as f32;
-    let r = ((1.0 - z) * (1.0 + z)).sqrt();
-    let side = if s.next::<f32>() < 0.7 { 1.0 } else { -1.0 };
-    vec3(r * azimuth[0], r * azimuth[1], side * z)
+    horizon::direction((s.next(), s.next()), azimuth).into()
 }
 
 fn azimuth(s: &mut Stream) -> [f32; 2] {
@@ -108,23 +99,13 @@ fn evaluate<T: Real>(lobe: &Lobe<T>, [wo, wi]: [Vec3<T>; 2]) -> (Rgb<T>, T) {
 /// How far `f64` values lie apart where each component of the directions is rounded once more: no `f32` knows better.
 fn uncertainty(lobe: &Lobe<f64>, at: [Vec3<f64>; 2], value: [f64; 4]) -> [f64; 4] {
     let mut most = [0.0_f64; 4];
-    for k in 0..6 {
-        for step in [-1.0, 1.0] {
-            let mut moved = at;
-            let w = &mut moved[k / 3];
-            let factor = 1.0 + step * f64::from(f32::EPSILON);
-            match k % 3 {
-                0 => w.x *= factor,
-                1 => w.y *= factor,
-                _ => w.z *= factor,
-            }
-            let (f, pdf) = evaluate(lobe, moved);
-            for (most, (a, b)) in most
-                .iter_mut()
-                .zip([f.r, f.g, f.b, pdf].into_iter().zip(value))
-            {
-                *most = most.max((a - b).abs());
-            }
+    for moved in roundings(at.map(Vec3::to_array)) {
+        let (f, pdf) = evaluate(lobe, moved.map(Vec3::from));
+        for (most, (a, b)) in most
+            .iter_mut()
+            .zip([f.r, f.g, f.b, pdf].into_iter().zip(value))
+        {
+            *most = most.max((a - b).abs());
         }
     }
     most
@@ -146,9 +127,7 @@ fn sweep(name: &str, single: &Lobe<f32>, double: &Lobe<f64>, seed: u64) -> Found
             ));
             continue;
         }
-        let half = wide[0] + wide[1];
-        let is_regularised = half.x.hypot(half.y) > 0.0 && half.length() < 1e-10;
-        if wide.iter().any(|w| w.z.abs() < COMPARED) || is_regularised || is_stochastic {
+        if is_stochastic || !is_compared(wide.map(Vec3::to_array)) {
             continue;
         }
         found.compared += 1;

@@ -13,6 +13,7 @@ use specula_bsdf::math::{Stream, rgb, warp};
 use specula_bsdf::ndf::{Ggx, Masking};
 use specula_bsdf::vndf::Sampler;
 use specula_bsdf::{Alpha, Real, Rgb, Vec3};
+use specula_testing::horizon;
 
 /// Cosines of views: straight, oblique, grazing.
 pub(crate) const COSINES: [f64; 7] = [1.0, 0.9, 0.7, 0.3, 0.05, 5e-3, 1e-3];
@@ -74,42 +75,6 @@ impl<T: Real> Elements<T> {
         [&self.u[0], &self.u[1], &self.u[2]]
     }
 
-    /// Cosines whose logarithms are uniform down to 1e-38, on both sides; half of the lights are opposite to the view
-    /// in azimuth, a quarter are above or below it.
-    pub(crate) fn near_the_horizon(n: usize, seed: u64) -> Self {
-        let mut stream = Stream::new(seed);
-        let (mut wo, mut wi) = (Vec::new(), Vec::new());
-        for i in 0..n {
-            let mut turn = || stream.next::<T>().sin_cos_turns();
-            let ((s, c), (other_s, other_c)) = (turn(), turn());
-            let azimuth = match i % 4 {
-                0 | 1 => [-c, -s],
-                2 => [c, s],
-                _ => [other_c, other_s],
-            };
-            let mut direction = |[x, y]: [T; 2]| {
-                let exponent = -38.0 * stream.next::<f64>();
-                #[allow(clippy::cast_possible_truncation, reason = "rounding is meant")]
-                let z = single::<T>(10.0_f64.powf(exponent).max(1e-38) as f32);
-                let r = ((T::ONE - z) * (T::ONE + z)).sqrt();
-                let side = stream.next::<f32>() < 0.7;
-                Vec3 {
-                    x: r * x,
-                    y: r * y,
-                    z: if side { z } else { -z },
-                }
-            };
-            wo.push(direction([c, s]));
-            wi.push(direction(azimuth));
-        }
-        let u = core::array::from_fn(|_| (0..n).map(|_| stream.next()).collect());
-        Self {
-            wo: wo.into_iter().collect(),
-            wi: wi.into_iter().collect(),
-            u,
-        }
-    }
-
     /// Diffuse light instead: cosine-distributed directions above the horizon.
     pub(crate) fn above(n: usize, seed: u64) -> Self {
         let mut stream = Stream::new(seed);
@@ -120,6 +85,33 @@ impl<T: Real> Elements<T> {
         };
         let (wo, wi) = (directions(), directions());
         let u = core::array::from_fn(|_| (0..n).map(|_| stream.next()).collect());
+        Self { wo, wi, u }
+    }
+}
+
+impl Elements<f32> {
+    /// Cosines whose logarithms are uniform down to 1e-38, on both sides; half of the lights are opposite to the view
+    /// in azimuth, a quarter are above or below it.
+    pub(crate) fn near_the_horizon(n: usize, seed: u64) -> Self {
+        let mut stream = Stream::new(seed);
+        let mut wo = Vec::new();
+        let wi = (0..n).map(|i| {
+            let mut turn = || stream.next::<f32>().sin_cos_turns();
+            let ((s, c), (other_s, other_c)) = (turn(), turn());
+            let azimuth = match i % 4 {
+                0 | 1 => [-c, -s],
+                2 => [c, s],
+                _ => [other_c, other_s],
+            };
+            let mut direction = |azimuth| -> Vec3<f32> {
+                horizon::direction((stream.next(), stream.next()), azimuth).into()
+            };
+            wo.push(direction([c, s]));
+            direction(azimuth)
+        });
+        let wi = wi.collect();
+        let u = core::array::from_fn(|_| (0..n).map(|_| stream.next()).collect());
+        let wo = wo.into_iter().collect();
         Self { wo, wi, u }
     }
 }
