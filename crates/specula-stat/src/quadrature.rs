@@ -439,8 +439,8 @@ impl Rule {
 
 /// A bound of the 15-point rule's error, from its difference to the 7-point rule.
 ///
-/// QUADPACK's bound, which is the lower one where the integrand is smooth; at kinks ten times the difference, which
-/// falls short of the error where a kink happens to lie where both rules err alike.
+/// QUADPACK's bound, which is the lower one where the integrand is smooth; at kinks ten times the difference, because
+/// once is too little where a kink makes both rules err alike.
 fn sharpen(difference: f64, spread: f64) -> f64 {
     if spread == 0.0 {
         return 0.0;

@@ -38,12 +38,13 @@ pub(crate) fn run(root: &Path) -> Result<()> {
             check.args(["--no-default-features", "--features", set]);
             check.args(["--", "-D", "warnings"]);
             count += 1;
+            let name = format!("{package} with features `{set}`");
             let begin = Instant::now();
             let is_fine = check.status()?.success();
             let took = begin.elapsed().as_secs_f64();
-            println!("{package} with features `{set}`: {took:.1} s");
+            println!("{name}: {took:.1} s");
             if !is_fine {
-                failed.push(format!("{package} with features `{set}`"));
+                failed.push(name);
             }
         }
     }

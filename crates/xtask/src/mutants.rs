@@ -71,15 +71,7 @@ pub(crate) fn run(root: &Path, sample: &Sample) -> Result<()> {
     // It would test the code without faults in the package alone that is to have them, which lacks most programs.
     mutants.args(["--baseline", "skip", "--"]);
     mutants.args(tests());
-    println!("the code without faults");
-    let mut without = workspace::cargo(root);
-    without.args(["test", "--quiet", "--profile", "mutants"]);
-    for package in PACKAGES {
-        without.args(["--package", package]);
-    }
-    if !without.args(tests()).status()?.success() {
-        return Err("tests fail without faults".into());
-    }
+    test_without_faults(root)?;
     println!("every {shards}th of {all} faults, from the {shard}th on");
     verdict(mutants.status()?)?;
     let folder = sample.output.join("mutants.out");
@@ -94,6 +86,19 @@ pub(crate) fn run(root: &Path, sample: &Sample) -> Result<()> {
         folder.join("missed.txt").display()
     );
     Ok(())
+}
+
+fn test_without_faults(root: &Path) -> Result<()> {
+    println!("the code without faults");
+    let mut cargo = workspace::cargo(root);
+    cargo.args(["test", "--quiet", "--profile", "mutants"]);
+    for package in PACKAGES {
+        cargo.args(["--package", package]);
+    }
+    match cargo.args(tests()).status()?.success() {
+        true => Ok(()),
+        false => Err("tests fail without faults".into()),
+    }
 }
 
 /// Which tests are run, as arguments of `cargo test`.
