@@ -334,7 +334,18 @@ impl Gpu {
     /// # Errors
     /// Where the device was lost meanwhile.
     pub fn wait(&self) -> Result<(), GpuError> {
-        let waited = self.device.poll(wgpu::PollType::wait_indefinitely());
+        self.wait_for(None)
+    }
+
+    /// Waits until a submission is done; `None`: all.
+    pub(crate) fn wait_for(
+        &self,
+        submission_index: Option<wgpu::SubmissionIndex>,
+    ) -> Result<(), GpuError> {
+        let waited = self.device.poll(wgpu::PollType::Wait {
+            submission_index,
+            timeout: None,
+        });
         self.check()?;
         waited
             .map(|_| ())

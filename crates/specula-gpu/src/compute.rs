@@ -59,21 +59,36 @@ impl Gpu {
     /// # Errors
     /// Where memory does not suffice or the device was lost.
     pub fn read(&self, buffer: &wgpu::Buffer, size: u64) -> Result<Vec<u8>, GpuError> {
-        let staging = self.caught(|gpu| {
-            let staging = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("read back"),
-                size,
-                usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            });
+        let (staging, submission) = self.caught(|gpu| {
+            let staging = gpu.staging(size);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, size);
-            gpu.queue.submit([encoder.finish()]);
-            staging
+            (staging, gpu.queue.submit([encoder.finish()]))
         })?;
+        self.fetched(&staging, size, submission, <[u8]>::to_vec)
+    }
+
+    /// A buffer to be read here.
+    pub(crate) fn staging(&self, size: u64) -> wgpu::Buffer {
+        self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("read back"),
+            size,
+            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })
+    }
+
+    /// The first bytes of a staging buffer, once the submission that writes it is done.
+    pub(crate) fn fetched<T>(
+        &self,
+        staging: &wgpu::Buffer,
+        size: u64,
+        submission: wgpu::SubmissionIndex,
+        read: impl FnOnce(&[u8]) -> T,
+    ) -> Result<T, GpuError> {
         let (sender, receiver) = channel();
         self.caught(|_| {
-            staging.map_async(wgpu::MapMode::Read, .., move |mapped| {
+            staging.map_async(wgpu::MapMode::Read, ..size, move |mapped| {
                 // The receiver waits below; where it is gone, so is the interest.
                 let _ = sender.send(mapped);
             });
@@ -81,15 +96,18 @@ impl Gpu {
         let lost = |reason: &dyn std::fmt::Display| GpuError::Lost(reason.to_string());
         // Where several threads wait, another one may be about to make the call.
         let mapped = loop {
-            self.wait()?;
+            self.wait_for(Some(submission.clone()))?;
             match receiver.recv_timeout(Duration::from_millis(10)) {
                 Err(RecvTimeoutError::Timeout) => {}
                 other => break other,
             }
         };
         mapped.map_err(|e| lost(&e))?.map_err(|e| lost(&e))?;
-        let view = staging.get_mapped_range(..).map_err(|e| lost(&e))?;
-        Ok(view.to_vec())
+        let view = staging.get_mapped_range(..size).map_err(|e| lost(&e))?;
+        let value = read(&view);
+        drop(view);
+        staging.unmap();
+        Ok(value)
     }
 }
 

@@ -1,6 +1,7 @@
 //! The path tracer on the GPU.
 
 pub mod adapter;
+mod cast;
 pub mod compute;
 mod dead_branches;
 mod error;
@@ -13,6 +14,7 @@ mod schedule;
 mod shader;
 mod stage;
 mod tracer;
+mod tree;
 
 #[cfg(test)]
 extern crate self as specula_gpu;
@@ -21,9 +23,11 @@ extern crate self as specula_gpu;
 mod common;
 
 pub use adapter::{AdapterChoice, AdapterDescription, AdapterKind, Gpu, GpuError, adapters};
+pub use cast::{RayBatch, RayCaster, RayHit, RayWords};
 pub use compute::{Arrays, ComputeKernel};
 pub use error::TracerError;
 pub use queries::{Rays, Structures};
 pub use schedule::{Schedule, UnknownSchedule};
 pub use shader::Shader;
 pub use tracer::{Tracer, TracerOptions, missing};
+pub use tree::Tree;

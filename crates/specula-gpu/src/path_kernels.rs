@@ -34,6 +34,7 @@ pub(crate) enum PathKernels {
 pub(crate) struct Queues {
     begin: Stage,
     bounce: Stage,
+    compact: Stage,
     advance: Stage,
     /// Most vertices of a path.
     most: u32,
@@ -43,7 +44,7 @@ pub(crate) struct Queues {
 #[derive(Debug)]
 pub(crate) enum BoundKernels {
     Paths(Stage, wgpu::BindGroup),
-    Queues(Queues, QueueArrays),
+    Queues(Box<Queues>, QueueArrays),
 }
 
 /// Arrays of paths in queues.
@@ -51,6 +52,7 @@ pub(crate) enum BoundKernels {
 pub(crate) struct QueueArrays {
     group: wgpu::BindGroup,
     advance_group: wgpu::BindGroup,
+    compact_group: wgpu::BindGroup,
     control: wgpu::Buffer,
     workgroups: wgpu::Buffer,
 }
@@ -75,21 +77,20 @@ impl PathKernels {
             return Ok(Self::Paths(stage));
         }
         let arrays = layout(gpu, (0..QUEUE_ARRAYS).map(slot))?;
-        let both = [0, 1].map(|binding| Slot {
-            binding,
-            is_written: true,
-        });
-        let advance = gpu.shader("queue advance", program::QUEUE_ADVANCE)?;
+        let between = gpu.shader("queue advance", program::QUEUE_ADVANCE)?;
+        // The control, and what an entry point writes besides.
+        let stage = |entry, other| {
+            let slots = [0, other].map(|binding| Slot {
+                binding,
+                is_written: true,
+            });
+            Stage::new(gpu, &layout(gpu, slots)?, &between, entry, None)
+        };
         Ok(Self::Queues(Queues {
             begin: Stage::new(gpu, &arrays, shader, "queue_begin", None)?,
             bounce: Stage::new(gpu, &arrays, shader, "queue_bounce", structures)?,
-            advance: Stage::new(
-                gpu,
-                &layout(gpu, both)?,
-                &advance,
-                "queue_advance_main",
-                None,
-            )?,
+            compact: stage("queue_advance_compact", 2)?,
+            advance: stage("queue_advance_main", 1)?,
             most: max_depth.saturating_add(1),
         }))
     }
@@ -123,58 +124,88 @@ impl PathKernels {
                 let arrays = QueueArrays {
                     group: queues.bounce.group(gpu, &all),
                     advance_group: queues.advance.group(gpu, &[&control, &workgroups]),
+                    compact_group: queues.compact.group(gpu, &[&control, &slots]),
                     control,
                     workgroups,
                 };
-                BoundKernels::Queues(queues.clone(), arrays)
+                BoundKernels::Queues(Box::new(queues.clone()), arrays)
             }
         }
     }
 }
 
 impl BoundKernels {
-    /// Takes the samples of a batch.
+    /// Begins to take the samples of a batch.
     ///
     /// * `slots`: threads, one for each sample or none.
-    pub(crate) fn take(&self, gpu: &Gpu, slots: usize) -> Result<(), GpuError> {
+    /// * Returns: vertices that paths have come to, where some may go on; see [`go_on`](Self::go_on).
+    pub(crate) fn begin(&self, gpu: &Gpu, slots: usize) -> Result<Option<u32>, GpuError> {
         match self {
-            Self::Paths(stage, group) => submit(gpu, |pass| stage.run(pass, group, slots)),
-            Self::Queues(queues, arrays) => queues.take(gpu, arrays, slots),
+            Self::Paths(stage, group) => {
+                submit(gpu, |pass| stage.run(pass, group, slots))?;
+                Ok(None)
+            }
+            Self::Queues(queues, arrays) => queues.begin(gpu, arrays, slots),
+        }
+    }
+
+    /// Takes paths to their ends.
+    ///
+    /// * `done`: vertices that they have come to.
+    pub(crate) fn go_on(&self, gpu: &Gpu, done: u32) -> Result<(), GpuError> {
+        match self {
+            Self::Paths(..) => Ok(()),
+            Self::Queues(queues, arrays) => queues.go_on(gpu, arrays, done),
         }
     }
 }
 
 impl Queues {
-    fn take(&self, gpu: &Gpu, arrays: &QueueArrays, slots: usize) -> Result<(), GpuError> {
-        // The first advance is to vertex 0.
-        let before: [u32; 3] = [u32::MAX, 0, 0];
+    fn begin(
+        &self,
+        gpu: &Gpu,
+        arrays: &QueueArrays,
+        slots: usize,
+    ) -> Result<Option<u32>, GpuError> {
+        // Before vertex 0: a queue of odd depth, of all slots.
+        let count = u32::try_from(slots).unwrap_or(u32::MAX);
+        let before = [u32::MAX, 0, count];
         gpu.caught(|gpu| {
             let control = bytemuck::bytes_of(&before);
             gpu.queue.write_buffer(&arrays.control, 0, control);
         })?;
-        let mut done = 0;
-        loop {
-            let next = VERTICES_AT_ONCE.min(self.most - done);
-            submit(gpu, |pass| {
-                if done == 0 {
-                    self.begin.run(pass, &arrays.group, slots);
-                }
-                for _ in 0..next {
-                    self.advance.run(pass, &arrays.advance_group, 1);
-                    self.bounce
-                        .run_indirect(pass, &arrays.group, &arrays.workgroups);
-                }
-            })?;
-            done += next;
-            if done >= self.most {
-                return Ok(());
-            }
+        let count = VERTICES_AT_ONCE.min(self.most);
+        submit(gpu, |pass| {
+            self.begin.run(pass, &arrays.group, slots);
+            self.compact.run(pass, &arrays.compact_group, slots);
+            self.bounce(pass, arrays, count);
+        })?;
+        Ok((count < self.most).then_some(count))
+    }
+
+    fn go_on(&self, gpu: &Gpu, arrays: &QueueArrays, mut done: u32) -> Result<(), GpuError> {
+        while done < self.most {
             let control = gpu.read(&arrays.control, 12)?;
             let control: Vec<u32> = bytemuck::pod_collect_to_vec(&control);
             // The queue of the vertex after the last one.
             if control.get(1 + (done & 1) as usize) == Some(&0) {
                 return Ok(());
             }
+            let count = VERTICES_AT_ONCE.min(self.most - done);
+            submit(gpu, |pass| self.bounce(pass, arrays, count))?;
+            done += count;
+        }
+        Ok(())
+    }
+
+    /// Takes all paths to so many vertices more.
+    fn bounce(&self, pass: &mut wgpu::ComputePass<'_>, arrays: &QueueArrays, count: u32) {
+        for _ in 0..count {
+            self.advance.run(pass, &arrays.advance_group, 1);
+            self.bounce
+                .run_indirect(pass, &arrays.group, &arrays.workgroups);
+            self.compact
+                .run_indirect(pass, &arrays.compact_group, &arrays.workgroups);
         }
     }
 }

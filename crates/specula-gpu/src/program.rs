@@ -6,6 +6,8 @@ use std::fmt::Write as _;
 use specula_render::{FlatScene, MaterialShader, RenderOptions};
 use specula_shaders::ComposeError;
 
+use crate::tree::Tree;
+
 /// The kernel that sums samples, complete in itself.
 pub(crate) const SUMS: &str = include_str!("../wgsl/sums.wgsl");
 /// Its entry point.
@@ -144,6 +146,27 @@ pub(crate) fn source(flat: &FlatScene<'_>, queries: bool) -> Result<String, Comp
     Ok(text)
 }
 
+/// Modules of rays alone, besides those that cast them.
+const OF_RAYS: [&str; 5] = ["world", "ray", "quadric", "angles", "surface"];
+
+/// The text of a shader that casts rays and nothing else.
+///
+/// * `queries`: whether rays are cast by the adapter's ray queries.
+pub(crate) fn rays(flat: &FlatScene<'_>, queries: bool) -> String {
+    let mut text = String::new();
+    if queries {
+        text += "enable wgpu_ray_query;\n";
+    }
+    text += &constants(flat, &[]);
+    let named = |name: &&str| BEFORE.iter().find(|module| module.name == *name);
+    for module in OF_RAYS.iter().filter_map(named) {
+        text += &code(module.text);
+    }
+    text += &code(RAYS[usize::from(queries)].text);
+    text += &code(include_str!("../wgsl/cast.wgsl"));
+    text
+}
+
 /// A module without its imports.
 fn code(text: &str) -> String {
     let lines = text.lines().filter(|line| !line.starts_with("import "));
@@ -162,14 +185,15 @@ fn library_modules(text: &'static str) -> impl Iterator<Item = &'static str> {
 /// * `kinds`: the modules of the scene's kinds of material.
 fn constants(flat: &FlatScene<'_>, kinds: &[&Module]) -> String {
     let find = |name: &str| flat.constants.iter().find(|c| c.0 == name).map(|c| c.1);
-    // Eight children a level, of the trees over instances and within them.
-    let levels = 2 * find("TREE_DEPTH").unwrap_or(0) + 1;
     let stored = match kinds.iter().any(|kind| kind.stores_parameters()) {
         true => 12,
         false => 1,
     };
     let own = [
-        ("STACK_SIZE", 8 * levels),
+        (
+            "STACK_SIZE",
+            Tree::stack_size(find("TREE_DEPTH").unwrap_or(0)),
+        ),
         ("BOUND_STORED", stored),
         ("UNCLAMPED", UNCLAMPED),
     ];

@@ -7,7 +7,7 @@ use crate::adapter::{Gpu, GpuError};
 use crate::path_kernels::{BoundKernels, PathKernels, SAMPLE_SIZE};
 use crate::program;
 use crate::shader::Slot;
-use crate::stage::{Stage, array, layout, submit};
+use crate::stage::{Stage, array, layout};
 
 /// Bytes of a requested run.
 const RUN_SIZE: u64 = 16;
@@ -32,6 +32,41 @@ pub(crate) struct SampleBatch {
     sums: wgpu::Buffer,
     taking: BoundKernels,
     adding: wgpu::BindGroup,
+    /// Of finished submissions, for the next ones.
+    spare: Vec<wgpu::Buffer>,
+}
+
+/// Samples that a device takes.
+#[derive(Debug)]
+pub(crate) struct Submission {
+    runs: usize,
+    /// Sums of the runs are copied to this.
+    staging: wgpu::Buffer,
+    state: State,
+}
+
+impl Submission {
+    /// Waits for the sums of the runs; also returns the buffer that they were read from.
+    ///
+    /// Call [`SampleBatch::complete`] before.
+    pub(crate) fn fetch(self, gpu: &Gpu) -> Result<(Vec<RunSums>, wgpu::Buffer), GpuError> {
+        let State::Whole(index) = self.state else {
+            let text = "paths have not been taken to their ends";
+            return Err(GpuError::Refused(text.to_owned()));
+        };
+        let size = (self.runs * size_of::<RunSums>()) as u64;
+        let sums = gpu.fetched(&self.staging, size, index, bytemuck::pod_collect_to_vec)?;
+        Ok((sums, self.staging))
+    }
+}
+
+/// What of a submission is under way.
+#[derive(Debug)]
+enum State {
+    /// Paths to so many vertices; some may go on.
+    Begun(u32),
+    /// Everything.
+    Whole(wgpu::SubmissionIndex),
 }
 
 impl Kernels {
@@ -69,6 +104,7 @@ impl SampleBatch {
                 adding: kernels.sums.group(gpu, &[&requests, &results, &sums]),
                 requests,
                 sums,
+                spare: Vec::new(),
             }
         })
     }
@@ -78,17 +114,17 @@ impl SampleBatch {
         self.capacity[0] >= samples && self.capacity[1] >= runs
     }
 
-    /// Takes the samples of runs, and adds those of each.
+    /// Begins to take the samples of runs, and to add those of each.
     ///
     /// * `settings`: of the render, by [`program::settings`].
     /// * `longest`: samples of the longest run.
-    pub(crate) fn take(
-        &self,
+    pub(crate) fn begin(
+        &mut self,
         gpu: &Gpu,
         kernels: &Kernels,
         settings: [u32; 4],
         (runs, longest): (&[Run], u32),
-    ) -> Result<Vec<RunSums>, GpuError> {
+    ) -> Result<Submission, GpuError> {
         let count = u32::try_from(runs.len()).unwrap_or(u32::MAX);
         let words = runs.iter().map(|run| {
             let [x, y] = run.pixel;
@@ -98,15 +134,64 @@ impl SampleBatch {
             .into_iter()
             .chain(words)
             .collect();
+        let staging = match self.spare.pop() {
+            Some(staging) => staging,
+            None => gpu.caught(|gpu| gpu.staging(self.sums.size()))?,
+        };
         gpu.caught(|gpu| {
             let requests = bytemuck::cast_slice(&requests);
             gpu.queue.write_buffer(&self.requests, 0, requests);
         })?;
-        self.taking.take(gpu, runs.len() * longest as usize)?;
-        submit(gpu, |pass| {
-            kernels.sums.run(pass, &self.adding, runs.len());
-        })?;
-        let bytes = gpu.read(&self.sums, (runs.len() * size_of::<RunSums>()) as u64)?;
-        Ok(bytemuck::pod_collect_to_vec(&bytes))
+        let rest = self.taking.begin(gpu, runs.len() * longest as usize)?;
+        let state = match rest {
+            Some(done) => State::Begun(done),
+            None => State::Whole(self.add(gpu, kernels, runs.len(), &staging)?),
+        };
+        Ok(Submission {
+            runs: runs.len(),
+            staging,
+            state,
+        })
+    }
+
+    /// Submits what of a submission is left: the batch's arrays are free for the next one.
+    pub(crate) fn complete(
+        &self,
+        gpu: &Gpu,
+        kernels: &Kernels,
+        submission: &mut Submission,
+    ) -> Result<(), GpuError> {
+        if let State::Begun(done) = submission.state {
+            self.taking.go_on(gpu, done)?;
+            let index = self.add(gpu, kernels, submission.runs, &submission.staging)?;
+            submission.state = State::Whole(index);
+        }
+        Ok(())
+    }
+
+    /// Keeps a buffer that was read for the next submission.
+    pub(crate) fn reuse(&mut self, staging: wgpu::Buffer) {
+        if staging.size() == self.sums.size() {
+            self.spare.push(staging);
+        }
+    }
+
+    /// Adds the samples of each run, and copies the sums to where they are read.
+    fn add(
+        &self,
+        gpu: &Gpu,
+        kernels: &Kernels,
+        runs: usize,
+        staging: &wgpu::Buffer,
+    ) -> Result<wgpu::SubmissionIndex, GpuError> {
+        gpu.caught(|gpu| {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            kernels.sums.run(&mut pass, &self.adding, runs);
+            drop(pass);
+            let size = (runs * size_of::<RunSums>()) as u64;
+            encoder.copy_buffer_to_buffer(&self.sums, 0, staging, 0, size);
+            gpu.queue.submit([encoder.finish()])
+        })
     }
 }

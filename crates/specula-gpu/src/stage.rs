@@ -104,10 +104,13 @@ impl Stage {
 
     /// The kernel's arrays, in the order of their bindings.
     pub(crate) fn group(&self, gpu: &Gpu, buffers: &[&wgpu::Buffer]) -> wgpu::BindGroup {
-        let entries: Vec<_> = (0_u32..)
+        let entries: Vec<_> = self
+            .layout
+            .slots
+            .iter()
             .zip(buffers)
-            .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                binding,
+            .map(|(slot, buffer)| wgpu::BindGroupEntry {
+                binding: slot.binding,
                 resource: buffer.as_entire_binding(),
             })
             .collect();

@@ -1,10 +1,12 @@
 //! The path tracer: a scene on the device, and samples that it takes there.
 
+use std::collections::VecDeque;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use specula_render::{
-    FlatScene, PassReport, PreparedScene, RenderOptions, Renderer, Run, RunSums, Wanted,
+    FlatScene, PassReport, PreparedScene, RenderOptions, Renderer, Run, RunSums, SampleDevice,
+    Wanted,
 };
 
 use crate::adapter::{Gpu, GpuError};
@@ -12,9 +14,10 @@ use crate::error::TracerError;
 use crate::path_kernels::PathKernels;
 use crate::program;
 use crate::queries::{Rays, Structures};
-use crate::sample_batch::{Kernels, SampleBatch};
+use crate::sample_batch::{Kernels, SampleBatch, Submission};
 use crate::schedule::Schedule;
 use crate::stage::{WORKGROUP, filled};
+use crate::tree::Tree;
 
 /// How long a batch should take: systems reset devices whose work takes seconds.
 const BATCH_TIME: Duration = Duration::from_millis(100);
@@ -39,13 +42,26 @@ pub struct Tracer<'a> {
     kernels: Kernels,
     /// Of the render.
     settings: [u32; 4],
-    /// Tables, nodes, packets, words.
+    /// Tables, nodes, triangles, words.
     scene: [wgpu::Buffer; 4],
     uses_ray_queries: bool,
     batch: Option<SampleBatch>,
+    /// Begun and not finished, the first one first.
+    begun: VecDeque<Begun>,
+    /// When the last one was finished.
+    finished: Option<Instant>,
     /// Samples of the next batch.
     samples: usize,
     largest: usize,
+}
+
+/// What was begun of a pass.
+#[derive(Debug)]
+enum Begun {
+    /// So many samples, on the device since then.
+    Submitted(Submission, usize, Instant),
+    /// Samples that the device takes in several batches only; they are done.
+    Done(Vec<RunSums>),
 }
 
 /// Features of a scene that shaders do not support, in words for a message; none: a device can render it.
@@ -78,7 +94,7 @@ impl<'a> Tracer<'a> {
         options: &RenderOptions,
         on_gpu: TracerOptions,
     ) -> Result<Self, TracerError> {
-        let flat = scene.flatten();
+        let mut flat = scene.flatten();
         let mut missing = flat.missing.clone();
         if options.share_paths > 1 {
             missing.push("paths that share".to_owned());
@@ -86,27 +102,29 @@ impl<'a> Tracer<'a> {
         if !missing.is_empty() {
             return Err(TracerError::Missing(missing));
         }
-        let (needed, limit) = (largest_array(&flat), gpu.adapter.largest_array);
+        let tree = Tree::new(&mut flat);
+        let (needed, limit) = (largest_array(&flat, &tree), gpu.adapter.largest_array);
         if needed > limit {
             return Err(TracerError::TooLarge { needed, limit });
         }
         let structures = Structures::chosen(on_gpu.rays, gpu, scene)?;
         let text = program::source(&flat, structures.is_some())?;
         let texts = [text.as_str(), program::SUMS];
-        Self::of_texts(gpu, &flat, options, (on_gpu.schedule, structures), texts)
+        let scene = (&flat, &tree);
+        Self::of_texts(gpu, scene, options, (on_gpu.schedule, structures), texts)
     }
 
     /// * `structures`: of ray queries; `None`: rays are traversed by the shader.
     /// * `texts`: of the scene's shader, and of the one that sums samples.
     fn of_texts(
         gpu: &'a Gpu,
-        flat: &FlatScene<'_>,
+        (flat, tree): (&FlatScene<'_>, &Tree),
         options: &RenderOptions,
         (schedule, structures): (Schedule, Option<Structures>),
         texts: [&str; 2],
     ) -> Result<Self, TracerError> {
         // Before shaders are compiled: a scene that memory does not hold is told at once.
-        let [tables, nodes, packets, words] = arrays(flat);
+        let [tables, nodes, packets, words] = arrays(flat, tree);
         let scene = [
             upload(gpu, tables)?,
             upload(gpu, nodes)?,
@@ -129,6 +147,8 @@ impl<'a> Tracer<'a> {
             scene,
             uses_ray_queries: structures.is_some(),
             batch: None,
+            begun: VecDeque::new(),
+            finished: None,
             samples: FIRST_BATCH,
             largest: usize::try_from(largest)
                 .unwrap_or(usize::MAX)
@@ -153,26 +173,16 @@ impl<'a> Tracer<'a> {
         samples: u32,
         stop: &AtomicBool,
     ) -> Result<PassReport, GpuError> {
-        let most = std::cell::Cell::new(self.samples);
-        renderer.render_pass_with(
-            samples,
-            stop,
-            || most.get(),
-            |wanted| {
-                let sums = self.take(wanted);
-                most.set(self.samples);
-                sums
-            },
-        )
+        // What an earlier pass left that failed.
+        self.begun.clear();
+        self.finished = None;
+        renderer.render_pass_with(samples, stop, self)
     }
 
-    /// The sums of tiles, in the order of [`Wanted::runs`], in batches.
-    fn take(&mut self, wanted: &[Wanted]) -> Result<Vec<RunSums>, GpuError> {
-        let longest = wanted.iter().map(Wanted::longest_run).max().unwrap_or(0);
-        let longest = longest.max(1);
-        let runs: Vec<Run> = wanted.iter().flat_map(Wanted::runs).collect();
+    /// The sums of runs, in batches, one after the other.
+    fn take(&mut self, runs: &[Run], longest: u32) -> Result<Vec<RunSums>, GpuError> {
         let mut sums = Vec::with_capacity(runs.len());
-        let mut rest = runs.as_slice();
+        let mut rest = runs;
         while !rest.is_empty() {
             let most = (self.largest / longest as usize).clamp(1, rest.len());
             let (now, later) = rest.split_at(most);
@@ -184,8 +194,7 @@ impl<'a> Tracer<'a> {
                 }
                 Err(error) => return Err(error),
             }
-            let samples = now.iter().map(|run| run.count as usize).sum();
-            self.adjust(samples, start.elapsed());
+            self.adjust(count_samples(now), start.elapsed());
             rest = later;
         }
         Ok(sums)
@@ -211,8 +220,14 @@ impl<'a> Tracer<'a> {
     ///
     /// * `longest`: samples of the longest one.
     fn take_batch(&mut self, runs: &[Run], longest: u32) -> Result<Vec<RunSums>, GpuError> {
+        let submission = self.submit(runs, longest)?;
+        self.fetch(submission)
+    }
+
+    /// Begins a batch.
+    fn submit(&mut self, runs: &[Run], longest: u32) -> Result<Submission, GpuError> {
         let needed = [runs.len() * longest as usize, runs.len()];
-        let batch = match self.batch.take() {
+        let mut batch = match self.batch.take() {
             Some(batch) if batch.holds(needed) => batch,
             smaller => {
                 // Freed before more memory is requested.
@@ -221,32 +236,101 @@ impl<'a> Tracer<'a> {
                 SampleBatch::new(self.gpu, &self.kernels, &self.scene, capacity)?
             }
         };
-        let sums = batch.take(self.gpu, &self.kernels, self.settings, (runs, longest))?;
+        let submission = batch.begin(self.gpu, &self.kernels, self.settings, (runs, longest))?;
         self.batch = Some(batch);
+        Ok(submission)
+    }
+
+    /// Waits for the sums of a batch.
+    fn fetch(&mut self, mut submission: Submission) -> Result<Vec<RunSums>, GpuError> {
+        if let Some(batch) = &self.batch {
+            batch.complete(self.gpu, &self.kernels, &mut submission)?;
+        }
+        let (sums, staging) = submission.fetch(self.gpu)?;
+        if let Some(batch) = &mut self.batch {
+            batch.reuse(staging);
+        }
         Ok(sums)
     }
 }
 
-/// Tables, nodes, packets, words.
-fn arrays<'f>(flat: &'f FlatScene<'_>) -> [&'f [u8]; 4] {
+impl SampleDevice for Tracer<'_> {
+    type Error = GpuError;
+
+    fn most(&self) -> usize {
+        self.samples
+    }
+
+    fn begin(&mut self, wanted: &[Wanted]) -> Result<(), GpuError> {
+        // The arrays of paths are shared.
+        if let (Some(Begun::Submitted(last, ..)), Some(batch)) =
+            (self.begun.back_mut(), &self.batch)
+        {
+            batch.complete(self.gpu, &self.kernels, last)?;
+        }
+        let longest = wanted.iter().map(Wanted::longest_run).max().unwrap_or(0);
+        let longest = longest.max(1);
+        let runs: Vec<Run> = wanted.iter().flat_map(Wanted::runs).collect();
+        let slots = runs.len() * longest as usize;
+        if slots <= self.largest {
+            let start = Instant::now();
+            match self.submit(&runs, longest) {
+                Ok(submission) => {
+                    let samples = count_samples(&runs);
+                    let begun = Begun::Submitted(submission, samples, start);
+                    self.begun.push_back(begun);
+                    return Ok(());
+                }
+                Err(GpuError::OutOfMemory(_)) if self.shrinks(slots) => {}
+                Err(error) => return Err(error),
+            }
+        }
+        let sums = self.take(&runs, longest)?;
+        self.begun.push_back(Begun::Done(sums));
+        Ok(())
+    }
+
+    fn finish(&mut self) -> Result<Vec<RunSums>, GpuError> {
+        match self.begun.pop_front() {
+            Some(Begun::Submitted(submission, samples, start)) => {
+                let sums = self.fetch(submission)?;
+                // While batches overlap, what one takes is the time between two that are finished.
+                let begin = self.finished.map_or(start, |last| last.max(start));
+                self.adjust(samples, begin.elapsed());
+                self.finished = Some(Instant::now());
+                Ok(sums)
+            }
+            Some(Begun::Done(sums)) => Ok(sums),
+            None => Ok(Vec::new()),
+        }
+    }
+}
+
+/// Samples of runs.
+fn count_samples(runs: &[Run]) -> usize {
+    runs.iter().map(|run| run.count as usize).sum()
+}
+
+/// Tables, nodes, triangles, words.
+fn arrays<'f>(flat: &'f FlatScene<'_>, tree: &'f Tree) -> [&'f [u8]; 4] {
     [
         bytemuck::cast_slice(specula_shaders::tables()),
-        flat.nodes,
-        flat.packets,
+        tree.nodes(),
+        tree.triangles(),
         bytemuck::cast_slice(&flat.words),
     ]
 }
 
 /// Bytes of the largest array.
-fn largest_array(flat: &FlatScene<'_>) -> u64 {
-    let sizes = arrays(flat).map(|array| array.len() as u64);
+fn largest_array(flat: &FlatScene<'_>, tree: &Tree) -> u64 {
+    let sizes = arrays(flat, tree).map(|array| array.len() as u64);
     sizes.into_iter().max().unwrap_or(0)
 }
 
 /// A buffer that is never empty, which bindings must not be.
 fn upload(gpu: &Gpu, contents: &[u8]) -> Result<wgpu::Buffer, GpuError> {
     let contents = if contents.is_empty() {
-        &[0; 4]
+        &[0; 16]
     } else {
         contents
     };

@@ -1,46 +1,53 @@
-// Wavefronts of paths, in queues: all paths are taken from one vertex to the next, and those that continue form the
-// next queue. The order of a queue is not deterministic. Results are, since every path writes to its own slot.
+// Wavefronts of paths, in queues: all paths are taken from one vertex to the next, and queue_advance.wgsl makes the next
+// queue of those that continue. The order of a queue is not deterministic. Results are, since every path writes to its
+// own slot.
 
 import tracer::path::{PathState, path_is_requested, path_sequence, path_begin, path_step, path_end};
 
 /// States of the paths, by slot.
 @group(0) @binding(6) var<storage, read_write> queue_states: array<PathState>;
 /// Depth of the current vertex, then the number of paths in the queue of even depths and of odd ones.
-@group(0) @binding(7) var<storage, read_write> queue_control: array<atomic<u32>, 3>;
-/// Slots of the paths in the queue of even depths, then of odd ones.
+@group(0) @binding(7) var<storage, read_write> queue_control: array<u32, 3>;
+/// Slots of the paths in the queue of even depths, then of odd ones; NONE where a path has ended.
 @group(0) @binding(8) var<storage, read_write> queue_slots: array<u32>;
 
-/// Appends a path to the queue of a depth.
-fn queue_append(slot: u32, depth: u32) {
-    let side = depth & 1u;
-    let place = atomicAdd(&queue_control[1u + side], 1u);
-    queue_slots[side * (arrayLength(&queue_slots) / 2u) + place] = slot;
+/// Where an entry of the queue of the current depth is.
+fn queue_entry(place: u32) -> u32 {
+    return (queue_control[0] & 1u) * (arrayLength(&queue_slots) / 2u) + place;
+}
+
+/// Whether the queue of the current depth has so many entries.
+fn queue_has(place: u32) -> bool {
+    return place < queue_control[1u + (queue_control[0] & 1u)];
 }
 
 /// Begins a path.
 @compute @workgroup_size(64)
 fn queue_begin(@builtin(global_invocation_id) id: vec3u) {
     let slot = id.x;
+    if !queue_has(slot) {
+        return;
+    }
     if path_is_requested(slot) {
         queue_states[slot] = path_begin(slot, path_sequence(slot));
-        queue_append(slot, 0u);
+        queue_slots[queue_entry(slot)] = slot;
+    } else {
+        queue_slots[queue_entry(slot)] = NONE;
     }
 }
 
 /// Takes a path to its next vertex.
 @compute @workgroup_size(64)
 fn queue_bounce(@builtin(global_invocation_id) id: vec3u) {
-    let depth = atomicLoad(&queue_control[0]);
-    let side = depth & 1u;
-    if id.x >= atomicLoad(&queue_control[1u + side]) {
+    if !queue_has(id.x) {
         return;
     }
-    let slot = queue_slots[side * (arrayLength(&queue_slots) / 2u) + id.x];
+    let slot = queue_slots[queue_entry(id.x)];
     var state = queue_states[slot];
-    if path_step(slot, &state, path_sequence(slot), depth) {
+    if path_step(slot, &state, path_sequence(slot), queue_control[0]) {
         queue_states[slot] = state;
-        queue_append(slot, depth + 1u);
     } else {
         path_end(slot, state);
+        queue_slots[queue_entry(id.x)] = NONE;
     }
 }

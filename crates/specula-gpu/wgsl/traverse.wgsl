@@ -1,11 +1,12 @@
-// Traversal of the bounding volume hierarchies: 8-wide nodes over packets of 8 triangles, spheres, disks and
-// instances.
+// Traversal of the bounding volume hierarchies: 8-wide nodes of quantised boxes over packets of triangles, spheres,
+// disks and instances.
 //
-// Twin of specula-render/src/accel/{traverse,frame,triangle,instances}.rs: the same boxes, the
-// same watertight test of triangles (Woop, Benthin and Wald 2013), the same rule for ties. Departures:
-// transforms of instances in f32, where the CPU computes in f64; directions along an axis get a tiny component
-// instead of an infinite reciprocal, which shaders may not count on. Where the adapter's ray queries cast rays,
-// query.wgsl replaces this module.
+// Twin of specula-render/src/accel/{traverse,frame,triangle,instances}.rs: the same tree, the same watertight test of
+// triangles (Woop, Benthin and Wald 2013), the same rule for ties. Departures: boxes are quantised (Ylitie, Karras and
+// Laine 2017) and hold the CPU's (src/tree.rs); children are visited in the order of the ray's octant, and a stack
+// entry is a node with the children that are left; transforms of instances in f32, where the CPU computes in f64;
+// directions along an axis get a tiny component instead of an infinite reciprocal, which shaders may not count on.
+// Where the adapter's ray queries cast rays, query.wgsl replaces this module.
 
 import tracer::world::{word, affine_point, affine_vector};
 import tracer::ray::{Ray, Hit};
@@ -18,10 +19,11 @@ struct RayFrame {
     origin: vec3f,
     direction: vec3f,
     scale: vec3f,
-    // Which bounds of boxes the ray reaches first: indices of the rows of nodes.
-    near: vec3u,
-    // The two lesser axes, and the one in which the direction is greatest.
-    axes: vec3u,
+    // Whether the direction is negative along each axis; the same as bits of an octant.
+    negative: vec3<bool>,
+    octant: u32,
+    // The axis along which the direction is greatest.
+    main: u32,
     shear: vec3f,
 }
 
@@ -33,49 +35,90 @@ const TRAVERSE_SLACK: f32 = 1.00000095367431640625;
 const TRAVERSE_LEAVE: u32 = 0xffffffffu;
 /// Least absolute value of a direction's component in the test of boxes.
 const TRAVERSE_LEAST: f32 = 1.0e-30;
+/// Vectors of a node, and where its children begin.
+const TRAVERSE_NODE: u32 = 6u;
+const TRAVERSE_CHILDREN: u32 = 4u;
+/// Vectors of a triangle.
+const TRAVERSE_TRIANGLE: u32 = 3u;
+
+/// A vector with its component along an axis last, the others in turn before it.
+fn traverse_turned(v: vec3f, main: u32) -> vec3f {
+    return select(select(v, v.zxy, main == 1u), v.yzx, main == 0u);
+}
 
 /// Prepares a ray.
 fn traverse_frame(origin: vec3f, direction: vec3f) -> RayFrame {
     let size = abs(direction);
-    var z = 2u;
+    var main = 2u;
     if size.x > size.y && size.x > size.z {
-        z = 0u;
+        main = 0u;
     } else if size.y >= size.x && size.y > size.z {
-        z = 1u;
+        main = 1u;
     }
-    let x = (z + 1u) % 3u;
-    let y = (z + 2u) % 3u;
     let negative = direction < vec3f(0.0);
     let least = select(vec3f(TRAVERSE_LEAST), vec3f(-TRAVERSE_LEAST), negative);
     let safe = select(direction, least, size < vec3f(TRAVERSE_LEAST));
-    let inverse = 1.0 / direction[z];
+    let turned = traverse_turned(direction, main);
+    let inverse = 1.0 / turned.z;
+    let bits = select(vec3u(0u), vec3u(1u, 2u, 4u), negative);
     return RayFrame(
         origin,
         direction,
         1.0 / safe,
-        select(vec3u(0u, 2u, 4u), vec3u(1u, 3u, 5u), negative),
-        vec3u(x, y, z),
-        vec3f(direction[x] * inverse, direction[y] * inverse, inverse),
+        negative,
+        bits.x | bits.y | bits.z,
+        main,
+        vec3f(turned.xy * inverse, inverse),
     );
 }
 
-/// Where a ray enters a child's box; negative where it misses it.
-fn traverse_box(base: u32, lane: u32, frame: RayFrame, end: f32) -> f32 {
-    let near = vec3f(
-        bitcast<f32>(world_nodes[base + frame.near.x * 8u + lane]),
-        bitcast<f32>(world_nodes[base + frame.near.y * 8u + lane]),
-        bitcast<f32>(world_nodes[base + frame.near.z * 8u + lane]),
-    );
-    let far = vec3f(
-        bitcast<f32>(world_nodes[base + (frame.near.x ^ 1u) * 8u + lane]),
-        bitcast<f32>(world_nodes[base + (frame.near.y ^ 1u) * 8u + lane]),
-        bitcast<f32>(world_nodes[base + (frame.near.z ^ 1u) * 8u + lane]),
-    );
-    let enter = (near - frame.origin) * frame.scale;
-    let leave = (far - frame.origin) * (frame.scale * TRAVERSE_SLACK);
-    let first = max(max(enter.x, enter.y), max(enter.z, 0.0));
-    let last = min(min(leave.x, leave.y), min(leave.z, end));
-    return select(-1.0, first, first <= last);
+/// Which of four boxes the ray enters before `end`.
+///
+/// * `near`, `far`: of each axis, the planes of the boxes where the ray enters and leaves, in units of `spacing` from `start`.
+fn traverse_boxes(near: vec3u, far: vec3u, spacing: vec3f, start: vec3f, frame: RayFrame, end: f32) -> u32 {
+    let scale = frame.scale;
+    let enter_x = (vec4f(unpack4xU8(near.x)) * spacing.x + start.x) * scale.x;
+    let enter_y = (vec4f(unpack4xU8(near.y)) * spacing.y + start.y) * scale.y;
+    let enter_z = (vec4f(unpack4xU8(near.z)) * spacing.z + start.z) * scale.z;
+    let slack = scale * TRAVERSE_SLACK;
+    let leave_x = (vec4f(unpack4xU8(far.x)) * spacing.x + start.x) * slack.x;
+    let leave_y = (vec4f(unpack4xU8(far.y)) * spacing.y + start.y) * slack.y;
+    let leave_z = (vec4f(unpack4xU8(far.z)) * spacing.z + start.z) * slack.z;
+    let first = max(max(enter_x, enter_y), max(enter_z, vec4f(0.0)));
+    let last = min(min(leave_x, leave_y), min(leave_z, vec4f(end)));
+    let bits = select(vec4u(0u), vec4u(1u, 2u, 4u, 8u), first <= last);
+    return bits.x | bits.y | bits.z | bits.w;
+}
+
+/// Moves bit `i` of eight to bit `i ^ octant`: children by their slots to children in the order of the ray.
+fn traverse_ordered(slots: u32, octant: u32) -> u32 {
+    var mask = slots;
+    mask = select(mask, ((mask & 0x55u) << 1u) | ((mask >> 1u) & 0x55u), (octant & 1u) != 0u);
+    mask = select(mask, ((mask & 0x33u) << 2u) | ((mask >> 2u) & 0x33u), (octant & 2u) != 0u);
+    return select(mask, ((mask & 0x0fu) << 4u) | (mask >> 4u), (octant & 4u) != 0u);
+}
+
+/// The children of a node whose boxes the ray enters before `end`: bits in the order of the ray.
+fn traverse_node(index: u32, frame: RayFrame, end: f32) -> u32 {
+    let at = index * TRAVERSE_NODE;
+    let head = world_nodes[at];
+    let spacing = bitcast<vec3f>(((vec3u(head.w) >> vec3u(0u, 8u, 16u)) & vec3u(0xffu)) << vec3u(23u));
+    let start = bitcast<vec3f>(head.xyz) - frame.origin;
+    let low_xy = world_nodes[at + 1u];
+    let mixed = world_nodes[at + 2u];
+    let high_yz = world_nodes[at + 3u];
+    let near_x = select(low_xy.xy, mixed.zw, frame.negative.x);
+    let near_y = select(low_xy.zw, high_yz.xy, frame.negative.y);
+    let near_z = select(mixed.xy, high_yz.zw, frame.negative.z);
+    let far_x = select(mixed.zw, low_xy.xy, frame.negative.x);
+    let far_y = select(high_yz.xy, low_xy.zw, frame.negative.y);
+    let far_z = select(high_yz.zw, mixed.xy, frame.negative.z);
+    let first = traverse_boxes(
+        vec3u(near_x.x, near_y.x, near_z.x), vec3u(far_x.x, far_y.x, far_z.x), spacing, start, frame, end);
+    let second = traverse_boxes(
+        vec3u(near_x.y, near_y.y, near_z.y), vec3u(far_x.y, far_y.y, far_z.y), spacing, start, frame, end);
+    let occupied = head.w >> 24u;
+    return traverse_ordered((first | (second << 4u)) & occupied, frame.octant);
 }
 
 /// Replaces the nearest hit so far by one that is nearer, or as near and of a smaller index.
@@ -89,25 +132,32 @@ fn traverse_offer(best: ptr<function, Hit>, t: f32, u: f32, v: f32, primitive: u
     }
 }
 
-/// A vertex of a packet's triangle, sheared along the ray.
-fn traverse_vertex(base: u32, lane: u32, corner: u32, frame: RayFrame) -> vec3f {
-    let at = base + corner * 24u + lane;
-    let z = bitcast<f32>(world_packets[at + frame.axes.z * 8u]) - frame.origin[frame.axes.z];
-    let x = bitcast<f32>(world_packets[at + frame.axes.x * 8u]) - frame.origin[frame.axes.x];
-    let y = bitcast<f32>(world_packets[at + frame.axes.y * 8u]) - frame.origin[frame.axes.y];
-    return vec3f(x - frame.shear.x * z, y - frame.shear.y * z, z);
+/// Twice the signed area of the triangle between the ray and an edge. The sign is exact: a fused product and sum leaves
+/// a rest that would let rays hit triangles without area, and pass between neighbours (Kahan's difference of products).
+fn traverse_edge(a: vec3f, b: vec3f) -> f32 {
+    let product = a.y * b.x;
+    let rest = fma(-a.y, b.x, product);
+    return fma(a.x, b.y, -product) + rest;
 }
 
-/// Intersects the triangles of a packet.
+/// A corner of a triangle, sheared along the ray.
+fn traverse_sheared(corner: vec3u, frame: RayFrame) -> vec3f {
+    let local = traverse_turned(bitcast<vec3f>(corner) - frame.origin, frame.main);
+    return vec3f(local.xy - frame.shear.xy * local.z, local.z);
+}
+
+/// Intersects a triangle and those that follow, up to the last one of its packet. The fourth word of a triangle's first
+/// corner is its index, that of the second is not 0 in the last one.
 fn traverse_packet(index: u32, frame: RayFrame, instance: u32, best: ptr<function, Hit>) {
-    let base = index * 80u;
-    for (var lane = 0u; lane < 8u; lane += 1u) {
-        let a = traverse_vertex(base, lane, 0u, frame);
-        let b = traverse_vertex(base, lane, 1u, frame);
-        let c = traverse_vertex(base, lane, 2u, frame);
-        let u = c.x * b.y - c.y * b.x;
-        let v = a.x * c.y - a.y * c.x;
-        let w = b.x * a.y - b.y * a.x;
+    for (var at = index * TRAVERSE_TRIANGLE; ; at += TRAVERSE_TRIANGLE) {
+        let first = world_triangles[at];
+        let second = world_triangles[at + 1u];
+        let a = traverse_sheared(first.xyz, frame);
+        let b = traverse_sheared(second.xyz, frame);
+        let c = traverse_sheared(world_triangles[at + 2u].xyz, frame);
+        let u = traverse_edge(c, b);
+        let v = traverse_edge(a, c);
+        let w = traverse_edge(b, a);
         let low = min(u, min(v, w));
         let high = max(u, max(v, w));
         let total = (u + v) + w;
@@ -116,9 +166,11 @@ fn traverse_packet(index: u32, frame: RayFrame, instance: u32, best: ptr<functio
             let weights = vec3f(u, v, w) / total;
             let t = ((weights.x * a.z + weights.y * b.z) + weights.z * c.z) * frame.shear.z;
             if t > 0.0 && t <= (*best).t {
-                let primitive = world_packets[base + 72u + lane];
-                traverse_offer(best, t, weights.y, weights.z, primitive, instance);
+                traverse_offer(best, t, weights.y, weights.z, first.w, instance);
             }
+        }
+        if second.w != 0u {
+            break;
         }
     }
 }
@@ -135,28 +187,21 @@ fn traverse(ray: Ray, any: bool) -> Hit {
     var instance = LONE_INSTANCE;
     var stack: array<vec2u, STACK_SIZE>;
     var top = 0u;
+    // A node, and which of its children are left.
+    var node = 0u;
+    var rest = 0u;
     var current = TREE_ROOT;
     loop {
         let kind = current >> 30u;
         let index = current & 0x3fffffffu;
-        if current == TRAVERSE_LEAVE {
-            frame = traverse_frame(ray.origin, ray.direction);
-        } else if kind == 0u {
-            let base = index * 64u;
-            let begin = top;
-            for (var lane = 0u; lane < 8u; lane += 1u) {
-                let enter = traverse_box(base, lane, frame, best.t * TRAVERSE_SLACK);
-                if enter >= 0.0 {
-                    var at = top;
-                    // The farthest at the bottom.
-                    while !any && at > begin && bitcast<f32>(stack[at - 1u].y) < enter {
-                        stack[at] = stack[at - 1u];
-                        at -= 1u;
-                    }
-                    stack[at] = vec2u(world_nodes[base + 48u + lane], bitcast<u32>(enter));
-                    top += 1u;
-                }
-            }
+        if (kind == 0u || kind == 3u) && rest != 0u {
+            stack[top] = vec2u(node, rest);
+            top += 1u;
+            rest = 0u;
+        }
+        if kind == 0u {
+            node = index;
+            rest = traverse_node(index, frame, best.t * TRAVERSE_SLACK);
         } else if kind == 1u {
             traverse_packet(index, frame, instance, &best);
         } else if kind == 2u {
@@ -180,16 +225,20 @@ fn traverse(ray: Ray, any: bool) -> Hit {
         if any && best.instance != NONE {
             return best;
         }
-        loop {
+        while rest == 0u {
             if top == 0u {
                 return best;
             }
             top -= 1u;
-            if any || bitcast<f32>(stack[top].y) <= best.t * TRAVERSE_SLACK {
-                break;
+            node = stack[top].x;
+            rest = stack[top].y;
+            if node == TRAVERSE_LEAVE {
+                frame = traverse_frame(ray.origin, ray.direction);
             }
         }
-        current = stack[top].x;
+        let slot = firstTrailingBit(rest) ^ frame.octant;
+        rest &= rest - 1u;
+        current = world_nodes[node * TRAVERSE_NODE + TRAVERSE_CHILDREN + (slot >> 2u)][slot & 3u];
     }
     return best;
 }

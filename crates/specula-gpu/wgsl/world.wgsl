@@ -6,10 +6,10 @@
 //
 // Twin of specula-render/src/flat/words.rs; also of small functions that many parts use.
 
-/// 8-wide nodes, 64 words each.
-@group(0) @binding(1) var<storage, read> world_nodes: array<u32>;
-/// Packets of 8 triangles, 80 words each.
-@group(0) @binding(2) var<storage, read> world_packets: array<u32>;
+/// 8-wide nodes of 6 vectors, as src/tree.rs says.
+@group(0) @binding(1) var<storage, read> world_nodes: array<vec4u>;
+/// Triangles of 3 vectors, likewise.
+@group(0) @binding(2) var<storage, read> world_triangles: array<vec4u>;
 /// Everything else.
 @group(0) @binding(3) var<storage, read> world_words: array<u32>;
 

@@ -1,11 +1,38 @@
 //! Passes whose samples a device takes: what is requested of it, and how its sums are added.
 
+use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
 
 use crate::film::{LONGEST_RUN, RunSums};
 use crate::integrator::{PathTracer, Wavefront};
 use crate::renderer::{Done, InvalidSample, PassReport, Renderer};
 use crate::sampler::Sampler;
+
+/// How much a device is asked for before its first sums are added: it works while these are.
+const AT_ONCE: usize = 2;
+
+/// A device that takes samples and adds them run by run.
+pub trait SampleDevice {
+    /// How it fails.
+    type Error;
+
+    /// Samples that it is asked for at once, a tile at least.
+    fn most(&self) -> usize;
+
+    /// Begins to take samples; need not wait for them.
+    ///
+    /// # Errors
+    /// Those of the device.
+    fn begin(&mut self, wanted: &[Wanted]) -> Result<(), Self::Error>;
+
+    /// The sums of what was begun first and is not finished yet, in the order of [`Wanted::runs`].
+    ///
+    /// # Errors
+    /// Those of the device.
+    fn finish(&mut self) -> Result<Vec<RunSums>, Self::Error>;
+}
 
 /// Samples that are wanted of every pixel of a tile.
 #[derive(Clone, Copy, Debug)]
@@ -15,6 +42,9 @@ pub struct Wanted {
     first: u32,
     counts: [u32; 2],
 }
+
+/// A pixel, and the index of one of its samples.
+type PixelIndex = ([u32; 2], u32);
 
 /// Consecutive samples of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,6 +79,13 @@ impl Wanted {
         count.div_ceil(count.div_ceil(LONGEST_RUN).max(1))
     }
 
+    /// How many runs.
+    fn run_count(&self) -> usize {
+        let [x0, x1, y0, y1] = self.bounds;
+        let of_pixel = (self.counts[1] - self.counts[0]).div_ceil(self.longest_run().max(1));
+        (x1 - x0) as usize * (y1 - y0) as usize * of_pixel as usize
+    }
+
     /// Every run, pixel by pixel.
     pub fn runs(&self) -> impl Iterator<Item = Run> + use<> {
         let Self {
@@ -74,29 +111,30 @@ impl Wanted {
 impl Renderer<'_> {
     /// [`Renderer::render_pass`] with samples that a device takes and adds run by run.
     ///
-    /// * `most`: samples that the device is asked for at once, a tile at least.
-    /// * `device`: the sums of tiles, in the order of [`Wanted::runs`].
-    ///
     /// # Errors
     /// Those of the device. The film has what came before, and can be resumed.
-    pub fn render_pass_with<E>(
+    pub fn render_pass_with<D: SampleDevice>(
         &mut self,
         samples: u32,
         stop: &AtomicBool,
-        mut most: impl FnMut() -> usize,
-        mut device: impl FnMut(&[Wanted]) -> Result<Vec<RunSums>, E>,
-    ) -> Result<PassReport, E> {
+        device: &mut D,
+    ) -> Result<PassReport, D::Error> {
         let goals = self.goals(samples);
-        let (mut done, mut complete) = (Done::default(), true);
-        while complete {
-            let wanted = self.wanted(&goals, most());
-            if wanted.is_empty() {
-                break;
+        let (mut done, mut begun, mut next) = (Done::default(), VecDeque::new(), 0);
+        loop {
+            while begun.len() < AT_ONCE && !stop.load(Ordering::Relaxed) {
+                let wanted = self.wanted(&goals, device.most(), next);
+                let Some(last) = wanted.last() else { break };
+                next = last.place + 1;
+                device.begin(&wanted)?;
+                begun.push_back(wanted);
             }
-            let sums = device(&wanted)?;
-            done = done.and(self.add(&wanted, &sums));
-            complete = !stop.load(Ordering::Relaxed);
+            let Some(wanted) = begun.pop_front() else {
+                break;
+            };
+            done = done.and(self.add(&wanted, &device.finish()?));
         }
+        let complete = self.wanted(&goals, 1, next).is_empty();
         self.plan();
         Ok(self.report(done, None, complete))
     }
@@ -104,11 +142,13 @@ impl Renderer<'_> {
     /// The samples that tiles need next: so many together, one tile at least.
     ///
     /// * `goals`: samples that they are to have.
-    fn wanted(&self, goals: &[u32], most: usize) -> Vec<Wanted> {
+    /// * `begin`: tiles before this one have been asked for.
+    fn wanted(&self, goals: &[u32], most: usize, begin: usize) -> Vec<Wanted> {
         let mut wanted: Vec<Wanted> = Vec::new();
         let mut samples = 0;
         let first = self.options.first_sample;
-        for ((tile, goal), place) in self.film.tiles.iter().zip(goals).zip(0..) {
+        let tiles = self.film.tiles.iter().zip(goals).enumerate().skip(begin);
+        for (place, (tile, goal)) in tiles {
             if tile.count() >= *goal {
                 continue;
             }
@@ -129,13 +169,19 @@ impl Renderer<'_> {
 
     /// Adds the sums of a device.
     fn add(&mut self, wanted: &[Wanted], sums: &[RunSums]) -> Done {
-        let (mut done, mut invalid) = (Done::default(), None);
-        let mut sums = sums.iter();
+        let mut rest = sums;
+        let mut tiles = self.film.tiles.iter_mut().enumerate();
+        let mut parts = Vec::with_capacity(wanted.len());
         for one in wanted {
-            let tile = &mut self.film.tiles[one.place];
-            for (run, sums) in one.runs().zip(sums.by_ref()) {
-                done.tally.rays += u64::from(sums.rays);
-                tile.rays += u64::from(sums.rays);
+            let (these, later) = rest.split_at(one.run_count().min(rest.len()));
+            rest = later;
+            let tile = tiles.find(|(place, _)| *place == one.place);
+            parts.extend(tile.map(|(_, tile)| (one, tile, these)));
+        }
+        let added = parts.into_par_iter().map(|(one, tile, sums)| {
+            let (mut rays, mut invalid) = (0, None);
+            for (run, sums) in one.runs().zip(sums) {
+                rays += u64::from(sums.rays);
                 tile.pixels[run.place].add_run(sums, run.count);
                 tile.invalid += u64::from(sums.invalid.count_ones());
                 if sums.invalid != 0 {
@@ -143,7 +189,13 @@ impl Renderer<'_> {
                     invalid = Some((run.pixel, sample));
                 }
             }
-        }
+            tile.rays += rays;
+            (rays, invalid)
+        });
+        let added: Vec<(u64, Option<PixelIndex>)> = added.collect();
+        let mut done = Done::default();
+        done.tally.rays = added.iter().map(|(rays, _)| rays).sum();
+        let invalid = added.into_iter().rev().find_map(|(_, invalid)| invalid);
         done.invalid = invalid.map(|(pixel, sample)| self.invalid(pixel, sample));
         done
     }

@@ -10,6 +10,7 @@ mod feature_sets;
 mod features;
 mod generated;
 mod gltf;
+mod gpu_report;
 mod instructions;
 mod interface;
 mod interface_single;
@@ -95,6 +96,8 @@ enum Chore {
     Msrv,
     /// Check `specula-bsdf` for a machine without a standard library
     NoStd,
+    /// Measure a GPU, prove its shaders, and write docs/gpu
+    GpuReport(gpu_report::GpuReport),
     /// Compare with other renderers: time to equal error
     Versus(versus::Versus),
     /// Count where the instructions of a render go, under valgrind
@@ -144,6 +147,7 @@ fn run(chore: &Chore) -> Result<()> {
         Chore::Instructions { check } => instructions::run(&root, *check),
         Chore::Msrv => msrv::run(&root),
         Chore::NoStd => no_std::run(&root),
+        Chore::GpuReport(report) => gpu_report::run(&root, report),
         Chore::Versus(versus) => versus::run(&root, versus),
         Chore::Profile(profile) => profile::run(&root, profile),
         Chore::Scaling(scaling) => scaling::run(&root, scaling),

@@ -81,6 +81,7 @@ fn specula(program: &Path, scene: PathBuf, threads: u32) -> Specula {
         program: program.to_owned(),
         scene,
         threads,
+        device: "cpu".to_owned(),
         writing: None,
     }
 }

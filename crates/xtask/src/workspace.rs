@@ -13,11 +13,17 @@ pub(crate) fn root() -> PathBuf {
 
 /// Specula's program: `given`, or built from this workspace.
 pub(crate) fn program(root: &Path, given: Option<&Path>) -> Result<PathBuf> {
+    program_with(root, given, "default")
+}
+
+/// The same with these features.
+pub(crate) fn program_with(root: &Path, given: Option<&Path>, features: &str) -> Result<PathBuf> {
     if let Some(program) = given {
         return Ok(program.to_owned());
     }
     let mut build = cargo(root);
     build.args(["build", "--release", "--quiet", "--package", "specula"]);
+    build.args(["--features", features]);
     if !build.status()?.success() {
         return Err("Specula does not build".into());
     }

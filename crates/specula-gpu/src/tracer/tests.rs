@@ -43,13 +43,15 @@ impl<'a> Render<'a> {
         schedule: Schedule,
         change: impl Fn(&str) -> String,
     ) -> Self {
-        let flat = prepared.flatten();
+        let mut flat = prepared.flatten();
+        let tree = Tree::new(&mut flat);
         let text = change(&program::source(&flat, false).unwrap());
         let texts = [text.as_str(), program::SUMS];
         Self {
             prepared,
             options: options.clone(),
-            tracer: Tracer::of_texts(gpu, &flat, options, (schedule, None), texts).unwrap(),
+            tracer: Tracer::of_texts(gpu, (&flat, &tree), options, (schedule, None), texts)
+                .unwrap(),
         }
     }
 
@@ -136,8 +138,8 @@ fn faults_of_queues_show_in_films() {
     for (from, to) in [
         // A path that the next queue lacks.
         (
-            "path_step(slot, &state, path_sequence(slot), depth)",
-            "path_step(slot, &state, path_sequence(slot), depth) && slot != 50u",
+            "path_step(slot, &state, path_sequence(slot), queue_control[0])",
+            "path_step(slot, &state, path_sequence(slot), queue_control[0]) && slot != 50u",
         ),
         // A path with the state of its neighbour.
         (
@@ -221,13 +223,14 @@ fn shaders_that_do_not_compile_are_errors() {
     };
     let options = RenderOptions::from_scene(&room());
     let prepared = PreparedScene::new(&room(), &options).unwrap();
-    let flat = prepared.flatten();
+    let mut flat = prepared.flatten();
+    let tree = Tree::new(&mut flat);
     let right = program::source(&flat, false).unwrap();
     let wrong = right.replace("fn path_step(", "fn path_stop(");
     assert!(wrong != right);
     let tracer = |texts| {
         let how = (Schedule::Queues, None);
-        Tracer::of_texts(gpu, &flat, &options, how, texts)
+        Tracer::of_texts(gpu, (&flat, &tree), &options, how, texts)
     };
     for (texts, name) in [
         ([wrong.as_str(), program::SUMS], "path tracer"),

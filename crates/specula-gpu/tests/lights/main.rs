@@ -16,7 +16,7 @@ mod scenes;
 use common::gpu;
 use scenes::scenes;
 use specula_bsdf::math::{Stream, warp};
-use specula_gpu::{ComputeKernel, Gpu};
+use specula_gpu::{AdapterKind, ComputeKernel, Gpu, Tree};
 use specula_render::{FlatScene, LitPoint, PreparedScene, RenderOptions};
 use specula_scene::Scene;
 
@@ -24,6 +24,16 @@ use specula_scene::Scene;
 const CASES: u32 = 16_384;
 /// Share of answers that may differ where rounding decides between two lights, or at edges.
 const STRAYS: f64 = 3e-4;
+/// The same on a real GPU, whose roots and quotients are approximate: rectangles of small solid angles magnify their
+/// errors (1.5 % on an NVIDIA H100).
+const STRAYS_OF_REAL_GPUS: f64 = 0.05;
+
+fn strays(gpu: &Gpu) -> f64 {
+    match gpu.adapter.kind {
+        AdapterKind::Software => STRAYS,
+        _ => STRAYS_OF_REAL_GPUS,
+    }
+}
 /// Words of a case: point, normal (zero: none), four random numbers, a light, a target and its normal, a
 /// direction, weights of the target's corners.
 const CASE: usize = 22;
@@ -219,7 +229,8 @@ fn answers(
     questions: &[Question],
     fault: Option<&Fault>,
 ) -> Vec<[f32; ANSWER]> {
-    let flat = scene.flatten();
+    let mut flat = scene.flatten();
+    let tree = Tree::new(&mut flat);
     let module = gpu.shader("lights", &source(&flat, fault)).unwrap();
     let kernel = ComputeKernel::new(gpu, &module, "answer_all", 4).unwrap();
     let bytes = |words: &mut dyn Iterator<Item = u32>| -> Vec<u8> {
@@ -229,12 +240,12 @@ fn answers(
     let words = bytes(&mut flat.words.iter().copied());
     let or_one = |array: &[u8]| {
         if array.is_empty() {
-            vec![0; 4]
+            vec![0; 16]
         } else {
             array.to_vec()
         }
     };
-    let (nodes, packets) = (or_one(flat.nodes), or_one(flat.packets));
+    let (nodes, packets) = (or_one(tree.nodes()), or_one(tree.triangles()));
     let size = u64::try_from(4 * ANSWER * questions.len()).unwrap();
     let arrays = kernel
         .upload(gpu, &[&cases, &nodes, &packets, &words], size)
@@ -323,7 +334,10 @@ fn lights_are_sampled_and_looked_up_as_on_the_cpu() {
             dense > 4000 || !emits.contains(&name),
             "{name}: {dense} densities"
         );
-        assert!(shares.iter().all(|&s| s <= STRAYS), "{name}: {shares:?}");
+        assert!(
+            shares.iter().all(|&s| s <= strays(gpu)),
+            "{name}: {shares:?}"
+        );
     }
 }
 
@@ -381,7 +395,7 @@ fn planted_faults_are_noticed() {
             let shares = shares(&questions, &answers);
             println!("{module}: {from} -> {to}: {shares:?}");
             assert!(
-                shares.iter().any(|&s| s > STRAYS),
+                shares.iter().any(|&s| s > strays(gpu)),
                 "{module}: {from} -> {to}: {shares:?}"
             );
         }

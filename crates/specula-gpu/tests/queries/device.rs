@@ -1,6 +1,6 @@
 //! Casts rays on a GPU, by traversal or by queries.
 
-use specula_gpu::{ComputeKernel, Gpu, Structures};
+use specula_gpu::{ComputeKernel, Gpu, Structures, Tree};
 use specula_render::PreparedScene;
 
 use crate::rays::Ray;
@@ -78,7 +78,8 @@ pub(crate) fn hits(
     rays: &[Ray],
     casting: RayCasting,
 ) -> Vec<Hit> {
-    let flat = scene.flatten();
+    let mut flat = scene.flatten();
+    let tree = Tree::new(&mut flat);
     let structures =
         matches!(casting, RayCasting::Query(_)).then(|| Structures::new(gpu, scene).unwrap());
     let module = gpu
@@ -91,13 +92,13 @@ pub(crate) fn hits(
     let kernel = kernel.unwrap();
     let words: Vec<[f32; 8]> = rays.iter().map(Ray::words).collect();
     let or_some = |bytes: &[u8]| match bytes {
-        [] => vec![0; 4],
+        [] => vec![0; 16],
         bytes => bytes.to_vec(),
     };
     let inputs = [
         bytemuck::cast_slice(&words).to_vec(),
-        or_some(flat.nodes),
-        or_some(flat.packets),
+        or_some(tree.nodes()),
+        or_some(tree.triangles()),
         bytemuck::cast_slice(&flat.words).to_vec(),
     ];
     let inputs: Vec<&[u8]> = inputs.iter().map(Vec::as_slice).collect();

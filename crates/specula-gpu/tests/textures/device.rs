@@ -1,6 +1,6 @@
 //! Shaders of textures on a GPU.
 
-use specula_gpu::{ComputeKernel, Gpu};
+use specula_gpu::{AdapterKind, ComputeKernel, Gpu, Tree};
 use specula_render::PreparedScene;
 
 /// A file of `wgsl/`, by its name.
@@ -67,6 +67,14 @@ pub(crate) struct Shader<'a> {
 pub(crate) struct Device(&'static Gpu);
 
 impl Device {
+    /// By how much more than software's arithmetic this one may round: real GPUs fuse and approximate.
+    pub(crate) fn rounding(&self) -> f32 {
+        match self.0.adapter.kind {
+            AdapterKind::Software => 1.0,
+            _ => 4.0,
+        }
+    }
+
     /// The GPU, or `None` where there is none and the test is left out.
     pub(crate) fn open(test: &str) -> Option<Self> {
         crate::common::gpu(test).map(Self)
@@ -85,7 +93,8 @@ impl Device {
         workgroups: [u32; 3],
     ) -> Vec<f32> {
         let gpu = self.0;
-        let flat = scene.flatten();
+        let mut flat = scene.flatten();
+        let tree = Tree::new(&mut flat);
         let mut source = specula_shaders::compose(&["frame"]).unwrap();
         source += &flat.declarations();
         for (name, text) in shader.modules {
@@ -104,15 +113,15 @@ impl Device {
         let kernel = ComputeKernel::new(gpu, &module, "main", 4).unwrap();
         let or_one = |bytes: &[u8]| {
             if bytes.is_empty() {
-                vec![0; 4]
+                vec![0; 16]
             } else {
                 bytes.to_vec()
             }
         };
         let inputs = [
             or_one(bytes(inputs)),
-            or_one(flat.nodes),
-            or_one(flat.packets),
+            or_one(tree.nodes()),
+            or_one(tree.triangles()),
             or_one(bytes(&flat.words)),
         ];
         let inputs: Vec<&[u8]> = inputs.iter().map(Vec::as_slice).collect();

@@ -53,8 +53,7 @@ pub(super) const ITEMS: &[Item] = &[
         Source::Tokuyoshi24,
         "section 6, white furnace on a GPU",
         "No clear difference in time with and without the bound.",
-        "Needs a GPU; `cargo bench -p specula-gpu --bench gpu` measures it on any adapter, \
-         `docs/gpu` has a run in software.",
+        "Needs a GPU; `specula gpu-report` measures it on any adapter, `docs/gpu` has what was measured.",
     ),
     item(
         Source::Dupuy23,

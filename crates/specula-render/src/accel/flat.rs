@@ -22,6 +22,7 @@ impl Accel {
         for quadric in &scene.quadrics {
             flatten_quadric(quadric, to);
         }
+        to.constant("PLACEMENT_COUNT", id(scene.placements.len()));
         to.begin("PLACEMENTS");
         for placement in &scene.placements {
             flatten_placement(placement, to);

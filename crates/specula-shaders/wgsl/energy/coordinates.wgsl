@@ -71,8 +71,11 @@ fn coordinates_alpha(alpha: f32) -> f32 {
 ///
 /// Twin: specula-bsdf/src/energy/coordinates.rs, cosine_coordinate.
 fn coordinates_cosine(cosine: f32, alpha: f32) -> f32 {
-    let share = cosine * (1.0 + alpha) / (cosine + alpha);
-    return 1.0 - sqrt(max(1.0 - sqrt(share), 0.0));
+    let whole = cosine + alpha;
+    let share = cosine * (1.0 + alpha) / whole;
+    // `1 - sqrt(share)` without cancellation: straight views lie at the end, whatever a GPU's quotients are.
+    let rest = alpha * max(1.0 - cosine, 0.0) / (whole * (1.0 + sqrt(share)));
+    return 1.0 - sqrt(rest);
 }
 
 /// A map of `[0, 1]` to itself that is steepest at `edge` and takes it to the middle.

@@ -47,6 +47,20 @@ pub(crate) mod lab {
     }
 }
 
+/// `specula gpu-report` without the laboratory.
+#[cfg(not(feature = "lab"))]
+pub(crate) mod gpu_report {
+    use std::process::ExitCode;
+
+    use super::super::Failure;
+    pub(crate) use super::command::AnyArguments as GpuReportArguments;
+
+    /// Says which feature it needs.
+    pub(crate) fn run(_: &GpuReportArguments) -> Result<ExitCode, Failure> {
+        super::command::refuse("the GPU's report", "lab")
+    }
+}
+
 /// `specula shaders` without the shaders.
 #[cfg(not(feature = "shaders"))]
 pub(crate) mod shaders {

@@ -10,6 +10,7 @@ use specula::render::picture::{Display, ToneMap};
 use specula::scene::Energy;
 
 use super::device::{Device, GpuArguments};
+use super::gpu_report::GpuReportArguments;
 use super::lab::LabArguments;
 use super::loading::LoadingArguments;
 use super::machine::MachineArguments;
@@ -61,6 +62,8 @@ pub(crate) enum Command {
     Lab(LabArguments),
     /// List what `render --device` can be given.
     Devices,
+    /// Measure a GPU: whether its pictures are the processor's, samplers, rays and renders per second.
+    GpuReport(GpuReportArguments),
 }
 
 const RENDER_EXAMPLES: &str = "\

@@ -12,6 +12,8 @@ mod denoise;
 mod device;
 mod failure;
 mod file_id;
+#[cfg(feature = "lab")]
+mod gpu_report;
 mod info;
 mod job;
 #[cfg(feature = "lab")]
@@ -36,12 +38,12 @@ mod stop;
 mod values;
 mod watch;
 
-#[cfg(not(feature = "lab"))]
-use absent::lab;
 #[cfg(not(feature = "tev"))]
 use absent::live_view;
 #[cfg(not(feature = "shaders"))]
 use absent::shaders;
+#[cfg(not(feature = "lab"))]
+use absent::{gpu_report, lab};
 use std::process::ExitCode;
 
 pub(crate) use arguments::Arguments;
@@ -62,6 +64,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
         Command::Shaders(a) => shaders::run(&a),
         Command::Lab(a) => lab::run(&a),
         Command::Devices => device::list(),
+        Command::GpuReport(a) => gpu_report::run(&a),
     }
 }
 

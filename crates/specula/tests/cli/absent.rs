@@ -45,6 +45,7 @@ fn a_gpu() {
 fn the_laboratory() {
     for rest in [&[][..], &["list"], &["run", "--seed", "3"], &["--help"]] {
         names_the_feature(&[&["lab"], rest].concat(), "lab");
+        names_the_feature(&[&["gpu-report"], rest].concat(), "lab");
     }
 }
 

@@ -48,6 +48,50 @@ fn devices_are_listed() {
 }
 
 #[test]
+fn a_gpu_is_measured() {
+    if !has_gpu("the report about a GPU") {
+        return;
+    }
+    let (folder, _) = small_scene();
+    let folder = folder.path();
+    let report = ["gpu-report", "--quick", "--part", "rays", "-o", "report"];
+    let output = specula(folder).args(report).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let text = std::fs::read_to_string(folder.join("report/README.md")).unwrap();
+    assert_eq!(String::from_utf8_lossy(&output.stdout), text);
+    for expected in [
+        "# ",
+        "- GPU: ",
+        "driver",
+        "## Rays alone",
+        "| glass-and-metal | tree | 20 |",
+    ] {
+        assert!(text.contains(expected), "no '{expected}' in {text}");
+    }
+    assert!(!text.contains("Not measured"), "{text}");
+}
+
+#[test]
+fn reports_refuse_what_is_no_gpu() {
+    let (folder, _) = small_scene();
+    let folder = folder.path();
+    for (arguments, expected) in [
+        (
+            &["--device", "cpu"][..],
+            "expected gpu, gpu:INDEX or gpu:NAME",
+        ),
+        (&["--device", "gpu:no such card"], "no GPU"),
+        (&["--part", "everything"], "expected pictures, samplers"),
+        (&["--scene", "none.pbrt"], "none.pbrt"),
+    ] {
+        let (code, said) = run(folder, &[&["gpu-report"], arguments].concat());
+        assert_eq!(code, Some(2), "{said}");
+        assert!(said.contains(expected), "{said}");
+    }
+    assert!(!folder.join("gpu-report").exists());
+}
+
+#[test]
 fn devices_that_are_not_there_are_named_and_nothing_is_written() {
     let (folder, _) = small_scene();
     let folder = folder.path();

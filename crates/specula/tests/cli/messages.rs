@@ -80,6 +80,7 @@ fn results_that_cannot_be_written_are_a_failure() {
         &["lab", "list", "--json"],
         &["shaders", "--list"],
         &["devices"],
+        &["gpu-report", "--help"],
         &["--help"],
         &["render", "--help"],
         &["--version"],

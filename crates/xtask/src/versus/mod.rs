@@ -1,11 +1,13 @@
 //! `cargo xtask versus`: time to equal error against other renderers.
 
 mod measure;
+#[path = "../../../specula-lab/src/gpu_report/mesh.rs"]
 pub(crate) mod mesh;
 pub(crate) mod renderers;
 mod report;
 pub(crate) mod scenes;
 mod sheet;
+#[path = "../../../specula-lab/src/gpu_report/sky.rs"]
 mod sky;
 pub(crate) mod statistics;
 
@@ -91,6 +93,9 @@ pub(crate) struct Versus {
     /// Mitsuba's variant
     #[arg(long, default_value = "llvm_ad_rgb")]
     variant: String,
+    /// What Specula renders on, as `specula render --device` takes it; with a GPU, compare with `--variant cuda_ad_rgb`
+    #[arg(long, default_value = "cpu")]
+    device: String,
     /// Short renders and few rounds, for a look
     #[arg(long)]
     quick: bool,
@@ -187,8 +192,10 @@ impl Versus {
             program: specula.to_owned(),
             scene: scene.to_owned(),
             threads: self.threads,
+            device: self.device.clone(),
             writing: None,
         };
+        let samplers = Specula::samplers(&self.device);
         let mut contestants = Vec::new();
         if let Some(python) = &self.mitsuba {
             let mut command = Command::new(python);
@@ -197,21 +204,13 @@ impl Versus {
                 .arg(&file)
                 .args([&self.variant, &self.threads.to_string()]);
             let engine = Served::start("Mitsuba", &mut command)?;
-            contestants.push(Contestant::new(
-                "specula-xml",
-                &Specula::SAMPLERS,
-                specula(&file),
-            ));
+            contestants.push(Contestant::new("specula-xml", samplers, specula(&file)));
             contestants.push(
                 Contestant::new("mitsuba", &MITSUBA_SAMPLERS, engine).against("specula-xml", CLOSE),
             );
         }
         if self.cycles.is_some() || self.pbrt.is_some() {
-            contestants.push(Contestant::new(
-                "specula-pbrt",
-                &Specula::SAMPLERS,
-                specula(&twin),
-            ));
+            contestants.push(Contestant::new("specula-pbrt", samplers, specula(&twin)));
         }
         if let Some(python) = &self.cycles {
             let mut command = Command::new(python);

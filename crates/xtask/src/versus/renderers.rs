@@ -38,6 +38,8 @@ pub(crate) struct Specula {
     pub(crate) program: PathBuf,
     pub(crate) scene: PathBuf,
     pub(crate) threads: u32,
+    /// As `specula render --device` takes it.
+    pub(crate) device: String,
     /// CPU seconds of writing the picture, found by the first render.
     pub(crate) writing: Option<f64>,
 }
@@ -50,6 +52,14 @@ impl Specula {
         "adaptive, 8 share",
         "adaptive, 16 share",
     ];
+
+    /// Those of a device: GPUs have no paths that share.
+    pub(crate) fn samplers(device: &str) -> &'static [&'static str] {
+        match device {
+            "cpu" => &Self::SAMPLERS,
+            _ => &Self::SAMPLERS[..2],
+        }
+    }
 
     /// The options that a name in [`SAMPLERS`](Self::SAMPLERS) stands for.
     fn options(sampler: &str) -> Vec<&str> {
@@ -72,6 +82,7 @@ impl Specula {
         let mut child = Command::new(&self.program)
             .args(["render", "--checkpoint", "off"])
             .args(["--threads", &self.threads.to_string()])
+            .args(["--device", &self.device])
             .args(["--spp", &spp.to_string(), "--seed", &seed.to_string()])
             .args(Self::options(sampler))
             .arg("-o")

@@ -123,11 +123,14 @@ pub(crate) fn document(versus: &Versus, outcomes: &[Outcome], minutes: f64) -> S
     let mut text = String::from(HEAD);
     let _ = writeln!(
         text,
-        "- Machine: {}, {} threads for everybody; Linux.\n- Versions: {}.\n- This run: {} rounds of \
+        "- Machine: {}, {} threads for everybody; Linux. Specula on `--device {}`, Mitsuba as `{}`.\n\
+         - Versions: {}.\n- This run: {} rounds of \
          renders of about {} s, references of {} times the samples, `--clock {}`, {minutes:.0} \
          minutes in all.\n",
         processor(),
         plan.threads,
+        versus.device,
+        versus.variant,
         versions.join("; "),
         plan.rounds,
         plan.seconds,

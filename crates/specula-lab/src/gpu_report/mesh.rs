@@ -5,8 +5,8 @@ use std::fs;
 use std::io::Write;
 use std::path::Path;
 
+use super::Result;
 use super::sky::direction;
-use crate::Result;
 
 /// Writes a closed sphere of radius about 0.9, its foot near the ground, as binary PLY without
 /// normals: `2 segments (rings - 1)` triangles.

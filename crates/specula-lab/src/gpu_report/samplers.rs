@@ -5,9 +5,10 @@ use std::time::{Duration, Instant};
 use specula_bsdf::math::warp::uniform_sphere;
 use specula_gpu::{Arrays, ComputeKernel, Gpu};
 
-use crate::{Effort, Result, figure, median, range, row, table};
+use super::text::{figure, median, range, row, table};
+use super::{Effort, Result};
 
-/// samples of a thread, as in Dupuy and Benyoub 2023, section 4.
+/// Samples of a thread, as in Dupuy and Benyoub 2023, section 4.
 const SAMPLES: usize = 64;
 /// Threads of a workgroup, as the shader says.
 const WORKGROUP: usize = 64;
@@ -339,8 +340,8 @@ impl Outcome {
     }
 }
 
-/// Table 1: Dupuy and Benyoub 2023, section 4, the synthetic benchmark of the GPU.
-pub(crate) fn normals(gpu: &Gpu, effort: &Effort) -> Result<String> {
+/// Dupuy and Benyoub 2023, section 4, the synthetic benchmark of the GPU.
+pub(super) fn normals(gpu: &Gpu, effort: &Effort) -> Result<String> {
     let rounds = effort.sample_rounds;
     let outcome = Outcome::new(gpu, &DIRECTIONS, rounds)?;
     outcome.agree(&DIRECTIONS, [1, 2])?;
@@ -384,8 +385,8 @@ pub(crate) fn normals(gpu: &Gpu, effort: &Effort) -> Result<String> {
     ))
 }
 
-/// Table 2: Tokuyoshi and Eto 2024, section 6, the white furnace on the GPU.
-pub(crate) fn furnace(gpu: &Gpu, effort: &Effort) -> Result<String> {
+/// Tokuyoshi and Eto 2024, section 6, the white furnace on the GPU.
+pub(super) fn furnace(gpu: &Gpu, effort: &Effort) -> Result<String> {
     let rounds = effort.sample_rounds;
     let outcome = Outcome::new(gpu, &REFLECTIONS, rounds)?;
     for place in [0, 2, 3] {

@@ -1,15 +1,18 @@
-//! Renders on the GPU: what longer paths cost, and speed beside the processor's.
+//! Renders on the GPU: whether they are the processor's pictures, what longer paths cost, and speed.
 
+use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
+use specula_bsdf::Rgb;
 use specula_bsdf::vndf::Sampler;
 use specula_gpu::{Gpu, Rays, Schedule, Tracer, TracerError, TracerOptions};
 use specula_render::{PreparedScene, RenderOptions, Renderer};
 use specula_scene::Scene;
 
-use crate::scenes::{SCENES, SceneFile};
-use crate::{Effort, Result, figure, median, range, row, table};
+use super::scenes::{Subject, metal_room, subjects};
+use super::text::{figure, median, range, row, table};
+use super::{Effort, Result};
 
 /// Longest paths of table 3, in reflections.
 const DEPTHS: [u32; 4] = [1, 2, 4, 8];
@@ -91,9 +94,10 @@ fn over(passes: &[Pass], of: impl Fn(&Pass) -> f64) -> f64 {
     median(passes.iter().map(of).collect())
 }
 
-/// Table 3: Tokuyoshi and Eto 2024, table 3.
-pub(crate) fn longest_paths(gpu: &Gpu, effort: &Effort) -> Result<String> {
-    let scene = SCENES[0].load()?;
+/// Tokuyoshi and Eto 2024, table 3.
+pub(super) fn longest_paths(gpu: &Gpu, effort: &Effort) -> Result<String> {
+    let subject = metal_room();
+    let scene = subject.load()?;
     let side = effort.side;
     let mut rows = vec![row([
         "longest path",
@@ -119,8 +123,8 @@ pub(crate) fn longest_paths(gpu: &Gpu, effort: &Effort) -> Result<String> {
          to 2, 0.5 to 6.2 % up to 4, 1.2 to 10.4 % up to 1024.\n\
          The variance is that of a sample, as the film estimates it. The samplers of one longest path have the same expectation.\n\
          Medians of {} rounds; {} shaders compiled in {compilation:.1} s of {:.0} s.\n\n{}",
-        SCENES[0].name,
-        SCENES[0].title,
+        subject.name,
+        subject.title,
         effort.render_rounds,
         DEPTHS.len() * SAMPLERS.len(),
         start.elapsed().as_secs_f64(),
@@ -187,8 +191,8 @@ fn longest_path(
     Ok((0..SAMPLERS.len()).map(cells).collect())
 }
 
-/// Table 4: samples and rays per second beside the processor's, by both schedules, and by traversal and ray queries.
-pub(crate) fn speeds(gpu: &Gpu, effort: &Effort) -> Result<String> {
+/// Samples and rays per second beside the processor's, by both schedules, and by traversal and ray queries.
+pub(super) fn speeds(gpu: &Gpu, effort: &Effort, files: &[PathBuf]) -> Result<String> {
     let mut rows = vec![row([
         "scene",
         "schedule",
@@ -199,18 +203,14 @@ pub(crate) fn speeds(gpu: &Gpu, effort: &Effort) -> Result<String> {
         "in single rounds",
         "processor: Msamples/s",
         "Mrays/s",
-        "GPU / processor",
+        "time to equal error, GPU / processor",
         "in single rounds",
         "compiled",
     ])];
-    let scenes = match effort.quick {
-        true => &SCENES[..3],
-        false => &SCENES[..],
-    };
-    for file in scenes {
-        rows.extend(speed(gpu, effort, file, Rays::Tree)?);
+    for subject in subjects(effort.quick, files) {
+        rows.extend(speed(gpu, effort, &subject, Rays::Tree)?);
         if gpu.has_ray_queries() {
-            rows.extend(speed(gpu, effort, file, Rays::Query)?);
+            rows.extend(speed(gpu, effort, &subject, Rays::Query)?);
         }
     }
     let queries = match gpu.has_ray_queries() {
@@ -223,8 +223,9 @@ pub(crate) fn speeds(gpu: &Gpu, effort: &Effort) -> Result<String> {
     };
     Ok(format!(
         "## Speed beside the processor's\n\n\
-         The scenes of `data/versus`, {0}x{0} pixels, paths as long as they say; rays of \
+         The scenes of the comparison with other renderers, {0}x{0} pixels, paths as long as they say; rays of \
          cameras, bounces and shadows.\n\
+         The samples are the same, and so is their error: time to equal error is the quotient of times.\n\
          `paths`: a thread follows a path to its end. `queues`: a thread takes a path to its next vertex, and \
          paths that continue form a queue (`--gpu-schedule`).\n{queries}{left_out}\
          Medians of {1} rounds.\n\n{2}",
@@ -238,17 +239,17 @@ pub(crate) fn speeds(gpu: &Gpu, effort: &Effort) -> Result<String> {
 const SCHEDULES: [Schedule; 2] = [Schedule::Paths, Schedule::Queues];
 
 /// The row of a scene that is not rendered.
-fn row_of_reason(file: &SceneFile, rays: Rays, reason: &TracerError) -> Vec<String> {
+fn row_of_reason(subject: &Subject, rays: Rays, reason: &TracerError) -> Vec<String> {
     let mut cells = vec![String::new(); 12];
-    cells[0] = file.name.to_owned();
+    cells[0].clone_from(&subject.name);
     cells[2] = rays.to_string();
     cells[3] = reason.to_string();
     cells
 }
 
 /// The rows of one scene, by traversal or by ray queries.
-fn speed(gpu: &Gpu, effort: &Effort, file: &SceneFile, rays: Rays) -> Result<Vec<Vec<String>>> {
-    let scene = file.load()?;
+fn speed(gpu: &Gpu, effort: &Effort, subject: &Subject, rays: Rays) -> Result<Vec<Vec<String>>> {
+    let scene = subject.load()?;
     let options = RenderOptions {
         resolution: Some([effort.side; 2]),
         ..RenderOptions::from_scene(&scene)
@@ -265,7 +266,7 @@ fn speed(gpu: &Gpu, effort: &Effort, file: &SceneFile, rays: Rays) -> Result<Vec
                 error @ (TracerError::Missing(_)
                 | TracerError::TooLarge { .. }
                 | TracerError::Queries(_)),
-            ) => return Ok(vec![row_of_reason(file, rays, &error)]),
+            ) => return Ok(vec![row_of_reason(subject, rays, &error)]),
             Err(error) => return Err(error.into()),
         };
         compiled.push(start.elapsed().as_secs_f64());
@@ -296,13 +297,105 @@ fn speed(gpu: &Gpu, effort: &Effort, file: &SceneFile, rays: Rays) -> Result<Vec
     };
     let cells = |place: usize| {
         let these = &on_gpu[place];
-        let mut cells = row([file.name, &SCHEDULES[place].to_string(), &rays.to_string()]);
+        let mut cells = row([
+            &subject.name,
+            &SCHEDULES[place].to_string(),
+            &rays.to_string(),
+        ]);
         cells.extend(speed(these));
         cells.extend(quotient(these, &on_gpu[0]));
         cells.extend(speed(processor));
-        cells.extend(quotient(processor, these));
+        cells.extend(quotient(these, processor));
         cells.push(format!("{:.1} s", compiled[place]));
         cells
     };
     Ok((0..SCHEDULES.len()).map(cells).collect())
+}
+
+/// Samples per pixel of pictures that are compared.
+const COMPARED: u32 = 4;
+/// Share of the pixels that may differ: paths part where rounding decides otherwise.
+const MOST_DIFFERING: f64 = 0.02;
+
+/// Pictures of the same samples by the GPU and by the processor; and whether all agree.
+pub(super) fn agreement(gpu: &Gpu, effort: &Effort, files: &[PathBuf]) -> Result<(String, bool)> {
+    let mut rows = vec![row([
+        "scene",
+        "rays",
+        "pixels that differ",
+        "mean of GPU / processor",
+        "agree",
+    ])];
+    let mut all = true;
+    for subject in subjects(effort.quick, files) {
+        let scene = subject.load()?;
+        let options = RenderOptions {
+            resolution: Some([128; 2]),
+            ..RenderOptions::from_scene(&scene)
+        };
+        let prepared = PreparedScene::consume(scene, &options)?;
+        let mut processor = Render::new(&prepared, &options, None);
+        processor.samples = COMPARED;
+        processor.pass()?;
+        for rays in [Rays::Tree, Rays::Query] {
+            if rays == Rays::Query && !gpu.has_ray_queries() {
+                continue;
+            }
+            let on_gpu = TracerOptions {
+                rays,
+                ..TracerOptions::default()
+            };
+            let tracer = match Tracer::with_options(gpu, &prepared, &options, on_gpu) {
+                Ok(tracer) => tracer,
+                Err(
+                    error @ (TracerError::Missing(_)
+                    | TracerError::TooLarge { .. }
+                    | TracerError::Queries(_)),
+                ) => {
+                    let reason = error.to_string();
+                    rows.push(row([&subject.name, &rays.to_string(), &reason, "", ""]));
+                    continue;
+                }
+                Err(error) => return Err(error.into()),
+            };
+            let mut render = Render::new(&prepared, &options, Some(tracer));
+            render.samples = COMPARED;
+            render.pass()?;
+            let [share, ratio] = difference(&processor, &render);
+            let agree = share <= MOST_DIFFERING && (ratio - 1.0).abs() <= MOST_DIFFERING;
+            all &= agree;
+            rows.push(row([
+                &subject.name,
+                &rays.to_string(),
+                &format!("{:.2} %", 100.0 * share),
+                &format!("{ratio:.5}"),
+                if agree { "yes" } else { "**no**" },
+            ]));
+        }
+    }
+    let text = format!(
+        "## Pictures beside the processor's\n\n\
+         The same {COMPARED} samples of 128x128 pixels. Pixels differ by more than a thousandth of themselves and of the \
+         mean: where rounding decides otherwise, a path parts. At most {:.0} % may.\n\n{}",
+        100.0 * MOST_DIFFERING,
+        table(&rows)
+    );
+    Ok((text, all))
+}
+
+/// Share of the pixels that differ, and the quotient of means.
+fn difference(processor: &Render<'_>, gpu: &Render<'_>) -> [f64; 2] {
+    let [a, b] = [processor, gpu].map(|render| render.renderer.film().picture().colour);
+    let mean = |colours: &[Rgb<f32>]| {
+        let sum: f64 = colours.iter().map(|c| f64::from(c.luminance())).sum();
+        sum / colours.len() as f64
+    };
+    let [mean_a, mean_b] = [&a, &b].map(|c| mean(c));
+    let differ = a.iter().zip(&b).filter(|(a, b)| {
+        let bound = 1e-3 * (mean_a + f64::from(a.max_channel()));
+        let apart = (**a - **b).to_array();
+        // Written so that NaN differs.
+        !apart.iter().all(|d| f64::from(d.abs()) <= bound)
+    });
+    [differ.count() as f64 / a.len() as f64, mean_b / mean_a]
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use exr::prelude::write_rgb_file;
 
-use crate::Result;
+use super::Result;
 
 /// A disc of even radiance.
 #[derive(Clone, Copy)]
@@ -93,6 +93,10 @@ fn radiance(sun: Option<Sun>, at: impl Fn([f64; 2]) -> [f64; 3]) -> (f32, f32, f
 }
 
 /// Writes a sky by latitude and longitude, the first and last rows at the poles, as Mitsuba's.
+#[allow(
+    dead_code,
+    reason = "the comparison with other renderers, which shares this file, writes it"
+)]
 pub(super) fn write(path: &Path, width: u32, sun: Option<Sun>) -> Result<()> {
     let height = width / 2;
     let step = [TAU / f64::from(width), PI / f64::from(height - 1)];
