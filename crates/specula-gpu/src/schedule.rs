@@ -9,8 +9,7 @@ pub(crate) const QUEUE_ARRAYS: u32 = 9;
 /// How threads follow paths. The samples are the same by either.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Schedule {
-    /// The faster one by measurements: queues, where a kernel may have enough arrays. Software alone has been measured
-    /// (`docs/gpu`), no real GPU.
+    /// The faster one by measurements (`docs/gpu`): queues, where a kernel may have enough arrays.
     #[default]
     Auto,
     /// A thread follows a path to its end.

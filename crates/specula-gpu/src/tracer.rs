@@ -9,7 +9,7 @@ use specula_render::{
     Wanted,
 };
 
-use crate::adapter::{Gpu, GpuError};
+use crate::adapter::{AdapterKind, Gpu, GpuError};
 use crate::error::TracerError;
 use crate::path_kernels::PathKernels;
 use crate::program;
@@ -21,8 +21,10 @@ use crate::tree::Tree;
 
 /// How long a batch should take: systems reset devices whose work takes seconds.
 const BATCH_TIME: Duration = Duration::from_millis(100);
-/// Samples of the first batch.
+/// Samples of the first batch in software.
 const FIRST_BATCH: usize = 1 << 12;
+/// The same on a real GPU, which smaller ones leave idle.
+const FIRST_BATCH_OF_REAL_GPUS: usize = 1 << 17;
 /// Most samples of a batch.
 const LARGEST_BATCH: usize = 1 << 21;
 
@@ -140,6 +142,14 @@ impl<'a> Tracer<'a> {
         let kernels = Kernels::new(gpu, taker, adder)?;
         let largest = gpu.adapter.largest_array
             / kernels.taker.sample_size().max(size_of::<RunSums>() as u64);
+        let largest = usize::try_from(largest)
+            .unwrap_or(usize::MAX)
+            .min(LARGEST_BATCH)
+            .min(limits.max_compute_workgroups_per_dimension as usize * WORKGROUP);
+        let first = match gpu.adapter.kind {
+            AdapterKind::Software => FIRST_BATCH,
+            _ => FIRST_BATCH_OF_REAL_GPUS,
+        };
         Ok(Self {
             gpu,
             kernels,
@@ -149,11 +159,8 @@ impl<'a> Tracer<'a> {
             batch: None,
             begun: VecDeque::new(),
             finished: None,
-            samples: FIRST_BATCH,
-            largest: usize::try_from(largest)
-                .unwrap_or(usize::MAX)
-                .min(LARGEST_BATCH)
-                .min(limits.max_compute_workgroups_per_dimension as usize * WORKGROUP),
+            samples: first.min(largest),
+            largest,
         })
     }
 

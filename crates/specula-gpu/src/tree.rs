@@ -325,9 +325,10 @@ mod tests {
             wide.bounds[2 * axis + 1] = [f32::NEG_INFINITY; WIDTH];
         }
         for (i, bounds) in boxes.iter().enumerate() {
-            for axis in 0..3 {
-                wide.bounds[2 * axis][i] = bounds[0][axis];
-                wide.bounds[2 * axis + 1][i] = bounds[1][axis];
+            for (side, corner) in bounds.iter().enumerate() {
+                for (axis, x) in corner.iter().enumerate() {
+                    wide.bounds[2 * axis + side][i] = *x;
+                }
             }
             wide.children[i] = 100 + u32::try_from(i).unwrap();
         }
@@ -357,12 +358,12 @@ mod tests {
         let node = Node::new(&wide(&boxes), |r| r);
         assert_eq!((node.head >> 24).count_ones(), 3);
         for slot in (0..WIDTH).filter(|slot| node.head >> (24 + slot) & 1 == 1) {
-            let bounds = boxes[node.children[slot] as usize - 100];
-            for axis in 0..3 {
+            let [low, high] = boxes[node.children[slot] as usize - 100];
+            for (axis, (low, high)) in low.into_iter().zip(high).enumerate() {
                 let exponent = node.head >> (8 * axis) & 0xff;
                 let step = f32::from_bits(exponent << 23);
                 let plane = |i: usize| node.origin[axis] + f32::from(node.planes[i][slot]) * step;
-                assert!(plane(axis) < bounds[0][axis] && plane(3 + axis) > bounds[1][axis]);
+                assert!(plane(axis) < low && plane(3 + axis) > high);
             }
         }
         assert_eq!(Node::new(&wide(&[]), |r| r), Node::default());

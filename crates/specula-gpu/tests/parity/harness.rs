@@ -386,7 +386,7 @@ fn judge(case: &Case, values: &[f32], results: usize, time: [Duration; 2]) -> Ou
         errors[case.strays.min(errors.len() - 1)]
     };
     let (shader, at) = ranked(&|i| worst(shaders[i], &doubles[i]));
-    let beyond = (0..inputs.len()).filter(|&i| !(worst(shaders[i], &doubles[i]) <= case.bound));
+    let beyond = (0..inputs.len()).filter(|&i| worst(shaders[i], &doubles[i]) > case.bound);
     let (single, _) = ranked(&|i| worst(&singles[i], &doubles[i]));
     Outcome {
         name: case.name,

@@ -113,7 +113,7 @@ pub struct GpuReport {
 }
 
 /// How much is measured.
-struct Effort {
+struct Effort<'a> {
     /// Without the largest scene.
     quick: bool,
     /// Rounds of the tables of samplers.
@@ -124,23 +124,39 @@ struct Effort {
     side: u32,
     /// Least seconds of a render's pass; a run of a sampler lasts 0.1 s.
     seconds: f64,
+    /// Whether to stop.
+    stop: &'a AtomicBool,
 }
 
-impl Effort {
-    const QUICK: Self = Self {
-        quick: true,
-        sample_rounds: 5,
-        render_rounds: 3,
-        side: 64,
-        seconds: 0.1,
-    };
-    const WHOLE: Self = Self {
-        quick: false,
-        sample_rounds: 15,
-        render_rounds: 5,
-        side: 512,
-        seconds: 0.4,
-    };
+impl<'a> Effort<'a> {
+    fn new(quick: bool, stop: &'a AtomicBool) -> Self {
+        match quick {
+            true => Self {
+                quick,
+                sample_rounds: 5,
+                render_rounds: 3,
+                side: 64,
+                seconds: 0.1,
+                stop,
+            },
+            false => Self {
+                quick,
+                sample_rounds: 15,
+                render_rounds: 5,
+                side: 512,
+                seconds: 0.4,
+                stop,
+            },
+        }
+    }
+
+    /// Fails where the caller asked to stop: a part ends between two of its steps.
+    fn go_on(&self) -> Result<()> {
+        match self.stop.load(Ordering::Relaxed) {
+            true => Err(LabError::Stopped.into()),
+            false => Ok(()),
+        }
+    }
 }
 
 /// Measures.
@@ -148,7 +164,7 @@ impl Effort {
 /// A part that fails is left out, with the reason in its place.
 ///
 /// * `tell`: is called with the share that is done, in [0, 1], and what comes next.
-/// * `stop`: ends the report after the part that is being measured.
+/// * `stop`: ends the report; what is measured by then stays.
 ///
 /// # Errors
 /// Where the device is lost.
@@ -158,10 +174,7 @@ pub fn gpu_report(
     tell: &mut dyn FnMut(f64, &str),
     stop: &AtomicBool,
 ) -> crate::Result<GpuReport> {
-    let effort = match options.quick {
-        true => Effort::QUICK,
-        false => Effort::WHOLE,
-    };
+    let effort = Effort::new(options.quick, stop);
     let parts = match options.parts.as_slice() {
         [] => &GpuReportPart::ALL[..],
         parts => parts,
@@ -174,11 +187,6 @@ pub fn gpu_report(
     };
     let mut done = 0.0;
     for part in parts {
-        if stop.load(Ordering::Relaxed) {
-            report.text += "\n**Stopped before its end.**\n";
-            report.is_stopped = true;
-            break;
-        }
         tell(done / whole, &part.to_string());
         let start = Instant::now();
         let measured = part.measure(gpu, &effort, &options.scenes);
@@ -189,6 +197,11 @@ pub fn gpu_report(
                 let seconds = start.elapsed().as_secs_f64();
                 report.text +=
                     &format!("\n{}\n\nThis part took {seconds:.0} s.\n", text.trim_end());
+            }
+            Err(_) if stop.load(Ordering::Relaxed) => {
+                report.text += "\n**Stopped before its end.**\n";
+                report.is_stopped = true;
+                break;
             }
             Err(error) => {
                 if let Some(lost @ GpuError::Lost(_)) = error.downcast_ref::<GpuError>() {
@@ -205,7 +218,8 @@ pub fn gpu_report(
 
 impl GpuReportPart {
     /// The part's text, and whether what it compares agrees.
-    fn measure(self, gpu: &Gpu, effort: &Effort, scenes: &[PathBuf]) -> Result<(String, bool)> {
+    fn measure(self, gpu: &Gpu, effort: &Effort<'_>, scenes: &[PathBuf]) -> Result<(String, bool)> {
+        effort.go_on()?;
         Ok(match self {
             Self::Pictures => renders::agreement(gpu, effort, scenes)?,
             Self::Samplers => (samplers::normals(gpu, effort)?, true),

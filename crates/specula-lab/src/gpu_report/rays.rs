@@ -18,7 +18,7 @@ const FEW: usize = 1 << 12;
 const FARTHEST: f32 = 3e38;
 
 /// Millions of rays per second between points of the scenes: no two neighbours go the same way.
-pub(super) fn rays(gpu: &Gpu, effort: &Effort) -> Result<String> {
+pub(super) fn rays(gpu: &Gpu, effort: &Effort<'_>) -> Result<String> {
     let mut rows = vec![row([
         "scene",
         "rays",
@@ -28,6 +28,7 @@ pub(super) fn rays(gpu: &Gpu, effort: &Effort) -> Result<String> {
         "share that hits",
     ])];
     for subject in subjects(effort.quick, &[]) {
+        effort.go_on()?;
         for rays in [Rays::Tree, Rays::Query] {
             if rays == Rays::Tree || gpu.has_ray_queries() {
                 rows.push(speed(gpu, effort, &subject, rays)?);
@@ -44,11 +45,11 @@ pub(super) fn rays(gpu: &Gpu, effort: &Effort) -> Result<String> {
     ))
 }
 
-fn count(effort: &Effort) -> usize {
+fn count(effort: &Effort<'_>) -> usize {
     if effort.quick { FEW } else { COUNT }
 }
 
-fn speed(gpu: &Gpu, effort: &Effort, subject: &Subject, rays: Rays) -> Result<Vec<String>> {
+fn speed(gpu: &Gpu, effort: &Effort<'_>, subject: &Subject, rays: Rays) -> Result<Vec<String>> {
     let scene = subject.load()?;
     let prepared = PreparedScene::new(&scene, &RenderOptions::from_scene(&scene))?;
     let caster = RayCaster::new(gpu, &prepared, rays)?;

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use specula_bsdf::Rgb;
 use specula_bsdf::vndf::Sampler;
-use specula_gpu::{Gpu, Rays, Schedule, Tracer, TracerError, TracerOptions};
+use specula_gpu::{AdapterKind, Gpu, Rays, Schedule, Tracer, TracerError, TracerOptions};
 use specula_render::{PreparedScene, RenderOptions, Renderer};
 use specula_scene::Scene;
 
@@ -95,7 +95,7 @@ fn over(passes: &[Pass], of: impl Fn(&Pass) -> f64) -> f64 {
 }
 
 /// Tokuyoshi and Eto 2024, table 3.
-pub(super) fn longest_paths(gpu: &Gpu, effort: &Effort) -> Result<String> {
+pub(super) fn longest_paths(gpu: &Gpu, effort: &Effort<'_>) -> Result<String> {
     let subject = metal_room();
     let scene = subject.load()?;
     let side = effort.side;
@@ -113,6 +113,7 @@ pub(super) fn longest_paths(gpu: &Gpu, effort: &Effort) -> Result<String> {
     let start = Instant::now();
     let mut compilation = 0.0;
     for depth in DEPTHS {
+        effort.go_on()?;
         rows.extend(longest_path(gpu, effort, &scene, depth, &mut compilation)?);
     }
     Ok(format!(
@@ -135,7 +136,7 @@ pub(super) fn longest_paths(gpu: &Gpu, effort: &Effort) -> Result<String> {
 /// The rows of one longest path.
 fn longest_path(
     gpu: &Gpu,
-    effort: &Effort,
+    effort: &Effort<'_>,
     scene: &Scene,
     depth: u32,
     compilation: &mut f64,
@@ -192,7 +193,7 @@ fn longest_path(
 }
 
 /// Samples and rays per second beside the processor's, by both schedules, and by traversal and ray queries.
-pub(super) fn speeds(gpu: &Gpu, effort: &Effort, files: &[PathBuf]) -> Result<String> {
+pub(super) fn speeds(gpu: &Gpu, effort: &Effort<'_>, files: &[PathBuf]) -> Result<String> {
     let mut rows = vec![row([
         "scene",
         "schedule",
@@ -208,6 +209,7 @@ pub(super) fn speeds(gpu: &Gpu, effort: &Effort, files: &[PathBuf]) -> Result<St
         "compiled",
     ])];
     for subject in subjects(effort.quick, files) {
+        effort.go_on()?;
         rows.extend(speed(gpu, effort, &subject, Rays::Tree)?);
         if gpu.has_ray_queries() {
             rows.extend(speed(gpu, effort, &subject, Rays::Query)?);
@@ -248,7 +250,12 @@ fn row_of_reason(subject: &Subject, rays: Rays, reason: &TracerError) -> Vec<Str
 }
 
 /// The rows of one scene, by traversal or by ray queries.
-fn speed(gpu: &Gpu, effort: &Effort, subject: &Subject, rays: Rays) -> Result<Vec<Vec<String>>> {
+fn speed(
+    gpu: &Gpu,
+    effort: &Effort<'_>,
+    subject: &Subject,
+    rays: Rays,
+) -> Result<Vec<Vec<String>>> {
     let scene = subject.load()?;
     let options = RenderOptions {
         resolution: Some([effort.side; 2]),
@@ -318,7 +325,11 @@ const COMPARED: u32 = 4;
 const MOST_DIFFERING: f64 = 0.02;
 
 /// Pictures of the same samples by the GPU and by the processor; and whether all agree.
-pub(super) fn agreement(gpu: &Gpu, effort: &Effort, files: &[PathBuf]) -> Result<(String, bool)> {
+pub(super) fn agreement(
+    gpu: &Gpu,
+    effort: &Effort<'_>,
+    files: &[PathBuf],
+) -> Result<(String, bool)> {
     let mut rows = vec![row([
         "scene",
         "rays",
@@ -328,6 +339,7 @@ pub(super) fn agreement(gpu: &Gpu, effort: &Effort, files: &[PathBuf]) -> Result
     ])];
     let mut all = true;
     for subject in subjects(effort.quick, files) {
+        effort.go_on()?;
         let scene = subject.load()?;
         let options = RenderOptions {
             resolution: Some([128; 2]),
@@ -338,7 +350,9 @@ pub(super) fn agreement(gpu: &Gpu, effort: &Effort, files: &[PathBuf]) -> Result
         processor.samples = COMPARED;
         processor.pass()?;
         for rays in [Rays::Tree, Rays::Query] {
-            if rays == Rays::Query && !gpu.has_ray_queries() {
+            // Software compiles shaders with queries for a minute each.
+            let is_software = gpu.adapter.kind == AdapterKind::Software;
+            if rays == Rays::Query && (is_software || !gpu.has_ray_queries()) {
                 continue;
             }
             let on_gpu = TracerOptions {

@@ -268,7 +268,7 @@ struct Outcome {
 }
 
 impl Outcome {
-    fn new(gpu: &Gpu, works: &[Work], rounds: usize) -> Result<Self> {
+    fn new(gpu: &Gpu, works: &[Work], effort: &Effort<'_>) -> Result<Self> {
         let mut compilation = 0.0;
         let mut measured = [Vec::new(), Vec::new()];
         for (of_alphas, is_isotropic) in measured.iter_mut().zip([true, false]) {
@@ -280,7 +280,8 @@ impl Outcome {
             }
         }
         let mut times = [(); 2].map(|()| vec![Vec::new(); works.len()]);
-        for _ in 0..rounds {
+        for _ in 0..effort.sample_rounds {
+            effort.go_on()?;
             for (kernels, times) in measured.iter().zip(&mut times) {
                 for (kernel, times) in kernels.iter().zip(times) {
                     times.push(kernel.nanoseconds(gpu)?);
@@ -341,9 +342,9 @@ impl Outcome {
 }
 
 /// Dupuy and Benyoub 2023, section 4, the synthetic benchmark of the GPU.
-pub(super) fn normals(gpu: &Gpu, effort: &Effort) -> Result<String> {
+pub(super) fn normals(gpu: &Gpu, effort: &Effort<'_>) -> Result<String> {
     let rounds = effort.sample_rounds;
-    let outcome = Outcome::new(gpu, &DIRECTIONS, rounds)?;
+    let outcome = Outcome::new(gpu, &DIRECTIONS, effort)?;
     outcome.agree(&DIRECTIONS, [1, 2])?;
     outcome.agree(&DIRECTIONS, [3, 4])?;
     let mut rows = vec![row([
@@ -386,9 +387,9 @@ pub(super) fn normals(gpu: &Gpu, effort: &Effort) -> Result<String> {
 }
 
 /// Tokuyoshi and Eto 2024, section 6, the white furnace on the GPU.
-pub(super) fn furnace(gpu: &Gpu, effort: &Effort) -> Result<String> {
+pub(super) fn furnace(gpu: &Gpu, effort: &Effort<'_>) -> Result<String> {
     let rounds = effort.sample_rounds;
-    let outcome = Outcome::new(gpu, &REFLECTIONS, rounds)?;
+    let outcome = Outcome::new(gpu, &REFLECTIONS, effort)?;
     for place in [0, 2, 3] {
         outcome.agree(&REFLECTIONS, [place, 1])?;
     }

@@ -29,7 +29,7 @@ Examples:
 Needs a driver for Vulkan, Metal or Direct3D 12, and nothing else. What a GPU lacks is said in the report.
 
 Exit codes: 0 done; 1 pictures differ from the processor's, or the GPU failed; 2 the arguments are wrong, or there is no
-GPU; 130 stopped by Ctrl-C after the part that was measured: what there is is written.";
+GPU; 130 stopped by Ctrl-C: the parts that were measured are written.";
 
 #[derive(Args, Debug)]
 #[command(after_help = GPU_REPORT_EXAMPLES)]
