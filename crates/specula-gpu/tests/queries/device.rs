@@ -45,31 +45,7 @@ const SHARED: [&str; 5] = [
 const TREE: &str = include_str!("../../wgsl/traverse.wgsl");
 const QUERY: &str = include_str!("../../wgsl/query.wgsl");
 
-/// Eight words a ray: origin, direction, end, whether any hit will do. Five a hit.
-const ENTRY: &str = "
-@group(0) @binding(0) var<storage, read> rays: array<f32>;
-@group(0) @binding(4) var<storage, read_write> results: array<u32>;
-
-@compute @workgroup_size(64)
-fn cast_all(@builtin(global_invocation_id) id: vec3u) {
-    let at = 8u * id.x;
-    let origin = vec3f(rays[at], rays[at + 1u], rays[at + 2u]);
-    let direction = vec3f(rays[at + 3u], rays[at + 4u], rays[at + 5u]);
-    let ray = Ray(origin, direction, rays[at + 6u]);
-    var hit = Hit(0.0, 0.0, 0.0, 0u, NONE);
-    if rays[at + 7u] == 0.0 {
-        hit = traverse(ray, false);
-    } else if traverse_occluded(ray) {
-        hit.instance = 0u;
-    }
-    let to = 5u * id.x;
-    results[to] = bitcast<u32>(hit.t);
-    results[to + 1u] = bitcast<u32>(hit.u);
-    results[to + 2u] = bitcast<u32>(hit.v);
-    results[to + 3u] = hit.primitive;
-    results[to + 4u] = hit.instance;
-}
-";
+const ENTRY: &str = include_str!("../../wgsl/cast.wgsl");
 
 /// What the rays hit; their number is a multiple of 64.
 pub(crate) fn hits(
@@ -86,8 +62,10 @@ pub(crate) fn hits(
         .shader("rays", &source(&flat.declarations(), casting))
         .unwrap();
     let kernel = match &structures {
-        None => ComputeKernel::new(gpu, &module, "cast_all", 4),
-        Some(structures) => ComputeKernel::with_structures(gpu, &module, "cast_all", 4, structures),
+        None => ComputeKernel::new(gpu, &module, "cast_main", 4),
+        Some(structures) => {
+            ComputeKernel::with_structures(gpu, &module, "cast_main", 4, structures)
+        }
     };
     let kernel = kernel.unwrap();
     let words: Vec<[f32; 8]> = rays.iter().map(Ray::words).collect();

@@ -89,6 +89,21 @@ impl<'a> Render<'a> {
     }
 }
 
+/// A scene on the GPU, or why the GPU does not render it.
+fn tracer<'a>(
+    gpu: &'a Gpu,
+    scene: &PreparedScene,
+    options: &RenderOptions,
+    on_gpu: TracerOptions,
+) -> Result<std::result::Result<Tracer<'a>, String>> {
+    use TracerError::{Missing, Queries, TooLarge};
+    match Tracer::with_options(gpu, scene, options, on_gpu) {
+        Ok(tracer) => Ok(Ok(tracer)),
+        Err(error @ (Missing(_) | TooLarge { .. } | Queries(_))) => Ok(Err(error.to_string())),
+        Err(error) => Err(error.into()),
+    }
+}
+
 /// Medians of a quantity over the passes of one render.
 fn over(passes: &[Pass], of: impl Fn(&Pass) -> f64) -> f64 {
     median(passes.iter().map(of).collect())
@@ -241,11 +256,11 @@ pub(super) fn speeds(gpu: &Gpu, effort: &Effort<'_>, files: &[PathBuf]) -> Resul
 const SCHEDULES: [Schedule; 2] = [Schedule::Paths, Schedule::Queues];
 
 /// The row of a scene that is not rendered.
-fn row_of_reason(subject: &Subject, rays: Rays, reason: &TracerError) -> Vec<String> {
+fn row_of_reason(subject: &Subject, rays: Rays, reason: &str) -> Vec<String> {
     let mut cells = vec![String::new(); 12];
     cells[0].clone_from(&subject.name);
     cells[2] = rays.to_string();
-    cells[3] = reason.to_string();
+    reason.clone_into(&mut cells[3]);
     cells
 }
 
@@ -267,14 +282,9 @@ fn speed(
     for schedule in SCHEDULES {
         let start = Instant::now();
         let on_gpu = TracerOptions { rays, schedule };
-        let tracer = match Tracer::with_options(gpu, &prepared, &options, on_gpu) {
+        let tracer = match tracer(gpu, &prepared, &options, on_gpu)? {
             Ok(tracer) => tracer,
-            Err(
-                error @ (TracerError::Missing(_)
-                | TracerError::TooLarge { .. }
-                | TracerError::Queries(_)),
-            ) => return Ok(vec![row_of_reason(subject, rays, &error)]),
-            Err(error) => return Err(error.into()),
+            Err(reason) => return Ok(vec![row_of_reason(subject, rays, &reason)]),
         };
         compiled.push(start.elapsed().as_secs_f64());
         renders.push(Render::new(&prepared, &options, Some(tracer)));
@@ -359,18 +369,12 @@ pub(super) fn agreement(
                 rays,
                 ..TracerOptions::default()
             };
-            let tracer = match Tracer::with_options(gpu, &prepared, &options, on_gpu) {
+            let tracer = match tracer(gpu, &prepared, &options, on_gpu)? {
                 Ok(tracer) => tracer,
-                Err(
-                    error @ (TracerError::Missing(_)
-                    | TracerError::TooLarge { .. }
-                    | TracerError::Queries(_)),
-                ) => {
-                    let reason = error.to_string();
+                Err(reason) => {
                     rows.push(row([&subject.name, &rays.to_string(), &reason, "", ""]));
                     continue;
                 }
-                Err(error) => return Err(error.into()),
             };
             let mut render = Render::new(&prepared, &options, Some(tracer));
             render.samples = COMPARED;
