@@ -12,6 +12,8 @@ use crate::stage::{RayBindings, Stage, array, layout, submit};
 pub(crate) const SAMPLE_SIZE: u64 = 48;
 /// Bytes of a path's state between its vertices: `PathState` in path.wgsl.
 const STATE_SIZE: u64 = 144;
+/// Bytes before the queues: `QUEUE_HEAD` in queue.wgsl.
+const HEAD_SIZE: u64 = 12;
 /// Arrays that are only read: those of the scene, and the requested runs.
 const READ: u32 = 5;
 /// Arrays of a kernel that follows whole paths.
@@ -53,7 +55,7 @@ pub(crate) struct QueueArrays {
     group: wgpu::BindGroup,
     advance_group: wgpu::BindGroup,
     compact_group: wgpu::BindGroup,
-    control: wgpu::Buffer,
+    slots: wgpu::Buffer,
     workgroups: wgpu::Buffer,
 }
 
@@ -78,9 +80,8 @@ impl PathKernels {
         }
         let arrays = layout(gpu, (0..QUEUE_ARRAYS).map(slot))?;
         let between = gpu.shader("queue advance", program::QUEUE_ADVANCE)?;
-        // The control, and what an entry point writes besides.
-        let stage = |entry, other| {
-            let slots = [0, other].map(|binding| Slot {
+        let stage = |entry, arrays| {
+            let slots = (0..arrays).map(|binding| Slot {
                 binding,
                 is_written: true,
             });
@@ -89,8 +90,8 @@ impl PathKernels {
         Ok(Self::Queues(Queues {
             begin: Stage::new(gpu, &arrays, shader, "queue_begin", None)?,
             bounce: Stage::new(gpu, &arrays, shader, "queue_bounce", structures)?,
-            compact: stage("queue_advance_compact", 2)?,
-            advance: stage("queue_advance_main", 1)?,
+            compact: stage("queue_advance_compact", 1)?,
+            advance: stage("queue_advance_main", 2)?,
             most: max_depth.saturating_add(1),
         }))
     }
@@ -117,15 +118,15 @@ impl PathKernels {
             Self::Queues(queues) => {
                 let samples = samples as u64;
                 let states = array(gpu, "paths", samples * STATE_SIZE, Usages::empty());
-                let slots = array(gpu, "queues", samples * 8, Usages::empty());
-                let control = array(gpu, "control", 12, Usages::COPY_DST | Usages::COPY_SRC);
+                let copied = Usages::COPY_DST | Usages::COPY_SRC;
+                let slots = array(gpu, "queues", HEAD_SIZE + samples * 8, copied);
                 let workgroups = array(gpu, "workgroups", 12, Usages::INDIRECT);
-                let all = [arrays, &[&states, &control, &slots]].concat();
+                let all = [arrays, &[&states, &slots]].concat();
                 let arrays = QueueArrays {
                     group: queues.bounce.group(gpu, &all),
-                    advance_group: queues.advance.group(gpu, &[&control, &workgroups]),
-                    compact_group: queues.compact.group(gpu, &[&control, &slots]),
-                    control,
+                    advance_group: queues.advance.group(gpu, &[&slots, &workgroups]),
+                    compact_group: queues.compact.group(gpu, &[&slots]),
+                    slots,
                     workgroups,
                 };
                 BoundKernels::Queues(Box::new(queues.clone()), arrays)
@@ -171,8 +172,8 @@ impl Queues {
         let count = u32::try_from(slots).unwrap_or(u32::MAX);
         let before = [u32::MAX, 0, count];
         gpu.caught(|gpu| {
-            let control = bytemuck::bytes_of(&before);
-            gpu.queue.write_buffer(&arrays.control, 0, control);
+            let head = bytemuck::bytes_of(&before);
+            gpu.queue.write_buffer(&arrays.slots, 0, head);
         })?;
         let count = VERTICES_AT_ONCE.min(self.most);
         submit(gpu, |pass| {
@@ -185,10 +186,10 @@ impl Queues {
 
     fn go_on(&self, gpu: &Gpu, arrays: &QueueArrays, mut done: u32) -> Result<(), GpuError> {
         while done < self.most {
-            let control = gpu.read(&arrays.control, 12)?;
-            let control: Vec<u32> = bytemuck::pod_collect_to_vec(&control);
+            let head = gpu.read(&arrays.slots, HEAD_SIZE)?;
+            let head: Vec<u32> = bytemuck::pod_collect_to_vec(&head);
             // The queue of the vertex after the last one.
-            if control.get(1 + (done & 1) as usize) == Some(&0) {
+            if head.get(1 + (done & 1) as usize) == Some(&0) {
                 return Ok(());
             }
             let count = VERTICES_AT_ONCE.min(self.most - done);

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 /// Arrays of a kernel of paths in queues.
-pub(crate) const QUEUE_ARRAYS: u32 = 9;
+pub(crate) const QUEUE_ARRAYS: u32 = 8;
 
 /// How threads follow paths. The samples are the same by either.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -63,8 +63,8 @@ mod tests {
 
     #[test]
     fn automatic_queues_have_room_for_their_arrays() {
-        assert!(Schedule::Auto.is_queues(QUEUE_ARRAYS) && !Schedule::Auto.is_queues(8));
-        assert!(Schedule::Queues.is_queues(8) && !Schedule::Paths.is_queues(64));
+        assert!(Schedule::Auto.is_queues(QUEUE_ARRAYS) && !Schedule::Auto.is_queues(7));
+        assert!(Schedule::Queues.is_queues(7) && !Schedule::Paths.is_queues(64));
     }
 
     #[test]

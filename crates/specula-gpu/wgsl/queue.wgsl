@@ -6,19 +6,21 @@ import tracer::path::{PathState, path_is_requested, path_sequence, path_begin, p
 
 /// States of the paths, by slot.
 @group(0) @binding(6) var<storage, read_write> queue_states: array<PathState>;
-/// Depth of the current vertex, then the number of paths in the queue of even depths and of odd ones.
-@group(0) @binding(7) var<storage, read_write> queue_control: array<u32, 3>;
-/// Slots of the paths in the queue of even depths, then of odd ones; NONE where a path has ended.
-@group(0) @binding(8) var<storage, read_write> queue_slots: array<u32>;
+/// Depth of the current vertex, numbers of paths in the queues of even depths and of odd ones; then slots of the paths in
+/// the queue of even depths, and of odd ones, NONE where a path has ended.
+@group(0) @binding(7) var<storage, read_write> queue_slots: array<u32>;
+
+/// Words before the first queue.
+const QUEUE_HEAD: u32 = 3u;
 
 /// Where an entry of the queue of the current depth is.
 fn queue_entry(place: u32) -> u32 {
-    return (queue_control[0] & 1u) * (arrayLength(&queue_slots) / 2u) + place;
+    return QUEUE_HEAD + (queue_slots[0] & 1u) * ((arrayLength(&queue_slots) - QUEUE_HEAD) / 2u) + place;
 }
 
 /// Whether the queue of the current depth has so many entries.
 fn queue_has(place: u32) -> bool {
-    return place < queue_control[1u + (queue_control[0] & 1u)];
+    return place < queue_slots[1u + (queue_slots[0] & 1u)];
 }
 
 /// Begins a path.
@@ -44,7 +46,7 @@ fn queue_bounce(@builtin(global_invocation_id) id: vec3u) {
     }
     let slot = queue_slots[queue_entry(id.x)];
     var state = queue_states[slot];
-    if path_step(slot, &state, path_sequence(slot), queue_control[0]) {
+    if path_step(slot, &state, path_sequence(slot), queue_slots[0]) {
         queue_states[slot] = state;
     } else {
         path_end(slot, state);

@@ -1,12 +1,14 @@
 // Between two vertices of a wavefront: the next queue, of the paths that continue, and how many workgroups it needs.
 
-/// As `queue_control` in queue.wgsl.
-@group(0) @binding(0) var<storage, read_write> queue_advance_control: array<atomic<u32>, 3>;
+/// As `queue_slots` in queue.wgsl.
+@group(0) @binding(0) var<storage, read_write> queue_advance_slots: array<atomic<u32>>;
 /// Workgroups along the three axes.
 @group(0) @binding(1) var<storage, read_write> queue_advance_workgroups: array<u32, 3>;
-/// As `queue_slots` in queue.wgsl.
-@group(0) @binding(2) var<storage, read_write> queue_advance_slots: array<u32>;
 
+/// Words before the first queue.
+///
+/// Twin: specula-gpu/wgsl/queue.wgsl, QUEUE_HEAD.
+const QUEUE_ADVANCE_HEAD: u32 = 3u;
 /// A path that has ended.
 const QUEUE_ADVANCE_ENDED: u32 = 0xffffffffu;
 
@@ -19,11 +21,11 @@ var<workgroup> queue_advance_begin: u32;
 /// threads to one word would take their turns.
 @compute @workgroup_size(64)
 fn queue_advance_compact(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let side = atomicLoad(&queue_advance_control[0]) & 1u;
-    let half = arrayLength(&queue_advance_slots) / 2u;
+    let side = atomicLoad(&queue_advance_slots[0]) & 1u;
+    let half = (arrayLength(&queue_advance_slots) - QUEUE_ADVANCE_HEAD) / 2u;
     var slot = QUEUE_ADVANCE_ENDED;
-    if id.x < atomicLoad(&queue_advance_control[1u + side]) {
-        slot = queue_advance_slots[side * half + id.x];
+    if id.x < atomicLoad(&queue_advance_slots[1u + side]) {
+        slot = atomicLoad(&queue_advance_slots[QUEUE_ADVANCE_HEAD + side * half + id.x]);
     }
     var place = 0u;
     if slot != QUEUE_ADVANCE_ENDED {
@@ -31,21 +33,22 @@ fn queue_advance_compact(@builtin(global_invocation_id) id: vec3u, @builtin(loca
     }
     workgroupBarrier();
     if lane == 0u {
-        queue_advance_begin = atomicAdd(&queue_advance_control[2u - side], atomicLoad(&queue_advance_count));
+        queue_advance_begin = atomicAdd(&queue_advance_slots[2u - side], atomicLoad(&queue_advance_count));
     }
     workgroupBarrier();
     if slot != QUEUE_ADVANCE_ENDED {
-        queue_advance_slots[(1u - side) * half + queue_advance_begin + place] = slot;
+        let next = QUEUE_ADVANCE_HEAD + (1u - side) * half + queue_advance_begin + place;
+        atomicStore(&queue_advance_slots[next], slot);
     }
 }
 
 /// Advances to the next vertex; at first, to vertex 0.
 @compute @workgroup_size(1)
 fn queue_advance_main() {
-    let depth = atomicLoad(&queue_advance_control[0]) + 1u;
-    atomicStore(&queue_advance_control[0], depth);
-    atomicStore(&queue_advance_control[2u - (depth & 1u)], 0u);
-    queue_advance_workgroups[0] = (atomicLoad(&queue_advance_control[1u + (depth & 1u)]) + 63u) / 64u;
+    let depth = atomicLoad(&queue_advance_slots[0]) + 1u;
+    atomicStore(&queue_advance_slots[0], depth);
+    atomicStore(&queue_advance_slots[2u - (depth & 1u)], 0u);
+    queue_advance_workgroups[0] = (atomicLoad(&queue_advance_slots[1u + (depth & 1u)]) + 63u) / 64u;
     queue_advance_workgroups[1] = 1u;
     queue_advance_workgroups[2] = 1u;
 }

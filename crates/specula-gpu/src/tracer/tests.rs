@@ -138,8 +138,8 @@ fn faults_of_queues_show_in_films() {
     for (from, to) in [
         // A path that the next queue lacks.
         (
-            "path_step(slot, &state, path_sequence(slot), queue_control[0])",
-            "path_step(slot, &state, path_sequence(slot), queue_control[0]) && slot != 50u",
+            "path_step(slot, &state, path_sequence(slot), queue_slots[0])",
+            "path_step(slot, &state, path_sequence(slot), queue_slots[0]) && slot != 50u",
         ),
         // A path with the state of its neighbour.
         (
