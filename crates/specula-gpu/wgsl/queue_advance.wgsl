@@ -5,9 +5,7 @@
 /// Workgroups along the three axes.
 @group(0) @binding(1) var<storage, read_write> queue_advance_workgroups: array<u32, 3>;
 
-/// Words before the first queue.
-///
-/// Twin: specula-gpu/wgsl/queue.wgsl, QUEUE_HEAD.
+/// Words before the first queue, as `QUEUE_HEAD` in queue.wgsl.
 const QUEUE_ADVANCE_HEAD: u32 = 3u;
 /// A path that has ended.
 const QUEUE_ADVANCE_ENDED: u32 = 0xffffffffu;
