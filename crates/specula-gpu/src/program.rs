@@ -184,7 +184,6 @@ fn library_modules(text: &'static str) -> impl Iterator<Item = &'static str> {
 
 /// * `kinds`: the modules of the scene's kinds of material.
 fn constants(flat: &FlatScene<'_>, kinds: &[&Module]) -> String {
-    let find = |name: &str| flat.constants.iter().find(|c| c.0 == name).map(|c| c.1);
     let stored = match kinds.iter().any(|kind| kind.stores_parameters()) {
         true => 12,
         false => 1,
@@ -192,7 +191,7 @@ fn constants(flat: &FlatScene<'_>, kinds: &[&Module]) -> String {
     let own = [
         (
             "STACK_SIZE",
-            Tree::stack_size(find("TREE_DEPTH").unwrap_or(0)),
+            Tree::stack_size(flat.constant("TREE_DEPTH").unwrap_or(0)),
         ),
         ("BOUND_STORED", stored),
         ("UNCLAMPED", UNCLAMPED),

@@ -1,8 +1,8 @@
 //! The bounding volume hierarchy as shaders traverse it: small nodes, triangles that are read as vectors.
 //!
-//! Made from the processor's tree, child by child; only packets, here without empty lanes, have other indices. A node of the processor's is 256 bytes in
-//! 56 words that a GPU would load one by one; of these, 96 bytes in 6 loads (Ylitie, Karras and Laine 2017, with the
-//! children's references stored instead of computed).
+//! Made from the processor's tree, child by child; only packets, here without empty lanes, have other indices. A node of
+//! the processor's is 256 bytes in 56 words that a GPU would load one by one; of these, 96 bytes in 6 loads (Ylitie,
+//! Karras and Laine 2017, with the children's references stored instead of computed).
 
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
@@ -102,13 +102,7 @@ impl Tree {
                 *root = moved(*root);
             }
         }
-        let find = |name| {
-            scene
-                .constants
-                .iter()
-                .find(|c| c.0 == name)
-                .map_or(0, |c| c.1 as usize)
-        };
+        let find = |name| scene.constant(name).unwrap_or(0) as usize;
         let (begin, count) = (find("PLACEMENTS"), find("PLACEMENT_COUNT"));
         let placements = &mut scene.words[begin..begin + PLACEMENT * count];
         for placement in placements.chunks_exact_mut(PLACEMENT) {
@@ -145,6 +139,9 @@ impl Node {
         let [low_x, high_x] = [&wide.bounds[0], &wide.bounds[1]];
         let occupied: Vec<usize> = (0..WIDTH).filter(|&i| low_x[i] <= high_x[i]).collect();
         let mut node = Self::default();
+        if occupied.is_empty() {
+            return node;
+        }
         let mut centres = [[0.0; 3]; WIDTH];
         let mut middle = [0.0; 3];
         let mut grids = [Grid::default(); 3];
@@ -158,9 +155,6 @@ impl Node {
                 .iter()
                 .map(|&i| high[i])
                 .fold(f32::NEG_INFINITY, f32::max);
-            if occupied.is_empty() {
-                return node;
-            }
             grids[axis] = Grid::new(least, most);
             middle[axis] = 0.5 * (f64::from(least) + f64::from(most));
             for &i in &occupied {

@@ -30,7 +30,7 @@ mod specula_equal_time;
 mod specula_furnace;
 mod specula_rejection;
 mod specula_variance;
-mod stopwatch;
+pub(crate) mod stopwatch;
 mod stretched_bounds;
 mod tokuyoshi24_fig1;
 mod tokuyoshi24_fig10;

@@ -24,7 +24,7 @@ fn of_threads() -> Option<f64> {
 }
 
 /// The middle of the values, or the mean of the two in the middle; not a number where there is none.
-pub(super) fn median(values: impl IntoIterator<Item = f64>) -> f64 {
+pub(crate) fn median(values: impl IntoIterator<Item = f64>) -> f64 {
     let mut sorted: Vec<f64> = values.into_iter().collect();
     sorted.sort_by(f64::total_cmp);
     let n = sorted.len();

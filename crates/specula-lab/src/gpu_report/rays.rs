@@ -7,8 +7,9 @@ use specula_gpu::{Gpu, RayCaster, RayWords, Rays};
 use specula_render::{FlatGroup, FlatInstance, PreparedScene, RenderOptions};
 
 use super::scenes::{Subject, subjects};
-use super::text::{figure, median, row, table};
+use super::text::{figure, row, table};
 use super::{Effort, Result};
+use crate::experiments::stopwatch::median;
 
 /// Rays that are cast at once.
 const COUNT: usize = 1 << 20;

@@ -11,8 +11,9 @@ use specula_render::{PreparedScene, RenderOptions, Renderer};
 use specula_scene::Scene;
 
 use super::scenes::{Subject, metal_room, subjects};
-use super::text::{figure, median, range, row, table};
+use super::text::{figure, range, row, table};
 use super::{Effort, Result};
+use crate::experiments::stopwatch::median;
 
 /// Longest paths of table 3, in reflections.
 const DEPTHS: [u32; 4] = [1, 2, 4, 8];
@@ -106,7 +107,7 @@ fn tracer<'a>(
 
 /// Medians of a quantity over the passes of one render.
 fn over(passes: &[Pass], of: impl Fn(&Pass) -> f64) -> f64 {
-    median(passes.iter().map(of).collect())
+    median(passes.iter().map(of))
 }
 
 /// Tokuyoshi and Eto 2024, table 3.

@@ -5,8 +5,9 @@ use std::time::{Duration, Instant};
 use specula_bsdf::math::warp::uniform_sphere;
 use specula_gpu::{Arrays, ComputeKernel, Gpu};
 
-use super::text::{figure, median, range, row, table};
+use super::text::{figure, range, row, table};
 use super::{Effort, Result};
+use crate::experiments::stopwatch::median;
 
 /// Samples of a thread, as in Dupuy and Benyoub 2023, section 4.
 const SAMPLES: usize = 64;
@@ -194,11 +195,7 @@ impl Measured {
         let arrays = upload(gpu, &kernel, points, WORKGROUP)?;
         kernel.run(gpu, &arrays, workgroups(WORKGROUP))?;
         let compiled = start.elapsed();
-        let limits = gpu.device.limits();
-        let limit = limits
-            .max_storage_buffer_binding_size
-            .min(limits.max_buffer_size);
-        let most = usize::try_from(limit / 16)?.min(MOST);
+        let most = usize::try_from(gpu.adapter.largest_array / 16)?.min(MOST);
         let mut measured = Self {
             kernel,
             arrays,

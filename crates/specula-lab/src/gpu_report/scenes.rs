@@ -30,7 +30,7 @@ macro_rules! scene_files {
 }
 
 /// All scenes, the largest last.
-const SCENES: [SceneFile; 4] = scene_files![
+static SCENES: [SceneFile; 4] = scene_files![
     "metal-room", "rough metal in a room of metal, one lamp", [];
     "orbs-in-the-sun", "anisotropic orbs under a sky with a sun of half a degree", ["sky-sun-square.exr"];
     "glass-and-metal", "smooth and rough glass, rough metal, two lamps", [];
@@ -56,11 +56,7 @@ enum Source {
 /// * `quick`: without the largest one.
 pub(super) fn subjects(quick: bool, files: &[PathBuf]) -> Vec<Subject> {
     let count = if quick { 3 } else { SCENES.len() };
-    let own = SCENES[..count].iter().map(|scene| Subject {
-        name: scene.name.to_owned(),
-        title: scene.title.to_owned(),
-        source: Source::Own(scene),
-    });
+    let own = SCENES[..count].iter().map(Subject::own);
     let files = files.iter().map(|file| Subject {
         name: file
             .file_stem()
@@ -75,14 +71,18 @@ pub(super) fn subjects(quick: bool, files: &[PathBuf]) -> Vec<Subject> {
 
 /// The room of metal, whose paths are long.
 pub(super) fn metal_room() -> Subject {
-    Subject {
-        name: SCENES[0].name.to_owned(),
-        title: SCENES[0].title.to_owned(),
-        source: Source::Own(&SCENES[0]),
-    }
+    Subject::own(&SCENES[0])
 }
 
 impl Subject {
+    fn own(scene: &'static SceneFile) -> Self {
+        Self {
+            name: scene.name.to_owned(),
+            title: scene.title.to_owned(),
+            source: Source::Own(scene),
+        }
+    }
+
     /// Reads the scene.
     pub(super) fn load(&self) -> Result<Scene> {
         match &self.source {

@@ -2,16 +2,6 @@
 
 use std::fmt::Write as _;
 
-/// The middle of values.
-pub(super) fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    match values.len() {
-        0 => f64::NAN,
-        n if n % 2 == 1 => values[n / 2],
-        n => 0.5 * (values[n / 2 - 1] + values[n / 2]),
-    }
-}
-
 /// The least and the greatest of values.
 pub(super) fn range(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     let wider = |[low, high]: [f64; 2], v: f64| [low.min(v), high.max(v)];

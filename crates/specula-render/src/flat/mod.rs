@@ -41,6 +41,13 @@ pub struct FlatScene<'a> {
 }
 
 impl FlatScene<'_> {
+    /// A constant by its name.
+    #[must_use]
+    pub fn constant(&self, name: &str) -> Option<u32> {
+        let found = self.constants.iter().find(|constant| constant.0 == name);
+        found.map(|constant| constant.1)
+    }
+
     /// All constants as declarations in WGSL, which stand in front of the shader of the scene.
     #[must_use]
     pub fn declarations(&self) -> String {
