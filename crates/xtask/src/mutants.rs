@@ -23,9 +23,9 @@ const TESTS: &[&str] = &[
     "known_values",
     "lobes",
     "no_panics",
-    "samplers",
     "tints",
     "values_of_mitsuba",
+    "visible_normals",
 ];
 
 /// Where these are.

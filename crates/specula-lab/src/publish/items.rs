@@ -71,7 +71,7 @@ pub(super) const ITEMS: &[Item] = &[
         Source::Dupuy23,
         "fig. 4",
         "A hemispherical mirror reflects parallel rays into a cap: a diagram.",
-        "Tested as a law: chi-square of `vndf/cap.rs` in `specula-bsdf/tests/samplers.rs`.",
+        "Tested as a law: chi-square of `vndf/cap.rs` in `specula-stat/tests/samplers.rs`.",
     ),
     item(
         Source::Dupuy23,
