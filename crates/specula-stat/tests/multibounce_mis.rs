@@ -199,20 +199,36 @@ fn normalised_density_is_closest_to_the_walks() {
     assert!(sums[2] < 0.16, "{sums:?}");
 }
 
-/// Where the density of light from the normal to the normal was 40 % too low.
+/// Density over truth, from `wo` to `wi`.
+fn share<N: VisibleNormals<f64>>(ndf: N, wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {
+    const COUNT: i32 = 20_000;
+    let lobe = metal(ndf, MisPdf::Normalised);
+    let mut stream = Stream::new(21);
+    let estimates = (0..COUNT).map(|_| lobe.estimate(wo, wi, &mut stream).g);
+    let truth = estimates.sum::<f64>() / f64::from(COUNT);
+    normalised_pdf(&ndf, wo, wi) / truth
+}
+
+/// Flights near the normal leave at once. Where the others were sent in the same order, few came near it: 0.75 of the
+/// truth, one facet included, at alpha 1 and 60 degrees.
 #[test]
-fn normalised_density_has_no_cusp_at_the_normal() {
+fn normalised_density_has_no_notch_at_the_normal() {
     for a in [0.3, 0.5, 1.0, 2.0] {
-        let ndf = Ggx::new(alpha((a, a)));
-        let lobe = metal(ndf, MisPdf::Normalised);
-        let wo = at(0.0, 0.0);
-        for view in [0.1, 3.0, 10.0] {
-            let wi = at(view, 40.0);
-            let mut stream = Stream::new(21);
-            let estimates = (0..20_000).map(|_| lobe.estimate(wo, wi, &mut stream).g);
-            let truth = estimates.sum::<f64>() / 20_000.0;
-            let share = normalised_pdf(&ndf, wo, wi) / truth;
-            assert!((0.85..1.3).contains(&share), "{a} {view}: {share}");
+        // The lobes of rough surfaces are too bright there from low views.
+        let most = if a < 2.0 { 1.35 } else { 3.0 };
+        for view in [0.0, 30.0, 60.0, 80.0] {
+            let wo = at(view, 0.0);
+            for light in [0.1, 3.0, 10.0] {
+                let wi = at(light, 40.0);
+                let ndf = alpha((a, a));
+                let ggx = share(Ggx::new(ndf), wo, wi);
+                assert!((0.85..most).contains(&ggx), "GGX {a} {view} {light}: {ggx}");
+                if a == 1.0 {
+                    let beckmann = share(Beckmann::new(ndf), wo, wi);
+                    let is_held = (0.65..most).contains(&beckmann);
+                    assert!(is_held, "Beckmann {a} {view} {light}: {beckmann}");
+                }
+            }
         }
     }
 }

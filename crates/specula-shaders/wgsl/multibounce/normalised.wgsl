@@ -286,9 +286,9 @@ fn normalised_view(normals: NormalsModel, wo: vec3f) -> NormalisedView {
             away,
             mu,
             1.0 / (1.0 + spread),
-            0.067 + 0.055 * normalised_low(mu, seen, 2.475),
+            0.281 + 0.0262 * normalised_low(mu, seen, 2.804),
             (0.353 + 0.157 * normalised_low(mu, seen, 2.23)) / mu,
-            vec2f(0.675 * fourth / (fourth + 1.45), 0.49 * fourth / (fourth + 0.435)),
+            vec2f(fourth / (fourth + 0.0097), 0.49 * fourth / (fourth + 0.435)),
         ),
         NormalisedMapsRoll(
             mu,

@@ -3,7 +3,7 @@
 /// A floor of divisors.
 const NORMALISED_MAPS_TINY: f32 = 1.1754944e-38;
 /// `e` of turned upward flights.
-const NORMALISED_MAPS_TURNED_UP: f32 = 2.21;
+const NORMALISED_MAPS_TURNED_UP: f32 = 1.844;
 /// `e` of turned downward flights, times `wo.z`.
 const NORMALISED_MAPS_TURNED_DOWN: f32 = 0.65;
 /// `e` of turned upward flights that are rolled.

@@ -57,7 +57,7 @@ pub(super) struct Rise<T> {
 }
 
 /// `e` of turned upward flights; of downward ones, times `wo.z`.
-const TURNED_UP: f64 = 2.21;
+const TURNED_UP: f64 = 1.844;
 const TURNED_DOWN: f64 = 0.65;
 
 impl<T: Real> Rise<T> {

@@ -26,7 +26,7 @@
 //! | flight | sent | share |
 //! |---|---|---|
 //! | up | raised: `w.z = M(z^2; e)`; azimuth spread | isotropic part |
-//! | up | turned: `1 - w.z = M(z^2; 2.21)` | `0.675 a^4 / (a^4 + 1.45)` of it |
+//! | up | turned: `1 - w.z = M(z^2; 1.844)` | `a^4 / (a^4 + 0.0097)` of it |
 //! | down | raised: `w.z = -wo.z u`, `u = M(z^2; e)`; azimuth spread | isotropic part |
 //! | down | turned: as before, with `1 - u` for `u` | `0.49 a^4 / (a^4 + 0.435)` of it |
 //! | any | a lobe that is alike in all azimuths | of rough surfaces, `a` above 0.59 |
@@ -270,10 +270,10 @@ impl<T: Real> View<T> {
                 forward,
                 mu,
                 kappa: T::ONE / (T::ONE + spread),
-                up: T::of(0.067) + T::of(0.055) * low_by(mu, seen, 2.475),
+                up: T::of(0.281) + T::of(0.0262) * low_by(mu, seen, 2.804),
                 down: (T::of(0.353) + T::of(0.157) * low_by(mu, seen, 2.23)) / mu,
                 turned: [
-                    T::of(0.675) * a4 / (a4 + T::of(1.45)),
+                    a4 / (a4 + T::of(0.0097)),
                     T::of(0.49) * a4 / (a4 + T::of(0.435)),
                 ],
             },
