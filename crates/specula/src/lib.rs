@@ -33,6 +33,9 @@
 //! ```
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "cli")]
+mod cli;
+
 pub use specula_bsdf as bsdf;
 #[cfg(feature = "gpu")]
 pub use specula_gpu as gpu;
@@ -42,3 +45,13 @@ pub use specula_render as render;
 pub use specula_scene as scene;
 #[cfg(feature = "shaders")]
 pub use specula_shaders as shaders;
+
+/// Runs the program `specula` with these arguments, the program's name first.
+///
+/// Installs handlers for signals: of use to a process that does nothing else.
+///
+/// * Returns: the exit code; 0 where all went well, 2 for input that is wrong.
+#[cfg(feature = "cli")]
+pub fn command_line(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
+    cli::command_line(arguments.into_iter().collect())
+}

@@ -12,8 +12,8 @@ pub(crate) fn message(what: &str, feature: &str) -> String {
 
 #[cfg(any(not(feature = "lab"), not(feature = "shaders")))]
 mod command {
+    use crate::cli::ExitCode;
     use std::ffi::OsString;
-    use std::process::ExitCode;
 
     use clap::Args;
 
@@ -36,7 +36,7 @@ mod command {
 /// `specula lab` without the laboratory.
 #[cfg(not(feature = "lab"))]
 pub(crate) mod lab {
-    use std::process::ExitCode;
+    use crate::cli::ExitCode;
 
     use super::super::Failure;
     pub(crate) use super::command::AnyArguments as LabArguments;
@@ -50,7 +50,7 @@ pub(crate) mod lab {
 /// `specula gpu-report` without the laboratory.
 #[cfg(not(feature = "lab"))]
 pub(crate) mod gpu_report {
-    use std::process::ExitCode;
+    use crate::cli::ExitCode;
 
     use super::super::Failure;
     pub(crate) use super::command::AnyArguments as GpuReportArguments;
@@ -64,7 +64,7 @@ pub(crate) mod gpu_report {
 /// `specula shaders` without the shaders.
 #[cfg(not(feature = "shaders"))]
 pub(crate) mod shaders {
-    use std::process::ExitCode;
+    use crate::cli::ExitCode;
 
     use super::super::Failure;
     pub(crate) use super::command::AnyArguments as ShadersArguments;
@@ -78,7 +78,7 @@ pub(crate) mod shaders {
 /// `render --display-server` without tev's protocol.
 #[cfg(not(feature = "tev"))]
 pub(crate) mod live_view {
-    use specula::render::FilmBuffer;
+    use crate::render::FilmBuffer;
 
     use super::super::Failure;
 

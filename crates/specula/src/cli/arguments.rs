@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use crate::bsdf::vndf;
+use crate::render::RenderOptions;
+use crate::render::picture::{Display, ToneMap};
+use crate::scene::Energy;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use specula::bsdf::vndf;
-use specula::render::RenderOptions;
-use specula::render::picture::{Display, ToneMap};
-use specula::scene::Energy;
 
 use super::device::{Device, GpuArguments};
 use super::gpu_report::GpuReportArguments;

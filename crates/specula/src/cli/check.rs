@@ -1,12 +1,12 @@
 //! `specula check`.
 
+use crate::cli::ExitCode;
 use std::fmt::Write;
 use std::path::Path;
-use std::process::ExitCode;
 
+use crate::scene::{CheckReport, Problem, Severity, check};
 use miette::Report as Printed;
 use serde_json::json;
-use specula::scene::{CheckReport, Problem, Severity, check};
 
 use super::arguments::CheckArguments;
 use super::failure::BAD_INPUT;

@@ -4,7 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use specula::render::{FilmBuffer, FilmFile, FilmFileError, Label};
+use crate::render::{FilmBuffer, FilmFile, FilmFileError, Label};
 
 use super::Failure;
 use super::console::say;

@@ -1,9 +1,9 @@
 //! `specula compare`.
 
+use crate::cli::ExitCode;
 use std::path::Path;
-use std::process::ExitCode;
 
-use specula::render::picture::{self, Comparison, Picture, PictureError};
+use crate::render::picture::{self, Comparison, Picture, PictureError};
 
 use super::arguments::{CompareArguments, MetricName};
 use super::console::say;

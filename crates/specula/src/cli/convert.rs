@@ -1,8 +1,8 @@
 //! `specula convert`.
 
-use std::process::ExitCode;
+use crate::cli::ExitCode;
 
-use specula::scene::write_pbrt::{assets_folder, write_pbrt};
+use crate::scene::write_pbrt::{assets_folder, write_pbrt};
 
 use super::arguments::ConvertArguments;
 use super::console::say;

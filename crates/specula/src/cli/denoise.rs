@@ -3,9 +3,9 @@
 //! The filter takes albedo and normals as guides, where the picture has them. It guesses: what it
 //! leaves is smooth, not right, and its variance is unknown.
 
-use std::process::ExitCode;
+use crate::cli::ExitCode;
 
-use specula::render::picture::{Metadata, Picture, read_exr};
+use crate::render::picture::{Metadata, Picture, read_exr};
 
 use super::Failure;
 use super::arguments::DenoiseArguments;
@@ -50,10 +50,10 @@ pub(crate) fn ensure_available() -> Result<(), Failure> {
 /// Replaces the colours by denoised ones, and drops their variance.
 #[cfg(feature = "oidn")]
 pub(crate) fn denoise(picture: &mut Picture) -> Result<(), Failure> {
-    use specula::bsdf::math::rgb;
+    use crate::bsdf::math::rgb;
 
     let failed = |e: oidn::Error| Failure::other(format_args!("Open Image Denoise failed: {e}"));
-    let flat = |layer: &[specula::bsdf::Rgb<f32>]| -> Vec<f32> {
+    let flat = |layer: &[crate::bsdf::Rgb<f32>]| -> Vec<f32> {
         layer.iter().flat_map(|c| c.to_array()).collect()
     };
     let device = oidn::Device::cpu().map_err(failed)?;

@@ -1,6 +1,6 @@
 //! Errors as they reach the user, with the exit code that goes with them.
 
-use std::process::ExitCode;
+use crate::cli::ExitCode;
 
 use miette::{Diagnostic, Report};
 

@@ -1,15 +1,15 @@
 //! `specula gpu-report`.
 
+use crate::cli::ExitCode;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use clap::Args;
-use specula::lab::gpu_report::{
+use crate::lab::gpu_report::{
     AdapterChoice, Gpu, GpuError, GpuReportOptions, GpuReportPart, gpu_report,
 };
-use specula::scene::atomic;
+use crate::scene::atomic;
+use clap::Args;
 
 use super::console::say;
 use super::device::Device;
@@ -69,7 +69,7 @@ fn device(text: &str) -> Result<Device, String> {
 /// Measures a GPU and writes the report.
 pub(crate) fn run(arguments: &GpuReportArguments) -> Result<ExitCode, Failure> {
     for file in &arguments.scene {
-        specula::scene::load(file).map_err(|e| Failure::bad_input(e.to_string()))?;
+        crate::scene::load(file).map_err(|e| Failure::bad_input(e.to_string()))?;
     }
     let gpu = open(&arguments.device)?;
     if !arguments.quiet {

@@ -1,12 +1,12 @@
 //! `specula info`.
 
+use crate::cli::ExitCode;
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::process::ExitCode;
 
-use specula::render::RenderOptions;
-use specula::scene::scene::Projection;
-use specula::scene::{Scene, Summary};
+use crate::render::RenderOptions;
+use crate::scene::scene::Projection;
+use crate::scene::{Scene, Summary};
 
 use super::arguments::InfoArguments;
 use super::load::{self, Named};

@@ -1,9 +1,9 @@
 //! A running render: passes, progress, checkpoints, and what is written in the end.
 
-use std::process::ExitCode;
+use crate::cli::ExitCode;
 use std::time::{Duration, Instant};
 
-use specula::render::{FilmBuffer, InvalidSample, Renderer};
+use crate::render::{FilmBuffer, InvalidSample, Renderer};
 
 use super::checkpoint::Checkpoint;
 use super::console::say;

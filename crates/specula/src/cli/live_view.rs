@@ -5,8 +5,8 @@ use std::net::{TcpStream, ToSocketAddrs};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use specula::bsdf::Rgb;
-use specula::render::FilmBuffer;
+use crate::bsdf::Rgb;
+use crate::render::FilmBuffer;
 use tev_client::{PacketCreateImage, PacketUpdateImage, TevClient};
 
 use super::Failure;

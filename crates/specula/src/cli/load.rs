@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use specula::scene::{Format, LoadOptions, Scene, Warning, builtin, load_bytes, load_with};
+use crate::scene::{Format, LoadOptions, Scene, Warning, builtin, load_bytes, load_with};
 
 use super::Failure;
 use super::console::say;

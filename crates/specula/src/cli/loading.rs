@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::scene::LoadOptions;
 use clap::Args;
-use specula::scene::LoadOptions;
 
 use super::values;
 
@@ -52,8 +52,8 @@ impl LoadingArguments {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Limits;
     use clap::Parser;
-    use specula::scene::Limits;
 
     #[derive(Debug, Parser)]
     struct Line {

@@ -2,10 +2,10 @@
 
 use std::str::FromStr;
 
+use crate::scene::Scene;
+use crate::scene::material_text::parse_material;
+use crate::scene::scene::MaterialKind;
 use globset::{Glob, GlobMatcher};
-use specula::scene::Scene;
-use specula::scene::material_text::parse_material;
-use specula::scene::scene::MaterialKind;
 
 use super::Failure;
 
@@ -81,8 +81,8 @@ fn names(scene: &Scene) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use specula::scene::builtin;
-    use specula::scene::scene::Material;
+    use crate::scene::builtin;
+    use crate::scene::scene::Material;
 
     fn scene_with(names: &[&str]) -> Scene {
         let mut scene = builtin::orbs();

@@ -1,7 +1,7 @@
 //! How much memory a render will take: said before it begins, and refused where it is too much.
 
-use specula::render::{MemoryEstimate, RenderOptions};
-use specula::scene::Scene;
+use crate::render::{MemoryEstimate, RenderOptions};
+use crate::scene::Scene;
 
 use super::Failure;
 use super::console::say;

@@ -1,9 +1,9 @@
 //! `specula merge`.
 
+use crate::cli::ExitCode;
 use std::path::Path;
-use std::process::ExitCode;
 
-use specula::render::FilmFile;
+use crate::render::FilmFile;
 
 use super::Failure;
 use super::arguments::MergeArguments;

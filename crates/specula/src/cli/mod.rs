@@ -1,4 +1,8 @@
-//! The commands, one file each.
+//! The command line: arguments in, pictures and messages out. One command per file; all else is in the libraries.
+#![deny(
+    clippy::print_stderr,
+    reason = "a lost standard error must end nothing: `console::say`"
+)]
 
 #[cfg(not(all(feature = "gpu", feature = "lab", feature = "shaders", feature = "tev")))]
 mod absent;
@@ -10,6 +14,7 @@ mod console;
 mod convert;
 mod denoise;
 mod device;
+mod exit_code;
 mod failure;
 mod file_id;
 #[cfg(feature = "lab")]
@@ -44,15 +49,39 @@ use absent::live_view;
 use absent::shaders;
 #[cfg(not(feature = "lab"))]
 use absent::{gpu_report, lab};
-use std::process::ExitCode;
+use std::ffi::OsString;
+use std::sync::OnceLock;
 
-pub(crate) use arguments::Arguments;
-use arguments::Command;
+use clap::Parser;
+
+use arguments::{Arguments, Command};
 pub(crate) use console::print;
+pub(crate) use exit_code::ExitCode;
 pub(crate) use failure::Failure;
 
+/// The arguments, the program's name first.
+static GIVEN: OnceLock<Vec<OsString>> = OnceLock::new();
+
+/// Runs a command line; returns the exit code.
+pub(crate) fn command_line(arguments: Vec<OsString>) -> u8 {
+    let arguments = GIVEN.get_or_init(|| arguments);
+    let code = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => run(arguments).unwrap_or_else(|failure| failure.print()),
+        // Help, the version, or a usage error, which ends with code 2.
+        Err(told) => usage(&told),
+    };
+    code.number()
+}
+
+/// The arguments as given, without the program's name.
+#[cfg(feature = "lab")]
+fn given() -> impl Iterator<Item = String> {
+    let arguments = GIVEN.get().into_iter().flatten().skip(1);
+    arguments.map(|argument| argument.to_string_lossy().into_owned())
+}
+
 /// Runs the command that was asked for; returns the process's exit code.
-pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
+fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
     match arguments.command {
         Command::Render(a) => render::run(&a),
         Command::Info(a) => info::run(&a),
@@ -69,7 +98,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
 }
 
 /// Prints help, the version, or what is wrong with the arguments; returns the exit code.
-pub(crate) fn usage(told: &clap::Error) -> ExitCode {
+fn usage(told: &clap::Error) -> ExitCode {
     use std::io::ErrorKind;
     let is_result = !told.use_stderr();
     match told.print() {

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use specula::render::{FilmBuffer, NoiseEstimate, NoiseOutlook, NoiseTrend, RenderOptions};
+use crate::render::{FilmBuffer, NoiseEstimate, NoiseOutlook, NoiseTrend, RenderOptions};
 
 use super::progress::short;
 

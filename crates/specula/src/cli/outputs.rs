@@ -4,9 +4,9 @@ use std::collections::HashSet;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use specula::render::picture::{self, Display, Metadata, Picture, check_writable};
-use specula::render::{FilmBuffer, FilmFile, Label};
-use specula::scene::atomic;
+use crate::render::picture::{self, Display, Metadata, Picture, check_writable};
+use crate::render::{FilmBuffer, FilmFile, Label};
+use crate::scene::atomic;
 
 use super::console::say;
 use super::file_id::{FileId, Inputs};

@@ -1,13 +1,13 @@
 //! `specula render`.
 
+use crate::cli::ExitCode;
 use std::path::PathBuf;
-use std::process::ExitCode;
 use std::time::Instant;
 
-use specula::render::{
+use crate::render::{
     FilmBuffer, Label, MOST_SAMPLES, PrepareError, PreparedScene, RenderOptions, Renderer,
 };
-use specula::scene::Scene;
+use crate::scene::Scene;
 
 use super::arguments::RenderArguments;
 use super::checkpoint::{Checkpoint, Start};

@@ -1,12 +1,12 @@
 //! `specula shaders`.
 
+use crate::cli::ExitCode;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
+use crate::scene::atomic;
+use crate::shaders::{EXAMPLE_MODULES, ExportError, File, Language, MODULES, export};
 use clap::Args;
-use specula::scene::atomic;
-use specula::shaders::{EXAMPLE_MODULES, ExportError, File, Language, MODULES, export};
 
 use super::console::say;
 use super::{Failure, print};

@@ -3,12 +3,12 @@
 //! Files are checked several times a second by name, length and time of change: that works with editors
 //! that replace files and on network folders, which tell nobody of changes.
 
+use crate::cli::ExitCode;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, SystemTime};
 
-use specula::render::PreparedScene;
+use crate::render::PreparedScene;
 
 use super::Failure;
 use super::console::say;

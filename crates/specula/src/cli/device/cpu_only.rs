@@ -1,11 +1,11 @@
 //! Devices of a program that is built without the feature `gpu`: the processor.
 
+use crate::cli::ExitCode;
 use std::marker::PhantomData;
-use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
+use crate::render::{PassReport, PreparedScene, RenderOptions, Renderer};
 use clap::Args;
-use specula::render::{PassReport, PreparedScene, RenderOptions, Renderer};
 
 use super::super::{Failure, absent, print};
 use super::Device;

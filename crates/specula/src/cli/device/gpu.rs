@@ -1,15 +1,15 @@
 //! Devices of a program that is built with the feature `gpu`.
 
+use crate::cli::ExitCode;
 use std::fmt;
-use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
-use clap::Args;
-use specula::gpu::{
+use crate::gpu::{
     AdapterChoice, AdapterKind, Gpu, GpuError, Rays, Schedule, Tracer, TracerError, TracerOptions,
     adapters,
 };
-use specula::render::{PassReport, PreparedScene, RenderOptions, Renderer};
+use crate::render::{PassReport, PreparedScene, RenderOptions, Renderer};
+use clap::Args;
 
 use super::super::console::say;
 use super::super::{Failure, print};
@@ -241,7 +241,7 @@ mod tests {
             Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"disk\"\n";
         let path = folder.path().join("scene.pbrt");
         std::fs::write(&path, text).unwrap();
-        let scene = specula::scene::load(&path).unwrap().scene;
+        let scene = crate::scene::load(&path).unwrap().scene;
         let options = RenderOptions::from_scene(&scene);
         (PreparedScene::new(&scene, &options).unwrap(), options)
     }

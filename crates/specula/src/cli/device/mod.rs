@@ -8,12 +8,12 @@ mod gpu;
 use std::fmt;
 use std::str::FromStr;
 
+#[cfg(feature = "gpu")]
+pub(crate) use crate::gpu::{Gpu, GpuError};
 #[cfg(not(feature = "gpu"))]
 pub(crate) use cpu_only::{Gpu, GpuArguments, GpuError, Samples, failed, list, open};
 #[cfg(feature = "gpu")]
 pub(crate) use gpu::{GpuArguments, Samples, failed, list, open};
-#[cfg(feature = "gpu")]
-pub(crate) use specula::gpu::{Gpu, GpuError};
 
 /// What renders.
 #[derive(Clone, Debug, PartialEq, Eq)]

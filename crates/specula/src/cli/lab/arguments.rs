@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use crate::lab::Quality;
+use crate::scene::Energy;
+use crate::scene::material_text::parse_material;
+use crate::scene::scene::MaterialKind;
 use clap::{Args, Subcommand, ValueEnum};
-use specula::lab::Quality;
-use specula::scene::Energy;
-use specula::scene::material_text::parse_material;
-use specula::scene::scene::MaterialKind;
 
 use super::super::arguments::SamplerName;
 use super::super::loading::LoadingArguments;

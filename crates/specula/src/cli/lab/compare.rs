@@ -1,13 +1,13 @@
 //! `specula lab compare`.
 
-use std::process::ExitCode;
+use crate::cli::ExitCode;
 
-use specula::bsdf::vndf::Sampler;
-use specula::lab::compare::{self, CompareOptions};
-use specula::lab::{LabError, Progress};
-use specula::render::RenderOptions;
-use specula::render::picture::{PictureError, read_exr};
-use specula::scene::Energy;
+use crate::bsdf::vndf::Sampler;
+use crate::lab::compare::{self, CompareOptions};
+use crate::lab::{LabError, Progress};
+use crate::render::RenderOptions;
+use crate::render::picture::{PictureError, read_exr};
+use crate::scene::Energy;
 
 use super::super::file_id::Inputs;
 use super::super::{Failure, load};

@@ -1,11 +1,11 @@
 //! `specula lab material`.
 
+use crate::cli::ExitCode;
 use std::path::Path;
-use std::process::ExitCode;
 
-use specula::lab::material::{self, MaterialOptions};
-use specula::lab::{LabError, Progress, report};
-use specula::scene::material_text::parse_material;
+use crate::lab::material::{self, MaterialOptions};
+use crate::lab::{LabError, Progress, report};
+use crate::scene::material_text::parse_material;
 
 use super::super::Failure;
 use super::arguments::MaterialArguments;

@@ -5,15 +5,15 @@ mod compare;
 mod material;
 mod run;
 
+use crate::cli::ExitCode;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, PoisonError};
 
+use crate::lab::report::{LARGE, Page};
+use crate::lab::{Experiment, LabError, Outcome, Record, Source, experiments, publish, report};
 use serde_json::json;
-use specula::lab::report::{LARGE, Page};
-use specula::lab::{Experiment, LabError, Outcome, Record, Source, experiments, publish, report};
 
 use super::console::say;
 use super::file_id::FileId;
@@ -212,7 +212,7 @@ pub(crate) fn command_line() -> String {
             format!("'{}'", word.replace('\'', r"'\''"))
         }
     };
-    let words = std::env::args().skip(1).map(quoted);
+    let words = super::given().map(quoted);
     let all: Vec<String> = std::iter::once("specula".to_owned()).chain(words).collect();
     all.join(" ")
 }

@@ -1,11 +1,11 @@
 //! `specula lab run`.
 
-use std::process::ExitCode;
+use crate::cli::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use specula::lab::report::read;
-use specula::lab::{LabError, RunEvent, RunOptions, experiments};
+use crate::lab::report::read;
+use crate::lab::{LabError, RunEvent, RunOptions, experiments};
 
 use super::super::Failure;
 use super::arguments::RunArguments;
@@ -40,7 +40,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
         }
     };
     let output = &arguments.output;
-    let result = desk.work(|| specula::lab::run(&chosen, options, output, desk.stop(), &events));
+    let result = desk.work(|| crate::lab::run(&chosen, options, output, desk.stop(), &events));
     desk.finish();
     match result {
         Ok(_) => write_page(output)?,
