@@ -21,6 +21,7 @@ mod mutants;
 mod no_std;
 mod plastic;
 mod profile;
+mod python;
 mod rays;
 mod scaling;
 mod soak;
@@ -70,6 +71,8 @@ enum Chore {
     Features,
     /// Try faults made by machine in `specula-bsdf`: which do its tests notice?
     Mutants(mutants::Sample),
+    /// Build the Python package into its sources, check its types, run its tests; or make its wheel
+    Python(python::Python),
     /// Run the benches
     Bench {
         /// Passed on to `cargo bench --workspace`
@@ -137,6 +140,7 @@ fn run(chore: &Chore) -> Result<()> {
         }
         Chore::Tables { check } => tables::run(&root, *check),
         Chore::Test(suite) => suite::run(&root, suite),
+        Chore::Python(python) => python::run(&root, python),
         Chore::Features => feature_sets::run(&root),
         Chore::Mutants(sample) => mutants::run(&root, sample),
         Chore::Bench { arguments } => bench::run(&root, arguments),

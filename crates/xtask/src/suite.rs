@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use crate::{Result, book, feature_sets, tables, tidy, workspace};
+use crate::{Result, book, feature_sets, python, tables, tidy, workspace};
 
 /// How to run the suite.
 #[derive(clap::Args)]
@@ -79,6 +79,7 @@ pub(crate) fn run(root: &Path, suite: &Suite) -> Result<()> {
     report.step("features", || feature_sets::run(root));
     let mut suites = Vec::new();
     report.step("tests", || tests(root, skips.path(), &mut suites));
+    report.step("python", || python::test(root, skips.path()));
     report.step("tables", || tables::run(root, true));
     report.step("instructions", || instructions(skips.path()));
     report.step("book", || book::run(root, &book::Book::default()));

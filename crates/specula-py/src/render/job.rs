@@ -1,0 +1,338 @@
+//! A render under way: passes without the interpreter's lock, and Ctrl-C.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+use std::time::{Duration, Instant};
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use specula::render::picture::Metadata;
+use specula::render::{
+    FilmBuffer, MOST_SAMPLES, PassReport, PreparedScene, RenderOptions, Renderer,
+};
+
+use super::picture::PictureData;
+use super::scene::SceneData;
+use crate::parameters::{in_range, invalid, named};
+
+/// Between two looks for Ctrl-C.
+const POLL: Duration = Duration::from_millis(50);
+/// Longest pass that is aimed at: between passes the progress is shown and the clock is read.
+const LONGEST_PASS: Duration = Duration::from_millis(1000);
+/// Where a render by time ends in any case.
+const MOST_BY_TIME: u32 = 1 << 24;
+
+/// A render of a scene as it was when the render began.
+#[pyclass(frozen, module = "specula_render._native")]
+pub(crate) struct RenderJob {
+    prepared: Arc<PreparedScene>,
+    options: RenderOptions,
+    scene: String,
+    pool: ThreadPool,
+    state: Mutex<State>,
+}
+
+/// What has been done.
+struct State {
+    /// `None` before the first pass, and while one is under way.
+    film: Option<FilmBuffer>,
+    rays: u64,
+    seconds: f64,
+}
+
+/// Why the passes end.
+struct Bounds {
+    samples: u32,
+    time: Option<Duration>,
+}
+
+impl Bounds {
+    /// Samples in the next pass; `None`: done. They double until a pass is long enough; towards the end of
+    /// the time they are as many as fit.
+    fn next_pass(
+        &self,
+        done: u32,
+        last: Option<(u32, Duration)>,
+        elapsed: Duration,
+    ) -> Option<u32> {
+        let left = self.samples.saturating_sub(done);
+        if left == 0 {
+            return None;
+        }
+        let rest = self.time.map(|time| time.saturating_sub(elapsed));
+        let budget = rest.unwrap_or(LONGEST_PASS).min(LONGEST_PASS);
+        let mut samples = done.max(1);
+        if let Some((taken, duration)) = last {
+            let each = duration.as_secs_f64() / f64::from(taken.max(1));
+            // One more would end after the limit by more than half of itself.
+            let is_late = rest.is_some_and(|rest| rest.as_secs_f64() < 0.5 * each);
+            if done > 0 && is_late {
+                return None;
+            }
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "saturates, which is what is wanted"
+            )]
+            let fitting = (budget.as_secs_f64() / each.max(1e-9)) as u32;
+            samples = samples.min(fitting.max(1));
+        }
+        Some(samples.min(left))
+    }
+
+    /// * `of_samples`: share of the samples that is done.
+    fn share_done(&self, of_samples: f64, elapsed: Duration) -> f64 {
+        let of_time = (self.time).map_or(0.0, |t| elapsed.as_secs_f64() / t.as_secs_f64());
+        of_samples.max(of_time).clamp(0.0, 1.0)
+    }
+}
+
+impl RenderJob {
+    fn state(&self) -> PyResult<MutexGuard<'_, State>> {
+        match self.state.try_lock() {
+            Ok(state) => Ok(state),
+            Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
+            Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(
+                "the render is under way in another thread",
+            )),
+        }
+    }
+
+    fn run(&self, bounds: &Bounds, progress: Option<&Py<PyAny>>) -> PyResult<()> {
+        let mut state = self.state()?;
+        let start = Instant::now();
+        let options = self.options.clone();
+        let mut renderer = match state.film.take() {
+            None => Renderer::new(&self.prepared, options),
+            Some(film) => Renderer::resume(&self.prepared, options, film)
+                .map_err(|e| PyRuntimeError::new_err(e.to_string()))?,
+        };
+        let ended = self.passes(&mut renderer, &mut state, bounds, start, progress);
+        state.film = Some(renderer.film().clone());
+        state.seconds += start.elapsed().as_secs_f64();
+        ended
+    }
+
+    fn passes(
+        &self,
+        renderer: &mut Renderer<'_>,
+        state: &mut State,
+        bounds: &Bounds,
+        start: Instant,
+        progress: Option<&Py<PyAny>>,
+    ) -> PyResult<()> {
+        let mut last = None;
+        while let Some(done) = renderer.samples_done() {
+            let Some(next) = bounds.next_pass(done, last, start.elapsed()) else {
+                break;
+            };
+            let pass_start = Instant::now();
+            let report = self.pass(renderer, next)?;
+            last = Some((next, pass_start.elapsed()));
+            state.rays += report.rays;
+            if let Some(progress) = progress {
+                let film = renderer.film();
+                let of_samples = renderer.share_done(bounds.samples);
+                let told = (
+                    bounds.share_done(of_samples, start.elapsed()),
+                    film.most_and_mean_samples().1,
+                    film.noise(),
+                    state.rays,
+                );
+                Python::attach(|py| progress.call1(py, told))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// One pass, in the pool. This thread looks for signals meanwhile: only Python's main thread sees them.
+    fn pass(&self, renderer: &mut Renderer<'_>, samples: u32) -> PyResult<PassReport> {
+        let stop = AtomicBool::new(false);
+        let (sender, receiver) = channel();
+        let failed = || PyRuntimeError::new_err("the renderer failed: please report this scene");
+        self.pool.in_place_scope(|scope| {
+            scope.spawn(|_| {
+                let pass = || renderer.render_pass(samples, &stop);
+                // The receiver is gone where the render was stopped.
+                let _ = sender.send(catch_unwind(AssertUnwindSafe(pass)));
+            });
+            loop {
+                match receiver.recv_timeout(POLL) {
+                    Ok(report) => return report.map_err(|_| failed()),
+                    Err(RecvTimeoutError::Disconnected) => return Err(failed()),
+                    Err(RecvTimeoutError::Timeout) => {
+                        if let Err(interrupt) = Python::attach(|py| py.check_signals()) {
+                            stop.store(true, Ordering::Relaxed);
+                            return Err(interrupt);
+                        }
+                    }
+                }
+            }
+        })
+    }
+}
+
+fn options(
+    scene: &SceneData,
+    spp: Option<u32>,
+    is_bounded: bool,
+    seed: u32,
+    max_depth: Option<u32>,
+    energy: Option<&str>,
+    sampler: Option<&str>,
+) -> PyResult<RenderOptions> {
+    let asked = RenderOptions::from_scene(scene.scene());
+    if spp.is_some_and(|n| !(1..=MOST_BY_TIME).contains(&n)) {
+        let given = spp.unwrap_or_default();
+        return Err(invalid(format!(
+            "spp: expected samples in [1, {MOST_BY_TIME}], got {given}"
+        )));
+    }
+    let most = match is_bounded {
+        true => MOST_BY_TIME,
+        false => asked.samples_per_pixel,
+    };
+    Ok(RenderOptions {
+        samples_per_pixel: spp.unwrap_or(most),
+        seed,
+        max_depth: max_depth.unwrap_or(asked.max_depth),
+        energy: energy.map(named).transpose()?.unwrap_or(asked.energy),
+        vndf_sampler: sampler
+            .map(named)
+            .transpose()?
+            .unwrap_or(asked.vndf_sampler),
+        ..asked
+    })
+}
+
+#[pymethods]
+impl RenderJob {
+    /// Prepares a render; the scene may change afterwards.
+    ///
+    /// * `spp`: `None` for what the scene asks for; where `is_bounded` by a noise or a time, for any number.
+    /// * `noise`: aims at it; 0: samples are spread by their error, and as many as were asked for.
+    #[new]
+    #[pyo3(signature = (scene, *, spp, is_bounded, seed, threads, max_depth, energy, sampler, noise, resolution, clamp,
+        regularize))]
+    #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
+    fn new(
+        py: Python<'_>,
+        scene: &Bound<'_, SceneData>,
+        spp: Option<u32>,
+        is_bounded: bool,
+        seed: u32,
+        threads: usize,
+        max_depth: Option<u32>,
+        energy: Option<&str>,
+        sampler: Option<&str>,
+        noise: Option<f64>,
+        resolution: Option<[u32; 2]>,
+        clamp: Option<f64>,
+        regularize: bool,
+    ) -> PyResult<Self> {
+        let mut scene = scene.try_borrow_mut()?;
+        let mut options = options(&scene, spp, is_bounded, seed, max_depth, energy, sampler)?;
+        let single = super::material::single;
+        let noise = noise.map(|n| in_range("noise", n, [0.0, 1.0]));
+        options.noise = noise.transpose()?.map(single);
+        if options.noise.is_some() {
+            options.samples_per_pixel = options.samples_per_pixel.min(MOST_SAMPLES);
+        }
+        options.clamp = match clamp {
+            Some(most) if !(most > 0.0 && most.is_finite()) => {
+                return Err(invalid(format!(
+                    "clamp: expected a number above 0, got {most}"
+                )));
+            }
+            most => most.map(single),
+        };
+        options.regularize = regularize;
+        options.resolution = resolution;
+        let pool = ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .map_err(|e| PyRuntimeError::new_err(format!("cannot start threads: {e}")))?;
+        Ok(Self {
+            prepared: scene.prepare(py, &options, &pool)?,
+            scene: scene.name().to_owned(),
+            options,
+            pool,
+            state: Mutex::new(State {
+                film: None,
+                rays: 0,
+                seconds: 0.0,
+            }),
+        })
+    }
+
+    /// Takes samples until every pixel has so many, or the time is over.
+    ///
+    /// * `samples`: `None` for those of the options, or what the noise takes.
+    /// * `progress`: called after every pass with the share that is done, the samples of a pixel on
+    ///   average, the estimated noise and the rays so far.
+    fn advance(
+        &self,
+        py: Python<'_>,
+        samples: Option<u32>,
+        time: Option<f64>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<()> {
+        let time = match time {
+            None => None,
+            Some(seconds) => Some(
+                Duration::try_from_secs_f64(seconds)
+                    .map_err(|_| invalid(format!("time: expected seconds, got {seconds}")))?,
+            ),
+        };
+        let all = match self.options.noise {
+            // What is done is the film's to say.
+            Some(_) => MOST_SAMPLES,
+            None => self.options.samples_per_pixel,
+        };
+        let samples = samples.unwrap_or(all);
+        let bounds = Bounds { samples, time };
+        py.detach(|| self.run(&bounds, progress.as_ref()))
+    }
+
+    /// Samples per pixel that the render aims at.
+    #[getter]
+    fn samples(&self) -> u32 {
+        self.options.samples_per_pixel
+    }
+
+    /// The picture as it is now, with its samples per pixel on average, the estimated noise, the samples
+    /// that were not finite, the rays and the seconds.
+    fn picture(&self) -> PyResult<(PictureData, f64, f32, u64, u64, f64)> {
+        let state = self.state()?;
+        let film = (state.film.as_ref()).ok_or_else(|| invalid("the render has not begun"))?;
+        let mean = film.most_and_mean_samples().1;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "for people: the nearest number is near enough, and none is below 0"
+        )]
+        let (samples, seconds) = (mean.round() as u32, state.seconds as f32);
+        let metadata = Metadata {
+            software: Some(format!("specula {}", env!("CARGO_PKG_VERSION"))),
+            scene: Some(self.scene.clone()),
+            samples_per_pixel: Some(samples),
+            seed: Some(self.options.seed),
+            render_seconds: Some(seconds),
+            bias: self.options.bias(),
+        };
+        let picture = PictureData::new(film.picture(), metadata);
+        let noise = film.noise();
+        let invalid_samples = film.invalid_samples();
+        Ok((
+            picture,
+            mean,
+            noise,
+            invalid_samples,
+            state.rays,
+            state.seconds,
+        ))
+    }
+}
