@@ -41,31 +41,44 @@ from specula_render._native import (
     metals,
 )
 from specula_render.albedo import albedo
+from specula_render.picture import Comparison, Picture, read_exr
+from specula_render.rendering import render, render_iter
+from specula_render.scene import Material, Scene, SceneWarning, builtin, load
 
 __all__ = [
     "Beckmann",
     "Bsdf",
     "CoatedDiffuse",
+    "Comparison",
     "DiffuseTransmission",
     "Eon",
     "Ggx",
     "Gltf",
     "Lambert",
     "Layered",
+    "Material",
     "MultibounceConductor",
     "MultibounceDielectric",
+    "Picture",
     "Plastic",
     "Principled",
     "Reflectance",
     "RoughConductor",
     "RoughDielectric",
     "Samples",
+    "Scene",
+    "SceneWarning",
     "SmoothConductor",
     "SmoothDielectric",
     "ThinDielectric",
     "__version__",
     "albedo",
+    "builtin",
     "dielectric",
     "level",
+    "load",
     "metals",
+    "read_exr",
+    "render",
+    "render_iter",
 ]

@@ -1,4 +1,4 @@
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, Literal, Protocol, SupportsFloat, TypeAlias, TypedDict, final
 
 import numpy as np
@@ -14,6 +14,7 @@ class _DLPack(Protocol):
 _Array: TypeAlias = npt.NDArray[np.floating[Any]] | _DLPack | Sequence[Any] | float
 _Colour: TypeAlias = float | Sequence[float] | npt.NDArray[np.floating[Any]]
 _Alphas: TypeAlias = float | Sequence[float] | npt.NDArray[np.floating[Any]]
+_Paint: TypeAlias = float | Sequence[Any] | npt.NDArray[Any]
 _AnyReflectance: TypeAlias = Reflectance | str | _Colour
 _Distribution: TypeAlias = Literal["ggx", "beckmann"]
 _Sampler: TypeAlias = Literal["heitz", "cap", "bounded", "exact"]
@@ -352,3 +353,200 @@ class Gltf(Bsdf):
         sheen_roughness: float = 0.0,
         compensated: bool = False,
     ) -> Gltf: ...
+
+@final
+class Material:
+    @staticmethod
+    def parse(text: str) -> Material: ...
+    @staticmethod
+    def diffuse(
+        reflectance: _Paint | None = None, *, roughness: _Paint | None = None
+    ) -> Material: ...
+    @staticmethod
+    def diffuse_transmission(
+        reflectance: _Paint | None = None, transmittance: _Paint | None = None
+    ) -> Material: ...
+    @staticmethod
+    def conductor(
+        metal: str | None = None,
+        *,
+        eta: _Paint | None = None,
+        k: _Paint | None = None,
+        reflectance: _Paint | None = None,
+        f0: _Paint | None = None,
+        alpha: _Alphas | None = None,
+        roughness: _Paint | None = None,
+        distribution: _Distribution = "ggx",
+        tint: _Paint | None = None,
+    ) -> Material: ...
+    @staticmethod
+    def dielectric(
+        eta: float = 1.5,
+        *,
+        alpha: _Alphas | None = None,
+        roughness: _Paint | None = None,
+        distribution: _Distribution = "ggx",
+        reflection_tint: _Paint | None = None,
+        transmission_tint: _Paint | None = None,
+        absorption: _Colour | None = None,
+    ) -> Material: ...
+    @staticmethod
+    def thin_dielectric(
+        eta: float = 1.5,
+        *,
+        reflection_tint: _Paint | None = None,
+        transmission_tint: _Paint | None = None,
+    ) -> Material: ...
+    @staticmethod
+    def coated_diffuse(
+        reflectance: _Paint | None = None,
+        *,
+        eta: float = 1.5,
+        alpha: _Alphas | None = None,
+        roughness: _Paint | None = None,
+        distribution: _Distribution = "ggx",
+    ) -> Material: ...
+    @staticmethod
+    def coated_conductor(
+        metal: str | None = None,
+        *,
+        reflectance: _Paint | None = None,
+        eta: float = 1.5,
+        coat_alpha: float = 0.0,
+        alpha: _Alphas | None = None,
+        roughness: _Paint | None = None,
+        distribution: _Distribution = "ggx",
+    ) -> Material: ...
+    @staticmethod
+    def gltf(
+        base_color: _Paint | None = None,
+        metallic: _Paint | None = None,
+        roughness: _Paint | None = None,
+        *,
+        anisotropy: _Paint | None = None,
+        ior: float = 1.5,
+        specular: _Paint | None = None,
+        specular_color: _Paint | None = None,
+        transmission: _Paint | None = None,
+        volume: bool = False,
+        clearcoat: _Paint | None = None,
+        clearcoat_roughness: _Paint | None = None,
+        sheen_color: _Paint | None = None,
+        sheen_roughness: _Paint | None = None,
+    ) -> Material: ...
+    @staticmethod
+    def principled(
+        base_color: _Paint | None = None,
+        roughness: _Paint | None = None,
+        *,
+        anisotropic: _Paint | None = None,
+        metallic: _Paint | None = None,
+        spec_trans: _Paint | None = None,
+        eta: float = 1.5,
+        spec_tint: _Paint | None = None,
+        sheen: _Paint | None = None,
+        sheen_tint: _Paint | None = None,
+        clearcoat: _Paint | None = None,
+        clearcoat_gloss: _Paint | None = None,
+        flatness: _Paint | None = None,
+    ) -> Material: ...
+
+@final
+class SceneData:
+    def __new__(cls) -> SceneData: ...
+    def add_mesh(
+        self,
+        vertices: npt.NDArray[Any],
+        faces: npt.NDArray[np.int64],
+        normals: npt.NDArray[Any] | None,
+        uvs: npt.NDArray[Any] | None,
+        material: Material | None,
+        emission: _Colour | None,
+        two_sided: bool,
+    ) -> tuple[int, int]: ...
+    def add_sphere(
+        self,
+        center: Sequence[float],
+        radius: float,
+        material: Material | None,
+        emission: _Colour | None,
+    ) -> int: ...
+    def set_camera(
+        self,
+        position: Sequence[float],
+        look_at: Sequence[float],
+        up: Sequence[float],
+        fov: float,
+        resolution: Sequence[int] | None,
+        lens_radius: float,
+    ) -> None: ...
+    def set_environment(self, radiance: npt.NDArray[Any]) -> None: ...
+    def add_point_light(self, position: Sequence[float], intensity: _Colour) -> None: ...
+    def add_distant_light(
+        self, direction: Sequence[float], irradiance: _Colour, half_angle: float
+    ) -> None: ...
+    def add_spot_light(
+        self,
+        position: Sequence[float],
+        look_at: Sequence[float],
+        intensity: _Colour,
+        cone_angle: float,
+        falloff_start: float,
+    ) -> None: ...
+    def set_material(self, shape: int, material: Material) -> None: ...
+    def replace_material(self, name: str | None, material: Material) -> None: ...
+    def material_names(self) -> list[str | None]: ...
+    def shape_count(self) -> int: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def resolution(self) -> list[int]: ...
+
+@final
+class RenderJob:
+    def __new__(
+        cls,
+        scene: SceneData,
+        *,
+        spp: int | None,
+        is_bounded: bool,
+        seed: int,
+        threads: int,
+        max_depth: int | None,
+        energy: str | None,
+        sampler: str | None,
+        noise: float | None,
+        resolution: Sequence[int] | None,
+        clamp: float | None,
+        regularize: bool,
+    ) -> RenderJob: ...
+    @property
+    def samples(self) -> int: ...
+    def advance(
+        self,
+        samples: int | None,
+        time: float | None,
+        progress: Callable[[float, float, float, int], None] | None,
+    ) -> None: ...
+    def picture(self) -> tuple[PictureData, float, float, int, int, float]: ...
+
+@final
+class PictureData:
+    @staticmethod
+    def from_rgb(rgb: npt.NDArray[Any]) -> PictureData: ...
+    @property
+    def size(self) -> list[int]: ...
+    @property
+    def window(self) -> tuple[list[int], list[int]]: ...
+    def layer(self, name: str) -> npt.NDArray[np.float32] | None: ...
+    def to_png(self, path: str, exposure: float, tone_map: str) -> int: ...
+    def to_exr(self, path: str) -> int: ...
+    def compare(
+        self, reference: PictureData
+    ) -> tuple[dict[str, Any], npt.NDArray[np.float32]]: ...
+
+def load(
+    path: str, parameters: Sequence[tuple[str, str]], search: Sequence[str]
+) -> tuple[SceneData, list[str]]: ...
+def builtin() -> SceneData: ...
+def read_exr(path: str) -> PictureData: ...

@@ -190,20 +190,21 @@ def render(
         noise = 0.0
     if time is not None and not time > 0.0:
         raise ValueError(f"time: expected seconds above 0, got {time}")
-    job = _native.RenderJob(
-        scene._data,
-        spp=spp,
-        is_bounded=time is not None or (noise is not None and noise > 0.0),
-        seed=seed,
-        threads=threads,
-        max_depth=max_depth,
-        energy=energy,
-        sampler=sampler,
-        noise=noise,
-        resolution=resolution,
-        clamp=clamp,
-        regularize=regularize,
-    )
+    with scene._lock:
+        job = _native.RenderJob(
+            scene._data,
+            spp=spp,
+            is_bounded=time is not None or (noise is not None and noise > 0.0),
+            seed=seed,
+            threads=threads,
+            max_depth=max_depth,
+            energy=energy,
+            sampler=sampler,
+            noise=noise,
+            resolution=resolution,
+            clamp=clamp,
+            regularize=regularize,
+        )
     bar = _Bar(progress)
     try:
         job.advance(None, time, bar if bar.is_asked_for else None)
@@ -252,20 +253,21 @@ def render_iter(
     [1.0, 2.0, 4.0, 5.0]
     """
     _check(scene, spp, threads, seed, max_depth, resolution)
-    job = _native.RenderJob(
-        scene._data,
-        spp=spp,
-        is_bounded=False,
-        seed=seed,
-        threads=threads,
-        max_depth=max_depth,
-        energy=energy,
-        sampler=sampler,
-        noise=None,
-        resolution=resolution,
-        clamp=clamp,
-        regularize=regularize,
-    )
+    with scene._lock:
+        job = _native.RenderJob(
+            scene._data,
+            spp=spp,
+            is_bounded=False,
+            seed=seed,
+            threads=threads,
+            max_depth=max_depth,
+            energy=energy,
+            sampler=sampler,
+            noise=None,
+            resolution=resolution,
+            clamp=clamp,
+            regularize=regularize,
+        )
     return _steps(job)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import threading
 import warnings
 from collections.abc import Mapping, Sequence
 from typing import Any, Protocol, Union, runtime_checkable
@@ -71,11 +72,14 @@ _KINDS: dict[str, Any] = {
 }
 
 
-def _colour(given: Colour | None) -> float | list[float] | None:
+def _colour(name: str, given: Colour) -> float | list[float]:
     """Return a colour as Python's own numbers."""
-    if given is None or isinstance(given, (int, float)):
-        return given
-    channels: float | list[float] = np.asarray(given, dtype=np.float64).tolist()
+    colour = np.asarray(given, dtype=np.float64)
+    if colour.shape not in ((), (3,)):
+        raise ValueError(
+            f"{name}: expected a number or three, got an array of shape {colour.shape}"
+        )
+    channels: float | list[float] = colour.tolist()
     return channels
 
 
@@ -119,10 +123,12 @@ class Scene:
 
     def __init__(self) -> None:
         self._data = _native.SceneData()
+        # Held while the scene is prepared: renders of several threads wait for each other there.
+        self._lock = threading.Lock()
 
     @classmethod
     def _of(cls, data: _native.SceneData) -> Scene:
-        scene = cls.__new__(cls)
+        scene = cls()
         scene._data = data
         return scene
 
@@ -192,15 +198,18 @@ class Scene:
             if not isinstance(mesh, TriangleMesh):
                 raise TypeError("add_mesh: expected vertices and faces, or a mesh that has both")
             vertices, faces = mesh.vertices, mesh.faces
-        shape, dropped = self._data.add_mesh(
-            np.asarray(vertices),
-            _faces(faces),
-            None if normals is None else np.asarray(normals),
-            None if uvs is None else np.asarray(uvs),
-            _material(material),
-            _colour(emission),
-            two_sided,
-        )
+        radiance = None if emission is None else _colour("emission", emission)
+        # What is too large for float32 becomes infinite, which is an error.
+        with np.errstate(over="ignore"):
+            shape, dropped = self._data.add_mesh(
+                np.asarray(vertices),
+                _faces(faces),
+                None if normals is None else np.asarray(normals),
+                None if uvs is None else np.asarray(uvs),
+                _material(material),
+                radiance,
+                two_sided,
+            )
         if dropped > 0:
             message = f"{dropped} triangles without area are dropped"
             warnings.warn(message, SceneWarning, stacklevel=2)
@@ -236,9 +245,9 @@ class Scene:
         ValueError
             If a number is out of range.
         """
-        return self._data.add_sphere(
-            _vector("center", center), radius, _material(material), _colour(emission)
-        )
+        radiance = None if emission is None else _colour("emission", emission)
+        centre = _vector("center", center)
+        return self._data.add_sphere(centre, radius, _material(material), radiance)
 
     def set_material(self, which: int | str | None, material: AnyMaterial) -> None:
         """Give another material to what is there.
@@ -340,7 +349,8 @@ class Scene:
         intensity
             Radiant intensity, per steradian: a number or three.
         """
-        self._data.add_point_light(_vector("position", position), _required(intensity))
+        colour = _colour("intensity", intensity)
+        self._data.add_point_light(_vector("position", position), colour)
 
     def add_distant_light(
         self, direction: Vector, irradiance: Colour, *, half_angle: float = 0.0
@@ -356,8 +366,8 @@ class Scene:
         half_angle
             Half the angle that the light fills, in degrees; 0 for parallel light, 0.27 for the sun.
         """
-        direction = _vector("direction", direction)
-        self._data.add_distant_light(direction, _required(irradiance), half_angle)
+        colour = _colour("irradiance", irradiance)
+        self._data.add_distant_light(_vector("direction", direction), colour, half_angle)
 
     def add_spot_light(
         self,
@@ -379,7 +389,7 @@ class Scene:
             Half angles in degrees: of the cone, and of where the intensity begins to fall.
         """
         position, look_at = _vector("position", position), _vector("look_at", look_at)
-        colour = _required(intensity)
+        colour = _colour("intensity", intensity)
         self._data.add_spot_light(position, look_at, colour, cone_angle, falloff_start)
 
     def __repr__(self) -> str:
@@ -389,14 +399,6 @@ class Scene:
             f"<Scene {self.name!r}: {self.width} x {self.height} pixels, "
             f"{shapes} shapes, {materials} materials>"
         )
-
-
-def _required(given: Colour) -> float | list[float]:
-    """Return a colour that must be there."""
-    colour = _colour(given)
-    if colour is None:
-        raise TypeError("expected a number or three, got None")
-    return colour
 
 
 def load(

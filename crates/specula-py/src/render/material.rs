@@ -23,7 +23,7 @@ type Blueprint = dyn Fn(&mut Scene) -> MaterialKind + Send + Sync;
 /// (h, w) or (h, w, 3), in linear light: it covers the unit square of surface coordinates, rows from
 /// the top, and repeats. A number takes the first channel of a picture.
 ///
-/// AlphaPair of microfacets are given by ``alpha``, one or two (along dp/du and across), or by
+/// Alphas of microfacets are given by ``alpha``, one or two (along dp/du and across), or by
 /// ``roughness``, whose square alpha is. Constructors raise ValueError where a parameter is out of
 /// range.
 ///
