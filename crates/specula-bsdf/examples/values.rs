@@ -117,11 +117,10 @@ fn main() {
             let sample = lobe.sample(wo, [0.3, 0.6, 0.2], Transport::Radiance);
             let (to, weight, density) =
                 sample.map_or((Vec3::ZERO, Rgb::BLACK, 0.0), |s| (s.wi, s.weight, s.pdf));
-            let numbers = [
-                [wo.x, wo.y, wo.z, wi.x, wi.y, wi.z, f.r, f.g, f.b].as_slice(),
-                &[pdf, to.x, to.y, to.z, weight.r, weight.g, weight.b, density],
-            ];
-            let numbers: Vec<_> = numbers.concat().iter().map(|x| format!("{x:?}")).collect();
+            let before = [wo.x, wo.y, wo.z, wi.x, wi.y, wi.z, f.r, f.g, f.b, pdf];
+            let sampled = [to.x, to.y, to.z, weight.r, weight.g, weight.b, density];
+            let numbers = before.iter().chain(&sampled).map(|x| format!("{x:?}"));
+            let numbers: Vec<_> = numbers.collect();
             println!("{}\t{}", name, numbers.join("\t"));
         }
     }
