@@ -42,12 +42,18 @@ pub(super) fn rgb(colour: Rgb<f64>) -> String {
 }
 
 /// A sampler; Beckmann has but its own.
-fn sampler_of(distribution: Distribution, name: Option<&str>) -> PyResult<Sampler> {
+///
+/// * `default`: the lobe's.
+fn sampler_of(
+    distribution: Distribution,
+    name: Option<&str>,
+    default: Sampler,
+) -> PyResult<Sampler> {
     match (distribution, name) {
         (Distribution::Beckmann, Some(name)) => Err(invalid(format!(
             "sampler: '{name}' is of GGX; Beckmann's visible normals have one sampler of their own"
         ))),
-        (_, None) => Ok(Sampler::default()),
+        (_, None) => Ok(default),
         (_, Some(name)) => named(name),
     }
 }
@@ -189,7 +195,7 @@ impl RoughConductor {
         let alpha = alpha.checked()?;
         let reflectance = reflectance.resolved()?;
         let distribution_of = Distribution::named(distribution)?;
-        let sampler = sampler_of(distribution_of, sampler)?;
+        let sampler = sampler_of(distribution_of, sampler, Sampler::default())?;
         let smith = parameters::masking(masking)?;
         let model = energy.map(named::<EnergyModel>).transpose()?;
         let name = repr(
@@ -392,8 +398,11 @@ impl ThinDielectric {
 ///     Of the distribution, in [1e-4, 10]: one, or those along x and y.
 /// eta
 ///     Index of refraction inside over that outside; ``wo.z < 0`` looks from inside.
-/// distribution, sampler, masking
+/// distribution, masking
 ///     As for `RoughConductor`.
+/// sampler
+///     Of GGX, as for `RoughConductor`; ``"cap"`` by default, since visible normals serve
+///     refraction, too.
 /// compensated
 ///     Whether what single scattering loses is given back.
 /// reflection_tint, transmission_tint : float or (3,)
@@ -429,7 +438,7 @@ impl RoughDielectric {
         let alpha = alpha.checked()?;
         let eta = in_range("eta", eta, ETA)?;
         let distribution_of = Distribution::named(distribution)?;
-        let sampler = sampler_of(distribution_of, sampler)?;
+        let sampler = sampler_of(distribution_of, sampler, Sampler::Cap)?;
         let smith = parameters::masking(masking)?;
         let colours = shares(reflection_tint, transmission_tint)?;
         let name = repr(
