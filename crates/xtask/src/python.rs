@@ -12,11 +12,16 @@ const TESTS: &str = "crates/specula-py/tests";
 
 /// What tests need beside NumPy; wheels alone.
 const TOOLS: &[&str] = &[
+    "ipykernel>=6.29",
     "matplotlib>=3.7",
     "mitsuba==3.9.1",
     "mypy>=1.15",
+    "nbclient>=0.10",
+    "nbformat>=5.10",
     "numpy>=1.24",
+    "pandas>=2.2",
     "pytest>=8",
+    "trimesh>=4",
 ];
 
 /// What makes wheels.
