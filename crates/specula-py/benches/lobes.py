@@ -92,6 +92,10 @@ def main() -> None:
         lobe = sr.RoughConductor(0.3, sr.Reflectance.schlick(tuple(f0)), sampler=sampler)
         calls[f"{sampler}, (n, 3)"] = lambda lobe=lobe: lobe.sample(wo, u)
         calls[f"{sampler}, (3, n)"] = lambda lobe=lobe: lobe.sample(*columns, axis=0)
+        room = lobe.sample(*columns, axis=0)
+        calls[f"{sampler}, (3, n), out="] = lambda lobe=lobe, room=room: lobe.sample(
+            *columns, axis=0, out=room
+        )
         calls[f"{sampler}, (3, n), all threads"] = lambda lobe=lobe: lobe.sample(
             *columns, axis=0, threads=0
         )

@@ -64,6 +64,10 @@ def test_threads_layouts_and_places_do_not_matter(lobe: sr.Bsdf) -> None:
     samples = lobe.sample(wo, u, seed=9)
     again = lobe.sample(wo, u, seed=9, threads=0)
     assert np.array_equal(samples.wi, again.wi) and np.array_equal(samples.pdf, again.pdf)
+    wi_before = again.wi
+    filled = lobe.sample(wo, u_of(N, seed=5), seed=9, out=again)
+    assert filled.wi is wi_before
+    assert np.array_equal(filled.wi, lobe.sample(wo, u_of(N, seed=5), seed=9).wi)
     one = lobe.eval(wo[0], wi, seed=9)
     assert np.array_equal(one, lobe.eval(np.tile(wo[0], (N, 1)), wi, seed=9))
 

@@ -174,6 +174,7 @@ class Bsdf:
         transport: _Transport = "radiance",
         seed: int = 0,
         threads: int = 1,
+        out: Samples | None = None,
     ) -> Samples: ...
 
 @final

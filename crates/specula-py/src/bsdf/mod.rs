@@ -197,13 +197,18 @@ fn sample<'py, T: Scalar>(
     lobe: &Lobe<T>,
     [wo, u]: [&Argument<'py>; 2],
     options: Options,
+    out: Option<&Samples>,
 ) -> PyResult<Samples> {
     let pair = Pair::<T>::new(wo, u, options.axis)?;
     let shape = options.axis.around(&pair.elements);
-    let (wi, mut wi_written) = output::<T>(py, &shape, None)?;
-    let (weight, mut weight_written) = output::<T>(py, &shape, None)?;
-    let (pdf, mut pdf_written) = output::<T>(py, &pair.elements, None)?;
-    let (outcome, mut outcome_written) = output::<u8>(py, &pair.elements, None)?;
+    let given = out.map(|out| out.wi.bind(py));
+    let (wi, mut wi_written) = output::<T>(py, &shape, given)?;
+    let given = out.map(|out| out.weight.bind(py));
+    let (weight, mut weight_written) = output::<T>(py, &shape, given)?;
+    let given = out.map(|out| out.pdf.bind(py));
+    let (pdf, mut pdf_written) = output::<T>(py, &pair.elements, given)?;
+    let given = out.map(|out| out.outcome.bind(py));
+    let (outcome, mut outcome_written) = output::<u8>(py, &pair.elements, given)?;
     let outputs = Outputs {
         vectors: [
             Some(Output::new(wi_written.as_slice_mut()?, options.axis)),
@@ -371,6 +376,9 @@ impl Bsdf {
     ///     As for `eval`.
     /// threads
     ///     Threads that share the work; 0 for all. The result does not depend on it.
+    /// out : Samples, optional
+    ///     What an earlier call returned, over as many elements: its arrays are filled again, which
+    ///     saves the time that the system takes to hand out memory.
     ///
     /// Returns
     /// -------
@@ -385,7 +393,9 @@ impl Bsdf {
     ///     If shapes do not fit, or a vector is not unit; the message names the first.
     /// TypeError
     ///     If an array is neither of float32 nor of float64.
-    #[pyo3(signature = (wo, u = None, *, rng = None, axis = -1, transport = "radiance", seed = 0, threads = 1))]
+    #[pyo3(signature = (
+        wo, u = None, *, rng = None, axis = -1, transport = "radiance", seed = 0, threads = 1, out = None
+    ))]
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
     fn sample<'py>(
         &self,
@@ -397,6 +407,7 @@ impl Bsdf {
         transport: &str,
         seed: u64,
         threads: usize,
+        out: Option<&Bound<'py, Samples>>,
     ) -> PyResult<Samples> {
         let options = Options::new(axis, transport, seed, threads)?;
         let wo = Argument::new("wo", wo)?;
@@ -404,7 +415,9 @@ impl Bsdf {
             Some(u) => Argument::new("u", u)?,
             None => random_like(py, &wo, rng, seed)?,
         };
-        in_precision!(self, &[&wo, &u], lobe => sample(py, lobe, [&wo, &u], options))
+        in_precision!(self, &[&wo, &u], lobe => {
+            sample(py, lobe, [&wo, &u], options, out.map(Bound::get))
+        })
     }
 
     /// Whether values are estimates.

@@ -7,13 +7,13 @@ use pyo3::types::{PyIterator, PyTuple};
 #[pyclass(frozen, get_all, module = "specula_render")]
 pub(crate) struct Samples {
     /// Towards the light, unit; zero where rejected.
-    wi: Py<PyAny>,
+    pub(super) wi: Py<PyAny>,
     /// `f |cos| / pdf`; zero where rejected.
-    weight: Py<PyAny>,
+    pub(super) weight: Py<PyAny>,
     /// Per steradian, or a probability where specular; zero where rejected.
-    pdf: Py<PyAny>,
+    pub(super) pdf: Py<PyAny>,
     /// 0 rejected, 1 reflection, 2 transmission, 3 specular reflection, 4 specular transmission.
-    outcome: Py<PyAny>,
+    pub(super) outcome: Py<PyAny>,
 }
 
 impl Samples {
