@@ -21,6 +21,7 @@ const TOOLS: &[&str] = &[
     "numpy>=1.24",
     "pandas>=2.2",
     "pytest>=8",
+    "scipy>=1.11",
     "trimesh>=4",
 ];
 
