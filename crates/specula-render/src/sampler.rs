@@ -30,7 +30,7 @@ use sobol_burley::sample_4d;
 use specula_bsdf::math::Stream;
 
 use crate::simd::simd_levels;
-use crate::soa::Floats;
+use crate::soa::{Column, Floats};
 use crate::words::Words;
 
 /// The random numbers of one sample of one pixel.
@@ -180,26 +180,26 @@ fn seed_of_set(seed: u32, set: u32) -> u32 {
 /// Random numbers of many samples at once: those of [`Sampler`], bit for bit.
 #[derive(Clone, Debug)]
 pub(crate) struct RandomNumbers<const N: usize> {
-    indices: [u32; N],
-    seeds: [u32; N],
+    indices: Column<u32, N>,
+    seeds: Column<u32, N>,
     /// The seeds of the set.
-    keys: [u32; N],
+    keys: Column<u32, N>,
     /// Shuffled indices, bits reversed.
-    shuffled: [u32; N],
+    shuffled: Column<u32, N>,
     /// Of the sequence's third and fourth dimension, before they are scrambled.
-    bits: [[u32; N]; 2],
+    bits: [Column<u32, N>; 2],
     /// By dimension of the set.
     pub(crate) values: [Floats<N>; 4],
 }
 
 impl<const N: usize> RandomNumbers<N> {
     pub(crate) const ZERO: Self = Self {
-        indices: [0; N],
-        seeds: [0; N],
-        keys: [0; N],
-        shuffled: [0; N],
-        bits: [[0; N]; 2],
-        values: [[0.0; N]; 4],
+        indices: Column::of(0),
+        seeds: Column::of(0),
+        keys: Column::of(0),
+        shuffled: Column::of(0),
+        bits: [Column::of(0); 2],
+        values: [Floats::of(0.0); 4],
     };
 
     /// Sets the sampler of an element.

@@ -3,14 +3,51 @@
 //! Loops over them become the machine's vectors. The library's batches borrow slices of them
 //! ([`Directions`], [`Colours`]).
 
-use core::ops::Range;
+use core::ops::{Deref, DerefMut, Range};
 
 use specula_bsdf::batch::{Colours, Directions};
 use specula_bsdf::math::{rgb, vec3};
 use specula_bsdf::{Rgb, Vec3};
 
 /// One value of each element.
-pub(crate) type Floats<const N: usize> = [f32; N];
+///
+/// Its size is an odd number of cache lines. Columns of 2048 bytes, one after the other, have their `i`-th elements in
+/// two of the 64 sets of a first-level cache: more than 16 of them, and they evict each other.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(crate) struct Column<T, const N: usize> {
+    values: [T; N],
+    padding: [u32; 16],
+}
+
+/// One number of each element.
+pub(crate) type Floats<const N: usize> = Column<f32, N>;
+
+impl<T: Copy, const N: usize> Column<T, N> {
+    /// The same value for all.
+    pub(crate) const fn of(value: T) -> Self {
+        Self {
+            values: [value; N],
+            padding: [0; 16],
+        }
+    }
+}
+
+impl<T, const N: usize> Deref for Column<T, N> {
+    type Target = [T; N];
+
+    #[inline(always)]
+    fn deref(&self) -> &[T; N] {
+        &self.values
+    }
+}
+
+impl<T, const N: usize> DerefMut for Column<T, N> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [T; N] {
+        &mut self.values
+    }
+}
 
 /// One vector or colour of each element.
 #[derive(Clone, Copy, Debug)]
@@ -22,9 +59,9 @@ pub(crate) struct Vectors<const N: usize> {
 
 impl<const N: usize> Vectors<N> {
     pub(crate) const ZERO: Self = Self {
-        x: [0.0; N],
-        y: [0.0; N],
-        z: [0.0; N],
+        x: Floats::of(0.0),
+        y: Floats::of(0.0),
+        z: Floats::of(0.0),
     };
 
     #[inline(always)]

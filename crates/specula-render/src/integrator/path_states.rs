@@ -73,7 +73,7 @@ impl PathStates {
             media: [MediumStack::NONE; WAVEFRONT_SIZE],
             straight: [true; WAVEFRONT_SIZE],
             rough: [false; WAVEFRONT_SIZE],
-            bound: [f32::INFINITY; WAVEFRONT_SIZE],
+            bound: Floats::of(f32::INFINITY),
             previous: Receivers {
                 point: Vectors::ZERO,
                 normal: Vectors::ZERO,

@@ -30,6 +30,9 @@ pub(super) const WAVEFRONT_SIZE: usize = 512;
 /// One value of each vertex.
 pub(super) type Floats = soa::Floats<WAVEFRONT_SIZE>;
 
+/// One index of each vertex.
+pub(super) type Indices = soa::Column<u32, WAVEFRONT_SIZE>;
+
 /// One vector of each vertex.
 pub(super) type Vectors = soa::Vectors<WAVEFRONT_SIZE>;
 
@@ -111,8 +114,8 @@ pub(super) struct VertexBatch {
     /// How many there are.
     pub(super) count: usize,
     /// Of each vertex the index of its path, and its index among the live paths.
-    pub(super) path_indices: [u32; WAVEFRONT_SIZE],
-    pub(super) live_indices: [u32; WAVEFRONT_SIZE],
+    pub(super) path_indices: Indices,
+    pub(super) live_indices: Indices,
     pub(super) triangles: Triangles,
     pub(super) surfaces: Surfaces,
     pub(super) light_samples: LightSamples,
@@ -130,14 +133,14 @@ pub(super) struct VertexBatch {
 }
 
 /// Of zeros.
-pub(super) const ZERO: Floats = [0.0; WAVEFRONT_SIZE];
+pub(super) const ZERO: Floats = Floats::of(0.0);
 
 impl VertexBatch {
     pub(super) fn new() -> Box<Self> {
         Box::new(Self {
             count: 0,
-            path_indices: [0; WAVEFRONT_SIZE],
-            live_indices: [0; WAVEFRONT_SIZE],
+            path_indices: Indices::of(0),
+            live_indices: Indices::of(0),
             triangles: Triangles {
                 corners: [Vectors::ZERO; 3],
                 normals: [Vectors::ZERO; 3],

@@ -63,7 +63,7 @@ struct ParallelogramSamples {
     pdf: Floats,
 }
 
-const ZERO: Floats = [0.0; BATCH_SIZE];
+const ZERO: Floats = Floats::of(0.0);
 
 impl LightQueues {
     pub(crate) fn new() -> Box<Self> {

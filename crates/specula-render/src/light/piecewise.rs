@@ -1,5 +1,6 @@
 //! A distribution over the unit square, constant in every cell of a grid.
 
+use crate::soa::{Column, Floats};
 use crate::convert::{floor_index, id, narrow};
 use crate::words::Words;
 
@@ -81,8 +82,8 @@ impl Piecewise {
     pub(super) fn sample_cells<const N: usize>(
         &self,
         n: usize,
-        u: &mut [[f32; N]; 2],
-        cells: &mut [[u32; N]; 2],
+        u: &mut [Floats<N>; 2],
+        cells: &mut [Column<u32, N>; 2],
     ) {
         let n = n.min(N);
         let stride = id(self.width + 1);

@@ -1,8 +1,13 @@
 //! `cargo xtask versus`: time to equal error against other renderers.
 
+mod block;
+mod flip;
 mod measure;
 #[path = "../../../specula-lab/src/gpu_report/mesh.rs"]
 pub(crate) mod mesh;
+mod outcome;
+mod plan;
+mod reference;
 pub(crate) mod renderers;
 mod report;
 pub(crate) mod scenes;
@@ -10,6 +15,8 @@ mod sheet;
 #[path = "../../../specula-lab/src/gpu_report/sky.rs"]
 mod sky;
 pub(crate) mod statistics;
+mod table;
+mod trial;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,7 +26,11 @@ use std::time::Instant;
 use clap::{Args, ValueEnum};
 
 use crate::{Result, workspace};
-use measure::{Contestant, Outcome, Plan};
+use block::Block;
+use flip::Denoiser;
+use measure::Contestant;
+use outcome::Outcome;
+use plan::Plan;
 use renderers::{Pbrt, Served, Specula};
 use scenes::{SCENES, SceneFile};
 
@@ -28,7 +39,7 @@ const CLOSE: f64 = 0.005;
 /// The same for a renderer that computes with spectra.
 const SPECTRAL: f64 = 0.02;
 /// A picture of the report is smaller, in bytes.
-const LARGEST_PICTURE: u64 = 300_000;
+const LARGEST_PICTURE: u64 = 600_000;
 
 const MITSUBA_SAMPLERS: [&str; 5] = [
     "independent",
@@ -75,8 +86,8 @@ pub(crate) struct Versus {
     /// Samplers to choose from, of the renderers that have one of them [default: all]
     #[arg(long, value_name = "NAME", value_parser = sampler_names())]
     sampler: Vec<String>,
-    /// Rounds, in each of which everybody renders once [default: 5, quick 3]
-    #[arg(long)]
+    /// Rounds, in each of which everybody renders once; pairs of them are compared [default: 5, quick 3]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(2..))]
     rounds: Option<u32>,
     /// Seconds that a render should take [default: 2, quick 0.5]
     #[arg(long)]
@@ -124,12 +135,14 @@ pub(crate) fn run(root: &Path, versus: &Versus) -> Result<()> {
     fs::create_dir_all(&versus.out)?;
     let out = fs::canonicalize(&versus.out)?;
     let specula = workspace::program(root, versus.specula.as_deref())?;
+    let denoiser = Denoiser::of(&specula, &out)?;
     let mut outcomes: Vec<Outcome> = Vec::new();
     for scene in &SCENES {
         if versus.scene.is_empty() || versus.scene.iter().any(|n| n == scene.name) {
             println!("== {}: {}", scene.name, scene.title);
-            let outcome = versus.compare(root, &out, &specula, scene)?;
-            print!("{}", report::scene(&outcome));
+            let mut outcome = versus.compare(root, &out, &specula, scene)?;
+            flip::measure(&mut outcome, denoiser.as_ref(), &out)?;
+            print!("{}", table::scene(&outcome));
             outcomes.push(outcome);
         }
     }
@@ -138,11 +151,7 @@ pub(crate) fn run(root: &Path, versus: &Versus) -> Result<()> {
     fs::write(out.join("README.md"), &text)?;
     print!("{}", report::summary(&outcomes));
     println!("{minutes:.1} minutes; report in {}", out.display());
-    let faults: Vec<&str> = outcomes
-        .iter()
-        .flat_map(|o| &o.rows)
-        .filter_map(|row| row.fault.as_deref())
-        .collect();
+    let faults: Vec<&str> = outcomes.iter().flat_map(Outcome::faults).collect();
     if !faults.is_empty() {
         return Err(faults.join("\n").into());
     }
@@ -170,7 +179,7 @@ fn publish(root: &Path, out: &Path, text: &str, outcomes: &[Outcome]) -> Result<
 impl Versus {
     fn plan(&self) -> Plan {
         Plan {
-            rounds: self.rounds.unwrap_or(if self.quick { 3 } else { 5 }).max(1),
+            rounds: self.rounds.unwrap_or(if self.quick { 3 } else { 5 }),
             seconds: self.seconds.unwrap_or(if self.quick { 0.5 } else { 2.0 }),
             reference: self.reference.max(1),
             threads: self.threads,
@@ -185,32 +194,22 @@ impl Versus {
         specula: &Path,
         scene: &'static SceneFile,
     ) -> Result<Outcome> {
-        let folder = out.join("scenes");
-        let file = scene.prepare(root, &folder)?;
+        let file = scene.prepare(root, &out.join("scenes"))?;
         let twin = file.with_extension("pbrt");
-        let specula = |scene: &Path| Specula {
-            program: specula.to_owned(),
-            scene: scene.to_owned(),
-            threads: self.threads,
-            device: self.device.clone(),
-            writing: None,
-        };
-        let samplers = Specula::samplers(&self.device);
         let mut contestants = Vec::new();
         if let Some(python) = &self.mitsuba {
+            contestants.extend(self.specula("specula-xml", specula, &file));
             let mut command = Command::new(python);
             command
                 .arg(root.join("data/versus/mitsuba_peer.py"))
                 .arg(&file)
                 .args([&self.variant, &self.threads.to_string()]);
             let engine = Served::start("Mitsuba", &mut command)?;
-            contestants.push(Contestant::new("specula-xml", samplers, specula(&file)));
-            contestants.push(
-                Contestant::new("mitsuba", &MITSUBA_SAMPLERS, engine).against("specula-xml", CLOSE),
-            );
+            let mitsuba = Contestant::new("mitsuba", &MITSUBA_SAMPLERS, engine);
+            contestants.push(mitsuba.against("specula-xml", CLOSE));
         }
         if self.cycles.is_some() || self.pbrt.is_some() {
-            contestants.push(Contestant::new("specula-pbrt", samplers, specula(&twin)));
+            contestants.extend(self.specula("specula-pbrt", specula, &twin));
         }
         if let Some(python) = &self.cycles {
             let mut command = Command::new(python);
@@ -219,24 +218,21 @@ impl Versus {
                 .arg(&file)
                 .arg(self.threads.to_string());
             let engine = Served::start("Cycles", &mut command)?;
-            contestants.push(
-                Contestant::new("cycles", &CYCLES_SAMPLERS, engine).against("specula-pbrt", CLOSE),
-            );
+            let cycles = Contestant::new("cycles", &CYCLES_SAMPLERS, engine);
+            contestants.push(cycles.against("specula-pbrt", CLOSE));
         }
         if let Some(program) = &self.pbrt {
             let engine = Pbrt {
                 program: program.clone(),
-                scene: twin,
+                scene: twin.clone(),
                 threads: self.threads,
                 loading: None,
             };
-            contestants.push(
-                Contestant::new("pbrt", &PBRT_SAMPLERS, engine).against("specula-pbrt", SPECTRAL),
-            );
+            let pbrt = Contestant::new("pbrt", &PBRT_SAMPLERS, engine);
+            contestants.push(pbrt.against("specula-pbrt", SPECTRAL));
         }
         let pictures = out.join(scene.name);
-        let key =
-            measure::key(&[fs::read(&file)?, fs::read(file.with_extension("pbrt"))?].concat());
+        let key = measure::key(&[fs::read(&file)?, fs::read(&twin)?].concat());
         let contestants = contestants
             .into_iter()
             .map(|contestant| contestant.among(&self.sampler))
@@ -244,5 +240,22 @@ impl Versus {
         let outcome = measure::run(scene, &self.plan(), contestants, &pictures, key)?;
         sheet::write(&outcome, &out.join(format!("{}.png", scene.name)))?;
         Ok(outcome)
+    }
+
+    /// Specula with one form of a scene, once for each block that the device has samplers for.
+    fn specula(&self, form: &'static str, program: &Path, scene: &Path) -> Vec<Contestant> {
+        let contestant = |block: Block| {
+            let samplers = block.samplers(&self.device);
+            let engine = Specula {
+                program: program.to_owned(),
+                scene: scene.to_owned(),
+                threads: self.threads,
+                device: self.device.clone(),
+                writing: None,
+            };
+            let contestant = Contestant::new(form, samplers, engine).in_block(block);
+            (!samplers.is_empty()).then_some(contestant)
+        };
+        Block::ALL.into_iter().filter_map(contestant).collect()
     }
 }

@@ -45,34 +45,26 @@ pub(crate) struct Specula {
 }
 
 impl Specula {
-    /// As many samples everywhere; spread by their error, paths alone and shared between so many pixels.
-    pub(crate) const SAMPLERS: [&'static str; 4] = [
+    /// No option at all; as many samples everywhere; spread by their error, paths alone and shared between
+    /// so many pixels.
+    pub(crate) const SAMPLERS: [&'static str; 5] = [
+        "default",
         "sobol",
         "adaptive",
         "adaptive, 8 share",
         "adaptive, 16 share",
     ];
 
-    /// Those of a device: GPUs have no paths that share.
-    pub(crate) fn samplers(device: &str) -> &'static [&'static str] {
-        match device {
-            "cpu" => &Self::SAMPLERS,
-            _ => &Self::SAMPLERS[..2],
+    /// The options that a name in [`SAMPLERS`](Self::SAMPLERS) stands for; those but of the first say all
+    /// that they can, whatever the defaults are.
+    fn options(sampler: &str) -> &'static [&'static str] {
+        match sampler {
+            "sobol" => &["--share-paths", "1"],
+            "adaptive" => &["--adaptive", "--share-paths", "1"],
+            "adaptive, 8 share" => &["--adaptive", "--share-paths", "8"],
+            "adaptive, 16 share" => &["--adaptive", "--share-paths", "16"],
+            _ => &[],
         }
-    }
-
-    /// The options that a name in [`SAMPLERS`](Self::SAMPLERS) stands for.
-    fn options(sampler: &str) -> Vec<&str> {
-        let option = |part: &'_ str| match part.split_once(' ') {
-            Some((_, "share")) => Some("--share-paths"),
-            _ => (part == "adaptive").then_some("--adaptive"),
-        };
-        let mut options = Vec::new();
-        for part in sampler.split(", ") {
-            options.extend(option(part));
-            options.extend(part.split_once(' ').map(|(count, _)| count));
-        }
-        options
     }
 
     /// Wall time is the one that the picture holds; CPU time is counted from the line that says that
@@ -304,6 +296,15 @@ fn ticks(text: &str, fields: [usize; 2]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn samplers_have_options_of_their_own_and_the_default_none() {
+        let options = Specula::SAMPLERS.map(Specula::options);
+        assert_eq!(options[0], [""; 0]);
+        for (i, one) in options.iter().enumerate() {
+            assert!(!options[..i].contains(one), "{one:?}");
+        }
+    }
 
     #[test]
     fn ticks_are_found_behind_any_name() {

@@ -115,6 +115,17 @@ mod tests {
         fs::remove_dir_all(folder).unwrap();
     }
 
+    #[test]
+    fn pbrt_does_not_write_half_precision() {
+        // What it does where the file does not say it.
+        for scene in &SCENES {
+            let file = workspace::root().join(format!("data/versus/{}.pbrt", scene.name));
+            let text = fs::read_to_string(file).unwrap();
+            let film = text.lines().find(|l| l.starts_with("Film ")).unwrap();
+            assert!(film.contains(r#""bool savefp16" false"#), "{film}");
+        }
+    }
+
     /// Means of tiles and their variances, and the mean of all.
     struct Tiles {
         tiles: Vec<(f64, f64)>,

@@ -1,34 +1,50 @@
-//! The sheet of a scene: the whole picture, then one detail by everybody at equal time.
+//! The sheet of a scene: by everybody at equal time, a detail above and the whole picture below.
 
 use std::path::Path;
 
 use specula_bsdf::Rgb;
 use specula_render::picture::{Display, write_rgb8};
 
-use super::measure::Outcome;
+use super::block::Block;
+use super::outcome::{Outcome, Row};
 use crate::Result;
 
-/// Side of a panel, in pixels: seven of them stay below 300 kB, however noisy.
+/// Side of a panel, in pixels: eight columns of two stay below 600 kB, however noisy.
 const SIDE: usize = 112;
 
-/// Writes the reference shrunk, its detail, and the detail as each renders it.
+/// Whether a row has a column: those without shared paths look as the defaults do, but for their amount of noise.
+pub(crate) fn shows(row: &Row) -> bool {
+    row.block != Some(Block::Alone)
+}
+
+/// Writes the columns, that of the reference first.
 pub(crate) fn write(outcome: &Outcome, path: &Path) -> Result<()> {
-    let Some([reference, _]) = outcome.pictures.first() else {
+    let Some(reference) = outcome.references.first() else {
         return Ok(());
     };
-    let detail = |picture: &[Rgb<f32>]| crop(picture, outcome.width, outcome.scene.detail);
-    let mut panels = vec![shrink(reference, outcome.width), detail(reference)];
-    panels.extend(outcome.pictures.iter().map(|[_, first]| detail(first)));
+    let shown = outcome.rows.iter().zip(&outcome.first);
+    let shown = shown.filter(|(row, _)| shows(row)).map(|(_, first)| first);
+    let columns: Vec<_> = std::iter::once(&reference.picture).chain(shown).collect();
+    let bytes = sheet(&columns, reference.width, outcome.scene.detail);
+    let [width, height] = [columns.len() * SIDE, 2 * SIDE].map(u32::try_from);
+    Ok(write_rgb8(path, width?, height?, &bytes)?)
+}
+
+/// The pixels of all columns, row by row.
+fn sheet(columns: &[&Vec<Rgb<f32>>], width: usize, detail: [usize; 2]) -> Vec<u8> {
+    let details: Vec<_> = columns.iter().map(|p| crop(p, width, detail)).collect();
+    let wholes: Vec<_> = columns.iter().map(|p| shrink(p, width)).collect();
     let display = Display::default();
-    let mut bytes = Vec::with_capacity(3 * SIDE * SIDE * panels.len());
-    for y in 0..SIDE {
-        for panel in &panels {
-            let row = &panel[y * SIDE..(y + 1) * SIDE];
-            bytes.extend(row.iter().flat_map(|&c| display.to_rgb8(c)));
+    let mut bytes = Vec::with_capacity(3 * 2 * SIDE * SIDE * columns.len());
+    for panels in [details, wholes] {
+        for y in 0..SIDE {
+            for panel in &panels {
+                let line = &panel[y * SIDE..(y + 1) * SIDE];
+                bytes.extend(line.iter().flat_map(|&c| display.to_rgb8(c)));
+            }
         }
     }
-    let width = u32::try_from(panels.len() * SIDE)?;
-    Ok(write_rgb8(path, width, u32::try_from(SIDE)?, &bytes)?)
+    bytes
 }
 
 /// A square of [`SIDE`] pixels from `[x, y]` on.
@@ -37,7 +53,7 @@ fn crop(picture: &[Rgb<f32>], width: usize, [x, y]: [usize; 2]) -> Vec<Rgb<f32>>
     rows.flatten().copied().collect()
 }
 
-/// A square picture by means of what falls into each pixel of [`SIDE`].
+/// A square picture by means of what falls into each pixel of [`SIDE`], clamped before, as a screen does.
 fn shrink(picture: &[Rgb<f32>], width: usize) -> Vec<Rgb<f32>> {
     let edge = |i: usize| i * width / SIDE;
     let pixel = |x: usize, y: usize| {
@@ -71,5 +87,20 @@ mod tests {
         assert_eq!((cut[0].r, cut[1].r, cut.len()), (0.0, 1.0, SIDE * SIDE));
         let small = shrink(&picture, width);
         assert_eq!((small[SIDE / 2 - 1].r, small[SIDE / 2].r), (0.0, 1.0));
+    }
+
+    #[test]
+    fn details_are_above_whole_pictures() {
+        // White but for the right half, of which the detail is.
+        let width = 4 * SIDE;
+        let half: Vec<_> = (0..width * width)
+            .map(|i| Rgb::splat(if i % width < width / 2 { 1.0 } else { 0.0 }))
+            .collect();
+        let white = vec![Rgb::splat(1.0); width * width];
+        let bytes = sheet(&[&white, &half], width, [width / 2, 0]);
+        assert_eq!(bytes.len(), 3 * 2 * SIDE * 2 * SIDE);
+        let green = |x: usize, y: usize| bytes[3 * (y * 2 * SIDE + x) + 1];
+        let rows = [SIDE - 1, SIDE].map(|y| [0, SIDE, 2 * SIDE - 1].map(|x| green(x, y)));
+        assert_eq!(rows, [[255, 0, 0], [255, 255, 0]]);
     }
 }

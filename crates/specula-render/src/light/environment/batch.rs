@@ -23,13 +23,14 @@ use crate::soa;
 pub(in super::super) const BATCH_SIZE: usize = 64;
 
 type Floats = soa::Floats<BATCH_SIZE>;
+type Indices = soa::Column<u32, BATCH_SIZE>;
 type Vectors = soa::Vectors<BATCH_SIZE>;
 
 /// Directions, with intermediate values.
 pub(in super::super) struct DirectionBatch {
     /// Random numbers; then positions of points within their cells.
     pub(in super::super) u: [Floats; 2],
-    cell: [[u32; BATCH_SIZE]; 2],
+    cell: [Indices; 2],
     /// Sampling weights at the corners of the cell.
     strengths: [Floats; 4],
     uv: [Floats; 2],
@@ -44,15 +45,15 @@ pub(in super::super) struct DirectionBatch {
 
 impl DirectionBatch {
     pub(in super::super) const ZERO: Self = Self {
-        u: [[0.0; BATCH_SIZE]; 2],
-        cell: [[0; BATCH_SIZE]; 2],
-        strengths: [[0.0; BATCH_SIZE]; 4],
-        uv: [[0.0; BATCH_SIZE]; 2],
+        u: [Floats::of(0.0); 2],
+        cell: [Indices::of(0); 2],
+        strengths: [Floats::of(0.0); 4],
+        uv: [Floats::of(0.0); 2],
         direction: Vectors::ZERO,
-        sine: [0.0; BATCH_SIZE],
+        sine: Floats::of(0.0),
         radiance: Vectors::ZERO,
-        strength: [0.0; BATCH_SIZE],
-        pdf: [0.0; BATCH_SIZE],
+        strength: Floats::of(0.0),
+        pdf: Floats::of(0.0),
     };
 }
 
