@@ -8,6 +8,8 @@ use super::{AdapterKind, Gpu};
 const ALONE: &str = "SPECULA_TEST_ALONE";
 /// 2^20 bytes.
 pub(crate) const MIB: u64 = 1 << 20;
+/// Memory for what is small, in MiB. Where that ends, too, Rust aborts: only the arrays of the GPU may fail.
+const RESERVE: u64 = 16;
 
 /// Whether this process has a test alone. If not, the test is done in one that has: limits hold for whole
 /// processes. Where they say nothing about the GPU's memory, or the driver crashes, a loud line that it is skipped.
@@ -33,6 +35,9 @@ pub(crate) fn is_alone(gpu: &Gpu, test: &str) -> bool {
         .env(ALONE, "1")
         // Every thread reserves 64 MiB of addresses otherwise, which the limit counts.
         .env("MALLOC_ARENA_MAX", "1")
+        // What `reserve` frees stays in the heap, and only large arrays are outside of it.
+        .env("MALLOC_TRIM_THRESHOLD_", (64 * RESERVE * MIB).to_string())
+        .env("MALLOC_MMAP_THRESHOLD_", (4 * MIB).to_string())
         .output()
         .unwrap();
     if is_crashed(output.status) {
@@ -60,6 +65,12 @@ fn is_crashed(_: ExitStatus) -> bool {
     false
 }
 
+/// Lets the heap have [`RESERVE`] beyond what is in use.
+fn reserve() {
+    let blocks = (0..RESERVE).map(|_| std::hint::black_box(vec![1_u8; 1 << 20]));
+    drop(blocks.collect::<Vec<_>>());
+}
+
 /// A limit of this process's memory.
 pub(crate) struct Limit {
     /// Lifts it when told to; it is there from the beginning, since starting a process takes memory.
@@ -78,6 +89,7 @@ impl Limit {
             .stdin(Stdio::piped())
             .spawn()
             .unwrap();
+        reserve();
         let pages = std::fs::read_to_string("/proc/self/statm").unwrap();
         let pages: u64 = pages.split(' ').next().unwrap().parse().unwrap();
         let limit = pages * 4096 + more;

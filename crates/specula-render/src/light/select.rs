@@ -126,7 +126,10 @@ impl Selection {
         let (choice, share) = if u < threshold {
             (self.far.sample((u / threshold).min(below_one)), share)
         } else {
-            let rest = (u - threshold) / (1.0 - threshold);
+            let rest = match share {
+                0.0 => u,
+                _ => (u - threshold) / (1.0 - threshold),
+            };
             let choice = self.near.sample(importance, rest.min(below_one));
             (choice, 1.0 - share)
         };

@@ -111,15 +111,18 @@ impl LightTree {
             }
             let left = share(self.children(at, importance));
             let threshold = f64::from(left);
-            if u < threshold {
-                u /= threshold;
-                probability *= left;
-                at += 1;
-            } else {
-                u = (u - threshold) / (1.0 - threshold);
-                probability *= 1.0 - left;
-                at += node.link as usize;
+            let is_left = u < threshold;
+            probability *= if is_left { left } else { 1.0 - left };
+            at += if is_left { 1 } else { node.link as usize };
+            if self.nodes.get(at).is_some_and(|next| next.leaf) {
+                // No step needs its digits any more.
+                continue;
             }
+            u = if is_left {
+                u / threshold
+            } else {
+                (u - threshold) / (1.0 - threshold)
+            };
             u = u.min(1.0 - f64::EPSILON);
         }
     }
