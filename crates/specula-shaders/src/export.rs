@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::compose::{compose, ordered};
+use crate::cpp;
 use crate::document::documented;
 use crate::error::ComposeError;
 use crate::header::{TABLE_MODULE, header};
@@ -38,9 +39,6 @@ pub enum ExportError {
     },
 }
 
-/// What the worked examples call.
-pub const EXAMPLE_MODULES: &[&str] = &["bounded", "ggx"];
-
 /// The library in a language, and what goes with it:
 ///
 /// * the wanted modules and all that they import ([`ordered`]); all modules where none is named;
@@ -57,7 +55,8 @@ pub fn export(language: Language, wanted: &[&str]) -> Result<Vec<File>, ExportEr
         name: language.text_file(),
         bytes: library(language, wanted, &modules).map_err(failed)?,
     }];
-    if example_modules()?.iter().all(|m| modules.contains(m)) {
+    let called = ordered(language.example_modules())?;
+    if called.iter().all(|m| modules.contains(m)) {
         files.push(File {
             name: language.example_file(),
             bytes: example(language).map_err(failed)?,
@@ -87,6 +86,7 @@ fn library(
                 marked.map(|(m, part)| format!("// {} {}\n{part}", "-".repeat(60), m.path));
             marked.collect::<Vec<_>>().join("\n")
         }
+        Language::Cpp => cpp::library(modules)?,
         _ => documented(&translate::text(&wgsl, language)?, modules),
     };
     let text = header(language, wanted, modules) + &guarded(language, &body);
@@ -100,6 +100,7 @@ fn guarded(language: Language, body: &str) -> String {
         Language::Hlsl => "SPECULA_HLSL",
         Language::Glsl | Language::GlslEs => "SPECULA_GLSL",
         Language::Msl => "SPECULA_METAL",
+        Language::Cpp => "SPECULA_HPP",
     };
     let body = body.trim_matches('\n');
     format!("#ifndef {guard}\n#define {guard}\n\n{body}\n\n#endif\n")
@@ -110,10 +111,6 @@ fn bytes(words: &[u32]) -> Vec<u8> {
     words.iter().flat_map(|w| w.to_le_bytes()).collect()
 }
 
-fn example_modules() -> Result<Vec<Module>, ComposeError> {
-    ordered(EXAMPLE_MODULES)
-}
-
 /// The worked example, ready to be compiled beside the library; for SPIR-V, compiled.
 fn example(language: Language) -> Result<Vec<u8>, TranslateError> {
     let text = match language {
@@ -122,9 +119,10 @@ fn example(language: Language) -> Result<Vec<u8>, TranslateError> {
         Language::Glsl => include_str!("../example/example.comp"),
         Language::GlslEs => include_str!("../example/example_es.comp"),
         Language::Msl => include_str!("../example/example.metal"),
+        Language::Cpp => include_str!("../example/example.cpp"),
         Language::SpirV => {
             let example = include_str!("../example/example.wgsl");
-            let library = compose(EXAMPLE_MODULES).map_err(TranslateError::of)?;
+            let library = compose(language.example_modules()).map_err(TranslateError::of)?;
             return Ok(bytes(&translate::words(&format!("{library}\n{example}"))?));
         }
     };

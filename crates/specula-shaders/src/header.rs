@@ -57,6 +57,7 @@ fn title(language: Language) -> &'static str {
         Language::GlslEs => "GLSL ES 3.10",
         Language::Msl => "Metal Shading Language 2.0",
         Language::SpirV => "SPIR-V 1.3",
+        Language::Cpp => "C++17, for CUDA and HIP too",
     }
 }
 
@@ -64,6 +65,7 @@ fn title(language: Language) -> &'static str {
 fn origin(language: Language) -> &'static [&'static str] {
     match language {
         Language::Wgsl | Language::SpirV => &[],
+        Language::Cpp => &["Printed from WGSL: the first part has its vectors and its functions."],
         _ => &[
             "Translated from WGSL by naga: what begins with `naga_`, `Construct` or `_e` is of the",
             "translation. Comments within functions are in the WGSL.",
@@ -92,6 +94,10 @@ fn usage(language: Language) -> &'static [&'static str] {
         ],
         Language::Msl => &["#include \"specula.metal\""],
         Language::SpirV => &[],
+        Language::Cpp => &[
+            "#include \"specula.hpp\"",
+            "All is in the namespace `specula`. `from_xyz(v)` and `to<V>(v)` exchange vectors with yours.",
+        ],
     }
 }
 
@@ -111,6 +117,10 @@ fn tables(language: Language) -> &'static [&'static str] {
             "functions that take `specula_tables`.",
         ],
         Language::SpirV => &[],
+        Language::Cpp => &[
+            "Tables: read `energy_tables.bin` as floats, and let `specula::specula_tables` point at them; or",
+            "define `SPECULA_TABLES`, in front of the include, as an array or a pointer of yours.",
+        ],
     }
 }
 

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use crate::names::nearest;
 
-/// A shading language.
+/// A language of shaders or renderers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Language {
     /// WebGPU Shading Language: the sources as they are.
@@ -20,17 +20,20 @@ pub enum Language {
     Msl,
     /// SPIR-V 1.3.
     SpirV,
+    /// C++17, CUDA and HIP.
+    Cpp,
 }
 
 impl Language {
     /// All of them, in the order of the documentation.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Wgsl,
         Self::Hlsl,
         Self::Glsl,
         Self::GlslEs,
         Self::Msl,
         Self::SpirV,
+        Self::Cpp,
     ];
 
     /// What it is called at the command line.
@@ -43,6 +46,7 @@ impl Language {
             Self::GlslEs => "glsl-es",
             Self::Msl => "msl",
             Self::SpirV => "spirv",
+            Self::Cpp => "cpp",
         }
     }
 
@@ -56,6 +60,7 @@ impl Language {
             Self::GlslEs => "specula_es.glsl",
             Self::Msl => "specula.metal",
             Self::SpirV => "specula.spv",
+            Self::Cpp => "specula.hpp",
         }
     }
 
@@ -69,6 +74,16 @@ impl Language {
             Self::GlslEs => "example_es.comp",
             Self::Msl => "example.metal",
             Self::SpirV => "example.spv",
+            Self::Cpp => "example.cpp",
+        }
+    }
+
+    /// What the worked example calls.
+    #[must_use]
+    pub fn example_modules(self) -> &'static [&'static str] {
+        match self {
+            Self::Cpp => &["reflectance", "rough_conductor"],
+            _ => &["bounded", "ggx"],
         }
     }
 }
@@ -110,7 +125,7 @@ mod tests {
         );
         assert_eq!(
             "cuda-c".parse::<Language>().unwrap_err(),
-            "there is no shading language `cuda-c`; expected one of wgsl, hlsl, glsl, glsl-es, msl, spirv"
+            "there is no shading language `cuda-c`; expected one of wgsl, hlsl, glsl, glsl-es, msl, spirv, cpp"
         );
     }
 }

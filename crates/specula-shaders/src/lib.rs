@@ -12,6 +12,7 @@
 //! ```
 
 mod compose;
+mod cpp;
 mod declarations;
 mod document;
 mod error;
@@ -28,9 +29,10 @@ mod tables;
 mod translate;
 
 pub use compose::{compose, ordered};
+pub use cpp::to_cpp;
 pub use declarations::{Declaration, DeclarationKind, Field, declarations, fields};
 pub use error::ComposeError;
-pub use export::{EXAMPLE_MODULES, ExportError, File, export};
+pub use export::{ExportError, File, export};
 pub use language::Language;
 pub use modules::{Import, MODULES, Module};
 pub use tables::{offset, tables};

@@ -37,6 +37,7 @@ pub(crate) fn text(wgsl: &str, language: Language) -> Result<String, TranslateEr
         Language::GlslEs => library_part(&to_glsl(wgsl, glsl::Version::new_gles(310))?),
         Language::Msl => to_msl(wgsl)?,
         Language::SpirV => return Err(TranslateError::of("SPIR-V is no text")),
+        Language::Cpp => return Err(TranslateError::of("naga writes no C++")),
     };
     Ok(restore_names(&text))
 }

@@ -15,12 +15,13 @@ use specula_shaders::{
 };
 use tools::Folder;
 
-const TEXTS: [Language; 5] = [
+const TEXTS: [Language; 6] = [
     Language::Wgsl,
     Language::Hlsl,
     Language::Glsl,
     Language::GlslEs,
     Language::Msl,
+    Language::Cpp,
 ];
 
 /// The library of all modules in a language of text.
@@ -152,7 +153,7 @@ fn tables_and_examples_come_with_what_uses_them() {
         };
         let (library, example) = (language.text_file(), language.example_file());
         assert_eq!(names(&["ggx"]), [library]);
-        assert_eq!(names(&["ggx", "bounded"]), [library, example]);
+        assert_eq!(names(language.example_modules()), [library, example]);
         assert_eq!(names(&[]), [library, example, "energy_tables.bin"]);
     }
     let names: Vec<_> = ordered(&["bounded"]).unwrap();

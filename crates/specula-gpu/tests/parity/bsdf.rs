@@ -245,7 +245,7 @@ pub(crate) fn rows<const N: usize>(
     inputs
 }
 
-fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case> {
     [
         metals::cases(),
         glass::cases(),
@@ -356,7 +356,7 @@ const FAULTS: [[&str; 4]; 27] = [
 ];
 
 /// The faults with the paths of their modules.
-fn faults() -> Vec<Fault> {
+pub(crate) fn faults() -> Vec<Fault> {
     let paths = MODULES.iter().map(|m| (m.name(), m.path));
     let paths: BTreeMap<&str, &'static str> = paths.collect();
     let fault = |[case, module, from, to]: [&'static str; 4]| Fault {

@@ -406,7 +406,7 @@ fn interface_cases() -> Vec<Case> {
     ]
 }
 
-fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case> {
     [
         axis_cases(),
         coordinate_cases(),

@@ -148,14 +148,13 @@ fn metals_and_schlick() -> Vec<Case> {
             "let first = vec3f(x[0], x[1], x[2]);
              let second = vec3f(x[3], x[4], x[5]);
              let metal = reflectance_tinted(reflectance_conductor(first, 5.0 * second), second);
-             let all = array(
-                 reflectance_eval(reflectance_constant(first), x[6]),
-                 reflectance_eval(reflectance_schlick(first), x[6]),
-                 reflectance_eval(reflectance_tinted(reflectance_f82_tint(first, second), first), x[6]),
-                 reflectance_eval(metal, x[6]),
-                 reflectance_eval(reflectance_under(metal, 1.5), x[6]),
-                 reflectance_eval(reflectance_under(reflectance_schlick(second), 1.5), x[6]),
-             );
+             var all: array<vec3f, 6>;
+             all[0] = reflectance_eval(reflectance_constant(first), x[6]);
+             all[1] = reflectance_eval(reflectance_schlick(first), x[6]);
+             all[2] = reflectance_eval(reflectance_tinted(reflectance_f82_tint(first, second), first), x[6]);
+             all[3] = reflectance_eval(metal, x[6]);
+             all[4] = reflectance_eval(reflectance_under(metal, 1.5), x[6]);
+             all[5] = reflectance_eval(reflectance_under(reflectance_schlick(second), 1.5), x[6]);
              for (var k = 0u; k < 18u; k++) { y[k] = all[k / 3u][k % 3u]; }",
             product::<6, 1, 7>(&COLOURS, &cosines()),
             twins!(|x| {
@@ -183,11 +182,11 @@ fn metals_and_schlick() -> Vec<Case> {
     ]
 }
 
-fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case> {
     [dielectrics(), metals_and_schlick()].concat()
 }
 
-const FAULTS: [Fault; 5] = [
+pub(crate) const FAULTS: [Fault; 5] = [
     Fault {
         case: "dielectric",
         module: "fresnel/dielectric",

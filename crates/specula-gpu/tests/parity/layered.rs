@@ -117,7 +117,7 @@ fn colour<T: Real>(value: Rgb<T>) -> Vec<T> {
     value.to_array().to_vec()
 }
 
-fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case> {
     let walk = |name, body, inputs: Vec<[f32; 13]>, twin| {
         // Walks part where rounding decides otherwise: by lavapipe 2 of a thousand, by SwiftShader 3.
         let strays = (4 * inputs.len()).div_ceil(1000);
@@ -224,7 +224,7 @@ const ELSEWHERE: &[(&str, &str)] = &[
 ];
 
 /// One for every module.
-const FAULTS: &[Fault] = &[
+pub(crate) const FAULTS: &[Fault] = &[
     fault(
         "layered_value",
         "bsdf/layered/layered",

@@ -2,12 +2,13 @@
 //! `f64`.
 //!
 //! One file for each family. Where no GPU is found, the tests say that they are skipped;
-//! `SPECULA_GPU=require` makes that a failure.
+//! `SPECULA_GPU=require` makes that a failure. `cpp.rs` runs the same cases as C++, which needs a compiler only.
 #![allow(clippy::print_stdout, reason = "a suite says how much it checked")]
 
 mod bsdf;
 #[path = "../common/mod.rs"]
 mod common;
+mod cpp;
 mod energy;
 mod fresnel;
 mod harness;

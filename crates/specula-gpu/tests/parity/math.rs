@@ -272,11 +272,11 @@ fn frames_and_warps() -> Vec<Case> {
     ]
 }
 
-fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case> {
     [scalars(), streams_and_colours(), frames_and_warps()].concat()
 }
 
-const FAULTS: [Fault; 6] = [
+pub(crate) const FAULTS: [Fault; 6] = [
     Fault {
         case: "turns",
         module: "math/turns",

@@ -23,7 +23,8 @@ mod faults;
 pub(crate) mod means;
 
 use closed::closed;
-use faults::{ELSEWHERE, FAULTS};
+use faults::ELSEWHERE;
+pub(crate) use faults::FAULTS;
 
 /// Alphas of the walks.
 const ALPHAS: [[f32; 2]; 6] = [
@@ -545,7 +546,7 @@ fn interfaces() -> Vec<Case> {
     cases
 }
 
-fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case> {
     let mut cases = values();
     cases.extend(other_values());
     cases.extend(samples());

@@ -246,11 +246,11 @@ pub(crate) fn is_visible(ax: f32, ay: f32, w: [f32; 3]) -> bool {
     w[2] >= 0.0 || a * a < 40.0
 }
 
-fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case> {
     [ggx(), beckmann()].concat()
 }
 
-const FAULTS: [Fault; 5] = [
+pub(crate) const FAULTS: [Fault; 5] = [
     Fault {
         case: "ggx_density",
         module: "ndf/ggx",

@@ -295,11 +295,11 @@ fn densities() -> Vec<Case> {
     ]
 }
 
-fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case> {
     [samplers(), chosen_samplers(), densities()].concat()
 }
 
-const FAULTS: [Fault; 7] = [
+pub(crate) const FAULTS: [Fault; 7] = [
     Fault {
         case: "heitz_normals",
         module: "vndf/heitz",

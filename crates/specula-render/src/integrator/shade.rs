@@ -344,7 +344,14 @@ impl PathTracer<'_> {
             .map(|(i, plain)| (i, s.receiver(i, plain)));
         let u = [0, 1, 2, 3].map(|k| &random_numbers[k][..]);
         let store = |i, light| a.set(i, light);
-        (scene.lights).sample_all(lights, receivers, world, u, &mut **share_from_infinity, store);
+        (scene.lights).sample_all(
+            lights,
+            receivers,
+            world,
+            u,
+            &mut **share_from_infinity,
+            store,
+        );
     }
 
     /// Traces shadow rays, and adds the contributions that are not occluded.

@@ -1,7 +1,7 @@
 //! A distribution over the unit square, constant in every cell of a grid.
 
-use crate::soa::{Column, Floats};
 use crate::convert::{floor_index, id, narrow};
+use crate::soa::{Column, Floats};
 use crate::words::Words;
 
 /// A piecewise constant density over `[0, 1)^2`.

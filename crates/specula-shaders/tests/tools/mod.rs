@@ -1,4 +1,5 @@
 //! Compilers of other languages, where they are installed.
+#![allow(dead_code, reason = "each suite uses some")]
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -11,8 +12,13 @@ pub(crate) fn program(name: &str, what: &str) -> Option<PathBuf> {
     if Command::new(name).arg("--version").output().is_ok() {
         return Some(PathBuf::from(name));
     }
+    let packages = match name {
+        "g++" => "g++",
+        "clang++" => "clang",
+        _ => "glslang-tools spirv-tools",
+    };
     let why = format!("{name} is not installed");
-    specula_testing::skip(what, why, "apt-get install glslang-tools spirv-tools");
+    specula_testing::skip(what, why, format!("apt-get install {packages}"));
     None
 }
 
@@ -62,6 +68,13 @@ impl Folder {
     pub(crate) fn accepted(&self, program: &Path, arguments: &[&str]) {
         let output = self.run(program, arguments);
         assert!(output.status.success(), "{arguments:?}:\n{}", text(&output));
+    }
+
+    /// Runs a program that was compiled here and gives what it prints.
+    pub(crate) fn printed(&self, program: &str) -> String {
+        let output = self.run(&self.path().join(program), &[]);
+        assert!(output.status.success(), "{program}:\n{}", text(&output));
+        String::from_utf8_lossy(&output.stdout).into_owned()
     }
 
     /// Runs a compiler here and expects an error.

@@ -88,7 +88,8 @@ fn beckmann_visible_slope_away(cosine: f32, sine: f32, goal: f32) -> f32 {
     for (var i = 0u; i < BECKMANN_VISIBLE_STEPS; i++) {
         let scaled = 0.5 * cosine * erf_scaled_complement(-x) + 0.2820948 * sine;
         let excess = log(scaled) - x * x - wanted;
-        let slope = 0.5641896 * (cosine - sine * x) / scaled;
+        // Along the surface the first slope is 0.
+        let slope = max(0.5641896 * (cosine - sine * x) / scaled, 1e-30);
         let next = clamp(x - excess / slope, -30.0, 0.0);
         let is_done = abs(next - x) <= 3e-7 * (1.0 - next);
         x = next;

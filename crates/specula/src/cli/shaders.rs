@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use crate::scene::atomic;
-use crate::shaders::{EXAMPLE_MODULES, ExportError, File, Language, MODULES, export};
+use crate::shaders::{ExportError, File, Language, MODULES, export};
 use clap::Args;
 
 use super::console::say;
@@ -17,6 +17,8 @@ Examples:
       shaders/specula.hlsl to include, shaders/example.hlsl that does, and the energy tables
   specula shaders --lang glsl --modules ggx,bounded -o shaders
       these modules and what they use
+  specula shaders --lang cpp -o include
+      include/specula.hpp for C++17, CUDA and HIP
   specula shaders -o shaders
       all languages
   specula shaders --list
@@ -27,7 +29,7 @@ Every function keeps its name and its documentation. Files are replaced whole or
 #[derive(Args, Debug)]
 #[command(after_help = SHADERS_EXAMPLES)]
 pub(crate) struct ShadersArguments {
-    /// Languages, separated by commas: wgsl, hlsl, glsl, glsl-es, msl, spirv [default: all]
+    /// Languages, separated by commas: wgsl, hlsl, glsl, glsl-es, msl, spirv, cpp [default: all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub(crate) lang: Vec<Language>,
 
@@ -44,7 +46,7 @@ pub(crate) struct ShadersArguments {
     pub(crate) list: bool,
 }
 
-/// Writes the library in shading languages, or lists its modules.
+/// Writes the library in languages of shaders and in C++, or lists its modules.
 pub(crate) fn run(arguments: &ShadersArguments) -> Result<ExitCode, Failure> {
     let Some(folder) = &arguments.output else {
         print(&list())?;
@@ -71,9 +73,15 @@ pub(crate) fn run(arguments: &ShadersArguments) -> Result<ExitCode, Failure> {
             .map_err(|e: io::Error| cannot_write(&path, &e))?;
         say!("wrote {}", path.display());
     }
-    if !files.iter().any(|f| f.name == languages[0].example_file()) {
-        let calls = EXAMPLE_MODULES.join(" and ");
-        say!("note: no worked example, as it calls {calls}");
+    let is_absent = |language: &&Language| !files.iter().any(|f| f.name == language.example_file());
+    let absent = languages.iter().filter(is_absent);
+    let mut calls: Vec<&[&str]> = absent.map(|language| language.example_modules()).collect();
+    calls.dedup();
+    for calls in calls {
+        say!(
+            "note: no worked example, as it calls {}",
+            calls.join(" and ")
+        );
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -43,6 +43,8 @@ fn all_languages_are_the_default() {
         "specula.spv",
         "specula_es.glsl",
         "example.metal",
+        "specula.hpp",
+        "example.cpp",
     ] {
         assert!(folder.path().join(name).exists(), "{name}");
     }

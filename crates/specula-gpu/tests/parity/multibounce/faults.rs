@@ -67,7 +67,7 @@ pub(super) const ELSEWHERE: &[(&str, &str)] = &[
 ];
 
 /// One at least for every module.
-pub(super) const FAULTS: &[Fault] = &[
+pub(crate) const FAULTS: &[Fault] = &[
     fault(
         "states",
         "multibounce/state",

@@ -1,0 +1,270 @@
+//! The same cases in C++: the modules and the bodies as `specula shaders --lang cpp` writes them, compiled by g++
+//! and run on the processor. No GPU is needed.
+#![allow(clippy::unwrap_used, reason = "a panic is a failed test")]
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use crate::harness::{Case, Fault, Outcome, judge, text};
+use crate::{bsdf, energy, fresnel, layered, math, multibounce, ndf, vndf};
+
+/// How the cases are compiled.
+struct Setting {
+    flags: &'static [&'static str],
+    /// Whether the arithmetic is that of IEEE. Else bounds are those of real GPUs.
+    is_exact: bool,
+}
+
+/// Without optimisation.
+const PLAIN: Setting = Setting {
+    flags: &["-O0", "-ffp-contract=off"],
+    is_exact: true,
+};
+/// As programs are built.
+const OPTIMISED: Setting = Setting {
+    flags: &["-O2", "-ffp-contract=off"],
+    is_exact: true,
+};
+/// As renderers are built: reciprocals for quotients, no infinities.
+const FAST: Setting = Setting {
+    flags: &["-O3", "-ffast-math"],
+    is_exact: false,
+};
+/// For the processor at hand, whose sums of products may be rounded once.
+const FUSED: Setting = Setting {
+    flags: &["-O3", "-ffast-math", "-march=native"],
+    is_exact: false,
+};
+/// With undefined behaviour and accesses out of range as errors.
+const SANITISED: Setting = Setting {
+    flags: &[
+        "-O0",
+        "-ffp-contract=off",
+        "-fsanitize=address,undefined,float-cast-overflow",
+        "-fno-sanitize-recover=all",
+    ],
+    is_exact: true,
+};
+
+/// A family's name and its cases.
+type Family = (&'static str, fn() -> Vec<Case>);
+
+/// Each is one program.
+const FAMILIES: [Family; 8] = [
+    ("math", math::cases),
+    ("ndf", ndf::cases),
+    ("vndf", vndf::cases),
+    ("fresnel", fresnel::cases),
+    ("energy", energy::cases),
+    ("bsdf", bsdf::cases),
+    ("layered", layered::cases),
+    ("multibounce", multibounce::cases),
+];
+
+/// Reads the tables and the inputs, calls each case for each of its inputs, and writes the results.
+const MAIN: &str = include_str!("cpp/main.cpp");
+
+/// Of the faults that are planted in shaders, one of so many is planted in C++.
+const FAULT_STEP: usize = 4;
+
+/// Cases as a program.
+fn source(cases: &[&Case], fault: Option<&Fault>) -> String {
+    let modules: BTreeSet<&str> = cases.iter().flat_map(|c| c.modules).copied().collect();
+    let mut wgsl = text(&modules.into_iter().collect::<Vec<_>>(), fault);
+    let mut calls = String::new();
+    for case in cases {
+        let (name, arguments, results) = (case.name, case.arguments, case.results());
+        wgsl += &format!(
+            "\nfn parity_{name}(x: ptr<function, array<f32, {arguments}>>, y: ptr<function, array<f32, {results}>>) {{\n\
+             {}\n}}\n",
+            case.body
+        );
+        calls += &format!("    evaluate(specula::parity_{name}, inputs, results);\n");
+    }
+    let library = specula_shaders::to_cpp(&wgsl).unwrap_or_else(|error| panic!("{error}\n{wgsl}"));
+    let bind = if wgsl.contains("var<storage, read> specula_tables") {
+        "    specula::specula_tables = tables.data();\n"
+    } else {
+        ""
+    };
+    let main = MAIN.replace("    // BIND\n", bind);
+    library + &main.replace("    // CALLS\n", &calls)
+}
+
+/// A compiled program in a folder of its own.
+struct Program {
+    folder: tempfile::TempDir,
+    results: Vec<usize>,
+}
+
+impl Program {
+    fn compile(compiler: &Path, flags: &[&str], cases: &[&Case], fault: Option<&Fault>) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("parity.cpp"), source(cases, fault)).unwrap();
+        std::fs::write(folder.path().join("tables"), specula_shaders::tables()).unwrap();
+        let output = Command::new(compiler)
+            .current_dir(folder.path())
+            .args(["-std=c++17", "parity.cpp", "-o", "parity"])
+            .args(flags)
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        let first = said.lines().take(20).collect::<Vec<_>>().join("\n");
+        assert!(output.status.success(), "{first}");
+        Self {
+            folder,
+            results: cases.iter().map(|c| c.results()).collect(),
+        }
+    }
+
+    /// The results of each case.
+    fn run(&self, cases: &[&Case]) -> Vec<Vec<f32>> {
+        let folder = self.folder.path();
+        let mut bytes = Vec::new();
+        for case in cases {
+            let count = u32::try_from(case.inputs.len() / case.arguments).unwrap();
+            bytes.extend(count.to_le_bytes());
+            bytes.extend(case.inputs.iter().flat_map(|v| v.to_le_bytes()));
+        }
+        std::fs::write(folder.join("inputs"), bytes).unwrap();
+        let output = Command::new(folder.join("parity"))
+            .current_dir(folder)
+            // The sanitizer of leaks cannot run where processes may not be traced.
+            .env("ASAN_OPTIONS", "detect_leaks=0")
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{said}");
+        let bytes = std::fs::read(folder.join("results")).unwrap();
+        let mut values = bytes.as_chunks().0.iter().map(|b| f32::from_le_bytes(*b));
+        let lengths = cases.iter().zip(&self.results);
+        let lengths = lengths.map(|(case, results)| case.inputs.len() / case.arguments * results);
+        lengths
+            .map(|length| values.by_ref().take(length).collect())
+            .collect()
+    }
+}
+
+/// The compilers that are installed, or a line that says what was skipped without g++.
+#[track_caller]
+fn compilers(what: &str) -> Vec<PathBuf> {
+    let is_there = |name: &&str| Command::new(name).arg("--version").output().is_ok();
+    let found = ["g++", "clang++"].into_iter().filter(is_there);
+    let found: Vec<PathBuf> = found.map(PathBuf::from).collect();
+    if !found.iter().any(|compiler| compiler.ends_with("g++")) {
+        specula_testing::skip(what, "g++ is not installed", "apt-get install g++");
+    }
+    found
+}
+
+fn outcomes(
+    compiler: &Path,
+    setting: &Setting,
+    cases: &[Case],
+    fault: Option<&Fault>,
+) -> Vec<Outcome> {
+    let cases: Vec<&Case> = cases.iter().collect();
+    let start = Instant::now();
+    let program = Program::compile(compiler, setting.flags, &cases, fault);
+    let compiled = start.elapsed();
+    let values = program.run(&cases);
+    let time = [compiled, start.elapsed().saturating_sub(compiled)];
+    let judged = cases.iter().zip(&values).zip(&program.results);
+    judged
+        .map(|((case, values), results)| judge(case, values, *results, time))
+        .collect()
+}
+
+/// Proves all cases in a setting.
+fn prove(setting: &Setting) {
+    let what = setting.flags.join(" ");
+    for compiler in compilers(&format!("C++ with {what}")) {
+        let what = format!("{} {what}", compiler.display());
+        prove_by(&compiler, setting, &what);
+    }
+}
+
+fn prove_by(compiler: &Path, setting: &Setting, what: &str) {
+    let mut failures = Vec::new();
+    for (family, cases) in FAMILIES {
+        let start = Instant::now();
+        let outcomes = outcomes(compiler, setting, &cases(), None);
+        let [compiled, run]: [Duration; 2] = outcomes[0].time;
+        let worst = outcomes
+            .iter()
+            .map(|o| o.shader / o.bound)
+            .fold(0.0, f64::max);
+        println!(
+            "{what}: {family}: {} cases, errors up to {worst:.2} of their bounds, \
+             compiled in {:.1} s, run in {:.1} s, all in {:.1} s",
+            outcomes.len(),
+            compiled.as_secs_f64(),
+            run.as_secs_f64(),
+            start.elapsed().as_secs_f64()
+        );
+        let failed = outcomes.iter().filter(|o| !o.is_pass(setting.is_exact));
+        failures.extend(failed.map(|o| format!("{family}: {}", o.failure())));
+    }
+    assert!(failures.is_empty(), "{what}:\n{}", failures.join("\n"));
+}
+
+#[test]
+fn plain_code_agrees() {
+    prove(&PLAIN);
+}
+
+#[test]
+fn optimised_code_agrees() {
+    prove(&OPTIMISED);
+}
+
+#[test]
+fn fast_arithmetic_agrees() {
+    prove(&FAST);
+}
+
+#[test]
+fn fused_arithmetic_agrees() {
+    prove(&FUSED);
+}
+
+#[test]
+fn nothing_is_undefined() {
+    prove(&SANITISED);
+}
+
+#[test]
+fn planted_faults_are_noticed() {
+    let Some(compiler) = compilers("planted faults in C++").into_iter().next() else {
+        return;
+    };
+    let faults: [(Family, &[Fault]); 7] = [
+        (FAMILIES[0], &math::FAULTS),
+        (FAMILIES[1], &ndf::FAULTS),
+        (FAMILIES[2], &vndf::FAULTS),
+        (FAMILIES[3], &fresnel::FAULTS),
+        (FAMILIES[5], &bsdf::faults()),
+        (FAMILIES[6], layered::FAULTS),
+        (FAMILIES[7], multibounce::FAULTS),
+    ];
+    for ((family, cases), faults) in faults {
+        let cases = cases();
+        for fault in faults.iter().step_by(FAULT_STEP) {
+            let case = cases.iter().find(|c| c.name == fault.case).unwrap();
+            let outcome = outcomes(&compiler, &PLAIN, std::slice::from_ref(case), Some(fault));
+            let error = outcome[0].shader;
+            println!(
+                "{family}: '{}' for '{}': {error:.3e} ulps of {}",
+                fault.to, fault.from, case.bound
+            );
+            assert!(
+                error > case.bound,
+                "{}: '{}' goes unnoticed: {error} ulps",
+                fault.case,
+                fault.to
+            );
+        }
+    }
+}
