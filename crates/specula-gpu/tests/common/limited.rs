@@ -8,11 +8,14 @@ use super::{AdapterKind, Gpu};
 const ALONE: &str = "SPECULA_TEST_ALONE";
 /// 2^20 bytes.
 pub(crate) const MIB: u64 = 1 << 20;
-/// Memory for what is small, in MiB. Where that ends, too, Rust aborts: only the arrays of the GPU may fail.
-const RESERVE: u64 = 16;
+
+/// Bytes up to which an allocation is small. Rust aborts where memory does not hold it: only large ones are asked for
+/// in a way that may fail.
+const SMALL: u64 = 4 * MIB;
 
 /// Whether this process has a test alone. If not, the test is done in one that has: limits hold for whole
-/// processes. Where they say nothing about the GPU's memory, or the driver crashes, a loud line that it is skipped.
+/// processes. Where they say nothing about the GPU's memory, where the driver crashes, or where not even small
+/// allocations are left, a loud line that it is skipped.
 ///
 /// * `test`: its full name.
 ///
@@ -35,9 +38,6 @@ pub(crate) fn is_alone(gpu: &Gpu, test: &str) -> bool {
         .env(ALONE, "1")
         // Every thread reserves 64 MiB of addresses otherwise, which the limit counts.
         .env("MALLOC_ARENA_MAX", "1")
-        // What `reserve` frees stays in the heap, and only large arrays are outside of it.
-        .env("MALLOC_TRIM_THRESHOLD_", (64 * RESERVE * MIB).to_string())
-        .env("MALLOC_MMAP_THRESHOLD_", (4 * MIB).to_string())
         .output()
         .unwrap();
     if is_crashed(output.status) {
@@ -45,9 +45,19 @@ pub(crate) fn is_alone(gpu: &Gpu, test: &str) -> bool {
         return false;
     }
     let [said, failed] = [&output.stdout, &output.stderr].map(|s| String::from_utf8_lossy(s));
+    if lacked(&failed).is_some_and(|bytes| bytes < SMALL) {
+        specula_testing::not_of_this_machine(test, "small allocations fail first");
+        return false;
+    }
     assert!(output.status.success(), "{said}{failed}");
     assert!(said.contains("1 passed"), "{said}{failed}");
     false
+}
+
+/// The bytes of the allocation at which Rust aborted a process, by what it said.
+pub(crate) fn lacked(said: &str) -> Option<u64> {
+    let (_, rest) = said.split_once("memory allocation of ")?;
+    rest.split_once(" bytes failed")?.0.parse().ok()
 }
 
 /// Whether a process read or wrote what is not its own: code without `unsafe` cannot, drivers can.
@@ -63,12 +73,6 @@ fn is_crashed(status: ExitStatus) -> bool {
 #[cfg(not(unix))]
 fn is_crashed(_: ExitStatus) -> bool {
     false
-}
-
-/// Lets the heap have [`RESERVE`] beyond what is in use.
-fn reserve() {
-    let blocks = (0..RESERVE).map(|_| std::hint::black_box(vec![1_u8; 1 << 20]));
-    drop(blocks.collect::<Vec<_>>());
 }
 
 /// A limit of this process's memory.
@@ -89,7 +93,6 @@ impl Limit {
             .stdin(Stdio::piped())
             .spawn()
             .unwrap();
-        reserve();
         let pages = std::fs::read_to_string("/proc/self/statm").unwrap();
         let pages: u64 = pages.split(' ').next().unwrap().parse().unwrap();
         let limit = pages * 4096 + more;

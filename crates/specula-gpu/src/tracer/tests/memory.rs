@@ -15,6 +15,13 @@ fn gpu_alone(test: &str) -> Option<&'static Gpu> {
 }
 
 #[test]
+fn what_rust_says_at_an_abort_is_understood() {
+    let said = "GPU 0\nmemory allocation of 946176 bytes failed\nstack backtrace:";
+    assert_eq!(limited::lacked(said), Some(946_176));
+    assert_eq!(limited::lacked("panicked"), None);
+}
+
+#[test]
 fn batches_shrink_to_what_memory_holds() {
     let Some(gpu) = gpu_alone("batches_shrink_to_what_memory_holds") else {
         return;
