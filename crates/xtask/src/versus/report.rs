@@ -142,7 +142,8 @@ fn processor() -> String {
 const HEAD: &str = "\
 # Equal time, other renderers
 
-Written by the chore below, on a machine that does nothing else; the scenes are in `data/versus`.
+Written by the chore below; the scenes are in `data/versus`. Seconds by the clock are those of a machine that does
+nothing else; with `--clock cpu` they are those of the processor, on a machine that is shared.
 
     cargo xtask versus --mitsuba PYTHON --cycles PYTHON --pbrt PROGRAM --publish
 
