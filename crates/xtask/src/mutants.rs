@@ -33,7 +33,7 @@ const PACKAGES: [&str; 2] = ["specula-bsdf", "specula-stat"];
 /// Which faults to try.
 #[derive(clap::Args)]
 pub(crate) struct Sample {
-    /// About so many; 100 take an hour on two cores
+    /// About so many; 100 take some hours on two cores that do nothing else
     #[arg(long, default_value_t = 100)]
     count: usize,
     /// Chooses them: the next seed takes the next ones of the list

@@ -349,7 +349,7 @@ impl PathTracer<'_> {
             receivers,
             world,
             u,
-            &mut **share_from_infinity,
+            &mut share_from_infinity[..],
             store,
         );
     }
