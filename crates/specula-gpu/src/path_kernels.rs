@@ -1,5 +1,6 @@
 //! The kernels that take samples: a thread follows a path to its end, or wavefronts go from vertex to vertex in queues.
 
+use specula_render::FlatScene;
 use wgpu::BufferUsages as Usages;
 
 use crate::adapter::{Gpu, GpuError};
@@ -10,8 +11,8 @@ use crate::stage::{RayBindings, Stage, array, layout, submit};
 
 /// Bytes of a sample on the device.
 pub(crate) const SAMPLE_SIZE: u64 = 48;
-/// Bytes of a path's state between its vertices: `PathState` in path.wgsl.
-const STATE_SIZE: u64 = 144;
+/// Bytes of a field of a path between two kernels.
+const FIELD_SIZE: u64 = 16;
 /// Bytes before the queues: `QUEUE_HEAD` in queue.wgsl.
 const HEAD_SIZE: u64 = 12;
 /// Arrays that are only read: those of the scene, and the requested runs.
@@ -21,6 +22,12 @@ const PATH_ARRAYS: u32 = 6;
 /// Vertices of paths in queues that are submitted at once. Few paths are longer; whether one is, is read back before
 /// more are submitted.
 const VERTICES_AT_ONCE: u32 = 16;
+
+/// Bytes of a path between two kernels: `QUEUE_FIELDS` in queue_state.wgsl.
+pub(crate) fn state_size(flat: &FlatScene<'_>) -> u64 {
+    let has_boundaries = flat.constant("HAS_BOUNDARIES") == Some(1);
+    FIELD_SIZE * if has_boundaries { 16 } else { 10 }
+}
 
 /// The kernels that take samples.
 #[derive(Clone, Debug)]
@@ -35,11 +42,15 @@ pub(crate) enum PathKernels {
 #[derive(Clone, Debug)]
 pub(crate) struct Queues {
     begin: Stage,
-    bounce: Stage,
+    trace: Stage,
+    shade: Stage,
+    connect: Stage,
     compact: Stage,
     advance: Stage,
     /// Most vertices of a path.
     most: u32,
+    /// Bytes of a path between two kernels.
+    state_size: u64,
 }
 
 /// The kernels with their arrays.
@@ -62,12 +73,13 @@ pub(crate) struct QueueArrays {
 impl PathKernels {
     /// * `shader`: the scene's.
     /// * `structures`: of ray queries; `None`: rays are traversed by the shader.
+    /// * `state_size`: of the scene, by [`state_size`].
     pub(crate) fn new(
         gpu: &Gpu,
         shader: &Shader,
         is_queues: bool,
         structures: Option<&RayBindings>,
-        max_depth: u32,
+        (max_depth, state_size): (u32, u64),
     ) -> Result<Self, GpuError> {
         let slot = |binding| Slot {
             binding,
@@ -89,10 +101,13 @@ impl PathKernels {
         };
         Ok(Self::Queues(Queues {
             begin: Stage::new(gpu, &arrays, shader, "queue_begin", None)?,
-            bounce: Stage::new(gpu, &arrays, shader, "queue_bounce", structures)?,
+            trace: Stage::new(gpu, &arrays, shader, "queue_trace", structures)?,
+            shade: Stage::new(gpu, &arrays, shader, "queue_shade", None)?,
+            connect: Stage::new(gpu, &arrays, shader, "queue_connect", structures)?,
             compact: stage("queue_advance_compact", 1)?,
             advance: stage("queue_advance_main", 2)?,
             most: max_depth.saturating_add(1),
+            state_size,
         }))
     }
 
@@ -100,7 +115,7 @@ impl PathKernels {
     pub(crate) fn sample_size(&self) -> u64 {
         match self {
             Self::Paths(_) => SAMPLE_SIZE,
-            Self::Queues(_) => STATE_SIZE,
+            Self::Queues(queues) => queues.state_size,
         }
     }
 
@@ -117,13 +132,13 @@ impl PathKernels {
             Self::Paths(stage) => BoundKernels::Paths(stage.clone(), stage.group(gpu, arrays)),
             Self::Queues(queues) => {
                 let samples = samples as u64;
-                let states = array(gpu, "paths", samples * STATE_SIZE, Usages::empty());
+                let states = array(gpu, "paths", samples * queues.state_size, Usages::empty());
                 let copied = Usages::COPY_DST | Usages::COPY_SRC;
                 let slots = array(gpu, "queues", HEAD_SIZE + samples * 8, copied);
                 let workgroups = array(gpu, "workgroups", 12, Usages::INDIRECT);
                 let all = [arrays, &[&states, &slots]].concat();
                 let arrays = QueueArrays {
-                    group: queues.bounce.group(gpu, &all),
+                    group: queues.shade.group(gpu, &all),
                     advance_group: queues.advance.group(gpu, &[&slots, &workgroups]),
                     compact_group: queues.compact.group(gpu, &[&slots]),
                     slots,
@@ -203,8 +218,9 @@ impl Queues {
     fn bounce(&self, pass: &mut wgpu::ComputePass<'_>, arrays: &QueueArrays, count: u32) {
         for _ in 0..count {
             self.advance.run(pass, &arrays.advance_group, 1);
-            self.bounce
-                .run_indirect(pass, &arrays.group, &arrays.workgroups);
+            for stage in [&self.trace, &self.shade, &self.connect] {
+                stage.run_indirect(pass, &arrays.group, &arrays.workgroups);
+            }
             self.compact
                 .run_indirect(pass, &arrays.compact_group, &arrays.workgroups);
         }

@@ -108,7 +108,7 @@ macro_rules! material_modules {
 const MATERIALS: &[Module] = specula_render::material_shader_table!(material_modules);
 
 /// What comes behind the switch over materials.
-const AFTER: &[Module] = modules!["path", "queue"];
+const AFTER: &[Module] = modules!["path", "queue_state", "queue"];
 
 /// The shader's text.
 ///

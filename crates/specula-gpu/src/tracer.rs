@@ -11,7 +11,7 @@ use specula_render::{
 
 use crate::adapter::{AdapterKind, Gpu, GpuError};
 use crate::error::TracerError;
-use crate::path_kernels::PathKernels;
+use crate::path_kernels::{self, PathKernels};
 use crate::program;
 use crate::queries::{Rays, Structures};
 use crate::sample_batch::{Kernels, SampleBatch, Submission};
@@ -138,7 +138,8 @@ impl<'a> Tracer<'a> {
         let shader = gpu.shader("path tracer", path_tracer)?;
         let is_queues = schedule.is_queues(limits.max_storage_buffers_per_shader_stage);
         let structures = structures.as_ref().map(Structures::bindings);
-        let taker = PathKernels::new(gpu, &shader, is_queues, structures, options.max_depth)?;
+        let sizes = (options.max_depth, path_kernels::state_size(flat));
+        let taker = PathKernels::new(gpu, &shader, is_queues, structures, sizes)?;
         let kernels = Kernels::new(gpu, taker, adder)?;
         let largest = gpu.adapter.largest_array
             / kernels.taker.sample_size().max(size_of::<RunSums>() as u64);

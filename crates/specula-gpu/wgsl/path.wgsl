@@ -1,5 +1,6 @@
-// Unidirectional path tracing with next-event estimation. In `path_main` a thread follows one path to its end;
-// queue.wgsl takes all paths from one vertex to the next.
+// Unidirectional path tracing with next-event estimation. From one vertex to the next a path is traced, shaded and, by
+// a shadow ray, connected to a light. In `path_main` a thread follows one path to its end; queue.wgsl takes all paths
+// through one of these parts after the other.
 //
 // Twin of specula-render/src/integrator.rs and integrator/estimator.rs: the same random numbers serve the same
 // decisions, so that a sample follows the same path up to rounding.
@@ -9,11 +10,11 @@ import tracer::sequence::{Sequence, sequence_of, sequence_camera, sequence_scatt
 import tracer::sequence::{sequence_stream, sequence_hashed};
 import tracer::camera::{camera_ray};
 import tracer::film::{film_developed};
-import tracer::ray::{Ray};
-import tracer::surface::{Surface};
+import tracer::ray::{Ray, Hit};
+import tracer::surface::{Surface, surface_at};
 import tracer::medium_stack::{MediumStack};
-import tracer::visibility::{visibility_intersect, visibility_transmittance, visibility_cross, visibility_place};
-import tracer::visibility::{visibility_radiance};
+import tracer::visibility::{ShadowRay, visibility_intersect, visibility_shadow_ray, visibility_transmittance};
+import tracer::visibility::{visibility_cross, visibility_place, visibility_radiance};
 import tracer::partials::{partials_of};
 import tracer::bump::{Softness, bump_of_material, bump_is_there, bump_bend, bump_softened};
 import tracer::bump::{bump_softness, bump_coat_differs, bump_of_coat};
@@ -38,22 +39,27 @@ const PATH_FIRST_RUN: u32 = 2u;
 const PATH_STRAIGHT: u32 = 1u;
 /// The path was scattered by a lobe that is not perfectly smooth.
 const PATH_ROUGH: u32 = 2u;
+/// The path ends where it is.
+const PATH_ENDS: u32 = 4u;
 
 /// The state of a path.
 struct PathState {
+    // The ray to the next vertex, and what it hits.
+    ray: Ray,
+    hit: Hit,
+    // How many rays were traced.
+    rays: u32,
+    // Density with which the last direction was sampled; 0 where no light sample could have had it.
+    previous_pdf: f32,
+    // PATH_STRAIGHT, PATH_ROUGH and PATH_ENDS.
+    flags: u32,
     radiance: vec3f,
     eta_scale: f32,
     throughput: vec3f,
-    rays: u32,
-    // The ray to the next vertex.
-    ray: Ray,
+    // The vertex where the last direction was sampled; at first, where the camera is.
+    previous: Receiver,
     // The media that the path is in.
     media: MediumStack,
-    // The vertex where the last direction was sampled, and its density; 0 where no light sample could have had it.
-    previous: Receiver,
-    previous_pdf: f32,
-    // PATH_STRAIGHT and PATH_ROUGH.
-    flags: u32,
 }
 
 /// A surface with its lobe and shading frame, which faces the viewer.
@@ -288,12 +294,13 @@ fn path_add(state: ptr<function, PathState>, contribution: vec3f, events: u32) {
     (*state).radiance += c;
 }
 
-/// Adds direct light from one light sample.
+/// The ray to a light, chosen among the light candidates of a vertex, with its contribution.
 ///
 /// Twin: specula-render/src/integrator.rs, PathTracer::add_direct.
-fn path_add_direct(state: ptr<function, PathState>, vertex: PathShadingPoint, s: Sequence, depth: u32) {
+fn path_shadow_ray(state: PathState, vertex: PathShadingPoint, s: Sequence, depth: u32) -> ShadowRay {
+    var none: ShadowRay;
     if vertex.bound.specular {
-        return;
+        return none;
     }
     let count = path_light_candidates(vertex.bound, depth);
     var chosen: PathCandidate;
@@ -301,7 +308,7 @@ fn path_add_direct(state: ptr<function, PathState>, vertex: PathShadingPoint, s:
     var sum = 0.0;
     var mean_of_chosen = 0.0;
     for (var which = 0u; which < count; which += 1u) {
-        let candidate = path_sample_light((*state).throughput, vertex, s, depth, which, count);
+        let candidate = path_sample_light(state.throughput, vertex, s, depth, which, count);
         let mean = path_mean(candidate.contribution);
         let before = sum;
         sum += mean;
@@ -312,17 +319,14 @@ fn path_add_direct(state: ptr<function, PathState>, vertex: PathShadingPoint, s:
         }
     }
     if mean_of_chosen == 0.0 {
-        return;
+        return none;
     }
     let light = chosen.light;
-    var media = (*state).media;
+    var media = state.media;
     if dot(vertex.frame.n, light.wi) < 0.0 {
         visibility_cross(&media, vertex.surface, light.wi);
     }
-    var rays = 0u;
-    let transmittance = visibility_transmittance(vertex.surface, light, media, s, depth, &rays);
-    (*state).rays += rays;
-    path_add(state, chosen.contribution * (sum / mean_of_chosen) * transmittance, depth + 1u);
+    return visibility_shadow_ray(vertex.surface, light, media, chosen.contribution * (sum / mean_of_chosen));
 }
 
 /// Mean of the channels.
@@ -352,7 +356,7 @@ fn path_scatter(
     (*state).eta_scale *= sampled.eta * sampled.eta;
     let passes = (sampled.flags & BSDF_SAMPLE_TRANSMISSION) != 0u;
     if !(passes && vertex.bound.kind == KIND_THIN_DIELECTRIC) {
-        (*state).flags &= PATH_ROUGH;
+        (*state).flags &= ~PATH_STRAIGHT;
     }
     if (sampled.flags & BSDF_SAMPLE_SPECULAR) == 0u {
         (*state).flags |= PATH_ROUGH;
@@ -403,6 +407,7 @@ fn path_begin(slot: u32, s: Sequence) -> PathState {
     let begin = camera_ray(pixel, sequence_camera(s));
     var state: PathState;
     state.ray = Ray(begin.origin, begin.direction, FARTHEST);
+    state.previous.position = begin.origin;
     state.throughput = vec3f(1.0);
     state.eta_scale = 1.0;
     state.flags = PATH_STRAIGHT;
@@ -420,40 +425,64 @@ fn path_write_features(slot: u32, vertex: PathShadingPoint, distance: f32) {
     path_results[3u * slot + 2u] = vec4f(vertex.frame.n * weight, weight);
 }
 
-/// Takes a path from one vertex to the next; returns whether it continues.
-///
-/// Twin: specula-render/src/integrator.rs, PathTracer::step.
-fn path_step(slot: u32, state: ptr<function, PathState>, s: Sequence, depth: u32) -> bool {
-    let begin = (*state).ray.origin;
+/// Traces a path to its next vertex.
+fn path_trace(state: ptr<function, PathState>, s: Sequence, depth: u32) {
     var ray = (*state).ray;
     var media = (*state).media;
-    let hit = visibility_intersect(&ray, &media, s, depth);
+    let found = visibility_intersect(&ray, &media, s, depth);
+    (*state).ray = ray;
     (*state).media = media;
-    (*state).rays += hit.rays;
-    (*state).throughput *= hit.transmittance;
-    if !hit.is_hit {
-        if !(((*state).flags & PATH_STRAIGHT) != 0u && HIDES_EMITTERS != 0u) {
+    (*state).hit = found.hit;
+    (*state).rays += found.rays;
+    (*state).throughput *= found.transmittance;
+}
+
+/// Shades the vertex that a path has been traced to: adds its emission, or the background, and samples the next ray,
+/// unless the path ends. Returns a ray to a light.
+///
+/// Twin: specula-render/src/integrator.rs, PathTracer::step.
+fn path_shade(slot: u32, state: ptr<function, PathState>, s: Sequence, depth: u32) -> ShadowRay {
+    var none: ShadowRay;
+    let ray = (*state).ray;
+    let straight = ((*state).flags & PATH_STRAIGHT) != 0u;
+    let rough = ((*state).flags & PATH_ROUGH) != 0u;
+    (*state).flags |= PATH_ENDS;
+    if (*state).hit.instance == NONE {
+        if !(straight && HIDES_EMITTERS != 0u) {
             let radiance = path_background(*state, ray.direction);
             path_add(state, (*state).throughput * radiance, depth);
         }
-        return false;
+        return none;
     }
-    let surface = hit.surface;
+    let surface = surface_at(ray, (*state).hit);
     let radiance = path_emission(*state, surface, ray.direction);
     path_add(state, (*state).throughput * radiance, depth);
     if depth >= path_max_depth() && depth > 0u {
-        return false;
+        return none;
     }
-    let rough = ((*state).flags & PATH_ROUGH) != 0u;
     let vertex = path_shading_point(surface, -ray.direction, s, depth, rough);
     if depth == 0u {
-        path_write_features(slot, vertex, length(surface.position - begin));
+        path_write_features(slot, vertex, length(surface.position - (*state).previous.position));
         if path_max_depth() == 0u {
-            return false;
+            return none;
         }
     }
-    path_add_direct(state, vertex, s, depth);
-    return path_scatter(state, vertex, s, depth);
+    let shadow = path_shadow_ray(*state, vertex, s, depth);
+    if path_scatter(state, vertex, s, depth) {
+        (*state).flags &= ~PATH_ENDS;
+    }
+    return shadow;
+}
+
+/// Adds the light that arrives along a shadow ray.
+fn path_connect(state: ptr<function, PathState>, shadow: ShadowRay, s: Sequence, depth: u32) {
+    if all(shadow.contribution == vec3f(0.0)) {
+        return;
+    }
+    var rays = 0u;
+    let transmittance = visibility_transmittance(shadow, s, depth, &rays);
+    (*state).rays += rays;
+    path_add(state, shadow.contribution * transmittance, depth + 1u);
 }
 
 /// Writes the pixel sample of a path that has ended: its radiance, developed, times the filter's weight.
@@ -473,7 +502,10 @@ fn path_main(@builtin(global_invocation_id) id: vec3u) {
     }
     let s = path_sequence(slot);
     var state = path_begin(slot, s);
-    for (var depth = 0u; path_step(slot, &state, s, depth); depth += 1u) {
+    for (var depth = 0u; (state.flags & PATH_ENDS) == 0u; depth += 1u) {
+        path_trace(&state, s, depth);
+        let shadow = path_shade(slot, &state, s, depth);
+        path_connect(&state, shadow, s, depth);
     }
     path_end(slot, state);
 }

@@ -1,11 +1,13 @@
-// Wavefronts of paths, in queues: all paths are taken from one vertex to the next, and queue_advance.wgsl makes the next
-// queue of those that continue. The order of a queue is not deterministic. Results are, since every path writes to its
-// own slot.
+// Wavefronts of paths, in queues: all paths are taken from one vertex to the next. A kernel traces them, one shades what
+// they hit, one casts shadow rays; queue_advance.wgsl makes the next queue of those that continue. Kernels that trace and
+// do little else are faster: a kernel's registers and stacks are those of its most demanding part (Laine, Karras and
+// Aila 2013). The order of a queue is not deterministic. Results are, since every path writes to its own slot.
 
-import tracer::path::{PathState, path_is_requested, path_sequence, path_begin, path_step, path_end};
+import tracer::path::{PathState, PATH_ENDS, path_is_requested, path_sequence, path_begin, path_trace, path_shade};
+import tracer::path::{path_connect, path_end};
+import tracer::queue_state::{queue_state_begun, queue_state_to_trace, queue_state_traced, queue_state_to_shade};
+import tracer::queue_state::{queue_state_shaded, queue_state_shadow, queue_state_to_connect, queue_state_connected};
 
-/// States of the paths, by slot.
-@group(0) @binding(6) var<storage, read_write> queue_states: array<PathState>;
 /// Depth of the current vertex, numbers of paths in the queues of even depths and of odd ones; then slots of the paths in
 /// the queue of even depths, and of odd ones, NONE where a path has ended.
 @group(0) @binding(7) var<storage, read_write> queue_slots: array<u32>;
@@ -31,25 +33,67 @@ fn queue_begin(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     if path_is_requested(slot) {
-        queue_states[slot] = path_begin(slot, path_sequence(slot));
+        queue_state_begun(slot, path_begin(slot, path_sequence(slot)));
         queue_slots[queue_entry(slot)] = slot;
     } else {
         queue_slots[queue_entry(slot)] = NONE;
     }
 }
 
-/// Takes a path to its next vertex.
+/// The slot of a path in the queue of the current depth; NONE where there is none, or the path has ended.
+fn queue_slot(place: u32) -> u32 {
+    if !queue_has(place) {
+        return NONE;
+    }
+    return queue_slots[queue_entry(place)];
+}
+
+/// Ends a path of the queue of the current depth.
+fn queue_end(place: u32, slot: u32, state: PathState) {
+    path_end(slot, state);
+    queue_slots[queue_entry(place)] = NONE;
+}
+
+/// Traces a path to its next vertex.
 @compute @workgroup_size(64)
-fn queue_bounce(@builtin(global_invocation_id) id: vec3u) {
-    if !queue_has(id.x) {
+fn queue_trace(@builtin(global_invocation_id) id: vec3u) {
+    let slot = queue_slot(id.x);
+    if slot == NONE {
         return;
     }
-    let slot = queue_slots[queue_entry(id.x)];
-    var state = queue_states[slot];
-    if path_step(slot, &state, path_sequence(slot), queue_slots[0]) {
-        queue_states[slot] = state;
-    } else {
-        path_end(slot, state);
-        queue_slots[queue_entry(id.x)] = NONE;
+    var state = queue_state_to_trace(slot);
+    path_trace(&state, path_sequence(slot), queue_slots[0]);
+    queue_state_traced(slot, state);
+}
+
+/// Shades the vertex that a path has come to.
+@compute @workgroup_size(64)
+fn queue_shade(@builtin(global_invocation_id) id: vec3u) {
+    let slot = queue_slot(id.x);
+    if slot == NONE {
+        return;
     }
+    var state = queue_state_to_shade(slot);
+    let shadow = path_shade(slot, &state, path_sequence(slot), queue_slots[0]);
+    if (state.flags & PATH_ENDS) != 0u && all(shadow.contribution == vec3f(0.0)) {
+        queue_end(id.x, slot, state);
+        return;
+    }
+    queue_state_shaded(slot, state, shadow);
+}
+
+/// Casts the shadow ray of a path.
+@compute @workgroup_size(64)
+fn queue_connect(@builtin(global_invocation_id) id: vec3u) {
+    let slot = queue_slot(id.x);
+    if slot == NONE {
+        return;
+    }
+    var state = queue_state_to_connect(slot);
+    path_connect(&state, queue_state_shadow(slot), path_sequence(slot), queue_slots[0]);
+    if (state.flags & PATH_ENDS) != 0u {
+        queue_end(id.x, slot, state);
+        return;
+    }
+    queue_state_connected(slot, state);
 }

@@ -13,9 +13,25 @@ mod memory;
 
 /// A closed bright room, so that paths are long, with glass in it.
 fn room() -> Scene {
+    room_with("")
+}
+
+/// The same with glass that absorbs, and a pane with a hole.
+fn room_of_coloured_glass() -> Scene {
+    room_with(
+        "MakeNamedMedium \"red\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [0.1 2 3] \"rgb sigma_s\" [0 0 0]\n\
+        AttributeBegin\nMediumInterface \"red\" \"\"\nTranslate 0.9 -0.6 0\n\
+        Shape \"sphere\" \"float radius\" 0.4\nAttributeEnd\n\
+        Shape \"trianglemesh\" \"point3 P\" [-1 -1 -1  1 -1 -1  1 -1 1] \"integer indices\" [0 1 2] \"float alpha\" 0.5\n",
+    )
+}
+
+/// * `shapes`: more of them, of rough glass.
+fn room_with(shapes: &str) -> Scene {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("scene.pbrt");
-    let text = "LookAt 0 -1.8 0  0 0 0  0 0 1\n\
+    let text = format!(
+        "LookAt 0 -1.8 0  0 0 0  0 0 1\n\
         Camera \"perspective\" \"float fov\" 60\n\
         Film \"rgb\" \"integer xresolution\" 17 \"integer yresolution\" 3\n\
         Integrator \"volpath\" \"integer maxdepth\" 40\nWorldBegin\n\
@@ -23,7 +39,8 @@ fn room() -> Scene {
         Material \"diffuse\" \"rgb reflectance\" [0.95 0.9 0.85]\n\
         Shape \"sphere\" \"float radius\" 2\n\
         Material \"dielectric\" \"float eta\" 1.5 \"float roughness\" 0.2\n\
-        Shape \"sphere\" \"float radius\" 0.6\n";
+        Shape \"sphere\" \"float radius\" 0.6\n{shapes}"
+    );
     std::fs::write(&file, text).unwrap();
     specula_scene::load(&file).unwrap().scene
 }
@@ -104,6 +121,25 @@ fn films_are_the_same_however_samples_are_cut() {
 }
 
 #[test]
+fn queues_take_paths_through_media_and_holes() {
+    let Some(gpu) = common::gpu("the tracer") else {
+        return;
+    };
+    let options = RenderOptions::from_scene(&room_of_coloured_glass());
+    let prepared = PreparedScene::new(&room_of_coloured_glass(), &options).unwrap();
+    let constant = |name| prepared.flatten().constant(name);
+    assert_eq!(
+        ["HAS_BOUNDARIES", "HAS_PASSABLE"].map(constant),
+        [Some(1); 2]
+    );
+    let film = |schedule| {
+        let mut render = Render::new(gpu, &prepared, &options, schedule, str::to_owned);
+        render.film(0, LARGEST_BATCH, &[16])
+    };
+    assert!(film(Schedule::Queues) == film(Schedule::Paths));
+}
+
+#[test]
 fn adaptive_films_are_the_same_however_samples_are_cut() {
     let Some(gpu) = common::gpu("the tracer") else {
         return;
@@ -136,15 +172,26 @@ fn faults_of_queues_show_in_films() {
     let right = film(Schedule::Paths, &str::to_owned);
     let text = include_str!("../../wgsl/queue.wgsl");
     for (from, to) in [
-        // A path that the next queue lacks.
+        // A path that is not followed.
         (
-            "path_step(slot, &state, path_sequence(slot), queue_slots[0])",
-            "path_step(slot, &state, path_sequence(slot), queue_slots[0]) && slot != 50u",
+            "return queue_slots[queue_entry(place)];",
+            "let slot = queue_slots[queue_entry(place)];
+            return select(slot, NONE, slot == 50u && queue_slots[0] > 0u);",
         ),
         // A path with the state of its neighbour.
         (
-            "var state = queue_states[slot];",
-            "var state = queue_states[slot ^ 1u];",
+            "var state = queue_state_to_shade(slot);",
+            "var state = queue_state_to_shade(slot ^ 1u);",
+        ),
+        // A path with the shadow ray of its neighbour.
+        (
+            "path_connect(&state, queue_state_shadow(slot),",
+            "path_connect(&state, queue_state_shadow(slot ^ 1u),",
+        ),
+        // A shadow ray that is lost where the path ends.
+        (
+            "if (state.flags & PATH_ENDS) != 0u && all(shadow.contribution == vec3f(0.0)) {",
+            "if (state.flags & PATH_ENDS) != 0u {",
         ),
     ] {
         assert!(text.contains(from), "{from}");
@@ -226,7 +273,7 @@ fn shaders_that_do_not_compile_are_errors() {
     let mut flat = prepared.flatten();
     let tree = Tree::new(&mut flat);
     let right = program::source(&flat, false).unwrap();
-    let wrong = right.replace("fn path_step(", "fn path_stop(");
+    let wrong = right.replace("fn path_shade(", "fn path_stop(");
     assert!(wrong != right);
     let tracer = |texts| {
         let how = (Schedule::Queues, None);
@@ -243,4 +290,26 @@ fn shaders_that_do_not_compile_are_errors() {
         assert_eq!(label, name, "{text}");
     }
     assert!(tracer([right.as_str(), program::SUMS]).is_ok());
+}
+
+#[test]
+fn states_have_the_size_that_shaders_give_them() {
+    for scene in [room(), room_of_coloured_glass()] {
+        let options = RenderOptions::from_scene(&scene);
+        let prepared = PreparedScene::new(&scene, &options).unwrap();
+        let mut flat = prepared.flatten();
+        let _tree = Tree::new(&mut flat);
+        let text = program::source(&flat, false).unwrap();
+        let module = wgpu::naga::front::wgsl::parse_str(&text).unwrap();
+        let mut constants = module.constants.iter().map(|(_, one)| one);
+        let fields = constants.find(|one| one.name.as_deref() == Some("QUEUE_FIELDS"));
+        let value = fields.map(|one| &module.global_expressions[one.init]);
+        let Some(wgpu::naga::Expression::Literal(wgpu::naga::Literal::U32(fields))) = value else {
+            panic!("{value:?}");
+        };
+        assert_eq!(
+            u64::from(*fields) * 16,
+            crate::path_kernels::state_size(&flat)
+        );
+    }
 }

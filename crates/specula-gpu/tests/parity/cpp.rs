@@ -1,5 +1,5 @@
 //! The same cases in C++: the modules and the bodies as `specula shaders --lang cpp` writes them, compiled by g++
-//! and run on the processor. No GPU is needed.
+//! and clang++ and run on the processor, for which no GPU is needed; and by nvcc for CUDA, where there is a GPU for it.
 #![allow(clippy::unwrap_used, reason = "a panic is a failed test")]
 
 use std::collections::BTreeSet;
@@ -48,6 +48,22 @@ const SANITISED: Setting = Setting {
     is_exact: true,
 };
 
+/// CUDA with the arithmetic of IEEE.
+const CUDA_EXACT: Setting = Setting {
+    flags: &["-O3", "-arch=native", "-fmad=false"],
+    is_exact: true,
+};
+/// As programs for CUDA are built: products and sums are fused.
+const CUDA: Setting = Setting {
+    flags: &["-O3", "-arch=native"],
+    is_exact: false,
+};
+/// As renderers are built: approximate quotients and functions, no denormal numbers.
+const CUDA_FAST: Setting = Setting {
+    flags: &["-O3", "-arch=native", "--use_fast_math"],
+    is_exact: false,
+};
+
 /// A family's name and its cases.
 type Family = (&'static str, fn() -> Vec<Case>);
 
@@ -63,14 +79,54 @@ const FAMILIES: [Family; 8] = [
     ("multibounce", multibounce::cases),
 ];
 
-/// Reads the tables and the inputs, calls each case for each of its inputs, and writes the results.
-const MAIN: &str = include_str!("cpp/main.cpp");
+/// Where a program runs.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Processor,
+    Cuda,
+}
+
+impl Side {
+    fn of(compiler: &Path) -> Self {
+        match compiler.ends_with("nvcc") {
+            true => Self::Cuda,
+            false => Self::Processor,
+        }
+    }
+
+    /// Reads the tables and the inputs, calls each case for each of its inputs, and writes the results.
+    fn main(self) -> &'static str {
+        match self {
+            Self::Processor => include_str!("cpp/main.cpp"),
+            Self::Cuda => include_str!("cpp/main.cu"),
+        }
+    }
+
+    /// Tells the library where its tables are.
+    fn bind(self) -> &'static str {
+        match self {
+            Self::Processor => "    specula::specula_tables = tables.data();\n",
+            Self::Cuda => {
+                "    const float* on_device = uploaded(tables, tables.size());
+    check(cudaMemcpyToSymbol(specula::specula_tables, &on_device, sizeof on_device), \"tables\");\n"
+            }
+        }
+    }
+
+    /// Name of a program's text.
+    fn file(self) -> &'static str {
+        match self {
+            Self::Processor => "parity.cpp",
+            Self::Cuda => "parity.cu",
+        }
+    }
+}
 
 /// Of the faults that are planted in shaders, one of so many is planted in C++.
 const FAULT_STEP: usize = 4;
 
 /// Cases as a program.
-fn source(cases: &[&Case], fault: Option<&Fault>) -> String {
+fn source(side: Side, cases: &[&Case], fault: Option<&Fault>) -> String {
     let modules: BTreeSet<&str> = cases.iter().flat_map(|c| c.modules).copied().collect();
     let mut wgsl = text(&modules.into_iter().collect::<Vec<_>>(), fault);
     let mut calls = String::new();
@@ -81,15 +137,17 @@ fn source(cases: &[&Case], fault: Option<&Fault>) -> String {
              {}\n}}\n",
             case.body
         );
-        calls += &format!("    evaluate(specula::parity_{name}, inputs, results);\n");
+        calls += &format!(
+            "    evaluate<specula::parity_{name}, {arguments}, {results}>(inputs, results);\n"
+        );
     }
     let library = specula_shaders::to_cpp(&wgsl).unwrap_or_else(|error| panic!("{error}\n{wgsl}"));
     let bind = if wgsl.contains("var<storage, read> specula_tables") {
-        "    specula::specula_tables = tables.data();\n"
+        side.bind()
     } else {
         ""
     };
-    let main = MAIN.replace("    // BIND\n", bind);
+    let main = side.main().replace("    // BIND\n", bind);
     library + &main.replace("    // CALLS\n", &calls)
 }
 
@@ -102,11 +160,13 @@ struct Program {
 impl Program {
     fn compile(compiler: &Path, flags: &[&str], cases: &[&Case], fault: Option<&Fault>) -> Self {
         let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join("parity.cpp"), source(cases, fault)).unwrap();
+        let side = Side::of(compiler);
+        let text = source(side, cases, fault);
+        std::fs::write(folder.path().join(side.file()), text).unwrap();
         std::fs::write(folder.path().join("tables"), specula_shaders::tables()).unwrap();
         let output = Command::new(compiler)
             .current_dir(folder.path())
-            .args(["-std=c++17", "parity.cpp", "-o", "parity"])
+            .args(["-std=c++17", side.file(), "-o", "parity"])
             .args(flags)
             .output()
             .unwrap();
@@ -186,6 +246,33 @@ fn prove(setting: &Setting) {
     }
 }
 
+/// CUDA's compiler, or a line that says what was skipped.
+#[track_caller]
+fn cuda_compiler(what: &str) -> Option<PathBuf> {
+    let answers = |program: &Path, argument| {
+        let output = Command::new(program).arg(argument).output();
+        output.is_ok_and(|output| output.status.success())
+    };
+    if !answers(Path::new("nvidia-smi"), "-L") {
+        specula_testing::not_of_this_machine(what, "no GPU for CUDA");
+        return None;
+    }
+    let places = ["nvcc", "/usr/local/cuda/bin/nvcc"].map(PathBuf::from);
+    let found = places.into_iter().find(|place| answers(place, "--version"));
+    if found.is_none() {
+        specula_testing::skip(what, "nvcc is not installed", "NVIDIA's CUDA toolkit");
+    }
+    found
+}
+
+/// Proves all cases on a GPU by CUDA.
+fn prove_by_cuda(setting: &Setting) {
+    let what = format!("CUDA with {}", setting.flags.join(" "));
+    if let Some(compiler) = cuda_compiler(&what) {
+        prove_by(&compiler, setting, &what);
+    }
+}
+
 fn prove_by(compiler: &Path, setting: &Setting, what: &str) {
     let mut failures = Vec::new();
     for (family, cases) in FAMILIES {
@@ -233,6 +320,21 @@ fn fused_arithmetic_agrees() {
 #[test]
 fn nothing_is_undefined() {
     prove(&SANITISED);
+}
+
+#[test]
+fn cuda_of_ieee_agrees() {
+    prove_by_cuda(&CUDA_EXACT);
+}
+
+#[test]
+fn cuda_agrees() {
+    prove_by_cuda(&CUDA);
+}
+
+#[test]
+fn fast_cuda_agrees() {
+    prove_by_cuda(&CUDA_FAST);
 }
 
 #[test]

@@ -3,8 +3,8 @@
 #include <vector>
 
 /// Calls a function for each row of arguments.
-template <std::size_t N, std::size_t M>
-static void evaluate(void (*function)(const float (&)[N], float (&)[M]), FILE* inputs, FILE* results) {
+template <auto Function, std::size_t N, std::size_t M>
+static void evaluate(FILE* inputs, FILE* results) {
     uint32_t count = 0;
     if (std::fread(&count, sizeof count, 1, inputs) != 1) {
         std::perror("inputs");
@@ -15,7 +15,7 @@ static void evaluate(void (*function)(const float (&)[N], float (&)[M]), FILE* i
         if (std::fread(x, sizeof x, 1, inputs) != 1) {
             std::perror("inputs");
         }
-        function(x, y);
+        Function(x, y);
         std::fwrite(y, sizeof y, 1, results);
     }
 }
