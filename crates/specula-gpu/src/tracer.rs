@@ -26,7 +26,7 @@ const FIRST_BATCH: usize = 1 << 12;
 /// The same on a real GPU, which smaller ones leave idle.
 const FIRST_BATCH_OF_REAL_GPUS: usize = 1 << 17;
 /// Most samples of a batch.
-const LARGEST_BATCH: usize = 1 << 21;
+const LARGEST_BATCH: usize = 1 << 22;
 
 /// How a device renders. The samples are the same, but for rays at edges and rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
