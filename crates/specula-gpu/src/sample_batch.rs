@@ -1,5 +1,6 @@
 //! A batch: runs of samples that a device takes at once, and their sums.
 
+use bytemuck::Zeroable as _;
 use specula_render::{Run, RunSums};
 use wgpu::BufferUsages as Usages;
 
@@ -46,17 +47,24 @@ pub(crate) struct Submission {
 }
 
 impl Submission {
-    /// Waits for the sums of the runs; also returns the buffer that they were read from.
+    /// Waits for the sums of the runs; returns the buffer that they were read from.
     ///
     /// Call [`SampleBatch::complete`] before.
-    pub(crate) fn fetch(self, gpu: &Gpu) -> Result<(Vec<RunSums>, wgpu::Buffer), GpuError> {
+    pub(crate) fn fetch(
+        self,
+        gpu: &Gpu,
+        sums: &mut Vec<RunSums>,
+    ) -> Result<wgpu::Buffer, GpuError> {
         let State::Whole(index) = self.state else {
             let text = "paths have not been taken to their ends";
             return Err(GpuError::Refused(text.to_owned()));
         };
         let size = (self.runs * size_of::<RunSums>()) as u64;
-        let sums = gpu.fetched(&self.staging, size, index, bytemuck::pod_collect_to_vec)?;
-        Ok((sums, self.staging))
+        gpu.fetched(&self.staging, size, index, |bytes| {
+            sums.resize(self.runs, RunSums::zeroed());
+            bytemuck::cast_slice_mut(sums).copy_from_slice(bytes);
+        })?;
+        Ok(self.staging)
     }
 }
 

@@ -5,8 +5,8 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use specula_render::{
-    FlatScene, PassReport, PreparedScene, RenderOptions, Renderer, Run, RunSums, SampleDevice,
-    Wanted,
+    FlatScene, Most, PassReport, PreparedScene, RenderOptions, Renderer, Run, RunSums,
+    SampleDevice, Wanted,
 };
 
 use crate::adapter::{AdapterKind, Gpu, GpuError};
@@ -27,6 +27,8 @@ const FIRST_BATCH: usize = 1 << 12;
 const FIRST_BATCH_OF_REAL_GPUS: usize = 1 << 17;
 /// Most samples of a batch.
 const LARGEST_BATCH: usize = 1 << 22;
+/// Most runs of a batch: their sums are what comes back.
+const MOST_RUNS: usize = 1 << 17;
 
 /// How a device renders. The samples are the same, but for rays at edges and rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,6 +57,10 @@ pub struct Tracer<'a> {
     /// Samples of the next batch.
     samples: usize,
     largest: usize,
+    /// Samples and runs that arrays are made for at first.
+    expected: [usize; 2],
+    /// Of the batch that was fetched last.
+    sums: Vec<RunSums>,
 }
 
 /// What was begun of a pass.
@@ -112,8 +118,16 @@ impl<'a> Tracer<'a> {
         let structures = Structures::chosen(on_gpu.rays, gpu, scene)?;
         let text = program::source(&flat, structures.is_some())?;
         let texts = [text.as_str(), program::SUMS];
-        let scene = (&flat, &tree);
-        Self::of_texts(gpu, scene, options, (on_gpu.schedule, structures), texts)
+        let parts = (&flat, &tree);
+        let how = (on_gpu.schedule, structures);
+        let mut tracer = Self::of_texts(gpu, parts, options, how, texts)?;
+        if gpu.adapter.kind != AdapterKind::Software {
+            // Arrays that grow with the batches cost more than small batches on a real GPU.
+            let [width, height] = scene.resolution().map(|side| side as usize);
+            let samples = (width * height).saturating_mul(options.samples_per_pixel as usize);
+            tracer.expected = [samples.min(tracer.largest), samples.min(MOST_RUNS)];
+        }
+        Ok(tracer)
     }
 
     /// * `structures`: of ray queries; `None`: rays are traversed by the shader.
@@ -162,6 +176,8 @@ impl<'a> Tracer<'a> {
             finished: None,
             samples: first.min(largest),
             largest,
+            expected: [0; 2],
+            sums: Vec::new(),
         })
     }
 
@@ -196,7 +212,7 @@ impl<'a> Tracer<'a> {
             let (now, later) = rest.split_at(most);
             let start = Instant::now();
             match self.take_batch(now, longest) {
-                Ok(of_batch) => sums.extend(of_batch),
+                Ok(()) => sums.extend_from_slice(&self.sums),
                 Err(GpuError::OutOfMemory(_)) if self.shrinks(now.len() * longest as usize) => {
                     continue;
                 }
@@ -224,10 +240,10 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// The sums of runs.
+    /// Takes a batch; its sums are in [`sums`](Self::sums) then.
     ///
-    /// * `longest`: samples of the longest one.
-    fn take_batch(&mut self, runs: &[Run], longest: u32) -> Result<Vec<RunSums>, GpuError> {
+    /// * `longest`: samples of the longest run.
+    fn take_batch(&mut self, runs: &[Run], longest: u32) -> Result<(), GpuError> {
         let submission = self.submit(runs, longest)?;
         self.fetch(submission)
     }
@@ -240,7 +256,9 @@ impl<'a> Tracer<'a> {
             smaller => {
                 // Freed before more memory is requested.
                 drop(smaller);
-                let capacity = needed.map(|n| n.next_power_of_two().min(self.largest).max(n));
+                let grown = needed.map(|n| n.next_power_of_two().min(self.largest).max(n));
+                let [samples, runs] = self.expected;
+                let capacity = [grown[0].max(samples.min(self.largest)), grown[1].max(runs)];
                 SampleBatch::new(self.gpu, &self.kernels, &self.scene, capacity)?
             }
         };
@@ -249,24 +267,27 @@ impl<'a> Tracer<'a> {
         Ok(submission)
     }
 
-    /// Waits for the sums of a batch.
-    fn fetch(&mut self, mut submission: Submission) -> Result<Vec<RunSums>, GpuError> {
+    /// Waits for the sums of a batch; they are in [`sums`](Self::sums) then.
+    fn fetch(&mut self, mut submission: Submission) -> Result<(), GpuError> {
         if let Some(batch) = &self.batch {
             batch.complete(self.gpu, &self.kernels, &mut submission)?;
         }
-        let (sums, staging) = submission.fetch(self.gpu)?;
+        let staging = submission.fetch(self.gpu, &mut self.sums)?;
         if let Some(batch) = &mut self.batch {
             batch.reuse(staging);
         }
-        Ok(sums)
+        Ok(())
     }
 }
 
 impl SampleDevice for Tracer<'_> {
     type Error = GpuError;
 
-    fn most(&self) -> usize {
-        self.samples
+    fn most(&self) -> Most {
+        Most {
+            samples: self.samples,
+            runs: MOST_RUNS,
+        }
     }
 
     fn begin(&mut self, wanted: &[Wanted]) -> Result<(), GpuError> {
@@ -298,19 +319,19 @@ impl SampleDevice for Tracer<'_> {
         Ok(())
     }
 
-    fn finish(&mut self) -> Result<Vec<RunSums>, GpuError> {
+    fn finish(&mut self) -> Result<&[RunSums], GpuError> {
         match self.begun.pop_front() {
             Some(Begun::Submitted(submission, samples, start)) => {
-                let sums = self.fetch(submission)?;
+                self.fetch(submission)?;
                 // While batches overlap, what one takes is the time between two that are finished.
                 let begin = self.finished.map_or(start, |last| last.max(start));
                 self.adjust(samples, begin.elapsed());
                 self.finished = Some(Instant::now());
-                Ok(sums)
             }
-            Some(Begun::Done(sums)) => Ok(sums),
-            None => Ok(Vec::new()),
+            Some(Begun::Done(sums)) => self.sums = sums,
+            None => self.sums.clear(),
         }
+        Ok(&self.sums)
     }
 }
 

@@ -18,8 +18,8 @@ pub trait SampleDevice {
     /// How it fails.
     type Error;
 
-    /// Samples that it is asked for at once, a tile at least.
-    fn most(&self) -> usize;
+    /// What it is asked for at once, a tile at least.
+    fn most(&self) -> Most;
 
     /// Begins to take samples; need not wait for them.
     ///
@@ -31,7 +31,16 @@ pub trait SampleDevice {
     ///
     /// # Errors
     /// Those of the device.
-    fn finish(&mut self) -> Result<Vec<RunSums>, Self::Error>;
+    fn finish(&mut self) -> Result<&[RunSums], Self::Error>;
+}
+
+/// Bounds of what a device is asked for at once.
+#[derive(Clone, Copy, Debug)]
+pub struct Most {
+    /// Samples.
+    pub samples: usize,
+    /// Runs, each of which has sums.
+    pub runs: usize,
 }
 
 /// Samples that are wanted of every pixel of a tile.
@@ -132,9 +141,13 @@ impl Renderer<'_> {
             let Some(wanted) = begun.pop_front() else {
                 break;
             };
-            done = done.and(self.add(&wanted, &device.finish()?));
+            done = done.and(self.add(&wanted, device.finish()?));
         }
-        let complete = self.wanted(&goals, 1, next).is_empty();
+        let one = Most {
+            samples: 1,
+            runs: 1,
+        };
+        let complete = self.wanted(&goals, one, next).is_empty();
         self.plan();
         Ok(self.report(done, None, complete))
     }
@@ -143,9 +156,9 @@ impl Renderer<'_> {
     ///
     /// * `goals`: samples that they are to have.
     /// * `begin`: tiles before this one have been asked for.
-    fn wanted(&self, goals: &[u32], most: usize, begin: usize) -> Vec<Wanted> {
+    fn wanted(&self, goals: &[u32], most: Most, begin: usize) -> Vec<Wanted> {
         let mut wanted: Vec<Wanted> = Vec::new();
-        let mut samples = 0;
+        let (mut samples, mut runs) = (0, 0);
         let first = self.options.first_sample;
         let tiles = self.film.tiles.iter().zip(goals).enumerate().skip(begin);
         for (place, (tile, goal)) in tiles {
@@ -159,7 +172,8 @@ impl Renderer<'_> {
                 counts: [tile.count(), *goal],
             };
             samples += one.len();
-            if samples > most && !wanted.is_empty() {
+            runs += one.run_count();
+            if (samples > most.samples || runs > most.runs) && !wanted.is_empty() {
                 break;
             }
             wanted.push(one);

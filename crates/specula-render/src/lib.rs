@@ -40,7 +40,7 @@ pub mod estimator {
     pub use crate::offset::RELATIVE_ERROR;
 }
 
-pub use device::{Run, SampleDevice, Wanted};
+pub use device::{Most, Run, SampleDevice, Wanted};
 pub use film::{
     FilmBuffer, FilmFile, FilmFileError, Label, MOST_SAMPLES, MergeError, NoiseEstimate,
     NoiseOutlook, NoiseTrend, RunSums, ScatterCounts,

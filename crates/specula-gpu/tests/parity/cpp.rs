@@ -274,27 +274,46 @@ fn prove_by_cuda(setting: &Setting) {
 }
 
 fn prove_by(compiler: &Path, setting: &Setting, what: &str) {
-    let mut failures = Vec::new();
-    for (family, cases) in FAMILIES {
-        let start = Instant::now();
-        let outcomes = outcomes(compiler, setting, &cases(), None);
-        let [compiled, run]: [Duration; 2] = outcomes[0].time;
-        let worst = outcomes
-            .iter()
-            .map(|o| o.shader / o.bound)
-            .fold(0.0, f64::max);
-        println!(
-            "{what}: {family}: {} cases, errors up to {worst:.2} of their bounds, \
-             compiled in {:.1} s, run in {:.1} s, all in {:.1} s",
-            outcomes.len(),
-            compiled.as_secs_f64(),
-            run.as_secs_f64(),
-            start.elapsed().as_secs_f64()
-        );
-        let failed = outcomes.iter().filter(|o| !o.is_pass(setting.is_exact));
-        failures.extend(failed.map(|o| format!("{family}: {}", o.failure())));
-    }
+    let one = |family: &Family| failures(compiler, setting, family, what);
+    // nvcc takes most of a minute for the largest family.
+    let failures: Vec<String> = match Side::of(compiler) {
+        Side::Processor => FAMILIES.iter().flat_map(one).collect(),
+        Side::Cuda => std::thread::scope(|scope| {
+            let begun = FAMILIES
+                .each_ref()
+                .map(|family| scope.spawn(move || one(family)));
+            begun.into_iter().flat_map(|t| t.join().unwrap()).collect()
+        }),
+    };
     assert!(failures.is_empty(), "{what}:\n{}", failures.join("\n"));
+}
+
+/// What fails of a family of cases.
+fn failures(
+    compiler: &Path,
+    setting: &Setting,
+    (family, cases): &Family,
+    what: &str,
+) -> Vec<String> {
+    let start = Instant::now();
+    let outcomes = outcomes(compiler, setting, &cases(), None);
+    let [compiled, run]: [Duration; 2] = outcomes[0].time;
+    let worst = outcomes
+        .iter()
+        .map(|o| o.shader / o.bound)
+        .fold(0.0, f64::max);
+    println!(
+        "{what}: {family}: {} cases, errors up to {worst:.2} of their bounds, \
+         compiled in {:.1} s, run in {:.1} s, all in {:.1} s",
+        outcomes.len(),
+        compiled.as_secs_f64(),
+        run.as_secs_f64(),
+        start.elapsed().as_secs_f64()
+    );
+    let failed = outcomes.iter().filter(|o| !o.is_pass(setting.is_exact));
+    failed
+        .map(|o| format!("{family}: {}", o.failure()))
+        .collect()
 }
 
 #[test]

@@ -121,28 +121,33 @@ struct Cui2023Subpath {
 
 /// A walk from one end.
 ///
+/// * `path`: zero; filled in place, since nvcc 13.0 compiles a returned one wrongly.
+///
 /// Twin: specula-bsdf/src/multibounce/cui2023.rs, Subpath::sample.
-fn cui2023_subpath(facets: WalkFacets, start: WalkFlight, stream: ptr<function, StreamState>) -> Cui2023Subpath {
-    var path: Cui2023Subpath;
-    path.flights[0] = start;
-    path.weights[0] = vec3f(1.0);
-    path.count = 1u;
-    while path.count < CUI2023_SUBPATH {
-        let count = path.count;
-        var weight = path.weights[count - 1u];
+fn cui2023_subpath(
+    path: ptr<function, Cui2023Subpath>,
+    facets: WalkFacets,
+    start: WalkFlight,
+    stream: ptr<function, StreamState>,
+) {
+    (*path).flights[0] = start;
+    (*path).weights[0] = vec3f(1.0);
+    (*path).count = 1u;
+    while (*path).count < CUI2023_SUBPATH {
+        let count = (*path).count;
+        var weight = (*path).weights[count - 1u];
         if count > CUI2023_SURE {
             if stream_next(stream) >= CUI2023_GOES_ON {
                 break;
             }
             weight *= 1.0 / CUI2023_GOES_ON;
         }
-        let met = walk_bounce(facets, path.flights[count - 1u].d, walk_pair(stream));
-        path.flights[count] = met.next;
-        path.weights[count] = weight * met.fresnel;
-        path.quarter_d[count] = 0.25 * normals_d(facets.normals, met.wm);
-        path.count = count + 1u;
+        let met = walk_bounce(facets, (*path).flights[count - 1u].d, walk_pair(stream));
+        (*path).flights[count] = met.next;
+        (*path).weights[count] = weight * met.fresnel;
+        (*path).quarter_d[count] = 0.25 * normals_d(facets.normals, met.wm);
+        (*path).count = count + 1u;
     }
-    return path;
 }
 
 /// An estimate of `f cos` from both ends; both directions above the horizon.
@@ -159,8 +164,10 @@ fn cui2023_eval_bidirectional(
 ) -> vec3f {
     let arriving = walk_arriving(facets, wo);
     let leaving = walk_flight(facets.normals, wi);
-    var eye = cui2023_subpath(facets, arriving, stream);
-    var light = cui2023_subpath(facets, walk_reversed(leaving), stream);
+    var eye: Cui2023Subpath;
+    var light: Cui2023Subpath;
+    cui2023_subpath(&eye, facets, arriving, stream);
+    cui2023_subpath(&light, facets, walk_reversed(leaving), stream);
     var sum = walk_single(facets, arriving, leaving);
     for (var s = 0u; s < eye.count; s++) {
         for (var t = select(0u, 1u, s == 0u); t < light.count; t++) {

@@ -4,6 +4,8 @@ use std::time::Duration;
 
 /// Longest pass that is aimed at: between passes the progress is shown and the clock is read.
 const LONGEST_PASS: Duration = Duration::from_millis(1500);
+/// Passes below this make the next one three times as large as all before, others as large: each costs something.
+const SHORT_PASS: Duration = Duration::from_millis(100);
 /// Where a render by time ends in any case.
 const MOST_SAMPLES: u32 = 1 << 24;
 
@@ -43,8 +45,9 @@ impl Goal {
         last: Option<(u32, Duration)>,
         elapsed: Duration,
     ) -> Option<u32> {
-        // 1, 1, 2, 4, ...: what there is doubles, until a pass is long enough.
-        let mut samples = done.max(1);
+        // 1, 3, 12, 48, ..., then 48, 96, ..., until a pass is long enough.
+        let is_short = last.is_some_and(|(_, duration)| duration < SHORT_PASS);
+        let mut samples = done.saturating_mul(if is_short { 3 } else { 1 }).max(1);
         let rest = self.time.map(|limit| limit.saturating_sub(elapsed));
         if done > 0 && rest.is_some_and(|rest| rest.is_zero()) {
             return None;
@@ -92,14 +95,20 @@ mod tests {
     const FAST: Duration = Duration::from_micros(1);
 
     #[test]
-    fn passes_double_and_end_at_the_asked_samples() {
+    fn passes_grow_and_end_at_the_asked_samples() {
         let (mut done, mut last, mut passes) = (0, None, Vec::new());
         while let Some(n) = Goal::samples(21).next_pass(done, last, FAST) {
             passes.push(n);
             done += n;
             last = Some((n, FAST));
         }
-        assert_eq!(passes, [1, 1, 2, 4, 8, 5]);
+        assert_eq!(passes, [1, 3, 12, 5]);
+    }
+
+    #[test]
+    fn passes_that_take_a_while_double() {
+        let last = Some((12, Duration::from_millis(200)));
+        assert_eq!(Goal::samples(100).next_pass(16, last, FAST), Some(16));
     }
 
     #[test]

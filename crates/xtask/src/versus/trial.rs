@@ -6,14 +6,18 @@ use specula_bsdf::Rgb;
 
 use super::plan::Plan;
 use super::reference::colours;
-use super::renderers::Engine;
+use super::renderers::{Engine, Timing};
 use super::statistics::Errors;
 use crate::Result;
 
 /// Seed of these renders, and of the one with four times the samples.
 pub(crate) const SEED: u32 = 500;
-/// Samples of the render that tells the speed; one goes before it, to warm up.
+/// Samples of the first render that tells the speed; one goes before it, to warm up.
 const FIRST_SPP: u32 = 4;
+/// Share of the time that a render should take from which on its speed counts.
+const LONG_ENOUGH: f64 = 0.25;
+/// Most samples of a render that tells the speed.
+const MOST_SPP: u32 = 1 << 12;
 
 /// With what a renderer goes into the rounds.
 pub(crate) struct Choice {
@@ -40,8 +44,10 @@ pub(crate) fn choose(
     let start = samplers[0];
     let cold = engine.render(start, 1, SEED, &file)?.wall;
     let warm = engine.render(start, FIRST_SPP, SEED, &file)?;
-    let each = |seconds: f64| seconds / f64::from(warm.spp.max(1));
-    let wanted = wanted.unwrap_or_else(|| plan.samples(each(plan.seconds_of(warm))));
+    let wanted = match wanted {
+        Some(wanted) => wanted,
+        None => plan.samples(seconds_of_a_sample(plan, engine, (start, warm), &file)?),
+    };
     let (sampler, spp, picture) = match samplers {
         [only] => {
             let spp = engine.render(only, wanted, SEED, &file)?.spp;
@@ -52,10 +58,34 @@ pub(crate) fn choose(
     Ok(Choice {
         sampler,
         spp,
-        warm_up: (cold - each(warm.wall)).max(0.0),
+        warm_up: (cold - warm.wall / f64::from(warm.spp.max(1))).max(0.0),
         wanted,
         picture,
     })
+}
+
+/// Seconds that one more sample takes in long renders: a part of a render's time does not depend on its samples, on a
+/// GPU the greater part of a short one.
+///
+/// * `warm`: a render of few samples.
+fn seconds_of_a_sample(
+    plan: &Plan,
+    engine: &mut dyn Engine,
+    (sampler, warm): (&'static str, Timing),
+    file: &Path,
+) -> Result<f64> {
+    let (mut few, mut many) = (None, warm);
+    while plan.seconds_of(many) < LONG_ENOUGH * plan.seconds && many.spp < MOST_SPP {
+        let more = engine.render(sampler, 4 * many.spp.max(1), SEED, file)?;
+        few = Some(std::mem::replace(&mut many, more));
+    }
+    let seconds = plan.seconds_of(many);
+    let average = seconds / f64::from(many.spp.max(1));
+    let slope = few.map(|few| {
+        (seconds - plan.seconds_of(few)) / f64::from(many.spp.saturating_sub(few.spp).max(1))
+    });
+    // Noise can make the longer render the quicker one.
+    Ok(slope.filter(|slope| *slope > 0.0).unwrap_or(average))
 }
 
 /// The sampler of least seconds times squared error, found from two renders with each, of which the
@@ -89,4 +119,46 @@ fn best_sampler(
     }
     let (_, sampler, spp, picture) = best;
     Ok((sampler, spp, picture))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Clock;
+    use super::*;
+
+    /// Seconds of a render but for its samples, and of a sample.
+    struct Steady(f64, f64);
+
+    impl Engine for Steady {
+        fn render(&mut self, _: &str, spp: u32, _: u32, _: &Path) -> Result<Timing> {
+            let wall = self.0 + self.1 * f64::from(spp);
+            Ok(Timing {
+                wall,
+                cpu: wall,
+                spp,
+            })
+        }
+
+        fn version(&self) -> String {
+            String::new()
+        }
+    }
+
+    #[test]
+    fn what_every_render_costs_is_not_counted_as_samples() {
+        let plan = Plan {
+            rounds: 2,
+            seconds: 2.0,
+            reference: 8,
+            threads: 1,
+            clock: Clock::Wall,
+        };
+        for (fixed, each) in [(0.0, 0.1), (0.4, 1e-3), (0.01, 3e-4), (0.0, 10.0)] {
+            let mut engine = Steady(fixed, each);
+            let file = Path::new("none");
+            let warm = engine.render("", FIRST_SPP, SEED, file).unwrap();
+            let found = seconds_of_a_sample(&plan, &mut engine, ("", warm), file).unwrap();
+            assert!((found / each - 1.0).abs() < 1e-6, "{fixed} {each}: {found}");
+        }
+    }
 }
