@@ -35,7 +35,7 @@ pub(crate) enum PathKernels {
     /// One for a whole path.
     Paths(Stage),
     /// One for each part of a path.
-    Queues(Queues),
+    Queues(Box<Queues>),
 }
 
 /// The kernels of paths in queues.
@@ -99,7 +99,7 @@ impl PathKernels {
             });
             Stage::new(gpu, &layout(gpu, slots)?, &between, entry, None)
         };
-        Ok(Self::Queues(Queues {
+        Ok(Self::Queues(Box::new(Queues {
             begin: Stage::new(gpu, &arrays, shader, "queue_begin", None)?,
             trace: Stage::new(gpu, &arrays, shader, "queue_trace", structures)?,
             shade: Stage::new(gpu, &arrays, shader, "queue_shade", None)?,
@@ -108,7 +108,7 @@ impl PathKernels {
             advance: stage("queue_advance_main", 2)?,
             most: max_depth.saturating_add(1),
             state_size,
-        }))
+        })))
     }
 
     /// Bytes of a sample in the largest array.
@@ -144,7 +144,7 @@ impl PathKernels {
                     slots,
                     workgroups,
                 };
-                BoundKernels::Queues(Box::new(queues.clone()), arrays)
+                BoundKernels::Queues(queues.clone(), arrays)
             }
         }
     }

@@ -15,7 +15,7 @@ use crate::names::nearest;
 /// # Errors
 ///
 /// A name that no module has.
-pub fn ordered(wanted: &[&str]) -> Result<Vec<Module>, ComposeError> {
+pub fn ordered(wanted: &[&str]) -> Result<Vec<Module<'static>>, ComposeError> {
     order(MODULES, wanted)
 }
 
@@ -29,7 +29,10 @@ pub fn compose(wanted: &[&str]) -> Result<String, ComposeError> {
     Ok(parts.join("\n"))
 }
 
-fn order(modules: &[Module], wanted: &[&str]) -> Result<Vec<Module>, ComposeError> {
+fn order(
+    modules: &[Module<'static>],
+    wanted: &[&str],
+) -> Result<Vec<Module<'static>>, ComposeError> {
     let mut visit = Visit {
         modules,
         done: Vec::new(),
@@ -54,15 +57,15 @@ fn order(modules: &[Module], wanted: &[&str]) -> Result<Vec<Module>, ComposeErro
 
 /// A depth-first walk along imports.
 struct Visit<'a> {
-    modules: &'a [Module],
+    modules: &'a [Module<'static>],
     /// Modules whose imports are in front of them.
-    done: Vec<Module>,
+    done: Vec<Module<'static>>,
     /// The modules that led here.
     open: Vec<&'static str>,
 }
 
 impl Visit<'_> {
-    fn module(&mut self, module: &Module) -> Result<(), ComposeError> {
+    fn module(&mut self, module: &Module<'static>) -> Result<(), ComposeError> {
         if self.done.contains(module) {
             return Ok(());
         }
@@ -94,7 +97,7 @@ impl Visit<'_> {
 mod tests {
     use super::*;
 
-    const CHAIN: [Module; 4] = [
+    const CHAIN: [Module<'static>; 4] = [
         module("vndf/bounded", "import package::vndf::cap::cap_f;\n"),
         module(
             "vndf/cap",
@@ -104,11 +107,11 @@ mod tests {
         module("alpha", "\n"),
     ];
 
-    const fn module(path: &'static str, text: &'static str) -> Module {
+    const fn module(path: &'static str, text: &'static str) -> Module<'static> {
         Module { path, text }
     }
 
-    fn paths(modules: &[Module], wanted: &[&str]) -> Vec<&'static str> {
+    fn paths(modules: &[Module<'static>], wanted: &[&str]) -> Vec<&'static str> {
         let ordered = order(modules, wanted).unwrap();
         ordered.iter().map(|m| m.path).collect()
     }

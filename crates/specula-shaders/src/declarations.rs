@@ -94,7 +94,7 @@ pub fn fields(text: &str) -> Vec<Field<'_>> {
 }
 
 /// The kind and the name of what begins on this line.
-fn declared(line: &str) -> Option<(DeclarationKind, &str)> {
+pub(crate) fn declared(line: &str) -> Option<(DeclarationKind, &str)> {
     let declaration = without_attributes(line);
     let (keyword, rest) = declaration.split_at_checked(declaration.find([' ', '<'])?)?;
     let kind = match keyword {

@@ -11,7 +11,7 @@ use crate::items::{Item, ItemKind, identifiers, items};
 use crate::modules::Module;
 
 /// The text with the comments of the modules that it was made of.
-pub(crate) fn documented(text: &str, modules: &[Module]) -> String {
+pub(crate) fn documented(text: &str, modules: &[Module<'_>]) -> String {
     let comments = Comments::of(modules);
     let mut said = BTreeSet::new();
     let mut result = String::with_capacity(2 * text.len());
@@ -32,11 +32,11 @@ struct Comments<'a> {
     /// Of `Structure.field`.
     fields: BTreeMap<(&'a str, &'a str), Vec<&'a str>>,
     /// The module of a function.
-    homes: BTreeMap<&'a str, &'a Module>,
+    homes: BTreeMap<&'a str, &'a Module<'a>>,
 }
 
 impl<'a> Comments<'a> {
-    fn of(modules: &'a [Module]) -> Self {
+    fn of(modules: &'a [Module<'a>]) -> Self {
         let mut comments = Self {
             docs: BTreeMap::new(),
             fields: BTreeMap::new(),
@@ -85,7 +85,7 @@ impl<'a> Comments<'a> {
 }
 
 /// What a file says of itself, below a line with its path.
-fn head(module: &Module) -> String {
+fn head(module: &Module<'_>) -> String {
     let lines = module.text.lines().take_while(|l| l.starts_with("//"));
     let head: String = lines.map(|l| format!("{l}\n")).collect();
     format!("// {} {}\n{head}\n", "-".repeat(60), module.path)

@@ -14,6 +14,14 @@ pub enum ComposeError {
         /// Names of modules that are spelt nearly so.
         nearest: Vec<&'static str>,
     },
+    /// A function was asked for that there is none of.
+    #[error("there is no function `{name}`{}", did_you_mean(nearest))]
+    UnknownFunction {
+        /// What was asked for.
+        name: String,
+        /// Names of functions that are spelt nearly so.
+        nearest: Vec<String>,
+    },
     /// A module imports from one that there is none of.
     #[error("module `{module}` imports from `{path}`, which does not exist")]
     UnknownImport {
@@ -37,7 +45,7 @@ pub enum ComposeError {
     },
 }
 
-fn did_you_mean(nearest: &[&str]) -> String {
+fn did_you_mean(nearest: &[impl std::fmt::Display]) -> String {
     if nearest.is_empty() {
         return String::new();
     }

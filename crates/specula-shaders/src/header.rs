@@ -8,11 +8,9 @@ use crate::papers::references;
 pub(crate) const TABLE_MODULE: &str = "energy/energy_table";
 
 /// The comment: what the file is, its version and licence, how to use it, its modules, their papers.
-pub(crate) fn header(language: Language, wanted: &[&str], modules: &[Module]) -> String {
-    let asked = match wanted {
-        [] => String::new(),
-        names => format!(" --modules {}", names.join(",")),
-    };
+///
+/// * `asked`: the options that chose what is in it.
+pub(crate) fn header(language: Language, asked: &str, modules: &[Module<'_>]) -> String {
     let mut lines = vec![
         format!(
             "Specula {}: microfacet functions in {}.",
@@ -22,7 +20,7 @@ pub(crate) fn header(language: Language, wanted: &[&str], modules: &[Module]) ->
         "Copyright (c) 2026 The Specula authors".to_owned(),
         "SPDX-License-Identifier: MIT OR Apache-2.0".to_owned(),
         String::new(),
-        format!("Written by `specula shaders --lang {language}{asked}`."),
+        format!("Written by `specula export --lang {language}{asked}`."),
     ];
     lines.extend(origin(language).iter().map(|&l| l.to_owned()));
     lines.push(String::new());

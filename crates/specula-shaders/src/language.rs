@@ -98,6 +98,11 @@ impl FromStr for Language {
     type Err = String;
 
     fn from_str(name: &str) -> Result<Self, String> {
+        // One header serves the three.
+        let name = match name {
+            "cuda" | "hip" | "c++" => Self::Cpp.name(),
+            other => other,
+        };
         let found = Self::ALL.into_iter().find(|l| l.name() == name);
         found.ok_or_else(|| {
             let names = Self::ALL.map(Self::name);
@@ -119,6 +124,7 @@ mod tests {
         for language in Language::ALL {
             assert_eq!(language.name().parse(), Ok(language));
         }
+        assert_eq!("cuda".parse(), Ok(Language::Cpp));
         assert_eq!(
             "hlsls".parse::<Language>().unwrap_err(),
             "there is no shading language `hlsls`; did you mean `hlsl`?"

@@ -4,15 +4,15 @@ use crate::error::ComposeError;
 
 /// A file of `wgsl/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Module {
+pub struct Module<'a> {
     /// Where it is in `wgsl/`, without its extension: `vndf/bounded`.
-    pub path: &'static str,
+    pub path: &'a str,
     /// The file.
-    pub text: &'static str,
+    pub text: &'a str,
 }
 
 /// All modules, by folder: one for each file of `wgsl/`, listed by `build.rs`.
-pub const MODULES: &[Module] = include!(concat!(env!("OUT_DIR"), "/modules.rs"));
+pub const MODULES: &[Module<'static>] = include!(concat!(env!("OUT_DIR"), "/modules.rs"));
 
 /// Names that a module takes from another one.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,16 +23,16 @@ pub struct Import {
     pub names: Vec<String>,
 }
 
-impl Module {
+impl<'a> Module<'a> {
     /// The file's stem, by which users ask for it: `bounded`.
     #[must_use]
-    pub fn name(&self) -> &'static str {
+    pub fn name(&self) -> &'a str {
         self.path.rsplit('/').next().unwrap_or(self.path)
     }
 
     /// The folder within `wgsl/`: `vndf`, `bsdf/layered`, or nothing.
     #[must_use]
-    pub fn folder(&self) -> &'static str {
+    pub fn folder(&self) -> &'a str {
         self.path.rsplit_once('/').map_or("", |(folder, _)| folder)
     }
 
@@ -91,7 +91,7 @@ impl Module {
     }
 
     /// Lines with what they are part of.
-    fn lines(&self) -> impl Iterator<Item = (&'static str, Part)> {
+    fn lines(&self) -> impl Iterator<Item = (&'a str, Part)> + use<'a> {
         let mut inside = false;
         self.text.lines().map(move |line| {
             let import = inside || line.starts_with("import ");
@@ -151,7 +151,7 @@ fn sentence_end(text: &str) -> Option<usize> {
 mod tests {
     use super::*;
 
-    const SAMPLE: Module = Module {
+    const SAMPLE: Module<'static> = Module {
         path: "bsdf/layered/walk",
         text: "// Walks (Guo et al. 2018) between layers. And\n// more.\n//\n// Source: none.\n\n\
                import package::ndf::ggx::{\n    ggx_d, ggx_lambda,\n};\n\

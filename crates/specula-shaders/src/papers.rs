@@ -61,7 +61,7 @@ const PAPERS: &[Paper] = papers![
 ];
 
 /// The references of all that the modules cite, by first author.
-pub(crate) fn references(modules: &[Module]) -> Vec<&'static str> {
+pub(crate) fn references(modules: &[Module<'_>]) -> Vec<&'static str> {
     let comments: Vec<String> = modules.iter().map(|m| comments(m.text)).collect();
     let papers = PAPERS.iter().filter(|paper| {
         let mut names = paper.cited.iter();

@@ -8,7 +8,7 @@ use specula_shaders::{DeclarationKind, MODULES, declarations};
 const HEAD: &str = "\
 # Modules
 
-Made from the first sentences of `crates/specula-shaders/wgsl`; `specula shaders --list` prints the same.
+Made from the first sentences of `crates/specula-shaders/wgsl`; `specula export --list` prints the same.
 ";
 
 fn table() -> String {

@@ -11,7 +11,7 @@ mod tools;
 use std::collections::BTreeSet;
 
 use specula_shaders::{
-    DeclarationKind, Language, MODULES, compose, declarations, export, fields, ordered,
+    DeclarationKind, Export, Language, MODULES, compose, declarations, export, fields, ordered,
 };
 use tools::Folder;
 
@@ -132,7 +132,7 @@ fn headers_say_what_the_file_is() {
         for part in [
             format!("// Specula {}: ", env!("CARGO_PKG_VERSION")),
             "SPDX-License-Identifier: MIT OR Apache-2.0".to_owned(),
-            format!("`specula shaders --lang {language} --modules bounded,ggx`"),
+            format!("`specula export --lang {language} --modules bounded,ggx`"),
             "// Usage:\n".to_owned(),
             "// * vndf/bounded: ".to_owned(),
             "// * Tokuyoshi and Eto 2024. Bounded VNDF".to_owned(),
@@ -287,4 +287,138 @@ fn spirv_is_valid_and_links() {
     folder.write("caller.spvasm", &other);
     folder.accepted(&assembler, &assemble);
     folder.refused(&linker, &link);
+}
+
+/// What engineers take most often, and how many lines of code each may have in WGSL.
+const TAKEN: [(&str, &[&str], usize); 3] = [
+    (
+        "bounded",
+        &["bounded_sample_direction", "bounded_reflection_pdf"],
+        90,
+    ),
+    (
+        "exact",
+        &["exact_sample_direction", "exact_reflection_pdf"],
+        226,
+    ),
+    (
+        "conductor",
+        &[
+            "rough_conductor_sample",
+            "rough_conductor_eval",
+            "rough_conductor_pdf",
+        ],
+        623,
+    ),
+];
+
+/// The library of these functions alone.
+fn of_functions(language: Language, functions: &[&str], prefix: &str) -> String {
+    let export = Export {
+        functions,
+        prefix,
+        ..Export::new(language)
+    };
+    let files = export.files().unwrap();
+    assert_eq!(files.len(), 1, "{language} {functions:?}");
+    String::from_utf8(files[0].bytes.clone()).unwrap()
+}
+
+/// Lines that are neither empty nor a comment.
+fn lines_of_code(text: &str) -> usize {
+    let lines = text.lines().map(str::trim);
+    lines
+        .filter(|l| !l.is_empty() && !l.starts_with("//"))
+        .count()
+}
+
+#[test]
+fn functions_alone_are_short() {
+    for (name, functions, most) in TAKEN {
+        for language in TEXTS {
+            let text = of_functions(language, functions, "");
+            println!(
+                "{name} {language}: {} lines, {} of code",
+                text.lines().count(),
+                lines_of_code(&text)
+            );
+        }
+        let text = of_functions(Language::Wgsl, functions, "");
+        assert!(
+            lines_of_code(&text) <= most,
+            "{name}: {}",
+            lines_of_code(&text)
+        );
+        // Nothing that is not needed.
+        let parsed = naga::front::wgsl::parse_str(&text).unwrap();
+        for (_, function) in parsed.functions.iter() {
+            let own = function.name.as_deref().unwrap();
+            let called = text.matches(&format!("{own}(")).count() > 1;
+            assert!(called || functions.contains(&own), "{name}: {own}");
+        }
+    }
+}
+
+#[test]
+fn functions_alone_compile() {
+    let glslang = tools::program("glslangValidator", "functions in GLSL and HLSL");
+    let gcc = tools::program("g++", "functions in C++");
+    for (name, functions, _) in TAKEN {
+        for prefix in ["", "my_own_"] {
+            let folder = Folder::with(&[]);
+            let in_language = |language| of_functions(language, functions, prefix);
+            naga::front::wgsl::parse_str(&in_language(Language::Wgsl)).unwrap();
+            if let Some(glslang) = &glslang {
+                let glsl = in_language(Language::Glsl);
+                folder.write(
+                    "a.comp",
+                    &format!("#version 430\n{glsl}\nvoid main() {{}}\n"),
+                );
+                folder.accepted(glslang, &["a.comp"]);
+                let hlsl = in_language(Language::Hlsl);
+                let entry = "[numthreads(1, 1, 1)] void main() {}";
+                folder.write("a.hlsl", &format!("{hlsl}\n{entry}\n"));
+                folder.accepted(glslang, &["-V", "-D", "-S", "comp", "-e", "main", "a.hlsl"]);
+            }
+            if let Some(gcc) = &gcc {
+                let call = format!("specula::{prefix}{}", functions[0]);
+                let cpp = in_language(Language::Cpp);
+                let caller = format!("{cpp}\nvoid* taken = reinterpret_cast<void*>(&{call});\n");
+                folder.write("a.cpp", &caller);
+                let warnings = ["-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Werror"];
+                let flags = [&["-std=c++17", "-c", "a.cpp"][..], &warnings].concat();
+                folder.accepted(gcc, &flags);
+                folder.write(
+                    "a.cpp",
+                    &caller.replacen("return ", "return not_there * ", 1),
+                );
+                folder.refused(gcc, &flags);
+            }
+            println!("{name} '{prefix}'");
+        }
+    }
+}
+
+/// Two libraries with different namespaces go into one program.
+#[test]
+fn namespaces_do_not_meet() {
+    let Some(gcc) = tools::program("g++", "namespaces of C++") else {
+        return;
+    };
+    let folder = Folder::with(&[]);
+    let mut text = String::new();
+    for namespace in ["first", "second::inner"] {
+        let export = Export {
+            functions: &["bounded_norm"],
+            namespace,
+            ..Export::new(Language::Cpp)
+        };
+        let files = export.files().unwrap();
+        text += &String::from_utf8(files[0].bytes.clone()).unwrap();
+    }
+    text += "int main() {\n    return first::bounded_norm({0.5f, 0.5f}, {0.0f, 0.0f, 1.0f})\n        \
+             == second::inner::bounded_norm({0.5f, 0.5f}, {0.0f, 0.0f, 1.0f}) ? 0 : 1;\n}\n";
+    folder.write("a.cpp", &text);
+    folder.accepted(&gcc, &["-std=c++17", "a.cpp", "-o", "a"]);
+    folder.printed("./a");
 }

@@ -7,7 +7,7 @@
 //! | `tev` (default) | a live view in the viewer tev: `render --display-server` |
 //! | `gpu` | the module `gpu`, `render --device gpu` |
 //! | `lab` | the module `lab`, `specula lab` |
-//! | `shaders` | the module `shaders`, `specula shaders` |
+//! | `shaders` | the module `shaders`, `specula export` |
 //! | `full` | all of these |
 //! | `oidn` | Open Image Denoise, whose library must be installed: `specula denoise`, `render --denoise` |
 //!

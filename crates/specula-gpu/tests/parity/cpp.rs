@@ -1,4 +1,4 @@
-//! The same cases in C++: the modules and the bodies as `specula shaders --lang cpp` writes them, compiled by g++
+//! The same cases in C++: the modules and the bodies as `specula export --lang cpp` writes them, compiled by g++
 //! and clang++ and run on the processor, for which no GPU is needed; and by nvcc for CUDA, where there is a GPU for it.
 #![allow(clippy::unwrap_used, reason = "a panic is a failed test")]
 

@@ -8,6 +8,7 @@ mod declare;
 mod error;
 mod expression;
 mod lexer;
+mod prelude;
 mod printer;
 mod statement;
 mod types;
@@ -21,9 +22,6 @@ use error::Failure;
 use lexer::tokens;
 use types::Scope;
 
-/// Vectors and functions of WGSL.
-const PRELUDE: &str = include_str!("prelude.hpp");
-
 /// What the prelude has changed, changed back.
 const POSTLUDE: &str = "\
 #if defined(__CUDACC__)
@@ -35,7 +33,9 @@ const POSTLUDE: &str = "\
 ";
 
 /// The header's text: the prelude, then the modules in their order, each behind those that it imports.
-pub(crate) fn library(modules: &[Module]) -> Result<String, TranslateError> {
+///
+/// * `is_partial`: whether the prelude has what the modules need only.
+pub(crate) fn library(modules: &[Module<'_>], is_partial: bool) -> Result<String, TranslateError> {
     let mut scope = base();
     let mut text = String::new();
     for module in modules {
@@ -51,7 +51,11 @@ pub(crate) fn library(modules: &[Module]) -> Result<String, TranslateError> {
             body.trim_start_matches('\n')
         );
     }
-    Ok(in_namespace(&text))
+    let prelude = match is_partial {
+        true => prelude::needed(&text),
+        false => prelude::WHOLE.to_owned(),
+    };
+    Ok(in_namespace(&prelude, &text))
 }
 
 /// C++17 of a WGSL text that is written as the library is: constants, structures and functions of scalars,
@@ -62,11 +66,11 @@ pub(crate) fn library(modules: &[Module]) -> Result<String, TranslateError> {
 /// A construct that the library does not use, with its line.
 pub fn to_cpp(wgsl: &str) -> Result<String, TranslateError> {
     let body = module_text(wgsl, &mut base()).map_err(TranslateError::of)?;
-    Ok(in_namespace(&body))
+    Ok(in_namespace(prelude::WHOLE, &body))
 }
 
-fn in_namespace(text: &str) -> String {
-    format!("{PRELUDE}\nnamespace specula {{\n{text}\n}} // namespace specula\n\n{POSTLUDE}")
+fn in_namespace(prelude: &str, text: &str) -> String {
+    format!("{prelude}\nnamespace specula {{\n{text}\n}} // namespace specula\n\n{POSTLUDE}")
 }
 
 /// What is there without being declared.
@@ -213,7 +217,7 @@ mod tests {
             path: "a/b",
             text: "// Head.\n//\n\nimport package::c::{d};\n\nfn f() {\n    discard;\n}\n",
         };
-        let error = library(&[module]).unwrap_err();
+        let error = library(&[module], false).unwrap_err();
         assert_eq!(
             error.to_string(),
             "a/b.wgsl:7: expected a value, found 'discard'"

@@ -61,17 +61,17 @@ pub(crate) mod gpu_report {
     }
 }
 
-/// `specula shaders` without the shaders.
+/// `specula export` without the library's texts.
 #[cfg(not(feature = "shaders"))]
-pub(crate) mod shaders {
+pub(crate) mod export {
     use crate::cli::ExitCode;
 
     use super::super::Failure;
-    pub(crate) use super::command::AnyArguments as ShadersArguments;
+    pub(crate) use super::command::AnyArguments as ExportArguments;
 
     /// Says which feature it needs.
-    pub(crate) fn run(_: &ShadersArguments) -> Result<ExitCode, Failure> {
-        super::command::refuse("the shaders", "shaders")
+    pub(crate) fn run(_: &ExportArguments) -> Result<ExitCode, Failure> {
+        super::command::refuse("the library's export", "shaders")
     }
 }
 

@@ -10,12 +10,12 @@ use crate::scene::Energy;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::device::{Device, GpuArguments};
+use super::export::ExportArguments;
 use super::gpu_report::GpuReportArguments;
 use super::lab::LabArguments;
 use super::loading::LoadingArguments;
 use super::machine::MachineArguments;
 use super::material::MaterialOverride;
-use super::shaders::ShadersArguments;
 use super::{live_view, values};
 
 /// Render rough metal right: a path tracer whose microfacet mathematics can be trusted.
@@ -56,8 +56,9 @@ pub(crate) enum Command {
     Merge(MergeArguments),
     /// Denoise an EXR picture with Open Image Denoise, in programs built with it.
     Denoise(DenoiseArguments),
-    /// Write the microfacet library for shaders, in WGSL, HLSL, GLSL, Metal or SPIR-V.
-    Shaders(ShadersArguments),
+    /// Write the microfacet library in WGSL, HLSL, GLSL, Metal, SPIR-V, or C++ and CUDA.
+    #[command(visible_alias = "shaders")]
+    Export(ExportArguments),
     /// The papers' tables and figures, and measurements on a scene or a material of yours.
     Lab(LabArguments),
     /// List what `render --device` can be given.

@@ -15,6 +15,8 @@ mod convert;
 mod denoise;
 mod device;
 mod exit_code;
+#[cfg(feature = "shaders")]
+mod export;
 mod failure;
 mod file_id;
 #[cfg(feature = "lab")]
@@ -37,16 +39,14 @@ mod outputs;
 mod progress;
 mod render;
 mod schedule;
-#[cfg(feature = "shaders")]
-mod shaders;
 mod stop;
 mod values;
 mod watch;
 
+#[cfg(not(feature = "shaders"))]
+use absent::export;
 #[cfg(not(feature = "tev"))]
 use absent::live_view;
-#[cfg(not(feature = "shaders"))]
-use absent::shaders;
 #[cfg(not(feature = "lab"))]
 use absent::{gpu_report, lab};
 use std::ffi::OsString;
@@ -90,7 +90,7 @@ fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
         Command::Compare(a) => compare::run(&a),
         Command::Merge(a) => merge::run(&a),
         Command::Denoise(a) => denoise::run(&a),
-        Command::Shaders(a) => shaders::run(&a),
+        Command::Export(a) => export::run(&a),
         Command::Lab(a) => lab::run(&a),
         Command::Devices => device::list(),
         Command::GpuReport(a) => gpu_report::run(&a),

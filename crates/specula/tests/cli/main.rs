@@ -12,6 +12,8 @@ mod convert;
 mod denoise;
 #[cfg(feature = "gpu")]
 mod device;
+#[cfg(feature = "shaders")]
+mod export;
 #[cfg(unix)]
 mod interrupt;
 #[cfg(feature = "lab")]
@@ -23,7 +25,5 @@ mod memory;
 mod messages;
 mod outputs;
 mod render;
-#[cfg(feature = "shaders")]
-mod shaders;
 #[cfg(unix)]
 mod watch;

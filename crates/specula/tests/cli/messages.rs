@@ -59,7 +59,7 @@ fn exit_codes_hold_without_a_standard_error() {
         (&["render", "--no-such-option"], 2),
         (&["merge", "none.film", "-o", "a.exr"], 2),
         (&["convert", "small.pbrt", "copy.pbrt"], 0),
-        (&["shaders", "--lang", "wgsl", "-o", "shaders"], 0),
+        (&["export", "--lang", "wgsl", "-o", "shaders"], 0),
     ] {
         let status = command(folder, arguments).stderr(full()).status().unwrap();
         assert_eq!(status.code(), Some(code), "{arguments:?}");
@@ -78,7 +78,7 @@ fn results_that_cannot_be_written_are_a_failure() {
         &["compare", "a.exr", "a.exr"],
         &["lab", "list"],
         &["lab", "list", "--json"],
-        &["shaders", "--list"],
+        &["export", "--list"],
         &["devices"],
         &["gpu-report", "--help"],
         &["--help"],

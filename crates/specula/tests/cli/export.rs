@@ -1,4 +1,4 @@
-//! `specula shaders`, end to end.
+//! `specula export`, end to end.
 
 use crate::common::{specula, stderr};
 
@@ -7,7 +7,7 @@ fn a_language_is_written_with_its_example() {
     let folder = tempfile::tempdir().unwrap();
     let run = specula(folder.path())
         .args([
-            "shaders",
+            "export",
             "--lang",
             "hlsl",
             "--modules",
@@ -56,7 +56,7 @@ fn all_languages_are_the_default() {
 fn modules_are_listed() {
     let folder = tempfile::tempdir().unwrap();
     let run = specula(folder.path())
-        .args(["shaders", "--list"])
+        .args(["export", "--list"])
         .output()
         .unwrap();
     let text = String::from_utf8(run.stdout).unwrap();
@@ -74,9 +74,15 @@ fn what_is_not_there_is_told_with_code_2_and_nothing_is_written() {
             ["--modules", "boundet", "-o", "out"],
             "did you mean `bounded`?",
         ),
+        (
+            ["--functions", "ggx_dd", "-o", "out"],
+            "did you mean `ggx_d`?",
+        ),
+        (["--prefix", "2x", "-o", "out"], "prefix '2x'"),
+        (["--namespace", "a:b", "-o", "out"], "namespace 'a:b'"),
     ] {
         let run = specula(folder.path())
-            .arg("shaders")
+            .arg("export")
             .args(arguments)
             .output()
             .unwrap();
@@ -90,7 +96,7 @@ fn what_is_not_there_is_told_with_code_2_and_nothing_is_written() {
 fn an_example_that_could_not_compile_is_left_out() {
     let folder = tempfile::tempdir().unwrap();
     let run = specula(folder.path())
-        .args(["shaders", "--lang", "glsl", "--modules", "ggx", "-o", "."])
+        .args(["export", "--lang", "glsl", "--modules", "ggx", "-o", "."])
         .output()
         .unwrap();
     assert!(
@@ -99,4 +105,18 @@ fn an_example_that_could_not_compile_is_left_out() {
         stderr(&run)
     );
     assert!(!folder.path().join("example.comp").exists());
+}
+
+#[test]
+fn functions_come_alone_with_their_prefix() {
+    let folder = tempfile::tempdir().unwrap();
+    specula(folder.path())
+        .args(["export", "--lang", "wgsl", "--functions", "ggx_d"])
+        .args(["--prefix", "my_", "-o", "."])
+        .assert()
+        .success();
+    let text = std::fs::read_to_string(folder.path().join("specula.wgsl")).unwrap();
+    assert!(text.contains("fn my_ggx_d("), "{text}");
+    assert!(!text.contains("ggx_lambda"), "{text}");
+    assert!(text.contains("--functions ggx_d --prefix my_`"), "{text}");
 }
