@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// A worked example of `specula shaders`: samples reflections off rough metal of reflectance 1.
+// A worked example of `specula export`: samples reflections off rough metal of reflectance 1.
 
 #include "specula.glsl"
 

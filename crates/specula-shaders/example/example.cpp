@@ -1,4 +1,4 @@
-// A worked example of `specula shaders`: the albedo of rough gold from three views, by sampling.
+// A worked example of `specula export`: the albedo of rough gold from three views, by sampling.
 //
 //     g++ -std=c++17 -O2 example.cpp -o example
 

@@ -1,4 +1,4 @@
-// A worked example of `specula shaders`: samples reflections off rough metal of reflectance 1.
+// A worked example of `specula export`: samples reflections off rough metal of reflectance 1.
 
 #include "specula.metal"
 

@@ -3,7 +3,7 @@
 precision highp float;
 precision highp int;
 
-// A worked example of `specula shaders`: samples reflections off rough metal of reflectance 1.
+// A worked example of `specula export`: samples reflections off rough metal of reflectance 1.
 // Drivers know no include: put the library's text in its place, or let your compiler do so.
 
 #include "specula_es.glsl"

@@ -14,6 +14,22 @@ use crate::spirv::with_exports;
 use crate::tables::tables;
 use crate::translate::{self, TranslateError};
 
+/// Modules that `chi_square.cpp` calls.
+const TESTED: [&str; 12] = [
+    "heitz",
+    "cap",
+    "bounded",
+    "exact",
+    "beckmann_visible",
+    "rough_conductor",
+    "compensated",
+    "compensated_dielectric",
+    "coated_diffuse",
+    "lambert",
+    "eon",
+    "diffuse_transmission",
+];
+
 /// A file to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct File {
@@ -93,6 +109,7 @@ impl Export<'_> {
     ///
     /// * the library;
     /// * a worked example, where all that it calls is there by its name;
+    /// * in C++, chi-square tests of the samplers and a Makefile for `make check`, likewise;
     /// * the energy tables, where they are read: little-endian floats.
     ///
     /// # Errors
@@ -119,6 +136,20 @@ impl Export<'_> {
                 name: language.example_file(),
                 bytes: example(language).map_err(failed)?,
             });
+        }
+        if language == Language::Cpp
+            && is_whole
+            && self.namespace == Self::NAMESPACE
+            && ordered(&TESTED)?.iter().all(|m| modules.contains(m))
+        {
+            let texts = [
+                ("chi_square.cpp", include_str!("../example/chi_square.cpp")),
+                ("Makefile", include_str!("../example/Makefile")),
+            ];
+            files.extend(texts.map(|(name, text)| File {
+                name,
+                bytes: text.as_bytes().to_vec(),
+            }));
         }
         if parts.iter().any(|m| m.path == TABLE_MODULE) {
             files.push(File {

@@ -176,3 +176,41 @@ fn files_of_a_program_share_the_tables() {
         }
     }
 }
+
+/// The chi-square tests that go with the header, as users build them; and whether they notice faults.
+#[test]
+fn samples_follow_their_densities() {
+    let Some(make) = tools::program("make", "chi-square tests in C++") else {
+        return;
+    };
+    let folder = Folder::with(&export(Language::Cpp, &[]).unwrap());
+    let strict = format!("CXXFLAGS=-O2 {}", STRICT[1..].join(" "));
+    for compiler in compilers("chi-square tests in C++") {
+        let compiler = format!("CXX={}", compiler.display());
+        folder.accepted(&make, &["-B", &compiler, &strict, "check"]);
+    }
+    let header = folder.read("specula.hpp");
+    for (from, to, subject) in [
+        // A density a thirtieth too small.
+        ("2.0f * bound.y);", "2.07f * bound.y);", "bounded"),
+        // Less of the cap.
+        (
+            "cap.view, u.x * cap.height,",
+            "cap.view, 0.97f * u.x * cap.height,",
+            "bounded",
+        ),
+        // Refraction by another index.
+        (
+            "const RoughDielectric& lobe, vec3f wo, vec3f u, uint32_t transport) {",
+            "const RoughDielectric& lobe_, vec3f wo, vec3f u, uint32_t transport) {\n    RoughDielectric lobe = lobe_; lobe.eta *= 1.02f;",
+            "rough dielectric",
+        ),
+    ] {
+        assert!(header.matches(from).count() == 1, "{from}");
+        folder.write("specula.hpp", &header.replace(from, to));
+        folder.accepted(&make, &["-B", "chi_square"]);
+        let program = folder.path().join("chi_square");
+        folder.accepted(&program, &["energy_tables.bin", "Lambert"]);
+        folder.refused(&program, &["energy_tables.bin", subject]);
+    }
+}
