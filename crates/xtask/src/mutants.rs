@@ -1,40 +1,32 @@
 //! `cargo xtask mutants`: faults made by machine in `specula-bsdf`, and whether its tests and those of `specula-stat` notice.
 //!
 //! cargo-mutants lists some 8000 faults: an operator for another, a constant for a function's value. A sample of them is
-//! built and tested one by one, in a copy of the workspace. What survives is equivalent, or a test is missing.
+//! planted one by one in a copy of the workspace, and programs of tests run, those first that are likeliest to see it,
+//! until one fails. What survives is equivalent, or a test is missing.
 
+mod fault;
+mod programs;
+
+use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitStatus};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 use crate::{Result, workspace};
+use fault::Fault;
+use programs::{PACKAGES, ordered};
 
 /// Version of cargo-mutants.
 const VERSION: &str = "27.1.0";
-
-/// Programs of tests, in the order in which they are tried: each stage has what the one before lets pass. The first
-/// compiles in a fifth of the time of all. The longest statistical ones are left out.
-const STAGES: [&[&str]; 5] = [
-    &["extremes", "known_values", "tints", "values_of_mitsuba"],
-    &[
-        "awkward_directions",
-        "coats_of_pbrt",
-        "lobes",
-        "no_panics",
-        "visible_normals",
-    ],
-    &["batch", "batch_accuracy", "batch_multibounce"],
-    &["colours", "every_lobe"],
-    &["energy", "gltf", "layered", "multibounce", "principled"],
-];
-
-/// Where these are.
-const PACKAGES: [&str; 2] = ["specula-bsdf", "specula-stat"];
+/// Longest that a program of tests may take; the longest one takes half of it.
+const LONGEST: Duration = Duration::from_secs(300);
 
 /// Which faults to try.
 #[derive(clap::Args)]
 pub(crate) struct Sample {
-    /// About so many; 100 take some hours on two cores that do nothing else
-    #[arg(long, default_value_t = 100)]
+    /// About so many; 50 take an hour on two cores that do nothing else
+    #[arg(long, default_value_t = 50)]
     count: usize,
     /// Chooses them: the next seed takes the next ones of the list
     #[arg(long, default_value_t = 1)]
@@ -42,123 +34,187 @@ pub(crate) struct Sample {
     /// Of these files only: a glob, such as '**/vndf/*.rs'
     #[arg(long, value_name = "GLOB")]
     file: Vec<String>,
-    /// Where the reports are written, in a folder for each stage
-    #[arg(long, value_name = "DIR", default_value = "target/mutants-report")]
+    /// File that a line is added to for each fault; faults that have a line there are not tried again
+    #[arg(long, value_name = "FILE", default_value = "target/mutants-report.txt")]
     output: PathBuf,
+}
+
+/// What became of a fault.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Outcome {
+    /// It does not compile.
+    Unviable,
+    /// The name of the program that failed, or did not end.
+    Caught(String),
+    Survives,
+}
+
+impl Outcome {
+    fn text(&self) -> String {
+        match self {
+            Self::Unviable => "unviable".to_owned(),
+            Self::Caught(by) => format!("caught by {by}"),
+            Self::Survives => "survives".to_owned(),
+        }
+    }
+
+    /// The outcome and the fault's name of a line of the report.
+    fn parse(line: &str) -> Option<(Self, &str)> {
+        let (outcome, name) = line.split_once(": ")?;
+        let outcome = match outcome {
+            "unviable" => Self::Unviable,
+            "survives" => Self::Survives,
+            other => Self::Caught(other.strip_prefix("caught by ")?.to_owned()),
+        };
+        Some((outcome, name))
+    }
 }
 
 /// Tries the sample, and prints which share is caught.
 pub(crate) fn run(root: &Path, sample: &Sample) -> Result<()> {
     let program = installed(root)?;
-    let mut list = command(root, &program, sample);
-    let list = list.arg("--list").output()?;
-    if !list.status.success() {
-        return Err(String::from_utf8_lossy(&list.stderr).into());
-    }
-    let all = String::from_utf8_lossy(&list.stdout).lines().count();
-    let (shard, shards) = shard(all, sample)?;
-    test_without_faults(root)?;
-    println!("every {shards}th of {all} faults, from the {shard}th on");
-    let mut caught = 0;
-    let mut missed: Vec<String> = Vec::new();
-    for stage in 0..STAGES.len() {
-        let mut mutants = command(root, &program, sample);
-        if stage == 0 {
-            mutants.args(["--sharding", "round-robin", "--shard"]);
-            mutants.arg(format!("{shard}/{shards}"));
-        }
-        for fault in &missed {
-            mutants.arg("--re").arg(exactly(fault));
-        }
-        let output = sample.output.join(format!("stage-{}", stage + 1));
-        std::fs::create_dir_all(&output)?;
-        verdict(arguments(&mut mutants, stage, &output).status()?)?;
-        let lines = |name: &str| -> Vec<String> {
-            let text = std::fs::read_to_string(output.join("mutants.out").join(name));
-            let text = text.unwrap_or_default();
-            text.lines().map(str::to_owned).collect()
+    let all = fault::list(&mut command(root, &program, sample))?;
+    let faults = chosen(&all, sample)?;
+    println!("{} of {} faults", faults.len(), all.len());
+    let copy = Copy::new(root)?;
+    let before = fs::read_to_string(&sample.output).unwrap_or_default();
+    let mut outcomes: Vec<(Outcome, &str)> = Vec::new();
+    for fault in faults {
+        let known = before.lines().filter_map(Outcome::parse);
+        let known = known.filter(|(_, name)| *name == fault.name).last();
+        let outcome = match known {
+            Some((outcome, _)) => outcome,
+            None => {
+                let start = Instant::now();
+                let outcome = copy.try_fault(fault)?;
+                let line = format!("{}: {}\n", outcome.text(), fault.name);
+                print!("{:4.0} s  {line}", start.elapsed().as_secs_f64());
+                let mut report = fs::File::options();
+                let report = report.create(true).append(true);
+                report.open(&sample.output)?.write_all(line.as_bytes())?;
+                outcome
+            }
         };
-        caught += lines("caught.txt").len() + lines("timeout.txt").len();
-        missed = lines("missed.txt");
-        if missed.is_empty() {
-            break;
-        }
+        outcomes.push((outcome, &fault.name));
     }
-    let viable = caught + missed.len();
-    println!("{caught} of {viable} faults that compile are caught");
-    for fault in missed {
-        println!("survives: {fault}");
-    }
+    print!("{}", summary(&outcomes));
     Ok(())
 }
 
-/// How a stage tests faults, and where it writes its report.
-fn arguments<'a>(mutants: &'a mut Command, stage: usize, output: &Path) -> &'a mut Command {
-    mutants.args(["--profile", "mutants", "--cap-lints", "true"]);
-    // The first build compiles all; a fault that never ends is caught by time.
-    mutants.args(["--build-timeout", "900", "--timeout", "240"]);
-    mutants.arg("--output").arg(output);
-    for package in PACKAGES {
-        mutants.args(["--test-package", package]);
-    }
-    // It would test the code without faults in the package alone that is to have them, which lacks most programs.
-    mutants.args(["--baseline", "skip", "--"]);
-    mutants.args(tests(stage))
-}
-
-/// A regular expression of one line of the list.
-fn exactly(fault: &str) -> String {
-    let mut expression = String::from("^");
-    for character in fault.chars() {
-        if r"\.+*?()|[]{}^$".contains(character) {
-            expression.push('\\');
+fn summary(outcomes: &[(Outcome, &str)]) -> String {
+    let count = |is: fn(&Outcome) -> bool| outcomes.iter().filter(|(o, _)| is(o)).count();
+    let caught = count(|o| matches!(o, Outcome::Caught(_)));
+    let viable = count(|o| *o != Outcome::Unviable);
+    let mut text = format!("{caught} of {viable} faults that compile are caught\n");
+    for (outcome, name) in outcomes {
+        if *outcome == Outcome::Survives {
+            text += &format!("survives: {name}\n");
         }
-        expression.push(character);
     }
-    expression.push('$');
-    expression
+    text
 }
 
-fn test_without_faults(root: &Path) -> Result<()> {
-    println!("the code without faults");
-    let mut cargo = workspace::cargo(root);
-    cargo.args(["test", "--quiet", "--profile", "mutants"]);
-    for package in PACKAGES {
-        cargo.args(["--package", package]);
-    }
-    for stage in 0..STAGES.len() {
-        cargo.args(tests(stage));
-    }
-    match cargo.status()?.success() {
-        true => Ok(()),
-        false => Err("tests fail without faults".into()),
-    }
-}
-
-/// Which tests a stage runs, as arguments of `cargo test`.
-fn tests(stage: usize) -> Vec<&'static str> {
-    // Unit tests are compiled with the whole crate once more.
-    let library = (stage == 2).then_some("--lib");
-    let programs = STAGES[stage].iter().flat_map(|&test| ["--test", test]);
-    library.into_iter().chain(programs).collect()
-}
-
-/// Which part of how many is the sample.
-fn shard(all: usize, sample: &Sample) -> Result<(usize, usize)> {
-    if all == 0 || sample.count == 0 {
+/// Every so many-th fault.
+fn chosen<'a>(all: &'a [Fault], sample: &Sample) -> Result<Vec<&'a Fault>> {
+    if all.is_empty() || sample.count == 0 {
         return Err("no faults to try".into());
     }
-    let shards = (all / sample.count).max(1);
-    Ok((sample.seed % shards, shards))
+    let step = (all.len() / sample.count).max(1);
+    let first = sample.seed % step;
+    Ok(all.iter().skip(first).step_by(step).collect())
 }
 
-/// Faults that survive are a result, not a failure.
-fn verdict(status: ExitStatus) -> Result<()> {
-    const SURVIVORS: i32 = 2;
-    const TIMEOUTS: i32 = 3;
-    match status.code() {
-        Some(0 | SURVIVORS | TIMEOUTS) => Ok(()),
-        _ => Err(format!("cargo-mutants ended with {status}").into()),
+/// A copy of the workspace, in which faults are planted.
+struct Copy {
+    root: PathBuf,
+    target: PathBuf,
+}
+
+impl Copy {
+    fn new(root: &Path) -> Result<Self> {
+        let target = root.join("target");
+        let copy = target.join("mutants-copy");
+        let files = Command::new("git")
+            .current_dir(root)
+            .args(["ls-files", "-z"])
+            .output()?;
+        for file in String::from_utf8(files.stdout)?.split_terminator('\0') {
+            let (from, to) = (root.join(file), copy.join(file));
+            if !from.is_file() {
+                continue;
+            }
+            // Files that are as they were keep their time, so that nothing is compiled again.
+            let text = fs::read(&from)?;
+            if fs::read(&to).is_ok_and(|old| old == text) {
+                continue;
+            }
+            fs::create_dir_all(to.parent().unwrap_or(&copy))?;
+            fs::write(&to, text)?;
+        }
+        Ok(Self { root: copy, target })
+    }
+
+    /// Plants a fault, runs tests until some fail, and takes the fault out again.
+    fn try_fault(&self, fault: &Fault) -> Result<Outcome> {
+        let file = self.root.join(&fault.file);
+        let right = fs::read_to_string(&file)?;
+        fs::write(&file, fault.planted(&right)?)?;
+        let outcome = self.outcome(fault);
+        fs::write(&file, right)?;
+        outcome
+    }
+
+    fn outcome(&self, fault: &Fault) -> Result<Outcome> {
+        for (place, program) in ordered(&fault.file).into_iter().enumerate() {
+            let arguments: &[&str] = match program {
+                programs::UNIT_TESTS => &["--lib"],
+                program => &["--test", program],
+            };
+            let compiled = self.cargo().args(arguments).arg("--no-run").output()?;
+            if !compiled.status.success() {
+                return match place {
+                    0 => Ok(Outcome::Unviable),
+                    // The library compiles: it is its unit tests that do not.
+                    _ => Ok(Outcome::Caught(program.to_owned())),
+                };
+            }
+            if !self.passes(arguments)? {
+                return Ok(Outcome::Caught(program.to_owned()));
+            }
+        }
+        Ok(Outcome::Survives)
+    }
+
+    fn cargo(&self) -> Command {
+        let mut cargo = workspace::cargo(&self.root);
+        cargo.args(["test", "--quiet", "--profile", "mutants", "--target-dir"]);
+        cargo.arg(&self.target);
+        for package in PACKAGES {
+            cargo.args(["--package", package]);
+        }
+        cargo
+    }
+
+    /// Whether tests pass, and in time.
+    fn passes(&self, arguments: &[&str]) -> Result<bool> {
+        let mut child = self
+            .cargo()
+            .args(arguments)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()?;
+        let start = Instant::now();
+        loop {
+            if let Some(status) = child.try_wait()? {
+                return Ok(status.success());
+            }
+            if start.elapsed() > LONGEST {
+                child.kill()?;
+                child.wait()?;
+                return Ok(false);
+            }
+            std::thread::sleep(Duration::from_millis(50));
+        }
     }
 }
 
@@ -193,39 +249,42 @@ fn installed(root: &Path) -> Result<PathBuf> {
 mod tests {
     use super::*;
 
-    fn sample(count: usize, seed: usize) -> Sample {
-        Sample {
-            count,
-            seed,
-            file: Vec::new(),
-            output: PathBuf::new(),
+    #[test]
+    fn seeds_take_other_faults() {
+        let all: Vec<Fault> = (0..10).map(|i| Fault::named(&i.to_string())).collect();
+        let names = |count, seed| {
+            let sample = Sample {
+                count,
+                seed,
+                file: Vec::new(),
+                output: PathBuf::new(),
+            };
+            let chosen = chosen(&all, &sample).unwrap();
+            let names = chosen.iter().map(|f| f.name.clone());
+            names.collect::<Vec<String>>().join(" ")
+        };
+        assert_eq!(names(5, 0), "0 2 4 6 8");
+        assert_eq!(names(5, 3), "1 3 5 7 9");
+        assert_eq!(names(40, 7), "0 1 2 3 4 5 6 7 8 9");
+    }
+
+    #[test]
+    fn lines_are_read_back_and_counted() {
+        let outcomes = [
+            Outcome::Unviable,
+            Outcome::Survives,
+            Outcome::Caught("lobes".to_owned()),
+            Outcome::Caught("lobes".to_owned()),
+        ];
+        let name = "src/a.rs:2:9: replace + with -";
+        for outcome in &outcomes {
+            let line = format!("{}: {name}", outcome.text());
+            assert_eq!(Outcome::parse(&line), Some((outcome.clone(), name)));
         }
-    }
-
-    #[test]
-    fn seeds_take_other_parts() {
-        assert_eq!(shard(8000, &sample(40, 1)).unwrap(), (1, 200));
-        assert_eq!(shard(8000, &sample(40, 203)).unwrap(), (3, 200));
-        assert_eq!(shard(10, &sample(40, 7)).unwrap(), (0, 1));
-        assert!(shard(0, &sample(40, 1)).is_err());
-        assert!(shard(10, &sample(0, 1)).is_err());
-    }
-
-    #[test]
-    fn a_fault_is_found_by_its_line() {
-        let expression = exactly("src/a.rs:2:9: replace + with -");
-        assert_eq!(expression, r"^src/a\.rs:2:9: replace \+ with -$");
-    }
-
-    #[test]
-    fn every_program_of_tests_exists() {
-        let root = workspace::root();
-        for test in STAGES.concat() {
-            let file = |package: &str| root.join(format!("crates/{package}/tests/{test}.rs"));
-            assert!(
-                file("specula-bsdf").exists() || file("specula-stat").exists(),
-                "{test}"
-            );
-        }
+        let named: Vec<(Outcome, &str)> = outcomes.into_iter().map(|o| (o, name)).collect();
+        assert_eq!(
+            summary(&named),
+            format!("2 of 3 faults that compile are caught\nsurvives: {name}\n")
+        );
     }
 }
