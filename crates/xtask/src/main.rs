@@ -5,6 +5,7 @@
 mod albedo;
 mod bench;
 mod book;
+mod c_library;
 mod exact;
 mod feature_sets;
 mod features;
@@ -73,6 +74,8 @@ enum Chore {
     Mutants(mutants::Sample),
     /// Build the Python package into its sources, check its types, run its tests; or make its wheel
     Python(python::Python),
+    /// Build the C interface and lay it out below a prefix: header, libraries, pkg-config, CMake
+    CLibrary(c_library::CLibrary),
     /// Run the benches
     Bench {
         /// Passed on to `cargo bench --workspace`
@@ -142,6 +145,7 @@ fn run(chore: &Chore) -> Result<()> {
         Chore::Test(suite) => suite::run(&root, suite),
         Chore::Python(python) => python::run(&root, python),
         Chore::Features => feature_sets::run(&root),
+        Chore::CLibrary(arguments) => c_library::run(&root, arguments),
         Chore::Mutants(sample) => mutants::run(&root, sample),
         Chore::Bench { arguments } => bench::run(&root, arguments),
         Chore::Exact { figure: true, .. } => {

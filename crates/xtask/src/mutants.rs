@@ -80,8 +80,8 @@ pub(crate) fn run(root: &Path, sample: &Sample) -> Result<()> {
     let before = fs::read_to_string(&sample.output).unwrap_or_default();
     let mut outcomes: Vec<(Outcome, &str)> = Vec::new();
     for fault in faults {
-        let known = before.lines().filter_map(Outcome::parse);
-        let known = known.filter(|(_, name)| *name == fault.name).last();
+        let mut known = before.lines().filter_map(Outcome::parse);
+        let known = known.rfind(|(_, name)| *name == fault.name);
         let outcome = match known {
             Some((outcome, _)) => outcome,
             None => {

@@ -1,0 +1,197 @@
+//! Simple lobes out of parameters: diffuse ones, metals, dielectrics.
+
+use specula_bsdf::bsdf::{self, Tints};
+use specula_bsdf::energy::EnergyModel;
+use specula_bsdf::math::{Real, Rgb};
+use specula_bsdf::multibounce::{MisPdf, MultibounceModel};
+use specula_bsdf::ndf::Masking;
+use specula_bsdf::vndf::Sampler;
+
+use super::given::{Distribution, ETA, Given, beckmann, ggx};
+use super::reflectance::Reflectance;
+use super::{LobeHandle, both};
+
+type Made = Result<LobeHandle, String>;
+
+pub(super) fn lambert(given: Given<'_>) -> Made {
+    let albedo = given.albedo("albedo", 0.5)?;
+    Ok(both!(T => bsdf::Lambert::<T>::new(albedo.cast())))
+}
+
+pub(super) fn eon(given: Given<'_>) -> Made {
+    let albedo = given.albedo("albedo", 0.5)?;
+    let roughness = given.share("roughness", 0.5)?;
+    Ok(both!(T => bsdf::Eon::<T>::new(albedo.cast(), T::of(roughness))))
+}
+
+pub(super) fn diffuse_transmission(given: Given<'_>) -> Made {
+    let reflectance = given.albedo("reflectance", 0.25)?;
+    let transmittance = given.albedo("transmittance", 0.25)?;
+    Ok(both!(T => {
+        bsdf::DiffuseTransmission::<T>::new(reflectance.cast(), transmittance.cast())
+    }))
+}
+
+pub(super) fn smooth_conductor(given: Given<'_>) -> Made {
+    let reflectance = Reflectance::or_white(given)?;
+    Ok(both!(T => bsdf::SmoothConductor::<T>::new(reflectance.cast())))
+}
+
+/// A sampler; Beckmann has but its own.
+fn sampler(
+    given: Given<'_>,
+    distribution: Distribution,
+    default: Sampler,
+) -> Result<Sampler, String> {
+    match (distribution, given.word("sampler")?) {
+        (Distribution::Beckmann, Some(name)) => Err(format!(
+            "sampler: '{name}' is of GGX; Beckmann's visible normals have one sampler of their own"
+        )),
+        _ => Ok(given.named("sampler")?.unwrap_or(default)),
+    }
+}
+
+pub(super) fn conductor(given: Given<'_>) -> Made {
+    let alpha = given.needed_alpha()?;
+    let reflectance = Reflectance::or_white(given)?;
+    let distribution = given.distribution()?;
+    let sampler = sampler(given, distribution, Sampler::default())?;
+    let smith = given.masking(Masking::HeightCorrelated)?;
+    let lobe = match (distribution, given.named::<EnergyModel>("energy")?) {
+        (Distribution::Ggx, None) => both!(T => {
+            bsdf::RoughConductor::<T>::new(ggx(alpha), reflectance.cast())
+                .with_masking(smith)
+                .with_sampler(sampler)
+        }),
+        (Distribution::Ggx, Some(model)) => both!(T => {
+            bsdf::Compensated::<T>::new(ggx(alpha), reflectance.cast(), model)
+                .with_masking(smith)
+                .with_sampler(sampler)
+        }),
+        (Distribution::Beckmann, None) => both!(T => {
+            bsdf::RoughConductor::new(beckmann::<T>(alpha), reflectance.cast()).with_masking(smith)
+        }),
+        (Distribution::Beckmann, Some(model)) => both!(T => {
+            bsdf::Compensated::new(beckmann::<T>(alpha), reflectance.cast(), model)
+                .with_masking(smith)
+        }),
+    };
+    Ok(lobe)
+}
+
+pub(super) fn multibounce_conductor(given: Given<'_>) -> Made {
+    let alpha = given.needed_alpha()?;
+    let reflectance = Reflectance::or_white(given)?;
+    let distribution = given.distribution()?;
+    let model = given.named::<MultibounceModel>("model")?;
+    let model = model.unwrap_or_default();
+    let mis = given.named::<MisPdf>("mis_pdf")?.unwrap_or_default();
+    let lobe = match distribution {
+        Distribution::Ggx => both!(T => {
+            bsdf::MultibounceConductor::<T>::new(ggx(alpha), reflectance.cast(), model)
+                .with_mis_pdf(mis)
+        }),
+        Distribution::Beckmann => both!(T => {
+            bsdf::MultibounceConductor::new(beckmann::<T>(alpha), reflectance.cast(), model)
+                .with_mis_pdf(mis)
+        }),
+    };
+    Ok(lobe)
+}
+
+/// Tints of a dielectric, white by default.
+fn shares(given: Given<'_>) -> Result<[Rgb<f64>; 2], String> {
+    Ok([
+        given.albedo("reflection_tint", 1.0)?,
+        given.albedo("transmission_tint", 1.0)?,
+    ])
+}
+
+/// Tints in a precision.
+fn tints<T: Real>([reflection, transmission]: [Rgb<f64>; 2]) -> Tints<T> {
+    Tints {
+        reflection: reflection.cast(),
+        transmission: transmission.cast(),
+    }
+}
+
+pub(super) fn smooth_dielectric(given: Given<'_>) -> Made {
+    let eta = given.number("eta", 1.5, ETA)?;
+    let colours = shares(given)?;
+    Ok(both!(T => {
+        bsdf::SmoothDielectric::<T>::new(T::of(eta)).with_tints(tints(colours))
+    }))
+}
+
+pub(super) fn thin_dielectric(given: Given<'_>) -> Made {
+    let eta = given.number("eta", 1.5, ETA)?;
+    let colours = shares(given)?;
+    Ok(both!(T => {
+        bsdf::ThinDielectric::<T>::new(T::of(eta)).with_tints(tints(colours))
+    }))
+}
+
+pub(super) fn dielectric(given: Given<'_>) -> Made {
+    let alpha = given.needed_alpha()?;
+    let eta = given.number("eta", 1.5, ETA)?;
+    let distribution = given.distribution()?;
+    // Visible normals serve refraction, too.
+    let sampler = sampler(given, distribution, Sampler::Cap)?;
+    let smith = given.masking(Masking::HeightCorrelated)?;
+    let colours = shares(given)?;
+    let lobe = match (distribution, given.flag("compensated", false)?) {
+        (Distribution::Ggx, false) => both!(T => {
+            bsdf::RoughDielectric::<T>::new(ggx(alpha), T::of(eta))
+                .with_masking(smith)
+                .with_tints(tints(colours))
+                .with_sampler(sampler)
+        }),
+        (Distribution::Ggx, true) => both!(T => {
+            bsdf::CompensatedDielectric::<T>::new(ggx(alpha), T::of(eta))
+                .with_masking(smith)
+                .with_tints(tints(colours))
+                .with_sampler(sampler)
+        }),
+        (Distribution::Beckmann, false) => both!(T => {
+            bsdf::RoughDielectric::new(beckmann::<T>(alpha), T::of(eta))
+                .with_masking(smith)
+                .with_tints(tints(colours))
+        }),
+        (Distribution::Beckmann, true) => both!(T => {
+            bsdf::CompensatedDielectric::new(beckmann::<T>(alpha), T::of(eta))
+                .with_masking(smith)
+                .with_tints(tints(colours))
+        }),
+    };
+    Ok(lobe)
+}
+
+pub(super) fn multibounce_dielectric(given: Given<'_>) -> Made {
+    let alpha = given.needed_alpha()?;
+    let eta = given.number("eta", 1.5, ETA)?;
+    let distribution = given.distribution()?;
+    if let Some(name) = given.word("model")?
+        && !matches!(name, "heitz" | "specula")
+    {
+        return Err(format!(
+            "model: '{name}' is of metals (expected heitz or specula)"
+        ));
+    }
+    let model = given.named::<MultibounceModel>("model")?;
+    let model = model.unwrap_or_default();
+    let mis = given.named::<MisPdf>("mis_pdf")?.unwrap_or_default();
+    let colours = shares(given)?;
+    let lobe = match distribution {
+        Distribution::Ggx => both!(T => {
+            bsdf::MultibounceDielectric::<T>::new(ggx(alpha), T::of(eta), model)
+                .with_mis_pdf(mis)
+                .with_tints(tints(colours))
+        }),
+        Distribution::Beckmann => both!(T => {
+            bsdf::MultibounceDielectric::new(beckmann::<T>(alpha), T::of(eta), model)
+                .with_mis_pdf(mis)
+                .with_tints(tints(colours))
+        }),
+    };
+    Ok(lobe)
+}
