@@ -337,3 +337,29 @@ fn drawing_the_branch_before_the_normal_costs_variance() {
     assert!(ratio > 1.03, "geometric mean of the ratios {ratio}");
     println!("variance, branch first over normal first: {ratio:.2}");
 }
+
+/// Within a thousandth of the index around it glass is not there; beyond, it is.
+#[test]
+fn glass_of_nearly_the_same_index_lets_light_pass_straight_on() {
+    let ndf = Ggx::new(Alpha::isotropic(0.4));
+    let wo = vec3(0.6, 0.0, 0.8);
+    for eta in [1.0 - 9e-4, 1.0, 1.0 + 9e-4] {
+        let lobe = RoughDielectric::new(ndf, eta);
+        assert!(lobe.is_specular(), "{eta}");
+        for view in [wo, -wo] {
+            let s = lobe.sample(view, r3(1), Transport::Radiance).unwrap();
+            assert!(
+                s.specular && s.wi == -view && s.pdf == 1.0 && s.eta == 1.0,
+                "{s:?}"
+            );
+            assert_eq!(s.weight, Rgb::WHITE);
+            let away = lobe.eval_pdf(view, -view, Transport::Radiance);
+            assert_eq!(away, (Rgb::BLACK, 0.0));
+        }
+    }
+    for eta in [1.0 - 2e-3, 1.0 + 2e-3] {
+        let lobe = RoughDielectric::new(ndf, eta);
+        assert!(!lobe.is_specular(), "{eta}");
+        assert!(lobe.eval_pdf(wo, -wo, Transport::Radiance).1 > 0.0, "{eta}");
+    }
+}
