@@ -19,8 +19,8 @@ use programs::{PACKAGES, ordered};
 
 /// Version of cargo-mutants.
 const VERSION: &str = "27.1.0";
-/// Longest that a program of tests may take; the longest one takes half of it.
-const LONGEST: Duration = Duration::from_secs(300);
+/// Longest that a program of tests may take: several times what the longest one does.
+const LONGEST: Duration = Duration::from_secs(900);
 
 /// Which faults to try.
 #[derive(clap::Args)]

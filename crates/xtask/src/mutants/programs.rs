@@ -6,8 +6,8 @@ pub(super) const PACKAGES: [&str; 2] = ["specula-bsdf", "specula-stat"];
 /// Stands for the unit tests of both.
 pub(super) const UNIT_TESTS: &str = "unit tests";
 
-/// All that are run, the quick ones first. The longest statistical ones are run for files of theirs only.
-const ALL: [&str; 20] = [
+/// All that are run, the quick ones first. `samplers`, the longest, is run for files of its own only.
+const ALL: [&str; 25] = [
     "known_values",
     "tints",
     "extremes",
@@ -28,18 +28,24 @@ const ALL: [&str; 20] = [
     "layered",
     "principled",
     "multibounce",
+    "diffuse_and_coats",
+    "plastics",
+    "conductors",
+    "dielectrics",
+    "multibounce_mis",
 ];
 
 /// Parts of files' paths, and the programs that are about them; the first part that is found counts.
 const LIKELY: &[(&str, &[&str])] = &[
     ("/batch/", &["batch", "batch_accuracy", "batch_multibounce"]),
     ("/bsdf/compensated", &["energy", "colours"]),
+    ("/bsdf/eon", &["diffuse_and_coats"]),
     ("/bsdf/gltf", &["gltf"]),
     ("/bsdf/layered", &["layered"]),
     ("/bsdf/plastic", &["values_of_mitsuba", "plastics"]),
     ("/bsdf/principled", &["principled"]),
     ("/bsdf/coated", &["coats_of_pbrt", "diffuse_and_coats"]),
-    ("/bsdf/dielectric", &["extremes", "dielectrics"]),
+    ("/bsdf/dielectric", &["lobes", "every_lobe"]),
     ("/energy/", &["energy", UNIT_TESTS]),
     ("/multibounce/mis_pdf", &["multibounce_mis"]),
     ("/multibounce/normalised", &["multibounce_mis"]),
