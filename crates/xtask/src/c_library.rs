@@ -3,6 +3,7 @@
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use crate::{Result, workspace};
 
@@ -34,6 +35,9 @@ pub(crate) fn run(root: &Path, arguments: &CLibrary) -> Result<()> {
     fs::create_dir_all(&arguments.prefix)?;
     let prefix = fs::canonicalize(&arguments.prefix)?;
     let files = install(root, &target.join("release"), &prefix)?;
+    for file in &files {
+        without_debug_information(file);
+    }
     for file in files {
         println!("wrote {}", file.display());
     }
@@ -42,6 +46,23 @@ pub(crate) fn run(root: &Path, arguments: &CLibrary) -> Result<()> {
         prefix.join("lib/pkgconfig").display()
     );
     Ok(())
+}
+
+/// Makes a library a quarter of its size, where there is a program for it.
+fn without_debug_information(file: &Path) {
+    let is_library = ["so", "a", "dylib"]
+        .map(Some)
+        .contains(&file.extension().and_then(|e| e.to_str()));
+    if is_library {
+        let mut strip = Command::new("strip");
+        let option = if cfg!(target_os = "macos") {
+            "-S"
+        } else {
+            "--strip-debug"
+        };
+        // It serves as well with it.
+        let _ = strip.arg(option).arg(file).status();
+    }
 }
 
 /// Copies what was built.
