@@ -7,7 +7,9 @@ use std::time::{Duration, Instant};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use specula_render::picture::Metadata;
-use specula_render::{MOST_SAMPLES, MemoryEstimate, PreparedScene, RenderOptions, Renderer};
+use specula_render::{
+    MOST_SAMPLES, MemoryEstimate, PreparedScene, RenderGoal, RenderOptions, Renderer,
+};
 
 use crate::failure::{Failure, Status};
 use crate::options;
@@ -16,57 +18,8 @@ use crate::scene::SceneHandle;
 
 /// Between two calls of the progress function.
 const POLL: Duration = Duration::from_millis(50);
-/// Longest pass that is aimed at: between passes the clock is read.
-const LONGEST_PASS: Duration = Duration::from_millis(1000);
 /// Where a render by time ends in any case.
-const MOST_BY_TIME: u32 = 1 << 24;
-
-/// Why the passes end.
-struct Bounds {
-    samples: u32,
-    time: Option<Duration>,
-}
-
-impl Bounds {
-    /// Samples in the next pass; `None`: done. They double until a pass is long enough; towards the end of the time
-    /// they are as many as fit.
-    fn next_pass(
-        &self,
-        done: u32,
-        last: Option<(u32, Duration)>,
-        elapsed: Duration,
-    ) -> Option<u32> {
-        let left = self.samples.saturating_sub(done);
-        if left == 0 {
-            return None;
-        }
-        let rest = self.time.map(|time| time.saturating_sub(elapsed));
-        let budget = rest.unwrap_or(LONGEST_PASS).min(LONGEST_PASS);
-        let mut samples = done.max(1);
-        if let Some((taken, duration)) = last {
-            let each = duration.as_secs_f64() / f64::from(taken.max(1));
-            // One more would end after the limit by more than half of itself.
-            let is_late = rest.is_some_and(|rest| rest.as_secs_f64() < 0.5 * each);
-            if done > 0 && is_late {
-                return None;
-            }
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "saturates, which is what is wanted"
-            )]
-            let fitting = (budget.as_secs_f64() / each.max(1e-9)) as u32;
-            samples = samples.min(fitting.max(1));
-        }
-        Some(samples.min(left))
-    }
-
-    /// * `of_samples`: share of the samples that is done.
-    fn share_done(&self, of_samples: f64, elapsed: Duration) -> f64 {
-        let of_time = (self.time).map_or(0.0, |t| elapsed.as_secs_f64() / t.as_secs_f64());
-        of_samples.max(of_time).clamp(0.0, 1.0)
-    }
-}
+const MOST_BY_TIME: u32 = RenderGoal::MOST_BY_TIME;
 
 /// A range check of an option.
 fn within(name: &str, value: f64, most: f64) -> Result<Option<f64>, Failure> {
@@ -83,7 +36,7 @@ fn within(name: &str, value: f64, most: f64) -> Result<Option<f64>, Failure> {
 fn asked(
     scene: &SceneHandle,
     given: &options::RenderOptions,
-) -> Result<(RenderOptions, Bounds), Failure> {
+) -> Result<(RenderOptions, RenderGoal), Failure> {
     let mut options = RenderOptions::from_scene(&scene.scene);
     let noise = within("noise", given.noise, 1.0)?;
     let time = within("seconds", given.seconds, 1e9)?;
@@ -125,7 +78,13 @@ fn asked(
         samples = MOST_SAMPLES;
     }
     let time = time.map(Duration::from_secs_f64);
-    Ok((options, Bounds { samples, time }))
+    Ok((
+        options,
+        RenderGoal {
+            most_samples: samples,
+            time,
+        },
+    ))
 }
 
 /// Fails where a render would take more memory than there is: allocations later on cannot fail.
@@ -161,7 +120,7 @@ pub(crate) fn render(
     tell: Tell<'_>,
 ) -> Result<(PictureHandle, bool), Failure> {
     let start = Instant::now();
-    let (options, bounds) = asked(scene, given)?;
+    let (options, goal) = asked(scene, given)?;
     let pool = ThreadPoolBuilder::new()
         .num_threads(given.threads as usize)
         .build()
@@ -171,7 +130,7 @@ pub(crate) fn render(
         .install(|| PreparedScene::new(&scene.scene, &options))
         .map_err(Failure::invalid)?;
     let mut renderer = Renderer::new(&prepared, options);
-    let goes_on = passes(&pool, &mut renderer, &bounds, tell);
+    let goes_on = passes(&pool, &mut renderer, goal, tell);
     let film = renderer.film();
     #[expect(
         clippy::cast_possible_truncation,
@@ -195,12 +154,17 @@ pub(crate) fn render(
 }
 
 /// Takes samples; returns whether the caller let all of them be taken.
-fn passes(pool: &ThreadPool, renderer: &mut Renderer<'_>, bounds: &Bounds, tell: Tell<'_>) -> bool {
+fn passes(
+    pool: &ThreadPool,
+    renderer: &mut Renderer<'_>,
+    goal: RenderGoal,
+    tell: Tell<'_>,
+) -> bool {
     let start = Instant::now();
     let mut last = None;
     let mut told = (0.0, 0.0);
     while let Some(done) = renderer.samples_done() {
-        let Some(next) = bounds.next_pass(done, last, start.elapsed()) else {
+        let Some(next) = goal.next_pass(done, last, start.elapsed()) else {
             break;
         };
         let pass_start = Instant::now();
@@ -208,9 +172,9 @@ fn passes(pool: &ThreadPool, renderer: &mut Renderer<'_>, bounds: &Bounds, tell:
             return false;
         }
         last = Some((next, pass_start.elapsed()));
-        let of_samples = renderer.share_done(bounds.samples);
+        let of_samples = renderer.share_done(goal.most_samples);
         told = (
-            bounds.share_done(of_samples, start.elapsed()),
+            goal.share_done(of_samples, start.elapsed()),
             renderer.film().most_and_mean_samples().1,
         );
         if !tell(told.0, told.1) {

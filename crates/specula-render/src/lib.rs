@@ -10,6 +10,7 @@ mod disk;
 mod film;
 mod flat;
 mod geometry;
+mod goal;
 mod integrator;
 mod layout;
 mod light;
@@ -46,6 +47,7 @@ pub use film::{
     NoiseOutlook, NoiseTrend, RunSums, ScatterCounts,
 };
 pub use flat::{FlatGroup, FlatInstance, FlatScene};
+pub use goal::RenderGoal;
 pub use material::MaterialShader;
 pub use memory::MemoryEstimate;
 pub use options::{RenderOptions, Strategy};

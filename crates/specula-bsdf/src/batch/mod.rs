@@ -33,6 +33,7 @@
 //!   [`PerElementMetal`] alphas and colours, or [`Any`] lobe of the caller's own. Or no lobe:
 //!   [`Level::sample_reflection`], [`Level::reflection_pdf`]. Rough metal with all bounces:
 //!   [`Level::eval_pdf_random`], [`Level::sample_random`], walks in batches.
+//! * Or a [`Lobe`](crate::bsdf::Lobe) whose kind is known when the program runs: [`LobeBatches`].
 //! * Slices of any one length, tails of no special length needed. Slices that differ in length are an
 //!   error ([`LengthMismatch`]) that names the slice, and nothing is written.
 //! * Directions are unit, and local as everywhere in this crate; `u` lies in `[0, 1)`.
@@ -71,6 +72,7 @@ mod alphas;
 mod functions;
 mod kernels;
 mod level;
+mod lobe_batches;
 mod lobes;
 mod metals;
 mod multibounce;
@@ -81,6 +83,7 @@ mod visible;
 
 pub use alphas::Alphas;
 pub use level::Level;
+pub use lobe_batches::LobeBatches;
 pub use lobes::{Any, Lobes};
 pub use metals::PerElementMetal;
 pub use rough::PerElement;

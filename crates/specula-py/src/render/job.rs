@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use specula::render::picture::Metadata;
 use specula::render::{
-    FilmBuffer, MOST_SAMPLES, PassReport, PreparedScene, RenderOptions, Renderer,
+    FilmBuffer, MOST_SAMPLES, PassReport, PreparedScene, RenderGoal, RenderOptions, Renderer,
 };
 
 use super::picture::PictureData;
@@ -20,10 +20,8 @@ use crate::parameters::{in_range, invalid, named};
 
 /// Between two looks for Ctrl-C.
 const POLL: Duration = Duration::from_millis(50);
-/// Longest pass that is aimed at: between passes the progress is shown and the clock is read.
-const LONGEST_PASS: Duration = Duration::from_millis(1000);
 /// Where a render by time ends in any case.
-const MOST_BY_TIME: u32 = 1 << 24;
+const MOST_BY_TIME: u32 = RenderGoal::MOST_BY_TIME;
 
 /// A render of a scene as it was when the render began.
 #[pyclass(frozen, module = "specula_render._native")]
@@ -43,53 +41,6 @@ struct State {
     seconds: f64,
 }
 
-/// Why the passes end.
-struct Bounds {
-    samples: u32,
-    time: Option<Duration>,
-}
-
-impl Bounds {
-    /// Samples in the next pass; `None`: done. They double until a pass is long enough; towards the end of
-    /// the time they are as many as fit.
-    fn next_pass(
-        &self,
-        done: u32,
-        last: Option<(u32, Duration)>,
-        elapsed: Duration,
-    ) -> Option<u32> {
-        let left = self.samples.saturating_sub(done);
-        if left == 0 {
-            return None;
-        }
-        let rest = self.time.map(|time| time.saturating_sub(elapsed));
-        let budget = rest.unwrap_or(LONGEST_PASS).min(LONGEST_PASS);
-        let mut samples = done.max(1);
-        if let Some((taken, duration)) = last {
-            let each = duration.as_secs_f64() / f64::from(taken.max(1));
-            // One more would end after the limit by more than half of itself.
-            let is_late = rest.is_some_and(|rest| rest.as_secs_f64() < 0.5 * each);
-            if done > 0 && is_late {
-                return None;
-            }
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "saturates, which is what is wanted"
-            )]
-            let fitting = (budget.as_secs_f64() / each.max(1e-9)) as u32;
-            samples = samples.min(fitting.max(1));
-        }
-        Some(samples.min(left))
-    }
-
-    /// * `of_samples`: share of the samples that is done.
-    fn share_done(&self, of_samples: f64, elapsed: Duration) -> f64 {
-        let of_time = (self.time).map_or(0.0, |t| elapsed.as_secs_f64() / t.as_secs_f64());
-        of_samples.max(of_time).clamp(0.0, 1.0)
-    }
-}
-
 impl RenderJob {
     fn state(&self) -> PyResult<MutexGuard<'_, State>> {
         match self.state.try_lock() {
@@ -101,7 +52,7 @@ impl RenderJob {
         }
     }
 
-    fn run(&self, bounds: &Bounds, progress: Option<&Py<PyAny>>) -> PyResult<()> {
+    fn run(&self, goal: RenderGoal, progress: Option<&Py<PyAny>>) -> PyResult<()> {
         let mut state = self.state()?;
         let start = Instant::now();
         let options = self.options.clone();
@@ -110,7 +61,7 @@ impl RenderJob {
             Some(film) => Renderer::resume(&self.prepared, options, film)
                 .map_err(|e| PyRuntimeError::new_err(e.to_string()))?,
         };
-        let ended = self.passes(&mut renderer, &mut state, bounds, start, progress);
+        let ended = self.passes(&mut renderer, &mut state, goal, start, progress);
         state.film = Some(renderer.film().clone());
         state.seconds += start.elapsed().as_secs_f64();
         ended
@@ -120,13 +71,13 @@ impl RenderJob {
         &self,
         renderer: &mut Renderer<'_>,
         state: &mut State,
-        bounds: &Bounds,
+        goal: RenderGoal,
         start: Instant,
         progress: Option<&Py<PyAny>>,
     ) -> PyResult<()> {
         let mut last = None;
         while let Some(done) = renderer.samples_done() {
-            let Some(next) = bounds.next_pass(done, last, start.elapsed()) else {
+            let Some(next) = goal.next_pass(done, last, start.elapsed()) else {
                 break;
             };
             let pass_start = Instant::now();
@@ -135,9 +86,9 @@ impl RenderJob {
             state.rays += report.rays;
             if let Some(progress) = progress {
                 let film = renderer.film();
-                let of_samples = renderer.share_done(bounds.samples);
+                let of_samples = renderer.share_done(goal.most_samples);
                 let told = (
-                    bounds.share_done(of_samples, start.elapsed()),
+                    goal.share_done(of_samples, start.elapsed()),
                     film.most_and_mean_samples().1,
                     film.noise(),
                     state.rays,
@@ -293,8 +244,11 @@ impl RenderJob {
             None => self.options.samples_per_pixel,
         };
         let samples = samples.unwrap_or(all);
-        let bounds = Bounds { samples, time };
-        py.detach(|| self.run(&bounds, progress.as_ref()))
+        let goal = RenderGoal {
+            most_samples: samples,
+            time,
+        };
+        py.detach(|| self.run(goal, progress.as_ref()))
     }
 
     /// Samples per pixel that the render aims at.

@@ -3,7 +3,7 @@
 use crate::cli::ExitCode;
 use std::time::{Duration, Instant};
 
-use crate::render::{FilmBuffer, InvalidSample, Renderer};
+use crate::render::{FilmBuffer, InvalidSample, RenderGoal, Renderer};
 
 use super::checkpoint::Checkpoint;
 use super::console::say;
@@ -12,13 +12,12 @@ use super::live_view::LiveView;
 use super::noise_report::{self, NoiseWatch};
 use super::outputs::{self, Outputs};
 use super::progress::{Progress, State, short};
-use super::schedule::Goal;
 use super::stop::{Signal, Stop};
 use super::{Failure, watch};
 
 /// A render that is about to begin.
 pub(crate) struct Job<'a> {
-    pub(crate) goal: Goal,
+    pub(crate) goal: RenderGoal,
     pub(crate) renderer: Renderer<'a>,
     pub(crate) source: Samples<'a>,
     pub(crate) outputs: &'a Outputs,

@@ -38,7 +38,6 @@ mod noise_report;
 mod outputs;
 mod progress;
 mod render;
-mod schedule;
 mod stop;
 mod values;
 mod watch;

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use crate::render::{
-    FilmBuffer, Label, MOST_SAMPLES, PrepareError, PreparedScene, RenderOptions, Renderer,
+    FilmBuffer, Label, MOST_SAMPLES, PrepareError, PreparedScene, RenderGoal, RenderOptions,
+    Renderer,
 };
 use crate::scene::Scene;
 
@@ -19,7 +20,6 @@ use super::live_view::LiveView;
 use super::load::{self, Named};
 use super::outputs::{self, Outputs};
 use super::progress::short;
-use super::schedule::Goal;
 use super::stop::Stop;
 use super::{Failure, denoise, machine, memory, watch};
 
@@ -215,13 +215,13 @@ fn options(arguments: &RenderArguments, scene: &Scene) -> Result<RenderOptions, 
     })
 }
 
-fn goal(arguments: &RenderArguments, options: &RenderOptions) -> Goal {
+fn goal(arguments: &RenderArguments, options: &RenderOptions) -> RenderGoal {
     match (arguments.time, arguments.samples) {
-        (Some(time), _) => Goal::time(time),
+        (Some(time), _) => RenderGoal::time(time),
         // What is done is the film's to say.
-        (None, _) if options.noise.is_some() => Goal::samples(MOST_SAMPLES),
-        (None, Some([from, to])) => Goal::samples(to - from),
-        (None, None) => Goal::samples(options.samples_per_pixel),
+        (None, _) if options.noise.is_some() => RenderGoal::samples(MOST_SAMPLES),
+        (None, Some([from, to])) => RenderGoal::samples(to - from),
+        (None, None) => RenderGoal::samples(options.samples_per_pixel),
     }
 }
 

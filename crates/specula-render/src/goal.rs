@@ -1,4 +1,5 @@
-//! How many samples the next pass takes: few at first, then as many as fit into a second or two.
+//! When a render is done, and how many samples its next pass takes: few at first, then as many as fit into a second or
+//! two.
 
 use std::time::Duration;
 
@@ -6,21 +7,41 @@ use std::time::Duration;
 const LONGEST_PASS: Duration = Duration::from_millis(1500);
 /// Passes below this make the next one three times as large as all before, others as large: each costs something.
 const SHORT_PASS: Duration = Duration::from_millis(100);
-/// Where a render by time ends in any case.
-const MOST_SAMPLES: u32 = 1 << 24;
-
 /// When a render is done, but for the noise that it may aim at: whatever comes first.
+///
+/// ```no_run
+/// use std::sync::atomic::AtomicBool;
+/// use std::time::Instant;
+///
+/// use specula_render::{RenderGoal, Renderer};
+///
+/// fn render(renderer: &mut Renderer<'_>, goal: RenderGoal) {
+///     let (start, mut last) = (Instant::now(), None);
+///     while let Some(done) = renderer.samples_done() {
+///         let Some(next) = goal.next_pass(done, last, start.elapsed()) else {
+///             break;
+///         };
+///         let pass = Instant::now();
+///         renderer.render_pass(next, &AtomicBool::new(false));
+///         last = Some((next, pass.elapsed()));
+///     }
+/// }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Goal {
+pub struct RenderGoal {
     /// Samples per pixel.
-    pub(crate) most_samples: u32,
+    pub most_samples: u32,
     /// Time since the start; at least one sample is taken.
-    pub(crate) time: Option<Duration>,
+    pub time: Option<Duration>,
 }
 
-impl Goal {
+impl RenderGoal {
+    /// Samples per pixel at which a render by time ends in any case.
+    pub const MOST_BY_TIME: u32 = 1 << 24;
+
     /// A number of samples per pixel.
-    pub(crate) fn samples(most_samples: u32) -> Self {
+    #[must_use]
+    pub fn samples(most_samples: u32) -> Self {
         Self {
             most_samples,
             time: None,
@@ -28,9 +49,10 @@ impl Goal {
     }
 
     /// As many samples as fit into a time.
-    pub(crate) fn time(time: Duration) -> Self {
+    #[must_use]
+    pub fn time(time: Duration) -> Self {
         Self {
-            most_samples: MOST_SAMPLES,
+            most_samples: Self::MOST_BY_TIME,
             time: Some(time),
         }
     }
@@ -39,7 +61,8 @@ impl Goal {
     ///
     /// * `done`: samples so far, of the pixels that have the fewest; `last`: samples and duration of
     ///   the last pass; `elapsed`: since the start.
-    pub(crate) fn next_pass(
+    #[must_use]
+    pub fn next_pass(
         self,
         done: u32,
         last: Option<(u32, Duration)>,
@@ -75,7 +98,8 @@ impl Goal {
     /// Share of the work that is done, in `[0, 1]`.
     ///
     /// * `of_samples`: share of the samples.
-    pub(crate) fn share_done(self, of_samples: f64, elapsed: Duration) -> f64 {
+    #[must_use]
+    pub fn share_done(self, of_samples: f64, elapsed: Duration) -> f64 {
         let of_time = self
             .time
             .map_or(0.0, |limit| elapsed.as_secs_f64() / limit.as_secs_f64());
@@ -97,7 +121,7 @@ mod tests {
     #[test]
     fn passes_grow_and_end_at_the_asked_samples() {
         let (mut done, mut last, mut passes) = (0, None, Vec::new());
-        while let Some(n) = Goal::samples(21).next_pass(done, last, FAST) {
+        while let Some(n) = RenderGoal::samples(21).next_pass(done, last, FAST) {
             passes.push(n);
             done += n;
             last = Some((n, FAST));
@@ -108,19 +132,19 @@ mod tests {
     #[test]
     fn passes_that_take_a_while_double() {
         let last = Some((12, Duration::from_millis(200)));
-        assert_eq!(Goal::samples(100).next_pass(16, last, FAST), Some(16));
+        assert_eq!(RenderGoal::samples(100).next_pass(16, last, FAST), Some(16));
     }
 
     #[test]
     fn slow_passes_stay_small() {
         let last = Some((64, Duration::from_secs(64)));
-        let next = Goal::samples(1000).next_pass(64, last, FAST);
+        let next = RenderGoal::samples(1000).next_pass(64, last, FAST);
         assert_eq!(next, Some(1));
     }
 
     #[test]
     fn time_takes_one_sample_at_least_and_then_ends() {
-        let goal = Goal::time(Duration::from_secs(1));
+        let goal = RenderGoal::time(Duration::from_secs(1));
         let late = Duration::from_secs(5);
         assert_eq!(goal.next_pass(0, None, late), Some(1));
         assert_eq!(goal.next_pass(1, Some((1, late)), late), None);
@@ -131,7 +155,7 @@ mod tests {
 
     #[test]
     fn samples_that_take_longer_than_a_pass_should_do_not_end_a_render() {
-        let goal = Goal::time(Duration::from_secs(2400));
+        let goal = RenderGoal::time(Duration::from_secs(2400));
         let slow = Some((1, Duration::from_secs(8)));
         assert_eq!(goal.next_pass(8, slow, Duration::from_secs(20)), Some(1));
         assert_eq!(goal.next_pass(8, slow, Duration::from_secs(2395)), Some(1));
@@ -140,7 +164,7 @@ mod tests {
 
     #[test]
     fn what_comes_first_ends_a_render() {
-        let goal = Goal {
+        let goal = RenderGoal {
             most_samples: 64,
             time: Some(Duration::from_secs(1)),
         };
@@ -152,9 +176,9 @@ mod tests {
     #[test]
     fn shares_are_in_bounds() {
         let second = Duration::from_secs(1);
-        assert_eq!(Goal::samples(8).share_done(0.25, second), 0.25);
-        assert_eq!(Goal::time(second).share_done(0.0, 3 * second), 1.0);
-        assert_eq!(Goal::time(4 * second).share_done(0.5, second), 0.5);
-        assert_eq!(Goal::samples(8).share_done(f64::NAN, second), 0.0);
+        assert_eq!(RenderGoal::samples(8).share_done(0.25, second), 0.25);
+        assert_eq!(RenderGoal::time(second).share_done(0.0, 3 * second), 1.0);
+        assert_eq!(RenderGoal::time(4 * second).share_done(0.5, second), 0.5);
+        assert_eq!(RenderGoal::samples(8).share_done(f64::NAN, second), 0.0);
     }
 }
