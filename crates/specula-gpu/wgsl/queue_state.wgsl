@@ -80,7 +80,6 @@ fn queue_state_to_trace(slot: u32) -> PathState {
     var state: PathState;
     state.ray = Ray(bitcast<vec3f>(origin.xyz), bitcast<vec3f>(direction.xyz), FARTHEST);
     state.flags = origin.w;
-    state.previous_pdf = bitcast<f32>(direction.w);
     state.rays = queue_state_read(slot, QUEUE_COUNTS).y;
     if VISIBILITY_BY_SURFACES != 0u {
         let throughput = queue_state_read(slot, QUEUE_THROUGHPUT);

@@ -127,19 +127,17 @@ impl Export<'_> {
             bytes: self.library(&parts).map_err(failed)?,
         }];
         let called = ordered(language.example_modules())?;
-        let is_whole = self.functions.is_empty() && self.prefix.is_empty();
-        if is_whole
-            && self.namespace == Self::NAMESPACE
-            && called.iter().all(|m| modules.contains(m))
-        {
+        let is_plain = self.functions.is_empty()
+            && self.prefix.is_empty()
+            && self.namespace == Self::NAMESPACE;
+        if is_plain && called.iter().all(|m| modules.contains(m)) {
             files.push(File {
                 name: language.example_file(),
                 bytes: example(language).map_err(failed)?,
             });
         }
         if language == Language::Cpp
-            && is_whole
-            && self.namespace == Self::NAMESPACE
+            && is_plain
             && ordered(&TESTED)?.iter().all(|m| modules.contains(m))
         {
             let texts = [
