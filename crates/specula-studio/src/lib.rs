@@ -10,6 +10,7 @@ mod lobes;
 mod render;
 mod request;
 mod samplers;
+mod shaders;
 
 pub use answer::{Answer, Array};
 pub use request::AskError;
@@ -42,6 +43,7 @@ impl Studio {
             Some(("lobes", what)) => lobes::answer(what, request),
             Some(("samplers", what)) => samplers::answer(what, request),
             Some(("render", what)) => self.renders.answer(what, request),
+            Some(("shaders", what)) => shaders::answer(what, request),
             _ => Err(AskError::unknown(&ask)),
         }
     }
