@@ -18,6 +18,8 @@ function App() {
   useEffect(() => {
     const changed = () => setId(pageOfAddress());
     addEventListener('hashchange', changed);
+    // The address may have changed before this listened.
+    changed();
     return () => removeEventListener('hashchange', changed);
   }, []);
   useEffect(() => {

@@ -14,7 +14,7 @@ export function save(name: string, contents: BlobPart, type: string): void {
 export function svgText(svg: SVGSVGElement): string {
   const copy = svg.cloneNode(true) as SVGSVGElement;
   const [from, to] = [svg, copy].map((root) => [root, ...root.querySelectorAll('*')] as SVGElement[]);
-  const kept = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'stroke-linejoin', 'font', 'opacity', 'text-anchor', 'dominant-baseline'];
+  const kept = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'stroke-linejoin', 'font-family', 'font-size', 'font-weight', 'opacity', 'text-anchor', 'dominant-baseline'];
   from?.forEach((element, i) => {
     const style = getComputedStyle(element);
     for (const name of kept) {
@@ -28,6 +28,24 @@ export function svgText(svg: SVGSVGElement): string {
   copy.setAttribute('width', String(width));
   copy.setAttribute('height', String(height));
   return new XMLSerializer().serializeToString(copy);
+}
+
+/** A plot as a picture, on the page's own ground. */
+export async function svgCanvas(svg: SVGSVGElement, scale = 2): Promise<HTMLCanvasElement> {
+  const image = new Image();
+  const url = URL.createObjectURL(new Blob([svgText(svg)], { type: 'image/svg+xml' }));
+  image.src = url;
+  await image.decode();
+  const { width, height } = svg.viewBox.baseVal;
+  const canvas = Object.assign(document.createElement('canvas'), { width: width * scale, height: height * scale });
+  const context = canvas.getContext('2d');
+  if (context !== null) {
+    context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue('--card');
+    context.fillRect(0, 0, canvas.width, canvas.height);
+    context.drawImage(image, 0, 0, canvas.width, canvas.height);
+  }
+  URL.revokeObjectURL(url);
+  return canvas;
 }
 
 /** A table as CSV. */

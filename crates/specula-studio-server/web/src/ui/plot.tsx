@@ -3,7 +3,7 @@
 import { scaleLinear, scaleLog } from 'd3-scale';
 import { line } from 'd3-shape';
 import { useRef, useState } from 'preact/hooks';
-import { csv, save, svgText } from './files';
+import { csv, save, savePng, svgCanvas, svgText } from './files';
 
 export interface Series {
   name: string;
@@ -12,6 +12,8 @@ export interface Series {
   /** A CSS colour; else by the series' place. */
   colour?: string;
   isDashed?: boolean;
+  /** Lengths of dashes and gaps, as in SVG. */
+  dash?: string;
   /** Standard deviations: drawn as a band of two on either side. */
   error?: ArrayLike<number>;
 }
@@ -57,7 +59,7 @@ function extent(values: ArrayLike<number>[], isPositive: boolean): [number, numb
 export function format(x: number): string {
   if (x === 0) return '0';
   const size = Math.abs(x);
-  return size >= 1e5 || size < 1e-3 ? x.toExponential(1).replace('e+', 'e') : String(Number(x.toPrecision(4)));
+  return size >= 1e5 || size < 1e-3 ? x.toExponential(1).replace('.0e', 'e').replace('e+', 'e') : String(Number(x.toPrecision(4)));
 }
 
 export function Plot(props: PlotProps) {
@@ -134,7 +136,7 @@ export function Plot(props: PlotProps) {
           return (
             <g key={s.name}>
               {s.error !== undefined && <path d={band(s)} fill={colour} stroke="none" opacity={0.18} />}
-              <path class="series" d={path(s.x, s.y)} stroke={colour} stroke-dasharray={s.isDashed === true ? '5 4' : undefined} />
+              <path class="series" d={path(s.x, s.y)} stroke={colour} stroke-dasharray={s.dash ?? (s.isDashed === true ? '5 4' : undefined)} />
             </g>
           );
         })}
@@ -144,7 +146,7 @@ export function Plot(props: PlotProps) {
       <ul class="legend" aria-label="Series">
         {series.map((s, i) => (
           <li key={s.name}>
-            <Swatch colour={s.colour ?? seriesColour(i)} isDashed={s.isDashed === true} />
+            <Swatch colour={s.colour ?? seriesColour(i)} isDashed={s.isDashed === true || s.dash !== undefined} />
             {s.name}
             {at !== undefined && s.x.length > 0 && `: ${format(s.y[nearest(s, at)] as number)} at ${format(s.x[nearest(s, at)] as number)}`}
           </li>
@@ -178,6 +180,16 @@ export function PlotActions(props: { title: string; svg: () => SVGSVGElement | n
         }}
       >
         SVG
+      </button>
+      <button
+        type="button"
+        aria-label={`Save PNG: ${props.title}`}
+        onClick={async () => {
+          const svg = props.svg();
+          if (svg !== null) await savePng(`${name}.png`, await svgCanvas(svg));
+        }}
+      >
+        PNG
       </button>
       {props.table !== undefined && (
         <button type="button" aria-label={`Save CSV: ${props.title}`} onClick={() => save(`${name}.csv`, props.table?.() ?? '', 'text/csv')}>

@@ -45,6 +45,7 @@ export function Space(props: SpaceProps) {
       element.textContent = 'This browser has no WebGL: the picture cannot be drawn.';
       return;
     }
+    renderer.debug.checkShaderErrors = false;
     renderer.domElement.setAttribute('role', 'img');
     renderer.domElement.setAttribute('aria-label', latest.current.label);
     element.append(renderer.domElement);
@@ -94,7 +95,9 @@ export function Space(props: SpaceProps) {
     now.scene.add(...props.contents);
     now.draw();
     return () => {
-      for (const object of props.contents) object.traverse(dispose);
+      // After the next ones are drawn, which then find their programs compiled.
+      const old = props.contents;
+      requestAnimationFrame(() => requestAnimationFrame(() => old.forEach((object) => object.traverse(dispose))));
     };
   }, [props.contents]);
   return <div class="space" ref={host} />;

@@ -19,7 +19,7 @@ export const DEFAULTS = {
   slot: 'a',
   /** Of the view, in degrees: 90 is the normal. */
   elevation: 40,
-  azimuth: 0,
+  azimuth: 180,
   /** Of the light, in degrees in the plane of incidence; positive: on the mirror's side. */
   light: 50,
   quantity: 'f_cos',

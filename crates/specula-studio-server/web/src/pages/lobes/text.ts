@@ -55,7 +55,8 @@ export function writeText({ kind, given }: LobeForm): string {
   const pairs: string[] = [];
   for (const { key, type, default: usual } of kind.parameters) {
     const value = given[key];
-    if (value === undefined || value === usual) continue;
+    // A tint needs its reflectance beside it.
+    if (value === undefined || (value === usual && !(type === 'metal' && given['tint'] !== undefined))) continue;
     if (type === 'metal' && /^[A-Z]/.test(value)) metals.push(value);
     else pairs.push(`${key} ${value}`);
   }
@@ -89,6 +90,7 @@ const TOGETHER: Record<string, Record<string, string>> = {
   f82_tint: { f0: '0.8' },
 };
 
+
 /** A form with a value changed; `undefined`: taken back. What cannot stand beside it goes, what it needs comes. */
 export function withValue({ kind, given }: LobeForm, key: string, value: string | undefined): LobeForm {
   const changed = { ...given };
@@ -100,6 +102,7 @@ export function withValue({ kind, given }: LobeForm, key: string, value: string 
   }
   changed[key] = value;
   const hasMetals = kind.parameters.some((p) => p.type === 'metal');
+  if (hasMetals && key === 'tint' && !REFLECTANCES.some(([first]) => first !== undefined && first in changed)) changed['reflectance'] = '1';
   if (hasMetals && REFLECTANCES.some((keys) => keys.includes(key))) {
     for (const keys of REFLECTANCES) if (!keys.includes(key)) for (const other of keys) delete changed[other];
     for (const [other, usual] of Object.entries(TOGETHER[key] ?? {})) changed[other] ??= usual;
@@ -128,4 +131,10 @@ export function energyTreatments(form: LobeForm, kinds: LobeKind[]): string[] | 
   const base = withKind(form, single);
   const energies = [undefined, 'turquin', 'kulla-conty'].map((energy) => writeText(withValue(base, 'energy', energy)));
   return [...energies, writeText(withKind(form, simulated))];
+}
+
+/** The kind that simulates the bounces of a form's, with its parameters; `undefined`: there is none. */
+export function simulatedText(form: LobeForm, kinds: LobeKind[]): string | undefined {
+  const kind = kinds.find((k) => k.name === `multibounce-${form.kind.name}`);
+  return kind === undefined ? undefined : writeText(withKind(form, kind));
 }
