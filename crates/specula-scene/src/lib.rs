@@ -48,6 +48,7 @@ mod num;
 mod obj;
 mod pbrt;
 mod ply;
+mod pressed;
 mod problems;
 mod read_file;
 pub mod report;

@@ -16,11 +16,13 @@ use super::{camera, light, material};
 use crate::bounds::{self, FARTHEST};
 use crate::error::{ErrorKind, Place, SceneError, Warning};
 use crate::mesh;
+use crate::pressed::{Press, Pressed};
 use crate::problems::{NoteKind, is_dark};
 use crate::scene::{
     Bump, ColourParam, Emission, FloatParam, Geometry, Light, Material, MaterialId, MaterialKind,
     Mesh, Object, ObjectId, ObjectInstance, Scene, Shape, TextureId,
 };
+use crate::transform::is_invertible;
 use crate::{Format, Loaded};
 
 /// Builds the scene.
@@ -49,12 +51,14 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         reader.camera_medium,
         integrator,
     )?;
-    let (geometries, meshes) = geometry::read(&mut context, &all)?;
+    let (geometries, mut meshes) = geometry::read(&mut context, &all)?;
     let lights = read_lights(&mut context, &reader.lights)?;
+    let press = Press::new(context.files.limits());
     let mut builder = Builder {
         context,
         materials: &mut materials,
-        meshes: &meshes,
+        meshes: &mut meshes,
+        press,
     };
     let mut geometries = geometries.into_iter();
     let mut objects = Vec::new();
@@ -65,10 +69,11 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
             shapes,
         });
     }
-    let shapes = builder.shapes(&reader.shapes, &mut geometries)?;
+    let mut shapes = builder.shapes(&reader.shapes, &mut geometries)?;
+    let (instances, pressed) = builder.instances(&reader.instances, &objects)?;
+    shapes.extend(pressed);
     let mut context = builder.context;
 
-    let instances = place_instances(&mut context, &reader.instances, &objects)?;
     let problems = context.problems.clone();
     if shapes.is_empty() && instances.is_empty() && !problems.has_errors() {
         let error = nothing_left(&context, &end);
@@ -129,11 +134,11 @@ fn note_dark(context: &Context, entity: &Entity, is_dark: bool) {
     }
 }
 
-fn place_instances(
+fn place_instances<'a>(
     context: &mut Context,
-    entities: &[InstanceEntity],
+    entities: &'a [InstanceEntity],
     objects: &[Object],
-) -> Result<Vec<ObjectInstance>, SceneError> {
+) -> Result<Vec<(ObjectInstance, &'a Place)>, SceneError> {
     let ids: HashMap<&str, usize> = objects
         .iter()
         .enumerate()
@@ -153,10 +158,11 @@ fn place_instances(
             let message = "the object has no shapes: the instance is left out";
             context.warn(&instance.place, message);
         } else {
-            instances.push(ObjectInstance {
+            let placed = ObjectInstance {
                 object: ObjectId(i),
                 to_world: instance.to_world,
-            });
+            };
+            instances.push((placed, &instance.place));
         }
     }
     Ok(instances)
@@ -344,7 +350,8 @@ impl Materials {
 struct Builder<'a> {
     context: Context,
     materials: &'a mut Materials,
-    meshes: &'a [Mesh],
+    meshes: &'a mut Vec<Mesh>,
+    press: Press,
 }
 
 impl Builder<'_> {
@@ -400,14 +407,55 @@ impl Builder<'_> {
                 emission = self.emission(entity, shape, read, &geometry)?;
             }
         }
-        Ok(Some(Shape {
+        let to_world = shape.to_world;
+        let shape = Shape {
             geometry,
-            to_world: shape.to_world,
+            to_world,
             material,
             emission,
             reverse_orientation: shape.reverse_orientation,
             alpha,
-        }))
+        };
+        if is_invertible(&to_world) {
+            return Ok(Some(shape));
+        }
+        self.pressed(&shape, &to_world, place)
+    }
+
+    /// A shape under a transform that cannot be inverted, if area is left of it.
+    fn pressed(
+        &mut self,
+        shape: &Shape,
+        to_world: &DMat4,
+        place: &Place,
+    ) -> Result<Option<Shape>, SceneError> {
+        let pressed = self.press.shape(shape, to_world, self.meshes);
+        let pressed = pressed.map_err(|m| SceneError::new(ErrorKind::Limit, place, m))?;
+        self.context.warn(place, pressed.message());
+        Ok(match pressed {
+            Pressed::Flat(shape) => Some(*shape),
+            Pressed::Nothing => None,
+        })
+    }
+
+    /// Instances, and the shapes of those that are pressed flat.
+    fn instances(
+        &mut self,
+        entities: &[InstanceEntity],
+        objects: &[Object],
+    ) -> Result<(Vec<ObjectInstance>, Vec<Shape>), SceneError> {
+        let (mut instances, mut shapes) = (Vec::new(), Vec::new());
+        for (instance, place) in place_instances(&mut self.context, entities, objects)? {
+            if is_invertible(&instance.to_world) {
+                instances.push(instance);
+                continue;
+            }
+            for shape in &objects[instance.object.0].shapes {
+                let to_world = instance.to_world * shape.to_world;
+                shapes.extend(self.pressed(shape, &to_world, place)?);
+            }
+        }
+        Ok((instances, shapes))
     }
 
     /// The light of a shape.

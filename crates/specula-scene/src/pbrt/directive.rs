@@ -18,6 +18,7 @@ use crate::error::{ErrorKind, Place, SceneError, SourceText};
 use crate::problems::Problems;
 use crate::read_file::Files;
 use crate::spectrum::{COLOUR_SPACES, ColourSpace};
+use crate::transform::check_transform;
 
 /// Most parameters that `Attribute` may set at a time: every later directive searches them.
 const MAX_ATTRIBUTES: usize = 1000;
@@ -439,6 +440,9 @@ impl Reader {
             if self.state.moves() {
                 self.context
                     .warn(place, "the camera moves; it is rendered where it starts");
+            }
+            for m in &self.state.transforms {
+                check_transform(m).map_err(|m| SceneError::new(ErrorKind::Transform, place, m))?;
             }
             let inverse = self.state.transforms.map(|m| m.inverse());
             self.camera_to_world = inverse[0];

@@ -14,6 +14,7 @@ use super::token::{Tokens, shorten};
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
 use crate::scene::{ColourParam, FloatParam, NoiseKind, Texture, TextureId};
+use crate::transform::check_transform;
 use mapping::mapping;
 
 /// Whether a texture gives numbers or colours; each type has names of its own.
@@ -34,6 +35,14 @@ struct TextureNode<'a> {
 impl TextureNode<'_> {
     fn params(&self) -> &ParamList {
         &self.entity.params
+    }
+
+    /// World space to texture space.
+    fn to_texture(&self) -> Result<DMat4, SceneError> {
+        match check_transform(&self.to_world) {
+            Ok(()) => Ok(self.to_world.inverse()),
+            Err(m) => Err(SceneError::new(ErrorKind::Transform, &self.entity.place, m)),
+        }
     }
 }
 
@@ -124,7 +133,7 @@ fn texture(context: &mut Context, node: &TextureNode<'_>) -> Result<TextureId, S
             kind: NoiseKind::Windy,
             octaves: 0,
             roughness: 0.0,
-            to_texture: node.to_world.inverse(),
+            to_texture: node.to_texture()?,
         },
         ("marble", TextureType::Colour) => {
             let scale = f32_of(params.float("scale", 1.0)?);
@@ -215,7 +224,7 @@ fn checkerboard(context: &mut Context, node: &TextureNode<'_>) -> Result<Texture
         _ => Ok(Texture::Checkerboard3d {
             even,
             odd,
-            to_texture: node.to_world.inverse(),
+            to_texture: node.to_texture()?,
         }),
     }
 }
@@ -243,6 +252,6 @@ fn noise(node: &TextureNode<'_>, kind: NoiseKind) -> Result<Texture, SceneError>
         kind,
         octaves: params.integer_within("octaves", 8, 0..=64)?,
         roughness: f32_of(params.float("roughness", 0.5)?),
-        to_texture: node.to_world.inverse(),
+        to_texture: node.to_texture()?,
     })
 }

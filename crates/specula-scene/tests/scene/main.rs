@@ -20,6 +20,7 @@ mod graph;
 mod materials;
 mod media;
 mod mutations;
+mod pressed;
 mod range;
 #[path = "../common/report.rs"]
 mod report;

@@ -104,3 +104,27 @@ fn a_good_picture_stays_when_a_later_render_fails() {
     assert_eq!(render().status.code(), Some(2));
     assert_eq!((read("a.exr"), read("a.png")), before);
 }
+
+#[test]
+fn shapes_that_are_pressed_flat_are_warned_of_and_rendered() {
+    let folder = tempfile::tempdir().unwrap();
+    let flat = "ConcatTransform [ -0 -0 0 0 0 1 0 0 -1.2246469e-16 0 -1 0 0 0 0 1 ]";
+    let line =
+        "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 1 1 0] \"integer indices\" [0 1 2]";
+    let scene = format!("{SMALL}AttributeBegin {flat}\n{line}\nShape \"sphere\"\nAttributeEnd\n");
+    std::fs::write(folder.path().join("flat.pbrt"), scene).unwrap();
+    let run = specula(folder.path())
+        .args(["render", "flat.pbrt", "-o", "a.exr"])
+        .output()
+        .unwrap();
+    let said = stderr(&run);
+    assert_eq!(run.status.code(), Some(0), "{said}");
+    assert!(
+        said.contains("flat.pbrt:12:7: the transform presses the shape to no area: it is left out"),
+        "{said}"
+    );
+    assert!(
+        said.contains("flat.pbrt:13:7: the transform presses the shape flat"),
+        "{said}"
+    );
+}
