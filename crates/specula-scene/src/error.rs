@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::limits;
+use crate::missing::MissingFile;
 
 /// The text of a file, stored to show excerpts.
 pub struct SourceText {
@@ -174,6 +175,7 @@ struct Inner {
     message: String,
     help: Option<String>,
     place: Place,
+    missing: Vec<MissingFile>,
 }
 
 impl SceneError {
@@ -184,6 +186,7 @@ impl SceneError {
             help: limits::help(&message),
             message,
             place: place.clone(),
+            missing: Vec::new(),
         }))
     }
 
@@ -198,6 +201,39 @@ impl SceneError {
             Some(help) => self.with_help(help),
             None => self,
         }
+    }
+
+    /// The same, with the files that it is about.
+    pub(crate) fn with_missing(mut self, files: Vec<MissingFile>) -> Self {
+        self.0.missing = files;
+        self
+    }
+
+    /// The same as an error about a file that does not exist, where it does not.
+    ///
+    /// * `hint`: where it was looked for; `None` for a file that exists.
+    pub(crate) fn if_missing(self, hint: Option<String>, path: &Path) -> Self {
+        let Some(hint) = hint else {
+            return self;
+        };
+        let file = MissingFile {
+            path: path.to_owned(),
+            place: self.0.place.clone(),
+            kind: self.0.kind,
+        };
+        let help = format!("{hint}; `--missing stand-in` goes on without");
+        self.with_help(help).with_missing(vec![file])
+    }
+
+    /// The same, with what its missing files hold.
+    pub(crate) fn of_missing(mut self, kind: ErrorKind) -> Self {
+        self.0.missing.iter_mut().for_each(|file| file.kind = kind);
+        self
+    }
+
+    /// The files that do not exist, where that is all that is wrong; else none.
+    pub fn missing(&self) -> &[MissingFile] {
+        &self.0.missing
     }
 
     /// What kind of thing is wrong.

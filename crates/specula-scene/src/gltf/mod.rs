@@ -39,6 +39,7 @@ pub(crate) use features::FEATURES;
 
 use crate::error::{ErrorKind, Place, SceneError, SourceText, Warning};
 use crate::image::Image;
+use crate::missing::MissingFile;
 use crate::problems::Problems;
 use crate::read_file::Files;
 use crate::scene::{Light, Material, Mesh, Object, Shape, Texture, TextureId};
@@ -66,6 +67,9 @@ const KNOWN_EXTENSIONS: [&str; 16] = [
     "KHR_texture_transform",
 ];
 
+/// What is wrong with a buffer, and the file that it would be in where that is missing.
+type LostBuffer = (String, Vec<MissingFile>);
+
 /// The state of the reader.
 struct Reader<'a> {
     document: &'a gltf::Document,
@@ -75,7 +79,7 @@ struct Reader<'a> {
     search: Search,
     place: Place,
     /// Bytes, or what is wrong with them.
-    buffers: Vec<Result<Vec<u8>, String>>,
+    buffers: Vec<Result<Vec<u8>, LostBuffer>>,
     warnings: Vec<Warning>,
     images: Vec<Image>,
     textures: Vec<Texture>,

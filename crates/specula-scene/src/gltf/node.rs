@@ -177,6 +177,7 @@ impl Reader<'_> {
             scene,
             warnings: self.warnings,
             files: self.files.list(),
+            missing: Vec::new(),
         })
     }
 

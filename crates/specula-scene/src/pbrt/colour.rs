@@ -254,15 +254,15 @@ fn spectrum_file(context: &Context, name: &str, place: &Place) -> Result<Spectru
     let path = context.resolve(name);
     let bytes = context.files.plain(&path).map_err(|e| {
         let expected = "expected a name such as metal-Au-eta or glass-BK7, or a .spd file";
-        let help = match context.search.hint(&path) {
-            Some(hint) => format!("{expected}; {hint}"),
-            None => expected.to_owned(),
-        };
+        let hint = context.search.hint(&path);
+        let hint = hint.map(|hint| format!("{expected}; {hint}"));
         let message = format!(
             "\"{}\" is no known spectrum, nor a file that can be read: it {e}",
             shorten(name)
         );
-        SceneError::new(ErrorKind::Spectrum, place, message).with_help(help)
+        SceneError::new(ErrorKind::Spectrum, place, message)
+            .with_help(expected)
+            .if_missing(hint, &path)
     })?;
     let text = String::from_utf8_lossy(&bytes).into_owned();
     spectrum::parse_spd(&text).map_err(|e| {

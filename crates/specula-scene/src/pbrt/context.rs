@@ -57,7 +57,7 @@ impl ImageJob {
     pub(super) fn read(&self, files: &Files, search: &Search) -> Result<Image, SceneError> {
         image::read(&self.path, self.encoding, self.content, files).map_err(|message| {
             SceneError::new(ErrorKind::Image, &self.place, message)
-                .with_hint(search.hint(&self.path))
+                .if_missing(search.hint(&self.path), &self.path)
         })
     }
 }

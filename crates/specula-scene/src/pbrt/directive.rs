@@ -164,7 +164,7 @@ impl Reader {
                 place,
                 format!("{} {message}", path.display()),
             )
-            .with_hint(from.and_then(|_| self.context.search.hint(path)))
+            .if_missing(from.and_then(|_| self.context.search.hint(path)), path)
         };
         let identity = match (path.canonicalize(), from) {
             (Ok(identity), _) => identity,

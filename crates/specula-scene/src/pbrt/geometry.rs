@@ -200,7 +200,7 @@ fn broken(context: &Context, place: &Place, path: Option<&Path>, fault: &Fault) 
         return SceneError::new(ErrorKind::Mesh, place, fault.to_string());
     };
     let message = format!("mesh {}: {fault}", path.display());
-    SceneError::new(ErrorKind::Mesh, place, message).with_hint(context.search.hint(path))
+    SceneError::new(ErrorKind::Mesh, place, message).if_missing(context.search.hint(path), path)
 }
 
 /// * `collects`: whether to go on after a mistake, as in a check.

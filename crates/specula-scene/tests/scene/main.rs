@@ -19,6 +19,7 @@ mod formats;
 mod graph;
 mod materials;
 mod media;
+mod missing;
 mod mutations;
 mod pressed;
 mod range;

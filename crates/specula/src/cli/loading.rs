@@ -1,9 +1,10 @@
 //! Options of every command that reads a scene: limits, and folders to search.
 
+use std::fmt;
 use std::path::PathBuf;
 
-use crate::scene::LoadOptions;
-use clap::Args;
+use crate::scene::{LoadOptions, Missing};
+use clap::{Args, ValueEnum};
 
 use super::values;
 
@@ -14,6 +15,10 @@ pub(crate) struct LoadingArguments {
     /// be repeated.
     #[arg(long, value_name = "FOLDER")]
     pub(crate) search: Vec<PathBuf>,
+
+    /// What is done about pictures, meshes and included files that do not exist
+    #[arg(long, value_name = "WHAT", default_value_t = MissingName::Refuse)]
+    pub(crate) missing: MissingName,
 
     /// Deepest nesting of files and references that is not taken for damage [default: 64]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
@@ -32,6 +37,32 @@ pub(crate) struct LoadingArguments {
     pub(crate) limit_vertices: Option<u64>,
 }
 
+/// `--missing`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MissingName {
+    /// End with one error that lists them all
+    Refuse,
+    /// Go on with a grey checker for pictures and without the rest: warnings list them, and so does the
+    /// attribute `specula.missing` of EXR files
+    StandIn,
+}
+
+impl fmt::Display for MissingName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.to_possible_value()
+            .map_or(Ok(()), |v| f.write_str(v.get_name()))
+    }
+}
+
+impl From<MissingName> for Missing {
+    fn from(name: MissingName) -> Self {
+        match name {
+            MissingName::Refuse => Self::Refuse,
+            MissingName::StandIn => Self::StandIn,
+        }
+    }
+}
+
 impl LoadingArguments {
     /// What the library is told.
     ///
@@ -45,6 +76,7 @@ impl LoadingArguments {
         limits.max_vertices = self.limit_vertices.unwrap_or(limits.max_vertices);
         options.parameters = parameters.to_vec();
         options.folders.clone_from(&self.search);
+        options.missing = self.missing.into();
         options
     }
 }
@@ -73,6 +105,7 @@ mod tests {
             "--limit-vertices=7",
             "--search=a",
             "--search=b",
+            "--missing=stand-in",
         ];
         let options = Line::parse_from(line).loading.options(&[]);
         let mut limits = Limits::default();
@@ -81,6 +114,7 @@ mod tests {
         limits.max_pixels = 5;
         limits.max_vertices = 7;
         assert_eq!(options.limits, limits);
+        assert_eq!(options.missing, Missing::StandIn);
         assert_eq!(options.folders, [PathBuf::from("a"), PathBuf::from("b")]);
         assert!(Line::try_parse_from(["x", "--limit-pixels=0"]).is_err());
         assert!(Line::try_parse_from(["x", "--limit-bytes=lots"]).is_err());

@@ -23,6 +23,7 @@ mod live_view;
 mod memory;
 #[cfg(target_os = "linux")]
 mod messages;
+mod missing;
 mod outputs;
 mod render;
 #[cfg(unix)]

@@ -28,7 +28,8 @@ pub(super) fn read(
     let wrong = |message: String| SceneError::new(ErrorKind::Parameter, place, message);
     let path = context.resolve(name);
     let bytes = context.files.plain(&path).map_err(|e| {
-        wrong(format!("lens file {name} {e}")).with_hint(context.search.hint(&path))
+        let hint = context.search.hint(&path);
+        wrong(format!("lens file {name} {e}")).if_missing(hint, &path)
     })?;
     let elements = elements(&String::from_utf8_lossy(&bytes), place)?;
     let focal_mm = focal_length_mm(&elements)
