@@ -9,13 +9,13 @@
 //! let text = b"Camera \"perspective\"
 //!     WorldBegin
 //!     LightSource \"infinite\"
-//!     Material \"metal\"
+//!     Material \"copper\"
 //!     Shape \"sphere\"";
 //! let error = load_bytes("a.pbrt".as_ref(), text.to_vec(), &LoadOptions::default()).unwrap_err();
 //! assert_eq!(error.place().to_string(), "a.pbrt:4:14");
-//! assert!(error.message().contains("metal"), "{error}");
+//! assert!(error.message().contains("copper"), "{error}");
 //!
-//! let text = String::from_utf8_lossy(text).replace("metal", "conductor");
+//! let text = String::from_utf8_lossy(text).replace("copper", "conductor");
 //! let loaded = load_bytes("a.pbrt".as_ref(), text.into(), &LoadOptions::default())?;
 //! assert_eq!(loaded.scene.shapes.len(), 1);
 //! for warning in &loaded.warnings {

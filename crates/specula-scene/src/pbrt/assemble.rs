@@ -195,6 +195,8 @@ struct Materials {
     ids: Vec<Option<MaterialId>>,
     default: Option<MaterialId>,
     named: HashMap<String, usize>,
+    /// Opacities of the file's materials, which those of shapes override.
+    opacities: Vec<Option<FloatParam>>,
 }
 
 fn read_materials(
@@ -216,6 +218,7 @@ fn read_materials(
     note_unused_names(context, entities, shapes);
     let mut list: Vec<Material> = Vec::new();
     let mut ids = Vec::new();
+    let mut opacities = vec![None; entities.len()];
     let mut before: HashMap<&str, MaterialId> = HashMap::new();
     for (i, MaterialEntity { name, entity }) in entities.iter().enumerate() {
         if name.is_none() && !used.contains(&i) {
@@ -236,6 +239,8 @@ fn read_materials(
             let error = SceneError::new(ErrorKind::Unsupported, &entity.place, message);
             context.problems.record(error)?;
         }
+        let opacity = material::opacity(context, &entity.params);
+        opacities[i] = entity.or(opacity, || None)?;
         let id = MaterialId(list.len());
         if let Some(name) = name {
             before.insert(name, id);
@@ -254,6 +259,7 @@ fn read_materials(
         ids,
         default: None,
         named: named.clone(),
+        opacities,
     })
 }
 
@@ -324,6 +330,16 @@ impl Materials {
         })
     }
 
+    /// The opacity that a material gives its shapes.
+    fn opacity(&self, wanted: &MaterialUse) -> Option<FloatParam> {
+        let index = match wanted {
+            MaterialUse::Defined(i) => Some(*i),
+            MaterialUse::Named(name, _) => self.named.get(name).copied(),
+            MaterialUse::Default => None,
+        };
+        index.and_then(|i| self.opacities[i])
+    }
+
     fn id(&mut self, wanted: &MaterialUse) -> Result<MaterialId, SceneError> {
         let index = match wanted {
             MaterialUse::Defined(i) => Some(*i),
@@ -387,6 +403,7 @@ impl Builder<'_> {
         let alpha = self
             .context
             .float_from_zero_or_none(&shape.entity.params, "alpha")?
+            .or(self.materials.opacity(&shape.material))
             .unwrap_or(FloatParam::Value(1.0));
         let Some(geometry) = read.geometry else {
             return Ok(None);

@@ -241,13 +241,23 @@ fn read_spectrum(context: &Context, param: &Param) -> Result<(Spectrum, OutsideR
             let [(name, place)] = texts.as_slice() else {
                 return Err(param.wrong_type(&["spectrum"]));
             };
-            match spectrum::named(name) {
+            match spectrum::named(name).or_else(|| metal(context, name)) {
                 Some(spectrum) => Ok((spectrum, OutsideRange::Held)),
                 None => Ok((spectrum_file(context, name, place)?, OutsideRange::Zero)),
             }
         }
         Values::Bools(_) => Err(param.wrong_type(&["spectrum"])),
     }
+}
+
+/// The metal of one of pbrt-v3's own files, such as `spds/Cu.eta.spd`, where the file is not there.
+fn metal(context: &Context, name: &str) -> Option<Spectrum> {
+    if context.v3.is_none() || context.resolve(name).exists() {
+        return None;
+    }
+    let file = name.rsplit(['/', '\\']).next()?.strip_suffix(".spd")?;
+    let (metal, part) = file.rsplit_once('.')?;
+    spectrum::named(&format!("metal-{metal}-{part}"))
 }
 
 fn spectrum_file(context: &Context, name: &str, place: &Place) -> Result<Spectrum, SceneError> {

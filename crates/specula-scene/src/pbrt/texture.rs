@@ -11,6 +11,7 @@ use super::context::{Context, Entity};
 use super::param::ParamList;
 use super::state::State;
 use super::token::{Tokens, shorten};
+use super::v3;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
 use crate::scene::{ColourParam, FloatParam, NoiseKind, Texture, TextureId};
@@ -22,6 +23,15 @@ use mapping::mapping;
 enum TextureType {
     Float,
     Colour,
+}
+
+impl TextureType {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Float => "float",
+            Self::Colour => "spectrum",
+        }
+    }
 }
 
 /// A texture node that is being read.
@@ -52,7 +62,7 @@ pub(super) fn read(
     state: &State,
     tokens: &mut Tokens<'_>,
 ) -> Result<(), SceneError> {
-    let (name, name_place) = tokens.expect_text("the name of the texture")?;
+    let (mut name, name_place) = tokens.expect_text("the name of the texture")?;
     let (kind, kind_place) = tokens.expect_text("the texture's type")?;
     let kind = match kind.as_str() {
         "float" => TextureType::Float,
@@ -72,11 +82,15 @@ pub(super) fn read(
     };
     let (class, place) = tokens.expect_text("the texture's class")?;
     let params = ParamList::read(tokens, state.space)?.with_inherited(&state.attributes[4]);
-    let entity = Entity {
+    let mut entity = Entity {
         name: class,
         place,
         params,
     };
+    v3::texture(context, kind == TextureType::Float, &mut entity);
+    if let Some(names) = &mut context.v3 {
+        names.define(v3::Kind::Texture(kind.name()), &mut name);
+    }
     let node = TextureNode {
         entity: &entity,
         kind,

@@ -27,4 +27,5 @@ mod range;
 mod report;
 mod shared_scenes;
 mod staged;
+mod v3;
 mod written;

@@ -26,5 +26,6 @@ mod messages;
 mod missing;
 mod outputs;
 mod render;
+mod v3;
 #[cfg(unix)]
 mod watch;
