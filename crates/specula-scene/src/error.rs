@@ -180,7 +180,7 @@ struct Inner {
 
 impl SceneError {
     pub(crate) fn new(kind: ErrorKind, place: &Place, message: impl Into<String>) -> Self {
-        let message = message.into();
+        let message = cut(message.into());
         Self(Box::new(Inner {
             kind,
             help: limits::help(&message),
@@ -283,7 +283,7 @@ pub struct Warning {
 impl Warning {
     pub(crate) fn new(place: &Place, message: impl Into<String>) -> Self {
         Self {
-            message: message.into(),
+            message: cut(message.into()),
             place: place.clone(),
         }
     }
@@ -314,9 +314,48 @@ impl Warning {
     }
 }
 
+/// Longest line of a message, in bytes.
+const LONGEST_LINE: usize = 1000;
+
+/// The message with its long lines cut in their middles: a file's names may be megabytes long.
+fn cut(message: String) -> String {
+    if message.len() <= LONGEST_LINE {
+        return message;
+    }
+    let line = |line: &str| match line.len() {
+        length if length > LONGEST_LINE => {
+            let head = &line[..line.floor_char_boundary(LONGEST_LINE / 2)];
+            let tail = &line[line.ceil_char_boundary(length - LONGEST_LINE / 4)..];
+            format!("{head}…{tail}")
+        }
+        _ => line.to_owned(),
+    };
+    let lines: Vec<String> = message.split('\n').map(line).collect();
+    lines.join("\n")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn long_lines_of_messages_are_cut_and_keep_their_ends() {
+        let message = cut(format!(
+            "mesh {}: too many (`max_bytes`)\nshort",
+            "ü".repeat(1 << 20)
+        ));
+        let (first, rest) = message.split_once('\n').unwrap();
+        assert!(
+            first.len() <= LONGEST_LINE && first.starts_with("mesh üü"),
+            "{first}"
+        );
+        assert!(
+            first.contains('…') && first.ends_with("ü: too many (`max_bytes`)"),
+            "{first}"
+        );
+        assert_eq!(rest, "short");
+        assert_eq!(cut("as it is".to_owned()), "as it is");
+    }
 
     #[test]
     fn places_count_lines_and_characters_from_one() {
