@@ -35,7 +35,7 @@ impl Image {
     pub(crate) fn stand_in() -> Self {
         const SIDE: u32 = 64;
         let grey = |i: u32| {
-            let is_dark = (i % SIDE / 8 + i / SIDE / 8) % 2 == 0;
+            let is_dark = (i % SIDE / 8 + i / SIDE / 8).is_multiple_of(2);
             [if is_dark { 0.25 } else { 0.5 }; 3]
         };
         Self {

@@ -229,8 +229,8 @@ fn read(
             let name = if is_file { path } else { Path::new("<pipe>") };
             (files.give(name, bytes), name)
         }
-        // The reader will meet the same error, and reports where.
-        Err(_) => (Format::of_name(path).unwrap_or(Format::Pbrt), path),
+        // The reader will meet the error, and reports where.
+        Err(message) => (files.refuse(path, message), path),
     };
     read_as(format, name, options, files, problems)
 }

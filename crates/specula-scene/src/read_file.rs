@@ -166,6 +166,13 @@ impl Files {
         format
     }
 
+    /// Hands on why the scene's own file cannot be read; returns its format by its name.
+    pub(crate) fn refuse(&self, path: &Path, message: String) -> Format {
+        let refused = Some((path.to_owned(), Err(message)));
+        *self.given.lock().unwrap_or_else(PoisonError::into_inner) = refused;
+        Format::of_name(path).unwrap_or(Format::Pbrt)
+    }
+
     fn taken(&self, path: &Path) -> Option<Result<Vec<u8>, String>> {
         let mut given = self.given.lock().unwrap_or_else(PoisonError::into_inner);
         given.take_if(|(of, _)| of == path).map(|(_, bytes)| bytes)

@@ -190,7 +190,7 @@ struct BuiltShapes {
 
 fn build(context: &mut Context, shapes: Shapes) -> Result<BuiltShapes, SceneError> {
     let (ready, mut meshes) = shapes.meshes.read(context)?;
-    let mut press = Press::new(&context.limits);
+    let mut press = Press::new(context.limits);
     let mut finish = |context: &mut Context, pending| {
         let finished = shape::finish(pending, &ready);
         pressed(context, &mut press, &mut meshes, finished)
