@@ -201,3 +201,18 @@ fn files_of_gltf() {
     assert_eq!(loaded.scene.meshes.len(), 1);
     assert!(loaded.scene.validate().is_ok());
 }
+
+#[test]
+fn a_missing_lens_leaves_a_camera() {
+    let folder = Folder::new();
+    let text = "LookAt 0 -4 0 0 0 0 0 0 1 Camera \"realistic\" \"string lensfile\" \"lens.dat\"\n\
+                WorldBegin Shape \"sphere\"";
+    let path = folder.write("scene.pbrt", text);
+    assert_eq!(
+        lines(&specula_scene::load(&path).unwrap_err()),
+        [("lens.dat".to_owned(), 1)]
+    );
+    let loaded = load_with(&path, &standing_in()).unwrap();
+    let perspective = specula_scene::scene::Projection::Perspective { fov_deg: 90.0 };
+    assert_eq!(loaded.scene.camera.projection, perspective);
+}
