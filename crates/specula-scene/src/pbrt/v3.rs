@@ -13,7 +13,7 @@ mod texture;
 use std::sync::Arc;
 
 use super::context::{Context, Entity};
-use super::param::{ParamList, Values};
+use super::param::{Param, ParamList, Values};
 use crate::error::{Place, SourceText, Warning};
 
 pub(crate) use features::FEATURES;
@@ -163,17 +163,31 @@ impl Change<'_> {
         is
     }
 
-    /// Takes a colour away, as a number: its mean where the channels differ, with a warning.
+    /// Takes a colour away, as a number: its mean where it varies, with a warning.
     fn take_number(&mut self, name: &str) -> Option<f64> {
-        let values = self.params.own_numbers(name, "rgb")?;
-        let &[r, g, b] = values else { return None };
+        let values: Vec<f64> = match self.params.own(name)? {
+            Param {
+                kind: "rgb",
+                values: Values::Numbers(numbers),
+                ..
+            } => numbers.clone(),
+            // Pairs of wavelength and value.
+            Param {
+                kind: "spectrum",
+                values: Values::Numbers(numbers),
+                ..
+            } => numbers.iter().skip(1).step_by(2).copied().collect(),
+            _ => return None,
+        };
+        let first = *values.first()?;
         let param = self.params.remove(name)?;
-        if r != g || g != b {
+        if values.iter().any(|v| *v != first) {
             let message =
-                format!("\"{name}\" is a number in pbrt-v4: the mean of the channels is used");
+                format!("\"{name}\" is a number in pbrt-v4: the mean of its values is used");
             self.warn(&param.place, message);
+            return Some(values.iter().sum::<f64>() / values.len() as f64);
         }
-        Some((r + g + b) / 3.0)
+        Some(first)
     }
 }
 

@@ -105,6 +105,10 @@ const WORLDS: &[(&str, &str)] = &[
         "LightSource \"infinite\" \"string filename\" \"a.png\" \"float scale\" 6 Material \"diffuse\"",
     ),
     (
+        "LightSource \"infinite\" \"string mapname\" \"a.png\" \"spectrum scale\" [400 2 700 2] Material \"matte\"",
+        "LightSource \"infinite\" \"string filename\" \"a.png\" \"float scale\" 2 Material \"diffuse\"",
+    ),
+    (
         "LightSource \"point\" \"blackbody I\" [3000 2] \"color scale\" [3 3 3] Material \"matte\"
          AreaLightSource \"area\" \"rgb L\" [1 2 3] \"integer nsamples\" 8 Shape \"disk\"",
         "LightSource \"point\" \"blackbody I\" 3000 \"float scale\" 6 Material \"diffuse\"
@@ -219,7 +223,7 @@ fn what_the_upgrade_leaves_out_is_a_warning() {
         "shape \"cone\" of pbrt-v3 is not supported",
         "material \"fourier\"",
         "material \"disney\" of pbrt-v3 is diffuse",
-        "\"scale\" is a number in pbrt-v4: the mean of the channels is used",
+        "\"scale\" is a number in pbrt-v4: the mean of its values is used",
     ] {
         assert_eq!(
             said.iter().filter(|w| w.contains(part)).count(),
