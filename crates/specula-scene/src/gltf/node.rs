@@ -55,8 +55,17 @@ impl Reader<'_> {
                 continue;
             };
             let parts = self.primitives(&mesh)?;
+            let own = parts.iter().map(|(id, _)| Geometry::Mesh(*id));
+            let own = own.map(|g| bounds::of_geometry(&self.meshes, &g));
+            let own = own.fold(bounds::BoundingBox::EMPTY, bounds::BoundingBox::union);
             let (places, flat): (Vec<_>, Vec<_>) =
                 places.into_iter().partition(|(m, _)| is_invertible(m));
+            let (specks, places): (Vec<_>, Vec<_>) = places
+                .into_iter()
+                .partition(|(m, _)| own.transformed(m).is_speck());
+            for (_, node) in specks {
+                self.warn(format!("nodes[{node}]: {}", bounds::SPECK));
+            }
             for (to_world, node) in flat {
                 self.pressed(&mut press, &parts, &to_world, node)?;
             }

@@ -247,7 +247,11 @@ fn pressed(
     let mut left = Vec::with_capacity(shapes.len());
     for (shape, place) in shapes {
         if is_invertible(&shape.to_world) {
-            left.push((shape, place));
+            let reach = bounds::of_geometry(meshes, &shape.geometry).transformed(&shape.to_world);
+            match reach.is_speck() {
+                true => context.warn(&place, bounds::SPECK),
+                false => left.push((shape, place)),
+            }
             continue;
         }
         let pressed = press.shape(&shape, &shape.to_world, meshes);

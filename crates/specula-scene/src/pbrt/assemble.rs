@@ -415,6 +415,10 @@ impl Builder<'_> {
             let message = format!("the shape reaches beyond {FARTHEST:e} from the origin");
             return Err(SceneError::new(ErrorKind::Limit, place, message));
         }
+        if reach.is_speck() && is_invertible(&shape.to_world) {
+            self.context.warn(place, bounds::SPECK);
+            return Ok(None);
+        }
         let mut emission = None;
         if let Some(entity) = &shape.area_light {
             if self.materials.list[material.0].kind == MaterialKind::Interface {

@@ -147,3 +147,21 @@ fn a_node_of_gltf_is_pressed() {
         assert_eq!(warning.line(), 2);
     }
 }
+
+/// Hierarchies over boxes without area would take for ever.
+#[test]
+fn specks_are_left_out() {
+    for text in [
+        "Scale 1e-30 1e-30 1e-30 Shape \"sphere\" \"float zmax\" .5",
+        "Shape \"sphere\" \"float radius\" 1e-25",
+        "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1e-20 0 0 0 1e-20 0] \"integer indices\" [0 1 2]",
+    ] {
+        let loaded = load_world(&format!("AttributeBegin {text} AttributeEnd")).unwrap();
+        assert_eq!(loaded.scene.shapes.len(), 1, "{text}");
+        let said = warnings(&loaded);
+        assert!(
+            said.iter().any(|w| w.contains("too small to have area")),
+            "{text}: {said:?}"
+        );
+    }
+}
