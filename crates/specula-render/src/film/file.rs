@@ -462,6 +462,27 @@ mod tests {
     }
 
     #[test]
+    fn a_label_names_missing_files_beside_what_biases() {
+        let label = Label {
+            settings: format!("depth 5, {BIASED}regularized"),
+            ..label()
+        };
+        assert_eq!(label.clone().with_missing(&[]), label);
+        assert_eq!(label.missing(), None);
+        let files: Vec<PathBuf> = (0..60).map(|i| format!("{i}.png").into()).collect();
+        let named = label.clone().with_missing(&files);
+        assert_eq!(named.bias(), Some("regularized"));
+        let missing = named.missing().unwrap();
+        assert!(
+            missing.starts_with("0.png, 1.png, ") && missing.ends_with("49.png and 10 more"),
+            "{missing}"
+        );
+        assert!(label.difference(&named).is_some());
+        let long = label.with_missing(&["x".repeat(1 << 20).into()]);
+        assert!(long.settings.len() < LONGEST_TEXT);
+    }
+
+    #[test]
     fn labels_say_where_they_differ() {
         let other = Label {
             fingerprint: 1,
