@@ -1,11 +1,10 @@
 //! Located errors and warnings.
 
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::limits;
-use crate::missing::MissingFile;
 
 /// The text of a file, stored to show excerpts.
 pub struct SourceText {
@@ -269,6 +268,31 @@ impl SceneError {
     /// What may help.
     pub fn help(&self) -> Option<&str> {
         self.0.help.as_deref()
+    }
+}
+
+/// A file that does not exist, and the first place that names it.
+#[derive(Clone, Debug)]
+pub struct MissingFile {
+    path: PathBuf,
+    place: Place,
+    kind: ErrorKind,
+}
+
+impl MissingFile {
+    /// The file, as it would have been opened.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// What names it.
+    pub fn place(&self) -> &Place {
+        &self.place
+    }
+
+    /// What it holds, as the kind of the errors about such files.
+    pub fn kind(&self) -> ErrorKind {
+        self.kind
     }
 }
 

@@ -67,12 +67,12 @@ pub mod write_pbrt;
 use std::path::{Path, PathBuf};
 
 pub use energy::{Energy, UnknownEnergy};
-pub use error::{ErrorKind, Place, SceneError, SourceText, Warning};
+pub use error::{ErrorKind, MissingFile, Place, SceneError, SourceText, Warning};
 pub use feature::{Feature, Support};
 pub use format::Format;
 pub use image::{Image, Indexed, Pixels};
 pub use limits::Limits;
-pub use missing::{Missing, MissingFile};
+pub use missing::Missing;
 pub use report::{CheckReport, Problem, Severity};
 pub use scene::Scene;
 pub use summary::Summary;

@@ -2,12 +2,11 @@
 
 use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::rc::Rc;
 
 use crate::Loaded;
-use crate::error::{ErrorKind, Place, SceneError, Warning};
-use crate::problems::Problems;
+use crate::error::{ErrorKind, MissingFile, SceneError, Warning};
 use crate::scene::{Bump, FloatParam, Scene, Texture, TextureId};
 
 /// Most missing files that one message lists.
@@ -25,51 +24,27 @@ pub enum Missing {
     StandIn,
 }
 
-/// A file that does not exist, and the first place that names it.
-#[derive(Clone, Debug)]
-pub struct MissingFile {
-    pub(crate) path: PathBuf,
-    pub(crate) place: Place,
-    /// The kind of the error that says so.
-    pub(crate) kind: ErrorKind,
+/// What a missing file holds.
+fn what(file: &MissingFile) -> &'static str {
+    match file.kind() {
+        ErrorKind::Image => "picture",
+        ErrorKind::Mesh => "mesh",
+        ErrorKind::Spectrum => "spectrum",
+        _ => "file",
+    }
 }
 
-impl MissingFile {
-    /// The file, as it would have been opened.
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// What names it.
-    pub fn place(&self) -> &Place {
-        &self.place
-    }
-
-    /// What it holds.
-    fn what(&self) -> &'static str {
-        match self.kind {
-            ErrorKind::Image => "picture",
-            ErrorKind::Mesh => "mesh",
-            ErrorKind::Spectrum => "spectrum",
-            _ => "file",
-        }
-    }
-
-    /// The warning about what is rendered instead.
-    fn warning(&self) -> Warning {
-        let instead = match self.kind {
-            ErrorKind::Image => "a grey checker stands in for it",
-            ErrorKind::Mesh => "its shapes are left out",
-            ErrorKind::Spectrum => "the default stands in for it",
-            _ => "what it holds is left out",
-        };
-        let message = format!(
-            "{} {} is missing: {instead}",
-            self.what(),
-            self.path.display()
-        );
-        Warning::new(&self.place, message)
-    }
+/// The warning about what is rendered instead of a missing file.
+fn warning(file: &MissingFile) -> Warning {
+    let instead = match file.kind() {
+        ErrorKind::Image => "a grey checker stands in for it",
+        ErrorKind::Mesh => "its shapes are left out",
+        ErrorKind::Spectrum => "the default stands in for it",
+        _ => "what it holds is left out",
+    };
+    let path = file.path().display();
+    let message = format!("{} {path} is missing: {instead}", what(file));
+    Warning::new(file.place(), message)
 }
 
 /// The missing files of a scene so far, shared by all that reads it.
@@ -103,7 +78,7 @@ impl MissingList {
         let stands_in = found.policy == Missing::StandIn;
         match error.missing() {
             [file] if stands_in || !collects => {
-                if found.paths.insert(file.path.clone()) {
+                if found.paths.insert(file.path().to_owned()) {
                     found.files.push(file.clone());
                 }
                 found.first.get_or_insert(error);
@@ -127,31 +102,29 @@ impl MissingList {
     }
 
     /// The scene with what stands in for missing files, or the one error about them all.
+    ///
+    /// * Returns: beside it, the warnings where the scene has other errors.
     pub(crate) fn settled(
         &self,
         loaded: Result<Loaded, SceneError>,
-        problems: &Problems,
-    ) -> Result<Loaded, SceneError> {
+    ) -> (Result<Loaded, SceneError>, Vec<Warning>) {
         let found = std::mem::take(&mut *self.0.borrow_mut());
         let Some(first) = found.first else {
-            return loaded;
+            return (loaded, Vec::new());
         };
         if found.policy == Missing::Refuse {
-            return Err(report(first, found.files));
+            return (Err(report(first, found.files)), Vec::new());
         }
-        let mut warnings: Vec<Warning> = found.files.iter().map(MissingFile::warning).collect();
+        let mut warnings: Vec<Warning> = found.files.iter().map(warning).collect();
         warnings.extend(found.names);
         match loaded {
             Ok(mut loaded) => {
                 smooth(&mut loaded.scene);
                 loaded.warnings.splice(0..0, warnings);
-                loaded.missing = found.files.into_iter().map(|f| f.path).collect();
-                Ok(loaded)
+                loaded.missing = found.files.iter().map(|f| f.path().to_owned()).collect();
+                (Ok(loaded), Vec::new())
             }
-            Err(error) => {
-                problems.record_warnings(&mut warnings);
-                Err(error)
-            }
+            Err(error) => (Err(error), warnings),
         }
     }
 }
@@ -159,7 +132,7 @@ impl MissingList {
 impl Found {
     /// Whether a file is missing that may define names: one that is included.
     fn loses_names(&self) -> bool {
-        self.files.iter().any(|f| f.kind == ErrorKind::Io)
+        self.files.iter().any(|f| f.kind() == ErrorKind::Io)
     }
 }
 
@@ -173,19 +146,24 @@ fn report(first: SceneError, mut files: Vec<MissingFile>) -> SceneError {
     for file in &files {
         let next = order.len();
         order
-            .entry(file.place.source().name().to_owned())
+            .entry(file.place().source().name().to_owned())
             .or_insert(next);
     }
     files.sort_by_key(|f| {
         (
-            order.get(f.place.source().name()).copied(),
-            f.place.offset(),
+            order.get(f.place().source().name()).copied(),
+            f.place().offset(),
         )
     });
-    let place = files[0].place.clone();
+    let place = files[0].place().clone();
     let mut message = format!("{} files that the scene names are missing:", files.len());
     for file in files.iter().take(MOST) {
-        message += &format!("\n{}: {} {}", file.place, file.what(), file.path.display());
+        message += &format!(
+            "\n{}: {} {}",
+            file.place(),
+            what(file),
+            file.path().display()
+        );
     }
     if let Some(more) = files.len().checked_sub(MOST).filter(|n| *n > 0) {
         message += &format!("\nand {more} more");

@@ -77,7 +77,9 @@ impl Problems {
 
     /// What was read, with stand-ins for missing files; or the error about these.
     pub(crate) fn settled(&self, loaded: Result<Loaded, SceneError>) -> Result<Loaded, SceneError> {
-        self.missing.settled(loaded, self)
+        let (loaded, mut warnings) = self.missing.settled(loaded);
+        self.record_warnings(&mut warnings);
+        loaded
     }
 
     /// Whether errors are recorded.

@@ -37,9 +37,8 @@ use std::sync::Arc;
 
 pub(crate) use features::FEATURES;
 
-use crate::error::{ErrorKind, Place, SceneError, SourceText, Warning};
+use crate::error::{ErrorKind, MissingFile, Place, SceneError, SourceText, Warning};
 use crate::image::Image;
-use crate::missing::MissingFile;
 use crate::problems::Problems;
 use crate::read_file::Files;
 use crate::scene::{Light, Material, Mesh, Object, Shape, Texture, TextureId};

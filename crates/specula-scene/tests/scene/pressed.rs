@@ -47,7 +47,7 @@ fn what_keeps_area_is_flat() {
     );
     assert!(
         scene.shapes[0].emission.unwrap().two_sided,
-        "both halves of the sphere shine"
+        "both halves of the sphere emit"
     );
     let disk = scene.shapes[0].to_world;
     assert_eq!(disk.w_axis.to_array(), [0.0, 0.0, 5.0, 1.0]);
