@@ -1,6 +1,6 @@
 //! Lobes of texts are those of parameters; texts that are none say what was expected.
 
-use super::{LobeHandle, Parameter, Value, make, parse};
+use super::{Argument, NamedLobe, Value, make, parse};
 
 type Words = &'static [(&'static str, Value<'static>)];
 
@@ -89,13 +89,13 @@ const SAME: &[(&str, &str, Words)] = &[
     ),
 ];
 
-fn made(kind: &str, words: Words) -> Result<LobeHandle, String> {
-    let of = |&(name, value)| Parameter { name, value };
+fn made(kind: &str, words: Words) -> Result<NamedLobe, super::LobeError> {
+    let of = |&(name, value)| Argument { name, value };
     make(kind, &words.iter().map(of).collect::<Vec<_>>())
 }
 
-fn is_same(a: &LobeHandle, b: &LobeHandle) -> bool {
-    a.single == b.single && a.double == b.double
+fn is_same(a: &NamedLobe, b: &NamedLobe) -> bool {
+    a.pair == b.pair
 }
 
 #[test]
@@ -304,7 +304,7 @@ fn bad_texts_say_what_was_expected() {
             "eon: roughness: is given twice".to_owned(),
         ),
     ];
-    let message = |text| parse(text).err().unwrap_or_default();
+    let message = |text| parse(text).map_or_else(|e| e.to_string(), |lobe| lobe.to_string());
     for (text, expected) in whole {
         assert_eq!(message(text), expected, "{text}");
     }
@@ -405,7 +405,7 @@ const BAD_OF_KINDS: &[(&str, &str)] = &[
 #[test]
 fn bad_texts_of_single_kinds_say_what_was_expected() {
     for (text, beginning) in BAD_OF_KINDS {
-        let message = parse(text).err().unwrap_or_default();
+        let message = parse(text).map_or_else(|e| e.to_string(), |lobe| lobe.to_string());
         assert!(message.starts_with(beginning), "{text}: {message}");
     }
 }
