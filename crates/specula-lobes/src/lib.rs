@@ -16,6 +16,7 @@
 
 mod catalogue;
 mod compound;
+mod facets;
 mod given;
 mod kinds;
 mod microfacet;
@@ -24,6 +25,7 @@ mod parameter;
 mod reflectance;
 mod text;
 
+pub use facets::MetalFacets;
 pub use given::{Argument, Value};
 pub use kinds::{Kind, kinds, make};
 pub use parameter::{Parameter, ParameterKind};

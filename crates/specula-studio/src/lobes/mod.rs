@@ -1,8 +1,10 @@
 //! Requests about lobes.
 
 mod describe;
+mod prove;
 mod sampled;
 mod values;
+mod walks;
 
 use serde_json::{Map, Value};
 use specula_lobes::NamedLobe;
@@ -20,6 +22,8 @@ pub(crate) fn answer(what: &str, request: Map<String, Value>) -> Result<Answer, 
         "grid" => values::grid(fields),
         "albedo" => sampled::albedo(fields),
         "samples" => sampled::samples(fields),
+        "prove" => prove::prove_lobe(fields),
+        "walks" => walks::walks(fields),
         _ => Err(AskError::unknown(&format!("lobes.{what}"))),
     }
 }
