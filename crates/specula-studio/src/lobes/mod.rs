@@ -1,5 +1,6 @@
 //! Requests about lobes.
 
+mod code;
 mod describe;
 mod prove;
 mod sampled;
@@ -24,6 +25,7 @@ pub(crate) fn answer(what: &str, request: Map<String, Value>) -> Result<Answer, 
         "samples" => sampled::samples(fields),
         "prove" => prove::prove_lobe(fields),
         "walks" => walks::walks(fields),
+        "code" => code::code(fields),
         _ => Err(AskError::unknown(&format!("lobes.{what}"))),
     }
 }
