@@ -1,9 +1,11 @@
 //! The kinds of lobes with their parameters: the one definition that readers, pages and documentation use.
 
+mod compound;
+
 use crate::kinds::Kind;
-use crate::parameter::ParameterKind::{Alpha, Choice, Colour, Count, Flag, Number};
+use crate::microfacet;
+use crate::parameter::ParameterKind::{Alpha, Choice, Colour, Flag, Number};
 use crate::parameter::{NO_END, Parameter, ParameterKind};
-use crate::{compound, microfacet};
 
 const SHARE: ParameterKind = Number {
     low: 0.0,
@@ -292,191 +294,9 @@ pub(crate) static KINDS: [Kind; 15] = [
         reflectance: &[],
         make: microfacet::multibounce_dielectric,
     },
-    Kind {
-        name: "coated-diffuse",
-        doc: "a clear coat over a diffuse base",
-        own: &[
-            SMOOTH_ALPHA,
-            COAT_ETA,
-            parameter("albedo", ALBEDO, "0.5", "albedo of the base"),
-            parameter("thickness", ANY, "0", "optical thickness of the coat"),
-            optional(
-                "max_depth",
-                Count,
-                "bounces between coat and base; no limit without",
-            ),
-            parameter(
-                "scattering",
-                Choice(&["lossless", "single"]),
-                "lossless",
-                "whether the coat's facets keep all energy or scatter once",
-            ),
-        ],
-        reflectance: &[],
-        make: compound::coated_diffuse,
-    },
-    Kind {
-        name: "layered",
-        doc: "a coat and a medium over a diffuse base or a metal, by random walks",
-        own: &[
-            SMOOTH_ALPHA,
-            COAT_ETA,
-            optional("albedo", ALBEDO, "albedo of a diffuse base"),
-            optional(
-                "base_alpha",
-                Alpha,
-                "width of the slopes of a metal as the base; smooth without",
-            ),
-            parameter("thickness", ANY, "0", "optical thickness of the medium"),
-            parameter(
-                "medium_albedo",
-                ALBEDO,
-                "0",
-                "share that the medium scatters of what it takes",
-            ),
-            parameter(
-                "g",
-                Number {
-                    low: -0.99,
-                    high: 0.99,
-                },
-                "0",
-                "mean cosine of the medium's scattering",
-            ),
-        ],
-        reflectance: METAL_BASE,
-        make: compound::layered,
-    },
-    Kind {
-        name: "plastic",
-        doc: "Mitsuba's plastics: a coat over a diffuse base",
-        own: &[
-            SMOOTH_ALPHA,
-            parameter("eta", COAT, "1.49", "index of refraction of the coat"),
-            parameter("diffuse", ALBEDO, "0.5", "albedo of the base"),
-            parameter("specular", ALBEDO, "1", "factor on the coat's reflection"),
-            parameter(
-                "nonlinear",
-                Flag,
-                "false",
-                "whether bounces under the coat saturate the colour",
-            ),
-            DISTRIBUTION,
-            masking("separable"),
-        ],
-        reflectance: &[],
-        make: compound::plastic,
-    },
-    Kind {
-        name: "principled",
-        doc: "Mitsuba's principled material",
-        own: &[
-            parameter("base_color", ALBEDO, "0.5", "colour of the base"),
-            parameter(
-                "roughness",
-                SHARE,
-                "0.5",
-                "the artist's: alpha is its square",
-            ),
-            parameter("anisotropic", SHARE, "0", "how much the alphas differ"),
-            parameter("metallic", SHARE, "0", "share of metal"),
-            parameter("spec_trans", SHARE, "0", "share of glass"),
-            ETA,
-            parameter(
-                "spec_tint",
-                SHARE,
-                "0",
-                "how much the base colours the highlight",
-            ),
-            parameter("sheen", SHARE, "0", "sheen at grazing angles"),
-            parameter(
-                "sheen_tint",
-                SHARE,
-                "0",
-                "how much the base colours the sheen",
-            ),
-            parameter("clearcoat", SHARE, "0", "strength of the coat"),
-            parameter("clearcoat_gloss", SHARE, "0", "gloss of the coat"),
-            parameter(
-                "flatness",
-                SHARE,
-                "0",
-                "share of flat diffuse reflection, where thin",
-            ),
-            parameter(
-                "diff_trans",
-                Number {
-                    low: 0.0,
-                    high: 2.0,
-                },
-                "0",
-                "diffuse transmission, where thin; 2 is all",
-            ),
-            parameter("thin", Flag, "false", "whether it is a sheet"),
-            parameter(
-                "outside",
-                Flag,
-                "true",
-                "whether it is seen from outside of its shape",
-            ),
-        ],
-        reflectance: &[],
-        make: compound::principled,
-    },
-    Kind {
-        name: "gltf",
-        doc: "glTF's material",
-        own: &[
-            parameter("base_color", ALBEDO, "1", "colour of the base"),
-            parameter("metallic", SHARE, "1", "share of metal"),
-            parameter("roughness", SHARE, "1", "the artist's: alpha is its square"),
-            parameter("anisotropy", SHARE, "0", "how much the alphas differ"),
-            parameter(
-                "ior",
-                Number {
-                    low: 0.0,
-                    high: 1e3,
-                },
-                "1.5",
-                "index of refraction; 0: reflects all",
-            ),
-            parameter(
-                "specular",
-                SHARE,
-                "1",
-                "strength of the dielectric's reflection",
-            ),
-            parameter(
-                "specular_color",
-                ANY_COLOUR,
-                "1",
-                "factor on its reflection at normal incidence",
-            ),
-            parameter("transmission", SHARE, "0", "share of glass"),
-            parameter(
-                "volume",
-                Flag,
-                "false",
-                "whether there is an inside, or it is a sheet",
-            ),
-            parameter(
-                "outside",
-                Flag,
-                "true",
-                "whether it is seen from outside; where volume is set",
-            ),
-            parameter("clearcoat", SHARE, "0", "strength of the coat"),
-            parameter("clearcoat_roughness", SHARE, "0", "roughness of the coat"),
-            parameter("sheen_color", ALBEDO, "0", "colour of the sheen"),
-            parameter("sheen_roughness", SHARE, "0", "roughness of the sheen"),
-            parameter(
-                "compensated",
-                Flag,
-                "false",
-                "whether the energy that one bounce loses is made up for",
-            ),
-        ],
-        reflectance: &[],
-        make: compound::gltf,
-    },
+    compound::COATED_DIFFUSE,
+    compound::LAYERED,
+    compound::PLASTIC,
+    compound::PRINCIPLED,
+    compound::GLTF,
 ];

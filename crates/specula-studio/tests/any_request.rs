@@ -144,7 +144,9 @@ fn extreme_requests_have_an_answer_or_an_error() {
                     ("samples", json!({"count": 100})),
                     ("histogram", json!({"count": 1000, "size": 8})),
                 ] {
-                    let mut request = json!({"ask": format!("samplers.{ask}"), "sampler": sampler, "alpha": alpha, "wo": wo});
+                    let ask = format!("samplers.{ask}");
+                    let mut request =
+                        json!({"ask": ask, "sampler": sampler, "alpha": alpha, "wo": wo});
                     request
                         .as_object_mut()
                         .unwrap()

@@ -139,7 +139,10 @@ fn scenes_are_read() {
             let scene = if language == "pbrt" {
                 format!("Camera \"perspective\"\nWorldBegin\n{text}Shape \"sphere\"\n")
             } else {
-                format!("<scene version=\"3.0.0\"><sensor type=\"perspective\"/><shape type=\"sphere\">{text}</shape></scene>")
+                format!(
+                    "<scene version=\"3.0.0\"><sensor type=\"perspective\"/>\
+                     <shape type=\"sphere\">{text}</shape></scene>"
+                )
             };
             let loaded = load_bytes(name.as_ref(), scene.into_bytes(), &LoadOptions::default());
             let loaded = loaded.unwrap_or_else(|e| panic!("{lobe}: {e}\n{text}"));

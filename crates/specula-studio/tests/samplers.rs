@@ -138,8 +138,8 @@ fn samples_lie_within_their_regions() {
     }
 }
 
-/// Whether a direction is within a closed outline: above a level one, else by the winding number in the stereographic projection from the nadir,
-/// which is in no region.
+/// Whether a direction is within a closed outline: above a level one, else by the winding number in the
+/// stereographic projection from the nadir, which is in no region.
 fn is_inside(outline: &[Vec3<f64>], o: Vec3<f64>) -> bool {
     if outline.iter().all(|w| w.z == outline[0].z) {
         return o.z >= outline[0].z - 1e-6;

@@ -1,7 +1,7 @@
 //! `lobes.slice` and `lobes.grid`: values and densities over directions.
 //!
-//! In double precision, without Dirac deltas. Where a lobe is stochastic, a value is the mean of several estimates, each
-//! with random numbers of its own; the density is never random.
+//! In double precision, without Dirac deltas. Where a lobe is stochastic, a value is the mean of several estimates,
+//! each with random numbers of its own; the density is never random.
 
 use std::f64::consts::PI;
 

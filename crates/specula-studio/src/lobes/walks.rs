@@ -1,11 +1,12 @@
 //! `lobes.walks`: random walks of light between the facets of a rough metal, for drawings.
 //!
-//! The walks are those of Heitz et al. 2016, which alone have heights. The other unbiased models of the library have the
-//! same walks with the heights integrated out.
+//! The walks are those of Heitz et al. 2016, which alone have heights. The other unbiased models of the library have
+//! the same walks with the heights integrated out.
 //!
-//! In the depth `tau = -ln C1(h)` (`specula-bsdf/src/multibounce/heitz2016.rs`) a ray along `d` meets facets at the rate
-//! `sigma(-d) / |d.z|`; one going up is out where `tau < 0`. Heights are drawn as Gaussian, `h = C1^-1(exp(-tau))` in
-//! their standard deviations, which is alpha for slopes of that width; results do not depend on that choice.
+//! In the depth `tau = -ln C1(h)` (`specula-bsdf/src/multibounce/heitz2016.rs`) a ray along `d` meets facets at the
+//! rate `sigma(-d) / |d.z|`; one going up is out where `tau < 0`. Heights are drawn as Gaussian, `h =
+//! C1^-1(exp(-tau))` in their standard deviations, which is alpha for slopes of that width; results do not depend on
+//! that choice.
 
 use serde_json::json;
 use specula_bsdf::math::{Real, Stream};

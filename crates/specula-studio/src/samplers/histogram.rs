@@ -92,8 +92,8 @@ impl Histogram {
         }
     }
 
-    /// Pearson's test, the rejected samples a cell of their own. Cells that expect fewer than five are pooled; where the
-    /// pool does, too, it joins the least of the others.
+    /// Pearson's test, the rejected samples a cell of their own. Cells that expect fewer than five are pooled; where
+    /// the pool does, too, it joins the least of the others.
     fn chi_square(&self) -> Fit {
         let rejected = (f64::from(self.rejected), self.expected_rejected);
         let cells = self

@@ -9,8 +9,8 @@
 //! ```
 //!
 //! For views below the horizon every visible normal reflects upwards, and all three are the cap. On the sphere of `wi`
-//! a point `o` of an outline becomes the reflection of `wo` off the normal along `A (i + o)`, `A = diag(ax, ay, 1)`. The
-//! edge of `exact` becomes the horizon.
+//! a point `o` of an outline becomes the reflection of `wo` off the normal along `A (i + o)`, `A = diag(ax, ay, 1)`.
+//! The edge of `exact` becomes the horizon.
 
 use std::f64::consts::TAU;
 

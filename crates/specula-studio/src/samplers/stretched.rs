@@ -36,8 +36,8 @@ impl Surface {
 
     /// The reflection of the surface that belongs to one in the stretched space.
     ///
-    /// Their half vector is along the normal. It vanishes where `o = -i`: on the rim of the cap, where the normals are at
-    /// a right angle to the view, which goes straight on.
+    /// Their half vector is along the normal. It vanishes where `o = -i`: on the rim of the cap, where the normals
+    /// are at a right angle to the view, which goes straight on.
     pub(super) fn surface_reflection(&self, o: Vec3<f64>) -> Vec3<f64> {
         let half = self.stretched() + o;
         if half.length_squared() < 1e-24 {

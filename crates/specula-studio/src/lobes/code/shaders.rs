@@ -165,8 +165,8 @@ fn body(said: Said<'_>, syntax: &Syntax) -> Result<(Names, String), crate::AskEr
         "coated-diffuse" => coated(said, syntax),
         other => {
             let why = format!(
-                "the shader library has '{other}', but with more than a few lines (parameters of their own, or a stream of \
-                 random numbers); see docs/shaders/modules.md"
+                "the shader library has '{other}', but not in a few lines: it takes parameters of its own, or \
+                 random numbers; see docs/shaders/modules.md"
             );
             return Err(none(syntax.name, &why));
         }
