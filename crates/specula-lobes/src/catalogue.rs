@@ -2,7 +2,7 @@
 
 mod compound;
 
-use crate::kinds::Kind;
+use crate::kind::Kind;
 use crate::microfacet;
 use crate::parameter::ParameterKind::{Alpha, Choice, Colour, Flag, Number};
 use crate::parameter::{NO_END, Parameter, ParameterKind};

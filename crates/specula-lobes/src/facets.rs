@@ -31,7 +31,7 @@ impl NamedLobe {
         };
         let arguments: Vec<_> = self.given().map(argument).collect();
         let given = Given {
-            kind: self.kind,
+            parameters: [self.kind.own, self.kind.reflectance],
             arguments: &arguments,
         };
         Some(MetalFacets {

@@ -7,8 +7,7 @@ use specula_bsdf::Alpha;
 use specula_bsdf::math::{Real, Rgb, rgb};
 use specula_bsdf::ndf::{Beckmann, Ggx, Masking};
 
-use crate::kinds::Kind;
-use crate::parameter::NO_END;
+use crate::parameter::{NO_END, Parameter};
 
 /// A value: a word, or one to three numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,7 +76,8 @@ pub(crate) fn in_range(key: &str, value: f64, [low, high]: [f64; 2]) -> Result<f
 /// What is given of a lobe. Whatever is not has the default of its parameter.
 #[derive(Clone, Copy)]
 pub(crate) struct Given<'a> {
-    pub(crate) kind: &'static Kind,
+    /// What may be given.
+    pub(crate) parameters: [&'static [Parameter]; 2],
     pub(crate) arguments: &'a [Argument<'a>],
 }
 
@@ -87,15 +87,20 @@ impl<'a> Given<'a> {
         arguments.find(|a| same(a.name, key)).map(|a| a.value)
     }
 
+    fn parameter(self, key: &str) -> Option<&'static Parameter> {
+        let mut parameters = self.parameters.into_iter().flatten();
+        parameters.find(|p| same(p.key, key))
+    }
+
     /// What is given, or the default.
     fn or_default(self, key: &str) -> Option<Value<'a>> {
-        let default = || self.kind.parameter(key)?.default.map(Value::of_text);
+        let default = || self.parameter(key)?.default.map(Value::of_text);
         self.get(key).or_else(default)
     }
 
     /// The range of a parameter.
     fn range(self, key: &str) -> [f64; 2] {
-        let parameter = self.kind.parameter(key);
+        let parameter = self.parameter(key);
         parameter
             .and_then(|p| p.kind.range())
             .unwrap_or([0.0, NO_END])

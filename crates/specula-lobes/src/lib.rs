@@ -18,6 +18,7 @@ mod catalogue;
 mod compound;
 mod facets;
 mod given;
+mod kind;
 mod kinds;
 mod microfacet;
 mod normal_form;
@@ -27,7 +28,8 @@ mod text;
 
 pub use facets::MetalFacets;
 pub use given::{Argument, Value};
-pub use kinds::{Kind, kinds, make};
+pub use kind::Kind;
+pub use kinds::{kinds, make};
 pub use parameter::{Parameter, ParameterKind};
 pub use reflectance::metal;
 pub use text::parse;

@@ -22,7 +22,8 @@ pub(crate) fn normal(given: Given<'_>) -> Vec<(&'static str, String)> {
         };
         Some((parameter.key, value))
     };
-    given.kind.parameters().filter_map(of_parameter).collect()
+    let parameters = given.parameters.into_iter().flatten();
+    parameters.filter_map(of_parameter).collect()
 }
 
 impl fmt::Display for NamedLobe {

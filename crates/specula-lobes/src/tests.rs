@@ -178,6 +178,94 @@ fn what_is_not_given_has_its_default() {
     }
 }
 
+/// What a kind cannot do without, as a text.
+fn least(kind: &super::Kind) -> String {
+    let needed = match kind.name {
+        "layered" => " albedo 0.5",
+        _ if kind
+            .parameter("alpha")
+            .is_some_and(|p| p.doc.ends_with("must be given")) =>
+        {
+            " alpha 0.3"
+        }
+        _ => "",
+    };
+    format!("{}{needed}", kind.name)
+}
+
+/// The catalogue's defaults are the lobes', its choices are taken, and the ends of its ranges, too.
+#[test]
+fn the_catalogue_is_what_is_read() {
+    for kind in super::kinds() {
+        let text = least(kind);
+        let plain = parse(&text).unwrap();
+        for parameter in kind.parameters() {
+            let with = |value: &str| parse(&format!("{text} {} {value}", parameter.key));
+            if let Some(default) = parameter.default {
+                assert!(
+                    is_same(&plain, &with(default).unwrap()),
+                    "{text} {parameter:?}"
+                );
+            }
+            for choice in parameter.kind.choices() {
+                let is_read = with(choice).is_ok_and(|lobe| lobe.to_string().ends_with(choice));
+                assert!(is_read, "{text} {parameter:?} {choice}");
+            }
+            if let super::ParameterKind::Number { low, high } = parameter.kind {
+                for end in [low, high].into_iter().filter(|end| *end < f64::MAX) {
+                    assert!(with(&end.to_string()).is_ok(), "{text} {parameter:?} {end}");
+                }
+                assert!(
+                    with(&(low - 1e-3).to_string()).is_err(),
+                    "{text} {parameter:?}"
+                );
+            }
+        }
+    }
+}
+
+/// Normal forms are read as the same lobes, and are their own normal forms.
+#[test]
+fn normal_forms_are_read_back() {
+    for (text, _, _) in SAME {
+        let lobe = parse(text).unwrap();
+        let again = parse(&lobe.to_string()).unwrap();
+        assert!(
+            is_same(&lobe, &again) && lobe.to_string() == again.to_string(),
+            "{text}"
+        );
+    }
+}
+
+/// The words of `--material` between spaces.
+#[test]
+fn numbers_may_stand_between_spaces() {
+    for (spaces, commas) in [
+        (
+            "conductor Au alpha 0.3 0.1 energy turquin",
+            "conductor Au alpha 0.3,0.1 energy turquin",
+        ),
+        (
+            "conductor 0.9 0.6 0.3 alpha 0.2",
+            "conductor reflectance 0.9,0.6,0.3 alpha 0.2",
+        ),
+        (
+            "conductor 0.9 alpha 0.2",
+            "conductor reflectance 0.9 alpha 0.2",
+        ),
+        ("lambert albedo 0.8 0.2 0.1", "lambert albedo 0.8,0.2,0.1"),
+        (
+            "dielectric alpha 0.3 0.1 eta 1.3",
+            "dielectric alpha 0.3,0.1 eta 1.3",
+        ),
+    ] {
+        assert!(
+            is_same(&parse(spaces).unwrap(), &parse(commas).unwrap()),
+            "{spaces}"
+        );
+    }
+}
+
 #[test]
 fn values_are_read_as_they_are_written() {
     for (text, value) in [

@@ -1,7 +1,7 @@
 //! Lobes as a line of text: `conductor Au alpha 0.3`.
 
 use crate::given::{Argument, Value};
-use crate::kinds::Kind;
+use crate::kind::Kind;
 use crate::reflectance::symbols;
 use crate::{LobeError, NamedLobe, ParameterKind};
 

@@ -5,7 +5,7 @@ use super::{
 };
 use super::{masking, optional, parameter};
 use crate::compound;
-use crate::kinds::Kind;
+use crate::kind::Kind;
 use crate::parameter::ParameterKind::{Alpha, Choice, Count, Flag, Number};
 
 /// `coated-diffuse`.

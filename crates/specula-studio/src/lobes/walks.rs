@@ -4,9 +4,8 @@
 //! the same walks with the heights integrated out.
 //!
 //! In the depth `tau = -ln C1(h)` (`specula-bsdf/src/multibounce/heitz2016.rs`) a ray along `d` meets facets at the
-//! rate `sigma(-d) / |d.z|`; one going up is out where `tau < 0`. Heights are drawn as Gaussian, `h =
-//! C1^-1(exp(-tau))` in their standard deviations, which is alpha for slopes of that width; results do not depend on
-//! that choice.
+//! rate `sigma(-d) / |d.z|`; one going up is out where `tau < 0`. Results do not depend on the distribution of heights.
+//! For drawings they are Gaussian, `h = C1^-1(exp(-tau))`, in standard deviations.
 
 use serde_json::json;
 use specula_bsdf::math::{Real, Stream};

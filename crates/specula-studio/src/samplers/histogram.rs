@@ -50,7 +50,7 @@ impl Histogram {
     /// Samples of the first sampler against the density of the second.
     fn new(
         surface: &Surface,
-        [drawn, claimed]: [Sampler; 2],
+        [sampled, claimed]: [Sampler; 2],
         size: u32,
         count: u32,
         seed: u64,
@@ -62,7 +62,7 @@ impl Histogram {
         let mut counts = vec![0.0; expected.len()];
         let mut rejected = 0;
         let mut stream = Stream::new(seed);
-        let reflections = surface.reflections(drawn);
+        let reflections = surface.reflections(sampled);
         let place = |x: f64| {
             // The number of edges at or below.
             let guess = (0.5 * (x + 1.0) * f64::from(size)).floor();
@@ -172,15 +172,15 @@ mod tests {
             alpha,
             wo: vec3(0.6, 0.0, 0.8),
         };
-        for (drawn, claimed) in [
+        for (sampled, claimed) in [
             (Sampler::Cap, Sampler::Bounded),
             (Sampler::Exact, Sampler::Heitz),
             (Sampler::Bounded, Sampler::Exact),
         ] {
-            let wrong = Histogram::new(&surface, [drawn, claimed], 32, 100_000, 1);
-            let right = Histogram::new(&surface, [drawn, drawn], 32, 100_000, 1);
+            let wrong = Histogram::new(&surface, [sampled, claimed], 32, 100_000, 1);
+            let right = Histogram::new(&surface, [sampled, sampled], 32, 100_000, 1);
             let (wrong, right) = (wrong.chi_square().p, right.chi_square().p);
-            assert!(wrong < 1e-6 && right > 1e-4, "{drawn}: {wrong} {right}");
+            assert!(wrong < 1e-6 && right > 1e-4, "{sampled}: {wrong} {right}");
         }
     }
 }

@@ -155,7 +155,7 @@ fn mitsuba_rgb(name: &str, colour: [f64; 3]) -> String {
     format!("    <rgb name=\"{name}\" value=\"{colour}\"/>\n")
 }
 
-/// Mitsuba masks separably, whatever ours is.
+/// Mitsuba masks separably, whatever the lobe does.
 fn mitsuba_alpha(said: Said<'_>) -> String {
     let distribution = said.word("distribution").unwrap_or("ggx");
     let mut text = format!("    <string name=\"distribution\" value=\"{distribution}\"/>\n");

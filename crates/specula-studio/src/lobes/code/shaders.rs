@@ -178,7 +178,7 @@ fn facets(said: Said<'_>, syntax: &Syntax) -> String {
         let word = said.word(key).unwrap_or(default);
         word.replace('-', "_").to_uppercase()
     };
-    // Smooth coats have facets that are not looked at.
+    // Smooth coats have facets that nothing reads.
     let alpha = said.alpha("alpha").unwrap_or([1.0; 2]);
     let mut text = syntax.declare("MicrofacetsModel", "facets");
     for (field, value) in [

@@ -185,8 +185,8 @@ fn sharpness(named: &NamedLobe) -> f64 {
     let alphas = ["alpha", "base_alpha"]
         .into_iter()
         .filter_map(|key| word(named, key));
-    let widths = alphas.flat_map(|value| value.split(',').filter_map(|x| x.parse().ok()));
-    let mut least = widths.fold(0.3_f64, f64::min);
+    let values = alphas.flat_map(|value| value.split(',').filter_map(|x| x.parse().ok()));
+    let mut least = values.fold(0.3_f64, f64::min);
     let kind = named.kind().name;
     if matches!(kind, "principled" | "gltf") {
         let roughness = number(named, "roughness").unwrap_or(0.5);
