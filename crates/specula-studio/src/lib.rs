@@ -6,6 +6,7 @@
 //! The requests and answers, as the pages see them: `specula-studio-server/web/src/core/protocol.ts`.
 
 mod answer;
+mod fields;
 mod lobes;
 mod render;
 mod request;

@@ -1,6 +1,6 @@
 //! Lobes of texts are those of parameters; texts that are none say what was expected.
 
-use super::{LobeHandle, Parameter, Value, make, parse};
+use super::{Argument, NamedLobe, Value, make, parse};
 
 type Words = &'static [(&'static str, Value<'static>)];
 
@@ -89,13 +89,13 @@ const SAME: &[(&str, &str, Words)] = &[
     ),
 ];
 
-fn made(kind: &str, words: Words) -> Result<LobeHandle, String> {
-    let of = |&(name, value)| Parameter { name, value };
+fn made(kind: &str, words: Words) -> Result<NamedLobe, super::LobeError> {
+    let of = |&(name, value)| Argument { name, value };
     make(kind, &words.iter().map(of).collect::<Vec<_>>())
 }
 
-fn is_same(a: &LobeHandle, b: &LobeHandle) -> bool {
-    a.single == b.single && a.double == b.double
+fn is_same(a: &NamedLobe, b: &NamedLobe) -> bool {
+    a.pair == b.pair
 }
 
 #[test]
@@ -175,6 +175,94 @@ fn what_is_not_given_has_its_default() {
     for (text, defaults) in DEFAULTS {
         let (short, long) = (parse(text), parse(&format!("{text} {defaults}")));
         assert!(is_same(&short.unwrap(), &long.unwrap()), "{text}");
+    }
+}
+
+/// What a kind cannot do without, as a text.
+fn least(kind: &super::Kind) -> String {
+    let needed = match kind.name {
+        "layered" => " albedo 0.5",
+        _ if kind
+            .parameter("alpha")
+            .is_some_and(|p| p.doc.ends_with("must be given")) =>
+        {
+            " alpha 0.3"
+        }
+        _ => "",
+    };
+    format!("{}{needed}", kind.name)
+}
+
+/// The catalogue's defaults are the lobes', its choices are taken, and the ends of its ranges, too.
+#[test]
+fn the_catalogue_is_what_is_read() {
+    for kind in super::kinds() {
+        let text = least(kind);
+        let plain = parse(&text).unwrap();
+        for parameter in kind.parameters() {
+            let with = |value: &str| parse(&format!("{text} {} {value}", parameter.key));
+            if let Some(default) = parameter.default {
+                assert!(
+                    is_same(&plain, &with(default).unwrap()),
+                    "{text} {parameter:?}"
+                );
+            }
+            for choice in parameter.kind.choices() {
+                let is_read = with(choice).is_ok_and(|lobe| lobe.to_string().ends_with(choice));
+                assert!(is_read, "{text} {parameter:?} {choice}");
+            }
+            if let super::ParameterKind::Number { low, high } = parameter.kind {
+                for end in [low, high].into_iter().filter(|end| *end < f64::MAX) {
+                    assert!(with(&end.to_string()).is_ok(), "{text} {parameter:?} {end}");
+                }
+                assert!(
+                    with(&(low - 1e-3).to_string()).is_err(),
+                    "{text} {parameter:?}"
+                );
+            }
+        }
+    }
+}
+
+/// Normal forms are read as the same lobes, and are their own normal forms.
+#[test]
+fn normal_forms_are_read_back() {
+    for (text, _, _) in SAME {
+        let lobe = parse(text).unwrap();
+        let again = parse(&lobe.to_string()).unwrap();
+        assert!(
+            is_same(&lobe, &again) && lobe.to_string() == again.to_string(),
+            "{text}"
+        );
+    }
+}
+
+/// The words of `--material` between spaces.
+#[test]
+fn numbers_may_stand_between_spaces() {
+    for (spaces, commas) in [
+        (
+            "conductor Au alpha 0.3 0.1 energy turquin",
+            "conductor Au alpha 0.3,0.1 energy turquin",
+        ),
+        (
+            "conductor 0.9 0.6 0.3 alpha 0.2",
+            "conductor reflectance 0.9,0.6,0.3 alpha 0.2",
+        ),
+        (
+            "conductor 0.9 alpha 0.2",
+            "conductor reflectance 0.9 alpha 0.2",
+        ),
+        ("lambert albedo 0.8 0.2 0.1", "lambert albedo 0.8,0.2,0.1"),
+        (
+            "dielectric alpha 0.3 0.1 eta 1.3",
+            "dielectric alpha 0.3,0.1 eta 1.3",
+        ),
+    ] {
+        assert!(
+            is_same(&parse(spaces).unwrap(), &parse(commas).unwrap()),
+            "{spaces}"
+        );
     }
 }
 
@@ -304,7 +392,7 @@ fn bad_texts_say_what_was_expected() {
             "eon: roughness: is given twice".to_owned(),
         ),
     ];
-    let message = |text| parse(text).err().unwrap_or_default();
+    let message = |text| parse(text).map_or_else(|e| e.to_string(), |lobe| lobe.to_string());
     for (text, expected) in whole {
         assert_eq!(message(text), expected, "{text}");
     }
@@ -405,7 +493,7 @@ const BAD_OF_KINDS: &[(&str, &str)] = &[
 #[test]
 fn bad_texts_of_single_kinds_say_what_was_expected() {
     for (text, beginning) in BAD_OF_KINDS {
-        let message = parse(text).err().unwrap_or_default();
+        let message = parse(text).map_or_else(|e| e.to_string(), |lobe| lobe.to_string());
         assert!(message.starts_with(beginning), "{text}: {message}");
     }
 }

@@ -4,17 +4,8 @@ use specula_bsdf::fresnel::{self, Conductor, F82Tint, Schlick};
 use specula_bsdf::math::{Real, Rgb};
 use specula_bsdf::metals::{METALS, Metal, by_symbol};
 
-use super::given::{ANY, Given, SHARE, Value};
-
-/// The keys that say one.
-pub(super) const KEYS: [&str; 6] = [
-    "reflectance",
-    "conductor_eta",
-    "conductor_k",
-    "f0",
-    "f82_tint",
-    "tint",
-];
+use crate::LobeError;
+use crate::given::{Given, Value};
 
 #[derive(Clone, Copy)]
 enum Model {
@@ -26,40 +17,43 @@ enum Model {
 
 /// A reflectance in double precision.
 #[derive(Clone, Copy)]
-pub(super) struct Reflectance {
+pub(crate) struct Reflectance {
     model: Model,
     tint: Rgb<f64>,
 }
 
 /// A measured metal.
-pub(crate) fn metal(symbol: &str) -> Result<&'static Metal, String> {
+///
+/// # Errors
+/// Where there is none of this symbol.
+pub fn metal(symbol: &str) -> Result<&'static Metal, LobeError> {
     by_symbol(symbol).ok_or_else(|| {
-        format!(
-            "no such metal: '{symbol}' (expected one of {})",
-            symbols().join(", ")
-        )
+        let known = symbols().join(", ");
+        LobeError(format!(
+            "no such metal: '{symbol}' (expected one of {known})"
+        ))
     })
 }
 
 /// The symbols of the measured metals.
-pub(super) fn symbols() -> Vec<&'static str> {
+pub(crate) fn symbols() -> Vec<&'static str> {
     METALS.iter().map(|m| m.symbol).collect()
 }
 
 impl Reflectance {
     /// What is given; `None`: nothing is.
-    pub(super) fn given(given: Given<'_>) -> Result<Option<Self>, String> {
-        let f0 = given.colour("f0", SHARE)?;
-        let f82 = given.colour("f82_tint", SHARE)?;
-        let eta = given.colour("conductor_eta", ANY)?;
-        let k = given.colour("conductor_k", ANY)?;
+    pub(crate) fn given(given: Given<'_>) -> Result<Option<Self>, String> {
+        let f0 = given.colour("f0")?;
+        let f82 = given.colour("f82_tint")?;
+        let eta = given.colour("conductor_eta")?;
+        let k = given.colour("conductor_k")?;
         let named = match given.get("reflectance") {
             None => None,
             Some(Value::Word(symbol)) => {
-                let metal = metal(symbol)?;
+                let metal = metal(symbol).map_err(|e| e.to_string())?;
                 Some(Model::Conductor(metal.eta.into(), metal.k.into()))
             }
-            Some(_) => given.colour("reflectance", SHARE)?.map(Model::Constant),
+            Some(_) => given.colour("reflectance")?.map(Model::Constant),
         };
         let schlick = match (f0, f82) {
             (None, None) => None,
@@ -79,7 +73,7 @@ impl Reflectance {
                 "expected one of reflectance, f0, or conductor_eta and conductor_k".to_owned(),
             );
         }
-        let tint = given.colour("tint", SHARE)?;
+        let tint = given.colour("tint")?;
         match (model, tint) {
             (None, Some(_)) => Err("tint: expected a reflectance, too".to_owned()),
             (model, tint) => Ok(model.map(|model| Self {
@@ -90,7 +84,7 @@ impl Reflectance {
     }
 
     /// What is given, or a mirror's.
-    pub(super) fn or_white(given: Given<'_>) -> Result<Self, String> {
+    pub(crate) fn or_white(given: Given<'_>) -> Result<Self, String> {
         let white = Self {
             model: Model::Constant(Rgb::WHITE),
             tint: Rgb::WHITE,
@@ -99,7 +93,7 @@ impl Reflectance {
     }
 
     /// In a precision.
-    pub(super) fn cast<T: Real>(&self) -> fresnel::Reflectance<T> {
+    pub(crate) fn cast<T: Real>(&self) -> fresnel::Reflectance<T> {
         let untinted = match self.model {
             Model::Constant(colour) => fresnel::Reflectance::Constant(colour.cast()),
             Model::Conductor(eta, k) => fresnel::Reflectance::Conductor(Conductor {

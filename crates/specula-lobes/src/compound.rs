@@ -4,19 +4,18 @@ use specula_bsdf::bsdf::{
     self, Base, CoatLayer, CoatScattering, GltfParameters, Medium, PrincipledParameters,
 };
 use specula_bsdf::math::{Real, Rgb};
-use specula_bsdf::ndf::Masking;
 
-use super::given::{ANY, COAT_ETA, Distribution, ETA, Given, SHARE, beckmann, ggx};
-use super::reflectance::Reflectance;
-use super::{LobeHandle, both};
+use crate::given::{Distribution, Given, beckmann, ggx};
+use crate::reflectance::Reflectance;
+use crate::{Pair, both};
 
-type Made = Result<LobeHandle, String>;
+type Made = Result<Pair, String>;
 
-pub(super) fn coated_diffuse(given: Given<'_>) -> Made {
+pub(crate) fn coated_diffuse(given: Given<'_>) -> Made {
     let alpha = given.alpha("alpha")?;
-    let eta = given.number("eta", 1.5, COAT_ETA)?;
-    let albedo = given.albedo("albedo", 0.5)?;
-    let thickness = given.number("thickness", 0.0, ANY)?;
+    let eta = given.number("eta")?;
+    let albedo = given.albedo("albedo")?;
+    let thickness = given.number("thickness")?;
     let max_depth = given.count("max_depth")?;
     let scattering = match given.word("scattering")? {
         None | Some("lossless") => CoatScattering::Lossless,
@@ -37,11 +36,11 @@ pub(super) fn coated_diffuse(given: Given<'_>) -> Made {
     }))
 }
 
-pub(super) fn layered(given: Given<'_>) -> Made {
+pub(crate) fn layered(given: Given<'_>) -> Made {
     let alpha = given.alpha("alpha")?;
-    let eta = given.number("eta", 1.5, COAT_ETA)?;
+    let eta = given.number("eta")?;
     let base_alpha = given.alpha("base_alpha")?;
-    let diffuse = given.colour("albedo", SHARE)?;
+    let diffuse = given.colour("albedo")?;
     let metal = Reflectance::given(given)?;
     if diffuse.is_some() == metal.is_some() {
         return Err(
@@ -52,9 +51,9 @@ pub(super) fn layered(given: Given<'_>) -> Made {
     if diffuse.is_some() && base_alpha.is_some() {
         return Err("base_alpha: a diffuse base has none".to_owned());
     }
-    let thickness = given.number("thickness", 0.0, ANY)?;
-    let scattered = given.albedo("medium_albedo", 0.0)?;
-    let g = given.number("g", 0.0, [-0.99, 0.99])?;
+    let thickness = given.number("thickness")?;
+    let scattered = given.albedo("medium_albedo")?;
+    let g = given.number("g")?;
     Ok(both!(T => {
         let base = match metal {
             Some(metal) => Base::<T>::metal(base_alpha.map(ggx), metal.cast()),
@@ -69,13 +68,13 @@ pub(super) fn layered(given: Given<'_>) -> Made {
     }))
 }
 
-pub(super) fn plastic(given: Given<'_>) -> Made {
+pub(crate) fn plastic(given: Given<'_>) -> Made {
     let alpha = given.alpha("alpha")?;
-    let eta = given.number("eta", 1.49, COAT_ETA)?;
-    let diffuse = given.albedo("diffuse", 0.5)?;
-    let specular = given.albedo("specular", 1.0)?;
-    let nonlinear = given.flag("nonlinear", false)?;
-    let smith = given.masking(Masking::Separable)?;
+    let eta = given.number("eta")?;
+    let diffuse = given.albedo("diffuse")?;
+    let specular = given.albedo("specular")?;
+    let nonlinear = given.flag("nonlinear")?;
+    let smith = given.masking()?;
     let lobe = match (alpha, given.distribution()?) {
         (None, _) => both!(T => {
             bsdf::Plastic::<T>::smooth(T::of(eta), diffuse.cast(), specular.cast(), nonlinear)
@@ -94,22 +93,22 @@ pub(super) fn plastic(given: Given<'_>) -> Made {
     Ok(lobe)
 }
 
-pub(super) fn principled(given: Given<'_>) -> Made {
-    let base = given.albedo("base_color", 0.5)?;
-    let roughness = given.share("roughness", 0.5)?;
-    let anisotropic = given.share("anisotropic", 0.0)?;
-    let metallic = given.share("metallic", 0.0)?;
-    let spec_trans = given.share("spec_trans", 0.0)?;
-    let eta = given.number("eta", 1.5, ETA)?;
-    let spec_tint = given.share("spec_tint", 0.0)?;
-    let sheen = given.share("sheen", 0.0)?;
-    let sheen_tint = given.share("sheen_tint", 0.0)?;
-    let clearcoat = given.share("clearcoat", 0.0)?;
-    let clearcoat_gloss = given.share("clearcoat_gloss", 0.0)?;
-    let flatness = given.share("flatness", 0.0)?;
-    let diff_trans = given.number("diff_trans", 0.0, [0.0, 2.0])?;
-    let thin = given.flag("thin", false)?;
-    let outside = given.flag("outside", true)?;
+pub(crate) fn principled(given: Given<'_>) -> Made {
+    let base = given.albedo("base_color")?;
+    let roughness = given.number("roughness")?;
+    let anisotropic = given.number("anisotropic")?;
+    let metallic = given.number("metallic")?;
+    let spec_trans = given.number("spec_trans")?;
+    let eta = given.number("eta")?;
+    let spec_tint = given.number("spec_tint")?;
+    let sheen = given.number("sheen")?;
+    let sheen_tint = given.number("sheen_tint")?;
+    let clearcoat = given.number("clearcoat")?;
+    let clearcoat_gloss = given.number("clearcoat_gloss")?;
+    let flatness = given.number("flatness")?;
+    let diff_trans = given.number("diff_trans")?;
+    let thin = given.flag("thin")?;
+    let outside = given.flag("outside")?;
     Ok(both!(T => bsdf::Principled::<T>::new(PrincipledParameters {
         base_colour: base.cast(),
         roughness: T::of(roughness),
@@ -129,22 +128,22 @@ pub(super) fn principled(given: Given<'_>) -> Made {
     })))
 }
 
-pub(super) fn gltf(given: Given<'_>) -> Made {
-    let base = given.albedo("base_color", 1.0)?;
-    let metallic = given.share("metallic", 1.0)?;
-    let roughness = given.share("roughness", 1.0)?;
-    let anisotropy = given.share("anisotropy", 0.0)?;
-    let ior = given.number("ior", 1.5, [0.0, 1e3])?;
-    let specular = given.share("specular", 1.0)?;
-    let specular_colour = given.colour("specular_color", ANY)?.unwrap_or(Rgb::WHITE);
-    let transmission = given.share("transmission", 0.0)?;
-    let volume = given.flag("volume", false)?;
-    let outside = given.flag("outside", true)?;
-    let clearcoat = given.share("clearcoat", 0.0)?;
-    let clearcoat_roughness = given.share("clearcoat_roughness", 0.0)?;
-    let sheen = given.albedo("sheen_color", 0.0)?;
-    let sheen_roughness = given.share("sheen_roughness", 0.0)?;
-    let compensated = given.flag("compensated", false)?;
+pub(crate) fn gltf(given: Given<'_>) -> Made {
+    let base = given.albedo("base_color")?;
+    let metallic = given.number("metallic")?;
+    let roughness = given.number("roughness")?;
+    let anisotropy = given.number("anisotropy")?;
+    let ior = given.number("ior")?;
+    let specular = given.number("specular")?;
+    let specular_colour = given.albedo("specular_color")?;
+    let transmission = given.number("transmission")?;
+    let volume = given.flag("volume")?;
+    let outside = given.flag("outside")?;
+    let clearcoat = given.number("clearcoat")?;
+    let clearcoat_roughness = given.number("clearcoat_roughness")?;
+    let sheen = given.albedo("sheen_color")?;
+    let sheen_roughness = given.number("sheen_roughness")?;
+    let compensated = given.flag("compensated")?;
     Ok(both!(T => bsdf::Gltf::<T>::new(GltfParameters {
         base_colour: base.cast(),
         metallic: T::of(metallic),

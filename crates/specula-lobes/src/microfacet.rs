@@ -4,59 +4,54 @@ use specula_bsdf::bsdf::{self, Tints};
 use specula_bsdf::energy::EnergyModel;
 use specula_bsdf::math::{Real, Rgb};
 use specula_bsdf::multibounce::{MisPdf, MultibounceModel};
-use specula_bsdf::ndf::Masking;
 use specula_bsdf::vndf::Sampler;
 
-use super::given::{Distribution, ETA, Given, beckmann, ggx};
-use super::reflectance::Reflectance;
-use super::{LobeHandle, both};
+use crate::given::{Distribution, Given, beckmann, ggx};
+use crate::reflectance::Reflectance;
+use crate::{Pair, both};
 
-type Made = Result<LobeHandle, String>;
+type Made = Result<Pair, String>;
 
-pub(super) fn lambert(given: Given<'_>) -> Made {
-    let albedo = given.albedo("albedo", 0.5)?;
+pub(crate) fn lambert(given: Given<'_>) -> Made {
+    let albedo = given.albedo("albedo")?;
     Ok(both!(T => bsdf::Lambert::<T>::new(albedo.cast())))
 }
 
-pub(super) fn eon(given: Given<'_>) -> Made {
-    let albedo = given.albedo("albedo", 0.5)?;
-    let roughness = given.share("roughness", 0.5)?;
+pub(crate) fn eon(given: Given<'_>) -> Made {
+    let albedo = given.albedo("albedo")?;
+    let roughness = given.number("roughness")?;
     Ok(both!(T => bsdf::Eon::<T>::new(albedo.cast(), T::of(roughness))))
 }
 
-pub(super) fn diffuse_transmission(given: Given<'_>) -> Made {
-    let reflectance = given.albedo("reflectance", 0.25)?;
-    let transmittance = given.albedo("transmittance", 0.25)?;
+pub(crate) fn diffuse_transmission(given: Given<'_>) -> Made {
+    let reflectance = given.albedo("reflectance")?;
+    let transmittance = given.albedo("transmittance")?;
     Ok(both!(T => {
         bsdf::DiffuseTransmission::<T>::new(reflectance.cast(), transmittance.cast())
     }))
 }
 
-pub(super) fn smooth_conductor(given: Given<'_>) -> Made {
+pub(crate) fn smooth_conductor(given: Given<'_>) -> Made {
     let reflectance = Reflectance::or_white(given)?;
     Ok(both!(T => bsdf::SmoothConductor::<T>::new(reflectance.cast())))
 }
 
 /// A sampler; Beckmann has but its own.
-fn sampler(
-    given: Given<'_>,
-    distribution: Distribution,
-    default: Sampler,
-) -> Result<Sampler, String> {
+fn sampler(given: Given<'_>, distribution: Distribution) -> Result<Sampler, String> {
     match (distribution, given.word("sampler")?) {
         (Distribution::Beckmann, Some(name)) => Err(format!(
             "sampler: '{name}' is of GGX; Beckmann's visible normals have one sampler of their own"
         )),
-        _ => Ok(given.named("sampler")?.unwrap_or(default)),
+        _ => given.chosen("sampler"),
     }
 }
 
-pub(super) fn conductor(given: Given<'_>) -> Made {
+pub(crate) fn conductor(given: Given<'_>) -> Made {
     let alpha = given.needed_alpha()?;
     let reflectance = Reflectance::or_white(given)?;
     let distribution = given.distribution()?;
-    let sampler = sampler(given, distribution, Sampler::default())?;
-    let smith = given.masking(Masking::HeightCorrelated)?;
+    let sampler = sampler(given, distribution)?;
+    let smith = given.masking()?;
     let lobe = match (distribution, given.named::<EnergyModel>("energy")?) {
         (Distribution::Ggx, None) => both!(T => {
             bsdf::RoughConductor::<T>::new(ggx(alpha), reflectance.cast())
@@ -79,13 +74,12 @@ pub(super) fn conductor(given: Given<'_>) -> Made {
     Ok(lobe)
 }
 
-pub(super) fn multibounce_conductor(given: Given<'_>) -> Made {
+pub(crate) fn multibounce_conductor(given: Given<'_>) -> Made {
     let alpha = given.needed_alpha()?;
     let reflectance = Reflectance::or_white(given)?;
     let distribution = given.distribution()?;
-    let model = given.named::<MultibounceModel>("model")?;
-    let model = model.unwrap_or_default();
-    let mis = given.named::<MisPdf>("mis_pdf")?.unwrap_or_default();
+    let model: MultibounceModel = given.chosen("model")?;
+    let mis: MisPdf = given.chosen("mis_pdf")?;
     let lobe = match distribution {
         Distribution::Ggx => both!(T => {
             bsdf::MultibounceConductor::<T>::new(ggx(alpha), reflectance.cast(), model)
@@ -102,8 +96,8 @@ pub(super) fn multibounce_conductor(given: Given<'_>) -> Made {
 /// Tints of a dielectric, white by default.
 fn shares(given: Given<'_>) -> Result<[Rgb<f64>; 2], String> {
     Ok([
-        given.albedo("reflection_tint", 1.0)?,
-        given.albedo("transmission_tint", 1.0)?,
+        given.albedo("reflection_tint")?,
+        given.albedo("transmission_tint")?,
     ])
 }
 
@@ -115,31 +109,30 @@ fn tints<T: Real>([reflection, transmission]: [Rgb<f64>; 2]) -> Tints<T> {
     }
 }
 
-pub(super) fn smooth_dielectric(given: Given<'_>) -> Made {
-    let eta = given.number("eta", 1.5, ETA)?;
+pub(crate) fn smooth_dielectric(given: Given<'_>) -> Made {
+    let eta = given.number("eta")?;
     let colours = shares(given)?;
     Ok(both!(T => {
         bsdf::SmoothDielectric::<T>::new(T::of(eta)).with_tints(tints(colours))
     }))
 }
 
-pub(super) fn thin_dielectric(given: Given<'_>) -> Made {
-    let eta = given.number("eta", 1.5, ETA)?;
+pub(crate) fn thin_dielectric(given: Given<'_>) -> Made {
+    let eta = given.number("eta")?;
     let colours = shares(given)?;
     Ok(both!(T => {
         bsdf::ThinDielectric::<T>::new(T::of(eta)).with_tints(tints(colours))
     }))
 }
 
-pub(super) fn dielectric(given: Given<'_>) -> Made {
+pub(crate) fn dielectric(given: Given<'_>) -> Made {
     let alpha = given.needed_alpha()?;
-    let eta = given.number("eta", 1.5, ETA)?;
+    let eta = given.number("eta")?;
     let distribution = given.distribution()?;
-    // Visible normals serve refraction, too.
-    let sampler = sampler(given, distribution, Sampler::Cap)?;
-    let smith = given.masking(Masking::HeightCorrelated)?;
+    let sampler = sampler(given, distribution)?;
+    let smith = given.masking()?;
     let colours = shares(given)?;
-    let lobe = match (distribution, given.flag("compensated", false)?) {
+    let lobe = match (distribution, given.flag("compensated")?) {
         (Distribution::Ggx, false) => both!(T => {
             bsdf::RoughDielectric::<T>::new(ggx(alpha), T::of(eta))
                 .with_masking(smith)
@@ -166,9 +159,9 @@ pub(super) fn dielectric(given: Given<'_>) -> Made {
     Ok(lobe)
 }
 
-pub(super) fn multibounce_dielectric(given: Given<'_>) -> Made {
+pub(crate) fn multibounce_dielectric(given: Given<'_>) -> Made {
     let alpha = given.needed_alpha()?;
-    let eta = given.number("eta", 1.5, ETA)?;
+    let eta = given.number("eta")?;
     let distribution = given.distribution()?;
     if let Some(name) = given.word("model")?
         && !matches!(name, "heitz" | "specula")
@@ -177,9 +170,8 @@ pub(super) fn multibounce_dielectric(given: Given<'_>) -> Made {
             "model: '{name}' is of metals (expected heitz or specula)"
         ));
     }
-    let model = given.named::<MultibounceModel>("model")?;
-    let model = model.unwrap_or_default();
-    let mis = given.named::<MisPdf>("mis_pdf")?.unwrap_or_default();
+    let model: MultibounceModel = given.chosen("model")?;
+    let mis: MisPdf = given.chosen("mis_pdf")?;
     let colours = shares(given)?;
     let lobe = match distribution {
         Distribution::Ggx => both!(T => {

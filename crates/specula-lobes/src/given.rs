@@ -7,27 +7,25 @@ use specula_bsdf::Alpha;
 use specula_bsdf::math::{Real, Rgb, rgb};
 use specula_bsdf::ndf::{Beckmann, Ggx, Masking};
 
-/// The range of shares.
-pub(super) const SHARE: [f64; 2] = [0.0, 1.0];
-/// The range of what has no upper end.
-pub(super) const ANY: [f64; 2] = [0.0, f64::MAX];
-/// Indices of refraction that lobes take.
-pub(super) const ETA: [f64; 2] = [1e-3, 1e3];
-/// Those of coats.
-pub(super) const COAT_ETA: [f64; 2] = [1.0, 3.0];
+use crate::parameter::{NO_END, Parameter};
 
 /// A value: a word, or one to three numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Value<'a> {
+pub enum Value<'a> {
+    /// A word.
     Word(&'a str),
+    /// A number, or a grey.
     One(f64),
+    /// Alphas along x and y.
     Two([f64; 2]),
+    /// A colour in linear sRGB.
     Three([f64; 3]),
 }
 
 impl<'a> Value<'a> {
     /// `0.3`, `0.1,0.4`, `0.8,0.2,0.1`, or a word.
-    pub(crate) fn of_text(text: &'a str) -> Self {
+    #[must_use]
+    pub fn of_text(text: &'a str) -> Self {
         let numbers: Result<Vec<f64>, _> = text.split(',').map(|n| n.trim().parse()).collect();
         match numbers.as_deref() {
             Ok(&[x]) => Self::One(x),
@@ -47,24 +45,26 @@ impl<'a> Value<'a> {
     }
 }
 
-/// A name with its value.
+/// A parameter's name with a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Parameter<'a> {
-    pub(crate) name: &'a str,
-    pub(crate) value: Value<'a>,
+pub struct Argument<'a> {
+    /// The parameter's key; hyphens and underscores are the same.
+    pub name: &'a str,
+    /// Its value.
+    pub value: Value<'a>,
 }
 
 /// Whether names are the same: hyphens and underscores are.
-pub(super) fn same(a: &str, b: &str) -> bool {
+pub(crate) fn same(a: &str, b: &str) -> bool {
     let plain = |c: char| if c == '-' { '_' } else { c };
     a.chars().map(plain).eq(b.chars().map(plain))
 }
 
 /// A number that must be in a range, ends included.
-pub(super) fn in_range(key: &str, value: f64, [low, high]: [f64; 2]) -> Result<f64, String> {
+pub(crate) fn in_range(key: &str, value: f64, [low, high]: [f64; 2]) -> Result<f64, String> {
     if value >= low && value <= high {
         Ok(value)
-    } else if high == f64::MAX {
+    } else if high == NO_END {
         Err(format!("{key}: expected {low} or more, got {value}"))
     } else {
         Err(format!(
@@ -73,31 +73,50 @@ pub(super) fn in_range(key: &str, value: f64, [low, high]: [f64; 2]) -> Result<f
     }
 }
 
-/// What is given of a lobe. Whatever is not has its default.
+/// What is given of a lobe. Whatever is not has the default of its parameter.
 #[derive(Clone, Copy)]
-pub(super) struct Given<'a>(pub(super) &'a [Parameter<'a>]);
+pub(crate) struct Given<'a> {
+    /// What may be given.
+    pub(crate) parameters: [&'static [Parameter]; 2],
+    pub(crate) arguments: &'a [Argument<'a>],
+}
 
 impl<'a> Given<'a> {
-    pub(super) fn get(self, key: &str) -> Option<Value<'a>> {
-        self.0.iter().find(|p| same(p.name, key)).map(|p| p.value)
+    pub(crate) fn get(self, key: &str) -> Option<Value<'a>> {
+        let mut arguments = self.arguments.iter();
+        arguments.find(|a| same(a.name, key)).map(|a| a.value)
     }
 
-    /// A number in a range.
-    pub(super) fn number(self, key: &str, default: f64, range: [f64; 2]) -> Result<f64, String> {
-        match self.get(key) {
-            None => Ok(default),
-            Some(Value::One(x)) => in_range(key, x, range),
+    fn parameter(self, key: &str) -> Option<&'static Parameter> {
+        let mut parameters = self.parameters.into_iter().flatten();
+        parameters.find(|p| same(p.key, key))
+    }
+
+    /// What is given, or the default.
+    fn or_default(self, key: &str) -> Option<Value<'a>> {
+        let default = || self.parameter(key)?.default.map(Value::of_text);
+        self.get(key).or_else(default)
+    }
+
+    /// The range of a parameter.
+    fn range(self, key: &str) -> [f64; 2] {
+        let parameter = self.parameter(key);
+        parameter
+            .and_then(|p| p.kind.range())
+            .unwrap_or([0.0, NO_END])
+    }
+
+    /// A number in its range.
+    pub(crate) fn number(self, key: &str) -> Result<f64, String> {
+        match self.or_default(key) {
+            Some(Value::One(x)) => in_range(key, x, self.range(key)),
             Some(other) => Err(format!("{key}: expected a number, got {}", other.said())),
+            None => Err(format!("{key}: is missing (expected a number)")),
         }
     }
 
-    /// A number in `[0, 1]`.
-    pub(super) fn share(self, key: &str, default: f64) -> Result<f64, String> {
-        self.number(key, default, SHARE)
-    }
-
     /// A whole number, if it is given.
-    pub(super) fn count(self, key: &str) -> Result<Option<u32>, String> {
+    pub(crate) fn count(self, key: &str) -> Result<Option<u32>, String> {
         let expected = |got: String| Err(format!("{key}: expected a whole number, got {got}"));
         match self.get(key) {
             None => Ok(None),
@@ -115,11 +134,10 @@ impl<'a> Given<'a> {
     }
 
     /// Whether something is so: `true`, `false`, 1 or 0.
-    pub(super) fn flag(self, key: &str, default: bool) -> Result<bool, String> {
-        match self.get(key) {
-            None => Ok(default),
+    pub(crate) fn flag(self, key: &str) -> Result<bool, String> {
+        match self.or_default(key) {
             Some(Value::Word("true")) => Ok(true),
-            Some(Value::Word("false")) => Ok(false),
+            None | Some(Value::Word("false")) => Ok(false),
             Some(Value::One(x)) if x == 0.0 || x == 1.0 => Ok(x == 1.0),
             Some(other) => Err(format!(
                 "{key}: expected true or false, got {}",
@@ -128,13 +146,26 @@ impl<'a> Given<'a> {
         }
     }
 
-    /// A colour in linear sRGB with channels in a range, if it is given; one number is a grey.
-    pub(super) fn colour(self, key: &str, range: [f64; 2]) -> Result<Option<Rgb<f64>>, String> {
-        let channels = match self.get(key) {
-            None => return Ok(None),
-            Some(Value::One(grey)) => [grey; 3],
-            Some(Value::Three(channels)) => channels,
-            Some(other) => {
+    /// A colour in linear sRGB with channels in its range, if it is given; one number is a grey.
+    pub(crate) fn colour(self, key: &str) -> Result<Option<Rgb<f64>>, String> {
+        self.get(key)
+            .map(|value| self.channels(key, value))
+            .transpose()
+    }
+
+    /// A colour that is given, or its default.
+    pub(crate) fn albedo(self, key: &str) -> Result<Rgb<f64>, String> {
+        match self.or_default(key) {
+            Some(value) => self.channels(key, value),
+            None => Err(format!("{key}: is missing (expected a colour)")),
+        }
+    }
+
+    fn channels(self, key: &str, value: Value<'_>) -> Result<Rgb<f64>, String> {
+        let channels = match value {
+            Value::One(grey) => [grey; 3],
+            Value::Three(channels) => channels,
+            other => {
                 return Err(format!(
                     "{key}: expected a colour (one number, or three), got {}",
                     other.said()
@@ -142,19 +173,14 @@ impl<'a> Given<'a> {
             }
         };
         for channel in channels {
-            in_range(key, channel, range)?;
+            in_range(key, channel, self.range(key))?;
         }
         let [r, g, b] = channels;
-        Ok(Some(rgb(r, g, b)))
-    }
-
-    /// A colour with channels in `[0, 1]`.
-    pub(super) fn albedo(self, key: &str, default: f64) -> Result<Rgb<f64>, String> {
-        Ok(self.colour(key, SHARE)?.unwrap_or(Rgb::splat(default)))
+        Ok(rgb(r, g, b))
     }
 
     /// Alphas, one or those along x and y, if they are given.
-    pub(super) fn alpha(self, key: &str) -> Result<Option<Alpha<f64>>, String> {
+    pub(crate) fn alpha(self, key: &str) -> Result<Option<Alpha<f64>>, String> {
         let [x, y] = match self.get(key) {
             None => return Ok(None),
             Some(Value::One(alpha)) => [alpha; 2],
@@ -171,14 +197,14 @@ impl<'a> Given<'a> {
     }
 
     /// Alphas that a lobe cannot do without.
-    pub(super) fn needed_alpha(self) -> Result<Alpha<f64>, String> {
+    pub(crate) fn needed_alpha(self) -> Result<Alpha<f64>, String> {
         self.alpha("alpha")?.ok_or_else(|| {
             "alpha: is missing (expected one number in [1e-4, 10], or two)".to_owned()
         })
     }
 
     /// A word, if it is given.
-    pub(super) fn word(self, key: &str) -> Result<Option<&'a str>, String> {
+    pub(crate) fn word(self, key: &str) -> Result<Option<&'a str>, String> {
         match self.get(key) {
             None => Ok(None),
             Some(Value::Word(word)) => Ok(Some(word)),
@@ -187,13 +213,22 @@ impl<'a> Given<'a> {
     }
 
     /// A value by its name, if it is given.
-    pub(super) fn named<N: FromStr<Err: Display>>(self, key: &str) -> Result<Option<N>, String> {
+    pub(crate) fn named<N: FromStr<Err: Display>>(self, key: &str) -> Result<Option<N>, String> {
         let parsed = self.word(key)?.map(str::parse);
         parsed.transpose().map_err(|e: N::Err| e.to_string())
     }
 
+    /// A value by its name, given or the default.
+    pub(crate) fn chosen<N: FromStr<Err: Display> + Default>(self, key: &str) -> Result<N, String> {
+        match self.or_default(key) {
+            Some(Value::Word(word)) => word.parse().map_err(|e: N::Err| e.to_string()),
+            Some(other) => Err(format!("{key}: expected a name, got {}", other.said())),
+            None => Ok(N::default()),
+        }
+    }
+
     /// The distribution of normals, GGX by default.
-    pub(super) fn distribution(self) -> Result<Distribution, String> {
+    pub(crate) fn distribution(self) -> Result<Distribution, String> {
         match self.word("distribution")? {
             None | Some("ggx") => Ok(Distribution::Ggx),
             Some("beckmann") => Ok(Distribution::Beckmann),
@@ -204,21 +239,24 @@ impl<'a> Given<'a> {
     }
 
     /// How shadowing and masking go together.
-    pub(super) fn masking(self, default: Masking) -> Result<Masking, String> {
-        match self.word("masking")? {
-            None => Ok(default),
-            Some(name) if same(name, "height-correlated") => Ok(Masking::HeightCorrelated),
-            Some("separable") => Ok(Masking::Separable),
-            Some(name) => Err(format!(
+    pub(crate) fn masking(self) -> Result<Masking, String> {
+        match self.or_default("masking") {
+            Some(Value::Word(name)) if same(name, "height-correlated") => {
+                Ok(Masking::HeightCorrelated)
+            }
+            Some(Value::Word("separable")) => Ok(Masking::Separable),
+            Some(Value::Word(name)) => Err(format!(
                 "no such masking: '{name}' (expected height-correlated or separable)"
             )),
+            Some(other) => Err(format!("masking: expected a name, got {}", other.said())),
+            None => Ok(Masking::HeightCorrelated),
         }
     }
 }
 
 /// A distribution of normals.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Distribution {
+pub(crate) enum Distribution {
     Ggx,
     Beckmann,
 }
@@ -229,11 +267,11 @@ fn cast<T: Real>(alpha: Alpha<f64>) -> Alpha<T> {
 }
 
 /// GGX in a precision.
-pub(super) fn ggx<T: Real>(alpha: Alpha<f64>) -> Ggx<T> {
+pub(crate) fn ggx<T: Real>(alpha: Alpha<f64>) -> Ggx<T> {
     Ggx::new(cast(alpha))
 }
 
 /// Beckmann in a precision.
-pub(super) fn beckmann<T: Real>(alpha: Alpha<f64>) -> Beckmann<T> {
+pub(crate) fn beckmann<T: Real>(alpha: Alpha<f64>) -> Beckmann<T> {
     Beckmann::new(cast(alpha))
 }
