@@ -51,6 +51,8 @@ pub use goal::RenderGoal;
 pub use material::MaterialShader;
 pub use memory::MemoryEstimate;
 pub use options::{RenderOptions, Strategy};
-pub use points::{LitPoint, PointLighting, PrimitivePoint, SoftenedNormal, TexturePoint};
+pub use points::{
+    LitPoint, PointLighting, PrimitivePoint, SeenSurface, SoftenedNormal, TexturePoint,
+};
 pub use prepared::{PrepareError, PreparedScene};
 pub use renderer::{InvalidSample, PassReport, Renderer, ResumeError};

@@ -1,20 +1,155 @@
-//! Progressive renders.
+//! Progressive renders: sessions that stay open between requests.
 
-use serde_json::{Map, Value};
+mod advance;
+mod catalogue;
+mod changes;
+mod compare;
+mod export;
+mod gpu;
+mod materials;
+mod pick;
+mod scenes;
+mod session;
+mod view;
 
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use serde::Deserialize;
+use serde_json::{Map, Value, json};
+
+use crate::request::fields;
 use crate::{Answer, AskError};
+use catalogue::Catalogue;
+pub use catalogue::{GivenScene, SceneFrom};
+use session::Session;
 
-/// The open renders.
+/// Renders that are open at once: each keeps its picture's sums, at most 500 MB.
+const MOST_SESSIONS: usize = 8;
+
+/// The open renders, and the scenes that can be rendered.
 #[derive(Debug, Default)]
-pub(crate) struct Renders {}
+pub(crate) struct Renders {
+    catalogue: Mutex<Catalogue>,
+    sessions: Mutex<Sessions>,
+}
+
+#[derive(Debug, Default)]
+struct Sessions {
+    open: BTreeMap<u64, Arc<Mutex<Session>>>,
+    /// Of the session that was opened last.
+    last: u64,
+}
+
+/// A request about a session and nothing else.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct OfSession {
+    session: u64,
+}
 
 impl Renders {
     /// Answers `render.{what}`.
     pub(crate) fn answer(
         &self,
         what: &str,
-        _request: Map<String, Value>,
+        request: Map<String, Value>,
     ) -> Result<Answer, AskError> {
-        Err(AskError::unknown(&format!("render.{what}")))
+        match what {
+            "scenes" => {
+                let _: Nothing = fields(request)?;
+                Ok(Answer::new(locked(&self.catalogue).list()))
+            }
+            "open" => self.open(fields(request)?),
+            "close" => {
+                let OfSession { session } = fields(request)?;
+                let closed = locked(&self.sessions).open.remove(&session);
+                closed
+                    .map(|_| Answer::new(json!({})))
+                    .ok_or_else(|| gone(session))
+            }
+            "advance" => {
+                let asked: advance::Advance = fields(request)?;
+                self.with(asked.session, |session| session.advance(&asked))
+            }
+            "change" => {
+                let asked: session::Change = fields(request)?;
+                let id = asked.session;
+                self.with(id, |session| session.change(id, asked))
+            }
+            "pick" => {
+                let asked: pick::Pick = fields(request)?;
+                self.with(asked.session, |session| session.pick(&asked))
+            }
+            "compare" => {
+                let asked: compare::Compare = fields(request)?;
+                // One after the other: two that are compared the other way round at once must not wait for each other.
+                let test = self.with(asked.session, |session| session.picture())?;
+                let reference = self.with(asked.reference, |session| session.picture())?;
+                compare::answer(&reference, &test)
+            }
+            "gpu" => {
+                let OfSession { session } = fields(request)?;
+                self.with(session, |session| session.gpu())
+            }
+            "save" => {
+                let asked: export::Save = fields(request)?;
+                self.with(asked.session, |session| session.save(asked.format))
+            }
+            "scene" => {
+                let asked: export::Export = fields(request)?;
+                self.with(asked.session, |session| session.export(asked.format))
+            }
+            _ => Err(AskError::unknown(&format!("render.{what}"))),
+        }
     }
+
+    /// The scenes that can be opened.
+    pub(crate) fn catalogue(&self) -> MutexGuard<'_, Catalogue> {
+        locked(&self.catalogue)
+    }
+
+    fn open(&self, asked: session::Open) -> Result<Answer, AskError> {
+        let has_room = |sessions: &Sessions| match sessions.open.len() < MOST_SESSIONS {
+            true => Ok(()),
+            false => Err(AskError::new(format!(
+                "{MOST_SESSIONS} renders are open, and no more can be: close one (render.close)"
+            ))),
+        };
+        has_room(&locked(&self.sessions))?;
+        let scene = locked(&self.catalogue).scene(&asked.scene)?;
+        let session = Session::open(scene, asked)?;
+        let mut sessions = locked(&self.sessions);
+        // Others may have been opened meanwhile.
+        has_room(&sessions)?;
+        sessions.last += 1;
+        let id = sessions.last;
+        let answer = Answer::new(session.described(id));
+        sessions.open.insert(id, Arc::new(Mutex::new(session)));
+        Ok(answer)
+    }
+
+    /// Does something with a session; requests to others are answered meanwhile.
+    fn with<T>(
+        &self,
+        session: u64,
+        act: impl FnOnce(&mut Session) -> Result<T, AskError>,
+    ) -> Result<T, AskError> {
+        let found = locked(&self.sessions).open.get(&session).cloned();
+        let found = found.ok_or_else(|| gone(session))?;
+        act(&mut locked(&found))
+    }
+}
+
+/// A request without fields.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Nothing {}
+
+fn gone(session: u64) -> AskError {
+    AskError::new(format!("session: no render {session} is open"))
+}
+
+fn locked<T>(what: &Mutex<T>) -> MutexGuard<'_, T> {
+    what.lock().unwrap_or_else(PoisonError::into_inner)
 }
