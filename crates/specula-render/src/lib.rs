@@ -41,6 +41,7 @@ pub mod estimator {
     pub use crate::offset::RELATIVE_ERROR;
 }
 
+pub use camera::screen_window;
 pub use device::{Most, Run, SampleDevice, Wanted};
 pub use film::{
     FilmBuffer, FilmFile, FilmFileError, Label, MOST_SAMPLES, MergeError, NoiseEstimate,

@@ -101,10 +101,7 @@ impl Session {
     }
 
     fn pbrt(&self) -> Result<String, AskError> {
-        let mut scene = self.changed_scene()?;
-        scene.film.resolution = self.resolution();
-        let [width, height] = scene.film.resolution;
-        scene.film.crop = [0, width, 0, height];
+        let scene = self.changed_scene()?;
         let path = PathBuf::from(format!("{}.pbrt", self.stem()));
         let written = pbrt_text(&scene, &path);
         let (text, notes) =
@@ -117,11 +114,16 @@ impl Session {
     fn command(&self) -> String {
         let changes = &self.changes;
         let mut words = vec!["specula".to_owned(), "render".to_owned()];
+        let mut note = String::new();
         match self.scene.from {
             SceneFrom::BuiltIn if self.scene.name == super::scenes::ORBS => {}
+            SceneFrom::BuiltIn => {
+                let file = format!("{}.pbrt", self.stem());
+                note += &format!("# {file}: the scene as pbrt-v4 has it.\n");
+                words.push(quoted(&file));
+            }
             _ => words.push(quoted(&self.scene.name)),
         }
-        let mut note = String::new();
         for (&id, text) in &changes.edits {
             let name = self.scene.given.scene.materials[id].name.as_ref();
             match name {

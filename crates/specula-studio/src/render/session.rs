@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 use serde_json::{Value, json};
-use specula_render::{FilmBuffer, PreparedScene, RenderOptions, Renderer};
+use specula_render::{FilmBuffer, PreparedScene, RenderOptions, Renderer, screen_window};
 use specula_scene::Scene;
 use specula_scene::scene::Camera;
 use specula_scene::summary::Summary;
@@ -163,7 +163,7 @@ impl Session {
         let own = &self.scene.given.scene;
         match (changes.camera, self.own_view) {
             (None, _) => Ok(own.camera.clone()),
-            (Some(view), Some(of_scene)) if view.is_near(&of_scene) => Ok(own.camera.clone()),
+            (Some(view), Some(of_scene)) if view == of_scene => Ok(own.camera.clone()),
             (Some(view), _) => view.camera(&own.camera, &own.film),
         }
     }
@@ -190,6 +190,10 @@ impl Session {
         let mut scene = self.scene.given.scene.clone();
         scene.camera = self.camera(&self.changes)?;
         self.changes.apply(&mut scene)?;
+        let (resolution, file) = (self.resolution(), scene.film.resolution);
+        scene.camera.screen_window = screen_window(&scene.camera, file, resolution);
+        scene.film.resolution = resolution;
+        scene.film.crop = [0, resolution[0], 0, resolution[1]];
         scene.settings.max_depth = self.options.max_depth;
         scene.settings.energy = self.options.energy;
         Ok(scene)

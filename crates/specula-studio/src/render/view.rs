@@ -44,14 +44,6 @@ impl View {
         })
     }
 
-    /// Whether two views are the same but for the rounding of text.
-    pub(super) fn is_near(&self, other: &Self) -> bool {
-        let all = |v: &Self| [v.eye, v.target, v.up].concat();
-        let near = |a: f64, b: f64| (a - b).abs() <= 1e-12 * a.abs().max(b.abs());
-        all(self).iter().zip(all(other)).all(|(&a, b)| near(a, b))
-            && near(self.fov_degrees, other.fov_degrees)
-    }
-
     /// A camera of this view. It has the lens of `own`, and mirrors the world where that does.
     pub(super) fn camera(&self, own: &Camera, film: &Film) -> Result<Camera, AskError> {
         let vectors = [("eye", self.eye), ("target", self.target), ("up", self.up)];
