@@ -11,6 +11,8 @@ mod lobes;
 mod render;
 mod request;
 mod samplers;
+#[cfg(target_arch = "wasm32")]
+pub mod wasm;
 
 pub use answer::{Answer, Array};
 pub use render::{GivenScene, SceneFrom};

@@ -51,7 +51,7 @@ pub(super) struct Session {
     pub(super) options: RenderOptions,
     /// `None`: preparing it failed, or was interrupted.
     prepared: Option<PreparedScene>,
-    /// What WebGPU cannot render of it.
+    /// What WebGPU cannot render of it: of its textures and its size, which no change touches.
     missing: Vec<String>,
     /// `None`: no sample was taken yet.
     film: Option<FilmBuffer>,
@@ -141,7 +141,6 @@ impl Session {
             let earlier = self.prepared.take();
             let prepared = PreparedScene::consume_after(changed, &options, earlier);
             let prepared = prepared.map_err(unprepared)?;
-            self.missing = gpu::missing(&prepared, &options);
             self.prepared = Some(prepared);
         } else if let Some(prepared) = &mut self.prepared {
             prepared
