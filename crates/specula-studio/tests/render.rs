@@ -145,7 +145,7 @@ fn every_layer_comes_where_it_is_wanted() {
 #[test]
 fn the_same_seed_is_the_same_picture_and_another_is_not() {
     let studio = Studio::default();
-    let [a, b, c] = [1, 1, 2].map(|seed| {
+    let [a, b, c] = [1_u64, 1, 1 + (1 << 40)].map(|seed| {
         let session = open(&studio, json!({"seed": seed}));
         colour(&studio, session, 3)
     });
@@ -457,7 +457,7 @@ fn wrong_requests_are_refused_with_the_fields_name() {
             "-1",
         ),
         (
-            json!({"ask": "render.open", "scene": "ball", "seed": 1_u64 << 40}),
+            json!({"ask": "render.open", "scene": "ball", "seed": 1_u64 << 53}),
             "seed",
         ),
         (

@@ -181,11 +181,17 @@ pub(super) fn check_depth(depth: Option<u32>) -> Result<Option<u32>, AskError> {
     }
 }
 
-/// The seed of a number as pages have it.
+/// The seed of a number as pages have it: itself below 2^32, above mixed of both halves.
 pub(super) fn check_seed(seed: Option<u64>) -> Result<u32, AskError> {
     let seed = seed.unwrap_or(0);
-    u32::try_from(seed)
-        .map_err(|_| AskError::new(format!("seed: expected an integer below 2^32, got {seed}")))
+    if seed >= 1 << 53 {
+        return Err(AskError::new(format!(
+            "seed: expected an integer below 2^53, got {seed}"
+        )));
+    }
+    let low = seed & u64::from(u32::MAX);
+    let mixed = low ^ ((seed >> 32) * 0x9e37_79b9 & u64::from(u32::MAX));
+    Ok(u32::try_from(mixed).unwrap_or_default())
 }
 
 fn check_size([width, height]: [u32; 2]) -> Result<(), AskError> {
