@@ -190,7 +190,7 @@ pub(super) fn check_seed(seed: Option<u64>) -> Result<u32, AskError> {
         )));
     }
     let low = seed & u64::from(u32::MAX);
-    let mixed = low ^ ((seed >> 32) * 0x9e37_79b9 & u64::from(u32::MAX));
+    let mixed = low ^ (((seed >> 32) * 0x9e37_79b9) & u64::from(u32::MAX));
     Ok(u32::try_from(mixed).unwrap_or_default())
 }
 
