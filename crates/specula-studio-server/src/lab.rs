@@ -1,11 +1,8 @@
 //! The laboratory's routes: experiments, runs of them, their report.
 
 mod report;
-mod run;
 
-use std::io;
-use std::path::PathBuf;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 
 use axum::Router;
 use axum::body::Body;
@@ -18,43 +15,9 @@ use serde_json::{Value, json};
 use specula_lab::{Quality, RunOptions, experiments};
 
 use crate::body;
+use crate::desk::Run;
 use crate::error::{Refusal, json_response};
 use crate::shared::Shared;
-use run::Run;
-
-/// Results of this session and the run that is under way.
-pub(crate) struct Desk {
-    folder: tempfile::TempDir,
-    run: Mutex<Option<Run>>,
-}
-
-impl Desk {
-    /// With a temporary folder for results.
-    pub(crate) fn new() -> io::Result<Self> {
-        let folder = tempfile::Builder::new()
-            .prefix("specula-studio-lab-")
-            .tempdir()?;
-        Ok(Self {
-            folder,
-            run: Mutex::new(None),
-        })
-    }
-
-    fn folder(&self) -> PathBuf {
-        self.folder.path().to_owned()
-    }
-
-    fn run(&self) -> MutexGuard<'_, Option<Run>> {
-        self.run.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Ends the run that is under way, and waits for it a little.
-    pub(crate) fn end(&self) {
-        if let Some(run) = self.run().take() {
-            run.end();
-        }
-    }
-}
 
 /// All routes of the laboratory.
 pub(crate) fn routes() -> Router<Arc<Shared>> {
@@ -117,8 +80,13 @@ async fn start(
     }
     let options = RunOptions { quality, seed };
     *run = Some(
-        Run::start(Arc::clone(&shared), chosen, options)
-            .map_err(|e| Refusal::internal(e.to_string()))?,
+        Run::start(
+            Arc::clone(&shared.pool),
+            shared.lab.folder(),
+            chosen,
+            options,
+        )
+        .map_err(|e| Refusal::internal(e.to_string()))?,
     );
     Ok(json_response(&json!({})))
 }

@@ -1,25 +1,59 @@
-//! A run of experiments in a thread of its own.
+//! Results of the laboratory, and the run that is under way.
 
 use std::io;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use rayon::ThreadPool;
 use serde::Serialize;
 use serde_json::Value;
 use specula_lab::{Claim, Experiment, LabError, Outcome, Record, RunEvent, RunOptions};
-
-use crate::shared::Shared;
 
 /// What the end of the server waits for a run.
 const GRACE: Duration = Duration::from_secs(3);
 
 /// A run that was begun.
-pub(super) struct Run {
+pub(crate) struct Run {
     stop: Arc<AtomicBool>,
     status: Arc<Mutex<Status>>,
     thread: JoinHandle<()>,
+}
+
+/// Results of this session and the run that is under way.
+pub(crate) struct Desk {
+    folder: tempfile::TempDir,
+    run: Mutex<Option<Run>>,
+}
+
+impl Desk {
+    /// With a temporary folder for results.
+    pub(crate) fn new() -> io::Result<Self> {
+        let folder = tempfile::Builder::new()
+            .prefix("specula-studio-lab-")
+            .tempdir()?;
+        Ok(Self {
+            folder,
+            run: Mutex::new(None),
+        })
+    }
+
+    pub(crate) fn folder(&self) -> PathBuf {
+        self.folder.path().to_owned()
+    }
+
+    pub(crate) fn run(&self) -> MutexGuard<'_, Option<Run>> {
+        self.run.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Ends the run that is under way, and waits for it a little.
+    pub(crate) fn end(&self) {
+        if let Some(run) = self.run().take() {
+            run.end();
+        }
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Serialize)]
@@ -76,8 +110,9 @@ impl From<&Record> for Found {
 
 impl Run {
     /// Begins.
-    pub(super) fn start(
-        shared: Arc<Shared>,
+    pub(crate) fn start(
+        pool: Arc<ThreadPool>,
+        folder: PathBuf,
         chosen: Vec<&'static Experiment>,
         options: RunOptions,
     ) -> io::Result<Self> {
@@ -97,7 +132,7 @@ impl Run {
             let (stop, status) = (Arc::clone(&stop), Arc::clone(&status));
             move || {
                 let end = EndOfRun(Arc::clone(&status));
-                work(&shared, &chosen, options, &stop, &status);
+                work(&pool, &folder, &chosen, options, &stop, &status);
                 std::mem::drop(end);
             }
         };
@@ -111,20 +146,20 @@ impl Run {
         })
     }
 
-    pub(super) fn is_under_way(&self) -> bool {
+    pub(crate) fn is_under_way(&self) -> bool {
         locked(&self.status).state == Phase::Running
     }
 
-    pub(super) fn status(&self) -> Value {
+    pub(crate) fn status(&self) -> Value {
         serde_json::to_value(&*locked(&self.status)).unwrap_or_default()
     }
 
-    pub(super) fn stop(&self) {
+    pub(crate) fn stop(&self) {
         self.stop.store(true, Ordering::Relaxed);
     }
 
     /// Stops, and waits a little for the end.
-    pub(super) fn end(self) {
+    pub(crate) fn end(self) {
         self.stop();
         let start = Instant::now();
         while !self.thread.is_finished() && start.elapsed() < GRACE {
@@ -148,13 +183,13 @@ impl Drop for EndOfRun {
 }
 
 fn work(
-    shared: &Shared,
+    pool: &ThreadPool,
+    folder: &Path,
     chosen: &[&'static Experiment],
     options: RunOptions,
     stop: &AtomicBool,
     status: &Mutex<Status>,
 ) {
-    let folder = shared.lab.folder();
     let count = chosen.len() as f64;
     let events = |event: RunEvent<'_>| {
         let mut status = locked(status);
@@ -171,11 +206,9 @@ fn work(
             }
         }
     };
-    let result = shared
-        .pool
-        .install(|| specula_lab::run(chosen, options, &folder, stop, &events));
+    let result = pool.install(|| specula_lab::run(chosen, options, folder, stop, &events));
     // Also of earlier runs.
-    let page = match specula_lab::report::write(&folder) {
+    let page = match specula_lab::report::write(folder) {
         Err(LabError::NoResults(_)) => Ok(false),
         written => written.map(|_| true),
     };
