@@ -1,0 +1,112 @@
+//! Scenes that pages open by path, and what reading one answers.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, PoisonError};
+
+use axum::body::Body;
+use axum::extract::State;
+use axum::http::{HeaderMap, StatusCode};
+use axum::response::Response;
+use serde::Deserialize;
+use serde_json::{Value, json};
+use specula_scene::{LoadOptions, SceneError};
+use tokio::sync::OwnedSemaphorePermit;
+
+use crate::core::{self, NewScene};
+use crate::error::{Refusal, json_response};
+use crate::shared::Shared;
+use crate::{body, places};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Open {
+    /// Relative to the folder that scenes are opened from, or absolute and in it.
+    path: String,
+}
+
+/// `POST /api/open`: a scene of the folder.
+pub(crate) async fn open(
+    State(shared): State<Arc<Shared>>,
+    headers: HeaderMap,
+    body: Body,
+) -> Result<Response, Refusal> {
+    let Open { path } = body::json(&headers, body, shared.limits.body_time).await?;
+    let folder = shared.folder.clone();
+    let Some(path) = places::file_within(&folder, Path::new(&path)) else {
+        let message = format!("'{path}' is no file in the folder of the studio, {}", folder.display());
+        return Err(Refusal::new(StatusCode::NOT_FOUND, message));
+    };
+    let place = Arc::clone(&shared.loading).acquire_owned().await;
+    let place = place.map_err(|_| Refusal::internal("the studio is ending"))?;
+    let options = shared.load.clone();
+    let value = read(shared, place, Reading { folder, path, options, from: "given" }).await?;
+    Ok(json_response(&value))
+}
+
+/// A scene that is about to be read.
+pub(crate) struct Reading {
+    /// What names are relative to.
+    pub(crate) folder: PathBuf,
+    pub(crate) path: PathBuf,
+    pub(crate) options: LoadOptions,
+    /// `given` or `dropped`.
+    pub(crate) from: &'static str,
+}
+
+/// Reads a scene and adds it; its name, title and warnings.
+pub(crate) async fn read(
+    shared: Arc<Shared>,
+    place: OwnedSemaphorePermit,
+    reading: Reading,
+) -> Result<Value, Refusal> {
+    let work = move || {
+        let _place = place;
+        shared.pool.install(|| read_now(&shared, &reading))
+    };
+    let read = tokio::task::spawn_blocking(work).await;
+    read.map_err(|_| Refusal::internal("this scene met a fault in Specula; its terminal says more"))?
+}
+
+fn read_now(shared: &Shared, reading: &Reading) -> Result<Value, Refusal> {
+    let title = places::shown(&reading.folder, &reading.path);
+    let name = format!("{}:{title}", reading.from);
+    reserve(shared, &name)?;
+    let loaded = specula_scene::load_with(&reading.path, &reading.options)
+        .map_err(|error| located(&reading.folder, &error))?;
+    (shared.admit)(&loaded.scene).map_err(|e| Refusal::new(StatusCode::UNPROCESSABLE_ENTITY, e))?;
+    let warning = |w: &specula_scene::Warning| {
+        json!({
+            "text": places::without(&reading.folder, w.message()),
+            "file": places::shown(&reading.folder, Path::new(w.file())),
+            "line": w.line(),
+            "column": w.column(),
+        })
+    };
+    let warnings: Vec<Value> = loaded.warnings.iter().take(100).map(warning).collect();
+    let value = json!({ "name": name, "title": title, "warnings": warnings });
+    core::add_scene(&shared.studio, NewScene { name, title, from: reading.from, scene: loaded.scene });
+    Ok(value)
+}
+
+/// Counts a scene of this name, which another one of the same name replaces.
+fn reserve(shared: &Shared, name: &str) -> Result<(), Refusal> {
+    let mut added = shared.added.lock().unwrap_or_else(PoisonError::into_inner);
+    if added.len() >= shared.limits.scenes && !added.contains(name) {
+        let message = format!("{} scenes are open, and no more can be: start the studio anew", added.len());
+        return Err(Refusal::new(StatusCode::CONFLICT, message));
+    }
+    added.insert(name.to_owned());
+    Ok(())
+}
+
+/// A scene's error with its place.
+fn located(folder: &Path, error: &SceneError) -> Refusal {
+    let value = json!({
+        "error": places::without(folder, error.message()),
+        "file": places::shown(folder, Path::new(error.file())),
+        "line": error.line(),
+        "column": error.column(),
+        "help": error.help().map(|help| places::without(folder, help)),
+    });
+    Refusal::of(StatusCode::UNPROCESSABLE_ENTITY, value)
+}
