@@ -1,7 +1,7 @@
 //! The C interface of Specula: lobes over arrays, scenes, renders and pictures.
 //!
 //! `include/specula.h` is made from [`abi`]; what stands there is the interface. Behind it:
-//! `lobe` reads parameters, `batch` loops over blocks of elements, `scene`, `render` and `picture` are what their
+//! `lobe` holds lobes, `batch` loops over blocks of elements, `scene`, `render` and `picture` are what their
 //! names say. `pointers` alone has `unsafe` blocks.
 
 pub mod abi;

@@ -148,6 +148,7 @@ pub(crate) fn render(
         seed: Some(renderer.options().seed),
         render_seconds: Some(seconds),
         bias: renderer.options().bias(),
+        missing: None,
     };
     let picture = film.picture();
     Ok((PictureHandle { picture, metadata }, !goes_on))

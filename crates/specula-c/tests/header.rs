@@ -9,7 +9,7 @@ use std::path::Path;
 const SOURCES: [&str; 11] = [
     "failure.rs",
     "abi/status.rs",
-    "lobe/mod.rs",
+    "lobe.rs",
     "abi/lobe.rs",
     "options.rs",
     "abi/batch.rs",

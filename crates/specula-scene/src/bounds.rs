@@ -8,6 +8,13 @@ use crate::scene::{Geometry, Mesh, Scene, Shape};
 /// Farthest coordinate of a scene: squares of distances must fit single precision.
 pub(crate) const FARTHEST: f64 = 1e18;
 
+/// Smallest diagonal of a shape: its square must be a normal number in single precision.
+const SMALLEST: f64 = 1e-18;
+
+/// What a warning says of a shape that is smaller.
+pub(crate) const SPECK: &str =
+    "the shape is too small to have area in single precision: it is left out";
+
 /// An axis-aligned box; empty where `min > max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoundingBox {
@@ -77,6 +84,11 @@ impl BoundingBox {
             m.transform_point3(DVec3::new(pick(1, 0), pick(2, 1), pick(4, 2)))
         };
         (0..8).map(corner).fold(Self::EMPTY, Self::including)
+    }
+
+    /// Whether areas of what is in it are 0 in single precision.
+    pub(crate) fn is_speck(self) -> bool {
+        !self.is_empty() && (self.max - self.min).length() < SMALLEST
     }
 
     /// Greatest absolute coordinate; infinite if one is not a number.

@@ -13,6 +13,9 @@ use crate::report::{self, Problem};
 /// Longest excerpt of a file that is shown, in bytes.
 const LONGEST_EXCERPT: usize = 2000;
 
+/// Longest mark below an excerpt, in bytes: what is longer is marked at its beginning.
+const LONGEST_MARK: usize = 200;
+
 /// Bytes that are shown before and after a place in a longer one.
 const AROUND: usize = 60;
 
@@ -58,7 +61,15 @@ fn excerpt(place: &Place) -> Option<&dyn SourceCode> {
 }
 
 fn label(place: &Place) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-    let span = LabeledSpan::new(Some("here".to_owned()), place.offset(), place.length());
+    let text = place.source().text();
+    let end = place
+        .offset()
+        .saturating_add(place.length().min(LONGEST_MARK));
+    let length = match text.len() {
+        length if end < length => text.floor_char_boundary(end).saturating_sub(place.offset()),
+        _ => place.length().min(LONGEST_MARK),
+    };
+    let span = LabeledSpan::new(Some("here".to_owned()), place.offset(), length);
     Some(Box::new(std::iter::once(span)))
 }
 
@@ -148,6 +159,23 @@ mod tests {
         // The line and the column count from 0 here.
         assert_eq!(contents.line(), 0, "one line of context before");
         assert_eq!(contents.name(), Some("a.pbrt"));
+    }
+
+    #[test]
+    fn of_a_long_name_the_beginning_is_marked() {
+        let text = format!("Shape \"{}\"\n", "\u{fc}".repeat(1 << 20));
+        let source = SourceText::new("a.pbrt", text.as_str());
+        let place = Place::new(&source, 6, text.len() - 7);
+        let error = SceneError::new(ErrorKind::Parameter, &place, "unknown");
+        let mut labels = Diagnostic::labels(&error).unwrap();
+        let span = *labels.next().unwrap().inner();
+        assert!(
+            span.len() <= LONGEST_MARK && span.len() > LONGEST_MARK - 4,
+            "{span:?}"
+        );
+        let contents = source.read_span(&span, 1, 1).unwrap();
+        assert!(contents.data().len() < 400, "{}", contents.data().len());
+        assert!(std::str::from_utf8(contents.data()).is_ok());
     }
 
     #[test]

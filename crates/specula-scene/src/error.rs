@@ -1,7 +1,7 @@
 //! Located errors and warnings.
 
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::limits;
@@ -174,16 +174,18 @@ struct Inner {
     message: String,
     help: Option<String>,
     place: Place,
+    missing: Vec<MissingFile>,
 }
 
 impl SceneError {
     pub(crate) fn new(kind: ErrorKind, place: &Place, message: impl Into<String>) -> Self {
-        let message = message.into();
+        let message = cut(message.into());
         Self(Box::new(Inner {
             kind,
             help: limits::help(&message),
             message,
             place: place.clone(),
+            missing: Vec::new(),
         }))
     }
 
@@ -198,6 +200,39 @@ impl SceneError {
             Some(help) => self.with_help(help),
             None => self,
         }
+    }
+
+    /// The same, with the files that it is about.
+    pub(crate) fn with_missing(mut self, files: Vec<MissingFile>) -> Self {
+        self.0.missing = files;
+        self
+    }
+
+    /// The same as an error about a file that does not exist, where it does not.
+    ///
+    /// * `hint`: where it was looked for; `None` for a file that exists.
+    pub(crate) fn if_missing(self, hint: Option<String>, path: &Path) -> Self {
+        let Some(hint) = hint else {
+            return self;
+        };
+        let file = MissingFile {
+            path: path.to_owned(),
+            place: self.0.place.clone(),
+            kind: self.0.kind,
+        };
+        let help = format!("{hint}; `--missing stand-in` goes on without");
+        self.with_help(help).with_missing(vec![file])
+    }
+
+    /// The same, with what its missing files hold.
+    pub(crate) fn of_missing(mut self, kind: ErrorKind) -> Self {
+        self.0.missing.iter_mut().for_each(|file| file.kind = kind);
+        self
+    }
+
+    /// The files that do not exist, where that is all that is wrong; else none.
+    pub fn missing(&self) -> &[MissingFile] {
+        &self.0.missing
     }
 
     /// What kind of thing is wrong.
@@ -236,6 +271,31 @@ impl SceneError {
     }
 }
 
+/// A file that does not exist, and the first place that names it.
+#[derive(Clone, Debug)]
+pub struct MissingFile {
+    path: PathBuf,
+    place: Place,
+    kind: ErrorKind,
+}
+
+impl MissingFile {
+    /// The file, as it would have been opened.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// What names it.
+    pub fn place(&self) -> &Place {
+        &self.place
+    }
+
+    /// What it holds, as the kind of the errors about such files.
+    pub fn kind(&self) -> ErrorKind {
+        self.kind
+    }
+}
+
 /// A difference between the file and what is rendered, and where it is.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{message}")]
@@ -247,7 +307,7 @@ pub struct Warning {
 impl Warning {
     pub(crate) fn new(place: &Place, message: impl Into<String>) -> Self {
         Self {
-            message: message.into(),
+            message: cut(message.into()),
             place: place.clone(),
         }
     }
@@ -278,9 +338,48 @@ impl Warning {
     }
 }
 
+/// Longest line of a message, in bytes.
+const LONGEST_LINE: usize = 1000;
+
+/// The message with its long lines cut in their middles: a file's names may be megabytes long.
+fn cut(message: String) -> String {
+    if message.len() <= LONGEST_LINE {
+        return message;
+    }
+    let line = |line: &str| match line.len() {
+        length if length > LONGEST_LINE => {
+            let head = &line[..line.floor_char_boundary(LONGEST_LINE / 2)];
+            let tail = &line[line.ceil_char_boundary(length - LONGEST_LINE / 4)..];
+            format!("{head}…{tail}")
+        }
+        _ => line.to_owned(),
+    };
+    let lines: Vec<String> = message.split('\n').map(line).collect();
+    lines.join("\n")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn long_lines_of_messages_are_cut_and_keep_their_ends() {
+        let message = cut(format!(
+            "mesh {}: too many (`max_bytes`)\nshort",
+            "ü".repeat(1 << 20)
+        ));
+        let (first, rest) = message.split_once('\n').unwrap();
+        assert!(
+            first.len() <= LONGEST_LINE && first.starts_with("mesh üü"),
+            "{first}"
+        );
+        assert!(
+            first.contains('…') && first.ends_with("ü: too many (`max_bytes`)"),
+            "{first}"
+        );
+        assert_eq!(rest, "short");
+        assert_eq!(cut("as it is".to_owned()), "as it is");
+    }
 
     #[test]
     fn places_count_lines_and_characters_from_one() {

@@ -12,6 +12,9 @@ pub(crate) use format::Format;
 pub use pixels::{Indexed, Pixels};
 pub(crate) use read::{Content, Encoding, decode, read};
 
+/// The name of a picture that stands in for one that cannot be read.
+pub(crate) const STAND_IN: &str = "stand-in";
+
 /// A picture in linear RGB (sRGB primaries), row by row from the top.
 ///
 /// Invariant (from readers): `pixels` holds `width * height` values, finite and not negative.
@@ -28,13 +31,18 @@ pub struct Image {
 }
 
 impl Image {
-    /// A grey pixel in place of a picture that cannot be read.
+    /// A grey checker in place of a picture that cannot be read.
     pub(crate) fn stand_in() -> Self {
+        const SIDE: u32 = 64;
+        let grey = |i: u32| {
+            let is_dark = (i % SIDE / 8 + i / SIDE / 8).is_multiple_of(2);
+            [if is_dark { 0.25 } else { 0.5 }; 3]
+        };
         Self {
-            name: String::new(),
-            width: 1,
-            height: 1,
-            pixels: vec![[0.5; 3]].into(),
+            name: STAND_IN.to_owned(),
+            width: SIDE,
+            height: SIDE,
+            pixels: (0..SIDE * SIDE).map(grey).collect::<Vec<_>>().into(),
         }
     }
 }

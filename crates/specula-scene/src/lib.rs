@@ -9,13 +9,13 @@
 //! let text = b"Camera \"perspective\"
 //!     WorldBegin
 //!     LightSource \"infinite\"
-//!     Material \"metal\"
+//!     Material \"copper\"
 //!     Shape \"sphere\"";
 //! let error = load_bytes("a.pbrt".as_ref(), text.to_vec(), &LoadOptions::default()).unwrap_err();
 //! assert_eq!(error.place().to_string(), "a.pbrt:4:14");
-//! assert!(error.message().contains("metal"), "{error}");
+//! assert!(error.message().contains("copper"), "{error}");
 //!
-//! let text = String::from_utf8_lossy(text).replace("metal", "conductor");
+//! let text = String::from_utf8_lossy(text).replace("copper", "conductor");
 //! let loaded = load_bytes("a.pbrt".as_ref(), text.into(), &LoadOptions::default())?;
 //! assert_eq!(loaded.scene.shapes.len(), 1);
 //! for warning in &loaded.warnings {
@@ -43,11 +43,13 @@ mod limits;
 pub mod material_text;
 mod media;
 mod mesh;
+mod missing;
 mod mitsuba;
 mod num;
 mod obj;
 mod pbrt;
 mod ply;
+mod pressed;
 mod problems;
 mod read_file;
 pub mod report;
@@ -65,11 +67,12 @@ pub mod write_pbrt;
 use std::path::{Path, PathBuf};
 
 pub use energy::{Energy, UnknownEnergy};
-pub use error::{ErrorKind, Place, SceneError, SourceText, Warning};
+pub use error::{ErrorKind, MissingFile, Place, SceneError, SourceText, Warning};
 pub use feature::{Feature, Support};
 pub use format::Format;
 pub use image::{Image, Indexed, Pixels};
 pub use limits::Limits;
+pub use missing::Missing;
 pub use report::{CheckReport, Problem, Severity};
 pub use scene::Scene;
 pub use summary::Summary;
@@ -95,6 +98,8 @@ pub struct LoadOptions {
     pub parameters: Vec<(String, String)>,
     /// Folders that are searched for files that the scene names and that are not beside it.
     pub folders: Vec<PathBuf>,
+    /// What is done about files that the scene names and that do not exist.
+    pub missing: Missing,
 }
 
 impl From<Limits> for LoadOptions {
@@ -118,6 +123,8 @@ pub struct Loaded {
     /// Every file that was read for the scene, the scene's own first, as the path that was opened; each
     /// once, in the order in which the reader met them.
     pub files: Vec<PathBuf>,
+    /// The files that do not exist and that something stands in for, as [`Missing::StandIn`] says.
+    pub missing: Vec<PathBuf>,
 }
 
 impl Loaded {
@@ -127,6 +134,7 @@ impl Loaded {
             warnings,
             format,
             files: files.list(),
+            missing: Vec::new(),
         }
     }
 }
@@ -152,7 +160,7 @@ pub fn load(path: &Path) -> Result<Loaded, SceneError> {
 /// Those of [`load`].
 pub fn load_with(path: &Path, options: &LoadOptions) -> Result<Loaded, SceneError> {
     let files = Files::new(options.limits);
-    read(path, options, &files, &Problems::default())
+    read(path, options, &files, &Problems::loading(options.missing))
 }
 
 /// Reads a scene of a known format, whatever its content looks like.
@@ -162,7 +170,8 @@ pub fn load_with(path: &Path, options: &LoadOptions) -> Result<Loaded, SceneErro
 /// Those of [`load`].
 pub fn load_as(path: &Path, format: Format, options: &LoadOptions) -> Result<Loaded, SceneError> {
     let files = Files::new(options.limits);
-    read_as(format, path, options, &files, &Problems::default())
+    let problems = Problems::loading(options.missing);
+    read_as(format, path, options, &files, &problems)
 }
 
 /// Reads a scene and lists all its problems: every error, and everything that would be rendered otherwise
@@ -176,7 +185,7 @@ pub fn load_as(path: &Path, format: Format, options: &LoadOptions) -> Result<Loa
 /// ```
 #[must_use]
 pub fn check(path: &Path, options: &LoadOptions) -> CheckReport {
-    let problems = Problems::collecting();
+    let problems = Problems::collecting(options.missing);
     let files = Files::new(options.limits);
     let loaded = read(path, options, &files, &problems);
     CheckReport::new(loaded, problems.take(), files.list())
@@ -203,7 +212,8 @@ pub fn load_bytes(
 ) -> Result<Loaded, SceneError> {
     let files = Files::new(options.limits);
     let format = files.give(name, bytes);
-    read_as(format, name, options, &files, &Problems::default())
+    let problems = Problems::loading(options.missing);
+    read_as(format, name, options, &files, &problems)
 }
 
 fn read(
@@ -219,8 +229,8 @@ fn read(
             let name = if is_file { path } else { Path::new("<pipe>") };
             (files.give(name, bytes), name)
         }
-        // The reader will meet the same error, and reports where.
-        Err(_) => (Format::of_name(path).unwrap_or(Format::Pbrt), path),
+        // The reader will meet the error, and reports where.
+        Err(message) => (files.refuse(path, message), path),
     };
     read_as(format, name, options, files, problems)
 }
@@ -232,11 +242,12 @@ fn read_as(
     files: &Files,
     problems: &Problems,
 ) -> Result<Loaded, SceneError> {
-    match format {
+    let loaded = match format {
         Format::Mitsuba => mitsuba::read(path, options, files, problems),
         Format::Gltf => gltf::read(path, options, files, problems),
         Format::Obj => single::read(path, files, problems, (format, obj::read)),
         Format::Ply => single::read(path, files, problems, (format, ply::read)),
         Format::Pbrt => pbrt::read(path, options, files, problems),
-    }
+    };
+    problems.settled(loaded)
 }

@@ -13,7 +13,7 @@ pub struct Limits {
     pub max_pixels: u64,
     /// Most vertices, and most triangles, of one mesh; also of what a shape is tessellated into.
     pub max_vertices: u64,
-    /// Most triangles that a surface is subdivided into, where `max_vertices` is not less.
+    /// Most triangles that a scene's surfaces are subdivided into, all together.
     pub max_subdivided: u64,
     /// Most files that a scene's own file includes, directly or not; one counts as often as it is
     /// included.
@@ -28,7 +28,7 @@ impl Default for Limits {
             max_pixels: 1 << 28,
             max_vertices: 1 << 28,
             max_subdivided: 1 << 24,
-            max_files: 100_000,
+            max_files: 20_000,
         }
     }
 }

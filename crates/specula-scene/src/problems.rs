@@ -7,8 +7,10 @@ use std::rc::Rc;
 
 use specula_bsdf::Rgb;
 
+use crate::Loaded;
 use crate::error::{Place, SceneError, Warning};
 use crate::image::Image;
+use crate::missing::{Missing, MissingList};
 use crate::scene::{ColourParam, Light};
 
 /// Most errors, and most warnings and notes, that a report lists.
@@ -16,10 +18,14 @@ pub(crate) const MOST: usize = 100;
 
 /// The sink of a scene's errors, shared by all that reads the scene.
 ///
-/// In an ordinary load, which is the default, the first error goes back to the caller. In a check
-/// errors are recorded, and reading goes on with a neutral stand-in.
+/// In an ordinary load, which is the default, the first error goes back to the caller, but for those
+/// about missing files, which wait for the end. In a check errors are recorded, and reading goes on with
+/// a neutral stand-in.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Problems(Option<Rc<RefCell<CollectedProblems>>>);
+pub(crate) struct Problems {
+    collected: Option<Rc<RefCell<CollectedProblems>>>,
+    missing: MissingList,
+}
 
 /// What a check has found.
 #[derive(Debug, Default)]
@@ -53,26 +59,44 @@ pub(crate) enum NoteKind {
 }
 
 impl Problems {
+    /// A sink of an ordinary load.
+    pub(crate) fn loading(missing: Missing) -> Self {
+        Self {
+            collected: None,
+            missing: MissingList::new(missing),
+        }
+    }
+
     /// A sink that records errors.
-    pub(crate) fn collecting() -> Self {
-        Self(Some(Rc::default()))
+    pub(crate) fn collecting(missing: Missing) -> Self {
+        Self {
+            collected: Some(Rc::default()),
+            missing: MissingList::new(missing),
+        }
+    }
+
+    /// What was read, with stand-ins for missing files; or the error about these.
+    pub(crate) fn settled(&self, loaded: Result<Loaded, SceneError>) -> Result<Loaded, SceneError> {
+        let (loaded, mut warnings) = self.missing.settled(loaded);
+        self.record_warnings(&mut warnings);
+        loaded
     }
 
     /// Whether errors are recorded.
     pub(crate) fn is_check(&self) -> bool {
-        self.0.is_some()
+        self.collected.is_some()
     }
 
     /// Whether an error was recorded.
     pub(crate) fn has_errors(&self) -> bool {
-        self.0
+        self.collected
             .as_ref()
             .is_some_and(|k| !k.borrow().errors.is_empty())
     }
 
     /// Whether a report would list no further error.
     pub(crate) fn is_full(&self) -> bool {
-        self.0
+        self.collected
             .as_ref()
             .is_some_and(|k| k.borrow().errors.len() >= MOST)
     }
@@ -83,7 +107,10 @@ impl Problems {
     ///
     /// The error itself, in an ordinary load.
     pub(crate) fn record(&self, error: SceneError) -> Result<(), SceneError> {
-        let Some(collected) = &self.0 else {
+        let Err(error) = self.missing.take(error, self.is_check()) else {
+            return Ok(());
+        };
+        let Some(collected) = &self.collected else {
             return Err(error);
         };
         let mut collected = collected.borrow_mut();
@@ -121,7 +148,7 @@ impl Problems {
 
     /// Records a note; an ordinary load ignores it.
     pub(crate) fn note(&self, kind: NoteKind, place: &Place, message: impl FnOnce() -> String) {
-        if let Some(collected) = &self.0 {
+        if let Some(collected) = &self.collected {
             let note = Note {
                 kind,
                 message: message(),
@@ -133,14 +160,14 @@ impl Problems {
 
     /// Records the warnings of a reader that ends in an error; an ordinary load ignores them.
     pub(crate) fn record_warnings(&self, warnings: &mut Vec<Warning>) {
-        if let Some(collected) = &self.0 {
+        if let Some(collected) = &self.collected {
             collected.borrow_mut().warnings.append(warnings);
         }
     }
 
     /// All that was recorded; the sink is empty after it.
     pub(crate) fn take(&self) -> CollectedProblems {
-        self.0
+        self.collected
             .as_ref()
             .map_or_else(CollectedProblems::default, |k| k.borrow_mut().take())
     }
@@ -187,7 +214,7 @@ mod tests {
         let load = Problems::default();
         assert!(load.or(Err(error(0)), || 7).is_err());
         assert!(!load.has_errors());
-        let check = Problems::collecting();
+        let check = Problems::collecting(Missing::Refuse);
         for offset in [0, 1, 0] {
             assert_eq!(check.or(Err(error(offset)), || 7).unwrap(), 7);
         }

@@ -21,8 +21,8 @@ pub(crate) struct Files {
     given: Arc<Mutex<Option<Given>>>,
 }
 
-/// A file that was read already.
-type Given = (PathBuf, Vec<u8>);
+/// A file that was read already, or why it cannot be unpacked.
+type Given = (PathBuf, Result<Vec<u8>, String>);
 
 /// Files in the order in which a reader met them.
 #[derive(Debug, Default)]
@@ -82,7 +82,7 @@ impl Files {
     /// A message without the file's name.
     pub(crate) fn unpacked(&self, path: &Path) -> Result<Vec<u8>, String> {
         if let Some(bytes) = self.taken(path) {
-            return Ok(bytes);
+            return bytes;
         }
         let bytes = self.plain(path)?;
         let packed = path
@@ -102,7 +102,7 @@ impl Files {
     /// A message without the file's name.
     pub(crate) fn plain(&self, path: &Path) -> Result<Vec<u8>, String> {
         if let Some(bytes) = self.taken(path) {
-            return Ok(bytes);
+            return bytes;
         }
         self.whole(path, open_ordinary(path)?)
     }
@@ -129,13 +129,23 @@ impl Files {
     /// A message without the file's name.
     pub(crate) fn scene(&self, path: &Path) -> Result<Vec<u8>, String> {
         if let Some(bytes) = self.taken(path) {
+            return bytes;
+        }
+        let kind = (std::fs::metadata(path).map_err(|e| unreadable(&e))?).file_type();
+        #[cfg(unix)]
+        if std::os::unix::fs::FileTypeExt::is_fifo(&kind) {
+            let bytes = bytes_of_pipe(path, &self.limits)?;
+            self.locked(|list| *list.entry(path) = true);
             return Ok(bytes);
         }
-        let file = File::open(path).map_err(|e| unreadable(&e))?;
-        if file.metadata().is_ok_and(|m| m.is_dir()) {
+        if kind.is_dir() {
             return Err("is a folder; expected a file".to_owned());
         }
-        self.whole(path, file)
+        if !kind.is_file() {
+            let message = "is a socket or a device; expected a file, or - for standard input";
+            return Err(message.to_owned());
+        }
+        self.whole(path, open_ordinary(path)?)
     }
 
     fn whole(&self, path: &Path, file: File) -> Result<Vec<u8>, String> {
@@ -146,17 +156,24 @@ impl Files {
 
     /// Hands the content of the scene's own file to the reader that will ask for `path`; returns its format.
     pub(crate) fn give(&self, path: &Path, bytes: Vec<u8>) -> Format {
+        // The reader will report what cannot be unpacked.
         let bytes = match bytes.starts_with(&GZIP) {
-            // The reader will report that it cannot be unpacked.
-            true => unpack(&bytes, &self.limits).unwrap_or(bytes),
-            false => bytes,
+            true => unpack(&bytes, &self.limits),
+            false => Ok(bytes),
         };
-        let format = Format::of(&bytes, path);
+        let format = Format::of(bytes.as_deref().unwrap_or_default(), path);
         *self.given.lock().unwrap_or_else(PoisonError::into_inner) = Some((path.to_owned(), bytes));
         format
     }
 
-    fn taken(&self, path: &Path) -> Option<Vec<u8>> {
+    /// Hands on why the scene's own file cannot be read; returns its format by its name.
+    pub(crate) fn refuse(&self, path: &Path, message: String) -> Format {
+        let refused = Some((path.to_owned(), Err(message)));
+        *self.given.lock().unwrap_or_else(PoisonError::into_inner) = refused;
+        Format::of_name(path).unwrap_or(Format::Pbrt)
+    }
+
+    fn taken(&self, path: &Path) -> Option<Result<Vec<u8>, String>> {
         let mut given = self.given.lock().unwrap_or_else(PoisonError::into_inner);
         given.take_if(|(of, _)| of == path).map(|(_, bytes)| bytes)
     }
@@ -198,12 +215,54 @@ fn open_ordinary(path: &Path) -> Result<File, String> {
     Ok(file)
 }
 
+/// Reads what another program writes to a pipe. Opening one that nobody writes to would wait for ever: that
+/// is an error after half a second.
+#[cfg(unix)]
+fn bytes_of_pipe(path: &Path, limits: &Limits) -> Result<Vec<u8>, String> {
+    use std::os::unix::fs::OpenOptionsExt;
+    use std::time::{Duration, Instant};
+    const LONGEST_WAIT: Duration = Duration::from_millis(500);
+    const SHORTEST_SLEEP: Duration = Duration::from_micros(100);
+    const LONGEST_SLEEP: Duration = Duration::from_millis(10);
+    let mut options = OpenOptions::new();
+    options.read(true).custom_flags(libc::O_NONBLOCK);
+    let mut pipe = options.open(path).map_err(|e| unreadable(&e))?;
+    let (start, mut sleep) = (Instant::now(), SHORTEST_SLEEP);
+    let (mut bytes, mut part, mut is_written) = (Vec::new(), vec![0; 1 << 16], false);
+    loop {
+        match pipe.read(&mut part) {
+            Ok(0) if is_written => return Ok(bytes),
+            Ok(0) if start.elapsed() > LONGEST_WAIT => {
+                return Err("is a pipe that no program writes to; expected a file".to_owned());
+            }
+            Ok(0) => {}
+            Ok(count) => {
+                bytes.extend_from_slice(&part[..count]);
+                if bytes.len() as u64 > limits.max_bytes {
+                    return Err(too_long(limits));
+                }
+                (is_written, sleep) = (true, SHORTEST_SLEEP);
+                continue;
+            }
+            // Somebody has opened it, and is to write.
+            Err(e) if e.kind() == std::io::ErrorKind::WouldBlock => is_written = true,
+            Err(e) if e.kind() == std::io::ErrorKind::Interrupted => continue,
+            Err(e) => return Err(unreadable(&e)),
+        }
+        std::thread::sleep(sleep);
+        sleep = LONGEST_SLEEP.min(2 * sleep);
+    }
+}
+
+fn too_long(limits: &Limits) -> String {
+    format!("has more than {} bytes (`max_bytes`)", limits.max_bytes)
+}
+
 fn bytes_of(file: File, limits: &Limits) -> Result<Vec<u8>, String> {
     let most = limits.max_bytes;
     let promised = file.metadata().map_err(|e| unreadable(&e))?.len();
-    let too_long = || format!("has more than {most} bytes (`max_bytes`)");
     if promised > most {
-        return Err(too_long());
+        return Err(too_long(limits));
     }
     let mut bytes = Vec::with_capacity(usize::try_from(promised).unwrap_or(0));
     // The length of a pipe or a device is unknown.
@@ -211,14 +270,16 @@ fn bytes_of(file: File, limits: &Limits) -> Result<Vec<u8>, String> {
         .read_to_end(&mut bytes)
         .map_err(|e| unreadable(&e))?;
     if bytes.len() as u64 > most {
-        return Err(too_long());
+        return Err(too_long(limits));
     }
     Ok(bytes)
 }
 
 fn unpack(bytes: &[u8], limits: &Limits) -> Result<Vec<u8>, String> {
     let most = limits.max_bytes;
-    let mut unpacked = Vec::with_capacity(bytes.len().saturating_mul(3));
+    // A guess, which is not to exceed the limit.
+    let guess = (bytes.len() as u64).saturating_mul(3).min(most);
+    let mut unpacked = Vec::with_capacity(usize::try_from(guess).unwrap_or(0));
     flate2::read::MultiGzDecoder::new(bytes)
         .take(most.saturating_add(1))
         .read_to_end(&mut unpacked)

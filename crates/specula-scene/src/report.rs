@@ -244,13 +244,14 @@ impl ErrorKind {
 mod tests {
     use super::*;
     use crate::error::SourceText;
+    use crate::missing::Missing;
     use crate::problems::Problems;
 
     #[test]
     fn errors_come_first_and_equal_warnings_are_counted() {
         let source = SourceText::new("a.pbrt", "one\ntwo\nthree\n");
         let at = |offset| Place::new(&source, offset, 1);
-        let problems = Problems::collecting();
+        let problems = Problems::collecting(Missing::Refuse);
         for offset in [8, 0] {
             let error = SceneError::new(ErrorKind::Syntax, &at(offset), "wrong");
             problems.record(error).unwrap();
@@ -286,7 +287,7 @@ mod tests {
     fn what_is_beyond_the_list_is_counted() {
         let source = SourceText::new("a.pbrt", "");
         let place = Place::start(&source);
-        let problems = Problems::collecting();
+        let problems = Problems::collecting(Missing::Refuse);
         for i in 0..MOST + 3 {
             let error = SceneError::new(ErrorKind::Syntax, &place, format!("{i}"));
             problems.record(error).unwrap();

@@ -79,6 +79,7 @@ pub(crate) fn read(
         scene,
         warnings,
         files: files.list(),
+        missing: Vec::new(),
     })
 }
 

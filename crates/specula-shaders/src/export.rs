@@ -62,6 +62,9 @@ pub enum ExportError {
     },
 }
 
+/// The file of the energy tables.
+pub const TABLES_FILE: &str = "energy_tables.bin";
+
 /// The library in a language, with what goes with it: all of it, or what is chosen.
 ///
 /// ```
@@ -151,7 +154,7 @@ impl Export<'_> {
         }
         if parts.iter().any(|m| m.path == TABLE_MODULE) {
             files.push(File {
-                name: "energy_tables.bin",
+                name: TABLES_FILE,
                 bytes: tables().to_vec(),
             });
         }

@@ -6,10 +6,12 @@
 //! The requests and answers, as the pages see them: `specula-studio-server/web/src/core/protocol.ts`.
 
 mod answer;
+mod fields;
 mod lobes;
 mod render;
 mod request;
 mod samplers;
+mod shaders;
 
 pub use answer::{Answer, Array};
 pub use request::AskError;
@@ -42,6 +44,7 @@ impl Studio {
             Some(("lobes", what)) => lobes::answer(what, request),
             Some(("samplers", what)) => samplers::answer(what, request),
             Some(("render", what)) => self.renders.answer(what, request),
+            Some(("shaders", what)) => shaders::answer(what, request),
             _ => Err(AskError::unknown(&ask)),
         }
     }

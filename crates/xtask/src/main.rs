@@ -26,6 +26,7 @@ mod python;
 mod rays;
 mod scaling;
 mod soak;
+mod studio;
 mod suite;
 mod tables;
 mod tidy;
@@ -74,6 +75,8 @@ enum Chore {
     Mutants(mutants::Sample),
     /// Build the Python package into its sources, check its types, run its tests; or make its wheel
     Python(python::Python),
+    /// Check the studio's pages: types, the committed bundle, tests in a browser; or write the bundle
+    Studio(studio::Studio),
     /// Build the C interface and lay it out below a prefix: header, libraries, pkg-config, CMake
     CLibrary(c_library::CLibrary),
     /// Run the benches
@@ -145,6 +148,7 @@ fn run(chore: &Chore) -> Result<()> {
         Chore::Test(suite) => suite::run(&root, suite),
         Chore::Python(python) => python::run(&root, python),
         Chore::Features => feature_sets::run(&root),
+        Chore::Studio(studio) => studio::run(&root, studio),
         Chore::CLibrary(arguments) => c_library::run(&root, arguments),
         Chore::Mutants(sample) => mutants::run(&root, sample),
         Chore::Bench { arguments } => bench::run(&root, arguments),

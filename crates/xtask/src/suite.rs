@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use crate::{Result, book, feature_sets, python, tables, tidy, workspace};
+use crate::{Result, book, feature_sets, python, studio, tables, tidy, workspace};
 
 /// How to run the suite.
 #[derive(clap::Args)]
@@ -80,6 +80,7 @@ pub(crate) fn run(root: &Path, suite: &Suite) -> Result<()> {
     let mut suites = Vec::new();
     report.step("tests", || tests(root, skips.path(), &mut suites));
     report.step("python", || python::test(root, skips.path()));
+    report.step("studio", || studio::check(root));
     report.step("tables", || tables::run(root, true));
     report.step("instructions", || instructions(skips.path()));
     report.step("book", || book::run(root, &book::Book::default()));

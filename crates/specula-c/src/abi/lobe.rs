@@ -4,8 +4,14 @@ use std::ffi::c_char;
 
 use crate::border::border;
 use crate::failure::{Failure, Status};
-use crate::lobe::{self, LobeHandle, Value};
+use crate::lobe::LobeHandle;
 use crate::pointers::Caller;
+use specula_lobes::{Argument, LobeError, Value};
+
+/// What is no lobe.
+fn refused(error: LobeError) -> Failure {
+    Failure::invalid(error.to_string())
+}
 
 /// A parameter of a lobe: a name with a text, or with one to three numbers.
 #[repr(C)]
@@ -22,7 +28,7 @@ pub struct Parameter {
 }
 
 impl Parameter {
-    fn read<'a>(&self, caller: &'a Caller) -> Result<lobe::Parameter<'a>, Failure> {
+    fn read<'a>(&self, caller: &'a Caller) -> Result<Argument<'a>, Failure> {
         let name = caller.text("parameters.name", self.name)?;
         let [x, y, z] = self.numbers;
         let value = match (self.text.is_null(), self.count) {
@@ -41,7 +47,7 @@ impl Parameter {
                 )));
             }
         };
-        Ok(lobe::Parameter { name, value })
+        Ok(Argument { name, value })
     }
 }
 
@@ -96,8 +102,8 @@ pub unsafe extern "C" fn specula_lobe_parse(
     border(|caller| {
         caller.write("lobe", lobe, std::ptr::null_mut())?;
         let text = caller.text("text", text)?;
-        let made = lobe::parse(text).map_err(Failure::invalid)?;
-        caller.hand_over("lobe", lobe, made)
+        let made = specula_lobes::parse(text).map_err(refused)?;
+        caller.hand_over("lobe", lobe, LobeHandle(made))
     })
 }
 
@@ -121,8 +127,8 @@ pub unsafe extern "C" fn specula_lobe_make(
         let kind = caller.text("kind", kind)?;
         let parameters = caller.items("parameters", parameters, count)?;
         let read: Result<Vec<_>, _> = parameters.iter().map(|p| p.read(caller)).collect();
-        let made = lobe::make(kind, &read?).map_err(Failure::invalid)?;
-        caller.hand_over("lobe", lobe, made)
+        let made = specula_lobes::make(kind, &read?).map_err(refused)?;
+        caller.hand_over("lobe", lobe, LobeHandle(made))
     })
 }
 
@@ -143,7 +149,7 @@ pub unsafe extern "C" fn specula_lobe_is_stochastic(
     is_stochastic: *mut bool,
 ) -> Status {
     border(|caller| {
-        let is = caller.lent("lobe", lobe)?.is_stochastic();
+        let is = caller.lent("lobe", lobe)?.0.is_stochastic();
         caller.write("is_stochastic", is_stochastic, is)
     })
 }
@@ -159,7 +165,7 @@ pub unsafe extern "C" fn specula_lobe_is_specular(
     is_specular: *mut bool,
 ) -> Status {
     border(|caller| {
-        let is = caller.lent("lobe", lobe)?.is_specular();
+        let is = caller.lent("lobe", lobe)?.0.is_specular();
         caller.write("is_specular", is_specular, is)
     })
 }
@@ -179,7 +185,7 @@ pub unsafe extern "C" fn specula_metal(
 ) -> Status {
     border(|caller| {
         let symbol = caller.text("symbol", symbol)?;
-        let metal = lobe::metal(symbol).map_err(Failure::invalid)?;
+        let metal = specula_lobes::metal(symbol).map_err(refused)?;
         let (eta, k) = (
             caller.target(["eta"], [eta], 1, 3)?,
             caller.target(["k"], [k], 1, 3)?,

@@ -276,6 +276,7 @@ impl RenderJob {
             seed: Some(self.options.seed),
             render_seconds: Some(seconds),
             bias: self.options.bias(),
+            missing: None,
         };
         let picture = PictureData::new(film.picture(), metadata);
         let noise = film.noise();

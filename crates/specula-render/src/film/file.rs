@@ -14,7 +14,7 @@
 
 use std::hash::Hasher;
 use std::io::{self, Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use flate2::Compression;
 use flate2::read::ZlibDecoder;
@@ -33,6 +33,10 @@ const MAGIC: &[u8; 8] = b"SPECFILM";
 const FORMAT: u32 = 4;
 /// Longest text of a label.
 const LONGEST_TEXT: usize = 1 << 16;
+/// What the missing files of the scene stand behind, in the settings.
+const MISSING: &str = ", missing: ";
+/// Most missing files that are listed.
+const MOST_MISSING: usize = 50;
 /// Most pixels of a film that is read: those of a picture.
 const MOST_PIXELS: u64 = 1 << 30;
 /// Tiles that are deflated at once.
@@ -57,7 +61,40 @@ impl Label {
     /// What biases the picture, in words; `None`: nothing does.
     #[must_use]
     pub fn bias(&self) -> Option<&str> {
-        self.settings.split_once(BIASED).map(|(_, bias)| bias)
+        let settings = self.settings.split(MISSING).next()?;
+        settings.split_once(BIASED).map(|(_, bias)| bias)
+    }
+
+    /// Adds the files of the scene that did not exist, where stand-ins are rendered for them.
+    #[must_use]
+    pub fn with_missing(mut self, files: &[PathBuf]) -> Self {
+        if files.is_empty() {
+            return self;
+        }
+        let list: Vec<String> = (files.iter().take(MOST_MISSING))
+            .map(|f| {
+                f.display()
+                    .to_string()
+                    .replace(|c: char| c.is_control(), "?")
+            })
+            .collect();
+        self.settings += MISSING;
+        self.settings += &list.join(", ");
+        if let Some(more) = files.len().checked_sub(MOST_MISSING).filter(|n| *n > 0) {
+            self.settings += &format!(" and {more} more");
+        }
+        let most = LONGEST_TEXT / 2;
+        let end = self
+            .settings
+            .floor_char_boundary(most.min(self.settings.len()));
+        self.settings.truncate(end);
+        self
+    }
+
+    /// Files of the scene that did not exist, in words; `None`: there were all.
+    #[must_use]
+    pub fn missing(&self) -> Option<&str> {
+        self.settings.split_once(MISSING).map(|(_, files)| files)
     }
 
     /// Why films of this label and of `other` are not of the same render; `None` where they are.
@@ -422,6 +459,27 @@ mod tests {
         ));
         let missing = FilmFile::read(&folder.path().join("none.film"));
         assert!(matches!(missing, Err(FilmFileError::Io(_))));
+    }
+
+    #[test]
+    fn a_label_names_missing_files_beside_what_biases() {
+        let label = Label {
+            settings: format!("depth 5, {BIASED}regularized"),
+            ..label()
+        };
+        assert_eq!(label.clone().with_missing(&[]), label);
+        assert_eq!(label.missing(), None);
+        let files: Vec<PathBuf> = (0..60).map(|i| format!("{i}.png").into()).collect();
+        let named = label.clone().with_missing(&files);
+        assert_eq!(named.bias(), Some("regularized"));
+        let missing = named.missing().unwrap();
+        assert!(
+            missing.starts_with("0.png, 1.png, ") && missing.ends_with("49.png and 10 more"),
+            "{missing}"
+        );
+        assert!(label.difference(&named).is_some());
+        let long = label.with_missing(&["x".repeat(1 << 20).into()]);
+        assert!(long.settings.len() < LONGEST_TEXT);
     }
 
     #[test]

@@ -183,6 +183,7 @@ mod tests {
             seed: Some(u32::MAX),
             render_seconds: Some(1.5),
             bias: Some("regularized".to_owned()),
+            missing: Some("a.png".to_owned()),
         };
         assert_eq!(write_exr(&path, &full(), &metadata).unwrap(), 0);
         assert_eq!(read_exr(&path).unwrap(), full());
@@ -193,7 +194,7 @@ mod tests {
             own.software_name.as_ref().unwrap().to_string(),
             "specula 0.1"
         );
-        assert_eq!(own.other.len(), 5);
+        assert_eq!(own.other.len(), 6);
     }
 
     #[test]

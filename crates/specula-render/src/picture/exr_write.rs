@@ -48,6 +48,9 @@ pub struct Metadata {
     pub render_seconds: Option<f32>,
     /// What biases the picture, such as a clamp: attribute `specula.bias`.
     pub bias: Option<String>,
+    /// Files of the scene that did not exist, where stand-ins were rendered for them: attribute
+    /// `specula.missing`.
+    pub missing: Option<String>,
 }
 
 /// Writes `picture` as OpenEXR, whole or not at all.
@@ -153,6 +156,10 @@ fn custom_attributes(metadata: &Metadata) -> std::collections::HashMap<Text, Att
     if let Some(bias) = &metadata.bias {
         let bias = AttributeValue::Text(latin(bias));
         other.insert(Text::from("specula.bias"), bias);
+    }
+    if let Some(missing) = &metadata.missing {
+        let missing = AttributeValue::Text(latin(missing));
+        other.insert(Text::from("specula.missing"), missing);
     }
     if let Some(samples) = metadata.samples_per_pixel {
         other.insert(

@@ -5,7 +5,7 @@ use std::path::{Component, Path};
 use base64::Engine;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 
-use super::Reader;
+use super::{LostBuffer, Reader};
 use crate::error::{ErrorKind, SceneError};
 
 /// Base64 with or without its padding.
@@ -19,7 +19,7 @@ impl Reader<'_> {
     pub(super) fn read_buffers(
         &self,
         blob: Option<Vec<u8>>,
-    ) -> Result<Vec<Result<Vec<u8>, String>>, SceneError> {
+    ) -> Result<Vec<Result<Vec<u8>, LostBuffer>>, SceneError> {
         let mut blob = blob;
         let mut found = Vec::new();
         for buffer in self.document.buffers() {
@@ -27,9 +27,9 @@ impl Reader<'_> {
             found.push(match self.read_buffer(&what, &buffer, &mut blob) {
                 Ok(bytes) => Ok(bytes),
                 Err(error) => {
-                    let message = error.message().to_owned();
+                    let lost = (error.message().to_owned(), error.missing().to_vec());
                     self.problems.record(error)?;
-                    Err(message)
+                    Err(lost)
                 }
             });
         }
@@ -47,7 +47,9 @@ impl Reader<'_> {
                 let message = format!("{what} is the binary part, but there is none");
                 self.error(ErrorKind::Structure, message)
             })?,
-            gltf::buffer::Source::Uri(uri) => self.resource(what, uri)?,
+            gltf::buffer::Source::Uri(uri) => {
+                (self.resource(what, uri)).map_err(|error| error.of_missing(ErrorKind::Mesh))?
+            }
         };
         if bytes.len() < buffer.length() {
             let message = format!(
@@ -94,7 +96,7 @@ impl Reader<'_> {
         let path = self.search.find(&name);
         self.files
             .unpacked(&path)
-            .map_err(|message| wrong(message).with_hint(self.search.hint(&path)))
+            .map_err(|message| wrong(message).if_missing(self.search.hint(&path), &path))
     }
 
     /// The bytes of a view.
@@ -105,7 +107,10 @@ impl Reader<'_> {
     ) -> Result<&[u8], SceneError> {
         let bytes = match self.buffers.get(view.buffer().index()) {
             // Its error is recorded already, once.
-            Some(Err(message)) => return Err(self.error(ErrorKind::Io, message)),
+            Some(Err((message, missing))) => {
+                let error = self.error(ErrorKind::Io, message);
+                return Err(error.with_missing(missing.clone()));
+            }
             Some(Ok(bytes)) => Some(bytes),
             None => None,
         };

@@ -37,7 +37,7 @@ use std::sync::Arc;
 
 pub(crate) use features::FEATURES;
 
-use crate::error::{ErrorKind, Place, SceneError, SourceText, Warning};
+use crate::error::{ErrorKind, MissingFile, Place, SceneError, SourceText, Warning};
 use crate::image::Image;
 use crate::problems::Problems;
 use crate::read_file::Files;
@@ -66,6 +66,9 @@ const KNOWN_EXTENSIONS: [&str; 16] = [
     "KHR_texture_transform",
 ];
 
+/// What is wrong with a buffer, and the file that it would be in where that is missing.
+type LostBuffer = (String, Vec<MissingFile>);
+
 /// The state of the reader.
 struct Reader<'a> {
     document: &'a gltf::Document,
@@ -75,7 +78,7 @@ struct Reader<'a> {
     search: Search,
     place: Place,
     /// Bytes, or what is wrong with them.
-    buffers: Vec<Result<Vec<u8>, String>>,
+    buffers: Vec<Result<Vec<u8>, LostBuffer>>,
     warnings: Vec<Warning>,
     images: Vec<Image>,
     textures: Vec<Texture>,

@@ -10,10 +10,12 @@ use super::Reader;
 use super::material::Appearance;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
+use crate::pressed::{Press, Pressed};
 use crate::scene::{
     Camera, Geometry, MeshId, Object, ObjectId, ObjectInstance, Projection, Scene, Settings, Shape,
 };
 use crate::stage::{self, AddedLight};
+use crate::transform::is_invertible;
 use crate::{Loaded, bounds};
 
 /// Width of pictures whose file gives no size.
@@ -22,8 +24,8 @@ const WIDTH: u32 = 1280;
 /// The nodes that were visited.
 #[derive(Default)]
 struct VisitedNodes {
-    /// Places of every mesh, by its number.
-    places: HashMap<usize, Vec<DMat4>>,
+    /// Places of every mesh, by its number, with the node's.
+    places: HashMap<usize, Vec<(DMat4, usize)>>,
     camera: Option<(Camera, Option<f64>)>,
     nodes: usize,
 }
@@ -47,12 +49,29 @@ impl Reader<'_> {
             self.warn("animations are left out: nodes stand where the file puts them");
         }
         let mut instances = Vec::new();
+        let mut press = Press::new(self.limits);
         for mesh in document.meshes() {
             let Some(places) = found.places.remove(&mesh.index()) else {
                 continue;
             };
             let parts = self.primitives(&mesh)?;
+            let own = parts.iter().map(|(id, _)| Geometry::Mesh(*id));
+            let own = own.map(|g| bounds::of_geometry(&self.meshes, &g));
+            let own = own.fold(bounds::BoundingBox::EMPTY, bounds::BoundingBox::union);
+            let (places, flat): (Vec<_>, Vec<_>) =
+                places.into_iter().partition(|(m, _)| is_invertible(m));
+            let (specks, places): (Vec<_>, Vec<_>) = places
+                .into_iter()
+                .partition(|(m, _)| own.transformed(m).is_speck());
+            for (_, node) in specks {
+                self.warn(format!("nodes[{node}]: {}", bounds::SPECK));
+            }
+            for (to_world, node) in flat {
+                self.pressed(&mut press, &parts, &to_world, node)?;
+            }
+            let places: Vec<DMat4> = places.into_iter().map(|(m, _)| m).collect();
             match places.as_slice() {
+                [] => {}
                 [place] => {
                     let shapes = parts.iter().map(|part| shape(*part, *place));
                     self.shapes.extend(shapes);
@@ -80,6 +99,27 @@ impl Reader<'_> {
             return Err(self.error(ErrorKind::EmptyScene, "there is nothing to render"));
         }
         self.finish(found.camera, instances)
+    }
+
+    /// Adds the parts of a mesh under a transform that cannot be inverted.
+    fn pressed(
+        &mut self,
+        press: &mut Press,
+        parts: &[(MeshId, Appearance)],
+        to_world: &DMat4,
+        node: usize,
+    ) -> Result<(), SceneError> {
+        for part in parts {
+            let shape = shape(*part, *to_world);
+            let pressed = press.shape(&shape, to_world, &mut self.meshes);
+            let pressed =
+                pressed.map_err(|m| self.error(ErrorKind::Limit, format!("nodes[{node}]: {m}")))?;
+            self.warn(format!("nodes[{node}]: {}", pressed.message()));
+            if let Pressed::Flat(shape) = pressed {
+                self.shapes.push(*shape);
+            }
+        }
+        Ok(())
     }
 
     fn finish(
@@ -146,6 +186,7 @@ impl Reader<'_> {
             scene,
             warnings: self.warnings,
             files: self.files.list(),
+            missing: Vec::new(),
         })
     }
 
@@ -170,8 +211,11 @@ impl Reader<'_> {
             if node.skin().is_some() {
                 self.warn("skins are left out: meshes stand in their undeformed pose");
             }
-            match crate::transform::check_transform(&place) {
-                Ok(()) => found.places.entry(mesh.index()).or_default().push(place),
+            match crate::transform::check_finite(&place) {
+                Ok(()) => {
+                    let places = found.places.entry(mesh.index()).or_default();
+                    places.push((place, node.index()));
+                }
                 Err(problem) => self.warn(format!("{what}: {problem}; its mesh is left out")),
             }
         }

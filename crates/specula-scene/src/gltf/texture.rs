@@ -122,7 +122,8 @@ impl Reader<'_> {
                 (self.view(&what, &view)?, Some(mime_type), what.clone())
             }
             gltf::image::Source::Uri { uri, mime_type } => {
-                bytes = self.resource(&what, uri)?;
+                bytes = (self.resource(&what, uri))
+                    .map_err(|error| error.of_missing(ErrorKind::Image))?;
                 let name = if uri.starts_with("data:") {
                     what.clone()
                 } else {

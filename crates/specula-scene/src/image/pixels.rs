@@ -26,6 +26,9 @@ enum Samples {
     Floats(Vec<f32>),
 }
 
+/// Pixels whose memory is given back at once.
+const FREED_AT_ONCE: usize = 1 << 22;
+
 impl Default for Samples {
     fn default() -> Self {
         Self::Floats(Vec::new())
@@ -79,10 +82,33 @@ impl Pixels {
     /// The mean of the channels of each pixel.
     pub(super) fn means(self) -> Self {
         let mean = |[r, g, b]: [f32; 3]| (r + g + b) / 3.0;
-        if self.is_colour {
-            Self::floats(self.iter().map(mean).collect(), false)
-        } else {
-            self.each(|v| mean([v; 3]))
+        if !self.is_colour {
+            return self.each(|v| mean([v; 3]));
+        }
+        // From the last pixel on, so that what was read goes while its means come.
+        let mut pixels = self;
+        let mut means = vec![0.0; pixels.len()];
+        while !pixels.is_empty() {
+            let first = (pixels.len() - 1) / FREED_AT_ONCE * FREED_AT_ONCE;
+            for (of_pixel, i) in means[first..].iter_mut().zip(first..pixels.len()) {
+                *of_pixel = mean(pixels.rgb(i));
+            }
+            pixels.truncate(first);
+        }
+        Self::floats(means, false)
+    }
+
+    /// Leaves the first pixels, and frees the rest.
+    fn truncate(&mut self, count: usize) {
+        fn cut<T>(samples: &mut Vec<T>, count: usize) {
+            samples.truncate(count);
+            samples.shrink_to_fit();
+        }
+        let count = count * if self.is_colour { 3 } else { 1 };
+        match &mut self.samples {
+            Samples::Bytes { indices, .. } => cut(indices, count),
+            Samples::Words { indices, .. } => cut(indices, count),
+            Samples::Floats(values) => cut(values, count),
         }
     }
 
@@ -349,6 +375,18 @@ mod tests {
         // Zeros of both signs are different bits, and stay so.
         let signs = Pixels::from(vec![[0.0, -0.0, 0.0]]).compacted();
         assert!(signs.rgb(0)[1].is_sign_negative());
+    }
+
+    #[test]
+    fn means_of_more_pixels_than_are_freed_at_once() {
+        let table = Box::new(std::array::from_fn(|i| i as f32));
+        let count = FREED_AT_ONCE + 3;
+        let indices: Vec<u8> = (0..=u8::MAX).cycle().step_by(7).take(3 * count).collect();
+        let pixels = Pixels::bytes(table, indices, true);
+        let expected: Vec<f32> = pixels.iter().map(|[r, g, b]| (r + g + b) / 3.0).collect();
+        let means = pixels.means();
+        assert_eq!(means.len(), count);
+        assert!(means.iter().map(|p| p[0]).eq(expected));
     }
 
     #[test]

@@ -9,9 +9,11 @@ use super::shape::{self, Shapes};
 use super::texture::unknown;
 use crate::bounds::{self, BoundingBox, FARTHEST};
 use crate::error::{ErrorKind, Place, SceneError};
+use crate::pressed::{Press, Pressed};
 use crate::problems::{NoteKind, is_dark};
 use crate::read_file::Files;
-use crate::scene::{Camera, Film, Light, Object, ObjectInstance, Scene, Settings};
+use crate::scene::{Camera, Film, Light, Mesh, Object, ObjectInstance, Scene, Settings, Shape};
+use crate::transform::is_invertible;
 use crate::{Energy, Format, Loaded, stage};
 
 /// Warning about a scene without light.
@@ -180,26 +182,31 @@ impl TopLevel {
 }
 
 struct BuiltShapes {
-    meshes: Vec<crate::scene::Mesh>,
-    shapes: Vec<crate::scene::Shape>,
+    meshes: Vec<Mesh>,
+    shapes: Vec<Shape>,
     objects: Vec<Object>,
     instances: Vec<ObjectInstance>,
 }
 
 fn build(context: &mut Context, shapes: Shapes) -> Result<BuiltShapes, SceneError> {
-    let (ready, meshes) = shapes.meshes.read(context)?;
-    let finished = shape::finish(shapes.world, &ready);
+    let (ready, mut meshes) = shapes.meshes.read(context)?;
+    let mut press = Press::new(context.limits);
+    let mut finish = |context: &mut Context, pending| {
+        let finished = shape::finish(pending, &ready);
+        pressed(context, &mut press, &mut meshes, finished)
+    };
+    let mut finished = finish(context, shapes.world)?;
+    let mut objects = Vec::new();
+    for (name, pending) in shapes.objects {
+        let shapes = finish(context, pending)?.into_iter().map(|s| s.0).collect();
+        objects.push(Object { name, shapes });
+    }
     for (shape, place) in &finished {
         let reach = bounds::of_geometry(&meshes, &shape.geometry).transformed(&shape.to_world);
         if reach.farthest() > FARTHEST {
             context.problems.record(too_far(place))?;
         }
     }
-    let objects: Vec<Object> = shapes
-        .objects
-        .into_iter()
-        .map(|(name, pending)| shape::object(name, pending, &ready))
-        .collect();
     let mut instances = Vec::new();
     for (instance, place) in shapes.instances {
         let is_empty = objects[instance.object.0].shapes.is_empty();
@@ -208,7 +215,18 @@ fn build(context: &mut Context, shapes: Shapes) -> Result<BuiltShapes, SceneErro
         } else if is_empty {
             context.warn(&place, "the group has no shapes: the instance is left out");
         } else {
-            instances.push(instance);
+            let is_flat = !is_invertible(&instance.to_world);
+            if is_flat {
+                let shapes = &objects[instance.object.0].shapes;
+                let placed = |s: &Shape| Shape {
+                    to_world: instance.to_world * s.to_world,
+                    ..s.clone()
+                };
+                let placed = shapes.iter().map(|s| (placed(s), place.clone())).collect();
+                finished.append(&mut pressed(context, &mut press, &mut meshes, placed)?);
+            } else {
+                instances.push(instance);
+            }
         }
     }
     Ok(BuiltShapes {
@@ -217,6 +235,33 @@ fn build(context: &mut Context, shapes: Shapes) -> Result<BuiltShapes, SceneErro
         objects,
         instances,
     })
+}
+
+/// Shapes, without those that their transforms press to nothing.
+fn pressed(
+    context: &mut Context,
+    press: &mut Press,
+    meshes: &mut Vec<Mesh>,
+    shapes: Vec<(Shape, Place)>,
+) -> Result<Vec<(Shape, Place)>, SceneError> {
+    let mut left = Vec::with_capacity(shapes.len());
+    for (shape, place) in shapes {
+        if is_invertible(&shape.to_world) {
+            let reach = bounds::of_geometry(meshes, &shape.geometry).transformed(&shape.to_world);
+            match reach.is_speck() {
+                true => context.warn(&place, bounds::SPECK),
+                false => left.push((shape, place)),
+            }
+            continue;
+        }
+        let pressed = press.shape(&shape, &shape.to_world, meshes);
+        let pressed = pressed.map_err(|m| SceneError::new(ErrorKind::Limit, &place, m))?;
+        context.warn(&place, pressed.message());
+        if let Pressed::Flat(shape) = pressed {
+            left.push((*shape, place));
+        }
+    }
+    Ok(left)
 }
 
 fn too_far(place: &Place) -> SceneError {

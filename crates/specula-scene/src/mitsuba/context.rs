@@ -226,7 +226,7 @@ impl<'a> Context<'a> {
         path: &Path,
         message: String,
     ) -> SceneError {
-        SceneError::new(kind, place, message).with_hint(hint(&self.folders, place, path))
+        SceneError::new(kind, place, message).if_missing(hint(&self.folders, place, path), path)
     }
 
     /// Notes surfaces and textures of the scene that nothing refers to.

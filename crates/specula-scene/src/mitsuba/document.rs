@@ -170,7 +170,7 @@ impl Reader<'_> {
             match self.files.is_empty() {
                 // The main file is not searched for in other folders.
                 true => error,
-                false => error.with_hint(hint(&self.folders, asked, path)),
+                false => error.if_missing(hint(&self.folders, asked, path), path),
             }
         };
         let bytes = self.access.plain(path).map_err(unreadable)?;
@@ -297,11 +297,8 @@ impl Reader<'_> {
             );
             Value::Spectrum(spectrum::from_file(&path, self.access).map_err(|m| {
                 let place = file.place(node);
-                SceneError::new(ErrorKind::Spectrum, &place, m).with_hint(hint(
-                    &self.folders,
-                    &place,
-                    &path,
-                ))
+                let hint = hint(&self.folders, &place, &path);
+                SceneError::new(ErrorKind::Spectrum, &place, m).if_missing(hint, &path)
             })?)
         } else {
             plain_value(tag, &attributes, file.legacy).map_err(|m| file.wrong(node, m))?

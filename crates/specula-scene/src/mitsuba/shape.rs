@@ -16,8 +16,8 @@ use crate::error::{ErrorKind, Place, SceneError};
 use crate::num::f32_of;
 use crate::problems::NoteKind;
 use crate::scene::{
-    ColourParam, Emission, FloatParam, Geometry, Material, MaterialKind, Object, ObjectId,
-    ObjectInstance, Shape,
+    ColourParam, Emission, FloatParam, Geometry, Material, MaterialKind, ObjectId, ObjectInstance,
+    Shape,
 };
 
 /// A shape before meshes are read.
@@ -137,7 +137,7 @@ impl Shapes {
         else {
             return Ok(());
         };
-        crate::transform::check_transform(&to_world)
+        crate::transform::check_finite(&to_world)
             .map_err(|m| SceneError::new(ErrorKind::Transform, &element.place_of("to_world"), m))?;
         element.ignore(&["silhouette_sampling_weight", "collapse", "srgb"]);
         subsurface(context, element)?;
@@ -305,17 +305,9 @@ pub(super) fn finish(pending: Vec<PendingShape>, ready: &[BuiltGeometry]) -> Vec
         .collect()
 }
 
-/// Finished shapes of an object.
-pub(super) fn object(name: String, pending: Vec<PendingShape>, ready: &[BuiltGeometry]) -> Object {
-    Object {
-        name,
-        shapes: finish(pending, ready).into_iter().map(|s| s.0).collect(),
-    }
-}
-
 fn transform(element: &Element) -> Result<DMat4, SceneError> {
     let m = element.transform("to_world")?;
-    crate::transform::check_transform(&m)
+    crate::transform::check_finite(&m)
         .map_err(|e| SceneError::new(ErrorKind::Transform, &element.place_of("to_world"), e))?;
     Ok(m)
 }

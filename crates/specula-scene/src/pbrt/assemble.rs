@@ -16,11 +16,13 @@ use super::{camera, light, material};
 use crate::bounds::{self, FARTHEST};
 use crate::error::{ErrorKind, Place, SceneError, Warning};
 use crate::mesh;
+use crate::pressed::{Press, Pressed};
 use crate::problems::{NoteKind, is_dark};
 use crate::scene::{
     Bump, ColourParam, Emission, FloatParam, Geometry, Light, Material, MaterialId, MaterialKind,
     Mesh, Object, ObjectId, ObjectInstance, Scene, Shape, TextureId,
 };
+use crate::transform::is_invertible;
 use crate::{Format, Loaded};
 
 /// Builds the scene.
@@ -49,12 +51,14 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         reader.camera_medium,
         integrator,
     )?;
-    let (geometries, meshes) = geometry::read(&mut context, &all)?;
+    let (geometries, mut meshes) = geometry::read(&mut context, &all)?;
     let lights = read_lights(&mut context, &reader.lights)?;
+    let press = Press::new(context.files.limits());
     let mut builder = Builder {
         context,
         materials: &mut materials,
-        meshes: &meshes,
+        meshes: &mut meshes,
+        press,
     };
     let mut geometries = geometries.into_iter();
     let mut objects = Vec::new();
@@ -65,10 +69,11 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
             shapes,
         });
     }
-    let shapes = builder.shapes(&reader.shapes, &mut geometries)?;
+    let mut shapes = builder.shapes(&reader.shapes, &mut geometries)?;
+    let (instances, pressed) = builder.instances(&reader.instances, &objects)?;
+    shapes.extend(pressed);
     let mut context = builder.context;
 
-    let instances = place_instances(&mut context, &reader.instances, &objects)?;
     let problems = context.problems.clone();
     if shapes.is_empty() && instances.is_empty() && !problems.has_errors() {
         let error = nothing_left(&context, &end);
@@ -129,11 +134,11 @@ fn note_dark(context: &Context, entity: &Entity, is_dark: bool) {
     }
 }
 
-fn place_instances(
+fn place_instances<'a>(
     context: &mut Context,
-    entities: &[InstanceEntity],
+    entities: &'a [InstanceEntity],
     objects: &[Object],
-) -> Result<Vec<ObjectInstance>, SceneError> {
+) -> Result<Vec<(ObjectInstance, &'a Place)>, SceneError> {
     let ids: HashMap<&str, usize> = objects
         .iter()
         .enumerate()
@@ -153,10 +158,11 @@ fn place_instances(
             let message = "the object has no shapes: the instance is left out";
             context.warn(&instance.place, message);
         } else {
-            instances.push(ObjectInstance {
+            let placed = ObjectInstance {
                 object: ObjectId(i),
                 to_world: instance.to_world,
-            });
+            };
+            instances.push((placed, &instance.place));
         }
     }
     Ok(instances)
@@ -189,6 +195,8 @@ struct Materials {
     ids: Vec<Option<MaterialId>>,
     default: Option<MaterialId>,
     named: HashMap<String, usize>,
+    /// Opacities of the file's materials, which those of shapes override.
+    opacities: Vec<Option<FloatParam>>,
 }
 
 fn read_materials(
@@ -210,6 +218,7 @@ fn read_materials(
     note_unused_names(context, entities, shapes);
     let mut list: Vec<Material> = Vec::new();
     let mut ids = Vec::new();
+    let mut opacities = vec![None; entities.len()];
     let mut before: HashMap<&str, MaterialId> = HashMap::new();
     for (i, MaterialEntity { name, entity }) in entities.iter().enumerate() {
         if name.is_none() && !used.contains(&i) {
@@ -230,6 +239,8 @@ fn read_materials(
             let error = SceneError::new(ErrorKind::Unsupported, &entity.place, message);
             context.problems.record(error)?;
         }
+        let opacity = material::opacity(context, &entity.params);
+        opacities[i] = entity.or(opacity, || None)?;
         let id = MaterialId(list.len());
         if let Some(name) = name {
             before.insert(name, id);
@@ -248,6 +259,7 @@ fn read_materials(
         ids,
         default: None,
         named: named.clone(),
+        opacities,
     })
 }
 
@@ -318,6 +330,16 @@ impl Materials {
         })
     }
 
+    /// The opacity that a material gives its shapes.
+    fn opacity(&self, wanted: &MaterialUse) -> Option<FloatParam> {
+        let index = match wanted {
+            MaterialUse::Defined(i) => Some(*i),
+            MaterialUse::Named(name, _) => self.named.get(name).copied(),
+            MaterialUse::Default => None,
+        };
+        index.and_then(|i| self.opacities[i])
+    }
+
     fn id(&mut self, wanted: &MaterialUse) -> Result<MaterialId, SceneError> {
         let index = match wanted {
             MaterialUse::Defined(i) => Some(*i),
@@ -344,7 +366,8 @@ impl Materials {
 struct Builder<'a> {
     context: Context,
     materials: &'a mut Materials,
-    meshes: &'a [Mesh],
+    meshes: &'a mut Vec<Mesh>,
+    press: Press,
 }
 
 impl Builder<'_> {
@@ -380,6 +403,7 @@ impl Builder<'_> {
         let alpha = self
             .context
             .float_from_zero_or_none(&shape.entity.params, "alpha")?
+            .or(self.materials.opacity(&shape.material))
             .unwrap_or(FloatParam::Value(1.0));
         let Some(geometry) = read.geometry else {
             return Ok(None);
@@ -391,6 +415,10 @@ impl Builder<'_> {
             let message = format!("the shape reaches beyond {FARTHEST:e} from the origin");
             return Err(SceneError::new(ErrorKind::Limit, place, message));
         }
+        if reach.is_speck() && is_invertible(&shape.to_world) {
+            self.context.warn(place, bounds::SPECK);
+            return Ok(None);
+        }
         let mut emission = None;
         if let Some(entity) = &shape.area_light {
             if self.materials.list[material.0].kind == MaterialKind::Interface {
@@ -400,14 +428,55 @@ impl Builder<'_> {
                 emission = self.emission(entity, shape, read, &geometry)?;
             }
         }
-        Ok(Some(Shape {
+        let to_world = shape.to_world;
+        let shape = Shape {
             geometry,
-            to_world: shape.to_world,
+            to_world,
             material,
             emission,
             reverse_orientation: shape.reverse_orientation,
             alpha,
-        }))
+        };
+        if is_invertible(&to_world) {
+            return Ok(Some(shape));
+        }
+        self.pressed(&shape, &to_world, place)
+    }
+
+    /// A shape under a transform that cannot be inverted, if area is left of it.
+    fn pressed(
+        &mut self,
+        shape: &Shape,
+        to_world: &DMat4,
+        place: &Place,
+    ) -> Result<Option<Shape>, SceneError> {
+        let pressed = self.press.shape(shape, to_world, self.meshes);
+        let pressed = pressed.map_err(|m| SceneError::new(ErrorKind::Limit, place, m))?;
+        self.context.warn(place, pressed.message());
+        Ok(match pressed {
+            Pressed::Flat(shape) => Some(*shape),
+            Pressed::Nothing => None,
+        })
+    }
+
+    /// Instances, and the shapes of those that are pressed flat.
+    fn instances(
+        &mut self,
+        entities: &[InstanceEntity],
+        objects: &[Object],
+    ) -> Result<(Vec<ObjectInstance>, Vec<Shape>), SceneError> {
+        let (mut instances, mut shapes) = (Vec::new(), Vec::new());
+        for (instance, place) in place_instances(&mut self.context, entities, objects)? {
+            if is_invertible(&instance.to_world) {
+                instances.push(instance);
+                continue;
+            }
+            for shape in &objects[instance.object.0].shapes {
+                let to_world = instance.to_world * shape.to_world;
+                shapes.extend(self.pressed(shape, &to_world, place)?);
+            }
+        }
+        Ok((instances, shapes))
     }
 
     /// The light of a shape.

@@ -241,7 +241,7 @@ fn read_spectrum(context: &Context, param: &Param) -> Result<(Spectrum, OutsideR
             let [(name, place)] = texts.as_slice() else {
                 return Err(param.wrong_type(&["spectrum"]));
             };
-            match spectrum::named(name) {
+            match spectrum::named(name).or_else(|| metal(context, name)) {
                 Some(spectrum) => Ok((spectrum, OutsideRange::Held)),
                 None => Ok((spectrum_file(context, name, place)?, OutsideRange::Zero)),
             }
@@ -250,19 +250,29 @@ fn read_spectrum(context: &Context, param: &Param) -> Result<(Spectrum, OutsideR
     }
 }
 
+/// The metal of one of pbrt-v3's own files, such as `spds/Cu.eta.spd`, where the file is not there.
+fn metal(context: &Context, name: &str) -> Option<Spectrum> {
+    if context.v3.is_none() || context.resolve(name).exists() {
+        return None;
+    }
+    let file = name.rsplit(['/', '\\']).next()?.strip_suffix(".spd")?;
+    let (metal, part) = file.rsplit_once('.')?;
+    spectrum::named(&format!("metal-{metal}-{part}"))
+}
+
 fn spectrum_file(context: &Context, name: &str, place: &Place) -> Result<Spectrum, SceneError> {
     let path = context.resolve(name);
     let bytes = context.files.plain(&path).map_err(|e| {
         let expected = "expected a name such as metal-Au-eta or glass-BK7, or a .spd file";
-        let help = match context.search.hint(&path) {
-            Some(hint) => format!("{expected}; {hint}"),
-            None => expected.to_owned(),
-        };
+        let hint = context.search.hint(&path);
+        let hint = hint.map(|hint| format!("{expected}; {hint}"));
         let message = format!(
             "\"{}\" is no known spectrum, nor a file that can be read: it {e}",
             shorten(name)
         );
-        SceneError::new(ErrorKind::Spectrum, place, message).with_help(help)
+        SceneError::new(ErrorKind::Spectrum, place, message)
+            .with_help(expected)
+            .if_missing(hint, &path)
     })?;
     let text = String::from_utf8_lossy(&bytes).into_owned();
     spectrum::parse_spd(&text).map_err(|e| {

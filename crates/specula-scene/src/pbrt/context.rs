@@ -8,6 +8,7 @@ use specula_bsdf::Rgb;
 
 use super::param::{Param, ParamList, Values};
 use super::token::shorten;
+use super::v3::Names;
 use crate::LoadOptions;
 use crate::error::{ErrorKind, Place, SceneError, Warning};
 use crate::image::{self, Content, Encoding, Image};
@@ -57,7 +58,7 @@ impl ImageJob {
     pub(super) fn read(&self, files: &Files, search: &Search) -> Result<Image, SceneError> {
         image::read(&self.path, self.encoding, self.content, files).map_err(|message| {
             SceneError::new(ErrorKind::Image, &self.place, message)
-                .with_hint(search.hint(&self.path))
+                .if_missing(search.hint(&self.path), &self.path)
         })
     }
 }
@@ -113,6 +114,8 @@ pub(super) struct Context {
     image_ids: HashMap<(PathBuf, String, Content), ImageId>,
     /// Pictures that are asked for and not read yet.
     image_jobs: Vec<ImageJob>,
+    /// The names of a file of pbrt-v3; `None` for pbrt-v4.
+    pub(super) v3: Option<Names>,
 }
 
 impl Context {
@@ -133,6 +136,7 @@ impl Context {
             colour_textures: Textures::default(),
             image_ids: HashMap::new(),
             image_jobs: Vec::new(),
+            v3: None,
         }
     }
 
@@ -245,7 +249,13 @@ impl Context {
         let [(name, place)] = texts.as_slice() else {
             return Err(param.wrong_type(&["texture"]));
         };
-        textures.get(name).ok_or_else(|| {
+        // A colour in the place of a number, as an amount of pbrt-v3.
+        let other = || {
+            self.v3
+                .as_ref()
+                .and_then(|_| self.colour_textures.get(name))
+        };
+        textures.get(name).or_else(other).ok_or_else(|| {
             let message = format!(
                 "no {kind} texture \"{}\" is defined before this",
                 shorten(name)

@@ -13,11 +13,13 @@ use super::shape::ShapeEntity;
 use super::state::{ATTRIBUTE_TARGETS, State};
 use super::token::{TokenKind, Tokens, describe, shorten};
 use super::unknown;
+use super::v3;
 use crate::LoadOptions;
 use crate::error::{ErrorKind, Place, SceneError, SourceText};
 use crate::problems::Problems;
 use crate::read_file::Files;
 use crate::spectrum::{COLOUR_SPACES, ColourSpace};
+use crate::transform::check_transform;
 
 /// Most parameters that `Attribute` may set at a time: every later directive searches them.
 const MAX_ATTRIBUTES: usize = 1000;
@@ -163,7 +165,7 @@ impl Reader {
                 place,
                 format!("{} {message}", path.display()),
             )
-            .with_hint(from.and_then(|_| self.context.search.hint(path)))
+            .if_missing(from.and_then(|_| self.context.search.hint(path)), path)
         };
         let identity = match (path.canonicalize(), from) {
             (Ok(identity), _) => identity,
@@ -202,6 +204,11 @@ impl Reader {
             return Err(SceneError::new(ErrorKind::Limit, place, message));
         }
         let source = decode(path, bytes)?;
+        if from.is_none()
+            && let Some(place) = v3::find(&source)
+        {
+            self.context.turn_v3(&place);
+        }
         self.reading.push(identity);
         let mut tokens = Tokens::new(&source, self.context.problems.clone());
         while !self.stopped {
@@ -355,11 +362,10 @@ impl Reader {
                 self.coordinate_systems
                     .insert("world".to_owned(), [DMat4::IDENTITY; 2]);
             }
+            "WorldEnd" if self.context.v3.is_some() => {}
             "WorldEnd" => {
-                self.context.warn(
-                    place,
-                    "`WorldEnd` belongs to older versions of pbrt and does nothing",
-                );
+                let message = "`WorldEnd` belongs to older versions of pbrt and does nothing";
+                self.context.warn(place, message);
             }
             "AttributeBegin" => self.push("AttributeBegin", place)?,
             "AttributeEnd" => self.pop("AttributeBegin", word, place)?,
@@ -368,6 +374,7 @@ impl Reader {
             "ObjectBegin" => {
                 let (name, place) = tokens.expect_text("the name of an object")?;
                 self.expect_world(word, &place)?;
+                let name = self.defined(v3::Kind::Object, name);
                 let problems = &self.context.problems;
                 if self.in_object {
                     let message = "`ObjectBegin` within an object";
@@ -440,6 +447,9 @@ impl Reader {
                 self.context
                     .warn(place, "the camera moves; it is rendered where it starts");
             }
+            for m in &self.state.transforms {
+                check_transform(m).map_err(|m| SceneError::new(ErrorKind::Transform, place, m))?;
+            }
             let inverse = self.state.transforms.map(|m| m.inverse());
             self.camera_to_world = inverse[0];
             self.camera_medium = self.state.media[1];
@@ -449,13 +459,36 @@ impl Reader {
         Ok(())
     }
 
-    pub(super) fn entity(&self, tokens: &mut Tokens<'_>, word: &str) -> Result<Entity, SceneError> {
+    pub(super) fn entity(
+        &mut self,
+        tokens: &mut Tokens<'_>,
+        word: &str,
+    ) -> Result<Entity, SceneError> {
         let (name, place) = tokens.expect_text(&format!("the name after `{word}`"))?;
-        Ok(Entity {
+        let params = ParamList::read(tokens, self.state.space)?;
+        let mut entity = Entity {
             name,
             place,
-            params: ParamList::read(tokens, self.state.space)?,
-        })
+            params,
+        };
+        self.context.upgraded(word, &mut entity);
+        Ok(entity)
+    }
+
+    /// The name of a thing that is defined; of pbrt-v3's, another where it was defined before.
+    pub(super) fn defined(&mut self, kind: v3::Kind, mut name: String) -> String {
+        if let Some(names) = &mut self.context.v3 {
+            names.define(kind, &mut name);
+        }
+        name
+    }
+
+    /// The name of a thing that is used.
+    pub(super) fn used(&self, kind: v3::Kind, mut name: String) -> String {
+        if let Some(names) = &self.context.v3 {
+            names.newest(kind, &mut name);
+        }
+        name
     }
 
     pub(super) fn expect_world(&mut self, word: &str, place: &Place) -> Result<(), SceneError> {

@@ -82,6 +82,15 @@ impl Jobs {
         job
     }
 
+    /// Leaves out what takes long.
+    fn forget_subdivisions(&mut self) {
+        for job in &mut self.list {
+            if matches!(job.source, MeshSource::Recipe(Recipe::Subdivision(_))) {
+                job.source = MeshSource::Mesh(Mesh::default());
+            }
+        }
+    }
+
     fn recipe(&mut self, recipe: Recipe, place: &Place) -> usize {
         let key = recipe.key();
         if let Some(&job) = key.and_then(|k| self.recipes.get(&k)) {
@@ -102,6 +111,7 @@ pub(super) fn read(
 ) -> Result<(Vec<ShapeGeometry>, Vec<Mesh>), SceneError> {
     let mut jobs = Jobs::default();
     let mut slots = Vec::with_capacity(shapes.len());
+    let mut left = context.files.limits().max_subdivided;
     for shape in shapes {
         let entity = &shape.entity;
         let (mut own_area, mut pieces) = (None, None);
@@ -121,6 +131,14 @@ pub(super) fn read(
                 Slot::Job(jobs.file(path, place))
             }
             Prepared::Recipe(recipe) => {
+                if let Err(message) = recipe.take_from(&mut left, context.files.limits()) {
+                    let error = SceneError::new(ErrorKind::Mesh, &entity.place, message);
+                    context.problems.record(error)?;
+                    // A check is not to take longer than a render.
+                    jobs.forget_subdivisions();
+                    slots.push((Slot::Nothing, own_area, pieces));
+                    continue;
+                }
                 (own_area, pieces) = (recipe.own_area(), recipe.pieces());
                 Slot::Job(jobs.recipe(recipe, &entity.place))
             }
@@ -200,7 +218,7 @@ fn broken(context: &Context, place: &Place, path: Option<&Path>, fault: &Fault) 
         return SceneError::new(ErrorKind::Mesh, place, fault.to_string());
     };
     let message = format!("mesh {}: {fault}", path.display());
-    SceneError::new(ErrorKind::Mesh, place, message).with_hint(context.search.hint(path))
+    SceneError::new(ErrorKind::Mesh, place, message).if_missing(context.search.hint(path), path)
 }
 
 /// * `collects`: whether to go on after a mistake, as in a check.

@@ -16,6 +16,7 @@ use crate::error::{ErrorKind, SceneError};
 use crate::image::{Content, Encoding};
 use crate::num::f32_of;
 use crate::scene::{ImageId, Light, SpotFalloff};
+use crate::transform::check_transform;
 
 pub(super) use area::area;
 
@@ -46,6 +47,8 @@ pub(super) fn read(
     entity: &Entity,
     to_world: DMat4,
 ) -> Result<Light, SceneError> {
+    check_transform(&to_world)
+        .map_err(|m| SceneError::new(ErrorKind::Transform, &entity.place, m))?;
     match entity.name.as_str() {
         "infinite" => environment::infinite(context, entity, to_world),
         "distant" => distant(context, entity, to_world),

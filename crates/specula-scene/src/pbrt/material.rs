@@ -10,6 +10,7 @@ use super::colour::{self, Colour, OutsideRange};
 use super::context::{Context, Entity};
 use super::param::ParamList;
 use super::token::shorten;
+use super::v3;
 use crate::energy::{Energy, UnknownEnergy};
 use crate::error::{ErrorKind, Place, SceneError};
 use crate::image::{Content, Encoding};
@@ -39,6 +40,7 @@ pub(super) fn read(
     params.ignore(&["type"]);
     let energy = energy(params)?;
     let bump = bump(context, params)?;
+    params.ignore(&[v3::OPACITY]);
     let kind = match entity.name.as_str() {
         "diffuse" => MaterialKind::Diffuse {
             reflectance: colour::albedo(context, params, "reflectance", 0.5)?,
@@ -283,4 +285,20 @@ fn mix(
             .float_from_zero_or_none(params, "amount")?
             .unwrap_or(FloatParam::Value(0.5)),
     })
+}
+
+/// The opacity of pbrt-v3's `uber`, where it is not 1.
+pub(super) fn opacity(
+    context: &mut Context,
+    params: &ParamList,
+) -> Result<Option<FloatParam>, SceneError> {
+    let Some(opacity) = colour::albedo_or_none(context, params, v3::OPACITY)? else {
+        return Ok(None);
+    };
+    let message = "\"opacity\" of pbrt-v3's \"uber\" becomes the opacity of its shapes: light passes straight";
+    context.warn(&params.place_of(v3::OPACITY), message);
+    Ok(Some(match opacity {
+        ColourParam::Value(c) => FloatParam::Value(c.mean()),
+        ColourParam::Texture(id) => FloatParam::Texture(id),
+    }))
 }

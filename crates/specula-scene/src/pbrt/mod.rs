@@ -18,11 +18,13 @@ mod texture;
 mod token;
 mod transform;
 mod unknown;
+mod v3;
 mod world;
 
 use std::path::Path;
 
 pub(crate) use features::FEATURES;
+pub(crate) use v3::FEATURES as V3_FEATURES;
 
 use crate::error::SceneError;
 use crate::problems::Problems;

@@ -1,5 +1,7 @@
 //! Parameter lists: `"type name" [ values ]`.
 
+mod edit;
+
 use std::cell::Cell;
 use std::rc::Rc;
 

@@ -58,6 +58,14 @@ impl Recipe {
         }
     }
 
+    /// Takes what it is subdivided into from the scene's budget.
+    pub(super) fn take_from(&self, left: &mut u64, limits: &Limits) -> Result<(), String> {
+        match self {
+            Self::Subdivision(control) => control.take_from(left, limits),
+            Self::Quadric(_) | Self::Curve(_) | Self::Patches(_) => Ok(()),
+        }
+    }
+
     /// A key that is equal for shapes that may share their mesh.
     pub(super) fn key(&self) -> Option<[u64; 5]> {
         match self {

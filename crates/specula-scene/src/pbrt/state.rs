@@ -9,7 +9,7 @@ use super::medium::Sides;
 use super::param::Param;
 use crate::error::{ErrorKind, Place, SceneError};
 use crate::spectrum::ColourSpace;
-use crate::transform::check_transform;
+use crate::transform::check_finite;
 
 /// The material of shapes to come.
 #[derive(Clone, Debug)]
@@ -61,7 +61,7 @@ impl State {
     ///
     /// # Errors
     ///
-    /// Where the result is not finite or cannot be inverted.
+    /// Where the result is not finite. One that cannot be inverted is a matter of what stands in it.
     pub(super) fn transform(
         &mut self,
         place: &Place,
@@ -70,7 +70,7 @@ impl State {
         for (transform, active) in self.transforms.iter_mut().zip(self.active) {
             if active {
                 *transform = change(*transform);
-                check_transform(transform)
+                check_finite(transform)
                     .map_err(|m| SceneError::new(ErrorKind::Transform, place, m))?;
             }
         }

@@ -11,9 +11,11 @@ use super::context::{Context, Entity};
 use super::param::ParamList;
 use super::state::State;
 use super::token::{Tokens, shorten};
+use super::v3;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
 use crate::scene::{ColourParam, FloatParam, NoiseKind, Texture, TextureId};
+use crate::transform::check_transform;
 use mapping::mapping;
 
 /// Whether a texture gives numbers or colours; each type has names of its own.
@@ -21,6 +23,15 @@ use mapping::mapping;
 enum TextureType {
     Float,
     Colour,
+}
+
+impl TextureType {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Float => "float",
+            Self::Colour => "spectrum",
+        }
+    }
 }
 
 /// A texture node that is being read.
@@ -35,6 +46,14 @@ impl TextureNode<'_> {
     fn params(&self) -> &ParamList {
         &self.entity.params
     }
+
+    /// World space to texture space.
+    fn to_texture(&self) -> Result<DMat4, SceneError> {
+        match check_transform(&self.to_world) {
+            Ok(()) => Ok(self.to_world.inverse()),
+            Err(m) => Err(SceneError::new(ErrorKind::Transform, &self.entity.place, m)),
+        }
+    }
 }
 
 /// Reads what follows the word `Texture`.
@@ -43,7 +62,7 @@ pub(super) fn read(
     state: &State,
     tokens: &mut Tokens<'_>,
 ) -> Result<(), SceneError> {
-    let (name, name_place) = tokens.expect_text("the name of the texture")?;
+    let (mut name, name_place) = tokens.expect_text("the name of the texture")?;
     let (kind, kind_place) = tokens.expect_text("the texture's type")?;
     let kind = match kind.as_str() {
         "float" => TextureType::Float,
@@ -63,11 +82,15 @@ pub(super) fn read(
     };
     let (class, place) = tokens.expect_text("the texture's class")?;
     let params = ParamList::read(tokens, state.space)?.with_inherited(&state.attributes[4]);
-    let entity = Entity {
+    let mut entity = Entity {
         name: class,
         place,
         params,
     };
+    v3::texture(context, kind == TextureType::Float, &mut entity);
+    if let Some(names) = &mut context.v3 {
+        names.define(v3::Kind::Texture(kind.name()), &mut name);
+    }
     let node = TextureNode {
         entity: &entity,
         kind,
@@ -124,7 +147,7 @@ fn texture(context: &mut Context, node: &TextureNode<'_>) -> Result<TextureId, S
             kind: NoiseKind::Windy,
             octaves: 0,
             roughness: 0.0,
-            to_texture: node.to_world.inverse(),
+            to_texture: node.to_texture()?,
         },
         ("marble", TextureType::Colour) => {
             let scale = f32_of(params.float("scale", 1.0)?);
@@ -215,7 +238,7 @@ fn checkerboard(context: &mut Context, node: &TextureNode<'_>) -> Result<Texture
         _ => Ok(Texture::Checkerboard3d {
             even,
             odd,
-            to_texture: node.to_world.inverse(),
+            to_texture: node.to_texture()?,
         }),
     }
 }
@@ -243,6 +266,6 @@ fn noise(node: &TextureNode<'_>, kind: NoiseKind) -> Result<Texture, SceneError>
         kind,
         octaves: params.integer_within("octaves", 8, 0..=64)?,
         roughness: f32_of(params.float("roughness", 0.5)?),
-        to_texture: node.to_world.inverse(),
+        to_texture: node.to_texture()?,
     })
 }

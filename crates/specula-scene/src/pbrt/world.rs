@@ -8,7 +8,7 @@ use super::medium::MediumEntity;
 use super::shape::ShapeEntity;
 use super::state::MaterialUse;
 use super::token::{TokenKind, Tokens, shorten};
-use super::{light, texture, unknown};
+use super::{light, texture, unknown, v3};
 use crate::error::{ErrorKind, Place, SceneError};
 
 impl Reader {
@@ -37,7 +37,9 @@ impl Reader {
             "Shape" => {
                 self.expect_world(word, place)?;
                 let entity = self.entity(tokens, word)?;
-                self.shape(entity);
+                if self.context.v3.is_none() || !v3::GONE.contains(&entity.name.as_str()) {
+                    self.shape(entity);
+                }
             }
             "LightSource" => {
                 self.expect_world(word, place)?;
@@ -71,6 +73,7 @@ impl Reader {
                     self.context
                         .warn(&place, "the instance moves; it is rendered where it starts");
                 }
+                let name = self.used(v3::Kind::Object, name);
                 let to_world = self.state.transforms[0];
                 self.instances.push(InstanceEntity {
                     name,
@@ -111,6 +114,7 @@ impl Reader {
     fn material(&mut self, word: &str, tokens: &mut Tokens<'_>) -> Result<(), SceneError> {
         if word == "NamedMaterial" {
             let (name, place) = tokens.expect_text("the name of a material")?;
+            let name = self.used(v3::Kind::Material, name);
             self.state.material = MaterialUse::Named(name, place);
             return Ok(());
         }
@@ -133,6 +137,7 @@ impl Reader {
             }
         };
         let name = std::mem::replace(&mut entity.name, kind);
+        let name = self.defined(v3::Kind::Material, name);
         let named_at = std::mem::replace(&mut entity.place, place);
         if self.named_materials.insert(name.clone(), index).is_some() {
             let message = format!("material \"{}\" is defined twice", shorten(&name));

@@ -4,7 +4,9 @@ use specula_scene::{ErrorKind, LoadOptions, SceneError};
 
 use super::common::{Folder, REST, load, load_shape};
 
-use ErrorKind::{Duplicate, Image, Limit, Mesh, Parameter, Spectrum, Structure, Syntax, Transform};
+use ErrorKind::{
+    Duplicate, EmptyScene, Image, Limit, Mesh, Parameter, Spectrum, Structure, Syntax,
+};
 use ErrorKind::{UnknownName, Unsupported};
 
 fn check(error: &SceneError, kind: ErrorKind, line: usize, part: &str) {
@@ -156,8 +158,8 @@ const IN_A_SHAPE: &[(&str, ErrorKind, &str)] = &[
     ),
     (
         "<transform name=\"to_world\"><scale value=\"0\"/></transform>",
-        Transform,
-        "inverted",
+        EmptyScene,
+        "no area",
     ),
     (
         "<transform name=\"to_world\"><translate x=\"1e30\"/></transform>",

@@ -39,7 +39,7 @@ fn one_run_finds_every_kind_of_mistake() {
 <string name="filename" value="missing.png"/></texture></bsdf></shape>
 <shape type="nosuch"/>
 <shape type="cube"><transform name="to_world"><spin x="1"/>
-<scale value="0"/></transform></shape>
+<scale value="1e30"/><scale value="1e30"/></transform></shape>
 <emitter type="point"><rgb name="intensity" value="1, -1, 1"/></emitter>
 <emitter type="envmap"><string name="filename" value="missing.exr"/></emitter>
 <include filename="missing.xml"/>
@@ -58,7 +58,7 @@ fn one_run_finds_every_kind_of_mistake() {
             (12, "needs its \"filename\""),
             (14, "missing.png"),
             (15, "unknown shape"),
-            (16, "cannot be inverted"),
+            (16, "not finite in single precision"),
             (16, "<spin>"),
             (18, "not negative"),
             (19, "missing.exr"),

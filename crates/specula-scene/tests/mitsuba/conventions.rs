@@ -389,3 +389,31 @@ fn the_sky_is_as_bright_as_mitsubas() {
         "nothing below the horizon"
     );
 }
+
+#[test]
+fn shapes_are_pressed_flat() {
+    let flat = "<transform name=\"to_world\"><scale x=\"1\" y=\"1\" z=\"0\"/></transform>";
+    let loaded = load(&format!(
+        "<shape type=\"cube\">{flat}</shape><shape type=\"sphere\">{flat}</shape>\
+         <shape type=\"shapegroup\" id=\"g\"><shape type=\"rectangle\"/></shape>\
+         <shape type=\"instance\"><ref id=\"g\"/>{flat}</shape>\
+         <shape type=\"cylinder\">{flat}</shape>"
+    ))
+    .unwrap();
+    let scene = &loaded.scene;
+    assert_eq!((scene.shapes.len(), scene.instances.len()), (3, 0));
+    let triangles: Vec<usize> = scene.meshes.iter().map(|m| m.triangles.len()).collect();
+    assert!(
+        triangles.contains(&4),
+        "two of a cube's six faces: {triangles:?}"
+    );
+    let pressed = |part: &str| {
+        loaded
+            .warnings
+            .iter()
+            .filter(|w| w.message().contains(part))
+            .count()
+    };
+    assert_eq!((pressed("rendered flat"), pressed("no area")), (3, 1));
+    assert!(scene.validate().is_ok());
+}

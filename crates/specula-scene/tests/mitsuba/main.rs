@@ -14,6 +14,7 @@ mod dialect;
 mod document;
 mod features;
 mod media;
+mod missing;
 mod mutations;
 mod range;
 #[path = "../common/report.rs"]

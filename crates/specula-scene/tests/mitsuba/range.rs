@@ -84,8 +84,8 @@ fn views_and_sizes_that_are_none_are_errors() {
             "along the view",
         ),
         (
-            "<shape type=\"cube\"><transform name=\"to_world\"><scale value=\"0\"/></transform></shape>",
-            "cannot be inverted",
+            "<shape type=\"cube\"><transform name=\"to_world\"><scale value=\"1e30\"/><scale value=\"1e30\"/></transform></shape>",
+            "not finite in single precision",
         ),
         (
             "<emitter type=\"directional\"><vector name=\"direction\" x=\"0\" y=\"0\" z=\"0\"/></emitter>",

@@ -41,9 +41,9 @@ fn nan_in_a_transform() {
         "number 16",
     );
     expect(
-        load("Scale 1 0 1\nWorldBegin"),
+        load("Scale 1 0 1\nCamera \"perspective\""),
         ErrorKind::Transform,
-        1,
+        2,
         1,
         "inverted",
     );

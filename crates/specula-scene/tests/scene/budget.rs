@@ -110,6 +110,88 @@ fn subdivision_without_end() {
     assert!(in_time(&folder.write("scene.pbrt", scene(5))).is_ok());
 }
 
+/// What each may be, all may not be together.
+#[test]
+fn fifty_subdivisions() {
+    let folder = Folder::new();
+    let mesh =
+        "\"point3 P\" [0 0 0 1 0 0 0 1 0 0 0 1] \"integer indices\" [0 2 1 0 1 3 1 2 3 0 3 2]";
+    let shape = format!("Shape \"loopsubdiv\" {mesh} \"integer levels\" 10\n");
+    let path = folder.write("scene.pbrt", format!("WorldBegin\n{}", shape.repeat(50)));
+    let start = std::time::Instant::now();
+    let error = in_time(&path).unwrap_err();
+    assert!(
+        start.elapsed() < Duration::from_secs(5),
+        "{:?}",
+        start.elapsed()
+    );
+    assert_eq!((error.kind(), error.line()), (ErrorKind::Mesh, 6));
+    let message = error.message();
+    assert!(
+        message.contains("4194304 triangles of it, 16777216 of others; at most 16777216"),
+        "{message}"
+    );
+    assert!(message.contains("(`max_subdivided`)"), "{message}");
+}
+
+#[test]
+fn names_of_megabytes_end_at_once_and_are_cut() {
+    let folder = Folder::new();
+    let long = "x".repeat(8 << 20);
+    for (world, part) in [
+        (format!("Shape \"{long}\""), "unknown shape \"x"),
+        (
+            format!("Material \"{long}\" Shape \"sphere\""),
+            "unknown material",
+        ),
+        (format!("{long} \"sphere\""), "unknown directive"),
+        (
+            format!("Shape \"plymesh\" \"string filename\" \"{long}\""),
+            "cannot be read",
+        ),
+        (
+            format!("Shape \"sphere\" \"float {long}\" \"x\""),
+            "expected",
+        ),
+    ] {
+        let path = folder.write("scene.pbrt", format!("WorldBegin\n{world}"));
+        let start = std::time::Instant::now();
+        let error = in_time(&path).unwrap_err();
+        assert!(
+            start.elapsed() < Duration::from_secs(5),
+            "{part}: {:?}",
+            start.elapsed()
+        );
+        assert!(error.message().contains(part), "{}", error.message());
+        assert!(error.message().len() < 2000, "{}", error.message().len());
+    }
+}
+
+/// A small file that unpacks to a large one.
+#[test]
+fn a_bomb_ends_at_the_limit() {
+    let folder = Folder::new();
+    let mut packer = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
+    for _ in 0..64 {
+        std::io::Write::write_all(&mut packer, &vec![b' '; 1 << 20]).unwrap();
+    }
+    let packed = packer.finish().unwrap();
+    assert!(packed.len() < 100_000);
+    let mut options = LoadOptions::default();
+    options.limits.max_bytes = 16 << 20;
+    for name in ["scene.pbrt.gz", "scene.pbrt"] {
+        let path = folder.write(name, &packed);
+        let error = specula_scene::load_with(&path, &options).unwrap_err();
+        assert!(
+            error
+                .message()
+                .contains("unpacks to more than 16777216 bytes (`max_bytes`)"),
+            "{error}"
+        );
+        assert!(error.help().unwrap().contains("--limit-bytes"));
+    }
+}
+
 /// What is no ordinary file must not be waited for.
 #[cfg(unix)]
 #[test]

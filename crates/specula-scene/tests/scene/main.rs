@@ -19,10 +19,13 @@ mod formats;
 mod graph;
 mod materials;
 mod media;
+mod missing;
 mod mutations;
+mod pressed;
 mod range;
 #[path = "../common/report.rs"]
 mod report;
 mod shared_scenes;
 mod staged;
+mod v3;
 mod written;

@@ -115,10 +115,16 @@ fn views_and_sizes_that_are_none_are_errors() {
             "xresolution",
         ),
         (
-            "WorldBegin\nScale 0 1 1\nShape \"sphere\"",
+            "WorldBegin\nScale 0 1 1 LightSource \"point\"\nShape \"sphere\"",
             2,
             "cannot be inverted",
         ),
+        (
+            "Scale 0 1 1\nCamera \"perspective\"\nWorldBegin\nShape \"sphere\"",
+            2,
+            "cannot be inverted",
+        ),
+        ("WorldBegin\nScale 0 1 0\nShape \"sphere\"", 3, "no area"),
         (
             "Camera \"perspective\" \"float fov\" 0\nWorldBegin\nShape \"sphere\"",
             1,

@@ -103,7 +103,8 @@ pub(crate) fn run(arguments: &ExportArguments) -> Result<ExitCode, Failure> {
             .map_err(|e: io::Error| cannot_write(&path, &e))?;
         say!("wrote {}", path.display());
     }
-    if functions.is_empty() && arguments.prefix.is_empty() {
+    let is_plain = arguments.prefix.is_empty() && arguments.namespace == Export::NAMESPACE;
+    if functions.is_empty() && is_plain {
         tell_what_lacks_an_example(languages, &files);
     }
     Ok(ExitCode::SUCCESS)

@@ -22,6 +22,8 @@ pub(crate) struct Named {
     pub(crate) warnings: Vec<Warning>,
     /// All files that were read.
     pub(crate) files: Vec<PathBuf>,
+    /// Files that do not exist and that something stands in for.
+    pub(crate) missing: Vec<PathBuf>,
 }
 
 /// The scene of a file, or the built-in one.
@@ -32,6 +34,7 @@ pub(crate) fn scene(path: Option<&Path>, options: &LoadOptions) -> Result<Named,
             scene: builtin::orbs(),
             warnings: Vec::new(),
             files: Vec::new(),
+            missing: Vec::new(),
         });
     };
     let loaded = match path.as_os_str() == "-" {
@@ -56,6 +59,7 @@ pub(crate) fn scene(path: Option<&Path>, options: &LoadOptions) -> Result<Named,
         scene: loaded.scene,
         warnings: loaded.warnings,
         files: loaded.files,
+        missing: loaded.missing,
     })
 }
 

@@ -101,7 +101,7 @@ fn bytes(size: u64) -> String {
 
 /// Memory that can be had without swapping: the system's, or what is left of the control group's where
 /// that is less. `None` where it cannot be told.
-fn available() -> Option<u64> {
+pub(crate) fn available() -> Option<u64> {
     let of_system = std::fs::read_to_string("/proc/meminfo")
         .ok()
         .and_then(|text| field(&text, "MemAvailable:"));

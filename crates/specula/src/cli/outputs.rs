@@ -168,6 +168,7 @@ pub(crate) fn metadata(film: &FilmBuffer, label: &Label, seed: Option<u32>) -> M
         seed,
         render_seconds: Some(seconds),
         bias: label.bias().map(str::to_owned),
+        missing: label.missing().map(str::to_owned),
     }
 }
 

@@ -101,7 +101,11 @@ impl Context<'_> {
     pub(crate) fn ready(&self, loaded: Named) -> Result<Ready, Failure> {
         let arguments = self.arguments;
         let Named {
-            name, scene, files, ..
+            name,
+            scene,
+            files,
+            missing,
+            ..
         } = loaded;
         let options = options(arguments, &scene)?;
         let most = arguments.machine.max_memory;
@@ -110,7 +114,11 @@ impl Context<'_> {
         let paths = paths(arguments, &name, &inputs);
         let mut outputs = Outputs::new(paths, arguments.display.display(), &inputs)?;
         outputs.claim_checkpoint(&inputs)?;
-        let mut checkpoint = checkpoint(arguments, &outputs, &name, &scene, &options);
+        let mut checkpoint = checkpoint(
+            arguments,
+            &outputs,
+            label(&name, &scene, &options, &missing),
+        );
         let begun = match start(arguments) {
             Start::New if checkpoint.path().is_none() => None,
             start => checkpoint.open(&start)?,
@@ -245,15 +253,8 @@ fn start(arguments: &RenderArguments) -> Start {
     }
 }
 
-fn checkpoint(
-    arguments: &RenderArguments,
-    outputs: &Outputs,
-    name: &str,
-    scene: &Scene,
-    options: &RenderOptions,
-) -> Checkpoint {
-    // What is watched changes: there is nothing to go on with.
-    let every = arguments.checkpoint.0.filter(|_| !arguments.watch);
+/// What its films belong to.
+fn label(name: &str, scene: &Scene, options: &RenderOptions, missing: &[PathBuf]) -> Label {
     let label = Label {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         scene: name.to_owned(),
@@ -261,5 +262,11 @@ fn checkpoint(
         settings: options.settings(),
         seconds: 0.0,
     };
+    label.with_missing(missing)
+}
+
+fn checkpoint(arguments: &RenderArguments, outputs: &Outputs, label: Label) -> Checkpoint {
+    // What is watched changes: there is nothing to go on with.
+    let every = arguments.checkpoint.0.filter(|_| !arguments.watch);
     Checkpoint::new(outputs.checkpoint(), label, every, outputs.film().is_some())
 }

@@ -23,7 +23,9 @@ mod live_view;
 mod memory;
 #[cfg(target_os = "linux")]
 mod messages;
+mod missing;
 mod outputs;
 mod render;
+mod v3;
 #[cfg(unix)]
 mod watch;

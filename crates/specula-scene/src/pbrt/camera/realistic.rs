@@ -27,9 +27,17 @@ pub(super) fn read(
     };
     let wrong = |message: String| SceneError::new(ErrorKind::Parameter, place, message);
     let path = context.resolve(name);
-    let bytes = context.files.plain(&path).map_err(|e| {
-        wrong(format!("lens file {name} {e}")).with_hint(context.search.hint(&path))
-    })?;
+    let bytes = match context.files.plain(&path) {
+        Ok(bytes) => bytes,
+        Err(message) => {
+            let error = wrong(format!("lens file {name} {message}"));
+            params.record(error.if_missing(context.search.hint(&path), &path))?;
+            // pbrt-v4's perspective camera.
+            camera.projection = Projection::Perspective { fov_deg: 90.0 };
+            params.ignore(&["aperturediameter", "focusdistance"]);
+            return Ok(());
+        }
+    };
     let elements = elements(&String::from_utf8_lossy(&bytes), place)?;
     let focal_mm = focal_length_mm(&elements)
         .ok_or_else(|| wrong(format!("lens file {name}: its lenses do not focus")))?;

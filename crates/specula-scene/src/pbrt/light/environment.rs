@@ -43,7 +43,8 @@ pub(super) fn infinite(
         ));
     }
     let image = &context.images[id.0];
-    let mapping = if image.width == image.height {
+    let is_v3 = context.v3.is_some();
+    let mapping = if image.width == image.height && !is_v3 {
         EnvironmentMapping::EqualAreaOctahedral
     } else {
         EnvironmentMapping::LatitudeLongitude
@@ -56,7 +57,7 @@ pub(super) fn infinite(
         "the picture is {} x {}; pbrt-v4 expects a square: it is read as latitude and longitude, z up",
         image.width, image.height
     );
-    if mapping == EnvironmentMapping::LatitudeLongitude {
+    if mapping == EnvironmentMapping::LatitudeLongitude && !is_v3 {
         context.warn(&params.place_of("filename"), message);
     }
     let radiance = scaled(context, entity, "L", factor)?;

@@ -38,6 +38,25 @@ impl Control {
         })
     }
 
+    /// Takes its triangles from those that the scene's surfaces may still be subdivided into.
+    pub(super) fn take_from(&self, left: &mut u64, limits: &Limits) -> Result<(), String> {
+        let Self { faces, levels, .. } = self;
+        let size = (faces.len() as u64).saturating_mul(1 << (2 * levels));
+        let most = limits.max_subdivided;
+        *left = left.checked_sub(size).ok_or_else(|| {
+            let before = most - *left;
+            let all = match before {
+                0 => String::new(),
+                n => format!(", {n} of others"),
+            };
+            format!(
+                "{levels} levels would make {size} triangles of it{all}; at most {most} are made \
+                 (`max_subdivided`)"
+            )
+        })?;
+        Ok(())
+    }
+
     /// The limit surface at the vertices after the last level.
     pub(super) fn build(self, limits: &Limits) -> Result<Mesh, String> {
         let Self {
@@ -49,13 +68,6 @@ impl Control {
         faces.retain(|[a, b, c]| a != b && b != c && c != a);
         let size = faces.len().saturating_mul(1 << (2 * levels));
         bounded((), size, limits)?;
-        if size as u64 > limits.max_subdivided {
-            let most = limits.max_subdivided;
-            return Err(format!(
-                "{levels} levels would make {size} triangles of it; at most {most} are made \
-                 (`max_subdivided`)"
-            ));
-        }
         for _ in 0..levels {
             (points, faces) = refine(&points, &faces);
         }

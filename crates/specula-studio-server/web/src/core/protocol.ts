@@ -522,6 +522,21 @@ export interface RenderClose {
   session: number;
 }
 
+// ------------------------------------------------------------------------------------------------- shaders
+
+/** `shaders.library`: the library's WGSL, whole or what some functions need, as `specula export` writes it. */
+export interface ShadersLibrary {
+  ask: 'shaders.library';
+  functions?: string[];
+}
+export interface ShadersLibraryValue {
+  wgsl: string;
+}
+/** Array: the tables that lobes with compensation read, for the binding that the text declares. */
+export interface ShadersLibraryArrays {
+  tables: ByteArray;
+}
+
 // ---------------------------------------------------------------------------------------------- all of them
 
 /** Requests by name: what is asked, the value and the arrays of the answer. */
@@ -550,4 +565,5 @@ export interface Protocol {
   'render.save': [RenderSave, RenderSaveValue, RenderSaveArrays];
   'render.scene': [RenderScene, RenderSceneValue, {}];
   'render.close': [RenderClose, {}, {}];
+  'shaders.library': [ShadersLibrary, ShadersLibraryValue, ShadersLibraryArrays];
 }

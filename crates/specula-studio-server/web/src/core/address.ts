@@ -1,0 +1,70 @@
+/** The state of a page in its address, so that a link reopens it: `#/samplers?alpha=0.3,0.1&sampler=cap`. */
+
+import { useCallback, useEffect, useState } from 'preact/hooks';
+
+/** What is kept of a page: by key, a number, a word, a flag, or numbers. */
+export type State = Record<string, string | number | boolean | number[]>;
+
+function split(): [string, URLSearchParams] {
+  const [path = '', query = ''] = location.hash.replace(/^#\/?/, '').split('?', 2);
+  return [path, new URLSearchParams(query)];
+}
+
+/** The page that the address names. */
+export function pageOfAddress(): string {
+  return split()[0];
+}
+
+/** A link to a page, with state that differs from its defaults. */
+export function link(page: string, state: State = {}): string {
+  const query = Object.entries(state).map(([key, value]) => `${key}=${encode(value)}`);
+  return `#/${page}${query.length > 0 ? `?${query.join('&')}` : ''}`;
+}
+
+function encode(value: State[string]): string {
+  const text = Array.isArray(value) ? value.map((x) => short(x)).join(',') : typeof value === 'number' ? short(value) : String(value);
+  return encodeURIComponent(text).replace(/%2C/g, ',').replace(/%20/g, '+');
+}
+
+const short = (x: number) => String(Number(x.toPrecision(6)));
+
+function read<S extends State>(defaults: S): S {
+  const [, query] = split();
+  const state: State = { ...defaults };
+  for (const [key, fallback] of Object.entries(defaults)) {
+    const text = query.get(key);
+    if (text === null) continue;
+    if (typeof fallback === 'string') state[key] = text;
+    else if (typeof fallback === 'boolean') state[key] = text === 'true';
+    else {
+      const numbers = text.split(',').map(Number);
+      const isNumbers = numbers.every(Number.isFinite);
+      if (Array.isArray(fallback)) state[key] = isNumbers ? numbers : fallback;
+      else state[key] = isNumbers && numbers.length === 1 ? (numbers[0] as number) : fallback;
+    }
+  }
+  return state as S;
+}
+
+/** The state of a page, kept in the address; `set` merges. Use it once in a page, at its root. */
+export function useAddress<S extends State>(page: string, defaults: S): [S, (change: Partial<S>) => void] {
+  const [state, setState] = useState<S>(() => read(defaults));
+  useEffect(() => {
+    const changed = () => {
+      if (pageOfAddress() === page) setState(read(defaults));
+    };
+    addEventListener('hashchange', changed);
+    return () => removeEventListener('hashchange', changed);
+  }, [page]);
+  const set = useCallback(
+    (change: Partial<S>) =>
+      setState((before) => {
+        const now = { ...before, ...change };
+        const kept = Object.entries(now).filter(([key, value]) => String(value) !== String(defaults[key]));
+        history.replaceState(null, '', link(page, Object.fromEntries(kept)));
+        return now;
+      }),
+    [page],
+  );
+  return [state, set];
+}

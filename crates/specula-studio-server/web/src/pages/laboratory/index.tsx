@@ -1,0 +1,174 @@
+/** The laboratory: the papers' tables and figures, run from here. */
+
+import { useState } from 'preact/hooks';
+import { useAddress } from '../../core/address';
+import { hasServer, post } from '../../core/server';
+import { Choice, Message, Panel, Progress } from '../../ui/controls';
+import type { Page } from '../page';
+import { type Experiment, type Result, type Status, useExperiments, useStatus } from './status';
+
+const SOURCES: Record<string, string> = {
+  tokuyoshi24: 'Tokuyoshi and Eto 2024',
+  eto23: 'Eto and Tokuyoshi 2023',
+  dupuy23: 'Dupuy and Benyoub 2023',
+  cui23: 'Cui et al. 2023',
+  specula: 'Specula',
+};
+
+function Laboratory() {
+  const [state, set] = useAddress('laboratory', { quality: 'draft', chosen: '' });
+  const { experiments, error } = useExperiments();
+  const { status, refresh } = useStatus();
+  const [problem, setProblem] = useState<string>();
+  const chosen = new Set(state.chosen.split(' ').filter((id) => id !== ''));
+  const choose = (id: string, isChosen: boolean) => {
+    if (isChosen) chosen.add(id);
+    else chosen.delete(id);
+    set({ chosen: [...chosen].join(' ') });
+  };
+  const act = async (path: string, body: unknown) => {
+    try {
+      await post(path, body);
+      setProblem(undefined);
+    } catch (reason) {
+      setProblem((reason as Error).message);
+    }
+    await refresh();
+  };
+  if (!hasServer) {
+    return (
+      <div class="content start">
+        <h1>Laboratory</h1>
+        <p class="notice">Experiments run in the program: start <code>specula studio</code>.</p>
+      </div>
+    );
+  }
+  const isRunning = status !== undefined && status.running !== null;
+  return (
+    <div class="page">
+      <aside aria-label="Experiments">
+        <h1>Laboratory</h1>
+        <p class="quiet">Each experiment measures one table or figure, and computes which of its source's claims hold.</p>
+        <Choice
+          label="Quality"
+          value={state.quality}
+          options={[
+            { value: 'draft', label: 'Draft', hint: 'Seconds each' },
+            { value: 'paper', label: 'Paper', hint: 'As the papers have it: minutes each' },
+          ]}
+          onChange={(quality) => set({ quality })}
+        />
+        <div class="actions">
+          <button
+            type="button"
+            class="main"
+            disabled={isRunning || chosen.size === 0}
+            onClick={() => act('/api/lab/run', { ids: [...chosen], quality: state.quality, seed: 1 })}
+          >
+            Run {chosen.size === 0 ? '' : chosen.size}
+          </button>
+          <button type="button" disabled={!isRunning} onClick={() => act('/api/lab/stop', {})}>
+            Stop
+          </button>
+        </div>
+        <Message text={problem ?? error} />
+        {Object.entries(SOURCES).map(([source, name]) => (
+          <Group key={source} name={name} experiments={(experiments ?? []).filter((e) => e.source === source)} chosen={chosen} choose={choose} />
+        ))}
+      </aside>
+      <div class="content">
+        <Running status={status} />
+        <Results results={status?.results ?? []} />
+        {status?.report !== null && status?.report !== undefined && (
+          <Panel title="Report" wide actions={<a href={status.report} target="_blank" rel="noopener">Open alone</a>}>
+            <iframe key={status.results.length} class="report" title="Report" src={status.report} />
+          </Panel>
+        )}
+      </div>
+    </div>
+  );
+}
+
+function Group(props: { name: string; experiments: Experiment[]; chosen: Set<string>; choose: (id: string, isChosen: boolean) => void }) {
+  if (props.experiments.length === 0) return null;
+  return (
+    <fieldset class="choice">
+      <legend>
+        <h3>{props.name}</h3>
+      </legend>
+      {props.experiments.map((experiment) => (
+        <label key={experiment.id} class="experiment" title={experiment.statement}>
+          <input
+            type="checkbox"
+            checked={props.chosen.has(experiment.id)}
+            onChange={(event) => props.choose(experiment.id, event.currentTarget.checked)}
+          />
+          <span>
+            {experiment.item}: {experiment.title}
+          </span>
+        </label>
+      ))}
+    </fieldset>
+  );
+}
+
+function Running(props: { status: Status | undefined }) {
+  const running = props.status?.running;
+  return (
+    <Panel title="Now" wide>
+      {running === undefined || running === null ? (
+        <p class="quiet">Nothing runs. Choose experiments at the left.</p>
+      ) : (
+        <Progress
+          label={`${running.id} (${running.index} of ${running.count}): ${running.what}`}
+          share={running.share}
+          seconds={running.seconds}
+        />
+      )}
+      <Message text={props.status?.error ?? undefined} />
+    </Panel>
+  );
+}
+
+function Results(props: { results: Result[] }) {
+  if (props.results.length === 0) return null;
+  const word = (holds: boolean | null) => (holds === null ? 'open' : holds ? 'holds' : 'does not hold');
+  const colour = (holds: boolean | null) => (holds === null ? 'quiet' : holds ? 'good' : 'bad');
+  return (
+    <Panel title="Claims" wide>
+      <div class="scroll">
+        <table>
+          <thead>
+            <tr>
+              <th scope="col">Experiment</th>
+              <th scope="col">Claim</th>
+              <th scope="col">Verdict</th>
+              <th scope="col" class="number">
+                Seconds
+              </th>
+            </tr>
+          </thead>
+          <tbody>
+            {props.results.flatMap((result) =>
+              result.claims.map((claim, i) => (
+                <tr key={`${result.id}-${i}`}>
+                  <td>{i === 0 ? result.id : ''}</td>
+                  <td>{claim.text}</td>
+                  <td class={colour(claim.holds)}>{word(claim.holds)}</td>
+                  <td class="number">{i === 0 ? result.seconds.toFixed(1) : ''}</td>
+                </tr>
+              )),
+            )}
+          </tbody>
+        </table>
+      </div>
+    </Panel>
+  );
+}
+
+export const page: Page = {
+  id: 'laboratory',
+  title: 'Laboratory',
+  summary: 'Tables and figures of the papers, run from here.',
+  component: Laboratory,
+};

@@ -1,0 +1,1 @@
+var<private> parameters: vec4f;

@@ -1,0 +1,35 @@
+// A headless browser for the tests: Chromium with WebGPU and WebGL in software.
+import { chromium } from 'playwright-core';
+
+const FLAGS = [
+  '--no-sandbox',
+  '--no-first-run',
+  '--disable-quic',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
+  '--enable-unsafe-webgpu',
+  '--use-webgpu-adapter=swiftshader',
+  '--enable-unsafe-swiftshader',
+  '--use-angle=swiftshader',
+  '--ignore-gpu-blocklist',
+  '--enable-features=Vulkan',
+  '--use-vulkan=swiftshader',
+  '--enable-gpu',
+];
+
+/** A browser; the program's own where one is named in `SPECULA_CHROMIUM`. */
+export function launch() {
+  return chromium.launch({ executablePath: process.env.SPECULA_CHROMIUM ?? '/usr/bin/chromium', headless: true, args: FLAGS });
+}
+
+/** A page of the browser; what it says on its console and what goes wrong is in `messages`. */
+export async function open(browser, url, { width = 1280, height = 860, scheme = 'light' } = {}) {
+  const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme });
+  const page = await context.newPage();
+  const messages = [];
+  page.on('console', (message) => messages.push(`${message.type()}: ${message.text()}`));
+  page.on('pageerror', (error) => messages.push(`error: ${error}`));
+  await page.goto(url);
+  return { page, messages, close: () => context.close() };
+}

@@ -1,0 +1,114 @@
+//! `cargo xtask studio`: the studio's pages: their types, the committed bundle, tests in a browser; or a new bundle.
+
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+
+use crate::{Result, workspace};
+
+/// The pages' sources, from the workspace's root.
+const PAGES: &str = "crates/specula-studio-server/web";
+
+/// What to do with the pages.
+#[derive(clap::Args, Default)]
+pub(crate) struct Studio {
+    /// Only write the bundle from its sources
+    #[arg(long)]
+    build: bool,
+}
+
+/// Does what was asked for.
+pub(crate) fn run(root: &Path, studio: &Studio) -> Result<()> {
+    let pages = root.join(PAGES);
+    install(&pages)?;
+    if studio.build {
+        return npm(&pages, &["run", "--silent", "build"]);
+    }
+    check(root)
+}
+
+/// Types, the bundle, and the tests of every page.
+pub(crate) fn check(root: &Path) -> Result<()> {
+    let pages = root.join(PAGES);
+    install(&pages)?;
+    npm(&pages, &["run", "--silent", "check"])?;
+    npm(
+        &pages,
+        &["run", "--silent", "build", "--", "--check"],
+    )?;
+    let server = Server::start(root)?;
+    let mut tests = Command::new("npm");
+    tests.current_dir(&pages).args(["run", "--silent", "test"]);
+    tests.env("STUDIO", &server.address);
+    succeed(tests, "tests")
+}
+
+/// The packages of the lock file.
+fn install(pages: &Path) -> Result<()> {
+    let lock = pages.join("package-lock.json");
+    let installed = pages.join("node_modules/.package-lock.json");
+    let modified = |path: &PathBuf| path.metadata().and_then(|m| m.modified()).ok();
+    if modified(&installed).is_some_and(|at| modified(&lock).is_some_and(|lock| at >= lock)) {
+        return Ok(());
+    }
+    npm(pages, &["ci", "--silent"])
+}
+
+fn npm(pages: &Path, arguments: &[&str]) -> Result<()> {
+    let mut command = Command::new("npm");
+    command.current_dir(pages).args(arguments);
+    succeed(command, &format!("`npm {}`", arguments.join(" ")))
+}
+
+fn succeed(mut command: Command, what: &str) -> Result<()> {
+    let status = command.status();
+    let status = status.map_err(|e| format!("npm cannot be run (Node.js 20 or newer): {e}"))?;
+    match status.success() {
+        true => Ok(()),
+        false => Err(format!("studio: {what} failed").into()),
+    }
+}
+
+/// `specula studio`, until it is dropped.
+struct Server {
+    process: Child,
+    address: String,
+}
+
+impl Server {
+    /// Builds the program as tests are built, and starts it.
+    fn start(root: &Path) -> Result<Self> {
+        let mut build = workspace::cargo(root);
+        build.args(["build", "--workspace", "--tests", "--lib", "--bins", "--quiet"]);
+        build.args(["--profile", "test", "--features", "specula/full"]);
+        if !build.status()?.success() {
+            return Err("the program does not build".into());
+        }
+        let name = format!("specula{}", std::env::consts::EXE_SUFFIX);
+        let mut command = Command::new(root.join("target/debug").join(name));
+        command.current_dir(root).args(["studio", "--no-open"]);
+        let mut process = command.stdout(Stdio::piped()).spawn()?;
+        let output = process.stdout.take().ok_or("no output")?;
+        // Made before anything can fail, so that the process ends in any case.
+        let mut server = Self {
+            process,
+            address: String::new(),
+        };
+        let mut lines = BufReader::new(output).lines();
+        while let Some(line) = lines.next().transpose()? {
+            if let Some(at) = line.find("http://") {
+                let address = line[at..].split_whitespace().next();
+                server.address = address.unwrap_or_default().to_owned();
+                return Ok(server);
+            }
+        }
+        Err("`specula studio` printed no address".into())
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
