@@ -100,6 +100,8 @@ pub struct LoadOptions {
     pub folders: Vec<PathBuf>,
     /// What is done about files that the scene names and that do not exist.
     pub missing: Missing,
+    /// A folder: files outside of it are not read, nor through links. For scenes of strangers.
+    pub confined_to: Option<PathBuf>,
 }
 
 impl From<Limits> for LoadOptions {
@@ -159,7 +161,7 @@ pub fn load(path: &Path) -> Result<Loaded, SceneError> {
 ///
 /// Those of [`load`].
 pub fn load_with(path: &Path, options: &LoadOptions) -> Result<Loaded, SceneError> {
-    let files = Files::new(options.limits);
+    let files = Files::of(options);
     read(path, options, &files, &Problems::loading(options.missing))
 }
 
@@ -169,7 +171,7 @@ pub fn load_with(path: &Path, options: &LoadOptions) -> Result<Loaded, SceneErro
 ///
 /// Those of [`load`].
 pub fn load_as(path: &Path, format: Format, options: &LoadOptions) -> Result<Loaded, SceneError> {
-    let files = Files::new(options.limits);
+    let files = Files::of(options);
     let problems = Problems::loading(options.missing);
     read_as(format, path, options, &files, &problems)
 }
@@ -186,7 +188,7 @@ pub fn load_as(path: &Path, format: Format, options: &LoadOptions) -> Result<Loa
 #[must_use]
 pub fn check(path: &Path, options: &LoadOptions) -> CheckReport {
     let problems = Problems::collecting(options.missing);
-    let files = Files::new(options.limits);
+    let files = Files::of(options);
     let loaded = read(path, options, &files, &problems);
     CheckReport::new(loaded, problems.take(), files.list())
 }
@@ -210,7 +212,7 @@ pub fn load_bytes(
     bytes: Vec<u8>,
     options: &LoadOptions,
 ) -> Result<Loaded, SceneError> {
-    let files = Files::new(options.limits);
+    let files = Files::of(options);
     let format = files.give(name, bytes);
     let problems = Problems::loading(options.missing);
     read_as(format, name, options, &files, &problems)

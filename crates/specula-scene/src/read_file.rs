@@ -9,13 +9,15 @@ use std::io::{BufReader, Error, Read};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::Limits;
+use crate::{Limits, LoadOptions};
 use crate::format::{Format, GZIP};
 
 /// Opens the files of a scene, and lists them. Clones share the list, also between threads.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Files {
     limits: Limits,
+    /// Nothing outside of this folder is read.
+    confined_to: Option<PathBuf>,
     list: Arc<Mutex<List>>,
     /// The scene's own content, until a reader takes it.
     given: Arc<Mutex<Option<Given>>>,
@@ -50,9 +52,27 @@ impl Files {
     pub(crate) fn new(limits: Limits) -> Self {
         Self {
             limits,
-            list: Arc::default(),
-            given: Arc::default(),
+            ..Self::default()
         }
+    }
+
+    /// As options say.
+    pub(crate) fn of(options: &LoadOptions) -> Self {
+        Self {
+            confined_to: options.confined_to.clone(),
+            ..Self::new(options.limits)
+        }
+    }
+
+    /// Opens an ordinary file, where it lies in the folder that files are confined to.
+    fn ordinary(&self, path: &Path) -> Result<File, String> {
+        if let Some(folder) = &self.confined_to {
+            let resolved = |p: &Path| p.canonicalize().map_err(|e| unreadable(&e));
+            if !resolved(path)?.starts_with(resolved(folder)?) {
+                return Err("lies outside of the scene's folder".to_owned());
+            }
+        }
+        open_ordinary(path)
     }
 
     pub(crate) fn limits(&self) -> &Limits {
@@ -104,7 +124,7 @@ impl Files {
         if let Some(bytes) = self.taken(path) {
             return bytes;
         }
-        self.whole(path, open_ordinary(path)?)
+        self.whole(path, self.ordinary(path)?)
     }
 
     /// Opens an ordinary file to be read piece by piece.
@@ -113,7 +133,7 @@ impl Files {
     ///
     /// A message without the file's name.
     pub(crate) fn open(&self, path: &Path) -> Result<BufReader<File>, String> {
-        let file = open_ordinary(path)?;
+        let file = self.ordinary(path)?;
         let most = self.limits.max_bytes;
         if file.metadata().map_err(|e| unreadable(&e))?.len() > most {
             return Err(format!("has more than {most} bytes (`max_bytes`)"));
@@ -145,7 +165,7 @@ impl Files {
             let message = "is a socket or a device; expected a file, or - for standard input";
             return Err(message.to_owned());
         }
-        self.whole(path, open_ordinary(path)?)
+        self.whole(path, self.ordinary(path)?)
     }
 
     fn whole(&self, path: &Path, file: File) -> Result<Vec<u8>, String> {
