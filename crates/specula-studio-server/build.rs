@@ -13,7 +13,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for name in &names {
         let path = root.join(name);
         println!("cargo::rerun-if-changed={}", path.display());
-        writeln!(text, "    ({name:?}, include_bytes!({:?}).as_slice()),", path.display().to_string())?;
+        writeln!(
+            text,
+            "    ({name:?}, include_bytes!({:?}).as_slice()),",
+            path.display().to_string()
+        )?;
     }
     text.push_str("]\n");
     let out = PathBuf::from(std::env::var("OUT_DIR")?).join("embedded.rs");

@@ -1,14 +1,15 @@
 //! Why a scene is not rendered on a device.
 
 use crate::adapter::GpuError;
+use crate::scene_program::MissingFeatures;
 
 /// Why a scene cannot be rendered on a device.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TracerError {
     /// The scene has features that shaders do not support.
-    #[error("the GPU does not render {}", .0.join(", "))]
-    Missing(Vec<String>),
+    #[error(transparent)]
+    Missing(#[from] MissingFeatures),
     /// The scene's arrays are larger than the device takes.
     #[error("the GPU does not hold the scene: its largest array has {needed} bytes, {limit} fit")]
     TooLarge {

@@ -5,12 +5,13 @@ use wgpu::BufferUsages as Usages;
 
 use crate::adapter::{Gpu, GpuError};
 use crate::program;
+use crate::scene_program::SceneProgram;
 use crate::schedule::QUEUE_ARRAYS;
 use crate::shader::{Shader, Slot};
 use crate::stage::{RayBindings, Stage, array, layout, submit};
 
 /// Bytes of a sample on the device.
-pub(crate) const SAMPLE_SIZE: u64 = 48;
+pub(crate) const SAMPLE_SIZE: u64 = SceneProgram::SAMPLE_SIZE;
 /// Bytes of a field of a path between two kernels.
 const FIELD_SIZE: u64 = 16;
 /// Bytes before the queues: `QUEUE_HEAD` in queue.wgsl.
@@ -87,7 +88,7 @@ impl PathKernels {
         };
         if !is_queues {
             let arrays = layout(gpu, (0..PATH_ARRAYS).map(slot))?;
-            let stage = Stage::new(gpu, &arrays, shader, "path_main", structures)?;
+            let stage = Stage::new(gpu, &arrays, shader, SceneProgram::ENTRY, structures)?;
             return Ok(Self::Paths(stage));
         }
         let arrays = layout(gpu, (0..QUEUE_ARRAYS).map(slot))?;

@@ -9,10 +9,13 @@ use specula_shaders::ComposeError;
 use crate::tree::Tree;
 
 /// The kernel that sums samples, complete in itself.
+#[cfg(feature = "device")]
 pub(crate) const SUMS: &str = include_str!("../wgsl/sums.wgsl");
 /// Its entry point.
+#[cfg(feature = "device")]
 pub(crate) const SUMS_ENTRY: &str = "sums_main";
 /// The kernel between two vertices of a wavefront, complete in itself.
+#[cfg(feature = "device")]
 pub(crate) const QUEUE_ADVANCE: &str = include_str!("../wgsl/queue_advance.wgsl");
 
 /// Stands for a bound of indirect light where there is none; as a float it is not a number.
@@ -147,11 +150,13 @@ pub(crate) fn source(flat: &FlatScene<'_>, queries: bool) -> Result<String, Comp
 }
 
 /// Modules of rays alone, besides those that cast them.
+#[cfg(feature = "device")]
 const OF_RAYS: [&str; 5] = ["world", "ray", "quadric", "angles", "surface"];
 
 /// The text of a shader that casts rays and nothing else.
 ///
 /// * `queries`: whether rays are cast by the adapter's ray queries.
+#[cfg(feature = "device")]
 pub(crate) fn rays(flat: &FlatScene<'_>, queries: bool) -> String {
     let mut text = String::new();
     if queries {

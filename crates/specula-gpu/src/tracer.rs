@@ -5,8 +5,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use specula_render::{
-    FlatScene, Most, PassReport, PreparedScene, RenderOptions, Renderer, Run, RunSums,
-    SampleDevice, Wanted,
+    Most, PassReport, PreparedScene, RenderOptions, Renderer, Run, RunSums, SampleDevice, Wanted,
 };
 
 use crate::adapter::{AdapterKind, Gpu, GpuError};
@@ -15,9 +14,9 @@ use crate::path_kernels::{self, PathKernels};
 use crate::program;
 use crate::queries::{Rays, Structures};
 use crate::sample_batch::{Kernels, SampleBatch, Submission};
+use crate::scene_program::SceneProgram;
 use crate::schedule::Schedule;
 use crate::stage::{WORKGROUP, filled};
-use crate::tree::Tree;
 
 /// How long a batch should take: systems reset devices whose work takes seconds.
 const BATCH_TIME: Duration = Duration::from_millis(100);
@@ -72,12 +71,6 @@ enum Begun {
     Done(Vec<RunSums>),
 }
 
-/// Features of a scene that shaders do not support, in words for a message; none: a device can render it.
-#[must_use]
-pub fn missing(scene: &PreparedScene) -> Vec<String> {
-    scene.flatten().missing
-}
-
 impl<'a> Tracer<'a> {
     /// Compiles the scene's shader and uploads the scene, with [`TracerOptions::default`].
     ///
@@ -102,25 +95,19 @@ impl<'a> Tracer<'a> {
         options: &RenderOptions,
         on_gpu: TracerOptions,
     ) -> Result<Self, TracerError> {
-        let mut flat = scene.flatten();
-        let mut missing = flat.missing.clone();
-        if options.share_paths > 1 {
-            missing.push("paths that share".to_owned());
-        }
-        if !missing.is_empty() {
-            return Err(TracerError::Missing(missing));
-        }
-        let tree = Tree::new(&mut flat);
-        let (needed, limit) = (largest_array(&flat, &tree), gpu.adapter.largest_array);
+        let program = SceneProgram::new(scene, options)?;
+        let (needed, limit) = (program.largest_array(), gpu.adapter.largest_array);
         if needed > limit {
             return Err(TracerError::TooLarge { needed, limit });
         }
         let structures = Structures::chosen(on_gpu.rays, gpu, scene)?;
-        let text = program::source(&flat, structures.is_some())?;
+        let text = match structures {
+            Some(_) => program.text_with_queries(),
+            None => program.text(),
+        }?;
         let texts = [text.as_str(), program::SUMS];
-        let parts = (&flat, &tree);
         let how = (on_gpu.schedule, structures);
-        let mut tracer = Self::of_texts(gpu, parts, options, how, texts)?;
+        let mut tracer = Self::of_texts(gpu, &program, options, how, texts)?;
         if gpu.adapter.kind != AdapterKind::Software {
             // Arrays that grow with the batches cost more than small batches on a real GPU.
             let [width, height] = scene.resolution().map(|side| side as usize);
@@ -134,13 +121,13 @@ impl<'a> Tracer<'a> {
     /// * `texts`: of the scene's shader, and of the one that sums samples.
     fn of_texts(
         gpu: &'a Gpu,
-        (flat, tree): (&FlatScene<'_>, &Tree),
+        program: &SceneProgram<'_>,
         options: &RenderOptions,
         (schedule, structures): (Schedule, Option<Structures>),
         texts: [&str; 2],
     ) -> Result<Self, TracerError> {
         // Before shaders are compiled: a scene that memory does not hold is told at once.
-        let [tables, nodes, packets, words] = arrays(flat, tree);
+        let [tables, nodes, packets, words] = program.arrays();
         let scene = [
             upload(gpu, tables)?,
             upload(gpu, nodes)?,
@@ -152,7 +139,7 @@ impl<'a> Tracer<'a> {
         let shader = gpu.shader("path tracer", path_tracer)?;
         let is_queues = schedule.is_queues(limits.max_storage_buffers_per_shader_stage);
         let structures = structures.as_ref().map(Structures::bindings);
-        let sizes = (options.max_depth, path_kernels::state_size(flat));
+        let sizes = (options.max_depth, path_kernels::state_size(&program.flat));
         let taker = PathKernels::new(gpu, &shader, is_queues, structures, sizes)?;
         let kernels = Kernels::new(gpu, taker, adder)?;
         let largest = gpu.adapter.largest_array
@@ -168,7 +155,7 @@ impl<'a> Tracer<'a> {
         Ok(Self {
             gpu,
             kernels,
-            settings: program::settings(options),
+            settings: program.settings(),
             scene,
             uses_ray_queries: structures.is_some(),
             batch: None,
@@ -338,22 +325,6 @@ impl SampleDevice for Tracer<'_> {
 /// Samples of runs.
 fn count_samples(runs: &[Run]) -> usize {
     runs.iter().map(|run| run.count as usize).sum()
-}
-
-/// Tables, nodes, triangles, words.
-fn arrays<'f>(flat: &'f FlatScene<'_>, tree: &'f Tree) -> [&'f [u8]; 4] {
-    [
-        bytemuck::cast_slice(specula_shaders::tables()),
-        tree.nodes(),
-        tree.triangles(),
-        bytemuck::cast_slice(&flat.words),
-    ]
-}
-
-/// Bytes of the largest array.
-fn largest_array(flat: &FlatScene<'_>, tree: &Tree) -> u64 {
-    let sizes = arrays(flat, tree).map(|array| array.len() as u64);
-    sizes.into_iter().max().unwrap_or(0)
 }
 
 /// A buffer that is never empty, which bindings must not be.

@@ -379,8 +379,10 @@ mod tests {
         assert_eq!((empty.len(), empty[0].is_last), (1, 1));
     }
 
-    /// What a fused product and sum is, where software rounds twice: the product's rounding error by Dekker's splitting.
-    const FUSED: &str = "
+    #[cfg(feature = "device")]
+    mod edges {
+        /// What a fused product and sum is, where software rounds twice: the product's rounding error by Dekker's splitting.
+        const FUSED: &str = "
 fn halves(x: f32) -> vec2f {
     let high = bitcast<f32>(bitcast<u32>(x) & 0xfffff000u);
     return vec2f(high, x - high);
@@ -397,7 +399,7 @@ fn fused(a: f32, b: f32, c: f32) -> f32 {
 }
 ";
 
-    const EDGES: &str = "
+        const EDGES: &str = "
 @group(0) @binding(0) var<storage, read> points: array<vec4f>;
 @group(0) @binding(1) var<storage, read_write> edges: array<vec4f>;
 
@@ -410,42 +412,43 @@ fn edges_main(@builtin(global_invocation_id) id: vec3u) {
 }
 ";
 
-    /// Whether edges of random points have exact signs on a GPU that fuses, and whether a formula would have them that
-    /// leaves the fusing to the compiler.
-    fn signs(gpu: &crate::Gpu) -> [bool; 2] {
-        let module = include_str!("../wgsl/traverse.wgsl");
-        let begin = module.find("fn traverse_edge").unwrap();
-        let end = begin + module[begin..].find("\n}").unwrap() + 2;
-        let edge = module[begin..end].replace("fma(", "fused(");
-        assert_eq!(edge.matches("fused(").count(), 2);
-        let naive =
-            "fn naive(a: vec3f, b: vec3f) -> f32 { return fused(a.x, b.y, -(a.y * b.x)); }\n";
-        let text = format!("{FUSED}{edge}\n{naive}{EDGES}");
-        let shader = gpu.shader("edges", &text).unwrap();
-        let kernel = crate::ComputeKernel::new(gpu, &shader, "edges_main", 1).unwrap();
-        let mut stream = specula_bsdf::math::Stream::new(1);
-        let mut point = || -> [f32; 4] { [(); 4].map(|()| 2.0 * stream.next::<f32>() - 1.0) };
-        let points: Vec<[f32; 4]> = (0..4096).map(|_| point()).collect();
-        let size = 16 * points.len() as u64;
-        let arrays = kernel
-            .upload(gpu, &[bytemuck::cast_slice(&points)], size)
-            .unwrap();
-        kernel.run(gpu, &arrays, [64, 1, 1]).unwrap();
-        let edges: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&arrays.output(gpu).unwrap());
-        let holds = points.iter().zip(&edges).all(|(p, e)| {
-            let [ax, ay, bx, by] = p.map(f64::from);
-            let exact = ax * by - ay * bx;
-            let is_right = |got: f32, sign: f64| f64::from(got) * sign > 0.0 || exact == 0.0;
-            is_right(e[0], exact) && is_right(e[1], -exact) && e[2] == 0.0
-        });
-        [holds, edges.iter().all(|e| e[3] == 0.0)]
-    }
+        /// Whether edges of random points have exact signs on a GPU that fuses, and whether a formula would have them that
+        /// leaves the fusing to the compiler.
+        fn signs(gpu: &crate::Gpu) -> [bool; 2] {
+            let module = include_str!("../wgsl/traverse.wgsl");
+            let begin = module.find("fn traverse_edge").unwrap();
+            let end = begin + module[begin..].find("\n}").unwrap() + 2;
+            let edge = module[begin..end].replace("fma(", "fused(");
+            assert_eq!(edge.matches("fused(").count(), 2);
+            let naive =
+                "fn naive(a: vec3f, b: vec3f) -> f32 { return fused(a.x, b.y, -(a.y * b.x)); }\n";
+            let text = format!("{FUSED}{edge}\n{naive}{EDGES}");
+            let shader = gpu.shader("edges", &text).unwrap();
+            let kernel = crate::ComputeKernel::new(gpu, &shader, "edges_main", 1).unwrap();
+            let mut stream = specula_bsdf::math::Stream::new(1);
+            let mut point = || -> [f32; 4] { [(); 4].map(|()| 2.0 * stream.next::<f32>() - 1.0) };
+            let points: Vec<[f32; 4]> = (0..4096).map(|_| point()).collect();
+            let size = 16 * points.len() as u64;
+            let arrays = kernel
+                .upload(gpu, &[bytemuck::cast_slice(&points)], size)
+                .unwrap();
+            kernel.run(gpu, &arrays, [64, 1, 1]).unwrap();
+            let edges: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&arrays.output(gpu).unwrap());
+            let holds = points.iter().zip(&edges).all(|(p, e)| {
+                let [ax, ay, bx, by] = p.map(f64::from);
+                let exact = ax * by - ay * bx;
+                let is_right = |got: f32, sign: f64| f64::from(got) * sign > 0.0 || exact == 0.0;
+                is_right(e[0], exact) && is_right(e[1], -exact) && e[2] == 0.0
+            });
+            [holds, edges.iter().all(|e| e[3] == 0.0)]
+        }
 
-    #[test]
-    fn edges_have_exact_signs_where_products_fuse() {
-        let Some(gpu) = crate::common::gpu("edges of triangles") else {
-            return;
-        };
-        assert_eq!(signs(gpu), [true, false]);
+        #[test]
+        fn edges_have_exact_signs_where_products_fuse() {
+            let Some(gpu) = crate::common::gpu("edges of triangles") else {
+                return;
+            };
+            assert_eq!(signs(gpu), [true, false]);
+        }
     }
 }

@@ -177,7 +177,10 @@ fn within_sphere(mapping: EnvironmentMapping, [mut u, mut v]: [f32; 2]) -> [f32;
 
 /// The screen window for a new size: the file's own where it was no default, else the default of
 /// the new aspect (the shorter side spans `[-1, 1]`).
-pub(crate) fn screen_window(camera: &scene::Camera, file: [u32; 2], new: [u32; 2]) -> [f64; 4] {
+///
+/// * `file`: the film's size; `new`: that of the picture.
+#[must_use]
+pub fn screen_window(camera: &scene::Camera, file: [u32; 2], new: [u32; 2]) -> [f64; 4] {
     let default = |size: [u32; 2]| {
         let aspect = f64::from(size[0]) / f64::from(size[1]);
         if aspect > 1.0 {

@@ -41,6 +41,7 @@ pub mod estimator {
     pub use crate::offset::RELATIVE_ERROR;
 }
 
+pub use camera::screen_window;
 pub use device::{Most, Run, SampleDevice, Wanted};
 pub use film::{
     FilmBuffer, FilmFile, FilmFileError, Label, MOST_SAMPLES, MergeError, NoiseEstimate,
@@ -51,6 +52,8 @@ pub use goal::RenderGoal;
 pub use material::MaterialShader;
 pub use memory::MemoryEstimate;
 pub use options::{RenderOptions, Strategy};
-pub use points::{LitPoint, PointLighting, PrimitivePoint, SoftenedNormal, TexturePoint};
+pub use points::{
+    LitPoint, PointLighting, PrimitivePoint, SeenSurface, SoftenedNormal, TexturePoint,
+};
 pub use prepared::{PrepareError, PreparedScene};
 pub use renderer::{InvalidSample, PassReport, Renderer, ResumeError};

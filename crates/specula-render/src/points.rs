@@ -5,8 +5,10 @@
 use specula_bsdf::{Rgb, Vec3};
 use specula_scene::scene::{BumpRules, ColourParam, TextureId};
 
+use crate::accel::Ray;
 use crate::bump::{self, Softness};
-use crate::geometry::{PrimitiveLocation, Surface};
+use crate::geometry::{FARTHEST, NONE, PrimitiveLocation, Surface};
+use crate::integrator::estimator::MOST_PASSES;
 use crate::light::Receiver;
 use crate::prepared::PreparedScene;
 use crate::texture::TextureCoordinates;
@@ -70,7 +72,55 @@ pub struct SoftenedNormal {
     pub factor: f32,
 }
 
+/// What a pixel shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeenSurface {
+    /// Index of its material in the scene; of a mix, the mix.
+    pub material: usize,
+    /// The point in the world.
+    pub position: [f32; 3],
+    /// Unit geometric normal, towards the outside of the shape.
+    pub normal: [f32; 3],
+    /// Along the camera ray.
+    pub distance: f32,
+}
+
 impl PreparedScene {
+    /// The surface that the ray through a point of the picture and the middle of the lens meets: what is more
+    /// transparent than opaque, interfaces of media and lights that are hidden let it pass. `None`: there is none.
+    ///
+    /// * `raster`: columns from the left and rows from the top of the whole picture; pixels have their centres at
+    ///   halves.
+    #[must_use]
+    pub fn seen(&self, raster: [f32; 2]) -> Option<SeenSurface> {
+        let (eye, direction) = self.camera.ray(raster, [0.5; 2]);
+        let mut ray = Ray {
+            origin: eye,
+            direction,
+            t_max: FARTHEST,
+        };
+        let mut hidden = self.hide_emitters;
+        for _ in 0..MOST_PASSES {
+            let hit = self.geometry.accel.intersect(&ray)?;
+            let surface = self.geometry.surface(&ray, &hit);
+            hidden &= surface.light != NONE;
+            let shape = &self.geometry.shapes[surface.shape as usize];
+            let opacity = |alpha| self.textures.float(alpha, &surface.place());
+            let passes =
+                shape.is_interface || shape.alpha.is_some_and(|alpha| opacity(alpha) < 0.5);
+            if !hidden && !passes {
+                return Some(SeenSurface {
+                    material: shape.material as usize,
+                    position: surface.position.to_array(),
+                    normal: surface.ng.to_array(),
+                    distance: (surface.position - eye).length(),
+                });
+            }
+            ray.origin = surface.point().ray_origin(direction);
+        }
+        None
+    }
+
     /// The value of a texture at a point.
     ///
     /// * `texture`: index of one of the scene's textures.

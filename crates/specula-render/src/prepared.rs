@@ -1,7 +1,7 @@
 //! A scene made ready for rendering: flat arrays, trees and tables.
 
 use specula_bsdf::bsdf::Lobe;
-use specula_scene::Scene;
+use specula_scene::{Scene, scene};
 use thiserror::Error;
 
 use crate::accel::AccelError;
@@ -70,6 +70,58 @@ pub enum PrepareError {
     },
 }
 
+/// What of a prepared scene depends on the camera and the film.
+struct View {
+    camera: Camera,
+    filter: FilterSampler,
+    develop: Develop,
+    resolution: [u32; 2],
+    crop: [u32; 4],
+}
+
+impl View {
+    fn new(
+        camera: &scene::Camera,
+        film: &scene::Film,
+        options: &RenderOptions,
+    ) -> Result<Self, PrepareError> {
+        let resolution = options.resolution.unwrap_or(film.resolution);
+        let [width, height] = resolution;
+        let pixels = u64::from(width) * u64::from(height);
+        if pixels == 0 || pixels > MOST_PIXELS || film.resolution.contains(&0) {
+            return Err(PrepareError::Resolution { width, height });
+        }
+        let scaled = |v: u32, axis: usize| {
+            round_u32(f64::from(v) * f64::from(resolution[axis]) / f64::from(film.resolution[axis]))
+        };
+        let asked = options.crop.unwrap_or_else(|| {
+            let [x0, x1, y0, y1] = film.crop;
+            [scaled(x0, 0), scaled(x1, 0), scaled(y0, 1), scaled(y1, 1)]
+        });
+        let crop = [
+            asked[0],
+            asked[1].min(width),
+            asked[2],
+            asked[3].min(height),
+        ];
+        if crop[0] >= crop[1] || crop[2] >= crop[3] {
+            return Err(PrepareError::Crop {
+                crop: asked,
+                width,
+                height,
+            });
+        }
+        let window = screen_window(camera, film.resolution, resolution);
+        Ok(Self {
+            camera: Camera::new(camera, resolution, window),
+            filter: FilterSampler::new(&film.filter),
+            develop: Develop::new(film),
+            resolution,
+            crop,
+        })
+    }
+}
+
 impl PreparedScene {
     /// Prepares a copy of a scene, in parallel in rayon's current pool.
     ///
@@ -100,36 +152,7 @@ impl PreparedScene {
         options: &RenderOptions,
         earlier: Option<Self>,
     ) -> Result<Self, PrepareError> {
-        let film = &scene.film;
-        let resolution = options.resolution.unwrap_or(film.resolution);
-        let [width, height] = resolution;
-        let pixels = u64::from(width) * u64::from(height);
-        if pixels == 0 || pixels > MOST_PIXELS || film.resolution.contains(&0) {
-            return Err(PrepareError::Resolution { width, height });
-        }
-        let scaled = |v: u32, axis: usize| {
-            round_u32(f64::from(v) * f64::from(resolution[axis]) / f64::from(film.resolution[axis]))
-        };
-        let asked = options.crop.unwrap_or_else(|| {
-            let [x0, x1, y0, y1] = film.crop;
-            [scaled(x0, 0), scaled(x1, 0), scaled(y0, 1), scaled(y1, 1)]
-        });
-        let crop = [
-            asked[0],
-            asked[1].min(width),
-            asked[2],
-            asked[3].min(height),
-        ];
-        if crop[0] >= crop[1] || crop[2] >= crop[3] {
-            return Err(PrepareError::Crop {
-                crop: asked,
-                width,
-                height,
-            });
-        }
-        let window = screen_window(&scene.camera, film.resolution, resolution);
-        let camera = Camera::new(&scene.camera, resolution, window);
-        let (filter, develop) = (FilterSampler::new(&film.filter), Develop::new(film));
+        let view = View::new(&scene.camera, &scene.film, options)?;
         let textures = Textures::new(&mut scene);
         let materials = Materials::new(&scene, &textures, options);
         let earlier = earlier.map(|e| e.geometry);
@@ -157,11 +180,11 @@ impl PreparedScene {
             false => Vec::new(),
         };
         Ok(Self {
-            camera,
-            filter,
-            develop,
-            resolution,
-            crop,
+            camera: view.camera,
+            filter: view.filter,
+            develop: view.develop,
+            resolution: view.resolution,
+            crop: view.crop,
             batch_materials,
             batch_materials_behind_rough,
             geometry,
@@ -170,6 +193,28 @@ impl PreparedScene {
             lights,
             hide_emitters: scene.settings.hide_emitters,
         })
+    }
+
+    /// Looks at the scene through another camera, or at another size: nothing else is prepared anew. What is
+    /// rendered then are, bit for bit, the samples of the scene with this camera and film, prepared afresh.
+    ///
+    /// * `options`: those of the render; only resolution and crop count here.
+    ///
+    /// # Errors
+    /// Where the picture is empty; the scene stays as it was.
+    pub fn look(
+        &mut self,
+        camera: &scene::Camera,
+        film: &scene::Film,
+        options: &RenderOptions,
+    ) -> Result<(), PrepareError> {
+        let view = View::new(camera, film, options)?;
+        self.camera = view.camera;
+        self.filter = view.filter;
+        self.develop = view.develop;
+        self.resolution = view.resolution;
+        self.crop = view.crop;
+        Ok(())
     }
 
     /// Material of a shape, and whether its sides differ; `None` where batches do not know it.

@@ -244,6 +244,12 @@ impl<'a> Renderer<'a> {
         &self.film
     }
 
+    /// What has been gathered, without a copy: a later render goes on with it ([`Renderer::resume`]).
+    #[must_use]
+    pub fn into_film(self) -> FilmBuffer {
+        self.film
+    }
+
     /// The options of the render.
     pub fn options(&self) -> &RenderOptions {
         &self.options

@@ -9,8 +9,8 @@ use std::io::{BufReader, Error, Read};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::{Limits, LoadOptions};
 use crate::format::{Format, GZIP};
+use crate::{Limits, LoadOptions};
 
 /// Opens the files of a scene, and lists them. Clones share the list, also between threads.
 #[derive(Clone, Debug, Default)]

@@ -127,7 +127,9 @@ fn shape_kind(shape: &Shape) -> &'static str {
     }
 }
 
-fn material_kind(kind: &MaterialKind) -> &'static str {
+/// The kind of a material, in pbrt-v4's words where it has one.
+#[must_use]
+pub fn material_kind(kind: &MaterialKind) -> &'static str {
     match kind {
         MaterialKind::Diffuse { .. } => "diffuse",
         MaterialKind::DiffuseTransmission { .. } => "diffusetransmission",

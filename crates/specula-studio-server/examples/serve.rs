@@ -9,12 +9,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut options = Options::default();
     let mut arguments = std::env::args().skip(1);
     while let Some(name) = arguments.next() {
-        let value = arguments.next().ok_or_else(|| format!("{name} needs a value"))?;
+        let value = arguments
+            .next()
+            .ok_or_else(|| format!("{name} needs a value"))?;
         match name.as_str() {
             "--port" => options.port = value.parse()?,
             "--web" => options.assets = Assets::Folder(PathBuf::from(value)),
             "--folder" => options.folder = PathBuf::from(value),
-            _ => return Err(format!("unknown option {name}; there are --port, --web and --folder").into()),
+            _ => {
+                return Err(
+                    format!("unknown option {name}; there are --port, --web and --folder").into(),
+                );
+            }
         }
     }
     let pool = rayon::ThreadPoolBuilder::new().build()?;

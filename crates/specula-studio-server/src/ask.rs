@@ -21,7 +21,10 @@ pub(crate) async fn ask(
     let limits = &shared.limits;
     let request = body::whole(&headers, body, limits.ask_bytes, limits.body_time).await?;
     let answer = answer(shared, request).await?;
-    let headers = [(header::CONTENT_TYPE, "application/octet-stream"), (header::CACHE_CONTROL, "no-store")];
+    let headers = [
+        (header::CONTENT_TYPE, "application/octet-stream"),
+        (header::CACHE_CONTROL, "no-store"),
+    ];
     Ok((headers, answer).into_response())
 }
 
@@ -32,7 +35,7 @@ async fn answer(shared: Arc<Shared>, request: Bytes) -> Result<Vec<u8>, Refusal>
         let _place = place;
         shared.pool.install(|| shared.studio.answer(&request))
     };
-    tokio::task::spawn_blocking(answer)
-        .await
-        .map_err(|_| Refusal::internal("this request met a fault in Specula; its terminal says more"))
+    tokio::task::spawn_blocking(answer).await.map_err(|_| {
+        Refusal::internal("this request met a fault in Specula; its terminal says more")
+    })
 }

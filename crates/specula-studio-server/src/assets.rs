@@ -37,7 +37,10 @@ impl Assets {
     /// All files by name.
     pub(crate) fn all(&self) -> Vec<(String, Vec<u8>)> {
         match self {
-            Self::Embedded => EMBEDDED.iter().map(|(name, bytes)| ((*name).to_owned(), bytes.to_vec())).collect(),
+            Self::Embedded => EMBEDDED
+                .iter()
+                .map(|(name, bytes)| ((*name).to_owned(), bytes.to_vec()))
+                .collect(),
             Self::Folder(folder) => {
                 let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
                 let names = entries.map(|e| e.file_name().to_string_lossy().into_owned());
@@ -56,11 +59,22 @@ impl Assets {
         match self {
             Self::Embedded => {
                 let at = EMBEDDED.iter().position(|(of, _)| *of == name)?;
-                let pack_all = || EMBEDDED.iter().map(|(name, bytes)| packed(name, bytes)).collect();
+                let pack_all = || {
+                    EMBEDDED
+                        .iter()
+                        .map(|(name, bytes)| packed(name, bytes))
+                        .collect()
+                };
                 let packed = PACKED.get_or_init(pack_all);
-                Some(File { plain: Bytes::from_static(EMBEDDED[at].1), packed: packed[at].clone() })
+                Some(File {
+                    plain: Bytes::from_static(EMBEDDED[at].1),
+                    packed: packed[at].clone(),
+                })
             }
-            Self::Folder(folder) => Some(File { plain: within(folder, name)?.into(), packed: None }),
+            Self::Folder(folder) => Some(File {
+                plain: within(folder, name)?.into(),
+                packed: None,
+            }),
         }
     }
 
@@ -83,7 +97,9 @@ impl Assets {
             headers.insert(header::ETAG, value);
         }
         let lists = |name, wanted: &str| {
-            let given = asked.get(name).and_then(|value: &HeaderValue| value.to_str().ok());
+            let given = asked
+                .get(name)
+                .and_then(|value: &HeaderValue| value.to_str().ok());
             given.is_some_and(|given| given.split(',').any(|one| one.trim() == wanted))
         };
         if lists(header::IF_NONE_MATCH, &etag) {
@@ -126,7 +142,10 @@ fn etag(bytes: &[u8]) -> String {
 }
 
 fn packed(name: &str, bytes: &[u8]) -> Option<Bytes> {
-    let is_text = !matches!(kind(name), "application/octet-stream" | "image/png" | "font/woff2");
+    let is_text = !matches!(
+        kind(name),
+        "application/octet-stream" | "image/png" | "font/woff2"
+    );
     if !is_text || bytes.len() < 1024 {
         return None;
     }
@@ -159,7 +178,20 @@ mod tests {
         for good in ["index.html", "studio.js", "fonts/a-b_c.woff2"] {
             assert!(is_plain(good), "{good}");
         }
-        for bad in ["", "..", "a/../b", "/etc/passwd", "a//b", ".git", "a\\b", "%2e%2e", "a b", "C:", "a/.b", "a/"] {
+        for bad in [
+            "",
+            "..",
+            "a/../b",
+            "/etc/passwd",
+            "a//b",
+            ".git",
+            "a\\b",
+            "%2e%2e",
+            "a b",
+            "C:",
+            "a/.b",
+            "a/",
+        ] {
             assert!(!is_plain(bad), "{bad}");
         }
     }

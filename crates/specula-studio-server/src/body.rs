@@ -20,11 +20,23 @@ pub(crate) struct Pieces {
 impl Pieces {
     /// * `most`: bytes.
     /// * `time`: for each piece.
-    pub(crate) fn new(headers: &HeaderMap, body: Body, most: u64, time: Duration) -> Result<Self, Refusal> {
-        let promised = headers.get(header::CONTENT_LENGTH).and_then(|v| v.to_str().ok()?.parse::<u64>().ok());
+    pub(crate) fn new(
+        headers: &HeaderMap,
+        body: Body,
+        most: u64,
+        time: Duration,
+    ) -> Result<Self, Refusal> {
+        let promised = headers
+            .get(header::CONTENT_LENGTH)
+            .and_then(|v| v.to_str().ok()?.parse::<u64>().ok());
         match promised.is_some_and(|length| length > most) {
             true => Err(too_large(most)),
-            false => Ok(Self { body, left: most, most, time }),
+            false => Ok(Self {
+                body,
+                left: most,
+                most,
+                time,
+            }),
         }
     }
 
@@ -32,13 +44,18 @@ impl Pieces {
     pub(crate) async fn next(&mut self) -> Result<Option<Bytes>, Refusal> {
         loop {
             let frame = tokio::time::timeout(self.time, self.body.frame()).await;
-            let frame = frame.map_err(|_| Refusal::new(StatusCode::REQUEST_TIMEOUT, "the request does not go on"))?;
+            let frame = frame.map_err(|_| {
+                Refusal::new(StatusCode::REQUEST_TIMEOUT, "the request does not go on")
+            })?;
             let Some(frame) = frame else {
                 return Ok(None);
             };
             let frame = frame.map_err(|_| Refusal::bad("the request broke off"))?;
             if let Ok(data) = frame.into_data() {
-                self.left = self.left.checked_sub(data.len() as u64).ok_or_else(|| too_large(self.most))?;
+                self.left = self
+                    .left
+                    .checked_sub(data.len() as u64)
+                    .ok_or_else(|| too_large(self.most))?;
                 return Ok(Some(data));
             }
         }
@@ -50,7 +67,12 @@ fn too_large(most: u64) -> Refusal {
 }
 
 /// A whole body of at most `most` bytes, in at most `time`.
-pub(crate) async fn whole(headers: &HeaderMap, body: Body, most: usize, time: Duration) -> Result<Bytes, Refusal> {
+pub(crate) async fn whole(
+    headers: &HeaderMap,
+    body: Body,
+    most: usize,
+    time: Duration,
+) -> Result<Bytes, Refusal> {
     let mut pieces = Pieces::new(headers, body, most as u64, time)?;
     let read = async {
         let mut all = Vec::new();
@@ -60,7 +82,12 @@ pub(crate) async fn whole(headers: &HeaderMap, body: Body, most: usize, time: Du
         Ok(Bytes::from(all))
     };
     let read = tokio::time::timeout(time, read).await;
-    read.unwrap_or_else(|_| Err(Refusal::new(StatusCode::REQUEST_TIMEOUT, "the request takes too long")))
+    read.unwrap_or_else(|_| {
+        Err(Refusal::new(
+            StatusCode::REQUEST_TIMEOUT,
+            "the request takes too long",
+        ))
+    })
 }
 
 /// A small body of JSON.

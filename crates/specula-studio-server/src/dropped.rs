@@ -17,6 +17,7 @@ use axum::http::{HeaderMap, StatusCode};
 use axum::response::Response;
 use serde::Deserialize;
 use specula_scene::LoadOptions;
+use specula_studio::SceneFrom;
 use tokio::io::AsyncWriteExt as _;
 
 use crate::body::Pieces;
@@ -49,11 +50,20 @@ pub(crate) async fn drop(
     body: Body,
 ) -> Result<Response, Refusal> {
     let Ok(place) = Arc::clone(&shared.loading).try_acquire_owned() else {
-        return Err(Refusal::new(StatusCode::TOO_MANY_REQUESTS, "another scene is being read"));
+        return Err(Refusal::new(
+            StatusCode::TOO_MANY_REQUESTS,
+            "another scene is being read",
+        ));
     };
     let limits = &shared.limits;
-    let most = limits.drop_bytes.saturating_add(MOST_HEAD).saturating_add(4);
-    let mut stream = Stream { pieces: Pieces::new(&headers, body, most, limits.body_time)?, rest: Bytes::new() };
+    let most = limits
+        .drop_bytes
+        .saturating_add(MOST_HEAD)
+        .saturating_add(4);
+    let mut stream = Stream {
+        pieces: Pieces::new(&headers, body, most, limits.body_time)?,
+        rest: Bytes::new(),
+    };
     let head = head(&mut stream, &shared).await?;
     let folder = tempfile::Builder::new().prefix("specula-studio-").tempdir();
     let folder = folder.map_err(|e| unwritable(&e))?;
@@ -67,7 +77,17 @@ pub(crate) async fn drop(
     }
     let path = root.join(main_file(&head)?);
     let options = options(&shared, &root);
-    let read = scenes::read(shared, place, Reading { folder: root, path, options, from: "dropped" }).await;
+    let read = scenes::read(
+        shared,
+        place,
+        Reading {
+            folder: root,
+            path,
+            options,
+            from: SceneFrom::Dropped,
+        },
+    )
+    .await;
     // Also where a page has gone away; a folder that cannot be removed is not the page's concern.
     let _ = tokio::task::spawn_blocking(move || folder.close()).await;
     Ok(json_response(&read?))
@@ -80,18 +100,36 @@ async fn head(stream: &mut Stream, shared: &Shared) -> Result<Head, Refusal> {
         return Err(Refusal::too_large("the list of files is too long"));
     }
     let text = stream.exactly(length as usize).await?;
-    let head: Head = serde_json::from_slice(&text).map_err(|e| Refusal::bad(format!("not a list of files: {e}")))?;
+    let head: Head = serde_json::from_slice(&text)
+        .map_err(|e| Refusal::bad(format!("not a list of files: {e}")))?;
     let limits = &shared.limits;
     if head.files.len() > limits.drop_files {
-        let message = format!("{} files were dropped, and at most {} can be", head.files.len(), limits.drop_files);
+        let message = format!(
+            "{} files were dropped, and at most {} can be",
+            head.files.len(),
+            limits.drop_files
+        );
         return Err(Refusal::too_large(message));
     }
-    let all = head.files.iter().try_fold(0_u64, |sum, item| sum.checked_add(item.bytes));
+    let all = head
+        .files
+        .iter()
+        .try_fold(0_u64, |sum, item| sum.checked_add(item.bytes));
     if all.is_none_or(|all| all > limits.drop_bytes) {
-        return Err(Refusal::too_large(format!("the files have more than {} bytes", limits.drop_bytes)));
+        return Err(Refusal::too_large(format!(
+            "the files have more than {} bytes",
+            limits.drop_bytes
+        )));
     }
-    if let Some(item) = head.files.iter().find(|item| places::sanitised(&item.path).is_none()) {
-        return Err(Refusal::bad(format!("'{}' is no path of a file below a folder", item.path)));
+    if let Some(item) = head
+        .files
+        .iter()
+        .find(|item| places::sanitised(&item.path).is_none())
+    {
+        return Err(Refusal::bad(format!(
+            "'{}' is no path of a file below a folder",
+            item.path
+        )));
     }
     Ok(head)
 }
@@ -101,17 +139,27 @@ async fn write(stream: &mut Stream, root: &Path, item: &Item) -> Result<(), Refu
     let path = places::sanitised(&item.path).ok_or_else(|| Refusal::bad("not a path"))?;
     let path = root.join(path);
     if let Some(folder) = path.parent() {
-        tokio::fs::create_dir_all(folder).await.map_err(|e| unwritable(&e))?;
+        tokio::fs::create_dir_all(folder)
+            .await
+            .map_err(|e| unwritable(&e))?;
     }
-    let mut file = tokio::fs::OpenOptions::new().write(true).create_new(true).open(&path).await.map_err(|e| {
-        match e.kind() {
-            std::io::ErrorKind::AlreadyExists => Refusal::bad(format!("'{}' was dropped twice", item.path)),
+    let mut file = tokio::fs::OpenOptions::new()
+        .write(true)
+        .create_new(true)
+        .open(&path)
+        .await
+        .map_err(|e| match e.kind() {
+            std::io::ErrorKind::AlreadyExists => {
+                Refusal::bad(format!("'{}' was dropped twice", item.path))
+            }
             _ => unwritable(&e),
-        }
-    })?;
+        })?;
     let mut left = item.bytes;
     while left > 0 {
-        let piece = stream.next(left).await?.ok_or_else(|| Refusal::bad("the request ends within a file"))?;
+        let piece = stream
+            .next(left)
+            .await?
+            .ok_or_else(|| Refusal::bad("the request ends within a file"))?;
         left -= piece.len() as u64;
         file.write_all(&piece).await.map_err(|e| unwritable(&e))?;
     }
@@ -148,18 +196,26 @@ fn main_file(head: &Head) -> Result<PathBuf, Refusal> {
         let lower = lower.strip_suffix(".gz").unwrap_or(&lower);
         ends.iter().any(|end| lower.ends_with(end))
     };
-    let scenes: Vec<&str> = paths().filter(|p| ends(p, &[".pbrt", ".xml", ".gltf", ".glb"])).collect();
+    let scenes: Vec<&str> = paths()
+        .filter(|p| ends(p, &[".pbrt", ".xml", ".gltf", ".glb"]))
+        .collect();
     let candidates = match scenes.is_empty() {
         false => scenes,
         true => paths().filter(|p| ends(p, &[".obj", ".ply"])).collect(),
     };
     let depth = |path: &&str| path.matches('/').count();
     let highest = candidates.iter().map(depth).min();
-    let mut highest = candidates.iter().filter(|path| Some(depth(path)) == highest);
+    let mut highest = candidates
+        .iter()
+        .filter(|path| Some(depth(path)) == highest);
     match (highest.next(), highest.next()) {
         (Some(scene), None) => Ok(PathBuf::from(scene)),
-        (Some(a), Some(b)) => Err(Refusal::bad(format!("there are several scenes, such as '{a}' and '{b}': name one"))),
-        _ => Err(Refusal::bad("there is no scene among the files: expected .pbrt, .xml, .gltf, .glb, .obj or .ply")),
+        (Some(a), Some(b)) => Err(Refusal::bad(format!(
+            "there are several scenes, such as '{a}' and '{b}': name one"
+        ))),
+        _ => Err(Refusal::bad(
+            "there is no scene among the files: expected .pbrt, .xml, .gltf, .glb, .obj or .ply",
+        )),
     }
 }
 
@@ -186,7 +242,9 @@ impl Stream {
         let mut all = Vec::new();
         while all.len() < count {
             let piece = self.next((count - all.len()) as u64).await?;
-            all.extend_from_slice(&piece.ok_or_else(|| Refusal::bad("the request ends too early"))?);
+            all.extend_from_slice(
+                &piece.ok_or_else(|| Refusal::bad("the request ends too early"))?,
+            );
         }
         Ok(all)
     }
@@ -199,12 +257,28 @@ mod tests {
     #[test]
     fn the_scene_is_found_among_the_files() {
         let find = |paths: &[&str], scene: Option<&str>| {
-            let files = paths.iter().map(|p| Item { path: (*p).to_owned(), bytes: 0 }).collect();
-            main_file(&Head { files, scene: scene.map(str::to_owned) }).ok()
+            let files = paths
+                .iter()
+                .map(|p| Item {
+                    path: (*p).to_owned(),
+                    bytes: 0,
+                })
+                .collect();
+            main_file(&Head {
+                files,
+                scene: scene.map(str::to_owned),
+            })
+            .ok()
         };
         let some = |path: &str| Some(PathBuf::from(path));
-        assert_eq!(find(&["a/b.ply", "a/s.pbrt", "a/t.png"], None), some("a/s.pbrt"));
-        assert_eq!(find(&["a/s.pbrt", "a/geometry/m.pbrt"], None), some("a/s.pbrt"));
+        assert_eq!(
+            find(&["a/b.ply", "a/s.pbrt", "a/t.png"], None),
+            some("a/s.pbrt")
+        );
+        assert_eq!(
+            find(&["a/s.pbrt", "a/geometry/m.pbrt"], None),
+            some("a/s.pbrt")
+        );
         assert_eq!(find(&["s.PBRT.gz"], None), some("s.PBRT.gz"));
         assert_eq!(find(&["m.ply"], None), some("m.ply"));
         assert_eq!(find(&["a.pbrt", "b.pbrt"], None), None);

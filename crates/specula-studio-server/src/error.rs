@@ -99,6 +99,9 @@ impl IntoResponse for Refusal {
 
 /// JSON that no cache keeps.
 pub(crate) fn json_response(value: &Value) -> Response {
-    let headers = [(header::CONTENT_TYPE, "application/json"), (header::CACHE_CONTROL, "no-store")];
+    let headers = [
+        (header::CONTENT_TYPE, "application/json"),
+        (header::CACHE_CONTROL, "no-store"),
+    ];
     (headers, value.to_string()).into_response()
 }

@@ -28,7 +28,11 @@ const POLICY: &str = "default-src 'none'; script-src 'self' file: 'wasm-unsafe-e
 /// # Errors
 ///
 /// Where the folder has files that are not of an earlier export, or a file cannot be read or written.
-pub fn export(folder: &Path, assets: &Assets, wasm: Option<&Path>) -> Result<Vec<String>, ServerError> {
+pub fn export(
+    folder: &Path,
+    assets: &Assets,
+    wasm: Option<&Path>,
+) -> Result<Vec<String>, ServerError> {
     let mut files = assets.all();
     let module = wasm.map(script).transpose()?;
     for (name, bytes) in &mut files {
@@ -58,10 +62,17 @@ pub fn export(folder: &Path, assets: &Assets, wasm: Option<&Path>) -> Result<Vec
 
 /// Fails where the folder has files that no export would write, or a page that none has written.
 fn refuse_others(folder: &Path, names: &[String]) -> Result<(), ServerError> {
-    let other = |name: &str| ServerError::NotEmpty { folder: folder.to_owned(), other: name.to_owned() };
+    let other = |name: &str| ServerError::NotEmpty {
+        folder: folder.to_owned(),
+        other: name.to_owned(),
+    };
     let entries = fs::read_dir(folder).map_err(ServerError::io(folder))?;
     for entry in entries {
-        let name = entry.map_err(ServerError::io(folder))?.file_name().to_string_lossy().into_owned();
+        let name = entry
+            .map_err(ServerError::io(folder))?
+            .file_name()
+            .to_string_lossy()
+            .into_owned();
         let is_below = |of: &String| of.split('/').next() == Some(&name);
         if name != WASM && !names.iter().any(is_below) {
             return Err(other(&name));
@@ -71,18 +82,29 @@ fn refuse_others(folder: &Path, names: &[String]) -> Result<(), ServerError> {
     let page = fs::read_to_string(folder.join(INDEX)).unwrap_or_default();
     match page.contains(GENERATOR) || names.iter().all(is_alone) {
         true => Ok(()),
-        false => Err(other(names.iter().find(|name| !is_alone(name)).map_or(INDEX, String::as_str))),
+        false => Err(other(
+            names
+                .iter()
+                .find(|name| !is_alone(name))
+                .map_or(INDEX, String::as_str),
+        )),
     }
 }
 
 /// The page with its policy, and with the module's script before all others.
 fn index(page: &str, has_module: bool) -> String {
-    let head = format!("<head>\n{GENERATOR}\n<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">");
+    let head = format!(
+        "<head>\n{GENERATOR}\n<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">"
+    );
     let mut page = page.replacen("<head>", &head, 1);
     // Folders of web servers and disks may be anywhere.
-    page = page.replace("src=\"/", "src=\"").replace("href=\"/", "href=\"");
+    page = page
+        .replace("src=\"/", "src=\"")
+        .replace("href=\"/", "href=\"");
     match page.find("<script") {
-        Some(at) if has_module => page.insert_str(at, &format!("<script src=\"{WASM}\"></script>\n")),
+        Some(at) if has_module => {
+            page.insert_str(at, &format!("<script src=\"{WASM}\"></script>\n"))
+        }
         _ => {}
     }
     page
@@ -93,5 +115,9 @@ fn script(wasm: &Path) -> Result<Vec<u8>, ServerError> {
     let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
     let packed = encoder.write_all(&module).and_then(|()| encoder.finish());
     let packed = packed.map_err(ServerError::io(wasm))?;
-    Ok(format!("globalThis.SPECULA_WASM = \"{}\";\n", STANDARD.encode(packed)).into_bytes())
+    Ok(format!(
+        "globalThis.SPECULA_WASM = \"{}\";\n",
+        STANDARD.encode(packed)
+    )
+    .into_bytes())
 }

@@ -50,14 +50,20 @@ impl Host {
             |bare| bare.parse().ok().map(IpAddr::V6),
         );
         match address {
-            Some(address) => self.is_open || address == self.own || matches!(host, "127.0.0.1" | "[::1]"),
+            Some(address) => {
+                self.is_open || address == self.own || matches!(host, "127.0.0.1" | "[::1]")
+            }
             None => host.eq_ignore_ascii_case("localhost"),
         }
     }
 }
 
 /// Refuses what does not come from a page of this server in the user's browser; puts safe headers on all answers.
-pub(crate) async fn guard(State(shared): State<Arc<Shared>>, request: Request, next: Next) -> Response {
+pub(crate) async fn guard(
+    State(shared): State<Arc<Shared>>,
+    request: Request,
+    next: Next,
+) -> Response {
     let mut response = match admit(&shared, &request) {
         Ok(Entry::Page) => next.run(request).await,
         Ok(Entry::Token) => enter(&shared),
@@ -78,15 +84,28 @@ enum Entry {
 fn admit(shared: &Shared, request: &Request) -> Result<Entry, Refusal> {
     let headers = request.headers();
     if ![Method::GET, Method::HEAD, Method::POST].contains(request.method()) {
-        return Err(Refusal::new(StatusCode::METHOD_NOT_ALLOWED, "only GET, HEAD and POST are answered"));
+        return Err(Refusal::new(
+            StatusCode::METHOD_NOT_ALLOWED,
+            "only GET, HEAD and POST are answered",
+        ));
     }
     let host = only(headers, &header::HOST).filter(|host| shared.host.is(host));
-    let named = request.uri().authority().is_none_or(|a| shared.host.is(a.as_str()));
+    let named = request
+        .uri()
+        .authority()
+        .is_none_or(|a| shared.host.is(a.as_str()));
     let Some(host) = host.filter(|_| named) else {
-        return Err(Refusal::forbidden("this is not the address that the studio listens on"));
+        return Err(Refusal::forbidden(
+            "this is not the address that the studio listens on",
+        ));
     };
-    let is_ours = |origin: &str| origin.strip_prefix("http://").is_some_and(|o| o.eq_ignore_ascii_case(host));
-    if headers.contains_key(header::ORIGIN) && !only(headers, &header::ORIGIN).is_some_and(is_ours) {
+    let is_ours = |origin: &str| {
+        origin
+            .strip_prefix("http://")
+            .is_some_and(|o| o.eq_ignore_ascii_case(host))
+    };
+    if headers.contains_key(header::ORIGIN) && !only(headers, &header::ORIGIN).is_some_and(is_ours)
+    {
         return Err(Refusal::forbidden("a page from elsewhere may not ask"));
     }
     let is_own_site = |site: &str| matches!(site, "same-origin" | "none");
@@ -98,11 +117,15 @@ fn admit(shared: &Shared, request: &Request) -> Result<Entry, Refusal> {
     if let (Some(token), "/", &Method::GET) = (token, uri.path(), request.method()) {
         return match shared.token.is(token) {
             true => Ok(Entry::Token),
-            false => Err(Refusal::forbidden("the token is wrong: `specula studio` prints the address to open")),
+            false => Err(Refusal::forbidden(
+                "the token is wrong: `specula studio` prints the address to open",
+            )),
         };
     }
     if !has_cookie(shared, headers) {
-        return Err(Refusal::forbidden("open the address that `specula studio` printed, with its token"));
+        return Err(Refusal::forbidden(
+            "open the address that `specula studio` printed, with its token",
+        ));
     }
     if request.method() == Method::POST && only(headers, &SPECULA) != Some("1") {
         return Err(Refusal::forbidden("a POST needs the header `X-Specula: 1`"));
@@ -123,16 +146,30 @@ fn cookie_name(shared: &Shared) -> String {
 
 fn has_cookie(shared: &Shared, headers: &HeaderMap) -> bool {
     let name = cookie_name(shared);
-    let all = headers.get_all(header::COOKIE).iter().filter_map(|value| value.to_str().ok());
-    let pairs = all.flat_map(|line| line.split(';')).filter_map(|pair| pair.trim().split_once('='));
-    pairs.filter(|(of, _)| *of == name).any(|(_, value)| shared.token.is(value))
+    let all = headers
+        .get_all(header::COOKIE)
+        .iter()
+        .filter_map(|value| value.to_str().ok());
+    let pairs = all
+        .flat_map(|line| line.split(';'))
+        .filter_map(|pair| pair.trim().split_once('='));
+    pairs
+        .filter(|(of, _)| *of == name)
+        .any(|(_, value)| shared.token.is(value))
 }
 
 /// The token goes from the address into a cookie.
 fn enter(shared: &Shared) -> Response {
-    let cookie = format!("{}={}; HttpOnly; SameSite=Strict; Path=/", cookie_name(shared), shared.token.text());
-    let headers =
-        [(header::SET_COOKIE, cookie), (header::LOCATION, "/".to_owned()), (header::CACHE_CONTROL, "no-store".to_owned())];
+    let cookie = format!(
+        "{}={}; HttpOnly; SameSite=Strict; Path=/",
+        cookie_name(shared),
+        shared.token.text()
+    );
+    let headers = [
+        (header::SET_COOKIE, cookie),
+        (header::LOCATION, "/".to_owned()),
+        (header::CACHE_CONTROL, "no-store".to_owned()),
+    ];
     (StatusCode::SEE_OTHER, headers).into_response()
 }
 
@@ -145,7 +182,9 @@ fn harden(headers: &mut HeaderMap) {
         (OPENER_POLICY, "same-origin"),
         (RESOURCE_POLICY, "same-origin"),
     ] {
-        headers.entry(name).or_insert(HeaderValue::from_static(value));
+        headers
+            .entry(name)
+            .or_insert(HeaderValue::from_static(value));
     }
 }
 
@@ -155,17 +194,38 @@ mod tests {
 
     #[test]
     fn only_names_of_this_machine_are_its_own() {
-        let host = Host { port: 8000, own: IpAddr::from([127, 0, 0, 1]), is_open: false };
-        for good in ["127.0.0.1:8000", "localhost:8000", "LOCALHOST:8000", "[::1]:8000"] {
+        let host = Host {
+            port: 8000,
+            own: IpAddr::from([127, 0, 0, 1]),
+            is_open: false,
+        };
+        for good in [
+            "127.0.0.1:8000",
+            "localhost:8000",
+            "LOCALHOST:8000",
+            "[::1]:8000",
+        ] {
             assert!(host.is(good), "{good}");
         }
         for bad in [
-            "", "127.0.0.1", "127.0.0.1:80", "evil.example:8000", "localhost.evil.example:8000", "192.168.0.7:8000",
-            "127.0.0.1.evil.example:8000", "evil@127.0.0.1:8000", "127.0.0.2:8000", "::1:8000", "127.0.0.1:08000",
+            "",
+            "127.0.0.1",
+            "127.0.0.1:80",
+            "evil.example:8000",
+            "localhost.evil.example:8000",
+            "192.168.0.7:8000",
+            "127.0.0.1.evil.example:8000",
+            "evil@127.0.0.1:8000",
+            "127.0.0.2:8000",
+            "::1:8000",
+            "127.0.0.1:08000",
         ] {
             assert!(!host.is(bad), "{bad}");
         }
-        let open = Host { is_open: true, ..host };
+        let open = Host {
+            is_open: true,
+            ..host
+        };
         assert!(open.is("192.168.0.7:8000") && open.is("[fe80::1]:8000"));
         assert!(!open.is("evil.example:8000"));
     }

@@ -31,8 +31,13 @@ pub(crate) struct Desk {
 impl Desk {
     /// With a temporary folder for results.
     pub(crate) fn new() -> io::Result<Self> {
-        let folder = tempfile::Builder::new().prefix("specula-studio-lab-").tempdir()?;
-        Ok(Self { folder, run: Mutex::new(None) })
+        let folder = tempfile::Builder::new()
+            .prefix("specula-studio-lab-")
+            .tempdir()?;
+        Ok(Self {
+            folder,
+            run: Mutex::new(None),
+        })
     }
 
     fn folder(&self) -> PathBuf {
@@ -93,7 +98,11 @@ struct Start {
 }
 
 /// `POST /api/lab/run`: begins a run; one at a time.
-async fn start(State(shared): State<Arc<Shared>>, headers: HeaderMap, body: Body) -> Result<Response, Refusal> {
+async fn start(
+    State(shared): State<Arc<Shared>>,
+    headers: HeaderMap,
+    body: Body,
+) -> Result<Response, Refusal> {
     let Start { ids, quality, seed } = body::json(&headers, body, shared.limits.body_time).await?;
     if ids.is_empty() {
         return Err(Refusal::bad("'ids' names no experiment"));
@@ -101,16 +110,26 @@ async fn start(State(shared): State<Arc<Shared>>, headers: HeaderMap, body: Body
     let chosen = experiments::named(&ids).map_err(|e| Refusal::bad(e.to_string()))?;
     let mut run = shared.lab.run();
     if run.as_ref().is_some_and(Run::is_under_way) {
-        return Err(Refusal::new(StatusCode::CONFLICT, "a run is under way: stop it, or wait for its end"));
+        return Err(Refusal::new(
+            StatusCode::CONFLICT,
+            "a run is under way: stop it, or wait for its end",
+        ));
     }
     let options = RunOptions { quality, seed };
-    *run = Some(Run::start(Arc::clone(&shared), chosen, options).map_err(|e| Refusal::internal(e.to_string()))?);
+    *run = Some(
+        Run::start(Arc::clone(&shared), chosen, options)
+            .map_err(|e| Refusal::internal(e.to_string()))?,
+    );
     Ok(json_response(&json!({})))
 }
 
 /// `GET /api/lab/status`: how far the run is, and what it has found.
 async fn status(State(shared): State<Arc<Shared>>) -> Response {
-    let value = shared.lab.run().as_ref().map_or_else(|| json!({"state": "idle"}), Run::status);
+    let value = shared
+        .lab
+        .run()
+        .as_ref()
+        .map_or_else(|| json!({"state": "idle"}), Run::status);
     json_response(&value)
 }
 

@@ -43,7 +43,9 @@ pub(crate) fn shown(folder: &Path, path: &Path) -> String {
 pub(crate) fn without(folder: &Path, message: &str) -> String {
     let folder = folder.display().to_string();
     let separator = std::path::MAIN_SEPARATOR;
-    message.replace(&format!("{folder}{separator}"), "").replace(&folder, ".")
+    message
+        .replace(&format!("{folder}{separator}"), "")
+        .replace(&folder, ".")
 }
 
 #[cfg(test)]
@@ -52,12 +54,37 @@ mod tests {
 
     #[test]
     fn paths_of_dropped_files_stay_in_their_folder() {
-        for good in ["a.pbrt", "a/b.ply", "a/.hidden", "textures/bl\u{fc}te 1.png"] {
+        for good in [
+            "a.pbrt",
+            "a/b.ply",
+            "a/.hidden",
+            "textures/bl\u{fc}te 1.png",
+        ] {
             assert_eq!(sanitised(good), Some(PathBuf::from(good)), "{good}");
         }
         for bad in [
-            "", "/", "/etc/passwd", "..", "../a", "a/../b", "a/..", "a//b", "a/", "./a", "a/./b", "a\\b", "..\\a",
-            "C:/a", "C:a", "a\0b", "a\nb", "a.", "a ", "...", "a/b:stream", "~|a",
+            "",
+            "/",
+            "/etc/passwd",
+            "..",
+            "../a",
+            "a/../b",
+            "a/..",
+            "a//b",
+            "a/",
+            "./a",
+            "a/./b",
+            "a\\b",
+            "..\\a",
+            "C:/a",
+            "C:a",
+            "a\0b",
+            "a\nb",
+            "a.",
+            "a ",
+            "...",
+            "a/b:stream",
+            "~|a",
         ] {
             assert_eq!(sanitised(bad), None, "{bad:?}");
         }
@@ -73,12 +100,21 @@ mod tests {
         std::fs::create_dir_all(inside.join("deep")).unwrap();
         std::fs::write(folder.path().join("out.pbrt"), "").unwrap();
         std::fs::write(inside.join("deep/a.pbrt"), "").unwrap();
-        std::os::unix::fs::symlink(folder.path().join("out.pbrt"), inside.join("link.pbrt")).unwrap();
+        std::os::unix::fs::symlink(folder.path().join("out.pbrt"), inside.join("link.pbrt"))
+            .unwrap();
         let find = |path: &str| file_within(&inside, Path::new(path));
         assert!(find("deep/a.pbrt").is_some());
         assert!(find("deep/../deep/a.pbrt").is_some());
         assert!(find(inside.join("deep/a.pbrt").to_str().unwrap()).is_some());
-        for bad in ["../out.pbrt", "link.pbrt", "deep", "none", "", "/etc/passwd", "deep/../../out.pbrt"] {
+        for bad in [
+            "../out.pbrt",
+            "link.pbrt",
+            "deep",
+            "none",
+            "",
+            "/etc/passwd",
+            "deep/../../out.pbrt",
+        ] {
             assert_eq!(find(bad), None, "{bad}");
         }
     }

@@ -10,6 +10,7 @@ use axum::response::Response;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use specula_scene::{LoadOptions, SceneError};
+use specula_studio::SceneFrom;
 use tokio::sync::OwnedSemaphorePermit;
 
 use crate::core::{self, NewScene};
@@ -33,13 +34,26 @@ pub(crate) async fn open(
     let Open { path } = body::json(&headers, body, shared.limits.body_time).await?;
     let folder = shared.folder.clone();
     let Some(path) = places::file_within(&folder, Path::new(&path)) else {
-        let message = format!("'{path}' is no file in the folder of the studio, {}", folder.display());
+        let message = format!(
+            "'{path}' is no file in the folder of the studio, {}",
+            folder.display()
+        );
         return Err(Refusal::new(StatusCode::NOT_FOUND, message));
     };
     let place = Arc::clone(&shared.loading).acquire_owned().await;
     let place = place.map_err(|_| Refusal::internal("the studio is ending"))?;
     let options = shared.load.clone();
-    let value = read(shared, place, Reading { folder, path, options, from: "given" }).await?;
+    let value = read(
+        shared,
+        place,
+        Reading {
+            folder,
+            path,
+            options,
+            from: SceneFrom::Given,
+        },
+    )
+    .await?;
     Ok(json_response(&value))
 }
 
@@ -49,8 +63,7 @@ pub(crate) struct Reading {
     pub(crate) folder: PathBuf,
     pub(crate) path: PathBuf,
     pub(crate) options: LoadOptions,
-    /// `given` or `dropped`.
-    pub(crate) from: &'static str,
+    pub(crate) from: SceneFrom,
 }
 
 /// Reads a scene and adds it; its name, title and warnings.
@@ -64,12 +77,18 @@ pub(crate) async fn read(
         shared.pool.install(|| read_now(&shared, &reading))
     };
     let read = tokio::task::spawn_blocking(work).await;
-    read.map_err(|_| Refusal::internal("this scene met a fault in Specula; its terminal says more"))?
+    read.map_err(|_| {
+        Refusal::internal("this scene met a fault in Specula; its terminal says more")
+    })?
 }
 
 fn read_now(shared: &Shared, reading: &Reading) -> Result<Value, Refusal> {
     let title = places::shown(&reading.folder, &reading.path);
-    let name = format!("{}:{title}", reading.from);
+    let prefix = match reading.from {
+        SceneFrom::Dropped => "dropped",
+        SceneFrom::Given | SceneFrom::BuiltIn => "given",
+    };
+    let name = format!("{prefix}:{title}");
     reserve(shared, &name)?;
     let loaded = specula_scene::load_with(&reading.path, &reading.options)
         .map_err(|error| located(&reading.folder, &error))?;
@@ -84,7 +103,16 @@ fn read_now(shared: &Shared, reading: &Reading) -> Result<Value, Refusal> {
     };
     let warnings: Vec<Value> = loaded.warnings.iter().take(100).map(warning).collect();
     let value = json!({ "name": name, "title": title, "warnings": warnings });
-    core::add_scene(&shared.studio, NewScene { name, title, from: reading.from, scene: loaded.scene });
+    let (from, scene) = (reading.from, loaded.into());
+    core::add_scene(
+        &shared.studio,
+        NewScene {
+            name,
+            title,
+            from,
+            scene,
+        },
+    );
     Ok(value)
 }
 
@@ -92,7 +120,10 @@ fn read_now(shared: &Shared, reading: &Reading) -> Result<Value, Refusal> {
 fn reserve(shared: &Shared, name: &str) -> Result<(), Refusal> {
     let mut added = shared.added.lock().unwrap_or_else(PoisonError::into_inner);
     if added.len() >= shared.limits.scenes && !added.contains(name) {
-        let message = format!("{} scenes are open, and no more can be: start the studio anew", added.len());
+        let message = format!(
+            "{} scenes are open, and no more can be: start the studio anew",
+            added.len()
+        );
         return Err(Refusal::new(StatusCode::CONFLICT, message));
     }
     added.insert(name.to_owned());

@@ -17,7 +17,12 @@ const MOST_HEADERS: usize = 64;
 const MOST_HEAD: usize = 64 << 10;
 
 /// Answers until it is told to stop.
-pub(crate) async fn serve(listener: &TcpListener, pages: Router, limits: &ServerLimits, stop: &Notify) {
+pub(crate) async fn serve(
+    listener: &TcpListener,
+    pages: Router,
+    limits: &ServerLimits,
+    stop: &Notify,
+) {
     let places = Arc::new(Semaphore::new(limits.connections));
     let builder = builder(limits);
     let accept = async {
@@ -58,5 +63,7 @@ fn builder(limits: &ServerLimits) -> http1::Builder {
 async fn connection(builder: http1::Builder, stream: TcpStream, pages: Router) {
     let _ = stream.set_nodelay(true);
     let service = TowerToHyperService::new(pages);
-    let _ = builder.serve_connection(TokioIo::new(stream), service).await;
+    let _ = builder
+        .serve_connection(TokioIo::new(stream), service)
+        .await;
 }

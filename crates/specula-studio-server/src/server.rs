@@ -14,8 +14,8 @@ use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse, Response};
 use axum::routing::post;
 use rayon::ThreadPool;
-use specula_scene::{LoadOptions, Scene};
-use specula_studio::Studio;
+use specula_scene::LoadOptions;
+use specula_studio::{GivenScene, SceneFrom, Studio};
 use tokio::net::TcpListener;
 use tokio::runtime::Runtime;
 use tokio::sync::{Notify, Semaphore};
@@ -97,16 +97,25 @@ impl Server {
             .build()
             .map_err(ServerError::Serve)?;
         let wanted = SocketAddr::new(options.address, options.port);
-        let listener = runtime.block_on(TcpListener::bind(wanted)).map_err(|e| match e.kind() {
-            ErrorKind::AddrInUse => ServerError::InUse(wanted),
-            _ => ServerError::Listen(wanted, e),
-        })?;
+        let listener = runtime
+            .block_on(TcpListener::bind(wanted))
+            .map_err(|e| match e.kind() {
+                ErrorKind::AddrInUse => ServerError::InUse(wanted),
+                _ => ServerError::Listen(wanted, e),
+            })?;
         let port = listener.local_addr().map_err(ServerError::Serve)?.port();
-        let folder = options.folder.canonicalize().map_err(ServerError::io(&options.folder))?;
+        let folder = options
+            .folder
+            .canonicalize()
+            .map_err(ServerError::io(&options.folder))?;
         let shared = Shared {
-            studio: Studio::default(),
+            studio: Studio::default().with_files(true),
             token: Token::new()?,
-            host: Host { port, own: options.address, is_open: !options.address.is_loopback() },
+            host: Host {
+                port,
+                own: options.address,
+                is_open: !options.address.is_loopback(),
+            },
             assets: options.assets,
             pool,
             asking: Arc::new(Semaphore::new(options.limits.asks)),
@@ -119,7 +128,12 @@ impl Server {
             #[cfg(feature = "lab")]
             lab: crate::lab::Desk::new().map_err(ServerError::Serve)?,
         };
-        Ok(Self { shared: Arc::new(shared), runtime, listener, stop: Arc::default() })
+        Ok(Self {
+            shared: Arc::new(shared),
+            runtime,
+            listener,
+            stop: Arc::default(),
+        })
     }
 
     /// What the user opens, with the token.
@@ -131,13 +145,26 @@ impl Server {
             true => IpAddr::V4(Ipv4Addr::LOCALHOST),
             false => own,
         };
-        format!("http://{}/?token={}", SocketAddr::new(own, port), self.shared.token.text())
+        format!(
+            "http://{}/?token={}",
+            SocketAddr::new(own, port),
+            self.shared.token.text()
+        )
     }
 
     /// Adds a scene that pages find under its title.
-    pub fn add_scene(&self, title: &str, scene: Scene) {
+    pub fn add_scene(&self, title: &str, scene: impl Into<GivenScene>) {
         let (name, title) = (format!("given:{title}"), title.to_owned());
-        core::add_scene(&self.shared.studio, NewScene { name, title, from: "given", scene });
+        let (from, scene) = (SceneFrom::Given, scene.into());
+        core::add_scene(
+            &self.shared.studio,
+            NewScene {
+                name,
+                title,
+                from,
+                scene,
+            },
+        );
     }
 
     /// Ends [`Server::run`], from another thread.
@@ -152,7 +179,12 @@ impl Server {
     ///
     /// None so far: what goes wrong with a connection ends that one.
     pub fn run(self) -> Result<(), ServerError> {
-        let Self { shared, runtime, listener, stop } = self;
+        let Self {
+            shared,
+            runtime,
+            listener,
+            stop,
+        } = self;
         runtime.spawn(close_idle(Arc::clone(&shared)));
         let pages = router(Arc::clone(&shared));
         runtime.block_on(serve::serve(&listener, pages, &shared.limits, &stop));
@@ -181,13 +213,17 @@ fn router(shared: Arc<Shared>) -> Router {
         .fallback(page);
     #[cfg(feature = "lab")]
     let pages = pages.merge(crate::lab::routes());
-    pages.layer(from_fn_with_state(Arc::clone(&shared), guard)).with_state(shared)
+    pages
+        .layer(from_fn_with_state(Arc::clone(&shared), guard))
+        .with_state(shared)
 }
 
 /// A file of the pages.
 async fn page(State(shared): State<Arc<Shared>>, request: Request) -> Response {
     match request.method() {
-        &Method::GET | &Method::HEAD => shared.assets.response(request.uri().path(), request.headers()),
+        &Method::GET | &Method::HEAD => shared
+            .assets
+            .response(request.uri().path(), request.headers()),
         _ => Refusal::new(StatusCode::NOT_FOUND, "nothing takes this").into_response(),
     }
 }

@@ -49,9 +49,20 @@ impl Answer {
         self.with(name, "u8", shape, values)
     }
 
-    fn with(mut self, name: &'static str, kind: &'static str, shape: &[usize], bytes: Vec<u8>) -> Self {
+    fn with(
+        mut self,
+        name: &'static str,
+        kind: &'static str,
+        shape: &[usize],
+        bytes: Vec<u8>,
+    ) -> Self {
         let shape = shape.to_vec();
-        self.arrays.push(Array { name, kind, shape, bytes });
+        self.arrays.push(Array {
+            name,
+            kind,
+            shape,
+            bytes,
+        });
         self
     }
 
@@ -73,7 +84,13 @@ impl Answer {
     pub fn into_bytes(self) -> Vec<u8> {
         let mut offset = 0;
         let mut listed = Vec::new();
-        for Array { name, kind, shape, bytes } in &self.arrays {
+        for Array {
+            name,
+            kind,
+            shape,
+            bytes,
+        } in &self.arrays
+        {
             listed.push(json!({"name": name, "type": kind, "shape": shape, "offset": offset}));
             offset += bytes.len().next_multiple_of(4);
         }

@@ -6,14 +6,18 @@
 //! The requests and answers, as the pages see them: `specula-studio-server/web/src/core/protocol.ts`.
 
 mod answer;
+mod clock;
 mod fields;
 mod lobes;
 mod render;
 mod request;
 mod samplers;
 mod shaders;
+#[cfg(target_arch = "wasm32")]
+pub mod wasm;
 
 pub use answer::{Answer, Array};
+pub use render::{GivenScene, SceneFrom};
 pub use request::AskError;
 
 use render::Renders;
@@ -25,6 +29,38 @@ pub struct Studio {
 }
 
 impl Studio {
+    /// Says to pages whether scenes can be dropped or opened by path: the program adds them.
+    #[must_use]
+    pub fn with_files(self, opens_files: bool) -> Self {
+        self.renders.catalogue().opens_files = opens_files;
+        self
+    }
+
+    /// Adds a scene that can be rendered, in the place of one of the same name; open renders of that go on.
+    ///
+    /// * `scene`: a scene, or one that was read, with its warnings.
+    pub fn add_scene(
+        &self,
+        name: &str,
+        title: &str,
+        from: SceneFrom,
+        scene: impl Into<GivenScene>,
+    ) {
+        self.renders
+            .catalogue()
+            .add(name, title, from, scene.into());
+    }
+
+    /// Removes a scene; open renders of it go on. Returns whether there was one of this name.
+    pub fn remove_scene(&self, name: &str) -> bool {
+        self.renders.catalogue().remove(name)
+    }
+
+    /// Closes renders that no request has named for so long; returns how many.
+    pub fn close_idle(&self, after: std::time::Duration) -> usize {
+        self.renders.close_idle(after.as_secs_f64())
+    }
+
     /// Answers a request: bytes of an [`Answer`], or of an error's words.
     #[must_use]
     pub fn answer(&self, request: &[u8]) -> Vec<u8> {

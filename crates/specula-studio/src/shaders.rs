@@ -43,7 +43,9 @@ fn library(request: &Library) -> Result<Answer, AskError> {
     let (texts, tables): (Vec<File>, Vec<File>) = files
         .into_iter()
         .partition(|file| file.name == Language::Wgsl.text_file());
-    let text = texts.first().map(|file| String::from_utf8_lossy(&file.bytes));
+    let text = texts
+        .first()
+        .map(|file| String::from_utf8_lossy(&file.bytes));
     let answer = Answer::new(json!({ "wgsl": text }));
     let tables = tables.into_iter().find(|file| file.name == TABLES_FILE);
     let tables = tables.map(|file| file.bytes).unwrap_or_default();

@@ -12,6 +12,7 @@ const SETS: &[(&str, &[&str])] = &[
         &["", "std", "glam", "mint", "serde", "glam,mint,serde"],
     ),
     ("specula-scene", &[""]),
+    ("specula-gpu", &["", "device"]),
     (
         "specula",
         &[

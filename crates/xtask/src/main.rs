@@ -27,6 +27,7 @@ mod rays;
 mod scaling;
 mod soak;
 mod studio;
+mod studio_wasm;
 mod suite;
 mod tables;
 mod tidy;
@@ -119,6 +120,8 @@ enum Chore {
     Memory(memory::Memory),
     /// Render for an hour, and fail where its memory grows
     Soak(soak::Soak),
+    /// Build the studio for pages without a server as a WebAssembly module, and compare a render of it
+    StudioWasm(studio_wasm::StudioWasm),
     /// Build the guide as a book in target/book, and fail where a link is dead
     Book(book::Book),
     /// Check what no compiler checks: file heads, lengths, leftovers, trailing spaces
@@ -166,6 +169,7 @@ fn run(chore: &Chore) -> Result<()> {
         Chore::Rays(rays) => rays::run(&root, rays),
         Chore::Memory(memory) => memory::run(&root, memory),
         Chore::Soak(soak) => soak::run(&root, soak),
+        Chore::StudioWasm(arguments) => studio_wasm::run(&root, arguments),
         Chore::Book(book) => book::run(&root, book),
         Chore::Tidy => tidy::run(&root),
     }

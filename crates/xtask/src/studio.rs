@@ -32,10 +32,7 @@ pub(crate) fn check(root: &Path) -> Result<()> {
     let pages = root.join(PAGES);
     install(&pages)?;
     npm(&pages, &["run", "--silent", "check"])?;
-    npm(
-        &pages,
-        &["run", "--silent", "build", "--", "--check"],
-    )?;
+    npm(&pages, &["run", "--silent", "build", "--", "--check"])?;
     let server = Server::start(root)?;
     let mut tests = Command::new("npm");
     tests.current_dir(&pages).args(["run", "--silent", "test"]);
@@ -79,7 +76,14 @@ impl Server {
     /// Builds the program as tests are built, and starts it.
     fn start(root: &Path) -> Result<Self> {
         let mut build = workspace::cargo(root);
-        build.args(["build", "--workspace", "--tests", "--lib", "--bins", "--quiet"]);
+        build.args([
+            "build",
+            "--workspace",
+            "--tests",
+            "--lib",
+            "--bins",
+            "--quiet",
+        ]);
         build.args(["--profile", "test", "--features", "specula/full"]);
         if !build.status()?.success() {
             return Err("the program does not build".into());

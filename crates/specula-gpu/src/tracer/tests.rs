@@ -60,15 +60,13 @@ impl<'a> Render<'a> {
         schedule: Schedule,
         change: impl Fn(&str) -> String,
     ) -> Self {
-        let mut flat = prepared.flatten();
-        let tree = Tree::new(&mut flat);
-        let text = change(&program::source(&flat, false).unwrap());
+        let program = SceneProgram::new(prepared, options).unwrap();
+        let text = change(&program.text().unwrap());
         let texts = [text.as_str(), program::SUMS];
         Self {
             prepared,
             options: options.clone(),
-            tracer: Tracer::of_texts(gpu, (&flat, &tree), options, (schedule, None), texts)
-                .unwrap(),
+            tracer: Tracer::of_texts(gpu, &program, options, (schedule, None), texts).unwrap(),
         }
     }
 
@@ -270,14 +268,13 @@ fn shaders_that_do_not_compile_are_errors() {
     };
     let options = RenderOptions::from_scene(&room());
     let prepared = PreparedScene::new(&room(), &options).unwrap();
-    let mut flat = prepared.flatten();
-    let tree = Tree::new(&mut flat);
-    let right = program::source(&flat, false).unwrap();
+    let program = SceneProgram::new(&prepared, &options).unwrap();
+    let right = program.text().unwrap();
     let wrong = right.replace("fn path_shade(", "fn path_stop(");
     assert!(wrong != right);
     let tracer = |texts| {
         let how = (Schedule::Queues, None);
-        Tracer::of_texts(gpu, (&flat, &tree), &options, how, texts)
+        Tracer::of_texts(gpu, &program, &options, how, texts)
     };
     for (texts, name) in [
         ([wrong.as_str(), program::SUMS], "path tracer"),
@@ -297,9 +294,8 @@ fn states_have_the_size_that_shaders_give_them() {
     for scene in [room(), room_of_coloured_glass()] {
         let options = RenderOptions::from_scene(&scene);
         let prepared = PreparedScene::new(&scene, &options).unwrap();
-        let mut flat = prepared.flatten();
-        let _tree = Tree::new(&mut flat);
-        let text = program::source(&flat, false).unwrap();
+        let program = SceneProgram::new(&prepared, &options).unwrap();
+        let text = program.text().unwrap();
         let module = wgpu::naga::front::wgsl::parse_str(&text).unwrap();
         let mut constants = module.constants.iter().map(|(_, one)| one);
         let fields = constants.find(|one| one.name.as_deref() == Some("QUEUE_FIELDS"));
@@ -309,7 +305,50 @@ fn states_have_the_size_that_shaders_give_them() {
         };
         assert_eq!(
             u64::from(*fields) * 16,
-            crate::path_kernels::state_size(&flat)
+            crate::path_kernels::state_size(&program.flat)
         );
+    }
+}
+
+/// A page takes the samples of the tracer's own text, by nothing that WebGPU lacks.
+#[test]
+fn the_program_of_a_scene_is_that_of_the_tracer_and_plain() {
+    use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
+    for scene in [
+        room(),
+        room_of_coloured_glass(),
+        specula_scene::builtin::orbs(),
+    ] {
+        let options = RenderOptions::from_scene(&scene);
+        let prepared = PreparedScene::new(&scene, &options).unwrap();
+        let program = SceneProgram::new(&prepared, &options).unwrap();
+        let text = program.text().unwrap();
+        assert!(
+            text.lines().all(|l| !l.starts_with("enable ")),
+            "an extension"
+        );
+        let module = wgpu::naga::front::wgsl::parse_str(&text).unwrap();
+        let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+        let info = validator.validate(&module).unwrap();
+        let entries = &module.entry_points;
+        let place = entries.iter().position(|e| e.name == SceneProgram::ENTRY);
+        let place = place.unwrap();
+        let threads = [u32::try_from(crate::stage::WORKGROUP).unwrap(), 1, 1];
+        assert_eq!(entries[place].workgroup_size, threads);
+        let uses = info.get_entry_point(place);
+        let used = module
+            .global_variables
+            .iter()
+            .filter(|(v, _)| !uses[*v].is_empty());
+        let mut bindings: Vec<u32> = used
+            .filter_map(|(_, v)| v.binding.map(|b| b.binding))
+            .collect();
+        bindings.sort_unstable();
+        assert!(
+            bindings.iter().all(|&b| b < 6) && bindings.ends_with(&[4, 5]),
+            "{bindings:?}"
+        );
+        assert_eq!(program.settings(), program::settings(&options));
+        assert_eq!(u64::from(SceneProgram::WORKGROUP), u64::from(threads[0]));
     }
 }

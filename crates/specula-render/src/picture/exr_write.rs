@@ -1,6 +1,6 @@
 //! Pictures to OpenEXR: 32-bit floats, ZIP without loss, one part with all layers.
 
-use std::io::{self, Seek, Write};
+use std::io::{self, Cursor, Seek, Write};
 use std::path::Path;
 
 use exr::block::UncompressedBlock;
@@ -69,6 +69,27 @@ pub fn write_exr(
     picture: &Picture,
     metadata: &Metadata,
 ) -> Result<usize, PictureError> {
+    atomic::replace(path, |file| encode(picture, metadata, file)).map_err(|source| {
+        PictureError::Io {
+            path: path.to_owned(),
+            source,
+        }
+    })?;
+    Ok(picture.non_finite_count())
+}
+
+/// The bytes of the file that [`write_exr`] writes.
+///
+/// # Errors
+///
+/// Where the picture cannot be encoded, as its layers are not of its size.
+pub fn exr_bytes(picture: &Picture, metadata: &Metadata) -> io::Result<Vec<u8>> {
+    let mut bytes = Cursor::new(Vec::new());
+    encode(picture, metadata, &mut bytes)?;
+    Ok(bytes.into_inner())
+}
+
+fn encode(picture: &Picture, metadata: &Metadata, file: impl Write + Seek) -> io::Result<()> {
     let mut attributes = LayerAttributes {
         layer_position: Vec2(signed(picture.offset[0]), signed(picture.offset[1])),
         software_name: metadata.software.as_deref().map(latin),
@@ -86,17 +107,10 @@ pub fn write_exr(
         AnyChannels::sort(channels(picture)),
     );
     let image = Image::empty(ImageAttributes::new(display_window)).with_layer(layer);
-    atomic::replace(path, |file| {
-        write_blocks(&image, file).map_err(|e| match e {
-            exr::error::Error::Io(source) => source,
-            other => io::Error::other(other.to_string()),
-        })
+    write_blocks(&image, file).map_err(|e| match e {
+        exr::error::Error::Io(source) => source,
+        other => io::Error::other(other.to_string()),
     })
-    .map_err(|source| PictureError::Io {
-        path: path.to_owned(),
-        source,
-    })?;
-    Ok(picture.non_finite_count())
 }
 
 /// Writes the file, its blocks compressed in rayon's current pool.

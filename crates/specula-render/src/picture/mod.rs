@@ -22,9 +22,9 @@ pub use compare::{Comparison, compare};
 pub use error::PictureError;
 pub use exr_read::read_exr;
 pub(crate) use exr_write::{ALL_CHANNELS, blocks_size};
-pub use exr_write::{Metadata, write_exr};
+pub use exr_write::{Metadata, exr_bytes, write_exr};
 pub use flip::{PIXELS_PER_DEGREE, flip_map, hdr_flip_map};
-pub use png_write::{write_png, write_rgb8};
+pub use png_write::{png_bytes, write_png, write_rgb8};
 pub use tone::{Display, ToneMap};
 
 /// A picture with what a renderer knows about each pixel. Rows run from the top.

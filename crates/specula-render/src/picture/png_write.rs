@@ -1,7 +1,6 @@
 //! Pictures to 8-bit sRGB PNG.
 
-use std::fs::File;
-use std::io::BufWriter;
+use std::io::{self, Write};
 use std::path::Path;
 
 use specula_scene::atomic;
@@ -27,6 +26,25 @@ pub fn write_png(path: &Path, picture: &Picture, display: Display) -> Result<usi
     Ok(picture.colour.iter().map(bad).sum())
 }
 
+/// The bytes of the file that [`write_png`] writes.
+///
+/// # Errors
+///
+/// Where the picture is empty, or its colours are not of its size.
+pub fn png_bytes(picture: &Picture, display: Display) -> io::Result<Vec<u8>> {
+    let pixels: Vec<u8> = picture
+        .colour
+        .iter()
+        .flat_map(|&c| display.to_rgb8(c))
+        .collect();
+    let mut bytes = Vec::new();
+    encode(&mut bytes, picture.width, picture.height, &pixels).map_err(|e| match e {
+        png::EncodingError::IoError(source) => source,
+        other => io::Error::other(other.to_string()),
+    })?;
+    Ok(bytes)
+}
+
 /// Writes sRGB bytes, three per pixel, row by row from the top, whole or not at all.
 ///
 /// # Errors
@@ -47,7 +65,7 @@ pub fn write_rgb8(path: &Path, width: u32, height: u32, pixels: &[u8]) -> Result
 }
 
 fn encode(
-    file: &mut BufWriter<&File>,
+    file: impl Write,
     width: u32,
     height: u32,
     pixels: &[u8],
@@ -63,6 +81,8 @@ fn encode(
 
 #[cfg(test)]
 mod tests {
+    use std::fs::File;
+
     use super::*;
     use specula_bsdf::{Rgb, math::rgb};
 
@@ -84,6 +104,8 @@ mod tests {
         let replaced = write_png(&path, &picture, Display::default()).unwrap();
         assert_eq!(replaced, 1);
         assert_eq!(read_back(&path), (2, 1, vec![0, 188, 255, 118, 255, 0]));
+        let bytes = png_bytes(&picture, Display::default()).unwrap();
+        assert_eq!(bytes, std::fs::read(&path).unwrap());
     }
 
     #[test]

@@ -24,7 +24,19 @@ pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 
 impl Writer<'_> {
     /// Writes a file into the folder; returns its name as the scene file says it.
-    fn asset(&mut self, name: &str, bytes: &[u8]) -> Result<String, WriteError> {
+    fn asset(
+        &mut self,
+        name: &str,
+        bytes: impl FnOnce() -> Result<Vec<u8>, WriteError>,
+    ) -> Result<String, WriteError> {
+        if self.keeps {
+            self.keep(name, &bytes()?)?;
+        }
+        let folder = self.folder.file_name().unwrap_or_default();
+        Ok(format!("{}/{name}", folder.to_string_lossy()))
+    }
+
+    fn keep(&self, name: &str, bytes: &[u8]) -> Result<(), WriteError> {
         match std::fs::create_dir(&self.folder) {
             Err(source) if source.kind() != io::ErrorKind::AlreadyExists => {
                 let path = self.folder.clone();
@@ -32,9 +44,7 @@ impl Writer<'_> {
             }
             _ => {}
         }
-        replace(&self.folder.join(name), bytes)?;
-        let folder = self.folder.file_name().unwrap_or_default();
-        Ok(format!("{}/{name}", folder.to_string_lossy()))
+        replace(&self.folder.join(name), bytes)
     }
 
     /// Writes a channel of a picture, once; returns its name.
@@ -88,17 +98,18 @@ impl Writer<'_> {
         pick: impl Fn(Rgb<f32>) -> Rgb<f32> + Sync,
     ) -> Result<String, WriteError> {
         let path = self.folder.join(name);
-        let bytes = exr_bytes(image, pick).map_err(|e| WriteError {
-            path,
-            source: io::Error::other(e),
-        })?;
-        self.asset(name, &bytes)
+        self.asset(name, || {
+            exr_bytes(image, pick).map_err(|e| WriteError {
+                path,
+                source: io::Error::other(e),
+            })
+        })
     }
 
     /// Writes a mesh; returns its name.
     pub(super) fn mesh(&mut self, id: MeshId) -> Result<String, WriteError> {
-        let bytes = ply(&self.scene.meshes[id.0]);
-        self.asset(&format!("mesh-{}.ply", id.0), &bytes)
+        let mesh = &self.scene.meshes[id.0];
+        self.asset(&format!("mesh-{}.ply", id.0), || Ok(ply(mesh)))
     }
 }
 

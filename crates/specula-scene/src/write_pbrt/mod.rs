@@ -52,6 +52,8 @@ struct Writer<'a> {
     path: &'a Path,
     /// Folder of meshes and pictures, made when the first is written.
     folder: PathBuf,
+    /// Whether these are written at all.
+    keeps: bool,
     text: String,
     /// Notes on what pbrt-v4 cannot express, each once.
     notes: Vec<String>,
@@ -75,7 +77,26 @@ struct Writer<'a> {
 ///
 /// What the system says about the file that could not be written.
 pub fn write_pbrt(scene: &Scene, path: &Path) -> Result<Vec<String>, WriteError> {
+    let (text, notes) = write(scene, path, true)?;
+    asset::replace(path, text.as_bytes())?;
+    Ok(notes)
+}
+
+/// The scene file that [`write_pbrt`] writes, and its notes; no file is written, also none of those beside it.
+///
+/// * `path`: of the scene file, by which those beside it are named.
+///
+/// # Errors
+///
+/// As [`write_pbrt`]; where nothing is written, none are known.
+pub fn pbrt_text(scene: &Scene, path: &Path) -> Result<(String, Vec<String>), WriteError> {
+    write(scene, path, false)
+}
+
+/// * `keeps`: whether files beside the scene file are written.
+fn write(scene: &Scene, path: &Path, keeps: bool) -> Result<(String, Vec<String>), WriteError> {
     let mut writer = Writer {
+        keeps,
         scene,
         path,
         folder: assets_folder(path),
@@ -95,8 +116,7 @@ pub fn write_pbrt(scene: &Scene, path: &Path) -> Result<Vec<String>, WriteError>
     writer.materials()?;
     writer.media();
     writer.shapes()?;
-    asset::replace(path, writer.text.as_bytes())?;
-    Ok(writer.notes)
+    Ok((writer.text, writer.notes))
 }
 
 /// The folder that [`write_pbrt`] writes meshes and pictures to: `NAME-files` beside the scene file.

@@ -18,7 +18,10 @@ use crate::token::Token;
 pub(super) async fn page(State(shared): State<Arc<Shared>>) -> Result<Response, Refusal> {
     let path = shared.lab.folder().join(PAGE);
     let Ok(text) = tokio::fs::read_to_string(path).await else {
-        return Err(Refusal::new(StatusCode::NOT_FOUND, "there are no results yet"));
+        return Err(Refusal::new(
+            StatusCode::NOT_FOUND,
+            "there are no results yet",
+        ));
     };
     let nonce = Token::new().map_err(|e| Refusal::internal(e.to_string()))?;
     let text = with_nonce(&text, nonce.text());

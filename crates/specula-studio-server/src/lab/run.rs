@@ -101,8 +101,14 @@ impl Run {
                 std::mem::drop(end);
             }
         };
-        let thread = std::thread::Builder::new().name("laboratory".to_owned()).spawn(work)?;
-        Ok(Self { stop, status, thread })
+        let thread = std::thread::Builder::new()
+            .name("laboratory".to_owned())
+            .spawn(work)?;
+        Ok(Self {
+            stop,
+            status,
+            thread,
+        })
     }
 
     pub(super) fn is_under_way(&self) -> bool {
@@ -135,7 +141,8 @@ impl Drop for EndOfRun {
         let mut status = locked(&self.0);
         if status.state == Phase::Running {
             status.state = Phase::Failed;
-            status.error = Some("the laboratory met a fault in Specula; its terminal says more".to_owned());
+            status.error =
+                Some("the laboratory met a fault in Specula; its terminal says more".to_owned());
         }
     }
 }
@@ -164,7 +171,9 @@ fn work(
             }
         }
     };
-    let result = shared.pool.install(|| specula_lab::run(chosen, options, &folder, stop, &events));
+    let result = shared
+        .pool
+        .install(|| specula_lab::run(chosen, options, &folder, stop, &events));
     // Also of earlier runs.
     let page = match specula_lab::report::write(&folder) {
         Err(LabError::NoResults(_)) => Ok(false),

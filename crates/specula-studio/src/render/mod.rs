@@ -1,20 +1,188 @@
-//! Progressive renders.
+//! Progressive renders: sessions that stay open between requests.
 
-use serde_json::{Map, Value};
+mod advance;
+mod catalogue;
+mod changes;
+mod compare;
+mod export;
+mod gpu;
+mod materials;
+mod pick;
+mod scenes;
+mod session;
+mod view;
 
-use crate::{Answer, AskError};
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// The open renders.
+use serde::Deserialize;
+use serde_json::{Map, Value, json};
+
+use crate::request::fields;
+use crate::{Answer, AskError, clock};
+use catalogue::Catalogue;
+pub use catalogue::{GivenScene, SceneFrom};
+use session::Session;
+
+/// Renders that are open at once: each keeps its picture's sums, at most 500 MB.
+const MOST_SESSIONS: usize = 8;
+
+/// The open renders, and the scenes that can be rendered.
 #[derive(Debug, Default)]
-pub(crate) struct Renders {}
+pub(crate) struct Renders {
+    catalogue: Mutex<Catalogue>,
+    sessions: Mutex<Sessions>,
+}
+
+#[derive(Debug, Default)]
+struct Sessions {
+    open: BTreeMap<u64, Open>,
+    /// Of the session that was opened last.
+    last: u64,
+}
+
+/// An open render.
+#[derive(Debug)]
+struct Open {
+    session: Arc<Mutex<Session>>,
+    /// When it was asked for last, by [`clock`](crate::clock).
+    used: f64,
+}
+
+/// A request about a session and nothing else.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct OfSession {
+    session: u64,
+}
 
 impl Renders {
     /// Answers `render.{what}`.
     pub(crate) fn answer(
         &self,
         what: &str,
-        _request: Map<String, Value>,
+        request: Map<String, Value>,
     ) -> Result<Answer, AskError> {
-        Err(AskError::unknown(&format!("render.{what}")))
+        match what {
+            "scenes" => {
+                let _: Nothing = fields(request)?;
+                Ok(Answer::new(locked(&self.catalogue).list()))
+            }
+            "open" => self.open(fields(request)?),
+            "close" => {
+                let OfSession { session } = fields(request)?;
+                let closed = locked(&self.sessions).open.remove(&session);
+                closed
+                    .map(|_| Answer::new(json!({})))
+                    .ok_or_else(|| gone(session))
+            }
+            "advance" => {
+                let asked: advance::Advance = fields(request)?;
+                self.with(asked.session, |session| session.advance(&asked))
+            }
+            "change" => {
+                let asked: session::Change = fields(request)?;
+                let id = asked.session;
+                self.with(id, |session| session.change(id, asked))
+            }
+            "pick" => {
+                let asked: pick::Pick = fields(request)?;
+                self.with(asked.session, |session| session.pick(&asked))
+            }
+            "compare" => {
+                let asked: compare::Compare = fields(request)?;
+                // One after the other: two that are compared the other way round at once must not wait for each other.
+                let test = self.with(asked.session, |session| session.picture())?;
+                let reference = self.with(asked.reference, |session| session.picture())?;
+                compare::answer(&reference, &test)
+            }
+            "gpu" => {
+                let OfSession { session } = fields(request)?;
+                self.with(session, |session| session.gpu())
+            }
+            "save" => {
+                let asked: export::Save = fields(request)?;
+                self.with(asked.session, |session| session.save(asked.format))
+            }
+            "scene" => {
+                let asked: export::Export = fields(request)?;
+                self.with(asked.session, |session| session.export(asked.format))
+            }
+            _ => Err(AskError::unknown(&format!("render.{what}"))),
+        }
     }
+
+    /// The scenes that can be opened.
+    pub(crate) fn catalogue(&self) -> MutexGuard<'_, Catalogue> {
+        locked(&self.catalogue)
+    }
+
+    fn open(&self, asked: session::Open) -> Result<Answer, AskError> {
+        let has_room = |sessions: &Sessions| match sessions.open.len() < MOST_SESSIONS {
+            true => Ok(()),
+            false => Err(AskError::new(format!(
+                "{MOST_SESSIONS} renders are open, and no more can be: close one (render.close)"
+            ))),
+        };
+        has_room(&locked(&self.sessions))?;
+        let scene = locked(&self.catalogue).scene(&asked.scene)?;
+        let session = Session::open(scene, asked)?;
+        let mut sessions = locked(&self.sessions);
+        // Others may have been opened meanwhile.
+        has_room(&sessions)?;
+        sessions.last += 1;
+        let id = sessions.last;
+        let answer = Answer::new(session.described(id));
+        let session = Arc::new(Mutex::new(session));
+        let used = clock::seconds();
+        sessions.open.insert(id, Open { session, used });
+        Ok(answer)
+    }
+
+    /// Does something with a session; requests to others are answered meanwhile.
+    fn with<T>(
+        &self,
+        session: u64,
+        act: impl FnOnce(&mut Session) -> Result<T, AskError>,
+    ) -> Result<T, AskError> {
+        let found = {
+            let mut sessions = locked(&self.sessions);
+            let open = sessions
+                .open
+                .get_mut(&session)
+                .ok_or_else(|| gone(session))?;
+            open.used = clock::seconds();
+            Arc::clone(&open.session)
+        };
+        let answer = act(&mut locked(&found));
+        if let Some(open) = locked(&self.sessions).open.get_mut(&session) {
+            open.used = clock::seconds();
+        }
+        answer
+    }
+
+    /// Closes what has not been asked for in so many seconds; returns how many.
+    pub(crate) fn close_idle(&self, seconds: f64) -> usize {
+        let now = clock::seconds();
+        let mut sessions = locked(&self.sessions);
+        let before = sessions.open.len();
+        // A render that is answering is held by that answer, too.
+        let is_kept =
+            |open: &Open| now - open.used < seconds || Arc::strong_count(&open.session) > 1;
+        sessions.open.retain(|_, open| is_kept(open));
+        before - sessions.open.len()
+    }
+}
+
+/// A request without fields.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Nothing {}
+
+fn gone(session: u64) -> AskError {
+    AskError::new(format!("session: no render {session} is open"))
+}
+
+fn locked<T>(what: &Mutex<T>) -> MutexGuard<'_, T> {
+    what.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -10,7 +10,11 @@ pub(crate) fn message(what: &str, feature: &str) -> String {
     )
 }
 
-#[cfg(any(not(feature = "lab"), not(feature = "shaders")))]
+#[cfg(any(
+    not(feature = "lab"),
+    not(feature = "shaders"),
+    not(feature = "studio")
+))]
 mod command {
     use crate::cli::ExitCode;
     use std::ffi::OsString;
@@ -44,6 +48,20 @@ pub(crate) mod lab {
     /// Says which feature it needs.
     pub(crate) fn run(_: &LabArguments) -> Result<ExitCode, Failure> {
         super::command::refuse("the laboratory", "lab")
+    }
+}
+
+/// `specula studio` without it.
+#[cfg(not(feature = "studio"))]
+pub(crate) mod studio {
+    use crate::cli::ExitCode;
+
+    use super::super::Failure;
+    pub(crate) use super::command::AnyArguments as StudioArguments;
+
+    /// Says which feature it needs.
+    pub(crate) fn run(_: &StudioArguments) -> Result<ExitCode, Failure> {
+        super::command::refuse("the studio", "studio")
     }
 }
 

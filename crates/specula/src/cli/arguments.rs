@@ -16,6 +16,7 @@ use super::lab::LabArguments;
 use super::loading::LoadingArguments;
 use super::machine::MachineArguments;
 use super::material::MaterialOverride;
+use super::studio::StudioArguments;
 use super::{live_view, values};
 
 /// Render rough metal right: a path tracer whose microfacet mathematics can be trusted.
@@ -35,6 +36,7 @@ Examples:
   specula compare reference.exr picture.exr   how far two pictures are apart
   specula merge a.film b.film -o picture.exr  parts of a render into one
   specula lab compare scene.pbrt              which sampler suits a scene
+  specula studio                              samplers, lobes and renders in a browser
 
 Exit codes: 0 done; 1 failed (or `compare` found too large a difference); 2 the arguments or
 the scene are wrong; 130, 143, 129 stopped by Ctrl-C, SIGTERM, SIGHUP: what was rendered is
@@ -61,6 +63,8 @@ pub(crate) enum Command {
     Export(ExportArguments),
     /// The papers' tables and figures, and measurements on a scene or a material of yours.
     Lab(LabArguments),
+    /// Lobes, samplers and renders side by side, in a browser.
+    Studio(StudioArguments),
     /// List what `render --device` can be given.
     Devices,
     /// Measure a GPU: whether its pictures are the processor's, samplers, rays and renders per second.

@@ -81,7 +81,7 @@ pub(crate) fn run(arguments: &GpuReportArguments) -> Result<ExitCode, Failure> {
         scenes: arguments.scene.clone(),
         date: date(SystemTime::now()),
     };
-    let stop = StopFlag::listen()?;
+    let stop = StopFlag::listen("stopping; what is finished is saved")?;
     let mut progress = Progress::new(arguments.quiet);
     let mut tell = |share: f64, what: &str| progress.tell(share, what);
     let report = gpu_report(&gpu, &options, &mut tell, &stop.asked).map_err(Failure::other);

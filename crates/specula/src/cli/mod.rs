@@ -4,7 +4,13 @@
     reason = "a lost standard error must end nothing: `console::say`"
 )]
 
-#[cfg(not(all(feature = "gpu", feature = "lab", feature = "shaders", feature = "tev")))]
+#[cfg(not(all(
+    feature = "gpu",
+    feature = "lab",
+    feature = "shaders",
+    feature = "studio",
+    feature = "tev"
+)))]
 mod absent;
 mod arguments;
 mod check;
@@ -39,6 +45,8 @@ mod outputs;
 mod progress;
 mod render;
 mod stop;
+#[cfg(feature = "studio")]
+mod studio;
 mod values;
 mod watch;
 
@@ -46,6 +54,8 @@ mod watch;
 use absent::export;
 #[cfg(not(feature = "tev"))]
 use absent::live_view;
+#[cfg(not(feature = "studio"))]
+use absent::studio;
 #[cfg(not(feature = "lab"))]
 use absent::{gpu_report, lab};
 use std::ffi::OsString;
@@ -91,6 +101,7 @@ fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
         Command::Denoise(a) => denoise::run(&a),
         Command::Export(a) => export::run(&a),
         Command::Lab(a) => lab::run(&a),
+        Command::Studio(a) => studio::run(&a),
         Command::Devices => device::list(),
         Command::GpuReport(a) => gpu_report::run(&a),
     }

@@ -171,7 +171,7 @@ impl Stop {
 }
 
 /// A flag for the first signal; the second ends the program.
-#[cfg(feature = "lab")]
+#[cfg(any(feature = "lab", feature = "studio"))]
 #[derive(Clone, Default)]
 pub(crate) struct StopFlag {
     /// Set by the first signal.
@@ -179,10 +179,12 @@ pub(crate) struct StopFlag {
     signal: Arc<Mutex<Option<Signal>>>,
 }
 
-#[cfg(feature = "lab")]
+#[cfg(any(feature = "lab", feature = "studio"))]
 impl StopFlag {
     /// Listens from now on.
-    pub(crate) fn listen() -> Result<Self, Failure> {
+    ///
+    /// * `said`: at the first signal.
+    pub(crate) fn listen(said: &'static str) -> Result<Self, Failure> {
         let stop = Self::default();
         let shared = stop.clone();
         on_signals(move |signal| {
@@ -190,7 +192,7 @@ impl StopFlag {
             if shared.asked.swap(true, Ordering::SeqCst) {
                 signal.exit();
             }
-            say!("\nstopping; what is finished is saved");
+            say!("\n{said}");
             if signal != Signal::Interrupt {
                 end_after(GRACE, signal);
             }

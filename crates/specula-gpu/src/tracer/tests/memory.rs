@@ -62,19 +62,21 @@ fn scenes_that_memory_does_not_hold_are_errors_and_leave_the_device_whole() {
     let scene = room();
     let options = RenderOptions::from_scene(&scene);
     let prepared = PreparedScene::new(&scene, &options).unwrap();
-    let mut flat = prepared.flatten();
-    let tree = Tree::new(&mut flat);
-    let text = program::source(&flat, false).unwrap();
+    let mut program = SceneProgram::new(&prepared, &options).unwrap();
+    let text = program.text().unwrap();
     let texts = [text.as_str(), program::SUMS];
     let schedule = (Schedule::Auto, None);
     // As large as the device takes: what matters is the size.
     let size = gpu.adapter.largest_array.min(128 * MIB);
-    flat.words.resize(usize::try_from(size / 4).unwrap(), 0);
-    assert!(Tracer::of_texts(gpu, (&flat, &tree), &options, schedule, texts).is_ok());
+    program
+        .flat
+        .words
+        .resize(usize::try_from(size / 4).unwrap(), 0);
+    assert!(Tracer::of_texts(gpu, &program, &options, schedule, texts).is_ok());
     gpu.wait().unwrap();
     let limit = Limit::new(size / 2);
     let schedule = (Schedule::Auto, None);
-    let error = Tracer::of_texts(gpu, (&flat, &tree), &options, schedule, texts).unwrap_err();
+    let error = Tracer::of_texts(gpu, &program, &options, schedule, texts).unwrap_err();
     assert!(
         matches!(error, TracerError::Gpu(GpuError::OutOfMemory(_))),
         "{error:?}"
@@ -83,7 +85,7 @@ fn scenes_that_memory_does_not_hold_are_errors_and_leave_the_device_whole() {
     assert!(said.starts_with("the GPU is out of memory"), "{said}");
     limit.lift();
     let schedule = (Schedule::Auto, None);
-    assert!(Tracer::of_texts(gpu, (&flat, &tree), &options, schedule, texts).is_ok());
+    assert!(Tracer::of_texts(gpu, &program, &options, schedule, texts).is_ok());
 }
 
 #[test]

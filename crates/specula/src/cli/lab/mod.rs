@@ -160,7 +160,7 @@ impl Desk {
     pub(crate) fn new(effort: &EffortArguments) -> Result<Self, Failure> {
         Ok(Self {
             pool: machine::pool(machine::count(effort.threads), false)?,
-            stop: StopFlag::listen()?,
+            stop: StopFlag::listen("stopping; what is finished is saved")?,
             progress: Mutex::new(Progress::new(effort.quiet)),
         })
     }
