@@ -2,9 +2,9 @@
 
 mod report;
 mod run;
+mod status;
 
 use std::io;
-use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use axum::Router;
@@ -21,10 +21,12 @@ use crate::body;
 use crate::error::{Refusal, json_response};
 use crate::shared::Shared;
 use run::Run;
+use status::Status;
 
 /// Results of this session and the run that is under way.
 pub(crate) struct Desk {
     folder: tempfile::TempDir,
+    status: Arc<Mutex<Status>>,
     run: Mutex<Option<Run>>,
 }
 
@@ -36,24 +38,21 @@ impl Desk {
             .tempdir()?;
         Ok(Self {
             folder,
+            status: Arc::default(),
             run: Mutex::new(None),
         })
     }
 
-    fn folder(&self) -> PathBuf {
-        self.folder.path().to_owned()
-    }
-
-    fn run(&self) -> MutexGuard<'_, Option<Run>> {
-        self.run.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
     /// Ends the run that is under way, and waits for it a little.
     pub(crate) fn end(&self) {
-        if let Some(run) = self.run().take() {
+        if let Some(run) = locked(&self.run).take() {
             run.end();
         }
     }
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// All routes of the laboratory.
@@ -74,6 +73,7 @@ async fn list() -> Response {
             json!({
                 "id": e.id,
                 "title": e.title,
+                "source": e.source,
                 "paper": e.source.cite(),
                 "item": e.item,
                 "statement": e.statement,
@@ -108,34 +108,24 @@ async fn start(
         return Err(Refusal::bad("'ids' names no experiment"));
     }
     let chosen = experiments::named(&ids).map_err(|e| Refusal::bad(e.to_string()))?;
-    let mut run = shared.lab.run();
-    if run.as_ref().is_some_and(Run::is_under_way) {
-        return Err(Refusal::new(
-            StatusCode::CONFLICT,
-            "a run is under way: stop it, or wait for its end",
-        ));
+    let mut run = locked(&shared.lab.run);
+    if locked(&shared.lab.status).running.is_some() {
+        let message = "a run is under way: stop it, or wait for its end";
+        return Err(Refusal::new(StatusCode::CONFLICT, message));
     }
-    let options = RunOptions { quality, seed };
-    *run = Some(
-        Run::start(Arc::clone(&shared), chosen, options)
-            .map_err(|e| Refusal::internal(e.to_string()))?,
-    );
+    let begun = Run::start(Arc::clone(&shared), chosen, RunOptions { quality, seed });
+    *run = Some(begun.map_err(|e| Refusal::internal(e.to_string()))?);
     Ok(json_response(&json!({})))
 }
 
 /// `GET /api/lab/status`: how far the run is, and what it has found.
 async fn status(State(shared): State<Arc<Shared>>) -> Response {
-    let value = shared
-        .lab
-        .run()
-        .as_ref()
-        .map_or_else(|| json!({"state": "idle"}), Run::status);
-    json_response(&value)
+    json_response(&locked(&shared.lab.status).shown())
 }
 
 /// `POST /api/lab/stop`: ends the run; what is finished stays.
 async fn stop(State(shared): State<Arc<Shared>>) -> Response {
-    if let Some(run) = shared.lab.run().as_ref() {
+    if let Some(run) = locked(&shared.lab.run).as_ref() {
         run.stop();
     }
     json_response(&json!({}))
