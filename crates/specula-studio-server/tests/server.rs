@@ -78,7 +78,7 @@ fn the_library_answers() {
     let parsed = ask(json!({"ask": "lobes.parse", "lobe": "conductor Au alpha 0.3"}));
     assert_eq!(parsed["value"]["kind"], "conductor", "{parsed}");
     let grid = ask(json!({
-        "ask": "lobes.slice", "lobe": "diffuse 0.5", "wo": [0, 0, 1], "azimuth": 0, "count": 9
+        "ask": "lobes.slice", "lobe": "lambert 0.5", "wo": [0, 0, 1], "azimuth": 0, "count": 9
     }));
     assert_eq!(grid["arrays"][0]["shape"], json!([9]), "{grid}");
     let unknown = ask(json!({"ask": "nothing.there"}));
