@@ -145,12 +145,14 @@ fn ensure_room(shared: &Shared, name: &str) -> Result<(), Refusal> {
 
 /// A scene's error with its place.
 fn located(folder: &Path, error: &SceneError) -> Refusal {
+    // Options of the command line are no help to a page.
+    let help = error.help().filter(|help| !help.contains("--"));
     let value = json!({
         "error": places::without(folder, error.message()),
         "file": places::shown(folder, Path::new(error.file())),
         "line": error.line(),
         "column": error.column(),
-        "help": error.help().map(|help| places::without(folder, help)),
+        "help": help.map(|help| places::without(folder, help)),
     });
     Refusal::of(StatusCode::UNPROCESSABLE_ENTITY, value)
 }
