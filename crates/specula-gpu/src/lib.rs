@@ -1,7 +1,7 @@
 //! The path tracer on the GPU.
 //!
 //! Without the feature `device`, which is on by default, there is [`SceneProgram`] alone, and no wgpu: text and arrays
-//! for who brings a device of their own, as a page does.
+//! for programs with a device of their own, such as pages.
 
 #[cfg(feature = "device")]
 pub mod adapter;

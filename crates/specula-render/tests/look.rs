@@ -1,4 +1,4 @@
-//! A prepared scene that is looked at anew: other cameras and sizes, what a pixel shows, a film that goes on.
+//! A prepared scene under other cameras and sizes, what a pixel shows, a film that goes on.
 
 use glam::DVec3;
 use specula_render::{FilmBuffer, PreparedScene, RenderOptions, Renderer};

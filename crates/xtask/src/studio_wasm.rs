@@ -5,7 +5,6 @@
 
 mod debian;
 
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::atomic::AtomicBool;
@@ -43,7 +42,6 @@ pub(crate) fn run(root: &Path, asked: &StudioWasm) -> Result<()> {
     }
     let output = root.join(&asked.output);
     std::fs::copy(&built, &output)?;
-    optimise(&output)?;
     println!(
         "{}: {} bytes",
         output.display(),
@@ -87,26 +85,6 @@ fn sysroot() -> Result<PathBuf> {
         .args(["--print", "sysroot"])
         .output()?;
     Ok(String::from_utf8(rustc.stdout)?.trim().into())
-}
-
-/// Makes the module smaller, where Binaryen's optimiser is installed.
-fn optimise(module: &Path) -> Result<()> {
-    let mut smaller = OsString::from(module);
-    smaller.push(".smaller");
-    let mut optimise = Command::new("wasm-opt");
-    optimise
-        .args(["-O3", "--all-features"])
-        .arg(module)
-        .arg("-o")
-        .arg(&smaller);
-    match optimise.status() {
-        Ok(status) if status.success() => Ok(std::fs::rename(smaller, module)?),
-        Ok(_) => Err("wasm-opt failed".into()),
-        Err(_) => {
-            println!("not optimised further: no wasm-opt (Debian's binaryen)");
-            Ok(())
-        }
-    }
 }
 
 /// Size, seed and samples of the picture that is compared.

@@ -1,7 +1,237 @@
+/** Samplers of visible normals: where their samples go, what they reject, whether their density is what it says. */
+
+import { useMemo } from 'preact/hooks';
+import { useAddress } from '../../core/address';
+import { useThemeChange } from '../../core/theme';
+import { useAnswer } from '../../core/use_answer';
+import type { Sampler } from '../../core/protocol';
+import { Choice, Message, Panel, Select, Slider } from '../../ui/controls';
+import { Formula } from '../../ui/formula';
+import { Heats } from '../../ui/heats';
+import { format, Swatch } from '../../ui/plot';
+import { Space } from '../../ui/space';
 import type { Page } from '../page';
+import { angles, DEFAULTS, direction, PRESETS, SAMPLERS, type SamplerState } from './setup';
+import { outline, points, sphere, view } from './sphere';
+
+/** Samples that are drawn; all are counted. */
+const DRAWN = 4000;
+const CELLS = 48;
+const REGIONS = [
+  ['cap', 'Cap', '--series-1'],
+  ['bounded_cap', 'Bounded cap', '--series-2'],
+  ['exact', 'Exact region', '--series-3'],
+] as const;
+
+type Set = (change: Partial<SamplerState>) => void;
 
 function Samplers() {
-  return <div class="page" />;
+  const [state, set] = useAddress('samplers', DEFAULTS);
+  const setup = {
+    sampler: (SAMPLERS.some((s) => s.value === state.sampler) ? state.sampler : 'bounded') as Sampler,
+    alpha: [state.alpha[0] ?? 0.6, state.alpha[1] ?? state.alpha[0] ?? 0.6] as [number, number],
+    wo: direction(state.elevation, state.azimuth),
+  };
+  return (
+    <div class="page">
+      <Controls state={state} set={set} />
+      <div class="content">
+        <Spheres setup={setup} state={state} set={set} />
+        <Density setup={setup} state={state} />
+        <Comparison setup={setup} state={state} />
+        <Formulas setup={setup} />
+      </div>
+    </div>
+  );
+}
+
+function Controls({ state, set }: { state: SamplerState; set: Set }) {
+  const [x, y] = [state.alpha[0] ?? 0.6, state.alpha[1] ?? 0.6];
+  return (
+    <aside aria-label="Controls">
+      <h1>Samplers</h1>
+      <Choice label="Sampler" options={SAMPLERS} value={state.sampler as Sampler} onChange={(sampler) => set({ sampler })} />
+      <Slider label="alpha x" value={x} min={0.01} max={1} isLogarithmic onInput={(v) => set({ alpha: [v, y] })} />
+      <Slider label="alpha y" value={y} min={0.01} max={1} isLogarithmic onInput={(v) => set({ alpha: [x, v] })} />
+      <h3>View</h3>
+      <Slider label="Elevation" unit="degrees" value={state.elevation} min={-89} max={90} onInput={(elevation) => set({ elevation })} />
+      <Slider label="Azimuth" unit="degrees" value={state.azimuth} min={0} max={360} onInput={(azimuth) => set({ azimuth })} />
+      <h3>Samples</h3>
+      <Slider label="Count" value={state.count} min={100} max={1e6} isLogarithmic isInteger onInput={(count) => set({ count })} />
+      <Slider label="Seed" value={state.seed} min={1} max={1000} isInteger onInput={(seed) => set({ seed })} />
+      <h3>Light, for the comparison</h3>
+      <Select
+        label="Light"
+        value={state.light}
+        options={[
+          { value: 'uniform', label: 'From everywhere' },
+          { value: 'lamp', label: 'A lamp' },
+        ]}
+        onChange={(light) => set({ light })}
+      />
+      {state.light === 'lamp' && (
+        <>
+          <Slider label="Lamp elevation" unit="degrees" value={state.lightElevation} min={1} max={90} onInput={(v) => set({ lightElevation: v })} />
+          <Slider label="Lamp azimuth" unit="degrees" value={state.lightAzimuth} min={0} max={360} onInput={(v) => set({ lightAzimuth: v })} />
+          <Slider label="Lamp half angle" unit="degrees" value={state.lightAngle} min={1} max={90} onInput={(v) => set({ lightAngle: v })} />
+        </>
+      )}
+      <h3>Presets</h3>
+      <div class="actions">
+        {PRESETS.map((preset) => (
+          <button key={preset.name} type="button" onClick={() => set(preset.state)}>
+            {preset.name}
+          </button>
+        ))}
+      </div>
+    </aside>
+  );
+}
+
+interface Part {
+  setup: { sampler: Sampler; alpha: [number, number]; wo: [number, number, number] };
+  state: SamplerState;
+}
+
+function Spheres({ setup, state, set }: Part & { set: Set }) {
+  const theme = useThemeChange();
+  const regions = useAnswer<'samplers.regions'>({ ask: 'samplers.regions', alpha: setup.alpha, wo: setup.wo, count: 256 });
+  const samples = useAnswer<'samplers.samples'>({ ask: 'samplers.samples', ...setup, count: Math.min(state.count, DRAWN), seed: state.seed });
+  const described = useAnswer<'samplers.describe'>({ ask: 'samplers.describe', ...setup });
+  const [onSphere, stretched] = useMemo(() => {
+    const draw = (isStretched: boolean) => {
+      const parts = [...sphere()];
+      const drawn = samples.answer?.arrays;
+      if (drawn !== undefined) {
+        const where = (isStretched ? drawn.stretched : drawn.wi).values;
+        const accepted = drawn.accepted.values;
+        parts.push(points(where, (i) => accepted[i] === 1, '--ink', 1.6), points(where, (i) => accepted[i] !== 1, '--bad', 4));
+      }
+      for (const [name, , colour] of REGIONS) {
+        const found = regions.answer?.arrays[isStretched ? name : (`${name}_wi` as const)];
+        if (found !== undefined) parts.push(outline(found.values, colour));
+      }
+      const centre = isStretched ? described.answer?.value.stretched : setup.wo;
+      return centre === undefined ? parts : parts.concat(view(centre));
+    };
+    return [draw(false), draw(true)];
+  }, [samples.answer, regions.answer, described.answer, theme]);
+  const counts = samples.answer?.value;
+  return (
+    <>
+      <Panel title="Reflections" isPending={samples.isPending}>
+        <Message text={samples.error ?? regions.error} />
+        <Space label="The unit sphere with sampled reflections, outlines of the regions and the view" contents={onSphere} draggable={['view']} onDrag={(_, point) => set(angles(point))} />
+        <Legend />
+      </Panel>
+      <Panel title="Stretched space" isPending={samples.isPending}>
+        <Space label="The same samples in the space where the surface is a hemisphere" contents={stretched} />
+        <dl class="figures">
+          <dt>Accepted, rejected</dt>
+          <dd data-figure="accepted">
+            {counts === undefined ? '' : `${counts.accepted}, ${counts.rejected}`}
+          </dd>
+          <dt>Accepted, by quadrature</dt>
+          <dd data-figure="acceptance">{described.answer === undefined ? '' : `${(100 * described.answer.value.acceptance).toFixed(2)} %`}</dd>
+        </dl>
+      </Panel>
+    </>
+  );
+}
+
+function Legend() {
+  return (
+    <ul class="legend" aria-label="Legend">
+      {REGIONS.map(([name, label, colour]) => (
+        <li key={name}>
+          <Swatch colour={`var(${colour})`} /> {label}
+        </li>
+      ))}
+      <li>small: accepted; large: rejected</li>
+      <li>drag the ball of the arrow to turn the view</li>
+    </ul>
+  );
+}
+
+function Density({ setup, state }: Part) {
+  const { answer, error, isPending } = useAnswer<'samplers.histogram'>({ ask: 'samplers.histogram', ...setup, size: CELLS, count: state.count, seed: state.seed });
+  const value = answer?.value;
+  return (
+    <Panel title="Histogram and density" wide isPending={isPending}>
+      <Message text={error} />
+      {answer !== undefined && (
+        <Heats rows={CELLS} columns={CELLS} counts={answer.arrays.counts.values} expected={answer.arrays.expected.values} axes="x of the reflection to the right, y upwards" />
+      )}
+      {value !== undefined && (
+        <p>
+          Chi-square {format(value.chiSquare)} of {value.degrees} degrees, p = <span data-figure="p">{value.p.toPrecision(3)}</span>:{' '}
+          <span class={value.p < 1e-4 ? 'bad' : 'good'}>{value.p < 1e-4 ? 'the samples do not have this density' : 'nothing against the density'}</span>. Rejected {value.rejected}, expected{' '}
+          {value.expectedRejected.toFixed(0)}.
+        </p>
+      )}
+    </Panel>
+  );
+}
+
+function Comparison({ setup, state }: Part) {
+  const radians = Math.PI / 180;
+  const lamp = state.light === 'lamp' ? { towards: direction(state.lightElevation, state.lightAzimuth), angle: state.lightAngle * radians } : {};
+  const isAbove = setup.wo[2] > 0;
+  const { answer, error, isPending } = useAnswer<'samplers.compare'>(
+    isAbove ? { ask: 'samplers.compare', alpha: setup.alpha, wo: setup.wo, lamp, count: Math.min(state.count, 200_000), seed: state.seed } : undefined,
+  );
+  const rows = isAbove ? (answer?.value.rows ?? []) : [];
+  const best = Math.min(...rows.map((row) => row.variance));
+  return (
+    <Panel title="All samplers" isPending={isPending}>
+      <Message text={isAbove ? error : undefined} />
+      {!isAbove && <p class="quiet">Estimates are compared for views above the horizon.</p>}
+      <div class="scroll">
+        <table>
+          <thead>
+            <tr>
+              <th scope="col">Sampler</th>
+              {['Accepted', 'Mean', 'Variance', 'Over the best', 'ns'].map((name) => (
+                <th key={name} scope="col" class="number">
+                  {name}
+                </th>
+              ))}
+            </tr>
+          </thead>
+          <tbody>
+            {rows.map((row) => (
+              <tr key={row.sampler}>
+                <th scope="row">{row.sampler}</th>
+                <td class="number">{(100 * row.acceptance).toFixed(1)} %</td>
+                <td class="number">{row.mean.toFixed(4)}</td>
+                <td class="number">{format(row.variance)}</td>
+                <td class="number">{best > 0 ? (row.variance / best).toFixed(2) : ''}</td>
+                <td class="number">{row.nanoseconds?.toFixed(0) ?? ''}</td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      </div>
+      <p class="quiet">An estimator of white metal under the chosen light: the mean is the same, its noise is not.</p>
+    </Panel>
+  );
+}
+
+function Formulas({ setup }: Pick<Part, 'setup'>) {
+  const { answer, error } = useAnswer<'samplers.describe'>({ ask: 'samplers.describe', ...setup });
+  return (
+    <Panel title="Formulas, with these numbers">
+      <Message text={error} />
+      {answer?.value.formulas.map((formula) => (
+        <div key={formula.id}>
+          <h3>{formula.name}</h3>
+          <Formula tex={formula.tex} />
+          <Formula tex={formula.numbers} />
+          <p class="quiet">{formula.source}</p>
+        </div>
+      ))}
+    </Panel>
+  );
 }
 
 export const page: Page = {
