@@ -67,15 +67,10 @@ impl Files {
     /// Opens an ordinary file, where it lies in the folder that files are confined to.
     fn ordinary(&self, path: &Path) -> Result<File, String> {
         if let Some(folder) = &self.confined_to {
-<<<<<<< HEAD
             let folder = folder.canonicalize().map_err(|e| unreadable(&e))?;
             // Where there is no such file: whether there could be one is nothing to tell about other folders.
             let there = path.ancestors().find_map(|p| p.canonicalize().ok());
             if there.is_some_and(|there| !there.starts_with(&folder)) {
-=======
-            let resolved = |p: &Path| p.canonicalize().map_err(|e| unreadable(&e));
-            if !resolved(path)?.starts_with(resolved(folder)?) {
->>>>>>> main
                 return Err("lies outside of the scene's folder".to_owned());
             }
         }

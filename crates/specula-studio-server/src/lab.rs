@@ -2,15 +2,9 @@
 
 mod report;
 mod run;
-<<<<<<< HEAD
 mod status;
 
 use std::io;
-=======
-
-use std::io;
-use std::path::PathBuf;
->>>>>>> main
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use axum::Router;
@@ -27,18 +21,12 @@ use crate::body;
 use crate::error::{Refusal, json_response};
 use crate::shared::Shared;
 use run::Run;
-<<<<<<< HEAD
 use status::Status;
-=======
->>>>>>> main
 
 /// Results of this session and the run that is under way.
 pub(crate) struct Desk {
     folder: tempfile::TempDir,
-<<<<<<< HEAD
     status: Arc<Mutex<Status>>,
-=======
->>>>>>> main
     run: Mutex<Option<Run>>,
 }
 
@@ -50,43 +38,23 @@ impl Desk {
             .tempdir()?;
         Ok(Self {
             folder,
-<<<<<<< HEAD
             status: Arc::default(),
-=======
->>>>>>> main
             run: Mutex::new(None),
         })
     }
 
-<<<<<<< HEAD
     /// Ends the run that is under way, and waits for it a little.
     pub(crate) fn end(&self) {
         if let Some(run) = locked(&self.run).take() {
-=======
-    fn folder(&self) -> PathBuf {
-        self.folder.path().to_owned()
-    }
-
-    fn run(&self) -> MutexGuard<'_, Option<Run>> {
-        self.run.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Ends the run that is under way, and waits for it a little.
-    pub(crate) fn end(&self) {
-        if let Some(run) = self.run().take() {
->>>>>>> main
             run.end();
         }
     }
 }
 
-<<<<<<< HEAD
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-=======
->>>>>>> main
 /// All routes of the laboratory.
 pub(crate) fn routes() -> Router<Arc<Shared>> {
     Router::new()
@@ -105,10 +73,7 @@ async fn list() -> Response {
             json!({
                 "id": e.id,
                 "title": e.title,
-<<<<<<< HEAD
                 "source": e.source,
-=======
->>>>>>> main
                 "paper": e.source.cite(),
                 "item": e.item,
                 "statement": e.statement,
@@ -143,7 +108,6 @@ async fn start(
         return Err(Refusal::bad("'ids' names no experiment"));
     }
     let chosen = experiments::named(&ids).map_err(|e| Refusal::bad(e.to_string()))?;
-<<<<<<< HEAD
     let mut run = locked(&shared.lab.run);
     if locked(&shared.lab.status).running.is_some() {
         let message = "a run is under way: stop it, or wait for its end";
@@ -151,44 +115,17 @@ async fn start(
     }
     let begun = Run::start(Arc::clone(&shared), chosen, RunOptions { quality, seed });
     *run = Some(begun.map_err(|e| Refusal::internal(e.to_string()))?);
-=======
-    let mut run = shared.lab.run();
-    if run.as_ref().is_some_and(Run::is_under_way) {
-        return Err(Refusal::new(
-            StatusCode::CONFLICT,
-            "a run is under way: stop it, or wait for its end",
-        ));
-    }
-    let options = RunOptions { quality, seed };
-    *run = Some(
-        Run::start(Arc::clone(&shared), chosen, options)
-            .map_err(|e| Refusal::internal(e.to_string()))?,
-    );
->>>>>>> main
     Ok(json_response(&json!({})))
 }
 
 /// `GET /api/lab/status`: how far the run is, and what it has found.
 async fn status(State(shared): State<Arc<Shared>>) -> Response {
-<<<<<<< HEAD
     json_response(&locked(&shared.lab.status).shown())
-=======
-    let value = shared
-        .lab
-        .run()
-        .as_ref()
-        .map_or_else(|| json!({"state": "idle"}), Run::status);
-    json_response(&value)
->>>>>>> main
 }
 
 /// `POST /api/lab/stop`: ends the run; what is finished stays.
 async fn stop(State(shared): State<Arc<Shared>>) -> Response {
-<<<<<<< HEAD
     if let Some(run) = locked(&shared.lab.run).as_ref() {
-=======
-    if let Some(run) = shared.lab.run().as_ref() {
->>>>>>> main
         run.stop();
     }
     json_response(&json!({}))

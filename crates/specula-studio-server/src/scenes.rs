@@ -1,13 +1,8 @@
 //! Scenes that pages open by path, and what reading one answers.
 
-<<<<<<< HEAD
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, MutexGuard, PoisonError};
-=======
-use std::path::{Path, PathBuf};
-use std::sync::{Arc, PoisonError};
->>>>>>> main
 
 use axum::body::Body;
 use axum::extract::State;
@@ -15,13 +10,8 @@ use axum::http::{HeaderMap, StatusCode};
 use axum::response::Response;
 use serde::Deserialize;
 use serde_json::{Value, json};
-<<<<<<< HEAD
 use specula_scene::{LoadOptions, SceneError, Warning};
 use specula_studio::{GivenScene, SceneFrom};
-=======
-use specula_scene::{LoadOptions, SceneError};
-use specula_studio::SceneFrom;
->>>>>>> main
 use tokio::sync::OwnedSemaphorePermit;
 
 use crate::core::{self, NewScene};
@@ -29,12 +19,9 @@ use crate::error::{Refusal, json_response};
 use crate::shared::Shared;
 use crate::{body, places};
 
-<<<<<<< HEAD
 /// Most warnings that pages are told.
 const MOST_WARNINGS: usize = 100;
 
-=======
->>>>>>> main
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Open {
@@ -106,7 +93,6 @@ fn read_now(shared: &Shared, reading: &Reading) -> Result<Value, Refusal> {
         SceneFrom::Given | SceneFrom::BuiltIn => "given",
     };
     let name = format!("{prefix}:{title}");
-<<<<<<< HEAD
     ensure_room(shared, &name)?;
     let loaded = specula_scene::load_with(&reading.path, &reading.options)
         .map_err(|error| located(&reading.folder, &error))?;
@@ -128,40 +114,18 @@ fn read_now(shared: &Shared, reading: &Reading) -> Result<Value, Refusal> {
         warnings,
     };
     added(shared).insert(name.clone());
-=======
-    reserve(shared, &name)?;
-    let loaded = specula_scene::load_with(&reading.path, &reading.options)
-        .map_err(|error| located(&reading.folder, &error))?;
-    (shared.admit)(&loaded.scene).map_err(|e| Refusal::new(StatusCode::UNPROCESSABLE_ENTITY, e))?;
-    let warning = |w: &specula_scene::Warning| {
-        json!({
-            "text": places::without(&reading.folder, w.message()),
-            "file": places::shown(&reading.folder, Path::new(w.file())),
-            "line": w.line(),
-            "column": w.column(),
-        })
-    };
-    let warnings: Vec<Value> = loaded.warnings.iter().take(100).map(warning).collect();
-    let value = json!({ "name": name, "title": title, "warnings": warnings });
-    let (from, scene) = (reading.from, loaded.into());
->>>>>>> main
     core::add_scene(
         &shared.studio,
         NewScene {
             name,
             title,
-<<<<<<< HEAD
             from: reading.from,
-=======
-            from,
->>>>>>> main
             scene,
         },
     );
     Ok(value)
 }
 
-<<<<<<< HEAD
 fn added(shared: &Shared) -> MutexGuard<'_, HashSet<String>> {
     shared.added.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -177,39 +141,18 @@ fn ensure_room(shared: &Shared, name: &str) -> Result<(), Refusal> {
         added.len()
     );
     Err(Refusal::new(StatusCode::CONFLICT, message))
-=======
-/// Counts a scene of this name, which another one of the same name replaces.
-fn reserve(shared: &Shared, name: &str) -> Result<(), Refusal> {
-    let mut added = shared.added.lock().unwrap_or_else(PoisonError::into_inner);
-    if added.len() >= shared.limits.scenes && !added.contains(name) {
-        let message = format!(
-            "{} scenes are open, and no more can be: start the studio anew",
-            added.len()
-        );
-        return Err(Refusal::new(StatusCode::CONFLICT, message));
-    }
-    added.insert(name.to_owned());
-    Ok(())
->>>>>>> main
 }
 
 /// A scene's error with its place.
 fn located(folder: &Path, error: &SceneError) -> Refusal {
-<<<<<<< HEAD
     // Options of the command line are no help to a page.
     let help = error.help().filter(|help| !help.contains("--"));
-=======
->>>>>>> main
     let value = json!({
         "error": places::without(folder, error.message()),
         "file": places::shown(folder, Path::new(error.file())),
         "line": error.line(),
         "column": error.column(),
-<<<<<<< HEAD
         "help": help.map(|help| places::without(folder, help)),
-=======
-        "help": error.help().map(|help| places::without(folder, help)),
->>>>>>> main
     });
     Refusal::of(StatusCode::UNPROCESSABLE_ENTITY, value)
 }
