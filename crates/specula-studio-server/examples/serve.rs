@@ -1,6 +1,7 @@
 //! Serves the studio with pages from a folder, for those who write them:
 //! `cargo run -p specula-studio-server --example serve -- --port 8000 --web crates/specula-studio-server/web/dist`
 
+use std::io::Write as _;
 use std::path::PathBuf;
 
 use specula_studio_server::{Assets, Options, Server};
@@ -25,6 +26,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let pool = rayon::ThreadPoolBuilder::new().build()?;
     let server = Server::bind(options, pool)?;
-    println!("studio: {}", server.address());
+    writeln!(std::io::stdout(), "studio: {}", server.address())?;
     Ok(server.run()?)
 }

@@ -1,4 +1,5 @@
 //! What pages get from the server: their files, answers, scenes, the laboratory.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail loudly")]
 
 mod common;
 

@@ -208,6 +208,12 @@ fn pages_of_other_sites_are_refused_and_told_nothing() {
             "{path}"
         );
     }
+}
+
+#[test]
+fn other_methods_are_refused_and_told_nothing() {
+    let server = start(Options::default());
+    let port = server.port;
     for method in ["OPTIONS", "PUT", "DELETE", "TRACE", "CONNECT", "PATCH"] {
         let asked = format!(
             "{method} /api/ask HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nOrigin: http://evil.example\r\n\

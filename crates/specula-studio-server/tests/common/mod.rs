@@ -1,6 +1,7 @@
 //! A server for each test, and a client that sends what it is told to, byte by byte.
 
 #![allow(dead_code, reason = "each test file uses a part of this")]
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail loudly")]
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
