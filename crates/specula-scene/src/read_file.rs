@@ -324,8 +324,10 @@ mod tests {
         for name in ["secret", "scene/a", "scene/deep/b"] {
             std::fs::write(outer.path().join(name), "text").unwrap();
         }
-        let mut options = LoadOptions::default();
-        options.confined_to = Some(folder.clone());
+        let options = LoadOptions {
+            confined_to: Some(folder.clone()),
+            ..LoadOptions::default()
+        };
         let files = Files::of(&options);
         for good in ["a", "deep/b", "deep/../a"] {
             files.plain(&folder.join(good)).unwrap();

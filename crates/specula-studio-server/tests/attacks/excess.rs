@@ -6,7 +6,9 @@ use std::time::{Duration, Instant};
 use serde_json::json;
 use specula_studio_server::{Options, ServerLimits};
 
-use crate::common::{self, Request, connect, dropped, exchange, framed, impatient, receive, start};
+use crate::common::{
+    self, Request, answered, connect, dropped, exchange, framed, impatient, receive, start,
+};
 use crate::{ASK, drop_on};
 
 #[test]
@@ -197,4 +199,36 @@ fn one_scene_is_read_at_a_time() {
     first.write_all(&body[body.len() - 1..]).unwrap();
     assert_eq!(receive(&mut first).unwrap().status, 200);
     assert_eq!(drop_on(&server, body).0, 200);
+}
+
+#[test]
+fn renders_of_pages_that_went_away_are_closed() {
+    let limits = ServerLimits {
+        idle_time: Duration::from_millis(400),
+        ..impatient().limits
+    };
+    let server = start(Options {
+        limits,
+        ..Options::default()
+    });
+    let ask = |request: serde_json::Value| {
+        answered(
+            &Request::post("/api/ask", request.to_string())
+                .send(&server)
+                .body,
+        )
+    };
+    let scenes = ask(json!({"ask": "render.scenes"}));
+    let scene = &scenes["value"]["scenes"][0]["name"];
+    let opened = ask(json!({"ask": "render.open", "scene": scene, "width": 8, "height": 8}));
+    let session = &opened["value"]["session"];
+    let advance = || ask(json!({"ask": "render.advance", "session": session, "samples": 1}));
+    let begin = Instant::now();
+    while begin.elapsed() < Duration::from_secs(1) {
+        let advanced = advance();
+        assert!(advanced["error"].is_null(), "it is asked for: {advanced}");
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    std::thread::sleep(Duration::from_secs(1));
+    assert!(advance()["error"].is_string());
 }
