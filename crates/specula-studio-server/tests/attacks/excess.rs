@@ -108,7 +108,7 @@ fn what_is_too_long_is_not_read() {
     );
     let deep = "[".repeat(1 << 19);
     let reply = Request::post("/api/ask", deep).send(&server);
-    assert!(common::answered(&reply.body)["error"].is_string());
+    assert!(answered(&reply.body)["error"].is_string());
     assert_eq!(Request::post("/api/ask", ASK).send(&server).status, 200);
 }
 
@@ -231,4 +231,23 @@ fn renders_of_pages_that_went_away_are_closed() {
     }
     std::thread::sleep(Duration::from_secs(1));
     assert!(advance()["error"].is_string());
+}
+
+#[test]
+fn what_is_no_request_is_refused_in_words() {
+    let server = start(impatient());
+    for body in [
+        "",
+        "{}",
+        "[]",
+        "{\"ask\": 1}",
+        "{\"ask\": \"files.read\", \"path\": \"/etc/passwd\"}",
+    ] {
+        let reply = Request::post("/api/ask", body).send(&server);
+        assert!(
+            answered(&reply.body)["error"].is_string(),
+            "{body}: {}",
+            reply.text()
+        );
+    }
 }

@@ -44,7 +44,7 @@ function Heat(props: { label: string; axes: string; rows: number; columns: numbe
   }, [shares]);
   return (
     <figure>
-      <canvas ref={canvas} width={columns} height={rows} role="img" aria-label={`${label}: ${axes}`} />
+      <canvas ref={canvas} style={{ aspectRatio: `${columns} / ${rows}`, height: 'auto' }} width={columns} height={rows} role="img" aria-label={`${label}: ${axes}`} />
       <figcaption>{label}</figcaption>
     </figure>
   );

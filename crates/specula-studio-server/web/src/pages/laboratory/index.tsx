@@ -7,13 +7,8 @@ import { Choice, Message, Panel, Progress } from '../../ui/controls';
 import type { Page } from '../page';
 import { type Experiment, type Result, type Status, useExperiments, useStatus } from './status';
 
-const SOURCES: Record<string, string> = {
-  tokuyoshi24: 'Tokuyoshi and Eto 2024',
-  eto23: 'Eto and Tokuyoshi 2023',
-  dupuy23: 'Dupuy and Benyoub 2023',
-  cui23: 'Cui et al. 2023',
-  specula: 'Specula',
-};
+/** Where the server has the report. */
+const REPORT = '/lab/report/';
 
 function Laboratory() {
   const [state, set] = useAddress('laboratory', { quality: 'draft', chosen: '' });
@@ -43,7 +38,8 @@ function Laboratory() {
       </div>
     );
   }
-  const isRunning = status !== undefined && status.running !== null;
+  const isRunning = status?.state === 'running';
+  const papers = [...new Set((experiments ?? []).map((e) => e.paper))];
   return (
     <div class="page">
       <aside aria-label="Experiments">
@@ -72,16 +68,16 @@ function Laboratory() {
           </button>
         </div>
         <Message text={problem ?? error} />
-        {Object.entries(SOURCES).map(([source, name]) => (
-          <Group key={source} name={name} experiments={(experiments ?? []).filter((e) => e.source === source)} chosen={chosen} choose={choose} />
+        {papers.map((paper) => (
+          <Group key={paper} name={paper} experiments={(experiments ?? []).filter((e) => e.paper === paper)} chosen={chosen} choose={choose} />
         ))}
       </aside>
       <div class="content">
         <Running status={status} />
         <Results results={status?.results ?? []} />
-        {status?.report !== null && status?.report !== undefined && (
-          <Panel title="Report" wide actions={<a href={status.report} target="_blank" rel="noopener">Open alone</a>}>
-            <iframe key={status.results.length} class="report" title="Report" src={status.report} />
+        {status?.report === true && (
+          <Panel title="Report" wide actions={<a href={REPORT} target="_blank" rel="noopener">Open alone</a>}>
+            <iframe key={status.results?.length} class="report" title="Report" src={REPORT} />
           </Panel>
         )}
       </div>
@@ -113,18 +109,10 @@ function Group(props: { name: string; experiments: Experiment[]; chosen: Set<str
 }
 
 function Running(props: { status: Status | undefined }) {
-  const running = props.status?.running;
+  const { status } = props;
   return (
     <Panel title="Now" wide>
-      {running === undefined || running === null ? (
-        <p class="quiet">Nothing runs. Choose experiments at the left.</p>
-      ) : (
-        <Progress
-          label={`${running.id} (${running.index} of ${running.count}): ${running.what}`}
-          share={running.share}
-          seconds={running.seconds}
-        />
-      )}
+      {status?.state !== 'running' ? <p class="quiet">Nothing runs. Choose experiments at the left.</p> : <Progress label={status.what ?? ''} share={status.share} />}
       <Message text={props.status?.error ?? undefined} />
     </Panel>
   );
@@ -132,8 +120,8 @@ function Running(props: { status: Status | undefined }) {
 
 function Results(props: { results: Result[] }) {
   if (props.results.length === 0) return null;
-  const word = (holds: boolean | null) => (holds === null ? 'open' : holds ? 'holds' : 'does not hold');
-  const colour = (holds: boolean | null) => (holds === null ? 'quiet' : holds ? 'good' : 'bad');
+  const word = (holds: string) => ({ yes: 'holds', no: 'does not hold' })[holds] ?? 'open';
+  const colour = (holds: string) => ({ yes: 'good', no: 'bad' })[holds] ?? 'quiet';
   return (
     <Panel title="Claims" wide>
       <div class="scroll">
@@ -142,6 +130,8 @@ function Results(props: { results: Result[] }) {
             <tr>
               <th scope="col">Experiment</th>
               <th scope="col">Claim</th>
+              <th scope="col">Stated</th>
+              <th scope="col">Measured</th>
               <th scope="col">Verdict</th>
               <th scope="col" class="number">
                 Seconds
@@ -153,7 +143,9 @@ function Results(props: { results: Result[] }) {
               result.claims.map((claim, i) => (
                 <tr key={`${result.id}-${i}`}>
                   <td>{i === 0 ? result.id : ''}</td>
-                  <td>{claim.text}</td>
+                  <td>{claim.statement}</td>
+                  <td>{claim.stated}</td>
+                  <td>{claim.measured}</td>
                   <td class={colour(claim.holds)}>{word(claim.holds)}</td>
                   <td class="number">{i === 0 ? result.seconds.toFixed(1) : ''}</td>
                 </tr>

@@ -8,8 +8,8 @@ export interface Experiment {
   title: string;
   /** Which table or figure. */
   item: string;
-  /** The source's name: `tokuyoshi24`, ... */
-  source: string;
+  /** The source, as it is cited. */
+  paper: string;
   statement: string;
 }
 
@@ -19,16 +19,18 @@ export interface Result {
   seconds: number;
   /** What the experiment says of itself. */
   summary: string;
-  claims: { text: string; holds: boolean | null }[];
+  claims: { statement: string; stated: string; measured: string; holds: string }[];
 }
 
 export interface Status {
-  running: { id: string; index: number; count: number; share: number; what: string; seconds: number } | null;
-  results: Result[];
-  /** Why the last run ended early. */
-  error: string | null;
-  /** Where the report is, if there is one. */
-  report: string | null;
+  state: string;
+  share?: number;
+  what?: string;
+  results?: Result[];
+  /** Why the run ended early. */
+  error?: string | null;
+  /** Whether there is a report. */
+  report?: boolean;
 }
 
 /** The experiments; `undefined` until they are known. */
@@ -55,7 +57,7 @@ export function useStatus(): { status: Status | undefined; refresh: () => Promis
       // The program is asked again.
     }
   };
-  const isRunning = status?.running !== null && status !== undefined;
+  const isRunning = status?.state === 'running';
   useEffect(() => {
     if (!hasServer) return;
     void refresh();

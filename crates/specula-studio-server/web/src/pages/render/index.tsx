@@ -63,7 +63,7 @@ function Render() {
   const [picked, setPicked] = useState<number>();
   const [problem, setProblem] = useState<string>();
   const { scenes, refresh, error } = useScenes();
-  const scene = scenes.some((s) => s.name === state.scene) ? state.scene : (scenes[scenes.length - 1]?.name ?? '');
+  const scene = scenes.some((s) => s.name === state.scene) ? state.scene : ((scenes.find((s) => s.from === 'given') ?? scenes[0])?.name ?? '');
   const setup = (energy: string): Setup => ({
     scene,
     size: [state.width, state.height],

@@ -14,7 +14,7 @@ import type { Page } from '../page';
 import { angles, DEFAULTS, direction, PRESETS, SAMPLERS, type SamplerState } from './setup';
 import { outline, points, sphere, view } from './sphere';
 
-/** Samples that are drawn; all are counted. */
+/** Most samples that are drawn. */
 const DRAWN = 4000;
 const CELLS = 48;
 const REGIONS = [
@@ -51,10 +51,10 @@ function Controls({ state, set }: { state: SamplerState; set: Set }) {
     <aside aria-label="Controls">
       <h1>Samplers</h1>
       <Choice label="Sampler" options={SAMPLERS} value={state.sampler as Sampler} onChange={(sampler) => set({ sampler })} />
-      <Slider label="alpha x" value={x} min={0.01} max={1} isLogarithmic onInput={(v) => set({ alpha: [v, y] })} />
-      <Slider label="alpha y" value={y} min={0.01} max={1} isLogarithmic onInput={(v) => set({ alpha: [x, v] })} />
+      <Slider label="alpha x" value={x} min={0.01} max={2} isLogarithmic onInput={(v) => set({ alpha: [v, y] })} />
+      <Slider label="alpha y" value={y} min={0.01} max={2} isLogarithmic onInput={(v) => set({ alpha: [x, v] })} />
       <h3>View</h3>
-      <Slider label="Elevation" unit="degrees" value={state.elevation} min={-89} max={90} onInput={(elevation) => set({ elevation })} />
+      <Slider label="Elevation" unit="degrees" value={state.elevation} min={-90} max={90} onInput={(elevation) => set({ elevation })} />
       <Slider label="Azimuth" unit="degrees" value={state.azimuth} min={0} max={360} onInput={(azimuth) => set({ azimuth })} />
       <h3>Samples</h3>
       <Slider label="Count" value={state.count} min={100} max={1e6} isLogarithmic isInteger onInput={(count) => set({ count })} />
@@ -127,7 +127,7 @@ function Spheres({ setup, state, set }: Part & { set: Set }) {
       <Panel title="Stretched space" isPending={samples.isPending}>
         <Space label="The same samples in the space where the surface is a hemisphere" contents={stretched} />
         <dl class="figures">
-          <dt>Accepted, rejected</dt>
+          <dt>Drawn: accepted, rejected</dt>
           <dd data-figure="accepted">
             {counts === undefined ? '' : `${counts.accepted}, ${counts.rejected}`}
           </dd>
@@ -201,7 +201,7 @@ function Comparison({ setup, state }: Part) {
           <tbody>
             {rows.map((row) => (
               <tr key={row.sampler}>
-                <th scope="row">{row.sampler}</th>
+                <th scope="row">{SAMPLERS.find((s) => s.value === row.sampler)?.label}</th>
                 <td class="number">{(100 * row.acceptance).toFixed(1)} %</td>
                 <td class="number">{row.mean.toFixed(4)}</td>
                 <td class="number">{format(row.variance)}</td>
@@ -220,7 +220,7 @@ function Comparison({ setup, state }: Part) {
 function Formulas({ setup }: Pick<Part, 'setup'>) {
   const { answer, error } = useAnswer<'samplers.describe'>({ ask: 'samplers.describe', ...setup });
   return (
-    <Panel title="Formulas, with these numbers">
+    <Panel title="Formulas, with these numbers" wide>
       <Message text={error} />
       {answer?.value.formulas.map((formula) => (
         <div key={formula.id}>

@@ -24,12 +24,15 @@ export const DEFAULTS = {
 };
 export type SamplerState = typeof DEFAULTS;
 
-/** Views and widths with which the papers draw their figures. */
+/** The panels of figure 1 of the supplement of Tokuyoshi and Eto 2024, the view of their figure 5, and others. */
 export const PRESETS: { name: string; state: Partial<SamplerState> }[] = [
-  { name: 'Rough, steep', state: { alpha: [1, 1], elevation: 60, azimuth: 0 } },
+  { name: 'Supplement, fig. 1 a', state: { alpha: [0.7, 0.4], elevation: 72.54, azimuth: 0 } },
+  { name: 'fig. 1 b', state: { alpha: [0.7, 0.8], elevation: 47.87, azimuth: 63.43 } },
+  { name: 'fig. 1 c', state: { alpha: [1.5, 0.2], elevation: 34.45, azimuth: 104.04 } },
+  { name: 'fig. 1 d', state: { alpha: [1.6, 1.3], elevation: 68.87, azimuth: 123.69 } },
+  { name: 'Along the normal', state: { alpha: [1, 1], elevation: 90, azimuth: 0 } },
   { name: 'Rough, grazing', state: { alpha: [1, 1], elevation: 10, azimuth: 0 } },
   { name: 'Smooth, grazing', state: { alpha: [0.2, 0.2], elevation: 10, azimuth: 0 } },
-  { name: 'Anisotropic', state: { alpha: [0.8, 0.15], elevation: 20, azimuth: 45 } },
   { name: 'Below the horizon', state: { alpha: [0.6, 0.6], elevation: -20, azimuth: 0 } },
 ];
 
@@ -40,8 +43,8 @@ export function direction(elevation: number, azimuth: number): Vec3 {
   return [cos * Math.cos(azimuth * RADIANS), cos * Math.sin(azimuth * RADIANS), Math.sin(elevation * RADIANS)];
 }
 
-/** Elevation and azimuth of a direction, in whole degrees. */
+/** Elevation and azimuth of a direction, in tenths of degrees. */
 export function angles([x, y, z]: Vec3): { elevation: number; azimuth: number } {
-  const azimuth = Math.round(Math.atan2(y, x) / RADIANS);
-  return { elevation: Math.round(Math.asin(Math.min(1, Math.max(-1, z))) / RADIANS), azimuth: azimuth < 0 ? azimuth + 360 : azimuth };
+  const azimuth = Math.round((10 * Math.atan2(y, x)) / RADIANS) / 10;
+  return { elevation: Math.round((10 * Math.asin(Math.min(1, Math.max(-1, z)))) / RADIANS) / 10, azimuth: azimuth < 0 ? azimuth + 360 : azimuth };
 }

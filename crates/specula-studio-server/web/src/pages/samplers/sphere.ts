@@ -22,7 +22,7 @@ function circle(from: Vec3, to: Vec3): number[] {
 
 /** The sphere itself: its horizon and two meridians, with what is behind it faded. */
 export function sphere(): Object3D[] {
-  const body = new Mesh(new SphereGeometry(0.995, 64, 48), new MeshBasicMaterial({ color: themeColour('--card'), transparent: true, opacity: 0.72 }));
+  const body = new Mesh(new SphereGeometry(0.995, 64, 48), new MeshBasicMaterial({ color: themeColour('--card'), transparent: true, opacity: 0.5 }));
   return [
     body,
     outline(circle([1, 0, 0], [0, 1, 0]), '--ink'),
