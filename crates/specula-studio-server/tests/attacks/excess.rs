@@ -7,7 +7,7 @@ use serde_json::json;
 use specula_studio_server::{Options, ServerLimits};
 
 use crate::common::{
-    self, Request, answered, connect, dropped, exchange, framed, impatient, receive, start,
+    Request, answered, connect, dropped, exchange, framed, impatient, receive, start,
 };
 use crate::{ASK, drop_on};
 
