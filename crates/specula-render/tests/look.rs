@@ -14,7 +14,7 @@ fn scene(shapes: &str) -> Scene {
         LightSource \"infinite\" \"rgb L\" [0.2 0.3 0.4]\n{shapes}"
     );
     let loaded = load_bytes("look.pbrt".as_ref(), text.into(), &Default::default());
-    loaded.unwrap().scene
+    loaded.expect("a scene").scene
 }
 
 const BALL: &str =

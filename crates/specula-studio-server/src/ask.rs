@@ -33,7 +33,8 @@ async fn answer(shared: Arc<Shared>, request: Bytes) -> Result<Vec<u8>, Refusal>
     let place = place.map_err(|_| Refusal::internal("the studio is ending"))?;
     let answer = move || {
         let _place = place;
-        shared.pool.install(|| shared.studio.answer(&request))
+        // Not in a worker: one that waits for parts of a render would take up a request that waits for that render.
+        shared.studio.answer(&request)
     };
     tokio::task::spawn_blocking(answer).await.map_err(|_| {
         Refusal::internal("this request met a fault in Specula; its terminal says more")

@@ -1,11 +1,8 @@
 //! The laboratory's routes: experiments, runs of them, their report.
 
 mod report;
-mod run;
-mod status;
 
-use std::io;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 
 use axum::Router;
 use axum::body::Body;
@@ -20,40 +17,6 @@ use specula_lab::{Quality, RunOptions, experiments};
 use crate::body;
 use crate::error::{Refusal, json_response};
 use crate::shared::Shared;
-use run::Run;
-use status::Status;
-
-/// Results of this session and the run that is under way.
-pub(crate) struct Desk {
-    folder: tempfile::TempDir,
-    status: Arc<Mutex<Status>>,
-    run: Mutex<Option<Run>>,
-}
-
-impl Desk {
-    /// With a temporary folder for results.
-    pub(crate) fn new() -> io::Result<Self> {
-        let folder = tempfile::Builder::new()
-            .prefix("specula-studio-lab-")
-            .tempdir()?;
-        Ok(Self {
-            folder,
-            status: Arc::default(),
-            run: Mutex::new(None),
-        })
-    }
-
-    /// Ends the run that is under way, and waits for it a little.
-    pub(crate) fn end(&self) {
-        if let Some(run) = locked(&self.run).take() {
-            run.end();
-        }
-    }
-}
-
-fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
 
 /// All routes of the laboratory.
 pub(crate) fn routes() -> Router<Arc<Shared>> {
@@ -108,25 +71,27 @@ async fn start(
         return Err(Refusal::bad("'ids' names no experiment"));
     }
     let chosen = experiments::named(&ids).map_err(|e| Refusal::bad(e.to_string()))?;
-    let mut run = locked(&shared.lab.run);
-    if locked(&shared.lab.status).running.is_some() {
-        let message = "a run is under way: stop it, or wait for its end";
-        return Err(Refusal::new(StatusCode::CONFLICT, message));
+    let begun = shared.lab.start(
+        Arc::clone(&shared.pool),
+        chosen,
+        RunOptions { quality, seed },
+    );
+    match begun.map_err(|e| Refusal::internal(e.to_string()))? {
+        true => Ok(json_response(&json!({}))),
+        false => {
+            let message = "a run is under way: stop it, or wait for its end";
+            Err(Refusal::new(StatusCode::CONFLICT, message))
+        }
     }
-    let begun = Run::start(Arc::clone(&shared), chosen, RunOptions { quality, seed });
-    *run = Some(begun.map_err(|e| Refusal::internal(e.to_string()))?);
-    Ok(json_response(&json!({})))
 }
 
 /// `GET /api/lab/status`: how far the run is, and what it has found.
 async fn status(State(shared): State<Arc<Shared>>) -> Response {
-    json_response(&locked(&shared.lab.status).shown())
+    json_response(&shared.lab.status())
 }
 
 /// `POST /api/lab/stop`: ends the run; what is finished stays.
 async fn stop(State(shared): State<Arc<Shared>>) -> Response {
-    if let Some(run) = locked(&shared.lab.run).as_ref() {
-        run.stop();
-    }
+    shared.lab.stop();
     json_response(&json!({}))
 }

@@ -28,10 +28,13 @@ mod ask;
 mod assets;
 mod body;
 mod core;
+#[cfg(feature = "lab")]
+mod desk;
 mod dropped;
 mod error;
 mod export;
 mod guard;
+mod host;
 #[cfg(feature = "lab")]
 mod lab;
 mod limits;

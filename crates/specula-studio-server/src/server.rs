@@ -22,7 +22,8 @@ use tokio::sync::{Notify, Semaphore};
 
 use crate::core::{self, NewScene};
 use crate::error::Refusal;
-use crate::guard::{Host, guard};
+use crate::guard::guard;
+use crate::host::Host;
 use crate::shared::{Admit, Shared};
 use crate::token::Token;
 use crate::{Assets, ServerError, ServerLimits, ask, dropped, scenes, serve};
@@ -84,7 +85,7 @@ impl Stopper {
 impl Server {
     /// Listens; browsers wait for [`Server::run`].
     ///
-    /// * `pool`: the threads that work.
+    /// * `pool`: the threads that read scenes and run experiments; answers are computed by rayon's global pool.
     ///
     /// # Errors
     ///
@@ -117,7 +118,7 @@ impl Server {
                 is_open: !options.address.is_loopback(),
             },
             assets: options.assets,
-            pool,
+            pool: Arc::new(pool),
             asking: Arc::new(Semaphore::new(options.limits.asks)),
             loading: Arc::new(Semaphore::new(1)),
             limits: options.limits,
@@ -126,7 +127,7 @@ impl Server {
             admit: options.admit,
             added: Mutex::new(HashSet::new()),
             #[cfg(feature = "lab")]
-            lab: crate::lab::Desk::new().map_err(ServerError::Serve)?,
+            lab: crate::desk::Desk::new().map_err(ServerError::Serve)?,
         };
         Ok(Self {
             shared: Arc::new(shared),

@@ -9,7 +9,7 @@ use specula_scene::{LoadOptions, Scene};
 use specula_studio::Studio;
 use tokio::sync::Semaphore;
 
-use crate::guard::Host;
+use crate::host::Host;
 use crate::token::Token;
 use crate::{Assets, ServerLimits};
 
@@ -23,8 +23,8 @@ pub(crate) struct Shared {
     pub(crate) host: Host,
     pub(crate) assets: Assets,
     pub(crate) limits: ServerLimits,
-    /// The threads that work.
-    pub(crate) pool: ThreadPool,
+    /// The threads that read scenes and run experiments.
+    pub(crate) pool: Arc<ThreadPool>,
     /// Places of requests that are being answered.
     pub(crate) asking: Arc<Semaphore>,
     /// The place of the one scene that is read at a time.
@@ -36,5 +36,5 @@ pub(crate) struct Shared {
     /// Names of scenes that were opened or dropped.
     pub(crate) added: Mutex<HashSet<String>>,
     #[cfg(feature = "lab")]
-    pub(crate) lab: crate::lab::Desk,
+    pub(crate) lab: crate::desk::Desk,
 }

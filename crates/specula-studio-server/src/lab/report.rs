@@ -16,7 +16,7 @@ use crate::token::Token;
 
 /// `GET /lab/report/`.
 pub(super) async fn page(State(shared): State<Arc<Shared>>) -> Result<Response, Refusal> {
-    let path = shared.lab.folder.path().join(PAGE);
+    let path = shared.lab.folder().join(PAGE);
     let Ok(text) = tokio::fs::read_to_string(path).await else {
         return Err(Refusal::new(
             StatusCode::NOT_FOUND,

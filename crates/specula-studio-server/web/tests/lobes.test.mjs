@@ -166,7 +166,7 @@ test('energy treatments are laid over each other; the address reopens the page',
 
 test('walks are stepped through', async () => {
   await go('?a=multibounce-conductor+Au+alpha+0.7');
-  const status = page.locator('[aria-live=polite]');
+  const status = page.locator('[aria-live=polite]').filter({ hasText: 'Walk' });
   await status.waitFor();
   assert.match(await status.textContent(), /^Walk 1 of 256: \d+ bounce/);
   await page.getByRole('button', { name: 'Next of two or more bounces' }).click();

@@ -107,6 +107,10 @@ pub(crate) fn run(arguments: &StudioArguments) -> Result<ExitCode, Failure> {
         ..Options::default()
     };
     let pool = machine::pool(threads, arguments.machine.nice)?;
+    // Renders run in the program's own pool, which is made once.
+    let _ = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build_global();
     let server = Server::bind(options, pool).map_err(failure)?;
     if let Some(Named {
         name,

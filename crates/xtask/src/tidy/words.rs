@@ -97,7 +97,7 @@ fn files(root: &Path) -> Result<Vec<PathBuf>> {
             if path.is_dir() {
                 let built = path
                     .file_name()
-                    .is_some_and(|n| n == "target" || n == "corpus");
+                    .is_some_and(|n| n == "target" || n == "corpus" || n == "node_modules");
                 if !built {
                     folders.push(path);
                 }

@@ -24,8 +24,8 @@ export type Backend = 'server' | 'wasm' | 'none';
 export const backend: Backend =
   globalThis.SPECULA_WASM !== undefined ? 'wasm' : location.protocol.startsWith('http') ? 'server' : 'none';
 
-/** The answer to a request. `signal`: gives up waiting for it. */
-export async function ask<K extends Ask>(request: Protocol[K][0] & { ask: K }, signal?: AbortSignal): Promise<Answer<K>> {
+/** The answer to a request. `signal`: gives up waiting for it; `isLast`: it is sent even where the page goes away. */
+export async function ask<K extends Ask>(request: Protocol[K][0] & { ask: K }, signal?: AbortSignal, isLast = false): Promise<Answer<K>> {
   const text = JSON.stringify(request);
   if (backend === 'wasm') return decode<K>(await askWorker(text, signal));
   if (backend === 'none') throw new AskError('this page has neither a server nor the WebAssembly module');
@@ -36,6 +36,7 @@ export async function ask<K extends Ask>(request: Protocol[K][0] & { ask: K }, s
       headers: { 'content-type': 'application/json', 'x-specula': '1' },
       body: text,
       signal: signal ?? null,
+      keepalive: isLast,
     });
   } catch (error) {
     if (signal?.aborted) throw error;

@@ -113,13 +113,13 @@ fn proof_around(z: f32, phi: f32) -> vec3f {
     var squares = vec3f(0.0);
     for (var i = 0u; i < proof_task.each; i++) {
         let u = vec3f(proof_next(&state), proof_next(&state), proof_next(&state));
-        let drawn = user_sample(wo, u);
-        if drawn.w == 0.0 {
+        let sampled = user_sample(wo, u);
+        if sampled.w == 0.0 {
             atomicAdd(&proof_counts[PROOF_FAILED], 1u);
             continue;
         }
-        let wi = drawn.xyz;
-        if !proof_is_value(drawn.w) || !proof_is_finite(dot(wi, wi)) {
+        let wi = sampled.xyz;
+        if !proof_is_value(sampled.w) || !proof_is_finite(dot(wi, wi)) {
             atomicAdd(&proof_counts[PROOF_SAMPLE_INVALID], 1u);
             continue;
         }
@@ -127,12 +127,12 @@ fn proof_around(z: f32, phi: f32) -> vec3f {
             atomicAdd(&proof_counts[PROOF_NOT_UNIT], 1u);
         }
         let pdf = user_pdf(wo, wi);
-        let difference = abs(pdf - drawn.w) / max(pdf, drawn.w);
+        let difference = abs(pdf - sampled.w) / max(pdf, sampled.w);
         if difference > 1e-3 || !proof_is_finite(difference) {
             atomicAdd(&proof_counts[PROOF_DIFFERS], 1u);
             atomicMax(&proof_counts[PROOF_DIFFERENCE], bitcast<u32>(min(difference, 1e9)));
         }
-        let weight = user_eval(wo, wi) / drawn.w;
+        let weight = user_eval(wo, wi) / sampled.w;
         if proof_is_colour(weight) {
             sum += weight;
             squares += weight * weight;
@@ -237,8 +237,8 @@ fn proof_refine(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     let wi_z = select(1.0 - 2.0 * (f32(row) - 4.0) / 11.0, cosines[3u + row], row < 4u);
     let wi_phi = 0.125 * PROOF_PI * f32(column);
     let wi = proof_around(wi_z, wi_phi);
-    let drawn = user_sample(wo, (vec3f(f32(row), f32(column), 8.0) + vec3f(0.0, 0.0, 0.5)) / 16.0);
-    let is_drawn = proof_is_value(drawn.w) && (drawn.w == 0.0 || proof_is_finite(dot(drawn.xyz, drawn.xyz)));
+    let sampled = user_sample(wo, (vec3f(f32(row), f32(column), 8.0) + vec3f(0.0, 0.0, 0.5)) / 16.0);
+    let is_drawn = proof_is_value(sampled.w) && (sampled.w == 0.0 || proof_is_finite(dot(sampled.xyz, sampled.xyz)));
     if !is_drawn || !proof_is_colour(user_eval(wo, wi)) || !proof_is_value(user_pdf(wo, wi)) {
         atomicAdd(&proof_counts[PROOF_INVALID], 1u);
         atomicMin(&proof_counts[PROOF_FIRST_INVALID], id.x);

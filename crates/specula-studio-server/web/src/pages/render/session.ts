@@ -40,7 +40,7 @@ export function useRenders(setups: Setup[], mode: string, isPlaying: boolean, ta
       if (!isGone) setTurns(now.map((turn) => ({ ...turn })));
     };
     const close = () => {
-      for (const turn of now) if (turn.opened !== undefined) void ask<'render.close'>({ ask: 'render.close', session: turn.opened.session }).catch(() => undefined);
+      for (const turn of now) if (turn.opened !== undefined) void ask<'render.close'>({ ask: 'render.close', session: turn.opened.session }, undefined, true).catch(() => undefined);
     };
     const run = async () => {
       for (const [i, setup] of setups.entries()) {
@@ -77,6 +77,7 @@ export function useRenders(setups: Setup[], mode: string, isPlaying: boolean, ta
         }
         publish();
       }
+      // Whoever ended this loop from outside has not closed them.
       close();
     };
     const leave = () => {
