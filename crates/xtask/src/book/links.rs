@@ -63,7 +63,10 @@ fn files(root: &Path) -> Result<Vec<PathBuf>> {
             let path = entry?.path();
             if !path.is_dir() {
                 entries.push(path);
-            } else if path.file_name().is_some_and(|name| name != "target") {
+            } else if path
+                .file_name()
+                .is_some_and(|name| name != "target" && name != "node_modules")
+            {
                 folders.push(path);
             }
         }

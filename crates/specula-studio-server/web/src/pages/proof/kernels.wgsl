@@ -238,8 +238,8 @@ fn proof_refine(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     let wi_phi = 0.125 * PROOF_PI * f32(column);
     let wi = proof_around(wi_z, wi_phi);
     let sampled = user_sample(wo, (vec3f(f32(row), f32(column), 8.0) + vec3f(0.0, 0.0, 0.5)) / 16.0);
-    let is_drawn = proof_is_value(sampled.w) && (sampled.w == 0.0 || proof_is_finite(dot(sampled.xyz, sampled.xyz)));
-    if !is_drawn || !proof_is_colour(user_eval(wo, wi)) || !proof_is_value(user_pdf(wo, wi)) {
+    let is_valid = proof_is_value(sampled.w) && (sampled.w == 0.0 || proof_is_finite(dot(sampled.xyz, sampled.xyz)));
+    if !is_valid || !proof_is_colour(user_eval(wo, wi)) || !proof_is_value(user_pdf(wo, wi)) {
         atomicAdd(&proof_counts[PROOF_INVALID], 1u);
         atomicMin(&proof_counts[PROOF_FIRST_INVALID], id.x);
     }
