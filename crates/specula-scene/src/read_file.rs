@@ -67,8 +67,10 @@ impl Files {
     /// Opens an ordinary file, where it lies in the folder that files are confined to.
     fn ordinary(&self, path: &Path) -> Result<File, String> {
         if let Some(folder) = &self.confined_to {
-            let resolved = |p: &Path| p.canonicalize().map_err(|e| unreadable(&e));
-            if !resolved(path)?.starts_with(resolved(folder)?) {
+            let folder = folder.canonicalize().map_err(|e| unreadable(&e))?;
+            // Where there is no such file: whether there could be one is nothing to tell about other folders.
+            let there = path.ancestors().find_map(|p| p.canonicalize().ok());
+            if there.is_some_and(|there| !there.starts_with(&folder)) {
                 return Err("lies outside of the scene's folder".to_owned());
             }
         }
@@ -313,6 +315,49 @@ fn unpack(bytes: &[u8], limits: &Limits) -> Result<Vec<u8>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn confined_files_lie_in_their_folder() {
+        let outer = tempfile::tempdir().unwrap();
+        let folder = outer.path().join("scene");
+        std::fs::create_dir_all(folder.join("deep")).unwrap();
+        for name in ["secret", "scene/a", "scene/deep/b"] {
+            std::fs::write(outer.path().join(name), "text").unwrap();
+        }
+        let options = LoadOptions {
+            confined_to: Some(folder.clone()),
+            ..LoadOptions::default()
+        };
+        let files = Files::of(&options);
+        for good in ["a", "deep/b", "deep/../a"] {
+            files.plain(&folder.join(good)).unwrap();
+        }
+        #[cfg(unix)]
+        std::os::unix::fs::symlink(outer.path(), folder.join("link")).unwrap();
+        let outside = [
+            "../secret",
+            "../none",
+            "link/secret",
+            "link/none",
+            "/etc/passwd",
+            "deep/../../secret",
+        ];
+        for bad in outside {
+            let path = folder.join(bad);
+            for error in [
+                files.plain(&path).unwrap_err(),
+                files.open(&path).unwrap_err(),
+                files.unpacked(&path).unwrap_err(),
+            ] {
+                assert!(
+                    cfg!(not(unix)) || error.contains("outside"),
+                    "{bad}: {error}"
+                );
+            }
+        }
+        let missing = files.plain(&folder.join("none")).unwrap_err();
+        assert!(!missing.contains("outside"), "{missing}");
+    }
 
     #[test]
     fn files_are_listed_once_in_the_order_of_their_announcement() {

@@ -1,4 +1,6 @@
-//! Results of the laboratory, and the run that is under way.
+//! Results of the laboratory, and the run that is under way, in a thread of its own.
+
+mod status;
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -8,24 +10,25 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use rayon::ThreadPool;
-use serde::Serialize;
 use serde_json::Value;
-use specula_lab::{Claim, Experiment, LabError, Outcome, Record, RunEvent, RunOptions};
+use specula_lab::{Experiment, LabError, RunEvent, RunOptions};
+
+use status::{Running, Status};
 
 /// What the end of the server waits for a run.
 const GRACE: Duration = Duration::from_secs(3);
 
-/// A run that was begun.
-pub(crate) struct Run {
-    stop: Arc<AtomicBool>,
-    status: Arc<Mutex<Status>>,
-    thread: JoinHandle<()>,
-}
-
 /// Results of this session and the run that is under way.
 pub(crate) struct Desk {
     folder: tempfile::TempDir,
+    status: Arc<Mutex<Status>>,
     run: Mutex<Option<Run>>,
+}
+
+/// A run that was begun.
+struct Run {
+    stop: Arc<AtomicBool>,
+    thread: JoinHandle<()>,
 }
 
 impl Desk {
@@ -36,136 +39,88 @@ impl Desk {
             .tempdir()?;
         Ok(Self {
             folder,
+            status: Arc::default(),
             run: Mutex::new(None),
         })
     }
 
-    pub(crate) fn folder(&self) -> PathBuf {
-        self.folder.path().to_owned()
+    /// The folder of results.
+    pub(crate) fn folder(&self) -> &Path {
+        self.folder.path()
     }
 
-    pub(crate) fn run(&self) -> MutexGuard<'_, Option<Run>> {
-        self.run.lock().unwrap_or_else(PoisonError::into_inner)
+    /// As pages see it.
+    pub(crate) fn status(&self) -> Value {
+        locked(&self.status).shown()
+    }
+
+    /// Begins a run; `false`: one is under way.
+    pub(crate) fn start(
+        &self,
+        pool: Arc<ThreadPool>,
+        chosen: Vec<&'static Experiment>,
+        options: RunOptions,
+    ) -> io::Result<bool> {
+        let mut run = locked(&self.run);
+        let mut status = locked(&self.status);
+        if status.running.is_some() {
+            return Ok(false);
+        }
+        let stop = Arc::new(AtomicBool::new(false));
+        let work = {
+            let end = EndOfRun(Arc::clone(&self.status));
+            let (folder, stop) = (self.folder.path().to_owned(), Arc::clone(&stop));
+            let chosen = chosen.clone();
+            move || {
+                let work = Work {
+                    folder: &folder,
+                    status: &end.0,
+                    stop: &stop,
+                };
+                work.run(&pool, &chosen, options);
+            }
+        };
+        let thread = std::thread::Builder::new().name("laboratory".to_owned());
+        status.running = Some(Running {
+            id: chosen.first().map_or_else(String::new, |e| e.id.to_owned()),
+            index: 1,
+            count: chosen.len(),
+            share: 0.0,
+            what: String::new(),
+            begun: Instant::now(),
+        });
+        status.error = None;
+        // Where there is no thread, the work's end is dropped, and takes this lock.
+        drop(status);
+        *run = Some(Run {
+            thread: thread.spawn(work)?,
+            stop,
+        });
+        Ok(true)
+    }
+
+    /// Asks the run to end.
+    pub(crate) fn stop(&self) {
+        if let Some(run) = locked(&self.run).as_ref() {
+            run.stop.store(true, Ordering::Relaxed);
+        }
     }
 
     /// Ends the run that is under way, and waits for it a little.
     pub(crate) fn end(&self) {
-        if let Some(run) = self.run().take() {
-            run.end();
-        }
-    }
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-enum Phase {
-    Running,
-    Done,
-    Stopped,
-    Failed,
-}
-
-/// As pages see it.
-#[derive(Serialize)]
-struct Status {
-    state: Phase,
-    /// In `[0, 1]`.
-    share: f64,
-    /// What is being done.
-    what: String,
-    quality: &'static str,
-    seed: u64,
-    count: usize,
-    results: Vec<Found>,
-    /// `/lab/report/` shows the results.
-    report: bool,
-    error: Option<String>,
-}
-
-/// What an experiment has found.
-#[derive(Serialize)]
-struct Found {
-    id: String,
-    title: String,
-    seconds: f64,
-    outcome: Outcome,
-    summary: String,
-    caveat: String,
-    claims: Vec<Claim>,
-}
-
-impl From<&Record> for Found {
-    fn from(record: &Record) -> Self {
-        Self {
-            id: record.id.clone(),
-            title: record.title.clone(),
-            seconds: record.seconds,
-            outcome: record.outcome,
-            summary: record.verdict.summary.clone(),
-            caveat: record.verdict.caveat.clone(),
-            claims: record.verdict.claims.clone(),
-        }
-    }
-}
-
-impl Run {
-    /// Begins.
-    pub(crate) fn start(
-        pool: Arc<ThreadPool>,
-        folder: PathBuf,
-        chosen: Vec<&'static Experiment>,
-        options: RunOptions,
-    ) -> io::Result<Self> {
-        let stop = Arc::new(AtomicBool::new(false));
-        let status = Arc::new(Mutex::new(Status {
-            state: Phase::Running,
-            share: 0.0,
-            what: String::new(),
-            quality: options.quality.name(),
-            seed: options.seed,
-            count: chosen.len(),
-            results: Vec::new(),
-            report: false,
-            error: None,
-        }));
-        let work = {
-            let (stop, status) = (Arc::clone(&stop), Arc::clone(&status));
-            move || {
-                let end = EndOfRun(Arc::clone(&status));
-                work(&pool, &folder, &chosen, options, &stop, &status);
-                std::mem::drop(end);
-            }
-        };
-        let thread = std::thread::Builder::new()
-            .name("laboratory".to_owned())
-            .spawn(work)?;
-        Ok(Self {
-            stop,
-            status,
-            thread,
-        })
-    }
-
-    pub(crate) fn is_under_way(&self) -> bool {
-        locked(&self.status).state == Phase::Running
-    }
-
-    pub(crate) fn status(&self) -> Value {
-        serde_json::to_value(&*locked(&self.status)).unwrap_or_default()
-    }
-
-    pub(crate) fn stop(&self) {
-        self.stop.store(true, Ordering::Relaxed);
-    }
-
-    /// Stops, and waits a little for the end.
-    pub(crate) fn end(self) {
         self.stop();
+        let Some(run) = locked(&self.run).take() else {
+            return;
+        };
         let start = Instant::now();
-        while !self.thread.is_finished() && start.elapsed() < GRACE {
+        while !run.thread.is_finished() && start.elapsed() < GRACE {
             std::thread::sleep(Duration::from_millis(20));
         }
     }
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Sees to it that a run which panics does not look as if it went on.
@@ -174,54 +129,66 @@ struct EndOfRun(Arc<Mutex<Status>>);
 impl Drop for EndOfRun {
     fn drop(&mut self) {
         let mut status = locked(&self.0);
-        if status.state == Phase::Running {
-            status.state = Phase::Failed;
+        if status.running.take().is_some() {
             status.error =
                 Some("the laboratory met a fault in Specula; its terminal says more".to_owned());
         }
     }
 }
 
-fn work(
-    pool: &ThreadPool,
-    folder: &Path,
-    chosen: &[&'static Experiment],
-    options: RunOptions,
-    stop: &AtomicBool,
-    status: &Mutex<Status>,
-) {
-    let count = chosen.len() as f64;
-    let events = |event: RunEvent<'_>| {
-        let mut status = locked(status);
-        let done = status.results.len() as f64;
-        match event {
-            RunEvent::Began(experiment, ..) => experiment.id.clone_into(&mut status.what),
-            RunEvent::Step(experiment, step) => {
-                status.share = (done + step.share.clamp(0.0, 1.0)) / count;
-                status.what = format!("{}: {}", experiment.id, step.what);
-            }
-            RunEvent::Done(_, record) => {
-                status.results.push(Found::from(record));
-                status.share = (done + 1.0) / count;
-            }
-        }
-    };
-    let result = pool.install(|| specula_lab::run(chosen, options, folder, stop, &events));
-    // Also of earlier runs.
-    let page = match specula_lab::report::write(folder) {
-        Err(LabError::NoResults(_)) => Ok(false),
-        written => written.map(|_| true),
-    };
-    let mut status = locked(status);
-    status.report = matches!(page, Ok(true));
-    let failed = |error: LabError| (Phase::Failed, Some(error.to_string()));
-    (status.state, status.error) = match (result, page) {
-        (Err(LabError::Stopped), _) => (Phase::Stopped, None),
-        (Err(error), _) | (_, Err(error)) => failed(error),
-        _ => (Phase::Done, None),
-    };
+/// What the thread of a run has.
+struct Work<'a> {
+    folder: &'a PathBuf,
+    status: &'a Mutex<Status>,
+    stop: &'a AtomicBool,
 }
 
-fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+impl Work<'_> {
+    fn run(&self, pool: &ThreadPool, chosen: &[&'static Experiment], options: RunOptions) {
+        let events = |event: RunEvent<'_>| self.show(event, chosen.len());
+        let result =
+            pool.install(|| specula_lab::run(chosen, options, self.folder, self.stop, &events));
+        let page = write_page(self.folder);
+        let mut status = locked(self.status);
+        status.has_report = matches!(page, Ok(true));
+        status.error = match (result, page) {
+            (Err(LabError::Stopped), _) => Some("stopped; what was finished is kept".to_owned()),
+            (Err(error), _) | (_, Err(error)) => Some(error.to_string()),
+            _ => None,
+        };
+        status.running = None;
+    }
+
+    /// Shows what happens.
+    fn show(&self, event: RunEvent<'_>, count: usize) {
+        let mut status = locked(self.status);
+        if let RunEvent::Done(_, record) = event {
+            status.add(record);
+        }
+        let Some(running) = &mut status.running else {
+            return;
+        };
+        let count = count as f64;
+        match event {
+            RunEvent::Began(experiment, before, _) => {
+                experiment.id.clone_into(&mut running.id);
+                running.what.clear();
+                running.index = before + 1;
+                running.share = before as f64 / count;
+            }
+            RunEvent::Step(_, step) => {
+                running.share = (running.index as f64 - 1.0 + step.share.clamp(0.0, 1.0)) / count;
+                running.what = step.what;
+            }
+            RunEvent::Done(..) => running.share = running.index as f64 / count,
+        }
+    }
+}
+
+/// The page about all results of the session; whether there are any.
+fn write_page(folder: &Path) -> Result<bool, LabError> {
+    match specula_lab::report::write(folder) {
+        Err(LabError::NoResults(_)) => Ok(false),
+        written => written.map(|_| true),
+    }
 }

@@ -15,7 +15,6 @@ use serde_json::{Value, json};
 use specula_lab::{Quality, RunOptions, experiments};
 
 use crate::body;
-use crate::desk::Run;
 use crate::error::{Refusal, json_response};
 use crate::shared::Shared;
 
@@ -37,6 +36,7 @@ async fn list() -> Response {
             json!({
                 "id": e.id,
                 "title": e.title,
+                "source": e.source,
                 "paper": e.source.cite(),
                 "item": e.item,
                 "statement": e.statement,
@@ -71,40 +71,27 @@ async fn start(
         return Err(Refusal::bad("'ids' names no experiment"));
     }
     let chosen = experiments::named(&ids).map_err(|e| Refusal::bad(e.to_string()))?;
-    let mut run = shared.lab.run();
-    if run.as_ref().is_some_and(Run::is_under_way) {
-        return Err(Refusal::new(
-            StatusCode::CONFLICT,
-            "a run is under way: stop it, or wait for its end",
-        ));
-    }
-    let options = RunOptions { quality, seed };
-    *run = Some(
-        Run::start(
-            Arc::clone(&shared.pool),
-            shared.lab.folder(),
-            chosen,
-            options,
-        )
-        .map_err(|e| Refusal::internal(e.to_string()))?,
+    let begun = shared.lab.start(
+        Arc::clone(&shared.pool),
+        chosen,
+        RunOptions { quality, seed },
     );
-    Ok(json_response(&json!({})))
+    match begun.map_err(|e| Refusal::internal(e.to_string()))? {
+        true => Ok(json_response(&json!({}))),
+        false => {
+            let message = "a run is under way: stop it, or wait for its end";
+            Err(Refusal::new(StatusCode::CONFLICT, message))
+        }
+    }
 }
 
 /// `GET /api/lab/status`: how far the run is, and what it has found.
 async fn status(State(shared): State<Arc<Shared>>) -> Response {
-    let value = shared
-        .lab
-        .run()
-        .as_ref()
-        .map_or_else(|| json!({"state": "idle"}), Run::status);
-    json_response(&value)
+    json_response(&shared.lab.status())
 }
 
 /// `POST /api/lab/stop`: ends the run; what is finished stays.
 async fn stop(State(shared): State<Arc<Shared>>) -> Response {
-    if let Some(run) = shared.lab.run().as_ref() {
-        run.stop();
-    }
+    shared.lab.stop();
     json_response(&json!({}))
 }

@@ -51,3 +51,4 @@ pub use export::export;
 pub use limits::ServerLimits;
 pub use server::{Options, Server, Stopper};
 pub use shared::Admit;
+pub use specula_studio::GivenScene;

@@ -1,7 +1,8 @@
 //! Scenes that pages open by path, and what reading one answers.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, PoisonError};
+use std::sync::{Arc, MutexGuard, PoisonError};
 
 use axum::body::Body;
 use axum::extract::State;
@@ -9,14 +10,17 @@ use axum::http::{HeaderMap, StatusCode};
 use axum::response::Response;
 use serde::Deserialize;
 use serde_json::{Value, json};
-use specula_scene::{LoadOptions, SceneError};
-use specula_studio::SceneFrom;
+use specula_scene::{LoadOptions, SceneError, Warning};
+use specula_studio::{GivenScene, SceneFrom};
 use tokio::sync::OwnedSemaphorePermit;
 
 use crate::core::{self, NewScene};
 use crate::error::{Refusal, json_response};
 use crate::shared::Shared;
 use crate::{body, places};
+
+/// Most warnings that pages are told.
+const MOST_WARNINGS: usize = 100;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -89,55 +93,66 @@ fn read_now(shared: &Shared, reading: &Reading) -> Result<Value, Refusal> {
         SceneFrom::Given | SceneFrom::BuiltIn => "given",
     };
     let name = format!("{prefix}:{title}");
-    reserve(shared, &name)?;
+    ensure_room(shared, &name)?;
     let loaded = specula_scene::load_with(&reading.path, &reading.options)
         .map_err(|error| located(&reading.folder, &error))?;
     (shared.admit)(&loaded.scene).map_err(|e| Refusal::new(StatusCode::UNPROCESSABLE_ENTITY, e))?;
-    let warning = |w: &specula_scene::Warning| {
-        json!({
-            "text": places::without(&reading.folder, w.message()),
-            "file": places::shown(&reading.folder, Path::new(w.file())),
-            "line": w.line(),
-            "column": w.column(),
-        })
+    let said = |w: &Warning| {
+        let file = places::shown(&reading.folder, Path::new(w.file()));
+        let message = places::without(&reading.folder, w.message());
+        format!("{file}:{}:{}: {message}", w.line(), w.column())
     };
-    let warnings: Vec<Value> = loaded.warnings.iter().take(100).map(warning).collect();
+    let warnings: Vec<String> = loaded
+        .warnings
+        .iter()
+        .take(MOST_WARNINGS)
+        .map(said)
+        .collect();
     let value = json!({ "name": name, "title": title, "warnings": warnings });
-    let (from, scene) = (reading.from, loaded.into());
+    let scene = GivenScene {
+        scene: loaded.scene,
+        warnings,
+    };
+    added(shared).insert(name.clone());
     core::add_scene(
         &shared.studio,
         NewScene {
             name,
             title,
-            from,
+            from: reading.from,
             scene,
         },
     );
     Ok(value)
 }
 
-/// Counts a scene of this name, which another one of the same name replaces.
-fn reserve(shared: &Shared, name: &str) -> Result<(), Refusal> {
-    let mut added = shared.added.lock().unwrap_or_else(PoisonError::into_inner);
-    if added.len() >= shared.limits.scenes && !added.contains(name) {
-        let message = format!(
-            "{} scenes are open, and no more can be: start the studio anew",
-            added.len()
-        );
-        return Err(Refusal::new(StatusCode::CONFLICT, message));
+fn added(shared: &Shared) -> MutexGuard<'_, HashSet<String>> {
+    shared.added.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Fails where no further scene is kept; one of the same name is replaced. Scenes are read one at a time.
+fn ensure_room(shared: &Shared, name: &str) -> Result<(), Refusal> {
+    let added = added(shared);
+    if added.len() < shared.limits.scenes || added.contains(name) {
+        return Ok(());
     }
-    added.insert(name.to_owned());
-    Ok(())
+    let message = format!(
+        "{} scenes are open, and no more can be: start the studio anew",
+        added.len()
+    );
+    Err(Refusal::new(StatusCode::CONFLICT, message))
 }
 
 /// A scene's error with its place.
 fn located(folder: &Path, error: &SceneError) -> Refusal {
+    // Options of the command line are no help to a page.
+    let help = error.help().filter(|help| !help.contains("--"));
     let value = json!({
         "error": places::without(folder, error.message()),
         "file": places::shown(folder, Path::new(error.file())),
         "line": error.line(),
         "column": error.column(),
-        "help": error.help().map(|help| places::without(folder, help)),
+        "help": help.map(|help| places::without(folder, help)),
     });
     Refusal::of(StatusCode::UNPROCESSABLE_ENTITY, value)
 }

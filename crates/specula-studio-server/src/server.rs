@@ -85,7 +85,7 @@ impl Stopper {
 impl Server {
     /// Listens; browsers wait for [`Server::run`].
     ///
-    /// * `pool`: the threads that work.
+    /// * `pool`: the threads that read scenes and run experiments; answers are computed by rayon's global pool.
     ///
     /// # Errors
     ///
@@ -214,9 +214,21 @@ fn router(shared: Arc<Shared>) -> Router {
         .fallback(page);
     #[cfg(feature = "lab")]
     let pages = pages.merge(crate::lab::routes());
+    #[cfg(not(feature = "lab"))]
+    let pages = pages
+        .route("/api/lab", axum::routing::get(no_laboratory))
+        .route("/api/lab/status", axum::routing::get(no_laboratory));
     pages
         .layer(from_fn_with_state(Arc::clone(&shared), guard))
         .with_state(shared)
+}
+
+#[cfg(not(feature = "lab"))]
+async fn no_laboratory() -> Refusal {
+    Refusal::new(
+        StatusCode::NOT_FOUND,
+        "this program is built without the laboratory",
+    )
 }
 
 /// A file of the pages.

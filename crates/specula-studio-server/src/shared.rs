@@ -23,7 +23,7 @@ pub(crate) struct Shared {
     pub(crate) host: Host,
     pub(crate) assets: Assets,
     pub(crate) limits: ServerLimits,
-    /// The threads that work.
+    /// The threads that read scenes and run experiments.
     pub(crate) pool: Arc<ThreadPool>,
     /// Places of requests that are being answered.
     pub(crate) asking: Arc<Semaphore>,

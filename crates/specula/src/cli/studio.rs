@@ -7,13 +7,17 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use clap::Args;
-use specula_studio_server::{Assets, Options, Server, ServerError, export};
+use specula_studio_server::{Assets, GivenScene, Options, Server, ServerError, export};
+
+use crate::render::RenderOptions;
+use crate::scene::Scene;
 
 use super::console::say;
+use super::load::Named;
 use super::loading::LoadingArguments;
 use super::machine::MachineArguments;
 use super::stop::StopFlag;
-use super::{ExitCode, Failure, load, machine, print};
+use super::{ExitCode, Failure, load, machine, memory, print};
 
 /// How often it is looked whether the program is to end.
 const POLL: Duration = Duration::from_millis(50);
@@ -73,41 +77,56 @@ pub(crate) fn run(arguments: &StudioArguments) -> Result<ExitCode, Failure> {
         return Ok(ExitCode::SUCCESS);
     }
     let load = arguments.loading.options(&[]);
+    let threads = arguments.machine.thread_count();
+    let most = arguments.machine.max_memory;
+    let fits = move |scene: &Scene, quiet: bool| {
+        memory::check(
+            scene,
+            &RenderOptions::from_scene(scene),
+            threads,
+            most,
+            quiet,
+        )
+    };
+    // Before the server is there: a signal may end the program while a scene is read.
+    let given = match &arguments.scene {
+        None => None,
+        Some(path) => {
+            let named = load::scene(Some(path), &load)?;
+            load::print_warnings(&named.warnings);
+            fits(&named.scene, false)?;
+            Some(named)
+        }
+    };
     let options = Options {
         address: arguments.listen,
         port: arguments.port,
         folder: folder(arguments.scene.as_deref()),
-        load: load.clone(),
+        load,
+        admit: Box::new(move |scene| fits(scene, true).map_err(|failure| failure.message())),
         ..Options::default()
     };
-    let threads = arguments.machine.thread_count();
     let pool = machine::pool(threads, arguments.machine.nice)?;
     // Renders run in the program's own pool, which is made once.
     let _ = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build_global();
     let server = Server::bind(options, pool).map_err(failure)?;
-    if let Some(path) = &arguments.scene {
-        let named = load::scene(Some(path), &load)?;
-        load::print_warnings(&named.warnings);
-        server.add_scene(&named.name, named.scene);
+    if let Some(Named {
+        name,
+        scene,
+        warnings,
+        ..
+    }) = given
+    {
+        let warnings = load::warning_lines(&warnings);
+        server.add_scene(&name, GivenScene { scene, warnings });
     }
-    if !arguments.listen.is_loopback() {
-        say!(
-            "warning: all who reach {} and know the token may use this studio",
-            arguments.listen
-        );
-    }
-    let address = server.address();
-    print(&format!("studio: {address}\n"))?;
-    if !arguments.no_open && opener::open_browser(&address).is_err() {
-        say!("no browser could be opened: open the address above");
-    }
-    serve(server)
+    serve(server, arguments)
 }
 
 /// Serves until the program is asked to stop.
-fn serve(server: Server) -> Result<ExitCode, Failure> {
+fn serve(server: Server, arguments: &StudioArguments) -> Result<ExitCode, Failure> {
     let stop = StopFlag::listen("the studio ends")?;
     let stopper = server.stopper();
     let asked = Arc::clone(&stop.asked);
@@ -117,6 +136,17 @@ fn serve(server: Server) -> Result<ExitCode, Failure> {
         }
         stopper.stop();
     });
+    if !arguments.listen.is_loopback() {
+        say!(
+            "warning: all who reach {} and know the token may use this studio, and what they send is not encrypted",
+            arguments.listen
+        );
+    }
+    let address = server.address();
+    print(&format!("studio: {address}\n"))?;
+    if !arguments.no_open && opener::open_browser(&address).is_err() {
+        say!("no browser could be opened: open the address above");
+    }
     server.run().map_err(failure)?;
     Ok(ExitCode::from(stop.signal().exit_code()))
 }
@@ -131,8 +161,8 @@ fn folder(scene: Option<&Path>) -> PathBuf {
 }
 
 fn failure(error: ServerError) -> Failure {
-    match error {
-        ServerError::Serve(_) => Failure::other(error),
-        _ => Failure::bad_input(error),
+    match error.is_bad_input() {
+        true => Failure::bad_input(error),
+        false => Failure::other(error),
     }
 }

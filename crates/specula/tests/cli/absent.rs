@@ -50,6 +50,14 @@ fn the_laboratory() {
 }
 
 #[test]
+#[cfg(not(feature = "studio"))]
+fn the_studio() {
+    for rest in [&[][..], &["small.pbrt"], &["--export", "a"], &["--help"]] {
+        names_the_feature(&[&["studio"], rest].concat(), "studio");
+    }
+}
+
+#[test]
 #[cfg(not(feature = "shaders"))]
 fn the_shaders() {
     for rest in [&[][..], &["--list"], &["-o", "a"], &["--help"]] {

@@ -26,6 +26,8 @@ mod messages;
 mod missing;
 mod outputs;
 mod render;
+#[cfg(all(unix, feature = "studio"))]
+mod studio;
 mod v3;
 #[cfg(unix)]
 mod watch;
