@@ -267,13 +267,13 @@ fn pictures_that_are_too_large_are_refused() {
 fn a_scene_with_an_error_gives_file_and_line() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("scene.pbrt");
-    let text = "Camera \"perspective\"\nWorldBegin\n\nMaterial \"metal\"\nShape \"sphere\"\n";
+    let text = "Camera \"perspective\"\nWorldBegin\n\nMaterial \"copper\"\nShape \"sphere\"\n";
     std::fs::write(&file, text).unwrap();
     let message = load(&file).unwrap_err();
     let place = format!("{}:4:10: ", file.display());
     assert!(message.starts_with(&place), "{message}");
-    assert!(message.contains("metal"), "{message}");
-    std::fs::write(&file, text.replace("metal", "conductor")).unwrap();
+    assert!(message.contains("copper"), "{message}");
+    std::fs::write(&file, text.replace("copper", "conductor")).unwrap();
     let scene = load(&file).unwrap();
     // SAFETY: it is not used any more.
     unsafe { abi::specula_scene_free(scene) };

@@ -409,8 +409,8 @@ def test_files_that_are_missing_or_damaged_are_errors(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match=r"missing\.exr"):
         read_exr(tmp_path / "missing.exr")
     damaged = tmp_path / "damaged.pbrt"
-    damaged.write_text(BASE + 'Material "metal"\nShape "sphere"\n', encoding="utf-8")
-    with pytest.raises(ValueError, match=r"damaged\.pbrt:11:\d+: .*metal"):
+    damaged.write_text(BASE + 'Material "copper"\nShape "sphere"\n', encoding="utf-8")
+    with pytest.raises(ValueError, match=r"damaged\.pbrt:11:\d+: .*copper"):
         load(damaged)
     text = tmp_path / "text.exr"
     text.write_text("no picture", encoding="utf-8")

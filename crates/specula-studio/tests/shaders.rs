@@ -32,7 +32,7 @@ fn functions_come_with_what_they_call_and_nothing_else() {
 #[test]
 fn a_name_that_is_no_function_is_named() {
     let error = ask(r#"{"ask": "shaders.library", "functions": ["bound"]}"#).unwrap_err();
-    assert!(error.contains("'bound'"), "{error}");
+    assert!(error.contains("`bound`"), "{error}");
     let error = ask(r#"{"ask": "shaders.library", "modules": []}"#).unwrap_err();
     assert!(error.contains("modules"), "{error}");
 }
