@@ -1,20 +1,15 @@
 // The Lobes page: controls, values as the library says them, exports, the address.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
-import { createRequire } from 'node:module';
 import { after, before, beforeEach, test } from 'node:test';
-import { launch, open } from './browser.mjs';
+import { addAxe, ask as askIn, at, enter } from './studio.mjs';
 
-const studio = process.env.STUDIO;
-const axeSource = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 let browser;
 let page;
 let messages;
 
 before(async () => {
-  assert.ok(studio, 'STUDIO holds the address that the program printed');
-  browser = await launch();
-  ({ page, messages } = await open(browser, studio));
+  ({ browser, page, messages } = await enter());
 });
 after(() => browser.close());
 beforeEach(() => messages.splice(0));
@@ -23,27 +18,12 @@ const settled = () =>
   page.waitForFunction(() => document.querySelectorAll('table[aria-label="Values at the light"] tbody tr').length > 0 && document.querySelector('.is-pending') === null);
 
 async function go(query = '') {
-  await page.goto(`${new URL(studio).origin}/#/`);
-  await page.goto(`${new URL(studio).origin}/#/lobes${query}`);
+  await page.goto(at(''));
+  await page.goto(at('lobes', query));
   await settled();
 }
 
-/** Asks the library as the page does; arrays as lists. */
-function ask(request) {
-  return page.evaluate(async (body) => {
-    const response = await fetch('/api/ask', { method: 'POST', headers: { 'content-type': 'application/json', 'x-specula': '1' }, body: JSON.stringify(body) });
-    const buffer = await response.arrayBuffer();
-    const length = new DataView(buffer).getUint32(0, true);
-    const head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
-    const arrays = {};
-    for (const { name, type, shape, offset } of head.arrays ?? []) {
-      const count = shape.reduce((a, b) => a * b, 1);
-      arrays[name] = Array.from(new (type === 'u32' ? Uint32Array : Float32Array)(buffer, 4 + length + offset, count));
-    }
-    return { value: head.value, error: head.error, arrays };
-  }, request);
-}
-
+const ask = (request) => askIn(page, request);
 const text = (letter) => page.getByLabel(`Text of lobe ${letter}`);
 const hasText = (wanted) => page.waitForFunction((t) => document.querySelector('.lobe-slot textarea').value === t, wanted, { timeout: 5000 });
 const near = (found, wanted, tolerance = 1e-4) => assert.ok(Math.abs(found - wanted) <= tolerance * Math.max(1e-3, Math.abs(wanted)), `${found} is not ${wanted}`);
@@ -221,7 +201,7 @@ test('nothing for axe to say', async () => {
     // Panels that were pending have their full colours after a moment.
     await settled();
     await page.waitForTimeout(400);
-    await page.evaluate(axeSource);
+    await addAxe(page);
     const { violations } = await page.evaluate(() => globalThis.axe.run());
     assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.target).join('; ')}`), []);
     await page.getByRole('button', { name: /^Switch to/ }).click();

@@ -1,21 +1,16 @@
 // The Proof page: a correct text passes, each famous mistake fails its check, faults name lines.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
-import { createRequire } from 'node:module';
 import { after, before, beforeEach, test } from 'node:test';
 import { transform } from 'esbuild';
-import { launch, open } from './browser.mjs';
+import { addAxe, at, enter } from './studio.mjs';
 
-const studio = process.env.STUDIO;
-const axeSource = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 let browser;
 let page;
 let messages;
 
 before(async () => {
-  assert.ok(studio, 'STUDIO holds the address that the program printed');
-  browser = await launch();
-  ({ page, messages } = await open(browser, studio));
+  ({ browser, page, messages } = await enter());
 });
 after(() => browser.close());
 beforeEach(() => messages.splice(0));
@@ -27,7 +22,7 @@ const settled = () =>
   });
 
 async function go(query = '') {
-  await page.goto(`${new URL(studio).origin}/#/proof${query}`);
+  await page.goto(at('proof', query));
   await settled();
 }
 
@@ -133,7 +128,7 @@ test('cells are saved; axe has nothing to say', async () => {
   assert.ok(Math.abs(counted - expected) < 6 * Math.sqrt(counted), `${counted} counted, ${expected} expected`);
   for (let i = 0; i < 2; i++) {
     await page.waitForTimeout(400);
-    await page.evaluate(axeSource);
+    await addAxe(page);
     const { violations } = await page.evaluate(() => globalThis.axe.run());
     assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.target).join('; ')}`), []);
     await page.getByRole('button', { name: /^Switch to/ }).click();
@@ -145,8 +140,8 @@ test('without WebGPU the page says so', async () => {
   const context = await browser.newContext();
   const bare = await context.newPage();
   await bare.addInitScript(() => Object.defineProperty(navigator, 'gpu', { value: undefined }));
-  await bare.goto(studio);
-  await bare.goto(`${new URL(studio).origin}/#/proof`);
+  await bare.goto(process.env.STUDIO);
+  await bare.goto(at('proof'));
   await bare.getByRole('alert').waitFor();
   assert.match(await bare.getByRole('alert').textContent(), /no WebGPU/);
   await context.close();

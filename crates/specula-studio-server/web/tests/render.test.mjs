@@ -1,24 +1,19 @@
 // The page of renders, in a browser.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { launch, open } from './browser.mjs';
+import { at, enter } from './studio.mjs';
 
-const address = process.env.STUDIO;
-assert.ok(address, 'STUDIO: the address that `specula studio` printed');
-const origin = new URL(address).origin;
 const SMALL = 'scene=ball&width=96&height=54';
-let browser;
 let session;
 
 before(async () => {
-  browser = await launch();
-  session = await open(browser, address);
+  session = await enter();
 });
-after(() => browser.close());
+after(() => session.browser.close());
 
 async function visit(state) {
   await session.page.goto('about:blank');
-  await session.page.goto(`${origin}/#/render?${state}`);
+  await session.page.goto(at('render', `?${state}`));
   await session.page.waitForSelector('[data-render="0"]');
 }
 
@@ -47,6 +42,14 @@ test('two renders have equal time', async () => {
   await session.page.waitForFunction(() => [0, 1].every((i) => Number(document.querySelector(`[data-render="${i}"]`)?.children[2]?.textContent) > 1.5), undefined, { timeout: 20000 });
   const [a, b] = [Number((await row(0))[1]), Number((await row(1))[1])];
   assert.ok(Math.abs(a / b - 1) < 0.3, `${a} and ${b}`);
+});
+
+test('equal time ends at equal time', async () => {
+  await visit(`${SMALL}&samples=40&isCompared=true&mode=time&energyB=turquin&scene=orbs`);
+  await session.page.waitForFunction(() => [0, 1].some((i) => Number(document.querySelector(`[data-render="${i}"] td`)?.textContent) >= 40));
+  await session.page.waitForTimeout(1500);
+  const [a, b] = [Number((await row(0))[1]), Number((await row(1))[1])];
+  assert.ok(Math.abs(a - b) < 0.6, `${a} and ${b}`);
 });
 
 test('a drag turns the camera, and the address keeps it', async () => {
@@ -80,7 +83,7 @@ test('what is no scene and no material is said in words', async () => {
   await session.page.getByLabel('Open a file').press('Enter');
   await session.page.getByRole('alert').filter({ hasText: 'no file in the folder' }).waitFor();
   await session.page.goto('about:blank');
-  await session.page.goto(`${origin}/#/render?${SMALL}&edits=0=plaster`);
+  await session.page.goto(at('render', `?${SMALL}&edits=0=plaster`));
   await session.page.getByRole('alert').filter({ hasText: 'plaster' }).waitFor();
 });
 

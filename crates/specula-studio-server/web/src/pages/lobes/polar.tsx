@@ -6,7 +6,8 @@ import { useRef, useState } from 'preact/hooks';
 import { csv } from '../../ui/files';
 import { format, PlotActions } from '../../ui/plot';
 import { type Curve, figure, greatest } from './curves';
-import { RADIANS, snapped } from './state';
+import { RADIANS } from '../../core/directions';
+import { snapped } from './state';
 
 export interface PolarProps {
   title: string;

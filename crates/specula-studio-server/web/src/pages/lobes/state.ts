@@ -1,5 +1,6 @@
 /** What is kept of the page in its address, and what follows from it. */
 
+import { direction, RADIANS } from '../../core/directions';
 import type { Vec3 } from '../../core/protocol';
 
 /** Places of lobes that are laid over each other. */
@@ -34,8 +35,6 @@ export type LobesState = typeof DEFAULTS;
 /** Directions of a slice: a quarter of a degree apart, so that a light of whole quarters is one of them. */
 export const SLICE_COUNT = 1441;
 
-export const RADIANS = Math.PI / 180;
-
 /** The slot that controls change; the first one where the address names one that is empty. */
 export function activeSlot(state: LobesState): Slot {
   return SLOTS.find((slot) => slot === state.slot && state[slot] !== '') ?? SLOTS.find((slot) => state[slot] !== '') ?? 'a';
@@ -43,13 +42,7 @@ export function activeSlot(state: LobesState): Slot {
 
 /** Towards the viewer. */
 export function viewOf(state: LobesState): Vec3 {
-  const [elevation, azimuth] = [state.elevation * RADIANS, state.azimuth * RADIANS];
-  const rounded = (x: number) => Number(x.toPrecision(7));
-  return [
-    rounded(Math.cos(elevation) * Math.cos(azimuth)),
-    rounded(Math.cos(elevation) * Math.sin(azimuth)),
-    rounded(Math.sin(elevation)),
-  ];
+  return direction(state.elevation, state.azimuth).map((x) => Number(x.toPrecision(7))) as Vec3;
 }
 
 /** The azimuth of a slice: positive angles are on the mirror's side. */

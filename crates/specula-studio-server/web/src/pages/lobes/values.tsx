@@ -1,5 +1,6 @@
 /** Value, density and weight at one direction, and the albedo over all of them. */
 
+import { RADIANS } from '../../core/directions';
 import type { Answer } from '../../core/ask';
 import { Plot, type Series } from '../../ui/plot';
 import type { Layer } from './answers';
@@ -75,7 +76,7 @@ export function Albedo(props: { state: LobesState; layers: Layer[]; albedos: Rec
   }));
   const furnace: Series = { name: 'white furnace', colour: 'var(--quiet)', isDashed: true, x: [0, 1], y: [1, 1] };
   const top = curves.reduce((most, curve) => curve.values.reduce((a, b) => Math.max(a, b), most), 1);
-  const mark = Math.sin((90 - Math.abs(viewAngle(state))) * (Math.PI / 180));
+  const mark = Math.sin((90 - Math.abs(viewAngle(state))) * RADIANS);
   if (cos === undefined) return null;
   return (
     <div>

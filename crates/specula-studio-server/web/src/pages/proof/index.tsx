@@ -1,7 +1,7 @@
 /** A BSDF in WGSL put to the proof: chi-square, normalisation, furnace, reciprocity, finite values. */
 
 import { useAddress } from '../../core/address';
-import type { Vec3 } from '../../core/protocol';
+import { direction } from '../../core/directions';
 import { Message, Panel, Select, Slider } from '../../ui/controls';
 import { csv, save } from '../../ui/files';
 import { Heats } from '../../ui/heats';
@@ -24,18 +24,13 @@ const DEFAULTS = {
   seed: 1,
 };
 
-function viewOf(elevation: number, azimuth: number): Vec3 {
-  const [e, a] = [(elevation * Math.PI) / 180, (azimuth * Math.PI) / 180];
-  return [Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e)];
-}
-
 function Proof() {
   const [state, set] = useAddress('proof', DEFAULTS);
   const preset = PRESETS.find((p) => p.id === state.preset) ?? (PRESETS[0] as Preset);
   const text = state.text === '' ? preset.text : state.text;
   const parameters = [0, 1, 2, 3].map((i) => state.parameters[i] ?? 0) as [number, number, number, number];
   const each = 2 ** Math.max(4, Math.min(10, Math.round(state.samples)));
-  const proof = useProof(text, state.text !== '', { wo: viewOf(state.elevation, state.azimuth), parameters, seed: state.seed, each });
+  const proof = useProof(text, state.text !== '', { wo: direction(state.elevation, state.azimuth), parameters, seed: state.seed, each });
   const { verdict, faults } = proof;
   const broken = verdict?.checks.filter((check) => !check.holds).length ?? 0;
   return (

@@ -3,6 +3,7 @@
 import { useEffect, useState } from 'preact/hooks';
 import { useAddress } from '../../core/address';
 import { ask } from '../../core/ask';
+import { useSavePicture } from '../../core/keys';
 import type { Camera, MaterialEdit, RenderCompareValue, SceneItem } from '../../core/protocol';
 import { hasServer, post } from '../../core/server';
 import { Choice, Message, Panel, Progress, Select, Slider, TextField } from '../../ui/controls';
@@ -85,8 +86,12 @@ function Render() {
   };
   const pick = async (x: number, y: number) => {
     if (first === undefined) return;
-    const { value } = await ask<'render.pick'>({ ask: 'render.pick', session: first.session, x, y });
-    setPicked(value.hit?.material);
+    try {
+      const { value } = await ask<'render.pick'>({ ask: 'render.pick', session: first.session, x, y });
+      setPicked(value.hit?.material);
+    } catch (reason) {
+      setProblem((reason as Error).message);
+    }
   };
   const open = async (path: string) => {
     if (path === '') return;
@@ -157,7 +162,7 @@ function Render() {
         )}
       </aside>
       <div class="content">
-        <Panel title={state.isCompared ? 'A left, B right' : 'Picture'} wide actions={first === undefined ? undefined : <Saves session={first.session} />}>
+        <Panel title={state.isCompared ? 'A left, B right' : 'Picture'} wide actions={first === undefined ? undefined : <Saves session={first.session} failed={setProblem} />}>
           {turns.map((turn, i) => (turn.error === undefined ? null : <Message key={i} text={turn.error} />))}
           <div class="layers">
             {turns.map((turn, i) => (
@@ -187,11 +192,16 @@ function Render() {
   );
 }
 
-function Saves({ session }: { session: number }) {
+function Saves({ session, failed }: { session: number; failed: (problem: string) => void }) {
   const get = async (kind: 'exr' | 'png') => {
-    const { value, arrays } = await ask<'render.save'>({ ask: 'render.save', session, format: kind });
-    save(value.name, arrays.file.values as BlobPart, kind === 'png' ? 'image/png' : 'image/x-exr');
+    try {
+      const { value, arrays } = await ask<'render.save'>({ ask: 'render.save', session, format: kind });
+      save(value.name, arrays.file.values as BlobPart, kind === 'png' ? 'image/png' : 'image/x-exr');
+    } catch (reason) {
+      failed((reason as Error).message);
+    }
   };
+  useSavePicture(() => void get('png'));
   return (
     <>
       <button type="button" onClick={() => void get('exr')}>

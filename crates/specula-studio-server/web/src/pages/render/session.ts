@@ -25,6 +25,16 @@ const EMPTY: Turn = { opened: undefined, state: undefined, colour: undefined, er
 /** Seconds of a turn. */
 const SLICE = 0.15;
 
+/** Milliseconds between looks at a render that rests. */
+const REST = 100;
+/** Milliseconds after which a render that rests is asked for: the program closes those that nobody asks for in a minute. */
+const KEEP = 20_000;
+
+/** Lets the program know that a render is still wanted. */
+async function keep(session: number): Promise<void> {
+  await ask<'render.pick'>({ ask: 'render.pick', session, x: 0, y: 0 }).catch(() => undefined);
+}
+
 /** Renders of these setups; they stop while the page is hidden, and are closed when it goes away. */
 export function useRenders(setups: Setup[], mode: string, isPlaying: boolean, target: number): Turn[] {
   const [turns, setTurns] = useState<Turn[]>(setups.map(() => EMPTY));
@@ -42,6 +52,7 @@ export function useRenders(setups: Setup[], mode: string, isPlaying: boolean, ta
     const close = () => {
       for (const turn of now) if (turn.opened !== undefined) void ask<'render.close'>({ ask: 'render.close', session: turn.opened.session }, undefined, true).catch(() => undefined);
     };
+    let rested = 0;
     const run = async () => {
       for (const [i, setup] of setups.entries()) {
         const turn = now[i] as Turn;
@@ -56,11 +67,20 @@ export function useRenders(setups: Setup[], mode: string, isPlaying: boolean, ta
         publish();
       }
       while (!isGone) {
-        const open = now.filter((turn) => turn.opened !== undefined && turn.error === undefined && (turn.state?.samples ?? 0) < goal.current);
-        if (!playing.current || document.hidden || open.length === 0) {
-          await new Promise((resolve) => setTimeout(resolve, 100));
+        const able = now.filter((turn) => turn.opened !== undefined && turn.error === undefined);
+        const open = able.filter((turn) => (turn.state?.samples ?? 0) < goal.current);
+        // By equal time, none goes on without the others.
+        const isDone = mode === 'time' ? open.length < able.length : open.length === 0;
+        if (!playing.current || document.hidden || isDone || open.length === 0) {
+          await new Promise((resolve) => setTimeout(resolve, REST));
+          rested += REST;
+          if (rested >= KEEP) {
+            rested = 0;
+            for (const turn of able) await keep(turn.opened?.session ?? 0);
+          }
           continue;
         }
+        rested = 0;
         const least = Math.min(...open.map((turn) => turn.state?.samples ?? 0));
         for (const turn of open) {
           const session = turn.opened?.session ?? 0;

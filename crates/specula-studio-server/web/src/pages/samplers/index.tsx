@@ -2,6 +2,7 @@
 
 import { useMemo } from 'preact/hooks';
 import { useAddress } from '../../core/address';
+import { direction, RADIANS } from '../../core/directions';
 import { useThemeChange } from '../../core/theme';
 import { useAnswer } from '../../core/use_answer';
 import type { Sampler } from '../../core/protocol';
@@ -11,7 +12,7 @@ import { Heats } from '../../ui/heats';
 import { format, Swatch } from '../../ui/plot';
 import { Space } from '../../ui/space';
 import type { Page } from '../page';
-import { angles, DEFAULTS, direction, PRESETS, SAMPLERS, type SamplerState } from './setup';
+import { angles, DEFAULTS, PRESETS, SAMPLERS, type SamplerState } from './setup';
 import { outline, points, sphere, view } from './sphere';
 
 /** Most samples that are drawn. */
@@ -174,8 +175,7 @@ function Density({ setup, state }: Part) {
 }
 
 function Comparison({ setup, state }: Part) {
-  const radians = Math.PI / 180;
-  const lamp = state.light === 'lamp' ? { towards: direction(state.lightElevation, state.lightAzimuth), angle: state.lightAngle * radians } : {};
+  const lamp = state.light === 'lamp' ? { towards: direction(state.lightElevation, state.lightAzimuth), angle: state.lightAngle * RADIANS } : {};
   const isAbove = setup.wo[2] > 0;
   const { answer, error, isPending } = useAnswer<'samplers.compare'>(
     isAbove ? { ask: 'samplers.compare', alpha: setup.alpha, wo: setup.wo, lamp, count: Math.min(state.count, 200_000), seed: state.seed } : undefined,

@@ -1,5 +1,6 @@
 /** The state of the page of samplers, and its presets. */
 
+import { RADIANS } from '../../core/directions';
 import type { Sampler, Vec3 } from '../../core/protocol';
 
 export const SAMPLERS: { value: Sampler; label: string; hint: string }[] = [
@@ -35,13 +36,6 @@ export const PRESETS: { name: string; state: Partial<SamplerState> }[] = [
   { name: 'Smooth, grazing', state: { alpha: [0.2, 0.2], elevation: 10, azimuth: 0 } },
   { name: 'Below the horizon', state: { alpha: [0.6, 0.6], elevation: -20, azimuth: 0 } },
 ];
-
-const RADIANS = Math.PI / 180;
-
-export function direction(elevation: number, azimuth: number): Vec3 {
-  const cos = Math.cos(elevation * RADIANS);
-  return [cos * Math.cos(azimuth * RADIANS), cos * Math.sin(azimuth * RADIANS), Math.sin(elevation * RADIANS)];
-}
 
 /** Elevation and azimuth of a direction, in tenths of degrees. */
 export function angles([x, y, z]: Vec3): { elevation: number; azimuth: number } {
