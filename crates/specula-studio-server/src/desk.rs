@@ -9,7 +9,6 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use rayon::ThreadPool;
 use serde_json::Value;
 use specula_lab::{Experiment, LabError, RunEvent, RunOptions};
 
@@ -57,7 +56,6 @@ impl Desk {
     /// Begins a run; `false`: one is under way.
     pub(crate) fn start(
         &self,
-        pool: Arc<ThreadPool>,
         chosen: Vec<&'static Experiment>,
         options: RunOptions,
     ) -> io::Result<bool> {
@@ -77,7 +75,7 @@ impl Desk {
                     status: &end.0,
                     stop: &stop,
                 };
-                work.run(&pool, &chosen, options);
+                work.run(&chosen, options);
             }
         };
         let thread = std::thread::Builder::new().name("laboratory".to_owned());
@@ -144,10 +142,9 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
-    fn run(&self, pool: &ThreadPool, chosen: &[&'static Experiment], options: RunOptions) {
+    fn run(&self, chosen: &[&'static Experiment], options: RunOptions) {
         let events = |event: RunEvent<'_>| self.show(event, chosen.len());
-        let result =
-            pool.install(|| specula_lab::run(chosen, options, self.folder, self.stop, &events));
+        let result = specula_lab::run(chosen, options, self.folder, self.stop, &events);
         let page = write_page(self.folder);
         let mut status = locked(self.status);
         status.has_report = matches!(page, Ok(true));

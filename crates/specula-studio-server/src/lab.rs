@@ -71,11 +71,7 @@ async fn start(
         return Err(Refusal::bad("'ids' names no experiment"));
     }
     let chosen = experiments::named(&ids).map_err(|e| Refusal::bad(e.to_string()))?;
-    let begun = shared.lab.start(
-        Arc::clone(&shared.pool),
-        chosen,
-        RunOptions { quality, seed },
-    );
+    let begun = shared.lab.start(chosen, RunOptions { quality, seed });
     match begun.map_err(|e| Refusal::internal(e.to_string()))? {
         true => Ok(json_response(&json!({}))),
         false => {

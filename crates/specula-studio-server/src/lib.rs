@@ -3,8 +3,7 @@
 //! ```no_run
 //! use specula_studio_server::{Options, Server};
 //!
-//! let pool = rayon::ThreadPoolBuilder::new().build()?;
-//! let server = Server::bind(Options::default(), pool)?;
+//! let server = Server::bind(Options::default())?;
 //! println!("{}", server.address());
 //! server.run()?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -78,7 +78,7 @@ pub(crate) async fn read(
 ) -> Result<Value, Refusal> {
     let work = move || {
         let _place = place;
-        shared.pool.install(|| read_now(&shared, &reading))
+        read_now(&shared, &reading)
     };
     let read = tokio::task::spawn_blocking(work).await;
     read.map_err(|_| {

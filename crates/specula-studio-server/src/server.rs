@@ -13,7 +13,6 @@ use axum::http::{Method, StatusCode};
 use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse, Response};
 use axum::routing::post;
-use rayon::ThreadPool;
 use specula_scene::LoadOptions;
 use specula_studio::{GivenScene, SceneFrom, Studio};
 use tokio::net::TcpListener;
@@ -83,14 +82,12 @@ impl Stopper {
 }
 
 impl Server {
-    /// Listens; browsers wait for [`Server::run`].
-    ///
-    /// * `pool`: the threads that read scenes and run experiments; answers are computed by rayon's global pool.
+    /// Listens; browsers wait for [`Server::run`]. What takes threads runs in rayon's global pool.
     ///
     /// # Errors
     ///
     /// Where the address is in use or not of this machine, or the system has no threads or random numbers.
-    pub fn bind(options: Options, pool: ThreadPool) -> Result<Self, ServerError> {
+    pub fn bind(options: Options) -> Result<Self, ServerError> {
         let runtime = tokio::runtime::Builder::new_multi_thread()
             .worker_threads(2)
             .thread_name("studio")
@@ -118,7 +115,6 @@ impl Server {
                 is_open: !options.address.is_loopback(),
             },
             assets: options.assets,
-            pool: Arc::new(pool),
             asking: Arc::new(Semaphore::new(options.limits.asks)),
             loading: Arc::new(Semaphore::new(1)),
             limits: options.limits,

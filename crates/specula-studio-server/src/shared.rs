@@ -4,7 +4,6 @@ use std::collections::HashSet;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
-use rayon::ThreadPool;
 use specula_scene::{LoadOptions, Scene};
 use specula_studio::Studio;
 use tokio::sync::Semaphore;
@@ -23,8 +22,6 @@ pub(crate) struct Shared {
     pub(crate) host: Host,
     pub(crate) assets: Assets,
     pub(crate) limits: ServerLimits,
-    /// The threads that read scenes and run experiments.
-    pub(crate) pool: Arc<ThreadPool>,
     /// Places of requests that are being answered.
     pub(crate) asking: Arc<Semaphore>,
     /// The place of the one scene that is read at a time.

@@ -56,11 +56,7 @@ impl Drop for Running {
 
 /// Begins to serve.
 pub(crate) fn start(options: Options) -> Running {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(2)
-        .build()
-        .unwrap();
-    let server = Server::bind(options, pool).unwrap();
+    let server = Server::bind(options).unwrap();
     let address = server.address();
     let (place, token) = address.split_once("/?token=").unwrap();
     let port = place.rsplit(':').next().unwrap().parse().unwrap();

@@ -1,7 +1,7 @@
 //! What a render may take of the machine: threads, their priority, memory.
 
 use clap::Args;
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 use super::{Failure, values};
 
@@ -45,13 +45,27 @@ pub(crate) fn count(asked: Option<i16>) -> usize {
 ///
 /// * `nice`: they yield to every other program.
 pub(crate) fn pool(threads: usize, nice: bool) -> Result<ThreadPool, Failure> {
+    let threads = builder(threads, nice)?.build();
+    threads.map_err(not_started)
+}
+
+/// The same for threads that callers do not choose: once in a program.
+#[cfg(feature = "studio")]
+pub(crate) fn global_pool(threads: usize, nice: bool) -> Result<(), Failure> {
+    let threads = builder(threads, nice)?.build_global();
+    threads.map_err(not_started)
+}
+
+fn builder(threads: usize, nice: bool) -> Result<ThreadPoolBuilder, Failure> {
     if nice {
         lower_priority()?;
     }
-    ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|e| Failure::other(format_args!("cannot start threads: {e}")))
+    Ok(ThreadPoolBuilder::new().num_threads(threads))
+}
+
+#[expect(clippy::needless_pass_by_value, reason = "maps errors")]
+fn not_started(error: ThreadPoolBuildError) -> Failure {
+    Failure::other(format_args!("cannot start threads: {error}"))
 }
 
 /// Threads that are started from now on have the least priority.

@@ -78,6 +78,8 @@ pub(crate) fn run(arguments: &StudioArguments) -> Result<ExitCode, Failure> {
     }
     let load = arguments.loading.options(&[]);
     let threads = arguments.machine.thread_count();
+    // Before a scene is read, which would make the pool.
+    machine::global_pool(threads, arguments.machine.nice)?;
     let most = arguments.machine.max_memory;
     let fits = move |scene: &Scene, quiet: bool| {
         memory::check(
@@ -106,12 +108,7 @@ pub(crate) fn run(arguments: &StudioArguments) -> Result<ExitCode, Failure> {
         admit: Box::new(move |scene| fits(scene, true).map_err(|failure| failure.message())),
         ..Options::default()
     };
-    let pool = machine::pool(threads, arguments.machine.nice)?;
-    // Renders run in the program's own pool, which is made once.
-    let _ = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build_global();
-    let server = Server::bind(options, pool).map_err(failure)?;
+    let server = Server::bind(options).map_err(failure)?;
     if let Some(Named {
         name,
         scene,
