@@ -24,8 +24,11 @@ const SETS: &[(&str, &[&str])] = &[
             "cli,gpu",
             "cli,lab",
             "cli,shaders",
+            "cli,studio",
+            "studio",
         ],
     ),
+    ("specula-studio-server", &["", "lab"]),
 ];
 
 /// Checks each set, warnings as errors; fails with those that do not compile.
