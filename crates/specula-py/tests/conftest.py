@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,9 @@ import pytest
 
 import specula_render as sr
 
+
+# What chores and tests share.
+sys.path.insert(0, str(Path(__file__).parents[1] / "tools"))
 
 # Shells start background jobs that ignore Ctrl-C, and so would every process that tests interrupt.
 signal.signal(signal.SIGINT, signal.default_int_handler)

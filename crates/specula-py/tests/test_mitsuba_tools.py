@@ -2,30 +2,16 @@
 
 from __future__ import annotations
 
-import glob
 import os
-import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-
-def _find_llvm() -> None:
-    """Dr.Jit looks for a libLLVM without version and needs 15 or newer; Debian's carry versions."""
-    if "DRJIT_LIBLLVM_PATH" in os.environ:
-        return
-    found: dict[int, str] = {}
-    for pattern in ("/usr/lib/llvm-*/lib/libLLVM*.so*", "/usr/lib/*-linux-gnu/libLLVM*.so*"):
-        for path in glob.glob(pattern):
-            version = re.search(r"(?:llvm-|libLLVM-|libLLVM\.so\.)(\d+)", path)
-            if version and int(version[1]) >= 15:
-                found[int(version[1])] = path
-    if found:
-        os.environ["DRJIT_LIBLLVM_PATH"] = found[max(found)]
+import llvm
 
 
-_find_llvm()
+llvm.find()
 mi: Any = pytest.importorskip("mitsuba", reason="Mitsuba is not installed: pip install mitsuba")
 dr: Any = pytest.importorskip("drjit", reason="Dr.Jit is not installed")
 np: Any = pytest.importorskip("numpy")

@@ -14,6 +14,7 @@ mod goal;
 mod integrator;
 mod layout;
 mod light;
+mod machine_memory;
 mod material;
 mod medium_stack;
 mod memory;
@@ -49,6 +50,7 @@ pub use film::{
 };
 pub use flat::{FlatGroup, FlatInstance, FlatScene};
 pub use goal::RenderGoal;
+pub use machine_memory::available_memory;
 pub use material::MaterialShader;
 pub use memory::MemoryEstimate;
 pub use options::{RenderOptions, Strategy};

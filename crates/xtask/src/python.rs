@@ -9,10 +9,13 @@ use crate::{Result, workspace};
 /// The package's sources, from the workspace's root.
 const SOURCES: &str = "crates/specula-py/python";
 const TESTS: &str = "crates/specula-py/tests";
+/// What runs the notebooks and writes their pages.
+const NOTEBOOKS: &str = "crates/specula-py/tools/notebooks.py";
 
 /// What tests need beside NumPy; wheels alone.
 const TOOLS: &[&str] = &[
     "ipykernel>=6.29",
+    "latex2mathml>=3.77",
     "matplotlib>=3.7",
     "mitsuba==3.9.1",
     "mypy>=1.15",
@@ -34,6 +37,9 @@ pub(crate) struct Python {
     /// Make a wheel for Linux in `dist` instead: optimised, for glibc 2.17 and CPython 3.10 and newer
     #[arg(long)]
     wheel: bool,
+    /// Run the notebooks and write them as pages of the book, with their outputs
+    #[arg(long, conflicts_with_all = ["wheel", "build"])]
+    notebooks: bool,
     /// Only build the extension module into the package's sources
     #[arg(long, conflicts_with = "wheel")]
     build: bool,
@@ -47,6 +53,9 @@ pub(crate) fn run(root: &Path, python: &Python) -> Result<()> {
     build(root)?;
     if python.build {
         return Ok(());
+    }
+    if python.notebooks {
+        return notebooks(root);
     }
     check(root, None)
 }
@@ -81,6 +90,16 @@ fn build(root: &Path) -> Result<()> {
     let _ = fs::remove_file(&to);
     fs::copy(&built, &to)?;
     Ok(())
+}
+
+/// Pages of the notebooks, in the book.
+fn notebooks(root: &Path) -> Result<()> {
+    let python = environment(root, "python", TOOLS)?;
+    let mut pages = Command::new(&python);
+    pages.current_dir(root).arg(NOTEBOOKS);
+    pages.env("PYTHONPATH", root.join(SOURCES));
+    pages.env("PYTHONDONTWRITEBYTECODE", "1");
+    succeed(pages, "notebooks")
 }
 
 /// Types, stubs and tests.
@@ -153,8 +172,10 @@ fn wheel(root: &Path) -> Result<()> {
     build.current_dir(root).args(["-m", "maturin", "build"]);
     build.args(["--release", "--out", "dist"]);
     if cfg!(target_os = "linux") {
-        // Zig's linker takes the symbols of an old glibc.
+        // Zig's linker takes the symbols of an old glibc. It is a package of the environment's interpreter, which need
+        // not be the first one on the path.
         build.args(["--zig", "--compatibility", "manylinux2014"]);
+        build.env("CARGO_ZIGBUILD_PYTHON_PATH", &python);
     }
     succeed(build, "the wheel")?;
     for entry in fs::read_dir(root.join("dist"))? {

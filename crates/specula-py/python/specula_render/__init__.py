@@ -42,7 +42,7 @@ from specula_render._native import (
 )
 from specula_render.albedo import albedo
 from specula_render.picture import Comparison, Picture, read_exr
-from specula_render.rendering import render, render_iter
+from specula_render.rendering import render, render_iter, render_live
 from specula_render.scene import Material, Scene, SceneWarning, builtin, load
 
 __all__ = [
@@ -81,4 +81,5 @@ __all__ = [
     "read_exr",
     "render",
     "render_iter",
+    "render_live",
 ]

@@ -359,6 +359,8 @@ class Gltf(Bsdf):
 class Material:
     @staticmethod
     def parse(text: str) -> Material: ...
+    def with_bump_map(self, heights: npt.NDArray[Any]) -> Material: ...
+    def with_normal_map(self, normals: npt.NDArray[Any], scale: float = 1.0) -> Material: ...
     @staticmethod
     def diffuse(
         reflectance: _Paint | None = None, *, roughness: _Paint | None = None
@@ -461,17 +463,21 @@ class SceneData:
         faces: npt.NDArray[np.int64],
         normals: npt.NDArray[Any] | None,
         uvs: npt.NDArray[Any] | None,
-        material: Material | None,
-        emission: _Colour | None,
-        two_sided: bool,
+        transform: Sequence[Sequence[float]] | None,
+        surface: tuple[Material | None, _Colour | None, bool],
+        opacity: npt.NDArray[Any] | None,
+        object: int | None,
     ) -> tuple[int, int]: ...
     def add_sphere(
         self,
         center: Sequence[float],
         radius: float,
-        material: Material | None,
-        emission: _Colour | None,
+        transform: Sequence[Sequence[float]] | None,
+        surface: tuple[Material | None, _Colour | None, bool],
+        object: int | None,
     ) -> int: ...
+    def add_object(self, name: str) -> int: ...
+    def add_instance(self, object: int, transform: Sequence[Sequence[float]]) -> None: ...
     def set_camera(
         self,
         position: Sequence[float],
@@ -520,6 +526,8 @@ class RenderJob:
         resolution: Sequence[int] | None,
         clamp: float | None,
         regularize: bool,
+        checkpoint: str | None,
+        max_memory: int | None,
     ) -> RenderJob: ...
     @property
     def samples(self) -> int: ...

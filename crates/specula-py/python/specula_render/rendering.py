@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import time as clock
 import warnings
 from collections.abc import Iterator
-from typing import Literal, Union
+from typing import Any, Literal, Union
 
 from specula_render import _native
 from specula_render.picture import Picture, read_exr
-from specula_render.scene import Scene, SceneWarning, builtin, load
+from specula_render.scene import PathLike, Scene, SceneWarning, builtin, load
 
 __all__ = [
     "Picture",
@@ -21,6 +22,7 @@ __all__ = [
     "read_exr",
     "render",
     "render_iter",
+    "render_live",
 ]
 
 Progress = Union[bool, Literal["always"]]
@@ -125,6 +127,8 @@ def render(
     resolution: tuple[int, int] | None = None,
     clamp: float | None = None,
     regularize: bool = False,
+    checkpoint: PathLike | None = None,
+    max_memory: int | None = None,
 ) -> Picture:
     """Render a scene: the very picture, bit for bit, that the program ``specula`` writes.
 
@@ -165,6 +169,12 @@ def render(
         Bias: the largest contribution of indirect light in any channel.
     regularize
         Bias: whether surfaces behind rough surfaces are made rougher.
+    checkpoint
+        File that the samples are saved in, every half minute and when the render ends or is
+        interrupted. Where it is there already, the render goes on with it. It stays; ``specula
+        merge`` and ``specula render --resume`` read it.
+    max_memory
+        Bytes that the process may take; by default what is available.
 
     Returns
     -------
@@ -173,7 +183,12 @@ def render(
     Raises
     ------
     ValueError
-        If an argument is out of range, or there is nothing to render.
+        If an argument is out of range, there is nothing to render, or the checkpoint is of another
+        render.
+    MemoryError
+        If the render would take more memory than there is, before it begins.
+    OSError
+        If the checkpoint cannot be read or written.
     KeyboardInterrupt
         After Ctrl-C. The scene can be rendered again.
 
@@ -204,6 +219,8 @@ def render(
             resolution=resolution,
             clamp=clamp,
             regularize=regularize,
+            checkpoint=None if checkpoint is None else os.fspath(checkpoint),
+            max_memory=max_memory,
         )
     bar = _Bar(progress)
     try:
@@ -267,8 +284,86 @@ def render_iter(
             resolution=resolution,
             clamp=clamp,
             regularize=regularize,
+            checkpoint=None,
+            max_memory=None,
         )
     return _steps(job)
+
+
+def render_live(
+    scene: Scene,
+    spp: int | None = None,
+    *,
+    every: float = 1.0,
+    threads: int = 0,
+    seed: int = 0,
+    max_depth: int | None = None,
+    energy: str | None = None,
+    sampler: str | None = None,
+    resolution: tuple[int, int] | None = None,
+    clamp: float | None = None,
+    regularize: bool = False,
+) -> Picture:
+    """Render in a cell of Jupyter that shows the picture as it grows.
+
+    To interrupt the kernel ends the render: the picture so far is shown and returned.
+
+    Parameters
+    ----------
+    scene, spp, threads, seed, max_depth, energy, sampler, resolution, clamp, regularize
+        As for `render`.
+    every
+        Seconds between two pictures.
+
+    Returns
+    -------
+    Picture
+        That of `render`, bit for bit, where nothing interrupts it.
+
+    Raises
+    ------
+    ImportError
+        Where there is no IPython.
+    ValueError
+        If an argument is out of range, or there is nothing to render.
+    """
+    try:
+        from IPython.display import display
+    except ImportError as error:
+        raise ImportError("render_live needs Jupyter: pip install ipykernel") from error
+    if not every > 0.0:
+        raise ValueError(f"every: expected seconds above 0, got {every}")
+    _check(scene, spp, threads, seed, max_depth, resolution)
+    with scene._lock:
+        job = _native.RenderJob(
+            scene._data,
+            spp=spp,
+            is_bounded=False,
+            seed=seed,
+            threads=threads,
+            max_depth=max_depth,
+            energy=energy,
+            sampler=sampler,
+            noise=None,
+            resolution=resolution,
+            clamp=clamp,
+            regularize=regularize,
+            checkpoint=None,
+            max_memory=None,
+        )
+    job.advance(1, None, None)
+    picture = _picture(job)
+    show: Any = display
+    cell = show(picture, display_id=True)
+    try:
+        while picture.samples < job.samples:
+            job.advance(None, every, None)
+            picture = _picture(job)
+            cell.update(picture)
+    except KeyboardInterrupt:
+        picture = _picture(job)
+        cell.update(picture)
+    return picture
 
 
 def _steps(job: _native.RenderJob) -> Iterator[Picture]:

@@ -92,6 +92,19 @@ def _vector(name: str, given: Vector) -> list[float]:
     return numbers
 
 
+def _transform(given: npt.ArrayLike) -> list[list[float]]:
+    """Return an affine transform as Python's own numbers."""
+    matrix = np.asarray(given, dtype=np.float64)
+    if matrix.shape == (3, 4):
+        matrix = np.vstack([matrix, (0.0, 0.0, 0.0, 1.0)])
+    if matrix.shape != (4, 4):
+        raise ValueError(
+            f"transform: expected an array of shape (4, 4) or (3, 4), got {matrix.shape}"
+        )
+    rows: list[list[float]] = matrix.tolist()
+    return rows
+
+
 def _faces(given: npt.ArrayLike) -> npt.NDArray[np.int64]:
     """Return the faces of a mesh as they are taken on: C-contiguous, of int64."""
     faces = np.asarray(given)
@@ -162,6 +175,9 @@ class Scene:
         material: AnyMaterial | None = None,
         emission: Colour | None = None,
         two_sided: bool = False,
+        opacity: npt.ArrayLike | None = None,
+        transform: npt.ArrayLike | None = None,
+        object: int | None = None,
     ) -> int:
         """Add a triangle mesh.
 
@@ -181,6 +197,13 @@ class Scene:
             Radiance of each point, which makes the mesh a light: a number or three.
         two_sided
             Whether both sides emit; else the one that the triangles face.
+        opacity : float or (h, w) array_like, optional
+            Share of the surface that is there, in [0, 1]; a picture cuts the mesh out.
+        transform : (4, 4) or (3, 4) array_like, optional
+            From the space of the vertices to that of the scene, of column vectors.
+        object
+            Number of the object, as `add_object` returns it, that the mesh is part of; by default
+            it is part of the scene.
 
         Returns
         -------
@@ -206,9 +229,10 @@ class Scene:
                 _faces(faces),
                 None if normals is None else np.asarray(normals),
                 None if uvs is None else np.asarray(uvs),
-                _material(material),
-                radiance,
-                two_sided,
+                None if transform is None else _transform(transform),
+                (_material(material), radiance, two_sided),
+                None if opacity is None else np.asarray(opacity),
+                object,
             )
         if dropped > 0:
             message = f"{dropped} triangles without area are dropped"
@@ -222,6 +246,8 @@ class Scene:
         material: AnyMaterial | None = None,
         *,
         emission: Colour | None = None,
+        transform: npt.ArrayLike | None = None,
+        object: int | None = None,
     ) -> int:
         """Add a sphere.
 
@@ -234,6 +260,10 @@ class Scene:
             By default grey.
         emission
             Radiance of each point, which makes the sphere a light: a number or three.
+        transform : (4, 4) or (3, 4) array_like, optional
+            Applied to the sphere, of column vectors: an ellipsoid where it stretches.
+        object
+            Number of the object that the sphere is part of; by default it is part of the scene.
 
         Returns
         -------
@@ -247,7 +277,60 @@ class Scene:
         """
         radiance = None if emission is None else _colour("emission", emission)
         centre = _vector("center", center)
-        return self._data.add_sphere(centre, radius, _material(material), radiance)
+        return self._data.add_sphere(
+            centre,
+            radius,
+            None if transform is None else _transform(transform),
+            (_material(material), radiance, False),
+            object,
+        )
+
+    def add_object(self, name: str = "") -> int:
+        """Add an empty object: shapes that are placed together, any number of times.
+
+        Memory and the time to prepare a render are those of one copy.
+
+        Parameters
+        ----------
+        name
+            For messages.
+
+        Returns
+        -------
+        int
+            The object's number, for `add_mesh`, `add_sphere` and `add_instance`.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import specula_render as sr
+        >>> scene = sr.Scene()
+        >>> bead = scene.add_object("bead")
+        >>> scene.add_sphere((0, 0, 0), 0.1, "conductor Au alpha 0.2", object=bead)
+        0
+        >>> for i in range(100):
+        ...     place = np.eye(4)
+        ...     place[:3, 3] = (0.3 * (i % 10), 0.3 * (i // 10), 0.0)
+        ...     scene.add_instance(bead, place)
+        """
+        return self._data.add_object(name)
+
+    def add_instance(self, object: int, transform: npt.ArrayLike) -> None:
+        """Place an object in the scene.
+
+        Parameters
+        ----------
+        object
+            Its number.
+        transform : (4, 4) or (3, 4) array_like
+            From the object's space to that of the scene, of column vectors.
+
+        Raises
+        ------
+        ValueError
+            If there is no such object, or the transform cannot be inverted.
+        """
+        self._data.add_instance(object, _transform(transform))
 
     def set_material(self, which: int | str | None, material: AnyMaterial) -> None:
         """Give another material to what is there.

@@ -1,19 +1,23 @@
 //! A render under way: passes without the interpreter's lock, and Ctrl-C.
 
+use std::io::ErrorKind;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 use std::time::{Duration, Instant};
 
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyMemoryError, PyRuntimeError};
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use specula::render::picture::Metadata;
 use specula::render::{
-    FilmBuffer, MOST_SAMPLES, PassReport, PreparedScene, RenderGoal, RenderOptions, Renderer,
+    FilmBuffer, FilmFile, FilmFileError, Label, MOST_SAMPLES, MemoryEstimate, PassReport,
+    PreparedScene, RenderGoal, RenderOptions, Renderer, available_memory,
 };
 
+use super::io_error;
 use super::picture::PictureData;
 use super::scene::SceneData;
 use crate::parameters::{in_range, invalid, named};
@@ -30,6 +34,9 @@ pub(crate) struct RenderJob {
     options: RenderOptions,
     scene: String,
     pool: ThreadPool,
+    /// The file that the film is saved in.
+    checkpoint: Option<PathBuf>,
+    label: Label,
     state: Mutex<State>,
 }
 
@@ -40,6 +47,11 @@ struct State {
     rays: u64,
     seconds: f64,
 }
+
+/// Between two writes of a checkpoint, at least.
+const SAVE_EVERY: Duration = Duration::from_secs(30);
+/// Writing a checkpoint takes at most one part in so many of the time.
+const SAVE_SHARE: u32 = 20;
 
 impl RenderJob {
     fn state(&self) -> PyResult<MutexGuard<'_, State>> {
@@ -62,9 +74,23 @@ impl RenderJob {
                 .map_err(|e| PyRuntimeError::new_err(e.to_string()))?,
         };
         let ended = self.passes(&mut renderer, &mut state, goal, start, progress);
-        state.film = Some(renderer.film().clone());
+        let film = renderer.into_film();
         state.seconds += start.elapsed().as_secs_f64();
-        ended
+        let saved = self.save(&film, state.seconds);
+        state.film = Some(film);
+        ended.and(saved)
+    }
+
+    /// Writes the checkpoint, where there is one.
+    fn save(&self, film: &FilmBuffer, seconds: f64) -> PyResult<()> {
+        let Some(path) = &self.checkpoint else {
+            return Ok(());
+        };
+        let label = Label {
+            seconds,
+            ..self.label.clone()
+        };
+        FilmFile::write(path, &label, film).map_err(|e| io_error(path, &e))
     }
 
     fn passes(
@@ -76,6 +102,7 @@ impl RenderJob {
         progress: Option<&Py<PyAny>>,
     ) -> PyResult<()> {
         let mut last = None;
+        let (mut saved, mut cost) = (Instant::now(), Duration::ZERO);
         while let Some(done) = renderer.samples_done() {
             let Some(next) = goal.next_pass(done, last, start.elapsed()) else {
                 break;
@@ -94,6 +121,13 @@ impl RenderJob {
                     state.rays,
                 );
                 Python::attach(|py| progress.call1(py, told))?;
+            }
+            let is_due = saved.elapsed() >= SAVE_EVERY.max(cost * SAVE_SHARE);
+            if report.complete && is_due {
+                let begun = Instant::now();
+                let seconds = state.seconds + start.elapsed().as_secs_f64();
+                self.save(renderer.film(), seconds)?;
+                (saved, cost) = (Instant::now(), begun.elapsed());
             }
         }
         Ok(())
@@ -123,6 +157,62 @@ impl RenderJob {
                 }
             }
         })
+    }
+}
+
+/// The film of a checkpoint, with the seconds that it took; `None` where there is no file.
+fn resumed(path: &Path, label: &Label) -> PyResult<Option<(FilmBuffer, f64)>> {
+    let FilmFile { label: found, film } = match FilmFile::read(path) {
+        Ok(file) => file,
+        Err(FilmFileError::Io(e)) if e.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(FilmFileError::Io(e)) => return Err(io_error(path, &e)),
+        Err(e) => {
+            return Err(invalid(format!(
+                "checkpoint: '{}' cannot be read: {e}",
+                path.display()
+            )));
+        }
+    };
+    match label.difference(&found) {
+        None => Ok(Some((film, found.seconds))),
+        Some(difference) => Err(invalid(format!(
+            "checkpoint: '{}' holds another render: {difference}",
+            path.display()
+        ))),
+    }
+}
+
+/// Bytes in mebibytes, for people.
+fn mebibytes(bytes: u64) -> u64 {
+    bytes.div_ceil(1 << 20)
+}
+
+/// Fails where a render would take more memory than is allowed, or than there is.
+fn check_memory(
+    scene: &SceneData,
+    options: &RenderOptions,
+    threads: usize,
+    most: Option<u64>,
+) -> PyResult<()> {
+    let estimate = MemoryEstimate::of_process(scene.scene(), options, threads);
+    let peak = estimate.peak();
+    if let Some(most) = most.filter(|most| peak > *most) {
+        return Err(PyMemoryError::new_err(format!(
+            "the process would take {} MiB with this render, more than max_memory, {} MiB",
+            mebibytes(peak),
+            mebibytes(most)
+        )));
+    }
+    let needed = estimate.still_needed();
+    match available_memory() {
+        Some(available) if most.is_none() && needed > available => {
+            Err(PyMemoryError::new_err(format!(
+                "the render would take {} MiB more, and {} MiB are available; max_memory= says what it may take",
+                mebibytes(needed),
+                mebibytes(available)
+            )))
+        }
+        _ => Ok(()),
     }
 }
 
@@ -166,8 +256,10 @@ impl RenderJob {
     /// * `spp`: `None` for what the scene asks for; where `is_bounded` by a noise or a time, for any number.
     /// * `noise`: aims at it; 0: samples are spread by their error, and as many as were asked for.
     #[new]
+    /// * `checkpoint`: the file that the film is saved in, and gone on with if it is there.
+    /// * `max_memory`: bytes that the process may take; `None`: what is available.
     #[pyo3(signature = (scene, *, spp, is_bounded, seed, threads, max_depth, energy, sampler, noise, resolution, clamp,
-        regularize))]
+        regularize, checkpoint, max_memory))]
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
     fn new(
         py: Python<'_>,
@@ -183,10 +275,12 @@ impl RenderJob {
         resolution: Option<[u32; 2]>,
         clamp: Option<f64>,
         regularize: bool,
+        checkpoint: Option<PathBuf>,
+        max_memory: Option<u64>,
     ) -> PyResult<Self> {
         let mut scene = scene.try_borrow_mut()?;
         let mut options = options(&scene, spp, is_bounded, seed, max_depth, energy, sampler)?;
-        let single = super::material::single;
+        let single = super::microfacets::single;
         let noise = noise.map(|n| in_range("noise", n, [0.0, 1.0]));
         options.noise = noise.transpose()?.map(single);
         if options.noise.is_some() {
@@ -206,15 +300,27 @@ impl RenderJob {
             .num_threads(threads)
             .build()
             .map_err(|e| PyRuntimeError::new_err(format!("cannot start threads: {e}")))?;
+        check_memory(&scene, &options, pool.current_num_threads(), max_memory)?;
+        let (label, film) = match &checkpoint {
+            None => (Label::default(), None),
+            Some(path) => {
+                let label = Label::of(scene.name(), scene.scene(), &options);
+                let film = resumed(path, &label)?;
+                (label, film)
+            }
+        };
+        let seconds = film.as_ref().map_or(0.0, |(_, seconds)| *seconds);
         Ok(Self {
             prepared: scene.prepare(py, &options, &pool)?,
             scene: scene.name().to_owned(),
             options,
             pool,
+            checkpoint,
+            label,
             state: Mutex::new(State {
-                film: None,
+                film: film.map(|(film, _)| film),
                 rays: 0,
-                seconds: 0.0,
+                seconds,
             }),
         })
     }

@@ -6,14 +6,14 @@ use pyo3::prelude::*;
 use specula::scene::Scene;
 use specula::scene::material_text::parse_material;
 use specula::scene::scene::{
-    CoatMedium, ColourParam, ConductorFresnel, FloatParam, GltfMaterial, MaterialKind,
-    MicrofacetDistribution, PrincipledMaterial, Roughness, RoughnessMapping,
+    Bump, CoatMedium, ColourParam, FloatParam, GltfMaterial, MaterialKind, PrincipledMaterial,
+    Roughness, RoughnessMapping,
 };
 use specula_bsdf::math::Rgb;
-use specula_bsdf::metals::{METALS, by_symbol};
 
-use super::paint::{ANY, Paint, SHARE};
-use crate::parameters::{Alphas, Distribution, in_range, invalid};
+use super::microfacets::{BumpMap, Facets, Given, Metal, at_most_one, single};
+use super::paint::{ANY, Paint, SHARE, SIGNED};
+use crate::parameters::{Alphas, in_range, invalid};
 
 type Blueprint = dyn Fn(&mut Scene) -> MaterialKind + Send + Sync;
 
@@ -39,10 +39,10 @@ pub(crate) struct Material {
     blueprint: Arc<Blueprint>,
     /// Absorption within, per scene unit.
     pub(super) absorption: Rgb<f32>,
+    /// What bends its normals.
+    bump_map: Option<BumpMap>,
     kind: &'static str,
 }
-
-type Given<'a, 'py> = Option<&'a Bound<'py, PyAny>>;
 
 impl Material {
     fn new(
@@ -52,6 +52,7 @@ impl Material {
         Self {
             blueprint: Arc::new(blueprint),
             absorption: Rgb::BLACK,
+            bump_map: None,
             kind,
         }
     }
@@ -69,82 +70,20 @@ impl Material {
         (self.blueprint)(scene)
     }
 
+    /// Its bump or normal map, as of a scene.
+    pub(super) fn bump(&self, scene: &mut Scene) -> Option<Bump> {
+        self.bump_map.as_ref()?.build(scene)
+    }
+
     /// Whether it is the very same object.
     pub(super) fn is(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.blueprint, &other.blueprint)
-    }
-}
-
-/// The width of microfacets: alpha, or the artist's roughness, whose square it is.
-#[derive(Clone)]
-enum Width {
-    Alphas([f32; 2]),
-    Roughness(Paint),
-}
-
-/// Microfacets of a material.
-#[derive(Clone)]
-struct Facets {
-    width: Width,
-    distribution: MicrofacetDistribution,
-}
-
-impl Facets {
-    fn new(
-        alpha: Option<Alphas>,
-        roughness: Given<'_, '_>,
-        distribution: &str,
-        default: f32,
-    ) -> PyResult<Self> {
-        let width = match (alpha, roughness) {
-            (Some(_), Some(_)) => {
-                return Err(invalid("alpha and roughness exclude each other"));
-            }
-            (None, Some(given)) => Width::Roughness(Paint::new("roughness", given, SHARE)?),
-            (None, None) => Width::Alphas([default; 2]),
-            (Some(alphas), None) => {
-                let [x, y] = match alphas {
-                    Alphas::One(alpha) => [alpha; 2],
-                    Alphas::Two(alphas) => alphas,
-                };
-                Width::Alphas([at_most_one("alpha", x)?, at_most_one("alpha", y)?])
-            }
+        let same_map = match (&self.bump_map, &other.bump_map) {
+            (None, None) => true,
+            (Some(a), Some(b)) => a.is(b),
+            _ => false,
         };
-        let distribution = match Distribution::named(distribution)? {
-            Distribution::Ggx => MicrofacetDistribution::Ggx,
-            Distribution::Beckmann => MicrofacetDistribution::Beckmann,
-        };
-        Ok(Self {
-            width,
-            distribution,
-        })
+        Arc::ptr_eq(&self.blueprint, &other.blueprint) && same_map
     }
-
-    fn build(&self, scene: &mut Scene) -> Roughness {
-        let smooth = Roughness::smooth();
-        let (u, v, mapping) = match &self.width {
-            Width::Alphas([u, v]) => (
-                FloatParam::Value(*u),
-                FloatParam::Value(*v),
-                RoughnessMapping::Alpha,
-            ),
-            Width::Roughness(paint) => {
-                let width = paint.number(scene);
-                (width, width, RoughnessMapping::Square)
-            }
-        };
-        Roughness {
-            u,
-            v,
-            mapping,
-            distribution: self.distribution,
-            ..smooth
-        }
-    }
-}
-
-fn at_most_one(name: &str, value: f64) -> PyResult<f32> {
-    in_range(name, value, [0.0, 1.0]).map(single)
 }
 
 fn index(name: &str, eta: f64) -> PyResult<f32> {
@@ -156,73 +95,6 @@ fn index(name: &str, eta: f64) -> PyResult<f32> {
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "rounds to the nearest float"
-)]
-pub(super) fn single(value: f64) -> f32 {
-    value as f32
-}
-
-/// What a metal reflects.
-#[derive(Clone)]
-enum Metal {
-    Index(Paint, Paint),
-    Reflectance(Paint),
-    Schlick(Paint),
-}
-
-impl Metal {
-    fn new(
-        metal: Option<&str>,
-        eta: Given<'_, '_>,
-        k: Given<'_, '_>,
-        reflectance: Given<'_, '_>,
-        f0: Given<'_, '_>,
-    ) -> PyResult<Self> {
-        match (metal, eta, k, reflectance, f0) {
-            (None, None, None, None, None) => Self::measured("Au"),
-            (Some(symbol), None, None, None, None) => Self::measured(symbol),
-            (None, Some(eta), Some(k), None, None) => Ok(Self::Index(
-                Paint::new("eta", eta, ANY)?,
-                Paint::new("k", k, ANY)?,
-            )),
-            (None, None, None, Some(reflectance), None) => Ok(Self::Reflectance(Paint::new(
-                "reflectance",
-                reflectance,
-                SHARE,
-            )?)),
-            (None, None, None, None, Some(f0)) => Ok(Self::Schlick(Paint::new("f0", f0, SHARE)?)),
-            _ => Err(invalid(
-                "conductor: expected one of metal, eta with k, reflectance, f0",
-            )),
-        }
-    }
-
-    fn measured(symbol: &str) -> PyResult<Self> {
-        let Some(metal) = by_symbol(symbol) else {
-            let known: Vec<_> = METALS.iter().map(|m| m.symbol).collect();
-            return Err(invalid(format!(
-                "no such metal: '{symbol}' (expected one of {})",
-                known.join(", ")
-            )));
-        };
-        let value = |channels: [f64; 3]| Paint::Value(Rgb::from(channels).cast());
-        Ok(Self::Index(value(metal.eta), value(metal.k)))
-    }
-
-    fn build(&self, scene: &mut Scene) -> ConductorFresnel {
-        match self {
-            Self::Index(eta, k) => ConductorFresnel::Index {
-                eta: eta.colour(scene),
-                k: k.colour(scene),
-            },
-            Self::Reflectance(colour) => ConductorFresnel::Reflectance(colour.colour(scene)),
-            Self::Schlick(f0) => ConductorFresnel::Schlick(f0.colour(scene)),
-        }
-    }
-}
-
 #[pymethods]
 impl Material {
     /// Read a material as the command line writes it: ``conductor Au alpha 0.3``.
@@ -230,6 +102,45 @@ impl Material {
     fn parse(text: &str) -> PyResult<Self> {
         let kind = parse_material(text).map_err(invalid)?;
         Ok(Self::new("text", move |_| kind))
+    }
+
+    /// Return the same material with a bump map.
+    ///
+    /// Parameters
+    /// ----------
+    /// heights
+    ///     Picture of heights along the normal, in scene units, of shape (h, w).
+    fn with_bump_map(&self, heights: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let heights = Paint::new("heights", heights, SIGNED)?;
+        if matches!(heights, Paint::Value(_)) {
+            return Err(invalid("heights: expected a picture of shape (h, w)"));
+        }
+        Ok(Self {
+            bump_map: Some(BumpMap::Heights(Arc::new(heights))),
+            ..self.clone()
+        })
+    }
+
+    /// Return the same material with a normal map.
+    ///
+    /// Parameters
+    /// ----------
+    /// normals
+    ///     Picture of shape (h, w, 3), in [0, 1]: ``2 c - 1`` is the normal in the frame of dp/du, dp/dv and the
+    ///     shading normal. No transfer curve is applied.
+    /// scale
+    ///     Factor on x and y of the normal.
+    #[pyo3(signature = (normals, scale = 1.0))]
+    fn with_normal_map(&self, normals: &Bound<'_, PyAny>, scale: f64) -> PyResult<Self> {
+        let normals = Paint::new("normals", normals, SHARE)?;
+        if matches!(normals, Paint::Value(_)) {
+            return Err(invalid("normals: expected a picture of shape (h, w, 3)"));
+        }
+        let scale = single(in_range("scale", scale, [0.0, 1e3])?);
+        Ok(Self {
+            bump_map: Some(BumpMap::Normals(Arc::new(normals), scale)),
+            ..self.clone()
+        })
     }
 
     /// Make Lambert, or energy-preserving Oren-Nayar where ``roughness`` is not 0.

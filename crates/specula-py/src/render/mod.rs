@@ -1,7 +1,9 @@
 //! Scenes, renders and pictures.
 
+mod geometry;
 mod job;
 mod material;
+mod microfacets;
 mod paint;
 mod picture;
 mod scene;

@@ -16,6 +16,9 @@ pub(super) const SHARE: [f32; 2] = [0.0, 1.0];
 /// The range of what has no upper bound.
 pub(super) const ANY: [f32; 2] = [0.0, f32::MAX];
 
+/// The range of heights.
+pub(super) const SIGNED: [f32; 2] = [-f32::MAX, f32::MAX];
+
 /// A value that may vary over a surface.
 #[derive(Clone)]
 pub(super) enum Paint {
@@ -34,9 +37,10 @@ impl Paint {
         let array = argument.numbers::<f32>()?;
         let values = array.as_slice()?;
         if let Some(wrong) = values.iter().find(|v| !(low..=high).contains(*v)) {
-            let wanted = match high == f32::MAX {
-                true => format!("{low} or more"),
-                false => format!("numbers in [{low}, {high}]"),
+            let wanted = match (low == -f32::MAX, high == f32::MAX) {
+                (true, true) => "finite numbers".to_owned(),
+                (_, true) => format!("{low} or more"),
+                _ => format!("numbers in [{low}, {high}]"),
             };
             return Err(invalid(format!("{name}: expected {wanted}, got {wrong}")));
         }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use glam::DMat4;
 use numpy::PyReadonlyArray2;
 use pyo3::exceptions::{PyKeyError, PyOSError};
 use pyo3::prelude::*;
@@ -10,13 +11,16 @@ use rayon::ThreadPool;
 use specula::render::{PreparedScene, RenderOptions};
 use specula::scene::scene::{
     Camera, ColourParam, Emission, EnvironmentMapping, Film, Filter, Geometry, ImageId, Light,
-    Material as SceneMaterial, MaterialId, Mesh, MeshId, Settings, Shape, SpotFalloff,
+    Material as SceneMaterial, MaterialId, Mesh, MeshId, Object, ObjectId, ObjectInstance,
+    Settings, Shape, SpotFalloff,
 };
 use specula::scene::{ErrorKind, LoadOptions, Scene, SceneError, Warning, load_with};
 use specula_bsdf::math::Rgb;
 
-use super::material::{Material, single};
-use super::paint::{ANY, Paint};
+use super::geometry::{affine, drop_flat, finite, triangles, unit};
+use super::material::Material;
+use super::microfacets::single;
+use super::paint::{ANY, Paint, SHARE};
 use super::{io_error, rows};
 use crate::parameters::{Colour, in_range, invalid};
 
@@ -27,9 +31,23 @@ pub(crate) struct SceneData {
     name: String,
     /// Materials that shapes already have, by the object they were made of.
     made: Vec<(Material, MaterialId)>,
+    /// The shapes, by their numbers.
+    places: Vec<Place>,
     prepared: Option<(RenderOptions, Arc<PreparedScene>)>,
     is_changed: bool,
 }
+
+/// Where a shape is.
+#[derive(Clone, Copy)]
+enum Place {
+    /// In the world.
+    World(usize),
+    /// In an object, which is seen where it has instances.
+    Object(usize, usize),
+}
+
+/// What a shape is given besides its geometry.
+type Surface = (Option<Material>, Option<Colour>, bool);
 
 /// Reads a scene of any format; returns it with the warnings of its reader.
 #[pyfunction]
@@ -89,6 +107,7 @@ fn prepare_alike(a: &RenderOptions, b: &RenderOptions) -> bool {
 impl SceneData {
     fn of(scene: Scene, name: String) -> Self {
         Self {
+            places: (0..scene.shapes.len()).map(Place::World).collect(),
             scene,
             name,
             made: Vec::new(),
@@ -140,84 +159,70 @@ impl SceneData {
         }
         let mut made = SceneMaterial::new(material.build(&mut self.scene));
         made.absorption = material.absorption;
+        made.bump = material.bump(&mut self.scene);
         self.scene.materials.push(made);
         let id = MaterialId(self.scene.materials.len() - 1);
         self.made.push((material, id));
         id
     }
 
+    /// Adds a shape to the world, or to an object; returns its number.
     fn add(
         &mut self,
-        mut shape: Shape,
-        emission: Option<Colour>,
-        two_sided: bool,
+        geometry: Geometry,
+        to_world: DMat4,
+        (material, emission, two_sided): Surface,
+        object: Option<usize>,
     ) -> PyResult<usize> {
-        if let Some(radiance) = emission {
-            let radiance = radiance.within("emission", BRIGHT)?.cast();
-            shape.emission = Some(Emission {
-                radiance: ColourParam::Value(radiance),
-                two_sided,
-            });
+        if let Some(object) = object {
+            self.object(object)?;
+            if emission.is_some() {
+                return Err(invalid(
+                    "emission: shapes of an object emit no light; add the lamp to the scene",
+                ));
+            }
         }
-        self.scene.shapes.push(shape);
+        let radiance = emission
+            .map(|radiance| radiance.within("emission", BRIGHT))
+            .transpose()?;
+        let id = self.material(material);
+        let mut shape = Shape::new(geometry, to_world, id);
+        shape.emission = radiance.map(|radiance| Emission {
+            radiance: ColourParam::Value(radiance.cast()),
+            two_sided,
+        });
+        let shapes = match object {
+            None => &mut self.scene.shapes,
+            Some(object) => &mut self.scene.objects[object].shapes,
+        };
+        shapes.push(shape);
+        let last = shapes.len() - 1;
+        self.places.push(match object {
+            None => Place::World(last),
+            Some(object) => Place::Object(object, last),
+        });
         self.is_changed = true;
-        Ok(self.scene.shapes.len() - 1)
+        Ok(self.places.len() - 1)
     }
-}
 
-/// Three finite numbers.
-fn finite(name: &str, vector: [f64; 3]) -> PyResult<[f64; 3]> {
-    match vector.iter().all(|x| x.is_finite()) {
-        true => Ok(vector),
-        false => Err(invalid(format!(
-            "{name}: expected finite numbers, got {vector:?}"
-        ))),
+    /// The shape of a number.
+    fn shape_mut(&mut self, number: usize) -> Option<&mut Shape> {
+        match *self.places.get(number)? {
+            Place::World(i) => self.scene.shapes.get_mut(i),
+            Place::Object(object, i) => self.scene.objects.get_mut(object)?.shapes.get_mut(i),
+        }
     }
-}
 
-fn unit(name: &str, vector: [f64; 3]) -> PyResult<[f64; 3]> {
-    let [x, y, z] = finite(name, vector)?;
-    let length = x.hypot(y).hypot(z);
-    match length > 0.0 && length.is_finite() {
-        true => Ok([x / length, y / length, z / length]),
-        false => Err(invalid(format!(
-            "{name}: expected a direction, got {vector:?}"
-        ))),
+    /// Fails where there is no object of this number.
+    fn object(&self, object: usize) -> PyResult<()> {
+        let count = self.scene.objects.len();
+        match object < count {
+            true => Ok(()),
+            false => Err(invalid(format!(
+                "object: there is no {object} among {count} objects"
+            ))),
+        }
     }
-}
-
-/// Triangles of vertices that exist.
-fn triangles(faces: &PyReadonlyArray2<'_, i64>, count: usize) -> PyResult<Vec<[u32; 3]>> {
-    let faces = faces.as_slice()?;
-    let (faces, _) = faces.as_chunks::<3>();
-    let vertex = |i: i64| u32::try_from(i).ok().filter(|&i| (i as usize) < count);
-    let of = |(n, face): (usize, &[i64; 3])| match face.map(vertex) {
-        [Some(a), Some(b), Some(c)] => Ok([a, b, c]),
-        _ => Err(invalid(format!(
-            "faces[{n}]: expected indices of {count} vertices, got {face:?}"
-        ))),
-    };
-    faces.iter().enumerate().map(of).collect()
-}
-
-/// Removes triangles without area; returns how many there were.
-fn drop_flat(mesh: &mut Mesh) -> usize {
-    let positions = &mesh.positions;
-    let corner = |i: u32| positions[i as usize].map(f64::from);
-    let has_area = |t: &[u32; 3]| {
-        let [a, b, c] = t.map(corner);
-        let [u, v] = [b, c].map(|p| [p[0] - a[0], p[1] - a[1], p[2] - a[2]]);
-        let cross = [
-            u[1] * v[2] - u[2] * v[1],
-            u[2] * v[0] - u[0] * v[2],
-            u[0] * v[1] - u[1] * v[0],
-        ];
-        let length = cross[0].hypot(cross[1]).hypot(cross[2]);
-        length > 0.0 && (1.0 / length).is_finite()
-    };
-    let before = mesh.triangles.len();
-    mesh.triangles.retain(has_area);
-    before - mesh.triangles.len()
 }
 
 #[pymethods]
@@ -240,7 +245,7 @@ impl SceneData {
     }
 
     /// Adds a mesh; returns the shape's index and how many triangles without area were dropped.
-    #[pyo3(signature = (vertices, faces, normals, uvs, material, emission, two_sided))]
+    #[pyo3(signature = (vertices, faces, normals, uvs, transform, surface, opacity, object))]
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
     fn add_mesh(
         &mut self,
@@ -248,9 +253,10 @@ impl SceneData {
         faces: &Bound<'_, PyAny>,
         normals: Option<&Bound<'_, PyAny>>,
         uvs: Option<&Bound<'_, PyAny>>,
-        material: Option<Material>,
-        emission: Option<Colour>,
-        two_sided: bool,
+        transform: Option<[[f64; 4]; 4]>,
+        surface: Surface,
+        opacity: Option<&Bound<'_, PyAny>>,
+        object: Option<usize>,
     ) -> PyResult<(usize, usize)> {
         let positions = rows::<3>("vertices", vertices)?;
         let count = positions.len();
@@ -281,36 +287,60 @@ impl SceneData {
         if mesh.triangles.is_empty() {
             return Err(invalid("faces: expected a triangle with area"));
         }
-        let id = self.material(material);
+        let to_world = affine(transform)?;
+        let opacity = Paint::or("opacity", opacity, SHARE, 1.0)?;
         let geometry = Geometry::Mesh(MeshId(self.scene.meshes.len()));
-        let shape = Shape::new(geometry, Default::default(), id);
-        let shape = self.add(shape, emission, two_sided)?;
+        let number = self.add(geometry, to_world, surface, object)?;
         self.scene.meshes.push(mesh);
-        Ok((shape, dropped))
+        let alpha = opacity.number(&mut self.scene);
+        if let Some(shape) = self.shape_mut(number) {
+            shape.alpha = alpha;
+        }
+        Ok((number, dropped))
     }
 
     /// Adds a sphere; returns the shape's index.
-    #[pyo3(signature = (center, radius, material, emission))]
+    #[pyo3(signature = (center, radius, transform, surface, object))]
     fn add_sphere(
         &mut self,
         center: [f64; 3],
         radius: f64,
-        material: Option<Material>,
-        emission: Option<Colour>,
+        transform: Option<[[f64; 4]; 4]>,
+        surface: Surface,
+        object: Option<usize>,
     ) -> PyResult<usize> {
-        let [x, y, z] = finite("center", center)?;
+        let center = finite("center", center)?;
         let rounded = single(radius);
         if !(rounded > 0.0 && rounded.is_finite()) {
             return Err(invalid(format!(
                 "radius: expected a number above 0, got {radius}"
             )));
         }
-        let radius = rounded;
-        let id = self.material(material);
-        let mut shape = Shape::new(Geometry::Sphere { radius }, Default::default(), id);
-        let place = &mut shape.to_world.w_axis;
-        (place.x, place.y, place.z) = (x, y, z);
-        self.add(shape, emission, false)
+        let to_world = affine(transform)? * DMat4::from_translation(center.into());
+        self.add(
+            Geometry::Sphere { radius: rounded },
+            to_world,
+            surface,
+            object,
+        )
+    }
+
+    /// Adds an empty object; returns its number.
+    fn add_object(&mut self, name: String) -> usize {
+        let shapes = Vec::new();
+        self.scene.objects.push(Object { name, shapes });
+        self.scene.objects.len() - 1
+    }
+
+    /// Places an object in the world.
+    fn add_instance(&mut self, object: usize, transform: [[f64; 4]; 4]) -> PyResult<()> {
+        self.object(object)?;
+        self.scene.instances.push(ObjectInstance {
+            object: ObjectId(object),
+            to_world: affine(Some(transform))?,
+        });
+        self.is_changed = true;
+        Ok(())
     }
 
     /// Sets the camera, and the size of the picture where it is given.
@@ -442,13 +472,14 @@ impl SceneData {
 
     /// Gives a material to the shape of an index.
     fn set_material(&mut self, shape: usize, material: Material) -> PyResult<()> {
-        let count = self.scene.shapes.len();
-        if shape >= count {
+        let id = self.material(Some(material));
+        let count = self.places.len();
+        let Some(given) = self.shape_mut(shape) else {
             return Err(invalid(format!(
                 "shape: there is no {shape} among {count} shapes"
             )));
-        }
-        self.scene.shapes[shape].material = self.material(Some(material));
+        };
+        given.material = id;
         self.is_changed = true;
         Ok(())
     }
@@ -463,6 +494,11 @@ impl SceneData {
             )));
         }
         let kind = material.build(&mut self.scene);
+        if let (Some(bump), Some(_)) = (material.bump(&mut self.scene), name) {
+            for m in self.scene.materials.iter_mut().filter(|m| is_named(m)) {
+                m.bump = Some(bump);
+            }
+        }
         match name {
             None => self.scene.replace_materials(kind),
             Some(name) => {

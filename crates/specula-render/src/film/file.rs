@@ -20,12 +20,12 @@ use flate2::Compression;
 use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 use rayon::prelude::*;
-use specula_scene::atomic;
+use specula_scene::{Scene, atomic};
 use thiserror::Error;
 use twox_hash::XxHash3_64;
 
 use super::buffer::{FilmBuffer, PixelSums, Tile};
-use crate::options::BIASED;
+use crate::options::{BIASED, RenderOptions};
 
 const MAGIC: &[u8; 8] = b"SPECFILM";
 /// Version of the format. Films of another version are not read: their fingerprints and settings are encoded
@@ -58,6 +58,20 @@ pub struct Label {
 }
 
 impl Label {
+    /// That of a render of a scene, before its first second.
+    ///
+    /// * `name`: the scene's, for messages.
+    #[must_use]
+    pub fn of(name: &str, scene: &Scene, options: &RenderOptions) -> Self {
+        Self {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            scene: name.to_owned(),
+            fingerprint: scene.fingerprint(),
+            settings: options.settings(),
+            seconds: 0.0,
+        }
+    }
+
     /// What biases the picture, in words; `None`: nothing does.
     #[must_use]
     pub fn bias(&self) -> Option<&str> {

@@ -4,7 +4,7 @@ use crate::cli::ExitCode;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use crate::render::RenderOptions;
+use crate::render::{MemoryEstimate, RenderOptions};
 use crate::scene::scene::Projection;
 use crate::scene::{Scene, Summary};
 
@@ -105,7 +105,11 @@ fn describe(named: &Named) -> String {
 /// What a render with the scene's own settings would take.
 fn memory_line(scene: &Scene) -> String {
     let options = RenderOptions::from_scene(scene);
-    memory::line(&memory::estimate(scene, &options, machine::count(None)))
+    memory::line(&MemoryEstimate::of_process(
+        scene,
+        &options,
+        machine::count(None),
+    ))
 }
 
 /// The name of an enum's variant: what stands before its fields.

@@ -3,10 +3,11 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use crate::render::available_memory;
 use crate::scene::{Limits, LoadOptions, Missing};
 use clap::{Args, ValueEnum};
 
-use super::{memory, values};
+use super::values;
 
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Reading of the scene")]
@@ -71,7 +72,7 @@ impl LoadingArguments {
     /// * `parameters`: values of names in Mitsuba scenes.
     pub(crate) fn options(&self, parameters: &[(String, String)]) -> LoadOptions {
         let mut options = LoadOptions::default();
-        options.limits = fitting(options.limits, memory::available());
+        options.limits = fitting(options.limits, available_memory());
         let limits = &mut options.limits;
         limits.max_depth = self.limit_nesting.map_or(limits.max_depth, usize::from);
         limits.max_bytes = self.limit_bytes.unwrap_or(limits.max_bytes);

@@ -1,6 +1,6 @@
 //! How much memory a render will take: said before it begins, and refused where it is too much.
 
-use crate::render::{MemoryEstimate, RenderOptions};
+use crate::render::{MemoryEstimate, RenderOptions, available_memory};
 use crate::scene::Scene;
 
 use super::Failure;
@@ -15,7 +15,7 @@ pub(crate) fn check(
     limit: Option<u64>,
     quiet: bool,
 ) -> Result<(), Failure> {
-    let estimate = estimate(scene, options, threads);
+    let estimate = MemoryEstimate::of_process(scene, options, threads);
     let peak = estimate.peak();
     if let Some(limit) = limit.filter(|limit| peak > *limit) {
         return Err(Failure::bad_input(format_args!(
@@ -29,8 +29,8 @@ pub(crate) fn check(
         say!("memory: {}", line(&estimate));
     }
     // What is held of the scene already is no longer available.
-    let needed = peak.saturating_sub(estimate.scene + estimate.program);
-    if let Some(available) = available().filter(|available| needed > *available) {
+    let needed = estimate.still_needed();
+    if let Some(available) = available_memory().filter(|available| needed > *available) {
         say!(
             "warning: {} of memory are available, and the render would take {} more than it has now",
             bytes(available),
@@ -38,16 +38,6 @@ pub(crate) fn check(
         );
     }
     Ok(())
-}
-
-/// The estimate for a scene that was just read.
-pub(crate) fn estimate(scene: &Scene, options: &RenderOptions, threads: usize) -> MemoryEstimate {
-    let estimate = MemoryEstimate::new(scene, options, threads);
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    match (field(&status, "VmRSS:"), field(&status, "VmHWM:")) {
-        (Some(now), Some(most)) => estimate.after_reading(now, most),
-        _ => estimate,
-    }
 }
 
 /// The peak and its parts in a line.
@@ -99,39 +89,6 @@ fn bytes(size: u64) -> String {
     format!("{value:.digits$} {unit}")
 }
 
-/// Memory that can be had without swapping: the system's, or what is left of the control group's where
-/// that is less. `None` where it cannot be told.
-pub(crate) fn available() -> Option<u64> {
-    let of_system = std::fs::read_to_string("/proc/meminfo")
-        .ok()
-        .and_then(|text| field(&text, "MemAvailable:"));
-    let number = |name: &str| {
-        let text = std::fs::read_to_string(name).ok()?;
-        text.trim().parse::<u64>().ok()
-    };
-    // Version 2 of control groups, then version 1.
-    let of_group = [
-        ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current"),
-        (
-            "/sys/fs/cgroup/memory/memory.limit_in_bytes",
-            "/sys/fs/cgroup/memory/memory.usage_in_bytes",
-        ),
-    ]
-    .into_iter()
-    .find_map(|(most, now)| Some(number(most)?.saturating_sub(number(now)?)));
-    match (of_system, of_group) {
-        (Some(a), Some(b)) => Some(a.min(b)),
-        (a, b) => a.or(b),
-    }
-}
-
-/// A field in kB of a file of the system such as `/proc/meminfo`, in bytes.
-fn field(text: &str, name: &str) -> Option<u64> {
-    let line = text.lines().find_map(|l| l.strip_prefix(name))?;
-    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    kibibytes.checked_mul(1024)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -143,13 +100,5 @@ mod tests {
         assert_eq!(bytes(5 << 30), "5.00 GiB");
         assert_eq!(bytes(1010 << 20), "0.99 GiB");
         assert_eq!(bytes((44 << 20) + 1), "44.1 MiB");
-    }
-
-    #[test]
-    fn available_memory_is_read() {
-        let text = "MemTotal:  100 kB\nMemAvailable:   24000 kB\nSwap: 1 kB\n";
-        assert_eq!(field(text, "MemAvailable:"), Some(24_000 * 1024));
-        assert_eq!(field("MemTotal: 5 kB", "MemAvailable:"), None);
-        assert_eq!(field("VmRSS: many kB", "VmRSS:"), None);
     }
 }

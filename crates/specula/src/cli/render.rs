@@ -117,7 +117,7 @@ impl Context<'_> {
         let mut checkpoint = checkpoint(
             arguments,
             &outputs,
-            label(&name, &scene, &options, &missing),
+            Label::of(&name, &scene, &options).with_missing(&missing),
         );
         let begun = match start(arguments) {
             Start::New if checkpoint.path().is_none() => None,
@@ -251,18 +251,6 @@ fn start(arguments: &RenderArguments) -> Start {
         (None, true) => Start::Restart,
         (None, false) => Start::New,
     }
-}
-
-/// What its films belong to.
-fn label(name: &str, scene: &Scene, options: &RenderOptions, missing: &[PathBuf]) -> Label {
-    let label = Label {
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        scene: name.to_owned(),
-        fingerprint: scene.fingerprint(),
-        settings: options.settings(),
-        seconds: 0.0,
-    };
-    label.with_missing(missing)
 }
 
 fn checkpoint(arguments: &RenderArguments, outputs: &Outputs, label: Label) -> Checkpoint {
