@@ -7,6 +7,7 @@ their turns.
 from __future__ import annotations
 
 import argparse
+import subprocess
 import time
 from collections.abc import Callable
 
@@ -72,11 +73,20 @@ def mitsuba_sample(n: int, wo: Array, u: Array) -> Callable[[], object] | None:
     return call
 
 
+def rust_nanoseconds(program: str, n: int) -> dict[str, float]:
+    """Return what a Rust program, `specula-bsdf`'s example `sample_speed`, measures of its batches."""
+    told = subprocess.run([program, str(n)], check=True, capture_output=True, text=True).stdout
+    return {name: float(value) for name, value in map(str.split, told.splitlines())}
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=1 << 20, help="elements of a call")
     parser.add_argument("--rounds", type=int, default=9, help="rounds of which the least counts")
     parser.add_argument("--mitsuba", action="store_true", help="measure Mitsuba, too")
+    parser.add_argument(
+        "--rust", metavar="PROGRAM", help="the built example sample_speed of specula-bsdf"
+    )
     options = parser.parse_args()
     n = options.count
     rng = np.random.default_rng(1)
@@ -106,6 +116,10 @@ def main() -> None:
     for _ in range(options.rounds):
         for name, call in calls.items():
             least[name] = min(least[name], seconds(call))
+        if options.rust:
+            for name, value in rust_nanoseconds(options.rust, n).items():
+                row = f"{name}, batches in Rust"
+                least[row] = min(least.get(row, np.inf), 1e-9 * value * n)
     print(f"Level {sr.level()}, {n} elements.\n")
     print("| sample of rough metal, float32 | ns per element |\n|---|---|")
     for name, took in least.items():

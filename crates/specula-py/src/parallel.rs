@@ -1,5 +1,6 @@
 //! Loops over blocks of elements, by several threads: structures of arrays for the kernels, whatever the caller's layout.
 
+use macro_rules_attribute::apply;
 use pyo3::prelude::*;
 use specula_bsdf::batch::SampleOutcome;
 
@@ -175,9 +176,6 @@ impl<'a, T: Scalar> Job<'a, T> {
             gathered(&self.sources[0], from, to, a),
             gathered(&self.sources[1], from, to, b),
         ];
-        for (source, vectors) in self.sources.iter().zip(&sources) {
-            check(source, vectors, from)?;
-        }
         let Outputs {
             vectors: [mut first, mut second],
             numbers,
@@ -194,6 +192,10 @@ impl<'a, T: Scalar> Job<'a, T> {
             numbers: numbers.unwrap_or_default(),
             outcomes: &mut self.outcomes[..],
         });
+        // Afterwards: the kernel, which computes more than it reads, has brought the block into the cache meanwhile.
+        for (source, vectors) in self.sources.iter().zip(&sources) {
+            check(source, vectors, from)?;
+        }
         scatter(first, &self.written[0]);
         scatter(second, &self.written[1]);
         if let Some(outcomes) = outcomes {
@@ -264,28 +266,63 @@ fn scatter<T: Scalar>(output: Option<Output<'_, T>>, [x, y, z]: &[Vec<T>; 3]) {
     }
 }
 
+/// Compiles a function for AVX-512, for AVX2 and for the baseline; the machine's best is called.
+macro_rules! simd_levels {
+    ($($function:tt)*) => {
+        #[multiversion::multiversion(targets(
+            "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2",
+            "x86_64+avx2+fma+bmi1+bmi2"
+        ))]
+        $($function)*
+    };
+}
+
+#[inline(always)]
+fn is_unit<T: Scalar>(x: T, y: T, z: T) -> bool {
+    let length2 = x * x + y * y + z * z;
+    (length2 - T::ONE).abs() < T::of(2e-3)
+}
+
+#[inline(always)]
+fn is_random<T: Scalar>(x: T, y: T, z: T) -> bool {
+    let holds = |u: T| (u >= T::ZERO) & (u < T::ONE);
+    holds(x) & holds(y) & holds(z)
+}
+
+/// Whether all vectors are unit, without a branch.
+#[apply(simd_levels)]
+fn all_unit<T: Scalar>(x: &[T], y: &[T], z: &[T]) -> bool {
+    let mut broken = 0_u32;
+    for ((x, y), z) in x.iter().zip(y).zip(z) {
+        broken |= u32::from(!is_unit(*x, *y, *z));
+    }
+    broken == 0
+}
+
+/// Whether all numbers are random ones, without a branch.
+#[apply(simd_levels)]
+fn all_random<T: Scalar>(x: &[T], y: &[T], z: &[T]) -> bool {
+    let mut broken = 0_u32;
+    for ((x, y), z) in x.iter().zip(y).zip(z) {
+        broken |= u32::from(!is_random(*x, *y, *z));
+    }
+    broken == 0
+}
+
 fn check<T: Scalar>(
     source: &Source<'_, T>,
     [x, y, z]: &[&[T]; 3],
     from: usize,
 ) -> Result<(), Broken> {
     let Source { name, must, .. } = *source;
-    let holds = |i: usize| match must {
-        Must::BeUnit => {
-            let length2 = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
-            (length2 - T::ONE).abs() < T::of(2e-3)
-        }
-        Must::BeRandom => {
-            let holds = |u: T| (u >= T::ZERO) & (u < T::ONE);
-            holds(x[i]) & holds(y[i]) & holds(z[i])
-        }
+    let (all, holds): (bool, fn(T, T, T) -> bool) = match must {
+        Must::BeUnit => (all_unit(x, y, z), is_unit),
+        Must::BeRandom => (all_random(x, y, z), is_random),
     };
-    // All of them, without a branch; the culprit is looked for afterwards.
-    let all = (0..x.len()).fold(true, |all, i| all & holds(i));
     if all {
         return Ok(());
     }
-    match (0..x.len()).find(|&i| !holds(i)) {
+    match (0..x.len()).find(|&i| !holds(x[i], y[i], z[i])) {
         None => Ok(()),
         Some(i) => Err(Broken {
             index: from + i,
