@@ -192,7 +192,7 @@ impl<'a, T: Scalar> Job<'a, T> {
             numbers: numbers.unwrap_or_default(),
             outcomes: &mut self.outcomes[..],
         });
-        // Afterwards: the kernel, which computes more than it reads, has brought the block into the cache meanwhile.
+        // Afterwards: the kernel has read the block into the cache while it computed.
         for (source, vectors) in self.sources.iter().zip(&sources) {
             check(source, vectors, from)?;
         }
