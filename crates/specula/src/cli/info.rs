@@ -16,8 +16,18 @@ use super::{Failure, machine, memory, print};
 pub(crate) fn run(arguments: &InfoArguments) -> Result<ExitCode, Failure> {
     let options = arguments.loading.options(&arguments.parameters);
     let named = load::scene(arguments.scene.as_deref(), &options)?;
-    print(&describe(&named))?;
+    let text = match arguments.files {
+        true => files(&named),
+        false => describe(&named),
+    };
+    print(&text)?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// The files that were read, a line for each.
+fn files(named: &Named) -> String {
+    let lines = named.files.iter().map(|p| format!("{}\n", p.display()));
+    lines.collect()
 }
 
 fn describe(named: &Named) -> String {
