@@ -183,9 +183,9 @@ pub enum MergeError {
     /// Samples would count twice.
     #[error("samples {0} to {1} are in both films")]
     Overlap(u32, u32),
-    /// Their pixels have different numbers of samples.
+    /// Their pixels have different numbers of samples, not as shares of one round.
     #[error(
-        "films that were made for a noise are not parts of a picture: their pixels differ in samples"
+        "adaptive films are merged only where they are shares of one round: their pixels differ in samples"
     )]
     Adaptive,
 }
@@ -303,16 +303,17 @@ impl FilmBuffer {
     }
 
     /// Adds the samples of another film of the same scene and seed. All layers of its picture are, bit
-    /// for bit, those of one render of all the samples.
+    /// for bit, those of one render of all the samples. Of adaptive films, shares of a round
+    /// ([`RenderOptions::round_share`](crate::RenderOptions::round_share)) become the whole round.
     ///
     /// # Errors
-    /// Where the films differ in size or crop, have samples in common, or are adaptive.
+    /// Where the films differ in size or crop, have samples in common, or are adaptive and no shares of one round.
     pub fn merge(&mut self, other: &Self) -> Result<(), MergeError> {
         if self.full_resolution != other.full_resolution || self.crop != other.crop {
             return Err(MergeError::Size);
         }
         if self.is_adaptive() || other.is_adaptive() {
-            return Err(MergeError::Adaptive);
+            return self.merge_round(other);
         }
         let mut all = [self.samples(), other.samples()].concat();
         all.sort_unstable();

@@ -157,6 +157,12 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "A..B", group = "effort", value_parser = values::samples)]
     pub(crate) samples: Option<[u32; 2]>,
 
+    /// With --adaptive or --noise: of one round, only the tiles A to B - 1 of every N, for `specula merge`. With
+    /// --resume=FILM it is the round after that film: `specula farm` renders so
+    #[arg(long, value_name = "A..B/N", conflicts_with_all = ["samples", "time", "watch"],
+          value_parser = values::round_share)]
+    pub(crate) round_share: Option<[u32; 3]>,
+
     /// Go on with the checkpoint beside the output, or begin where there is none; --resume=FILM: with
     /// that film
     #[arg(long, value_name = "FILM", num_args = 0..=1, require_equals = true,
@@ -393,6 +399,10 @@ pub(crate) struct InfoArguments {
     /// Print the files that the scene is read from and nothing else, a line for each: what another machine needs
     #[arg(long)]
     pub(crate) files: bool,
+
+    /// Print what a film holds instead, as a line of JSON: scene, samples, least, most, mean, noise, work, seconds
+    #[arg(long, value_name = "FILM", conflicts_with_all = ["scene", "files"])]
+    pub(crate) film: Option<PathBuf>,
 
     /// Value of a `$name` in a Mitsuba scene, over its `<default>`. May be repeated.
     #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = values::parameter)]

@@ -62,6 +62,8 @@ def environment() -> dict[str, str]:
     return {
         "RAY_AUTH_MODE": os.environ.get("RAY_AUTH_MODE", "token"),
         "RAY_USAGE_STATS_ENABLED": "0",
+        # The engine tells of what it cannot do again.
+        "RAY_IGNORE_UNHANDLED_ERRORS": "1",
         # Nobody outlives the worker that started it.
         "RAY_kill_child_processes_on_worker_exit_with_raylet_subreaper": "true",
         "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "0",
@@ -102,6 +104,11 @@ def refuse_open(address: str, *, insecure: bool) -> str | None:
     ClusterError
         The cluster is open, or nobody is there.
     """
+    host, _, port = address.removeprefix("ray://").rpartition(":")
+    try:
+        socket.create_connection((host, int(port)), timeout=10.0).close()
+    except (OSError, ValueError) as error:
+        raise ClusterError(f"no Ray cluster at {address} (expected HOST:PORT): {error}") from error
     answer = subprocess.run(
         [sys.executable, "-c", _PROBE, address],
         env={**os.environ, **environment(), "RAY_AUTH_MODE": "disabled"},

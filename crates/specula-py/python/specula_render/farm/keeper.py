@@ -44,6 +44,8 @@ class JobKeeper:
         self.bases: dict[int, tuple[int, RayFilm]] = {}
         """Of adaptive pictures, the film that a round goes on with, and its samples."""
         self._changed: dict[int, float] = {}
+        self._work: dict[str, float] = {}
+        """Of adaptive pictures, by key, the work that the last round came to."""
         self._live: tuple[subprocess.Popen[bytes], float] | None = None
         self._next_live = time.monotonic() + _LIVE_EVERY
 
@@ -98,14 +100,15 @@ class JobKeeper:
 
     def _is_done(self, path: Path) -> bool:
         head = film.read_head(path)
-        if head.work >= self.request.spp:
+        before, self._work[path.parent.name] = self._work.get(path.parent.name), head.work
+        if head.work >= self.request.spp or head.work == before:
             return True
         if self.request.noise is None:
             return False
         printed = worker.run([*worker.program(self.request.program), "info", "--film", str(path)])
         # The program compares in single precision.
-        aim = struct.unpack("f", struct.pack("f", self.request.noise))[0]
-        return bool(json.loads(printed)["noise"] <= aim)
+        noise = json.loads(printed)["noise"]
+        return noise is not None and _single(noise) <= _single(self.request.noise)
 
     def finish(self, picture: int, film: Handle) -> None:
         """Write the picture's files."""
@@ -176,3 +179,9 @@ class JobKeeper:
                 worker.run(self._merge(films, outputs))
                 written += outputs
         return written
+
+
+def _single(value: float) -> float:
+    """Round to single precision."""
+    rounded: float = struct.unpack("f", struct.pack("f", value))[0]
+    return rounded

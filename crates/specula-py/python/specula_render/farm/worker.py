@@ -11,6 +11,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -79,6 +80,9 @@ def run(command: Sequence[str], *, quiet: bool = True) -> str:
     ProgramFailed
         It ended with another code than 0.
     """
+    if threading.current_thread() is threading.main_thread():
+        # Ray's workers ignore it, and then nobody learns how a child ended.
+        signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     child = subprocess.Popen(
         command,
         stdin=subprocess.DEVNULL,
