@@ -40,7 +40,7 @@ def two_nodes(cluster: Cluster) -> object:
     cluster.alone([*SIZE, "--spp", "64", "-o", "one.exr"])
     same = [cluster.same("two.exr", "one.exr")]
     begun = [e for e in cluster.journal("two.farm") if e["event"] == "begin"]
-    before = len(begun)
+    before = len(begins(cluster, "two.farm"))
     cluster.render(picture)
     again = len(begins(cluster, "two.farm")) - before
     cluster.render([*SIZE, "--spp", "80", "-o", "two.exr", "-o", "two.png"])
@@ -221,9 +221,10 @@ def open_cluster(cluster: Cluster) -> object:
     words = [*SIZE, "--spp", "4", "-o", "open.exr"]
     refused = cluster.render(words, address="127.0.0.4:6500", code=2).stderr
     taken = cluster.render([*words, "--insecure"], address="127.0.0.4:6500").stderr
-    stranger = cluster.farm(
-        ["render", *cluster.program, *words, "--address", HEAD], code=2, HOME="/nonexistent"
-    ).stderr
+    words = [*SIZE, "--spp", "4", "-o", "stranger.exr", "--address", HEAD]
+    home = cluster.folder / "elsewhere"
+    home.mkdir()
+    stranger = cluster.farm(["render", *cluster.program, *words], code=2, HOME=str(home)).stderr
     return {"refused": refused, "taken": taken, "stranger": stranger}
 
 

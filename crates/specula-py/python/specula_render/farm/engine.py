@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from specula_render.farm import ranges
 from specula_render.farm.pictures import Film, Picture, Waiting
-from specula_render.farm.policy import Policy
+from specula_render.farm.policy import FAN_IN, Policy
 from specula_render.farm.pool import Failed, Keeper, MergeDone, NodeInfo, PartDone, Pool
 from specula_render.farm.speeds import Speeds
 
@@ -17,8 +17,14 @@ _LOOK_AFTER = 2.0
 """Seconds between two looks for nodes that came or went."""
 _LATE_AFTER = 1.0
 """Seconds between two looks for parts that are late."""
+_SOMEWHERE = "?"
+"""The node of a film that a node of the pool's choice has."""
 _BASE = 1000
 """Level of films that hold all samples from the first on: they are merged once, in the end."""
+_AT_ONCE = 30.0
+"""Seconds of films that the driver takes one after the other."""
+_REST = 1.0
+"""Seconds that a node gets nothing after a worker was killed there."""
 _FAILURES_OF_NODE = 3
 """Parts that a node may fail one after the other before it gets no more."""
 
@@ -99,12 +105,15 @@ class Engine:
         self.speeds = Speeds()
         self.nodes: dict[str, NodeInfo] = {}
         self.idle: deque[NodeInfo] = deque()
+        self.later: deque[tuple[Picture, Film]] = deque()
+        self.resting: deque[tuple[float, NodeInfo]] = deque()
         self.parts: dict[int, Part] = {}
         self.merges: dict[int, Merge] = {}
         self.slots = 0
         self.attempts = self.doubled = 0
         self._tasks = self._first = self._pictures_done = 0
         self._failures: Counter[str] = Counter()
+        self._room_at, self._room = pool.now(), 0.0
         self._looked = self._late = -math.inf
 
     def run(self) -> None:
@@ -121,6 +130,8 @@ class Engine:
             picture.open(self.keeper.goal(picture.index, 0, None))
             self._settle(picture)
         while self._pictures_done < len(self.pictures):
+            self._wake()
+            self._keep_later()
             self._see_nodes()
             self._assign()
             for event in self.pool.wait(0.5):
@@ -168,11 +179,28 @@ class Engine:
             if picture.is_done:
                 continue
             for film in picture.lose(node.node):
-                self._again(picture, film.samples)
+                self._restore(picture, film)
+
+    def _restore(self, picture: Picture, film: Film) -> None:
+        """Make up for a film that is lost: by what is kept of it, and by rendering the rest again."""
+        kept = [samples for back in film.backing for samples in back.samples]
+        for samples in film.samples:
+            for gap in ranges.missing(kept, *samples):
+                self._again(picture, [gap])
+        for back in film.backing:
+            self._collect(picture, back)
 
     def _free(self, node: NodeInfo) -> None:
         if node.node in self.nodes:
             self.idle.append(node)
+
+    def _rest(self, node: NodeInfo) -> None:
+        """Leave a node alone for a while, on which something was killed: it may be dead itself."""
+        self.resting.append((self.pool.now() + _REST, node))
+
+    def _wake(self) -> None:
+        while self.resting and self.resting[0][0] <= self.pool.now():
+            self._free(self.resting.popleft()[1])
 
     # Parts.
 
@@ -199,7 +227,7 @@ class Engine:
             return left
         speed = self.speeds.of(node)
         if speed is None:
-            return 1 if self.speeds.longest == 0 else self.speeds.longest
+            return 1
         overhead = self.speeds.overhead
         seconds = self.policy.seconds_of_part(self.slots, overhead, self.speeds.merging)
         # Other pictures wait, too: there is enough for all.
@@ -208,7 +236,9 @@ class Engine:
         count = self.policy.samples_of_part(all_left, speed, speeds, seconds, overhead)
         if self.by == "samples":
             count = min(count, max(1, math.ceil(picture.goal / self.slots)))
-        return min(count, math.ceil(self.speeds.longest * self.policy.growth))
+        # What was measured in a moment says little about an hour.
+        most = self.speeds.longest + speed * self.speeds.longest_wall
+        return min(count, math.ceil(self.policy.growth * most))
 
     def _begin(
         self, picture: Picture, work: Waiting, node: NodeInfo, of: Part | None = None
@@ -286,7 +316,7 @@ class Engine:
             picture.running -= 1
             self._free(twin.node)
         picture.have += count
-        self._add(picture, Film(done.film, [samples], 0, part.node.node))
+        self._add(picture, Film(done.film, [samples], 0, part.node.node, done.size))
 
     def _part_failed(self, part: Part, failed: Failed) -> None:
         part.picture.running -= 1
@@ -299,7 +329,7 @@ class Engine:
             self._lose(self.nodes.pop(name))
             if not self.nodes:
                 raise RenderFailed(f"the last node fails every part: {failed.message}")
-        self._free(part.node)
+        (self._rest if failed.worker_died else self._free)(part.node)
         if (twin := part.twin) is not None:
             twin.twin = None
             return
@@ -317,10 +347,10 @@ class Engine:
         picture.merging -= 1
         samples = ranges.union(r for film in merge.films for r in film.samples)
         level = max(film.level for film in merge.films) + 1
-        film = Film(done.film, samples, level, merge.node)
-        kept = [film.handle for film in merge.films if film.node is None]
-        if self._add(picture, film, must_keep=bool(kept)):
-            self.keeper.drop(picture.index, kept)
+        film = Film(done.film, samples, level, merge.node or _SOMEWHERE, done.size)
+        for source in merge.films:
+            film.backing += [source] if source.node is None else source.backing
+        self._add(picture, film)
 
     def _merge_failed(self, merge: Merge, failed: Failed) -> None:
         self.keeper.note("merge failed", message=failed.message)
@@ -332,7 +362,7 @@ class Engine:
             if film.node is None:
                 self._collect(merge.picture, film)
             else:
-                self._again(merge.picture, film.samples)
+                self._restore(merge.picture, film)
         self._settle(merge.picture)
 
     def _again(self, picture: Picture, samples: Sequence[ranges.Range]) -> None:
@@ -352,30 +382,71 @@ class Engine:
         part = self.policy.seconds_of_part(self.slots, self.speeds.overhead, self.speeds.merging)
         return self.policy.keep_level(self.slots, part, self.speeds.film_bytes)
 
-    def _add(self, picture: Picture, film: Film, must_keep: bool = False) -> bool:
-        """Add a film; whether it is there, kept or on its node."""
+    def _add(self, picture: Picture, film: Film, must_keep: bool = False) -> None:
+        """Add a film, which the driver keeps or its node has."""
         is_last = not picture.waiting and picture.running + picture.merging == 0
         is_last = is_last and not picture.films()
-        if must_keep or is_last or film.level >= self._keep_level():
-            kept = self.keeper.keep(picture.index, film.handle, film.samples)
-            if kept is None:
-                self._again(picture, film.samples)
+        if must_keep or is_last or self._can_keep(picture, film):
+            if not self._keep_now(picture, film):
+                self._restore(picture, film)
                 self._settle(picture)
-                return False
-            film.handle, film.node = kept, None
+                return
+        elif film.level >= self._keep_level():
+            self.later.append((picture, film))
         self._collect(picture, film)
         self._settle(picture)
+
+    def _keep_later(self) -> None:
+        """Keep films for which there was no time when they came."""
+        while self.later:
+            picture, film = self.later[0]
+            is_there = film in picture.groups.get(film.level, []) and film.node is not None
+            if is_there and picture.waiting and not self._has_room(film):
+                return
+            self.later.popleft()
+            if is_there and picture.waiting:
+                self._keep_now(picture, film)
+
+    def _keep_now(self, picture: Picture, film: Film) -> bool:
+        kept = self.keeper.keep(picture.index, film.handle, film.samples)
+        if kept is None:
+            return False
+        film.handle, film.node = kept, None
+        self.keeper.drop(picture.index, [back.handle for back in film.backing])
+        film.backing = []
+        return True
+
+    def _can_keep(self, picture: Picture, film: Film) -> bool:
+        """Whether the driver has time for a film."""
+        if not picture.waiting and not self.policy.can_keep_last(self.slots, film.size):
+            return False
+        if film.level < self._keep_level():
+            return False
+        return self._has_room(film)
+
+    def _has_room(self, film: Film) -> bool:
+        now, rate = self.pool.now(), self.policy.driver_bytes
+        room = self._room + rate * (now - self._room_at)
+        # At the start and after a quiet time a few films are taken at once.
+        self._room_at, self._room = now, min(room, rate * _AT_ONCE)
+        if film.size > max(self._room, rate):
+            return False
+        self._room -= film.size
         return True
 
     def _collect(self, picture: Picture, film: Film) -> None:
-        if (group := picture.add(film)) is not None:
+        size = FAN_IN if picture.waiting else self._last_fan_in()
+        if (group := picture.add(film, size)) is not None:
             self._merge(picture, group)
+
+    def _last_fan_in(self) -> int:
+        return self.policy.last_fan_in(self.speeds.merging)
 
     def _settle(self, picture: Picture) -> None:
         """Where no more parts come, merge what there is; finish the picture where one film is left."""
         if picture.is_done or picture.waiting or picture.running or picture.merging:
             return
-        for group in picture.last_groups():
+        for group in picture.last_groups(self._last_fan_in()):
             self._merge(picture, group)
         films = picture.films()
         if picture.merging or len(films) != 1:
@@ -399,7 +470,7 @@ class Engine:
 
     def _merge(self, picture: Picture, films: list[Film]) -> None:
         self._tasks += 1
-        places = Counter(film.node for film in films if film.node is not None)
+        places = Counter(film.node for film in films if film.node in self.nodes)
         node = places.most_common(1)[0][0] if places else None
         self.merges[self._tasks] = Merge(picture, films, node)
         picture.merging += 1

@@ -20,6 +20,10 @@ class Film:
     """How often films were merged into it."""
     node: str | None
     """The node that has it; ``None``: the driver keeps it."""
+    size: int = 0
+    """Bytes."""
+    backing: list[Film] = field(default_factory=list)
+    """Films that the driver keeps and that are in this one, for the case that it is lost."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +32,7 @@ class Waiting:
 
     samples: Range
     attempts: int = 0
-    """How often they were tried. Then they are not cut again."""
+    """How often they were tried."""
 
 
 @dataclass(eq=False)
@@ -43,8 +47,8 @@ class Picture:
     """Parts that are being rendered."""
     merging: int = 0
     """Groups of films that are being merged."""
-    groups: dict[tuple[int, str | None], list[Film]] = field(default_factory=dict)
-    """All films that are in no merge: by level, and parts that only a node has by node."""
+    groups: dict[int, list[Film]] = field(default_factory=dict)
+    """All films that are in no merge, by level."""
     is_done: bool = False
     have: int = 0
     """Samples in films."""
@@ -61,12 +65,12 @@ class Picture:
         return sum(w.samples[1] - w.samples[0] for w in self.waiting)
 
     def take(self, count: int) -> Waiting:
-        """Take samples off those that wait: what was tried before first, and whole."""
+        """Take samples off those that wait: what was tried before first."""
         first = self.waiting.pop(0)
         a, b = first.samples
-        if first.attempts == 0 and a + count < b:
-            self.waiting.insert(0, Waiting((a + count, b)))
-            first = Waiting((a, a + count))
+        if a + count < b:
+            self.waiting.insert(0, Waiting((a + count, b), first.attempts))
+            first = Waiting((a, a + count), first.attempts)
         return first
 
     def retry(self, again: Waiting) -> None:
@@ -77,15 +81,17 @@ class Picture:
         """Return all films that are in no merge."""
         return [film for group in self.groups.values() for film in group]
 
-    def add(self, film: Film) -> list[Film] | None:
+    def add(self, film: Film, size: int = FAN_IN) -> list[Film] | None:
         """Add a film; take the group that it makes large enough to merge.
 
-        Parts that do not come to the driver are merged where they were rendered.
+        Parameters
+        ----------
+        size
+            Films of such a group.
         """
-        key = (film.level, film.node if film.level == 0 else None)
-        group = self.groups.setdefault(key, [])
+        group = self.groups.setdefault(film.level, [])
         group.append(film)
-        return self.groups.pop(key) if len(group) >= FAN_IN else None
+        return self.groups.pop(film.level) if len(group) >= size else None
 
     def lose(self, node: str) -> list[Film]:
         """Take out the films that only a node has."""
@@ -94,10 +100,10 @@ class Picture:
             self.groups[key] = [film for film in group if film.node != node]
         return lost
 
-    def last_groups(self) -> list[list[Film]]:
+    def last_groups(self, size: int) -> list[list[Film]]:
         """Take all films in groups, once no more will come; one that stays alone is left."""
         films = sorted(self.films(), key=lambda f: (f.level, f.node or "", f.samples))
-        groups = [films[i : i + FAN_IN] for i in range(0, len(films), FAN_IN)]
+        groups = [films[i : i + size] for i in range(0, len(films), size)]
         self.groups.clear()
         for group in groups:
             if len(group) == 1:

@@ -17,7 +17,7 @@ class Policy:
     most_part_seconds: float = 900.0
     """What a part takes at most, however dear all around it is."""
     least_part_seconds: float = 1.0
-    overhead_share: float = 0.05
+    overhead_share: float = 0.02
     """Share of a part's time that starting, reading the scene and merging its film may take."""
     task_seconds: float = 0.004
     """What the driver spends on a task."""
@@ -25,8 +25,10 @@ class Policy:
     """Share of its time that the driver may spend on tasks."""
     driver_bytes: float = 50e6
     """What the driver takes of films: half of a network of 1 Gbit/s."""
-    growth: float = 16.0
-    """A part has at most so many times the samples of the longest before it."""
+    merge_start: float = 0.5
+    """What a task that merges takes beside merging."""
+    growth: float = 8.0
+    """A part takes at most so many times as long as the longest before it."""
     lateness: float = 1.5
     """A part that takes so many times what was expected is late."""
     duplicates: bool = True
@@ -66,6 +68,17 @@ class Policy:
             level += 1
         return level
 
+    def can_keep_last(self, slots: int, film_bytes: float) -> bool:
+        """Whether the driver can take a film of every slot at the end, when all wait for it."""
+        return slots * film_bytes <= 2.0 * self.driver_bytes
+
+    def last_fan_in(self, merging: float) -> int:
+        """Return how many films a task merges at the end, when nodes are idle and time counts.
+
+        A tree of pairs is done first; but starting a task takes time, too.
+        """
+        return min(FAN_IN, 2 + int(self.merge_start / max(merging, 1e-3)))
+
     def samples_of_part(
         self, left: int, speed: float, speeds: float, seconds: float, overhead: float
     ) -> int:
@@ -85,7 +98,7 @@ class Policy:
         overhead
             What a part takes beside its samples.
         """
-        least = max(self.least_part_seconds, min(overhead / self.overhead_share / 2.0, seconds))
+        least = max(self.least_part_seconds, min(4.0 * overhead, seconds))
         share = left / speeds / 2.0
         samples = max(1, round(speed * max(least, min(share, seconds))))
         return left if left - samples < samples / 2 else samples

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import time
 from collections.abc import Sequence
@@ -146,7 +147,7 @@ def _connect(where: Where, progress: Progress) -> Any:
     if where.address is None:
         ray = cluster.start_local(where.cpus)
         progress.say("started Ray on this machine, with a token of its own:")
-        for name, address in listening.sockets():
+        for name, address in listening.sockets(os.getpid()):
             progress.say(f"  {name} listens on {address}")
         return ray
     ray, warning = cluster.connect(where.address, insecure=where.insecure)

@@ -19,6 +19,8 @@ class Speeds:
         self.film_bytes = 0.0
         self.longest = 0
         """Samples of the longest part so far."""
+        self.longest_wall = 0.0
+        """What it took, in seconds."""
         self._slots: dict[str, float] = {}
         self._sum = 0.0
 
@@ -34,7 +36,8 @@ class Speeds:
         self._slots[node.node] = speed
         self.overhead = _mean(self.overhead, max(wall - seconds, 0.0))
         self.film_bytes = _mean(self.film_bytes, float(size))
-        self.longest = max(self.longest, samples)
+        if samples >= self.longest:
+            self.longest, self.longest_wall = samples, wall
 
     def learn_merge(self, seconds: float) -> None:
         """Take in what it took to add a film to others."""
@@ -45,8 +48,13 @@ class Speeds:
         self._sum -= self._slots.pop(node.node, 0.0)
 
     def of(self, node: NodeInfo) -> float | None:
-        """Return the samples per second of one of a node's slots, where it was measured."""
-        return self._slots.get(node.node)
+        """Return the samples per second of one of a node's slots: the mean where it was not measured.
+
+        ``None``: nothing was measured yet.
+        """
+        if not self._slots:
+            return None
+        return self._slots.get(node.node) or self.total(1)
 
     def total(self, slots: int) -> float:
         """Return the samples per second of so many slots; those not yet measured count as the others."""
