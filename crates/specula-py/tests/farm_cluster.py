@@ -1,4 +1,4 @@
-"""A Ray cluster of two nodes for tests: in a network namespace of its own, where it runs as a program.
+"""A Ray cluster of two nodes for tests, in namespaces of its own.
 
 Ray listens on every interface, so nothing of it is started anywhere else.
 """

@@ -1,4 +1,4 @@
-"""What `test_farm.py` looks for, inside a cluster's namespaces: each scenario returns what it found."""
+"""What `test_farm.py` looks for, inside a cluster's namespaces: scenarios return what they found."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from farm_cluster import (
 
 
 def begins(cluster: Cluster, job: str) -> list[tuple[int, int]]:
-    """Return the samples of all parts that were begun, without those that were rendered twice at once."""
+    """Return the samples of all parts that were begun, without twins of running ones."""
     events = [e for e in cluster.journal(job) if e["event"] == "begin" and not e["twin"]]
     return [(e["samples"][0], e["samples"][1]) for e in events]  # type: ignore[index]
 
@@ -55,10 +55,10 @@ def two_nodes(cluster: Cluster) -> object:
     }
 
 
-def kills(cluster: Cluster, workers: int = 3, nodes: int = 1, spp: int = 512) -> object:
+def kills(cluster: Cluster, workers: int = 3, nodes: int = 1, spp: int = 1536) -> object:
     """Workers and a node are killed at random moments."""
     chance = random.Random(7)
-    words = [*SIZE, "--spp", str(spp), "--part-time", "2", "-o", "kills.exr"]
+    words = [*SIZE, "--spp", str(spp), "--part-time", "1", "-o", "kills.exr"]
     render = cluster.begin(["render", *cluster.program, "--address", HEAD, *words])
     deeds = ["worker"] * workers + ["node"] * nodes
     chance.shuffle(deeds)

@@ -19,8 +19,10 @@ const TOOLS: &[&str] = &[
     "nbclient>=0.10",
     "nbformat>=5.10",
     "numpy>=1.24",
+    "openjd-cli>=0.8",
     "pandas>=2.2",
     "pytest>=8",
+    "ray>=2.52",
     "scipy>=1.11",
     "trimesh>=4",
 ];

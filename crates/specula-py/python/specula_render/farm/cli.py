@@ -95,7 +95,10 @@ def _render_command(parser: argparse.ArgumentParser) -> None:
         "--by", choices=["auto", "frames", "samples"], default="auto", help="what a part is"
     )
     parser.add_argument(
-        "--part-time", type=_positive, default=60.0, metavar="S", help="seconds of a part [60]"
+        "--part-time",
+        type=_positive,
+        metavar="S",
+        help="seconds of a part [60; more where starting one is slow]",
     )
     parser.add_argument(
         "--threads", type=_count, metavar="N", help="threads of a part [default: all of its node's]"
@@ -123,7 +126,7 @@ def _picture_options(parser: argparse.ArgumentParser) -> None:
         "--frames",
         type=_frames,
         metavar="A..B",
-        help="frames A to B - 1: the number goes where SCENE has ####, else to -D frame=N of a Mitsuba scene",
+        help="frames A to B - 1: in place of #### in SCENE, or as $frame of a Mitsuba scene",
     )
     parser.add_argument(
         "-o", "--output", action="append", default=[], metavar="OUT", help="#### is the frame"

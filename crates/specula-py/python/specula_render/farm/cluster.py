@@ -128,7 +128,8 @@ def refuse_open(address: str, *, insecure: bool) -> str | None:
     if insecure:
         return text
     raise ClusterError(
-        f"{text}. Start it by `specula farm head`, or with RAY_AUTH_MODE=token; --insecure uses it as it is"
+        f"{text}. Start it by `specula farm head`, or with RAY_AUTH_MODE=token; "
+        "--insecure uses it as it is"
     )
 
 
@@ -146,7 +147,8 @@ def connect(address: str, *, insecure: bool) -> tuple[Any, str | None]:
         os.environ["RAY_AUTH_MODE"] = "disabled"
     elif not os.environ.get("RAY_AUTH_TOKEN") and not token_file().exists():
         raise ClusterError(
-            f"the cluster at {address} wants its token: put it into '{token_file()}' or RAY_AUTH_TOKEN"
+            f"the cluster at {address} wants its token: "
+            f"put it into '{token_file()}' or RAY_AUTH_TOKEN"
         )
     try:
         ray.init(address=address, log_to_driver=False, logging_level="error")

@@ -81,8 +81,8 @@ class Engine:
     Parameters
     ----------
     by
-        ``"frames"``: a part is all that waits of a picture; ``"samples"``: every picture is cut for all
-        slots; ``"auto"``: parts take as long as the policy says.
+        ``"frames"``: a part is all that waits of a picture; ``"samples"``: every picture is cut for
+        all slots; ``"auto"``: parts take as long as the policy says.
     retries
         How often a part may fail.
     """
@@ -443,7 +443,7 @@ class Engine:
         return self.policy.last_fan_in(self.speeds.merging)
 
     def _settle(self, picture: Picture) -> None:
-        """Where no more parts come, merge what there is; finish the picture where one film is left."""
+        """Where no more parts come, merge what there is; finish a picture of which one film is left."""
         if picture.is_done or picture.waiting or picture.running or picture.merging:
             return
         for group in picture.last_groups(self._last_fan_in()):

@@ -138,7 +138,7 @@ def _name(request: Request) -> str:
 
 
 def _render(request: Request, parts: int) -> list[str]:
-    """Return the lines that render a part; the shell has ``folder``, ``specula``, ``frame``, ``part``."""
+    """Return the lines that render a part, by ``folder``, ``specula``, ``frame`` and ``part``."""
     command = ['"$specula"', "render"]
     if request.scene is not None:
         command.append(_numbered(str(Path(request.scene).absolute())))

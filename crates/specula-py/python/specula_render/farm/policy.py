@@ -32,7 +32,7 @@ class Policy:
     lateness: float = 1.5
     """A part that takes so many times what was expected is late."""
     duplicates: bool = True
-    """Whether a part is rendered twice at the end, where an idle node is likely to be done first."""
+    """Whether a part is rendered twice at the end, where an idle node is likely to be faster."""
     subtotals: bool = True
     """Whether films are merged on the workers before they come to the driver."""
 
@@ -56,8 +56,8 @@ class Policy:
     def keep_level(self, slots: int, part_seconds: float, film_bytes: float) -> int:
         """Return how often films are merged on the workers before they come to the driver.
 
-        A film of level L is the sum of `FAN_IN` to the L parts. A node that dies takes with it what it
-        has not yet handed over: on average the parts of all nodes that were not, over the nodes.
+        A film of level L is the sum of `FAN_IN` to the L parts. A node that dies takes with it what
+        it has not yet handed over: on average the parts of all nodes that were not, over the nodes.
         """
         if not self.subtotals:
             return 0
@@ -85,7 +85,8 @@ class Policy:
         """Return the samples of the next part of a slot.
 
         Parts are as long as they should be, and shorter near the end (guided self-scheduling,
-        Polychronopoulos and Kuck 1987): half of what is left for every slot, so that all end together.
+        Polychronopoulos and Kuck 1987): half of what is left for every slot, so that all end
+        together.
 
         Parameters
         ----------

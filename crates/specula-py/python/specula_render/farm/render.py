@@ -110,7 +110,7 @@ def _render(planned: Plan, store: Store, where: Where, quiet: bool) -> int:
             pool,
             keeper,
             len(planned.pictures),
-            policy=Policy(part_seconds=request.part_seconds),
+            policy=_policy(request),
             by=request.by,
             report=progress,
         )
@@ -122,7 +122,8 @@ def _render(planned: Plan, store: Store, where: Where, quiet: bool) -> int:
         written = keeper.write_partial()
         names = ", ".join(map(str, written)) or "no picture yet"
         progress.say(
-            f"warning: stopped; wrote what there is to {names}; `specula farm resume {store.folder}` goes on"
+            f"warning: stopped; wrote what there is to {names}; "
+            f"`specula farm resume {store.folder}` goes on"
         )
         return int(stopped.args[0])
     finally:
@@ -133,6 +134,13 @@ def _render(planned: Plan, store: Store, where: Where, quiet: bool) -> int:
     took = duration(time.monotonic() - begun)
     progress.say(f"wrote {names}: {engine.attempts} parts, {engine.doubled} of them twice, {took}")
     return 0
+
+
+def _policy(request: Request) -> Policy:
+    seconds = request.part_seconds
+    if seconds is None:
+        return Policy()
+    return Policy(part_seconds=seconds, most_part_seconds=seconds)
 
 
 def _is_complete(planned: Plan, keeper: JobKeeper) -> bool:

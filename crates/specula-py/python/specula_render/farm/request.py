@@ -46,7 +46,7 @@ class Request:
     noise: float | None = None
     adaptive: bool = False
     by: str = "auto"
-    part_seconds: float = 60.0
+    part_seconds: float | None = None
     threads: int | None = None
     device: str = "cpu"
     ship: str = "auto"
@@ -239,6 +239,6 @@ def _load_copy(request: Request, task: PartTask, root: Path) -> None:
         outside = [str(error)]
     if outside:
         raise BadRequest(
-            f"the scene cannot be sent to other machines, as it names files by absolute paths: {outside[0]}. "
-            "Use a folder that all see at the same path"
+            "the scene cannot be sent to other machines, as it names files by absolute paths: "
+            f"{outside[0]}. Use a folder that all see at the same path"
         )

@@ -68,6 +68,7 @@ class Farm:
 
 PLAIN = Policy(
     most_part_seconds=60.0,
+    driver_bytes=1e18,
     growth=1e9,
     duplicates=False,
     subtotals=False,

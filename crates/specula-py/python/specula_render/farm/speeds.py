@@ -48,7 +48,7 @@ class Speeds:
         self._sum -= self._slots.pop(node.node, 0.0)
 
     def of(self, node: NodeInfo) -> float | None:
-        """Return the samples per second of one of a node's slots: the mean where it was not measured.
+        """Return the samples per second of one of a node's slots: the mean before it was measured.
 
         ``None``: nothing was measured yet.
         """
@@ -57,7 +57,7 @@ class Speeds:
         return self._slots.get(node.node) or self.total(1)
 
     def total(self, slots: int) -> float:
-        """Return the samples per second of so many slots; those not yet measured count as the others."""
+        """Return the samples per second of so many slots; those not measured count as the others."""
         if not self._slots:
             return 0.0
         return max(self._sum, 1e-9) / len(self._slots) * slots

@@ -33,7 +33,7 @@ class PartTask:
     program: tuple[str, ...] | None
     """The program and its first arguments; ``None``: that of this package."""
     scene: str
-    """The scene's file; below the bundle's folder where there is a bundle. Empty: the built-in one."""
+    """The scene's file, below the bundle's folder where there is one. Empty: the built-in one."""
     bundle: str | None
     """Fingerprint of the files that are sent along."""
     options: tuple[str, ...]
