@@ -1,4 +1,4 @@
-"""What `test_farm.py` looks for, inside a cluster's namespaces: scenarios return what they found."""
+"""What `test_farm.py` looks for, in a cluster's namespaces: scenarios return what they found."""
 
 from __future__ import annotations
 

@@ -53,6 +53,22 @@ pub(crate) fn run(root: &Path, python: &Python) -> Result<()> {
     check(root, None)
 }
 
+/// Measures the farm on two nodes: starts, kills, efficiency, an animation, merging.
+///
+/// * `scenarios`: all where there are none.
+pub(crate) fn farm(root: &Path, scenarios: &[String]) -> Result<()> {
+    build(root)?;
+    let python = environment(root, "python", TOOLS)?;
+    let mut bench = Command::new(&python);
+    bench
+        .current_dir(root)
+        .env("PYTHONPATH", root.join(SOURCES));
+    bench
+        .arg("crates/specula-py/benches/farm.py")
+        .args(scenarios);
+    succeed(bench, "the farm")
+}
+
 /// Builds the package and runs all of its checks.
 ///
 /// * `skips`: the file to which tests append a line for each skip.

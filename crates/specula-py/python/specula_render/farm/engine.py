@@ -182,7 +182,7 @@ class Engine:
                 self._restore(picture, film)
 
     def _restore(self, picture: Picture, film: Film) -> None:
-        """Make up for a film that is lost: by what is kept of it, and by rendering the rest again."""
+        """Make up for a film that is lost: by what is kept of it, and by rendering the rest."""
         kept = [samples for back in film.backing for samples in back.samples]
         for samples in film.samples:
             for gap in ranges.missing(kept, *samples):
@@ -443,7 +443,7 @@ class Engine:
         return self.policy.last_fan_in(self.speeds.merging)
 
     def _settle(self, picture: Picture) -> None:
-        """Where no more parts come, merge what there is; finish a picture of which one film is left."""
+        """Once no more parts come, merge what there is; finish a picture that is one film."""
         if picture.is_done or picture.waiting or picture.running or picture.merging:
             return
         for group in picture.last_groups(self._last_fan_in()):

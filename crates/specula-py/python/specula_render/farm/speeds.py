@@ -57,7 +57,7 @@ class Speeds:
         return self._slots.get(node.node) or self.total(1)
 
     def total(self, slots: int) -> float:
-        """Return the samples per second of so many slots; those not measured count as the others."""
+        """Return the samples per second of so many slots; the mean for those not measured."""
         if not self._slots:
             return 0.0
         return max(self._sum, 1e-9) / len(self._slots) * slots
