@@ -105,9 +105,10 @@ def animation(cluster: Cluster) -> object:
 
 def merging(cluster: Cluster) -> object:
     """Memory and seconds of `merge`: 8 and 64 films of 3840 x 2160 pixels."""
-    # An empty scene, whose films are small once they are deflated.
+    # Nothing is seen, so that films are small once they are deflated.
     scene = 'Film "rgb" "integer xresolution" [3840] "integer yresolution" [2160]\n'
-    (cluster.folder / "empty.pbrt").write_text(f'{scene}Camera "perspective"\nWorldBegin\n')
+    rest = 'Camera "perspective"\nWorldBegin\nTranslate 0 0 -9\nShape "sphere"\n'
+    (cluster.folder / "empty.pbrt").write_text(scene + rest)
     size = ["empty.pbrt", "--checkpoint", "off"]
     found: dict[str, object] = {}
     counts = [int(n) for n in os.environ.get("SPECULA_MERGE_FILMS", "8,64").split(",")]

@@ -188,7 +188,7 @@ def adaptive(cluster: Cluster) -> object:
     same = []
     for name, aim in (
         ("work", ["--adaptive", "--spp", "64"]),
-        ("noise", ["--noise", "0.06", "--spp", "256"]),
+        ("noise", ["--noise", "0.12", "--spp", "128"]),
     ):
         cluster.render([*SIZE, *aim, "-o", f"{name}.exr"])
         cluster.alone([*SIZE, *aim, "-o", f"alone-{name}.exr"])

@@ -14,6 +14,7 @@ from specula_render.farm.engine import RenderFailed
 from specula_render.farm.ray_pool import NodeRefused
 from specula_render.farm.request import BadRequest, Request, default_outputs
 from specula_render.farm.store import JobError, Store
+from specula_render.farm.worker import ProgramFailed
 
 _WRONG = 2
 _FAILED = 1
@@ -45,6 +46,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _say(error, _WRONG)
     except RenderFailed as error:
         return _say(error, _WRONG if error.is_input else _FAILED)
+    except (OSError, ProgramFailed) as error:
+        return _say(error, _FAILED)
 
 
 def _say(error: Exception, code: int) -> int:

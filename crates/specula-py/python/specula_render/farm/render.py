@@ -12,6 +12,7 @@ from types import FrameType
 from typing import Any
 
 from specula_render.farm import cluster, listening, ranges
+from specula_render.farm.cluster import ClusterError
 from specula_render.farm.engine import Engine
 from specula_render.farm.keeper import JobKeeper
 from specula_render.farm.policy import Policy
@@ -126,6 +127,11 @@ def _render(planned: Plan, store: Store, where: Where, quiet: bool) -> int:
             f"`specula farm resume {store.folder}` goes on"
         )
         return int(stopped.args[0])
+    except Exception as error:
+        if type(error).__module__.partition(".")[0] != "ray":
+            raise
+        text = (str(error).strip() or type(error).__name__).splitlines()[0]
+        raise ClusterError(f"the cluster is gone: {text}; `specula farm resume` goes on") from error
     finally:
         progress.clear()
         if ray is not None:
