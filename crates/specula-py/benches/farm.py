@@ -20,7 +20,7 @@ import farm_cluster
 import farm_scenarios
 from farm_cluster import HEAD, Cluster
 
-SECONDS = 120.0
+SECONDS = float(os.environ.get("SPECULA_FARM_SECONDS", "120"))
 """What the render takes whose efficiency is measured."""
 
 

@@ -88,7 +88,7 @@ class Cluster:
             stdin=subprocess.DEVNULL,
             capture_output=True,
             text=True,
-            timeout=600,
+            timeout=3600,
         )
         assert code is None or done.returncode == code, (done.returncode, done.stdout, done.stderr)
         return done
