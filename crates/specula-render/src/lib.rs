@@ -45,7 +45,7 @@ pub mod estimator {
 pub use camera::screen_window;
 pub use device::{Most, Run, SampleDevice, Wanted};
 pub use film::{
-    FilmBuffer, FilmFile, FilmFileError, Label, MOST_SAMPLES, MergeError, NoiseEstimate,
+    FilmBuffer, FilmFile, FilmFileError, FilmHead, Label, MOST_SAMPLES, MergeError, NoiseEstimate,
     NoiseOutlook, NoiseTrend, RunSums, ScatterCounts,
 };
 pub use flat::{FlatGroup, FlatInstance, FlatScene};

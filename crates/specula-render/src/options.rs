@@ -91,6 +91,9 @@ pub struct RenderOptions {
     /// [`FilmBuffer::noise`](crate::FilmBuffer::noise)); at 0 it is done after the samples that were asked
     /// for. `None`: as many for every pixel.
     pub noise: Option<f32>,
+    /// In adaptive sampling: only the tiles `i` with `from <= i % of < to` of one round, as `[from, to, of]`, for other
+    /// machines to take the rest ([`FilmBuffer::merge`](crate::FilmBuffer::merge)). `None`: all tiles and rounds.
+    pub round_share: Option<[u32; 3]>,
     /// Bias: the largest contribution of indirect light in any channel, in picture values (1 is white,
     /// the film's exposure applied, its white balance not); larger ones are scaled down whole, which preserves their
     /// hue. Indirect is light that was scattered twice or more, as in Cycles' "clamp indirect". Takes away fireflies
@@ -124,6 +127,7 @@ impl RenderOptions {
             share_paths,
             first_sample: _,
             noise,
+            round_share: _,
             clamp: _,
             regularize: _,
         } = self;
@@ -184,6 +188,7 @@ impl Default for RenderOptions {
             share_paths: 1,
             first_sample: 0,
             noise: None,
+            round_share: None,
             clamp: None,
             regularize: false,
         }

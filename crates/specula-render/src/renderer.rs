@@ -91,7 +91,7 @@ impl<'a> Renderer<'a> {
             options,
             wavefronts: Mutex::default(),
         };
-        renderer.plan();
+        renderer.begin();
         renderer
     }
 
@@ -129,15 +129,30 @@ impl<'a> Renderer<'a> {
             film,
             wavefronts: Mutex::default(),
         };
-        renderer.plan();
+        renderer.begin();
         Ok(renderer)
     }
 
-    /// Allots what adaptive sampling does next, once what was allotted is done.
-    pub(crate) fn plan(&mut self) {
+    /// Allots what adaptive sampling does first.
+    fn begin(&mut self) {
         if let Some(aim) = self.aim() {
             self.film.plan(aim);
         }
+    }
+
+    /// Allots what adaptive sampling does next, once what was allotted is done. A share of a round ends with it.
+    pub(crate) fn plan(&mut self) {
+        if self.options.round_share.is_none() {
+            self.begin();
+        }
+    }
+
+    /// Whether this render takes the samples of a tile, by its place.
+    fn takes(&self, place: usize) -> bool {
+        self.options.round_share.is_none_or(|[from, to, of]| {
+            let class = place % (of as usize).max(1);
+            (from as usize..to as usize).contains(&class)
+        })
     }
 
     fn aim(&self) -> Option<Aim> {
@@ -149,11 +164,12 @@ impl<'a> Renderer<'a> {
     pub(crate) fn goals(&self, samples: u32) -> Vec<u32> {
         let even = self.film.complete_samples().saturating_add(samples);
         let adaptive = self.options.noise.is_some();
-        let goal = |tile: &Tile| match adaptive {
-            true => tile.target.min(tile.count().saturating_add(samples)),
+        let goal = |(place, tile): (usize, &Tile)| match adaptive {
+            true if self.takes(place) => tile.target.min(tile.count().saturating_add(samples)),
+            true => tile.count(),
             false => even,
         };
-        self.film.tiles.iter().map(goal).collect()
+        self.film.tiles.iter().enumerate().map(goal).collect()
     }
 
     /// Adds `samples` samples to every pixel, in rayon's current pool. In adaptive sampling: at most as
@@ -220,7 +236,7 @@ impl<'a> Renderer<'a> {
     /// `None`: none does.
     pub fn samples_done(&self) -> Option<u32> {
         match self.options.noise {
-            Some(_) => self.film.fewest_of_open(),
+            Some(_) => self.film.fewest_of_open(|place| self.takes(place)),
             None => Some(self.film.complete_samples()),
         }
     }

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use common::*;
 use glam::{DMat4, DVec3};
 use specula_render::picture::Picture;
-use specula_render::{FilmBuffer, PreparedScene, RenderOptions, Renderer, ResumeError};
+use specula_render::{FilmBuffer, MergeError, PreparedScene, RenderOptions, Renderer, ResumeError};
 use specula_scene::scene::*;
 
 fn scene() -> Scene {
@@ -146,6 +146,77 @@ fn adaptive_renders_keep_the_mean() {
     let apart = (found - expected).abs();
     assert!(apart < 4.5 * error.hypot(other), "{found} {expected}");
     assert!(apart < 0.005 * expected, "{found} {expected}");
+}
+
+/// Rounds of adaptive sampling in three shares each, as machines of a farm take them.
+fn in_shares(scene: &Scene, aim: &RenderOptions) -> FilmBuffer {
+    let prepared = PreparedScene::new(scene, aim).unwrap();
+    let mut base: Option<FilmBuffer> = None;
+    loop {
+        let shares = [[2, 3, 3], [0, 1, 3], [1, 2, 3]].map(|share| {
+            let options = RenderOptions {
+                round_share: Some(share),
+                ..aim.clone()
+            };
+            let mut renderer = match base.clone() {
+                None => Renderer::new(&prepared, options),
+                Some(film) => Renderer::resume(&prepared, options, film).unwrap(),
+            };
+            while renderer.samples_done().is_some() {
+                renderer.render_pass(8, &AtomicBool::new(false));
+            }
+            renderer.into_film()
+        });
+        let [mut whole, second, third] = shares;
+        whole.merge(&second).unwrap();
+        whole.merge(&third).unwrap();
+        if let Some(before) = &base {
+            // What came before is in it.
+            let same = whole.clone();
+            whole.merge(before).unwrap();
+            assert!(whole == same);
+        }
+        if base.as_ref() == Some(&whole) {
+            return whole;
+        }
+        base = Some(whole);
+    }
+}
+
+#[test]
+fn rounds_in_shares_are_those_of_one_render() {
+    let scene = scene();
+    for noise in [0.06, 0.035] {
+        let aim = RenderOptions {
+            max_depth: 6,
+            noise: Some(noise),
+            samples_per_pixel: 512,
+            ..RenderOptions::default()
+        };
+        let mut whole = None;
+        adaptive(&scene, noise, 512, 2, &mut whole);
+        assert!(whole == Some(in_shares(&scene, &aim)), "{noise}");
+    }
+}
+
+#[test]
+fn adaptive_films_that_are_no_shares_are_not_merged() {
+    let scene = scene();
+    let prepared = PreparedScene::new(&scene, &RenderOptions::default()).unwrap();
+    let film = |options: &RenderOptions| {
+        let mut renderer = Renderer::new(&prepared, options.clone());
+        renderer.render_pass(32, &AtomicBool::new(false));
+        renderer.into_film()
+    };
+    let asked = |samples_per_pixel| RenderOptions {
+        noise: Some(0.0),
+        samples_per_pixel,
+        ..RenderOptions::default()
+    };
+    let (even, some) = (film(&RenderOptions::default()), film(&asked(16)));
+    for (a, b) in [(&even, &some), (&some, &even)] {
+        assert_eq!(a.clone().merge(b), Err(MergeError::Adaptive));
+    }
 }
 
 #[test]

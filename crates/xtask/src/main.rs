@@ -76,6 +76,11 @@ enum Chore {
     Mutants(mutants::Sample),
     /// Build the Python package into its sources, check its types, run its tests; or make its wheel
     Python(python::Python),
+    /// Measure the farm on two nodes of Ray in a network namespace: starts, kills, efficiency, an animation, merging
+    Farm {
+        /// tasks, animation, kills, efficiency, merging [default: all]
+        scenarios: Vec<String>,
+    },
     /// Check the studio's pages: types, the committed bundle, tests in a browser; or write the bundle
     Studio(studio::Studio),
     /// Build the C interface and lay it out below a prefix: header, libraries, pkg-config, CMake
@@ -150,6 +155,7 @@ fn run(chore: &Chore) -> Result<()> {
         Chore::Tables { check } => tables::run(&root, *check),
         Chore::Test(suite) => suite::run(&root, suite),
         Chore::Python(python) => python::run(&root, python),
+        Chore::Farm { scenarios } => python::farm(&root, scenarios),
         Chore::Features => feature_sets::run(&root),
         Chore::Studio(studio) => studio::run(&root, studio),
         Chore::CLibrary(arguments) => c_library::run(&root, arguments),

@@ -22,8 +22,10 @@ const TOOLS: &[&str] = &[
     "nbclient>=0.10",
     "nbformat>=5.10",
     "numpy>=1.24",
+    "openjd-cli>=0.8",
     "pandas>=2.2",
     "pytest>=8",
+    "ray>=2.52",
     "scipy>=1.11",
     "trimesh>=4",
 ];
@@ -58,6 +60,22 @@ pub(crate) fn run(root: &Path, python: &Python) -> Result<()> {
         return notebooks(root);
     }
     check(root, None)
+}
+
+/// Measures the farm on two nodes: starts, kills, efficiency, an animation, merging.
+///
+/// * `scenarios`: all where there are none.
+pub(crate) fn farm(root: &Path, scenarios: &[String]) -> Result<()> {
+    build(root)?;
+    let python = environment(root, "python", TOOLS)?;
+    let mut bench = Command::new(&python);
+    bench
+        .current_dir(root)
+        .env("PYTHONPATH", root.join(SOURCES));
+    bench
+        .arg("crates/specula-py/benches/farm.py")
+        .args(scenarios);
+    succeed(bench, "the farm")
 }
 
 /// Builds the package and runs all of its checks.

@@ -27,9 +27,11 @@
 //! interruptions, and a film that was made for one noise can be gone on with for a smaller one: it
 //! ends as if that had been asked for at first.
 
+use std::cmp::Ordering;
+
 use rayon::prelude::*;
 
-use super::buffer::{FilmBuffer, TILE, Tile};
+use super::buffer::{FilmBuffer, MergeError, TILE, Tile};
 use super::noise::{is_unknown, squared_error};
 
 /// Samples of every pixel in the first round, at most. With fewer, light that is rare has often not been
@@ -134,6 +136,31 @@ impl FilmBuffer {
         }
     }
 
+    /// Takes over tiles of a round that another film has farther, as a tile's samples follow each other from the first
+    /// on: the more it has, the more of the same picture it is.
+    pub(super) fn merge_round(&mut self, other: &Self) -> Result<(), MergeError> {
+        let is_later = other.work > self.work;
+        let fits = |a: &Tile, b: &Tile| match self.work.total_cmp(&other.work) {
+            Ordering::Less => a.count() <= b.count(),
+            Ordering::Equal => a.target == b.target,
+            Ordering::Greater => b.count() <= a.count(),
+        };
+        let mut pairs = self.tiles.iter().zip(&other.tiles);
+        let same = self.first_sample() == other.first_sample() && self.work.min(other.work) > 0.0;
+        if !same || !pairs.all(|(a, b)| fits(a, b)) {
+            return Err(MergeError::Adaptive);
+        }
+        let pairs = self.tiles.par_iter_mut().zip(&other.tiles);
+        pairs.for_each(|(a, b)| {
+            if b.count() > a.count() {
+                a.clone_from(b);
+            }
+            a.target = if is_later { b.target } else { a.target };
+        });
+        self.work = self.work.max(other.work);
+        Ok(())
+    }
+
     /// Allots the work of a round.
     fn allot(&mut self) {
         let wishes = self.wishes();
@@ -212,9 +239,12 @@ impl FilmBuffer {
     }
 
     /// Samples of the tiles that have the fewest of those that need more; `None`: none does.
-    pub(crate) fn fewest_of_open(&self) -> Option<u32> {
-        let open = self.tiles.iter().filter(|t| t.is_open());
-        open.map(Tile::count).min()
+    ///
+    /// * `counts`: whether a tile counts, by its place.
+    pub(crate) fn fewest_of_open(&self, counts: impl Fn(usize) -> bool) -> Option<u32> {
+        let tiles = self.tiles.iter().enumerate();
+        let open = tiles.filter(|(place, tile)| tile.is_open() && counts(*place));
+        open.map(|(_, tile)| tile.count()).min()
     }
 
     /// Share of the work that the aim is likely to need that has been done; 0 before the first round's end.
@@ -298,7 +328,7 @@ mod tests {
     ) -> [u32; N] {
         let aim = Aim { noise, samples };
         film.plan(aim);
-        while film.fewest_of_open().is_some() {
+        while film.fewest_of_open(|_| true).is_some() {
             for (tile, (deviation, rays)) in film.tiles.iter_mut().zip(tiles) {
                 fill(tile, 1.0, deviation, rays);
             }
@@ -346,7 +376,7 @@ mod tests {
         assert!((share - 0.25).abs() < 0.01, "{share}");
         assert_eq!(film.share_of_work(aim(0.05)), 1.0);
         film.plan(aim(0.5 * noise));
-        assert_eq!(film.fewest_of_open(), counts.iter().min().copied());
+        assert_eq!(film.fewest_of_open(|_| true), counts.iter().min().copied());
     }
 
     #[test]
@@ -406,7 +436,10 @@ mod tests {
         dark.plan(aim);
         fill(&mut dark.tiles[0], 0.0, 0.0, 1);
         dark.plan(aim);
-        assert_eq!((dark.fewest_of_open(), dark.tiles[0].count()), (None, 4));
+        assert_eq!(
+            (dark.fewest_of_open(|_| true), dark.tiles[0].count()),
+            (None, 4)
+        );
     }
 
     #[test]

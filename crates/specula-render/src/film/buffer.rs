@@ -1,5 +1,6 @@
 //! Sums per pixel, and the picture that they make.
 
+use rayon::prelude::*;
 use specula_bsdf::math::vec3;
 use specula_bsdf::{Rgb, Vec3};
 
@@ -182,11 +183,25 @@ pub enum MergeError {
     /// Samples would count twice.
     #[error("samples {0} to {1} are in both films")]
     Overlap(u32, u32),
-    /// Their pixels have different numbers of samples.
+    /// Their pixels have different numbers of samples, not as shares of one round.
     #[error(
-        "films that were made for a noise are not parts of a picture: their pixels differ in samples"
+        "adaptive films are merged only where they are shares of one round: their pixels differ in samples"
     )]
     Adaptive,
+}
+
+/// Bounds of the tiles of a crop, row by row.
+pub(super) fn tiles_of([x0, x1, y0, y1]: [u32; 4]) -> impl Iterator<Item = [u32; 4]> {
+    let row = move |y: u32| {
+        let bounds = move |x: u32| [x, (x + TILE).min(x1), y, (y + TILE).min(y1)];
+        (x0..x1).step_by(TILE as usize).map(bounds)
+    };
+    (y0..y1).step_by(TILE as usize).flat_map(row)
+}
+
+/// Pixels within bounds.
+fn area([x0, x1, y0, y1]: [u32; 4]) -> usize {
+    (x1 - x0) as usize * (y1 - y0) as usize
 }
 
 impl FilmBuffer {
@@ -195,21 +210,14 @@ impl FilmBuffer {
     /// * `crop`: pixels `[x0, x1, y0, y1]` of the whole picture, half open.
     /// * `first_sample`: the index of each pixel's first sample.
     pub fn new(full_resolution: [u32; 2], crop: [u32; 4], first_sample: u32) -> Self {
-        let [x0, x1, y0, y1] = crop;
-        let mut tiles = Vec::new();
-        for y in (y0..y1).step_by(TILE as usize) {
-            for x in (x0..x1).step_by(TILE as usize) {
-                let bounds = [x, (x + TILE).min(x1), y, (y + TILE).min(y1)];
-                let area = (bounds[1] - bounds[0]) * (bounds[3] - bounds[2]);
-                tiles.push(Tile {
-                    bounds,
-                    pixels: vec![PixelSums::default(); area as usize],
-                    invalid: 0,
-                    rays: 0,
-                    target: 0,
-                });
-            }
-        }
+        let tile = |bounds: [u32; 4]| Tile {
+            bounds,
+            pixels: vec![PixelSums::default(); area(bounds)],
+            invalid: 0,
+            rays: 0,
+            target: 0,
+        };
+        let tiles = tiles_of(crop).map(tile).collect();
         Self {
             full_resolution,
             crop,
@@ -249,25 +257,27 @@ impl FilmBuffer {
 
     /// A film of stored sums; `None` where the parts do not fit each other.
     pub(crate) fn restore(
-        mut self,
+        full_resolution: [u32; 2],
+        crop: [u32; 4],
+        first_sample: u32,
         parts: Vec<[u32; 2]>,
         work: f64,
         tiles: Vec<Tile>,
     ) -> Option<Self> {
         let ordered = parts.windows(2).all(|p| p[0][1] < p[1][0]);
-        let same = self.tiles.len() == tiles.len()
-            && self
-                .tiles
-                .iter()
-                .zip(&tiles)
-                .all(|(a, b)| a.bounds == b.bounds && a.pixels.len() == b.pixels.len());
-        if !ordered || !same || parts.iter().any(|[from, to]| from >= to) {
+        let whole = tiles.iter().all(|t| t.pixels.len() == area(t.bounds))
+            && tiles.iter().map(|t| t.bounds).eq(tiles_of(crop));
+        if !ordered || !whole || parts.iter().any(|[from, to]| from >= to) {
             return None;
         }
-        self.parts = parts;
-        self.work = work;
-        self.tiles = tiles;
-        Some(self)
+        Some(Self {
+            full_resolution,
+            crop,
+            first_sample,
+            parts,
+            work,
+            tiles,
+        })
     }
 
     /// Pixels `[x0, x1, y0, y1]` of the whole picture that the film covers.
@@ -293,29 +303,31 @@ impl FilmBuffer {
     }
 
     /// Adds the samples of another film of the same scene and seed. All layers of its picture are, bit
-    /// for bit, those of one render of all the samples.
+    /// for bit, those of one render of all the samples. Of adaptive films, shares of a round
+    /// ([`RenderOptions::round_share`](crate::RenderOptions::round_share)) become the whole round.
     ///
     /// # Errors
-    /// Where the films differ in size or crop, have samples in common, or are adaptive.
+    /// Where the films differ in size or crop, have samples in common, or are adaptive and no shares of one round.
     pub fn merge(&mut self, other: &Self) -> Result<(), MergeError> {
         if self.full_resolution != other.full_resolution || self.crop != other.crop {
             return Err(MergeError::Size);
         }
         if self.is_adaptive() || other.is_adaptive() {
-            return Err(MergeError::Adaptive);
+            return self.merge_round(other);
         }
         let mut all = [self.samples(), other.samples()].concat();
         all.sort_unstable();
         if let Some(p) = all.windows(2).find(|p| p[0][1] > p[1][0]) {
             return Err(MergeError::Overlap(p[1][0], p[0][1].min(p[1][1])));
         }
-        for (a, b) in self.tiles.iter_mut().zip(&other.tiles) {
+        let pairs = self.tiles.par_iter_mut().zip(&other.tiles);
+        pairs.for_each(|(a, b)| {
             for (p, q) in a.pixels.iter_mut().zip(&b.pixels) {
                 p.merge(q);
             }
             a.invalid += b.invalid;
             a.rays += b.rays;
-        }
+        });
         all.dedup_by(|next, range| {
             let adjoin = range[1] == next[0];
             if adjoin {

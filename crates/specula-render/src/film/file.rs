@@ -12,12 +12,13 @@
 //! | per tile | samples that were not finite (`u64`), rays (`u64`), samples that adaptive sampling has allotted (`u32`), length (`u32`), words of its pixels, one column for each word, deflated |
 //! | `u64` | XXH3 of all before |
 
+mod read;
+
 use std::hash::Hasher;
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use flate2::Compression;
-use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 use rayon::prelude::*;
 use specula_scene::{Scene, atomic};
@@ -37,8 +38,6 @@ const LONGEST_TEXT: usize = 1 << 16;
 const MISSING: &str = ", missing: ";
 /// Most missing files that are listed.
 const MOST_MISSING: usize = 50;
-/// Most pixels of a film that is read: those of a picture.
-const MOST_PIXELS: u64 = 1 << 30;
 /// Tiles that are deflated at once.
 const GROUP: usize = 256;
 
@@ -137,6 +136,16 @@ pub struct FilmFile {
     pub film: FilmBuffer,
 }
 
+/// What a film's file says before its sums: enough to order films, and to know which belong together. It is not held
+/// against the checksum.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilmHead {
+    /// What it belongs to.
+    pub label: Label,
+    /// Index of each pixel's first sample.
+    pub first_sample: u32,
+}
+
 /// Why a film cannot be read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -188,28 +197,6 @@ impl FilmFile {
             out.inner.write_all(&sum.to_le_bytes())
         })
     }
-
-    /// Reads a film.
-    ///
-    /// # Errors
-    /// Where the file cannot be read, is no film, is of another format or damaged.
-    pub fn read(path: &Path) -> Result<Self, FilmFileError> {
-        let bytes = std::fs::read(path)?;
-        let Some(rest) = bytes.strip_prefix(MAGIC) else {
-            return Err(FilmFileError::NotAFilm);
-        };
-        let mut input = Input(rest);
-        let format = input.u32().ok_or(FilmFileError::Damaged)?;
-        if format != FORMAT {
-            return Err(FilmFileError::Format(format));
-        }
-        let content = bytes.len().checked_sub(8).ok_or(FilmFileError::Damaged)?;
-        let (content, sum) = bytes.split_at(content);
-        if XxHash3_64::oneshot(content).to_le_bytes() != sum {
-            return Err(FilmFileError::Damaged);
-        }
-        parse(input).ok_or(FilmFileError::Damaged)
-    }
 }
 
 fn write_label(out: &mut impl Write, label: &Label) -> io::Result<()> {
@@ -254,106 +241,6 @@ fn pack(tile: &Tile) -> io::Result<Vec<u8>> {
         }
     }
     encoder.finish()
-}
-
-/// The pixels of a tile; `None` where there are not exactly `count`.
-fn unpack(packed: &[u8], count: usize) -> Option<Vec<PixelSums>> {
-    let mut bytes = vec![0; count * PixelSums::WORDS * 8];
-    let mut decoder = ZlibDecoder::new(packed);
-    decoder.read_exact(&mut bytes).ok()?;
-    if decoder.read(&mut [0]).ok()? != 0 {
-        return None;
-    }
-    let (words, _) = bytes.as_chunks::<8>();
-    let pixel = |i: usize| {
-        let word = |column: usize| u64::from_le_bytes(words[column * count + i]);
-        PixelSums::from_words(&core::array::from_fn(word))
-    };
-    Some((0..count).map(pixel).collect())
-}
-
-/// All after the format's version; `None` where something does not fit.
-fn parse(mut input: Input<'_>) -> Option<FilmFile> {
-    let [version, scene, settings] = [input.text()?, input.text()?, input.text()?];
-    let label = Label {
-        version,
-        scene,
-        settings,
-        fingerprint: u64::from_le_bytes(input.array()?),
-        seconds: input.f64()?,
-    };
-    let mut number = || input.u32();
-    let [width, height] = [number()?, number()?];
-    let [x0, x1, y0, y1] = [number()?, number()?, number()?, number()?];
-    let [first, part_count] = [number()?, number()?];
-    let fits = x0 < x1 && x1 <= width && y0 < y1 && y1 <= height;
-    if !fits || u64::from(width) * u64::from(height) > MOST_PIXELS {
-        return None;
-    }
-    let parts = (0..part_count)
-        .map(|_| Some([number()?, number()?]))
-        .collect::<Option<Vec<_>>>()?;
-    let work = input.f64()?;
-    let tile_count = input.u32()?;
-    let empty = FilmBuffer::new([width, height], [x0, x1, y0, y1], first);
-    if empty.tiles.len() != tile_count as usize || !(0.0..=f64::MAX).contains(&work) {
-        return None;
-    }
-    let packed = empty
-        .tiles
-        .iter()
-        .map(|tile| {
-            let [invalid, rays] = [input.array()?, input.array()?].map(u64::from_le_bytes);
-            let target = input.u32()?;
-            let length = input.u32()? as usize;
-            let empty = Tile {
-                invalid,
-                rays,
-                target,
-                pixels: Vec::new(),
-                ..*tile
-            };
-            Some((empty, tile.pixels.len(), input.take(length)?))
-        })
-        .collect::<Option<Vec<_>>>()?;
-    let tiles = packed
-        .into_par_iter()
-        .map(|(tile, count, packed)| {
-            let pixels = unpack(packed, count)?;
-            Some(Tile { pixels, ..tile })
-        })
-        .collect::<Option<Vec<_>>>()?;
-    let film = empty.restore(parts, work, tiles)?;
-    Some(FilmFile { label, film })
-}
-
-/// Bytes yet to be read.
-struct Input<'a>(&'a [u8]);
-
-impl<'a> Input<'a> {
-    fn take(&mut self, n: usize) -> Option<&'a [u8]> {
-        let (head, rest) = self.0.split_at_checked(n)?;
-        self.0 = rest;
-        Some(head)
-    }
-
-    fn array<const N: usize>(&mut self) -> Option<[u8; N]> {
-        self.take(N)?.try_into().ok()
-    }
-
-    fn u32(&mut self) -> Option<u32> {
-        self.array().map(u32::from_le_bytes)
-    }
-
-    fn f64(&mut self) -> Option<f64> {
-        self.array().map(f64::from_le_bytes)
-    }
-
-    fn text(&mut self) -> Option<String> {
-        let length = self.u32()? as usize;
-        let bytes = self.take(length)?;
-        (length <= LONGEST_TEXT).then(|| String::from_utf8_lossy(bytes).into_owned())
-    }
 }
 
 /// Hashes what is written.
@@ -427,6 +314,9 @@ mod tests {
         for film in [film(5), gaps, adaptive, empty] {
             FilmFile::write(&path, &label(), &film).unwrap();
             let read = FilmFile::read(&path).unwrap();
+            let head = FilmFile::read_head(&path).unwrap();
+            let first = film.first_sample();
+            assert_eq!((head.label, head.first_sample), (label(), first));
             assert_eq!((read.label, read.film), (label(), film));
         }
     }
@@ -439,6 +329,7 @@ mod tests {
         let whole = std::fs::read(&path).unwrap();
         let kind = |bytes: &[u8]| {
             std::fs::write(&path, bytes).unwrap();
+            let _ = FilmFile::read_head(&path);
             FilmFile::read(&path).map(|_| ()).unwrap_err()
         };
         for cut in (8..whole.len()).step_by(37) {
@@ -460,7 +351,7 @@ mod tests {
                 let sum = XxHash3_64::oneshot(&bytes);
                 bytes.extend(sum.to_le_bytes());
                 std::fs::write(&path, bytes).unwrap();
-                let _ = FilmFile::read(&path);
+                let _ = (FilmFile::read_head(&path), FilmFile::read(&path));
             }
             if at > 200 {
                 break;

@@ -16,7 +16,7 @@ pub use adaptive::MOST_SAMPLES;
 pub(crate) use buffer::BYTES_PER_PIXEL;
 pub use buffer::{FilmBuffer, MergeError};
 pub(crate) use buffer::{PixelSample, PixelSums, Tile};
-pub use file::{FilmFile, FilmFileError, Label};
+pub use file::{FilmFile, FilmFileError, FilmHead, Label};
 pub use noise::NoiseEstimate;
 pub(crate) use run::LONGEST_RUN;
 pub use run::RunSums;

@@ -11,6 +11,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::device::{Device, GpuArguments};
 use super::export::ExportArguments;
+use super::farm::FarmArguments;
 use super::gpu_report::GpuReportArguments;
 use super::lab::LabArguments;
 use super::loading::LoadingArguments;
@@ -56,6 +57,8 @@ pub(crate) enum Command {
     Compare(CompareArguments),
     /// Add films of distinct samples into one picture.
     Merge(MergeArguments),
+    /// Render on many machines, or write jobs for a farm that there is: with the Python package's extra `farm`.
+    Farm(FarmArguments),
     /// Denoise an EXR picture with Open Image Denoise, in programs built with it.
     Denoise(DenoiseArguments),
     /// Write the microfacet library in WGSL, HLSL, GLSL, Metal, SPIR-V, or C++ and CUDA.
@@ -153,6 +156,12 @@ pub(crate) struct RenderArguments {
     /// [default output: the scene's name, the range and .film]
     #[arg(long, value_name = "A..B", group = "effort", value_parser = values::samples)]
     pub(crate) samples: Option<[u32; 2]>,
+
+    /// With --adaptive or --noise: of one round, only the tiles A to B - 1 of every N, for `specula merge`. With
+    /// --resume=FILM it is the round after that film: `specula farm` renders so
+    #[arg(long, value_name = "A..B/N", conflicts_with_all = ["samples", "time", "watch"],
+          value_parser = values::round_share)]
+    pub(crate) round_share: Option<[u32; 3]>,
 
     /// Go on with the checkpoint beside the output, or begin where there is none; --resume=FILM: with
     /// that film
@@ -380,12 +389,20 @@ display_as_value!(SamplerName, ToneName, MetricName);
 
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  specula info scene.pbrt\n  specula info       the built-in scene"
+    after_help = "Examples:\n  specula info scene.pbrt\n  specula info       the built-in scene\n  specula info --files scene.pbrt | tar cf scene.tar -T -"
 )]
 pub(crate) struct InfoArguments {
     /// A scene (pbrt-v4, Mitsuba 3 .xml, .gltf, .glb) or a mesh (.obj, .ply); without one, the
     /// built-in scene
     pub(crate) scene: Option<PathBuf>,
+
+    /// Print the files that the scene is read from and nothing else, a line for each: what another machine needs
+    #[arg(long)]
+    pub(crate) files: bool,
+
+    /// Print what a film holds instead, as a line of JSON: scene, samples, least, most, mean, noise, work, seconds
+    #[arg(long, value_name = "FILM", conflicts_with_all = ["scene", "files"])]
+    pub(crate) film: Option<PathBuf>,
 
     /// Value of a `$name` in a Mitsuba scene, over its `<default>`. May be repeated.
     #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = values::parameter)]

@@ -36,6 +36,8 @@ pub(crate) struct Checkpoint {
     saved: Instant,
     cost: Duration,
     failed: bool,
+    /// Whether it is a share of a round, which the film that it goes on with is no part of.
+    is_share: bool,
 }
 
 impl Checkpoint {
@@ -57,6 +59,7 @@ impl Checkpoint {
             saved: Instant::now(),
             cost: Duration::ZERO,
             failed: false,
+            is_share: false,
         }
     }
 
@@ -103,7 +106,9 @@ impl Checkpoint {
                  --restart begins anew and replaces it"
             )));
         }
-        self.label.seconds = label.seconds;
+        if !self.is_share {
+            self.label.seconds = label.seconds;
+        }
         Ok(Some(film))
     }
 
@@ -125,6 +130,11 @@ impl Checkpoint {
             "'{}' holds another render, which this one would replace: move it, or name another output",
             self.path.display()
         )))
+    }
+
+    /// Of a share of a round, only its own time counts: that of the film before it is in that film.
+    pub(crate) fn leave_earlier_time_out(&mut self) {
+        self.is_share = true;
     }
 
     /// Whether it is time to write.

@@ -3,8 +3,9 @@
 use crate::cli::ExitCode;
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::path::Path;
 
-use crate::render::{MemoryEstimate, RenderOptions};
+use crate::render::{FilmFile, MemoryEstimate, RenderOptions};
 use crate::scene::scene::Projection;
 use crate::scene::{Scene, Summary};
 
@@ -14,10 +15,44 @@ use super::{Failure, machine, memory, print};
 
 /// Prints what is in a scene and what of it is rendered otherwise than its file says.
 pub(crate) fn run(arguments: &InfoArguments) -> Result<ExitCode, Failure> {
+    if let Some(path) = &arguments.film {
+        print(&film(path)?)?;
+        return Ok(ExitCode::SUCCESS);
+    }
     let options = arguments.loading.options(&arguments.parameters);
     let named = load::scene(arguments.scene.as_deref(), &options)?;
-    print(&describe(&named))?;
+    let text = match arguments.files {
+        true => files(&named),
+        false => describe(&named),
+    };
+    print(&text)?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// The files that were read, a line for each.
+fn files(named: &Named) -> String {
+    let lines = named.files.iter().map(|p| format!("{}\n", p.display()));
+    lines.collect()
+}
+
+/// What a film holds, as a line of JSON.
+fn film(path: &Path) -> Result<String, Failure> {
+    let FilmFile { label, film } = FilmFile::read(path)
+        .map_err(|e| Failure::bad_input(format_args!("cannot read '{}': {e}", path.display())))?;
+    let (most, mean) = film.most_and_mean_samples();
+    let noise = film.noise();
+    let line = serde_json::json!({
+        "scene": label.scene,
+        "samples": film.samples(),
+        "least": film.complete_samples(),
+        "most": most,
+        "mean": mean,
+        // No number where it is not known.
+        "noise": noise.is_finite().then_some(noise),
+        "adaptive": film.is_adaptive(),
+        "seconds": label.seconds,
+    });
+    Ok(format!("{line}\n"))
 }
 
 fn describe(named: &Named) -> String {

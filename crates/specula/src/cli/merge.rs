@@ -1,9 +1,9 @@
 //! `specula merge`.
 
 use crate::cli::ExitCode;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use crate::render::FilmFile;
+use crate::render::{FilmBuffer, FilmFile, FilmFileError, Label};
 
 use super::Failure;
 use super::arguments::MergeArguments;
@@ -19,36 +19,7 @@ pub(crate) fn run(arguments: &MergeArguments) -> Result<ExitCode, Failure> {
         arguments.display.display(),
         &inputs,
     )?;
-    let mut files = arguments
-        .films
-        .iter()
-        .map(|path| Ok((path.as_path(), read(path)?)))
-        .collect::<Result<Vec<_>, Failure>>()?;
-    // In the order of their samples, so that adjoining films stay one range.
-    files.sort_by_key(|(_, file)| file.film.first_sample());
-    let mut files = files.into_iter();
-    let Some((
-        first_path,
-        FilmFile {
-            mut label,
-            mut film,
-        },
-    )) = files.next()
-    else {
-        return Err(Failure::bad_input("no films"));
-    };
-    for (path, other) in files {
-        let (a, b) = (first_path.display(), path.display());
-        if let Some(difference) = label.difference(&other.label) {
-            return Err(Failure::bad_input(format_args!(
-                "'{a}' and '{b}' are not parts of one render: {difference}"
-            )));
-        }
-        film.merge(&other.film).map_err(|e| {
-            Failure::bad_input(format_args!("cannot add '{b}' to those before it: {e}"))
-        })?;
-        label.seconds += other.label.seconds;
-    }
+    let (film, label) = sum(&arguments.films)?;
     let written = outputs.write_film(&film, &label);
     let metadata = outputs::metadata(&film, &label, None);
     Failure::join(written, outputs.write_pictures(&film, &metadata, false))?;
@@ -64,9 +35,50 @@ pub(crate) fn run(arguments: &MergeArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// The sum of films, with the label of all. It holds two of them at a time, however many there are.
+fn sum(films: &[PathBuf]) -> Result<(FilmBuffer, Label), Failure> {
+    let mut heads = Vec::new();
+    for path in films {
+        let head = FilmFile::read_head(path).map_err(|e| unreadable(path, &e))?;
+        heads.push((path.as_path(), head));
+    }
+    // In the order of their samples, so that adjoining films stay one range.
+    heads.sort_by_key(|(_, head)| head.first_sample);
+    let mut heads = heads.into_iter();
+    let Some((first, head)) = heads.next() else {
+        return Err(Failure::bad_input("no films"));
+    };
+    let others: Vec<_> = heads.collect();
+    for (path, other) in &others {
+        if let Some(difference) = head.label.difference(&other.label) {
+            return Err(Failure::bad_input(format_args!(
+                "'{}' and '{}' are not parts of one render: {difference}",
+                first.display(),
+                path.display()
+            )));
+        }
+    }
+    let FilmFile {
+        mut label,
+        mut film,
+    } = read(first)?;
+    for (path, _) in others {
+        let other = read(path)?;
+        film.merge(&other.film).map_err(|e| {
+            let name = path.display();
+            Failure::bad_input(format_args!("cannot add '{name}' to those before it: {e}"))
+        })?;
+        label.seconds += other.label.seconds;
+    }
+    Ok((film, label))
+}
+
 fn read(path: &Path) -> Result<FilmFile, Failure> {
-    FilmFile::read(path)
-        .map_err(|e| Failure::bad_input(format_args!("cannot read '{}': {e}", path.display())))
+    FilmFile::read(path).map_err(|e| unreadable(path, &e))
+}
+
+fn unreadable(path: &Path, error: &FilmFileError) -> Failure {
+    Failure::bad_input(format_args!("cannot read '{}': {error}", path.display()))
 }
 
 fn ranges(samples: &[[u32; 2]]) -> String {

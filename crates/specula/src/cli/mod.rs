@@ -24,6 +24,7 @@ mod exit_code;
 #[cfg(feature = "shaders")]
 mod export;
 mod failure;
+mod farm;
 mod file_id;
 #[cfg(feature = "lab")]
 mod gpu_report;
@@ -98,6 +99,7 @@ fn run(arguments: Arguments) -> Result<ExitCode, Failure> {
         Command::Convert(a) => convert::run(&a),
         Command::Compare(a) => compare::run(&a),
         Command::Merge(a) => merge::run(&a),
+        Command::Farm(a) => farm::run(&a),
         Command::Denoise(a) => denoise::run(&a),
         Command::Export(a) => export::run(&a),
         Command::Lab(a) => lab::run(&a),

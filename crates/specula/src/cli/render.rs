@@ -119,6 +119,9 @@ impl Context<'_> {
             &outputs,
             Label::of(&name, &scene, &options).with_missing(&missing),
         );
+        if arguments.round_share.is_some() {
+            checkpoint.leave_earlier_time_out();
+        }
         let begun = match start(arguments) {
             Start::New if checkpoint.path().is_none() => None,
             start => checkpoint.open(&start)?,
@@ -201,6 +204,11 @@ fn options(arguments: &RenderArguments, scene: &Scene) -> Result<RenderOptions, 
             )));
         }
     }
+    if arguments.round_share.is_some() && arguments.noise.is_none() && !arguments.adaptive {
+        return Err(Failure::bad_input(
+            "--round-share is of a round of --adaptive or --noise: name one of them",
+        ));
+    }
     let by_samples = arguments.noise.is_none() && arguments.time.is_none();
     let samples = match by_samples {
         true => from_scene.samples_per_pixel,
@@ -217,6 +225,7 @@ fn options(arguments: &RenderArguments, scene: &Scene) -> Result<RenderOptions, 
         crop: arguments.crop,
         first_sample: arguments.samples.map_or(0, |[from, _]| from),
         noise: arguments.noise.or(arguments.adaptive.then_some(0.0)),
+        round_share: arguments.round_share,
         clamp: arguments.clamp,
         regularize: arguments.regularize,
         ..from_scene

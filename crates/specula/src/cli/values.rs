@@ -130,6 +130,20 @@ pub(crate) fn samples(text: &str) -> Result<[u32; 2], String> {
         })
 }
 
+/// `0..16/256`: tiles of every so many, half open.
+pub(crate) fn round_share(text: &str) -> Result<[u32; 3], String> {
+    text.split_once('/')
+        .and_then(|(share, of)| {
+            let [from, to] = samples(share).ok()?;
+            Some([from, to, of.parse().ok()?])
+        })
+        .filter(|[_, to, of]| to <= of)
+        .ok_or_else(|| {
+            "expected the first tile, the one after the last, and of how many, as in 0..16/256"
+                .to_owned()
+        })
+}
+
 /// A time, or `off`.
 pub(crate) fn interval(text: &str) -> Result<Interval, String> {
     if text == "off" {

@@ -14,6 +14,7 @@ mod denoise;
 mod device;
 #[cfg(feature = "shaders")]
 mod export;
+mod farm;
 #[cfg(unix)]
 mod interrupt;
 #[cfg(feature = "lab")]

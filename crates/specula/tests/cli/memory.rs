@@ -2,7 +2,10 @@
 
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
+
+use specula::render::{FilmBuffer, FilmFile, Label, PreparedScene, RenderOptions, Renderer};
 
 use crate::common::{SMALL, small_scene, specula, stderr};
 
@@ -30,7 +33,8 @@ fn estimate(text: &str) -> f64 {
 /// Renders a sample per pixel; the messages, and the most memory that was resident, in mebibytes.
 /// `None` where the system does not tell.
 fn measured(folder: &Path, scene: &str, arguments: &[&str]) -> (String, Option<f64>) {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_specula"))
+    let mut command = Command::new(env!("CARGO_BIN_EXE_specula"));
+    command
         .current_dir(folder)
         .args(["render", scene, "--spp", "1", "-o", "a.exr"])
         .args(if arguments.contains(&"--threads") {
@@ -38,7 +42,13 @@ fn measured(folder: &Path, scene: &str, arguments: &[&str]) -> (String, Option<f
         } else {
             &["--threads", "2"]
         })
-        .args(arguments)
+        .args(arguments);
+    watched(command)
+}
+
+/// Runs a program, which must succeed; what it says, and the most memory that was resident, in mebibytes.
+fn watched(mut command: Command) -> (String, Option<f64>) {
+    let mut child = command
         .stderr(Stdio::piped())
         .spawn()
         .expect("a program that runs and answers");
@@ -309,4 +319,47 @@ fn nice_reaches_every_thread() {
     let low = niceness.filter(|n| *n == 19).count();
     assert!(child.wait().unwrap().success());
     assert!(low >= 2, "{low} threads with low priority");
+}
+
+/// A thousand films are merged in the memory that sixty take: that of two films.
+#[test]
+fn merging_takes_the_same_memory_for_any_number_of_films() {
+    let (folder, _) = small_scene();
+    let path = folder.path();
+    // 3.1 MiB of sums each, none of a sample, but for the first: such films overlap with none.
+    let (resolution, crop) = ([160, 120], [0, 160, 0, 120]);
+    let scene = specula::scene::builtin::orbs();
+    let options = RenderOptions {
+        resolution: Some(resolution),
+        ..RenderOptions::from_scene(&scene)
+    };
+    let prepared = PreparedScene::new(&scene, &options).unwrap();
+    let mut renderer = Renderer::new(&prepared, options);
+    renderer.render_pass(1, &AtomicBool::new(false));
+    let label = Label::default();
+    FilmFile::write(&path.join("0.film"), &label, renderer.film()).unwrap();
+    let empty = FilmBuffer::new(resolution, crop, 1);
+    FilmFile::write(&path.join("1.film"), &label, &empty).unwrap();
+    let names: Vec<String> = (0..1024).map(|i| format!("{i}.film")).collect();
+    for name in &names[2..] {
+        std::fs::copy(path.join("1.film"), path.join(name)).unwrap();
+    }
+    let merge = |count: usize| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_specula"));
+        command.current_dir(path).arg("merge").args(&names[..count]);
+        command.args(["-o", "sum.exr"]);
+        watched(command)
+    };
+    let (said, few) = merge(64);
+    assert!(said.contains("1 spp"), "{said}");
+    let (said, many) = merge(1024);
+    assert!(said.contains("1 spp"), "{said}");
+    let (Some(few), Some(many)) = (few, many) else {
+        let what = "merging takes the same memory for any number of films";
+        specula_testing::not_of_this_machine(what, "the system does not say what memory was used");
+        return;
+    };
+    eprintln!("64 films: {few:.0} MiB, 1024 films: {many:.0} MiB");
+    // To hold them all would take 200 MiB and 3 GiB.
+    assert!(few < 100.0 && many < few + 16.0, "{few} and {many} MiB");
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::common::{SMALL, names, run, small_scene, succeed};
+use crate::common::{SMALL, names, run, small_scene, specula, succeed};
 use specula::render::picture::{Metadata, Picture, write_exr};
 
 /// A scene under a picture `env.exr`, in a folder.
@@ -175,4 +175,23 @@ fn an_output_is_given_once_by_whatever_name() {
     let (code, said) = run(folder.path(), &line);
     assert_eq!(code, Some(2), "{said}");
     assert!(said.contains("given twice"), "{said}");
+}
+
+/// What `specula farm` sends to other machines.
+#[test]
+fn info_lists_the_files_of_a_scene() {
+    let (folder, _) = small_scene();
+    let path = folder.path();
+    let outer = "Include \"small.pbrt\"\n";
+    std::fs::write(path.join("outer.pbrt"), outer).unwrap();
+    let listed = |arguments: &[&str]| {
+        let run = specula(path).arg("info").args(arguments).output().unwrap();
+        assert!(run.status.success());
+        String::from_utf8(run.stdout).unwrap()
+    };
+    assert_eq!(listed(&["--files", "small.pbrt"]), "small.pbrt\n");
+    let both = listed(&["--files", "outer.pbrt"]);
+    assert_eq!(both.lines().count(), 2, "{both}");
+    assert!(both.contains("outer.pbrt\n") && both.contains("small.pbrt\n"));
+    assert_eq!(listed(&["--files"]), "");
 }

@@ -1,0 +1,255 @@
+"""What `test_farm.py` looks for, in a cluster's namespaces: scenarios return what they found."""
+
+from __future__ import annotations
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from farm_cluster import (
+    HEAD,
+    SIZE,
+    Cluster,
+    kill_second_node,
+    kill_worker,
+    main,
+    processes,
+    wait_for,
+)
+
+
+def begins(cluster: Cluster, job: str) -> list[tuple[int, int]]:
+    """Return the samples of all parts that were begun, without twins of running ones."""
+    events = [e for e in cluster.journal(job) if e["event"] == "begin" and not e["twin"]]
+    return [(e["samples"][0], e["samples"][1]) for e in events]  # type: ignore[index]
+
+
+def start(cluster: Cluster) -> object:
+    """Start the cluster: what listens where is said."""
+    return cluster.start()
+
+
+def two_nodes(cluster: Cluster) -> object:
+    """Both nodes render; the bits are one machine's, and the second time nothing is rendered."""
+    picture = [*SIZE, "--spp", "64", "--part-time", "1", "-o", "two.exr", "-o", "two.png"]
+    cluster.render(picture)
+    cluster.alone([*SIZE, "--spp", "64", "-o", "one.exr"])
+    same = [cluster.same("two.exr", "one.exr")]
+    begun = [e for e in cluster.journal("two.farm") if e["event"] == "begin"]
+    before = len(begins(cluster, "two.farm"))
+    cluster.render(picture)
+    again = len(begins(cluster, "two.farm")) - before
+    cluster.render([*SIZE, "--spp", "80", "-o", "two.exr", "-o", "two.png"])
+    cluster.alone([*SIZE, "--spp", "80", "-o", "more.exr"])
+    same.append(cluster.same("two.exr", "more.exr"))
+    new = begins(cluster, "two.farm")[before:]
+    return {
+        "same": same,
+        "nodes": len({e["node"] for e in begun}),
+        "again": again,
+        "new": sum(b - a for a, b in new),
+    }
+
+
+def kills(cluster: Cluster, workers: int = 3, nodes: int = 1, spp: int = 1536) -> object:
+    """Workers and a node are killed at random moments."""
+    chance = random.Random(7)
+    words = [*SIZE, "--spp", str(spp), "--part-time", "1", "-o", "kills.exr"]
+    render = cluster.begin(["render", *cluster.program, "--address", HEAD, *words])
+    deeds = ["worker"] * workers + ["node"] * nodes
+    chance.shuffle(deeds)
+    done = 0
+    for deed in deeds:
+        time.sleep(0.3 + 1.5 * chance.random())
+        if render.poll() is not None:
+            break
+        if deed == "worker":
+            done += kill_worker(chance)
+        elif kill_second_node():
+            done += 1
+            cluster.join()
+    said = render.communicate(timeout=400)
+    assert render.returncode == 0, said
+    cluster.alone([*SIZE, "--spp", str(spp), "-o", "unharmed.exr"])
+    begun = begins(cluster, "kills.farm")
+    often = max(begun.count(part) for part in begun)
+    rendered = sum(e["event"] == "done" for e in cluster.journal("kills.farm"))
+    return {
+        "same": cluster.same("kills.exr", "unharmed.exr"),
+        "kills": done,
+        "asked": len(deeds),
+        "parts": len(set(begun)),
+        "begun": len(begun),
+        "done": rendered,
+        "most often": often,
+    }
+
+
+def children(cluster: Cluster) -> object:
+    """A worker that is killed takes the renderer with it."""
+    words = [*SIZE, "--spp", "4096", "--part-time", "30", "-o", "children.exr"]
+    render = cluster.begin(["render", *cluster.program, "--address", HEAD, *words])
+    wait_for(lambda: len(begins(cluster, "children.farm")) > 2)
+    wait_for(lambda: processes("part.film"))
+    before = set(processes("part.film"))
+    for _ in range(5):
+        kill_worker(random.Random(1))
+    time.sleep(0.5)
+    killed = len(before - set(processes("part.film")))
+    render.send_signal(signal.SIGINT)
+    said = render.communicate(timeout=60)
+    wait_for(lambda: not processes("part.film"), 20.0)
+    return {"killed": killed, "code": render.returncode, "said": said[1]}
+
+
+def resume(cluster: Cluster) -> object:
+    """Ctrl-C leaves a picture and a job, which ends as if nothing had happened."""
+    words = [*SIZE, "--spp", "256", "--part-time", "1", "-o", "stop.exr"]
+    render = cluster.begin(["render", *cluster.program, "--address", HEAD, *words])
+    wait_for(lambda: sum(e["event"] == "done" for e in cluster.journal("stop.farm")) >= 3)
+    render.send_signal(signal.SIGINT)
+    _, said = render.communicate(timeout=60)
+    code, picture = render.returncode, Path(cluster.folder, "stop.exr").exists()
+    before = [e for e in cluster.journal("stop.farm") if e["event"] == "done"]
+    cluster.farm(["resume", "stop.farm", "--address", HEAD])
+    cluster.alone([*SIZE, "--spp", "256", "-o", "whole.exr"])
+    parts = {e["task"]: e["samples"] for e in cluster.journal("stop.farm") if e["event"] == "begin"}
+    return {
+        "code": code,
+        "picture": picture,
+        "said": said,
+        "finished before": len(before),
+        "same": cluster.same("stop.exr", "whole.exr"),
+        "parts": len(parts),
+    }
+
+
+PBRT = """
+Film "rgb" "integer xresolution" [48] "integer yresolution" [32]
+LookAt 0 0 -3  0 0 0  0 1 0
+Camera "perspective" "float fov" [45]
+WorldBegin
+LightSource "infinite" "rgb L" [0.8 0.9 1]
+Include "{include}"
+"""
+
+
+def ship(cluster: Cluster) -> object:
+    """A scene's files are sent where they are not; those by absolute paths cannot be."""
+    scenes = cluster.folder / "scenes"
+    (scenes / "parts").mkdir(parents=True)
+    (scenes / "parts" / "ball.pbrt").write_text('Material "diffuse"\nShape "sphere"\n')
+    (scenes / "ball.pbrt").write_text(PBRT.format(include="parts/ball.pbrt"))
+    absolute = scenes / "parts" / "ball.pbrt"
+    (scenes / "absolute.pbrt").write_text(PBRT.format(include=absolute))
+    words = ["--ship", "always", "--spp", "16"]
+    cluster.render([*words, "scenes/ball.pbrt", "-o", "sent.exr"])
+    cluster.alone(["scenes/ball.pbrt", "--spp", "16", "-o", "here.exr"])
+    bad = cluster.render([*words, "scenes/absolute.pbrt", "-o", "no.exr"], code=2)
+    sent = list(Path(os.environ["TMPDIR"]).glob("specula-farm-*/*/parts/ball.pbrt"))
+    return {"same": cluster.same("sent.exr", "here.exr"), "sent": len(sent), "said": bad.stderr}
+
+
+MITSUBA = """<scene version="3.0.0"><default name="frame" value="0"/>
+<sensor type="perspective"><transform name="to_world">
+<lookat origin="$frame, 2, 4" target="0, 0, 0" up="0, 1, 0"/></transform>
+<film type="hdrfilm"><integer name="width" value="48"/><integer name="height" value="32"/></film>
+</sensor><emitter type="constant"/><shape type="sphere"/></scene>
+"""
+
+
+def frames(cluster: Cluster) -> object:
+    """Frames of a Mitsuba scene by a parameter, by frames and by samples; files of a sequence."""
+    (cluster.folder / "turn.xml").write_text(MITSUBA)
+    same = []
+    for by in ("frames", "samples"):
+        out = ["-o", f"{by}.##.exr", "-o", f"{by}.##.png"]
+        cluster.render(["turn.xml", "--frames", "0..3", "--spp", "8", "--by", by, *out])
+        for frame in range(3):
+            alone = f"alone{frame}.exr"
+            if not (cluster.folder / alone).exists():
+                cluster.alone(["turn.xml", "-D", f"frame={frame}", "--spp", "8", "-o", alone])
+            same.append(cluster.same(f"{by}.{frame:02d}.exr", alone))
+    for number in (7, 8):
+        scene = PBRT.format(include="ball.pbrt")
+        (cluster.folder / f"seq.{number:03d}.pbrt").write_text(scene)
+    (cluster.folder / "ball.pbrt").write_text('Material "diffuse"\nShape "sphere"\n')
+    cluster.render(["seq.###.pbrt", "--frames", "7..9", "--spp", "4"])
+    written = sorted(p.name for p in cluster.folder.glob("seq.*.png"))
+    return {"same": same, "written": written}
+
+
+def adaptive(cluster: Cluster) -> object:
+    """Rounds of adaptive sampling over nodes are those of one machine."""
+    same = []
+    for name, aim in (
+        ("work", ["--adaptive", "--spp", "64"]),
+        ("noise", ["--noise", "0.12", "--spp", "128"]),
+    ):
+        cluster.render([*SIZE, *aim, "-o", f"{name}.exr"])
+        cluster.alone([*SIZE, *aim, "-o", f"alone-{name}.exr"])
+        same.append(cluster.same(f"{name}.exr", f"alone-{name}.exr"))
+    return {"same": same}
+
+
+def wrong(cluster: Cluster) -> object:
+    """What is wrong ends with code 2 and says so."""
+    (cluster.folder / "broken.pbrt").write_text("WorldBegin\nNonsense\n")
+    said = []
+    for words in (
+        ["broken.pbrt", "--spp", "4"],
+        [*SIZE, "--spp", "4", "--energy", "nonsense"],
+        ["--spp", "4", "-o", "a.jpg"],
+        ["--spp", "4", "--frames", "1..3"],
+    ):
+        said.append(cluster.render([*words, "--job", f"wrong{len(said)}.farm"], code=2).stderr)
+    said.append(cluster.render(["--spp", "4"], address="127.0.0.2:9", code=2).stderr)
+    said.append(cluster.farm(["resume", "nowhere.farm"], code=2).stderr)
+    return said
+
+
+def open_cluster(cluster: Cluster) -> object:
+    """A cluster that wants no token is refused, unless that is asked for."""
+    ray = [sys.executable, "-m", "ray.scripts.scripts", "start", "--head", "--port=6500"]
+    options = ["--num-cpus=1", "--node-ip-address=127.0.0.4", "--include-dashboard=false"]
+    environment = {**cluster.environment, "RAY_AUTH_MODE": "disabled"}
+    subprocess.run([*ray, *options], env=environment, check=True, capture_output=True)
+    words = [*SIZE, "--spp", "4", "-o", "open.exr"]
+    refused = cluster.render(words, address="127.0.0.4:6500", code=2).stderr
+    taken = cluster.render([*words, "--insecure"], address="127.0.0.4:6500").stderr
+    words = [*SIZE, "--spp", "4", "-o", "stranger.exr", "--address", HEAD]
+    home = cluster.folder / "elsewhere"
+    home.mkdir()
+    stranger = cluster.farm(["render", *cluster.program, *words], code=2, HOME=str(home)).stderr
+    return {"refused": refused, "taken": taken, "stranger": stranger}
+
+
+def local(cluster: Cluster) -> object:
+    """Without a cluster, this machine is one."""
+    done = cluster.farm(
+        ["render", *cluster.program, *SIZE, "--spp", "8", "-o", "local.exr", "--cpus", "1"]
+    )
+    cluster.alone([*SIZE, "--spp", "8", "-o", "alone8.exr"])
+    return {"same": cluster.same("local.exr", "alone8.exr"), "said": done.stderr}
+
+
+SCENARIOS = {
+    "start": start,
+    "two_nodes": two_nodes,
+    "resume": resume,
+    "ship": ship,
+    "frames": frames,
+    "adaptive": adaptive,
+    "wrong": wrong,
+    "children": children,
+    "kills": kills,
+    "open_cluster": open_cluster,
+    "local": local,
+}
+
+if __name__ == "__main__":
+    main(SCENARIOS, Path(sys.argv[1]), sys.argv[2:])
