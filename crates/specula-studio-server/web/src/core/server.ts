@@ -30,6 +30,11 @@ export async function post<T>(path: string, body: unknown = {}): Promise<T> {
   return read(await reach(path, { method: 'POST', headers, body: JSON.stringify(body) }));
 }
 
+/** Posts bytes; returns JSON. */
+export async function upload<T>(path: string, body: Blob): Promise<T> {
+  return read(await reach(path, { method: 'POST', headers: { 'content-type': 'application/octet-stream', 'x-specula': '1' }, body }));
+}
+
 async function reach(path: string, init: RequestInit): Promise<Response> {
   try {
     return await fetch(path, init);
