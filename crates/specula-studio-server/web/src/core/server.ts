@@ -5,16 +5,30 @@ import { AskError, backend } from './ask';
 /** Whether there is a server. */
 export const hasServer = backend === 'server';
 
+/** What the program says is wrong; of a scene's file, where. */
+interface Problem {
+  error?: string;
+  file?: string;
+  line?: number;
+  column?: number;
+  help?: string;
+}
+
+function worded({ error, file, line, column, help }: Problem): string {
+  const place = file === undefined || file === '' ? '' : `${[file, line, column].filter((part) => part !== undefined && part !== null).join(':')}: `;
+  return `${place}${error}${help === undefined || help === null ? '' : `\n${help}`}`;
+}
+
 async function read<T>(response: Response): Promise<T> {
   if (response.status === 403) throw new AskError('open the address that `specula studio` printed: it holds the token');
   const text = await response.text();
-  let value: T & { error?: string };
+  let value: T & Problem;
   try {
     value = JSON.parse(text);
   } catch {
     throw new AskError(text === '' ? `the program answered ${response.status}` : text);
   }
-  if (typeof value.error === 'string') throw new AskError(value.error);
+  if (typeof value.error === 'string') throw new AskError(worded(value));
   if (!response.ok) throw new AskError(`the program answered ${response.status}`);
   return value;
 }

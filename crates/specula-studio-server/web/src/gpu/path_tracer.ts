@@ -21,8 +21,8 @@ const MOST_SLOTS = 64;
 
 const ARRAYS = ['tables', 'nodes', 'packets', 'words'] as const;
 
-/** How much is to be done: about so many seconds, or exactly so many samples a pixel. */
-export type Amount = { seconds: number } | { samples: number };
+/** How much is to be done: about so many seconds, and at most so many samples a pixel. */
+export type Amount = { seconds?: number; samples: number };
 
 export class PathTracer {
   private readonly sums: GPUBuffer;
@@ -90,14 +90,15 @@ export class PathTracer {
     const encoder = this.gpu.device.createCommandEncoder();
     encoder.clearBuffer(this.sums);
     this.gpu.device.queue.submit([encoder.finish()]);
+    const fitting = () => (amount.seconds === undefined ? Infinity : this.fitting(amount.seconds - spent(), pixels));
     let taken = 0;
     do {
-      const left = 'samples' in amount ? amount.samples - taken : this.fitting(amount.seconds - spent(), pixels);
+      const left = Math.min(amount.samples - taken, fitting());
       const each = Math.max(1, Math.min(left, MOST_SLOTS, Math.floor(this.dispatchSamples() / pixels)));
       const span = Math.max(1, Math.min(pixels, Math.floor(this.dispatchSamples() / each)));
       for (let first = 0; first < pixels; first += span) await this.dispatch(first, Math.min(span, pixels - first), this.samples + taken, each);
       taken += each;
-    } while ('samples' in amount ? taken < amount.samples : this.fitting(amount.seconds - spent(), pixels) >= 1);
+    } while (taken < amount.samples && fitting() >= 1);
     const bytes = await readBack(this.gpu, this.sums, SUMS_SIZE * pixels);
     this.rays += this.film.add(new Float32Array(bytes), taken);
     this.samples += taken;

@@ -106,10 +106,10 @@ class Loop {
     this.rested = 0;
     const samples = samplesOf(turn, target);
     for (const render of turn) {
-      await render.advance(mode === 'samples' ? { samples } : { seconds: this.slice });
+      await render.advance(mode === 'samples' ? { samples } : { seconds: this.slice, samples: target - render.samples });
       if (this.isGone || this.isStale()) return this.tell();
     }
-    if (needsReference) await reference.advance({ seconds: this.slice * Math.max(1, turn.length) });
+    if (needsReference) await reference.advance({ seconds: this.slice * Math.max(1, turn.length), samples: REFERENCE_TIMES * target - reference.samples });
     this.slice = Math.min(SLICE, 1.5 * this.slice);
     this.tell();
   }
