@@ -28,6 +28,8 @@ export function launch() {
 export async function open(browser, url, { width = 1280, height = 860, scheme = 'light' } = {}) {
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme });
   const page = await context.newPage();
+  // A machine may be busy with other things.
+  page.setDefaultTimeout(120_000);
   const messages = [];
   page.on('console', (message) => messages.push(`${message.type()}: ${message.text()}`));
   page.on('pageerror', (error) => messages.push(`error: ${error}`));

@@ -132,8 +132,16 @@ test("compared renders converge to the library's picture: z-test", async () => {
   }
 });
 
-test('WebGPU takes the same samples: z-test, and progress while its shader compiles', async () => {
+test('WebGPU takes the same samples: z-test, progress while its shader compiles, and the library where the GPU is lost', async () => {
   session.messages.splice(0);
+  await session.page.addInitScript(() => {
+    const request = globalThis.GPUAdapter?.prototype.requestDevice;
+    if (request === undefined) return;
+    GPUAdapter.prototype.requestDevice = async function (...given) {
+      globalThis.lastDevice = await request.apply(this, given);
+      return globalThis.lastDevice;
+    };
+  });
   await session.page.goto('about:blank');
   await session.page.goto(at('render', '?scene=ball&width=32&height=18&samples=24&by=gpu&mode=samples'));
   await session.page.getByText(/Compiling [\d,]+ lines of WGSL/).waitFor({ timeout: 60000 });
@@ -164,23 +172,10 @@ test('WebGPU takes the same samples: z-test, and progress while its shader compi
   const exr = await readFile(await download.path());
   assert.deepEqual([...exr.subarray(0, 4)], [0x76, 0x2f, 0x31, 0x01]);
   assert.deepEqual(session.messages, []);
-});
-
-test('a GPU that is lost leaves the library', async () => {
-  const { page } = session;
-  await page.addInitScript(() => {
-    const request = globalThis.GPUAdapter?.prototype.requestDevice;
-    if (request === undefined) return;
-    GPUAdapter.prototype.requestDevice = async function (...given) {
-      globalThis.lastDevice = await request.apply(this, given);
-      return globalThis.lastDevice;
-    };
-  });
-  await visit('scene=ball&width=16&height=9&samples=4096&by=gpu');
-  await page.waitForFunction(() => Number(document.querySelector('[data-render="0"] td')?.textContent) >= 1, undefined, { timeout: 240000 });
-  await page.evaluate(() => globalThis.lastDevice.destroy());
-  await page.getByText(/By the library on the processor: the GPU was lost/).waitFor();
-  await samples(0, 16);
+  await session.page.evaluate(() => globalThis.lastDevice.destroy());
+  await session.page.getByRole('spinbutton', { name: 'Samples per pixel' }).fill('64');
+  await session.page.getByText(/By the library on the processor: the GPU was lost/).waitFor();
+  await samples(0, 64);
 });
 
 test('a drag turns the camera, and the address keeps it; so do arrow keys', async () => {

@@ -46,7 +46,7 @@ export function Figures({ turns, reference, history }: { turns: Turn[]; referenc
   if (reference !== undefined) rows.push(['Reference', reference]);
   return (
     <Panel title="Figures" wide>
-      <div class="scroll">
+      <div class="scroll" role="region" tabIndex={0} aria-label="Figures of the renders">
         <table>
           <thead>
             <tr>

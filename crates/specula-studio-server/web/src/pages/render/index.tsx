@@ -2,28 +2,24 @@
 
 import { useEffect, useMemo, useState } from 'preact/hooks';
 import { useAddress } from '../../core/address';
-import { ask, backend } from '../../core/ask';
+import { ask } from '../../core/ask';
 import { useSavePicture } from '../../core/keys';
 import type { Camera, SceneItem } from '../../core/protocol';
-import { hasServer, post } from '../../core/server';
-import { Choice, Message, Panel, Progress, Select, Slider, TextField } from '../../ui/controls';
+import { Message, Panel, Progress } from '../../ui/controls';
 import { save, savePng } from '../../ui/files';
 import type { Page } from '../page';
 import { dolly, orbit, pan } from './camera';
 import { MAP_DECADES } from './canvas';
-import { Drop } from './drop';
+import { Controls } from './controls';
 import { errorMap, noiseMap } from './errors';
 import { exr } from './exr';
 import { Figures, NoiseOverTime } from './figures';
 import { Inspector } from './inspector';
 import { Layers } from './layers';
-import { MaterialControls } from './material';
 import type { Turn } from './render';
 import { SceneText } from './scene_text';
 import { useRenders } from './schedule';
-import { cameraOf, countOf, DEFAULTS, dividersOf, LETTERS, type Letter, numbersOf, referenceOf, type RenderState, type Set, setupOf } from './state';
-import { TONES, toneOf } from './tone';
-import { Treatments } from './treatments';
+import { cameraOf, countOf, DEFAULTS, dividersOf, LETTERS, numbersOf, referenceOf, setupOf } from './state';
 import { useErrors } from './use_errors';
 
 function useScenes(): { scenes: SceneItem[]; refresh: () => void; error: string | undefined } {
@@ -43,7 +39,6 @@ function Render() {
   const [state, set] = useAddress('render', DEFAULTS);
   const [isPlaying, setPlaying] = useState(true);
   const [picked, setPicked] = useState<number>();
-  const [of, setOf] = useState<Letter | 'all'>('all');
   const [hovered, setHovered] = useState<[number, number]>();
   const [over, setOver] = useState('seconds');
   const [problem, setProblem] = useState<string>();
@@ -73,40 +68,25 @@ function Render() {
       setProblem((reason as Error).message);
     }
   };
-  const open = async (path: string) => {
-    if (path === '') return;
-    try {
-      show((await post<{ name: string }>('/api/open', { path })).name);
-    } catch (reason) {
-      setProblem((reason as Error).message);
-    }
-  };
   const done = Math.min(...turns.map((turn) => turn.state?.samples ?? 0), state.samples);
   const pixel: [number, number] = hovered ?? [state.pixel[0] ?? Math.floor((first?.width ?? state.width) / 2), state.pixel[1] ?? Math.floor((first?.height ?? state.height) / 2)];
   return (
     <div class="page">
-      <aside aria-label="Controls">
-        <h1>Render</h1>
-        <Select label="Scene" value={scene} options={scenes.map((s) => ({ value: s.name, label: s.title }))} onChange={show} />
-        {hasServer && <TextField label="Open a file" value="" hint="A path in the folder that the studio was started in" onEnter={(path) => void open(path)} />}
-        {hasServer ? <Drop onScene={show} /> : <p class="quiet">Files of your own need the program: specula studio.</p>}
-        <Message text={problem ?? error} />
-        <div class="actions">
-          <button type="button" class="main" onClick={() => setPlaying(!isPlaying)}>
-            {isPlaying ? 'Pause' : 'Go on'}
-          </button>
-          <button type="button" onClick={() => set({ seed: state.seed + 1 })}>
-            Begin anew
-          </button>
-          <button type="button" disabled={state.camera.length === 0} onClick={() => set({ camera: [] })}>
-            The scene's view
-          </button>
-        </div>
-        <Slider label="Samples per pixel" value={state.samples} min={1} max={4096} isLogarithmic isInteger onInput={(samples) => set({ samples })} />
-        <Looks state={state} set={set} hasReference={reference !== undefined} />
-        <Treatments state={state} set={set} energies={first?.energies ?? []} />
-        <MaterialControls state={state} set={set} materials={first?.materials ?? []} picked={picked} onPick={setPicked} of={letters.some((l) => l === of) ? of : 'all'} onOf={setOf} />
-      </aside>
+      <Controls
+        state={state}
+        set={set}
+        scenes={scenes}
+        scene={scene}
+        onScene={show}
+        problem={problem ?? error}
+        onProblem={setProblem}
+        isPlaying={isPlaying}
+        onPlaying={setPlaying}
+        opened={first}
+        hasReference={reference !== undefined}
+        picked={picked}
+        onPick={setPicked}
+      />
       <div class="content">
         <Panel title={letters.length > 1 ? `Pictures: ${letters.join(', ')} from the left` : 'Picture'} wide actions={first === undefined ? undefined : <Saves turn={turns[0] as Turn} failed={setProblem} />}>
           {turns.map((turn, i) => (turn.error === undefined ? null : <Message key={i} text={turn.error} />))}
@@ -152,35 +132,6 @@ function useMaps(turns: Turn[], reference: Turn | undefined, show: string): (Flo
         return undefined;
       }),
     [show, reference?.colour, ...stamps, ...Array(8 - stamps.length).fill(undefined)],
-  );
-}
-
-/** How pictures are shown, and who renders them. */
-function Looks({ state, set, hasReference }: { state: RenderState; set: Set; hasReference: boolean }) {
-  const shown = [
-    { value: 'picture', label: 'Picture' },
-    { value: 'noise', label: 'Noise' },
-    ...(hasReference ? [{ value: 'error', label: 'Error' }] : []),
-  ];
-  return (
-    <>
-      <Choice label="Show" value={state.show} options={shown} onChange={(now) => set({ show: now })} />
-      <Slider label="Exposure" unit="stops" value={state.exposure} min={-8} max={8} onInput={(exposure) => set({ exposure })} />
-      <Select label="Tone curve" value={toneOf(state.tone).id} options={TONES.map(({ id, name }) => ({ value: id, label: name }))} onChange={(tone) => set({ tone })} />
-      <p class="quiet">{toneOf(state.tone).source}.</p>
-      <Slider label="Width" unit="pixels" value={state.width} min={32} max={1920} isLogarithmic isInteger onInput={(width) => set({ width })} />
-      <Slider label="Height" unit="pixels" value={state.height} min={18} max={1080} isLogarithmic isInteger onInput={(height) => set({ height })} />
-      <Select
-        label="Rendered by"
-        value={state.by}
-        options={[
-          { value: 'auto', label: 'what is faster' },
-          { value: 'gpu', label: 'WebGPU' },
-          { value: 'processor', label: backend === 'wasm' ? 'the library in WebAssembly' : 'the library on the processor' },
-        ]}
-        onChange={(by) => set({ by })}
-      />
-    </>
   );
 }
 

@@ -129,7 +129,7 @@ function Comparison({ setup, state }: Part) {
     <Panel title="All samplers" isPending={isPending}>
       <Message text={isAbove ? error : undefined} />
       {!isAbove && <p class="quiet">Estimates are compared for views above the horizon.</p>}
-      <div class="scroll">
+      <div class="scroll" role="region" tabIndex={0} aria-label="All samplers, a table">
         <table>
           <thead>
             <tr>
