@@ -32,7 +32,7 @@ export function Inspector({ turns, reference, pixel, isHovered, onPixel }: Inspe
     <Panel title="Pixel">
       <Slider label="Column" value={place[0]} min={0} max={width - 1} steps={Math.max(1, width - 1)} isInteger onInput={(x) => onPixel([x, place[1]])} />
       <Slider label="Row" value={place[1]} min={0} max={height - 1} steps={Math.max(1, height - 1)} isInteger onInput={(y) => onPixel([place[0], y])} />
-      <div class="scroll" role="region" tabIndex={0} aria-label="Values of the pixel, which may be wider than the page">
+      <div class="scroll" role="region" tabIndex={0} aria-label="Values, a table">
         <table aria-label="Values of the pixel">
           <thead>
             <tr>
