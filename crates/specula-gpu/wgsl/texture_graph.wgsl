@@ -89,6 +89,7 @@ fn texture_graph_value(root: u32, place: TextureCoordinates) -> vec3f {
     var waiting: array<TextureWaiting, TEXTURE_WAITING>;
     var count = 0u;
     var at = root;
+    var value: vec3f;
     loop {
         let kind = word(at);
         if kind >= TEXTURE_SCALE {
@@ -102,7 +103,7 @@ fn texture_graph_value(root: u32, place: TextureCoordinates) -> vec3f {
             at = word(at + select(2u, 1u, texture_graph_shows_first(at, place)));
             continue;
         }
-        var value = texture_graph_leaf(at, place);
+        value = texture_graph_leaf(at, place);
         // Nodes that waited for this value alone are done; one that needs another input continues.
         at = NONE;
         while count > 0u && at == NONE {
@@ -128,10 +129,10 @@ fn texture_graph_value(root: u32, place: TextureCoordinates) -> vec3f {
             }
         }
         if at == NONE {
-            return value;
+            break;
         }
     }
-    return vec3f(0.0);
+    return value;
 }
 
 /// A node that waits for its inputs, of which none has been evaluated.

@@ -223,7 +223,7 @@ fn traverse(ray: Ray, any: bool) -> Hit {
             continue;
         }
         if any && best.instance != NONE {
-            return best;
+            break;
         }
         while rest == 0u {
             if top == 0u {

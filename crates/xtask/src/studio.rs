@@ -9,12 +9,19 @@ use crate::{Result, workspace};
 /// The pages' sources, from the workspace's root.
 const PAGES: &str = "crates/specula-studio-server/web";
 
+/// Where distributions install Chromium; `SPECULA_CHROMIUM` names another.
+const BROWSER: &str = "/usr/bin/chromium";
+
 /// What to do with the pages.
 #[derive(clap::Args, Default)]
 pub(crate) struct Studio {
     /// Only write the bundle from its sources
     #[arg(long)]
     build: bool,
+    /// The library in WebAssembly, as `cargo xtask studio-wasm` makes it: exported pages compute with it in the tests
+    /// (also by SPECULA_STUDIO_WASM)
+    #[arg(long, value_name = "FILE")]
+    wasm: Option<PathBuf>,
 }
 
 /// Does what was asked for.
@@ -24,22 +31,40 @@ pub(crate) fn run(root: &Path, studio: &Studio) -> Result<()> {
     if studio.build {
         return npm(&pages, &["run", "--silent", "build"]);
     }
-    check_all(root)
+    check(root)?;
+    let browser = std::env::var_os("SPECULA_CHROMIUM").map_or(BROWSER.into(), PathBuf::from);
+    if !browser.exists() {
+        let why = format!("no browser at {}", browser.display());
+        specula_testing::skip("the studio's pages", why, "install chromium");
+        return Ok(());
+    }
+    let wasm = std::env::var_os("SPECULA_STUDIO_WASM").map(PathBuf::from);
+    test(root, studio.wasm.as_ref().or(wasm.as_ref()))
 }
 
-/// Types and the bundle, and the tests of every page.
-fn check_all(root: &Path) -> Result<()> {
-    check(root)?;
-    let pages = root.join(PAGES);
-    let server = Server::start(root)?;
+/// The tests of every page in a browser: of the program, and of what it exports.
+fn test(root: &Path, wasm: Option<&PathBuf>) -> Result<()> {
+    let program = program(root)?;
+    let site = target(root).join("studio-site");
+    if site.exists() {
+        std::fs::remove_dir_all(&site)?;
+    }
+    let mut export = Command::new(&program);
+    export.args(["studio", "--export"]).arg(&site);
+    if let Some(wasm) = wasm {
+        export.arg("--wasm").arg(root.join(wasm));
+    }
+    succeed(export, "--export")?;
+    let server = Server::start(root, &program)?;
     let mut tests = Command::new("npm");
-    tests.current_dir(&pages).args(["run", "--silent", "test"]);
-    tests.env("STUDIO", &server.address);
+    tests.current_dir(root.join(PAGES));
+    tests.args(["run", "--silent", "test"]);
+    tests.env("STUDIO", &server.address).env("SITE", &site);
     succeed(tests, "tests")
 }
 
 /// Types, and whether the bundle is what the sources give.
-pub(crate) fn check(root: &Path) -> Result<()> {
+fn check(root: &Path) -> Result<()> {
     let pages = root.join(PAGES);
     install(&pages)?;
     npm(&pages, &["run", "--silent", "check"])?;
@@ -65,11 +90,35 @@ fn npm(pages: &Path, arguments: &[&str]) -> Result<()> {
 
 fn succeed(mut command: Command, what: &str) -> Result<()> {
     let status = command.status();
-    let status = status.map_err(|e| format!("npm cannot be run (Node.js 20 or newer): {e}"))?;
+    let status = status
+        .map_err(|e| format!("{what} cannot be run (pages need Node.js 20 or newer): {e}"))?;
     match status.success() {
         true => Ok(()),
         false => Err(format!("studio: {what} failed").into()),
     }
+}
+
+fn target(root: &Path) -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or(root.join("target"), PathBuf::from)
+}
+
+/// The program, built as tests are built.
+fn program(root: &Path) -> Result<PathBuf> {
+    let mut build = workspace::cargo(root);
+    build.args([
+        "build",
+        "--workspace",
+        "--tests",
+        "--lib",
+        "--bins",
+        "--quiet",
+    ]);
+    build.args(["--profile", "test", "--features", "specula/full"]);
+    if !build.status()?.success() {
+        return Err("the program does not build".into());
+    }
+    let name = format!("specula{}", std::env::consts::EXE_SUFFIX);
+    Ok(target(root).join("debug").join(name))
 }
 
 /// `specula studio`, until it is dropped.
@@ -79,23 +128,8 @@ struct Server {
 }
 
 impl Server {
-    /// Builds the program as tests are built, and starts it.
-    fn start(root: &Path) -> Result<Self> {
-        let mut build = workspace::cargo(root);
-        build.args([
-            "build",
-            "--workspace",
-            "--tests",
-            "--lib",
-            "--bins",
-            "--quiet",
-        ]);
-        build.args(["--profile", "test", "--features", "specula/full"]);
-        if !build.status()?.success() {
-            return Err("the program does not build".into());
-        }
-        let name = format!("specula{}", std::env::consts::EXE_SUFFIX);
-        let mut command = Command::new(root.join("target/debug").join(name));
+    fn start(root: &Path, program: &Path) -> Result<Self> {
+        let mut command = Command::new(program);
         command.current_dir(root).args(["studio", "--no-open"]);
         let mut process = command.stdout(Stdio::piped()).spawn()?;
         let output = process.stdout.take().ok_or("no output")?;

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use crate::{Result, book, feature_sets, python, studio, tables, tidy, workspace};
+use crate::{Result, book, feature_sets, python, tables, tidy, workspace};
 
 /// How to run the suite.
 #[derive(clap::Args)]
@@ -80,9 +80,11 @@ pub(crate) fn run(root: &Path, suite: &Suite) -> Result<()> {
     let mut suites = Vec::new();
     report.step("tests", || tests(root, skips.path(), &mut suites));
     report.step("python", || python::test(root, skips.path()));
-    report.step("studio", || studio::check(root));
+    report.step("studio", || chore(&["studio"], skips.path()));
     report.step("tables", || tables::run(root, true));
-    report.step("instructions", || instructions(skips.path()));
+    report.step("instructions", || {
+        chore(&["instructions", "--check"], skips.path())
+    });
     report.step("book", || book::run(root, &book::Book::default()));
     report.step("tidy", || tidy::run(root));
     let skipped = skips.read()?;
@@ -102,14 +104,13 @@ fn tests(root: &Path, skips: &Path, suites: &mut Vec<times::Suite>) -> Result<()
     programs::run(root, &environment, suites)
 }
 
-/// Counts instructions in a process of its own, whose skips go to the file too.
-fn instructions(skips: &Path) -> Result<()> {
+/// Another chore in a process of its own, whose skips go to the file too.
+fn chore(arguments: &[&str], skips: &Path) -> Result<()> {
     let mut command = Command::new(std::env::current_exe()?);
-    command.args(["instructions", "--check"]);
-    command.env(specula_testing::FILE, skips);
+    command.args(arguments).env(specula_testing::FILE, skips);
     match command.status()?.success() {
         true => Ok(()),
-        false => Err("`cargo xtask instructions --check` failed".into()),
+        false => Err(format!("`cargo xtask {}` failed", arguments.join(" ")).into()),
     }
 }
 

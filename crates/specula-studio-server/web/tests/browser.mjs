@@ -1,4 +1,5 @@
 // A headless browser for the tests: Chromium with WebGPU and WebGL in software.
+import { join } from 'node:path';
 import { chromium } from 'playwright-core';
 
 const FLAGS = [
@@ -27,9 +28,14 @@ export function launch() {
 export async function open(browser, url, { width = 1280, height = 860, scheme = 'light' } = {}) {
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme });
   const page = await context.newPage();
+  // A machine may be busy with other things.
+  page.setDefaultTimeout(120_000);
   const messages = [];
   page.on('console', (message) => messages.push(`${message.type()}: ${message.text()}`));
   page.on('pageerror', (error) => messages.push(`error: ${error}`));
+  // While pages are written: those of a folder, not the program's own.
+  const folder = process.env.STUDIO_PAGES;
+  if (folder !== undefined) for (const name of ['studio.js', 'studio.css']) await page.route(`**/${name}`, (route) => route.fulfill({ path: join(folder, name) }));
   await page.goto(url);
   return { page, messages, close: () => context.close() };
 }

@@ -1,7 +1,7 @@
 // The page of renders, in a browser.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { at, enter } from './studio.mjs';
+import { addAxe, ask as askIn, at, enter } from './studio.mjs';
 
 const SMALL = 'scene=ball&width=96&height=54';
 let session;
@@ -14,45 +14,171 @@ after(() => session.browser.close());
 async function visit(state) {
   await session.page.goto('about:blank');
   await session.page.goto(at('render', `?${state}`));
-  await session.page.waitForSelector('[data-render="0"]');
+  await session.page.waitForSelector('[data-render="0"]', { timeout: 180000 });
 }
+
+const ask = (request) => askIn(session.page, request);
 
 /** The cells of a render's row. */
 const row = async (i) => (await session.page.locator(`[data-render="${i}"] td`).allInnerTexts()).map((text) => text.trim());
+
+/** Waits until a render has so many samples. */
+const samples = (i, count, timeout = 180000) => session.page.waitForFunction(([render, least]) => Number(document.querySelector(`[data-render="${render}"] td`)?.textContent) >= least, [String(i), count], { timeout });
+
+/** The mean colour that a row shows, and its sessions' samples. */
+const mean = async (i) => (await row(i))[4].split(' ').map(Number);
 
 test('a render takes the samples that it is asked for, and its mean is that of other random numbers', async () => {
   const means = [];
   for (const seed of [1, 2]) {
     await visit(`${SMALL}&samples=64&seed=${seed}`);
-    await session.page.waitForFunction(() => Number(document.querySelector('[data-render="0"] td')?.textContent) >= 64);
-    means.push((await row(0))[4].split(' ').map(Number));
+    await samples(0, 64);
+    means.push(await mean(0));
   }
   for (let k = 0; k < 3; k++) assert.ok(Math.abs(means[0][k] / means[1][k] - 1) < 0.03, JSON.stringify(means));
 });
 
 test('two renders have equal samples', async () => {
-  await visit(`${SMALL}&samples=32&isCompared=true&mode=samples&energyB=turquin`);
-  await session.page.waitForFunction(() => [0, 1].every((i) => Number(document.querySelector(`[data-render="${i}"] td`)?.textContent) >= 32));
+  await visit(`${SMALL}&samples=32&treatments=2&mode=samples&energyB=turquin`);
+  for (const i of [0, 1]) await samples(i, 32);
   assert.equal((await row(0))[0], (await row(1))[0]);
   await session.page.getByText(/A against B: RMSE/).waitFor();
 });
 
 test('two renders have equal time', async () => {
-  await visit(`${SMALL}&samples=4096&isCompared=true&mode=time&energyB=turquin`);
-  await session.page.waitForFunction(() => [0, 1].every((i) => Number(document.querySelector(`[data-render="${i}"]`)?.children[2]?.textContent) > 1.5), undefined, { timeout: 20000 });
+  await visit(`${SMALL}&samples=4096&treatments=2&mode=time&energyB=turquin`);
+  await session.page.waitForFunction(() => [0, 1].every((i) => Number(document.querySelector(`[data-render="${i}"]`)?.children[2]?.textContent) > 1.5), undefined, { timeout: 180000 });
   const [a, b] = [Number((await row(0))[1]), Number((await row(1))[1])];
-  assert.ok(Math.abs(a / b - 1) < 0.3, `${a} and ${b}`);
+  assert.ok(Math.abs(a / b - 1) < 0.35, `${a} and ${b}`);
 });
 
 test('equal time ends at equal time', async () => {
-  await visit(`${SMALL}&samples=40&isCompared=true&mode=time&energyB=turquin&scene=orbs`);
-  await session.page.waitForFunction(() => [0, 1].some((i) => Number(document.querySelector(`[data-render="${i}"] td`)?.textContent) >= 40));
+  await visit(`${SMALL}&samples=40&treatments=2&mode=time&energyB=turquin&scene=orbs`);
+  await session.page.waitForFunction(() => [0, 1].some((i) => Number(document.querySelector(`[data-render="${i}"] td`)?.textContent) >= 40), undefined, { timeout: 180000 });
   await session.page.waitForTimeout(1500);
   const [a, b] = [Number((await row(0))[1]), Number((await row(1))[1])];
   assert.ok(Math.abs(a - b) < 0.6, `${a} and ${b}`);
 });
 
-test('a drag turns the camera, and the address keeps it', async () => {
+test('four treatments have three dividers, which arrow keys and the mouse move', async () => {
+  await visit(`${SMALL}&samples=4&treatments=4&mode=samples`);
+  await samples(3, 4);
+  const dividers = session.page.getByRole('separator');
+  assert.equal(await dividers.count(), 3);
+  await dividers.nth(1).focus();
+  for (let i = 0; i < 5; i++) await session.page.keyboard.press('ArrowRight');
+  assert.equal(await dividers.nth(1).getAttribute('aria-valuenow'), '55');
+  await session.page.keyboard.press('End');
+  assert.equal(await dividers.nth(1).getAttribute('aria-valuenow'), '75');
+  const box = await session.page.locator('.layers').boundingBox();
+  await session.page.mouse.move(box.x + box.width / 4, box.y + 40);
+  await session.page.mouse.down();
+  await session.page.mouse.move(box.x + box.width / 10, box.y + 40, { steps: 3 });
+  await session.page.mouse.up();
+  await session.page.waitForFunction(() => /dividers=0\.(1|099|101)/.test(location.hash));
+  assert.ok(!(await session.page.evaluate(() => location.hash.includes('camera='))));
+});
+
+test('errors against a reference are those of the library, and fall as they should', async () => {
+  await visit(`${SMALL}&samples=128&mode=samples&reference=A`);
+  await samples(0, 128);
+  await session.page.getByRole('img', { name: /RMSE over seconds/ }).waitFor({ timeout: 180000 });
+  await session.page.getByRole('button', { name: 'Pause' }).click();
+  const told = session.page.getByText(/A against the reference: RMSE/);
+  await told.waitFor();
+  // The library's comparison is of what the table shows, once both rest.
+  await session.page.waitForFunction(() => {
+    const said = [...document.querySelectorAll('p')].map((p) => /A against the reference: RMSE ([^,]+),/.exec(p.textContent)?.[1]).find((x) => x !== undefined);
+    return Math.abs(Number(said) / Number(document.querySelector('[data-render="0"]').children[6].textContent) - 1) < 0.01;
+  });
+  await session.page.getByLabel('Samples', { exact: true }).check({ force: true });
+  const path = await session.page.locator('.plot .series').first().getAttribute('d');
+  const points = path.match(/[\d.]+,[\d.]+/g).map((pair) => pair.split(',').map(Number));
+  assert.ok(points.length >= 4 && points.at(-1)[1] > points[0][1], 'the error falls');
+  for (const show of ['Noise', 'Error']) {
+    await session.page.getByLabel(show, { exact: true }).check({ force: true });
+    await session.page.getByText('100 %', { exact: true }).waitFor();
+  }
+});
+
+/** Mean of a picture's rows by the library, and the standard deviation of that mean. */
+async function libraryMean(request, count) {
+  const { value } = await ask({ ask: 'render.open', scene: 'ball', width: 96, height: 54, ...request });
+  const { arrays } = await ask({ ask: 'render.advance', session: value.session, samples: count, wants: ['colour', 'variance'] });
+  await ask({ ask: 'render.close', session: value.session });
+  return moments(arrays.colour, arrays.variance);
+}
+
+function moments(colour, variance) {
+  const pixels = colour.length / 3;
+  const sum = (values, k) => values.reduce((s, v, i) => (i % 3 === k ? s + v : s), 0);
+  return [0, 1, 2].map((k) => ({ mean: sum(colour, k) / pixels, error: Math.sqrt(sum(variance, k)) / pixels }));
+}
+
+test("compared renders converge to the library's picture: z-test", async () => {
+  for (const mode of ['samples', 'time']) {
+    await visit(`${SMALL}&samples=96&treatments=2&mode=${mode}&energyA=none&energyB=turquin&samplerA=heitz&samplerB=exact&seed=5`);
+    await session.page.waitForFunction(() => [0, 1].some((i) => Number(document.querySelector(`[data-render="${i}"] td`)?.textContent) >= 96), undefined, { timeout: 180000 });
+    for (const [i, energy] of ['none', 'turquin'].entries()) {
+      const count = Number((await row(i))[0]);
+      const found = await mean(i);
+      const wanted = await libraryMean({ energy, seed: 77 }, 256);
+      wanted.forEach(({ mean: expected, error }, k) => {
+        // What is shown has four digits behind the point.
+        const deviation = Math.hypot(error, error * Math.sqrt(256 / count), 0.5e-4);
+        assert.ok(Math.abs(found[k] - expected) < 4.5 * deviation, `${mode}, ${energy}: ${found[k]}, expected ${expected} +- ${deviation}`);
+      });
+    }
+  }
+});
+
+test('WebGPU takes the same samples: z-test, progress while its shader compiles, and the library where the GPU is lost', async () => {
+  session.messages.splice(0);
+  await session.page.addInitScript(() => {
+    const request = globalThis.GPUAdapter?.prototype.requestDevice;
+    if (request === undefined) return;
+    GPUAdapter.prototype.requestDevice = async function (...given) {
+      globalThis.lastDevice = await request.apply(this, given);
+      return globalThis.lastDevice;
+    };
+  });
+  await session.page.goto('about:blank');
+  await session.page.goto(at('render', '?scene=ball&width=32&height=18&samples=24&by=gpu&mode=samples'));
+  await session.page.getByText(/Compiling [\d,]+ lines of WGSL/).waitFor({ timeout: 180000 });
+  // The page answers meanwhile.
+  const begun = Date.now();
+  await session.page.getByRole('button', { name: 'Pause' }).click();
+  await session.page.getByRole('button', { name: 'Go on' }).click();
+  assert.ok(Date.now() - begun < 3000, `${Date.now() - begun} ms for two clicks`);
+  await samples(0, 24, 240000);
+  await session.page.locator('[data-by=gpu]').waitFor();
+  const found = await mean(0);
+  const wanted = await libraryMean({ width: 32, height: 18, seed: 9 }, 256);
+  wanted.forEach(({ mean: expected, error }, k) => {
+    const deviation = Math.hypot(error, error * Math.sqrt(256 / 24), 0.5e-4);
+    assert.ok(Math.abs(found[k] - expected) < 4.5 * deviation, `${found[k]}, expected ${expected} +- ${deviation}`);
+  });
+  // With the same random numbers the pixels are the same, up to rounding: the deviation too.
+  const { value } = await ask({ ask: 'render.open', scene: 'ball', width: 32, height: 18, seed: 1 });
+  const { arrays } = await ask({ ask: 'render.advance', session: value.session, samples: 24, wants: ['colour', 'variance'] });
+  const cells = await session.page.locator('[data-pixel=A] td').allInnerTexts();
+  const middle = 3 * (9 * 32 + 16);
+  for (let k = 0; k < 3; k++) assert.ok(Math.abs(Number(cells[k]) / arrays.colour[middle + k] - 1) < 0.02, `${cells[k]} and ${arrays.colour[middle + k]}`);
+  const weights = [0.2126, 0.7152, 0.0722];
+  const deviation = weights.reduce((sum, w, k) => sum + w * Math.sqrt(arrays.variance[middle + k]), 0);
+  assert.ok(Math.abs(Number(cells[4]) / deviation - 1) < 0.06, `${cells[4]} and ${deviation}`);
+  const [download] = await Promise.all([session.page.waitForEvent('download'), session.page.getByRole('button', { name: 'EXR', exact: true }).click()]);
+  const { readFile } = await import('node:fs/promises');
+  const exr = await readFile(await download.path());
+  assert.deepEqual([...exr.subarray(0, 4)], [0x76, 0x2f, 0x31, 0x01]);
+  assert.deepEqual(session.messages, []);
+  await session.page.evaluate(() => globalThis.lastDevice.destroy());
+  await session.page.getByRole('spinbutton', { name: 'Samples per pixel' }).fill('64');
+  await session.page.getByText(/By the library on the processor: the GPU was lost/).waitFor();
+  await samples(0, 64);
+});
+
+test('a drag turns the camera, and the address keeps it; so do arrow keys', async () => {
   await visit(`${SMALL}&samples=4`);
   const box = await session.page.locator('canvas.picture').boundingBox();
   await session.page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
@@ -60,21 +186,53 @@ test('a drag turns the camera, and the address keeps it', async () => {
   await session.page.mouse.move(box.x + box.width / 2 + 60, box.y + box.height / 2, { steps: 4 });
   await session.page.mouse.up();
   await session.page.waitForFunction(() => location.hash.includes('camera='));
+  const before = await session.page.evaluate(() => location.hash);
+  await session.page.locator('.layers').focus();
+  await session.page.keyboard.press('ArrowUp');
+  await session.page.waitForFunction((hash) => location.hash !== hash, before);
+  // What was dragged is what the library renders for that camera.
+  await samples(0, 4);
+  const numbers = await session.page.evaluate(() => /camera=([^&]+)/.exec(location.hash)[1].split(',').map(Number));
+  const camera = { eye: numbers.slice(0, 3), target: numbers.slice(3, 6), up: numbers.slice(6, 9), fovDegrees: numbers[9] };
+  await session.page.waitForTimeout(500);
+  await samples(0, 4);
+  const found = await mean(0);
+  const wanted = await libraryMean({ camera, seed: 1 }, 64);
+  wanted.forEach(({ mean: expected, error }, k) => assert.ok(Math.abs(found[k] - expected) < 6 * error * 4 + 1e-4, `${found[k]}, expected ${expected}`));
+  await session.page.getByRole('button', { name: "The scene's view" }).click();
+  await session.page.waitForFunction(() => !location.hash.includes('camera='));
 });
 
-test('a click picks a material, whose text changes the picture', async () => {
+test('a click picks a material, whose text and sliders change the picture', async () => {
   await visit(`${SMALL}&samples=16`);
-  await session.page.waitForFunction(() => Number(document.querySelector('[data-render="0"] td')?.textContent) >= 16);
+  await samples(0, 16);
   const before = (await row(0))[4];
   const box = await session.page.locator('canvas.picture').boundingBox();
   await session.page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
   await session.page.getByLabel('As text').fill('diffuse 0.9 0.05 0.05');
   await session.page.getByLabel('As text').press('Enter');
   await session.page.waitForFunction(() => location.hash.includes('edits='));
-  await session.page.waitForFunction((text) => {
-    const cells = [...document.querySelectorAll('[data-render="0"] td')].map((c) => c.textContent);
-    return Number(cells[0]) >= 16 && cells[4] !== text;
-  }, before);
+  const changed = (text) =>
+    session.page.waitForFunction((old) => {
+      const cells = [...document.querySelectorAll('[data-render="0"] td')].map((c) => c.textContent);
+      return Number(cells[0]) >= 16 && cells[4] !== old;
+    }, text);
+  await changed(before);
+  const red = (await row(0))[4];
+  await session.page.getByRole('spinbutton', { name: 'reflectance red' }).fill('0.1');
+  await session.page.waitForFunction(() => decodeURIComponent(location.hash).includes('diffuse+0.1+0.05+0.05'));
+  await changed(red);
+  await session.page.getByText('Scene as text').click();
+  await session.page.locator('.scene-text').filter({ hasText: 'diffuse 0.1 0.05 0.05' }).waitFor();
+  await session.page.getByRole('button', { name: "The scene's own" }).click();
+  await session.page.waitForFunction(() => !location.hash.includes('edits='));
+  await session.page.waitForFunction((old) => document.querySelectorAll('[data-render="0"] td')[4]?.textContent === old, before);
+});
+
+test('a material of one treatment alone', async () => {
+  await visit(`${SMALL}&samples=16&treatments=2&mode=samples&energyB=&editsB=0=diffuse+0.1`);
+  for (const i of [0, 1]) await samples(i, 16);
+  assert.notDeepEqual(await mean(0), await mean(1));
 });
 
 test('what is no scene and no material is said in words', async () => {
@@ -87,10 +245,80 @@ test('what is no scene and no material is said in words', async () => {
   await session.page.getByRole('alert').filter({ hasText: 'plaster' }).waitFor();
 });
 
+const OBJ = 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n';
+
+test('dropped files are opened, and what is wrong with them is said', async () => {
+  await visit(`${SMALL}&samples=4`);
+  const drop = (files) =>
+    session.page.evaluate((all) => {
+      const data = new DataTransfer();
+      for (const [name, text] of all) data.items.add(new File([text], name));
+      document.body.dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
+    }, files);
+  await drop([['notes.txt', 'nothing']]);
+  await session.page.getByRole('alert').filter({ hasText: 'no scene among the files' }).waitFor();
+  await drop([['bad.pbrt', 'Camera "round"\nWorldBegin\n']]);
+  await session.page.getByRole('alert').filter({ hasText: 'bad.pbrt:1' }).waitFor();
+  await drop([['a.obj', OBJ], ['b.obj', OBJ]]);
+  await session.page.getByRole('alert').filter({ hasText: 'several scenes' }).waitFor();
+  await session.page.getByRole('button', { name: 'b.obj' }).click();
+  await session.page.waitForFunction(() => decodeURIComponent(location.hash).includes('b.obj'));
+  await samples(0, 4);
+  await session.page.getByLabel(/Drop a scene/).setInputFiles({ name: 'square.obj', mimeType: 'text/plain', buffer: Buffer.from(OBJ) });
+  await session.page.waitForFunction(() => decodeURIComponent(location.hash).includes('square.obj'));
+});
+
+test('the inspector shows the pixel of the address and the one below the pointer', async () => {
+  await visit(`${SMALL}&samples=8&pixel=10,20`);
+  await samples(0, 8);
+  assert.equal(await session.page.getByRole('spinbutton', { name: 'Column' }).inputValue(), '10');
+  const { value } = await ask({ ask: 'render.open', scene: 'ball', width: 96, height: 54, seed: 1 });
+  const { arrays } = await ask({ ask: 'render.advance', session: value.session, samples: 8, wants: ['colour'] });
+  const cells = await session.page.locator('[data-pixel=A] td').allInnerTexts();
+  for (let k = 0; k < 3; k++) assert.ok(Math.abs(Number(cells[k]) / arrays.colour[3 * (20 * 96 + 10) + k] - 1) < 0.01, `${cells[k]}`);
+  const box = await session.page.locator('.layers').boundingBox();
+  await session.page.mouse.move(box.x + (70.5 / 96) * box.width, box.y + (30.5 / 54) * box.height);
+  await session.page.waitForFunction(() => [...document.querySelectorAll('input[type=number]')].some((input) => input.value === '70'));
+  await session.page.getByText('Below the pointer.').waitFor();
+});
+
+test('tone curves and exposure change what is shown, not the figures', async () => {
+  await visit(`${SMALL}&samples=4`);
+  await samples(0, 4);
+  const shown = () => session.page.locator('canvas.picture').evaluate((canvas) => [...canvas.getContext('2d').getImageData(48, 27, 1, 1).data].join());
+  const seen = new Set([await shown()]);
+  const before = await row(0);
+  for (const tone of ['reinhard', 'aces', 'agx', 'neutral']) {
+    await session.page.getByLabel('Tone curve').selectOption(tone);
+    await session.page.waitForFunction((name) => location.hash.includes(`tone=${name}`), tone);
+    await session.page.waitForTimeout(100);
+    seen.add(await shown());
+  }
+  // The neutral curve is linear but for a shift where colours are dark.
+  assert.ok(seen.size >= 4, [...seen].join(' | '));
+  assert.deepEqual(await row(0), before);
+});
+
 test('pictures are saved', async () => {
   await visit(`${SMALL}&samples=4`);
   for (const name of ['EXR', 'PNG']) {
     const [download] = await Promise.all([session.page.waitForEvent('download'), session.page.getByRole('button', { name, exact: true }).click()]);
     assert.ok(download.suggestedFilename().endsWith(name.toLowerCase()));
   }
+});
+
+test('axe has nothing to say, nor the console', async () => {
+  session.messages.splice(0);
+  for (const scheme of ['light', 'dark']) {
+    await session.page.emulateMedia({ colorScheme: scheme });
+    await visit(`${SMALL}&samples=4&treatments=3&reference=A&show=noise&mode=samples`);
+    await samples(2, 4);
+    await session.page.getByLabel('Material', { exact: true }).selectOption('0');
+    await session.page.getByText('Scene as text').click();
+    await addAxe(session.page);
+    const found = await session.page.evaluate(() => globalThis.axe.run(document, { runOnly: ['wcag2a', 'wcag2aa'] }));
+    assert.deepEqual(found.violations.map((v) => `${v.id}: ${v.nodes[0].html}`), []);
+  }
+  await session.page.emulateMedia({ colorScheme: 'light' });
+  assert.deepEqual(session.messages, []);
 });

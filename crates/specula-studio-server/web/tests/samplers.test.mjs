@@ -10,9 +10,10 @@ before(async () => {
 });
 after(() => session.browser.close());
 
-async function visit(state = '') {
+/** Without rain, which keeps software WebGL busy. */
+async function visit(state = '?', rain = false) {
   await session.page.goto('about:blank');
-  await session.page.goto(at('samplers', state));
+  await session.page.goto(at('samplers', `${state}${state === '?' ? '' : '&'}rain=${rain}`));
   await session.page.waitForSelector('[data-figure=p]');
 }
 
@@ -38,7 +39,7 @@ test('figures are those of the library, and no sampler fails its density', async
 
 test('controls change the state, and the address reopens it', async () => {
   await visit();
-  await session.page.getByLabel('Exact').check({ force: true });
+  await session.page.getByRole('radio', { name: 'Exact' }).check({ force: true });
   await session.page.getByRole('spinbutton', { name: 'alpha x' }).fill('0.25');
   await session.page.waitForFunction(() => location.hash.includes('sampler=exact') && location.hash.includes('alpha=0.25,0.6'));
   const hash = await session.page.evaluate(() => location.hash);
@@ -63,6 +64,92 @@ test('a lamp changes the comparison', async () => {
   const { rows } = await ask({ ask: 'samplers.compare', alpha: [0.6, 0.6], wo: wo(25), lamp: { towards: [-wo(30)[0], 1.0605752387249068e-16, wo(30)[2]], angle: (20 * Math.PI) / 180 }, count: 20000, seed: 1 });
   const mean = Number((await row.innerText()).split(/\s+/)[3]);
   assert.ok(Math.abs(mean - rows[3].mean) < 2e-3, `${mean} and ${rows[3].mean}`);
+});
+
+const ALL = ['heitz', 'cap', 'bounded', 'exact'];
+
+test('samples rain in, can be stopped, and are all there where motion is not wanted', async () => {
+  const { page } = session;
+  const count = async () => (await figure('accepted')).split(', ').reduce((sum, n) => sum + Number(n), 0);
+  await visit('?', true);
+  await page.getByRole('button', { name: 'Let them rain' }).click();
+  await page.getByRole('button', { name: 'Pause' }).click();
+  await page.waitForTimeout(300);
+  const stopped = await count();
+  assert.ok(stopped < 4000, `${stopped}`);
+  await page.waitForTimeout(400);
+  assert.equal(await count(), stopped);
+  await page.getByRole('button', { name: 'Go on' }).click();
+  await page.waitForFunction(() => document.querySelector('[data-figure=accepted]').textContent.split(', ').reduce((a, b) => a + Number(b), 0) === 4000);
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await visit('?', true);
+  await page.waitForFunction(() => document.querySelector('[data-figure=accepted]').textContent !== '');
+  assert.equal(await count(), 4000);
+  await page.emulateMedia({ reducedMotion: 'no-preference' });
+});
+
+test('the legend hides parts, in the address too', async () => {
+  const { page } = session;
+  await visit('?');
+  const pixels = () => page.locator('.space canvas').first().evaluate((canvas) => canvas.toDataURL().length);
+  await page.waitForTimeout(500);
+  const before = await pixels();
+  await page.getByRole('button', { name: /Accepted samples/ }).click();
+  await page.waitForFunction(() => location.hash.includes('hides=accepted'));
+  await page.waitForTimeout(500);
+  assert.ok((await pixels()) < 0.8 * before);
+  await page.reload();
+  assert.equal(await page.getByRole('button', { name: /Accepted samples/ }).getAttribute('aria-pressed'), 'false');
+});
+
+test('a sample is read out by its number and below the pointer', async () => {
+  const { page } = session;
+  await visit('?sample=7');
+  const { arrays } = await askIn(page, { ask: 'samplers.samples', sampler: 'bounded', alpha: [0.6, 0.6], wo: wo(25), count: 4000, seed: 1 });
+  const theta = (Math.acos(arrays.wi[3 * 6 + 2]) * 180) / Math.PI;
+  await page.waitForFunction((text) => document.querySelector('[data-figure=sample]').textContent.includes(text), `Sample 7: wi at theta ${theta.toFixed(1)}`);
+  const box = await page.locator('.space').first().boundingBox();
+  await page.mouse.move(box.x + 0.42 * box.width, box.y + 0.4 * box.height);
+  await page.waitForFunction(() => !document.querySelector('[data-figure=sample]').textContent.includes('Sample 7:'));
+});
+
+test('all samplers are side by side, as the library counts them', async () => {
+  await visit();
+  for (const sampler of ALL) {
+    const { rejected } = await ask({ ask: 'samplers.histogram', sampler, alpha: [0.6, 0.6], wo: wo(25), size: 32, count: 50000, seed: 1 });
+    await session.page.locator(`[data-multiple=${sampler}]`).getByText(`rejected ${((100 * rejected) / 50000).toFixed(2)} %`).waitFor();
+  }
+  await session.page.locator('[data-multiple=exact] button').click();
+  await session.page.waitForFunction(() => location.hash.includes('sampler=exact'));
+});
+
+test('presets of the paper and its supplement', async () => {
+  const { page } = session;
+  await visit();
+  for (const [group, name, wanted] of [['Supplement, figure 1', 'c', 'alpha=1.5,0.2'], ['Figure 3: regions', '5', 'alpha=1,0.2'], ['Figure 5: along the normal', '0.7', 'elevation=90']]) {
+    await page.getByRole('group', { name: group }).getByRole('button', { name, exact: true }).click();
+    await page.waitForFunction((text) => location.hash.includes(text), wanted);
+  }
+  await page.getByRole('img', { name: 'Densities of samplers and white lobes' }).waitFor();
+});
+
+test("samples of the exported WGSL have the library's density, for every sampler, below the horizon too", async () => {
+  const { page } = session;
+  await visit('?seed=3&alpha=0.9,0.4');
+  const check = async (what) => {
+    await page.getByRole('button', { name: 'Check in WebGPU' }).click();
+    await page.waitForSelector('[data-figure=gpu-p]', { timeout: 120000 });
+    const p = Number(await figure('gpu-p'));
+    assert.ok(p > 1e-4, `${what}: ${p}`);
+  };
+  for (const sampler of ['Heitz', 'Cap', 'Bounded', 'Exact']) {
+    await page.getByRole('radio', { name: sampler }).check({ force: true });
+    await page.waitForFunction(() => document.querySelector('[data-figure=gpu-p]') === null);
+    await check(sampler);
+  }
+  await page.getByRole('spinbutton', { name: /^Elevation/ }).fill('-20');
+  await page.waitForFunction(() => document.querySelector('[data-figure=gpu-p]') === null);
+  await check('below the horizon');
 });
 
 test('nothing is said on the console, and axe has nothing to say', async () => {

@@ -17,7 +17,7 @@ export async function enter() {
 /** The address of a page of the studio, with its state. */
 export const at = (page, state = '') => `${new URL(address).origin}/#/${page}${state}`;
 
-/** Asks the library as pages do; arrays as lists. */
+/** Asks the library as pages do; arrays as lists, of bytes their number alone. */
 export function ask(page, request) {
   return page.evaluate(async (body) => {
     const response = await fetch('/api/ask', { method: 'POST', headers: { 'content-type': 'application/json', 'x-specula': '1' }, body: JSON.stringify(body) });
@@ -27,7 +27,8 @@ export function ask(page, request) {
     const arrays = {};
     for (const { name, type, shape, offset } of head.arrays ?? []) {
       const count = shape.reduce((a, b) => a * b, 1);
-      arrays[name] = Array.from(new (type === 'u32' ? Uint32Array : Float32Array)(buffer, 4 + length + offset, count));
+      if (type === 'u8') arrays[name] = count;
+      else arrays[name] = Array.from(new (type === 'u32' ? Uint32Array : Float32Array)(buffer, 4 + length + offset, count));
     }
     return { value: head.value, error: head.error, arrays };
   }, request);

@@ -1,6 +1,6 @@
 /** The state of a page in its address, so that a link reopens it: `#/samplers?alpha=0.3,0.1&sampler=cap`. */
 
-import { useCallback, useEffect, useState } from 'preact/hooks';
+import { useCallback, useEffect, useMemo, useState } from 'preact/hooks';
 
 /** What is kept of a page: by key, a number, a word, a flag, or numbers. */
 export type State = Record<string, string | number | boolean | number[]>;
@@ -46,22 +46,61 @@ function read<S extends State>(defaults: S): S {
   return state as S;
 }
 
+/** Milliseconds between changes of the address: browsers refuse a page that changes it a hundred times in ten seconds. */
+const PAUSE = 120;
+
+/** Keeps the address up to date: at once, then after pauses. */
+class Writer {
+  private wanted: string | undefined;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(private readonly page: string) {}
+
+  write(address: string): void {
+    this.wanted = address;
+    if (this.timer !== undefined) return;
+    this.flush();
+    this.timer = setTimeout(() => {
+      this.timer = undefined;
+      if (this.wanted !== undefined) this.write(this.wanted);
+    }, PAUSE);
+  }
+
+  /** Writes what waits; nothing where another page is there already. */
+  flush = (): void => {
+    if (this.wanted !== undefined && pageOfAddress() === this.page) history.replaceState(null, '', this.wanted);
+    this.wanted = undefined;
+  };
+
+  /** Forgets what waits: the address was changed by someone else. */
+  drop(): void {
+    this.wanted = undefined;
+  }
+}
+
 /** The state of a page, kept in the address; `set` merges. Use it once in a page, at its root. */
 export function useAddress<S extends State>(page: string, defaults: S): [S, (change: Partial<S>) => void] {
   const [state, setState] = useState<S>(() => read(defaults));
+  const writer = useMemo(() => new Writer(page), [page]);
   useEffect(() => {
     const changed = () => {
+      writer.drop();
       if (pageOfAddress() === page) setState(read(defaults));
     };
     addEventListener('hashchange', changed);
-    return () => removeEventListener('hashchange', changed);
+    addEventListener('pagehide', writer.flush);
+    return () => {
+      removeEventListener('hashchange', changed);
+      removeEventListener('pagehide', writer.flush);
+      writer.drop();
+    };
   }, [page]);
   const set = useCallback(
     (change: Partial<S>) =>
       setState((before) => {
         const now = { ...before, ...change };
         const kept = Object.entries(now).filter(([key, value]) => String(value) !== String(defaults[key]));
-        history.replaceState(null, '', link(page, Object.fromEntries(kept)));
+        writer.write(link(page, Object.fromEntries(kept)));
         return now;
       }),
     [page],

@@ -21,14 +21,18 @@ declare global {
 
 /** Where requests are answered. */
 export type Backend = 'server' | 'wasm' | 'none';
-export const backend: Backend =
-  globalThis.SPECULA_WASM !== undefined ? 'wasm' : location.protocol.startsWith('http') ? 'server' : 'none';
+export const backend: Backend = globalThis.SPECULA_WASM !== undefined ? 'wasm' : isExported() ? 'none' : 'server';
+
+/** Whether the page is one that `specula studio --export` wrote. */
+function isExported(): boolean {
+  return !location.protocol.startsWith('http') || document.querySelector('meta[name=generator]') !== null;
+}
 
 /** The answer to a request. `signal`: gives up waiting for it; `isLast`: it is sent even where the page goes away. */
 export async function ask<K extends Ask>(request: Protocol[K][0] & { ask: K }, signal?: AbortSignal, isLast = false): Promise<Answer<K>> {
   const text = JSON.stringify(request);
   if (backend === 'wasm') return decode<K>(await askWorker(text, signal));
-  if (backend === 'none') throw new AskError('this page has neither a server nor the WebAssembly module');
+  if (backend === 'none') throw new AskError('this page has neither a program nor the WebAssembly module: export it with --wasm, or start `specula studio`');
   let response: Response;
   try {
     response = await fetch('/api/ask', {

@@ -32,7 +32,7 @@ export function Heats({ rows, columns, counts, expected, axes = 'cos theta downw
   );
 }
 
-function Heat(props: { label: string; axes: string; rows: number; columns: number; shares: number[]; colour: (share: number) => [number, number, number] }) {
+export function Heat(props: { label: string; axes: string; rows: number; columns: number; shares: number[]; colour: (share: number) => [number, number, number] }) {
   const { label, axes, rows, columns, shares, colour } = props;
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => {

@@ -15,6 +15,14 @@ export interface SpaceProps {
   /** Called while something named in `draggable` is dragged, with the point of the unit sphere below the pointer. */
   onDrag?: (name: string, point: Vec3) => void;
   draggable?: string[];
+  /** Drawn as well; made anew more often than `contents`. */
+  marks?: Object3D[];
+  /** Words at points, beside the picture. */
+  labels?: { text: string; at: Vec3 }[];
+  /** Whether another frame should follow; asked at each. */
+  animate?: () => boolean;
+  /** The point of the unit sphere below the pointer; `undefined`: there is none. */
+  onHover?: (point: Vec3 | undefined) => void;
 }
 
 interface Parts {
@@ -63,6 +71,8 @@ export function Space(props: SpaceProps) {
       requestAnimationFrame(() => {
         isAsked = false;
         renderer.render(scene, camera);
+        placeLabels(element, camera, latest.current.labels ?? []);
+        if (parts.current !== undefined && latest.current.animate?.() === true) draw();
       });
     };
     controls.addEventListener('change', draw);
@@ -92,7 +102,7 @@ export function Space(props: SpaceProps) {
     const now = parts.current;
     if (now === undefined) return;
     now.scene.clear();
-    now.scene.add(...props.contents);
+    now.scene.add(...props.contents, ...(props.marks ?? []));
     now.draw();
     return () => {
       // After the next ones are drawn, which then find their programs compiled.
@@ -100,7 +110,39 @@ export function Space(props: SpaceProps) {
       requestAnimationFrame(() => requestAnimationFrame(() => old.forEach((object) => object.traverse(dispose))));
     };
   }, [props.contents]);
-  return <div class="space" ref={host} />;
+  useEffect(() => {
+    const now = parts.current;
+    if (now === undefined || props.marks === undefined) return;
+    const marks = props.marks;
+    if (marks.length > 0) now.scene.add(...marks);
+    now.draw();
+    return () => {
+      if (marks.length > 0) now.scene.remove(...marks);
+      marks.forEach((object) => object.traverse(dispose));
+    };
+  }, [props.marks]);
+  useEffect(() => parts.current?.draw(), [props.animate]);
+  return (
+    <div class="space" ref={host}>
+      {(props.labels ?? []).map(({ text }) => (
+        <span key={text} class="label" aria-hidden="true">
+          {text}
+        </span>
+      ))}
+    </div>
+  );
+}
+
+/** Moves words to their points, behind the sphere fainter. */
+function placeLabels(host: HTMLElement, camera: PerspectiveCamera, labels: { at: Vec3 }[]): void {
+  const { width, height } = host.getBoundingClientRect();
+  host.querySelectorAll<HTMLElement>(':scope > .label').forEach((element, i) => {
+    const point = new Vector3(...(labels[i]?.at ?? [0, 0, 0]));
+    const isBehind = point.dot(camera.position) < 0;
+    point.project(camera);
+    element.style.transform = `translate(-50%, -50%) translate(${((point.x + 1) / 2) * width}px, ${((1 - point.y) / 2) * height}px)`;
+    element.style.opacity = isBehind ? '.6' : '1';
+  });
 }
 
 function dispose(object: Object3D): void {
@@ -129,16 +171,23 @@ function listenToDragging({ renderer, scene, camera, controls }: Parts, props: (
     canvas.setPointerCapture(event.pointerId);
   };
   const move = (event: PointerEvent) => {
-    if (dragged === undefined) return;
+    const { onDrag, onHover } = props();
+    const isHovering = onHover !== undefined && event.buttons === 0;
+    if (dragged === undefined && !isHovering) return;
     aim(event);
     const { origin, direction } = caster.ray;
     // The nearest point of the sphere: where the ray enters it, or passes closest.
     const along = -origin.dot(direction);
     const nearest = origin.clone().addScaledVector(direction, along);
     const left = 1 - nearest.lengthSq();
-    const point = left > 0 ? origin.clone().addScaledVector(direction, along - Math.sqrt(left)) : nearest.normalize();
-    props().onDrag?.(dragged, new Vector3().copy(point).normalize().toArray() as Vec3);
+    const isHit = left > 0;
+    const point = isHit ? origin.clone().addScaledVector(direction, along - Math.sqrt(left)) : nearest;
+    const unit = point.normalize().toArray() as Vec3;
+    if (dragged !== undefined) onDrag?.(dragged, unit);
+    else onHover?.(isHit ? unit : undefined);
   };
+  const leave = () => props().onHover?.(undefined);
+  canvas.addEventListener('pointerleave', leave);
   const up = () => {
     dragged = undefined;
     controls.enabled = true;

@@ -124,7 +124,7 @@ function Results(props: { results: Result[] }) {
   const colour = (holds: string) => ({ yes: 'good', no: 'bad' })[holds] ?? 'quiet';
   return (
     <Panel title="Claims" wide>
-      <div class="scroll">
+      <div class="scroll" role="region" tabIndex={0} aria-label="Experiments, a table">
         <table>
           <thead>
             <tr>

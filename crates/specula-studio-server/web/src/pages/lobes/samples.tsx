@@ -12,7 +12,7 @@ import type { Slot } from './state';
 /** The table of samples by lobe. */
 export function Samples({ layers, samples, count }: { layers: Layer[]; samples: Record<Slot, Answer<'lobes.samples'> | undefined>; count: number }) {
   return (
-    <div class="scroll">
+    <div class="scroll" role="region" tabIndex={0} aria-label="Checks, a table">
       <table aria-label="Samples by lobe">
         <thead>
           <tr>
@@ -84,7 +84,7 @@ function chance(p: number): string {
 /** Checks as a table of words. */
 export function Checks({ checks }: { checks: Check[] }) {
   return (
-    <div class="scroll">
+    <div class="scroll" role="region" tabIndex={0} aria-label="Figures of the samples, a table">
       <table aria-label="Checks">
         <thead>
           <tr>

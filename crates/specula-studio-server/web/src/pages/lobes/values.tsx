@@ -11,7 +11,7 @@ import { type Channels, lightIndex, type LobesState, type Slot, viewAngle } from
 export function Values({ state, layers, slices }: { state: LobesState; layers: Layer[]; slices: Record<Slot, Answer<'lobes.slice'> | undefined> }) {
   const i = lightIndex(state);
   return (
-    <div class="scroll">
+    <div class="scroll" role="region" tabIndex={0} aria-label="Values of the lobes, a table">
       <table aria-label="Values at the light">
         <thead>
           <tr>

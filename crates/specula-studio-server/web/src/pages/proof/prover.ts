@@ -1,14 +1,10 @@
 /** Compiles a text with the kernels, and runs them: what a BSDF says of itself, in numbers. */
 
 import type { Vec3 } from '../../core/protocol';
+import { bindings, type Gpu, gpu, GpuLost, shader, storage, work } from '../../gpu/device';
 import kernels from './kernels.wgsl';
 import { foreignCalls, type Library, libraryOf, missing } from './library';
 import prelude from './prelude.wgsl';
-
-// Constants of WebGPU that TypeScript's library lacks.
-declare const GPUShaderStage: { COMPUTE: number };
-declare const GPUBufferUsage: Record<'UNIFORM' | 'STORAGE' | 'COPY_SRC' | 'COPY_DST' | 'MAP_READ', number>;
-declare const GPUMapMode: { READ: number };
 
 export const ROWS = 32;
 export const COLUMNS = 64;
@@ -29,7 +25,7 @@ export interface Fault {
 /** Pipelines of a text. */
 export interface Compiled {
   text: string;
-  device: GPUDevice;
+  on: Gpu;
   pipelines: [GPUComputePipeline, number][];
   layout: GPUBindGroupLayout;
   tables: GPUBindGroup;
@@ -55,27 +51,6 @@ export interface Numbers {
   coarse: Float32Array;
 }
 
-let device: Promise<GPUDevice> | undefined;
-
-/** Why there is no device, in words. */
-export const NO_WEBGPU = 'This browser has no WebGPU: the proof cannot run. Chromium 113, Firefox 141, Safari 26 and later have it.';
-
-function deviceOf(): Promise<GPUDevice> {
-  device ??= (async () => {
-    const adapter = await navigator.gpu?.requestAdapter();
-    if (adapter === null || adapter === undefined) throw new Error(NO_WEBGPU);
-    const found = await adapter.requestDevice();
-    void found.lost.then(() => {
-      device = undefined;
-    });
-    return found;
-  })();
-  device.catch(() => {
-    device = undefined;
-  });
-  return device;
-}
-
 const lines = (text: string) => text.split('\n').length - 1;
 
 /** Compiles; faults where the text has some. Never blocks the page. */
@@ -93,50 +68,40 @@ export async function compile(text: string): Promise<Compiled | Fault[]> {
       faults.push({ line: undefined, text: `not defined here, and not from the library: ${calls.join(', ')} (${words})` });
     }
   }
-  const found = await deviceOf();
+  const on = await gpu();
   const front = `${library === undefined ? '' : `${library.wgsl.trimEnd()}\n`}${prelude.trimEnd()}\n`;
-  found.pushErrorScope('validation');
-  const module = found.createShaderModule({ code: `${front}${text.trimEnd()}\n${kernels}` });
-  const said = found.popErrorScope();
-  const { messages } = await module.getCompilationInfo();
-  await said;
+  const { module, faults: said } = await shader(on, `${front}${text.trimEnd()}\n${kernels}`);
   const [first, last] = [lines(front), lines(front) + lines(`${text.trimEnd()}\n`)];
-  for (const { type, lineNum, message } of messages) {
-    if (type !== 'error') continue;
-    const isOwn = lineNum > first && lineNum <= last;
-    faults.push({ line: isOwn ? lineNum - first : undefined, text: isOwn ? message : `where the text is used: ${message}` });
+  for (const { line, text: words } of said) {
+    const isOwn = line > first && line <= last;
+    faults.push({ line: isOwn ? line - first : undefined, text: isOwn ? words : `where the text is used: ${words}` });
   }
   if (faults.length > 0) return faults;
-  return pipelines(found, module, text, library);
+  return pipelines(on, module, text, library);
 }
 
-async function pipelines(found: GPUDevice, module: GPUShaderModule, text: string, library: Library | undefined): Promise<Compiled | Fault[]> {
-  const stage = GPUShaderStage.COMPUTE;
+async function pipelines(on: Gpu, module: GPUShaderModule, text: string, library: Library | undefined): Promise<Compiled | Fault[]> {
+  const { device } = on;
   const hasTables = library !== undefined && /@group\(0\)\s*@binding\(0\)/.test(library.wgsl);
-  const first = found.createBindGroupLayout({ entries: hasTables ? [{ binding: 0, visibility: stage, buffer: { type: 'read-only-storage' } }] : [] });
-  const layout = found.createBindGroupLayout({
-    entries: (['uniform', 'storage', 'storage', 'read-only-storage', 'read-only-storage'] as const).map((type, binding) => ({ binding, visibility: stage, buffer: { type } })),
-  });
-  const whole = found.createPipelineLayout({ bindGroupLayouts: [first, layout] });
+  const first = bindings(device, hasTables ? ['read-only-storage'] : []);
+  const layout = bindings(device, ['uniform', 'storage', 'storage', 'read-only-storage', 'read-only-storage']);
+  const whole = device.createPipelineLayout({ bindGroupLayouts: [first, layout] });
   try {
-    const made = await Promise.all(Object.keys(ENTRIES).map((entryPoint) => found.createComputePipelineAsync({ layout: whole, compute: { module, entryPoint } })));
-    const entries: GPUBindGroupEntry[] = [];
-    if (hasTables && library !== undefined) {
-      const buffer = found.createBuffer({ size: Math.max(16, library.tables.byteLength), usage: GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST });
-      found.queue.writeBuffer(buffer, 0, library.tables as BufferSource);
-      entries.push({ binding: 0, resource: { buffer } });
-    }
-    const tables = found.createBindGroup({ layout: first, entries });
+    const making = Object.keys(ENTRIES).map((entryPoint) => device.createComputePipelineAsync({ layout: whole, compute: { module, entryPoint } }));
+    const made = await work(on, Promise.all(making));
+    const entries = hasTables && library !== undefined ? [{ binding: 0, resource: { buffer: storage(device, library.tables) } }] : [];
+    const tables = device.createBindGroup({ layout: first, entries });
     const sizes = Object.values(ENTRIES);
-    return { text, device: found, layout, tables, pipelines: made.map((pipeline, i) => [pipeline, sizes[i] as number]) };
+    return { text, on, layout, tables, pipelines: made.map((pipeline, i) => [pipeline, sizes[i] as number]) };
   } catch (error) {
+    if (error instanceof GpuLost) throw error;
     return [{ line: undefined, text: error instanceof Error ? error.message : String(error) }];
   }
 }
 
 /** Runs all kernels; cells whose rules differ, or that count otherwise than expected, take a finer rule. */
 export async function prove(compiled: Compiled, question: Question): Promise<Numbers> {
-  const { device: on } = compiled;
+  const { device: on } = compiled.on;
   const usage = GPUBufferUsage;
   const task = on.createBuffer({ size: 48, usage: usage.UNIFORM | usage.COPY_DST });
   const counts = on.createBuffer({ size: 4 * COUNTS, usage: usage.STORAGE | usage.COPY_SRC | usage.COPY_DST });
@@ -167,7 +132,7 @@ export async function prove(compiled: Compiled, question: Question): Promise<Num
     encoder.copyBufferToBuffer(counts, 0, back, 0, 4 * COUNTS);
     encoder.copyBufferToBuffer(sums, 0, back, 4 * COUNTS, SUMS_BYTES);
     on.queue.submit([encoder.finish()]);
-    await back.mapAsync(GPUMapMode.READ);
+    await work(compiled.on, back.mapAsync(GPUMapMode.READ));
     const numbers = numbersOf(back.getMappedRange().slice(0), THREADS * question.each);
     back.unmap();
     return numbers;

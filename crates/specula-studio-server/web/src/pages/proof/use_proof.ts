@@ -49,7 +49,7 @@ export function useProof(text: string, isTyped: boolean, question: Question): Pr
         const now = wanted.current;
         done = now.key;
         try {
-          if (compiled.current?.text !== now.text || compiled.current === undefined) {
+          if (compiled.current === undefined || compiled.current.text !== now.text || compiled.current.on.lost !== undefined) {
             const begun = performance.now();
             const made = await compile(now.text);
             if (Array.isArray(made)) {

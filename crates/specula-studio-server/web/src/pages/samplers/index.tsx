@@ -1,28 +1,22 @@
 /** Samplers of visible normals: where their samples go, what they reject, whether their density is what it says. */
 
-import { useMemo } from 'preact/hooks';
 import { useAddress } from '../../core/address';
 import { direction, RADIANS } from '../../core/directions';
-import { useThemeChange } from '../../core/theme';
-import { useAnswer } from '../../core/use_answer';
 import type { Sampler } from '../../core/protocol';
-import { Choice, Message, Panel, Select, Slider } from '../../ui/controls';
+import { useAnswer } from '../../core/use_answer';
+import { Choice, Message, Panel, Select, Slider, Toggle } from '../../ui/controls';
 import { Formula } from '../../ui/formula';
 import { Heats } from '../../ui/heats';
-import { format, Swatch } from '../../ui/plot';
-import { Space } from '../../ui/space';
+import { format } from '../../ui/plot';
 import type { Page } from '../page';
-import { angles, DEFAULTS, PRESETS, SAMPLERS, type SamplerState } from './setup';
-import { outline, points, sphere, view } from './sphere';
+import { GpuCheck } from './gpu_check';
+import { Multiples } from './multiples';
+import { DEFAULTS, PRESETS, SAMPLERS, type SamplerState, type Setup } from './setup';
+import { Slice } from './slice';
+import { Spheres } from './spheres';
 
-/** Most samples that are drawn. */
-const DRAWN = 4000;
+/** Cells of the histogram along a side. */
 const CELLS = 48;
-const REGIONS = [
-  ['cap', 'Cap', '--series-1'],
-  ['bounded_cap', 'Bounded cap', '--series-2'],
-  ['exact', 'Exact region', '--series-3'],
-] as const;
 
 type Set = (change: Partial<SamplerState>) => void;
 
@@ -38,8 +32,11 @@ function Samplers() {
       <Controls state={state} set={set} />
       <div class="content">
         <Spheres setup={setup} state={state} set={set} />
+        <Multiples setup={setup} state={state} onChoose={(sampler) => set({ sampler })} />
         <Density setup={setup} state={state} />
         <Comparison setup={setup} state={state} />
+        <Slice setup={setup} />
+        <GpuCheck setup={setup} seed={state.seed} />
         <Formulas setup={setup} />
       </div>
     </div>
@@ -59,6 +56,7 @@ function Controls({ state, set }: { state: SamplerState; set: Set }) {
       <Slider label="Azimuth" unit="degrees" value={state.azimuth} min={0} max={360} onInput={(azimuth) => set({ azimuth })} />
       <h3>Samples</h3>
       <Slider label="Count" value={state.count} min={100} max={1e6} isLogarithmic isInteger onInput={(count) => set({ count })} />
+      <Toggle label="Samples rain in" value={state.rain} onChange={(isRaining) => set({ rain: isRaining })} />
       <Slider label="Seed" value={state.seed} min={1} max={1000} isInteger onInput={(seed) => set({ seed })} />
       <h3>Light, for the comparison</h3>
       <Select
@@ -78,80 +76,25 @@ function Controls({ state, set }: { state: SamplerState; set: Set }) {
         </>
       )}
       <h3>Presets</h3>
-      <div class="actions">
-        {PRESETS.map((preset) => (
-          <button key={preset.name} type="button" onClick={() => set(preset.state)}>
-            {preset.name}
-          </button>
-        ))}
-      </div>
+      {PRESETS.map(({ group, presets }) => (
+        <div key={group} role="group" aria-label={group}>
+          <p class="quiet">{group}</p>
+          <div class="actions">
+            {presets.map((preset) => (
+              <button key={preset.name} type="button" onClick={() => set(preset.state)}>
+                {preset.name}
+              </button>
+            ))}
+          </div>
+        </div>
+      ))}
     </aside>
   );
 }
 
 interface Part {
-  setup: { sampler: Sampler; alpha: [number, number]; wo: [number, number, number] };
+  setup: Setup;
   state: SamplerState;
-}
-
-function Spheres({ setup, state, set }: Part & { set: Set }) {
-  const theme = useThemeChange();
-  const regions = useAnswer<'samplers.regions'>({ ask: 'samplers.regions', alpha: setup.alpha, wo: setup.wo, count: 256 });
-  const samples = useAnswer<'samplers.samples'>({ ask: 'samplers.samples', ...setup, count: Math.min(state.count, DRAWN), seed: state.seed });
-  const described = useAnswer<'samplers.describe'>({ ask: 'samplers.describe', ...setup });
-  const [onSphere, stretched] = useMemo(() => {
-    const draw = (isStretched: boolean) => {
-      const parts = [...sphere()];
-      const drawn = samples.answer?.arrays;
-      if (drawn !== undefined) {
-        const where = (isStretched ? drawn.stretched : drawn.wi).values;
-        const accepted = drawn.accepted.values;
-        parts.push(points(where, (i) => accepted[i] === 1, '--ink', 1.6), points(where, (i) => accepted[i] !== 1, '--bad', 4));
-      }
-      for (const [name, , colour] of REGIONS) {
-        const found = regions.answer?.arrays[isStretched ? name : (`${name}_wi` as const)];
-        if (found !== undefined) parts.push(outline(found.values, colour));
-      }
-      const centre = isStretched ? described.answer?.value.stretched : setup.wo;
-      return centre === undefined ? parts : parts.concat(view(centre));
-    };
-    return [draw(false), draw(true)];
-  }, [samples.answer, regions.answer, described.answer, theme]);
-  const counts = samples.answer?.value;
-  return (
-    <>
-      <Panel title="Reflections" isPending={samples.isPending}>
-        <Message text={samples.error ?? regions.error} />
-        <Space label="The unit sphere with sampled reflections, outlines of the regions and the view" contents={onSphere} draggable={['view']} onDrag={(_, point) => set(angles(point))} />
-        <Legend />
-      </Panel>
-      <Panel title="Stretched space" isPending={samples.isPending}>
-        <Space label="The same samples in the space where the surface is a hemisphere" contents={stretched} />
-        <dl class="figures">
-          <dt>Drawn: accepted, rejected</dt>
-          <dd data-figure="accepted">
-            {counts === undefined ? '' : `${counts.accepted}, ${counts.rejected}`}
-          </dd>
-          <dt>Accepted, by quadrature</dt>
-          <dd data-figure="acceptance">{described.answer === undefined ? '' : `${(100 * described.answer.value.acceptance).toFixed(2)} %`}</dd>
-        </dl>
-      </Panel>
-    </>
-  );
-}
-
-function Legend() {
-  return (
-    <ul class="legend" aria-label="Legend">
-      {REGIONS.map(([name, label, colour]) => (
-        <li key={name}>
-          <Swatch colour={`var(${colour})`} /> {label}
-        </li>
-      ))}
-      <li>small: accepted; large: rejected</li>
-      <li>drag the ball of the arrow to turn the view</li>
-    </ul>
-  );
 }
 
 function Density({ setup, state }: Part) {
@@ -186,7 +129,7 @@ function Comparison({ setup, state }: Part) {
     <Panel title="All samplers" isPending={isPending}>
       <Message text={isAbove ? error : undefined} />
       {!isAbove && <p class="quiet">Estimates are compared for views above the horizon.</p>}
-      <div class="scroll">
+      <div class="scroll" role="region" tabIndex={0} aria-label="All samplers, a table">
         <table>
           <thead>
             <tr>

@@ -22,19 +22,41 @@ export const DEFAULTS = {
   lightElevation: 40,
   lightAzimuth: 180,
   lightAngle: 10,
+  /** Samples fall one after the other. */
+  rain: true,
+  /** What is not drawn, by name. */
+  hides: '',
+  /** The sample that is read out, from 1; 0: none. */
+  sample: 0,
 };
 export type SamplerState = typeof DEFAULTS;
 
-/** The panels of figure 1 of the supplement of Tokuyoshi and Eto 2024, the view of their figure 5, and others. */
-export const PRESETS: { name: string; state: Partial<SamplerState> }[] = [
-  { name: 'Supplement, fig. 1 a', state: { alpha: [0.7, 0.4], elevation: 72.54, azimuth: 0 } },
-  { name: 'fig. 1 b', state: { alpha: [0.7, 0.8], elevation: 47.87, azimuth: 63.43 } },
-  { name: 'fig. 1 c', state: { alpha: [1.5, 0.2], elevation: 34.45, azimuth: 104.04 } },
-  { name: 'fig. 1 d', state: { alpha: [1.6, 1.3], elevation: 68.87, azimuth: 123.69 } },
-  { name: 'Along the normal', state: { alpha: [1, 1], elevation: 90, azimuth: 0 } },
-  { name: 'Rough, grazing', state: { alpha: [1, 1], elevation: 10, azimuth: 0 } },
-  { name: 'Smooth, grazing', state: { alpha: [0.2, 0.2], elevation: 10, azimuth: 0 } },
-  { name: 'Below the horizon', state: { alpha: [0.6, 0.6], elevation: -20, azimuth: 0 } },
+/** A surface, a view and a sampler. */
+export interface Setup {
+  sampler: Sampler;
+  alpha: [number, number];
+  wo: Vec3;
+}
+
+interface Preset {
+  name: string;
+  state: Partial<SamplerState>;
+}
+
+const at = (name: string, x: number, y: number, elevation: number, azimuth = 0): Preset => ({ name, state: { alpha: [x, y], elevation, azimuth } });
+
+/** Figures of Tokuyoshi and Eto 2024 and of its supplement; of figures 3 and 5 the views that the laboratory takes. */
+export const PRESETS: { group: string; presets: Preset[] }[] = [
+  {
+    group: 'Supplement, figure 1',
+    presets: [at('a', 0.7, 0.4, 72.54), at('b', 0.7, 0.8, 47.87, 63.43), at('c', 1.5, 0.2, 34.45, 104.04), at('d', 1.6, 1.3, 68.87, 123.69)],
+  },
+  {
+    group: 'Figure 3: regions',
+    presets: [at('1', 0.3, 0.3, 30), at('2', 0.8, 0.8, 60), at('3', 1, 1, 90), at('4', 0.8, 0.4, 45, 40), at('5', 1, 0.2, 30, 70), at('6', 1.5, 1.2, 45, 40)],
+  },
+  { group: 'Figure 5: along the normal', presets: [at('0.4', 0.4, 0.4, 90), at('0.7', 0.7, 0.7, 90), at('1', 1, 1, 90)] },
+  { group: 'Others', presets: [at('Rough, grazing', 1, 1, 10), at('Smooth, grazing', 0.2, 0.2, 10), at('Below the horizon', 0.6, 0.6, -20)] },
 ];
 
 /** Elevation and azimuth of a direction, in tenths of degrees. */

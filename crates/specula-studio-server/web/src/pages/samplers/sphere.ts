@@ -1,6 +1,6 @@
 /** What is drawn on the unit sphere: circles, outlines, points, the view. */
 
-import { ArrowHelper, BufferAttribute, BufferGeometry, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, type Object3D, Points, PointsMaterial, SphereGeometry, Vector3 } from 'three';
+import { ArrowHelper, BufferAttribute, BufferGeometry, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, type Object3D, SphereGeometry, Vector3 } from 'three';
 import type { Vec3 } from '../../core/protocol';
 import { themeColour } from '../../ui/space';
 
@@ -39,15 +39,4 @@ export function view(wo: Vec3): Object3D[] {
   knob.position.set(...wo);
   knob.name = 'view';
   return [arrow, knob];
-}
-
-/** Points of unit vectors that are kept. */
-export function points(values: Float32Array, isKept: (i: number) => boolean, colour: string, size: number): Object3D {
-  const kept: number[] = [];
-  for (let i = 0; i < values.length / 3; i++) {
-    if (isKept(i)) kept.push(values[3 * i] as number, values[3 * i + 1] as number, values[3 * i + 2] as number);
-  }
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new BufferAttribute(Float32Array.from(kept), 3));
-  return new Points(geometry, new PointsMaterial({ color: themeColour(colour), size, sizeAttenuation: false }));
 }
