@@ -150,7 +150,7 @@ fn adaptive_renders_keep_the_mean() {
 
 /// Rounds of adaptive sampling in three shares each, as machines of a farm take them.
 fn in_shares(scene: &Scene, aim: &RenderOptions) -> FilmBuffer {
-    let prepared = PreparedScene::new(scene, aim).unwrap();
+    let prepared = PreparedScene::new(scene, aim).expect("the scene is sound");
     let mut base: Option<FilmBuffer> = None;
     loop {
         let shares = [[2, 3, 3], [0, 1, 3], [1, 2, 3]].map(|share| {
@@ -160,7 +160,9 @@ fn in_shares(scene: &Scene, aim: &RenderOptions) -> FilmBuffer {
             };
             let mut renderer = match base.clone() {
                 None => Renderer::new(&prepared, options),
-                Some(film) => Renderer::resume(&prepared, options, film).unwrap(),
+                Some(film) => {
+                    Renderer::resume(&prepared, options, film).expect("the film is of this render")
+                }
             };
             while renderer.samples_done().is_some() {
                 renderer.render_pass(8, &AtomicBool::new(false));
@@ -168,12 +170,12 @@ fn in_shares(scene: &Scene, aim: &RenderOptions) -> FilmBuffer {
             renderer.into_film()
         });
         let [mut whole, second, third] = shares;
-        whole.merge(&second).unwrap();
-        whole.merge(&third).unwrap();
+        whole.merge(&second).expect("shares of one round");
+        whole.merge(&third).expect("shares of one round");
         if let Some(before) = &base {
             // What came before is in it.
             let same = whole.clone();
-            whole.merge(before).unwrap();
+            whole.merge(before).expect("shares of one round");
             assert!(whole == same);
         }
         if base.as_ref() == Some(&whole) {
