@@ -198,8 +198,12 @@ echo "7;cluster"
 """A stand-in for Slurm's `sbatch`: runs an array's tasks one after the other."""
 
 
-def test_slurm_renders_the_same_bits(program: str, tmp_path: Path) -> None:
+def test_slurm_renders_the_same_bits(
+    program: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The script submits itself as an array; frames of a sequence."""
+    # The films' folder is below the working one.
+    monkeypatch.chdir(tmp_path)
     for frame in (8, 9):
         scene = (
             'Film "rgb"\nCamera "perspective"\nWorldBegin\n'
