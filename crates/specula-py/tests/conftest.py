@@ -77,5 +77,6 @@ def pytest_runtest_logreport(report: pytest.TestReport) -> None:
     file = os.environ.get("SPECULA_SKIPS")
     if report.skipped and file is not None:
         path, line, reason = report.longrepr  # type: ignore[misc]
+        label = "NOT OF THIS MACHINE" if "not of this machine" in reason else "SKIPPED"
         with Path(file).open("a", encoding="utf-8") as skips:
-            skips.write(f"SKIPPED {path}:{line}: {report.nodeid}: {reason}\n")
+            skips.write(f"{label} {path}:{line}: {report.nodeid}: {reason}\n")

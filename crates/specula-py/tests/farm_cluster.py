@@ -24,9 +24,14 @@ HEAD = "127.0.0.2:6399"
 SIZE = ["--resolution", "96x64"]
 
 
+def has_tools() -> bool:
+    """Tell whether there is what makes namespaces."""
+    return shutil.which("unshare") is not None and shutil.which("ip", path=_path()) is not None
+
+
 def namespace() -> list[str] | None:
     """Return the command that runs another in namespaces of its own; ``None``: there is none."""
-    if shutil.which("unshare") is None or shutil.which("ip", path=_path()) is None:
+    if not has_tools():
         return None
     user = [] if os.getuid() == 0 else ["--user", "--map-root-user"]
     command = ["unshare", *user, "--net", "--pid", "--fork", "--kill-child", "--mount-proc"]

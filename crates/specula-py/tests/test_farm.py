@@ -18,8 +18,10 @@ def results() -> dict[str, dict[str, Any]]:
     """Run all scenarios, once."""
     if importlib.util.find_spec("ray") is None:
         pytest.skip("Ray is not installed: pip install 'ray>=2.52'")
+    if not farm_cluster.has_tools():
+        pytest.skip("Ray runs in a network namespace, which takes unshare and ip: install iproute2")
     if farm_cluster.namespace() is None:
-        pytest.skip("Ray runs in a network namespace only, which unshare and ip cannot make here")
+        pytest.skip("not of this machine: Ray runs in a network namespace, which is refused here")
     return farm_cluster.run(SCRIPT, timeout=900.0)
 
 
