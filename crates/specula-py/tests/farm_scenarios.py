@@ -65,12 +65,13 @@ def kills(cluster: Cluster, workers: int = 3, nodes: int = 1, spp: int = 1536) -
     done = 0
     for deed in deeds:
         time.sleep(0.3 + 1.5 * chance.random())
-        if render.poll() is not None:
-            break
-        if deed == "worker":
-            done += kill_worker(chance)
-        elif kill_second_node():
-            done += 1
+        # There may be no worker at this moment: the next one is as good.
+        while render.poll() is None:
+            if kill_worker(chance) if deed == "worker" else kill_second_node():
+                done += 1
+                break
+            time.sleep(0.05)
+        if deed == "node" and render.poll() is None:
             cluster.join()
     said = render.communicate(timeout=400)
     assert render.returncode == 0, said

@@ -111,6 +111,44 @@ def _picture(job: _native.RenderJob) -> Picture:
     return picture
 
 
+def _job(
+    scene: Scene,
+    spp: int | None,
+    seed: int,
+    threads: int,
+    max_depth: int | None,
+    energy: str | None,
+    sampler: str | None,
+    resolution: tuple[int, int] | None,
+    clamp: float | None,
+    regularize: bool,
+    *,
+    is_bounded: bool = False,
+    noise: float | None = None,
+    checkpoint: PathLike | None = None,
+    max_memory: int | None = None,
+) -> _native.RenderJob:
+    """Prepare a render, once its options are checked."""
+    _check(scene, spp, threads, seed, max_depth, resolution)
+    with scene._lock:
+        return _native.RenderJob(
+            scene._data,
+            spp=spp,
+            is_bounded=is_bounded,
+            seed=seed,
+            threads=threads,
+            max_depth=max_depth,
+            energy=energy,
+            sampler=sampler,
+            noise=noise,
+            resolution=resolution,
+            clamp=clamp,
+            regularize=regularize,
+            checkpoint=None if checkpoint is None else os.fspath(checkpoint),
+            max_memory=max_memory,
+        )
+
+
 def render(
     scene: Scene,
     spp: int | None = None,
@@ -200,28 +238,20 @@ def render(
     >>> picture.rgb.shape
     (10, 24, 3)
     """
-    _check(scene, spp, threads, seed, max_depth, resolution)
     if adaptive and noise is None:
         noise = 0.0
     if time is not None and not time > 0.0:
         raise ValueError(f"time: expected seconds above 0, got {time}")
-    with scene._lock:
-        job = _native.RenderJob(
-            scene._data,
-            spp=spp,
-            is_bounded=time is not None or (noise is not None and noise > 0.0),
-            seed=seed,
-            threads=threads,
-            max_depth=max_depth,
-            energy=energy,
-            sampler=sampler,
-            noise=noise,
-            resolution=resolution,
-            clamp=clamp,
-            regularize=regularize,
-            checkpoint=None if checkpoint is None else os.fspath(checkpoint),
-            max_memory=max_memory,
-        )
+    options = (seed, threads, max_depth, energy, sampler, resolution, clamp, regularize)
+    job = _job(
+        scene,
+        spp,
+        *options,
+        is_bounded=time is not None or (noise is not None and noise > 0.0),
+        noise=noise,
+        checkpoint=checkpoint,
+        max_memory=max_memory,
+    )
     bar = _Bar(progress)
     try:
         job.advance(None, time, bar if bar.is_asked_for else None)
@@ -269,25 +299,8 @@ def render_iter(
     >>> [picture.samples for picture in steps]
     [1.0, 2.0, 4.0, 5.0]
     """
-    _check(scene, spp, threads, seed, max_depth, resolution)
-    with scene._lock:
-        job = _native.RenderJob(
-            scene._data,
-            spp=spp,
-            is_bounded=False,
-            seed=seed,
-            threads=threads,
-            max_depth=max_depth,
-            energy=energy,
-            sampler=sampler,
-            noise=None,
-            resolution=resolution,
-            clamp=clamp,
-            regularize=regularize,
-            checkpoint=None,
-            max_memory=None,
-        )
-    return _steps(job)
+    options = (seed, threads, max_depth, energy, sampler, resolution, clamp, regularize)
+    return _steps(_job(scene, spp, *options))
 
 
 def render_live(
@@ -333,24 +346,8 @@ def render_live(
         raise ImportError("render_live needs Jupyter: pip install ipykernel") from error
     if not every > 0.0:
         raise ValueError(f"every: expected seconds above 0, got {every}")
-    _check(scene, spp, threads, seed, max_depth, resolution)
-    with scene._lock:
-        job = _native.RenderJob(
-            scene._data,
-            spp=spp,
-            is_bounded=False,
-            seed=seed,
-            threads=threads,
-            max_depth=max_depth,
-            energy=energy,
-            sampler=sampler,
-            noise=None,
-            resolution=resolution,
-            clamp=clamp,
-            regularize=regularize,
-            checkpoint=None,
-            max_memory=None,
-        )
+    options = (seed, threads, max_depth, energy, sampler, resolution, clamp, regularize)
+    job = _job(scene, spp, *options)
     job.advance(1, None, None)
     picture = _picture(job)
     show: Any = display
