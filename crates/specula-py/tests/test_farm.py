@@ -46,7 +46,7 @@ def test_two_nodes(found: dict[str, Any]) -> None:
 
 def test_resume(found: dict[str, Any]) -> None:
     """Ctrl-C leaves a picture and a job that can be gone on with."""
-    assert (found["code"], found["picture"], found["same"]) == (130, True, True)
+    assert (found["code"], found["picture"], found["same"]) == (130, True, True), found["said"]
     assert "specula farm resume stop.farm" in found["said"]
     assert found["finished before"] >= 3
 
@@ -77,7 +77,7 @@ def test_wrong(found: list[str]) -> None:
 
 def test_children(found: dict[str, Any]) -> None:
     """A renderer ends with its worker, and all end with the render."""
-    assert found["killed"] >= 1 and found["code"] == 130
+    assert found["killed"] >= 1 and found["code"] == 130, found["said"]
 
 
 def test_kills(found: dict[str, Any]) -> None:

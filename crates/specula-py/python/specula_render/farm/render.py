@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import signal
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
@@ -13,7 +14,7 @@ from typing import Any
 
 from specula_render.farm import cluster, listening, ranges
 from specula_render.farm.cluster import ClusterError
-from specula_render.farm.engine import Engine
+from specula_render.farm.engine import Engine, Status
 from specula_render.farm.keeper import JobKeeper
 from specula_render.farm.policy import Policy
 from specula_render.farm.pool import Event, Handle, NodeInfo
@@ -39,6 +40,48 @@ class Where:
 
 class Stopped(BaseException):
     """A signal asks to stop. Argument: the exit code."""
+
+
+class _Signals:
+    """Turns the first signal that asks to stop into `Stopped`; the second one ends the program.
+
+    It is raised where the program is, or, while the engine runs, between two of its steps: code of
+    Ray's that is interrupted elsewhere takes it for an error of its own.
+    """
+
+    def __init__(self) -> None:
+        self._code: int | None = None
+        self._waits = False
+
+    @contextmanager
+    def caught(self) -> Iterator[None]:
+        """Catch signals."""
+        before = {number: signal.signal(number, self._arrive) for number in _SIGNALS}
+        try:
+            yield
+        finally:
+            for number, handler in before.items():
+                signal.signal(number, handler)
+
+    @contextmanager
+    def between_steps(self) -> Iterator[None]:
+        """Raise `Stopped` in `check` only."""
+        self._waits = True
+        try:
+            yield
+        finally:
+            self._waits = False
+
+    def check(self) -> None:
+        """Raise `Stopped` where a signal has arrived."""
+        if self._code is not None:
+            raise Stopped(self._code)
+
+    def _arrive(self, number: int, frame: FrameType | None) -> None:
+        signal.signal(number, signal.SIG_DFL)
+        self._code = _SIGNALS[signal.Signals(number)]
+        if not self._waits:
+            raise Stopped(self._code)
 
 
 class _NoPool:
@@ -76,25 +119,19 @@ def render(request: Request, job: Path, where: Where, *, quiet: bool) -> int:
     BadRequest, JobError, ClusterError, RenderFailed, NodeRefused
         It cannot be done.
     """
-    before = {number: signal.signal(number, _stop) for number in _SIGNALS}
+    signals = _Signals()
     store = Store(job)
     try:
-        with store.lock():
+        with signals.caught(), store.lock():
             planned = plan(request)
             store.begin(request.to_json())
-            return _render(planned, store, where, quiet)
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
+            return _render(planned, store, where, quiet, signals)
+    except Stopped as stopped:
+        # Before the render began, or after its end.
+        return int(stopped.args[0])
 
 
-def _stop(number: int, frame: FrameType | None) -> None:
-    # The second one ends the program.
-    signal.signal(number, signal.SIG_DFL)
-    raise Stopped(_SIGNALS[signal.Signals(number)])
-
-
-def _render(planned: Plan, store: Store, where: Where, quiet: bool) -> int:
+def _render(planned: Plan, store: Store, where: Where, quiet: bool, signals: _Signals) -> int:
     begun = time.monotonic()
     request = planned.request
     progress = Progress(quiet=quiet, also=lambda: keeper.live())
@@ -102,6 +139,11 @@ def _render(planned: Plan, store: Store, where: Where, quiet: bool) -> int:
     keeper = JobKeeper(store, request, planned.pictures, lambda film: pool.fetch(film))
     engine: Engine | None = None
     ray: Any = None
+
+    def report(status: Status) -> None:
+        progress(status)
+        signals.check()
+
     try:
         if not _is_complete(planned, keeper):
             ray = _connect(where, progress)
@@ -113,9 +155,10 @@ def _render(planned: Plan, store: Store, where: Where, quiet: bool) -> int:
             len(planned.pictures),
             policy=_policy(request),
             by=request.by,
-            report=progress,
+            report=report,
         )
-        engine.run()
+        with signals.between_steps():
+            engine.run()
     except Stopped as stopped:
         progress.clear()
         if engine is not None:
