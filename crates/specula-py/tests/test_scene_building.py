@@ -197,6 +197,10 @@ def test_memory_is_checked_before_a_render_begins() -> None:
     with pytest.raises(MemoryError, match="MiB are available"):
         picture(scene, 1, resolution=(65536, 65536))
     assert picture(scene, 1, max_memory=1 << 40).samples == 1
+    # Of a scene that is prepared, the film and the pictures still count.
+    with pytest.raises(MemoryError, match="MiB are available"):
+        picture(scene, 1, resolution=(65536, 65536))
+    assert picture(scene, 1).samples == 1
 
 
 def test_a_live_cell_ends_in_the_picture_of_one_render(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -195,7 +195,12 @@ fn check_memory(
     most: Option<u64>,
 ) -> PyResult<()> {
     let estimate = MemoryEstimate::of_process(scene.scene(), options, threads);
-    let peak = estimate.peak();
+    // What an earlier render has prepared is in the process already, and is taken over or replaced.
+    let needed = match scene.is_prepared() {
+        true => estimate.film + estimate.pictures,
+        false => estimate.still_needed(),
+    };
+    let peak = estimate.scene + estimate.program + needed;
     if let Some(most) = most.filter(|most| peak > *most) {
         return Err(PyMemoryError::new_err(format!(
             "the process would take {} MiB with this render, more than max_memory, {} MiB",
@@ -203,7 +208,6 @@ fn check_memory(
             mebibytes(most)
         )));
     }
-    let needed = estimate.still_needed();
     match available_memory() {
         Some(available) if most.is_none() && needed > available => {
             Err(PyMemoryError::new_err(format!(
@@ -255,9 +259,9 @@ impl RenderJob {
     ///
     /// * `spp`: `None` for what the scene asks for; where `is_bounded` by a noise or a time, for any number.
     /// * `noise`: aims at it; 0: samples are spread by their error, and as many as were asked for.
-    #[new]
     /// * `checkpoint`: the file that the film is saved in, and gone on with if it is there.
     /// * `max_memory`: bytes that the process may take; `None`: what is available.
+    #[new]
     #[pyo3(signature = (scene, *, spp, is_bounded, seed, threads, max_depth, energy, sampler, noise, resolution, clamp,
         regularize, checkpoint, max_memory))]
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]

@@ -124,6 +124,11 @@ impl SceneData {
         &self.name
     }
 
+    /// Whether something is kept of an earlier render.
+    pub(super) fn is_prepared(&self) -> bool {
+        self.prepared.is_some()
+    }
+
     /// The scene made ready for rendering. What has not changed since the last time is taken over: all of
     /// it, or the tree over the shapes where only materials, lights or the camera have.
     pub(super) fn prepare(
