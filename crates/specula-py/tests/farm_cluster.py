@@ -170,6 +170,21 @@ def processes(needle: str) -> list[int]:
     return [pid for pid in found if pid != os.getpid()]
 
 
+def worker_of(pid: int) -> int | None:
+    """Return the worker that a process descends from; ``None``: none, or the process has ended."""
+    workers = {*processes("ray::_part"), *processes("ray::samples")}
+    while pid > 1:
+        try:
+            stat = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8")
+        except OSError:
+            return None
+        # The name, in brackets, may have spaces; the parent is the second word behind it.
+        pid = int(stat.rpartition(")")[2].split()[1])
+        if pid in workers:
+            return pid
+    return None
+
+
 def kill(pid: int) -> None:
     """Kill a process that may have ended."""
     with contextlib.suppress(ProcessLookupError):

@@ -14,11 +14,13 @@ from farm_cluster import (
     HEAD,
     SIZE,
     Cluster,
+    kill,
     kill_second_node,
     kill_worker,
     main,
     processes,
     wait_for,
+    worker_of,
 )
 
 
@@ -95,12 +97,17 @@ def children(cluster: Cluster) -> object:
     words = [*SIZE, "--spp", "4096", "--part-time", "30", "-o", "children.exr"]
     render = cluster.begin(["render", *cluster.program, "--address", HEAD, *words])
     wait_for(lambda: len(begins(cluster, "children.farm")) > 2)
-    wait_for(lambda: processes("part.film"))
-    before = set(processes("part.film"))
-    for _ in range(5):
-        kill_worker(random.Random(1))
-    time.sleep(0.5)
-    killed = len(before - set(processes("part.film")))
+    killed = 0
+    for _ in range(3):
+        pairs: dict[int, int] = {}
+        while not pairs:
+            wait_for(lambda: processes("part.film"))
+            found = {renderer: worker_of(renderer) for renderer in processes("part.film")}
+            pairs = {renderer: worker for renderer, worker in found.items() if worker}
+        renderer, worker = next(iter(pairs.items()))
+        kill(worker)
+        wait_for(lambda gone=renderer: gone not in processes("part.film"), 20.0)
+        killed += 1
     render.send_signal(signal.SIGINT)
     said = render.communicate(timeout=60)
     wait_for(lambda: not processes("part.film"), 20.0)

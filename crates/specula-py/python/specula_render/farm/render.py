@@ -164,10 +164,10 @@ def _render(planned: Plan, store: Store, where: Where, quiet: bool, signals: _Si
         if engine is not None:
             engine.stop()
         written = keeper.write_partial()
-        names = ", ".join(map(str, written)) or "no picture yet"
+        names = ", ".join(map(str, written))
+        there = f"wrote what there is to {names}" if written else "there is no picture yet"
         progress.say(
-            f"warning: stopped; wrote what there is to {names}; "
-            f"`specula farm resume {store.folder}` goes on"
+            f"warning: stopped; {there}; `specula farm resume {store.folder}` goes on"
         )
         return int(stopped.args[0])
     except Exception as error:
