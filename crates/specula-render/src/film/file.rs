@@ -234,12 +234,12 @@ fn length(n: usize) -> io::Result<u32> {
 /// A tile's words, column by column, deflated: most low halves of sums are 0.
 fn pack(tile: &Tile) -> io::Result<Vec<u8>> {
     let pixels: Vec<_> = tile.pixels.iter().map(PixelSums::words).collect();
+    let columns =
+        (0..PixelSums::WORDS).flat_map(|c| pixels.iter().flat_map(move |w| w[c].to_le_bytes()));
+    let bytes: Vec<u8> = columns.collect();
+    // At once: each write clears the encoder's buffer.
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
-    for column in 0..PixelSums::WORDS {
-        for words in &pixels {
-            encoder.write_all(&words[column].to_le_bytes())?;
-        }
-    }
+    encoder.write_all(&bytes)?;
     encoder.finish()
 }
 
