@@ -9,12 +9,14 @@
 //! | `reflectance` | Fresnel terms |
 //! | `render` | scenes, renders, pictures |
 //! | `distribution` | distributions of normals and their samplers |
+//! | `energy` | tables of lost energy |
 //! | `command_line` | the program `specula` |
 
 mod arrays;
 mod bsdf;
 mod command_line;
 mod distribution;
+mod energy;
 mod parallel;
 mod parameters;
 mod reflectance;
@@ -34,6 +36,8 @@ mod _native {
     use super::command_line::command_line;
     #[pymodule_export]
     use super::distribution::{Beckmann, Ggx};
+    #[pymodule_export]
+    use super::energy::energy_tables;
     #[pymodule_export]
     use super::reflectance::{Reflectance, dielectric, metals};
     #[pymodule_export]

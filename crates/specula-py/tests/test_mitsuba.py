@@ -170,7 +170,6 @@ def test_replacing_keeps_parameters_and_the_given_scene() -> None:
         ({"energy": "all"}, "no such energy"),
         ({"distribution": "phong"}, "no such distribution"),
         ({"distribution": "beckmann", "sampler": "exact"}, "is for GGX"),
-        ({"distribution": "beckmann", "energy": "turquin"}, "for GGX only"),
         ({"alpha": 0.1, "alpha_u": 0.1, "alpha_v": 0.2}, "give 'alpha', or"),
         ({"alpha_u": 0.1}, "both 'alpha_u' and 'alpha_v'"),
         ({"material": "Cu", "eta": 1.0, "k": 1.0}, "not both"),

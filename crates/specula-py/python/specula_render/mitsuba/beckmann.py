@@ -23,6 +23,7 @@ class Beckmann:
     """
 
     def __init__(self, alpha_u: Any, alpha_v: Any) -> None:
+        self.alpha_u, self.alpha_v = alpha_u, alpha_v
         self._distribution = mi.MicrofacetDistribution(
             mi.MicrofacetType.Beckmann, mi.Float(alpha_u), mi.Float(alpha_v), True
         )

@@ -57,9 +57,8 @@ class Conductor:
         self.energy = choice(props, "energy", ("none", "turquin", "kulla_conty"))
         self.loss: Loss | None = None
         if self.energy != "none":
-            if self.roughness.distribution != "ggx":
-                raise ValueError(f"{props.plugin_name()}: energy '{self.energy}' is for GGX only")
-            self.loss = Loss(self.height_correlated)
+            roughness = self.roughness
+            self.loss = Loss(roughness.distribution, self.height_correlated, roughness.isotropic)
 
     def components(self) -> list[int]:
         """Flags of each component: one, seen from the front."""

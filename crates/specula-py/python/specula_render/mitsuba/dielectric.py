@@ -7,8 +7,16 @@ A visible normal ``m`` is sampled, then the branch by what it contributes, not b
 
 so that no sample is lost where light enters the denser medium. Values are ``roughdielectric``'s.
 
+``energy`` ``kulla_conty`` adds a second lobe on both sides for what single scattering loses, with
+``L_n``, ``L_f`` the losses seen from the side of the view and from beyond:
+
+    reflection    f = f_ss + (1 - t) L_n(wi) L_n(wo) / (pi L_n,avg)
+    transmission  f = f_ss + t L_n(wi) L_f(wo) / (pi L_f,avg)  [/ eta^2 for radiance]
+    t = (1 - F_avg(eta)) min(L_n,avg, L_f,avg) / L_n,avg
+
 Source: Walter et al. 2007, eqs. 20 and 21; Specula, ``docs/exact-reflection-sampling.md``
-(*Refraction*). Bounded and exact samplers know reflections only: here all normals are needed.
+(*Refraction*); Kulla and Conty 2017, `crates/specula-bsdf/src/bsdf/compensated_dielectric.rs`.
+Bounded and exact samplers know reflections only: here all normals are needed.
 """
 
 from __future__ import annotations
@@ -16,7 +24,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from .parameters import Roughness, differentiable, optional_texture
+from .energy import DielectricLoss
+from .fresnel import dielectric_average
+from .parameters import Roughness, choice, differentiable, optional_texture
 from .runtime import dr, is_jit, mi
 
 __all__ = ["Dielectric"]
@@ -43,6 +53,19 @@ class _Branches:
         return dr.select(total > 0, self.reflected / dr.maximum(total, 1e-30), 0)
 
 
+@dataclass(frozen=True)
+class _Second:
+    """The second lobe as a view sees it."""
+
+    #: ``L_n(wi)``: what single scattering loses, and the probability of sampling this lobe.
+    loss: Any
+    #: Probability of transmission.
+    transmitted: Any
+    #: Share of the lost light in each branch; 0 where the context excludes it.
+    reflected_share: Any
+    transmitted_share: Any
+
+
 class Dielectric:
     """The lobe behind ``specula_dielectric``.
 
@@ -51,7 +74,8 @@ class Dielectric:
     props : mitsuba.Properties
         ``int_ior``, ``ext_ior`` (names or numbers, ``bk7`` and ``air``); ``alpha``, or ``alpha_u``
         and ``alpha_v``; ``distribution`` (``ggx``, ``beckmann``); ``specular_reflectance``;
-        ``specular_transmittance``; ``sampler`` of GGX (``cap``, ``heitz``).
+        ``specular_transmittance``; ``sampler`` of GGX (``cap``, ``heitz``); ``energy`` (``none``,
+        ``kulla_conty``).
 
     Raises
     ------
@@ -60,7 +84,7 @@ class Dielectric:
 
     Notes
     -----
-    Masking is separable and scattering single, as Mitsuba's. Scalar variants do not report ``eta``:
+    Masking is separable, as Mitsuba's. Scalar variants do not report ``eta``:
     their numbers cannot be changed in place. GGX refracts off facets seen edge-on, ``m.z = 0``, to
     an edge that moves with ``eta``: the derivative by ``eta`` leaves its motion out, as path replay
     over ``roughdielectric`` does (6 % at alpha 0.4). Alphas have no such edge.
@@ -77,6 +101,9 @@ class Dielectric:
         self.eta = mi.Float(inside / outside)
         self.reflectance = optional_texture(props, "specular_reflectance")
         self.transmittance = optional_texture(props, "specular_transmittance")
+        self.loss: DielectricLoss | None = None
+        if choice(props, "energy", ("none", "kulla_conty")) == "kulla_conty":
+            self.loss = DielectricLoss(self.roughness.distribution, self.roughness.isotropic)
         self.parameters_changed([])
 
     def components(self) -> list[int]:
@@ -110,10 +137,22 @@ class Dielectric:
             wi, eta = self._upper(si)
             facets = self.roughness.at(si, active)
             branches = self._branches(ctx, facets, wi, facets.half_vector(wi, sample2), eta)
+            second = self._second(ctx, facets, wi, eta)
+            is_second = mi.Mask(False)
+            if second is not None:
+                is_second = sample1 < second.loss
+                sample1 = (sample1 - second.loss) / dr.maximum(1 - second.loss, 1e-7)
             is_reflected = (sample1 < branches.share) | (branches.refracted <= 0)
-            # A facet that reflects totally, and downwards: nothing leaves.
-            active &= branches.reflected + branches.refracted > 0
             wo = dr.select(is_reflected, branches.wr, branches.wt)
+            # A facet that reflects totally, and downwards: nothing leaves.
+            active &= (branches.reflected + branches.refracted > 0) | is_second
+            if second is not None:
+                through = sample1 * (1 - second.loss) + second.loss
+                through = is_second & (through < second.loss * second.transmitted)
+                up = mi.warp.square_to_cosine_hemisphere(sample2)
+                up.z = dr.select(through, -up.z, up.z)
+                wo = dr.select(is_second, up, wo)
+                is_reflected = dr.select(is_second, ~through, is_reflected)
             wo.z = dr.mulsign(wo.z, si.wi.z)
         value, pdf = self.eval_pdf(ctx, si, wo, active)
         pdf = dr.select(active, pdf, 0)
@@ -146,7 +185,8 @@ class Dielectric:
         m = half * dr.rsqrt(dr.maximum(length2, 1e-20))
         m = dr.mulsign(m, m.z)
         facing = (dr.dot(wi, m) > 0) & (dr.dot(wo, m) * wo.z > 0)
-        active = mi.Mask(active) & (si.wi.z != 0) & (wo.z != 0) & facing & (length2 > 1e-20)
+        active = mi.Mask(active) & (si.wi.z != 0) & (wo.z != 0)
+        on_facet = facing & (length2 > 1e-20)
 
         facets = self.roughness.at(si, active)
         branches = self._branches(ctx, facets, wi, m, eta)
@@ -157,15 +197,43 @@ class Dielectric:
         jacobian = dr.select(is_reflected, 0.25, branches.cos_i * jacobian)
         spread = facets.d(m) * jacobian
         contribution = dr.select(is_reflected, branches.reflected, branches.refracted)
-        value = self._tint(ctx, si, is_reflected, eta, active) * (spread * contribution / wi.z)
+        on_facet &= contribution > 0
+        value = dr.select(on_facet, spread * contribution / wi.z, 0)
         chosen = dr.select(is_reflected, branches.share, 1 - branches.share)
-        pdf = spread * chosen / facets.norm(wi)
-        active &= contribution > 0
+        pdf = dr.select(on_facet, spread * chosen / facets.norm(wi), 0)
+        second = self._second(ctx, facets, wi, eta)
+        if second is not None and self.loss is not None:
+            cosine = dr.abs(wo.z) * dr.inv_pi
+            beyond = dr.select(is_reflected, eta, dr.rcp(eta))
+            shape = self.loss.directional(facets, beyond, wo) / self.loss.average(facets, beyond)
+            light = dr.select(is_reflected, second.reflected_share, second.transmitted_share)
+            value += second.loss * shape * cosine * light
+            share = dr.select(is_reflected, 1 - second.transmitted, second.transmitted)
+            pdf = dr.lerp(pdf, share * cosine, second.loss)
+        value = self._tint(ctx, si, is_reflected, eta, active) * value
         return dr.select(active, value, 0), dr.select(active, pdf, 0)
 
     def to_string(self) -> str:
         """For Mitsuba's logs."""
-        return f"SpeculaDielectric[{self.roughness!r}, eta={self.eta}]"
+        energy = "none" if self.loss is None else "kulla_conty"
+        return f"SpeculaDielectric[{self.roughness!r}, eta={self.eta}, energy={energy}]"
+
+    def _second(self, ctx: Any, facets: Any, wi: Any, eta: Any) -> _Second | None:
+        """The second lobe, ``None`` without; `wi` above the horizon, `eta` beyond it."""
+        if self.loss is None:
+            return None
+        near, far = (self.loss.average(facets, e) for e in (eta, dr.rcp(eta)))
+        transmitted = (1 - dielectric_average(eta)) * dr.minimum(near, far) / near
+        reflects = ctx.is_enabled(mi.BSDFFlags.GlossyReflection, 0)
+        refracts = ctx.is_enabled(mi.BSDFFlags.GlossyTransmission, 1)
+        chosen = transmitted if reflects and refracts else mi.Float(1.0 if refracts else 0.0)
+        loss = self.loss.directional(facets, eta, wi)
+        return _Second(
+            loss,
+            chosen,
+            (1 - transmitted) if reflects else mi.Float(0),
+            transmitted if refracts else mi.Float(0),
+        )
 
     def _upper(self, si: Any) -> tuple[Any, Any]:
         """The view mirrored above the horizon, and the index beyond relative to its side."""

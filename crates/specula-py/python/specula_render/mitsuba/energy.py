@@ -1,15 +1,11 @@
-"""The energy that single scattering off GGX loses, tabulated, for Turquin's and Kulla and Conty's
-compensation.
+"""The energy that single scattering loses, for Turquin's and Kulla and Conty's compensation.
 
-    E(wi) = int f cos dwo,  F = 1           directional albedo;  loss = 1 - E
+    E(wi) = int f cos dwo,  F = 1           directional albedo;  L = 1 - E
+    L_avg = 2 int L(mu) mu dmu
 
-The table holds ``sqrt(1 - E)``, which is smooth where the loss vanishes, over
-
-    alpha       t = sqrt(alpha / (alpha + 2)) / t_max,                   alpha in [0, 4]
-    cosine      m = 1 - sqrt(1 - sqrt(mu (1 + alpha) / (mu + alpha)))
-
-(`crates/specula-bsdf/src/energy/coordinates.rs`), bilinearly, by quadrature over the exact
-sampler's disk: ``E`` is the mean of its weights. It is made once per process and masking.
+Tables hold ``sqrt(1 - E)``, which is smooth where the loss vanishes, as coefficients of splines.
+They are those of the library (`crates/specula-bsdf/src/energy`): GGX and Beckmann, both maskings,
+unequal alphas by azimuth, interfaces by index.
 """
 
 from __future__ import annotations
@@ -20,156 +16,246 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from specula_render import _native
+
 from .runtime import dr, is_jit, mi
+from .splines import Rows, Spline, pair, spline
 
-__all__ = ["Loss", "albedo_quadrature"]
+__all__ = ["DielectricLoss", "Loss"]
 
-Array = npt.NDArray[np.float64]
-
-_ALPHAS, _COSINES = 64, 64
-_MAX_ALPHA = 4.0
-_MAX_ROOT = (_MAX_ALPHA / (_MAX_ALPHA + 2)) ** 0.5
-
-
-def albedo_quadrature(
-    alpha: float, cosines: Array, height_correlated: bool, nodes: tuple[int, int] = (12, 24)
-) -> Array:
-    """Directional albedo of isotropic GGX with F = 1.
-
-    Parameters
-    ----------
-    alpha : float
-        Width.
-    cosines : (n,) array
-        Cosines of the view, above 0.
-    height_correlated : bool
-        Smith's masking by height, or else the separable product.
-    nodes : (int, int)
-        Gauss nodes along the disk's radius, and midpoints of half its circle.
-
-    Returns
-    -------
-    (n,) array
-        In [0, 1].
-    """
-    x, weight = np.polynomial.legendre.leggauss(nodes[0])
-    # Radius sin(pi/2 s): the weight's root at the rim, the horizon, is smooth in s.
-    s = 0.25 * np.pi * (x + 1)
-    radius, weight = np.sin(s), weight * 0.5 * np.pi * np.sin(s) * np.cos(s)
-    angle = (np.arange(nodes[1]) + 0.5) * np.pi / nodes[1]
-    disk_x = (radius[:, None] * np.sin(angle - 0.5 * np.pi)).ravel()
-    disk_y = (radius[:, None] * np.cos(angle - 0.5 * np.pi)).ravel()
-    weights = np.repeat(weight / nodes[1], nodes[1])
-
-    a2 = alpha * alpha
-    z = cosines[:, None]
-    sine = np.sqrt(np.maximum(1 - z * z, 0))
-    q = z * (1 - a2)
-    delta = np.sqrt(q * q + 4 * a2)
-    big = 0.5 * (np.abs(q) + delta)
-    eigen = np.where(q >= 0, big, a2 / big)
-    kappa = np.where(q >= 0, a2 / big, big)
-    tilt = z * a2
-    b = eigen + tilt
-    length = np.sqrt(a2 * sine * sine + z * z)
-    y2 = disk_y * disk_y
-    middle = np.sqrt((1 - y2) * kappa * b + y2 * tilt * delta)
-    on_t = np.sqrt(eigen * b) / b * disk_y
-    on_k = (eigen * np.sqrt(eigen * b) * b * disk_x + alpha * sine * kappa * middle) / (
-        delta * b * length
-    )
-    height = np.sqrt(np.maximum(1 - on_t**2 - on_k**2, 0))
-    radial = alpha * (height * alpha * sine - z * on_k) / length
-    up = (height * z + alpha * sine * on_k) / length
-    scale = 2 * (sine * radial + z * up) / (radial**2 + (alpha * on_t) ** 2 + up**2)
-    out = np.maximum(scale * up - z, 0)
-    out_length = np.sqrt(a2 * np.maximum(1 - out * out, 0) + out * out)
-    if height_correlated:
-        ratio = 2 * out / (z * out_length + out * length)
-    else:
-        ratio = 4 * out / ((z + length) * (out + out_length))
-    albedo: Array = (ratio * (eigen * eigen / delta)) @ weights
-    return np.clip(albedo, 0, 1)
+_ALPHAS, _COSINES = 48, 40
+_PAIRED_ALPHAS, _AZIMUTHS, _PAIRED_COSINES = 24, 12, 22
+_ETAS, _INTERFACE_ALPHAS, _INTERFACE_COSINES = 20, 20, 22
+_INTERFACE_PAIRED = {"etas": 12, "alphas": 12, "azimuths": 10, "cosines": 14}
+_LEAST_ROOT, _MOST_ROOT = (1e-4 / 2.0001) ** 0.5, (10 / 12) ** 0.5
+_LEAST_ETA_ROOT, _MOST_ETA_ROOT = 0.02**0.5, 0.5**0.5
 
 
-@lru_cache(maxsize=2)
-def _tables(height_correlated: bool) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
-    """``sqrt(1 - E)``, (alphas, cosines), and ``sqrt(1 - E_avg)``, (alphas,)."""
-    roots = np.linspace(0, 1, _ALPHAS) * _MAX_ROOT
-    alphas = np.maximum(2 * roots**2 / (1 - roots**2), 1e-5)
-    x, weight = np.polynomial.legendre.leggauss(24)
-    mu, weight = 0.5 * (x + 1), 0.5 * weight
-    m = np.linspace(0, 1, _COSINES)
-    share = (1 - (1 - m) ** 2) ** 2
-    table, average = np.zeros((_ALPHAS, _COSINES)), np.zeros(_ALPHAS)
-    for i, alpha in enumerate(alphas):
-        cosines = np.maximum(share * alpha / (1 + alpha - share), 1e-6)
-        table[i] = np.sqrt(1 - albedo_quadrature(alpha, cosines, height_correlated))
-        lost = 1 - albedo_quadrature(alpha, mu, height_correlated)
-        average[i] = np.sqrt(2 * np.sum(weight * mu * lost))
-    return table.astype(np.float32), average.astype(np.float32)
+@lru_cache(maxsize=4)
+def _tables(distribution: str, masking: str) -> dict[str, npt.NDArray[np.float32]]:
+    return _native.energy_tables(distribution, masking)
+
+
+def _named(distribution: str, height_correlated: bool) -> dict[str, npt.NDArray[np.float32]]:
+    return _tables(distribution, "height-correlated" if height_correlated else "separable")
+
+
+class _Numbers:
+    """A table of numbers in the active variant."""
+
+    def __init__(self, values: npt.NDArray[np.float32]) -> None:
+        self._values: Any = mi.Float(values) if is_jit() else values
+
+    def __call__(self, index: Any) -> Any:
+        if is_jit():
+            return dr.gather(mi.Float, self._values, index)
+        return float(self._values[int(index)])
 
 
 class Loss:
-    """``1 - E`` and ``1 - E_avg`` of GGX in the active variant.
+    """``1 - E`` and ``1 - E_avg`` of facets that reflect everything.
 
     Parameters
     ----------
+    distribution : str
+        ``ggx`` or ``beckmann``.
     height_correlated : bool
-        Which masking.
+        Smith's masking by height, or else the separable product.
+    isotropic : bool
+        Whether both alphas are the same parameter.
 
     Notes
     -----
-    Equal alphas are exact to 4e-4. Unequal ones are looked up at their root mean square, for all
-    azimuths: off by 0.024 (root mean square) and at most by 0.10 where they differ up to 8 times
-    and are at most 1.2; their geometric mean would be off by 0.07 and 0.29.
+    Largest errors of ``E``: 9e-5 with equal alphas up to 2; 5e-4 with others in [0.02, 2].
     """
 
-    def __init__(self, height_correlated: bool) -> None:
-        table, average = _tables(height_correlated)
-        self._table, self._average = table.ravel(), average
-        if is_jit():
-            self._table, self._average = mi.Float(self._table), mi.Float(average)
+    def __init__(self, distribution: str, height_correlated: bool, isotropic: bool) -> None:
+        tables = _named(distribution, height_correlated)
+        self._isotropic = isotropic
+        if isotropic:
+            self._rows = Rows(tables["isotropic"], _COSINES)
+            self._average = _Numbers(tables["isotropic_average"])
+        else:
+            self._rows = Rows(tables["anisotropic"], _PAIRED_COSINES)
+            self._average = _Numbers(tables["anisotropic_average"])
 
     def directional(self, facets: Any, w: Any) -> Any:
-        """``1 - E(w)``, in [0, 1]; `facets` a `ggx.Ggx`, ``w.z > 0``."""
-        alpha = _effective(facets)
+        """``1 - E(w)``, in [0, 1]; `facets` a `ggx.Ggx` or `beckmann.Beckmann`, ``w.z > 0``."""
         mu = dr.clip(w.z, 0, 1)
-        share = dr.sqrt(dr.maximum(mu * (1 + alpha) / (mu + alpha), 1e-12))
-        m = 1 - dr.sqrt(dr.maximum(1 - share, 1e-12))
-        row, t = _cell(_alpha_coordinate(alpha), _ALPHAS)
-        column, s = _cell(m, _COSINES)
-        at = row * _COSINES + column
-        near = dr.lerp(_fetch(self._table, at), _fetch(self._table, at + 1), s)
-        far = dr.lerp(
-            _fetch(self._table, at + _COSINES), _fetch(self._table, at + _COSINES + 1), s
-        )
-        return dr.clip(dr.square(dr.lerp(near, far, t)), 0, 1)
+        if self._isotropic:
+            value = self._rows.at(_cosine_coordinate(mu, facets.alpha_u))
+            root = spline(_alpha_coordinate(facets.alpha_u), _ALPHAS).sum(value)
+        else:
+            low, high = _ordered(facets)
+            azimuth = _Azimuth(facets, w)
+            value = self._rows.at(_cosine_coordinate(mu, azimuth.alpha))
+            narrow, wide = (spline(_alpha_coordinate(a), _PAIRED_ALPHAS) for a in (low, high))
+            place = spline(azimuth.v, _AZIMUTHS)
+            root = _over_pairs(narrow, wide, place, _AZIMUTHS, value)
+        return dr.clip(dr.square(root), 0, 1)
 
     def average(self, facets: Any) -> Any:
-        """``1 - E_avg``, above 0."""
-        row, t = _cell(_alpha_coordinate(_effective(facets)), _ALPHAS)
-        root = dr.lerp(_fetch(self._average, row), _fetch(self._average, row + 1), t)
-        return dr.maximum(dr.square(root), 1e-9)
+        """``1 - E_avg``, in (0, 1]."""
+        if self._isotropic:
+            root = spline(_alpha_coordinate(facets.alpha_u), _ALPHAS).sum(self._average)
+        else:
+            low, high = (
+                spline(_alpha_coordinate(a), _PAIRED_ALPHAS) for a in _ordered(facets)
+            )
+            root = low.sum(lambda i: high.sum(lambda j: self._average(pair(i, j)[0])))
+        return _scaled_average(root, facets)
 
 
-def _effective(facets: Any) -> Any:
-    """The alpha whose isotropic loss stands for that of unequal alphas."""
-    if facets.isotropic:
-        return facets.alpha_u
-    return dr.sqrt(0.5 * (dr.square(facets.alpha_u) + dr.square(facets.alpha_v)))
+class DielectricLoss:
+    """``1 - E`` and ``1 - E_avg`` of an interface, reflection and refraction together.
+
+    Parameters
+    ----------
+    distribution : str
+        ``ggx`` or ``beckmann``.
+    isotropic : bool
+        Whether both alphas are the same parameter.
+
+    Notes
+    -----
+    Masking is separable, as in `dielectric.Dielectric`. Indices are tabulated in [1/3, 3]; beyond,
+    the nearest is taken. Largest errors of ``E`` with indices in [1.1, 2.4] and their inverses:
+    7e-3 with equal alphas in [0.02, 2], 3e-2 with others.
+    """
+
+    def __init__(self, distribution: str, isotropic: bool) -> None:
+        tables = _named(distribution, False)
+        self._isotropic = isotropic
+        if isotropic:
+            self._rows = Rows(tables["interface"], _INTERFACE_COSINES)
+            self._average = _Numbers(tables["interface_average"])
+        else:
+            cosines = _INTERFACE_PAIRED["cosines"]
+            self._rows = Rows(tables["interface_anisotropic"], cosines, 2)
+            self._average = _Numbers(tables["interface_anisotropic_average"])
+
+    def directional(self, facets: Any, eta: Any, w: Any) -> Any:
+        """``1 - E(w)``, in [0, 1]; `eta` the index beyond over that of the side of `w`."""
+        mu = dr.clip(dr.abs(w.z), 0, 1)
+        edge = _edge(eta)
+        if self._isotropic:
+            value = self._rows.at(_interface_cosine_coordinate(mu, facets.alpha_u, edge))
+            etas, alphas = self._etas(eta), self._alphas(facets.alpha_u)
+            root = etas.sum(lambda e: alphas.sum(lambda i: value(e * _INTERFACE_ALPHAS + i)))
+        else:
+            count, azimuths = _INTERFACE_PAIRED["alphas"], _INTERFACE_PAIRED["azimuths"]
+            each = count * (count + 1) // 2 * azimuths
+            azimuth = _Azimuth(facets, w)
+            value = self._rows.at(_interface_cosine_coordinate(mu, azimuth.alpha, edge))
+            low, high = (self._alphas(a) for a in _ordered(facets))
+            place = spline(azimuth.interface(edge), azimuths, 2)
+            root = self._etas(eta).sum(
+                lambda e: _over_pairs(
+                    low, high, place, azimuths, lambda row: value(e * each + row)
+                )
+            )
+        return dr.clip(dr.square(root), 0, 1)
+
+    def average(self, facets: Any, eta: Any) -> Any:
+        """``1 - E_avg``, in (0, 1]."""
+        etas = self._etas(eta)
+        if self._isotropic:
+            alphas = self._alphas(facets.alpha_u)
+            root = etas.sum(
+                lambda e: alphas.sum(lambda i: self._average(e * _INTERFACE_ALPHAS + i))
+            )
+        else:
+            count = _INTERFACE_PAIRED["alphas"]
+            pairs = count * (count + 1) // 2
+            low, high = (self._alphas(a) for a in _ordered(facets))
+            root = etas.sum(
+                lambda e: low.sum(
+                    lambda i: high.sum(lambda j: self._average(e * pairs + pair(i, j)[0]))
+                )
+            )
+        return _scaled_average(root, facets)
+
+    def _alphas(self, alpha: Any) -> Spline:
+        coordinate = _alpha_coordinate(alpha)
+        if self._isotropic:
+            return spline(coordinate, _INTERFACE_ALPHAS)
+        return spline(coordinate, _INTERFACE_PAIRED["alphas"], 2)
+
+    def _etas(self, eta: Any) -> Spline:
+        """Indices below 1 have the first half of the rows."""
+        root = dr.sqrt(dr.abs((eta - 1) / (eta + 1)))
+        coordinate = (root - _LEAST_ETA_ROOT) / (_MOST_ETA_ROOT - _LEAST_ETA_ROOT)
+        count = _ETAS if self._isotropic else _INTERFACE_PAIRED["etas"]
+        place = spline(coordinate, count // 2, 3 if self._isotropic else 2)
+        half = mi.UInt32(dr.select(dr.detach(eta) < 1, mi.UInt32(0), mi.UInt32(count // 2)))
+        return Spline(place.first + half, place.weights)
+
+
+class _Azimuth:
+    """A view as the tables of unequal alphas see it."""
+
+    def __init__(self, facets: Any, w: Any) -> None:
+        low, high = _ordered(facets)
+        excess = (high - low) * (high + low) / dr.square(low)
+        x2, y2 = dr.square(w.x), dr.square(w.y)
+        length2 = x2 + y2
+        along = dr.select(facets.alpha_u > facets.alpha_v, y2, x2)
+        #: Share of the squared sine along the narrow axis; from above, all azimuths are the same.
+        self.narrow = dr.select(length2 > 1e-30, along / dr.maximum(length2, 1e-30), 0.5)
+        square = 1 + excess * (1 - self.narrow)
+        #: Alpha along the view.
+        self.alpha = low * dr.sqrt(square)
+        #: Coordinate of the azimuth.
+        self.v = dr.log(square) / dr.maximum(dr.log(1 + excess), 1e-7)
+
+    def interface(self, edge: Any) -> Any:
+        """Coordinate of the azimuth for an interface."""
+        return 0.5 * (self.v + (1 - _bend(self.narrow, edge)))
+
+
+def _over_pairs(low: Spline, high: Spline, azimuth: Spline, azimuths: int, value: Any) -> Any:
+    """The sum over pairs of alphas and azimuths of the values of rows."""
+
+    def row(i: Any, j: Any, v: Any) -> Any:
+        number, exchanged = pair(i, j)
+        return number * azimuths + dr.select(exchanged, azimuths - 1 - v, v)
+
+    return low.sum(
+        lambda i: high.sum(lambda j: azimuth.sum(lambda v: value(row(i, j, v))))
+    )
+
+
+def _ordered(facets: Any) -> tuple[Any, Any]:
+    u, v = facets.alpha_u, facets.alpha_v
+    return dr.minimum(u, v), dr.maximum(u, v)
+
+
+def _scaled_average(root: Any, facets: Any) -> Any:
+    alpha = dr.sqrt(0.5 * (dr.square(facets.alpha_u) + dr.square(facets.alpha_v)))
+    return dr.clip(dr.square(root * alpha / (1 + alpha)), 1e-18, 1)
 
 
 def _alpha_coordinate(alpha: Any) -> Any:
-    return dr.sqrt(alpha / (alpha + 2)) * (1 / _MAX_ROOT)
+    return (dr.sqrt(alpha / (alpha + 2)) - _LEAST_ROOT) / (_MOST_ROOT - _LEAST_ROOT)
 
 
-def _cell(coordinate: Any, count: int) -> tuple[Any, Any]:
-    """Index of the cell of a coordinate in [0, 1], and the place inside it."""
-    x = dr.clip(coordinate, 0, 1) * (count - 1)
-    index = mi.UInt32(dr.minimum(dr.detach(x), count - 2))
-    return index, x - mi.Float(index)
+def _cosine_coordinate(mu: Any, alpha: Any) -> Any:
+    # Bounds keep the derivatives of both roots finite.
+    share = dr.sqrt(dr.maximum(mu * (1 + alpha) / (mu + alpha), 1e-12))
+    return 1 - dr.sqrt(dr.maximum(1 - share, 1e-12))
 
 
-def _fetch(table: Any, index: Any) -> Any:
-    return dr.gather(mi.Float, table, index) if is_jit() else float(table[int(index)])
+def _interface_cosine_coordinate(mu: Any, alpha: Any, edge: Any) -> Any:
+    return 0.7 * _cosine_coordinate(mu, alpha) + 0.3 * _bend(dr.square(mu), 1 - edge)
+
+
+def _edge(eta: Any) -> Any:
+    inside = dr.clip(eta, 1 / 3, 3)
+    return dr.select(inside < 1, dr.square(inside), 0.5)
+
+
+def _bend(y: Any, edge: Any) -> Any:
+    """A map of [0, 1] to itself that is steepest at `edge` and takes it to the middle."""
+    w = y * (1 - edge) / (y * (1 - 2 * edge) + edge)
+    x = 2 * w - 1
+    return 0.5 + 0.5 * x * dr.sqrt(1.5 / (dr.square(x) + 0.5))

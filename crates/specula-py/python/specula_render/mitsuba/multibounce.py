@@ -52,7 +52,7 @@ class Multibounce:
             raise ValueError(f"{props.plugin_name()}: walks are for GGX only")
         self.index = ConductorIndex(props)
         self.reflectance = optional_texture(props, "specular_reflectance")
-        self.loss = Loss(True)
+        self.loss = Loss("ggx", True, self.roughness.isotropic)
 
     def components(self) -> list[int]:
         """Flags of each component: one, seen from the front."""
