@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+import specula_render as sr
 from test_mitsuba_tools import (  # noqa: F401
     ALPHAS,
     SAMPLERS,
@@ -124,6 +125,73 @@ def test_walks_follow_the_expectation_of_their_evaluation() -> None:
     assert not chi_square(bsdf, VIEWS[1], 1, scale=1.05, pdf=lambda wo: 1.05 * expected(wo))
 
 
+@pytest.mark.parametrize("cosine", [0.5, -0.5])
+def test_walks_through_glass_follow_the_expectation_of_their_evaluation(cosine: float) -> None:
+    bsdf: Dict = {"type": "specula_multibounce_dielectric", "alpha_u": 0.9, "alpha_v": 0.5}
+    plugin = mi.load_dict(bsdf)
+    view = (0.8, 0.3, cosine)
+    # As importance: radiance is compressed, so that its values are no density.
+    ctx = mi.BSDFContext(mi.TransportMode.Importance)
+
+    def expected(wo: Any) -> Any:
+        si = surface(unit(view), dr.width(wo))
+        total = mi.Float(0)
+        for i in range(32):
+            si.p = mi.Point3f(float(i), 0, 0)
+            total += plugin.eval(ctx, si, wo).x
+            dr.eval(total)
+        return total / 32
+
+    assert chi_square(bsdf, view, 2, pdf=expected)
+    assert not chi_square(bsdf, view, 1, scale=1.05, pdf=lambda wo: 1.05 * expected(wo))
+
+
+@pytest.mark.parametrize("variant", ["llvm_ad_rgb", "scalar_rgb"])
+def test_walks_through_glass_are_those_of_the_library(variant: str) -> None:
+    """Nothing is lost; shares of the branches, the density and mean values agree."""
+    use(variant)
+    is_scalar = variant.startswith("scalar")
+    for alpha, cosine in ((0.3, 0.8), (1.0, 0.3), (0.6, -0.4), (1.0, -0.9)):
+        bsdf = {"type": "specula_multibounce_dielectric", "alpha": alpha, "int_ior": 1.5}
+        plugin = mi.load_dict({**bsdf, "ext_ior": 1.0})
+        library = sr.MultibounceDielectric(alpha, 1.5, model="heitz")
+        view = [(1 - cosine * cosine) ** 0.5, 0.0, cosine]
+        ctx = mi.BSDFContext(mi.TransportMode.Importance)
+        if is_scalar:
+            si = mi.SurfaceInteraction3f()
+            si.wi = mi.Vector3f(*view)
+            points = [mi.Point2f(0.2, 0.1 * i) for i in range(9)]
+            weights = [plugin.sample(ctx, si, 0.37, u)[1][0] for u in points]
+            assert weights == [pytest.approx(1.0)] * 9
+            wo = unit((0.3, -0.5, 0.6))
+            density = plugin.pdf(ctx, si, mi.Vector3f(*wo))
+            expected = float(library.pdf(np.array(view), np.array(wo)))
+            assert density == pytest.approx(expected, rel=1e-3)
+            assert plugin.eval(ctx, si, mi.Vector3f(*wo))[0] >= 0
+            continue
+        n = 200_000
+        si = surface(view, n)
+        sampled, weight = plugin.sample(ctx, si, *numbers(n, 3))
+        assert np.array(weight.x).mean() == pytest.approx(1.0, abs=1e-4)
+        reflected = float((np.array(sampled.sampled_component) == 0).mean())
+        views = np.broadcast_to(np.array(view, np.float32), (n, 3)).copy()
+        found = library.sample(views, seed=5, transport="importance")
+        own = float((found.wi[:, 2] * cosine > 0).mean())
+        assert abs(reflected - own) < 5 * (2 * own * (1 - own) / n) ** 0.5
+        wo = np.array(directions(n, 8, True))
+        density = np.array(plugin.pdf(ctx, si, mi.Vector3f(wo)))
+        expected = library.pdf(np.array(view, np.float32), wo, axis=0)
+        np.testing.assert_allclose(density, expected, rtol=2e-3, atol=1e-5)
+        assert abs(4 * np.pi * density.mean() - 1) < 4 * 4 * np.pi * density.std() / n**0.5
+        values = [
+            np.array(plugin.eval(ctx, si, mi.Vector3f(wo)).x),
+            library.eval(np.array(view, np.float32), wo, axis=0, transport="importance")[0],
+        ]
+        for side in (wo[2] > 0, wo[2] < 0):
+            a, b = (4 * np.pi * v * side for v in values)
+            assert abs(a.mean() - b.mean()) < 5 * (a.std() + b.std()) / n**0.5
+
+
 LOBES: list[Dict] = [
     {"type": "specula_conductor", "material": "Cu", "alpha": 0.4, "energy": energy, **masking}
     for energy in ("none", "turquin", "kulla_conty")
@@ -179,6 +247,7 @@ EXTREMES: list[Dict] = [
         ("specula_dielectric", {}),
         ("specula_dielectric", {"energy": "kulla_conty"}),
         ("specula_multibounce", {"material": "Cu"}),
+        ("specula_multibounce_dielectric", {}),
     )
 ]
 

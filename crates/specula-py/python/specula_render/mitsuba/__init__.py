@@ -4,11 +4,12 @@
 >>> mi.set_variant("llvm_ad_rgb")
 >>> from specula_render import mitsuba as specula
 >>> specula.register()
-['specula_conductor', 'specula_dielectric', 'specula_multibounce']
+['specula_conductor', 'specula_dielectric', 'specula_multibounce', 'specula_multibounce_dielectric']
 
 The plugins take the parameters of ``roughconductor`` and ``roughdielectric``; the distribution is
 GGX unless another is named. They work in scalar and vectorized variants, RGB and spectral, and are
-differentiable where Mitsuba's are, but for ``specula_multibounce``.
+differentiable where Mitsuba's are, but for the walks of ``specula_multibounce`` and
+``specula_multibounce_dielectric``.
 
 Mitsuba's names apply: ``wi`` is the view, ``wo`` the direction that is sampled.
 """

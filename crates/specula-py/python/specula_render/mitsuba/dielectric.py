@@ -134,7 +134,7 @@ class Dielectric:
         """A direction and its weight; `sample1` chooses the branch."""
         active = mi.Mask(active) & (si.wi.z != 0)
         with dr.suspend_grad():
-            wi, eta = self._upper(si)
+            wi, eta = self.upper(si)
             facets = self.roughness.at(si, active)
             branches = self._branches(ctx, facets, wi, facets.half_vector(wi, sample2), eta)
             second = self._second(ctx, facets, wi, eta)
@@ -177,7 +177,7 @@ class Dielectric:
 
     def eval_pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> tuple[Any, Any]:
         """`eval` and `pdf`, which share their work."""
-        wi, eta = self._upper(si)
+        wi, eta = self.upper(si)
         wo = mi.Vector3f(wo.x, wo.y, dr.mulsign(wo.z, si.wi.z))
         is_reflected = wo.z > 0
         half = wi + wo * dr.select(is_reflected, 1, eta)
@@ -210,7 +210,7 @@ class Dielectric:
             value += second.loss * shape * cosine * light
             share = dr.select(is_reflected, 1 - second.transmitted, second.transmitted)
             pdf = dr.lerp(pdf, share * cosine, second.loss)
-        value = self._tint(ctx, si, is_reflected, eta, active) * value
+        value = self.tint(ctx, si, is_reflected, eta, active) * value
         return dr.select(active, value, 0), dr.select(active, pdf, 0)
 
     def to_string(self) -> str:
@@ -235,7 +235,7 @@ class Dielectric:
             transmitted if refracts else mi.Float(0),
         )
 
-    def _upper(self, si: Any) -> tuple[Any, Any]:
+    def upper(self, si: Any) -> tuple[Any, Any]:
         """The view mirrored above the horizon, and the index beyond relative to its side."""
         wi = mi.Vector3f(si.wi.x, si.wi.y, dr.maximum(dr.abs(si.wi.z), 1e-12))
         return wi, dr.select(si.wi.z > 0, self.eta, dr.rcp(self.eta))
@@ -258,7 +258,7 @@ class Dielectric:
         refracted = contribution(1 - fresnel, wt, (wt.z < 0) & (cos_t < 0) & refracts)
         return _Branches(cos_i, cos_t, reflected, refracted, wr, wt)
 
-    def _tint(self, ctx: Any, si: Any, is_reflected: Any, eta: Any, active: Any) -> Any:
+    def tint(self, ctx: Any, si: Any, is_reflected: Any, eta: Any, active: Any) -> Any:
         """Factors besides Fresnel's: textures, and the compression of radiance on refraction."""
         reflect, transmit = mi.Spectrum(1), mi.Spectrum(1)
         if self.reflectance is not None:

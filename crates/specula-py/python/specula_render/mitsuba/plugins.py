@@ -7,6 +7,7 @@ from typing import Any
 from .conductor import Conductor
 from .dielectric import Dielectric
 from .multibounce import Multibounce
+from .multibounce_dielectric import MultibounceDielectric
 from .runtime import mi, require_variant
 
 __all__ = ["LOBES", "register"]
@@ -16,6 +17,7 @@ LOBES: dict[str, type[Any]] = {
     "specula_conductor": Conductor,
     "specula_dielectric": Dielectric,
     "specula_multibounce": Multibounce,
+    "specula_multibounce_dielectric": MultibounceDielectric,
 }
 
 
