@@ -27,7 +27,8 @@ SECONDS = float(os.environ.get("SPECULA_FARM_SECONDS", "120"))
 def start(cluster: Cluster) -> object:
     """Seconds to start a head and a second node."""
     begun = time.monotonic()
-    cluster.farm(["head", "--host", "127.0.0.2", "--port", "6399", "--cpus", "1"])
+    offer = ["--cpus", "1", "--gpus", "1"]
+    cluster.farm(["head", "--host", "127.0.0.2", "--port", "6399", *offer])
     head = time.monotonic()
     cluster.join()
     return {"head": round(head - begun, 1), "join": round(time.monotonic() - head, 1)}
@@ -80,7 +81,8 @@ def efficiency(cluster: Cluster) -> object:
 
 def kills(cluster: Cluster) -> object:
     """20 kills of workers and 3 of a node, at random moments."""
-    return farm_scenarios.kills(cluster, 20, 3, int(os.environ.get("SPECULA_KILLS_SPP", "8192")))
+    spp = int(os.environ.get("SPECULA_KILLS_SPP", "8192"))
+    return farm_scenarios.kills(cluster, 20, 3, spp, every=4.0)
 
 
 def animation(cluster: Cluster) -> object:
@@ -101,6 +103,11 @@ def animation(cluster: Cluster) -> object:
         cluster.same(f"a-frames.{i:02d}.exr", f"a-samples.{i:02d}.exr") for i in frames
     )
     return found
+
+
+def gpu(cluster: Cluster) -> object:
+    """GPU 0 of a node takes parts, with the bits of the GPU alone; with processors, too, both."""
+    return farm_scenarios.gpu(cluster, cluster.program)
 
 
 def merging(cluster: Cluster) -> object:
@@ -136,6 +143,7 @@ SCENARIOS: dict[str, Callable[[Cluster], object]] = {
     "animation": animation,
     "kills": kills,
     "efficiency": efficiency,
+    "gpu": gpu,
     "merging": merging,
 }
 

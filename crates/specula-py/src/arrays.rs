@@ -245,6 +245,8 @@ pub(crate) enum Must {
     BeUnit,
     /// Components in `[0, 1)`.
     BeRandom,
+    /// The last two components in `[0, 1)`; nothing reads the first.
+    BeRandomPair,
 }
 
 /// Vectors to read, by the name that the caller knows them by.

@@ -69,7 +69,7 @@ impl<'py> Call<'_, 'py> {
         let u = self.arguments[1].vectors::<T>(self.axis)?;
         let shape = common_shape(&[(wo.name, &wo.elements), (u.name, &u.elements)])?;
         let (array, mut written) = output::<T>(self.py, &self.axis.around(&shape), None)?;
-        let sources = [wo.source(Must::BeUnit)?, u.source(Must::BeRandom)?];
+        let sources = [wo.source(Must::BeUnit)?, u.source(Must::BeRandomPair)?];
         let all = written.as_slice_mut()?;
         let n = all.len() / 3;
         let outputs = Outputs {

@@ -90,7 +90,7 @@ pub(crate) fn run<T: Scalar>(
         } = broken;
         let expected = match must {
             Must::BeUnit => "a unit vector",
-            Must::BeRandom => "numbers in [0, 1)",
+            Must::BeRandom | Must::BeRandomPair => "numbers in [0, 1)",
         };
         invalid(format!(
             "{name}[{index}]: expected {expected}, got ({x}, {y}, {z})"
@@ -318,6 +318,7 @@ fn check<T: Scalar>(
     let (all, holds): (bool, fn(T, T, T) -> bool) = match must {
         Must::BeUnit => (all_unit(x, y, z), is_unit),
         Must::BeRandom => (all_random(x, y, z), is_random),
+        Must::BeRandomPair => (all_random(y, y, z), |_, y, z| is_random(y, y, z)),
     };
     if all {
         return Ok(());

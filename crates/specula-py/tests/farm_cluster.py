@@ -21,6 +21,7 @@ from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parents[1] / "python"
 HEAD = "127.0.0.2:6399"
+CLIENT = "ray://127.0.0.2:6401"
 SIZE = ["--resolution", "96x64"]
 
 
@@ -74,7 +75,9 @@ class Cluster:
 
     def start(self) -> str:
         """Start both nodes; return what the head says."""
-        said = self.farm(["head", "--host", "127.0.0.2", "--port", "6399", "--cpus", "1"])
+        offer = ["--cpus", "1", "--gpus", "1"]
+        ports = ["--port", "6399", "--client-port", "6401"]
+        said = self.farm(["head", "--host", "127.0.0.2", *ports, *offer])
         self.join()
         return said.stdout
 

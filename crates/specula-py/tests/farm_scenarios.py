@@ -8,9 +8,12 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 
 from farm_cluster import (
+    CLIENT,
     HEAD,
     SIZE,
     Cluster,
@@ -28,6 +31,11 @@ def begins(cluster: Cluster, job: str) -> list[tuple[int, int]]:
     """Return the samples of all parts that were begun, without twins of running ones."""
     events = [e for e in cluster.journal(job) if e["event"] == "begin" and not e["twin"]]
     return [(e["samples"][0], e["samples"][1]) for e in events]  # type: ignore[index]
+
+
+def _samples(event: dict[str, object]) -> range:
+    first, end = event["samples"]  # type: ignore[misc]
+    return range(first, end)
 
 
 def start(cluster: Cluster) -> object:
@@ -57,16 +65,18 @@ def two_nodes(cluster: Cluster) -> object:
     }
 
 
-def kills(cluster: Cluster, workers: int = 3, nodes: int = 1, spp: int = 1536) -> object:
-    """Workers and a node are killed at random moments."""
+def kills(
+    cluster: Cluster, workers: int = 3, nodes: int = 1, spp: int = 1536, every: float = 1.0
+) -> object:
+    """Workers and a node are killed at random moments, one in so many seconds."""
     chance = random.Random(7)
-    words = [*SIZE, "--spp", str(spp), "--part-time", "1", "-o", "kills.exr"]
+    words = [*SIZE, "--spp", str(spp), "--part-time", str(every), "-o", "kills.exr"]
     render = cluster.begin(["render", *cluster.program, "--address", HEAD, *words])
     deeds = ["worker"] * workers + ["node"] * nodes
     chance.shuffle(deeds)
     done = 0
     for deed in deeds:
-        time.sleep(0.3 + 1.5 * chance.random())
+        time.sleep(every * (0.3 + 1.5 * chance.random()))
         # There may be no worker at this moment: the next one is as good.
         while render.poll() is None:
             if kill_worker(chance) if deed == "worker" else kill_second_node():
@@ -75,20 +85,22 @@ def kills(cluster: Cluster, workers: int = 3, nodes: int = 1, spp: int = 1536) -
             time.sleep(0.05)
         if deed == "node" and render.poll() is None:
             cluster.join()
-    said = render.communicate(timeout=400)
+    said = render.communicate(timeout=900)
     assert render.returncode == 0, said
     cluster.alone([*SIZE, "--spp", str(spp), "-o", "unharmed.exr"])
-    begun = begins(cluster, "kills.farm")
-    often = max(begun.count(part) for part in begun)
-    rendered = sum(e["event"] == "done" for e in cluster.journal("kills.farm"))
+    events = cluster.journal("kills.farm")
+    of = {e["task"]: _samples(e) for e in events if e["event"] == "begin"}
+    finished = Counter(i for e in events if e["event"] == "done" for i in of[e["task"]])
+    failed = sum(e["event"] == "failed" for e in events)
     return {
         "same": cluster.same("kills.exr", "unharmed.exr"),
         "kills": done,
         "asked": len(deeds),
-        "parts": len(set(begun)),
-        "begun": len(begun),
-        "done": rendered,
-        "most often": often,
+        "parts": len(of),
+        "failed": failed,
+        "samples": len(finished),
+        "twice": sum(count > 1 for count in finished.values()),
+        "most often": max(finished.values()),
     }
 
 
@@ -144,6 +156,52 @@ WorldBegin
 LightSource "infinite" "rgb L" [0.8 0.9 1]
 Include "{include}"
 """
+
+
+def client(cluster: Cluster) -> object:
+    """From outside by `ray://`: the same bits; strangers are refused there, too."""
+    words = [*SIZE, "--spp", "16", "--part-time", "1"]
+    cluster.render([*words, "-o", "client.exr"], address=CLIENT)
+    cluster.alone([*words[:-2], "-o", "beside.exr"])
+    home = cluster.folder / "outside"
+    home.mkdir()
+    words = ["render", *cluster.program, *words, "-o", "outside.exr", "--address", CLIENT]
+    stranger = cluster.farm(words, code=2, HOME=str(home)).stderr
+    return {"same": cluster.same("client.exr", "beside.exr"), "stranger": stranger}
+
+
+STAND_IN = """#!{python}
+import os, sys
+with open({told!r}, "a") as file:
+    file.writelines(a + "\\n" for a in sys.argv if a.startswith("gpu:"))
+given = ["cpu" if a.startswith("gpu:") else a for a in sys.argv[1:]]
+os.execv({own[0]!r}, {own!r} + given)
+"""
+
+
+def gpu(cluster: Cluster, own: Sequence[str] | None = None) -> object:
+    """GPUs take parts where nodes offer them; or processors, too.
+
+    A program stands in that renders on the processor what it is to render on a GPU, unless another
+    is given.
+    """
+    told, program = cluster.folder / "devices.txt", cluster.folder / "stand-in"
+    text = STAND_IN.format(python=sys.executable, told=str(told), own=cluster.own)
+    program.write_text(text)
+    program.chmod(0o755)
+    words = ["--resolution", "32x24", "--spp", "16", "--part-time", "1"]
+    found: dict[str, object] = {}
+    for device in ("gpu", "mixed"):
+        out = ["--device", device, "-o", f"{device}.exr", "--address", HEAD]
+        chosen = own or ["--program", str(program)]
+        cluster.farm(["render", *chosen, *words, *out])
+        begun = [e for e in cluster.journal(f"{device}.farm") if e["event"] == "begin"]
+        found[device] = len({e["node"] for e in begun})
+    alone = ["--device", "gpu:0"] if own is not None else []
+    cluster.alone([*words[:-2], *alone, "-o", "one-gpu.exr"])
+    found["same"] = cluster.same("gpu.exr", "one-gpu.exr")
+    found["devices"] = sorted(set(told.read_text().split())) if told.exists() else []
+    return found
 
 
 def ship(cluster: Cluster) -> object:
@@ -253,6 +311,8 @@ SCENARIOS = {
     "frames": frames,
     "adaptive": adaptive,
     "wrong": wrong,
+    "client": client,
+    "gpu": gpu,
     "children": children,
     "kills": kills,
     "open_cluster": open_cluster,

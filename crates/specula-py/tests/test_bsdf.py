@@ -291,3 +291,19 @@ def test_the_interpreter_is_free_while_it_computes() -> None:
         time.sleep(0.001)
     thread.join()
     assert counted > 3
+
+
+def test_numbers_that_nobody_reads_are_not_looked_at() -> None:
+    """One lobe has no choice to make: the first number says nothing, and costs nothing."""
+    wo, u = np.array([[0.6, 0.0, 0.8]] * 600), u_of(600)
+    for lobe in (sr.RoughConductor(0.3, "Au"), sr.RoughConductor(0.3, distribution="beckmann")):
+        expected = lobe.sample(wo, u)
+        other = u.copy()
+        other[:, 0] = np.nan
+        np.testing.assert_array_equal(lobe.sample(wo, other).wi, expected.wi)
+        other[17, 2] = 1.0
+        with pytest.raises(ValueError, match=r"u\[17\]"):
+            lobe.sample(wo, other)
+    u[17, 0] = np.nan
+    with pytest.raises(ValueError, match=r"u\[17\]"):
+        sr.RoughDielectric(0.3).sample(wo, u)

@@ -32,8 +32,13 @@ def test_ranges() -> None:
 def test_parts_shrink_towards_the_end() -> None:
     """Parts take a minute, less at the end, and more where each costs much."""
     policy = Policy()
-    part = [policy.samples_of_part(left, 10.0, 20.0, 60.0, 0.5) for left in (10**6, 1000, 40, 1)]
-    assert part == [600, 250, 20, 1]
+
+    def part(left: int, ahead: float = 0.0) -> int:
+        return policy.samples_of_part(left, 10.0, 20.0, 60.0, 0.5, ahead)
+
+    assert [part(left) for left in (10**6, 1000, 40, 1)] == [600, 250, 20, 1]
+    # Near the end the slot that is free now takes more than the one that is free in two seconds.
+    assert part(40, ahead=1.0) == 30
     assert policy.seconds_of_part(2, 0.5, 0.1) == 60.0
     assert policy.seconds_of_part(2, 10.0, 2.0) == pytest.approx(600.0)
     assert policy.seconds_of_part(10_000, 0.5, 0.1) == pytest.approx(160.0)

@@ -25,7 +25,7 @@ const TOOLS: &[&str] = &[
     "openjd-cli>=0.8",
     "pandas>=2.2",
     "pytest>=8",
-    "ray>=2.52",
+    "ray[client]>=2.52",
     "scipy>=1.11",
     "trimesh>=4",
 ];
@@ -68,7 +68,22 @@ pub(crate) fn run(root: &Path, python: &Python) -> Result<()> {
 pub(crate) fn farm(root: &Path, scenarios: &[String]) -> Result<()> {
     build(root)?;
     let python = environment(root, "python", TOOLS)?;
+    // What users have is optimised: the program of the tests takes longer to begin and to write films.
+    let mut program = workspace::cargo(root);
+    program.args([
+        "build",
+        "--release",
+        "--quiet",
+        "-p",
+        "specula",
+        "--features",
+        "full",
+    ]);
+    if !program.status()?.success() {
+        return Err("the program does not build".into());
+    }
     let mut bench = Command::new(&python);
+    bench.env("SPECULA_FARM_PROGRAM", root.join("target/release/specula"));
     bench
         .current_dir(root)
         .env("PYTHONPATH", root.join(SOURCES));

@@ -177,6 +177,9 @@ def _node_commands(commands: argparse._SubParsersAction[argparse.ArgumentParser]
     for parser in (head, join):
         parser.add_argument("--host", metavar="IP", help="this machine's address in the cluster")
         parser.add_argument("--cpus", type=_count, metavar="N", help="CPUs to offer [all]")
+        parser.add_argument(
+            "--gpus", type=_count, metavar="N", help="GPUs to offer [those that Ray finds]"
+        )
     leave = commands.add_parser("leave", help="end all of Ray on this machine", allow_abbrev=False)
     leave.set_defaults(run=_leave)
 
@@ -268,9 +271,13 @@ def _run(request: Request, job: Path, given: argparse.Namespace) -> int:
     return render(request, job, where, quiet=given.quiet)
 
 
+def _offer(given: argparse.Namespace) -> cluster.Offer:
+    return cluster.Offer(given.host, given.cpus, given.gpus)
+
+
 def _head(given: argparse.Namespace) -> int:
     where = cluster.ensure_token()
-    cluster.start_head(given.host, given.port, given.client_port, given.cpus)
+    cluster.start_head(_offer(given), given.port, given.client_port)
     host = given.host or "THIS-MACHINE"
     print(f"started a cluster whose token is in {where}. Listening, to those who have it:")
     for name, address in listening.sockets():
@@ -282,7 +289,7 @@ def _head(given: argparse.Namespace) -> int:
 
 
 def _join(given: argparse.Namespace) -> int:
-    warning = cluster.join(given.address, given.host, given.cpus, insecure=given.insecure)
+    warning = cluster.join(given.address, _offer(given), insecure=given.insecure)
     if warning is not None:
         print(f"warning: {warning}", file=sys.stderr)
     print(f"joined {given.address}; listening:")

@@ -10,6 +10,7 @@ import secrets
 import socket
 import subprocess
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -22,8 +23,15 @@ _PROBE = """
 import sys
 try:
     if sys.argv[1].startswith("ray://"):
-        import ray
-        ray.init(sys.argv[1], log_to_driver=False)
+        # Ray's own client asks for half a minute before it says that it was refused.
+        import grpc
+        channel = grpc.insecure_channel(sys.argv[1].removeprefix("ray://"))
+        try:
+            channel.unary_unary("/ray.rpc.RayletDriver/ClusterInfo")(b"", timeout=20.0)
+        except grpc.RpcError as error:
+            gone = grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.DEADLINE_EXCEEDED
+            if error.code() is grpc.StatusCode.UNAUTHENTICATED or error.code() in gone:
+                raise
     else:
         from ray._raylet import GcsClient
         GcsClient(address=sys.argv[1]).get_all_node_info()
@@ -67,6 +75,8 @@ def environment() -> dict[str, str]:
         # Nobody outlives the worker that started it.
         "RAY_kill_child_processes_on_worker_exit_with_raylet_subreaper": "true",
         "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "0",
+        # gRPC tells of every child process.
+        "GRPC_VERBOSITY": "ERROR",
     }
 
 
@@ -150,11 +160,16 @@ def connect(address: str, *, insecure: bool) -> tuple[Any, str | None]:
             f"the cluster at {address} wants its token: "
             f"put it into '{token_file()}' or RAY_AUTH_TOKEN"
         )
-    try:
-        ray.init(address=address, log_to_driver=False, logging_level="error")
-    except Exception as error:
-        text = str(error).strip().splitlines() or [type(error).__name__]
-        raise ClusterError(f"cannot join the cluster at {address}: {text[0]}") from error
+    # A busy head may take longer to start what serves a client than Ray waits for it.
+    for attempts_left in (2, 1, 0) if address.startswith("ray://") else (0,):
+        try:
+            ray.init(address=address, log_to_driver=False, logging_level="error")
+            break
+        except Exception as error:
+            if attempts_left == 0:
+                text = str(error).strip().splitlines() or [type(error).__name__]
+                raise ClusterError(f"cannot join the cluster at {address}: {text[0]}") from error
+            ray.shutdown()
     return ray, warning
 
 
@@ -197,29 +212,38 @@ def ray_command(*arguments: str) -> None:
         raise ClusterError(f"`ray {arguments[0]}` failed: {' '.join(said[-3:])}")
 
 
-def start_head(host: str | None, port: int, client_port: int | None, cpus: int | None) -> None:
+@dataclass(frozen=True)
+class Offer:
+    """What a node has, where that is not what Ray finds."""
+
+    host: str | None = None
+    """Its address in the cluster."""
+    cpus: int | None = None
+    gpus: int | None = None
+
+    def options(self) -> list[str]:
+        """Return Ray's options."""
+        named = {"node-ip-address": self.host, "num-cpus": self.cpus, "num-gpus": self.gpus}
+        told = [f"--{name}={value}" for name, value in named.items() if value is not None]
+        return ["--disable-usage-stats", *told]
+
+
+def start_head(offer: Offer, port: int, client_port: int | None) -> None:
     """Start a cluster's head on this machine, which goes on when this process ends."""
     ensure_token()
     with socket.socket() as probe:
-        if probe.connect_ex((host or "127.0.0.1", port)) == 0:
+        if probe.connect_ex((offer.host or "127.0.0.1", port)) == 0:
             raise ClusterError(
                 f"port {port} is taken: is there a cluster already? --port names another"
             )
     extra = [f"--ray-client-server-port={client_port}"] if client_port else []
-    ray_command(
-        "start", "--head", f"--port={port}", "--include-dashboard=false", *_node(host, cpus), *extra
-    )
+    head = ["start", "--head", f"--port={port}", "--include-dashboard=false"]
+    ray_command(*head, *offer.options(), *extra)
 
 
-def join(address: str, host: str | None, cpus: int | None, *, insecure: bool) -> str | None:
+def join(address: str, offer: Offer, *, insecure: bool) -> str | None:
     """Add this machine to a cluster; return a warning."""
     load_ray()
     warning = refuse_open(address, insecure=insecure)
-    ray_command("start", f"--address={address}", *_node(host, cpus))
+    ray_command("start", f"--address={address}", *offer.options())
     return warning
-
-
-def _node(host: str | None, cpus: int | None) -> list[str]:
-    options = ["--disable-usage-stats"]
-    options += [f"--node-ip-address={host}"] if host else []
-    return options + ([f"--num-cpus={cpus}"] if cpus is not None else [])

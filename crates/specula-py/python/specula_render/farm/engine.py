@@ -15,6 +15,8 @@ from specula_render.farm.speeds import Speeds
 
 _LOOK_AFTER = 2.0
 """Seconds between two looks for nodes that came or went."""
+_LOOK_SOON = 0.1
+"""The same while nodes are about to say what they are."""
 _LATE_AFTER = 1.0
 """Seconds between two looks for parts that are late."""
 _SOMEWHERE = "?"
@@ -25,6 +27,8 @@ _AT_ONCE = 30.0
 """Seconds of films that the driver takes one after the other."""
 _REST = 1.0
 """Seconds that a node gets nothing after a worker was killed there."""
+_DEATHS = 12
+"""Workers that may die over a part, which is halved each time."""
 _FAILURES_OF_NODE = 3
 """Parts that a node may fail one after the other before it gets no more."""
 
@@ -84,7 +88,7 @@ class Engine:
         ``"frames"``: a part is all that waits of a picture; ``"samples"``: every picture is cut for
         all slots; ``"auto"``: parts take as long as the policy says.
     retries
-        How often a part may fail.
+        How often a part may fail; where its worker dies, it may at least `_DEATHS` times.
     """
 
     def __init__(
@@ -112,6 +116,8 @@ class Engine:
         self.slots = 0
         self.attempts = self.doubled = 0
         self._tasks = self._first = self._pictures_done = 0
+        self._ends = 0.0
+        """Sum of the times at which the running parts are expected to end."""
         self._failures: Counter[str] = Counter()
         self._room_at, self._room = pool.now(), 0.0
         self._looked = self._late = -math.inf
@@ -134,7 +140,7 @@ class Engine:
             self._keep_later()
             self._see_nodes()
             self._assign()
-            for event in self.pool.wait(0.5):
+            for event in self.pool.wait(_LOOK_SOON if self.pool.awaits_nodes() else 0.5):
                 self._handle(event)
             self.report(self.status())
 
@@ -156,7 +162,7 @@ class Engine:
 
     def _see_nodes(self) -> None:
         now = self.pool.now()
-        if now - self._looked < _LOOK_AFTER:
+        if now - self._looked < (_LOOK_SOON if self.pool.awaits_nodes() else _LOOK_AFTER):
             return
         self._looked = now
         alive = {node.node: node for node in self.pool.nodes()}
@@ -233,7 +239,9 @@ class Engine:
         # Other pictures wait, too: there is enough for all.
         all_left = left if picture is self.pictures[-1] else sum(p.left() for p in self.pictures)
         speeds = self.speeds.total(self.slots)
-        count = self.policy.samples_of_part(all_left, speed, speeds, seconds, overhead)
+        # Ends that have passed unseen count as they were expected.
+        ahead = max(0.0, self._ends - len(self.parts) * self.pool.now()) / max(self.slots, 1)
+        count = self.policy.samples_of_part(all_left, speed, speeds, seconds, overhead, ahead)
         if self.by == "samples":
             count = min(count, max(1, math.ceil(picture.goal / self.slots)))
         # What was measured in a moment says little about an hour.
@@ -248,6 +256,7 @@ class Engine:
         expected = self._duration(node, count)
         part = Part(self._tasks, picture, work, node, self.pool.now(), expected, of)
         self.parts[part.task] = part
+        self._ends += part.begun + part.expected
         picture.running += 1
         self.attempts += 1
         if of is not None:
@@ -262,6 +271,12 @@ class Engine:
             twin=of is not None,
         )
         self.pool.render(part.task, node, picture.index, work.samples)
+
+    def _end(self, task: int) -> Part | None:
+        part = self.parts.pop(task, None)
+        if part is not None:
+            self._ends -= part.begun + part.expected
+        return part
 
     def _duration(self, node: NodeInfo, count: int) -> float:
         speed = self.speeds.of(node)
@@ -293,12 +308,12 @@ class Engine:
 
     def _handle(self, event: PartDone | MergeDone | Failed) -> None:
         if isinstance(event, PartDone):
-            if (part := self.parts.pop(event.task, None)) is not None:
+            if (part := self._end(event.task)) is not None:
                 self._part_done(part, event)
         elif isinstance(event, MergeDone):
             if (merge := self.merges.pop(event.task, None)) is not None:
                 self._merge_done(merge, event)
-        elif (part := self.parts.pop(event.task, None)) is not None:
+        elif (part := self._end(event.task)) is not None:
             self._part_failed(part, event)
         elif (merge := self.merges.pop(event.task, None)) is not None:
             self._merge_failed(merge, event)
@@ -311,7 +326,7 @@ class Engine:
         picture.running -= 1
         self._free(part.node)
         self.keeper.note("done", task=part.task, seconds=done.seconds, wall=done.wall)
-        if (twin := part.twin) is not None and self.parts.pop(twin.task, None) is not None:
+        if (twin := part.twin) is not None and self._end(twin.task) is not None:
             self.pool.cancel(twin.task)
             picture.running -= 1
             self._free(twin.node)
@@ -324,21 +339,27 @@ class Engine:
         self.keeper.note("failed", task=part.task, node=name, message=failed.message)
         if failed.is_final:
             raise RenderFailed(failed.message, is_input=True)
-        self._failures[name] += not failed.worker_died
+        self._failures[name] += not failed.was_killed
         if self._failures[name] >= _FAILURES_OF_NODE and name in self.nodes:
             self._lose(self.nodes.pop(name))
             if not self.nodes:
                 raise RenderFailed(f"the last node fails every part: {failed.message}")
-        (self._rest if failed.worker_died else self._free)(part.node)
+        (self._rest if failed.was_killed else self._free)(part.node)
         if (twin := part.twin) is not None:
             twin.twin = None
             return
         attempts = part.work.attempts + 1
-        if attempts > self.retries:
-            samples = ranges.text([part.work.samples])
-            text = f"samples {samples} failed {attempts} times; the last time: {failed.message}"
+        allowed = max(self.retries, _DEATHS) if failed.was_killed else self.retries
+        if attempts > allowed:
+            text = ranges.text([part.work.samples])
+            text = f"samples {text} failed {attempts} times; the last time: {failed.message}"
             raise RenderFailed(text)
-        part.picture.retry(Waiting(part.work.samples, attempts))
+        first, end = part.work.samples
+        # Where workers die often, short parts are done before the next one does.
+        middle = (first + end) // 2 if failed.was_killed else first
+        for samples in ((middle, end), (first, middle)):
+            if samples[0] < samples[1]:
+                part.picture.retry(Waiting(samples, attempts))
         self._first = min(self._first, part.picture.index)
 
     def _merge_done(self, merge: Merge, done: MergeDone) -> None:

@@ -17,6 +17,8 @@ class Policy:
     most_part_seconds: float = 900.0
     """What a part takes at most, however dear all around it is."""
     least_part_seconds: float = 1.0
+    least_overheads: float = 6.0
+    """A part that is not among the last takes at least so many times what it costs beside."""
     overhead_share: float = 0.02
     """Share of a part's time that starting, reading the scene and merging its film may take."""
     task_seconds: float = 0.004
@@ -80,13 +82,20 @@ class Policy:
         return min(FAN_IN, 2 + int(self.merge_start / max(merging, 1e-3)))
 
     def samples_of_part(
-        self, left: int, speed: float, speeds: float, seconds: float, overhead: float
+        self,
+        left: int,
+        speed: float,
+        speeds: float,
+        seconds: float,
+        overhead: float,
+        ahead: float,
     ) -> int:
         """Return the samples of the next part of a slot.
 
         Parts are as long as they should be, and shorter near the end (guided self-scheduling,
-        Polychronopoulos and Kuck 1987): half of what is left for every slot, so that all end
-        together.
+        Polychronopoulos and Kuck 1987): half of what is left for every slot. Where that would be
+        little more than what a part costs beside its samples, the slot takes what it can do until
+        all are done.
 
         Parameters
         ----------
@@ -98,11 +107,18 @@ class Policy:
             How long a part should take.
         overhead
             What a part takes beside its samples.
+        ahead
+            In how many seconds a slot is free, in the mean over all slots.
         """
-        least = max(self.least_part_seconds, min(4.0 * overhead, seconds))
+        least = max(self.least_part_seconds, min(self.least_overheads * overhead, seconds))
         share = left / speeds / 2.0
-        samples = max(1, round(speed * max(least, min(share, seconds))))
-        return left if left - samples < samples / 2 else samples
+        if share < least:
+            # All that is left is shared out: the slots that are free later take less.
+            # Among many, one is always late: then short parts cost less than they save.
+            most = least * (1.0 + 4.0 * speed / speeds)
+            share = min(max(left / speeds + ahead, self.least_part_seconds, overhead), most)
+        samples = max(1, round(speed * min(share, seconds)))
+        return left if left - samples < speed * overhead / 2 else min(samples, left)
 
     def pays_twice(self, elapsed: float, expected: float, here: float) -> bool:
         """Whether to render a running part again.

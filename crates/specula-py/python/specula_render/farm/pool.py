@@ -56,8 +56,8 @@ class Failed:
     message: str
     is_final: bool = False
     """Whether it would fail anywhere: the scene or an option is wrong."""
-    worker_died: bool = False
-    """Whether the worker was killed, or its node is gone: no fault of what it did."""
+    was_killed: bool = False
+    """Whether the worker or its renderer was killed, or its node is gone: no fault of the part."""
 
 
 Event = PartDone | MergeDone | Failed
@@ -72,6 +72,10 @@ class Pool(Protocol):
 
     def nodes(self) -> Sequence[NodeInfo]:
         """Return the nodes that are alive."""
+        ...
+
+    def awaits_nodes(self) -> bool:
+        """Tell whether nodes came that have not yet said what they are."""
         ...
 
     def render(self, task: int, node: NodeInfo, picture: int, samples: Range) -> None:

@@ -71,6 +71,7 @@ class RayPool:
         self.bases: dict[int, tuple[int, RayFilm]] = {}
         """For adaptive pictures, the film that a round goes on with, and its samples."""
         self._program = tasks[0].program if tasks else None
+        self._version: str | None = None
         self._events: queue.Queue[Event] = queue.Queue()
         self._references: dict[int, list[Any]] = {}
         self._bundles: dict[str, Any] = {}
@@ -121,6 +122,10 @@ class RayPool:
         found = (self._known.get(name) for name in alive)
         return [node for node in found if node is not None]
 
+    def awaits_nodes(self) -> bool:
+        """Tell whether nodes came that have not yet said what they are."""
+        return bool(self._asked)
+
     def _look_at(self, name: str, files: Sequence[tuple[str, int, int]] = ()) -> Any:
         return self._look.options(**self._on(name)).remote(self._program, tuple(files))
 
@@ -133,9 +138,11 @@ class RayPool:
         except self.ray.exceptions.RayError as error:
             self.tell(f"node {host} is not used: {_reason(error)}")
             return None
-        own = worker.look(self._program, ()).version
-        if found.version != own:
-            self.tell(f"node {host} is not used: it has {found.version}, this machine {own}")
+        if self._version is None:
+            self._version = worker.look(self._program, ()).version
+        if found.version != self._version:
+            versions = f"it has {found.version}, this machine {self._version}"
+            self.tell(f"node {host} is not used: {versions}")
             return None
         self._machines.add(found.machine)
         if len(self._machines) == 2:
@@ -227,9 +234,10 @@ class RayPool:
     def _failure(self, task: int, error: BaseException) -> Failed:
         cause = getattr(error, "cause", None) or error
         if isinstance(cause, worker.ProgramFailed):
-            return Failed(task, str(cause), is_final=cause.is_input)
+            killed = cause.was_killed
+            return Failed(task, str(cause), is_final=cause.is_input, was_killed=killed)
         is_task = isinstance(error, self.ray.exceptions.RayTaskError)
-        return Failed(task, _reason(cause), worker_died=not is_task)
+        return Failed(task, _reason(cause), was_killed=not is_task)
 
     def cancel(self, task: int) -> None:
         """End a task whose result nobody needs."""

@@ -141,12 +141,16 @@ class SimulatedPool:
         """Return the nodes that are alive."""
         return [node.info for node in self._alive.values()]
 
+    def awaits_nodes(self) -> bool:
+        """Nodes say at once what they are."""
+        return False
+
     def render(self, task: int, node: NodeInfo, picture: int, samples: Range) -> None:
         """Begin a part."""
         farm, at = self.farm, self._alive.get(node.node)
         begins = self._drive(farm.task)
         if at is None:
-            self._push(begins, Failed(task, "no such node", worker_died=True))
+            self._push(begins, Failed(task, "no such node", was_killed=True))
             return
         if not at.has_scene:
             # Nodes that have it give it to others: twice as many after every transfer.
@@ -169,7 +173,7 @@ class SimulatedPool:
         at = self._alive.get(node) if node is not None else self._any()
         given = [film for film in films if isinstance(film, _Film)]
         if at is None or any(f.node is not None and f.node not in self._alive for f in given):
-            self._push(begins, Failed(task, "a film is no more", worker_died=True))
+            self._push(begins, Failed(task, "a film is no more", was_killed=True))
             return
         away = sum(f.size for f in given if f.node != at.info.node)
         seconds = away / farm.link + len(given) * farm.merging
@@ -221,7 +225,7 @@ class SimulatedPool:
         self._push(self.time + self.farm.repair, None)
         lost = [task for task in node.tasks if task not in self._gone]
         self._gone.update(lost)
-        return [Failed(task, "the node failed", worker_died=True) for task in lost]
+        return [Failed(task, "the node failed", was_killed=True) for task in lost]
 
     # The keeper.
 

@@ -62,6 +62,11 @@ class ProgramFailed(Exception):
         """Whether the scene or an option is wrong."""
         return bool(self.args[0] == _WRONG_INPUT)
 
+    @property
+    def was_killed(self) -> bool:
+        """Whether a signal ended it: that of a system without memory, say."""
+        return bool(self.args[0] < 0)
+
     def __str__(self) -> str:
         code, said = self.args
         return said.strip() or f"the program ended with code {code}"
