@@ -60,7 +60,7 @@ pub(crate) fn run(root: &Path, asked: &StudioWasm) -> Result<()> {
     Ok(())
 }
 
-/// The module for tests of pages, built anew only where something has changed; `None` where there is no compiler for it.
+/// The module for tests of pages, built where something has changed; `None` where there is no compiler for it.
 ///
 /// # Errors
 /// Where it does not build.

@@ -56,7 +56,7 @@ export function Figures({ turns, reference, history }: { turns: Turn[]; referenc
               <td class="number">{state.seconds.toFixed(2)}</td>
               <td class="number">{((state.samples * opened.width * opened.height) / 1e6 / Math.max(state.seconds, 1e-3)).toFixed(2)}</td>
               <td class="number">{(100 * state.noise).toFixed(2)} %</td>
-              <td class="number list">{state.mean.map((m) => m.toFixed(4)).join(' ')}</td>
+              <td class="number">{state.mean.map((m) => m.toFixed(4)).join(' ')}</td>
               {hasReference && <td class="number">{i < turns.length && history.now[i] !== undefined ? format(history.now[i].rmse) : ''}</td>}
               {hasReference && <td class="number">{i < turns.length && history.now[i] !== undefined ? format(history.now[i].relMse) : ''}</td>}
             </tr>
