@@ -4,7 +4,7 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
-use crate::{Result, workspace};
+use crate::{Result, studio_wasm, workspace};
 
 /// The pages' sources, from the workspace's root.
 const PAGES: &str = "crates/specula-studio-server/web";
@@ -18,8 +18,8 @@ pub(crate) struct Studio {
     /// Only write the bundle from its sources
     #[arg(long)]
     build: bool,
-    /// The library in WebAssembly, as `cargo xtask studio-wasm` makes it: exported pages compute with it in the tests
-    /// (also by SPECULA_STUDIO_WASM)
+    /// Test exported pages with this module, as `cargo xtask studio-wasm` makes it (also by SPECULA_STUDIO_WASM)
+    /// [default: one that is built for tests]
     #[arg(long, value_name = "FILE")]
     wasm: Option<PathBuf>,
 }
@@ -38,8 +38,21 @@ pub(crate) fn run(root: &Path, studio: &Studio) -> Result<()> {
         specula_testing::skip("the studio's pages", why, "install chromium");
         return Ok(());
     }
-    let wasm = std::env::var_os("SPECULA_STUDIO_WASM").map(PathBuf::from);
-    test(root, studio.wasm.as_ref().or(wasm.as_ref()))
+    test(root, module(root, studio)?.as_ref())
+}
+
+/// The library in WebAssembly: the module that is named, or one for tests; `None` where nothing here compiles it.
+fn module(root: &Path, studio: &Studio) -> Result<Option<PathBuf>> {
+    let named = std::env::var_os("SPECULA_STUDIO_WASM").map(PathBuf::from);
+    if let Some(named) = studio.wasm.clone().or(named) {
+        return Ok(Some(named));
+    }
+    let built = studio_wasm::for_tests(root)?;
+    if built.is_none() {
+        let why = "no compiler for WebAssembly";
+        specula_testing::skip("exported pages that compute", why, studio_wasm::REMEDY);
+    }
+    Ok(built)
 }
 
 /// The tests of every page in a browser: of the program, and of what it exports.
@@ -60,6 +73,7 @@ fn test(root: &Path, wasm: Option<&PathBuf>) -> Result<()> {
     tests.current_dir(root.join(PAGES));
     tests.args(["run", "--silent", "test"]);
     tests.env("STUDIO", &server.address).env("SITE", &site);
+    tests.env("PROGRAM", &program);
     succeed(tests, "tests")
 }
 

@@ -1,7 +1,8 @@
 //! `cargo xtask studio-wasm`: the studio for pages without a server, as one WebAssembly module.
 //!
 //! By the toolchain's own target where it is installed, else by Debian's compiler (`debian`). Where Node is there, the
-//! module renders the built-in scene, and its mean is compared with that of this machine's code.
+//! module renders the built-in scene, and its mean is compared with that of this machine's code. Tests of pages have a
+//! module of their own, of a profile that compiles faster.
 
 mod debian;
 
@@ -34,9 +35,15 @@ pub(crate) struct StudioWasm {
 }
 
 pub(crate) fn run(root: &Path, asked: &StudioWasm) -> Result<()> {
-    let folder = std::env::var_os("CARGO_TARGET_DIR").map_or(root.join("target"), PathBuf::from);
-    let folder = folder.join("studio-wasm");
-    let built = build(root, &folder)?;
+    let folder = folder(root);
+    let debian = match has_target()? {
+        true => None,
+        false => {
+            println!("no target {TARGET} (rustup target add {TARGET}): by Debian's compiler");
+            Some(debian::Compiler::unpacked(&folder.join("debian"))?)
+        }
+    };
+    let built = build(root, "wasm", debian.as_ref())?;
     if let Some(parent) = asked.output.parent() {
         std::fs::create_dir_all(parent)?;
     }
@@ -53,30 +60,55 @@ pub(crate) fn run(root: &Path, asked: &StudioWasm) -> Result<()> {
     Ok(())
 }
 
-/// Builds the module; returns where it is.
-fn build(root: &Path, folder: &Path) -> Result<PathBuf> {
+/// The module for tests of pages, built where something has changed; `None` where there is no compiler for it.
+///
+/// # Errors
+/// Where it does not build.
+pub(crate) fn for_tests(root: &Path) -> Result<Option<PathBuf>> {
+    if has_target()? {
+        return build(root, "wasm-test", None).map(Some);
+    }
+    let debian = debian::Compiler::present(&folder(root).join("debian"));
+    debian
+        .map(|debian| build(root, "wasm-test", Some(&debian)))
+        .transpose()
+}
+
+/// How to have a compiler for it.
+pub(crate) const REMEDY: &str = "rustup target add wasm32-unknown-unknown";
+
+/// Where the modules are built.
+fn folder(root: &Path) -> PathBuf {
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or(root.join("target"), PathBuf::from);
+    target.join("studio-wasm")
+}
+
+/// Builds the module by a profile of the workspace; returns where it is.
+fn build(root: &Path, profile: &str, debian: Option<&debian::Compiler>) -> Result<PathBuf> {
+    let folder = folder(root);
     let mut build = workspace::cargo(root);
-    build.args([
-        "rustc",
-        "--package",
-        "specula-studio",
-        "--lib",
-        "--profile",
-        "wasm",
-    ]);
-    build.args(["--target", TARGET, "--crate-type", "cdylib"]);
-    build.arg("--target-dir").arg(folder);
-    let sysroot = sysroot()?;
-    if !sysroot.join("lib/rustlib").join(TARGET).exists() {
-        println!("no target {TARGET} (rustup target add {TARGET}): by Debian's compiler");
-        debian::Compiler::unpacked(&folder.join("debian"))?.apply(&mut build, &sysroot)?;
+    build.args(["rustc", "--package", "specula-studio", "--lib", "--quiet"]);
+    build.args(["--profile", profile, "--crate-type", "cdylib"]);
+    build
+        .args(["--target", TARGET, "--target-dir"])
+        .arg(&folder);
+    if let Some(debian) = debian {
+        debian.apply(&mut build, &sysroot()?)?;
     }
     let begin = Instant::now();
     if !build.status()?.success() {
         return Err("specula-studio does not build for WebAssembly".into());
     }
     println!("built in {:.0} s", begin.elapsed().as_secs_f64());
-    Ok(folder.join(TARGET).join("wasm/specula_studio.wasm"))
+    Ok(folder
+        .join(TARGET)
+        .join(profile)
+        .join("specula_studio.wasm"))
+}
+
+/// Whether the toolchain has libraries for WebAssembly.
+fn has_target() -> Result<bool> {
+    Ok(sysroot()?.join("lib/rustlib").join(TARGET).exists())
 }
 
 /// The folder of the toolchain.

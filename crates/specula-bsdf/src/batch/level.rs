@@ -74,14 +74,14 @@ pub trait Arithmetic {
 pub(super) struct Plain;
 
 /// Fused multiply-add.
-#[cfg(feature = "std")]
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 pub(super) struct Fusing;
 
 impl Arithmetic for Plain {
     type Of<T: Real> = T;
 }
 
-#[cfg(feature = "std")]
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 impl Arithmetic for Fusing {
     type Of<T: Real> = T::Fused;
 }

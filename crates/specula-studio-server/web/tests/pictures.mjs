@@ -13,7 +13,7 @@ const PAGES = {
   lobes: ['?a=conductor+Au+alpha+0.4', 'svg'],
   render: ['?width=384&height=216&treatments=3&energyA=none&energyB=turquin&energyC=multibounce=specula&samples=12&mode=samples&tone=agx', '[data-render="2"]'],
   proof: ['?preset=no-g1', 'tr[data-holds]'],
-  laboratory: ['', 'h1'],
+  laboratory: ['?chosen=tokuyoshi24-fig3', 'button.main:not(:disabled)'],
 };
 const VIEWS = [
   { width: 1280, height: 860, scheme: 'light' },
@@ -34,6 +34,10 @@ for (const [id, [state, selector]] of Object.entries(PAGES)) {
     await page.goto(`${origin}/#/${id}${state}`);
     await page.waitForSelector(selector);
     if (id === 'render') await page.waitForFunction(() => Number(document.querySelector('[data-render="2"] td')?.textContent) >= 12, undefined, { timeout: 240000 });
+    if (id === 'laboratory') {
+      await page.getByRole('button', { name: 'Run 1' }).click();
+      await page.waitForSelector('table[aria-label=Experiments] tbody tr');
+    }
     // Narrow windows have the controls first: what they show begins behind them.
     if (view.width < 600) await page.locator('.content').evaluate((element) => scrollTo(0, element.getBoundingClientRect().top - 60));
     await page.waitForTimeout(4000);

@@ -121,7 +121,7 @@ impl Renders {
         let has_room = |sessions: &Sessions| match sessions.open.len() < MOST_SESSIONS {
             true => Ok(()),
             false => Err(AskError::new(format!(
-                "{MOST_SESSIONS} renders are open, and no more can be: close one (render.close)"
+                "{MOST_SESSIONS} renders are open, and no more can be: close another page that renders"
             ))),
         };
         has_room(&locked(&self.sessions))?;

@@ -62,6 +62,12 @@ export function format(x: number): string {
   return size >= 1e5 || size < 1e-3 ? x.toExponential(1).replace('.0e', 'e').replace('e+', 'e') : String(Number(x.toPrecision(4)));
 }
 
+/** The same with all of its digits, zeros too: numbers of a column are alike. */
+export function formatAlike(x: number, digits: number): string {
+  const size = Math.abs(x);
+  return size >= 1e5 || size < 1e-3 ? format(x) : x.toPrecision(digits);
+}
+
 export function Plot(props: PlotProps) {
   const { title, series, isLogarithmic = false, isLogarithmicX = false, height = 280 } = props;
   const svg = useRef<SVGSVGElement>(null);

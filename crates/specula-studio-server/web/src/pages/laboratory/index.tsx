@@ -4,6 +4,7 @@ import { useState } from 'preact/hooks';
 import { useAddress } from '../../core/address';
 import { hasServer, post } from '../../core/server';
 import { Choice, Message, Panel, Progress } from '../../ui/controls';
+import { Table } from '../../ui/table';
 import type { Page } from '../page';
 import { type Experiment, type Result, type Status, useExperiments, useStatus } from './status';
 
@@ -112,7 +113,7 @@ function Running(props: { status: Status | undefined }) {
   const { status } = props;
   return (
     <Panel title="Now" wide>
-      {status?.state !== 'running' ? <p class="quiet">Nothing runs. Choose experiments at the left.</p> : <Progress label={status.what ?? ''} share={status.share} />}
+      {status?.state !== 'running' ? <p class="quiet">Nothing runs. Choose experiments, and press Run.</p> : <Progress label={status.what ?? ''} share={status.share} />}
       <Message text={props.status?.error ?? undefined} />
     </Panel>
   );
@@ -120,40 +121,24 @@ function Running(props: { status: Status | undefined }) {
 
 function Results(props: { results: Result[] }) {
   if (props.results.length === 0) return null;
-  const word = (holds: string) => ({ yes: 'holds', no: 'does not hold' })[holds] ?? 'open';
-  const colour = (holds: string) => ({ yes: 'good', no: 'bad' })[holds] ?? 'quiet';
+  const word = (holds: boolean | null) => (holds === null ? 'open' : holds ? 'holds' : 'does not hold');
+  const colour = (holds: boolean | null) => (holds === null ? 'quiet' : holds ? 'good' : 'bad');
   return (
     <Panel title="Claims" wide>
-      <div class="scroll" role="region" tabIndex={0} aria-label="Experiments, a table">
-        <table>
-          <thead>
-            <tr>
-              <th scope="col">Experiment</th>
-              <th scope="col">Claim</th>
-              <th scope="col">Stated</th>
-              <th scope="col">Measured</th>
-              <th scope="col">Verdict</th>
-              <th scope="col" class="number">
-                Seconds
-              </th>
+      <Table name="Experiments" words={['Experiment', 'Claim', 'Stated', 'Measured', 'Verdict']} numbers={['Seconds']}>
+        {props.results.flatMap((result) =>
+          result.claims.map((claim, i) => (
+            <tr key={`${result.id}-${i}`}>
+              <td>{i === 0 ? result.id : ''}</td>
+              <td>{claim.text}</td>
+              <td>{claim.stated}</td>
+              <td>{claim.measured}</td>
+              <td class={colour(claim.holds)}>{word(claim.holds)}</td>
+              <td class="number">{i === 0 ? result.seconds.toFixed(1) : ''}</td>
             </tr>
-          </thead>
-          <tbody>
-            {props.results.flatMap((result) =>
-              result.claims.map((claim, i) => (
-                <tr key={`${result.id}-${i}`}>
-                  <td>{i === 0 ? result.id : ''}</td>
-                  <td>{claim.statement}</td>
-                  <td>{claim.stated}</td>
-                  <td>{claim.measured}</td>
-                  <td class={colour(claim.holds)}>{word(claim.holds)}</td>
-                  <td class="number">{i === 0 ? result.seconds.toFixed(1) : ''}</td>
-                </tr>
-              )),
-            )}
-          </tbody>
-        </table>
-      </div>
+          )),
+        )}
+      </Table>
     </Panel>
   );
 }

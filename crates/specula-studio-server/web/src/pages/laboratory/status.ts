@@ -19,7 +19,8 @@ export interface Result {
   seconds: number;
   /** What the experiment says of itself. */
   summary: string;
-  claims: { statement: string; stated: string; measured: string; holds: string }[];
+  /** What the source states, what was measured, and whether that holds; `null` where figures are too uncertain. */
+  claims: { text: string; stated: string; measured: string; holds: boolean | null }[];
 }
 
 export interface Status {

@@ -5,6 +5,7 @@ import { type Answer, ask } from '../../core/ask';
 import type { Check, Vec3 } from '../../core/protocol';
 import { Message } from '../../ui/controls';
 import { Heats } from '../../ui/heats';
+import { Table } from '../../ui/table';
 import type { Layer } from './answers';
 import { figure } from './curves';
 import type { Slot } from './state';
@@ -12,33 +13,23 @@ import type { Slot } from './state';
 /** The table of samples by lobe. */
 export function Samples({ layers, samples, count }: { layers: Layer[]; samples: Record<Slot, Answer<'lobes.samples'> | undefined>; count: number }) {
   return (
-    <div class="scroll" role="region" tabIndex={0} aria-label="Checks, a table">
-      <table aria-label="Samples by lobe">
-        <thead>
-          <tr>
-            <th scope="col">Lobe</th>
-            <th scope="col" class="number">Failed</th>
-            <th scope="col" class="number">Albedo: red, green, blue</th>
-            <th scope="col" class="number">Variance of the weight</th>
-          </tr>
-        </thead>
-        <tbody>
-          {layers.map(({ slot, letter }) => {
-            const value = samples[slot]?.value;
-            if (value === undefined) return null;
-            return (
-              <tr key={slot}>
-                <th scope="row">{letter}</th>
-                <td class="number">{`${((100 * value.failed) / count).toFixed(2)}\u00a0%`}</td>
-                <td class="number">{value.albedo.map((x) => x.toFixed(4)).join(', ')}</td>
-                <td class="number">{figure(value.variance)}</td>
-              </tr>
-            );
-          })}
-        </tbody>
-      </table>
+    <>
+      <Table name="Samples by lobe" words={['Lobe']} numbers={['Failed', 'Albedo: red, green, blue', 'Variance of the weight']}>
+        {layers.map(({ slot, letter }) => {
+          const value = samples[slot]?.value;
+          if (value === undefined) return null;
+          return (
+            <tr key={slot}>
+              <th scope="row">{letter}</th>
+              <td class="number">{`${((100 * value.failed) / count).toFixed(2)}\u00a0%`}</td>
+              <td class="number list">{value.albedo.map((x) => x.toFixed(4)).join(', ')}</td>
+              <td class="number">{figure(value.variance)}</td>
+            </tr>
+          );
+        })}
+      </Table>
       <p class="quiet">{count.toLocaleString('en')} samples of the view each. A failed sample counts as 0.</p>
-    </div>
+    </>
   );
 }
 
@@ -84,27 +75,15 @@ function chance(p: number): string {
 /** Checks as a table of words. */
 export function Checks({ checks }: { checks: Check[] }) {
   return (
-    <div class="scroll" role="region" tabIndex={0} aria-label="Figures of the samples, a table">
-      <table aria-label="Checks">
-        <thead>
-          <tr>
-            <th scope="col">Check</th>
-            <th scope="col">Verdict</th>
-            <th scope="col">Figures</th>
-            <th scope="col" class="number">p</th>
-          </tr>
-        </thead>
-        <tbody>
-          {checks.map((check) => (
-            <tr key={check.name} data-check={check.name} data-holds={check.holds}>
-              <th scope="row">{check.name}</th>
-              <td class={`verdict ${check.holds ? 'good' : 'bad'}`}>{check.holds ? 'holds' : 'does not hold'}</td>
-              <td>{check.text}</td>
-              <td class="number">{check.p === undefined ? '' : chance(check.p)}</td>
-            </tr>
-          ))}
-        </tbody>
-      </table>
-    </div>
+    <Table name="Checks" words={['Check', 'Verdict', 'Figures']} numbers={['p']}>
+      {checks.map((check) => (
+        <tr key={check.name} data-check={check.name} data-holds={check.holds}>
+          <th scope="row">{check.name}</th>
+          <td class={`verdict ${check.holds ? 'good' : 'bad'}`}>{check.holds ? 'holds' : 'does not hold'}</td>
+          <td>{check.text}</td>
+          <td class="number">{check.p === undefined ? '' : chance(check.p)}</td>
+        </tr>
+      ))}
+    </Table>
   );
 }

@@ -3,6 +3,7 @@
 import { RADIANS } from '../../core/directions';
 import type { Answer } from '../../core/ask';
 import { Plot, type Series } from '../../ui/plot';
+import { Table } from '../../ui/table';
 import type { Layer } from './answers';
 import { albedoCurves, type Curve, figure } from './curves';
 import { type Channels, lightIndex, type LobesState, type Slot, viewAngle } from './state';
@@ -11,34 +12,22 @@ import { type Channels, lightIndex, type LobesState, type Slot, viewAngle } from
 export function Values({ state, layers, slices }: { state: LobesState; layers: Layer[]; slices: Record<Slot, Answer<'lobes.slice'> | undefined> }) {
   const i = lightIndex(state);
   return (
-    <div class="scroll" role="region" tabIndex={0} aria-label="Values of the lobes, a table">
-      <table aria-label="Values at the light">
-        <thead>
-          <tr>
-            <th scope="col">Lobe</th>
-            <th scope="col" class="number">f cos: red, green, blue (1/sr)</th>
-            <th scope="col" class="number">pdf (1/sr)</th>
-            <th scope="col" class="number">Weight: red, green, blue</th>
+    <Table name="Values at the light" words={['Lobe']} numbers={['f cos: red, green, blue (1/sr)', 'pdf (1/sr)', 'Weight: red, green, blue']}>
+      {layers.map(({ slot, letter }) => {
+        const arrays = slices[slot]?.arrays;
+        if (arrays === undefined) return null;
+        const value = [0, 1, 2].map((k) => arrays.f_cos.values[3 * i + k] as number);
+        const pdf = arrays.pdf.values[i] as number;
+        return (
+          <tr key={slot}>
+            <th scope="row">{letter}</th>
+            <td class="number list">{value.map(figure).join(', ')}</td>
+            <td class="number">{figure(pdf)}</td>
+            <td class="number list">{pdf > 0 ? value.map((v) => figure(v / pdf)).join(', ') : 'none'}</td>
           </tr>
-        </thead>
-        <tbody>
-          {layers.map(({ slot, letter }) => {
-            const arrays = slices[slot]?.arrays;
-            if (arrays === undefined) return null;
-            const value = [0, 1, 2].map((k) => arrays.f_cos.values[3 * i + k] as number);
-            const pdf = arrays.pdf.values[i] as number;
-            return (
-              <tr key={slot}>
-                <th scope="row">{letter}</th>
-                <td class="number">{value.map(figure).join(', ')}</td>
-                <td class="number">{figure(pdf)}</td>
-                <td class="number">{pdf > 0 ? value.map((v) => figure(v / pdf)).join(', ') : 'none'}</td>
-              </tr>
-            );
-          })}
-        </tbody>
-      </table>
-    </div>
+        );
+      })}
+    </Table>
   );
 }
 

@@ -126,7 +126,7 @@ function Interface() {
         <dt>
           <code>parameters: vec4f</code>
         </dt>
-        <dd>the sliders at the left</dd>
+        <dd>the page's sliders</dd>
       </dl>
       <p class="quiet">
         Directions are unit, in the local frame, z along the normal; both point away from the surface. u is uniform in [0, 1)^3. Functions of the exported library, such as bounded_sample_direction, may be called by their names. Names that begin with proof_ are taken.

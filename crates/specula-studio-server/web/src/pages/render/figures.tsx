@@ -5,6 +5,7 @@ import { ask } from '../../core/ask';
 import type { RenderCompareValue } from '../../core/protocol';
 import { Choice, Panel } from '../../ui/controls';
 import { format, Plot, seriesColour } from '../../ui/plot';
+import { Table } from '../../ui/table';
 import { LETTERS } from './layers';
 import type { Turn } from './render';
 import type { History } from './use_errors';
@@ -46,35 +47,22 @@ export function Figures({ turns, reference, history }: { turns: Turn[]; referenc
   if (reference !== undefined) rows.push(['Reference', reference]);
   return (
     <Panel title="Figures" wide>
-      <div class="scroll" role="region" tabIndex={0} aria-label="Figures of the renders">
-        <table>
-          <thead>
-            <tr>
-              {['', ...columns].map((name) => (
-                <th key={name} scope="col" class={name === '' ? '' : 'number'}>
-                  {name === '' ? <span class="hidden-visually">Render</span> : name}
-                </th>
-              ))}
+      <Table name="Figures of the renders" words={['Render']} numbers={columns} isFirstHidden>
+        {rows.map(([name, { state, opened }], i) =>
+          state === undefined || opened === undefined ? null : (
+            <tr key={name} data-render={i < turns.length ? i : 'reference'}>
+              <th scope="row">{name}</th>
+              <td class="number">{state.samples}</td>
+              <td class="number">{state.seconds.toFixed(2)}</td>
+              <td class="number">{((state.samples * opened.width * opened.height) / 1e6 / Math.max(state.seconds, 1e-3)).toFixed(2)}</td>
+              <td class="number">{(100 * state.noise).toFixed(2)} %</td>
+              <td class="number">{state.mean.map((m) => m.toFixed(4)).join(' ')}</td>
+              {hasReference && <td class="number">{i < turns.length && history.now[i] !== undefined ? format(history.now[i].rmse) : ''}</td>}
+              {hasReference && <td class="number">{i < turns.length && history.now[i] !== undefined ? format(history.now[i].relMse) : ''}</td>}
             </tr>
-          </thead>
-          <tbody>
-            {rows.map(([name, { state, opened }], i) =>
-              state === undefined || opened === undefined ? null : (
-                <tr key={name} data-render={i < turns.length ? i : 'reference'}>
-                  <th scope="row">{name}</th>
-                  <td class="number">{state.samples}</td>
-                  <td class="number">{state.seconds.toFixed(2)}</td>
-                  <td class="number">{((state.samples * opened.width * opened.height) / 1e6 / Math.max(state.seconds, 1e-3)).toFixed(2)}</td>
-                  <td class="number">{(100 * state.noise).toFixed(2)} %</td>
-                  <td class="number">{state.mean.map((m) => m.toFixed(4)).join(' ')}</td>
-                  {hasReference && <td class="number">{i < turns.length && history.now[i] !== undefined ? format(history.now[i].rmse) : ''}</td>}
-                  {hasReference && <td class="number">{i < turns.length && history.now[i] !== undefined ? format(history.now[i].relMse) : ''}</td>}
-                </tr>
-              ),
-            )}
-          </tbody>
-        </table>
-      </div>
+          ),
+        )}
+      </Table>
       {compared !== undefined && (
         <p>
           A against {hasReference ? 'the reference' : 'B'}: RMSE {format(compared.rmse)}, relMSE {format(compared.relMse)}, of 8 x 8 blocks {format(compared.blockRmse)}, FLIP {format(compared.flip)}.

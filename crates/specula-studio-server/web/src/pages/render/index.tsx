@@ -164,7 +164,7 @@ function Who({ turns }: { turns: Turn[] }) {
     <>
       {compiling !== undefined && <Progress label={`Compiling ${compiling.what}: ${Math.max(0, Math.round((now - compiling.since) / 1000))} s`} />}
       <p class="quiet" data-by={turns.some((turn) => turn.by.isGpu) ? 'gpu' : 'processor'}>
-        {words.map((text) => `${text}.`).join(' ')}
+        {words.map((text) => (text.endsWith('.') ? text : `${text}.`)).join(' ')}
       </p>
     </>
   );

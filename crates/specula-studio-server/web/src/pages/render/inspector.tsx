@@ -3,7 +3,8 @@
 import { luminance } from '../../core/colour';
 import type { Rgb } from '../../core/protocol';
 import { Panel, Slider } from '../../ui/controls';
-import { format } from '../../ui/plot';
+import { formatAlike } from '../../ui/plot';
+import { Table } from '../../ui/table';
 import { LETTERS } from './layers';
 import type { Turn } from './render';
 
@@ -32,40 +33,24 @@ export function Inspector({ turns, reference, pixel, isHovered, onPixel }: Inspe
     <Panel title="Pixel">
       <Slider label="Column" value={place[0]} min={0} max={width - 1} steps={Math.max(1, width - 1)} isInteger onInput={(x) => onPixel([x, place[1]])} />
       <Slider label="Row" value={place[1]} min={0} max={height - 1} steps={Math.max(1, height - 1)} isInteger onInput={(y) => onPixel([place[0], y])} />
-      <div class="scroll" role="region" tabIndex={0} aria-label="Values, a table">
-        <table aria-label="Values of the pixel">
-          <thead>
-            <tr>
-              <th scope="col">
-                <span class="hidden-visually">Render</span>
-              </th>
-              {['Red', 'Green', 'Blue', 'Luminance', 'Deviation'].map((name) => (
-                <th key={name} scope="col" class="number">
-                  {name}
-                </th>
+      <Table name="Values of the pixel" words={['Render']} numbers={['Red', 'Green', 'Blue', 'Luminance', 'Deviation']} isFirstHidden>
+        {rows.map(([name, { colour, variance, state }]) => {
+          const value = at(colour, width, place);
+          const spread = at(variance, width, place);
+          if (value === undefined || state === undefined) return null;
+          return (
+            <tr key={name} data-pixel={name}>
+              <th scope="row">{name}</th>
+              {[...value, luminance(value)].map((v, k) => (
+                <td key={k} class="number">
+                  {formatAlike(v, 3)}
+                </td>
               ))}
+              <td class="number">{spread === undefined || state.samples < 2 ? '' : formatAlike(luminance(spread.map(Math.sqrt) as Rgb), 2)}</td>
             </tr>
-          </thead>
-          <tbody>
-            {rows.map(([name, { colour, variance, state }]) => {
-              const value = at(colour, width, place);
-              const spread = at(variance, width, place);
-              if (value === undefined || state === undefined) return null;
-              return (
-                <tr key={name} data-pixel={name}>
-                  <th scope="row">{name}</th>
-                  {[...value, luminance(value)].map((v, k) => (
-                    <td key={k} class="number">
-                      {format(Number(v.toPrecision(3)))}
-                    </td>
-                  ))}
-                  <td class="number">{spread === undefined || state.samples < 2 ? '' : format(Number(luminance(spread.map(Math.sqrt) as Rgb).toPrecision(2)))}</td>
-                </tr>
-              );
-            })}
-          </tbody>
-        </table>
-      </div>
+          );
+        })}
+      </Table>
       <p class="quiet">{isHovered ? 'Below the pointer.' : 'The pixel that was clicked, or chosen here.'} Linear sRGB; the deviation is the standard deviation of the mean luminance, estimated from the samples.</p>
     </Panel>
   );

@@ -7,7 +7,8 @@ import { useAnswer } from '../../core/use_answer';
 import { Choice, Message, Panel, Select, Slider, Toggle } from '../../ui/controls';
 import { Formula } from '../../ui/formula';
 import { Heats } from '../../ui/heats';
-import { format } from '../../ui/plot';
+import { format, formatAlike } from '../../ui/plot';
+import { Table } from '../../ui/table';
 import type { Page } from '../page';
 import { GpuCheck } from './gpu_check';
 import { Multiples } from './multiples';
@@ -129,32 +130,18 @@ function Comparison({ setup, state }: Part) {
     <Panel title="All samplers" isPending={isPending}>
       <Message text={isAbove ? error : undefined} />
       {!isAbove && <p class="quiet">Estimates are compared for views above the horizon.</p>}
-      <div class="scroll" role="region" tabIndex={0} aria-label="All samplers, a table">
-        <table>
-          <thead>
-            <tr>
-              <th scope="col">Sampler</th>
-              {['Accepted', 'Mean', 'Variance', 'Over the best', 'ns'].map((name) => (
-                <th key={name} scope="col" class="number">
-                  {name}
-                </th>
-              ))}
-            </tr>
-          </thead>
-          <tbody>
-            {rows.map((row) => (
-              <tr key={row.sampler}>
-                <th scope="row">{SAMPLERS.find((s) => s.value === row.sampler)?.label}</th>
-                <td class="number">{(100 * row.acceptance).toFixed(1)} %</td>
-                <td class="number">{row.mean.toFixed(4)}</td>
-                <td class="number">{format(row.variance)}</td>
-                <td class="number">{best > 0 ? (row.variance / best).toFixed(2) : ''}</td>
-                <td class="number">{row.nanoseconds?.toFixed(0) ?? ''}</td>
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      </div>
+      <Table name="All samplers" words={['Sampler']} numbers={['Accepted', 'Mean', 'Variance', 'Over the best', 'ns']}>
+        {rows.map((row) => (
+          <tr key={row.sampler}>
+            <th scope="row">{SAMPLERS.find((s) => s.value === row.sampler)?.label}</th>
+            <td class="number">{(100 * row.acceptance).toFixed(1)} %</td>
+            <td class="number">{row.mean.toFixed(4)}</td>
+            <td class="number">{formatAlike(row.variance, 4)}</td>
+            <td class="number">{best > 0 ? (row.variance / best).toFixed(2) : ''}</td>
+            <td class="number">{row.nanoseconds?.toFixed(0) ?? ''}</td>
+          </tr>
+        ))}
+      </Table>
       <p class="quiet">An estimator of white metal under the chosen light: the mean is the same, its noise is not.</p>
     </Panel>
   );
