@@ -255,6 +255,20 @@ pub fn export(language: Language, wanted: &[&str]) -> Result<Vec<File>, ExportEr
     export.files()
 }
 
+/// A WGSL text that is written as the library is, in a language: as [`Export::files`] writes the library, but for the
+/// header and the documentation. SPIR-V exports every function by name.
+///
+/// # Errors
+///
+/// What the language cannot say.
+pub fn translated(wgsl: &str, language: Language) -> Result<Vec<u8>, TranslateError> {
+    Ok(match language {
+        Language::SpirV => bytes(&with_exports(&translate::words(wgsl)?)),
+        Language::Cpp => cpp::to_cpp(wgsl)?.into_bytes(),
+        _ => translate::text(wgsl, language)?.into_bytes(),
+    })
+}
+
 /// The words of SPIR-V as they lie in a file.
 fn bytes(words: &[u32]) -> Vec<u8> {
     words.iter().flat_map(|w| w.to_le_bytes()).collect()

@@ -33,7 +33,7 @@ pub use compose::{compose, ordered};
 pub use cpp::to_cpp;
 pub use declarations::{Declaration, DeclarationKind, Field, declarations, fields};
 pub use error::ComposeError;
-pub use export::{Export, ExportError, File, TABLES_FILE, export};
+pub use export::{Export, ExportError, File, TABLES_FILE, export, translated};
 pub use language::Language;
 pub use modules::{Import, MODULES, Module};
 pub use tables::{offset, tables};

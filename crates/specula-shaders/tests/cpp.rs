@@ -192,11 +192,15 @@ fn samples_follow_their_densities() {
     let header = folder.read("specula.hpp");
     for (from, to, subject) in [
         // A density a thirtieth too small.
-        ("2.0f * bound.y);", "2.07f * bound.y);", "bounded"),
+        (
+            "bounded_height(alpha, wo, lengths), 2.0f",
+            "bounded_height(alpha, wo, lengths), 2.07f",
+            "bounded",
+        ),
         // Less of the cap.
         (
-            "cap.view, u.x * cap.height,",
-            "cap.view, 0.97f * u.x * cap.height,",
+            "u.x * bounded_height(",
+            "0.97f * u.x * bounded_height(",
             "bounded",
         ),
         // Refraction by another index.

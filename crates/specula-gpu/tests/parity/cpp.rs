@@ -5,9 +5,10 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::harness::{Case, Fault, Outcome, judge, text};
+use crate::harness::{Case, Fault, Kept, Outcome, judge, text};
 use crate::{bsdf, energy, fresnel, layered, math, multibounce, ndf, vndf};
 
 /// How the cases are compiled.
@@ -65,10 +66,10 @@ const CUDA_FAST: Setting = Setting {
 };
 
 /// A family's name and its cases.
-type Family = (&'static str, fn() -> Vec<Case>);
+pub(crate) type Family = (&'static str, fn() -> Vec<Case>);
 
 /// Each is one program.
-const FAMILIES: [Family; 8] = [
+pub(crate) const FAMILIES: [Family; 8] = [
     ("math", math::cases),
     ("ndf", ndf::cases),
     ("vndf", vndf::cases),
@@ -122,14 +123,27 @@ impl Side {
     }
 }
 
+/// The families whose cases are shown to notice faults, and the faults.
+pub(crate) fn faults() -> [(Family, Vec<Fault>); 7] {
+    let of = |family: usize, faults: &[Fault]| (FAMILIES[family], faults.to_vec());
+    [
+        of(0, &math::FAULTS),
+        of(1, &ndf::FAULTS),
+        of(2, &vndf::FAULTS),
+        of(3, &fresnel::FAULTS),
+        of(5, &bsdf::faults()),
+        of(6, layered::FAULTS),
+        of(7, multibounce::FAULTS),
+    ]
+}
+
 /// Of the faults that are planted in shaders, one of so many is planted in C++.
 const FAULT_STEP: usize = 4;
 
-/// Cases as a program.
-fn source(side: Side, cases: &[&Case], fault: Option<&Fault>) -> String {
+/// The modules that cases need and, for each case, a function `parity_NAME(x, y)` of its body.
+pub(crate) fn functions(cases: &[&Case], fault: Option<&Fault>) -> String {
     let modules: BTreeSet<&str> = cases.iter().flat_map(|c| c.modules).copied().collect();
     let mut wgsl = text(&modules.into_iter().collect::<Vec<_>>(), fault);
-    let mut calls = String::new();
     for case in cases {
         let (name, arguments, results) = (case.name, case.arguments, case.results());
         wgsl += &format!(
@@ -137,10 +151,18 @@ fn source(side: Side, cases: &[&Case], fault: Option<&Fault>) -> String {
              {}\n}}\n",
             case.body
         );
-        calls += &format!(
-            "    evaluate<specula::parity_{name}, {arguments}, {results}>(inputs, results);\n"
-        );
     }
+    wgsl
+}
+
+/// Cases as a program.
+fn source(side: Side, cases: &[&Case], fault: Option<&Fault>) -> String {
+    let wgsl = functions(cases, fault);
+    let call = |case: &&Case| {
+        let (name, arguments, results) = (case.name, case.arguments, case.results());
+        format!("    evaluate<specula::parity_{name}, {arguments}, {results}>(inputs, results);\n")
+    };
+    let calls: String = cases.iter().map(call).collect();
     let library = specula_shaders::to_cpp(&wgsl).unwrap_or_else(|error| panic!("{error}\n{wgsl}"));
     let bind = if wgsl.contains("var<storage, read> specula_tables") {
         side.bind()
@@ -151,10 +173,32 @@ fn source(side: Side, cases: &[&Case], fault: Option<&Fault>) -> String {
     library + &main.replace("    // CALLS\n", &calls)
 }
 
+/// Writes the arguments of cases for a program: for each their number of rows, then the rows.
+pub(crate) fn write_inputs(folder: &Path, cases: &[&Case]) {
+    let mut bytes = Vec::new();
+    for case in cases {
+        let count = u32::try_from(case.inputs.len() / case.arguments).unwrap();
+        bytes.extend(count.to_le_bytes());
+        bytes.extend(case.inputs.iter().flat_map(|v| v.to_le_bytes()));
+    }
+    std::fs::write(folder.join("inputs"), bytes).unwrap();
+}
+
+/// What a program has written for each case.
+pub(crate) fn read_results(folder: &Path, cases: &[&Case]) -> Vec<Vec<f32>> {
+    let bytes = std::fs::read(folder.join("results")).unwrap();
+    let mut values = bytes.as_chunks().0.iter().map(|b| f32::from_le_bytes(*b));
+    let lengths = cases
+        .iter()
+        .map(|case| case.inputs.len() / case.arguments * case.results());
+    lengths
+        .map(|length| values.by_ref().take(length).collect())
+        .collect()
+}
+
 /// A compiled program in a folder of its own.
 struct Program {
     folder: tempfile::TempDir,
-    results: Vec<usize>,
 }
 
 impl Program {
@@ -173,22 +217,13 @@ impl Program {
         let said = String::from_utf8_lossy(&output.stderr);
         let first = said.lines().take(20).collect::<Vec<_>>().join("\n");
         assert!(output.status.success(), "{first}");
-        Self {
-            folder,
-            results: cases.iter().map(|c| c.results()).collect(),
-        }
+        Self { folder }
     }
 
     /// The results of each case.
     fn run(&self, cases: &[&Case]) -> Vec<Vec<f32>> {
         let folder = self.folder.path();
-        let mut bytes = Vec::new();
-        for case in cases {
-            let count = u32::try_from(case.inputs.len() / case.arguments).unwrap();
-            bytes.extend(count.to_le_bytes());
-            bytes.extend(case.inputs.iter().flat_map(|v| v.to_le_bytes()));
-        }
-        std::fs::write(folder.join("inputs"), bytes).unwrap();
+        write_inputs(folder, cases);
         let output = Command::new(folder.join("parity"))
             .current_dir(folder)
             // The sanitizer of leaks cannot run where processes may not be traced.
@@ -197,13 +232,7 @@ impl Program {
             .unwrap();
         let said = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "{said}");
-        let bytes = std::fs::read(folder.join("results")).unwrap();
-        let mut values = bytes.as_chunks().0.iter().map(|b| f32::from_le_bytes(*b));
-        let lengths = cases.iter().zip(&self.results);
-        let lengths = lengths.map(|(case, results)| case.inputs.len() / case.arguments * results);
-        lengths
-            .map(|length| values.by_ref().take(length).collect())
-            .collect()
+        read_results(folder, cases)
     }
 }
 
@@ -231,10 +260,34 @@ fn outcomes(
     let compiled = start.elapsed();
     let values = program.run(&cases);
     let time = [compiled, start.elapsed().saturating_sub(compiled)];
-    let judged = cases.iter().zip(&values).zip(&program.results);
+    let judged = cases.iter().zip(&values);
     judged
-        .map(|((case, values), results)| judge(case, values, *results, time))
+        .map(|(case, values)| judge(case, values, case.results(), time))
         .collect()
+}
+
+/// Errors of the families by compiler and setting.
+static KEPT: Kept<Arc<Vec<Outcome>>> = Kept::new();
+
+/// Errors of a family, which is run once for a compiler and its flags.
+fn family_outcomes(compiler: &Path, setting: &Setting, family: &Family) -> Arc<Vec<Outcome>> {
+    let name = format!(
+        "{} {} {}",
+        compiler.display(),
+        setting.flags.join(" "),
+        family.0
+    );
+    KEPT.get(&name, || {
+        Arc::new(outcomes(compiler, setting, &family.1(), None))
+    })
+}
+
+/// Flags of [`optimised_outcomes`].
+pub(crate) const OPTIMISED_FLAGS: &[&str] = OPTIMISED.flags;
+
+/// Errors of a family as g++ compiles programs.
+pub(crate) fn optimised_outcomes(family: &Family) -> Arc<Vec<Outcome>> {
+    family_outcomes(Path::new("g++"), &OPTIMISED, family)
 }
 
 /// Proves all cases in a setting.
@@ -289,14 +342,10 @@ fn prove_by(compiler: &Path, setting: &Setting, what: &str) {
 }
 
 /// What fails of a family of cases.
-fn failures(
-    compiler: &Path,
-    setting: &Setting,
-    (family, cases): &Family,
-    what: &str,
-) -> Vec<String> {
+fn failures(compiler: &Path, setting: &Setting, family: &Family, what: &str) -> Vec<String> {
     let start = Instant::now();
-    let outcomes = outcomes(compiler, setting, &cases(), None);
+    let outcomes = family_outcomes(compiler, setting, family);
+    let family = family.0;
     let [compiled, run]: [Duration; 2] = outcomes[0].time;
     let worst = outcomes
         .iter()
@@ -361,16 +410,7 @@ fn planted_faults_are_noticed() {
     let Some(compiler) = compilers("planted faults in C++").into_iter().next() else {
         return;
     };
-    let faults: [(Family, &[Fault]); 7] = [
-        (FAMILIES[0], &math::FAULTS),
-        (FAMILIES[1], &ndf::FAULTS),
-        (FAMILIES[2], &vndf::FAULTS),
-        (FAMILIES[3], &fresnel::FAULTS),
-        (FAMILIES[5], &bsdf::faults()),
-        (FAMILIES[6], layered::FAULTS),
-        (FAMILIES[7], multibounce::FAULTS),
-    ];
-    for ((family, cases), faults) in faults {
+    for ((family, cases), faults) in faults() {
         let cases = cases();
         for fault in faults.iter().step_by(FAULT_STEP) {
             let case = cases.iter().find(|c| c.name == fault.case).unwrap();

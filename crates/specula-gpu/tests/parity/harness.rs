@@ -8,6 +8,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 pub(crate) use crate::common::gpu;
@@ -110,6 +111,7 @@ impl Case {
 }
 
 /// A text of a module to be replaced, and the case that has to notice.
+#[derive(Clone, Copy)]
 pub(crate) struct Fault {
     /// Name of the case.
     pub(crate) case: &'static str,
@@ -245,7 +247,7 @@ fn run(
 }
 
 /// Bytes of the energy tables where `text` reads them, else next to nothing: an empty array cannot be.
-fn tables_for(text: &str) -> &'static [u8] {
+pub(crate) fn tables_for(text: &str) -> &'static [u8] {
     if text.contains(TABLES) {
         specula_shaders::tables()
     } else {
@@ -271,6 +273,23 @@ pub(crate) fn evaluate<const N: usize>(
         run(gpu, &kernel, tables, inputs.as_flattened(), [N, results])
     });
     done.unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// What was computed once, by its name.
+pub(crate) struct Kept<T>(Mutex<BTreeMap<String, Arc<OnceLock<T>>>>);
+
+impl<T: Clone> Kept<T> {
+    pub(crate) const fn new() -> Self {
+        Self(Mutex::new(BTreeMap::new()))
+    }
+
+    /// The value of a name. Who asks while it is computed waits.
+    pub(crate) fn get(&self, name: &str, compute: impl FnOnce() -> T) -> T {
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let place = Arc::clone(kept.entry(name.to_owned()).or_default());
+        drop(kept);
+        place.get_or_init(compute).clone()
+    }
 }
 
 /// Proves all cases of a family: prints a table of errors and panics with those beyond their bounds.
@@ -367,6 +386,36 @@ fn outcomes(gpu: &Gpu, cases: &[Case], fault: Option<&Fault>) -> Result<Vec<Outc
     Ok(outcomes)
 }
 
+/// What the twins give for the inputs of a case.
+struct Expected {
+    inputs: Vec<f32>,
+    doubles: Vec<Vec<f64>>,
+    singles: Vec<Vec<f32>>,
+}
+
+/// The same for every language and compiler.
+static EXPECTED: Kept<Arc<Expected>> = Kept::new();
+
+impl Expected {
+    fn of(case: &Case) -> Arc<Self> {
+        let expected = EXPECTED.get(case.name, || Arc::new(Self::computed(case)));
+        match expected.inputs == case.inputs {
+            true => expected,
+            // Another case of that name.
+            false => Arc::new(Self::computed(case)),
+        }
+    }
+
+    fn computed(case: &Case) -> Self {
+        let rows = || case.inputs.chunks(case.arguments);
+        Self {
+            inputs: case.inputs.clone(),
+            doubles: rows().map(|x| (case.double)(&wide(x))).collect(),
+            singles: rows().map(|x| (case.single)(x)).collect(),
+        }
+    }
+}
+
 /// Compares what a shader, or a program in C++, computed with the twins.
 pub(crate) fn judge(case: &Case, values: &[f32], results: usize, time: [Duration; 2]) -> Outcome {
     assert!(
@@ -377,8 +426,8 @@ pub(crate) fn judge(case: &Case, values: &[f32], results: usize, time: [Duration
     );
     let inputs: Vec<&[f32]> = case.inputs.chunks(case.arguments).collect();
     let shaders: Vec<&[f32]> = values.chunks(results).collect();
-    let doubles: Vec<Vec<f64>> = inputs.iter().map(|x| (case.double)(&wide(x))).collect();
-    let singles: Vec<Vec<f32>> = inputs.iter().map(|x| (case.single)(x)).collect();
+    let expected = Expected::of(case);
+    let (doubles, singles) = (&expected.doubles, &expected.singles);
     let worst = |got: &[f32], expected: &[f64]| {
         let pairs = got.iter().zip(expected).enumerate();
         let errors = pairs.map(|(k, (&g, &e))| {

@@ -13,17 +13,7 @@
 import package::alpha::{alpha_stretch};
 import package::vndf::cap::{cap_half_vector_towards};
 import package::vndf::half_vector::{half_vector_density, half_vector_mirrored};
-import package::vndf::stretched::{StretchedDirection, stretched_squared_radius};
-
-/// The stretched view with its cap.
-///
-/// Twin: specula-bsdf/src/vndf/bounded.rs, stretched_with_height.
-struct BoundedCap {
-    /// The view.
-    view: StretchedDirection,
-    /// The cap's height, `1 + k z` (`1 + z` below the horizon).
-    height: f32,
-}
+import package::vndf::stretched::{stretched_lengths};
 
 /// The reflection of `wo`, perhaps below the horizon (to be rejected).
 ///
@@ -32,8 +22,10 @@ struct BoundedCap {
 ///
 /// Twin: specula-bsdf/src/vndf/bounded.rs, sample_direction.
 fn bounded_sample_direction(alpha: vec2f, wo: vec3f, u: vec2f) -> vec3f {
-    let cap = bounded_cap(alpha, wo);
-    let m = cap_half_vector_towards(alpha, cap.view, u.x * cap.height, u.y);
+    let h = alpha_stretch(alpha, wo);
+    let lengths = stretched_lengths(h);
+    let height = u.x * bounded_height(alpha, wo, lengths);
+    let m = cap_half_vector_towards(alpha, h, lengths, height, u.y);
     return half_vector_mirrored(wo, m);
 }
 
@@ -60,44 +52,26 @@ fn bounded_norm(alpha: vec2f, wo: vec3f) -> f32 {
 ///
 /// Twin: specula-bsdf/src/vndf/bounded.rs, norm_quotient.
 fn bounded_norm_quotient(alpha: vec2f, wo: vec3f) -> vec2f {
-    let h = alpha_stretch(alpha, wo);
-    let radius = stretched_squared_radius(h);
-    let length = sqrt(radius + h.z * h.z);
-    if wo.z > 0.0 {
-        let bound = bounded_bound(alpha, wo);
-        return vec2f(bound.x * wo.z + length * bound.y, 2.0 * bound.y);
-    }
-    return vec2f(radius, 2.0 * (length - wo.z));
+    let lengths = stretched_lengths(alpha_stretch(alpha, wo));
+    return vec2f(bounded_height(alpha, wo, lengths), 2.0);
 }
 
-/// The stretched view and the height of its cap, with one division for both.
-///
-/// Twin: specula-bsdf/src/vndf/bounded.rs, stretched_with_height.
-fn bounded_cap(alpha: vec2f, wo: vec3f) -> BoundedCap {
-    let h = alpha_stretch(alpha, wo);
-    let radius = stretched_squared_radius(h);
-    let length = sqrt(radius + h.z * h.z);
-    let long = length + abs(h.z);
-    let bound = bounded_bound(alpha, wo);
-    let up = h.z > 0.0;
-    let factor = select(long, bound.y, up);
-    let inverse = 1.0 / (length * factor);
-    let view = StretchedDirection(h * (factor * inverse), select(radius, long * bound.y, up) * inverse);
-    return BoundedCap(view, select(radius, length * bound.y + bound.x * h.z, up) * inverse);
-}
-
-/// `k` of eq. 6 with the conservative alpha of eq. 7, unclamped, as numerator and denominator: the cap
-/// is `z > -k i.z`.
+/// `2 N`, which is the height of the cap times the view's length: `t + k z`, or `t + z` below the horizon; with
+/// `k` of eq. 6 and the conservative alpha of eq. 7, unclamped: the cap is `z > -k i.z`.
 ///
 ///     k = (1 - a^2) s^2 / (s^2 + a^2 z^2),   a = min(ax, ay),   s = 1 + sgn(1 - a) sqrt(x^2 + y^2)
 ///
+/// * `lengths`: `stretched_lengths` of the stretched view.
+///
 /// Twin: specula-bsdf/src/vndf/bounded.rs, bound.
-fn bounded_bound(alpha: vec2f, wo: vec3f) -> vec2f {
+fn bounded_height(alpha: vec2f, wo: vec3f, lengths: vec2f) -> f32 {
+    if wo.z <= 0.0 {
+        return lengths.y;
+    }
     let a = min(alpha.x, alpha.y);
     let sine = sqrt(wo.x * wo.x + wo.y * wo.y);
     let s = 1.0 + select(-sine, sine, a <= 1.0);
-    let squares = vec2f(a * a, s * s);
     // At grazing views with a > 1 both terms of the denominator vanish; k is then 0 or less.
-    let bottom = max(squares.y + squares.x * wo.z * wo.z, 1e-24);
-    return vec2f((1.0 - squares.x) * squares.y, bottom);
+    let bottom = max(s * s + a * a * wo.z * wo.z, 1e-24);
+    return lengths.x + (1.0 - a * a) * s * s / bottom * wo.z;
 }

@@ -9,13 +9,13 @@
 //
 //     z = 1 - v,   sin theta = sqrt(v (2 - v)),   h.z = z + i.z = t - v
 //
-// which needs no clamp and cancels nowhere.
+// which needs no clamp and cancels nowhere. All are written times the view's length, which saves its division.
 
 import package::alpha::{alpha_stretch};
 import package::math::turns::{turns_sin_cos};
 import package::ndf::ggx::{ggx_d_visible, ggx_projected_area_quotient};
 import package::vndf::half_vector::{half_vector_density, half_vector_mirrored};
-import package::vndf::stretched::{StretchedDirection, stretched_new};
+import package::vndf::stretched::{stretched_lengths};
 
 /// A visible normal, unit, with `wm.z >= 0` and `wo . wm >= 0`.
 ///
@@ -54,17 +54,19 @@ fn cap_reflection_pdf(alpha: vec2f, wo: vec3f, wi: vec3f) -> f32 {
 ///
 /// Twin: specula-bsdf/src/vndf/cap.rs, half_vector.
 fn cap_half_vector(alpha: vec2f, wo: vec3f, u: vec2f) -> vec3f {
-    let i = stretched_new(alpha, wo);
-    return cap_half_vector_towards(alpha, i, u.x * i.one_plus_z, u.y);
+    let h = alpha_stretch(alpha, wo);
+    let lengths = stretched_lengths(h);
+    return cap_half_vector_towards(alpha, h, lengths, u.x * lengths.y, u.y);
 }
 
-/// The half vector towards the point of the cap `v` below its apex at the azimuth `turn`, back in the
-/// surface's space, of any length.
+/// The half vector towards the point of the cap `height` below its apex at the azimuth `turn`, back in the
+/// surface's space, of any length. The cap is that of a sphere whose radius is the view's length.
+///
+/// * `h`: the stretched view; `lengths`: `stretched_lengths` of it.
 ///
 /// Twin: specula-bsdf/src/vndf/cap.rs, half_vector_on_cap.
-fn cap_half_vector_towards(alpha: vec2f, i: StretchedDirection, v: f32, turn: f32) -> vec3f {
+fn cap_half_vector_towards(alpha: vec2f, h: vec3f, lengths: vec2f, height: f32, turn: f32) -> vec3f {
     let phi = turns_sin_cos(turn);
-    let sine = sqrt(v * (2.0 - v));
-    let m = vec3f(sine * phi.yx + i.direction.xy, i.one_plus_z - v);
-    return alpha_stretch(alpha, m);
+    let sine = sqrt(height * (2.0 * lengths.x - height));
+    return alpha_stretch(alpha, vec3f(sine * phi.yx + h.xy, lengths.y - height));
 }

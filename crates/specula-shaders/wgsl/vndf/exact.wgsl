@@ -1,9 +1,9 @@
 // Reflections off visible GGX normals, none of them below the surface.
 //
 // The half vectors whose reflection lies above the surface form a quadratic cone (`exact_cone`), whose
-// projection along the view has an area in closed form. That area is sampled from uniformly: in closed
-// form where the alphas are equal (`exact_isotropic`), by a walk along chords where they are not
-// (`exact_chords`). The density is the visible normals' over the cone:
+// projection along the view has an area in closed form. That area is sampled from uniformly by a walk along
+// chords (`exact_chords`). Where the alphas are equal, `exact_isotropic` gives the same with less work. The
+// density is the visible normals' over the cone:
 //
 //     pdf(wi) = D(wm) / (4 N),   N = int D(wm) max(wo . wm, 0) [wi.z > 0] dwm
 //
@@ -11,12 +11,12 @@
 // half vectors of a spherical cap (Dupuy and Benyoub 2023), the bound of that cap (Tokuyoshi and Eto
 // 2024), the vector irradiance of an ellipse.
 
-import package::ndf::ggx::{ggx_projected_area_quotient};
+import package::alpha::{alpha_stretch};
 import package::vndf::cap::{cap_sample_direction};
 import package::vndf::exact_chords::{exact_chords_half_vector};
 import package::vndf::exact_cone::{exact_cone_new, exact_cone_norm};
-import package::vndf::exact_isotropic::{exact_isotropic_half_vector, exact_isotropic_norm};
 import package::vndf::half_vector::{half_vector_density, half_vector_mirrored};
+import package::vndf::stretched::{stretched_lengths};
 
 /// The reflection of `wo`, above the horizon but for rounding (less than one in 10^6).
 ///
@@ -28,9 +28,6 @@ import package::vndf::half_vector::{half_vector_density, half_vector_mirrored};
 fn exact_sample_direction(alpha: vec2f, wo: vec3f, u: vec2f) -> vec3f {
     if wo.z <= 0.0 {
         return cap_sample_direction(alpha, wo, u);
-    }
-    if alpha.x == alpha.y {
-        return half_vector_mirrored(wo, exact_isotropic_half_vector(alpha.x, wo, u));
     }
     return half_vector_mirrored(wo, exact_chords_half_vector(alpha, exact_cone_new(alpha, wo), u));
 }
@@ -46,8 +43,6 @@ fn exact_reflection_pdf(alpha: vec2f, wo: vec3f, wi: vec3f) -> f32 {
 ///
 ///     N = lambda^2 / (|v|^2 sqrt(Dx Dy))   for z > 0,   sigma(wo) else
 ///
-/// (`lambda^2 / Delta` for isotropic alpha.)
-///
 /// Twin: specula-bsdf/src/vndf/exact/mod.rs, norm.
 fn exact_norm(alpha: vec2f, wo: vec3f) -> f32 {
     let quotient = exact_norm_quotient(alpha, wo);
@@ -59,10 +54,7 @@ fn exact_norm(alpha: vec2f, wo: vec3f) -> f32 {
 /// Twin: specula-bsdf/src/vndf/exact/mod.rs, norm_quotient.
 fn exact_norm_quotient(alpha: vec2f, wo: vec3f) -> vec2f {
     if wo.z <= 0.0 {
-        return ggx_projected_area_quotient(alpha, wo);
-    }
-    if alpha.x == alpha.y {
-        return exact_isotropic_norm(alpha.x, wo.z);
+        return vec2f(stretched_lengths(alpha_stretch(alpha, wo)).y, 2.0);
     }
     return exact_cone_norm(exact_cone_new(alpha, wo));
 }

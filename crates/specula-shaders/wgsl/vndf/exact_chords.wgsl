@@ -44,7 +44,7 @@ fn exact_chords_half_vector(alpha: vec2f, cone: ExactCone, u: vec2f) -> vec3f {
     let along = vec2f(k.y, -k.x) * thin;
 
     let phi = turns_sin_cos(u.y);
-    let disk = sqrt(min(u.x, 0.9999962)) * phi.yx;
+    let disk = sqrt(min(u.x, 0.9999962)) * vec2f(phi.y, -phi.x);
     let c = sqrt(max(1.0 - disk.y * disk.y, 0.0));
 
     // Ends of the chord along t, in units of |k| |h|.

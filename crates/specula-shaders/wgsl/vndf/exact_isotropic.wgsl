@@ -16,6 +16,38 @@
 // Source: derived in docs/exact-reflection-sampling.md of Specula.
 
 import package::math::turns::{turns_sin_cos};
+import package::vndf::cap::{cap_sample_direction};
+import package::vndf::half_vector::{half_vector_density, half_vector_mirrored};
+import package::vndf::stretched::{stretched_lengths};
+
+/// The reflection of `wo`, as `exact_sample_direction` of `exact` gives it where both alphas are `a`.
+///
+/// * `wo`: unit, any hemisphere; `u`: uniform in [0, 1)^2.
+///
+/// Twin: specula-bsdf/src/vndf/exact/mod.rs, sample_direction.
+fn exact_isotropic_sample_direction(a: f32, wo: vec3f, u: vec2f) -> vec3f {
+    if wo.z <= 0.0 {
+        return cap_sample_direction(vec2f(a), wo, u);
+    }
+    return half_vector_mirrored(wo, exact_isotropic_half_vector(a, wo, u));
+}
+
+/// Density of `exact_isotropic_sample_direction` in 1/sr: `D(wm) / (4 N)`; 0 where `wi.z <= 0`.
+///
+/// Twin: specula-bsdf/src/vndf/exact/mod.rs, reflection_pdf.
+fn exact_isotropic_reflection_pdf(a: f32, wo: vec3f, wi: vec3f) -> f32 {
+    return half_vector_density(vec2f(a), wo, wi, exact_isotropic_norm_quotient(a, wo));
+}
+
+/// `N` of `pdf = D(wm) / (4 N)`, `lambda^2 / Delta` for `z > 0`, else `sigma(wo)`, as numerator and denominator.
+///
+/// Twin: specula-bsdf/src/vndf/exact/mod.rs, norm_quotient.
+fn exact_isotropic_norm_quotient(a: f32, wo: vec3f) -> vec2f {
+    if wo.z <= 0.0 {
+        return vec2f(stretched_lengths(vec3f(a * wo.xy, wo.z)).y, 2.0);
+    }
+    return exact_isotropic_norm(a, wo.z);
+}
 
 /// `(Delta, lambda, kappa)` for the alpha `a` and a view at height `z > 0`.
 ///

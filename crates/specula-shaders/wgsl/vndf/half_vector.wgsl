@@ -15,8 +15,7 @@ fn half_vector_unit(m: vec3f) -> vec3f {
 ///
 /// Twin: specula-bsdf/src/vndf/mod.rs, reflect_unnormalised.
 fn half_vector_mirrored(wo: vec3f, m: vec3f) -> vec3f {
-    let scale = 2.0 * dot(wo, m) / dot(m, m);
-    return m * scale - wo;
+    return m * (2.0 * dot(wo, m) / dot(m, m)) - wo;
 }
 
 /// `D(wm) / (4 N)` in 1/sr for reflections above the horizon off GGX, else 0.

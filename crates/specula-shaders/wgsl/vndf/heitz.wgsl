@@ -13,7 +13,7 @@ import package::alpha::{alpha_stretch};
 import package::math::turns::{turns_sin_cos};
 import package::ndf::ggx::{ggx_d_visible, ggx_projected_area_quotient};
 import package::vndf::half_vector::{half_vector_density};
-import package::vndf::stretched::{stretched_new};
+import package::vndf::stretched::{stretched_lengths};
 
 /// A visible normal, unit, with `wm.z >= 0`.
 ///
@@ -22,8 +22,9 @@ import package::vndf::stretched::{stretched_new};
 ///
 /// Twin: specula-bsdf/src/vndf/heitz.rs, sample_wm.
 fn heitz_sample_wm(alpha: vec2f, wo: vec3f, u: vec2f) -> vec3f {
-    let i = stretched_new(alpha, wo);
-    let v = i.direction;
+    let h = alpha_stretch(alpha, wo);
+    let lengths = stretched_lengths(h);
+    let v = h * (1.0 / lengths.x);
     // Below, the plane of incidence is lost to rounding and to squares that vanish.
     let sine = sqrt(max(v.x * v.x + v.y * v.y, 1e-37));
     let across = sine > 1e-18;
@@ -34,7 +35,7 @@ fn heitz_sample_wm(alpha: vec2f, wo: vec3f, u: vec2f) -> vec3f {
     let r = sqrt(u.x);
     let first = r * phi.y;
     let chord = sqrt(max(1.0 - first * first, 0.0));
-    let d = 0.5 * i.one_plus_z * (chord - r * phi.x);
+    let d = 0.5 * (lengths.y / lengths.x) * (chord - r * phi.x);
     let second = chord - d;
     let third = sqrt(max(d * (2.0 * chord - d), 0.0));
 

@@ -4,6 +4,7 @@ import package::ndf::ggx::{ggx_projected_area_quotient};
 import package::vndf::bounded::{bounded_norm_quotient, bounded_sample_direction};
 import package::vndf::cap::{cap_sample_direction};
 import package::vndf::exact::{exact_norm_quotient, exact_sample_direction};
+import package::vndf::exact_isotropic::{exact_isotropic_norm_quotient, exact_isotropic_sample_direction};
 import package::vndf::half_vector::{half_vector_density};
 import package::vndf::heitz::{heitz_sample_wm};
 import package::vndf::sampler::{SAMPLER_BOUNDED, SAMPLER_CAP, SAMPLER_HEITZ};
@@ -33,6 +34,9 @@ fn reflection_sample_direction(strategy: u32, alpha: vec2f, wo: vec3f, u: vec2f)
             return bounded_sample_direction(alpha, wo, u);
         }
         default: {
+            if alpha.x == alpha.y {
+                return exact_isotropic_sample_direction(alpha.x, wo, u);
+            }
             return exact_sample_direction(alpha, wo, u);
         }
     }
@@ -52,6 +56,9 @@ fn reflection_norm_quotient(strategy: u32, alpha: vec2f, wo: vec3f) -> vec2f {
             return bounded_norm_quotient(alpha, wo);
         }
         default: {
+            if alpha.x == alpha.y {
+                return exact_isotropic_norm_quotient(alpha.x, wo);
+            }
             return exact_norm_quotient(alpha, wo);
         }
     }

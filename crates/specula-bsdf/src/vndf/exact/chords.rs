@@ -54,7 +54,8 @@ pub(in crate::vndf) fn half_vector<T: Real>(alpha: Alpha<T>, cone: &Cone<T>, u: 
 
     let (sin_phi, cos_phi) = u[1].sin_cos_turns();
     let disk = radius(u[0]);
-    let (x, y) = (disk * cos_phi, disk * sin_phi);
+    // The sense of rotation that the map of isotropic alphas has.
+    let (x, y) = (disk * cos_phi, -disk * sin_phi);
     let c = (T::ONE - y * y).safe_sqrt();
 
     // Ends of the chord along t, in units of |k| |h|.

@@ -1,0 +1,2 @@
+// Metal has its vectors from here too; the library uses those of metal_stdlib.
+#pragma once
