@@ -7,6 +7,7 @@
 //! | [`ndf`] | distributions of microfacet normals, masking |
 //! | [`vndf`] | samplers of visible normals and of reflections |
 //! | [`fresnel`] | reflectance of conductors and dielectrics |
+//! | [`measured`] | measured materials: tables of the RGL database |
 //! | [`metals`] | measured metals |
 //! | [`energy`] | energy compensation |
 //! | [`multibounce`] | models of all bounces between facets |
@@ -269,6 +270,7 @@ pub mod fresnel;
 #[doc(hidden)]
 pub mod internal;
 pub mod math;
+pub mod measured;
 pub mod metals;
 pub mod multibounce;
 pub mod ndf;

@@ -32,7 +32,7 @@ use crate::bump::{self, Softness};
 use crate::film::{PixelSample, ScatterCounts};
 use crate::geometry::{NONE, Surface};
 use crate::light::{LightSample, Receiver};
-use crate::material::{Coat, Material};
+use crate::material::{Coat, Material, PointLobe};
 use crate::medium_stack::MediumStack;
 use crate::options::{RenderOptions, Strategy};
 use crate::prepared::PreparedScene;
@@ -59,9 +59,9 @@ struct PreviousVertex {
 }
 
 /// A surface with its lobe and shading frame, which faces the viewer.
-struct ShadingPoint {
+struct ShadingPoint<'a> {
     surface: Surface,
-    lobe: Lobe<f32>,
+    lobe: PointLobe<'a>,
     /// Whether the lobe is black where `wi.z <= 0`.
     opaque: bool,
     frame: Frame<f32>,
@@ -72,7 +72,7 @@ struct ShadingPoint {
     wo: Vec3<f32>,
 }
 
-impl ShadingPoint {
+impl ShadingPoint<'_> {
     /// The point as lights are chosen for it.
     #[inline]
     fn receiver(&self) -> Receiver {
@@ -318,7 +318,7 @@ impl<'a> PathTracer<'a> {
         sampler: &Sampler,
         depth: u32,
         rough: bool,
-    ) -> ShadingPoint {
+    ) -> ShadingPoint<'a> {
         let outside = surface.ng.dot(wo) > 0.0;
         let facing = if outside { surface.ng } else { -surface.ng };
         let shape = &self.scene.geometry.shapes[surface.shape as usize];
@@ -352,7 +352,7 @@ impl<'a> PathTracer<'a> {
             ns
         };
         let frame = Frame::from_normal_tangent(n, tangent);
-        if let (Some(coat), Lobe::Gltf(gltf)) = (material.coat, &mut lobe) {
+        if let (Some(coat), PointLobe::Listed(Lobe::Gltf(gltf))) = (material.coat, &mut lobe) {
             let normal = self.coat_normal(coat, &surface, facing);
             *gltf = gltf.with_coat_normal(frame.to_local(normal));
         }
@@ -412,19 +412,26 @@ impl<'a> PathTracer<'a> {
         normal * side
     }
 
+    /// How many lights are sampled at a vertex: one where it is measured.
+    #[inline]
+    fn light_candidates_at(&self, vertex: &ShadingPoint<'_>, depth: u32) -> u32 {
+        let listed = vertex.lobe.listed();
+        listed.map_or(1, |lobe| self.light_candidates(lobe, depth))
+    }
+
     /// Adds direct light from one light sample.
     #[inline]
     fn add_direct(
         &self,
         state: &mut PathState,
-        vertex: &ShadingPoint,
+        vertex: &ShadingPoint<'_>,
         sampler: &Sampler,
         depth: u32,
     ) {
         if vertex.lobe.is_specular() {
             return;
         }
-        let count = self.light_candidates(&vertex.lobe, depth);
+        let count = self.light_candidates_at(vertex, depth);
         let candidate = |nth| self.sample_light(state, vertex, sampler, depth, [nth, count]);
         let first = candidate(0);
         let chosen = if count == 1 {
@@ -460,7 +467,7 @@ impl<'a> PathTracer<'a> {
     fn sample_light(
         &self,
         state: &PathState,
-        vertex: &ShadingPoint,
+        vertex: &ShadingPoint<'_>,
         sampler: &Sampler,
         depth: u32,
         [nth, count]: [u32; 2],
@@ -506,7 +513,7 @@ impl<'a> PathTracer<'a> {
     fn scatter(
         &self,
         state: &mut PathState,
-        vertex: &ShadingPoint,
+        vertex: &ShadingPoint<'_>,
         sampler: &Sampler,
         depth: u32,
     ) -> Option<Ray> {
@@ -515,7 +522,7 @@ impl<'a> PathTracer<'a> {
         let mut stream = sampler.stream(depth, estimator::STREAM_SCATTER);
         let sample =
             (vertex.lobe).sample_random(wo, [u0, u1, u2], Transport::Radiance, &mut stream);
-        if !matches!(vertex.lobe, Lobe::Black(_)) {
+        if !matches!(vertex.lobe, PointLobe::Listed(Lobe::Black(_))) {
             let scattered = &mut state.tally.scattered;
             scattered.sampled += 1;
             scattered.rejected += u64::from(sample.is_none());
@@ -538,8 +545,8 @@ impl<'a> PathTracer<'a> {
         }
         state.eta_scale = estimator::eta_scale_after(state.eta_scale, eta);
         state.rough |= !specular;
-        state.straight &=
-            matches!(vertex.lobe, Lobe::ThinDielectric(_)) && event == Event::Transmission;
+        state.straight &= matches!(vertex.lobe, PointLobe::Listed(Lobe::ThinDielectric(_)))
+            && event == Event::Transmission;
         if event == Event::Transmission {
             self.cross(&mut state.media, &vertex.surface, direction);
         }
@@ -551,7 +558,7 @@ impl<'a> PathTracer<'a> {
         state.throughput = throughput;
         state.previous = (!specular).then_some(PreviousVertex {
             receiver: vertex.receiver(),
-            pdf: estimator::pdf_per_candidate(pdf, self.light_candidates(&vertex.lobe, depth)),
+            pdf: estimator::pdf_per_candidate(pdf, self.light_candidates_at(vertex, depth)),
         });
         Some(estimator::spawn_ray(&vertex.surface.point(), direction))
     }

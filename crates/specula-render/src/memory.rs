@@ -31,7 +31,7 @@ pub struct MemoryEstimate {
     pub geometry: u64,
     /// The bounding volume hierarchies over them.
     pub tree: u64,
-    /// Pictures of textures.
+    /// Pictures of textures, tables of measured materials.
     pub textures: u64,
     /// Lights, the tree over them, and images of environment lights.
     pub lights: u64,
@@ -67,12 +67,19 @@ impl MemoryEstimate {
         let shapes = scene.shapes.len() + objects.sum::<usize>();
         let places =
             shapes * size_of::<Shape>() + scene.instances.len() * size_of::<ObjectInstance>();
-        estimate.scene = meshes + pictures + places as u64;
+        let measured: u64 = scene
+            .measured
+            .iter()
+            .map(|m| m.lobe().size_in_bytes())
+            .sum();
+        estimate.scene = meshes + pictures + measured + places as u64;
         estimate.loose = meshes + places as u64;
         let mut held = Held {
             now: estimate.program + estimate.scene,
             peak: 0,
         };
+        // Materials share them with the scene.
+        estimate.textures = measured;
         estimate.add_textures(scene, &mut held);
         estimate.add_geometry(scene, threads, &mut held);
         estimate.add_lights(scene, &mut held);

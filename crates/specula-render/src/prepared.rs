@@ -246,8 +246,8 @@ impl PreparedScene {
         self.materials.name(material)
     }
 
-    /// The lobe of a material, by its index in the scene; `None` where textures make it vary, or where it
-    /// is a mix.
+    /// The lobe of a material, by its index in the scene; `None` where textures make it vary, where it
+    /// is a mix, and where it is measured.
     ///
     /// * `outside`: whether it is seen from the outside of its shape.
     pub fn lobe(&self, material: usize, outside: bool) -> Option<Lobe<f32>> {

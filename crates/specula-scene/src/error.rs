@@ -153,6 +153,8 @@ pub enum ErrorKind {
     Image,
     /// A spectrum.
     Spectrum,
+    /// A measured material.
+    Measured,
     /// There is nothing to render.
     EmptyScene,
     /// A picture without this feature would be meaningless.

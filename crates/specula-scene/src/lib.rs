@@ -41,6 +41,7 @@ mod gltf;
 pub mod image;
 mod limits;
 pub mod material_text;
+pub mod measured;
 mod media;
 mod mesh;
 mod missing;

@@ -30,6 +30,7 @@ fn what(file: &MissingFile) -> &'static str {
         ErrorKind::Image => "picture",
         ErrorKind::Mesh => "mesh",
         ErrorKind::Spectrum => "spectrum",
+        ErrorKind::Measured => "measured material",
         _ => "file",
     }
 }
@@ -40,6 +41,7 @@ fn warning(file: &MissingFile) -> Warning {
         ErrorKind::Image => "a grey checker stands in for it",
         ErrorKind::Mesh => "its shapes are left out",
         ErrorKind::Spectrum => "the default stands in for it",
+        ErrorKind::Measured => "diffuse grey of 0.5 stands in for it",
         _ => "what it holds is left out",
     };
     let path = file.path().display();

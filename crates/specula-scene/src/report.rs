@@ -233,6 +233,7 @@ impl ErrorKind {
             Self::Mesh => "mesh",
             Self::Image => "image",
             Self::Spectrum => "spectrum",
+            Self::Measured => "measured",
             Self::EmptyScene => "empty-scene",
             Self::Unsupported => "unsupported",
             Self::Limit => "limit",

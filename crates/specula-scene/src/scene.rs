@@ -25,6 +25,7 @@ pub use texture::{
 
 use crate::energy::Energy;
 use crate::image::Image;
+use crate::measured::MeasuredBrdf;
 
 /// Index into [`Scene::images`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -35,6 +36,9 @@ pub struct TextureId(pub usize);
 /// Index into [`Scene::materials`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MaterialId(pub usize);
+/// Index into [`Scene::measured`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct MeasuredId(pub usize);
 /// Index into [`Scene::meshes`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MeshId(pub usize);
@@ -60,6 +64,8 @@ pub struct Scene {
     pub textures: Vec<Texture>,
     /// Materials.
     pub materials: Vec<Material>,
+    /// Measured materials, each file stored once.
+    pub measured: Vec<MeasuredBrdf>,
     /// Triangle meshes in their own space.
     pub meshes: Vec<Mesh>,
     /// Shapes of the world.
@@ -101,6 +107,7 @@ impl Scene {
             images: Vec::new(),
             textures: Vec::new(),
             materials: Vec::new(),
+            measured: Vec::new(),
             meshes: Vec::new(),
             shapes: Vec::new(),
             objects: Vec::new(),

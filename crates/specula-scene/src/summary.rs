@@ -141,6 +141,7 @@ pub fn material_kind(kind: &MaterialKind) -> &'static str {
         MaterialKind::Plastic { .. } => "plastic",
         MaterialKind::Principled(_) => "principled",
         MaterialKind::Gltf(_) => "metallic-roughness",
+        MaterialKind::Measured(_) => "measured",
         MaterialKind::Mix { .. } => "mix",
         MaterialKind::Interface => "interface",
     }

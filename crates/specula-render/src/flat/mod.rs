@@ -76,8 +76,11 @@ impl PreparedScene {
         self.filter.flatten(&mut words);
         self.develop.flatten(&mut words);
         let (nodes, packets) = self.geometry.flatten(&mut words);
-        let missing = self.textures.flatten(&mut words);
+        let mut missing = self.textures.flatten(&mut words);
         let shaders = self.materials.flatten(&mut words);
+        if shaders.contains(&MaterialShader::Measured) {
+            missing.push("measured materials".to_owned());
+        }
         self.lights.flatten(&mut words);
         let [width, height] = self.resolution;
         words.constant("WIDTH", width);

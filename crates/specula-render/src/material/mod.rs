@@ -5,12 +5,17 @@ mod flat;
 pub(crate) mod lobes;
 mod metal;
 mod parameters;
+mod point_lobe;
 mod rough;
 mod twins;
 
+use std::sync::Arc;
+
 use lobes::Sides;
 pub use parameters::MaterialShader;
+pub(crate) use point_lobe::PointLobe;
 use specula_bsdf::bsdf::Lobe;
+use specula_bsdf::measured::Measured;
 use specula_bsdf::multibounce::MisPdf;
 use specula_bsdf::vndf;
 use specula_bsdf::{Bsdf, Rgb};
@@ -41,6 +46,8 @@ pub(crate) struct Material {
     models: Models,
     /// Lobes seen from the inside and from the outside, where no texture is involved.
     constant: Option<[Lobe<f32>; 2]>,
+    /// Where it is measured.
+    measured: Option<Arc<Measured<f32>>>,
     one_sided: bool,
     /// Whether its layers let nothing through.
     opaque_layers: bool,
@@ -124,13 +131,18 @@ impl Materials {
             };
             let (kind, varies) = parameters::folded(&material.kind, textures);
             let nowhere = TextureCoordinates::default();
-            let is_mix = matches!(kind, MaterialKind::Mix { .. });
+            let measured = match kind {
+                MaterialKind::Measured(id) => Some(Arc::clone(scene.measured[id.0].lobe())),
+                _ => None,
+            };
+            let has_lobe = !matches!(kind, MaterialKind::Mix { .. } | MaterialKind::Measured(_));
             let mut material = Material {
                 plain: None,
-                constant: (!varies && !is_mix).then(|| {
+                constant: (!varies && has_lobe).then(|| {
                     [false, true]
                         .map(|outside| bind::lobe(&kind, textures, &nowhere, outside, models))
                 }),
+                measured,
                 turn: turn(&kind, textures),
                 coat: coat(&kind, material.bump.is_some()),
                 boundary: absorbs.then(|| boundary(material)).flatten(),
@@ -325,7 +337,7 @@ impl Material {
     }
 }
 
-impl Chosen<'_> {
+impl<'a> Chosen<'a> {
     /// The lobe as seen from one side.
     #[inline]
     pub(crate) fn lobe(
@@ -333,21 +345,22 @@ impl Chosen<'_> {
         textures: &Textures,
         place: &TextureCoordinates,
         outside: bool,
-    ) -> Lobe<f32> {
+    ) -> PointLobe<'a> {
         if self.one_sided && !outside {
-            return bind::black();
+            return PointLobe::Listed(bind::black());
         }
         let m = self.material;
-        match &m.constant {
-            Some(lobes) => lobes[usize::from(outside)],
-            None => bind::lobe(&m.kind, textures, place, outside, m.models),
-        }
+        PointLobe::Listed(match (&m.constant, &m.measured) {
+            (Some(lobes), _) => lobes[usize::from(outside)],
+            (None, Some(measured)) => return PointLobe::Measured(measured),
+            (None, None) => bind::lobe(&m.kind, textures, place, outside, m.models),
+        })
     }
 
     /// Whether nothing comes through the lobe: it is black where `wi.z <= 0`.
     #[inline]
-    pub(crate) fn is_opaque(&self, lobe: &Lobe<f32>) -> bool {
-        match lobes::sides(lobe) {
+    pub(crate) fn is_opaque(&self, lobe: &PointLobe<'_>) -> bool {
+        match lobe.sides() {
             Sides::Reflects => true,
             Sides::Transmits => false,
             Sides::Depends => self.material.opaque_layers,

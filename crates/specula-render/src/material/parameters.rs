@@ -64,6 +64,8 @@ macro_rules! material_shader_table {
             Mix = 14, [];
             /// No surface; paths pass it, so that it has no module.
             Interface = 15, [];
+            /// A measured material; no shader renders it, so that it has no module.
+            Measured = 16, [];
         }
     };
 }
@@ -82,7 +84,7 @@ macro_rules! define_material_shader {
             /// All of them.
             pub const ALL: &'static [Self] = &[$(Self::$name),*];
 
-            /// Its module in `specula-gpu/wgsl`; `None` for mixes and interfaces.
+            /// Its module in `specula-gpu/wgsl`; `None` for mixes, interfaces and measured materials.
             #[must_use]
             pub const fn module(self) -> Option<&'static str> {
                 match self {
@@ -224,7 +226,7 @@ impl Folder<'_> {
             MaterialKind::Principled(p) => self.principled(p),
             MaterialKind::Gltf(g) => self.gltf(g),
             MaterialKind::Mix { amount, .. } => self.float(amount),
-            MaterialKind::Interface => {}
+            MaterialKind::Interface | MaterialKind::Measured(_) => {}
         }
     }
 
@@ -300,6 +302,7 @@ impl Material {
             MaterialKind::Gltf(_) => S::Gltf,
             MaterialKind::Mix { .. } => S::Mix,
             MaterialKind::Interface => S::Interface,
+            MaterialKind::Measured(_) => S::Measured,
         }
     }
 
@@ -378,7 +381,7 @@ impl Material {
                 .fresnel(fresnel),
             MaterialKind::Principled(ref p) => to.principled(p),
             MaterialKind::Gltf(ref g) => to.gltf(g, self.models.energy != Energy::None),
-            MaterialKind::Interface => &mut to,
+            MaterialKind::Interface | MaterialKind::Measured(_) => &mut to,
         };
         to
     }

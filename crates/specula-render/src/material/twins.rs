@@ -60,6 +60,7 @@ impl Material {
                 | MaterialKind::DiffuseTransmission { .. }
                 | MaterialKind::ThinDielectric { .. }
                 | MaterialKind::Interface
+                | MaterialKind::Measured(_)
         )
     }
 

@@ -10,10 +10,10 @@ use crate::image::{Image, Pixels};
 use crate::scene::{
     Bump, BumpRules, Camera, Channel, CoatMedium, ColourParam, ConductorFresnel, Emission,
     EnvironmentMapping, Film, Filter, FloatParam, Geometry, GltfMaterial, ImageId, ImageProjection,
-    Interpolation, Light, Material, MaterialId, MaterialKind, Mesh, MeshId, MicrofacetDistribution,
-    NoiseKind, Object, ObjectId, ObjectInstance, PrincipledMaterial, Profile, Projection,
-    Roughness, RoughnessMapping, Shape, SpotFalloff, Texture, TextureId, TextureMapping, UvMapping,
-    Wrap,
+    Interpolation, Light, Material, MaterialId, MaterialKind, MeasuredId, Mesh, MeshId,
+    MicrofacetDistribution, NoiseKind, Object, ObjectId, ObjectInstance, PrincipledMaterial,
+    Profile, Projection, Roughness, RoughnessMapping, Shape, SpotFalloff, Texture, TextureId,
+    TextureMapping, UvMapping, Wrap,
 };
 
 /// A part of a scene.
@@ -151,6 +151,7 @@ macro_rules! variants {
 fields!(ImageId { 0 });
 fields!(TextureId { 0 });
 fields!(MaterialId { 0 });
+fields!(MeasuredId { 0 });
 fields!(MeshId { 0 });
 fields!(ObjectId { 0 });
 
@@ -286,6 +287,7 @@ variants!(MaterialKind {
     9 => Gltf(parameters),
     10 => Mix { materials, amount },
     11 => Interface,
+    12 => Measured(id),
 });
 fields!(PrincipledMaterial {
     base_colour,

@@ -70,6 +70,7 @@ pub(super) fn assemble(document: Document, files: &Files) -> Result<Loaded, Scen
         images: std::mem::take(&mut context.images),
         textures: std::mem::take(&mut context.textures),
         materials: std::mem::take(&mut context.materials),
+        measured: std::mem::take(&mut context.measured),
         meshes: built.meshes,
         shapes: built.shapes,
         objects: built.objects,

@@ -148,7 +148,8 @@ impl Context<'_> {
                 self.warn(&element.place, message);
                 MaterialKind::Interface
             }
-            other @ ("measured" | "measured_polarized" | "hair" | "irawan" | "hk") => {
+            "measured" => self.measured(element)?,
+            other @ ("measured_polarized" | "hair" | "irawan" | "hk") => {
                 let message =
                     format!("bsdf \"{other}\" is not supported: diffuse grey of 0.5 stands in");
                 element.properties.iter().for_each(|p| p.used.set(true));
@@ -157,6 +158,14 @@ impl Context<'_> {
             }
             other => return Err(unknown("bsdf", other, &element.place)),
         })
+    }
+
+    /// A measured reflection; grey where its file is missing or damaged and reading goes on.
+    fn measured(&mut self, element: &Element) -> Result<MaterialKind, SceneError> {
+        let (path, place) = self.needed_file(element, "filename")?;
+        let read = self.measured_in(&path, &place).map(MaterialKind::Measured);
+        let problems = self.problems.clone();
+        problems.or(read, || grey(0.5))
     }
 
     fn rough_diffuse(&mut self, element: &Element) -> Result<MaterialKind, SceneError> {
@@ -306,5 +315,6 @@ fn is_opaque(kind: &MaterialKind) -> bool {
             | MaterialKind::Plastic { .. }
             | MaterialKind::CoatedDiffuse { .. }
             | MaterialKind::CoatedConductor { .. }
+            | MaterialKind::Measured(_)
     )
 }

@@ -15,9 +15,10 @@ use super::value::Value;
 use crate::Limits;
 use crate::error::{ErrorKind, Place, SceneError, Warning};
 use crate::image::{self, Content, Encoding, Image};
+use crate::measured::{self, MeasuredBrdf};
 use crate::problems::{NoteKind, Problems};
 use crate::read_file::Files;
-use crate::scene::{ImageId, Material, MaterialId, Texture, TextureId};
+use crate::scene::{ImageId, Material, MaterialId, MeasuredId, Texture, TextureId};
 
 /// Shared state of the reader.
 pub(super) struct Context<'a> {
@@ -28,6 +29,7 @@ pub(super) struct Context<'a> {
     pub(super) images: Vec<Image>,
     pub(super) textures: Vec<Texture>,
     pub(super) materials: Vec<Material>,
+    pub(super) measured: Vec<MeasuredBrdf>,
     /// Whether the integrator renders media.
     pub(super) sees_media: bool,
     /// The medium that the camera is in, by element.
@@ -43,6 +45,7 @@ pub(super) struct Context<'a> {
     /// Textures by element, role and frame.
     pub(super) built_textures: HashMap<(usize, Role, Frame), ValueOrTexture>,
     image_ids: HashMap<(PathBuf, String), ImageId>,
+    measured_ids: HashMap<PathBuf, MeasuredId>,
     ids: HashMap<String, Rc<Element>>,
     folders: Vec<PathBuf>,
     depth: usize,
@@ -66,6 +69,7 @@ impl<'a> Context<'a> {
             images: Vec::new(),
             textures: Vec::new(),
             materials: Vec::new(),
+            measured: Vec::new(),
             sees_media: false,
             camera_medium: None,
             media: HashMap::new(),
@@ -74,6 +78,7 @@ impl<'a> Context<'a> {
             frame: Frame::Mesh,
             built_textures: HashMap::new(),
             image_ids: HashMap::new(),
+            measured_ids: HashMap::new(),
             ids,
             folders,
             depth: 0,
@@ -205,6 +210,23 @@ impl<'a> Context<'a> {
         let id = ImageId(self.images.len());
         self.images.push(image);
         self.image_ids.insert(key, id);
+        Ok(id)
+    }
+
+    /// The measured material in a file, read once.
+    pub(super) fn measured_in(
+        &mut self,
+        path: &Path,
+        place: &Place,
+    ) -> Result<MeasuredId, SceneError> {
+        if let Some(&id) = self.measured_ids.get(path) {
+            return Ok(id);
+        }
+        let brdf = measured::read(path, self.access)
+            .map_err(|message| self.file_error(ErrorKind::Measured, place, path, message))?;
+        let id = MeasuredId(self.measured.len());
+        self.measured.push(brdf);
+        self.measured_ids.insert(path.to_owned(), id);
         Ok(id)
     }
 

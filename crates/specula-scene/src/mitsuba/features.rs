@@ -46,7 +46,7 @@ pub(crate) const FEATURES: &[Feature] = &[
     close("bsdf", "polarizer", "light passes unchanged"),
     close("bsdf", "retarder", "light passes unchanged"),
     close("bsdf", "circular", "light passes unchanged"),
-    close("bsdf", "measured", GREY),
+    full("bsdf", "measured"),
     close("bsdf", "measured_polarized", GREY),
     close("bsdf", "hair", GREY),
     close(

@@ -87,6 +87,7 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         images: std::mem::take(&mut context.images),
         textures: std::mem::take(&mut context.textures),
         materials: materials.list,
+        measured: std::mem::take(&mut context.measured),
         meshes,
         shapes,
         objects,

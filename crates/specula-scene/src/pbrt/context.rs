@@ -12,10 +12,11 @@ use super::v3::Names;
 use crate::LoadOptions;
 use crate::error::{ErrorKind, Place, SceneError, Warning};
 use crate::image::{self, Content, Encoding, Image};
+use crate::measured::{self, MeasuredBrdf};
 use crate::num::f32_of;
 use crate::problems::{NoteKind, Problems};
 use crate::read_file::Files;
-use crate::scene::{FloatParam, ImageId, Texture, TextureId};
+use crate::scene::{FloatParam, ImageId, MeasuredId, Texture, TextureId};
 use crate::search::Search;
 
 /// A directive with a name and parameters.
@@ -109,9 +110,11 @@ pub(super) struct Context {
     pub(super) warnings: Vec<Warning>,
     pub(super) textures: Vec<Texture>,
     pub(super) images: Vec<Image>,
+    pub(super) measured: Vec<MeasuredBrdf>,
     pub(super) float_textures: Textures,
     pub(super) colour_textures: Textures,
     image_ids: HashMap<(PathBuf, String, Content), ImageId>,
+    measured_ids: HashMap<PathBuf, MeasuredId>,
     /// Pictures that are asked for and not read yet.
     image_jobs: Vec<ImageJob>,
     /// The names of a file of pbrt-v3; `None` for pbrt-v4.
@@ -132,9 +135,11 @@ impl Context {
             warnings: Vec::new(),
             textures: Vec::new(),
             images: Vec::new(),
+            measured: Vec::new(),
             float_textures: Textures::default(),
             colour_textures: Textures::default(),
             image_ids: HashMap::new(),
+            measured_ids: HashMap::new(),
             image_jobs: Vec::new(),
             v3: None,
         }
@@ -175,6 +180,22 @@ impl Context {
         });
         self.image_ids.insert(key, id);
         id
+    }
+
+    /// The measured material in a file, read once.
+    pub(super) fn measured(&mut self, name: &str, place: &Place) -> Result<MeasuredId, SceneError> {
+        let path = self.resolve(name);
+        if let Some(&id) = self.measured_ids.get(&path) {
+            return Ok(id);
+        }
+        let brdf = measured::read(&path, &self.files).map_err(|message| {
+            SceneError::new(ErrorKind::Measured, place, message)
+                .if_missing(self.search.hint(&path), &path)
+        })?;
+        let id = MeasuredId(self.measured.len());
+        self.measured.push(brdf);
+        self.measured_ids.insert(path, id);
+        Ok(id)
     }
 
     /// The pictures to be read; [`Context::images`] must get them in this order.

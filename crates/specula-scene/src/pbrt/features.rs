@@ -117,7 +117,7 @@ pub(crate) const FEATURES: &[Feature] = &[
     full("material", "mix"),
     full("material", "interface"),
     near("material", "hair", "diffuse of the hair's colour"),
-    near("material", "measured", "diffuse grey of 0.5"),
+    full("material", "measured"),
     near(
         "material",
         "subsurface",

@@ -92,7 +92,7 @@ pub(super) fn read(
             MaterialKind::Interface
         }
         "hair" => stand_in::hair(context, entity)?,
-        "measured" => stand_in::measured(context, entity),
+        "measured" => measured(context, entity)?,
         "subsurface" => stand_in::subsurface(context, entity)?,
         other => {
             let message = format!("unknown material \"{}\"", shorten(other));
@@ -232,6 +232,18 @@ fn conductor(
         }
     }
     Ok(ConductorFresnel::Index { eta, k })
+}
+
+/// A measured reflection; grey where its file is missing or damaged and reading goes on.
+fn measured(context: &mut Context, entity: &Entity) -> Result<MaterialKind, SceneError> {
+    let Some((name, place)) = entity.params.string("filename")? else {
+        let message = "material \"measured\" needs its \"string filename\"";
+        let error = SceneError::new(ErrorKind::Parameter, &entity.place, message);
+        return entity.params.record(error).map(|()| DEFAULT);
+    };
+    let read = context.measured(name, place).map(MaterialKind::Measured);
+    let problems = context.problems.clone();
+    problems.or(read, || DEFAULT)
 }
 
 /// The medium between coat and base.

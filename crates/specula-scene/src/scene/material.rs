@@ -5,7 +5,7 @@ use specula_bsdf::{Alpha, Rgb};
 
 use super::coat::CoatMedium;
 use super::texture::{ColourParam, FloatParam};
-use super::{MaterialId, TextureId};
+use super::{MaterialId, MeasuredId, TextureId};
 use crate::energy::Energy;
 
 /// A material with its name, if it has one.
@@ -272,6 +272,8 @@ pub enum MaterialKind {
     Principled(PrincipledMaterial),
     /// glTF's metallic-roughness material with its extensions.
     Gltf(GltfMaterial),
+    /// A reflection that was measured. Its x axis is dp/du.
+    Measured(MeasuredId),
     /// One of two materials, chosen at random at every hit.
     Mix {
         /// Chosen with probability 1 - amount, and with probability amount.

@@ -214,6 +214,11 @@ impl Scene {
                 index(what, g.ior)?;
                 self.gltf(what, g)
             }
+            MaterialKind::Measured(id) => ensure(
+                id.0 < self.measured.len(),
+                what,
+                "its measurement is out of range",
+            ),
             MaterialKind::Mix { materials, amount } => {
                 ensure(
                     materials.iter().all(|m| m.0 < i),

@@ -1,12 +1,12 @@
 //! Materials, each under its name.
 
-use specula_bsdf::Rgb;
 use specula_bsdf::ndf::Masking;
+use specula_bsdf::{Bsdf, Rgb};
 
 use super::{TextureType, WriteError, Writer, quoted};
 use crate::scene::{
     Bump, CoatMedium, ColourParam, ConductorFresnel, FloatParam, GltfMaterial, Material,
-    MaterialId, MaterialKind, MicrofacetDistribution, PrincipledMaterial, Roughness,
+    MaterialId, MaterialKind, MeasuredId, MicrofacetDistribution, PrincipledMaterial, Roughness,
     RoughnessMapping, TextureId,
 };
 
@@ -121,6 +121,7 @@ impl Writer<'_> {
             MaterialKind::CoatedConductor { .. } => return self.coated_conductor(kind),
             MaterialKind::Principled(p) => return self.principled(index, p),
             MaterialKind::Gltf(g) => return self.gltf(index, g),
+            MaterialKind::Measured(id) => return self.measured(*id),
             MaterialKind::Mix { materials, amount } => {
                 let [a, b] = materials.map(|m| quoted(self.names.of(m)));
                 params += &format!(" \"string materials\" [ {a} {b} ]");
@@ -130,6 +131,13 @@ impl Writer<'_> {
             MaterialKind::Interface => "interface",
         };
         Ok(typed(name, &params))
+    }
+
+    fn measured(&mut self, id: MeasuredId) -> Result<String, WriteError> {
+        self.note("measured materials are written as diffuse ones of a like albedo");
+        let albedo = self.scene.measured[id.0].lobe().albedo();
+        let params = self.diffuse(ColourParam::Value(albedo), FloatParam::Value(0.0))?;
+        Ok(typed("diffuse", &params))
     }
 
     fn lossless(&mut self, is_rough: bool) {

@@ -22,6 +22,7 @@ fn scene(feature: &Feature) -> String {
             r#"<float name="weight" value="0.5"/><bsdf type="diffuse"/><bsdf type="plastic"/>"#
         }
         "mixturebsdf" => r#"<string name="weights" value="1"/><bsdf type="diffuse"/>"#,
+        "measured" => r#"<string name="filename" value="a.bsdf"/>"#,
         "envmap" | "bitmap" => r#"<string name="filename" value="grey.png"/>"#,
         "obj" => r#"<string name="filename" value="a.obj"/>"#,
         "ply" => r#"<string name="filename" value="a.ply"/>"#,
@@ -71,6 +72,7 @@ fn scene(feature: &Feature) -> String {
 fn every_feature_is_treated_as_the_list_says() {
     let folder = Folder::new();
     folder.write("grey.png", include_bytes!("grey.png"));
+    folder.write("a.bsdf", super::measured::file());
     folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     folder.write(
         "a.ply",

@@ -13,6 +13,9 @@ mod conventions;
 mod dialect;
 mod document;
 mod features;
+#[path = "../common/measured.rs"]
+#[allow(dead_code, reason = "shared with the other suite")]
+mod measured;
 mod media;
 mod missing;
 mod mutations;

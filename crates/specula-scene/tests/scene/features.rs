@@ -15,6 +15,7 @@ fn folder() -> Folder {
     let folder = Folder::new();
     let picture = ::image::RgbImage::from_pixel(2, 2, ::image::Rgb([128, 100, 200]));
     picture.save(folder.path().join("a.png")).unwrap();
+    folder.write("a.bsdf", crate::measured::file());
     folder.write("lens.dat", "100 0 1.5 20\n-100 50 1 20\n");
     folder.write("more.pbrt", "Shape \"sphere\"\n");
     folder.write(
@@ -25,6 +26,8 @@ fn folder() -> Folder {
     );
     folder
 }
+
+const MEASURED: &str = "Material \"measured\" \"string filename\" \"a.bsdf\"";
 
 /// What stands before and after `WorldBegin` to use a feature.
 fn scene(class: &str, name: &str) -> (String, String) {
@@ -43,6 +46,7 @@ fn scene(class: &str, name: &str) -> (String, String) {
              Material \"mix\" \"string materials\" [\"a\" \"a\"]"
                 .to_owned(),
         ),
+        "material" if name == "measured" => world(MEASURED.to_owned()),
         "material" => world(format!("Material \"{name}\"")),
         "material parameter" => world(match name {
             "normalmap" => "Material \"diffuse\" \"string normalmap\" \"a.png\"".to_owned(),
@@ -218,7 +222,6 @@ fn stand_ins_are_told() {
     for (class, name) in [
         ("shape parameter", "displacement"),
         ("material", "hair"),
-        ("material", "measured"),
         ("material", "subsurface"),
         ("texture", "ptex"),
         ("camera", "realistic"),

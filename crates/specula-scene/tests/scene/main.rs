@@ -18,6 +18,9 @@ mod film;
 mod formats;
 mod graph;
 mod materials;
+#[path = "../common/measured.rs"]
+mod measured;
+mod measured_files;
 mod media;
 mod missing;
 mod mutations;

@@ -197,7 +197,6 @@ fn interfaces_and_stand_ins() {
     for (text, part) in [
         ("\"\"", "deprecated"),
         ("\"hair\"", "hair"),
-        ("\"measured\" \"string filename\" \"x.bsdf\"", "grey"),
         ("\"subsurface\" \"string name\" \"Skin1\"", "subsurface"),
         ("\"subsurface\" \"rgb mfp\" [1 1 1]", "subsurface"),
         ("\"diffuse\" \"rgb reflectance\" [2 1 1]", "above 1"),

@@ -258,6 +258,32 @@ fn damaged_seeds_of_meshes() {
 }
 
 #[test]
+fn damaged_seeds_of_measured_materials() {
+    let folder = Folder::new();
+    let scene = "WorldBegin Material \"measured\" \"string filename\" \"a.bsdf\" Shape \"sphere\"";
+    let errors = damage("measured", 400, |_, bytes| {
+        folder.write("a.bsdf", bytes);
+        load_and_check(&folder.write("scene.pbrt", scene), Limits::strict())
+    });
+    assert!(errors > 40, "{errors}");
+    // The header alone, where every byte counts.
+    let mut random = Random(5);
+    let (_, whole) = seeds("measured").remove(0);
+    let mut errors = 0;
+    for _ in 0..600 {
+        let mut bytes = whole.clone();
+        for _ in 0..=random.below(3) {
+            let at = random.below(400);
+            bytes[at] = random.below(256) as u8;
+        }
+        folder.write("a.bsdf", bytes);
+        let loaded = load_and_check(&folder.write("scene.pbrt", scene), Limits::strict());
+        errors += usize::from(loaded.is_err());
+    }
+    assert!(errors > 400, "{errors}");
+}
+
+#[test]
 fn damaged_seeds_of_pictures() {
     let folder = Folder::new();
     let errors = damage("image", 100, |name, bytes| {

@@ -19,14 +19,6 @@ fn diffuse(reflectance: ColourParam) -> MaterialKind {
     }
 }
 
-/// A measured BRDF: grey.
-pub(super) fn measured(context: &mut Context, entity: &Entity) -> MaterialKind {
-    entity.params.ignore(&["filename"]);
-    let message = "material \"measured\" is not supported: diffuse grey of 0.5 is used";
-    context.warn(&entity.place, message);
-    super::DEFAULT
-}
-
 /// Hair: diffuse of the colour that many fibres of its pigment have together.
 ///
 /// ```text
