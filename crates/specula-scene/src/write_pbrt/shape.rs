@@ -5,7 +5,10 @@ use std::collections::HashMap;
 use specula_bsdf::Rgb;
 
 use super::{WriteError, Writer, quoted, rgb_list, transform};
-use crate::scene::{Channel, Emission, FloatParam, Geometry, MeshId, Shape};
+use crate::scene::{Channel, Emission, FloatParam, Geometry, Mesh, MeshId, Shape};
+
+/// Most triangles of a mesh within a text alone.
+const MOST_INLINE: usize = 20_000;
 
 impl Writer<'_> {
     pub(super) fn shapes(&mut self) -> Result<(), WriteError> {
@@ -37,6 +40,7 @@ impl Writer<'_> {
         meshes: &mut HashMap<MeshId, String>,
     ) -> Result<(), WriteError> {
         let mut kind = match shape.geometry {
+            Geometry::Mesh(id) if self.is_inline(id) => inline(&self.scene.meshes[id.0]),
             Geometry::Mesh(id) => {
                 let file = match meshes.get(&id) {
                     Some(file) => file.clone(),
@@ -74,6 +78,17 @@ impl Writer<'_> {
         Ok(())
     }
 
+    /// Whether a mesh is part of the text: there are no files beside it, and it is small.
+    fn is_inline(&mut self, id: MeshId) -> bool {
+        let is_small = self.scene.meshes[id.0].triangles.len() <= MOST_INLINE;
+        if !self.keeps && !is_small {
+            self.note(format!(
+                "meshes of more than {MOST_INLINE} triangles are named only: `specula convert` writes them"
+            ));
+        }
+        !self.keeps && is_small
+    }
+
     fn emission(&mut self, emission: Emission) -> Result<String, WriteError> {
         let sides = emission.two_sided;
         let light = match self.plain_picture(emission.radiance) {
@@ -101,4 +116,20 @@ impl Writer<'_> {
             "AreaLightSource \"diffuse\" {light} \"bool twosided\" [ {sides} ]\n"
         ))
     }
+}
+
+/// A mesh as a shape of the text.
+fn inline(mesh: &Mesh) -> String {
+    fn list<T: ToString>(name: &str, numbers: impl Iterator<Item = T>) -> String {
+        let numbers: Vec<String> = numbers.map(|n| n.to_string()).collect();
+        match numbers.is_empty() {
+            true => String::new(),
+            false => format!(" \"{name}\" [ {} ]", numbers.join(" ")),
+        }
+    }
+    let indices = list("integer indices", mesh.triangles.iter().flatten());
+    let points = list("point3 P", mesh.positions.iter().flatten());
+    let normals = list("normal N", mesh.normals.iter().flatten());
+    let uvs = list("point2 uv", mesh.uvs.iter().flatten());
+    format!("\"trianglemesh\"{indices}{points}{normals}{uvs}")
 }

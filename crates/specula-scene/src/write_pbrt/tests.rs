@@ -57,6 +57,28 @@ fn the_built_in_scene_survives() {
     }
 }
 
+#[test]
+fn small_meshes_are_within_a_text_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("alone.pbrt");
+    let mut scene = crate::builtin::orbs();
+    for mesh in &mut scene.meshes {
+        mesh.triangles.truncate(500);
+    }
+    let (text, notes) = pbrt_text(&scene, &path).unwrap();
+    assert!(notes.is_empty() && !text.contains("plymesh"), "{notes:?}");
+    std::fs::write(&path, text).unwrap();
+    assert_eq!(crate::load(&path).unwrap().scene.meshes, scene.meshes);
+    let mut large = scene;
+    let triangles = &mut large.meshes[0].triangles;
+    *triangles = triangles.repeat(20_001 / triangles.len() + 1);
+    let (text, notes) = pbrt_text(&large, &path).unwrap();
+    assert!(
+        text.contains("plymesh") && notes[0].contains("specula convert"),
+        "{notes:?}"
+    );
+}
+
 /// What a material is, without the indices of its textures.
 fn summary_of(scene: &Scene, id: crate::scene::MaterialId) -> String {
     match scene.materials[id.0].kind {
