@@ -138,7 +138,7 @@ fn add(all: &mut Vec<Named>, name: String, style: usize, [lobe, white]: [Lobe<f3
 }
 
 /// A scene without anything in it.
-fn bare() -> Scene {
+pub(super) fn bare() -> Scene {
     let mut scene = builtin::orbs();
     scene.shapes.clear();
     scene.meshes.clear();
@@ -149,7 +149,11 @@ fn bare() -> Scene {
 }
 
 /// The lobe that the renderer binds, seen from the outside.
-fn lobe(scene: &mut Scene, kind: &MaterialKind, options: &RenderOptions) -> Result<Lobe<f32>> {
+pub(super) fn lobe(
+    scene: &mut Scene,
+    kind: &MaterialKind,
+    options: &RenderOptions,
+) -> Result<Lobe<f32>> {
     scene.materials = vec![Material::new(*kind)];
     PreparedScene::new(scene, options)?
         .lobe(0, true)
@@ -171,7 +175,7 @@ fn white(kind: &MaterialKind) -> MaterialKind {
 }
 
 /// Alphas of the microfacets, where there are any.
-fn alphas(kind: &MaterialKind) -> Option<[f64; 2]> {
+pub(super) fn alphas(kind: &MaterialKind) -> Option<[f64; 2]> {
     let roughness: &Roughness = match kind {
         MaterialKind::Conductor { roughness, .. }
         | MaterialKind::Dielectric { roughness, .. }

@@ -3,7 +3,10 @@
 
 mod lobes;
 mod plots;
+mod tabulate;
 mod trials;
+
+pub use tabulate::tables;
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;

@@ -332,3 +332,32 @@ mod interrupted {
         assert_eq!(fs::read_dir(folder.path().join("out")).unwrap().count(), 0);
     }
 }
+
+#[test]
+fn a_metal_becomes_a_measured_material_that_renders() {
+    let folder = tempfile::tempdir().unwrap();
+    let small = ["--views", "8", "--normals", "24", "--colours", "8"];
+    let mut arguments = vec!["tabulate", "conductor Au alpha 0.3", "-o", "gold.bsdf"];
+    arguments.extend(small);
+    let (code, _, error) = lab(folder.path(), &arguments);
+    assert_eq!(code, 0, "{error}");
+    assert!(error.contains("wrote gold.bsdf"), "{error}");
+    let scene =
+        "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8 Camera \"perspective\"
+        WorldBegin LightSource \"infinite\" Translate 0 0 3
+        Material \"measured\" \"string filename\" \"gold.bsdf\" Shape \"sphere\"";
+    fs::write(folder.path().join("gold.pbrt"), scene).unwrap();
+    let run = specula(folder.path())
+        .args(["render", "gold.pbrt", "--spp", "4", "-o", "gold.exr"])
+        .output()
+        .expect("the program answers");
+    assert!(run.status.success(), "{}", stderr(&run));
+    assert!(folder.path().join("gold.exr").is_file());
+
+    let (code, _, error) = lab(
+        folder.path(),
+        &["tabulate", "diffuse 0.5 0.5 0.5", "-o", "x.bsdf"],
+    );
+    assert_eq!(code, 2, "{error}");
+    assert!(error.contains("expected a rough metal"), "{error}");
+}

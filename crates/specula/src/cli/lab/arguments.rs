@@ -21,6 +21,8 @@ Examples:
   specula lab report results                        results/report.html about all that is there
   specula lab compare scene.pbrt --time 30s         which sampler suits a scene of yours
   specula lab material \"conductor Au alpha 0.3\"     all about one material
+  specula lab tabulate \"conductor Au alpha 0.3\" -o gold.bsdf
+                                                    a synthetic measurement, to render and to fit
 
 Every result is a folder with result.json (verdict, seed, version, machine), tables as CSV, plots
 as SVG and PNG, pictures as EXR and PNG. The page report.html holds all of them and needs no
@@ -49,6 +51,8 @@ pub(crate) enum LabCommand {
     Compare(Box<LabCompareArguments>),
     /// Show a material's lobe, albedo, furnace, and how its samplers do.
     Material(MaterialArguments),
+    /// Write a rough metal as a measured material, a .bsdf file of the RGL database.
+    Tabulate(TabulateArguments),
 }
 
 #[derive(Args, Debug)]
@@ -256,4 +260,38 @@ pub(crate) struct MaterialArguments {
 
     #[command(flatten)]
     pub(crate) effort: EffortArguments,
+}
+
+const TABULATE_EXAMPLES: &str = "\
+Examples:
+  specula lab tabulate \"conductor Au alpha 0.3\" -o gold.bsdf
+      tables as large as those of the RGL database
+  specula lab tabulate \"conductor Ag alpha 0.1 0.4\" --views 32 --normals 128 -o silver.bsdf
+      anisotropic, in finer tables
+
+The text is that of `specula render --material`; the metal is rough and scatters once. pbrt-v4's and Mitsuba's
+material \"measured\" renders the file here; Mitsuba itself reads it in its RGB modes.";
+
+#[derive(Args, Debug)]
+#[command(after_help = TABULATE_EXAMPLES)]
+pub(crate) struct TabulateArguments {
+    /// The material, such as "conductor Au alpha 0.3"
+    #[arg(value_name = "TEXT")]
+    pub(crate) text: String,
+
+    /// Polar angles of views, and azimuths of an anisotropic metal's
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u16).range(3..=256))]
+    pub(crate) views: u16,
+
+    /// Normals along each axis
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u16).range(4..=1024))]
+    pub(crate) normals: u16,
+
+    /// Colours along each axis
+    #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u16).range(4..=256))]
+    pub(crate) colours: u16,
+
+    /// The file
+    #[arg(short, long, value_name = "FILE.bsdf")]
+    pub(crate) output: PathBuf,
 }

@@ -4,6 +4,7 @@ mod arguments;
 mod compare;
 mod material;
 mod run;
+mod tabulate;
 
 use crate::cli::ExitCode;
 use std::io;
@@ -46,6 +47,7 @@ pub(crate) fn run(arguments: &LabArguments) -> Result<ExitCode, Failure> {
         }
         LabCommand::Compare(a) => compare::run(a),
         LabCommand::Material(a) => material::run(a),
+        LabCommand::Tabulate(a) => tabulate::run(a),
     }
 }
 
