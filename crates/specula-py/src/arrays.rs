@@ -238,15 +238,15 @@ pub(crate) fn common_shape(shapes: &[(&'static str, &[usize])]) -> PyResult<Vec<
     Ok(common.map_or_else(Vec::new, |(_, shape)| shape.to_vec()))
 }
 
-/// What must hold of a vector of the input.
+/// What a vector of the input must be.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Must {
     /// Length 1, within what `float32` leaves of a normalisation.
-    BeUnit,
+    Unit,
     /// Components in `[0, 1)`.
-    BeRandom,
+    Random,
     /// The last two components in `[0, 1)`; nothing reads the first.
-    BeRandomPair,
+    RandomPair,
 }
 
 /// Vectors to read, by the name that the caller knows them by.

@@ -45,7 +45,7 @@ impl<'py> Call<'_, 'py> {
         ];
         let shape = common_shape(&[(a.name, &a.elements), (b.name, &b.elements)])?;
         let (array, mut written) = output::<T>(self.py, &shape, None)?;
-        let sources = [a.source(Must::BeUnit)?, b.source(Must::BeUnit)?];
+        let sources = [a.source(Must::Unit)?, b.source(Must::Unit)?];
         let numbers = written.as_slice_mut()?;
         let n = numbers.len();
         let outputs = Outputs {
@@ -69,7 +69,7 @@ impl<'py> Call<'_, 'py> {
         let u = self.arguments[1].vectors::<T>(self.axis)?;
         let shape = common_shape(&[(wo.name, &wo.elements), (u.name, &u.elements)])?;
         let (array, mut written) = output::<T>(self.py, &self.axis.around(&shape), None)?;
-        let sources = [wo.source(Must::BeUnit)?, u.source(Must::BeRandomPair)?];
+        let sources = [wo.source(Must::Unit)?, u.source(Must::RandomPair)?];
         let all = written.as_slice_mut()?;
         let n = all.len() / 3;
         let outputs = Outputs {

@@ -89,8 +89,8 @@ pub(crate) fn run<T: Scalar>(
             found: [x, y, z],
         } = broken;
         let expected = match must {
-            Must::BeUnit => "a unit vector",
-            Must::BeRandom | Must::BeRandomPair => "numbers in [0, 1)",
+            Must::Unit => "a unit vector",
+            Must::Random | Must::RandomPair => "numbers in [0, 1)",
         };
         invalid(format!(
             "{name}[{index}]: expected {expected}, got ({x}, {y}, {z})"
@@ -316,9 +316,9 @@ fn check<T: Scalar>(
 ) -> Result<(), Broken> {
     let Source { name, must, .. } = *source;
     let (all, holds): (bool, fn(T, T, T) -> bool) = match must {
-        Must::BeUnit => (all_unit(x, y, z), is_unit),
-        Must::BeRandom => (all_random(x, y, z), is_random),
-        Must::BeRandomPair => (all_random(y, y, z), |_, y, z| is_random(y, y, z)),
+        Must::Unit => (all_unit(x, y, z), is_unit),
+        Must::Random => (all_random(x, y, z), is_random),
+        Must::RandomPair => (all_random(y, y, z), |_, y, z| is_random(y, y, z)),
     };
     if all {
         return Ok(());

@@ -284,6 +284,11 @@ fn densities() -> Vec<Case> {
             64.0,
         )
         .at_scale(&[1e-6]),
+    ]
+}
+
+fn beckmann_densities() -> Vec<Case> {
+    vec![
         Case::new(
             "beckmann_densities",
             &["beckmann_visible"],
@@ -309,7 +314,13 @@ fn densities() -> Vec<Case> {
 }
 
 pub(crate) fn cases() -> Vec<Case> {
-    [samplers(), chosen_samplers(), densities()].concat()
+    [
+        samplers(),
+        chosen_samplers(),
+        densities(),
+        beckmann_densities(),
+    ]
+    .concat()
 }
 
 pub(crate) const FAULTS: [Fault; 7] = [

@@ -92,7 +92,7 @@ impl<'py, T: Scalar> Pair<'py, T> {
     /// * `second`: what must hold of the second argument; the first is a direction.
     fn sources(&self, second: Must) -> PyResult<[Source<'_, T>; 2]> {
         let [a, b] = &self.vectors;
-        Ok([a.source(Must::BeUnit)?, b.source(second)?])
+        Ok([a.source(Must::Unit)?, b.source(second)?])
     }
 
     fn count(&self) -> usize {
@@ -120,7 +120,7 @@ fn eval<'py, T: Scalar>(
         ..Outputs::default()
     };
     let kernels = Kernels::new(lobe, options.transport, options.seed);
-    let sources = pair.sources(Must::BeUnit)?;
+    let sources = pair.sources(Must::Unit)?;
     run(
         py,
         pair.count(),
@@ -147,7 +147,7 @@ fn pdf<'py, T: Scalar>(
         ..Outputs::default()
     };
     let kernels = Kernels::new(lobe, options.transport, options.seed);
-    let sources = pair.sources(Must::BeUnit)?;
+    let sources = pair.sources(Must::Unit)?;
     run(
         py,
         pair.count(),
@@ -179,7 +179,7 @@ fn eval_pdf<'py, T: Scalar>(
         outcomes: None,
     };
     let kernels = Kernels::new(lobe, options.transport, options.seed);
-    let sources = pair.sources(Must::BeUnit)?;
+    let sources = pair.sources(Must::Unit)?;
     run(
         py,
         pair.count(),
@@ -220,8 +220,8 @@ fn sample<'py, T: Scalar>(
     let kernels = Kernels::new(lobe, options.transport, options.seed);
     // The first number chooses between lobes: to read it for one that has no choice costs a tenth of all time.
     let numbers = match lobe {
-        Lobe::RoughConductor(_) | Lobe::RoughConductorBeckmann(_) => Must::BeRandomPair,
-        _ => Must::BeRandom,
+        Lobe::RoughConductor(_) | Lobe::RoughConductorBeckmann(_) => Must::RandomPair,
+        _ => Must::Random,
     };
     let sources = pair.sources(numbers)?;
     run(
