@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { byCommandLine, needsProgram, saved } from './program.mjs';
-import { addAxe, ask as askIn, at, enter } from './studio.mjs';
+import { addAxe, ask as askIn, at, enter, openRender } from './studio.mjs';
 
 const SMALL = 'scene=ball&width=96&height=54';
 let session;
@@ -102,11 +102,17 @@ test('errors against a reference are those of the library, and fall as they shou
   }
 });
 
+/** Colour and variance of a render by the library. */
+async function byLibrary(what, count) {
+  const render = await openRender(session.page, what);
+  const { arrays } = await ask({ ask: 'render.advance', session: render, samples: count, wants: ['colour', 'variance'] });
+  await ask({ ask: 'render.close', session: render });
+  return arrays;
+}
+
 /** Mean of a picture's rows by the library, and the standard deviation of that mean. */
 async function libraryMean(request, count) {
-  const { value } = await ask({ ask: 'render.open', scene: 'ball', width: 96, height: 54, ...request });
-  const { arrays } = await ask({ ask: 'render.advance', session: value.session, samples: count, wants: ['colour', 'variance'] });
-  await ask({ ask: 'render.close', session: value.session });
+  const arrays = await byLibrary({ scene: 'ball', width: 96, height: 54, ...request }, count);
   return moments(arrays.colour, arrays.variance);
 }
 
@@ -180,8 +186,7 @@ test('WebGPU takes the same samples: z-test, progress while its shader compiles,
     assert.ok(Math.abs(found[k] - expected) < 4.5 * deviation, `${found[k]}, expected ${expected} +- ${deviation}`);
   });
   // With the same random numbers the pixels are the same, up to rounding: the deviation too.
-  const { value } = await ask({ ask: 'render.open', scene: 'orbs', width: 32, height: 18, seed: 1 });
-  const { arrays } = await ask({ ask: 'render.advance', session: value.session, samples: 24, wants: ['colour', 'variance'] });
+  const arrays = await byLibrary({ scene: 'orbs', width: 32, height: 18, seed: 1 }, 24);
   const cells = await session.page.locator('[data-pixel=A] td').allInnerTexts();
   const middle = 3 * (9 * 32 + 16);
   for (let k = 0; k < 3; k++) assert.ok(Math.abs(Number(cells[k]) / arrays.colour[middle + k] - 1) < 0.02, `${cells[k]} and ${arrays.colour[middle + k]}`);
@@ -296,8 +301,7 @@ test('the inspector shows the pixel of the address and the one below the pointer
   await visit(`${SMALL}&samples=8&pixel=10,20`);
   await samples(0, 8);
   assert.equal(await session.page.getByRole('spinbutton', { name: 'Column' }).inputValue(), '10');
-  const { value } = await ask({ ask: 'render.open', scene: 'ball', width: 96, height: 54, seed: 1 });
-  const { arrays } = await ask({ ask: 'render.advance', session: value.session, samples: 8, wants: ['colour'] });
+  const arrays = await byLibrary({ scene: 'ball', width: 96, height: 54, seed: 1 }, 8);
   const cells = await session.page.locator('[data-pixel=A] td').allInnerTexts();
   for (let k = 0; k < 3; k++) assert.ok(Math.abs(Number(cells[k]) / arrays.colour[3 * (20 * 96 + 10) + k] - 1) < 0.01, `${cells[k]}`);
   const box = await session.page.locator('.layers').boundingBox();

@@ -7,7 +7,7 @@ import { extname, join, normalize } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { launch, open } from './browser.mjs';
-import { addAxe, ask, enter } from './studio.mjs';
+import { addAxe, ask, enter, openRender } from './studio.mjs';
 
 const site = process.env.SITE;
 const hasModule = site !== undefined && existsSync(join(site, 'specula-studio.wasm.js'));
@@ -41,6 +41,19 @@ after(async () => {
   server?.close();
 });
 
+/** What the program says of a render. */
+async function rendered(what, samples) {
+  const { page, browser } = await enter();
+  try {
+    const session = await openRender(page, what);
+    const { value } = await ask(page, { ask: 'render.advance', session, samples });
+    await ask(page, { ask: 'render.close', session });
+    return value;
+  } finally {
+    await browser.close();
+  }
+}
+
 for (const place of ['a static server', 'disk']) {
   test(`pages open from ${place}, and say what they cannot do`, { skip }, async () => {
     const { page, messages, close } = await open(browser, places[place]);
@@ -69,10 +82,7 @@ for (const place of ['a static server', 'disk']) {
     await page.goto(`${places[place]}#/render?scene=ball&width=48&height=27&samples=8&seed=3`);
     await page.waitForFunction(() => Number(document.querySelector('[data-render="0"] td')?.textContent) >= 8, undefined, { timeout: 120000 });
     const cells = await page.locator('[data-render="0"] td').allInnerTexts();
-    const session = await enter();
-    const { value } = await ask(session.page, { ask: 'render.open', scene: 'ball', width: 48, height: 27, seed: 3 });
-    const { value: wanted } = await ask(session.page, { ask: 'render.advance', session: value.session, samples: 8 });
-    await session.browser.close();
+    const wanted = await rendered({ scene: 'ball', width: 48, height: 27, seed: 3 }, 8);
     assert.equal(cells[0].trim(), '8');
     cells[4].trim().split(' ').forEach((text, k) => assert.ok(Math.abs(Number(text) - wanted.mean[k]) < 1.5e-4, `${cells[4]} and ${wanted.mean}`));
     // The page answers while the worker computes.

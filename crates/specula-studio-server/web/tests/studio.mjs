@@ -36,3 +36,13 @@ export function ask(page, request) {
 
 /** Puts axe into a page: `axe.run()` there. */
 export const addAxe = (page) => page.evaluate(axe);
+
+/** Opens a render; where pages of earlier tests have as many as can be open, once the program has closed one. */
+export async function openRender(page, what) {
+  for (const end = performance.now() + 90_000; ; ) {
+    const { value, error } = await ask(page, { ask: 'render.open', ...what });
+    if (value !== undefined) return value.session;
+    if (!error.includes('renders are open') || performance.now() > end) throw new Error(error);
+    await new Promise((resolve) => setTimeout(resolve, 1000));
+  }
+}

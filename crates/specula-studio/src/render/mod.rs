@@ -27,6 +27,9 @@ use session::Session;
 /// Renders that are open at once: each keeps its picture's sums, at most 500 MB.
 const MOST_SESSIONS: usize = 8;
 
+/// Seconds after which a render that nobody asked for gives way to another; pages ask each 20 s.
+const ABANDONED: f64 = 30.0;
+
 /// The open renders, and the scenes that can be rendered.
 #[derive(Debug, Default)]
 pub(crate) struct Renders {
@@ -47,6 +50,28 @@ struct Open {
     session: Arc<Mutex<Session>>,
     /// When it was asked for last, by [`clock`](crate::clock).
     used: f64,
+}
+
+impl Open {
+    /// Whether it was not asked for in so many seconds, and is not answering.
+    fn is_idle(&self, now: f64, seconds: f64) -> bool {
+        now - self.used >= seconds && Arc::strong_count(&self.session) == 1
+    }
+}
+
+impl Sessions {
+    /// Closes the render that was not asked for longest, if its page has gone: pages ask for those that rest.
+    fn close_abandoned(&mut self) {
+        let now = clock::seconds();
+        let idle = self
+            .open
+            .iter()
+            .filter(|(_, open)| open.is_idle(now, ABANDONED));
+        let longest = idle.min_by(|(_, a), (_, b)| a.used.total_cmp(&b.used));
+        if let Some(id) = longest.map(|(&id, _)| id) {
+            self.open.remove(&id);
+        }
+    }
 }
 
 /// A request about a session and nothing else.
@@ -118,18 +143,23 @@ impl Renders {
     }
 
     fn open(&self, asked: session::Open) -> Result<Answer, AskError> {
-        let has_room = |sessions: &Sessions| match sessions.open.len() < MOST_SESSIONS {
-            true => Ok(()),
-            false => Err(AskError::new(format!(
-                "{MOST_SESSIONS} renders are open, and no more can be: close another page that renders"
-            ))),
+        let has_room = |sessions: &mut Sessions| {
+            if sessions.open.len() >= MOST_SESSIONS {
+                sessions.close_abandoned();
+            }
+            match sessions.open.len() < MOST_SESSIONS {
+                true => Ok(()),
+                false => Err(AskError::new(format!(
+                    "{MOST_SESSIONS} renders are open, and no more can be: close another page that renders"
+                ))),
+            }
         };
-        has_room(&locked(&self.sessions))?;
+        has_room(&mut locked(&self.sessions))?;
         let scene = locked(&self.catalogue).scene(&asked.scene)?;
         let session = Session::open(scene, asked)?;
         let mut sessions = locked(&self.sessions);
         // Others may have been opened meanwhile.
-        has_room(&sessions)?;
+        has_room(&mut sessions)?;
         sessions.last += 1;
         let id = sessions.last;
         let answer = Answer::new(session.described(id));
@@ -163,13 +193,10 @@ impl Renders {
 
     /// Closes what has not been asked for in so many seconds; returns how many.
     pub(crate) fn close_idle(&self, seconds: f64) -> usize {
-        let now = clock::seconds();
         let mut sessions = locked(&self.sessions);
         let before = sessions.open.len();
-        // A render that is answering is held by that answer, too.
-        let is_kept =
-            |open: &Open| now - open.used < seconds || Arc::strong_count(&open.session) > 1;
-        sessions.open.retain(|_, open| is_kept(open));
+        let now = clock::seconds();
+        sessions.open.retain(|_, open| !open.is_idle(now, seconds));
         before - sessions.open.len()
     }
 }
@@ -185,4 +212,36 @@ fn gone(session: u64) -> AskError {
 
 fn locked<T>(what: &Mutex<T>) -> MutexGuard<'_, T> {
     what.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn open(renders: &Renders) -> Result<Answer, AskError> {
+        let asked = json!({"scene": "ball", "width": 8, "height": 8});
+        renders.answer("open", asked.as_object().cloned().unwrap_or_default())
+    }
+
+    #[test]
+    fn a_render_whose_page_has_gone_gives_way() {
+        let renders = Renders::default();
+        for _ in 0..MOST_SESSIONS {
+            open(&renders).unwrap();
+        }
+        assert!(open(&renders).is_err());
+        let back = |id, seconds| {
+            let mut sessions = locked(&renders.sessions);
+            sessions.open.get_mut(&id).unwrap().used -= seconds;
+        };
+        back(2, ABANDONED + 1.0);
+        back(5, ABANDONED + 2.0);
+        // One that is answering stays, however long it takes.
+        back(7, ABANDONED + 3.0);
+        let answering = Arc::clone(&locked(&renders.sessions).open[&7].session);
+        open(&renders).unwrap();
+        drop(answering);
+        let ids: Vec<u64> = locked(&renders.sessions).open.keys().copied().collect();
+        assert_eq!(ids, [1, 2, 3, 4, 6, 7, 8, 9]);
+    }
 }
