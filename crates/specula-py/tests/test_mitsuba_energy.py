@@ -146,20 +146,6 @@ def test_compensated_glass_keeps_its_light(given: Dict, tolerance: float) -> Non
     assert lost > 2 * tolerance
 
 
-def test_the_branches_of_compensated_glass_add_up() -> None:
-    n = 200_000
-    plugin = mi.load_dict({"type": "specula_dielectric", "alpha": 0.8, "energy": "kulla_conty"})
-    si, means = surface(unit((0.6, 0.0, 0.4)), n), []
-    for component in (0, 1, 0xFFFFFFFF):
-        ctx = mi.BSDFContext()
-        ctx.component = component
-        sampled, weight = plugin.sample(ctx, si, *numbers(n, 15))
-        means.append(float(np.array(weight.x).mean()))
-        kept = np.array(sampled.sampled_component)[np.array(weight.x) > 0]
-        assert set(np.unique(kept)) == ({component} if component < 2 else {0, 1})
-    assert means[0] + means[1] == pytest.approx(means[2], rel=5e-3)
-
-
 @pytest.mark.parametrize("given", [{"alpha": 0.5}, {"alpha_u": 0.2, "alpha_v": 0.7}], ids=str)
 @pytest.mark.parametrize("distribution", DISTRIBUTIONS)
 def test_losses_have_derivatives(given: Dict, distribution: str) -> None:

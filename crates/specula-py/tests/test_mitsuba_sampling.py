@@ -221,10 +221,11 @@ def test_weight_is_value_by_density(bsdf: Dict) -> None:
 
 
 @pytest.mark.parametrize("side", [1, -1])
-def test_branches_of_glass_add_up(side: int) -> None:
+@pytest.mark.parametrize("energy", ["none", "kulla_conty"])
+def test_branches_of_glass_add_up(energy: str, side: int) -> None:
     """A context that asks for one branch gets all of it, and only it."""
     n = 100_000
-    plugin = mi.load_dict({"type": "specula_dielectric", "alpha": 0.4})
+    plugin = mi.load_dict({"type": "specula_dielectric", "alpha": 0.4, "energy": energy})
     si = surface(unit((0.6, 0.0, 0.8 * side)), n)
     means = []
     for component in (0, 1, 0xFFFFFFFF):
