@@ -24,7 +24,8 @@ const MODULES: &[&str] = &[
     "stream",
 ];
 /// Events of a walk that is held against its twin. Each bounce off metal multiplies what rounding has
-/// moved, by two and more: of walks of 30 events 4 in 1000 end elsewhere, of these 1 or 2 (allowed: 2).
+/// moved, by two and more: of walks of 30 events 4 in 1000 end elsewhere, of these 1 to 5, whichever way the
+/// samplers round (allowed: 8).
 const EVENTS: u32 = 12;
 /// Bound of the walks in ulps of 0.01 or more: 2.4e-4 of larger values.
 const BOUND: f64 = 2000.0;
@@ -120,7 +121,7 @@ fn colour<T: Real>(value: Rgb<T>) -> Vec<T> {
 pub(crate) fn cases() -> Vec<Case> {
     let walk = |name, body, inputs: Vec<[f32; 13]>, twin| {
         // Walks part where rounding decides otherwise: by lavapipe 2 of a thousand, by SwiftShader 3.
-        let strays = (4 * inputs.len()).div_ceil(1000);
+        let strays = (8 * inputs.len()).div_ceil(1000);
         let case = Case::new(name, MODULES, body, inputs, twin, BOUND);
         case.at_scale(&[0.01]).with_strays(strays)
     };

@@ -33,7 +33,13 @@ impl Writer<'_> {
             self.keep(name, &bytes()?)?;
         }
         let folder = self.folder.file_name().unwrap_or_default();
-        Ok(format!("{}/{name}", folder.to_string_lossy()))
+        let folder = folder.to_string_lossy().into_owned();
+        if !self.keeps {
+            self.note(format!(
+                "files in {folder} are named only: `specula convert` writes them"
+            ));
+        }
+        Ok(format!("{folder}/{name}"))
     }
 
     fn keep(&self, name: &str, bytes: &[u8]) -> Result<(), WriteError> {

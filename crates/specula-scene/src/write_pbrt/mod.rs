@@ -83,7 +83,7 @@ pub fn write_pbrt(scene: &Scene, path: &Path) -> Result<Vec<String>, WriteError>
 }
 
 /// The scene file that [`write_pbrt`] writes, and its notes; no file is written, also none of those beside it. Meshes
-/// of up to 20,000 triangles are within the text.
+/// of up to 20,000 triangles and vertices are within the text; a note says that other files are named only.
 ///
 /// * `path`: of the scene file, by which those beside it are named.
 ///

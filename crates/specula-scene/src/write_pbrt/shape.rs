@@ -7,7 +7,7 @@ use specula_bsdf::Rgb;
 use super::{WriteError, Writer, quoted, rgb_list, transform};
 use crate::scene::{Channel, Emission, FloatParam, Geometry, Mesh, MeshId, Shape};
 
-/// Most triangles of a mesh within a text alone.
+/// Most triangles, and vertices, of a mesh within a text alone.
 const MOST_INLINE: usize = 20_000;
 
 impl Writer<'_> {
@@ -79,14 +79,9 @@ impl Writer<'_> {
     }
 
     /// Whether a mesh is part of the text: there are no files beside it, and it is small.
-    fn is_inline(&mut self, id: MeshId) -> bool {
-        let is_small = self.scene.meshes[id.0].triangles.len() <= MOST_INLINE;
-        if !self.keeps && !is_small {
-            self.note(format!(
-                "meshes of more than {MOST_INLINE} triangles are named only: `specula convert` writes them"
-            ));
-        }
-        !self.keeps && is_small
+    fn is_inline(&self, id: MeshId) -> bool {
+        let mesh = &self.scene.meshes[id.0];
+        !self.keeps && mesh.triangles.len().max(mesh.positions.len()) <= MOST_INLINE
     }
 
     fn emission(&mut self, emission: Emission) -> Result<String, WriteError> {
