@@ -143,7 +143,7 @@ fn the_ninth_render_is_refused_until_one_is_closed() {
     let studio = Studio::default();
     let all: Vec<u64> = (0..8).map(|_| open(&studio, json!({}))).collect();
     let ninth = json!({"ask": "render.open", "scene": "ball", "width": 8, "height": 8});
-    refused(&studio, ninth.clone(), "close one");
+    refused(&studio, ninth.clone(), "close another page");
     value(&studio, json!({"ask": "render.close", "session": all[3]}));
     refused(
         &studio,

@@ -10,7 +10,7 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::warp::{Slices, Warp};
 use super::{MeasuredGrid, MeasuredTables};
 use crate::bsdf::{Bsdf, Transport};
-use crate::math::{Rgb, Vec3, vec3};
+use crate::math::{Real, Rgb, Vec3, vec3};
 use crate::ndf::Ndf;
 
 /// Which views a table has.
@@ -88,7 +88,8 @@ pub fn tabulate(
     let visible = |wo: Vec3<f64>| {
         over(normals, move |u| {
             let wm = normal(u);
-            single(ndf.d_visible(wo, wm) * u[0] * (1.0 - wm.z * wm.z).max(0.0).sqrt())
+            let sine = Real::sqrt((1.0 - wm.z * wm.z).max(0.0));
+            single(ndf.d_visible(wo, wm) * u[0] * sine)
         })
     };
     let vndf: Vec<f32> = views.iter().flat_map(|&wo| visible(wo)).collect();
@@ -125,20 +126,20 @@ pub fn tabulate(
 
 /// A view; one at the horizon is a little above it.
 fn view(theta: f64, phi: f64) -> Vec3<f64> {
-    let theta = theta.min(FRAC_PI_2 - 1e-3);
-    vec3(
-        theta.sin() * phi.cos(),
-        theta.sin() * phi.sin(),
-        theta.cos(),
-    )
+    spherical(theta.min(FRAC_PI_2 - 1e-3), phi)
 }
 
 fn normal([x, y]: [f64; 2]) -> Vec3<f64> {
-    let (theta, phi) = (x * x * FRAC_PI_2, y * TAU - PI);
+    let wm = spherical(x * x * FRAC_PI_2, y * TAU - PI);
+    vec3(wm.x, wm.y, wm.z.max(1e-9))
+}
+
+fn spherical(theta: f64, phi: f64) -> Vec3<f64> {
+    let sine = Real::sin(theta);
     vec3(
-        theta.sin() * phi.cos(),
-        theta.sin() * phi.sin(),
-        theta.cos().max(1e-9),
+        sine * Real::cos(phi),
+        sine * Real::sin(phi),
+        Real::cos(theta),
     )
 }
 
