@@ -220,7 +220,7 @@ fn plotted(
         let u = r2(n);
         let wm = wo + vndf::exact::sample_direction(alpha, wo, u);
         let m = vec3(wm.x / alpha.x, wm.y / alpha.y, wm.z).normalize();
-        let changed = (u[1] < 0.5) != (m.dot(k) > 0.0);
+        let changed = (u[1] > 0.5) != (m.dot(k) > 0.0);
         dot(
             svg,
             &axes.place(centre, m),
