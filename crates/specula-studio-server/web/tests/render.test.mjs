@@ -238,8 +238,11 @@ test('a click picks a material, whose text and sliders change the picture', asyn
   const before = (await row(0))[4];
   const box = await session.page.locator('canvas.picture').boundingBox();
   await session.page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
-  await session.page.getByLabel('As text').fill('diffuse 0.9 0.05 0.05');
-  await session.page.getByLabel('As text').press('Enter');
+  const field = session.page.getByLabel('As text');
+  // What is typed before the material's own text has come is replaced by it.
+  await session.page.waitForFunction((input) => input.value !== '', await field.elementHandle());
+  await field.fill('diffuse 0.9 0.05 0.05');
+  await field.press('Enter');
   await session.page.waitForFunction(() => location.hash.includes('edits='));
   const changed = (text) =>
     session.page.waitForFunction((old) => {
