@@ -64,6 +64,9 @@ class _Second:
     #: Share of the lost light in each branch; 0 where the context excludes it.
     reflected_share: Any
     transmitted_share: Any
+    #: ``L_n,avg`` and ``L_f,avg``.
+    near: Any
+    far: Any
 
 
 class Dielectric:
@@ -205,7 +208,8 @@ class Dielectric:
         if second is not None and self.loss is not None:
             cosine = dr.abs(wo.z) * dr.inv_pi
             beyond = dr.select(is_reflected, eta, dr.rcp(eta))
-            shape = self.loss.directional(facets, beyond, wo) / self.loss.average(facets, beyond)
+            shape = self.loss.directional(facets, beyond, wo)
+            shape /= dr.select(is_reflected, second.near, second.far)
             light = dr.select(is_reflected, second.reflected_share, second.transmitted_share)
             value += second.loss * shape * cosine * light
             share = dr.select(is_reflected, 1 - second.transmitted, second.transmitted)
@@ -233,6 +237,8 @@ class Dielectric:
             chosen,
             (1 - transmitted) if reflects else mi.Float(0),
             transmitted if refracts else mi.Float(0),
+            near,
+            far,
         )
 
     def upper(self, si: Any) -> tuple[Any, Any]:
