@@ -16,6 +16,7 @@ pub mod compare;
 mod error;
 mod experiment;
 pub mod experiments;
+pub mod fit;
 pub mod gpu_report;
 mod lab;
 mod machine;

@@ -5,8 +5,8 @@ use specula_bsdf::metals;
 
 use crate::num::f32_of;
 use crate::scene::{
-    CoatMedium, ColourParam, ConductorFresnel, FloatParam, Material, MaterialKind, Roughness,
-    RoughnessMapping, Scene,
+    CoatMedium, ColourParam, ConductorFresnel, FloatParam, Material, MaterialKind,
+    MicrofacetDistribution, Roughness, RoughnessMapping, Scene,
 };
 
 /// A line that does not describe a material.
@@ -17,22 +17,31 @@ pub struct UnknownMaterial {
     problem: String,
 }
 
+/// The words of a metal's index.
+const INDEX: [&str; 2] = ["conductor_eta", "conductor_k"];
+
 const EXPECTED: &str = "diffuse R G B, conductor METAL|R G B, dielectric ETA, coateddiffuse R G B, \
-    or coatedconductor METAL|R G B, then any of: alpha A, alpha AX AY, roughness R, eta ETA";
+    or coatedconductor METAL|R G B, then any of: alpha A, alpha AX AY, roughness R, eta ETA, \
+    conductor_eta R G B, conductor_k R G B, distribution ggx|beckmann";
 
 /// Reads a material.
 ///
 /// ```text
 /// diffuse         R G B
-/// conductor       METAL | R G B        METAL: Au, Ag, Cu, ... or a reflectance
+/// conductor       [METAL | R G B]      METAL: Au, Ag, Cu, ... or a reflectance; or by conductor_eta
 /// dielectric      [ETA]                1.5
 /// coateddiffuse   R G B
-/// coatedconductor METAL | R G B
+/// coatedconductor [METAL | R G B]
 ///
 /// alpha A | alpha AX AY                alpha of the microfacets; 0 is smooth
 /// roughness R                          alpha = R^2
 /// eta ETA                              index of the coat or the glass
+/// conductor_eta R G B, conductor_k R G B
+///                                      index of a metal, in place of METAL
+/// distribution ggx | beckmann          of the microfacets
 /// ```
+///
+/// Commas may stand in place of spaces.
 ///
 /// # Errors
 ///
@@ -42,7 +51,8 @@ pub fn parse_material(text: &str) -> Result<MaterialKind, UnknownMaterial> {
         text: text.to_owned(),
         problem,
     };
-    let words: Vec<&str> = text.split_whitespace().collect();
+    let is_between = |c: char| c.is_whitespace() || c == ',';
+    let words: Vec<&str> = text.split(is_between).filter(|w| !w.is_empty()).collect();
     let mut words = Words { words: &words };
     let class = words
         .next()
@@ -51,7 +61,11 @@ pub fn parse_material(text: &str) -> Result<MaterialKind, UnknownMaterial> {
     let (mut fresnel, mut eta) = (ConductorFresnel::Mirror, 1.5_f32);
     let mut colour = ColourParam::Value(Rgb::splat(0.5));
     match class {
-        "conductor" | "coatedconductor" => fresnel = words.metal().map_err(wrong)?,
+        "conductor" | "coatedconductor" => {
+            if !words.is_next(&INDEX) {
+                fresnel = words.metal().map_err(wrong)?;
+            }
+        }
         "diffuse" | "coateddiffuse" => {
             if let Some(c) = words.colour().map_err(wrong)? {
                 colour = ColourParam::Value(c);
@@ -65,6 +79,8 @@ pub fn parse_material(text: &str) -> Result<MaterialKind, UnknownMaterial> {
         other => return Err(wrong(format!("there is no '{other}'"))),
     }
     let (mut alpha, mut mapping) = ([if metal { 0.1 } else { 0.0 }; 2], RoughnessMapping::Alpha);
+    let mut index = [None; 2];
+    let mut distribution = MicrofacetDistribution::Ggx;
     while let Some(word) = words.next() {
         let mut value = || {
             words
@@ -82,6 +98,17 @@ pub fn parse_material(text: &str) -> Result<MaterialKind, UnknownMaterial> {
                 mapping = RoughnessMapping::Square;
             }
             "eta" => eta = value()?,
+            "conductor_eta" | "conductor_k" if metal => {
+                let colour = words.index(word).map_err(wrong)?;
+                index[usize::from(word == INDEX[1])] = Some(ColourParam::Value(colour));
+            }
+            "distribution" => {
+                distribution = match words.next() {
+                    Some("ggx") => MicrofacetDistribution::Ggx,
+                    Some("beckmann") => MicrofacetDistribution::Beckmann,
+                    _ => return Err(wrong("'distribution' needs ggx or beckmann".to_owned())),
+                };
+            }
             other => return Err(wrong(format!("'{other}' is not understood"))),
         }
     }
@@ -91,9 +118,21 @@ pub fn parse_material(text: &str) -> Result<MaterialKind, UnknownMaterial> {
     if alpha.iter().any(|a| *a < 0.0) {
         return Err(wrong("a negative width".to_owned()));
     }
+    match (index, fresnel) {
+        ([None, None], ConductorFresnel::Mirror) if metal => {
+            return Err(wrong("which metal is not said".to_owned()));
+        }
+        ([None, None], _) => {}
+        ([Some(eta), Some(k)], ConductorFresnel::Mirror) => {
+            fresnel = ConductorFresnel::Index { eta, k };
+        }
+        ([Some(_), Some(_)], _) => return Err(wrong("a metal and an index".to_owned())),
+        _ => return Err(wrong("conductor_eta and conductor_k go together".to_owned())),
+    }
     let [u, v] = alpha.map(FloatParam::Value);
     let roughness = Roughness {
         v,
+        distribution,
         ..Roughness::isotropic(u, mapping)
     };
     Ok(kind(class, colour, fresnel, eta, roughness))
@@ -188,6 +227,24 @@ impl<'a> Words<'a> {
         Some(first)
     }
 
+    fn is_next(&self, any: &[&str]) -> bool {
+        self.words.first().is_some_and(|w| any.contains(w))
+    }
+
+    /// Three numbers of at least 0, or one for all three.
+    fn index(&mut self, name: &str) -> Result<Rgb<f32>, String> {
+        let values = [self.number(), self.number(), self.number()];
+        let colour = match values {
+            [Some(r), None, None] => Rgb::splat(r),
+            [Some(r), Some(g), Some(b)] => Rgb { r, g, b },
+            _ => return Err(format!("'{name}' needs one number or three")),
+        };
+        if colour.to_array().iter().any(|x| *x < 0.0) {
+            return Err(format!("'{name}' below 0"));
+        }
+        Ok(colour)
+    }
+
     /// The next word, where it is a finite number.
     fn number(&mut self) -> Option<f32> {
         let value = self.words.first()?.parse::<f64>().ok().map(f32_of)?;
@@ -265,6 +322,21 @@ mod tests {
                 if roughness.mapping == RoughnessMapping::Square
         ));
         assert!(parse_material("conductor 0.9").is_ok());
+        // As lobes are printed.
+        let MaterialKind::Conductor {
+            fresnel, roughness, ..
+        } = parse_material(
+            "conductor conductor_eta 0.2,0.9,1.1 conductor_k 3.9,2.4,2.2 alpha 0.1,0.4 distribution beckmann",
+        )
+        .unwrap()
+        else {
+            panic!("no conductor")
+        };
+        let colour = |c: [f32; 3]| ColourParam::Value(Rgb::from(c));
+        let (eta, k) = (colour([0.2, 0.9, 1.1]), colour([3.9, 2.4, 2.2]));
+        assert_eq!(fresnel, ConductorFresnel::Index { eta, k });
+        assert_eq!(roughness.distribution, MicrofacetDistribution::Beckmann);
+        assert_eq!(roughness.v, FloatParam::Value(0.4));
     }
 
     #[test]
@@ -280,6 +352,13 @@ mod tests {
             ("conductor Au shiny", "'shiny' is not understood"),
             ("dielectric -1", "index of -1"),
             ("conductor Au alpha -0.1", "negative"),
+            ("conductor alpha 0.1", "no metal 'alpha'"),
+            ("conductor conductor_eta 1", "go together"),
+            ("conductor Au conductor_eta 1 conductor_k 2", "a metal and an index"),
+            ("conductor conductor_eta 1 2", "one number or three"),
+            ("conductor conductor_k -1 conductor_eta 1", "'conductor_k' below 0"),
+            ("diffuse 0.5 conductor_k 1", "'conductor_k' is not understood"),
+            ("conductor Au distribution phong", "needs ggx or beckmann"),
         ] {
             let error = parse_material(text).unwrap_err().to_string();
             assert!(error.contains(expected), "{text}: {error}");

@@ -49,6 +49,17 @@ pub struct Measured<T> {
     albedo: Rgb<T>,
 }
 
+/// A value of a measurement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeasuredNode<T> {
+    /// Towards the viewer.
+    pub wo: Vec3<T>,
+    /// Towards the light.
+    pub wi: Vec3<T>,
+    /// `f cos(theta_i)`, 1/sr.
+    pub f_cos: Rgb<T>,
+}
+
 /// A view, mirrored to where the tables know it.
 struct View<T> {
     wo: Vec3<T>,
@@ -111,6 +122,39 @@ impl<T: Real> Measured<T> {
         (all * size_of::<T>()) as u64
     }
 
+    /// The values at the nodes of the colours, view by view: what was measured, without interpolation of
+    /// views and colours.
+    ///
+    /// Pairs of directions of which one is not above the horizon are left out.
+    pub fn nodes(&self) -> impl Iterator<Item = MeasuredNode<T>> + '_ {
+        let [w, h] = self.rgb.size();
+        let step = |i: usize, n: usize| warp::count::<T>(i) / warp::count(n - 1);
+        let views = (self.phi_i.iter())
+            .flat_map(|&phi| self.theta_i.iter().map(move |&theta| (theta, phi)));
+        views.enumerate().flat_map(move |(slice, (theta, phi))| {
+            let sin = theta.sin();
+            let wo = vec3(sin * phi.cos(), sin * phi.sin(), theta.cos());
+            let view = View {
+                wo,
+                signs: [T::ONE; 2],
+                phi,
+                at: Slices::only(slice),
+                scale: self.scale(theta, phi),
+            };
+            (0..w * h).filter_map(move |i| {
+                let u = [step(i % w, w), step(i / w, h)];
+                let (u_m, _) = self.vndf.sample(&view.at, u);
+                let (wi, _, cos) = self.reflection(&view, u_m);
+                let node = MeasuredNode {
+                    wo,
+                    wi,
+                    f_cos: self.value(&view, u, u_m),
+                };
+                (wo.z > T::ZERO && wi.z > T::ZERO && cos > T::ZERO).then_some(node)
+            })
+        })
+    }
+
     /// Albedo at a cosine of 2/3, by 32 x 32 samples.
     fn representative(&self) -> Rgb<T> {
         const SIDE: u32 = 32;
@@ -143,19 +187,34 @@ impl<T: Real> Measured<T> {
         };
         let wo = mirrored(wo, signs);
         let (theta, phi) = angles(wo);
-        let scale = if self.jacobian {
-            let sigma = self.sigma.eval([polar(theta), azimuth(phi)]);
-            T::select(sigma > T::ZERO, T::of(0.25) / sigma, T::ZERO)
-        } else {
-            T::ONE
-        };
         Some(View {
             wo,
             signs,
             phi,
             at: Slices::new(&self.phi_i, &self.theta_i, phi, theta),
-            scale,
+            scale: self.scale(theta, phi),
         })
+    }
+
+    /// What colours of a view are multiplied by, without D.
+    fn scale(&self, theta: T, phi: T) -> T {
+        if !self.jacobian {
+            return T::ONE;
+        }
+        let sigma = self.sigma.eval([polar(theta), azimuth(phi)]);
+        T::select(sigma > T::ZERO, T::of(0.25) / sigma, T::ZERO)
+    }
+
+    /// The view's reflection at a normal, with the sine of the normal's polar angle and the cosine between
+    /// the two.
+    fn reflection(&self, view: &View<T>, u_m: [T; 2]) -> (Vec3<T>, T, T) {
+        let theta = u_m[0] * u_m[0] * (T::PI * T::HALF);
+        let turn = if self.turns { view.phi } else { T::ZERO };
+        let phi = (T::TWO * u_m[1] - T::ONE) * T::PI + turn;
+        let sin = theta.sin();
+        let wm = vec3(sin * phi.cos(), sin * phi.sin(), theta.cos());
+        let cos = view.wo.dot(wm);
+        (wm * (T::TWO * cos) - view.wo, sin, cos)
     }
 
     /// Where the half vector of a view and `wi` lies.
@@ -209,13 +268,7 @@ impl<T: Real> Bsdf<T> for Measured<T> {
         let view = self.view(wo)?;
         let (u, by_luminance) = self.luminance.sample(&view.at, [u[1], u[2]]);
         let (u_m, visible) = self.vndf.sample(&view.at, u);
-        let theta = u_m[0] * u_m[0] * (T::PI * T::HALF);
-        let turn = if self.turns { view.phi } else { T::ZERO };
-        let phi = (T::TWO * u_m[1] - T::ONE) * T::PI + turn;
-        let sin = theta.sin();
-        let wm = vec3(sin * phi.cos(), sin * phi.sin(), theta.cos());
-        let cos = view.wo.dot(wm);
-        let wi = wm * (T::TWO * cos) - view.wo;
+        let (wi, sin, cos) = self.reflection(&view, u_m);
         let pdf = by_luminance * visible / jacobian(u_m[0], sin, cos);
         if !(wi.z > T::ZERO && cos > T::ZERO && pdf > T::ZERO && pdf.is_finite()) {
             return None;

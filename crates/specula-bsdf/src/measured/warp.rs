@@ -105,7 +105,7 @@ fn cell<T: Real>(x: T, nodes: usize) -> (usize, T) {
     clippy::cast_precision_loss,
     reason = "sizes of grids are far below 2^53"
 )]
-fn count<T: Real>(n: usize) -> T {
+pub(super) fn count<T: Real>(n: usize) -> T {
     T::of(n as f64)
 }
 
@@ -173,6 +173,10 @@ impl<T: Real> Colours<T> {
 
     pub(super) fn count(&self) -> usize {
         self.values.len()
+    }
+
+    pub(super) fn size(&self) -> [usize; 2] {
+        self.size
     }
 
     pub(super) fn eval(&self, at: &Slices<T>, [x, y]: [T; 2]) -> [T; 3] {

@@ -6,7 +6,7 @@ mod plots;
 mod tabulate;
 mod trials;
 
-pub use tabulate::tables;
+pub use tabulate::{merl, tables};
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;

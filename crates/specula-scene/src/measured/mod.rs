@@ -1,10 +1,11 @@
 //! Measured materials: `.bsdf` files of the RGL database (Dupuy and Jakob 2018), as pbrt-v4's and Mitsuba's
-//! `measured` read them.
+//! `measured` read them, and `.binary` files of MERL's ([`Merl`]), which become tables of the same form.
 //!
 //! Files hold `rgb`, or `spectra` over `wavelengths`, which become RGB as reflectances do
 //! ([`reflectance_to_rgb`](crate::spectrum::reflectance_to_rgb)). The pages of tables are those of
 //! [`MeasuredTables`].
 
+mod merl;
 mod tensor;
 mod write;
 
@@ -20,6 +21,7 @@ use crate::read_file::Files;
 use crate::spectrum::SpectraToRgb;
 use tensor::{FLOAT32, TensorFile, UINT8};
 
+pub use merl::Merl;
 pub use write::to_bytes;
 
 /// A measured material of a scene.
@@ -76,17 +78,31 @@ pub(crate) fn read(path: &Path, files: &Files) -> Result<MeasuredBrdf, String> {
     MeasuredBrdf::from_bytes(&name.unwrap_or_default(), &bytes).map_err(|e| wrong(e.to_string()))
 }
 
-/// The tables of a file.
+/// The tables of the file at a path, as [`tables`].
+///
+/// # Errors
+///
+/// Where it cannot be read, or is no measured material: a message without its name.
+pub fn read_tables(path: &Path) -> Result<MeasuredTables, MeasuredFileError> {
+    let bytes = Files::default().plain(path).map_err(MeasuredFileError)?;
+    tables(&bytes)
+}
+
+/// The tables of a file of the RGL database or of MERL's.
 ///
 /// # Errors
 ///
 /// Where the bytes are no such file, a field is missing or has another type or shape. What values must be
 /// is checked by [`Measured::new`].
 pub fn tables(bytes: &[u8]) -> Result<MeasuredTables, MeasuredFileError> {
-    read_tables(bytes).map_err(MeasuredFileError)
+    if Merl::is_one(bytes) {
+        let merl = Merl::from_bytes(bytes).map_err(MeasuredFileError)?;
+        return Ok(merl.tables());
+    }
+    of_tensors(bytes).map_err(MeasuredFileError)
 }
 
-fn read_tables(bytes: &[u8]) -> Result<MeasuredTables, String> {
+fn of_tensors(bytes: &[u8]) -> Result<MeasuredTables, String> {
     let file = TensorFile::parse(bytes)?;
     let floats = |name: &str, dimensions| file.get(name, FLOAT32, dimensions);
     let (theta_i, phi_i) = (floats("theta_i", 1)?, floats("phi_i", 1)?);

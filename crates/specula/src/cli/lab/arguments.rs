@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use crate::lab::Quality;
+use crate::lab::fit::{Bounces, Distribution, FresnelModel};
 use crate::scene::Energy;
 use crate::scene::material_text::parse_material;
 use crate::scene::scene::MaterialKind;
@@ -23,6 +24,7 @@ Examples:
   specula lab material \"conductor Au alpha 0.3\"     all about one material
   specula lab tabulate \"conductor Au alpha 0.3\" -o gold.bsdf
                                                     a synthetic measurement, to render and to fit
+  specula lab fit gold.bsdf -o gold.html            the rough metal nearest to a measured material
 
 Every result is a folder with result.json (verdict, seed, version, machine), tables as CSV, plots
 as SVG and PNG, pictures as EXR and PNG. The page report.html holds all of them and needs no
@@ -53,6 +55,8 @@ pub(crate) enum LabCommand {
     Material(MaterialArguments),
     /// Write a rough metal as a measured material, a .bsdf file of the RGL database.
     Tabulate(TabulateArguments),
+    /// Fit rough metals to a measured material (.bsdf of the RGL database, .binary of MERL's).
+    Fit(FitArguments),
 }
 
 #[derive(Args, Debug)]
@@ -291,7 +295,103 @@ pub(crate) struct TabulateArguments {
     #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u16).range(4..=256))]
     pub(crate) colours: u16,
 
-    /// The file
-    #[arg(short, long, value_name = "FILE.bsdf")]
+    /// The file; of MERL's form (90 x 90 x 180 values, isotropic) where its name ends in .binary
+    #[arg(short, long, value_name = "FILE.bsdf|FILE.binary")]
     pub(crate) output: PathBuf,
+}
+
+const FIT_EXAMPLES: &str = "\
+Examples:
+  specula lab fit gold.bsdf -o gold.html
+      one page: the fits, text to paste, lobes over each other, where they differ
+  specula lab fit chrome.binary --bounces single --quality paper -o results
+      metals that scatter once, to more nodes; files in results/fit-chrome.binary
+
+Alphas and the reflectance of a metal are fitted: GGX and Beckmann, an index of refraction per channel, one
+bounce, several by compensation (Kulla and Conty), and all of them by simulation. Of lobes that are equally
+near, the simplest is chosen.";
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DistributionName {
+    Ggx,
+    Beckmann,
+}
+
+impl From<DistributionName> for Distribution {
+    fn from(name: DistributionName) -> Self {
+        match name {
+            DistributionName::Ggx => Self::Ggx,
+            DistributionName::Beckmann => Self::Beckmann,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum BouncesName {
+    /// One bounce
+    Single,
+    /// One, and the lost energy made up for
+    Compensated,
+    /// All, by random walks
+    All,
+}
+
+impl From<BouncesName> for Bounces {
+    fn from(name: BouncesName) -> Self {
+        match name {
+            BouncesName::Single => Self::Single,
+            BouncesName::Compensated => Self::Compensated,
+            BouncesName::All => Self::All,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum FresnelName {
+    /// eta + i k
+    Index,
+    /// Reflectance along the normal, and the tint at 82 degrees; of the library, not of the renderer
+    F82,
+}
+
+impl From<FresnelName> for FresnelModel {
+    fn from(name: FresnelName) -> Self {
+        match name {
+            FresnelName::Index => Self::Index,
+            FresnelName::F82 => Self::F82,
+        }
+    }
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = FIT_EXAMPLES)]
+pub(crate) struct FitArguments {
+    /// The measurement
+    #[arg(value_name = "FILE")]
+    pub(crate) file: PathBuf,
+
+    /// Distributions of normals, separated by commas
+    #[arg(long, value_name = "NAMES", value_enum, value_delimiter = ',',
+          default_values_t = [DistributionName::Ggx, DistributionName::Beckmann])]
+    pub(crate) distributions: Vec<DistributionName>,
+
+    /// Treatments of several bounces, separated by commas
+    #[arg(long, value_name = "NAMES", value_enum, value_delimiter = ',',
+          default_values_t = [BouncesName::Single, BouncesName::Compensated, BouncesName::All])]
+    pub(crate) bounces: Vec<BouncesName>,
+
+    /// Reflectances, separated by commas
+    #[arg(long, value_name = "NAMES", value_enum, value_delimiter = ',', default_values_t = [FresnelName::Index])]
+    pub(crate) fresnel: Vec<FresnelName>,
+
+    /// How much work
+    #[arg(long, value_name = "NAME", value_enum, default_value_t = QualityName::Draft)]
+    pub(crate) quality: QualityName,
+
+    /// The page alone (FILE.html), or a folder for all files
+    #[arg(short, long, value_name = "FILE.html|DIR", default_value = "lab")]
+    pub(crate) output: PathBuf,
+
+    #[command(flatten)]
+    pub(crate) effort: EffortArguments,
 }

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod compare;
+mod fit;
 mod material;
 mod run;
 mod tabulate;
@@ -48,6 +49,7 @@ pub(crate) fn run(arguments: &LabArguments) -> Result<ExitCode, Failure> {
         LabCommand::Compare(a) => compare::run(a),
         LabCommand::Material(a) => material::run(a),
         LabCommand::Tabulate(a) => tabulate::run(a),
+        LabCommand::Fit(a) => fit::run(a),
     }
 }
 
@@ -217,6 +219,48 @@ pub(crate) fn command_line() -> String {
     let words = super::given().map(quoted);
     let all: Vec<String> = std::iter::once("specula".to_owned()).chain(words).collect();
     all.join(" ")
+}
+
+/// Makes one record, and writes its page alone, or its files and the page about their folder.
+///
+/// * `measure`: makes the record in a folder.
+pub(crate) fn one_record(
+    output: &Path,
+    effort: &EffortArguments,
+    measure: &(dyn Fn(&Path, &Desk) -> crate::lab::Result<Record> + Sync),
+) -> Result<ExitCode, Failure> {
+    let desk = Desk::new(effort)?;
+    // Whether it was finished.
+    let finished = |place: &Path| {
+        let result = desk.work(|| measure(place, &desk));
+        desk.finish();
+        match result {
+            Ok(record) => desk.print(&line(&record)).map(|()| true),
+            Err(LabError::Stopped) => Ok(false),
+            Err(error) => Err(failure(error)),
+        }
+    };
+    let done = if is_page(output) {
+        let (temporary, place) = scratch(output)?;
+        let done = finished(&place)?;
+        if done {
+            announce(&report::write_to(&place, output).map_err(failure)?);
+        }
+        drop(temporary);
+        done
+    } else {
+        folder(output)?;
+        let done = finished(output)?;
+        if done {
+            write_page(output)?;
+        }
+        done
+    };
+    if done {
+        Ok(ExitCode::SUCCESS)
+    } else {
+        Ok(desk.stopped("nothing is written"))
+    }
 }
 
 /// Whether a path names a page.

@@ -23,9 +23,13 @@ pub(crate) fn run(arguments: &TabulateArguments) -> Result<ExitCode, Failure> {
         normals: [size(arguments.normals); 2],
         colours: size(arguments.colours),
     };
-    let tables = material::tables(&kind, resolution).map_err(failure)?;
-    let bytes = measured::to_bytes(&tables, &arguments.text);
     let path = &arguments.output;
+    let bytes = if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("binary")) {
+        material::merl(&kind).map_err(failure)?
+    } else {
+        let tables = material::tables(&kind, resolution).map_err(failure)?;
+        measured::to_bytes(&tables, &arguments.text)
+    };
     atomic::replace(path, |out| out.write_all(&bytes)).map_err(|e: io::Error| {
         Failure::other(format_args!("cannot write '{}': {e}", path.display()))
     })?;
