@@ -24,7 +24,12 @@ fn tables(text: &str, alpha: [f64; 2], symmetry: Symmetry) -> MeasuredTables {
         normals: [64, 64],
         colours: 16,
     };
-    tabulate(&Ggx::new(Alpha::clamped(alpha[0], alpha[1])), lobe, symmetry, size)
+    tabulate(
+        &Ggx::new(Alpha::clamped(alpha[0], alpha[1])),
+        lobe,
+        symmetry,
+        size,
+    )
 }
 
 fn fitted(tables: &MeasuredTables, bounces: &[Bounces], fresnel: &[FresnelModel]) -> Record {
@@ -58,14 +63,26 @@ fn chosen(record: &Record) -> (String, [f64; 2], f64) {
 }
 
 fn near(found: f64, expected: f64) {
-    assert!((found / expected - 1.0).abs() < 0.02, "{found} is not {expected}");
+    assert!(
+        (found / expected - 1.0).abs() < 0.02,
+        "{found} is not {expected}"
+    );
 }
 
 /// A mirror of the reflectance of a rough metal.
 fn mirror(text: &str) -> NamedLobe {
     let rough = specula_lobes::parse(text).unwrap();
     let arguments: Vec<Argument<'_>> = (rough.given())
-        .filter(|(name, _)| ["reflectance", "conductor_eta", "conductor_k", "f0", "f82_tint"].contains(name))
+        .filter(|(name, _)| {
+            [
+                "reflectance",
+                "conductor_eta",
+                "conductor_k",
+                "f0",
+                "f82_tint",
+            ]
+            .contains(name)
+        })
         .map(|(name, value)| Argument {
             name,
             value: Value::of_text(value),
@@ -96,10 +113,16 @@ fn same_reflectance(found: &str, truth: &str) {
 
 #[test]
 fn gold_is_found() {
-    for (truth, alpha) in [("conductor Au alpha 0.3", 0.3), ("conductor Cu alpha 0.08", 0.08)] {
+    for (truth, alpha) in [
+        ("conductor Au alpha 0.3", 0.3),
+        ("conductor Cu alpha 0.08", 0.08),
+    ] {
         let tables = tables(truth, [alpha; 2], Symmetry::Isotropic);
         let (text, found, within) = chosen(&fitted(&tables, &BOUNCES, &[FresnelModel::Index]));
-        assert!(!text.contains("beckmann") && !text.contains("energy"), "{text}");
+        assert!(
+            !text.contains("beckmann") && !text.contains("energy"),
+            "{text}"
+        );
         near(found[0], alpha);
         same_reflectance(&text, truth);
         assert!(within < 2.0, "{within} %");
@@ -121,13 +144,19 @@ fn distribution_and_bounces_are_told_apart() {
     let truth = "conductor Au alpha 0.5 distribution beckmann";
     let made = tables(truth, [0.5; 2], Symmetry::Isotropic);
     let (text, found, _) = chosen(&fitted(&made, &BOUNCES, &[FresnelModel::Index]));
-    assert!(text.contains("beckmann") && !text.contains("energy"), "{text}");
+    assert!(
+        text.contains("beckmann") && !text.contains("energy"),
+        "{text}"
+    );
     near(found[0], 0.5);
 
     let truth = "conductor Au alpha 0.6 energy kulla-conty";
     let made = tables(truth, [0.6; 2], Symmetry::Isotropic);
     let (text, found, _) = chosen(&fitted(&made, &BOUNCES, &[FresnelModel::Index]));
-    assert!(text.contains("energy kulla-conty") && !text.contains("beckmann"), "{text}");
+    assert!(
+        text.contains("energy kulla-conty") && !text.contains("beckmann"),
+        "{text}"
+    );
     near(found[0], 0.6);
 }
 

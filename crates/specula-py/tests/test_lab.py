@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from specula_render import lab
+from specula_render.lab.process import call
 from specula_render.lab import process
 
 QUICK = "tokuyoshi24-fig5"
@@ -123,6 +124,22 @@ def test_a_material_is_measured() -> None:
     assert np.isfinite(samplers["variance of the weight"]).all()
     assert (samplers["rejected [%]"][samplers["sampler"] == "exact"] == 0.0).all()
     assert {"lobes", "albedo", "densities"} <= result.figures.keys()
+
+
+def test_a_measured_material_is_fitted(tmp_path: Path) -> None:
+    file = tmp_path / "gold.bsdf"
+    command = ["tabulate", "conductor Au alpha 0.3", "--views", "8", "--colours", "12"]
+    call([*command, "-o", str(file)], progress=False)
+    result = lab.fit(file, distributions=["ggx"], bounces=["single"], threads=1, progress=False)
+    fits = result.tables["fits"]
+    assert len(fits["alpha x"]) == 1
+    assert fits["alpha x"][0] == pytest.approx(0.3, rel=0.02)
+    texts = result.tables["text"]
+    assert "pbrt-v4" in texts["for"]
+    # The text is a lobe of the library.
+    assert "conductor_eta" in fits["lobe"][0]
+    with pytest.raises(ValueError, match="tensor_file"):
+        lab.fit(__file__, output=tmp_path / "none", progress=False)
 
 
 @pytest.mark.parametrize(

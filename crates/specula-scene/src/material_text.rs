@@ -127,7 +127,11 @@ pub fn parse_material(text: &str) -> Result<MaterialKind, UnknownMaterial> {
             fresnel = ConductorFresnel::Index { eta, k };
         }
         ([Some(_), Some(_)], _) => return Err(wrong("a metal and an index".to_owned())),
-        _ => return Err(wrong("conductor_eta and conductor_k go together".to_owned())),
+        _ => {
+            return Err(wrong(
+                "conductor_eta and conductor_k go together".to_owned(),
+            ));
+        }
     }
     let [u, v] = alpha.map(FloatParam::Value);
     let roughness = Roughness {
@@ -354,10 +358,19 @@ mod tests {
             ("conductor Au alpha -0.1", "negative"),
             ("conductor alpha 0.1", "no metal 'alpha'"),
             ("conductor conductor_eta 1", "go together"),
-            ("conductor Au conductor_eta 1 conductor_k 2", "a metal and an index"),
+            (
+                "conductor Au conductor_eta 1 conductor_k 2",
+                "a metal and an index",
+            ),
             ("conductor conductor_eta 1 2", "one number or three"),
-            ("conductor conductor_k -1 conductor_eta 1", "'conductor_k' below 0"),
-            ("diffuse 0.5 conductor_k 1", "'conductor_k' is not understood"),
+            (
+                "conductor conductor_k -1 conductor_eta 1",
+                "'conductor_k' below 0",
+            ),
+            (
+                "diffuse 0.5 conductor_k 1",
+                "'conductor_k' is not understood",
+            ),
             ("conductor Au distribution phong", "needs ggx or beckmann"),
         ] {
             let error = parse_material(text).unwrap_err().to_string();

@@ -102,6 +102,14 @@ impl Candidate {
         [x, y]
     }
 
+    /// The imaginary parts of the index among parameters.
+    pub(super) fn k<'a>(&self, parameters: &'a [f64]) -> &'a [f64] {
+        match self.fresnel {
+            FresnelModel::Index => &parameters[self.alphas() + 3..],
+            FresnelModel::F82 => &[],
+        }
+    }
+
     /// Lowest and highest value of each parameter.
     pub(super) fn bounds(&self) -> Vec<[f64; 2]> {
         let mut bounds = vec![ALPHA.map(f64::ln); self.alphas()];

@@ -104,6 +104,7 @@ fn measure(options: &FitOptions<'_>, lab: &mut Lab<'_>) -> Result<Verdict> {
     let best = best(&fits).ok_or_else(|| wrong(&"no lobe could be fitted"))?;
     lab.step(0.9, "plots")?;
     lab.table(table(&fits, best))?;
+    lab.table(reflectance(best))?;
     lab.table(text::table(best))?;
     plots::lobes(&measured, &fits, best, lab)?;
     plots::residuals(&measured, best, lab)?;
@@ -121,8 +122,36 @@ fn measure(options: &FitOptions<'_>, lab: &mut Lab<'_>) -> Result<Verdict> {
             format!("within {} %", significant(100.0 * median, 2)),
             median < 0.1,
         )],
-        caveat: "Views beyond 84 degrees and light below 3 degrees are left out; so are black nodes.".to_owned(),
+        caveat:
+            "Views beyond 84 degrees and light below 3 degrees are left out; so are black nodes."
+                .to_owned(),
     })
+}
+
+/// The chosen reflectance by channel.
+fn reflectance(fit: &Fit) -> Table {
+    let [first, second] = match fit.candidate.fresnel {
+        FresnelModel::Index => ["eta", "k"],
+        FresnelModel::F82 => ["f0", "f82 tint"],
+    };
+    let mut table = Table::new(
+        "reflectance",
+        "The chosen lobe's reflectance, with one standard deviation of the fit. Large errors of eta and k: many pairs \
+         reflect alike, and the one of small k is taken.",
+        &["channel", first, "+-", second, "+-"],
+    );
+    let from = fit.candidate.alphas();
+    for (i, channel) in ["red", "green", "blue"].into_iter().enumerate() {
+        let (a, b) = (from + i, from + 3 + i);
+        table.push([
+            channel.into(),
+            fit.parameters[a].into(),
+            fit.errors[a].into(),
+            fit.parameters[b].into(),
+            fit.errors[b].into(),
+        ]);
+    }
+    table
 }
 
 /// The first of those that are nearest, but for a percent: they stand from simple to costly.

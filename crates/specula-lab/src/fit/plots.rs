@@ -1,8 +1,8 @@
 //! Plots of a measurement and of what was fitted to it.
 
+use specula_bsdf::math::Stream;
 use specula_bsdf::measured::Measured;
 use specula_bsdf::{Bsdf, Rgb, Transport, Vec3};
-use specula_bsdf::math::Stream;
 
 use super::solve::Fit;
 use crate::output::Table;
@@ -23,7 +23,9 @@ fn f_cos(fit: &Fit, wo: Vec3<f64>, wi: Vec3<f64>, walks: u32) -> Rgb<f64> {
     let mut stream = Stream::new(1);
     let mut sum = Rgb::BLACK;
     for _ in 0..walks {
-        sum += lobe.eval_pdf_random(wo, wi, Transport::Radiance, &mut stream).0;
+        sum += lobe
+            .eval_pdf_random(wo, wi, Transport::Radiance, &mut stream)
+            .0;
     }
     sum * (1.0 / f64::from(walks))
 }
@@ -96,7 +98,11 @@ pub(super) fn lobes(
                     table.push([title, label, (*x).into(), (*y).into()]);
                 }
             }
-            let top = lines.iter().flat_map(|l| &l.points).map(|p| p[1]).fold(0.0, f64::max);
+            let top = lines
+                .iter()
+                .flat_map(|l| &l.points)
+                .map(|p| p[1])
+                .fold(0.0, f64::max);
             panels.push(Panel {
                 title,
                 x: Axis::linear("theta_i [deg]").from_to(-90.0, 90.0),
@@ -105,7 +111,8 @@ pub(super) fn lobes(
             });
         }
     }
-    let caption = "The measurement and the fitted lobes in the plane of incidence, f cos theta as luminance.";
+    let caption =
+        "The measurement and the fitted lobes in the plane of incidence, f cos theta as luminance.";
     lab.table(table)?;
     lab.plot("lobes", caption, &Figure::grid(2, panels))
 }

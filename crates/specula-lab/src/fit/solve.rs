@@ -16,6 +16,9 @@ const ALPHAS: [f64; 9] = [0.01, 0.02, 0.05, 0.1, 0.18, 0.28, 0.42, 0.6, 0.85];
 const ETAS: [f64; 2] = [0.3, 2.0];
 /// Rounds in which simulated bounces are found anew for the last parameters.
 const ROUNDS: u32 = 4;
+/// A residual per unit of k and node, far below those of any measurement: where reflectances do not tell k and eta
+/// apart, as near 1, the smaller k is taken.
+const SMALL_K: f64 = 2e-5;
 
 /// A fitted lobe.
 pub(super) struct Fit {
@@ -24,8 +27,10 @@ pub(super) struct Fit {
     pub(super) lobe: NamedLobe,
     pub(super) alpha: [f64; 2],
     pub(super) alpha_errors: [f64; 2],
-    /// What `alpha` and the reflectance are, in the order of the candidate's parameters.
+    /// In the candidate's order.
     pub(super) parameters: Vec<f64>,
+    /// One standard deviation each.
+    pub(super) errors: Vec<f64>,
     /// Per node and channel.
     pub(super) loss: f64,
     /// Half and nine tenths of the nodes are within this share of the measurement.
@@ -75,7 +80,8 @@ pub(super) fn fit(
     let alpha = candidate.alpha(&parameters);
     // Errors of logarithms are relative.
     let scale = (solved.norm / problem.number_of_points() as f64).sqrt();
-    let error = |i: usize| alpha[i] * scale * solved.errors[i.min(candidate.alphas() - 1)];
+    let errors: Vec<f64> = solved.errors.iter().map(|e| scale * e).collect();
+    let error = |i: usize| alpha[i] * errors[i.min(candidate.alphas() - 1)];
     let mut logs = problem.logs(&parameters).ok_or_else(failed)?;
     let loss = logs.iter().map(|l| robust(*l).powi(2)).sum::<f64>() / logs.len() as f64;
     for log in &mut logs {
@@ -99,6 +105,7 @@ pub(super) fn fit(
         loss,
         ratios: [within(0.5), within(0.9)],
         parameters,
+        errors,
     })
 }
 
@@ -234,7 +241,9 @@ impl<'a> Problem<'a> {
                         *sum += value / f64::from(walks);
                     }
                 }
-                let once = single.eval(node.wo, node.wi, Transport::Radiance).to_array();
+                let once = single
+                    .eval(node.wo, node.wi, Transport::Radiance)
+                    .to_array();
                 [0, 1, 2].map(|c| sum[c] - once[c])
             })
             .collect();
@@ -245,14 +254,21 @@ impl<'a> Problem<'a> {
 impl MPFitter for Problem<'_> {
     fn eval(&mut self, parameters: &[f64], deviates: &mut [f64]) -> MPResult<()> {
         let logs = self.logs(parameters).ok_or(rmpfit::MPError::Eval)?;
-        for (deviate, log) in deviates.iter_mut().zip(logs) {
-            *deviate = robust(log);
+        let weight = SMALL_K * (logs.len() as f64).sqrt();
+        let pulls = self.candidate.k(parameters).iter().map(|k| weight * k);
+        let all = logs.into_iter().map(robust).chain(pulls);
+        for (deviate, residual) in deviates.iter_mut().zip(all) {
+            *deviate = residual;
         }
         Ok(())
     }
 
     fn number_of_points(&self) -> usize {
-        3 * self.measurement.nodes.len()
+        let pulls = match self.candidate.fresnel {
+            FresnelModel::Index => 3,
+            FresnelModel::F82 => 0,
+        };
+        3 * self.measurement.nodes.len() + pulls
     }
 
     fn config(&self) -> &MPConfig {

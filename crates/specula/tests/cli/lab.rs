@@ -354,10 +354,78 @@ fn a_metal_becomes_a_measured_material_that_renders() {
     assert!(run.status.success(), "{}", stderr(&run));
     assert!(folder.path().join("gold.exr").is_file());
 
+    for (text, output, problem) in [
+        ("diffuse 0.5 0.5 0.5", "x.bsdf", "expected a rough metal"),
+        ("conductor Au alpha 0.1 0.3", "x.binary", "isotropic"),
+    ] {
+        let (code, _, error) = lab(folder.path(), &["tabulate", text, "-o", output]);
+        assert_eq!(code, 2, "{error}");
+        assert!(error.contains(problem), "{error}");
+        assert!(!folder.path().join(output).exists());
+    }
+}
+
+#[test]
+fn a_measured_material_is_fitted_and_its_text_renders() {
+    let folder = tempfile::tempdir().unwrap();
     let (code, _, error) = lab(
         folder.path(),
-        &["tabulate", "diffuse 0.5 0.5 0.5", "-o", "x.bsdf"],
+        &["tabulate", "conductor Cu alpha 0.4", "-o", "copper.binary"],
     );
-    assert_eq!(code, 2, "{error}");
-    assert!(error.contains("expected a rough metal"), "{error}");
+    assert_eq!(code, 0, "{error}");
+    let quick = ["--bounces", "single", "--distributions", "ggx"];
+    let mut arguments = vec!["fit", "copper.binary", "-o", "out"];
+    arguments.extend(quick);
+    let (code, printed, error) = lab(folder.path(), &arguments);
+    assert_eq!(code, 0, "{error}");
+    assert!(
+        printed.starts_with("fit-copper.binary: holds."),
+        "{printed}"
+    );
+    let record =
+        fs::read_to_string(folder.path().join("out/fit-copper.binary/result.json")).unwrap();
+    let record: serde_json::Value = serde_json::from_str(&record).unwrap();
+    let tables = record["tables"].as_array().unwrap();
+    let rows = |name: &str| {
+        let table = tables.iter().find(|t| t["name"] == name).unwrap();
+        table["rows"].as_array().unwrap().clone()
+    };
+    let alpha = rows("fits")[0][1].as_f64().unwrap();
+    assert!((alpha / 0.4 - 1.0).abs() < 0.02, "{alpha}");
+    let texts = rows("text");
+    let own = texts.iter().find(|r| r[0] == "specula render").unwrap();
+    let own = own[1].as_str().unwrap();
+    let material = own.split('"').nth(1).unwrap();
+    let run = specula(folder.path())
+        .args([
+            "render",
+            "--material",
+            material,
+            "--spp",
+            "1",
+            "--resolution",
+            "16x16",
+            "-o",
+            "x.exr",
+        ])
+        .output()
+        .expect("the program answers");
+    assert!(run.status.success(), "{}", stderr(&run));
+
+    for (bytes, problem) in [
+        (&b"P6 no such file"[..], "tensor_file"),
+        (
+            &[90, 0, 0, 0, 90, 0, 0, 0, 180, 0, 0, 0][..],
+            "expected 34992012",
+        ),
+    ] {
+        fs::write(folder.path().join("bad.bsdf"), bytes).unwrap();
+        let (code, _, error) = lab(folder.path(), &["fit", "bad.bsdf", "-o", "bad.html"]);
+        assert_eq!(code, 2, "{error}");
+        assert!(
+            error.contains("bad.bsdf") && error.contains(problem),
+            "{error}"
+        );
+        assert!(!folder.path().join("bad.html").exists());
+    }
 }

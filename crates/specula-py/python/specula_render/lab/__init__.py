@@ -6,6 +6,7 @@
 | `run` | one of them: verdict, tables, figures |
 | `compare` | samplers and treatments of energy on a scene |
 | `material` | a material's lobe, albedo, furnace, and how its samplers do |
+| `fit` | the rough metals nearest to a measured material |
 
 They are ``specula lab`` of the command line, in a process of its own: Ctrl-C ends it.
 
@@ -20,7 +21,7 @@ Examples
 1.0
 """
 
-from .commands import compare, experiments, material, run
+from .commands import compare, experiments, fit, material, run
 from .experiment import Experiment
 from .result import Claim, Figure, Result
 from .table import Table
@@ -33,6 +34,7 @@ __all__ = [
     "Table",
     "compare",
     "experiments",
+    "fit",
     "material",
     "run",
 ]

@@ -168,8 +168,54 @@ def material(
     return _result(lambda folder: [*arguments, "-o", folder, "--", text], output, progress)
 
 
+def fit(
+    file: AnyPath,
+    *,
+    distributions: Sequence[Literal["ggx", "beckmann"]] = ("ggx", "beckmann"),
+    bounces: Sequence[Literal["single", "compensated", "all"]] = ("single", "compensated", "all"),
+    fresnel: Sequence[Literal["index", "f82"]] = ("index",),
+    quality: Quality = "draft",
+    output: AnyPath | None = None,
+    seed: int = 1,
+    threads: int | None = None,
+    progress: bool = True,
+) -> Result:
+    """Fit rough metals to a measured material.
+
+    The table ``"fits"`` has the lobes as texts with their alphas and how near they are, the table
+    ``"text"`` the chosen one for renderers.
+
+    Parameters
+    ----------
+    file
+        A ``.bsdf`` file of the RGL database, or a ``.binary`` file of MERL's.
+    distributions
+        Of the facets' normals.
+    bounces
+        What becomes of light that facets reflect onto facets: it is lost, made up for (Kulla and
+        Conty), or followed.
+    fresnel
+        An index of refraction per channel, or the reflectance along the normal and the tint at 82
+        degrees.
+    quality, output, seed, threads, progress
+        As for `run`.
+
+    Raises
+    ------
+    ValueError
+        If the file is no measured material, or another argument is wrong.
+    RuntimeError, KeyboardInterrupt
+        As for `run`.
+    """
+    arguments = ["fit", "--quality", quality, *_shared(seed, threads, progress)]
+    arguments += [f"--distributions={','.join(distributions)}"]
+    arguments += [f"--bounces={','.join(bounces)}", f"--fresnel={','.join(fresnel)}"]
+    file = os.fspath(file)
+    return _result(lambda folder: [*arguments, "-o", folder, "--", file], output, progress)
+
+
 def _shared(seed: int, threads: int | None, progress: bool) -> list[str]:
-    """Options of all three."""
+    """Options of all."""
     count = [] if threads is None else [f"--threads={threads}"]
     return [f"--seed={seed}", *count, *([] if progress else ["-q"])]
 

@@ -13,7 +13,8 @@ use super::one_record;
 /// Fits rough metals to a measurement, and writes the page or the files.
 pub(crate) fn run(arguments: &FitArguments) -> Result<ExitCode, Failure> {
     let path = &arguments.file;
-    let wrong = |e: &dyn std::fmt::Display| Failure::bad_input(format_args!("{}: {e}", path.display()));
+    let wrong =
+        |e: &dyn std::fmt::Display| Failure::bad_input(format_args!("{}: {e}", path.display()));
     let tables = measured::read_tables(path).map_err(|e| wrong(&e))?;
     let name = path.file_name().map(|n| n.to_string_lossy().into_owned());
     let name = name.unwrap_or_default();

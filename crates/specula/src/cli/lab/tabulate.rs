@@ -24,7 +24,10 @@ pub(crate) fn run(arguments: &TabulateArguments) -> Result<ExitCode, Failure> {
         colours: size(arguments.colours),
     };
     let path = &arguments.output;
-    let bytes = if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("binary")) {
+    let bytes = if path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("binary"))
+    {
         material::merl(&kind).map_err(failure)?
     } else {
         let tables = material::tables(&kind, resolution).map_err(failure)?;
