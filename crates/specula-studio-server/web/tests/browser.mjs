@@ -30,6 +30,9 @@ export async function open(browser, url, { width = 1280, height = 860, scheme = 
   const page = await context.newPage();
   // A machine may be busy with other things.
   page.setDefaultTimeout(120_000);
+  // As on a slower machine: `STUDIO_THROTTLE` times.
+  const rate = Number(process.env.STUDIO_THROTTLE ?? 1);
+  if (rate > 1) await (await context.newCDPSession(page)).send('Emulation.setCPUThrottlingRate', { rate });
   const messages = [];
   page.on('console', (message) => messages.push(`${message.type()}: ${message.text()}`));
   page.on('pageerror', (error) => messages.push(`error: ${error}`));

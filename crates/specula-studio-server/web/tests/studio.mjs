@@ -34,8 +34,64 @@ export function ask(page, request) {
   }, request);
 }
 
-/** Puts axe into a page: `axe.run()` there. */
-export const addAxe = (page) => page.evaluate(axe);
+const pause = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
+
+/** What an assertion gives, once it holds; after so many milliseconds, what it said last. Pages may be slow. */
+export async function eventually(assertion, timeout = 60_000) {
+  for (const end = performance.now() + timeout; ; ) {
+    try {
+      return await assertion();
+    } catch (error) {
+      if (performance.now() > end) throw error;
+    }
+    await pause(50);
+  }
+}
+
+/** What a reading gives, once it has given the same for so many milliseconds. */
+export async function rested(read, rest = 1500) {
+  let [last, since] = [await read(), performance.now()];
+  for (const end = since + 120_000; performance.now() - since < rest; ) {
+    await pause(50);
+    const now = await read();
+    if (now !== last) [last, since] = [now, performance.now()];
+    assert.ok(performance.now() < end, `it changes still: ${last}`);
+  }
+  return last;
+}
+
+/** Follows a link of the studio; the page has read its state when this ends. */
+export const follow = (page, url) =>
+  page.evaluate(
+    (hash) =>
+      new Promise((resolve) => {
+        if (location.hash === hash) return resolve();
+        // Behind the page's own listeners, and what they draw.
+        addEventListener('hashchange', () => setTimeout(resolve), { once: true });
+        location.hash = hash;
+      }),
+    new URL(url).hash,
+  );
+
+/** Opens the address of the page anew, once its state has these values; `null`: none. */
+export async function reopen(page, wanted) {
+  await page.waitForFunction((all) => {
+    const state = new URLSearchParams(location.hash.split('?')[1]);
+    return Object.entries(all).every(([key, value]) => state.get(key) === value);
+  }, wanted);
+  const address = page.url();
+  await page.goto('about:blank');
+  await page.goto(address);
+}
+
+/** axe has nothing to say, once the page has all its colours. */
+export async function accessible(page, options) {
+  await page.evaluate(axe);
+  await eventually(async () => {
+    const { violations } = await page.evaluate((given) => globalThis.axe.run(document, given), options ?? {});
+    assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join('; ')}`), []);
+  });
+}
 
 /** Opens a render; where pages of earlier tests have as many as can be open, once the program has closed one. */
 export async function openRender(page, what) {
@@ -43,6 +99,6 @@ export async function openRender(page, what) {
     const { value, error } = await ask(page, { ask: 'render.open', ...what });
     if (value !== undefined) return value.session;
     if (!error.includes('renders are open') || performance.now() > end) throw new Error(error);
-    await new Promise((resolve) => setTimeout(resolve, 1000));
+    await pause(1000);
   }
 }

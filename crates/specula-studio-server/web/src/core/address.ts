@@ -46,29 +46,45 @@ function read<S extends State>(defaults: S): S {
   return state as S;
 }
 
-/** Milliseconds between changes of the address: browsers refuse a page that changes it a hundred times in ten seconds. */
+/**
+ * Changes of the address at once, and milliseconds in which one more is allowed: browsers refuse a page that changes it a
+ * hundred times in ten seconds.
+ */
+const AT_ONCE = 12;
 const PAUSE = 120;
 
-/** Keeps the address up to date: at once, then after pauses. */
+/** Events that end a change, or come before the address is copied or the page is left. */
+const ENDS = ['pointerup', 'keyup', 'blur', 'pagehide'];
+
+/** Keeps the address up to date: at once; after pauses where changes are many, as in a drag. */
 class Writer {
   private wanted: string | undefined;
   private timer: ReturnType<typeof setTimeout> | undefined;
+  /** Changes that are allowed, as of `time`; below 0 after ends that did not wait. */
+  private allowed = AT_ONCE;
+  private time = performance.now();
 
   constructor(private readonly page: string) {}
 
   write(address: string): void {
     this.wanted = address;
     if (this.timer !== undefined) return;
-    this.flush();
+    const now = performance.now();
+    this.allowed = Math.min(AT_ONCE, this.allowed + (now - this.time) / PAUSE);
+    this.time = now;
+    if (this.allowed >= 1) return this.flush();
     this.timer = setTimeout(() => {
       this.timer = undefined;
       if (this.wanted !== undefined) this.write(this.wanted);
-    }, PAUSE);
+    }, Math.ceil((1 - this.allowed) * PAUSE));
   }
 
   /** Writes what waits; nothing where another page is there already. */
   flush = (): void => {
-    if (this.wanted !== undefined && pageOfAddress() === this.page) history.replaceState(null, '', this.wanted);
+    if (this.wanted !== undefined && pageOfAddress() === this.page) {
+      history.replaceState(null, '', this.wanted);
+      this.allowed -= 1;
+    }
     this.wanted = undefined;
   };
 
@@ -88,10 +104,10 @@ export function useAddress<S extends State>(page: string, defaults: S): [S, (cha
       if (pageOfAddress() === page) setState(read(defaults));
     };
     addEventListener('hashchange', changed);
-    addEventListener('pagehide', writer.flush);
+    for (const end of ENDS) addEventListener(end, writer.flush);
     return () => {
       removeEventListener('hashchange', changed);
-      removeEventListener('pagehide', writer.flush);
+      for (const end of ENDS) removeEventListener(end, writer.flush);
       writer.drop();
     };
   }, [page]);

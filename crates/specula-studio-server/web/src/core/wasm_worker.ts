@@ -12,8 +12,11 @@ let ready: Promise<Module>;
 
 async function start(base64: string): Promise<Module> {
   const packed = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
-  const bytes = await new Response(stream).arrayBuffer();
+  // Not by a Blob: WebKit reads none in a page from disk.
+  const gzip = new DecompressionStream('gzip');
+  const writer = gzip.writable.getWriter();
+  const written = writer.write(packed).then(() => writer.close());
+  const [bytes] = await Promise.all([new Response(gzip.readable).arrayBuffer(), written]);
   const { instance } = await WebAssembly.instantiate(bytes, { env: { now: () => performance.now() } });
   return instance.exports as unknown as Module;
 }

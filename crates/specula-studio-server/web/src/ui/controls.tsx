@@ -1,7 +1,20 @@
 /** Controls of pages: native inputs with labels, usable by keyboard and screen readers. */
 
 import type { ComponentChildren } from 'preact';
-import { useEffect, useId, useState } from 'preact/hooks';
+import { useId, useRef, useState } from 'preact/hooks';
+
+/** What is typed into a field, until the field's value is another than the one that it was typed over. */
+export function useTyped<T>(value: T): [typed: string | undefined, type: (text: string | undefined, over: T) => void] {
+  // Without effects: they come after what may have been typed already.
+  const kept = useRef<{ text: string; over: T } | undefined>(undefined);
+  const [, setCount] = useState(0);
+  if (kept.current !== undefined && kept.current.over !== value) kept.current = undefined;
+  const type = (text: string | undefined, over: T) => {
+    kept.current = text === undefined ? undefined : { text, over };
+    setCount((n) => n + 1);
+  };
+  return [kept.current?.text, type];
+}
 
 export interface SliderProps {
   label: string;
@@ -27,8 +40,7 @@ export function Slider(props: SliderProps) {
   const ofShare = (t: number) => (isLogarithmic ? min * (max / min) ** t : min + t * (max - min));
   const rounded = (x: number) => (isInteger ? Math.round(x) : Number(x.toPrecision(4)));
   const text = String(rounded(value));
-  const [typed, setTyped] = useState<string | undefined>(undefined);
-  useEffect(() => setTyped(undefined), [value]);
+  const [typed, type] = useTyped(value);
   return (
     <div class="field" title={hint}>
       <label for={id}>
@@ -44,11 +56,13 @@ export function Slider(props: SliderProps) {
         disabled={disabled}
         value={typed ?? text}
         onInput={(event) => {
-          setTyped(event.currentTarget.value);
           const x = event.currentTarget.valueAsNumber;
-          if (Number.isFinite(x) && x >= min && x <= max) onInput(isInteger ? Math.round(x) : x);
+          const isValue = Number.isFinite(x) && x >= min && x <= max;
+          const given = isInteger ? Math.round(x) : x;
+          type(event.currentTarget.value, isValue ? given : value);
+          if (isValue) onInput(given);
         }}
-        onBlur={() => setTyped(undefined)}
+        onBlur={() => type(undefined, value)}
       />
       <input
         type="range"
@@ -124,8 +138,7 @@ export function Toggle(props: { label: string; value: boolean; hint?: string; on
 /** A line of text; `onEnter` where it is committed by Enter or by leaving the field. */
 export function TextField(props: { label: string; value: string; hint?: string; onEnter: (value: string) => void }) {
   const id = useId();
-  const [typed, setTyped] = useState(props.value);
-  useEffect(() => setTyped(props.value), [props.value]);
+  const [typed, type] = useTyped(props.value);
   return (
     <div class="field" title={props.hint}>
       <label for={id}>{props.label}</label>
@@ -134,8 +147,8 @@ export function TextField(props: { label: string; value: string; hint?: string; 
         class="whole"
         type="text"
         spellcheck={false}
-        value={typed}
-        onInput={(event) => setTyped(event.currentTarget.value)}
+        value={typed ?? props.value}
+        onInput={(event) => type(event.currentTarget.value, props.value)}
         onChange={(event) => props.onEnter(event.currentTarget.value.trim())}
       />
     </div>

@@ -81,7 +81,7 @@ export function Checks({ checks }: { checks: Check[] }) {
           <th scope="row">{check.name}</th>
           <td class={`verdict ${check.holds ? 'good' : 'bad'}`}>{check.holds ? 'holds' : 'does not hold'}</td>
           <td>{check.text}</td>
-          <td class="number">{check.p === undefined ? '' : chance(check.p)}</td>
+          <td class="number chance">{check.p === undefined ? '' : chance(check.p)}</td>
         </tr>
       ))}
     </Table>

@@ -1,6 +1,7 @@
 /** The list of lobes that are laid over each other: their texts, and which one the controls change. */
 
-import { useEffect, useId, useRef, useState } from 'preact/hooks';
+import { useId } from 'preact/hooks';
+import { useTyped } from '../../ui/controls';
 import { seriesColour } from '../../ui/plot';
 import { type LobesState, SLOTS, type Slot } from './state';
 
@@ -70,16 +71,11 @@ interface RowProps {
 function SlotRow({ slot, text, error, isActive, onChoose, onText, onRemove }: RowProps) {
   const id = useId();
   const letter = slot.toUpperCase();
-  const [typed, setTyped] = useState(text);
-  const latest = useRef(text);
-  useEffect(() => {
-    latest.current = text;
-    setTyped(text);
-  }, [text]);
+  const [typed, type] = useTyped(text);
   const enter = () => {
-    const now = typed.trim().replace(/\s+/g, ' ');
-    if (now === '') setTyped(latest.current);
-    else if (now !== latest.current) onText(now);
+    const now = (typed ?? text).trim().replace(/\s+/g, ' ');
+    if (now === '') type(undefined, text);
+    else if (now !== text) onText(now);
   };
   return (
     <div class="lobe-slot" data-active={isActive}>
@@ -104,11 +100,11 @@ function SlotRow({ slot, text, error, isActive, onChoose, onText, onRemove }: Ro
         rows={1}
         spellcheck={false}
         autocomplete="off"
-        value={typed}
+        value={typed ?? text}
         aria-invalid={error !== undefined}
         aria-describedby={error === undefined ? undefined : `${id}-error`}
         onFocus={() => !isActive && onChoose()}
-        onInput={(event) => setTyped(event.currentTarget.value)}
+        onInput={(event) => type(event.currentTarget.value, text)}
         onChange={enter}
         onKeyDown={(event) => {
           if (event.key !== 'Enter') return;

@@ -6,11 +6,15 @@ const EPSILON = 0.01;
 export interface Errors {
   rmse: number;
   relMse: number;
-  /** Root mean square error without what the reference's own noise adds, where its variance is known. */
+  /** Root mean square error without what the reference's own noise adds, where its variance is known; see `errorsOf`. */
   rmseAlone: number;
 }
 
-export function errorsOf(test: Float32Array, reference: Float32Array, variance: Float32Array | undefined): Errors {
+/**
+ * Errors of `test`. The variance of the reference takes samples for independent, and is too large for sequences that are
+ * better than that: at least this `share` of the squared differences is left to the render.
+ */
+export function errorsOf(test: Float32Array, reference: Float32Array, variance: Float32Array | undefined, share: number): Errors {
   let [sum, relative, own] = [0, 0, 0];
   for (let i = 0; i < test.length; i++) {
     const r = reference[i] as number;
@@ -21,7 +25,7 @@ export function errorsOf(test: Float32Array, reference: Float32Array, variance: 
     own += variance?.[i] ?? 0;
   }
   const count = Math.max(1, test.length);
-  return { rmse: Math.sqrt(sum / count), relMse: relative / count, rmseAlone: Math.sqrt(Math.max(0, sum - own) / count) };
+  return { rmse: Math.sqrt(sum / count), relMse: relative / count, rmseAlone: Math.sqrt(Math.max(share * sum, sum - own) / count) };
 }
 
 /** Relative error of every pixel: the root of its mean over channels of `(t - r)^2 / (r^2 + 0.01)`. */

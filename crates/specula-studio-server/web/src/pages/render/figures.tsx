@@ -90,7 +90,7 @@ export function NoiseOverTime({ history, over, onOver }: { history: History; ove
       ) : (
         <Plot title={`RMSE over ${over}`} x={isTime ? 'seconds of rendering' : 'samples per pixel'} y="RMSE" series={series} isLogarithmic isLogarithmicX />
       )}
-      <p class="quiet">What the reference's own noise adds is subtracted. A treatment with another mean than the reference stops at its difference.</p>
+      <p class="quiet">What the reference's own noise adds is subtracted: its variance, at most its part by the numbers of samples. A treatment with another mean than the reference stops at its difference.</p>
     </Panel>
   );
 }

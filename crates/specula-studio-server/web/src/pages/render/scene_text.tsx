@@ -22,8 +22,6 @@ export function SceneText({ session, stamp }: { session: number; stamp: string }
 
 function Text({ session }: { session: number }) {
   const [kind, setKind] = useState<'command' | 'pbrt'>('command');
-  const { answer, error } = useAnswer<'render.scene'>({ ask: 'render.scene', session, format: kind });
-  const text = answer?.value.text;
   return (
     <>
       <Choice
@@ -35,6 +33,16 @@ function Text({ session }: { session: number }) {
         ]}
         onChange={setKind}
       />
+      <Form key={kind} session={session} kind={kind} />
+    </>
+  );
+}
+
+function Form({ session, kind }: { session: number; kind: 'command' | 'pbrt' }) {
+  const { answer, error } = useAnswer<'render.scene'>({ ask: 'render.scene', session, format: kind });
+  const text = answer?.value.text;
+  return (
+    <>
       <Message text={error} />
       {text !== undefined && (
         <>

@@ -82,7 +82,7 @@ function neutral([r, g, b]: Rgb): Rgb {
 }
 
 export const TONES: readonly Tone[] = [
-  { id: 'linear', name: 'Linear', source: 'values above 1 are cut off', curve: (colour) => colour },
+  { id: 'linear', name: 'Linear', source: 'Values above 1 are cut off', curve: (colour) => colour },
   { id: 'reinhard', name: 'Reinhard', source: 'Reinhard et al. 2002, "Photographic tone reproduction for digital images", eq. 3, by channel', curve: (colour) => each(colour, (x) => x / (1 + Math.max(0, x))) },
   { id: 'aces', name: 'ACES, fitted', source: "Hill's fit of ACES 1.0 for sRGB (Microsoft MiniEngine, BakingLab)", curve: (colour) => times(ACES_OUT, each(times(ACES_IN, each(colour, (x) => Math.max(0, x))), acesFit)) },
   { id: 'agx', name: 'AgX', source: "Sobotka's AgX as of Blender and Filament, curve fitted by Wrensch 2023", curve: agx },

@@ -37,9 +37,11 @@ export function useErrors(turns: Turn[], reference: Turn | undefined, key: strin
       if ((way.at(-1)?.samples ?? 0) > (state?.samples ?? 0)) way.length = 0;
       const against = reference?.colour;
       if (state === undefined || colour === undefined || against?.length !== colour.length) return undefined;
-      const errors = errorsOf(colour, against, reference?.variance);
+      // Of two renders whose noise falls alike, the part of the one with fewer samples.
+      const samples = reference?.state?.samples ?? 0;
+      const errors = errorsOf(colour, against, reference?.variance, samples / (samples + state.samples));
       const isNext = state.samples >= STEP * (way.at(-1)?.samples ?? 0);
-      if (isNext && (reference?.state?.samples ?? 0) >= LEAST_SAMPLES && errors.rmseAlone > 0) way.push({ samples: state.samples, seconds: state.seconds, rmse: errors.rmseAlone });
+      if (isNext && samples >= LEAST_SAMPLES && errors.rmseAlone > 0) way.push({ samples: state.samples, seconds: state.seconds, rmse: errors.rmseAlone });
       return errors;
     });
     setHistory({ points: points.map((way) => [...way]), now });

@@ -38,7 +38,7 @@ function One({ setup, label, seed, isChosen, onChoose }: { setup: Setup; label: 
         <>
           <Heat label={`${label}, counted`} axes="x to the right, y upwards" rows={CELLS} columns={CELLS} shares={Array.from(counts, (c) => Math.sqrt(c / most))} colour={viridis} />
           <p class="quiet">
-            rejected {((100 * answer.value.rejected) / COUNT).toFixed(2)} %, p = {answer.value.p.toPrecision(2)}
+            rejected {((100 * answer.value.rejected) / COUNT).toFixed(2)} %, <span class="whole">p = {answer.value.p.toPrecision(2)}</span>
           </p>
         </>
       )}

@@ -32,6 +32,11 @@ export class Clock {
     return this.since !== undefined && !this.isOver;
   }
 
+  /** Whether it was stopped before all samples had fallen. */
+  get isStopped(): boolean {
+    return this.since === undefined && !this.isOver;
+  }
+
   stop(): void {
     this.before = this.seconds;
     this.since = undefined;

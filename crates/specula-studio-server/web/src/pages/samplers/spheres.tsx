@@ -39,15 +39,14 @@ type Samples = Asked<'samplers.samples'>;
 /** The clock of the rain; begins anew with another sampler or other random numbers, and when it is asked to. */
 function useClock(key: string, isWanted: boolean): { clock: Clock; again: () => void; toggle: () => void; isPaused: boolean } {
   const [times, setTimes] = useState(0);
-  const [isPaused, setPaused] = useState(false);
   const clock = useMemo(() => new Clock(!isWanted || (times === 0 && wantsStillness())), [key, isWanted, times]);
-  useEffect(() => setPaused(false), [clock]);
+  const [, setTick] = useState(0);
   const toggle = () => {
-    if (isPaused) clock.goOn();
+    if (clock.isStopped) clock.goOn();
     else clock.stop();
-    setPaused(!isPaused);
+    setTick((n) => n + 1);
   };
-  return { clock, again: () => setTimes((n) => n + 1), toggle, isPaused };
+  return { clock, again: () => setTimes((n) => n + 1), toggle, isPaused: clock.isStopped };
 }
 
 export function Spheres({ setup, state, set }: Props) {
