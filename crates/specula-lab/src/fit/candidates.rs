@@ -152,7 +152,10 @@ impl Candidate {
 
     /// The lobe of parameters.
     pub(super) fn lobe(&self, parameters: &[f64]) -> Option<NamedLobe> {
-        let [x, y] = self.alpha(parameters);
+        // Without what the logarithm leaves in the last digits.
+        let [x, y] = self
+            .alpha(parameters)
+            .map(|a| format!("{a:.12}").parse().unwrap_or(a));
         let alpha = if self.is_isotropic {
             Value::One(x)
         } else {
