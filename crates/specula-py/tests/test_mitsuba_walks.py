@@ -102,6 +102,15 @@ def test_values_are_those_of_the_library(model: str) -> None:
 
 
 @pytest.mark.parametrize("model", MODELS)
+def test_noise_is_that_of_the_library(model: str) -> None:
+    """Weights between strategies, and roulette, change no mean."""
+    n, (alpha, pair) = 200_000, (1.0, PAIRS[1])
+    _, error = library_estimates(model, alpha, *pair)
+    ratio = estimates(metal(model, alpha), *pair, n).std(-1) / (error * n**0.5)
+    assert np.abs(ratio - 1).max() < 0.012, f"{ratio}"
+
+
+@pytest.mark.parametrize("model", MODELS)
 def test_spectra_have_the_values_of_their_wavelengths(model: str) -> None:
     use("llvm_ad_spectral")
     wavelengths, pair = (450.0, 520.0, 580.0, 640.0), PAIRS[0]
@@ -149,6 +158,25 @@ def surface_of(wi: Any) -> Any:
     si.wi = mi.Vector3f(*(float(x) for x in wi))
     si.uv = mi.Point2f(3 * float(wi[0]), 3 * float(wi[1]))
     return si
+
+
+@pytest.mark.parametrize("variant", [v for v in mi.variants() if "polarized" not in v])
+def test_every_variant_has_every_model(variant: str) -> None:
+    use(variant)
+    ctx, wo = mi.BSDFContext(), mi.Vector3f(*unit((0.1, -0.4, 0.7)))
+    for kind, models in (("", MODELS), ("_dielectric", GLASS)):
+        for model in models:
+            plugin = mi.load_dict(
+                {"type": f"specula_multibounce{kind}", "model": model, "alpha": 0.8}
+            )
+            scalar = variant.startswith("scalar")
+            si = surface_of(unit((0.3, 0.2, 0.8))) if scalar else surface(unit((0.3, 0.2, 0.8)))
+            sampled, weight = plugin.sample(ctx, si, 0.4, mi.Point2f(0.3, 0.6))
+            assert 0 < np.array(weight).max() < 2
+            for direction in (wo, sampled.wo):
+                value, pdf = plugin.eval_pdf(ctx, si, direction)
+                assert np.array(value).max() > 0
+                assert np.array(pdf).max() > 0
 
 
 @pytest.mark.parametrize("model", MODELS)
