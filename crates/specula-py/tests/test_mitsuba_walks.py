@@ -128,13 +128,20 @@ def test_spectra_have_the_values_of_their_wavelengths(model: str) -> None:
         assert np.abs(scores(found[of], mean, error)).max() < 4
 
 
-@pytest.mark.parametrize("model", MODELS)
-def test_scalar_variants_walk_the_same_walks(model: str) -> None:
+@pytest.mark.parametrize(
+    "bsdf",
+    [metal(model, (0.9, 0.5)) for model in MODELS]
+    + [
+        {"type": "specula_multibounce_dielectric", "model": model, "alpha_u": 0.9, "alpha_v": 0.5}
+        for model in GLASS
+    ],
+    ids=lambda bsdf: f"{bsdf['type']}-{bsdf['model']}",
+)
+def test_scalar_variants_walk_the_same_walks(bsdf: Dict) -> None:
     """The same numbers make the same walks, but for rounding in single precision."""
-    n = 40
-    wi, wo = np.array(directions(n, 31)), np.array(directions(n, 32))
+    n, is_glass = 40, "dielectric" in bsdf["type"]
+    wi, wo = (np.array(directions(n, seed, is_glass)) for seed in (31, 32))
     u, v = (np.array(x) for x in numbers(n, 33))
-    bsdf = metal(model, (0.9, 0.5))
     si, ctx = surface(mi.Vector3f(wi), n), mi.BSDFContext()
     plugin = mi.load_dict(bsdf)
     sampled, weight = plugin.sample(ctx, si, mi.Float(u), mi.Point2f(v))
@@ -361,6 +368,18 @@ def test_values_of_glass_are_those_of_the_library(model: str, alpha: Any) -> Non
             ours = estimates(bsdf, view, light, 100_000, importance)[:1]
             found.append(scores(ours, theirs.mean(), theirs.std() / n**0.5)[0])
     assert np.abs(found).max() < 4.5, f"{found}"
+
+
+@pytest.mark.parametrize("model", GLASS)
+def test_noise_of_glass_is_that_of_the_library(model: str) -> None:
+    n, bsdf = 200_000, {"type": "specula_multibounce_dielectric", "model": model, "alpha": 1.0}
+    bsdf |= {"int_ior": 1.5, "ext_ior": 1.0}
+    library = sr.MultibounceDielectric(1.0, 1.5, model=model)  # type: ignore[arg-type]
+    for wi, wo in ((0.8, -0.7), (-0.5, -0.7)):
+        view, light = (0.6, 0.2, wi), (-0.4, 0.3, wo)
+        theirs = library.eval(np.tile(unit(view), (n, 1)), np.tile(unit(light), (n, 1)), seed=5)
+        ratio = estimates(bsdf, view, light, n)[0].std() / theirs[:, 0].std()
+        assert abs(ratio - 1) < 0.03, f"{view}, {light}: {ratio}"
 
 
 def test_models_that_there_are_not() -> None:
