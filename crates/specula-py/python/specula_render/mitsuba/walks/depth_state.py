@@ -23,7 +23,7 @@ from ..runtime import dr, mi
 
 __all__ = ["DepthState"]
 
-#: Layers that a state holds unless told otherwise: one for each downward flight.
+#: Layers that a state holds unless told otherwise: one for each downward flight. Enough to alpha 5.
 _LAYERS = 16
 
 
