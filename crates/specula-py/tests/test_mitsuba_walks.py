@@ -279,6 +279,34 @@ def test_chi_square_notices_values_five_percent_off() -> None:
     assert not chi_square("cui", 1.05)
 
 
+@pytest.mark.parametrize("model", MODELS)
+def test_directions_of_the_density_follow_it(model: str) -> None:
+    """Mitsuba's chi-square test of `sampling` ``pdf``, as it is; the weights are of the same light."""
+    bsdf = metal(model, (0.9, 0.5), sampling="pdf")
+    view, n = unit((0.8, 0.3, 0.35)), 100_000
+    sample, density = mi.chi2.BSDFAdapter(bsdf["type"], bsdf, wi=view)
+    for scale in (1.0, 1.05):
+        test = mi.chi2.ChiSquareTest(
+            domain=mi.chi2.SphericalDomain(),
+            sample_func=sample,
+            pdf_func=lambda wo, scale=scale: density(wo) * scale,
+            sample_dim=3,
+            sample_count=n,
+            res=41,
+            ires=12,
+        )
+        passed = test.run(significance_level=0.01, test_count=len(MODELS), quiet=True)
+        assert passed == (scale == 1.0), test.messages
+    means, errors = [], []
+    for sampling in ("pdf", "walk"):
+        plugin = mi.load_dict(bsdf | {"sampling": sampling})
+        sampled, weight = plugin.sample(mi.BSDFContext(), surface(view, n), *numbers(n, 61))
+        light = np.array(weight * (1 + 0.5 * sampled.wo.x))
+        means.append(light.mean(-1))
+        errors.append(light.std(-1) / n**0.5)
+    assert np.abs((means[0] - means[1]) / np.hypot(*errors)).max() < 4
+
+
 def test_densities_for_importance_sampling_integrate_to_one() -> None:
     """All models have the same."""
     n = 100_000

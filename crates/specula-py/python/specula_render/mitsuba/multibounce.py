@@ -1,13 +1,14 @@
 """``specula_multibounce``: rough metal with all bounces between its facets, by random walks.
 
     eval     an unbiased estimate of the model's ``f cos``; one bounce is exact
-    sample   a walk until it leaves, and its weight
+    sample   a walk until it leaves, and its weight; or a direction of ``pdf``, and ``eval / pdf``
     pdf      (1 - q) p_1 + q cos / pi, close to the walks' and integrating to 1, for MIS
 
 ``p_1`` is the exact sampler's density, and ``q`` the light that meets more than one facet where
 they reflect everything. The walk's own density has no closed form: a weight is that of the walk,
 not ``eval / pdf``, and MIS stays unbiased because both strategies use the same ``pdf``
-(``docs/decisions/mitsuba-walks.md``).
+(``docs/decisions/mitsuba-walks.md``). ``sampling`` ``pdf`` is for what needs that quotient, as
+Mitsuba's chi-square test does; its weights vary ten times as much.
 
     model              source                            mean             sample's weight
     specula            stratified bidirectional walks    Heitz et al.'s   product of reflectances
@@ -72,12 +73,12 @@ class Multibounce:
     ----------
     props : mitsuba.Properties
         Those of ``specula_conductor`` without ``sampler``, ``masking`` and ``energy``; ``model``,
-        one of `MODELS`.
+        one of `MODELS`; ``sampling`` (``walk``, ``pdf``).
 
     Raises
     ------
     ValueError
-        Beckmann facets, which have no sampler for views from below; an unknown model.
+        Beckmann facets, which have no sampler for views from below; an unknown name.
 
     Notes
     -----
@@ -94,6 +95,7 @@ class Multibounce:
         if self.roughness.distribution != "ggx":
             raise ValueError(f"{props.plugin_name()}: walks are for GGX only")
         self.model = choice(props, "model", MODELS)
+        self.sampling = choice(props, "sampling", ("walk", "pdf"))
         self.index = ConductorIndex(props)
         self.reflectance = optional_texture(props, "specular_reflectance")
         self.loss = Loss("ggx", True, self.roughness.isotropic)
@@ -122,16 +124,21 @@ class Multibounce:
     def sample(
         self, ctx: Any, si: Any, sample1: Any, sample2: Any, active: Any = True
     ) -> tuple[Any, Any]:
-        """Where a walk leaves, and its weight; `sample2` takes the first facet."""
+        """A direction and its weight; of a walk, `sample2` takes the first facet."""
         sampled = dr.zeros(mi.BSDFSample3f)
         active = mi.Mask(active) & (si.wi.z > 0)
         if not ctx.is_enabled(mi.BSDFFlags.GlossyReflection, 0):
             return sampled, mi.Spectrum(0)
         with dr.suspend_grad():
-            facets = self._facets(si, active)
-            rng = stream(sample1, sample2.x, sample2.y)
-            walk = MODELS[self.model].sample
-            wo, weight = walk(facets, si.wi, mi.Point2f(sample2), rng, active)
+            if self.sampling == "pdf":
+                wo = self._lobes_direction(si, sample1, sample2, active)
+                value, density = self.eval_pdf(ctx, si, wo, active)
+                weight = value / dr.select(density > 0, density, 1)
+            else:
+                facets = self._facets(si, active)
+                rng = stream(sample1, sample2.x, sample2.y)
+                walk = MODELS[self.model].sample
+                wo, weight = walk(facets, si.wi, mi.Point2f(sample2), rng, active)
             active &= wo.z > 0
             wo = dr.select(active, wo, mi.Vector3f(0, 0, 1))
             sampled.wo = wo
@@ -160,8 +167,8 @@ class Multibounce:
             ggx = self.roughness.at(si, active)
             m = dr.normalize(si.wi + wo)
             once = 0.25 * ggx.d(m) / ggx.norm(si.wi)
-            share = dr.maximum(self.loss.directional(ggx, si.wi), 1e-3)
-            return dr.select(active, dr.lerp(once, wo.z * dr.inv_pi, share), 0)
+            pdf = dr.lerp(once, wo.z * dr.inv_pi, self._share(ggx, si.wi))
+            return dr.select(active, pdf, 0)
 
     def eval_pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> tuple[Any, Any]:
         """`eval` and `pdf`."""
@@ -170,6 +177,19 @@ class Multibounce:
     def to_string(self) -> str:
         """For Mitsuba's logs."""
         return f"SpeculaMultibounce[{self.roughness!r}, model={self.model}]"
+
+    def _share(self, ggx: Any, wi: Any) -> Any:
+        """``q``, the share of the cosine lobe in `pdf`."""
+        return dr.maximum(self.loss.directional(ggx, wi), 1e-3)
+
+    def _lobes_direction(self, si: Any, sample1: Any, sample2: Any, active: Any) -> Any:
+        """A direction of `pdf`; `sample1` chooses between its lobes."""
+        ggx = self.roughness.at(si, active)
+        m = ggx.half_vector(si.wi, sample2)
+        once = 2 * dr.dot(si.wi, m) * m - si.wi
+        cosine = mi.warp.square_to_cosine_hemisphere(sample2)
+        wo = dr.select(sample1 < self._share(ggx, si.wi), cosine, once)
+        return dr.select(active, wo, mi.Vector3f(0, 0, 1))
 
     def _facets(self, si: Any, active: Any) -> Facets:
         eta, k = self.index.at(si, active)
