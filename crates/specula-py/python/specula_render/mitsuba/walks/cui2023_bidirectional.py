@@ -9,7 +9,7 @@ by
     D(h_i) / sigma(-d_i)  sigma(d_(i+2)) / D(h_(i+1))
 
 Departures: those of `cui2023`; one bounce is in closed form; no pair is dropped and no cosine
-clamped, as the released code does.
+clamped, as the released code does. Subpaths hold 10 flights, the library's 12.
 
 Source: `crates/specula-bsdf/src/multibounce/cui2023.rs`.
 """
