@@ -127,6 +127,8 @@ def test_glass_renders_to_the_same_mean() -> None:
         {"type": "specula_conductor", "material": "Cu", "energy": "kulla_conty"},
         {"type": "specula_dielectric"},
         {"type": "specula_multibounce", "material": "Cu"},
+        {"type": "specula_multibounce", "material": "Cu", "model": "cui-bidirectional"},
+        {"type": "specula_multibounce_dielectric"},
     ],
     ids=str,
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from typing import Any
 
 import pytest
@@ -20,6 +21,8 @@ from test_mitsuba_tools import (  # noqa: F401
     unit,
     use,
 )
+
+from specula_render.mitsuba import energy  # noqa: E402
 
 N = 4000
 ALPHAS: list[tuple[Dict, Any]] = [
@@ -46,33 +49,49 @@ def pairs(n: int, full_sphere: bool = False) -> tuple[Any, Any]:
 
 
 def values(bsdf: Dict, wi: Any, wo: Any) -> Any:
-    """``f cos`` of a plugin's first channel."""
+    """``f cos`` of a plugin, (3, n)."""
     plugin, ctx = mi.load_dict(bsdf), mi.BSDFContext()
     if mi.variant().startswith("scalar"):
         found = []
         for a, b in zip(wi.T, wo.T, strict=True):
             si = mi.SurfaceInteraction3f()
             si.wi = mi.Vector3f(*a)
-            found.append(plugin.eval(ctx, si, mi.Vector3f(*b))[0])
-        return np.array(found)
-    return np.array(plugin.eval(ctx, surface(mi.Vector3f(wi), wi.shape[1]), mi.Vector3f(wo)).x)
+            found.append(np.array(plugin.eval(ctx, si, mi.Vector3f(*b))))
+        return np.array(found).T
+    return np.array(plugin.eval(ctx, surface(mi.Vector3f(wi), wi.shape[1]), mi.Vector3f(wo)))
 
 
+def colour(value: tuple[float, ...]) -> Dict:
+    return {"type": "rgb", "value": list(value)}
+
+
+#: Gold's index in red, green and blue: no two channels alike.
+ETA, K = (0.143, 0.375, 1.442), (3.983, 2.386, 1.603)
+METALS: dict[str, tuple[Dict, sr.Reflectance]] = {
+    "white": (WHITE, sr.Reflectance.constant(1.0)),
+    "gold": ({"eta": colour(ETA), "k": colour(K)}, sr.Reflectance.conductor(ETA, K)),
+}
+
+
+@pytest.mark.parametrize("metal", METALS)
 @pytest.mark.parametrize("variant", VARIANTS)
 @pytest.mark.parametrize("masking", ["separable", "height_correlated"])
 @pytest.mark.parametrize("distribution", DISTRIBUTIONS)
 def test_what_compensation_adds_is_the_library_s(
-    distribution: str, masking: str, variant: str
+    distribution: str, masking: str, variant: str, metal: str
 ) -> None:
     """Turquin's factor as a ratio, so that masking by Mitsuba's fit cancels; the second lobe."""
     use(variant)
     wi, wo = pairs(N if variant.startswith("llvm") else 100)
+    index, reflectance = METALS[metal]
     for given, alpha in ALPHAS:
-        bsdf = {"type": "specula_conductor", "distribution": distribution, **given, **WHITE}
+        bsdf = {"type": "specula_conductor", "distribution": distribution, **given, **index}
         bsdf["masking"] = masking
         named: Dict = {"distribution": distribution, "masking": masking.replace("_", "-")}
         native = {
-            energy: sr.RoughConductor(alpha, energy=energy, **named).eval(wi, wo, axis=0)[0]
+            energy: sr.RoughConductor(alpha, reflectance, energy=energy, **named).eval(
+                wi, wo, axis=0
+            )
             for energy in (None, "turquin", "kulla-conty")
         }
         own = {
@@ -95,12 +114,16 @@ def test_what_compensation_adds_is_the_library_s(
 @pytest.mark.parametrize("variant", VARIANTS)
 @pytest.mark.parametrize("distribution", DISTRIBUTIONS)
 def test_the_second_lobe_of_glass_is_the_library_s(distribution: str, variant: str) -> None:
+    """Tinted, so that no two channels and no two branches are alike."""
     use(variant)
+    reflected, transmitted = (0.9, 0.6, 0.3), (0.4, 0.8, 1.0)
+    tints = {"specular_reflectance": colour(reflected)}
+    tints["specular_transmittance"] = colour(transmitted)
     wi, wo = pairs(N if variant.startswith("llvm") else 100, True)
     for given, alpha in ALPHAS:
         for eta in (1.5, 1 / 1.8):
             bsdf = {"type": "specula_dielectric", "distribution": distribution, **given}
-            bsdf |= {"int_ior": eta, "ext_ior": 1.0}
+            bsdf |= {"int_ior": eta, "ext_ior": 1.0, **tints}
             native = [
                 sr.RoughDielectric(
                     alpha,
@@ -108,7 +131,9 @@ def test_the_second_lobe_of_glass_is_the_library_s(distribution: str, variant: s
                     distribution=distribution,  # type: ignore[arg-type]
                     masking="separable",
                     compensated=compensated,
-                ).eval(wi, wo, axis=0)[0]
+                    reflection_tint=reflected,
+                    transmission_tint=transmitted,
+                ).eval(wi, wo, axis=0)
                 for compensated in (False, True)
             ]
             own = [values({**bsdf, "energy": e}, wi, wo) for e in ("none", "kulla_conty")]
@@ -144,6 +169,29 @@ def test_compensated_glass_keeps_its_light(given: Dict, tolerance: float) -> Non
         single = np.array(bare.sample(ctx, si, *numbers(n, 22))[1].x)
         lost = max(lost, 1 - float(single.mean()))
     assert lost > 2 * tolerance
+
+
+def test_plugins_share_their_tables() -> None:
+    """For as long as one of them is there; each distribution, masking and variant has its own."""
+    given = {"type": "specula_conductor", "energy": "turquin", "alpha_u": 0.1, "alpha_v": 0.2}
+    glass = {"type": "specula_dielectric", "energy": "kulla_conty", "alpha": 0.2}
+    gc.collect()
+    before = len(energy._SHARED)
+    first, second = mi.load_dict(given), mi.load_dict({**given, "alpha_u": 0.3})
+    others = [
+        mi.load_dict(given | {"distribution": "beckmann"}),
+        mi.load_dict(given | {"masking": "height_correlated"}),
+        mi.load_dict(glass),
+    ]
+    assert first.lobe.loss._rows is second.lobe.loss._rows
+    assert first.lobe.loss._average is second.lobe.loss._average
+    tables = [plugin.lobe.loss._rows for plugin in (first, *others)]
+    assert len({id(table) for table in tables}) == 4
+    use("llvm_ad_spectral")
+    assert mi.load_dict(given).lobe.loss._rows is not tables[0]
+    del first, second, others, tables
+    gc.collect()
+    assert len(energy._SHARED) == before
 
 
 @pytest.mark.parametrize("given", [{"alpha": 0.5}, {"alpha_u": 0.2, "alpha_v": 0.7}], ids=str)

@@ -10,8 +10,10 @@ unequal alphas by azimuth, interfaces by index.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache
-from typing import Any
+from typing import Any, TypeVar
+from weakref import WeakValueDictionary
 
 import numpy as np
 import numpy.typing as npt
@@ -29,6 +31,19 @@ _ETAS, _INTERFACE_ALPHAS, _INTERFACE_COSINES = 20, 20, 22
 _INTERFACE_PAIRED = {"etas": 12, "alphas": 12, "azimuths": 10, "cosines": 14}
 _LEAST_ROOT, _MOST_ROOT = (1e-4 / 2.0001) ** 0.5, (10 / 12) ** 0.5
 _LEAST_ETA_ROOT, _MOST_ETA_ROOT = 0.02**0.5, 0.5**0.5
+
+
+T = TypeVar("T")
+#: Tables of the active variants, for as long as a plugin holds them.
+_SHARED: WeakValueDictionary[tuple[Any, ...], Any] = WeakValueDictionary()
+
+
+def _shared(make: Callable[[], T], *key: Any) -> T:
+    """A table that all plugins of a variant share, by what tells it from others."""
+    found: T | None = _SHARED.get((mi.variant(), *key))
+    if found is None:
+        found = _SHARED[(mi.variant(), *key)] = make()
+    return found
 
 
 @lru_cache(maxsize=4)
@@ -72,12 +87,10 @@ class Loss:
     def __init__(self, distribution: str, height_correlated: bool, isotropic: bool) -> None:
         tables = _named(distribution, height_correlated)
         self._isotropic = isotropic
-        if isotropic:
-            self._rows = Rows(tables["isotropic"], _COSINES)
-            self._average = _Numbers(tables["isotropic_average"])
-        else:
-            self._rows = Rows(tables["anisotropic"], _PAIRED_COSINES)
-            self._average = _Numbers(tables["anisotropic_average"])
+        name, count = ("isotropic", _COSINES) if isotropic else ("anisotropic", _PAIRED_COSINES)
+        key = distribution, height_correlated, name
+        self._rows = _shared(lambda: Rows(tables[name], count), *key)
+        self._average = _shared(lambda: _Numbers(tables[f"{name}_average"]), *key, "average")
 
     def directional(self, facets: Any, w: Any) -> Any:
         """``1 - E(w)``, in [0, 1]; `facets` a `ggx.Ggx` or `beckmann.Beckmann`, ``w.z > 0``."""
@@ -126,13 +139,12 @@ class DielectricLoss:
     def __init__(self, distribution: str, isotropic: bool) -> None:
         tables = _named(distribution, False)
         self._isotropic = isotropic
-        if isotropic:
-            self._rows = Rows(tables["interface"], _INTERFACE_COSINES)
-            self._average = _Numbers(tables["interface_average"])
-        else:
-            cosines = _INTERFACE_PAIRED["cosines"]
-            self._rows = Rows(tables["interface_anisotropic"], cosines, 2)
-            self._average = _Numbers(tables["interface_anisotropic_average"])
+        name, count, degree = "interface", _INTERFACE_COSINES, 3
+        if not isotropic:
+            name, count, degree = "interface_anisotropic", _INTERFACE_PAIRED["cosines"], 2
+        key = distribution, name
+        self._rows = _shared(lambda: Rows(tables[name], count, degree), *key)
+        self._average = _shared(lambda: _Numbers(tables[f"{name}_average"]), *key, "average")
 
     def directional(self, facets: Any, eta: Any, w: Any) -> Any:
         """``1 - E(w)``, in [0, 1]; `eta` the index beyond over that of the side of `w`."""

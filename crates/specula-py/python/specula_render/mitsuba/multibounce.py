@@ -1,27 +1,69 @@
 """``specula_multibounce``: rough metal with all bounces between its facets, by random walks.
 
-    eval     F D G2 / (4 wi.z), one bounce in closed form, + an unbiased estimate of all others
-    sample   a walk until it leaves; its weight is the product of the facets' reflectances
+    eval     an unbiased estimate of the model's ``f cos``; one bounce is exact
+    sample   a walk until it leaves, and its weight; or a direction of ``pdf``, and ``eval / pdf``
     pdf      (1 - q) p_1 + q cos / pi, close to the walks' and integrating to 1, for MIS
 
 ``p_1`` is the exact sampler's density, and ``q`` the light that meets more than one facet where
 they reflect everything. The walk's own density has no closed form: a weight is that of the walk,
-not ``eval / pdf``, and MIS stays unbiased because both strategies use the same ``pdf``.
+not ``eval / pdf``, and MIS stays unbiased because both strategies use the same ``pdf``
+(``docs/decisions/mitsuba-walks.md``). ``sampling`` ``pdf`` is for what needs that quotient, as
+Mitsuba's chi-square test does; its weights vary ten times as much.
 
-Source: Heitz et al. 2016 (`walk`); masking is height-correlated, as the model has it.
+    model              source                            mean             sample's weight
+    specula            stratified bidirectional walks    Heitz et al.'s   product of reflectances
+    heitz              Heitz et al. 2016                 Heitz et al.'s   product of reflectances
+    bitterli           Bitterli and d'Eon 2022           Heitz et al.'s   product of reflectances
+    wang               Wang et al. 2022, correlated      its own          product of reflectances
+    wang-uncorrelated  Wang et al. 2022                  its own          product of reflectances
+    cui                Cui et al. 2023                   Heitz et al.'s   makes up for when it left
+    cui-bidirectional  Cui et al. 2023, from both ends   Heitz et al.'s   makes up for when it left
+
+Names are the library's. Masking is height-correlated, but for ``wang-uncorrelated``.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from functools import partial
+from typing import Any, NamedTuple
 
 from .energy import Loss
 from .fresnel import fresnel_conductor
-from .parameters import ConductorIndex, Roughness, optional_texture
+from .parameters import ConductorIndex, Roughness, choice, optional_texture
 from .runtime import dr, mi
-from .walk import MAX_BOUNCES, Facets, advance, stream, uniform2
+from .walks import (
+    bitterli2022,
+    cui2023,
+    cui2023_bidirectional,
+    heitz2016,
+    stratified_bidirectional,
+    wang2022,
+)
+from .walks.facets import Facets, stream
 
-__all__ = ["Multibounce"]
+__all__ = ["MODELS", "Multibounce"]
+
+
+class _Model(NamedTuple):
+    """An estimator and a sampler, as `walks` has them."""
+
+    eval: Callable[..., Any]
+    sample: Callable[..., tuple[Any, Any]]
+
+
+#: Models by name, the default first.
+MODELS = {
+    "specula": _Model(stratified_bidirectional.eval, heitz2016.sample),
+    "heitz": _Model(heitz2016.eval, heitz2016.sample),
+    "bitterli": _Model(bitterli2022.eval, heitz2016.sample),
+    "wang": _Model(wang2022.eval, wang2022.sample),
+    "wang-uncorrelated": _Model(
+        partial(wang2022.eval, correlated=False), partial(wang2022.sample, correlated=False)
+    ),
+    "cui": _Model(cui2023.eval, cui2023.sample),
+    "cui-bidirectional": _Model(cui2023_bidirectional.eval, cui2023.sample),
+}
 
 
 class Multibounce:
@@ -30,12 +72,13 @@ class Multibounce:
     Parameters
     ----------
     props : mitsuba.Properties
-        Those of ``specula_conductor`` without ``sampler``, ``masking`` and ``energy``.
+        Those of ``specula_conductor`` without ``sampler``, ``masking`` and ``energy``; ``model``,
+        one of `MODELS`; ``sampling`` (``walk``, ``pdf``).
 
     Raises
     ------
     ValueError
-        Beckmann facets, which have no sampler for views from below.
+        Beckmann facets, which have no sampler for views from below; an unknown name.
 
     Notes
     -----
@@ -43,13 +86,16 @@ class Multibounce:
     mode needs, and the weight of a walk is no ratio of `eval` and `pdf`. Evaluation is random, with
     numbers from a hash of the directions and the position: the same question gets the same answer.
     Rays that hit the same point again and again, as of a pinhole camera without jitter under a
-    point light, would average nothing.
+    point light, would average nothing. Above alpha 5 all models but ``heitz`` and ``wang`` end
+    walks that are still below.
     """
 
     def __init__(self, props: Any) -> None:
         self.roughness = Roughness(props, ("exact",))
         if self.roughness.distribution != "ggx":
             raise ValueError(f"{props.plugin_name()}: walks are for GGX only")
+        self.model = choice(props, "model", MODELS)
+        self.sampling = choice(props, "sampling", ("walk", "pdf"))
         self.index = ConductorIndex(props)
         self.reflectance = optional_texture(props, "specular_reflectance")
         self.loss = Loss("ggx", True, self.roughness.isotropic)
@@ -78,15 +124,21 @@ class Multibounce:
     def sample(
         self, ctx: Any, si: Any, sample1: Any, sample2: Any, active: Any = True
     ) -> tuple[Any, Any]:
-        """Where a walk leaves, and its reflectances' product; `sample2` takes the first facet."""
+        """A direction and its weight; of a walk, `sample2` takes the first facet."""
         sampled = dr.zeros(mi.BSDFSample3f)
         active = mi.Mask(active) & (si.wi.z > 0)
         if not ctx.is_enabled(mi.BSDFFlags.GlossyReflection, 0):
             return sampled, mi.Spectrum(0)
         with dr.suspend_grad():
-            facets = self._facets(si, active)
-            rng = stream(sample1, sample2.x, sample2.y)
-            wo, weight = _leave(facets, si.wi, sample2, rng, active)
+            if self.sampling == "pdf":
+                wo = self._lobes_direction(si, sample1, sample2, active)
+                value, density = self.eval_pdf(ctx, si, wo, active)
+                weight = value / dr.select(density > 0, density, 1)
+            else:
+                facets = self._facets(si, active)
+                rng = stream(sample1, sample2.x, sample2.y)
+                walk = MODELS[self.model].sample
+                wo, weight = walk(facets, si.wi, mi.Point2f(sample2), rng, active)
             active &= wo.z > 0
             wo = dr.select(active, wo, mi.Vector3f(0, 0, 1))
             sampled.wo = wo
@@ -103,11 +155,8 @@ class Multibounce:
         with dr.suspend_grad():
             facets = self._facets(si, active)
             wi, p = si.wi, si.p
-            m = dr.normalize(wi + wo)
-            single = facets.reflectance(dr.dot(wi, m))
-            single *= 0.25 * facets.ggx.d(m) * facets.ggx.g2_over_cos(wi, wo, True)
             rng = stream(wi.x, wi.y, wo.x, wo.y, p.x, p.y, p.z, si.uv.x, si.uv.y)
-            value = single + _connections(facets, wi, wo, rng, active)
+            value = MODELS[self.model].eval(facets, wi, wo, rng, active)
         return dr.select(active, value, 0)
 
     def pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
@@ -118,8 +167,8 @@ class Multibounce:
             ggx = self.roughness.at(si, active)
             m = dr.normalize(si.wi + wo)
             once = 0.25 * ggx.d(m) / ggx.norm(si.wi)
-            share = dr.maximum(self.loss.directional(ggx, si.wi), 1e-3)
-            return dr.select(active, dr.lerp(once, wo.z * dr.inv_pi, share), 0)
+            pdf = dr.lerp(once, wo.z * dr.inv_pi, self._share(ggx, si.wi))
+            return dr.select(active, pdf, 0)
 
     def eval_pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> tuple[Any, Any]:
         """`eval` and `pdf`."""
@@ -127,7 +176,20 @@ class Multibounce:
 
     def to_string(self) -> str:
         """For Mitsuba's logs."""
-        return f"SpeculaMultibounce[{self.roughness!r}]"
+        return f"SpeculaMultibounce[{self.roughness!r}, model={self.model}]"
+
+    def _share(self, ggx: Any, wi: Any) -> Any:
+        """``q``, the share of the cosine lobe in `pdf`."""
+        return dr.maximum(self.loss.directional(ggx, wi), 1e-3)
+
+    def _lobes_direction(self, si: Any, sample1: Any, sample2: Any, active: Any) -> Any:
+        """A direction of `pdf`; `sample1` chooses between its lobes."""
+        ggx = self.roughness.at(si, active)
+        m = ggx.half_vector(si.wi, sample2)
+        once = 2 * dr.dot(si.wi, m) * m - si.wi
+        cosine = mi.warp.square_to_cosine_hemisphere(sample2)
+        wo = dr.select(sample1 < self._share(ggx, si.wi), cosine, once)
+        return dr.select(active, wo, mi.Vector3f(0, 0, 1))
 
     def _facets(self, si: Any, active: Any) -> Facets:
         eta, k = self.index.at(si, active)
@@ -136,53 +198,3 @@ class Multibounce:
             tint = self.reflectance.eval(si, active)
         ggx = self.roughness.at(si, active)
         return Facets(ggx, lambda cosine: fresnel_conductor(cosine, eta, k) * tint)
-
-
-def _first(facets: Facets, wi: Any, u: Any, rng: Any) -> tuple[Any, Any, Any]:
-    """Direction, depth and weight after the first facet."""
-    d = -wi
-    tau = advance(facets, d, mi.Float(0), rng)
-    d, weight = facets.bounce(d, u)
-    return d, advance(facets, d, tau, rng), weight
-
-
-def _leave(facets: Facets, wi: Any, u: Any, rng: Any, active: Any) -> tuple[Any, Any]:
-    """The direction in which a walk leaves, and its weight; 0 for one that does not."""
-    d, tau, weight = _first(facets, wi, u, rng)
-
-    def body(d: Any, tau: Any, weight: Any, bounces: Any, rng: Any) -> tuple[Any, ...]:
-        d, fresnel = facets.bounce(d, uniform2(rng))
-        tau = advance(facets, d, tau, rng)
-        return d, tau, weight * fresnel, bounces + 1, rng
-
-    d, tau, weight, _, _ = dr.while_loop(
-        (d, tau, mi.Spectrum(weight), mi.UInt32(1), rng),
-        lambda d, tau, weight, bounces, rng: active & (tau >= 0) & (bounces < MAX_BOUNCES),
-        body,
-        labels=("d", "tau", "weight", "bounces", "rng"),
-    )
-    return d, dr.select(tau < 0, weight, 0)
-
-
-def _connections(facets: Facets, wi: Any, wo: Any, rng: Any, active: Any) -> Any:
-    """The estimate of all light that leaves along `wo` after two bounces or more."""
-    d, tau, weight = _first(facets, wi, uniform2(rng), rng)
-    leaving = facets.rate(wo)
-
-    def body(
-        d: Any, tau: Any, weight: Any, total: Any, bounces: Any, rng: Any
-    ) -> tuple[Any, ...]:
-        total = total + weight * facets.phase(d, wo) * dr.exp(-tau * leaving)
-        d, fresnel = facets.bounce(d, uniform2(rng))
-        tau = advance(facets, d, tau, rng)
-        return d, tau, weight * fresnel, total, bounces + 1, rng
-
-    state = dr.while_loop(
-        (d, tau, mi.Spectrum(weight), mi.Spectrum(0), mi.UInt32(1), rng),
-        lambda d, tau, weight, total, bounces, rng: (
-            active & (tau >= 0) & (bounces < MAX_BOUNCES)
-        ),
-        body,
-        labels=("d", "tau", "weight", "total", "bounces", "rng"),
-    )
-    return state[3]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import importlib
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeVar
 
 try:
     mi: Any = importlib.import_module("mitsuba")
@@ -13,7 +14,11 @@ except ImportError as missing:
         "specula_render.mitsuba needs Mitsuba 3: pip install mitsuba"
     ) from missing
 
-__all__ = ["dr", "is_jit", "mi", "require_variant"]
+__all__ = ["dr", "is_jit", "mi", "require_variant", "syntax"]
+
+F = TypeVar("F", bound=Callable[..., Any])
+#: ``drjit.syntax``: loops and conditions over arrays in Python's own words.
+syntax: Callable[[F], F] = dr.syntax
 
 
 def require_variant() -> str:

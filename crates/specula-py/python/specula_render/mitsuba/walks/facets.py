@@ -1,11 +1,11 @@
-"""Flights between the facets of a rough surface.
+"""What every walk over the facets of a metal needs: rates of flights, a bounce, a connection.
 
 The surface is a medium whose depth ``tau = -ln C1(h) >= 0`` is measured by the distribution of its
 heights. A ray along ``d`` meets facets at the rate ``sigma(-d) / |d.z|`` per unit of tau, and a ray
 that would leave along ``w`` from the depth ``tau`` does so with probability ``exp(-tau rate(w))``.
 
 Source: Heitz et al. 2016, *Multiple-Scattering Microfacet BSDFs with the Smith Model*; in the depth
-as `crates/specula-bsdf/src/multibounce/heitz2016.rs` has it.
+as `crates/specula-bsdf/src/multibounce/walk.rs` has it.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from . import sampling
-from .runtime import dr, is_jit, mi
+from .. import sampling
+from ..runtime import dr, is_jit, mi
 
 __all__ = ["MAX_BOUNCES", "Facets", "advance", "stream", "uniform2"]
 
@@ -70,22 +70,30 @@ class Facets:
         return dr.maximum(self.ggx.lambda_cos(d), 1e-24) + dr.maximum(-d.z, 0)
 
     def rate(self, d: Any) -> Any:
-        """Facets met per unit of depth along `d`."""
+        """``|Lambda(d)|``: facets met per unit of depth along `d`."""
         return self.facing(d) / dr.maximum(dr.abs(d.z), 1e-12)
 
-    def bounce(self, d: Any, u: Any) -> tuple[Any, Any]:
-        """The direction after a facet that `d` meets, and that facet's reflectance."""
+    def bounce(self, d: Any, u: Any) -> tuple[Any, Any, Any]:
+        """A facet that `d` meets, its reflectance, and the direction after it."""
         m = dr.normalize(sampling.cap_half_vector(self.ggx.alpha_u, self.ggx.alpha_v, -d, u))
         along = dr.dot(d, m)
-        return d - 2 * along * m, self.reflectance(dr.clip(-along, 0, 1))
+        return m, self.reflectance(dr.clip(-along, 0, 1)), d - 2 * along * m
 
-    def phase(self, d: Any, wo: Any) -> Any:
-        """Density of `bounce` towards `wo` times the reflectance: ``F D(m) / (4 sigma(-d))``."""
+    def connection(self, d: Any, wo: Any) -> tuple[Any, Any]:
+        """``F`` and ``D(m) / 4`` of the facet ``m`` that turns `d` to `wo`; ``D`` 0 if none does.
+
+        ``F D / (4 sigma(-d))`` is the density of `bounce` towards `wo` times the reflectance.
+        """
         half = wo - d
         length2 = dr.squared_norm(half)
         m = half * dr.rsqrt(dr.maximum(length2, 1e-12))
         quarter_d = dr.select((m.z > 0) & (length2 > 1e-12), 0.25 * self.ggx.d(m), 0)
-        return self.reflectance(dr.clip(dr.dot(wo, m), 0, 1)) * (quarter_d / self.facing(d))
+        return self.reflectance(dr.clip(dr.dot(wo, m), 0, 1)), quarter_d
+
+    def single(self, wi: Any, wo: Any) -> Any:
+        """``f cos`` of light that met one facet, ``F D G2 / (4 wi.z)``; G2 height-correlated."""
+        fresnel, quarter_d = self.connection(-wi, wo)
+        return fresnel * (quarter_d * self.ggx.g2_over_cos(wi, wo, True))
 
 
 def advance(facets: Facets, d: Any, tau: Any, rng: Any) -> Any:
