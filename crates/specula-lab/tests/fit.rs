@@ -16,7 +16,7 @@ const BOUNCES: [Bounces; 2] = [Bounces::Single, Bounces::Compensated];
 
 /// Tables of the lobe of a text; normals as of a GGX distribution.
 fn tables(text: &str, alpha: [f64; 2], symmetry: Symmetry) -> MeasuredTables {
-    let lobe = specula_lobes::parse(text).unwrap();
+    let lobe = specula_lobes::parse(text).expect("a lobe");
     let lobe: &Lobe<f64> = lobe.double();
     let size = Resolution {
         theta: 10,
@@ -33,7 +33,7 @@ fn tables(text: &str, alpha: [f64; 2], symmetry: Symmetry) -> MeasuredTables {
 }
 
 fn fitted(tables: &MeasuredTables, bounces: &[Bounces], fresnel: &[FresnelModel]) -> Record {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempfile::tempdir().expect("a folder");
     let options = FitOptions {
         name: "truth.bsdf",
         tables,
@@ -43,15 +43,19 @@ fn fitted(tables: &MeasuredTables, bounces: &[Bounces], fresnel: &[FresnelModel]
         quality: specula_lab::Quality::Draft,
         seed: 1,
     };
-    run(&options, folder.path(), &AtomicBool::new(false), &|_| {}).unwrap()
+    run(&options, folder.path(), &AtomicBool::new(false), &|_| {}).expect("a fit")
 }
 
 /// The chosen lobe's text, its alphas and the share that half of the nodes are within, in percent.
 fn chosen(record: &Record) -> (String, [f64; 2], f64) {
-    let table = record.tables.iter().find(|t| t.name == "fits").unwrap();
+    let table = record
+        .tables
+        .iter()
+        .find(|t| t.name == "fits")
+        .expect("fits");
     let row = (table.rows.iter())
         .find(|r| r.last() == Some(&Cell::Text("yes".to_owned())))
-        .unwrap();
+        .expect("one is chosen");
     let number = |i: usize| match row[i] {
         Cell::Number(Some(v)) => v,
         ref other => panic!("{other:?} is no number"),
@@ -71,7 +75,7 @@ fn near(found: f64, expected: f64) {
 
 /// A mirror of the reflectance of a rough metal.
 fn mirror(text: &str) -> NamedLobe {
-    let rough = specula_lobes::parse(text).unwrap();
+    let rough = specula_lobes::parse(text).expect("a lobe");
     let arguments: Vec<Argument<'_>> = (rough.given())
         .filter(|(name, _)| {
             [
@@ -88,7 +92,7 @@ fn mirror(text: &str) -> NamedLobe {
             value: Value::of_text(value),
         })
         .collect();
-    specula_lobes::make("smooth-conductor", &arguments).unwrap()
+    specula_lobes::make("smooth-conductor", &arguments).expect("a mirror")
 }
 
 /// Reflectances of two metals, from along the normal to 70 degrees.
@@ -103,7 +107,7 @@ fn same_reflectance(found: &str, truth: &str) {
         };
         let [found, truth] = both.each_ref().map(|lobe| {
             let sample = lobe.double().sample(wo, [0.5; 3], Transport::Radiance);
-            sample.unwrap().weight.to_array()
+            sample.expect("a reflection").weight.to_array()
         });
         for (found, truth) in found.into_iter().zip(truth) {
             near(found, truth);

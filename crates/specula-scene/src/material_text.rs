@@ -58,7 +58,8 @@ pub fn parse_material(text: &str) -> Result<MaterialKind, UnknownMaterial> {
         .next()
         .ok_or_else(|| wrong("nothing is said".to_owned()))?;
     let metal = matches!(class, "conductor" | "coatedconductor");
-    let (mut fresnel, mut eta) = (ConductorFresnel::Mirror, 1.5_f32);
+    let mut options = Options::new(metal);
+    let mut fresnel = ConductorFresnel::Mirror;
     let mut colour = ColourParam::Value(Rgb::splat(0.5));
     match class {
         "conductor" | "coatedconductor" => {
@@ -73,73 +74,114 @@ pub fn parse_material(text: &str) -> Result<MaterialKind, UnknownMaterial> {
         }
         "dielectric" => {
             if let Some(x) = words.number() {
-                eta = x;
+                options.eta = x;
             }
         }
         other => return Err(wrong(format!("there is no '{other}'"))),
     }
-    let (mut alpha, mut mapping) = ([if metal { 0.1 } else { 0.0 }; 2], RoughnessMapping::Alpha);
-    let mut index = [None; 2];
-    let mut distribution = MicrofacetDistribution::Ggx;
     while let Some(word) = words.next() {
+        options.take(word, &mut words).map_err(wrong)?;
+    }
+    options.check().map_err(wrong)?;
+    if metal {
+        fresnel = options.fresnel(fresnel).map_err(wrong)?;
+    }
+    Ok(kind(
+        class,
+        colour,
+        fresnel,
+        options.eta,
+        options.roughness(),
+    ))
+}
+
+/// What may follow a material's class and colour.
+struct Options {
+    metal: bool,
+    eta: f32,
+    alpha: [f32; 2],
+    mapping: RoughnessMapping,
+    distribution: MicrofacetDistribution,
+    /// Real and imaginary part.
+    index: [Option<ColourParam>; 2],
+}
+
+impl Options {
+    fn new(metal: bool) -> Self {
+        Self {
+            metal,
+            eta: 1.5,
+            alpha: [if metal { 0.1 } else { 0.0 }; 2],
+            mapping: RoughnessMapping::Alpha,
+            distribution: MicrofacetDistribution::Ggx,
+            index: [None; 2],
+        }
+    }
+
+    /// Reads the values of an option.
+    fn take(&mut self, word: &str, words: &mut Words<'_>) -> Result<(), String> {
         let mut value = || {
             words
                 .number()
-                .ok_or_else(|| wrong(format!("'{word}' needs a number")))
+                .ok_or_else(|| format!("'{word}' needs a number"))
         };
         match word {
             "alpha" => {
                 let x = value()?;
-                alpha = [x, words.number().unwrap_or(x)];
-                mapping = RoughnessMapping::Alpha;
+                self.alpha = [x, words.number().unwrap_or(x)];
+                self.mapping = RoughnessMapping::Alpha;
             }
             "roughness" => {
-                alpha = [value()?; 2];
-                mapping = RoughnessMapping::Square;
+                self.alpha = [value()?; 2];
+                self.mapping = RoughnessMapping::Square;
             }
-            "eta" => eta = value()?,
-            "conductor_eta" | "conductor_k" if metal => {
-                let colour = words.index(word).map_err(wrong)?;
-                index[usize::from(word == INDEX[1])] = Some(ColourParam::Value(colour));
+            "eta" => self.eta = value()?,
+            "conductor_eta" | "conductor_k" if self.metal => {
+                let colour = words.index(word)?;
+                self.index[usize::from(word == INDEX[1])] = Some(ColourParam::Value(colour));
             }
             "distribution" => {
-                distribution = match words.next() {
+                self.distribution = match words.next() {
                     Some("ggx") => MicrofacetDistribution::Ggx,
                     Some("beckmann") => MicrofacetDistribution::Beckmann,
-                    _ => return Err(wrong("'distribution' needs ggx or beckmann".to_owned())),
+                    _ => return Err("'distribution' needs ggx or beckmann".to_owned()),
                 };
             }
-            other => return Err(wrong(format!("'{other}' is not understood"))),
+            other => return Err(format!("'{other}' is not understood")),
+        }
+        Ok(())
+    }
+
+    fn check(&self) -> Result<(), String> {
+        if self.eta <= 0.0 {
+            return Err(format!("an index of {}", self.eta));
+        }
+        if self.alpha.iter().any(|a| *a < 0.0) {
+            return Err("a negative width".to_owned());
+        }
+        Ok(())
+    }
+
+    /// A metal's reflectance: `given`, or by its index.
+    fn fresnel(&self, given: ConductorFresnel) -> Result<ConductorFresnel, String> {
+        let is_given = given != ConductorFresnel::Mirror;
+        match self.index {
+            [None, None] if is_given => Ok(given),
+            [None, None] => Err("which metal is not said".to_owned()),
+            [Some(_), Some(_)] if is_given => Err("a metal and an index".to_owned()),
+            [Some(eta), Some(k)] => Ok(ConductorFresnel::Index { eta, k }),
+            _ => Err("conductor_eta and conductor_k go together".to_owned()),
         }
     }
-    if eta <= 0.0 {
-        return Err(wrong(format!("an index of {eta}")));
-    }
-    if alpha.iter().any(|a| *a < 0.0) {
-        return Err(wrong("a negative width".to_owned()));
-    }
-    match (index, fresnel) {
-        ([None, None], ConductorFresnel::Mirror) if metal => {
-            return Err(wrong("which metal is not said".to_owned()));
-        }
-        ([None, None], _) => {}
-        ([Some(eta), Some(k)], ConductorFresnel::Mirror) => {
-            fresnel = ConductorFresnel::Index { eta, k };
-        }
-        ([Some(_), Some(_)], _) => return Err(wrong("a metal and an index".to_owned())),
-        _ => {
-            return Err(wrong(
-                "conductor_eta and conductor_k go together".to_owned(),
-            ));
+
+    fn roughness(&self) -> Roughness {
+        let [u, v] = self.alpha.map(FloatParam::Value);
+        Roughness {
+            v,
+            distribution: self.distribution,
+            ..Roughness::isotropic(u, self.mapping)
         }
     }
-    let [u, v] = alpha.map(FloatParam::Value);
-    let roughness = Roughness {
-        v,
-        distribution,
-        ..Roughness::isotropic(u, mapping)
-    };
-    Ok(kind(class, colour, fresnel, eta, roughness))
 }
 
 fn kind(

@@ -106,7 +106,7 @@ impl Merl {
         let [n, _, _] = SIZE;
         // Light beside the viewer: the density of normals, but for a constant.
         let profile: Vec<[f64; 2]> = (0..n)
-            .map(|i| theta_h(i))
+            .map(theta_h)
             .take_while(|theta| *theta < 1.2)
             .map(|theta| {
                 let value = self.value([theta, 0.0, 0.0]).luminance();
@@ -283,7 +283,7 @@ mod tests {
         for _ in 0..2000 {
             let (z, phi) = (
                 0.3 + 0.7 * stream.next::<f64>(),
-                6.28 * stream.next::<f64>(),
+                std::f64::consts::TAU * stream.next::<f64>(),
             );
             let sin = (1.0 - z * z).sqrt();
             let (y, x) = phi.sin_cos();
