@@ -151,6 +151,7 @@ if __name__ == "__main__":
     if len(sys.argv) > 1 and Path(sys.argv[1]).is_dir():
         farm_cluster.main(SCENARIOS, Path(sys.argv[1]), sys.argv[2:])
     else:
-        names = sys.argv[1:] and ["start", *sys.argv[1:]]
+        chosen = [name for name in sys.argv[1:] if name != "start"]
+        names = sys.argv[1:] and ["start", *chosen]
         for name, found in farm_cluster.run(Path(__file__), *names, timeout=3600.0).items():
             print(json.dumps({name: found}))
