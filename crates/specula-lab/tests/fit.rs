@@ -1,5 +1,6 @@
 //! Fits of synthetic measurements find the lobe that made them.
 
+use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use specula_bsdf::bsdf::Lobe;
@@ -32,8 +33,13 @@ fn tables(text: &str, alpha: [f64; 2], symmetry: Symmetry) -> MeasuredTables {
     )
 }
 
-fn fitted(tables: &MeasuredTables, bounces: &[Bounces], fresnel: &[FresnelModel]) -> Record {
-    let folder = tempfile::tempdir().expect("a folder");
+/// Fits at draft quality, into a folder.
+fn try_fit(
+    tables: &MeasuredTables,
+    bounces: &[Bounces],
+    fresnel: &[FresnelModel],
+    folder: &Path,
+) -> specula_lab::Result<Record> {
     let options = FitOptions {
         name: "truth.bsdf",
         tables,
@@ -43,7 +49,12 @@ fn fitted(tables: &MeasuredTables, bounces: &[Bounces], fresnel: &[FresnelModel]
         quality: specula_lab::Quality::Draft,
         seed: 1,
     };
-    run(&options, folder.path(), &AtomicBool::new(false), &|_| {}).expect("a fit")
+    run(&options, folder, &AtomicBool::new(false), &|_| {})
+}
+
+fn fitted(tables: &MeasuredTables, bounces: &[Bounces], fresnel: &[FresnelModel]) -> Record {
+    let folder = tempfile::tempdir().expect("a folder");
+    try_fit(tables, bounces, fresnel, folder.path()).expect("a fit")
 }
 
 /// The chosen lobe's text, its alphas and the share that half of the nodes are within, in percent.
@@ -191,16 +202,8 @@ fn black_measurements_are_refused() {
     let mut made = tables("conductor Au alpha 0.3", [0.3; 2], Symmetry::Isotropic);
     made.rgb.fill(0.0);
     let folder = tempfile::tempdir().unwrap();
-    let options = FitOptions {
-        name: "black.bsdf",
-        tables: &made,
-        distributions: &BOTH,
-        bounces: &BOUNCES,
-        fresnel: &[FresnelModel::Index],
-        quality: specula_lab::Quality::Draft,
-        seed: 1,
-    };
-    let error = run(&options, folder.path(), &AtomicBool::new(false), &|_| {}).unwrap_err();
+    let fit = try_fit(&made, &BOUNCES, &[FresnelModel::Index], folder.path());
+    let error = fit.unwrap_err();
     assert!(error.to_string().contains("no value above 0"), "{error}");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
