@@ -50,7 +50,7 @@ const ETA: [f64; 2] = [0.01, 12.0];
 const K: [f64; 2] = [0.0, 20.0];
 
 impl Candidate {
-    /// From simple to costly.
+    /// From simple to costly, in whatever order the options name them.
     pub(super) fn all(options: &FitOptions<'_>) -> Vec<Self> {
         let is_isotropic = options.tables.is_isotropic();
         let mut all = Vec::new();
@@ -66,6 +66,7 @@ impl Candidate {
                 }
             }
         }
+        all.sort_by_key(|c: &Self| (c.bounces as u8, c.fresnel as u8, c.distribution as u8));
         all
     }
 
