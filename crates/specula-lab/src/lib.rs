@@ -13,6 +13,7 @@
 #![forbid(unsafe_code)]
 
 pub mod compare;
+mod direction;
 mod error;
 mod experiment;
 pub mod experiments;

@@ -2,18 +2,8 @@
 
 use specula_bsdf::{Alpha, Vec3};
 
+pub(super) use crate::direction::direction as view;
 use crate::plot::{Axis, Content, Map, Panel};
-
-/// A view by its polar angle and azimuth.
-pub(super) fn view(theta_deg: f64, phi_deg: f64) -> Vec3<f64> {
-    let (sine, cosine) = theta_deg.to_radians().sin_cos();
-    let (y, x) = phi_deg.to_radians().sin_cos();
-    Vec3 {
-        x: sine * x,
-        y: sine * y,
-        z: cosine,
-    }
-}
 
 /// Point `i` of the two-dimensional R2 sequence.
 pub(super) fn r2(i: u32) -> [f64; 2] {

@@ -153,16 +153,24 @@ impl Candidate {
 
     /// The lobe of parameters.
     pub(super) fn lobe(&self, parameters: &[f64]) -> Option<NamedLobe> {
-        // Without what the logarithm leaves in the last digits.
-        let [x, y] = self
-            .alpha(parameters)
-            .map(|a| format!("{a:.12}").parse().unwrap_or(a));
+        self.of_values(self.alpha(parameters), &parameters[self.alphas()..])
+    }
+
+    /// The lobe of parameters with four digits, as it is printed.
+    pub(super) fn printed(&self, parameters: &[f64]) -> Option<NamedLobe> {
+        let alpha = self.alpha(parameters).map(four_digits);
+        let colours = &parameters[self.alphas()..];
+        let colours: Vec<f64> = colours.iter().copied().map(four_digits).collect();
+        self.of_values(alpha, &colours)
+    }
+
+    /// The lobe of alphas and the numbers of its reflectance.
+    fn of_values(&self, [x, y]: [f64; 2], colours: &[f64]) -> Option<NamedLobe> {
         let alpha = if self.is_isotropic {
             Value::One(x)
         } else {
             Value::Two([x, y])
         };
-        let colours = &parameters[self.alphas()..];
         let triple = |i: usize| Value::Three([colours[i], colours[i + 1], colours[i + 2]]);
         let [first, second] = match self.fresnel {
             FresnelModel::Index => ["conductor_eta", "conductor_k"],
@@ -186,6 +194,11 @@ impl Candidate {
         };
         specula_lobes::make(kind, &arguments).ok()
     }
+}
+
+/// The number of four digits that is nearest.
+pub(super) fn four_digits(v: f64) -> f64 {
+    format!("{v:.3e}").parse().unwrap_or(v)
 }
 
 fn argument<'a>(name: &'a str, value: Value<'a>) -> Argument<'a> {

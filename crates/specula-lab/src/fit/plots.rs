@@ -5,6 +5,7 @@ use specula_bsdf::measured::Measured;
 use specula_bsdf::{Bsdf, Rgb, Transport, Vec3};
 
 use super::solve::Fit;
+use crate::direction::direction;
 use crate::output::Table;
 use crate::plot::{Axis, Content, Figure, Map, Panel, Series};
 use crate::{Lab, Result};
@@ -28,16 +29,6 @@ fn f_cos(fit: &Fit, wo: Vec3<f64>, wi: Vec3<f64>, walks: u32) -> Rgb<f64> {
             .0;
     }
     sum * (1.0 / f64::from(walks))
-}
-
-fn direction(theta_deg: f64, phi_deg: f64) -> Vec3<f64> {
-    let (sin, cos) = theta_deg.to_radians().sin_cos();
-    let (sin_phi, cos_phi) = phi_deg.to_radians().sin_cos();
-    Vec3 {
-        x: sin * cos_phi,
-        y: sin * sin_phi,
-        z: cos,
-    }
 }
 
 /// Measurement, the chosen lobe and the nearest of the other distribution in the plane of incidence.

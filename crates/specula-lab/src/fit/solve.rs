@@ -75,8 +75,8 @@ pub(super) fn fit(
             solved = problem.solve(solved.parameters).ok_or_else(failed)?;
         }
     }
-    let parameters: Vec<f64> = solved.parameters.clone();
-    let shown = candidate.shown(&parameters).ok_or_else(failed)?;
+    let parameters = solved.parameters;
+    let lobe = candidate.printed(&parameters).ok_or_else(failed)?;
     let alpha = candidate.alpha(&parameters);
     // Errors of logarithms are relative.
     let scale = (solved.norm / problem.number_of_points() as f64).sqrt();
@@ -99,7 +99,7 @@ pub(super) fn fit(
     };
     Ok(Fit {
         candidate: *candidate,
-        lobe: shown,
+        lobe,
         alpha,
         alpha_errors: [error(0), error(1)],
         loss,
@@ -107,24 +107,6 @@ pub(super) fn fit(
         parameters,
         errors,
     })
-}
-
-impl Candidate {
-    /// The lobe with parameters of four digits, as it is printed.
-    fn shown(&self, parameters: &[f64]) -> Option<NamedLobe> {
-        let short = |v: f64| format!("{v:.3e}").parse().unwrap_or(v);
-        let alphas = self.alphas();
-        let rounded: Vec<f64> = (parameters.iter().enumerate())
-            .map(|(i, &p)| {
-                if i < alphas {
-                    f64::ln(short(p.exp()))
-                } else {
-                    short(p)
-                }
-            })
-            .collect();
-        self.lobe(&rounded)
-    }
 }
 
 struct Solution {

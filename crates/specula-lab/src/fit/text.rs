@@ -1,6 +1,6 @@
 //! A fitted lobe as text to paste: for this program, pbrt-v4 and Mitsuba 3.
 
-use super::candidates::{Bounces, Distribution, FresnelModel};
+use super::candidates::{Bounces, Distribution, FresnelModel, four_digits};
 use super::solve::Fit;
 use crate::output::Table;
 
@@ -72,8 +72,6 @@ fn texts(fit: &Fit) -> Vec<(&'static str, String)> {
     all
 }
 
-/// Four digits.
 fn short(v: f64) -> String {
-    let rounded: f64 = format!("{v:.3e}").parse().unwrap_or(v);
-    rounded.to_string()
+    four_digits(v).to_string()
 }

@@ -194,16 +194,9 @@ pub(super) fn alphas(kind: &MaterialKind) -> Option<[f64; 2]> {
     })
 }
 
-/// A direction: `theta` from the normal, in the plane of `azimuth`; both in degrees.
+/// A direction by its angle from the normal and its azimuth, degrees.
 pub(super) fn direction(theta_deg: f64, azimuth_deg: f64) -> Vec3<f32> {
-    let (sin, cos) = theta_deg.to_radians().sin_cos();
-    let (sin_a, cos_a) = azimuth_deg.to_radians().sin_cos();
-    Vec3 {
-        x: sin * cos_a,
-        y: sin * sin_a,
-        z: cos,
-    }
-    .cast()
+    crate::direction::direction(theta_deg, azimuth_deg).cast()
 }
 
 /// `f |cos theta_i|`: the mean over `walks` where it is an estimate.

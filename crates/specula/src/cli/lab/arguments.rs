@@ -237,6 +237,21 @@ pub(crate) struct LabCompareArguments {
     pub(crate) loading: LoadingArguments,
 }
 
+/// Of commands that make one record.
+#[derive(Args, Debug)]
+pub(crate) struct RecordArguments {
+    /// How much work
+    #[arg(long, value_name = "NAME", value_enum, default_value_t = QualityName::Draft)]
+    pub(crate) quality: QualityName,
+
+    /// The page alone (FILE.html), or a folder for all files
+    #[arg(short, long, value_name = "FILE.html|DIR", default_value = "lab")]
+    pub(crate) output: PathBuf,
+
+    #[command(flatten)]
+    pub(crate) effort: EffortArguments,
+}
+
 const MATERIAL_EXAMPLES: &str = "\
 Examples:
   specula lab material \"conductor Au alpha 0.3\" -o gold.html
@@ -254,16 +269,8 @@ pub(crate) struct MaterialArguments {
     #[arg(value_name = "TEXT")]
     pub(crate) text: String,
 
-    /// How much work
-    #[arg(long, value_name = "NAME", value_enum, default_value_t = QualityName::Draft)]
-    pub(crate) quality: QualityName,
-
-    /// The page alone (FILE.html), or a folder for all files
-    #[arg(short, long, value_name = "FILE.html|DIR", default_value = "lab")]
-    pub(crate) output: PathBuf,
-
     #[command(flatten)]
-    pub(crate) effort: EffortArguments,
+    pub(crate) record: RecordArguments,
 }
 
 const TABULATE_EXAMPLES: &str = "\
@@ -384,14 +391,6 @@ pub(crate) struct FitArguments {
     #[arg(long, value_name = "NAMES", value_enum, value_delimiter = ',', default_values_t = [FresnelName::Index])]
     pub(crate) fresnel: Vec<FresnelName>,
 
-    /// How much work
-    #[arg(long, value_name = "NAME", value_enum, default_value_t = QualityName::Draft)]
-    pub(crate) quality: QualityName,
-
-    /// The page alone (FILE.html), or a folder for all files
-    #[arg(short, long, value_name = "FILE.html|DIR", default_value = "lab")]
-    pub(crate) output: PathBuf,
-
     #[command(flatten)]
-    pub(crate) effort: EffortArguments,
+    pub(crate) record: RecordArguments,
 }

@@ -24,10 +24,10 @@ pub(crate) fn run(arguments: &FitArguments) -> Result<ExitCode, Failure> {
         distributions: &all(&arguments.distributions),
         bounces: &all(&arguments.bounces),
         fresnel: &all(&arguments.fresnel),
-        quality: arguments.quality.into(),
-        seed: arguments.effort.seed,
+        quality: arguments.record.quality.into(),
+        seed: arguments.record.effort.seed,
     };
-    one_record(&arguments.output, &arguments.effort, &|place, desk| {
+    one_record(&arguments.record, &|place, desk| {
         let progress = |p: Progress| desk.tell(p.share, &p.what);
         fit::run(&options, place, desk.stop(), &progress)
     })

@@ -16,10 +16,10 @@ pub(crate) fn run(arguments: &MaterialArguments) -> Result<ExitCode, Failure> {
     let options = MaterialOptions {
         text: &arguments.text,
         kind: &kind,
-        quality: arguments.quality.into(),
-        seed: arguments.effort.seed,
+        quality: arguments.record.quality.into(),
+        seed: arguments.record.effort.seed,
     };
-    one_record(&arguments.output, &arguments.effort, &|place, desk| {
+    one_record(&arguments.record, &|place, desk| {
         let progress = |p: Progress| desk.tell(p.share, &p.what);
         material::run(&options, place, desk.stop(), &progress)
     })

@@ -22,7 +22,7 @@ use super::file_id::FileId;
 use super::progress::Progress;
 use super::stop::StopFlag;
 use super::{Failure, machine, print};
-use arguments::{EffortArguments, LabCommand, ListArguments};
+use arguments::{EffortArguments, LabCommand, ListArguments, RecordArguments};
 
 pub(crate) use arguments::LabArguments;
 
@@ -225,11 +225,11 @@ pub(crate) fn command_line() -> String {
 ///
 /// * `measure`: makes the record in a folder.
 pub(crate) fn one_record(
-    output: &Path,
-    effort: &EffortArguments,
+    arguments: &RecordArguments,
     measure: &(dyn Fn(&Path, &Desk) -> crate::lab::Result<Record> + Sync),
 ) -> Result<ExitCode, Failure> {
-    let desk = Desk::new(effort)?;
+    let output = &arguments.output;
+    let desk = Desk::new(&arguments.effort)?;
     // Whether it was finished.
     let finished = |place: &Path| {
         let result = desk.work(|| measure(place, &desk));
