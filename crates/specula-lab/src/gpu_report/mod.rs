@@ -110,6 +110,29 @@ pub struct GpuReport {
     pub agrees: bool,
     /// Whether it was stopped before its end.
     pub is_stopped: bool,
+    /// Time to equal error over the processor's, by the defaults of a render: geometric mean over the scenes. `None`
+    /// where [`GpuReportPart::Scenes`] was not measured.
+    pub time_over_processor: Option<f64>,
+}
+
+/// What a part has measured.
+struct Measured {
+    text: String,
+    /// Whether what it compares agrees.
+    agrees: bool,
+    /// As of [`GpuReport`].
+    time_over_processor: Option<f64>,
+}
+
+impl Measured {
+    /// A part that compares nothing.
+    fn table(text: String) -> Self {
+        Self {
+            text,
+            agrees: true,
+            time_over_processor: None,
+        }
+    }
 }
 
 /// How much is measured.
@@ -184,6 +207,7 @@ pub fn gpu_report(
         text: head(gpu, options),
         agrees: true,
         is_stopped: false,
+        time_over_processor: None,
     };
     let mut done = 0.0;
     for part in parts {
@@ -192,11 +216,15 @@ pub fn gpu_report(
         let measured = part.measure(gpu, &effort, &options.scenes);
         done += part.entry().2;
         match measured {
-            Ok((text, agrees)) => {
-                report.agrees &= agrees;
+            Ok(measured) => {
+                report.agrees &= measured.agrees;
+                report.time_over_processor =
+                    (measured.time_over_processor).or(report.time_over_processor);
                 let seconds = start.elapsed().as_secs_f64();
-                report.text +=
-                    &format!("\n{}\n\nThis part took {seconds:.0} s.\n", text.trim_end());
+                report.text += &format!(
+                    "\n{}\n\nThis part took {seconds:.0} s.\n",
+                    measured.text.trim_end()
+                );
             }
             Err(_) if stop.load(Ordering::Relaxed) => {
                 report.text += "\n**Stopped before its end.**\n";
@@ -217,16 +245,15 @@ pub fn gpu_report(
 }
 
 impl GpuReportPart {
-    /// The part's text, and whether what it compares agrees.
-    fn measure(self, gpu: &Gpu, effort: &Effort<'_>, scenes: &[PathBuf]) -> Result<(String, bool)> {
+    fn measure(self, gpu: &Gpu, effort: &Effort<'_>, scenes: &[PathBuf]) -> Result<Measured> {
         effort.go_on()?;
         Ok(match self {
             Self::Pictures => renders::agreement(gpu, effort, scenes)?,
-            Self::Samplers => (samplers::normals(gpu, effort)?, true),
-            Self::Furnace => (samplers::furnace(gpu, effort)?, true),
-            Self::Depth => (renders::longest_paths(gpu, effort)?, true),
-            Self::Rays => (rays::rays(gpu, effort)?, true),
-            Self::Scenes => (renders::speeds(gpu, effort, scenes)?, true),
+            Self::Samplers => Measured::table(samplers::normals(gpu, effort)?),
+            Self::Furnace => Measured::table(samplers::furnace(gpu, effort)?),
+            Self::Depth => Measured::table(renders::longest_paths(gpu, effort)?),
+            Self::Rays => Measured::table(rays::rays(gpu, effort)?),
+            Self::Scenes => renders::speeds(gpu, effort, scenes)?,
         })
     }
 }

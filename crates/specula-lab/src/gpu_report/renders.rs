@@ -12,7 +12,7 @@ use specula_scene::Scene;
 
 use super::scenes::{Subject, metal_room, subjects};
 use super::text::{figure, range, row, table};
-use super::{Effort, Result};
+use super::{Effort, Measured, Result};
 use crate::experiments::stopwatch::median;
 
 /// Longest paths of table 3, in reflections.
@@ -209,7 +209,7 @@ fn longest_path(
 }
 
 /// Samples and rays per second beside the processor's, by both schedules, and by traversal and ray queries.
-pub(super) fn speeds(gpu: &Gpu, effort: &Effort<'_>, files: &[PathBuf]) -> Result<String> {
+pub(super) fn speeds(gpu: &Gpu, effort: &Effort<'_>, files: &[PathBuf]) -> Result<Measured> {
     let mut rows = vec![row([
         "scene",
         "schedule",
@@ -224,12 +224,18 @@ pub(super) fn speeds(gpu: &Gpu, effort: &Effort<'_>, files: &[PathBuf]) -> Resul
         "in single rounds",
         "compiled",
     ])];
+    let mut times = Vec::new();
     for subject in subjects(effort.quick, files) {
         effort.go_on()?;
-        rows.extend(speed(gpu, effort, &subject, Rays::Tree)?);
+        let (tree, mut time) = speed(gpu, effort, &subject, Rays::Tree)?;
+        rows.extend(tree);
         if gpu.has_ray_queries() {
-            rows.extend(speed(gpu, effort, &subject, Rays::Query)?);
+            let (query, faster) = speed(gpu, effort, &subject, Rays::Query)?;
+            rows.extend(query);
+            // What renders take by default, where they support the scene.
+            time = faster.or(time);
         }
+        times.extend(time);
     }
     let queries = match gpu.has_ray_queries() {
         true => "Rays go through Specula's tree, or are cast by the GPU's ray queries.\n",
@@ -239,7 +245,7 @@ pub(super) fn speeds(gpu: &Gpu, effort: &Effort<'_>, files: &[PathBuf]) -> Resul
         true => "`--quick` leaves `two-million-triangles` out.\n",
         false => "",
     };
-    Ok(format!(
+    let text = format!(
         "## Speed beside the processor's\n\n\
          The scenes of the comparison with other renderers, {0}x{0} pixels, paths as long as they say; rays of \
          cameras, bounces and shadows.\n\
@@ -250,10 +256,20 @@ pub(super) fn speeds(gpu: &Gpu, effort: &Effort<'_>, files: &[PathBuf]) -> Resul
         effort.side,
         effort.render_rounds,
         table(&rows)
-    ))
+    );
+    Ok(Measured {
+        time_over_processor: geometric_mean(&times),
+        ..Measured::table(text)
+    })
 }
 
-/// Schedules of table 4; the second is compared with the first.
+/// `None` of nothing.
+fn geometric_mean(values: &[f64]) -> Option<f64> {
+    let logarithms: f64 = values.iter().map(|v| v.ln()).sum();
+    (!values.is_empty()).then(|| (logarithms / values.len() as f64).exp())
+}
+
+/// Schedules of table 4; the second, which is the default, is compared with the first.
 const SCHEDULES: [Schedule; 2] = [Schedule::Paths, Schedule::Queues];
 
 /// The row of a scene that is not rendered.
@@ -265,13 +281,14 @@ fn row_of_reason(subject: &Subject, rays: Rays, reason: &str) -> Vec<String> {
     cells
 }
 
-/// The rows of one scene, by traversal or by ray queries.
+/// The rows of one scene, by traversal or by ray queries, and the time to equal error over the processor's by queues;
+/// `None` where the GPU does not render it.
 fn speed(
     gpu: &Gpu,
     effort: &Effort<'_>,
     subject: &Subject,
     rays: Rays,
-) -> Result<Vec<Vec<String>>> {
+) -> Result<(Vec<Vec<String>>, Option<f64>)> {
     let scene = subject.load()?;
     let options = RenderOptions {
         resolution: Some([effort.side; 2]),
@@ -285,7 +302,7 @@ fn speed(
         let on_gpu = TracerOptions { rays, schedule };
         let tracer = match tracer(gpu, &prepared, &options, on_gpu)? {
             Ok(tracer) => tracer,
-            Err(reason) => return Ok(vec![row_of_reason(subject, rays, &reason)]),
+            Err(reason) => return Ok((vec![row_of_reason(subject, rays, &reason)], None)),
         };
         compiled.push(start.elapsed().as_secs_f64());
         renders.push(Render::new(&prepared, &options, Some(tracer)));
@@ -300,16 +317,19 @@ fn speed(
         }
     }
     let [processor, on_gpu @ ..] = passes.as_slice() else {
-        return Ok(Vec::new());
+        return Ok((Vec::new(), None));
     };
     let speed = |passes: &[Pass]| {
         let rays = over(passes, |p| 1e-6 * p.rays_per_sample / p.per_sample);
         [over(passes, |p| 1e-6 / p.per_sample), rays].map(figure)
     };
     // Of times, round by round: the median, and the range.
-    let quotient = |a: &[Pass], b: &[Pass]| {
+    let quotients = |a: &[Pass], b: &[Pass]| -> Vec<f64> {
         let rounds = a.iter().zip(b).map(|(a, b)| a.per_sample / b.per_sample);
-        let rounds: Vec<f64> = rounds.collect();
+        rounds.collect()
+    };
+    let quotient = |a: &[Pass], b: &[Pass]| {
+        let rounds = quotients(a, b);
         let [low, high] = range(rounds.iter().copied()).map(figure);
         [figure(median(rounds)), format!("{low} to {high}")]
     };
@@ -327,7 +347,10 @@ fn speed(
         cells.push(format!("{:.1} s", compiled[place]));
         cells
     };
-    Ok((0..SCHEDULES.len()).map(cells).collect())
+    let by_queues = on_gpu
+        .get(1)
+        .map(|these| median(quotients(these, processor)));
+    Ok(((0..SCHEDULES.len()).map(cells).collect(), by_queues))
 }
 
 /// Samples per pixel of pictures that are compared.
@@ -336,11 +359,7 @@ const COMPARED: u32 = 4;
 const MOST_DIFFERING: f64 = 0.02;
 
 /// Pictures of the same samples by the GPU and by the processor; and whether all agree.
-pub(super) fn agreement(
-    gpu: &Gpu,
-    effort: &Effort<'_>,
-    files: &[PathBuf],
-) -> Result<(String, bool)> {
+pub(super) fn agreement(gpu: &Gpu, effort: &Effort<'_>, files: &[PathBuf]) -> Result<Measured> {
     let mut rows = vec![row([
         "scene",
         "rays",
@@ -399,7 +418,10 @@ pub(super) fn agreement(
         100.0 * MOST_DIFFERING,
         table(&rows)
     );
-    Ok((text, all))
+    Ok(Measured {
+        agrees: all,
+        ..Measured::table(text)
+    })
 }
 
 /// Share of the pixels that differ, and the quotient of means.

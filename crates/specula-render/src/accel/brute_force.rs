@@ -3,7 +3,8 @@
 //! Below a few dozen primitives a tree costs more than it saves. Rays are sorted by the axis in which
 //! their direction is greatest, so that the triangle test permutes the coordinates of all alike, and stored as
 //! structures of arrays. The loops over [`PACK`] rays are compiled to SIMD instructions. Triangles that share corners
-//! are tested together: each corner is sheared once.
+//! are tested together: each corner is sheared once. Distances are computed for those that the line of any ray of the
+//! pack passes through.
 //!
 //! Operation by operation the same as the traversal, whose boxes cull no hit: the answers are equal bit
 //! for bit, but for slivers in rooms that are a million of their own sizes away from the origin: rounding lets rays
@@ -12,6 +13,8 @@
     clippy::needless_range_loop,
     reason = "an index below the arrays' length is what the compiler makes vectors of"
 )]
+
+use core::ops::{Index, IndexMut};
 
 use macro_rules_attribute::apply;
 
@@ -26,7 +29,7 @@ use crate::simd::simd_levels;
 /// Rays of a pack.
 const PACK: usize = 16;
 /// Most rays that are sorted together.
-const BATCH: usize = 256;
+const BATCH: usize = 512;
 /// Most triangles of a small scene, a quadric counting as [`QUADRIC`] of them. Measured in rooms with
 /// boxes and spheres: at twice as many the tree is as fast.
 const MOST: usize = 64;
@@ -36,14 +39,38 @@ const QUADRIC: usize = 3;
 /// Corners of a cluster: those of a box. A power of two.
 const CORNERS: usize = 8;
 
-/// One component of each ray of a pack.
-type Column = [f32; PACK];
+/// One component of each ray of a pack: one cache line.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+struct Column([f32; PACK]);
+
+impl Column {
+    const ZERO: Self = Self([0.0; PACK]);
+}
+
+impl Index<usize> for Column {
+    type Output = f32;
+
+    #[inline(always)]
+    fn index(&self, lane: usize) -> &f32 {
+        &self.0[lane]
+    }
+}
+
+impl IndexMut<usize> for Column {
+    #[inline(always)]
+    fn index_mut(&mut self, lane: usize) -> &mut f32 {
+        &mut self.0[lane]
+    }
+}
 
 /// Triangles one after the other, and the corners that they share.
 #[derive(Clone, Debug)]
 struct Cluster {
     /// By the axis in which directions are greatest, with coordinates in the order of its shear.
     corners: [Vec<[f32; 3]>; 3],
+    /// Bounds on the absolute values of the coordinates along each axis.
+    reach: [f32; 3],
     /// Indices of corners.
     triangles: Vec<[u8; 3]>,
 }
@@ -51,6 +78,7 @@ struct Cluster {
 impl Cluster {
     const EMPTY: Self = Self {
         corners: [const { Vec::new() }; 3],
+        reach: [0.0; 3],
         triangles: Vec::new(),
     };
 
@@ -68,6 +96,9 @@ impl Cluster {
         });
         if all.len() > CORNERS {
             return false;
+        }
+        for p in corners {
+            self.reach = [0, 1, 2].map(|axis| self.reach[axis].max(p[axis].abs()));
         }
         self.corners = [0, 1, 2].map(|axis: usize| {
             let permuted = |p: &[f32; 3]| [p[(axis + 1) % 3], p[(axis + 2) % 3], p[axis]];
@@ -157,7 +188,7 @@ impl SmallScene {
 
 /// Rays that can hit, by the axes in which their directions are greatest.
 struct Order {
-    rays: [u8; BATCH],
+    rays: [u16; BATCH],
     /// Where those of each axis end.
     ends: [usize; 3],
 }
@@ -174,7 +205,7 @@ impl Order {
         let [x, y, z] = [0, 1, 2].map(count);
         let mut next = [0, x, x + y, x + y + z];
         let mut order = [0; BATCH];
-        for (i, axis) in (0..=u8::MAX).zip(&axes[..rays.len()]) {
+        for (i, axis) in (0..=u16::MAX).zip(&axes[..rays.len()]) {
             let place = &mut next[usize::from(*axis)];
             order[*place] = i;
             *place += 1;
@@ -187,7 +218,7 @@ impl Order {
 
     /// The packs of rays of each axis.
     #[inline(always)]
-    fn packs(&self) -> impl Iterator<Item = (usize, &[u8])> {
+    fn packs(&self) -> impl Iterator<Item = (usize, &[u16])> {
         let begins = [0, self.ends[0], self.ends[1]];
         (0..3).flat_map(move |axis| {
             let rays = &self.rays[begins[axis]..self.ends[axis]];
@@ -213,7 +244,7 @@ struct Pack {
 
 /// The vector in a lane.
 #[inline(always)]
-fn at<T: Copy>(columns: &[[T; PACK]; 3], lane: usize) -> [T; 3] {
+fn at(columns: &[Column; 3], lane: usize) -> [f32; 3] {
     [columns[0][lane], columns[1][lane], columns[2][lane]]
 }
 
@@ -224,15 +255,20 @@ fn set(columns: &mut [Column; 3], lane: usize, values: [f32; 3]) {
     }
 }
 
+/// Where rays end of which nothing more is asked: nothing is hit.
+const ENDED: f32 = -1.0;
+
+/// A cluster's corners, sheared.
+type Sheared = [[Column; 3]; CORNERS];
+
 /// No triangle or quadric.
 const NOTHING: u32 = u32::MAX;
 
 impl Pack {
     #[inline(always)]
-    fn new(rays: &[Ray], pack: &[u8], axis: usize) -> Self {
-        let (mut origin, mut direction) = ([[0.0; PACK]; 3], [[1.0; PACK]; 3]);
-        // Where there is no ray, nothing is hit.
-        let mut t = [-1.0; PACK];
+    fn new(rays: &[Ray], pack: &[u16], axis: usize) -> Self {
+        let (mut origin, mut direction) = ([Column::ZERO; 3], [Column([1.0; PACK]); 3]);
+        let mut t = Column([ENDED; PACK]);
         for (lane, &i) in pack.iter().enumerate() {
             let ray = &rays[usize::from(i)];
             let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
@@ -243,7 +279,7 @@ impl Pack {
             t[lane] = ray.t_max;
         }
         let [x, y, z] = [(axis + 1) % 3, (axis + 2) % 3, axis];
-        let mut shear = [[0.0; PACK]; 3];
+        let mut shear = [Column::ZERO; 3];
         for lane in 0..PACK {
             let dz = direction[z][lane];
             shear[0][lane] = direction[x][lane] / dz;
@@ -256,23 +292,23 @@ impl Pack {
             sheared_origin: [origin[x], origin[y], origin[z]],
             shear,
             t,
-            u: [0.0; PACK],
-            v: [0.0; PACK],
+            u: Column::ZERO,
+            v: Column::ZERO,
             place: [NOTHING; PACK],
         }
     }
 
-    /// Updates the closest hits by a cluster of triangles.
+    /// Updates the hits by a cluster of triangles.
     ///
     /// * `place`: index of the first triangle.
     /// * `sheared`: scratch memory for corners.
     #[inline(always)]
-    fn offer_cluster(
+    fn offer_cluster<const ANY: bool>(
         &mut self,
         cluster: &Cluster,
         axis: usize,
         place: u32,
-        sheared: &mut [[Column; 3]; CORNERS],
+        sheared: &mut Sheared,
     ) {
         let (o, s) = (&self.sheared_origin, &self.shear);
         for (corner, p) in cluster.corners[axis].iter().zip(&mut *sheared) {
@@ -280,9 +316,27 @@ impl Pack {
                 set(p, lane, triangle::shear(*corner, at(o, lane), at(s, lane)));
             }
         }
-        for (place, corners) in (place..).zip(&cluster.triangles) {
+        // Which triangles the line of any ray passes through: to branch at each would be to guess each.
+        let mut reached = 0_u64;
+        for (k, corners) in cluster.triangles.iter().enumerate() {
             let p = corners.map(|c| &sheared[usize::from(c) % CORNERS]);
-            self.offer(p, place);
+            let mut some = 0;
+            for lane in 0..PACK {
+                let [a, b, c] = p.map(|corner| at(corner, lane));
+                some |= u32::from(triangle::same_sign(triangle::edge_functions(a, b, c)));
+            }
+            reached |= u64::from(some != 0) << (k % MOST);
+        }
+        while reached != 0 {
+            let k = reached.trailing_zeros();
+            reached &= reached - 1;
+            let corners = cluster.triangles[k as usize];
+            let p = corners.map(|c| &sheared[usize::from(c) % CORNERS]);
+            if ANY {
+                self.occlude(p, cluster.reach[axis]);
+            } else {
+                self.offer(p, place + k);
+            }
         }
     }
 
@@ -292,23 +346,11 @@ impl Pack {
     #[inline(always)]
     fn offer(&mut self, p: [&[Column; 3]; 3], place: u32) {
         let dz = &self.shear[2];
-        let mut weights = [[0.0; PACK]; 3];
-        let mut inside = [0; PACK];
-        let mut some = 0;
         for lane in 0..PACK {
             let [a, b, c] = p.map(|corner| at(corner, lane));
-            let uvw = triangle::edge_functions(a, b, c);
-            set(&mut weights, lane, uvw);
-            inside[lane] = u32::from(triangle::inside(uvw));
-            some |= inside[lane];
-        }
-        if some == 0 {
-            return;
-        }
-        for lane in 0..PACK {
-            let z = [p[0][2][lane], p[1][2][lane], p[2][2][lane]];
-            let (t, u, v) = triangle::distance(at(&weights, lane), z, dz[lane]);
-            let closer = (inside[lane] != 0) & (t > 0.0) & (t < self.t[lane]);
+            let weights = triangle::edge_functions(a, b, c);
+            let (t, u, v) = triangle::distance(weights, [a[2], b[2], c[2]], dz[lane]);
+            let closer = triangle::same_sign(weights) & (t > 0.0) & (t < self.t[lane]);
             self.t[lane] = if closer { t } else { self.t[lane] };
             self.u[lane] = if closer { u } else { self.u[lane] };
             self.v[lane] = if closer { v } else { self.v[lane] };
@@ -316,9 +358,47 @@ impl Pack {
         }
     }
 
-    /// Updates the closest hits by a quadric.
+    /// Ends the rays that a triangle occludes; see [`Self::end`].
+    ///
+    /// Most triangles that the lines of shadow rays pass through lie behind or beyond them, which is told before
+    /// anything is divided.
+    ///
+    /// * `p`: as for [`Self::offer`].
+    /// * `reach`: bound on the absolute values of the corners' coordinates z.
     #[inline(always)]
-    fn offer_quadric(&mut self, quadric: &PreparedQuadric, place: u32) {
+    fn occlude(&mut self, p: [&[Column; 3]; 3], reach: f32) {
+        let mut some = 0;
+        for lane in 0..PACK {
+            let [a, b, c] = p.map(|corner| at(corner, lane));
+            let weights = triangle::edge_functions(a, b, c);
+            let farthest = reach + self.sheared_origin[2][lane].abs();
+            let z = [a[2], b[2], c[2]];
+            let apart =
+                triangle::is_apart(weights, z, self.shear[2][lane], (self.t[lane], farthest));
+            some |= u32::from(triangle::same_sign(weights) & !apart);
+        }
+        if some == 0 {
+            return;
+        }
+        for lane in 0..PACK {
+            let [a, b, c] = p.map(|corner| at(corner, lane));
+            let weights = triangle::edge_functions(a, b, c);
+            let (t, _, _) = triangle::distance(weights, [a[2], b[2], c[2]], self.shear[2][lane]);
+            let occluded = triangle::same_sign(weights) & (t > 0.0) & (t < self.t[lane]);
+            self.end(lane, occluded);
+        }
+    }
+
+    /// Ends a ray if something occludes it: nothing lies before its new end.
+    #[inline(always)]
+    fn end(&mut self, lane: usize, occluded: bool) {
+        self.t[lane] = if occluded { ENDED } else { self.t[lane] };
+        self.place[lane] = if occluded { 0 } else { self.place[lane] };
+    }
+
+    /// Updates the hits by a quadric.
+    #[inline(always)]
+    fn offer_quadric<const ANY: bool>(&mut self, quadric: &PreparedQuadric, place: u32) {
         let [mut o, mut d] = [[[0.0; PACK]; 3]; 2];
         for lane in 0..PACK {
             let origin = [0, 1, 2].map(|k| f64::from(self.origin[k][lane]));
@@ -329,18 +409,22 @@ impl Pack {
                 d[k][lane] = direction[k];
             }
         }
+        let (o, d) = (
+            |lane: usize| [0, 1, 2].map(|k: usize| o[k][lane]),
+            |lane: usize| [0, 1, 2].map(|k: usize| d[k][lane]),
+        );
         let mut t = [0.0; PACK];
         let mut is_hit = [1_u32; PACK];
         match quadric.shape() {
             QuadricShape::Disk { radius, height } => {
                 for lane in 0..PACK {
-                    t[lane] = quadric::disk(at(&o, lane), at(&d, lane), radius, height);
+                    t[lane] = quadric::disk(o(lane), d(lane), radius, height);
                 }
             }
             QuadricShape::Sphere { radius } => {
                 let mut some = 0;
                 for lane in 0..PACK {
-                    let near = Approach::new(at(&o, lane), at(&d, lane), radius);
+                    let near = Approach::new(o(lane), d(lane), radius);
                     is_hit[lane] = u32::from(near.hits());
                     some |= is_hit[lane];
                 }
@@ -348,13 +432,17 @@ impl Pack {
                     return;
                 }
                 for lane in 0..PACK {
-                    let near = Approach::new(at(&o, lane), at(&d, lane), radius);
-                    t[lane] = near.t(at(&o, lane), radius);
+                    let near = Approach::new(o(lane), d(lane), radius);
+                    t[lane] = near.t(o(lane), radius);
                 }
             }
         }
         for lane in 0..PACK {
             let closer = (is_hit[lane] != 0) & (t[lane] > 0.0) & (t[lane] < self.t[lane]);
+            if ANY {
+                self.end(lane, closer);
+                continue;
+            }
             self.t[lane] = if closer { t[lane] } else { self.t[lane] };
             self.u[lane] = if closer { 0.0 } else { self.u[lane] };
             self.v[lane] = if closer { 0.0 } else { self.v[lane] };
@@ -362,26 +450,31 @@ impl Pack {
         }
     }
 
-    /// Updates the closest hits by all primitives.
+    /// Updates the hits by all primitives: the closest ones, or just whether there are any.
     #[inline(always)]
-    fn offer_all(&mut self, small: &SmallScene, axis: usize) {
+    fn offer_all<const ANY: bool>(
+        &mut self,
+        small: &SmallScene,
+        axis: usize,
+        sheared: &mut Sheared,
+    ) {
         let mut place = 0;
-        let mut sheared = [[[0.0; PACK]; 3]; CORNERS];
         for cluster in &small.clusters {
-            self.offer_cluster(cluster, axis, place, &mut sheared);
+            self.offer_cluster::<ANY>(cluster, axis, place, sheared);
             place += crate::convert::id(cluster.triangles.len());
         }
         for (place, quadric) in (small.first_quadric..).zip(&small.quadrics) {
-            self.offer_quadric(quadric, place);
+            self.offer_quadric::<ANY>(quadric, place);
         }
     }
 }
 
 #[apply(simd_levels)]
 fn closest(small: &SmallScene, rays: &[Ray], hits: &mut [Option<Hit>]) {
+    let mut sheared = [[Column::ZERO; 3]; CORNERS];
     for (axis, members) in Order::new(rays).packs() {
         let mut pack = Pack::new(rays, members, axis);
-        pack.offer_all(small, axis);
+        pack.offer_all::<false>(small, axis, &mut sheared);
         for (lane, &i) in members.iter().enumerate() {
             hits[usize::from(i)] = (pack.place[lane] != NOTHING).then(|| Hit {
                 t: pack.t[lane],
@@ -396,9 +489,10 @@ fn closest(small: &SmallScene, rays: &[Ray], hits: &mut [Option<Hit>]) {
 
 #[apply(simd_levels)]
 fn any(small: &SmallScene, rays: &[Ray], occluded: &mut [bool]) {
+    let mut sheared = [[Column::ZERO; 3]; CORNERS];
     for (axis, members) in Order::new(rays).packs() {
         let mut pack = Pack::new(rays, members, axis);
-        pack.offer_all(small, axis);
+        pack.offer_all::<true>(small, axis, &mut sheared);
         for (lane, &i) in members.iter().enumerate() {
             occluded[usize::from(i)] = pack.place[lane] != NOTHING;
         }

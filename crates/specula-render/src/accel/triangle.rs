@@ -62,8 +62,38 @@ pub(super) fn edge_functions(a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> [f32; 3] 
 /// Whether the ray, or its backward extension, passes through the triangle.
 #[inline(always)]
 pub(super) fn inside([u, v, w]: [f32; 3]) -> bool {
+    same_sign([u, v, w]) & ((u + v) + w != 0.0)
+}
+
+/// [`inside`] but for `det`, by which [`distance`] divides: where it is 0, there is no distance.
+#[inline(always)]
+pub(super) fn same_sign([u, v, w]: [f32; 3]) -> bool {
     let (lo, hi) = (min(u, min(v, w)), max(u, max(v, w)));
-    ((lo >= 0.0) | (hi <= 0.0)) & ((u + v) + w != 0.0)
+    (lo >= 0.0) | (hi <= 0.0)
+}
+
+/// Whether the triangle surely lies behind the ray or beyond its end, where the ray's line passes through it.
+///
+/// `q = det t` needs no division. Its rounding and that of `t` are below 16 u of `det farthest / dz`. Overflow decides
+/// nothing.
+///
+/// * `farthest`: a bound on the absolute values of `z`.
+#[inline(always)]
+pub(super) fn is_apart(
+    [u, v, w]: [f32; 3],
+    z: [f32; 3],
+    shear_z: f32,
+    (t_max, farthest): (f32, f32),
+) -> bool {
+    const SLACK: f32 = 16.0 * f32::EPSILON;
+    let det = (u + v) + w;
+    let sum = ((u * z[0] + v * z[1]) + w * z[2]) * shear_z;
+    let q = if det < 0.0 { -sum } else { sum };
+    let det = det.abs();
+    let slack = (det * (SLACK * farthest) + f32::MIN_POSITIVE) * shear_z.abs();
+    let behind = (q < -slack) & (q > f32::MIN);
+    let beyond = (q > t_max * (det * (1.0 + SLACK)) + slack) & (q < f32::MAX);
+    behind | beyond
 }
 
 /// `(t, u, v)` from `U, V, W` and the vertices' sheared z; `shear_z` is `1 / dz`.

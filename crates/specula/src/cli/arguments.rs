@@ -242,7 +242,8 @@ pub(crate) struct RenderArguments {
     pub(crate) display_server: Option<String>,
 
     /// What takes the samples: cpu; gpu, gpu:INDEX or gpu:NAME as `specula devices` lists them; or auto:
-    /// a real GPU where there is one that renders all of the scene, else the processor, with a note
+    /// the fastest GPU that `specula gpu-report` has measured to be faster than the processor, where it renders all of
+    /// the scene, else the processor, with a note
     #[arg(long, value_name = "NAME", default_value_t = Device::Cpu)]
     pub(crate) device: Device,
 

@@ -5,6 +5,8 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use crate::gpu::AdapterKind;
+use crate::lab::Machine;
 use crate::lab::gpu_report::{
     AdapterChoice, Gpu, GpuError, GpuReportOptions, GpuReportPart, gpu_report,
 };
@@ -13,6 +15,7 @@ use clap::Args;
 
 use super::console::say;
 use super::device::Device;
+use super::device::measured::{self, Measurement};
 use super::progress::Progress;
 use super::stop::StopFlag;
 use super::{Failure, print};
@@ -25,6 +28,8 @@ Examples:
       whether the second one's pictures are the processor's, and how fast it renders
   specula gpu-report --quick --scene kitchen.pbrt
       a short look, with a scene of yours
+
+The part scenes tells --device auto whether this GPU is faster than the processor.
 
 Needs a driver for Vulkan, Metal or Direct3D 12, and nothing else. What a GPU lacks is said in the report.
 
@@ -89,6 +94,9 @@ pub(crate) fn run(arguments: &GpuReportArguments) -> Result<ExitCode, Failure> {
     let report = report?;
     print(&report.text)?;
     write(&arguments.output, &report.text)?;
+    if let Some(time) = report.time_over_processor {
+        keep(&gpu, time);
+    }
     if report.is_stopped {
         let signal = stop.signal();
         say!("stopped by {}", signal.name());
@@ -128,6 +136,19 @@ fn write(folder: &Path, text: &str) -> Result<(), Failure> {
     atomic::replace(&path, |file| file.write_all(text.as_bytes())).map_err(failed)?;
     say!("wrote {}", path.display());
     Ok(())
+}
+
+/// Keeps what `--device auto` chooses by. Where that cannot be written, the report stays good.
+fn keep(gpu: &Gpu, time: f64) {
+    if gpu.adapter.kind == AdapterKind::Software {
+        return;
+    }
+    let measurement = Measurement::new(&gpu.adapter, &Machine::here(), time);
+    match measured::keep(&measurement) {
+        Ok(Some(_)) => say!("--device auto knows: {measurement} to equal error"),
+        Ok(None) => {}
+        Err(error) => say!("note: --device auto will not know of it: {error}"),
+    }
 }
 
 /// The day in UTC, as 2026-11-26.

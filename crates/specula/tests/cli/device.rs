@@ -55,7 +55,9 @@ fn a_gpu_is_measured() {
     let (folder, _) = small_scene();
     let folder = folder.path();
     let report = ["gpu-report", "--quick", "--part", "rays", "-o", "report"];
-    let output = specula(folder).args(report).output().unwrap();
+    let mut command = specula(folder);
+    command.env("XDG_CACHE_HOME", folder.join("cache"));
+    let output = command.args(report).output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
     let text = std::fs::read_to_string(folder.join("report/README.md")).unwrap();
     assert_eq!(String::from_utf8_lossy(&output.stdout), text);
@@ -69,6 +71,8 @@ fn a_gpu_is_measured() {
         assert!(text.contains(expected), "no '{expected}' in {text}");
     }
     assert!(!text.contains("Not measured"), "{text}");
+    // Of the part scenes, on real GPUs.
+    assert!(!folder.join("cache").exists());
 }
 
 #[test]
@@ -116,6 +120,13 @@ fn auto_renders_everywhere() {
     succeed(folder, &["render", "small.pbrt", "-o", "cpu.exr"]);
     let auto = ["render", "small.pbrt", "--device", "auto", "-o", "auto.exr"];
     succeed(folder, &auto);
+    // What `gpu-report` keeps is read, and may be damaged.
+    std::fs::create_dir_all(folder.join("cache/specula")).unwrap();
+    std::fs::write(folder.join("cache/specula/gpus.json"), "[{").unwrap();
+    let mut command = specula(folder);
+    command.env("XDG_CACHE_HOME", folder.join("cache"));
+    let output = command.args(auto).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
     let real = adapters().iter().any(|a| a.kind != AdapterKind::Software);
     if !real {
         assert_eq!(picture(folder, "auto.exr"), picture(folder, "cpu.exr"));

@@ -192,3 +192,45 @@ fn t_max_is_exclusive() {
     // Nor does a ray that begins on the triangle hit it.
     assert!(!accel.occluded(&ray(vec3(0.0, 0.0, 2.0), Vec3::Z)));
 }
+
+/// A triangle that is told to be apart has no hit within the ray, whatever the scale; one that is a thousandth apart is
+/// told so.
+#[test]
+fn triangles_apart_have_no_hits() {
+    let mut random = Random(31);
+    let (mut near, mut far) = (0, 0);
+    for i in 0..600_000 {
+        let scale = 10.0_f32.powi(i % 25 - 12);
+        let [a, b, c, o] = [(); 4].map(|()| random.vector() * scale);
+        // Weights of a point: half of them on an edge or outside.
+        let weights = [(); 2].map(|()| 0.6 * random.signed() + 0.3);
+        let target = a + (b - a) * weights[0] + (c - a) * weights[1];
+        let along = [1.0, -1.0, 0.3, 1e-7][random.below(4)];
+        let mut ray = ray(o, (target - o) * along);
+        let frame = RayFrame::new(&ray).unwrap();
+        let p = [a, b, c].map(|p| {
+            let p = frame.axes.map(|axis| p.to_array()[usize::from(axis)]);
+            triangle::shear(p, frame.sheared_origin, frame.shear)
+        });
+        let uvw = triangle::edge_functions(p[0], p[1], p[2]);
+        let z = p.map(|p| p[2]);
+        let (t, _, _) = triangle::distance(uvw, z, frame.shear[2]);
+        if !triangle::inside(uvw) || !t.is_finite() {
+            continue;
+        }
+        let nearly = 1.0 + random.signed() * 1e-6;
+        ray.t_max = [1.001, 0.999, nearly, f32::INFINITY][random.below(4)] * t.abs();
+        let farthest = z.iter().fold(0.0, |m: f32, z| m.max(z.abs()));
+        let apart = triangle::is_apart(uvw, z, frame.shear[2], (ray.t_max, farthest));
+        if t > 0.0 && t < ray.t_max {
+            assert!(!apart, "{ray:?} {t}");
+            near += 1;
+        } else if farthest * frame.shear[2].abs() < 100.0 * t.abs() && scale > 1e-9 {
+            // Below, products of small numbers are too near the least one to tell.
+            let surely = t < 0.0 || ray.t_max < 0.9995 * t;
+            assert!(apart || !surely, "{ray:?} {t}");
+            far += usize::from(surely);
+        }
+    }
+    assert!(near > 50_000 && far > 50_000, "{near} {far}");
+}

@@ -5,8 +5,7 @@ use std::fmt;
 use std::sync::atomic::AtomicBool;
 
 use crate::gpu::{
-    AdapterChoice, AdapterKind, Gpu, GpuError, Rays, Schedule, Tracer, TracerError, TracerOptions,
-    adapters,
+    AdapterChoice, Gpu, GpuError, Rays, Schedule, Tracer, TracerError, TracerOptions, adapters,
 };
 use crate::render::{PassReport, PreparedScene, RenderOptions, Renderer};
 use clap::Args;
@@ -83,20 +82,10 @@ fn choice(which: Option<&str>) -> AdapterChoice {
 fn opened(device: &Device) -> Result<Option<Gpu>, Failure> {
     match device {
         Device::Cpu => Ok(None),
-        Device::Auto => {
-            let real = adapters()
-                .into_iter()
-                .find(|a| a.kind != AdapterKind::Software);
-            Ok(
-                real.and_then(|a| match Gpu::open(&AdapterChoice::Index(a.index)) {
-                    Ok(gpu) => Some(gpu),
-                    Err(error) => {
-                        note(&error);
-                        None
-                    }
-                }),
-            )
-        }
+        Device::Auto => Ok(faster().and_then(|index| {
+            let gpu = Gpu::open(&AdapterChoice::Index(index));
+            gpu.inspect_err(|error| note(error)).ok()
+        })),
         Device::Gpu(which) => match Gpu::open(&choice(which.as_deref())) {
             Ok(gpu) => Ok(Some(gpu)),
             Err(error @ (GpuError::NoAdapter | GpuError::NoSuchAdapter { .. })) => Err(
@@ -105,6 +94,43 @@ fn opened(device: &Device) -> Result<Option<Gpu>, Failure> {
             Err(error) => Err(Failure::other(error)),
         },
     }
+}
+
+/// The index of a real GPU that `gpu-report` has measured to be faster than the processor; says so, or why the processor
+/// renders.
+#[cfg(feature = "lab")]
+fn faster() -> Option<usize> {
+    use super::measured::{self, Choice};
+    let adapters = adapters();
+    let machine = crate::lab::Machine::here();
+    match measured::choose(&adapters, &measured::all(), &machine) {
+        Choice::Gpu(adapter, measurement) => {
+            say!("note: by `specula gpu-report`, {measurement} to equal error");
+            Some(adapter.index)
+        }
+        Choice::Slower(measurement) => {
+            note(&format_args!(
+                "by `specula gpu-report`, {measurement} to equal error"
+            ));
+            None
+        }
+        Choice::NotMeasured(adapter) => {
+            note(&format_args!(
+                "{} has not been measured: `specula gpu-report --part scenes` compares it with the processor, and \
+                 --device gpu renders on it",
+                adapter.name
+            ));
+            None
+        }
+        Choice::NoGpu => None,
+    }
+}
+
+/// Without the laboratory nothing is measured.
+#[cfg(not(feature = "lab"))]
+fn faster() -> Option<usize> {
+    note(&"this program was built without `gpu-report`, by which --device auto chooses");
+    None
 }
 
 /// A device that fails under the scene.
@@ -198,6 +224,9 @@ impl<'a> Samples<'a> {
         Ok(renderer.render_pass(samples, stop))
     }
 }
+
+#[cfg(test)]
+use crate::gpu::AdapterKind;
 
 #[cfg(test)]
 #[path = "../../../../specula-gpu/tests/common/limited.rs"]

@@ -4,6 +4,8 @@
 mod cpu_only;
 #[cfg(feature = "gpu")]
 mod gpu;
+#[cfg(all(feature = "gpu", feature = "lab"))]
+pub(crate) mod measured;
 
 use std::fmt;
 use std::str::FromStr;
@@ -18,7 +20,7 @@ pub(crate) use gpu::{GpuArguments, Samples, failed, list, open};
 /// What renders.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Device {
-    /// A real GPU that knows all of the scene, else the processor.
+    /// A real GPU that was measured to be faster and renders all of the scene, else the processor.
     Auto,
     /// The processor.
     Cpu,
