@@ -295,7 +295,7 @@ fn spirv_is_valid_and_links() {
 }
 
 /// What engineers take most often, and how many lines of code each may have in WGSL.
-const TAKEN: [(&str, &[&str], usize); 4] = [
+const TAKEN: [(&str, &[&str], usize); 5] = [
     (
         "bounded",
         &["bounded_sample_direction", "bounded_reflection_pdf"],
@@ -323,6 +323,15 @@ const TAKEN: [(&str, &[&str], usize); 4] = [
         ],
         610,
     ),
+    ("Kulla-Conty", &KULLA_CONTY, 250),
+];
+
+/// A compensated metal without tables.
+const KULLA_CONTY: [&str; 4] = [
+    "kulla_conty_new",
+    "kulla_conty_sample",
+    "kulla_conty_eval",
+    "kulla_conty_pdf",
 ];
 
 /// The library of these functions alone.
@@ -370,6 +379,28 @@ fn functions_alone_are_short() {
             assert!(called || functions.contains(&own), "{name}: {own}");
         }
     }
+}
+
+/// The compensated metal in one file: no table, few lines, few bytes.
+#[test]
+fn a_compensated_metal_is_one_short_file() {
+    for language in [Language::Hlsl, Language::Glsl, Language::Cpp] {
+        let text = of_functions(language, &KULLA_CONTY, "");
+        assert!(!text.contains("energy_table"), "{language}");
+        // In C++, below the vectors.
+        let own = text.rsplit("namespace specula {\n").next().unwrap();
+        let code: Vec<&str> = own
+            .lines()
+            .filter(|l| !l.trim().is_empty() && !l.trim().starts_with("//"))
+            .collect();
+        let bytes: usize = code.iter().map(|line| line.len() + 1).sum();
+        println!("{language}: {} lines of code, {bytes} bytes", code.len());
+        assert!(code.len() <= 250, "{language}: {}", code.len());
+        assert!(code.len() > 100 && bytes < 20_000, "{language}: {bytes}");
+    }
+    // The lobe that reads tables has them beside it.
+    let files = export(Language::Hlsl, &["compensated"]).unwrap();
+    assert!(files.iter().any(|file| file.bytes.len() > 3_000_000));
 }
 
 #[test]
