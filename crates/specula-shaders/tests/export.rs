@@ -2,7 +2,7 @@
 //!
 //! Compilers that are not there are skipped, loudly: `glslangValidator` (GLSL, GLSL ES, HLSL), `spirv-val`
 //! and `spirv-link` (SPIR-V), DXC (HLSL) through a Python that has the package `compushady`, named by
-//! the variable `SPECULA_DXC_PYTHON`.
+//! the variable `SPECULA_DXC_PYTHON`, and Slang's, which `SPECULA_SLANGC` names.
 
 #![allow(clippy::unwrap_used, reason = "a panic is a failed test")]
 
@@ -15,13 +15,14 @@ use specula_shaders::{
 };
 use tools::Folder;
 
-const TEXTS: [Language; 6] = [
+const TEXTS: [Language; 7] = [
     Language::Wgsl,
     Language::Hlsl,
     Language::Glsl,
     Language::GlslEs,
     Language::Msl,
     Language::Cpp,
+    Language::Slang,
 ];
 
 /// The library of all modules in a language of text.
@@ -255,6 +256,46 @@ fn hlsl_compiles_with_dxc() {
         &text.replacen("return ", "return not_there * ", 1),
     );
     folder.refused(&python, &["dxc.py", "broken.hlsl", "", "lib_6_3"]);
+}
+
+/// What Slang's compiler is asked for: without optimisation SPIR-V needs no second library.
+const SLANG_TARGETS: [&[&str]; 3] = [
+    &["-target", "spirv", "-O0", "-o", "example.spv"],
+    &["-target", "hlsl", "-o", "example.hlsl"],
+    &["-target", "cuda", "-o", "example.cu"],
+];
+
+#[test]
+fn slang_compiles() {
+    let Some(compiler) = tools::slangc() else {
+        return;
+    };
+    let strict = ["-warnings-as-errors", "all"];
+    let folder = Folder::with(&export(Language::Slang, &[]).unwrap());
+    let entry = ["example.slang", "-entry", "sample_reflections"];
+    for target in SLANG_TARGETS {
+        folder.accepted(&compiler, &[&entry[..], target, &strict].concat());
+    }
+    let text = library(Language::Slang);
+    let hidden = text.replace(
+        "public float3 bounded_sample",
+        "internal float3 bounded_sample",
+    );
+    folder.write("specula.slang", &hidden);
+    folder.refused(&compiler, &[&entry[..], SLANG_TARGETS[1]].concat());
+    folder.write("specula.slang", &text);
+    for target in [
+        &["-o", "specula.slang-module"][..],
+        &["-target", "cuda", "-o", "specula.cu"],
+    ] {
+        let file = ["specula.slang"];
+        folder.accepted(&compiler, &[&file[..], target, &strict].concat());
+    }
+    folder.write(
+        "broken.slang",
+        &text.replacen("return ", "return not_there * ", 1),
+    );
+    folder.refused(&compiler, &["broken.slang", "-o", "broken.slang-module"]);
 }
 
 #[test]
