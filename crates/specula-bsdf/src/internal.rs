@@ -20,6 +20,8 @@ expose!(
     coordinates = crate::energy::coordinates,
     /// Lost energy of rough interfaces.
     dielectric_albedo = crate::energy::dielectric_albedo,
+    /// Lost energy of isotropic GGX as polynomials.
+    fit = crate::energy::fit,
     /// Cosine-averaged reflectance.
     fresnel_average = crate::energy::fresnel_average,
     /// Albedos of glTF's layers.

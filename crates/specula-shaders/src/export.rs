@@ -10,6 +10,7 @@ use crate::header::{TABLE_MODULE, header};
 use crate::language::Language;
 use crate::modules::Module;
 use crate::needed::{Part, parts};
+use crate::slang;
 use crate::spirv::with_exports;
 use crate::tables::tables;
 use crate::translate::{self, TranslateError};
@@ -206,6 +207,10 @@ impl Export<'_> {
                 marked.collect::<Vec<_>>().join("\n")
             }
             Language::Cpp => cpp::library(modules, !self.functions.is_empty())?,
+            Language::Slang => {
+                let text = translate::text(&wgsl, language)?;
+                slang::module(documented(&text, modules).trim_matches('\n'))
+            }
             _ => documented(&translate::text(&wgsl, language)?, modules),
         };
         let text = header(language, &self.asked(), modules) + &self.guarded(&body);
@@ -226,7 +231,7 @@ impl Export<'_> {
     /// The text once, however often it is included.
     fn guarded(&self, body: &str) -> String {
         let guard = match self.language {
-            Language::Wgsl | Language::SpirV => return body.to_owned(),
+            Language::Wgsl | Language::SpirV | Language::Slang => return body.to_owned(),
             Language::Hlsl => "SPECULA_HLSL",
             Language::Glsl | Language::GlslEs => "SPECULA_GLSL",
             Language::Msl => "SPECULA_METAL",
@@ -283,6 +288,7 @@ fn example(language: Language) -> Result<Vec<u8>, TranslateError> {
         Language::GlslEs => include_str!("../example/example_es.comp"),
         Language::Msl => include_str!("../example/example.metal"),
         Language::Cpp => include_str!("../example/example.cpp"),
+        Language::Slang => include_str!("../example/example.slang"),
         Language::SpirV => {
             let example = include_str!("../example/example.wgsl");
             let library = compose(language.example_modules()).map_err(TranslateError::of)?;

@@ -56,6 +56,7 @@ fn title(language: Language) -> &'static str {
         Language::Msl => "Metal Shading Language 2.0",
         Language::SpirV => "SPIR-V 1.3",
         Language::Cpp => "C++17, for CUDA and HIP too",
+        Language::Slang => "Slang",
     }
 }
 
@@ -92,6 +93,7 @@ fn usage(language: Language) -> &'static [&'static str] {
         ],
         Language::Msl => &["#include \"specula.metal\""],
         Language::SpirV => &[],
+        Language::Slang => &["import specula;"],
         Language::Cpp => &[
             "#include \"specula.hpp\"",
             "All is in the namespace `specula`. `from_xyz(v)` and `to<V>(v)` exchange vectors with yours.",
@@ -106,7 +108,9 @@ fn tables(language: Language) -> &'static [&'static str] {
             "Tables: bind the bytes of `energy_tables.bin` as the storage buffer of group 0, binding 0,",
             "or write `energy_table` yourself.",
         ],
-        Language::Hlsl => &["Tables: bind the bytes of `energy_tables.bin` as the raw buffer t0."],
+        Language::Hlsl | Language::Slang => {
+            &["Tables: bind the bytes of `energy_tables.bin` as the raw buffer t0."]
+        }
         Language::Glsl | Language::GlslEs => {
             &["Tables: bind the bytes of `energy_tables.bin` as the shader storage buffer 0."]
         }

@@ -22,11 +22,13 @@ pub enum Language {
     SpirV,
     /// C++17, CUDA and HIP.
     Cpp,
+    /// Slang 2025 and later, a module.
+    Slang,
 }
 
 impl Language {
     /// All of them, in the order of the documentation.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Wgsl,
         Self::Hlsl,
         Self::Glsl,
@@ -34,6 +36,7 @@ impl Language {
         Self::Msl,
         Self::SpirV,
         Self::Cpp,
+        Self::Slang,
     ];
 
     /// What it is called at the command line.
@@ -47,6 +50,7 @@ impl Language {
             Self::Msl => "msl",
             Self::SpirV => "spirv",
             Self::Cpp => "cpp",
+            Self::Slang => "slang",
         }
     }
 
@@ -61,6 +65,7 @@ impl Language {
             Self::Msl => "specula.metal",
             Self::SpirV => "specula.spv",
             Self::Cpp => "specula.hpp",
+            Self::Slang => "specula.slang",
         }
     }
 
@@ -75,6 +80,7 @@ impl Language {
             Self::Msl => "example.metal",
             Self::SpirV => "example.spv",
             Self::Cpp => "example.cpp",
+            Self::Slang => "example.slang",
         }
     }
 
@@ -131,7 +137,7 @@ mod tests {
         );
         assert_eq!(
             "cuda-c".parse::<Language>().unwrap_err(),
-            "there is no shading language `cuda-c`; expected one of wgsl, hlsl, glsl, glsl-es, msl, spirv, cpp"
+            "there is no shading language `cuda-c`; expected one of wgsl, hlsl, glsl, glsl-es, msl, spirv, cpp, slang"
         );
     }
 }

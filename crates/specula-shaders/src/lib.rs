@@ -25,6 +25,7 @@ mod names;
 mod needed;
 mod papers;
 mod restore;
+mod slang;
 mod spirv;
 mod tables;
 mod translate;

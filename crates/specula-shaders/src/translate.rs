@@ -7,6 +7,7 @@ use thiserror::Error;
 use crate::items::identifiers;
 use crate::language::Language;
 use crate::restore::restore_names;
+use crate::slang;
 
 /// What naga says where it cannot read or write a module.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -33,6 +34,7 @@ pub(crate) fn text(wgsl: &str, language: Language) -> Result<String, TranslateEr
     let text = match language {
         Language::Wgsl => return Ok(wgsl.to_owned()),
         Language::Hlsl => to_hlsl(wgsl)?,
+        Language::Slang => slang::from_hlsl(&to_hlsl(wgsl)?),
         Language::Glsl => library_part(&to_glsl(wgsl, glsl::Version::Desktop(450))?),
         Language::GlslEs => library_part(&to_glsl(wgsl, glsl::Version::new_gles(310))?),
         Language::Msl => to_msl(wgsl)?,

@@ -2,7 +2,7 @@
 //!
 //! Compilers that are not there are skipped, loudly: `glslangValidator` (GLSL, GLSL ES, HLSL), `spirv-val`
 //! and `spirv-link` (SPIR-V), DXC (HLSL) through a Python that has the package `compushady`, named by
-//! the variable `SPECULA_DXC_PYTHON`.
+//! the variable `SPECULA_DXC_PYTHON`, and Slang's, which `SPECULA_SLANGC` names.
 
 #![allow(clippy::unwrap_used, reason = "a panic is a failed test")]
 
@@ -15,13 +15,14 @@ use specula_shaders::{
 };
 use tools::Folder;
 
-const TEXTS: [Language; 6] = [
+const TEXTS: [Language; 7] = [
     Language::Wgsl,
     Language::Hlsl,
     Language::Glsl,
     Language::GlslEs,
     Language::Msl,
     Language::Cpp,
+    Language::Slang,
 ];
 
 /// The library of all modules in a language of text.
@@ -257,6 +258,46 @@ fn hlsl_compiles_with_dxc() {
     folder.refused(&python, &["dxc.py", "broken.hlsl", "", "lib_6_3"]);
 }
 
+/// What Slang's compiler is asked for: without optimisation SPIR-V needs no second library.
+const SLANG_TARGETS: [&[&str]; 3] = [
+    &["-target", "spirv", "-O0", "-o", "example.spv"],
+    &["-target", "hlsl", "-o", "example.hlsl"],
+    &["-target", "cuda", "-o", "example.cu"],
+];
+
+#[test]
+fn slang_compiles() {
+    let Some(compiler) = tools::slangc() else {
+        return;
+    };
+    let strict = ["-warnings-as-errors", "all"];
+    let folder = Folder::with(&export(Language::Slang, &[]).unwrap());
+    let entry = ["example.slang", "-entry", "sample_reflections"];
+    for target in SLANG_TARGETS {
+        folder.accepted(&compiler, &[&entry[..], target, &strict].concat());
+    }
+    let text = library(Language::Slang);
+    let hidden = text.replace(
+        "public float3 bounded_sample",
+        "internal float3 bounded_sample",
+    );
+    folder.write("specula.slang", &hidden);
+    folder.refused(&compiler, &[&entry[..], SLANG_TARGETS[1]].concat());
+    folder.write("specula.slang", &text);
+    for target in [
+        &["-o", "specula.slang-module"][..],
+        &["-target", "cuda", "-o", "specula.cu"],
+    ] {
+        let file = ["specula.slang"];
+        folder.accepted(&compiler, &[&file[..], target, &strict].concat());
+    }
+    folder.write(
+        "broken.slang",
+        &text.replacen("return ", "return not_there * ", 1),
+    );
+    folder.refused(&compiler, &["broken.slang", "-o", "broken.slang-module"]);
+}
+
 #[test]
 fn spirv_is_valid_and_links() {
     let (Some(validator), Some(assembler), Some(linker)) = (
@@ -295,7 +336,7 @@ fn spirv_is_valid_and_links() {
 }
 
 /// What engineers take most often, and how many lines of code each may have in WGSL.
-const TAKEN: [(&str, &[&str], usize); 4] = [
+const TAKEN: [(&str, &[&str], usize); 5] = [
     (
         "bounded",
         &["bounded_sample_direction", "bounded_reflection_pdf"],
@@ -323,6 +364,15 @@ const TAKEN: [(&str, &[&str], usize); 4] = [
         ],
         610,
     ),
+    ("Kulla-Conty", &KULLA_CONTY, 250),
+];
+
+/// A compensated metal without tables.
+const KULLA_CONTY: [&str; 4] = [
+    "kulla_conty_new",
+    "kulla_conty_sample",
+    "kulla_conty_eval",
+    "kulla_conty_pdf",
 ];
 
 /// The library of these functions alone.
@@ -370,6 +420,28 @@ fn functions_alone_are_short() {
             assert!(called || functions.contains(&own), "{name}: {own}");
         }
     }
+}
+
+/// The compensated metal in one file: no table, few lines, few bytes.
+#[test]
+fn a_compensated_metal_is_one_short_file() {
+    for language in [Language::Hlsl, Language::Glsl, Language::Cpp] {
+        let text = of_functions(language, &KULLA_CONTY, "");
+        assert!(!text.contains("energy_table"), "{language}");
+        // In C++, below the vectors.
+        let own = text.rsplit("namespace specula {\n").next().unwrap();
+        let code: Vec<&str> = own
+            .lines()
+            .filter(|l| !l.trim().is_empty() && !l.trim().starts_with("//"))
+            .collect();
+        let bytes: usize = code.iter().map(|line| line.len() + 1).sum();
+        println!("{language}: {} lines of code, {bytes} bytes", code.len());
+        assert!(code.len() <= 250, "{language}: {}", code.len());
+        assert!(code.len() > 100 && bytes < 20_000, "{language}: {bytes}");
+    }
+    // The lobe that reads tables has them beside it.
+    let files = export(Language::Hlsl, &["compensated"]).unwrap();
+    assert!(files.iter().any(|file| file.bytes.len() > 3_000_000));
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod albedo;
 mod bench;
 mod book;
 mod c_library;
+mod energy_fit;
 mod exact;
 mod feature_sets;
 mod features;

@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use crate::generated::{self, Generated};
-use crate::{Result, albedo, exact, features, gltf, interface, interface_single, metals, plastic};
+use crate::{
+    Result, albedo, energy_fit, exact, features, gltf, interface, interface_single, metals, plastic,
+};
 
 /// What makes generated files from the workspace's own data.
 type Generator = fn(&Path) -> Result<Vec<Generated>>;
@@ -20,6 +22,7 @@ const GENERATORS: &[(&str, Generator, Option<Check>)] = &[
     ("plastic", plastic::generate, None),
     ("gltf", gltf::generate, None),
     ("albedo", albedo::generate, Some(albedo::check)),
+    ("energy, fit", energy_fit::generate, None),
     ("exact", exact::generate, None),
     ("features", features::generate, None),
 ];

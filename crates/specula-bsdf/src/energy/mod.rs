@@ -8,7 +8,7 @@
 //! | `spline`, `rows`, `pairs` | splines, and how their coefficients are stored |
 //! | `stencil` | neighbouring knots of a table of values |
 //! | `raw_tables` | all tables as plain values, for shaders |
-//! | `fit` | the directional loss as a short formula, for shaders |
+//! | `fit` | directional and average loss of isotropic GGX as short formulas, for shaders |
 //! | `model` | Turquin's and Kulla and Conty's factors |
 //! | `fresnel_average` | cosine-averaged reflectance |
 //! | `interface` | transmittance and internal reflectance, for coats |
@@ -19,7 +19,8 @@ pub(crate) mod albedo;
 mod albedo_tables;
 pub(crate) mod coordinates;
 pub(crate) mod dielectric_albedo;
-mod fit;
+pub(crate) mod fit;
+mod fit_coefficients;
 pub(crate) mod fresnel_average;
 pub(crate) mod interface;
 pub(crate) mod interface_layer;
@@ -35,5 +36,5 @@ pub(crate) mod stencil;
 
 pub use albedo::{Loss, Tabulated};
 pub use dielectric_albedo::DielectricLoss;
-pub use fit::ggx_loss;
+pub use fit::{ggx_average_loss, ggx_loss};
 pub use model::{EnergyModel, FmsVariant, UnknownEnergyModel};

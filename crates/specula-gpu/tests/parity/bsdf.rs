@@ -12,7 +12,6 @@ mod metals;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use specula_bsdf::bsdf::Lobe;
 use specula_bsdf::fresnel::{dielectric, refract};
 use specula_bsdf::math::{rgb, vec3};
 use specula_bsdf::vndf::{Sampler, reflect};
@@ -41,7 +40,7 @@ pub(crate) use arguments;
 
 /// The two cases of a lobe.
 ///
-/// * `make`: statements that declare `lobe`, from `x[7]` on; `twin`: `fn(&[T]) -> Lobe<T>` of the same
+/// * `make`: statements that declare `lobe`, from `x[7]` on; `twin`: `fn(&[T]) -> impl Bsdf<T>` of the same
 ///   values from 0 on; `inputs`: those of values and of samples; `bounds`, in ulps; `floor`, the
 ///   least value whose ulps are counted.
 macro_rules! lobe_cases {
@@ -123,7 +122,7 @@ pub(crate) fn pair(
 }
 
 /// `eval_pdf`, `pdf` and the green of `eval`.
-pub(crate) fn values<T: Real>(lobe: &Lobe<T>, x: &[T]) -> Vec<T> {
+pub(crate) fn values<T: Real>(lobe: &impl Bsdf<T>, x: &[T]) -> Vec<T> {
     let (wo, wi) = (vector(x, 0), vector(x, 3));
     let transport = transport(x[6]);
     let (f, pdf) = lobe.eval_pdf(wo, wi, transport);
@@ -133,7 +132,7 @@ pub(crate) fn values<T: Real>(lobe: &Lobe<T>, x: &[T]) -> Vec<T> {
 
 /// Flags, direction, weight, index, and the probability where it is specular; zeros where the sample
 /// failed.
-pub(crate) fn sampled<T: Real>(lobe: &Lobe<T>, x: &[T]) -> Vec<T> {
+pub(crate) fn sampled<T: Real>(lobe: &impl Bsdf<T>, x: &[T]) -> Vec<T> {
     let u = [x[3], x[4], x[5]];
     let Some(s) = lobe.sample(vector(x, 0), u, transport(x[6])) else {
         return vec![T::ZERO; 10];
@@ -325,7 +324,7 @@ fn wrong_terms_are_caught() {
 /// One wrong term for each family of lobes, and more for those with many: case, module, what is there and
 /// what stands there instead.
 #[rustfmt::skip]
-const FAULTS: [[&str; 4]; 27] = [
+const FAULTS: [[&str; 4]; 29] = [
     ["rough_conductor_values", "rough_conductor", "let quarter = 0.25 * facet.x", "let quarter = 0.2501 * facet.x"],
     ["rough_conductor_samples", "rough_conductor", "norm * norm * quotient.x", "norm * quotient.x"],
     ["smooth_conductor_samples", "smooth_conductor", "vec3f(-wo.x, -wo.y", "vec3f(-wo.x, wo.y"],
@@ -334,6 +333,8 @@ const FAULTS: [[&str; 4]; 27] = [
     ["diffuse_transmission_values", "diffuse_transmission", "select(1.0 - p, p", "select(p, p"],
     ["compensated_values", "compensated", "lobe.colour * shape", "lobe.average * shape"],
     ["compensated_samples", "compensated", "max(1.0 - loss, 1e-5)", "max(1.01 - loss, 1e-5)"],
+    ["kulla_conty_values", "kulla_conty", "+ lobe.colour * shape", "+ lobe.average * shape"],
+    ["kulla_conty_samples", "kulla_conty", "u.x < share", "u.x > share"],
     ["rough_dielectric_values", "rough_dielectric", "cos_o * abs(cos_i) * inverse_squared", "cos_o * inverse_squared"],
     ["rough_dielectric_samples", "rough_dielectric", "select(1.0, side.inverse_eta * side.inverse_eta", "select(1.0, side.inverse_eta"],
     ["rough_dielectric_values", "tints", "tints.transmission, tints.reflection", "tints.reflection, tints.transmission"],

@@ -1,5 +1,6 @@
 //! The same cases in the other languages that the library is exported to, as their own compilers take them: GLSL and
-//! HLSL as SPIR-V of glslang and DXC, the exported SPIR-V linked, all three on a Vulkan device; Metal as C++.
+//! HLSL as SPIR-V of glslang and DXC, Slang as that of slangc, the exported SPIR-V linked, all of them on a Vulkan
+//! device; Metal as C++.
 //!
 //! `docs/shaders/parity.md` is made from them. To make it anew:
 //! `SPECULA_WRITE=1 cargo test -p specula-gpu --test parity languages::`.
@@ -161,6 +162,22 @@ fn check_page(targets: &[Target], mut figures: Vec<Figure>) {
         "docs/shaders/parity.md is not current; run\n\
          SPECULA_WRITE=1 cargo test -p specula-gpu --test parity languages::"
     );
+}
+
+/// Slang takes the modules of all families, lobes and multiple bounces too, and makes SPIR-V, HLSL and CUDA of them.
+#[test]
+fn slang_takes_every_family() {
+    let targets = Target::all();
+    let Some(slang) = targets.iter().find(|t| t.language == Language::Slang) else {
+        return;
+    };
+    for (family, cases) in FAMILIES {
+        let start = Instant::now();
+        let cases = cases();
+        slang.compile_slang(&cases.iter().collect::<Vec<_>>());
+        let seconds = start.elapsed().as_secs_f64();
+        println!("{family}: {} cases, {seconds:.1} s", cases.len());
+    }
 }
 
 /// A fault of each family is planted in each language, another one in each.

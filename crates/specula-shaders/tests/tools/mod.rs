@@ -36,6 +36,20 @@ pub(crate) fn dxc_python() -> Option<PathBuf> {
     python
 }
 
+/// Slang's compiler, or a line that says what was skipped.
+#[track_caller]
+pub(crate) fn slangc() -> Option<PathBuf> {
+    let program = std::env::var_os("SPECULA_SLANGC").map(PathBuf::from);
+    if program.is_none() {
+        specula_testing::skip(
+            "Slang",
+            "SPECULA_SLANGC names no slangc",
+            "pip install --no-deps --target FOLDER slangtorch; it has bin/slangc",
+        );
+    }
+    program
+}
+
 /// A folder of its own that is removed in the end.
 pub(crate) struct Folder(tempfile::TempDir);
 

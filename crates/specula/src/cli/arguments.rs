@@ -61,7 +61,7 @@ pub(crate) enum Command {
     Farm(FarmArguments),
     /// Denoise an EXR picture with Open Image Denoise, in programs built with it.
     Denoise(DenoiseArguments),
-    /// Write the microfacet library in WGSL, HLSL, GLSL, Metal, SPIR-V, or C++ and CUDA.
+    /// Write the microfacet library in WGSL, HLSL, GLSL, Metal, SPIR-V, Slang, or C++ and CUDA.
     #[command(visible_alias = "shaders")]
     Export(ExportArguments),
     /// The papers' tables and figures, and measurements on a scene or a material of yours.

@@ -44,6 +44,8 @@ fn all_languages_are_the_default() {
         "specula_es.glsl",
         "example.metal",
         "specula.hpp",
+        "specula.slang",
+        "example.slang",
         "example.cpp",
     ] {
         assert!(folder.path().join(name).exists(), "{name}");

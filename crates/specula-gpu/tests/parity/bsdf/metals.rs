@@ -2,7 +2,8 @@
 
 use specula_bsdf::Real;
 use specula_bsdf::bsdf::{
-    Compensated, DiffuseTransmission, Eon, Lambert, Lobe, RoughConductor, SmoothConductor,
+    Compensated, DiffuseTransmission, Eon, KullaConty, Lambert, Lobe, RoughConductor,
+    SmoothConductor,
 };
 use specula_bsdf::energy::{EnergyModel, FmsVariant};
 use specula_bsdf::fresnel::{Conductor, Reflectance};
@@ -90,6 +91,10 @@ fn compensated<T: Real>(p: &[T]) -> Lobe<T> {
     }
 }
 
+fn kulla_conty<T: Real>(p: &[T]) -> KullaConty<T> {
+    KullaConty::new(p[0], metal(T::ZERO))
+}
+
 fn smooth_conductor<T: Real>(p: &[T]) -> Lobe<T> {
     SmoothConductor::new(metal(p[0])).into()
 }
@@ -155,6 +160,16 @@ pub(super) fn cases() -> Vec<Case> {
             compensated,
             rows(&compensated_metals(), |p| ([p[0], p[1]], None), |p| p[2] > 0.0),
             [2048.0, 4096.0],
+            &[1e-3]
+        ),
+        lobe_cases!(
+            "kulla_conty",
+            "kulla_conty",
+            "let gold = ConductorIor(vec3f(0.14, 0.37, 1.44), vec3f(3.98, 2.38, 1.6));
+             let lobe = kulla_conty_new(x[7], gold);\n",
+            kulla_conty,
+            rows(&ALPHAS.map(|[x, _]| [x]), |p| ([p[0].min(1.0); 2], None), |_| false),
+            [512.0, 4096.0],
             &[1e-3]
         ),
         lobe_cases!(

@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 
 use specula_shaders::Language;
 
-use super::entries::{with_binding, with_entries, with_entry};
+use super::entries::{with_binding, with_entries, with_entry, without_source};
 use super::vulkan::{GROUP, ROW, Vulkan};
 use crate::cpp::{functions, read_results, write_inputs};
 use crate::harness::{Case, Fault, tables_for};
@@ -62,7 +62,7 @@ fn number(said: &str) -> String {
 
 impl Target {
     /// How many there are where nothing is missing.
-    pub(super) const COUNT: usize = 5;
+    pub(super) const COUNT: usize = 6;
 
     /// The languages whose compilers are installed; a line for each that is not.
     #[track_caller]
@@ -88,6 +88,7 @@ impl Target {
             add(language, with("glslang", "glslangValidator", language));
         }
         add(Language::Hlsl, dxc());
+        add(Language::Slang, slangc());
         add(Language::Msl, with("g++", "g++", Language::Msl));
         all
     }
@@ -95,6 +96,25 @@ impl Target {
     /// Whether it is compiled for the processor; else for a Vulkan device.
     pub(super) fn is_program(&self) -> bool {
         self.language == Language::Msl
+    }
+
+    /// Compiles the cases in Slang to all that it makes, and runs none.
+    pub(super) fn compile_slang(&self, cases: &[&Case]) {
+        let folder = tempfile::tempdir().unwrap();
+        let build = Build {
+            folder: folder.path(),
+            target: self,
+            cases,
+            wgsl: functions(cases, None),
+        };
+        let (_, entries) = build.slang();
+        assert_eq!(entries.len(), cases.len());
+        for target in SLANG_PRINTED {
+            let printed = build.called(&self.compiler, &[&target[..], &[SLANG_FILE]].concat());
+            let text = String::from_utf8_lossy(&printed.stdout);
+            let missing = entries.iter().find(|name| !text.contains(name.as_str()));
+            assert_eq!(missing, None, "{target:?}");
+        }
     }
 
     /// The results of each case.
@@ -139,6 +159,34 @@ fn dxc() -> Option<(PathBuf, String)> {
     }
     python.map(|python| (python, "DXC 3.7".to_owned()))
 }
+
+/// Slang's compiler, or a line that says what was skipped.
+#[track_caller]
+fn slangc() -> Option<(PathBuf, String)> {
+    let program = std::env::var_os("SPECULA_SLANGC").map(PathBuf::from);
+    if program.is_none() {
+        specula_testing::skip(
+            "parity of Slang",
+            "SPECULA_SLANGC names no slangc",
+            "pip install --no-deps --target FOLDER slangtorch; it has bin/slangc",
+        );
+    }
+    let program = program?;
+    // It says its version as an error.
+    let said = Command::new(&program).arg("-v").output().unwrap();
+    let said = [said.stdout, said.stderr].concat();
+    let version = number(&String::from_utf8_lossy(&said));
+    Some((program, format!("slangc {version}")))
+}
+
+/// The shader in Slang.
+const SLANG_FILE: &str = "parity.slang";
+
+/// What slangc is asked for beside SPIR-V, where several entry points have no file but are printed.
+const SLANG_PRINTED: [[&str; 4]; 2] = [
+    ["-target", "hlsl", "-profile", "sm_6_0"],
+    ["-target", "cuda", "-O0", "-g0"],
+];
 
 /// Cases of a language in a folder.
 struct Build<'a> {
@@ -185,6 +233,7 @@ impl Build<'_> {
         match self.target.language {
             Language::SpirV => self.linked(),
             Language::Hlsl => self.hlsl(),
+            Language::Slang => self.slang(),
             _ => self.glsl(),
         }
     }
@@ -237,6 +286,17 @@ impl Build<'_> {
         let arguments = ["dxc.py", "parity.hlsl", "parity.spv"];
         self.called(&self.target.compiler, &arguments);
         let words = with_binding(&self.words("parity.spv"), DXC_TABLES, 0);
+        (self.valid(words), self.names())
+    }
+
+    fn slang(&self) -> (Vec<u32>, Vec<String>) {
+        let main = self.with_entries(include_str!("main.hlsl"));
+        self.write(SLANG_FILE, self.text() + &main);
+        // Without optimisation it needs no second library.
+        let to_spirv = ["-target", "spirv", "-profile", "spirv_1_3", "-O0"];
+        let files = [SLANG_FILE, "-fvk-use-entrypoint-name", "-o", "parity.spv"];
+        self.called(&self.target.compiler, &[&to_spirv[..], &files].concat());
+        let words = without_source(&self.words("parity.spv"));
         (self.valid(words), self.names())
     }
 

@@ -1,5 +1,6 @@
 //! Entry points of SPIR-V, one for each of many functions.
 
+const OP_SOURCE: u32 = 3;
 const OP_NAME: u32 = 5;
 const OP_ENTRY_POINT: u32 = 15;
 const OP_EXECUTION_MODE: u32 = 16;
@@ -78,6 +79,13 @@ pub(super) fn with_binding(words: &[u32], from: u32, to: u32) -> Vec<u32> {
         module.push(if is_it { to } else { instruction[last] });
     }
     module
+}
+
+/// The module without what it was compiled from: older SPIRV-Tools do not know of Slang.
+pub(super) fn without_source(words: &[u32]) -> Vec<u32> {
+    let kept = instructions(words).filter(|i| i[0] & 0xffff != OP_SOURCE);
+    let kept = kept.flat_map(|i| i.iter().copied());
+    words[..HEADER].iter().copied().chain(kept).collect()
 }
 
 /// The function of a name; glslang adds its arguments.

@@ -103,6 +103,7 @@ fn title(language: Language) -> &'static str {
         Language::Msl => "Metal",
         Language::SpirV => "SPIR-V",
         Language::Cpp => "C++",
+        Language::Slang => "Slang",
     }
 }
 
