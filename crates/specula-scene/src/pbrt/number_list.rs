@@ -2,14 +2,10 @@
 
 use rayon::prelude::*;
 
+use crate::num::plain;
+
 /// Bytes of text that are read at a time.
 const BLOCK: usize = 1 << 16;
-
-/// Powers of ten that `f64` holds exactly, as far as needed.
-const POWERS: [f64; 19] = [
-    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
-    1e17, 1e18,
-];
 
 /// The numbers before the next `]`, and where that is. `None` where anything else is among them: reading word by
 /// word tells what.
@@ -71,7 +67,8 @@ fn numbers(text: &str, integers: bool) -> Option<Vec<f64>> {
         if at == bytes.len() {
             return Some(numbers);
         }
-        let (x, end) = match plain(&bytes[at..]) {
+        let whole = |length: &usize| bytes.get(at + length).is_none_or(|b| is_space(*b));
+        let (x, end) = match plain(&bytes[at..]).filter(|(_, length)| whole(length)) {
             Some((x, length)) => (x, at + length),
             None => {
                 let length = bytes[at..].iter().position(|b| is_space(*b));
@@ -89,40 +86,6 @@ fn numbers(text: &str, integers: bool) -> Option<Vec<f64>> {
         numbers.push(x);
         at = end;
     }
-}
-
-/// A number with few digits and no exponent, and its length; `None` for others.
-///
-/// Its digits and the power of ten are exact in `f64`, so that one division rounds correctly (Clinger 1990).
-fn plain(text: &[u8]) -> Option<(f64, usize)> {
-    const MOST_DIGITS: usize = POWERS.len() - 1;
-    const MOST: u64 = 1 << 53;
-    let sign = usize::from(text.first() == Some(&b'-'));
-    let (mut value, mut at) = (0_u64, sign);
-    let digits = |value: &mut u64, at: &mut usize| {
-        let first = *at;
-        while let Some(digit) = text.get(*at).map(|b| b.wrapping_sub(b'0'))
-            && digit < 10
-        {
-            *value = value.wrapping_mul(10).wrapping_add(u64::from(digit));
-            *at += 1;
-        }
-        *at - first
-    };
-    let whole = digits(&mut value, &mut at);
-    let mut decimals = 0;
-    if text.get(at) == Some(&b'.') {
-        at += 1;
-        decimals = digits(&mut value, &mut at);
-    }
-    let ends = text.get(at).is_none_or(|b| is_space(*b));
-    // So many digits do not wrap around.
-    let is_exact = (1..=MOST_DIGITS).contains(&(whole + decimals)) && value <= MOST;
-    if !ends || !is_exact {
-        return None;
-    }
-    let x = value as f64 / POWERS[decimals];
-    Some((if sign == 1 { -x } else { x }, at))
 }
 
 #[cfg(test)]
