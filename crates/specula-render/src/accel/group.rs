@@ -60,6 +60,7 @@ impl GroupTree {
         let tree = match items.len() {
             0 => return None,
             n if n <= 2 * chunks::CHUNK => {
+                arrays.reserve(n - group.quadrics.len().min(n));
                 let Arrays { nodes, leaves } = &mut arrays;
                 collapse::build(
                     &bounds(&items),
@@ -101,6 +102,8 @@ fn items(group: &Group<'_>) -> Vec<Item> {
     let blocks = items.par_chunks_mut(BLOCK).enumerate();
     blocks.for_each(|(block, items)| pair(group, block * BLOCK, items));
     items.retain(|item| item.count > 0);
+    // Where triangles are paired, half of it is free.
+    items.shrink_to_fit();
     let quadrics = (group.triangles.len()..).zip(group.quadrics);
     items.extend(quadrics.map(|(primitive, quadric)| Item {
         bounds: quadric.bounds(),
@@ -153,9 +156,7 @@ fn bounds(items: &[Item]) -> Vec<Bounds> {
 
 /// The tree of a large group.
 fn in_chunks(group: &Group<'_>, items: &mut [Item], arrays: &mut Arrays) -> Tree {
-    // As much as is needed in practice, so that arrays need not grow; pages are not touched before they are used.
-    arrays.nodes.reserve(items.len() / 9);
-    arrays.leaves.packets.reserve(items.len() / 3);
+    arrays.reserve(items.len());
     let effort = if items.len() > LARGE {
         EFFORT_IF_LARGE
     } else {
@@ -169,6 +170,7 @@ fn in_chunks(group: &Group<'_>, items: &mut [Item], arrays: &mut Arrays) -> Tree
             .par_iter()
             .map(|chunk| {
                 let mut arrays = Arrays::default();
+                arrays.reserve(chunk.len());
                 let Arrays { nodes, leaves } = &mut arrays;
                 let trees = collapse::build_parts(
                     &bounds(chunk),
@@ -211,7 +213,10 @@ impl Leaves {
         let primitives = &mut primitives[..count];
         // In the order of the input, which chunks do not preserve.
         primitives.sort_unstable();
-        let mut packet = Packet8::EMPTY;
+        let index = self.packets.len();
+        // Filled where it lies: it is large.
+        self.packets.push(Packet8::EMPTY);
+        let packet = &mut self.packets[index];
         for (lane, &primitive) in primitives.iter().enumerate() {
             let indices = group.triangles[primitive as usize];
             packet.set(
@@ -220,8 +225,7 @@ impl Leaves {
                 primitive,
             );
         }
-        self.packets.push(packet);
-        Child::new(ChildKind::Packet, self.packets.len() - 1)
+        Child::new(ChildKind::Packet, index)
     }
 }
 
@@ -243,6 +247,13 @@ impl Offset {
 }
 
 impl Arrays {
+    /// Makes room for as much as items of triangles need in practice, so that arrays need not grow; pages are not
+    /// touched before they are used.
+    fn reserve(&mut self, items: usize) {
+        self.nodes.reserve(items / 9);
+        self.leaves.packets.reserve(items / 2);
+    }
+
     /// Appends other arrays.
     fn append(&mut self, other: Self) -> Offset {
         let offset = Offset([

@@ -9,12 +9,13 @@ use super::quadric::PreparedQuadric;
 const TRIANGLE: usize = 104;
 /// A quadric's share of the nodes.
 const NODES_OF_QUADRIC: usize = 48;
-/// A box with its index, of each primitive of a group.
+/// A box with its index, of each primitive of a group. Pairs of triangles share one: how many there are is not
+/// known beforehand.
 const ITEM: usize = size_of::<Item>();
 /// Memory while a tree is built, for each item of a chunk: rounded boxes, hash table, binary trees and plans.
 const BUILDING: usize = 194;
 /// Memory of the trees of finished chunks, per item of a wave, until they are joined.
-const WAVE_ITEM: usize = 25;
+const WAVE_ITEM: usize = 32;
 
 /// Bytes of acceleration structures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
