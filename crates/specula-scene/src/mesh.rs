@@ -239,6 +239,9 @@ mod tests {
                 );
             }
         }
+        let far = [[0.0; 3], [1.0, 1.0, 0.0], [1.0, 0.0, f32::INFINITY]];
+        assert_eq!(face_normal(&far, &[0, 1, 2]), None);
+        assert!(is_flat(&far, &[0, 1, 2]));
     }
 
     #[test]
