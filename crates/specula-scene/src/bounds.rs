@@ -3,6 +3,7 @@
 use glam::{DMat4, DVec3, Vec3};
 use rayon::prelude::*;
 
+use crate::mesh::SERIAL;
 use crate::scene::{Geometry, Mesh, Scene, Shape};
 
 /// Farthest coordinate of a scene: squares of distances must fit single precision.
@@ -122,7 +123,10 @@ pub(crate) fn of_geometry(meshes: &[Mesh], geometry: &Geometry) -> BoundingBox {
                     max: high.as_dvec3(),
                 }
             };
-            let chunks = mesh.triangles.par_chunks(1 << 16).map(of_chunk);
+            if mesh.triangles.len() <= SERIAL {
+                return of_chunk(&mesh.triangles);
+            }
+            let chunks = mesh.triangles.par_chunks(SERIAL).map(of_chunk);
             chunks.reduce(|| BoundingBox::EMPTY, BoundingBox::union)
         }
         Geometry::Sphere { radius } => {

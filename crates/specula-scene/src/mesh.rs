@@ -47,11 +47,11 @@ impl Cleaning {
 /// A message where a vertex is not finite or an index is out of range.
 pub(crate) fn clean(mesh: &mut Mesh) -> Result<Cleaning, String> {
     let count = mesh.positions.len();
-    let not_finite = |p: &[f32; 3]| p.iter().any(|x| !x.is_finite());
+    let not_finite = |p: &[f32; 3]| !is_finite(p);
     if let Some(i) = first(&mesh.positions, not_finite) {
         return Err(format!("vertex {i} is not finite: {:?}", mesh.positions[i]));
     }
-    let outside = |t: &[u32; 3]| t.iter().any(|&i| i as usize >= count);
+    let outside = |t: &[u32; 3]| t.iter().fold(false, |any, &i| any | (i as usize >= count));
     if let Some(t) = first(&mesh.triangles, outside) {
         let [a, b, c] = mesh.triangles[t];
         return Err(format!(
@@ -61,12 +61,12 @@ pub(crate) fn clean(mesh: &mut Mesh) -> Result<Cleaning, String> {
     let mut cleaning = Cleaning::default();
     let before = mesh.triangles.len();
     let positions = &mesh.positions;
-    let flat = |t: &[u32; 3]| face_normal(positions, t).is_none();
+    let flat = |t: &[u32; 3]| is_flat(positions, t);
     if first(&mesh.triangles, flat).is_some() {
         mesh.triangles.retain(|t| !flat(t));
     }
     cleaning.dropped_triangles = before - mesh.triangles.len();
-    let bad_uv = |uv: &[f32; 2]| uv.iter().any(|x| !x.is_finite());
+    let bad_uv = |uv: &[f32; 2]| !is_finite(uv);
     if first(&mesh.uvs, bad_uv).is_some() {
         mesh.uvs.clear();
         cleaning.dropped_uvs = true;
@@ -75,7 +75,7 @@ pub(crate) fn clean(mesh: &mut Mesh) -> Result<Cleaning, String> {
         mesh.second_uvs.clear();
         cleaning.dropped_uvs = true;
     }
-    let bad_tangent = |t: &[f32; 4]| t.iter().any(|x| !x.is_finite());
+    let bad_tangent = |t: &[f32; 4]| !is_finite(t);
     if first(&mesh.tangents, bad_tangent).is_some() {
         mesh.tangents.clear();
     }
@@ -100,13 +100,32 @@ pub(crate) fn clean_or_name(mesh: &mut Mesh, collects: bool) -> Result<Cleaning,
     })
 }
 
+/// Elements that one thread reads: a call into the pool takes longer than so many.
+pub(crate) const SERIAL: usize = 1 << 14;
+
 /// The first element of which `is` holds.
 pub(crate) fn first<T: Sync>(slice: &[T], is: impl Fn(&T) -> bool + Send + Sync) -> Option<usize> {
-    slice.par_iter().with_min_len(1 << 14).position_first(is)
+    // By parts, most of which have none: those the compiler turns into vectors.
+    const PART: usize = 256;
+    let within = |first: usize, elements: &[T]| -> Option<usize> {
+        for (i, part) in elements.chunks(PART).enumerate() {
+            if part.iter().fold(false, |any, x| any | is(x)) {
+                return part.iter().position(&is).map(|at| first + PART * i + at);
+            }
+        }
+        None
+    };
+    if slice.len() <= SERIAL {
+        return within(0, slice);
+    }
+    let parts = slice.par_chunks(SERIAL).enumerate();
+    parts
+        .map(|(i, part)| within(SERIAL * i, part))
+        .find_first(Option::is_some)?
 }
 
 fn mend_normals(mesh: &mut Mesh) -> usize {
-    let is_bad = |n: &[f32; 3]| n.iter().any(|x| !x.is_finite()) || *n == [0.0; 3];
+    let is_bad = |n: &[f32; 3]| !is_finite(n) | is_zero(n);
     if first(&mesh.normals, is_bad).is_none() {
         return 0;
     }
@@ -128,10 +147,31 @@ fn mend_normals(mesh: &mut Mesh) -> usize {
     bad
 }
 
+/// Whether all are finite, without a branch.
+pub(crate) fn is_finite<const N: usize>(numbers: &[f32; N]) -> bool {
+    numbers.iter().fold(true, |all, x| all & x.is_finite())
+}
+
+/// Whether all are 0, without a branch.
+pub(crate) fn is_zero<const N: usize>(numbers: &[f32; N]) -> bool {
+    numbers.iter().fold(true, |all, x| all & (*x == 0.0))
+}
+
+/// A normal of a triangle, twice as long as its area.
+fn twice_area(positions: &[[f32; 3]], triangle: &[u32; 3]) -> DVec3 {
+    let [a, b, c] = triangle.map(|i| DVec3::from(positions[i as usize].map(f64::from)));
+    (b - a).cross(c - a)
+}
+
 /// Unit normal of a triangle, or `None` where it has no area.
 fn face_normal(positions: &[[f32; 3]], triangle: &[u32; 3]) -> Option<DVec3> {
-    let [a, b, c] = triangle.map(|i| DVec3::from(positions[i as usize].map(f64::from)));
-    (b - a).cross(c - a).try_normalize()
+    twice_area(positions, triangle).try_normalize()
+}
+
+/// Whether [`face_normal`] is `None`, in less time: it is where the square of the length is 0 or not finite.
+fn is_flat(positions: &[[f32; 3]], triangle: &[u32; 3]) -> bool {
+    let square = twice_area(positions, triangle).length_squared();
+    !(square > 0.0 && square < f64::INFINITY)
 }
 
 /// Area of a mesh under a transform, in square scene units.
@@ -167,6 +207,65 @@ mod tests {
             area(&mesh, &glam::DMat4::from_scale(DVec3::splat(3.0))),
             9.0
         );
+    }
+
+    #[test]
+    fn flat_triangles_are_those_without_a_normal() {
+        let sizes = [
+            0.0,
+            1e-45,
+            1e-40,
+            3e-23,
+            1e-19,
+            1e-8,
+            1.0,
+            1e8,
+            1e20,
+            f32::MAX,
+        ];
+        for (x, y) in sizes.iter().flat_map(|x| sizes.map(|y| (*x, y))) {
+            for apex in [
+                [0.0, y, 0.0],
+                [0.5 * x, y, -y],
+                [2.0 * x, 0.0, 0.0],
+                [x, y, f32::INFINITY],
+            ] {
+                let positions = [[0.0; 3], [x, 0.0, 0.0], apex];
+                let has_normal = face_normal(&positions, &[0, 1, 2]).is_some();
+                assert_eq!(
+                    is_flat(&positions, &[0, 1, 2]),
+                    !has_normal,
+                    "{positions:?}"
+                );
+            }
+        }
+        let far = [[0.0; 3], [1.0, 1.0, 0.0], [1.0, 0.0, f32::INFINITY]];
+        assert_eq!(face_normal(&far, &[0, 1, 2]), None);
+        assert!(is_flat(&far, &[0, 1, 2]));
+    }
+
+    #[test]
+    fn the_first_is_found_wherever_it_is() {
+        for count in [0, 1, 300, SERIAL, SERIAL + 1, 5 * SERIAL + 77] {
+            let mut flags = vec![false; count];
+            assert_eq!(first(&flags, |f| *f), None);
+            for at in [
+                0,
+                255,
+                256,
+                SERIAL - 1,
+                SERIAL,
+                4 * SERIAL + 3,
+                count - 1.min(count),
+            ] {
+                if at < count {
+                    flags[at] = true;
+                    flags[count - 1] = true;
+                    assert_eq!(first(&flags, |f| *f), Some(at), "{at} of {count}");
+                    flags.fill(false);
+                }
+            }
+        }
     }
 
     #[test]

@@ -3,11 +3,12 @@
 use std::cell::Cell;
 
 use glam::DMat4;
+use rayon::prelude::*;
 use specula_bsdf::Rgb;
 
 use crate::bounds::{self, FARTHEST};
 use crate::image::Image;
-use crate::mesh::first;
+use crate::mesh::{first, is_finite, is_zero};
 use crate::scene::{
     Filter, Geometry, ImageProjection, Light, Mesh, ObjectInstance, Profile, Projection, Scene,
     Shape,
@@ -88,8 +89,12 @@ impl Scene {
         for (i, material) in self.materials.iter().enumerate() {
             hear(self.check_material(i, material))?;
         }
-        for (i, mesh) in self.meshes.iter().enumerate() {
-            hear(check_mesh(&format!("mesh {i}"), mesh))?;
+        let meshes = self.meshes.par_iter().enumerate();
+        let checked: Vec<_> = meshes
+            .map(|(i, mesh)| check_mesh(&format!("mesh {i}"), mesh))
+            .collect();
+        for mesh in checked {
+            hear(mesh)?;
         }
         for (i, shape) in self.shapes.iter().enumerate() {
             hear(self.check_shape(&format!("shape {i}"), shape))?;
@@ -369,13 +374,13 @@ fn check_image(what: &str, image: &Image) -> Result<(), Invalid> {
 fn check_mesh(what: &str, mesh: &Mesh) -> Result<(), Invalid> {
     let count = mesh.positions.len();
     ensure(!mesh.triangles.is_empty(), what, "it has no triangles")?;
-    let outside = |t: &[u32; 3]| t.iter().any(|i| *i as usize >= count);
+    let outside = |t: &[u32; 3]| t.iter().fold(false, |any, i| any | (*i as usize >= count));
     ensure(
         first(&mesh.triangles, outside).is_none(),
         what,
         "a triangle refers to a vertex that does not exist",
     )?;
-    let not_finite = |p: &[f32; 3]| p.iter().any(|x| !x.is_finite());
+    let not_finite = |p: &[f32; 3]| !is_finite(p);
     ensure(
         first(&mesh.positions, not_finite).is_none(),
         what,
@@ -391,7 +396,7 @@ fn check_mesh(what: &str, mesh: &Mesh) -> Result<(), Invalid> {
         what,
         "it has not one surface coordinate per vertex",
     )?;
-    let no_normal = |n: &[f32; 3]| not_finite(n) || *n == [0.0; 3];
+    let no_normal = |n: &[f32; 3]| !is_finite(n) | is_zero(n);
     ensure(
         first(&mesh.normals, no_normal).is_none(),
         what,
@@ -412,10 +417,10 @@ fn check_mesh(what: &str, mesh: &Mesh) -> Result<(), Invalid> {
         what,
         "it has not one second coordinate and one tangent per vertex",
     )?;
-    let uvs = mesh.uvs.iter().chain(&mesh.second_uvs).flatten();
+    let sets = [&mesh.uvs, &mesh.second_uvs];
+    let finite_uvs = sets.map(|uvs| first(uvs, |uv| !is_finite(uv)).is_none());
     ensure(
-        uvs.chain(mesh.tangents.iter().flatten())
-            .all(|x| x.is_finite()),
+        finite_uvs == [true; 2] && first(&mesh.tangents, |t| !is_finite(t)).is_none(),
         what,
         "a surface coordinate or a tangent is not finite",
     )

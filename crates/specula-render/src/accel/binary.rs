@@ -6,6 +6,7 @@ use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
 use super::Bounds;
+use crate::convert::narrow;
 
 /// A node. Its left child, if any, is the next node.
 #[derive(Clone, Copy, Debug)]
@@ -38,42 +39,35 @@ impl Binary {
     /// The best tree that obvhs builds: PLOC (Meister and Bittner 2018), then reinsertion (Meister
     /// and Bittner 2018, "Parallel Reinsertion"). `items` is not empty.
     ///
-    /// Items with equal boxes enter it once and are split in halves below: reinsertion would try
-    /// them against each other in quadratic time.
+    /// Items whose boxes are equal at the precision of Morton codes enter it once, and have a tree of their own
+    /// below: both steps would try them against each other in quadratic time. So would they all be beside an item
+    /// that is a million times as large.
     ///
-    /// * `effort`: the share of nodes that reinsertion tries. (From 0.05 to 1 the traversal's speed
-    ///   differed by less than the measurements' noise.)
+    /// * `effort`: the share of nodes that reinsertion tries.
     pub(super) fn optimised(items: &[Bounds], effort: f32) -> Self {
-        let runs = Runs::new(items);
-        let all = items.iter().fold(Bounds::EMPTY, |a, b| a.union(b));
-        // Within [-1, 1], so that no area overflows or vanishes, whatever the unit.
-        let size = (0..3)
-            .map(|a| f64::from(all.max[a]) - f64::from(all.min[a]))
-            .fold(f64::MIN_POSITIVE, f64::max);
-        let scaled = |p: [f32; 3]| {
-            let at: [f64; 3] =
-                std::array::from_fn(|a| (2.0 * f64::from(p[a]) - all.twice_centre(a)) / size);
-            glam::DVec3::from_array(at).as_vec3a()
-        };
+        let scaled = scaled(items);
+        let runs = Runs::new(&scaled);
         let boxes: Vec<Aabb> = runs
             .first
             .iter()
-            .map(|&first| &items[first as usize])
-            .map(|b| Aabb::new(scaled(b.min), scaled(b.max)))
+            .map(|&first| &scaled[first as usize])
+            .map(|b| Aabb::new(b.min.into(), b.max.into()))
             .collect();
+        drop(scaled);
         let indices = (0..u32::try_from(boxes.len()).expect("counts are checked")).collect();
         let mut tree = PlocBuilder::with_capacity(boxes.len()).build(
-            PlocSearchDistance::High,
+            // Rays through a tree by a distance of 24 take as many instructions.
+            PlocSearchDistance::Low,
             &boxes,
             indices,
             SortPrecision::U64,
             2,
         );
         ReinsertionOptimizer::default().run(&mut tree, effort, None);
-        Self::from_obvhs(&tree, items, &runs)
+        Self::from_obvhs(&tree, items, &runs, effort)
     }
 
-    fn from_obvhs(tree: &Bvh2, items: &[Bounds], runs: &Runs) -> Self {
+    fn from_obvhs(tree: &Bvh2, items: &[Bounds], runs: &Runs, effort: f32) -> Self {
         let mut nodes = Vec::with_capacity(2 * items.len());
         // The node in obvhs's tree, and Specula's whose right child it becomes.
         let mut pending = vec![(0, None)];
@@ -87,8 +81,15 @@ impl Binary {
             let node = &tree.nodes[at];
             let first = node.first_index as usize;
             if node.is_leaf() {
-                runs.items(tree.primitive_indices[first], &mut run);
-                halve(items, &run, &mut nodes);
+                let first = tree.primitive_indices[first];
+                match runs.single(first) {
+                    Some(item) => nodes.push(BinaryNode::leaf(item, items)),
+                    None => {
+                        runs.items(first, &mut run);
+                        let is_all = runs.first.len() == 1;
+                        graft(items, &run, (!is_all).then_some(effort), &mut nodes);
+                    }
+                }
             } else {
                 pending.push((first + 1, Some(nodes.len())));
                 pending.push((first, None));
@@ -149,6 +150,49 @@ impl Binary {
     }
 }
 
+/// Boxes within [-1, 1], so that no area overflows or vanishes whatever the unit, and rounded to the precision of
+/// Morton codes of 21 bits.
+fn scaled(items: &[Bounds]) -> Vec<Bounds> {
+    /// Numbers of `f64` beside it are multiples of `2^-22`, which `f32` holds exactly up to 1.
+    const ROUNDING: f64 = 1.5 * (1_u64 << 30) as f64;
+    let all = items.iter().fold(Bounds::EMPTY, |a, b| a.union(b));
+    let size = (0..3)
+        .map(|a| f64::from(all.max[a]) - f64::from(all.min[a]))
+        .fold(f64::MIN_POSITIVE, f64::max);
+    let scale = 1.0 / size;
+    let centre: [f64; 3] = std::array::from_fn(|a| all.twice_centre(a));
+    let scaled = |p: [f32; 3]| {
+        std::array::from_fn(|a| {
+            let x = (2.0 * f64::from(p[a]) - centre[a]) * scale;
+            narrow((x + ROUNDING) - ROUNDING)
+        })
+    };
+    let scaled = |b: &Bounds| Bounds {
+        min: scaled(b.min),
+        max: scaled(b.max),
+    };
+    items.iter().map(scaled).collect()
+}
+
+/// Appends the subtree over a run: a tree at the run's own scale with `effort`, or halves where the run is all
+/// there is or its boxes are the same.
+fn graft(items: &[Bounds], run: &[u32], effort: Option<f32>, nodes: &mut Vec<BinaryNode>) {
+    let boxes: Vec<Bounds> = run.iter().map(|&item| items[item as usize]).collect();
+    let (Some(effort), false) = (effort, boxes.iter().all(|b| *b == boxes[0])) else {
+        return halve(items, run, nodes);
+    };
+    let offset = u32::try_from(nodes.len()).expect("counts are checked");
+    let own = Binary::optimised(&boxes, effort);
+    nodes.extend(own.0.into_iter().map(|node| BinaryNode {
+        right: match node.right {
+            0 => 0,
+            right => right + offset,
+        },
+        item: run[node.item as usize],
+        ..node
+    }));
+}
+
 /// Items by equal boxes, in order of the first of each.
 struct Runs {
     /// The first item of every run.
@@ -189,6 +233,12 @@ impl Runs {
         Self { first, next }
     }
 
+    /// The item of a run that has one only.
+    fn single(&self, run: u32) -> Option<u32> {
+        let item = self.first[run as usize];
+        (self.next[item as usize] == LAST).then_some(item)
+    }
+
     /// The items of a run.
     fn items(&self, run: u32, out: &mut Vec<u32>) {
         out.clear();
@@ -220,5 +270,66 @@ fn halve(items: &[Bounds], run: &[u32], nodes: &mut Vec<BinaryNode>) {
         halve(items, left, nodes);
         nodes[at].right = u32::try_from(nodes.len()).expect("counts are checked");
         halve(items, right, nodes);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A grid of boxes, `n^2`.
+    fn grid(n: u32) -> Vec<Bounds> {
+        let at = |i: u32| {
+            let min = [(i % n) as f32, (i / n) as f32, ((i * 7) % 5) as f32 * 0.1];
+            Bounds {
+                min,
+                max: min.map(|x| x + 1.5),
+            }
+        };
+        (0..n * n).map(at).collect()
+    }
+
+    fn areas(tree: &Binary) -> f64 {
+        tree.0.iter().map(|node| node.bounds.half_area()).sum()
+    }
+
+    fn items(tree: &Binary) -> Vec<u32> {
+        let leaves = tree.0.iter().filter(|node| node.right == 0);
+        let mut items: Vec<u32> = leaves.map(|node| node.item).collect();
+        items.sort_unstable();
+        items
+    }
+
+    /// The tree is as good, and takes as long, as without the large box.
+    #[test]
+    fn small_boxes_have_their_tree_beside_a_huge_one() {
+        let mut boxes = grid(60);
+        let alone = areas(&Binary::optimised(&boxes, 0.2));
+        for size in [1e6, 1e9, 1e20] {
+            boxes.push(Bounds {
+                min: [0.0; 3],
+                max: [size; 3],
+            });
+            let tree = Binary::optimised(&boxes, 0.2);
+            assert_eq!(tree.0.len(), 2 * boxes.len() - 1);
+            assert!(items(&tree).into_iter().eq(0..3601));
+            let huge = boxes.pop().map_or(0.0, |b| b.half_area());
+            let small = tree.0.iter().map(|node| node.bounds.half_area());
+            let small: f64 = small.filter(|area| *area < 0.5 * huge).sum();
+            assert!(small < 1.1 * alone, "{size}: {small} beside {alone}");
+        }
+    }
+
+    /// Boxes that differ by less than the rounding, and equal ones, end in halves.
+    #[test]
+    fn nearly_equal_boxes_end() {
+        let boxes: Vec<Bounds> = (0..500)
+            .map(|i: u16| Bounds {
+                min: [0.0; 3],
+                max: [1.0 + f32::from(i / 2) * f32::EPSILON, 1.0, 0.0],
+            })
+            .collect();
+        let tree = Binary::optimised(&boxes, 0.2);
+        assert!(items(&tree).into_iter().eq(0..500));
     }
 }

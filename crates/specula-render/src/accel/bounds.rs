@@ -1,7 +1,9 @@
 //! Axis-aligned boxes.
 
+use bytemuck::Zeroable;
+
 /// An axis-aligned box, both ends included.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Zeroable)]
 pub struct Bounds {
     /// Least coordinates.
     pub min: [f32; 3],

@@ -3,20 +3,28 @@
 //!
 //! Chunks are a function of the boxes alone: the tree is the same for any number of threads.
 
+use bytemuck::Zeroable;
+
 use super::Bounds;
+use crate::sampler::hash;
 
 /// Sets up to this size are one chunk.
-pub(super) const CHUNK: usize = 1 << 17;
+pub(super) const CHUNK: usize = 1 << 16;
+/// How many items a split is decided by.
+const SAMPLE: usize = 1 << 14;
 /// Buckets of the surface area heuristic.
 const BUCKETS: usize = 32;
 /// Each part of a split has at least this share of the set: bounds the number of chunks.
 const LEAST_SHARE: usize = 8;
 
-/// A box with its place in the input.
-#[derive(Clone, Copy, Debug)]
+/// The box of one primitive, or of two neighbours in the input.
+#[derive(Clone, Copy, Debug, Zeroable)]
 pub(super) struct Item {
     pub(super) bounds: Bounds,
+    /// The first one's place in the input.
     pub(super) primitive: u32,
+    /// How many there are; 0 marks what is no item.
+    pub(super) count: u32,
 }
 
 /// Reorders `items` and cuts them into chunks, neighbours together.
@@ -31,11 +39,12 @@ pub(super) fn split(items: &mut [Item]) -> Vec<&mut [Item]> {
     chunks
 }
 
-/// Splits a set in two where the surface area heuristic is least, or in the middle.
+/// Splits a set in two where the surface area heuristic is least for a sample of it, or in the middle.
 fn partition(items: &mut [Item]) -> usize {
+    let sample = sample(items);
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
-    for item in items.iter() {
+    for item in &sample {
         for axis in 0..3 {
             let c = item.bounds.twice_centre(axis);
             low[axis] = low[axis].min(c);
@@ -43,6 +52,7 @@ fn partition(items: &mut [Item]) -> usize {
         }
     }
     let extent: [f64; 3] = std::array::from_fn(|axis| high[axis] - low[axis]);
+    // Items beyond the ends of the sample are in the first and the last bucket.
     let bucket = |item: &Item, axis: usize| {
         let along = (item.bounds.twice_centre(axis) - low[axis]) / extent[axis];
         let along = crate::convert::narrow(along * BUCKETS as f64);
@@ -51,19 +61,23 @@ fn partition(items: &mut [Item]) -> usize {
     let mut best: Option<(f64, usize, usize)> = None;
     for axis in (0..3).filter(|&axis| extent[axis] > 0.0) {
         let mut buckets = [(Bounds::EMPTY, 0_usize); BUCKETS];
-        for item in items.iter() {
+        for item in &sample {
             let (bounds, count) = &mut buckets[bucket(item, axis)];
             *bounds = bounds.union(&item.bounds);
             *count += 1;
         }
-        if let Some((cost, cut)) = best_cut(&buckets, items.len())
+        if let Some((cost, cut)) = best_cut(&buckets, sample.len())
             && best.is_none_or(|(least, ..)| cost < least)
         {
             best = Some((cost, axis, cut));
         }
     }
     if let Some((_, axis, cut)) = best {
-        return front(items, |item| bucket(item, axis) < cut);
+        let middle = front(items, |item| bucket(item, axis) < cut);
+        // The sample may have been of another mind than the set.
+        if middle.min(items.len() - middle) >= items.len() / LEAST_SHARE {
+            return middle;
+        }
     }
     let half = items.len() / 2;
     let longest = (0..3)
@@ -74,6 +88,18 @@ fn partition(items: &mut [Item]) -> usize {
         ca.total_cmp(&cb).then(a.primitive.cmp(&b.primitive))
     });
     half
+}
+
+/// One item of each of [`SAMPLE`] stretches, at random: items may come in turns.
+fn sample(items: &[Item]) -> Vec<Item> {
+    let stretch = items.len() / SAMPLE;
+    if stretch < 2 {
+        return items.to_vec();
+    }
+    let within = u32::try_from(stretch).unwrap_or(u32::MAX);
+    let at = |(i, first): (u32, usize)| items[first + (hash(i) % within) as usize];
+    let firsts = (0..items.len() + 1 - stretch).step_by(stretch);
+    (0..).zip(firsts).map(at).collect()
 }
 
 /// The least cost and the first bucket of the second part; `None` where every cut leaves one part
@@ -129,6 +155,7 @@ mod tests {
                     max: min.map(|x| x + 0.01),
                 },
                 primitive,
+                count: 1,
             }
         };
         (0..count).map(item).collect()

@@ -23,15 +23,17 @@ pub(super) struct Tree {
     pub(super) depth: usize,
 }
 
-/// Builds the tree over `items` into `nodes`. `leaf` turns items into a leaf: one item, or up to 8
-/// of which `packable` is true. `items` is not empty.
+/// Builds the tree over `items` into `nodes`. `leaf` turns items into a leaf: one item, or several of
+/// triangles, up to 8 of them. `items` is not empty.
+///
+/// * `triangles`: how many triangles an item has; 0 for what must be a leaf of its own.
 pub(super) fn build(
     items: &[Bounds],
-    packable: impl Fn(u32) -> bool,
+    triangles: impl Fn(u32) -> usize,
     nodes: &mut Vec<Node8>,
     mut leaf: impl FnMut(&[u32]) -> Child,
 ) -> Tree {
-    Plan::within(items, (MAX_DEPTH, EFFORT), packable).emit(0, nodes, &mut leaf)
+    Plan::within(items, (MAX_DEPTH, EFFORT), triangles).emit(0, nodes, &mut leaf)
 }
 
 /// The same as at most `count` trees, to be joined under others.
@@ -42,11 +44,11 @@ pub(super) fn build_parts(
     items: &[Bounds],
     count: usize,
     (most, effort): (usize, f32),
-    packable: impl Fn(u32) -> bool,
+    triangles: impl Fn(u32) -> usize,
     nodes: &mut Vec<Node8>,
     mut leaf: impl FnMut(&[u32]) -> Child,
 ) -> Vec<Tree> {
-    let plan = Plan::within(items, (most, effort), packable);
+    let plan = Plan::within(items, (most, effort), triangles);
     let parts = plan.parts(count);
     parts
         .into_iter()
@@ -70,7 +72,7 @@ pub(super) fn build_parts(
 pub(super) fn join(trees: &[Tree], most: usize, nodes: &mut Vec<Node8>) -> Tree {
     let bounds: Vec<Bounds> = trees.iter().map(|tree| tree.bounds).collect();
     let deepest = trees.iter().map(|tree| tree.depth).max().unwrap_or(0);
-    let plan = Plan::within(&bounds, (most, EFFORT), |_| false);
+    let plan = Plan::within(&bounds, (most, EFFORT), |_| 0);
     let above = plan.emit(0, nodes, &mut |leaf| trees[leaf[0] as usize].root);
     Tree {
         depth: above.depth + deepest,
@@ -82,11 +84,11 @@ pub(super) fn join(trees: &[Tree], most: usize, nodes: &mut Vec<Node8>) -> Tree 
 #[cfg(test)]
 pub(super) fn plant(
     tree: Binary,
-    packable: impl Fn(u32) -> bool,
+    triangles: impl Fn(u32) -> usize,
     nodes: &mut Vec<Node8>,
     mut leaf: impl FnMut(&[u32]) -> Child,
 ) -> Tree {
-    Plan::new(tree, &packable).emit(0, nodes, &mut leaf)
+    Plan::new(tree, &triangles).emit(0, nodes, &mut leaf)
 }
 
 /// How a binary tree is collapsed: what becomes of each of its nodes.
@@ -104,38 +106,40 @@ impl Plan {
     fn within(
         items: &[Bounds],
         (most, effort): (usize, f32),
-        packable: impl Fn(u32) -> bool,
+        triangles: impl Fn(u32) -> usize,
     ) -> Self {
-        let optimised = Self::new(Binary::optimised(items, effort), &packable);
+        let optimised = Self::new(Binary::optimised(items, effort), &triangles);
         if optimised.depth() <= most {
             return optimised;
         }
-        Self::new(Binary::balanced(items), &packable)
+        Self::new(Binary::balanced(items), &triangles)
     }
 
     /// Dynamic programming from the leaves up (Ylitie, Karras and Laine 2017, eqs. 1 to 5).
-    fn new(tree: Binary, packable: &impl Fn(u32) -> bool) -> Self {
+    fn new(tree: Binary, triangles: &impl Fn(u32) -> usize) -> Self {
         let mut choices = vec![[0; WIDTH]; tree.0.len()];
-        // Costs of the subtrees whose parent is still to come, with "all are packable". In reverse
-        // preorder the left child is on top of the right one.
-        let mut pending: Vec<([f64; WIDTH], bool)> = Vec::new();
+        // Costs of the subtrees whose parent is still to come, with how many triangles they have, 0
+        // for what is no packet's. In reverse preorder the left child is on top of the right one.
+        let mut pending: Vec<([f64; WIDTH], usize)> = Vec::new();
         for (at, node) in tree.0.iter().enumerate().rev() {
             let area = node.bounds.half_area();
             if node.right == 0 {
-                pending.push(([area * PACKET_COST; WIDTH], packable(node.item)));
+                pending.push(([area * PACKET_COST; WIDTH], triangles(node.item)));
                 continue;
             }
-            let (Some((left, left_packs)), Some((right, right_packs))) =
-                (pending.pop(), pending.pop())
+            let (Some((left, of_left)), Some((right, of_right))) = (pending.pop(), pending.pop())
             else {
                 unreachable!("children come before their parent in reverse preorder");
             };
-            let packs = left_packs && right_packs;
+            let count = match of_left.min(of_right) {
+                0 => 0,
+                _ => of_left + of_right,
+            };
             let (own, split) = best_split(&left, &right, WIDTH);
             let as_node = area + own;
             let as_leaf = area * PACKET_COST;
             let mut costs = [f64::INFINITY; WIDTH];
-            if packs && node.count as usize <= WIDTH && as_leaf <= as_node {
+            if (1..=WIDTH).contains(&count) && as_leaf <= as_node {
                 costs[1] = as_leaf;
             } else {
                 costs[1] = as_node;
@@ -149,7 +153,7 @@ impl Plan {
                     choices[at][j] = split;
                 }
             }
-            pending.push((costs, packs));
+            pending.push((costs, count));
         }
         Self { tree, choices }
     }

@@ -39,24 +39,32 @@ const MOST_PARTS: usize = 1 << 17;
 const PARTS: usize = 256;
 /// How many chunks are built at the same time, which bounds the memory.
 pub(super) const WAVE: usize = 16;
-/// Items from which on reinsertion, which takes most of the time, has less effort.
-const LARGE: usize = 1_000_000;
+/// Items from which on reinsertion has less effort.
+const LARGE: usize = 500_000;
 /// Effort of reinsertion in large groups.
 const EFFORT_IF_LARGE: f32 = 0.05;
+/// Two triangles are one item where the box around them has at most this share of their boxes' areas: half of it,
+/// where both have the same box.
+const PAIRED: f64 = 0.75;
+/// Nodes or packets that a thread copies at least.
+const COPIED: usize = 1 << 12;
+/// Triangles that are paired at a time.
+const BLOCK: usize = 1 << 14;
 
 impl GroupTree {
     /// `None` where nothing can be hit. The group has been checked.
     pub(super) fn build(group: &Group<'_>) -> Option<Self> {
         let mut items = items(group);
-        let triangles = items.iter().filter(|item| is_triangle(group, item)).count();
+        let triangles = items.iter().map(|item| triangles(group, item)).sum();
         let mut arrays = Arrays::default();
         let tree = match items.len() {
             0 => return None,
             n if n <= 2 * chunks::CHUNK => {
+                arrays.reserve(n - group.quadrics.len().min(n));
                 let Arrays { nodes, leaves } = &mut arrays;
                 collapse::build(
                     &bounds(&items),
-                    |item| is_triangle(group, &items[item as usize]),
+                    |item| self::triangles(group, &items[item as usize]),
                     nodes,
                     |leaf| leaves.write(group, &items, leaf),
                 )
@@ -87,27 +95,59 @@ impl GroupTree {
     }
 }
 
-/// Everything in a group that can be hit.
+/// Everything in a group that can be hit. Two triangles in a row that lie in nearly one box, as those of a
+/// quadrilateral, are one item: they share a packet anyway, and trees over half the items take half the time.
 fn items(group: &Group<'_>) -> Vec<Item> {
-    let triangles = group.triangles.par_iter().with_min_len(1 << 14);
-    let item = |(primitive, indices): (usize, &[u32; 3])| Item {
-        // An empty box marks a triangle that cannot be hit.
-        bounds: triangle::bounds(&indices.map(|v| group.positions[v as usize]))
-            .unwrap_or(Bounds::EMPTY),
-        primitive: u32::try_from(primitive).expect("counts are checked"),
-    };
-    let mut items: Vec<Item> = triangles.enumerate().map(item).collect();
-    items.retain(|item| item.bounds != Bounds::EMPTY);
+    let mut items: Vec<Item> = bytemuck::zeroed_vec(group.triangles.len());
+    let blocks = items.par_chunks_mut(BLOCK).enumerate();
+    blocks.for_each(|(block, items)| pair(group, block * BLOCK, items));
+    items.retain(|item| item.count > 0);
+    // Where triangles are paired, half of it is free.
+    items.shrink_to_fit();
     let quadrics = (group.triangles.len()..).zip(group.quadrics);
     items.extend(quadrics.map(|(primitive, quadric)| Item {
         bounds: quadric.bounds(),
         primitive: u32::try_from(primitive).expect("counts are checked"),
+        count: 1,
     }));
     items
 }
 
-fn is_triangle(group: &Group<'_>, item: &Item) -> bool {
-    (item.primitive as usize) < group.triangles.len()
+/// Writes the items of a block of triangles, from `first` on; those without an item stay zero.
+fn pair(group: &Group<'_>, first: usize, items: &mut [Item]) {
+    // Where the item before is that may take a second triangle, and the half of its area.
+    let mut before: Option<(usize, f64)> = None;
+    for i in 0..items.len() {
+        let corners = group.triangles[first + i].map(|v| group.positions[v as usize]);
+        let Some(bounds) = triangle::bounds(&corners) else {
+            before = None;
+            continue;
+        };
+        let area = bounds.half_area();
+        if let Some((at, other)) = before {
+            let both = items[at].bounds.union(&bounds);
+            if both.half_area() <= PAIRED * (area + other) {
+                items[at].bounds = both;
+                items[at].count = 2;
+                before = None;
+                continue;
+            }
+        }
+        items[i] = Item {
+            bounds,
+            primitive: u32::try_from(first + i).expect("counts are checked"),
+            count: 1,
+        };
+        before = Some((i, area));
+    }
+}
+
+/// How many triangles an item has; 0 for a quadric.
+fn triangles(group: &Group<'_>, item: &Item) -> usize {
+    match (item.primitive as usize) < group.triangles.len() {
+        true => item.count as usize,
+        false => 0,
+    }
 }
 
 fn bounds(items: &[Item]) -> Vec<Bounds> {
@@ -116,9 +156,7 @@ fn bounds(items: &[Item]) -> Vec<Bounds> {
 
 /// The tree of a large group.
 fn in_chunks(group: &Group<'_>, items: &mut [Item], arrays: &mut Arrays) -> Tree {
-    // As much as is needed in practice, so that arrays need not grow; pages are not touched before they are used.
-    arrays.nodes.reserve(items.len() / 9);
-    arrays.leaves.packets.reserve(items.len() / 3);
+    arrays.reserve(items.len());
     let effort = if items.len() > LARGE {
         EFFORT_IF_LARGE
     } else {
@@ -132,12 +170,13 @@ fn in_chunks(group: &Group<'_>, items: &mut [Item], arrays: &mut Arrays) -> Tree
             .par_iter()
             .map(|chunk| {
                 let mut arrays = Arrays::default();
+                arrays.reserve(chunk.len());
                 let Arrays { nodes, leaves } = &mut arrays;
                 let trees = collapse::build_parts(
                     &bounds(chunk),
                     parts,
                     (LEVELS, effort),
-                    |item| is_triangle(group, &chunk[item as usize]),
+                    |item| triangles(group, &chunk[item as usize]),
                     nodes,
                     |leaf| leaves.write(group, chunk, leaf),
                 );
@@ -156,20 +195,28 @@ impl Leaves {
     /// A leaf of one item, or of up to 8 triangles.
     fn write(&mut self, group: &Group<'_>, items: &[Item], leaf: &[u32]) -> Child {
         let first = &items[leaf[0] as usize];
-        if !is_triangle(group, first) {
+        if triangles(group, first) == 0 {
             let quadric = &group.quadrics[first.primitive as usize - group.triangles.len()];
             let placed = quadric::PreparedQuadric::new(quadric, first.primitive);
             self.quadrics.push(placed);
             return Child::new(ChildKind::Quadric, self.quadrics.len() - 1);
         }
         let mut primitives = [0; 8];
-        for (primitive, &item) in primitives.iter_mut().zip(leaf) {
-            *primitive = items[item as usize].primitive;
+        let mut count = 0;
+        for &item in leaf {
+            let item = &items[item as usize];
+            for primitive in item.primitive..item.primitive + item.count {
+                primitives[count] = primitive;
+                count += 1;
+            }
         }
-        let primitives = &mut primitives[..leaf.len()];
+        let primitives = &mut primitives[..count];
         // In the order of the input, which chunks do not preserve.
         primitives.sort_unstable();
-        let mut packet = Packet8::EMPTY;
+        let index = self.packets.len();
+        // Filled where it lies: it is large.
+        self.packets.push(Packet8::EMPTY);
+        let packet = &mut self.packets[index];
         for (lane, &primitive) in primitives.iter().enumerate() {
             let indices = group.triangles[primitive as usize];
             packet.set(
@@ -178,8 +225,7 @@ impl Leaves {
                 primitive,
             );
         }
-        self.packets.push(packet);
-        Child::new(ChildKind::Packet, self.packets.len() - 1)
+        Child::new(ChildKind::Packet, index)
     }
 }
 
@@ -201,6 +247,13 @@ impl Offset {
 }
 
 impl Arrays {
+    /// Makes room for as much as items of triangles need in practice, so that arrays need not grow; pages are not
+    /// touched before they are used.
+    fn reserve(&mut self, items: usize) {
+        self.nodes.reserve(items / 9);
+        self.leaves.packets.reserve(items / 2);
+    }
+
     /// Appends other arrays.
     fn append(&mut self, other: Self) -> Offset {
         let offset = Offset([
@@ -213,11 +266,15 @@ impl Arrays {
             *self = other;
             return offset;
         }
-        self.nodes.extend(other.nodes.into_iter().map(|node| Node8 {
+        let moved = |node: &Node8| Node8 {
             children: node.children.map(|child| offset.child(child)),
-            ..node
-        }));
-        self.leaves.packets.extend(other.leaves.packets);
+            ..*node
+        };
+        // In parallel: most of the time is the system's, which clears the pages.
+        let nodes = other.nodes.par_iter().with_min_len(COPIED);
+        self.nodes.par_extend(nodes.map(moved));
+        let packets = other.leaves.packets.par_iter().with_min_len(COPIED);
+        self.leaves.packets.par_extend(packets);
         self.leaves.quadrics.extend(other.leaves.quadrics);
         offset
     }

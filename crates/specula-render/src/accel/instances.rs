@@ -66,7 +66,7 @@ pub(super) fn build(placed: &[Placement], scene: &mut Scene) -> Option<Tree> {
     let items: Vec<Bounds> = placed.iter().map(|p| p.bounds).collect();
     let tree = collapse::build(
         &items,
-        |_| false,
+        |_| 0,
         &mut scene.nodes,
         |leaf| Child::new(ChildKind::Placement, leaf[0] as usize),
     );

@@ -1,7 +1,7 @@
 //! Ray casting: bounding volume hierarchies of 8-wide nodes over triangles, spheres and disks.
 //!
 //! ```text
-//! Group (object space) --> binary tree (obvhs) --> 8-wide nodes, packets of 8 triangles
+//! Group (object space) --> pairs of triangles --> binary tree (obvhs) --> 8-wide nodes, packets of 8 triangles
 //! Instance (Group, to_world) --------------------> 8-wide nodes over instances, if needed
 //! ```
 //!

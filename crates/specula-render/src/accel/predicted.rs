@@ -1,6 +1,6 @@
 //! How much memory acceleration structures take, by counts of primitives.
 
-use super::chunks::CHUNK;
+use super::chunks::{CHUNK, Item};
 use super::group::WAVE;
 use super::instances::Placement;
 use super::quadric::PreparedQuadric;
@@ -9,12 +9,13 @@ use super::quadric::PreparedQuadric;
 const TRIANGLE: usize = 104;
 /// A quadric's share of the nodes.
 const NODES_OF_QUADRIC: usize = 48;
-/// A box with its index, of each primitive of a group.
-const ITEM: usize = 28;
-/// Memory while a tree is built, for each item of a chunk: hash table, binary trees and plans.
-const BUILDING: usize = 170;
+/// A box with its index, of each primitive of a group. Pairs of triangles share one: how many there are is not
+/// known beforehand.
+const ITEM: usize = size_of::<Item>();
+/// Memory while a tree is built, for each item of a chunk: rounded boxes, hash table, binary trees and plans.
+const BUILDING: usize = 194;
 /// Memory of the trees of finished chunks, per item of a wave, until they are joined.
-const WAVE_ITEM: usize = 25;
+const WAVE_ITEM: usize = 32;
 
 /// Bytes of acceleration structures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -39,7 +40,8 @@ pub(crate) fn predicted(groups: &[(usize, usize)], instances: usize, threads: us
         let (at_once, wave) = if items <= 2 * CHUNK {
             (items, 0)
         } else {
-            let chunks = threads.clamp(1, WAVE);
+            // Where triangles are paired, up to twice a chunk may be one.
+            let chunks = threads.clamp(2, WAVE);
             (items.min(CHUNK * chunks), items.min(CHUNK * WAVE))
         };
         building.push(ITEM * items + BUILDING * at_once + WAVE_ITEM * wave);

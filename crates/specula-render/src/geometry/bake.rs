@@ -98,6 +98,7 @@ impl<'a> Baker<'a> {
 
     pub(super) fn bake(&mut self, shapes: Vec<Shape>) -> GroupData {
         let mut group = GroupData::default();
+        self.reserve(&mut group, &shapes);
         for shape in &shapes {
             let record = id(self.records.len());
             let has_uvs = match shape.geometry {
@@ -143,6 +144,31 @@ impl<'a> Baker<'a> {
         group
     }
 
+    /// Makes room for the meshes of shapes, so that arrays of many need not grow.
+    fn reserve(&self, group: &mut GroupData, shapes: &[Shape]) {
+        let (mut vertices, mut triangles, mut normals, mut uvs) = (0, 0, 0, 0);
+        for shape in shapes {
+            if let SceneGeometry::Mesh(mesh) = shape.geometry {
+                let mesh = &self.meshes[mesh.0];
+                triangles += mesh.triangles.len();
+                vertices += mesh.positions.len();
+                // They end with the last mesh that has any.
+                for (most, own) in [
+                    (&mut normals, mesh.normals.len()),
+                    (&mut uvs, mesh.uvs.len()),
+                ] {
+                    if own > 0 {
+                        *most = vertices;
+                    }
+                }
+            }
+        }
+        group.positions.reserve_exact(vertices);
+        group.triangles.reserve_exact(triangles);
+        group.normals.reserve_exact(normals);
+        group.uvs.reserve_exact(uvs);
+    }
+
     /// Adds a mesh; returns whether it has texture coordinates.
     fn add_mesh(&mut self, group: &mut GroupData, index: usize, shape: &Shape) -> bool {
         self.uses[index] -= 1;
@@ -168,18 +194,18 @@ impl GroupData {
     fn add_mesh(&mut self, mesh: &Mesh, shape: &Shape) {
         let first = id(self.positions.len());
         let m = &shape.to_world;
-        let positions = in_parallel(&mesh.positions).map(|&p| transform_point(m, p));
-        self.positions.par_extend(positions);
+        let moved = |p: &[f32; 3]| transform_point(m, *p);
+        extend(&mut self.positions, &mesh.positions, moved);
         let has_normals = mesh.normals.len() == mesh.positions.len();
         if has_normals {
             self.normals.resize(first as usize, [0.0; 3]);
             let sign = if shape.reverse_orientation { -1.0 } else { 1.0 };
             let matrix = normal_matrix(m) * sign;
-            let normals = in_parallel(&mesh.normals).map(|n| {
+            let turned = |n: &[f32; 3]| {
                 let n = matrix * glam::DVec3::from(n.map(f64::from));
                 narrow3(n.normalize_or_zero()).to_array()
-            });
-            self.normals.par_extend(normals);
+            };
+            extend(&mut self.normals, &mesh.normals, turned);
         }
         if mesh.uvs.len() == mesh.positions.len() {
             self.uvs.resize(first as usize, [0.0; 2]);
@@ -204,7 +230,7 @@ impl GroupData {
         }
         let flip = mirrored != shape.reverse_orientation;
         let mut triangles = std::mem::take(&mut self.triangles);
-        triangles.par_extend(in_parallel(&mesh.triangles).map(|t| {
+        extend(&mut triangles, &mesh.triangles, |t| {
             let t = t.map(|v| v + first);
             let disagrees = if has_normals { self.disagrees(t) } else { None };
             if disagrees.unwrap_or(flip) {
@@ -212,7 +238,7 @@ impl GroupData {
             } else {
                 t
             }
-        }));
+        });
         self.triangles = triangles;
     }
 
@@ -261,7 +287,16 @@ fn is_interface(material: &Material) -> bool {
     matches!(material.kind, MaterialKind::Interface)
 }
 
-/// Elements of large arrays, on all cores.
-fn in_parallel<T: Sync>(elements: &[T]) -> impl IndexedParallelIterator<Item = &T> {
-    elements.par_iter().with_min_len(1 << 14)
+/// Appends elements, turned into others; those of large arrays on all cores.
+fn extend<T: Sync, U: Send>(
+    to: &mut Vec<U>,
+    elements: &[T],
+    turned: impl Fn(&T) -> U + Send + Sync,
+) {
+    /// Elements that one thread reads: a call into the pool takes longer than so many.
+    const SERIAL: usize = 1 << 14;
+    if elements.len() <= SERIAL {
+        return to.extend(elements.iter().map(turned));
+    }
+    to.par_extend(elements.par_iter().with_min_len(SERIAL).map(turned));
 }

@@ -11,6 +11,7 @@ use std::path::Path;
 
 use crate::Limits;
 use crate::faults::{Fault, Faults};
+use crate::num::parsed_f32;
 use crate::read_file::Files;
 use crate::scene::Mesh;
 
@@ -286,9 +287,7 @@ fn numbers(text: &[u8], out: &mut [f32]) -> Result<usize, String> {
         .take_while(|w| w[0] != b'#');
     let mut found = 0;
     for (word, slot) in words.zip(out) {
-        *slot = std::str::from_utf8(word)
-            .ok()
-            .and_then(|w| w.parse().ok())
+        *slot = parsed_f32(word)
             .filter(|x: &f32| x.is_finite())
             .ok_or_else(|| format!("expected a finite number, found `{}`", shorten(word)))?;
         found += 1;

@@ -1,6 +1,6 @@
 //! The directives of a pbrt-v4 file and the stack of attributes.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -78,6 +78,7 @@ pub(super) struct Reader {
     pub(super) named_materials: HashMap<String, usize>,
     pub(super) shapes: Vec<ShapeEntity>,
     pub(super) objects: Vec<ObjectEntity>,
+    object_names: HashSet<String>,
     pub(super) instances: Vec<InstanceEntity>,
     /// Lights that are not shapes, with their space.
     pub(super) lights: Vec<(Entity, DMat4)>,
@@ -117,6 +118,7 @@ impl Reader {
             named_materials: HashMap::new(),
             shapes: Vec::new(),
             objects: Vec::new(),
+            object_names: HashSet::new(),
             instances: Vec::new(),
             lights: Vec::new(),
             end: Place::start(&SourceText::unread(main)),
@@ -380,7 +382,7 @@ impl Reader {
                     let message = "`ObjectBegin` within an object";
                     problems.record(SceneError::new(ErrorKind::Structure, &place, message))?;
                 }
-                if self.objects.iter().any(|o| o.name == name) {
+                if !self.object_names.insert(name.clone()) {
                     let message = format!("object \"{}\" is defined twice", shorten(&name));
                     problems.record(SceneError::new(ErrorKind::Duplicate, &place, message))?;
                 }

@@ -363,15 +363,12 @@ fn read_values(tokens: &mut Tokens<'_>, kind: &str, name: &str) -> Result<Values
         return Ok(values);
     }
     let open = tokens.place(&first);
-    if !matches!(kind, "string" | "texture" | "bool" | "spectrum" | "integer") {
-        // Most of a file: this path is fast for numbers.
-        let mut numbers = Vec::new();
-        while let Some(number) = tokens.bare_number()? {
-            numbers.push(number);
-        }
-        values = Values::Numbers(numbers);
+    if !matches!(kind, "string" | "texture" | "bool" | "spectrum")
+        && let Some(numbers) = tokens.numbers(kind == "integer")
+    {
+        return Ok(Values::Numbers(numbers));
     }
-    let mut empty = matches!(&values, Values::Numbers(n) if n.is_empty());
+    let mut empty = true;
     let mut add = |tokens: &Tokens<'_>, token: Token<'_>| -> Result<(), SceneError> {
         add_value(tokens, token, kind, &what, &mut values, empty)?;
         empty = false;

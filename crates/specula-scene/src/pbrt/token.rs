@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use super::number_list;
 use crate::error::{ErrorKind, Place, SceneError, SourceText};
 use crate::problems::Problems;
 
@@ -177,19 +178,16 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// The next token if it is a number; else nothing is taken.
-    pub(super) fn bare_number(&mut self) -> Result<Option<f64>, SceneError> {
+    /// The numbers behind `[`, with the `]` that ends them; nothing is taken where anything else is among them.
+    ///
+    /// * `integers`: whether they must be integers of 32 bits.
+    pub(super) fn numbers(&mut self, integers: bool) -> Option<Vec<f64>> {
         if self.peeked.is_some() {
-            return Ok(None);
+            return None;
         }
-        let before = self.position;
-        if let Some(token) = self.read()? {
-            if matches!(token.kind, TokenKind::Word(_)) {
-                return self.number(&token, "a number").map(Some);
-            }
-            self.position = before;
-        }
-        Ok(None)
+        let (numbers, length) = number_list::read(&self.source.text()[self.position..], integers)?;
+        self.position += length + 1;
+        Some(numbers)
     }
 
     fn read(&mut self) -> Result<Option<Token<'a>>, SceneError> {

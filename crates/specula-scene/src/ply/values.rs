@@ -1,6 +1,7 @@
 //! The values after the header, in order.
 
 use super::header::{Element, Encoding, Scalar};
+use crate::num::parsed;
 
 /// Reads numbers in order.
 pub(super) struct Values<'a> {
@@ -106,8 +107,7 @@ impl<'a> Values<'a> {
 ///
 /// A message where it is none of the type.
 pub(super) fn number(word: &[u8], scalar: Scalar) -> Result<f64, String> {
-    let number = std::str::from_utf8(word).ok().and_then(|w| w.parse().ok());
-    match number {
+    match parsed(word) {
         Some(x) if !scalar.is_integer() || f64::fract(x) == 0.0 => Ok(x),
         _ => {
             let found = String::from_utf8_lossy(&word[..word.len().min(40)]);

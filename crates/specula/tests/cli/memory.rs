@@ -208,8 +208,9 @@ fn many_small_meshes_are_bounded_too() {
         );
     }
     std::fs::write(path.join("meshes.pbrt"), scene).unwrap();
-    // Threads that each build a tree at once take the most; how often they do is chance.
-    for (threads, loose) in [("1", 1.35), ("3", 1.8)] {
+    // Triangles that are paired take less than others, which is not known beforehand. Threads that each build a
+    // tree at once take the most; how often they do is chance.
+    for (threads, loose) in [("1", 1.6), ("3", 1.8)] {
         let (messages, peak) = measured(path, "meshes.pbrt", &["--threads", threads]);
         assert_bound("150 meshes", &messages, peak, loose);
     }

@@ -126,7 +126,7 @@ fn balanced_trees_are_whole_and_shallow() {
     let (mut nodes, mut seen) = (Vec::new(), 0);
     let tree = collapse::plant(
         tree,
-        |_| true,
+        |_| 1,
         &mut nodes,
         |items| {
             seen += items.len();

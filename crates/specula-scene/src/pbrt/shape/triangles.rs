@@ -1,7 +1,10 @@
 //! Vertices and indices of inline meshes; `trianglemesh`.
 
+use rayon::prelude::*;
+
 use super::mesh_error;
 use crate::error::SceneError;
+use crate::mesh;
 use crate::num::f32_of;
 use crate::pbrt::context::{Context, Entity};
 use crate::scene::Mesh;
@@ -18,7 +21,7 @@ pub(super) fn vertices(context: &mut Context, entity: &Entity) -> Result<Mesh, S
     let params = &entity.params;
     let groups = |numbers: Option<&[f64]>| -> Vec<[f32; 3]> {
         numbers
-            .map(|n| n.as_chunks::<3>().0.iter().map(|v| v.map(f32_of)).collect())
+            .map(|n| each(n.as_chunks::<3>().0, |v| v.map(f32_of)))
             .unwrap_or_default()
     };
     let positions = groups(params.numbers("P", &["point3"])?);
@@ -28,12 +31,7 @@ pub(super) fn vertices(context: &mut Context, entity: &Entity) -> Result<Mesh, S
     }
     let mut normals = groups(params.numbers("N", &["normal"])?);
     let mut uvs: Vec<[f32; 2]> = match params.numbers("uv", &["point2", "float"])? {
-        Some(numbers) => numbers
-            .as_chunks::<2>()
-            .0
-            .iter()
-            .map(|v| v.map(f32_of))
-            .collect(),
+        Some(numbers) => each(numbers.as_chunks::<2>().0, |v| v.map(f32_of)),
         None => Vec::new(),
     };
     for (name, count) in [("N", normals.len()), ("uv", uvs.len())] {
@@ -81,27 +79,26 @@ pub(super) fn indices<const N: usize>(
         );
         return Err(mesh_error(entity, name, message));
     }
-    let index = |x: f64| {
-        if x >= 0.0 && x < vertices as f64 {
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "an integer of i32 that is not negative"
-            )]
-            return Ok(x as u32);
-        }
+    let outside = |x: &f64| !(*x >= 0.0 && *x < vertices as f64);
+    if let Some(first) = mesh::first(groups.as_flattened(), outside) {
+        let x = numbers[first];
         let message =
             format!("\"indices\": index {x} is out of range; there are {vertices} vertices");
-        Err(mesh_error(entity, name, message))
-    };
-    groups
-        .iter()
-        .map(|group| {
-            let mut out = [0; N];
-            for (o, x) in out.iter_mut().zip(group) {
-                *o = index(*x)?;
-            }
-            Ok(out)
-        })
-        .collect()
+        return Err(mesh_error(entity, name, message));
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "an integer of i32 that is not negative"
+    )]
+    Ok(each(groups, |group| group.map(|x| x as u32)))
+}
+
+/// Each element, turned into another; of large arrays on all cores.
+fn each<T: Sync, U: Send>(elements: &[T], turned: impl Fn(&T) -> U + Send + Sync) -> Vec<U> {
+    if elements.len() <= mesh::SERIAL {
+        return elements.iter().map(turned).collect();
+    }
+    let parts = elements.par_iter().with_min_len(mesh::SERIAL);
+    parts.map(turned).collect()
 }
