@@ -208,7 +208,10 @@ mod tests {
         assert_eq!(of(&both, &here), Choice::Gpu(&adapters[0], large));
         assert_eq!(of(&both[..1], &here), Choice::Gpu(&adapters[1], small));
         let slow = measured(1, 1.3);
-        assert_eq!(of(&[slow.clone()], &here), Choice::Slower(slow));
+        assert_eq!(
+            of(std::slice::from_ref(&slow), &here),
+            Choice::Slower(slow.clone())
+        );
         // Other machines, drivers and software tell nothing.
         assert_eq!(of(&both, &machine("B")), Choice::NotMeasured(&adapters[0]));
         let mut old = measured(0, 0.1);
