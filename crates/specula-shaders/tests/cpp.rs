@@ -177,6 +177,31 @@ fn files_of_a_program_share_the_tables() {
     }
 }
 
+/// The benchmark compiles without warnings and tells a time for each sampler.
+#[test]
+fn the_benchmark_runs() {
+    for compiler in compilers("the benchmark in C++") {
+        let folder = Folder::with(&export(Language::Cpp, &[]).unwrap());
+        folder.write("speed.cpp", include_str!("../benches/sample_speed.cpp"));
+        folder.accepted(
+            &compiler,
+            &[STRICT, &["-O2", "speed.cpp", "-o", "speed"]].concat(),
+        );
+        let printed = folder.printed("speed");
+        let mut names = Vec::new();
+        for line in printed.lines() {
+            let (name, nanoseconds) = line.split_once(' ').unwrap();
+            let nanoseconds: f64 = nanoseconds.parse().unwrap();
+            assert!(nanoseconds > 0.0 && nanoseconds < 1e5, "{line}");
+            names.push(name);
+        }
+        let expected = ["", "-direction"].map(|end| {
+            ["heitz", "cap", "bounded", "exact"].map(|sampler| format!("{sampler}{end}"))
+        });
+        assert_eq!(names, expected.concat());
+    }
+}
+
 /// The chi-square tests that go with the header, as users build them; and whether they notice faults.
 #[test]
 fn samples_follow_their_densities() {
