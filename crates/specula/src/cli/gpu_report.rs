@@ -5,8 +5,6 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use crate::gpu::AdapterKind;
-use crate::lab::Machine;
 use crate::lab::gpu_report::{
     AdapterChoice, Gpu, GpuError, GpuReportOptions, GpuReportPart, gpu_report,
 };
@@ -15,7 +13,6 @@ use clap::Args;
 
 use super::console::say;
 use super::device::Device;
-use super::device::measured::{self, Measurement};
 use super::progress::Progress;
 use super::stop::StopFlag;
 use super::{Failure, print};
@@ -94,6 +91,7 @@ pub(crate) fn run(arguments: &GpuReportArguments) -> Result<ExitCode, Failure> {
     let report = report?;
     print(&report.text)?;
     write(&arguments.output, &report.text)?;
+    #[cfg(feature = "gpu")]
     if let Some(time) = report.time_over_processor {
         keep(&gpu, time);
     }
@@ -139,7 +137,11 @@ fn write(folder: &Path, text: &str) -> Result<(), Failure> {
 }
 
 /// Keeps what `--device auto` chooses by. Where that cannot be written, the report stays good.
+#[cfg(feature = "gpu")]
 fn keep(gpu: &Gpu, time: f64) {
+    use super::device::measured::{self, Measurement};
+    use crate::gpu::AdapterKind;
+    use crate::lab::Machine;
     if gpu.adapter.kind == AdapterKind::Software {
         return;
     }
