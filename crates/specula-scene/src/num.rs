@@ -70,8 +70,20 @@ pub(crate) fn parsed_f32(word: &[u8]) -> Option<f32> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
+
+    /// Numbers as text with up to 17 decimals, and in scientific notation.
+    pub(crate) fn random_numbers() -> impl Iterator<Item = String> {
+        let mut state = 1_u64;
+        (0..20_000).flat_map(move |i| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(99);
+            let x = (state >> 32) as f64 / 1e6 - 2e3;
+            [format!("{x:.*}", i % 18), format!("{:e}", x * 1e-9)]
+        })
+    }
 
     #[test]
     fn words_are_read_as_the_standard_library_does() {
@@ -104,14 +116,7 @@ mod tests {
         ]
         .map(str::to_owned)
         .to_vec();
-        let mut state = 1_u64;
-        for i in 0..20_000 {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(99);
-            let x = f64::from(u32::try_from(state >> 32).unwrap()) / 1e6 - 2e3;
-            words.push(format!("{x:.*}", i % 18));
-        }
+        words.extend(random_numbers());
         for word in &words {
             let bits = |x: Option<f64>| x.map(f64::to_bits);
             let expected = bits(word.parse().ok());

@@ -91,6 +91,7 @@ fn numbers(text: &str, integers: bool) -> Option<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::tests::random_numbers;
 
     /// Words of all sorts, as the standard library reads them, bit for bit.
     #[test]
@@ -118,15 +119,7 @@ mod tests {
         ]
         .map(str::to_owned)
         .to_vec();
-        let mut state = 1_u64;
-        for i in 0..20_000 {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(99);
-            let x = f64::from(u32::try_from(state >> 32).unwrap()) / 1e6 - 2e3;
-            words.push(format!("{x:.*}", i % 18));
-            words.push(format!("{:e}", x * 1e-9));
-        }
+        words.extend(random_numbers());
         let text = words.join(" \n");
         assert!(text.len() > 3 * BLOCK);
         let (read, end) = read(&format!("{text}] 7"), false).unwrap();
