@@ -11,12 +11,28 @@ use crate::gpu::{AdapterDescription, AdapterKind};
 use crate::lab::Machine;
 use crate::scene::atomic;
 
-/// A GPU beside the processor of its machine.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Measurement {
+/// What a measurement is of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Hardware {
     gpu: String,
     driver: String,
     processor: String,
+}
+
+impl Hardware {
+    fn new(adapter: &AdapterDescription, machine: &Machine) -> Self {
+        Self {
+            gpu: adapter.name.clone(),
+            driver: adapter.driver.clone(),
+            processor: machine.processor.clone(),
+        }
+    }
+}
+
+/// A GPU beside the processor of its machine.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Measurement {
+    hardware: Hardware,
     threads: u64,
     /// Time to equal error over the processor's.
     time: f64,
@@ -26,31 +42,21 @@ impl Measurement {
     /// * `time`: to equal error, over the processor's.
     pub(crate) fn new(adapter: &AdapterDescription, machine: &Machine, time: f64) -> Self {
         Self {
-            gpu: adapter.name.clone(),
-            driver: adapter.driver.clone(),
-            processor: machine.processor.clone(),
+            hardware: Hardware::new(adapter, machine),
             threads: machine.threads as u64,
             time,
         }
-    }
-
-    fn is_of(&self, adapter: &AdapterDescription, machine: &Machine) -> bool {
-        self.gpu == adapter.name
-            && self.driver == adapter.driver
-            && self.processor == machine.processor
-    }
-
-    fn replaces(&self, other: &Self) -> bool {
-        (&self.gpu, &self.driver, &self.processor) == (&other.gpu, &other.driver, &other.processor)
     }
 
     fn read(value: &Value) -> Option<Self> {
         let text = |name: &str| Some(value.get(name)?.as_str()?.to_owned());
         let time = value.get("time_over_processor")?.as_f64()?;
         Some(Self {
-            gpu: text("gpu")?,
-            driver: text("driver")?,
-            processor: text("processor")?,
+            hardware: Hardware {
+                gpu: text("gpu")?,
+                driver: text("driver")?,
+                processor: text("processor")?,
+            },
             threads: value.get("threads")?.as_u64()?,
             time: Some(time).filter(|t| *t > 0.0)?,
         })
@@ -58,9 +64,9 @@ impl Measurement {
 
     fn write(&self) -> Value {
         json!({
-            "gpu": self.gpu,
-            "driver": self.driver,
-            "processor": self.processor,
+            "gpu": self.hardware.gpu,
+            "driver": self.hardware.driver,
+            "processor": self.hardware.processor,
             "threads": self.threads,
             "time_over_processor": self.time,
         })
@@ -89,7 +95,8 @@ pub(crate) fn choose<'a>(
     let real = || (adapters.iter()).filter(|a| a.kind != AdapterKind::Software);
     let best = real()
         .filter_map(|adapter| {
-            let known = measurements.iter().find(|m| m.is_of(adapter, machine))?;
+            let hardware = Hardware::new(adapter, machine);
+            let known = measurements.iter().find(|m| m.hardware == hardware)?;
             Some((adapter, known))
         })
         .min_by(|(_, a), (_, b)| a.time.total_cmp(&b.time));
@@ -103,13 +110,8 @@ pub(crate) fn choose<'a>(
 
 impl std::fmt::Display for Measurement {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self {
-            gpu,
-            processor,
-            threads,
-            time,
-            ..
-        } = self;
+        let Hardware { gpu, processor, .. } = &self.hardware;
+        let Self { threads, time, .. } = self;
         write!(
             f,
             "{gpu} took {time:.2} of the time of {processor} with {threads} threads"
@@ -138,7 +140,7 @@ pub(crate) fn keep(measurement: &Measurement) -> io::Result<Option<PathBuf>> {
         return Ok(None);
     };
     let mut kept = all();
-    kept.retain(|other| !measurement.replaces(other));
+    kept.retain(|other| other.hardware != measurement.hardware);
     kept.push(measurement.clone());
     write(&file, &kept)?;
     Ok(Some(file))
@@ -215,7 +217,7 @@ mod tests {
         // Other machines, drivers and software tell nothing.
         assert_eq!(of(&both, &machine("B")), Choice::NotMeasured(&adapters[0]));
         let mut old = measured(0, 0.1);
-        "driver 0".clone_into(&mut old.driver);
+        "driver 0".clone_into(&mut old.hardware.driver);
         let software = measured(2, 0.1);
         assert_eq!(
             of(&[old, software.clone()], &here),
@@ -231,8 +233,9 @@ mod tests {
         let card = adapter(0, "a \"card\"", AdapterKind::Discrete);
         let list = ["A", "B"].map(|name| Measurement::new(&card, &machine(name), 0.25));
         write(&file, &list).unwrap();
-        assert_eq!(parse(&std::fs::read(&file).unwrap()), list);
-        assert!(list[0].replaces(&list[0]) && !list[0].replaces(&list[1]));
+        let read = parse(&std::fs::read(&file).unwrap());
+        assert_eq!(read, list);
+        assert!(read[0].hardware == list[0].hardware && read[0].hardware != list[1].hardware);
         for damaged in ["", "{", "{}", "[1, {\"gpu\": 2}]", "[[]]"] {
             assert_eq!(parse(damaged.as_bytes()), [], "{damaged}");
         }
