@@ -13,6 +13,7 @@ use std::collections::BTreeSet;
 use specula_shaders::{
     DeclarationKind, Export, Language, MODULES, compose, declarations, export, fields, ordered,
 };
+use specula_testing::compilers;
 use tools::Folder;
 
 const TEXTS: [Language; 7] = [
@@ -236,7 +237,7 @@ fn hlsl_compiles_with_glslang() {
 
 #[test]
 fn hlsl_compiles_with_dxc() {
-    let Some(python) = tools::dxc_python() else {
+    let Some(python) = compilers::dxc_python("HLSL with DXC") else {
         return;
     };
     let folder = Folder::with(&export(Language::Hlsl, &[]).unwrap());
@@ -267,7 +268,7 @@ const SLANG_TARGETS: [&[&str]; 3] = [
 
 #[test]
 fn slang_compiles() {
-    let Some(compiler) = tools::slangc() else {
+    let Some(compiler) = compilers::slangc("Slang") else {
         return;
     };
     let strict = ["-warnings-as-errors", "all"];

@@ -1,10 +1,11 @@
 //! What the tests of the workspace share: a line for what a machine does not let them do, the scenes of
-//! `data/scenes`, and directions near the horizon.
+//! `data/scenes`, compilers, and directions near the horizon.
 //!
 //! Every such line has one form and goes to standard error, past the capture of the test harness. `cargo
 //! xtask test` names a file by [`FILE`]; the lines are appended to it, and printed again at the end.
 #![forbid(unsafe_code)]
 
+pub mod compilers;
 pub mod horizon;
 
 use std::fmt::{self, Display};

@@ -22,34 +22,6 @@ pub(crate) fn program(name: &str, what: &str) -> Option<PathBuf> {
     None
 }
 
-/// A Python that has DXC, or a line that says what was skipped.
-#[track_caller]
-pub(crate) fn dxc_python() -> Option<PathBuf> {
-    let python = std::env::var_os("SPECULA_DXC_PYTHON").map(PathBuf::from);
-    if python.is_none() {
-        specula_testing::skip(
-            "HLSL with DXC",
-            "SPECULA_DXC_PYTHON names no Python that has compushady",
-            "pip install compushady",
-        );
-    }
-    python
-}
-
-/// Slang's compiler, or a line that says what was skipped.
-#[track_caller]
-pub(crate) fn slangc() -> Option<PathBuf> {
-    let program = std::env::var_os("SPECULA_SLANGC").map(PathBuf::from);
-    if program.is_none() {
-        specula_testing::skip(
-            "Slang",
-            "SPECULA_SLANGC names no slangc",
-            "pip install --no-deps --target FOLDER slangtorch; it has bin/slangc",
-        );
-    }
-    program
-}
-
 /// A folder of its own that is removed in the end.
 pub(crate) struct Folder(tempfile::TempDir);
 

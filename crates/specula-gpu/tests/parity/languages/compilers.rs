@@ -149,29 +149,14 @@ impl Target {
 /// A Python that has DXC, or a line that says what was skipped.
 #[track_caller]
 fn dxc() -> Option<(PathBuf, String)> {
-    let python = std::env::var_os("SPECULA_DXC_PYTHON").map(PathBuf::from);
-    if python.is_none() {
-        specula_testing::skip(
-            "parity of HLSL",
-            "SPECULA_DXC_PYTHON names no Python that has compushady",
-            "pip install compushady",
-        );
-    }
+    let python = specula_testing::compilers::dxc_python("parity of HLSL");
     python.map(|python| (python, "DXC 3.7".to_owned()))
 }
 
 /// Slang's compiler, or a line that says what was skipped.
 #[track_caller]
 fn slangc() -> Option<(PathBuf, String)> {
-    let program = std::env::var_os("SPECULA_SLANGC").map(PathBuf::from);
-    if program.is_none() {
-        specula_testing::skip(
-            "parity of Slang",
-            "SPECULA_SLANGC names no slangc",
-            "pip install --no-deps --target FOLDER slangtorch; it has bin/slangc",
-        );
-    }
-    let program = program?;
+    let program = specula_testing::compilers::slangc("parity of Slang")?;
     // It says its version as an error.
     let said = Command::new(&program).arg("-v").output().unwrap();
     let said = [said.stdout, said.stderr].concat();
