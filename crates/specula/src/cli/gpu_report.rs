@@ -92,7 +92,7 @@ pub(crate) fn run(arguments: &GpuReportArguments) -> Result<ExitCode, Failure> {
     print(&report.text)?;
     write(&arguments.output, &report.text)?;
     #[cfg(feature = "gpu")]
-    if let Some(time) = report.time_over_processor {
+    if let Some(time) = report.time_over_processor.filter(|_| report.agrees) {
         keep(&gpu, time);
     }
     if report.is_stopped {
@@ -136,7 +136,7 @@ fn write(folder: &Path, text: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Keeps what `--device auto` chooses by. Where that cannot be written, the report stays good.
+/// Keeps what `--device auto` chooses by: of a GPU whose pictures agree. Where that cannot be written, the report stays good.
 #[cfg(feature = "gpu")]
 fn keep(gpu: &Gpu, time: f64) {
     use super::device::measured::{self, Measurement};
