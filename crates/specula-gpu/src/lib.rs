@@ -26,6 +26,8 @@ mod scene_program;
 #[cfg(feature = "device")]
 mod schedule;
 #[cfg(feature = "device")]
+mod several;
+#[cfg(feature = "device")]
 mod shader;
 #[cfg(feature = "device")]
 mod stage;
@@ -52,6 +54,8 @@ pub use queries::{Rays, Structures};
 pub use scene_program::{MissingFeatures, SceneProgram, missing};
 #[cfg(feature = "device")]
 pub use schedule::{Schedule, UnknownSchedule};
+#[cfg(feature = "device")]
+pub use several::{LostGpu, Tracers};
 #[cfg(feature = "device")]
 pub use shader::Shader;
 #[cfg(feature = "device")]

@@ -60,6 +60,8 @@ pub struct Tracer<'a> {
     expected: [usize; 2],
     /// Of the batch that was fetched last.
     sums: Vec<RunSums>,
+    /// Samples a second of the last batches.
+    rate: Option<f64>,
 }
 
 /// What was begun of a pass.
@@ -165,6 +167,7 @@ impl<'a> Tracer<'a> {
             largest,
             expected: [0; 2],
             sums: Vec::new(),
+            rate: None,
         })
     }
 
@@ -184,10 +187,31 @@ impl<'a> Tracer<'a> {
         samples: u32,
         stop: &AtomicBool,
     ) -> Result<PassReport, GpuError> {
-        // What an earlier pass left that failed.
+        self.forget();
+        renderer.render_pass_with(samples, stop, self)
+    }
+
+    /// Leaves what an earlier pass has begun and, as it failed, not finished.
+    pub(crate) fn forget(&mut self) {
         self.begun.clear();
         self.finished = None;
-        renderer.render_pass_with(samples, stop, self)
+    }
+
+    /// Where it renders.
+    #[must_use]
+    pub fn gpu(&self) -> &'a Gpu {
+        self.gpu
+    }
+
+    /// Samples a second of the last batches, once one is finished.
+    #[must_use]
+    pub fn rate(&self) -> Option<f64> {
+        self.rate
+    }
+
+    /// The sums that were finished last.
+    pub(crate) fn sums(&self) -> &[RunSums] {
+        &self.sums
     }
 
     /// The sums of runs, in batches, one after the other.
@@ -218,8 +242,10 @@ impl<'a> Tracer<'a> {
         self.largest >= WORKGROUP && self.gpu.check().is_ok()
     }
 
-    /// Adjusts the size of the next batch to [`BATCH_TIME`].
+    /// Adjusts the size of the next batch to [`BATCH_TIME`], and the rate to what this one took.
     fn adjust(&mut self, samples: usize, took: Duration) {
+        let rate = samples as f64 / took.as_secs_f64().max(1e-6);
+        self.rate = Some(self.rate.map_or(rate, |earlier| 0.5 * (earlier + rate)));
         if took < BATCH_TIME / 2 && samples >= self.samples / 2 {
             self.samples = (self.samples * 2).min(self.largest);
         } else if took > 2 * BATCH_TIME {

@@ -241,9 +241,10 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "HOST:PORT", value_parser = live_view::address)]
     pub(crate) display_server: Option<String>,
 
-    /// What takes the samples: cpu; gpu, gpu:INDEX or gpu:NAME as `specula devices` lists them; or auto:
-    /// the fastest GPU that `specula gpu-report` has measured to be faster than the processor, where it renders all of
-    /// the scene, else the processor, with a note
+    /// What takes the samples: cpu; gpu, gpu:INDEX or gpu:NAME as `specula devices` lists them; several of
+    /// them as gpu:0,1, all real ones as gpu:all, each as many samples as it is fast; or auto: the fastest GPU
+    /// that `specula gpu-report` has measured to be faster than the processor, where it renders all of the
+    /// scene, else the processor, with a note
     #[arg(long, value_name = "NAME", default_value_t = Device::Cpu)]
     pub(crate) device: Device,
 

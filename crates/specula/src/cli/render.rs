@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
         arguments,
         stop: &stop,
         threads,
-        gpu: device::open(&arguments.device, &arguments.gpu)?,
+        gpus: device::open(&arguments.device, &arguments.gpu)?,
     };
     let pool = machine::pool(threads, arguments.machine.nice)?;
     if arguments.watch {
@@ -54,7 +54,7 @@ pub(crate) struct Context<'a> {
     pub(crate) arguments: &'a RenderArguments,
     pub(crate) stop: &'a Stop,
     threads: usize,
-    gpu: Option<Gpu>,
+    gpus: Vec<Gpu>,
 }
 
 /// A scene that was checked, and what its render needs.
@@ -170,8 +170,7 @@ impl Context<'_> {
         let arguments = self.arguments;
         let options = rest.options;
         let chosen = (&arguments.device, &arguments.gpu);
-        let gpu = self.gpu.as_ref();
-        let source = Samples::new(chosen, gpu, prepared, &options, arguments.quiet)?;
+        let source = Samples::new(chosen, &self.gpus, prepared, &options, arguments.quiet)?;
         let renderer = match rest.begun {
             None => Renderer::new(prepared, options.clone()),
             Some(film) => Renderer::resume(prepared, options.clone(), film).map_err(|e| {

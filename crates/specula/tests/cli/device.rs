@@ -104,6 +104,7 @@ fn devices_that_are_not_there_are_named_and_nothing_is_written() {
         ("tpu", "expected auto, cpu, gpu"),
         ("gpu:99", "no GPU"),
         ("gpu:no such card", "no GPU"),
+        ("gpu:0,99", "no GPU"),
     ] {
         let arguments = [&["render", "small.pbrt", "--device", device], &output[..]].concat();
         let (code, said) = run(folder, &arguments);
@@ -111,6 +112,38 @@ fn devices_that_are_not_there_are_named_and_nothing_is_written() {
         assert!(said.contains(expected), "{said}");
     }
     assert!(!folder.join("a.exr").exists());
+}
+
+#[test]
+fn several_gpus_render_together() {
+    if !has_gpu("several GPUs") {
+        return;
+    }
+    let (folder, _) = small_scene();
+    let folder = folder.path();
+    let (code, said) = run(folder, &["render", "small.pbrt", "--device", "gpu:0,0"]);
+    assert!(code == Some(2) && said.contains("is named twice"), "{said}");
+    let adapters = adapters();
+    if adapters.iter().all(|a| a.kind == AdapterKind::Software) {
+        let (code, said) = run(folder, &["render", "small.pbrt", "--device", "gpu:all"]);
+        assert!(code == Some(2) && said.contains("no real GPU"), "{said}");
+    }
+    if adapters.len() < 2 {
+        specula_testing::not_of_this_machine("several GPUs", "there is one GPU");
+        return;
+    }
+    let render = |device, name| {
+        let render = ["render", "small.pbrt", "--spp", "4", "--device", device];
+        succeed(folder, &[&render[..], &["-o", name]].concat())
+    };
+    render("gpu:0", "one.exr");
+    let said = render("gpu:0,1", "two.exr");
+    assert_eq!(said.matches("rendering on ").count(), 2, "{said}");
+    let [one, two] = ["one.exr", "two.exr"].map(|name| picture(folder, name));
+    let near = |a: f32, b: f32| (a - b).abs() <= 1e-3 * (1.0 + a);
+    let pairs = one.colour.iter().zip(&two.colour);
+    let differ = pairs.filter(|(a, b)| !near(a.g, b.g)).count();
+    assert!(50 * differ <= one.colour.len(), "{differ} pixels differ");
 }
 
 #[test]

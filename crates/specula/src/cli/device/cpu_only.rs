@@ -41,9 +41,9 @@ pub(crate) fn list() -> Result<ExitCode, Failure> {
 ///
 /// # Errors
 /// Where a GPU is asked for.
-pub(crate) fn open(device: &Device, _: &GpuArguments) -> Result<Option<Gpu>, Failure> {
+pub(crate) fn open(device: &Device, _: &GpuArguments) -> Result<Vec<Gpu>, Failure> {
     match device {
-        Device::Cpu | Device::Auto => Ok(None),
+        Device::Cpu | Device::Auto => Ok(Vec::new()),
         Device::Gpu(_) => Err(Failure::bad_input(format_args!(
             "--device {device}: {}",
             absent::message("a GPU", "gpu")
@@ -70,12 +70,12 @@ impl<'a> Samples<'a> {
     )]
     pub(crate) fn new(
         _: (&Device, &GpuArguments),
-        gpu: Option<&'a Gpu>,
+        gpus: &'a [Gpu],
         _: &PreparedScene,
         _: &RenderOptions,
         _: bool,
     ) -> Result<Self, Failure> {
-        match gpu {
+        match gpus.first() {
             None => Ok(Self(PhantomData)),
             Some(gpu) => match *gpu {},
         }

@@ -5,7 +5,8 @@ use std::fmt;
 use std::sync::atomic::AtomicBool;
 
 use crate::gpu::{
-    AdapterChoice, Gpu, GpuError, Rays, Schedule, Tracer, TracerError, TracerOptions, adapters,
+    AdapterChoice, AdapterKind, Gpu, GpuError, Rays, Schedule, TracerError, TracerOptions, Tracers,
+    adapters,
 };
 use crate::render::{PassReport, PreparedScene, RenderOptions, Renderer};
 use clap::Args;
@@ -52,16 +53,18 @@ pub(crate) fn list() -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Opens the GPU that is asked for; `None`: the processor renders.
+/// Opens the GPUs that are asked for; none: the processor renders.
 ///
 /// # Errors
 /// Where a GPU is asked for and cannot be opened, or ray queries are and it offers none.
-pub(crate) fn open(device: &Device, arguments: &GpuArguments) -> Result<Option<Gpu>, Failure> {
-    let gpu = opened(device)?;
-    let lacks = match &gpu {
-        _ if arguments.gpu_rays != Rays::Query => return Ok(gpu),
-        Some(open) if open.has_ray_queries() => return Ok(gpu),
+pub(crate) fn open(device: &Device, arguments: &GpuArguments) -> Result<Vec<Gpu>, Failure> {
+    let gpus = opened(device)?;
+    if arguments.gpu_rays != Rays::Query {
+        return Ok(gpus);
+    }
+    let lacks = match gpus.iter().find(|gpu| !gpu.has_ray_queries()) {
         Some(gpu) => format!("{} offers no ray queries", gpu.adapter),
+        None if !gpus.is_empty() => return Ok(gpus),
         None if *device == Device::Cpu => "the processor has no ray queries".to_owned(),
         None => "there is no real GPU".to_owned(),
     };
@@ -71,29 +74,53 @@ pub(crate) fn open(device: &Device, arguments: &GpuArguments) -> Result<Option<G
     )))
 }
 
-fn choice(which: Option<&str>) -> AdapterChoice {
-    let choice = which.map(|which| match which.parse() {
+/// The adapters that are meant by what follows `gpu:`.
+///
+/// # Errors
+/// Where one is named twice.
+fn choices(which: &str) -> Result<Vec<AdapterChoice>, String> {
+    if which.eq_ignore_ascii_case("all") {
+        let real = adapters().into_iter();
+        let real = real.filter(|adapter| adapter.kind != AdapterKind::Software);
+        let all: Vec<_> = real.map(|a| AdapterChoice::Index(a.index)).collect();
+        return match all.is_empty() {
+            true => Err("there is no real GPU".to_owned()),
+            false => Ok(all),
+        };
+    }
+    let choice = |name: &str| match name.trim().parse() {
         Ok(choice) => choice,
         Err(never) => match never {},
-    });
-    choice.unwrap_or(AdapterChoice::Best)
+    };
+    Ok(which.split(',').map(choice).collect())
 }
 
-fn opened(device: &Device) -> Result<Option<Gpu>, Failure> {
-    match device {
-        Device::Cpu => Ok(None),
-        Device::Auto => Ok(faster().and_then(|index| {
-            let gpu = Gpu::open(&AdapterChoice::Index(index));
-            gpu.inspect_err(|error| note(error)).ok()
-        })),
-        Device::Gpu(which) => match Gpu::open(&choice(which.as_deref())) {
-            Ok(gpu) => Ok(Some(gpu)),
-            Err(error @ (GpuError::NoAdapter | GpuError::NoSuchAdapter { .. })) => Err(
-                Failure::bad_input(format_args!("--device {device}: {error}")),
-            ),
-            Err(error) => Err(Failure::other(error)),
-        },
+fn opened(device: &Device) -> Result<Vec<Gpu>, Failure> {
+    let which = match device {
+        Device::Cpu => return Ok(Vec::new()),
+        Device::Auto => {
+            let gpu = faster().and_then(|index| {
+                let gpu = Gpu::open(&AdapterChoice::Index(index));
+                gpu.inspect_err(|error| note(error)).ok()
+            });
+            return Ok(gpu.into_iter().collect());
+        }
+        Device::Gpu(which) => which.as_deref().unwrap_or("best"),
+    };
+    let refused =
+        |error: &dyn fmt::Display| Failure::bad_input(format_args!("--device {device}: {error}"));
+    let mut gpus: Vec<Gpu> = Vec::new();
+    for choice in choices(which).map_err(|error| refused(&error))? {
+        let gpu = Gpu::open(&choice).map_err(|error| match error {
+            GpuError::NoAdapter | GpuError::NoSuchAdapter { .. } => refused(&error),
+            _ => Failure::other(error),
+        })?;
+        if gpus.iter().any(|other| other.adapter == gpu.adapter) {
+            return Err(refused(&format_args!("{} is named twice", gpu.adapter)));
+        }
+        gpus.push(gpu);
     }
+    Ok(gpus)
 }
 
 /// The index of a real GPU that `gpu-report` has measured to be faster than the processor; says so, or why the processor
@@ -151,58 +178,70 @@ fn note(error: &dyn fmt::Display) {
 
 /// What takes the samples of a render.
 pub(crate) struct Samples<'a> {
-    tracer: Option<Tracer<'a>>,
+    tracers: Option<Tracers<'a>>,
     /// Whether the processor goes on where a GPU fails.
     falls_back: bool,
 }
 
 impl<'a> Samples<'a> {
-    /// Prepares the GPU for the scene.
+    /// Prepares the GPUs for the scene.
     ///
     /// # Errors
     /// Where a GPU is asked for and does not render the scene.
     pub(crate) fn new(
         (device, arguments): (&Device, &GpuArguments),
-        gpu: Option<&'a Gpu>,
+        gpus: &'a [Gpu],
         scene: &PreparedScene,
         options: &RenderOptions,
         quiet: bool,
     ) -> Result<Self, Failure> {
         let falls_back = *device == Device::Auto;
-        let prepare = |gpu| Tracer::with_options(gpu, scene, options, arguments.options());
-        let tracer = match gpu.map(|gpu| (prepare(gpu), gpu)) {
-            None => None,
-            Some((Ok(tracer), gpu)) => {
-                if !quiet {
-                    let casting = match tracer.uses_ray_queries() {
-                        true => "by its ray queries",
-                        false => "through Specula's tree",
-                    };
-                    say!("rendering on {}, rays {casting}", gpu.adapter);
-                }
-                Some(tracer)
-            }
-            Some((Err(error @ TracerError::Queries(_)), _)) => {
+        if gpus.is_empty() {
+            return Ok(Self {
+                tracers: None,
+                falls_back,
+            });
+        }
+        // Of several, which one.
+        let of = |place: usize| match gpus {
+            [_] => String::new(),
+            _ => format!("{}: ", gpus[place].adapter),
+        };
+        let tracers = match Tracers::new(gpus, scene, options, arguments.options()) {
+            Ok(tracers) => Some(tracers),
+            Err((place, error @ TracerError::Queries(_))) => {
                 return Err(Failure::bad_input(format_args!(
-                    "--gpu-rays query: {error}; --gpu-rays tree does"
+                    "--gpu-rays query: {}{error}; --gpu-rays tree does",
+                    of(place)
                 )));
             }
-            Some((Err(error), _)) if falls_back => {
+            Err((_, error)) if falls_back => {
                 note(&error);
                 None
             }
-            Some((Err(error @ (TracerError::Missing(_) | TracerError::TooLarge { .. })), _)) => {
+            Err((place, error @ (TracerError::Missing(_) | TracerError::TooLarge { .. }))) => {
                 return Err(Failure::bad_input(format_args!(
-                    "--device {device}: {error}; --device cpu does"
+                    "--device {device}: {}{error}; --device cpu does",
+                    of(place)
                 )));
             }
-            Some((Err(TracerError::Gpu(error)), _)) => return Err(failed(&error, "")),
-            Some((Err(error), _)) => return Err(Failure::other(error)),
+            Err((_, TracerError::Gpu(error))) => return Err(failed(&error, "")),
+            Err((_, error)) => return Err(Failure::other(error)),
         };
-        Ok(Self { tracer, falls_back })
+        for tracer in tracers.iter().flat_map(Tracers::members).filter(|_| !quiet) {
+            let casting = match tracer.uses_ray_queries() {
+                true => "by its ray queries",
+                false => "through Specula's tree",
+            };
+            say!("rendering on {}, rays {casting}", tracer.gpu().adapter);
+        }
+        Ok(Self {
+            tracers,
+            falls_back,
+        })
     }
 
-    /// Adds samples to the film; where a GPU fails and may be left, the processor takes the rest.
+    /// Adds samples to the film; without GPUs that fail others go on, and at last, where it may, the processor.
     ///
     /// # Errors
     /// That of a GPU that was asked for. Earlier samples stay in the film.
@@ -212,11 +251,15 @@ impl<'a> Samples<'a> {
         samples: u32,
         stop: &AtomicBool,
     ) -> Result<PassReport, GpuError> {
-        if let Some(tracer) = &mut self.tracer {
-            match tracer.render_pass(renderer, samples, stop) {
+        if let Some(tracers) = &mut self.tracers {
+            let result = tracers.render_pass(renderer, samples, stop);
+            for lost in tracers.lost() {
+                say!("note: {}: {}; the others go on", lost.adapter, lost.error);
+            }
+            match result {
                 Err(error) if self.falls_back => {
                     note(&error);
-                    self.tracer = None;
+                    self.tracers = None;
                 }
                 result => return result,
             }
@@ -224,9 +267,6 @@ impl<'a> Samples<'a> {
         Ok(renderer.render_pass(samples, stop))
     }
 }
-
-#[cfg(test)]
-use crate::gpu::AdapterKind;
 
 #[cfg(test)]
 #[path = "../../../../specula-gpu/tests/common/limited.rs"]
@@ -278,7 +318,8 @@ mod tests {
     /// `auto` on a GPU that is there, in software too.
     fn auto<'a>(gpu: &'a Gpu, scene: &PreparedScene, options: &RenderOptions) -> Samples<'a> {
         let arguments = GpuArguments::default();
-        let samples = Samples::new((&Device::Auto, &arguments), Some(gpu), scene, options, true);
+        let gpus = std::slice::from_ref(gpu);
+        let samples = Samples::new((&Device::Auto, &arguments), gpus, scene, options, true);
         samples.unwrap_or_else(|_| panic!("auto fails"))
     }
 
@@ -288,7 +329,7 @@ mod tests {
         let mut renderer = Renderer::new(scene, options.clone());
         let report = samples.pass(&mut renderer, 4, &go).unwrap();
         assert!(report.complete);
-        assert!(samples.tracer.is_none(), "the GPU goes on");
+        assert!(samples.tracers.is_none(), "the GPU goes on");
         let mut processor = Renderer::new(scene, options.clone());
         processor.render_pass(4, &go);
         assert!(renderer.film() == processor.film());
@@ -309,7 +350,7 @@ mod tests {
         }
         let (scene, options) = textured(4);
         let samples = auto(&gpu, &scene, &options);
-        assert!(samples.tracer.is_some());
+        assert!(samples.tracers.is_some());
         gpu.device.destroy();
         is_the_processors(samples, &scene, &options);
         is_the_processors(auto(&gpu, &scene, &options), &scene, &options);
@@ -324,7 +365,7 @@ mod tests {
         }
         let side = 3300;
         let (scene, options) = textured(side);
-        assert!(auto(&gpu, &scene, &options).tracer.is_some());
+        assert!(auto(&gpu, &scene, &options).tracers.is_some());
         gpu.wait().unwrap();
         // For the scene as an array here, which grows by doubling, and for what else the driver takes;
         // not for another array there.
@@ -332,7 +373,7 @@ mod tests {
         let samples = auto(&gpu, &scene, &options);
         let (device, arguments) = (Device::Gpu(None), GpuArguments::default());
         let chosen = (&device, &arguments);
-        let refused = Samples::new(chosen, Some(&gpu), &scene, &options, true);
+        let refused = Samples::new(chosen, std::slice::from_ref(&gpu), &scene, &options, true);
         limit.lift();
         let (code, said) = refused
             .err()

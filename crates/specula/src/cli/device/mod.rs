@@ -24,7 +24,8 @@ pub(crate) enum Device {
     Auto,
     /// The processor.
     Cpu,
-    /// A GPU, by its index or a part of its name, or an error. `None`: the best one.
+    /// GPUs, or an error: by their indices or parts of their names, with commas between them; `all`: all real ones.
+    /// `None`: the best one.
     Gpu(Option<String>),
 }
 
@@ -38,7 +39,7 @@ impl FromStr for Device {
             None if text == "auto" => Ok(Self::Auto),
             None if text == "cpu" => Ok(Self::Cpu),
             _ => Err(
-                "expected auto, cpu, gpu, gpu:INDEX or gpu:NAME (`specula devices` lists them)"
+                "expected auto, cpu, gpu, gpu:INDEX, gpu:NAME, gpu:0,1 or gpu:all (`specula devices` lists them)"
                     .to_owned(),
             ),
         }
@@ -62,7 +63,15 @@ mod tests {
 
     #[test]
     fn devices_are_read_and_written() {
-        for text in ["auto", "cpu", "gpu", "gpu:1", "gpu:llvmpipe"] {
+        for text in [
+            "auto",
+            "cpu",
+            "gpu",
+            "gpu:1",
+            "gpu:llvmpipe",
+            "gpu:0,1",
+            "gpu:all",
+        ] {
             let device: Device = text.parse().unwrap();
             assert_eq!(device.to_string(), text);
         }
