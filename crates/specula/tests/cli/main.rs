@@ -12,6 +12,8 @@ mod convert;
 mod denoise;
 #[cfg(feature = "gpu")]
 mod device;
+#[cfg(all(target_os = "linux", feature = "gpu", feature = "lab"))]
+mod empty_root;
 #[cfg(feature = "shaders")]
 mod export;
 mod farm;
