@@ -33,6 +33,12 @@ struct RayFrame {
 const TRAVERSE_SLACK: f32 = 1.00000095367431640625;
 /// On the stack: the ray leaves an instance.
 const TRAVERSE_LEAVE: u32 = 0xffffffffu;
+/// For a reference: the next one is on the stack.
+const TRAVERSE_NEXT: u32 = 0xffffffffu;
+/// Bits of the index in a reference; those above are its kind.
+const TRAVERSE_INDEX: u32 = 0x3fffffffu;
+/// Triangles that are intersected in a turn, at most.
+const TRAVERSE_AT_ONCE: u32 = 2u;
 /// Least absolute value of a direction's component in the test of boxes.
 const TRAVERSE_LEAST: f32 = 1.0e-30;
 /// Vectors of a node, and where its children begin.
@@ -146,10 +152,11 @@ fn traverse_sheared(corner: vec3u, frame: RayFrame) -> vec3f {
     return vec3f(local.xy - frame.shear.xy * local.z, local.z);
 }
 
-/// Intersects a triangle and those that follow, up to the last one of its packet. The fourth word of a triangle's first
-/// corner is its index, that of the second is not 0 in the last one.
-fn traverse_packet(index: u32, frame: RayFrame, instance: u32, best: ptr<function, Hit>) {
-    for (var at = index * TRAVERSE_TRIANGLE; ; at += TRAVERSE_TRIANGLE) {
+/// Intersects so many triangles of a packet at most, from this one on; returns whether the packet ends with them. The
+/// fourth word of a triangle's first corner is its index, that of the second is not 0 in the last one.
+fn traverse_packet(index: u32, frame: RayFrame, instance: u32, best: ptr<function, Hit>) -> bool {
+    for (var i = 0u; i < TRAVERSE_AT_ONCE; i += 1u) {
+        let at = (index + i) * TRAVERSE_TRIANGLE;
         let first = world_triangles[at];
         let second = world_triangles[at + 1u];
         let a = traverse_sheared(first.xyz, frame);
@@ -170,9 +177,18 @@ fn traverse_packet(index: u32, frame: RayFrame, instance: u32, best: ptr<functio
             }
         }
         if second.w != 0u {
-            break;
+            return true;
         }
     }
+    return false;
+}
+
+/// The child of a node that the ray visits first.
+///
+/// * `rest`: children that are left, as of [`traverse_node`].
+fn traverse_child(node: u32, rest: u32, octant: u32) -> u32 {
+    let slot = firstTrailingBit(rest) ^ octant;
+    return world_nodes[node * TRAVERSE_NODE + TRAVERSE_CHILDREN + (slot >> 2u)][slot & 3u];
 }
 
 /// The first hit of a ray; any hit where `any` is set.
@@ -191,26 +207,39 @@ fn traverse(ray: Ray, any: bool) -> Hit {
     var node = 0u;
     var rest = 0u;
     var current = TREE_ROOT;
+    // Threads in lockstep execute a turn for all that any of them does: a node, and a few triangles after it.
     loop {
-        let kind = current >> 30u;
-        let index = current & 0x3fffffffu;
-        if (kind == 0u || kind == 3u) && rest != 0u {
-            stack[top] = vec2u(node, rest);
-            top += 1u;
-            rest = 0u;
+        if (current >> 30u) == 0u {
+            if rest != 0u {
+                stack[top] = vec2u(node, rest);
+                top += 1u;
+            }
+            node = current & TRAVERSE_INDEX;
+            rest = traverse_node(node, frame, best.t * TRAVERSE_SLACK);
+            current = TRAVERSE_NEXT;
+            if rest != 0u {
+                current = traverse_child(node, rest, frame.octant);
+                rest &= rest - 1u;
+            }
         }
-        if kind == 0u {
-            node = index;
-            rest = traverse_node(index, frame, best.t * TRAVERSE_SLACK);
-        } else if kind == 1u {
-            traverse_packet(index, frame, instance, &best);
+        let kind = current >> 30u;
+        let index = current & TRAVERSE_INDEX;
+        if kind == 1u {
+            let ends = traverse_packet(index, frame, instance, &best);
+            current = select(current + TRAVERSE_AT_ONCE, TRAVERSE_NEXT, ends);
         } else if kind == 2u {
             let at = QUADRICS + index * 16u;
             let t = quadric_distance(at, at + 4u, frame.origin, frame.direction);
             if t > 0.0 && t <= best.t {
                 traverse_offer(&best, t, 0.0, 0.0, word(at + 3u), instance);
             }
-        } else {
+            current = TRAVERSE_NEXT;
+        } else if kind == 3u && current != TRAVERSE_NEXT {
+            if rest != 0u {
+                stack[top] = vec2u(node, rest);
+                top += 1u;
+                rest = 0u;
+            }
             let at = PLACEMENTS + index * 15u;
             instance = word(at + 1u);
             if word(at + 2u) == 0u {
@@ -220,25 +249,25 @@ fn traverse(ray: Ray, any: bool) -> Hit {
                 top += 1u;
             }
             current = word(at);
-            continue;
         }
         if any && best.instance != NONE {
             break;
         }
-        while rest == 0u {
-            if top == 0u {
-                return best;
+        if current == TRAVERSE_NEXT {
+            while rest == 0u {
+                if top == 0u {
+                    return best;
+                }
+                top -= 1u;
+                node = stack[top].x;
+                rest = stack[top].y;
+                if node == TRAVERSE_LEAVE {
+                    frame = traverse_frame(ray.origin, ray.direction);
+                }
             }
-            top -= 1u;
-            node = stack[top].x;
-            rest = stack[top].y;
-            if node == TRAVERSE_LEAVE {
-                frame = traverse_frame(ray.origin, ray.direction);
-            }
+            current = traverse_child(node, rest, frame.octant);
+            rest &= rest - 1u;
         }
-        let slot = firstTrailingBit(rest) ^ frame.octant;
-        rest &= rest - 1u;
-        current = world_nodes[node * TRAVERSE_NODE + TRAVERSE_CHILDREN + (slot >> 2u)][slot & 3u];
     }
     return best;
 }
