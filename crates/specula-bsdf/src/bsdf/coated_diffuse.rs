@@ -21,8 +21,8 @@
 //! by quadrature otherwise (`energy/interface.rs`, `interface_single.rs`, `interface_layer.rs`).
 
 use super::{Bsdf, BsdfSample, Event, Transport};
+use crate::energy::interface_coat::{CoatInterface, Incident};
 use crate::energy::interface_layer::Layer;
-use crate::energy::{interface, interface_single};
 use crate::fresnel::dielectric;
 use crate::math::{Real, Rgb, Vec3, vec3, warp};
 use crate::ndf::{Ggx, Masking, Ndf};
@@ -70,20 +70,10 @@ pub struct CoatedDiffuse<T> {
     pub(crate) coat: Option<Ggx<T>>,
     pub(crate) eta: T,
     pub(crate) albedo: Rgb<T>,
-    layer: Layer<T>,
-    scattering: CoatScattering,
+    interface: CoatInterface<T>,
     /// `rho / eta^2 (1 - q^n) / (1 - q)`: the base with all bounces, before `T(wo) T(wi) / pi`.
     pub(crate) base: Rgb<T>,
     pub(crate) sampler: Sampler,
-}
-
-/// Light from one direction.
-#[derive(Clone, Copy)]
-struct Incident<T> {
-    /// Share that the coat reflects; an estimate where its facets scatter singly.
-    reflected: T,
-    /// Share that reaches the base.
-    arriving: T,
 }
 
 impl<T: Real> CoatedDiffuse<T> {
@@ -110,18 +100,15 @@ impl<T: Real> CoatedDiffuse<T> {
         }: CoatLayer<T>,
     ) -> Self {
         let eta = eta.within(T::ONE, T::of(3.0));
-        let layer = Layer::new(thickness);
-        let internal = match scattering {
-            CoatScattering::Lossless => interface::internal_reflectance(coat, eta),
-            CoatScattering::Single => interface_single::internal_reflectance(coat, eta),
-        } * layer.there_and_back(coat, eta);
+        let is_single = scattering == CoatScattering::Single;
+        let interface = CoatInterface::new(coat, eta, Layer::new(thickness), is_single);
+        let internal = interface.internal_reflectance(coat);
         let scale = T::ONE / (eta * eta);
         Self {
             coat,
             eta,
             albedo,
-            layer,
-            scattering,
+            interface,
             base: albedo.map(|rho| {
                 let q = rho * internal;
                 scale * rho * followed(q, max_depth) / (T::ONE - q)
@@ -140,21 +127,7 @@ impl<T: Real> CoatedDiffuse<T> {
     /// What becomes of light from `w`.
     #[inline(always)]
     fn incident(&self, w: Vec3<T>) -> Incident<T> {
-        let (coat, eta, mu) = (self.coat, self.eta, w.z.abs());
-        let crossing = self.layer.crossing(coat, eta, mu);
-        match self.scattering {
-            CoatScattering::Lossless => {
-                let entering = interface::transmittance(coat, eta, mu);
-                Incident {
-                    reflected: T::ONE - entering,
-                    arriving: entering * crossing,
-                }
-            }
-            CoatScattering::Single => Incident {
-                reflected: interface_single::reflectance_estimate(coat, eta, mu),
-                arriving: interface_single::transmittance(coat, eta, mu) * crossing,
-            },
-        }
+        self.interface.incident(w.z.abs())
     }
 
     /// Probability of sampling the coat's reflection; 0 for a mirror that faces away.
@@ -164,6 +137,30 @@ impl<T: Real> CoatedDiffuse<T> {
         let visible = self.coat.is_some() || wo.z > T::ZERO;
         let share = from.reflected / (from.reflected + diffuse).at_least(T::TINY);
         T::select(visible, share, T::ZERO)
+    }
+
+    /// Value and density.
+    ///
+    /// * `from`: of light from `wo`.
+    #[inline]
+    fn eval_pdf_from(&self, from: Incident<T>, wo: Vec3<T>, wi: Vec3<T>) -> (Rgb<T>, T) {
+        if wi.z <= T::ZERO {
+            return (Rgb::BLACK, T::ZERO);
+        }
+        let p = self.coat_probability(from, wo);
+        let mut f_cos = self.base_f_cos(from, wi);
+        let mut pdf = (T::ONE - p) * warp::cosine_hemisphere_pdf(wi);
+        if let Some(ggx) = self.coat {
+            let wm = (wo + wi).normalize_any();
+            if wm.z > T::ZERO {
+                let quarter = T::of(0.25) * ggx.d(wm);
+                let fresnel = dielectric(wo.dot(wm), self.eta).reflectance;
+                let shadowed = ggx.g2_over_cos(Masking::HeightCorrelated, wo, wi);
+                f_cos += Rgb::splat(fresnel * quarter * shadowed);
+                pdf += p * quarter / ggx.reflection_norm(self.sampler, wo);
+            }
+        }
+        (f_cos, pdf)
     }
 
     /// The base's part of `f |cos|`.
@@ -220,30 +217,13 @@ impl<T: Real> Bsdf<T> for CoatedDiffuse<T> {
         } else {
             warp::cosine_hemisphere(direction)
         };
-        let (f_cos, pdf) = self.eval_pdf(wo, wi, transport);
+        let (f_cos, pdf) = self.eval_pdf_from(from, wo, wi);
         BsdfSample::reflected(wi, f_cos / pdf, pdf)
     }
 
     #[inline]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, _transport: Transport) -> (Rgb<T>, T) {
-        if wi.z <= T::ZERO {
-            return (Rgb::BLACK, T::ZERO);
-        }
-        let from = self.incident(wo);
-        let p = self.coat_probability(from, wo);
-        let mut f_cos = self.base_f_cos(from, wi);
-        let mut pdf = (T::ONE - p) * warp::cosine_hemisphere_pdf(wi);
-        if let Some(ggx) = self.coat {
-            let wm = (wo + wi).normalize_any();
-            if wm.z > T::ZERO {
-                let quarter = T::of(0.25) * ggx.d(wm);
-                let fresnel = dielectric(wo.dot(wm), self.eta).reflectance;
-                let shadowed = ggx.g2_over_cos(Masking::HeightCorrelated, wo, wi);
-                f_cos += Rgb::splat(fresnel * quarter * shadowed);
-                pdf += p * quarter / ggx.reflection_norm(self.sampler, wo);
-            }
-        }
-        (f_cos, pdf)
+        self.eval_pdf_from(self.incident(wo), wo, wi)
     }
 
     #[inline(always)]

@@ -47,10 +47,20 @@ pub fn transmittance<T: Real>(coat: Option<Ggx<T>>, eta: T, mu: T) -> T {
     };
     let alpha = mean_alpha(ggx);
     let smooth = dielectric(effective_cosine(mu, alpha), eta).transmittance;
-    let (e, a) = (eta_knot(eta, ETAS), alpha_knot(alpha, ALPHAS));
+    (smooth * quotient(places(eta, alpha), mu)).within(T::ZERO, T::ONE)
+}
+
+/// The places of an interface in the table of `T / (1 - F(mu_e))`.
+#[inline]
+pub(super) fn places<T: Real>(eta: T, alpha: T) -> [Knot<T>; 2] {
+    [eta_knot(eta, ETAS), alpha_knot(alpha, ALPHAS)]
+}
+
+/// `T / (1 - F(mu_e))`.
+#[inline(always)]
+pub(super) fn quotient<T: Real>([e, a]: [Knot<T>; 2], mu: T) -> T {
     let m = cosine_knot(mu, MUS);
-    let quotient = e.lerp(|i| a.lerp(|j| m.lerp(|k| table(TRANSMITTANCE[i][j][k]))));
-    (smooth * quotient).within(T::ZERO, T::ONE)
+    e.lerp(|i| a.lerp(|j| m.lerp(|k| table(TRANSMITTANCE[i][j][k]))))
 }
 
 /// Share of diffuse light from inside that is reflected.

@@ -33,6 +33,12 @@ use crate::fresnel::dielectric;
 use crate::math::Real;
 use crate::ndf::Ggx;
 
+/// The places of an interface in the table of `crossing`.
+#[inline]
+pub(super) fn places<T: Real>(eta: T, alpha: T) -> [Knot<T>; 2] {
+    [eta_knot(eta, ETAS), alpha_knot(alpha, ABSORPTION_ALPHAS)]
+}
+
 /// A layer that absorbs and does not scatter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layer<T> {
@@ -72,11 +78,15 @@ impl<T: Real> Layer<T> {
         };
         let alpha = mean_alpha(ggx);
         let refracted = dielectric(effective_cosine(mu, alpha), eta).cos_t;
-        let (e, a) = (eta_knot(eta, ETAS), alpha_knot(alpha, ABSORPTION_ALPHAS));
+        self.left(refracted * self.share(places(eta, alpha), mu))
+    }
+
+    /// The cosine of which `exp(-t / c)` is the mean, over the refracted one.
+    #[inline(always)]
+    pub(super) fn share(&self, [e, a]: [Knot<T>; 2], mu: T) -> T {
         let m = cosine_knot(mu, ABSORPTION_MUS);
         let row = |i: usize, j: usize, k: usize| self.place.lerp(|l| table(CROSSING[i][j][k][l]));
-        let share = e.lerp(|i| a.lerp(|j| m.lerp(|k| row(i, j, k))));
-        self.left(refracted * share)
+        e.lerp(|i| a.lerp(|j| m.lerp(|k| row(i, j, k))))
     }
 
     /// Share that is left of diffuse light which crossed upwards, was reflected, and crossed again.
@@ -96,7 +106,7 @@ impl<T: Real> Layer<T> {
 
     /// `exp(-t / cos)`.
     #[inline(always)]
-    fn left(&self, cos: T) -> T {
+    pub(super) fn left(&self, cos: T) -> T {
         (-self.thickness / cos.at_least(T::TINY)).exp()
     }
 }

@@ -17,7 +17,9 @@
 //! `single_scattering_holds_its_bounds`): 8e-3 of `T`, 2e-3 of `R_int`. Anisotropic alphas are taken
 //! as `sqrt(alpha_x alpha_y)`.
 
-use super::interface::{alpha_knot, cosine_knot, effective_cosine, eta_knot, mean_alpha, table};
+use super::interface::{
+    Knot, alpha_knot, cosine_knot, effective_cosine, eta_knot, mean_alpha, table,
+};
 use super::interface_single_table::{
     ALPHAS, ETAS, INTERNAL_ETAS, INTERNAL_REFLECTANCE, MUS, TRANSMITTANCE,
 };
@@ -36,10 +38,20 @@ pub fn transmittance<T: Real>(coat: Option<Ggx<T>>, eta: T, mu: T) -> T {
     };
     let alpha = mean_alpha(ggx);
     let smooth = dielectric(effective_cosine(mu, alpha), eta).transmittance;
-    let (e, a) = (eta_knot(eta, ETAS), alpha_knot(alpha, ALPHAS));
+    (smooth * quotient(places(eta, alpha), mu)).within(T::ZERO, T::ONE)
+}
+
+/// The places of an interface in the table of `T / (1 - F(mu_e))`.
+#[inline]
+pub(super) fn places<T: Real>(eta: T, alpha: T) -> [Knot<T>; 2] {
+    [eta_knot(eta, ETAS), alpha_knot(alpha, ALPHAS)]
+}
+
+/// `T / (1 - F(mu_e))`.
+#[inline(always)]
+pub(super) fn quotient<T: Real>([e, a]: [Knot<T>; 2], mu: T) -> T {
     let m = cosine_knot(mu, MUS);
-    let quotient = e.lerp(|i| a.lerp(|j| m.lerp(|k| table(TRANSMITTANCE[i][j][k]))));
-    (smooth * quotient).within(T::ZERO, T::ONE)
+    e.lerp(|i| a.lerp(|j| m.lerp(|k| table(TRANSMITTANCE[i][j][k]))))
 }
 
 /// Share of the light from outside at the cosine `mu` that the interface reflects, roughly: Fresnel's

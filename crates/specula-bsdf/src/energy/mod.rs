@@ -14,6 +14,7 @@
 //! | `interface` | transmittance and internal reflectance, for coats |
 //! | `interface_single` | the same where facets scatter once |
 //! | `interface_layer` | what an absorbing layer under the interface takes |
+//! | `interface_coat` | an interface with its layer, for a coat that is asked often |
 
 pub(crate) mod albedo;
 mod albedo_tables;
@@ -23,6 +24,7 @@ pub(crate) mod fit;
 mod fit_coefficients;
 pub(crate) mod fresnel_average;
 pub(crate) mod interface;
+pub(crate) mod interface_coat;
 pub(crate) mod interface_layer;
 pub(crate) mod interface_single;
 mod interface_single_table;
