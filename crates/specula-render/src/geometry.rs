@@ -48,6 +48,14 @@ pub(crate) struct ShapeRecord {
     has_uvs: bool,
 }
 
+impl ShapeRecord {
+    /// Whether it may let rays pass.
+    #[inline(always)]
+    pub(crate) fn is_passable(&self) -> bool {
+        self.alpha.is_some() || self.is_interface
+    }
+}
+
 /// A sphere or a disk in its group.
 #[derive(Clone, Debug)]
 pub(crate) struct PlacedQuadric {
@@ -152,8 +160,7 @@ impl Geometry {
             Some(earlier) => earlier.accel,
             None => build_accel(&groups, &placements)?,
         };
-        let passable = |s: &ShapeRecord| s.alpha.is_some() || s.is_interface;
-        let has_passable = shapes.iter().any(passable);
+        let has_passable = shapes.iter().any(ShapeRecord::is_passable);
         Ok(Self {
             accel,
             groups,

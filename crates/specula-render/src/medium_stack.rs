@@ -42,6 +42,12 @@ impl MediumStack {
         self.absorption
     }
 
+    /// Whether it is as in empty space.
+    #[inline]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.absorption.is_none() && self.count == 0
+    }
+
     /// Passes a boundary.
     ///
     /// * `material`: that of the boundary: all surfaces of a body share it.

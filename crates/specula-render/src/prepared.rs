@@ -170,7 +170,8 @@ impl PreparedScene {
             let of = |material: u32| {
                 let material = materials.on_path(material, rough);
                 let [plain, _] = materials.plain(material)?;
-                Some((material, plain.is_sided))
+                let bounds = materials.boundary(material).is_some();
+                (!bounds).then_some((material, plain.is_sided))
             };
             geometry.shapes.iter().map(|s| of(s.material)).collect()
         };

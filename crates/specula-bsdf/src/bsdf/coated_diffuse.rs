@@ -201,7 +201,7 @@ impl<T: Real> Bsdf<T> for CoatedDiffuse<T> {
     }
 
     #[inline]
-    fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
+    fn sample(&self, wo: Vec3<T>, u: [T; 3], _transport: Transport) -> Option<BsdfSample<T>> {
         let from = self.incident(wo);
         let p = self.coat_probability(from, wo);
         let direction = [u[1], u[2]];

@@ -112,6 +112,7 @@ impl<T: Real> CoatInterface<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Alpha;
 
     #[test]
     fn values_are_those_of_the_interface_and_of_the_layer() {
@@ -122,7 +123,7 @@ mod tests {
             (Some([0.5, 0.2]), 1.33, 0.01),
             (Some([1.0, 1.0]), 2.4, 2.0),
         ] {
-            let coat = alpha.map(|[x, y]| Ggx::new(x, y));
+            let coat = alpha.map(|[x, y]| Ggx::new(Alpha::clamped(x, y)));
             let layer = Layer::new(thickness);
             for is_single in [false, true] {
                 let interface = CoatInterface::new(coat, eta, layer, is_single);

@@ -143,6 +143,12 @@ impl PathStates {
         }
     }
 
+    /// Whether something absorbs where a path is, or it remembers bodies that it is in.
+    #[inline(always)]
+    pub(super) fn is_in_a_medium(&self, i: usize) -> bool {
+        !self.media[i].is_empty()
+    }
+
     /// What a path adds to its pixel.
     #[inline(always)]
     pub(super) fn pixel_sample(&self, i: usize) -> PixelSample {

@@ -13,6 +13,7 @@ use super::{PathTracer, candidates, estimator};
 use crate::accel::{Hit, Ray};
 use crate::convert::id;
 use crate::material::{Plain, lobes};
+use crate::medium_stack::MediumStack;
 use crate::sampler::Purpose;
 
 impl PathTracer<'_> {
@@ -386,13 +387,29 @@ impl PathTracer<'_> {
         accel.occluded_all(shadow_rays.rays(), occluded);
         tally.rays += shadow_rays.len() as u64;
         for (k, &is_occluded) in occluded.iter().enumerate() {
-            if !is_occluded {
-                let i = shadow_rays.index(k);
-                let path = index(batch.path_indices[i]);
-                match shared {
-                    Some(shared) if shared.is_at_y(path) => shared.store_light(path, batch, i),
-                    _ => paths.add(path, a.contribution.colour(i), depth + 1),
+            let i = shadow_rays.index(k);
+            let path = index(batch.path_indices[i]);
+            let mut contribution = a.contribution.colour(i);
+            if is_occluded {
+                if !self.scene.geometry.has_passable {
+                    continue;
                 }
+                // What is in the way may let it pass. It counts its rays.
+                tally.rays -= 1;
+                let ray = *shadow_rays.ray(k);
+                let end = (!a.is_infinite[i]).then(|| a.target.get(i));
+                let way = (batch.surfaces.position.get(i), end);
+                let by_chance = (&paths.samplers[path], depth);
+                let rays = &mut tally.rays;
+                let none = MediumStack::NONE;
+                match self.transmittance_through(ray, way, none, by_chance, rays) {
+                    Some(transmittance) => contribution = contribution * transmittance,
+                    None => continue,
+                }
+            }
+            match shared {
+                Some(shared) if shared.is_at_y(path) => shared.store_light(path, batch, i),
+                _ => paths.add(path, contribution, depth + 1),
             }
         }
     }

@@ -85,26 +85,25 @@ impl PathTracer<'_> {
             Some(target) => estimator::shadow_ray(from, light.wi, target),
         };
         if self.scene.geometry.has_passable {
-            return self.transmittance_through(
-                ray,
-                from.position,
-                light,
-                *media,
-                (sampler, depth),
-                rays,
-            );
+            let end = light.target.as_ref().map(|target| target.position);
+            let way = (from.position, end);
+            return self.transmittance_through(ray, way, *media, (sampler, depth), rays);
         }
         *rays += 1;
         let visible = !self.scene.geometry.accel.occluded(&ray);
-        visible.then(|| transmittance_to_light(from.position, light, media))
+        visible.then(|| {
+            let end = light.target.as_ref().map(|target| target.position);
+            transmittance_to_light(from.position, end, media)
+        })
     }
 
     /// [`PathTracer::transmittance`] where some surfaces let rays pass.
-    fn transmittance_through(
+    ///
+    /// * `begin`, `end`: the vertex and the light; no end: it is at infinity.
+    pub(super) fn transmittance_through(
         &self,
         mut ray: Ray,
-        mut begin: Vec3<f32>,
-        light: &LightSample,
+        (mut begin, end): (Vec3<f32>, Option<Vec3<f32>>),
         mut media: MediumStack,
         (sampler, depth): (&Sampler, u32),
         rays: &mut u64,
@@ -114,7 +113,7 @@ impl PathTracer<'_> {
         for pass in 0..MOST_PASSES {
             *rays += 1;
             let Some(hit) = geometry.accel.intersect(&ray) else {
-                return Some(product * transmittance_to_light(begin, light, &media));
+                return Some(product * transmittance_to_light(begin, end, &media));
             };
             let surface = geometry.surface(&ray, &hit);
             match self.passage(&surface, sampler, [depth, pass, 2]) {
@@ -132,7 +131,7 @@ impl PathTracer<'_> {
             ray.origin = surface.point().ray_origin(ray.direction);
             ray.t_max -= hit.t;
             if ray.t_max <= 0.0 {
-                return Some(product * transmittance_to_light(begin, light, &media));
+                return Some(product * transmittance_to_light(begin, end, &media));
             }
         }
         None
@@ -163,11 +162,13 @@ impl PathTracer<'_> {
 }
 
 /// Transmittance of the medium in front of the light. A vertex that sees infinity is in no closed medium.
-fn transmittance_to_light(begin: Vec3<f32>, light: &LightSample, media: &MediumStack) -> Rgb<f32> {
-    match (media.absorption(), &light.target) {
-        (Some(absorption), Some(target)) => {
-            transmittance(absorption, (target.position - begin).length())
-        }
+fn transmittance_to_light(
+    begin: Vec3<f32>,
+    end: Option<Vec3<f32>>,
+    media: &MediumStack,
+) -> Rgb<f32> {
+    match (media.absorption(), end) {
+        (Some(absorption), Some(end)) => transmittance(absorption, (end - begin).length()),
         _ => Rgb::WHITE,
     }
 }

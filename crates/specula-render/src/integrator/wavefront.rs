@@ -263,14 +263,31 @@ impl PathTracer<'_> {
         true
     }
 
-    /// Whether vertices may be shaded in batches: every ray ends at the first surface that it hits.
+    /// Whether vertices are shaded in batches. Paths share where every ray ends at its first hit.
     fn uses_batches(&self, depth: u32) -> bool {
+        let goes_beyond = self.goes_beyond_hits(depth);
+        self.strategy == Strategy::Mis && self.max_depth > 0 && !(self.shares && goes_beyond)
+    }
+
+    /// Whether rays pass some surfaces, or media absorb on their way.
+    #[inline(always)]
+    fn goes_beyond_hits(&self, depth: u32) -> bool {
+        let scene = self.scene;
+        let hides = scene.hide_emitters && depth == 0;
+        scene.geometry.has_passable || scene.materials.has_boundaries() || hides
+    }
+
+    /// Whether a ray may go on beyond its first hit, or is absorbed on its way there.
+    ///
+    /// * `i`: index of the path.
+    fn is_followed_alone(&self, paths: &PathStates, i: usize, hit: &Hit, depth: u32) -> bool {
+        let geometry = &self.scene.geometry;
+        let group = geometry.group_of(hit);
+        let shape = group.shape_of[hit.primitive as usize];
         let hides = self.scene.hide_emitters && depth == 0;
-        let ends_at_hit = !self.scene.geometry.has_passable && !hides;
-        ends_at_hit
-            && !self.scene.materials.has_boundaries()
-            && self.strategy == Strategy::Mis
-            && self.max_depth > 0
+        geometry.shapes[shape as usize].is_passable()
+            || (hides && group.light_of(hit.primitive) != NONE)
+            || (self.scene.materials.has_boundaries() && paths.is_in_a_medium(i))
     }
 
     /// Takes one path to its next vertex, by itself.
@@ -302,11 +319,21 @@ impl PathTracer<'_> {
         wavefront.tally.rays += wavefront.live.len() as u64;
         wavefront.queued.clear();
         wavefront.escaped.clear();
+        let some_go_alone = self.goes_beyond_hits(depth);
         for k in 0..wavefront.live.len() {
             let Some(hit) = wavefront.hits[k] else {
                 wavefront.escaped.push(id(k));
                 continue;
             };
+            if some_go_alone {
+                let i = wavefront.live.index(k);
+                if self.is_followed_alone(&wavefront.paths, i, &hit, depth) {
+                    // The step counts its rays.
+                    wavefront.tally.rays -= 1;
+                    self.step_scalar(wavefront, k, |path| self.step(path, depth));
+                    continue;
+                }
+            }
             let ray = wavefront.live.ray(k);
             let rough = wavefront.paths.rough[wavefront.live.index(k)];
             match self.material_key(ray, &hit, rough) {

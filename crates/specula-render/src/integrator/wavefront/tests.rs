@@ -4,6 +4,7 @@ use super::*;
 use crate::options::RenderOptions;
 use specula_bsdf::bsdf::Lobe;
 use specula_scene::Energy;
+use specula_scene::Scene;
 use specula_scene::scene::{FloatParam, MaterialKind};
 
 const SIZE: [u32; 2] = [64, 48];
@@ -111,42 +112,65 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// Samples of paths in wavefronts, and of the same paths followed one by one.
-fn both_ways(case: &Case, options: &RenderOptions) -> (PreparedScene, Vec<[PixelSample; 2]>) {
+/// Samples of paths in wavefronts, and of the same paths followed one by one; of both, the rays.
+struct BothWays {
+    prepared: PreparedScene,
+    samples: Vec<[PixelSample; 2]>,
+    rays: [u64; 2],
+}
+
+/// The built-in scene with the materials of a case.
+fn scene_of(case: &Case) -> Scene {
     let mut scene = specula_scene::builtin::orbs();
     for (i, material) in scene.materials.iter_mut().enumerate() {
         material.kind = case.materials[i % 2];
     }
+    scene
+}
+
+fn both_ways(scene: &Scene, options: &RenderOptions) -> BothWays {
     let options = RenderOptions {
         resolution: Some(SIZE),
-        energy: case.energy,
         ..options.clone()
     };
-    let prepared = PreparedScene::new(&scene, &options).unwrap();
+    let prepared = PreparedScene::new(scene, &options).unwrap();
     let tracer = PathTracer::new(&prepared, &options);
     let sample = |i: u32| {
         let pixel = [i % SIZE[0], i / SIZE[0]];
         (pixel, Sampler::new(pixel, 3, 5))
     };
     let (mut wavefront, mut alone) = (Wavefront::new(), Wavefront::new());
-    let mut samples = Vec::new();
+    let (mut samples, mut rays) = (Vec::new(), [0; 2]);
     for first in (0..SIZE[0] * SIZE[1]).step_by(Wavefront::SIZE) {
         let indices = first..first + id(Wavefront::SIZE);
         tracer.begin(&mut wavefront, indices.clone().map(sample));
         tracer.follow_all(&mut wavefront);
-        assert!(wavefront.take_tally().rays > 0);
+        rays[0] += wavefront.take_tally().rays;
         for (k, i) in indices.enumerate() {
             tracer.begin(&mut alone, std::iter::once(sample(i)));
             let mut path = alone.first_path();
             tracer.follow(&mut path);
-            alone.paths.store(0, &path);
+            rays[1] += alone.paths.store(0, &path).rays;
             samples.push([
                 tracer.contribution(&wavefront, k).0,
                 tracer.contribution(&alone, 0).0,
             ]);
         }
     }
-    (prepared, samples)
+    BothWays {
+        prepared,
+        samples,
+        rays,
+    }
+}
+
+/// The quotient of the means.
+fn ratio(samples: &[[PixelSample; 2]]) -> f64 {
+    let mean = |way: usize| -> f64 {
+        let means = samples.iter().map(|pair| pair[way].colour.mean());
+        means.map(f64::from).sum()
+    };
+    mean(0) / mean(1)
 }
 
 /// Whether two samples of the same path differ by more than rounding does.
@@ -169,10 +193,16 @@ fn paths_in_wavefronts_are_paths_alone() {
                 max_depth: 6,
                 clamp,
                 regularize,
+                energy: case.energy,
                 ..RenderOptions::default()
             };
             let what = format!("{}, regularized: {regularize}", case.name);
-            let (prepared, samples) = both_ways(&case, &options);
+            let BothWays {
+                prepared,
+                samples,
+                rays,
+            } = both_ways(&scene_of(&case), &options);
+            assert!(rays[0] > 0);
             let count = 0..prepared.materials.count();
             let mut lobes = count
                 .filter_map(|m| prepared.materials.plain(id(m)))
@@ -180,12 +210,75 @@ fn paths_in_wavefronts_are_paths_alone() {
             assert!(lobes.any(|plain| (case.is_meant)(&plain.lobe)), "{what}");
             let apart = samples.iter().filter(|pair| are_apart(pair)).count();
             assert!(apart <= case.most_apart, "{what}: {apart}");
-            let mean = |way: usize| -> f64 {
-                let means = samples.iter().map(|pair| pair[way].colour.mean());
-                means.map(f64::from).sum()
-            };
-            let ratio = mean(0) / mean(1);
+            let ratio = ratio(&samples);
             assert!((ratio - 1.0).abs() < 2e-3, "{what}: {ratio}");
         }
+    }
+}
+
+/// Plain metal and diffuse surfaces beside what lets rays pass: cut-outs, a boundary of an absorbing medium that is no
+/// surface, glass that absorbs, lights that the camera does not see.
+const PASSABLE: &str = "LookAt 0 -4 1.6  0 0 0.6  0 0 1
+Camera \"perspective\" \"float fov\" 45
+Film \"rgb\" \"integer xresolution\" 64 \"integer yresolution\" 48
+Integrator \"volpath\" \"integer maxdepth\" 6
+WorldBegin
+MakeNamedMedium \"red\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [0.1 1 2] \"rgb sigma_s\" [0 0 0]
+LightSource \"infinite\" \"rgb L\" [0.2 0.3 0.4]
+AttributeBegin
+AreaLightSource \"diffuse\" \"rgb L\" [8 7 6]
+Translate 0 0 3
+Shape \"sphere\" \"float radius\" 0.4
+AttributeEnd
+Material \"diffuse\" \"rgb reflectance\" [0.6 0.5 0.4]
+Shape \"bilinearmesh\" \"point3 P\" [-4 -4 0  4 -4 0  -4 4 0  4 4 0]
+Material \"conductor\" \"float roughness\" 0.3
+AttributeBegin
+Translate -0.9 0 0.6
+Shape \"sphere\" \"float radius\" 0.6
+AttributeEnd
+AttributeBegin
+Translate 0 -1.5 1
+Rotate 70 1 0 0
+Shape \"disk\" \"float radius\" 0.8 \"float alpha\" 0.5
+AttributeEnd
+AttributeBegin
+MediumInterface \"red\" \"\"
+Material \"dielectric\" \"float eta\" 1.5
+Translate 0.8 0 0.5
+Shape \"sphere\" \"float radius\" 0.5
+AttributeEnd
+AttributeBegin
+MediumInterface \"red\" \"\"
+Material \"interface\"
+Translate 0 0.6 1.4
+Shape \"sphere\" \"float radius\" 0.5
+AttributeEnd
+";
+
+#[test]
+fn paths_in_wavefronts_pass_what_paths_alone_pass() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("scene.pbrt");
+    std::fs::write(&file, PASSABLE).unwrap();
+    let mut scene = specula_scene::load(&file).unwrap().scene;
+    for hides in [false, true] {
+        scene.settings.hide_emitters = hides;
+        let options = RenderOptions::from_scene(&scene);
+        let both = both_ways(&scene, &options);
+        assert!(both.prepared.geometry.has_passable && both.prepared.materials.has_boundaries());
+        let batched = both.prepared.geometry.shapes.iter();
+        let batched = (0..)
+            .zip(batched)
+            .filter(|(shape, _)| both.prepared.batch_material(*shape, false).is_some());
+        assert!(batched.count() >= 3, "floor, metal, veil");
+        let apart = both.samples.iter().filter(|pair| are_apart(pair)).count();
+        assert!(apart <= 12, "hides: {hides}: {apart}");
+        assert!((ratio(&both.samples) - 1.0).abs() < 2e-3, "hides: {hides}");
+        let [together, alone] = both.rays;
+        assert!(
+            together.abs_diff(alone) * 1000 < alone,
+            "{together} rays, {alone}"
+        );
     }
 }
