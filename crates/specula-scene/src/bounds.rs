@@ -4,7 +4,7 @@ use glam::{DMat4, DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::mesh::SERIAL;
-use crate::scene::{Geometry, Mesh, Scene, Shape};
+use crate::scene::{Geometry, Mesh, Motion, Scene, Shape, Trajectory};
 
 /// Farthest coordinate of a scene: squares of distances must fit single precision.
 pub(crate) const FARTHEST: f64 = 1e18;
@@ -74,7 +74,14 @@ impl BoundingBox {
         if self.is_empty() {
             return self;
         }
-        let corner = |i: u8| {
+        let corners = self.corners().map(|p| m.transform_point3(p));
+        corners.into_iter().fold(Self::EMPTY, Self::including)
+    }
+
+    /// Its corners.
+    #[must_use]
+    pub(crate) fn corners(self) -> [DVec3; 8] {
+        [0, 1, 2, 3, 4, 5, 6, 7].map(|i: u8| {
             let pick = |bit: u8, axis: usize| {
                 if i & bit == 0 {
                     self.min[axis]
@@ -82,9 +89,24 @@ impl BoundingBox {
                     self.max[axis]
                 }
             };
-            m.transform_point3(DVec3::new(pick(1, 0), pick(2, 1), pick(4, 2)))
-        };
-        (0..8).map(corner).fold(Self::EMPTY, Self::including)
+            DVec3::new(pick(1, 0), pick(2, 1), pick(4, 2))
+        })
+    }
+
+    /// A box that is not empty, larger by `by` on every side.
+    pub(crate) fn padded(self, by: f64) -> Self {
+        Self {
+            min: self.min - by,
+            max: self.max + by,
+        }
+    }
+
+    /// A box around the box under a transform, with all that it sweeps over where it moves.
+    pub(crate) fn placed(self, to_world: &DMat4, motion: Option<&Motion>) -> Self {
+        match motion {
+            None => self.transformed(to_world),
+            Some(motion) => Trajectory::new(to_world, motion).swept(self),
+        }
     }
 
     /// Whether areas of what is in it are 0 in single precision.
@@ -155,15 +177,16 @@ pub(crate) fn of_file(scene: &Scene) -> BoundingBox {
 
 fn of_shapes_where(scene: &Scene, counts: impl Fn(&Shape) -> bool) -> BoundingBox {
     let of_shapes = |shapes: &[Shape]| {
-        let boxes = (shapes.iter().filter(|s| counts(s)))
-            .map(|s| of_geometry(&scene.meshes, &s.geometry).transformed(&s.to_world));
+        let boxes = (shapes.iter().filter(|s| counts(s))).map(|s| {
+            of_geometry(&scene.meshes, &s.geometry).placed(&s.to_world, s.motion.as_ref())
+        });
         boxes.fold(BoundingBox::EMPTY, BoundingBox::union)
     };
     let objects: Vec<BoundingBox> = scene.objects.iter().map(|o| of_shapes(&o.shapes)).collect();
     let copies = scene
         .instances
         .iter()
-        .map(|i| objects[i.object.0].transformed(&i.to_world));
+        .map(|i| objects[i.object.0].placed(&i.to_world, i.motion.as_ref()));
     copies.fold(of_shapes(&scene.shapes), BoundingBox::union)
 }
 

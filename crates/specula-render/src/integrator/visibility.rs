@@ -37,10 +37,11 @@ impl PathTracer<'_> {
         let mut ray = *ray;
         let mut begin = ray.origin;
         let mut hidden = self.scene.hide_emitters && depth == 0;
+        let time = self.time(sampler);
         for pass in 0..MOST_PASSES {
             state.tally.rays += 1;
-            let hit = geometry.accel.intersect(&ray)?;
-            let surface = geometry.surface(&ray, &hit);
+            let hit = geometry.accel.intersect_at(&ray, time)?;
+            let surface = geometry.surface(&ray, &hit, time);
             hidden &= surface.light != NONE;
             let passage = match (hidden, geometry.has_passable) {
                 (true, _) => Passage::Free,
@@ -95,7 +96,8 @@ impl PathTracer<'_> {
             );
         }
         *rays += 1;
-        let visible = !self.scene.geometry.accel.occluded(&ray);
+        let time = self.time(sampler);
+        let visible = !self.scene.geometry.accel.occluded_at(&ray, time);
         visible.then(|| transmittance_to_light(from.position, light, media))
     }
 
@@ -111,12 +113,13 @@ impl PathTracer<'_> {
     ) -> Option<Rgb<f32>> {
         let geometry = &self.scene.geometry;
         let mut product = Rgb::WHITE;
+        let time = self.time(sampler);
         for pass in 0..MOST_PASSES {
             *rays += 1;
-            let Some(hit) = geometry.accel.intersect(&ray) else {
+            let Some(hit) = geometry.accel.intersect_at(&ray, time) else {
                 return Some(product * transmittance_to_light(begin, light, &media));
             };
-            let surface = geometry.surface(&ray, &hit);
+            let surface = geometry.surface(&ray, &hit, time);
             match self.passage(&surface, sampler, [depth, pass, 2]) {
                 Passage::Blocked => return None,
                 Passage::Free => {}
