@@ -12,13 +12,13 @@ use specula_render::picture::Picture;
 use specula_render::{PrepareError, PreparedScene, RenderOptions, Renderer};
 use specula_scene::scene::*;
 
-const SIZE: u32 = 24;
+const SIZE: u32 = 16;
 /// Pixels along a side of the blocks whose means are compared.
-const BLOCK: u32 = 6;
+const BLOCK: u32 = 4;
 /// Independent pictures of each side of a comparison, from which errors of means are estimated.
-const REPEATS: u32 = 12;
+const REPEATS: u32 = 10;
 /// Times of one mean of still pictures, one in each part of the exposure.
-const TIMES: u32 = 24;
+const TIMES: u32 = 16;
 
 fn moved(x: f64, y: f64, z: f64) -> DMat4 {
     DMat4::from_translation(DVec3::new(x, y, z))
@@ -95,7 +95,7 @@ impl Estimate {
     }
 
     fn moving(scene: &Scene) -> Self {
-        Self::of(|seed| blocks(&picture(scene, 128, 1000 + seed)))
+        Self::of(|seed| blocks(&picture(scene, 64, 1000 + seed)))
     }
 
     /// Of pictures at random times of `[0, exposure)`, stratified.
@@ -106,7 +106,7 @@ impl Estimate {
             for i in 0..TIMES {
                 let u: f64 = random.next();
                 let time = exposure * (f64::from(i) + u) / f64::from(TIMES);
-                let values = blocks(&picture(&still(scene, time), 8, 100 * seed + i));
+                let values = blocks(&picture(&still(scene, time), 4, 100 * seed + i));
                 sums.resize(values.len(), 0.0);
                 for (sum, value) in sums.iter_mut().zip(values) {
                     *sum += value / f64::from(TIMES);
@@ -133,7 +133,7 @@ fn assert_is_mean_over_times(name: &str, scene: &Scene) {
     scene.validate().unwrap();
     let moving = Estimate::moving(scene);
     let apart = moving.apart(&Estimate::stills(scene, 1.0));
-    // Of 144 values with 11 degrees of freedom each, one is beyond 7 by chance in a hundred tests.
+    // Of 144 values with about 18 degrees of freedom each, one is beyond 7 by chance in ten thousand tests.
     assert!(apart < 7.0, "{name}: {apart}");
     let fault = moving.apart(&Estimate::stills(scene, 0.5));
     assert!(

@@ -258,12 +258,19 @@ fn read_as(
     files: &Files,
     problems: &Problems,
 ) -> Result<Loaded, SceneError> {
-    let loaded = match format {
+    let mut loaded = match format {
         Format::Mitsuba => mitsuba::read(path, options, files, problems),
         Format::Gltf => gltf::read(path, options, files, problems),
         Format::Obj => single::read(path, files, problems, (format, obj::read)),
         Format::Ply => single::read(path, files, problems, (format, ply::read)),
         Format::Pbrt => pbrt::read(path, options, files, problems),
     };
+    if let (Ok(loaded), Some(_)) = (&mut loaded, options.exposure)
+        && format != Format::Gltf
+    {
+        let start = Place::start(&SourceText::unread(path));
+        let message = "only glTF files have animations: the scene is the same at all times";
+        loaded.warnings.push(Warning::new(&start, message));
+    }
     problems.settled(loaded)
 }

@@ -4,7 +4,7 @@ use specula_bsdf::{Rgb, Vec3};
 
 use super::estimator::{self, MOST_PASSES};
 use super::{PathState, PathTracer};
-use crate::accel::Ray;
+use crate::accel::{Hit, Ray};
 use crate::geometry::{NONE, Surface};
 use crate::light::LightSample;
 use crate::medium_stack::{MediumStack, transmittance};
@@ -40,7 +40,7 @@ impl PathTracer<'_> {
         let time = self.time(sampler);
         for pass in 0..MOST_PASSES {
             state.tally.rays += 1;
-            let hit = geometry.accel.intersect_at(&ray, time)?;
+            let hit = self.first_hit(&ray, time)?;
             let surface = geometry.surface(&ray, &hit, time);
             hidden &= surface.light != NONE;
             let passage = match (hidden, geometry.has_passable) {
@@ -97,7 +97,7 @@ impl PathTracer<'_> {
         }
         *rays += 1;
         let time = self.time(sampler);
-        let visible = !self.scene.geometry.accel.occluded_at(&ray, time);
+        let visible = !self.is_occluded(&ray, time);
         visible.then(|| transmittance_to_light(from.position, light, media))
     }
 
@@ -116,7 +116,7 @@ impl PathTracer<'_> {
         let time = self.time(sampler);
         for pass in 0..MOST_PASSES {
             *rays += 1;
-            let Some(hit) = geometry.accel.intersect_at(&ray, time) else {
+            let Some(hit) = self.first_hit(&ray, time) else {
                 return Some(product * transmittance_to_light(begin, light, &media));
             };
             let surface = geometry.surface(&ray, &hit, time);
@@ -139,6 +139,24 @@ impl PathTracer<'_> {
             }
         }
         None
+    }
+
+    #[inline(always)]
+    fn first_hit(&self, ray: &Ray, time: f32) -> Option<Hit> {
+        let accel = &self.scene.geometry.accel;
+        match self.scene.moves {
+            true => accel.intersect_at(ray, time),
+            false => accel.intersect(ray),
+        }
+    }
+
+    #[inline(always)]
+    fn is_occluded(&self, ray: &Ray, time: f32) -> bool {
+        let accel = &self.scene.geometry.accel;
+        match self.scene.moves {
+            true => accel.occluded_at(ray, time),
+            false => accel.occluded(ray),
+        }
     }
 
     /// What a surface does to a ray: by chance where it is partly transparent.

@@ -26,6 +26,10 @@ use crate::scene::{
 use crate::transform::is_invertible;
 use crate::{Format, Loaded};
 
+/// What a warning says of a scene without a camera.
+const NO_CAMERA: &str = "the scene has no `Camera`: pbrt-v4's own is used, at the origin of the \
+                         world, along +z, with a field of view of 90 degrees";
+
 /// Builds the scene.
 pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
     let Reader {
@@ -40,9 +44,7 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
     let (camera, film, settings, exposure) =
         camera::read(&mut context, &options, camera_to_world, times)?;
     if !options.contains_key("Camera") && !context.problems.has_errors() {
-        let message = "the scene has no `Camera`: pbrt-v4's own is used, at the origin of the world, along \
-                       +z, with a field of view of 90 degrees";
-        context.warn(&end, message);
+        context.warn(&end, NO_CAMERA);
     }
     let in_objects = reader.objects.iter().flat_map(|o| &o.shapes);
     let all: Vec<&ShapeEntity> = in_objects.chain(&reader.shapes).collect();

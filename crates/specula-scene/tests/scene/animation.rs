@@ -126,13 +126,23 @@ fn without_a_time_nodes_stand_where_the_file_puts_them() {
     let animated = "animations are left out: 1 node moves within 2.000 s; `--at SECONDS` renders a moment of them";
     assert_eq!(told(&loaded), [animated]);
     assert_eq!(places(&loaded.scene, 0.0)[0], DMat4::IDENTITY);
-    let still = document(&[("\"animations\"", "\"extras\"")]);
+    let still = document(&[("\"animations\"", "\"unknown\"")]);
     assert_eq!(told(&read(&still, None).unwrap()), [""; 0]);
     let loaded = read(&still, Some([1.0, 0.0])).unwrap();
     assert_eq!(
         told(&loaded),
         ["the file has no animation: it is the same at all times"]
     );
+}
+
+#[test]
+fn other_formats_have_no_animations() {
+    let mut options = LoadOptions::default();
+    options.exposure = Some(Exposure::default());
+    let text = b"WorldBegin Shape \"sphere\"".to_vec();
+    let loaded = load_bytes("a.pbrt".as_ref(), text, &options).unwrap();
+    let last = loaded.warnings.last().unwrap().message();
+    assert!(last.contains("only glTF files have animations"), "{last}");
 }
 
 #[test]

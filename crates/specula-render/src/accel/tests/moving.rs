@@ -66,7 +66,10 @@ fn rays_hit_what_moves_where_it_is_at_their_time() {
         let reference = Accel::build(&groups, &at(time)).unwrap();
         assert!(!reference.moves());
         let rays: Vec<Ray> = (0..300)
-            .map(|_| ray(random.vector() * 5.0, random.direction()))
+            .map(|_| {
+                let origin = random.vector() * 5.0;
+                ray(origin, random.vector() * 3.0 - origin)
+            })
             .collect();
         let (mut found, mut occluded) = (Vec::new(), Vec::new());
         accel.intersect_all_at(&rays, |_| time, &mut found);
@@ -87,7 +90,7 @@ fn rays_hit_what_moves_where_it_is_at_their_time() {
         let (around, then) = (accel.bounds().unwrap(), reference.bounds().unwrap());
         assert_eq!(around.union(&then), around);
     }
-    assert!(hits > 4000, "{hits}");
+    assert!(hits > 1000, "{hits}");
 }
 
 #[test]
