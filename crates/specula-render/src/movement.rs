@@ -14,17 +14,18 @@ pub(crate) struct Movement {
 #[derive(Clone, Debug, PartialEq)]
 enum Link {
     Still(DMat4),
-    Moving(Trajectory),
+    Moving(Box<Trajectory>),
 }
 
 /// Memory of a movement, in the geometry and in the tree over it.
-pub(crate) const BYTES: u64 = (2 * (size_of::<Movement>() + 2 * size_of::<Link>())) as u64;
+pub(crate) const BYTES: u64 =
+    (2 * (size_of::<Movement>() + 2 * (size_of::<Link>() + size_of::<Trajectory>()))) as u64;
 
 impl Movement {
     /// The same in a space that a transform leads out of.
     pub(crate) fn within(mut self, to_outer: DMat4, motion: Option<&Motion>) -> Self {
         let link = match motion {
-            Some(motion) => Link::Moving(Trajectory::new(&to_outer, motion)),
+            Some(motion) => Link::Moving(Box::new(Trajectory::new(&to_outer, motion))),
             None => Link::Still(to_outer),
         };
         self.links.insert(0, link);

@@ -130,7 +130,7 @@ impl Estimate {
 
 /// Asserts that a scene's picture is the mean over times, and that this would tell half an exposure from a whole.
 fn assert_is_mean_over_times(name: &str, scene: &Scene) {
-    scene.validate().unwrap();
+    scene.validate().expect("the scene is sound");
     let moving = Estimate::moving(scene);
     let apart = moving.apart(&Estimate::stills(scene, 1.0));
     // Of 144 values with about 18 degrees of freedom each, one is beyond 7 by chance in ten thousand tests.
