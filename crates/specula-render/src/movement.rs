@@ -55,7 +55,10 @@ impl Movement {
     pub(crate) fn swept(&self, of: BoundingBox) -> BoundingBox {
         self.links.iter().rev().fold(of, |of, link| match link {
             Link::Still(m) => of.transformed(m),
-            Link::Moving(trajectory) => trajectory.swept(of),
+            Link::Moving(trajectory) => {
+                let [min, max] = trajectory.swept([of.min, of.max]);
+                BoundingBox { min, max }
+            }
         })
     }
 }

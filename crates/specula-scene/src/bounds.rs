@@ -74,14 +74,7 @@ impl BoundingBox {
         if self.is_empty() {
             return self;
         }
-        let corners = self.corners().map(|p| m.transform_point3(p));
-        corners.into_iter().fold(Self::EMPTY, Self::including)
-    }
-
-    /// Its corners.
-    #[must_use]
-    pub(crate) fn corners(self) -> [DVec3; 8] {
-        [0, 1, 2, 3, 4, 5, 6, 7].map(|i: u8| {
+        let corner = |i: u8| {
             let pick = |bit: u8, axis: usize| {
                 if i & bit == 0 {
                     self.min[axis]
@@ -89,23 +82,19 @@ impl BoundingBox {
                     self.max[axis]
                 }
             };
-            DVec3::new(pick(1, 0), pick(2, 1), pick(4, 2))
-        })
-    }
-
-    /// A box that is not empty, larger by `by` on every side.
-    pub(crate) fn padded(self, by: f64) -> Self {
-        Self {
-            min: self.min - by,
-            max: self.max + by,
-        }
+            m.transform_point3(DVec3::new(pick(1, 0), pick(2, 1), pick(4, 2)))
+        };
+        (0..8).map(corner).fold(Self::EMPTY, Self::including)
     }
 
     /// A box around the box under a transform, with all that it sweeps over where it moves.
     pub(crate) fn placed(self, to_world: &DMat4, motion: Option<&Motion>) -> Self {
         match motion {
-            None => self.transformed(to_world),
-            Some(motion) => Trajectory::new(to_world, motion).swept(self),
+            Some(motion) if !self.is_empty() => {
+                let [min, max] = Trajectory::new(to_world, motion).swept([self.min, self.max]);
+                Self { min, max }
+            }
+            _ => self.transformed(to_world),
         }
     }
 

@@ -2,8 +2,6 @@
 
 use glam::{DMat3, DMat4, DQuat, DVec3};
 
-use crate::bounds::BoundingBox;
-
 /// How a shape, an instance or a camera moves: the transform beside it is that of the start.
 ///
 /// In between, translation and stretch change linearly and the rotation at constant speed along the shorter way, as
@@ -118,25 +116,25 @@ impl Trajectory {
     ///
     /// where `T` and `S` are linear and the maxima of convex functions are those at corners. The chords lie within the
     /// box around the poses at the ends of all intervals.
+    ///
+    /// * `of`: least and greatest coordinates, as are those returned.
     #[must_use]
-    pub fn swept(&self, of: BoundingBox) -> BoundingBox {
+    pub fn swept(&self, of: [DVec3; 2]) -> [DVec3; 2] {
         /// Largest angle of an interval: chords leave arcs by 3e-4 of their radius.
         const STEP: f64 = core::f64::consts::PI / 64.0;
-        if of.is_empty() {
-            return of;
-        }
+        let corners = corners(of);
         let [from, to] = [self.share(0.0), self.share(1.0)];
         let speed = 2.0 * self.angle;
         let intervals = ((to - from) * speed / STEP).ceil().max(1.0);
         let h = (to - from) / intervals;
         let greatest = |m: &DMat3| {
-            let lengths = of.corners().map(|p| (*m * p).length());
+            let lengths = corners.map(|p| (*m * p).length());
             lengths.into_iter().fold(0.0, f64::max)
         };
         let [s0, s1] = &self.stretches;
         let reach = greatest(s0).max(greatest(s1));
         let bend = speed * speed * reach + 2.0 * speed * greatest(&(*s1 - *s0));
-        let mut swept = BoundingBox::EMPTY;
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let mut i = 0.0;
         while i <= intervals {
             let s = from + h * i;
@@ -145,12 +143,22 @@ impl Trajectory {
                 s if s >= 1.0 => self.ends[1],
                 s => self.between(s),
             };
-            swept = swept.union(of.transformed(&pose));
+            for p in corners.map(|p| pose.transform_point3(p)) {
+                (low, high) = (low.min(p), high.max(p));
+            }
             i += 1.0;
         }
         // And rounding of the poses.
-        swept.padded(h * h / 8.0 * bend + 1e-12 * (reach + swept.farthest()))
+        let farthest = low.abs().max(high.abs()).max_element();
+        let pad = h * h / 8.0 * bend + 1e-12 * (reach + farthest);
+        [low - pad, high + pad]
     }
+}
+
+/// The corners of a box.
+fn corners(of: [DVec3; 2]) -> [DVec3; 8] {
+    [0, 1, 2, 3, 4, 5, 6, 7]
+        .map(|i: usize| DVec3::new(of[i & 1].x, of[(i >> 1) & 1].y, of[i >> 2].z))
 }
 
 /// The rotation and the symmetric stretch of an invertible linear map.
