@@ -164,9 +164,30 @@ fn floor() -> Scene {
     scene
 }
 
+/// A material that is shaded one by one.
+fn checked(scene: &mut Scene) -> MaterialId {
+    scene.textures.push(Texture::Constant(Rgb::WHITE));
+    scene.textures.push(Texture::Constant(Rgb::splat(0.1)));
+    scene.textures.push(Texture::Checkerboard {
+        even: TextureId(0),
+        odd: TextureId(1),
+        mapping: TextureMapping::Uv(UvMapping([[2.0, 0.0, 0.0], [0.0, 2.0, 0.0]])),
+    });
+    let checked = MaterialKind::Diffuse {
+        reflectance: ColourParam::Texture(TextureId(2)),
+        roughness: FloatParam::Value(0.0),
+    };
+    material(scene, checked)
+}
+
 #[test]
 fn moving_shapes_and_their_shadows_are_means_over_times() {
     let mut scene = floor();
+    let checked = checked(&mut scene);
+    // Shadows fall on what is shaded one by one on the right, in batches on the left.
+    let right = moved(8.0, 1e-3, 0.0) * scene.shapes[0].to_world;
+    let right = square(&mut scene, 8.0, right, checked);
+    scene.shapes.push(right);
     let red = material(&mut scene, coloured(0.9, 0.2, 0.1));
     let metal = material(&mut scene, mirror_metal(0.4));
     let mut ball = sphere(0.6, [-1.6, 0.9, 0.0], red);
@@ -186,19 +207,7 @@ fn moving_shapes_and_their_shadows_are_means_over_times() {
 fn moving_instances_and_shapes_within_them_are_means_over_times() {
     let mut scene = floor();
     let green = material(&mut scene, coloured(0.2, 0.8, 0.3));
-    // Shaded one by one, and half transparent.
-    scene.textures.push(Texture::Constant(Rgb::WHITE));
-    scene.textures.push(Texture::Constant(Rgb::splat(0.1)));
-    scene.textures.push(Texture::Checkerboard {
-        even: TextureId(0),
-        odd: TextureId(1),
-        mapping: TextureMapping::Uv(UvMapping([[2.0, 0.0, 0.0], [0.0, 2.0, 0.0]])),
-    });
-    let checked = MaterialKind::Diffuse {
-        reflectance: ColourParam::Texture(TextureId(2)),
-        roughness: FloatParam::Value(0.0),
-    };
-    let checked = material(&mut scene, checked);
+    let checked = checked(&mut scene);
     scene.materials[checked.0].bump = Some(Bump::Height(FloatParam::Texture(TextureId(2))));
     let mut wing = square(&mut scene, 0.5, moved(0.8, 0.0, 0.0), checked);
     wing.alpha = FloatParam::Value(0.7);
