@@ -71,6 +71,7 @@ fn row(alphas: &[f32], metal: ConductorFresnel, pixels: u32) -> Scene {
             emission: None,
             reverse_orientation: false,
             alpha: FloatParam::Value(1.0),
+            motion: None,
         });
     }
     scene
@@ -207,6 +208,7 @@ fn caps_under_turquin() -> Outcome<()> {
         emission: None,
         reverse_orientation: false,
         alpha: FloatParam::Value(1.0),
+        motion: None,
     });
     let at = |sampler, spp, seed| {
         render(

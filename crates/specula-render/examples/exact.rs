@@ -150,6 +150,7 @@ fn sphere(radius: f32, centre: [f64; 3]) -> Shape {
         emission: None,
         reverse_orientation: false,
         alpha: FloatParam::Value(1.0),
+        motion: None,
     }
 }
 

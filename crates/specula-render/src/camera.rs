@@ -10,6 +10,7 @@ use crate::codes;
 use crate::convert::{Affine, narrow};
 use crate::disk::concentric_disk;
 use crate::light::direction_of_sphere;
+use crate::movement::Movement;
 use crate::simd::simd_levels;
 use crate::words::Words;
 
@@ -20,6 +21,8 @@ use crate::words::Words;
 #[derive(Clone, Debug)]
 pub(crate) struct Camera {
     to_world: Affine,
+    /// How it moves, if it does; `to_world` is then where the shutter opens.
+    movement: Option<Box<Movement>>,
     view: View,
     /// Raster to the plane z = 1, to scene units, or to the unit square:
     /// `(x, y) = origin + raster * step`.
@@ -51,8 +54,12 @@ impl Camera {
         let has_lens = camera.lens_radius > 0.0
             && camera.focal_distance > 0.0
             && !matches!(view, View::Spherical(_));
+        let movement = Movement::default().within(camera.to_world, camera.motion.as_ref());
+        let movement = movement.moves().then(|| Box::new(movement));
+        let to_world = movement.as_ref().map_or(camera.to_world, |m| m.at(0.0));
         Self {
-            to_world: Affine::new(&camera.to_world),
+            to_world: Affine::new(&to_world),
+            movement,
             view,
             origin: [narrow(x0), narrow(y1)],
             step: [
@@ -74,6 +81,34 @@ impl Camera {
     /// at the origin of camera space, where it would make the view a perspective one.
     #[inline(always)]
     pub(crate) fn ray(&self, raster: [f32; 2], lens: [f32; 2]) -> (Vec3<f32>, Vec3<f32>) {
+        self.ray_from(&self.to_world, raster, lens)
+    }
+
+    /// [`Camera::ray`] at a time, in exposures.
+    pub(crate) fn ray_at(
+        &self,
+        time: f32,
+        raster: [f32; 2],
+        lens: [f32; 2],
+    ) -> (Vec3<f32>, Vec3<f32>) {
+        match &self.movement {
+            None => self.ray(raster, lens),
+            Some(movement) => self.ray_from(&Affine::new(&movement.at(time)), raster, lens),
+        }
+    }
+
+    /// Whether it moves.
+    pub(crate) fn moves(&self) -> bool {
+        self.movement.is_some()
+    }
+
+    #[inline(always)]
+    fn ray_from(
+        &self,
+        to_world: &Affine,
+        raster: [f32; 2],
+        lens: [f32; 2],
+    ) -> (Vec3<f32>, Vec3<f32>) {
         let x = self.origin[0] + raster[0] * self.step[0];
         let y = self.origin[1] + raster[1] * self.step[1];
         let (from, towards) = match self.view {
@@ -89,14 +124,11 @@ impl Camera {
             let on_lens = from + vec3(d[0] * self.lens_radius, d[1] * self.lens_radius, 0.0);
             let focus = from + towards * self.focal_distance;
             return (
-                self.to_world.point(on_lens),
-                self.to_world.vector(focus - on_lens).normalize(),
+                to_world.point(on_lens),
+                to_world.vector(focus - on_lens).normalize(),
             );
         }
-        (
-            self.to_world.point(from),
-            self.to_world.vector(towards).normalize(),
-        )
+        (to_world.point(from), to_world.vector(towards).normalize())
     }
 }
 
@@ -209,6 +241,7 @@ mod tests {
     fn camera() -> scene::Camera {
         scene::Camera {
             to_world: DMat4::IDENTITY,
+            motion: None,
             projection: scene::Projection::Perspective { fov_deg: 90.0 },
             lens_radius: 0.0,
             focal_distance: 4.0,

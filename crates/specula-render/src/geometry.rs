@@ -17,12 +17,13 @@ use glam::DMat4;
 use rayon::prelude::*;
 use specula_bsdf::Vec3;
 use specula_bsdf::math::vec3;
-use specula_scene::scene::{ColourParam, FloatParam, Scene};
+use specula_scene::scene::{ColourParam, FloatParam, ObjectInstance, Scene};
 
 use crate::accel::{Accel, AccelError, Group, Hit, Instance, Quadric, QuadricShape};
 use crate::convert::{Affine, id, narrow3, normal_matrix, widen3};
+use crate::movement::Movement;
 use crate::texture::Textures;
-use bake::Baker;
+use bake::{Baker, Part};
 
 pub(crate) use hit::{PrimitiveLocation, Surface};
 pub(crate) use partials::Partials;
@@ -104,13 +105,22 @@ pub(crate) const BYTES_PER_INSTANCE: u64 =
 #[derive(Clone, Debug)]
 pub(crate) struct Placement {
     pub(crate) group: u32,
+    /// The group's space to the world's; where the shutter opens, if it moves.
     pub(crate) transform: DMat4,
+    pose: Pose,
+    identity: bool,
+    /// How it moves, if it does.
+    movement: Option<Box<Movement>>,
+    /// Index of the group's first light in the world's list.
+    pub(crate) first_light: u32,
+}
+
+/// A transform, ready for surfaces.
+#[derive(Clone, Debug)]
+struct Pose {
     inverse: DMat4,
     to_world: Affine,
     normals: Affine,
-    identity: bool,
-    /// Index of the group's first light in the world's list.
-    pub(crate) first_light: u32,
 }
 
 /// Everything that rays can hit.
@@ -135,17 +145,35 @@ impl Geometry {
         earlier: Option<Self>,
     ) -> Result<Self, AccelError> {
         let mut baker = Baker::new(scene, textures);
-        let world = std::mem::take(&mut baker.world);
-        let mut groups = vec![baker.bake(world)];
-        let mut group_of = vec![None; baker.objects.len()];
-        let mut placements = vec![Placement::new(0, DMat4::IDENTITY)];
-        for (object, to_world) in std::mem::take(&mut baker.instances) {
-            let group = *group_of[object].get_or_insert_with(|| {
-                let shapes = std::mem::take(&mut baker.objects[object]);
-                groups.push(baker.bake(shapes));
-                id(groups.len() - 1)
+        let mut groups = Vec::new();
+        let mut placements = Vec::new();
+        for part in std::mem::take(&mut baker.world) {
+            placements.push(Placement::new(
+                id(groups.len()),
+                DMat4::IDENTITY,
+                part.movement,
+            ));
+            groups.push(baker.bake(part.shapes));
+        }
+        let mut groups_of = vec![None; baker.objects.len()];
+        for instance in std::mem::take(&mut baker.instances) {
+            let ObjectInstance {
+                object,
+                to_world,
+                motion,
+            } = instance;
+            let own = groups_of[object.0].get_or_insert_with(|| {
+                let parts = std::mem::take(&mut baker.objects[object.0]);
+                let bake = |part: Part| {
+                    groups.push(baker.bake(part.shapes));
+                    (id(groups.len() - 1), part.movement)
+                };
+                parts.into_iter().map(bake).collect::<Vec<_>>()
             });
-            placements.push(Placement::new(group, to_world));
+            for (group, movement) in own {
+                let movement = movement.clone().within(to_world, motion.as_ref());
+                placements.push(Placement::new(*group, to_world, movement));
+            }
         }
         let shapes = baker.records;
         // A lone group needs no tree over instances: an empty world group must not make it one of two.
@@ -174,7 +202,7 @@ impl Geometry {
 impl Geometry {
     /// Whether its acceleration structure is that of these groups and instances.
     fn has_shapes_of(&self, groups: &[GroupData], placements: &[Placement]) -> bool {
-        let place = |p: &Placement| (p.group, p.transform);
+        let place = |p: &Placement| (p.group, p.transform, p.movement.clone());
         self.groups.len() == groups.len()
             && (self.placements.iter().map(place)).eq(placements.iter().map(place))
             && (self.groups.iter().zip(groups)).all(|(a, b)| {
@@ -225,7 +253,11 @@ fn build_accel(groups: &[GroupData], placements: &[Placement]) -> Result<Accel, 
             to_world: p.transform,
         })
         .collect();
-    Accel::build(&inputs, &instances)
+    let movements: Vec<(u32, &Movement)> = (0..)
+        .zip(placements)
+        .filter_map(|(i, p)| Some((i, p.movement.as_deref()?)))
+        .collect();
+    Accel::build_moving(&inputs, &instances, &movements)
 }
 
 impl GroupData {
@@ -267,15 +299,27 @@ impl PlacedQuadric {
 }
 
 impl Placement {
-    fn new(group: u32, transform: DMat4) -> Self {
+    /// * `to_world`: of the group, if it stands still, else part of `movement`.
+    fn new(group: u32, to_world: DMat4, movement: Movement) -> Self {
+        let movement = movement.moves().then(|| Box::new(movement));
+        let transform = movement.as_ref().map_or(to_world, |m| m.at(0.0));
         Self {
             group,
             transform,
-            inverse: transform.inverse(),
-            to_world: Affine::new(&transform),
-            normals: Affine::linear(&normal_matrix(&transform)),
-            identity: transform == DMat4::IDENTITY,
+            pose: Pose::new(&transform),
+            identity: movement.is_none() && transform == DMat4::IDENTITY,
+            movement,
             first_light: 0,
+        }
+    }
+}
+
+impl Pose {
+    fn new(transform: &DMat4) -> Self {
+        Self {
+            inverse: transform.inverse(),
+            to_world: Affine::new(transform),
+            normals: Affine::linear(&normal_matrix(transform)),
         }
     }
 }
@@ -325,6 +369,103 @@ pub(crate) fn normal_of(e1: Vec3<f32>, e2: Vec3<f32>) -> Vec3<f32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A bumpy sheet with its own normals and texture coordinates beside a sphere, as an instance that moves.
+    fn moving_scene() -> Scene {
+        use specula_scene::scene::*;
+        let film = Film::new([8; 2], Filter::Box { radius: [0.5; 2] });
+        let camera = Camera::look_at(
+            glam::DVec3::X,
+            glam::DVec3::ZERO,
+            glam::DVec3::Z,
+            40.0,
+            &film,
+        );
+        let mut scene = Scene::empty(camera, film, Settings::default());
+        scene.materials.push(Material::new(MaterialKind::Interface));
+        scene.materials[0].kind = MaterialKind::Diffuse {
+            reflectance: ColourParam::WHITE,
+            roughness: FloatParam::Value(0.0),
+        };
+        let at = |i: u8| {
+            [
+                f32::from(i % 4) - 1.5,
+                f32::from(i / 4) - 1.5,
+                f32::from(i % 3) * 0.3,
+            ]
+        };
+        let mesh = Mesh {
+            positions: (0..16).map(at).collect(),
+            normals: (0..16)
+                .map(|i| [at(i)[0] * 0.2, at(i)[1] * 0.1, 1.0])
+                .collect(),
+            uvs: (0..16).map(|i| [at(i)[1], at(i)[0] * 2.0]).collect(),
+            triangles: [0, 1, 2, 4, 5, 6, 8, 9, 10]
+                .into_iter()
+                .flat_map(|i| [[i, i + 1, i + 5], [i, i + 5, i + 4]])
+                .collect(),
+            ..Mesh::default()
+        };
+        scene.meshes.push(mesh);
+        let sphere = Geometry::Sphere { radius: 0.7 };
+        let beside = DMat4::from_translation(glam::DVec3::new(0.0, 0.0, 2.0));
+        scene.objects.push(Object {
+            name: String::new(),
+            shapes: vec![
+                Shape::new(Geometry::Mesh(MeshId(0)), DMat4::IDENTITY, MaterialId(0)),
+                Shape::new(sphere, beside, MaterialId(0)),
+            ],
+        });
+        let start = DMat4::from_scale(glam::DVec3::new(1.0, -1.0, 0.5));
+        let end = DMat4::from_translation(glam::DVec3::X) * DMat4::from_rotation_x(1.0) * start;
+        let times = [0.0, 1.0];
+        scene.instances.push(ObjectInstance {
+            object: ObjectId(0),
+            to_world: start,
+            motion: Some(Motion { end, times }),
+        });
+        scene
+    }
+
+    #[test]
+    fn surfaces_of_what_moves_are_those_of_where_it_is_at_their_time() {
+        use specula_scene::scene::Trajectory;
+        let geometry = |mut scene: Scene| {
+            let textures = Textures::new(&mut scene);
+            Geometry::after(&mut scene, &textures, None).unwrap()
+        };
+        let moving = geometry(moving_scene());
+        let mut random = specula_bsdf::math::Stream::new(5);
+        let (mut sheet, mut sphere) = (0, 0);
+        for time in [0.0, 0.3, 0.5, 0.9, 1.0] {
+            let mut scene = moving_scene();
+            let instance = &mut scene.instances[0];
+            let motion = instance.motion.take().unwrap();
+            instance.to_world = Trajectory::new(&instance.to_world, &motion).at(f64::from(time));
+            let still = geometry(scene);
+            for _ in 0..200 {
+                let mut u = || random.next::<f32>() - 0.5;
+                let ray = crate::accel::Ray {
+                    origin: vec3(4.0 * u(), 4.0 * u(), 9.0),
+                    direction: vec3(0.2 * u(), 0.2 * u(), -1.0),
+                    t_max: f32::INFINITY,
+                };
+                let hit = moving.accel.intersect_at(&ray, time);
+                assert_eq!(hit, still.accel.intersect(&ray));
+                let Some(hit) = hit else { continue };
+                let surface = moving.surface(&ray, &hit, time);
+                let expected = still.surface(&ray, &hit, time);
+                assert_eq!(format!("{surface:?}"), format!("{expected:?}"));
+                let partials = [&moving, &still].map(|g| format!("{:?}", g.partials(&surface)));
+                assert_eq!(partials[0], partials[1]);
+                match moving.groups[1].triangles.get(hit.primitive as usize) {
+                    Some(_) => sheet += 1,
+                    None => sphere += 1,
+                }
+            }
+        }
+        assert!(sheet > 200 && sphere > 50, "{sheet} {sphere}");
+    }
 
     #[test]
     fn triangles_of_every_size_have_a_normal() {

@@ -149,6 +149,16 @@ impl<'a> PathTracer<'a> {
         }
     }
 
+    /// The time of a path, in exposures: 0 where nothing moves.
+    #[inline(always)]
+    fn time(&self, sampler: &Sampler) -> f32 {
+        if self.scene.moves {
+            sampler.time()
+        } else {
+            0.0
+        }
+    }
+
     /// The pixel sample of a path that has ended, developed, and its filter weight.
     #[inline(always)]
     pub(crate) fn contribution(&self, wavefront: &Wavefront, path: usize) -> (PixelSample, f32) {

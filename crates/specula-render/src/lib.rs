@@ -18,6 +18,7 @@ mod machine_memory;
 mod material;
 mod medium_stack;
 mod memory;
+mod movement;
 mod offset;
 mod options;
 pub mod picture;

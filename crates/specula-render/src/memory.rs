@@ -182,11 +182,14 @@ impl MemoryEstimate {
             sizes.push(size);
         }
         let quadrics: usize = sizes.iter().map(|s| s.1).sum();
+        let moving = moving_placements(scene);
+        let placements = scene.instances.len() + moving;
         let placed = crate::geometry::BYTES_PER_QUADRIC * quadrics as u64
-            + crate::geometry::BYTES_PER_INSTANCE * scene.instances.len() as u64;
+            + crate::geometry::BYTES_PER_INSTANCE * placements as u64
+            + crate::movement::BYTES * moving as u64;
         held.add(placed);
         self.geometry += placed;
-        let tree = predicted(&sizes, scene.instances.len(), threads);
+        let tree = predicted(&sizes, placements, threads);
         held.add(tree.finished + tree.building);
         held.free(tree.building);
         self.tree = tree.finished;
@@ -222,6 +225,14 @@ impl Held {
     fn free(&mut self, bytes: u64) {
         self.now = self.now.saturating_sub(bytes);
     }
+}
+
+/// At most so many placements move.
+fn moving_placements(scene: &Scene) -> usize {
+    let among = |shapes: &[Shape]| shapes.iter().filter(|s| s.motion.is_some()).count();
+    let objects: Vec<usize> = scene.objects.iter().map(|o| among(&o.shapes)).collect();
+    let of = |i: &ObjectInstance| objects[i.object.0] + usize::from(i.motion.is_some());
+    among(&scene.shapes) + scene.instances.iter().map(of).sum::<usize>()
 }
 
 fn mesh_of(shape: &Shape) -> Option<usize> {

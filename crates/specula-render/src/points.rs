@@ -93,7 +93,9 @@ impl PreparedScene {
     ///   halves.
     #[must_use]
     pub fn seen(&self, raster: [f32; 2]) -> Option<SeenSurface> {
-        let (eye, direction) = self.camera.ray(raster, [0.5; 2]);
+        // In the middle of the exposure.
+        let time = 0.5;
+        let (eye, direction) = self.camera.ray_at(time, raster, [0.5; 2]);
         let mut ray = Ray {
             origin: eye,
             direction,
@@ -101,8 +103,8 @@ impl PreparedScene {
         };
         let mut hidden = self.hide_emitters;
         for _ in 0..MOST_PASSES {
-            let hit = self.geometry.accel.intersect(&ray)?;
-            let surface = self.geometry.surface(&ray, &hit);
+            let hit = self.geometry.accel.intersect_at(&ray, time)?;
+            let surface = self.geometry.surface(&ray, &hit, time);
             hidden &= surface.light != NONE;
             let shape = &self.geometry.shapes[surface.shape as usize];
             let opacity = |alpha| self.textures.float(alpha, &surface.place());
@@ -215,6 +217,7 @@ impl PreparedScene {
             instance,
             primitive,
             weights: at.weights,
+            time: 0.0,
         };
         let (textures, geometry) = (&self.textures, &self.geometry);
         let surface = geometry.surface_at(&hit, || Vec3::from(at.near));

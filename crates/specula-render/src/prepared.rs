@@ -36,6 +36,8 @@ pub struct PreparedScene {
     batch_materials_behind_rough: Vec<Option<(u32, bool)>>,
     /// Whether lights are hidden from the camera.
     pub(crate) hide_emitters: bool,
+    /// Whether anything moves: paths have times only then.
+    pub(crate) moves: bool,
 }
 
 /// Why a scene cannot be rendered.
@@ -50,6 +52,9 @@ pub enum PrepareError {
         "a shape reaches farther than {FARTHEST:e} units from the origin: rays are not followed there"
     )]
     TooFar,
+    /// Paths of different times cannot share what lies behind their first vertices.
+    #[error("paths cannot be shared in a scene that moves: render it without `--share-paths`")]
+    SharedMotion,
     /// The picture has no pixels, or too many.
     #[error("a picture of {width} x {height} pixels cannot be rendered")]
     Resolution {
@@ -128,7 +133,7 @@ impl PreparedScene {
     /// [`PreparedScene::consume`] needs less memory.
     ///
     /// # Errors
-    /// Where the picture is empty or the shapes cannot be prepared.
+    /// Where the picture is empty, the shapes cannot be prepared, or paths are to be shared and something moves.
     pub fn new(scene: &Scene, options: &RenderOptions) -> Result<Self, PrepareError> {
         Self::consume(scene.clone(), options)
     }
@@ -159,6 +164,10 @@ impl PreparedScene {
         let geometry = Geometry::after(&mut scene, &textures, earlier)?;
         if !geometry.is_within_reach() {
             return Err(PrepareError::TooFar);
+        }
+        let moves = geometry.accel.moves() || view.camera.moves();
+        if moves && options.share_paths > 1 {
+            return Err(PrepareError::SharedMotion);
         }
         let beside_lobes = options.mis_compensation
             && matches!(
@@ -193,13 +202,14 @@ impl PreparedScene {
             materials,
             lights,
             hide_emitters: scene.settings.hide_emitters,
+            moves,
         })
     }
 
     /// Looks at the scene through another camera, or at another size: nothing else is prepared anew. What is
     /// rendered then are, bit for bit, the samples of the scene with this camera and film, prepared afresh.
     ///
-    /// * `options`: those of the render; only resolution and crop count here.
+    /// * `options`: those of the render; only resolution, crop and path sharing count here.
     ///
     /// # Errors
     /// Where the picture is empty; the scene stays as it was.
@@ -210,6 +220,11 @@ impl PreparedScene {
         options: &RenderOptions,
     ) -> Result<(), PrepareError> {
         let view = View::new(camera, film, options)?;
+        let moves = self.geometry.accel.moves() || view.camera.moves();
+        if moves && options.share_paths > 1 {
+            return Err(PrepareError::SharedMotion);
+        }
+        self.moves = moves;
         self.camera = view.camera;
         self.filter = view.filter;
         self.develop = view.develop;

@@ -19,6 +19,8 @@
 //! as the camera's set has shuffled it, transformed by a matrix of bits ([`TURN`]) that stratifies both sets
 //! together.
 //!
+//! The camera's sequence has a fifth dimension, Sobol's own: the time of the sample, where something moves.
+//!
 //! Lobes that walk between microfacets take random numbers from a hashed stream per vertex. Opacity and the choice
 //! within mixed materials take hashed random numbers, since their count along a path is not bounded.
 
@@ -67,6 +69,14 @@ impl Sampler {
     #[inline]
     pub(crate) fn light(&self, vertex: u32) -> [f32; 4] {
         self.set(Purpose::Light.set(vertex))
+    }
+
+    /// The time of the sample while the shutter is open: a fifth dimension of the camera's set, which only scenes
+    /// with motion take.
+    pub(crate) fn time(&self) -> f32 {
+        let key = seed_of_set(self.seed, CAMERA);
+        let bits = sobol_rev(shuffled(self.index, key), TIME);
+        scrambled(bits, key, TIME_KEY)
     }
 
     /// A random number in `[0, 1)` that depends on the sample and on `key`.
@@ -227,6 +237,11 @@ static COLUMNS: LazyLock<[[u32; 4]; 16]> = LazyLock::new(|| {
 /// Sobol's dimensions by dimension of the set.
 const ORDER: [u32; 4] = [2, 0, 1, 3];
 
+/// Sobol's dimension of times.
+const TIME: u32 = 4;
+/// What distinguishes its scrambling.
+const TIME_KEY: u32 = 0x5bd1_e995;
+
 /// What distinguishes the scrambling of the random numbers, as in the crate's `sample_4d`.
 const KEYS: [u32; 4] = [0x691e_72ca, 0x912f_69ba, 0x174f_18ab, 0xb40c_c1b8];
 
@@ -316,6 +331,32 @@ pub(crate) fn hash(mut x: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn times_are_stratified_and_apart_from_the_other_dimensions() {
+        for k in 0..10 {
+            let count = 1 << k;
+            let mut cells = vec![0_u32; count];
+            for sample in 0..crate::convert::id(count) {
+                let sampler = Sampler::new([3, 5], sample + crate::convert::id(count), 7);
+                cells[crate::convert::floor_index(sampler.time() * count as f32)] += 1;
+            }
+            assert!(cells.iter().all(|&n| n == 1), "{count}: {cells:?}");
+        }
+        // Among 16 x 16 cells, 1024 samples of time and any other dimension leave none nearly empty.
+        for dimension in 0..4 {
+            let mut cells = [0_u32; 256];
+            for sample in 0..1024 {
+                let sampler = Sampler::new([8, 1], sample, 2);
+                let cell = |u: f32| crate::convert::floor_index(u * 16.0);
+                cells[16 * cell(sampler.time()) + cell(sampler.camera()[dimension])] += 1;
+            }
+            assert!(
+                cells.iter().all(|n| (1..=10).contains(n)),
+                "{dimension}: {cells:?}"
+            );
+        }
+    }
 
     #[test]
     fn every_set_is_stratified_and_within_the_unit_interval() {

@@ -107,6 +107,7 @@ fn meshes_without_area_are_nothing() {
     scene.instances.push(ObjectInstance {
         object: ObjectId(0),
         to_world: DMat4::from_scale(DVec3::splat(0.5)),
+        motion: None,
     });
     assert_eq!(rendered(&scene).colour, reference.colour);
 }
@@ -188,6 +189,7 @@ fn huge_shapes_are_right_or_refused() {
         scene.instances.push(ObjectInstance {
             object: ObjectId(0),
             to_world,
+            motion: None,
         });
         assert!(attempt(&scene).unwrap_err().contains("farther"));
     }

@@ -116,6 +116,7 @@ fn instanced_and_mirrored_lights_emit_like_others() {
         scene.instances.push(ObjectInstance {
             object: ObjectId(0),
             to_world: facing_down(2.0) * turn,
+            motion: None,
         });
         check("lamp", &scene, square_irradiance(1.0, 2.0), &ALL);
     }

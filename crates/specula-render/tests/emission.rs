@@ -114,6 +114,7 @@ fn one_bright_pixel_lights_from_where_it_is() {
         scene.instances.push(ObjectInstance {
             object: ObjectId(0),
             to_world: facing_down(2.0) * turn,
+            motion: None,
         });
         check(
             &format!("mirrored: {mirrored}"),

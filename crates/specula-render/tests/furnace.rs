@@ -178,6 +178,7 @@ fn mirrored_and_instanced_glass_conserves_energy() {
         scene.instances.push(ObjectInstance {
             object: ObjectId(0),
             to_world: instance_m,
+            motion: None,
         });
         scene.lights.push(constant_sky(1.0));
         assert_mean("gem", &render(&scene, 64, 200, Strategy::Mis), 1.0, 4e-3);

@@ -184,6 +184,7 @@ fn directions_follow_the_coordinates() {
         s.instances.push(ObjectInstance {
             object: ObjectId(0),
             to_world: mirror,
+            motion: None,
         });
     });
     assert_near("in an object", in_object, expected(&lobe, -0.3 - turn));

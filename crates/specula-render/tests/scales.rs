@@ -172,6 +172,7 @@ fn still_life(at: PlaceAndUnit, size: u32) -> Scene {
         scene.instances.push(ObjectInstance {
             object: ObjectId(0),
             to_world: at.rigid(place),
+            motion: None,
         });
     }
 

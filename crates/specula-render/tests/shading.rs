@@ -86,6 +86,7 @@ fn transforms_carry_bumps_along() {
         s.instances.push(ObjectInstance {
             object: ObjectId(0),
             to_world: m,
+            motion: None,
         });
     };
     assert_near(cosine(Some(bump), in_object, LIGHT), n.dot(LIGHT.into()));
@@ -325,6 +326,7 @@ fn masks_by_threshold_let_their_share_through() {
     scene.instances.push(ObjectInstance {
         object: ObjectId(0),
         to_world: DMat4::from_translation(DVec3::new(0.0, 0.0, 1.0)),
+        motion: None,
     });
     // Below the leaf.
     scene.camera = look([0.7, 0.0, 0.7], [0.0; 3], 0.05);

@@ -4,7 +4,7 @@ use glam::{DMat4, DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::mesh::SERIAL;
-use crate::scene::{Geometry, Mesh, Scene, Shape};
+use crate::scene::{Geometry, Mesh, Motion, Scene, Shape, Trajectory};
 
 /// Farthest coordinate of a scene: squares of distances must fit single precision.
 pub(crate) const FARTHEST: f64 = 1e18;
@@ -87,6 +87,17 @@ impl BoundingBox {
         (0..8).map(corner).fold(Self::EMPTY, Self::including)
     }
 
+    /// A box around the box under a transform, with all that it sweeps over where it moves.
+    pub(crate) fn placed(self, to_world: &DMat4, motion: Option<&Motion>) -> Self {
+        match motion {
+            Some(motion) if !self.is_empty() => {
+                let [min, max] = Trajectory::new(to_world, motion).swept([self.min, self.max]);
+                Self { min, max }
+            }
+            _ => self.transformed(to_world),
+        }
+    }
+
     /// Whether areas of what is in it are 0 in single precision.
     pub(crate) fn is_speck(self) -> bool {
         !self.is_empty() && (self.max - self.min).length() < SMALLEST
@@ -155,15 +166,16 @@ pub(crate) fn of_file(scene: &Scene) -> BoundingBox {
 
 fn of_shapes_where(scene: &Scene, counts: impl Fn(&Shape) -> bool) -> BoundingBox {
     let of_shapes = |shapes: &[Shape]| {
-        let boxes = (shapes.iter().filter(|s| counts(s)))
-            .map(|s| of_geometry(&scene.meshes, &s.geometry).transformed(&s.to_world));
+        let boxes = (shapes.iter().filter(|s| counts(s))).map(|s| {
+            of_geometry(&scene.meshes, &s.geometry).placed(&s.to_world, s.motion.as_ref())
+        });
         boxes.fold(BoundingBox::EMPTY, BoundingBox::union)
     };
     let objects: Vec<BoundingBox> = scene.objects.iter().map(|o| of_shapes(&o.shapes)).collect();
     let copies = scene
         .instances
         .iter()
-        .map(|i| objects[i.object.0].transformed(&i.to_world));
+        .map(|i| objects[i.object.0].placed(&i.to_world, i.motion.as_ref()));
     copies.fold(of_shapes(&scene.shapes), BoundingBox::union)
 }
 

@@ -63,6 +63,11 @@ impl Scene {
         for brdf in measured {
             brdf.content.feed(&mut hash);
         }
+        // Likewise what does not move.
+        for (part, motion) in self.motions() {
+            part.feed(&mut hash);
+            motion.feed(&mut hash);
+        }
         hash.finish()
     }
 }

@@ -66,6 +66,7 @@ pub mod validate;
 pub mod write_pbrt;
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 pub use energy::{Energy, UnknownEnergy};
 pub use error::{ErrorKind, MissingFile, Place, SceneError, SourceText, Warning};
@@ -103,6 +104,18 @@ pub struct LoadOptions {
     pub missing: Missing,
     /// A folder: files outside of it are not read, nor through links. For scenes of strangers.
     pub confined_to: Option<PathBuf>,
+    /// The moment of a glTF file's animations that is rendered; `None`: nodes stand where the file puts them.
+    pub exposure: Option<Exposure>,
+}
+
+/// When the shutter is open, in the time of a file's animations.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Exposure {
+    /// When it opens.
+    pub time: Duration,
+    /// For how long: nodes move from where they are then to where they are when it closes. The exposure is no brighter
+    /// for it.
+    pub shutter: Duration,
 }
 
 impl From<Limits> for LoadOptions {
@@ -245,12 +258,19 @@ fn read_as(
     files: &Files,
     problems: &Problems,
 ) -> Result<Loaded, SceneError> {
-    let loaded = match format {
+    let mut loaded = match format {
         Format::Mitsuba => mitsuba::read(path, options, files, problems),
         Format::Gltf => gltf::read(path, options, files, problems),
         Format::Obj => single::read(path, files, problems, (format, obj::read)),
         Format::Ply => single::read(path, files, problems, (format, ply::read)),
         Format::Pbrt => pbrt::read(path, options, files, problems),
     };
+    if let (Ok(loaded), Some(_)) = (&mut loaded, options.exposure)
+        && format != Format::Gltf
+    {
+        let start = Place::start(&SourceText::unread(path));
+        let message = "only glTF files have animations: the scene is the same at all times";
+        loaded.warnings.push(Warning::new(&start, message));
+    }
     problems.settled(loaded)
 }

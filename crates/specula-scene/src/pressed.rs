@@ -62,6 +62,7 @@ impl Press {
             return Ok(Pressed::Nothing);
         };
         let mut pressed = shape.clone();
+        pressed.motion = None;
         let is_kept = match shape.geometry {
             Geometry::Mesh(MeshId(i)) => {
                 let count = meshes[i].positions.len() as u64;

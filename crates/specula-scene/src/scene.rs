@@ -7,6 +7,7 @@ mod camera;
 mod coat;
 mod light;
 mod material;
+mod motion;
 mod shape;
 mod texture;
 
@@ -17,6 +18,7 @@ pub use material::{
     Bump, BumpRules, ConductorFresnel, GltfMaterial, Material, MaterialKind,
     MicrofacetDistribution, PrincipledMaterial, Roughness, RoughnessMapping,
 };
+pub use motion::{Motion, Trajectory};
 pub use shape::{Emission, Geometry, Mesh, Object, ObjectInstance, Shape};
 pub use texture::{
     Channel, ColourParam, FloatParam, Interpolation, NoiseKind, Texture, TextureMapping, UvMapping,
@@ -81,6 +83,23 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Whether anything moves while the shutter is open.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        self.motions().next().is_some()
+    }
+
+    /// All motions, each with the number of what moves: camera, instances, shapes, shapes of objects.
+    pub(crate) fn motions(&self) -> impl Iterator<Item = (usize, &Motion)> {
+        let in_objects = self.objects.iter().flat_map(|o| &o.shapes);
+        let shapes = self.shapes.iter().chain(in_objects);
+        std::iter::once(&self.camera.motion)
+            .chain(self.instances.iter().map(|i| &i.motion))
+            .chain(shapes.map(|s| &s.motion))
+            .enumerate()
+            .filter_map(|(i, motion)| Some((i, motion.as_ref()?)))
+    }
+
     /// A scene without shapes and lights: what a scene made in code starts from.
     ///
     /// ```

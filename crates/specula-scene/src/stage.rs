@@ -39,6 +39,7 @@ pub(crate) fn camera(bounds: BoundingBox, resolution: [u32; 2]) -> Camera {
             forward.extend(0.0),
             (centre + from * distance).extend(1.0),
         ),
+        motion: None,
         projection: Projection::Perspective { fov_deg: FOV_DEG },
         lens_radius: 0.0,
         focal_distance: distance,

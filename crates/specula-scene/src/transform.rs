@@ -29,6 +29,11 @@ pub(crate) fn is_invertible(m: &DMat4) -> bool {
     !is_flat && determinant.is_finite() && m.inverse().is_finite()
 }
 
+/// Whether an affine transform mirrors.
+pub(crate) fn mirrors(m: &DMat4) -> bool {
+    m.determinant() < 0.0
+}
+
 /// Whether a transform is finite (in `f32` as well) and invertible.
 ///
 /// # Errors

@@ -10,9 +10,10 @@ use crate::bounds::{self, FARTHEST};
 use crate::image::Image;
 use crate::mesh::{first, is_finite, is_zero};
 use crate::scene::{
-    Filter, Geometry, ImageProjection, Light, Mesh, ObjectInstance, Profile, Projection, Scene,
-    Shape,
+    Filter, Geometry, ImageProjection, Light, Mesh, Motion, ObjectInstance, Profile, Projection,
+    Scene, Shape,
 };
+use crate::transform::mirrors;
 
 /// A broken invariant of a scene.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -51,7 +52,8 @@ impl Scene {
     ///   only to materials before them;
     /// * every number is finite; colours, pictures, radii and roughnesses are not negative;
     ///   indices of refraction are above 0; directions of lights have length 1;
-    /// * every transform is finite in `f32`, affine and invertible;
+    /// * every transform is finite in `f32`, affine and invertible; what moves does not emit, and mirrors at both
+    ///   ends of its motion or at neither;
     /// * meshes have triangles; attributes are empty or one per vertex; shading normals are not 0;
     /// * the picture has pixels, the crop lies in it and is not empty;
     /// * nothing reaches beyond 1e18 from the origin;
@@ -140,7 +142,10 @@ impl Scene {
             what,
             "its object has no shapes",
         )?;
-        check_transform(what, &instance.to_world)
+        check_transform(what, &instance.to_world)?;
+        check_motion(what, &instance.to_world, instance.motion.as_ref())?;
+        let emits = object.is_some_and(|o| o.shapes.iter().any(|s| s.emission.is_some()));
+        ensure(instance.motion.is_none() || !emits, what, EMITS)
     }
 
     fn check_picture(&self) -> Result<(), Invalid> {
@@ -191,6 +196,7 @@ impl Scene {
         )?;
         let camera = &self.camera;
         check_transform("camera", &camera.to_world)?;
+        check_motion("camera", &camera.to_world, camera.motion.as_ref())?;
         if let Projection::Perspective { fov_deg } = camera.projection {
             ensure(
                 fov_deg > 0.0 && fov_deg < 180.0,
@@ -215,6 +221,12 @@ impl Scene {
 
     fn check_shape(&self, what: &str, shape: &Shape) -> Result<(), Invalid> {
         check_transform(what, &shape.to_world)?;
+        check_motion(what, &shape.to_world, shape.motion.as_ref())?;
+        ensure(
+            shape.motion.is_none() || shape.emission.is_none(),
+            what,
+            EMITS,
+        )?;
         ensure(
             shape.material.0 < self.materials.len(),
             what,
@@ -324,6 +336,26 @@ impl Scene {
             }
         }
     }
+}
+
+/// What a fault says of a light that moves.
+const EMITS: &str = "it moves and emits";
+
+fn check_motion(what: &str, start: &DMat4, motion: Option<&Motion>) -> Result<(), Invalid> {
+    let Some(Motion { end, times }) = motion else {
+        return Ok(());
+    };
+    check_transform(&format!("end of the motion of {what}"), end)?;
+    ensure(
+        mirrors(start) == mirrors(end),
+        what,
+        "its motion turns it inside out",
+    )?;
+    ensure(
+        times[0] < times[1] && times.iter().all(|t| t.is_finite()),
+        what,
+        "the times of its motion do not ascend",
+    )
 }
 
 fn is_throw(image_projection: &ImageProjection) -> bool {

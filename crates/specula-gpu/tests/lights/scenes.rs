@@ -220,6 +220,7 @@ fn with_varying(mut scene: Scene) -> Scene {
         object,
         to_world: DMat4::from_translation([0.0, 0.0, -6.0].into())
             * DMat4::from_scale([-1.0, 1.0, 1.0].into()),
+        motion: None,
     });
     scene
 }

@@ -184,6 +184,7 @@ fn scene() -> Scene {
         emission: None,
         reverse_orientation: false,
         alpha: FloatParam::Value(1.0),
+        motion: None,
     };
     let mesh = |i| shape(Geometry::Mesh(MeshId(i)), DMat4::IDENTITY);
     let turned = DMat4::from_rotation_y(0.7) * DMat4::from_scale(DVec3::new(0.8, 0.9, 1.1));
@@ -218,6 +219,7 @@ fn scene() -> Scene {
         to_world: DMat4::from_translation(DVec3::new(0.4, 5.0, 0.3))
             * DMat4::from_rotation_x(0.4)
             * DMat4::from_scale(DVec3::new(1.2, 0.7, 0.9)),
+        motion: None,
     }];
     scene
 }

@@ -108,6 +108,7 @@ fn camera(count: f64) -> Camera {
         lens_radius: 0.0,
         focal_distance: 30.0,
         screen_window: [-half * count, half * count, -half, half],
+        motion: None,
     }
 }
 

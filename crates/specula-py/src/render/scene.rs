@@ -343,6 +343,7 @@ impl SceneData {
         self.scene.instances.push(ObjectInstance {
             object: ObjectId(object),
             to_world: affine(Some(transform))?,
+            motion: None,
         });
         self.is_changed = true;
         Ok(())

@@ -41,6 +41,18 @@ impl Avx2 {
         unsafe { occluded(self, scene, ray) }
     }
 
+    #[inline(always)]
+    pub(super) fn intersect_at(self, scene: &Scene, ray: &Ray, time: f32) -> Option<Hit> {
+        // SAFETY: `self` proves that the machine has the features.
+        unsafe { intersect_at(self, scene, ray, time) }
+    }
+
+    #[inline(always)]
+    pub(super) fn occluded_at(self, scene: &Scene, ray: &Ray, time: f32) -> bool {
+        // SAFETY: `self` proves that the machine has the features.
+        unsafe { occluded_at(self, scene, ray, time) }
+    }
+
     pub(super) fn intersect_interleaved(
         self,
         scene: &Scene,
@@ -65,6 +77,16 @@ fn intersect(kernel: Avx2, scene: &Scene, ray: &Ray) -> Option<Hit> {
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
 fn occluded(kernel: Avx2, scene: &Scene, ray: &Ray) -> bool {
     traverse::occluded(kernel, scene, ray)
+}
+
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
+fn intersect_at(kernel: Avx2, scene: &Scene, ray: &Ray, time: f32) -> Option<Hit> {
+    traverse::intersect_at(kernel, scene, ray, time)
+}
+
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
+fn occluded_at(kernel: Avx2, scene: &Scene, ray: &Ray, time: f32) -> bool {
+    traverse::occluded_at(kernel, scene, ray, time)
 }
 
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]

@@ -2,11 +2,13 @@
 
 use glam::{DAffine3, DMat4, DVec3};
 use specula_bsdf::{Real, Vec3};
+use specula_scene::bounds::BoundingBox;
 
 use super::collapse::{self, Tree};
 use super::node::{Child, ChildKind};
 use super::traverse::Scene;
 use super::{Bounds, Instance, Ray};
+use crate::movement::Movement;
 
 /// An instance, ready for rays.
 #[derive(Clone, Copy, Debug)]
@@ -18,6 +20,8 @@ pub(super) struct Placement {
     pub(super) instance: u32,
     /// Whether rays enter the group unchanged.
     pub(super) identity: bool,
+    /// Index of how it moves in [`Scene::movements`]; beyond their end where it does not.
+    pub(super) movement: u32,
     /// In the world.
     pub(super) bounds: Bounds,
 }
@@ -32,11 +36,23 @@ impl Placement {
             root: tree.root,
             instance: index,
             identity,
+            movement: u32::MAX,
             bounds: if identity {
                 tree.bounds
             } else {
                 transformed(&tree.bounds, &to_world)
             },
+        }
+    }
+
+    /// One that moves, as `movement`, which is that of this index; it is where the shutter opens.
+    pub(super) fn moving(self, movement: &Movement, index: u32, tree: &Tree) -> Self {
+        Self {
+            to_group: DAffine3::from_mat4(movement.at(0.0)).inverse(),
+            identity: false,
+            movement: index,
+            bounds: swept(&tree.bounds, movement),
+            ..self
         }
     }
 
@@ -48,14 +64,25 @@ impl Placement {
     /// The ray in the group's space, with the same `t`.
     #[inline(always)]
     pub(super) fn enter(&self, ray: &Ray) -> Ray {
-        let wide = |v: Vec3<f32>| DVec3::from_array(v.to_array().map(f64::from));
-        let narrow = |v: DVec3| Vec3::from(v.to_array().map(f32::of));
-        Ray {
-            origin: narrow(self.to_group.transform_point3(wide(ray.origin))),
-            direction: narrow(self.to_group.transform_vector3(wide(ray.direction))),
-            t_max: ray.t_max,
-        }
+        enter(&self.to_group, ray)
     }
+}
+
+/// The ray in a group's space, with the same `t`.
+#[inline(always)]
+fn enter(to_group: &DAffine3, ray: &Ray) -> Ray {
+    let wide = |v: Vec3<f32>| DVec3::from_array(v.to_array().map(f64::from));
+    let narrow = |v: DVec3| Vec3::from(v.to_array().map(f32::of));
+    Ray {
+        origin: narrow(to_group.transform_point3(wide(ray.origin))),
+        direction: narrow(to_group.transform_vector3(wide(ray.direction))),
+        t_max: ray.t_max,
+    }
+}
+
+/// The ray in the space of a group that moves, at a time.
+pub(super) fn enter_moving(movement: &Movement, time: f32, ray: &Ray) -> Ray {
+    enter(&DAffine3::from_mat4(movement.at(time)).inverse(), ray)
 }
 
 /// Builds the tree over the instances; `None` where there are none.
@@ -85,6 +112,17 @@ fn transformed(bounds: &Bounds, to_world: &DAffine3) -> Bounds {
     let m = to_world.matrix3;
     let half = (max - min) * 0.5;
     let extent = m.x_axis.abs() * half.x + m.y_axis.abs() * half.y + m.z_axis.abs() * half.z;
+    around(centre, extent)
+}
+
+/// The box around all places of a box that moves, padded likewise.
+fn swept(bounds: &Bounds, movement: &Movement) -> Bounds {
+    let [min, max] = [bounds.min, bounds.max].map(|p| DVec3::from_array(p.map(f64::from)));
+    let swept = movement.swept(BoundingBox { min, max });
+    around(swept.centre(), (swept.max - swept.min) * 0.5)
+}
+
+fn around(centre: DVec3, extent: DVec3) -> Bounds {
     let pad = (extent.max_element() + centre.abs().max_element()) * 1e-6;
     Bounds {
         min: (centre - extent - pad).to_array().map(f32::of),

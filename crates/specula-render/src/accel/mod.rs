@@ -30,6 +30,7 @@ mod input;
 mod instances;
 mod interleaved;
 mod kernel;
+mod moving;
 mod node;
 mod predicted;
 mod quadric;
@@ -57,6 +58,9 @@ use kernel::Portable;
 use rayon::prelude::*;
 use specula_bsdf::Vec3;
 use traverse::Scene;
+
+use crate::convert::id;
+use crate::movement::Movement;
 
 /// A ray, `origin + t direction` for `t` in `(0, t_max)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -163,6 +167,17 @@ impl Accel {
     /// [`AccelError`] where an index is out of range, a transform is singular or not finite, or
     /// there are more primitives than indices.
     pub fn build(groups: &[Group<'_>], instances: &[Instance]) -> Result<Self, AccelError> {
+        Self::build_moving(groups, instances, &[])
+    }
+
+    /// [`Accel::build`] of instances some of which move.
+    ///
+    /// * `movements`: indices of instances, ascending, and how they move, which takes the place of their transforms.
+    pub(crate) fn build_moving(
+        groups: &[Group<'_>],
+        instances: &[Instance],
+        movements: &[(u32, &Movement)],
+    ) -> Result<Self, AccelError> {
         input::check(groups, instances)?;
         let built: Vec<_> = groups.par_iter().map(GroupTree::build).collect();
         let mut scene = Scene::default();
@@ -175,7 +190,11 @@ impl Accel {
             .zip(instances)
             .filter_map(|(index, instance)| {
                 let tree = trees[instance.group as usize].as_ref()?;
-                Some(Placement::new(index, instance, tree))
+                let placed = Placement::new(index, instance, tree);
+                Some(match movements.binary_search_by_key(&index, |m| m.0) {
+                    Ok(i) => placed.moving(movements[i].1, id(i), tree),
+                    Err(_) => placed,
+                })
             })
             .collect();
         let bounds = placed.iter().map(|p| p.bounds).reduce(|a, b| a.union(&b));
@@ -189,6 +208,7 @@ impl Accel {
             depth = depth.max(tree.depth);
             scene.root = Some(tree.root);
             scene.placements = placed;
+            scene.movements = movements.iter().map(|(_, m)| (*m).clone()).collect();
         }
         Ok(Self {
             bounds,

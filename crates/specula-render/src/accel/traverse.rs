@@ -1,10 +1,11 @@
 //! Traversal of the trees by a ray, near children first; generic over the kernel.
 
 use super::frame::{RayFrame, SLACK};
-use super::instances::Placement;
+use super::instances::{self, Placement};
 use super::kernel::{EntryStack, Kernel, PacketHits};
 use super::node::{Child, ChildKind, Lanes, Node8, Packet8};
 use super::{Hit, Ray, quadric};
+use crate::movement::Movement;
 
 /// Everything that a ray may hit. All indices in it are valid by construction.
 #[derive(Clone, Debug, Default)]
@@ -13,6 +14,8 @@ pub(super) struct Scene {
     pub(super) packets: Vec<Packet8>,
     pub(super) quadrics: Vec<quadric::PreparedQuadric>,
     pub(super) placements: Vec<Placement>,
+    /// How those move that do.
+    pub(super) movements: Vec<Movement>,
     /// The root; always a node. `None`: the scene is empty.
     pub(super) root: Option<Child>,
     /// Set where `root` is that of the only, untransformed instance: its index.
@@ -92,6 +95,39 @@ fn cast<K: Kernel, const ANY: bool>(kernel: K, scene: &Scene, ray: &Ray) -> Opti
         let leaves = TopLeaves { scene };
         traverse_tree::<K, _, ANY>(kernel, scene, root, &frame, &leaves, &mut best);
     }
+    Some(best)
+}
+
+/// [`intersect`] at a time, where instances move.
+#[inline(always)]
+pub(super) fn intersect_at<K: Kernel>(
+    kernel: K,
+    scene: &Scene,
+    ray: &Ray,
+    time: f32,
+) -> Option<Hit> {
+    cast_at::<K, false>(kernel, scene, ray, time)?.hit()
+}
+
+/// [`occluded`] at a time, where instances move.
+#[inline(always)]
+pub(super) fn occluded_at<K: Kernel>(kernel: K, scene: &Scene, ray: &Ray, time: f32) -> bool {
+    cast_at::<K, true>(kernel, scene, ray, time).is_some_and(|best| best.is_hit)
+}
+
+/// [`cast`] where instances move.
+#[inline(always)]
+fn cast_at<K: Kernel, const ANY: bool>(
+    kernel: K,
+    scene: &Scene,
+    ray: &Ray,
+    time: f32,
+) -> Option<ClosestHit> {
+    let root = scene.root?;
+    let frame = RayFrame::new(ray)?;
+    let mut best = ClosestHit::new(ray.t_max);
+    let leaves = MovingLeaves { scene, time };
+    traverse_tree::<K, _, ANY>(kernel, scene, root, &frame, &leaves, &mut best);
     Some(best)
 }
 
@@ -257,5 +293,35 @@ impl Leaves for TopLeaves<'_> {
             return false;
         };
         traverse_tree::<K, _, ANY>(kernel, scene, placement.root, frame, &leaves, best)
+    }
+}
+
+/// Instances at a time.
+struct MovingLeaves<'a> {
+    scene: &'a Scene,
+    time: f32,
+}
+
+impl Leaves for MovingLeaves<'_> {
+    #[inline(always)]
+    fn visit<K: Kernel, const ANY: bool>(
+        &self,
+        kernel: K,
+        leaf: Child,
+        frame: &RayFrame,
+        best: &mut ClosestHit,
+    ) -> bool {
+        let scene = self.scene;
+        let placement = &scene.placements[leaf.index()];
+        let Some(movement) = scene.movements.get(placement.movement as usize) else {
+            return TopLeaves { scene }.visit::<K, ANY>(kernel, leaf, frame, best);
+        };
+        let ray = instances::enter_moving(movement, self.time, &frame.ray);
+        let Some(frame) = RayFrame::new(&ray) else {
+            return false;
+        };
+        let instance = placement.instance;
+        let leaves = GroupLeaves { scene, instance };
+        traverse_tree::<K, _, ANY>(kernel, scene, placement.root, &frame, &leaves, best)
     }
 }

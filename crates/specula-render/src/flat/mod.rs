@@ -81,6 +81,9 @@ impl PreparedScene {
         if shaders.contains(&MaterialShader::Measured) {
             missing.push("measured materials".to_owned());
         }
+        if self.moves {
+            missing.push("motion blur".to_owned());
+        }
         self.lights.flatten(&mut words);
         let [width, height] = self.resolution;
         words.constant("WIDTH", width);

@@ -1,21 +1,60 @@
 //! Bakes shapes into groups: applies transforms and orients windings to the outside.
 
 use core::ops::Range;
+use std::collections::HashMap;
 
 use glam::{DMat3, DMat4};
 use rayon::prelude::*;
 use specula_bsdf::Rgb;
 use specula_scene::scene::{
-    ColourParam, FloatParam, Geometry as SceneGeometry, Material, MaterialKind, Mesh, Scene, Shape,
+    ColourParam, FloatParam, Geometry as SceneGeometry, Material, MaterialKind, Mesh,
+    ObjectInstance, Scene, Shape,
 };
 
 use super::{GroupData, NONE, PlacedQuadric, ShapeRecord, parallelogram};
 use crate::accel::QuadricShape;
 use crate::convert::{Affine, id, narrow3, normal_matrix, transform_point};
+use crate::movement::Movement;
 use crate::texture::Textures;
 
 /// No emission.
 const BLACK: ColourParam = ColourParam::Value(Rgb::BLACK);
+
+/// Shapes that are one group: those that stand still, or that move alike.
+pub(super) struct Part {
+    pub(super) shapes: Vec<Shape>,
+    /// From the group's space to that of the shapes' object, or of the world.
+    pub(super) movement: Movement,
+}
+
+/// The still shapes first, also where there are none, then those that move, by their motion.
+fn parts(shapes: Vec<Shape>) -> Vec<Part> {
+    let (moving, still): (Vec<_>, Vec<_>) = shapes.into_iter().partition(|s| s.motion.is_some());
+    let mut parts = vec![Part {
+        shapes: still,
+        movement: Movement::default(),
+    }];
+    let mut part_of = HashMap::new();
+    for shape in moving {
+        let (start, motion) = (shape.to_world, shape.motion);
+        let numbers = motion.map(|m| (m.end.to_cols_array(), m.times));
+        let numbers = numbers.map(|(end, times)| (end.map(f64::to_bits), times.map(f64::to_bits)));
+        let key = (start.to_cols_array().map(f64::to_bits), numbers);
+        let index = *part_of.entry(key).or_insert_with(|| {
+            parts.push(Part {
+                shapes: Vec::new(),
+                movement: Movement::default().within(start, motion.as_ref()),
+            });
+            parts.len() - 1
+        });
+        parts[index].shapes.push(Shape {
+            to_world: DMat4::IDENTITY,
+            motion: None,
+            ..shape
+        });
+    }
+    parts
+}
 
 /// Bakes a scene's geometry. Every mesh is freed once nothing else needs it.
 pub(super) struct Baker<'a> {
@@ -23,10 +62,9 @@ pub(super) struct Baker<'a> {
     meshes: &'a mut [Mesh],
     /// How many shapes are still to be baked from every mesh.
     uses: Vec<usize>,
-    pub(super) world: Vec<Shape>,
-    pub(super) objects: Vec<Vec<Shape>>,
-    /// Instances: index of the object, and transform to the world.
-    pub(super) instances: Vec<(usize, DMat4)>,
+    pub(super) world: Vec<Part>,
+    pub(super) objects: Vec<Vec<Part>>,
+    pub(super) instances: Vec<ObjectInstance>,
     /// Which materials are interfaces: no surfaces but boundaries of media.
     interfaces: Vec<bool>,
     pub(super) records: Vec<ShapeRecord>,
@@ -58,13 +96,10 @@ impl<'a> Baker<'a> {
             shapes
         };
         let world = visible(shapes);
-        let instances: Vec<_> = std::mem::take(instances)
-            .into_iter()
-            .map(|i| (i.object.0, i.to_world))
-            .collect();
+        let instances = std::mem::take(instances);
         let mut shown = vec![false; objects.len()];
-        for (object, _) in &instances {
-            shown[*object] = true;
+        for instance in &instances {
+            shown[instance.object.0] = true;
         }
         let objects: Vec<_> = std::mem::take(objects)
             .iter_mut()
@@ -88,8 +123,8 @@ impl<'a> Baker<'a> {
             textures,
             meshes,
             uses,
-            world,
-            objects,
+            world: parts(world),
+            objects: objects.into_iter().map(parts).collect(),
             instances,
             records: Vec::new(),
             with_colours: textures.shows_vertex_colours(),

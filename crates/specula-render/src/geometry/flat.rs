@@ -51,9 +51,9 @@ impl Placement {
         to.id(groups[self.group as usize]);
         to.flag(self.identity);
         to.id(self.first_light);
-        to.affine(&self.to_world);
-        to.affine(&self.normals);
-        to.affine(&Affine::new(&self.inverse));
+        to.affine(&self.pose.to_world);
+        to.affine(&self.pose.normals);
+        to.affine(&Affine::new(&self.pose.inverse));
         to.field(record, layout::INSTANCE_SIZE);
     }
 }

@@ -49,6 +49,8 @@ pub(crate) struct PrimitiveLocation {
     pub(crate) primitive: u32,
     /// Barycentric weights of a triangle's second and third vertex.
     pub(crate) weights: [f32; 2],
+    /// When it is there, in exposures; for what moves only.
+    pub(crate) time: f32,
 }
 
 impl Surface {
@@ -77,12 +79,15 @@ impl Surface {
 
 impl Geometry {
     /// The surface at a hit.
+    ///
+    /// * `time`: of the ray, in exposures.
     #[inline]
-    pub(crate) fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
+    pub(crate) fn surface(&self, ray: &Ray, hit: &Hit, time: f32) -> Surface {
         let at = PrimitiveLocation {
             instance: hit.instance,
             primitive: hit.primitive,
             weights: [hit.u, hit.v],
+            time,
         };
         // The point along the ray is only as exact as the ray is long: quadrics project it.
         self.surface_at(&at, || ray.origin + ray.direction * hit.t)
@@ -113,6 +118,7 @@ impl Geometry {
             instance: hit.instance,
             primitive: hit.primitive,
             weights: [hit.u, hit.v],
+            time: 0.0,
         };
         let shape = group.shape_of[hit.primitive as usize];
         group.tangent_of_triangle(&at, self.shapes[shape as usize].has_uvs)
@@ -147,11 +153,22 @@ impl Geometry {
         let triangles = group.triangles.len();
         let primitive = at.primitive as usize;
         let shape = group.shape_of[primitive];
+        let own;
+        let pose = if placement.identity {
+            None
+        } else if let Some(moving) = placement.moving(at.time) {
+            own = moving;
+            Some(&own)
+        } else {
+            Some(&placement.pose)
+        };
         let mut surface = if primitive < triangles {
             let has_uvs = self.shapes[shape as usize].has_uvs;
             group.triangle_surface(at, has_uvs)
         } else {
-            group.quadrics[primitive - triangles].surface(placement.to_group_point(near()))
+            let near = near();
+            let near = pose.map_or(near, |pose| pose.to_group_point(near));
+            group.quadrics[primitive - triangles].surface(near)
         };
         surface.shape = shape;
         surface.at = *at;
@@ -159,14 +176,14 @@ impl Geometry {
         if light != NONE {
             surface.light = placement.first_light + light;
         }
-        if !placement.identity {
-            let m = &placement.to_world;
+        if let Some(pose) = pose {
+            let m = &pose.to_world;
             let p = surface.position;
             surface.position = m.point(p);
             let reach = abs(p) + surface.error * (1.0 / RELATIVE_ERROR);
             surface.error = coupled(m.magnitude(reach));
-            surface.ng = unit_or(placement.normals.vector(surface.ng), surface.ng);
-            surface.ns = unit_or(placement.normals.vector(surface.ns), surface.ng);
+            surface.ng = unit_or(pose.normals.vector(surface.ng), surface.ng);
+            surface.ns = unit_or(pose.normals.vector(surface.ns), surface.ng);
             surface.tangent = m.vector(surface.tangent);
         }
         surface
@@ -174,12 +191,18 @@ impl Geometry {
 }
 
 impl super::Placement {
+    /// Where it is at a time, if it moves.
+    #[inline]
+    pub(super) fn moving(&self, time: f32) -> Option<super::Pose> {
+        let movement = self.movement.as_ref()?;
+        Some(super::Pose::new(&movement.at(time)))
+    }
+}
+
+impl super::Pose {
     /// A world point in the group's space.
     #[inline]
     pub(super) fn to_group_point(&self, p: Vec3<f32>) -> Vec3<f32> {
-        if self.identity {
-            return p;
-        }
         crate::convert::narrow3(self.inverse.transform_point3(crate::convert::widen3(p)))
     }
 }

@@ -24,19 +24,22 @@ impl Geometry {
         let placement = &self.placements[at.instance as usize];
         let group = &self.groups[placement.group as usize];
         let triangles = group.triangles.len();
+        let own = placement.moving(at.time);
+        let pose = own.as_ref().unwrap_or(&placement.pose);
         let (normal, partials) = if (at.primitive as usize) < triangles {
             let has_uvs = self.shapes[surface.shape as usize].has_uvs;
             group.triangle_partials(at, has_uvs)
         } else {
-            let near = placement.to_group_point(surface.position);
+            let near = match placement.identity {
+                true => surface.position,
+                false => pose.to_group_point(surface.position),
+            };
             group.quadrics[at.primitive as usize - triangles].partials(near)
         };
         if placement.identity {
             return partials;
         }
-        partials
-            .moved(normal, &placement.to_world, &placement.normals)
-            .1
+        partials.moved(normal, &pose.to_world, &pose.normals).1
     }
 }
 

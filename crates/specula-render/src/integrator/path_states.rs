@@ -13,6 +13,8 @@ use crate::sampler::Sampler;
 /// The states, by index of the path.
 pub(super) struct PathStates {
     pub(super) samplers: [Sampler; WAVEFRONT_SIZE],
+    /// Their times, in exposures: 0 where nothing moves.
+    pub(super) times: Floats,
     pub(super) radiance: Vectors,
     pub(super) throughput: Vectors,
     /// Product of the squared relative indices so far.
@@ -67,6 +69,7 @@ impl PathStates {
     pub(super) fn new() -> Box<Self> {
         Box::new(Self {
             samplers: [Sampler::new([0; 2], 0, 0); WAVEFRONT_SIZE],
+            times: ZERO,
             radiance: Vectors::ZERO,
             throughput: Vectors::ZERO,
             eta_scale: ZERO,

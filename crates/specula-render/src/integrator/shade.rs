@@ -114,7 +114,9 @@ impl PathTracer<'_> {
             for i in range {
                 let k = batch.live_indices[i] as usize;
                 if let Some(hit) = &hits[k] {
-                    self.load_surface(batch, i, (live.ray(k), hit), !plain.isotropic);
+                    let time = || paths.times[live.index(k)];
+                    let ray = (live.ray(k), hit, time);
+                    self.load_surface(batch, i, ray, !plain.isotropic);
                 }
             }
         }
@@ -126,7 +128,7 @@ impl PathTracer<'_> {
         &self,
         batch: &mut VertexBatch,
         i: usize,
-        (ray, hit): (&Ray, &Hit),
+        (ray, hit, time): (&Ray, &Hit, impl FnOnce() -> f32),
         needs_tangent: bool,
     ) {
         let geometry = &self.scene.geometry;
@@ -149,7 +151,7 @@ impl PathTracer<'_> {
             let [position, error, ng, ns, along] = match geometry.quadric(ray, hit) {
                 Some([position, error, normal, along]) => [position, error, normal, normal, along],
                 None => {
-                    let s = geometry.surface(ray, hit);
+                    let s = geometry.surface(ray, hit, time());
                     [s.position, s.error, s.ng, s.ns, s.tangent]
                 }
             };
@@ -384,7 +386,8 @@ impl PathTracer<'_> {
             shadow_rays.push(id(i), ray);
         }
         let accel = &self.scene.geometry.accel;
-        accel.occluded_all(shadow_rays.rays(), occluded);
+        let time = |k| paths.times[index(batch.path_indices[shadow_rays.index(k)])];
+        accel.occluded_all_at(shadow_rays.rays(), time, occluded);
         tally.rays += shadow_rays.len() as u64;
         for (k, &is_occluded) in occluded.iter().enumerate() {
             let i = shadow_rays.index(k);

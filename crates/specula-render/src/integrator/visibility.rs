@@ -4,7 +4,7 @@ use specula_bsdf::{Rgb, Vec3};
 
 use super::estimator::{self, MOST_PASSES};
 use super::{PathState, PathTracer};
-use crate::accel::Ray;
+use crate::accel::{Hit, Ray};
 use crate::geometry::{NONE, Surface};
 use crate::light::LightSample;
 use crate::medium_stack::{MediumStack, transmittance};
@@ -37,10 +37,11 @@ impl PathTracer<'_> {
         let mut ray = *ray;
         let mut begin = ray.origin;
         let mut hidden = self.scene.hide_emitters && depth == 0;
+        let time = self.time(sampler);
         for pass in 0..MOST_PASSES {
             state.tally.rays += 1;
-            let hit = geometry.accel.intersect(&ray)?;
-            let surface = geometry.surface(&ray, &hit);
+            let hit = self.first_hit(&ray, time)?;
+            let surface = geometry.surface(&ray, &hit, time);
             hidden &= surface.light != NONE;
             let passage = match (hidden, geometry.has_passable) {
                 (true, _) => Passage::Free,
@@ -90,7 +91,7 @@ impl PathTracer<'_> {
             return self.transmittance_through(ray, way, *media, (sampler, depth), rays);
         }
         *rays += 1;
-        let visible = !self.scene.geometry.accel.occluded(&ray);
+        let visible = !self.is_occluded(&ray, self.time(sampler));
         visible.then(|| {
             let end = light.target.as_ref().map(|target| target.position);
             transmittance_to_light(from.position, end, media)
@@ -110,12 +111,13 @@ impl PathTracer<'_> {
     ) -> Option<Rgb<f32>> {
         let geometry = &self.scene.geometry;
         let mut product = Rgb::WHITE;
+        let time = self.time(sampler);
         for pass in 0..MOST_PASSES {
             *rays += 1;
-            let Some(hit) = geometry.accel.intersect(&ray) else {
+            let Some(hit) = self.first_hit(&ray, time) else {
                 return Some(product * transmittance_to_light(begin, end, &media));
             };
-            let surface = geometry.surface(&ray, &hit);
+            let surface = geometry.surface(&ray, &hit, time);
             match self.passage(&surface, sampler, [depth, pass, 2]) {
                 Passage::Blocked => return None,
                 Passage::Free => {}
@@ -135,6 +137,24 @@ impl PathTracer<'_> {
             }
         }
         None
+    }
+
+    #[inline(always)]
+    fn first_hit(&self, ray: &Ray, time: f32) -> Option<Hit> {
+        let accel = &self.scene.geometry.accel;
+        match self.scene.moves {
+            true => accel.intersect_at(ray, time),
+            false => accel.intersect(ray),
+        }
+    }
+
+    #[inline(always)]
+    fn is_occluded(&self, ray: &Ray, time: f32) -> bool {
+        let accel = &self.scene.geometry.accel;
+        match self.scene.moves {
+            true => accel.occluded_at(ray, time),
+            false => accel.occluded(ray),
+        }
     }
 
     /// What a surface does to a ray: by chance where it is partly transparent.

@@ -227,6 +227,23 @@ impl PathTracer<'_> {
             &mut weights[..n],
         );
         live.clear();
+        if self.scene.moves {
+            for i in 0..n {
+                let time = paths.samplers[i].time();
+                paths.times[i] = time;
+                let (origin, direction) = camera.ray_at(time, [x[i], y[i]], [lens_x[i], lens_y[i]]);
+                let t_max = f32::INFINITY;
+                live.push(
+                    id(i),
+                    Ray {
+                        origin,
+                        direction,
+                        t_max,
+                    },
+                );
+            }
+            return;
+        }
         camera.rays(
             [&x[..n], &y[..n]],
             [&lens_x[..n], &lens_y[..n]],
@@ -313,9 +330,11 @@ impl PathTracer<'_> {
     /// Takes all live paths from one vertex to the next.
     fn shade_all(&self, wavefront: &mut Wavefront, depth: u32) {
         let geometry = &self.scene.geometry;
-        geometry
-            .accel
-            .intersect_all(wavefront.live.rays(), &mut wavefront.hits);
+        let Wavefront {
+            paths, live, hits, ..
+        } = &mut *wavefront;
+        let time = |k| paths.times[live.index(k)];
+        geometry.accel.intersect_all_at(live.rays(), time, hits);
         wavefront.tally.rays += wavefront.live.len() as u64;
         wavefront.queued.clear();
         wavefront.escaped.clear();
@@ -335,8 +354,7 @@ impl PathTracer<'_> {
                 }
             }
             let ray = wavefront.live.ray(k);
-            let rough = wavefront.paths.rough[wavefront.live.index(k)];
-            match self.material_key(ray, &hit, rough) {
+            match self.material_key(&wavefront.paths, wavefront.live.index(k), ray, &hit) {
                 Some((key, emits)) => {
                     if emits {
                         self.add_emission(wavefront, k, &hit, depth);
@@ -346,7 +364,8 @@ impl PathTracer<'_> {
                     }
                 }
                 None => {
-                    let surface = geometry.surface(ray, &hit);
+                    let time = wavefront.paths.times[wavefront.live.index(k)];
+                    let surface = geometry.surface(ray, &hit, time);
                     if wavefront.is_at_y(k) {
                         self.add_emission(wavefront, k, &hit, depth);
                         self.step_scalar(wavefront, k, |path| {
@@ -371,8 +390,9 @@ impl PathTracer<'_> {
     #[inline(never)]
     fn add_emission(&self, wavefront: &mut Wavefront, k: usize, hit: &Hit, depth: u32) {
         let ray = wavefront.live.ray(k);
-        let surface = self.scene.geometry.surface(ray, hit);
         let i = wavefront.live.index(k);
+        let time = wavefront.paths.times[i];
+        let surface = self.scene.geometry.surface(ray, hit, time);
         let previous = wavefront.paths.previous(i);
         if let (Some(shared), Some(previous)) = (&mut wavefront.shared, previous)
             && shared.is_at_y(i)
@@ -428,27 +448,36 @@ impl PathTracer<'_> {
 
     /// The material key of a surface, and whether it may emit; `None`: batches do not know its material.
     ///
-    /// * `rough`: as of `PathState`.
+    /// * `i`: index of the path.
     #[inline(always)]
-    fn material_key(&self, ray: &Ray, hit: &Hit, rough: bool) -> Option<(u32, bool)> {
+    fn material_key(
+        &self,
+        paths: &PathStates,
+        i: usize,
+        ray: &Ray,
+        hit: &Hit,
+    ) -> Option<(u32, bool)> {
+        let rough = paths.rough[i];
         let geometry = &self.scene.geometry;
         let group = geometry.group_of(hit);
         let shape = group.shape_of[hit.primitive as usize];
         let (material, is_sided) = self.scene.batch_material(shape, rough)?;
-        let outside = !is_sided || self.hits_outside(ray, hit);
+        let outside = !is_sided || self.hits_outside(ray, hit, || paths.times[i]);
         let emits = group.light_of(hit.primitive) != NONE;
         Some((2 * material + u32::from(outside), emits))
     }
 
     /// Whether a ray hits the outside of a surface.
-    fn hits_outside(&self, ray: &Ray, hit: &Hit) -> bool {
+    ///
+    /// * `time`: of the path.
+    fn hits_outside(&self, ray: &Ray, hit: &Hit, time: impl FnOnce() -> f32) -> bool {
         let geometry = &self.scene.geometry;
         let normal = if let Some(facet) = geometry.facet(hit) {
             vertex_batch::normal(facet.corners.map(|&c| Vec3::from(c)))
         } else if let Some([_, _, normal, _]) = geometry.quadric(ray, hit) {
             normal
         } else {
-            geometry.surface(ray, hit).ng
+            geometry.surface(ray, hit, time()).ng
         };
         normal.dot(ray.direction) < 0.0
     }

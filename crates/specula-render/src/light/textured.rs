@@ -124,6 +124,8 @@ impl Textured {
             instance: self.instance,
             primitive: self.primitive,
             weights: if self.swapped { [c, b] } else { [b, c] },
+            // Lights do not move.
+            time: 0.0,
         };
         geometry.surface_at(&at, || point)
     }

@@ -33,6 +33,7 @@ pub(crate) fn look(from: [f64; 3], to: [f64; 3], fov_deg: f64) -> Camera {
         lens_radius: 0.0,
         focal_distance: 1.0,
         screen_window: [-1.0, 1.0, -1.0, 1.0],
+        motion: None,
     }
 }
 
@@ -97,6 +98,7 @@ pub(crate) fn shape(geometry: Geometry, to_world: DMat4, material: MaterialId) -
         emission: None,
         reverse_orientation: false,
         alpha: FloatParam::Value(1.0),
+        motion: None,
     }
 }
 

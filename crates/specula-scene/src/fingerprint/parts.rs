@@ -11,9 +11,9 @@ use crate::scene::{
     Bump, BumpRules, Camera, Channel, CoatMedium, ColourParam, ConductorFresnel, Emission,
     EnvironmentMapping, Film, Filter, FloatParam, Geometry, GltfMaterial, ImageId, ImageProjection,
     Interpolation, Light, Material, MaterialId, MaterialKind, MeasuredId, Mesh, MeshId,
-    MicrofacetDistribution, NoiseKind, Object, ObjectId, ObjectInstance, PrincipledMaterial,
-    Profile, Projection, Roughness, RoughnessMapping, Shape, SpotFalloff, Texture, TextureId,
-    TextureMapping, UvMapping, Wrap,
+    MicrofacetDistribution, Motion, NoiseKind, Object, ObjectId, ObjectInstance,
+    PrincipledMaterial, Profile, Projection, Roughness, RoughnessMapping, Shape, SpotFalloff,
+    Texture, TextureId, TextureMapping, UvMapping, Wrap,
 };
 
 /// A part of a scene.
@@ -160,7 +160,8 @@ fields!(Camera {
     projection,
     lens_radius,
     focal_distance,
-    screen_window
+    screen_window;
+    motion
 });
 variants!(Projection { 0 => Perspective { fov_deg }, 1 => Orthographic, 2 => Spherical(mapping) });
 fields!(Film { resolution, crop, filter, exposure, max_component, balance; file_name });
@@ -193,10 +194,12 @@ fields!(Shape {
     material,
     emission,
     reverse_orientation,
-    alpha
+    alpha;
+    motion
 });
 fields!(Object { shapes; name });
-fields!(ObjectInstance { object, to_world });
+fields!(ObjectInstance { object, to_world; motion });
+fields!(Motion { end, times });
 
 variants!(FloatParam { 0 => Value(value), 1 => Texture(id) });
 variants!(ColourParam { 0 => Value(value), 1 => Texture(id) });

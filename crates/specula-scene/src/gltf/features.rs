@@ -65,9 +65,11 @@ pub(crate) const FEATURES: &[Feature] = &[
     Feature::full("light", "KHR_lights_punctual"),
     Feature::full("camera", "perspective"),
     Feature::full("camera", "orthographic"),
+    Feature::full("animation", "translation, rotation, scale"),
     Feature::approximated(
-        "scene",
-        "animations",
-        "nodes stand where the file puts them",
+        "animation",
+        "motion within an exposure",
+        "from where a node is when the shutter opens to where it is when it closes, as pbrt-v4 moves; lights stay",
     ),
+    Feature::approximated("animation", "weights of morph targets", "undeformed"),
 ];

@@ -16,6 +16,7 @@
 //! frames everything; warnings say so.
 
 mod accessor;
+mod animation;
 mod buffers;
 mod container;
 mod features;
@@ -43,7 +44,7 @@ use crate::problems::Problems;
 use crate::read_file::Files;
 use crate::scene::{Light, Material, Mesh, Object, Shape, Texture, TextureId};
 use crate::search::Search;
-use crate::{Limits, LoadOptions, Loaded};
+use crate::{Exposure, Limits, LoadOptions, Loaded};
 
 /// Extensions that a file may require.
 const KNOWN_EXTENSIONS: [&str; 16] = [
@@ -73,6 +74,7 @@ type LostBuffer = (String, Vec<MissingFile>);
 struct Reader<'a> {
     document: &'a gltf::Document,
     limits: &'a Limits,
+    exposure: Option<Exposure>,
     files: &'a Files,
     problems: &'a Problems,
     search: Search,
@@ -87,6 +89,7 @@ struct Reader<'a> {
     objects: Vec<Object>,
     shapes: Vec<Shape>,
     lights: Vec<Light>,
+    animations: animation::Animations,
     decoded: texture::Decoded,
     looks: material::Appearances,
     /// Sets of coordinates that the material being read uses.
@@ -149,6 +152,7 @@ fn parse_into(
     let mut reader = Reader {
         document: &document,
         limits: &options.limits,
+        exposure: options.exposure,
         files,
         problems,
         search: Search::new(path, &options.folders),
@@ -162,6 +166,7 @@ fn parse_into(
         objects: Vec::new(),
         shapes: Vec::new(),
         lights: Vec::new(),
+        animations: animation::Animations::default(),
         decoded: texture::Decoded::default(),
         looks: material::Appearances::default(),
         sets: Vec::new(),

@@ -7,16 +7,18 @@ use gltf::camera::Projection as GltfProjection;
 use gltf::scene::Transform;
 
 use super::Reader;
+use super::animation::matrix;
 use super::material::Appearance;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
 use crate::pressed::{Press, Pressed};
 use crate::scene::{
-    Camera, Geometry, MeshId, Object, ObjectId, ObjectInstance, Projection, Scene, Settings, Shape,
+    Camera, Geometry, MeshId, Motion, Object, ObjectId, ObjectInstance, Projection, Scene,
+    Settings, Shape,
 };
 use crate::stage::{self, AddedLight};
-use crate::transform::is_invertible;
-use crate::{Loaded, bounds};
+use crate::transform::{check_transform, is_invertible, mirrors};
+use crate::{Exposure, Loaded, bounds};
 
 /// Width of pictures whose file gives no size.
 const WIDTH: u32 = 1280;
@@ -24,16 +26,26 @@ const WIDTH: u32 = 1280;
 /// The nodes that were visited.
 #[derive(Default)]
 struct VisitedNodes {
-    /// Places of every mesh, by its number, with the node's.
-    places: HashMap<usize, Vec<(DMat4, usize)>>,
+    /// Places of every mesh, by its number.
+    places: HashMap<usize, Vec<NodePlace>>,
     camera: Option<(Camera, Option<f64>)>,
     nodes: usize,
+}
+
+/// Where a node is when the shutter opens.
+#[derive(Clone, Copy)]
+struct NodePlace {
+    node: usize,
+    to_world: DMat4,
+    /// When it closes.
+    end: DMat4,
 }
 
 impl Reader<'_> {
     /// The scene of the file's default scene, else of its first, else of all its nodes.
     pub(super) fn assemble(mut self) -> Result<Loaded, SceneError> {
         let document = self.document;
+        self.read_animations()?;
         let mut found = VisitedNodes::default();
         let scene = document
             .default_scene()
@@ -43,10 +55,7 @@ impl Reader<'_> {
             None => document.nodes().collect(),
         };
         for node in &nodes {
-            self.node(node, DMat4::IDENTITY, 0, &mut found)?;
-        }
-        if document.animations().next().is_some() {
-            self.warn("animations are left out: nodes stand where the file puts them");
+            self.node(node, [DMat4::IDENTITY; 2], 0, &mut found)?;
         }
         let mut instances = Vec::new();
         let mut press = Press::new(self.limits);
@@ -59,21 +68,28 @@ impl Reader<'_> {
             let own = own.map(|g| bounds::of_geometry(&self.meshes, &g));
             let own = own.fold(bounds::BoundingBox::EMPTY, bounds::BoundingBox::union);
             let (places, flat): (Vec<_>, Vec<_>) =
-                places.into_iter().partition(|(m, _)| is_invertible(m));
+                places.into_iter().partition(|p| is_invertible(&p.to_world));
             let (specks, places): (Vec<_>, Vec<_>) = places
                 .into_iter()
-                .partition(|(m, _)| own.transformed(m).is_speck());
-            for (_, node) in specks {
+                .partition(|p| own.transformed(&p.to_world).is_speck());
+            for NodePlace { node, .. } in specks {
                 self.warn(format!("nodes[{node}]: {}", bounds::SPECK));
             }
-            for (to_world, node) in flat {
+            for NodePlace { node, to_world, .. } in flat {
                 self.pressed(&mut press, &parts, &to_world, node)?;
             }
-            let places: Vec<DMat4> = places.into_iter().map(|(m, _)| m).collect();
+            let emits = parts.iter().any(|(_, look)| look.emission.is_some());
+            let places = places
+                .into_iter()
+                .map(|p| (p.to_world, self.motion(&p, emits)));
+            let places: Vec<(DMat4, Option<Motion>)> = places.collect();
             match places.as_slice() {
                 [] => {}
-                [place] => {
-                    let shapes = parts.iter().map(|part| shape(*part, *place));
+                [(place, motion)] => {
+                    let shapes = parts.iter().map(|part| Shape {
+                        motion: *motion,
+                        ..shape(*part, *place)
+                    });
                     self.shapes.extend(shapes);
                 }
                 places if !parts.is_empty() => {
@@ -84,9 +100,10 @@ impl Reader<'_> {
                     };
                     self.objects.push(object);
                     let object = ObjectId(self.objects.len() - 1);
-                    instances.extend(places.iter().map(|to_world| ObjectInstance {
+                    instances.extend(places.iter().map(|(to_world, motion)| ObjectInstance {
                         object,
                         to_world: *to_world,
+                        motion: *motion,
                     }));
                 }
                 _ => {}
@@ -193,7 +210,7 @@ impl Reader<'_> {
     fn node(
         &mut self,
         node: &gltf::Node<'_>,
-        parent: DMat4,
+        parent: [DMat4; 2],
         depth: usize,
         found: &mut VisitedNodes,
     ) -> Result<(), SceneError> {
@@ -205,8 +222,16 @@ impl Reader<'_> {
                 format!("{what}: nodes are nested too deeply, or contain themselves (`max_depth`)");
             return Err(self.error(ErrorKind::Limit, message));
         }
-        let columns = self.transform(node).matrix().map(|c| c.map(f64::from));
-        let place = parent * DMat4::from_cols_array_2d(&columns);
+        let own = self.transform(node);
+        let own = match self.exposure {
+            None => [matrix(&own); 2],
+            Some(Exposure { time, shutter }) => {
+                let times = [time, time + shutter].map(|t| t.as_secs_f64());
+                times.map(|t| self.animations.transform(node.index(), &own, t))
+            }
+        };
+        let ends = [parent[0] * own[0], parent[1] * own[1]];
+        let [place, end] = ends;
         if let Some(mesh) = node.mesh() {
             if node.skin().is_some() {
                 self.warn("skins are left out: meshes stand in their undeformed pose");
@@ -214,7 +239,11 @@ impl Reader<'_> {
             match crate::transform::check_finite(&place) {
                 Ok(()) => {
                     let places = found.places.entry(mesh.index()).or_default();
-                    places.push((place, node.index()));
+                    places.push(NodePlace {
+                        node: node.index(),
+                        to_world: place,
+                        end,
+                    });
                 }
                 Err(problem) => self.warn(format!("{what}: {problem}; its mesh is left out")),
             }
@@ -222,40 +251,76 @@ impl Reader<'_> {
         if let Some(camera) = node.camera() {
             match found.camera {
                 Some(_) => self.warn("the file has several cameras: the first is used"),
-                None => found.camera = self.camera(&camera, &place)?,
+                None => found.camera = self.camera(&camera, &ends)?,
             }
         }
         if let Some(light) = node.light() {
+            if place != end {
+                self.warn(format!(
+                    "{what}: the light moves; it is rendered where it starts"
+                ));
+            }
             self.light(&light, &place);
         }
         for child in node.children() {
-            self.node(&child, place, depth + 1, found)?;
+            self.node(&child, ends, depth + 1, found)?;
         }
         Ok(())
     }
 
-    /// A camera and its aspect; cameras look along -z with y up.
+    /// Reads the animations, where a moment of them is asked for.
+    fn read_animations(&mut self) -> Result<(), SceneError> {
+        if self.exposure.is_some() {
+            if self.document.animations().next().is_none() {
+                self.warn("the file has no animation: it is the same at all times");
+            }
+            self.animations = self.animations()?;
+        } else if let Some(animated) = self.animated() {
+            self.warn(format!(
+                "animations are left out: {animated}; `--at SECONDS` renders a moment of them"
+            ));
+        }
+        Ok(())
+    }
+
+    /// How a mesh moves that a node shows.
+    fn motion(&mut self, place: &NodePlace, emits: bool) -> Option<Motion> {
+        let what = format!("nodes[{}]", place.node);
+        if emits && place.end != place.to_world {
+            self.warn(format!(
+                "{what}: it moves and emits light: it is rendered where it starts"
+            ));
+            return None;
+        }
+        self.motion_to(&what, &place.to_world, place.end)
+    }
+
+    /// The motion from where something is when the shutter opens to where it is when it closes.
+    fn motion_to(&mut self, what: &str, start: &DMat4, end: DMat4) -> Option<Motion> {
+        if *start == end {
+            return None;
+        }
+        if check_transform(&end).is_err() || mirrors(start) != mirrors(&end) {
+            let message = "it is pressed flat as it moves: it is rendered where it starts";
+            self.warn(format!("{what}: {message}"));
+            return None;
+        }
+        let times = [0.0, 1.0];
+        Some(Motion { end, times })
+    }
+
+    /// A camera and its aspect.
     fn camera(
         &mut self,
         camera: &gltf::Camera<'_>,
-        place: &DMat4,
+        [place, end]: &[DMat4; 2],
     ) -> Result<Option<(Camera, Option<f64>)>, SceneError> {
-        // Scale along the axes of a camera has no effect.
-        let axis = |v: DVec3| place.transform_vector3(v).try_normalize();
-        let (Some(right), Some(up), Some(forward)) =
-            (axis(DVec3::X), axis(DVec3::Y), axis(DVec3::NEG_Z))
-        else {
+        let Some(to_world) = camera_space(place) else {
             self.warn("a camera without extent is left out");
             return Ok(None);
         };
         let what = format!("cameras[{}]", camera.index());
-        let eye = place.transform_point3(DVec3::ZERO);
-        let to_world = DMat4::from_cols(
-            right.extend(0.0),
-            up.extend(0.0),
-            forward.extend(0.0),
-            eye.extend(1.0),
-        );
+        let motion = self.motion_to(&what, &to_world, camera_space(end).unwrap_or(to_world));
         let (projection, window, aspect) = match camera.projection() {
             GltfProjection::Perspective(p) => {
                 let aspect = p.aspect_ratio().map(f64::from).filter(|aspect| {
@@ -295,6 +360,7 @@ impl Reader<'_> {
         };
         let camera = Camera {
             to_world,
+            motion,
             projection,
             lens_radius: 0.0,
             focal_distance: 1.0,
@@ -350,6 +416,18 @@ impl Reader<'_> {
             scale,
         }
     }
+}
+
+/// The space of a camera in a node: cameras look along -z with y up. `None` where the node has no extent.
+fn camera_space(node: &DMat4) -> Option<DMat4> {
+    // Scale along the axes of a camera has no effect.
+    let axis = |v: DVec3| node.transform_vector3(v).try_normalize();
+    Some(DMat4::from_cols(
+        axis(DVec3::X)?.extend(0.0),
+        axis(DVec3::Y)?.extend(0.0),
+        axis(DVec3::NEG_Z)?.extend(0.0),
+        node.transform_point3(DVec3::ZERO).extend(1.0),
+    ))
 }
 
 fn shape((mesh, look): (MeshId, Appearance), to_world: DMat4) -> Shape {

@@ -25,6 +25,7 @@ impl Context<'_> {
             element.transform("to_world")? * DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0));
         let mut camera = Camera {
             to_world,
+            motion: None,
             projection: Projection::Orthographic,
             lens_radius: 0.0,
             focal_distance: element.above_zero("focus_distance", far)?,

@@ -110,6 +110,7 @@ impl Shapes {
         let instance = ObjectInstance {
             object,
             to_world: transform(element)?,
+            motion: None,
         };
         self.instances.push((instance, element.place.clone()));
         Ok(())
@@ -295,6 +296,7 @@ pub(super) fn finish(pending: Vec<PendingShape>, ready: &[BuiltGeometry]) -> Vec
             let shape = Shape {
                 geometry,
                 to_world: p.to_world,
+                motion: None,
                 material: p.surface.material,
                 emission: p.emission,
                 reverse_orientation: p.flip != turned,

@@ -9,6 +9,7 @@ use super::context::{Context, Entity};
 use super::directive::{InstanceEntity, MaterialEntity, Reader};
 use super::geometry::{self, ShapeGeometry};
 use super::medium::{self, Sides};
+use super::motion::Exposure;
 use super::shape::{self, ShapeEntity};
 use super::state::MaterialUse;
 use super::token::shorten;
@@ -25,21 +26,25 @@ use crate::scene::{
 use crate::transform::is_invertible;
 use crate::{Format, Loaded};
 
+/// What a warning says of a scene without a camera.
+const NO_CAMERA: &str = "the scene has no `Camera`: pbrt-v4's own is used, at the origin of the \
+                         world, along +z, with a field of view of 90 degrees";
+
 /// Builds the scene.
 pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
     let Reader {
         mut context,
         options,
         camera_to_world,
+        times,
         named_materials,
         end,
         ..
     } = reader;
-    let (camera, film, settings) = camera::read(&mut context, &options, camera_to_world)?;
+    let (camera, film, settings, exposure) =
+        camera::read(&mut context, &options, camera_to_world, times)?;
     if !options.contains_key("Camera") && !context.problems.has_errors() {
-        let message = "the scene has no `Camera`: pbrt-v4's own is used, at the origin of the world, along \
-                       +z, with a field of view of 90 degrees";
-        context.warn(&end, message);
+        context.warn(&end, NO_CAMERA);
     }
     let in_objects = reader.objects.iter().flat_map(|o| &o.shapes);
     let all: Vec<&ShapeEntity> = in_objects.chain(&reader.shapes).collect();
@@ -59,6 +64,7 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         materials: &mut materials,
         meshes: &mut meshes,
         press,
+        exposure,
     };
     let mut geometries = geometries.into_iter();
     let mut objects = Vec::new();
@@ -137,6 +143,7 @@ fn note_dark(context: &Context, entity: &Entity, is_dark: bool) {
 
 fn place_instances<'a>(
     context: &mut Context,
+    exposure: &Exposure,
     entities: &'a [InstanceEntity],
     objects: &[Object],
 ) -> Result<Vec<(ObjectInstance, &'a Place)>, SceneError> {
@@ -159,11 +166,19 @@ fn place_instances<'a>(
             let message = "the object has no shapes: the instance is left out";
             context.warn(&instance.place, message);
         } else {
+            let InstanceEntity {
+                place,
+                to_world,
+                end,
+                ..
+            } = instance;
+            let (to_world, motion) = exposure.place(context, ("instance", place), *to_world, *end);
             let placed = ObjectInstance {
                 object: ObjectId(i),
-                to_world: instance.to_world,
+                to_world,
+                motion,
             };
-            instances.push((placed, &instance.place));
+            instances.push((placed, place));
         }
     }
     Ok(instances)
@@ -369,6 +384,7 @@ struct Builder<'a> {
     materials: &'a mut Materials,
     meshes: &'a mut Vec<Mesh>,
     press: Press,
+    exposure: Exposure,
 }
 
 impl Builder<'_> {
@@ -411,12 +427,18 @@ impl Builder<'_> {
         };
         self.context.warn_unused(&shape.entity.params);
         let place = &shape.entity.place;
-        let reach = bounds::of_geometry(self.meshes, &geometry).transformed(&shape.to_world);
+        let (to_world, motion) = self.exposure.place(
+            &mut self.context,
+            ("shape", place),
+            shape.to_world,
+            shape.end,
+        );
+        let reach = bounds::of_geometry(self.meshes, &geometry).placed(&to_world, motion.as_ref());
         if reach.farthest() > FARTHEST {
             let message = format!("the shape reaches beyond {FARTHEST:e} from the origin");
             return Err(SceneError::new(ErrorKind::Limit, place, message));
         }
-        if reach.is_speck() && is_invertible(&shape.to_world) {
+        if reach.is_speck() && is_invertible(&to_world) {
             self.context.warn(place, bounds::SPECK);
             return Ok(None);
         }
@@ -429,10 +451,10 @@ impl Builder<'_> {
                 emission = self.emission(entity, shape, read, &geometry)?;
             }
         }
-        let to_world = shape.to_world;
         let shape = Shape {
             geometry,
             to_world,
+            motion,
             material,
             emission,
             reverse_orientation: shape.reverse_orientation,
@@ -467,12 +489,15 @@ impl Builder<'_> {
         objects: &[Object],
     ) -> Result<(Vec<ObjectInstance>, Vec<Shape>), SceneError> {
         let (mut instances, mut shapes) = (Vec::new(), Vec::new());
-        for (instance, place) in place_instances(&mut self.context, entities, objects)? {
+        for (instance, place) in
+            place_instances(&mut self.context, &self.exposure, entities, objects)?
+        {
             if is_invertible(&instance.to_world) {
                 instances.push(instance);
                 continue;
             }
             for shape in &objects[instance.object.0].shapes {
+                // At its start.
                 let to_world = instance.to_world * shape.to_world;
                 shapes.extend(self.pressed(shape, &to_world, place)?);
             }

@@ -9,30 +9,43 @@ use std::collections::HashMap;
 use glam::{DMat4, DVec4};
 
 use super::context::{Context, Entity};
+use super::motion::Exposure;
 use super::param::ParamList;
 use super::token::shorten;
 use crate::bounds::BoundingBox;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
-use crate::scene::{Camera, EnvironmentMapping, Film, Projection, Settings};
+use crate::scene::{Camera, EnvironmentMapping, Film, Motion, Projection, Settings};
 use crate::stage;
 
 /// Entities by directive.
 pub(super) type OptionEntities = HashMap<&'static str, Entity>;
 
-/// Reads camera, film and settings.
+/// Reads camera, film and settings; the shutter becomes part of the film's exposure.
+///
+/// * `camera_to_world`: at the start, and at the end where it moves; `times`: of both.
 pub(super) fn read(
     context: &mut Context,
     options: &OptionEntities,
-    camera_to_world: DMat4,
-) -> Result<(Camera, Film, Settings), SceneError> {
+    camera_to_world: (DMat4, Option<DMat4>),
+    times: [f64; 2],
+) -> Result<(Camera, Film, Settings, Exposure), SceneError> {
     let film = film::read(context, options);
     let mut film = or(options.get("Film"), film, || stage::film([1280, 720]))?;
-    let camera = lens(context, options, camera_to_world, &mut film);
+    let entity = options.get("Camera");
+    let shutter = or(entity, shutter(entity), || [0.0, 1.0])?;
+    film.exposure *= f32_of(shutter[1] - shutter[0]);
+    let exposure = Exposure::new(times, shutter);
+    let mut placed = (camera_to_world.0, None);
+    if let Some(Entity { place, .. }) = entity {
+        let (start, end) = camera_to_world;
+        placed = exposure.place(context, ("camera", place), start, end);
+    }
+    let camera = lens(context, options, placed, &mut film);
     let camera = or(options.get("Camera"), camera, || {
         stage::camera(BoundingBox::EMPTY, film.resolution)
     })?;
-    Ok((camera, film, settings::read(context, options)?))
+    Ok((camera, film, settings::read(context, options)?, exposure))
 }
 
 /// What was read of a directive, if there is one, or a stand-in where its mistakes are recorded.
@@ -47,20 +60,20 @@ fn or<T>(
     }
 }
 
-/// Reads the camera; its shutter becomes part of the film's exposure.
+/// Reads the camera.
 fn lens(
     context: &mut Context,
     options: &OptionEntities,
-    camera_to_world: DMat4,
+    (to_world, motion): (DMat4, Option<Motion>),
     film: &mut Film,
 ) -> Result<Camera, SceneError> {
     let none = ParamList::default();
     let entity = options.get("Camera");
     let params = entity.map_or(&none, |e| &e.params);
-    let time = exposure_time(entity, params)?;
     let name = entity.map_or("perspective", |e| e.name.as_str());
     let mut camera = Camera {
-        to_world: camera_to_world,
+        to_world,
+        motion,
         projection: Projection::Orthographic,
         lens_radius: params.float_from_zero("lensradius", 0.0)?,
         focal_distance: params.float_above("focaldistance", 1e6, 0.0)?,
@@ -73,7 +86,11 @@ fn lens(
             camera.projection = Projection::Spherical(mapping(params)?);
             camera.lens_radius = 0.0;
             // Maps have their pole at +z, pbrt-v4's camera has it at +y.
-            camera.to_world *= DMat4::from_cols(DVec4::X, DVec4::Z, DVec4::Y, DVec4::W);
+            let swap = DMat4::from_cols(DVec4::X, DVec4::Z, DVec4::Y, DVec4::W);
+            camera.to_world *= swap;
+            if let Some(motion) = &mut camera.motion {
+                motion.end *= swap;
+            }
         }
         ("realistic", Some(entity)) => {
             let diagonal_mm = film::diagonal_mm(options)?;
@@ -88,21 +105,23 @@ fn lens(
             );
         }
     }
-    film.exposure *= f32_of(time);
     context.warn_unused(params);
     Ok(camera)
 }
 
-fn exposure_time(entity: Option<&Entity>, params: &ParamList) -> Result<f64, SceneError> {
+/// When the shutter opens and closes.
+fn shutter(entity: Option<&Entity>) -> Result<[f64; 2], SceneError> {
+    let Some(Entity { params, place, .. }) = entity else {
+        return Ok([0.0, 1.0]);
+    };
     let open = params.float("shutteropen", 0.0)?;
     let close = params.float("shutterclose", 1.0)?;
     if close != open {
         // pbrt-v4 swaps times that are the wrong way round.
-        return Ok((close - open).abs());
+        return Ok([open.min(close), open.max(close)]);
     }
-    let place = entity.map_or_else(|| params.place_of("shutterclose"), |e| e.place.clone());
     let message = "expected a shutter that closes after it opens";
-    Err(SceneError::new(ErrorKind::Parameter, &place, message))
+    Err(SceneError::new(ErrorKind::Parameter, place, message))
 }
 
 fn screen_window(params: &ParamList, [width, height]: [u32; 2]) -> Result<[f64; 4], SceneError> {

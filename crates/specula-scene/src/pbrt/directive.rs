@@ -41,6 +41,8 @@ pub(super) struct InstanceEntity {
     pub(super) name: String,
     pub(super) place: Place,
     pub(super) to_world: DMat4,
+    /// That of the end, where it moves.
+    pub(super) end: Option<DMat4>,
 }
 
 /// Directives before `WorldBegin`.
@@ -73,7 +75,10 @@ pub(super) const PBRT_OPTIONS: [&str; 11] = [
 pub(super) struct Reader {
     pub(super) context: Context,
     pub(super) options: HashMap<&'static str, Entity>,
-    pub(super) camera_to_world: DMat4,
+    /// At the start, and at the end where it moves.
+    pub(super) camera_to_world: (DMat4, Option<DMat4>),
+    /// Times of start and end of what moves.
+    pub(super) times: [f64; 2],
     pub(super) materials: Vec<MaterialEntity>,
     pub(super) named_materials: HashMap<String, usize>,
     pub(super) shapes: Vec<ShapeEntity>,
@@ -113,7 +118,8 @@ impl Reader {
         Self {
             context: Context::new(main, options, files, problems),
             options: HashMap::new(),
-            camera_to_world: DMat4::IDENTITY,
+            camera_to_world: (DMat4::IDENTITY, None),
+            times: [0.0, 1.0],
             materials: Vec::new(),
             named_materials: HashMap::new(),
             shapes: Vec::new(),
@@ -445,15 +451,11 @@ impl Reader {
             return Err(SceneError::new(ErrorKind::Structure, place, message));
         }
         if word == "Camera" {
-            if self.state.moves() {
-                self.context
-                    .warn(place, "the camera moves; it is rendered where it starts");
-            }
             for m in &self.state.transforms {
                 check_transform(m).map_err(|m| SceneError::new(ErrorKind::Transform, place, m))?;
             }
             let inverse = self.state.transforms.map(|m| m.inverse());
-            self.camera_to_world = inverse[0];
+            self.camera_to_world = (inverse[0], self.state.end().map(|_| inverse[1]));
             self.camera_medium = self.state.media[1];
             self.coordinate_systems.insert("camera".to_owned(), inverse);
         }

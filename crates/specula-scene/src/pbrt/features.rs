@@ -12,13 +12,12 @@ const fn near(class: &'static str, name: &'static str, how: &'static str) -> Fea
 
 const PATHS: &str = "paths are traced";
 const SENSOR: &str = "the eye's own curves with the sensor's white balance and brightness";
-const MOTION: &str = "what moves is rendered where it starts";
 const MEDIUM: &str = "homogeneous media absorb and do not scatter; others are empty space";
 
 /// Every feature, by class. The names are the file's own.
 pub(crate) const FEATURES: &[Feature] = &[
     full("directive", "Accelerator"),
-    near("directive", "ActiveTransform", MOTION),
+    full("directive", "ActiveTransform"),
     full("directive", "AreaLightSource"),
     full("directive", "Attribute"),
     full("directive", "AttributeBegin"),
@@ -58,7 +57,7 @@ pub(crate) const FEATURES: &[Feature] = &[
     full("directive", "Transform"),
     full("directive", "TransformBegin"),
     full("directive", "TransformEnd"),
-    near("directive", "TransformTimes", MOTION),
+    full("directive", "TransformTimes"),
     full("directive", "Translate"),
     full("directive", "WorldBegin"),
     full("shape", "trianglemesh"),

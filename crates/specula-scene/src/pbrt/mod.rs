@@ -11,6 +11,7 @@ mod geometry;
 mod light;
 mod material;
 mod medium;
+mod motion;
 mod number_list;
 mod param;
 mod shape;

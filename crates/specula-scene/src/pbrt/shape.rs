@@ -24,6 +24,8 @@ use crate::scene::{FloatParam, Mesh};
 pub(super) struct ShapeEntity {
     pub(super) entity: Entity,
     pub(super) to_world: DMat4,
+    /// That of the end, where it moves.
+    pub(super) end: Option<DMat4>,
     pub(super) reverse_orientation: bool,
     pub(super) material: MaterialUse,
     pub(super) media: Sides,

@@ -28,7 +28,7 @@ pub(super) const ATTRIBUTE_TARGETS: [&str; 5] = ["shape", "light", "material", "
 /// The graphics state.
 #[derive(Clone, Debug)]
 pub(super) struct State {
-    /// Transform to world space at the start and at the end of the exposure.
+    /// Transform to world space at the start and at the end: see [`Reader::times`](super::directive::Reader).
     pub(super) transforms: [DMat4; 2],
     /// Which of them directives change.
     pub(super) active: [bool; 2],
@@ -77,9 +77,10 @@ impl State {
         Ok(())
     }
 
-    /// Whether shapes move during the exposure.
-    pub(super) fn moves(&self) -> bool {
-        self.transforms[0] != self.transforms[1]
+    /// The transform at the end, where it is another than that of the start.
+    pub(super) fn end(&self) -> Option<DMat4> {
+        let [start, end] = self.transforms;
+        (start != end).then_some(end)
     }
 }
 

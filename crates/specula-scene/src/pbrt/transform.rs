@@ -73,12 +73,30 @@ impl Reader {
                 }
             }
             "TransformTimes" => {
-                numbers::<2>(tokens, word)?;
+                let times = numbers::<2>(tokens, word)?;
+                self.transform_times(place, times)?;
             }
             "ActiveTransform" => self.state.active = active(tokens)?,
             _ => return Ok(false),
         }
         Ok(true)
+    }
+
+    /// `TransformTimes`, which holds for the whole file.
+    fn transform_times(&mut self, place: &Place, times: [f64; 2]) -> Result<(), SceneError> {
+        if self.in_world {
+            let message = "`TransformTimes` after `WorldBegin`; expected it before";
+            return Err(SceneError::new(ErrorKind::Structure, place, message));
+        }
+        let [start, end] = times;
+        if start >= end {
+            let message = format!(
+                "`TransformTimes`: expected a start before the end, found {start} and {end}"
+            );
+            return Err(SceneError::new(ErrorKind::Parameter, place, message));
+        }
+        self.times = times;
+        Ok(())
     }
 }
 

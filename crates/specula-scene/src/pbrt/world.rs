@@ -45,7 +45,7 @@ impl Reader {
                 self.expect_world(word, place)?;
                 let mut entity = self.entity(tokens, word)?;
                 entity.params = entity.params.with_inherited(&self.state.attributes[1]);
-                if self.state.moves() {
+                if self.state.end().is_some() {
                     self.context
                         .warn(place, "the light moves; it is rendered where it starts");
                 }
@@ -69,16 +69,13 @@ impl Reader {
                     let message = "`ObjectInstance` within an object";
                     return Err(SceneError::new(ErrorKind::Structure, &place, message));
                 }
-                if self.state.moves() {
-                    self.context
-                        .warn(&place, "the instance moves; it is rendered where it starts");
-                }
                 let name = self.used(v3::Kind::Object, name);
                 let to_world = self.state.transforms[0];
                 self.instances.push(InstanceEntity {
                     name,
                     place,
                     to_world,
+                    end: self.state.end(),
                 });
             }
             _ => return Err(unknown::directive(word, place)),
@@ -153,12 +150,6 @@ impl Reader {
 
     fn shape(&mut self, mut entity: Entity) {
         entity.params = entity.params.with_inherited(&self.state.attributes[0]);
-        if self.state.moves() {
-            self.context.warn(
-                &entity.place,
-                "the shape moves; it is rendered where it starts",
-            );
-        }
         let mut area_light = self.state.area_light.clone();
         if self.in_object && area_light.take().is_some() {
             // pbrt-v4 does the same.
@@ -167,9 +158,16 @@ impl Reader {
                 "area lights in objects are not supported: this shape emits nothing",
             );
         }
+        let mut end = self.state.end();
+        if area_light.is_some() && end.take().is_some() {
+            // pbrt-v4 refuses it.
+            let message = "the shape moves and emits light: it is rendered where it starts";
+            self.context.warn(&entity.place, message);
+        }
         let shape = ShapeEntity {
             entity,
             to_world: self.state.transforms[0],
+            end,
             reverse_orientation: self.state.reverse_orientation,
             material: self.state.material.clone(),
             media: self.state.media,

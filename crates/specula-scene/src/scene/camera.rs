@@ -3,6 +3,7 @@
 use glam::{DMat4, DVec3};
 
 use super::light::EnvironmentMapping;
+use super::motion::Motion;
 
 /// A camera with a thin lens.
 ///
@@ -11,6 +12,8 @@ use super::light::EnvironmentMapping;
 pub struct Camera {
     /// Camera space to world space.
     pub to_world: DMat4,
+    /// How it moves from there; `None` where it does not.
+    pub motion: Option<Motion>,
     /// The projection onto the picture.
     pub projection: Projection,
     /// Radius of the lens, in scene units; 0 for a pinhole. Spherical pictures have none.
@@ -42,6 +45,7 @@ impl Camera {
         let [x, y] = [aspect.max(1.0), (1.0 / aspect).max(1.0)];
         Self {
             to_world,
+            motion: None,
             projection: Projection::Perspective { fov_deg },
             lens_radius: 0.0,
             focal_distance: (target - eye).length(),

@@ -2,6 +2,7 @@
 
 use glam::DMat4;
 
+use super::motion::Motion;
 use super::texture::{ColourParam, FloatParam};
 use super::{MaterialId, MeshId, ObjectId};
 
@@ -60,6 +61,8 @@ pub struct Shape {
     pub geometry: Geometry,
     /// Its space to the world's (or the object's).
     pub to_world: DMat4,
+    /// How it moves from there; `None` where it does not. What moves does not emit.
+    pub motion: Option<Motion>,
     /// Its surface.
     pub material: MaterialId,
     /// Its emission.
@@ -78,6 +81,7 @@ impl Shape {
         Self {
             geometry,
             to_world,
+            motion: None,
             material,
             emission: None,
             reverse_orientation: false,
@@ -102,4 +106,6 @@ pub struct ObjectInstance {
     pub object: ObjectId,
     /// The object's space to the world's.
     pub to_world: DMat4,
+    /// How it moves from there; `None` where it does not. What moves does not emit.
+    pub motion: Option<Motion>,
 }

@@ -58,6 +58,7 @@ fn scene() -> Scene {
         instances: vec![ObjectInstance {
             object: ObjectId(0),
             to_world: DMat4::IDENTITY,
+            motion: None,
         }],
         lights: vec![Light::Distant {
             irradiance: Rgb::WHITE,

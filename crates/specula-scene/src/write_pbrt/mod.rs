@@ -7,6 +7,7 @@ mod asset;
 mod light;
 mod material;
 mod medium;
+mod motion;
 mod name;
 mod product;
 mod projected;
@@ -55,6 +56,8 @@ struct Writer<'a> {
     /// Whether these are written at all.
     keeps: bool,
     text: String,
+    /// Times of all that moves, in exposures.
+    times: [f64; 2],
     /// Notes on what pbrt-v4 cannot express, each once.
     notes: Vec<String>,
     /// Names of written textures by type, and the bits of the colour that they are multiplied by.
@@ -102,6 +105,7 @@ fn write(scene: &Scene, path: &Path, keeps: bool) -> Result<(String, Vec<String>
         path,
         folder: assets_folder(path),
         text: String::new(),
+        times: motion::times(scene),
         notes: Vec::new(),
         textures: HashMap::new(),
         greys: product::greys(scene),
@@ -152,8 +156,13 @@ impl Writer<'_> {
         if film.balance != Film::NO_BALANCE {
             self.note("white balance is left out");
         }
+        let [start, end] = self.times;
+        if self.times != motion::SHUTTER {
+            self.line(&format!("TransformTimes {start} {end}"));
+        }
+        let place = self.camera_place(&camera.to_world, camera.motion.as_ref());
         let text = format!(
-            "{}\n{}\n{}\nSampler \"zsobol\" \"integer pixelsamples\" [ {} ]\n\
+            "{place}\n{}\n{}\n{}\nSampler \"zsobol\" \"integer pixelsamples\" [ {} ]\n\
              Integrator \"volpath\" \"integer maxdepth\" [ {} ]\n",
             camera_text(camera),
             film_text(film, self.path),
@@ -166,7 +175,6 @@ impl Writer<'_> {
 }
 
 fn camera_text(camera: &Camera) -> String {
-    let to_camera = transform(&camera.to_world.inverse());
     let lens = format!(
         "\"float lensradius\" [ {} ] \"float focaldistance\" [ {} ] \"float screenwindow\" [ {} ]",
         camera.lens_radius,
@@ -187,7 +195,7 @@ fn camera_text(camera: &Camera) -> String {
             }
         ),
     };
-    format!("{to_camera}\nCamera {kind}")
+    format!("Camera {kind}")
 }
 
 fn film_text(film: &Film, path: &Path) -> String {

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use specula_bsdf::Rgb;
 
-use super::{WriteError, Writer, quoted, rgb_list, transform};
+use super::{WriteError, Writer, quoted, rgb_list};
 use crate::scene::{Channel, Emission, FloatParam, Geometry, Mesh, MeshId, Shape};
 
 /// Most triangles, and vertices, of a mesh within a text alone.
@@ -25,7 +25,7 @@ impl Writer<'_> {
             self.shape(shape, &mut meshes)?;
         }
         for instance in &scene.instances {
-            let place = transform(&instance.to_world);
+            let place = self.place(&instance.to_world, instance.motion.as_ref());
             self.line(&format!(
                 "AttributeBegin\n{place}\nObjectInstance \"object-{}\"\nAttributeEnd",
                 instance.object.0
@@ -69,7 +69,7 @@ impl Writer<'_> {
         } else {
             ""
         };
-        let place = transform(&shape.to_world);
+        let place = self.place(&shape.to_world, shape.motion.as_ref());
         let material = quoted(self.names.of(shape.material));
         let media = self.sides(shape.material);
         self.line(&format!(

@@ -5,6 +5,7 @@
     reason = "helpers of tests fail loudly and cut numbers on purpose"
 )]
 
+mod animation;
 mod broken;
 mod budget;
 mod check;
@@ -23,6 +24,7 @@ mod measured;
 mod measured_files;
 mod media;
 mod missing;
+mod motion;
 mod mutations;
 mod pressed;
 mod range;

@@ -2,9 +2,10 @@
 
 use std::fmt;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use crate::render::available_memory;
-use crate::scene::{Limits, LoadOptions, Missing};
+use crate::scene::{Exposure, Limits, LoadOptions, Missing};
 use clap::{Args, ValueEnum};
 
 use super::values;
@@ -20,6 +21,23 @@ pub(crate) struct LoadingArguments {
     /// What is done about pictures, meshes and included files that do not exist
     #[arg(long, value_name = "WHAT", default_value_t = MissingName::Refuse)]
     pub(crate) missing: MissingName,
+
+    /// Moment of a glTF file's animations, such as 1.5s or 250ms; without it nodes stand where the file puts
+    /// them
+    #[arg(long, value_name = "TIME", value_parser = values::moment, conflicts_with = "frame")]
+    pub(crate) at: Option<Duration>,
+
+    /// The moment as the number of a frame, from 0
+    #[arg(long, value_name = "N")]
+    pub(crate) frame: Option<u32>,
+
+    /// Frames of a second
+    #[arg(long, value_name = "N", value_parser = values::rate, default_value_t = 24.0)]
+    pub(crate) fps: f64,
+
+    /// How long the shutter is open from that moment on, such as 20ms: what moves is blurred
+    #[arg(long, value_name = "TIME", value_parser = values::moment)]
+    pub(crate) shutter: Option<Duration>,
 
     /// Deepest nesting of files and references that is not taken for damage [default: 64]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
@@ -81,7 +99,18 @@ impl LoadingArguments {
         options.parameters = parameters.to_vec();
         options.folders.clone_from(&self.search);
         options.missing = self.missing.into();
+        options.exposure = self.exposure();
         options
+    }
+
+    /// The moment of animations that is asked for.
+    fn exposure(&self) -> Option<Exposure> {
+        let frame = |n: u32| Duration::from_secs_f64(f64::from(n) / self.fps);
+        let time = self.at.or_else(|| self.frame.map(frame));
+        (time.is_some() || self.shutter.is_some()).then(|| Exposure {
+            time: time.unwrap_or_default(),
+            shutter: self.shutter.unwrap_or_default(),
+        })
     }
 }
 
@@ -139,6 +168,27 @@ mod tests {
         assert_eq!(options.limits, limits);
         assert_eq!(options.missing, Missing::StandIn);
         assert_eq!(options.folders, [PathBuf::from("a"), PathBuf::from("b")]);
+        let moment = |line: &[&str]| {
+            let line = ["x"].iter().chain(line);
+            let exposure = Line::parse_from(line).loading.options(&[]).exposure;
+            exposure.map(|e| [e.time, e.shutter].map(|t| t.as_secs_f64()))
+        };
+        assert_eq!(moment(&[]), None);
+        assert_eq!(moment(&["--fps=30"]), None);
+        assert_eq!(moment(&["--at=1.5"]), Some([1.5, 0.0]));
+        assert_eq!(moment(&["--at=0", "--shutter=20ms"]), Some([0.0, 0.02]));
+        assert_eq!(moment(&["--shutter=1s"]), Some([0.0, 1.0]));
+        assert_eq!(moment(&["--frame=36"]), Some([1.5, 0.0]));
+        assert_eq!(moment(&["--frame=36", "--fps=12.5"]), Some([2.88, 0.0]));
+        for wrong in [
+            &["x", "--at=1", "--frame=2"][..],
+            &["x", "--at=-1"],
+            &["x", "--frame=-1"],
+            &["x", "--frame=1", "--fps=0"],
+            &["x", "--shutter=long"],
+        ] {
+            assert!(Line::try_parse_from(wrong).is_err(), "{wrong:?}");
+        }
         assert!(Line::try_parse_from(["x", "--limit-pixels=0"]).is_err());
         assert!(Line::try_parse_from(["x", "--limit-bytes=lots"]).is_err());
     }

@@ -5,6 +5,26 @@ use std::time::Duration;
 
 /// `30s`, `5m`, `1.5h`, `250ms`; a bare number is seconds.
 pub(crate) fn duration(text: &str) -> Result<Duration, String> {
+    time(text, |n| n > 0.0)?
+        .ok_or_else(|| "expected a time above 0 and below a year, as in 30s, 5m, 1.5h".to_owned())
+}
+
+/// As [`duration`], from 0 on.
+pub(crate) fn moment(text: &str) -> Result<Duration, String> {
+    time(text, |n| n >= 0.0)?
+        .ok_or_else(|| "expected a time from 0 to a year, as in 1.5s, 250ms".to_owned())
+}
+
+/// A number of frames per second.
+pub(crate) fn rate(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok();
+    number
+        .filter(|n| (1e-3..=1e6).contains(n))
+        .ok_or_else(|| "expected a number of frames per second above 0, as in 24".to_owned())
+}
+
+/// A time whose number holds a condition; `None` where it is none.
+fn time(text: &str, holds: impl Fn(f64) -> bool) -> Result<Option<Duration>, String> {
     let split = text
         .find(|c: char| c.is_ascii_alphabetic())
         .unwrap_or(text.len());
@@ -20,12 +40,10 @@ pub(crate) fn duration(text: &str) -> Result<Duration, String> {
         .trim()
         .parse::<f64>()
         .ok()
-        .filter(|n| *n > 0.0)
+        .filter(|n| holds(*n))
         .map(|n| n * factor)
         .filter(|s| *s <= 3.2e7);
-    seconds
-        .map(Duration::from_secs_f64)
-        .ok_or_else(|| "expected a time above 0 and below a year, as in 30s, 5m, 1.5h".to_owned())
+    Ok(seconds.map(Duration::from_secs_f64))
 }
 
 /// `1280x720`.

@@ -4,6 +4,7 @@ mod batches;
 mod degenerate;
 mod instances;
 mod large;
+mod moving;
 mod quadrics;
 mod reference;
 

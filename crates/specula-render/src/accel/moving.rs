@@ -1,0 +1,70 @@
+//! Rays with a time, in structures some of whose instances move.
+//!
+//! Separate from the other entries, so that still scenes neither store times nor ask for motions.
+
+use super::kernel::Portable;
+use super::traverse;
+use super::{Accel, Hit, KernelChoice, Ray};
+
+impl Accel {
+    /// Whether any instance moves: only then times matter.
+    pub(crate) fn moves(&self) -> bool {
+        !self.scene.movements.is_empty()
+    }
+
+    /// [`Accel::intersect`] at a time, in exposures; without motion, at any.
+    pub(crate) fn intersect_at(&self, ray: &Ray, time: f32) -> Option<Hit> {
+        if !self.moves() {
+            return self.intersect(ray);
+        }
+        match self.kernel {
+            KernelChoice::Portable => traverse::intersect_at(Portable, &self.scene, ray, time),
+            #[cfg(target_arch = "x86_64")]
+            KernelChoice::Avx2(kernel) => kernel.intersect_at(&self.scene, ray, time),
+        }
+    }
+
+    /// [`Accel::occluded`] at a time.
+    pub(crate) fn occluded_at(&self, ray: &Ray, time: f32) -> bool {
+        if !self.moves() {
+            return self.occluded(ray);
+        }
+        match self.kernel {
+            KernelChoice::Portable => traverse::occluded_at(Portable, &self.scene, ray, time),
+            #[cfg(target_arch = "x86_64")]
+            KernelChoice::Avx2(kernel) => kernel.occluded_at(&self.scene, ray, time),
+        }
+    }
+
+    /// [`Accel::intersect_all`] of rays with times, which are asked for where something moves.
+    ///
+    /// * `time`: by the ray's index.
+    pub(crate) fn intersect_all_at(
+        &self,
+        rays: &[Ray],
+        time: impl Fn(usize) -> f32,
+        hits: &mut Vec<Option<Hit>>,
+    ) {
+        if !self.moves() {
+            return self.intersect_all(rays, hits);
+        }
+        hits.clear();
+        let rays = rays.iter().enumerate();
+        hits.extend(rays.map(|(i, ray)| self.intersect_at(ray, time(i))));
+    }
+
+    /// [`Accel::occluded_all`] of rays with times, as of [`Accel::intersect_all_at`].
+    pub(crate) fn occluded_all_at(
+        &self,
+        rays: &[Ray],
+        time: impl Fn(usize) -> f32,
+        occluded: &mut Vec<bool>,
+    ) {
+        if !self.moves() {
+            return self.occluded_all(rays, occluded);
+        }
+        occluded.clear();
+        let rays = rays.iter().enumerate();
+        occluded.extend(rays.map(|(i, ray)| self.occluded_at(ray, time(i))));
+    }
+}
