@@ -4,14 +4,14 @@
 //! pixel covers a circle of the radius by which neighbouring rays differ, as pbrt-v4's footprints have the differences
 //! to the next pixels for half axes.
 //!
-//! Paths of a pixel share its area: the `k`-th sample of a pixel, from 1 on, stands for the share `1 / k` of it, but for
-//! no less than 1/64. So do the directions that lobes are sampled in. Radii scale with the root of that. What filters take
-//! away vanishes as samples grow in number, however many there will be: a picture does not depend on what was planned.
-//! (pbrt-v4 scales the footprints of all of `n` samples by `max(1/8, 1/sqrt(n))`.)
+//! Paths of a pixel share its area: the `k`-th sample of a pixel, from 1 on, stands for the share `1 / k` of it, but
+//! for no less than 1/64. So do the directions that lobes are sampled in. Radii scale with the root of that. What
+//! filters blur falls with the number of samples, to that of 1/64, however many there will be: a picture does not depend
+//! on what was planned. (pbrt-v4 scales the footprints of all of `n` samples by `max(1/8, 1/sqrt(n))`.)
 //!
-//! Source: Akenine-Moeller, Nilsson, Andersson, Barre-Brisebois, Toth and Karras 2019, "Texture Level of Detail Strategies
-//! for Real-Time Ray Tracing"; Suykens and Willems 2001, "Path Differentials and Applications", for footprints of
-//! sampled lobes.
+//! Source: Akenine-Moeller, Nilsson, Andersson, Barre-Brisebois, Toth and Karras 2019, "Texture Level of Detail
+//! Strategies for Real-Time Ray Tracing"; Suykens and Willems 2001, "Path Differentials and Applications", for
+//! footprints of sampled lobes.
 
 use core::f32::consts::PI;
 
@@ -97,7 +97,7 @@ impl RayCone {
     ) -> Self {
         let spread = match bounce {
             Bounce::Mirror => self.spread + 2.0 * mean_curvature() * self.radius,
-            Bounce::Refraction { eta } if eta == 1.0 => self.spread,
+            Bounce::Refraction { eta: 1.0 } => self.spread,
             Bounce::Refraction { eta } => {
                 let inverse = 1.0 / eta;
                 self.spread * inverse - mean_curvature() * self.radius * (1.0 - inverse)

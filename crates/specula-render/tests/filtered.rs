@@ -146,7 +146,7 @@ fn a_floor_to_the_horizon_has_less_noise_and_little_bias() {
     }
 }
 
-/// What is filtered vanishes as samples grow in number.
+/// What filters blur falls with the number of samples.
 #[test]
 fn bias_falls_with_the_number_of_samples() {
     let scene = floor(Interpolation::EWA);
@@ -261,16 +261,21 @@ fn what_shaders_do_not_filter_is_named() {
     };
     assert_eq!(missing(TextureFilter::Bilinear), [""; 0]);
     let named = missing(TextureFilter::Scene);
-    assert!(named.len() == 1 && named[0].contains("--texture-filter"), "{named:?}");
+    assert!(
+        named.len() == 1 && named[0].contains("--texture-filter"),
+        "{named:?}"
+    );
 }
 
 /// Levels of 32 x 32 pixels to 1, of three floats.
 #[test]
 fn pyramids_are_counted() {
-    let textures = |filter| {
-        MemoryEstimate::new(&floor(Interpolation::EWA), &options(1, filter), 1).textures
-    };
+    let textures =
+        |filter| MemoryEstimate::new(&floor(Interpolation::EWA), &options(1, filter), 1).textures;
     let pyramid = textures(TextureFilter::Scene) - textures(TextureFilter::Bilinear);
     assert_eq!(pyramid, 12 * (1024 + 256 + 64 + 16 + 4 + 1));
-    assert_eq!(textures(TextureFilter::Trilinear), textures(TextureFilter::Ewa));
+    assert_eq!(
+        textures(TextureFilter::Trilinear),
+        textures(TextureFilter::Ewa)
+    );
 }

@@ -71,7 +71,8 @@ impl Textures {
             ));
         }
         if self.is_filtered {
-            missing.push("textures filtered over footprints (--texture-filter bilinear renders them unfiltered)".to_owned());
+            let filtered = "textures filtered over footprints (--texture-filter bilinear renders them unfiltered)";
+            missing.push(filtered.to_owned());
         }
         let has_noise = self
             .nodes

@@ -128,9 +128,34 @@ impl Raster {
     /// with `d` the distance of a pixel's centre from the point. Adding 1 to the matrix is a convolution with the
     /// reconstruction of pixels, so that ellipses are never smaller than one.
     ///
+    /// Where the longer axis is under half a pixel, there is nothing to average: the picture is interpolated bilinearly,
+    /// as without a filter, and up to one pixel both are mixed.
+    ///
     /// Source: Heckbert 1989, "Fundamentals of texture mapping and image warping", 3.5.8; Pharr, Jakob and Humphreys,
-    /// 4th edition, 10.4.4. Departure: axes are those of the ellipse, not those by which it is given.
+    /// 4th edition, 10.4.4. Departures: axes are those of the ellipse, not those by which it is given; pbrt-v4 has
+    /// Gaussians of a pixel where pictures are magnified.
     fn ewa(&self, st: [f32; 2], ellipse: Ellipse, max_anisotropy: f32, lookup: Lookup) -> Rgb<f32> {
+        let [longer, _] = ellipse.squared_axes();
+        let share = (2.0 * longer.sqrt() - 1.0).min(1.0);
+        if share <= 0.0 {
+            return self.at(st, lookup);
+        }
+        let mean = self.mean_over_levels(st, ellipse, max_anisotropy, lookup);
+        if share < 1.0 {
+            self.at(st, lookup) * (1.0 - share) + mean * share
+        } else {
+            mean
+        }
+    }
+
+    /// The mean over an ellipse in the levels where its shorter axis is 1 to 2 pixels.
+    fn mean_over_levels(
+        &self,
+        st: [f32; 2],
+        ellipse: Ellipse,
+        max_anisotropy: f32,
+        lookup: Lookup,
+    ) -> Rgb<f32> {
         let (ellipse, shorter) = ellipse.widened(max_anisotropy);
         let size = [self.width as f32, self.height as f32];
         self.between_levels(0.5 * shorter.log2(), |level| {

@@ -1,6 +1,7 @@
 //! Filters against quadrature over footprints.
 
 use super::*;
+use crate::convert::narrow;
 use specula_bsdf::math::Stream;
 use specula_scene::Pixels;
 
@@ -32,8 +33,8 @@ fn reference(raster: &Raster, st: [f32; 2], axes: [[f32; 2]; 2], wrap: Wrap) -> 
     let x = f64::from(st[0]) * size[0] - 0.5;
     let y = (f64::from(st[1]) - 1.0) * size[1] - 0.5;
     let (mut value, mut total) = (0.0, 0.0);
-    for row in floor_i32((y - yy.sqrt()) as f32)..=floor_i32((y + yy.sqrt()) as f32) + 1 {
-        for column in floor_i32((x - xx.sqrt()) as f32)..=floor_i32((x + xx.sqrt()) as f32) + 1 {
+    for row in floor_i32(narrow(y - yy.sqrt()))..=floor_i32(narrow(y + yy.sqrt())) + 1 {
+        for column in floor_i32(narrow(x - xx.sqrt()))..=floor_i32(narrow(x + xx.sqrt())) + 1 {
             let (dx, dy) = (f64::from(column) - x, f64::from(row) - y);
             let squared = (yy * dx * dx - 2.0 * xy * dx * dy + xx * dy * dy) / determinant;
             let weight = ((-2.0 * squared).exp() - (-2.0_f64).exp()).max(0.0);
@@ -91,11 +92,34 @@ fn ellipses_have_their_axes() {
     assert_eq!((unchanged.xx, unchanged.xy, squared), (4.0, 0.0, 4.0));
 }
 
+/// Where pictures are magnified they are interpolated, and what is between is mixed.
+#[test]
+fn ellipses_under_half_a_pixel_are_points() {
+    let raster = random(32, 21);
+    let at = |half_axes, filter| {
+        let axes = axes(&raster, half_axes, 0.3);
+        raster
+            .filtered([0.37, 0.81], axes, lookup(filter, Wrap::Repeat))
+            .r
+    };
+    let unfiltered = at([0.1; 2], Interpolation::Bilinear);
+    for half_axes in [[0.01, 0.01], [0.49, 0.1]] {
+        assert_eq!(at(half_axes, EWA), unfiltered);
+    }
+    let mut last = unfiltered;
+    for i in 0..200 {
+        let next = at([0.45 + 0.003 * i as f32, 0.2], EWA);
+        assert!((next - last).abs() < 0.01, "{i}: {last} {next}");
+        last = next;
+    }
+    assert_ne!(last, unfiltered);
+}
+
 /// Small ellipses are evaluated in the picture itself.
 #[test]
 fn small_ellipses_are_exact() {
     for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Black, Wrap::Mirror] {
-        for half_axes in [[0.01, 0.01], [0.9, 0.3], [7.5, 1.0]] {
+        for half_axes in [[1.01, 0.2], [1.01, 1.0], [7.5, 1.0]] {
             let [largest, _] = differences([32, 21], half_axes, wrap);
             assert!(largest < 4e-3, "{wrap:?} {half_axes:?}: {largest}");
         }
