@@ -193,7 +193,7 @@ fn projections_keep_their_power() {
 fn filters_are_those_of_the_file() {
     let folder = with_picture();
     let read = |parameters: &str| {
-        folder.load(&format!(
+        folder.load(format!(
             "WorldBegin Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\" {parameters}
              Material \"diffuse\" \"texture reflectance\" \"t\" Shape \"sphere\" LightSource \"infinite\""
         ))
