@@ -134,6 +134,15 @@ pub(crate) fn flatten(bump: Option<&Bump>, rules: BumpRules, to: &mut Words) {
     }
 }
 
+/// Step of finite differences along u or v: half of what the footprint covers, as in pbrt, but no less than
+/// [`STEP`], below which heights in single precision have no slope.
+fn step(place: &TextureCoordinates, axis: usize) -> f32 {
+    place.footprint.as_ref().map_or(STEP, |footprint| {
+        let [a, b] = footprint.uv;
+        STEP.max(0.5 * (a[axis].abs() + b[axis].abs()))
+    })
+}
+
 /// Normal and tangent of the surface moved along its normal by `height`:
 ///
 /// ```text
@@ -153,8 +162,9 @@ fn displaced(
     let here = height(&place);
     let moved = |axis: usize| {
         let mut there = place;
-        there.uv[axis] += STEP;
-        there.position += partials.dp[axis] * STEP;
+        let wanted = step(&place, axis);
+        there.uv[axis] += wanted;
+        there.position += partials.dp[axis] * wanted;
         // The step that rounding left: coordinates of large tiled planes have few digits.
         let step = there.uv[axis] - place.uv[axis];
         let slope = if step > 0.0 {

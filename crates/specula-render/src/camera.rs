@@ -1,5 +1,7 @@
 //! Cameras: from a point of the picture to a ray.
 
+mod cone;
+
 use macro_rules_attribute::apply;
 use specula_bsdf::Vec3;
 use specula_bsdf::math::vec3;

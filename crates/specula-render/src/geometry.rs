@@ -10,6 +10,7 @@
 
 mod bake;
 mod flat;
+mod footprint;
 mod hit;
 mod partials;
 

@@ -14,6 +14,7 @@
 
 mod candidates;
 pub(crate) mod estimator;
+mod footprints;
 mod path_states;
 mod shade;
 mod sharing;
@@ -36,6 +37,7 @@ use crate::material::{Coat, Material, PointLobe};
 use crate::medium_stack::MediumStack;
 use crate::options::{RenderOptions, Strategy};
 use crate::prepared::PreparedScene;
+use crate::ray_cone::RayCone;
 use crate::sampler::Sampler;
 
 /// Traces paths through a scene.
@@ -91,6 +93,8 @@ struct PathState {
     eta_scale: f32,
     /// The media that the path is in.
     media: MediumStack,
+    /// What the path stands for, at its last vertex; where textures are filtered.
+    cone: RayCone,
     /// Whether the path has passed through thin panes only: hidden lights stay hidden.
     straight: bool,
     /// Whether it was scattered by a lobe that is not perfectly smooth.
@@ -239,6 +243,7 @@ impl<'a> PathTracer<'a> {
         if depth >= self.max_depth && depth > 0 {
             return false;
         }
+        let surface = self.with_footprint(surface, ray, state);
         let vertex = self.shading_point(surface, -ray.direction, sampler, depth, state.rough);
         if depth == 0 {
             first.albedo = vertex.lobe.albedo();
@@ -537,6 +542,7 @@ impl<'a> PathTracer<'a> {
             scattered.sampled += 1;
             scattered.rejected += u64::from(sample.is_none());
         }
+        let sample = sample?;
         let BsdfSample {
             wi,
             weight,
@@ -544,7 +550,7 @@ impl<'a> PathTracer<'a> {
             specular,
             eta,
             event,
-        } = sample?;
+        } = sample;
         let direction = vertex.frame.to_world(wi).normalize();
         if !estimator::sides_agree(wi.z, vertex.facing.dot(direction)) {
             return None;
@@ -555,6 +561,7 @@ impl<'a> PathTracer<'a> {
         }
         state.eta_scale = estimator::eta_scale_after(state.eta_scale, eta);
         state.rough |= !specular;
+        self.spread_cone(state, vertex, &sample, sampler);
         state.straight &= matches!(vertex.lobe, PointLobe::Listed(Lobe::ThinDielectric(_)))
             && event == Event::Transmission;
         if event == Event::Transmission {

@@ -24,6 +24,7 @@ mod options;
 pub mod picture;
 mod points;
 mod prepared;
+mod ray_cone;
 mod renderer;
 mod sampler;
 mod simd;
@@ -54,7 +55,7 @@ pub use goal::RenderGoal;
 pub use machine_memory::available_memory;
 pub use material::MaterialShader;
 pub use memory::MemoryEstimate;
-pub use options::{RenderOptions, Strategy};
+pub use options::{RenderOptions, Strategy, TextureFilter};
 pub use points::{
     LitPoint, PointLighting, PrimitivePoint, SeenSurface, SoftenedNormal, TexturePoint,
 };

@@ -14,6 +14,7 @@ use crate::film::BYTES_PER_PIXEL;
 use crate::light::{BYTES_PER_EMITTER, BYTES_PER_FAR_PIXEL};
 use crate::options::RenderOptions;
 use crate::picture::{ALL_CHANNELS, blocks_size};
+use crate::texture::pyramid_pixels;
 
 /// The program itself, as it is before a scene is read.
 const PROGRAM: u64 = 10 << 20;
@@ -80,7 +81,7 @@ impl MemoryEstimate {
         };
         // Materials share them with the scene.
         estimate.textures = measured;
-        estimate.add_textures(scene, &mut held);
+        estimate.add_textures(scene, options, &mut held);
         estimate.add_geometry(scene, threads, &mut held);
         estimate.add_lights(scene, &mut held);
         estimate.preparing = held.peak;
@@ -128,11 +129,13 @@ impl MemoryEstimate {
         self.preparing
     }
 
-    fn add_textures(&mut self, scene: &Scene, held: &mut Held) {
+    fn add_textures(&mut self, scene: &Scene, options: &RenderOptions, held: &mut Held) {
         let mut used = vec![false; scene.images.len()];
+        let mut has_pyramid = used.clone();
         for texture in &scene.textures {
-            if let Texture::Image { image, .. } = texture {
+            if let Texture::Image { image, filter, .. } = texture {
                 used[image.0] = true;
+                has_pyramid[image.0] |= options.texture_filter.of(*filter).is_filtered();
             }
         }
         for (index, image) in scene.images.iter().enumerate().filter(|(i, _)| used[*i]) {
@@ -142,6 +145,12 @@ impl MemoryEstimate {
                 held.add(size);
             }
             self.textures += size;
+            if has_pyramid[index] {
+                let bytes = if image.pixels.is_colour() { 12 } else { 4 };
+                let pyramid = bytes * pyramid_pixels([image.width, image.height]);
+                held.add(pyramid);
+                self.textures += pyramid;
+            }
         }
     }
 

@@ -4,6 +4,7 @@ use core::fmt;
 
 use specula_bsdf::multibounce::MisPdf;
 use specula_bsdf::vndf;
+use specula_scene::scene::{Interpolation, Texture};
 use specula_scene::{Energy, Scene};
 
 use crate::codes;
@@ -51,6 +52,55 @@ impl fmt::Display for Strategy {
             Self::LightsOnly => "LightsOnly",
             Self::BsdfOnly => "BsdfOnly",
             Self::Power => "Power",
+        })
+    }
+}
+
+/// How textures are filtered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TextureFilter {
+    /// As the scene says.
+    #[default]
+    Scene,
+    /// Not over footprints: pictures are interpolated bilinearly.
+    Bilinear,
+    /// All pictures that the scene interpolates: [`Interpolation::Trilinear`].
+    Trilinear,
+    /// All pictures that the scene interpolates: [`Interpolation::EWA`].
+    Ewa,
+}
+
+impl TextureFilter {
+    /// What becomes of a texture's filter. Nearest pixels stay.
+    #[must_use]
+    pub fn of(self, filter: Interpolation) -> Interpolation {
+        match (self, filter) {
+            (Self::Scene, _) | (_, Interpolation::Nearest) => filter,
+            (Self::Bilinear, _) => Interpolation::Bilinear,
+            (Self::Trilinear, _) => Interpolation::Trilinear,
+            (Self::Ewa, Interpolation::Ewa { .. }) => filter,
+            (Self::Ewa, _) => Interpolation::EWA,
+        }
+    }
+
+    /// Changes the filters of a scene's textures.
+    pub(crate) fn apply(self, scene: &mut Scene) {
+        for texture in &mut scene.textures {
+            if let Texture::Image { filter, .. } = texture {
+                *filter = self.of(*filter);
+            }
+        }
+    }
+}
+
+/// The name in [`RenderOptions::settings`].
+impl fmt::Display for TextureFilter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Scene => "scene",
+            Self::Bilinear => "bilinear",
+            Self::Trilinear => "trilinear",
+            Self::Ewa => "ewa",
         })
     }
 }
@@ -103,6 +153,8 @@ pub struct RenderOptions {
     /// by pbrt-v4's `regularize`: alphas `alpha` below 0.3 become `clamp(2 alpha, 0.1, 0.3)`, so that mirrors and
     /// clear glass have `alpha` 0.1. Caustics become blurred, and light sampling works through glass.
     pub regularize: bool,
+    /// How textures are filtered.
+    pub texture_filter: TextureFilter,
 }
 
 impl RenderOptions {
@@ -130,6 +182,7 @@ impl RenderOptions {
             round_share: _,
             clamp: _,
             regularize: _,
+            texture_filter,
         } = self;
         // Not which noise: a film goes on to a smaller one as if that had been asked for at first.
         let spread = if noise.is_some() { ", adaptive" } else { "" };
@@ -142,11 +195,15 @@ impl RenderOptions {
             0 | 1 => String::new(),
             n => format!(", {n} share"),
         };
+        let filtered = match texture_filter {
+            TextureFilter::Scene => String::new(),
+            other => format!(", textures {other}"),
+        };
         let biased = self.bias().map(|bias| format!(", {BIASED}{bias}"));
         let biased = biased.unwrap_or_default();
         format!(
             "depth {max_depth}, seed {seed}, sampler {vndf_sampler}, energy {energy}, {mis_pdf}, \
-             {strategy}{sampled}{shared}{spread}{biased}"
+             {strategy}{sampled}{shared}{spread}{filtered}{biased}"
         )
     }
 
@@ -191,6 +248,7 @@ impl Default for RenderOptions {
             round_share: None,
             clamp: None,
             regularize: false,
+            texture_filter: TextureFilter::Scene,
         }
     }
 }

@@ -137,6 +137,7 @@ impl PreparedScene {
             position: Vec3::from(at.position),
             normal: Vec3::from(at.normal),
             colour: Rgb::from(at.colour),
+            footprint: None,
         };
         let parameter = ColourParam::Texture(TextureId(texture));
         self.textures.colour(parameter, &place).to_array()
@@ -189,6 +190,7 @@ impl PreparedScene {
                 weights,
                 ..PrimitiveLocation::default()
             },
+            footprint: None,
         };
         self.lights.pdf_of_surface(&receiver(lit), &surface)
     }

@@ -158,6 +158,7 @@ impl PreparedScene {
         earlier: Option<Self>,
     ) -> Result<Self, PrepareError> {
         let view = View::new(&scene.camera, &scene.film, options)?;
+        options.texture_filter.apply(&mut scene);
         let textures = Textures::new(&mut scene);
         let materials = Materials::new(&scene, &textures, options);
         let earlier = earlier.map(|e| e.geometry);

@@ -53,6 +53,12 @@ impl Sampler {
         }
     }
 
+    /// Index of the sample within its block of 2^16.
+    #[inline]
+    pub(crate) fn index(&self) -> u32 {
+        self.index
+    }
+
     /// Dimensions 1 and 2 for the filter, 0 and 3 for the lens.
     #[cfg(test)]
     pub(crate) fn camera(&self) -> [f32; 4] {

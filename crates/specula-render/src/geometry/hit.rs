@@ -7,7 +7,7 @@ use super::{Geometry, GroupData, NONE, PlacedQuadric, normal_of, unit_or};
 use crate::accel::{Hit, QuadricShape, Ray};
 use crate::convert::{abs, narrow};
 use crate::offset::{RELATIVE_ERROR, SurfacePoint, coupled};
-use crate::texture::TextureCoordinates;
+use crate::texture::{Footprint, TextureCoordinates};
 
 /// A triangle of a mesh.
 pub(crate) struct Facet<'a> {
@@ -38,6 +38,8 @@ pub(crate) struct Surface {
     pub(crate) light: u32,
     /// The point of the primitive.
     pub(crate) at: PrimitiveLocation,
+    /// What filtered textures are means over, where it is known.
+    pub(crate) footprint: Option<Footprint>,
 }
 
 /// A point on a primitive.
@@ -73,6 +75,7 @@ impl Surface {
             position: self.position,
             normal: self.ng,
             colour: self.colour,
+            footprint: self.footprint,
         }
     }
 }
@@ -289,6 +292,7 @@ impl GroupData {
             shape: 0,
             light: NONE,
             at: PrimitiveLocation::default(),
+            footprint: None,
         }
     }
 }
@@ -326,6 +330,7 @@ impl PlacedQuadric {
             shape: 0,
             light: NONE,
             at: PrimitiveLocation::default(),
+            footprint: None,
         }
     }
 

@@ -8,6 +8,7 @@ use crate::accel::Ray;
 use crate::film::PixelSample;
 use crate::light::{Lights, Receiver};
 use crate::medium_stack::MediumStack;
+use crate::ray_cone::RayCone;
 use crate::sampler::Sampler;
 
 /// The states, by index of the path.
@@ -21,6 +22,8 @@ pub(super) struct PathStates {
     pub(super) eta_scale: Floats,
     /// The media that they are in.
     media: [MediumStack; WAVEFRONT_SIZE],
+    /// Their cones, where textures are filtered.
+    pub(super) cones: [RayCone; WAVEFRONT_SIZE],
     /// As of `PathState`.
     pub(super) straight: [bool; WAVEFRONT_SIZE],
     pub(super) rough: [bool; WAVEFRONT_SIZE],
@@ -74,6 +77,7 @@ impl PathStates {
             throughput: Vectors::ZERO,
             eta_scale: ZERO,
             media: [MediumStack::NONE; WAVEFRONT_SIZE],
+            cones: [RayCone::NONE; WAVEFRONT_SIZE],
             straight: [true; WAVEFRONT_SIZE],
             rough: [false; WAVEFRONT_SIZE],
             bound: Floats::of(f32::INFINITY),
@@ -174,6 +178,7 @@ impl PathStates {
                 throughput: self.throughput.colour(i),
                 eta_scale: self.eta_scale[i],
                 media: self.media[i],
+                cone: self.cones[i],
                 straight: self.straight[i],
                 rough: self.rough[i],
                 bound: self.bound[i],
@@ -191,6 +196,7 @@ impl PathStates {
             throughput,
             eta_scale,
             media,
+            cone,
             straight,
             rough,
             bound: _,
@@ -201,6 +207,7 @@ impl PathStates {
         self.throughput.set_colour(i, *throughput);
         self.eta_scale[i] = *eta_scale;
         self.media[i] = *media;
+        self.cones[i] = *cone;
         self.straight[i] = *straight;
         self.rough[i] = *rough;
         self.previous_pdf[i] = previous.map_or(0.0, |p| p.pdf);

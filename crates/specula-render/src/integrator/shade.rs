@@ -479,6 +479,8 @@ impl PathTracer<'_> {
     fn continue_paths(&self, wavefront: &mut Wavefront, depth: u32) {
         let Wavefront {
             paths,
+            live,
+            hits,
             next,
             runs,
             batch,
@@ -509,6 +511,7 @@ impl PathTracer<'_> {
                 }
                 paths.throughput.set_colour(path, throughput);
                 paths.eta_scale[path] = scatter.eta_scale[i];
+                self.spread_cone_of_batch((paths, live, hits), batch, plain, i);
                 paths.straight[path] = false;
                 paths.rough[path] |= matches!(
                     scatter.outcome[i],

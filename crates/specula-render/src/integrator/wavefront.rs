@@ -226,6 +226,7 @@ impl PathTracer<'_> {
             [&mut x[..n], &mut y[..n]],
             &mut weights[..n],
         );
+        self.begin_cones(paths, [&x[..n], &y[..n]]);
         live.clear();
         if self.scene.moves {
             for i in 0..n {

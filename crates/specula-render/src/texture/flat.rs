@@ -70,6 +70,10 @@ impl Textures {
                 "textures that share inputs so often that they unfold to more than {MOST_VISITS}"
             ));
         }
+        if self.is_filtered {
+            let filtered = "textures filtered over footprints (--texture-filter bilinear renders them unfiltered)";
+            missing.push(filtered.to_owned());
+        }
         let has_noise = self
             .nodes
             .iter()
@@ -241,7 +245,7 @@ impl Picture {
             Wrap::Clamp => codes::TEXTURE_RASTER_CLAMP,
             Wrap::Mirror => codes::TEXTURE_RASTER_MIRROR,
         }));
-        to.flag(self.lookup.filter == Interpolation::Nearest);
+        to.flag(matches!(self.lookup.filter, Interpolation::Nearest));
         self.mapping.flatten(to);
     }
 }

@@ -305,7 +305,13 @@ impl Textures {
     }
 
     fn picture(&self, p: &Picture, place: &TextureCoordinates) -> Rgb<f32> {
-        let pixel = self.rasters[p.image].at(p.mapping.at(place), p.lookup);
+        let (raster, st) = (&self.rasters[p.image], p.mapping.at(place));
+        let pixel = match &place.footprint {
+            Some(footprint) if p.lookup.filter.is_filtered() => {
+                raster.filtered(st, p.mapping.axes(place, footprint), p.lookup)
+            }
+            _ => raster.at(st, p.lookup),
+        };
         let c = p.channel.of(pixel);
         let c = if p.invert {
             c.map(|v| (1.0 - v).max(0.0))

@@ -4,7 +4,7 @@ use specula_bsdf::Vec3;
 use specula_bsdf::math::vec3;
 use specula_scene::scene::{TextureMapping, UvMapping};
 
-use super::TextureCoordinates;
+use super::{Footprint, TextureCoordinates};
 use crate::codes;
 use crate::convert::Affine;
 use crate::words::Words;
@@ -67,6 +67,51 @@ impl Mapping {
 }
 
 impl Mapping {
+    /// How much `(s, t)` change along the half axes of a footprint, to first order.
+    ///
+    /// At the poles of spheres and along the axis of cylinders the azimuth changes by up to a radian, not infinitely.
+    pub(super) fn axes(&self, place: &TextureCoordinates, footprint: &Footprint) -> [[f32; 2]; 2] {
+        use core::f32::consts::{PI, TAU};
+        let linear = |m: &[[f32; 3]; 2], axes: [[f32; 2]; 2]| {
+            axes.map(|[u, v]| m.map(|row| row[0] * u + row[1] * v))
+        };
+        // Of the azimuth, with the distance from the axis.
+        let turned = |p: Vec3<f32>, d: Vec3<f32>| {
+            let radius = (p.x * p.x + p.y * p.y).max(d.x * d.x + d.y * d.y);
+            let turn = if radius > 0.0 {
+                (p.x * d.y - p.y * d.x) / radius
+            } else {
+                0.0
+            };
+            (turn, radius.sqrt())
+        };
+        match self {
+            Self::Uv(m) => linear(m, footprint.uv),
+            Self::SecondUv(m) => linear(m, footprint.second_uv),
+            Self::Planar(axes) => {
+                let along = |d: Vec3<f32>| axes.map(|(axis, _)| axis.dot(d));
+                footprint.position.map(along)
+            }
+            Self::Spherical(to_texture) => {
+                let p = to_texture.point(place.position);
+                footprint.position.map(|d| {
+                    let d = to_texture.vector(d);
+                    let (turn, radius) = turned(p, d);
+                    let outwards = (p.x * d.x + p.y * d.y) / radius.max(f32::MIN_POSITIVE);
+                    let squared = (radius * radius + p.z * p.z).max(f32::MIN_POSITIVE);
+                    [(p.z * outwards - radius * d.z) / squared / PI, turn / TAU]
+                })
+            }
+            Self::Cylindrical(to_texture) => {
+                let p = to_texture.point(place.position);
+                footprint.position.map(|d| {
+                    let d = to_texture.vector(d);
+                    [turned(p, d).0 / TAU, d.z]
+                })
+            }
+        }
+    }
+
     /// Its kind, then its parameters.
     pub(super) fn flatten(&self, to: &mut Words) {
         match self {
@@ -149,5 +194,70 @@ mod tests {
         assert_near(at(&cylindrical, [3.0, 0.0, 0.7]), [0.5, 0.7]);
         assert_near(at(&cylindrical, [1.0, 1.0, -2.0]), [0.75, -2.0]);
         assert_near(at(&cylindrical, [1.0, -1.0, 0.0]), [0.25, 0.0]);
+    }
+
+    /// Changes along two vectors against differences of nearby points.
+    #[test]
+    fn changes_are_those_of_nearby_points() {
+        let to_texture = DMat4::from_rotation_x(0.3) * DMat4::from_scale(DVec3::new(1.0, 2.0, 0.7));
+        let sheared = UvMapping([[0.4, -1.0, 1.0], [2.0, 0.1, 0.5]]);
+        for mapping in [
+            TextureMapping::Uv(sheared),
+            TextureMapping::SecondUv(sheared),
+            TextureMapping::Planar {
+                to_texture,
+                s: [1.0, 0.4, 1.0, 0.25],
+                t: [0.0, 3.0, 0.2, -1.0],
+            },
+            TextureMapping::Spherical { to_texture },
+            TextureMapping::Cylindrical { to_texture },
+        ] {
+            let mapping = Mapping::new(&mapping);
+            for p in [[1.0, 0.5, 0.3], [-0.4, -0.8, 2.0], [0.2, 0.9, -1.1]] {
+                let footprint = Footprint {
+                    position: [vec3(0.3, -0.2, 0.1), vec3(0.0, 0.1, 0.25)],
+                    uv: [[0.1, 0.2], [-0.3, 0.05]],
+                    second_uv: [[0.4, 0.0], [0.1, -0.2]],
+                };
+                let place = |axis: usize, step: f32| TextureCoordinates {
+                    position: Vec3::from(p) + footprint.position[axis] * step,
+                    uv: footprint.uv[axis].map(|d| d * step),
+                    second_uv: footprint.second_uv[axis].map(|d| d * step),
+                    ..TextureCoordinates::default()
+                };
+                let axes = mapping.axes(&place(0, 0.0), &footprint);
+                for (axis, found) in axes.into_iter().enumerate() {
+                    const STEP: f32 = 0.02;
+                    let [a, b] = [-STEP, STEP].map(|step| mapping.at(&place(axis, step)));
+                    for i in 0..2 {
+                        let expected = (b[i] - a[i]) / (2.0 * STEP);
+                        let error = (found[i] - expected).abs();
+                        assert!(error < 1e-3, "{mapping:?} {p:?}: {found:?}, {expected}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn poles_have_finite_footprints() {
+        let mapping = Mapping::new(&TextureMapping::Spherical {
+            to_texture: DMat4::IDENTITY,
+        });
+        let place = TextureCoordinates {
+            position: vec3(0.0, 0.0, 2.0),
+            ..TextureCoordinates::default()
+        };
+        let footprint = Footprint {
+            position: [vec3(0.1, 0.0, 0.0), Vec3::ZERO],
+            ..Footprint::default()
+        };
+        let axes = mapping.axes(&place, &footprint);
+        assert!(
+            axes.iter()
+                .flatten()
+                .all(|x| x.is_finite() && x.abs() < 0.5),
+            "{axes:?}"
+        );
     }
 }

@@ -1,6 +1,7 @@
 //! Textures: parameters that vary over surfaces.
 
 mod flat;
+mod footprint;
 mod graph;
 mod mapping;
 mod noise;
@@ -15,6 +16,8 @@ use graph::Node;
 use raster::Raster;
 
 pub(crate) use flat::{colour_parameter, float_parameter};
+pub(crate) use footprint::Footprint;
+pub(crate) use raster::pyramid_pixels;
 
 /// Where a texture is evaluated.
 #[derive(Clone, Copy, Debug)]
@@ -28,6 +31,8 @@ pub(crate) struct TextureCoordinates {
     pub(crate) normal: Vec3<f32>,
     /// Vertex colour, interpolated; white where the mesh has none.
     pub(crate) colour: Rgb<f32>,
+    /// What filtered textures are means over; `None`: the point alone.
+    pub(crate) footprint: Option<Footprint>,
 }
 
 impl Default for TextureCoordinates {
@@ -38,6 +43,7 @@ impl Default for TextureCoordinates {
             position: Vec3::ZERO,
             normal: vec3(0.0, 0.0, 1.0),
             colour: Rgb::WHITE,
+            footprint: None,
         }
     }
 }
@@ -63,6 +69,8 @@ pub(crate) struct Textures {
     extents: Vec<Extent>,
     /// By the scene's indices; empty where no texture uses the picture.
     rasters: Vec<Raster>,
+    /// Whether any depends on footprints.
+    is_filtered: bool,
 }
 
 impl Textures {
@@ -74,11 +82,15 @@ impl Textures {
             nodes: Vec::with_capacity(scene.textures.len()),
             extents: Vec::with_capacity(scene.textures.len()),
             rasters: vec![Raster::default(); scene.images.len()],
+            is_filtered: false,
         };
         let mut used = vec![false; scene.images.len()];
+        let mut has_pyramid = vec![false; scene.images.len()];
         for texture in &scene.textures {
-            if let Texture::Image { image, .. } = texture {
+            if let Texture::Image { image, filter, .. } = texture {
                 used[image.0] = true;
+                has_pyramid[image.0] |= filter.is_filtered();
+                textures.is_filtered |= filter.is_filtered();
             }
         }
         for (index, raster) in textures.rasters.iter_mut().enumerate() {
@@ -97,6 +109,9 @@ impl Textures {
                     std::mem::take(&mut image.pixels)
                 };
                 *raster = Raster::new(image.width, image.height, pixels);
+                if has_pyramid[index] {
+                    *raster = std::mem::take(raster).with_pyramid();
+                }
             }
         }
         for texture in &scene.textures {
@@ -173,6 +188,11 @@ impl Textures {
             },
             FloatParam::Value(_) => parameter,
         }
+    }
+
+    /// Whether the value of any texture depends on footprints.
+    pub(crate) fn is_filtered(&self) -> bool {
+        self.is_filtered
     }
 
     /// Whether any texture uses the colours of vertices.

@@ -1,5 +1,9 @@
 //! Image textures: pixels in memory and their interpolation.
 
+mod filter;
+mod pyramid;
+
+pub(crate) use pyramid::pyramid_pixels;
 use specula_bsdf::Rgb;
 use specula_bsdf::math::rgb;
 use specula_scene::Pixels;
@@ -14,6 +18,8 @@ pub(super) struct Raster {
     width: i32,
     height: i32,
     pixels: Pixels,
+    /// Ever smaller ones, down to one pixel; empty where no texture is filtered over them.
+    smaller: Vec<Self>,
 }
 
 /// How a picture is sampled: behaviour outside of it, and interpolation.
@@ -37,18 +43,17 @@ impl Raster {
             width: w,
             height: h,
             pixels,
+            smaller: Vec::new(),
         }
     }
 
-    /// The value at `(s, t)`; t = 0 is the lower edge of the picture. Black where the coordinates are not finite.
+    /// The value at `(s, t)`, of the picture itself; t = 0 is its lower edge. Black where the coordinates are not finite.
     pub(super) fn at(&self, [s, t]: [f32; 2], lookup: Lookup) -> Rgb<f32> {
         if self.width == 0 || !(s.is_finite() && t.is_finite()) {
             return Rgb::BLACK;
         }
-        let [wrap_s, wrap_t] = lookup.wrap;
-        let x = reduced(s, wrap_s) * self.width as f32;
-        let y = (1.0 - reduced(t, wrap_t)) * self.height as f32;
-        if lookup.filter == Interpolation::Nearest {
+        let [x, y] = self.position([s, t], lookup.wrap);
+        if matches!(lookup.filter, Interpolation::Nearest) {
             return self.pixel(floor_i32(x), floor_i32(y), lookup.wrap);
         }
         let (x, y) = (x - 0.5, y - 0.5);
@@ -60,6 +65,14 @@ impl Raster {
         };
         (at(0, 0) * (1.0 - fx) + at(1, 0) * fx) * (1.0 - fy)
             + (at(0, 1) * (1.0 - fx) + at(1, 1) * fx) * fy
+    }
+
+    /// Column and row of a point, with fractions; pixel centres are at halves.
+    #[inline(always)]
+    fn position(&self, [s, t]: [f32; 2], [wrap_s, wrap_t]: [Wrap; 2]) -> [f32; 2] {
+        let x = reduced(s, wrap_s) * self.width as f32;
+        let y = (1.0 - reduced(t, wrap_t)) * self.height as f32;
+        [x, y]
     }
 
     #[inline]

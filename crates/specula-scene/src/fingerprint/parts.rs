@@ -220,7 +220,12 @@ variants!(Texture {
 });
 variants!(NoiseKind { 0 => Fbm, 1 => Turbulence, 2 => Windy, 3 => Marble { scale, variation } });
 variants!(Channel { 0 => Rgb, 1 => Mean, 2 => Luminance, 3 => Red, 4 => Green, 5 => Blue });
-variants!(Interpolation { 0 => Bilinear, 1 => Nearest });
+variants!(Interpolation {
+    0 => Bilinear,
+    1 => Nearest,
+    2 => Trilinear,
+    3 => Ewa { max_anisotropy },
+});
 variants!(TextureMapping {
     0 => Uv(mapping),
     1 => SecondUv(mapping),

@@ -61,7 +61,11 @@ pub(crate) const FEATURES: &[Feature] = &[
     Feature::refused("texture", "KHR_texture_basisu", "no maintained decoder"),
     Feature::full("texture", "KHR_texture_transform"),
     Feature::full("texture", "wrap modes"),
-    Feature::approximated("texture", "filters", "nearest or bilinear, no mip maps"),
+    Feature::approximated(
+        "texture",
+        "filters",
+        "LINEAR_MIPMAP_LINEAR is trilinear; other minFilters take no smaller pictures, as do samplers without one",
+    ),
     Feature::full("light", "KHR_lights_punctual"),
     Feature::full("camera", "perspective"),
     Feature::full("camera", "orthographic"),

@@ -66,8 +66,11 @@ impl Pixels {
         }
     }
 
-    /// Pixels of floats, as [`Self::bytes`].
-    pub(super) fn floats(values: Vec<f32>, is_colour: bool) -> Self {
+    /// Pixels of linear floats.
+    ///
+    /// * `values`: one for each pixel, or three where `is_colour`.
+    #[must_use]
+    pub fn floats(values: Vec<f32>, is_colour: bool) -> Self {
         Self {
             samples: Samples::Floats(values),
             is_colour,
@@ -127,6 +130,12 @@ impl Pixels {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// Whether each has three values, rather than one for all channels.
+    #[must_use]
+    pub fn is_colour(&self) -> bool {
+        self.is_colour
     }
 
     /// Bytes of memory that they take.

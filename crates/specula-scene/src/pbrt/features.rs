@@ -134,7 +134,7 @@ pub(crate) const FEATURES: &[Feature] = &[
     near(
         "texture",
         "imagemap",
-        "trilinear and EWA filters are bilinear; wrap \"octahedralsphere\" is \"clamp\"",
+        "point and bilinear take no smaller pictures; wrap \"octahedralsphere\" is \"clamp\"",
     ),
     full("texture", "scale"),
     full("texture", "mix"),

@@ -45,7 +45,7 @@ pub enum Texture {
         mapping: TextureMapping,
         /// Values outside `[0, 1]^2`, along s and t.
         wrap: [Wrap; 2],
-        /// Interpolation between pixel centres.
+        /// Interpolation between pixels, or a mean over many.
         filter: Interpolation,
         /// Whether the value is replaced by 1 - value.
         invert: bool,
@@ -193,13 +193,36 @@ impl Channel {
     }
 }
 
-/// Interpolation between the pixel centres of a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// How a value is taken from the pixels of a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Interpolation {
-    /// Bilinear interpolation.
+    /// Bilinear interpolation between pixel centres.
     Bilinear,
     /// The pixel around the point.
     Nearest,
+    /// The mean over a square around the point's footprint: bilinear interpolation within two levels of a pyramid of
+    /// smaller pictures, and linear interpolation between them (Williams 1983).
+    Trilinear,
+    /// The Gaussian mean over the ellipse that is the point's footprint, on such a pyramid (Heckbert 1989).
+    Ewa {
+        /// The longest ellipse, as the ratio of its axes, in `[1, MOST_ANISOTROPY]`; longer ones are widened.
+        max_anisotropy: f32,
+    },
+}
+
+impl Interpolation {
+    /// [`Interpolation::Ewa`] with the longest ellipses of pbrt-v4's default.
+    pub const EWA: Self = Self::Ewa {
+        max_anisotropy: 8.0,
+    };
+    /// Largest `max_anisotropy`: the work of a value grows with its square.
+    pub const MOST_ANISOTROPY: f32 = 64.0;
+
+    /// Whether values depend on footprints, and come from a pyramid.
+    #[must_use]
+    pub const fn is_filtered(self) -> bool {
+        matches!(self, Self::Trilinear | Self::Ewa { .. })
+    }
 }
 
 /// A mapping from a point on a surface to texture coordinates `(s, t)`.

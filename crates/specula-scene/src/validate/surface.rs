@@ -5,8 +5,8 @@ use specula_bsdf::Rgb;
 
 use super::{Invalid, ensure, is_light};
 use crate::scene::{
-    Bump, CoatMedium, ColourParam, ConductorFresnel, FloatParam, GltfMaterial, Material,
-    MaterialKind, NoiseKind, PrincipledMaterial, Roughness, Scene, Texture, TextureId,
+    Bump, CoatMedium, ColourParam, ConductorFresnel, FloatParam, GltfMaterial, Interpolation,
+    Material, MaterialKind, NoiseKind, PrincipledMaterial, Roughness, Scene, Texture, TextureId,
     TextureMapping,
 };
 
@@ -340,7 +340,13 @@ fn has_good_numbers(texture: &Texture) -> bool {
     match texture {
         Texture::Constant(c) => finite(c),
         Texture::Bilinear { corners, .. } => corners.iter().all(finite),
-        Texture::Image { scale, .. } => scale.is_finite(),
+        Texture::Image { scale, filter, .. } => {
+            let anisotropy = match filter {
+                Interpolation::Ewa { max_anisotropy } => *max_anisotropy,
+                _ => 1.0,
+            };
+            scale.is_finite() && (1.0..=Interpolation::MOST_ANISOTROPY).contains(&anisotropy)
+        }
         Texture::Mix {
             amount: FloatParam::Value(x),
             ..

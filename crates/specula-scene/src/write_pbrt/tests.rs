@@ -216,6 +216,49 @@ fn strings_are_escaped() {
     assert_eq!(quoted("a\"b\\c\n"), "\"a\\\"b\\\\c_\"");
 }
 
+#[test]
+fn filters_survive() {
+    for filter in [
+        Interpolation::Bilinear,
+        Interpolation::Nearest,
+        Interpolation::Trilinear,
+        Interpolation::EWA,
+        Interpolation::Ewa {
+            max_anisotropy: 2.5,
+        },
+    ] {
+        let mut scene = crate::builtin::orbs();
+        scene.images.push(crate::Image {
+            name: "p".into(),
+            width: 2,
+            height: 1,
+            pixels: vec![[1.0, 0.5, 0.25], [0.0, 0.5, 2.0]].into(),
+        });
+        scene.textures.push(Texture::Image {
+            image: crate::scene::ImageId(scene.images.len() - 1),
+            mapping: TextureMapping::default(),
+            wrap: [Wrap::Repeat; 2],
+            filter,
+            invert: false,
+            scale: 1.0,
+            channel: Channel::Rgb,
+        });
+        let texture = crate::scene::TextureId(scene.textures.len() - 1);
+        let used = scene.shapes[0].material.0;
+        scene.materials[used] = Material::new(MaterialKind::Diffuse {
+            reflectance: ColourParam::Texture(texture),
+            roughness: FloatParam::Value(0.0),
+        });
+        let (back, _) = round_trip(&scene);
+        let is_same = |t: &Texture| matches!(t, Texture::Image { filter: f, .. } if *f == filter);
+        assert!(
+            back.textures.iter().any(is_same),
+            "{filter:?}: {:?}",
+            back.textures
+        );
+    }
+}
+
 /// The same project, place and colours by pixel.
 #[test]
 fn projected_pictures_keep_their_places() {

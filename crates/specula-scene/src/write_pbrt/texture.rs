@@ -280,14 +280,18 @@ impl Writer<'_> {
             }
         };
         let filter = match filter {
-            Interpolation::Bilinear => "bilinear",
-            Interpolation::Nearest => "point",
+            Interpolation::Bilinear => quoted("bilinear"),
+            Interpolation::Nearest => quoted("point"),
+            Interpolation::Trilinear => quoted("trilinear"),
+            Interpolation::Ewa { max_anisotropy } => {
+                format!("\"ewa\" ] \"float maxanisotropy\" [ {max_anisotropy}")
+            }
         };
         let mut node = TextureNode::new(
             "imagemap",
             format!(
                 " \"string filename\" [ {} ] \"string wrap\" [ \"{wrap}\" ] \
-                 \"string filter\" [ \"{filter}\" ] \"bool invert\" [ {invert} ] \
+                 \"string filter\" [ {filter} ] \"bool invert\" [ {invert} ] \
                  \"float scale\" [ {scale} ]",
                 quoted(&file)
             ),

@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 use specula_bsdf::Rgb;
+use specula_scene::Warning;
 use specula_scene::scene::{
     Bump, ColourParam, FloatParam, ImageProjection, Interpolation, Light, MaterialKind, NoiseKind,
-    Profile, Texture, TextureMapping,
+    Profile, Scene, Texture, TextureMapping,
 };
 
 use super::common::{Folder, load_world, warnings};
@@ -185,6 +186,45 @@ fn projections_keep_their_power() {
         power += f64::from(colour.luminance()) * area * (1.0 + x * x + y * y).powf(-1.5);
     }
     assert!((power - 5.0).abs() < 1e-3, "{power}");
+}
+
+/// pbrt's filters, with the ratio of EWA's ellipses, as read and as written.
+#[test]
+fn filters_are_those_of_the_file() {
+    let folder = with_picture();
+    let read = |parameters: &str| {
+        folder.load(format!(
+            "WorldBegin Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\" {parameters}
+             Material \"diffuse\" \"texture reflectance\" \"t\" Shape \"sphere\" LightSource \"infinite\""
+        ))
+    };
+    for (parameters, expected) in [
+        ("", Interpolation::Bilinear),
+        ("\"string filter\" \"point\"", Interpolation::Nearest),
+        ("\"string filter\" \"trilinear\"", Interpolation::Trilinear),
+        ("\"string filter\" \"ewa\"", Interpolation::EWA),
+        (
+            "\"string filter\" \"EWA\" \"float maxanisotropy\" 16",
+            Interpolation::Ewa {
+                max_anisotropy: 16.0,
+            },
+        ),
+    ] {
+        let loaded = read(parameters).unwrap();
+        let filter = |scene: &Scene| match scene.textures[0] {
+            Texture::Image { filter, .. } => filter,
+            ref other => panic!("{other:?}"),
+        };
+        assert_eq!(filter(&loaded.scene), expected, "{parameters}");
+        let said: Vec<_> = loaded.warnings.iter().map(Warning::message).collect();
+        assert!(said.iter().all(|w| !w.contains("anisotropy")), "{said:?}");
+    }
+    let clamped = read("\"string filter\" \"ewa\" \"float maxanisotropy\" 1000").unwrap();
+    let told = |w: &Warning| w.message().contains("64 is used");
+    assert!(clamped.warnings.iter().any(told));
+    for wrong in ["\"float maxanisotropy\" 0.5", "\"string filter\" \"cubic\""] {
+        assert!(read(wrong).is_err(), "{wrong}");
+    }
 }
 
 #[test]

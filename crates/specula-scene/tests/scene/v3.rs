@@ -95,6 +95,7 @@ const WORLDS: &[(&str, &str)] = &[
          Texture \"b\" \"float\" \"scale\" \"float tex1\" .5 \"float tex2\" .3
          Material \"matte\" \"texture Kd\" \"s\" \"texture bumpmap\" \"b\"",
         "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\" \"string encoding\" \"linear\"
+         \"string filter\" \"trilinear\"
          Texture \"s\" \"spectrum\" \"scale\" \"texture tex\" \"t\" \"float scale\" .5
          Texture \"b\" \"float\" \"scale\" \"float tex\" .5 \"float scale\" .3
          Material \"diffuse\" \"texture reflectance\" \"s\" \"texture displacement\" \"b\"",

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use crate::bsdf::vndf;
-use crate::render::RenderOptions;
 use crate::render::picture::{Display, ToneMap};
+use crate::render::{RenderOptions, TextureFilter};
 use crate::scene::Energy;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -212,6 +212,11 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) denoise: bool,
 
+    /// Filter of textures. Over footprints there is less noise where pictures are seen from afar, and a bias that falls
+    /// with the number of samples
+    #[arg(long, value_name = "FILTER", default_value_t = TextureFilterName::Scene)]
+    pub(crate) texture_filter: TextureFilterName,
+
     /// Longest path in scattering events [default: as the scene says]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=65_535))]
     pub(crate) max_depth: Option<u32>,
@@ -371,6 +376,29 @@ impl From<SamplerName> for vndf::Sampler {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum TextureFilterName {
+    /// As the scene says
+    Scene,
+    /// Not over footprints: between the nearest four pixels
+    Bilinear,
+    /// Over squares, by mip maps
+    Trilinear,
+    /// Over ellipses: sharper at grazing angles
+    Ewa,
+}
+
+impl From<TextureFilterName> for TextureFilter {
+    fn from(name: TextureFilterName) -> Self {
+        match name {
+            TextureFilterName::Scene => Self::Scene,
+            TextureFilterName::Bilinear => Self::Bilinear,
+            TextureFilterName::Trilinear => Self::Trilinear,
+            TextureFilterName::Ewa => Self::Ewa,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ToneName {
     /// Cut off: all below white is shown exactly
     Clamp,
@@ -387,7 +415,7 @@ macro_rules! display_as_value {
         }
     )*};
 }
-display_as_value!(SamplerName, ToneName, MetricName);
+display_as_value!(SamplerName, TextureFilterName, ToneName, MetricName);
 
 #[derive(Args, Debug)]
 #[command(

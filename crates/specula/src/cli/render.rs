@@ -227,6 +227,7 @@ fn options(arguments: &RenderArguments, scene: &Scene) -> Result<RenderOptions, 
         round_share: arguments.round_share,
         clamp: arguments.clamp,
         regularize: arguments.regularize,
+        texture_filter: arguments.texture_filter.into(),
         ..from_scene
     })
 }

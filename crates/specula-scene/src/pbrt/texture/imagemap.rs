@@ -14,7 +14,7 @@ use crate::scene::{Channel, Interpolation, Texture, TextureId, Wrap};
 pub(super) fn read(context: &mut Context, node: &TextureNode<'_>) -> Result<TextureId, SceneError> {
     let params = node.params();
     let mapping = mapping(node)?;
-    params.ignore(&["maxanisotropy"]);
+    let filter = filter(context, params)?;
     let Some((name, place)) = params.string("filename")? else {
         let message = "texture \"imagemap\" needs its \"string filename\"";
         let place = &node.entity.place;
@@ -34,7 +34,7 @@ pub(super) fn read(context: &mut Context, node: &TextureNode<'_>) -> Result<Text
         image: context.image(name, place, encoding, content),
         mapping,
         wrap: [wrap; 2],
-        filter: filter(params)?,
+        filter,
         invert: invert && !apart,
         scale: if apart { -scale } else { scale },
         channel,
@@ -47,17 +47,40 @@ pub(super) fn read(context: &mut Context, node: &TextureNode<'_>) -> Result<Text
     Ok(context.add_texture(Texture::Sum { a: one, b: picture }))
 }
 
-/// Only the nearest pixel and interpolation exist: there are no smaller copies of pictures.
-fn filter(params: &ParamList) -> Result<Interpolation, SceneError> {
+/// Departure: pbrt-v4's `point` and `bilinear` take a level of the pyramid by the footprint, too; here they take the
+/// picture itself.
+fn filter(context: &mut Context, params: &ParamList) -> Result<Interpolation, SceneError> {
+    let max_anisotropy = max_anisotropy(context, params)?;
     match params.string("filter")? {
         Some(("point", _)) => Ok(Interpolation::Nearest),
-        None | Some(("bilinear" | "trilinear" | "ewa" | "EWA", _)) => Ok(Interpolation::Bilinear),
+        None | Some(("bilinear", _)) => Ok(Interpolation::Bilinear),
+        Some(("trilinear", _)) => Ok(Interpolation::Trilinear),
+        Some(("ewa" | "EWA", _)) => Ok(Interpolation::Ewa { max_anisotropy }),
         Some((other, place)) => {
             let message = format!("unknown filter \"{}\"", shorten(other));
             let error = SceneError::new(ErrorKind::Parameter, place, message);
             Err(error.with_help("expected point, bilinear, trilinear or ewa"))
         }
     }
+}
+
+/// Ratio of the axes of the longest ellipses.
+fn max_anisotropy(context: &mut Context, params: &ParamList) -> Result<f32, SceneError> {
+    const NAME: &str = "maxanisotropy";
+    let value = f32_of(params.float(NAME, 8.0)?);
+    let place = &params.place_of(NAME);
+    if value.is_nan() || value < 1.0 {
+        let message = format!("\"{NAME}\" is the ratio of an ellipse's axes: {value} is below 1");
+        return Err(SceneError::new(ErrorKind::Parameter, place, message));
+    }
+    let most = Interpolation::MOST_ANISOTROPY;
+    if value > most {
+        context.warn(
+            place,
+            format!("\"{NAME}\" {value} is more than is filtered: {most} is used"),
+        );
+    }
+    Ok(value.min(most))
 }
 
 fn wrap(context: &mut Context, params: &ParamList) -> Result<Wrap, SceneError> {

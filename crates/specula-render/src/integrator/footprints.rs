@@ -1,0 +1,118 @@
+//! Cones of paths, in scenes with filtered textures.
+
+use specula_bsdf::BsdfSample;
+use specula_bsdf::batch::SampleOutcome;
+use specula_bsdf::bsdf::Event;
+
+use super::path_states::PathStates;
+use super::vertex_batch::VertexBatch;
+use super::wavefront::{RayQueue, index};
+use super::{PathState, PathTracer, ShadingPoint};
+use crate::accel::{Hit, Ray};
+use crate::geometry::Surface;
+use crate::material::Plain;
+use crate::ray_cone::Bounce;
+use crate::sampler::Sampler;
+
+impl PathTracer<'_> {
+    /// Begins the cones of the first `n` paths of a wavefront.
+    ///
+    /// * `raster`: where their camera rays pass.
+    pub(super) fn begin_cones(&self, paths: &mut PathStates, raster: [&[f32]; 2]) {
+        if !self.scene.textures.is_filtered() {
+            return;
+        }
+        let [x, y] = raster;
+        let PathStates {
+            cones, samplers, ..
+        } = paths;
+        for ((cone, sampler), (&x, &y)) in cones.iter_mut().zip(samplers).zip(x.iter().zip(y)) {
+            *cone = self.scene.camera.cone([x, y]).of_sample(sampler.index());
+        }
+    }
+
+    /// A surface that a path hits with its footprint; the path's cone comes there.
+    #[inline]
+    pub(super) fn with_footprint(
+        &self,
+        surface: Surface,
+        ray: &Ray,
+        state: &mut PathState,
+    ) -> Surface {
+        if !self.scene.textures.is_filtered() {
+            return surface;
+        }
+        let distance = (surface.position - ray.origin).length();
+        state.cone = state.cone.at(distance);
+        let radius = state.cone.radius;
+        let footprint = (self.scene.geometry).footprint(&surface, ray.direction, radius);
+        Surface {
+            footprint: Some(footprint),
+            ..surface
+        }
+    }
+
+    /// Spreads the cone of a path that was scattered.
+    #[inline]
+    pub(super) fn spread_cone(
+        &self,
+        state: &mut PathState,
+        vertex: &ShadingPoint<'_>,
+        sample: &BsdfSample<f32>,
+        sampler: &Sampler,
+    ) {
+        if !self.scene.textures.is_filtered() {
+            return;
+        }
+        let bounce = match (sample.specular, sample.event) {
+            (false, _) => Bounce::Lobe { pdf: sample.pdf },
+            (true, Event::Transmission) => Bounce::Refraction { eta: sample.eta },
+            (true, _) => Bounce::Mirror,
+        };
+        let curvature = || self.curvature_from(&vertex.surface, vertex.wo.dot(vertex.surface.ng));
+        state.cone = state.cone.after(bounce, curvature, sampler.index());
+    }
+
+    /// Spreads the cone of a path that a batch scattered.
+    ///
+    /// * `i`: index of its vertex in the batch.
+    #[inline]
+    pub(super) fn spread_cone_of_batch(
+        &self,
+        (paths, live, hits): (&mut PathStates, &RayQueue, &[Option<Hit>]),
+        batch: &VertexBatch,
+        plain: &Plain,
+        i: usize,
+    ) {
+        if !self.scene.textures.is_filtered() {
+            return;
+        }
+        let k = batch.live_indices[i] as usize;
+        let Some(hit) = &hits[k] else {
+            return;
+        };
+        let (ray, path) = (live.ray(k), index(batch.path_indices[i]));
+        let scatter = &batch.scatter_samples;
+        let bounce = match scatter.outcome[i] {
+            SampleOutcome::SpecularTransmission => Bounce::Refraction { eta: plain.eta },
+            SampleOutcome::SpecularReflection => Bounce::Mirror,
+            _ => Bounce::Lobe {
+                pdf: scatter.pdf[i],
+            },
+        };
+        let curvature = || {
+            let surface = self.scene.geometry.surface(ray, hit);
+            self.curvature_from(&surface, -ray.direction.dot(surface.ng))
+        };
+        let cone = paths.cones[path].at(hit.t);
+        paths.cones[path] = cone.after(bounce, curvature, paths.samplers[path].index());
+    }
+
+    /// Mean curvature of a surface, above 0 where it is convex seen from a side.
+    ///
+    /// * `cosine`: between that side's direction and the geometric normal.
+    fn curvature_from(&self, surface: &Surface, cosine: f32) -> f32 {
+        let curvature = self.scene.geometry.mean_curvature(surface);
+        if cosine < 0.0 { -curvature } else { curvature }
+    }
+}
