@@ -6,6 +6,7 @@ use specula_bsdf::math::vec3;
 use specula_scene::scene::EnvironmentMapping;
 
 use super::{Camera, View, within_sphere};
+use crate::convert::Affine;
 use crate::ray_cone::RayCone;
 
 impl Camera {
@@ -14,14 +15,18 @@ impl Camera {
     ///
     /// With `v` the image of `(x, y, 1)`, the solid angle of a perspective camera's pixel is
     /// `|det M| dx dy / |v|^3`. A circle stands for the ellipse that a pixel next to the picture's border is.
-    pub(crate) fn cone(&self, raster: [f32; 2]) -> RayCone {
-        let [a, b, c] = self.to_world.columns;
+    ///
+    /// * `time`: of the ray, in exposures.
+    pub(crate) fn cone(&self, time: f32, raster: [f32; 2]) -> RayCone {
+        let moving = (self.movement.as_ref()).map(|movement| Affine::new(&movement.at(time)));
+        let to_world = moving.as_ref().unwrap_or(&self.to_world);
+        let [a, b, c] = to_world.columns;
         let pixel = (self.step[0] * self.step[1]).abs();
         let x = self.origin[0] + raster[0] * self.step[0];
         let y = self.origin[1] + raster[1] * self.step[1];
         let solid_angle = match self.view {
             View::Perspective => {
-                let length = self.to_world.vector(vec3(x, y, 1.0)).length();
+                let length = to_world.vector(vec3(x, y, 1.0)).length();
                 a.cross(b).dot(c).abs() * pixel / (length * length * length)
             }
             View::Orthographic => {
@@ -68,6 +73,7 @@ mod tests {
         ] {
             let file = scene::Camera {
                 to_world: moved,
+                motion: None,
                 projection,
                 lens_radius: 0.0,
                 focal_distance: 4.0,
@@ -84,7 +90,7 @@ mod tests {
                     [(o1 - o0) * scale, (d1 - d0) * scale]
                 };
                 let ([ox, dx], [oy, dy]) = (across(step, 0.0), across(0.0, step));
-                let cone = camera.cone([x, y]);
+                let cone = camera.cone(0.0, [x, y]);
                 let radius = ox.cross(oy).length().sqrt();
                 let spread = dx.cross(dy).length().sqrt();
                 assert!(

@@ -54,10 +54,12 @@ impl Geometry {
         let corners = triangle.map(|v| v as usize);
         let [a, b, c] = corners.map(|v| Vec3::from(group.positions[v]));
         let edges = [b - a, c - a];
+        let own = placement.moving(at.time);
+        let pose = own.as_ref().unwrap_or(&placement.pose);
         let edges = if placement.identity {
             edges
         } else {
-            edges.map(|e| placement.to_world.vector(e))
+            edges.map(|e| pose.to_world.vector(e))
         };
         let has_uvs = self.shapes[surface.shape as usize].has_uvs;
         let [ta, tb, tc] = if has_uvs {

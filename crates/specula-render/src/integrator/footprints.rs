@@ -27,7 +27,12 @@ impl PathTracer<'_> {
             cones, samplers, ..
         } = paths;
         for ((cone, sampler), (&x, &y)) in cones.iter_mut().zip(samplers).zip(x.iter().zip(y)) {
-            *cone = self.scene.camera.cone([x, y]).of_sample(sampler.index());
+            let time = self.time(sampler);
+            *cone = self
+                .scene
+                .camera
+                .cone(time, [x, y])
+                .of_sample(sampler.index());
         }
     }
 
@@ -100,8 +105,9 @@ impl PathTracer<'_> {
                 pdf: scatter.pdf[i],
             },
         };
+        let time = paths.times[path];
         let curvature = || {
-            let surface = self.scene.geometry.surface(ray, hit);
+            let surface = self.scene.geometry.surface(ray, hit, time);
             self.curvature_from(&surface, -ray.direction.dot(surface.ng))
         };
         let cone = paths.cones[path].at(hit.t);

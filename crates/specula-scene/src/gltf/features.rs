@@ -64,7 +64,7 @@ pub(crate) const FEATURES: &[Feature] = &[
     Feature::approximated(
         "texture",
         "filters",
-        "LINEAR_MIPMAP_LINEAR is trilinear; other minFilters take no smaller pictures, as do samplers without one",
+        "nearest or bilinear; mip maps by `--texture-filter` alone",
     ),
     Feature::full("light", "KHR_lights_punctual"),
     Feature::full("camera", "perspective"),

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::io::Cursor;
 
-use gltf::texture::{MagFilter, MinFilter, WrappingMode};
+use gltf::texture::{MagFilter, WrappingMode};
 use specula_bsdf::Rgb;
 
 use super::Reader;
@@ -60,7 +60,7 @@ impl Reader<'_> {
             image,
             mapping,
             wrap: [wrap(sampler.wrap_s()), wrap(sampler.wrap_t())],
-            filter: filter(sampler.mag_filter(), sampler.min_filter()),
+            filter: filter(sampler.mag_filter()),
             invert: false,
             scale: 1.0,
             channel,
@@ -203,13 +203,11 @@ fn mapping(reference: &TextureRef) -> UvMapping {
     UvMapping([upwards(s), [-u, -w, 1.0 - one]])
 }
 
-/// Smaller pictures are taken where both filters are linear and a file asks for them. What a file leaves open is open
-/// to renderers (glTF 2.0, 3.8.4.1): paths sample the picture itself.
-fn filter(magnified: Option<MagFilter>, minified: Option<MinFilter>) -> Interpolation {
-    match (magnified, minified) {
-        (Some(MagFilter::Nearest), _) => Interpolation::Nearest,
-        (_, Some(MinFilter::LinearMipmapLinear)) => Interpolation::Trilinear,
-        _ => Interpolation::Bilinear,
+/// `minFilter` does not count: what it asks for at one sample of a pixel, many samples do without a blur.
+fn filter(magnified: Option<MagFilter>) -> Interpolation {
+    match magnified {
+        Some(MagFilter::Nearest) => Interpolation::Nearest,
+        Some(MagFilter::Linear) | None => Interpolation::Bilinear,
     }
 }
 
@@ -253,34 +251,6 @@ mod tests {
             for (a, b) in found.into_iter().zip(to) {
                 assert!((a - b).abs() < 1e-5, "{from:?}: {found:?} {to:?}");
             }
-        }
-    }
-
-    #[test]
-    fn smaller_pictures_are_taken_where_a_file_asks_for_them() {
-        use Interpolation::{Bilinear, Nearest, Trilinear};
-        for (magnified, minified, expected) in [
-            (None, None, Bilinear),
-            (Some(MagFilter::Linear), None, Bilinear),
-            (None, Some(MinFilter::Linear), Bilinear),
-            (None, Some(MinFilter::LinearMipmapNearest), Bilinear),
-            (None, Some(MinFilter::LinearMipmapLinear), Trilinear),
-            (
-                Some(MagFilter::Linear),
-                Some(MinFilter::LinearMipmapLinear),
-                Trilinear,
-            ),
-            (
-                Some(MagFilter::Nearest),
-                Some(MinFilter::LinearMipmapLinear),
-                Nearest,
-            ),
-        ] {
-            assert_eq!(
-                filter(magnified, minified),
-                expected,
-                "{magnified:?} {minified:?}"
-            );
         }
     }
 }

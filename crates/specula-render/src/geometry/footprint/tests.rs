@@ -69,7 +69,7 @@ fn surface(scene: &PreparedScene, origin: Vec3<f32>, direction: Vec3<f32>) -> Su
         t_max: f32::INFINITY,
     };
     let hit = scene.geometry.accel.intersect(&ray).unwrap();
-    scene.geometry.surface(&ray, &hit)
+    scene.geometry.surface(&ray, &hit, 0.0)
 }
 
 /// Squares of the half axes of the ellipse with these conjugate ones.
