@@ -316,19 +316,19 @@ impl Node {
     /// The children whose boxes a ray enters before `end`, in its order.
     fn entered(&self, ray: Ray, end: f32) -> u32 {
         let mut mask = 0;
-        for slot in (0..8).filter(|slot| self.head >> (24 + slot) & 1 == 1) {
+        for slot in (0..8_u32).filter(|slot| self.head >> (24 + slot) & 1 == 1) {
             let (mut first, mut last) = (0.0_f32, end);
             for axis in 0..3 {
                 let step = f32::from_bits((self.head >> (8 * axis) & 0xff) << 23);
                 let at = |side: usize| {
-                    let plane = f32::from(self.planes[3 * side + axis][slot]);
+                    let plane = f32::from(self.planes[3 * side + axis][slot as usize]);
                     (self.origin[axis] + plane * step - ray.origin[axis]) / ray.direction[axis]
                 };
                 first = first.max(at(0).min(at(1)));
                 last = last.min(at(0).max(at(1)));
             }
             if first <= last {
-                mask |= 1 << (slot as u32 ^ octant(ray));
+                mask |= 1 << (slot ^ octant(ray));
             }
         }
         mask

@@ -242,16 +242,16 @@ fn pictures(nodes: &mut Vec<Node>) {
     let wraps = [Wrap::Repeat, Wrap::Black, Wrap::Clamp, Wrap::Mirror];
     for (i, first) in wraps.into_iter().enumerate() {
         let wrap = [first, wraps[(i + 3) % 4]];
-        for filter in [Interpolation::Bilinear, Interpolation::Nearest] {
+        for (filter, suffix) in [
+            (Interpolation::Bilinear, ""),
+            (Interpolation::Nearest, ", nearest"),
+        ] {
             let picture = Picture {
                 wrap,
                 filter,
                 ..Picture::of(1)
             };
-            let name = match filter {
-                Interpolation::Bilinear => format!("wrap {first:?}"),
-                Interpolation::Nearest => format!("wrap {first:?}, nearest"),
-            };
+            let name = format!("wrap {first:?}{suffix}");
             nodes.push(node(name, PICTURE, picture.texture()));
         }
     }

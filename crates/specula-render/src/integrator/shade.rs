@@ -406,7 +406,7 @@ impl PathTracer<'_> {
                 let rays = &mut tally.rays;
                 let none = MediumStack::NONE;
                 match self.transmittance_through(ray, way, none, by_chance, rays) {
-                    Some(transmittance) => contribution = contribution * transmittance,
+                    Some(transmittance) => contribution *= transmittance,
                     None => continue,
                 }
             }

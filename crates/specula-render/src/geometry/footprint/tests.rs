@@ -130,6 +130,7 @@ fn planes_are_covered_as_neighbouring_rays_cover_them() {
             file.instances.push(specula_scene::scene::ObjectInstance {
                 object: ObjectId(0),
                 to_world: tilt,
+                motion: None,
             });
         }
         let scene = prepared(&file);
@@ -140,7 +141,7 @@ fn planes_are_covered_as_neighbouring_rays_cover_them() {
             };
             let (here, origin, direction) = hit(raster);
             let distance = (here.position - origin).length();
-            let cone = scene.camera.cone(raster).at(distance);
+            let cone = scene.camera.cone(0.0, raster).at(distance);
             let footprint = (scene.geometry).footprint(&here, direction, cone.radius);
             let what = format!("tilted by {tilt_deg}, {raster:?}");
             // A pixel 20 degrees off the axis is an ellipse of ratio 1.06.
@@ -164,7 +165,7 @@ fn spheres_are_covered_as_neighbouring_rays_cover_them() {
         };
         let (here, origin, direction) = hit(raster);
         let distance = (here.position - origin).length();
-        let cone = scene.camera.cone(raster).at(distance);
+        let cone = scene.camera.cone(0.0, raster).at(distance);
         let footprint = (scene.geometry).footprint(&here, direction, cone.radius);
         let expected = differences(raster, |r| hit(r).0.uv);
         assert_alike(footprint.uv, expected, 0.04, &format!("{raster:?}"));
@@ -198,7 +199,7 @@ fn mirrors_spread_cones_by_their_curvature() {
         )
     };
     for raster in [[100.0, 75.0], [104.0, 75.0], [98.0, 70.0]] {
-        let (footprint, _) = reflect(raster, scene.camera.cone(raster));
+        let (footprint, _) = reflect(raster, scene.camera.cone(0.0, raster));
         let expected = differences(raster, |r| reflect(r, RayCone::NONE).1);
         assert_alike(footprint.uv, expected, 0.03, &format!("{raster:?}"));
     }
@@ -241,7 +242,7 @@ fn glass_balls_focus_cones() {
         )
     };
     for raster in [[100.0, 75.0], [103.0, 77.0]] {
-        let (footprint, _) = through(raster, scene.camera.cone(raster));
+        let (footprint, _) = through(raster, scene.camera.cone(0.0, raster));
         let expected = differences(raster, |r| through(r, RayCone::NONE).1);
         assert_alike(footprint.uv, expected, 0.05, &format!("{raster:?}"));
     }
