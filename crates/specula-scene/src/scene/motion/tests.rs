@@ -1,3 +1,5 @@
+//! Trajectories against known motions; boxes that hold them.
+
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use specula_bsdf::math::Stream;
