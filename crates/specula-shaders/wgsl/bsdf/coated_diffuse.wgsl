@@ -56,7 +56,7 @@ struct CoatedDiffuse {
 
 /// Light from one direction.
 ///
-/// Twin: specula-bsdf/src/bsdf/coated_diffuse.rs, Incident.
+/// Twin: specula-bsdf/src/energy/interface_coat.rs, Incident.
 struct CoatedDiffuseIncident {
     /// Share that the coat reflects; an estimate where its facets scatter singly.
     reflected: f32,
@@ -118,7 +118,7 @@ fn coated_diffuse_new(facets: MicrofacetsModel, rough: bool, eta: f32, albedo: v
 
 /// The shares of light from `w` that the coat reflects and transmits.
 ///
-/// Twin: specula-bsdf/src/bsdf/coated_diffuse.rs, CoatedDiffuse::incident.
+/// Twin: specula-bsdf/src/energy/interface_coat.rs, CoatInterface::incident.
 fn coated_diffuse_incident(lobe: CoatedDiffuse, w: vec3f) -> CoatedDiffuseIncident {
     let mu = abs(w.z);
     let crossing = interface_layer_crossing(lobe.layer, lobe.mean_alpha, lobe.eta, mu);
