@@ -7,7 +7,7 @@ use specula_scene::Scene;
 
 use super::*;
 use crate::adapter::AdapterChoice;
-use crate::{adapters, common};
+use crate::common;
 
 /// A lit room of 10 tiles.
 fn room() -> Scene {
@@ -69,26 +69,6 @@ fn two_gpus_make_the_film_of_one() {
     let rates = both.members().iter().map(Tracer::rate);
     assert!(rates.flatten().count() == 2, "both take samples");
     assert!(both.lost().is_empty());
-}
-
-#[test]
-fn gpus_of_other_kinds_render_together() {
-    let Some(gpu) = common::gpu("GPUs of two kinds") else {
-        return;
-    };
-    let Some(other) = adapters().into_iter().find(|a| a.name != gpu.adapter.name) else {
-        specula_testing::not_of_this_machine("GPUs of two kinds", "there is one GPU");
-        return;
-    };
-    let indices = [gpu.adapter.index, other.index];
-    let gpus = indices.map(|index| Gpu::open(&AdapterChoice::Index(index)).unwrap());
-    let scene = prepared();
-    let alone = film(&mut tracers(&gpus[..1], &scene), &scene, &[4]).picture();
-    let both = film(&mut tracers(&gpus, &scene), &scene, &[4]).picture();
-    let pairs = alone.colour.iter().zip(&both.colour);
-    let differ = pairs.filter(|(a, b)| (a.g - b.g).abs() > 1e-3 * (1.0 + a.g));
-    let share = differ.count() as f64 / alone.colour.len() as f64;
-    assert!(share < 0.02, "{share} of the pixels differ");
 }
 
 #[test]
