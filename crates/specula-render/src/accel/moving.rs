@@ -13,6 +13,7 @@ impl Accel {
     }
 
     /// [`Accel::intersect`] at a time, in exposures; without motion, at any.
+    #[inline]
     pub(crate) fn intersect_at(&self, ray: &Ray, time: f32) -> Option<Hit> {
         if !self.moves() {
             return self.intersect(ray);
@@ -25,6 +26,7 @@ impl Accel {
     }
 
     /// [`Accel::occluded`] at a time.
+    #[inline]
     pub(crate) fn occluded_at(&self, ray: &Ray, time: f32) -> bool {
         if !self.moves() {
             return self.occluded(ray);

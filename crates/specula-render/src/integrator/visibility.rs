@@ -4,7 +4,7 @@ use specula_bsdf::{Rgb, Vec3};
 
 use super::estimator::{self, MOST_PASSES};
 use super::{PathState, PathTracer};
-use crate::accel::{Hit, Ray};
+use crate::accel::Ray;
 use crate::geometry::{NONE, Surface};
 use crate::light::LightSample;
 use crate::medium_stack::{MediumStack, transmittance};
@@ -40,7 +40,7 @@ impl PathTracer<'_> {
         let time = self.time(sampler);
         for pass in 0..MOST_PASSES {
             state.tally.rays += 1;
-            let hit = self.first_hit(&ray, time)?;
+            let hit = geometry.accel.intersect_at(&ray, time)?;
             let surface = geometry.surface(&ray, &hit, time);
             hidden &= surface.light != NONE;
             let passage = match (hidden, geometry.has_passable) {
@@ -85,17 +85,15 @@ impl PathTracer<'_> {
             None => estimator::spawn_ray(from, light.wi),
             Some(target) => estimator::shadow_ray(from, light.wi, target),
         };
-        if self.scene.geometry.has_passable {
-            let end = light.target.as_ref().map(|target| target.position);
+        let geometry = &self.scene.geometry;
+        let end = light.target.as_ref().map(|target| target.position);
+        if geometry.has_passable {
             let way = (from.position, end);
             return self.transmittance_through(ray, way, *media, (sampler, depth), rays);
         }
         *rays += 1;
-        let visible = !self.is_occluded(&ray, self.time(sampler));
-        visible.then(|| {
-            let end = light.target.as_ref().map(|target| target.position);
-            transmittance_to_light(from.position, end, media)
-        })
+        let visible = !geometry.accel.occluded_at(&ray, self.time(sampler));
+        visible.then(|| transmittance_to_light(from.position, end, media))
     }
 
     /// [`PathTracer::transmittance`] where some surfaces let rays pass.
@@ -114,7 +112,7 @@ impl PathTracer<'_> {
         let time = self.time(sampler);
         for pass in 0..MOST_PASSES {
             *rays += 1;
-            let Some(hit) = self.first_hit(&ray, time) else {
+            let Some(hit) = geometry.accel.intersect_at(&ray, time) else {
                 return Some(product * transmittance_to_light(begin, end, &media));
             };
             let surface = geometry.surface(&ray, &hit, time);
@@ -137,24 +135,6 @@ impl PathTracer<'_> {
             }
         }
         None
-    }
-
-    #[inline(always)]
-    fn first_hit(&self, ray: &Ray, time: f32) -> Option<Hit> {
-        let accel = &self.scene.geometry.accel;
-        match self.scene.moves {
-            true => accel.intersect_at(ray, time),
-            false => accel.intersect(ray),
-        }
-    }
-
-    #[inline(always)]
-    fn is_occluded(&self, ray: &Ray, time: f32) -> bool {
-        let accel = &self.scene.geometry.accel;
-        match self.scene.moves {
-            true => accel.occluded_at(ray, time),
-            false => accel.occluded(ray),
-        }
     }
 
     /// What a surface does to a ray: by chance where it is partly transparent.
