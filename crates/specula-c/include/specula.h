@@ -35,6 +35,26 @@
 #define SPECULA_TRANSPORT_IMPORTANCE 1
 
 /**
+ * Textures are filtered as the scene says.
+ */
+#define SPECULA_TEXTURE_FILTER_SCENE 0
+
+/**
+ * Pictures are interpolated bilinearly, not over footprints.
+ */
+#define SPECULA_TEXTURE_FILTER_BILINEAR 1
+
+/**
+ * Over footprints, trilinearly.
+ */
+#define SPECULA_TEXTURE_FILTER_TRILINEAR 2
+
+/**
+ * Over footprints, by elliptical Gaussian means.
+ */
+#define SPECULA_TEXTURE_FILTER_EWA 3
+
+/**
  * Outcome of a sample: no direction; `wi`, `weight` and `pdf` are zero.
  */
 #define SPECULA_OUTCOME_REJECTED 0
@@ -363,6 +383,10 @@ typedef struct {
    * Seconds after which the render ends; 0, the default: none. One sample of each pixel is taken in any case.
    */
   double seconds;
+  /**
+   * SPECULA_TEXTURE_FILTER_SCENE by default.
+   */
+  uint32_t texture_filter;
 } specula_render_options;
 
 /**

@@ -30,6 +30,15 @@ impl Default for BatchOptions {
     }
 }
 
+/// Textures are filtered as the scene says.
+pub const SPECULA_TEXTURE_FILTER_SCENE: u32 = 0;
+/// Pictures are interpolated bilinearly, not over footprints.
+pub const SPECULA_TEXTURE_FILTER_BILINEAR: u32 = 1;
+/// Over footprints, trilinearly.
+pub const SPECULA_TEXTURE_FILTER_TRILINEAR: u32 = 2;
+/// Over footprints, by elliptical Gaussian means.
+pub const SPECULA_TEXTURE_FILTER_EWA: u32 = 3;
+
 /// What a render is asked for. `specula_render_options_init` sets the defaults.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -53,6 +62,8 @@ pub struct RenderOptions {
     pub noise: f64,
     /// Seconds after which the render ends; 0, the default: none. One sample of each pixel is taken in any case.
     pub seconds: f64,
+    /// SPECULA_TEXTURE_FILTER_SCENE by default.
+    pub texture_filter: u32,
 }
 
 impl Default for RenderOptions {
@@ -67,6 +78,7 @@ impl Default for RenderOptions {
             max_depth: -1,
             noise: 0.0,
             seconds: 0.0,
+            texture_filter: SPECULA_TEXTURE_FILTER_SCENE,
         }
     }
 }

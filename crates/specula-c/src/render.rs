@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use specula_render::picture::Metadata;
 use specula_render::{
-    MOST_SAMPLES, MemoryEstimate, PreparedScene, RenderGoal, RenderOptions, Renderer,
+    MOST_SAMPLES, MemoryEstimate, PreparedScene, RenderGoal, RenderOptions, Renderer, TextureFilter,
 };
 
 use crate::failure::{Failure, Status};
@@ -51,6 +51,17 @@ fn asked(
         }
     };
     options.seed = given.seed;
+    options.texture_filter = match given.texture_filter {
+        options::SPECULA_TEXTURE_FILTER_SCENE => TextureFilter::Scene,
+        options::SPECULA_TEXTURE_FILTER_BILINEAR => TextureFilter::Bilinear,
+        options::SPECULA_TEXTURE_FILTER_TRILINEAR => TextureFilter::Trilinear,
+        options::SPECULA_TEXTURE_FILTER_EWA => TextureFilter::Ewa,
+        other => {
+            return Err(Failure::invalid(format!(
+                "options.texture_filter: expected one of SPECULA_TEXTURE_FILTER_*, got {other}"
+            )));
+        }
+    };
     options.max_depth = match given.max_depth {
         -1 => options.max_depth,
         depth => u32::try_from(depth).map_err(|_| {

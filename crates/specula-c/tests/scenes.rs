@@ -13,7 +13,7 @@ use std::sync::atomic::AtomicBool;
 
 use specula_c::abi::{self, PictureHandle, RenderOptions, SceneHandle, Status};
 use specula_render::picture::{Picture, read_exr};
-use specula_render::{PreparedScene, Renderer};
+use specula_render::{PreparedScene, Renderer, TextureFilter};
 
 fn last() -> String {
     // SAFETY: the message is a text, and valid until the next call.
@@ -63,6 +63,15 @@ fn small() -> RenderOptions {
 struct Calls {
     told: Vec<(f64, f64)>,
     most: usize,
+}
+
+impl Calls {
+    fn unstopped() -> Self {
+        Self {
+            most: usize::MAX,
+            ..Self::default()
+        }
+    }
 }
 
 extern "C" fn progress(share_done: f64, samples: f64, user: *mut c_void) -> c_int {
@@ -139,10 +148,7 @@ fn a_render_is_that_of_the_library() {
     let expected = expected();
     for threads in [1, 0] {
         let options = RenderOptions { threads, ..small() };
-        let mut calls = Calls {
-            most: usize::MAX,
-            ..Calls::default()
-        };
+        let mut calls = Calls::unstopped();
         let (status, picture) = render(scene, &options, &mut calls);
         assert_eq!(status, Status::Ok, "{}", last());
         assert_eq!(calls.told.last(), Some(&(1.0, 3.0)));
@@ -186,6 +192,64 @@ fn a_render_is_that_of_the_library() {
 }
 
 #[test]
+fn textures_are_filtered_as_asked() {
+    let file = specula_testing::scene("gltf/boombox.glb");
+    let scene = load(&file).unwrap();
+    let loaded = specula_scene::load(&file).unwrap().scene;
+    for (code, filter) in [
+        (abi::SPECULA_TEXTURE_FILTER_SCENE, TextureFilter::Scene),
+        (
+            abi::SPECULA_TEXTURE_FILTER_BILINEAR,
+            TextureFilter::Bilinear,
+        ),
+        (
+            abi::SPECULA_TEXTURE_FILTER_TRILINEAR,
+            TextureFilter::Trilinear,
+        ),
+        (abi::SPECULA_TEXTURE_FILTER_EWA, TextureFilter::Ewa),
+    ] {
+        let given = RenderOptions {
+            texture_filter: code,
+            ..small()
+        };
+        let (status, picture) = render(scene, &given, &mut Calls::unstopped());
+        assert_eq!(status, Status::Ok, "{}", last());
+        let options = specula_render::RenderOptions {
+            samples_per_pixel: 3,
+            seed: 5,
+            resolution: Some([24, 10]),
+            max_depth: 3,
+            texture_filter: filter,
+            ..specula_render::RenderOptions::from_scene(&loaded)
+        };
+        let prepared = PreparedScene::new(&loaded, &options).unwrap();
+        let mut renderer = Renderer::new(&prepared, options);
+        renderer.render_pass(3, &AtomicBool::new(false));
+        let expected = renderer.film().picture().colour;
+        let expected: Vec<f32> = expected.iter().flat_map(|c| c.to_array()).collect();
+        assert!(
+            read(picture, abi::SPECULA_LAYER_COLOUR, 3, [0, 0]) == expected,
+            "{filter}"
+        );
+        // SAFETY: it is not used any more.
+        unsafe { abi::specula_picture_free(picture) };
+    }
+    let wrong = RenderOptions {
+        texture_filter: 4,
+        ..small()
+    };
+    let (status, picture) = render(scene, &wrong, &mut Calls::unstopped());
+    assert_eq!(status, Status::InvalidArgument);
+    assert!(
+        picture.is_null() && last().contains("texture_filter"),
+        "{}",
+        last()
+    );
+    // SAFETY: it is not used any more.
+    unsafe { abi::specula_scene_free(scene) };
+}
+
+#[test]
 fn a_render_ends_by_noise_or_time() {
     let scene = builtin();
     let by_time = RenderOptions {
@@ -199,10 +263,7 @@ fn a_render_ends_by_noise_or_time() {
         ..small()
     };
     for options in [by_time, by_noise] {
-        let mut calls = Calls {
-            most: usize::MAX,
-            ..Calls::default()
-        };
+        let mut calls = Calls::unstopped();
         let (status, picture) = render(scene, &options, &mut calls);
         assert_eq!(status, Status::Ok, "{}", last());
         let (share, samples) = calls.told.last().copied().unwrap();

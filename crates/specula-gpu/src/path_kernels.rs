@@ -26,8 +26,8 @@ const VERTICES_AT_ONCE: u32 = 16;
 
 /// Bytes of a path between two kernels: `QUEUE_FIELDS` in queue_state.wgsl.
 pub(crate) fn state_size(flat: &FlatScene<'_>) -> u64 {
-    let has_boundaries = flat.constant("HAS_BOUNDARIES") == Some(1);
-    FIELD_SIZE * if has_boundaries { 16 } else { 10 }
+    let has = |name| u64::from(flat.constant(name) == Some(1));
+    FIELD_SIZE * (10 + 6 * has("HAS_BOUNDARIES") + has("TEXTURES_ARE_FILTERED"))
 }
 
 /// The kernels that take samples.

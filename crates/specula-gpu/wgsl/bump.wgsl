@@ -4,7 +4,7 @@
 // then the parameter of its heights, or a texture and a factor.
 
 import tracer::partials::{Partials, partials_of};
-import tracer::surface::{Surface};
+import tracer::surface::{Surface, surface_place};
 import tracer::texture_graph::{parameter_float, texture_colour};
 import tracer::texture_coordinates::{TextureCoordinates};
 import tracer::world::{word, number, unit_or};
@@ -123,7 +123,7 @@ fn bump_bend(at: u32, s: Surface) -> BumpedFrame {
         partials.along_u = frame.s;
         partials.along_v = frame.t;
     }
-    let place = TextureCoordinates(s.uv, s.second_uv, s.position, s.ng, s.colour);
+    let place = surface_place(s);
     if word(at) == BUMP_HEIGHT {
         return bump_displaced(at + 2u, n, place, partials);
     }
@@ -135,6 +135,14 @@ fn bump_bend(at: u32, s: Surface) -> BumpedFrame {
     let along_v = select(across, -across, backwards);
     let bent = along_u * (c.x * scale) + along_v * (c.y * scale) + n * c.z;
     return BumpedFrame(unit_or(bent, n), partials.along_u);
+}
+
+/// Steps of finite differences along u and v: half of what the footprint covers, but no less than `BUMP_STEP`, below which
+/// heights in single precision have no slope.
+///
+/// Twin: specula-render/src/bump.rs, step.
+fn bump_steps(changes: vec4f) -> vec2f {
+    return max(vec2f(BUMP_STEP), 0.5 * (abs(changes.xy) + abs(changes.zw)));
 }
 
 /// Normal and tangent of the surface moved along its normal by a height:
@@ -152,7 +160,8 @@ fn bump_bend(at: u32, s: Surface) -> BumpedFrame {
 /// Twin: specula-render/src/bump.rs, displaced.
 fn bump_displaced(height: u32, n: vec3f, place: TextureCoordinates, partials: Partials) -> BumpedFrame {
     // The step that rounding left: coordinates of large tiled planes have few digits.
-    let moved = place.uv + BUMP_STEP;
+    let wanted = bump_steps(place.footprint.changes);
+    let moved = place.uv + wanted;
     let steps = moved - place.uv;
     // One call in a loop, since the code of textures is long. At the point, along u, along v.
     var heights = vec3f(0.0);
@@ -160,10 +169,10 @@ fn bump_displaced(height: u32, n: vec3f, place: TextureCoordinates, partials: Pa
         var there = place;
         if i == 1u {
             there.uv.x = moved.x;
-            there.position += partials.along_u * BUMP_STEP;
+            there.position += partials.along_u * wanted.x;
         } else if i == 2u {
             there.uv.y = moved.y;
-            there.position += partials.along_v * BUMP_STEP;
+            there.position += partials.along_v * wanted.y;
         }
         heights[i] = parameter_float(height, there);
     }

@@ -11,6 +11,8 @@ struct CameraRay {
     origin: vec3f,
     direction: vec3f,
     weight: f32,
+    // Of the whole pixel; 0 where no texture is filtered.
+    cone: vec2f,
 }
 
 /// Samples a position about the pixel's centre along one axis of the filter; position and weight.
@@ -99,9 +101,42 @@ fn camera_ray(pixel: vec2u, u: vec4f) -> CameraRay {
         begin += vec3f(area_disk(u.xw) * radius, 0.0);
         towards = focus - begin;
     }
+    var cone = vec2f(0.0);
+    if TEXTURES_ARE_FILTERED != 0u {
+        cone = camera_cone(vec2f(x, y));
+    }
     return CameraRay(
         affine_point(CAMERA, begin),
         normalize(affine_vector(CAMERA, towards)),
         across.y * down.y,
+        cone,
     );
+}
+
+/// The cone of a whole pixel around the ray through a point of the camera's window: a circle of the pixel's radius, whose
+/// square is the area, or the solid angle, by which a step right and a step down differ.
+///
+/// * `at`: in the camera's space, at the distance 1; for views of the sphere, in the square of their mapping.
+///
+/// Twin: specula-render/src/camera/cone.rs, Camera::cone.
+fn camera_cone(at: vec2f) -> vec2f {
+    let a = affine_vector(CAMERA, vec3f(1.0, 0.0, 0.0));
+    let b = affine_vector(CAMERA, vec3f(0.0, 1.0, 0.0));
+    let pixel = abs(number(CAMERA + 14u) * number(CAMERA + 15u));
+    let area = cross(a, b);
+    if CAMERA_VIEW == CAMERA_ORTHOGRAPHIC {
+        return vec2f(sqrt(length(area) * pixel), 0.0);
+    }
+    if CAMERA_VIEW == CAMERA_PERSPECTIVE {
+        let c = affine_vector(CAMERA, vec3f(0.0, 0.0, 1.0));
+        let size = length(affine_vector(CAMERA, vec3f(at, 1.0)));
+        return vec2f(0.0, sqrt(abs(dot(area, c)) * pixel / (size * size * size)));
+    }
+    let pi = 3.1415927;
+    let mapping = CAMERA_VIEW - CAMERA_SPHERICAL;
+    if mapping == ENVIRONMENT_EQUAL_AREA {
+        return vec2f(0.0, sqrt(4.0 * pi * pixel));
+    }
+    let v = camera_within_sphere(mapping, at).y;
+    return vec2f(0.0, sqrt(2.0 * pi * pi * abs(sin(pi * v)) * pixel));
 }

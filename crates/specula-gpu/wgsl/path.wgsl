@@ -11,10 +11,12 @@ import tracer::sequence::{sequence_stream, sequence_hashed};
 import tracer::camera::{camera_ray};
 import tracer::film::{film_developed};
 import tracer::ray::{Ray, Hit};
-import tracer::surface::{Surface, surface_at};
+import tracer::surface::{Surface, surface_at, surface_place};
+import tracer::footprint::{footprint_of, footprint_mean_curvature};
+import tracer::ray_cone::{ray_cone_of_sample, ray_cone_at, ray_cone_mirrored, ray_cone_refracted, ray_cone_scattered};
 import tracer::medium_stack::{MediumStack};
 import tracer::visibility::{ShadowRay, visibility_intersect, visibility_shadow_ray, visibility_transmittance};
-import tracer::visibility::{visibility_cross, visibility_place, visibility_radiance};
+import tracer::visibility::{visibility_cross, visibility_radiance};
 import tracer::partials::{partials_of};
 import tracer::bump::{Softness, bump_of_material, bump_is_there, bump_bend, bump_softened};
 import tracer::bump::{bump_softness, bump_coat_differs, bump_of_coat};
@@ -60,6 +62,8 @@ struct PathState {
     previous: Receiver,
     // The media that the path is in.
     media: MediumStack,
+    // How wide what the path stands for is, where textures are filtered.
+    cone: vec2f,
 }
 
 /// A surface with its lobe and shading frame, which faces the viewer.
@@ -185,7 +189,7 @@ fn path_shading_point(
     if REGULARIZES != 0u && rough {
         material = word(BEHIND_ROUGH + material);
     }
-    var bound = material_bind(material, visibility_place(surface), outside, s, depth);
+    var bound = material_bind(material, surface_place(surface), outside, s, depth);
     let bump = bump_of_material(bound.material);
     let bent = bump_bend(bump, surface);
     let tangent = path_tangent(surface, bound, bent.normal, bent.tangent);
@@ -334,6 +338,21 @@ fn path_mean(c: vec3f) -> f32 {
     return (c.x + c.y + c.z) * (1.0 / 3.0);
 }
 
+/// The cone of a path that was scattered.
+///
+/// Twin: specula-render/src/integrator/footprints.rs, PathTracer::spread_cone.
+fn path_spread(cone: vec2f, vertex: PathShadingPoint, sampled: BsdfSample, index: u32) -> vec2f {
+    if (sampled.flags & BSDF_SAMPLE_SPECULAR) == 0u {
+        return ray_cone_scattered(cone, sampled.pdf, index);
+    }
+    let outside = dot(vertex.facing, vertex.surface.ng) >= 0.0;
+    let curvature = select(-1.0, 1.0, outside) * footprint_mean_curvature(vertex.surface);
+    if (sampled.flags & BSDF_SAMPLE_TRANSMISSION) == 0u {
+        return ray_cone_mirrored(cone, curvature);
+    }
+    return ray_cone_refracted(cone, curvature, sampled.eta);
+}
+
 /// Samples the next ray; returns whether the path continues.
 ///
 /// Twin: specula-render/src/integrator.rs, PathTracer::scatter.
@@ -360,6 +379,9 @@ fn path_scatter(
     }
     if (sampled.flags & BSDF_SAMPLE_SPECULAR) == 0u {
         (*state).flags |= PATH_ROUGH;
+    }
+    if TEXTURES_ARE_FILTERED != 0u {
+        (*state).cone = path_spread((*state).cone, vertex, sampled, s.index);
     }
     if passes {
         var media = (*state).media;
@@ -411,6 +433,7 @@ fn path_begin(slot: u32, s: Sequence) -> PathState {
     state.throughput = vec3f(1.0);
     state.eta_scale = 1.0;
     state.flags = PATH_STRAIGHT;
+    state.cone = ray_cone_of_sample(begin.cone, s.index);
     path_results[3u * slot] = vec4f(vec3f(0.0), -1.0);
     path_results[3u * slot + 1u] = vec4f(0.0);
     path_results[3u * slot + 2u] = vec4f(vec3f(0.0), begin.weight);
@@ -454,15 +477,20 @@ fn path_shade(slot: u32, state: ptr<function, PathState>, s: Sequence, depth: u3
         }
         return none;
     }
-    let surface = surface_at(ray, (*state).hit);
+    var surface = surface_at(ray, (*state).hit);
     let radiance = path_emission(*state, surface, ray.direction);
     path_add(state, (*state).throughput * radiance, depth);
     if depth >= path_max_depth() && depth > 0u {
         return none;
     }
+    let distance = length(surface.position - (*state).previous.position);
+    if TEXTURES_ARE_FILTERED != 0u {
+        (*state).cone = ray_cone_at((*state).cone, distance);
+        surface.footprint = footprint_of(surface, ray.direction, (*state).cone.x);
+    }
     let vertex = path_shading_point(surface, -ray.direction, s, depth, rough);
     if depth == 0u {
-        path_write_features(slot, vertex, length(surface.position - (*state).previous.position));
+        path_write_features(slot, vertex, distance);
         if path_max_depth() == 0u {
             return none;
         }

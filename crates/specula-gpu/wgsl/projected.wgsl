@@ -19,7 +19,10 @@ fn projected_intensity(at: u32, w: vec3f) -> vec3f {
     if within.z <= 0.0 {
         return vec3f(0.0);
     }
-    let place = TextureCoordinates(within.xy, vec2f(0.0), vec3f(0.0), vec3f(0.0, 0.0, 1.0), vec3f(1.0));
+    var place: TextureCoordinates;
+    place.uv = within.xy;
+    place.normal = vec3f(0.0, 0.0, 1.0);
+    place.colour = vec3f(1.0);
     return max(parameter_colour(at + PROJECTED_INTENSITY, place), vec3f(0.0)) * within.z;
 }
 

@@ -37,8 +37,10 @@ const QUEUE_SHADOW_MEDIA: u32 = 12u;
 /// Where it begins and ends.
 const QUEUE_SHADOW_BEGIN: u32 = 14u;
 const QUEUE_SHADOW_END: u32 = 15u;
+/// Where textures are filtered: the cone of the path.
+const QUEUE_CONE: u32 = 10u + 6u * HAS_BOUNDARIES;
 /// How many fields there are. Twin: specula-gpu/src/path_kernels.rs, state_size.
-const QUEUE_FIELDS: u32 = 10u + 6u * HAS_BOUNDARIES;
+const QUEUE_FIELDS: u32 = QUEUE_CONE + TEXTURES_ARE_FILTERED;
 
 /// Where a field of a slot is.
 fn queue_state_place(slot: u32, field: u32) -> u32 {
@@ -124,6 +126,9 @@ fn queue_state_to_shade(slot: u32) -> PathState {
     state.radiance = radiance.xyz;
     state.previous = Receiver(previous.xyz, vec3f(radiance.w, bitcast<vec2f>(counts.zw)));
     state.media = queue_state_media(slot, QUEUE_MEDIA);
+    if TEXTURES_ARE_FILTERED != 0u {
+        state.cone = bitcast<vec2f>(queue_state_read(slot, QUEUE_CONE).xy);
+    }
     return state;
 }
 
@@ -138,6 +143,9 @@ fn queue_state_begun(slot: u32, state: PathState) {
     queue_state_write(slot, QUEUE_RADIANCE, state.radiance, bitcast<u32>(normal.x));
     queue_state_write(slot, QUEUE_PREVIOUS, state.previous.position, 0u);
     queue_state_write_media(slot, QUEUE_MEDIA, state.media);
+    if TEXTURES_ARE_FILTERED != 0u {
+        queue_state_write(slot, QUEUE_CONE, vec3f(state.cone, 0.0), 0u);
+    }
 }
 
 /// Writes a path that has been shaded, and its shadow ray.

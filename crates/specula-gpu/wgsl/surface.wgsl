@@ -6,6 +6,7 @@ import tracer::world::{word, number, vector, affine_point, affine_vector, affine
 import tracer::world::{offset_coupled, unit_or};
 import tracer::angles::{angles_turns};
 import tracer::ray::{Hit, Ray};
+import tracer::texture_coordinates::{Footprint, TextureCoordinates};
 
 /// A point of a surface, in the world.
 ///
@@ -30,6 +31,15 @@ struct Surface {
     primitive: u32,
     // Barycentric, of the second and third corner.
     weights: vec2f,
+    // What filtered textures are means over; zero until a path's cone comes there.
+    footprint: Footprint,
+}
+
+/// The surface as textures take it.
+///
+/// Twin: specula-render/src/geometry/hit.rs, Surface::place.
+fn surface_place(s: Surface) -> TextureCoordinates {
+    return TextureCoordinates(s.uv, s.second_uv, s.position, s.ng, s.colour, s.footprint);
 }
 
 /// A vector of two components.

@@ -4,7 +4,8 @@
 // their inputs are on a stack, whose size is what the scene's graphs need (TEXTURE_WAITING, at most 32). What a scene
 // does not use is not compiled: the constants are those of specula-render/src/texture/flat.rs.
 
-import tracer::texture_mapping::{texture_mapping_at};
+import tracer::texture_filter::{TextureLookup, texture_filter_at};
+import tracer::texture_mapping::{texture_mapping_at, texture_mapping_axes};
 import tracer::texture_noise::{texture_noise_fbm, texture_noise_turbulence, texture_noise_windy};
 import tracer::texture_noise::{texture_noise_marble, texture_noise_in_dot};
 import tracer::texture_coordinates::{TextureCoordinates};
@@ -252,8 +253,19 @@ fn texture_graph_noise(at: u32, place: TextureCoordinates) -> vec3f {
 /// Twin: specula-render/src/texture/graph.rs, Textures::picture.
 fn texture_graph_picture(at: u32, place: TextureCoordinates) -> vec3f {
     let wrap = vec2u(word(at + 4u), word(at + 5u));
-    let coordinates = texture_mapping_at(at + 7u, place);
-    var c = texture_raster_at(word(at), coordinates, wrap, word(at + 6u) != 0u);
+    let coordinates = texture_mapping_at(at + 9u, place);
+    let kind = word(at + 6u);
+    var c: vec3f;
+    if TEXTURES_ARE_FILTERED != 0u {
+        let lookup = TextureLookup(word(at), word(at + 7u), wrap, kind, number(at + 8u));
+        var axes = vec4f(0.0);
+        if kind >= TEXTURE_FILTER_TRILINEAR {
+            axes = texture_mapping_axes(at + 9u, place);
+        }
+        c = texture_filter_at(lookup, coordinates, axes);
+    } else {
+        c = texture_raster_at(word(at), coordinates, wrap, kind == TEXTURE_FILTER_NEAREST);
+    }
     switch word(at + 1u) {
         case TEXTURE_CHANNEL_RGB: {}
         case TEXTURE_CHANNEL_MEAN: {

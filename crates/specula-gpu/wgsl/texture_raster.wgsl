@@ -19,9 +19,7 @@ fn texture_raster_at(at: u32, coordinates: vec2f, wrap: vec2u, nearest: bool) ->
     if size.x == 0 {
         return vec3f(0.0);
     }
-    let s = texture_raster_reduced(coordinates.x, wrap.x);
-    let t = texture_raster_reduced(coordinates.y, wrap.y);
-    let place = vec2f(s, 1.0 - t) * vec2f(size);
+    let place = texture_raster_position(size, coordinates, wrap);
     if nearest {
         return texture_raster_pixel(at, size, texture_raster_floor(place), wrap);
     }
@@ -35,6 +33,15 @@ fn texture_raster_at(at: u32, coordinates: vec2f, wrap: vec2u, nearest: bool) ->
         sum += texture_raster_pixel(at, size, first + shift, wrap) * (weights.x * weights.y);
     }
     return sum;
+}
+
+/// Column and row of a point, with fractions; pixel centres are at halves.
+///
+/// Twin: specula-render/src/texture/raster.rs, Raster::position.
+fn texture_raster_position(size: vec2i, coordinates: vec2f, wrap: vec2u) -> vec2f {
+    let s = texture_raster_reduced(coordinates.x, wrap.x);
+    let t = texture_raster_reduced(coordinates.y, wrap.y);
+    return vec2f(s, 1.0 - t) * vec2f(size);
 }
 
 /// Column and row of the pixel that a point lies in.

@@ -9,9 +9,8 @@
 import tracer::area::{AreaSample, area_sample, area_pdf, area_triangle};
 import tracer::piecewise::{piecewise_density, piecewise_sample};
 import tracer::ray::{Hit, Ray};
-import tracer::surface::{Surface, surface_at};
+import tracer::surface::{Surface, surface_at, surface_place};
 import tracer::texture_graph::{parameter_colour, parameter_float};
-import tracer::texture_coordinates::{TextureCoordinates};
 import tracer::world::{word};
 
 
@@ -71,7 +70,7 @@ fn textured_pdf(at: u32, p: vec3f, position: vec3f, normal: vec3f, weights: vec2
 /// Twin: specula-render/src/light/textured.rs, Varying::radiance.
 fn textured_radiance(s: Surface) -> vec3f {
     let shape = SHAPES + s.shape * SHAPE_SIZE;
-    let place = TextureCoordinates(s.uv, s.second_uv, s.position, s.ng, s.colour);
+    let place = surface_place(s);
     let radiance = max(parameter_colour(shape + 3u, place), vec3f(0.0));
     return radiance * clamp(parameter_float(shape + 7u, place), 0.0, 1.0);
 }

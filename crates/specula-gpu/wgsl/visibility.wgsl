@@ -2,13 +2,12 @@
 //
 // Twin of specula-render/src/integrator/visibility.rs.
 
-import tracer::world::{word, offset_leave};
+import tracer::world::{word, vector, offset_leave};
 import tracer::sequence::{Sequence, sequence_hashed};
 import tracer::ray::{Ray, Hit};
 import tracer::traverse::{traverse, traverse_occluded};
-import tracer::surface::{Surface, surface_at};
+import tracer::surface::{Surface, surface_at, surface_place};
 import tracer::medium_stack::{MediumStack, medium_stack_cross, medium_stack_transmittance};
-import tracer::texture_coordinates::{TextureCoordinates};
 import tracer::texture_graph::{parameter_float, parameter_colour};
 import tracer::lights::{LightSample};
 
@@ -42,11 +41,6 @@ struct ShadowRay {
     media: MediumStack,
 }
 
-/// The surface as textures take it.
-fn visibility_place(s: Surface) -> TextureCoordinates {
-    return TextureCoordinates(s.uv, s.second_uv, s.position, s.ng, s.colour);
-}
-
 /// Emitted radiance of a surface; black on a side that does not emit.
 ///
 /// Twin: specula-render/src/integrator.rs, PathTracer::emission.
@@ -56,7 +50,10 @@ fn visibility_radiance(s: Surface, direction: vec3f) -> vec3f {
     if s.light == NONE || !emits {
         return vec3f(0.0);
     }
-    return max(parameter_colour(shape + 3u, visibility_place(s)), vec3f(0.0));
+    if LIGHT_HAS_TEXTURED == 0u {
+        return max(vector(shape + 4u), vec3f(0.0));
+    }
+    return max(parameter_colour(shape + 3u, surface_place(s)), vec3f(0.0));
 }
 
 /// What a surface does to a ray: by chance where it is partly transparent.
@@ -64,7 +61,7 @@ fn visibility_radiance(s: Surface, direction: vec3f) -> vec3f {
 /// Twin: specula-render/src/integrator/visibility.rs, PathTracer::passage.
 fn visibility_passage(surface: Surface, s: Sequence, key: vec3u) -> u32 {
     let shape = SHAPES + surface.shape * SHAPE_SIZE;
-    let alpha = parameter_float(shape + 7u, visibility_place(surface));
+    let alpha = parameter_float(shape + 7u, surface_place(surface));
     if !(alpha >= 1.0 || sequence_hashed(s, key) < alpha) {
         return VISIBILITY_FREE;
     }

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import json
 import os
 import signal
 import subprocess
@@ -181,6 +183,81 @@ def test_layouts_and_types_of_arrays_do_not_matter() -> None:
     assert same(first, picture(VERTICES.astype(np.float32), FACES.astype(np.uint32)))
     assert same(first, picture(np.asfortranarray(VERTICES), np.asfortranarray(FACES)))
     assert same(first, picture(VERTICES.tolist(), FACES.tolist()))
+
+
+def test_textures_are_filtered_as_asked() -> None:
+    scene = load(SCENES / "gltf" / "boombox.glb")
+    by_scene, bilinear, trilinear, ewa = (
+        render(scene, 1, resolution=SMALL, texture_filter=name)
+        for name in ("scene", "bilinear", "trilinear", "ewa")
+    )
+    # glTF's textures are not filtered over footprints.
+    assert same(by_scene, bilinear)
+    assert not same(bilinear, trilinear)
+    assert not same(trilinear, ewa)
+    assert ewa.rgb.mean() == pytest.approx(bilinear.rgb.mean(), rel=0.1)
+
+
+def moving(path: Path) -> Path:
+    """Write a glTF file with a lit square that moves from left to right within two seconds."""
+    corners = [(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.5, 0), (-0.5, -0.5, 0), (0.5, 0.5, 0)]
+    numbers = np.array(
+        [*corners, (-0.5, 0.5, 0), (0, 2, -1.5), (0, 0, 1.5), (0, 0, 0)], dtype="<f4"
+    )
+    data = base64.b64encode(numbers.tobytes()).decode()
+    views = [(0, 72), (72, 8), (80, 24)]
+    kinds = [(6, "VEC3"), (2, "SCALAR"), (2, "VEC3")]
+    document = {
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0, 1]}],
+        "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 5]}],
+        "cameras": [
+            {
+                "type": "perspective",
+                "perspective": {"yfov": 0.8, "aspectRatio": 1, "znear": 0.1},
+            }
+        ],
+        "materials": [{"emissiveFactor": [1, 1, 1]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+        "buffers": [{"byteLength": 104, "uri": f"data:application/octet-stream;base64,{data}"}],
+        "bufferViews": [{"buffer": 0, "byteOffset": at, "byteLength": n} for at, n in views],
+        "accessors": [
+            {"bufferView": i, "componentType": 5126, "count": count, "type": kind}
+            | ({"min": [0], "max": [2]} if kind == "SCALAR" else {})
+            | ({"min": [-0.5, -0.5, 0], "max": [0.5, 0.5, 0]} if count == 6 else {})
+            for i, (count, kind) in enumerate(kinds)
+        ],
+        "animations": [
+            {
+                "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
+                "samplers": [{"input": 1, "output": 2}],
+            }
+        ],
+    }
+    path.write_text(json.dumps(document))
+    return path
+
+
+@pytest.mark.filterwarnings("ignore::specula_render.scene.SceneWarning")
+def test_animations_are_seen_at_a_moment_and_over_a_time(tmp_path: Path) -> None:
+    file = moving(tmp_path / "moving.gltf")
+
+    def place(at: float | None, shutter: float | None) -> tuple[float, float]:
+        """Return where light is across the picture, from -1 to 1, and how wide."""
+        scene = load(file, at=at, shutter=shutter)
+        columns = render(scene, 64, resolution=SMALL).rgb.sum(axis=(0, 2)).astype(np.float64)
+        across = np.linspace(-1.0, 1.0, 32)
+        mean = float((columns * across).sum() / columns.sum())
+        return mean, float(np.sqrt((columns * (across - mean) ** 2).sum() / columns.sum()))
+
+    left, middle, right = (place(at, None) for at in (0.0, 1.0, 2.0))
+    assert left[0] < -0.5 < -0.1 < middle[0] < 0.1 < 0.5 < right[0]
+    blurred = place(0.0, 2.0)
+    assert abs(blurred[0]) < 0.1 and blurred[1] > 1.5 * middle[1]
+    assert place(0.5, 0.0) != place(0.5, 1.0)
+    for name in ("at", "shutter"):
+        with pytest.raises(ValueError, match=f"{name}: expected seconds"):
+            load(file, **{name: -1.0})
 
 
 def test_meshes_of_trimesh_are_taken() -> None:
@@ -393,6 +470,7 @@ def test_mistakes_in_materials_and_options_are_errors() -> None:
         {"max_depth": -1},
         {"energy": "much"},
         {"sampler": "none"},
+        {"texture_filter": "gaussian"},
         {"noise": -1.0},
         {"time": 0.0},
         {"time": float("nan")},

@@ -121,6 +121,15 @@ shared_constants! {
     /// Repeated, every other copy mirrored.
     TEXTURE_RASTER_MIRROR = 3;
 
+    /// What lies between a picture's pixels: interpolated.
+    TEXTURE_FILTER_BILINEAR = 0;
+    /// The nearest one.
+    TEXTURE_FILTER_NEAREST = 1;
+    /// The first kind that is a mean over a footprint: interpolated in and between levels of a pyramid.
+    TEXTURE_FILTER_TRILINEAR = 2;
+    /// Gaussian means over ellipses.
+    TEXTURE_FILTER_EWA = 3;
+
     /// Kind of noise: fractional Brownian motion.
     TEXTURE_NOISE_FBM = 0;
     /// Its octaves' absolute values.

@@ -1,6 +1,7 @@
 //! What a render may be asked for.
 
 use core::fmt;
+use core::str::FromStr;
 
 use specula_bsdf::multibounce::MisPdf;
 use specula_bsdf::vndf;
@@ -90,6 +91,19 @@ impl TextureFilter {
                 *filter = self.of(*filter);
             }
         }
+    }
+}
+
+/// From the name that [`Display`](fmt::Display) writes.
+impl FromStr for TextureFilter {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        let all = [Self::Scene, Self::Bilinear, Self::Trilinear, Self::Ewa];
+        let found = all.into_iter().find(|filter| filter.to_string() == name);
+        found.ok_or_else(|| {
+            format!("no such texture filter: '{name}' (expected scene, bilinear, trilinear or ewa)")
+        })
     }
 }
 

@@ -11,7 +11,7 @@ use crate::geometry::{FARTHEST, NONE, PrimitiveLocation, Surface};
 use crate::integrator::estimator::MOST_PASSES;
 use crate::light::Receiver;
 use crate::prepared::PreparedScene;
-use crate::texture::TextureCoordinates;
+use crate::texture::{Footprint, TextureCoordinates};
 
 /// Where a texture is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +26,19 @@ pub struct TexturePoint {
     pub normal: [f32; 3],
     /// Vertex colour of the mesh.
     pub colour: [f32; 3],
+    /// What filtered textures are means over; `None`: the point alone.
+    pub footprint: Option<TextureFootprint>,
+}
+
+/// An ellipse in the tangent plane of a surface, by two half axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextureFootprint {
+    /// The half axes, in the world.
+    pub axes: [[f32; 3]; 2],
+    /// How much the texture coordinates change along each.
+    pub uv: [[f32; 2]; 2],
+    /// How much the second texture coordinates change along each.
+    pub second_uv: [[f32; 2]; 2],
 }
 
 /// A point to be lit.
@@ -137,7 +150,11 @@ impl PreparedScene {
             position: Vec3::from(at.position),
             normal: Vec3::from(at.normal),
             colour: Rgb::from(at.colour),
-            footprint: None,
+            footprint: at.footprint.map(|footprint| Footprint {
+                position: footprint.axes.map(Vec3::from),
+                uv: footprint.uv,
+                second_uv: footprint.second_uv,
+            }),
         };
         let parameter = ColourParam::Texture(TextureId(texture));
         self.textures.colour(parameter, &place).to_array()

@@ -251,20 +251,19 @@ fn the_option_overrules_the_scene() {
     );
 }
 
-/// Shaders do not filter over footprints: that is named, and the option that leaves filters out.
+/// Shaders filter over footprints, and leave that out of scenes without.
 #[test]
-fn what_shaders_do_not_filter_is_named() {
-    let missing = |filter| {
+fn shaders_are_told_whether_textures_are_filtered() {
+    let told = |filter| {
         let options = options(1, filter);
         let scene = PreparedScene::new(&floor(Interpolation::EWA), &options);
-        scene.expect("the scene is sound").flatten().missing
+        let scene = scene.expect("the scene is sound");
+        let flat = scene.flatten();
+        assert_eq!(flat.missing, [""; 0]);
+        flat.constant("TEXTURES_ARE_FILTERED")
     };
-    assert_eq!(missing(TextureFilter::Bilinear), [""; 0]);
-    let named = missing(TextureFilter::Scene);
-    assert!(
-        named.len() == 1 && named[0].contains("--texture-filter"),
-        "{named:?}"
-    );
+    assert_eq!(told(TextureFilter::Bilinear), Some(0));
+    assert_eq!(told(TextureFilter::Scene), Some(1));
 }
 
 /// Levels of 32 x 32 pixels to 1, of three floats.

@@ -3,13 +3,15 @@
 use specula_bsdf::Rgb;
 use specula_render::FilmBuffer;
 use specula_scene::Scene;
-use specula_scene::scene::Light;
+use specula_scene::scene::{Interpolation, Light};
 
 use super::*;
 use crate::adapter::AdapterChoice;
 use crate::common;
 
 mod memory;
+#[path = "../../tests/common/painted.rs"]
+mod painted;
 
 /// A closed bright room, so that paths are long, with glass in it.
 fn room() -> Scene {
@@ -26,8 +28,21 @@ fn room_of_coloured_glass() -> Scene {
     )
 }
 
+/// The room with a picture on its wall, filtered over footprints, and nothing in it.
+fn room_of_stripes() -> Scene {
+    painted::painted(room_around(""), Interpolation::Trilinear)
+}
+
 /// * `shapes`: more of them, of rough glass.
 fn room_with(shapes: &str) -> Scene {
+    room_around(&format!(
+        "Material \"dielectric\" \"float eta\" 1.5 \"float roughness\" 0.2\n\
+        Shape \"sphere\" \"float radius\" 0.6\n{shapes}"
+    ))
+}
+
+/// * `shapes`: what is in it.
+fn room_around(shapes: &str) -> Scene {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("scene.pbrt");
     let text = format!(
@@ -37,9 +52,7 @@ fn room_with(shapes: &str) -> Scene {
         Integrator \"volpath\" \"integer maxdepth\" 40\nWorldBegin\n\
         LightSource \"point\" \"point3 from\" [0.5 -1 1] \"rgb I\" [2 3 4]\n\
         Material \"diffuse\" \"rgb reflectance\" [0.95 0.9 0.85]\n\
-        Shape \"sphere\" \"float radius\" 2\n\
-        Material \"dielectric\" \"float eta\" 1.5 \"float roughness\" 0.2\n\
-        Shape \"sphere\" \"float radius\" 0.6\n{shapes}"
+        Shape \"sphere\" \"float radius\" 2\n{shapes}"
     );
     std::fs::write(&file, text).unwrap();
     specula_scene::load(&file).unwrap().scene
@@ -135,6 +148,28 @@ fn queues_take_paths_through_media_and_holes() {
         render.film(0, LARGEST_BATCH, &[16])
     };
     assert!(film(Schedule::Queues) == film(Schedule::Paths));
+}
+
+/// Cones are part of a path's state.
+#[test]
+fn queues_take_paths_through_filtered_textures() {
+    let Some(gpu) = common::gpu("the tracer") else {
+        return;
+    };
+    let options = RenderOptions::from_scene(&room_of_stripes());
+    let prepared = PreparedScene::new(&room_of_stripes(), &options).unwrap();
+    let film = |schedule, change: &dyn Fn(&str) -> String| {
+        let mut render = Render::new(gpu, &prepared, &options, schedule, change);
+        render.film(0, LARGEST_BATCH, &[16])
+    };
+    let right = film(Schedule::Paths, &str::to_owned);
+    assert!(film(Schedule::Queues, &str::to_owned) == right);
+    let from = "queue_state_write(slot, QUEUE_CONE, vec3f(state.cone, 0.0), 0u);";
+    let wrong = film(Schedule::Queues, &|text| {
+        assert!(text.contains(from));
+        text.replace(from, "")
+    });
+    assert!(wrong != right, "cones that are lost");
 }
 
 #[test]
@@ -291,7 +326,7 @@ fn shaders_that_do_not_compile_are_errors() {
 
 #[test]
 fn states_have_the_size_that_shaders_give_them() {
-    for scene in [room(), room_of_coloured_glass()] {
+    for scene in [room(), room_of_coloured_glass(), room_of_stripes()] {
         let options = RenderOptions::from_scene(&scene);
         let prepared = PreparedScene::new(&scene, &options).unwrap();
         let program = SceneProgram::new(&prepared, &options).unwrap();
@@ -317,6 +352,7 @@ fn the_program_of_a_scene_is_that_of_the_tracer_and_plain() {
     for scene in [
         room(),
         room_of_coloured_glass(),
+        room_of_stripes(),
         specula_scene::builtin::orbs(),
     ] {
         let options = RenderOptions::from_scene(&scene);

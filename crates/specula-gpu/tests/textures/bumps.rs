@@ -366,8 +366,8 @@ fn planted_faults_of_bumps_are_found() {
         (
             fault(
                 "bump",
-                "partials.along_u * BUMP_STEP",
-                "partials.along_v * BUMP_STEP",
+                "partials.along_u * wanted.x",
+                "partials.along_v * wanted.x",
             ),
             "noise on sphere",
         ),

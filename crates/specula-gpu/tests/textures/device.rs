@@ -20,6 +20,10 @@ const RASTER: Module = (
     "texture_raster",
     include_str!("../../wgsl/texture_raster.wgsl"),
 );
+const FILTER: Module = (
+    "texture_filter",
+    include_str!("../../wgsl/texture_filter.wgsl"),
+);
 const NOISE: Module = (
     "texture_noise",
     include_str!("../../wgsl/texture_noise.wgsl"),
@@ -30,15 +34,17 @@ const GRAPH: Module = (
 );
 
 /// Modules of textures.
-pub(crate) const TEXTURES: [Module; 7] = [WORLD, ANGLES, PLACE, MAPPING, RASTER, NOISE, GRAPH];
+pub(crate) const TEXTURES: [Module; 8] =
+    [WORLD, ANGLES, PLACE, MAPPING, RASTER, FILTER, NOISE, GRAPH];
 
 /// Modules of bump maps, besides the library's `frame`.
-pub(crate) const BUMPS: [Module; 11] = [
+pub(crate) const BUMPS: [Module; 12] = [
     WORLD,
     ANGLES,
     PLACE,
     MAPPING,
     RASTER,
+    FILTER,
     NOISE,
     GRAPH,
     ("ray", include_str!("../../wgsl/ray.wgsl")),

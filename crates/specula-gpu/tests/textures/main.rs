@@ -19,7 +19,7 @@ mod common;
 mod device;
 mod nodes;
 
-use specula_render::{PreparedScene, RenderOptions, TexturePoint};
+use specula_render::{PreparedScene, RenderOptions, TextureFootprint, TexturePoint};
 use specula_stat::Rng;
 
 use device::{Device, Fault, Shader};
@@ -40,22 +40,31 @@ fn three(at: u32) -> vec3f {
     return vec3f(places[at], places[at + 1u], places[at + 2u]);
 }
 
+fn four(at: u32) -> vec4f {
+    return vec4f(three(at), places[at + 3u]);
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
-    let at = 13u * id.x;
+    let at = 27u * id.x;
     let uv = vec2f(places[at], places[at + 1u]);
     let second_uv = vec2f(places[at + 2u], places[at + 3u]);
-    let place = TextureCoordinates(uv, second_uv, three(at + 4u), three(at + 7u), three(at + 10u));
+    let footprint = Footprint(three(at + 13u), three(at + 16u), four(at + 19u), four(at + 23u));
+    let place = TextureCoordinates(uv, second_uv, three(at + 4u), three(at + 7u), three(at + 10u), footprint);
     let c = texture_colour(id.y, place);
-    let to = 3u * (id.x + id.y * arrayLength(&places) / 13u);
+    let to = 3u * (id.x + id.y * arrayLength(&places) / 27u);
     results[to] = c.x;
     results[to + 1u] = c.y;
     results[to + 2u] = c.z;
 }
 ";
 
-/// Coordinates, second coordinates, position, normal, colour.
-type TextureCoordinates = [f32; 13];
+/// Coordinates, second coordinates, position, normal, colour; of a footprint two half axes, then how much coordinates
+/// and second coordinates change along each.
+type TextureCoordinates = [f32; 27];
+
+/// Where the footprint begins.
+const FOOTPRINT: usize = 13;
 
 /// A random number in `[0, 1)`.
 #[expect(
@@ -79,8 +88,17 @@ fn places() -> Vec<TextureCoordinates> {
             }
             let normal = std::array::from_fn(|_| 2.0 * uniform(&mut rng) - 1.0);
             place[7..10].copy_from_slice(&unit(normal));
-            for colour in &mut place[10..] {
+            for colour in &mut place[10..FOOTPRINT] {
                 *colour = uniform(&mut rng);
+            }
+            // From a hundredth of a pixel to whole pictures, and points.
+            let size = if i % 16 == 15 {
+                0.0
+            } else {
+                (10.0 * uniform(&mut rng) - 10.0).exp2()
+            };
+            for part in &mut place[FOOTPRINT..] {
+                *part = size * (2.0 * uniform(&mut rng) - 1.0);
             }
             place
         })
@@ -94,6 +112,7 @@ fn unit(v: [f32; 3]) -> [f32; 3] {
 
 /// A texture's value on the CPU.
 fn value(scene: &PreparedScene, texture: usize, place: &TextureCoordinates) -> [f32; 3] {
+    let two = |i: usize| [place[i], place[i + 1]];
     let three = |i: usize| [place[i], place[i + 1], place[i + 2]];
     let at = TexturePoint {
         uv: [place[0], place[1]],
@@ -101,6 +120,11 @@ fn value(scene: &PreparedScene, texture: usize, place: &TextureCoordinates) -> [
         position: three(4),
         normal: three(7),
         colour: three(10),
+        footprint: Some(TextureFootprint {
+            axes: [three(13), three(16)],
+            uv: [two(19), two(21)],
+            second_uv: [two(23), two(25)],
+        }),
     };
     scene.texture_value(texture, &at)
 }

@@ -22,7 +22,7 @@ pub(crate) struct Node {
 }
 
 /// Faults, and what shows them.
-pub(crate) const FAULTS: [(Fault, &str); 14] = [
+pub(crate) const FAULTS: [(Fault, &str); 20] = [
     fault(
         "texture_mapping",
         "0.5 + turn",
@@ -97,6 +97,42 @@ pub(crate) const FAULTS: [(Fault, &str); 14] = [
         "mix by a picture",
     ),
     fault("texture_graph", "0.7152", "0.7153", "channel Luminance"),
+    fault(
+        "texture_filter",
+        "exp(-2.0 * squared)",
+        "exp(-1.9 * squared)",
+        "EWA, picture 1",
+    ),
+    fault(
+        "texture_filter",
+        "0.5 * log2(max",
+        "0.45 * log2(max",
+        "EWA, picture 1",
+    ),
+    fault(
+        "texture_filter",
+        "e.xy - scale",
+        "e.xy + scale",
+        "EWA, picture 0",
+    ),
+    fault(
+        "texture_filter",
+        "sqrt(max(ellipse.xx, ellipse.yy))",
+        "sqrt(ellipse.xx)",
+        "trilinear, picture 1",
+    ),
+    fault(
+        "texture_mapping",
+        "p.z * outwards - radius",
+        "p.z * outwards + radius",
+        "EWA, mapping spherical",
+    ),
+    fault(
+        "texture_mapping",
+        "footprint.changes, footprint.second_changes",
+        "footprint.changes, footprint.changes",
+        "EWA, mapping second uv",
+    ),
 ];
 
 const fn fault(
@@ -278,7 +314,62 @@ fn pictures(nodes: &mut Vec<Node>) {
     nodes.push(node("inverted picture", PICTURE, inverted.texture()));
 }
 
+/// Means over footprints: kinds of filter, wraps, odd sizes; every mapping.
+fn filtered(nodes: &mut Vec<Node>) {
+    let most_anisotropic = Interpolation::Ewa {
+        max_anisotropy: 8.0,
+    };
+    for (filter, name) in [
+        (Interpolation::Trilinear, "trilinear"),
+        (most_anisotropic, "EWA"),
+    ] {
+        for image in [0, 1] {
+            let picture = Picture {
+                filter,
+                ..Picture::of(image)
+            };
+            let name = format!("{name}, picture {image}");
+            nodes.push(node(name, PICTURE, picture.texture()));
+        }
+        for wrap in [Wrap::Black, Wrap::Clamp, Wrap::Mirror] {
+            let picture = Picture {
+                filter,
+                wrap: [wrap; 2],
+                ..Picture::of(1)
+            };
+            nodes.push(node(
+                format!("{name}, wrap {wrap:?}"),
+                PICTURE,
+                picture.texture(),
+            ));
+        }
+        for (mapping, of) in uneven_mappings() {
+            let picture = Picture {
+                filter,
+                mapping,
+                ..Picture::of(1)
+            };
+            nodes.push(node(
+                format!("{name}, mapping {of}"),
+                PICTURE,
+                picture.texture(),
+            ));
+        }
+    }
+}
+
 fn mappings(nodes: &mut Vec<Node>) {
+    for (mapping, name) in uneven_mappings() {
+        let picture = Picture {
+            mapping,
+            ..Picture::of(1)
+        };
+        nodes.push(node(format!("mapping {name}"), PICTURE, picture.texture()));
+    }
+}
+
+/// All but that of surface coordinates.
+fn uneven_mappings() -> [(TextureMapping, &'static str); 4] {
     let to_texture = turned();
     let planar = TextureMapping::Planar {
         to_texture,
@@ -286,18 +377,12 @@ fn mappings(nodes: &mut Vec<Node>) {
         t: [0.1, -0.3, 0.25, -0.1],
     };
     let second = UvMapping([[0.5, 0.2, 0.1], [0.1, 0.6, -0.3]]);
-    for (name, mapping) in [
-        ("second uv", TextureMapping::SecondUv(second)),
-        ("planar", planar),
-        ("spherical", TextureMapping::Spherical { to_texture }),
-        ("cylindrical", TextureMapping::Cylindrical { to_texture }),
-    ] {
-        let picture = Picture {
-            mapping,
-            ..Picture::of(1)
-        };
-        nodes.push(node(format!("mapping {name}"), PICTURE, picture.texture()));
-    }
+    [
+        (TextureMapping::SecondUv(second), "second uv"),
+        (planar, "planar"),
+        (TextureMapping::Spherical { to_texture }, "spherical"),
+        (TextureMapping::Cylindrical { to_texture }, "cylindrical"),
+    ]
 }
 
 fn noises(nodes: &mut Vec<Node>) {
@@ -326,6 +411,7 @@ pub(crate) fn all() -> Vec<Node> {
     let mut nodes = leaves();
     let [constant, bytes, floats] = [0, 1, 2].map(TextureId);
     pictures(&mut nodes);
+    filtered(&mut nodes);
     mappings(&mut nodes);
     noises(&mut nodes);
     let mut add = |name: &str, bound: f64, texture: Texture| {

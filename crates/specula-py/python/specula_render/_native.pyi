@@ -523,6 +523,7 @@ class RenderJob:
         max_depth: int | None,
         energy: str | None,
         sampler: str | None,
+        texture_filter: str,
         noise: float | None,
         resolution: Sequence[int] | None,
         clamp: float | None,
@@ -556,7 +557,10 @@ class PictureData:
     ) -> tuple[dict[str, Any], npt.NDArray[np.float32]]: ...
 
 def load(
-    path: str, parameters: Sequence[tuple[str, str]], search: Sequence[str]
+    path: str,
+    parameters: Sequence[tuple[str, str]],
+    search: Sequence[str],
+    exposure: tuple[float, float] | None,
 ) -> tuple[SceneData, list[str]]: ...
 def builtin() -> SceneData: ...
 def read_exr(path: str) -> PictureData: ...

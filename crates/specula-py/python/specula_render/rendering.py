@@ -119,6 +119,7 @@ def _job(
     max_depth: int | None,
     energy: str | None,
     sampler: str | None,
+    texture_filter: str,
     resolution: tuple[int, int] | None,
     clamp: float | None,
     regularize: bool,
@@ -140,6 +141,7 @@ def _job(
             max_depth=max_depth,
             energy=energy,
             sampler=sampler,
+            texture_filter=texture_filter,
             noise=noise,
             resolution=resolution,
             clamp=clamp,
@@ -162,6 +164,7 @@ def render(
     max_depth: int | None = None,
     energy: str | None = None,
     sampler: str | None = None,
+    texture_filter: str = "scene",
     resolution: tuple[int, int] | None = None,
     clamp: float | None = None,
     regularize: bool = False,
@@ -201,6 +204,10 @@ def render(
         ``"multibounce=MODEL"``; by default as the scene says.
     sampler
         Sampler of visible normals: ``"heitz"``, ``"cap"``, ``"bounded"`` or ``"exact"``.
+    texture_filter
+        ``"scene"``: as the scene says; ``"bilinear"``: not over footprints; ``"trilinear"`` or
+        ``"ewa"``: over footprints, with less noise where pictures are seen from afar, and a bias
+        that falls with the samples.
     resolution
         Width and height of the picture; by default those of the scene.
     clamp
@@ -242,7 +249,9 @@ def render(
         noise = 0.0
     if time is not None and not time > 0.0:
         raise ValueError(f"time: expected seconds above 0, got {time}")
-    options = (seed, threads, max_depth, energy, sampler, resolution, clamp, regularize)
+    options = (
+        seed, threads, max_depth, energy, sampler, texture_filter, resolution, clamp, regularize
+    )
     job = _job(
         scene,
         spp,
@@ -269,6 +278,7 @@ def render_iter(
     max_depth: int | None = None,
     energy: str | None = None,
     sampler: str | None = None,
+    texture_filter: str = "scene",
     resolution: tuple[int, int] | None = None,
     clamp: float | None = None,
     regularize: bool = False,
@@ -280,7 +290,9 @@ def render_iter(
 
     Parameters
     ----------
-    scene, spp, threads, seed, max_depth, energy, sampler, resolution, clamp, regularize
+    scene, spp, threads, seed, max_depth, energy, sampler, texture_filter, resolution
+        As for `render`.
+    clamp, regularize
         As for `render`.
 
     Yields
@@ -299,7 +311,9 @@ def render_iter(
     >>> [picture.samples for picture in steps]
     [1.0, 2.0, 4.0, 5.0]
     """
-    options = (seed, threads, max_depth, energy, sampler, resolution, clamp, regularize)
+    options = (
+        seed, threads, max_depth, energy, sampler, texture_filter, resolution, clamp, regularize
+    )
     return _steps(_job(scene, spp, *options))
 
 
@@ -313,6 +327,7 @@ def render_live(
     max_depth: int | None = None,
     energy: str | None = None,
     sampler: str | None = None,
+    texture_filter: str = "scene",
     resolution: tuple[int, int] | None = None,
     clamp: float | None = None,
     regularize: bool = False,
@@ -323,7 +338,9 @@ def render_live(
 
     Parameters
     ----------
-    scene, spp, threads, seed, max_depth, energy, sampler, resolution, clamp, regularize
+    scene, spp, threads, seed, max_depth, energy, sampler, texture_filter, resolution
+        As for `render`.
+    clamp, regularize
         As for `render`.
     every
         Seconds between two pictures.
@@ -346,7 +363,9 @@ def render_live(
         raise ImportError("render_live needs Jupyter: pip install ipykernel") from error
     if not every > 0.0:
         raise ValueError(f"every: expected seconds above 0, got {every}")
-    options = (seed, threads, max_depth, energy, sampler, resolution, clamp, regularize)
+    options = (
+        seed, threads, max_depth, energy, sampler, texture_filter, resolution, clamp, regularize
+    )
     job = _job(scene, spp, *options)
     job.advance(1, None, None)
     picture = _picture(job)

@@ -489,6 +489,8 @@ def load(
     *,
     parameters: Mapping[str, object] | None = None,
     search: Sequence[PathLike] = (),
+    at: float | None = None,
+    shutter: float | None = None,
 ) -> Scene:
     """Read a scene: pbrt-v4, Mitsuba 3, glTF 2.0, OBJ or PLY; the content tells which.
 
@@ -500,6 +502,11 @@ def load(
         Values of ``$name`` in a Mitsuba scene.
     search
         Folders that are searched for files that the scene names and that are not beside it.
+    at
+        The moment of a glTF file's animation that is shown, in seconds; by default the pose that
+        the file stores.
+    shutter
+        Seconds that the shutter is open from that moment on: what moves is blurred.
 
     Raises
     ------
@@ -507,7 +514,7 @@ def load(
         If a file cannot be read.
     ValueError
         If the scene is damaged or would be meaningless; the message begins with file, line and
-        column.
+        column. If a time is below 0.
 
     Warns
     -----
@@ -515,7 +522,9 @@ def load(
         Of every difference between the file and what is rendered.
     """
     given = [(name, str(value)) for name, value in (parameters or {}).items()]
-    data, messages = _native.load(os.fspath(path), given, [os.fspath(p) for p in search])
+    folders = [os.fspath(p) for p in search]
+    exposure = None if at is None and shutter is None else (at or 0.0, shutter or 0.0)
+    data, messages = _native.load(os.fspath(path), given, folders, exposure)
     for message in dict.fromkeys(messages):
         warnings.warn(message, SceneWarning, stacklevel=2)
     return Scene._of(data)

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Duration;
 
 use glam::DMat4;
 use numpy::PyReadonlyArray2;
@@ -14,7 +15,7 @@ use specula::scene::scene::{
     Material as SceneMaterial, MaterialId, Mesh, MeshId, Object, ObjectId, ObjectInstance,
     Settings, Shape, SpotFalloff,
 };
-use specula::scene::{ErrorKind, LoadOptions, Scene, SceneError, Warning, load_with};
+use specula::scene::{ErrorKind, Exposure, LoadOptions, Scene, SceneError, Warning, load_with};
 use specula_bsdf::math::Rgb;
 
 use super::geometry::{affine, drop_flat, finite, triangles, unit};
@@ -51,17 +52,19 @@ type Surface = (Option<Material>, Option<Colour>, bool);
 
 /// Reads a scene of any format; returns it with the warnings of its reader.
 #[pyfunction]
-#[pyo3(signature = (path, parameters, search))]
+#[pyo3(signature = (path, parameters, search, exposure))]
 pub(crate) fn load(
     py: Python<'_>,
     path: PathBuf,
     parameters: Vec<(String, String)>,
     search: Vec<PathBuf>,
+    exposure: Option<[f64; 2]>,
 ) -> PyResult<(SceneData, Vec<String>)> {
     std::fs::metadata(&path).map_err(|e| io_error(&path, &e))?;
     let mut options = LoadOptions::default();
     options.parameters = parameters;
     options.folders = search;
+    options.exposure = exposure.map(exposed).transpose()?;
     let loaded = py
         .detach(|| load_with(&path, &options))
         .map_err(|e| scene_error(&e))?;
@@ -69,6 +72,18 @@ pub(crate) fn load(
     let warnings = loaded.warnings.iter().map(said).collect();
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     Ok((SceneData::of(loaded.scene, name.into_owned()), warnings))
+}
+
+/// When the shutter is open, from the seconds of `at` and `shutter`.
+fn exposed([at, shutter]: [f64; 2]) -> PyResult<Exposure> {
+    let seconds = |name: &str, x: f64| {
+        Duration::try_from_secs_f64(x)
+            .map_err(|_| invalid(format!("{name}: expected seconds from 0 on, got {x}")))
+    };
+    Ok(Exposure {
+        time: seconds("at", at)?,
+        shutter: seconds("shutter", shutter)?,
+    })
 }
 
 fn scene_error(error: &SceneError) -> PyErr {

@@ -43,14 +43,20 @@ impl Textures {
     /// Pictures, nodes, then a table of the nodes' offsets.
     ///
     /// Constants say what shaders can leave out: `TEXTURE_COUNT`, `TEXTURE_HAS_INPUTS`,
-    /// `TEXTURE_HAS_NOISE`, and `TEXTURE_WAITING`, the size of their stack.
+    /// `TEXTURE_HAS_NOISE`, `TEXTURES_ARE_FILTERED`, and `TEXTURE_WAITING`, the size of their stack.
     ///
     /// Returns features that shaders do not support, in words for a message.
     pub(crate) fn flatten(&self, to: &mut Words) -> Vec<String> {
-        let rasters: Vec<u32> = self
+        let rasters: Vec<RasterPlace> = self
             .rasters
             .iter()
-            .map(|raster| raster.flatten(to))
+            .map(|raster| {
+                let at = raster.flatten(to);
+                RasterPlace {
+                    at,
+                    pyramid: raster.flatten_pyramid(at, to),
+                }
+            })
             .collect();
         let mut records = Records::default();
         for node in &self.nodes {
@@ -70,10 +76,6 @@ impl Textures {
                 "textures that share inputs so often that they unfold to more than {MOST_VISITS}"
             ));
         }
-        if self.is_filtered {
-            let filtered = "textures filtered over footprints (--texture-filter bilinear renders them unfiltered)";
-            missing.push(filtered.to_owned());
-        }
         let has_noise = self
             .nodes
             .iter()
@@ -90,12 +92,21 @@ impl Textures {
                 u32::from(self.nodes.iter().any(Node::has_inputs)),
             ),
             ("TEXTURE_HAS_NOISE", u32::from(has_noise)),
+            ("TEXTURES_ARE_FILTERED", u32::from(self.is_filtered)),
             ("TEXTURE_WAITING", waiting.clamp(1, MOST_WAITING)),
         ] {
             to.constant(name, value);
         }
         missing
     }
+}
+
+/// Where a picture is.
+struct RasterPlace {
+    /// Its pixels.
+    at: u32,
+    /// Its pyramid; [`NONE`] where it has none.
+    pyramid: u32,
 }
 
 /// Nodes that were written.
@@ -107,7 +118,7 @@ struct Records {
 }
 
 impl Records {
-    fn add(&mut self, node: &Node, rasters: &[u32], to: &mut Words) {
+    fn add(&mut self, node: &Node, rasters: &[RasterPlace], to: &mut Words) {
         let [first, second] = node.inputs();
         let deepest = node.all_inputs().map(|input| self.waiting[input.0]).max();
         self.waiting
@@ -226,9 +237,11 @@ impl Node {
 }
 
 impl Picture {
-    /// Offset of its raster, channel, whether it is inverted, factor, wraps, filter, mapping.
-    fn flatten(&self, rasters: &[u32], to: &mut Words) {
-        to.id(rasters[self.image]);
+    /// Offset of its raster, channel, whether it is inverted, factor, wraps, filter, offset of its pyramid, largest
+    /// anisotropy, mapping.
+    fn flatten(&self, rasters: &[RasterPlace], to: &mut Words) {
+        let RasterPlace { at, pyramid } = rasters[self.image];
+        to.id(at);
         to.id(match self.channel {
             Channel::Rgb => codes::TEXTURE_CHANNEL_RGB,
             Channel::Mean => codes::TEXTURE_CHANNEL_MEAN,
@@ -245,7 +258,14 @@ impl Picture {
             Wrap::Clamp => codes::TEXTURE_RASTER_CLAMP,
             Wrap::Mirror => codes::TEXTURE_RASTER_MIRROR,
         }));
-        to.flag(matches!(self.lookup.filter, Interpolation::Nearest));
+        let (filter, max_anisotropy) = match self.lookup.filter {
+            Interpolation::Bilinear => (codes::TEXTURE_FILTER_BILINEAR, 1.0),
+            Interpolation::Nearest => (codes::TEXTURE_FILTER_NEAREST, 1.0),
+            Interpolation::Trilinear => (codes::TEXTURE_FILTER_TRILINEAR, 1.0),
+            Interpolation::Ewa { max_anisotropy } => (codes::TEXTURE_FILTER_EWA, max_anisotropy),
+        };
+        to.ids([filter, pyramid]);
+        to.number(max_anisotropy);
         self.mapping.flatten(to);
     }
 }

@@ -9,7 +9,8 @@ use specula_bsdf::math::rgb;
 use specula_scene::Pixels;
 use specula_scene::scene::{Interpolation, Wrap};
 
-use crate::convert::floor_i32;
+use crate::codes::NONE;
+use crate::convert::{floor_i32, id};
 use crate::words::Words;
 
 /// A picture's pixels, row by row from the top, in the depth of its file.
@@ -109,6 +110,21 @@ impl Raster {
             let words = indexed.indices.iter();
             to.ids(words.map(|&i| u32::from_le_bytes([i, i, i, 0])));
         }
+        here
+    }
+
+    /// The number of smaller levels, then the offsets of all, the picture itself first. Returns its offset; [`NONE`]
+    /// where smaller levels were not made.
+    ///
+    /// * `at`: offset of the picture itself.
+    pub(super) fn flatten_pyramid(&self, at: u32, to: &mut Words) -> u32 {
+        if self.smaller.is_empty() && self.width.max(self.height) > 1 {
+            return NONE;
+        }
+        let levels: Vec<u32> = self.smaller.iter().map(|level| level.flatten(to)).collect();
+        let here = to.offset();
+        to.id(id(levels.len()));
+        to.ids([at].into_iter().chain(levels));
         here
     }
 }

@@ -101,6 +101,7 @@ fn describe(named: &Named) -> String {
             s.triangles, s.meshes, s.triangles_shown, s.instances, s.objects
         ),
     ));
+    lines.extend(motion(&named.scene).map(|motion| ("motion", motion)));
     lines.push(("materials", counts(&s.materials)));
     lines.push(("textures", counts(&s.textures)));
     lines.push(("lights", counts(&s.lights)));
@@ -135,6 +136,25 @@ fn describe(named: &Named) -> String {
         }
     }
     text
+}
+
+/// What moves while the shutter is open; `None`: nothing.
+fn motion(scene: &Scene) -> Option<String> {
+    let in_objects = scene.objects.iter().flat_map(|object| &object.shapes);
+    let shapes = scene.shapes.iter().chain(in_objects);
+    let instances = scene.instances.iter();
+    let counted = |count: usize, one: &str| match count {
+        0 => None,
+        1 => Some(format!("1 {one}")),
+        n => Some(format!("{n} {one}s")),
+    };
+    let parts = [
+        counted(shapes.filter(|s| s.motion.is_some()).count(), "shape"),
+        counted(instances.filter(|i| i.motion.is_some()).count(), "instance"),
+        scene.camera.motion.map(|_| "the camera".to_owned()),
+    ];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    (!parts.is_empty()).then(|| parts.join(", "))
 }
 
 /// What a render with the scene's own settings would take.

@@ -27,6 +27,7 @@ mod memory;
 #[cfg(target_os = "linux")]
 mod messages;
 mod missing;
+mod motion;
 mod outputs;
 mod render;
 #[cfg(all(unix, feature = "studio"))]

@@ -8,14 +8,15 @@
 #![allow(clippy::print_stdout, reason = "a suite says how much it checked")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail loudly")]
 
+#[path = "../common/mod.rs"]
 mod common;
-#[path = "common/queries.rs"]
+#[path = "../common/queries.rs"]
 mod offered;
+mod textures;
 
 use std::sync::atomic::AtomicBool;
 
 use common::gpu;
-use glam::DMat4;
 use offered::gpu_with_queries;
 use specula_bsdf::Rgb;
 use specula_bsdf::math::rgb;
@@ -25,8 +26,8 @@ use specula_render::picture::Picture;
 use specula_render::{PreparedScene, RenderOptions, Renderer, Strategy};
 use specula_scene::Scene;
 use specula_scene::scene::{
-    ColourParam, EnvironmentMapping, Filter, FloatParam, GltfMaterial, ImageProjection, Light,
-    MaterialKind, PrincipledMaterial, Profile, Projection, Texture, TextureId, TextureMapping,
+    ColourParam, EnvironmentMapping, Filter, FloatParam, GltfMaterial, MaterialKind,
+    PrincipledMaterial, Projection,
 };
 use specula_stat::image::{NoisyImage, compare};
 
@@ -373,50 +374,6 @@ AttributeBegin Translate 0.8 0 0.3 Scale 0.8 0.8 1.2 ObjectInstance \"thing\" At
 }
 
 #[test]
-fn lights_that_vary_and_projected_pictures() {
-    let room = "
-Texture \"holes\" \"float\" \"checkerboard\" \"float uscale\" 6 \"float vscale\" 6 \"float tex1\" 1 \"float tex2\" 0.2
-Material \"diffuse\"
-Shape \"disk\" \"float radius\" 4
-AttributeBegin
-AreaLightSource \"diffuse\"
-Shape \"trianglemesh\" \"point3 P\" [-1.5 1 0.2  0.5 1 0.2  0.5 1.4 1.8  -1.5 1.4 1.8] \"point2 uv\" [0 0 1 0 1 1 0 1] \"integer indices\" [0 1 2 0 2 3]
-AttributeEnd
-AttributeBegin
-AreaLightSource \"diffuse\" \"rgb L\" [2 3 4] \"bool twosided\" true
-Translate 1 0 0.7
-Shape \"sphere\" \"float radius\" 0.4 \"texture alpha\" \"holes\"
-AttributeEnd
-";
-    let painted = |scene: &mut Scene| {
-        let texture = TextureId(scene.textures.len());
-        scene.textures.push(Texture::Bilinear {
-            corners: [[0.0; 3], [4.0, 2.0, 1.0], [1.0, 3.0, 5.0], [9.0; 3]].map(Rgb::from),
-            mapping: TextureMapping::default(),
-        });
-        ColourParam::Texture(texture)
-    };
-    let mut vary = scene(room);
-    let radiance = painted(&mut vary);
-    for emission in vary.shapes.iter_mut().filter_map(|s| s.emission.as_mut()) {
-        emission.radiance = radiance;
-    }
-    check("lights that vary", &vary, |o| o);
-    let mut projected = scene("Material \"diffuse\" Shape \"disk\" \"float radius\" 4");
-    let intensity = painted(&mut projected);
-    projected.lights.push(Light::Picture {
-        to_world: DMat4::from_translation([0.0, 0.0, 1.5].into())
-            * DMat4::from_rotation_x(std::f64::consts::PI),
-        intensity,
-        image_projection: ImageProjection::Window {
-            half: [0.9, 0.6],
-            profile: Profile::Intensity,
-        },
-    });
-    check("projected pictures", &projected, |o| o);
-}
-
-#[test]
 fn lenses_filters_and_views() {
     let text = format!("{ROOM}{SKY}{}", orbs(["Material \"diffuse\""; 2]));
     let mut lens = scene(&text);
@@ -444,28 +401,6 @@ fn films_that_expose_bound_and_balance() {
     scene.film.max_component = Some(0.6);
     scene.film.balance = [[0.9, 0.2, -0.1], [0.1, 1.1, 0.0], [0.0, -0.2, 1.3]];
     check("films", &scene, |o| o);
-}
-
-#[test]
-fn textures_bumps_and_cut_outs() {
-    let textures = "
-Texture \"squares\" \"spectrum\" \"checkerboard\" \"float uscale\" 8 \"float vscale\" 8 \"rgb tex1\" [0.1 0.3 0.7] \"rgb tex2\" [0.8 0.7 0.2]
-Texture \"spots\" \"float\" \"fbm\" \"integer octaves\" 4
-Texture \"rough\" \"float\" \"scale\" \"texture tex\" \"spots\" \"float scale\" 0.4
-Texture \"bumps\" \"float\" \"scale\" \"texture tex\" \"spots\" \"float scale\" 0.05
-Texture \"holes\" \"float\" \"checkerboard\" \"float uscale\" 6 \"float vscale\" 6 \"float tex1\" 1 \"float tex2\" 0.2
-";
-    let painted = "Material \"diffuse\" \"texture reflectance\" \"squares\" \"texture displacement\" \"bumps\"";
-    let worn =
-        "Material \"conductor\" \"rgb reflectance\" [0.9 0.8 0.7] \"texture roughness\" \"rough\"";
-    let text = format!("{ROOM}{SKY}{textures}{}", orbs([painted, worn]));
-    check("textures, bumps", &scene(&text), |o| o);
-    let veil = "Material \"diffuse\" Shape \"disk\" \"float radius\" 1 \"float height\" 1.4 \"texture alpha\" \"holes\"\n";
-    check(
-        "cut-outs",
-        &scene(&format!("{ROOM}{SKY}{textures}{veil}")),
-        |o| o,
-    );
 }
 
 #[test]
