@@ -34,6 +34,9 @@ SCENES = [
     ("staircase2/staircase2", 128, 128, 512, 512),
     ("bmw-m6/bmw-m6", 136, 96, 128, 128),
     ("volumetric-caustic/volumetric-caustic", 96, 96, 256, 256),
+    # Our own, of `data`.
+    ("features/motion", 160, 120, 1024, 1024),
+    ("features/flat", 160, 120, 512, 512),
 ]
 RUNS = 4
 
@@ -50,6 +53,7 @@ def main():
     for name in ("pbrt", "specula", "scenes", "out"):
         parser.add_argument(f"--{name}", type=Path, required=True)
     parser.add_argument("--thin-coats", action="store_true", help="pbrt's coats do not absorb")
+    parser.add_argument("--world", action="store_true", help="pbrt interpolates motions in the world")
     parser.add_argument("--threads", type=int, default=os.cpu_count())
     parser.add_argument("names", nargs="*", help="parts of scenes' names")
     options = parser.parse_args()
@@ -73,8 +77,9 @@ def main():
         theirs, their_time = [], 0.0
         for seed in range(RUNS):
             picture = work / f"pbrt-{seed}.exr"
-            command = [options.pbrt, "--quiet", "--nthreads", t, "--seed", seed + 1, "--outfile"]
-            their_time += run([*command, picture, file], log)
+            command = [options.pbrt, "--quiet", "--nthreads", t, "--seed", seed + 1]
+            command += ["--render-coord-sys", "world"] if options.world else []
+            their_time += run([*command, "--outfile", picture, file], log)
             theirs.append(pictures.load(picture)[0])
         own, peer = pictures.load(mine), pictures.of_runs(theirs)
         row = pictures.compare(own, peer)
