@@ -154,7 +154,14 @@ pub(crate) fn source(flat: &FlatScene<'_>, queries: bool) -> Result<String, Comp
 
 /// Modules of rays alone, besides those that cast them.
 #[cfg(feature = "device")]
-const OF_RAYS: [&str; 5] = ["world", "ray", "quadric", "angles", "surface"];
+const OF_RAYS: [&str; 6] = [
+    "world",
+    "ray",
+    "quadric",
+    "angles",
+    "texture_coordinates",
+    "surface",
+];
 
 /// The text of a shader that casts rays and nothing else.
 ///

@@ -52,43 +52,45 @@ struct AreaCone {
 ///
 /// Twin: specula-render/src/light/area.rs, Area::sample.
 fn area_sample(at: u32, p: vec3f, u: vec2f) -> AreaSample {
-    switch word(at) {
-        case AREA_PARALLELOGRAM: {
-            let seen = parallelogram_sample(at + 1u, p, u);
-            return AreaSample(
-                seen.position, vector(at + 23u), vector(at + 10u), seen.wi, seen.pdf,
-            );
-        }
-        case AREA_SPHERE: {
-            return area_sample_sphere(at, p, u);
-        }
-        case AREA_ELLIPSOID: {
-            let d = warp_uniform_sphere(u);
-            let stretched = affine_vector(at + 25u, d);
-            let growth = length(stretched);
-            let normal = stretched * (area_sign(at + 37u) / growth);
-            let reach = affine_magnitude(at + 1u, d);
-            return area_by_area(
-                p, affine_point(at + 1u, d), reach, normal, AREA_PER_SPHERE / growth,
-            );
-        }
-        default: {
-            var weights = area_triangle(u);
-            if word(at) == AREA_DISK {
-                weights = area_disk(u);
-            }
-            let corner = vector(at + 1u);
-            let edge = vector(at + 4u);
-            let other = vector(at + 7u);
-            return area_by_area(
-                p,
-                corner + edge * weights.x + other * weights.y,
-                abs(corner) + abs(edge) + abs(other),
-                vector(at + 10u),
-                1.0 / number(at + 13u),
-            );
-        }
+    let kind = word(at);
+    if AREA_HAS_PARALLELOGRAM != 0u && kind == AREA_PARALLELOGRAM {
+        let seen = parallelogram_sample(at + 1u, p, u);
+        return AreaSample(seen.position, vector(at + 23u), vector(at + 10u), seen.wi, seen.pdf);
     }
+    if AREA_HAS_SPHERE != 0u && kind == AREA_SPHERE {
+        return area_sample_sphere(at, p, u);
+    }
+    if AREA_HAS_ELLIPSOID != 0u && kind == AREA_ELLIPSOID {
+        let d = warp_uniform_sphere(u);
+        let stretched = affine_vector(at + 25u, d);
+        let growth = length(stretched);
+        let normal = stretched * (area_sign(at + 37u) / growth);
+        let reach = affine_magnitude(at + 1u, d);
+        return area_by_area(p, affine_point(at + 1u, d), reach, normal, AREA_PER_SPHERE / growth);
+    }
+    if AREA_HAS_FLAT != 0u {
+        return area_sample_flat(at, p, u);
+    }
+    var none: AreaSample;
+    return none;
+}
+
+/// Samples a point of the triangle or disk at `at`, as seen from `p`.
+fn area_sample_flat(at: u32, p: vec3f, u: vec2f) -> AreaSample {
+    var weights = area_triangle(u);
+    if word(at) == AREA_DISK {
+        weights = area_disk(u);
+    }
+    let corner = vector(at + 1u);
+    let edge = vector(at + 4u);
+    let other = vector(at + 7u);
+    return area_by_area(
+        p,
+        corner + edge * weights.x + other * weights.y,
+        abs(corner) + abs(edge) + abs(other),
+        vector(at + 10u),
+        1.0 / number(at + 13u),
+    );
 }
 
 /// Density in 1/sr with which `area_sample` samples the direction from `p` to the point `q` of the shape at
@@ -98,26 +100,23 @@ fn area_sample(at: u32, p: vec3f, u: vec2f) -> AreaSample {
 ///
 /// Twin: specula-render/src/light/area.rs, Area::pdf.
 fn area_pdf(at: u32, p: vec3f, q: vec3f, normal: vec3f) -> f32 {
+    let kind = word(at);
     var per_area = 0.0;
-    switch word(at) {
-        case AREA_PARALLELOGRAM: {
-            return parallelogram_pdf(at + 1u, p, q);
+    if AREA_HAS_PARALLELOGRAM != 0u && kind == AREA_PARALLELOGRAM {
+        return parallelogram_pdf(at + 1u, p, q);
+    }
+    if AREA_HAS_SPHERE != 0u && kind == AREA_SPHERE {
+        let radius = number(at + 4u);
+        let cone = area_cone(p, vector(at + 1u), radius);
+        if cone.one_minus_cosine > 0.0 {
+            return 2.0 * AREA_PER_SPHERE / cone.one_minus_cosine;
         }
-        case AREA_SPHERE: {
-            let radius = number(at + 4u);
-            let cone = area_cone(p, vector(at + 1u), radius);
-            if cone.one_minus_cosine > 0.0 {
-                return 2.0 * AREA_PER_SPHERE / cone.one_minus_cosine;
-            }
-            per_area = AREA_PER_SPHERE / (radius * radius);
-        }
-        case AREA_ELLIPSOID: {
-            let d = unit_or(affine_point(at + 13u, q), vec3f(0.0, 0.0, 1.0));
-            per_area = AREA_PER_SPHERE / length(affine_vector(at + 25u, d));
-        }
-        default: {
-            per_area = 1.0 / number(at + 13u);
-        }
+        per_area = AREA_PER_SPHERE / (radius * radius);
+    } else if AREA_HAS_ELLIPSOID != 0u && kind == AREA_ELLIPSOID {
+        let d = unit_or(affine_point(at + 13u, q), vec3f(0.0, 0.0, 1.0));
+        per_area = AREA_PER_SPHERE / length(affine_vector(at + 25u, d));
+    } else {
+        per_area = 1.0 / number(at + 13u);
     }
     let d = q - p;
     let distance_squared = dot(d, d);

@@ -162,6 +162,25 @@ fn bound_alphas(across: f32, along: f32, mapping: u32) -> vec2f {
     return select(vec2f(0.0), clamp(r, vec2f(BOUND_SMOOTH_BELOW), vec2f(10.0)), is_rough);
 }
 
+/// A code that is stored with a material, by the constant of the only one that the scene has; NONE: it has several. What
+/// shaders know beforehand leaves nothing to compile of the others.
+fn bound_only(only: u32, stored: u32) -> u32 {
+    if only != NONE {
+        return only;
+    }
+    return stored;
+}
+
+/// The distribution of normals.
+fn bound_distribution(b: Bound) -> u32 {
+    return bound_only(ONLY_DISTRIBUTION, b.distribution);
+}
+
+/// The masking.
+fn bound_masking(b: Bound) -> u32 {
+    return bound_only(ONLY_MASKING, b.masking);
+}
+
 /// Alphas, distribution and masking from the first two parameters and the first three words.
 fn bound_roughness(b: Bound, p: Parameters) -> Bound {
     var rough = b;

@@ -31,7 +31,7 @@ fn footprint_of(s: Surface, direction: vec3f, radius: f32) -> Footprint {
 fn footprint_with_changes(s: Surface, first: vec3f, second: vec3f) -> Footprint {
     let placement = INSTANCES + s.instance * INSTANCE_SIZE;
     let group = word(placement);
-    if s.primitive >= word(group + GROUP_TRIANGLE_COUNT) {
+    if QUADRIC_COUNT != 0u && s.primitive >= word(group + GROUP_TRIANGLE_COUNT) {
         let partials = partials_of(s);
         let along = footprint_weights(first, second, partials.along_u, partials.along_v);
         return Footprint(first, second, along, vec4f(0.0));

@@ -3,7 +3,7 @@
 // Twin of specula-render/src/material/bind.rs, MaterialKind::Dielectric.
 
 import tracer::world::{number};
-import tracer::bound::{Bound, Parameters, bound_albedo, bound_roughness};
+import tracer::bound::{Bound, Parameters, bound_albedo, bound_distribution, bound_masking, bound_roughness};
 import package::bsdf::tints::{TintsPair};
 import package::bsdf::microfacets::{MicrofacetsModel};
 import package::bsdf::smooth_dielectric::{SmoothDielectric};
@@ -29,7 +29,7 @@ fn glass_tints(b: Bound) -> TintsPair {
 /// The facets of glass that `glass_bind` bound. They are sampled by spherical caps, whatever sampler metals
 /// have: refraction needs all visible normals.
 fn glass_facets(b: Bound) -> MicrofacetsModel {
-    return MicrofacetsModel(b.alpha, b.distribution, b.masking, SAMPLER_CAP);
+    return MicrofacetsModel(b.alpha, bound_distribution(b), bound_masking(b), SAMPLER_CAP);
 }
 
 /// The smooth surface of glass that `glass_bind` bound, facing the viewer.

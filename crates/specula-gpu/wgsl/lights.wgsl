@@ -72,13 +72,19 @@ fn lights_sample(receiver: Receiver, u: vec4f) -> LightSample {
     let at = word(LIGHT_PLACES + choice.light);
     switch word(at) {
         case LIGHTS_AREA: {
-            sampled = lights_sample_area(at + 1u, receiver.position, u.yz);
+            if LIGHT_HAS_AREA != 0u {
+                sampled = lights_sample_area(at + 1u, receiver.position, u.yz);
+            }
         }
         case LIGHTS_FAR: {
-            sampled = lights_sample_far(word(LIGHT_FAR + 2u * word(at + 1u)), u.yz);
+            if LIGHT_FAR_COUNT != 0u {
+                sampled = lights_sample_far(word(LIGHT_FAR + 2u * word(at + 1u)), u.yz);
+            }
         }
         case LIGHTS_DELTA: {
-            sampled = lights_sample_delta(at + 1u, receiver.position);
+            if LIGHT_HAS_DELTA != 0u {
+                sampled = lights_sample_delta(at + 1u, receiver.position);
+            }
         }
         case LIGHTS_TEXTURED: {
             if LIGHT_HAS_TEXTURED != 0u {
@@ -124,18 +130,20 @@ fn lights_from_area(s: AreaSample, radiance: vec3f, two_sided: bool) -> LightSam
 fn lights_sample_far(at: u32, u: vec2f) -> LightSample {
     var sampled: LightSample;
     sampled.from_infinity = 1u;
-    if word(at) == LIGHTS_SUN {
+    if LIGHT_HAS_SUN != 0u && word(at) == LIGHTS_SUN {
         sampled.wi = sun_sample(at + 1u, u);
         sampled.radiance = vector(at + 10u);
         sampled.pdf = sun_density(at + 1u);
         sampled.valid = 1u;
         return sampled;
     }
-    let s = environment_sample(at + 1u, u);
-    sampled.wi = s.wi;
-    sampled.radiance = s.radiance;
-    sampled.pdf = s.pdf;
-    sampled.valid = u32(s.pdf > 0.0);
+    if LIGHT_HAS_ENVIRONMENT != 0u {
+        let s = environment_sample(at + 1u, u);
+        sampled.wi = s.wi;
+        sampled.radiance = s.radiance;
+        sampled.pdf = s.pdf;
+        sampled.valid = u32(s.pdf > 0.0);
+    }
     return sampled;
 }
 
@@ -175,7 +183,7 @@ fn lights_pdf_of_surface(
     }
     let at = word(LIGHT_PLACES + light);
     var pdf = 0.0;
-    if word(at) == LIGHTS_AREA {
+    if LIGHT_HAS_AREA != 0u && word(at) == LIGHTS_AREA {
         pdf = area_pdf(at + 5u, receiver.position, position, normal);
     } else if LIGHT_HAS_TEXTURED != 0u && word(at) == LIGHTS_TEXTURED {
         pdf = textured_pdf(at + 2u, receiver.position, position, normal, weights);
@@ -198,9 +206,9 @@ fn lights_arriving_from_infinity(i: u32, wi: vec3f) -> vec4f {
     let at = word(LIGHT_FAR + 2u * i);
     let light = word(LIGHT_FAR + 2u * i + 1u);
     var arriving = vec4f(0.0);
-    if word(at) == LIGHTS_SUN {
+    if LIGHT_HAS_SUN != 0u && word(at) == LIGHTS_SUN {
         arriving = sun_arriving(at + 1u, wi);
-    } else {
+    } else if LIGHT_HAS_ENVIRONMENT != 0u {
         arriving = environment_arriving(at + 1u, wi);
     }
     var probability = 0.0;

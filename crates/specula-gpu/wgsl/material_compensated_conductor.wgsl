@@ -2,7 +2,7 @@
 //
 // Twin of specula-render/src/material/{bind,rough}.rs.
 
-import tracer::bound::{Bound, Parameters};
+import tracer::bound::{Bound, Parameters, bound_only};
 import tracer::metal::{metal_bind, metal_reflectance, metal_facets, metal_albedo};
 import package::bsdf::smooth_conductor::{SmoothConductor, smooth_conductor_sample};
 import package::bsdf::compensated::{compensated_new, compensated_eval_pdf, compensated_sample};
@@ -18,7 +18,7 @@ fn material_compensated_conductor_eval(b: Bound, wo: vec3f, wi: vec3f, stream: v
     if b.specular {
         return vec4f(0.0);
     }
-    let lobe = compensated_new(metal_facets(b), metal_reflectance(b), b.energy);
+    let lobe = compensated_new(metal_facets(b), metal_reflectance(b), bound_only(ONLY_COMPENSATION, b.energy));
     return compensated_eval_pdf(lobe, wo, wi, BSDF_SAMPLE_RADIANCE);
 }
 
@@ -28,7 +28,7 @@ fn material_compensated_conductor_sample(b: Bound, wo: vec3f, u: vec3f, stream: 
         let mirror = SmoothConductor(metal_reflectance(b));
         return smooth_conductor_sample(mirror, wo, u, BSDF_SAMPLE_RADIANCE);
     }
-    let lobe = compensated_new(metal_facets(b), metal_reflectance(b), b.energy);
+    let lobe = compensated_new(metal_facets(b), metal_reflectance(b), bound_only(ONLY_COMPENSATION, b.energy));
     return compensated_sample(lobe, wo, u, BSDF_SAMPLE_RADIANCE);
 }
 

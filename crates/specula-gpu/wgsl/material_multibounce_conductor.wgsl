@@ -2,7 +2,7 @@
 //
 // Twin of specula-render/src/material/{bind,rough}.rs.
 
-import tracer::bound::{Bound, Parameters};
+import tracer::bound::{Bound, Parameters, bound_distribution, bound_only};
 import tracer::metal::{metal_bind, metal_reflectance, metal_facets, metal_albedo};
 import package::bsdf::smooth_conductor::{SmoothConductor, smooth_conductor_sample};
 import package::math::stream::{StreamState};
@@ -23,9 +23,9 @@ fn material_multibounce_conductor_eval(b: Bound, wo: vec3f, wi: vec3f, stream: v
     if b.specular {
         return vec4f(0.0);
     }
-    let facets = WalkFacets(NormalsModel(b.alpha, b.distribution), metal_reflectance(b));
+    let facets = WalkFacets(NormalsModel(b.alpha, bound_distribution(b)), metal_reflectance(b));
     var random = StreamState(stream);
-    let lobe = MultibounceConductor(facets, b.energy, BOUNCES_PDF);
+    let lobe = MultibounceConductor(facets, bound_only(ONLY_CONDUCTOR_BOUNCES, b.energy), BOUNCES_PDF);
     return multibounce_conductor_eval_pdf(lobe, wo, wi, &random);
 }
 
@@ -35,9 +35,9 @@ fn material_multibounce_conductor_sample(b: Bound, wo: vec3f, u: vec3f, stream: 
         let mirror = SmoothConductor(metal_reflectance(b));
         return smooth_conductor_sample(mirror, wo, u, BSDF_SAMPLE_RADIANCE);
     }
-    let facets = WalkFacets(NormalsModel(b.alpha, b.distribution), metal_reflectance(b));
+    let facets = WalkFacets(NormalsModel(b.alpha, bound_distribution(b)), metal_reflectance(b));
     var random = StreamState(stream);
-    let lobe = MultibounceConductor(facets, b.energy, BOUNCES_PDF);
+    let lobe = MultibounceConductor(facets, bound_only(ONLY_CONDUCTOR_BOUNCES, b.energy), BOUNCES_PDF);
     return multibounce_conductor_sample(lobe, wo, u, &random);
 }
 

@@ -2,7 +2,7 @@
 //
 // Twin of specula-render/src/material/{bind,rough}.rs.
 
-import tracer::bound::{Bound, Parameters};
+import tracer::bound::{Bound, Parameters, bound_distribution, bound_only};
 import tracer::glass::{glass_bind, glass_tints, glass_smooth};
 import package::math::stream::{StreamState};
 import package::multibounce::normals::{NormalsModel};
@@ -19,8 +19,9 @@ fn material_multibounce_dielectric_bind(head: Bound, p: Parameters, outside: boo
 
 /// The lobe of a rough surface.
 fn material_multibounce_dielectric_lobe(b: Bound) -> MultibounceDielectric {
-    let normals = NormalsModel(b.alpha, b.distribution);
-    return MultibounceDielectric(normals, b.eta, 0u, b.energy, BOUNCES_PDF, glass_tints(b));
+    let normals = NormalsModel(b.alpha, bound_distribution(b));
+    let model = bound_only(ONLY_DIELECTRIC_BOUNCES, b.energy);
+    return MultibounceDielectric(normals, b.eta, 0u, model, BOUNCES_PDF, glass_tints(b));
 }
 
 /// `f |cos|`, and the density of `wi` in 1/sr.

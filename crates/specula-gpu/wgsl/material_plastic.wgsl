@@ -3,7 +3,7 @@
 // Twin of specula-render/src/material/bind.rs, MaterialKind::Plastic.
 
 import tracer::world::{word, number};
-import tracer::bound::{Bound, Parameters, bound_albedo, bound_black, bound_roughness};
+import tracer::bound::{Bound, Parameters, bound_albedo, bound_black, bound_distribution, bound_masking, bound_roughness};
 import package::bsdf::microfacets::{MicrofacetsModel};
 import package::bsdf::plastic::{PlasticLobe, plastic_smooth, plastic_rough, plastic_eval_pdf, plastic_sample};
 import package::bsdf::bsdf_sample::{BsdfSample, BSDF_SAMPLE_RADIANCE};
@@ -29,7 +29,7 @@ fn material_plastic_lobe(b: Bound) -> PlasticLobe {
     if b.alpha.x == 0.0 {
         return plastic_smooth(b.eta, b.first, b.second, nonlinear);
     }
-    let facets = MicrofacetsModel(b.alpha, b.distribution, b.masking, SAMPLER);
+    let facets = MicrofacetsModel(b.alpha, bound_distribution(b), bound_masking(b), SAMPLER);
     return plastic_rough(facets, b.eta, b.first, b.second, nonlinear);
 }
 

@@ -3,7 +3,7 @@
 // Twin of specula-render/src/material/metal.rs.
 
 import tracer::world::{word};
-import tracer::bound::{Bound, Parameters, bound_albedo, bound_roughness};
+import tracer::bound::{Bound, Parameters, bound_albedo, bound_distribution, bound_masking, bound_only, bound_roughness};
 import package::fresnel::reflectance::{ReflectanceModel};
 import package::bsdf::microfacets::{MicrofacetsModel};
 
@@ -31,7 +31,7 @@ fn metal_indices(b: Bound, kind: u32, one: vec3f, other: vec3f) -> Bound {
 /// Binds alphas and reflectance of a metal, as `metal_indices` does; `variant` is 4 more where it is rough, `third`
 /// is the tint.
 fn metal_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
-    let kind = word(p.plain + 3u);
+    let kind = bound_only(ONLY_METAL, word(p.plain + 3u));
     var b = metal_indices(bound_roughness(head, p), kind, p.values[2], p.values[3]);
     b.third = bound_albedo(p.values[4]);
     b.specular = b.alpha.x == 0.0;
@@ -42,7 +42,7 @@ fn metal_bind(head: Bound, p: Parameters, outside: bool) -> Bound {
 
 /// The reflectance of a metal that `metal_bind` bound.
 fn metal_reflectance(b: Bound) -> ReflectanceModel {
-    let kind = b.variant & 3u;
+    let kind = bound_only(ONLY_METAL, b.variant & 3u);
     if kind <= METAL_REFLECTANCE {
         return reflectance_tinted(reflectance_conductor(b.first, b.second), b.third);
     }
@@ -54,7 +54,7 @@ fn metal_reflectance(b: Bound) -> ReflectanceModel {
 
 /// The facets of a metal that `metal_bind` bound.
 fn metal_facets(b: Bound) -> MicrofacetsModel {
-    return MicrofacetsModel(b.alpha, b.distribution, b.masking, SAMPLER);
+    return MicrofacetsModel(b.alpha, bound_distribution(b), bound_masking(b), SAMPLER);
 }
 
 /// Albedo, as a feature for denoisers.

@@ -40,7 +40,7 @@ fn partials_of(s: Surface) -> Partials {
     let identity = word(placement + 1u) != 0u;
     let triangles = word(group + GROUP_TRIANGLE_COUNT);
     var in_group: PartialsAndNormal;
-    if s.primitive < triangles {
+    if QUADRIC_COUNT == 0u || s.primitive < triangles {
         let has_uvs = word(SHAPES + s.shape * SHAPE_SIZE + 2u) != 0u;
         in_group = partials_of_triangle(group, s.primitive, s.weights, has_uvs);
     } else {

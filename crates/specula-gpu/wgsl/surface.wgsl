@@ -162,7 +162,7 @@ fn surface_at(ray: Ray, hit: Hit) -> Surface {
     let shape = word(word(group + GROUP_SHAPE_OF) + hit.primitive);
     let triangles = word(group + GROUP_TRIANGLE_COUNT);
     var s: Surface;
-    if hit.primitive < triangles {
+    if QUADRIC_COUNT == 0u || hit.primitive < triangles {
         let has_uvs = word(SHAPES + shape * SHAPE_SIZE + 2u) != 0u;
         s = surface_of_triangle(group, hit.primitive, vec2f(hit.u, hit.v), has_uvs);
     } else {

@@ -227,7 +227,7 @@ fn traverse(ray: Ray, any: bool) -> Hit {
         if kind == 1u {
             let ends = traverse_packet(index, frame, instance, &best);
             current = select(current + TRAVERSE_AT_ONCE, TRAVERSE_NEXT, ends);
-        } else if kind == 2u {
+        } else if QUADRIC_COUNT != 0u && kind == 2u {
             let at = QUADRICS + index * 16u;
             let t = quadric_distance(at, at + 4u, frame.origin, frame.direction);
             if t > 0.0 && t <= best.t {

@@ -67,6 +67,10 @@ const MODULES: &[(&str, &str)] = &[
         include_str!("../../wgsl/texture_raster.wgsl"),
     ),
     (
+        "texture_filter",
+        include_str!("../../wgsl/texture_filter.wgsl"),
+    ),
+    (
         "texture_graph",
         include_str!("../../wgsl/texture_graph.wgsl"),
     ),

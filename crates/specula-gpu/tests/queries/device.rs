@@ -35,11 +35,12 @@ impl Hit {
     }
 }
 
-const SHARED: [&str; 5] = [
+const SHARED: [&str; 6] = [
     include_str!("../../wgsl/world.wgsl"),
     include_str!("../../wgsl/ray.wgsl"),
     include_str!("../../wgsl/quadric.wgsl"),
     include_str!("../../wgsl/angles.wgsl"),
+    include_str!("../../wgsl/texture_coordinates.wgsl"),
     include_str!("../../wgsl/surface.wgsl"),
 ];
 const TREE: &str = include_str!("../../wgsl/traverse.wgsl");

@@ -128,10 +128,21 @@ impl Area {
         }
     }
 
+    /// Its kind, one of the codes.
+    pub(super) fn kind(&self) -> u32 {
+        match self {
+            Self::Triangle { .. } => codes::AREA_TRIANGLE,
+            Self::Disk { .. } => codes::AREA_DISK,
+            Self::Parallelogram(_) => codes::AREA_PARALLELOGRAM,
+            Self::Sphere { .. } => codes::AREA_SPHERE,
+            Self::Ellipsoid { .. } => codes::AREA_ELLIPSOID,
+        }
+    }
+
     /// Kind and parameters, for shaders.
     pub(super) fn flatten(&self, to: &mut Words) {
-        let mut flat = |kind: u32, corner, edges: [Vec3<f32>; 2], normal, area| {
-            to.id(kind);
+        to.id(self.kind());
+        let mut flat = |corner, edges: [Vec3<f32>; 2], normal, area| {
             to.vector(corner);
             for v in [edges[0], edges[1], normal] {
                 to.vector(v);
@@ -144,23 +155,19 @@ impl Area {
                 edges,
                 normal,
                 area,
-            } => flat(codes::AREA_TRIANGLE, corner, edges, normal, area),
+            } => flat(corner, edges, normal, area),
             Self::Disk {
                 centre,
                 axes,
                 normal,
                 area,
-            } => flat(codes::AREA_DISK, centre, axes, normal, area),
-            Self::Parallelogram(light) => {
-                to.id(codes::AREA_PARALLELOGRAM);
-                light.flatten(to);
-            }
+            } => flat(centre, axes, normal, area),
+            Self::Parallelogram(light) => light.flatten(to),
             Self::Sphere {
                 centre,
                 radius,
                 flipped,
             } => {
-                to.id(codes::AREA_SPHERE);
                 to.vector(centre);
                 to.number(radius);
                 to.flag(flipped);
@@ -172,7 +179,6 @@ impl Area {
                 flipped,
                 area: _,
             } => {
-                to.id(codes::AREA_ELLIPSOID);
                 for map in [&forward, &backward, &cofactor] {
                     to.affine(map);
                 }

@@ -11,11 +11,7 @@ impl Lights {
     pub(crate) fn flatten(&self, to: &mut Words) {
         let places: Vec<u32> = self.sources.iter().map(|s| s.flatten(to)).collect();
         to.constant("LIGHT_COUNT", id(places.len()));
-        let has = |test: fn(&Source) -> bool| u32::from(self.sources.iter().any(test));
-        let textured = has(|s| matches!(s, Source::Textured(_)));
-        to.constant("LIGHT_HAS_TEXTURED", textured);
-        let projected = has(|s| matches!(s, Source::Delta(Delta::ProjectedImage(_))));
-        to.constant("LIGHT_HAS_PROJECTED", projected);
+        self.say_what_there_is(to);
         to.begin("LIGHT_PLACES");
         to.ids(places);
         let far = self.far.iter();
@@ -24,6 +20,45 @@ impl Lights {
         to.begin("LIGHT_FAR");
         to.ids(far.into_iter().flatten());
         self.selection.flatten(to);
+    }
+}
+
+impl Lights {
+    /// Constants by which shaders leave out what a scene lacks.
+    fn say_what_there_is(&self, to: &mut Words) {
+        let has = |test: fn(&Source) -> bool| u32::from(self.sources.iter().any(test));
+        let projected = has(|s| matches!(s, Source::Delta(Delta::ProjectedImage(_))));
+        let is_far = |test: fn(&Far) -> bool| u32::from(self.far.iter().any(|(far, _)| test(far)));
+        for (name, value) in [
+            ("LIGHT_HAS_AREA", has(|s| matches!(s, Source::Area { .. }))),
+            (
+                "LIGHT_HAS_TEXTURED",
+                has(|s| matches!(s, Source::Textured(_))),
+            ),
+            ("LIGHT_HAS_DELTA", has(|s| matches!(s, Source::Delta(_)))),
+            ("LIGHT_HAS_PROJECTED", projected),
+            ("LIGHT_HAS_SUN", is_far(|f| matches!(f, Far::Sun(_)))),
+            (
+                "LIGHT_HAS_ENVIRONMENT",
+                is_far(|f| matches!(f, Far::Environment(_))),
+            ),
+        ] {
+            to.constant(name, value);
+        }
+        let areas = self.sources.iter().filter_map(|source| match source {
+            Source::Area { area, .. } => Some(area.kind()),
+            Source::Textured(light) => Some(light.area.kind()),
+            _ => None,
+        });
+        let kinds: Vec<u32> = areas.collect();
+        for (name, of) in [
+            ("AREA_HAS_PARALLELOGRAM", &[codes::AREA_PARALLELOGRAM][..]),
+            ("AREA_HAS_SPHERE", &[codes::AREA_SPHERE]),
+            ("AREA_HAS_ELLIPSOID", &[codes::AREA_ELLIPSOID]),
+            ("AREA_HAS_FLAT", &[codes::AREA_TRIANGLE, codes::AREA_DISK]),
+        ] {
+            to.constant(name, u32::from(kinds.iter().any(|kind| of.contains(kind))));
+        }
     }
 }
 

@@ -7,6 +7,7 @@ use specula_bsdf::internal::shader_codes;
 use specula_scene::Energy;
 use specula_scene::scene::BumpRules;
 
+use super::parameters::{ParameterCodes, Parameters};
 use super::{Material, MaterialShader, Materials};
 use crate::bump;
 use crate::codes;
@@ -22,14 +23,18 @@ impl Materials {
     pub(crate) fn flatten(&self, to: &mut Words) -> Vec<MaterialShader> {
         let mut shaders = Vec::new();
         let mut places = Vec::with_capacity(self.materials.len());
+        let mut codes_of_all = ParameterCodes::default();
         for material in &self.materials {
             places.push(to.offset());
-            material.flatten(to);
+            let parameters = material.parameters();
             let shader = material.shader();
+            codes_of_all.add(shader, energy_code(material.models.energy), &parameters);
+            material.flatten(&parameters, to);
             if !shaders.contains(&shader) {
                 shaders.push(shader);
             }
         }
+        codes_of_all.flatten(to);
         to.begin("MATERIALS");
         to.ids(places);
         to.begin("BEHIND_ROUGH");
@@ -70,7 +75,7 @@ impl Materials {
 impl Material {
     /// The head: kind, whether it has one side, whether layers let nothing through, rotation, whether
     /// tangents do not matter, model of energy, texture of directions.
-    fn flatten(&self, words: &mut Words) {
+    fn flatten(&self, parameters: &Parameters, words: &mut Words) {
         let rotation_rad = self.turn.map_or(0.0, |t| t.rotation_rad);
         let direction = self.turn.and_then(|t| t.direction);
         let kind = self.shader();
@@ -95,7 +100,7 @@ impl Material {
             words.id(word);
         }
         words.field(record, layout::MATERIAL_PARAMETERS);
-        self.parameters().flatten(words);
+        parameters.flatten(words);
     }
 
     /// Which of its sides are known to absorb; then what absorbs inside, and around.

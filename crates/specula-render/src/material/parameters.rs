@@ -395,6 +395,55 @@ pub(super) struct Parameters {
     plain: Vec<u32>,
     /// Whether alphas are made larger, as behind a rough surface.
     regularized: bool,
+    /// What is among them.
+    codes: ParameterCodes,
+}
+
+/// Codes of materials' parameters, each code once.
+#[derive(Default)]
+pub(super) struct ParameterCodes {
+    distributions: Vec<u32>,
+    maskings: Vec<u32>,
+    metals: Vec<u32>,
+    compensations: Vec<u32>,
+    conductor_bounces: Vec<u32>,
+    dielectric_bounces: Vec<u32>,
+}
+
+impl ParameterCodes {
+    /// Adds those of a material.
+    ///
+    /// * `energy`: the code of its model of energy.
+    pub(super) fn add(&mut self, shader: MaterialShader, energy: u32, parameters: &Parameters) {
+        let other = &parameters.codes;
+        self.distributions.extend(&other.distributions);
+        self.maskings.extend(&other.maskings);
+        self.metals.extend(&other.metals);
+        match shader {
+            MaterialShader::CompensatedConductor => self.compensations.push(energy),
+            MaterialShader::MultibounceConductor => self.conductor_bounces.push(energy),
+            MaterialShader::MultibounceDielectric => self.dielectric_bounces.push(energy),
+            _ => {}
+        }
+    }
+
+    /// Constants that say which code is the only one; [`codes::NONE`] where there are several.
+    pub(super) fn flatten(&self, to: &mut Words) {
+        let only = |codes: &[u32]| match codes {
+            [first, rest @ ..] if rest.iter().all(|code| code == first) => *first,
+            _ => codes::NONE,
+        };
+        for (name, codes) in [
+            ("ONLY_DISTRIBUTION", &self.distributions),
+            ("ONLY_MASKING", &self.maskings),
+            ("ONLY_METAL", &self.metals),
+            ("ONLY_COMPENSATION", &self.compensations),
+            ("ONLY_CONDUCTOR_BOUNCES", &self.conductor_bounces),
+            ("ONLY_DIELECTRIC_BOUNCES", &self.dielectric_bounces),
+        ] {
+            to.constant(name, only(codes));
+        }
+    }
 }
 
 impl Parameters {
@@ -435,13 +484,17 @@ impl Parameters {
             true => codes::ROUGHNESS_REGULARIZED,
             false => 0,
         };
+        let distribution = match roughness.distribution {
+            MicrofacetDistribution::Ggx => shader_codes::DISTRIBUTION_GGX,
+            MicrofacetDistribution::Beckmann => shader_codes::DISTRIBUTION_BECKMANN,
+        };
+        let masking = shader_codes::masking(roughness.masking);
+        self.codes.distributions.push(distribution);
+        self.codes.maskings.push(masking);
         self.floats([roughness.u, roughness.v])
             .id(mapping + regularized)
-            .id(match roughness.distribution {
-                MicrofacetDistribution::Ggx => shader_codes::DISTRIBUTION_GGX,
-                MicrofacetDistribution::Beckmann => shader_codes::DISTRIBUTION_BECKMANN,
-            })
-            .id(shader_codes::masking(roughness.masking))
+            .id(distribution)
+            .id(masking)
     }
 
     /// Two colours; what they are.
@@ -453,6 +506,7 @@ impl Parameters {
             ConductorFresnel::Schlick(colour) => (codes::METAL_SCHLICK, [colour, none]),
             ConductorFresnel::Mirror => (codes::METAL_MIRROR, [none; 2]),
         };
+        self.codes.metals.push(kind);
         self.colours(colours).id(kind)
     }
 
