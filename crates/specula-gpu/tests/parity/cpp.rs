@@ -124,13 +124,14 @@ impl Side {
 }
 
 /// The families whose cases are shown to notice faults, and the faults.
-pub(crate) fn faults() -> [(Family, Vec<Fault>); 7] {
+pub(crate) fn faults() -> [(Family, Vec<Fault>); 8] {
     let of = |family: usize, faults: &[Fault]| (FAMILIES[family], faults.to_vec());
     [
         of(0, &math::FAULTS),
         of(1, &ndf::FAULTS),
         of(2, &vndf::FAULTS),
         of(3, &fresnel::FAULTS),
+        of(4, &energy::FAULTS),
         of(5, &bsdf::faults()),
         of(6, layered::FAULTS),
         of(7, multibounce::FAULTS),

@@ -1,6 +1,6 @@
 //! The same cases in the other languages that the library is exported to, as their own compilers take them: GLSL and
-//! HLSL as SPIR-V of glslang and DXC, Slang as that of slangc, the exported SPIR-V linked, all of them on a Vulkan
-//! device; Metal as C++.
+//! HLSL as SPIR-V of glslang and DXC, Slang as that of slangc, the exported SPIR-V linked; Metal as C++. That SPIR-V
+//! runs on a Vulkan device, or on the processor by a program that has a statement for each of its instructions.
 //!
 //! `docs/shaders/parity.md` is made from them. To make it anew:
 //! `SPECULA_WRITE=1 cargo test -p specula-gpu --test parity languages::`.
@@ -9,6 +9,7 @@
 mod compilers;
 mod entries;
 mod page;
+mod spirv;
 mod vulkan;
 
 use std::sync::Mutex;
@@ -24,18 +25,24 @@ use page::{Figure, Setting};
 use specula_shaders::Language;
 use vulkan::Vulkan;
 
-/// The families that are run, of [`FAMILIES`], the longest first: a driver in software takes minutes for lobes, layers
-/// and multiple bounces.
-const RUN: [usize; 4] = [2, 1, 3, 0];
+/// The families of [`FAMILIES`], those that take longest first.
+const ORDER: [usize; 8] = [7, 5, 6, 4, 2, 1, 3, 0];
+/// Those whose SPIR-V runs on a device: a driver in software takes minutes for lobes, layers and multiple bounces.
+const ON_DEVICE: [&str; 4] = ["math", "ndf", "vndf", "fresnel"];
 
-/// What the cases of a target give.
+fn is_on_device(family: &str) -> bool {
+    ON_DEVICE.contains(&family)
+}
+
+/// What the cases of a family give in a language.
 fn outcomes(
     target: &Target,
     device: Option<&Vulkan>,
-    cases: &[Case],
+    (family, cases): (&str, &[Case]),
     fault: Option<&Fault>,
 ) -> Vec<Outcome> {
     let cases: Vec<&Case> = cases.iter().collect();
+    let device = device.filter(|_| is_on_device(family));
     let values = target.run(device, &cases, fault);
     let judged = cases.iter().zip(&values);
     judged
@@ -43,12 +50,12 @@ fn outcomes(
         .collect()
 }
 
-/// The languages that can be run here.
-#[track_caller]
-fn targets(device: Option<&Vulkan>) -> Vec<Target> {
-    let mut targets = Target::all();
-    targets.retain(|target| device.is_some() || target.is_program());
-    targets
+/// Whether a family runs in a language: on a device where there is one, else by g++ where that is installed.
+fn is_runnable(targets: &[Target], target: &Target, family: &str, device: Option<&Vulkan>) -> bool {
+    match is_on_device(family) && !target.is_program() {
+        true => device.is_some(),
+        false => targets.iter().any(Target::is_program),
+    }
 }
 
 /// A Vulkan device that takes SPIR-V as it is, or a line that says what was skipped.
@@ -85,18 +92,19 @@ fn in_parallel<T: Sync>(jobs: &[T], work: impl Fn(&T, Option<&Vulkan>) + Sync) {
 #[test]
 fn every_language_agrees() {
     let what = "GLSL, HLSL and SPIR-V";
-    let targets = targets(device(what).as_ref());
+    let (targets, probe) = (Target::all(), device(what));
     let is_exact = gpu(what).is_none_or(|g| g.adapter.kind == AdapterKind::Software);
-    let families = RUN.map(|k| &FAMILIES[k]);
+    let families = ORDER.map(|k| &FAMILIES[k]);
     let jobs: Vec<(&Family, &Target)> = families
         .iter()
         .flat_map(|family| targets.iter().map(move |target| (*family, target)))
+        .filter(|(family, target)| is_runnable(&targets, target, family.0, probe.as_ref()))
         .collect();
     let figures = Mutex::new(Vec::new());
     let failures = Mutex::new(Vec::new());
     in_parallel(&jobs, |(family, target), device| {
         let start = Instant::now();
-        let outcomes = outcomes(target, device, &family.1(), None);
+        let outcomes = outcomes(target, device, (family.0, &family.1()), None);
         let figure = Figure::of(target.language, family.0, &outcomes);
         println!(
             "{} ({}): {}: {} cases, errors up to {:.2} of their bounds, {:.1} s",
@@ -110,7 +118,7 @@ fn every_language_agrees() {
         figures.lock().unwrap().push(figure);
         let failed = outcomes
             .iter()
-            .filter(|o| !o.is_pass(is_exact || target.is_program()));
+            .filter(|o| !o.is_pass(is_exact || target.is_program() || !is_on_device(family.0)));
         let failed = failed.map(|o| format!("{}: {}", target.language, o.failure()));
         failures.lock().unwrap().extend(failed);
     });
@@ -127,11 +135,11 @@ fn check_page(targets: &[Target], mut figures: Vec<Figure>) {
     if targets.len() < Target::COUNT || gpu.adapter.kind != AdapterKind::Software {
         return;
     }
-    for family in RUN.map(|k| &FAMILIES[k]) {
+    for family in &FAMILIES {
         let cpp = optimised_outcomes(family);
         figures.push(Figure::of(Language::Cpp, family.0, &cpp));
     }
-    let device = &gpu.adapter.name;
+    let both = format!("{}; the processor, as C++17", gpu.adapter.name);
     let setting = |language, compiler: &str, runs_on: &str| Setting {
         language,
         compiler: compiler.to_owned(),
@@ -142,7 +150,7 @@ fn check_page(targets: &[Target], mut figures: Vec<Figure>) {
     let flags = OPTIMISED_FLAGS.join(" ");
     let of_targets = targets.iter().map(|target| match target.is_program() {
         true => setting(target.language, gcc, "the processor, as C++14"),
-        false => setting(target.language, &target.version, device),
+        false => setting(target.language, &target.version, &both),
     });
     let mut settings: Vec<Setting> = of_targets.collect();
     settings.push(setting(
@@ -150,7 +158,7 @@ fn check_page(targets: &[Target], mut figures: Vec<Figure>) {
         &format!("{gcc}, {flags}"),
         "the processor",
     ));
-    let families = RUN.map(|k| FAMILIES[k].0);
+    let families = FAMILIES.map(|(family, _)| (family, is_on_device(family)));
     let measured = page::page(&families, &settings, &figures);
     println!("{measured}");
     if std::env::var_os("SPECULA_WRITE").is_some() {
@@ -164,7 +172,7 @@ fn check_page(targets: &[Target], mut figures: Vec<Figure>) {
     );
 }
 
-/// Slang takes the modules of all families, lobes and multiple bounces too, and makes SPIR-V, HLSL and CUDA of them.
+/// Slang takes the modules of all families, and makes HLSL and CUDA of them beside SPIR-V.
 #[test]
 fn slang_takes_every_family() {
     let targets = Target::all();
@@ -184,7 +192,7 @@ fn slang_takes_every_family() {
 #[test]
 fn planted_faults_are_noticed() {
     let probe = device("faults in GLSL, HLSL and SPIR-V");
-    let targets = targets(probe.as_ref());
+    let targets = Target::all();
     let faults = faults();
     let jobs: Vec<_> = targets
         .iter()
@@ -193,14 +201,15 @@ fn planted_faults_are_noticed() {
             let one = move |(family, faults): &(Family, Vec<Fault>)| {
                 (target, *family, faults[k % faults.len()])
             };
-            faults[..4].iter().map(one)
+            faults.iter().map(one)
         })
+        .filter(|(target, family, _)| is_runnable(&targets, target, family.0, probe.as_ref()))
         .collect();
     in_parallel(&jobs, |(target, (family, cases), fault), device| {
         let cases = cases();
         let case = cases.iter().find(|c| c.name == fault.case).unwrap();
         let case = std::slice::from_ref(case);
-        let error = outcomes(target, device, case, Some(fault))[0].shader;
+        let error = outcomes(target, device, (family, case), Some(fault))[0].shader;
         let bound = case[0].bound;
         println!(
             "{}: {family}: '{}' for '{}': {error:.3e} ulps of {bound}",
