@@ -18,31 +18,28 @@ use std::time::{Duration, Instant};
 use specula_gpu::AdapterKind;
 
 use crate::common::gpu;
-use crate::cpp::{FAMILIES, Family, OPTIMISED_FLAGS, faults, optimised_outcomes};
+use crate::cpp::{FAMILIES, Family, OPTIMISED_FLAGS, by_family, faults, optimised_outcomes};
 use crate::harness::{Case, Fault, Outcome, judge};
 use compilers::Target;
 use page::{Figure, Setting};
 use specula_shaders::Language;
 use vulkan::Vulkan;
 
-/// The families of [`FAMILIES`], those that take longest first.
-const ORDER: [usize; 8] = [7, 5, 6, 4, 2, 1, 3, 0];
-/// Those whose SPIR-V runs on a device: a driver in software takes minutes for lobes, layers and multiple bounces.
+/// The families whose SPIR-V runs on a device: a driver in software takes minutes for lobes, layers and walks.
 const ON_DEVICE: [&str; 4] = ["math", "ndf", "vndf", "fresnel"];
 
 fn is_on_device(family: &str) -> bool {
     ON_DEVICE.contains(&family)
 }
 
-/// What the cases of a family give in a language.
+/// What cases give in a language; on a device where it is given one.
 fn outcomes(
     target: &Target,
     device: Option<&Vulkan>,
-    (family, cases): (&str, &[Case]),
+    cases: &[Case],
     fault: Option<&Fault>,
 ) -> Vec<Outcome> {
     let cases: Vec<&Case> = cases.iter().collect();
-    let device = device.filter(|_| is_on_device(family));
     let values = target.run(device, &cases, fault);
     let judged = cases.iter().zip(&values);
     judged
@@ -50,11 +47,35 @@ fn outcomes(
         .collect()
 }
 
-/// Whether a family runs in a language: on a device where there is one, else by g++ where that is installed.
-fn is_runnable(targets: &[Target], target: &Target, family: &str, device: Option<&Vulkan>) -> bool {
-    match is_on_device(family) && !target.is_program() {
+/// Whether something runs here: on a device where there is one, or by g++ where that is installed.
+fn is_runnable(targets: &[Target], on_device: bool, device: Option<&Vulkan>) -> bool {
+    match on_device {
         true => device.is_some(),
         false => targets.iter().any(Target::is_program),
+    }
+}
+
+/// Families of a language that are one program or one shader module.
+struct Job<'a> {
+    target: &'a Target,
+    families: Vec<Family>,
+    on_device: bool,
+}
+
+impl<'a> Job<'a> {
+    /// What is to be done in a language.
+    fn of(target: &'a Target) -> Vec<Self> {
+        let job = |families: Vec<Family>, on_device| Self {
+            target,
+            families,
+            on_device,
+        };
+        let (on_device, others): (Vec<Family>, Vec<Family>) =
+            FAMILIES.iter().partition(|family| is_on_device(family.0));
+        match target.is_program() {
+            true => vec![job(FAMILIES.to_vec(), false)],
+            false => vec![job(others, false), job(on_device, true)],
+        }
     }
 }
 
@@ -94,33 +115,37 @@ fn every_language_agrees() {
     let what = "GLSL, HLSL and SPIR-V";
     let (targets, probe) = (Target::all(), device(what));
     let is_exact = gpu(what).is_none_or(|g| g.adapter.kind == AdapterKind::Software);
-    let families = ORDER.map(|k| &FAMILIES[k]);
-    let jobs: Vec<(&Family, &Target)> = families
+    let jobs: Vec<Job<'_>> = targets
         .iter()
-        .flat_map(|family| targets.iter().map(move |target| (*family, target)))
-        .filter(|(family, target)| is_runnable(&targets, target, family.0, probe.as_ref()))
+        .flat_map(Job::of)
+        .filter(|job| is_runnable(&targets, job.on_device, probe.as_ref()))
         .collect();
     let figures = Mutex::new(Vec::new());
     let failures = Mutex::new(Vec::new());
-    in_parallel(&jobs, |(family, target), device| {
+    in_parallel(&jobs, |job, device| {
         let start = Instant::now();
-        let outcomes = outcomes(target, device, (family.0, &family.1()), None);
-        let figure = Figure::of(target.language, family.0, &outcomes);
+        let target = job.target;
+        let cases: Vec<Vec<Case>> = job.families.iter().map(|family| family.1()).collect();
+        let device = device.filter(|_| job.on_device);
+        let outcomes = by_family(&cases, outcomes(target, device, &cases.concat(), None));
+        for ((family, _), outcomes) in job.families.iter().zip(&outcomes) {
+            let figure = Figure::of(target.language, family, outcomes);
+            println!(
+                "{} ({}): {family}: {} cases, errors up to {:.2} of their bounds",
+                target.language, target.version, figure.cases, figure.error
+            );
+            figures.lock().unwrap().push(figure);
+            let failed = outcomes
+                .iter()
+                .filter(|o| !o.is_pass(is_exact || !job.on_device));
+            let failed = failed.map(|o| format!("{}: {}", target.language, o.failure()));
+            failures.lock().unwrap().extend(failed);
+        }
         println!(
-            "{} ({}): {}: {} cases, errors up to {:.2} of their bounds, {:.1} s",
+            "{}: {:.1} s",
             target.language,
-            target.version,
-            family.0,
-            outcomes.len(),
-            figure.error,
             start.elapsed().as_secs_f64()
         );
-        figures.lock().unwrap().push(figure);
-        let failed = outcomes
-            .iter()
-            .filter(|o| !o.is_pass(is_exact || target.is_program() || !is_on_device(family.0)));
-        let failed = failed.map(|o| format!("{}: {}", target.language, o.failure()));
-        failures.lock().unwrap().extend(failed);
     });
     let failures = failures.into_inner().unwrap();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
@@ -135,11 +160,10 @@ fn check_page(targets: &[Target], mut figures: Vec<Figure>) {
     if targets.len() < Target::COUNT || gpu.adapter.kind != AdapterKind::Software {
         return;
     }
-    for family in &FAMILIES {
-        let cpp = optimised_outcomes(family);
-        figures.push(Figure::of(Language::Cpp, family.0, &cpp));
+    for ((family, _), outcomes) in FAMILIES.iter().zip(optimised_outcomes().iter()) {
+        figures.push(Figure::of(Language::Cpp, family, outcomes));
     }
-    let both = format!("{}; the processor, as C++17", gpu.adapter.name);
+    let both = format!("{}; the processor, as C++14", gpu.adapter.name);
     let setting = |language, compiler: &str, runs_on: &str| Setting {
         language,
         compiler: compiler.to_owned(),
@@ -179,13 +203,11 @@ fn slang_takes_every_family() {
     let Some(slang) = targets.iter().find(|t| t.language == Language::Slang) else {
         return;
     };
-    for (family, cases) in FAMILIES {
-        let start = Instant::now();
-        let cases = cases();
-        slang.compile_slang(&cases.iter().collect::<Vec<_>>());
-        let seconds = start.elapsed().as_secs_f64();
-        println!("{family}: {} cases, {seconds:.1} s", cases.len());
-    }
+    let start = Instant::now();
+    let cases: Vec<Case> = FAMILIES.iter().flat_map(|family| family.1()).collect();
+    slang.compile_slang(&cases.iter().collect::<Vec<_>>());
+    let seconds = start.elapsed().as_secs_f64();
+    println!("{} cases in Slang, {seconds:.1} s", cases.len());
 }
 
 /// A fault of each family is planted in each language, another one in each.
@@ -203,13 +225,17 @@ fn planted_faults_are_noticed() {
             };
             faults.iter().map(one)
         })
-        .filter(|(target, family, _)| is_runnable(&targets, target, family.0, probe.as_ref()))
+        .filter(|(target, family, _)| {
+            let on_device = is_on_device(family.0) && !target.is_program();
+            is_runnable(&targets, on_device, probe.as_ref())
+        })
         .collect();
     in_parallel(&jobs, |(target, (family, cases), fault), device| {
         let cases = cases();
         let case = cases.iter().find(|c| c.name == fault.case).unwrap();
         let case = std::slice::from_ref(case);
-        let error = outcomes(target, device, (family, case), Some(fault))[0].shader;
+        let device = device.filter(|_| is_on_device(family));
+        let error = outcomes(target, device, case, Some(fault))[0].shader;
         let bound = case[0].bound;
         println!(
             "{}: {family}: '{}' for '{}': {error:.3e} ulps of {bound}",

@@ -26,7 +26,7 @@ const METAL: [&str; 6] = [
 
 /// How SPIR-V is compiled that was written in C++.
 const PROGRAM: [&str; 5] = [
-    "-std=c++17",
+    "-std=c++14",
     "-O0",
     "-ffp-contract=off",
     "-fno-strict-aliasing",

@@ -1,7 +1,8 @@
-# Compiles HLSL to SPIR-V with the DXC that the package `compushady` carries: dxc.py FILE OUTPUT ARGUMENTS.
+# Compiles HLSL to SPIR-V with the DXC of the package `compushady`: dxc.py FILE OUTPUT ARGUMENTS.
 #
-# The package's own function takes no arguments of DXC, so that its library is called here: interfaces of COM, each a
-# table of functions, which on Linux begins with those of `IUnknown` and two destructors.
+# The package's own function takes no arguments of DXC, so that its library is called here:
+# interfaces of COM, each a table of functions, which on Linux begins with those of `IUnknown`
+# and two destructors.
 
 import ctypes
 import os

@@ -20,8 +20,8 @@ measures. Every function runs in every language over the grid of the Rust proofs
 family's cases, in units of the case's bound: so many units of the last place of `f32`, beside the `f64` twin in Rust.
 Above 1 the test fails.
 
-Metal and C++ run on the processor. What the other compilers write is SPIR-V: that of the families of a *device* is handed
-to a Vulkan driver, that of a *processor* is computed instruction by instruction in the arithmetic of IEEE.
+Metal and C++ run on the processor. What the other compilers write is SPIR-V: that of the families of a *device* is
+handed to a Vulkan driver, that of a *processor* is computed instruction by instruction in the arithmetic of IEEE.
 ";
 
 const MIDDLE: &str = "

@@ -25,6 +25,8 @@ const OP_LABEL: u32 = 248;
 const BUILT_IN: u32 = 11;
 const BINDING: u32 = 33;
 const GLOBAL_INVOCATION_ID: u32 = 28;
+/// Tables, arguments, results and the number of rows, by their bindings.
+const ARRAYS: u32 = 4;
 
 /// What a type is made of, by the identifiers of its parts.
 enum Kind {
@@ -128,7 +130,10 @@ impl<'a> Module<'a> {
                     let name = &i[3..3 + text_length(&i[3..])];
                     module.entries.insert(text(name), i[2]);
                 }
-                OP_DECORATE if i[2] == BINDING => module.bindings.push([i[1], i[3]]),
+                // DXC counts what a buffer is appended, behind the arrays.
+                OP_DECORATE if i[2] == BINDING && i[3] < ARRAYS => {
+                    module.bindings.push([i[1], i[3]]);
+                }
                 OP_DECORATE if i[2..] == [BUILT_IN, GLOBAL_INVOCATION_ID] => {
                     module.places.push(i[1]);
                 }
@@ -360,7 +365,7 @@ impl<'a> Module<'a> {
         let is = |value: String| format!("v{id} = {value};");
         let a = operands[0];
         match i[4] {
-            66 => is(format!("std::sqrt({})", self.dot(a, a))),
+            66 => is(format!("sqrtf({})", self.dot(a, a))),
             68 => {
                 let b = operands[1];
                 let turn = |[k, l]: [u32; 2]| {
@@ -370,7 +375,7 @@ impl<'a> Module<'a> {
                 is(format!("{{{{{}}}}}", parts.join(", ")))
             }
             69 => {
-                let length = format!("std::sqrt({})", self.dot(a, a));
+                let length = format!("sqrtf({})", self.dot(a, a));
                 let parts: Vec<String> = (0..self.count(a))
                     .map(|k| format!("v{a}.c[{k}] / {length}"))
                     .collect();
