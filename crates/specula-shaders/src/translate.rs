@@ -112,7 +112,37 @@ fn to_msl(wgsl: &str) -> Result<String, TranslateError> {
     };
     let (text, _) = msl::write_string(&module, &info, &options, &msl::PipelineOptions::default())
         .map_err(TranslateError::of)?;
-    Ok(with_plain_tables(&text))
+    Ok(with_joined_arguments(&with_plain_tables(&text)))
+}
+
+/// Longest line that [`with_joined_arguments`] makes.
+const WIDTH: usize = 120;
+
+/// The text with the arguments of a function on its line, where they fit; naga gives each a line of its own.
+fn with_joined_arguments(text: &str) -> String {
+    let mut joined = String::with_capacity(text.len());
+    let mut lines = text.lines();
+    while let Some(line) = lines.next() {
+        let is_function = line.ends_with('(') && !line.starts_with(' ');
+        let mut head = vec![line];
+        while is_function && !head[head.len() - 1].starts_with(')') {
+            let Some(next) = lines.next() else { break };
+            head.push(next);
+        }
+        let [first, arguments @ .., last] = &head[..] else {
+            joined += line;
+            joined.push('\n');
+            continue;
+        };
+        let arguments: Vec<&str> = arguments.iter().map(|line| line.trim()).collect();
+        let one = format!("{first}{}{last}", arguments.join(" "));
+        joined += &match one.len() <= WIDTH {
+            true => one,
+            false => head.join("\n"),
+        };
+        joined.push('\n');
+    }
+    joined
 }
 
 /// MSL that takes the tables as a pointer, without the sizes that naga passes along with buffers, and
@@ -211,7 +241,7 @@ mod tests {
             ),
             (
                 Language::Msl,
-                "float energy_table(\n    uint index,\n    device const float* specula_tables\n) {\n",
+                "float energy_table(uint index, device const float* specula_tables) {\n",
             ),
         ] {
             let text = text(wgsl, language).unwrap();
@@ -228,6 +258,20 @@ mod tests {
                 assert!(!text.contains(other), "{other} in {text}");
             }
         }
+    }
+
+    #[test]
+    fn arguments_that_fit_are_on_the_line_of_their_function() {
+        let long = format!(
+            "float g(\n    float {},\n    float b\n) {{\n}}\n",
+            "a".repeat(WIDTH)
+        );
+        let short = "float f(\n    float a,\n    float b\n) {\n    return g(\n        a, b);\n}\n";
+        let expected = "float f(float a, float b) {\n    return g(\n        a, b);\n}\n";
+        assert_eq!(
+            with_joined_arguments(&format!("{long}{short}")),
+            long + expected
+        );
     }
 
     #[test]

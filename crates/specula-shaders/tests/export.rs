@@ -426,7 +426,13 @@ fn functions_alone_are_short() {
 /// The compensated metal in one file: no table, few lines, few bytes.
 #[test]
 fn a_compensated_metal_is_one_short_file() {
-    for language in [Language::Hlsl, Language::Glsl, Language::Cpp] {
+    for language in [
+        Language::Hlsl,
+        Language::Glsl,
+        Language::Slang,
+        Language::Msl,
+        Language::Cpp,
+    ] {
         let text = of_functions(language, &KULLA_CONTY, "");
         assert!(!text.contains("energy_table"), "{language}");
         // In C++, below the vectors.

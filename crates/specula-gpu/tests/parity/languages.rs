@@ -1,6 +1,6 @@
 //! The same cases in the other languages that the library is exported to, as their own compilers take them: GLSL and
-//! HLSL as SPIR-V of glslang and DXC, Slang as that of slangc, the exported SPIR-V linked, all of them on a Vulkan
-//! device; Metal as C++.
+//! HLSL as SPIR-V of glslang and DXC, Slang as that of slangc, the exported SPIR-V linked; Metal as C++. That SPIR-V
+//! runs on a Vulkan device, or on the processor by a program that has a statement for each of its instructions.
 //!
 //! `docs/shaders/parity.md` is made from them. To make it anew:
 //! `SPECULA_WRITE=1 cargo test -p specula-gpu --test parity languages::`.
@@ -9,6 +9,7 @@
 mod compilers;
 mod entries;
 mod page;
+mod spirv;
 mod vulkan;
 
 use std::sync::Mutex;
@@ -17,18 +18,21 @@ use std::time::{Duration, Instant};
 use specula_gpu::AdapterKind;
 
 use crate::common::gpu;
-use crate::cpp::{FAMILIES, Family, OPTIMISED_FLAGS, faults, optimised_outcomes};
+use crate::cpp::{FAMILIES, Family, OPTIMISED_FLAGS, by_family, faults, optimised_outcomes};
 use crate::harness::{Case, Fault, Outcome, judge};
 use compilers::Target;
 use page::{Figure, Setting};
 use specula_shaders::Language;
 use vulkan::Vulkan;
 
-/// The families that are run, of [`FAMILIES`], the longest first: a driver in software takes minutes for lobes, layers
-/// and multiple bounces.
-const RUN: [usize; 4] = [2, 1, 3, 0];
+/// The families whose SPIR-V runs on a device: a driver in software takes minutes for lobes, layers and walks.
+const ON_DEVICE: [&str; 4] = ["math", "ndf", "vndf", "fresnel"];
 
-/// What the cases of a target give.
+fn is_on_device(family: &str) -> bool {
+    ON_DEVICE.contains(&family)
+}
+
+/// What cases give in a language; on a device where it is given one.
 fn outcomes(
     target: &Target,
     device: Option<&Vulkan>,
@@ -43,12 +47,36 @@ fn outcomes(
         .collect()
 }
 
-/// The languages that can be run here.
-#[track_caller]
-fn targets(device: Option<&Vulkan>) -> Vec<Target> {
-    let mut targets = Target::all();
-    targets.retain(|target| device.is_some() || target.is_program());
-    targets
+/// Whether something runs here: on a device where there is one, or by g++ where that is installed.
+fn is_runnable(targets: &[Target], on_device: bool, device: Option<&Vulkan>) -> bool {
+    match on_device {
+        true => device.is_some(),
+        false => targets.iter().any(Target::is_program),
+    }
+}
+
+/// Families of a language that are one program or one shader module.
+struct Job<'a> {
+    target: &'a Target,
+    families: Vec<Family>,
+    on_device: bool,
+}
+
+impl<'a> Job<'a> {
+    /// What is to be done in a language.
+    fn of(target: &'a Target) -> Vec<Self> {
+        let job = |families: Vec<Family>, on_device| Self {
+            target,
+            families,
+            on_device,
+        };
+        let (on_device, others): (Vec<Family>, Vec<Family>) =
+            FAMILIES.iter().partition(|family| is_on_device(family.0));
+        match target.is_program() {
+            true => vec![job(FAMILIES.to_vec(), false)],
+            false => vec![job(others, false), job(on_device, true)],
+        }
+    }
 }
 
 /// A Vulkan device that takes SPIR-V as it is, or a line that says what was skipped.
@@ -85,34 +113,39 @@ fn in_parallel<T: Sync>(jobs: &[T], work: impl Fn(&T, Option<&Vulkan>) + Sync) {
 #[test]
 fn every_language_agrees() {
     let what = "GLSL, HLSL and SPIR-V";
-    let targets = targets(device(what).as_ref());
+    let (targets, probe) = (Target::all(), device(what));
     let is_exact = gpu(what).is_none_or(|g| g.adapter.kind == AdapterKind::Software);
-    let families = RUN.map(|k| &FAMILIES[k]);
-    let jobs: Vec<(&Family, &Target)> = families
+    let jobs: Vec<Job<'_>> = targets
         .iter()
-        .flat_map(|family| targets.iter().map(move |target| (*family, target)))
+        .flat_map(Job::of)
+        .filter(|job| is_runnable(&targets, job.on_device, probe.as_ref()))
         .collect();
     let figures = Mutex::new(Vec::new());
     let failures = Mutex::new(Vec::new());
-    in_parallel(&jobs, |(family, target), device| {
+    in_parallel(&jobs, |job, device| {
         let start = Instant::now();
-        let outcomes = outcomes(target, device, &family.1(), None);
-        let figure = Figure::of(target.language, family.0, &outcomes);
+        let target = job.target;
+        let cases: Vec<Vec<Case>> = job.families.iter().map(|family| family.1()).collect();
+        let device = device.filter(|_| job.on_device);
+        let outcomes = by_family(&cases, outcomes(target, device, &cases.concat(), None));
+        for ((family, _), outcomes) in job.families.iter().zip(&outcomes) {
+            let figure = Figure::of(target.language, family, outcomes);
+            println!(
+                "{} ({}): {family}: {} cases, errors up to {:.2} of their bounds",
+                target.language, target.version, figure.cases, figure.error
+            );
+            figures.lock().unwrap().push(figure);
+            let failed = outcomes
+                .iter()
+                .filter(|o| !o.is_pass(is_exact || !job.on_device));
+            let failed = failed.map(|o| format!("{}: {}", target.language, o.failure()));
+            failures.lock().unwrap().extend(failed);
+        }
         println!(
-            "{} ({}): {}: {} cases, errors up to {:.2} of their bounds, {:.1} s",
+            "{}: {:.1} s",
             target.language,
-            target.version,
-            family.0,
-            outcomes.len(),
-            figure.error,
             start.elapsed().as_secs_f64()
         );
-        figures.lock().unwrap().push(figure);
-        let failed = outcomes
-            .iter()
-            .filter(|o| !o.is_pass(is_exact || target.is_program()));
-        let failed = failed.map(|o| format!("{}: {}", target.language, o.failure()));
-        failures.lock().unwrap().extend(failed);
     });
     let failures = failures.into_inner().unwrap();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
@@ -127,11 +160,10 @@ fn check_page(targets: &[Target], mut figures: Vec<Figure>) {
     if targets.len() < Target::COUNT || gpu.adapter.kind != AdapterKind::Software {
         return;
     }
-    for family in RUN.map(|k| &FAMILIES[k]) {
-        let cpp = optimised_outcomes(family);
-        figures.push(Figure::of(Language::Cpp, family.0, &cpp));
+    for ((family, _), outcomes) in FAMILIES.iter().zip(optimised_outcomes().iter()) {
+        figures.push(Figure::of(Language::Cpp, family, outcomes));
     }
-    let device = &gpu.adapter.name;
+    let both = format!("{}; the processor, as C++14", gpu.adapter.name);
     let setting = |language, compiler: &str, runs_on: &str| Setting {
         language,
         compiler: compiler.to_owned(),
@@ -142,7 +174,7 @@ fn check_page(targets: &[Target], mut figures: Vec<Figure>) {
     let flags = OPTIMISED_FLAGS.join(" ");
     let of_targets = targets.iter().map(|target| match target.is_program() {
         true => setting(target.language, gcc, "the processor, as C++14"),
-        false => setting(target.language, &target.version, device),
+        false => setting(target.language, &target.version, &both),
     });
     let mut settings: Vec<Setting> = of_targets.collect();
     settings.push(setting(
@@ -150,7 +182,7 @@ fn check_page(targets: &[Target], mut figures: Vec<Figure>) {
         &format!("{gcc}, {flags}"),
         "the processor",
     ));
-    let families = RUN.map(|k| FAMILIES[k].0);
+    let families = FAMILIES.map(|(family, _)| (family, is_on_device(family)));
     let measured = page::page(&families, &settings, &figures);
     println!("{measured}");
     if std::env::var_os("SPECULA_WRITE").is_some() {
@@ -164,27 +196,25 @@ fn check_page(targets: &[Target], mut figures: Vec<Figure>) {
     );
 }
 
-/// Slang takes the modules of all families, lobes and multiple bounces too, and makes SPIR-V, HLSL and CUDA of them.
+/// Slang takes the modules of all families, and makes HLSL and CUDA of them beside SPIR-V.
 #[test]
 fn slang_takes_every_family() {
     let targets = Target::all();
     let Some(slang) = targets.iter().find(|t| t.language == Language::Slang) else {
         return;
     };
-    for (family, cases) in FAMILIES {
-        let start = Instant::now();
-        let cases = cases();
-        slang.compile_slang(&cases.iter().collect::<Vec<_>>());
-        let seconds = start.elapsed().as_secs_f64();
-        println!("{family}: {} cases, {seconds:.1} s", cases.len());
-    }
+    let start = Instant::now();
+    let cases: Vec<Case> = FAMILIES.iter().flat_map(|family| family.1()).collect();
+    slang.compile_slang(&cases.iter().collect::<Vec<_>>());
+    let seconds = start.elapsed().as_secs_f64();
+    println!("{} cases in Slang, {seconds:.1} s", cases.len());
 }
 
 /// A fault of each family is planted in each language, another one in each.
 #[test]
 fn planted_faults_are_noticed() {
     let probe = device("faults in GLSL, HLSL and SPIR-V");
-    let targets = targets(probe.as_ref());
+    let targets = Target::all();
     let faults = faults();
     let jobs: Vec<_> = targets
         .iter()
@@ -193,13 +223,18 @@ fn planted_faults_are_noticed() {
             let one = move |(family, faults): &(Family, Vec<Fault>)| {
                 (target, *family, faults[k % faults.len()])
             };
-            faults[..4].iter().map(one)
+            faults.iter().map(one)
+        })
+        .filter(|(target, family, _)| {
+            let on_device = is_on_device(family.0) && !target.is_program();
+            is_runnable(&targets, on_device, probe.as_ref())
         })
         .collect();
     in_parallel(&jobs, |(target, (family, cases), fault), device| {
         let cases = cases();
         let case = cases.iter().find(|c| c.name == fault.case).unwrap();
         let case = std::slice::from_ref(case);
+        let device = device.filter(|_| is_on_device(family));
         let error = outcomes(target, device, case, Some(fault))[0].shader;
         let bound = case[0].bound;
         println!(

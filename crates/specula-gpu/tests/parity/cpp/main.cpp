@@ -1,6 +1,7 @@
 
 #include <cstdio>
-#include <vector>
+
+static float tables[1 << 20];
 
 /// Calls a function for each row of arguments.
 template <auto Function, std::size_t N, std::size_t M>
@@ -21,9 +22,10 @@ static void evaluate(FILE* inputs, FILE* results) {
 }
 
 int main() {
-    std::vector<float> tables(1 << 20);
     FILE* file = std::fopen("tables", "rb");
-    tables.resize(std::fread(tables.data(), sizeof(float), tables.size(), file));
+    if (std::fread(tables, sizeof(float), 1 << 20, file) == 0) {
+        std::perror("tables");
+    }
     std::fclose(file);
     // BIND
     FILE* inputs = std::fopen("inputs", "rb");

@@ -7,7 +7,8 @@ use std::process::{Command, Output};
 
 use specula_shaders::Language;
 
-use super::entries::{with_binding, with_entries, with_entry, without_source};
+use super::entries::{with_entries, with_entry, without_source};
+use super::spirv;
 use super::vulkan::{GROUP, ROW, Vulkan};
 use crate::cpp::{functions, read_results, write_inputs};
 use crate::harness::{Case, Fault, tables_for};
@@ -23,8 +24,17 @@ const METAL: [&str; 6] = [
     "-I.",
 ];
 
-/// The binding that compushady's DXC gives to the register `t0`.
-const DXC_TABLES: u32 = 1024;
+/// How SPIR-V is compiled that was written in C++.
+const PROGRAM: [&str; 5] = [
+    "-std=c++14",
+    "-O0",
+    "-ffp-contract=off",
+    "-fno-strict-aliasing",
+    "-w",
+];
+
+/// How DXC is called; by itself it optimises.
+const DXC: [&str; 4] = ["-T", "lib_6_3", "-spirv", "-fspv-target-env=vulkan1.1"];
 
 /// A language and its compiler.
 #[derive(Clone, Debug)]
@@ -98,7 +108,7 @@ impl Target {
         self.language == Language::Msl
     }
 
-    /// Compiles the cases in Slang to all that it makes, and runs none.
+    /// Compiles the cases in Slang to what else it makes, and runs none.
     pub(super) fn compile_slang(&self, cases: &[&Case]) {
         let folder = tempfile::tempdir().unwrap();
         let build = Build {
@@ -106,9 +116,13 @@ impl Target {
             target: self,
             cases,
             wgsl: functions(cases, None),
+            for_device: false,
         };
-        let (_, entries) = build.slang();
-        assert_eq!(entries.len(), cases.len());
+        let entries = build.names();
+        build.write(
+            SLANG_FILE,
+            build.text() + &build.with_entries(include_str!("main.hlsl")),
+        );
         for target in SLANG_PRINTED {
             let printed = build.called(&self.compiler, &[&target[..], &[SLANG_FILE]].concat());
             let text = String::from_utf8_lossy(&printed.stdout);
@@ -118,6 +132,8 @@ impl Target {
     }
 
     /// The results of each case.
+    ///
+    /// * `device`: where SPIR-V runs; without one, on the processor.
     pub(super) fn run(
         &self,
         device: Option<&Vulkan>,
@@ -130,11 +146,15 @@ impl Target {
             target: self,
             cases,
             wgsl: functions(cases, fault),
+            for_device: device.is_some(),
         };
-        let Some(device) = device.filter(|_| !self.is_program()) else {
+        if self.is_program() {
             return build.metal();
-        };
+        }
         let (words, entries) = build.spirv();
+        let Some(device) = device else {
+            return build.on_processor(&words, entries);
+        };
         let tables = tables_for(&build.wgsl);
         let run = |(case, entry): (&&Case, &String)| {
             let bytes: Vec<u8> = case.inputs.iter().flat_map(|v| v.to_le_bytes()).collect();
@@ -180,6 +200,8 @@ struct Build<'a> {
     cases: &'a [&'a Case],
     /// The modules with a function for each case.
     wgsl: String,
+    /// Whether a device runs it.
+    for_device: bool,
 }
 
 impl Build<'_> {
@@ -268,10 +290,11 @@ impl Build<'_> {
         let main = self.with_entries(include_str!("main.hlsl"));
         self.write("parity.hlsl", self.text() + &main);
         self.write("dxc.py", include_str!("dxc.py"));
-        let arguments = ["dxc.py", "parity.hlsl", "parity.spv"];
-        self.called(&self.target.compiler, &arguments);
-        let words = with_binding(&self.words("parity.spv"), DXC_TABLES, 0);
-        (self.valid(words), self.names())
+        let files = ["dxc.py", "parity.hlsl", "parity.spv"];
+        // Optimised, each entry point has all that it calls within it.
+        let plain: &[&str] = if self.for_device { &[] } else { &["-O0"] };
+        self.called(&self.target.compiler, &[&files[..], &DXC, plain].concat());
+        (self.valid(self.words("parity.spv")), self.names())
     }
 
     fn slang(&self) -> (Vec<u32>, Vec<String>) {
@@ -358,8 +381,11 @@ impl Build<'_> {
         words.map(|bytes| u32::from_le_bytes(*bytes)).collect()
     }
 
-    /// The words, which SPIRV-Tools find no fault with.
+    /// The words, which SPIRV-Tools find no fault with where a driver gets them.
     fn valid(&self, words: Vec<u32>) -> Vec<u32> {
+        if !self.for_device {
+            return words;
+        }
         let bytes: Vec<u8> = words.iter().flat_map(|w| w.to_le_bytes()).collect();
         self.write("valid.spv", bytes);
         let arguments = [
@@ -370,6 +396,22 @@ impl Build<'_> {
         ];
         self.called(Path::new("spirv-val"), &arguments);
         words
+    }
+
+    /// Runs SPIR-V as a program in C++.
+    fn on_processor(&self, words: &[u32], entries: Vec<String>) -> Vec<Vec<f32>> {
+        let sizes = self
+            .cases
+            .iter()
+            .map(|case| [case.arguments, case.results()]);
+        let calls: Vec<_> = entries.into_iter().zip(sizes).collect();
+        self.write("parity.cpp", spirv::program(words, &calls));
+        self.write("tables", specula_shaders::tables());
+        let files = ["parity.cpp", "-o", "parity"];
+        self.called(Path::new("g++"), &[&PROGRAM[..], &files].concat());
+        write_inputs(self.folder, self.cases);
+        self.called(&self.folder.join("parity"), &[]);
+        read_results(self.folder, self.cases)
     }
 
     fn metal(&self) -> Vec<Vec<f32>> {

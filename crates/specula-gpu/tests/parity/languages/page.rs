@@ -16,9 +16,12 @@ const HEAD: &str = "\
 # Parity by language
 
 Written by `SPECULA_WRITE=1 cargo test -p specula-gpu --test parity languages::`, which else compares it with what it
-measures. The functions of these families run in every language over the grid of the Rust proofs; tables, lobes, layers
-and multiple bounces in WGSL, C++ and CUDA alone. A figure is the largest error of a family's cases, in units of the
-case's bound: so many units of the last place of `f32`, beside the `f64` twin in Rust. Above 1 the test fails.
+measures. Every function runs in every language over the grid of the Rust proofs. A figure is the largest error of a
+family's cases, in units of the case's bound: so many units of the last place of `f32`, beside the `f64` twin in Rust.
+Above 1 the test fails.
+
+Metal and C++ run on the processor. What the other compilers write is SPIR-V: that of the families of a *device* is
+handed to a Vulkan driver, that of a *processor* is computed instruction by instruction in the arithmetic of IEEE.
 ";
 
 const MIDDLE: &str = "
@@ -56,26 +59,30 @@ pub(super) struct Setting {
     pub(super) runs_on: String,
 }
 
+/// A family and whether its SPIR-V runs on a device.
+pub(super) type Row = (&'static str, bool);
+
 /// The page of figures.
 ///
 /// * `families`: in the order of the rows; `settings`: in that of the columns.
-pub(super) fn page(families: &[&str], settings: &[Setting], figures: &[Figure]) -> String {
+pub(super) fn page(families: &[Row], settings: &[Setting], figures: &[Figure]) -> String {
     let mut text = HEAD.to_owned();
     let names: Vec<&str> = settings.iter().map(|s| title(s.language)).collect();
-    let lines = "|---".repeat(names.len() + 2);
+    let lines = "|---".repeat(names.len() + 3);
     let _ = writeln!(
         text,
-        "\n| family | cases | {} |\n{lines}|",
+        "\n| family | cases | SPIR-V runs on | {} |\n{lines}|",
         names.join(" | ")
     );
-    for &family in families {
+    for &(family, on_device) in families {
         let of = |language| {
             let mut all = figures.iter();
             all.find(|f| f.family == family && f.language == language)
         };
         let cases = figures.iter().filter(|f| f.family == family);
         let cases = cases.map(|f| f.cases).max().unwrap_or(0);
-        let _ = write!(text, "| {family} | {cases} |");
+        let place = if on_device { "device" } else { "processor" };
+        let _ = write!(text, "| {family} | {cases} | {place} |");
         for setting in settings {
             let error = of(setting.language).map_or(f64::NAN, |f| f.error);
             let _ = write!(text, " {error:.2} |");
@@ -128,8 +135,8 @@ fn is_same(old: &str, new: &str, same_compilers: bool) -> bool {
             _ => !same_compilers && a.is_empty() == b.is_empty(),
         }
     };
-    // The first two are the family and its number of cases, or a language.
-    let heads = if cells.len() > 3 { 2 } else { 1 };
+    // The first three are the family, its number of cases and where it runs; or the first is a language.
+    let heads = if cells.len() > 3 { 3 } else { 1 };
     old == new
         || old.starts_with("| ")
             && cells.len() == others.len()
@@ -152,7 +159,7 @@ fn a_page_is_current_where_its_figures_are_near() {
             cases,
             error,
         });
-        page(&["ndf"], &settings, &figures)
+        page(&[("ndf", true)], &settings, &figures)
     };
     let written = of(0.5, 7, "one 1.0");
     for (measured, expected) in [

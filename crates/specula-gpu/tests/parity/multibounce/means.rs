@@ -157,7 +157,7 @@ fn seed(number: usize) -> f32 {
 
 /// Alphas, views and lights at some distance from each other, with a place for the seed.
 fn cells(lights: &[[f32; 3]]) -> Vec<[f32; 9]> {
-    let alphas = [[0.1, 0.1], [0.5, 0.5], [1.0, 1.0], [0.2, 0.8]];
+    let alphas = [[0.1, 0.1], [1.0, 1.0], [0.2, 0.8]];
     let wos = [0.9, 0.3, -0.3].map(|cosine| direction(cosine, 0.4));
     let pairs: Vec<[f32; 5]> = product(&alphas, &wos);
     let pairs: Vec<[f32; 8]> = product(&pairs, lights);
