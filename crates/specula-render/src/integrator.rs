@@ -1,9 +1,9 @@
 //! Unidirectional path tracing with next-event estimation.
 //!
 //! At every vertex one light is sampled (two at first vertices of rough metal: `candidates`) and one direction.
-//! Both are combined by the power heuristic. The rules are in `estimator`. `wavefront` and `shade` apply them to batches
-//! of vertices, `bound` where lobes differ from vertex to vertex. This module applies them to single vertices, with any
-//! material, through cut-outs and media; it is the reference of the others.
+//! Both are combined by the power heuristic. The rules are in `estimator`. `wavefront` and `shade` apply them to
+//! batches of vertices, `bound` where lobes differ from vertex to vertex. This module applies them to single vertices,
+//! with any material, through cut-outs and media; it is the reference of the others.
 //!
 //! Both normals of a vertex face the viewer. A direction whose sides of the two differ carries nothing, so that
 //! light does not leak. Lobes answer for views below the shading horizon; perfect mirrors and panes have no

@@ -235,8 +235,8 @@ impl PreparedScene {
         Ok(())
     }
 
-    /// Material of a shape, and whether its sides are materials of their own in batches; `None` where it bounds a medium,
-    /// and is shaded singly.
+    /// Material of a shape, and whether its sides are materials of their own in batches; `None` where it bounds a
+    /// medium, and is shaded singly.
     ///
     /// * `rough`: whether the path was scattered by a lobe that is not perfectly smooth.
     #[inline(always)]

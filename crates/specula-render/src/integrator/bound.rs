@@ -1,5 +1,5 @@
-//! Vertices of a batch whose lobes are bound, evaluated and sampled one after the other: those with textures, bump maps,
-//! mixed materials, and lobes that batches do not know.
+//! Vertices of a batch whose lobes are bound, evaluated and sampled one after the other: those with textures, bump
+//! maps, mixed materials, and lobes that batches do not know.
 //!
 //! All else of them is done in batches: random numbers, lights, shadow rays, roulette. Frames come from the batch where
 //! surfaces are as their meshes say, and from [`PathTracer::shading_point`] where they are bent.
@@ -60,6 +60,7 @@ struct Arrival<'a> {
 
 impl BoundVertex {
     /// * `material`: of the lobe.
+    #[inline(always)]
     fn new(lobe: PointLobe<'_>, material: u32, opaque: bool, lights: u32) -> Self {
         let is_black = matches!(lobe, PointLobe::Listed(Lobe::Black(_)));
         let is_lit = !is_black && !lobe.is_specular();
@@ -225,6 +226,7 @@ impl PathTracer<'_> {
     }
 
     /// Binds the lobe of a vertex whose surface is as its mesh says.
+    #[inline(always)]
     fn bind_textured(
         &self,
         s: &mut Surfaces,

@@ -86,7 +86,7 @@ impl PathTracer<'_> {
         state.cone = state.cone.after(bounce, curvature, sampler.index());
     }
 
-    /// Spreads the cone of a path that a batch scattered.
+    /// Spreads the cone of a path that a batch scattered, where textures are filtered.
     ///
     /// * `i`: index of its vertex in the batch.
     /// * `eta`: index beyond the surface over the index before it.
@@ -98,9 +98,6 @@ impl PathTracer<'_> {
         i: usize,
         eta: f32,
     ) {
-        if !self.scene.textures.is_filtered() {
-            return;
-        }
         let k = batch.live_indices[i] as usize;
         let Some(hit) = &hits[k] else {
             return;

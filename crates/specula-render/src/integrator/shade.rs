@@ -291,6 +291,7 @@ impl PathTracer<'_> {
             next,
             batch,
             shared: shared.as_deref_mut(),
+            has_cones: self.scene.textures.is_filtered(),
         };
         let (s, scatter) = (&batch.surfaces, &batch.scatter_samples);
         for (plain, range) in self.material_runs(runs) {
@@ -321,6 +322,7 @@ impl PathTracer<'_> {
             next,
             batch,
             shared,
+            has_cones,
         } = onward;
         let (s, scatter) = (&batch.surfaces, &batch.scatter_samples);
         let path_index = batch.path_indices[i];
@@ -341,10 +343,16 @@ impl PathTracer<'_> {
         }
         paths.throughput.set_colour(path, throughput);
         paths.eta_scale[path] = scatter.eta_scale[i];
-        let eta = exit.eta.unwrap_or(scatter.eta[i]);
-        self.spread_cone_of_batch((paths, live, hits), batch, i, eta);
+        if *has_cones {
+            let eta = exit.eta.unwrap_or(scatter.eta[i]);
+            self.spread_cone_of_batch((paths, live, hits), batch, i, eta);
+        }
         let outcome = scatter.outcome[i];
-        paths.straight[path] &= exit.is_pane && outcome == SampleOutcome::SpecularTransmission;
+        if exit.is_pane {
+            paths.straight[path] &= outcome == SampleOutcome::SpecularTransmission;
+        } else {
+            paths.straight[path] = false;
+        }
         let is_rough = matches!(
             outcome,
             SampleOutcome::Reflection | SampleOutcome::Transmission
@@ -369,6 +377,8 @@ struct Onward<'a> {
     next: &'a mut RayQueue,
     batch: &'a VertexBatch,
     shared: Option<&'a mut Shared>,
+    /// Whether textures are filtered over the paths' cones.
+    has_cones: bool,
 }
 
 /// Streams for lobes whose values are estimates.

@@ -1,9 +1,9 @@
 //! A wavefront: paths that are traced vertex by vertex together.
 //!
-//! Vertices are sorted by material and shaded in batches (`shade`); those whose lobes differ from vertex to vertex have them
-//! bound one after the other there (`bound`). Vertices in media, at their boundaries, and where rays may pass what they
-//! hit are shaded singly (`PathTracer::shade`). The scene and the path alone decide which, and a path never depends on the
-//! others of its wavefront.
+//! Vertices are sorted by material and shaded in batches (`shade`); those whose lobes differ from vertex to vertex have
+//! them bound one after the other there (`bound`). Vertices in media, at their boundaries, and where rays may pass
+//! what they hit are shaded singly (`PathTracer::shade`). The scene and the path alone decide which, and a path never
+//! depends on the others of its wavefront.
 
 use core::ops::Range;
 use core::sync::atomic::{AtomicBool, Ordering};
@@ -29,7 +29,8 @@ use crate::sampler::{Purpose, Sampler};
 struct QueuedVertex {
     /// Index among the live paths.
     at: u32,
-    /// Twice the material, and one more where that is seen from the outside, or its sides are no materials of their own.
+    /// Twice the material, and one more where that is seen from the outside, or its sides are no materials of their
+    /// own.
     key: u32,
 }
 

@@ -89,6 +89,7 @@ pub(super) fn coat_of_coloured_base(
 }
 
 /// [`coat_of_coloured_base`] over its base at a point.
+#[inline(always)]
 pub(super) fn coated(
     coat: &DiffuseCoat<f32>,
     reflectance: ColourParam,

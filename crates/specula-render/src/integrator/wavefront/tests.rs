@@ -96,13 +96,7 @@ fn cases() -> Vec<Case> {
         },
         case(
             "CoatedDiffuse",
-            ["coateddiffuse 0.6 alpha 0.2", "diffuse 0.5"],
-            |l| matches!(l, Lobe::CoatedDiffuse(_)),
-            3,
-        ),
-        case(
-            "CoatedDiffuse, smooth",
-            ["coateddiffuse 0.6 alpha 0", "diffuse 0.5"],
+            ["coateddiffuse 0.6 alpha 0.2", "coateddiffuse 0.7 alpha 0"],
             |l| matches!(l, Lobe::CoatedDiffuse(_)),
             3,
         ),

@@ -121,17 +121,27 @@ fn bent(kind: MaterialKind, bump: Bump, bump_rules: BumpRules) -> Material {
     }
 }
 
-/// Everything that textures can vary.
-fn textured() -> Vec<Varied> {
-    let case = |name, kinds: Vec<MaterialKind>, most_apart| Varied {
+fn case(name: &'static str, materials: Vec<Material>, most_apart: usize) -> Varied {
+    Varied {
         name,
-        materials: kinds.into_iter().map(Material::new).collect(),
+        materials,
         most_apart,
-    };
-    let one_sided = Material {
+    }
+}
+
+fn plain<const N: usize>(kinds: [MaterialKind; N]) -> Vec<Material> {
+    kinds.map(Material::new).to_vec()
+}
+
+fn one_sided(kind: MaterialKind) -> Material {
+    Material {
         one_sided: true,
-        ..Material::new(diffuse(COLOUR, 0.0))
-    };
+        ..Material::new(kind)
+    }
+}
+
+/// Kinds with one or two lobes, with textures.
+fn textured() -> Vec<Varied> {
     let glass = MaterialKind::Dielectric {
         eta: 1.5,
         roughness: alpha(value(0.0)),
@@ -142,6 +152,51 @@ fn textured() -> Vec<Varied> {
         reflectance: COLOUR,
         transmittance: grey(0.3),
     };
+    let absorbing = CoatMedium {
+        thickness: value(0.1),
+        ..CoatMedium::default()
+    };
+    let none = CoatMedium::default();
+    let two_sided = Material::new(diffuse(COLOUR, 0.0));
+    vec![
+        case(
+            "diffuse",
+            vec![one_sided(diffuse(COLOUR, 0.0)), two_sided],
+            30,
+        ),
+        case(
+            "rough diffuse, sheets",
+            plain([diffuse(COLOUR, 0.7), sheet]),
+            30,
+        ),
+        case(
+            "metal",
+            plain([
+                metal(alpha(NUMBER), grey(1.0)),
+                metal(alpha(value(0.1)), COLOUR),
+            ]),
+            30,
+        ),
+        case(
+            "coats",
+            plain([
+                coated(COLOUR, value(0.2), absorbing),
+                coated(COLOUR, value(0.0), none),
+            ]),
+            30,
+        ),
+        case(
+            "coats of textured alpha",
+            plain([coated(grey(0.7), NUMBER, absorbing)]),
+            30,
+        ),
+        case("glass", plain([glass, diffuse(COLOUR, 0.0)]), 30),
+    ]
+}
+
+/// Kinds with many lobes, with textures.
+fn textured_layers() -> Vec<Varied> {
+    let grey = diffuse(grey(0.6), 0.0);
     let everything = GltfMaterial {
         base_colour: COLOUR,
         metallic: NUMBER,
@@ -152,75 +207,26 @@ fn textured() -> Vec<Varied> {
         sheen_roughness: value(0.5),
         ..gltf()
     };
-    let smooth = CoatMedium {
-        thickness: value(0.1),
-        ..CoatMedium::default()
+    let glass = GltfMaterial {
+        transmission: NUMBER,
+        base_colour: COLOUR,
+        ..gltf()
     };
+    let plastics = plain([
+        MaterialKind::Principled(principled()),
+        plastic(0.2, MicrofacetDistribution::Ggx),
+        plastic(0.0, MicrofacetDistribution::Ggx),
+        plastic(0.3, MicrofacetDistribution::Beckmann),
+    ]);
     vec![
-        Varied {
-            name: "diffuse",
-            materials: vec![one_sided, Material::new(diffuse(COLOUR, 0.0))],
-            most_apart: 30,
-        },
-        case(
-            "rough diffuse, sheets",
-            vec![diffuse(COLOUR, 0.7), sheet],
-            30,
-        ),
-        case(
-            "metal",
-            vec![
-                metal(alpha(NUMBER), grey(1.0)),
-                metal(alpha(value(0.1)), COLOUR),
-            ],
-            30,
-        ),
-        case(
-            "coats",
-            vec![
-                coated(COLOUR, value(0.2), smooth),
-                coated(COLOUR, value(0.0), CoatMedium::default()),
-            ],
-            30,
-        ),
-        case(
-            "coats of textured alpha",
-            vec![coated(grey(0.7), NUMBER, smooth)],
-            30,
-        ),
-        case("glass", vec![glass, diffuse(COLOUR, 0.0)], 30),
-        case(
-            "glTF",
-            vec![MaterialKind::Gltf(everything), diffuse(grey(0.6), 0.0)],
-            30,
-        ),
-        case(
-            "glTF glass",
-            vec![
-                MaterialKind::Gltf(GltfMaterial {
-                    transmission: NUMBER,
-                    base_colour: COLOUR,
-                    ..gltf()
-                }),
-                diffuse(grey(0.6), 0.0),
-            ],
-            30,
-        ),
-        case(
-            "principled, plastic",
-            vec![
-                MaterialKind::Principled(principled()),
-                plastic(0.2, MicrofacetDistribution::Ggx),
-                plastic(0.0, MicrofacetDistribution::Ggx),
-                plastic(0.3, MicrofacetDistribution::Beckmann),
-            ],
-            30,
-        ),
+        case("glTF", plain([MaterialKind::Gltf(everything), grey]), 30),
+        case("glTF glass", plain([MaterialKind::Gltf(glass), grey]), 30),
+        case("principled, plastic", plastics, 30),
     ]
 }
 
-/// Bent surfaces, mixtures, and constant lobes that batches do not know.
-fn others() -> Vec<Varied> {
+/// Bent surfaces and mixtures.
+fn bent_and_mixed() -> Vec<Varied> {
     let heights = Bump::Height(NUMBER);
     let normals = Bump::Normal {
         map: NORMALS,
@@ -228,6 +234,45 @@ fn others() -> Vec<Varied> {
     };
     let mitsuba = |fades| BumpRules::Mitsuba { fades };
     let metal_of = |a: f32| metal(alpha(value(a)), grey(1.0));
+    let clearcoat = MaterialKind::Gltf(GltfMaterial {
+        clearcoat: value(0.7),
+        clearcoat_roughness: value(0.3),
+        anisotropy: value(0.6),
+        anisotropy_rotation_rad: 0.6,
+        metallic: value(1.0),
+        ..gltf()
+    });
+    let mixed = |amount| {
+        Material::new(MaterialKind::Mix {
+            materials: [MaterialId(2), MaterialId(3)],
+            amount,
+        })
+    };
+    let bumps = vec![
+        bent(diffuse(COLOUR, 0.0), heights, BumpRules::Plain),
+        bent(metal_of(0.2), normals, BumpRules::Plain),
+        bent(metal_of(0.0), heights, mitsuba(false)),
+        bent(diffuse(grey(0.7), 0.0), normals, mitsuba(true)),
+    ];
+    let coats = vec![
+        bent(clearcoat, normals, BumpRules::Plain),
+        Material::new(clearcoat),
+    ];
+    let mixtures = vec![
+        mixed(NUMBER),
+        mixed(value(0.3)),
+        Material::new(metal_of(0.3)),
+        one_sided(diffuse(COLOUR, 0.0)),
+    ];
+    vec![
+        case("bump maps", bumps, 40),
+        case("bent clear coats", coats, 40),
+        case("mixtures", mixtures, 30),
+    ]
+}
+
+/// Constant lobes that batches do not know.
+fn unknown() -> Vec<Varied> {
     let pane = MaterialKind::ThinDielectric {
         eta: 1.5,
         reflection_tint: grey(1.0),
@@ -245,93 +290,43 @@ fn others() -> Vec<Varied> {
         albedo: grey(0.8),
         ..CoatMedium::default()
     };
-    let clearcoat = GltfMaterial {
-        clearcoat: value(0.7),
-        clearcoat_roughness: value(0.3),
-        anisotropy: value(0.6),
-        anisotropy_rotation_rad: 0.6,
-        metallic: value(1.0),
-        ..gltf()
-    };
     let beckmann = Roughness {
         distribution: MicrofacetDistribution::Beckmann,
         ..alpha(value(0.3))
     };
-    let mixed = |amount| MaterialKind::Mix {
-        materials: [MaterialId(2), MaterialId(3)],
-        amount,
+    let gltf = GltfMaterial {
+        transmission: value(0.5),
+        volume: true,
+        ..gltf()
     };
-    let plain = Material::new;
+    let principled = PrincipledMaterial {
+        base_colour: grey(0.6),
+        metallic: value(0.4),
+        spec_trans: value(0.3),
+        ..principled()
+    };
+    let smooth = coated(grey(0.7), value(0.0), CoatMedium::default());
+    let measured = MaterialKind::Measured(MeasuredId(0));
     vec![
-        Varied {
-            name: "bump maps",
-            materials: vec![
-                bent(diffuse(COLOUR, 0.0), heights, BumpRules::Plain),
-                bent(metal_of(0.2), normals, BumpRules::Plain),
-                bent(metal_of(0.0), heights, mitsuba(false)),
-                bent(diffuse(grey(0.7), 0.0), normals, mitsuba(true)),
-            ],
-            most_apart: 40,
-        },
-        Varied {
-            name: "bent clear coats",
-            materials: vec![
-                bent(MaterialKind::Gltf(clearcoat), normals, BumpRules::Plain),
-                plain(MaterialKind::Gltf(clearcoat)),
-            ],
-            most_apart: 40,
-        },
-        Varied {
-            name: "mixtures",
-            materials: vec![
-                plain(mixed(NUMBER)),
-                plain(mixed(value(0.3))),
-                plain(metal_of(0.3)),
-                Material {
-                    one_sided: true,
-                    ..plain(diffuse(COLOUR, 0.0))
-                },
-            ],
-            most_apart: 30,
-        },
-        Varied {
-            name: "layers",
-            materials: vec![plain(layered), plain(coated(grey(0.7), value(0.2), hazy))],
-            most_apart: 60,
-        },
-        Varied {
-            name: "panes, smooth coats",
-            materials: vec![
-                plain(pane),
-                plain(coated(grey(0.7), value(0.0), CoatMedium::default())),
-            ],
-            most_apart: 30,
-        },
-        Varied {
-            name: "Beckmann, measured",
-            materials: vec![
-                plain(metal(beckmann, grey(1.0))),
-                plain(MaterialKind::Measured(MeasuredId(0))),
-            ],
-            most_apart: 40,
-        },
-        Varied {
-            name: "constant glTF, principled",
-            materials: vec![
-                plain(MaterialKind::Gltf(GltfMaterial {
-                    transmission: value(0.5),
-                    volume: true,
-                    ..gltf()
-                })),
-                plain(MaterialKind::Principled(PrincipledMaterial {
-                    base_colour: grey(0.6),
-                    metallic: value(0.4),
-                    spec_trans: value(0.3),
-                    ..principled()
-                })),
-            ],
-            most_apart: 40,
-        },
+        case(
+            "layers",
+            plain([layered, coated(grey(0.7), value(0.2), hazy)]),
+            60,
+        ),
+        case("panes, smooth coats", plain([pane, smooth]), 30),
+        case(
+            "Beckmann, measured",
+            plain([metal(beckmann, grey(1.0)), measured]),
+            40,
+        ),
+        case(
+            "constant glTF, principled",
+            plain([
+                MaterialKind::Gltf(gltf),
+                MaterialKind::Principled(principled),
+            ]),
+            40,
+        ),
     ]
 }
 
@@ -448,7 +443,7 @@ fn options(energy: Energy) -> RenderOptions {
 
 #[test]
 fn textured_paths_in_wavefronts_are_paths_alone() {
-    for (i, case) in textured().iter().enumerate() {
+    for (i, case) in textured().iter().chain(&textured_layers()).enumerate() {
         let filtered = RenderOptions {
             texture_filter: TextureFilter::Ewa,
             regularize: i % 2 == 0,
@@ -461,8 +456,8 @@ fn textured_paths_in_wavefronts_are_paths_alone() {
 }
 
 #[test]
-fn bent_and_mixed_paths_in_wavefronts_are_paths_alone() {
-    for (i, case) in others().iter().enumerate() {
+fn bent_mixed_and_unknown_paths_in_wavefronts_are_paths_alone() {
+    for (i, case) in bent_and_mixed().iter().chain(&unknown()).enumerate() {
         let filtered = RenderOptions {
             texture_filter: TextureFilter::Trilinear,
             regularize: i % 2 == 0,
