@@ -19,9 +19,9 @@ use crate::simd::simd_levels;
 use crate::soa;
 use crate::texture::Textures;
 
-/// Most nodes of a light tree whose importances are computed in batches: those over sixteen lights. A choice needs some
-/// eight of them, which cost as much one by one as 60 in a batch.
-const MOST_NODES: usize = 31;
+/// Most nodes of a light tree whose importances are computed in batches: those over sixteen lights, and one more, as a
+/// power of two divides fast. A choice needs some eight of them, which cost as much one by one as 60 in a batch.
+const MOST_NODES: usize = 32;
 
 /// Most lights that are sampled in batches: as many as such a tree has.
 const MOST_QUEUES: usize = 16;
@@ -389,10 +389,13 @@ mod tests {
                     to_light: [0.6, 0.0, 0.8],
                     half_angle_deg: 3.0,
                 });
-                scene.lights.push(Light::Point {
-                    position: [1.0, 2.0, 5.0],
-                    intensity: Rgb::splat(40.0),
-                });
+                // As many as choose among sixteen in batches.
+                for i in 0_u8..10 {
+                    scene.lights.push(Light::Point {
+                        position: [1.0, 2.0 - f64::from(i), 5.0],
+                        intensity: Rgb::splat(4.0),
+                    });
+                }
             } else {
                 for shape in &mut scene.shapes {
                     shape.emission = None;
@@ -423,6 +426,8 @@ mod tests {
         const COUNT: usize = 1000;
         for (scene, mixed) in scenes().iter().zip([false, true]) {
             let lights = &scene.lights;
+            let nodes = lights.selection.nodes().len();
+            assert_eq!(nodes > 15 && nodes <= MOST_NODES, mixed, "{nodes}");
             let world = (&scene.geometry, &scene.textures);
             let u: [Vec<f32>; 4] =
                 [0, 1, 2, 3].map(|k| (0..COUNT).map(|i| random_numbers(i)[k]).collect());
