@@ -1,9 +1,9 @@
 //! Unidirectional path tracing with next-event estimation.
 //!
 //! At every vertex one light is sampled (two at first vertices of rough metal: `candidates`) and one direction.
-//! Both are combined by the power heuristic. The rules are in `estimator`. `wavefront` and `shade` apply them to batches
-//! of vertices whose materials are constant. This module applies them to single vertices with any material: textures,
-//! bump maps, mixtures, cut-outs and media.
+//! Both are combined by the power heuristic. The rules are in `estimator`. `wavefront` and `shade` apply them to
+//! batches of vertices, `bound` where lobes differ from vertex to vertex. This module applies them to single vertices,
+//! with any material, through cut-outs and media; it is the reference of the others.
 //!
 //! Both normals of a vertex face the viewer. A direction whose sides of the two differ carries nothing, so that
 //! light does not leak. Lobes answer for views below the shading horizon; perfect mirrors and panes have no
@@ -12,7 +12,9 @@
 //! Media absorb between the surface where a path enters them and the one where it leaves (`medium_stack`). A
 //! path begins in none.
 
+mod bound;
 mod candidates;
+mod direct;
 pub(crate) mod estimator;
 mod footprints;
 mod path_states;
@@ -30,7 +32,7 @@ use specula_scene::scene::{BumpRules, ColourParam};
 
 use crate::accel::Ray;
 use crate::bump::{self, Softness};
-use crate::film::{PixelSample, ScatterCounts};
+use crate::film::{PixelSample, ScatterCounts, VertexCounts};
 use crate::geometry::{NONE, Surface};
 use crate::light::{LightSample, Receiver};
 use crate::material::{Coat, Material, PointLobe};
@@ -64,6 +66,8 @@ struct PreviousVertex {
 struct ShadingPoint<'a> {
     surface: Surface,
     lobe: PointLobe<'a>,
+    /// That of the lobe: one of the parts where materials are mixed.
+    material: u32,
     /// Whether the lobe is black where `wi.z <= 0`.
     opaque: bool,
     frame: Frame<f32>,
@@ -118,6 +122,7 @@ impl PathState {
 pub(crate) struct Tally {
     pub(crate) rays: u64,
     pub(crate) scattered: ScatterCounts,
+    pub(crate) vertices: VertexCounts,
 }
 
 impl Tally {
@@ -127,6 +132,7 @@ impl Tally {
         Self {
             rays: self.rays + other.rays,
             scattered: self.scattered.and(other.scattered),
+            vertices: self.vertices.and(other.vertices),
         }
     }
 }
@@ -243,6 +249,7 @@ impl<'a> PathTracer<'a> {
         if depth >= self.max_depth && depth > 0 {
             return false;
         }
+        state.tally.vertices.single += 1;
         let surface = self.with_footprint(surface, ray, state);
         let vertex = self.shading_point(surface, -ray.direction, sampler, depth, state.rough);
         if depth == 0 {
@@ -347,7 +354,7 @@ impl<'a> PathTracer<'a> {
         let mut lobe = chosen.lobe(textures, &place, outside);
         let material = chosen.material;
         let (ns, tangent) = self.shading_normal_and_tangent(&surface, material);
-        let tangent = if material.is_plain_and_isotropic() {
+        let tangent = if material.takes_any_tangent {
             Vec3::ZERO
         } else {
             tangent
@@ -373,6 +380,7 @@ impl<'a> PathTracer<'a> {
         }
         ShadingPoint {
             surface,
+            material: chosen.index,
             opaque: chosen.is_opaque(&lobe),
             lobe,
             frame,
@@ -429,8 +437,8 @@ impl<'a> PathTracer<'a> {
 
     /// How many lights are sampled at a vertex: one where it is measured.
     #[inline]
-    fn light_candidates_at(&self, vertex: &ShadingPoint<'_>, depth: u32) -> u32 {
-        let listed = vertex.lobe.listed();
+    fn light_candidates_of(&self, lobe: &PointLobe<'_>, depth: u32) -> u32 {
+        let listed = lobe.listed();
         listed.map_or(1, |lobe| self.light_candidates(lobe, depth))
     }
 
@@ -446,7 +454,7 @@ impl<'a> PathTracer<'a> {
         if vertex.lobe.is_specular() {
             return;
         }
-        let count = self.light_candidates_at(vertex, depth);
+        let count = self.light_candidates_of(&vertex.lobe, depth);
         let candidate = |nth| self.sample_light(state, vertex, sampler, depth, [nth, count]);
         let first = candidate(0);
         let chosen = if count == 1 {
@@ -575,7 +583,7 @@ impl<'a> PathTracer<'a> {
         state.throughput = throughput;
         state.previous = (!specular).then_some(PreviousVertex {
             receiver: vertex.receiver(),
-            pdf: estimator::pdf_per_candidate(pdf, self.light_candidates_at(vertex, depth)),
+            pdf: estimator::pdf_per_candidate(pdf, self.light_candidates_of(&vertex.lobe, depth)),
         });
         Some(estimator::spawn_ray(&vertex.surface.point(), direction))
     }

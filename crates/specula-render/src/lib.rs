@@ -48,7 +48,7 @@ pub use camera::screen_window;
 pub use device::{Most, Run, SampleDevice, Wanted};
 pub use film::{
     FilmBuffer, FilmFile, FilmFileError, FilmHead, Label, MOST_SAMPLES, MergeError, NoiseEstimate,
-    NoiseOutlook, NoiseTrend, RunSums, ScatterCounts,
+    NoiseOutlook, NoiseTrend, RunSums, ScatterCounts, VertexCounts,
 };
 pub use flat::{FlatGroup, FlatInstance, FlatScene};
 pub use goal::RenderGoal;

@@ -30,7 +30,7 @@ pub struct PreparedScene {
     pub(crate) textures: Textures,
     pub(crate) materials: Materials,
     pub(crate) lights: Lights,
-    /// Material of each shape that batches know, and whether its sides differ.
+    /// Material of each shape that is shaded in batches, and whether its sides are materials of their own there.
     batch_materials: Vec<Option<(u32, bool)>>,
     /// The same behind rough surfaces; empty where that makes no difference.
     batch_materials_behind_rough: Vec<Option<(u32, bool)>>,
@@ -179,9 +179,10 @@ impl PreparedScene {
         let known = |rough: bool| -> Vec<Option<(u32, bool)>> {
             let of = |material: u32| {
                 let material = materials.on_path(material, rough);
-                let [plain, _] = materials.plain(material)?;
+                let sides = materials.plain(material);
+                let is_sided = sides.is_some_and(|[plain, _]| plain.is_sided);
                 let bounds = materials.boundary(material).is_some();
-                (!bounds).then_some((material, plain.is_sided))
+                (!bounds).then_some((material, is_sided))
             };
             geometry.shapes.iter().map(|s| of(s.material)).collect()
         };
@@ -234,7 +235,8 @@ impl PreparedScene {
         Ok(())
     }
 
-    /// Material of a shape, and whether its sides differ; `None` where batches do not know it.
+    /// Material of a shape, and whether its sides are materials of their own in batches; `None` where it bounds a
+    /// medium, and is shaded singly.
     ///
     /// * `rough`: whether the path was scattered by a lobe that is not perfectly smooth.
     #[inline(always)]

@@ -6,7 +6,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use macro_rules_attribute::apply;
 use rayon::prelude::*;
 
-use crate::film::{Aim, FilmBuffer, PixelSums, ScatterCounts, Tile};
+use crate::film::{Aim, FilmBuffer, PixelSums, ScatterCounts, Tile, VertexCounts};
 use crate::integrator::{PathTracer, Tally, Wavefront};
 use crate::options::RenderOptions;
 use crate::prepared::PreparedScene;
@@ -36,6 +36,8 @@ pub struct PassReport {
     pub rays: u64,
     /// Directions that lobes sampled in this pass; `None` where a device sampled them.
     pub scattered: Option<ScatterCounts>,
+    /// Vertices that were shaded in this pass; `None` where a device shaded them.
+    pub vertices: Option<VertexCounts>,
     /// Whether the pass was finished, not stopped.
     pub complete: bool,
     /// Samples of the film so far that were not finite: 0 in a correct render.
@@ -213,19 +215,18 @@ impl<'a> Renderer<'a> {
                 |a, b| (a.0.and(b.0), a.1 && b.1),
             );
         self.plan();
-        self.report(done, Some(done.tally.scattered), complete)
+        self.report(done, Some(done.tally), complete)
     }
 
-    pub(crate) fn report(
-        &self,
-        done: Done,
-        scattered: Option<ScatterCounts>,
-        complete: bool,
-    ) -> PassReport {
+    /// What a pass did.
+    ///
+    /// * `counts`: `None` where a device did it, which counts rays alone.
+    pub(crate) fn report(&self, done: Done, counts: Option<Tally>, complete: bool) -> PassReport {
         PassReport {
             samples_done_total: self.film.complete_samples(),
             rays: done.tally.rays,
-            scattered,
+            scattered: counts.map(|counts| counts.scattered),
+            vertices: counts.map(|counts| counts.vertices),
             complete,
             invalid_samples: self.film.invalid_samples(),
             invalid: done.invalid,

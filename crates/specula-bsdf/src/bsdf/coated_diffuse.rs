@@ -76,6 +76,63 @@ pub struct CoatedDiffuse<T> {
     pub(crate) sampler: Sampler,
 }
 
+/// A coat, to be laid over diffuse bases of many colours: what does not depend on the base is looked up once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DiffuseCoat<T> {
+    coat: Option<Ggx<T>>,
+    eta: T,
+    interface: CoatInterface<T>,
+    /// Share of diffuse light from the base that the coat sends back to it.
+    internal: T,
+    max_depth: Option<u32>,
+    sampler: Sampler,
+}
+
+impl<T: Real> DiffuseCoat<T> {
+    /// * `coat`: distribution of the coat's normals; `None` for a smooth coat.
+    /// * `eta`: index of the coat over that outside, clamped to `[1, 3]`.
+    #[inline]
+    pub fn new(coat: Option<Ggx<T>>, eta: T, layer: CoatLayer<T>) -> Self {
+        let eta = eta.within(T::ONE, T::of(3.0));
+        let is_single = layer.scattering == CoatScattering::Single;
+        let interface = CoatInterface::new(coat, eta, Layer::new(layer.thickness), is_single);
+        Self {
+            coat,
+            eta,
+            interface,
+            internal: interface.internal_reflectance(coat),
+            max_depth: layer.max_depth,
+            sampler: Sampler::default(),
+        }
+    }
+
+    /// The same coat, sampled by another sampler.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_sampler(self, sampler: Sampler) -> Self {
+        Self { sampler, ..self }
+    }
+
+    /// The coat over a base.
+    ///
+    /// * `albedo`: of the base, in `[0, 1]`.
+    #[inline]
+    pub fn over(&self, albedo: Rgb<T>) -> CoatedDiffuse<T> {
+        let scale = T::ONE / (self.eta * self.eta);
+        CoatedDiffuse {
+            coat: self.coat,
+            eta: self.eta,
+            albedo,
+            interface: self.interface,
+            base: albedo.map(|rho| {
+                let q = rho * self.internal;
+                scale * rho * followed(q, self.max_depth) / (T::ONE - q)
+            }),
+            sampler: self.sampler,
+        }
+    }
+}
+
 impl<T: Real> CoatedDiffuse<T> {
     /// A coat that loses nothing.
     ///
@@ -89,32 +146,14 @@ impl<T: Real> CoatedDiffuse<T> {
 
     /// A coat with a medium between it and the base, other parameters as of [`new`](Self::new).
     #[inline]
-    pub fn over_layer(
-        coat: Option<Ggx<T>>,
-        eta: T,
-        albedo: Rgb<T>,
-        CoatLayer {
-            thickness,
-            max_depth,
-            scattering,
-        }: CoatLayer<T>,
-    ) -> Self {
-        let eta = eta.within(T::ONE, T::of(3.0));
-        let is_single = scattering == CoatScattering::Single;
-        let interface = CoatInterface::new(coat, eta, Layer::new(thickness), is_single);
-        let internal = interface.internal_reflectance(coat);
-        let scale = T::ONE / (eta * eta);
-        Self {
-            coat,
-            eta,
-            albedo,
-            interface,
-            base: albedo.map(|rho| {
-                let q = rho * internal;
-                scale * rho * followed(q, max_depth) / (T::ONE - q)
-            }),
-            sampler: Sampler::default(),
-        }
+    pub fn over_layer(coat: Option<Ggx<T>>, eta: T, albedo: Rgb<T>, layer: CoatLayer<T>) -> Self {
+        DiffuseCoat::new(coat, eta, layer).over(albedo)
+    }
+
+    /// Whether the coat is a mirror: then some samples are specular, and others are not.
+    #[inline(always)]
+    pub fn is_smooth(&self) -> bool {
+        self.coat.is_none()
     }
 
     /// The same material, its coat sampled by another sampler.

@@ -26,7 +26,7 @@ mod smooth_dielectric;
 mod tints;
 
 pub use black::Black;
-pub use coated_diffuse::{CoatLayer, CoatScattering, CoatedDiffuse};
+pub use coated_diffuse::{CoatLayer, CoatScattering, CoatedDiffuse, DiffuseCoat};
 pub use compensated::Compensated;
 pub use compensated_dielectric::CompensatedDielectric;
 pub use conductor::{RoughConductor, SeenConductor, SmoothConductor};

@@ -10,6 +10,7 @@ mod run;
 mod scatter_counts;
 mod sum;
 mod trend;
+mod vertex_counts;
 
 pub(crate) use adaptive::Aim;
 pub use adaptive::MOST_SAMPLES;
@@ -22,3 +23,4 @@ pub(crate) use run::LONGEST_RUN;
 pub use run::RunSums;
 pub use scatter_counts::ScatterCounts;
 pub use trend::{NoiseOutlook, NoiseTrend};
+pub use vertex_counts::VertexCounts;

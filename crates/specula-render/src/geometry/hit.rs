@@ -42,6 +42,15 @@ pub(crate) struct Surface {
     pub(crate) footprint: Option<Footprint>,
 }
 
+/// What textures are looked up by, beside the position.
+pub(crate) struct Coordinates {
+    pub(crate) uv: [f32; 2],
+    /// Second texture coordinates; 0 where the mesh has none.
+    pub(crate) second_uv: [f32; 2],
+    /// Vertex colour; white where the mesh has none.
+    pub(crate) colour: Rgb<f32>,
+}
+
 /// A point on a primitive.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct PrimitiveLocation {
@@ -53,6 +62,21 @@ pub(crate) struct PrimitiveLocation {
     pub(crate) weights: [f32; 2],
     /// When it is there, in exposures; for what moves only.
     pub(crate) time: f32,
+}
+
+impl PrimitiveLocation {
+    /// Where a ray hit.
+    ///
+    /// * `time`: of the ray, in exposures.
+    #[inline(always)]
+    pub(crate) fn of(hit: &Hit, time: f32) -> Self {
+        Self {
+            instance: hit.instance,
+            primitive: hit.primitive,
+            weights: [hit.u, hit.v],
+            time,
+        }
+    }
 }
 
 impl Surface {
@@ -86,12 +110,7 @@ impl Geometry {
     /// * `time`: of the ray, in exposures.
     #[inline]
     pub(crate) fn surface(&self, ray: &Ray, hit: &Hit, time: f32) -> Surface {
-        let at = PrimitiveLocation {
-            instance: hit.instance,
-            primitive: hit.primitive,
-            weights: [hit.u, hit.v],
-            time,
-        };
+        let at = PrimitiveLocation::of(hit, time);
         // The point along the ray is only as exact as the ray is long: quadrics project it.
         self.surface_at(&at, || ray.origin + ray.direction * hit.t)
     }
@@ -117,14 +136,21 @@ impl Geometry {
     #[inline]
     pub(crate) fn tangent(&self, hit: &Hit) -> Vec3<f32> {
         let group = &self.groups[self.placements[hit.instance as usize].group as usize];
-        let at = PrimitiveLocation {
-            instance: hit.instance,
-            primitive: hit.primitive,
-            weights: [hit.u, hit.v],
-            time: 0.0,
-        };
+        let at = PrimitiveLocation::of(hit, 0.0);
         let shape = group.shape_of[hit.primitive as usize];
         group.tangent_of_triangle(&at, self.shapes[shape as usize].has_uvs)
+    }
+
+    /// Texture coordinates and colour at a hit of a triangle; `None` for quadrics.
+    #[inline]
+    pub(crate) fn coordinates(&self, hit: &Hit) -> Option<Coordinates> {
+        let group = self.group_of(hit);
+        if hit.primitive as usize >= group.triangles.len() {
+            return None;
+        }
+        let at = PrimitiveLocation::of(hit, 0.0);
+        let shape = group.shape_of[hit.primitive as usize];
+        Some(group.coordinates(&at, self.shapes[shape as usize].has_uvs))
     }
 
     /// Position, its error, normal and tangent at a hit of a quadric, as of [`Geometry::surface`]; `None`
@@ -246,20 +272,12 @@ impl GroupData {
         tangent
     }
 
+    /// Texture coordinates and colour at a point of a triangle.
     #[inline]
-    fn triangle_surface(&self, at: &PrimitiveLocation, has_uvs: bool) -> Surface {
+    fn coordinates(&self, at: &PrimitiveLocation, has_uvs: bool) -> Coordinates {
         let [i, j, k] = self.triangles[at.primitive as usize].map(|v| v as usize);
-        let [a, b, c] = [i, j, k].map(|v| Vec3::from(self.positions[v]));
         let [u, v] = at.weights;
         let w = 1.0 - u - v;
-        let (e1, e2) = (b - a, c - a);
-        let ng = normal_of(e1, e2);
-        let ns = if self.normals.len() > i.max(j).max(k) {
-            let [na, nb, nc] = [i, j, k].map(|v| Vec3::from(self.normals[v]));
-            unit_or(na * w + nb * u + nc * v, ng)
-        } else {
-            ng
-        };
         let uv = if has_uvs {
             let [ta, tb, tc] = [i, j, k].map(|v| self.uvs[v]);
             [0, 1].map(|x| ta[x] * w + tb[x] * u + tc[x] * v)
@@ -280,6 +298,32 @@ impl GroupData {
         } else {
             Rgb::WHITE
         };
+        Coordinates {
+            uv,
+            second_uv,
+            colour,
+        }
+    }
+
+    #[inline]
+    fn triangle_surface(&self, at: &PrimitiveLocation, has_uvs: bool) -> Surface {
+        let [i, j, k] = self.triangles[at.primitive as usize].map(|v| v as usize);
+        let [a, b, c] = [i, j, k].map(|v| Vec3::from(self.positions[v]));
+        let [u, v] = at.weights;
+        let w = 1.0 - u - v;
+        let (e1, e2) = (b - a, c - a);
+        let ng = normal_of(e1, e2);
+        let ns = if self.normals.len() > i.max(j).max(k) {
+            let [na, nb, nc] = [i, j, k].map(|v| Vec3::from(self.normals[v]));
+            unit_or(na * w + nb * u + nc * v, ng)
+        } else {
+            ng
+        };
+        let Coordinates {
+            uv,
+            second_uv,
+            colour,
+        } = self.coordinates(at, has_uvs);
         Surface {
             position: a * w + b * u + c * v,
             error: coupled(largest(abs(a), largest(abs(b), abs(c)))),

@@ -10,8 +10,7 @@ use super::wavefront::{RayQueue, index};
 use super::{PathState, PathTracer, ShadingPoint};
 use crate::accel::{Hit, Ray};
 use crate::geometry::Surface;
-use crate::material::Plain;
-use crate::ray_cone::Bounce;
+use crate::ray_cone::{Bounce, RayCone};
 use crate::sampler::Sampler;
 
 impl PathTracer<'_> {
@@ -44,17 +43,26 @@ impl PathTracer<'_> {
         ray: &Ray,
         state: &mut PathState,
     ) -> Surface {
+        let (surface, cone) = self.with_footprint_of(surface, ray, state.cone);
+        state.cone = cone;
+        surface
+    }
+
+    /// A surface that a ray hits with the footprint of its cone, and the cone there.
+    #[inline]
+    pub(super) fn with_footprint_of(
+        &self,
+        mut surface: Surface,
+        ray: &Ray,
+        cone: RayCone,
+    ) -> (Surface, RayCone) {
         if !self.scene.textures.is_filtered() {
-            return surface;
+            return (surface, cone);
         }
-        let distance = (surface.position - ray.origin).length();
-        state.cone = state.cone.at(distance);
-        let radius = state.cone.radius;
-        let footprint = (self.scene.geometry).footprint(&surface, ray.direction, radius);
-        Surface {
-            footprint: Some(footprint),
-            ..surface
-        }
+        let cone = cone.at((surface.position - ray.origin).length());
+        let footprint = (self.scene.geometry).footprint(&surface, ray.direction, cone.radius);
+        surface.footprint = Some(footprint);
+        (surface, cone)
     }
 
     /// Spreads the cone of a path that was scattered.
@@ -78,20 +86,18 @@ impl PathTracer<'_> {
         state.cone = state.cone.after(bounce, curvature, sampler.index());
     }
 
-    /// Spreads the cone of a path that a batch scattered.
+    /// Spreads the cone of a path that a batch scattered, where textures are filtered.
     ///
     /// * `i`: index of its vertex in the batch.
+    /// * `eta`: index beyond the surface over the index before it.
     #[inline]
     pub(super) fn spread_cone_of_batch(
         &self,
         (paths, live, hits): (&mut PathStates, &RayQueue, &[Option<Hit>]),
         batch: &VertexBatch,
-        plain: &Plain,
         i: usize,
+        eta: f32,
     ) {
-        if !self.scene.textures.is_filtered() {
-            return;
-        }
         let k = batch.live_indices[i] as usize;
         let Some(hit) = &hits[k] else {
             return;
@@ -99,7 +105,7 @@ impl PathTracer<'_> {
         let (ray, path) = (live.ray(k), index(batch.path_indices[i]));
         let scatter = &batch.scatter_samples;
         let bounce = match scatter.outcome[i] {
-            SampleOutcome::SpecularTransmission => Bounce::Refraction { eta: plain.eta },
+            SampleOutcome::SpecularTransmission => Bounce::Refraction { eta },
             SampleOutcome::SpecularReflection => Bounce::Mirror,
             _ => Bounce::Lobe {
                 pdf: scatter.pdf[i],

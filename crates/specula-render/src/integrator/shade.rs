@@ -1,4 +1,6 @@
 //! Shading of the vertices of a wavefront that form a batch: from hits to surfaces, direct light and new rays.
+//!
+//! The loops over plain materials are here; `bound` has those over lobes that differ from vertex to vertex.
 
 use core::ops::Range;
 
@@ -6,20 +8,22 @@ use specula_bsdf::batch::SampleOutcome;
 use specula_bsdf::math::Stream;
 use specula_bsdf::{Bsdf, Vec3};
 
+use super::bound::{self, Exit};
 use super::path_states::PathStates;
+use super::sharing::Shared;
 use super::vertex_batch::{self, VertexBatch, WAVEFRONT_SIZE};
-use super::wavefront::{MaterialRun, Wavefront, index};
-use super::{PathTracer, candidates, estimator};
+use super::wavefront::{MaterialRun, RayQueue, Wavefront, index};
+use super::{PathTracer, estimator};
 use crate::accel::{Hit, Ray};
 use crate::convert::id;
 use crate::material::{Plain, lobes};
-use crate::medium_stack::MediumStack;
 use crate::sampler::Purpose;
 
 impl PathTracer<'_> {
     /// Takes the paths of the batch from this vertex to the next.
     pub(super) fn shade_batch(&self, wavefront: &mut Wavefront, depth: u32) {
         self.load_vertices(wavefront);
+        self.load_bound(wavefront);
         let batch = &mut *wavefront.batch;
         let n = batch.count;
         vertex_batch::interpolate_triangles(n, &batch.triangles, &mut batch.surfaces);
@@ -29,6 +33,7 @@ impl PathTracer<'_> {
                 vertex_batch::use_geometric_normals(range.start, range.end, &mut batch.surfaces);
             }
         }
+        self.bind_vertices(wavefront, depth);
         if depth == 0 {
             self.store_first_hits(wavefront);
         }
@@ -44,39 +49,48 @@ impl PathTracer<'_> {
             live,
             runs,
             batch,
+            bound,
             ..
         } = wavefront;
         let VertexBatch {
             surfaces: s,
             path_indices,
             live_indices,
+            reflectance,
+            count,
             ..
         } = &**batch;
+        let albedos = &mut paths.first.albedo;
         for (plain, range) in self.material_runs(runs) {
             let albedo = plain.lobe.albedo();
             for i in range {
                 let path = index(path_indices[i]);
                 if !(plain.black_inside && s.side[i] < 0.0) {
-                    paths.first.albedo.set_colour(path, albedo);
+                    let scale = plain.reflectance.map(|_| reflectance.colour(i));
+                    albedos.set_colour(path, scale.map_or(albedo, |scale| scale * albedo));
                 }
-                paths.first.normal.set(path, s.ns.get(i));
-                let ray = live.ray(live_indices[i] as usize);
-                paths.first.depth[path] = (s.position.get(i) - ray.origin).length();
             }
+        }
+        for (i, vertex) in self.bound_runs(runs).flat_map(|run| run.bound(bound)) {
+            let albedo = vertex.albedo(&self.scene.materials);
+            albedos.set_colour(index(path_indices[i]), albedo);
+        }
+        for i in 0..WAVEFRONT_SIZE.min(*count) {
+            let path = index(path_indices[i]);
+            paths.first.normal.set(path, s.ns.get(i));
+            let ray = live.ray(live_indices[i] as usize);
+            paths.first.depth[path] = (s.position.get(i) - ray.origin).length();
         }
     }
 
-    /// The material runs of the batch: materials with ranges of vertices.
-    fn material_runs<'s>(
+    /// The runs of plain materials of the batch: materials with ranges of vertices.
+    pub(super) fn material_runs<'s>(
         &'s self,
         runs: &'s [MaterialRun],
     ) -> impl Iterator<Item = (&'s Plain, Range<usize>)> {
         runs.iter().filter_map(|s| {
             let sides = self.scene.materials.plain(s.key / 2)?;
-            Some((
-                &sides[(s.key % 2) as usize],
-                s.from..s.to.min(WAVEFRONT_SIZE),
-            ))
+            Some((&sides[(s.key % 2) as usize], s.range()))
         })
     }
 
@@ -124,7 +138,7 @@ impl PathTracer<'_> {
 
     /// Loads the surface of one vertex.
     #[inline(always)]
-    fn load_surface(
+    pub(super) fn load_surface(
         &self,
         batch: &mut VertexBatch,
         i: usize,
@@ -167,269 +181,21 @@ impl PathTracer<'_> {
         s.tangent.set(i, tangent);
     }
 
-    /// Adds direct light from one light sample to each path.
-    fn light_batch(&self, wavefront: &mut Wavefront, depth: u32) {
-        wavefront
-            .batch
-            .random_numbers
-            .generate(wavefront.batch.count, Purpose::Light, depth);
-        let twice = self
-            .runs_with_two_candidates(&wavefront.runs, depth)
-            .next()
-            .is_some();
-        if twice {
-            self.split_random_numbers(wavefront, depth);
-        }
-        self.sample_candidates(wavefront, depth, 0);
-        if twice {
-            self.sample_candidates(wavefront, depth, 1);
-            self.choose_candidates(wavefront, depth);
-        }
-        let batch = &mut *wavefront.batch;
-        vertex_batch::shadow_rays(batch.count, &batch.surfaces, &mut batch.light_samples);
-        self.trace_shadow_rays(wavefront, depth);
-    }
-
-    /// The material runs at whose vertices two lights are sampled.
-    fn runs_with_two_candidates<'s>(
-        &'s self,
-        runs: &'s [MaterialRun],
-        depth: u32,
-    ) -> impl Iterator<Item = (&'s Plain, Range<usize>)> {
-        let two = move |plain: &Plain| self.light_candidates(&plain.lobe, depth) == 2;
-        self.material_runs(runs)
-            .filter(move |(plain, _)| two(plain))
-    }
-
-    /// Makes random numbers for two lights from those for one, where two are sampled.
-    fn split_random_numbers(&self, wavefront: &mut Wavefront, depth: u32) {
-        let VertexBatch {
-            random_numbers,
-            second_random_numbers,
-            ..
-        } = &mut *wavefront.batch;
-        let first_numbers = &mut random_numbers.values;
-        for (_, range) in self.runs_with_two_candidates(&wavefront.runs, depth) {
-            for i in range {
-                let u = [0, 1, 2, 3].map(|k| first_numbers[k][i]);
-                for (to, nth) in [(&mut *first_numbers, 0), (second_random_numbers, 1)] {
-                    let u = estimator::candidate_random_numbers(u, nth, 2);
-                    for k in 0..4 {
-                        to[k][i] = u[k];
-                    }
-                }
-            }
-        }
-    }
-
-    /// Chooses one of two light candidates.
-    fn choose_candidates(&self, wavefront: &mut Wavefront, depth: u32) {
-        let Wavefront {
-            paths, runs, batch, ..
-        } = wavefront;
-        let VertexBatch {
-            light_samples,
-            second_light_samples,
-            second_random_numbers: [choices, ..],
-            path_indices,
-            ..
-        } = &mut **batch;
-        for (_, range) in self.runs_with_two_candidates(runs, depth) {
-            for i in range.clone() {
-                choices[i] =
-                    candidates::random_number(&paths.samplers[index(path_indices[i])], depth);
-            }
-            vertex_batch::choose_candidates(
-                range.start,
-                range.end,
-                choices,
-                light_samples,
-                second_light_samples,
-            );
-        }
-    }
-
-    /// Samples a light for each vertex, and computes its contribution should nothing occlude it.
-    ///
-    /// * `nth`: 1 for the second of two candidates, else 0.
-    fn sample_candidates(&self, wavefront: &mut Wavefront, depth: u32, nth: u32) {
-        self.sample_lights(wavefront, depth, nth);
-        let Wavefront {
-            paths,
-            runs,
-            batch,
-            streams,
-            ..
-        } = wavefront;
-        let VertexBatch {
-            surfaces: s,
-            light_samples,
-            second_light_samples,
-            scatter_samples: scatter,
-            path_indices,
-            ..
-        } = &mut **batch;
-        let a = if nth == 0 {
-            light_samples
-        } else {
-            second_light_samples
-        };
-        for (plain, range) in self.material_runs(runs) {
-            let (from, to) = (range.start, range.end);
-            let count = self.light_candidates(&plain.lobe, depth);
-            if nth >= count {
-                continue;
-            }
-            if plain.specular {
-                a.contribution.fill(range, 0.0);
-                continue;
-            }
-            for i in range {
-                let black = plain.black_inside && s.side[i] < 0.0;
-                a.pdf[i] *= if black { 0.0 } else { count as f32 };
-            }
-            vertex_batch::lights_to_local(from, to, s, a);
-            let purpose = estimator::stream_of_candidate(nth);
-            fill_streams(
-                paths,
-                &path_indices[from..to],
-                plain,
-                (depth, purpose),
-                streams,
-            );
-            lobes::eval_pdf(
-                &plain.lobe,
-                s.wo.directions(from..to),
-                a.wi.directions(from..to),
-                streams,
-                a.f_cos.colours_mut(from..to),
-                &mut a.lobe_pdf[from..to],
-            );
-            vertex_batch::light_contributions(from, to, &scatter.throughput, a);
-        }
-    }
-
-    /// Samples a light for each vertex.
-    fn sample_lights(&self, wavefront: &mut Wavefront, depth: u32, nth: u32) {
-        let Wavefront {
-            runs,
-            batch,
-            lights,
-            ..
-        } = wavefront;
-        let n = batch.count;
-        let scene = self.scene;
-        let VertexBatch {
-            surfaces: s,
-            light_samples,
-            second_light_samples,
-            share_from_infinity,
-            random_numbers,
-            second_random_numbers,
-            ..
-        } = &mut **batch;
-        let (random_numbers, a) = match nth {
-            0 => (&random_numbers.values, light_samples),
-            _ => (&*second_random_numbers, second_light_samples),
-        };
-        if let Some(light) = scene.lights.lone_parallelogram() {
-            let [_, u, v, _] = random_numbers;
-            vertex_batch::sample_parallelogram(n, light, [u, v], s, a);
-            return;
-        }
-        let world = (&scene.geometry, &scene.textures);
-        let is_lit =
-            |plain: &Plain| !plain.specular && self.light_candidates(&plain.lobe, depth) > nth;
-        let receivers = self
-            .material_runs(runs)
-            .filter(|(plain, _)| is_lit(plain))
-            .flat_map(|(plain, range)| range.map(move |i| (i, plain)))
-            .map(|(i, plain)| (i, s.receiver(i, plain)));
-        let u = [0, 1, 2, 3].map(|k| &random_numbers[k][..]);
-        let store = |i, light| a.set(i, light);
-        (scene.lights).sample_all(
-            lights,
-            receivers,
-            world,
-            u,
-            &mut share_from_infinity[..],
-            store,
-        );
-    }
-
-    /// Traces shadow rays, and adds the contributions that are not occluded.
-    fn trace_shadow_rays(&self, wavefront: &mut Wavefront, depth: u32) {
-        let Wavefront {
-            paths,
-            batch,
-            shadow_rays,
-            occluded,
-            tally,
-            shared,
-            ..
-        } = wavefront;
-        let a = &batch.light_samples;
-        shadow_rays.clear();
-        for i in 0..WAVEFRONT_SIZE.min(batch.count) {
-            if a.contribution.colour(i).is_black() {
-                continue;
-            }
-            let ray = Ray {
-                origin: a.origin.get(i),
-                direction: a.direction.get(i),
-                t_max: if a.is_infinite[i] {
-                    f32::INFINITY
-                } else {
-                    estimator::SHADOW_RAY_END
-                },
-            };
-            shadow_rays.push(id(i), ray);
-        }
-        let accel = &self.scene.geometry.accel;
-        let time = |k| paths.times[index(batch.path_indices[shadow_rays.index(k)])];
-        accel.occluded_all_at(shadow_rays.rays(), time, occluded);
-        tally.rays += shadow_rays.len() as u64;
-        for (k, &is_occluded) in occluded.iter().enumerate() {
-            let i = shadow_rays.index(k);
-            let path = index(batch.path_indices[i]);
-            let mut contribution = a.contribution.colour(i);
-            if is_occluded {
-                if !self.scene.geometry.has_passable {
-                    continue;
-                }
-                // What is in the way may let it pass. It counts its rays.
-                tally.rays -= 1;
-                let ray = *shadow_rays.ray(k);
-                let end = (!a.is_infinite[i]).then(|| a.target.get(i));
-                let way = (batch.surfaces.position.get(i), end);
-                let by_chance = (&paths.samplers[path], depth);
-                let rays = &mut tally.rays;
-                let none = MediumStack::NONE;
-                match self.transmittance_through(ray, way, none, by_chance, rays) {
-                    Some(transmittance) => contribution *= transmittance,
-                    None => continue,
-                }
-            }
-            match shared {
-                Some(shared) if shared.is_at_y(path) => shared.store_light(path, batch, i),
-                _ => paths.add(path, contribution, depth + 1),
-            }
-        }
-    }
-
     /// Samples the next direction of each path.
     fn scatter_batch(&self, wavefront: &mut Wavefront, depth: u32) {
+        let n = wavefront.batch.count;
+        let batch = &mut *wavefront.batch;
+        batch.random_numbers.generate(n, Purpose::Scatter, depth);
+        self.sample_plain(wavefront, depth);
         let Wavefront {
             paths,
             runs,
             batch,
-            streams,
+            bound,
             tally,
             shared,
             ..
         } = wavefront;
-        let n = batch.count;
-        batch.random_numbers.generate(n, Purpose::Scatter, depth);
         let VertexBatch {
             surfaces: s,
             scatter_samples: scatter,
@@ -437,27 +203,63 @@ impl PathTracer<'_> {
             path_indices,
             ..
         } = &mut **batch;
+        let u = [0, 1, 2].map(|k| &random_numbers.values[k][..]);
+        let of_paths = (&**paths, &path_indices[..]);
+        let scattered = self.sample_bound(of_paths, (runs, bound), (s, u), scatter, depth);
+        tally.scattered = tally.scattered.and(scattered);
+        if let Some(shared) = shared {
+            let n = n.min(WAVEFRONT_SIZE);
+            shared.disable_roulette_at_x(&path_indices[..n], &mut random_numbers.values[3][..n]);
+        }
+        vertex_batch::scatter(n, depth, s, &random_numbers.values[3], scatter);
+        self.continue_paths(wavefront, depth);
+    }
+
+    /// Samples the lobes of plain materials.
+    fn sample_plain(&self, wavefront: &mut Wavefront, depth: u32) {
+        let Wavefront {
+            paths,
+            runs,
+            batch,
+            streams,
+            tally,
+            ..
+        } = wavefront;
+        let VertexBatch {
+            surfaces: s,
+            scatter_samples: scatter,
+            random_numbers,
+            path_indices,
+            reflectance,
+            ..
+        } = &mut **batch;
         for (plain, range) in self.material_runs(runs) {
             let (from, to) = (range.start, range.end);
-            fill_streams(
-                paths,
-                &path_indices[from..to],
-                plain,
-                (depth, estimator::STREAM_SCATTER),
-                streams,
-            );
-            let u = [0, 1, 2].map(|k| &random_numbers.values[k][from..to]);
-            let samples = specula_bsdf::batch::Samples {
-                wi: scatter.wi.directions_mut(from..to),
-                weight: scatter.weight.colours_mut(from..to),
-                pdf: &mut scatter.pdf[from..to],
-                outcome: &mut scatter.outcome[from..to],
-            };
-            lobes::sample(&plain.lobe, s.wo.directions(from..to), u, streams, samples);
+            let purpose = estimator::STREAM_SCATTER;
+            if plain.is_batched {
+                let vertices = &path_indices[from..to];
+                fill_streams(paths, vertices, plain, (depth, purpose), streams);
+                let u = [0, 1, 2].map(|k| &random_numbers.values[k][from..to]);
+                let samples = specula_bsdf::batch::Samples {
+                    wi: scatter.wi.directions_mut(from..to),
+                    weight: scatter.weight.colours_mut(from..to),
+                    pdf: &mut scatter.pdf[from..to],
+                    outcome: &mut scatter.outcome[from..to],
+                };
+                lobes::sample(&plain.lobe, s.wo.directions(from..to), u, streams, samples);
+                if plain.reflectance.is_some() {
+                    vertex_batch::scale_values(from, to, reflectance, &mut scatter.weight);
+                }
+            } else {
+                let u = [0, 1, 2].map(|k| &random_numbers.values[k][..]);
+                let sampler = |i: usize| &paths.samplers[index(path_indices[i])];
+                let stream = |i: usize| sampler(i).stream(depth, purpose);
+                bound::sample_run(plain, range.clone(), (s, u), scatter, stream);
+            }
             let sides = plain.black_inside.then(|| &s.side[from..to]);
             let scattered = vertex_batch::count_scattered(&scatter.outcome[from..to], sides);
             tally.scattered = tally.scattered.and(scattered);
-            for i in range.filter(|_| !plain.opaque) {
+            for i in range.filter(|_| plain.is_batched && !plain.opaque) {
                 if matches!(
                     scatter.outcome[i],
                     SampleOutcome::Transmission | SampleOutcome::SpecularTransmission
@@ -467,12 +269,6 @@ impl PathTracer<'_> {
                 }
             }
         }
-        if let Some(shared) = shared {
-            let n = n.min(WAVEFRONT_SIZE);
-            shared.disable_roulette_at_x(&path_indices[..n], &mut random_numbers.values[3][..n]);
-        }
-        vertex_batch::scatter(n, depth, s, &random_numbers.values[3], scatter);
-        self.continue_paths(wavefront, depth);
     }
 
     /// Stores the paths that continue, with their rays.
@@ -484,54 +280,109 @@ impl PathTracer<'_> {
             next,
             runs,
             batch,
+            bound,
             shared,
             ..
         } = wavefront;
+        let mut onward = Onward {
+            paths,
+            live,
+            hits,
+            next,
+            batch,
+            shared: shared.as_deref_mut(),
+            has_cones: self.scene.textures.is_filtered(),
+        };
         let (s, scatter) = (&batch.surfaces, &batch.scatter_samples);
         for (plain, range) in self.material_runs(runs) {
+            let exit = Exit::of_plain(plain, self.light_candidates(&plain.lobe, depth));
             for i in range {
-                if !scatter.alive[i] || (plain.black_inside && s.side[i] < 0.0) {
-                    continue;
-                }
-                let path_index = batch.path_indices[i];
-                let path = index(path_index);
-                let ray = Ray {
-                    origin: scatter.origin.get(i),
-                    direction: scatter.direction.get(i),
-                    t_max: f32::INFINITY,
-                };
-                next.push(path_index, ray);
-                let mut throughput = scatter.throughput.colour(i);
-                if let Some(shared) = shared {
-                    if shared.is_at_y(path) {
-                        shared.store_direction(path, batch, i);
-                    }
-                    let from_x = shared.throughput_from_x(path, scatter.weight.colour(i));
-                    throughput = from_x.unwrap_or(throughput);
-                }
-                paths.throughput.set_colour(path, throughput);
-                paths.eta_scale[path] = scatter.eta_scale[i];
-                self.spread_cone_of_batch((paths, live, hits), batch, plain, i);
-                paths.straight[path] = false;
-                paths.rough[path] |= matches!(
-                    scatter.outcome[i],
-                    SampleOutcome::Reflection | SampleOutcome::Transmission
-                );
-                if plain.specular {
-                    paths.previous_pdf[path] = 0.0;
-                } else {
-                    let lights = self.light_candidates(&plain.lobe, depth);
-                    paths.previous_pdf[path] = estimator::pdf_per_candidate(scatter.pdf[i], lights);
-                    paths.previous_share[path] = batch.share_from_infinity[i];
-                    paths.previous.set(path, &s.receiver(i, plain));
+                let is_black = plain.black_inside && s.side[i] < 0.0;
+                if scatter.alive[i] && !is_black {
+                    self.continue_path(&mut onward, i, exit);
                 }
             }
+        }
+        for (i, vertex) in self.bound_runs(runs).flat_map(|run| run.bound(bound)) {
+            if scatter.alive[i] {
+                self.continue_path(&mut onward, i, vertex.exit());
+            }
+        }
+    }
+
+    /// Stores a path that continues, with its ray.
+    ///
+    /// * `i`: index of its vertex.
+    #[inline(always)]
+    fn continue_path(&self, onward: &mut Onward<'_>, i: usize, exit: Exit) {
+        let Onward {
+            paths,
+            live,
+            hits,
+            next,
+            batch,
+            shared,
+            has_cones,
+        } = onward;
+        let (s, scatter) = (&batch.surfaces, &batch.scatter_samples);
+        let path_index = batch.path_indices[i];
+        let path = index(path_index);
+        let ray = Ray {
+            origin: scatter.origin.get(i),
+            direction: scatter.direction.get(i),
+            t_max: f32::INFINITY,
+        };
+        next.push(path_index, ray);
+        let mut throughput = scatter.throughput.colour(i);
+        if let Some(shared) = shared {
+            if shared.is_at_y(path) {
+                shared.store_direction(path, batch, i);
+            }
+            let from_x = shared.throughput_from_x(path, scatter.weight.colour(i));
+            throughput = from_x.unwrap_or(throughput);
+        }
+        paths.throughput.set_colour(path, throughput);
+        paths.eta_scale[path] = scatter.eta_scale[i];
+        if *has_cones {
+            let eta = exit.eta.unwrap_or(scatter.eta[i]);
+            self.spread_cone_of_batch((paths, live, hits), batch, i, eta);
+        }
+        let outcome = scatter.outcome[i];
+        if exit.is_pane {
+            paths.straight[path] &= outcome == SampleOutcome::SpecularTransmission;
+        } else {
+            paths.straight[path] = false;
+        }
+        let is_rough = matches!(
+            outcome,
+            SampleOutcome::Reflection | SampleOutcome::Transmission
+        );
+        paths.rough[path] |= is_rough;
+        if is_rough {
+            let pdf = estimator::pdf_per_candidate(scatter.pdf[i], exit.lights);
+            paths.previous_pdf[path] = pdf;
+            paths.previous_share[path] = batch.share_from_infinity[i];
+            paths.previous.set(path, &s.receiver(i, exit.opaque));
+        } else {
+            paths.previous_pdf[path] = 0.0;
         }
     }
 }
 
+/// Where paths that continue are stored, and what they come from.
+struct Onward<'a> {
+    paths: &'a mut PathStates,
+    live: &'a RayQueue,
+    hits: &'a [Option<Hit>],
+    next: &'a mut RayQueue,
+    batch: &'a VertexBatch,
+    shared: Option<&'a mut Shared>,
+    /// Whether textures are filtered over the paths' cones.
+    has_cones: bool,
+}
+
 /// Streams for lobes whose values are estimates.
-fn fill_streams(
+pub(super) fn fill_streams(
     paths: &PathStates,
     path_indices: &[u32],
     plain: &Plain,

@@ -15,6 +15,7 @@
 //! `sum p_k q_k / sum p_k`, for both strategies, so that their weights add up to 1. Emission of the surfaces at
 //! `y_j`, and light beyond vertices that are smooth, textured or stochastic, stays with its own path.
 
+use specula_bsdf::bsdf::Lobe;
 use specula_bsdf::math::{rgb, vec3};
 use specula_bsdf::{Frame, Rgb, Vec3};
 
@@ -189,8 +190,8 @@ impl Shared {
         }
     }
 
-    /// Records that a vertex of a path is shaded singly (`PathTracer::shade`).
-    pub(super) fn leave_batch(&mut self, path: usize) {
+    /// Records that a vertex of a path cannot be shared.
+    pub(super) fn pass_unshared(&mut self, path: usize) {
         let stage = &mut self.stage[path];
         *stage = match stage {
             Stage::AtY | Stage::AfterY => Stage::AfterY,
@@ -247,9 +248,13 @@ impl Shared {
     }
 }
 
-/// Whether vertices of a material can be shared.
+/// Whether vertices of a material can be shared: others evaluate its lobe in batches, and every direction of it has a
+/// density.
 fn is_shared(plain: &Plain) -> bool {
-    !plain.specular && !lobes::takes_streams(&plain.lobe)
+    let is_partly_mirror = matches!(&plain.lobe, Lobe::CoatedDiffuse(lobe) if lobe.is_smooth());
+    plain.is_batched
+        && plain.reflectance.is_none()
+        && !(plain.specular || is_partly_mirror || lobes::takes_streams(&plain.lobe))
 }
 
 impl PathTracer<'_> {
@@ -265,12 +270,15 @@ impl PathTracer<'_> {
         else {
             return;
         };
-        let sides = runs.iter().filter_map(|s| {
-            let sides = self.scene.materials.plain(s.key / 2)?;
-            Some((&sides[(s.key % 2) as usize], s))
-        });
-        for (plain, run) in sides {
-            for i in run.from..run.to.min(WAVEFRONT_SIZE) {
+        for run in runs.iter() {
+            let Some(sides) = self.scene.materials.plain(run.key / 2) else {
+                for i in run.range() {
+                    shared.pass_unshared(index(batch.path_indices[i]));
+                }
+                continue;
+            };
+            let plain = &sides[(run.key % 2) as usize];
+            for i in run.range() {
                 let path = index(batch.path_indices[i]);
                 let black = plain.black_inside && batch.surfaces.side[i] < 0.0;
                 let usable = is_shared(plain) && !black;
@@ -366,36 +374,36 @@ mod tests {
         assert!(off < 8, "{off} of {}", 64 * 48);
     }
 
-    /// In an element of its own, as where nothing is shared.
+    /// In an element of its own, as where nothing is shared: of a smooth coat, too, some directions have no density.
     #[test]
     fn mirrors_are_no_vertices_to_share() {
-        let mut scene = specula_scene::builtin::orbs();
-        let mirror = specula_scene::material_text::parse_material("conductor Au alpha 0").unwrap();
-        for material in &mut scene.materials {
-            material.kind = mirror;
+        for text in ["conductor Au alpha 0", "coateddiffuse 0.5 alpha 0"] {
+            let mut scene = specula_scene::builtin::orbs();
+            let mirror = specula_scene::material_text::parse_material(text).unwrap();
+            for material in &mut scene.materials {
+                material.kind = mirror;
+            }
+            let options = RenderOptions {
+                resolution: Some([64, 48]),
+                share_paths: 4,
+                ..RenderOptions::default()
+            };
+            let prepared = PreparedScene::new(&scene, &options).unwrap();
+            let tracer = PathTracer::new(&prepared, &options);
+            let mut wavefront = Wavefront::new();
+            let sample = |i| ([i % 64, i / 64], Sampler::new([i % 64, i / 64], 0, 0));
+            tracer.begin(&mut wavefront, (0..id(Wavefront::SIZE)).map(sample));
+            tracer.follow_all(&mut wavefront);
+            let colours = |wavefront: &Wavefront| -> Vec<_> {
+                (0..WAVEFRONT_SIZE)
+                    .map(|i| wavefront.pixel_sample(i).0.colour)
+                    .collect()
+            };
+            let before = colours(&wavefront);
+            tracer.share(&mut wavefront, &[4; Wavefront::SIZE / 4]);
+            assert_eq!(before, colours(&wavefront), "{text}");
+            let shared = wavefront.shared.as_ref().unwrap();
+            assert!(shared.has_x.iter().all(|has_x| !has_x), "{text}");
         }
-        let options = RenderOptions {
-            resolution: Some([64, 48]),
-            share_paths: 4,
-            ..RenderOptions::default()
-        };
-        let prepared = PreparedScene::new(&scene, &options).unwrap();
-        let tracer = PathTracer::new(&prepared, &options);
-        let mut wavefront = Wavefront::new();
-        let sample = |i| ([i % 64, i / 64], Sampler::new([i % 64, i / 64], 0, 0));
-        tracer.begin(&mut wavefront, (0..id(Wavefront::SIZE)).map(sample));
-        tracer.follow_all(&mut wavefront);
-        let before: Vec<_> = (0..WAVEFRONT_SIZE)
-            .map(|i| wavefront.pixel_sample(i).0)
-            .collect();
-        tracer.share(&mut wavefront, &[4; Wavefront::SIZE / 4]);
-        let after: Vec<_> = (0..WAVEFRONT_SIZE)
-            .map(|i| wavefront.pixel_sample(i).0)
-            .collect();
-        let colours = |samples: &[crate::film::PixelSample]| -> Vec<_> {
-            samples.iter().map(|s| s.colour).collect()
-        };
-        assert_eq!(colours(&before), colours(&after));
-        assert!((0..WAVEFRONT_SIZE).all(|i| !wavefront.shared.as_ref().unwrap().has_x[i]));
     }
 }

@@ -10,14 +10,14 @@
 
 use macro_rules_attribute::apply;
 use specula_bsdf::batch::SampleOutcome;
+use specula_bsdf::bsdf::Event;
 use specula_bsdf::math::{rgb, vec3};
-use specula_bsdf::{Frame, Rgb, Vec3};
+use specula_bsdf::{BsdfSample, Frame, Rgb, Vec3};
 
 use super::estimator;
 use crate::film::ScatterCounts;
 use crate::geometry::unit_or;
 use crate::light::{LightSample, Parallelogram, ParallelogramSample, Receiver};
-use crate::material::Plain;
 use crate::offset::{SurfacePoint, coupled};
 use crate::options::Strategy;
 use crate::sampler::RandomNumbers;
@@ -107,6 +107,8 @@ pub(super) struct ScatterSamples {
     pub(super) origin: Vectors,
     /// Whether the path continues.
     pub(super) alive: [bool; WAVEFRONT_SIZE],
+    /// Index beyond the surface over the index before it, where lobes were sampled one after the other.
+    pub(super) eta: Floats,
 }
 
 /// Everything about the vertices of a wavefront.
@@ -130,6 +132,8 @@ pub(super) struct VertexBatch {
     pub(super) second_random_numbers: [Floats; 4],
     /// Where camera rays pass through the raster.
     pub(super) raster: [Floats; 2],
+    /// What scales the values of lobes, where materials have it.
+    pub(super) reflectance: Vectors,
 }
 
 /// Of zeros.
@@ -171,10 +175,12 @@ impl VertexBatch {
                 direction: Vectors::ZERO,
                 origin: Vectors::ZERO,
                 alive: [false; WAVEFRONT_SIZE],
+                eta: ZERO,
             },
             random_numbers: RandomNumbers::ZERO,
             second_random_numbers: [ZERO; 4],
             raster: [ZERO; 2],
+            reflectance: Vectors::ZERO,
         })
     }
 }
@@ -217,6 +223,31 @@ impl LightSamples {
     }
 }
 
+impl ScatterSamples {
+    /// Stores what a lobe sampled; `None`: nothing.
+    #[inline]
+    pub(super) fn set(&mut self, i: usize, sample: Option<BsdfSample<f32>>) {
+        let Some(sample) = sample else {
+            self.wi.set(i, Vec3::ZERO);
+            self.weight.set_colour(i, Rgb::BLACK);
+            self.pdf[i] = 0.0;
+            self.outcome[i] = SampleOutcome::Rejected;
+            return;
+        };
+        self.wi.set(i, sample.wi);
+        self.weight.set_colour(i, sample.weight);
+        self.pdf[i] = sample.pdf;
+        self.outcome[i] = match (sample.event, sample.specular) {
+            (Event::Reflection, false) => SampleOutcome::Reflection,
+            (Event::Transmission, false) => SampleOutcome::Transmission,
+            (Event::Reflection, true) => SampleOutcome::SpecularReflection,
+            (Event::Transmission, true) => SampleOutcome::SpecularTransmission,
+        };
+        self.eta[i] = sample.eta;
+        self.eta_scale[i] = estimator::eta_scale_after(self.eta_scale[i], sample.eta);
+    }
+}
+
 impl Surfaces {
     #[inline(always)]
     pub(super) fn frame(&self, i: usize) -> Frame<f32> {
@@ -238,11 +269,13 @@ impl Surfaces {
     }
 
     /// A vertex as lights are chosen for it.
+    ///
+    /// * `opaque`: whether nothing passes its surface.
     #[inline(always)]
-    pub(super) fn receiver(&self, i: usize, plain: &Plain) -> Receiver {
+    pub(super) fn receiver(&self, i: usize, opaque: bool) -> Receiver {
         Receiver {
             point: self.position.get(i),
-            normal: plain.opaque.then(|| self.ns.get(i)),
+            normal: opaque.then(|| self.ns.get(i)),
         }
     }
 
@@ -313,6 +346,16 @@ pub(super) fn face_viewers(n: usize, s: &mut Surfaces) {
         s.axes[0].set(i, frame.s);
         s.axes[1].set(i, frame.t);
         s.wo.set(i, frame.to_local(wo));
+    }
+}
+
+/// Scales values of lobes, or weights of their samples.
+///
+/// * `from`, `to`: the vertices.
+#[apply(simd_levels)]
+pub(super) fn scale_values(from: usize, to: usize, by: &Vectors, values: &mut Vectors) {
+    for i in from..to.min(WAVEFRONT_SIZE) {
+        values.set_colour(i, by.colour(i) * values.colour(i));
     }
 }
 

@@ -1,13 +1,17 @@
 //! A wavefront: paths that are traced vertex by vertex together.
 //!
-//! Vertices on surfaces with constant materials are sorted by material and shaded in batches (`shade`); others are shaded
-//! singly (`PathTracer::shade`). The scene alone decides which, and a path never depends on the others of its wavefront.
+//! Vertices are sorted by material and shaded in batches (`shade`); those whose lobes differ from vertex to vertex have
+//! them bound one after the other there (`bound`). Vertices in media, at their boundaries, and where rays may pass
+//! what they hit are shaded singly (`PathTracer::shade`). The scene and the path alone decide which, and a path never
+//! depends on the others of its wavefront.
 
+use core::ops::Range;
 use core::sync::atomic::{AtomicBool, Ordering};
 
 use specula_bsdf::Vec3;
 use specula_bsdf::math::Stream;
 
+use super::bound::BoundVertex;
 use super::path_states::PathStates;
 use super::sharing::{PairBuffers, Shared};
 use super::vertex_batch::{self, Floats, VertexBatch, WAVEFRONT_SIZE, ZERO};
@@ -25,16 +29,37 @@ use crate::sampler::{Purpose, Sampler};
 struct QueuedVertex {
     /// Index among the live paths.
     at: u32,
-    /// Twice the material, and one more where that is seen from the outside or may be seen from either
-    /// side.
+    /// Twice the material, and one more where that is seen from the outside, or its sides are no materials of their
+    /// own.
     key: u32,
 }
 
 /// Consecutive vertices of a batch with the same key.
 pub(super) struct MaterialRun {
-    pub(super) from: usize,
-    pub(super) to: usize,
+    from: usize,
+    to: usize,
     pub(super) key: u32,
+    /// Index of the first of its bound vertices, where its lobes are bound.
+    pub(super) first_bound: usize,
+}
+
+impl MaterialRun {
+    /// The vertices' indices.
+    #[inline(always)]
+    pub(super) fn range(&self) -> Range<usize> {
+        self.from..self.to.min(WAVEFRONT_SIZE)
+    }
+
+    /// The vertices' indices, and their lobes.
+    ///
+    /// * `all`: those of the batch.
+    #[inline(always)]
+    pub(super) fn bound<'s>(
+        &self,
+        all: &'s [BoundVertex],
+    ) -> impl Iterator<Item = (usize, &'s BoundVertex)> + use<'s> {
+        self.range().zip(&all[self.first_bound..])
+    }
 }
 
 /// The paths of a wavefront, and their buffers.
@@ -56,6 +81,8 @@ pub(crate) struct Wavefront {
     starts: Vec<u32>,
     pub(super) runs: Vec<MaterialRun>,
     pub(super) batch: Box<VertexBatch>,
+    /// Of the runs whose lobes are bound, one after the other.
+    pub(super) bound: Vec<BoundVertex>,
     pub(super) streams: Vec<Stream>,
     /// Shadow rays, with the indices of their vertices.
     pub(super) shadow_rays: Box<RayQueue>,
@@ -144,6 +171,7 @@ impl Wavefront {
             starts: Vec::new(),
             runs: Vec::new(),
             batch: VertexBatch::new(),
+            bound: Vec::new(),
             streams: Vec::new(),
             shadow_rays: RayQueue::new(),
             occluded: Vec::new(),
@@ -324,7 +352,7 @@ impl PathTracer<'_> {
         }
         wavefront.tally = wavefront.tally.and(wavefront.paths.store(i, &path));
         if let Some(shared) = &mut wavefront.shared {
-            shared.leave_batch(i);
+            shared.pass_unshared(i);
         }
     }
 
@@ -447,7 +475,7 @@ impl PathTracer<'_> {
         });
     }
 
-    /// The material key of a surface, and whether it may emit; `None`: batches do not know its material.
+    /// The material key of a surface, and whether it may emit; `None`: it is shaded singly.
     ///
     /// * `i`: index of the path.
     #[inline(always)]
@@ -504,7 +532,12 @@ impl PathTracer<'_> {
         for (key, count) in (0..).zip(starts.iter_mut()) {
             let to = at + *count as usize;
             if *count > 0 {
-                runs.push(MaterialRun { from: at, to, key });
+                runs.push(MaterialRun {
+                    from: at,
+                    to,
+                    key,
+                    first_bound: 0,
+                });
             }
             *count = id(at);
             at = to;

@@ -1,7 +1,7 @@
 //! Every kind of material as a lobe.
 
 use specula_bsdf::bsdf::{
-    Base, Black, CoatLayer, CoatScattering, CoatedDiffuse, DiffuseTransmission, Eon, Gltf,
+    Base, Black, CoatLayer, CoatScattering, DiffuseCoat, DiffuseTransmission, Eon, Gltf,
     GltfParameters, Lambert, Layered, Lobe, Medium, Plastic, Principled, PrincipledParameters,
     RoughDielectric, SmoothConductor, SmoothDielectric, ThinDielectric, Tints,
 };
@@ -61,6 +61,52 @@ pub(super) fn is_isotropic(kind: &MaterialKind) -> bool {
         | MaterialKind::Dielectric { roughness, .. } => roughness.u == roughness.v,
         _ => false,
     }
+}
+
+/// The coat of a diffuse base whose colour alone differs from point to point.
+pub(super) fn coat_of_coloured_base(
+    kind: &MaterialKind,
+    textures: &Textures,
+    models: Models,
+) -> Option<DiffuseCoat<f32>> {
+    let MaterialKind::CoatedDiffuse {
+        reflectance: ColourParam::Texture(_),
+        eta,
+        roughness,
+        medium,
+        lossless,
+    } = kind
+    else {
+        return None;
+    };
+    let is_same = [roughness.u, roughness.v, medium.thickness]
+        .iter()
+        .all(|p| matches!(p, FloatParam::Value(_)));
+    let nowhere = TextureCoordinates::default();
+    let at = PointParameters::new(textures, &nowhere, models);
+    (is_same && !medium.scatters())
+        .then(|| at.diffuse_coat(*eta, roughness, (medium, *lossless), models))
+}
+
+/// [`coat_of_coloured_base`] over its base at a point.
+#[inline(always)]
+pub(super) fn coated(
+    coat: &DiffuseCoat<f32>,
+    reflectance: ColourParam,
+    textures: &Textures,
+    place: &TextureCoordinates,
+) -> Lobe<f32> {
+    coat.over(albedo(textures, reflectance, place)).into()
+}
+
+/// A colour in `[0, 1]`.
+pub(super) fn albedo(
+    textures: &Textures,
+    parameter: ColourParam,
+    place: &TextureCoordinates,
+) -> Rgb<f32> {
+    let colour = textures.colour(parameter, place);
+    colour.map(|v| v.clamp(0.0, 1.0))
 }
 
 /// The lobe of a material that is no mix.
@@ -203,8 +249,7 @@ impl<'a> PointParameters<'a> {
     }
 
     fn albedo(&self, parameter: ColourParam) -> Rgb<f32> {
-        let colour = self.textures.colour(parameter, self.place);
-        colour.map(|v| v.clamp(0.0, 1.0))
+        albedo(self.textures, parameter, self.place)
     }
 
     fn tints(&self, reflection: ColourParam, transmission: ColourParam) -> Tints<f32> {
@@ -231,10 +276,21 @@ impl<'a> PointParameters<'a> {
         if medium.scatters() {
             return self.layered(roughness, eta, Base::diffuse(albedo), medium, models);
         }
-        let layer = self.coat_layer(medium, lossless, models);
-        CoatedDiffuse::over_layer(self.ggx(roughness), eta, albedo, layer)
-            .with_sampler(models.sampler)
+        self.diffuse_coat(eta, roughness, (medium, lossless), models)
+            .over(albedo)
             .into()
+    }
+
+    /// A coat without a medium that scatters.
+    fn diffuse_coat(
+        &self,
+        eta: f32,
+        roughness: &Roughness,
+        (medium, lossless): (&CoatMedium, bool),
+        models: Models,
+    ) -> DiffuseCoat<f32> {
+        let layer = self.coat_layer(medium, lossless, models);
+        DiffuseCoat::new(self.ggx(roughness), eta, layer).with_sampler(models.sampler)
     }
 
     /// The layer between a coat and the Lambertian base below it.

@@ -56,7 +56,7 @@ impl Materials {
             "HAS_DIRECTIONS",
             u32::from(self.materials.iter().any(turns)),
         );
-        let bent = self.materials.iter().filter(|m| m.is_bent()).count();
+        let bent = self.materials.iter().filter(|m| m.has_bumps()).count();
         to.constant("BUMP_COUNT", id(bent));
         // A render has one sampler and one density for simulated bounces.
         let models = self.materials.first().map(|m| m.models);
@@ -86,7 +86,7 @@ impl Material {
             (layout::MATERIAL_ROTATION, rotation_rad.to_bits()),
             (
                 layout::MATERIAL_ISOTROPIC,
-                u32::from(self.is_plain_and_isotropic()),
+                u32::from(self.takes_any_tangent),
             ),
             (layout::MATERIAL_ENERGY, energy_code(self.models.energy)),
             (
@@ -129,7 +129,7 @@ impl Material {
         to.field(record, layout::BUMP_SIZE);
     }
 
-    fn is_bent(&self) -> bool {
+    fn has_bumps(&self) -> bool {
         self.bump.is_some() || self.coat.is_some()
     }
 }

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use lobes::Sides;
 pub use parameters::MaterialShader;
 pub(crate) use point_lobe::PointLobe;
-use specula_bsdf::bsdf::Lobe;
+use specula_bsdf::bsdf::{DiffuseCoat, Lambert, Lobe};
 use specula_bsdf::measured::Measured;
 use specula_bsdf::multibounce::MisPdf;
 use specula_bsdf::vndf;
@@ -24,6 +24,7 @@ use specula_scene::scene::{
     Bump, BumpRules, ColourParam, FloatParam, MaterialKind, Scene, TextureId,
 };
 
+use crate::convert::id;
 use crate::medium_stack::Boundary;
 use crate::options::RenderOptions;
 use crate::texture::{TextureCoordinates, Textures};
@@ -63,12 +64,21 @@ pub(crate) struct Material {
     boundary: Option<Boundary>,
     /// Where it is the same everywhere: seen from the inside, and from the outside or either side.
     plain: Option<[Plain; 2]>,
+    /// Its coat, where the colour of the diffuse base below alone differs from point to point.
+    diffuse_coat: Option<DiffuseCoat<f32>>,
+    /// Whether its lobes' x axis does not matter, and its surfaces are as their meshes say.
+    pub(crate) takes_any_tangent: bool,
 }
 
 /// A material of one lobe, on surfaces that are as their meshes say.
 #[derive(Clone, Debug)]
 pub(crate) struct Plain {
+    /// White, where there is a reflectance.
     pub(crate) lobe: Lobe<f32>,
+    /// What scales its values from point to point: the albedo of Lambert's lobe, where it has a texture.
+    pub(crate) reflectance: Option<ColourParam>,
+    /// Whether many of its elements are evaluated and sampled at once; else one after the other.
+    pub(crate) is_batched: bool,
     /// Whether it is another from the other side.
     pub(crate) is_sided: bool,
     /// Whether its back is black.
@@ -77,7 +87,7 @@ pub(crate) struct Plain {
     pub(crate) isotropic: bool,
     /// Whether nothing passes it.
     pub(crate) opaque: bool,
-    /// Index beyond it over the index before it.
+    /// Index beyond it over the index before it, where it is batched.
     pub(crate) eta: f32,
 }
 
@@ -97,6 +107,8 @@ pub(crate) struct Coat(pub(crate) Option<Bump>);
 #[derive(Clone, Copy)]
 pub(crate) struct Chosen<'a> {
     pub(crate) material: &'a Material,
+    /// Its index.
+    pub(crate) index: u32,
     one_sided: bool,
 }
 
@@ -138,6 +150,8 @@ impl Materials {
             let has_lobe = !matches!(kind, MaterialKind::Mix { .. } | MaterialKind::Measured(_));
             let mut material = Material {
                 plain: None,
+                diffuse_coat: bind::coat_of_coloured_base(&kind, textures, models),
+                takes_any_tangent: false,
                 constant: (!varies && has_lobe).then(|| {
                     [false, true]
                         .map(|outside| bind::lobe(&kind, textures, &nowhere, outside, models))
@@ -159,6 +173,7 @@ impl Materials {
                     Bump::Normal { .. } => true,
                 }),
             };
+            material.takes_any_tangent = !material.is_bent() && bind::is_isotropic(&material.kind);
             material.plain = material.as_plain();
             material
         };
@@ -197,10 +212,39 @@ impl Materials {
         self.has_boundaries
     }
 
-    /// A material without textures, bump maps and transmission.
+    /// A material of one lobe, on surfaces that are as their meshes say.
     #[inline]
     pub(crate) fn plain(&self, material: u32) -> Option<&[Plain; 2]> {
         self.materials[material as usize].plain.as_ref()
+    }
+
+    /// Whether surfaces of a material are other than their meshes say: they have bump maps, or turned tangents, or
+    /// chance decides which material they have.
+    #[inline]
+    pub(crate) fn is_bent(&self, material: u32) -> bool {
+        self.materials[material as usize].is_bent()
+    }
+
+    /// Whether any tangent will do for the lobes of a material.
+    #[inline]
+    pub(crate) fn takes_any_tangent(&self, material: u32) -> bool {
+        self.materials[material as usize].takes_any_tangent
+    }
+
+    /// A measured material.
+    #[inline]
+    pub(crate) fn measured(&self, material: u32) -> Option<&Measured<f32>> {
+        self.materials[material as usize].measured.as_deref()
+    }
+
+    /// The reflectance of a plain material at a point.
+    #[inline]
+    pub(crate) fn reflectance(
+        textures: &Textures,
+        reflectance: ColourParam,
+        place: &TextureCoordinates,
+    ) -> Rgb<f32> {
+        bind::albedo(textures, reflectance, place)
     }
 
     /// What absorbs on the two sides of a material's shapes, where it bounds a body.
@@ -220,18 +264,21 @@ impl Materials {
         place: &TextureCoordinates,
         random: impl Fn(u32) -> f32,
     ) -> Chosen<'_> {
-        let mut material = &self.materials[material as usize];
+        let mut index = material;
+        let mut material = &self.materials[index as usize];
         let mut one_sided = material.one_sided;
         for level in 0..MOST_MIXES {
             let MaterialKind::Mix { materials, amount } = material.kind else {
                 break;
             };
             let second = random(level) < textures.float(amount, place);
-            material = &self.materials[materials[usize::from(second)].0];
+            index = id(materials[usize::from(second)].0);
+            material = &self.materials[index as usize];
             one_sided |= material.one_sided;
         }
         Chosen {
             material,
+            index,
             one_sided,
         }
     }
@@ -287,33 +334,57 @@ fn coat(kind: &MaterialKind, bent: bool) -> Option<Coat> {
 }
 
 impl Material {
-    /// Whether it is dealt with in batches, and takes any tangent.
-    #[inline]
-    pub(crate) fn is_plain_and_isotropic(&self) -> bool {
-        self.plain.as_ref().is_some_and(|[p, _]| p.isotropic)
+    fn is_bent(&self) -> bool {
+        let is_mixed = matches!(self.kind, MaterialKind::Mix { .. });
+        self.bump.is_some() || self.turn.is_some() || self.coat.is_some() || is_mixed
     }
 
     fn as_plain(&self) -> Option<[Plain; 2]> {
-        let [inside, outside] = self.constant?;
-        let black_inside = self.one_sided || matches!(inside, Lobe::Black(_));
-        let is_bent = self.bump.is_some() || self.turn.is_some() || self.coat.is_some();
-        if is_bent || !lobes::is_batched(&outside) {
+        if self.is_bent() {
             return None;
         }
+        let (lobes, reflectance) = match (self.constant, &self.kind) {
+            (Some(lobes), _) => (lobes, None),
+            (
+                None,
+                MaterialKind::Diffuse {
+                    reflectance,
+                    roughness: FloatParam::Value(roughness),
+                },
+            ) if *roughness <= 0.0 => ([Lambert::new(Rgb::WHITE).into(); 2], Some(*reflectance)),
+            _ => return None,
+        };
+        let [inside, outside] = lobes;
+        if matches!(outside, Lobe::Black(_)) {
+            return None;
+        }
+        let black_inside = self.one_sided || matches!(inside, Lobe::Black(_));
         let eta = match self.kind {
             MaterialKind::Dielectric { eta, .. } => eta,
             _ => 1.0,
         };
         let seen = |lobe: Lobe<f32>, eta| Plain {
             lobe,
+            reflectance,
+            is_batched: lobes::is_batched(&lobe),
             is_sided: !black_inside && inside != outside,
             black_inside,
             specular: lobe.is_specular(),
-            isotropic: bind::is_isotropic(&self.kind),
-            opaque: lobes::sides(&lobe) == Sides::Reflects,
+            isotropic: self.takes_any_tangent,
+            opaque: self.is_opaque(lobes::sides(&lobe)),
             eta,
         };
         Some([seen(inside, 1.0 / eta), seen(outside, eta)])
+    }
+
+    /// Whether nothing comes through a lobe of it.
+    #[inline]
+    fn is_opaque(&self, sides: Sides) -> bool {
+        match sides {
+            Sides::Reflects => true,
+            Sides::Transmits => false,
+            Sides::Depends => self.opaque_layers,
+        }
     }
 
     /// Angle of the lobes' x axis from dp/du towards dp/dv.
@@ -353,17 +424,18 @@ impl<'a> Chosen<'a> {
         PointLobe::Listed(match (&m.constant, &m.measured) {
             (Some(lobes), _) => lobes[usize::from(outside)],
             (None, Some(measured)) => return PointLobe::Measured(measured),
-            (None, None) => bind::lobe(&m.kind, textures, place, outside, m.models),
+            (None, None) => match (&m.diffuse_coat, &m.kind) {
+                (Some(coat), MaterialKind::CoatedDiffuse { reflectance, .. }) => {
+                    bind::coated(coat, *reflectance, textures, place)
+                }
+                _ => bind::lobe(&m.kind, textures, place, outside, m.models),
+            },
         })
     }
 
     /// Whether nothing comes through the lobe: it is black where `wi.z <= 0`.
     #[inline]
     pub(crate) fn is_opaque(&self, lobe: &PointLobe<'_>) -> bool {
-        match lobe.sides() {
-            Sides::Reflects => true,
-            Sides::Transmits => false,
-            Sides::Depends => self.material.opaque_layers,
-        }
+        self.material.is_opaque(lobe.sides())
     }
 }

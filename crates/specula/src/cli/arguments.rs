@@ -266,6 +266,11 @@ pub(crate) struct RenderArguments {
     #[arg(short, long)]
     pub(crate) quiet: bool,
 
+    /// Say in the end how many vertices of paths were shaded in batches, how many of these but for their
+    /// lobes, how many singly, and how many samples of lobes were rejected
+    #[arg(long, conflicts_with = "quiet")]
+    pub(crate) stats: bool,
+
     #[command(flatten)]
     pub(crate) loading: LoadingArguments,
 }

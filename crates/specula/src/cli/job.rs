@@ -3,7 +3,7 @@
 use crate::cli::ExitCode;
 use std::time::{Duration, Instant};
 
-use crate::render::{FilmBuffer, InvalidSample, RenderGoal, Renderer};
+use crate::render::{FilmBuffer, InvalidSample, RenderGoal, Renderer, ScatterCounts, VertexCounts};
 
 use super::checkpoint::Checkpoint;
 use super::console::say;
@@ -26,6 +26,8 @@ pub(crate) struct Job<'a> {
     pub(crate) live_view: Option<&'a mut LiveView>,
     pub(crate) denoised: bool,
     pub(crate) quiet: bool,
+    /// Whether the counts of the render are printed.
+    pub(crate) stats: bool,
     /// Whether pictures are written every few seconds, for somebody who looks at them.
     pub(crate) is_watched: bool,
 }
@@ -34,6 +36,8 @@ pub(crate) struct Job<'a> {
 #[derive(Default)]
 struct Sum {
     rays: u64,
+    /// `None`: nothing counts them.
+    counts: Option<(VertexCounts, ScatterCounts)>,
     invalid: u64,
     one_invalid: Option<InvalidSample>,
     /// Whether a picture could not be written during the render.
@@ -72,6 +76,9 @@ impl Job<'_> {
         if !self.quiet || signal.is_some() {
             self.print_summary(sum.rays, seconds, signal);
         }
+        if self.stats {
+            say!("{}", statistics(sum.counts));
+        }
         Ok(ExitCode::from(signal.map_or(0, Signal::exit_code)))
     }
 
@@ -99,6 +106,10 @@ impl Job<'_> {
             let report = taken.or_else(|error| self.give_up(&error, start.elapsed()))?;
             last = Some((next, pass_start.elapsed()));
             sum.rays += report.rays;
+            if let (Some(vertices), Some(scattered)) = (report.vertices, report.scattered) {
+                let so_far = sum.counts.unwrap_or_default();
+                sum.counts = Some((so_far.0.and(vertices), so_far.1.and(scattered)));
+            }
             sum.invalid = report.invalid_samples;
             sum.one_invalid = sum.one_invalid.or(report.invalid);
             let film = self.renderer.film();
@@ -213,6 +224,21 @@ impl Job<'_> {
             rays as f64 * 1e-6 / seconds.max(1e-9),
         );
     }
+}
+
+/// What `--stats` prints.
+fn statistics(counts: Option<(VertexCounts, ScatterCounts)>) -> String {
+    let Some((vertices, scattered)) = counts else {
+        return "statistics: none, as only the processor counts".to_owned();
+    };
+    let [batched, bound, single] = vertices.shares().map(|share| 100.0 * share);
+    format!(
+        "statistics: {} vertices, {batched:.2} % shaded in batches, {bound:.2} % but for their lobes, {single:.2} % \
+         singly; {:.2} % of {} samples of lobes rejected",
+        vertices.total(),
+        100.0 * scattered.rejected_share(),
+        scattered.sampled,
+    )
 }
 
 /// How long a pass of `samples` will take, from the samples and the duration of the last.

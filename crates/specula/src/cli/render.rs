@@ -187,6 +187,7 @@ impl Context<'_> {
             live_view,
             denoised: arguments.denoise,
             quiet: arguments.quiet,
+            stats: arguments.stats,
             is_watched: arguments.watch,
         }
         .run()

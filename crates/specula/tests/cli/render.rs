@@ -31,6 +31,29 @@ fn a_scene_becomes_exr_and_png_named_after_it() {
 }
 
 #[test]
+fn statistics_say_how_vertices_were_shaded() {
+    let (folder, scene) = small_scene();
+    let run = |extra: &[&str]| {
+        let mut command = specula(folder.path());
+        command
+            .args(["render", "--stats", "--spp", "2"])
+            .args(extra);
+        command.arg(&scene).output().unwrap()
+    };
+    let done = run(&[]);
+    let said = stderr(&done);
+    assert!(done.status.success(), "{said}");
+    let line = said.lines().find(|line| line.starts_with("statistics: "));
+    let line = line.expect("there is a line");
+    assert!(line.contains(" vertices, "), "{line}");
+    assert!(
+        line.contains("% shaded in batches, ") && line.contains(" 0.00 % singly"),
+        "{line}"
+    );
+    assert_eq!(run(&["--quiet"]).status.code(), Some(2));
+}
+
+#[test]
 fn options_change_what_is_rendered() {
     let (folder, scene) = small_scene();
     let run = specula(folder.path())

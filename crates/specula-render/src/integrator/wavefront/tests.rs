@@ -1,6 +1,9 @@
 //! Paths in wavefronts against the same paths alone.
 
+mod varied;
+
 use super::*;
+use crate::film::VertexCounts;
 use crate::options::RenderOptions;
 use specula_bsdf::bsdf::Lobe;
 use specula_scene::Energy;
@@ -93,7 +96,7 @@ fn cases() -> Vec<Case> {
         },
         case(
             "CoatedDiffuse",
-            ["coateddiffuse 0.6 alpha 0.2", "diffuse 0.5"],
+            ["coateddiffuse 0.6 alpha 0.2", "coateddiffuse 0.7 alpha 0"],
             |l| matches!(l, Lobe::CoatedDiffuse(_)),
             3,
         ),
@@ -112,11 +115,12 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// Samples of paths in wavefronts, and of the same paths followed one by one; of both, the rays.
+/// Samples of paths in wavefronts, and of the same paths followed one by one; of both, the rays and the vertices.
 struct BothWays {
     prepared: PreparedScene,
     samples: Vec<[PixelSample; 2]>,
     rays: [u64; 2],
+    vertices: [VertexCounts; 2],
 }
 
 /// The built-in scene with the materials of a case.
@@ -140,17 +144,17 @@ fn both_ways(scene: &Scene, options: &RenderOptions) -> BothWays {
         (pixel, Sampler::new(pixel, 3, 5))
     };
     let (mut wavefront, mut alone) = (Wavefront::new(), Wavefront::new());
-    let (mut samples, mut rays) = (Vec::new(), [0; 2]);
+    let (mut samples, mut tallies) = (Vec::new(), [Tally::default(); 2]);
     for first in (0..SIZE[0] * SIZE[1]).step_by(Wavefront::SIZE) {
         let indices = first..first + id(Wavefront::SIZE);
         tracer.begin(&mut wavefront, indices.clone().map(sample));
         tracer.follow_all(&mut wavefront);
-        rays[0] += wavefront.take_tally().rays;
+        tallies[0] = tallies[0].and(wavefront.take_tally());
         for (k, i) in indices.enumerate() {
             tracer.begin(&mut alone, std::iter::once(sample(i)));
             let mut path = alone.first_path();
             tracer.follow(&mut path);
-            rays[1] += alone.paths.store(0, &path).rays;
+            tallies[1] = tallies[1].and(alone.paths.store(0, &path));
             samples.push([
                 tracer.contribution(&wavefront, k).0,
                 tracer.contribution(&alone, 0).0,
@@ -160,7 +164,8 @@ fn both_ways(scene: &Scene, options: &RenderOptions) -> BothWays {
     BothWays {
         prepared,
         samples,
-        rays,
+        rays: tallies.map(|tally| tally.rays),
+        vertices: tallies.map(|tally| tally.vertices),
     }
 }
 
@@ -201,6 +206,7 @@ fn paths_in_wavefronts_are_paths_alone() {
                 prepared,
                 samples,
                 rays,
+                ..
             } = both_ways(&scene_of(&case), &options);
             assert!(rays[0] > 0);
             let count = 0..prepared.materials.count();
