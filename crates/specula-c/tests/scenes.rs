@@ -193,9 +193,10 @@ fn a_render_is_that_of_the_library() {
 
 #[test]
 fn textures_are_filtered_as_asked() {
-    let file = specula_testing::scene("gltf/boombox.glb");
+    let file = specula_testing::scene("mitsuba/textured-roughconductor.xml");
     let scene = load(&file).unwrap();
     let loaded = specula_scene::load(&file).unwrap().scene;
+    let mut all: Vec<Vec<f32>> = Vec::new();
     for (code, filter) in [
         (abi::SPECULA_TEXTURE_FILTER_SCENE, TextureFilter::Scene),
         (
@@ -231,9 +232,12 @@ fn textures_are_filtered_as_asked() {
             read(picture, abi::SPECULA_LAYER_COLOUR, 3, [0, 0]) == expected,
             "{filter}"
         );
+        all.push(expected);
         // SAFETY: it is not used any more.
         unsafe { abi::specula_picture_free(picture) };
     }
+    // Mitsuba's textures are not filtered over footprints.
+    assert!(all[0] == all[1] && all[1] != all[2] && all[2] != all[3]);
     let wrong = RenderOptions {
         texture_filter: 4,
         ..small()
