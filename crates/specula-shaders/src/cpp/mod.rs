@@ -24,7 +24,7 @@ use types::Scope;
 
 /// What the prelude has changed, changed back.
 const POSTLUDE: &str = "\
-#if defined(__CUDACC__)
+#if defined(__CUDACC__) || defined(__HIP_DEVICE_COMPILE__)
 #elif defined(__clang__)
 #pragma float_control(pop)
 #elif defined(__GNUC__)

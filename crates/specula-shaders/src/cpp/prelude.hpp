@@ -23,7 +23,7 @@ using uint32_t = unsigned int;
 #endif
 
 // Sums and products keep their order under `-ffast-math`, as they do in CUDA: some are exact only so, or in range.
-#if defined(__CUDACC__)
+#if defined(__CUDACC__) || defined(__HIP_DEVICE_COMPILE__)
 #elif defined(__clang__)
 #pragma float_control(push)
 #pragma clang fp reassociate(off)
