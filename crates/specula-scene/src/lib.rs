@@ -29,6 +29,7 @@ pub mod atomic;
 pub mod bounds;
 pub mod builtin;
 #[cfg(feature = "miette")]
+mod curves;
 mod diagnostic;
 pub mod energy;
 pub mod error;
@@ -62,6 +63,7 @@ pub mod spectrum;
 mod stage;
 pub mod summary;
 mod transform;
+mod tube;
 pub mod validate;
 pub mod write_pbrt;
 

@@ -69,6 +69,13 @@ pub(crate) fn parsed_f32(word: &[u8]) -> Option<f32> {
     }
 }
 
+/// The beginning of a word that is no number, with everything odd in it escaped, for messages.
+pub(crate) fn shortened(word: &[u8]) -> String {
+    String::from_utf8_lossy(&word[..word.len().min(40)])
+        .escape_debug()
+        .to_string()
+}
+
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;

@@ -1,6 +1,7 @@
 //! `cargo xtask python`: the Python package: built into its sources, its types checked, its tests run; or its wheel.
 
 use std::fs;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -9,6 +10,8 @@ use crate::{Result, workspace};
 /// The package's sources, from the workspace's root.
 const SOURCES: &str = "crates/specula-py/python";
 const TESTS: &str = "crates/specula-py/tests";
+/// Those of the farm, which mostly wait for its nodes to start and to end.
+const FARM_TESTS: &str = "crates/specula-py/tests/test_farm.py";
 /// What runs the notebooks and writes their pages.
 const NOTEBOOKS: &str = "crates/specula-py/tools/notebooks.py";
 
@@ -135,7 +138,7 @@ fn notebooks(root: &Path) -> Result<()> {
     succeed(pages, "notebooks")
 }
 
-/// Types, stubs and tests.
+/// Types, stubs and tests; those of the farm beside the others.
 fn check(root: &Path, skips: Option<&Path>) -> Result<()> {
     let python = environment(root, "python", TOOLS)?;
     let sources = root.join(SOURCES);
@@ -149,26 +152,45 @@ fn check(root: &Path, skips: Option<&Path>) -> Result<()> {
         command.env("PYTHONDONTWRITEBYTECODE", "1");
         command
     };
+    let values = values(root)?;
+    let pytest = |arguments: &[&str]| {
+        let mut tests = in_package("pytest");
+        tests.args(["--quiet", "-p", "no:cacheprovider", "--durations", "5"]);
+        tests.args(arguments).env("SPECULA_VALUES", &values);
+        if let Some(skips) = skips {
+            tests.env(specula_testing::FILE, skips);
+        }
+        tests
+    };
+    let mut farm = pytest(&[FARM_TESTS]);
+    std::thread::scope(|scope| {
+        let farm = scope.spawn(move || farm.output());
+        let others = check_but_farm(&in_package, &pytest);
+        let farm = farm
+            .join()
+            .map_err(|_| "the farm's tests cannot be run")??;
+        std::io::stdout().write_all(&farm.stdout)?;
+        std::io::stderr().write_all(&farm.stderr)?;
+        others?;
+        match farm.status.success() {
+            true => Ok(()),
+            false => Err("Python: tests of the farm fail".into()),
+        }
+    })
+}
+
+/// Types, stubs and tests but for those of the farm.
+fn check_but_farm(
+    in_package: &dyn Fn(&str) -> Command,
+    pytest: &dyn Fn(&[&str]) -> Command,
+) -> Result<()> {
     let mut types = in_package("mypy");
     types.args(["--cache-dir", "target/mypy", "--package", "specula_render"]);
     succeed(types, "types")?;
     let mut stubs = in_package("mypy.stubtest");
     stubs.args(["specula_render._native", "--ignore-missing-stub"]);
     succeed(stubs, "stubs")?;
-    let mut tests = in_package("pytest");
-    tests.args([
-        "--quiet",
-        "-p",
-        "no:cacheprovider",
-        "--durations",
-        "5",
-        TESTS,
-    ]);
-    tests.env("SPECULA_VALUES", values(root)?);
-    if let Some(skips) = skips {
-        tests.env(specula_testing::FILE, skips);
-    }
-    succeed(tests, "tests")
+    succeed(pytest(&["--ignore", FARM_TESTS, TESTS]), "tests")
 }
 
 /// The file of values that Rust computes, with which tests compare theirs.

@@ -106,8 +106,16 @@ pub(crate) const FEATURES: &[Feature] = &[
     full("shape", "shapegroup"),
     full("shape", "instance"),
     full("shape", "merge"),
-    close("shape", "linearcurve", LEFT_OUT),
-    close("shape", "bsplinecurve", LEFT_OUT),
+    close(
+        "shape",
+        "linearcurve",
+        "cones and balls of 12 sides and the same width",
+    ),
+    close(
+        "shape",
+        "bsplinecurve",
+        "tubes of 12 sides and the same width; centre line within 1/20 of it; insides are seen at the ends",
+    ),
     close("shape", "sdfgrid", LEFT_OUT),
     close("shape", "ellipsoids", LEFT_OUT),
     close("shape", "ellipsoidsmesh", LEFT_OUT),

@@ -3,10 +3,11 @@
 use std::collections::HashMap;
 use std::path::PathBuf;
 
-use glam::DVec3;
+use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
 use super::context::Context;
+use crate::curves::{self, CurveBasis};
 use crate::error::{ErrorKind, Place, SceneError};
 use crate::faults::Fault;
 use crate::mesh::{self, Cleaning};
@@ -27,6 +28,22 @@ pub(super) enum MeshSource {
         face_normals: bool,
         flip_v: bool,
     },
+    Curves {
+        path: PathBuf,
+        basis: CurveBasis,
+        /// Bits of the matrix that moves control points.
+        to_world: [u64; 16],
+    },
+}
+
+impl MeshSource {
+    /// The file that it comes from.
+    fn path(&self) -> Option<&PathBuf> {
+        match self {
+            Self::Rectangle | Self::Cube | Self::Cylinder => None,
+            Self::File { path, .. } | Self::Curves { path, .. } => Some(path),
+        }
+    }
 }
 
 /// A format of meshes.
@@ -70,7 +87,7 @@ impl Meshes {
     ) -> Result<(Vec<BuiltGeometry>, Vec<Mesh>), SceneError> {
         let files = context.access;
         for (source, _) in &self.sources {
-            if let MeshSource::File { path, .. } = source {
+            if let Some(path) = source.path() {
                 files.announce(path);
             }
         }
@@ -123,12 +140,15 @@ struct BuiltMesh {
 }
 
 fn fault_error(context: &Context, source: &MeshSource, place: &Place, fault: &Fault) -> SceneError {
-    let MeshSource::File { path, format, .. } = source else {
+    let Some(path) = source.path() else {
         return SceneError::new(ErrorKind::Mesh, place, fault.to_string());
     };
-    let number = match format {
-        Format::Serialized(index) => format!(" ({index})"),
-        Format::Obj | Format::Ply => String::new(),
+    let number = match source {
+        MeshSource::File {
+            format: Format::Serialized(index),
+            ..
+        } => format!(" ({index})"),
+        _ => String::new(),
     };
     let message = format!("mesh {}{number}: {fault}", path.display());
     context.file_error(ErrorKind::Mesh, place, path, message)
@@ -145,6 +165,19 @@ fn build(source: &MeshSource, files: &Files, collects: bool) -> Result<BuiltMesh
         MeshSource::Rectangle => return Ok(plain(super::primitive::rectangle())),
         MeshSource::Cube => return Ok(plain(super::primitive::cube())),
         MeshSource::Cylinder => return Ok(plain(super::primitive::cylinder())),
+        MeshSource::Curves {
+            path,
+            basis,
+            to_world,
+        } => {
+            let to_world = DMat4::from_cols_array(&to_world.map(f64::from_bits));
+            let mut mesh = curves::read(path, *basis, &to_world, files, collects)?;
+            let cleaning = mesh::clean_or_name(&mut mesh, collects)?;
+            return Ok(BuiltMesh {
+                cleaning,
+                ..plain(mesh)
+            });
+        }
         MeshSource::File {
             path,
             format,

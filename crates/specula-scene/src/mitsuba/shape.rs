@@ -12,6 +12,7 @@ use super::element::Element;
 use super::geometry::{BuiltGeometry, Format, MeshSource, Meshes};
 use super::primitive;
 use super::texture::{Frame, unknown};
+use crate::curves::CurveBasis;
 use crate::error::{ErrorKind, Place, SceneError};
 use crate::num::f32_of;
 use crate::problems::NoteKind;
@@ -226,6 +227,20 @@ impl Shapes {
                 let (source, place) = file(context, element)?;
                 PendingGeometry::Mesh(self.meshes.ask(source, &place))
             }
+            "linearcurve" | "bsplinecurve" => {
+                let (path, place) = context.needed_file(element, "filename")?;
+                let source = MeshSource::Curves {
+                    path,
+                    basis: match element.plugin.as_str() {
+                        "linearcurve" => CurveBasis::Linear,
+                        _ => CurveBasis::Spline,
+                    },
+                    to_world: to_world.to_cols_array().map(f64::to_bits),
+                };
+                // Control points are moved there; radii stay as they are.
+                to_world = DMat4::IDENTITY;
+                PendingGeometry::Mesh(self.meshes.ask(source, &place))
+            }
             "shapegroup" | "instance" | "animatedinstance" => {
                 let message = format!("{} cannot be part of a group", element.title());
                 return Err(SceneError::new(
@@ -234,8 +249,7 @@ impl Shapes {
                     message,
                 ));
             }
-            "linearcurve" | "bsplinecurve" | "sdfgrid" | "ellipsoids" | "ellipsoidsmesh"
-            | "hair" | "heightfield" | "deformable" => {
+            "sdfgrid" | "ellipsoids" | "ellipsoidsmesh" | "hair" | "heightfield" | "deformable" => {
                 let message = format!("{} is not supported: it is left out", element.title());
                 element.properties.iter().for_each(|p| p.used.set(true));
                 context.warn(&element.place, message);

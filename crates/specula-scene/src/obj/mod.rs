@@ -11,7 +11,7 @@ use std::path::Path;
 
 use crate::Limits;
 use crate::faults::{Fault, Faults};
-use crate::num::parsed_f32;
+use crate::num::{parsed_f32, shortened};
 use crate::read_file::Files;
 use crate::scene::Mesh;
 
@@ -231,7 +231,7 @@ impl<'a> Reader<'a> {
         if position == NONE || parts.next().is_some() {
             return Err(format!(
                 "expected a corner such as 1/2/3, found `{}`",
-                shorten(word)
+                shortened(word)
             ));
         }
         let key = [position, uv, normal];
@@ -289,7 +289,7 @@ fn numbers(text: &[u8], out: &mut [f32]) -> Result<usize, String> {
     for (word, slot) in words.zip(out) {
         *slot = parsed_f32(word)
             .filter(|x: &f32| x.is_finite())
-            .ok_or_else(|| format!("expected a finite number, found `{}`", shorten(word)))?;
+            .ok_or_else(|| format!("expected a finite number, found `{}`", shortened(word)))?;
         found += 1;
     }
     Ok(found)
@@ -300,7 +300,7 @@ fn index(digits: &[u8], count: usize, what: &str) -> Result<u32, String> {
     let number = std::str::from_utf8(digits)
         .ok()
         .and_then(|w| w.parse::<i64>().ok())
-        .ok_or_else(|| format!("expected an index, found `{}`", shorten(digits)))?;
+        .ok_or_else(|| format!("expected an index, found `{}`", shortened(digits)))?;
     let known = i64::try_from(count).unwrap_or(i64::MAX);
     let from_zero = if number < 0 {
         known + number
@@ -311,12 +311,6 @@ fn index(digits: &[u8], count: usize, what: &str) -> Result<u32, String> {
         .ok()
         .filter(|_| from_zero < known)
         .ok_or_else(|| format!("{what} {number} is out of range; there are {count} before this"))
-}
-
-fn shorten(word: &[u8]) -> String {
-    String::from_utf8_lossy(&word[..word.len().min(40)])
-        .escape_debug()
-        .to_string()
 }
 
 #[cfg(test)]

@@ -26,6 +26,7 @@ fn scene(feature: &Feature) -> String {
         "envmap" | "bitmap" => r#"<string name="filename" value="grey.png"/>"#,
         "obj" => r#"<string name="filename" value="a.obj"/>"#,
         "ply" => r#"<string name="filename" value="a.ply"/>"#,
+        "linearcurve" | "bsplinecurve" => r#"<string name="filename" value="a.txt"/>"#,
         "instance" | "animatedinstance" => {
             r#"<shape type="shapegroup"><shape type="cube"/></shape>"#
         }
@@ -73,6 +74,7 @@ fn every_feature_is_treated_as_the_list_says() {
     let folder = Folder::new();
     folder.write("grey.png", include_bytes!("grey.png"));
     folder.write("a.bsdf", super::measured::file());
+    folder.write("a.txt", "0 0 0 1\n1 0 0 1\n2 0 0 1\n3 0 0 1\n");
     folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     folder.write(
         "a.ply",

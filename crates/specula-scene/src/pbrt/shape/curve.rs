@@ -13,12 +13,7 @@ use crate::num::f32_of;
 use crate::pbrt::context::{Context, Entity};
 use crate::pbrt::token::shorten;
 use crate::scene::Mesh;
-
-/// How far chords may lie from the curve, over its width.
-const TOLERANCE: f64 = 0.05;
-
-/// Most chords of one segment.
-const MOST_STEPS: u32 = 64;
+use crate::tube::{self, Bezier, Station, cubic_spline, join, tube};
 
 /// What a curve looks like.
 enum CurveForm {
@@ -31,7 +26,7 @@ enum CurveForm {
 /// A curve of several segments.
 pub(in crate::pbrt) struct Curve {
     /// Cubic Bezier segments.
-    segments: Vec<[DVec3; 4]>,
+    segments: Vec<Bezier>,
     /// Width at the beginning and at the end.
     width_at_ends: [f64; 2],
     look: CurveForm,
@@ -134,7 +129,7 @@ fn look(context: &mut Context, entity: &Entity, segments: usize) -> Result<Curve
 }
 
 /// A Bezier segment of degree 2 or 3 as a cubic one.
-fn bezier(p: &[DVec3]) -> [DVec3; 4] {
+fn bezier(p: &[DVec3]) -> Bezier {
     match *p {
         [a, b, c] => [a, a.lerp(b, 2.0 / 3.0), c.lerp(b, 2.0 / 3.0), c],
         [a, b, c, d, ..] => [a, b, c, d],
@@ -143,27 +138,12 @@ fn bezier(p: &[DVec3]) -> [DVec3; 4] {
 }
 
 /// A segment of a uniform B-spline of degree 2 or 3 as a cubic Bezier segment.
-fn spline(p: &[DVec3]) -> [DVec3; 4] {
+fn spline(p: &[DVec3]) -> Bezier {
     match *p {
         [a, b, c] => bezier(&[a.midpoint(b), b, b.midpoint(c)]),
-        [a, b, c, d, ..] => {
-            let (bc, cb) = (b.lerp(c, 1.0 / 3.0), c.lerp(b, 1.0 / 3.0));
-            let (ba, cd) = (b.lerp(a, 1.0 / 3.0), c.lerp(d, 1.0 / 3.0));
-            [ba.midpoint(bc), bc, cb, cb.midpoint(cd)]
-        }
+        [a, b, c, d, ..] => cubic_spline([a, b, c, d], |a, b, u| a.lerp(b, u)),
         _ => [DVec3::ZERO; 4],
     }
-}
-
-/// A point of the centre line.
-struct CurvePoint {
-    point: DVec3,
-    tangent: DVec3,
-    width: f64,
-    /// Along the segment it belongs to.
-    u: f64,
-    /// Number of the segment.
-    segment: usize,
 }
 
 impl Curve {
@@ -188,83 +168,25 @@ impl Curve {
         Ok(mesh)
     }
 
-    /// Chords of a segment: `|p - chord| <= max|p''| / (8 n^2)`, `max|p''| <= 6 max|second difference|`.
-    fn steps(&self, [a, b, c, d]: &[DVec3; 4]) -> u32 {
-        let bend = (a - 2.0 * b + c).length().max((b - 2.0 * c + d).length());
-        let width = self.width_at_ends[0].max(self.width_at_ends[1]).max(1e-30);
-        let steps = (6.0 * bend / (8.0 * TOLERANCE * width)).sqrt().ceil();
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "clamped to small numbers"
-        )]
-        let steps = steps.clamp(1.0, f64::from(MOST_STEPS)) as u32;
-        steps
+    /// Chords of a segment.
+    fn steps(&self, control: &Bezier) -> u32 {
+        tube::steps(control, self.width_at_ends[0].max(self.width_at_ends[1]))
     }
 
-    fn stations(&self) -> Vec<CurvePoint> {
+    fn stations(&self) -> Vec<Station> {
         let count = self.segments.len() as f64;
-        let mut stations: Vec<CurvePoint> = Vec::new();
-        let mut last = DVec3::X;
-        for (segment, control) in self.segments.iter().enumerate() {
-            let [a, b, c, d] = *control;
-            let n = self.steps(control);
-            for i in 0..=n {
-                let u = f64::from(i) / f64::from(n);
-                let (ab, bc, cd) = (a.lerp(b, u), b.lerp(c, u), c.lerp(d, u));
-                let (abc, bcd) = (ab.lerp(bc, u), bc.lerp(cd, u));
-                // Where control points coincide the chord has the direction.
-                let tangent = (bcd - abc)
-                    .try_normalize()
-                    .or_else(|| (d - a).try_normalize())
-                    .unwrap_or(last);
-                last = tangent;
-                let along = (segment as f64 + u) / count;
-                stations.push(CurvePoint {
-                    point: abc.lerp(bcd, u),
-                    tangent,
-                    width: self.width_at_ends[0]
-                        + along * (self.width_at_ends[1] - self.width_at_ends[0]),
-                    u,
-                    segment,
-                });
-            }
-        }
-        stations
-    }
-}
-
-/// A tube around the stations; its frame turns no more than it must (Wang et al. 2008 by projection).
-fn tube(stations: &[CurvePoint], sides: u32, mesh: &mut Mesh) {
-    use std::f64::consts::PI;
-    // A polygon of n sides and circumradius R has the mean width 2 n R sin(pi / n) / pi.
-    let n = f64::from(sides);
-    let fit = PI / (n * (PI / n).sin());
-    let Some(first) = stations.first() else {
-        return;
-    };
-    let mut across = first.tangent.any_orthonormal_vector();
-    for (row, station) in stations.iter().enumerate() {
-        let t = station.tangent;
-        across = (across - t * t.dot(across))
-            .try_normalize()
-            .unwrap_or_else(|| t.any_orthonormal_vector());
-        let up = t.cross(across);
-        for side in 0..=sides {
-            let share = f64::from(side) / n;
-            let (sin, cos) = (2.0 * PI * share).sin_cos();
-            let normal = across * cos + up * sin;
-            let point = station.point + normal * (0.5 * station.width * fit);
-            mesh.positions.push(point.to_array().map(f32_of));
-            mesh.normals.push(normal.to_array().map(f32_of));
-            mesh.uvs.push([f32_of(station.u), f32_of(share)]);
-        }
-        join(stations, row, sides, mesh);
+        let [first, last] = self.width_at_ends;
+        // pbrt-v4's normals do not lean where the width grows.
+        tube::stations(
+            &self.segments,
+            |segment| self.steps(&self.segments[segment]),
+            |segment, u| [first + (segment as f64 + u) / count * (last - first), 0.0],
+        )
     }
 }
 
 /// A strip along the stations, across their normals.
-fn ribbon(stations: &[CurvePoint], normals: &[DVec3], mesh: &mut Mesh) {
+fn ribbon(stations: &[Station], normals: &[DVec3], mesh: &mut Mesh) {
     for (row, station) in stations.iter().enumerate() {
         let (from, to) = (normals[station.segment], normals[station.segment + 1]);
         let normal = from.lerp(to, station.u).normalize_or(DVec3::Z);
@@ -279,28 +201,6 @@ fn ribbon(stations: &[CurvePoint], normals: &[DVec3], mesh: &mut Mesh) {
             mesh.uvs.push([f32_of(station.u), f32_of(v)]);
         }
         join(stations, row, 1, mesh);
-    }
-}
-
-/// Triangles between a row of `columns + 1` vertices and the one before, where both belong to one
-/// segment.
-fn join(stations: &[CurvePoint], row: usize, columns: u32, mesh: &mut Mesh) {
-    if row == 0 || stations[row].segment != stations[row - 1].segment {
-        return;
-    }
-    // Within the limit of vertices, which fits 32 bits.
-    let Ok(row) = u32::try_from(row) else { return };
-    let width = columns + 1;
-    for i in 0..columns {
-        let a = (row - 1) * width + i;
-        let (b, c, d) = (a + 1, a + width, a + width + 1);
-        for triangle in [[a, b, d], [a, d, c]] {
-            let [p, q, r] = triangle.map(|i| mesh.positions[i as usize]);
-            // Where the width is 0 a side has no length.
-            if p != q && q != r && r != p {
-                mesh.triangles.push(triangle);
-            }
-        }
     }
 }
 
@@ -391,7 +291,7 @@ mod tests {
             let exact =
                 a * (v * v * v) + b * (3.0 * v * v * u) + c * (3.0 * v * u * u) + d * (u * u * u);
             let chord = pair[0].point.midpoint(pair[1].point);
-            assert!(exact.distance(chord) <= TOLERANCE * 0.1, "{u}");
+            assert!(exact.distance(chord) <= tube::TOLERANCE * 0.1, "{u}");
         }
     }
 }
