@@ -15,6 +15,8 @@ pub(super) struct Item {
     /// The comments above it, behind an empty line where there is one.
     pub(super) before: String,
     pub(super) text: String,
+    /// What it takes of the prelude.
+    pub(super) taken: BTreeSet<String>,
     /// Of a function: how it is declared, and what it calls.
     pub(super) function: Option<Function>,
 }
@@ -107,6 +109,7 @@ pub(super) fn item(tokens: &[Token<'_>], scope: &Scope) -> Result<Item, Failure>
     Ok(Item {
         before: format!("{gap}{}", before.trim_start_matches('\n')),
         text: printer.out,
+        taken: printer.taken,
         function,
     })
 }

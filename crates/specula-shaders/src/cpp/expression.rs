@@ -2,47 +2,28 @@
 
 use super::error::Failure;
 use super::lexer::TokenKind;
+use super::operators::{Operands, is_operator};
 use super::printer::Printer;
 use super::types::{Type, builtin, components, name, of_floats};
 
 impl Printer<'_> {
     /// Writes an expression; operators of WGSL bind as those of C++ where both allow them without brackets.
     pub(super) fn expression(&mut self) -> Result<Type, Failure> {
-        let mut types = vec![self.operand()?];
-        let (mut is_logical, mut is_comparison) = (false, false);
+        let mut operands = Operands::new(self.operand()?);
         loop {
-            let sign = self.peek().text;
-            match sign {
-                "&&" | "||" => is_logical = true,
-                "==" | "!=" | "<" | "<=" | ">=" => is_comparison = true,
-                ">" if self.is_shift() => self.copy(),
-                ">" => is_comparison = true,
-                "+" | "-" | "*" | "/" | "%" | "&" | "|" | "^" | "<<" => {}
-                _ => break,
+            let mut sign = self.peek().text;
+            if sign == ">" && self.is_shift() {
+                self.copy();
+                sign = ">>";
+            }
+            if !is_operator(sign) {
+                return operands.folded(self);
             }
             self.copy();
-            types.push(self.operand()?);
-        }
-        let vector = types
-            .iter()
-            .find(|t| matches!(t, Type::Floats(_) | Type::Words(_)));
-        if is_logical || is_comparison && vector.is_none() {
-            return Ok(Type::Bool);
-        }
-        let scalar = types
-            .iter()
-            .find(|t| **t != Type::Integer)
-            .unwrap_or(&types[0]);
-        let result = vector.unwrap_or(scalar);
-        match result {
-            Type::Floats(n) if is_comparison => Ok(Type::Bools(*n)),
-            Type::Words(_) if is_comparison => {
-                Err(self.failure("words of vectors are not compared"))
-            }
-            other => Ok(other.clone()),
+            let operand = self.operand()?;
+            operands.push(sign, operand);
         }
     }
-
     /// Whether the next two words are `>>`.
     fn is_shift(&self) -> bool {
         let next = self.peek_at(1);
@@ -54,7 +35,12 @@ impl Printer<'_> {
         match token.text {
             "-" | "!" | "~" => {
                 self.copy();
-                self.operand()
+                let found = self.operand()?;
+                self.take(
+                    &format!("operator{}", token.text),
+                    std::slice::from_ref(&found),
+                );
+                Ok(found)
             }
             // An address or what is at it: C++ has references.
             "&" | "*" => {
@@ -172,8 +158,11 @@ impl Printer<'_> {
         let place = self.out.len();
         let given = self.arguments(["(", ")"])?;
         let found = builtin(text, &given);
-        self.out
-            .insert_str(place, of_floats(text, &given).unwrap_or(text));
+        let of_floats = of_floats(text, &given);
+        if of_floats.is_none() {
+            self.take(text, &given);
+        }
+        self.out.insert_str(place, of_floats.unwrap_or(text));
         found.ok_or_else(|| self.failure(format!("'{text}' is no known function")))
     }
 
@@ -181,14 +170,18 @@ impl Printer<'_> {
     fn conversion(&mut self, to: Type) -> Result<Type, Failure> {
         if to != Type::Word {
             self.write(&to.name());
-            self.arguments(["(", ")"])?;
+            let given = self.arguments(["(", ")"])?;
+            self.take(&to.name(), &given);
             return Ok(to);
         }
         self.write("");
         let place = self.out.len();
         let given = self.arguments(["(", ")"])?;
         match given[..] {
-            [Type::Float] => self.out.insert_str(place, "to_u32"),
+            [Type::Float] => {
+                self.take("to_u32", &given);
+                self.out.insert_str(place, "to_u32");
+            }
             [Type::Word | Type::Integer | Type::Bool] => self.out.insert_str(place, "uint32_t"),
             _ => return Err(self.failure("a word of neither a number nor a condition")),
         }
@@ -207,6 +200,7 @@ impl Printer<'_> {
             (Type::Float, [Type::Word]) | (Type::Floats(3), [Type::Words(3)]) => "float_of",
             _ => return Err(self.failure("bits of other types")),
         };
+        self.take(function, &given);
         self.out.insert_str(place, function);
         Ok(to)
     }
@@ -242,7 +236,10 @@ impl Printer<'_> {
                     self.copy_sign("]")?;
                     found = match found.target() {
                         Type::Array(element, _) => (**element).clone(),
-                        Type::Floats(_) => Type::Float,
+                        Type::Floats(n) => {
+                            self.take(&format!("vec{n}f[]"), &[]);
+                            Type::Float
+                        }
                         _ => {
                             return Err(
                                 self.failure("elements of neither an array nor a vector of floats")
@@ -258,6 +255,9 @@ impl Printer<'_> {
     fn member(&mut self, of: Type) -> Result<Type, Failure> {
         let text = self.peek().text;
         if let Some((found, written)) = components(&of, text) {
+            if let Some(function) = written.strip_suffix("()") {
+                self.take(&format!("{}.{function}", of.name()), &[]);
+            }
             self.write(&written);
             return Ok(found);
         }

@@ -8,8 +8,10 @@ mod declare;
 mod error;
 mod expression;
 mod lexer;
+mod operators;
 mod prelude;
 mod printer;
+mod short;
 mod statement;
 mod types;
 
@@ -34,10 +36,11 @@ const POSTLUDE: &str = "\
 
 /// The header's text: the prelude, then the modules in their order, each behind those that it imports.
 ///
-/// * `is_partial`: whether the prelude has what the modules need only.
-pub(crate) fn library(modules: &[Module<'_>], is_partial: bool) -> Result<String, TranslateError> {
+/// * `is_short`: whether the prelude has what the modules take of it only, and short functions are one line.
+pub(crate) fn library(modules: &[Module<'_>], is_short: bool) -> Result<String, TranslateError> {
     let mut scope = base();
     let mut text = String::new();
+    let mut taken = BTreeSet::new();
     for module in modules {
         let (head, code) = module.text.split_at(head_length(module.text));
         let lines = head.matches('\n').count();
@@ -48,14 +51,15 @@ pub(crate) fn library(modules: &[Module<'_>], is_partial: bool) -> Result<String
             "\n// {} {}\n{head}\n{}",
             "-".repeat(60),
             module.path,
-            body.trim_start_matches('\n')
+            body.text.trim_start_matches('\n')
         );
+        taken.extend(body.taken);
     }
-    let prelude = match is_partial {
-        true => prelude::needed(&text),
-        false => prelude::WHOLE.to_owned(),
-    };
-    Ok(in_namespace(&prelude, &text))
+    if is_short {
+        let prelude = prelude::needed(&text, &taken);
+        return Ok(in_namespace(&prelude, &short::joined(&text)));
+    }
+    Ok(in_namespace(prelude::WHOLE, &text))
 }
 
 /// C++17 of a WGSL text that is written as the library is: constants, structures and functions of scalars,
@@ -66,11 +70,12 @@ pub(crate) fn library(modules: &[Module<'_>], is_partial: bool) -> Result<String
 /// A construct that the library does not use, with its line.
 pub fn to_cpp(wgsl: &str) -> Result<String, TranslateError> {
     let body = module_text(wgsl, &mut base()).map_err(TranslateError::of)?;
-    Ok(in_namespace(prelude::WHOLE, &body))
+    Ok(in_namespace(prelude::WHOLE, &body.text))
 }
 
+/// * `prelude`: it leaves the namespace open.
 fn in_namespace(prelude: &str, text: &str) -> String {
-    format!("{prelude}\nnamespace specula {{\n{text}\n}} // namespace specula\n\n{POSTLUDE}")
+    format!("{prelude}{text}\n}} // namespace specula\n\n{POSTLUDE}")
 }
 
 /// What is there without being declared.
@@ -88,8 +93,15 @@ fn head_length(text: &str) -> usize {
     head.map(str::len).sum()
 }
 
+/// A module as C++.
+struct Written {
+    text: String,
+    /// What it takes of the prelude: `operator*(vec3f,float)`.
+    taken: BTreeSet<String>,
+}
+
 /// Constants and structures, then functions, below declarations of those that are called before they are there.
-fn module_text(text: &str, scope: &mut Scope) -> Result<String, Failure> {
+fn module_text(text: &str, scope: &mut Scope) -> Result<Written, Failure> {
     let tokens = tokens(text)?;
     declare(&tokens, scope)?;
     let starts = starts(&tokens);
@@ -103,7 +115,11 @@ fn module_text(text: &str, scope: &mut Scope) -> Result<String, Failure> {
         written += &format!("\n{}", early.concat());
     }
     written.extend(functions.iter().map(whole));
-    Ok(written)
+    let items = values.into_iter().chain(functions);
+    Ok(Written {
+        text: written,
+        taken: items.flat_map(|item| item.taken).collect(),
+    })
 }
 
 fn whole(item: &Item) -> String {
@@ -134,7 +150,7 @@ mod tests {
 
     /// What `module_text` writes.
     fn written(wgsl: &str) -> String {
-        module_text(wgsl, &mut base()).unwrap()
+        module_text(wgsl, &mut base()).unwrap().text
     }
 
     #[test]
@@ -210,7 +226,7 @@ mod tests {
             ("let a: i32 = 1;", "2: expected a type, found 'i32'"),
         ] {
             let wgsl = format!("fn helper(x: f32) {{\n    {body}\n}}\n");
-            let failure = module_text(&wgsl, &mut base()).unwrap_err();
+            let failure = module_text(&wgsl, &mut base()).err().unwrap();
             assert_eq!(failure.to_string(), message, "{body}");
         }
         let module = Module {

@@ -7,12 +7,11 @@ using uint32_t = unsigned int;
 #endif
 
 /// What stands in front of every function.
-#if !defined(SPECULA_FN)
-#if defined(__CUDACC__) || defined(__HIPCC__)
+#if defined(SPECULA_FN)
+#elif defined(__CUDACC__) || defined(__HIPCC__)
 #define SPECULA_FN __host__ __device__ inline
 #else
 #define SPECULA_FN inline
-#endif
 #endif
 
 /// What stands in front of those that are a line.
@@ -100,14 +99,10 @@ struct vec3u {
 };
 
 /// What a comparison of two floats each gives.
-struct vec2b {
-    bool x, y;
-};
+struct vec2b { bool x, y; };
 
 /// What a comparison of three floats each gives.
-struct vec3b {
-    bool x, y, z;
-};
+struct vec3b { bool x, y, z; };
 
 /// A vector of yours, with the members `x` and `y`, as one of the library.
 template <class V> SPECULA_INLINE vec2f from_xy(const V& v) { return vec2f(v.x, v.y); }
@@ -208,7 +203,7 @@ template <class T> SPECULA_INLINE T clamp(T v, T low, T high) { return min(max(v
 /// `yes` where the condition holds, else `no`; both have been computed.
 template <class T> SPECULA_INLINE T select(T no, T yes, bool condition) { return condition ? yes : no; }
 
-/// The same for each component.
+/// `yes` where the condition holds, component by component.
 SPECULA_INLINE vec2f select(vec2f no, vec2f yes, vec2b condition) {
     return vec2f(condition.x ? yes.x : no.x, condition.y ? yes.y : no.y);
 }
@@ -259,5 +254,3 @@ SPECULA_INLINE float float_of(uint32_t bits) {
     return x;
 }
 SPECULA_INLINE vec3f float_of(vec3u v) { return vec3f(float_of(v.x), float_of(v.y), float_of(v.z)); }
-
-} // namespace specula

@@ -1,52 +1,88 @@
-//! The vectors and functions of WGSL that the header begins with; or those of them that a text needs.
+//! The vectors and functions of WGSL that the header begins with; or those of them that a text takes.
 
 use std::collections::BTreeSet;
 
 use crate::items::identifiers;
 
-/// All of it.
+/// All of it. It leaves the namespace open.
 pub(crate) const WHOLE: &str = include_str!("prelude.hpp");
 
-/// Where its declarations begin, and what closes them.
+/// Where its declarations begin.
 const OPEN: &str = "namespace specula {\n";
-const CLOSE: &str = "} // namespace specula\n";
 
-/// What comparisons of vectors give; it has a name in them alone.
-const COMPARED: [(&str, [&str; 2]); 2] =
-    [("vec2b", ["any", "select"]), ("vec3b", ["any", "select"])];
+/// What its head has for functions of one line. In a short header they are functions like all others.
+const INLINE: &str = "\
+/// What stands in front of those that are a line.
+#if defined(__GNUC__)
+#define SPECULA_INLINE SPECULA_FN __attribute__((always_inline))
+#else
+#define SPECULA_INLINE SPECULA_FN
+#endif
 
-/// The prelude without types that a text has no need of, and functions that it does not call.
+";
+
+/// What its head has for integers.
+const INTEGERS: &str = "\
+#if defined(__CUDACC_RTC__)
+using uint32_t = unsigned int;
+#else
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+#endif
+";
+
+/// The prelude with what a text takes, and what that needs: no other type, constructor, swizzle, operator or function.
 ///
-/// Operators stay where the vectors do that they are of.
-pub(crate) fn needed(text: &str) -> String {
-    let (head, rest) = WHOLE.split_once(OPEN).unwrap_or((WHOLE, ""));
-    let body = rest.strip_suffix(CLOSE).unwrap_or(rest);
+/// * `taken`: signatures, as [`signature`](super::types::signature) writes them.
+pub(crate) fn needed(text: &str, taken: &BTreeSet<String>) -> String {
+    let (head, body) = WHOLE.split_once(OPEN).unwrap_or((WHOLE, ""));
+    let taken = closed(taken);
     let items = items(body);
     let types: BTreeSet<&str> = items.iter().filter_map(|item| item.structure).collect();
-    let mut words: BTreeSet<&str> = code_words(text).collect();
-    for (name, calls) in COMPARED {
-        if calls.iter().any(|call| words.contains(call)) {
-            words.insert(name);
+    let mut named: BTreeSet<&str> = code_words(text)
+        .filter(|word| types.contains(word))
+        .collect();
+    // A structure that is kept can name others.
+    let mut kept = loop {
+        let kept = items.iter().filter_map(|item| item.kept(&taken, &named));
+        let kept: String = kept.collect();
+        let words: BTreeSet<&str> = code_words(&kept).collect();
+        let before = named.len();
+        named.extend(types.iter().filter(|name| words.contains(**name)));
+        if named.len() == before {
+            break kept;
         }
-    }
-    // What is kept can need more.
-    loop {
-        let before = words.len();
-        for item in &items {
-            if item.is_needed(&words, &types) {
-                words.extend(code_words(item.text));
-            }
-        }
-        if words.len() == before {
-            break;
-        }
-    }
-    let kept = items.iter().filter(|item| item.is_needed(&words, &types));
-    let mut kept: String = kept.map(|item| item.text).collect();
+    };
     while kept.contains("\n\n\n") {
         kept = kept.replace("\n\n\n", "\n\n");
     }
-    format!("{head}{OPEN}\n{}\n\n{CLOSE}", kept.trim_matches('\n'))
+    let kept = kept.replace("SPECULA_INLINE", "SPECULA_FN");
+    let head = short_head(head, &(kept.clone() + text));
+    format!("{head}{OPEN}\n{}\n", kept.trim_matches('\n'))
+}
+
+/// The head with the headers that a text needs.
+fn short_head(head: &str, text: &str) -> String {
+    let words: BTreeSet<&str> = code_words(text).collect();
+    let integers = match (words.contains("uint32_t"), words.contains("memcpy")) {
+        (_, true) => INTEGERS.to_owned(),
+        (true, false) => INTEGERS.replace("#include <string.h>\n", ""),
+        (false, false) => "#if !defined(__CUDACC_RTC__)\n#include <math.h>\n#endif\n".to_owned(),
+    };
+    head.replace(INLINE, "").replace(INTEGERS, &integers)
+}
+
+/// Signatures with what their functions take themselves.
+fn closed(taken: &BTreeSet<String>) -> BTreeSet<String> {
+    let mut closed = BTreeSet::new();
+    let mut open: Vec<String> = taken.iter().cloned().collect();
+    while let Some(signature) = open.pop() {
+        if closed.insert(signature.clone()) {
+            open.extend(needs(&signature));
+        }
+    }
+    closed
 }
 
 /// The words of a text but for its comments.
@@ -57,31 +93,92 @@ fn code_words(text: &str) -> impl Iterator<Item = &str> {
     code.flat_map(|code| identifiers(code).map(|(_, word)| word))
 }
 
-/// A declaration with its documentation, or a comment of its own.
+/// What the prelude's function of this signature takes itself.
+fn needs(signature: &str) -> Vec<String> {
+    let Some((name, arguments)) = signature.trim_end_matches(')').split_once('(') else {
+        return Vec::new();
+    };
+    let first = arguments.split(',').next().unwrap_or("");
+    if first == "T" {
+        return Vec::new();
+    }
+    let each = match first {
+        "vec2f" | "vec3f" | "vec4f" => "float",
+        _ => "uint32_t",
+    };
+    let is_vector = first.starts_with("vec");
+    match name {
+        "length" => vec![format!("dot({first},{first})")],
+        "normalize" => vec![
+            format!("length({first})"),
+            format!("operator/({first},float)"),
+        ],
+        "clamp" => {
+            let both = ["min", "max"].map(|name| format!("{name}({first},{first})"));
+            [&both[..], &["clamp(T,T,T)".to_owned()]].concat()
+        }
+        "select" if arguments.ends_with("bool") => vec!["select(T,T,bool)".to_owned()],
+        "min" | "max" if is_vector => vec![format!("{name}({each},{each})")],
+        "fract" | "float_of" if is_vector => vec![format!("{name}({each})")],
+        "bits_of" if is_vector => vec!["bits_of(float)".to_owned()],
+        "to_u32" => ["min", "max"]
+            .map(|name| format!("{name}(float,float)"))
+            .to_vec(),
+        "operator+=" | "operator-=" | "operator*=" | "operator/=" => {
+            vec![signature.replacen('=', "", 1)]
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// A declaration with its documentation.
 struct Item<'a> {
     text: &'a str,
     /// Name of a structure.
     structure: Option<&'a str>,
-    /// Name of a function that is no operator.
-    function: Option<&'a str>,
+    /// Of a function.
+    signature: Option<String>,
 }
 
 impl Item<'_> {
-    /// * `words`: of what is kept; `types`: the prelude's structures.
-    fn is_needed(&self, words: &BTreeSet<&str>, types: &BTreeSet<&str>) -> bool {
+    /// What stays of it.
+    ///
+    /// * `taken`: signatures of functions; `named`: structures.
+    fn kept(&self, taken: &BTreeSet<String>, named: &BTreeSet<&str>) -> Option<String> {
         if let Some(name) = self.structure {
-            return words.contains(name);
+            return named
+                .contains(name)
+                .then(|| members(self.text, name, taken));
         }
-        let are_there = || {
-            let mut named = code_words(self.text).filter(|word| types.contains(word));
-            named.all(|word| words.contains(word))
+        // Directions are exchanged with other libraries in any case.
+        let is_kept = match self.signature.as_deref()? {
+            "from_xyz(V)" | "to(vec3f)" => named.contains("vec3f"),
+            signature => taken.contains(signature),
         };
-        match self.function {
-            Some("from_xy" | "from_xyz" | "to") => are_there(),
-            Some(name) => words.contains(name) && are_there(),
-            None => are_there(),
-        }
+        is_kept.then(|| self.text.to_owned())
     }
+}
+
+/// A structure without constructors and swizzles that are not taken; the one of all components and the one of none
+/// stay.
+fn members(text: &str, name: &str, taken: &BTreeSet<String>) -> String {
+    let is_kept = |line: &&str| {
+        let Some(signature) = signature_of(line.trim_start()) else {
+            return true;
+        };
+        let Some((function, arguments)) = signature.split_once('(') else {
+            return true;
+        };
+        let arguments = arguments.trim_end_matches(')');
+        match function {
+            "operator[]" => taken.contains(&format!("{name}[]()")),
+            _ if function != name => taken.contains(&format!("{name}.{function}()")),
+            _ if taken.contains(&signature) || arguments.is_empty() => true,
+            _ => arguments.contains(',') && !arguments.contains("vec"),
+        }
+    };
+    let lines = text.split_inclusive('\n').filter(is_kept);
+    lines.collect::<String>().replace("\n\n}", "\n}")
 }
 
 /// The declarations of the prelude, each with the comments and empty lines in front of it.
@@ -110,13 +207,26 @@ fn item(text: &str) -> Item<'_> {
         let (_, name) = identifiers(rest).next()?;
         Some(name)
     });
-    let call = identifiers(head).find(|(at, word)| head[at + word.len()..].starts_with('('));
-    let function = call.map(|(_, name)| name).filter(|_| structure.is_none());
+    let signature = signature_of(head).filter(|_| structure.is_none());
     Item {
         text,
         structure,
-        function,
+        signature,
     }
+}
+
+/// The signature of the function that a line declares.
+fn signature_of(line: &str) -> Option<String> {
+    let open = line.find('(').filter(|_| !line.starts_with("//"))?;
+    let name = line[..open].rsplit(' ').next()?;
+    let arguments = line[open + 1..].split(')').next()?.split(", ");
+    let types = arguments.map(|argument| {
+        let argument = argument.trim_start_matches("const ");
+        let (found, _) = argument.rsplit_once(' ').unwrap_or((argument, ""));
+        found.trim_end_matches('&')
+    });
+    let types: Vec<&str> = types.collect();
+    Some(format!("{name}({})", types.join(",")))
 }
 
 #[cfg(test)]
@@ -126,10 +236,9 @@ mod tests {
     #[test]
     fn the_items_are_the_prelude() {
         let body = WHOLE.split_once(OPEN).unwrap().1;
-        let body = body.strip_suffix(CLOSE).unwrap();
         let items = items(body);
         let whole: String = items.iter().map(|i| i.text).collect();
-        assert_eq!(whole.trim_end(), body.trim_end());
+        assert_eq!(whole, body);
         let structures: Vec<&str> = items.iter().filter_map(|i| i.structure).collect();
         assert_eq!(
             structures,
@@ -137,37 +246,105 @@ mod tests {
                 "vec2f", "vec3f", "vec4f", "vec2u", "vec3u", "vec2b", "vec3b"
             ]
         );
-        let functions = items.iter().filter_map(|i| i.function);
-        let functions: BTreeSet<&str> = functions.collect();
-        for name in ["min", "dot", "select", "to_u32", "from_xyz", "clamp"] {
-            assert!(functions.contains(name), "{name} of {functions:?}");
+        let signatures: BTreeSet<String> = items.into_iter().filter_map(|i| i.signature).collect();
+        for known in [
+            "min(float,float)",
+            "dot(vec3f,vec3f)",
+            "select(T,T,bool)",
+            "select(vec3f,vec3f,vec3b)",
+            "to_u32(float)",
+            "from_xyz(V)",
+            "operator-(vec2f)",
+            "operator*=(vec3f,float)",
+        ] {
+            assert!(signatures.contains(known), "{known} of {signatures:?}");
+        }
+        // What functions need themselves is there.
+        for needed in signatures.iter().flat_map(|signature| needs(signature)) {
+            assert!(signatures.contains(&needed), "{needed}");
+        }
+        for part in [INLINE, INTEGERS] {
+            assert!(WHOLE.contains(part), "{part}");
+        }
+    }
+
+    /// The short prelude of a WGSL text.
+    fn of(wgsl: &str) -> String {
+        let written = super::super::module_text(wgsl, &mut super::super::base());
+        let written = written.ok().unwrap();
+        needed(&written.text, &written.taken)
+    }
+
+    #[test]
+    fn what_is_not_taken_goes() {
+        let text =
+            of("fn f(v: vec2f) -> f32 {\n    return min(v.x, v.y); // vec4f, dot(v, v)\n}\n");
+        let body = text.split_once(OPEN).unwrap().1;
+        let expected = "
+// ------------------------------------------------------------ vectors and functions of WGSL
+
+/// Two floats.
+struct vec2f {
+    float x, y;
+
+    vec2f() = default;
+    SPECULA_FN vec2f(float x_, float y_) : x(x_), y(y_) {}
+};
+
+SPECULA_FN float min(float a, float b) { return b < a ? b : a; }
+";
+        assert_eq!(body, expected);
+        for gone in ["SPECULA_INLINE", "stdint", "string.h"] {
+            assert!(!text.contains(gone), "{gone} in\n{text}");
         }
     }
 
     #[test]
-    fn what_is_not_needed_goes() {
-        let text = needed("float f(vec2f v) {\n    return min(v.x, v.y); // vec4f, dot(v, v)\n}\n");
+    fn what_functions_take_themselves_comes_with_them() {
+        let text = of(
+            "fn f(v: vec3f, n: u32) -> vec3f {\n    var w = clamp(normalize(v), vec3f(0.0), vec3f(1.0));\n    \
+             w *= 2.0 + w.z * 3.0;\n    return select(w, vec3f(v.xy, f32(bitcast<u32>(w.x) + n)), w < vec3f(1.0));\n}\n",
+        );
         for there in [
-            "struct vec2f",
-            "float min(float",
-            "operator+(vec2f a",
-            "from_xy(",
+            "struct vec2f {",
+            "struct vec3b {",
+            "#include <string.h>",
+            " dot(vec3f a",
+            " operator/(vec3f v, float s)",
+            " length(vec3f",
+            " T clamp(T",
+            " max(vec3f",
+            " max(float",
+            " operator*=(vec3f& v, float s)",
+            " operator*(vec3f v, float s)",
+            " select(vec3f no",
+            " operator<(vec3f",
+            " bits_of(float",
+            " explicit vec3f(float s)",
+            " vec3f(vec2f v, float z_)",
+            " xy() const",
+            " from_xyz(",
+            " to(vec3f",
         ] {
             assert!(text.contains(there), "{there} in\n{text}");
         }
-        for gone in ["vec3f", "vec4f", "vec2u", "dot(", "to_u32", "select"] {
+        for gone in [
+            " dot(vec2f a",
+            " operator+(",
+            " operator*(float s, vec3f",
+            " operator/(vec3f a, vec3f",
+            " vec3f(float x_, vec2f",
+            " explicit vec2f(",
+            " yz() const",
+            "operator[]",
+            "T select(T",
+            " select(vec2f",
+            " min(uint32_t",
+            " bits_of(vec3f",
+            " from_xy(",
+            "vec4f",
+        ] {
             assert!(!text.contains(gone), "{gone} in\n{text}");
         }
-        let text = needed("x = clamp(length(vec3f(1.0f)), 0.0f, 1.0f);");
-        for there in [
-            "struct vec2f",
-            "struct vec3f",
-            "float dot(vec3f",
-            "T clamp(T",
-            "float max(float",
-        ] {
-            assert!(text.contains(there), "{there} in\n{text}");
-        }
-        assert!(needed("any(v >= w); vec2f v;").contains("vec2b operator>="));
     }
 }

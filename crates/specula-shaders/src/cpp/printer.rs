@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::error::Failure;
 use super::lexer::{Token, TokenKind};
-use super::types::{Scope, Type};
+use super::types::{Scope, Type, signature};
 
 /// Reads words and writes C++.
 pub(super) struct Printer<'a> {
@@ -24,6 +24,8 @@ pub(super) struct Printer<'a> {
     pub(super) changed: BTreeSet<String>,
     /// Functions that have been called.
     pub(super) called: BTreeSet<String>,
+    /// What has been taken of the prelude.
+    pub(super) taken: BTreeSet<String>,
 }
 
 impl<'a> Printer<'a> {
@@ -40,7 +42,13 @@ impl<'a> Printer<'a> {
             used: BTreeSet::new(),
             changed: BTreeSet::new(),
             called: BTreeSet::new(),
+            taken: BTreeSet::new(),
         }
+    }
+
+    /// Notes a function, an operator or a constructor of the prelude.
+    pub(super) fn take(&mut self, name: &str, arguments: &[Type]) {
+        self.taken.insert(signature(name, arguments));
     }
 
     pub(super) fn peek(&self) -> Token<'a> {

@@ -111,7 +111,7 @@ impl Printer<'_> {
         }
         let target = (0..).map(|ahead| self.peek_at(ahead));
         let target = target.map(|t| t.text).find(|t| !matches!(*t, "(" | "*"));
-        self.expression()?;
+        let changed = self.expression()?;
         if self.peek().text != ";" {
             self.changed.extend(target.map(str::to_owned));
         }
@@ -121,9 +121,10 @@ impl Printer<'_> {
                 self.copy();
                 Ok(())
             }
-            "=" | "+=" | "-=" | "*=" | "/=" => {
+            sign @ ("=" | "+=" | "-=" | "*=" | "/=") => {
                 self.copy();
-                self.expression()?;
+                let given = self.expression()?;
+                self.take(&format!("operator{sign}"), &[changed, given]);
                 Ok(())
             }
             _ => Err(self.unknown("a statement")),

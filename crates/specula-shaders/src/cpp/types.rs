@@ -140,6 +140,23 @@ pub(super) fn components(vector: &Type, letters: &str) -> Option<(Type, String)>
     is_float.then(|| (Type::Floats(letters.len()), format!("{name}()")))
 }
 
+/// A function by its name and the types of its arguments, as the prelude's declarations have them:
+/// `operator*(vec3f,float)`.
+pub(super) fn signature(name: &str, arguments: &[Type]) -> String {
+    let known = arguments.iter().find(|a| **a != Type::Integer);
+    // A number without a point is what stands beside it.
+    let number = match known {
+        Some(Type::Word | Type::Words(_)) => Type::Word,
+        _ => Type::Float,
+    };
+    let plain = |argument: &Type| match argument {
+        Type::Integer => number.name(),
+        other => other.target().name(),
+    };
+    let arguments: Vec<String> = arguments.iter().map(plain).collect();
+    format!("{name}({})", arguments.join(","))
+}
+
 /// What a function of WGSL gives for the types of its arguments; the prelude has it under the same name.
 pub(super) fn builtin(name: &str, arguments: &[Type]) -> Option<Type> {
     let floats = arguments.iter().find(|a| matches!(a, Type::Floats(_)));
