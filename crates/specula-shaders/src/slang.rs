@@ -243,7 +243,7 @@ mod tests {
         let module = module(text, &marked);
         for part in [
             "public struct A : IDifferentiable {\n    public float b;\n};\npublic struct B {\n",
-            "}\npublic float p_other(B b)\n{\n",
+            "};\npublic float p_other(B b)\n{\n",
             "}\n[Differentiable]\npublic A ConstructA(float b) {\n",
             "}\n[Differentiable]\npublic float p_ggx_d(float b)\n{\n",
         ] {

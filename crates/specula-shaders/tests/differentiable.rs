@@ -140,7 +140,7 @@ fn derivatives_by_alpha_are_those_of_rust() {
     let folder = Folder::with(&export(Language::Slang, &[]).unwrap());
     folder.write("derive.slang", &program());
     folder.write("main.cpp", include_str!("tools/differentiable.cpp"));
-    let count = format!("-DCOUNT={}", 2 * CASES.len() * ALPHAS.len());
+    let count = format!("-DDERIVATIVES={}", 2 * CASES.len() * ALPHAS.len());
     let derive = || {
         let slang = "derive.slang -target cpp -entry derive -stage compute -O0 -o derive.cpp";
         folder.accepted(&slangc, &slang.split(' ').collect::<Vec<_>>());

@@ -3,13 +3,13 @@
 #include <cstdio>
 
 int main() {
-    float written[COUNT] = {};
+    float written[DERIVATIVES] = {};
     GlobalParams_0 globals = {};
     globals.results_0.data = written;
-    globals.results_0.count = COUNT;
+    globals.results_0.count = DERIVATIVES;
     ComputeVaryingInput input = {};
     input.endGroupID = {1, 1, 1};
-    derive_0(&input, nullptr, &globals);
+    derive(&input, nullptr, &globals);
     for (float value : written) {
         std::printf("%.9g\n", value);
     }
