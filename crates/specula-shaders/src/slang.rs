@@ -148,7 +148,8 @@ impl<'a> Differentiable<'a> {
             for item in of_kind(ItemKind::Function) {
                 if called.contains(item.name) && functions.insert(item.name) {
                     let found = || identifiers(item.text);
-                    let is_call = |at: usize, word: &str| item.text[at + word.len()..].starts_with('(');
+                    let is_call =
+                        |at: usize, word: &str| item.text[at + word.len()..].starts_with('(');
                     called.extend(found().filter(|&(at, w)| is_call(at, w)).map(|(_, w)| w));
                     words.extend(found().map(|(_, word)| word));
                 }

@@ -144,7 +144,10 @@ fn derivatives_by_alpha_are_those_of_rust() {
     let derive = || {
         let slang = "derive.slang -target cpp -entry derive -stage compute -O0 -o derive.cpp";
         folder.accepted(&slangc, &slang.split(' ').collect::<Vec<_>>());
-        folder.accepted(&gcc, &["-std=c++17", "-w", &count, "main.cpp", "-o", "derive"]);
+        folder.accepted(
+            &gcc,
+            &["-std=c++17", "-w", &count, "main.cpp", "-o", "derive"],
+        );
         faults(&folder.printed("derive"))
     };
     assert_eq!(derive(), 0);
@@ -152,6 +155,9 @@ fn derivatives_by_alpha_are_those_of_rust() {
     let library = folder.read("specula.slang");
     let from = "    float area = (alpha.x * alpha.y);";
     assert!(library.contains(from));
-    folder.write("specula.slang", &library.replacen(from, "    float area = detach(alpha.x * alpha.y);", 1));
+    folder.write(
+        "specula.slang",
+        &library.replacen(from, "    float area = detach(alpha.x * alpha.y);", 1),
+    );
     assert!(derive() > 0);
 }
