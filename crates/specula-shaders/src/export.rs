@@ -209,7 +209,8 @@ impl Export<'_> {
             Language::Cpp => cpp::library(modules, !self.functions.is_empty())?,
             Language::Slang => {
                 let text = translate::text(&wgsl, language)?;
-                slang::module(documented(&text, modules).trim_matches('\n'))
+                let marked = slang::Differentiable::of(&text, self.prefix);
+                slang::module(documented(&text, modules).trim_matches('\n'), &marked)
             }
             _ => documented(&translate::text(&wgsl, language)?, modules),
         };

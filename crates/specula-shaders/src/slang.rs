@@ -1,5 +1,9 @@
 //! HLSL of naga as a module of Slang.
 
+use std::collections::BTreeSet;
+
+use crate::items::{ItemKind, identifiers, items};
+
 /// What the module is called, and its file.
 const MODULE: &str = "module specula;";
 
@@ -81,8 +85,102 @@ fn middle(text: &str) -> Option<usize> {
     None
 }
 
+/// Functions that are marked `[Differentiable]` with all that they call: distributions, masking, Fresnel, densities of
+/// reflections, conductors.
+const DIFFERENTIABLE: [&str; 29] = [
+    "ggx_d",
+    "ggx_lambda",
+    "ggx_g_single",
+    "ggx_g_correlated",
+    "ggx_g_separable",
+    "beckmann_d",
+    "beckmann_lambda",
+    "beckmann_g_single",
+    "beckmann_g_correlated",
+    "beckmann_g_separable",
+    "conductor_eval",
+    "schlick_eval",
+    "f82_hump",
+    "f82_eval",
+    "reflectance_eval",
+    "dielectric",
+    "cap_reflection_pdf",
+    "bounded_reflection_pdf",
+    "exact_reflection_pdf",
+    "exact_isotropic_reflection_pdf",
+    "fit_ggx_loss",
+    "fit_ggx_average_loss",
+    "kulla_conty_new",
+    "kulla_conty_eval",
+    "kulla_conty_pdf",
+    "kulla_conty_eval_pdf",
+    "rough_conductor_eval",
+    "rough_conductor_pdf",
+    "rough_conductor_eval_pdf",
+];
+
+/// What of a text is differentiable.
+#[derive(Debug, Default)]
+pub(crate) struct Differentiable<'a> {
+    functions: BTreeSet<&'a str>,
+    structures: BTreeSet<&'a str>,
+}
+
+impl<'a> Differentiable<'a> {
+    /// What of a text without comments is differentiable.
+    ///
+    /// * `prefix`: of all names.
+    pub(crate) fn of(text: &'a str, prefix: &str) -> Self {
+        let items = items(text);
+        let of_kind = |kind| items.iter().filter(move |item| item.kind == kind);
+        let is_root = |name: &str| {
+            let own = name.strip_prefix(prefix);
+            own.is_some_and(|own| DIFFERENTIABLE.contains(&own))
+        };
+        let mut functions = BTreeSet::new();
+        let mut words = BTreeSet::new();
+        let mut called: BTreeSet<&str> = of_kind(ItemKind::Function)
+            .map(|item| item.name)
+            .filter(|name| is_root(name))
+            .collect();
+        loop {
+            let before = functions.len();
+            for item in of_kind(ItemKind::Function) {
+                if called.contains(item.name) && functions.insert(item.name) {
+                    let found = || identifiers(item.text);
+                    let is_call =
+                        |at: usize, word: &str| item.text[at + word.len()..].starts_with('(');
+                    called.extend(found().filter(|&(at, w)| is_call(at, w)).map(|(_, w)| w));
+                    words.extend(found().map(|(_, word)| word));
+                }
+            }
+            if functions.len() == before {
+                break;
+            }
+        }
+        let structures = of_kind(ItemKind::Struct).map(|item| item.name);
+        Self {
+            functions,
+            structures: structures.filter(|name| words.contains(name)).collect(),
+        }
+    }
+
+    /// The line that declares a function or a structure, marked where that is differentiable.
+    fn marked(&self, line: &str) -> String {
+        let head = line.split(['(', '{']).next().unwrap_or(line).trim_end();
+        let name = head.rsplit(' ').next().unwrap_or(head);
+        if self.functions.contains(name) {
+            return format!("[Differentiable]\npublic {line}");
+        }
+        match self.structures.contains(name) {
+            true => format!("public {head} : IDifferentiable {{"),
+            false => format!("public {line}"),
+        }
+    }
+}
+
 /// The module: its name, then the text with all that it declares public.
-pub(crate) fn module(text: &str) -> String {
+pub(crate) fn module(text: &str, differentiable: &Differentiable<'_>) -> String {
     let mut module = format!("{MODULE}\n\n");
     let mut inside_struct = false;
     for line in text.lines() {
@@ -96,7 +194,7 @@ pub(crate) fn module(text: &str) -> String {
             .filter(|rest| inside_struct && rest.ends_with(';'));
         match field {
             Some(field) => module += &format!("    public {field}"),
-            None if is_declared => module += &format!("public {line}"),
+            None if is_declared => module += &differentiable.marked(line),
             None => module += line,
         }
         module.push('\n');
@@ -131,6 +229,26 @@ mod tests {
         let expected = "module specula;\n\n/// A.\npublic struct A {\n    /// B.\n    public float b;\n};\n\
                         public static const uint N = 1u;\npublic float f(A a)\n{\n    return (a.b);\n}\n\
                         public A g(float b) {\n    A ret;\n}\nByteAddressBuffer t : register(t0);\n";
-        assert_eq!(module(text), expected);
+        assert_eq!(module(text, &Differentiable::default()), expected);
+    }
+
+    #[test]
+    fn what_is_called_is_differentiable_too() {
+        let text = "struct A {\n    float b;\n};\nstruct B {\n    float b;\n};\n\
+                    float p_other(B b)\n{\n    return b.b;\n}\n\
+                    A ConstructA(float b) {\n    A ret;\n    return ret;\n}\n\
+                    float p_ggx_d(float b)\n{\n    A a = ConstructA(b);\n    return a.b;\n}\n";
+        let marked = Differentiable::of(text, "p_");
+        assert_eq!(marked.functions, ["ConstructA", "p_ggx_d"].into());
+        assert_eq!(marked.structures, ["A"].into());
+        let module = module(text, &marked);
+        for part in [
+            "public struct A : IDifferentiable {\n    public float b;\n};\npublic struct B {\n",
+            "};\npublic float p_other(B b)\n{\n",
+            "}\n[Differentiable]\npublic A ConstructA(float b) {\n",
+            "}\n[Differentiable]\npublic float p_ggx_d(float b)\n{\n",
+        ] {
+            assert!(module.contains(part), "{part} in\n{module}");
+        }
     }
 }
