@@ -220,12 +220,12 @@ fn spline(
         .windows(4)
         .map(|p| cubic_spline([0, 1, 2, 3].map(|i| p[i].point), |a, b, u| a.lerp(b, u)))
         .collect();
-    let widths: Vec<[f64; 4]> = curve
+    let width_controls: Vec<[f64; 4]> = curve
         .windows(4)
         .map(|p| cubic_spline([0, 1, 2, 3].map(|i| 2.0 * p[i].radius), mean))
         .collect();
     let steps = |segment: usize| {
-        let w = widths[segment];
+        let w = width_controls[segment];
         let widest = w.iter().copied().fold(0.0, f64::max);
         // The outline bends with the width, too.
         let outline = w.map(|w| DVec3::new(0.5 * w, 0.0, 0.0));
@@ -233,7 +233,9 @@ fn spline(
     };
     let rows = (0..segments.len()).map(|segment| steps(segment) as usize + 1);
     bounded(mesh, rows.sum(), limits)?;
-    let stations = tube::stations(&segments, steps, |segment, u| bezier(widths[segment], u));
+    let stations = tube::stations(&segments, steps, |segment, u| {
+        bezier(width_controls[segment], u)
+    });
     let first = mesh.positions.len();
     let mut tube = Mesh::default();
     tube::tube(&stations, SIDES, &mut tube);
