@@ -28,8 +28,8 @@
 pub mod atomic;
 pub mod bounds;
 pub mod builtin;
-#[cfg(feature = "miette")]
 mod curves;
+#[cfg(feature = "miette")]
 mod diagnostic;
 pub mod energy;
 pub mod error;

@@ -170,7 +170,7 @@ impl<'a> Differentiable<'a> {
         let head = line.split(['(', '{']).next().unwrap_or(line).trim_end();
         let name = head.rsplit(' ').next().unwrap_or(head);
         if self.functions.contains(name) {
-            return format!("[Differentiable]\npublic {line}");
+            return format!("[Differentiable] public {line}");
         }
         match self.structures.contains(name) {
             true => format!("public {head} : IDifferentiable {{"),
@@ -245,8 +245,8 @@ mod tests {
         for part in [
             "public struct A : IDifferentiable {\n    public float b;\n};\npublic struct B {\n",
             "};\npublic float p_other(B b)\n{\n",
-            "}\n[Differentiable]\npublic A ConstructA(float b) {\n",
-            "}\n[Differentiable]\npublic float p_ggx_d(float b)\n{\n",
+            "}\n[Differentiable] public A ConstructA(float b) {\n",
+            "}\n[Differentiable] public float p_ggx_d(float b)\n{\n",
         ] {
             assert!(module.contains(part), "{part} in\n{module}");
         }

@@ -113,17 +113,15 @@ fn faults(printed: &str) -> usize {
     assert_eq!(derivatives.len(), 2 * CASES.len() * ALPHAS.len());
     let mut faults = 0;
     let mut pairs = derivatives.chunks(2);
-    for (call, function) in CASES {
+    for (_, function) in CASES {
         for alpha in ALPHAS {
             let step = 1e-5 * alpha;
             let expected = (function(alpha + step) - function(alpha - step)) / (2.0 * step);
-            let scale = expected.abs() + function(alpha).abs();
-            for derivative in pairs.next().unwrap() {
-                let error = (derivative - expected).abs() / scale;
-                println!("{call} at {alpha}: {derivative} for {expected}, error {error:.1e}");
-                // A NaN is a fault, too.
-                faults += usize::from(!(error <= 2e-5));
-            }
+            let most = 2e-5 * (expected.abs() + function(alpha).abs());
+            let pair = pairs.next().unwrap();
+            // No NaN is near anything.
+            let near = pair.iter().filter(|d| (*d - expected).abs() <= most);
+            faults += pair.len() - near.count();
         }
     }
     faults

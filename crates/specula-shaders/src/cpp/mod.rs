@@ -36,7 +36,8 @@ const POSTLUDE: &str = "\
 
 /// The header's text: the prelude, then the modules in their order, each behind those that it imports.
 ///
-/// * `is_short`: whether the prelude has what the modules take of it only, and short functions are one line.
+/// * `is_short`: whether the prelude has what the modules take of it only, short functions are one line, and each
+///   stands behind those that it calls.
 pub(crate) fn library(modules: &[Module<'_>], is_short: bool) -> Result<String, TranslateError> {
     let mut scope = base();
     let mut text = String::new();
@@ -44,7 +45,7 @@ pub(crate) fn library(modules: &[Module<'_>], is_short: bool) -> Result<String, 
     for module in modules {
         let (head, code) = module.text.split_at(head_length(module.text));
         let lines = head.matches('\n').count();
-        let body = module_text(code, &mut scope).map_err(|failure| {
+        let body = module_text(code, &mut scope, is_short).map_err(|failure| {
             TranslateError::of(format!("{}.wgsl:{}", module.path, failure.behind(lines)))
         })?;
         text += &format!(
@@ -69,7 +70,7 @@ pub(crate) fn library(modules: &[Module<'_>], is_short: bool) -> Result<String, 
 ///
 /// A construct that the library does not use, with its line.
 pub fn to_cpp(wgsl: &str) -> Result<String, TranslateError> {
-    let body = module_text(wgsl, &mut base()).map_err(TranslateError::of)?;
+    let body = module_text(wgsl, &mut base(), false).map_err(TranslateError::of)?;
     Ok(in_namespace(prelude::WHOLE, &body.text))
 }
 
@@ -101,14 +102,19 @@ struct Written {
 }
 
 /// Constants and structures, then functions, below declarations of those that are called before they are there.
-fn module_text(text: &str, scope: &mut Scope) -> Result<Written, Failure> {
+///
+/// * `sorts`: whether functions are put behind those that they call, so that no such declarations are needed.
+fn module_text(text: &str, scope: &mut Scope, sorts: bool) -> Result<Written, Failure> {
     let tokens = tokens(text)?;
     declare(&tokens, scope)?;
     let starts = starts(&tokens);
     let items = starts.iter().map(|&at| item(&tokens[at..], scope));
     let items: Vec<Item> = items.collect::<Result<_, _>>()?;
-    let (functions, values): (Vec<Item>, Vec<Item>) =
+    let (mut functions, values): (Vec<Item>, Vec<Item>) =
         items.into_iter().partition(|i| i.function.is_some());
+    if sorts {
+        functions = callees_first(functions);
+    }
     let mut written: String = values.iter().map(whole).collect();
     let early = early(&functions);
     if !early.is_empty() {
@@ -124,6 +130,20 @@ fn module_text(text: &str, scope: &mut Scope) -> Result<Written, Failure> {
 
 fn whole(item: &Item) -> String {
     format!("{}{}\n", item.before, item.text)
+}
+
+/// Each function behind those that it calls, else in the order of the source. WGSL has no recursion.
+fn callees_first(mut functions: Vec<Item>) -> Vec<Item> {
+    let mut sorted = Vec::with_capacity(functions.len());
+    while !functions.is_empty() {
+        let names = functions.iter().filter_map(|item| item.function.as_ref());
+        let waiting: BTreeSet<String> = names.map(|function| function.name.clone()).collect();
+        let is_ready =
+            |item: &Item| (item.function.as_ref()).is_none_or(|f| f.called.is_disjoint(&waiting));
+        let next = functions.iter().position(is_ready).unwrap_or(0);
+        sorted.push(functions.remove(next));
+    }
+    sorted
 }
 
 /// Declarations of the functions that are called above their definition.
@@ -150,7 +170,18 @@ mod tests {
 
     /// What `module_text` writes.
     fn written(wgsl: &str) -> String {
-        module_text(wgsl, &mut base()).unwrap().text
+        module_text(wgsl, &mut base(), false).unwrap().text
+    }
+
+    #[test]
+    fn callees_stand_in_front_of_their_callers_in_short_texts() {
+        let wgsl = "fn a_f() -> f32 {\n    return a_g() + a_h();\n}\nfn a_g() -> f32 {\n    return a_h();\n}\n\
+                    fn a_h() -> f32 {\n    return 1.0;\n}\nfn a_i() -> f32 {\n    return 2.0;\n}\n";
+        let text = module_text(wgsl, &mut base(), true).unwrap().text;
+        let heads = text.lines().filter(|line| line.starts_with("SPECULA_FN"));
+        let expected =
+            ["a_h", "a_g", "a_f", "a_i"].map(|name| format!("SPECULA_FN float {name}() {{"));
+        assert_eq!(heads.collect::<Vec<_>>(), expected);
     }
 
     #[test]
@@ -226,7 +257,7 @@ mod tests {
             ("let a: i32 = 1;", "2: expected a type, found 'i32'"),
         ] {
             let wgsl = format!("fn helper(x: f32) {{\n    {body}\n}}\n");
-            let failure = module_text(&wgsl, &mut base()).err().unwrap();
+            let failure = module_text(&wgsl, &mut base(), false).err().unwrap();
             assert_eq!(failure.to_string(), message, "{body}");
         }
         let module = Module {

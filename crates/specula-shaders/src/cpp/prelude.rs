@@ -270,7 +270,7 @@ mod tests {
 
     /// The short prelude of a WGSL text.
     fn of(wgsl: &str) -> String {
-        let written = super::super::module_text(wgsl, &mut super::super::base());
+        let written = super::super::module_text(wgsl, &mut super::super::base(), false);
         let written = written.ok().unwrap();
         needed(&written.text, &written.taken)
     }
