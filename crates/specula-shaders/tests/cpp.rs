@@ -16,17 +16,7 @@ use specula_bsdf::vndf::Sampler;
 use specula_bsdf::{Alpha, Bsdf, Frame, Transport};
 use specula_shaders::{Language, export};
 use std::path::PathBuf;
-use tools::Folder;
-
-/// Every warning is an error.
-const STRICT: &[&str] = &[
-    "-std=c++17",
-    "-Wall",
-    "-Wextra",
-    "-Wconversion",
-    "-Wpedantic",
-    "-Werror",
-];
+use tools::{Folder, STRICT};
 
 /// Ways of optimising.
 const LEVELS: [&[&str]; 3] = [&["-O0"], &["-O2"], &["-O3", "-ffast-math"]];

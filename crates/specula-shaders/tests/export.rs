@@ -14,7 +14,7 @@ use specula_shaders::{
     DeclarationKind, Export, Language, MODULES, compose, declarations, export, fields, ordered,
 };
 use specula_testing::compilers;
-use tools::Folder;
+use tools::{Folder, STRICT};
 
 const TEXTS: [Language; 7] = [
     Language::Wgsl,
@@ -475,8 +475,7 @@ fn functions_alone_compile() {
                 let cpp = in_language(Language::Cpp);
                 let caller = format!("{cpp}\nvoid* taken = reinterpret_cast<void*>(&{call});\n");
                 folder.write("a.cpp", &caller);
-                let warnings = ["-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Werror"];
-                let flags = [&["-std=c++17", "-c", "a.cpp"][..], &warnings].concat();
+                let flags = [STRICT, &["-c", "a.cpp"]].concat();
                 folder.accepted(gcc, &flags);
                 folder.write(
                     "a.cpp",
@@ -512,8 +511,7 @@ fn any_function_alone_compiles_in_cpp() {
         text += &String::from_utf8_lossy(&export.files().unwrap()[0].bytes);
     }
     let folder = Folder::with(&[]);
-    let warnings = ["-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Werror"];
-    let flags = [&["-std=c++17", "-fsyntax-only", "a.cpp"][..], &warnings].concat();
+    let flags = [STRICT, &["-fsyntax-only", "a.cpp"]].concat();
     folder.write("a.cpp", &text);
     folder.accepted(&gcc, &flags);
     let product = "SPECULA_FN vec3f operator*(vec3f v, float s)";

@@ -237,27 +237,13 @@ fn spline(
         bezier(width_controls[segment], u)
     });
     let first = mesh.positions.len();
-    let mut tube = Mesh::default();
-    tube::tube(&stations, SIDES, &mut tube);
-    for (row, uv) in tube.uvs.chunks_exact_mut(SIDES as usize + 1).enumerate() {
-        let station = &stations[row];
+    tube::tube(&stations, SIDES, mesh);
+    let rows = mesh.uvs[first..].chunks_exact_mut(SIDES as usize + 1);
+    for (row, station) in rows.zip(&stations) {
         let v = along(station.segment as f64 + station.u);
-        uv.iter_mut().for_each(|uv| *uv = [uv[1], v]);
+        row.iter_mut().for_each(|uv| *uv = [uv[1], v]);
     }
-    append(tube, first, mesh);
     Ok(())
-}
-
-fn append(part: Mesh, first: usize, mesh: &mut Mesh) {
-    // Within the limit of vertices, which fits 32 bits.
-    let Ok(first) = u32::try_from(first) else {
-        return;
-    };
-    mesh.positions.extend(part.positions);
-    mesh.normals.extend(part.normals);
-    mesh.uvs.extend(part.uvs);
-    let shifted = part.triangles.into_iter().map(|t| t.map(|i| i + first));
-    mesh.triangles.extend(shifted);
 }
 
 fn mean(a: f64, b: f64, u: f64) -> f64 {

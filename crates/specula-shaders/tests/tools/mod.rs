@@ -6,6 +6,16 @@ use std::process::{Command, Output};
 
 use specula_shaders::File;
 
+/// Flags of g++ and clang++ for the header: every warning is an error.
+pub(crate) const STRICT: &[&str] = &[
+    "-std=c++17",
+    "-Wall",
+    "-Wextra",
+    "-Wconversion",
+    "-Wpedantic",
+    "-Werror",
+];
+
 /// A program that can be started, or a line that says what was skipped.
 #[track_caller]
 pub(crate) fn program(name: &str, what: &str) -> Option<PathBuf> {
