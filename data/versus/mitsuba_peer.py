@@ -22,18 +22,52 @@ mi.set_log_level(mi.LogLevel.Error)
 PASS = 64
 
 
+def resolved(path, defaults=None):
+    """The file's tree, its includes in place and its defaults put in for their names."""
+    defaults = {} if defaults is None else defaults
+    root = ElementTree.parse(path).getroot()
+    version = root.get("version")
+
+    def resolve(element):
+        for child in list(element):
+            if child.tag == "default":
+                defaults.setdefault(child.get("name"), child.get("value"))
+            if child.tag == "include":
+                file = fill(child.get("filename"))
+                at = list(element).index(child)
+                element.remove(child)
+                included = resolved(os.path.join(os.path.dirname(path), file), defaults)
+                element[at:at] = list(included)
+                continue
+            for key, text in child.attrib.items():
+                child.set(key, fill(text))
+            resolve(child)
+
+    def fill(text):
+        for name in sorted(defaults, key=len, reverse=True):
+            text = text.replace("$" + name, defaults[name])
+        return text
+
+    resolve(root)
+    root.set("version", version)
+    return root
+
+
 def sensors(path):
     """A function from a sampler's name to the file's sensor with that sampler."""
-    root = ElementTree.parse(path).getroot()
+    root = resolved(path)
     made = {}
 
     def sensor(name):
         if name not in made:
             element = root.find("sensor")
+            if element is None:
+                raise SystemExit(f"{path}: the scene has no sensor")
             element.set("version", root.get("version"))
-            sampler = element.find("sampler")
-            sampler.set("type", name)
-            sampler.find("integer").set("value", "16")
+            for sampler in element.findall("sampler"):
+                element.remove(sampler)
+            sampler = ElementTree.SubElement(element, "sampler", type=name)
+            ElementTree.SubElement(sampler, "integer", name="sample_count", value="16")
             made[name] = mi.load_string(ElementTree.tostring(element, encoding="unicode"))
         return made[name]
 

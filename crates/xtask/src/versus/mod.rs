@@ -32,7 +32,7 @@ use measure::Contestant;
 use outcome::Outcome;
 use plan::Plan;
 use renderers::{Pbrt, Served, Specula};
-use scenes::{SCENES, SceneFile};
+use scenes::{SCENES, Scene};
 
 /// Most that the means of references may differ by, as a share.
 const CLOSE: f64 = 0.005;
@@ -65,6 +65,9 @@ pub(crate) enum Clock {
 /// What to compare, and how.
 #[derive(Args)]
 pub(crate) struct Versus {
+    /// Scenes of your own, in Mitsuba's form (FILE.xml: against Mitsuba and Cycles) or in pbrt's (FILE.pbrt: against pbrt)
+    #[arg(value_name = "FILE", conflicts_with_all = ["scene", "publish"])]
+    files: Vec<PathBuf>,
     /// A Python that has Mitsuba 3
     #[arg(long, value_name = "PYTHON")]
     mitsuba: Option<PathBuf>,
@@ -137,14 +140,12 @@ pub(crate) fn run(root: &Path, versus: &Versus) -> Result<()> {
     let specula = workspace::program(root, versus.specula.as_deref())?;
     let denoiser = Denoiser::of(&specula, &out)?;
     let mut outcomes: Vec<Outcome> = Vec::new();
-    for scene in &SCENES {
-        if versus.scene.is_empty() || versus.scene.iter().any(|n| n == scene.name) {
-            println!("== {}: {}", scene.name, scene.title);
-            let mut outcome = versus.compare(root, &out, &specula, scene)?;
-            flip::measure(&mut outcome, denoiser.as_ref(), &out)?;
-            print!("{}", table::scene(&outcome));
-            outcomes.push(outcome);
-        }
+    for scene in versus.scenes(root, &out)? {
+        println!("== {}: {}", scene.name, scene.title);
+        let mut outcome = versus.compare(root, &out, &specula, scene)?;
+        flip::measure(&mut outcome, denoiser.as_ref(), &out)?;
+        print!("{}", table::scene(&outcome));
+        outcomes.push(outcome);
     }
     let minutes = start.elapsed().as_secs_f64() / 60.0;
     let text = report::document(versus, &outcomes, minutes);
@@ -187,59 +188,80 @@ impl Versus {
         }
     }
 
-    fn compare(
-        &self,
-        root: &Path,
-        out: &Path,
-        specula: &Path,
-        scene: &'static SceneFile,
-    ) -> Result<Outcome> {
-        let file = scene.prepare(root, &out.join("scenes"))?;
-        let twin = file.with_extension("pbrt");
+    /// The files, or else those of the list that are named or all.
+    fn scenes(&self, root: &Path, out: &Path) -> Result<Vec<Scene>> {
+        if !self.files.is_empty() {
+            return self.files.iter().map(|f| Scene::of_file(f)).collect();
+        }
+        let is_named = |name: &str| self.scene.is_empty() || self.scene.iter().any(|n| n == name);
+        let listed = SCENES.iter().filter(|s| is_named(s.name));
+        listed
+            .map(|s| s.scene(root, &out.join("scenes")))
+            .collect()
+    }
+
+    fn compare(&self, root: &Path, out: &Path, specula: &Path, scene: Scene) -> Result<Outcome> {
+        let contestants = self.contestants(root, specula, &scene)?;
+        if contestants.is_empty() {
+            let title = &scene.title;
+            return Err(format!("{title}: no renderer of its form is named: see --help").into());
+        }
+        let pictures = out.join(&scene.name);
+        let picture = out.join(format!("{}.png", scene.name));
+        let key = scene.key()?;
+        let outcome = measure::run(scene, &self.plan(), contestants, &pictures, key)?;
+        sheet::write(&outcome, &picture)?;
+        Ok(outcome)
+    }
+
+    /// Everybody who renders a form of the scene.
+    fn contestants(&self, root: &Path, specula: &Path, scene: &Scene) -> Result<Vec<Contestant>> {
         let mut contestants = Vec::new();
-        if let Some(python) = &self.mitsuba {
-            contestants.extend(self.specula("specula-xml", specula, &file));
-            let mut command = Command::new(python);
-            command
-                .arg(root.join("data/versus/mitsuba_peer.py"))
-                .arg(&file)
-                .args([&self.variant, &self.threads.to_string()]);
-            let engine = Served::start("Mitsuba", &mut command)?;
-            let mitsuba = Contestant::new("mitsuba", &MITSUBA_SAMPLERS, engine);
-            contestants.push(mitsuba.against("specula-xml", CLOSE));
+        // Cycles, whose masking is pbrt's, builds its scene from Mitsuba's form.
+        let mut beside_cycles = "specula-xml";
+        if let Some(file) = scene.mitsuba.as_ref() {
+            if self.mitsuba.is_some() || scene.pbrt.is_none() && self.cycles.is_some() {
+                contestants.extend(self.specula("specula-xml", specula, file));
+            }
+            if let Some(python) = &self.mitsuba {
+                let mut command = Command::new(python);
+                command
+                    .arg(root.join("data/versus/mitsuba_peer.py"))
+                    .arg(file)
+                    .args([&self.variant, &self.threads.to_string()]);
+                let engine = Served::start("Mitsuba", &mut command)?;
+                let mitsuba = Contestant::new("mitsuba", &MITSUBA_SAMPLERS, engine);
+                contestants.push(mitsuba.against("specula-xml", CLOSE));
+            }
         }
-        if self.cycles.is_some() || self.pbrt.is_some() {
-            contestants.extend(self.specula("specula-pbrt", specula, &twin));
+        if let Some(file) = scene.pbrt.as_ref() {
+            if self.pbrt.is_some() || scene.mitsuba.is_some() && self.cycles.is_some() {
+                contestants.extend(self.specula("specula-pbrt", specula, file));
+                beside_cycles = "specula-pbrt";
+            }
         }
-        if let Some(python) = &self.cycles {
+        if let (Some(python), Some(file)) = (&self.cycles, &scene.mitsuba) {
             let mut command = Command::new(python);
             command
                 .arg(root.join("data/versus/cycles_peer.py"))
-                .arg(&file)
+                .arg(file)
                 .arg(self.threads.to_string());
             let engine = Served::start("Cycles", &mut command)?;
             let cycles = Contestant::new("cycles", &CYCLES_SAMPLERS, engine);
-            contestants.push(cycles.against("specula-pbrt", CLOSE));
+            contestants.push(cycles.against(beside_cycles, CLOSE));
         }
-        if let Some(program) = &self.pbrt {
+        if let (Some(program), Some(file)) = (&self.pbrt, &scene.pbrt) {
             let engine = Pbrt {
                 program: program.clone(),
-                scene: twin.clone(),
+                scene: file.clone(),
                 threads: self.threads,
                 loading: None,
             };
             let pbrt = Contestant::new("pbrt", &PBRT_SAMPLERS, engine);
             contestants.push(pbrt.against("specula-pbrt", SPECTRAL));
         }
-        let pictures = out.join(scene.name);
-        let key = measure::key(&[fs::read(&file)?, fs::read(&twin)?].concat());
-        let contestants = contestants
-            .into_iter()
-            .map(|contestant| contestant.among(&self.sampler))
-            .collect();
-        let outcome = measure::run(scene, &self.plan(), contestants, &pictures, key)?;
-        sheet::write(&outcome, &out.join(format!("{}.png", scene.name)))?;
-        Ok(outcome)
+        let named = contestants.into_iter().map(|c| c.among(&self.sampler));
+        Ok(named.collect())
     }
 
     /// Specula with one form of a scene, once for each block that the device has samplers for.

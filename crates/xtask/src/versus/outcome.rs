@@ -7,7 +7,7 @@ use specula_bsdf::Rgb;
 use super::block::Block;
 use super::flip::Flip;
 use super::reference::Reference;
-use super::scenes::SceneFile;
+use super::scenes::Scene;
 use super::statistics::{Errors, Metric, equal_error_ratio, median};
 
 /// Most that an error from pairs of seeds may differ from that against the reference, as a share,
@@ -79,7 +79,7 @@ pub(crate) struct Row {
 
 /// A scene's rows and pictures.
 pub(crate) struct Outcome {
-    pub(crate) scene: &'static SceneFile,
+    pub(crate) scene: Scene,
     pub(crate) rows: Vec<Row>,
     /// One for each row; those of Specula with one form of the scene have it in common.
     pub(crate) references: Vec<Rc<Reference>>,

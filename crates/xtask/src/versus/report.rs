@@ -19,7 +19,7 @@ pub(crate) fn summary(outcomes: &[Outcome]) -> String {
     for block in Block::ALL {
         let pairs: Vec<_> = outcomes
             .iter()
-            .flat_map(|o| o.pairs(block).map(|(a, b)| (o.scene.name, a, b)))
+            .flat_map(|o| o.pairs(block).map(|(a, b)| (&o.scene.name, a, b)))
             .collect();
         if pairs.is_empty() {
             continue;
@@ -80,7 +80,7 @@ pub(crate) fn document(versus: &Versus, outcomes: &[Outcome], minutes: f64) -> S
     text.push_str(METHOD);
     text.push_str(&this_run(versus, outcomes, minutes));
     for outcome in outcomes {
-        let (name, title) = (outcome.scene.name, outcome.scene.title);
+        let (name, title) = (&outcome.scene.name, &outcome.scene.title);
         let shown = outcome.rows.iter().filter(|r| sheet::shows(r));
         let names: Vec<&str> = shown.map(|r| r.name.as_str()).collect();
         let _ = write!(
@@ -209,13 +209,13 @@ mod tests {
 
     use super::super::flip::Flip;
     use super::super::outcome::tests::row;
-    use super::super::scenes::SCENES;
+    use super::super::scenes::tests::scene;
     use super::*;
 
     /// Blocks out of order, the shared one quicker than all.
     fn outcome() -> Outcome {
         Outcome {
-            scene: &SCENES[0],
+            scene: scene(),
             rows: vec![
                 row(
                     "specula-shared",

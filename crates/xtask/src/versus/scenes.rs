@@ -1,13 +1,59 @@
-//! The scenes of the comparison, each in two forms: Mitsuba's and pbrt's.
+//! The scenes of the comparison, each in two forms, Mitsuba's and pbrt's, and files of a user's own.
 
 use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use super::mesh;
 use super::sky::{self, Sun};
 use crate::Result;
 
-/// One scene.
+/// A scene that is compared, in one form or in two.
+#[derive(Clone)]
+pub(crate) struct Scene {
+    pub(crate) name: String,
+    /// What it holds.
+    pub(crate) title: String,
+    /// First column and row of the detail that the sheet shows; the middle where there is none.
+    pub(crate) detail: Option<[usize; 2]>,
+    /// The file in Mitsuba's form.
+    pub(crate) mitsuba: Option<PathBuf>,
+    /// The file in pbrt's form.
+    pub(crate) pbrt: Option<PathBuf>,
+}
+
+impl Scene {
+    /// The scene of a file, whose extension tells its form.
+    pub(crate) fn of_file(file: &Path) -> Result<Self> {
+        let at = |e| format!("{}: {e}", file.display());
+        let path = fs::canonicalize(file).map_err(at)?;
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        let extension = path.extension().and_then(|e| e.to_str());
+        let (mitsuba, pbrt) = match extension {
+            Some("xml") => (Some(path.clone()), None),
+            Some("pbrt") => (None, Some(path.clone())),
+            _ => return Err(format!("{}: expected a file .xml or .pbrt", file.display()).into()),
+        };
+        Ok(Self {
+            name: name.replace(|c: char| !c.is_ascii_alphanumeric(), "-"),
+            title: file.display().to_string(),
+            detail: None,
+            mitsuba,
+            pbrt,
+        })
+    }
+
+    /// A short name of its files' texts, so that references of another are not taken for its.
+    pub(crate) fn key(&self) -> Result<u64> {
+        let mut hasher = DefaultHasher::new();
+        for file in self.mitsuba.iter().chain(&self.pbrt) {
+            fs::read(file)?.hash(&mut hasher);
+        }
+        Ok(hasher.finish())
+    }
+}
+
+/// One scene of the list.
 pub(crate) struct SceneFile {
     /// The name of `data/versus/NAME.xml` and of `NAME.pbrt`.
     pub(crate) name: &'static str,
@@ -48,6 +94,18 @@ pub(crate) const SCENES: [SceneFile; 4] = [
 ];
 
 impl SceneFile {
+    /// The scene in both forms, [prepared](Self::prepare).
+    pub(crate) fn scene(&self, root: &Path, folder: &Path) -> Result<Scene> {
+        let file = self.prepare(root, folder)?;
+        Ok(Scene {
+            name: self.name.to_owned(),
+            title: self.title.to_owned(),
+            detail: Some(self.detail),
+            pbrt: Some(file.with_extension("pbrt")),
+            mitsuba: Some(file),
+        })
+    }
+
     /// Copies the scene into `folder`, makes what it needs there, and returns its file in Mitsuba's
     /// form; the other lies beside it, its extension `pbrt`.
     pub(crate) fn prepare(&self, root: &Path, folder: &Path) -> Result<PathBuf> {
@@ -74,7 +132,7 @@ impl SceneFile {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use std::sync::atomic::AtomicBool;
 
     use specula_bsdf::ndf::Masking;
@@ -84,6 +142,17 @@ mod tests {
 
     use super::*;
     use crate::workspace;
+
+    /// A scene without files.
+    pub(crate) fn scene() -> Scene {
+        Scene {
+            name: SCENES[0].name.to_owned(),
+            title: SCENES[0].title.to_owned(),
+            detail: None,
+            mitsuba: None,
+            pbrt: None,
+        }
+    }
 
     fn scratch(name: &str) -> PathBuf {
         let folder = std::env::temp_dir().join(format!("versus-{name}-{}", std::process::id()));
@@ -95,8 +164,8 @@ mod tests {
     fn scenes_load_without_warnings() {
         let folder = scratch("scenes");
         for scene in &SCENES {
-            let file = scene.prepare(&workspace::root(), &folder).unwrap();
-            for file in [&file, &file.with_extension("pbrt")] {
+            let files = scene.scene(&workspace::root(), &folder).unwrap();
+            for file in files.mitsuba.iter().chain(&files.pbrt) {
                 let loaded = specula_scene::load(file).unwrap();
                 assert!(
                     loaded.warnings.is_empty(),
@@ -112,6 +181,25 @@ mod tests {
                 ));
             }
         }
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn files_of_a_user_have_the_form_of_their_extension() {
+        let folder = scratch("files");
+        let file = |name: &str, text: &str| {
+            let path = folder.join(name);
+            fs::write(&path, text).unwrap();
+            path
+        };
+        let xml = Scene::of_file(&file("a room.xml", "<scene/>")).unwrap();
+        assert_eq!((xml.name.as_str(), xml.pbrt.is_none()), ("a-room", true));
+        let pbrt = Scene::of_file(&file("room.pbrt", "WorldBegin")).unwrap();
+        assert!(pbrt.mitsuba.is_none() && pbrt.pbrt.is_some());
+        assert_ne!(xml.key().unwrap(), pbrt.key().unwrap());
+        let refused = |path: &Path| Scene::of_file(path).err().unwrap().to_string();
+        assert!(refused(&file("room.glb", "")).ends_with("expected a file .xml or .pbrt"));
+        assert!(refused(&folder.join("missing.xml")).contains("missing.xml: "));
         fs::remove_dir_all(folder).unwrap();
     }
 

@@ -31,7 +31,7 @@ pub(crate) fn write(outcome: &Outcome, path: &Path) -> Result<()> {
 }
 
 /// The pixels of all columns, row by row.
-fn sheet(columns: &[&Vec<Rgb<f32>>], width: usize, detail: [usize; 2]) -> Vec<u8> {
+fn sheet(columns: &[&Vec<Rgb<f32>>], width: usize, detail: Option<[usize; 2]>) -> Vec<u8> {
     let details: Vec<_> = columns.iter().map(|p| crop(p, width, detail)).collect();
     let wholes: Vec<_> = columns.iter().map(|p| shrink(p, width)).collect();
     let display = Display::default();
@@ -47,25 +47,42 @@ fn sheet(columns: &[&Vec<Rgb<f32>>], width: usize, detail: [usize; 2]) -> Vec<u8
     bytes
 }
 
-/// A square of [`SIDE`] pixels from `[x, y]` on.
-fn crop(picture: &[Rgb<f32>], width: usize, [x, y]: [usize; 2]) -> Vec<Rgb<f32>> {
-    let rows = (y..y + SIDE).map(|row| &picture[row * width + x..row * width + x + SIDE]);
-    rows.flatten().copied().collect()
+/// A square of [`SIDE`] pixels from `[x, y]` on, or from the middle; black beyond the picture.
+fn crop(picture: &[Rgb<f32>], width: usize, from: Option<[usize; 2]>) -> Vec<Rgb<f32>> {
+    let size = [width, picture.len() / width];
+    let [left, top] = from.unwrap_or(size.map(|s| s.saturating_sub(SIDE) / 2));
+    let pixel = |i: usize| {
+        let [x, y] = [left + i % SIDE, top + i / SIDE];
+        let inside = x < size[0] && y < size[1];
+        inside.then(|| picture[y * width + x])
+    };
+    (0..SIDE * SIDE)
+        .map(|i| pixel(i).unwrap_or(Rgb::splat(0.0)))
+        .collect()
 }
 
-/// A square picture by means of what falls into each pixel of [`SIDE`], clamped before, as a screen does.
+/// A picture as large as fits, by means of what falls into each pixel of [`SIDE`], clamped before, as a screen does;
+/// black around it.
 fn shrink(picture: &[Rgb<f32>], width: usize) -> Vec<Rgb<f32>> {
-    let edge = |i: usize| i * width / SIDE;
+    let size = [width, picture.len() / width];
+    let longer = size[0].max(size[1]);
+    // What falls into the `i`-th pixel along an axis; at least one, so that small pictures are magnified.
+    let range = |i: usize, side: usize| {
+        let before = (longer - side) / 2;
+        let from = i * longer / SIDE;
+        let until = ((i + 1) * longer / SIDE).max(from + 1);
+        from.max(before) - before..until.clamp(before, before + side) - before
+    };
     let pixel = |x: usize, y: usize| {
-        let (mut sum, mut count) = ([0.0; 3], 0.0);
-        for row in edge(y)..edge(y + 1).max(edge(y) + 1) {
-            for column in edge(x)..edge(x + 1).max(edge(x) + 1) {
+        let (mut sum, mut count) = ([0.0; 3], 0.0_f32);
+        for row in range(y, size[1]) {
+            for column in range(x, size[0]) {
                 let colour = picture[row * width + column].to_array();
                 (0..3).for_each(|c| sum[c] += colour[c].min(1.0));
                 count += 1.0;
             }
         }
-        let [r, g, b] = sum.map(|s: f32| s / count);
+        let [r, g, b] = sum.map(|s: f32| s / count.max(1.0));
         Rgb { r, g, b }
     };
     (0..SIDE * SIDE)
@@ -83,10 +100,26 @@ mod tests {
         let picture: Vec<_> = (0..width * width)
             .map(|i| Rgb::splat(if i % width < SIDE { 0.0 } else { 1.0 }))
             .collect();
-        let cut = crop(&picture, width, [SIDE - 1, 3]);
+        let cut = crop(&picture, width, Some([SIDE - 1, 3]));
         assert_eq!((cut[0].r, cut[1].r, cut.len()), (0.0, 1.0, SIDE * SIDE));
         let small = shrink(&picture, width);
         assert_eq!((small[SIDE / 2 - 1].r, small[SIDE / 2].r), (0.0, 1.0));
+    }
+
+    #[test]
+    fn pictures_of_any_shape_fit() {
+        for [width, height] in [[1, 1], [3, 40], [640, 360], [100, 1000], [112, 111]] {
+            let picture = vec![Rgb::splat(1.0_f32); width * height];
+            let small = shrink(&picture, width);
+            let white = small.iter().filter(|c| c.r == 1.0).count();
+            assert_eq!(small[SIDE * SIDE / 2 + SIDE / 2].r, 1.0);
+            let share = width.min(height) as f32 / width.max(height) as f32;
+            let rows = white as f32 / SIDE as f32;
+            assert!((rows - share * SIDE as f32).abs() <= 2.0, "{width} x {height}: {rows}");
+            let cut = crop(&picture, width, None);
+            let inside = cut.iter().filter(|c| c.r == 1.0).count();
+            assert_eq!(inside, width.min(SIDE) * height.min(SIDE));
+        }
     }
 
     #[test]
@@ -97,7 +130,7 @@ mod tests {
             .map(|i| Rgb::splat(if i % width < width / 2 { 1.0 } else { 0.0 }))
             .collect();
         let white = vec![Rgb::splat(1.0); width * width];
-        let bytes = sheet(&[&white, &half], width, [width / 2, 0]);
+        let bytes = sheet(&[&white, &half], width, Some([width / 2, 0]));
         assert_eq!(bytes.len(), 3 * 2 * SIDE * 2 * SIDE);
         let green = |x: usize, y: usize| bytes[3 * (y * 2 * SIDE + x) + 1];
         let rows = [SIDE - 1, SIDE].map(|y| [0, SIDE, 2 * SIDE - 1].map(|x| green(x, y)));

@@ -141,12 +141,12 @@ fn pair(text: &mut String, specula: &Row, theirs: &Row) {
 mod tests {
     use super::super::flip::Flip;
     use super::super::outcome::tests::row;
-    use super::super::scenes::SCENES;
+    use super::super::scenes::tests::scene as some_scene;
     use super::*;
 
     fn outcome() -> Outcome {
         Outcome {
-            scene: &SCENES[0],
+            scene: some_scene(),
             rows: vec![
                 row(
                     "specula-defaults",
