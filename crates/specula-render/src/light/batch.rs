@@ -12,16 +12,13 @@ use specula_bsdf::{Rgb, Vec3};
 use super::area::Area;
 use super::environment::{BATCH_SIZE, DirectionBatch, Environment};
 use super::node::Node;
+use super::select::{MOST_NODES, Selection};
 use super::{Far, LightSample, Lights, Parallelogram, Receiver, Source};
 use crate::geometry::Geometry;
 use crate::offset::SurfacePoint;
 use crate::simd::simd_levels;
 use crate::soa;
 use crate::texture::Textures;
-
-/// Most nodes of a light tree whose importances are computed in batches: those over sixteen lights, and one more, as a
-/// power of two divides fast. A choice needs some eight of them, which cost as much one by one as 60 in a batch.
-const MOST_NODES: usize = 32;
 
 /// Most lights that are sampled in batches: as many as such a tree has.
 const MOST_QUEUES: usize = 16;
@@ -47,6 +44,8 @@ struct ReceiverQueue {
     normal: Vectors,
     /// Of each node of the tree.
     importance: [Floats; MOST_NODES],
+    /// Of larger trees: the share of lights from infinity, and the light with its probability.
+    chosen: [(f32, Option<(u32, f32)>); BATCH_SIZE],
     count: usize,
 }
 
@@ -82,6 +81,7 @@ impl LightQueues {
                 point: Vectors::ZERO,
                 normal: Vectors::ZERO,
                 importance: [ZERO; MOST_NODES],
+                chosen: [(0.0, None); BATCH_SIZE],
                 count: 0,
             },
             environment: LightQueue::EMPTY,
@@ -168,8 +168,10 @@ impl Lights {
         let r = &mut queues.receivers;
         let n = std::mem::take(&mut r.count);
         let nodes = self.selection.nodes();
-        let few = nodes.len() <= MOST_NODES;
-        if few && self.selection.chooses() {
+        let few = !self.selection.by_treelets();
+        if !few {
+            choose_by_treelets(n, &self.selection, r, u);
+        } else if self.selection.chooses() {
             for (node, column) in nodes.iter().zip(&mut r.importance) {
                 node_importances(n, node, &r.point, &r.normal, column);
             }
@@ -184,9 +186,9 @@ impl Lights {
                 shares[vertex] = self.selection.share(&importance);
                 (self.selection).choose(&importance, shares[vertex], [u[0], u[3]])
             } else {
-                let importance = self.selection.importances(&receiver);
-                shares[vertex] = self.selection.share(&importance);
-                (self.selection).choose(&importance, shares[vertex], [u[0], u[3]])
+                let (share, chosen) = r.chosen[at];
+                shares[vertex] = share;
+                chosen
             };
             let Some((light, probability)) = chosen else {
                 store(vertex, None);
@@ -356,6 +358,22 @@ fn node_importances(
 ) {
     for i in 0..n.min(BATCH_SIZE) {
         importance[i] = node.importance_at(point.get(i), normal.get(i));
+    }
+}
+
+/// Chooses lights for the first `n` receivers.
+#[apply(simd_levels)]
+fn choose_by_treelets(
+    n: usize,
+    selection: &Selection,
+    receivers: &mut ReceiverQueue,
+    u: [&[f32]; 4],
+) {
+    for i in 0..n.min(BATCH_SIZE) {
+        let receiver = (receivers.point.get(i), receivers.normal.get(i));
+        let vertex = receivers.vertices[i];
+        let u = [u[0][vertex], u[3][vertex]];
+        receivers.chosen[i] = selection.sample_by_treelets(receiver, u);
     }
 }
 

@@ -18,6 +18,7 @@ mod select;
 mod sun;
 mod textured;
 mod tree;
+mod treelet;
 
 #[cfg(test)]
 mod tests;

@@ -13,6 +13,9 @@ pub(super) const SLACK: f32 = 1e-3;
 /// Above every importance: two of them add up to a finite number.
 pub(super) const MOST: f32 = 1e37;
 
+/// Least share of the lesser child: rounding must not take its chance.
+pub(super) const LEAST_SHARE: f32 = 1e-6;
+
 /// A point to be lit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Receiver {
@@ -25,14 +28,14 @@ pub(crate) struct Receiver {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     /// Of a sphere around the lights.
-    centre: Vec3<f32>,
-    radius: f32,
-    axis: Vec3<f32>,
-    cos_o: f32,
-    cos_e: f32,
+    pub(super) centre: Vec3<f32>,
+    pub(super) radius: f32,
+    pub(super) axis: Vec3<f32>,
+    pub(super) cos_o: f32,
+    pub(super) cos_e: f32,
     /// Sum of the peak intensities.
-    intensity: f32,
-    two_sided: bool,
+    pub(super) intensity: f32,
+    pub(super) two_sided: bool,
     pub(super) leaf: bool,
     /// Of a leaf, its light; otherwise the distance to the right child. The left child follows.
     pub(super) link: u32,
@@ -99,6 +102,17 @@ impl Node {
     /// * `normal`: zero where light from every side counts.
     #[inline(always)]
     pub(super) fn importance_at(&self, point: Vec3<f32>, normal: Vec3<f32>) -> f32 {
+        self.estimate::<false>(point, normal)
+    }
+
+    /// [`Node::importance_at`], also without branches on the node.
+    #[inline(always)]
+    pub(super) fn importance_without_branches(&self, point: Vec3<f32>, normal: Vec3<f32>) -> f32 {
+        self.estimate::<true>(point, normal)
+    }
+
+    #[inline(always)]
+    fn estimate<const WITHOUT_BRANCHES: bool>(&self, point: Vec3<f32>, normal: Vec3<f32>) -> f32 {
         let d = self.centre - point;
         let distance_squared = d.length_squared();
         let radius_squared = self.radius * self.radius;
@@ -111,13 +125,14 @@ impl Node {
         let mut lit = cos_i > -SLACK;
         let mut factor = cos_i.max(SLACK);
         // Lights all around their normals, spheres and points, send everywhere alike.
-        if self.cos_o > -1.0 {
+        let directed = self.cos_o > -1.0;
+        if WITHOUT_BRANCHES | directed {
             let cos = -self.axis.dot(to_centre);
             let cos = if self.two_sided { cos.abs() } else { cos };
             let sin_o = (1.0 - self.cos_o * self.cos_o).max(0.0).sqrt();
             let cos = minus_clamped(minus_clamped(cos, sin_o, self.cos_o), sin_u, cos_u);
-            lit &= cos > self.cos_e - SLACK;
-            factor *= cos.max(SLACK);
+            lit &= !directed | (cos > self.cos_e - SLACK);
+            factor *= if directed { cos.max(SLACK) } else { 1.0 };
         }
         let inside = distance_squared <= radius_squared;
         let (numerator, denominator) = if inside {
@@ -128,6 +143,17 @@ impl Node {
         let importance = (numerator / denominator).min(MOST);
         if inside | lit { importance } else { 0.0 }
     }
+}
+
+/// Share of the first of two importances, off 0 and 1 unless one is 0 alone; a half where both are: nothing arrives
+/// then, but the probabilities still add up to 1.
+#[inline(always)]
+pub(super) fn share([a, b]: [f32; 2]) -> f32 {
+    let between = (a / (a + b)).clamp(LEAST_SHARE, 1.0 - LEAST_SHARE);
+    let without_b = if a > 0.0 { 1.0 } else { 0.5 };
+    let without_a = if b > 0.0 { 0.0 } else { 0.5 };
+    let one = if a > 0.0 { without_b } else { without_a };
+    if (a > 0.0) & (b > 0.0) { between } else { one }
 }
 
 /// `cos(max(a - b, 0))` of angles in `[0, pi]`.

@@ -10,11 +10,15 @@
 //! Neither accounts for occlusion, hence the bounds. Everything is a function of the receiver
 //! alone, so that the probability of a light that a ray hit by chance is that of its choice.
 
+use macro_rules_attribute::apply;
+use specula_bsdf::Vec3;
+
 use super::alias::AliasTable;
 use super::build::Emitter;
 use super::node::{Node, Receiver};
 use super::tree::LightTree;
 use crate::convert::narrow;
+use crate::simd::simd_levels;
 use crate::words::Words;
 
 /// Smallest share of either class of lights where there are both.
@@ -25,6 +29,10 @@ pub const LEAST_SHARE: f32 = 0.1;
 const FAR_COSINE: f64 = 0.35;
 /// Unit of the second random number of a choice: the first is a multiple of it.
 pub const FINER: f64 = 1.0 / 8_388_608.0;
+
+/// Most nodes of a light tree whose importances are all computed for many receivers at once: those over sixteen
+/// lights, and one more, as a power of two divides fast. Of larger trees [treelets](super::treelet) are.
+pub(super) const MOST_NODES: usize = 32;
 
 /// The choice among the lights of a scene.
 #[derive(Clone, Debug, Default)]
@@ -101,6 +109,31 @@ impl Selection {
         self.choose(&importance, self.share(&importance), u)
     }
 
+    /// [`Selection::sample`] by treelets, after the share of lights from infinity.
+    ///
+    /// * `receiver`: point and normal, zero where light from every side counts.
+    #[inline(always)]
+    pub(super) fn sample_by_treelets(
+        &self,
+        receiver: (Vec3<f32>, Vec3<f32>),
+        u: [f32; 2],
+    ) -> (f32, Option<(u32, f32)>) {
+        let Some(top) = self.near.top(receiver) else {
+            return (0.0, None);
+        };
+        let share = self.share_of(top[0] + top[1]);
+        if let Some(light) = self.only {
+            return (share, Some((light, 1.0)));
+        }
+        // No closure: it would be compiled for the baseline.
+        let class = Class::of(share, u);
+        let choice = match class.is_far {
+            true => self.far.sample(class.u),
+            false => self.near.sample_by_treelets(top, receiver, class.u),
+        };
+        (share, class.weigh(choice))
+    }
+
     /// Importances of the tree's nodes.
     #[inline]
     pub(super) fn importances(&self, receiver: &Receiver) -> impl Fn(usize) -> f32 {
@@ -120,28 +153,29 @@ impl Selection {
         if let Some(light) = self.only {
             return Some((light, 1.0));
         }
-        let u = f64::from(u[0]) + FINER * f64::from(u[1]);
-        let threshold = f64::from(share);
-        let below_one = 1.0 - f64::EPSILON;
-        let (choice, share) = if u < threshold {
-            (self.far.sample((u / threshold).min(below_one)), share)
-        } else {
-            let rest = match share {
-                0.0 => u,
-                _ => (u - threshold) / (1.0 - threshold),
-            };
-            let choice = self.near.sample(importance, rest.min(below_one));
-            (choice, 1.0 - share)
-        };
-        choice.map(|(light, probability)| (light, share * probability))
+        let class = Class::of(share, u);
+        class.weigh(match class.is_far {
+            true => self.far.sample(class.u),
+            false => self.near.sample(importance, class.u),
+        })
     }
 
     /// Probability with which [`Selection::sample`] samples a light in the scene.
     #[inline]
     pub(super) fn probability_near(&self, receiver: &Receiver, light: u32) -> f32 {
+        if self.by_treelets() {
+            let normal = receiver.normal.unwrap_or(Vec3::ZERO);
+            return probability_by_treelets(self, (receiver.point, normal), light);
+        }
         let importance = self.near.importances(receiver);
         let share = 1.0 - self.share(&importance);
         share * self.near.probability(&importance, light)
+    }
+
+    /// Whether choices are faster by treelets, one receiver at a time.
+    #[inline(always)]
+    pub(super) fn by_treelets(&self) -> bool {
+        self.near.nodes().len() > MOST_NODES
     }
 
     /// Probability with which [`Selection::sample`] samples any light from infinity.
@@ -153,13 +187,18 @@ impl Selection {
     /// [`Selection::share_far`] by the importances of the tree's nodes.
     #[inline(always)]
     pub(super) fn share(&self, importance: &impl Fn(usize) -> f32) -> f32 {
+        if self.far_irradiance <= 0.0 || self.near.is_empty() {
+            return self.share_of(0.0);
+        }
+        self.share_of(self.near.total(importance))
+    }
+
+    /// * `near`: the estimate of the irradiance by the tree's lights.
+    #[inline(always)]
+    fn share_of(&self, near: f32) -> f32 {
         if self.far_irradiance <= 0.0 {
             return 0.0;
         }
-        if self.near.is_empty() {
-            return 1.0;
-        }
-        let near = self.near.total(importance);
         if near <= 0.0 {
             return 1.0;
         }
@@ -182,4 +221,52 @@ impl Selection {
     pub(super) fn probability_far(&self, light: u32) -> f32 {
         self.far.probability(light)
     }
+}
+
+/// Whether a light from infinity is chosen or one in the scene, and what is left of the random number.
+struct Class {
+    is_far: bool,
+    probability: f32,
+    u: f64,
+}
+
+impl Class {
+    /// * `share`: of lights from infinity.
+    /// * `u`: as of [`Selection::sample`].
+    #[inline(always)]
+    fn of(share: f32, u: [f32; 2]) -> Self {
+        let u = f64::from(u[0]) + FINER * f64::from(u[1]);
+        let threshold = f64::from(share);
+        let is_far = u < threshold;
+        let (probability, u) = match (is_far, share) {
+            (true, _) => (share, u / threshold),
+            (false, 0.0) => (1.0, u),
+            (false, _) => (1.0 - share, (u - threshold) / (1.0 - threshold)),
+        };
+        Self {
+            is_far,
+            probability,
+            u: u.min(1.0 - f64::EPSILON),
+        }
+    }
+
+    /// A light of the class, with its probability among all.
+    #[inline(always)]
+    fn weigh(&self, choice: Option<(u32, f32)>) -> Option<(u32, f32)> {
+        choice.map(|(light, probability)| (light, self.probability * probability))
+    }
+}
+
+/// [`Selection::probability_near`] by treelets.
+#[apply(simd_levels)]
+fn probability_by_treelets(
+    selection: &Selection,
+    receiver: (Vec3<f32>, Vec3<f32>),
+    light: u32,
+) -> f32 {
+    let Some(top) = selection.near.top(receiver) else {
+        return 0.0;
+    };
+    let share = 1.0 - selection.share_of(top[0] + top[1]);
+    share * selection.near.probability_by_treelets(top, receiver, light)
 }

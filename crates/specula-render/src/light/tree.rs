@@ -7,21 +7,23 @@
 //! Source: Conty Estevez and Kulla 2018, section 5.4; Pharr, Jakob and Humphreys, 4th edition,
 //! 12.6.3.
 
+use specula_bsdf::Vec3;
+
 use super::build::{Emitter, build};
-use super::node::{self, Node, Receiver};
+use super::node::{self, LEAST_SHARE, Node, Receiver, share};
+use super::treelet::{Descent, Importances, Treelet, treelets};
 use crate::convert::{id, words_of};
 use crate::words::Words;
 
 /// Trail of a light that is not in the tree; no trail is 64 long.
 const ABSENT: u64 = u64::MAX;
 
-/// Least share of the lesser child: rounding must not take its chance.
-const LEAST_SHARE: f32 = 1e-6;
-
 /// A distribution over lights that depends on the receiver.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LightTree {
     nodes: Vec<Node>,
+    /// The nodes nearest to the root once more, in groups.
+    treelets: Vec<Treelet>,
     /// Path to every light of the scene: from the lowest bit on, 1 for right.
     trails: Vec<u64>,
 }
@@ -43,7 +45,11 @@ impl LightTree {
                 open.push((at + node.link as usize, trail | 1 << depth, depth + 1));
             }
         }
-        Self { nodes, trails }
+        Self {
+            treelets: treelets(&nodes),
+            nodes,
+            trails,
+        }
     }
 
     /// Whether no light is in it.
@@ -97,33 +103,58 @@ impl LightTree {
     /// * `importance`: of each node.
     /// * `u`: uniform in `[0, 1)`, with more digits than `f32` has: every step takes one.
     #[inline]
-    pub(super) fn sample(
+    pub(super) fn sample(&self, importance: &impl Fn(usize) -> f32, u: f64) -> Option<(u32, f32)> {
+        self.sample_below(Choice::new(u), importance)
+    }
+
+    /// [`LightTree::sample`] from a node on.
+    #[inline(always)]
+    fn sample_below(
         &self,
+        mut choice: Choice,
         importance: &impl Fn(usize) -> f32,
-        mut u: f64,
     ) -> Option<(u32, f32)> {
-        let mut at = 0;
-        let mut probability = 1.0;
         loop {
-            let node = self.nodes.get(at)?;
+            let node = self.nodes.get(choice.at)?;
             if node.leaf {
-                return Some((node.link, probability));
+                return Some((node.link, choice.probability));
             }
-            let left = share(self.children(at, importance));
-            let threshold = f64::from(left);
-            let is_left = u < threshold;
-            probability *= if is_left { left } else { 1.0 - left };
-            at += if is_left { 1 } else { node.link as usize };
-            if self.nodes.get(at).is_some_and(|next| next.leaf) {
-                // No step needs its digits any more.
-                continue;
+            choice.step(&self.nodes, share(self.children(choice.at, importance)));
+        }
+    }
+
+    /// The importances of the nodes nearest to the root; `None` where that is a leaf or there is none.
+    #[inline(always)]
+    pub(super) fn top(&self, at: (Vec3<f32>, Vec3<f32>)) -> Option<Importances> {
+        // No closure: it would be compiled for the baseline.
+        let first = self.treelets.first()?;
+        Some(first.importances(at.0, at.1))
+    }
+
+    /// [`LightTree::sample`] by treelets.
+    ///
+    /// * `top`: of [`LightTree::top`].
+    /// * `receiver`: point and normal, zero where light from every side counts.
+    #[inline(always)]
+    pub(super) fn sample_by_treelets(
+        &self,
+        top: Importances,
+        receiver: (Vec3<f32>, Vec3<f32>),
+        u: f64,
+    ) -> Option<(u32, f32)> {
+        let mut choice = Choice::new(u);
+        let mut descent = Descent::new(&self.treelets, top);
+        loop {
+            let node = self.nodes.get(choice.at)?;
+            if node.leaf {
+                return Some((node.link, choice.probability));
             }
-            u = if is_left {
-                u / threshold
-            } else {
-                (u - threshold) / (1.0 - threshold)
-            };
-            u = u.min(1.0 - f64::EPSILON);
+            let is_left = choice.step(&self.nodes, descent.left());
+            let is_leaf = self.nodes.get(choice.at).is_none_or(|next| next.leaf);
+            if !is_leaf && !descent.go(is_left, receiver) {
+                let importance = |at: usize| self.nodes[at].importance_at(receiver.0, receiver.1);
+                return self.sample_below(choice, &importance);
+            }
         }
     }
 
@@ -152,6 +183,46 @@ impl LightTree {
         probability
     }
 
+    /// [`LightTree::probability`] by treelets; for trees that have them.
+    #[inline(always)]
+    pub(super) fn probability_by_treelets(
+        &self,
+        top: Importances,
+        receiver: (Vec3<f32>, Vec3<f32>),
+        light: u32,
+    ) -> f32 {
+        let Some(mut trail) = self.trails.get(light as usize).copied() else {
+            return 0.0;
+        };
+        if trail == ABSENT {
+            return 0.0;
+        }
+        let mut descent = Some(Descent::new(&self.treelets, top));
+        let (mut at, mut probability) = (0, 1.0);
+        while !self.nodes[at].leaf {
+            let importance = |at: usize| self.nodes[at].importance_at(receiver.0, receiver.1);
+            let left = match &descent {
+                Some(descent) => descent.left(),
+                None => share(self.children(at, &importance)),
+            };
+            let is_left = trail & 1 == 0;
+            probability *= if is_left { left } else { 1.0 - left };
+            at += if is_left {
+                1
+            } else {
+                self.nodes[at].link as usize
+            };
+            trail >>= 1;
+            if let Some(walk) = &mut descent
+                && !self.nodes[at].leaf
+                && !walk.go(is_left, receiver)
+            {
+                descent = None;
+            }
+        }
+        probability
+    }
+
     #[inline(always)]
     fn children(&self, at: usize, importance: &impl Fn(usize) -> f32) -> [f32; 2] {
         let right = at + self.nodes[at].link as usize;
@@ -159,15 +230,114 @@ impl LightTree {
     }
 }
 
-/// Share of the first, off 0 and 1 unless one is 0 alone; a half where both are: nothing arrives
-/// then, but the probabilities still add up to 1.
-#[inline(always)]
-fn share([a, b]: [f32; 2]) -> f32 {
-    if a <= 0.0 {
-        if b > 0.0 { 0.0 } else { 0.5 }
-    } else if b <= 0.0 {
-        1.0
-    } else {
-        (a / (a + b)).clamp(LEAST_SHARE, 1.0 - LEAST_SHARE)
+/// A choice on its way down from the root: the numbers in `low .. low + width` choose a light below the node.
+///
+/// There is no branch that depends on the choice, which no processor could foresee, and no division.
+struct Choice {
+    at: usize,
+    probability: f32,
+    u: f64,
+    low: f64,
+    width: f64,
+}
+
+impl Choice {
+    #[inline(always)]
+    fn new(u: f64) -> Self {
+        Self {
+            at: 0,
+            probability: 1.0,
+            u,
+            low: 0.0,
+            width: 1.0,
+        }
+    }
+
+    /// Goes to one of the children; returns whether it is the left one.
+    ///
+    /// * `left`: the share of the left child.
+    #[inline(always)]
+    fn step(&mut self, nodes: &[Node], left: f32) -> bool {
+        let width = self.width * f64::from(left);
+        let middle = self.low + width;
+        // Rounding must not lead to a child whose share is 0.
+        let is_left = ((self.u < middle) & (left > 0.0)) | (left >= 1.0);
+        let link = nodes[self.at].link as usize;
+        self.probability *= if is_left { left } else { 1.0 - left };
+        self.low = if is_left { self.low } else { middle };
+        self.width = if is_left { width } else { self.width - width };
+        self.at += if is_left { 1 } else { link };
+        is_left
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use specula_bsdf::math::vec3;
+
+    use super::*;
+    use crate::accel::Bounds;
+    use crate::light::cone::EmissionCone;
+
+    /// Lamps on a line, ever denser, that look up or to all sides.
+    fn emitters(count: u16) -> Vec<Emitter> {
+        let emitter = |i: u16| {
+            let x = 8.0 / f32::from(i + 1);
+            let y = f32::from(i % 7);
+            Emitter {
+                light: u32::from(i),
+                bounds: Bounds {
+                    min: [x, y, 0.0],
+                    max: [x + 0.1, y + 0.1, 0.0],
+                },
+                cone: match i % 3 {
+                    0 => EmissionCone::SPHERE,
+                    k => EmissionCone::flat(vec3(0.0, 0.6, 0.8), k == 1),
+                },
+                intensity: f64::from(1 + i % 5),
+            }
+        };
+        (0..count).map(emitter).collect()
+    }
+
+    #[test]
+    fn treelets_choose_what_single_nodes_choose() {
+        for (count, most) in [(2, 9), (17, 9), (900, 1000), (900, 20), (900, 1)] {
+            let mut tree = LightTree::new(emitters(count), usize::from(count) + 1);
+            // What lies below those that are left goes node by node.
+            tree.treelets.truncate(most);
+            let mut chosen = vec![0; usize::from(count)];
+            for i in 0_u16..600 {
+                let t = f32::from(i) / 600.0;
+                let point = vec3(9.0 * t - 1.0, 6.0 * (7.0 * t).fract(), (3.0 * t).fract());
+                let normal = [Vec3::ZERO, Vec3::Z, -Vec3::Y][usize::from(i % 3)];
+                let importance = |at: usize| tree.nodes[at].importance_at(point, normal);
+                let u = f64::from(i) * 0.618_034 % 1.0;
+                let top = tree.top((point, normal)).unwrap();
+                let expected = tree.sample(&importance, u);
+                assert_eq!(tree.sample_by_treelets(top, (point, normal), u), expected);
+                let (light, probability) = expected.unwrap();
+                chosen[light as usize] += 1;
+                for light in [light, u32::from(i % (count + 1))] {
+                    let p = tree.probability_by_treelets(top, (point, normal), light);
+                    assert_eq!(p, tree.probability(&importance, light));
+                }
+                let p = tree.probability_by_treelets(top, (point, normal), light);
+                assert!((p - probability).abs() <= 1e-6 * p);
+            }
+            let different = chosen.iter().filter(|&&n| n > 0).count();
+            assert!(
+                different >= usize::from(count).min(100),
+                "{count}: {different}"
+            );
+        }
+    }
+
+    #[test]
+    fn trees_without_inner_nodes_have_no_treelets() {
+        for count in [0, 1] {
+            let tree = LightTree::new(emitters(count), 1);
+            assert!(tree.top((Vec3::ZERO, Vec3::Z)).is_none());
+        }
     }
 }

@@ -171,6 +171,27 @@ impl Pixels {
         }
     }
 
+    /// [`Self::rgb`] of several pixels, whose depth is looked at once.
+    ///
+    /// # Panics
+    ///
+    /// As [`Self::rgb`].
+    #[inline]
+    #[must_use]
+    pub fn rgb_of<const N: usize>(&self, pixels: [usize; N]) -> [[f32; 3]; N] {
+        match (&self.samples, self.is_colour) {
+            (Samples::Bytes { table, indices }, true) => {
+                let triples = indices.as_chunks().0;
+                pixels.map(|at| triples[at].map(|i: u8| table[usize::from(i)]))
+            }
+            (Samples::Floats(values), true) => {
+                let triples = values.as_chunks().0;
+                pixels.map(|at| triples[at])
+            }
+            _ => pixels.map(|at| self.rgb(at)),
+        }
+    }
+
     /// All pixels in order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = [f32; 3]> + Clone + '_ {
         (0..self.len()).map(|i| self.rgb(i))
