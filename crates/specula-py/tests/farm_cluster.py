@@ -129,7 +129,9 @@ class Cluster:
 
     def alone(self, arguments: Sequence[str]) -> None:
         """Render with one process, without the farm."""
-        command = [*self.own, "render", *arguments, "--quiet"]
+        is_adaptive = "--adaptive" in arguments or "--noise" in arguments
+        even = [] if is_adaptive else ["--adaptive=off"]
+        command = [*self.own, "render", *arguments, *even, "--quiet"]
         subprocess.run(command, cwd=self.folder, env=self.environment, check=True)
 
     def journal(self, job: str) -> list[dict[str, object]]:

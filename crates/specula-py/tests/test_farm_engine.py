@@ -173,7 +173,7 @@ def program(tmp_path: Path) -> str:
 
 def render_alone(program: str, folder: Path, *words: str) -> None:
     """Render with one process."""
-    size = [program, "render", *words, *SIZE, "--spp", "10", "-q", "-o", "alone.exr"]
+    size = [program, "render", *words, *SIZE, "--spp", "10", "--adaptive=off", "-q", "-o", "alone.exr"]
     subprocess.run(size, cwd=folder, check=True)
 
 

@@ -185,7 +185,8 @@ pub enum MergeError {
     Overlap(u32, u32),
     /// Their pixels have different numbers of samples, not as shares of one round.
     #[error(
-        "adaptive films are merged only where they are shares of one round: their pixels differ in samples"
+        "adaptive films are merged only where they are shares of one round: their pixels differ in samples \
+         (`specula render --samples A..B` renders parts that add up)"
     )]
     Adaptive,
 }

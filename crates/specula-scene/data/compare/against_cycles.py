@@ -153,7 +153,7 @@ def main():
             run = lambda *c: subprocess.run([str(x) for x in c], check=True, stdout=log, stderr=log)
             run(options.specula, "convert", file, converted)
             run(options.specula, "render", file, "--resolution", f"{WIDTH}x{HEIGHT}", "--spp", samples,
-                "-o", mine, "--threads", options.threads)  # fmt: skip
+                "--adaptive=off", "-o", mine, "--threads", options.threads)  # fmt: skip
             job = job_of(converted) | {
                 "file": str(file), "size": [WIDTH, HEIGHT], "samples": samples // RUNS,
                 "threads": options.threads,

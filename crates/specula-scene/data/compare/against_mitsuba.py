@@ -39,7 +39,7 @@ def main():
         file = pbrt_text.variant(options.scenes / f"{scene}.pbrt", work, width, height, samples)
         mine = work / "specula.exr"
         if not mine.exists():
-            command = [options.specula, "render", file, "--spp", samples, "-o", mine, "-q"]
+            command = [options.specula, "render", file, "--spp", samples, "--adaptive=off", "-o", mine, "-q"]
             command += ["--threads", options.threads]
             subprocess.run([str(c) for c in command], check=True)
         made, notes = mitsuba_twin.render(file, samples // RUNS, RUNS)

@@ -72,7 +72,10 @@ def main():
         )  # fmt: skip
         log, mine = work / "log.txt", work / "specula.exr"
         t = options.threads
-        command = [options.specula, "render", file, "--spp", our_samples, "-o", mine, "--threads", t]
+        command = [
+            options.specula, "render", file, "--spp", our_samples, "--adaptive=off", "-o", mine,
+            "--threads", t,
+        ]  # fmt: skip
         our_time = run(command, log)
         theirs, their_time = [], 0.0
         for seed in range(RUNS):

@@ -82,8 +82,8 @@ Examples:
       as many samples as fit into five minutes
   specula render scene.pbrt --noise 0.02 --time 1h
       until the estimated relative error is 2 %, an hour at most
-  specula render scene.pbrt --adaptive --spp 256
-      the work of 256 samples per pixel, spread to where it takes most noise away
+  specula render scene.pbrt --spp 256 --adaptive=off
+      256 samples of every pixel, rather than as much work where it takes most noise away
   specula render scene.pbrt --resolution 480x270 --spp 4 -o preview.png
       a quick look
   specula render bunny.ply --material \"conductor Au alpha 0.3\"
@@ -108,6 +108,15 @@ scene.exr) from which --resume goes on after Ctrl-C, a crash or a power cut, to 
 bit for bit; it is removed when the render is done. Files are replaced whole or not at all. Where a
 picture cannot be written in the end, the samples are saved in a film, which is named.";
 
+/// How samples are spread.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Adaptive {
+    /// By the error of the picture.
+    On,
+    /// As many for every pixel.
+    Off,
+}
+
 #[derive(Args, Debug)]
 #[command(after_help = RENDER_EXAMPLES)]
 pub(crate) struct RenderArguments {
@@ -121,8 +130,8 @@ pub(crate) struct RenderArguments {
     #[arg(short, long = "output", value_name = "OUT", value_parser = values::output)]
     pub(crate) output: Vec<PathBuf>,
 
-    /// Samples per pixel; with --adaptive and --noise as much work as so many everywhere [default: as the
-    /// scene says, with --noise 65536]
+    /// Samples per pixel: with --adaptive, the default from 8 on, as much work as so many everywhere
+    /// [default: as the scene says, with --noise 65536]
     #[arg(long, value_name = "N", group = "effort",
           value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
     pub(crate) spp: Option<u32>,
@@ -137,9 +146,11 @@ pub(crate) struct RenderArguments {
     pub(crate) noise: Option<f32>,
 
     /// Put more samples where there is more noise, less where they cost more: --spp and --time say how much
-    /// work it is in all. Less error in the same time where noise is uneven
-    #[arg(long, conflicts_with = "samples")]
-    pub(crate) adaptive: bool,
+    /// work it is in all. Less error in the same time. off: as many samples of every pixel, whose mean has no
+    /// bias at all [default: on, off below 8 samples per pixel and with --samples]
+    #[arg(long, value_name = "WHEN", num_args = 0..=1, require_equals = true, default_missing_value = "on",
+          conflicts_with = "samples")]
+    pub(crate) adaptive: Option<Adaptive>,
 
     /// Bias: clamp each contribution of indirect light (scattered twice or more) to V in every channel, where 1 is
     /// white: fireflies go, and the light that they stand for with them. The picture gets darker; 10 takes little,
@@ -579,6 +590,7 @@ mod tests {
             ["--exposure", "-1.5"],
             ["--noise=0.1", "--spp=4"],
             ["--adaptive", "--spp=4"],
+            ["--adaptive=off", "--spp=4"],
             ["--noise=1", "--time=3s"],
         ] {
             let line = ["specula", "render", pair[0], pair[1]];

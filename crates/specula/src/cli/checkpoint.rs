@@ -25,6 +25,21 @@ pub(crate) enum Start {
     Restart,
 }
 
+impl Start {
+    /// Whether the film that it goes on with is adaptive; `None` where there is none, or one that cannot be read.
+    ///
+    /// * `beside`: the checkpoint beside the output.
+    pub(crate) fn is_adaptive(&self, beside: &Path) -> Option<bool> {
+        let path = match self {
+            Self::New | Self::Restart => return None,
+            Self::Resume => beside,
+            Self::ResumeFrom(path) => path,
+        };
+        let film = FilmFile::read(path).ok()?.film;
+        (film.complete_samples() > 0).then(|| film.is_adaptive())
+    }
+}
+
 /// The checkpoint of a render: the file that its film is saved in.
 pub(crate) struct Checkpoint {
     path: PathBuf,

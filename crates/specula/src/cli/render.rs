@@ -10,7 +10,7 @@ use crate::render::{
 };
 use crate::scene::Scene;
 
-use super::arguments::RenderArguments;
+use super::arguments::{Adaptive, RenderArguments};
 use super::checkpoint::{Checkpoint, Start};
 use super::console::say;
 use super::device::{self, Gpu, Samples};
@@ -22,6 +22,10 @@ use super::outputs::{self, Outputs};
 use super::progress::short;
 use super::stop::Stop;
 use super::{Failure, denoise, machine, memory, watch};
+
+/// Samples per pixel from which on they are spread by the picture's error where nothing else is asked for: of fewer,
+/// the first round is all.
+const ADAPTIVE_FROM: u32 = 8;
 
 /// Renders and writes; code 130 where Ctrl-C ended it early.
 pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
@@ -107,13 +111,19 @@ impl Context<'_> {
             missing,
             ..
         } = loaded;
-        let options = options(arguments, &scene)?;
+        let mut options = options(arguments, &scene)?;
         let most = arguments.machine.max_memory;
         memory::check(&scene, &options, self.threads, most, arguments.quiet)?;
         let inputs = Inputs::new(files);
         let paths = paths(arguments, &name, &inputs);
         let mut outputs = Outputs::new(paths, arguments.display.display(), &inputs)?;
         outputs.claim_checkpoint(&inputs)?;
+        let start = start(arguments);
+        if arguments.adaptive.is_none() && arguments.noise.is_none() {
+            // As in the film that it goes on with.
+            let spread = start.is_adaptive(&outputs.checkpoint());
+            options.noise = spread.map_or(options.noise, |is| is.then_some(0.0));
+        }
         let mut checkpoint = checkpoint(
             arguments,
             &outputs,
@@ -122,7 +132,7 @@ impl Context<'_> {
         if arguments.round_share.is_some() {
             checkpoint.leave_earlier_time_out();
         }
-        let begun = match start(arguments) {
+        let begun = match start {
             Start::New if checkpoint.path().is_none() => None,
             start => checkpoint.open(&start)?,
         };
@@ -204,7 +214,14 @@ fn options(arguments: &RenderArguments, scene: &Scene) -> Result<RenderOptions, 
             )));
         }
     }
-    if arguments.round_share.is_some() && arguments.noise.is_none() && !arguments.adaptive {
+    let noise = arguments.noise;
+    if noise.is_some() && arguments.adaptive == Some(Adaptive::Off) {
+        return Err(Failure::bad_input(
+            "--noise spreads samples by their error: leave out --adaptive=off",
+        ));
+    }
+    let is_asked_for = noise.is_some() || arguments.adaptive == Some(Adaptive::On);
+    if arguments.round_share.is_some() && !is_asked_for {
         return Err(Failure::bad_input(
             "--round-share is of a round of --adaptive or --noise: name one of them",
         ));
@@ -214,8 +231,13 @@ fn options(arguments: &RenderArguments, scene: &Scene) -> Result<RenderOptions, 
         true => from_scene.samples_per_pixel,
         false => MOST_SAMPLES,
     };
+    let samples = arguments.spp.unwrap_or(samples);
+    let is_adaptive = match arguments.adaptive {
+        Some(adaptive) => adaptive == Adaptive::On,
+        None => arguments.samples.is_none() && samples >= ADAPTIVE_FROM,
+    };
     Ok(RenderOptions {
-        samples_per_pixel: arguments.spp.unwrap_or(samples),
+        samples_per_pixel: samples,
         max_depth: arguments.max_depth.unwrap_or(from_scene.max_depth),
         seed: arguments.seed,
         share_paths: arguments.share_paths,
@@ -224,7 +246,7 @@ fn options(arguments: &RenderArguments, scene: &Scene) -> Result<RenderOptions, 
         resolution: arguments.resolution,
         crop: arguments.crop,
         first_sample: arguments.samples.map_or(0, |[from, _]| from),
-        noise: arguments.noise.or(arguments.adaptive.then_some(0.0)),
+        noise: noise.or(is_adaptive.then_some(0.0)),
         round_share: arguments.round_share,
         clamp: arguments.clamp,
         regularize: arguments.regularize,

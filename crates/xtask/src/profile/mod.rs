@@ -114,7 +114,15 @@ fn measure(
             .args(["--tool=callgrind", "--demangle=no"])
             .arg(format!("--callgrind-out-file={}", file.display()))
             .arg(program)
-            .args(["render", "--threads", "1", "--checkpoint", "off", "--quiet"])
+            .args([
+                "render",
+                "--threads",
+                "1",
+                "--checkpoint",
+                "off",
+                "--quiet",
+                "--adaptive=off",
+            ])
             .args(["--resolution", &format!("{side}x{side}")])
             .args(["--spp", &spp.to_string(), "-o"])
             .arg(out.join("profile.exr"))

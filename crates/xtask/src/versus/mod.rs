@@ -195,9 +195,7 @@ impl Versus {
         }
         let is_named = |name: &str| self.scene.is_empty() || self.scene.iter().any(|n| n == name);
         let listed = SCENES.iter().filter(|s| is_named(s.name));
-        listed
-            .map(|s| s.scene(root, &out.join("scenes")))
-            .collect()
+        listed.map(|s| s.scene(root, &out.join("scenes"))).collect()
     }
 
     fn compare(&self, root: &Path, out: &Path, specula: &Path, scene: Scene) -> Result<Outcome> {

@@ -59,7 +59,7 @@ impl Specula {
     /// that they can, whatever the defaults are.
     fn options(sampler: &str) -> &'static [&'static str] {
         match sampler {
-            "sobol" => &["--share-paths", "1"],
+            "sobol" => &["--adaptive=off", "--share-paths", "1"],
             "adaptive" => &["--adaptive", "--share-paths", "1"],
             "adaptive, 8 share" => &["--adaptive", "--share-paths", "8"],
             "adaptive, 16 share" => &["--adaptive", "--share-paths", "16"],

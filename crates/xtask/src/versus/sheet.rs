@@ -115,7 +115,10 @@ mod tests {
             assert_eq!(small[SIDE * SIDE / 2 + SIDE / 2].r, 1.0);
             let share = width.min(height) as f32 / width.max(height) as f32;
             let rows = white as f32 / SIDE as f32;
-            assert!((rows - share * SIDE as f32).abs() <= 2.0, "{width} x {height}: {rows}");
+            assert!(
+                (rows - share * SIDE as f32).abs() <= 2.0,
+                "{width} x {height}: {rows}"
+            );
             let cut = crop(&picture, width, None);
             let inside = cut.iter().filter(|c| c.r == 1.0).count();
             assert_eq!(inside, width.min(SIDE) * height.min(SIDE));
