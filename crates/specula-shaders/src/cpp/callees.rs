@@ -5,14 +5,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A function of the prelude, or a member function.
+/// A function of the prelude.
 pub(super) struct Function<'a> {
     name: &'a str,
     /// What it gives.
     result: &'a str,
     /// Types and names of its arguments.
     arguments: Vec<(&'a str, &'a str)>,
-    /// From the bracket on that closes the arguments.
+    /// What is behind its arguments.
     body: &'a str,
 }
 
