@@ -25,6 +25,9 @@ impl Part {
     }
 }
 
+/// Letters of a line of a comment.
+const WIDTH: usize = 110;
+
 /// The modules with the declarations that `functions` need; all of them where none is named.
 ///
 /// Of what a file says of itself, the first sentence stays where only a part of the file does.
@@ -104,7 +107,7 @@ fn reached(modules: &[Module<'static>], wanted: &[&str]) -> Result<Vec<Part>, Co
             .collect();
         let head = match kept.len() == pieces.len() {
             true => head(module.text),
-            false => format!("// {}\n", module.summary()),
+            false => summary(&module.summary()),
         };
         (!kept.is_empty()).then(|| Part {
             path: module.path.to_owned(),
@@ -112,6 +115,22 @@ fn reached(modules: &[Module<'static>], wanted: &[&str]) -> Result<Vec<Part>, Co
         })
     });
     Ok(parts.collect())
+}
+
+/// A sentence as a comment.
+fn summary(sentence: &str) -> String {
+    let mut text = "//".to_owned();
+    let mut length = text.len();
+    for word in sentence.split_whitespace() {
+        if length + 1 + word.len() > WIDTH {
+            text += "\n//";
+            length = 2;
+        }
+        text += " ";
+        text += word;
+        length += 1 + word.len();
+    }
+    text + "\n"
 }
 
 /// The comment that a file begins with.

@@ -28,5 +28,5 @@ fn alpha_clamped(alpha: vec2f) -> vec2f {
 ///
 /// Twin: specula-bsdf/src/alpha.rs, Alpha::stretch.
 fn alpha_stretch(alpha: vec2f, w: vec3f) -> vec3f {
-    return vec3f(alpha * w.xy, w.z);
+    return vec3f(alpha.x * w.x, alpha.y * w.y, w.z);
 }

@@ -4,6 +4,7 @@
 //! error with its place. Types of values are followed, since C++ names them; that they are right is for naga and
 //! for the compiler to say.
 
+mod callees;
 mod declare;
 mod error;
 mod expression;
@@ -26,10 +27,9 @@ use types::Scope;
 
 /// What the prelude has changed, changed back.
 const POSTLUDE: &str = "\
-#if defined(__CUDACC__) || defined(__HIP_DEVICE_COMPILE__)
-#elif defined(__clang__)
+#if defined(__clang__) && !defined(__CUDACC__) && !defined(__HIP_DEVICE_COMPILE__)
 #pragma float_control(pop)
-#elif defined(__GNUC__)
+#elif defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
 #pragma GCC pop_options
 #endif
 ";
@@ -58,7 +58,10 @@ pub(crate) fn library(modules: &[Module<'_>], is_short: bool) -> Result<String, 
     }
     if is_short {
         let prelude = prelude::needed(&text, &taken);
-        return Ok(in_namespace(&prelude, &short::joined(&text)));
+        return Ok(in_namespace(
+            &short::joined(&prelude),
+            &short::joined(&text),
+        ));
     }
     Ok(in_namespace(prelude::WHOLE, &text))
 }
@@ -114,6 +117,9 @@ fn module_text(text: &str, scope: &mut Scope, sorts: bool) -> Result<Written, Fa
         items.into_iter().partition(|i| i.function.is_some());
     if sorts {
         functions = callees_first(functions);
+        for function in &mut functions {
+            function.before = format!("\n{}", function.before.trim_start_matches('\n'));
+        }
     }
     let mut written: String = values.iter().map(whole).collect();
     let early = early(&functions);

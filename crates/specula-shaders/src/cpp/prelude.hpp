@@ -7,10 +7,9 @@ using uint32_t = unsigned int;
 #endif
 
 /// What stands in front of every function.
-#if defined(SPECULA_FN)
-#elif defined(__CUDACC__) || defined(__HIPCC__)
+#if !defined(SPECULA_FN) && (defined(__CUDACC__) || defined(__HIPCC__))
 #define SPECULA_FN __host__ __device__ inline
-#else
+#elif !defined(SPECULA_FN)
 #define SPECULA_FN inline
 #endif
 
@@ -22,11 +21,10 @@ using uint32_t = unsigned int;
 #endif
 
 // Sums and products keep their order under `-ffast-math`, as they do in CUDA: some are exact only so, or in range.
-#if defined(__CUDACC__) || defined(__HIP_DEVICE_COMPILE__)
-#elif defined(__clang__)
+#if defined(__clang__) && !defined(__CUDACC__) && !defined(__HIP_DEVICE_COMPILE__)
 #pragma float_control(push)
 #pragma clang fp reassociate(off)
-#elif defined(__GNUC__)
+#elif defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
 #pragma GCC push_options
 #pragma GCC optimize("no-associative-math")
 #endif
@@ -200,18 +198,13 @@ SPECULA_INLINE vec3f max(vec3f a, vec3f b) { return vec3f(max(a.x, b.x), max(a.y
 /// `v` in `[low, high]`.
 template <class T> SPECULA_INLINE T clamp(T v, T low, T high) { return min(max(v, low), high); }
 
-/// `yes` where the condition holds, else `no`; both have been computed.
-template <class T> SPECULA_INLINE T select(T no, T yes, bool condition) { return condition ? yes : no; }
+/// `t` where the condition holds, else `f`; both have been computed.
+template <class T> SPECULA_INLINE T select(T f, T t, bool c) { return c ? t : f; }
 
-/// `yes` where the condition holds, component by component.
-SPECULA_INLINE vec2f select(vec2f no, vec2f yes, vec2b condition) {
-    return vec2f(condition.x ? yes.x : no.x, condition.y ? yes.y : no.y);
-}
-SPECULA_INLINE vec3f select(vec3f no, vec3f yes, vec3b condition) {
-    return vec3f(
-        condition.x ? yes.x : no.x,
-        condition.y ? yes.y : no.y,
-        condition.z ? yes.z : no.z);
+/// `t` where the condition holds, else `f`, component by component.
+SPECULA_INLINE vec2f select(vec2f f, vec2f t, vec2b c) { return vec2f(c.x ? t.x : f.x, c.y ? t.y : f.y); }
+SPECULA_INLINE vec3f select(vec3f f, vec3f t, vec3b c) {
+    return vec3f(c.x ? t.x : f.x, c.y ? t.y : f.y, c.z ? t.z : f.z);
 }
 
 SPECULA_INLINE bool any(vec3b v) { return v.x || v.y || v.z; }

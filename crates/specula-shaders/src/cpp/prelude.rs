@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::callees::{Function, Functions};
 use crate::items::identifiers;
 
 /// All of it. It leaves the namespace open.
@@ -37,16 +38,15 @@ using uint32_t = unsigned int;
 /// * `taken`: signatures, as [`signature`](super::types::signature) writes them.
 pub(crate) fn needed(text: &str, taken: &BTreeSet<String>) -> String {
     let (head, body) = WHOLE.split_once(OPEN).unwrap_or((WHOLE, ""));
-    let taken = closed(taken);
     let items = items(body);
+    let taken = functions(&items).closed(taken);
     let types: BTreeSet<&str> = items.iter().filter_map(|item| item.structure).collect();
     let mut named: BTreeSet<&str> = code_words(text)
         .filter(|word| types.contains(word))
         .collect();
     // A structure that is kept can name others.
-    let mut kept = loop {
-        let kept = items.iter().filter_map(|item| item.kept(&taken, &named));
-        let kept: String = kept.collect();
+    let kept = loop {
+        let kept = joined(&items, |item| item.kept(&taken, &named));
         let words: BTreeSet<&str> = code_words(&kept).collect();
         let before = named.len();
         named.extend(types.iter().filter(|name| words.contains(**name)));
@@ -54,12 +54,23 @@ pub(crate) fn needed(text: &str, taken: &BTreeSet<String>) -> String {
             break kept;
         }
     };
-    while kept.contains("\n\n\n") {
-        kept = kept.replace("\n\n\n", "\n\n");
-    }
     let kept = kept.replace("SPECULA_INLINE", "SPECULA_FN");
     let head = short_head(head, &(kept.clone() + text));
     format!("{head}{OPEN}\n{}\n", kept.trim_matches('\n'))
+}
+
+/// What stays of items; where one went that had an empty line in front of it, the next one gets that.
+fn joined<'a>(items: &[Item<'a>], kept: impl Fn(&Item<'a>) -> Option<String>) -> String {
+    let (mut text, mut gap) = (String::new(), false);
+    for item in items {
+        gap |= item.text.starts_with('\n');
+        if let Some(kept) = kept(item) {
+            text += if gap { "\n" } else { "" };
+            text += kept.trim_start_matches('\n');
+            gap = false;
+        }
+    }
+    text
 }
 
 /// The head with the headers that a text needs.
@@ -73,18 +84,6 @@ fn short_head(head: &str, text: &str) -> String {
     head.replace(INLINE, "").replace(INTEGERS, &integers)
 }
 
-/// Signatures with what their functions take themselves.
-fn closed(taken: &BTreeSet<String>) -> BTreeSet<String> {
-    let mut closed = BTreeSet::new();
-    let mut open: Vec<String> = taken.iter().cloned().collect();
-    while let Some(signature) = open.pop() {
-        if closed.insert(signature.clone()) {
-            open.extend(needs(&signature));
-        }
-    }
-    closed
-}
-
 /// The words of a text but for its comments.
 fn code_words(text: &str) -> impl Iterator<Item = &str> {
     let code = text
@@ -93,47 +92,18 @@ fn code_words(text: &str) -> impl Iterator<Item = &str> {
     code.flat_map(|code| identifiers(code).map(|(_, word)| word))
 }
 
-/// What the prelude's function of this signature takes itself.
-fn needs(signature: &str) -> Vec<String> {
-    let Some((name, arguments)) = signature.trim_end_matches(')').split_once('(') else {
-        return Vec::new();
-    };
-    let first = arguments.split(',').next().unwrap_or("");
-    if first == "T" {
-        return Vec::new();
-    }
-    let each = match first {
-        "vec2f" | "vec3f" | "vec4f" => "float",
-        _ => "uint32_t",
-    };
-    let is_vector = first.starts_with("vec");
-    match name {
-        "length" => vec![format!("dot({first},{first})")],
-        "normalize" => vec![
-            format!("length({first})"),
-            format!("operator/({first},float)"),
-        ],
-        "clamp" => {
-            let both = ["min", "max"].map(|name| format!("{name}({first},{first})"));
-            [&both[..], &["clamp(T,T,T)".to_owned()]].concat()
-        }
-        "select" if arguments.ends_with("bool") => vec!["select(T,T,bool)".to_owned()],
-        "min" | "max" if is_vector => vec![format!("{name}({each},{each})")],
-        "fract" | "float_of" if is_vector => vec![format!("{name}({each})")],
-        "bits_of" if is_vector => vec!["bits_of(float)".to_owned()],
-        "to_u32" => ["min", "max"]
-            .map(|name| format!("{name}(float,float)"))
-            .to_vec(),
-        "operator+=" | "operator-=" | "operator*=" | "operator/=" => {
-            vec![signature.replacen('=', "", 1)]
-        }
-        _ => Vec::new(),
-    }
+/// The functions of these declarations.
+fn functions<'a>(items: &[Item<'a>]) -> Functions<'a> {
+    let functions = items.iter().filter(|item| item.structure.is_none());
+    let texts = functions.map(|item| item.text[item.head..].trim_end());
+    Functions(texts.filter_map(Function::of).collect())
 }
 
 /// A declaration with its documentation.
 struct Item<'a> {
     text: &'a str,
+    /// Where the documentation ends.
+    head: usize,
     /// Name of a structure.
     structure: Option<&'a str>,
     /// Of a function.
@@ -199,10 +169,10 @@ fn items(body: &str) -> Vec<Item<'_>> {
 }
 
 fn item(text: &str) -> Item<'_> {
-    let mut lines = text
-        .lines()
-        .skip_while(|l| l.is_empty() || l.starts_with("//"));
-    let head = lines.next().unwrap_or("");
+    let lines = text.split_inclusive('\n');
+    let before = lines.take_while(|l| l.trim().is_empty() || l.starts_with("//"));
+    let start = before.map(str::len).sum();
+    let head = text[start..].lines().next().unwrap_or("");
     let structure = head.strip_prefix("struct ").and_then(|rest| {
         let (_, name) = identifiers(rest).next()?;
         Some(name)
@@ -210,6 +180,7 @@ fn item(text: &str) -> Item<'_> {
     let signature = signature_of(head).filter(|_| structure.is_none());
     Item {
         text,
+        head: start,
         structure,
         signature,
     }
@@ -217,16 +188,7 @@ fn item(text: &str) -> Item<'_> {
 
 /// The signature of the function that a line declares.
 fn signature_of(line: &str) -> Option<String> {
-    let open = line.find('(').filter(|_| !line.starts_with("//"))?;
-    let name = line[..open].rsplit(' ').next()?;
-    let arguments = line[open + 1..].split(')').next()?.split(", ");
-    let types = arguments.map(|argument| {
-        let argument = argument.trim_start_matches("const ");
-        let (found, _) = argument.rsplit_once(' ').unwrap_or((argument, ""));
-        found.trim_end_matches('&')
-    });
-    let types: Vec<&str> = types.collect();
-    Some(format!("{name}({})", types.join(",")))
+    Function::of(line).map(|function| function.signature())
 }
 
 #[cfg(test)]
@@ -246,6 +208,7 @@ mod tests {
                 "vec2f", "vec3f", "vec4f", "vec2u", "vec3u", "vec2b", "vec3b"
             ]
         );
+        let functions = functions(&items);
         let signatures: BTreeSet<String> = items.into_iter().filter_map(|i| i.signature).collect();
         for known in [
             "min(float,float)",
@@ -259,9 +222,30 @@ mod tests {
         ] {
             assert!(signatures.contains(known), "{known} of {signatures:?}");
         }
-        // What functions need themselves is there.
-        for needed in signatures.iter().flat_map(|signature| needs(signature)) {
-            assert!(signatures.contains(&needed), "{needed}");
+        for (signature, callees) in [
+            (
+                "normalize(vec3f)",
+                &["length(vec3f)", "operator/(vec3f,float)"][..],
+            ),
+            (
+                "clamp(vec3f,vec3f,vec3f)",
+                &["clamp(T,T,T)", "max(vec3f,vec3f)", "min(vec3f,vec3f)"],
+            ),
+            ("to_u32(float)", &["max(float,float)", "min(float,float)"]),
+            ("operator-=(vec2f,float)", &["operator-(vec2f,float)"]),
+            ("fract(vec2f)", &["fract(float)"]),
+            ("float_of(vec3u)", &["float_of(uint32_t)"]),
+            ("bits_of(vec3f)", &["bits_of(float)"]),
+            ("select(float,float,bool)", &["select(T,T,bool)"]),
+            ("dot(vec3f,vec3f)", &[]),
+        ] {
+            let found = functions.callees(signature);
+            let found: Vec<&str> = found
+                .iter()
+                .map(String::as_str)
+                .filter(|f| !f.starts_with("vec"))
+                .collect();
+            assert_eq!(found, callees, "{signature}");
         }
         for part in [INLINE, INTEGERS] {
             assert!(WHOLE.contains(part), "{part}");
@@ -317,7 +301,7 @@ SPECULA_FN float min(float a, float b) { return b < a ? b : a; }
             " max(float",
             " operator*=(vec3f& v, float s)",
             " operator*(vec3f v, float s)",
-            " select(vec3f no",
+            " select(vec3f f",
             " operator<(vec3f",
             " bits_of(float",
             " explicit vec3f(float s)",

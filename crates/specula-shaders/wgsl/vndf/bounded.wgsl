@@ -48,7 +48,7 @@ fn bounded_norm(alpha: vec2f, wo: vec3f) -> f32 {
     return quotient.x / quotient.y;
 }
 
-/// `bounded_norm` as numerator and denominator.
+/// `N` of `bounded_height`, as numerator and denominator.
 ///
 /// Twin: specula-bsdf/src/vndf/bounded.rs, norm_quotient.
 fn bounded_norm_quotient(alpha: vec2f, wo: vec3f) -> vec2f {

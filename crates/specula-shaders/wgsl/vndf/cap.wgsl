@@ -68,5 +68,5 @@ fn cap_half_vector(alpha: vec2f, wo: vec3f, u: vec2f) -> vec3f {
 fn cap_half_vector_towards(alpha: vec2f, h: vec3f, lengths: vec2f, height: f32, turn: f32) -> vec3f {
     let phi = turns_sin_cos(turn);
     let sine = sqrt(height * (2.0 * lengths.x - height));
-    return alpha_stretch(alpha, vec3f(sine * phi.yx + h.xy, lengths.y - height));
+    return alpha_stretch(alpha, vec3f(sine * phi.y + h.x, sine * phi.x + h.y, lengths.y - height));
 }
