@@ -30,8 +30,11 @@ pub(super) struct Node {
     /// Of a sphere around the lights.
     pub(super) centre: Vec3<f32>,
     pub(super) radius: f32,
+    /// `1 / radius^2`.
+    pub(super) inverse_square: f32,
     pub(super) axis: Vec3<f32>,
     pub(super) cos_o: f32,
+    pub(super) sin_o: f32,
     pub(super) cos_e: f32,
     /// Sum of the peak intensities.
     pub(super) intensity: f32,
@@ -50,12 +53,15 @@ impl Node {
         intensity: f64,
         (leaf, link): (bool, u32),
     ) -> Self {
+        // Rounded outwards.
+        let cos_o = (narrow(cone.theta_o.cos()) - 1e-6).max(-1.0);
         Self {
             centre,
             radius,
+            inverse_square: 1.0 / (radius * radius),
             axis: cone.axis.cast(),
-            // Rounded outwards.
-            cos_o: (narrow(cone.theta_o.cos()) - 1e-6).max(-1.0),
+            cos_o,
+            sin_o: (1.0 - cos_o * cos_o).max(0.0).sqrt(),
             cos_e: narrow(cone.theta_e.cos()),
             intensity: narrow(intensity).clamp(f32::MIN_POSITIVE, MOST),
             two_sided: cone.two_sided,
@@ -115,10 +121,10 @@ impl Node {
     fn estimate<const WITHOUT_BRANCHES: bool>(&self, point: Vec3<f32>, normal: Vec3<f32>) -> f32 {
         let d = self.centre - point;
         let distance_squared = d.length_squared();
-        let radius_squared = self.radius * self.radius;
-        let to_centre = d * (1.0 / distance_squared.sqrt());
-        let sin2_u = radius_squared / distance_squared;
-        let (sin_u, cos_u) = (sin2_u.sqrt(), (1.0 - sin2_u).sqrt());
+        let inverse_distance = 1.0 / distance_squared.sqrt();
+        let to_centre = d * inverse_distance;
+        let sin_u = self.radius * inverse_distance;
+        let cos_u = (1.0 - sin_u * sin_u).max(0.0).sqrt();
         let has_normal = (normal.x != 0.0) | (normal.y != 0.0) | (normal.z != 0.0);
         let cos_i = minus_clamped(normal.dot(to_centre), sin_u, cos_u);
         let cos_i = if has_normal { cos_i } else { 1.0 };
@@ -129,18 +135,19 @@ impl Node {
         if WITHOUT_BRANCHES | directed {
             let cos = -self.axis.dot(to_centre);
             let cos = if self.two_sided { cos.abs() } else { cos };
-            let sin_o = (1.0 - self.cos_o * self.cos_o).max(0.0).sqrt();
-            let cos = minus_clamped(minus_clamped(cos, sin_o, self.cos_o), sin_u, cos_u);
+            let cos = minus_clamped(cos, self.sin_o, self.cos_o);
+            let cos = minus_clamped(cos, sin_u, cos_u);
             lit &= !directed | (cos > self.cos_e - SLACK);
             factor *= if directed { cos.max(SLACK) } else { 1.0 };
         }
-        let inside = distance_squared <= radius_squared;
-        let (numerator, denominator) = if inside {
-            (self.intensity, radius_squared)
+        let inside = distance_squared <= self.radius * self.radius;
+        let (intensity, inverse_square) = if inside {
+            (self.intensity, self.inverse_square)
         } else {
-            (self.intensity * factor, distance_squared)
+            let inverse_square = inverse_distance * inverse_distance;
+            (self.intensity * factor, inverse_square)
         };
-        let importance = (numerator / denominator).min(MOST);
+        let importance = (intensity * inverse_square).min(MOST);
         if inside | lit { importance } else { 0.0 }
     }
 }

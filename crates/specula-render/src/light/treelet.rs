@@ -34,8 +34,10 @@ pub(super) type Importances = [f32; LANES];
 pub(super) struct Treelet {
     centre: [[f32; LANES]; 3],
     radius: [f32; LANES],
+    inverse_square: [f32; LANES],
     axis: [[f32; LANES]; 3],
     cos_o: [f32; LANES],
+    sin_o: [f32; LANES],
     cos_e: [f32; LANES],
     intensity: [f32; LANES],
     /// 1 where lights have two sides, else 0.
@@ -56,8 +58,10 @@ impl Treelet {
                 each(|n| n.centre.z),
             ],
             radius: each(|n| n.radius),
+            inverse_square: each(|n| n.inverse_square),
             axis: [each(|n| n.axis.x), each(|n| n.axis.y), each(|n| n.axis.z)],
             cos_o: each(|n| n.cos_o),
+            sin_o: each(|n| n.sin_o),
             cos_e: each(|n| n.cos_e),
             intensity: each(|n| n.intensity),
             two_sided: each(|n| f32::from(u8::from(n.two_sided))),
@@ -74,8 +78,10 @@ impl Treelet {
             let node = Node {
                 centre: lane(&self.centre),
                 radius: self.radius[k],
+                inverse_square: self.inverse_square[k],
                 axis: lane(&self.axis),
                 cos_o: self.cos_o[k],
+                sin_o: self.sin_o[k],
                 cos_e: self.cos_e[k],
                 intensity: self.intensity[k],
                 two_sided: self.two_sided[k] > 0.0,

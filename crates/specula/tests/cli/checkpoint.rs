@@ -17,7 +17,15 @@ fn parts_merge_into_the_picture_of_one_render() {
     let folder = folder.path();
     succeed(
         folder,
-        &["render", "small.pbrt", "--spp", "23", "-o", "whole.exr"],
+        &[
+            "render",
+            "small.pbrt",
+            "--spp",
+            "23",
+            "--adaptive=off",
+            "-o",
+            "whole.exr",
+        ],
     );
     for (range, name) in [
         ("0..5", "a.film"),
@@ -43,7 +51,15 @@ fn parts_merge_into_the_picture_of_one_render() {
     succeed(folder, &["merge", "all.film", "-o", "forty.exr"]);
     succeed(
         folder,
-        &["render", "small.pbrt", "--spp", "40", "-o", "expected.exr"],
+        &[
+            "render",
+            "small.pbrt",
+            "--spp",
+            "40",
+            "--adaptive=off",
+            "-o",
+            "expected.exr",
+        ],
     );
     assert_eq!(
         picture(folder, "forty.exr"),
@@ -157,7 +173,9 @@ fn a_killed_render_ends_as_if_nothing_had_happened() {
         if harder {
             spp *= 2;
         }
-        vec!["--spp".to_owned(), spp.to_string()]
+        ["--adaptive=off", "--spp", &spp.to_string()]
+            .map(str::to_owned)
+            .to_vec()
     };
     kill(folder.path(), 20, effort);
 }
@@ -259,6 +277,7 @@ fn one_output_that_cannot_be_written_costs_neither_the_other_nor_the_samples() {
         "small.pbrt",
         "--spp",
         "3000",
+        "--adaptive=off",
         "--resolution",
         "96x64",
         "--threads",
@@ -305,7 +324,8 @@ fn a_film_from_elsewhere_replaces_no_other_work() {
     let (folder, _) = small_scene();
     let folder = folder.path();
     for (spp, film) in [("4", "kept.film"), ("8", "a.film")] {
-        succeed(folder, &["render", "small.pbrt", "--spp", spp, "-o", film]);
+        let even = ["render", "small.pbrt", "--adaptive=off", "--spp", spp];
+        succeed(folder, &[&even[..], &["-o", film]].concat());
     }
     let farther = std::fs::read(folder.join("a.film")).unwrap();
     let line = [
@@ -336,7 +356,15 @@ fn a_film_from_elsewhere_replaces_no_other_work() {
     succeed(folder, &line);
     succeed(
         folder,
-        &["render", "small.pbrt", "--spp", "16", "-o", "b.exr"],
+        &[
+            "render",
+            "small.pbrt",
+            "--spp",
+            "16",
+            "--adaptive=off",
+            "-o",
+            "b.exr",
+        ],
     );
     assert_eq!(picture(folder, "a.exr"), picture(folder, "b.exr"));
 }

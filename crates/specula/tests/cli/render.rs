@@ -1,6 +1,6 @@
 //! `specula render`, end to end.
 
-use crate::common::{small_scene, specula, stderr};
+use crate::common::{run, small_scene, specula, stderr, succeed};
 use specula::render::picture::read_exr;
 
 /// Width and height in a PNG's header.
@@ -184,6 +184,33 @@ fn time_and_noise_end_a_render() {
         read_exr(&folder.path().join("1.exr")).unwrap(),
         read_exr(&folder.path().join("3.exr")).unwrap()
     );
+}
+
+#[test]
+fn samples_are_spread_by_the_error_unless_they_are_few_or_it_is_refused() {
+    let (folder, _) = small_scene();
+    let folder = folder.path();
+    let is_even = |arguments: &[&str]| {
+        let line = ["render", "small.pbrt", "--resolution", "64x48"];
+        succeed(folder, &[&line[..], arguments, &["-o", "a.exr"]].concat());
+        let counts = read_exr(&folder.join("a.exr")).unwrap().sample_count;
+        counts.iter().all(|n| *n == counts[0])
+    };
+    assert!(!is_even(&["--spp", "8"]) && !is_even(&["--spp", "40"]));
+    assert!(is_even(&["--spp", "7"]));
+    assert!(is_even(&["--spp", "40", "--adaptive=off"]));
+    assert!(!is_even(&["--spp", "40", "--adaptive=on"]));
+    // A film goes on as it began.
+    let size = ["--resolution", "64x48"];
+    for (from, even) in [("--adaptive=off", true), ("--adaptive", false)] {
+        let begin = ["render", "small.pbrt", from, "--spp", "8", "-o", "b.film"];
+        succeed(folder, &[&begin[..], &size, &["--restart"]].concat());
+        assert_eq!(is_even(&["--spp", "24", "--resume=b.film"]), even);
+    }
+    let noise = ["render", "small.pbrt", "--noise", "0.1", "--adaptive=off"];
+    let (code, said) = run(folder, &noise);
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("leave out --adaptive=off"), "{said}");
 }
 
 #[test]
