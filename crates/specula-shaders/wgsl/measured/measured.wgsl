@@ -193,7 +193,8 @@ fn measured_value(lobe: MeasuredLobe, view: MeasuredView, u: vec2f, u_m: vec2f) 
     let cell = measured_grid_cell(lobe.rgb.size, u);
     var value = vec3f(0.0);
     for (var channel = 0u; channel < 3u; channel++) {
-        value[channel] = max(measured_grid_between(lobe.rgb, view.at, cell, 3u, channel), 0.0);
+        let next = max(measured_grid_between(lobe.rgb, view.at, cell, 3u, channel), 0.0);
+        value = vec3f(value.yz, next);
     }
     if lobe.jacobian {
         value *= max(measured_grid_eval(lobe.ndf, u_m), 0.0) * view.scale;

@@ -72,7 +72,7 @@ fn measured_grid_between(
         let place = first + i * grid.size.x;
         let left = measured_slices_value(at, grid.start, channels * nodes, place);
         let right = measured_slices_value(at, grid.start, channels * nodes, place + 1u);
-        rows[i] = measured_grid_lerp(left, right, cell.part.x);
+        rows = vec2f(rows.y, measured_grid_lerp(left, right, cell.part.x));
     }
     return measured_grid_lerp(rows.x, rows.y, cell.part.y);
 }

@@ -16,8 +16,10 @@ struct MeasuredSlicesAngles {
 ///
 /// Twin: specula-bsdf/src/measured/warp.rs, Slices.
 struct MeasuredSlices {
-    /// Their numbers.
-    slices: vec4u,
+    /// Numbers of those at the azimuth before the view's.
+    before: vec2u,
+    /// Numbers of those at the azimuth behind it.
+    behind: vec2u,
     /// What each counts.
     weights: vec4f,
 }
@@ -64,7 +66,8 @@ fn measured_slices_about(
     let r = 1.0 - azimuth.y;
     let v = 1.0 - along.y;
     return MeasuredSlices(
-        vec4u(first + j, first + next, second + j, second + next),
+        vec2u(first + j, first + next),
+        vec2u(second + j, second + next),
         vec4f(r * v, r * along.y, azimuth.y * v, azimuth.y * along.y));
 }
 
@@ -75,8 +78,8 @@ fn measured_slices_about(
 /// Twin: specula-bsdf/src/measured/warp.rs, Slices::value.
 fn measured_slices_value(at: MeasuredSlices, data: u32, size: u32, place: u32) -> f32 {
     let first = data + place;
-    return measured_table(first + at.slices.x * size) * at.weights.x
-        + measured_table(first + at.slices.y * size) * at.weights.y
-        + measured_table(first + at.slices.z * size) * at.weights.z
-        + measured_table(first + at.slices.w * size) * at.weights.w;
+    return measured_table(first + at.before.x * size) * at.weights.x
+        + measured_table(first + at.before.y * size) * at.weights.y
+        + measured_table(first + at.behind.x * size) * at.weights.z
+        + measured_table(first + at.behind.y * size) * at.weights.w;
 }
