@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 /// Folders by what they need of each other; others follow by name.
-const FOLDERS: [&str; 8] = [
+const FOLDERS: [&str; 9] = [
     "",
     "math",
     "ndf",
@@ -14,6 +14,7 @@ const FOLDERS: [&str; 8] = [
     "energy",
     "bsdf",
     "multibounce",
+    "measured",
 ];
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -141,7 +141,7 @@ pub(crate) fn source(flat: &FlatScene<'_>, queries: bool) -> Result<String, Comp
         text += "enable wgpu_ray_query;\n";
     }
     text += &constants(flat, &kinds);
-    text += &specula_shaders::compose(&library)?;
+    text += &composed(&library)?;
     for module in &tracer {
         text += &code(module.text);
     }
@@ -150,6 +150,22 @@ pub(crate) fn source(flat: &FlatScene<'_>, queries: bool) -> Result<String, Comp
         text += &code(module.text);
     }
     Ok(text)
+}
+
+/// The library's module that reads measured materials, and what reads them from the scene's words in its place.
+const MEASURED_TABLE: (&str, &str) = (
+    "measured/measured_table",
+    include_str!("../wgsl/measured_words.wgsl"),
+);
+
+/// The library's modules with what they import.
+fn composed(library: &[&str]) -> Result<String, ComposeError> {
+    let modules = specula_shaders::ordered(library)?;
+    let parts = modules.iter().map(|module| match MEASURED_TABLE {
+        (path, text) if path == module.path => code(text),
+        _ => module.code(),
+    });
+    Ok(parts.collect::<Vec<_>>().join("\n"))
 }
 
 /// Modules of rays alone, besides those that cast them.
@@ -397,12 +413,9 @@ mod tests {
     }
 
     #[test]
-    fn only_mixes_interfaces_and_measured_materials_have_no_module() {
+    fn only_mixes_and_interfaces_have_no_module() {
         for &shader in MaterialShader::ALL {
-            let is_none = matches!(
-                shader,
-                MaterialShader::Mix | MaterialShader::Interface | MaterialShader::Measured
-            );
+            let is_none = matches!(shader, MaterialShader::Mix | MaterialShader::Interface);
             assert_eq!(shader.module().is_none(), is_none, "{shader:?}");
         }
     }

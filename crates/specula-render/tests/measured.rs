@@ -8,7 +8,7 @@ use specula_bsdf::fresnel::{Conductor, Reflectance};
 use specula_bsdf::measured::{Resolution, Symmetry, tabulate};
 use specula_bsdf::ndf::Ggx;
 use specula_bsdf::{Alpha, Rgb};
-use specula_render::{PreparedScene, RenderOptions, Strategy};
+use specula_render::{MaterialShader, PreparedScene, RenderOptions, Strategy};
 use specula_scene::measured::{MeasuredBrdf, to_bytes};
 use specula_scene::scene::*;
 
@@ -117,10 +117,33 @@ fn tables_of_a_metal_look_like_it() {
 }
 
 #[test]
-fn shaders_are_told_to_lack_it() {
+fn shaders_are_given_each_file_once() {
     let kind = MaterialKind::Measured(MeasuredId(0));
-    let scene = scene_of(kind, vec![tables_of([0.3, 0.3], Symmetry::Isotropic)]);
-    let prepared = PreparedScene::new(&scene, &RenderOptions::default()).unwrap();
-    assert_eq!(prepared.flatten().missing, ["measured materials"]);
-    assert_eq!(prepared.lobe(0, true), None);
+    let mut scene = scene_of(kind, vec![tables_of([0.3, 0.3], Symmetry::Isotropic)]);
+    let words = |scene: &Scene| {
+        let prepared = PreparedScene::new(scene, &RenderOptions::default()).unwrap();
+        assert_eq!(prepared.lobe(0, true), None);
+        let flat = prepared.flatten();
+        assert_eq!(flat.missing, Vec::<String>::new());
+        assert!(flat.shaders.contains(&MaterialShader::Measured));
+        flat.words
+    };
+    let packed: Vec<u32> = scene.measured[0]
+        .lobe()
+        .packed()
+        .iter()
+        .map(|x| x.to_bits())
+        .collect();
+    let times = |words: &[u32]| words.windows(packed.len()).filter(|w| *w == packed).count();
+    let once = words(&scene);
+    assert_eq!(times(&once), 1);
+    material(&mut scene, kind);
+    let twice = words(&scene);
+    assert_eq!(times(&twice), 1);
+    assert!(twice.len() < once.len() + 100, "a second material is small");
+    scene
+        .measured
+        .push(tables_of([0.4, 0.4], Symmetry::Isotropic));
+    material(&mut scene, MaterialKind::Measured(MeasuredId(1)));
+    assert!(words(&scene).len() > twice.len() + packed.len());
 }

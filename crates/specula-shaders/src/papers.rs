@@ -29,6 +29,7 @@ const PAPERS: &[Paper] = papers![
     ["Duff et al. 2017"] "Duff, Burgess, Christensen, Hery, Kensler, Liani and Villemin 2017. Building an Orthonormal Basis, Revisited. Journal of Computer Graphics Techniques 6(1).",
     ["Duntley 1942"] "Duntley 1942. The Optical Properties of Diffusing Materials. Journal of the Optical Society of America 32(2).",
     ["Dupuy et al. 2016"] "Dupuy, Heitz and d'Eon 2016. Additional Progress Towards the Unification of Microfacet and Microflake Theories. Eurographics Symposium on Rendering.",
+    ["Dupuy and Jakob 2018"] "Dupuy and Jakob 2018. An Adaptive Parameterization for Efficient Material Acquisition and Rendering. ACM Transactions on Graphics 37(6).",
     ["Dupuy and Benyoub 2023"] "Dupuy and Benyoub 2023. Sampling Visible GGX Normals with Spherical Caps. Computer Graphics Forum 42(8).",
     ["Egan and Hilgeman 1973"] "Egan, Hilgeman and Reichman 1973. Determination of Absorption and Scattering Coefficients for Nonhomogeneous Media. Applied Optics 12(8).",
     ["d'Eon and Irving 2011"] "d'Eon and Irving 2011. A Quantized-Diffusion Model for Rendering Translucent Materials. ACM Transactions on Graphics 30(4).",

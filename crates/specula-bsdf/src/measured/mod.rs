@@ -16,6 +16,7 @@
 //! Rendering", sections 4 and 5. Departures: negative values are 0; the Jacobian is not bounded below by 1e-6 but
 //! by 1e-9.
 
+mod packed;
 mod tables;
 mod tabulate;
 mod warp;

@@ -147,6 +147,14 @@ impl<T: Real> Grid<T> {
         self.values.len()
     }
 
+    pub(super) fn size(&self) -> [usize; 2] {
+        self.size
+    }
+
+    pub(super) fn values(&self) -> &[T] {
+        &self.values
+    }
+
     /// The value at a point; beyond the square the nearest one.
     pub(super) fn eval(&self, [x, y]: [T; 2]) -> T {
         let [w, h] = self.size;
@@ -177,6 +185,10 @@ impl<T: Real> Colours<T> {
 
     pub(super) fn size(&self) -> [usize; 2] {
         self.size
+    }
+
+    pub(super) fn values(&self) -> &[T] {
+        &self.values
     }
 
     pub(super) fn eval(&self, at: &Slices<T>, [x, y]: [T; 2]) -> [T; 3] {
@@ -259,6 +271,15 @@ impl<T: Real> Warp<T> {
 
     pub(super) fn count(&self) -> usize {
         self.density.len() + self.along_rows.len() + self.marginal.len()
+    }
+
+    pub(super) fn size(&self) -> [usize; 2] {
+        self.size
+    }
+
+    /// Densities, integrals along rows, integrals of rows; of each all slices.
+    pub(super) fn values(&self) -> [&[T]; 3] {
+        [&self.density, &self.along_rows, &self.marginal]
     }
 
     fn slice(&self) -> usize {

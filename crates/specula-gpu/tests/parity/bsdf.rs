@@ -275,13 +275,13 @@ fn formats_hold() {
 }
 
 /// Names in a text, of functions and of others.
-fn names(text: &str) -> BTreeSet<&str> {
+pub(crate) fn names(text: &str) -> BTreeSet<&str> {
     text.split(|c: char| c != '_' && !c.is_alphanumeric())
         .collect()
 }
 
 /// Functions that cases call, and functions that those call.
-fn reached(cases: &[Case]) -> BTreeSet<&'static str> {
+pub(crate) fn reached(cases: &[Case]) -> BTreeSet<&'static str> {
     let functions: BTreeMap<&str, &str> = MODULES
         .iter()
         .flat_map(|module| module.text.split("\nfn ").skip(1))

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::harness::{Case, Fault, Kept, Outcome, judge, text};
-use crate::{bsdf, energy, fresnel, layered, math, multibounce, ndf, vndf};
+use crate::{bsdf, energy, fresnel, layered, math, measured, multibounce, ndf, vndf};
 
 /// How the cases are compiled.
 struct Setting {
@@ -79,7 +79,7 @@ const CUDA_FAST: Setting = Setting {
 pub(crate) type Family = (&'static str, fn() -> Vec<Case>);
 
 /// One program has them all; in CUDA each is one.
-pub(crate) const FAMILIES: [Family; 8] = [
+pub(crate) const FAMILIES: [Family; 9] = [
     ("math", math::cases),
     ("ndf", ndf::cases),
     ("vndf", vndf::cases),
@@ -88,6 +88,7 @@ pub(crate) const FAMILIES: [Family; 8] = [
     ("bsdf", bsdf::cases),
     ("layered", layered::cases),
     ("multibounce", multibounce::cases),
+    ("measured", measured::cases),
 ];
 
 /// Where a program runs.
@@ -134,7 +135,7 @@ impl Side {
 }
 
 /// The families whose cases are shown to notice faults, and the faults.
-pub(crate) fn faults() -> [(Family, Vec<Fault>); 8] {
+pub(crate) fn faults() -> [(Family, Vec<Fault>); 9] {
     let of = |family: usize, faults: &[Fault]| (FAMILIES[family], faults.to_vec());
     [
         of(0, &math::FAULTS),
@@ -145,6 +146,7 @@ pub(crate) fn faults() -> [(Family, Vec<Fault>); 8] {
         of(5, &bsdf::faults()),
         of(6, layered::FAULTS),
         of(7, multibounce::FAULTS),
+        of(8, measured::FAULTS),
     ]
 }
 
@@ -159,7 +161,7 @@ fn planted(family: &str, faults: Vec<Fault>) -> Vec<Fault> {
 }
 
 /// Families whose faults are planted in shaders or in C++.
-const SHARED: [&str; 3] = ["bsdf", "layered", "multibounce"];
+const SHARED: [&str; 4] = ["bsdf", "layered", "multibounce", "measured"];
 
 /// The modules that cases need and, for each case, a function `parity_NAME(x, y)` of its body.
 pub(crate) fn functions(cases: &[&Case], fault: Option<&Fault>) -> String {
@@ -228,7 +230,7 @@ impl Program {
         let side = Side::of(compiler);
         let text = source(side, cases, fault);
         std::fs::write(folder.path().join(side.file()), text).unwrap();
-        std::fs::write(folder.path().join("tables"), specula_shaders::tables()).unwrap();
+        std::fs::write(folder.path().join("tables"), measured::tables()).unwrap();
         let output = Command::new(compiler)
             .current_dir(folder.path())
             .args(["-std=c++17", side.file(), "-o", "parity"])

@@ -251,10 +251,10 @@ fn run(
     Ok(bytes.as_chunks().0.iter().map(number).collect())
 }
 
-/// Bytes of the energy tables where `text` reads them, else next to nothing: an empty array cannot be.
+/// Bytes of the tables where `text` reads them, else next to nothing: an empty array cannot be.
 pub(crate) fn tables_for(text: &str) -> &'static [u8] {
     if text.contains(TABLES) {
-        specula_shaders::tables()
+        crate::measured::tables()
     } else {
         &[0; 4]
     }

@@ -16,6 +16,7 @@ mod harness;
 mod languages;
 mod layered;
 mod math;
+mod measured;
 mod multibounce;
 mod ndf;
 mod vndf;

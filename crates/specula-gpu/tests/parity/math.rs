@@ -13,6 +13,18 @@ fn evenly(from: f64, to: f64, count: u32) -> Vec<[f32; 1]> {
     (0..=count).map(|i| [round(at(i))]).collect()
 }
 
+/// `y` and `x` of vectors in all directions, long and short, along the axes, and zero.
+fn angles() -> Vec<[f32; 2]> {
+    let around = (0..4096_u16).map(|i| {
+        let angle = f64::from(i) / 4096.0 * std::f64::consts::TAU;
+        let length = [1.0, 1e-3, 1e-20, 3e5][usize::from(i % 4)];
+        [angle.sin() * length, angle.cos() * length].map(round)
+    });
+    let axes = [[0.0, 0.0], [0.0, 2.0], [3.0, 0.0], [-3.0, 0.0], [0.0, -2.0]];
+    let near = (1..200_u16).map(|i| [round(1e-5 * f64::from(i)), 1.0]);
+    around.chain(axes).chain(near).collect()
+}
+
 /// Halves of 16 bits of seeds, low ones first.
 fn seeds() -> Vec<[f32; 4]> {
     let mut stream = Stream::new(1);
@@ -85,6 +97,22 @@ fn scalars() -> Vec<Case> {
             4.0,
         )
         .at_scale(&[1.0]),
+        Case::new(
+            "arc_tangent",
+            &["arctangent"],
+            "y[0] = arctangent(x[0], x[1]);",
+            angles(),
+            twins!(|x| vec![x[0].atan2(x[1])]),
+            8.0,
+        ),
+        Case::new(
+            "quarter_turns",
+            &["quarter"],
+            "y[0] = quarter_sine(x[0]);",
+            evenly(0.0, 1.0, 4096),
+            twins!(|x| vec![(x[0] * T::PI * T::HALF).sin()]),
+            8.0,
+        ),
         Case::new(
             "complement",
             &["erf"],
@@ -276,7 +304,7 @@ pub(crate) fn cases() -> Vec<Case> {
     [scalars(), streams_and_colours(), frames_and_warps()].concat()
 }
 
-pub(crate) const FAULTS: [Fault; 6] = [
+pub(crate) const FAULTS: [Fault; 8] = [
     Fault {
         case: "turns",
         module: "math/turns",
@@ -288,6 +316,18 @@ pub(crate) const FAULTS: [Fault; 6] = [
         module: "math/arccosine",
         from: "0.0889740993",
         to: "0.0899740993",
+    },
+    Fault {
+        case: "arc_tangent",
+        module: "math/arctangent",
+        from: "0.10618371",
+        to: "0.10628371",
+    },
+    Fault {
+        case: "quarter_turns",
+        module: "math/quarter",
+        from: "0.07968992",
+        to: "0.07978992",
     },
     Fault {
         case: "deficit",

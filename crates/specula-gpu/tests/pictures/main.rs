@@ -10,6 +10,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod measured;
 #[path = "../common/queries.rs"]
 mod offered;
 mod textures;

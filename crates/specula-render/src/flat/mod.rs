@@ -78,9 +78,6 @@ impl PreparedScene {
         let (nodes, packets) = self.geometry.flatten(&mut words);
         let mut missing = self.textures.flatten(&mut words);
         let shaders = self.materials.flatten(&mut words);
-        if shaders.contains(&MaterialShader::Measured) {
-            missing.push("measured materials".to_owned());
-        }
         if self.moves {
             missing.push("motion blur".to_owned());
         }

@@ -2,8 +2,11 @@
 //!
 //! A record is its head, how many parameters may have a texture, these, then the kind's other words.
 
+use std::sync::Arc;
+
 use specula_bsdf::Rgb;
 use specula_bsdf::internal::shader_codes;
+use specula_bsdf::measured::Measured;
 use specula_scene::Energy;
 use specula_scene::scene::BumpRules;
 
@@ -24,9 +27,13 @@ impl Materials {
         let mut shaders = Vec::new();
         let mut places = Vec::with_capacity(self.materials.len());
         let mut codes_of_all = ParameterCodes::default();
+        let mut tables = MeasuredPlaces::default();
         for material in &self.materials {
+            let mut parameters = material.parameters();
+            if let Some(measured) = &material.measured {
+                parameters.id(tables.place(measured, to));
+            }
             places.push(to.offset());
-            let parameters = material.parameters();
             let shader = material.shader();
             codes_of_all.add(shader, energy_code(material.models.energy), &parameters);
             material.flatten(&parameters, to);
@@ -131,6 +138,24 @@ impl Material {
 
     fn has_bumps(&self) -> bool {
         self.bump.is_some() || self.coat.is_some()
+    }
+}
+
+/// Where the tables of measured materials are: those of a file once, however many materials have it.
+#[derive(Default)]
+struct MeasuredPlaces<'a>(Vec<(&'a Arc<Measured<f32>>, u32)>);
+
+impl<'a> MeasuredPlaces<'a> {
+    /// The place of the tables, which are written where they are not there yet.
+    fn place(&mut self, measured: &'a Arc<Measured<f32>>, to: &mut Words) -> u32 {
+        let known = self.0.iter().find(|(m, _)| Arc::ptr_eq(m, measured));
+        if let Some(&(_, place)) = known {
+            return place;
+        }
+        let place = to.offset();
+        to.floats(measured.packed());
+        self.0.push((measured, place));
+        place
     }
 }
 

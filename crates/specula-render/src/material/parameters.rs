@@ -64,8 +64,8 @@ macro_rules! material_shader_table {
             Mix = 14, [];
             /// No surface; paths pass it, so that it has no module.
             Interface = 15, [];
-            /// A measured material; no shader renders it, so that it has no module.
-            Measured = 16, [];
+            /// A measured material.
+            Measured = 16, ["material_measured"];
         }
     };
 }
@@ -84,7 +84,7 @@ macro_rules! define_material_shader {
             /// All of them.
             pub const ALL: &'static [Self] = &[$(Self::$name),*];
 
-            /// Its module in `specula-gpu/wgsl`; `None` for mixes, interfaces and measured materials.
+            /// Its module in `specula-gpu/wgsl`; `None` for mixes and interfaces.
             #[must_use]
             pub const fn module(self) -> Option<&'static str> {
                 match self {
@@ -460,7 +460,7 @@ impl Parameters {
         }))
     }
 
-    fn id(&mut self, word: u32) -> &mut Self {
+    pub(super) fn id(&mut self, word: u32) -> &mut Self {
         self.plain.push(word);
         self
     }

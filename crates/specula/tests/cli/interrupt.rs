@@ -122,7 +122,11 @@ fn the_first_interrupt_finishes_the_pass_and_writes() {
 #[test]
 fn many_short_passes_end_with_the_first_interrupt() {
     let (folder, scene) = small_scene();
-    let mut render = Render::start(folder.path(), &scene, &["--spp", "16000000"]);
+    let mut render = Render::start(
+        folder.path(),
+        &scene,
+        &["--spp", "16000000", "--adaptive=off"],
+    );
     std::thread::sleep(Duration::from_millis(1500));
     assert!(render.child.try_wait().unwrap().is_none());
     render.interrupt();

@@ -406,7 +406,7 @@ impl Build<'_> {
             .map(|case| [case.arguments, case.results()]);
         let calls: Vec<_> = entries.into_iter().zip(sizes).collect();
         self.write("parity.cpp", spirv::program(words, &calls));
-        self.write("tables", specula_shaders::tables());
+        self.write("tables", crate::measured::tables());
         let files = ["parity.cpp", "-o", "parity"];
         self.called(Path::new("g++"), &[&PROGRAM[..], &files].concat());
         write_inputs(self.folder, self.cases);
@@ -419,7 +419,7 @@ impl Build<'_> {
         let library = include_str!("metal/metal_stdlib");
         self.write("metal_stdlib", library);
         self.write("simd/simd.h", include_str!("metal/simd/simd.h"));
-        self.write("tables", specula_shaders::tables());
+        self.write("tables", crate::measured::tables());
         let line = |case: &Case| format!("    evaluate(parity_{});\n", case.name);
         let main = include_str!("metal/main.cpp");
         let main = main.replace("    // CALLS\n", &self.calls(line));
