@@ -171,7 +171,7 @@ impl Pixels {
         }
     }
 
-    /// [`Self::rgb`] of several pixels, whose depth is looked at once.
+    /// [`Self::rgb`] of several pixels at once.
     ///
     /// # Panics
     ///
