@@ -122,11 +122,9 @@ pub(super) fn treelets(nodes: &[Node]) -> Vec<Treelet> {
         let here = made.len();
         made.push(Treelet::new(nodes, &slots));
         for (place, at) in slots[INNER..INNER + LAST].iter().enumerate() {
-            let is_inner = |at: &usize| !nodes[*at].leaf;
-            if let Some(at) = at.filter(is_inner) {
-                if made.len() + open.len() < MOST {
-                    open.push_back((at, Some((here, place))));
-                }
+            let has_room = made.len() + open.len() < MOST;
+            if let Some(at) = at.filter(|at| has_room && !nodes[*at].leaf) {
+                open.push_back((at, Some((here, place))));
             }
         }
     }
