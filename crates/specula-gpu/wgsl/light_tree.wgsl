@@ -66,7 +66,7 @@ fn light_tree_children(node: u32, position: vec3f, normal: vec3f) -> vec2f {
 
 /// Share of the first of two importances; 0 or 1 only where just one of them is 0. One half where both are 0:
 /// no light arrives then, but the probabilities still add up to 1.
-/// Twin: specula-render/src/light/tree.rs, share.
+/// Twin: specula-render/src/light/node.rs, share.
 fn light_tree_share(importances: vec2f) -> f32 {
     if importances.x <= 0.0 {
         return select(0.5, 0.0, importances.y > 0.0);

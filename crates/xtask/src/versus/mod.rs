@@ -232,11 +232,13 @@ impl Versus {
                 contestants.push(mitsuba.against("specula-xml", CLOSE));
             }
         }
-        if let Some(file) = scene.pbrt.as_ref() {
-            if self.pbrt.is_some() || scene.mitsuba.is_some() && self.cycles.is_some() {
-                contestants.extend(self.specula("specula-pbrt", specula, file));
-                beside_cycles = "specula-pbrt";
-            }
+        let of_pbrt = scene
+            .pbrt
+            .as_ref()
+            .filter(|_| self.pbrt.is_some() || scene.mitsuba.is_some() && self.cycles.is_some());
+        if let Some(file) = of_pbrt {
+            contestants.extend(self.specula("specula-pbrt", specula, file));
+            beside_cycles = "specula-pbrt";
         }
         if let (Some(python), Some(file)) = (&self.cycles, &scene.mitsuba) {
             let mut command = Command::new(python);
