@@ -163,13 +163,12 @@ impl Selection {
     /// Probability with which [`Selection::sample`] samples a light in the scene.
     #[inline]
     pub(super) fn probability_near(&self, receiver: &Receiver, light: u32) -> f32 {
+        let at = (receiver.point, receiver.normal.unwrap_or(Vec3::ZERO));
         if self.by_treelets() {
-            let normal = receiver.normal.unwrap_or(Vec3::ZERO);
-            return probability_by_treelets(self, (receiver.point, normal), light);
+            return probability_by_treelets(self, at, light);
         }
-        let importance = self.near.importances(receiver);
-        let share = 1.0 - self.share(&importance);
-        share * self.near.probability(&importance, light)
+        let share = 1.0 - self.share(&self.near.importances(receiver));
+        share * self.near.probability(None, at, light)
     }
 
     /// Whether choices are faster by treelets, one receiver at a time.
@@ -268,5 +267,6 @@ fn probability_by_treelets(
         return 0.0;
     };
     let share = 1.0 - selection.share_of(top[0] + top[1]);
-    share * selection.near.probability_by_treelets(top, receiver, light)
+    let descent = selection.near.descent(top);
+    share * selection.near.probability(Some(descent), receiver, light)
 }

@@ -143,7 +143,7 @@ impl LightTree {
         u: f64,
     ) -> Option<(u32, f32)> {
         let mut choice = Choice::new(u);
-        let mut descent = Descent::new(&self.treelets, top);
+        let mut descent = self.descent(top);
         loop {
             let node = self.nodes.get(choice.at)?;
             if node.leaf {
@@ -158,36 +158,14 @@ impl LightTree {
         }
     }
 
-    /// Probability with which [`LightTree::sample`] samples a light by the same importances.
-    #[inline]
-    pub(super) fn probability(&self, importance: &impl Fn(usize) -> f32, light: u32) -> f32 {
-        let Some(mut trail) = self.trails.get(light as usize).copied() else {
-            return 0.0;
-        };
-        if trail == ABSENT {
-            return 0.0;
-        }
-        let mut at = 0;
-        let mut probability = 1.0;
-        while !self.nodes[at].leaf {
-            let left = share(self.children(at, importance));
-            if trail & 1 == 0 {
-                probability *= left;
-                at += 1;
-            } else {
-                probability *= 1.0 - left;
-                at += self.nodes[at].link as usize;
-            }
-            trail >>= 1;
-        }
-        probability
-    }
-
-    /// [`LightTree::probability`] by treelets; for trees that have them.
+    /// Probability with which a light is sampled for a receiver.
+    ///
+    /// * `descent`: a walk through the treelets, by which it is faster.
+    /// * `receiver`: point and normal, zero where light from every side counts.
     #[inline(always)]
-    pub(super) fn probability_by_treelets(
+    pub(super) fn probability(
         &self,
-        top: Importances,
+        mut descent: Option<Descent<'_>>,
         receiver: (Vec3<f32>, Vec3<f32>),
         light: u32,
     ) -> f32 {
@@ -197,21 +175,22 @@ impl LightTree {
         if trail == ABSENT {
             return 0.0;
         }
-        let mut descent = Some(Descent::new(&self.treelets, top));
-        let (mut at, mut probability) = (0, 1.0);
+        let importance = |at: usize| self.nodes[at].importance_at(receiver.0, receiver.1);
+        let mut at = 0;
+        let mut probability = 1.0;
         while !self.nodes[at].leaf {
-            let importance = |at: usize| self.nodes[at].importance_at(receiver.0, receiver.1);
             let left = match &descent {
                 Some(descent) => descent.left(),
                 None => share(self.children(at, &importance)),
             };
             let is_left = trail & 1 == 0;
-            probability *= if is_left { left } else { 1.0 - left };
-            at += if is_left {
-                1
+            if is_left {
+                probability *= left;
+                at += 1;
             } else {
-                self.nodes[at].link as usize
-            };
+                probability *= 1.0 - left;
+                at += self.nodes[at].link as usize;
+            }
             trail >>= 1;
             if let Some(walk) = &mut descent
                 && !self.nodes[at].leaf
@@ -221,6 +200,14 @@ impl LightTree {
             }
         }
         probability
+    }
+
+    /// A walk through the treelets, at the root.
+    ///
+    /// * `top`: of [`LightTree::top`].
+    #[inline(always)]
+    pub(super) fn descent(&self, top: Importances) -> Descent<'_> {
+        Descent::new(&self.treelets, top)
     }
 
     #[inline(always)]
@@ -318,11 +305,13 @@ mod tests {
                 assert_eq!(tree.sample_by_treelets(top, (point, normal), u), expected);
                 let (light, probability) = expected.unwrap();
                 chosen[light as usize] += 1;
+                let by_treelets =
+                    |light| tree.probability(Some(tree.descent(top)), (point, normal), light);
                 for light in [light, u32::from(i % (count + 1))] {
-                    let p = tree.probability_by_treelets(top, (point, normal), light);
-                    assert_eq!(p, tree.probability(&importance, light));
+                    let p = tree.probability(None, (point, normal), light);
+                    assert_eq!(by_treelets(light), p);
                 }
-                let p = tree.probability_by_treelets(top, (point, normal), light);
+                let p = by_treelets(light);
                 assert!((p - probability).abs() <= 1e-6 * p);
             }
             let different = chosen.iter().filter(|&&n| n > 0).count();

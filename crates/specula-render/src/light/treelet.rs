@@ -115,11 +115,10 @@ pub(super) fn treelets(nodes: &[Node]) -> Vec<Treelet> {
                 slots[2 * k + 1] = Some(right);
             }
         }
-        if let Some((treelet, place)) = above {
-            let here = id(made.len());
-            made[treelet].below[place] = here;
-        }
         let here = made.len();
+        if let Some((treelet, place)) = above {
+            made[treelet].below[place] = id(here);
+        }
         made.push(Treelet::new(nodes, &slots));
         for (place, at) in slots[INNER..INNER + LAST].iter().enumerate() {
             let has_room = made.len() + open.len() < MOST;
