@@ -44,25 +44,28 @@ def start(cluster: Cluster) -> object:
 
 
 def two_nodes(cluster: Cluster) -> object:
-    """Both nodes render; the bits are one machine's, and the second time nothing is rendered."""
-    picture = [*SIZE, "--spp", "64", "--part-time", "1", "-o", "two.exr", "-o", "two.png"]
-    cluster.render(picture)
-    cluster.alone([*SIZE, "--spp", "64", "-o", "one.exr"])
+    """Both nodes render; the bits are one machine's, and the second time nothing is rendered.
+
+    The work grows until it is long enough that the second node starts before it is done.
+    """
+    spp, nodes = 64, 0
+    while nodes < 2 and spp < 8192:
+        picture = [*SIZE, "--spp", str(spp), "--part-time", "1", "-o", "two.exr", "-o", "two.png"]
+        cluster.render(picture)
+        nodes = len({e["node"] for e in cluster.journal("two.farm") if e["event"] == "begin"})
+        spp *= 2
+    spp //= 2
+    cluster.alone([*SIZE, "--spp", str(spp), "-o", "one.exr"])
     same = [cluster.same("two.exr", "one.exr")]
-    begun = [e for e in cluster.journal("two.farm") if e["event"] == "begin"]
     before = len(begins(cluster, "two.farm"))
     cluster.render(picture)
     again = len(begins(cluster, "two.farm")) - before
-    cluster.render([*SIZE, "--spp", "80", "-o", "two.exr", "-o", "two.png"])
-    cluster.alone([*SIZE, "--spp", "80", "-o", "more.exr"])
+    more = ["--spp", str(spp + 16)]
+    cluster.render([*SIZE, *more, "-o", "two.exr", "-o", "two.png"])
+    cluster.alone([*SIZE, *more, "-o", "more.exr"])
     same.append(cluster.same("two.exr", "more.exr"))
     new = begins(cluster, "two.farm")[before:]
-    return {
-        "same": same,
-        "nodes": len({e["node"] for e in begun}),
-        "again": again,
-        "new": sum(b - a for a, b in new),
-    }
+    return {"same": same, "nodes": nodes, "again": again, "new": sum(b - a for a, b in new)}
 
 
 def kills(
@@ -130,7 +133,7 @@ def resume(cluster: Cluster) -> object:
     """Ctrl-C leaves a picture and a job, which ends as if nothing had happened."""
     words = [*SIZE, "--spp", "256", "--part-time", "1", "-o", "stop.exr"]
     render = cluster.begin(["render", *cluster.program, "--address", HEAD, *words])
-    wait_for(lambda: sum(e["event"] == "done" for e in cluster.journal("stop.farm")) >= 3)
+    wait_for(lambda: sum(e["event"] == "done" for e in cluster.journal("stop.farm")) >= 2)
     render.send_signal(signal.SIGINT)
     _, said = render.communicate(timeout=60)
     code, picture = render.returncode, Path(cluster.folder, "stop.exr").exists()
