@@ -32,7 +32,7 @@ use std::cmp::Ordering;
 use rayon::prelude::*;
 
 use super::buffer::{FilmBuffer, MergeError, TILE, Tile};
-use super::noise::{is_unknown, squared_error};
+use super::noise::{PixelNoise, Survey};
 
 /// Samples of every pixel in the first round, at most. With fewer, light that is rare has often not been
 /// met, and a tile that is taken for quiet too early is too dark.
@@ -90,18 +90,21 @@ impl Tile {
     /// The squared error for one sample, `x^2`. A pixel whose variance [`PATIENCE`] samples have not made known
     /// counts as the worst of the others: it must not attract all work (Winsor's mean; Dixon 1960, "Simplified
     /// estimation from censored normal samples"). `None`: there are no others.
-    fn squared_error(&self, brightness: f64) -> Option<f64> {
+    ///
+    /// * `pixels`: the tile's.
+    fn squared_error(&self, pixels: &[PixelNoise], brightness: f64) -> Option<f64> {
+        let count = self.count();
         let (mut sum, mut worst, mut counted) = (0.0, 0.0_f64, 0_usize);
-        for p in &self.pixels {
-            if p.count < PATIENCE || !is_unknown(p) {
-                let squared = squared_error(p, brightness) * f64::from(p.count);
+        for p in pixels {
+            if count < PATIENCE || !p.is_unknown() {
+                let squared = p.squared_error(brightness) * f64::from(count);
                 sum += squared;
                 worst = worst.max(squared);
                 counted += 1;
             }
         }
-        let apart = (self.pixels.len() - counted) as f64;
-        (counted > 0).then(|| (sum + apart * worst) / self.pixels.len() as f64)
+        let apart = (pixels.len() - counted) as f64;
+        (counted > 0).then(|| (sum + apart * worst) / pixels.len() as f64)
     }
 
     /// What a sample of each of its pixels costs, in rays.
@@ -210,9 +213,11 @@ impl FilmBuffer {
     /// What the samples of each tile should be in proportion to, `x / sqrt(c)`; `x` of the tiles around is
     /// in it, as one that has not hit what they have may do so.
     pub(super) fn wishes(&self) -> Vec<f64> {
-        let brightness = self.survey().brightness;
-        let known: Vec<Option<f64>> = (self.tiles.par_iter())
-            .map(|tile| tile.squared_error(brightness))
+        let Survey {
+            brightness, tiles, ..
+        } = self.survey();
+        let known: Vec<Option<f64>> = (self.tiles.par_iter().zip(&tiles))
+            .map(|(tile, pixels)| tile.squared_error(pixels, brightness))
             .collect();
         let (sum, count) = (known.iter().flatten()).fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
         let mean = sum / f64::max(count, 1.0);
@@ -253,14 +258,19 @@ impl FilmBuffer {
             let of = |t: &Tile| f64::from(count(t)) * t.cost();
             self.tiles.iter().map(of).sum()
         };
-        let noise = f64::from(self.noise());
-        if !noise.is_finite() {
-            return 0.0;
-        }
         let all: f64 = self.tiles.iter().map(Tile::cost).sum();
+        let most = f64::from(aim.samples) * all;
         let done = work(&Tile::count);
-        let ratio = noise / f64::from(aim.noise);
-        let needed = (done * ratio * ratio).min(f64::from(aim.samples) * all);
+        let needed = if aim.noise > 0.0 {
+            let noise = f64::from(self.noise());
+            if !noise.is_finite() {
+                return 0.0;
+            }
+            let ratio = noise / f64::from(aim.noise);
+            (done * ratio * ratio).min(most)
+        } else {
+            most
+        };
         let planned = work(&|t| t.target);
         done / needed.max(planned).max(f64::MIN_POSITIVE)
     }

@@ -81,25 +81,31 @@ impl PixelSums {
         self.colour.map(|c| c.value() / n)
     }
 
-    /// Luminance of the mean; below 0 only where filters or balances have negative parts.
-    pub(super) fn luminance(&self) -> f64 {
-        Rgb::from(self.mean()).luminance()
+    /// Luminance of the mean, below 0 only where filters or balances have negative parts, and its standard deviation;
+    /// the channels are taken for fully correlated.
+    #[inline(always)]
+    pub(super) fn luminance_and_deviation(&self) -> [f64; 2] {
+        let [mean, variance] = self.mean_and_variance();
+        let deviation = [variance[0].sqrt(), variance[1].sqrt(), variance[2].sqrt()];
+        [
+            Rgb::from(mean).luminance(),
+            Rgb::from(deviation).luminance(),
+        ]
     }
 
-    /// Standard deviation of the mean's luminance; the channels are taken for fully correlated.
-    pub(super) fn luminance_deviation(&self) -> f64 {
-        Rgb::from(self.variance().map(f64::sqrt)).luminance()
-    }
-
-    /// Variance of the mean: the unbiased variance of one sample over their number; infinite below
-    /// two samples.
-    fn variance(&self) -> [f64; 3] {
-        if self.count < 2 {
-            return [f64::INFINITY; 3];
+    /// The mean, and its variance: the unbiased variance of one sample over their number; infinite below two samples.
+    #[inline(always)]
+    fn mean_and_variance(&self) -> [[f64; 3]; 2] {
+        let n = f64::from(self.count.max(1));
+        let (mut mean, mut variance) = ([0.0; 3], [f64::INFINITY; 3]);
+        for i in 0..3 {
+            mean[i] = self.colour[i].value() / n;
+            if self.count >= 2 {
+                let of_one = self.squares[i].value() / n - mean[i] * mean[i];
+                variance[i] = (of_one / (n - 1.0)).max(0.0);
+            }
         }
-        let n = f64::from(self.count);
-        let mean = self.mean();
-        [0, 1, 2].map(|i| ((self.squares[i].value() / n - mean[i] * mean[i]) / (n - 1.0)).max(0.0))
+        [mean, variance]
     }
 
     /// All of it as words of 64 bits, for files.
@@ -389,10 +395,11 @@ impl FilmBuffer {
                 let y = tile.bounds[2] - y0 + i / tile_width;
                 let at = (y * width + x) as usize;
                 let inverse = 1.0 / f64::from(p.count.max(1));
-                picture.colour[at] = Rgb::from(p.mean()).cast();
+                let [mean, variance] = p.mean_and_variance();
+                picture.colour[at] = Rgb::from(mean).cast();
                 // Unknown below two samples: 0, since pictures hold finite values only.
                 picture.variance[at] =
-                    Rgb::from(p.variance().map(|v| if v.is_finite() { v } else { 0.0 })).cast();
+                    Rgb::from(variance.map(|v| if v.is_finite() { v } else { 0.0 })).cast();
                 picture.albedo[at] = Rgb::from(p.albedo.map(|a| a.value() * inverse)).cast();
                 let [x, y, z] = p.normal.map(|n| narrow(n.value() * inverse));
                 picture.normal[at] = vec3(x, y, z);

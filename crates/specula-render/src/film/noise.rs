@@ -81,21 +81,45 @@ impl Places {
 pub(super) struct Survey {
     /// Luminance of the picture, the mean over the pixels that are not left out.
     pub(super) brightness: f64,
+    /// Of each tile its pixels.
+    pub(super) tiles: Vec<Vec<PixelNoise>>,
     /// Of each tile the pixels that are left out.
     left_out: Vec<Places>,
 }
 
-/// A pixel's squared error.
-pub(super) fn squared_error(pixel: &PixelSums, brightness: f64) -> f64 {
-    let shown = brightness * (pixel.luminance().max(0.0) + DARKEST * brightness);
-    let deviation = pixel.luminance_deviation();
-    deviation * deviation / shown.max(f64::MIN_POSITIVE)
+/// Luminance of a pixel, and its standard deviation.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PixelNoise {
+    luminance: f64,
+    deviation: f64,
 }
 
-/// Whether too few samples carry a pixel for its variance to be known.
-pub(super) fn is_unknown(pixel: &PixelSums) -> bool {
-    let (mean, deviation) = (pixel.luminance(), pixel.luminance_deviation());
-    deviation.is_finite() && CARRIERS * deviation * deviation > mean * mean
+impl PixelNoise {
+    #[inline(always)]
+    pub(super) fn new(pixel: &PixelSums) -> Self {
+        let [luminance, deviation] = pixel.luminance_and_deviation();
+        Self {
+            luminance,
+            deviation,
+        }
+    }
+
+    /// The squared error.
+    #[inline(always)]
+    pub(super) fn squared_error(self, brightness: f64) -> f64 {
+        let shown = brightness * (self.luminance.max(0.0) + DARKEST * brightness);
+        self.deviation * self.deviation / shown.max(f64::MIN_POSITIVE)
+    }
+
+    /// Whether too few samples carry the pixel for its variance to be known.
+    #[inline(always)]
+    pub(super) fn is_unknown(self) -> bool {
+        let Self {
+            luminance: mean,
+            deviation,
+        } = self;
+        deviation.is_finite() && CARRIERS * deviation * deviation > mean * mean
+    }
 }
 
 impl FilmBuffer {
@@ -118,17 +142,18 @@ impl FilmBuffer {
     pub fn noise_estimate(&self) -> NoiseEstimate {
         let Survey {
             brightness,
+            tiles,
             left_out,
         } = self.survey();
         // Of the pixels that count, and of those left out.
-        let tile = |(tile, left_out): (&Tile, &Places)| {
+        let tile = |(tile, left_out): (&Vec<PixelNoise>, &Places)| {
             let mut sums = [0.0; 2];
-            for (i, p) in tile.pixels.iter().enumerate() {
-                sums[usize::from(left_out.has(i))] += squared_error(p, brightness);
+            for (i, p) in tile.iter().enumerate() {
+                sums[usize::from(left_out.has(i))] += p.squared_error(brightness);
             }
             sums
         };
-        let sums: Vec<[f64; 2]> = (self.tiles.par_iter().zip(&left_out)).map(tile).collect();
+        let sums: Vec<[f64; 2]> = (tiles.par_iter().zip(&left_out)).map(tile).collect();
         let [counted, apart] = [0, 1].map(|k| sums.iter().map(|s| s[k]).sum::<f64>());
         let pixels: usize = self.tiles.iter().map(|t| t.pixels.len()).sum();
         let left_out: usize = left_out.iter().map(Places::count).sum();
@@ -149,77 +174,78 @@ impl FilmBuffer {
 
     /// Which pixels are left out, and how bright the others are.
     pub(super) fn survey(&self) -> Survey {
-        let unknown = |tile: &Tile| {
-            let mut places = Places::default();
-            for (i, p) in tile.pixels.iter().enumerate() {
-                if is_unknown(p) {
-                    places.add(i);
+        let look_at = |tile: &Tile| {
+            let pixels: Vec<PixelNoise> = tile.pixels.iter().map(PixelNoise::new).collect();
+            let mut unknown = Places::default();
+            for (i, p) in pixels.iter().enumerate() {
+                if p.is_unknown() {
+                    unknown.add(i);
                 }
             }
-            places
+            (pixels, unknown)
         };
-        let mut left_out: Vec<Places> = self.tiles.par_iter().map(unknown).collect();
+        let (tiles, mut left_out): (Vec<_>, Vec<_>) = self.tiles.par_iter().map(look_at).unzip();
         let pixels: usize = self.tiles.iter().map(|t| t.pixels.len()).sum();
         let most = pixels / ONE_IN;
         if left_out.iter().map(Places::count).sum::<usize>() > most {
-            left_out = self.worst(&left_out, most);
+            left_out = worst(&tiles, &left_out, most);
         }
         Survey {
-            brightness: self.brightness(&left_out),
+            brightness: brightness(&tiles, &left_out),
+            tiles,
             left_out,
         }
     }
+}
 
-    /// So many of some pixels, those with the largest error; of equal ones the first.
-    fn worst(&self, among: &[Places], most: usize) -> Vec<Places> {
-        // One firefly must not change what the errors of others are measured by.
-        let brightness = self.brightness(among);
-        let tile = |(t, (tile, among)): (usize, (&Tile, &Places))| {
-            let pixels = tile.pixels.iter().enumerate();
-            let error = |(i, p)| (squared_error(p, brightness), t, i);
-            let unknown = pixels.filter(|(i, _)| among.has(*i));
-            unknown.map(error).collect::<Vec<(f64, usize, usize)>>()
-        };
-        let errors = self.tiles.par_iter().zip(among).enumerate();
-        let mut errors: Vec<_> = errors.flat_map_iter(tile).collect();
-        let larger = |a: &(f64, usize, usize), b: &(f64, usize, usize)| {
-            b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2)))
-        };
-        if most > 0 && most < errors.len() {
-            errors.select_nth_unstable_by(most - 1, larger);
-        }
-        let mut worst = vec![Places::default(); among.len()];
-        for (_, tile, place) in errors.into_iter().take(most) {
-            worst[tile].add(place);
-        }
-        worst
+/// So many of some pixels, those with the largest error; of equal ones the first.
+fn worst(tiles: &[Vec<PixelNoise>], among: &[Places], most: usize) -> Vec<Places> {
+    // One firefly must not change what the errors of others are measured by.
+    let brightness = brightness(tiles, among);
+    let tile = |(t, (tile, among)): (usize, (&Vec<PixelNoise>, &Places))| {
+        let pixels = tile.iter().enumerate();
+        let error = |(i, p): (usize, &PixelNoise)| (p.squared_error(brightness), t, i);
+        let unknown = pixels.filter(|(i, _)| among.has(*i));
+        unknown.map(error).collect::<Vec<(f64, usize, usize)>>()
+    };
+    let errors = tiles.par_iter().zip(among).enumerate();
+    let mut errors: Vec<_> = errors.flat_map_iter(tile).collect();
+    let larger = |a: &(f64, usize, usize), b: &(f64, usize, usize)| {
+        b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2)))
+    };
+    if most > 0 && most < errors.len() {
+        errors.select_nth_unstable_by(most - 1, larger);
     }
+    let mut worst = vec![Places::default(); among.len()];
+    for (_, tile, place) in errors.into_iter().take(most) {
+        worst[tile].add(place);
+    }
+    worst
+}
 
-    /// Mean luminance of all pixels but some; of all, where there are no others or these are black.
-    fn brightness(&self, but: &[Places]) -> f64 {
-        let tile = |(tile, but): (&Tile, &Places)| {
-            let (mut counted, mut all, mut count) = (0.0, 0.0, 0_usize);
-            for (i, p) in tile.pixels.iter().enumerate() {
-                let luminance = p.luminance();
-                all += luminance;
-                if !but.has(i) {
-                    counted += luminance;
-                    count += 1;
-                }
+/// Mean luminance of all pixels but some; of all, where there are no others or these are black.
+fn brightness(tiles: &[Vec<PixelNoise>], but: &[Places]) -> f64 {
+    let tile = |(tile, but): (&Vec<PixelNoise>, &Places)| {
+        let (mut counted, mut all, mut count) = (0.0, 0.0, 0_usize);
+        for (i, p) in tile.iter().enumerate() {
+            all += p.luminance;
+            if !but.has(i) {
+                counted += p.luminance;
+                count += 1;
             }
-            (counted, all, count)
-        };
-        // Tile by tile: the same for any number of threads.
-        let sums: Vec<(f64, f64, usize)> = (self.tiles.par_iter().zip(but)).map(tile).collect();
-        let (counted, all, count) = sums
-            .iter()
-            .fold((0.0, 0.0, 0), |a, s| (a.0 + s.0, a.1 + s.1, a.2 + s.2));
-        if counted > 0.0 {
-            return counted / count as f64;
         }
-        let pixels: usize = self.tiles.iter().map(|t| t.pixels.len()).sum();
-        (all / pixels.max(1) as f64).max(0.0)
+        (counted, all, count)
+    };
+    // Tile by tile: the same for any number of threads.
+    let sums: Vec<(f64, f64, usize)> = (tiles.par_iter().zip(but)).map(tile).collect();
+    let (counted, all, count) = sums
+        .iter()
+        .fold((0.0, 0.0, 0), |a, s| (a.0 + s.0, a.1 + s.1, a.2 + s.2));
+    if counted > 0.0 {
+        return counted / count as f64;
     }
+    let pixels: usize = tiles.iter().map(Vec::len).sum();
+    (all / pixels.max(1) as f64).max(0.0)
 }
 
 #[cfg(test)]

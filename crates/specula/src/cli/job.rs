@@ -113,20 +113,23 @@ impl Job<'_> {
             sum.invalid = report.invalid_samples;
             sum.one_invalid = sum.one_invalid.or(report.invalid);
             let film = self.renderer.film();
-            let estimate = film.noise_estimate();
-            let of_samples = self.renderer.share_done(self.goal.most_samples);
-            progress.show(&State {
-                share_done: self.goal.share_done(of_samples, start.elapsed()),
-                samples: samples(film),
-                rays_per_second: sum.rays as f64 / start.elapsed().as_secs_f64(),
-                noise: estimate.relative,
-            });
-            let most = self.renderer.options().samples_per_pixel;
-            let mean = film.most_and_mean_samples().1;
-            let time = (start.elapsed(), self.goal.time);
-            let note = noise.after_pass((mean, &estimate), time, most);
-            if let Some(note) = note.filter(|_| !self.quiet) {
-                progress.aside(|| say!("{note}"));
+            // An estimate reads the whole film.
+            if progress.is_due() || noise.is_watching() {
+                let estimate = film.noise_estimate();
+                let of_samples = self.renderer.share_done(self.goal.most_samples);
+                progress.show(&State {
+                    share_done: self.goal.share_done(of_samples, start.elapsed()),
+                    samples: samples(film),
+                    rays_per_second: sum.rays as f64 / start.elapsed().as_secs_f64(),
+                    noise: estimate.relative,
+                });
+                let most = self.renderer.options().samples_per_pixel;
+                let mean = film.most_and_mean_samples().1;
+                let time = (start.elapsed(), self.goal.time);
+                let note = noise.after_pass((mean, &estimate), time, most);
+                if let Some(note) = note.filter(|_| !self.quiet) {
+                    progress.aside(|| say!("{note}"));
+                }
             }
             if let Some(view) = &mut self.live_view {
                 view.update(film);

@@ -43,6 +43,11 @@ impl NoiseWatch {
         }
     }
 
+    /// Whether there may yet be something to say.
+    pub(crate) fn is_watching(&self) -> bool {
+        self.aim > 0.0 && !self.told
+    }
+
     /// What is to be said after a pass; `None`: nothing.
     ///
     /// * `samples`, `estimate`: of a pixel on average, and the noise by now.
@@ -54,7 +59,7 @@ impl NoiseWatch {
         (elapsed, limit): (Duration, Option<Duration>),
         most: u32,
     ) -> Option<String> {
-        if self.aim <= 0.0 || self.told {
+        if !self.is_watching() {
             return None;
         }
         self.trend.record(samples, estimate.relative);

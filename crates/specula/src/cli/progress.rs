@@ -51,6 +51,11 @@ impl Progress {
         }
     }
 
+    /// Whether what is told now is shown.
+    pub(crate) fn is_due(&self) -> bool {
+        self.bar.is_some() || (self.lines && self.last_line.elapsed() >= LINE_EVERY)
+    }
+
     /// Shows a state.
     pub(crate) fn show(&mut self, state: &State) {
         self.tell(state.share_done, &describe(state));
@@ -60,6 +65,9 @@ impl Progress {
     ///
     /// * `share_done`: in `[0, 1]`.
     pub(crate) fn tell(&mut self, share_done: f64, what: &str) {
+        if !self.is_due() {
+            return;
+        }
         let message = format!("{what}{}", remaining(self.start.elapsed(), share_done));
         if let Some(bar) = &self.bar {
             #[expect(
@@ -69,7 +77,7 @@ impl Progress {
             )]
             bar.set_position((share_done * 1000.0) as u64);
             bar.set_message(message);
-        } else if self.lines && self.last_line.elapsed() >= LINE_EVERY {
+        } else {
             self.last_line = Instant::now();
             say!("{:3.0} %  {message}", 100.0 * share_done);
         }

@@ -56,7 +56,7 @@ fn fill(film: &mut FilmBuffer, samples: u32, mut value: impl FnMut(usize) -> f64
 /// The true squared errors of pixels whose mean is 1, as the estimate weighs them.
 fn true_errors(film: &FilmBuffer) -> Vec<f64> {
     film.sums()
-        .map(|p| (p.luminance() - 1.0).powi(2) / (1.0 + DARKEST))
+        .map(|p| (p.luminance_and_deviation()[0] - 1.0).powi(2) / (1.0 + DARKEST))
         .collect()
 }
 
@@ -202,15 +202,17 @@ fn what_is_left_out_is_told() {
     let least = (film.tiles.iter().zip(&survey.left_out))
         .flat_map(|(t, out)| {
             let left_out = t.pixels.iter().enumerate().filter(|(i, _)| out.has(*i));
-            left_out.map(|(_, p)| squared_error(p, survey.brightness))
+            left_out.map(|(_, p)| PixelNoise::new(p).squared_error(survey.brightness))
         })
         .fold(f64::INFINITY, f64::min);
     let most = (film.tiles.iter().zip(&survey.left_out))
         .flat_map(|(t, out)| {
             let counted = t.pixels.iter().enumerate().filter(|(i, _)| !out.has(*i));
-            counted.filter(|(_, p)| is_unknown(p)).map(|(_, p)| p)
+            counted
+                .filter(|(_, p)| PixelNoise::new(p).is_unknown())
+                .map(|(_, p)| p)
         })
-        .map(|p| squared_error(p, survey.brightness))
+        .map(|p| PixelNoise::new(p).squared_error(survey.brightness))
         .fold(0.0, f64::max);
     assert!(most <= least && least < f64::INFINITY, "{most} {least}");
 }
