@@ -76,6 +76,15 @@ pub(crate) fn shortened(word: &[u8]) -> String {
         .to_string()
 }
 
+/// At most 40 characters of a text, none of them a control character, for messages.
+pub(crate) fn shorten(text: &str) -> String {
+    let mut short: String = text.chars().take(40).flat_map(char::escape_debug).collect();
+    if text.chars().nth(40).is_some() {
+        short.push('…');
+    }
+    short
+}
+
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;

@@ -10,11 +10,11 @@ use glam::DMat4;
 use roxmltree::{Node, ParsingOptions};
 
 use super::element::{Element, Property};
-use super::number::shorten;
 use super::plain_value::plain_value;
 use super::value::Value;
 use super::{spectrum, transform, upgrade};
 use crate::error::{ErrorKind, Place, SceneError, SourceText, Warning};
+use crate::num::shorten;
 use crate::problems::Problems;
 use crate::read_file::Files;
 use crate::search;

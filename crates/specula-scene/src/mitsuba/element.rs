@@ -5,9 +5,9 @@ use std::rc::Rc;
 
 use glam::{DMat4, DVec3};
 
-use super::number::shorten;
 use super::value::Value;
 use crate::error::{ErrorKind, Place, SceneError};
+use crate::num::shorten;
 use crate::problems::Problems;
 
 /// A plugin with its properties.

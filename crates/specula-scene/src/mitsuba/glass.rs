@@ -2,10 +2,9 @@
 
 use super::context::Context;
 use super::element::Element;
-use super::number::shorten;
 use super::value::Value;
 use crate::error::{ErrorKind, SceneError};
-use crate::num::f32_of;
+use crate::num::{f32_of, shorten};
 
 /// At about 589 nm and 0 to 20 degrees Celsius. Source: Hecht, Optics, 4th edition, and common
 /// tables; the values that Mitsuba's documentation lists.

@@ -7,12 +7,11 @@ use specula_bsdf::Rgb;
 use super::bsdf::Surface;
 use super::context::Context;
 use super::element::{Element, Property};
-use super::number::shorten;
 use super::spectrum::SpectrumUse;
 use super::texture::{Role, unknown};
 use crate::error::SceneError;
 use crate::media::{self, Coefficients, Homogeneous};
-use crate::num::f32_of;
+use crate::num::{f32_of, shorten};
 use crate::scene::{Material, MaterialId};
 
 /// Integrators that render media; the last are those of the 0.6 dialect.

@@ -6,10 +6,10 @@ use specula_bsdf::ndf::Masking;
 use super::context::Context;
 use super::element::Element;
 use super::metal;
-use super::number::shorten;
 use super::spectrum::SpectrumUse;
 use super::texture::bad_choice;
 use crate::error::{ErrorKind, SceneError};
+use crate::num::shorten;
 use crate::scene::{
     ColourParam, ConductorFresnel, FloatParam, MicrofacetDistribution, Roughness, RoughnessMapping,
 };

@@ -1,5 +1,7 @@
 //! Numbers in attributes.
 
+use crate::num::shorten;
+
 /// A finite number that `f32` can hold.
 ///
 /// # Errors
@@ -49,15 +51,6 @@ pub(super) fn triple(text: &str) -> Result<[f64; 3], String> {
             other.len()
         )),
     }
-}
-
-/// The beginning of a word, with everything odd in it escaped, for messages.
-pub(super) fn shorten(text: &str) -> String {
-    let mut short: String = text.chars().take(40).flat_map(char::escape_debug).collect();
-    if text.chars().nth(40).is_some() {
-        short.push('\u{2026}');
-    }
-    short
 }
 
 #[cfg(test)]

@@ -1,9 +1,10 @@
 //! Values that are written in attributes: numbers, strings, vectors, colours and references.
 
 use super::document::{Attributes, attribute};
-use super::number::{number, shorten, triple};
+use super::number::{number, triple};
 use super::spectrum;
 use super::value::{Samples, Value};
+use crate::num::shorten;
 
 /// The value of a property that holds no plugin.
 pub(super) fn plain_value(

@@ -8,12 +8,11 @@ use specula_bsdf::Rgb;
 use super::context::Context;
 use super::element::{Element, Property};
 use super::number;
-use super::number::shorten;
 use super::spectrum::{self, SpectrumUse};
 use super::value::{Samples, Value};
 use crate::error::{ErrorKind, SceneError};
 use crate::image::Encoding;
-use crate::num::f32_of;
+use crate::num::{f32_of, shorten};
 use crate::scene::{
     Channel, ColourParam, FloatParam, Interpolation, Texture, TextureId, TextureMapping, UvMapping,
     Wrap,

@@ -12,11 +12,11 @@ use super::medium::{self, Sides};
 use super::motion::Exposure;
 use super::shape::{self, ShapeEntity};
 use super::state::MaterialUse;
-use super::token::shorten;
 use super::{camera, light, material};
 use crate::bounds::{self, FARTHEST};
 use crate::error::{ErrorKind, Place, SceneError, Warning};
 use crate::mesh;
+use crate::num::shorten;
 use crate::pressed::{Press, Pressed};
 use crate::problems::{NoteKind, is_dark};
 use crate::scene::{

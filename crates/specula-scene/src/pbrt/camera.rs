@@ -11,10 +11,9 @@ use glam::{DMat4, DVec4};
 use super::context::{Context, Entity};
 use super::motion::Exposure;
 use super::param::ParamList;
-use super::token::shorten;
 use crate::bounds::BoundingBox;
 use crate::error::{ErrorKind, SceneError};
-use crate::num::f32_of;
+use crate::num::{f32_of, shorten};
 use crate::scene::{Camera, EnvironmentMapping, Film, Motion, Projection, Settings};
 use crate::stage;
 

@@ -6,9 +6,8 @@ use specula_bsdf::Rgb;
 
 use super::context::Context;
 use super::param::{Param, ParamList, Values};
-use super::token::shorten;
 use crate::error::{ErrorKind, Place, SceneError, SourceText};
-use crate::num::f32_of;
+use crate::num::{f32_of, shorten};
 use crate::scene::{ColourParam, TextureId};
 use crate::spectrum::{self, ColourSpace, Spectrum};
 

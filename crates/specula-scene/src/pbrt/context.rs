@@ -7,13 +7,12 @@ use std::path::{Path, PathBuf};
 use specula_bsdf::Rgb;
 
 use super::param::{Param, ParamList, Values};
-use super::token::shorten;
 use super::v3::Names;
 use crate::LoadOptions;
 use crate::error::{ErrorKind, Place, SceneError, Warning};
 use crate::image::{self, Content, Encoding, Image};
 use crate::measured::{self, MeasuredBrdf};
-use crate::num::f32_of;
+use crate::num::{f32_of, shorten};
 use crate::problems::{NoteKind, Problems};
 use crate::read_file::Files;
 use crate::scene::{FloatParam, ImageId, MeasuredId, Texture, TextureId};

@@ -11,10 +11,9 @@ use specula_bsdf::Rgb;
 
 use super::colour;
 use super::context::{Context, Entity};
-use super::token::shorten;
 use crate::error::{ErrorKind, SceneError};
 use crate::image::{Content, Encoding};
-use crate::num::f32_of;
+use crate::num::{f32_of, shorten};
 use crate::scene::{ImageId, Light, SpotFalloff};
 use crate::transform::check_transform;
 

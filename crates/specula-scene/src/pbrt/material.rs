@@ -9,11 +9,11 @@ use specula_bsdf::Rgb;
 use super::colour::{self, Colour, OutsideRange};
 use super::context::{Context, Entity};
 use super::param::ParamList;
-use super::token::shorten;
 use super::v3;
 use crate::energy::{Energy, UnknownEnergy};
 use crate::error::{ErrorKind, Place, SceneError};
 use crate::image::{Content, Encoding};
+use crate::num::shorten;
 use crate::scene::{
     Bump, Channel, CoatMedium, ColourParam, ConductorFresnel, FloatParam, Interpolation, Material,
     MaterialId, MaterialKind, Roughness, RoughnessMapping, Texture, TextureMapping, Wrap,

@@ -5,10 +5,9 @@ use specula_bsdf::Rgb;
 use super::colour;
 use super::context::{Context, Entity};
 use super::param::ParamList;
-use super::token::shorten;
 use crate::error::{ErrorKind, Place, SceneError};
 use crate::media::{self, Coefficients, Homogeneous};
-use crate::num::f32_of;
+use crate::num::{f32_of, shorten};
 use crate::scene::{ColourParam, MaterialKind};
 
 /// pbrt's integrators that render media.

@@ -5,9 +5,10 @@ mod edit;
 use std::cell::Cell;
 use std::rc::Rc;
 
-use super::token::{Token, TokenKind, Tokens, describe, shorten};
+use super::token::{Token, TokenKind, Tokens, describe};
 use super::unknown;
 use crate::error::{ErrorKind, Place, SceneError, Warning};
+use crate::num::shorten;
 use crate::problems::Problems;
 use crate::spectrum::ColourSpace;
 

@@ -14,10 +14,9 @@ use glam::DMat4;
 use super::context::{Context, Entity};
 use super::medium::Sides;
 use super::state::MaterialUse;
-use super::token::shorten;
 use crate::Limits;
 use crate::error::{ErrorKind, SceneError};
-use crate::num::f32_of;
+use crate::num::{f32_of, shorten};
 use crate::scene::{FloatParam, Mesh};
 
 /// A shape with its graphics state.

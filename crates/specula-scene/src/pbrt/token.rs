@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::number_list;
 use crate::error::{ErrorKind, Place, SceneError, SourceText};
+use crate::num::shorten;
 use crate::problems::Problems;
 
 /// Kinds of tokens.
@@ -300,15 +301,6 @@ pub(super) fn describe(kind: &TokenKind<'_>) -> String {
         TokenKind::Open => "`[`".to_owned(),
         TokenKind::Close => "`]`".to_owned(),
     }
-}
-
-/// At most 40 characters of it, none of them a control character.
-pub(super) fn shorten(text: &str) -> String {
-    let mut short: String = text.chars().take(40).flat_map(char::escape_debug).collect();
-    if text.chars().nth(40).is_some() {
-        short.push('…');
-    }
-    short
 }
 
 #[cfg(test)]

@@ -4,8 +4,9 @@ use glam::{DMat4, DVec3};
 
 use super::directive::Reader;
 use super::state::look_at;
-use super::token::{TokenKind, Tokens, describe, shorten};
+use super::token::{TokenKind, Tokens, describe};
 use crate::error::{ErrorKind, Place, SceneError};
+use crate::num::shorten;
 
 impl Reader {
     /// Follows a directive that changes the transform; returns whether `word` is one.

@@ -1,7 +1,7 @@
 //! Suggestions for unknown directives.
 
-use super::token::shorten;
 use crate::error::{ErrorKind, Place, SceneError};
+use crate::num::shorten;
 
 /// Every directive, for suggestions.
 const DIRECTIVES: [&str; 41] = [

@@ -7,9 +7,10 @@ use super::directive::{InstanceEntity, MaterialEntity, Reader};
 use super::medium::MediumEntity;
 use super::shape::ShapeEntity;
 use super::state::MaterialUse;
-use super::token::{TokenKind, Tokens, shorten};
+use super::token::{TokenKind, Tokens};
 use super::{light, texture, unknown, v3};
 use crate::error::{ErrorKind, Place, SceneError};
+use crate::num::shorten;
 
 impl Reader {
     /// Follows a directive that stands after `WorldBegin`.

@@ -1,11 +1,13 @@
 //! `specula export`.
 
 use crate::cli::ExitCode;
+use std::fmt::Display;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use crate::scene::atomic;
-use crate::shaders::{Export, ExportError, File, Language, MODULES};
+use crate::bsdf::measured::Measured;
+use crate::scene::{atomic, measured};
+use crate::shaders::{Export, ExportError, File, Language, MODULES, TABLES_FILE};
 use clap::Args;
 
 use super::console::say;
@@ -23,6 +25,8 @@ Examples:
       these two functions and what they call, nothing else
   specula export --lang glsl --modules compensated --prefix spc_ -o shaders
       every name with a prefix, so that none meets one of yours
+  specula export --lang wgsl --measured gold.bsdf -o shaders
+      beside the library the numbers of a measured material, and where measured_of finds them
   specula export -o shaders
       all languages
   specula export --list
@@ -59,12 +63,17 @@ pub(crate) struct ExportArguments {
     #[arg(long, value_name = "NAME", default_value = Export::NAMESPACE)]
     pub(crate) namespace: String,
 
+    /// A measured material to write as NAME.measured.bin, the numbers that the module measured reads: little-endian
+    /// floats. May be repeated
+    #[arg(long, value_name = "FILE")]
+    pub(crate) measured: Vec<PathBuf>,
+
     /// Folder to write to, made where there is none
     #[arg(short, long, value_name = "DIR", required_unless_present = "list")]
     pub(crate) output: Option<PathBuf>,
 
     /// List the modules and write nothing
-    #[arg(long, conflicts_with_all = ["lang", "modules", "functions", "output"])]
+    #[arg(long, conflicts_with_all = ["lang", "modules", "functions", "measured", "output"])]
     pub(crate) list: bool,
 }
 
@@ -81,6 +90,7 @@ pub(crate) fn run(arguments: &ExportArguments) -> Result<ExitCode, Failure> {
         some => some,
     };
     // All are made before the first is written.
+    let materials = measured_files(&arguments.measured)?;
     let mut files: Vec<File> = Vec::new();
     for language in languages {
         let export = Export {
@@ -103,11 +113,66 @@ pub(crate) fn run(arguments: &ExportArguments) -> Result<ExitCode, Failure> {
             .map_err(|e: io::Error| cannot_write(&path, &e))?;
         say!("wrote {}", path.display());
     }
+    let tables = files.iter().find(|f| f.name == TABLES_FILE);
+    write_measured(folder, &materials, tables)?;
     let is_plain = arguments.prefix.is_empty() && arguments.namespace == Export::NAMESPACE;
     if functions.is_empty() && is_plain {
         tell_what_lacks_an_example(languages, &files);
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// A measured material as shaders read it.
+struct MeasuredFile {
+    name: String,
+    numbers: Vec<f32>,
+}
+
+fn measured_files(paths: &[PathBuf]) -> Result<Vec<MeasuredFile>, Failure> {
+    let mut files: Vec<MeasuredFile> = Vec::new();
+    for path in paths {
+        let wrong = |e: &dyn Display| Failure::bad_input(format_args!("{}: {e}", path.display()));
+        let tables = measured::read_tables(path).map_err(|e| wrong(&e))?;
+        let lobe = Measured::<f32>::new(&tables).map_err(|e| wrong(&e))?;
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let name = format!("{stem}.measured.bin");
+        if files.iter().any(|f| f.name == name) {
+            return Err(wrong(&format_args!("another file becomes {name}, too")));
+        }
+        files.push(MeasuredFile {
+            name,
+            numbers: lobe.packed(),
+        });
+    }
+    Ok(files)
+}
+
+/// Writes measured materials, and says where each begins once all are in one array.
+///
+/// * `tables`: what they go behind.
+fn write_measured(
+    folder: &Path,
+    files: &[MeasuredFile],
+    tables: Option<&File>,
+) -> Result<(), Failure> {
+    let mut at = tables.map_or(0, |file| file.bytes.len() / size_of::<f32>());
+    let mut before = tables.map_or("", |_| TABLES_FILE);
+    for file in files {
+        let path = folder.join(&file.name);
+        let bytes: Vec<u8> = (file.numbers.iter())
+            .flat_map(|x| x.to_le_bytes())
+            .collect();
+        atomic::replace(&path, |out| out.write_all(&bytes))
+            .map_err(|e: io::Error| cannot_write(&path, &e))?;
+        let place = match before {
+            "" => String::new(),
+            name => format!(" behind {name}"),
+        };
+        say!("wrote {}: measured_of({at}){place}", path.display());
+        at += file.numbers.len();
+        before = &file.name;
+    }
+    Ok(())
 }
 
 /// The languages whose worked example calls what was not asked for.

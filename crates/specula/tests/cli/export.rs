@@ -32,6 +32,65 @@ fn a_language_is_written_with_its_example() {
 }
 
 #[test]
+fn measured_materials_are_written_for_shaders() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| {
+        let mut command = specula(folder.path());
+        command.args(arguments).output().unwrap()
+    };
+    let small = ["--views", "8", "--normals", "24", "--colours", "8"];
+    let mut tabulate = vec![
+        "lab",
+        "tabulate",
+        "conductor Au alpha 0.3",
+        "-o",
+        "gold.bsdf",
+    ];
+    tabulate.extend(small);
+    assert!(run(&tabulate).status.success());
+    std::fs::copy(
+        folder.path().join("gold.bsdf"),
+        folder.path().join("b.bsdf"),
+    )
+    .unwrap();
+    let export = ["export", "--lang", "wgsl", "-o", "out"];
+    let measured = ["--measured", "gold.bsdf", "--measured", "b.bsdf"];
+    let done = run(&[&export[..], &measured].concat());
+    let said = stderr(&done);
+    assert!(done.status.success(), "{said}");
+    let read = |name: &str| std::fs::read(folder.path().join("out").join(name)).unwrap();
+    let tables = specula::scene::measured::read_tables(&folder.path().join("gold.bsdf")).unwrap();
+    let lobe = specula::bsdf::measured::Measured::<f32>::new(&tables).unwrap();
+    let numbers: Vec<f32> = (read("gold.measured.bin").as_chunks().0.iter())
+        .map(|&bytes| f32::from_le_bytes(bytes))
+        .collect();
+    assert_eq!(numbers, lobe.packed());
+    // Where the numbers begin once the files are one array.
+    let first = read("energy_tables.bin").len() / 4;
+    let second = first + numbers.len();
+    assert!(
+        said.contains(&format!("measured_of({first}) behind energy_tables.bin")),
+        "{said}"
+    );
+    assert!(
+        said.contains(&format!("measured_of({second}) behind gold.measured.bin")),
+        "{said}"
+    );
+
+    std::fs::write(folder.path().join("bad.bsdf"), "no tables").unwrap();
+    for (file, problem) in [
+        ("bad.bsdf", "bad.bsdf"),
+        ("./gold.bsdf", "becomes gold.measured.bin, too"),
+    ] {
+        let files = ["--measured", "gold.bsdf", "--measured", file];
+        let done = run(&[&["export", "--lang", "wgsl", "-o", "none"], &files[..]].concat());
+        assert_eq!(done.status.code(), Some(2));
+        assert!(stderr(&done).contains(problem), "{}", stderr(&done));
+        assert!(!folder.path().join("none").exists());
+    }
+}
+
+#[test]
 fn all_languages_are_the_default() {
     let folder = tempfile::tempdir().unwrap();
     specula(folder.path())

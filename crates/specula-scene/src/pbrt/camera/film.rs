@@ -2,10 +2,9 @@
 
 use super::OptionEntities;
 use crate::error::{ErrorKind, SceneError};
-use crate::num::f32_of;
+use crate::num::{f32_of, shorten};
 use crate::pbrt::context::{Context, Entity};
 use crate::pbrt::param::ParamList;
-use crate::pbrt::token::shorten;
 use crate::scene::{Film, Filter};
 use crate::spectrum::white_balance;
 

@@ -3,8 +3,8 @@
 use super::OptionEntities;
 use crate::energy::Energy;
 use crate::error::{ErrorKind, SceneError};
+use crate::num::shorten;
 use crate::pbrt::context::{Context, Entity};
-use crate::pbrt::token::shorten;
 use crate::scene::Settings;
 
 /// Integrators of pbrt-v4 with the picture that a path tracer makes.

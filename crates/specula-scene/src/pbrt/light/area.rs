@@ -7,8 +7,8 @@ use specula_bsdf::Rgb;
 use super::picture::mean;
 use super::{picture_id, scaled, wish};
 use crate::error::{ErrorKind, SceneError};
+use crate::num::shorten;
 use crate::pbrt::context::{Context, Entity};
-use crate::pbrt::token::shorten;
 use crate::scene::{Channel, ColourParam, Emission, Interpolation, Texture, TextureMapping, Wrap};
 
 /// Reads the emission of a shape.

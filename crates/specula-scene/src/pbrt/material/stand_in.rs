@@ -5,11 +5,10 @@ use specula_bsdf::Rgb;
 use super::roughness;
 use crate::error::{ErrorKind, SceneError};
 use crate::media::MEDIA;
-use crate::num::f32_of;
+use crate::num::{f32_of, shorten};
 use crate::pbrt::colour::{self, Colour};
 use crate::pbrt::context::{Context, Entity};
 use crate::pbrt::param::ParamList;
-use crate::pbrt::token::shorten;
 use crate::scene::{CoatMedium, ColourParam, FloatParam, MaterialKind};
 
 fn diffuse(reflectance: ColourParam) -> MaterialKind {

@@ -9,9 +9,8 @@ use glam::DVec3;
 use super::{bounded, mesh_error};
 use crate::Limits;
 use crate::error::{ErrorKind, SceneError};
-use crate::num::f32_of;
+use crate::num::{f32_of, shorten};
 use crate::pbrt::context::{Context, Entity};
-use crate::pbrt::token::shorten;
 use crate::scene::Mesh;
 use crate::tube::{self, Bezier, Station, cubic_spline, join, tube};
 

@@ -4,10 +4,9 @@ use super::mapping::mapping;
 use super::{TextureNode, TextureType};
 use crate::error::{ErrorKind, SceneError};
 use crate::image::{Content, Encoding, Format};
-use crate::num::f32_of;
+use crate::num::{f32_of, shorten};
 use crate::pbrt::context::Context;
 use crate::pbrt::param::ParamList;
-use crate::pbrt::token::shorten;
 use crate::scene::{Channel, Interpolation, Texture, TextureId, Wrap};
 
 /// Reads the class `imagemap`.

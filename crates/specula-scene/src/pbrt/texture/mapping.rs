@@ -2,8 +2,7 @@
 
 use super::TextureNode;
 use crate::error::{ErrorKind, SceneError};
-use crate::num::f32_of;
-use crate::pbrt::token::shorten;
+use crate::num::{f32_of, shorten};
 use crate::scene::{TextureMapping, UvMapping};
 
 /// Reads the mapping of a texture.
