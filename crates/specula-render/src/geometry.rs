@@ -26,7 +26,7 @@ use crate::movement::Movement;
 use crate::texture::Textures;
 use bake::{Baker, Part};
 
-pub(crate) use hit::{Coordinates, PrimitiveLocation, Surface};
+pub(crate) use hit::{Coordinates, PrimitiveLocation, QuadricId, QuadricPoint, Surface};
 pub(crate) use partials::Partials;
 
 /// No light.

@@ -18,6 +18,7 @@ mod direct;
 pub(crate) mod estimator;
 mod footprints;
 mod path_states;
+mod quadrics;
 mod shade;
 mod sharing;
 mod vertex_batch;

@@ -5,7 +5,7 @@ use specula_bsdf::{Rgb, Vec3};
 
 use super::{Geometry, GroupData, NONE, PlacedQuadric, normal_of, unit_or};
 use crate::accel::{Hit, QuadricShape, Ray};
-use crate::convert::{abs, narrow};
+use crate::convert::{abs, id, narrow};
 use crate::offset::{RELATIVE_ERROR, SurfacePoint, coupled};
 use crate::texture::{Footprint, TextureCoordinates};
 
@@ -153,19 +153,22 @@ impl Geometry {
         Some(group.coordinates(&at, self.shapes[shape as usize].has_uvs))
     }
 
-    /// Position, its error, normal and tangent at a hit of a quadric, as of [`Geometry::surface`]; `None`
-    /// for triangles, and in instances with a transform.
-    #[inline]
-    pub(crate) fn quadric(&self, ray: &Ray, hit: &Hit) -> Option<[Vec3<f32>; 4]> {
+    /// The quadric of a hit; `None` for triangles, and in instances with a transform.
+    #[inline(always)]
+    pub(crate) fn quadric(&self, hit: &Hit) -> Option<QuadricId> {
         let placement = &self.placements[hit.instance as usize];
         let group = &self.groups[placement.group as usize];
-        let index = (hit.primitive as usize).checked_sub(group.triangles.len())?;
-        if !placement.identity {
-            return None;
-        }
-        let near = ray.origin + ray.direction * hit.t;
-        let point = group.quadrics[index].point_near(near);
-        Some([point.position, point.error, point.normal, point.tangent])
+        let quadric = (hit.primitive as usize).checked_sub(group.triangles.len())?;
+        placement.identity.then_some(QuadricId {
+            group: placement.group,
+            quadric: id(quadric),
+        })
+    }
+
+    /// The quadric with an index.
+    #[inline(always)]
+    pub(crate) fn placed_quadric(&self, at: QuadricId) -> &PlacedQuadric {
+        &self.groups[at.group as usize].quadrics[at.quadric as usize]
     }
 
     /// The surface at a point of a primitive.
@@ -379,16 +382,52 @@ impl PlacedQuadric {
     }
 
     /// The surface next to a point of the group's space, without texture coordinates.
-    #[inline]
-    fn point_near(&self, near: Vec3<f32>) -> QuadricPoint {
-        let q = self.backward.point(near);
-        let (q, normal) = match self.shape {
-            QuadricShape::Sphere { radius } => {
-                let n = unit_or(q, Vec3::Z);
-                (n * narrow(radius), n)
-            }
-            QuadricShape::Disk { height, .. } => (vec3(q.x, q.y, narrow(height)), Vec3::Z),
+    #[inline(always)]
+    pub(crate) fn point_near(&self, near: Vec3<f32>) -> QuadricPoint {
+        match self.shape {
+            QuadricShape::Sphere { radius } => self.point_of_sphere(narrow(radius), near),
+            QuadricShape::Disk { height, .. } => self.point_of_disk(narrow(height), near),
+        }
+    }
+
+    /// Whether a ray meets the outside next to a point of the group's space: its direction is against the normal.
+    ///
+    /// With `n` the normal and `d` the direction, `n . d` has the sign of their product in the quadric's own space,
+    /// which takes no square root. Where the ray all but touches the quadric, the normal itself decides, so that the
+    /// answer is that of the surface.
+    #[inline(always)]
+    pub(crate) fn is_met_outside(&self, near: Vec3<f32>, direction: Vec3<f32>) -> bool {
+        const TOUCHING: f32 = 1e-3;
+        let along = self.backward.vector(direction);
+        let normal = match self.shape {
+            QuadricShape::Sphere { .. } => self.backward.point(near),
+            QuadricShape::Disk { .. } => Vec3::Z,
         };
+        let cosine = normal.dot(along);
+        let squared = TOUCHING * TOUCHING * normal.length_squared() * along.length_squared();
+        if cosine * cosine > squared {
+            return (cosine < 0.0) != self.flipped;
+        }
+        self.point_near(near).normal.dot(direction) < 0.0
+    }
+
+    /// [`PlacedQuadric::point_near`] of a sphere.
+    #[inline(always)]
+    pub(crate) fn point_of_sphere(&self, radius: f32, near: Vec3<f32>) -> QuadricPoint {
+        let n = unit_or(self.backward.point(near), Vec3::Z);
+        self.point_at(n * radius, n)
+    }
+
+    /// [`PlacedQuadric::point_near`] of a disk.
+    #[inline(always)]
+    pub(crate) fn point_of_disk(&self, height: f32, near: Vec3<f32>) -> QuadricPoint {
+        let q = self.backward.point(near);
+        self.point_at(vec3(q.x, q.y, height), Vec3::Z)
+    }
+
+    /// * `q`, `normal`: in the quadric's own space.
+    #[inline(always)]
+    fn point_at(&self, q: Vec3<f32>, normal: Vec3<f32>) -> QuadricPoint {
         let normal = if self.flipped { -normal } else { normal };
         QuadricPoint {
             position: self.forward.point(q),
@@ -400,12 +439,27 @@ impl PlacedQuadric {
     }
 }
 
+/// The index of a quadric: of its group, and in that.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct QuadricId {
+    group: u32,
+    quadric: u32,
+}
+
+impl QuadricId {
+    /// The first of the first group.
+    pub(crate) const FIRST: Self = Self {
+        group: 0,
+        quadric: 0,
+    };
+}
+
 /// A point of a quadric.
-struct QuadricPoint {
-    position: Vec3<f32>,
-    error: Vec3<f32>,
-    normal: Vec3<f32>,
-    tangent: Vec3<f32>,
+pub(crate) struct QuadricPoint {
+    pub(crate) position: Vec3<f32>,
+    pub(crate) error: Vec3<f32>,
+    pub(crate) normal: Vec3<f32>,
+    pub(crate) tangent: Vec3<f32>,
     /// In the quadric's own space.
     own: Vec3<f32>,
 }

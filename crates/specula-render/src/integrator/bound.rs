@@ -150,6 +150,7 @@ impl PathTracer<'_> {
             hits,
             runs,
             batch,
+            quadrics,
             ..
         } = wavefront;
         let materials = &self.scene.materials;
@@ -161,7 +162,8 @@ impl PathTracer<'_> {
                 match &hits[k] {
                     Some(hit) if !is_bent => {
                         let time = || paths.times[live.index(k)];
-                        self.load_surface(batch, i, (live.ray(k), hit, time), needs_tangent);
+                        let ray = (live.ray(k), hit, time);
+                        self.load_surface((batch, quadrics), i, ray, needs_tangent);
                     }
                     // It is set when its lobe is bound.
                     _ => batch.triangles.is_triangle[i] = false,

@@ -10,6 +10,7 @@ use specula_bsdf::{Bsdf, Vec3};
 
 use super::bound::{self, Exit};
 use super::path_states::PathStates;
+use super::quadrics::VerticesOnQuadrics;
 use super::sharing::Shared;
 use super::vertex_batch::{self, VertexBatch, WAVEFRONT_SIZE};
 use super::wavefront::{MaterialRun, RayQueue, Wavefront, index};
@@ -22,10 +23,13 @@ use crate::sampler::Purpose;
 impl PathTracer<'_> {
     /// Takes the paths of the batch from this vertex to the next.
     pub(super) fn shade_batch(&self, wavefront: &mut Wavefront, depth: u32) {
+        wavefront.quadrics.clear();
         self.load_vertices(wavefront);
         self.load_bound(wavefront);
         let batch = &mut *wavefront.batch;
         let n = batch.count;
+        let geometry = &self.scene.geometry;
+        wavefront.quadrics.locate(geometry, &mut batch.surfaces);
         vertex_batch::interpolate_triangles(n, &batch.triangles, &mut batch.surfaces);
         vertex_batch::face_viewers(n, &mut batch.surfaces);
         for (plain, range) in self.material_runs(&wavefront.runs) {
@@ -102,6 +106,7 @@ impl PathTracer<'_> {
             hits,
             runs,
             batch,
+            quadrics,
             ..
         } = wavefront;
         let VertexBatch {
@@ -130,7 +135,7 @@ impl PathTracer<'_> {
                 if let Some(hit) = &hits[k] {
                     let time = || paths.times[live.index(k)];
                     let ray = (live.ray(k), hit, time);
-                    self.load_surface(batch, i, ray, !plain.isotropic);
+                    self.load_surface((batch, quadrics), i, ray, !plain.isotropic);
                 }
             }
         }
@@ -140,7 +145,7 @@ impl PathTracer<'_> {
     #[inline(always)]
     pub(super) fn load_surface(
         &self,
-        batch: &mut VertexBatch,
+        (batch, quadrics): (&mut VertexBatch, &mut VerticesOnQuadrics),
         i: usize,
         (ray, hit, time): (&Ray, &Hit, impl FnOnce() -> f32),
         needs_tangent: bool,
@@ -161,22 +166,31 @@ impl PathTracer<'_> {
             if needs_tangent {
                 tangent = geometry.tangent(hit);
             }
-        } else {
-            let [position, error, ng, ns, along] = match geometry.quadric(ray, hit) {
-                Some([position, error, normal, along]) => [position, error, normal, normal, along],
-                None => {
-                    let s = geometry.surface(ray, hit, time());
-                    [s.position, s.error, s.ng, s.ns, s.tangent]
-                }
-            };
+        } else if let Some(quadric) = geometry.quadric(hit) {
             t.is_triangle[i] = false;
-            s.position.set(i, position);
-            s.error[i] = error.x;
-            s.ng.set(i, ng);
-            s.ns.set(i, ns);
-            if needs_tangent {
-                tangent = along;
+            let near = ray.origin + ray.direction * hit.t;
+            s.position.set(i, near);
+            if !quadrics.push(i, quadric, needs_tangent) {
+                let point = geometry.placed_quadric(quadric).point_near(near);
+                s.set_quadric(i, &point);
+                tangent = if needs_tangent {
+                    point.tangent
+                } else {
+                    tangent
+                };
             }
+        } else {
+            let surface = geometry.surface(ray, hit, time());
+            t.is_triangle[i] = false;
+            s.position.set(i, surface.position);
+            s.error[i] = surface.error.x;
+            s.ng.set(i, surface.ng);
+            s.ns.set(i, surface.ns);
+            tangent = if needs_tangent {
+                surface.tangent
+            } else {
+                tangent
+            };
         }
         s.tangent.set(i, tangent);
     }

@@ -13,6 +13,7 @@ use specula_bsdf::math::Stream;
 
 use super::bound::BoundVertex;
 use super::path_states::PathStates;
+use super::quadrics::VerticesOnQuadrics;
 use super::sharing::{PairBuffers, Shared};
 use super::vertex_batch::{self, Floats, VertexBatch, WAVEFRONT_SIZE, ZERO};
 use super::{Path, PathTracer, Tally};
@@ -81,6 +82,7 @@ pub(crate) struct Wavefront {
     starts: Vec<u32>,
     pub(super) runs: Vec<MaterialRun>,
     pub(super) batch: Box<VertexBatch>,
+    pub(super) quadrics: Box<VerticesOnQuadrics>,
     /// Of the runs whose lobes are bound, one after the other.
     pub(super) bound: Vec<BoundVertex>,
     pub(super) streams: Vec<Stream>,
@@ -171,6 +173,7 @@ impl Wavefront {
             starts: Vec::new(),
             runs: Vec::new(),
             batch: VertexBatch::new(),
+            quadrics: Box::new(VerticesOnQuadrics::EMPTY),
             bound: Vec::new(),
             streams: Vec::new(),
             shadow_rays: RayQueue::new(),
@@ -503,8 +506,9 @@ impl PathTracer<'_> {
         let geometry = &self.scene.geometry;
         let normal = if let Some(facet) = geometry.facet(hit) {
             vertex_batch::normal(facet.corners.map(|&c| Vec3::from(c)))
-        } else if let Some([_, _, normal, _]) = geometry.quadric(ray, hit) {
-            normal
+        } else if let Some(at) = geometry.quadric(hit) {
+            let near = ray.origin + ray.direction * hit.t;
+            return (geometry.placed_quadric(at)).is_met_outside(near, ray.direction);
         } else {
             geometry.surface(ray, hit, time()).ng
         };

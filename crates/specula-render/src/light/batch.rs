@@ -1,5 +1,5 @@
-//! Light samples of many vertices at once. Lights are chosen vertex by vertex; the environment and parallelograms
-//! are sampled in batches.
+//! Light samples of many vertices at once: choices (`choices`), then points of parallelograms and directions to the
+//! environment in queues of 64. Other lights are sampled vertex by vertex.
 
 #![allow(
     clippy::needless_range_loop,
@@ -10,9 +10,10 @@ use macro_rules_attribute::apply;
 use specula_bsdf::{Rgb, Vec3};
 
 use super::area::Area;
+use super::choices::{Choices, Floats, NO_LIGHT};
 use super::environment::{BATCH_SIZE, DirectionBatch, Environment};
 use super::node::Node;
-use super::select::{MOST_NODES, Selection};
+use super::select::Selection;
 use super::{Far, LightSample, Lights, Parallelogram, Receiver, Source};
 use crate::geometry::Geometry;
 use crate::offset::SurfacePoint;
@@ -20,19 +21,21 @@ use crate::simd::simd_levels;
 use crate::soa;
 use crate::texture::Textures;
 
-/// Most lights that are sampled in batches: as many as such a tree has.
-const MOST_QUEUES: usize = 16;
+/// Most parallelograms that are sampled in batches: as many as such a tree has.
+const MOST_QUEUES: u8 = 16;
+/// The queue of the environment, behind those.
+const ENVIRONMENT: u8 = MOST_QUEUES;
+/// In place of a queue: the light is sampled at once.
+const NO_QUEUE: u8 = u8::MAX;
 
-type Floats = soa::Floats<BATCH_SIZE>;
 type Vectors = soa::Vectors<BATCH_SIZE>;
 
 /// Vertices that wait until a batch of them is full.
 pub(crate) struct LightQueues {
     receivers: ReceiverQueue,
-    environment: LightQueue,
+    /// Of parallelograms, and of the environment.
+    lights: [LightQueue; ENVIRONMENT as usize + 1],
     directions: DirectionBatch,
-    /// Of each light that is a parallelogram.
-    parallelograms: [LightQueue; MOST_QUEUES],
 }
 
 /// Receivers that a light is to be chosen for.
@@ -42,10 +45,7 @@ struct ReceiverQueue {
     point: Vectors,
     /// Zero where there is none.
     normal: Vectors,
-    /// Of each node of the tree.
-    importance: [Floats; MOST_NODES],
-    /// Of larger trees: the share of lights from infinity, and the light with its probability.
-    chosen: [(f32, Option<(u32, f32)>); BATCH_SIZE],
+    choices: Choices,
     count: usize,
 }
 
@@ -80,13 +80,11 @@ impl LightQueues {
                 receivers: [nowhere; BATCH_SIZE],
                 point: Vectors::ZERO,
                 normal: Vectors::ZERO,
-                importance: [ZERO; MOST_NODES],
-                chosen: [(0.0, None); BATCH_SIZE],
+                choices: Choices::ZERO,
                 count: 0,
             },
-            environment: LightQueue::EMPTY,
+            lights: [const { LightQueue::EMPTY }; ENVIRONMENT as usize + 1],
             directions: DirectionBatch::ZERO,
-            parallelograms: [const { LightQueue::EMPTY }; MOST_QUEUES],
         })
     }
 }
@@ -150,10 +148,29 @@ impl Lights {
             }
         });
         self.choose_all(queues, world, u, shares, &mut store);
-        self.sample_environment_queue(queues, &mut store);
-        for light in 0..MOST_QUEUES {
-            self.sample_parallelogram_queue(queues, light, &mut store);
+        for queue in 0..=ENVIRONMENT {
+            self.sample_queue(queues, queue, &mut store);
         }
+    }
+
+    /// Of each light its queue.
+    pub(super) fn assigned_queues(&self) -> Vec<u8> {
+        let environment = self.environment().map(|(_, light)| light as usize);
+        let queue = |(light, source): (usize, &Source)| {
+            let is_parallelogram = matches!(
+                source,
+                Source::Area {
+                    area: Area::Parallelogram(_),
+                    ..
+                }
+            );
+            match u8::try_from(light) {
+                _ if Some(light) == environment => ENVIRONMENT,
+                Ok(queue) if is_parallelogram && queue < MOST_QUEUES => queue,
+                _ => NO_QUEUE,
+            }
+        };
+        self.sources.iter().enumerate().map(queue).collect()
     }
 
     /// Chooses lights for the queued receivers, and samples those lights that have no queue.
@@ -167,62 +184,51 @@ impl Lights {
     ) {
         let r = &mut queues.receivers;
         let n = std::mem::take(&mut r.count);
-        let nodes = self.selection.nodes();
-        let few = !self.selection.by_treelets();
-        if !few {
-            choose_by_treelets(n, &self.selection, r, u);
-        } else if self.selection.chooses() {
-            for (node, column) in nodes.iter().zip(&mut r.importance) {
-                node_importances(n, node, &r.point, &r.normal, column);
-            }
+        for (at, &vertex) in r.vertices[..n].iter().enumerate() {
+            r.choices.u[0][at] = u[0][vertex];
+            r.choices.u[1][at] = u[3][vertex];
         }
-        let environment = self.environment().map(|(_, index)| index);
+        if self.selection.by_treelets() {
+            choose_by_treelets(n, &self.selection, r);
+        } else {
+            if self.selection.chooses() {
+                let nodes = self.selection.nodes();
+                for (node, column) in nodes.iter().zip(&mut r.choices.importance) {
+                    node_importances(n, node, &r.point, &r.normal, column);
+                }
+            }
+            self.selection.choose_all(n, &mut r.choices);
+        }
         for at in 0..n {
             let r = &queues.receivers;
-            let (vertex, receiver) = (r.vertices[at], r.receivers[at]);
-            let u = u.map(|u| u[vertex]);
-            let chosen = if few {
-                let importance = |node: usize| r.importance[node % MOST_NODES][at];
-                shares[vertex] = self.selection.share(&importance);
-                (self.selection).choose(&importance, shares[vertex], [u[0], u[3]])
-            } else {
-                let (share, chosen) = r.chosen[at];
-                shares[vertex] = share;
-                chosen
-            };
-            let Some((light, probability)) = chosen else {
+            let vertex = r.vertices[at];
+            let (light, probability) = (r.choices.light[at], r.choices.probability[at]);
+            shares[vertex] = r.choices.share[at];
+            let (p, u) = (r.receivers[at].point, [u[1][vertex], u[2][vertex]]);
+            let queue = self.queues.get(light as usize).copied().unwrap_or(NO_QUEUE);
+            if let Some(waiting) = queues.lights.get_mut(usize::from(queue)) {
+                if waiting.push(vertex, probability, p, u) {
+                    self.sample_queue(queues, queue, store);
+                }
+            } else if light == NO_LIGHT {
                 store(vertex, None);
-                continue;
-            };
-            let (p, u) = (receiver.point, [u[1], u[2]]);
-            if Some(light) == environment {
-                if queues.environment.push(vertex, probability, p, u) {
-                    self.sample_environment_queue(queues, store);
-                }
-                continue;
-            }
-            match self.queue_of_parallelogram(light) {
-                Some(queue) => {
-                    if queues.parallelograms[queue].push(vertex, probability, p, u) {
-                        self.sample_parallelogram_queue(queues, queue, store);
-                    }
-                }
-                None => store(vertex, self.sample_one((light, probability), p, world, u)),
+            } else {
+                store(vertex, self.sample_one((light, probability), p, world, u));
             }
         }
     }
 
-    /// The index of the queue of a parallelogram.
-    #[inline(always)]
-    fn queue_of_parallelogram(&self, light: u32) -> Option<usize> {
-        let is_one = matches!(
-            self.sources[light as usize],
-            Source::Area {
-                area: Area::Parallelogram(_),
-                ..
-            }
-        );
-        (is_one && (light as usize) < MOST_QUEUES).then_some(light as usize)
+    /// Samples the light of a queue for all that wait there.
+    fn sample_queue(
+        &self,
+        queues: &mut LightQueues,
+        queue: u8,
+        store: &mut impl FnMut(usize, Option<LightSample>),
+    ) {
+        match queue {
+            ENVIRONMENT => self.sample_environment_queue(queues, store),
+            _ => self.sample_parallelogram_queue(queues, usize::from(queue), store),
+        }
     }
 
     /// Samples the environment light for its queue.
@@ -232,10 +238,9 @@ impl Lights {
         store: &mut impl FnMut(usize, Option<LightSample>),
     ) {
         let LightQueues {
-            environment,
-            directions,
-            ..
+            lights, directions, ..
         } = queues;
+        let environment = &mut lights[usize::from(ENVIRONMENT)];
         let n = std::mem::take(&mut environment.count);
         let Some((light, _)) = self.environment().filter(|_| n > 0) else {
             return;
@@ -262,7 +267,7 @@ impl Lights {
         light: usize,
         store: &mut impl FnMut(usize, Option<LightSample>),
     ) {
-        let queue = &mut queues.parallelograms[light];
+        let queue = &mut queues.lights[light];
         let n = std::mem::take(&mut queue.count);
         if n == 0 {
             return;
@@ -363,17 +368,14 @@ fn node_importances(
 
 /// Chooses lights for the first `n` receivers.
 #[apply(simd_levels)]
-fn choose_by_treelets(
-    n: usize,
-    selection: &Selection,
-    receivers: &mut ReceiverQueue,
-    u: [&[f32]; 4],
-) {
+fn choose_by_treelets(n: usize, selection: &Selection, receivers: &mut ReceiverQueue) {
     for i in 0..n.min(BATCH_SIZE) {
         let receiver = (receivers.point.get(i), receivers.normal.get(i));
-        let vertex = receivers.vertices[i];
-        let u = [u[0][vertex], u[3][vertex]];
-        receivers.chosen[i] = selection.sample_by_treelets(receiver, u);
+        let c = &mut receivers.choices;
+        c.set(
+            i,
+            selection.sample_by_treelets(receiver, [c.u[0][i], c.u[1][i]]),
+        );
     }
 }
 
@@ -390,6 +392,7 @@ fn sample_points(n: usize, light: &Parallelogram, queue: &mut LightQueue) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::select::MOST_NODES;
     use super::*;
     use crate::options::RenderOptions;
     use crate::prepared::PreparedScene;

@@ -5,6 +5,7 @@ mod angles;
 mod area;
 mod batch;
 mod build;
+mod choices;
 mod cone;
 mod delta;
 mod environment;
@@ -74,6 +75,8 @@ pub(crate) struct Lights {
     far: Vec<(Far, u32)>,
     /// Index in `far` of the environment light that is sampled in batches, if any.
     environment: Option<usize>,
+    /// Of each light the queue in which it waits until many are sampled; see `batch`.
+    queues: Vec<u8>,
     selection: Selection,
 }
 
@@ -113,6 +116,7 @@ impl Lights {
             sources: Vec::new(),
             far: Vec::new(),
             environment: None,
+            queues: Vec::new(),
             selection: Selection::default(),
         };
         let mut near = Vec::new();
@@ -142,6 +146,7 @@ impl Lights {
         }
         lights.selection = Selection::new(near, &far, lights.sources.len());
         lights.environment = lights.far.iter().position(|(light, _)| light.is_image());
+        lights.queues = lights.assigned_queues();
         lights
     }
 

@@ -39,11 +39,13 @@ pub(super) const MOST_NODES: usize = 32;
 pub(super) struct Selection {
     near: LightTree,
     /// Over all lights, with weight 0 for those in the scene; empty where none is far.
-    far: AliasTable,
+    pub(super) far: AliasTable,
     /// Relative to the intensities in the tree.
     far_irradiance: f32,
     /// The light that is always sampled, where there is but one.
-    only: Option<u32>,
+    pub(super) only: Option<u32>,
+    /// That of those from infinity, likewise.
+    pub(super) only_far: Option<u32>,
 }
 
 impl Selection {
@@ -60,8 +62,9 @@ impl Selection {
             e.intensity /= scale;
         }
         let far = || far.iter().filter(|f| emits(f.1));
+        let only_far = far().next().map(|f| f.0).filter(|_| far().count() == 1);
         let only = match (near.as_slice(), far().count()) {
-            ([], 1) => far().next().map(|f| f.0),
+            ([], 1) => only_far,
             ([one], 0) => Some(one.light),
             _ => None,
         };
@@ -80,6 +83,7 @@ impl Selection {
                 0.0
             },
             only,
+            only_far,
         }
     }
 
@@ -194,15 +198,15 @@ impl Selection {
 
     /// * `near`: the estimate of the irradiance by the tree's lights.
     #[inline(always)]
-    fn share_of(&self, near: f32) -> f32 {
-        if self.far_irradiance <= 0.0 {
-            return 0.0;
-        }
-        if near <= 0.0 {
-            return 1.0;
-        }
+    pub(super) fn share_of(&self, near: f32) -> f32 {
         let share = self.far_irradiance / (self.far_irradiance + near);
-        share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE)
+        let between = share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE);
+        let of_far = if near <= 0.0 { 1.0 } else { between };
+        if self.far_irradiance <= 0.0 {
+            0.0
+        } else {
+            of_far
+        }
     }
 
     /// Whether there is more than one light to choose from.
@@ -223,29 +227,26 @@ impl Selection {
 }
 
 /// Whether a light from infinity is chosen or one in the scene, and what is left of the random number.
-struct Class {
-    is_far: bool,
-    probability: f32,
-    u: f64,
+pub(super) struct Class {
+    pub(super) is_far: bool,
+    pub(super) probability: f32,
+    pub(super) u: f64,
 }
 
 impl Class {
     /// * `share`: of lights from infinity.
     /// * `u`: as of [`Selection::sample`].
     #[inline(always)]
-    fn of(share: f32, u: [f32; 2]) -> Self {
+    pub(super) fn of(share: f32, u: [f32; 2]) -> Self {
         let u = f64::from(u[0]) + FINER * f64::from(u[1]);
         let threshold = f64::from(share);
         let is_far = u < threshold;
-        let (probability, u) = match (is_far, share) {
-            (true, _) => (share, u / threshold),
-            (false, 0.0) => (1.0, u),
-            (false, _) => (1.0 - share, (u - threshold) / (1.0 - threshold)),
-        };
+        let above = if is_far { u } else { u - threshold };
+        let width = if is_far { threshold } else { 1.0 - threshold };
         Self {
             is_far,
-            probability,
-            u: u.min(1.0 - f64::EPSILON),
+            probability: if is_far { share } else { 1.0 - share },
+            u: (above / width).min(1.0 - f64::EPSILON),
         }
     }
 

@@ -6,7 +6,7 @@ use super::context::Context;
 use super::element::Element;
 use super::texture::unknown;
 use crate::error::{ErrorKind, SceneError};
-use crate::num::f32_of;
+use crate::num::{f32_of, shorten};
 use crate::scene::{Film, Filter};
 
 /// Largest side of a picture.
@@ -132,7 +132,7 @@ impl Context<'_> {
             "independent" | "stratified" | "multijitter" | "orthogonal" | "ldsampler"
             | "halton" | "hammersley" | "sobol" => {}
             other => {
-                let message = format!("sampler \"{}\" is unknown", super::number::shorten(other));
+                let message = format!("sampler \"{}\" is unknown", shorten(other));
                 self.warn(&element.place, message);
             }
         }
