@@ -28,6 +28,7 @@ mod ray_cone;
 mod renderer;
 mod sampler;
 mod simd;
+mod slopes;
 mod soa;
 mod texture;
 mod words;

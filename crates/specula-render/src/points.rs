@@ -246,7 +246,10 @@ impl PreparedScene {
         let material = chosen.material;
         let (normal, tangent) = match &material.bump {
             None => (surface.ns, surface.tangent),
-            Some(map) => bump::bend(map, material.bump_rules, textures, geometry, &surface),
+            Some(map) => {
+                let bent = bump::bend(map, material.bump_rules, textures, geometry, &surface);
+                (bent.normal, bent.tangent)
+            }
         };
         [normal.to_array(), tangent.to_array()]
     }

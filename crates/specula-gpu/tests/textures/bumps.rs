@@ -372,7 +372,7 @@ fn planted_faults_of_bumps_are_found() {
             "noise on sphere",
         ),
         (
-            fault("bump", "2.0 * texture_colour", "1.9 * texture_colour"),
+            fault("bump", "2.0 * values[0]", "1.9 * values[0]"),
             "normal map on disk",
         ),
         (
