@@ -16,6 +16,8 @@ use specula_scene::{Energy, Image};
 const WIDTH: u32 = 32;
 const HEIGHT: u32 = 24;
 const SIDE: u32 = 64;
+/// Repetitions of the normal map in a unit of length: three or more in a pixel.
+const TILES: f32 = 12.0;
 
 /// A periodic normal map: waves along many directions, steeper along u than along v, in bytes as files have them.
 fn waves() -> Image {
@@ -56,7 +58,7 @@ fn floor(kind: MaterialKind, filter: Interpolation, bump: bool) -> Scene {
     let corners = [[-reach, 0.0], [reach, 0.0], [reach, reach], [-reach, reach]];
     scene.meshes.push(Mesh {
         positions: corners.map(|[x, z]: [f32; 2]| [x, 0.0, z]).to_vec(),
-        uvs: corners.map(|c| c.map(|x| 3.0 * x + 0.1)).to_vec(),
+        uvs: corners.map(|c| c.map(|x| TILES * x + 0.1)).to_vec(),
         triangles: vec![[0, 2, 1], [0, 3, 2]],
         ..Mesh::default()
     });
@@ -172,13 +174,13 @@ fn error(found: &[f64], reference: &[f64]) -> f64 {
     (squares.sum::<f64>() / size).sqrt()
 }
 
-/// Errors at one sample a pixel, which stands for a whole pixel, against 2048 samples of the normals themselves: of
+/// Errors at 16 samples against 2048 of the normals themselves: of
 /// averaged normals, and of normals filtered into roughness.
 fn errors(kind: MaterialKind) -> [f64; 2] {
     let scene = floor(kind, Interpolation::Bilinear, true);
     let reference = green(&scene, options(0, TextureFilter::Bilinear, false), &[2048]);
     [false, true].map(|filters| {
-        let found = green(&scene, options(1, TextureFilter::Ewa, filters), &[4]);
+        let found = green(&scene, options(1, TextureFilter::Ewa, filters), &[16]);
         error(&found, &reference)
     })
 }
@@ -186,6 +188,7 @@ fn errors(kind: MaterialKind) -> [f64; 2] {
 #[test]
 fn a_floor_from_afar_has_the_highlight_of_its_normals() {
     use MicrofacetDistribution::{Beckmann, Ggx};
+    let mut wrong = Vec::new();
     for (name, kind, most) in [
         ("Beckmann", metal([0.06; 2], Beckmann), 0.15),
         ("Beckmann, anisotropic", metal([0.04, 0.15], Beckmann), 0.15),
@@ -195,9 +198,11 @@ fn a_floor_from_afar_has_the_highlight_of_its_normals() {
     ] {
         let [averaged, filtered] = errors(kind);
         eprintln!("{name}: averaged normals {averaged:.3}, filtered into roughness {filtered:.3}");
-        assert!(filtered < most, "{name}: {filtered}");
-        assert!(filtered < 0.3 * averaged, "{name}: {filtered} {averaged}");
+        if !(filtered < most && filtered < 0.3 * averaged) {
+            wrong.push(name);
+        }
     }
+    assert!(wrong.is_empty(), "{wrong:?}");
 }
 
 /// Of a smooth metal nothing reflects a sun without extent; seen from afar its normals do.
@@ -252,7 +257,7 @@ fn where_nothing_is_averaged_nothing_changes() {
     };
     let mut magnified = floor(kind, Interpolation::EWA, true);
     for uv in &mut magnified.meshes[0].uvs {
-        *uv = uv.map(|x| x * 1e-3);
+        *uv = uv.map(|x| x * 1e-6);
     }
     same(&magnified, "magnified");
     same(&floor(kind, Interpolation::Nearest, true), "nearest");

@@ -48,21 +48,24 @@ impl Raster {
         wrap: [Wrap; 2],
         normal: impl Fn(Rgb<f32>) -> [f32; 3] + Sync,
     ) -> [Self; 2] {
-        let columns = self.width.unsigned_abs() as usize;
-        let mut moments = vec![[[0.0; 3]; 2]; self.pixels.len()];
-        let rows = moments.par_chunks_mut(columns.max(1)).enumerate();
-        rows.for_each(|(y, row)| {
+        let row = 3 * self.width.unsigned_abs() as usize;
+        let [mut slopes, mut squares] = [0; 2].map(|_| vec![0.0; 3 * self.pixels.len()]);
+        let rows = slopes.par_chunks_mut(row.max(1));
+        let rows = rows.zip(squares.par_chunks_mut(row.max(1))).enumerate();
+        rows.for_each(|(y, (slopes, squares))| {
             let y = i32::try_from(y).unwrap_or(i32::MAX);
-            for (x, to) in (0..).zip(row) {
-                *to = self.moments_of_pixel([x, y], wrap, &normal);
+            let pixels = slopes.chunks_exact_mut(3).zip(squares.chunks_exact_mut(3));
+            for (x, (slope, square)) in (0..).zip(pixels) {
+                let [first, second] = self.moments_of_pixel([x, y], wrap, &normal);
+                slope.copy_from_slice(&first);
+                square.copy_from_slice(&second);
             }
         });
-        [0, 1].map(|which| {
-            let values = moments.iter().flat_map(|pixel| pixel[which]);
+        [slopes, squares].map(|values| {
             Self {
                 width: self.width,
                 height: self.height,
-                pixels: Pixels::floats(values.collect(), true),
+                pixels: Pixels::floats(values, true),
                 smaller: Vec::new(),
             }
             .with_pyramid()
