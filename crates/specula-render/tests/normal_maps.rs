@@ -51,7 +51,7 @@ fn waves() -> Image {
 
 /// A floor of metal with waves, under the sun.
 fn floor(kind: MaterialKind, filter: Interpolation, bump: bool) -> Scene {
-    let mut scene = empty(look([0.0, 3.0, 0.0], [0.0, 0.0, 5.0], 50.0), WIDTH);
+    let mut scene = empty(look([0.0, 4.0, 0.0], [0.0, 0.0, 4.0], 40.0), WIDTH);
     scene.film = Film::new([WIDTH, HEIGHT], Filter::Box { radius: [0.5; 2] });
     scene.camera.screen_window = [-4.0 / 3.0, 4.0 / 3.0, -1.0, 1.0];
     let reach = 60.0;
@@ -81,7 +81,7 @@ fn floor(kind: MaterialKind, filter: Interpolation, bump: bool) -> Scene {
     scene.shapes.push(Shape::new(mesh, DMat4::IDENTITY, m));
     scene.lights.push(Light::Distant {
         irradiance: Rgb::splat(1.0),
-        to_light: [0.1, 0.6, 1.0],
+        to_light: [0.1, 1.0, 1.0],
         half_angle_deg: 0.0,
     });
     scene
@@ -174,11 +174,11 @@ fn error(found: &[f64], reference: &[f64]) -> f64 {
     (squares.sum::<f64>() / size).sqrt()
 }
 
-/// Errors at 16 samples against 2048 of the normals themselves: of
+/// Errors at 16 samples against 1024 of the normals themselves: of
 /// averaged normals, and of normals filtered into roughness.
 fn errors(kind: MaterialKind) -> [f64; 2] {
     let scene = floor(kind, Interpolation::Bilinear, true);
-    let reference = green(&scene, options(0, TextureFilter::Bilinear, false), &[2048]);
+    let reference = green(&scene, options(0, TextureFilter::Bilinear, false), &[1024]);
     [false, true].map(|filters| {
         let found = green(&scene, options(1, TextureFilter::Ewa, filters), &[16]);
         error(&found, &reference)
@@ -189,16 +189,16 @@ fn errors(kind: MaterialKind) -> [f64; 2] {
 fn a_floor_from_afar_has_the_highlight_of_its_normals() {
     use MicrofacetDistribution::{Beckmann, Ggx};
     let mut wrong = Vec::new();
-    for (name, kind, most) in [
-        ("Beckmann", metal([0.06; 2], Beckmann), 0.15),
-        ("Beckmann, anisotropic", metal([0.04, 0.15], Beckmann), 0.15),
-        ("GGX", metal([0.06; 2], Ggx), 0.25),
-        ("principled", principled(0.25), 0.25),
-        ("glTF", MaterialKind::Gltf(gltf(0.25)), 0.25),
+    for (name, kind) in [
+        ("Beckmann", metal([0.06; 2], Beckmann)),
+        ("Beckmann, anisotropic", metal([0.04, 0.15], Beckmann)),
+        ("GGX", metal([0.06; 2], Ggx)),
+        ("principled", principled(0.25)),
+        ("glTF", MaterialKind::Gltf(gltf(0.25))),
     ] {
         let [averaged, filtered] = errors(kind);
         eprintln!("{name}: averaged normals {averaged:.3}, filtered into roughness {filtered:.3}");
-        if !(filtered < most && filtered < 0.3 * averaged) {
+        if !(filtered < 0.25 && filtered < 0.15 * averaged) {
             wrong.push(name);
         }
     }
@@ -262,9 +262,18 @@ fn where_nothing_is_averaged_nothing_changes() {
     same(&magnified, "magnified");
     same(&floor(kind, Interpolation::Nearest, true), "nearest");
     same(&floor(kind, Interpolation::EWA, false), "no normal map");
+}
+
+/// A map of one normal, filtered or not, is a plane.
+#[test]
+fn flat_maps_stay_flat() {
+    let kind = metal([0.1; 2], MicrofacetDistribution::Ggx);
     let mut flat = floor(kind, Interpolation::EWA, true);
     flat.images[0].pixels = vec![[0.5, 0.5, 1.0]; (SIDE * SIDE) as usize].into();
-    same(&flat, "flat");
+    let plane = floor(kind, Interpolation::EWA, false);
+    let [found, expected] =
+        [flat, plane].map(|s| green(&s, options(4, TextureFilter::Scene, true), &[4]));
+    assert!(error(&found, &expected) < 1e-5);
 }
 
 /// The option is part of what makes films differ, and its pictures are counted.
@@ -283,21 +292,18 @@ fn the_option_is_a_setting_that_takes_memory() {
 /// A clear coat has a normal map of its own, and grows rough by it alone.
 #[test]
 fn clear_coats_grow_rough_by_their_own_map() {
-    let coated = |coat: bool, base: bool| {
-        let kind = MaterialKind::Gltf(GltfMaterial {
-            base_colour: grey(0.0),
-            clearcoat: FloatParam::Value(1.0),
-            clearcoat_roughness: FloatParam::Value(0.2),
-            clearcoat_bump: coat.then_some(Bump::Normal {
-                map: TextureId(0),
-                scale: 1.0,
-            }),
-            ..gltf(1.0)
-        });
-        floor(kind, Interpolation::Bilinear, base)
-    };
-    let scene = coated(true, false);
-    let reference = green(&scene, options(0, TextureFilter::Bilinear, false), &[2048]);
+    let kind = MaterialKind::Gltf(GltfMaterial {
+        base_colour: grey(0.0),
+        clearcoat: FloatParam::Value(1.0),
+        clearcoat_roughness: FloatParam::Value(0.2),
+        clearcoat_bump: Some(Bump::Normal {
+            map: TextureId(0),
+            scale: 1.0,
+        }),
+        ..gltf(1.0)
+    });
+    let scene = floor(kind, Interpolation::Bilinear, false);
+    let reference = green(&scene, options(0, TextureFilter::Bilinear, false), &[1024]);
     let [averaged, filtered] = [false, true].map(|f| {
         let found = green(&scene, options(1, TextureFilter::Ewa, f), &[4]);
         error(&found, &reference)
@@ -305,7 +311,7 @@ fn clear_coats_grow_rough_by_their_own_map() {
     eprintln!("averaged normals {averaged:.3}, filtered into roughness {filtered:.3}");
     // It has one alpha for both axes.
     assert!(
-        filtered < 0.4 && filtered < 0.5 * averaged,
+        filtered < 0.6 && filtered < 0.25 * averaged,
         "{filtered} {averaged}"
     );
 }

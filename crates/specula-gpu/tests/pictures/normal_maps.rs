@@ -19,7 +19,10 @@ fn wavy(mut scene: Scene, filter: Interpolation) -> Scene {
     let pixel = |i: u32| {
         let [x, y] = [(i % WIDTH) as f32 / 32.0, (i / WIDTH) as f32 / 21.0];
         let turn = |a: f32| (core::f32::consts::TAU * a).sin();
-        let [p, q] = [0.4 * turn(3.0 * x + y), 0.2 * turn(x - 4.0 * y) + 0.1 * turn(3.0 * x)];
+        let [p, q] = [
+            0.4 * turn(3.0 * x + y),
+            0.2 * turn(x - 4.0 * y) + 0.1 * turn(3.0 * x),
+        ];
         let length = (p * p + q * q + 1.0).sqrt();
         [p, q, 1.0].map(|n| 0.5 + 0.5 * n / length)
     };
@@ -77,7 +80,10 @@ fn metal_and_glass() {
     let scene = wavy(scene(&text), Interpolation::Bilinear);
     let plain = options(&scene, 1);
     let [without, with] = [plain.clone(), filtered(plain)].map(|o| on_processor(&scene, &o, 2));
-    assert!(differing(&without, &with) > 0.2, "the option changes nothing");
+    assert!(
+        differing(&without, &with) > 0.2,
+        "the option changes nothing"
+    );
     check("normal maps into roughness: metal, glass", &scene, filtered);
 }
 
@@ -119,7 +125,14 @@ fn principled_and_gltf() {
         sheen_colour: colour(0.0, 0.0, 0.0),
         sheen_roughness: none,
     };
-    let kinds = [MaterialKind::Principled(principled), MaterialKind::Gltf(gltf)];
+    let kinds = [
+        MaterialKind::Principled(principled),
+        MaterialKind::Gltf(gltf),
+    ];
     let scene = wavy(with_materials(kinds), Interpolation::Trilinear);
-    check("normal maps into roughness: principled, glTF", &scene, filtered);
+    check(
+        "normal maps into roughness: principled, glTF",
+        &scene,
+        filtered,
+    );
 }

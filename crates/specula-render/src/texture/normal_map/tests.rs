@@ -7,12 +7,14 @@ use crate::texture::Footprint;
 
 const SIDE: u32 = 64;
 
-/// A normal map of independent normals, as pictures of glTF have them.
+/// A normal map of waves of eight pixels and more.
 fn scene(filter: Interpolation) -> Scene {
-    let mut random = Stream::new(5);
-    let colours = (0..SIDE * SIDE).map(|_| {
-        let [x, y] = [(); 2].map(|()| 0.8 * random.next::<f32>() - 0.4);
-        [0.5 + 0.5 * x, 0.5 + 0.3 * (x + y), 1.0]
+    let colours = (0..SIDE * SIDE).map(|i| {
+        let [x, y] = [i % SIDE, i / SIDE].map(|k| k as f32 / SIDE as f32);
+        let wave = |a: f32, b: f32| (core::f32::consts::TAU * (a * x + b * y)).sin();
+        let p = 0.3 * wave(7.0, 1.0) + 0.2 * wave(3.0, -5.0);
+        let q = 0.15 * wave(2.0, 6.0) + 0.5 * p;
+        [0.5 + 0.5 * p, 0.5 + 0.5 * q, 1.0]
     });
     let mut scene = specula_scene::builtin::orbs();
     scene.images = vec![Image {
@@ -125,7 +127,7 @@ fn moments_over_footprints_are_those_of_brute_force() {
             differences[2..].iter().all(|d| *d < 0.004),
             "{differences:?}"
         );
-        assert!(sums[2] > 0.015 && sums[4] > 0.01, "{sums:?}");
+        assert!(sums[2] > 0.05 && sums[4] > 0.02, "{sums:?}");
     }
 }
 
@@ -156,7 +158,7 @@ fn magnified_maps_do_not_get_rougher() {
             let off = (mean[0] - p).abs().max((mean[1] - q).abs());
             assert!(off < 0.004, "{filter:?}: {off}");
             let variance = squares[0] - mean[0] * mean[0];
-            assert!(variance.abs() < 3e-4, "{filter:?}: {variance}");
+            assert!(variance.abs() < 1e-3, "{filter:?}: {variance}");
         }
     }
 }
