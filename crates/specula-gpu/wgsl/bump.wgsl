@@ -165,8 +165,8 @@ struct BumpNormalMap {
 ///
 /// Twin: specula-render/src/texture/normal_map.rs, Textures::normal.
 fn bump_normal_map(at: u32, place: TextureCoordinates) -> BumpNormalMap {
-    // The map, its slopes with the share that is averaged, their squares. One call in a loop, since the code of textures
-    // is long.
+    // The map, its slopes with the share that is averaged, their squares. One call in a loop, since the code of
+    // textures is long.
     var values = array<vec3f, 3>();
     let count = select(1u, 3u, NORMAL_MAPS_ARE_FILTERED != 0u && word(at) == BUMP_FILTERED_NORMAL);
     for (var i = 0u; i < count; i++) {

@@ -1,13 +1,13 @@
-//! A metal floor with a normal map under the sun, seen from afar: errors of averaged normals and of normals filtered into
-//! roughness, and a sheet of pictures.
+//! A metal floor with a normal map under the sun, seen from afar: errors of averaged normals and of normals filtered
+//! into roughness, and a sheet of pictures.
 //!
 //! ```text
 //! cargo run --release -p specula-render --example normal_maps -- [SHEET.png]
 //! ```
 //!
-//! The scene is `data/filtered/metal.pbrt`. Errors are the root mean square, over the picture, of the difference to 4096
-//! samples that are not filtered, over the root mean square of these. The sheet has, from left to right, the reference,
-//! 16 samples of averaged normals, and 16 samples of normals filtered into roughness.
+//! The scene is `data/filtered/metal.pbrt`. Errors are the root mean square, over the picture, of the difference to
+//! 4096 samples that are not filtered, over the root mean square of these. The sheet has, from left to right, the
+//! reference, 16 samples of averaged normals, and 16 samples of normals filtered into roughness.
 #![allow(clippy::print_stdout, reason = "an example reports on stdout")]
 
 use std::error::Error;

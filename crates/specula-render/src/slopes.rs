@@ -13,8 +13,8 @@
 //!
 //! Sources: Olano and Baker 2010, "LEAN Mapping"; for GGX Dupuy, Heitz, Iehl, Poulin, Neyret and Ostromoukhov 2013,
 //! "Linear Efficient Antialiased Displacement and Reflectance Mapping", and Tokuyoshi and Kaplanyan 2019, "Improved
-//! Geometric Specular Antialiasing". Departure: the covariance is that of slopes about the mean normal, by the derivative
-//! of the projection there, since lobes are in its frame.
+//! Geometric Specular Antialiasing". Departure: the covariance is that of slopes about the mean normal, by the
+//! derivative of the projection there, since lobes are in its frame.
 //!
 //! Twin: specula-gpu/wgsl/slopes.wgsl; of materials, specula-gpu/wgsl/widened.wgsl.
 

@@ -43,7 +43,8 @@ impl Textures {
     /// Pictures, nodes, then a table of the nodes' offsets.
     ///
     /// Constants say what shaders can leave out: `TEXTURE_COUNT`, `TEXTURE_HAS_INPUTS`,
-    /// `TEXTURE_HAS_NOISE`, `TEXTURES_ARE_FILTERED`, `NORMAL_MAPS_ARE_FILTERED`, and `TEXTURE_WAITING`, the size of their stack.
+    /// `TEXTURE_HAS_NOISE`, `TEXTURES_ARE_FILTERED`, `NORMAL_MAPS_ARE_FILTERED`, and `TEXTURE_WAITING`, the size of
+    /// their stack.
     ///
     /// Returns features that shaders do not support, in words for a message.
     pub(crate) fn flatten(&self, to: &mut Words) -> Vec<String> {
