@@ -88,14 +88,14 @@ fn slopes_trace_about(spread: SlopesSpread, normal: vec3f) -> f32 {
 /// Twin: specula-render/src/slopes.rs, Widening::new.
 fn slopes_widening(map: vec3f, own_coat: f32, alphas: vec2f) -> SlopesWidening {
     let own = 0.5 * alphas * alphas;
-    // Shaders' arc tangent of (0, 0) is not defined.
     let along = 2.0 * map.y;
     let across = (own.x + map.x) - (own.y + map.z);
-    var angle = 0.0;
-    if along != 0.0 || across < 0.0 {
-        angle = 0.5 * atan2(along, across);
+    // Shaders' arc tangents of a zero differ, and that of (0, 0) is not defined.
+    var turn = select(vec2f(1.0, 0.0), vec2f(0.0, 1.0), across < 0.0);
+    if along != 0.0 {
+        let angle = 0.5 * atan2(along, across);
+        turn = vec2f(cos(angle), sin(angle));
     }
-    let turn = vec2f(cos(angle), sin(angle));
     let squares = turn * turn;
     let mixed = 2.0 * turn.x * turn.y * map.y;
     let base = 2.0 * vec2f(
