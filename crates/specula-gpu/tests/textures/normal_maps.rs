@@ -137,7 +137,8 @@ impl Case {
     }
 }
 
-/// Largest difference of any value, the primitive where it is, and the share of points where slopes vary.
+/// Largest difference of any value, relative to values above 1, the primitive where it is, and the share of points
+/// where slopes vary.
 fn largest(device: &Device, fault: Option<Fault>) -> (f32, String, f64) {
     let options = RenderOptions {
         filter_normal_maps: true,
@@ -168,7 +169,7 @@ fn largest(device: &Device, fault: Option<Fault>) -> (f32, String, f64) {
             let (gpu, cpu) = (&found[at..at + VALUES], case.cpu(&scene, m));
             vary += f64::from(u8::from(cpu[3] + cpu[5] > 0.0));
             for (k, (g, c)) in gpu.iter().zip(cpu).enumerate() {
-                let apart = (g - c).abs();
+                let apart = (g - c).abs() / c.abs().max(1.0);
                 // `f32::max` would hide NaN.
                 if !(apart <= most.0) {
                     let name = case.point.name;
