@@ -338,6 +338,7 @@ fn normal_maps_are_filtered_into_roughness_on_demand() {
     assert_eq!(light(&["--texture-filter", "ewa"]), 0.0);
     let filtered = light(&["--filter-normal-maps"]);
     assert!(filtered > 1.0, "{filtered}");
+    // Whatever the filter is: a pixel covers the whole map.
     let squares = light(&["--filter-normal-maps", "--texture-filter", "trilinear"]);
-    assert!(squares > 1.0 && squares != filtered, "{squares} {filtered}");
+    assert_eq!(squares, filtered);
 }
