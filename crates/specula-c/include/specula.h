@@ -387,6 +387,10 @@ typedef struct {
    * SPECULA_TEXTURE_FILTER_SCENE by default.
    */
   uint32_t texture_filter;
+  /**
+   * 1: normal maps are filtered into roughness, by LEAN mapping; 0 by default: their mean normal alone is left.
+   */
+  uint32_t filter_normal_maps;
 } specula_render_options;
 
 /**

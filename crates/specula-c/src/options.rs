@@ -64,6 +64,8 @@ pub struct RenderOptions {
     pub seconds: f64,
     /// SPECULA_TEXTURE_FILTER_SCENE by default.
     pub texture_filter: u32,
+    /// 1: normal maps are filtered into roughness, by LEAN mapping; 0 by default: their mean normal alone is left.
+    pub filter_normal_maps: u32,
 }
 
 impl Default for RenderOptions {
@@ -79,6 +81,7 @@ impl Default for RenderOptions {
             noise: 0.0,
             seconds: 0.0,
             texture_filter: SPECULA_TEXTURE_FILTER_SCENE,
+            filter_normal_maps: 0,
         }
     }
 }

@@ -62,6 +62,15 @@ fn asked(
             )));
         }
     };
+    options.filter_normal_maps = match given.filter_normal_maps {
+        0 => false,
+        1 => true,
+        other => {
+            return Err(Failure::invalid(format!(
+                "options.filter_normal_maps: expected 0 or 1, got {other}"
+            )));
+        }
+    };
     options.max_depth = match given.max_depth {
         -1 => options.max_depth,
         depth => u32::try_from(depth).map_err(|_| {

@@ -249,6 +249,17 @@ fn textures_are_filtered_as_asked() {
         "{}",
         last()
     );
+    let wrong = RenderOptions {
+        filter_normal_maps: 2,
+        ..small()
+    };
+    let (status, picture) = render(scene, &wrong, &mut Calls::unstopped());
+    assert_eq!(status, Status::InvalidArgument);
+    assert!(
+        picture.is_null() && last().contains("filter_normal_maps"),
+        "{}",
+        last()
+    );
     // SAFETY: it is not used any more.
     unsafe { abi::specula_scene_free(scene) };
 }

@@ -89,10 +89,12 @@ const BEFORE: &[Module] = modules![
     "lights",
     "partials",
     "footprint",
+    "slopes",
     "bump",
     "medium_stack",
     "visibility",
     "bound",
+    "widened",
 ];
 
 /// How rays are cast, one of which a shader has: by traversal of the tree, by ray queries.

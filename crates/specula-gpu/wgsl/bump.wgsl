@@ -4,6 +4,7 @@
 // then the parameter of its heights, or a texture and a factor.
 
 import tracer::partials::{Partials, partials_of};
+import tracer::slopes::{SlopesSpread, slopes_of_normal, slopes_spread};
 import tracer::surface::{Surface, surface_place};
 import tracer::texture_graph::{parameter_float, texture_colour};
 import tracer::texture_coordinates::{TextureCoordinates};
@@ -12,9 +13,18 @@ import package::math::frame::{FrameBasis, frame_from_normal_tangent};
 
 
 /// A shading normal with the tangent along u.
+///
+/// Twin: specula-render/src/bump.rs, BumpedFrame.
 struct BumpedFrame {
     normal: vec3f,
     tangent: vec3f,
+    // How the slopes of what a filter averaged vary about the normal.
+    spread: SlopesSpread,
+}
+
+/// A bent normal about which nothing varies.
+fn bump_frame(normal: vec3f, tangent: vec3f) -> BumpedFrame {
+    return BumpedFrame(normal, tangent, SlopesSpread(vec3f(0.0), vec3f(0.0), vec3f(0.0)));
 }
 
 /// How light fades towards the horizon of a bent normal, by Mitsuba's rules.
@@ -110,7 +120,7 @@ fn bump_squared_tangent(cosine: f32) -> f32 {
 /// Twin: specula-render/src/bump.rs, bend.
 fn bump_bend(at: u32, s: Surface) -> BumpedFrame {
     if !bump_is_there(at) {
-        return BumpedFrame(s.ns, s.tangent);
+        return bump_frame(s.ns, s.tangent);
     }
     var partials = partials_of(s);
     let n = s.ns;
@@ -127,14 +137,50 @@ fn bump_bend(at: u32, s: Surface) -> BumpedFrame {
     if word(at) == BUMP_HEIGHT {
         return bump_displaced(at + 2u, n, place, partials);
     }
-    let c = 2.0 * texture_colour(word(at + 2u), place) - 1.0;
+    let map = bump_normal_map(at, place);
+    let c = map.normal;
     let scale = number(at + 3u);
     let along_u = unit_or(partials.along_u, n);
     let across = cross(n, along_u);
     let backwards = word(at + 1u) == BUMP_PLAIN && dot(across, partials.along_v) < 0.0;
     let along_v = select(across, -across, backwards);
     let bent = along_u * (c.x * scale) + along_v * (c.y * scale) + n * c.z;
-    return BumpedFrame(unit_or(bent, n), partials.along_u);
+    var frame = bump_frame(unit_or(bent, n), partials.along_u);
+    if NORMAL_MAPS_ARE_FILTERED != 0u && map.is_mean {
+        frame.spread = slopes_spread(map.normal.xy, map.squares, scale, along_u, along_v);
+    }
+    return frame;
+}
+
+/// The normal of a map, not unit; where it is a mean of slopes, with their second moments (xx, xy, yy).
+///
+/// Twin: specula-render/src/texture/normal_map.rs, Textures::normal.
+struct BumpNormalMap {
+    normal: vec3f,
+    is_mean: bool,
+    squares: vec3f,
+}
+
+/// The normal of the map at an offset.
+///
+/// Twin: specula-render/src/texture/normal_map.rs, Textures::normal.
+fn bump_normal_map(at: u32, place: TextureCoordinates) -> BumpNormalMap {
+    // The map, its slopes with the share that is averaged, their squares. One call in a loop, since the code of
+    // textures is long.
+    var values = array<vec3f, 3>();
+    let count = select(1u, 3u, NORMAL_MAPS_ARE_FILTERED != 0u && word(at) == BUMP_FILTERED_NORMAL);
+    for (var i = 0u; i < count; i++) {
+        values[i] = texture_colour(word(at + 2u) + i, place);
+    }
+    let normal = 2.0 * values[0] - 1.0;
+    let share = min(values[1].z, 1.0);
+    if NORMAL_MAPS_ARE_FILTERED == 0u || share <= 0.0 {
+        return BumpNormalMap(normal, false, vec3f(0.0));
+    }
+    let p = slopes_of_normal(normal);
+    let rest = 1.0 - share;
+    let mean = values[1].xy + rest * p;
+    return BumpNormalMap(vec3f(mean, 1.0), true, values[2] + rest * vec3f(p.x * p, p.y * p.y));
 }
 
 /// Steps of finite differences along u and v: half of what the footprint covers, but no less than `BUMP_STEP`, below which
@@ -182,5 +228,5 @@ fn bump_displaced(height: u32, n: vec3f, place: TextureCoordinates, partials: Pa
     let along_v = partials.along_v + n * slopes.y + partials.normal_along_v * heights.x;
     let normal = unit_or(cross(along_u, along_v), n);
     let side = dot(cross(partials.along_u, partials.along_v), n);
-    return BumpedFrame(select(normal, -normal, side < 0.0), along_u);
+    return bump_frame(select(normal, -normal, side < 0.0), along_u);
 }

@@ -22,6 +22,8 @@ import tracer::bump::{Softness, bump_of_material, bump_is_there, bump_bend, bump
 import tracer::bump::{bump_softness, bump_coat_differs, bump_of_coat};
 import tracer::lights::{Receiver, LightSample, lights_sample, lights_pdf_of_surface};
 import tracer::lights::{lights_count_at_infinity, lights_arriving_from_infinity, lights_share_from_infinity};
+import tracer::slopes::{slopes_trace_about, slopes_widening, slopes_within};
+import tracer::widened::{widened_alphas, widened_bound};
 import tracer::material::{Bound, material_bind, material_eval, material_sample, material_albedo};
 import package::math::frame::{FrameBasis, frame_from_normal_tangent, frame_to_local, frame_to_world};
 import package::bsdf::bsdf_sample::{BsdfSample};
@@ -158,10 +160,11 @@ fn path_emission(state: PathState, surface: Surface, direction: vec3f) -> vec3f 
 /// Tangent of a surface, with its material's rotation.
 ///
 /// * `normal`, `tangent`: bent by its bump map.
+/// * `varies`: whether its tangent matters, also where the material's own does not.
 ///
-/// Twin: specula-render/src/integrator.rs, PathTracer::shading_normal_and_tangent.
-fn path_tangent(surface: Surface, bound: Bound, normal: vec3f, tangent: vec3f) -> vec3f {
-    if bound.isotropic {
+/// Twin: specula-render/src/integrator/bumped.rs, PathTracer::bumped_frame.
+fn path_tangent(surface: Surface, bound: Bound, normal: vec3f, tangent: vec3f, varies: bool) -> vec3f {
+    if bound.isotropic && !varies {
         return vec3f(0.0);
     }
     if bound.rotation == 0.0 {
@@ -192,17 +195,34 @@ fn path_shading_point(
     var bound = material_bind(material, surface_place(surface), outside, s, depth);
     let bump = bump_of_material(bound.material);
     let bent = bump_bend(bump, surface);
-    let tangent = path_tangent(surface, bound, bent.normal, bent.tangent);
+    let varies = NORMAL_MAPS_ARE_FILTERED != 0u && bent.spread.covariance.x + bent.spread.covariance.z > 0.0;
+    var tangent = path_tangent(surface, bound, bent.normal, bent.tangent, varies);
     let upright = select(bent.normal, -bent.normal, dot(bent.normal, facing) < 0.0);
     let unbent = select(surface.ns, -surface.ns, dot(surface.ns, facing) < 0.0);
     let softened = bump_softened(bump, unbent, upright, wo);
     let ns = softened.normal;
+    let has_coat = bound.kind == KIND_GLTF && bump_coat_differs(bound.material);
+    var coat = vec3f(0.0);
+    var own_coat = 0.0;
+    if has_coat {
+        let bent_coat = bump_bend(bump_of_coat(bound.material), surface);
+        coat = select(bent_coat.normal, -bent_coat.normal, dot(bent_coat.normal, facing) < 0.0);
+        if NORMAL_MAPS_ARE_FILTERED != 0u {
+            own_coat = slopes_trace_about(bent_coat.spread, coat);
+        }
+    }
+    if NORMAL_MAPS_ARE_FILTERED != 0u && (varies || own_coat > 0.0) {
+        let unturned = frame_from_normal_tangent(ns, tangent);
+        let map = slopes_within(bent.spread, unturned);
+        let widening = slopes_widening(map, own_coat, widened_alphas(bound));
+        bound = widened_bound(bound, widening);
+        tangent = unturned.s * widening.turn.x + unturned.t * widening.turn.y;
+    }
     let n = select(ns, facing, dot(ns, wo) <= 0.0 && bound.specular);
     let frame = frame_from_normal_tangent(n, tangent);
     let local = frame_to_local(frame, normalize(wo));
-    if bound.kind == KIND_GLTF && bump_coat_differs(bound.material) {
-        let coat = bump_bend(bump_of_coat(bound.material), surface).normal;
-        bound.first = frame_to_local(frame, select(coat, -coat, dot(coat, facing) < 0.0));
+    if has_coat {
+        bound.first = frame_to_local(frame, coat);
     }
     return PathShadingPoint(surface, bound, frame, softened.softness, facing, local);
 }

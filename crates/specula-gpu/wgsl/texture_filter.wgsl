@@ -25,6 +25,8 @@ struct TextureLookup {
     wrap: vec2u,
     /// One of the codes `TEXTURE_FILTER_*`.
     kind: u32,
+    /// Whether what the picture itself contributes is left out.
+    means_only: bool,
     /// Most times that an ellipse is longer than wide.
     max_anisotropy: f32,
 }
@@ -61,6 +63,12 @@ fn texture_filter_at(lookup: TextureLookup, st: vec2f, axes: vec4f) -> vec3f {
     if lookup.kind >= TEXTURE_FILTER_TRILINEAR && word(lookup.picture) != 0u {
         mean = texture_filter_mean(lookup, axes);
         last = word(lookup.pyramid);
+        if lookup.means_only {
+            mean.weights.x = 0.0;
+            if lookup.kind == TEXTURE_FILTER_TRILINEAR && mean.level == 0u && last > 0u {
+                mean.weights.y = 0.0;
+            }
+        }
     }
     var sum = vec3f(0.0);
     for (var part = 0u; part < 3u; part++) {

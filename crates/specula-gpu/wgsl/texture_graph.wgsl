@@ -254,10 +254,11 @@ fn texture_graph_noise(at: u32, place: TextureCoordinates) -> vec3f {
 fn texture_graph_picture(at: u32, place: TextureCoordinates) -> vec3f {
     let wrap = vec2u(word(at + 4u), word(at + 5u));
     let coordinates = texture_mapping_at(at + 9u, place);
-    let kind = word(at + 6u);
+    let kind = word(at + 6u) % TEXTURE_FILTER_MEANS_ONLY;
+    let means_only = word(at + 6u) >= TEXTURE_FILTER_MEANS_ONLY;
     var c: vec3f;
     if TEXTURES_ARE_FILTERED != 0u {
-        let lookup = TextureLookup(word(at), word(at + 7u), wrap, kind, number(at + 8u));
+        let lookup = TextureLookup(word(at), word(at + 7u), wrap, kind, means_only, number(at + 8u));
         var axes = vec4f(0.0);
         if kind >= TEXTURE_FILTER_TRILINEAR {
             axes = texture_mapping_axes(at + 9u, place);

@@ -198,6 +198,16 @@ def test_textures_are_filtered_as_asked() -> None:
     assert not same(trilinear, ewa)
 
 
+@pytest.mark.filterwarnings("ignore::specula_render.scene.SceneWarning")
+def test_normal_maps_are_filtered_into_roughness_on_demand() -> None:
+    scene = load(SCENES / "mitsuba" / "normalmap-roughconductor.xml")
+    averaged, filtered = (
+        render(scene, 1, resolution=SMALL, filter_normal_maps=given) for given in (False, True)
+    )
+    assert same(averaged, render(scene, 1, resolution=SMALL))
+    assert not same(averaged, filtered)
+
+
 def moving(path: Path) -> Path:
     """Write a glTF file with a lit square that moves from left to right within two seconds."""
     corners = [(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.5, 0), (-0.5, -0.5, 0), (0.5, 0.5, 0)]

@@ -1,11 +1,12 @@
 //! Bump maps: heights and normal maps that bend shading normals.
 
 use specula_bsdf::{Frame, Vec3};
-use specula_scene::scene::{Bump, BumpRules, ColourParam};
+use specula_scene::scene::{Bump, BumpRules};
 
 use crate::codes;
 use crate::convert::id;
 use crate::geometry::{Geometry, Partials, Surface, unit_or};
+use crate::slopes::SlopeSpread;
 use crate::texture::{TextureCoordinates, Textures, float_parameter};
 use crate::words::Words;
 
@@ -69,6 +70,16 @@ fn squared_tangent(cosine: f32) -> f32 {
     (1.0 - squared).max(0.0) / squared
 }
 
+/// A bent shading normal.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BumpedFrame {
+    pub(crate) normal: Vec3<f32>,
+    /// Along u.
+    pub(crate) tangent: Vec3<f32>,
+    /// How the slopes of what a filter averaged vary about the normal; where normal maps are filtered into roughness.
+    pub(crate) spread: Option<SlopeSpread>,
+}
+
 /// The shading normal and the tangent along u of a surface under its bump.
 ///
 /// The normal points to the outside of the surface it bends, not necessarily to the side of the
@@ -79,7 +90,7 @@ pub(crate) fn bend(
     textures: &Textures,
     geometry: &Geometry,
     surface: &Surface,
-) -> (Vec3<f32>, Vec3<f32>) {
+) -> BumpedFrame {
     let partials = geometry.partials(surface);
     let n = surface.ns;
     // The triangle's plane is not that of its shading normal.
@@ -91,11 +102,16 @@ pub(crate) fn bend(
     match *bump {
         Bump::Height(height) => {
             let at = |place: &TextureCoordinates| textures.float(height, place);
-            displaced(surface, &Partials { dp, ..partials }, at)
+            let (normal, tangent) = displaced(surface, &Partials { dp, ..partials }, at);
+            BumpedFrame {
+                normal,
+                tangent,
+                spread: None,
+            }
         }
         Bump::Normal { map, scale } => {
             let place = surface.place();
-            let c = textures.colour(ColourParam::Texture(map), &place);
+            let ([x, y, z], moments) = textures.normal(map, &place);
             let s = unit_or(dp[0], n);
             let t = n.cross(s);
             let follows_v = rules == BumpRules::Plain;
@@ -104,19 +120,28 @@ pub(crate) fn bend(
             } else {
                 t
             };
-            let [x, y, z] = [c.r, c.g, c.b].map(|v| 2.0 * v - 1.0);
             let bent = s * (x * scale) + t * (y * scale) + n * z;
-            (unit_or(bent, n), dp[0])
+            BumpedFrame {
+                normal: unit_or(bent, n),
+                tangent: dp[0],
+                spread: moments.and_then(|m| SlopeSpread::new(&m, scale, [s, t])),
+            }
         }
     }
 }
 
 /// 4 words for shaders: what it is (nothing, heights, normals), its rules (plain, Mitsuba's, with
-/// light that fades), then the parameter of the heights or the normals' texture and factor.
-pub(crate) fn flatten(bump: Option<&Bump>, rules: BumpRules, to: &mut Words) {
+/// light that fades), then the parameter of the heights or the normals' texture and factor. Textures of moments follow
+/// that of normals that are filtered into roughness.
+pub(crate) fn flatten(bump: Option<&Bump>, rules: BumpRules, textures: &Textures, to: &mut Words) {
+    let filtered = match bump {
+        Some(Bump::Normal { map, .. }) => textures.filtered_normals(*map),
+        _ => None,
+    };
     to.id(match bump {
         None => codes::BUMP_NONE,
         Some(Bump::Height(_)) => codes::BUMP_HEIGHT,
+        Some(Bump::Normal { .. }) if filtered.is_some() => codes::BUMP_FILTERED_NORMAL,
         Some(Bump::Normal { .. }) => codes::BUMP_NORMAL,
     });
     to.id(match rules {
@@ -128,7 +153,7 @@ pub(crate) fn flatten(bump: Option<&Bump>, rules: BumpRules, to: &mut Words) {
         None => to.ids([0; 2]),
         Some(Bump::Height(height)) => float_parameter(to, *height),
         Some(Bump::Normal { map, scale }) => {
-            to.id(id(map.0));
+            to.id(id(filtered.unwrap_or(*map).0));
             to.number(*scale);
         }
     }

@@ -129,6 +129,8 @@ shared_constants! {
     TEXTURE_FILTER_TRILINEAR = 2;
     /// Gaussian means over ellipses.
     TEXTURE_FILTER_EWA = 3;
+    /// Added to a filter where what the picture itself contributes is left out.
+    TEXTURE_FILTER_MEANS_ONLY = 4;
 
     /// Kind of noise: fractional Brownian motion.
     TEXTURE_NOISE_FBM = 0;
@@ -156,6 +158,8 @@ shared_constants! {
     BUMP_HEIGHT = 1;
     /// Normals.
     BUMP_NORMAL = 2;
+    /// Normals that are filtered into roughness.
+    BUMP_FILTERED_NORMAL = 3;
 
     /// Rules of a bump map: normals are bent as it says, and nothing more.
     BUMP_PLAIN = 0;

@@ -13,6 +13,7 @@
 //! path begins in none.
 
 mod bound;
+mod bumped;
 mod candidates;
 mod direct;
 pub(crate) mod estimator;
@@ -32,11 +33,11 @@ use specula_bsdf::{Bsdf, BsdfSample, Frame, Rgb, Transport, Vec3};
 use specula_scene::scene::{BumpRules, ColourParam};
 
 use crate::accel::Ray;
-use crate::bump::{self, Softness};
+use crate::bump::Softness;
 use crate::film::{PixelSample, ScatterCounts, VertexCounts};
 use crate::geometry::{NONE, Surface};
 use crate::light::{LightSample, Receiver};
-use crate::material::{Coat, Material, PointLobe};
+use crate::material::PointLobe;
 use crate::medium_stack::MediumStack;
 use crate::options::{RenderOptions, Strategy};
 use crate::prepared::PreparedScene;
@@ -352,13 +353,14 @@ impl<'a> PathTracer<'a> {
         let chosen = materials.at(material, textures, &place, |level| {
             sampler.hashed([depth, level, 0])
         });
-        let mut lobe = chosen.lobe(textures, &place, outside);
         let material = chosen.material;
-        let (ns, tangent) = self.shading_normal_and_tangent(&surface, material);
-        let tangent = if material.takes_any_tangent {
+        let bent = self.bumped_frame(&surface, material);
+        let coat = (material.coat).map(|coat| self.bumped_coat(coat, &surface, facing));
+        let ns = bent.normal;
+        let tangent = if material.takes_any_tangent && bent.spread.is_none() {
             Vec3::ZERO
         } else {
-            tangent
+            bent.tangent
         };
         let ns = if ns.dot(facing) < 0.0 { -ns } else { ns };
         let (ns, softness) = match material.bump_rules {
@@ -369,15 +371,24 @@ impl<'a> PathTracer<'a> {
             }
             _ => (ns, None),
         };
-        let n = if ns.dot(wo) <= 0.0 && lobe.is_specular() {
-            facing
+        let mut frame = Frame::from_normal_tangent(ns, tangent);
+        let own_coat = coat.map_or(0.0, |c| c.spread.map_or(0.0, |s| s.trace_about(c.normal)));
+        let mut lobe = if bent.spread.is_none() && own_coat <= 0.0 {
+            chosen.lobe(textures, &place, outside)
         } else {
-            ns
+            let map = bent
+                .spread
+                .map_or_else(Default::default, |s| s.within(&frame));
+            let (widening, turn_rad) = chosen.widening(textures, &place, map, own_coat);
+            let (sin, cos) = turn_rad.sin_cos();
+            frame = Frame::from_normal_tangent(ns, frame.s * cos + frame.t * sin);
+            chosen.widened_lobe(textures, &place, outside, &widening)
         };
-        let frame = Frame::from_normal_tangent(n, tangent);
-        if let (Some(coat), PointLobe::Listed(Lobe::Gltf(gltf))) = (material.coat, &mut lobe) {
-            let normal = self.coat_normal(coat, &surface, facing);
-            *gltf = gltf.with_coat_normal(frame.to_local(normal));
+        if ns.dot(wo) <= 0.0 && lobe.is_specular() {
+            frame = Frame::from_normal_tangent(facing, tangent);
+        }
+        if let (Some(coat), PointLobe::Listed(Lobe::Gltf(gltf))) = (coat, &mut lobe) {
+            *gltf = gltf.with_coat_normal(frame.to_local(coat.normal));
         }
         ShadingPoint {
             surface,
@@ -389,51 +400,6 @@ impl<'a> PathTracer<'a> {
             facing,
             wo: wo.normalize(),
         }
-    }
-
-    /// Shading normal and tangent, with the material's bump map and rotation.
-    #[inline]
-    fn shading_normal_and_tangent(
-        &self,
-        surface: &Surface,
-        material: &Material,
-    ) -> (Vec3<f32>, Vec3<f32>) {
-        let (ns, tangent) = match &material.bump {
-            None => (surface.ns, surface.tangent),
-            Some(r) => {
-                let PreparedScene {
-                    textures, geometry, ..
-                } = self.scene;
-                bump::bend(r, material.bump_rules, textures, geometry, surface)
-            }
-        };
-        let rotation_rad = material.rotation_rad(&self.scene.textures, || surface.place());
-        if rotation_rad == 0.0 {
-            return (ns, tangent);
-        }
-        let [_, along_v] = self.scene.geometry.partials(surface).dp;
-        let frame = Frame::from_normal_tangent(ns, tangent);
-        let side = if frame.t.dot(along_v) < 0.0 {
-            -1.0
-        } else {
-            1.0
-        };
-        let (sin, cos) = rotation_rad.sin_cos();
-        (ns, frame.s * cos + frame.t * (sin * side))
-    }
-
-    /// The normal of a clear coat, on the side of `facing`.
-    fn coat_normal(&self, coat: Coat, surface: &Surface, facing: Vec3<f32>) -> Vec3<f32> {
-        let scene = self.scene;
-        let normal = match &coat.0 {
-            None => surface.ns,
-            Some(r) => {
-                let rules = BumpRules::Plain;
-                bump::bend(r, rules, &scene.textures, &scene.geometry, surface).0
-            }
-        };
-        let side = if normal.dot(facing) < 0.0 { -1.0 } else { 1.0 };
-        normal * side
     }
 
     /// How many lights are sampled at a vertex: one where it is measured.

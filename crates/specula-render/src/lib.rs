@@ -28,6 +28,7 @@ mod ray_cone;
 mod renderer;
 mod sampler;
 mod simd;
+mod slopes;
 mod soa;
 mod texture;
 mod words;
@@ -57,8 +58,8 @@ pub use material::MaterialShader;
 pub use memory::MemoryEstimate;
 pub use options::{RenderOptions, Strategy, TextureFilter};
 pub use points::{
-    LitPoint, PointLighting, PrimitivePoint, SeenSurface, SoftenedNormal, TextureFootprint,
-    TexturePoint,
+    FilteredNormal, LitPoint, PointLighting, PrimitivePoint, SeenSurface, SoftenedNormal,
+    TextureFootprint, TexturePoint,
 };
 pub use prepared::{PrepareError, PreparedScene};
 pub use renderer::{InvalidSample, PassReport, Renderer, ResumeError};

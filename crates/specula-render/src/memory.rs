@@ -14,7 +14,7 @@ use crate::film::BYTES_PER_PIXEL;
 use crate::light::{BYTES_PER_EMITTER, BYTES_PER_FAR_PIXEL};
 use crate::options::RenderOptions;
 use crate::picture::{ALL_CHANNELS, blocks_size};
-use crate::texture::pyramid_pixels;
+use crate::texture::{moment_pixels, pyramid_pixels};
 
 /// The program itself, as it is before a scene is read.
 const PROGRAM: u64 = 10 << 20;
@@ -151,6 +151,11 @@ impl MemoryEstimate {
                 held.add(pyramid);
                 self.textures += pyramid;
             }
+        }
+        if options.filter_normal_maps {
+            let moments = 24 * moment_pixels(scene);
+            held.add(moments);
+            self.textures += moments;
         }
     }
 

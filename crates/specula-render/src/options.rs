@@ -169,6 +169,11 @@ pub struct RenderOptions {
     pub regularize: bool,
     /// How textures are filtered.
     pub texture_filter: TextureFilter,
+    /// Whether normal maps are filtered into roughness: where a footprint averages normals, alphas grow by how much
+    /// their slopes vary over it (LEAN mapping: Olano and Baker 2010). Otherwise the mean normal alone is left. Normal
+    /// maps that are interpolated bilinearly are filtered by [`Interpolation::EWA`] then, others as
+    /// [`RenderOptions::texture_filter`] says; nearest pixels stay.
+    pub filter_normal_maps: bool,
 }
 
 impl RenderOptions {
@@ -197,6 +202,7 @@ impl RenderOptions {
             clamp: _,
             regularize: _,
             texture_filter,
+            filter_normal_maps,
         } = self;
         // Not which noise: a film goes on to a smaller one as if that had been asked for at first.
         let spread = if noise.is_some() { ", adaptive" } else { "" };
@@ -213,11 +219,15 @@ impl RenderOptions {
             TextureFilter::Scene => String::new(),
             other => format!(", textures {other}"),
         };
+        let normals = match filter_normal_maps {
+            true => ", normal maps filtered into roughness",
+            false => "",
+        };
         let biased = self.bias().map(|bias| format!(", {BIASED}{bias}"));
         let biased = biased.unwrap_or_default();
         format!(
             "depth {max_depth}, seed {seed}, sampler {vndf_sampler}, energy {energy}, {mis_pdf}, \
-             {strategy}{sampled}{shared}{spread}{filtered}{biased}"
+             {strategy}{sampled}{shared}{spread}{filtered}{normals}{biased}"
         )
     }
 
@@ -263,6 +273,7 @@ impl Default for RenderOptions {
             clamp: None,
             regularize: false,
             texture_filter: TextureFilter::Scene,
+            filter_normal_maps: false,
         }
     }
 }

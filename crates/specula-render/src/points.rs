@@ -2,7 +2,7 @@
 //!
 //! For previews and for other renderers of the scene: shaders are compared with these values.
 
-use specula_bsdf::{Rgb, Vec3};
+use specula_bsdf::{Frame, Rgb, Vec3};
 use specula_scene::scene::{BumpRules, ColourParam, TextureId};
 
 use crate::accel::Ray;
@@ -11,6 +11,7 @@ use crate::geometry::{FARTHEST, NONE, PrimitiveLocation, Surface};
 use crate::integrator::estimator::MOST_PASSES;
 use crate::light::Receiver;
 use crate::prepared::PreparedScene;
+use crate::slopes::{SlopeCovariance, Widening};
 use crate::texture::{Footprint, TextureCoordinates};
 
 /// Where a texture is evaluated.
@@ -83,6 +84,21 @@ pub struct SoftenedNormal {
     pub normal: [f32; 3],
     /// Factor on light from `wi`.
     pub factor: f32,
+}
+
+/// A normal map that is filtered into roughness, at a point: see [`PreparedScene::filtered_normal`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilteredNormal {
+    /// The mean normal, unit.
+    pub normal: [f32; 3],
+    /// Covariance `(xx, xy, yy)` of the slopes about it, along the tangent and across it.
+    pub covariance: [f32; 3],
+    /// The lobe's alphas, along the principal axes.
+    pub alphas: [f32; 2],
+    /// The alpha of a clear coat that has had the first of the lobe's.
+    pub coat_alpha: f32,
+    /// Angle from the tangent to the first principal axis, in radians.
+    pub turn_rad: f32,
 }
 
 /// What a pixel shows.
@@ -231,24 +247,67 @@ impl PreparedScene {
     /// Where there is no such material or primitive.
     #[must_use]
     pub fn bumped_frame(&self, material: u32, at: &PrimitivePoint) -> [[f32; 3]; 2] {
-        let [instance, primitive] = at.primitive;
-        let hit = PrimitiveLocation {
-            instance,
-            primitive,
-            weights: at.weights,
-            time: 0.0,
-        };
         let (textures, geometry) = (&self.textures, &self.geometry);
-        let surface = geometry.surface_at(&hit, || Vec3::from(at.near));
+        let surface = geometry.surface_at(&location(at), || Vec3::from(at.near));
         let chosen = self
             .materials
             .at(material, textures, &surface.place(), |_| 0.5);
         let material = chosen.material;
         let (normal, tangent) = match &material.bump {
             None => (surface.ns, surface.tangent),
-            Some(map) => bump::bend(map, material.bump_rules, textures, geometry, &surface),
+            Some(map) => {
+                let bent = bump::bend(map, material.bump_rules, textures, geometry, &surface);
+                (bent.normal, bent.tangent)
+            }
         };
         [normal.to_array(), tangent.to_array()]
+    }
+
+    /// The normal of a material's normal map that is filtered into roughness, and how it widens a lobe there.
+    ///
+    /// * `changes`: `(du, dv)` along the half axes of the footprint.
+    /// * `alphas`: of the lobe, along the tangent and across it; 0 where it is smooth.
+    ///
+    /// # Panics
+    /// Where there is no such material or primitive.
+    #[must_use]
+    pub fn filtered_normal(
+        &self,
+        material: u32,
+        at: &PrimitivePoint,
+        changes: [[f32; 2]; 2],
+        alphas: [f32; 2],
+    ) -> FilteredNormal {
+        let (textures, geometry) = (&self.textures, &self.geometry);
+        let mut surface = geometry.surface_at(&location(at), || Vec3::from(at.near));
+        surface.footprint = Some(Footprint {
+            uv: changes,
+            ..Footprint::default()
+        });
+        let chosen = self
+            .materials
+            .at(material, textures, &surface.place(), |_| 0.5);
+        let bump = (chosen.material.bump.as_ref()).expect("the material has a normal map");
+        let bent = bump::bend(
+            bump,
+            chosen.material.bump_rules,
+            textures,
+            geometry,
+            &surface,
+        );
+        let frame = Frame::from_normal_tangent(bent.normal, bent.tangent);
+        let within = bent
+            .spread
+            .map_or_else(SlopeCovariance::default, |s| s.within(&frame));
+        let own_coat = bent.spread.map_or(0.0, |s| s.trace_about(bent.normal));
+        let (widening, turn_rad) = Widening::new(within, own_coat, alphas);
+        FilteredNormal {
+            normal: bent.normal.to_array(),
+            covariance: [within.xx, within.xy, within.yy],
+            alphas: widening.of(alphas),
+            coat_alpha: widening.of_own_coat(alphas[0]),
+            turn_rad,
+        }
     }
 
     /// A bent normal as a material's rules turn it back, and their factor on light from `wi`.
@@ -272,6 +331,16 @@ impl PreparedScene {
             normal: normal.to_array(),
             factor: softness.map_or(1.0, |s| s.factor(wi)),
         }
+    }
+}
+
+fn location(at: &PrimitivePoint) -> PrimitiveLocation {
+    let [instance, primitive] = at.primitive;
+    PrimitiveLocation {
+        instance,
+        primitive,
+        weights: at.weights,
+        time: 0.0,
     }
 }
 

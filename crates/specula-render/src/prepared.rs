@@ -159,7 +159,10 @@ impl PreparedScene {
     ) -> Result<Self, PrepareError> {
         let view = View::new(&scene.camera, &scene.film, options)?;
         options.texture_filter.apply(&mut scene);
-        let textures = Textures::new(&mut scene);
+        let mut textures = Textures::new(&mut scene);
+        if options.filter_normal_maps {
+            textures.filter_normal_maps(&scene);
+        }
         let materials = Materials::new(&scene, &textures, options);
         let earlier = earlier.map(|e| e.geometry);
         let geometry = Geometry::after(&mut scene, &textures, earlier)?;

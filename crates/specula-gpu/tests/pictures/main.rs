@@ -11,6 +11,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod measured;
+mod normal_maps;
 #[path = "../common/queries.rs"]
 mod offered;
 mod textures;

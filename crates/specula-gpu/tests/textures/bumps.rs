@@ -143,7 +143,7 @@ fn bent_mesh() -> Mesh {
     }
 }
 
-fn scene() -> Scene {
+pub(crate) fn scene() -> Scene {
     let mut scene = builtin::orbs();
     let kind = scene.materials.pop().unwrap().kind;
     scene.materials = materials()
@@ -225,16 +225,16 @@ fn scene() -> Scene {
 }
 
 /// A point of a primitive, and three directions.
-struct Point {
-    name: &'static str,
-    primitive: [u32; 2],
-    near: [f32; 3],
-    weights: [f32; 2],
+pub(crate) struct Point {
+    pub(crate) name: &'static str,
+    pub(crate) primitive: [u32; 2],
+    pub(crate) near: [f32; 3],
+    pub(crate) weights: [f32; 2],
     /// Unbent, towards the light, bent.
     directions: [[f32; 3]; 3],
 }
 
-fn points() -> Vec<Point> {
+pub(crate) fn points() -> Vec<Point> {
     let mut rng = Rng::from_name("bumps");
     let mut points = Vec::new();
     for (name, instance, primitive, middle) in PRIMITIVES {
@@ -372,7 +372,7 @@ fn planted_faults_of_bumps_are_found() {
             "noise on sphere",
         ),
         (
-            fault("bump", "2.0 * texture_colour", "1.9 * texture_colour"),
+            fault("bump", "2.0 * values[0]", "1.9 * values[0]"),
             "normal map on disk",
         ),
         (

@@ -38,7 +38,7 @@ pub(crate) const TEXTURES: [Module; 8] =
     [WORLD, ANGLES, PLACE, MAPPING, RASTER, FILTER, NOISE, GRAPH];
 
 /// Modules of bump maps, besides the library's `frame`.
-pub(crate) const BUMPS: [Module; 12] = [
+pub(crate) const BUMPS: [Module; 13] = [
     WORLD,
     ANGLES,
     PLACE,
@@ -50,6 +50,7 @@ pub(crate) const BUMPS: [Module; 12] = [
     ("ray", include_str!("../../wgsl/ray.wgsl")),
     ("surface", include_str!("../../wgsl/surface.wgsl")),
     ("partials", include_str!("../../wgsl/partials.wgsl")),
+    ("slopes", include_str!("../../wgsl/slopes.wgsl")),
     ("bump", include_str!("../../wgsl/bump.wgsl")),
 ];
 

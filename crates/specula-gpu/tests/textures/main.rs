@@ -18,6 +18,7 @@ mod bumps;
 mod common;
 mod device;
 mod nodes;
+mod normal_maps;
 
 use specula_render::{PreparedScene, RenderOptions, TextureFootprint, TexturePoint};
 use specula_stat::Rng;

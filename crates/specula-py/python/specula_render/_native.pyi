@@ -524,6 +524,7 @@ class RenderJob:
         energy: str | None,
         sampler: str | None,
         texture_filter: str,
+        filter_normal_maps: bool,
         noise: float | None,
         resolution: Sequence[int] | None,
         clamp: float | None,

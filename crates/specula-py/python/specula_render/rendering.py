@@ -120,6 +120,7 @@ def _job(
     energy: str | None,
     sampler: str | None,
     texture_filter: str,
+    filter_normal_maps: bool,
     resolution: tuple[int, int] | None,
     clamp: float | None,
     regularize: bool,
@@ -142,6 +143,7 @@ def _job(
             energy=energy,
             sampler=sampler,
             texture_filter=texture_filter,
+            filter_normal_maps=filter_normal_maps,
             noise=noise,
             resolution=resolution,
             clamp=clamp,
@@ -165,6 +167,7 @@ def render(
     energy: str | None = None,
     sampler: str | None = None,
     texture_filter: str = "scene",
+    filter_normal_maps: bool = False,
     resolution: tuple[int, int] | None = None,
     clamp: float | None = None,
     regularize: bool = False,
@@ -208,6 +211,9 @@ def render(
         ``"scene"``: as the scene says; ``"bilinear"``: not over footprints; ``"trilinear"`` or
         ``"ewa"``: over footprints, with less noise where pictures are seen from afar, and a bias
         that falls with the samples.
+    filter_normal_maps
+        Whether normal maps are filtered into roughness, by LEAN mapping: seen from afar, metal
+        reflects as its normals do, not as their mean does.
     resolution
         Width and height of the picture; by default those of the scene.
     clamp
@@ -250,7 +256,8 @@ def render(
     if time is not None and not time > 0.0:
         raise ValueError(f"time: expected seconds above 0, got {time}")
     options = (
-        seed, threads, max_depth, energy, sampler, texture_filter, resolution, clamp, regularize
+        seed, threads, max_depth, energy, sampler, texture_filter, filter_normal_maps,
+        resolution, clamp, regularize
     )
     job = _job(
         scene,
@@ -279,6 +286,7 @@ def render_iter(
     energy: str | None = None,
     sampler: str | None = None,
     texture_filter: str = "scene",
+    filter_normal_maps: bool = False,
     resolution: tuple[int, int] | None = None,
     clamp: float | None = None,
     regularize: bool = False,
@@ -290,7 +298,8 @@ def render_iter(
 
     Parameters
     ----------
-    scene, spp, threads, seed, max_depth, energy, sampler, texture_filter, resolution
+    scene, spp, threads, seed, max_depth, energy, sampler, texture_filter,
+    filter_normal_maps, resolution
         As for `render`.
     clamp, regularize
         As for `render`.
@@ -312,7 +321,8 @@ def render_iter(
     [1.0, 2.0, 4.0, 5.0]
     """
     options = (
-        seed, threads, max_depth, energy, sampler, texture_filter, resolution, clamp, regularize
+        seed, threads, max_depth, energy, sampler, texture_filter, filter_normal_maps,
+        resolution, clamp, regularize
     )
     return _steps(_job(scene, spp, *options))
 
@@ -328,6 +338,7 @@ def render_live(
     energy: str | None = None,
     sampler: str | None = None,
     texture_filter: str = "scene",
+    filter_normal_maps: bool = False,
     resolution: tuple[int, int] | None = None,
     clamp: float | None = None,
     regularize: bool = False,
@@ -338,7 +349,8 @@ def render_live(
 
     Parameters
     ----------
-    scene, spp, threads, seed, max_depth, energy, sampler, texture_filter, resolution
+    scene, spp, threads, seed, max_depth, energy, sampler, texture_filter,
+    filter_normal_maps, resolution
         As for `render`.
     clamp, regularize
         As for `render`.
@@ -364,7 +376,8 @@ def render_live(
     if not every > 0.0:
         raise ValueError(f"every: expected seconds above 0, got {every}")
     options = (
-        seed, threads, max_depth, energy, sampler, texture_filter, resolution, clamp, regularize
+        seed, threads, max_depth, energy, sampler, texture_filter, filter_normal_maps,
+        resolution, clamp, regularize
     )
     job = _job(scene, spp, *options)
     job.advance(1, None, None)

@@ -262,8 +262,8 @@ impl RenderJob {
     /// * `checkpoint`: the file that the film is saved in, and gone on with if it is there.
     /// * `max_memory`: bytes that the process may take; `None`: what is available.
     #[new]
-    #[pyo3(signature = (scene, *, spp, is_bounded, seed, threads, max_depth, energy, sampler, texture_filter, noise,
-        resolution, clamp, regularize, checkpoint, max_memory))]
+    #[pyo3(signature = (scene, *, spp, is_bounded, seed, threads, max_depth, energy, sampler, texture_filter,
+        filter_normal_maps, noise, resolution, clamp, regularize, checkpoint, max_memory))]
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
     fn new(
         py: Python<'_>,
@@ -276,6 +276,7 @@ impl RenderJob {
         energy: Option<&str>,
         sampler: Option<&str>,
         texture_filter: &str,
+        filter_normal_maps: bool,
         noise: Option<f64>,
         resolution: Option<[u32; 2]>,
         clamp: Option<f64>,
@@ -301,6 +302,7 @@ impl RenderJob {
         };
         options.regularize = regularize;
         options.texture_filter = named(texture_filter)?;
+        options.filter_normal_maps = filter_normal_maps;
         options.resolution = resolution;
         let pool = ThreadPoolBuilder::new()
             .num_threads(threads)

@@ -77,7 +77,7 @@ impl PreparedScene {
         self.develop.flatten(&mut words);
         let (nodes, packets) = self.geometry.flatten(&mut words);
         let mut missing = self.textures.flatten(&mut words);
-        let shaders = self.materials.flatten(&mut words);
+        let shaders = self.materials.flatten(&self.textures, &mut words);
         if self.moves {
             missing.push("motion blur".to_owned());
         }

@@ -16,6 +16,7 @@ use specula_scene::{Energy, scene};
 use super::Models;
 use super::metal::{alpha, reflectance, regularized_alpha};
 use super::rough::{conductor, dielectric};
+use crate::slopes::Widening;
 use crate::texture::{TextureCoordinates, Textures};
 
 /// What takes all light and gives none.
@@ -83,7 +84,7 @@ pub(super) fn coat_of_coloured_base(
         .iter()
         .all(|p| matches!(p, FloatParam::Value(_)));
     let nowhere = TextureCoordinates::default();
-    let at = PointParameters::new(textures, &nowhere, models);
+    let at = PointParameters::new(textures, &nowhere, models, None);
     (is_same && !medium.scatters())
         .then(|| at.diffuse_coat(*eta, roughness, (medium, *lossless), models))
 }
@@ -112,14 +113,16 @@ pub(super) fn albedo(
 /// The lobe of a material that is no mix.
 ///
 /// * `outside`: whether it is seen from the outside of its shape.
+/// * `widening`: how alphas grow.
 pub(super) fn lobe(
     kind: &MaterialKind,
     textures: &Textures,
     place: &TextureCoordinates,
     outside: bool,
     models: Models,
+    widening: Option<&Widening>,
 ) -> Lobe<f32> {
-    let at = PointParameters::new(textures, place, models);
+    let at = PointParameters::new(textures, place, models, widening);
     match *kind {
         MaterialKind::Diffuse {
             reflectance,
@@ -201,6 +204,79 @@ pub(super) fn lobe(
     }
 }
 
+/// The alphas by which the frame of a material's lobes is chosen, along its axes; 0 where it is smooth or has none.
+pub(super) fn alphas(
+    kind: &MaterialKind,
+    textures: &Textures,
+    place: &TextureCoordinates,
+    models: Models,
+) -> [f32; 2] {
+    let at = PointParameters::new(textures, place, models, None);
+    match kind {
+        MaterialKind::Conductor { roughness, .. }
+        | MaterialKind::Dielectric { roughness, .. }
+        | MaterialKind::CoatedDiffuse { roughness, .. }
+        | MaterialKind::Plastic { roughness, .. } => at.alphas(roughness),
+        // As in `rotation_rad`.
+        MaterialKind::CoatedConductor {
+            coat_roughness,
+            roughness,
+            ..
+        } => match at.alphas(coat_roughness) {
+            [x, y] if x == y => at.alphas(roughness),
+            alphas => alphas,
+        },
+        MaterialKind::Principled(p) => {
+            principled_alphas(at.roughness(p.roughness), at.unit(p.anisotropic))
+        }
+        MaterialKind::Gltf(g) => gltf_alphas(at.roughness(g.roughness), at.unit(g.anisotropy)),
+        _ => [0.0; 2],
+    }
+}
+
+/// Alphas of glTF's base layer; the longer one is the first.
+///
+/// Source: `KHR_materials_anisotropy`.
+fn gltf_alphas(roughness: f32, anisotropy: f32) -> [f32; 2] {
+    let alpha = roughness * roughness;
+    [alpha + (1.0 - alpha) * anisotropy * anisotropy, alpha]
+}
+
+/// The roughness and the anisotropy of glTF's base layer with these alphas, or the nearest that it has.
+///
+/// * `along`, `across`: the first is the longer one.
+fn gltf_roughness([along, across]: [f32; 2]) -> [f32; 2] {
+    let [along, across] = [along, across].map(|alpha| alpha.min(1.0));
+    let anisotropy = ((along - across) / (1.0 - across).max(1e-6)).clamp(0.0, 1.0);
+    [across, anisotropy].map(f32::sqrt)
+}
+
+/// Alphas of the principled materials' base; the longer one is the first.
+///
+/// Source: Burley 2012, section 5.4.
+fn principled_alphas(roughness: f32, anisotropic: f32) -> [f32; 2] {
+    let alpha = roughness * roughness;
+    let aspect = (1.0 - 0.9 * anisotropic).sqrt();
+    [alpha / aspect, alpha * aspect]
+}
+
+/// The roughness and the anisotropy of the principled materials' base with these alphas; where one is more than ten
+/// times the other, the shorter one is raised.
+///
+/// * `along`, `across`: the first is the longer one.
+fn principled_roughness([along, across]: [f32; 2]) -> [f32; 2] {
+    let squared_aspect = (across / along.max(1e-9)).clamp(0.1, 1.0);
+    let alpha = (along * squared_aspect.sqrt()).min(1.0);
+    [alpha.sqrt(), (1.0 - squared_aspect) / 0.9]
+}
+
+/// The gloss of the principled materials' clear coat with an alpha, or the nearest that it has.
+///
+/// Source: Burley 2012, section 5.6.
+fn coat_gloss(alpha: f32) -> f32 {
+    ((0.1 - alpha) / (0.1 - 0.001)).clamp(0.0, 1.0)
+}
+
 /// Parameters at a point.
 #[derive(Clone, Copy)]
 struct PointParameters<'a> {
@@ -208,14 +284,22 @@ struct PointParameters<'a> {
     place: &'a TextureCoordinates,
     /// Whether it is behind a rough surface that makes it rougher.
     regularized: bool,
+    /// How alphas grow by what a normal map's filter averages.
+    widening: Option<&'a Widening>,
 }
 
 impl<'a> PointParameters<'a> {
-    fn new(textures: &'a Textures, place: &'a TextureCoordinates, models: Models) -> Self {
+    fn new(
+        textures: &'a Textures,
+        place: &'a TextureCoordinates,
+        models: Models,
+        widening: Option<&'a Widening>,
+    ) -> Self {
         Self {
             textures,
             place,
             regularized: models.regularized,
+            widening,
         }
     }
 
@@ -232,7 +316,16 @@ impl<'a> PointParameters<'a> {
     }
 
     fn alpha(&self, roughness: &Roughness) -> Option<Alpha<f32>> {
-        alpha(roughness, self.textures, self.place, self.regularized)
+        let alpha = alpha(roughness, self.textures, self.place, self.regularized);
+        match self.widening {
+            Some(widening) => widening.of_rough(alpha),
+            None => alpha,
+        }
+    }
+
+    /// The same; 0 where the surface is smooth.
+    fn alphas(&self, roughness: &Roughness) -> [f32; 2] {
+        (self.alpha(roughness)).map_or([0.0; 2], |alpha| [alpha.x, alpha.y])
     }
 
     /// A roughness in `[0, 1]` whose square is alpha.
@@ -378,10 +471,23 @@ impl<'a> PointParameters<'a> {
         p: &scene::PrincipledMaterial,
         outside: bool,
     ) -> PrincipledParameters<f32> {
+        let mut roughness = self.roughness(p.roughness);
+        let mut anisotropic = self.unit(p.anisotropic);
+        // Its alphas end at 0.1, that of gloss 0.
+        let mut clearcoat_gloss = match self.regularized {
+            true => 0.0,
+            false => self.unit(p.clearcoat_gloss),
+        };
+        if let Some(widening) = self.widening {
+            let alphas = widening.of(principled_alphas(roughness, anisotropic));
+            [roughness, anisotropic] = principled_roughness(alphas);
+            let coat = 0.1 + (0.001 - 0.1) * clearcoat_gloss;
+            clearcoat_gloss = coat_gloss(widening.of_isotropic(coat));
+        }
         PrincipledParameters {
             base_colour: self.albedo(p.base_colour),
-            roughness: self.roughness(p.roughness),
-            anisotropic: self.unit(p.anisotropic),
+            roughness,
+            anisotropic,
             metallic: self.unit(p.metallic),
             spec_trans: self.unit(p.spec_trans),
             eta: p.eta,
@@ -389,11 +495,7 @@ impl<'a> PointParameters<'a> {
             sheen: self.unit(p.sheen),
             sheen_tint: self.unit(p.sheen_tint),
             clearcoat: self.unit(p.clearcoat),
-            // Its alphas end at 0.1, that of gloss 0.
-            clearcoat_gloss: match self.regularized {
-                true => 0.0,
-                false => self.unit(p.clearcoat_gloss),
-            },
+            clearcoat_gloss,
             flatness: self.unit(p.flatness),
             diff_trans: self
                 .textures
@@ -405,11 +507,20 @@ impl<'a> PointParameters<'a> {
     }
 
     fn gltf(&self, g: &scene::GltfMaterial, outside: bool, models: Models) -> GltfParameters<f32> {
+        let mut roughness = self.roughness(g.roughness);
+        let mut anisotropy = self.unit(g.anisotropy);
+        let mut clearcoat_roughness = self.roughness(g.clearcoat_roughness);
+        if let Some(widening) = self.widening {
+            let alphas = widening.of(gltf_alphas(roughness, anisotropy));
+            [roughness, anisotropy] = gltf_roughness(alphas);
+            let coat = clearcoat_roughness * clearcoat_roughness;
+            clearcoat_roughness = widening.of_own_coat(coat).sqrt().min(1.0);
+        }
         GltfParameters {
             base_colour: self.albedo(g.base_colour),
             metallic: self.unit(g.metallic),
-            roughness: self.roughness(g.roughness),
-            anisotropy: self.unit(g.anisotropy),
+            roughness,
+            anisotropy,
             ior: g.ior,
             specular: self.unit(g.specular),
             specular_colour: self
@@ -420,7 +531,7 @@ impl<'a> PointParameters<'a> {
             volume: g.volume,
             outside,
             clearcoat: self.unit(g.clearcoat),
-            clearcoat_roughness: self.roughness(g.clearcoat_roughness),
+            clearcoat_roughness,
             sheen_colour: self.albedo(g.sheen_colour),
             sheen_roughness: self.unit(g.sheen_roughness),
             compensated: models.energy != Energy::None,

@@ -17,13 +17,14 @@ use crate::codes;
 use crate::convert::id;
 use crate::layout;
 use crate::medium_stack::MOST_MEDIA;
+use crate::texture::Textures;
 use crate::words::Words;
 
 impl Materials {
     /// Records, then a table of their places.
     ///
     /// Returns what they need of shaders, each once.
-    pub(crate) fn flatten(&self, to: &mut Words) -> Vec<MaterialShader> {
+    pub(crate) fn flatten(&self, textures: &Textures, to: &mut Words) -> Vec<MaterialShader> {
         let mut shaders = Vec::new();
         let mut places = Vec::with_capacity(self.materials.len());
         let mut codes_of_all = ParameterCodes::default();
@@ -50,7 +51,7 @@ impl Materials {
         to.float_constant("BUMP_STEP", bump::STEP);
         to.begin("BUMPS");
         for material in &self.materials {
-            material.flatten_bumps(to);
+            material.flatten_bumps(textures, to);
         }
         to.begin("BOUNDARIES");
         for material in &self.materials {
@@ -127,12 +128,12 @@ impl Material {
     }
 
     /// The bump map, whether the clear coat is bent otherwise, its bump.
-    fn flatten_bumps(&self, to: &mut Words) {
+    fn flatten_bumps(&self, textures: &Textures, to: &mut Words) {
         let record = to.offset();
-        bump::flatten(self.bump.as_ref(), self.bump_rules, to);
+        bump::flatten(self.bump.as_ref(), self.bump_rules, textures, to);
         to.flag(self.coat.is_some());
         let coat = self.coat.and_then(|c| c.0);
-        bump::flatten(coat.as_ref(), BumpRules::Plain, to);
+        bump::flatten(coat.as_ref(), BumpRules::Plain, textures, to);
         to.field(record, layout::BUMP_SIZE);
     }
 

@@ -27,6 +27,7 @@ use specula_scene::scene::{
 use crate::convert::id;
 use crate::medium_stack::Boundary;
 use crate::options::RenderOptions;
+use crate::slopes::{SlopeCovariance, Widening};
 use crate::texture::{TextureCoordinates, Textures};
 
 /// All materials of a scene.
@@ -154,7 +155,7 @@ impl Materials {
                 takes_any_tangent: false,
                 constant: (!varies && has_lobe).then(|| {
                     [false, true]
-                        .map(|outside| bind::lobe(&kind, textures, &nowhere, outside, models))
+                        .map(|outside| bind::lobe(&kind, textures, &nowhere, outside, models, None))
                 }),
                 measured,
                 turn: turn(&kind, textures),
@@ -428,9 +429,44 @@ impl<'a> Chosen<'a> {
                 (Some(coat), MaterialKind::CoatedDiffuse { reflectance, .. }) => {
                     bind::coated(coat, *reflectance, textures, place)
                 }
-                _ => bind::lobe(&m.kind, textures, place, outside, m.models),
+                _ => bind::lobe(&m.kind, textures, place, outside, m.models, None),
             },
         })
+    }
+
+    /// How alphas grow by the slopes of a normal map, and by which angle the lobe's x axis turns.
+    ///
+    /// * `map`, `own_coat`: as of [`Widening::new`], in the frame that the lobe has else.
+    pub(crate) fn widening(
+        &self,
+        textures: &Textures,
+        place: &TextureCoordinates,
+        map: SlopeCovariance,
+        own_coat: f32,
+    ) -> (Widening, f32) {
+        let m = self.material;
+        let alphas = bind::alphas(&m.kind, textures, place, m.models);
+        Widening::new(map, own_coat, alphas)
+    }
+
+    /// [`Chosen::lobe`] with alphas that have grown.
+    pub(crate) fn widened_lobe(
+        &self,
+        textures: &Textures,
+        place: &TextureCoordinates,
+        outside: bool,
+        widening: &Widening,
+    ) -> PointLobe<'a> {
+        let m = self.material;
+        match &m.measured {
+            None if !self.one_sided || outside => {
+                let models = m.models;
+                let widening = Some(widening);
+                let lobe = bind::lobe(&m.kind, textures, place, outside, models, widening);
+                PointLobe::Listed(lobe)
+            }
+            _ => self.lobe(textures, place, outside),
+        }
     }
 
     /// Whether nothing comes through the lobe: it is black where `wi.z <= 0`.

@@ -43,7 +43,8 @@ impl Textures {
     /// Pictures, nodes, then a table of the nodes' offsets.
     ///
     /// Constants say what shaders can leave out: `TEXTURE_COUNT`, `TEXTURE_HAS_INPUTS`,
-    /// `TEXTURE_HAS_NOISE`, `TEXTURES_ARE_FILTERED`, and `TEXTURE_WAITING`, the size of their stack.
+    /// `TEXTURE_HAS_NOISE`, `TEXTURES_ARE_FILTERED`, `NORMAL_MAPS_ARE_FILTERED`, and `TEXTURE_WAITING`, the size of
+    /// their stack.
     ///
     /// Returns features that shaders do not support, in words for a message.
     pub(crate) fn flatten(&self, to: &mut Words) -> Vec<String> {
@@ -93,6 +94,10 @@ impl Textures {
             ),
             ("TEXTURE_HAS_NOISE", u32::from(has_noise)),
             ("TEXTURES_ARE_FILTERED", u32::from(self.is_filtered)),
+            (
+                "NORMAL_MAPS_ARE_FILTERED",
+                u32::from(!self.normal_maps.is_empty()),
+            ),
             ("TEXTURE_WAITING", waiting.clamp(1, MOST_WAITING)),
         ] {
             to.constant(name, value);
@@ -264,7 +269,11 @@ impl Picture {
             Interpolation::Trilinear => (codes::TEXTURE_FILTER_TRILINEAR, 1.0),
             Interpolation::Ewa { max_anisotropy } => (codes::TEXTURE_FILTER_EWA, max_anisotropy),
         };
-        to.ids([filter, pyramid]);
+        let means_only = match self.lookup.means_only {
+            true => codes::TEXTURE_FILTER_MEANS_ONLY,
+            false => 0,
+        };
+        to.ids([filter + means_only, pyramid]);
         to.number(max_anisotropy);
         self.mapping.flatten(to);
     }

@@ -83,7 +83,11 @@ impl Node {
             } => Self::Image(Picture {
                 image: image.0,
                 mapping: Mapping::new(mapping),
-                lookup: Lookup { wrap, filter },
+                lookup: Lookup {
+                    wrap,
+                    filter,
+                    means_only: false,
+                },
                 channel,
                 invert,
                 scale,
@@ -310,15 +314,24 @@ impl Textures {
             Some(footprint) if p.lookup.filter.is_filtered() => {
                 raster.filtered(st, p.mapping.axes(place, footprint), p.lookup)
             }
+            _ if p.lookup.means_only => Rgb::BLACK,
             _ => raster.at(st, p.lookup),
         };
-        let c = p.channel.of(pixel);
-        let c = if p.invert {
+        p.value(pixel)
+    }
+}
+
+impl Picture {
+    /// The texture's value where the picture has this one.
+    #[inline(always)]
+    pub(super) fn value(&self, pixel: Rgb<f32>) -> Rgb<f32> {
+        let c = self.channel.of(pixel);
+        let c = if self.invert {
             c.map(|v| (1.0 - v).max(0.0))
         } else {
             c
         };
-        c * p.scale
+        c * self.scale
     }
 }
 

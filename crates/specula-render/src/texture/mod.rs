@@ -5,6 +5,7 @@ mod footprint;
 mod graph;
 mod mapping;
 mod noise;
+mod normal_map;
 mod raster;
 
 use specula_bsdf::math::vec3;
@@ -13,10 +14,12 @@ use specula_scene::Scene;
 use specula_scene::scene::{ColourParam, FloatParam, Texture, TextureId};
 
 use graph::Node;
+use normal_map::FilteredNormalMap;
 use raster::Raster;
 
 pub(crate) use flat::{colour_parameter, float_parameter};
 pub(crate) use footprint::Footprint;
+pub(crate) use normal_map::{NormalMoments, moment_pixels};
 pub(crate) use raster::pyramid_pixels;
 
 /// Where a texture is evaluated.
@@ -63,14 +66,16 @@ struct Extent {
 /// All textures of a scene, with the pictures that they use.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Textures {
-    /// By the scene's indices. A node's inputs come before it.
+    /// By the scene's indices, then those of filtered normal maps. A node's inputs come before it.
     nodes: Vec<Node>,
     /// Of every node.
     extents: Vec<Extent>,
-    /// By the scene's indices; empty where no texture uses the picture.
+    /// By the scene's indices, then moments of normal maps; empty where no texture uses the picture.
     rasters: Vec<Raster>,
     /// Whether any depends on footprints.
     is_filtered: bool,
+    /// Of normal maps that are filtered into roughness, by texture; may be shorter than the textures.
+    normal_maps: Vec<Option<FilteredNormalMap>>,
 }
 
 impl Textures {
@@ -83,6 +88,7 @@ impl Textures {
             extents: Vec::with_capacity(scene.textures.len()),
             rasters: vec![Raster::default(); scene.images.len()],
             is_filtered: false,
+            normal_maps: Vec::new(),
         };
         let mut used = vec![false; scene.images.len()];
         let mut has_pyramid = vec![false; scene.images.len()];
@@ -116,10 +122,17 @@ impl Textures {
         }
         for texture in &scene.textures {
             let node = textures.folded(Node::new(texture));
-            textures.extents.push(textures.extent(&node));
-            textures.nodes.push(node);
+            textures.add(node);
         }
         textures
+    }
+
+    /// Adds a node.
+    fn add(&mut self, node: Node) -> TextureId {
+        let id = TextureId(self.nodes.len());
+        self.extents.push(self.extent(&node));
+        self.nodes.push(node);
+        id
     }
 
     /// Of the next node.

@@ -1,8 +1,10 @@
 //! Image textures: pixels in memory and their interpolation.
 
 mod filter;
+mod moments;
 mod pyramid;
 
+pub(crate) use moments::slope_of;
 pub(crate) use pyramid::pyramid_pixels;
 use specula_bsdf::Rgb;
 use specula_bsdf::math::rgb;
@@ -29,6 +31,9 @@ pub(super) struct Lookup {
     /// Along s and t.
     pub(super) wrap: [Wrap; 2],
     pub(super) filter: Interpolation,
+    /// Whether what the picture itself contributes is left out: the mean over what a footprint averages, times the share
+    /// that is averaged. 0 where the picture is interpolated.
+    pub(super) means_only: bool,
 }
 
 impl Raster {
@@ -181,6 +186,7 @@ mod tests {
         let lookup = Lookup {
             wrap: [wrap; 2],
             filter,
+            means_only: false,
         };
         square().at([s, t], lookup).r
     }
@@ -216,6 +222,7 @@ mod tests {
         let lookup = Lookup {
             wrap: [Wrap::Repeat, Wrap::Clamp],
             filter: Interpolation::Nearest,
+            means_only: false,
         };
         assert_eq!(square().at([1.6, 7.0], lookup).r, 1.0);
         assert_eq!(square().at([-0.4, -7.0], lookup).r, 3.0);

@@ -228,6 +228,11 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "FILTER", default_value_t = TextureFilterName::Scene)]
     pub(crate) texture_filter: TextureFilterName,
 
+    /// Filter normal maps into roughness, by LEAN mapping: seen from afar, metal reflects as its normals do, not as
+    /// their mean does. Maps that are interpolated bilinearly are filtered over ellipses, whatever other textures are
+    #[arg(long)]
+    pub(crate) filter_normal_maps: bool,
+
     /// Longest path in scattering events [default: as the scene says]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=65_535))]
     pub(crate) max_depth: Option<u32>,

@@ -251,6 +251,7 @@ fn options(arguments: &RenderArguments, scene: &Scene) -> Result<RenderOptions, 
         clamp: arguments.clamp,
         regularize: arguments.regularize,
         texture_filter: arguments.texture_filter.into(),
+        filter_normal_maps: arguments.filter_normal_maps,
         ..from_scene
     })
 }

@@ -309,3 +309,36 @@ fn bias_is_named() {
         assert!(stderr(&run).contains("above 0"), "{}", stderr(&run));
     }
 }
+
+/// A smooth metal floor far below with waves on it: of a sun without extent its mean normals reflect nothing.
+#[test]
+fn normal_maps_are_filtered_into_roughness_on_demand() {
+    let (folder, _) = small_scene();
+    let path = folder.path();
+    let waves = image::RgbImage::from_fn(32, 32, |x, y| {
+        let byte = |i: u32| if i % 8 < 4 { 110 } else { 145 };
+        image::Rgb([byte(x), byte(y), 250])
+    });
+    waves.save(path.join("waves.png")).unwrap();
+    let scene = "LookAt 0 9 0  0 0 9  0 1 0\nCamera \"perspective\" \"float fov\" 30\n\
+        Film \"rgb\" \"integer xresolution\" 24 \"integer yresolution\" 16 \"string filename\" \"floor.exr\"\n\
+        WorldBegin\nLightSource \"distant\" \"point3 from\" [0 1 1] \"point3 to\" [0 0 0]\n\
+        Material \"conductor\" \"float roughness\" 0 \"string normalmap\" \"waves.png\"\n\
+        Shape \"trianglemesh\" \"point3 P\" [-60 0 -60  60 0 -60  60 0 60  -60 0 60]\n\
+        \"point2 uv\" [0 0  300 0  300 300  0 300] \"integer indices\" [0 2 1  0 3 2]\n";
+    std::fs::write(path.join("floor.pbrt"), scene).unwrap();
+    let light = |options: &[&str]| {
+        let mut arguments = vec!["render", "floor.pbrt", "--spp", "4", "-o", "floor.exr"];
+        arguments.extend(options);
+        succeed(path, &arguments);
+        let picture = read_exr(&path.join("floor.exr")).unwrap();
+        std::fs::remove_file(path.join("floor.exr")).unwrap();
+        picture.colour.iter().map(|c| c.g).sum::<f32>()
+    };
+    assert_eq!(light(&["--texture-filter", "ewa"]), 0.0);
+    let filtered = light(&["--filter-normal-maps"]);
+    assert!(filtered > 1.0, "{filtered}");
+    // Whatever the filter is: a pixel covers the whole map.
+    let squares = light(&["--filter-normal-maps", "--texture-filter", "trilinear"]);
+    assert_eq!(squares, filtered);
+}

@@ -93,14 +93,23 @@ impl Raster {
             return self.smallest();
         }
         if trace <= 0.0 {
-            return self.at([s, t], lookup);
+            return self.interpolated([s, t], lookup);
         }
         match lookup.filter {
             Interpolation::Trilinear => self.trilinear([s, t], &ellipse, lookup),
             Interpolation::Ewa { max_anisotropy } => {
                 self.ewa([s, t], ellipse, max_anisotropy, lookup)
             }
-            Interpolation::Bilinear | Interpolation::Nearest => self.at([s, t], lookup),
+            Interpolation::Bilinear | Interpolation::Nearest => self.interpolated([s, t], lookup),
+        }
+    }
+
+    /// The picture itself at a point; 0 where it is left out.
+    fn interpolated(&self, st: [f32; 2], lookup: Lookup) -> Rgb<f32> {
+        if lookup.means_only {
+            Rgb::BLACK
+        } else {
+            self.at(st, lookup)
         }
     }
 
@@ -116,7 +125,13 @@ impl Raster {
     /// measures footprints by the largest component of their axes, the same as here for circles.
     fn trilinear(&self, st: [f32; 2], ellipse: &Ellipse, lookup: Lookup) -> Rgb<f32> {
         let side = 2.0 * ellipse.xx.max(ellipse.yy).sqrt();
-        self.between_levels(side.log2(), |level| level.at(st, lookup))
+        self.between_levels(side.log2(), |level| {
+            if core::ptr::eq(level, self) {
+                self.interpolated(st, lookup)
+            } else {
+                level.at(st, lookup)
+            }
+        })
     }
 
     /// The mean over the ellipse with Gaussian weights, in the levels where its shorter axis is 1 to 2 pixels.
@@ -138,11 +153,11 @@ impl Raster {
         let [longer, _] = ellipse.squared_axes();
         let share = (2.0 * longer.sqrt() - 1.0).min(1.0);
         if share <= 0.0 {
-            return self.at(st, lookup);
+            return self.interpolated(st, lookup);
         }
         let mean = self.mean_over_levels(st, ellipse, max_anisotropy, lookup);
         if share < 1.0 {
-            self.at(st, lookup) * (1.0 - share) + mean * share
+            self.interpolated(st, lookup) * (1.0 - share) + mean * share
         } else {
             mean
         }

@@ -18,6 +18,7 @@ fn lookup(filter: Interpolation, wrap: Wrap) -> Lookup {
     Lookup {
         wrap: [wrap; 2],
         filter,
+        means_only: false,
     }
 }
 
