@@ -50,6 +50,13 @@ pub(super) enum Recipe {
 }
 
 impl Recipe {
+    /// Tells it that it is of hair, as which curves differ.
+    pub(super) fn made_of_hair(&mut self) {
+        if let Self::Curve(curve) = self {
+            curve.made_of_hair();
+        }
+    }
+
     /// The mesh.
     pub(super) fn build(self, limits: &Limits) -> Result<Mesh, String> {
         match self {
