@@ -1,4 +1,5 @@
-//! Hair: chi-square, normalisation, weights, furnace, symmetry, `f32` and `f64`, rays through a smooth cylinder, extremes.
+//! Hair: chi-square, normalisation, weights, furnace, symmetry, `f32` and `f64`, rays through a smooth cylinder,
+//! extremes.
 
 mod common;
 
@@ -60,7 +61,8 @@ impl Case {
     }
 }
 
-/// From the grid of the proofs, whose pole is z, to the lobe, whose fibre is x: inclinations and azimuths are its sides.
+/// From the grid of the proofs, whose pole is z, to the lobe, whose fibre is x: inclinations and azimuths are its
+/// sides.
 fn along_x(w: Vec3<f64>) -> Vec3<f64> {
     vec3(w.z, w.x, w.y)
 }

@@ -10,8 +10,8 @@
 //!
 //! A3 is all that is left: without absorption the four sum to 1.
 //!
-//! Source: Chiang et al. 2016, section 3.2; the modified index by Marschner et al. 2003, appendix B. `F` is exact for the
-//! angle in space, as in pbrt-v4.
+//! Source: Chiang et al. 2016, section 3.2; the modified index by Marschner et al. 2003, appendix B. `F` is exact for
+//! the angle in space, as in pbrt-v4.
 
 use super::longitudinal::Inclination;
 use super::{LOBES, RESIDUE};

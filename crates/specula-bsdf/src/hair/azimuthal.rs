@@ -1,5 +1,5 @@
-//! Azimuthal scattering: around the fibre, a logistic distribution about the direction of a smooth cylinder, trimmed to one
-//! turn.
+//! Azimuthal scattering: around the fibre, a logistic distribution about the direction of a smooth cylinder, trimmed
+//! to one turn.
 //!
 //! ```text
 //! N(phi) = l(phi - Phi) / tanh(pi / (2s)),   l(x) = exp(-|x|/s) / (s (1 + exp(-|x|/s))^2),   x in [-pi, pi]

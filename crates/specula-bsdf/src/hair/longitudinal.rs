@@ -1,5 +1,5 @@
-//! Longitudinal scattering: along the fibre, a von Mises-Fisher distribution about the mirrored inclination, its azimuth
-//! integrated out.
+//! Longitudinal scattering: along the fibre, a von Mises-Fisher distribution about the mirrored inclination, its
+//! azimuth integrated out.
 //!
 //! ```text
 //! M(theta_o, theta_i) = exp(-sin_i sin_o / v) I0(cos_i cos_o / v) / (2 v sinh(1/v))

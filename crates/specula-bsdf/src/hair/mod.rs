@@ -1,8 +1,8 @@
 //! Hair and fur: scattering by a dielectric cylinder with rough, tilted scales that absorbs inside.
 //!
 //! The fibre runs along the local x. A direction has an inclination `theta` to the plane across the fibre, with
-//! `sin(theta) = x`, and an azimuth `phi` in it. Light leaves in three lobes, reflected (R), through the fibre (TT), and
-//! reflected once within (TRT), and in a fourth that stands for all that is left:
+//! `sin(theta) = x`, and an azimuth `phi` in it. Light leaves in three lobes, reflected (R), through the fibre (TT),
+//! and reflected once within (TRT), and in a fourth that stands for all that is left:
 //!
 //! ```text
 //! S(wo, wi) = sum over p of A_p(theta_o, h) M_p(theta_o, theta_i) N_p(phi_i - phi_o, h)
@@ -12,12 +12,13 @@
 //! S is what [`Bsdf::eval`] returns: a fibre has no cosine of its own, and scatters to the whole sphere. M and N are
 //! densities, `A_0 + A_1 + A_2 + A_3 <= 1`, so that the albedo is their sum, and weights of samples are at most 3.
 //!
-//! S is not reciprocal: it has the attenuations of wo, and scales tilt. Without a tilt it is between directions of the
-//! same inclination, averaged over h. It does not change when wo, wi and h are mirrored across the plane of x and z.
+//! S is not reciprocal: it has the attenuations of wo, and scales tilt. Without a tilt it is between directions of
+//! the same inclination, averaged over h. It does not change when wo, wi and h are mirrored across the plane of x
+//! and z.
 //!
-//! Source: Chiang, Bitterli, Tappan and Burley 2016, "A Practical and Controllable Hair and Fur Model for Production Path
-//! Tracing", in the form of pbrt-v4 (Pharr, Jakob and Humphreys 2023, section 9.9). Departures: lobes are sampled by the
-//! mean of their channels, as in pbrt-v4, where the paper has the luminance; M has one form for every variance
+//! Source: Chiang, Bitterli, Tappan and Burley 2016, "A Practical and Controllable Hair and Fur Model for Production
+//! Path Tracing", in the form of pbrt-v4 (Pharr, Jakob and Humphreys 2023, section 9.9). Departures: lobes are sampled
+//! by the mean of their channels, as in pbrt-v4, where the paper has the luminance; M has one form for every variance
 //! (`longitudinal`), and its samples are not cut off at a probability of 1e-5.
 
 mod attenuation;

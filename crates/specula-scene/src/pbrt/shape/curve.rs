@@ -2,7 +2,8 @@
 //!
 //! pbrt-v4's `flat` curves face every ray and its `cylinder` curves shade like tubes; both become
 //! tubes here, of 4 and of 12 sides, whose mean width from all around is the curve's; those of hair
-//! all have 12, and their centre line's direction as tangents. Ribbons become strips. The centre line is nowhere further from its chords than 1/20 of the width.
+//! all have 12, and their centre line's direction as tangents. Ribbons become strips. The centre line
+//! is nowhere further from its chords than 1/20 of the width.
 
 use glam::DVec3;
 
@@ -179,7 +180,7 @@ impl Curve {
             CurveForm::Tube(sides) => {
                 tube(&stations, *sides, &mut mesh);
                 if self.is_hair {
-                    mesh.tangents = tangents(&stations, *sides);
+                    mesh.tangents = tube::tangents(&stations, *sides);
                     mesh.is_fibre = true;
                 }
             }
@@ -203,15 +204,6 @@ impl Curve {
             |segment, u| [first + (segment as f64 + u) / count * (last - first), 0.0],
         )
     }
-}
-
-/// The centre line's direction at each vertex of a tube.
-fn tangents(stations: &[Station], sides: u32) -> Vec<[f32; 4]> {
-    let each = |station: &Station| {
-        let [x, y, z] = station.tangent.to_array().map(f32_of);
-        std::iter::repeat_n([x, y, z, 1.0], sides as usize + 1)
-    };
-    stations.iter().flat_map(each).collect()
 }
 
 /// A strip along the stations, across their normals.
