@@ -76,7 +76,8 @@ impl<T: Real> Hair<T> {
     /// h = -y / sqrt(y^2 + z^2),   wo = (x, y, z)
     /// ```
     ///
-    /// A view from behind the normal, as interpolated normals have it near outlines, meets the outline: `h` is 1 or -1.
+    /// That is the offset of a point in the normal's direction over its distance from the axis, also of a view from
+    /// behind the normal, as interpolated normals have it near outlines.
     pub fn new(parameters: &HairParameters<T>) -> Self {
         let least = T::of(LEAST_ROUGHNESS);
         let beta_m = parameters.beta_m.within(least, T::ONE);
@@ -124,8 +125,7 @@ impl<T: Real> Hair<T> {
         let (inclination, azimuth) = angles(wo);
         let gamma_o = match self.h {
             Some(h) => [h, ((T::ONE - h) * (T::ONE + h)).safe_sqrt()],
-            None if wo.z > T::ZERO => [-azimuth[0], azimuth[1]],
-            None => [T::ONE.copysign(-wo.y), T::ZERO],
+            None => [-azimuth[0], azimuth[1].abs()],
         };
         View {
             inclination,
