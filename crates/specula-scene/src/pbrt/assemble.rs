@@ -56,9 +56,8 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         reader.camera_medium,
         integrator,
     )?;
-    let (geometries, mut meshes) = geometry::read(&mut context, &all, |shape| {
-        materials.is_hair(&shape.material)
-    })?;
+    let is_hair = |shape: &ShapeEntity| materials.is_hair(&shape.material);
+    let (geometries, mut meshes) = geometry::read(&mut context, &all, is_hair)?;
     let lights = read_lights(&mut context, &reader.lights)?;
     let press = Press::new(context.files.limits());
     let mut builder = Builder {

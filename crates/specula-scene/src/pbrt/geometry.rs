@@ -134,9 +134,7 @@ pub(super) fn read(
                 Slot::Job(jobs.file(path, place))
             }
             Prepared::Recipe(mut recipe) => {
-                if is_hair(shape) {
-                    recipe.made_of_hair();
-                }
+                recipe.set_hair(is_hair(shape));
                 if let Err(message) = recipe.take_from(&mut left, context.files.limits()) {
                     let error = SceneError::new(ErrorKind::Mesh, &entity.place, message);
                     context.problems.record(error)?;

@@ -50,9 +50,9 @@ pub(super) enum Recipe {
 }
 
 impl Recipe {
-    /// Tells it that it is of hair, as which curves differ.
-    pub(super) fn made_of_hair(&mut self) {
-        if let Self::Curve(curve) = self {
+    /// Tells it whether it is of hair, as which curves differ.
+    pub(super) fn set_hair(&mut self, is_hair: bool) {
+        if let (Self::Curve(curve), true) = (self, is_hair) {
             curve.made_of_hair();
         }
     }

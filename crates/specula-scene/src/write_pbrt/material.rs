@@ -122,10 +122,7 @@ impl Writer<'_> {
             MaterialKind::Principled(p) => return self.principled(index, p),
             MaterialKind::Gltf(g) => return self.gltf(index, g),
             MaterialKind::Measured(id) => return self.measured(*id),
-            MaterialKind::Hair(hair) => {
-                params += &self.hair(hair)?;
-                "hair"
-            }
+            MaterialKind::Hair(hair) => return self.hair(hair),
             MaterialKind::Mix { materials, amount } => {
                 let [a, b] = materials.map(|m| quoted(self.names.of(m)));
                 params += &format!(" \"string materials\" [ {a} {b} ]");
@@ -170,7 +167,7 @@ impl Writer<'_> {
         ] {
             params += &self.float_param(name, value)?;
         }
-        Ok(params)
+        Ok(typed("hair", &params))
     }
 
     fn lossless(&mut self, is_rough: bool) {

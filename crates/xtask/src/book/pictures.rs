@@ -94,7 +94,7 @@ const PICTURES: [Picture; 29] = [
     of("principled_lobes", "principled_lobes.xml"),
     of("principled_thin", "principled_thin.xml"),
     with_samples("gltf", "gltf.gltf", 192),
-    of("hair", "hair.pbrt"),
+    with_samples("hair", "hair.pbrt", 32),
     of("mix", "mix.pbrt"),
     of("bump", "bump.pbrt"),
     with_energy("energy_none", "energy.pbrt", "none"),
