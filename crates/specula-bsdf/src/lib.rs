@@ -7,6 +7,7 @@
 //! | [`ndf`] | distributions of microfacet normals, masking |
 //! | [`vndf`] | samplers of visible normals and of reflections |
 //! | [`fresnel`] | reflectance of conductors and dielectrics |
+//! | [`hair`] | fibres of hair and fur |
 //! | [`measured`] | measured materials: tables of the RGL database |
 //! | [`metals`] | measured metals |
 //! | [`energy`] | energy compensation |
@@ -267,6 +268,7 @@ pub mod batch;
 pub mod bsdf;
 pub mod energy;
 pub mod fresnel;
+pub mod hair;
 #[doc(hidden)]
 pub mod internal;
 pub mod math;

@@ -415,9 +415,12 @@ mod tests {
     }
 
     #[test]
-    fn only_mixes_and_interfaces_have_no_module() {
+    fn only_mixes_interfaces_and_hair_have_no_module() {
         for &shader in MaterialShader::ALL {
-            let is_none = matches!(shader, MaterialShader::Mix | MaterialShader::Interface);
+            let is_none = matches!(
+                shader,
+                MaterialShader::Mix | MaterialShader::Interface | MaterialShader::Hair
+            );
             assert_eq!(shader.module().is_none(), is_none, "{shader:?}");
         }
     }

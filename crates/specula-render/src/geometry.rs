@@ -47,14 +47,33 @@ pub(crate) struct ShapeRecord {
     pub(crate) alpha: Option<FloatParam>,
     /// Whether it is no surface but the boundary of a medium.
     pub(crate) is_interface: bool,
+    /// What it is of, where its material is hair, or a mix with hair in it.
+    pub(crate) hair: Option<HairShape>,
     has_uvs: bool,
 }
 
+/// What a shape of hair is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum HairShape {
+    /// A tube around a fibre, whose lobe takes light from where it enters to where it leaves: rays within pass.
+    Fibre,
+    /// Any other shape: every hit is one of a fibre.
+    Surface,
+}
+
 impl ShapeRecord {
-    /// Whether it may let rays pass.
+    /// Whether rays that hit it are followed one by one: it may let them pass, or is of hair, which takes no notice of
+    /// the sides of its normals.
     #[inline(always)]
     pub(crate) fn is_passable(&self) -> bool {
-        self.alpha.is_some() || self.is_interface
+        self.alpha.is_some() || self.is_interface || self.hair.is_some()
+    }
+
+    /// Whether a ray within it passes its surface.
+    ///
+    /// * `ng`: normal towards its outside.
+    pub(crate) fn is_left_by(&self, ng: Vec3<f32>, direction: Vec3<f32>) -> bool {
+        self.hair == Some(HairShape::Fibre) && ng.dot(direction) > 0.0
     }
 }
 
@@ -131,7 +150,7 @@ pub(crate) struct Geometry {
     pub(crate) groups: Vec<GroupData>,
     pub(crate) placements: Vec<Placement>,
     pub(crate) shapes: Vec<ShapeRecord>,
-    /// Whether rays pass any shape: it has an opacity, or is an interface.
+    /// Whether any shape is passable.
     pub(crate) has_passable: bool,
 }
 

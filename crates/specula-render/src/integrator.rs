@@ -9,6 +9,9 @@
 //! light does not leak. Lobes answer for views below the shading horizon; perfect mirrors and panes have no
 //! answer there and take the geometric normal instead.
 //!
+//! Hair scatters to both sides of its normals, and from where a ray enters a fibre to where it leaves it: rays within
+//! fibres pass (`visibility`).
+//!
 //! Media absorb between the surface where a path enters them and the one where it leaves (`medium_stack`). A
 //! path begins in none.
 
@@ -18,6 +21,7 @@ mod candidates;
 mod direct;
 pub(crate) mod estimator;
 mod footprints;
+mod hair;
 mod path_states;
 mod quadrics;
 mod shade;
@@ -35,7 +39,7 @@ use specula_scene::scene::{BumpRules, ColourParam};
 use crate::accel::Ray;
 use crate::bump::Softness;
 use crate::film::{PixelSample, ScatterCounts, VertexCounts};
-use crate::geometry::{NONE, Surface};
+use crate::geometry::{HairShape, NONE, Surface};
 use crate::light::{LightSample, Receiver};
 use crate::material::PointLobe;
 use crate::medium_stack::MediumStack;
@@ -390,6 +394,9 @@ impl<'a> PathTracer<'a> {
         if let (Some(coat), PointLobe::Listed(Lobe::Gltf(gltf))) = (coat, &mut lobe) {
             *gltf = gltf.with_coat_normal(frame.to_local(coat.normal));
         }
+        if let (PointLobe::Hair(hair), Some(HairShape::Surface)) = (&mut lobe, shape.hair) {
+            *hair = hair.at_offset(self.offset_across(&surface, &frame));
+        }
         ShadingPoint {
             surface,
             material: chosen.index,
@@ -435,7 +442,7 @@ impl<'a> PathTracer<'a> {
             return;
         };
         let mut beyond;
-        let media = if vertex.frame.n.dot(light.wi) < 0.0 {
+        let media = if vertex.facing.dot(light.wi) < 0.0 {
             beyond = state.media;
             self.cross(&mut beyond, &vertex.surface, light.wi);
             &beyond
@@ -472,7 +479,7 @@ impl<'a> PathTracer<'a> {
         }
         light.pdf *= count as f32;
         let wi = vertex.frame.to_local(light.wi);
-        if !estimator::sides_agree(wi.z, vertex.facing.dot(light.wi)) {
+        if !vertex.lets_through(wi, light.wi) {
             return None;
         }
         let wo = vertex.frame.to_local(vertex.wo);
@@ -527,7 +534,7 @@ impl<'a> PathTracer<'a> {
             event,
         } = sample;
         let direction = vertex.frame.to_world(wi).normalize();
-        if !estimator::sides_agree(wi.z, vertex.facing.dot(direction)) {
+        if !vertex.lets_through(wi, direction) {
             return None;
         }
         state.throughput *= weight;
@@ -539,7 +546,7 @@ impl<'a> PathTracer<'a> {
         self.spread_cone(state, vertex, &sample, sampler);
         state.straight &= matches!(vertex.lobe, PointLobe::Listed(Lobe::ThinDielectric(_)))
             && event == Event::Transmission;
-        if event == Event::Transmission {
+        if vertex.is_crossed(direction, event) {
             self.cross(&mut state.media, &vertex.surface, direction);
         }
         let (survives, throughput) =

@@ -137,8 +137,9 @@ impl PreparedScene {
             hidden &= surface.light != NONE;
             let shape = &self.geometry.shapes[surface.shape as usize];
             let opacity = |alpha| self.textures.float(alpha, &surface.place());
-            let passes =
-                shape.is_interface || shape.alpha.is_some_and(|alpha| opacity(alpha) < 0.5);
+            let passes = shape.is_interface
+                || shape.is_left_by(surface.ng, direction)
+                || shape.alpha.is_some_and(|alpha| opacity(alpha) < 0.5);
             if !hidden && !passes {
                 return Some(SeenSurface {
                     material: shape.material as usize,

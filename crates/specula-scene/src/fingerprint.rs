@@ -63,6 +63,9 @@ impl Scene {
         for brdf in measured {
             brdf.content.feed(&mut hash);
         }
+        for (i, _) in meshes.iter().enumerate().filter(|(_, m)| m.is_fibre) {
+            i.feed(&mut hash);
+        }
         // Likewise what does not move.
         for (part, motion) in self.motions() {
             part.feed(&mut hash);

@@ -159,6 +159,7 @@ fn flat_mesh(mesh: &Mesh, m: &DMat4) -> Option<Mesh> {
         // All directions across the plane are one: the triangles' own normals are left.
         normals: Vec::new(),
         tangents: Vec::new(),
+        is_fibre: false,
         ..mesh.clone()
     };
     mesh::clean(&mut flat).ok()?;

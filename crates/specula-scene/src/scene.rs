@@ -15,8 +15,8 @@ pub use camera::{Camera, Film, Filter, Projection};
 pub use coat::CoatMedium;
 pub use light::{EnvironmentMapping, ImageProjection, Light, Profile, SpotFalloff};
 pub use material::{
-    Bump, BumpRules, ConductorFresnel, GltfMaterial, Material, MaterialKind,
-    MicrofacetDistribution, PrincipledMaterial, Roughness, RoughnessMapping,
+    Bump, BumpRules, ConductorFresnel, GltfMaterial, HairMaterial, HairPigment, Material,
+    MaterialKind, MicrofacetDistribution, PrincipledMaterial, Roughness, RoughnessMapping,
 };
 pub use motion::{Motion, Trajectory};
 pub use shape::{Emission, Geometry, Mesh, Object, ObjectInstance, Shape};

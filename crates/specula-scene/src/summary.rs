@@ -142,6 +142,7 @@ pub fn material_kind(kind: &MaterialKind) -> &'static str {
         MaterialKind::Principled(_) => "principled",
         MaterialKind::Gltf(_) => "metallic-roughness",
         MaterialKind::Measured(_) => "measured",
+        MaterialKind::Hair(_) => "hair",
         MaterialKind::Mix { .. } => "mix",
         MaterialKind::Interface => "interface",
     }

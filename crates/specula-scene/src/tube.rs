@@ -123,6 +123,15 @@ pub(crate) fn tube(stations: &[Station], sides: u32, mesh: &mut Mesh) {
     }
 }
 
+/// The centre line's direction at each vertex of a tube.
+pub(crate) fn tangents(stations: &[Station], sides: u32) -> Vec<[f32; 4]> {
+    let each = |station: &Station| {
+        let [x, y, z] = station.tangent.to_array().map(f32_of);
+        std::iter::repeat_n([x, y, z, 1.0], sides as usize + 1)
+    };
+    stations.iter().flat_map(each).collect()
+}
+
 /// Triangles between the last row of `columns + 1` vertices and the one before, where both belong to one segment.
 ///
 /// * `row`: that of the last station.

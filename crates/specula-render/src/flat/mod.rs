@@ -78,6 +78,9 @@ impl PreparedScene {
         let (nodes, packets) = self.geometry.flatten(&mut words);
         let mut missing = self.textures.flatten(&mut words);
         let shaders = self.materials.flatten(&self.textures, &mut words);
+        if shaders.contains(&MaterialShader::Hair) {
+            missing.push("hair".to_owned());
+        }
         if self.moves {
             missing.push("motion blur".to_owned());
         }

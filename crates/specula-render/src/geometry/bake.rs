@@ -11,7 +11,7 @@ use specula_scene::scene::{
     ObjectInstance, Scene, Shape,
 };
 
-use super::{GroupData, NONE, PlacedQuadric, ShapeRecord, parallelogram};
+use super::{GroupData, HairShape, NONE, PlacedQuadric, ShapeRecord, parallelogram};
 use crate::accel::QuadricShape;
 use crate::convert::{Affine, id, narrow3, normal_matrix, transform_point};
 use crate::movement::Movement;
@@ -67,6 +67,8 @@ pub(super) struct Baker<'a> {
     pub(super) instances: Vec<ObjectInstance>,
     /// Which materials are interfaces: no surfaces but boundaries of media.
     interfaces: Vec<bool>,
+    /// Which materials are hair, or have it in them.
+    hair: Vec<bool>,
     pub(super) records: Vec<ShapeRecord>,
     with_colours: bool,
 }
@@ -120,6 +122,9 @@ impl<'a> Baker<'a> {
         }
         Self {
             interfaces: materials.iter().map(is_interface).collect(),
+            hair: (materials.iter())
+                .map(|m| m.holds_hair(materials))
+                .collect(),
             textures,
             meshes,
             uses,
@@ -136,6 +141,7 @@ impl<'a> Baker<'a> {
         self.reserve(&mut group, &shapes);
         for shape in &shapes {
             let record = id(self.records.len());
+            let hair = self.hair_shape(shape);
             let has_uvs = match shape.geometry {
                 SceneGeometry::Mesh(mesh) => self.add_mesh(&mut group, mesh.0, shape),
                 SceneGeometry::Sphere { radius } => {
@@ -173,10 +179,22 @@ impl<'a> Baker<'a> {
                     alpha => Some(alpha),
                 },
                 is_interface: self.interfaces[shape.material.0],
+                hair,
                 has_uvs,
             });
         }
         group
+    }
+
+    fn hair_shape(&self, shape: &Shape) -> Option<HairShape> {
+        let is_fibre = match shape.geometry {
+            SceneGeometry::Mesh(mesh) => self.meshes[mesh.0].is_fibre,
+            SceneGeometry::Sphere { .. } | SceneGeometry::Disk { .. } => false,
+        };
+        self.hair[shape.material.0].then_some(match is_fibre {
+            true => HairShape::Fibre,
+            false => HairShape::Surface,
+        })
     }
 
     /// Makes room for the meshes of shapes, so that arrays of many need not grow.

@@ -7,6 +7,7 @@
 use core::ops::Range;
 
 use specula_bsdf::bsdf::Lobe;
+use specula_bsdf::hair::Hair;
 use specula_bsdf::math::Stream;
 use specula_bsdf::{Bsdf, Rgb, Transport, Vec3};
 
@@ -44,6 +45,7 @@ enum BoundLobe {
     Listed(Lobe<f32>),
     /// That of a material.
     Measured(u32),
+    Hair(Hair<f32>),
 }
 
 /// Where a path hits a vertex of the batch.
@@ -68,6 +70,7 @@ impl BoundVertex {
             lobe: match lobe {
                 PointLobe::Listed(lobe) => BoundLobe::Listed(lobe),
                 PointLobe::Measured(_) => BoundLobe::Measured(material),
+                PointLobe::Hair(hair) => BoundLobe::Hair(hair),
             },
             softness: None,
             opaque,
@@ -84,6 +87,7 @@ impl BoundVertex {
                 let lobe = materials.measured(*material);
                 lobe.map_or(Rgb::BLACK, Bsdf::albedo)
             }
+            BoundLobe::Hair(hair) => hair.albedo(),
         }
     }
 
@@ -338,6 +342,7 @@ impl PathTracer<'_> {
                 let stream = || sampler.stream(depth, estimator::stream_of_candidate(nth));
                 match &vertex.lobe {
                     BoundLobe::Listed(lobe) => evaluate(lobe, s, a, i, stream),
+                    BoundLobe::Hair(hair) => evaluate(hair, s, a, i, stream),
                     BoundLobe::Measured(material) => {
                         if let Some(lobe) = self.scene.materials.measured(*material) {
                             evaluate(lobe, s, a, i, stream);
@@ -373,6 +378,7 @@ impl PathTracer<'_> {
             let u = u.map(|u| u[i]);
             let is_sampled = match &vertex.lobe {
                 BoundLobe::Listed(lobe) => sample(lobe, s, scatter, (i, u), stream),
+                BoundLobe::Hair(hair) => sample(hair, s, scatter, (i, u), stream),
                 BoundLobe::Measured(material) => (self.scene.materials.measured(*material))
                     .is_some_and(|lobe| sample(lobe, s, scatter, (i, u), stream)),
             };

@@ -1,4 +1,4 @@
-//! Rays through cut-outs, hidden lights, and boundaries of media that have no surface.
+//! Rays through cut-outs, hidden lights, boundaries of media that have no surface, and out of fibres of hair.
 
 use specula_bsdf::{Rgb, Vec3};
 
@@ -45,7 +45,7 @@ impl PathTracer<'_> {
             hidden &= surface.light != NONE;
             let passage = match (hidden, geometry.has_passable) {
                 (true, _) => Passage::Free,
-                (false, true) => self.passage(&surface, sampler, [depth, pass, 1]),
+                (false, true) => self.passage(&surface, ray.direction, sampler, [depth, pass, 1]),
                 (false, false) => Passage::Blocked,
             };
             if let (Some(absorption), Passage::Blocked | Passage::Boundary) =
@@ -116,7 +116,7 @@ impl PathTracer<'_> {
                 return Some(product * transmittance_to_light(begin, end, &media));
             };
             let surface = geometry.surface(&ray, &hit, time);
-            match self.passage(&surface, sampler, [depth, pass, 2]) {
+            match self.passage(&surface, ray.direction, sampler, [depth, pass, 2]) {
                 Passage::Blocked => return None,
                 Passage::Free => {}
                 Passage::Boundary => {
@@ -138,13 +138,20 @@ impl PathTracer<'_> {
     }
 
     /// What a surface does to a ray: by chance where it is partly transparent.
-    fn passage(&self, surface: &Surface, sampler: &Sampler, key: [u32; 3]) -> Passage {
+    fn passage(
+        &self,
+        surface: &Surface,
+        direction: Vec3<f32>,
+        sampler: &Sampler,
+        key: [u32; 3],
+    ) -> Passage {
         let shape = &self.scene.geometry.shapes[surface.shape as usize];
         let there = shape.alpha.is_none_or(|alpha| {
             let alpha = self.scene.textures.float(alpha, &surface.place());
             alpha >= 1.0 || sampler.hashed(key) < alpha
         });
-        match (there, shape.is_interface) {
+        let is_passed = shape.is_interface || shape.is_left_by(surface.ng, direction);
+        match (there, is_passed) {
             (false, _) => Passage::Free,
             (true, false) => Passage::Blocked,
             (true, true) => Passage::Boundary,

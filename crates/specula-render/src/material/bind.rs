@@ -199,8 +199,11 @@ pub(super) fn lobe(
         MaterialKind::Principled(ref p) => Principled::new(at.principled(p, outside)).into(),
         MaterialKind::Gltf(ref g) => Gltf::new(at.gltf(g, outside, models)).into(),
         // Shapes without a surface are dropped before; mixes nested too deeply are black.
-        // Measured ones are no lobes of the list.
-        MaterialKind::Mix { .. } | MaterialKind::Interface | MaterialKind::Measured(_) => black(),
+        // Measured ones and hair are no lobes of the list.
+        MaterialKind::Mix { .. }
+        | MaterialKind::Interface
+        | MaterialKind::Measured(_)
+        | MaterialKind::Hair(_) => black(),
     }
 }
 

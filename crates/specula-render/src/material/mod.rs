@@ -2,6 +2,7 @@
 
 mod bind;
 mod flat;
+mod hair;
 pub(crate) mod lobes;
 mod metal;
 mod parameters;
@@ -148,7 +149,10 @@ impl Materials {
                 MaterialKind::Measured(id) => Some(Arc::clone(scene.measured[id.0].lobe())),
                 _ => None,
             };
-            let has_lobe = !matches!(kind, MaterialKind::Mix { .. } | MaterialKind::Measured(_));
+            let has_lobe = !matches!(
+                kind,
+                MaterialKind::Mix { .. } | MaterialKind::Measured(_) | MaterialKind::Hair(_)
+            );
             let mut material = Material {
                 plain: None,
                 diffuse_coat: bind::coat_of_coloured_base(&kind, textures, models),
@@ -422,6 +426,9 @@ impl<'a> Chosen<'a> {
             return PointLobe::Listed(bind::black());
         }
         let m = self.material;
+        if let MaterialKind::Hair(hair) = &m.kind {
+            return PointLobe::Hair(hair::lobe(hair, textures, place));
+        }
         PointLobe::Listed(match (&m.constant, &m.measured) {
             (Some(lobes), _) => lobes[usize::from(outside)],
             (None, Some(measured)) => return PointLobe::Measured(measured),

@@ -8,8 +8,8 @@ use specula_bsdf::Rgb;
 use specula_bsdf::internal::shader_codes;
 use specula_scene::Energy;
 use specula_scene::scene::{
-    CoatMedium, ColourParam, ConductorFresnel, FloatParam, GltfMaterial, MaterialKind,
-    MicrofacetDistribution, PrincipledMaterial, Roughness, RoughnessMapping,
+    CoatMedium, ColourParam, ConductorFresnel, FloatParam, GltfMaterial, HairMaterial, HairPigment,
+    MaterialKind, MicrofacetDistribution, PrincipledMaterial, Roughness, RoughnessMapping,
 };
 
 use super::Material;
@@ -66,6 +66,8 @@ macro_rules! material_shader_table {
             Interface = 15, [];
             /// A measured material.
             Measured = 16, ["material_measured"];
+            /// Hair; no shader renders it, so that it has no module.
+            Hair = 17, [];
         }
     };
 }
@@ -84,7 +86,7 @@ macro_rules! define_material_shader {
             /// All of them.
             pub const ALL: &'static [Self] = &[$(Self::$name),*];
 
-            /// Its module in `specula-gpu/wgsl`; `None` for mixes and interfaces.
+            /// Its module in `specula-gpu/wgsl`; `None` for mixes, interfaces and hair.
             #[must_use]
             pub const fn module(self) -> Option<&'static str> {
                 match self {
@@ -225,8 +227,30 @@ impl Folder<'_> {
             }
             MaterialKind::Principled(p) => self.principled(p),
             MaterialKind::Gltf(g) => self.gltf(g),
+            MaterialKind::Hair(hair) => self.hair(hair),
             MaterialKind::Mix { amount, .. } => self.float(amount),
             MaterialKind::Interface | MaterialKind::Measured(_) => {}
+        }
+    }
+
+    fn hair(&mut self, hair: &mut HairMaterial) {
+        match &mut hair.pigment {
+            HairPigment::Absorption(c) | HairPigment::Reflectance(c) => self.colour(c),
+            HairPigment::Melanin {
+                eumelanin,
+                pheomelanin,
+            } => {
+                self.float(eumelanin);
+                self.float(pheomelanin);
+            }
+        }
+        for value in [
+            &mut hair.eta,
+            &mut hair.beta_m,
+            &mut hair.beta_n,
+            &mut hair.alpha_deg,
+        ] {
+            self.float(value);
         }
     }
 
@@ -303,6 +327,7 @@ impl Material {
             MaterialKind::Mix { .. } => S::Mix,
             MaterialKind::Interface => S::Interface,
             MaterialKind::Measured(_) => S::Measured,
+            MaterialKind::Hair(_) => S::Hair,
         }
     }
 
@@ -381,7 +406,7 @@ impl Material {
                 .fresnel(fresnel),
             MaterialKind::Principled(ref p) => to.principled(p),
             MaterialKind::Gltf(ref g) => to.gltf(g, self.models.energy != Energy::None),
-            MaterialKind::Interface | MaterialKind::Measured(_) => &mut to,
+            MaterialKind::Interface | MaterialKind::Measured(_) | MaterialKind::Hair(_) => &mut to,
         };
         to
     }

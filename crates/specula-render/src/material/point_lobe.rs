@@ -1,6 +1,7 @@
-//! The lobe at a point: one of the library's list, or a measured one, whose tables its material holds.
+//! The lobe at a point: one of the library's list, a measured one, whose tables its material holds, or hair.
 
 use specula_bsdf::bsdf::Lobe;
+use specula_bsdf::hair::Hair;
 use specula_bsdf::math::Stream;
 use specula_bsdf::measured::Measured;
 use specula_bsdf::{Bsdf, BsdfSample, Rgb, Transport, Vec3};
@@ -17,15 +18,17 @@ pub(crate) enum PointLobe<'a> {
     Listed(Lobe<f32>),
     /// Measured.
     Measured(&'a Measured<f32>),
+    /// A fibre of hair.
+    Hair(Hair<f32>),
 }
 
 impl PointLobe<'_> {
-    /// The lobe of the list; `None` where it is measured.
+    /// The lobe of the list; `None` where it is none.
     #[inline(always)]
     pub(crate) fn listed(&self) -> Option<&Lobe<f32>> {
         match self {
             Self::Listed(lobe) => Some(lobe),
-            Self::Measured(_) => None,
+            Self::Measured(_) | Self::Hair(_) => None,
         }
     }
 
@@ -35,6 +38,7 @@ impl PointLobe<'_> {
         match self {
             Self::Listed(lobe) => lobes::sides(lobe),
             Self::Measured(_) => Sides::Reflects,
+            Self::Hair(_) => Sides::Transmits,
         }
     }
 }
@@ -45,6 +49,7 @@ impl Bsdf<f32> for PointLobe<'_> {
         match self {
             Self::Listed(lobe) => lobe.eval(wo, wi, transport),
             Self::Measured(measured) => measured.eval(wo, wi, transport),
+            Self::Hair(hair) => hair.eval(wo, wi, transport),
         }
     }
 
@@ -53,6 +58,7 @@ impl Bsdf<f32> for PointLobe<'_> {
         match self {
             Self::Listed(lobe) => lobe.pdf(wo, wi),
             Self::Measured(measured) => measured.pdf(wo, wi),
+            Self::Hair(hair) => hair.pdf(wo, wi),
         }
     }
 
@@ -61,6 +67,7 @@ impl Bsdf<f32> for PointLobe<'_> {
         match self {
             Self::Listed(lobe) => lobe.sample(wo, u, transport),
             Self::Measured(measured) => measured.sample(wo, u, transport),
+            Self::Hair(hair) => hair.sample(wo, u, transport),
         }
     }
 
@@ -80,6 +87,7 @@ impl Bsdf<f32> for PointLobe<'_> {
         match self {
             Self::Listed(lobe) => lobe.eval_pdf_random(wo, wi, transport, stream),
             Self::Measured(measured) => measured.eval_pdf(wo, wi, transport),
+            Self::Hair(hair) => hair.eval_pdf(wo, wi, transport),
         }
     }
 
@@ -94,6 +102,7 @@ impl Bsdf<f32> for PointLobe<'_> {
         match self {
             Self::Listed(lobe) => lobe.sample_random(wo, u, transport, stream),
             Self::Measured(measured) => measured.sample(wo, u, transport),
+            Self::Hair(hair) => hair.sample(wo, u, transport),
         }
     }
 
@@ -107,6 +116,7 @@ impl Bsdf<f32> for PointLobe<'_> {
         match self {
             Self::Listed(lobe) => lobe.albedo(),
             Self::Measured(measured) => measured.albedo(),
+            Self::Hair(hair) => hair.albedo(),
         }
     }
 }

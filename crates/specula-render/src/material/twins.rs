@@ -61,6 +61,7 @@ impl Material {
                 | MaterialKind::ThinDielectric { .. }
                 | MaterialKind::Interface
                 | MaterialKind::Measured(_)
+                | MaterialKind::Hair(_)
         )
     }
 

@@ -56,6 +56,7 @@ impl CurveBasis {
 /// Reads the curves of a file as one mesh.
 ///
 /// * `to_world`: moves its control points.
+/// * `is_hair`: whether B-splines are fibres of hair.
 /// * `collects`: whether to go on after a mistake, as in a check.
 ///
 /// # Errors
@@ -65,6 +66,7 @@ pub(crate) fn read(
     path: &Path,
     basis: CurveBasis,
     to_world: &DMat4,
+    is_hair: bool,
     files: &Files,
     collects: bool,
 ) -> Result<Mesh, Vec<Fault>> {
@@ -75,7 +77,7 @@ pub(crate) fn read(
             control.point = to_world.transform_point3(control.point);
         }
         match faults.is_empty() {
-            true => mesh(&curves, basis, files.limits()),
+            true => mesh(&curves, basis, is_hair, files.limits()),
             false => Ok(Mesh::default()),
         }
     });
@@ -176,8 +178,16 @@ fn control_point(line: &[u8]) -> Result<ControlPoint, String> {
     Ok(ControlPoint { point, radius })
 }
 
-fn mesh(curves: &[Vec<ControlPoint>], basis: CurveBasis, limits: &Limits) -> Result<Mesh, Fault> {
-    let mut mesh = Mesh::default();
+fn mesh(
+    curves: &[Vec<ControlPoint>],
+    basis: CurveBasis,
+    is_hair: bool,
+    limits: &Limits,
+) -> Result<Mesh, Fault> {
+    let mut mesh = Mesh {
+        is_fibre: is_hair && basis == CurveBasis::Spline,
+        ..Mesh::default()
+    };
     let pieces: usize = curves.iter().map(|c| c.len() + 1 - basis.fewest()).sum();
     let mut piece = 0;
     for curve in curves {
@@ -238,6 +248,9 @@ fn spline(
     });
     let first = mesh.positions.len();
     tube::tube(&stations, SIDES, mesh);
+    if mesh.is_fibre {
+        mesh.tangents.extend(tube::tangents(&stations, SIDES));
+    }
     let rows = mesh.uvs[first..].chunks_exact_mut(SIDES as usize + 1);
     for (row, station) in rows.zip(&stations) {
         let v = along(station.segment as f64 + station.u);
@@ -336,7 +349,7 @@ mod tests {
         let mut faults = Faults::new(false);
         let limits = Limits::default();
         let read = parse(text.as_bytes(), basis, &limits, &mut faults)
-            .and_then(|curves| mesh(&curves, basis, &limits));
+            .and_then(|curves| mesh(&curves, basis, false, &limits));
         faults.end(read)
     }
 
@@ -426,7 +439,7 @@ mod tests {
         for basis in [CurveBasis::Spline, CurveBasis::Linear] {
             let mut faults = Faults::new(false);
             let curves = parse(bent.as_bytes(), basis, &limits, &mut faults).unwrap();
-            let fault = mesh(&curves, basis, &limits).unwrap_err();
+            let fault = mesh(&curves, basis, false, &limits).unwrap_err();
             assert!(fault.message.contains("`max_vertices`"), "{fault}");
         }
     }

@@ -9,11 +9,11 @@ use crate::energy::Energy;
 use crate::image::{Image, Pixels};
 use crate::scene::{
     Bump, BumpRules, Camera, Channel, CoatMedium, ColourParam, ConductorFresnel, Emission,
-    EnvironmentMapping, Film, Filter, FloatParam, Geometry, GltfMaterial, ImageId, ImageProjection,
-    Interpolation, Light, Material, MaterialId, MaterialKind, MeasuredId, Mesh, MeshId,
-    MicrofacetDistribution, Motion, NoiseKind, Object, ObjectId, ObjectInstance,
-    PrincipledMaterial, Profile, Projection, Roughness, RoughnessMapping, Shape, SpotFalloff,
-    Texture, TextureId, TextureMapping, UvMapping, Wrap,
+    EnvironmentMapping, Film, Filter, FloatParam, Geometry, GltfMaterial, HairMaterial,
+    HairPigment, ImageId, ImageProjection, Interpolation, Light, Material, MaterialId,
+    MaterialKind, MeasuredId, Mesh, MeshId, MicrofacetDistribution, Motion, NoiseKind, Object,
+    ObjectId, ObjectInstance, PrincipledMaterial, Profile, Projection, Roughness, RoughnessMapping,
+    Shape, SpotFalloff, Texture, TextureId, TextureMapping, UvMapping, Wrap,
 };
 
 /// A part of a scene.
@@ -181,7 +181,8 @@ fields!(Mesh {
     second_uvs,
     tangents,
     colours,
-    triangles
+    triangles;
+    is_fibre
 });
 variants!(Geometry { 0 => Mesh(id), 1 => Sphere { radius }, 2 => Disk { radius, height } });
 fields!(Emission {
@@ -296,6 +297,7 @@ variants!(MaterialKind {
     10 => Mix { materials, amount },
     11 => Interface,
     12 => Measured(id),
+    13 => Hair(parameters),
 });
 fields!(PrincipledMaterial {
     base_colour,
@@ -312,6 +314,18 @@ fields!(PrincipledMaterial {
     flatness,
     diff_trans,
     thin
+});
+fields!(HairMaterial {
+    pigment,
+    eta,
+    beta_m,
+    beta_n,
+    alpha_deg
+});
+variants!(HairPigment {
+    0 => Absorption(colour),
+    1 => Reflectance(colour),
+    2 => Melanin { eumelanin, pheomelanin },
 });
 fields!(GltfMaterial {
     base_colour,

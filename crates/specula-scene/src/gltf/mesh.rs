@@ -84,6 +84,7 @@ impl Reader<'_> {
                 .map(|c| c.map(|x| if x > 0.0 { x } else { 0.0 }))
                 .collect(),
             triangles,
+            is_fibre: false,
         };
         match mesh::clean(&mut mesh) {
             Ok(cleaning) => {

@@ -149,6 +149,7 @@ impl Context<'_> {
                 MaterialKind::Interface
             }
             "measured" => self.measured(element)?,
+            "hair" if !element.legacy => MaterialKind::Hair(self.hair(element)?),
             other @ ("measured_polarized" | "hair" | "irawan" | "hk") => {
                 let message =
                     format!("bsdf \"{other}\" is not supported: diffuse grey of 0.5 stands in");

@@ -48,7 +48,11 @@ pub(crate) const FEATURES: &[Feature] = &[
     close("bsdf", "circular", "light passes unchanged"),
     full("bsdf", "measured"),
     close("bsdf", "measured_polarized", GREY),
-    close("bsdf", "hair", GREY),
+    close(
+        "bsdf",
+        "hair",
+        "on shapes other than bsplinecurve of fibres along dp/du, with a warning; 0.6: diffuse grey of 0.5",
+    ),
     close(
         "bsdf",
         "phong",

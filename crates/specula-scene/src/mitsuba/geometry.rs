@@ -33,6 +33,7 @@ pub(super) enum MeshSource {
         basis: CurveBasis,
         /// Bits of the matrix that moves control points.
         to_world: [u64; 16],
+        is_hair: bool,
     },
 }
 
@@ -169,9 +170,10 @@ fn build(source: &MeshSource, files: &Files, collects: bool) -> Result<BuiltMesh
             path,
             basis,
             to_world,
+            is_hair,
         } => {
             let to_world = DMat4::from_cols_array(&to_world.map(f64::from_bits));
-            let mut mesh = curves::read(path, *basis, &to_world, files, collects)?;
+            let mut mesh = curves::read(path, *basis, &to_world, *is_hair, files, collects)?;
             let cleaning = mesh::clean_or_name(&mut mesh, collects)?;
             return Ok(BuiltMesh {
                 cleaning,

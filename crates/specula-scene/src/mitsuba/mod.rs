@@ -24,6 +24,7 @@ mod features;
 mod film;
 mod geometry;
 mod glass;
+mod hair;
 mod layered;
 mod medium;
 mod metal;

@@ -10,6 +10,7 @@ use super::bsdf::{Surface, grey};
 use super::context::Context;
 use super::element::Element;
 use super::geometry::{BuiltGeometry, Format, MeshSource, Meshes};
+use super::hair;
 use super::primitive;
 use super::texture::{Frame, unknown};
 use crate::curves::CurveBasis;
@@ -189,6 +190,10 @@ impl Shapes {
         let mirrored = to_world.determinant() < 0.0;
         let mut flip = element.boolean("flip_normals", false)?;
         let mut frame = Frame::Mesh;
+        let is_hair = hair::is_of_hair(context, element)?;
+        if is_hair && element.plugin != "bsplinecurve" {
+            context.warn(&element.place, hair::NO_FIBRE);
+        }
         let geometry = match element.plugin.as_str() {
             "sphere" => {
                 let centre = element.vector("center")?.unwrap_or(DVec3::ZERO);
@@ -228,17 +233,11 @@ impl Shapes {
                 PendingGeometry::Mesh(self.meshes.ask(source, &place))
             }
             "linearcurve" | "bsplinecurve" => {
-                let (path, place) = context.needed_file(element, "filename")?;
-                let source = MeshSource::Curves {
-                    path,
-                    basis: match element.plugin.as_str() {
-                        "linearcurve" => CurveBasis::Linear,
-                        _ => CurveBasis::Spline,
-                    },
-                    to_world: to_world.to_cols_array().map(f64::to_bits),
-                };
+                let (source, place) = curves(context, element, &to_world, is_hair)?;
                 // Control points are moved there; radii stay as they are.
                 to_world = DMat4::IDENTITY;
+                // What is within a fibre does not depend on it.
+                flip &= !is_hair;
                 PendingGeometry::Mesh(self.meshes.ask(source, &place))
             }
             "shapegroup" | "instance" | "animatedinstance" => {
@@ -319,6 +318,26 @@ pub(super) fn finish(pending: Vec<PendingShape>, ready: &[BuiltGeometry]) -> Vec
             Some((shape, p.place))
         })
         .collect()
+}
+
+/// The curves of a file.
+fn curves(
+    context: &mut Context,
+    element: &Element,
+    to_world: &DMat4,
+    is_hair: bool,
+) -> Result<(MeshSource, Place), SceneError> {
+    let (path, place) = context.needed_file(element, "filename")?;
+    let source = MeshSource::Curves {
+        path,
+        basis: match element.plugin.as_str() {
+            "linearcurve" => CurveBasis::Linear,
+            _ => CurveBasis::Spline,
+        },
+        to_world: to_world.to_cols_array().map(f64::to_bits),
+        is_hair,
+    };
+    Ok((source, place))
 }
 
 fn transform(element: &Element) -> Result<DMat4, SceneError> {

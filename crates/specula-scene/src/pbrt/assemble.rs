@@ -56,7 +56,8 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         reader.camera_medium,
         integrator,
     )?;
-    let (geometries, mut meshes) = geometry::read(&mut context, &all)?;
+    let is_hair = |shape: &ShapeEntity| materials.is_hair(&shape.material);
+    let (geometries, mut meshes) = geometry::read(&mut context, &all, is_hair)?;
     let lights = read_lights(&mut context, &reader.lights)?;
     let press = Press::new(context.files.limits());
     let mut builder = Builder {
@@ -346,6 +347,17 @@ impl Materials {
         })
     }
 
+    /// Whether a shape's material is hair, or a mix with hair in it.
+    fn is_hair(&self, wanted: &MaterialUse) -> bool {
+        let index = match wanted {
+            MaterialUse::Defined(i) => Some(*i),
+            MaterialUse::Named(name, _) => self.named.get(name).copied(),
+            MaterialUse::Default => None,
+        };
+        let id = index.and_then(|i| self.ids[i]);
+        id.is_some_and(|id| self.list[id.0].holds_hair(&self.list))
+    }
+
     /// The opacity that a material gives its shapes.
     fn opacity(&self, wanted: &MaterialUse) -> Option<FloatParam> {
         let index = match wanted {
@@ -457,13 +469,18 @@ impl Builder<'_> {
             motion,
             material,
             emission,
-            reverse_orientation: shape.reverse_orientation,
+            // What is within a fibre does not depend on it.
+            reverse_orientation: shape.reverse_orientation && !self.is_fibre(&geometry),
             alpha,
         };
         if is_invertible(&to_world) {
             return Ok(Some(shape));
         }
         self.pressed(&shape, &to_world, place)
+    }
+
+    fn is_fibre(&self, geometry: &Geometry) -> bool {
+        matches!(geometry, Geometry::Mesh(id) if self.meshes[id.0].is_fibre)
     }
 
     /// A shape under a transform that cannot be inverted, if area is left of it.

@@ -88,7 +88,7 @@ pub(crate) const FEATURES: &[Feature] = &[
     near(
         "shape",
         "curve: flat",
-        "tubes of 4 sides and the same width; centre line within 1/20 of it",
+        "tubes of 4 sides, of hair 12, and the same width; centre line within 1/20 of it",
     ),
     near(
         "shape",
@@ -115,7 +115,7 @@ pub(crate) const FEATURES: &[Feature] = &[
     full("material", "coatedconductor"),
     full("material", "mix"),
     full("material", "interface"),
-    near("material", "hair", "diffuse of the hair's colour"),
+    full("material", "hair"),
     full("material", "measured"),
     near(
         "material",

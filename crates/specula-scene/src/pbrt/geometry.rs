@@ -105,9 +105,12 @@ impl Jobs {
 }
 
 /// Reads and checks all meshes and all pictures that the context was asked for.
+///
+/// * `is_hair`: whether a shape's material is hair.
 pub(super) fn read(
     context: &mut Context,
     shapes: &[&ShapeEntity],
+    is_hair: impl Fn(&ShapeEntity) -> bool,
 ) -> Result<(Vec<ShapeGeometry>, Vec<Mesh>), SceneError> {
     let mut jobs = Jobs::default();
     let mut slots = Vec::with_capacity(shapes.len());
@@ -130,7 +133,8 @@ pub(super) fn read(
                 let place = name.map_or(&entity.place, |(_, place)| place);
                 Slot::Job(jobs.file(path, place))
             }
-            Prepared::Recipe(recipe) => {
+            Prepared::Recipe(mut recipe) => {
+                recipe.set_hair(is_hair(shape));
                 if let Err(message) = recipe.take_from(&mut left, context.files.limits()) {
                     let error = SceneError::new(ErrorKind::Mesh, &entity.place, message);
                     context.problems.record(error)?;

@@ -1,5 +1,6 @@
 //! Materials: pbrt-v4's parameters and their defaults.
 
+mod hair;
 mod stand_in;
 
 use std::collections::HashMap;
@@ -39,7 +40,7 @@ pub(super) fn read(
     let params = &entity.params;
     params.ignore(&["type"]);
     let energy = energy(params)?;
-    let bump = bump(context, params)?;
+    let bump = bump(context, entity)?;
     params.ignore(&[v3::OPACITY]);
     let kind = match entity.name.as_str() {
         "diffuse" => MaterialKind::Diffuse {
@@ -91,7 +92,7 @@ pub(super) fn read(
             context.warn(&entity.place, message);
             MaterialKind::Interface
         }
-        "hair" => stand_in::hair(context, entity)?,
+        "hair" => MaterialKind::Hair(hair::read(context, entity)?),
         "measured" => measured(context, entity)?,
         "subsurface" => stand_in::subsurface(context, entity)?,
         other => {
@@ -111,8 +112,12 @@ pub(super) fn read(
     })
 }
 
-/// The bump or normal map: a normal map overrides a displacement, as in pbrt-v4.
-fn bump(context: &mut Context, params: &ParamList) -> Result<Option<Bump>, SceneError> {
+/// The bump or normal map: a normal map overrides a displacement, as in pbrt-v4, which bends no hair.
+fn bump(context: &mut Context, entity: &Entity) -> Result<Option<Bump>, SceneError> {
+    let params = &entity.params;
+    if entity.name == "hair" {
+        return Ok(None);
+    }
     let height = context.float_or_none(params, "displacement")?;
     if let Some((name, place)) = params.string("normalmap")? {
         let image = context.image(name, place, Encoding::Linear, Content::Colour);

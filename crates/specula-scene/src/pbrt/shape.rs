@@ -49,6 +49,13 @@ pub(super) enum Recipe {
 }
 
 impl Recipe {
+    /// Tells it whether it is of hair, as which curves differ.
+    pub(super) fn set_hair(&mut self, is_hair: bool) {
+        if let (Self::Curve(curve), true) = (self, is_hair) {
+            curve.made_of_hair();
+        }
+    }
+
     /// The mesh.
     pub(super) fn build(self, limits: &Limits) -> Result<Mesh, String> {
         match self {

@@ -47,6 +47,21 @@ impl Material {
         }
     }
 
+    /// Whether it is hair, or a mix with hair in it.
+    ///
+    /// * `all`: the scene's materials.
+    #[must_use]
+    pub fn holds_hair(&self, all: &[Self]) -> bool {
+        match &self.kind {
+            MaterialKind::Hair(_) => true,
+            MaterialKind::Mix { materials, .. } => {
+                let parts = materials.iter().filter_map(|m| all.get(m.0));
+                parts.into_iter().any(|part| part.holds_hair(all))
+            }
+            _ => false,
+        }
+    }
+
     /// Whether light that passes it may enter or leave an absorbing medium.
     #[must_use]
     pub fn bounds_absorption(&self) -> bool {
@@ -274,6 +289,8 @@ pub enum MaterialKind {
     Gltf(GltfMaterial),
     /// A reflection that was measured. Its x axis is dp/du.
     Measured(MeasuredId),
+    /// Hair or fur: of a whole fibre along dp/du (Chiang et al. 2016).
+    Hair(HairMaterial),
     /// One of two materials, chosen at random at every hit.
     Mix {
         /// Chosen with probability 1 - amount, and with probability amount.
@@ -353,4 +370,35 @@ pub struct GltfMaterial {
     pub sheen_colour: ColourParam,
     /// `sheenRoughnessFactor`.
     pub sheen_roughness: FloatParam,
+}
+
+/// Hair and fur, by pbrt-v4's parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HairMaterial {
+    /// What it takes from light.
+    pub pigment: HairPigment,
+    /// Index of refraction.
+    pub eta: FloatParam,
+    /// Longitudinal roughness in `[0, 1]`.
+    pub beta_m: FloatParam,
+    /// Azimuthal roughness in `[0, 1]`.
+    pub beta_n: FloatParam,
+    /// Tilt of the scales, in degrees.
+    pub alpha_deg: FloatParam,
+}
+
+/// What a fibre of hair takes from light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum HairPigment {
+    /// Absorption per radius of the fibre.
+    Absorption(ColourParam),
+    /// The colour that many fibres have together.
+    Reflectance(ColourParam),
+    /// Concentrations of the two pigments of hair.
+    Melanin {
+        /// Brown to black.
+        eumelanin: FloatParam,
+        /// Red.
+        pheomelanin: FloatParam,
+    },
 }

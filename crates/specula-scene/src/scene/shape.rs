@@ -24,6 +24,9 @@ pub struct Mesh {
     pub colours: Vec<[f32; 3]>,
     /// Triangles, as indices of vertices.
     pub triangles: Vec<[u32; 3]>,
+    /// Whether it is a tube around a fibre of [hair](super::MaterialKind::Hair): as hair scatters as a whole fibre
+    /// where a ray enters it, rays within pass.
+    pub is_fibre: bool,
 }
 
 /// A shape's geometry in its own space.

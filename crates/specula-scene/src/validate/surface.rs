@@ -5,9 +5,9 @@ use specula_bsdf::Rgb;
 
 use super::{Invalid, ensure, is_light};
 use crate::scene::{
-    Bump, CoatMedium, ColourParam, ConductorFresnel, FloatParam, GltfMaterial, Interpolation,
-    Material, MaterialKind, NoiseKind, PrincipledMaterial, Roughness, Scene, Texture, TextureId,
-    TextureMapping,
+    Bump, CoatMedium, ColourParam, ConductorFresnel, FloatParam, GltfMaterial, HairMaterial,
+    HairPigment, Interpolation, Material, MaterialKind, NoiseKind, PrincipledMaterial, Roughness,
+    Scene, Texture, TextureId, TextureMapping,
 };
 
 impl Scene {
@@ -79,6 +79,24 @@ impl Scene {
         let direction = g.anisotropy_direction.map(ColourParam::Texture);
         self.colours(what, direction.as_slice())?;
         self.bump(what, g.clearcoat_bump)
+    }
+
+    fn hair(&self, what: &str, hair: &HairMaterial) -> Result<(), Invalid> {
+        if let FloatParam::Value(eta) = hair.eta {
+            index(what, eta)?;
+        }
+        self.floats(what, &[hair.eta, hair.beta_m, hair.beta_n])?;
+        match hair.alpha_deg {
+            FloatParam::Value(alpha) => ensure(alpha.is_finite(), what, "its tilt is not finite")?,
+            texture @ FloatParam::Texture(_) => self.float(what, texture)?,
+        }
+        match hair.pigment {
+            HairPigment::Absorption(c) | HairPigment::Reflectance(c) => self.colour(what, c),
+            HairPigment::Melanin {
+                eumelanin,
+                pheomelanin,
+            } => self.floats(what, &[eumelanin, pheomelanin]),
+        }
     }
 
     fn coat_medium(&self, what: &str, medium: &CoatMedium) -> Result<(), Invalid> {
@@ -219,6 +237,7 @@ impl Scene {
                 what,
                 "its measurement is out of range",
             ),
+            MaterialKind::Hair(hair) => self.hair(what, hair),
             MaterialKind::Mix { materials, amount } => {
                 ensure(
                     materials.iter().all(|m| m.0 < i),

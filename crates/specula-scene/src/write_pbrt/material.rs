@@ -5,9 +5,9 @@ use specula_bsdf::{Bsdf, Rgb};
 
 use super::{TextureType, WriteError, Writer, quoted};
 use crate::scene::{
-    Bump, CoatMedium, ColourParam, ConductorFresnel, FloatParam, GltfMaterial, Material,
-    MaterialId, MaterialKind, MeasuredId, MicrofacetDistribution, PrincipledMaterial, Roughness,
-    RoughnessMapping, TextureId,
+    Bump, CoatMedium, ColourParam, ConductorFresnel, FloatParam, GltfMaterial, HairMaterial,
+    HairPigment, Material, MaterialId, MaterialKind, MeasuredId, MicrofacetDistribution,
+    PrincipledMaterial, Roughness, RoughnessMapping, TextureId,
 };
 
 impl Writer<'_> {
@@ -122,6 +122,7 @@ impl Writer<'_> {
             MaterialKind::Principled(p) => return self.principled(index, p),
             MaterialKind::Gltf(g) => return self.gltf(index, g),
             MaterialKind::Measured(id) => return self.measured(*id),
+            MaterialKind::Hair(hair) => return self.hair(hair),
             MaterialKind::Mix { materials, amount } => {
                 let [a, b] = materials.map(|m| quoted(self.names.of(m)));
                 params += &format!(" \"string materials\" [ {a} {b} ]");
@@ -138,6 +139,35 @@ impl Writer<'_> {
         let albedo = self.scene.measured[id.0].lobe().albedo();
         let params = self.diffuse(ColourParam::Value(albedo), FloatParam::Value(0.0))?;
         Ok(typed("diffuse", &params))
+    }
+
+    fn hair(&mut self, hair: &HairMaterial) -> Result<String, WriteError> {
+        if self.scene.meshes.iter().any(|m| m.is_fibre) {
+            self.note(
+                "fibres of hair are written as meshes, on which pbrt-v4 takes the offset across a \
+                 fibre from texture coordinates",
+            );
+        }
+        let mut params = match hair.pigment {
+            HairPigment::Absorption(c) => self.colour_param("sigma_a", c)?,
+            HairPigment::Reflectance(c) => self.colour_param("reflectance", c)?,
+            HairPigment::Melanin {
+                eumelanin,
+                pheomelanin,
+            } => {
+                self.float_param("eumelanin", eumelanin)?
+                    + &self.float_param("pheomelanin", pheomelanin)?
+            }
+        };
+        for (name, value) in [
+            ("eta", hair.eta),
+            ("beta_m", hair.beta_m),
+            ("beta_n", hair.beta_n),
+            ("alpha", hair.alpha_deg),
+        ] {
+            params += &self.float_param(name, value)?;
+        }
+        Ok(typed("hair", &params))
     }
 
     fn lossless(&mut self, is_rough: bool) {

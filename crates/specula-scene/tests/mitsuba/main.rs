@@ -13,6 +13,7 @@ mod conventions;
 mod dialect;
 mod document;
 mod features;
+mod hair;
 #[path = "../common/measured.rs"]
 #[allow(dead_code, reason = "shared with the other suite")]
 mod measured;

@@ -127,7 +127,7 @@ Texture \"t\" \"spectrum\" \"constant\"
 Texture \"u\" \"float\" \"constant\"
 MakeNamedMaterial \"m\" \"string type\" \"diffuse\" \"texture reflectance\" \"t\"
 Material \"diffuse\"
-Material \"hair\"
+Material \"subsurface\"
 LightSource \"point\" \"rgb I\" [0 0 0]
 Shape \"sphere\" \"float wrong\" 1
 Shape \"sphere\" \"float wrong\" 1
@@ -145,7 +145,7 @@ Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 2 0 0] \"integer indices\
         let hit = |w: &(usize, String)| w.0 == line && w.1.contains(word);
         warnings.iter().any(hit)
     };
-    assert!(has(6, "hair"), "{warnings:?}");
+    assert!(has(6, "subsurface"), "{warnings:?}");
     assert!(has(10, "1 triangles without area"), "{warnings:?}");
     let notes: Vec<(usize, &str)> = (report.problems().iter())
         .filter(|p| p.severity() == Severity::Note)

@@ -221,7 +221,6 @@ fn stand_ins_are_told() {
     let folder = folder();
     for (class, name) in [
         ("shape parameter", "displacement"),
-        ("material", "hair"),
         ("material", "subsurface"),
         ("texture", "ptex"),
         ("camera", "realistic"),

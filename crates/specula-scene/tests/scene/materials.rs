@@ -2,7 +2,8 @@
 
 use specula_bsdf::Rgb;
 use specula_scene::scene::{
-    CoatMedium, ColourParam, ConductorFresnel, FloatParam, MaterialKind, RoughnessMapping,
+    CoatMedium, ColourParam, ConductorFresnel, FloatParam, Geometry, HairMaterial, HairPigment,
+    MaterialKind, Mesh, RoughnessMapping,
 };
 
 use super::common::{load_world, warnings};
@@ -196,7 +197,6 @@ fn interfaces_and_stand_ins() {
     assert_eq!(material("\"interface\""), MaterialKind::Interface);
     for (text, part) in [
         ("\"\"", "deprecated"),
-        ("\"hair\"", "hair"),
         ("\"subsurface\" \"string name\" \"Skin1\"", "subsurface"),
         ("\"subsurface\" \"rgb mfp\" [1 1 1]", "subsurface"),
         ("\"diffuse\" \"rgb reflectance\" [2 1 1]", "above 1"),
@@ -205,4 +205,126 @@ fn interfaces_and_stand_ins() {
         let all = warnings(&loaded);
         assert!(all.len() == 1 && all[0].contains(part), "{text}: {all:?}");
     }
+}
+
+fn number(x: f32) -> FloatParam {
+    FloatParam::Value(x)
+}
+
+#[test]
+fn hair_has_the_defaults_of_pbrt() {
+    let pigment = HairPigment::Melanin {
+        eumelanin: number(1.3),
+        pheomelanin: number(0.0),
+    };
+    let brown = HairMaterial {
+        pigment,
+        eta: number(1.55),
+        beta_m: number(0.3),
+        beta_n: number(0.3),
+        alpha_deg: number(2.0),
+    };
+    assert_eq!(material("\"hair\""), MaterialKind::Hair(brown));
+    let red = HairPigment::Melanin {
+        eumelanin: number(0.0),
+        pheomelanin: number(0.5),
+    };
+    let text = "\"hair\" \"float pheomelanin\" .5 \"float eta\" 1.4 \"float beta_m\" .1 \
+                \"float beta_n\" 1 \"float alpha\" -3";
+    let other = HairMaterial {
+        pigment: red,
+        eta: number(1.4),
+        beta_m: number(0.1),
+        beta_n: number(1.0),
+        alpha_deg: number(-3.0),
+    };
+    assert_eq!(material(text), MaterialKind::Hair(other));
+}
+
+#[test]
+fn absorption_of_hair_comes_before_colour_and_colour_before_melanin() {
+    let sigma_a = "\"rgb sigma_a\" [1 2 3]";
+    let colour = "\"rgb color\" [.5 .4 .3]";
+    let melanin = "\"float eumelanin\" 2";
+    let value = |r, g, b| ColourParam::Value(Rgb { r, g, b });
+    for (text, expected, ignored) in [
+        (
+            format!("{sigma_a} {colour} {melanin}"),
+            HairPigment::Absorption(value(1.0, 2.0, 3.0)),
+            2,
+        ),
+        (
+            format!("{colour} {melanin}"),
+            HairPigment::Reflectance(value(0.5, 0.4, 0.3)),
+            1,
+        ),
+    ] {
+        let loaded = load_world(&format!("Material \"hair\" {text}")).unwrap();
+        let all = warnings(&loaded);
+        assert_eq!(all.len(), ignored, "{all:?}");
+        assert!(all.iter().all(|w| w.contains("no effect")), "{all:?}");
+        let MaterialKind::Hair(hair) = loaded.scene.materials[0].kind else {
+            panic!()
+        };
+        assert_eq!(hair.pigment, expected);
+    }
+    for (text, part) in [
+        ("\"float beta_m\" 1.5", "\"beta_m\" is 1.5"),
+        ("\"float pheomelanin\" -1", "\"pheomelanin\" is below 0"),
+        ("\"texture displacement\" \"bumps\"", "unused parameter"),
+    ] {
+        let world = format!("Texture \"bumps\" \"float\" \"fbm\" Material \"hair\" {text}");
+        let loaded = load_world(&world).unwrap();
+        let all = warnings(&loaded);
+        assert!(all.len() == 1 && all[0].contains(part), "{text}: {all:?}");
+    }
+    for text in [
+        "\"float eta\" 0",
+        "\"float eta\" -1.5",
+        "\"float alpha\" \"two\"",
+    ] {
+        let refused = load_world(&format!("Material \"hair\" {text}"));
+        assert!(refused.is_err(), "{text}");
+    }
+}
+
+/// Fibres are round tubes with tangents, also in mixes, whichever way they are oriented; ribbons and other materials
+/// are what they were.
+#[test]
+fn curves_of_hair_are_fibres() {
+    let curve = |look: &str| {
+        format!(
+            "Shape \"curve\" \"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0] \"string type\" \"{look}\" \
+             \"normal N\" [0 0 1 0 0 1] \"float width\" .1"
+        )
+    };
+    let mesh = |before: &str, look: &str| -> (Mesh, bool) {
+        let loaded = load_world(&format!("{before} {}", curve(look))).unwrap();
+        let shape = &loaded.scene.shapes[0];
+        let Geometry::Mesh(id) = shape.geometry else {
+            panic!()
+        };
+        (loaded.scene.meshes[id.0].clone(), shape.reverse_orientation)
+    };
+    let mix = "MakeNamedMaterial \"a\" \"string type\" \"hair\" \
+               MakeNamedMaterial \"b\" \"string type\" \"diffuse\" \
+               Material \"mix\" \"string materials\" [\"b\" \"a\"]";
+    for before in ["Material \"hair\" ReverseOrientation", mix] {
+        for look in ["flat", "cylinder"] {
+            let (fibre, reversed) = mesh(before, look);
+            assert!(fibre.is_fibre && !reversed);
+            assert_eq!(fibre.positions.len() % 13, 0);
+            assert_eq!(fibre.tangents.len(), fibre.positions.len());
+            for (t, n) in fibre.tangents.iter().zip(&fibre.normals) {
+                assert!(
+                    (t[0] - 1.0).abs() < 1e-6 && n[0].abs() < 1e-6,
+                    "{t:?} {n:?}"
+                );
+            }
+        }
+        assert!(!mesh(before, "ribbon").0.is_fibre);
+    }
+    let (plain, reversed) = mesh("Material \"diffuse\" ReverseOrientation", "flat");
+    assert!(!plain.is_fibre && plain.tangents.is_empty() && reversed);
+    assert_eq!(plain.positions.len() % 5, 0);
 }

@@ -412,3 +412,30 @@ fn products_of_textures_keep_their_colours() {
         assert!(near, "{a:?} became {b:?}");
     }
 }
+
+/// Parameters of hair survive. Fibres do not: a mesh is what they are written as, and a note says so.
+#[test]
+fn hair_survives() {
+    let read = |curve: &str| {
+        let folder = Folder::new();
+        let world = format!(
+            "WorldBegin LightSource \"infinite\"
+             Texture \"t\" \"float\" \"constant\" \"float value\" .25
+             Material \"hair\" \"rgb sigma_a\" [.5 1.5 20] \"float alpha\" -4 Shape \"sphere\"
+             Material \"hair\" \"rgb reflectance\" [.5 .25 .125] \"float eta\" 1.25 Shape \"sphere\"
+             Material \"hair\" \"float eumelanin\" .5 \"float beta_n\" .75 Shape \"sphere\" {curve}"
+        );
+        folder.load(world).unwrap().scene
+    };
+    let before = read("");
+    let (after, notes) = round_trip(&before);
+    assert_eq!(notes, [""; 0]);
+    let hair = |scene: &Scene| -> Vec<MaterialKind> {
+        let used = scene.shapes.iter().map(|s| s.material.0);
+        used.map(|m| scene.materials[m].kind).collect()
+    };
+    assert_eq!(hair(&after), hair(&before));
+    let fibre = read("Shape \"curve\" \"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0] \"float width\" .1");
+    let (_, notes) = round_trip(&fibre);
+    assert!(notes.len() == 1 && notes[0].contains("fibres"), "{notes:?}");
+}

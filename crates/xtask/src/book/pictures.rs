@@ -79,7 +79,7 @@ const fn with_sampler(name: &'static str, sampler: Sampler) -> Picture {
     picture
 }
 
-const PICTURES: [Picture; 28] = [
+const PICTURES: [Picture; 29] = [
     of("conductor", "conductor.pbrt"),
     of("anisotropic", "anisotropic.pbrt"),
     of("dielectric", "dielectric.pbrt"),
@@ -94,6 +94,7 @@ const PICTURES: [Picture; 28] = [
     of("principled_lobes", "principled_lobes.xml"),
     of("principled_thin", "principled_thin.xml"),
     with_samples("gltf", "gltf.gltf", 192),
+    with_samples("hair", "hair.pbrt", 32),
     of("mix", "mix.pbrt"),
     of("bump", "bump.pbrt"),
     with_energy("energy_none", "energy.pbrt", "none"),

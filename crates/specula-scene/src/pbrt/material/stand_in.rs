@@ -9,59 +9,7 @@ use crate::num::{f32_of, shorten};
 use crate::pbrt::colour::{self, Colour};
 use crate::pbrt::context::{Context, Entity};
 use crate::pbrt::param::ParamList;
-use crate::scene::{CoatMedium, ColourParam, FloatParam, MaterialKind};
-
-fn diffuse(reflectance: ColourParam) -> MaterialKind {
-    MaterialKind::Diffuse {
-        reflectance,
-        roughness: FloatParam::Value(0.0),
-    }
-}
-
-/// Hair: diffuse of the colour that many fibres of its pigment have together.
-///
-/// ```text
-/// C = exp(-sqrt(sigma_a) P(beta_n)),   P(b) = 5.969 - 0.215 b + 2.532 b^2 - 10.73 b^3 + 5.574 b^4 + 0.245 b^5
-/// ```
-///
-/// Source: Chiang et al. 2016, equation 9; absorption of pigments from d'Eon et al. 2011, section 6.1.
-pub(super) fn hair(context: &mut Context, entity: &Entity) -> Result<MaterialKind, SceneError> {
-    let params = &entity.params;
-    let message = "material \"hair\" is not supported: diffuse of the hair's colour is used";
-    context.warn(&entity.place, message);
-    params.ignore(&["eta", "beta_m", "alpha"]);
-    for name in ["reflectance", "color"] {
-        if let Some(reflectance) = colour::albedo_or_none(context, params, name)? {
-            params.ignore(&["sigma_a", "eumelanin", "pheomelanin", "beta_n"]);
-            return Ok(diffuse(reflectance));
-        }
-    }
-    let number = |name: &str| match context.float_or_none(params, name)? {
-        Some(FloatParam::Value(x)) => Ok(Some(f64::from(x).max(0.0))),
-        // A texture of concentrations: its middle.
-        Some(FloatParam::Texture(_)) => Ok(Some(0.5)),
-        None => Ok(None),
-    };
-    let b = number("beta_n")?.unwrap_or(0.3).min(1.0);
-    let polynomial = 5.969 + b * (-0.215 + b * (2.532 + b * (-10.73 + b * (5.574 + b * 0.245))));
-    let (eumelanin, pheomelanin) = (number("eumelanin")?, number("pheomelanin")?);
-    let absorption = match colour::colour(context, params, "sigma_a")?.map(|c| c.under_white()) {
-        Some(ColourParam::Value(c)) => c.to_array().map(f64::from),
-        Some(ColourParam::Texture(_)) => return Ok(super::DEFAULT),
-        None => {
-            let none = eumelanin.is_none() && pheomelanin.is_none();
-            let e = eumelanin.unwrap_or(if none { 1.3 } else { 0.0 });
-            let p = pheomelanin.unwrap_or(0.0);
-            [
-                0.419 * e + 0.187 * p,
-                0.697 * e + 0.4 * p,
-                1.37 * e + 1.05 * p,
-            ]
-        }
-    };
-    let [r, g, b] = absorption.map(|s| f32_of((-s.max(0.0).sqrt() * polynomial).exp()));
-    Ok(diffuse(ColourParam::Value(Rgb { r, g, b })))
-}
+use crate::scene::{CoatMedium, ColourParam, MaterialKind};
 
 /// Subsurface scattering: a coat over Lambert of the albedo that the medium has from outside.
 pub(super) fn subsurface(

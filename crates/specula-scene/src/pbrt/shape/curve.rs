@@ -1,8 +1,9 @@
 //! `curve`: Bezier curves and B-splines of some width.
 //!
 //! pbrt-v4's `flat` curves face every ray and its `cylinder` curves shade like tubes; both become
-//! tubes here, of 4 and of 12 sides, whose mean width from all around is the curve's. Ribbons
-//! become strips. The centre line is nowhere further from its chords than 1/20 of the width.
+//! tubes here, of 4 and of 12 sides, whose mean width from all around is the curve's; those of hair
+//! all have 12, and their centre line's direction as tangents. Ribbons become strips. The centre line
+//! is nowhere further from its chords than 1/20 of the width.
 
 use glam::DVec3;
 
@@ -13,6 +14,9 @@ use crate::num::{f32_of, shorten};
 use crate::pbrt::context::{Context, Entity};
 use crate::scene::Mesh;
 use crate::tube::{self, Bezier, Station, cubic_spline, join, tube};
+
+/// Sides of a tube that shades like one.
+const ROUND_SIDES: u32 = 12;
 
 /// What a curve looks like.
 enum CurveForm {
@@ -29,6 +33,8 @@ pub(in crate::pbrt) struct Curve {
     /// Width at the beginning and at the end.
     width_at_ends: [f64; 2],
     look: CurveForm,
+    /// Whether its material is hair.
+    is_hair: bool,
 }
 
 /// Reads the shape `curve`.
@@ -84,6 +90,7 @@ pub(super) fn read(context: &mut Context, entity: &Entity) -> Result<Curve, Scen
         segments,
         width_at_ends,
         look,
+        is_hair: false,
     })
 }
 
@@ -93,7 +100,7 @@ fn look(context: &mut Context, entity: &Entity, segments: usize) -> Result<Curve
     let kind = params.string("type")?;
     let tube = match kind {
         None | Some(("flat", _)) => 4,
-        Some(("cylinder", _)) => 12,
+        Some(("cylinder", _)) => ROUND_SIDES,
         Some(("ribbon", _)) => {
             let normals: Vec<DVec3> = normals
                 .unwrap_or_default()
@@ -146,6 +153,14 @@ fn spline(p: &[DVec3]) -> Bezier {
 }
 
 impl Curve {
+    /// The curve as a fibre of hair, whose lobe takes the offset across it from its normals: tubes are round.
+    pub(in crate::pbrt) fn made_of_hair(&mut self) {
+        self.is_hair = true;
+        if let CurveForm::Tube(sides) = &mut self.look {
+            *sides = ROUND_SIDES;
+        }
+    }
+
     /// Shapes that pbrt-v4 makes of it without splitting.
     pub(super) fn pieces(&self) -> usize {
         self.segments.len()
@@ -161,7 +176,13 @@ impl Curve {
         let stations = self.stations();
         let mut mesh = Mesh::default();
         match &self.look {
-            CurveForm::Tube(sides) => tube(&stations, *sides, &mut mesh),
+            CurveForm::Tube(sides) => {
+                tube(&stations, *sides, &mut mesh);
+                if self.is_hair {
+                    mesh.tangents = tube::tangents(&stations, *sides);
+                    mesh.is_fibre = true;
+                }
+            }
             CurveForm::Ribbon(normals) => ribbon(&stations, normals, &mut mesh),
         }
         Ok(mesh)
@@ -221,6 +242,7 @@ mod tests {
             ],
             width_at_ends: [0.2, 0.2],
             look,
+            is_hair: false,
         }
     }
 
