@@ -303,6 +303,7 @@ mod tests {
             segments: vec![[p(0.0, 0.0), p(0.0, 4.0), p(4.0, 4.0), p(4.0, 0.0)]],
             width_at_ends: [0.1, 0.1],
             look: CurveForm::Tube(4),
+            is_hair: false,
         };
         let stations = curve.stations();
         let [a, b, c, d] = curve.segments[0];
