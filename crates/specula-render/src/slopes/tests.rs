@@ -1,3 +1,5 @@
+//! Alphas beside covariances of slopes that are sampled.
+
 use specula_bsdf::math::{Stream, vec3};
 
 use super::*;

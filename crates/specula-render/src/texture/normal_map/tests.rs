@@ -1,3 +1,5 @@
+//! Filtered normals beside sums over footprints.
+
 use specula_bsdf::math::Stream;
 use specula_scene::Image;
 use specula_scene::scene::*;

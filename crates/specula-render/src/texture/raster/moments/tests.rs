@@ -1,3 +1,5 @@
+//! Moments beside sums over interpolated pictures.
+
 use super::*;
 use crate::texture::raster::Lookup;
 use specula_bsdf::math::Stream;
