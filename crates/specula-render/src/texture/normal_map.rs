@@ -69,7 +69,7 @@ impl Textures {
             };
             let means = |image| Picture {
                 image,
-                mapping: picture.mapping.clone(),
+                mapping: picture.mapping,
                 lookup: Lookup {
                     wrap: key.wrap,
                     filter,

@@ -36,7 +36,7 @@ pub(crate) fn slope_of([x, y, z]: [f32; 3]) -> [f32; 2] {
 }
 
 /// Where the rule of two points evaluates, in `[0, 1]`.
-const GAUSS: [f32; 2] = [0.211_324_87, 0.788_675_13];
+const GAUSS: [f32; 2] = [0.211_324_87, 0.788_675_1];
 
 impl Raster {
     /// The moments of the slopes of a normal map, with pyramids: `(x, y, 1)`, then `(x^2, x y, y^2)`.
