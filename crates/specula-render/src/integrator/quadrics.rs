@@ -6,10 +6,8 @@
 )]
 
 use macro_rules_attribute::apply;
-use specula_bsdf::Vec3;
-use specula_bsdf::math::vec3;
 
-use super::vertex_batch::{Indices, Surfaces, WAVEFRONT_SIZE};
+use super::vertex_batch::{Indices, Surfaces, WAVEFRONT_SIZE, select};
 use crate::accel::QuadricShape;
 use crate::convert::{id, narrow};
 use crate::geometry::{Geometry, NONE, PlacedQuadric, QuadricId, QuadricPoint};
@@ -134,15 +132,6 @@ fn pick(is_on: bool, needs_tangent: bool, point: &QuadricPoint, i: usize, s: &mu
     );
 }
 
-#[inline(always)]
-fn select(is_new: bool, new: Vec3<f32>, old: Vec3<f32>) -> Vec3<f32> {
-    vec3(
-        if is_new { new.x } else { old.x },
-        if is_new { new.y } else { old.y },
-        if is_new { new.z } else { old.z },
-    )
-}
-
 impl Surfaces {
     /// Stores a point of a quadric.
     #[inline(always)]
@@ -159,6 +148,8 @@ mod tests {
     use crate::options::RenderOptions;
     use crate::prepared::PreparedScene;
     use glam::{DMat4, DVec3};
+    use specula_bsdf::Vec3;
+    use specula_bsdf::math::vec3;
     use specula_scene::scene::{Geometry as SceneGeometry, Shape};
 
     /// Forty spheres, more than wait at once, squeezed, turned and inside out, and a disk among them.

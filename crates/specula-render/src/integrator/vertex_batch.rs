@@ -300,18 +300,22 @@ pub(super) fn interpolate_triangles(n: usize, t: &Triangles, s: &mut Surfaces) {
         let reach = largest(abs(a), largest(abs(b), abs(c)));
         let error = coupled(reach).x;
         let is_triangle = t.is_triangle[i];
-        let pick = |new: Vec3<f32>, old: Vec3<f32>| {
-            vec3(
-                if is_triangle { new.x } else { old.x },
-                if is_triangle { new.y } else { old.y },
-                if is_triangle { new.z } else { old.z },
-            )
-        };
-        s.position.set(i, pick(position, s.position.get(i)));
-        s.ng.set(i, pick(ng, s.ng.get(i)));
-        s.ns.set(i, pick(ns, s.ns.get(i)));
+        s.position
+            .set(i, select(is_triangle, position, s.position.get(i)));
+        s.ng.set(i, select(is_triangle, ng, s.ng.get(i)));
+        s.ns.set(i, select(is_triangle, ns, s.ns.get(i)));
         s.error[i] = if is_triangle { error } else { s.error[i] };
     }
+}
+
+/// One of two vectors, without a branch.
+#[inline(always)]
+pub(super) fn select(is_new: bool, new: Vec3<f32>, old: Vec3<f32>) -> Vec3<f32> {
+    vec3(
+        if is_new { new.x } else { old.x },
+        if is_new { new.y } else { old.y },
+        if is_new { new.z } else { old.z },
+    )
 }
 
 /// The geometric normal of a triangle, towards its outside.

@@ -41,7 +41,6 @@ pub(crate) struct LightQueues {
 /// Receivers that a light is to be chosen for.
 struct ReceiverQueue {
     vertices: [usize; BATCH_SIZE],
-    receivers: [Receiver; BATCH_SIZE],
     point: Vectors,
     /// Zero where there is none.
     normal: Vectors,
@@ -70,14 +69,9 @@ const ZERO: Floats = Floats::of(0.0);
 
 impl LightQueues {
     pub(crate) fn new() -> Box<Self> {
-        let nowhere = Receiver {
-            point: Vec3::ZERO,
-            normal: None,
-        };
         Box::new(Self {
             receivers: ReceiverQueue {
                 vertices: [0; BATCH_SIZE],
-                receivers: [nowhere; BATCH_SIZE],
                 point: Vectors::ZERO,
                 normal: Vectors::ZERO,
                 choices: Choices::ZERO,
@@ -139,7 +133,6 @@ impl Lights {
             let r = &mut queues.receivers;
             let at = r.count % BATCH_SIZE;
             r.vertices[at] = i;
-            r.receivers[at] = receiver;
             r.point.set(at, receiver.point);
             r.normal.set(at, receiver.normal.unwrap_or(Vec3::ZERO));
             r.count = at + 1;
@@ -204,7 +197,7 @@ impl Lights {
             let vertex = r.vertices[at];
             let (light, probability) = (r.choices.light[at], r.choices.probability[at]);
             shares[vertex] = r.choices.share[at];
-            let (p, u) = (r.receivers[at].point, [u[1][vertex], u[2][vertex]]);
+            let (p, u) = (r.point.get(at), [u[1][vertex], u[2][vertex]]);
             let queue = self.queues.get(light as usize).copied().unwrap_or(NO_QUEUE);
             if let Some(waiting) = queues.lights.get_mut(usize::from(queue)) {
                 if waiting.push(vertex, probability, p, u) {

@@ -13,6 +13,7 @@ use macro_rules_attribute::apply;
 use super::environment::BATCH_SIZE;
 use super::node::{Node, share};
 use super::select::{Class, MOST_NODES, Selection};
+use super::tree::Step;
 use crate::convert::id;
 use crate::simd::simd_levels;
 use crate::soa;
@@ -149,16 +150,10 @@ fn choose_in_tree(n: usize, nodes: &[Node], far: u32, c: &mut Choices) {
         for i in 0..n {
             let is_here = c.node[i] == here;
             let children = [at + 1, right].map(|k| c.importance[k % MOST_NODES][i]);
-            let left = share(children);
-            // As `tree::Choice::step`.
-            let width = c.width[i] * f64::from(left);
-            let middle = c.low[i] + width;
-            let is_left = ((c.rest[i] < middle) & (left > 0.0)) | (left >= 1.0);
-            let taken = if is_left { left } else { 1.0 - left };
-            let low = if is_left { c.low[i] } else { middle };
-            let width = if is_left { width } else { c.width[i] - width };
-            let next = if is_left { id(at + 1) } else { id(right) };
-            c.within[i] *= if is_here { taken } else { 1.0 };
+            let step = Step::of(c.rest[i], [c.low[i], c.width[i]], share(children));
+            let [low, width] = step.interval;
+            let next = if step.is_left { id(at + 1) } else { id(right) };
+            c.within[i] *= if is_here { step.probability } else { 1.0 };
             c.low[i] = if is_here { low } else { c.low[i] };
             c.width[i] = if is_here { width } else { c.width[i] };
             c.node[i] = if is_here { next } else { c.node[i] };

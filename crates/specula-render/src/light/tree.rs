@@ -245,16 +245,45 @@ impl Choice {
     /// * `left`: the share of the left child.
     #[inline(always)]
     fn step(&mut self, nodes: &[Node], left: f32) -> bool {
-        let width = self.width * f64::from(left);
-        let middle = self.low + width;
-        // Rounding must not lead to a child whose share is 0.
-        let is_left = ((self.u < middle) & (left > 0.0)) | (left >= 1.0);
+        let step = Step::of(self.u, [self.low, self.width], left);
         let link = nodes[self.at].link as usize;
-        self.probability *= if is_left { left } else { 1.0 - left };
-        self.low = if is_left { self.low } else { middle };
-        self.width = if is_left { width } else { self.width - width };
-        self.at += if is_left { 1 } else { link };
-        is_left
+        self.probability *= step.probability;
+        [self.low, self.width] = step.interval;
+        self.at += if step.is_left { 1 } else { link };
+        step.is_left
+    }
+}
+
+/// The choice between the children of a node.
+pub(super) struct Step {
+    pub(super) is_left: bool,
+    /// Of the child.
+    pub(super) probability: f32,
+    /// `low` and `width` of the numbers that choose below the child.
+    pub(super) interval: [f64; 2],
+}
+
+impl Step {
+    /// * `[low, width]`: the numbers that choose below the node.
+    /// * `left`: the share of the left child.
+    #[inline(always)]
+    pub(super) fn of(u: f64, [low, width]: [f64; 2], left: f32) -> Self {
+        let width_of_left = width * f64::from(left);
+        let middle = low + width_of_left;
+        // Rounding must not lead to a child whose share is 0.
+        let is_left = ((u < middle) & (left > 0.0)) | (left >= 1.0);
+        Self {
+            is_left,
+            probability: if is_left { left } else { 1.0 - left },
+            interval: [
+                if is_left { low } else { middle },
+                if is_left {
+                    width_of_left
+                } else {
+                    width - width_of_left
+                },
+            ],
+        }
     }
 }
 
