@@ -23,7 +23,7 @@ use super::node::ChildKind;
 use super::quadric::{self, Approach, PreparedQuadric};
 use super::traverse::Scene;
 use super::triangle;
-use super::{Hit, QuadricShape, Ray};
+use super::{Bounds, Hit, QuadricShape, Ray};
 use crate::simd::simd_levels;
 
 /// Rays of a pack.
@@ -73,6 +73,48 @@ struct Cluster {
     reach: [f32; 3],
     /// Indices of corners.
     triangles: Vec<[u8; 3]>,
+    /// Where all of them lie in one.
+    plane: Option<Plane>,
+}
+
+/// A plane across an axis, as thick as the rounding of what lies in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Plane {
+    axis: usize,
+    /// Least and greatest coordinate.
+    range: [f32; 2],
+    /// Whether the whole scene lies on one side.
+    is_outer: bool,
+}
+
+impl Plane {
+    /// That of a triangle, if it lies in one.
+    ///
+    /// * `scene`: a box around the scene.
+    fn of(corners: &[[f32; 3]; 3], scene: &Bounds) -> Option<Self> {
+        const THICKNESS: f32 = 1e-6;
+        let own = Bounds::around(corners);
+        (0..3).find_map(|axis| {
+            let thickness = THICKNESS * (scene.max[axis] - scene.min[axis]);
+            let range = [own.min[axis], own.max[axis]];
+            (range[1] - range[0] <= thickness).then(|| Self {
+                axis,
+                range,
+                is_outer: range[0] <= scene.min[axis] + thickness
+                    || range[1] >= scene.max[axis] - thickness,
+            })
+        })
+    }
+
+    /// The plane of both, if it is one.
+    fn union(&self, other: &Self) -> Option<Self> {
+        let [a, b] = [self.range, other.range];
+        let overlap = a[0] <= b[1] && b[0] <= a[1];
+        (self.axis == other.axis && overlap).then(|| Self {
+            range: [a[0].min(b[0]), a[1].max(b[1])],
+            ..*self
+        })
+    }
 }
 
 impl Cluster {
@@ -80,10 +122,56 @@ impl Cluster {
         corners: [const { Vec::new() }; 3],
         reach: [0.0; 3],
         triangles: Vec::new(),
+        plane: None,
     };
 
+    /// Those of all triangles, which have their indices before them.
+    ///
+    /// * `plane`: that of a triangle, where its cluster is to be kept in it.
+    fn all(
+        triangles: &[(u32, [[f32; 3]; 3])],
+        plane: impl Fn(&[[f32; 3]; 3]) -> Option<Plane>,
+    ) -> Vec<Self> {
+        let mut clusters: Vec<Self> = Vec::new();
+        for (_, corners) in triangles {
+            let plane = plane(corners);
+            if !(clusters.last_mut()).is_some_and(|c| c.take(corners, plane)) {
+                clusters.push(Self::new(corners, plane));
+            }
+        }
+        clusters
+    }
+
+    /// Of one triangle.
+    fn new(corners: &[[f32; 3]; 3], plane: Option<Plane>) -> Self {
+        let mut cluster = Self::EMPTY;
+        cluster.add(corners);
+        cluster.plane = plane;
+        cluster
+    }
+
+    /// Adds a triangle, or returns `false`: where its corners are too many, or a plane would be lost that most packs
+    /// of rays stay on one side of.
+    fn take(&mut self, corners: &[[f32; 3]; 3], plane: Option<Plane>) -> bool {
+        let both = match (self.plane, plane) {
+            (Some(a), Some(b)) => a.union(&b),
+            _ => None,
+        };
+        let outer = |plane: Option<Plane>| plane.is_some_and(|plane| plane.is_outer);
+        let is_apart = !corners.iter().any(|p| self.corners[2].contains(p));
+        let lost = both.is_none() && (self.plane.is_some() || plane.is_some());
+        if lost && (is_apart || outer(self.plane) || outer(plane)) {
+            return false;
+        }
+        let is_added = self.add(corners);
+        if is_added {
+            self.plane = both;
+        }
+        is_added
+    }
+
     /// Adds a triangle; `false` where its corners are too many.
-    fn take(&mut self, corners: &[[f32; 3]; 3]) -> bool {
+    fn add(&mut self, corners: &[[f32; 3]; 3]) -> bool {
         let mut all = self.corners[2].clone();
         let places = corners.map(|p| {
             // By their bits: what is sheared must be the same to the sign of zero.
@@ -115,6 +203,8 @@ impl Cluster {
 pub(super) struct SmallScene {
     /// All triangles, ascending.
     clusters: Vec<Cluster>,
+    /// The same for shadow rays, which cross few planes, in more clusters.
+    occluders: Vec<Cluster>,
     /// Of the triangles and then of the quadrics, ascending.
     primitives: Vec<u32>,
     quadrics: Vec<PreparedQuadric>,
@@ -146,16 +236,12 @@ impl SmallScene {
         }
         triangles.sort_unstable_by_key(|t| t.0);
         quadrics.sort_unstable_by_key(|q| q.primitive);
-        let mut clusters: Vec<Cluster> = Vec::new();
-        for (_, corners) in &triangles {
-            if !clusters.last_mut().is_some_and(|c| c.take(corners)) {
-                let mut cluster = Cluster::EMPTY;
-                cluster.take(corners);
-                clusters.push(cluster);
-            }
-        }
+        let bounds = (triangles.iter())
+            .map(|(_, corners)| Bounds::around(corners))
+            .fold(Bounds::EMPTY, |all, own| all.union(&own));
         Some(Self {
-            clusters,
+            clusters: Cluster::all(&triangles, |_| None),
+            occluders: Cluster::all(&triangles, |corners| Plane::of(corners, &bounds)),
             primitives: triangles
                 .iter()
                 .map(|t| t.0)
@@ -310,6 +396,12 @@ impl Pack {
         place: u32,
         sheared: &mut Sheared,
     ) {
+        if ANY
+            && let Some(plane) = &cluster.plane
+            && !self.crosses(plane, cluster.reach[axis])
+        {
+            return;
+        }
         let (o, s) = (&self.sheared_origin, &self.shear);
         for (corner, p) in cluster.corners[axis].iter().zip(&mut *sheared) {
             for lane in 0..PACK {
@@ -338,6 +430,35 @@ impl Pack {
                 self.offer(p, place + k);
             }
         }
+    }
+
+    /// Whether any ray may pass from one side of a plane to the other before its end.
+    ///
+    /// The rounding of a triangle's distance moves its point by less than `16 u` of `farthest` along any axis, as the
+    /// direction is greatest along z.
+    ///
+    /// * `reach`: as for [`Self::occlude`].
+    #[inline(always)]
+    fn crosses(&self, plane: &Plane, reach: f32) -> bool {
+        const SLACK: f32 = 16.0 * f32::EPSILON;
+        let [from, to] = plane.range;
+        let (o, d) = (&self.origin[plane.axis], &self.direction[plane.axis]);
+        let mut some = 0;
+        for lane in 0..PACK {
+            let (o, t) = (o[lane], self.t[lane]);
+            let end = o + d[lane] * t;
+            let farthest = reach + self.sheared_origin[2][lane].abs();
+            let slack = SLACK * (farthest + o.abs() + end.abs());
+            // An infinite end is on the side that the ray leads to, and none where it leads to neither.
+            let [below, above] = [end + slack < from, end - slack > to];
+            let [below, above] = [
+                below | (end == f32::NEG_INFINITY),
+                above | (end == f32::INFINITY),
+            ];
+            let stays = ((o < from) & below) | ((o > to) & above) | (t <= 0.0);
+            some |= u32::from(!stays);
+        }
+        some != 0
     }
 
     /// Updates the closest hits by a triangle.
@@ -459,7 +580,12 @@ impl Pack {
         sheared: &mut Sheared,
     ) {
         let mut place = 0;
-        for cluster in &small.clusters {
+        let clusters = if ANY {
+            &small.occluders
+        } else {
+            &small.clusters
+        };
+        for cluster in clusters {
             self.offer_cluster::<ANY>(cluster, axis, place, sheared);
             place += crate::convert::id(cluster.triangles.len());
         }

@@ -12,8 +12,8 @@ use crate::texture::{Footprint, TextureCoordinates};
 /// A triangle of a mesh.
 pub(crate) struct Facet<'a> {
     pub(crate) corners: [&'a [f32; 3]; 3],
-    /// Normals of the corners, zero where the mesh has none.
-    pub(crate) normals: [&'a [f32; 3]; 3],
+    /// Normals of the corners, zero where the mesh has none; `None` where no mesh of its group has any.
+    pub(crate) normals: Option<[&'a [f32; 3]; 3]>,
 }
 
 /// A point of a surface, in the world.
@@ -128,7 +128,7 @@ impl Geometry {
         let normal = |v: u32| group.normals.get(v as usize).unwrap_or(&[0.0; 3]);
         Some(Facet {
             corners: [corner(*a), corner(*b), corner(*c)],
-            normals: [normal(*a), normal(*b), normal(*c)],
+            normals: (!group.normals.is_empty()).then(|| [normal(*a), normal(*b), normal(*c)]),
         })
     }
 

@@ -157,8 +157,11 @@ impl PathTracer<'_> {
             for (c, v) in t.corners.iter_mut().zip(facet.corners) {
                 c.set_array(i, v);
             }
-            for (c, v) in t.normals.iter_mut().zip(facet.normals) {
-                c.set_array(i, v);
+            t.has_normals[i] = facet.normals.is_some();
+            if let Some(normals) = facet.normals {
+                for (c, v) in t.normals.iter_mut().zip(normals) {
+                    c.set_array(i, v);
+                }
             }
             t.weights[0][i] = hit.u;
             t.weights[1][i] = hit.v;

@@ -39,8 +39,9 @@ pub(super) type Vectors = soa::Vectors<WAVEFRONT_SIZE>;
 /// Corners, normals and barycentric weights of the triangles that rays hit.
 pub(super) struct Triangles {
     pub(super) corners: [Vectors; 3],
-    /// Those of the corners; zero where the mesh has none.
+    /// Those of the corners, where there are any; zero where the mesh has none.
     pub(super) normals: [Vectors; 3],
+    pub(super) has_normals: [bool; WAVEFRONT_SIZE],
     /// Barycentric weights of the second and third corner.
     pub(super) weights: [Floats; 2],
     /// Whether the vertex is on such a triangle; else its surface is complete.
@@ -148,6 +149,7 @@ impl VertexBatch {
             triangles: Triangles {
                 corners: [Vectors::ZERO; 3],
                 normals: [Vectors::ZERO; 3],
+                has_normals: [false; WAVEFRONT_SIZE],
                 weights: [ZERO; 2],
                 is_triangle: [false; WAVEFRONT_SIZE],
             },
@@ -295,7 +297,7 @@ pub(super) fn interpolate_triangles(n: usize, t: &Triangles, s: &mut Surfaces) {
         let (u, v) = (t.weights[0][i], t.weights[1][i]);
         let w = 1.0 - u - v;
         let ng = normal([a, b, c]);
-        let ns = unit_or(na * w + nb * u + nc * v, ng);
+        let ns = select(t.has_normals[i], unit_or(na * w + nb * u + nc * v, ng), ng);
         let position = a * w + b * u + c * v;
         let reach = largest(abs(a), largest(abs(b), abs(c)));
         let error = coupled(reach).x;

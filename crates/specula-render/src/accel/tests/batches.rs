@@ -168,6 +168,88 @@ fn groups_that_are_not_placed_are_not_hit() {
     }
 }
 
+/// Two triangles for each side of a box, in planes across the axes.
+fn box_of(min: Vec3<f32>, max: Vec3<f32>, mesh: &mut Mesh) {
+    let corner = |k: usize| {
+        let pick = |bit: usize, low: f32, high: f32| if k >> bit & 1 == 0 { low } else { high };
+        vec3(
+            pick(0, min.x, max.x),
+            pick(1, min.y, max.y),
+            pick(2, min.z, max.z),
+        )
+    };
+    for axis in 0..3 {
+        let [u, v] = [1 << ((axis + 1) % 3), 1 << ((axis + 2) % 3)];
+        for side in [0, 1 << axis] {
+            mesh.push([side, side | u, side | u | v].map(corner));
+            mesh.push([side, side | u | v, side | v].map(corner));
+        }
+    }
+}
+
+/// Rays between the surfaces of a room and of what is in it, from inside and outside, end before, at and beyond walls.
+#[test]
+fn shadow_rays_beside_planes_across_axes_are_rays_one_by_one() {
+    let mut random = Random(27);
+    let (mut hits, mut misses) = (0, 0);
+    for scale in [1e-3, 1.0, 1e4] {
+        for far in [0.0, 1.0, 30.0] {
+            let offset = random.direction() * (far * scale);
+            let at = |p: Vec3<f32>| p * scale + offset;
+            let mut mesh = Mesh::default();
+            box_of(
+                at(vec3(-1.0, 0.0, -2.0)),
+                at(vec3(1.0, 1.5, 2.0)),
+                &mut mesh,
+            );
+            box_of(
+                at(vec3(-0.6, 0.0, -1.0)),
+                at(vec3(0.1, 0.7, -0.5)),
+                &mut mesh,
+            );
+            // A lamp below the ceiling, and a tilted plate.
+            let lamp = [[-0.3, -0.4], [0.3, -0.4], [0.3, 0.4], [-0.3, 0.4]];
+            let lamp = lamp.map(|[x, z]| at(vec3(x, 1.49, z)));
+            mesh.push([lamp[0], lamp[1], lamp[2]]);
+            mesh.push([lamp[0], lamp[2], lamp[3]]);
+            mesh.push(
+                [[0.3, 0.2, 0.4], [0.8, 0.3, 0.5], [0.4, 0.9, 0.8]].map(|p| at(Vec3::from(p))),
+            );
+            let accel = mesh.accel();
+            // Rounding at surfaces: what keeps rays off them.
+            let off = 4e-6 * (scale + offset.length());
+            let mut place = || match random.below(4) {
+                0 => at(random.vector() * 3.0),
+                _ => {
+                    let corners = mesh.corners(random.below(mesh.triangles.len()));
+                    let [a, b, c] = corners.map(Vec3::from);
+                    let (u, v) = (random.signed().abs(), random.signed().abs());
+                    let inside = a + (b - a) * u + (c - a) * ((1.0 - u) * v);
+                    let side = if random.below(2) == 0 { off } else { -off };
+                    inside + (b - a).cross(c - a).normalize() * side
+                }
+            };
+            let ends: Vec<_> = (0..12_000).map(|_| [place(), place()]).collect();
+            let rays: Vec<Ray> = (ends.iter())
+                .map(|&[from, to]| {
+                    let mut ray = ray(from, to - from);
+                    ray.t_max = [1.0 - 1e-4, 1.0, 0.5, 3.0, f32::INFINITY][random.below(5)];
+                    match random.below(12) {
+                        0 => ray.direction.x = 0.0,
+                        1 => ray.direction = vec3(0.0, -1.0, 0.0),
+                        _ => {}
+                    }
+                    ray
+                })
+                .collect();
+            let found = compare(&accel, &rays);
+            hits += found;
+            misses += rays.len() - found;
+        }
+    }
+    assert!(hits > 20_000 && misses > 20_000, "{hits} {misses}");
+}
+
 /// A large octahedron around small ones and around small quadrics, some squeezed up to a hundredfold.
 fn room(scale: f32, offset: Vec3<f32>, random: &mut Random) -> (Mesh, Vec<Quadric>) {
     let wide = |v: Vec3<f32>| DVec3::from_array(v.to_array().map(f64::from));
