@@ -194,3 +194,55 @@ fn invert_all<const N: usize>(
         u[i] = within(share(at), share(at + 1), u[i]);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Searches of batches and single ones, where cells are empty, and at the very shares.
+    #[test]
+    fn batches_find_the_cells_of_single_searches() {
+        const N: usize = 64;
+        for [width, height] in [
+            [1, 1],
+            [2, 40],
+            [15, 3],
+            [16, 16],
+            [17, 2],
+            [33, 5],
+            [300, 70],
+        ] {
+            let table = Piecewise::new([width, height], |x, y| match (x * 7 + y * 3) % 5 {
+                0 | 3 => 0.0,
+                k => (k * k) as f64 + (x as f64 * 0.37).sin().abs(),
+            });
+            let mut state = 1_u32;
+            for round in 0..40 {
+                let shares = if round % 2 == 0 {
+                    &table.columns
+                } else {
+                    &table.rows
+                };
+                let mut number = |i: usize, every: usize| {
+                    state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+                    match i % every {
+                        0 => shares[state as usize % shares.len()].min(1.0 - f32::EPSILON),
+                        _ => (state >> 8) as f32 / (1 << 24) as f32,
+                    }
+                };
+                let before: [[f32; N]; 2] =
+                    [3, 4].map(|every| std::array::from_fn(|i| number(i, every)));
+                let mut u = [Floats::<N>::of(0.0); 2];
+                let mut cells = [Column::<u32, N>::of(0); 2];
+                u[0].copy_from_slice(&before[0]);
+                u[1].copy_from_slice(&before[1]);
+                table.sample_cells(N, &mut u, &mut cells);
+                for i in 0..N {
+                    let (cell, within) = table.sample_cell([before[0][i], before[1][i]]);
+                    assert_eq!([cells[0][i], cells[1][i]], cell.map(id), "{width} {height}");
+                    assert_eq!([u[0][i], u[1][i]], within);
+                }
+            }
+        }
+    }
+}
