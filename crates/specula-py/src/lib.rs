@@ -28,7 +28,7 @@ use pyo3::prelude::*;
 mod _native {
     #[pymodule_export]
     use super::bsdf::{
-        Bsdf, CoatedDiffuse, DiffuseTransmission, Eon, Gltf, Lambert, Layered,
+        Bsdf, CoatedDiffuse, DiffuseTransmission, Eon, Gltf, Hair, Lambert, Layered, MeasuredBrdf,
         MultibounceConductor, MultibounceDielectric, Plastic, Principled, RoughConductor,
         RoughDielectric, Samples, SmoothConductor, SmoothDielectric, ThinDielectric,
     };

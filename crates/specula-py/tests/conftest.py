@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ import numpy.typing as npt
 import pytest
 
 import specula_render as sr
+from specula_render.lab.process import call
 
 
 # What chores and tests share.
@@ -32,6 +34,15 @@ def directions(
     phi = 2.0 * np.pi * rng.random(count)
     r = np.sqrt(1.0 - z * z)
     return np.stack([r * np.cos(phi), r * np.sin(phi), z], axis=-1)
+
+
+def measured() -> sr.MeasuredBrdf:
+    """Return GGX gold as a measurement has it."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "gold.bsdf"
+        command = ["tabulate", "conductor Au alpha 0.3", "--views", "8", "--colours", "12"]
+        call([*command, "-o", str(file)], progress=False)
+        return sr.MeasuredBrdf(file)
 
 
 LOBES: dict[str, sr.Bsdf] = {
@@ -62,6 +73,8 @@ LOBES: dict[str, sr.Bsdf] = {
     "smooth plastic": sr.Plastic(None, 1.49, 0.5, nonlinear=True),
     "principled": sr.Principled((0.2, 0.5, 0.8), 0.4, metallic=0.5, clearcoat=0.5),
     "gltf": sr.Gltf((0.9, 0.6, 0.3), 0.5, 0.4, clearcoat=0.3, sheen_color=0.2),
+    "measured": measured(),
+    "hair": sr.Hair(colour=(0.5, 0.3, 0.15), beta_m=0.4, beta_n=0.5),
 }
 """One of each class and choice, by name."""
 

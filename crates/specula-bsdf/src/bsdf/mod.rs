@@ -247,3 +247,61 @@ pub trait Bsdf<T: Real> {
     /// of a sheet sum to at most 1.
     fn albedo(&self) -> Rgb<T>;
 }
+
+/// What is borrowed, as it is: lobes with tables are not copied.
+impl<T: Real, L: Bsdf<T> + ?Sized> Bsdf<T> for &L {
+    #[inline(always)]
+    fn eval(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> Rgb<T> {
+        (**self).eval(wo, wi, transport)
+    }
+
+    #[inline(always)]
+    fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
+        (**self).pdf(wo, wi)
+    }
+
+    #[inline(always)]
+    fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
+        (**self).sample(wo, u, transport)
+    }
+
+    #[inline(always)]
+    fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, transport: Transport) -> (Rgb<T>, T) {
+        (**self).eval_pdf(wo, wi, transport)
+    }
+
+    fn is_stochastic(&self) -> bool {
+        (**self).is_stochastic()
+    }
+
+    #[inline(always)]
+    fn eval_pdf_random(
+        &self,
+        wo: Vec3<T>,
+        wi: Vec3<T>,
+        transport: Transport,
+        stream: &mut Stream,
+    ) -> (Rgb<T>, T) {
+        (**self).eval_pdf_random(wo, wi, transport, stream)
+    }
+
+    #[inline(always)]
+    fn sample_random(
+        &self,
+        wo: Vec3<T>,
+        u: [T; 3],
+        transport: Transport,
+        stream: &mut Stream,
+    ) -> Option<BsdfSample<T>> {
+        (**self).sample_random(wo, u, transport, stream)
+    }
+
+    fn is_specular(&self) -> bool {
+        (**self).is_specular()
+    }
+
+    #[inline(always)]
+    fn albedo(&self) -> Rgb<T> {
+        (**self).albedo()
+    }
+}

@@ -1,4 +1,5 @@
 from collections.abc import Callable, Iterator, Sequence
+from os import PathLike
 from typing import Any, Literal, Protocol, SupportsFloat, TypeAlias, TypedDict, final
 
 import numpy as np
@@ -355,6 +356,28 @@ class Gltf(Bsdf):
         sheen_roughness: float = 0.0,
         compensated: bool = False,
     ) -> Gltf: ...
+
+@final
+class Hair(Bsdf):
+    def __new__(
+        cls,
+        sigma_a: _Colour | None = None,
+        *,
+        eta: float = 1.55,
+        beta_m: float = 0.3,
+        beta_n: float = 0.3,
+        alpha_deg: float = 2.0,
+        colour: _Colour | None = None,
+        eumelanin: float | None = None,
+        pheomelanin: float | None = None,
+        h: float | None = None,
+    ) -> Hair: ...
+
+@final
+class MeasuredBrdf(Bsdf):
+    def __new__(cls, file: str | PathLike[str]) -> MeasuredBrdf: ...
+    @property
+    def is_isotropic(self) -> bool: ...
 
 @final
 class Material:

@@ -1,23 +1,27 @@
 //! Lobes over arrays.
 
+mod any_lobe;
 mod compound;
+mod hair;
 mod kernels;
 mod lobes;
+mod measured;
 mod samples;
 
 pub(crate) use compound::{CoatedDiffuse, Gltf, Layered, Plastic, Principled};
+pub(crate) use hair::Hair;
 pub(crate) use lobes::{
     DiffuseTransmission, Eon, Lambert, MultibounceConductor, MultibounceDielectric, RoughConductor,
     RoughDielectric, SmoothConductor, SmoothDielectric, ThinDielectric,
 };
+pub(crate) use measured::MeasuredBrdf;
 pub(crate) use samples::Samples;
 
 use pyo3::PyClass;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyDict;
-use specula_bsdf::bsdf::Lobe;
-use specula_bsdf::{Bsdf as _, Transport};
+use specula_bsdf::Transport;
 
 use crate::arrays::{
     Argument, Axis, Must, Output, Scalar, Source, Vectors, are_double, common_shape, finished,
@@ -25,22 +29,23 @@ use crate::arrays::{
 };
 use crate::parallel::{Outputs, run};
 use crate::parameters;
+use any_lobe::AnyLobe;
 use kernels::Kernels;
 
-/// A lobe in both precisions. The classes of lobes derive from it.
+/// A BSDF in both precisions. The classes of lobes derive from it.
 #[pyclass(subclass, frozen, module = "specula_render")]
 pub(crate) struct Bsdf {
-    single: Lobe<f32>,
-    double: Lobe<f64>,
+    single: AnyLobe<f32>,
+    double: AnyLobe<f64>,
     repr: String,
 }
 
 impl Bsdf {
     /// * `repr`: as Python would make it again.
-    fn new(single: Lobe<f32>, double: Lobe<f64>, repr: String) -> Self {
+    fn new(single: impl Into<AnyLobe<f32>>, double: impl Into<AnyLobe<f64>>, repr: String) -> Self {
         Self {
-            single,
-            double,
+            single: single.into(),
+            double: double.into(),
             repr,
         }
     }
@@ -50,8 +55,8 @@ impl Bsdf {
         PyClassInitializer::from(self).add_subclass(class)
     }
 
-    pub(crate) fn double(&self) -> &Lobe<f64> {
-        &self.double
+    fn double(&self) -> &dyn specula_bsdf::Bsdf<f64> {
+        self.double.as_bsdf()
     }
 }
 
@@ -104,7 +109,7 @@ type AnyArray<'py> = Bound<'py, PyAny>;
 
 fn eval<'py, T: Scalar>(
     py: Python<'py>,
-    lobe: &Lobe<T>,
+    lobe: &AnyLobe<T>,
     [wo, wi]: [&Argument<'py>; 2],
     options: Options,
     out: Option<&AnyArray<'py>>,
@@ -135,7 +140,7 @@ fn eval<'py, T: Scalar>(
 
 fn pdf<'py, T: Scalar>(
     py: Python<'py>,
-    lobe: &Lobe<T>,
+    lobe: &AnyLobe<T>,
     [wo, wi]: [&Argument<'py>; 2],
     options: Options,
     out: Option<&AnyArray<'py>>,
@@ -162,7 +167,7 @@ fn pdf<'py, T: Scalar>(
 
 fn eval_pdf<'py, T: Scalar>(
     py: Python<'py>,
-    lobe: &Lobe<T>,
+    lobe: &AnyLobe<T>,
     [wo, wi]: [&Argument<'py>; 2],
     options: Options,
 ) -> PyResult<(AnyArray<'py>, AnyArray<'py>)> {
@@ -194,7 +199,7 @@ fn eval_pdf<'py, T: Scalar>(
 
 fn sample<'py, T: Scalar>(
     py: Python<'py>,
-    lobe: &Lobe<T>,
+    lobe: &AnyLobe<T>,
     [wo, u]: [&Argument<'py>; 2],
     options: Options,
     out: Option<&Samples>,
@@ -219,9 +224,10 @@ fn sample<'py, T: Scalar>(
     };
     let kernels = Kernels::new(lobe, options.transport, options.seed);
     // The first number chooses between lobes: to read it for one that has no choice costs a tenth of all time.
-    let numbers = match lobe {
-        Lobe::RoughConductor(_) | Lobe::RoughConductorBeckmann(_) => Must::RandomPair,
-        _ => Must::Random,
+    let numbers = if lobe.takes_two_numbers() {
+        Must::RandomPair
+    } else {
+        Must::Random
     };
     let sources = pair.sources(numbers)?;
     run(
