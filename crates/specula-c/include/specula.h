@@ -488,6 +488,21 @@ specula_status specula_lobe_make(const char *kind,
                                  specula_lobe **lobe);
 
 /**
+ * Reads a measured material, which reflects light as a gonioreflectometer has measured it.
+ *
+ * Its samples have a density of their own (Dupuy and Jakob 2018, "An Adaptive Parameterization for Efficient Material
+ * Acquisition and Rendering"). It is black where either direction is below the horizon.
+ *
+ * * `file`: path of a `.bsdf` file of the RGL database, or of a `.binary` file of the MERL database; UTF-8.
+ * * `lobe`: as for `specula_lobe_parse`.
+ * * Returns: SPECULA_STATUS_UNREADABLE where the file cannot be read, or is no such file.
+ *
+ * May be called from any thread.
+ */
+specula_status specula_lobe_measured(const char *file,
+                                     specula_lobe **lobe);
+
+/**
  * Frees a lobe, which no thread may use any more; NULL is nothing.
  */
 void specula_lobe_free(specula_lobe *lobe);

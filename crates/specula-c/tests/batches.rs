@@ -9,12 +9,16 @@
 mod tools;
 
 use std::ffi::{CStr, CString};
+use std::path::Path;
 use std::ptr::{null, null_mut};
 
 use specula_bsdf::batch::{self, Directions, Level, SampleOutcome, Samples};
-use specula_bsdf::bsdf::{Bsdf, Event, Lobe};
-use specula_bsdf::math::{Real, Stream, vec3};
-use specula_bsdf::{Rgb, Transport, Vec3};
+use specula_bsdf::bsdf::{Bsdf, Event, Lobe, RoughConductor};
+use specula_bsdf::fresnel::Reflectance;
+use specula_bsdf::math::{Real, Stream, rgb, vec3};
+use specula_bsdf::measured::{Measured, Resolution, Symmetry, tabulate};
+use specula_bsdf::ndf::Ggx;
+use specula_bsdf::{Alpha, Rgb, Transport, Vec3};
 use specula_c::abi::{self, BatchOptions, LobeHandle, Status};
 use tools::known_lobes::{TEXTS, known};
 
@@ -427,6 +431,70 @@ fn batches_are_those_of_the_library() {
             check::<f32>(text, &known::<f32>()[i], &made, transport);
             check::<f64>(text, &known::<f64>()[i], &made, transport);
         }
+    }
+}
+
+fn read_measured(file: &Path) -> (Status, *mut LobeHandle) {
+    let text = CString::new(file.to_str().unwrap()).unwrap();
+    let mut lobe = null_mut();
+    // SAFETY: a text that ends with a zero, and room for a pointer.
+    let status = unsafe { abi::specula_lobe_measured(text.as_ptr(), &mut lobe) };
+    (status, lobe)
+}
+
+fn check_measured<T: Precision>(made: &Made, lobe: &Measured<T>) {
+    let (wo, wi, u) = (directions(N, 1), directions(N, 2), uniform(N, 3));
+    let [a, b, v] = [&wo, &wi, &u].map(|vectors| Rows::new(vectors, 3));
+    let options = options(0, 2);
+    let mut results = Results::<T>::new(3);
+    let statuses = T::eval_pdf(made, [&a, &b], &options, &mut results);
+    assert_eq!(statuses, [Status::Ok; 3], "{}", last());
+    let mut lit = 0;
+    for i in 0..N {
+        let (f, pdf) = lobe.eval_pdf(wo[i], wi[i], Transport::Radiance);
+        assert_eq!(results.vectors[0].at(i), f.to_array().map(T::bits));
+        assert_eq!(results.vectors[1].at(i), f.to_array().map(T::bits));
+        let both = [results.numbers[i], results.densities[i]];
+        assert_eq!(both.map(T::bits), [pdf.bits(); 2]);
+        lit += usize::from(f.max_channel() > T::ZERO);
+    }
+    assert!(lit > N / 8, "{lit}");
+    let mut results = Results::<T>::new(3);
+    let status = T::sample(made, [&a, &v], &options, &mut results);
+    assert_eq!(status, Status::Ok, "{}", last());
+    for i in 0..N {
+        let sample = lobe.sample(wo[i], u[i].to_array(), Transport::Radiance);
+        let wi = sample.map_or(Vec3::ZERO, |s| s.wi);
+        assert_eq!(results.vectors[0].at(i), wi.to_array().map(T::bits));
+        assert_eq!(results.outcomes[i], u8::from(sample.is_some()));
+    }
+}
+
+#[test]
+fn measured_materials_are_those_of_the_library() {
+    let ggx = Ggx::new(Alpha::isotropic(0.4));
+    let metal = RoughConductor::new(ggx, Reflectance::Constant(rgb(0.9, 0.6, 0.3)));
+    let size = Resolution {
+        theta: 6,
+        phi: 1,
+        normals: [16, 2],
+        colours: 8,
+    };
+    let tables = tabulate(&ggx, &metal, Symmetry::Isotropic, size);
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("metal.bsdf");
+    std::fs::write(&file, specula_scene::measured::to_bytes(&tables, "metal")).unwrap();
+    let (status, lobe) = read_measured(&file);
+    assert_eq!(status, Status::Ok, "{}", last());
+    let made = Made(lobe);
+    let tables = specula_scene::measured::read_tables(&file).unwrap();
+    check_measured::<f32>(&made, &Measured::new(&tables).unwrap());
+    check_measured::<f64>(&made, &Measured::new(&tables).unwrap());
+    std::fs::write(&file, "tensor_fil").unwrap();
+    for (name, words) in [("metal.bsdf", "metal.bsdf: "), ("none.bsdf", "none.bsdf: ")] {
+        let (status, lobe) = read_measured(&folder.path().join(name));
+        assert_eq!(status, Status::Unreadable);
+        assert!(lobe.is_null() && last().contains(words), "{}", last());
     }
 }
 

@@ -2,7 +2,8 @@
 //!
 //! [`parse`] reads a line of text, [`make`] takes arguments; both return a [`NamedLobe`], which holds the lobe in both
 //! precisions and says itself in its normal form. [`kinds`] lists every kind with its parameters: type, default,
-//! range, choices and a line of documentation, for controls and for readers.
+//! range, choices and a line of documentation, for controls and for readers. [`AnyLobe`] is what the C interface and the
+//! Python package hold: such a lobe, hair, or a measured material.
 //!
 //! ```
 //! use specula_bsdf::Bsdf;
@@ -14,6 +15,7 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod any_lobe;
 mod catalogue;
 mod compound;
 mod facets;
@@ -26,6 +28,7 @@ mod parameter;
 mod reflectance;
 mod text;
 
+pub use any_lobe::{AnyBatches, AnyLobe};
 pub use facets::MetalFacets;
 pub use given::{Argument, Value};
 pub use kind::Kind;

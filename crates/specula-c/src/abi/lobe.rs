@@ -1,12 +1,15 @@
 //! Lobes: made, asked, freed.
 
 use std::ffi::c_char;
+use std::fmt::Display;
+use std::path::Path;
 
 use crate::border::border;
 use crate::failure::{Failure, Status};
 use crate::lobe::LobeHandle;
 use crate::pointers::Caller;
 use specula_lobes::{Argument, LobeError, Value};
+use specula_scene::measured;
 
 /// What is no lobe.
 fn refused(error: LobeError) -> Failure {
@@ -103,7 +106,7 @@ pub unsafe extern "C" fn specula_lobe_parse(
         caller.write("lobe", lobe, std::ptr::null_mut())?;
         let text = caller.text("text", text)?;
         let made = specula_lobes::parse(text).map_err(refused)?;
-        caller.hand_over("lobe", lobe, LobeHandle(made))
+        caller.hand_over("lobe", lobe, LobeHandle::named(&made))
     })
 }
 
@@ -128,7 +131,32 @@ pub unsafe extern "C" fn specula_lobe_make(
         let parameters = caller.items("parameters", parameters, count)?;
         let read: Result<Vec<_>, _> = parameters.iter().map(|p| p.read(caller)).collect();
         let made = specula_lobes::make(kind, &read?).map_err(refused)?;
-        caller.hand_over("lobe", lobe, LobeHandle(made))
+        caller.hand_over("lobe", lobe, LobeHandle::named(&made))
+    })
+}
+
+/// Reads a measured material, which reflects light as a gonioreflectometer has measured it.
+///
+/// Its samples have a density of their own (Dupuy and Jakob 2018, "An Adaptive Parameterization for Efficient Material
+/// Acquisition and Rendering"). It is black where either direction is below the horizon.
+///
+/// * `file`: path of a `.bsdf` file of the RGL database, or of a `.binary` file of the MERL database; UTF-8.
+/// * `lobe`: as for `specula_lobe_parse`.
+/// * Returns: SPECULA_STATUS_UNREADABLE where the file cannot be read, or is no such file.
+///
+/// May be called from any thread.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn specula_lobe_measured(
+    file: *const c_char,
+    lobe: *mut *mut LobeHandle,
+) -> Status {
+    border(|caller| {
+        caller.write("lobe", lobe, std::ptr::null_mut())?;
+        let file = caller.text("file", file)?;
+        let wrong = |e: &dyn Display| Failure::new(Status::Unreadable, format!("{file}: {e}"));
+        let tables = measured::read_tables(Path::new(file)).map_err(|e| wrong(&e))?;
+        let made = LobeHandle::measured(&tables).map_err(|e| wrong(&e))?;
+        caller.hand_over("lobe", lobe, made)
     })
 }
 
@@ -149,7 +177,7 @@ pub unsafe extern "C" fn specula_lobe_is_stochastic(
     is_stochastic: *mut bool,
 ) -> Status {
     border(|caller| {
-        let is = caller.lent("lobe", lobe)?.0.is_stochastic();
+        let is = caller.lent("lobe", lobe)?.as_bsdf().is_stochastic();
         caller.write("is_stochastic", is_stochastic, is)
     })
 }
@@ -165,7 +193,7 @@ pub unsafe extern "C" fn specula_lobe_is_specular(
     is_specular: *mut bool,
 ) -> Status {
     border(|caller| {
-        let is = caller.lent("lobe", lobe)?.0.is_specular();
+        let is = caller.lent("lobe", lobe)?.as_bsdf().is_specular();
         caller.write("is_specular", is_specular, is)
     })
 }

@@ -1,14 +1,14 @@
 //! What runs over the elements of a block: the batches of `specula-bsdf`.
 
-use specula_bsdf::batch::{Colours, Directions, LengthMismatch, LobeBatches, Samples};
-use specula_bsdf::bsdf::Lobe;
+use specula_bsdf::batch::{Colours, Directions, LengthMismatch, Samples};
+use specula_lobes::{AnyBatches, AnyLobe};
 
 use super::How;
 use super::blocks::Block;
 use crate::lobe::Precision;
 
 /// The batches of a lobe.
-pub(super) struct Kernels<'a, T>(LobeBatches<'a, T>);
+pub(super) struct Kernels<'a, T>(AnyBatches<'a, T>);
 
 /// The slices of a block are of one length.
 fn known(done: Result<(), LengthMismatch>) {
@@ -24,8 +24,8 @@ fn colours<T>([r, g, b]: [&mut [T]; 3]) -> Colours<&mut [T]> {
 }
 
 impl<'a, T: Precision> Kernels<'a, T> {
-    pub(super) fn new(lobe: &'a Lobe<T>, how: How) -> Self {
-        Self(LobeBatches::new(lobe, how.transport, how.seed))
+    pub(super) fn new(lobe: &'a AnyLobe<T>, how: How) -> Self {
+        Self(lobe.batches(how.transport, how.seed))
     }
 
     pub(super) fn eval(&self, block: Block<'_, T>) {

@@ -1,6 +1,5 @@
 //! Lobes over arrays.
 
-mod any_lobe;
 mod compound;
 mod hair;
 mod kernels;
@@ -22,6 +21,7 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyDict;
 use specula_bsdf::Transport;
+use specula_lobes::AnyLobe;
 
 use crate::arrays::{
     Argument, Axis, Must, Output, Scalar, Source, Vectors, are_double, common_shape, finished,
@@ -29,7 +29,6 @@ use crate::arrays::{
 };
 use crate::parallel::{Outputs, run};
 use crate::parameters;
-use any_lobe::AnyLobe;
 use kernels::Kernels;
 
 /// A BSDF in both precisions. The classes of lobes derive from it.
