@@ -201,6 +201,7 @@ pub(super) fn lobe(
         // Shapes without a surface are dropped before; mixes nested too deeply are black.
         // Measured ones and hair are no lobes of the list.
         MaterialKind::Mix { .. }
+        | MaterialKind::Sided(_)
         | MaterialKind::Interface
         | MaterialKind::Measured(_)
         | MaterialKind::Hair(_) => black(),

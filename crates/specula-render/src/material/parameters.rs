@@ -60,7 +60,7 @@ macro_rules! material_shader_table {
             Principled = 12, ["material_principled"];
             /// glTF's metallic-roughness.
             Gltf = 13, ["material_gltf"];
-            /// One of two materials by chance; it has no module, as it is one of the others.
+            /// One of two materials by chance, or by the side; it has no module, as it is one of the others.
             Mix = 14, [];
             /// No surface; paths pass it, so that it has no module.
             Interface = 15, [];
@@ -229,7 +229,7 @@ impl Folder<'_> {
             MaterialKind::Gltf(g) => self.gltf(g),
             MaterialKind::Hair(hair) => self.hair(hair),
             MaterialKind::Mix { amount, .. } => self.float(amount),
-            MaterialKind::Interface | MaterialKind::Measured(_) => {}
+            MaterialKind::Sided(_) | MaterialKind::Interface | MaterialKind::Measured(_) => {}
         }
     }
 
@@ -324,7 +324,7 @@ impl Material {
             MaterialKind::Plastic { .. } => S::Plastic,
             MaterialKind::Principled(_) => S::Principled,
             MaterialKind::Gltf(_) => S::Gltf,
-            MaterialKind::Mix { .. } => S::Mix,
+            MaterialKind::Mix { .. } | MaterialKind::Sided(_) => S::Mix,
             MaterialKind::Interface => S::Interface,
             MaterialKind::Measured(_) => S::Measured,
             MaterialKind::Hair(_) => S::Hair,
@@ -390,7 +390,12 @@ impl Material {
                 .flag(nonlinear),
             MaterialKind::Mix { materials, amount } => {
                 let [first, second] = materials.map(|m| id(m.0));
-                to.floats([amount]).id(first).id(second)
+                to.floats([amount]).id(first).id(second).flag(false)
+            }
+            MaterialKind::Sided(materials) => {
+                let [first, second] = materials.map(|m| id(m.0));
+                let amount = FloatParam::Value(0.0);
+                to.floats([amount]).id(first).id(second).flag(true)
             }
             MaterialKind::CoatedConductor {
                 coat_eta,

@@ -129,6 +129,12 @@ impl Writer<'_> {
                 params += &self.float_param("amount", *amount)?;
                 "mix"
             }
+            MaterialKind::Sided(materials) => {
+                self.note("sides of different materials are written as the outer one");
+                let [a, b] = materials.map(|m| quoted(self.names.of(m)));
+                params += &format!(" \"string materials\" [ {a} {b} ] \"float amount\" [ 0 ]");
+                "mix"
+            }
             MaterialKind::Interface => "interface",
         };
         Ok(typed(name, &params))

@@ -85,12 +85,17 @@ fn describe(named: &Named) -> String {
     };
     lines.push((
         "camera",
-        match s.camera.projection {
+        match &s.camera.projection {
             Projection::Perspective { fov_deg } => {
-                format!("perspective, {} degrees, {lens}", number(fov_deg))
+                format!("perspective, {} degrees, {lens}", number(*fov_deg))
             }
             Projection::Orthographic => format!("orthographic, {lens}"),
-            Projection::Spherical(mapping) => format!("spherical, {}", debug_name(&mapping)),
+            Projection::Spherical(mapping) => format!("spherical, {}", debug_name(mapping)),
+            Projection::Lenses(lenses) => format!(
+                "{} interfaces of lenses, in focus at {}",
+                lenses.interfaces.len(),
+                number(s.camera.focal_distance)
+            ),
         },
     ));
     lines.push(("shapes", counts(&s.shapes)));
