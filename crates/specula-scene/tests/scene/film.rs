@@ -101,9 +101,9 @@ fn stops_have_shapes() {
 #[test]
 fn what_lenses_cannot_do_is_located() {
     for (parameters, column, what) in [
-        ("\"float focusdistance\" 0.3", 62, "focus from 0.4"),
-        ("\"string aperture\" \"none.png\"", 82, "none.png"),
-        ("\"float lensradius\" 0.1", 62, "lensradius"),
+        ("\"float focusdistance\" 0.3", 58, "focus from 0.4"),
+        ("\"string aperture\" \"none.png\"", 76, "none.png"),
+        ("\"float lensradius\" 0.1", 58, "lensradius"),
     ] {
         let (message, place) = match with_lens(parameters) {
             Err(error) => (error.message().to_owned(), [error.line(), error.column()]),
