@@ -263,6 +263,38 @@ impl Scene {
         }
     }
 
+    /// Environment lights, behind portals or not.
+    fn check_sky(&self, what: &str, light: &Light) -> Result<(), Invalid> {
+        let (Light::Infinite {
+            radiance,
+            image,
+            to_world,
+        }
+        | Light::Portal {
+            radiance,
+            image,
+            to_world,
+            ..
+        }) = light
+        else {
+            return Ok(());
+        };
+        ensure(
+            is_light(*radiance),
+            what,
+            "its colour is negative or not finite",
+        )?;
+        check_transform(what, to_world)?;
+        let good = image.is_none_or(|(id, _)| id.0 < self.images.len());
+        ensure(good, what, "its image is out of range")?;
+        match light {
+            Light::Portal { corners, .. } => {
+                ensure(is_rectangle(corners), what, "its portal is no rectangle")
+            }
+            _ => Ok(()),
+        }
+    }
+
     fn check_light(&self, what: &str, light: &Light) -> Result<(), Invalid> {
         let colour =
             |c: Rgb<f32>| ensure(is_light(c), what, "its colour is negative or not finite");
@@ -282,28 +314,7 @@ impl Scene {
             )
         };
         match light {
-            Light::Infinite {
-                radiance,
-                image,
-                to_world,
-            } => {
-                colour(*radiance)?;
-                check_transform(what, to_world)?;
-                let good = image.is_none_or(|(id, _)| id.0 < self.images.len());
-                ensure(good, what, "its image is out of range")
-            }
-            Light::Portal {
-                radiance,
-                image,
-                to_world,
-                corners,
-            } => {
-                colour(*radiance)?;
-                check_transform(what, to_world)?;
-                let good = image.is_none_or(|(id, _)| id.0 < self.images.len());
-                ensure(good, what, "its image is out of range")?;
-                ensure(is_rectangle(corners), what, "its portal is no rectangle")
-            }
+            Light::Infinite { .. } | Light::Portal { .. } => self.check_sky(what, light),
             Light::Distant {
                 irradiance,
                 to_light,

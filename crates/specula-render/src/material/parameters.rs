@@ -9,7 +9,8 @@ use specula_bsdf::internal::shader_codes;
 use specula_scene::Energy;
 use specula_scene::scene::{
     CoatMedium, ColourParam, ConductorFresnel, FloatParam, GltfMaterial, HairMaterial, HairPigment,
-    MaterialKind, MicrofacetDistribution, PrincipledMaterial, Roughness, RoughnessMapping,
+    MaterialId, MaterialKind, MicrofacetDistribution, PrincipledMaterial, Roughness,
+    RoughnessMapping,
 };
 
 use super::Material;
@@ -388,15 +389,8 @@ impl Material {
                 .number(eta)
                 .colours([diffuse, specular])
                 .flag(nonlinear),
-            MaterialKind::Mix { materials, amount } => {
-                let [first, second] = materials.map(|m| id(m.0));
-                to.floats([amount]).id(first).id(second).flag(false)
-            }
-            MaterialKind::Sided(materials) => {
-                let [first, second] = materials.map(|m| id(m.0));
-                let amount = FloatParam::Value(0.0);
-                to.floats([amount]).id(first).id(second).flag(true)
-            }
+            MaterialKind::Mix { materials, amount } => to.mix(materials, amount, false),
+            MaterialKind::Sided(materials) => to.mix(materials, FloatParam::Value(0.0), true),
             MaterialKind::CoatedConductor {
                 coat_eta,
                 ref coat_roughness,
@@ -493,6 +487,11 @@ impl Parameters {
     pub(super) fn id(&mut self, word: u32) -> &mut Self {
         self.plain.push(word);
         self
+    }
+
+    fn mix(&mut self, parts: [MaterialId; 2], amount: FloatParam, by_side: bool) -> &mut Self {
+        let [first, second] = parts.map(|m| id(m.0));
+        self.floats([amount]).id(first).id(second).flag(by_side)
     }
 
     fn flag(&mut self, flag: bool) -> &mut Self {
