@@ -192,7 +192,7 @@ impl Wavefront {
     pub(crate) fn pixel_sample(&self, i: usize) -> (PixelSample, f32) {
         let mut sample = self.paths.pixel_sample(i);
         if let Some(weights) = &self.lens_weights {
-            sample.colour = sample.colour * weights[i];
+            sample.colour *= weights[i];
         }
         (sample, self.weights[i])
     }
