@@ -262,7 +262,10 @@ const CHOICE: &str = "\
     for (var level = 0u; level < 16u && word(record + MATERIAL_KIND) == KIND_MIX; level += 1u) {
         let at = record + MATERIAL_PARAMETERS + 1u;
         let amount = parameter_float(at, place);
-        let second = sequence_hashed(s, vec3u(depth, level, 0u)) < amount;
+        let by_chance = sequence_hashed(s, vec3u(depth, level, 0u)) < amount;
+        let by_side = word(at + 6u) != 0u;
+        let second = select(by_chance, !outside, by_side);
+        seen_outside = seen_outside || by_side;
         chosen = word(at + select(4u, 5u, second));
         record = word(MATERIALS + chosen);
         one_sided = one_sided || word(record + MATERIAL_ONE_SIDED) != 0u;
@@ -281,7 +284,7 @@ fn dispatch(flat: &FlatScene<'_>) -> String {
             .collect()
     };
     let bind = |(code, module): (String, &str)| {
-        format!("            case {code}: {{ b = {module}_bind(head, p, outside); }}\n")
+        format!("            case {code}: {{ b = {module}_bind(head, p, seen_outside); }}\n")
     };
     // Not where there is no mix: every evaluation of a texture makes a shader larger.
     let has_mix = flat.shaders.contains(&MaterialShader::Mix);
@@ -294,15 +297,17 @@ fn dispatch(flat: &FlatScene<'_>) -> String {
     };
     format!(
         "
-/// The material of a surface at a point; mixes choose by chance.
+/// The material of a surface at a point; mixes choose by chance, others by the side.
 ///
 /// Twin: specula-render/src/material/mod.rs, Materials::at.
 fn material_bind(material: u32, place: TextureCoordinates, outside: bool, s: Sequence, depth: u32) -> Bound {{
     var chosen = material;
     var record = word(MATERIALS + chosen);
     var one_sided = word(record + MATERIAL_ONE_SIDED) != 0u;
+    // Materials of sides are seen as from their own outsides.
+    var seen_outside = outside;
 {choice}    var b = bound_black();
-    if outside || !one_sided {{
+    if seen_outside || !one_sided {{
         var head = bound_head(record);
 {turn}        let p = bound_parameters(record, place);
         switch word(record + MATERIAL_KIND) {{

@@ -1,6 +1,7 @@
 //! Cameras: from a point of the picture to a ray.
 
 mod cone;
+mod lens;
 
 use macro_rules_attribute::apply;
 use specula_bsdf::Vec3;
@@ -15,6 +16,7 @@ use crate::light::direction_of_sphere;
 use crate::movement::Movement;
 use crate::simd::simd_levels;
 use crate::words::Words;
+use lens::Lenses;
 
 /// A camera for a picture of a certain size.
 ///
@@ -26,7 +28,7 @@ pub(crate) struct Camera {
     /// How it moves, if it does; `to_world` is then where the shutter opens.
     movement: Option<Box<Movement>>,
     view: View,
-    /// Raster to the plane z = 1, to scene units, or to the unit square:
+    /// Raster to the plane z = 1, to scene units, to the film upside down, or to the unit square:
     /// `(x, y) = origin + raster * step`.
     origin: [f32; 2],
     step: [f32; 2],
@@ -35,27 +37,34 @@ pub(crate) struct Camera {
 }
 
 /// [`Projection`] without what is in the steps of the raster.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum View {
     Perspective,
     Orthographic,
     Spherical(EnvironmentMapping),
+    Lenses(Box<Lenses>),
 }
 
 impl Camera {
     /// A camera over `resolution` pixels.
     pub(crate) fn new(camera: &scene::Camera, resolution: [u32; 2], window: [f64; 4]) -> Self {
-        let (view, [x0, x1, y0, y1]) = match camera.projection {
+        let (view, [x0, x1, y0, y1]) = match &camera.projection {
             Projection::Perspective { fov_deg } => {
                 let spread = (0.5 * fov_deg.to_radians()).tan();
                 (View::Perspective, window.map(|v| v * spread))
             }
             Projection::Orthographic => (View::Orthographic, window),
-            Projection::Spherical(mapping) => (View::Spherical(mapping), [0.0, 1.0, 1.0, 0.0]),
+            Projection::Spherical(mapping) => (View::Spherical(*mapping), [0.0, 1.0, 1.0, 0.0]),
+            Projection::Lenses(lenses) => {
+                let [x0, x1, y0, y1] = window;
+                let scale = lenses.film_diagonal / (x1 - x0).hypot(y1 - y0);
+                let view = View::Lenses(Box::new(Lenses::new(lenses)));
+                (view, window.map(|v| v * scale))
+            }
         };
         let has_lens = camera.lens_radius > 0.0
             && camera.focal_distance > 0.0
-            && !matches!(view, View::Spherical(_));
+            && matches!(view, View::Perspective | View::Orthographic);
         let movement = Movement::default().within(camera.to_world, camera.motion.as_ref());
         let movement = movement.moves().then(|| Box::new(movement));
         let to_world = movement.as_ref().map_or(camera.to_world, |m| m.at(0.0));
@@ -99,6 +108,34 @@ impl Camera {
         }
     }
 
+    /// Whether its rays pass lenses: [`Camera::through_lenses`].
+    pub(crate) fn has_lenses(&self) -> bool {
+        matches!(self.view, View::Lenses(_))
+    }
+
+    /// The ray through a point of the raster and of the lenses: origin, unit direction, and the factor from its
+    /// radiance to the sample's value. `None`: none gets through.
+    ///
+    /// * `time`: in exposures.
+    pub(crate) fn through_lenses(
+        &self,
+        time: f32,
+        raster: [f32; 2],
+        lens: [f32; 2],
+    ) -> Option<(Vec3<f32>, Vec3<f32>, f32)> {
+        let View::Lenses(lenses) = &self.view else {
+            let (origin, direction) = self.ray_at(time, raster, lens);
+            return Some((origin, direction, 1.0));
+        };
+        let moved = self.movement.as_ref().map(|m| Affine::new(&m.at(time)));
+        let to_world = moved.as_ref().unwrap_or(&self.to_world);
+        // The film's picture is upside down.
+        let film = [0, 1].map(|i| -(self.origin[i] + raster[i] * self.step[i]));
+        let ray = lenses.sample(film, lens)?;
+        let direction = to_world.vector(ray.direction).normalize();
+        Some((to_world.point(ray.origin), direction, ray.weight))
+    }
+
     /// Whether it moves.
     pub(crate) fn moves(&self) -> bool {
         self.movement.is_some()
@@ -113,13 +150,15 @@ impl Camera {
     ) -> (Vec3<f32>, Vec3<f32>) {
         let x = self.origin[0] + raster[0] * self.step[0];
         let y = self.origin[1] + raster[1] * self.step[1];
-        let (from, towards) = match self.view {
+        let (from, towards) = match &self.view {
             View::Perspective => (Vec3::ZERO, vec3(x, y, 1.0)),
             View::Orthographic => (vec3(x, y, 0.0), Vec3::Z),
             View::Spherical(mapping) => {
-                let uv = within_sphere(mapping, [x, y]);
-                (Vec3::ZERO, direction_of_sphere(mapping, uv))
+                let uv = within_sphere(*mapping, [x, y]);
+                (Vec3::ZERO, direction_of_sphere(*mapping, uv))
             }
+            // Through the middle of the pupil; samples take `through_lenses`.
+            View::Lenses(lenses) => (Vec3::ZERO, lenses.chief([-x, -y]).0),
         };
         if self.lens_radius > 0.0 {
             let d = concentric_disk(lens);
@@ -170,10 +209,11 @@ fn rays<S: FnMut(usize, Ray)>(
 impl Camera {
     /// The camera for shaders; views of the sphere are numbered as its mappings, from 2 on.
     pub(crate) fn flatten(&self, words: &mut Words) {
-        let view = match self.view {
-            View::Perspective => codes::CAMERA_PERSPECTIVE,
+        let view = match &self.view {
+            // Lenses are no shader's: see `has_lenses`.
+            View::Perspective | View::Lenses(_) => codes::CAMERA_PERSPECTIVE,
             View::Orthographic => codes::CAMERA_ORTHOGRAPHIC,
-            View::Spherical(mapping) => codes::CAMERA_SPHERICAL + mapping as u32,
+            View::Spherical(mapping) => codes::CAMERA_SPHERICAL + *mapping as u32,
         };
         words.constant("CAMERA_VIEW", view);
         words.begin("CAMERA");

@@ -22,6 +22,7 @@ mod direct;
 pub(crate) mod estimator;
 mod footprints;
 mod hair;
+mod lens_rays;
 mod path_states;
 mod quadrics;
 mod shade;
@@ -153,6 +154,13 @@ struct Path {
     first: PixelSample,
 }
 
+/// The point from which light behind a portal is seen: where a light sample could have had the ray's direction, else
+/// where the ray begins.
+#[inline]
+fn portal_viewpoint(previous: Option<&PreviousVertex>, ray: &Ray) -> Vec3<f32> {
+    previous.map_or(ray.origin, |p| p.receiver.point)
+}
+
 impl<'a> PathTracer<'a> {
     /// A tracer with the options' depth and strategy.
     pub(crate) fn new(scene: &'a PreparedScene, options: &RenderOptions) -> Self {
@@ -234,7 +242,7 @@ impl<'a> PathTracer<'a> {
         let Path { ray, state, .. } = path;
         let Some(surface) = surface else {
             if !(state.straight && self.scene.hide_emitters) {
-                let radiance = self.background(state.previous, ray.direction);
+                let radiance = self.background(state.previous, ray);
                 state.add(state.throughput * radiance, depth);
             }
             return false;
@@ -278,10 +286,13 @@ impl<'a> PathTracer<'a> {
     ///
     /// * `previous`: where the ray was sampled; `None` where no light sample could have had its direction.
     #[inline]
-    fn background(&self, previous: Option<PreviousVertex>, direction: Vec3<f32>) -> Rgb<f32> {
+    fn background(&self, previous: Option<PreviousVertex>, ray: &Ray) -> Rgb<f32> {
         let lights = &self.scene.lights;
         let mut sum = Rgb::BLACK;
-        for (radiance, pdf) in lights.arriving_from_infinity(direction) {
+        let direction = ray.direction;
+        let from = portal_viewpoint(previous.as_ref(), ray);
+        let through_portals = lights.arriving_through_portals(from, direction);
+        for (radiance, pdf) in (lights.arriving_from_infinity(direction)).chain(through_portals) {
             let weight = self.emission_weight(previous, |receiver| {
                 lights.share_from_infinity(receiver) * pdf
             });
@@ -354,7 +365,7 @@ impl<'a> PathTracer<'a> {
         let place = surface.place();
         let materials = &self.scene.materials;
         let material = materials.on_path(shape.material, rough);
-        let chosen = materials.at(material, textures, &place, |level| {
+        let chosen = materials.at(material, textures, &place, outside, |level| {
             sampler.hashed([depth, level, 0])
         });
         let material = chosen.material;

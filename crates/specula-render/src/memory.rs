@@ -270,7 +270,7 @@ fn pixels(image: &specula_scene::Image) -> u64 {
 /// Pictures of infinite lights.
 fn environment_images(scene: &Scene) -> impl Iterator<Item = usize> {
     scene.lights.iter().filter_map(|light| match light {
-        Light::Infinite { image, .. } => image.map(|(id, _)| id.0),
+        Light::Infinite { image, .. } | Light::Portal { image, .. } => image.map(|(id, _)| id.0),
         _ => None,
     })
 }

@@ -124,7 +124,7 @@ impl PreparedScene {
     pub fn seen(&self, raster: [f32; 2]) -> Option<SeenSurface> {
         // In the middle of the exposure.
         let time = 0.5;
-        let (eye, direction) = self.camera.ray_at(time, raster, [0.5; 2]);
+        let (eye, direction, _) = self.camera.through_lenses(time, raster, [0.5; 2])?;
         let mut ray = Ray {
             origin: eye,
             direction,
@@ -229,7 +229,8 @@ impl PreparedScene {
         self.lights.pdf_of_surface(&receiver(lit), &surface)
     }
 
-    /// Radiance of every light at infinity from a direction, with the density of that direction.
+    /// Radiance of every light at infinity from a direction, with the density of that direction; without those behind
+    /// portals.
     #[must_use]
     pub fn radiance_from_infinity(&self, wi: [f32; 3]) -> Vec<[f32; 4]> {
         let arriving = self.lights.arriving_from_infinity(Vec3::from(wi));
@@ -252,7 +253,7 @@ impl PreparedScene {
         let surface = geometry.surface_at(&location(at), || Vec3::from(at.near));
         let chosen = self
             .materials
-            .at(material, textures, &surface.place(), |_| 0.5);
+            .at(material, textures, &surface.place(), true, |_| 0.5);
         let material = chosen.material;
         let (normal, tangent) = match &material.bump {
             None => (surface.ns, surface.tangent),
@@ -287,7 +288,7 @@ impl PreparedScene {
         });
         let chosen = self
             .materials
-            .at(material, textures, &surface.place(), |_| 0.5);
+            .at(material, textures, &surface.place(), true, |_| 0.5);
         let bump = (chosen.material.bump.as_ref()).expect("the material has a normal map");
         let bent = bump::bend(
             bump,
@@ -321,7 +322,7 @@ impl PreparedScene {
     pub fn softened_normal(&self, material: u32, directions: [[f32; 3]; 4]) -> SoftenedNormal {
         let [unbent, bent, wo, wi] = directions.map(Vec3::from);
         let place = TextureCoordinates::default();
-        let chosen = self.materials.at(material, &self.textures, &place, |_| 0.5);
+        let chosen = (self.materials).at(material, &self.textures, &place, true, |_| 0.5);
         let (normal, softness) = match chosen.material.bump_rules {
             BumpRules::Mitsuba { fades } if chosen.material.bump.is_some() => {
                 Softness::new(unbent, bent, wo, fades)

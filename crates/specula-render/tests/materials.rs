@@ -5,6 +5,7 @@ mod common;
 use common::*;
 use core::cell::RefCell;
 use core::f64::consts::PI;
+use glam::DMat4;
 use specula_bsdf::Rgb;
 use specula_bsdf::bsdf::Lobe;
 use specula_bsdf::ndf::Masking;
@@ -511,4 +512,35 @@ fn constant_materials_have_a_lobe() {
     assert!(inside.is_some() && inside != outside);
     assert_eq!(prepared.lobe(mixed.0, true), None);
     assert_eq!(prepared.lobe(99, true), None);
+}
+
+/// A card of one material outside and another inside looks, from either side, as one of that material from outside.
+#[test]
+fn sides_have_their_own_materials() {
+    let principled = MaterialKind::Principled(PrincipledMaterial {
+        base_colour: grey(0.5),
+        roughness: FloatParam::Value(0.4),
+        ..principled()
+    });
+    let sides = [diffuse(0.3), principled];
+    let card = |height: f64, make: &dyn Fn(&mut Scene) -> MaterialId| {
+        let mut scene = empty(look([3.0, 0.0, height], [0.0; 3], 5.0), 8);
+        scene.lights.push(constant_sky(1.0));
+        let m = make(&mut scene);
+        let card = square(&mut scene, 5.0, DMat4::IDENTITY, m);
+        scene.shapes.push(card);
+        mean(&render(&scene, 64, 3, Strategy::Mis))
+    };
+    for (height, seen) in [(3.0, 0), (-3.0, 1)] {
+        let found = card(height, &|scene| {
+            let both = sides.clone().map(|kind| material(scene, kind));
+            material(scene, MaterialKind::Sided(both))
+        });
+        let expected = card(3.0, &|scene| material(scene, sides[seen].clone()));
+        assert_agree("a side", &[found, expected], 1, 0.02);
+        assert!(
+            (found.0 / expected.0 - 1.0).abs() < 0.02,
+            "{found:?} {expected:?}"
+        );
+    }
 }

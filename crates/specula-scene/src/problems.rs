@@ -184,6 +184,9 @@ pub(crate) fn is_dark(light: &Light, images: &[Image]) -> bool {
     let (colour, picture) = match light {
         Light::Infinite {
             radiance, image, ..
+        }
+        | Light::Portal {
+            radiance, image, ..
         } => (*radiance, *image),
         Light::Distant { irradiance, .. } => (*irradiance, None),
         Light::Point { intensity, .. } | Light::Spot { intensity, .. } => (*intensity, None),

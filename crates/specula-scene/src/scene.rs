@@ -5,6 +5,7 @@
 
 mod camera;
 mod coat;
+mod lens;
 mod light;
 mod material;
 mod motion;
@@ -13,6 +14,7 @@ mod texture;
 
 pub use camera::{Camera, Film, Filter, Projection};
 pub use coat::CoatMedium;
+pub use lens::{LensInterface, LensSystem, StopPicture};
 pub use light::{EnvironmentMapping, ImageProjection, Light, Profile, SpotFalloff};
 pub use material::{
     Bump, BumpRules, ConductorFresnel, GltfMaterial, HairMaterial, HairPigment, Material,

@@ -144,6 +144,7 @@ pub fn material_kind(kind: &MaterialKind) -> &'static str {
         MaterialKind::Measured(_) => "measured",
         MaterialKind::Hair(_) => "hair",
         MaterialKind::Mix { .. } => "mix",
+        MaterialKind::Sided(_) => "two-sided",
         MaterialKind::Interface => "interface",
     }
 }
@@ -182,6 +183,7 @@ fn light_kind(light: &Light) -> &'static str {
                 "infinite, latitude-longitude picture"
             }
         },
+        Light::Portal { .. } => "infinite, through a portal",
         Light::Distant { .. } => "distant",
         Light::Point { .. } => "point",
         Light::Spot { .. } => "spot",

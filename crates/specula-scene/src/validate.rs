@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use glam::DMat4;
+use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 use specula_bsdf::Rgb;
 
@@ -204,6 +204,13 @@ impl Scene {
                 "its field of view is not in (0, 180)",
             )?;
         }
+        if let Projection::Lenses(lenses) = &camera.projection {
+            ensure(
+                lenses.is_sound(),
+                "camera",
+                "a number of its lenses is out of range",
+            )?;
+        }
         ensure(
             camera.lens_radius >= 0.0 && camera.lens_radius.is_finite(),
             "camera",
@@ -256,6 +263,38 @@ impl Scene {
         }
     }
 
+    /// Environment lights, behind portals or not.
+    fn check_sky(&self, what: &str, light: &Light) -> Result<(), Invalid> {
+        let (Light::Infinite {
+            radiance,
+            image,
+            to_world,
+        }
+        | Light::Portal {
+            radiance,
+            image,
+            to_world,
+            ..
+        }) = light
+        else {
+            return Ok(());
+        };
+        ensure(
+            is_light(*radiance),
+            what,
+            "its colour is negative or not finite",
+        )?;
+        check_transform(what, to_world)?;
+        let good = image.is_none_or(|(id, _)| id.0 < self.images.len());
+        ensure(good, what, "its image is out of range")?;
+        match light {
+            Light::Portal { corners, .. } => {
+                ensure(is_rectangle(corners), what, "its portal is no rectangle")
+            }
+            _ => Ok(()),
+        }
+    }
+
     fn check_light(&self, what: &str, light: &Light) -> Result<(), Invalid> {
         let colour =
             |c: Rgb<f32>| ensure(is_light(c), what, "its colour is negative or not finite");
@@ -275,16 +314,7 @@ impl Scene {
             )
         };
         match light {
-            Light::Infinite {
-                radiance,
-                image,
-                to_world,
-            } => {
-                colour(*radiance)?;
-                check_transform(what, to_world)?;
-                let good = image.is_none_or(|(id, _)| id.0 < self.images.len());
-                ensure(good, what, "its image is out of range")
-            }
+            Light::Infinite { .. } | Light::Portal { .. } => self.check_sky(what, light),
             Light::Distant {
                 irradiance,
                 to_light,
@@ -401,6 +431,23 @@ fn check_image(what: &str, image: &Image) -> Result<(), Invalid> {
         what,
         "a pixel is negative or not finite",
     )
+}
+
+/// Whether four points are the corners of a rectangle, one after the other, up to a thousandth of a right angle:
+/// what pbrt-v4 takes for a portal.
+pub(crate) fn is_rectangle(corners: &[[f64; 3]; 4]) -> bool {
+    const TOLERANCE: f64 = 1e-3;
+    let corner = |i: usize| DVec3::from(corners[i % 4]);
+    let sides: [DVec3; 4] = std::array::from_fn(|i| corner(i + 1) - corner(i));
+    let lengths = sides.map(DVec3::length);
+    if !lengths.iter().all(|l| *l > 0.0 && l.is_finite()) {
+        return false;
+    }
+    let cosine = |i: usize, k: usize| sides[i].dot(sides[k]) / (lengths[i] * lengths[k]);
+    let opposite = [cosine(0, 2), cosine(1, 3)];
+    let at_corners = [cosine(0, 1), cosine(1, 2), cosine(2, 3), cosine(3, 0)];
+    opposite.iter().all(|c| (c + 1.0).abs() <= TOLERANCE)
+        && at_corners.iter().all(|c| c.abs() <= TOLERANCE)
 }
 
 fn check_mesh(what: &str, mesh: &Mesh) -> Result<(), Invalid> {

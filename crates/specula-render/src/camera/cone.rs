@@ -24,10 +24,17 @@ impl Camera {
         let pixel = (self.step[0] * self.step[1]).abs();
         let x = self.origin[0] + raster[0] * self.step[0];
         let y = self.origin[1] + raster[1] * self.step[1];
-        let solid_angle = match self.view {
+        let solid_angle = match &self.view {
             View::Perspective => {
                 let length = to_world.vector(vec3(x, y, 1.0)).length();
                 a.cross(b).dot(c).abs() * pixel / (length * length * length)
+            }
+            View::Lenses(lenses) => {
+                // What is in focus: the pixel through the middle of the pupil.
+                let (chief, spread) = lenses.chief([-x, -y]);
+                let length = to_world.vector(chief).length();
+                let turned = a.cross(b).dot(c).abs() / (length * length * length);
+                turned * pixel * spread * spread
             }
             View::Orthographic => {
                 return RayCone {
@@ -36,7 +43,7 @@ impl Camera {
                 };
             }
             View::Spherical(mapping) => {
-                let [_, v] = within_sphere(mapping, [x, y]);
+                let [_, v] = within_sphere(*mapping, [x, y]);
                 match mapping {
                     EnvironmentMapping::EqualAreaOctahedral => 4.0 * PI * pixel,
                     EnvironmentMapping::LatitudeLongitude
@@ -74,7 +81,7 @@ mod tests {
             let file = scene::Camera {
                 to_world: moved,
                 motion: None,
-                projection,
+                projection: projection.clone(),
                 lens_radius: 0.0,
                 focal_distance: 4.0,
                 screen_window: [-2.0, 2.0, -1.0, 1.0],

@@ -84,6 +84,12 @@ impl PreparedScene {
         if self.moves {
             missing.push("motion blur".to_owned());
         }
+        if self.camera.has_lenses() {
+            missing.push("camera lenses".to_owned());
+        }
+        if self.lights.has_portals() {
+            missing.push("portals".to_owned());
+        }
         self.lights.flatten(&mut words);
         let [width, height] = self.resolution;
         words.constant("WIDTH", width);

@@ -242,10 +242,11 @@ impl PathTracer<'_> {
     ) -> BoundVertex {
         let scene = self.scene;
         let place = self.textured_surface(s, i, arrival).place();
+        let outside = s.side[i] > 0.0;
         let chosen = scene
             .materials
-            .at(material, &scene.textures, &place, |_| 0.0);
-        let lobe = chosen.lobe(&scene.textures, &place, s.side[i] > 0.0);
+            .at(material, &scene.textures, &place, outside, |_| 0.0);
+        let lobe = chosen.lobe(&scene.textures, &place, outside);
         let opaque = chosen.is_opaque(&lobe);
         if lobe.is_specular() {
             vertex_batch::use_geometric_normals(i, i + 1, s);

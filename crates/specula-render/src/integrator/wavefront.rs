@@ -8,15 +8,15 @@
 use core::ops::Range;
 use core::sync::atomic::{AtomicBool, Ordering};
 
-use specula_bsdf::Vec3;
 use specula_bsdf::math::Stream;
+use specula_bsdf::{Rgb, Vec3};
 
 use super::bound::BoundVertex;
 use super::path_states::PathStates;
 use super::quadrics::VerticesOnQuadrics;
 use super::sharing::{PairBuffers, Shared};
 use super::vertex_batch::{self, Floats, VertexBatch, WAVEFRONT_SIZE, ZERO};
-use super::{Path, PathTracer, Tally};
+use super::{Path, PathTracer, Tally, portal_viewpoint};
 use crate::accel::{Hit, Ray};
 use crate::convert::id;
 use crate::film::PixelSample;
@@ -68,6 +68,8 @@ pub(crate) struct Wavefront {
     pub(super) paths: Box<PathStates>,
     /// Filter weights of the samples.
     weights: Floats,
+    /// Factors on their radiance, where cameras have lenses.
+    lens_weights: Option<Box<Floats>>,
     /// Counts since they were taken last.
     pub(super) tally: Tally,
     /// The live paths, and the hits of their rays.
@@ -164,6 +166,7 @@ impl Wavefront {
         Self {
             paths: PathStates::new(),
             weights: ZERO,
+            lens_weights: None,
             tally: Tally::default(),
             live: RayQueue::new(),
             hits: Vec::with_capacity(WAVEFRONT_SIZE),
@@ -187,7 +190,11 @@ impl Wavefront {
     /// The pixel sample of a path, not yet developed, and its filter weight.
     #[inline(always)]
     pub(crate) fn pixel_sample(&self, i: usize) -> (PixelSample, f32) {
-        (self.paths.pixel_sample(i), self.weights[i])
+        let mut sample = self.paths.pixel_sample(i);
+        if let Some(weights) = &self.lens_weights {
+            sample.colour *= weights[i];
+        }
+        (sample, self.weights[i])
     }
 
     /// The first path, which has just begun.
@@ -225,6 +232,7 @@ impl PathTracer<'_> {
         let Wavefront {
             paths,
             weights,
+            lens_weights,
             live,
             batch,
             shared,
@@ -259,6 +267,12 @@ impl PathTracer<'_> {
         );
         self.begin_cones(paths, [&x[..n], &y[..n]]);
         live.clear();
+        if camera.has_lenses() {
+            let factors = lens_weights.get_or_insert_with(|| Box::new(ZERO));
+            let raster = [&x[..n], &y[..n]];
+            self.begin_in_lenses(paths, live, factors, raster, [lens_x, lens_y]);
+            return;
+        }
         if self.scene.moves {
             for i in 0..n {
                 let time = paths.samplers[i].time();
@@ -457,7 +471,7 @@ impl PathTracer<'_> {
         let directions = escaped
             .iter()
             .map(|&k| (k as usize, live.ray(k as usize).direction));
-        lights.arriving_from_infinity_all(queues, directions, |k, radiance, pdf| {
+        let mut add = |paths: &mut PathStates, k: usize, radiance: Rgb<f32>, pdf: f32| {
             let i = live.index(k);
             if paths.straight[i] && self.scene.hide_emitters {
                 return;
@@ -475,7 +489,19 @@ impl PathTracer<'_> {
             });
             let throughput = paths.throughput.colour(i);
             paths.add(i, throughput * radiance * weight, depth);
+        };
+        lights.arriving_from_infinity_all(queues, directions, |k, radiance, pdf| {
+            add(paths, k, radiance, pdf);
         });
+        if lights.has_portals() {
+            for k in escaped.iter().map(|&k| k as usize) {
+                let ray = live.ray(k);
+                let from = portal_viewpoint(paths.previous(live.index(k)).as_ref(), ray);
+                for (radiance, pdf) in lights.arriving_through_portals(from, ray.direction) {
+                    add(paths, k, radiance, pdf);
+                }
+            }
+        }
     }
 
     /// The material key of a surface, and whether it may emit; `None`: it is shaded singly.

@@ -36,7 +36,7 @@ impl Delta {
     /// `None` for infinite lights and suns.
     pub(crate) fn new(light: &Light, textures: &Textures) -> Option<Self> {
         match *light {
-            Light::Infinite { .. } => None,
+            Light::Infinite { .. } | Light::Portal { .. } => None,
             Light::Distant { half_angle_deg, .. } if half_angle_deg > 0.0 => None,
             Light::Distant {
                 irradiance,

@@ -88,6 +88,8 @@ impl Source {
                 area.flatten(to);
             }
             Self::Far(number) => to.ids([codes::LIGHTS_FAR, id(*number)]),
+            // No shader's: see `Lights::has_portals`.
+            Self::Portal(_) => {}
             Self::Delta(delta) => {
                 to.id(codes::LIGHTS_DELTA);
                 delta.flatten(to);

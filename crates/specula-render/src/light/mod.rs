@@ -14,6 +14,7 @@ mod node;
 mod octahedral;
 mod parallelogram;
 mod piecewise;
+mod portal;
 mod projected;
 mod select;
 mod sun;
@@ -36,6 +37,7 @@ use area::{Area, AreaSample};
 use build::Emitter;
 use delta::Delta;
 use environment::Environment;
+use portal::Portal;
 use select::Selection;
 use sun::Sun;
 use textured::{Textured, Varying};
@@ -56,6 +58,8 @@ enum Source {
     Textured(Box<Textured>),
     /// Index among the lights with extent at infinity.
     Far(usize),
+    /// Index among the lights behind portals.
+    Portal(usize),
     Delta(Delta),
 }
 
@@ -73,6 +77,8 @@ pub(crate) struct Lights {
     sources: Vec<Source>,
     /// With their places in `sources`.
     far: Vec<(Far, u32)>,
+    /// Lights from infinity whose radiance depends on the point, with their places in `sources`.
+    portals: Vec<(Portal, u32)>,
     /// Index in `far` of the environment light that is sampled in batches, if any.
     environment: Option<usize>,
     /// Of each light the queue in which it waits until many are sampled; see `batch`.
@@ -115,6 +121,7 @@ impl Lights {
         let mut lights = Self {
             sources: Vec::new(),
             far: Vec::new(),
+            portals: Vec::new(),
             environment: None,
             queues: Vec::new(),
             selection: Selection::default(),
@@ -138,6 +145,10 @@ impl Lights {
                     }),
                 }
                 lights.sources.push(Source::Delta(delta));
+            } else if let Some(light) = behind_portal(light, scene) {
+                far.push((index, light.sampled_integral()));
+                lights.sources.push(Source::Portal(lights.portals.len()));
+                lights.portals.push((light, index));
             } else if let Some(light) = Far::new(light, scene, beside_lobes) {
                 far.push((index, light.sampled_integral()));
                 lights.sources.push(Source::Far(lights.far.len()));
@@ -269,8 +280,12 @@ impl Lights {
                 (light.two_sided || s.normal.dot(s.wi) < 0.0)
                     .then(|| from_area(&s, radiance, probability))
             }
-            Source::Far(index) => {
-                let (wi, radiance, pdf) = self.far[*index].0.sample(u)?;
+            Source::Far(_) | Source::Portal(_) => {
+                let (wi, radiance, pdf) = match &self.sources[index as usize] {
+                    Source::Portal(index) => self.portals[*index].0.sample(p, u)?,
+                    Source::Far(index) => self.far[*index].0.sample(u)?,
+                    _ => return None,
+                };
                 Some(LightSample {
                     wi,
                     radiance,
@@ -352,6 +367,26 @@ impl Lights {
         })
     }
 
+    /// Whether there are lights behind portals.
+    #[inline]
+    pub(crate) fn has_portals(&self) -> bool {
+        !self.portals.is_empty()
+    }
+
+    /// [`Lights::arriving_from_infinity`] of the lights behind portals, at a point.
+    #[inline]
+    pub(crate) fn arriving_through_portals(
+        &self,
+        point: Vec3<f32>,
+        wi: Vec3<f32>,
+    ) -> impl Iterator<Item = (Rgb<f32>, f32)> {
+        self.portals.iter().map(move |(light, index)| {
+            let probability = self.selection.probability_far(*index);
+            let (radiance, pdf) = light.arriving(point, wi);
+            (radiance, probability * pdf)
+        })
+    }
+
     /// Probability with which [`Lights::sample`] takes any light from infinity.
     #[inline]
     pub(crate) fn share_from_infinity(&self, receiver: &Receiver) -> f32 {
@@ -359,8 +394,25 @@ impl Lights {
     }
 }
 
+/// `None` for lights without a portal.
+fn behind_portal(light: &Light, scene: &Scene) -> Option<Portal> {
+    let Light::Portal {
+        radiance,
+        image,
+        to_world,
+        corners,
+    } = light
+    else {
+        return None;
+    };
+    let image = image.map(|(id, mapping)| (&scene.images[id.0], mapping));
+    let side = image.map_or(0, |(image, _)| image.width.max(image.height) as usize);
+    let sky = Environment::new(*radiance, image, to_world, false);
+    Some(Portal::new(&sky, side, *corners))
+}
+
 impl Far {
-    /// `None` for lights without extent.
+    /// `None` for lights without extent or with a portal.
     fn new(light: &Light, scene: &Scene, beside_lobes: bool) -> Option<Self> {
         match light {
             Light::Infinite {
@@ -381,7 +433,10 @@ impl Far {
                 to_light,
                 half_angle_deg,
             } => Some(Self::Sun(Sun::new(*irradiance, *to_light, *half_angle_deg))),
-            Light::Point { .. } | Light::Spot { .. } | Light::Picture { .. } => None,
+            Light::Portal { .. }
+            | Light::Point { .. }
+            | Light::Spot { .. }
+            | Light::Picture { .. } => None,
         }
     }
 

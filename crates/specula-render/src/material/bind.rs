@@ -200,10 +200,8 @@ pub(super) fn lobe(
         MaterialKind::Gltf(ref g) => Gltf::new(at.gltf(g, outside, models)).into(),
         // Shapes without a surface are dropped before; mixes nested too deeply are black.
         // Measured ones and hair are no lobes of the list.
-        MaterialKind::Mix { .. }
-        | MaterialKind::Interface
-        | MaterialKind::Measured(_)
-        | MaterialKind::Hair(_) => black(),
+        MaterialKind::Mix { .. } | MaterialKind::Sided(_) => black(),
+        MaterialKind::Interface | MaterialKind::Measured(_) | MaterialKind::Hair(_) => black(),
     }
 }
 

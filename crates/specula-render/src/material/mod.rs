@@ -112,6 +112,8 @@ pub(crate) struct Chosen<'a> {
     /// Its index.
     pub(crate) index: u32,
     one_sided: bool,
+    /// Whether it is that of a side, and seen as from its own outside.
+    is_of_side: bool,
 }
 
 /// How rough surfaces scatter and are sampled.
@@ -151,7 +153,10 @@ impl Materials {
             };
             let has_lobe = !matches!(
                 kind,
-                MaterialKind::Mix { .. } | MaterialKind::Measured(_) | MaterialKind::Hair(_)
+                MaterialKind::Mix { .. }
+                    | MaterialKind::Sided(_)
+                    | MaterialKind::Measured(_)
+                    | MaterialKind::Hair(_)
             );
             let mut material = Material {
                 plain: None,
@@ -224,7 +229,7 @@ impl Materials {
     }
 
     /// Whether surfaces of a material are other than their meshes say: they have bump maps, or turned tangents, or
-    /// chance decides which material they have.
+    /// chance or the side decides which material they have.
     #[inline]
     pub(crate) fn is_bent(&self, material: u32) -> bool {
         self.materials[material as usize].is_bent()
@@ -258,8 +263,9 @@ impl Materials {
         self.materials[material as usize].boundary.as_ref()
     }
 
-    /// The material at a point, one of the parts where it is a mix.
+    /// The material at a point, one of the parts where it is a mix or has sides.
     ///
+    /// * `outside`: whether it is seen from the outside of its shape.
     /// * `random`: a random number in `[0, 1)` for each level of mixes.
     #[inline]
     pub(crate) fn at(
@@ -267,16 +273,24 @@ impl Materials {
         material: u32,
         textures: &Textures,
         place: &TextureCoordinates,
+        outside: bool,
         random: impl Fn(u32) -> f32,
     ) -> Chosen<'_> {
         let mut index = material;
         let mut material = &self.materials[index as usize];
         let mut one_sided = material.one_sided;
+        let mut is_of_side = false;
         for level in 0..MOST_MIXES {
-            let MaterialKind::Mix { materials, amount } = material.kind else {
-                break;
+            let (materials, second) = match material.kind {
+                MaterialKind::Mix { materials, amount } => {
+                    (materials, random(level) < textures.float(amount, place))
+                }
+                MaterialKind::Sided(materials) => {
+                    is_of_side = true;
+                    (materials, !outside)
+                }
+                _ => break,
             };
-            let second = random(level) < textures.float(amount, place);
             index = id(materials[usize::from(second)].0);
             material = &self.materials[index as usize];
             one_sided |= material.one_sided;
@@ -285,6 +299,7 @@ impl Materials {
             material,
             index,
             one_sided,
+            is_of_side,
         }
     }
 }
@@ -340,7 +355,7 @@ fn coat(kind: &MaterialKind, bent: bool) -> Option<Coat> {
 
 impl Material {
     fn is_bent(&self) -> bool {
-        let is_mixed = matches!(self.kind, MaterialKind::Mix { .. });
+        let is_mixed = matches!(self.kind, MaterialKind::Mix { .. } | MaterialKind::Sided(_));
         self.bump.is_some() || self.turn.is_some() || self.coat.is_some() || is_mixed
     }
 
@@ -422,6 +437,7 @@ impl<'a> Chosen<'a> {
         place: &TextureCoordinates,
         outside: bool,
     ) -> PointLobe<'a> {
+        let outside = outside || self.is_of_side;
         if self.one_sided && !outside {
             return PointLobe::Listed(bind::black());
         }
@@ -465,6 +481,7 @@ impl<'a> Chosen<'a> {
         widening: &Widening,
     ) -> PointLobe<'a> {
         let m = self.material;
+        let outside = outside || self.is_of_side;
         match &m.measured {
             None if !self.one_sided || outside => {
                 let models = m.models;

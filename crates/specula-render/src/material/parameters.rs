@@ -9,7 +9,8 @@ use specula_bsdf::internal::shader_codes;
 use specula_scene::Energy;
 use specula_scene::scene::{
     CoatMedium, ColourParam, ConductorFresnel, FloatParam, GltfMaterial, HairMaterial, HairPigment,
-    MaterialKind, MicrofacetDistribution, PrincipledMaterial, Roughness, RoughnessMapping,
+    MaterialId, MaterialKind, MicrofacetDistribution, PrincipledMaterial, Roughness,
+    RoughnessMapping,
 };
 
 use super::Material;
@@ -60,7 +61,7 @@ macro_rules! material_shader_table {
             Principled = 12, ["material_principled"];
             /// glTF's metallic-roughness.
             Gltf = 13, ["material_gltf"];
-            /// One of two materials by chance; it has no module, as it is one of the others.
+            /// One of two materials by chance, or by the side; it has no module, as it is one of the others.
             Mix = 14, [];
             /// No surface; paths pass it, so that it has no module.
             Interface = 15, [];
@@ -229,7 +230,7 @@ impl Folder<'_> {
             MaterialKind::Gltf(g) => self.gltf(g),
             MaterialKind::Hair(hair) => self.hair(hair),
             MaterialKind::Mix { amount, .. } => self.float(amount),
-            MaterialKind::Interface | MaterialKind::Measured(_) => {}
+            MaterialKind::Sided(_) | MaterialKind::Interface | MaterialKind::Measured(_) => {}
         }
     }
 
@@ -324,7 +325,7 @@ impl Material {
             MaterialKind::Plastic { .. } => S::Plastic,
             MaterialKind::Principled(_) => S::Principled,
             MaterialKind::Gltf(_) => S::Gltf,
-            MaterialKind::Mix { .. } => S::Mix,
+            MaterialKind::Mix { .. } | MaterialKind::Sided(_) => S::Mix,
             MaterialKind::Interface => S::Interface,
             MaterialKind::Measured(_) => S::Measured,
             MaterialKind::Hair(_) => S::Hair,
@@ -388,10 +389,8 @@ impl Material {
                 .number(eta)
                 .colours([diffuse, specular])
                 .flag(nonlinear),
-            MaterialKind::Mix { materials, amount } => {
-                let [first, second] = materials.map(|m| id(m.0));
-                to.floats([amount]).id(first).id(second)
-            }
+            MaterialKind::Mix { materials, amount } => to.mix(materials, amount, false),
+            MaterialKind::Sided(materials) => to.mix(materials, FloatParam::Value(0.0), true),
             MaterialKind::CoatedConductor {
                 coat_eta,
                 ref coat_roughness,
@@ -488,6 +487,11 @@ impl Parameters {
     pub(super) fn id(&mut self, word: u32) -> &mut Self {
         self.plain.push(word);
         self
+    }
+
+    fn mix(&mut self, parts: [MaterialId; 2], amount: FloatParam, by_side: bool) -> &mut Self {
+        let [first, second] = parts.map(|m| id(m.0));
+        self.floats([amount]).id(first).id(second).flag(by_side)
     }
 
     fn flag(&mut self, flag: bool) -> &mut Self {

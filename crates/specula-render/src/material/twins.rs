@@ -26,7 +26,9 @@ impl Materials {
             }
         }
         for twin in &mut twins {
-            if let MaterialKind::Mix { materials, .. } = &mut twin.kind {
+            if let MaterialKind::Mix { materials, .. } | MaterialKind::Sided(materials) =
+                &mut twin.kind
+            {
                 *materials = materials.map(|m| MaterialId(self.behind_rough[m.0] as usize));
             }
         }

@@ -103,7 +103,8 @@ impl Textures {
             if used[index] {
                 let shared = scene.lights.iter().any(|light| {
                     let image = match light {
-                        specula_scene::scene::Light::Infinite { image, .. } => *image,
+                        specula_scene::scene::Light::Infinite { image, .. }
+                        | specula_scene::scene::Light::Portal { image, .. } => *image,
                         _ => None,
                     };
                     image.is_some_and(|(id, _)| id.0 == index)

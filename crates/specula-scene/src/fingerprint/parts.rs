@@ -10,10 +10,11 @@ use crate::image::{Image, Pixels};
 use crate::scene::{
     Bump, BumpRules, Camera, Channel, CoatMedium, ColourParam, ConductorFresnel, Emission,
     EnvironmentMapping, Film, Filter, FloatParam, Geometry, GltfMaterial, HairMaterial,
-    HairPigment, ImageId, ImageProjection, Interpolation, Light, Material, MaterialId,
-    MaterialKind, MeasuredId, Mesh, MeshId, MicrofacetDistribution, Motion, NoiseKind, Object,
-    ObjectId, ObjectInstance, PrincipledMaterial, Profile, Projection, Roughness, RoughnessMapping,
-    Shape, SpotFalloff, Texture, TextureId, TextureMapping, UvMapping, Wrap,
+    HairPigment, ImageId, ImageProjection, Interpolation, LensInterface, LensSystem, Light,
+    Material, MaterialId, MaterialKind, MeasuredId, Mesh, MeshId, MicrofacetDistribution, Motion,
+    NoiseKind, Object, ObjectId, ObjectInstance, PrincipledMaterial, Profile, Projection,
+    Roughness, RoughnessMapping, Shape, SpotFalloff, StopPicture, Texture, TextureId,
+    TextureMapping, UvMapping, Wrap,
 };
 
 /// A part of a scene.
@@ -53,6 +54,12 @@ impl<T: Part> Part for Option<T> {
         if let Some(value) = self {
             value.feed(hash);
         }
+    }
+}
+
+impl<T: Part> Part for Box<T> {
+    fn feed(&self, hash: &mut BlockHasher) {
+        (**self).feed(hash);
     }
 }
 
@@ -163,7 +170,28 @@ fields!(Camera {
     screen_window;
     motion
 });
-variants!(Projection { 0 => Perspective { fov_deg }, 1 => Orthographic, 2 => Spherical(mapping) });
+variants!(Projection {
+    0 => Perspective { fov_deg },
+    1 => Orthographic,
+    2 => Spherical(mapping),
+    3 => Lenses(lenses),
+});
+fields!(LensSystem {
+    interfaces,
+    stop,
+    film_diagonal
+});
+fields!(LensInterface {
+    curvature_radius,
+    thickness,
+    eta,
+    aperture_radius
+});
+fields!(StopPicture {
+    width,
+    height,
+    values
+});
 fields!(Film { resolution, crop, filter, exposure, max_component, balance; file_name });
 variants!(Filter {
     0 => Box { radius },
@@ -243,6 +271,7 @@ variants!(Light {
     2 => Point { position, intensity },
     3 => Spot { position, axis, intensity, cone_angle_deg, falloff_start_deg, falloff },
     4 => Picture { to_world, intensity, image_projection },
+    5 => Portal { radiance, image, to_world, corners },
 });
 variants!(EnvironmentMapping {
     0 => EqualAreaOctahedral,
@@ -295,6 +324,7 @@ variants!(MaterialKind {
     8 => Principled(parameters),
     9 => Gltf(parameters),
     10 => Mix { materials, amount },
+    14 => Sided(materials),
     11 => Interface,
     12 => Measured(id),
     13 => Hair(parameters),

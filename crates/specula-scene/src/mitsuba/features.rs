@@ -30,11 +30,7 @@ pub(crate) const FEATURES: &[Feature] = &[
     full("bsdf", "roughconductor"),
     full("bsdf", "plastic"),
     full("bsdf", "roughplastic"),
-    close(
-        "bsdf",
-        "twosided",
-        "with two bsdfs, the first on both sides",
-    ),
+    full("bsdf", "twosided"),
     full("bsdf", "mask"),
     full("bsdf", "bumpmap"),
     full("bsdf", "normalmap"),

@@ -13,7 +13,9 @@ use super::spectrum::SpectrumUse;
 use super::texture::Role;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
-use crate::scene::{Bump, BumpRules, CoatMedium, FloatParam, Material, MaterialKind, Texture};
+use crate::scene::{
+    Bump, BumpRules, CoatMedium, FloatParam, Material, MaterialId, MaterialKind, Texture,
+};
 
 /// Properties that the plugins around a material give it.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +24,19 @@ pub(super) struct Wrappers {
     pub(super) bump: Option<Bump>,
     pub(super) bump_rules: BumpRules,
     pub(super) alpha: FloatParam,
+}
+
+/// Whether light may pass a material, so that Mitsuba's `twosided` refuses it.
+fn lets_light_through(kind: &MaterialKind) -> bool {
+    match kind {
+        MaterialKind::Dielectric { .. }
+        | MaterialKind::ThinDielectric { .. }
+        | MaterialKind::DiffuseTransmission { .. }
+        | MaterialKind::Interface
+        | MaterialKind::Hair(_) => true,
+        MaterialKind::Principled(p) => p.thin || p.spec_trans != FloatParam::Value(0.0),
+        _ => false,
+    }
 }
 
 impl Default for Wrappers {
@@ -45,17 +60,21 @@ impl Context<'_> {
         match element.plugin.as_str() {
             "twosided" => {
                 element.ignore(&["allow_transmission"]);
-                let mut sides = self.some_nested(element)?;
-                if sides.len() > 1 {
-                    let message = "the second side of \"twosided\" is rendered like the first";
-                    self.warn(&element.place, message);
-                    sides.truncate(1);
-                }
+                let sides = self.some_nested(element)?;
                 let two_sided = Wrappers {
                     two_sided: true,
                     ..wraps
                 };
-                self.wrapped(&sides[0], two_sided).map(Some)
+                match sides.as_slice() {
+                    [both] => self.wrapped(both, two_sided).map(Some),
+                    [front, back] => self.sided(element, [front, back], two_sided).map(Some),
+                    [_, _, third, ..] => {
+                        let message = format!("{} has more than two bsdfs", element.title());
+                        Err(SceneError::new(ErrorKind::Structure, &third.place, message))
+                    }
+                    // `some_nested` has at least one.
+                    [] => Ok(None),
+                }
             }
             "mask" => {
                 let opacity = self.float(element, "opacity", 0.5)?;
@@ -198,6 +217,35 @@ impl Context<'_> {
         self.mixed(element, a, b, amount, wraps)
     }
 
+    /// A surface of one bsdf in front and another behind.
+    fn sided(
+        &mut self,
+        element: &Element,
+        sides: [&Rc<Element>; 2],
+        wraps: Wrappers,
+    ) -> Result<Surface, SceneError> {
+        let bare = Wrappers {
+            alpha: FloatParam::Value(1.0),
+            ..wraps
+        };
+        let [front, back] = sides;
+        let parts = [self.wrapped(front, bare)?, self.wrapped(back, bare)?];
+        for (side, part) in sides.iter().zip(&parts) {
+            if lets_light_through(&self.materials[part.material.0].kind) {
+                let message = format!(
+                    "{} of two bsdfs cannot hold one that lets light through",
+                    element.title()
+                );
+                return Err(SceneError::new(
+                    ErrorKind::Unsupported,
+                    &side.place,
+                    message,
+                ));
+            }
+        }
+        self.joined(element, parts, wraps, MaterialKind::Sided)
+    }
+
     fn mixed(
         &mut self,
         element: &Element,
@@ -205,6 +253,18 @@ impl Context<'_> {
         b: Surface,
         amount: FloatParam,
         wraps: Wrappers,
+    ) -> Result<Surface, SceneError> {
+        let mix = |materials| MaterialKind::Mix { materials, amount };
+        self.joined(element, [a, b], wraps, mix)
+    }
+
+    /// A material of two.
+    fn joined(
+        &mut self,
+        element: &Element,
+        [a, b]: [Surface; 2],
+        wraps: Wrappers,
+        kind: impl FnOnce([MaterialId; 2]) -> MaterialKind,
     ) -> Result<Surface, SceneError> {
         let is_whole = |s: &Surface| s.alpha == FloatParam::Value(1.0);
         if !(is_whole(&a) && is_whole(&b)) {
@@ -227,10 +287,7 @@ impl Context<'_> {
         let material = Material {
             name: element.id.clone(),
             one_sided: part(0).one_sided && part(1).one_sided,
-            ..Material::new(MaterialKind::Mix {
-                materials: ids,
-                amount,
-            })
+            ..Material::new(kind(ids))
         };
         Ok(Surface {
             material: self.add_material(material),

@@ -40,7 +40,7 @@ pub(super) fn read(
         let (start, end) = camera_to_world;
         placed = exposure.place(context, ("camera", place), start, end);
     }
-    let camera = lens(context, options, placed, &mut film);
+    let camera = lens(context, options, placed, film.resolution);
     let camera = or(options.get("Camera"), camera, || {
         stage::camera(BoundingBox::EMPTY, film.resolution)
     })?;
@@ -64,19 +64,21 @@ fn lens(
     context: &mut Context,
     options: &OptionEntities,
     (to_world, motion): (DMat4, Option<Motion>),
-    film: &mut Film,
+    resolution: [u32; 2],
 ) -> Result<Camera, SceneError> {
     let none = ParamList::default();
     let entity = options.get("Camera");
     let params = entity.map_or(&none, |e| &e.params);
     let name = entity.map_or("perspective", |e| e.name.as_str());
+    // A stack of lenses has no parameters of a thin one.
+    let of_thin = if name == "realistic" { &none } else { params };
     let mut camera = Camera {
         to_world,
         motion,
         projection: Projection::Orthographic,
-        lens_radius: params.float_from_zero("lensradius", 0.0)?,
-        focal_distance: params.float_above("focaldistance", 1e6, 0.0)?,
-        screen_window: screen_window(params, film.resolution)?,
+        lens_radius: of_thin.float_from_zero("lensradius", 0.0)?,
+        focal_distance: of_thin.float_above("focaldistance", 1e6, 0.0)?,
+        screen_window: screen_window(of_thin, resolution)?,
     };
     match (name, entity) {
         ("perspective", _) => camera.projection = perspective(params)?,
@@ -93,7 +95,7 @@ fn lens(
         }
         ("realistic", Some(entity)) => {
             let diagonal_mm = film::diagonal_mm(options)?;
-            realistic::read(context, entity, diagonal_mm, &mut camera, film)?;
+            realistic::read(context, entity, diagonal_mm, &mut camera)?;
         }
         (other, entity) => {
             let message = format!("unknown camera \"{}\"", shorten(other));

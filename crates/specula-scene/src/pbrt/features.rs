@@ -154,7 +154,7 @@ pub(crate) const FEATURES: &[Feature] = &[
     near(
         "light",
         "infinite",
-        "portals are not used; pictures that are no squares are read as latitude and longitude",
+        "pictures that are no squares are read as latitude and longitude",
     ),
     full("light", "distant"),
     full("light", "point"),
@@ -170,7 +170,7 @@ pub(crate) const FEATURES: &[Feature] = &[
     full("camera", "perspective"),
     full("camera", "orthographic"),
     full("camera", "spherical"),
-    near("camera", "realistic", "a thin lens of its focal length"),
+    full("camera", "realistic"),
     full("film", "rgb"),
     near("film", "gbuffer", "as \"rgb\""),
     near("film", "spectral", "as \"rgb\""),

@@ -1,8 +1,11 @@
 //! `Shape`: geometry as the file gives it.
 
 mod curve;
+mod heightfield;
+mod nurbs;
 mod patch;
 mod quadric;
+mod revolved;
 mod subdivision;
 mod triangles;
 
@@ -45,6 +48,7 @@ pub(super) enum Recipe {
     Curve(curve::Curve),
     Patches(patch::Patches),
     Quadric(quadric::Quadric),
+    Revolved(revolved::Revolved),
     Subdivision(subdivision::Control),
 }
 
@@ -62,6 +66,7 @@ impl Recipe {
             Self::Curve(curve) => curve.build(limits),
             Self::Patches(patches) => patches.build(limits),
             Self::Quadric(quadric) => Ok(quadric.build()),
+            Self::Revolved(revolved) => Ok(revolved.build()),
             Self::Subdivision(control) => control.build(limits),
         }
     }
@@ -70,7 +75,7 @@ impl Recipe {
     pub(super) fn take_from(&self, left: &mut u64, limits: &Limits) -> Result<(), String> {
         match self {
             Self::Subdivision(control) => control.take_from(left, limits),
-            Self::Quadric(_) | Self::Curve(_) | Self::Patches(_) => Ok(()),
+            Self::Quadric(_) | Self::Revolved(_) | Self::Curve(_) | Self::Patches(_) => Ok(()),
         }
     }
 
@@ -78,7 +83,7 @@ impl Recipe {
     pub(super) fn key(&self) -> Option<[u64; 5]> {
         match self {
             Self::Quadric(quadric) => Some(quadric.key()),
-            Self::Curve(_) | Self::Patches(_) | Self::Subdivision(_) => None,
+            Self::Revolved(_) | Self::Curve(_) | Self::Patches(_) | Self::Subdivision(_) => None,
         }
     }
 
@@ -86,14 +91,14 @@ impl Recipe {
     pub(super) fn own_area(&self) -> Option<f64> {
         match self {
             Self::Quadric(quadric) => Some(quadric.area()),
-            Self::Curve(_) | Self::Patches(_) | Self::Subdivision(_) => None,
+            Self::Revolved(_) | Self::Curve(_) | Self::Patches(_) | Self::Subdivision(_) => None,
         }
     }
 
     /// How many shapes pbrt-v4 makes of it.
     pub(super) fn pieces(&self) -> Option<usize> {
         match self {
-            Self::Quadric(_) => Some(1),
+            Self::Quadric(_) | Self::Revolved(_) => Some(1),
             Self::Patches(patches) => Some(patches.len()),
             Self::Curve(curve) => Some(curve.pieces()),
             Self::Subdivision(_) => None,
@@ -139,6 +144,12 @@ pub(super) fn prepare(context: &mut Context, entity: &Entity) -> Result<Prepared
             },
             (quadric, _) => Prepared::Recipe(Recipe::Quadric(quadric)),
         }),
+        // Those of pbrt-v3, which tell that a file is one of it.
+        "cone" | "paraboloid" | "hyperboloid" => Ok(Prepared::Recipe(Recipe::Revolved(
+            revolved::Revolved::read(entity)?,
+        ))),
+        "heightfield" => Ok(Prepared::Mesh(heightfield::read(entity)?)),
+        "nurbs" => Ok(Prepared::Mesh(nurbs::read(entity)?)),
         "bilinearmesh" => Ok(Prepared::Recipe(Recipe::Patches(patch::read(
             context, entity,
         )?))),

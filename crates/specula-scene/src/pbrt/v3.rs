@@ -41,7 +41,7 @@ const MARKERS: &[(&str, &[&str])] = &[
 ];
 
 /// Shapes that pbrt-v4 has no more.
-pub(super) const GONE: [&str; 5] = ["cone", "paraboloid", "hyperboloid", "heightfield", "nurbs"];
+const GONE: [&str; 5] = ["cone", "paraboloid", "hyperboloid", "heightfield", "nurbs"];
 
 /// How much of a file's beginning, and of its end, is searched for marks.
 const SEARCHED: usize = 1 << 18;

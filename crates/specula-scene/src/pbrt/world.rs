@@ -38,9 +38,7 @@ impl Reader {
             "Shape" => {
                 self.expect_world(word, place)?;
                 let entity = self.entity(tokens, word)?;
-                if self.context.v3.is_none() || !v3::GONE.contains(&entity.name.as_str()) {
-                    self.shape(entity);
-                }
+                self.shape(entity);
             }
             "LightSource" => {
                 self.expect_world(word, place)?;

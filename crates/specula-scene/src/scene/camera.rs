@@ -2,10 +2,11 @@
 
 use glam::{DMat4, DVec3};
 
+use super::lens::LensSystem;
 use super::light::EnvironmentMapping;
 use super::motion::Motion;
 
-/// A camera with a thin lens.
+/// A camera with a thin lens, or with real ones.
 ///
 /// Camera space is pbrt's: the view direction is +z, +y is up and +x is right in the picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,12 +17,12 @@ pub struct Camera {
     pub motion: Option<Motion>,
     /// The projection onto the picture.
     pub projection: Projection,
-    /// Radius of the lens, in scene units; 0 for a pinhole. Spherical pictures have none.
+    /// Radius of the lens, in scene units; 0 for a pinhole. Spherical pictures and [`Projection::Lenses`] have none.
     pub lens_radius: f64,
     /// Distance along +z to the plane in focus, in scene units.
     pub focal_distance: f64,
     /// Bounds of the picture plane in screen space, `[x0, x1, y0, y1]`; the shorter side spans
-    /// `[-1, 1]` unless the file says otherwise.
+    /// `[-1, 1]` unless the file says otherwise. Of [`Projection::Lenses`] only the aspect counts.
     pub screen_window: [f64; 4],
 }
 
@@ -55,7 +56,7 @@ impl Camera {
 }
 
 /// A projection of camera space onto the picture.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Projection {
     /// Rays leave from one point.
     Perspective {
@@ -67,6 +68,8 @@ pub enum Projection {
     /// Every direction: the picture is a map of the sphere about the camera. Camera space has +z
     /// where maps have their pole.
     Spherical(EnvironmentMapping),
+    /// Through lenses; samples are irradiances of the film.
+    Lenses(Box<LensSystem>),
 }
 
 /// The picture's size, crop and filter.

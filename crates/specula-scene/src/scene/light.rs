@@ -33,6 +33,19 @@ pub enum Light {
         /// Light space to world space (only directions matter).
         to_world: DMat4,
     },
+    /// An environment light that is seen through a portal alone, a rectangle: from where the ray through it
+    /// begins on one side, in directions to the other.
+    Portal {
+        /// Radiance, or factor on the picture.
+        radiance: Rgb<f32>,
+        /// Picture of the sphere of directions.
+        image: Option<(ImageId, EnvironmentMapping)>,
+        /// Light space to world space (only directions matter).
+        to_world: DMat4,
+        /// Corners in the world, one after the other; light comes from the side of
+        /// `(p3 - p0) x (p1 - p0)`.
+        corners: [[f64; 3]; 4],
+    },
     /// Parallel light, or a small round light infinitely far away (the sun).
     Distant {
         /// Irradiance on a surface that faces it.

@@ -54,7 +54,7 @@ impl Material {
     pub fn holds_hair(&self, all: &[Self]) -> bool {
         match &self.kind {
             MaterialKind::Hair(_) => true,
-            MaterialKind::Mix { materials, .. } => {
+            MaterialKind::Mix { materials, .. } | MaterialKind::Sided(materials) => {
                 let parts = materials.iter().filter_map(|m| all.get(m.0));
                 parts.into_iter().any(|part| part.holds_hair(all))
             }
@@ -298,6 +298,8 @@ pub enum MaterialKind {
         /// Share of the second.
         amount: FloatParam,
     },
+    /// One material outside, and another inside: both opaque, and each seen as from its own outside.
+    Sided([MaterialId; 2]),
     /// An interface between media: rays pass straight through.
     Interface,
 }

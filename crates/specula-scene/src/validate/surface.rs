@@ -246,6 +246,11 @@ impl Scene {
                 )?;
                 self.float(what, *amount)
             }
+            MaterialKind::Sided(materials) => ensure(
+                materials.iter().all(|m| m.0 < i),
+                what,
+                "a side is a material after it",
+            ),
             MaterialKind::Interface => Ok(()),
             _ => self.check_rough(what, kind),
         }

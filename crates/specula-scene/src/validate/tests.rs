@@ -163,6 +163,33 @@ fn every_broken_invariant_is_found() {
 }
 
 #[test]
+fn broken_lenses_and_portals_are_found() {
+    let faults: [(&str, Fault); 2] = [
+        ("camera", |s| {
+            s.camera.projection = Projection::Lenses(Box::new(LensSystem {
+                interfaces: Vec::new(),
+                stop: None,
+                film_diagonal: 1.0,
+            }));
+        }),
+        ("light 0", |s| {
+            s.lights[0] = Light::Portal {
+                radiance: Rgb::WHITE,
+                image: None,
+                to_world: DMat4::IDENTITY,
+                corners: [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 2.0, 0.0]],
+            };
+        }),
+    ];
+    for (what, fault) in faults {
+        let mut scene = scene();
+        fault(&mut scene);
+        let error = scene.validate().expect_err(what);
+        assert_eq!(error.what(), what, "{error}");
+    }
+}
+
+#[test]
 fn all_broken_parts_are_found_at_once() {
     let mut scene = scene();
     scene.film.exposure = 0.0;

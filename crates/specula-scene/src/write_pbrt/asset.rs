@@ -24,7 +24,7 @@ pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 
 impl Writer<'_> {
     /// Writes a file into the folder; returns its name as the scene file says it.
-    fn asset(
+    pub(super) fn asset(
         &mut self,
         name: &str,
         bytes: impl FnOnce() -> Result<Vec<u8>, WriteError>,

@@ -22,6 +22,16 @@ impl Writer<'_> {
                 image,
                 to_world,
             } => (*to_world, self.infinite(index, *radiance, *image)?),
+            Light::Portal {
+                radiance,
+                image,
+                to_world,
+                corners,
+            } => {
+                let sky = self.infinite(index, *radiance, *image)?;
+                let portal = list(corners.as_flattened());
+                (*to_world, format!("{sky} \"point3 portal\" [ {portal} ]"))
+            }
             Light::Distant {
                 irradiance,
                 to_light,

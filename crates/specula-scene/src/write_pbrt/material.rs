@@ -123,15 +123,25 @@ impl Writer<'_> {
             MaterialKind::Gltf(g) => return self.gltf(index, g),
             MaterialKind::Measured(id) => return self.measured(*id),
             MaterialKind::Hair(hair) => return self.hair(hair),
-            MaterialKind::Mix { materials, amount } => {
-                let [a, b] = materials.map(|m| quoted(self.names.of(m)));
-                params += &format!(" \"string materials\" [ {a} {b} ]");
-                params += &self.float_param("amount", *amount)?;
-                "mix"
+            MaterialKind::Mix { materials, amount } => return self.mix(*materials, *amount),
+            MaterialKind::Sided(materials) => {
+                self.note("sides of different materials are written as the outer one");
+                return self.mix(*materials, FloatParam::Value(0.0));
             }
             MaterialKind::Interface => "interface",
         };
         Ok(typed(name, &params))
+    }
+
+    fn mix(
+        &mut self,
+        materials: [MaterialId; 2],
+        amount: FloatParam,
+    ) -> Result<String, WriteError> {
+        let [a, b] = materials.map(|m| quoted(self.names.of(m)));
+        let amount = self.float_param("amount", amount)?;
+        let params = format!(" \"string materials\" [ {a} {b} ]{amount}");
+        Ok(typed("mix", &params))
     }
 
     fn measured(&mut self, id: MeasuredId) -> Result<String, WriteError> {

@@ -4,6 +4,7 @@
 //! cannot express is written as the nearest that it can, and listed in the notes that are returned.
 
 mod asset;
+mod camera;
 mod light;
 mod material;
 mod medium;
@@ -22,9 +23,7 @@ use std::path::{Path, PathBuf};
 use glam::DMat4;
 use specula_bsdf::Rgb;
 
-use crate::scene::{
-    Camera, Channel, EnvironmentMapping, Film, Filter, ImageId, Projection, Scene, TextureId,
-};
+use crate::scene::{Channel, Film, Filter, ImageId, Projection, Scene, TextureId};
 
 use name::Names;
 
@@ -113,7 +112,7 @@ fn write(scene: &Scene, path: &Path, keeps: bool) -> Result<(String, Vec<String>
         images: HashMap::new(),
         names: Names::new(&scene.materials),
     };
-    writer.view();
+    writer.view()?;
     writer.line("\nWorldBegin");
     for (i, light) in scene.lights.iter().enumerate() {
         writer.light(i, light)?;
@@ -147,7 +146,7 @@ impl Writer<'_> {
     }
 
     /// Everything before the world.
-    fn view(&mut self) {
+    fn view(&mut self) -> Result<(), WriteError> {
         let (camera, film) = (&self.scene.camera, &self.scene.film);
         let settings = &self.scene.settings;
         if settings.hide_emitters {
@@ -161,41 +160,24 @@ impl Writer<'_> {
             self.line(&format!("TransformTimes {start} {end}"));
         }
         let place = self.camera_place(&camera.to_world, camera.motion.as_ref());
+        let camera_text = self.camera_text(camera)?;
+        let diagonal = match &camera.projection {
+            Projection::Lenses(lenses) => {
+                format!(" \"float diagonal\" [ {} ]", lenses.film_diagonal * 1e3)
+            }
+            _ => String::new(),
+        };
         let text = format!(
-            "{place}\n{}\n{}\n{}\nSampler \"zsobol\" \"integer pixelsamples\" [ {} ]\n\
+            "{place}\n{camera_text}\n{}{diagonal}\n{}\nSampler \"zsobol\" \"integer pixelsamples\" [ {} ]\n\
              Integrator \"volpath\" \"integer maxdepth\" [ {} ]\n",
-            camera_text(camera),
             film_text(film, self.path),
             filter_text(&film.filter),
             settings.samples_per_pixel,
             settings.max_depth,
         );
         self.text.push_str(&text);
+        Ok(())
     }
-}
-
-fn camera_text(camera: &Camera) -> String {
-    let lens = format!(
-        "\"float lensradius\" [ {} ] \"float focaldistance\" [ {} ] \"float screenwindow\" [ {} ]",
-        camera.lens_radius,
-        camera.focal_distance,
-        list(&camera.screen_window),
-    );
-    let kind = match camera.projection {
-        Projection::Perspective { fov_deg } => {
-            format!("\"perspective\" \"float fov\" [ {fov_deg} ] {lens}")
-        }
-        Projection::Orthographic => format!("\"orthographic\" {lens}"),
-        Projection::Spherical(mapping) => format!(
-            "\"spherical\" \"string mapping\" [ \"{}\" ]",
-            match mapping {
-                EnvironmentMapping::EqualAreaOctahedral => "equalarea",
-                EnvironmentMapping::LatitudeLongitude
-                | EnvironmentMapping::LatitudeLongitudePoles => "equirectangular",
-            }
-        ),
-    };
-    format!("Camera {kind}")
 }
 
 fn film_text(film: &Film, path: &Path) -> String {

@@ -3,9 +3,9 @@
 use super::*;
 use crate::image::Image;
 use crate::scene::{
-    Bump, CoatMedium, ColourParam, ConductorFresnel, FloatParam, ImageProjection, Interpolation,
-    Light, Material, MaterialKind, Profile, Roughness, RoughnessMapping, Texture, TextureMapping,
-    Wrap,
+    Bump, CoatMedium, ColourParam, ConductorFresnel, EnvironmentMapping, FloatParam,
+    ImageProjection, Interpolation, Light, Material, MaterialKind, Profile, Roughness,
+    RoughnessMapping, Texture, TextureMapping, Wrap,
 };
 
 /// Writes a scene and reads it back.
@@ -17,6 +17,52 @@ fn round_trip(scene: &Scene) -> (Scene, Vec<String>) {
     let warnings: Vec<_> = loaded.warnings.iter().map(|w| w.message()).collect();
     assert!(warnings.is_empty(), "{warnings:?}");
     (loaded.scene, notes)
+}
+
+#[test]
+fn lenses_survive() {
+    let interface =
+        |curvature_radius, thickness, eta, aperture_radius| crate::scene::LensInterface {
+            curvature_radius,
+            thickness,
+            eta,
+            aperture_radius,
+        };
+    let mut lenses = crate::scene::LensSystem {
+        interfaces: vec![
+            interface(0.1, 0.0031, 1.5168, 0.02),
+            interface(-0.08, 0.0045, 1.0, 0.02),
+            interface(0.0, 0.09, 1.0, 0.0033),
+        ],
+        stop: crate::scene::StopPicture::new(2, &[1.0, 2.0, 0.0, 3.0]),
+        film_diagonal: 0.0345,
+    };
+    let mut scene = crate::builtin::orbs();
+    scene.camera.focal_distance = 3.0;
+    let film = lenses
+        .thick_lens()
+        .and_then(|l| l.film_distance(3.0))
+        .unwrap();
+    lenses.interfaces[2].thickness = film;
+    scene.camera.projection = Projection::Lenses(Box::new(lenses.clone()));
+    let (back, notes) = round_trip(&scene);
+    assert!(notes.is_empty(), "{notes:?}");
+    let Projection::Lenses(read) = &back.camera.projection else {
+        panic!("{:?}", back.camera)
+    };
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 + 1e-9 * b.abs(), "{a} and {b}");
+    for (a, b) in read.interfaces.iter().zip(&lenses.interfaces) {
+        near(a.curvature_radius, b.curvature_radius);
+        near(a.thickness, b.thickness);
+        near(a.eta, b.eta);
+        near(a.aperture_radius, b.aperture_radius);
+    }
+    near(read.film_diagonal, lenses.film_diagonal);
+    let (a, b) = (read.stop.as_ref().unwrap(), lenses.stop.as_ref().unwrap());
+    assert_eq!([a.width, a.height], [2, 2]);
+    // Half floats.
+    let errors = a.values.iter().zip(&b.values).map(|(a, b)| (a - b).abs());
+    assert!(errors.fold(0.0, f32::max) < 2e-3, "{a:?} and {b:?}");
 }
 
 #[test]

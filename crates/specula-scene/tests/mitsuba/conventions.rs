@@ -166,6 +166,34 @@ fn transforms_apply_from_top_to_bottom() {
 }
 
 #[test]
+fn two_bsdfs_are_two_sides() {
+    let text = r#"<bsdf type="twosided"><bsdf type="diffuse"/><bsdf type="conductor"/></bsdf>"#;
+    let loaded = load_shape(text).unwrap();
+    assert_eq!(loaded.warnings.len(), 0, "{:?}", loaded.warnings);
+    let scene = &loaded.scene;
+    let sided = &scene.materials[scene.shapes[0].material.0];
+    let MaterialKind::Sided([front, back]) = sided.kind else {
+        panic!("{sided:?}")
+    };
+    let [front, back] = [front, back].map(|m| &scene.materials[m.0]);
+    assert!(matches!(front.kind, MaterialKind::Diffuse { .. }));
+    assert!(matches!(back.kind, MaterialKind::Conductor { .. }));
+    assert!(!(sided.one_sided || front.one_sided || back.one_sided));
+    for (more, what) in [
+        ("plastic", "more than two"),
+        ("dielectric", "lets light through"),
+    ] {
+        let more = format!(r#"<bsdf type="{more}"/>"#);
+        let wrong = match what {
+            "more than two" => text.replace("</bsdf>", &format!("{more}</bsdf>")),
+            _ => text.replace(r#"<bsdf type="conductor"/>"#, &more),
+        };
+        let error = load_shape(&wrong).unwrap_err();
+        assert!(error.message().contains(what), "{error}");
+    }
+}
+
+#[test]
 fn opaque_materials_have_one_side_unless_they_are_told() {
     for (bsdf, one_sided) in [
         (r#"<bsdf type="diffuse"/>"#, true),

@@ -223,7 +223,6 @@ fn stand_ins_are_told() {
         ("shape parameter", "displacement"),
         ("material", "subsurface"),
         ("texture", "ptex"),
-        ("camera", "realistic"),
         ("film", "spectral"),
         ("film parameter", "sensor"),
         ("integrator", "sppm"),

@@ -5,10 +5,11 @@ use specula_bsdf::Rgb;
 use specula_scene::scene::{
     ColourParam, EnvironmentMapping, Film, Light, MaterialKind, Projection,
 };
+use specula_scene::{Loaded, SceneError};
 
 use super::common::{Folder, load, load_world, warnings};
 
-fn with_options(text: &str) -> specula_scene::Loaded {
+fn with_options(text: &str) -> Loaded {
     load(format!("{text}\nWorldBegin Shape \"sphere\"")).unwrap()
 }
 
@@ -27,28 +28,96 @@ fn cameras() {
     assert_eq!(round.camera.to_world.transform_vector3(DVec3::X), DVec3::X);
 }
 
-#[test]
-fn lenses_become_a_thin_lens() {
+/// 100 mm by the lensmaker's equation; the stop is 20 mm wide.
+const LENS: &str = "# lens\n100 0 1.5 40\n-100 5 1 40\n0 90 0 20\n";
+
+fn with_lens(parameters: &str) -> Result<Loaded, SceneError> {
     let folder = Folder::new();
-    // 100 mm by the lensmaker's equation; the stop is 20 mm wide.
-    folder.write("lens.dat", "# lens\n100 0 1.5 40\n-100 5 1 40\n0 90 0 20\n");
-    let loaded = folder
-        .load(
-            "Film \"rgb\" \"integer xresolution\" 300 \"integer yresolution\" 200 \"float diagonal\" 43.267
-             Camera \"realistic\" \"string lensfile\" \"lens.dat\" \"float aperturediameter\" 25 \"float focusdistance\" 1000
-             WorldBegin Shape \"sphere\"",
-        )
-        .unwrap();
-    let Projection::Perspective { fov_deg } = loaded.scene.camera.projection else {
+    folder.write("lens.dat", LENS);
+    let stop = ::image::GrayImage::from_fn(2, 2, |x, y| ::image::Luma([u8::from(x + y > 0) * 255]));
+    stop.save(folder.path().join("stop.png")).unwrap();
+    folder.load(&format!(
+        "Film \"rgb\" \"integer xresolution\" 300 \"integer yresolution\" 200 \"float diagonal\" 43
+         Camera \"realistic\" \"string lensfile\" \"lens.dat\" {parameters}
+         WorldBegin Shape \"sphere\""
+    ))
+}
+
+#[test]
+fn lenses_are_read_and_focused() {
+    let loaded = with_lens("\"float aperturediameter\" 12 \"float focusdistance\" 3").unwrap();
+    assert_eq!(warnings(&loaded), Vec::<String>::new());
+    let Projection::Lenses(lenses) = &loaded.scene.camera.projection else {
         panic!()
     };
-    // The shorter side of a film of 36 x 24 mm.
-    let expected = 2.0 * (12.0f64 / 100.0).atan().to_degrees();
-    assert!((fov_deg - expected).abs() < 1e-2, "{fov_deg}");
-    assert!((loaded.scene.camera.lens_radius - 0.01).abs() < 1e-9);
-    // f/5: pi / (4 * 25) of the radiance.
-    let exposure = std::f32::consts::PI / 100.0;
-    assert!((loaded.scene.film.exposure / exposure - 1.0).abs() < 1e-3);
+    assert_eq!(loaded.scene.camera.focal_distance, 3.0);
+    assert_eq!(loaded.scene.film.exposure, 1.0);
+    assert!((lenses.film_diagonal - 0.043).abs() < 1e-12);
+    let [front, _, stop] = lenses.interfaces[..] else {
+        panic!()
+    };
+    assert_eq!(front.curvature_radius, 0.1);
+    assert_eq!([front.aperture_radius, stop.aperture_radius], [0.02, 0.006]);
+    // 1 / (3 - s) + 1 / s = 10 for a thin lens; the stop is 5 mm nearer to the film.
+    let film = 1.5 - (2.25_f64 - 0.3).sqrt() - 0.005;
+    assert!((stop.thickness - film).abs() < 1e-9, "{}", stop.thickness);
+}
+
+#[test]
+fn stops_are_as_wide_as_the_lens_file_at_most() {
+    let loaded = with_lens("\"float aperturediameter\" 25").unwrap();
+    let found = warnings(&loaded);
+    assert!(
+        found.len() == 1 && found[0].contains("20 is used"),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn stops_have_shapes() {
+    for name in ["gaussian", "square", "pentagon", "star", "stop.png"] {
+        let loaded = with_lens(&format!("\"string aperture\" \"{name}\"")).unwrap();
+        let Projection::Lenses(lenses) = &loaded.scene.camera.projection else {
+            panic!()
+        };
+        let stop = lenses.stop.as_ref().unwrap();
+        let mean =
+            stop.values.iter().map(|v| f64::from(*v)).sum::<f64>() / stop.values.len() as f64;
+        assert!(
+            (mean - std::f64::consts::FRAC_PI_4).abs() < 1e-4,
+            "{name}: {mean}"
+        );
+        if name == "stop.png" {
+            // Dark at the upper left.
+            assert!(
+                stop.values[2] == 0.0 && stop.values[3] > 1.0,
+                "{:?}",
+                stop.values
+            );
+        }
+    }
+}
+
+#[test]
+fn what_lenses_cannot_do_is_located() {
+    for (parameters, column, what) in [
+        ("\"float focusdistance\" 0.3", 58, "focus from 0.4"),
+        ("\"string aperture\" \"none.png\"", 76, "none.png"),
+        ("\"float lensradius\" 0.1", 58, "lensradius"),
+    ] {
+        let (message, place) = match with_lens(parameters) {
+            Err(error) => (error.message().to_owned(), [error.line(), error.column()]),
+            Ok(loaded) => {
+                let warning = &loaded.warnings[0];
+                (
+                    warning.message().to_owned(),
+                    [warning.line(), warning.column()],
+                )
+            }
+        };
+        assert!(message.contains(what), "{message}");
+        assert_eq!(place, [2, column], "{message}");
+    }
 }
 
 #[test]

@@ -208,20 +208,109 @@ fn options_are_those_of_the_upgrade() {
     }
 }
 
+/// Bounds of the shapes that pbrt-v4 has no more.
+#[test]
+fn old_shapes_are_meshes() {
+    let patch = "\"integer nu\" 2 \"integer nv\" 2 \"integer uorder\" 2 \"integer vorder\" 2
+        \"float uknots\" [0 0 1 1] \"float vknots\" [0 0 1 1] \"point P\" [0 0 0  2 0 0  0 3 0  2 3 1]";
+    for (shape, low, high, triangles) in [
+        (
+            "\"cone\" \"float height\" 3 \"float radius\" 2",
+            [-2.0, -2.0, 0.0],
+            [2.0, 2.0, 3.0],
+            256,
+        ),
+        (
+            "\"paraboloid\" \"float zmax\" 2",
+            [-1.0, -1.0, 0.0],
+            [1.0, 1.0, 2.0],
+            1024 * 98 - 512,
+        ),
+        (
+            "\"hyperboloid\" \"point p1\" [1 0 -1] \"point p2\" [1 0 1]",
+            [-1.0; 3],
+            [1.0; 3],
+            1024,
+        ),
+        (
+            "\"heightfield\" \"integer nu\" 3 \"integer nv\" 2 \"float Pz\" [0 1 2 3 4 5]",
+            [0.0; 3],
+            [1.0, 1.0, 5.0],
+            4,
+        ),
+        (
+            &format!("\"nurbs\" {patch}"),
+            [0.0; 3],
+            [2.0, 3.0, 1.0],
+            2 * 29 * 29,
+        ),
+    ] {
+        let (scene, said) = read(&folder(), &format!("WorldBegin Shape {shape}"));
+        assert_eq!(said, Vec::<String>::new(), "{shape}");
+        let mesh = &scene.meshes[0];
+        assert_eq!(mesh.triangles.len(), triangles, "{shape}");
+        for axis in 0..3 {
+            let ends = mesh.positions.iter().map(|p| f64::from(p[axis]));
+            let (a, b) = ends.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
+            assert!(
+                (a - low[axis]).abs() < 1e-6 && (b - high[axis]).abs() < 1e-6,
+                "{shape}: {a} {b}"
+            );
+        }
+    }
+}
+
+#[test]
+fn mistakes_in_old_shapes_are_located() {
+    for (shape, what) in [
+        ("\"cone\" \"float radius\" -1", "above 0"),
+        (
+            "\"paraboloid\" \"float zmin\" -3 \"float zmax\" -1",
+            "\"zmin\" below \"zmax\"",
+        ),
+        (
+            "\"hyperboloid\" \"point p1\" [0 0 1] \"point p2\" [0 0 2]",
+            "not both on the axis",
+        ),
+        (
+            "\"heightfield\" \"integer nu\" 2 \"integer nv\" 2 \"float Pz\" [1 2 3]",
+            "2 times 2 heights",
+        ),
+        (
+            "\"heightfield\" \"integer nu\" 1 \"float Pz\" [1 2 3]",
+            "\"nu\": expected an integer",
+        ),
+        (
+            "\"nurbs\" \"integer nu\" 2 \"integer nv\" 2 \"integer uorder\" 2 \"integer vorder\" 2
+             \"float uknots\" [0 0 1 1] \"float vknots\" [0 1 0 1]",
+            "knots that do not fall",
+        ),
+        (
+            "\"nurbs\" \"integer nu\" 2 \"integer nv\" 2 \"integer uorder\" 3 \"integer vorder\" 2",
+            "at least 3 control points",
+        ),
+    ] {
+        let error = folder()
+            .load(format!("WorldBegin\nShape {shape}"))
+            .unwrap_err();
+        assert!(error.message().contains(what), "{shape}: {error}");
+        assert!(error.line() >= 2, "{error}");
+    }
+}
+
 #[test]
 fn what_the_upgrade_leaves_out_is_a_warning() {
     let folder = folder();
     let (scene, said) = read(
         &folder,
         "WorldBegin Material \"uber\" \"rgb Ks\" [.2 .2 .2] \"rgb opacity\" [.2 .3 .4]\nShape \"sphere\"
-         Shape \"cone\" Material \"fourier\" \"string bsdffile\" \"a.bsdf\" Shape \"disk\" \"float alpha\" .5
+         Material \"fourier\" \"string bsdffile\" \"a.bsdf\" Shape \"disk\" \"float alpha\" .5
          Material \"disney\" \"color color\" [1 0 0] \"float metallic\" 1 Shape \"disk\"
          LightSource \"point\" \"rgb scale\" [1 2 3]",
     );
     for part in [
         "\"Ks\" of pbrt-v3's \"uber\" is left out",
         "\"opacity\" of pbrt-v3's \"uber\" becomes",
-        "shape \"cone\" of pbrt-v3 is not supported",
         "material \"fourier\"",
         "material \"disney\" of pbrt-v3 is diffuse",
         "\"scale\" is a number in pbrt-v4: the mean of its values is used",
@@ -232,7 +321,7 @@ fn what_the_upgrade_leaves_out_is_a_warning() {
             "{part}: {said:#?}"
         );
     }
-    assert_eq!(said.len(), 6, "{said:#?}");
+    assert_eq!(said.len(), 5, "{said:#?}");
     let FloatParam::Value(alpha) = scene.shapes[0].alpha else {
         panic!("a number")
     };
@@ -266,7 +355,9 @@ fn every_material_of_the_list_is_read() {
             .iter()
             .filter(|f| f.class == class)
             .flat_map(|f| f.name.split(':').next().unwrap().split(", "));
-        for name in names.filter(|n| !["trianglemesh", "loopsubdiv"].contains(n)) {
+        // These need their points.
+        let bare = ["trianglemesh", "loopsubdiv", "heightfield", "nurbs"];
+        for name in names.filter(|n| !bare.contains(n)) {
             let text = match class {
                 "shape" => format!("WorldBegin\nShape \"{name}\" Shape \"sphere\""),
                 "sampler" => format!("Sampler \"{name}\" WorldBegin\nShape \"sphere\""),

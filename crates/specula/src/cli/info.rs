@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use crate::render::{FilmFile, MemoryEstimate, RenderOptions};
-use crate::scene::scene::Projection;
+use crate::scene::scene::{Camera, Projection};
 use crate::scene::{Scene, Summary};
 
 use super::arguments::InfoArguments;
@@ -74,25 +74,7 @@ fn describe(named: &Named) -> String {
             s.settings.samples_per_pixel, s.settings.max_depth
         ),
     ));
-    let lens = if s.camera.lens_radius > 0.0 {
-        format!(
-            "lens of radius {}, in focus at {}",
-            number(s.camera.lens_radius),
-            number(s.camera.focal_distance)
-        )
-    } else {
-        "pinhole".to_owned()
-    };
-    lines.push((
-        "camera",
-        match s.camera.projection {
-            Projection::Perspective { fov_deg } => {
-                format!("perspective, {} degrees, {lens}", number(fov_deg))
-            }
-            Projection::Orthographic => format!("orthographic, {lens}"),
-            Projection::Spherical(mapping) => format!("spherical, {}", debug_name(&mapping)),
-        },
-    ));
+    lines.push(("camera", camera(&s.camera)));
     lines.push(("shapes", counts(&s.shapes)));
     lines.push((
         "triangles",
@@ -165,6 +147,31 @@ fn memory_line(scene: &Scene) -> String {
         &options,
         machine::count(None),
     ))
+}
+
+/// Projection and lens.
+fn camera(camera: &Camera) -> String {
+    let lens = if camera.lens_radius > 0.0 {
+        format!(
+            "lens of radius {}, in focus at {}",
+            number(camera.lens_radius),
+            number(camera.focal_distance)
+        )
+    } else {
+        "pinhole".to_owned()
+    };
+    match &camera.projection {
+        Projection::Perspective { fov_deg } => {
+            format!("perspective, {} degrees, {lens}", number(*fov_deg))
+        }
+        Projection::Orthographic => format!("orthographic, {lens}"),
+        Projection::Spherical(mapping) => format!("spherical, {}", debug_name(mapping)),
+        Projection::Lenses(lenses) => format!(
+            "{} interfaces of lenses, in focus at {}",
+            lenses.interfaces.len(),
+            number(camera.focal_distance)
+        ),
+    }
 }
 
 /// The name of an enum's variant: what stands before its fields.

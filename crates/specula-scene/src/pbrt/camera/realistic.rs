@@ -1,22 +1,29 @@
-//! The camera `realistic`: a stack of lenses, replaced by a thin lens of its focal length.
+//! The camera `realistic`: rays through a stack of lenses, from pbrt-v4's files of these.
 
-use crate::error::{ErrorKind, Place, SceneError};
-use crate::num::f32_of;
+mod stop;
+
+use std::sync::Arc;
+
+use crate::error::{ErrorKind, Place, SceneError, SourceText};
 use crate::pbrt::context::{Context, Entity};
-use crate::scene::{Camera, Film, Projection};
+use crate::scene::{Camera, LensInterface, LensSystem, Projection};
+
+/// Most interfaces: more than any lens has, and few enough to be traced before the render begins.
+const MOST_INTERFACES: usize = 256;
+
+/// pbrt-v4's unit is the metre, that of lens files the millimetre.
+const MM: f64 = 1e-3;
 
 /// Reads the camera.
 ///
-/// * `camera`, `film`: get the field of view, the lens and the exposure of the stand-in.
+/// * `camera`: gets the lenses and the distance in focus.
 pub(super) fn read(
     context: &mut Context,
     entity: &Entity,
     diagonal_mm: f64,
     camera: &mut Camera,
-    film: &mut Film,
 ) -> Result<(), SceneError> {
     let params = &entity.params;
-    params.ignore(&["aperture"]);
     let Some((name, place)) = params.string("lensfile")? else {
         let message = "camera \"realistic\" needs its \"string lensfile\"";
         return Err(SceneError::new(
@@ -25,115 +32,151 @@ pub(super) fn read(
             message,
         ));
     };
-    let wrong = |message: String| SceneError::new(ErrorKind::Parameter, place, message);
     let path = context.resolve(name);
     let bytes = match context.files.plain(&path) {
         Ok(bytes) => bytes,
         Err(message) => {
-            let error = wrong(format!("lens file {name} {message}"));
+            let message = format!("lens file {name} {message}");
+            let error = SceneError::new(ErrorKind::Parameter, place, message);
             params.record(error.if_missing(context.search.hint(&path), &path))?;
             // pbrt-v4's perspective camera.
             camera.projection = Projection::Perspective { fov_deg: 90.0 };
-            params.ignore(&["aperturediameter", "focusdistance"]);
+            params.ignore(&["aperturediameter", "aperture", "focusdistance"]);
             return Ok(());
         }
     };
-    let elements = elements(&String::from_utf8_lossy(&bytes), place)?;
-    let focal_mm = focal_length_mm(&elements)
-        .ok_or_else(|| wrong(format!("lens file {name}: its lenses do not focus")))?;
-    let message = format!(
-        "camera \"realistic\" is not supported: a thin lens of {focal_mm:.1} mm is used, without \
-         vignetting and distortion"
-    );
-    context.warn(&entity.place, message);
-    let aspect = f64::from(film.resolution[1]) / f64::from(film.resolution[0]);
-    let width_mm = (diagonal_mm * diagonal_mm / (1.0 + aspect * aspect)).sqrt();
-    let shorter_mm = width_mm * aspect.min(1.0);
-    let asked_mm = params.float_above("aperturediameter", 1.0, 0.0)?;
-    let stop_mm = elements.iter().find(|e| e.radius_mm == 0.0);
-    let aperture_mm = stop_mm.map_or(asked_mm, |e| asked_mm.min(e.aperture_mm));
+    let text = SourceText::new(path.display().to_string(), String::from_utf8_lossy(&bytes));
+    let mut lenses = LensSystem {
+        interfaces: interfaces(&text)?,
+        stop: stop::read(context, params)?,
+        film_diagonal: diagonal_mm * MM,
+    };
+    let asked = params.float_above("aperturediameter", 1.0, 0.0)? * MM / 2.0;
+    for stop in lenses
+        .interfaces
+        .iter_mut()
+        .filter(|i| i.curvature_radius == 0.0)
+    {
+        if asked > stop.aperture_radius * (1.0 + 1e-9) {
+            let message = format!(
+                "\"aperturediameter\" {} is beyond that of the lens file: {} is used",
+                asked * 2.0 / MM,
+                stop.aperture_radius * 2.0 / MM
+            );
+            context.warn(&params.place_of("aperturediameter"), message);
+        }
+        stop.aperture_radius = stop.aperture_radius.min(asked);
+    }
     camera.focal_distance = params.float_above("focusdistance", 10.0, 0.0)?;
-    // pbrt-v4's unit is the metre. The film lies behind the focal point by the lens equation.
-    let film_mm = 1.0 / (1.0 / focal_mm - 1e-3 / camera.focal_distance).max(1e-9);
-    let fov_deg = 2.0 * (shorter_mm / 2.0 / film_mm).atan().to_degrees();
-    camera.projection = Projection::Perspective { fov_deg };
-    camera.lens_radius = aperture_mm / 2.0 * 1e-3;
-    // Its film measures irradiance: radiance times the solid angle of the lens.
-    let f_number = film_mm / aperture_mm;
-    film.exposure *= f32_of(std::f64::consts::PI / (4.0 * f_number * f_number));
+    focus(&mut lenses, camera.focal_distance).map_err(|message| {
+        let message = format!("lens file {name}: {message}");
+        SceneError::new(
+            ErrorKind::Parameter,
+            &params.place_of("focusdistance"),
+            message,
+        )
+    })?;
+    camera.projection = Projection::Lenses(Box::new(lenses));
     Ok(())
 }
 
-/// One interface of the stack, from the front; lengths in millimetres.
-#[derive(Debug, PartialEq)]
-struct Element {
-    /// Radius of curvature; 0 for the stop.
-    radius_mm: f64,
-    /// Distance to the next interface.
-    thickness_mm: f64,
-    /// Index of refraction behind it; 0 stands for 1.
-    eta: f64,
-    aperture_mm: f64,
+/// Puts the film where a plane is in focus.
+fn focus(lenses: &mut LensSystem, distance: f64) -> Result<(), String> {
+    let thick = (lenses.thick_lens()).ok_or("its lenses do not focus")?;
+    let film = thick.film_distance(distance).ok_or_else(|| {
+        let nearest = thick.nearest();
+        format!("\"focusdistance\" {distance} is too near; its lenses focus from {nearest} on")
+    })?;
+    if film <= 0.0 {
+        return Err(format!(
+            "for \"focusdistance\" {distance} the film would be within its lenses"
+        ));
+    }
+    if let Some(last) = lenses.interfaces.last_mut() {
+        last.thickness = film;
+    }
+    Ok(())
 }
 
-/// Groups of four numbers; `#` begins a comment.
-fn elements(text: &str, place: &Place) -> Result<Vec<Element>, SceneError> {
-    let wrong = |message: &str| SceneError::new(ErrorKind::Parameter, place, message);
-    let words = text
+/// Groups of four numbers, in millimetres; `#` begins a comment.
+fn interfaces(text: &Arc<SourceText>) -> Result<Vec<LensInterface>, SceneError> {
+    let all = text.text();
+    let place = |word: &str| {
+        Place::new(
+            text,
+            word.as_ptr() as usize - all.as_ptr() as usize,
+            word.len(),
+        )
+    };
+    let wrong = |word: &str, message: &str| {
+        let message = format!("lens file: expected {message}");
+        SceneError::new(ErrorKind::Parameter, &place(word), message)
+    };
+    let words = all
         .lines()
         .flat_map(|l| l.split('#').next().unwrap_or("").split_whitespace());
-    let numbers: Option<Vec<f64>> = words
-        .map(|w| w.parse().ok().filter(|x: &f64| x.is_finite()))
-        .collect();
-    let numbers = numbers.ok_or_else(|| wrong("the lens file holds what is no number"))?;
-    let (groups, rest) = numbers.as_chunks::<4>();
-    if groups.is_empty() || !rest.is_empty() {
-        return Err(wrong("the lens file: expected four numbers per interface"));
+    let numbers = words
+        .map(|word| match word.parse::<f64>() {
+            Ok(x) if x.is_finite() => Ok((x, word)),
+            _ => Err(wrong(word, "a number")),
+        })
+        .collect::<Result<Vec<_>, _>>()?;
+    let (rows, rest) = numbers.as_chunks::<4>();
+    if rows.is_empty() || !rest.is_empty() {
+        let last = numbers.last().map_or(&all[..0], |n| n.1);
+        let message = "rows of four numbers: curvature radius, thickness, eta, aperture diameter";
+        return Err(wrong(last, message));
     }
-    let element = |&[radius_mm, thickness_mm, eta, aperture_mm]: &[f64; 4]| Element {
-        radius_mm,
-        thickness_mm,
-        eta,
-        aperture_mm,
-    };
-    Ok(groups.iter().map(element).collect())
-}
-
-/// Focal length of the stack by a ray near the axis from far away.
-///
-/// ```text
-/// n' u' = n u - h (n' - n) / R,   h' = h + d u',   f = -h_first / u_last
-/// ```
-///
-/// Source: Born and Wolf, section 4.4 (paraxial refraction and transfer).
-fn focal_length_mm(elements: &[Element]) -> Option<f64> {
-    let (mut height, mut slope, mut index) = (1.0, 0.0, 1.0);
-    for element in elements {
-        let behind = if element.eta > 0.0 { element.eta } else { 1.0 };
-        if element.radius_mm != 0.0 {
-            let bend = height * (behind - index) / element.radius_mm;
-            slope = (index * slope - bend) / behind;
-            index = behind;
+    if rows.len() > MOST_INTERFACES {
+        let message = format!("at most {MOST_INTERFACES} rows, found {}", rows.len());
+        return Err(wrong(rows[MOST_INTERFACES][0].1, &message));
+    }
+    let interface = |&[radius, thickness, eta, diameter]: &[(f64, &str); 4]| {
+        // The last one is replaced when the film is focused.
+        if thickness.0 < 0.0 {
+            return Err(wrong(thickness.1, "a thickness of 0 or more"));
         }
-        height += element.thickness_mm * slope;
-    }
-    let focal = -1.0 / slope;
-    (focal.is_finite() && focal > 0.0 && focal < 1e6).then_some(focal)
+        if eta.0 < 0.0 {
+            return Err(wrong(eta.1, "an index of refraction, or 0 for that of air"));
+        }
+        if diameter.0 <= 0.0 {
+            return Err(wrong(diameter.1, "an aperture diameter above 0"));
+        }
+        Ok(LensInterface {
+            curvature_radius: radius.0 * MM,
+            thickness: thickness.0 * MM,
+            eta: if eta.0 == 0.0 { 1.0 } else { eta.0 },
+            aperture_radius: diameter.0 * MM / 2.0,
+        })
+    };
+    rows.iter().map(interface).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::SourceText;
 
     #[test]
-    fn a_thin_lens_has_the_lensmaker_s_focal_length() {
-        let place = Place::start(&SourceText::new("lens", ""));
-        let lens = elements("# front\n100 0 1.5 20\n-100 50 1 20 # back\n", &place).unwrap();
-        let focal = focal_length_mm(&lens).unwrap();
-        assert!((focal - 100.0).abs() < 1e-9, "{focal}");
-        assert_eq!(focal_length_mm(&lens[..0]), None);
-        assert!(elements("1 2 3", &place).is_err());
-        assert!(elements("a b c d", &place).is_err());
+    fn mistakes_in_lens_files_are_located() {
+        let read = |text: &str| interfaces(&SourceText::new("lens", text));
+        let lens = read("# front\n100 0 1.5 20\n0 2 0 8 # stop\n-100 50 1 20\n").unwrap();
+        assert_eq!(lens.len(), 3);
+        assert_eq!(lens[1].curvature_radius, 0.0);
+        assert_eq!([lens[1].eta, lens[1].aperture_radius], [1.0, 0.004]);
+        let many = "1 1 1 1\n".repeat(MOST_INTERFACES + 1);
+        for (text, line, column, what) in [
+            ("", 1, 1, "four numbers"),
+            ("1 2 1.5", 1, 5, "four numbers"),
+            ("100 0 1.5 20\n-100 x 1 20", 2, 6, "a number"),
+            ("100 0 nan 20", 1, 7, "a number"),
+            ("100 -1 1.5 20", 1, 5, "thickness"),
+            ("100 0 1.5 20\n1 1 -1 2", 2, 5, "index"),
+            ("100 0 1.5 0", 1, 11, "aperture"),
+            (&many, MOST_INTERFACES + 1, 1, "at most 256"),
+        ] {
+            let error = read(text).unwrap_err();
+            assert!(error.message().contains(what), "{text}: {error}");
+            assert_eq!([error.line(), error.column()], [line, column], "{error}");
+        }
     }
 }

@@ -9,7 +9,9 @@ use super::{picture_id, scaled, wish};
 use crate::error::{ErrorKind, SceneError};
 use crate::image::Image;
 use crate::pbrt::context::{Context, Entity};
+use crate::pbrt::param::ParamList;
 use crate::scene::{EnvironmentMapping, Light};
+use crate::validate::is_rectangle;
 
 /// Reads the light `infinite`.
 pub(super) fn infinite(
@@ -18,21 +20,25 @@ pub(super) fn infinite(
     to_world: DMat4,
 ) -> Result<Light, SceneError> {
     let params = &entity.params;
-    if params.numbers("portal", &["point3"])?.is_some() {
-        context.warn(
-            &params.place_of("portal"),
-            "portals are not used: the light is sampled whole",
-        );
-    }
+    let portal = portal(params)?;
+    let made = |radiance, image| match portal {
+        Some(corners) => Light::Portal {
+            radiance,
+            image,
+            to_world,
+            corners,
+        },
+        None => Light::Infinite {
+            radiance,
+            image,
+            to_world,
+        },
+    };
     let illuminance = wish(entity, "illuminance")?;
     let Some(id) = picture_id(context, entity)? else {
         // A uniform sky of radiance L gives the ground the irradiance pi L.
         let radiance = scaled(context, entity, "L", illuminance.map_or(1.0, |e| e / PI))?;
-        return Ok(Light::Infinite {
-            radiance,
-            image: None,
-            to_world,
-        });
+        return Ok(made(radiance, None));
     };
     if params.find("L").is_some() {
         let message = "\"L\" and \"filename\" exclude each other";
@@ -61,11 +67,32 @@ pub(super) fn infinite(
         context.warn(&params.place_of("filename"), message);
     }
     let radiance = scaled(context, entity, "L", factor)?;
-    Ok(Light::Infinite {
-        radiance,
-        image: Some((id, mapping)),
-        to_world,
-    })
+    Ok(made(radiance, Some((id, mapping))))
+}
+
+/// The corners of a portal, in the world: pbrt-v4 does not transform them.
+fn portal(params: &ParamList) -> Result<Option<[[f64; 3]; 4]>, SceneError> {
+    let Some(numbers) = params.numbers("portal", &["point3"])? else {
+        return Ok(None);
+    };
+    if numbers.is_empty() {
+        return Ok(None);
+    }
+    let wrong = |message: &str| {
+        let message = format!("\"portal\": expected {message}");
+        SceneError::new(ErrorKind::Parameter, &params.place_of("portal"), message)
+    };
+    let (points, rest) = numbers.as_chunks::<3>();
+    match points {
+        &[a, b, c, d] if rest.is_empty() => {
+            let corners = [a, b, c, d];
+            match is_rectangle(&corners) {
+                true => Ok(Some(corners)),
+                false => Err(wrong("the corners of a rectangle, one after the other")),
+            }
+        }
+        _ => Err(wrong("four points")),
+    }
 }
 
 /// What pbrt-v4 takes for the illuminance of a picture on a surface that faces +z: it gives each

@@ -11,7 +11,7 @@ use crate::pbrt::context::Entity;
 use crate::scene::Mesh;
 
 /// Triangles' edges to the full turn.
-const TURN: f64 = 256.0;
+pub(super) const TURN: f64 = 256.0;
 
 /// A quadric as pbrt-v4 describes it, its bounds in order and within its reach.
 #[derive(Clone, Copy, Debug, PartialEq)]

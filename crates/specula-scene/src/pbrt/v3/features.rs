@@ -10,6 +10,8 @@ const fn near(class: &'static str, name: &'static str, how: &'static str) -> Fea
     Feature::approximated(class, name, how)
 }
 
+const AS_TRIANGLES: &str = "triangles within 7.6e-5 radii of the surface";
+
 /// Names of pbrt-v3 that pbrt-v4 has no more, with those that its `--upgrade` gives them.
 pub(crate) const FEATURES: &[Feature] = &[
     full("directive", "WorldEnd"),
@@ -88,9 +90,9 @@ pub(crate) const FEATURES: &[Feature] = &[
     full("shape", "trianglemesh: st, uv as numbers"),
     full("shape", "loopsubdiv: nlevels"),
     near("shape parameter", "shadowalpha", "`alpha` alone counts"),
-    near("shape", "cone", "left out"),
-    near("shape", "paraboloid", "left out"),
-    near("shape", "hyperboloid", "left out"),
-    near("shape", "heightfield", "left out"),
-    near("shape", "nurbs", "left out"),
+    near("shape", "cone", AS_TRIANGLES),
+    near("shape", "paraboloid", AS_TRIANGLES),
+    near("shape", "hyperboloid", AS_TRIANGLES),
+    full("shape", "heightfield"),
+    full("shape", "nurbs"),
 ];

@@ -1,6 +1,6 @@
 //! Everything before `WorldBegin` in pbrt-v3, media and shapes.
 
-use super::{Change, GONE};
+use super::Change;
 use crate::pbrt::param::Values;
 
 /// `Film`.
@@ -103,11 +103,6 @@ pub(super) fn shape(name: &str, change: &mut Change<'_>) {
     change.params.rename("nlevels", "levels");
     if name == "trianglemesh" {
         change.params.rename("st", "uv");
-    }
-    if GONE.contains(&name) {
-        let place = change.place.clone();
-        let message = format!("shape \"{name}\" of pbrt-v3 is not supported: it is left out");
-        change.warn(&place, message);
     }
 }
 
