@@ -22,7 +22,9 @@ use alloc::vec::Vec;
 use super::interface_table::{ALPHAS, ETAS, INTERNAL_REFLECTANCE, MUS, TRANSMITTANCE};
 use crate::energy::Tabulated;
 use crate::energy::albedo::TabulatedNdf;
+use crate::energy::interface_coat::{Entrance, Incident};
 use crate::energy::stencil::Stencil;
+use crate::fresnel::dielectric;
 use crate::math::Real;
 
 /// Largest entry of the tables.
@@ -30,8 +32,8 @@ pub const SCALE: f64 = 65535.0;
 
 /// The transmittance of a rough coat at its knots in `sqrt(mu)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Interface<T> {
-    knots: [T; MUS],
+pub(crate) struct Interface<T> {
+    pub(super) knots: [T; MUS],
 }
 
 impl<T: Real> Interface<T> {
@@ -60,11 +62,58 @@ impl<T: Real> Interface<T> {
         (Self { knots }, internal)
     }
 
+    /// The knots in a row for batches. What follows the last one is not used.
+    #[inline(always)]
+    pub(crate) fn row(&self) -> [T; 32] {
+        let mut row = [T::ZERO; 32];
+        row[..MUS].copy_from_slice(&self.knots);
+        row
+    }
+}
+
+/// A rough coat's interface.
+#[derive(Clone, Copy)]
+pub(crate) struct RoughEntrance<'a, T, const N: usize> {
+    pub(crate) eta: T,
+    /// The transmittance at its knots, and what fills a row.
+    pub(crate) knots: &'a [T; N],
+}
+
+/// A smooth coat's interface.
+#[derive(Clone, Copy)]
+pub(crate) struct SmoothEntrance<T> {
+    pub(super) eta: T,
+}
+
+impl<T: Real, const N: usize> RoughEntrance<'_, T, N> {
     /// `T(mu)`, in `[0, 1]`.
     #[inline(always)]
-    pub(super) fn transmittance(&self, mu: T) -> T {
+    fn transmittance(&self, mu: T) -> T {
         let at = Stencil::new(mu.at_least(T::ZERO).sqrt(), MUS);
-        at.sum(|k| self.knots[k]).within(T::ZERO, T::ONE)
+        // Where the row's length is a power of two nothing is checked.
+        let sum = at.sum(|k| self.knots[if N.is_power_of_two() { k & (N - 1) } else { k }]);
+        sum.within(T::ZERO, T::ONE)
+    }
+}
+
+impl<T: Real, const N: usize> Entrance<T> for RoughEntrance<'_, T, N> {
+    #[inline(always)]
+    fn incident(&self, mu: T) -> Incident<T> {
+        Incident {
+            reflected: dielectric(mu, self.eta).reflectance,
+            arriving: self.transmittance(mu),
+        }
+    }
+}
+
+impl<T: Real> Entrance<T> for SmoothEntrance<T> {
+    #[inline(always)]
+    fn incident(&self, mu: T) -> Incident<T> {
+        let there = dielectric(mu, self.eta);
+        Incident {
+            reflected: there.reflectance,
+            arriving: there.transmittance,
+        }
     }
 }
 
@@ -72,7 +121,8 @@ impl<T: Real> Interface<T> {
 ///
 /// * `eta`: index inside over that outside, in `[1, 3]`.
 pub fn transmittance<T: Real, N: Tabulated<T>>(ndf: N, eta: T, mu: T) -> T {
-    Interface::rough(ndf, eta).0.transmittance(mu)
+    let knots = &Interface::rough(ndf, eta).0.knots;
+    RoughEntrance { eta, knots }.transmittance(mu)
 }
 
 /// The tables as plain values, for shaders: `T` by distribution, index, alpha and cosine, and `R_int`
