@@ -5,7 +5,6 @@ use super::level::Arithmetic;
 use super::lobes::{Family, InStages, Kernel, Lobes, Same};
 use super::slices::{Colours, LengthMismatch, check};
 use crate::alpha::Alpha;
-use crate::bsdf::plastic::interface::RoughEntrance;
 use crate::bsdf::under_coat::{UnderRough, UnderSmooth};
 use crate::bsdf::{CoatedDiffuse, Plastic};
 use crate::energy::interface_coat::Entrance;
@@ -165,7 +164,7 @@ impl<T: Real> Coated<T> for CoatedDiffuse<T> {
     #[inline(always)]
     fn run_over<K: Kernel>(&self, bases: impl OverBases<T>, kernel: K) {
         if let (Some(ggx), Some(rows)) = (self.coat, self.interface.rows()) {
-            let interface = self.interface.in_rows(&rows);
+            let interface = self.interface.in_rows(rows);
             bases.run(self.under_rough(ggx, interface), kernel);
         } else {
             bases.run(self.under_smooth(self.interface.smooth()), kernel);
@@ -177,9 +176,7 @@ impl<T: Real> Coated<T> for Plastic<T> {
     #[inline(always)]
     fn run_over<K: Kernel>(&self, bases: impl OverBases<T>, kernel: K) {
         if let Some(ggx) = self.coat {
-            let (eta, knots) = (self.eta, &self.interface.row());
-            let entrance = RoughEntrance { eta, knots };
-            bases.run(self.under_rough(ggx, entrance), kernel);
+            bases.run(self.under_rough(ggx, self.entrance_in_row()), kernel);
         } else {
             bases.run(self.under_smooth(), kernel);
         }

@@ -19,6 +19,7 @@
 //! `sqrt(alpha_x alpha_y)`.
 
 use super::interface_table::{ALPHAS, ETAS, INTERNAL_REFLECTANCE, MUS, TRANSMITTANCE};
+use super::neighbours::neighbours;
 use crate::fresnel::{dielectric, dielectric_average};
 use crate::math::Real;
 use crate::ndf::{Ggx, Ndf};
@@ -135,12 +136,10 @@ impl<T: Real> Knot<T> {
         a + (b - a) * self.fraction
     }
 
-    /// [`lerp`](Self::lerp) of values in a row, whose places are not checked: beyond its `N` values, a power of two, it
-    /// begins anew.
+    /// [`lerp`](Self::lerp) of a row's values, without an address.
     #[inline(always)]
     pub(super) fn lerp_in<const N: usize>(&self, row: &[T; N]) -> T {
-        const { assert!(N.is_power_of_two(), "not a row of a power of two") };
-        let (a, b) = (row[self.low & (N - 1)], row[(self.low + 1) & (N - 1)]);
+        let [a, b] = neighbours(row, self.low);
         a + (b - a) * self.fraction
     }
 }

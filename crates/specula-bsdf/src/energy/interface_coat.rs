@@ -91,16 +91,16 @@ impl<T: Real> CoatInterface<T> {
     pub(crate) fn rows(&self) -> Option<CosineRows<T>> {
         let rough = self.rough?;
         let mut rows = CosineRows {
-            entering: [T::ZERO; 32],
-            crossing: [T::ZERO; 16],
+            entering: [T::ZERO; MUS],
+            crossing: [T::ZERO; ABSORPTION_MUS],
         };
-        for (k, value) in rows.entering[..MUS].iter_mut().enumerate() {
+        for (k, value) in rows.entering.iter_mut().enumerate() {
             *value = match self.is_single {
                 true => interface_single::quotient_at(rough.entering, k),
                 false => interface::quotient_at(rough.entering, k),
             };
         }
-        for (k, value) in rows.crossing[..ABSORPTION_MUS].iter_mut().enumerate() {
+        for (k, value) in rows.crossing.iter_mut().enumerate() {
             *value = self.layer.share_at(rough.crossing, k);
         }
         Some(rows)
@@ -108,7 +108,7 @@ impl<T: Real> CoatInterface<T> {
 
     /// The same interface, looked up in its rows.
     #[inline(always)]
-    pub(crate) fn in_rows<'a>(&self, rows: &'a CosineRows<T>) -> InRows<'a, T> {
+    pub(crate) fn in_rows(&self, rows: CosineRows<T>) -> InRows<T> {
         InRows {
             smooth: self.smooth(),
             alpha: self.rough.map_or(T::ZERO, |rough| rough.alpha),
@@ -131,20 +131,21 @@ pub(crate) struct SmoothInterface<T> {
     is_single: bool,
 }
 
-/// The tables of a rough interface by the knots of the cosine. What follows the last knot is not used.
+/// The tables of a rough interface by the knots of the cosine.
+#[derive(Clone, Copy)]
 pub(crate) struct CosineRows<T> {
     /// Of what enters, over that of the raised cosine.
-    entering: [T; 32],
+    entering: [T; MUS],
     /// Of the layer's [`share`](Layer::share).
-    crossing: [T; 16],
+    crossing: [T; ABSORPTION_MUS],
 }
 
 /// A rough interface that is looked up in its rows, without branches: what makes vectors of loops.
 #[derive(Clone, Copy)]
-pub(crate) struct InRows<'a, T> {
+pub(crate) struct InRows<T> {
     smooth: SmoothInterface<T>,
     alpha: T,
-    rows: &'a CosineRows<T>,
+    rows: CosineRows<T>,
 }
 
 impl<T: Real> SmoothInterface<T> {
@@ -168,7 +169,7 @@ impl<T: Real> Entrance<T> for SmoothInterface<T> {
     }
 }
 
-impl<T: Real> Entrance<T> for InRows<'_, T> {
+impl<T: Real> Entrance<T> for InRows<T> {
     #[inline(always)]
     fn incident(&self, mu: T) -> Incident<T> {
         let smooth = dielectric(effective_cosine(mu, self.alpha), self.smooth.eta);
@@ -242,7 +243,7 @@ mod tests {
                     };
                     assert_eq!(got.reflected.to_bits(), reflected.to_bits());
                     let in_batches = match interface.rows() {
-                        Some(rows) => interface.in_rows(&rows).incident(mu),
+                        Some(rows) => interface.in_rows(rows).incident(mu),
                         None => interface.smooth().incident(mu),
                     };
                     assert_eq!(in_batches.arriving.to_bits(), arriving.to_bits());

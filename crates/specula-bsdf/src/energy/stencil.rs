@@ -1,5 +1,6 @@
 //! Four neighbouring knots of a uniform axis, with Lagrange's cubic weights.
 
+use super::neighbours::neighbours;
 use crate::math::Real;
 
 /// Where a place lies among the knots of `[0, 1]`.
@@ -49,6 +50,14 @@ impl<T: Real> Stencil<T> {
         let first = usize::from(self.first);
         let [a, b, c, d] = self.weights;
         (a * value(first) + b * value(first + 1)) + (c * value(first + 2) + d * value(first + 3))
+    }
+
+    /// [`sum`](Self::sum) of a row's values, without an address.
+    #[inline(always)]
+    pub(crate) fn sum_in<const N: usize>(&self, row: &[T; N]) -> T {
+        let [p, q, r, s] = neighbours(row, usize::from(self.first));
+        let [a, b, c, d] = self.weights;
+        (a * p + b * q) + (c * r + d * s)
     }
 }
 

@@ -33,7 +33,7 @@ pub const SCALE: f64 = 65535.0;
 /// The transmittance of a rough coat at its knots in `sqrt(mu)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Interface<T> {
-    pub(super) knots: [T; MUS],
+    knots: [T; MUS],
 }
 
 impl<T: Real> Interface<T> {
@@ -62,21 +62,26 @@ impl<T: Real> Interface<T> {
         (Self { knots }, internal)
     }
 
-    /// The knots in a row for batches. What follows the last one is not used.
+    /// `T(mu)`, in `[0, 1]`.
     #[inline(always)]
-    pub(crate) fn row(&self) -> [T; 32] {
-        let mut row = [T::ZERO; 32];
-        row[..MUS].copy_from_slice(&self.knots);
-        row
+    fn transmittance(&self, mu: T) -> T {
+        let at = Stencil::new(mu.at_least(T::ZERO).sqrt(), MUS);
+        at.sum(|k| self.knots[k]).within(T::ZERO, T::ONE)
     }
 }
 
-/// A rough coat's interface.
+/// A rough coat's interface, one direction after the other.
 #[derive(Clone, Copy)]
-pub(crate) struct RoughEntrance<'a, T, const N: usize> {
-    pub(crate) eta: T,
-    /// The transmittance at its knots, and what fills a row.
-    pub(crate) knots: &'a [T; N],
+pub(crate) struct RoughEntrance<'a, T> {
+    pub(super) eta: T,
+    pub(super) interface: &'a Interface<T>,
+}
+
+/// The same for batches: without branches and addresses.
+#[derive(Clone, Copy)]
+pub(crate) struct EntranceInRow<T> {
+    pub(super) eta: T,
+    pub(super) interface: Interface<T>,
 }
 
 /// A smooth coat's interface.
@@ -85,23 +90,24 @@ pub(crate) struct SmoothEntrance<T> {
     pub(super) eta: T,
 }
 
-impl<T: Real, const N: usize> RoughEntrance<'_, T, N> {
-    /// `T(mu)`, in `[0, 1]`.
-    #[inline(always)]
-    fn transmittance(&self, mu: T) -> T {
-        let at = Stencil::new(mu.at_least(T::ZERO).sqrt(), MUS);
-        // Where the row's length is a power of two nothing is checked.
-        let sum = at.sum(|k| self.knots[if N.is_power_of_two() { k & (N - 1) } else { k }]);
-        sum.within(T::ZERO, T::ONE)
-    }
-}
-
-impl<T: Real, const N: usize> Entrance<T> for RoughEntrance<'_, T, N> {
+impl<T: Real> Entrance<T> for RoughEntrance<'_, T> {
     #[inline(always)]
     fn incident(&self, mu: T) -> Incident<T> {
         Incident {
             reflected: dielectric(mu, self.eta).reflectance,
-            arriving: self.transmittance(mu),
+            arriving: self.interface.transmittance(mu),
+        }
+    }
+}
+
+impl<T: Real> Entrance<T> for EntranceInRow<T> {
+    #[inline(always)]
+    fn incident(&self, mu: T) -> Incident<T> {
+        let at = Stencil::new(mu.at_least(T::ZERO).sqrt(), MUS);
+        let sum = at.sum_in(&self.interface.knots);
+        Incident {
+            reflected: dielectric(mu, self.eta).reflectance,
+            arriving: sum.within(T::ZERO, T::ONE),
         }
     }
 }
@@ -121,8 +127,7 @@ impl<T: Real> Entrance<T> for SmoothEntrance<T> {
 ///
 /// * `eta`: index inside over that outside, in `[1, 3]`.
 pub fn transmittance<T: Real, N: Tabulated<T>>(ndf: N, eta: T, mu: T) -> T {
-    let knots = &Interface::rough(ndf, eta).0.knots;
-    RoughEntrance { eta, knots }.transmittance(mu)
+    Interface::rough(ndf, eta).0.transmittance(mu)
 }
 
 /// The tables as plain values, for shaders: `T` by distribution, index, alpha and cosine, and `R_int`

@@ -9,8 +9,7 @@ use crate::energy::Tabulated;
 use crate::math::{Real, Rgb, Vec3};
 use crate::ndf::{Ggx, Masking};
 use crate::vndf::{Sampler, VisibleNormals};
-use interface::{Interface, RoughEntrance, SmoothEntrance};
-use interface_table::MUS;
+use interface::{EntranceInRow, Interface, RoughEntrance, SmoothEntrance};
 
 /// Lambert under a dielectric coat, by Mitsuba 3's formulas:
 ///
@@ -43,7 +42,7 @@ pub struct Plastic<T, N = Ggx<T>> {
     pub(crate) coat: Option<N>,
     masking: Masking,
     sampler: Sampler,
-    pub(crate) eta: T,
+    eta: T,
     specular: Rgb<T>,
     diffuse: Rgb<T>,
     /// `diffuse / (eta^2 (1 - r R_int))`.
@@ -51,7 +50,7 @@ pub struct Plastic<T, N = Ggx<T>> {
     /// `R_int`.
     internal: T,
     nonlinear: bool,
-    pub(crate) interface: Interface<T>,
+    interface: Interface<T>,
 }
 
 impl<T: Real> Plastic<T> {
@@ -180,12 +179,22 @@ impl<T: Real, N: VisibleNormals<T>> Plastic<T, N> {
         UnderSmooth(self.under(SmoothEntrance { eta: self.eta }))
     }
 
-    /// The interface of a rough coat, looked up in the lobe's own knots.
+    /// The interface of a rough coat.
     #[inline(always)]
-    fn entrance(&self) -> RoughEntrance<'_, T, MUS> {
-        let Interface { knots } = &self.interface;
-        let eta = self.eta;
-        RoughEntrance { eta, knots }
+    fn entrance(&self) -> RoughEntrance<'_, T> {
+        RoughEntrance {
+            eta: self.eta,
+            interface: &self.interface,
+        }
+    }
+
+    /// The same for batches.
+    #[inline(always)]
+    pub(crate) fn entrance_in_row(&self) -> EntranceInRow<T> {
+        EntranceInRow {
+            eta: self.eta,
+            interface: self.interface,
+        }
     }
 }
 
