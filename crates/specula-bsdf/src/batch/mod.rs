@@ -30,7 +30,8 @@
 //! # What goes in
 //!
 //! * One lobe for all elements, or [`PerElement`] alphas for rough metal and rough glass, or
-//!   [`PerElementMetal`] alphas and colours, or [`PerElementBase`] colours under a coat, or [`Any`] lobe of the caller's own. Or no lobe:
+//!   [`PerElementMetal`] alphas and colours, or [`PerElementBase`] colours under a coat, or [`Any`]
+//!   lobe of the caller's own. Or no lobe:
 //!   [`Level::sample_reflection`], [`Level::reflection_pdf`]. Rough metal with all bounces:
 //!   [`Level::eval_pdf_random`], [`Level::sample_random`], walks in batches.
 //! * Or a [`Lobe`](crate::bsdf::Lobe) whose kind is known when the program runs: [`LobeBatches`].
@@ -50,8 +51,8 @@
 //! * All of Lambert, EON, the diffuse sheet, metals, rough glass and smooth dielectrics at both
 //!   vector levels, but for the samples of rough glass by [`Sampler::Bounded`](crate::vndf::Sampler) or
 //!   `Exact`, which choose a branch first.
-//! * Coats over diffuse bases, but for Beckmann's: their tables are reduced to a row over the cosine for each batch.
-//!   Exact at every level.
+//! * Coats over diffuse bases and plastics of GGX, whose tables are a row over the cosine for each batch, of which values
+//!   are selected, not addressed. Exact at every level.
 //! * Compensated lobes look up tables: plain loops of the scalar code, exact at every level. Of the 3900
 //!   instructions of a compensated metal's value 3500 are those of its loss.
 //!
