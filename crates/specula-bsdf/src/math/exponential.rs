@@ -55,7 +55,7 @@ exponential! {
     /// `exp(x)` for `x <= 0`, for `f32`.
     exp_f32: f32,
     least -87.0, magic 12_582_912.0, shift 23, one 0x3f80_0000,
-    ln2 [0.693_359_375, -2.121_944_4e-4], degree 7
+    ln2 [0.693_359_4, -2.121_944_4e-4], degree 7
 }
 
 exponential! {
