@@ -145,7 +145,7 @@ macro_rules! batches_of_lobes {
 
 #[test]
 fn every_lobe_with_batches_is_compared() {
-    // What `plain_loops_are_exact` compares.
+    // What `table_lookups_are_exact` compares.
     let mut compared = BTreeSet::from(["Compensated"]);
     macro_rules! each {
         ($name:literal, $lobe:expr) => {{
@@ -212,16 +212,21 @@ fn so_it_is_in_f64() {
     }
 }
 
-/// Lobes that look up tables are plain loops: exact at every level.
-fn plain_loops_are_exact<T: Real>(seed: u64) {
+/// Lobes that look up tables are plain loops, or look up rows of them: exact at every level.
+fn table_lookups_are_exact<T: Real>(seed: u64) {
     let elements = Elements::<T>::new(N, seed);
     for alpha in ALPHAS {
         let lobes = batch_common::MODELS.map(|model| batch_common::compensated::<T>(alpha, model));
         let glass = batch_common::compensated_glass::<T>(alpha);
         let coat = batch_common::lossy_coat::<T>(Some(alpha));
+        let (plastic, smooth_plastic) = (
+            batch_common::plastic::<T>(alpha),
+            batch_common::smooth_plastic::<T>(),
+        );
         let expected = lobes.map(|lobe| scalar(&lobe, &elements));
         let expected_glass = scalar(&glass, &elements);
         let expected_coat = scalar(&coat, &elements);
+        let expected_plastic = [plastic, smooth_plastic].map(|lobe| scalar(&lobe, &elements));
         for level in levels() {
             for (lobe, expected) in lobes.iter().zip(&expected) {
                 assert!(
@@ -237,18 +242,24 @@ fn plain_loops_are_exact<T: Real>(seed: u64) {
                 batch(level, &coat, &elements) == expected_coat,
                 "{level}: {coat:?}"
             );
+            for (lobe, expected) in [plastic, smooth_plastic].iter().zip(&expected_plastic) {
+                assert!(
+                    batch(level, lobe, &elements) == *expected,
+                    "{level}: {lobe:?}"
+                );
+            }
         }
     }
 }
 
 #[test]
-fn compensated_lobes_are_the_scalar_code_at_every_level() {
-    plain_loops_are_exact::<f32>(9);
+fn lobes_with_tables_are_the_scalar_code_at_every_level() {
+    table_lookups_are_exact::<f32>(9);
 }
 
 #[test]
 fn so_they_are_in_f64() {
-    plain_loops_are_exact::<f64>(10);
+    table_lookups_are_exact::<f64>(10);
 }
 
 #[test]

@@ -92,6 +92,7 @@ fn errors_stay_within_the_table() {
     let elements = Elements::<f32>::new(N, 11);
     let mut metal = [Worst::default(); 4];
     let mut glass = Worst::default();
+    let mut coats = Worst::default();
     let mut diffuse = [Worst::default(); 3];
     for level in levels() {
         for alpha in ALPHAS {
@@ -105,6 +106,13 @@ fn errors_stay_within_the_table() {
                 batch_common::glass(alpha, 1.5),
             );
             measure(&mut glass, level, &lobe, &twin, &elements);
+            let (lobe, twin) = (
+                batch_common::lossy_coat(Some(alpha)),
+                batch_common::lossy_coat(Some(alpha)),
+            );
+            measure(&mut coats, level, &lobe, &twin, &elements);
+            let (lobe, twin) = (batch_common::plastic(alpha), batch_common::plastic(alpha));
+            measure(&mut coats, level, &lobe, &twin, &elements);
         }
         let (lambert, eon) = (batch_common::lambert(), batch_common::eon());
         let [a, b, c] = &mut diffuse;
@@ -113,7 +121,7 @@ fn errors_stay_within_the_table() {
         let sheet = batch_common::sheet();
         measure(c, level, &sheet, &batch_common::sheet(), &elements);
     }
-    println!("metals {metal:?}\nglass {glass:?}\ndiffuse {diffuse:?}");
+    println!("metals {metal:?}\nglass {glass:?}\ncoats {coats:?}\ndiffuse {diffuse:?}");
     let within = |worst: Worst, bounds: [f64; 4]| {
         let all = worst.0.into_iter().zip(bounds);
         assert!(
@@ -123,6 +131,7 @@ fn errors_stay_within_the_table() {
     };
     metal.into_iter().for_each(|worst| within(worst, [2e-6; 4]));
     within(glass, [5e-5, 5e-5, 3e-3, 3e-3]);
+    within(coats, [5e-6, 1e-5, 1e-5, 1e-5]);
     diffuse
         .into_iter()
         .for_each(|worst| within(worst, [1e-6; 4]));

@@ -117,6 +117,14 @@ impl<const N: usize> Vectors<N> {
         }
     }
 
+    pub(crate) fn colours(&self, range: Range<usize>) -> Colours<&[f32]> {
+        Colours {
+            r: &self.x[range.clone()],
+            g: &self.y[range.clone()],
+            b: &self.z[range],
+        }
+    }
+
     pub(crate) fn colours_mut(&mut self, range: Range<usize>) -> Colours<&mut [f32]> {
         Colours {
             r: &mut self.x[range.clone()],

@@ -108,6 +108,7 @@ impl<T: Real> Eval<'_, T> {
     #[inline(always)]
     fn each<U: Real, F: Family<U>>(self, family: F) {
         let n = self.f_cos.r.len();
+        let family = family.range(0, n);
         let (wo, wi) = (self.wo.first(n), self.wi.first(n));
         let mut f_cos = self.f_cos.first(n);
         for i in 0..n {
@@ -135,6 +136,7 @@ impl<T: Real> Pdf<'_, T> {
     #[inline(always)]
     fn each<U: Real, F: Family<U>>(self, family: F) {
         let n = self.pdf.len();
+        let family = family.range(0, n);
         let (wo, wi) = (self.wo.first(n), self.wi.first(n));
         for i in 0..n {
             let value = family.at(i).pdf(wo.get_as(i), wi.get_as(i));
@@ -166,6 +168,7 @@ impl<T: Real> EvalPdf<'_, T> {
     #[inline(always)]
     fn each<U: Real, F: Family<U>>(self, family: F) {
         let n = self.pdf.len();
+        let family = family.range(0, n);
         let (wo, wi) = (self.wo.first(n), self.wi.first(n));
         let mut f_cos = self.f_cos.first(n);
         for i in 0..n {
@@ -228,6 +231,7 @@ impl<T: Real> Sample<'_, T> {
     #[inline(always)]
     fn each<U: Real, F: Family<U>>(self, family: F) {
         let n = self.samples.pdf.len();
+        let family = family.range(0, n);
         let (wo, u) = (self.wo.first(n), range(self.u, 0, n));
         let mut samples = self.samples.first(n);
         for i in 0..n {
@@ -289,6 +293,7 @@ impl<T: Real> SampleWi<'_, T> {
     #[inline(always)]
     fn each<U: Real, F: Family<U>>(self, family: F) {
         let n = self.wi.x.len();
+        let family = family.range(0, n);
         let (wo, u) = (self.wo.first(n), range(self.u, 0, n));
         let mut wi = self.wi.first(n);
         for i in 0..n {

@@ -4,8 +4,8 @@ use super::level::Arithmetic;
 use super::recast::{Recast, convert, recast};
 use super::slices::LengthMismatch;
 use crate::bsdf::{
-    Bsdf, BsdfSample, CoatedDiffuse, Compensated, CompensatedDielectric, DiffuseTransmission, Eon,
-    Lambert, SmoothConductor, SmoothDielectric, ThinDielectric, Transport,
+    Bsdf, BsdfSample, Compensated, CompensatedDielectric, DiffuseTransmission, Eon, Lambert,
+    SmoothConductor, SmoothDielectric, ThinDielectric, Transport,
 };
 use crate::fresnel::Reflectance;
 use crate::math::{Real, Rgb, Vec3};
@@ -329,4 +329,4 @@ macro_rules! one_by_one {
     };
 }
 
-one_by_one!(CoatedDiffuse, Compensated, CompensatedDielectric);
+one_by_one!(Compensated, CompensatedDielectric);

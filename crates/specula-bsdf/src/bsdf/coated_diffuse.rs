@@ -20,12 +20,12 @@
 //! it returns all light. `T` and `R` are exact for a smooth coat without absorption, and tables made
 //! by quadrature otherwise (`energy/interface.rs`, `interface_single.rs`, `interface_layer.rs`).
 
-use super::{Bsdf, BsdfSample, Event, Transport};
-use crate::energy::interface_coat::{CoatInterface, Incident};
+use super::under_coat::{UnderCoat, UnderRough, UnderSmooth};
+use super::{Bsdf, BsdfSample, Transport};
+use crate::energy::interface_coat::CoatInterface;
 use crate::energy::interface_layer::Layer;
-use crate::fresnel::dielectric;
-use crate::math::{Real, Rgb, Vec3, vec3, warp};
-use crate::ndf::{Ggx, Masking, Ndf};
+use crate::math::{Real, Rgb, Vec3};
+use crate::ndf::{Ggx, Masking};
 use crate::vndf::Sampler;
 
 /// What becomes of light that one of a coat's facets sends to another.
@@ -70,7 +70,7 @@ pub struct CoatedDiffuse<T> {
     pub(crate) coat: Option<Ggx<T>>,
     pub(crate) eta: T,
     pub(crate) albedo: Rgb<T>,
-    interface: CoatInterface<T>,
+    pub(crate) interface: CoatInterface<T>,
     /// `rho / eta^2 (1 - q^n) / (1 - q)`: the base with all bounces, before `T(wo) T(wi) / pi`.
     pub(crate) base: Rgb<T>,
     pub(crate) sampler: Sampler,
@@ -150,6 +150,13 @@ impl<T: Real> CoatedDiffuse<T> {
         DiffuseCoat::new(coat, eta, layer).over(albedo)
     }
 
+    /// The albedo of the base with all bounces between it and its coat, over the square of the coat's index: what
+    /// [`PerElementBase`](crate::batch::PerElementBase) takes.
+    #[inline(always)]
+    pub fn base(&self) -> Rgb<T> {
+        self.base
+    }
+
     /// Whether the coat is a mirror: then some samples are specular, and others are not.
     #[inline(always)]
     pub fn is_smooth(&self) -> bool {
@@ -163,50 +170,35 @@ impl<T: Real> CoatedDiffuse<T> {
         Self { sampler, ..self }
     }
 
-    /// What becomes of light from `w`.
-    #[inline(always)]
-    fn incident(&self, w: Vec3<T>) -> Incident<T> {
-        self.interface.incident(w.z.abs())
-    }
-
-    /// Probability of sampling the coat's reflection; 0 for a mirror that faces away.
-    #[inline(always)]
-    fn coat_probability(&self, from: Incident<T>, wo: Vec3<T>) -> T {
-        let diffuse = from.arriving * self.albedo.max_channel();
-        let visible = self.coat.is_some() || wo.z > T::ZERO;
-        let share = from.reflected / (from.reflected + diffuse).at_least(T::TINY);
-        T::select(visible, share, T::ZERO)
-    }
-
-    /// Value and density.
+    /// The base under its coat.
     ///
-    /// * `from`: of light from `wo`.
-    #[inline]
-    fn eval_pdf_from(&self, from: Incident<T>, wo: Vec3<T>, wi: Vec3<T>) -> (Rgb<T>, T) {
-        if wi.z <= T::ZERO {
-            return (Rgb::BLACK, T::ZERO);
+    /// * `interface`: what looks the interface up.
+    #[inline(always)]
+    fn under<I>(&self, interface: I) -> UnderCoat<T, I> {
+        UnderCoat {
+            eta: self.eta,
+            specular: Rgb::WHITE,
+            albedo: self.albedo,
+            base: self.base,
+            interface,
         }
-        let p = self.coat_probability(from, wo);
-        let mut f_cos = self.base_f_cos(from, wi);
-        let mut pdf = (T::ONE - p) * warp::cosine_hemisphere_pdf(wi);
-        if let Some(ggx) = self.coat {
-            let wm = (wo + wi).normalize_any();
-            if wm.z > T::ZERO {
-                let quarter = T::of(0.25) * ggx.d(wm);
-                let fresnel = dielectric(wo.dot(wm), self.eta).reflectance;
-                let shadowed = ggx.g2_over_cos(Masking::HeightCorrelated, wo, wi);
-                f_cos += Rgb::splat(fresnel * quarter * shadowed);
-                pdf += p * quarter / ggx.reflection_norm(self.sampler, wo);
-            }
-        }
-        (f_cos, pdf)
     }
 
-    /// The base's part of `f |cos|`.
+    /// The same under a rough coat.
     #[inline(always)]
-    fn base_f_cos(&self, from: Incident<T>, wi: Vec3<T>) -> Rgb<T> {
-        let arriving = self.incident(wi).arriving;
-        self.base * (from.arriving * arriving * warp::cosine_hemisphere_pdf(wi))
+    pub(crate) fn under_rough<I>(&self, ggx: Ggx<T>, interface: I) -> UnderRough<T, Ggx<T>, I> {
+        UnderRough {
+            under: self.under(interface),
+            ndf: ggx,
+            masking: Masking::HeightCorrelated,
+            sampler: self.sampler,
+        }
+    }
+
+    /// The same under a smooth coat.
+    #[inline(always)]
+    pub(crate) fn under_smooth<I>(&self, interface: I) -> UnderSmooth<T, I> {
+        UnderSmooth(self.under(interface))
     }
 }
 
@@ -241,28 +233,18 @@ impl<T: Real> Bsdf<T> for CoatedDiffuse<T> {
 
     #[inline]
     fn sample(&self, wo: Vec3<T>, u: [T; 3], _transport: Transport) -> Option<BsdfSample<T>> {
-        let from = self.incident(wo);
-        let p = self.coat_probability(from, wo);
-        let direction = [u[1], u[2]];
-        let wi = if u[0] < p {
-            match self.coat {
-                Some(ggx) => ggx.sample_reflection(self.sampler, wo, direction),
-                None => {
-                    let weight = Rgb::splat(from.reflected / p);
-                    let wi = vec3(-wo.x, -wo.y, wo.z);
-                    return Some(BsdfSample::delta(wi, weight, p, Event::Reflection, T::ONE));
-                }
-            }
-        } else {
-            warp::cosine_hemisphere(direction)
-        };
-        let (f_cos, pdf) = self.eval_pdf_from(from, wo, wi);
-        BsdfSample::reflected(wi, f_cos / pdf, pdf)
+        match self.coat {
+            Some(ggx) => self.under_rough(ggx, &self.interface).sample_alone(wo, u),
+            None => self.under_smooth(&self.interface).sample_alone(wo, u),
+        }
     }
 
     #[inline]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, _transport: Transport) -> (Rgb<T>, T) {
-        self.eval_pdf_from(self.incident(wo), wo, wi)
+        match self.coat {
+            Some(ggx) => (self.under_rough(ggx, &self.interface)).eval_pdf_alone(wo, wi),
+            None => (self.under_smooth(&self.interface)).eval_pdf_alone(wo, wi),
+        }
     }
 
     #[inline(always)]

@@ -24,6 +24,7 @@ pub(crate) mod plastic;
 mod principled;
 mod smooth_dielectric;
 mod tints;
+pub(crate) mod under_coat;
 
 pub use black::Black;
 pub use coated_diffuse::{CoatLayer, CoatScattering, CoatedDiffuse, DiffuseCoat};
@@ -75,7 +76,7 @@ macro_rules! lobe_table {
             /// See [`Eon`].
             Eon: $crate::bsdf::Eon<T>, reflects, closed, "bsdf/eon";
             /// See [`DiffuseTransmission`].
-            DiffuseTransmission: $crate::bsdf::DiffuseTransmission<T>, transmits, scalar, "bsdf/diffuse_transmission";
+            DiffuseTransmission: $crate::bsdf::DiffuseTransmission<T>, transmits, closed, "bsdf/diffuse_transmission";
             /// See [`SmoothConductor`].
             SmoothConductor: $crate::bsdf::SmoothConductor<T>, reflects, delta, "bsdf/smooth_conductor";
             /// See [`RoughConductor`].
@@ -85,7 +86,7 @@ macro_rules! lobe_table {
             /// See [`RoughDielectric`].
             RoughDielectric: $crate::bsdf::RoughDielectric<T>, transmits, closed, "bsdf/rough_dielectric";
             /// See [`ThinDielectric`].
-            ThinDielectric: $crate::bsdf::ThinDielectric<T>, transmits, scalar, "bsdf/thin_dielectric";
+            ThinDielectric: $crate::bsdf::ThinDielectric<T>, transmits, delta, "bsdf/thin_dielectric";
             /// See [`CoatedDiffuse`].
             CoatedDiffuse: $crate::bsdf::CoatedDiffuse<T>, reflects, closed, "bsdf/coated_diffuse";
             /// See [`Layered`].
@@ -122,7 +123,7 @@ macro_rules! lobe_table {
             MultibounceDielectricBeckmann: $crate::bsdf::MultibounceDielectric<T, $crate::ndf::Beckmann<T>>,
                 transmits, scalar, "multibounce/multibounce_dielectric";
             /// See [`Plastic`].
-            Plastic: $crate::bsdf::Plastic<T>, reflects, scalar, "bsdf/plastic";
+            Plastic: $crate::bsdf::Plastic<T>, reflects, closed, "bsdf/plastic";
             /// See [`Plastic`], with Beckmann's normals.
             PlasticBeckmann: $crate::bsdf::Plastic<T, $crate::ndf::Beckmann<T>>, reflects, scalar, "bsdf/plastic";
             /// See [`Principled`].

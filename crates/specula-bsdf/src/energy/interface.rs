@@ -19,6 +19,7 @@
 //! `sqrt(alpha_x alpha_y)`.
 
 use super::interface_table::{ALPHAS, ETAS, INTERNAL_REFLECTANCE, MUS, TRANSMITTANCE};
+use super::neighbours::neighbours;
 use crate::fresnel::{dielectric, dielectric_average};
 use crate::math::Real;
 use crate::ndf::{Ggx, Ndf};
@@ -60,7 +61,13 @@ pub(super) fn places<T: Real>(eta: T, alpha: T) -> [Knot<T>; 2] {
 #[inline(always)]
 pub(super) fn quotient<T: Real>([e, a]: [Knot<T>; 2], mu: T) -> T {
     let m = cosine_knot(mu, MUS);
-    e.lerp(|i| a.lerp(|j| m.lerp(|k| table(TRANSMITTANCE[i][j][k]))))
+    m.lerp(|k| quotient_at([e, a], k))
+}
+
+/// `T / (1 - F(mu_e))` at a knot of the cosines.
+#[inline(always)]
+pub(super) fn quotient_at<T: Real>([e, a]: [Knot<T>; 2], k: usize) -> T {
+    e.lerp(|i| a.lerp(|j| table(TRANSMITTANCE[i][j][k])))
 }
 
 /// Share of diffuse light from inside that is reflected.
@@ -109,23 +116,30 @@ impl<T: Real> Knot<T> {
     /// `x` on the axis `[0, end]` of `count` knots, clamped.
     #[inline]
     pub(super) fn new(x: T, end: f64, count: usize) -> Self {
-        #[allow(clippy::cast_precision_loss, reason = "a dozen knots")]
-        let last = (count - 1) as f64;
-        let place = (x * T::of(last / end)).within(T::ZERO, T::of(last));
         #[allow(
             clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "clamped to the axis above"
+            clippy::cast_possible_wrap,
+            reason = "a dozen knots"
         )]
-        let low = (place.to_f64() as usize).min(count - 2);
-        #[allow(clippy::cast_precision_loss, reason = "a dozen knots")]
-        let fraction = place - T::of(low as f64);
+        let last = (count - 1) as i32;
+        let place = (x * T::of(f64::from(last) / end)).within(T::ZERO, T::of(f64::from(last)));
+        let low = place.truncated().min(last - 1);
+        let fraction = place - T::of_integer(low);
+        #[allow(clippy::cast_sign_loss, reason = "clamped to the axis above")]
+        let low = low as usize;
         Self { low, fraction }
     }
 
     #[inline]
     pub(super) fn lerp(&self, at: impl Fn(usize) -> T) -> T {
         let (a, b) = (at(self.low), at(self.low + 1));
+        a + (b - a) * self.fraction
+    }
+
+    /// [`lerp`](Self::lerp) of a row's values, without an address.
+    #[inline(always)]
+    pub(super) fn lerp_in<const N: usize>(&self, row: &[T; N]) -> T {
+        let [a, b] = neighbours(row, self.low);
         a + (b - a) * self.fraction
     }
 }

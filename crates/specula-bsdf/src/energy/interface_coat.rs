@@ -1,12 +1,14 @@
 //! A coat's interface with the layer under it, of fixed roughness, index and thickness: what depends on these alone is
 //! computed once, and what depends on the direction once for both.
 //!
-//! The values are those of `interface.rs`, `interface_single.rs` and `interface_layer.rs`, bit for bit.
+//! The values are those of `interface.rs`, `interface_single.rs` and `interface_layer.rs`, bit for bit, whether they are
+//! looked up for one direction or for a batch in rows ([`InRows`]).
 
-use super::interface::{self, Knot, effective_cosine, mean_alpha};
+use super::interface::{self, Knot, cosine_knot, effective_cosine, mean_alpha};
 use super::interface_layer::{self, Layer};
 use super::interface_single;
-use crate::fresnel::dielectric;
+use super::interface_single_table::{ABSORPTION_MUS, MUS};
+use crate::fresnel::{Refraction, dielectric};
 use crate::math::Real;
 use crate::ndf::Ggx;
 
@@ -74,9 +76,115 @@ impl<T: Real> CoatInterface<T> {
         reflected * self.layer.there_and_back(coat, self.eta)
     }
 
-    /// What becomes of light from outside at the cosine `mu`.
+    /// Without the tables: that of a smooth interface.
     #[inline(always)]
-    pub(crate) fn incident(&self, mu: T) -> Incident<T> {
+    pub(crate) fn smooth(&self) -> SmoothInterface<T> {
+        SmoothInterface {
+            eta: self.eta,
+            layer: self.layer,
+            is_single: self.is_single,
+        }
+    }
+
+    /// The tables where the interface is; `None` where it is smooth.
+    #[inline]
+    pub(crate) fn rows(&self) -> Option<CosineRows<T>> {
+        let rough = self.rough?;
+        let mut rows = CosineRows {
+            entering: [T::ZERO; MUS],
+            crossing: [T::ZERO; ABSORPTION_MUS],
+        };
+        for (k, value) in rows.entering.iter_mut().enumerate() {
+            *value = match self.is_single {
+                true => interface_single::quotient_at(rough.entering, k),
+                false => interface::quotient_at(rough.entering, k),
+            };
+        }
+        for (k, value) in rows.crossing.iter_mut().enumerate() {
+            *value = self.layer.share_at(rough.crossing, k);
+        }
+        Some(rows)
+    }
+
+    /// The same interface, looked up in its rows.
+    #[inline(always)]
+    pub(crate) fn in_rows(&self, rows: CosineRows<T>) -> InRows<T> {
+        InRows {
+            smooth: self.smooth(),
+            alpha: self.rough.map_or(T::ZERO, |rough| rough.alpha),
+            rows,
+        }
+    }
+}
+
+/// A coat's interface as light from outside meets it.
+pub(crate) trait Entrance<T>: Copy {
+    /// What becomes of light from outside at the cosine `mu`.
+    fn incident(&self, mu: T) -> Incident<T>;
+}
+
+/// A smooth interface, without branches.
+#[derive(Clone, Copy)]
+pub(crate) struct SmoothInterface<T> {
+    eta: T,
+    layer: Layer<T>,
+    is_single: bool,
+}
+
+/// The tables of a rough interface by the knots of the cosine.
+#[derive(Clone, Copy)]
+pub(crate) struct CosineRows<T> {
+    /// Of what enters, over that of the raised cosine.
+    entering: [T; MUS],
+    /// Of the layer's [`share`](Layer::share).
+    crossing: [T; ABSORPTION_MUS],
+}
+
+/// A rough interface that is looked up in its rows, without branches: what makes vectors of loops.
+#[derive(Clone, Copy)]
+pub(crate) struct InRows<T> {
+    smooth: SmoothInterface<T>,
+    alpha: T,
+    rows: CosineRows<T>,
+}
+
+impl<T: Real> SmoothInterface<T> {
+    /// * `entering`: share that enters.
+    /// * `crossing`: share of it that is left behind the layer.
+    #[inline(always)]
+    fn incident_of(&self, smooth: Refraction<T>, entering: T, crossing: T) -> Incident<T> {
+        let reflected = T::select(self.is_single, smooth.reflectance, T::ONE - entering);
+        Incident {
+            reflected,
+            arriving: entering * crossing,
+        }
+    }
+}
+
+impl<T: Real> Entrance<T> for SmoothInterface<T> {
+    #[inline(always)]
+    fn incident(&self, mu: T) -> Incident<T> {
+        let smooth = dielectric(mu, self.eta);
+        self.incident_of(smooth, smooth.transmittance, self.layer.left(smooth.cos_t))
+    }
+}
+
+impl<T: Real> Entrance<T> for InRows<T> {
+    #[inline(always)]
+    fn incident(&self, mu: T) -> Incident<T> {
+        let smooth = dielectric(effective_cosine(mu, self.alpha), self.smooth.eta);
+        let quotient = cosine_knot(mu, MUS).lerp_in(&self.rows.entering);
+        let entering = (smooth.transmittance * quotient).within(T::ZERO, T::ONE);
+        let share = cosine_knot(mu, ABSORPTION_MUS).lerp_in(&self.rows.crossing);
+        let crossing = self.smooth.layer.left(smooth.cos_t * share);
+        self.smooth.incident_of(smooth, entering, crossing)
+    }
+}
+
+/// One direction after the other: what need not be computed is not.
+impl<T: Real> Entrance<T> for &CoatInterface<T> {
+    #[inline(always)]
+    fn incident(&self, mu: T) -> Incident<T> {
         let raised = self
             .rough
             .map_or(mu, |rough| effective_cosine(mu, rough.alpha));
@@ -99,13 +207,7 @@ impl<T: Real> CoatInterface<T> {
                 self.layer.left(smooth.cos_t * share)
             }
         };
-        Incident {
-            reflected: match self.is_single {
-                true => smooth.reflectance,
-                false => T::ONE - entering,
-            },
-            arriving: entering * crossing,
-        }
+        self.smooth().incident_of(smooth, entering, crossing)
     }
 }
 
@@ -128,7 +230,7 @@ mod tests {
             for is_single in [false, true] {
                 let interface = CoatInterface::new(coat, eta, layer, is_single);
                 for mu in [1e-3, 0.1, 0.37, 0.8, 1.0] {
-                    let got = interface.incident(mu);
+                    let got = (&interface).incident(mu);
                     let entering = match is_single {
                         true => interface_single::transmittance(coat, eta, mu),
                         false => interface::transmittance(coat, eta, mu),
@@ -140,6 +242,12 @@ mod tests {
                         false => 1.0 - entering,
                     };
                     assert_eq!(got.reflected.to_bits(), reflected.to_bits());
+                    let in_batches = match interface.rows() {
+                        Some(rows) => interface.in_rows(rows).incident(mu),
+                        None => interface.smooth().incident(mu),
+                    };
+                    assert_eq!(in_batches.arriving.to_bits(), arriving.to_bits());
+                    assert_eq!(in_batches.reflected.to_bits(), reflected.to_bits());
                 }
             }
         }

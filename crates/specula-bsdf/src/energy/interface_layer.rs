@@ -84,9 +84,14 @@ impl<T: Real> Layer<T> {
     /// The cosine of which `exp(-t / c)` is the mean, over the refracted one.
     #[inline(always)]
     pub(super) fn share(&self, [e, a]: [Knot<T>; 2], mu: T) -> T {
-        let m = cosine_knot(mu, ABSORPTION_MUS);
-        let row = |i: usize, j: usize, k: usize| self.place.lerp(|l| table(CROSSING[i][j][k][l]));
-        e.lerp(|i| a.lerp(|j| m.lerp(|k| row(i, j, k))))
+        cosine_knot(mu, ABSORPTION_MUS).lerp(|k| self.share_at([e, a], k))
+    }
+
+    /// [`share`](Self::share) at a knot of the cosines.
+    #[inline(always)]
+    pub(super) fn share_at(&self, [e, a]: [Knot<T>; 2], k: usize) -> T {
+        let row = |i: usize, j: usize| self.place.lerp(|l| table(CROSSING[i][j][k][l]));
+        e.lerp(|i| a.lerp(|j| row(i, j)))
     }
 
     /// Share that is left of diffuse light which crossed upwards, was reflected, and crossed again.
@@ -107,6 +112,6 @@ impl<T: Real> Layer<T> {
     /// `exp(-t / cos)`.
     #[inline(always)]
     pub(super) fn left(&self, cos: T) -> T {
-        (-self.thickness / cos.at_least(T::TINY)).exp()
+        (-self.thickness / cos.at_least(T::TINY)).exp_below()
     }
 }

@@ -51,7 +51,13 @@ pub(super) fn places<T: Real>(eta: T, alpha: T) -> [Knot<T>; 2] {
 #[inline(always)]
 pub(super) fn quotient<T: Real>([e, a]: [Knot<T>; 2], mu: T) -> T {
     let m = cosine_knot(mu, MUS);
-    e.lerp(|i| a.lerp(|j| m.lerp(|k| table(TRANSMITTANCE[i][j][k]))))
+    m.lerp(|k| quotient_at([e, a], k))
+}
+
+/// `T / (1 - F(mu_e))` at a knot of the cosines.
+#[inline(always)]
+pub(super) fn quotient_at<T: Real>([e, a]: [Knot<T>; 2], k: usize) -> T {
+    e.lerp(|i| a.lerp(|j| table(TRANSMITTANCE[i][j][k])))
 }
 
 /// Share of the light from outside at the cosine `mu` that the interface reflects, roughly: Fresnel's

@@ -30,6 +30,7 @@ pub(crate) mod interface_single;
 mod interface_single_table;
 mod interface_table;
 pub(crate) mod model;
+mod neighbours;
 pub(crate) mod pairs;
 pub(crate) mod raw_tables;
 pub(crate) mod rows;

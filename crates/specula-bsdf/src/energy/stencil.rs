@@ -1,5 +1,6 @@
 //! Four neighbouring knots of a uniform axis, with Lagrange's cubic weights.
 
+use super::neighbours::neighbours;
 use crate::math::Real;
 
 /// Where a place lies among the knots of `[0, 1]`.
@@ -16,18 +17,16 @@ impl<T: Real> Stencil<T> {
     /// The stencil of `x`, clamped to `[0, 1]`, among `count >= 4` knots.
     #[inline(always)]
     pub fn new(x: T, count: usize) -> Self {
-        #[allow(clippy::cast_precision_loss, reason = "some dozen knots")]
-        let last = T::of((count - 1) as f64);
-        let place = (x * last).within(T::ZERO, last);
         #[allow(
             clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "clamped to the axis above; NaN becomes 0"
+            clippy::cast_possible_wrap,
+            reason = "some dozen knots"
         )]
-        let cell = place.to_f64() as usize;
-        let first = cell.saturating_sub(1).min(count - 4);
-        #[allow(clippy::cast_precision_loss, reason = "some dozen knots")]
-        let a = place - T::of(first as f64);
+        let count = count as i32;
+        let last = T::of_integer(count - 1);
+        let place = (x * last).within(T::ZERO, last);
+        let first = (place.truncated() - 1).max(0).min(count - 4);
+        let a = place - T::of_integer(first);
         let (b, c, d) = (a - T::ONE, a - T::TWO, a - T::of(3.0));
         let (sixth, half) = (T::of(1.0 / 6.0), T::HALF);
         let weights = [
@@ -36,7 +35,11 @@ impl<T: Real> Stencil<T> {
             -a * b * d * half,
             a * b * c * sixth,
         ];
-        #[allow(clippy::cast_possible_truncation, reason = "some dozen knots")]
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "clamped to the axis above"
+        )]
         let first = first as u16;
         Self { first, weights }
     }
@@ -47,6 +50,14 @@ impl<T: Real> Stencil<T> {
         let first = usize::from(self.first);
         let [a, b, c, d] = self.weights;
         (a * value(first) + b * value(first + 1)) + (c * value(first + 2) + d * value(first + 3))
+    }
+
+    /// [`sum`](Self::sum) of a row's values, without an address.
+    #[inline(always)]
+    pub(crate) fn sum_in<const N: usize>(&self, row: &[T; N]) -> T {
+        let [p, q, r, s] = neighbours(row, usize::from(self.first));
+        let [a, b, c, d] = self.weights;
+        (a * p + b * q) + (c * r + d * s)
     }
 }
 

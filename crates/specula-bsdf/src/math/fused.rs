@@ -65,7 +65,7 @@ macro_rules! impl_fused {
             const MAX: Self = Self(<$t as Real>::MAX);
             type Fused = Self;
 
-            forward!(sqrt, abs, floor, exp, exp_m1, ln, sin, cos, erf, erfc);
+            forward!(sqrt, abs, floor, exp, exp_below, exp_m1, ln, sin, cos, erf, erfc);
 
             #[inline(always)]
             fn of(x: f64) -> Self {
@@ -90,6 +90,14 @@ macro_rules! impl_fused {
             #[inline(always)]
             fn sin_cos_turns(self) -> (Self, Self) {
                 $turns(self)
+            }
+            #[inline(always)]
+            fn truncated(self) -> i32 {
+                Real::truncated(self.0)
+            }
+            #[inline(always)]
+            fn of_integer(i: i32) -> Self {
+                Self(<$t as Real>::of_integer(i))
             }
             #[inline(always)]
             fn is_finite(self) -> bool {

@@ -1,6 +1,7 @@
 //! Scalars, vectors, colours, frames and warps: what every formula stands on.
 
 mod arccosine;
+mod exponential;
 mod frame;
 mod fused;
 mod platform;

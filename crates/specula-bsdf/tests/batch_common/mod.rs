@@ -4,7 +4,7 @@
 use specula_bsdf::batch::Directions;
 use specula_bsdf::bsdf::{
     CoatLayer, CoatScattering, CoatedDiffuse, Compensated, CompensatedDielectric,
-    DiffuseTransmission, Eon, Lambert, RoughConductor, RoughDielectric, SmoothConductor,
+    DiffuseTransmission, Eon, Lambert, Plastic, RoughConductor, RoughDielectric, SmoothConductor,
     SmoothDielectric, ThinDielectric,
 };
 use specula_bsdf::energy::{EnergyModel, FmsVariant};
@@ -173,9 +173,12 @@ macro_rules! for_every_lobe {
             $each!("CoatedDiffuse", coat);
             let coat = make::lossy_coat::<$t>(Some($alpha)).with_sampler(sampler);
             $each!("CoatedDiffuse", coat);
+            let plastic = make::plastic::<$t>($alpha).with_sampler(sampler);
+            $each!("Plastic", plastic);
         }
         $each!("CoatedDiffuse", make::coated_diffuse::<$t>(None));
         $each!("CoatedDiffuse", make::lossy_coat::<$t>(None));
+        $each!("Plastic", make::smooth_plastic::<$t>());
         $each!("Lambert", make::lambert::<$t>());
         $each!("Eon", make::eon::<$t>());
         $each!("DiffuseTransmission", make::sheet::<$t>());
@@ -217,6 +220,25 @@ pub(crate) fn lossy_coat<T: Real>(alpha: Option<[f32; 2]>) -> CoatedDiffuse<T> {
         scattering: CoatScattering::Single,
     };
     CoatedDiffuse::over_layer(alpha.map(ggx), single(1.5), colour(0.8, 0.5, 0.2), layer)
+}
+
+/// As Mitsuba's `roughplastic`.
+pub(crate) fn plastic<T: Real>(alpha: [f32; 2]) -> Plastic<T> {
+    let [diffuse, specular] = [colour(0.8, 0.5, 0.2), colour(1.0, 0.9, 0.7)];
+    Plastic::rough(
+        ggx(alpha),
+        Masking::Separable,
+        single(1.5),
+        diffuse,
+        specular,
+        true,
+    )
+}
+
+/// As Mitsuba's `plastic`.
+pub(crate) fn smooth_plastic<T: Real>() -> Plastic<T> {
+    let [diffuse, specular] = [colour(0.8, 0.5, 0.2), colour(1.0, 0.9, 0.7)];
+    Plastic::smooth(single(1.9), diffuse, specular, false)
 }
 
 /// Every model of energy compensation.

@@ -211,6 +211,9 @@ impl PathTracer<'_> {
                     let place = self.textured_surface(&batch.surfaces, i, &arrival).place();
                     let colour = Materials::reflectance(&scene.textures, reflectance, &place);
                     batch.reflectance.set_colour(i, colour);
+                    if let Some(coat) = &plain.coat {
+                        batch.base.set_colour(i, coat.base(colour));
+                    }
                 }
                 continue;
             }

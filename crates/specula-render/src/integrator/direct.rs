@@ -2,9 +2,11 @@
 
 use core::ops::Range;
 
+use specula_bsdf::math::Stream;
+
 use super::bound::{self, BoundVertex};
 use super::shade::fill_streams;
-use super::vertex_batch::{self, VertexBatch, WAVEFRONT_SIZE};
+use super::vertex_batch::{self, LightSamples, Surfaces, Vectors, VertexBatch, WAVEFRONT_SIZE};
 use super::wavefront::{MaterialRun, Wavefront, index};
 use super::{PathTracer, candidates, estimator};
 use crate::accel::Ray;
@@ -136,6 +138,7 @@ impl PathTracer<'_> {
             scatter_samples: scatter,
             path_indices,
             reflectance,
+            base,
             ..
         } = &mut **batch;
         let a = if nth == 0 {
@@ -160,24 +163,9 @@ impl PathTracer<'_> {
             vertex_batch::lights_to_local(from, to, s, a);
             let purpose = estimator::stream_of_candidate(nth);
             if plain.is_batched {
-                fill_streams(
-                    paths,
-                    &path_indices[from..to],
-                    plain,
-                    (depth, purpose),
-                    streams,
-                );
-                lobes::eval_pdf(
-                    &plain.lobe,
-                    s.wo.directions(from..to),
-                    a.wi.directions(from..to),
-                    streams,
-                    a.f_cos.colours_mut(from..to),
-                    &mut a.lobe_pdf[from..to],
-                );
-                if plain.reflectance.is_some() {
-                    vertex_batch::scale_values(from, to, reflectance, &mut a.f_cos);
-                }
+                let vertices = &path_indices[from..to];
+                fill_streams(paths, vertices, plain, (depth, purpose), streams);
+                evaluate_plain(plain, from..to, (s, [reflectance, base]), streams, a);
             } else {
                 let stream =
                     |i: usize| paths.samplers[index(path_indices[i])].stream(depth, purpose);
@@ -306,5 +294,32 @@ impl PathTracer<'_> {
                 _ => paths.add(path, contribution, depth + 1),
             }
         }
+    }
+}
+
+/// Evaluates the lobe of a plain material towards the light samples of a run of vertices.
+///
+/// * `colours`: reflectances, and those of bases with all bounces.
+fn evaluate_plain(
+    plain: &Plain,
+    range: Range<usize>,
+    (s, [reflectance, base]): (&Surfaces, [&Vectors; 2]),
+    streams: &mut [Stream],
+    a: &mut LightSamples,
+) {
+    let (from, to) = (range.start, range.end);
+    let (wo, wi) = (s.wo.directions(from..to), a.wi.directions(from..to));
+    let (f_cos, pdf) = (a.f_cos.colours_mut(from..to), &mut a.lobe_pdf[from..to]);
+    if plain.coat.is_some() {
+        let bases = lobes::Bases {
+            albedo: reflectance.colours(from..to),
+            base: base.colours(from..to),
+        };
+        lobes::eval_pdf_over((&plain.lobe, bases), wo, wi, f_cos, pdf);
+        return;
+    }
+    lobes::eval_pdf(&plain.lobe, wo, wi, streams, f_cos, pdf);
+    if plain.reflectance.is_some() {
+        vertex_batch::scale_values(from, to, reflectance, &mut a.f_cos);
     }
 }

@@ -248,6 +248,7 @@ impl PathTracer<'_> {
             random_numbers,
             path_indices,
             reflectance,
+            base,
             ..
         } = &mut **batch;
         for (plain, range) in self.material_runs(runs) {
@@ -263,8 +264,17 @@ impl PathTracer<'_> {
                     pdf: &mut scatter.pdf[from..to],
                     outcome: &mut scatter.outcome[from..to],
                 };
-                lobes::sample(&plain.lobe, s.wo.directions(from..to), u, streams, samples);
-                if plain.reflectance.is_some() {
+                let wo = s.wo.directions(from..to);
+                if plain.coat.is_some() {
+                    let bases = lobes::Bases {
+                        albedo: reflectance.colours(from..to),
+                        base: base.colours(from..to),
+                    };
+                    lobes::sample_over((&plain.lobe, bases), wo, u, samples);
+                } else {
+                    lobes::sample(&plain.lobe, wo, u, streams, samples);
+                }
+                if plain.reflectance.is_some() && plain.coat.is_none() {
                     vertex_batch::scale_values(from, to, reflectance, &mut scatter.weight);
                 }
             } else {

@@ -251,7 +251,11 @@ impl Shared {
 /// Whether vertices of a material can be shared: others evaluate its lobe in batches, and every direction of it has a
 /// density.
 fn is_shared(plain: &Plain) -> bool {
-    let is_partly_mirror = matches!(&plain.lobe, Lobe::CoatedDiffuse(lobe) if lobe.is_smooth());
+    let is_partly_mirror = match &plain.lobe {
+        Lobe::CoatedDiffuse(lobe) => lobe.is_smooth(),
+        Lobe::Plastic(lobe) => lobe.is_smooth(),
+        _ => false,
+    };
     plain.is_batched
         && plain.reflectance.is_none()
         && !(plain.specular || is_partly_mirror || lobes::takes_streams(&plain.lobe))

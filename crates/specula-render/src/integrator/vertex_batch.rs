@@ -133,8 +133,10 @@ pub(super) struct VertexBatch {
     pub(super) second_random_numbers: [Floats; 4],
     /// Where camera rays pass through the raster.
     pub(super) raster: [Floats; 2],
-    /// What scales the values of lobes, where materials have it.
+    /// What scales the values of lobes, or the albedo of the base under a coat, where materials have it.
     pub(super) reflectance: Vectors,
+    /// The base under a coat with all bounces.
+    pub(super) base: Vectors,
 }
 
 /// Of zeros.
@@ -183,6 +185,7 @@ impl VertexBatch {
             second_random_numbers: [ZERO; 4],
             raster: [ZERO; 2],
             reflectance: Vectors::ZERO,
+            base: Vectors::ZERO,
         })
     }
 }

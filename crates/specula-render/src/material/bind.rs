@@ -59,45 +59,10 @@ pub(super) fn is_isotropic(kind: &MaterialKind) -> bool {
         MaterialKind::Diffuse { .. } => true,
         MaterialKind::Conductor { roughness, .. }
         | MaterialKind::CoatedDiffuse { roughness, .. }
+        | MaterialKind::Plastic { roughness, .. }
         | MaterialKind::Dielectric { roughness, .. } => roughness.u == roughness.v,
         _ => false,
     }
-}
-
-/// The coat of a diffuse base whose colour alone differs from point to point.
-pub(super) fn coat_of_coloured_base(
-    kind: &MaterialKind,
-    textures: &Textures,
-    models: Models,
-) -> Option<DiffuseCoat<f32>> {
-    let MaterialKind::CoatedDiffuse {
-        reflectance: ColourParam::Texture(_),
-        eta,
-        roughness,
-        medium,
-        lossless,
-    } = kind
-    else {
-        return None;
-    };
-    let is_same = [roughness.u, roughness.v, medium.thickness]
-        .iter()
-        .all(|p| matches!(p, FloatParam::Value(_)));
-    let nowhere = TextureCoordinates::default();
-    let at = PointParameters::new(textures, &nowhere, models, None);
-    (is_same && !medium.scatters())
-        .then(|| at.diffuse_coat(*eta, roughness, (medium, *lossless), models))
-}
-
-/// [`coat_of_coloured_base`] over its base at a point.
-#[inline(always)]
-pub(super) fn coated(
-    coat: &DiffuseCoat<f32>,
-    reflectance: ColourParam,
-    textures: &Textures,
-    place: &TextureCoordinates,
-) -> Lobe<f32> {
-    coat.over(albedo(textures, reflectance, place)).into()
 }
 
 /// A colour in `[0, 1]`.
@@ -280,7 +245,7 @@ fn coat_gloss(alpha: f32) -> f32 {
 
 /// Parameters at a point.
 #[derive(Clone, Copy)]
-struct PointParameters<'a> {
+pub(super) struct PointParameters<'a> {
     textures: &'a Textures,
     place: &'a TextureCoordinates,
     /// Whether it is behind a rough surface that makes it rougher.
@@ -290,7 +255,7 @@ struct PointParameters<'a> {
 }
 
 impl<'a> PointParameters<'a> {
-    fn new(
+    pub(super) fn new(
         textures: &'a Textures,
         place: &'a TextureCoordinates,
         models: Models,
@@ -342,7 +307,7 @@ impl<'a> PointParameters<'a> {
         self.textures.float(parameter, self.place).clamp(0.0, 1.0)
     }
 
-    fn albedo(&self, parameter: ColourParam) -> Rgb<f32> {
+    pub(super) fn albedo(&self, parameter: ColourParam) -> Rgb<f32> {
         albedo(self.textures, parameter, self.place)
     }
 
@@ -376,7 +341,7 @@ impl<'a> PointParameters<'a> {
     }
 
     /// A coat without a medium that scatters.
-    fn diffuse_coat(
+    pub(super) fn diffuse_coat(
         &self,
         eta: f32,
         roughness: &Roughness,
@@ -442,7 +407,7 @@ impl<'a> PointParameters<'a> {
         }
     }
 
-    fn plastic(
+    pub(super) fn plastic(
         &self,
         [diffuse, specular]: [Rgb<f32>; 2],
         eta: f32,

@@ -1,7 +1,7 @@
 //! What the renderer knows of each lobe, by the library's table: on which sides it scatters, and how many elements
 //! of it are evaluated and sampled at once.
 
-use specula_bsdf::batch::{Colours, Directions, Level, SampleOutcome, Samples};
+use specula_bsdf::batch::{Colours, Directions, Level, PerElementBase, SampleOutcome, Samples};
 use specula_bsdf::bsdf::Lobe;
 use specula_bsdf::math::Stream;
 use specula_bsdf::{Bsdf, Transport};
@@ -122,6 +122,67 @@ macro_rules! functions {
 }
 
 specula_bsdf::lobe_table!(functions);
+
+/// The bases of elements under one coat.
+#[derive(Clone, Copy)]
+pub(crate) struct Bases<'a> {
+    pub(crate) albedo: Colours<&'a [f32]>,
+    /// With all bounces.
+    pub(crate) base: Colours<&'a [f32]>,
+}
+
+/// Calls the macro `$call` with the lobe of a coat over bases.
+macro_rules! over_bases {
+    ($lobe:expr, $bases:expr, $call:ident) => {{
+        let Bases { albedo, base } = $bases;
+        match $lobe {
+            Lobe::CoatedDiffuse(lobe) => $call!(PerElementBase {
+                lobe: *lobe,
+                albedo,
+                base
+            }),
+            Lobe::Plastic(lobe) => $call!(PerElementBase {
+                lobe: *lobe,
+                albedo,
+                base
+            }),
+            _ => Ok(()),
+        }
+    }};
+}
+
+/// [`eval_pdf`] of a coat over the elements' own bases.
+pub(crate) fn eval_pdf_over(
+    (lobe, bases): (&Lobe<f32>, Bases<'_>),
+    wo: Directions<&[f32]>,
+    wi: Directions<&[f32]>,
+    f_cos: Colours<&mut [f32]>,
+    pdf: &mut [f32],
+) {
+    macro_rules! evaluate {
+        ($lobes:expr) => {
+            Level::best().eval_pdf(&$lobes, wo, wi, Transport::Radiance, f_cos, pdf)
+        };
+    }
+    let done = over_bases!(lobe, bases, evaluate);
+    debug_assert_eq!(done, Ok(()), "all slices are as long");
+}
+
+/// [`sample`] of a coat over the elements' own bases.
+pub(crate) fn sample_over(
+    (lobe, bases): (&Lobe<f32>, Bases<'_>),
+    wo: Directions<&[f32]>,
+    u: [&[f32]; 3],
+    samples: Samples<&mut [f32], &mut [SampleOutcome]>,
+) {
+    macro_rules! sampled {
+        ($lobes:expr) => {
+            Level::best().sample(&$lobes, wo, u, Transport::Radiance, samples)
+        };
+    }
+    let done = over_bases!(lobe, bases, sampled);
+    debug_assert_eq!(done, Ok(()), "all slices are as long");
+}
 
 /// Whether values of a lobe are estimates.
 pub(crate) fn takes_streams(lobe: &Lobe<f32>) -> bool {

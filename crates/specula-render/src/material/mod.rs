@@ -1,6 +1,7 @@
 //! From a material and a point of its surface to the lobe there.
 
 mod bind;
+mod coat;
 mod flat;
 mod hair;
 pub(crate) mod lobes;
@@ -12,10 +13,11 @@ mod twins;
 
 use std::sync::Arc;
 
+pub(crate) use coat::{BaseCoat, ColouredBase};
 use lobes::Sides;
 pub use parameters::MaterialShader;
 pub(crate) use point_lobe::PointLobe;
-use specula_bsdf::bsdf::{DiffuseCoat, Lambert, Lobe};
+use specula_bsdf::bsdf::{Lambert, Lobe};
 use specula_bsdf::measured::Measured;
 use specula_bsdf::multibounce::MisPdf;
 use specula_bsdf::vndf;
@@ -67,7 +69,7 @@ pub(crate) struct Material {
     /// Where it is the same everywhere: seen from the inside, and from the outside or either side.
     plain: Option<[Plain; 2]>,
     /// Its coat, where the colour of the diffuse base below alone differs from point to point.
-    diffuse_coat: Option<DiffuseCoat<f32>>,
+    coloured_base: Option<ColouredBase>,
     /// Whether its lobes' x axis does not matter, and its surfaces are as their meshes say.
     pub(crate) takes_any_tangent: bool,
 }
@@ -77,8 +79,11 @@ pub(crate) struct Material {
 pub(crate) struct Plain {
     /// White, where there is a reflectance.
     pub(crate) lobe: Lobe<f32>,
-    /// What scales its values from point to point: the albedo of Lambert's lobe, where it has a texture.
+    /// The albedo of the diffuse part, where it has a texture: what scales the values of Lambert's lobe, or the colour under
+    /// the coat.
     pub(crate) reflectance: Option<ColourParam>,
+    /// The coat over the reflectance.
+    pub(crate) coat: Option<BaseCoat>,
     /// Whether many of its elements are evaluated and sampled at once; else one after the other.
     pub(crate) is_batched: bool,
     /// Whether it is another from the other side.
@@ -160,7 +165,7 @@ impl Materials {
             );
             let mut material = Material {
                 plain: None,
-                diffuse_coat: bind::coat_of_coloured_base(&kind, textures, models),
+                coloured_base: ColouredBase::new(&kind, textures, models),
                 takes_any_tangent: false,
                 constant: (!varies && has_lobe).then(|| {
                     [false, true]
@@ -359,19 +364,40 @@ impl Material {
         self.bump.is_some() || self.turn.is_some() || self.coat.is_some() || is_mixed
     }
 
+    /// Whether its kind has no other side.
+    fn is_black_inside(&self) -> bool {
+        matches!(self.kind, MaterialKind::Plastic { .. })
+    }
+
     fn as_plain(&self) -> Option<[Plain; 2]> {
         if self.is_bent() {
             return None;
         }
-        let (lobes, reflectance) = match (self.constant, &self.kind) {
-            (Some(lobes), _) => (lobes, None),
+        let (lobes, reflectance, coat) = match (self.constant, &self.kind, &self.coloured_base) {
+            (Some(lobes), ..) => (lobes, None, None),
             (
                 None,
                 MaterialKind::Diffuse {
                     reflectance,
                     roughness: FloatParam::Value(roughness),
                 },
-            ) if *roughness <= 0.0 => ([Lambert::new(Rgb::WHITE).into(); 2], Some(*reflectance)),
+                _,
+            ) if *roughness <= 0.0 => {
+                let white = Lambert::new(Rgb::WHITE).into();
+                ([white; 2], Some(*reflectance), None)
+            }
+            (None, _, Some(ColouredBase { colour, coat })) => {
+                let white = coat.over(Rgb::WHITE);
+                if !lobes::is_batched(&white) {
+                    return None;
+                }
+                let inside = if self.is_black_inside() {
+                    bind::black()
+                } else {
+                    white
+                };
+                ([inside, white], Some(*colour), Some(*coat))
+            }
             _ => return None,
         };
         let [inside, outside] = lobes;
@@ -386,6 +412,7 @@ impl Material {
         let seen = |lobe: Lobe<f32>, eta| Plain {
             lobe,
             reflectance,
+            coat,
             is_batched: lobes::is_batched(&lobe),
             is_sided: !black_inside && inside != outside,
             black_inside,
@@ -448,10 +475,8 @@ impl<'a> Chosen<'a> {
         PointLobe::Listed(match (&m.constant, &m.measured) {
             (Some(lobes), _) => lobes[usize::from(outside)],
             (None, Some(measured)) => return PointLobe::Measured(measured),
-            (None, None) => match (&m.diffuse_coat, &m.kind) {
-                (Some(coat), MaterialKind::CoatedDiffuse { reflectance, .. }) => {
-                    bind::coated(coat, *reflectance, textures, place)
-                }
+            (None, None) => match &m.coloured_base {
+                Some(base) if outside || !m.is_black_inside() => base.at(textures, place),
                 _ => bind::lobe(&m.kind, textures, place, outside, m.models, None),
             },
         })

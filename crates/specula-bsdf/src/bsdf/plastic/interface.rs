@@ -22,7 +22,9 @@ use alloc::vec::Vec;
 use super::interface_table::{ALPHAS, ETAS, INTERNAL_REFLECTANCE, MUS, TRANSMITTANCE};
 use crate::energy::Tabulated;
 use crate::energy::albedo::TabulatedNdf;
+use crate::energy::interface_coat::{Entrance, Incident};
 use crate::energy::stencil::Stencil;
+use crate::fresnel::dielectric;
 use crate::math::Real;
 
 /// Largest entry of the tables.
@@ -30,7 +32,7 @@ pub const SCALE: f64 = 65535.0;
 
 /// The transmittance of a rough coat at its knots in `sqrt(mu)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Interface<T> {
+pub(crate) struct Interface<T> {
     knots: [T; MUS],
 }
 
@@ -62,9 +64,62 @@ impl<T: Real> Interface<T> {
 
     /// `T(mu)`, in `[0, 1]`.
     #[inline(always)]
-    pub(super) fn transmittance(&self, mu: T) -> T {
+    fn transmittance(&self, mu: T) -> T {
         let at = Stencil::new(mu.at_least(T::ZERO).sqrt(), MUS);
         at.sum(|k| self.knots[k]).within(T::ZERO, T::ONE)
+    }
+}
+
+/// A rough coat's interface, one direction after the other.
+#[derive(Clone, Copy)]
+pub(crate) struct RoughEntrance<'a, T> {
+    pub(super) eta: T,
+    pub(super) interface: &'a Interface<T>,
+}
+
+/// The same for batches: without branches and addresses.
+#[derive(Clone, Copy)]
+pub(crate) struct EntranceInRow<T> {
+    pub(super) eta: T,
+    pub(super) interface: Interface<T>,
+}
+
+/// A smooth coat's interface.
+#[derive(Clone, Copy)]
+pub(crate) struct SmoothEntrance<T> {
+    pub(super) eta: T,
+}
+
+impl<T: Real> Entrance<T> for RoughEntrance<'_, T> {
+    #[inline(always)]
+    fn incident(&self, mu: T) -> Incident<T> {
+        Incident {
+            reflected: dielectric(mu, self.eta).reflectance,
+            arriving: self.interface.transmittance(mu),
+        }
+    }
+}
+
+impl<T: Real> Entrance<T> for EntranceInRow<T> {
+    #[inline(always)]
+    fn incident(&self, mu: T) -> Incident<T> {
+        let at = Stencil::new(mu.at_least(T::ZERO).sqrt(), MUS);
+        let sum = at.sum_in(&self.interface.knots);
+        Incident {
+            reflected: dielectric(mu, self.eta).reflectance,
+            arriving: sum.within(T::ZERO, T::ONE),
+        }
+    }
+}
+
+impl<T: Real> Entrance<T> for SmoothEntrance<T> {
+    #[inline(always)]
+    fn incident(&self, mu: T) -> Incident<T> {
+        let there = dielectric(mu, self.eta);
+        Incident {
+            reflected: there.reflectance,
+            arriving: there.transmittance,
+        }
     }
 }
 

@@ -3,13 +3,13 @@
 pub(crate) mod interface;
 mod interface_table;
 
-use super::{Bsdf, BsdfSample, Event, Transport};
+use super::under_coat::{UnderCoat, UnderRough, UnderSmooth};
+use super::{Bsdf, BsdfSample, Transport};
 use crate::energy::Tabulated;
-use crate::fresnel::dielectric;
-use crate::math::{Real, Rgb, Vec3, vec3, warp};
+use crate::math::{Real, Rgb, Vec3};
 use crate::ndf::{Ggx, Masking};
 use crate::vndf::{Sampler, VisibleNormals};
-use interface::Interface;
+use interface::{EntranceInRow, Interface, RoughEntrance, SmoothEntrance};
 
 /// Lambert under a dielectric coat, by Mitsuba 3's formulas:
 ///
@@ -39,7 +39,7 @@ use interface::Interface;
 /// Mitsuba 0.6. A test holds values of Mitsuba 3.9.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plastic<T, N = Ggx<T>> {
-    coat: Option<N>,
+    pub(crate) coat: Option<N>,
     masking: Masking,
     sampler: Sampler,
     eta: T,
@@ -47,6 +47,9 @@ pub struct Plastic<T, N = Ggx<T>> {
     diffuse: Rgb<T>,
     /// `diffuse / (eta^2 (1 - r R_int))`.
     base: Rgb<T>,
+    /// `R_int`.
+    internal: T,
+    nonlinear: bool,
     interface: Interface<T>,
 }
 
@@ -62,8 +65,8 @@ impl<T: Real> Plastic<T> {
         let eta = eta.within(T::of(1.0 / 3.0), T::of(3.0));
         let interface = Interface::smooth();
         let internal = interface::smooth_internal_reflectance(eta);
-        Self::of(None, Masking::default(), eta, diffuse, specular, interface)
-            .with_series(internal, nonlinear)
+        let series = (internal, nonlinear);
+        Self::of((None, Masking::default()), eta, specular, interface, series).over(diffuse)
     }
 }
 
@@ -86,20 +89,19 @@ impl<T: Real, N: Tabulated<T>> Plastic<T, N> {
     ) -> Self {
         let eta = eta.within(T::ONE, T::of(3.0));
         let (interface, internal) = Interface::rough(ndf, eta);
-        Self::of(Some(ndf), masking, eta, diffuse, specular, interface)
-            .with_series(internal, nonlinear)
+        let series = (internal, nonlinear);
+        Self::of((Some(ndf), masking), eta, specular, interface, series).over(diffuse)
     }
 }
 
 impl<T: Real, N: VisibleNormals<T>> Plastic<T, N> {
     #[inline]
     fn of(
-        coat: Option<N>,
-        masking: Masking,
+        (coat, masking): (Option<N>, Masking),
         eta: T,
-        diffuse: Rgb<T>,
         specular: Rgb<T>,
         interface: Interface<T>,
+        (internal, nonlinear): (T, bool),
     ) -> Self {
         Self {
             coat,
@@ -107,41 +109,92 @@ impl<T: Real, N: VisibleNormals<T>> Plastic<T, N> {
             sampler: Sampler::default(),
             eta,
             specular,
-            diffuse,
+            diffuse: Rgb::BLACK,
             base: Rgb::BLACK,
+            internal,
+            nonlinear,
             interface,
         }
     }
 
-    /// With the sum of the bounces between base and coat.
+    /// The same coat over another base: what does not depend on the base is not looked up again.
+    ///
+    /// * `diffuse`: albedo of the base, in `[0, 1]`.
     #[inline]
-    fn with_series(self, internal: T, nonlinear: bool) -> Self {
+    #[must_use]
+    pub fn over(self, diffuse: Rgb<T>) -> Self {
         let scale = T::ONE / (self.eta * self.eta);
-        let base = self.diffuse.map(|rho| {
-            let back = T::select(nonlinear, rho, T::ONE);
-            scale * rho / (T::ONE - back * internal)
+        let base = diffuse.map(|rho| {
+            let back = T::select(self.nonlinear, rho, T::ONE);
+            scale * rho / (T::ONE - back * self.internal)
         });
-        Self { base, ..self }
-    }
-
-    /// Share of light from `w` that enters the coat.
-    #[inline(always)]
-    fn transmittance(&self, w: Vec3<T>) -> T {
-        if self.coat.is_some() {
-            self.interface.transmittance(w.z.abs())
-        } else {
-            dielectric(w.z.abs(), self.eta).transmittance
+        Self {
+            diffuse,
+            base,
+            ..self
         }
     }
 
-    /// Probability of sampling the coat's reflection; 0 for a mirror that faces away.
+    /// The albedo of the base with all bounces between it and its coat, over the square of the coat's index: what
+    /// [`PerElementBase`](crate::batch::PerElementBase) takes.
     #[inline(always)]
-    fn coat_probability(&self, entering: T, wo: Vec3<T>) -> T {
-        let reflected = dielectric(wo.z.abs(), self.eta).reflectance * self.specular.max_channel();
-        let diffuse = entering * self.diffuse.max_channel();
-        let visible = self.coat.is_some() || wo.z > T::ZERO;
-        let share = reflected / (reflected + diffuse).at_least(T::TINY);
-        T::select(visible, share, T::ZERO)
+    pub fn base(&self) -> Rgb<T> {
+        self.base
+    }
+
+    /// Whether the coat is a mirror: then some samples are specular, and others are not.
+    #[inline(always)]
+    pub fn is_smooth(&self) -> bool {
+        self.coat.is_none()
+    }
+
+    /// The base under its coat.
+    ///
+    /// * `interface`: what looks the interface up.
+    #[inline(always)]
+    fn under<I>(&self, interface: I) -> UnderCoat<T, I> {
+        UnderCoat {
+            eta: self.eta,
+            specular: self.specular,
+            albedo: self.diffuse,
+            base: self.base,
+            interface,
+        }
+    }
+
+    /// The same under a rough coat.
+    #[inline(always)]
+    pub(crate) fn under_rough<I>(&self, ndf: N, interface: I) -> UnderRough<T, N, I> {
+        UnderRough {
+            under: self.under(interface),
+            ndf,
+            masking: self.masking,
+            sampler: self.sampler,
+        }
+    }
+
+    /// The same under a smooth coat.
+    #[inline(always)]
+    pub(crate) fn under_smooth(&self) -> UnderSmooth<T, SmoothEntrance<T>> {
+        UnderSmooth(self.under(SmoothEntrance { eta: self.eta }))
+    }
+
+    /// The interface of a rough coat.
+    #[inline(always)]
+    fn entrance(&self) -> RoughEntrance<'_, T> {
+        RoughEntrance {
+            eta: self.eta,
+            interface: &self.interface,
+        }
+    }
+
+    /// The same for batches.
+    #[inline(always)]
+    pub(crate) fn entrance_in_row(&self) -> EntranceInRow<T> {
+        EntranceInRow {
+            eta: self.eta,
+            interface: self.interface,
+        }
     }
 }
 
@@ -166,48 +219,19 @@ impl<T: Real, N: VisibleNormals<T>> Bsdf<T> for Plastic<T, N> {
     }
 
     #[inline]
-    fn sample(&self, wo: Vec3<T>, u: [T; 3], transport: Transport) -> Option<BsdfSample<T>> {
-        let entering = self.transmittance(wo);
-        let p = self.coat_probability(entering, wo);
-        let direction = [u[1], u[2]];
-        let wi = if u[0] < p {
-            match self.coat {
-                Some(ndf) => ndf.sample_reflection_by(self.sampler, wo, direction),
-                None => {
-                    let reflected = dielectric(wo.z.abs(), self.eta).reflectance;
-                    let weight = self.specular * (reflected / p);
-                    let wi = vec3(-wo.x, -wo.y, wo.z);
-                    return Some(BsdfSample::delta(wi, weight, p, Event::Reflection, T::ONE));
-                }
-            }
-        } else {
-            warp::cosine_hemisphere(direction)
-        };
-        let (f_cos, pdf) = self.eval_pdf(wo, wi, transport);
-        BsdfSample::reflected(wi, f_cos / pdf, pdf)
+    fn sample(&self, wo: Vec3<T>, u: [T; 3], _transport: Transport) -> Option<BsdfSample<T>> {
+        match self.coat {
+            Some(ndf) => self.under_rough(ndf, self.entrance()).sample_alone(wo, u),
+            None => self.under_smooth().sample_alone(wo, u),
+        }
     }
 
     #[inline]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>, _transport: Transport) -> (Rgb<T>, T) {
-        if wi.z <= T::ZERO {
-            return (Rgb::BLACK, T::ZERO);
+        match self.coat {
+            Some(ndf) => (self.under_rough(ndf, self.entrance())).eval_pdf_alone(wo, wi),
+            None => self.under_smooth().eval_pdf_alone(wo, wi),
         }
-        let entering = self.transmittance(wo);
-        let p = self.coat_probability(entering, wo);
-        let cosine = warp::cosine_hemisphere_pdf(wi);
-        let mut f_cos = self.base * (entering * self.transmittance(wi) * cosine);
-        let mut pdf = (T::ONE - p) * cosine;
-        if let Some(ndf) = self.coat {
-            let wm = (wo + wi).normalize_any();
-            if wm.z > T::ZERO {
-                let quarter = T::of(0.25) * ndf.d(wm);
-                let fresnel = dielectric(wo.dot(wm), self.eta).reflectance;
-                let shadowed = ndf.g2_over_cos(self.masking, wo, wi);
-                f_cos += self.specular * (fresnel * quarter * shadowed);
-                pdf += p * quarter / ndf.reflection_norm_by(self.sampler, wo);
-            }
-        }
-        (f_cos, pdf)
     }
 
     #[inline(always)]

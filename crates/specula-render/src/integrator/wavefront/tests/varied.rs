@@ -271,7 +271,7 @@ fn bent_and_mixed() -> Vec<Varied> {
     ]
 }
 
-/// Constant lobes that batches do not know.
+/// Constant lobes, most of which batches do not know.
 fn unknown() -> Vec<Varied> {
     let pane = MaterialKind::ThinDielectric {
         eta: 1.5,
