@@ -533,10 +533,10 @@ fn sides_have_their_own_materials() {
     };
     for (height, seen) in [(3.0, 0), (-3.0, 1)] {
         let found = card(height, &|scene| {
-            let both = sides.clone().map(|kind| material(scene, kind));
+            let both = sides.map(|kind| material(scene, kind));
             material(scene, MaterialKind::Sided(both))
         });
-        let expected = card(3.0, &|scene| material(scene, sides[seen].clone()));
+        let expected = card(3.0, &|scene| material(scene, sides[seen]));
         assert_agree("a side", &[found, expected], 1, 0.02);
         assert!(
             (found.0 / expected.0 - 1.0).abs() < 0.02,

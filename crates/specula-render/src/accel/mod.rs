@@ -22,6 +22,7 @@ mod binary;
 mod bounds;
 mod brute_force;
 mod chunks;
+mod clusters;
 mod collapse;
 mod flat;
 mod frame;

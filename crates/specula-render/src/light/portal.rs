@@ -299,7 +299,7 @@ mod tests {
     fn varied(x: u32, y: u32) -> [f32; 3] {
         match (x, y) {
             (7, 8) => [9.0, 4.0, 1.0],
-            _ if x % 3 == 0 => [0.0; 3],
+            _ if x.is_multiple_of(3) => [0.0; 3],
             _ => [0.1 * x as f32, 0.2, 0.05 * y as f32],
         }
     }

@@ -36,7 +36,7 @@ fn with_lens(parameters: &str) -> Result<Loaded, SceneError> {
     folder.write("lens.dat", LENS);
     let stop = ::image::GrayImage::from_fn(2, 2, |x, y| ::image::Luma([u8::from(x + y > 0) * 255]));
     stop.save(folder.path().join("stop.png")).unwrap();
-    folder.load(&format!(
+    folder.load(format!(
         "Film \"rgb\" \"integer xresolution\" 300 \"integer yresolution\" 200 \"float diagonal\" 43
          Camera \"realistic\" \"string lensfile\" \"lens.dat\" {parameters}
          WorldBegin Shape \"sphere\""

@@ -1,3 +1,5 @@
+//! Rays through lenses: against traces in f64, pupils, and the thick lens.
+
 use specula_scene::scene::LensInterface;
 
 use super::*;
@@ -64,7 +66,7 @@ fn trace_f64(system: &LensSystem, film: [f32; 2], direction: Vec3<f32>) -> Optio
             let (b, c) = (dot(o, d), dot(o, o) - r * r);
             let root = (b * b - c).sqrt();
             let t = if r > 0.0 { -b + root } else { -b - root };
-            if !(t >= 0.0) {
+            if t.is_nan() || t < 0.0 {
                 return None;
             }
             p = along(p, t, d);
