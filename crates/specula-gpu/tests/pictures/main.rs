@@ -332,11 +332,22 @@ fn coats_panes_and_sheets() {
     let mix = "MakeNamedMaterial \"a\" \"string type\" \"diffuse\"\n\
         MakeNamedMaterial \"b\" \"string type\" \"conductor\" \"rgb reflectance\" [0.9 0.8 0.7]\n\
         Material \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" 0.4";
-    check(
-        "pane, mix",
-        &scene(&format!("{ROOM}{SKY}{}", orbs([pane, mix]))),
-        |o| o,
-    );
+    // Seen from either side.
+    let cards = "Material \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" 0.25\n\
+        Shape \"trianglemesh\" \"point3 P\" [-1.2 -1 0.1  -0.4 -1 0.1  -0.8 -0.9 0.8] \"integer indices\" [0 1 2]\n\
+        Shape \"trianglemesh\" \"point3 P\" [0.4 -1 0.1  1.2 -1 0.1  0.8 -0.9 0.8] \"integer indices\" [0 2 1]\n";
+    let mut scene = scene(&format!("{ROOM}{SKY}{}{cards}", orbs([pane, mix])));
+    let mut sided = 0;
+    for material in &mut scene.materials {
+        if let MaterialKind::Mix { materials, amount } = material.kind
+            && amount == FloatParam::Value(0.25)
+        {
+            material.kind = MaterialKind::Sided(materials);
+            sided += 1;
+        }
+    }
+    assert_eq!(sided, 1);
+    check("pane, mix, sides", &scene, |o| o);
 }
 
 #[test]
