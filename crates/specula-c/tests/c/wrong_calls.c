@@ -61,6 +61,10 @@ static void lobes(void)
     WRONG(specula_lobe_make("conductor", &alpha, 1, &lobe), "alpha: expected a text or numbers, got both");
     alpha.name = NULL;
     WRONG(specula_lobe_make("conductor", &alpha, 1, &lobe), "parameters.name: is NULL");
+    WRONG(specula_lobe_measured(NULL, &lobe), "file: is NULL");
+    WRONG(specula_lobe_measured("a.bsdf", NULL), "lobe: is NULL");
+    expect(__LINE__, specula_lobe_measured("none.bsdf", &lobe), SPECULA_STATUS_UNREADABLE, "none.bsdf");
+    HOLDS(lobe == NULL);
     WRONG(specula_lobe_is_stochastic(NULL, &is), "lobe: is NULL");
     WRONG(specula_lobe_is_specular(NULL, &is), "lobe: is NULL");
     WRONG(specula_metal(NULL, eta, k), "symbol: is NULL");
