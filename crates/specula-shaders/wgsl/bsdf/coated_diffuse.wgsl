@@ -132,7 +132,7 @@ fn coated_diffuse_incident(lobe: CoatedDiffuse, w: vec3f) -> CoatedDiffuseIncide
 
 /// Probability of sampling the coat's reflection; 0 for a mirror that faces away.
 ///
-/// Twin: specula-bsdf/src/bsdf/coated_diffuse.rs, CoatedDiffuse::coat_probability.
+/// Twin: specula-bsdf/src/bsdf/under_coat.rs, UnderCoat::coat_probability.
 fn coated_diffuse_coat_probability(lobe: CoatedDiffuse, view: CoatedDiffuseIncident, wo: vec3f) -> f32 {
     let diffuse = view.arriving * rgb_max_channel(lobe.albedo);
     let visible = lobe.mean_alpha > 0.0 || wo.z > 0.0;

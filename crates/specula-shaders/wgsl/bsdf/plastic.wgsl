@@ -41,7 +41,7 @@ struct PlasticLobe {
 
 /// With the sum of the bounces between base and coat.
 ///
-/// Twin: specula-bsdf/src/bsdf/plastic/mod.rs, Plastic::with_series.
+/// Twin: specula-bsdf/src/bsdf/plastic/mod.rs, Plastic::over.
 fn plastic_base(diffuse: vec3f, eta: f32, internal: f32, nonlinear: bool) -> vec3f {
     let back = select(vec3f(1.0), diffuse, nonlinear);
     return (1.0 / (eta * eta)) * diffuse / (vec3f(1.0) - back * internal);
@@ -86,7 +86,7 @@ fn plastic_rough(facets: MicrofacetsModel, eta: f32, diffuse: vec3f, specular: v
 
 /// Share of light from `w` that enters the coat.
 ///
-/// Twin: specula-bsdf/src/bsdf/plastic/mod.rs, Plastic::transmittance.
+/// Twin: specula-bsdf/src/bsdf/plastic/interface.rs, RoughEntrance::incident.
 fn plastic_transmittance(lobe: PlasticLobe, w: vec3f) -> f32 {
     if lobe.rough == 1u {
         return plastic_interface_transmittance(lobe.interior, abs(w.z));
@@ -96,7 +96,7 @@ fn plastic_transmittance(lobe: PlasticLobe, w: vec3f) -> f32 {
 
 /// Probability of sampling the coat's reflection; 0 for a mirror that faces away.
 ///
-/// Twin: specula-bsdf/src/bsdf/plastic/mod.rs, Plastic::coat_probability.
+/// Twin: specula-bsdf/src/bsdf/under_coat.rs, UnderCoat::coat_probability.
 fn plastic_coat_probability(lobe: PlasticLobe, entering: f32, wo: vec3f) -> f32 {
     let reflected = dielectric(abs(wo.z), lobe.eta).reflectance * rgb_max_channel(lobe.specular);
     let diffuse = entering * rgb_max_channel(lobe.diffuse);
