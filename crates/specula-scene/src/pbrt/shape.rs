@@ -1,6 +1,7 @@
 //! `Shape`: geometry as the file gives it.
 
 mod curve;
+mod grid;
 mod heightfield;
 mod nurbs;
 mod patch;

@@ -1,6 +1,6 @@
 //! pbrt-v3's `heightfield`: heights over a grid of the unit square, as the triangles that it is there.
 
-use super::mesh_error;
+use super::{grid, mesh_error};
 use crate::error::SceneError;
 use crate::num::f32_of;
 use crate::pbrt::context::Entity;
@@ -31,12 +31,6 @@ pub(super) fn read(entity: &Entity) -> Result<Mesh, SceneError> {
             mesh.uvs.push([x, y].map(f32_of));
         }
     }
-    for row in 0..nv - 1 {
-        for column in 0..nu - 1 {
-            let a = row * nu + column;
-            let (b, c, d) = (a + 1, a + nu + 1, a + nu);
-            mesh.triangles.extend([[a, b, c], [a, c, d]]);
-        }
-    }
+    grid::add_triangles(&mut mesh, [nu, nv]);
     Ok(mesh)
 }

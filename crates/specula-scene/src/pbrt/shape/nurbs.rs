@@ -13,7 +13,7 @@ use std::ops::RangeInclusive;
 
 use glam::{DVec3, DVec4};
 
-use super::mesh_error;
+use super::{grid, mesh_error};
 use crate::error::SceneError;
 use crate::num::f32_of;
 use crate::pbrt::context::Entity;
@@ -55,19 +55,7 @@ pub(super) fn read(entity: &Entity) -> Result<Mesh, SceneError> {
             mesh.uvs.push(at.map(f32_of));
         }
     }
-    for j in 0..POINTS - 1 {
-        for i in 0..POINTS - 1 {
-            let a = j * POINTS + i;
-            let (b, c, d) = (a + 1, a + POINTS + 1, a + POINTS);
-            for triangle in [[a, b, c], [a, c, d]] {
-                let [p, q, r] = triangle.map(|i| mesh.positions[i as usize]);
-                // Where control points coincide, a side has no length.
-                if p != q && q != r && r != p {
-                    mesh.triangles.push(triangle);
-                }
-            }
-        }
-    }
+    grid::add_triangles(&mut mesh, [POINTS; 2]);
     Ok(mesh)
 }
 

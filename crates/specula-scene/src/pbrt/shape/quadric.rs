@@ -5,6 +5,7 @@
 
 use std::f64::consts::PI;
 
+use super::grid;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
 use crate::pbrt::context::Entity;
@@ -174,19 +175,7 @@ fn grid(angles: [f64; 2], f: impl Fn(f64, f64) -> ([f64; 3], [f64; 3])) -> Mesh 
             mesh.uvs.push([f32_of(u), f32_of(v)]);
         }
     }
-    for j in 0..nv {
-        for i in 0..nu {
-            let a = j * (nu + 1) + i;
-            let (b, c, d) = (a + 1, a + nu + 2, a + nu + 1);
-            for triangle in [[a, b, c], [a, c, d]] {
-                let [p, q, r] = triangle.map(|i| mesh.positions[i as usize]);
-                // At a pole a side has no length.
-                if p != q && q != r && r != p {
-                    mesh.triangles.push(triangle);
-                }
-            }
-        }
-    }
+    grid::add_triangles(&mut mesh, [nu + 1, nv + 1]);
     mesh
 }
 

@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
+use super::grid;
 use super::quadric::TURN;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
@@ -113,20 +114,8 @@ impl Revolved {
                 mesh.uvs.push([f32_of(u), f32_of(point.v)]);
             }
         }
-        let rows = u32::try_from(points.len()).unwrap_or(1) - 1;
-        for row in 0..rows {
-            for i in 0..steps {
-                let a = row * (steps + 1) + i;
-                let (b, c, d) = (a + 1, a + steps + 2, a + steps + 1);
-                for triangle in [[a, b, c], [a, c, d]] {
-                    let [p, q, r] = triangle.map(|i| mesh.positions[i as usize]);
-                    // At a tip a side has no length.
-                    if p != q && q != r && r != p {
-                        mesh.triangles.push(triangle);
-                    }
-                }
-            }
-        }
+        let rows = u32::try_from(points.len()).unwrap_or(1);
+        grid::add_triangles(&mut mesh, [steps + 1, rows]);
         mesh
     }
 }
