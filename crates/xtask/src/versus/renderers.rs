@@ -129,7 +129,7 @@ impl Engine for Specula {
     }
 }
 
-/// pbrt-v4, a process per picture; a picture of one pixel stands for loading.
+/// pbrt-v4, a process per picture; pictures of one pixel stand for loading.
 pub(crate) struct Pbrt {
     pub(crate) program: PathBuf,
     pub(crate) scene: PathBuf,
@@ -153,13 +153,23 @@ impl Pbrt {
         }
         Ok([start.elapsed().as_secs_f64(), children_cpu()? - before])
     }
+
+    /// The least of three: the first may read the program and the scene from the disk.
+    fn load(&self, target: &Path) -> Result<[f64; 2]> {
+        let mut least = [f64::INFINITY; 2];
+        for _ in 0..3 {
+            let one = self.process(&["--spp", "1", "--pixelbounds", "0,1,0,1"], target)?;
+            least = [least[0].min(one[0]), least[1].min(one[1])];
+        }
+        Ok(least)
+    }
 }
 
 impl Engine for Pbrt {
     fn render(&mut self, _: &str, spp: u32, seed: u32, target: &Path) -> Result<Timing> {
         let loading = match self.loading {
             Some(loading) => loading,
-            None => self.process(&["--spp", "1", "--pixelbounds", "0,1,0,1"], target)?,
+            None => self.load(target)?,
         };
         self.loading = Some(loading);
         let options = ["--spp", &spp.to_string(), "--seed", &seed.to_string()];
