@@ -62,7 +62,7 @@ pub(crate) fn run(root: &Path, python: &Python) -> Result<()> {
     if python.notebooks {
         return notebooks(root);
     }
-    check(root, None)
+    check(root)
 }
 
 /// Measures the farm on two nodes: starts, kills, efficiency, an animation, merging.
@@ -94,14 +94,6 @@ pub(crate) fn farm(root: &Path, scenarios: &[String]) -> Result<()> {
         .arg("crates/specula-py/benches/farm.py")
         .args(scenarios);
     succeed(bench, "the farm")
-}
-
-/// Builds the package and runs all of its checks.
-///
-/// * `skips`: the file to which tests append a line for each skip.
-pub(crate) fn test(root: &Path, skips: &Path) -> Result<()> {
-    build(root)?;
-    check(root, Some(skips))
 }
 
 /// Builds the extension module as tests are built, all of whose parts it shares, and copies it beside the package's sources.
@@ -139,7 +131,7 @@ fn notebooks(root: &Path) -> Result<()> {
 }
 
 /// Types, stubs and tests; those of the farm beside the others.
-fn check(root: &Path, skips: Option<&Path>) -> Result<()> {
+fn check(root: &Path) -> Result<()> {
     let python = environment(root, "python", TOOLS)?;
     let sources = root.join(SOURCES);
     let in_package = |module: &str| {
@@ -157,9 +149,6 @@ fn check(root: &Path, skips: Option<&Path>) -> Result<()> {
         let mut tests = in_package("pytest");
         tests.args(["--quiet", "-p", "no:cacheprovider", "--durations", "5"]);
         tests.args(arguments).env("SPECULA_VALUES", &values);
-        if let Some(skips) = skips {
-            tests.env(specula_testing::FILE, skips);
-        }
         tests
     };
     let mut farm = pytest(&[FARM_TESTS]);

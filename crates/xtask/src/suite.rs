@@ -1,15 +1,15 @@
 //! `cargo xtask test`: everything that must pass before a change is kept.
 
 mod drivers;
+mod lanes;
 mod programs;
 mod skips;
 mod times;
 
 use std::path::Path;
-use std::process::Command;
 use std::time::Instant;
 
-use crate::{Result, book, feature_sets, python, tables, tidy, workspace};
+use crate::{Result, feature_sets, tidy, workspace};
 
 /// How to run the suite.
 #[derive(clap::Args)]
@@ -79,13 +79,7 @@ pub(crate) fn run(root: &Path, suite: &Suite) -> Result<()> {
     report.step("features", || feature_sets::run(root));
     let mut suites = Vec::new();
     report.step("tests", || tests(root, skips.path(), &mut suites));
-    report.step("python", || python::test(root, skips.path()));
-    report.step("studio", || chore(&["studio"], skips.path()));
-    report.step("tables", || tables::run(root, true));
-    report.step("instructions", || {
-        chore(&["instructions", "--check"], skips.path())
-    });
-    report.step("book", || book::run(root, &book::Book::default()));
+    lanes::run(skips.path(), &mut report)?;
     report.step("tidy", || tidy::run(root));
     let skipped = skips.read()?;
     report.step("skips", || skipped.verdict(suite.strict));
@@ -104,16 +98,6 @@ fn tests(root: &Path, skips: &Path, suites: &mut Vec<times::Suite>) -> Result<()
     programs::run(root, &environment, suites)
 }
 
-/// Another chore in a process of its own, whose skips go to the file too.
-fn chore(arguments: &[&str], skips: &Path) -> Result<()> {
-    let mut command = Command::new(std::env::current_exe()?);
-    command.args(arguments).env(specula_testing::FILE, skips);
-    match command.status()?.success() {
-        true => Ok(()),
-        false => Err(format!("`cargo xtask {}` failed", arguments.join(" ")).into()),
-    }
-}
-
 /// What ran, how long, and what failed.
 #[derive(Default)]
 struct Report {
@@ -128,10 +112,13 @@ impl Report {
         let outcome = run();
         if let Err(error) = &outcome {
             println!("{error}");
-            self.failed += 1;
         }
-        let verdict = if outcome.is_ok() { "ok" } else { "FAILED" };
-        let seconds = start.elapsed().as_secs_f64();
+        self.line(name, outcome.is_ok(), start.elapsed().as_secs_f64());
+    }
+
+    fn line(&mut self, name: &str, passed: bool, seconds: f64) {
+        let verdict = if passed { "ok" } else { "FAILED" };
+        self.failed += usize::from(!passed);
         self.lines
             .push(format!("{name:<14} {verdict:<6} {seconds:8.1} s"));
     }

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use crate::scene::{Format, LoadOptions, Scene, Warning, builtin, load_bytes, load_with};
 
@@ -24,10 +25,13 @@ pub(crate) struct Named {
     pub(crate) files: Vec<PathBuf>,
     /// Files that do not exist and that something stands in for.
     pub(crate) missing: Vec<PathBuf>,
+    /// When its reading began.
+    pub(crate) since: Instant,
 }
 
 /// The scene of a file, or the built-in one.
 pub(crate) fn scene(path: Option<&Path>, options: &LoadOptions) -> Result<Named, Failure> {
+    let since = Instant::now();
     let Some(path) = path else {
         return Ok(Named {
             name: "orbs".to_owned(),
@@ -35,6 +39,7 @@ pub(crate) fn scene(path: Option<&Path>, options: &LoadOptions) -> Result<Named,
             warnings: Vec::new(),
             files: Vec::new(),
             missing: Vec::new(),
+            since,
         });
     };
     let loaded = match path.as_os_str() == "-" {
@@ -60,6 +65,7 @@ pub(crate) fn scene(path: Option<&Path>, options: &LoadOptions) -> Result<Named,
         warnings: loaded.warnings,
         files: loaded.files,
         missing: loaded.missing,
+        since,
     })
 }
 

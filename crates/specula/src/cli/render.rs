@@ -48,7 +48,7 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
     let mut live_view = connect(arguments, &loaded.name)?;
     let ready = context.ready(loaded)?;
     pool.install(|| {
-        let prepared = context.prepare(&ready.name, ready.scene, &ready.options, None)?;
+        let prepared = context.prepare(ready.scene, &ready.options, None)?;
         context.render(&prepared, ready.rest, live_view.as_mut())
     })
 }
@@ -63,10 +63,17 @@ pub(crate) struct Context<'a> {
 
 /// A scene that was checked, and what its render needs.
 pub(crate) struct Ready {
-    pub(crate) name: String,
-    pub(crate) scene: Scene,
+    pub(crate) scene: ReadyScene,
     pub(crate) options: RenderOptions,
     pub(crate) rest: Rest,
+}
+
+/// A scene with its name.
+pub(crate) struct ReadyScene {
+    name: String,
+    scene: Scene,
+    /// When its reading began.
+    since: Instant,
 }
 
 /// What a render needs beside the scene.
@@ -109,6 +116,7 @@ impl Context<'_> {
             scene,
             files,
             missing,
+            since,
             ..
         } = loaded;
         let mut options = options(arguments, &scene)?;
@@ -144,8 +152,7 @@ impl Context<'_> {
             begun,
         };
         Ok(Ready {
-            name,
-            scene,
+            scene: ReadyScene { name, scene, since },
             options,
             rest,
         })
@@ -154,17 +161,15 @@ impl Context<'_> {
     /// Prepares the scene; of an earlier one, what has not changed is taken over.
     pub(crate) fn prepare(
         &self,
-        name: &str,
-        scene: Scene,
+        ReadyScene { name, scene, since }: ReadyScene,
         options: &RenderOptions,
         earlier: Option<PreparedScene>,
     ) -> Result<PreparedScene, Failure> {
-        let start = Instant::now();
         let prepared = PreparedScene::consume_after(scene, options, earlier)
             .map_err(|e: PrepareError| Failure::bad_input(format_args!("{name}: {e}")))?;
         if !self.arguments.quiet {
             let [width, height] = prepared.resolution();
-            let ready = short(start.elapsed().as_secs_f64());
+            let ready = short(since.elapsed().as_secs_f64());
             say!("{name}: {width}x{height}, ready after {ready}");
         }
         Ok(prepared)

@@ -96,7 +96,7 @@ impl Rounds<'_> {
         std::thread::scope(|scope| {
             scope.spawn(|| interrupt_on_change(seen, before, context.stop, &done));
             let result = context
-                .prepare(&ready.name, ready.scene, &ready.options, earlier)
+                .prepare(ready.scene, &ready.options, earlier)
                 .and_then(|prepared| {
                     let view = self.live_view.as_mut();
                     let result = context.render(&prepared, ready.rest, view);

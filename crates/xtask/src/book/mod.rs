@@ -2,8 +2,8 @@
 //!
 //! The book's pages are the repository's own documents. [`summary`] reads which ones and in which order,
 //! [`links`] checks them, [`stage`] copies them to a folder for mdBook with all that they show or include,
-//! [`html`] checks what mdBook made of them. [`pictures`], [`distribution`] and [`ball`] make what the pages
-//! show.
+//! [`html`] checks what mdBook made of them. [`pictures`], [`distribution`], [`ball`] and [`table_of_gold`]
+//! make what the pages show.
 
 mod ball;
 mod distribution;
@@ -14,6 +14,7 @@ mod markdown;
 mod pictures;
 mod stage;
 mod summary;
+mod table_of_gold;
 
 use std::path::Path;
 

@@ -11,7 +11,7 @@ use specula_render::{PreparedScene, RenderOptions, Renderer};
 use specula_scene::Energy;
 
 use super::summary::Summary;
-use super::{ball, distribution, markdown};
+use super::{ball, distribution, markdown, table_of_gold};
 use crate::Result;
 
 /// Where the pictures are, from the workspace's root.
@@ -79,7 +79,7 @@ const fn with_sampler(name: &'static str, sampler: Sampler) -> Picture {
     picture
 }
 
-const PICTURES: [Picture; 29] = [
+const PICTURES: [Picture; 30] = [
     of("conductor", "conductor.pbrt"),
     of("anisotropic", "anisotropic.pbrt"),
     of("dielectric", "dielectric.pbrt"),
@@ -95,6 +95,7 @@ const PICTURES: [Picture; 29] = [
     of("principled_thin", "principled_thin.xml"),
     with_samples("gltf", "gltf.gltf", 192),
     with_samples("hair", "hair.pbrt", 32),
+    of("measured", "measured.pbrt"),
     of("mix", "mix.pbrt"),
     of("bump", "bump.pbrt"),
     with_energy("energy_none", "energy.pbrt", "none"),
@@ -116,6 +117,7 @@ pub(super) fn make(root: &Path, part: &str) -> Result<()> {
     let folder = root.join(FOLDER);
     fs::create_dir_all(&folder)?;
     ball::write(&root.join(SCENES).join(ball::FILE))?;
+    table_of_gold::write(&root.join(SCENES).join(table_of_gold::FILE))?;
     for (name, svg) in distribution::all() {
         if name.contains(part) {
             fs::write(folder.join(format!("{name}.svg")), svg)?;

@@ -60,20 +60,24 @@ impl Program {
 
     /// What it printed, and how it ended.
     fn run(&self, environment: &[(&str, &str)]) -> Result<(Vec<u8>, ExitStatus)> {
-        let (mut reader, writer): (PipeReader, PipeWriter) = std::io::pipe()?;
-        let mut child = Command::new(&self.executable)
-            .arg("--quiet")
-            .current_dir(&self.folder)
-            .env("CARGO_MANIFEST_DIR", &self.folder)
-            .envs(environment.iter().copied())
-            .stdin(Stdio::null())
-            .stdout(writer.try_clone()?)
-            .stderr(writer)
-            .spawn()?;
-        let mut printed = Vec::new();
-        reader.read_to_end(&mut printed)?;
-        Ok((printed, child.wait()?))
+        let mut command = Command::new(&self.executable);
+        command.arg("--quiet").current_dir(&self.folder);
+        command.env("CARGO_MANIFEST_DIR", &self.folder);
+        captured(command.envs(environment.iter().copied()))
     }
+}
+
+/// What a program printed, to both of its outputs in order, and how it ended.
+pub(super) fn captured(command: &mut Command) -> Result<(Vec<u8>, ExitStatus)> {
+    let (mut reader, writer): (PipeReader, PipeWriter) = std::io::pipe()?;
+    command.stdin(Stdio::null());
+    command.stdout(writer.try_clone()?).stderr(writer);
+    let mut child = command.spawn()?;
+    // The command holds the writing end, which must close for the reading to end.
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    let mut printed = Vec::new();
+    reader.read_to_end(&mut printed)?;
+    Ok((printed, child.wait()?))
 }
 
 /// Builds the programs, and runs each with these variables, and the examples of the documentation; notes in `suites` how
@@ -137,7 +141,8 @@ fn build(root: &Path) -> Result<VecDeque<Program>> {
     Ok(programs.into())
 }
 
-type Outcome = Result<(Vec<u8>, ExitStatus)>;
+/// What a program printed and how it ended, or why it did not run.
+pub(super) type Outcome = Result<(Vec<u8>, ExitStatus)>;
 
 /// Runs programs from both ends of the queue, and prints what each printed when it has ended; the names of those that
 /// failed.
@@ -168,7 +173,7 @@ fn two_at_a_time(
     ended.into_inner().unwrap_or_else(PoisonError::into_inner).0
 }
 
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

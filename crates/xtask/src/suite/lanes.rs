@@ -1,0 +1,98 @@
+//! Chores that run beside each other: tests of Python wait for a farm, those of the studio for a browser.
+
+use std::io::Write as _;
+use std::path::Path;
+use std::process::Command;
+use std::sync::Mutex;
+use std::time::Instant;
+
+use super::{Report, programs};
+use crate::Result;
+
+/// Arguments of `cargo xtask`; the chores of a lane run one after the other.
+const LANES: [&[&[&str]]; 2] = [
+    &[&["python"], &["book"]],
+    &[
+        &["studio"],
+        &["instructions", "--check"],
+        &["tables", "--check"],
+    ],
+];
+
+/// Runs every chore, even after one has failed, and prints what each printed when it has ended.
+///
+/// * `skips`: the file to which tests append a line for each skip.
+pub(super) fn run(skips: &Path, report: &mut Report) -> Result<()> {
+    let program = std::env::current_exe()?;
+    let command = |chore: &[&str]| {
+        let mut command = Command::new(&program);
+        command.args(chore).env(specula_testing::FILE, skips);
+        command
+    };
+    beside_each_other(&LANES, &command, report);
+    Ok(())
+}
+
+fn beside_each_other(
+    lanes: &[&[&[&str]]],
+    command: &(dyn Fn(&[&str]) -> Command + Sync),
+    report: &mut Report,
+) {
+    let report = Mutex::new(report);
+    std::thread::scope(|scope| {
+        for lane in lanes {
+            let report = &report;
+            scope.spawn(move || {
+                for chore in *lane {
+                    let start = Instant::now();
+                    let outcome = programs::captured(&mut command(chore));
+                    let seconds = start.elapsed().as_secs_f64();
+                    let mut report = programs::lock(report);
+                    report.line(chore[0], told(chore, outcome), seconds);
+                }
+            });
+        }
+    });
+}
+
+/// Prints a chore's output; whether it passed.
+fn told(chore: &[&str], outcome: programs::Outcome) -> bool {
+    let name = chore.join(" ");
+    println!("== {name}");
+    match outcome {
+        Ok((printed, status)) => {
+            let _ = std::io::stdout().write_all(&printed);
+            if !status.success() {
+                println!("`cargo xtask {name}` failed: {status}");
+            }
+            status.success()
+        }
+        Err(error) => {
+            println!("`cargo xtask {name}` did not run: {error}");
+            false
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[cfg(unix)]
+    fn every_chore_runs_and_those_that_fail_are_named() {
+        let lanes: [&[&[&str]]; 2] = [&[&["exit 3"], &["exit 0"]], &[&["echo there"]]];
+        let command = |chore: &[&str]| {
+            let mut command = Command::new("sh");
+            command.arg("-c").args(chore);
+            command
+        };
+        let mut report = Report::default();
+        beside_each_other(&lanes, &command, &mut report);
+        report.lines.sort();
+        let verdicts: Vec<_> = report.lines.iter().map(|l| l.contains("FAILED")).collect();
+        assert_eq!(verdicts, [false, false, true], "{:?}", report.lines);
+        assert!(report.lines[2].starts_with("exit 3"));
+        assert!(report.finish().is_err());
+    }
+}
