@@ -76,10 +76,15 @@ impl Reader<'_> {
             Dimensions::Vec2 => 2,
             Dimensions::Vec3 => 3,
             Dimensions::Vec4 => 4,
+            // Its columns need no padding where components have four bytes.
+            Dimensions::Mat4 if N == 16 && size(kind) == 4 => N,
             Dimensions::Mat2 | Dimensions::Mat3 | Dimensions::Mat4 => 0,
         };
         if width < N {
-            let message = format!("{what}: expected vectors of {N} numbers");
+            let message = match N {
+                16 => format!("{what}: expected matrices of 4 x 4 floats"),
+                _ => format!("{what}: expected vectors of {N} numbers"),
+            };
             return Err(self.error(ErrorKind::Mesh, message));
         }
         self.check_count(what, accessor.count())?;

@@ -24,6 +24,8 @@ enum Part {
     Translation,
     Rotation,
     Scale,
+    /// The weight of a morph target.
+    Weight(usize),
 }
 
 /// Values over time.
@@ -118,12 +120,30 @@ impl Animations {
             three(Part::Translation, translation),
         )
     }
+
+    /// The weight of a morph target of a node at a time; `None` where nothing animates it.
+    pub(super) fn weight(&self, node: usize, target: usize, time: f64) -> Option<f64> {
+        let channel = self.channels.get(&(node, Part::Weight(target)))?;
+        Some(channel.at(time).x)
+    }
 }
 
 /// The matrix of a transform.
 pub(super) fn matrix(transform: &Transform) -> DMat4 {
     let columns = transform.clone().matrix();
     DMat4::from_cols_array_2d(&columns.map(|c| c.map(f64::from)))
+}
+
+/// How many morph targets a mesh has.
+pub(super) fn targets(mesh: &gltf::Mesh<'_>) -> usize {
+    let of_primitives = mesh.primitives().map(|p| p.morph_targets().count());
+    of_primitives.max().unwrap_or(0)
+}
+
+/// The path of a channel's sampler.
+fn sampler_name(channel: &gltf::animation::Channel<'_>) -> String {
+    let (animation, sampler) = (channel.animation().index(), channel.sampler().index());
+    format!("animations[{animation}].samplers[{sampler}]")
 }
 
 impl Reader<'_> {
@@ -144,7 +164,7 @@ impl Reader<'_> {
                     Property::Rotation => Part::Rotation,
                     Property::Scale => Part::Scale,
                     Property::MorphTargetWeights => {
-                        self.warn(format!("{what}: morph targets are left out"));
+                        self.weight_channels(&what, &channel, &mut all)?;
                         continue;
                     }
                 };
@@ -159,18 +179,61 @@ impl Reader<'_> {
                 let Some(read) = self.problems.or(read, || None)? else {
                     continue;
                 };
-                match all.channels.entry((node.index(), part)) {
-                    Entry::Vacant(entry) => {
-                        entry.insert(read);
-                    }
-                    Entry::Occupied(_) => self.warn(format!(
-                        "{what}: another channel animates this part of nodes[{}]: it is left out",
-                        node.index()
-                    )),
-                }
+                self.add_channel(&what, &mut all, (node.index(), part), read);
             }
         }
         Ok(all)
+    }
+
+    /// Adds a channel, where no other one animates the same.
+    fn add_channel(
+        &mut self,
+        what: &str,
+        all: &mut Animations,
+        of: (usize, Part),
+        channel: Channel,
+    ) {
+        match all.channels.entry(of) {
+            Entry::Vacant(entry) => {
+                entry.insert(channel);
+            }
+            Entry::Occupied(_) => self.warn(format!(
+                "{what}: another channel animates this part of nodes[{}]: it is left out",
+                of.0
+            )),
+        }
+    }
+
+    /// A channel for the weight of each morph target.
+    fn weight_channels(
+        &mut self,
+        what: &str,
+        channel: &gltf::animation::Channel<'_>,
+        all: &mut Animations,
+    ) -> Result<(), SceneError> {
+        let node = channel.target().node();
+        let targets = node.mesh().map_or(0, |mesh| targets(&mesh));
+        if targets == 0 {
+            let index = node.index();
+            self.warn(format!("{what}: nodes[{index}] has no morph targets"));
+            return Ok(());
+        }
+        let output = format!("{}.output", sampler_name(channel));
+        let values = self.floats::<1>(&output, &channel.sampler().output());
+        let Some(values) = self.problems.or(values.map(Some), || None)? else {
+            return Ok(());
+        };
+        for target in 0..targets {
+            // By keyframe, and of splines by tangents and value, those of all targets.
+            let own = values.iter().skip(target).step_by(targets);
+            let own = own.map(|[w]| [*w, 0.0, 0.0, 0.0]).collect();
+            let read = self.keyframes(channel, own, false).map(Some);
+            let Some(read) = self.problems.or(read, || None)? else {
+                return Ok(());
+            };
+            self.add_channel(what, all, (node.index(), Part::Weight(target)), read);
+        }
+        Ok(())
     }
 
     fn channel(
@@ -179,23 +242,30 @@ impl Reader<'_> {
         is_rotation: bool,
     ) -> Result<Channel, SceneError> {
         let sampler = channel.sampler();
-        let what = format!(
-            "animations[{}].samplers[{}]",
-            channel.animation().index(),
-            sampler.index()
-        );
-        let times: Vec<f32> = self
-            .floats::<1>(&format!("{what}.input"), &sampler.input())?
-            .into_iter()
-            .map(|[t]| t)
-            .collect();
-        let output = format!("{what}.output");
+        let output = format!("{}.output", sampler_name(channel));
         let values: Vec<[f32; 4]> = if is_rotation {
             self.floats::<4>(&output, &sampler.output())?
         } else {
             let values = self.floats::<3>(&output, &sampler.output())?;
             values.into_iter().map(|[x, y, z]| [x, y, z, 0.0]).collect()
         };
+        self.keyframes(channel, values, is_rotation)
+    }
+
+    /// A channel of these values at the times of its sampler.
+    fn keyframes(
+        &self,
+        channel: &gltf::animation::Channel<'_>,
+        values: Vec<[f32; 4]>,
+        is_rotation: bool,
+    ) -> Result<Channel, SceneError> {
+        let sampler = channel.sampler();
+        let what = sampler_name(channel);
+        let times: Vec<f32> = self
+            .floats::<1>(&format!("{what}.input"), &sampler.input())?
+            .into_iter()
+            .map(|[t]| t)
+            .collect();
         let interpolation = sampler.interpolation();
         let per_time = match interpolation {
             Interpolation::CubicSpline => 3,

@@ -9,8 +9,12 @@ pub(crate) const FEATURES: &[Feature] = &[
     Feature::refused("file", "addresses of a network", "nothing is fetched"),
     Feature::full("mesh", "triangles, strips, fans"),
     Feature::approximated("mesh", "points, lines", "left out"),
-    Feature::approximated("mesh", "morph targets", "undeformed"),
-    Feature::approximated("mesh", "skins", "undeformed"),
+    Feature::approximated(
+        "mesh",
+        "morph targets",
+        "of positions, normals and tangents; those of colours and texture coordinates are left out",
+    ),
+    Feature::full("mesh", "skins"),
     Feature::full("mesh", "sparse accessors"),
     Feature::full("mesh", "COLOR_0"),
     Feature::approximated("mesh", "attributes of an application's own", "left out"),
@@ -75,5 +79,10 @@ pub(crate) const FEATURES: &[Feature] = &[
         "motion within an exposure",
         "from where a node is when the shutter opens to where it is when it closes, as pbrt-v4 moves; lights stay",
     ),
-    Feature::approximated("animation", "weights of morph targets", "undeformed"),
+    Feature::full("animation", "weights of morph targets"),
+    Feature::approximated(
+        "animation",
+        "deformation within an exposure",
+        "the form is that of when the shutter opens",
+    ),
 ];

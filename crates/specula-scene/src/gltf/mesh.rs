@@ -4,24 +4,31 @@ use gltf::Semantic;
 use gltf::mesh::Mode;
 
 use super::Reader;
+use super::deform::{Deformation, Vertices};
 use super::material::Appearance;
 use crate::error::{ErrorKind, SceneError};
 use crate::mesh;
 use crate::scene::{Mesh, MeshId};
+
+/// Colours without what is negative or no number.
+fn not_negative(mut colours: Vec<[f32; 3]>) -> Vec<[f32; 3]> {
+    for x in colours.iter_mut().flatten() {
+        *x = if *x > 0.0 { *x } else { 0.0 };
+    }
+    colours
+}
 
 impl Reader<'_> {
     /// The meshes and appearances of a mesh's primitives.
     pub(super) fn primitives(
         &mut self,
         mesh: &gltf::Mesh<'_>,
+        deformation: Option<&Deformation>,
     ) -> Result<Vec<(MeshId, Appearance)>, SceneError> {
-        if mesh.weights().is_some_and(|w| w.iter().any(|w| *w != 0.0)) {
-            self.warn("morph targets are left out: meshes have their undeformed shape");
-        }
         let mut found = Vec::new();
         for primitive in mesh.primitives() {
             let what = format!("meshes[{}].primitives[{}]", mesh.index(), primitive.index());
-            let read = self.primitive(&what, &primitive);
+            let read = self.primitive(&what, &primitive, deformation);
             found.extend(self.problems.or(read, || None)?);
         }
         Ok(found)
@@ -31,6 +38,7 @@ impl Reader<'_> {
         &mut self,
         what: &str,
         primitive: &gltf::Primitive<'_>,
+        deformation: Option<&Deformation>,
     ) -> Result<Option<(MeshId, Appearance)>, SceneError> {
         if matches!(
             primitive.mode(),
@@ -73,16 +81,17 @@ impl Reader<'_> {
         if is_damaged {
             return Ok(None);
         }
+        let mut vertices = Vertices::new(positions, normals, tangents);
+        if let Some(deformation) = deformation {
+            self.deform(what, primitive, deformation, &mut vertices)?;
+        }
         let mut mesh = Mesh {
-            positions,
-            normals,
+            positions: vertices.positions,
+            normals: vertices.normals,
             uvs,
             second_uvs,
-            tangents,
-            colours: colours
-                .into_iter()
-                .map(|c| c.map(|x| if x > 0.0 { x } else { 0.0 }))
-                .collect(),
+            tangents: vertices.tangents,
+            colours: not_negative(colours),
             triangles,
             is_fibre: false,
         };

@@ -19,6 +19,7 @@ mod accessor;
 mod animation;
 mod buffers;
 mod container;
+mod deform;
 mod features;
 mod light;
 mod locate;
@@ -94,6 +95,8 @@ struct Reader<'a> {
     looks: material::Appearances,
     /// Sets of coordinates that the material being read uses.
     sets: Vec<u32>,
+    /// How many vertices were deformed.
+    deformed: u64,
 }
 
 /// Reads the scene in `path` and all that it refers to.
@@ -170,6 +173,7 @@ fn parse_into(
         decoded: texture::Decoded::default(),
         looks: material::Appearances::default(),
         sets: Vec::new(),
+        deformed: 0,
     };
     reader.warn_of_extensions();
     reader.warn_of_ranges();

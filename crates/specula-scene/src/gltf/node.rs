@@ -7,7 +7,8 @@ use gltf::camera::Projection as GltfProjection;
 use gltf::scene::Transform;
 
 use super::Reader;
-use super::animation::matrix;
+use super::animation::{matrix, targets};
+use super::deform::{Deformation, Pose};
 use super::material::Appearance;
 use crate::error::{ErrorKind, SceneError};
 use crate::num::f32_of;
@@ -23,13 +24,19 @@ use crate::{Exposure, Loaded, bounds};
 /// Width of pictures whose file gives no size.
 const WIDTH: u32 = 1280;
 
-/// The nodes that were visited.
+/// The nodes of a file, and what was found in those of its scene.
 #[derive(Default)]
-struct VisitedNodes {
+struct VisitedNodes<'a> {
+    all: Vec<gltf::Node<'a>>,
+    /// By the number of a node that of its parent.
+    parents: HashMap<usize, usize>,
     /// Places of every mesh, by its number.
     places: HashMap<usize, Vec<NodePlace>>,
     camera: Option<(Camera, Option<f64>)>,
     nodes: usize,
+    /// Where every node is when the shutter opens and when it closes, by its number.
+    ends: HashMap<usize, [DMat4; 2]>,
+    instances: Vec<ObjectInstance>,
 }
 
 /// Where a node is when the shutter opens.
@@ -46,7 +53,10 @@ impl Reader<'_> {
     pub(super) fn assemble(mut self) -> Result<Loaded, SceneError> {
         let document = self.document;
         self.read_animations()?;
-        let mut found = VisitedNodes::default();
+        let mut found = VisitedNodes {
+            all: document.nodes().collect(),
+            ..VisitedNodes::default()
+        };
         let scene = document
             .default_scene()
             .or_else(|| document.scenes().next());
@@ -57,65 +67,188 @@ impl Reader<'_> {
         for node in &nodes {
             self.node(node, [DMat4::IDENTITY; 2], 0, &mut found)?;
         }
-        let mut instances = Vec::new();
         let mut press = Press::new(self.limits);
         for mesh in document.meshes() {
-            let Some(places) = found.places.remove(&mesh.index()) else {
-                continue;
-            };
-            let parts = self.primitives(&mesh)?;
-            let own = parts.iter().map(|(id, _)| Geometry::Mesh(*id));
-            let own = own.map(|g| bounds::of_geometry(&self.meshes, &g));
-            let own = own.fold(bounds::BoundingBox::EMPTY, bounds::BoundingBox::union);
-            let (places, flat): (Vec<_>, Vec<_>) =
-                places.into_iter().partition(|p| is_invertible(&p.to_world));
-            let (specks, places): (Vec<_>, Vec<_>) = places
-                .into_iter()
-                .partition(|p| own.transformed(&p.to_world).is_speck());
-            for NodePlace { node, .. } in specks {
-                self.warn(format!("nodes[{node}]: {}", bounds::SPECK));
-            }
-            for NodePlace { node, to_world, .. } in flat {
-                self.pressed(&mut press, &parts, &to_world, node)?;
-            }
-            let emits = parts.iter().any(|(_, look)| look.emission.is_some());
-            let places = places
-                .into_iter()
-                .map(|p| (p.to_world, self.motion(&p, emits)));
-            let places: Vec<(DMat4, Option<Motion>)> = places.collect();
-            match places.as_slice() {
-                [] => {}
-                [(place, motion)] => {
-                    let shapes = parts.iter().map(|part| Shape {
-                        motion: *motion,
-                        ..shape(*part, *place)
-                    });
-                    self.shapes.extend(shapes);
+            let mut rigid = Vec::new();
+            for place in found.places.remove(&mesh.index()).unwrap_or_default() {
+                let deformation = self.deformation(&mesh, &place, &mut found);
+                match self.problems.or(deformation, || None)? {
+                    None => rigid.push(place),
+                    Some(deformation) => {
+                        let parts = self.primitives(&mesh, Some(&deformation))?;
+                        // Skins take vertices to the world.
+                        let place = match deformation.pose {
+                            None => place,
+                            Some(_) => NodePlace {
+                                to_world: DMat4::IDENTITY,
+                                end: DMat4::IDENTITY,
+                                ..place
+                            },
+                        };
+                        self.put(&mesh, &parts, vec![place], &mut press, &mut found)?;
+                    }
                 }
-                places if !parts.is_empty() => {
-                    let shapes = parts.iter().map(|part| shape(*part, DMat4::IDENTITY));
-                    let object = Object {
-                        name: mesh.name().unwrap_or_default().to_owned(),
-                        shapes: shapes.collect(),
-                    };
-                    self.objects.push(object);
-                    let object = ObjectId(self.objects.len() - 1);
-                    instances.extend(places.iter().map(|(to_world, motion)| ObjectInstance {
-                        object,
-                        to_world: *to_world,
-                        motion: *motion,
-                    }));
-                }
-                _ => {}
+            }
+            if !rigid.is_empty() {
+                let parts = self.primitives(&mesh, None)?;
+                self.put(&mesh, &parts, rigid, &mut press, &mut found)?;
             }
         }
-        let is_empty = self.shapes.is_empty() && instances.is_empty();
+        let is_empty = self.shapes.is_empty() && found.instances.is_empty();
         if is_empty && !self.problems.has_errors() {
             let mut warnings = std::mem::take(&mut self.warnings);
             self.problems.record_warnings(&mut warnings);
             return Err(self.error(ErrorKind::EmptyScene, "there is nothing to render"));
         }
-        self.finish(found.camera, instances)
+        self.finish(found.camera, found.instances)
+    }
+
+    /// Puts the parts of a mesh in their places.
+    fn put(
+        &mut self,
+        mesh: &gltf::Mesh<'_>,
+        parts: &[(MeshId, Appearance)],
+        places: Vec<NodePlace>,
+        press: &mut Press,
+        found: &mut VisitedNodes<'_>,
+    ) -> Result<(), SceneError> {
+        let own = parts.iter().map(|(id, _)| Geometry::Mesh(*id));
+        let own = own.map(|g| bounds::of_geometry(&self.meshes, &g));
+        let own = own.fold(bounds::BoundingBox::EMPTY, bounds::BoundingBox::union);
+        let (places, flat): (Vec<_>, Vec<_>) =
+            places.into_iter().partition(|p| is_invertible(&p.to_world));
+        let (specks, places): (Vec<_>, Vec<_>) = places
+            .into_iter()
+            .partition(|p| own.transformed(&p.to_world).is_speck());
+        for NodePlace { node, .. } in specks {
+            self.warn(format!("nodes[{node}]: {}", bounds::SPECK));
+        }
+        for NodePlace { node, to_world, .. } in flat {
+            self.pressed(press, parts, &to_world, node)?;
+        }
+        let emits = parts.iter().any(|(_, look)| look.emission.is_some());
+        let places = places
+            .into_iter()
+            .map(|p| (p.to_world, self.motion(&p, emits)));
+        let places: Vec<(DMat4, Option<Motion>)> = places.collect();
+        match places.as_slice() {
+            [] => {}
+            [(place, motion)] => {
+                let shapes = parts.iter().map(|part| Shape {
+                    motion: *motion,
+                    ..shape(*part, *place)
+                });
+                self.shapes.extend(shapes);
+            }
+            places if !parts.is_empty() => {
+                let shapes = parts.iter().map(|part| shape(*part, DMat4::IDENTITY));
+                let object = Object {
+                    name: mesh.name().unwrap_or_default().to_owned(),
+                    shapes: shapes.collect(),
+                };
+                self.objects.push(object);
+                let object = ObjectId(self.objects.len() - 1);
+                let instances = places.iter().map(|(to_world, motion)| ObjectInstance {
+                    object,
+                    to_world: *to_world,
+                    motion: *motion,
+                });
+                found.instances.extend(instances);
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// What deforms a mesh in a node when the shutter opens; `None`: nothing.
+    fn deformation(
+        &mut self,
+        mesh: &gltf::Mesh<'_>,
+        place: &NodePlace,
+        found: &mut VisitedNodes<'_>,
+    ) -> Result<Option<Deformation>, SceneError> {
+        let Some(node) = found.all.get(place.node).cloned() else {
+            return Ok(None);
+        };
+        if node.skin().is_none() && targets(mesh) == 0 {
+            return Ok(None);
+        }
+        let own = node.weights().or(mesh.weights()).unwrap_or_default();
+        let times = self.exposure.map_or([0.0; 2], times);
+        let [weights, later] = times.map(|time| {
+            let weight = |k: usize| {
+                let own = own.get(k).copied().map_or(0.0, f64::from);
+                let animated = self.animations.weight(place.node, k, time);
+                animated.unwrap_or(own)
+            };
+            (0..targets(mesh)).map(weight).collect::<Vec<_>>()
+        });
+        let mut deforms = weights != later;
+        let pose = match node.skin() {
+            None => None,
+            Some(skin) => {
+                let binding = self.binding(&skin)?;
+                let mut joints = Vec::new();
+                for (joint, to_joint) in skin.joints().zip(binding) {
+                    let [start, end] = self.ends_of(&joint, found);
+                    deforms |= start != end;
+                    joints.push(start * to_joint);
+                }
+                let node = place.to_world;
+                Some(Pose { joints, node })
+            }
+        };
+        if deforms {
+            self.warn(format!(
+                "nodes[{}]: its mesh deforms during the exposure: it has the form of when the shutter opens",
+                place.node
+            ));
+        }
+        let deformation = Deformation { weights, pose };
+        Ok((!deformation.is_none()).then_some(deformation))
+    }
+
+    /// Where a node is when the shutter opens and when it closes, also where it is not in the scene.
+    fn ends_of(&mut self, node: &gltf::Node<'_>, found: &mut VisitedNodes<'_>) -> [DMat4; 2] {
+        if found.parents.is_empty() {
+            let children = |n: &gltf::Node<'_>| {
+                let parent = n.index();
+                n.children()
+                    .map(|c| (c.index(), parent))
+                    .collect::<Vec<_>>()
+            };
+            found.parents = found.all.iter().flat_map(children).collect();
+        }
+        // Up to a node whose place is known; nodes that contain themselves end at one of them.
+        let mut way = vec![node.index()];
+        while let Some(last) = way.last()
+            && !found.ends.contains_key(last)
+            && let Some(parent) = found.parents.get(last)
+            && way.len() <= found.all.len()
+        {
+            way.push(*parent);
+        }
+        let mut ends = [DMat4::IDENTITY; 2];
+        while let Some(index) = way.pop() {
+            if let Some(known) = found.ends.get(&index) {
+                ends = *known;
+            } else if let Some(node) = found.all.get(index).cloned() {
+                let own = self.own_ends(&node);
+                ends = [ends[0] * own[0], ends[1] * own[1]];
+                found.ends.insert(index, ends);
+            }
+        }
+        ends
+    }
+
+    /// The transform of a node to its parent's space when the shutter opens and when it closes.
+    fn own_ends(&mut self, node: &gltf::Node<'_>) -> [DMat4; 2] {
+        let own = self.transform(node);
+        let animated = |time| self.animations.transform(node.index(), &own, time);
+        match self.exposure {
+            None => [matrix(&own); 2],
+            Some(exposure) => times(exposure).map(animated),
+        }
     }
 
     /// Adds the parts of a mesh under a transform that cannot be inverted.
@@ -212,7 +345,7 @@ impl Reader<'_> {
         node: &gltf::Node<'_>,
         parent: [DMat4; 2],
         depth: usize,
-        found: &mut VisitedNodes,
+        found: &mut VisitedNodes<'_>,
     ) -> Result<(), SceneError> {
         let what = format!("nodes[{}]", node.index());
         found.nodes += 1;
@@ -222,20 +355,11 @@ impl Reader<'_> {
                 format!("{what}: nodes are nested too deeply, or contain themselves (`max_depth`)");
             return Err(self.error(ErrorKind::Limit, message));
         }
-        let own = self.transform(node);
-        let own = match self.exposure {
-            None => [matrix(&own); 2],
-            Some(Exposure { time, shutter }) => {
-                let times = [time, time + shutter].map(|t| t.as_secs_f64());
-                times.map(|t| self.animations.transform(node.index(), &own, t))
-            }
-        };
+        let own = self.own_ends(node);
         let ends = [parent[0] * own[0], parent[1] * own[1]];
+        found.ends.insert(node.index(), ends);
         let [place, end] = ends;
         if let Some(mesh) = node.mesh() {
-            if node.skin().is_some() {
-                self.warn("skins are left out: meshes stand in their undeformed pose");
-            }
             match crate::transform::check_finite(&place) {
                 Ok(()) => {
                     let places = found.places.entry(mesh.index()).or_default();
@@ -416,6 +540,12 @@ impl Reader<'_> {
             scale,
         }
     }
+}
+
+/// When the shutter opens and when it closes, in seconds.
+fn times(exposure: Exposure) -> [f64; 2] {
+    let Exposure { time, shutter } = exposure;
+    [time, time + shutter].map(|t| t.as_secs_f64())
 }
 
 /// The space of a camera in a node: cameras look along -z with y up. `None` where the node has no extent.

@@ -221,7 +221,7 @@ fn what_cannot_move_is_told() {
     let loaded = read(&weights, Some([1.0, 0.0])).unwrap();
     assert_eq!(
         told(&loaded),
-        ["animations[0].channels[1]: morph targets are left out"]
+        ["animations[0].channels[1]: nodes[0] has no morph targets"]
     );
     let twice = document(&[("\"path\": \"rotation\"", "\"path\": \"translation\"")]);
     let loaded = read(&twice, Some([1.0, 0.0])).unwrap();

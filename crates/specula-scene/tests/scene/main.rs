@@ -12,6 +12,7 @@ mod check;
 mod check_files;
 mod check_gltf;
 mod common;
+mod deform;
 mod directives;
 mod features;
 mod files;
